@@ -1,0 +1,131 @@
+#include "core/camera_model.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/LU>
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "core/lens.h"
+
+namespace elbowroom::core {
+namespace {
+
+constexpr int kStretchBins = 256;
+// tan(89.5 degrees): a pinhole can't look sideways, and a fisheye's domain ends there.
+constexpr double kLargestRadius = 114.6;
+
+void ValidateCalibration(const CameraCalibration& c) {
+  const auto fail = [&](const std::string& what) {
+    throw Error(ErrorKind::kCamera, fmt::format("camera '{}': {}", c.name, what));
+  };
+  if (c.image_width_px <= 0 || c.image_height_px <= 0) {
+    fail(fmt::format("image size {} x {} is not positive", c.image_width_px, c.image_height_px));
+  }
+  const Eigen::Matrix3d& k = c.camera_matrix;
+  if (!k.allFinite()) fail("camera_matrix has an entry that is not a finite number");
+  if (k(1, 0) != 0.0 || k(2, 0) != 0.0 || k(2, 1) != 0.0 || k(2, 2) != 1.0) {
+    fail("camera_matrix must be [fx s cx; 0 fy cy; 0 0 1]");
+  }
+  if (!(k(0, 0) > 0.0) || !(k(1, 1) > 0.0)) {
+    fail(fmt::format("camera_matrix is singular or mirrored: fx = {}, fy = {}; both must be positive", k(0, 0), k(1, 1)));
+  }
+  if (!IsRotation(c.cam_from_world.rotation)) {
+    fail("rotation_cam_from_world is not a rotation (its rows must be orthonormal, determinant +1); calibrate the pose again");
+  }
+  if (!c.cam_from_world.translation_mm.allFinite()) fail("translation_cam_from_world_mm is not finite");
+}
+
+Lens LensOf(const CameraCalibration& c) {
+  return {c.distortion_model, c.distortion_coefficients, fmt::format("camera '{}'", c.name)};
+}
+
+// Distorted radius of the farthest corner of the picture.
+double FarthestCornerRadius(const CameraCalibration& c) {
+  const Eigen::Matrix2d inverse = c.camera_matrix.topLeftCorner<2, 2>().inverse();
+  double farthest = 0.0;
+  for (const double u : {-0.5, c.image_width_px - 0.5}) {
+    for (const double v : {-0.5, c.image_height_px - 0.5}) {
+      const Eigen::Vector2d offset = Eigen::Vector2d(u, v) - c.camera_matrix.topRightCorner<2, 1>();
+      farthest = std::max(farthest, (inverse * offset).norm());
+    }
+  }
+  return farthest;
+}
+
+// The smallest radius (to the step) beyond which nothing falls in the picture, or, if that comes first, the
+// largest up to which the lens is certainly one-to-one in radius.
+double DomainRadius(const Lens& lens, double corner_radius) {
+  double radius = 0.0;
+  while (radius < kLargestRadius) {
+    const double next = std::min(kLargestRadius, radius + std::max(corner_radius / 256.0, radius * 0.01));
+    if (!(lens.RadialSlope(radius, next).lower - lens.OffAxisSlope(next) > 0.0)) break;  // folds within this step
+    radius = next;
+    if (lens.RadialImage(radius) - lens.OffAxisLength(radius) > corner_radius) break;  // the picture is covered
+  }
+  return radius;
+}
+
+}  // namespace
+
+std::optional<DistortionModel> ParseDistortionModel(std::string_view text) {
+  if (text == "plumb_bob") return DistortionModel::kPlumbBob;
+  if (text == "rational_polynomial") return DistortionModel::kRationalPolynomial;
+  if (text == "fisheye") return DistortionModel::kFisheye;
+  return std::nullopt;
+}
+
+std::string_view ToString(DistortionModel model) {
+  constexpr std::string_view kNames[] = {"plumb_bob", "rational_polynomial", "fisheye"};
+  return kNames[static_cast<std::size_t>(model)];
+}
+
+CameraModel::CameraModel(CameraCalibration calibration) : calibration_(std::move(calibration)) {
+  ValidateCalibration(calibration_);
+  const auto lens = std::make_shared<const Lens>(LensOf(calibration_));
+  lens_ = lens;
+  center_in_world_ = calibration_.cam_from_world.Inverse().translation_mm;
+  max_radius_ = DomainRadius(*lens, FarthestCornerRadius(calibration_));
+  if (!(max_radius_ > 0.0)) {
+    throw Error(ErrorKind::kCamera, fmt::format("camera '{}': the distortion coefficients describe no lens (the picture "
+                                                "folds at its centre); calibrate this camera again", name()));
+  }
+  const Eigen::Matrix2d scale = calibration_.camera_matrix.topLeftCorner<2, 2>();
+  const double focal_px = Eigen::JacobiSVD<Eigen::Matrix2d>(scale).singularValues()(0);
+  double running_maximum = 0.0;
+  for (int i = 0; i < kStretchBins; ++i) {
+    const double r0 = max_radius_ * i / kStretchBins, r1 = max_radius_ * (i + 1) / kStretchBins;
+    const double radial = std::max(lens->RadialSlope(r0, r1).upper, lens->RadialScale(r0, r1).upper);
+    running_maximum = std::max(running_maximum, radial + lens->OffAxisSlope(r1));
+    stretch_px_.push_back(running_maximum * focal_px * (1.0 + 1e-12));
+  }
+}
+
+std::optional<Eigen::Vector2d> CameraModel::ProjectInCam(const Eigen::Vector3d& x_in_cam) const {
+  if (!(x_in_cam.z() > 0.0)) return std::nullopt;
+  const Eigen::Vector2d normalised = x_in_cam.head<2>() / x_in_cam.z();
+  if (!(normalised.norm() <= max_radius_)) return std::nullopt;
+  return PixelFromNormalised(normalised);
+}
+
+Eigen::Vector2d CameraModel::PixelFromNormalised(const Eigen::Vector2d& normalised) const {
+  const Eigen::Vector2d distorted = lens_->Distort(normalised);
+  const Eigen::Matrix3d& k = calibration_.camera_matrix;
+  return {k(0, 0) * distorted.x() + k(0, 1) * distorted.y() + k(0, 2), k(1, 1) * distorted.y() + k(1, 2)};
+}
+
+std::optional<Eigen::Vector2d> CameraModel::NormalisedFromPixel(const Eigen::Vector2d& pixel) const {
+  const Eigen::Matrix3d& k = calibration_.camera_matrix;
+  const double y = (pixel.y() - k(1, 2)) / k(1, 1);
+  const double x = (pixel.x() - k(0, 2) - k(0, 1) * y) / k(0, 0);
+  return lens_->Undistort({x, y}, max_radius_);
+}
+
+double CameraModel::PixelStretch(double radius) const {
+  const auto bin = static_cast<int>(std::min(std::max(radius, 0.0) / max_radius_, 1.0) * kStretchBins);
+  return stretch_px_[static_cast<std::size_t>(std::min(bin, kStretchBins - 1))];
+}
+
+}  // namespace elbowroom::core

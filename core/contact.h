@@ -1,0 +1,82 @@
+// What is known of one part against the hull in one frame, and of a touch over time.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/ids.h"
+
+namespace elbowroom::core {
+
+enum class Verdict { kContact, kNear, kClear, kUndecided };
+
+[[nodiscard]] std::string_view ToString(Verdict verdict);  // "contact", "near", "clear", "undecided"
+[[nodiscard]] std::optional<Verdict> ParseVerdict(std::string_view text);
+
+// A sample of the part's surface that lies in the hull.
+struct ContactPoint {
+  Eigen::Vector3d position_in_world_mm = Eigen::Vector3d::Zero();
+  double depth_mm = 0.0;  // certified lower bound of its distance to the hull's surface
+  double area_mm2 = 0.0;  // of the surface piece that it stands for
+};
+
+// The paper's response: how to back the part out of the hull along V_rec.
+struct Recovery {
+  Eigen::Vector3d cp_obj_in_world_mm = Eigen::Vector3d::Zero();   // contact point farthest from RP_obj
+  Eigen::Vector3d cp_hull_in_world_mm = Eigen::Vector3d::Zero();  // where V_rec leaves the hull
+  Eigen::Vector3d v_rec_in_world = Eigen::Vector3d::Zero();       // unit, CP_obj to RP_obj
+  double d_rec_mm = 0.0;
+  std::optional<Eigen::Vector3d> n_hull_in_world;  // unit, out of the hull; nothing on a workspace face
+};
+
+enum class RecoveryStatus {
+  kFound,
+  kNoContact,
+  kReferenceInsideHull,  // V_rec never leaves the hull before RP_obj
+  kNoDirection,          // CP_obj and RP_obj coincide
+};
+
+[[nodiscard]] std::string_view ToString(RecoveryStatus status);
+
+// How much work one answer took and how much it was spared.
+struct QueryCount {
+  std::int64_t triangles = 0;  // of the part
+  std::int64_t queries = 0;    // ball queries asked
+  std::int64_t skipped = 0;    // triangles settled without a query of their own
+};
+
+struct PartContact {
+  PartIndex part = 0;
+  Verdict verdict = Verdict::kClear;
+  std::vector<ContactPoint> points;  // bounded in number, spread over the contact
+  std::int64_t contact_point_count = 0;  // before the bound
+  double contact_area_mm2 = 0.0;
+  std::optional<ContactPoint> deepest;
+  RecoveryStatus recovery_status = RecoveryStatus::kNoContact;
+  std::optional<Recovery> recovery;
+  double resolution_mm = 0.0;  // pieces of surface below this size were decided by their centre
+  QueryCount count;
+};
+
+// One touch of one part: frames that follow each other with gaps no longer than the tracker's rule.
+struct ContactEpisode {
+  EpisodeId id = 0;
+  PartIndex part = 0;
+  FrameIndex begin_frame = 0;
+  FrameIndex peak_frame = 0;  // deepest; ties go to the larger area, then the earlier frame
+  FrameIndex end_frame = 0;   // last frame in contact
+  double begin_time_s = 0.0;
+  double peak_time_s = 0.0;
+  double end_time_s = 0.0;
+  std::int64_t frames_in_contact = 0;
+  double peak_depth_mm = 0.0;
+  double peak_area_mm2 = 0.0;  // of the peak frame
+  Eigen::Vector3d peak_position_in_world_mm = Eigen::Vector3d::Zero();
+  std::vector<double> spacing_at_peak_mm;  // in the layout's order
+};
+
+}  // namespace elbowroom::core

@@ -1,0 +1,70 @@
+// The virtual side of a trial: parts, where they stand, which gaps may change, which pairs must keep apart.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/ids.h"
+#include "core/rigid_transform.h"
+#include "core/triangle_mesh.h"
+#include "core/units.h"
+
+namespace elbowroom::core {
+
+struct Part {
+  std::string name;  // unique in its layout
+  std::string file;  // as written in LAYOUT.toml; empty for a part made by the program
+  LengthUnit unit = LengthUnit::kMillimetre;  // of the file; the mesh is in millimetres
+  SharedMesh mesh;
+  RigidTransform world_from_part;  // as authored, before spacings
+};
+
+enum class Axis { kX, kY, kZ };
+
+[[nodiscard]] std::optional<Axis> ParseAxis(std::string_view text);  // "x", "y", "z"
+[[nodiscard]] std::string_view ToString(Axis axis);
+
+// The gap along a world axis from the upper extent of `reference` to the lower extent of `moving`:
+// "top of the PMT box to bottom of payload A". Negative gaps overlap.
+struct Spacing {
+  std::string name;       // unique in its layout
+  std::string moving;     // part name
+  std::string reference;  // part name
+  Axis axis = Axis::kZ;
+  double min_mm = 0.0;
+  double max_mm = 0.0;
+  double initial_mm = 0.0;
+};
+
+struct PairRule {
+  std::string a;  // part name
+  std::string b;  // part name
+  double required_clearance_mm = 0.0;
+  bool authorised_contact = false;
+};
+
+struct Layout {
+  LengthUnit unit = LengthUnit::kMillimetre;  // default for parts that name none
+  std::vector<Part> parts;
+  std::vector<Spacing> spacings;
+  std::vector<PairRule> pair_rules;
+
+  // Throws: Error{kRange} naming the part, spacing or pair: duplicate or unknown names, a part without a
+  // mesh, limits not in order, a spacing whose moving part is its own reference, circular spacings.
+  void Validate() const;
+
+  [[nodiscard]] std::optional<PartIndex> FindPart(std::string_view name) const;
+  [[nodiscard]] std::optional<SpacingIndex> FindSpacing(std::string_view name) const;
+  [[nodiscard]] std::vector<double> InitialSpacings() const;
+};
+
+// world_from_part of every part (same order) with spacing i at spacing_mm[i]. A function of the values alone:
+// moving a gap out and back gives bit-equal poses. References are placed before the parts that move against
+// them. Throws: PreconditionError when the count differs from the layout's spacings.
+[[nodiscard]] std::vector<RigidTransform> PosesAt(const Layout& layout, std::span<const double> spacing_mm);
+
+}  // namespace elbowroom::core

@@ -1,0 +1,50 @@
+// The lens of one camera: OpenCV's distortion models in the normalised image plane, with certified bounds.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/camera_model.h"
+
+namespace elbowroom::core {
+
+// A closed interval that encloses every value of an expression.
+struct Interval {
+  double lower = 0.0;
+  double upper = 0.0;
+};
+
+// x_distorted = x * R(r) / r + tangential(x) + prism(x), r = |x|, all in the normalised plane (X/Z, Y/Z).
+class Lens {
+ public:
+  // Throws: Error{kCamera} naming `who`: a coefficient count that the model doesn't have, a value not finite,
+  // a tilted sensor (14 coefficients with a tilt other than 0).
+  Lens(DistortionModel model, const std::vector<double>& coefficients, const std::string& who);
+
+  [[nodiscard]] Eigen::Vector2d Distort(const Eigen::Vector2d& normalised) const;
+
+  // Inverse of Distort within radius max_radius; nothing if no point there falls on `distorted`.
+  [[nodiscard]] std::optional<Eigen::Vector2d> Undistort(const Eigen::Vector2d& distorted, double max_radius) const;
+
+  // R(r), and enclosures of R'(r) and R(r)/r over [r0, r1].
+  [[nodiscard]] double RadialImage(double radius) const;
+  [[nodiscard]] Interval RadialSlope(double r0, double r1) const;
+  [[nodiscard]] Interval RadialScale(double r0, double r1) const;
+
+  // Bound on |J| of tangential + prism terms over the disc of radius r; and of their length.
+  [[nodiscard]] double OffAxisSlope(double radius) const;
+  [[nodiscard]] double OffAxisLength(double radius) const;
+
+ private:
+  [[nodiscard]] Eigen::Vector2d OffAxis(const Eigen::Vector2d& x) const;
+
+  DistortionModel model_;
+  double k_[6] = {0, 0, 0, 0, 0, 0};  // fisheye: the first four
+  double p1_ = 0.0, p2_ = 0.0;
+  double s_[4] = {0, 0, 0, 0};
+};
+
+}  // namespace elbowroom::core

@@ -1,0 +1,32 @@
+// How long work reports where it is. Cancelling is std::stop_token's job.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <stop_token>
+#include <string>
+#include <utility>
+
+namespace elbowroom::core {
+
+// Thread: the callback runs on the thread that reports; give it nothing that blocks.
+class Progress {
+ public:
+  using Callback = std::function<void(std::int64_t done, std::int64_t total, const std::string& what)>;
+
+  Progress() = default;  // reports to nobody
+  explicit Progress(Callback callback) : callback_(std::move(callback)) {}
+
+  // total <= 0: not known.
+  void Report(std::int64_t done, std::int64_t total, const std::string& what) const {
+    if (callback_) callback_(done, total, what);
+  }
+
+ private:
+  Callback callback_;
+};
+
+// Throws: Error{kCancelled} naming `what` when a stop was asked for.
+void ThrowIfStopped(const std::stop_token& stop, const std::string& what);
+
+}  // namespace elbowroom::core

@@ -1,0 +1,67 @@
+// The values that a session is made of: what was set up, what happened, frame by frame.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/bit_mask.h"
+#include "core/contact.h"
+#include "core/ids.h"
+#include "core/layout.h"
+#include "core/rig.h"
+
+namespace elbowroom::core {
+
+// TRIAL.toml without its paths.
+struct TrialInfo {
+  std::string participant;
+  std::string task;
+  double estimate_mm = 0.0;  // the participant's guess of the space needed; 0: none given
+  double required_clearance_mm = 0.0;
+  std::vector<std::string> tools;
+};
+
+struct SpacingChanged {
+  std::string spacing;
+  double from_mm = 0.0;
+  double to_mm = 0.0;
+};
+struct ToolMarked {
+  std::string tool;
+  bool in_use = false;
+};
+struct Note {
+  std::string text;  // the program's own remarks too: "ended at the shortest source: cam03"
+};
+
+// Holds from frame `frame` on: a change that arrives between two frames carries the later one's number.
+struct SessionEvent {
+  FrameIndex frame = 0;
+  double time_s = 0.0;
+  std::variant<SpacingChanged, ToolMarked, Note> what;
+};
+
+struct SessionHeader {
+  TrialInfo trial;
+  Rig rig;
+  Layout layout;
+  std::string started_at_utc;                       // ISO 8601
+  std::map<std::string, std::string> settings;      // segmentation and the like, as text
+  std::map<std::string, std::string> versions;      // software and drivers
+};
+
+using SharedMasks = std::shared_ptr<const std::vector<BitMask>>;
+
+struct FrameRecord {
+  FrameIndex frame = 0;
+  double time_s = 0.0;                  // of capture, from the first frame
+  SharedMasks silhouettes;              // one a camera
+  std::vector<double> spacing_mm;       // in the layout's order
+  std::vector<PartContact> contacts;    // one a part, in the layout's order
+};
+
+}  // namespace elbowroom::core
