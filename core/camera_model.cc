@@ -30,10 +30,13 @@ void ValidateCalibration(const CameraCalibration& c) {
     fail("camera_matrix must be [fx s cx; 0 fy cy; 0 0 1]");
   }
   if (!(k(0, 0) > 0.0) || !(k(1, 1) > 0.0)) {
-    fail(fmt::format("camera_matrix is singular or mirrored: fx = {}, fy = {}; both must be positive", k(0, 0), k(1, 1)));
+    fail(fmt::format("camera_matrix is singular or mirrored: fx = {}, fy = {}; both must be positive",
+                     k(0, 0), k(1, 1)));
   }
   if (!IsRotation(c.cam_from_world.rotation)) {
-    fail("rotation_cam_from_world is not a rotation (its rows must be orthonormal, determinant +1); calibrate the pose again");
+    fail(
+        "rotation_cam_from_world is not a rotation (its rows must be orthonormal, determinant +1); calibrate "
+        "the pose again");
   }
   if (!c.cam_from_world.translation_mm.allFinite()) fail("translation_cam_from_world_mm is not finite");
 }
@@ -61,9 +64,11 @@ double DomainRadius(const Lens& lens, double corner_radius) {
   double radius = 0.0;
   while (radius < kLargestRadius) {
     const double next = std::min(kLargestRadius, radius + std::max(corner_radius / 256.0, radius * 0.01));
-    if (!(lens.RadialSlope(radius, next).lower - lens.OffAxisSlope(next) > 0.0)) break;  // folds within this step
+    if (!(lens.RadialSlope(radius, next).lower - lens.OffAxisSlope(next) > 0.0))
+      break;  // folds within this step
     radius = next;
-    if (lens.RadialImage(radius) - lens.OffAxisLength(radius) > corner_radius) break;  // the picture is covered
+    if (lens.RadialImage(radius) - lens.OffAxisLength(radius) > corner_radius)
+      break;  // the picture is covered
   }
   return radius;
 }
@@ -89,8 +94,10 @@ CameraModel::CameraModel(CameraCalibration calibration) : calibration_(std::move
   center_in_world_ = calibration_.cam_from_world.Inverse().translation_mm;
   max_radius_ = DomainRadius(*lens, FarthestCornerRadius(calibration_));
   if (!(max_radius_ > 0.0)) {
-    throw Error(ErrorKind::kCamera, fmt::format("camera '{}': the distortion coefficients describe no lens (the picture "
-                                                "folds at its centre); calibrate this camera again", name()));
+    throw Error(ErrorKind::kCamera,
+                fmt::format("camera '{}': the distortion coefficients describe no lens (the picture "
+                            "folds at its centre); calibrate this camera again",
+                            name()));
   }
   const Eigen::Matrix2d scale = calibration_.camera_matrix.topLeftCorner<2, 2>();
   const double focal_px = Eigen::JacobiSVD<Eigen::Matrix2d>(scale).singularValues()(0);

@@ -7,7 +7,7 @@
 namespace elbowroom::core {
 
 struct ClearanceInterval {
-  double lower_mm = 0.0;  // never above the true distance
+  double lower_mm = 0.0;                                      // never above the true distance
   double upper_mm = std::numeric_limits<double>::infinity();  // never below it
   Eigen::Vector3d witness_part_in_world_mm = Eigen::Vector3d::Zero();
   Eigen::Vector3d witness_hull_in_world_mm = Eigen::Vector3d::Zero();

@@ -20,6 +20,8 @@ std::optional<Verdict> ParseVerdict(std::string_view text) {
   return std::nullopt;
 }
 
-std::string_view ToString(RecoveryStatus status) { return kRecoveryStatuses[static_cast<std::size_t>(status)]; }
+std::string_view ToString(RecoveryStatus status) {
+  return kRecoveryStatuses[static_cast<std::size_t>(status)];
+}
 
 }  // namespace elbowroom::core

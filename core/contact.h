@@ -52,7 +52,7 @@ struct QueryCount {
 struct PartContact {
   PartIndex part = 0;
   Verdict verdict = Verdict::kClear;
-  std::vector<ContactPoint> points;  // bounded in number, spread over the contact
+  std::vector<ContactPoint> points;      // bounded in number, spread over the contact
   std::int64_t contact_point_count = 0;  // before the bound
   double contact_area_mm2 = 0.0;
   std::optional<ContactPoint> deepest;

@@ -15,7 +15,8 @@ namespace {
 [[noreturn]] void Fail(const std::string& message) { throw Error(ErrorKind::kRange, message); }
 
 void RequirePart(const Layout& layout, const std::string& part, const std::string& who) {
-  if (!layout.FindPart(part)) Fail(fmt::format("{}: no part is named '{}'; check the spelling of [[part]] names", who, part));
+  if (!layout.FindPart(part))
+    Fail(fmt::format("{}: no part is named '{}'; check the spelling of [[part]] names", who, part));
 }
 
 // Where a mesh ends along a world axis when it stands at world_from_part.
@@ -27,7 +28,8 @@ Extent ExtentAlong(const Part& part, const RigidTransform& world_from_part, Axis
   const auto row = static_cast<Eigen::Index>(axis);
   Extent extent{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
   for (const Eigen::Vector3d& vertex : part.mesh->vertices_mm) {
-    const double position_mm = world_from_part.rotation.row(row).dot(vertex) + world_from_part.translation_mm[row];
+    const double position_mm =
+        world_from_part.rotation.row(row).dot(vertex) + world_from_part.translation_mm[row];
     extent.lower_mm = std::min(extent.lower_mm, position_mm);
     extent.upper_mm = std::max(extent.upper_mm, position_mm);
   }
@@ -89,7 +91,8 @@ void Layout::Validate() const {
   std::set<std::string> names;
   for (const Part& part : parts) {
     if (part.name.empty()) Fail("a [[part]] has no name; give each one a name of its own");
-    if (!names.insert(part.name).second) Fail(fmt::format("two parts are named '{}'; names must differ", part.name));
+    if (!names.insert(part.name).second)
+      Fail(fmt::format("two parts are named '{}'; names must differ", part.name));
     if (!part.mesh) Fail(fmt::format("part '{}' has no mesh", part.name));
   }
   std::set<std::string> spacing_names;

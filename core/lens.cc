@@ -13,7 +13,8 @@ namespace {
 Interval operator+(Interval a, Interval b) { return {a.lower + b.lower, a.upper + b.upper}; }
 Interval operator-(Interval a, Interval b) { return {a.lower - b.upper, a.upper - b.lower}; }
 Interval operator*(Interval a, Interval b) {
-  const auto [low, high] = std::minmax({a.lower * b.lower, a.lower * b.upper, a.upper * b.lower, a.upper * b.upper});
+  const auto [low, high] =
+      std::minmax({a.lower * b.lower, a.lower * b.upper, a.upper * b.lower, a.upper * b.upper});
   return {low, high};
 }
 // A divisor that reaches zero yields an interval that no caller can take for a valid lens.
@@ -54,7 +55,8 @@ Lens::Lens(DistortionModel model, const std::vector<double>& d, const std::strin
     fail("a distortion coefficient is not a finite number; calibrate this camera again");
   }
   if (model == DistortionModel::kFisheye) {
-    if (!d.empty() && d.size() != 4) fail(fmt::format("fisheye takes 4 distortion coefficients, not {}", d.size()));
+    if (!d.empty() && d.size() != 4)
+      fail(fmt::format("fisheye takes 4 distortion coefficients, not {}", d.size()));
     std::copy(d.begin(), d.end(), k_);
     return;
   }
@@ -63,13 +65,15 @@ Lens::Lens(DistortionModel model, const std::vector<double>& d, const std::strin
     fail(fmt::format("{} takes 0, 4, 5, 8, 12 or 14 distortion coefficients, not {}", ToString(model), n));
   }
   if (model == DistortionModel::kPlumbBob && n > 5) {
-    fail(fmt::format("plumb_bob takes at most 5 distortion coefficients, not {}; say \"rational_polynomial\"", n));
+    fail(fmt::format("plumb_bob takes at most 5 distortion coefficients, not {}; say \"rational_polynomial\"",
+                     n));
   }
   const auto at = [&](std::size_t i) { return i < n ? d[i] : 0.0; };
   k_[0] = at(0), k_[1] = at(1), p1_ = at(2), p2_ = at(3);
   for (std::size_t i = 4; i < 8; ++i) k_[i - 2] = at(i);
   for (std::size_t i = 0; i < 4; ++i) s_[i] = at(8 + i);
-  if (at(12) != 0.0 || at(13) != 0.0) fail("a tilted sensor model is not supported; calibrate without CALIB_TILTED_MODEL");
+  if (at(12) != 0.0 || at(13) != 0.0)
+    fail("a tilted sensor model is not supported; calibrate without CALIB_TILTED_MODEL");
 }
 
 double Lens::RadialImage(double radius) const {
@@ -108,7 +112,8 @@ Interval Lens::RadialSlope(double r0, double r1) const {
 double Lens::OffAxisSlope(double radius) const {
   const double p1 = std::abs(p1_), p2 = std::abs(p2_), r3 = radius * radius * radius;
   const double tangential =
-      radius * std::sqrt(std::pow(2 * p1 + 6 * p2, 2) + 2 * std::pow(2 * p1 + 2 * p2, 2) + std::pow(6 * p1 + 2 * p2, 2));
+      radius * std::sqrt(std::pow(2 * p1 + 6 * p2, 2) + 2 * std::pow(2 * p1 + 2 * p2, 2) +
+                         std::pow(6 * p1 + 2 * p2, 2));
   return tangential + std::hypot(2 * std::abs(s_[0]) * radius + 4 * std::abs(s_[1]) * r3,
                                  2 * std::abs(s_[2]) * radius + 4 * std::abs(s_[3]) * r3);
 }
@@ -150,7 +155,8 @@ std::optional<Eigen::Vector2d> Lens::Undistort(const Eigen::Vector2d& distorted,
     const Eigen::Vector2d radial_part = distorted - OffAxis(x);
     const double image_radius = radial_part.norm();
     const Eigen::Vector2d next =
-        image_radius < 1e-15 ? Eigen::Vector2d::Zero() : Eigen::Vector2d(radial_part * (invert_radial(image_radius) / image_radius));
+        image_radius < 1e-15 ? Eigen::Vector2d::Zero()
+                             : Eigen::Vector2d(radial_part * (invert_radial(image_radius) / image_radius));
     const bool settled = (next - x).norm() <= 1e-14;
     x = next;
     if (settled) break;

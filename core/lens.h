@@ -27,7 +27,8 @@ class Lens {
   [[nodiscard]] Eigen::Vector2d Distort(const Eigen::Vector2d& normalised) const;
 
   // Inverse of Distort within radius max_radius; nothing if no point there falls on `distorted`.
-  [[nodiscard]] std::optional<Eigen::Vector2d> Undistort(const Eigen::Vector2d& distorted, double max_radius) const;
+  [[nodiscard]] std::optional<Eigen::Vector2d> Undistort(const Eigen::Vector2d& distorted,
+                                                         double max_radius) const;
 
   // R(r), and enclosures of R'(r) and R(r)/r over [r0, r1].
   [[nodiscard]] double RadialImage(double radius) const;

@@ -18,7 +18,8 @@ RigidTransform FromPositionAndRollPitchYaw(const Eigen::Vector3d& position_mm,
   return {rotation, position_mm};
 }
 
-RigidTransform CamFromWorldLookingAt(const Eigen::Vector3d& eye_in_world, const Eigen::Vector3d& target_in_world,
+RigidTransform CamFromWorldLookingAt(const Eigen::Vector3d& eye_in_world,
+                                     const Eigen::Vector3d& target_in_world,
                                      const Eigen::Vector3d& up_in_world) {
   const Eigen::Vector3d direction = target_in_world - eye_in_world;
   Require(direction.norm() > 0.0, "the camera and its target are different points");

@@ -31,9 +31,9 @@ struct RigidTransform {
 
 // Camera at `eye` with its z axis through `target` and its y axis (image down) away from `up`; x right,
 // y down, z forward. A view direction parallel to `up` takes another up direction.
-[[nodiscard]] RigidTransform CamFromWorldLookingAt(const Eigen::Vector3d& eye_in_world,
-                                                   const Eigen::Vector3d& target_in_world,
-                                                   const Eigen::Vector3d& up_in_world = Eigen::Vector3d::UnitZ());
+[[nodiscard]] RigidTransform CamFromWorldLookingAt(
+    const Eigen::Vector3d& eye_in_world, const Eigen::Vector3d& target_in_world,
+    const Eigen::Vector3d& up_in_world = Eigen::Vector3d::UnitZ());
 
 // True if `matrix` is orthonormal with determinant +1, each entry of R R^T - I within `tolerance`.
 [[nodiscard]] bool IsRotation(const Eigen::Matrix3d& matrix, double tolerance = 1e-6);

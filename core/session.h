@@ -49,19 +49,19 @@ struct SessionHeader {
   TrialInfo trial;
   Rig rig;
   Layout layout;
-  std::string started_at_utc;                       // ISO 8601
-  std::map<std::string, std::string> settings;      // segmentation and the like, as text
-  std::map<std::string, std::string> versions;      // software and drivers
+  std::string started_at_utc;                   // ISO 8601
+  std::map<std::string, std::string> settings;  // segmentation and the like, as text
+  std::map<std::string, std::string> versions;  // software and drivers
 };
 
 using SharedMasks = std::shared_ptr<const std::vector<BitMask>>;
 
 struct FrameRecord {
   FrameIndex frame = 0;
-  double time_s = 0.0;                  // of capture, from the first frame
-  SharedMasks silhouettes;              // one a camera
-  std::vector<double> spacing_mm;       // in the layout's order
-  std::vector<PartContact> contacts;    // one a part, in the layout's order
+  double time_s = 0.0;                // of capture, from the first frame
+  SharedMasks silhouettes;            // one a camera
+  std::vector<double> spacing_mm;     // in the layout's order
+  std::vector<PartContact> contacts;  // one a part, in the layout's order
 };
 
 }  // namespace elbowroom::core

@@ -11,20 +11,23 @@ namespace elbowroom::core {
 
 void ValidateMesh(const TriangleMesh& mesh, const std::string& where) {
   if (mesh.triangles.empty()) {
-    throw Error(ErrorKind::kGeometry, fmt::format("{}: the mesh has no triangles; export it again as a surface mesh", where));
+    throw Error(ErrorKind::kGeometry,
+                fmt::format("{}: the mesh has no triangles; export it again as a surface mesh", where));
   }
   for (std::size_t i = 0; i < mesh.vertices_mm.size(); ++i) {
     if (!mesh.vertices_mm[i].allFinite()) {
-      throw Error(ErrorKind::kGeometry,
-                  fmt::format("{}: vertex {} is not a finite point; repair the mesh before importing it", where, i));
+      throw Error(
+          ErrorKind::kGeometry,
+          fmt::format("{}: vertex {} is not a finite point; repair the mesh before importing it", where, i));
     }
   }
   const auto count = static_cast<std::int64_t>(mesh.vertices_mm.size());
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     for (const std::int32_t index : mesh.triangles[i]) {
       if (index < 0 || index >= count) {
-        throw Error(ErrorKind::kGeometry, fmt::format("{}: triangle {} refers to vertex {} of {}; the file is damaged",
-                                                      where, i, index, count));
+        throw Error(ErrorKind::kGeometry,
+                    fmt::format("{}: triangle {} refers to vertex {} of {}; the file is damaged", where, i,
+                                index, count));
       }
     }
   }
@@ -66,7 +69,8 @@ bool IsWatertight(const TriangleMesh& mesh) {
   std::vector<std::uint64_t> edges;
   edges.reserve(3 * mesh.triangles.size());
   const auto directed_edge = [](std::int32_t from, std::int32_t to) {
-    return (static_cast<std::uint64_t>(static_cast<std::uint32_t>(from)) << 32U) | static_cast<std::uint32_t>(to);
+    return (static_cast<std::uint64_t>(static_cast<std::uint32_t>(from)) << 32U) |
+           static_cast<std::uint32_t>(to);
   };
   for (const auto& [a, b, c] : mesh.triangles) {
     if (a == b || b == c || c == a) return false;
@@ -88,7 +92,8 @@ TriangleMesh Transformed(const TriangleMesh& mesh, const RigidTransform& b_from_
 void Append(TriangleMesh& mesh, const TriangleMesh& addition) {
   const auto offset = static_cast<std::int32_t>(mesh.vertices_mm.size());
   mesh.vertices_mm.insert(mesh.vertices_mm.end(), addition.vertices_mm.begin(), addition.vertices_mm.end());
-  for (const auto& [a, b, c] : addition.triangles) mesh.triangles.push_back({a + offset, b + offset, c + offset});
+  for (const auto& [a, b, c] : addition.triangles)
+    mesh.triangles.push_back({a + offset, b + offset, c + offset});
 }
 
 std::string ContentHash(const TriangleMesh& mesh) {

@@ -41,7 +41,8 @@ void ValidateMesh(const TriangleMesh& mesh, const std::string& where);
 // Appends `addition` to `mesh`, indices shifted.
 void Append(TriangleMesh& mesh, const TriangleMesh& addition);
 
-// 128-bit content hash (XXH3) of vertices and triangles, 32 hex digits: equal meshes share a row in a session.
+// 128-bit content hash (XXH3) of vertices and triangles, 32 hex digits: equal meshes share a row in a
+// session.
 [[nodiscard]] std::string ContentHash(const TriangleMesh& mesh);
 
 }  // namespace elbowroom::core

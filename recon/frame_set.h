@@ -14,13 +14,13 @@
 namespace elbowroom::recon {
 
 struct CameraFrame {
-  cv::Mat image_bgr;                         // 8-bit, 3 channels; empty where the camera brings ready masks
-  std::optional<core::BitMask> ready_mask;   // then there is nothing to segment
+  cv::Mat image_bgr;                        // 8-bit, 3 channels; empty where the camera brings ready masks
+  std::optional<core::BitMask> ready_mask;  // then there is nothing to segment
 };
 
 struct FrameSet {
   core::FrameIndex index = 0;
-  double time_s = 0.0;  // of capture, from frame 0
+  double time_s = 0.0;               // of capture, from frame 0
   std::vector<CameraFrame> cameras;  // in the rig's order
 };
 
