@@ -59,7 +59,7 @@ Eigen::Matrix3d WristAxes(const Vector3d& fingers, const Vector3d& thumb) {
 }
 
 Vector3d ElbowBehind(const Vector3d& wrist_in_world, double drop_mm) {
-  return wrist_in_world + Vector3d(250.0, 25.0, -drop_mm);
+  return wrist_in_world + Vector3d(380.0, 40.0, -drop_mm);
 }
 
 // --- the pipe ---
@@ -87,7 +87,7 @@ SyntheticObject HandAtPipe(double time_s) {
                                      Ease(time_s, 6.9, kHandGoneS) * Vector3d(560.0, 0.0, -60.0);
   const double open = Ease(time_s, kReleaseBeginsS, kReleaseEndsS);
   return Hand(world_from_wrist, Blend(PipePinch(), OpenHand(), 0.5 * open),
-              ElbowBehind(world_from_wrist.translation_mm, 95.0));
+              ElbowBehind(world_from_wrist.translation_mm, 140.0));
 }
 
 // --- the cable ---
@@ -155,7 +155,7 @@ SyntheticObject HandAtTongs(const Feed& feed) {
       kTongsGripFromTipsMm * Vector3d(std::cos(elevation_rad), 0.0, std::sin(elevation_rad));
   const Eigen::Matrix3d axes = WristAxes(-Vector3d::UnitX(), Vector3d::UnitZ());
   const RigidTransform world_from_wrist{axes, grip_in_world - axes * kTongsGripInWrist};
-  return Hand(world_from_wrist, TongsPinch(), ElbowBehind(world_from_wrist.translation_mm, 75.0));
+  return Hand(world_from_wrist, TongsPinch(), ElbowBehind(world_from_wrist.translation_mm, 110.0));
 }
 
 DemoPhase PhaseAt(double time_s) {
