@@ -84,7 +84,7 @@ SyntheticObject HandAtPipe(double time_s) {
   RigidTransform world_from_wrist = world_from_pipe * RigidTransform{pipe_from_wrist, wrist_in_pipe};
   // Up and off the pipe before it goes.
   world_from_wrist.translation_mm += Ease(time_s, kReleaseBeginsS + 0.2, 7.1) * Vector3d(0.0, 0.0, 52.0) +
-                                     Ease(time_s, 6.9, kHandGoneS) * Vector3d(560.0, 0.0, -60.0);
+                                     Ease(time_s, 6.9, kHandGoneS) * Vector3d(680.0, 0.0, -60.0);
   const double open = Ease(time_s, kReleaseBeginsS, kReleaseEndsS);
   return Hand(world_from_wrist, Blend(PipePinch(), OpenHand(), 0.5 * open),
               ElbowBehind(world_from_wrist.translation_mm, 140.0));
@@ -115,9 +115,9 @@ Feed FeedAt(double time_s) {
     open -= Ease(time_s, begin_s + 0.9 * kStrokeS, begin_s + kStrokeS);
   }
   const double arrive = Ease(time_s, kHandGoneS, kFeedBeginsS);
-  const Vector3d held(570.0 * (1.0 - arrive), 30.0 * (1.0 - arrive), kTipsLowZMm + lifted * kStrokeMm);
+  const Vector3d held(640.0 * (1.0 - arrive), 30.0 * (1.0 - arrive), kTipsLowZMm + lifted * kStrokeMm);
   const double leave = Ease(time_s, kFeedEndsS, kTaskSeconds);
-  const Vector3d gone(540.0 * leave, 20.0 * leave, 40.0 * Ease(time_s, kFeedEndsS, kFeedEndsS + 0.5));
+  const Vector3d gone(620.0 * leave, 20.0 * leave, 40.0 * Ease(time_s, kFeedEndsS, kFeedEndsS + 0.5));
   return {held + gone,
           {held.x(), held.y(), kTipsHighZMm - kPlugBelowTipsMm - pushed_mm},
           RadiansFromDegrees(kTongsClosedDeg + open * (kTongsOpenDeg - kTongsClosedDeg))};
