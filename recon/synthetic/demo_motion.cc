@@ -127,11 +127,11 @@ Feed FeedAt(double time_s) {
 SyntheticObject CableAt(const Feed& feed, double time_s) {
   const double fed = Ease(time_s, kFeedBeginsS, kFeedEndsS);
   const Vector3d mouth(feed.plug_front_in_world.x(), feed.plug_front_in_world.y(),
-                       std::max(feed.plug_front_in_world.z() + kPlugLengthMm + 20.0, kTipsHighZMm - 14.0));
+                       std::max(feed.plug_front_in_world.z() + kPlugLengthMm + 20.0, kTipsHighZMm - 24.0));
   const double slack_mm = 45.0 * (1.0 - fed);
   const Vector3d on_table(60.0, -345.0, kCableRadiusMm);
   const std::array<Vector3d, 6> through{mouth,
-                                        mouth + Vector3d(4.0, -60.0, 22.0),
+                                        mouth + Vector3d(4.0, -60.0, 18.0),
                                         mouth + Vector3d(12.0, -155.0 - 0.3 * slack_mm, -8.0),
                                         Vector3d(0.5 * mouth.x() + 40.0, -250.0 - 0.5 * slack_mm, 110.0),
                                         on_table,
