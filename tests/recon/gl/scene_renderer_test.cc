@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "core/error.h"
-#include "recon/image_file.h"
+#include "recon/png_file.h"
 #include "recon/orbit_camera.h"
 #include "tests/recon/gl/sample_scene.h"
 

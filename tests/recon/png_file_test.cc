@@ -1,4 +1,4 @@
-#include "recon/image_file.h"
+#include "recon/png_file.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
