@@ -1,0 +1,42 @@
+// What the experimenter asks of a running trial.
+#pragma once
+
+#include <mutex>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace elbowroom::control {
+
+// A mailbox: any thread puts wishes in, the trial takes them out between two frames.
+// Thread: any.
+class TrialControls {
+ public:
+  struct ToolWish {
+    std::string tool;
+    bool in_use = false;
+  };
+  struct Wishes {
+    std::vector<std::pair<std::string, double>> spacings_mm;  // the last wish for a spacing holds
+    std::vector<ToolWish> tools;
+  };
+
+  void SetSpacing(const std::string& spacing, double to_mm) {
+    const std::lock_guard lock(mutex_);
+    wishes_.spacings_mm.emplace_back(spacing, to_mm);
+  }
+  void MarkTool(const std::string& tool, bool in_use) {
+    const std::lock_guard lock(mutex_);
+    wishes_.tools.push_back({tool, in_use});
+  }
+  [[nodiscard]] Wishes Take() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(wishes_, {});
+  }
+
+ private:
+  std::mutex mutex_;
+  Wishes wishes_;
+};
+
+}  // namespace elbowroom::control

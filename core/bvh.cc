@@ -1,0 +1,95 @@
+#include "core/bvh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "core/error.h"
+
+namespace elbowroom::core {
+namespace {
+
+constexpr std::uint32_t kTrianglesInLeaf = 4;
+// Balls grow by this share, so that rounding never leaves a vertex outside.
+constexpr double kOutwards = 1e-12;
+
+Eigen::Vector3d Centroid(const TriangleMesh& mesh, std::uint32_t triangle) {
+  const auto& [a, b, c] = mesh.triangles[triangle];
+  return (mesh.vertices_mm[static_cast<std::size_t>(a)] + mesh.vertices_mm[static_cast<std::size_t>(b)] +
+          mesh.vertices_mm[static_cast<std::size_t>(c)]) /
+         3.0;
+}
+
+// Around the centre of the bounding box: at most sqrt(3) larger than the smallest, usually a few percent.
+Ball BallAround(const TriangleMesh& mesh, std::span<const std::uint32_t> triangles) {
+  Eigen::AlignedBox3d box;
+  for (const std::uint32_t triangle : triangles) {
+    for (const std::int32_t vertex : mesh.triangles[triangle])
+      box.extend(mesh.vertices_mm[static_cast<std::size_t>(vertex)]);
+  }
+  Ball ball{box.center(), 0.0};
+  for (const std::uint32_t triangle : triangles) {
+    for (const std::int32_t vertex : mesh.triangles[triangle]) {
+      ball.radius_mm =
+          std::max(ball.radius_mm, (mesh.vertices_mm[static_cast<std::size_t>(vertex)] - ball.center).norm());
+    }
+  }
+  ball.radius_mm *= 1.0 + kOutwards;
+  return ball;
+}
+
+}  // namespace
+
+Ball BallOf(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
+  // Around the longest side if the opposite angle is obtuse, else the circumscribed circle's.
+  const double ab = (b - a).squaredNorm(), bc = (c - b).squaredNorm(), ca = (a - c).squaredNorm();
+  Ball ball;
+  if (ab >= bc + ca) {
+    ball.center = 0.5 * (a + b);
+  } else if (bc >= ab + ca) {
+    ball.center = 0.5 * (b + c);
+  } else if (ca >= ab + bc) {
+    ball.center = 0.5 * (c + a);
+  } else {
+    const double wa = bc * (ab + ca - bc), wb = ca * (ab + bc - ca), wc = ab * (bc + ca - ab);
+    ball.center = (wa * a + wb * b + wc * c) / (wa + wb + wc);
+  }
+  const double square = std::max(
+      {(a - ball.center).squaredNorm(), (b - ball.center).squaredNorm(), (c - ball.center).squaredNorm()});
+  ball.radius_mm = std::sqrt(square) * (1.0 + kOutwards);
+  return ball;
+}
+
+TriangleTree::TriangleTree(SharedMesh mesh) : mesh_(std::move(mesh)) {
+  Require(mesh_ != nullptr, "a tree has a mesh");
+  order_.resize(mesh_->triangles.size());
+  std::iota(order_.begin(), order_.end(), 0U);
+  if (order_.empty()) return;
+  nodes_.push_back({{}, 0, static_cast<std::uint32_t>(order_.size()), 0});
+  Build(0);
+}
+
+void TriangleTree::Build(std::uint32_t node) {
+  const std::uint32_t begin = nodes_[node].begin, end = nodes_[node].end;
+  const std::span<std::uint32_t> triangles(order_.data() + begin, end - begin);
+  nodes_[node].ball = BallAround(*mesh_, triangles);
+  if (end - begin <= kTrianglesInLeaf) return;
+  Eigen::AlignedBox3d box;
+  for (const std::uint32_t triangle : triangles) box.extend(Centroid(*mesh_, triangle));
+  Eigen::Index axis = 0;
+  box.sizes().maxCoeff(&axis);
+  const std::uint32_t half = (end - begin) / 2;
+  std::nth_element(
+      triangles.begin(), triangles.begin() + half, triangles.end(), [&](std::uint32_t a, std::uint32_t b) {
+        const double at_a = Centroid(*mesh_, a)[axis], at_b = Centroid(*mesh_, b)[axis];
+        return at_a != at_b ? at_a < at_b : a < b;  // a strict order: the tree is the same on every machine
+      });
+  const auto left = static_cast<std::uint32_t>(nodes_.size());
+  nodes_[node].left = left;
+  nodes_.push_back({{}, begin, begin + half, 0});
+  nodes_.push_back({{}, begin + half, end, 0});
+  Build(left);
+  Build(left + 1);
+}
+
+}  // namespace elbowroom::core

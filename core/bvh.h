@@ -1,0 +1,48 @@
+// A tree of balls over a mesh's triangles.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/triangle_mesh.h"
+
+namespace elbowroom::core {
+
+struct Ball {
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();
+  double radius_mm = 0.0;
+};
+
+// A ball that encloses the triangle: its smallest one, but for rounding outwards.
+[[nodiscard]] Ball BallOf(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c);
+
+// Node 0 is the root; children are `left` and `left + 1`, leaves have left == 0. Each node covers the
+// triangles order()[begin .. end) and its ball encloses them, in the mesh's frame.
+// Immutable. Thread: any.
+class TriangleTree {
+ public:
+  struct Node {
+    Ball ball;
+    std::uint32_t begin = 0;
+    std::uint32_t end = 0;
+    std::uint32_t left = 0;
+  };
+
+  // Median split of the longest side; leaves of at most 4 triangles. An empty mesh has no node.
+  explicit TriangleTree(SharedMesh mesh);
+
+  [[nodiscard]] const TriangleMesh& mesh() const { return *mesh_; }
+  [[nodiscard]] std::span<const Node> nodes() const { return nodes_; }
+  [[nodiscard]] std::span<const std::uint32_t> order() const { return order_; }
+
+ private:
+  void Build(std::uint32_t node);
+
+  SharedMesh mesh_;
+  std::vector<Node> nodes_;
+  std::vector<std::uint32_t> order_;
+};
+
+}  // namespace elbowroom::core

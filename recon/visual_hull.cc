@@ -1,0 +1,169 @@
+#include "recon/visual_hull.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "core/error.h"
+#include "recon/camera_query.h"
+
+namespace elbowroom::recon {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+// A silhouette's edge is a staircase; its direction is taken over this many pixels.
+constexpr double kEdgeSpanPx = 4.0;
+
+bool ExteriorIsObject(const core::Rig& rig) { return rig.unseen == core::UnseenPolicy::kAbstain; }
+
+// Distance to the nearest face from inside.
+double DistanceToFace(const Eigen::AlignedBox3d& box, const Eigen::Vector3d& x) {
+  return std::min((x - box.min()).minCoeff(), (box.max() - x).minCoeff());
+}
+
+// What the cameras together say of a point: the inside needs all, the outside one.
+class Tally {
+ public:
+  void Add(const CameraAnswer& answer) {
+    if (answer.is_object) {
+      inside_radius_mm_ = std::min(inside_radius_mm_, answer.radius_mm);
+    } else {
+      outside_radius_mm_ = std::max(outside_radius_mm_, answer.radius_mm);
+      is_inside_ = false;
+    }
+    if (answer.is_seen) seen_radius_mm_ = std::max(seen_radius_mm_, answer.seen_radius_mm);
+    unseen_radius_mm_ = std::min(unseen_radius_mm_, answer.unseen_radius_mm);
+    any_seen_ = any_seen_ || answer.is_seen;
+  }
+
+  [[nodiscard]] PointAnswer Sum() const {
+    if (!is_inside_) return {false, std::max(outside_radius_mm_, any_seen_ ? 0.0 : unseen_radius_mm_)};
+    if (!any_seen_) return {false, unseen_radius_mm_};  // nobody vouches for the point
+    return {true, std::min(inside_radius_mm_, seen_radius_mm_)};
+  }
+
+ private:
+  bool is_inside_ = true;
+  bool any_seen_ = false;
+  double inside_radius_mm_ = kInfinity;
+  double outside_radius_mm_ = 0.0;
+  double seen_radius_mm_ = 0.0;  // the best witness's
+  double unseen_radius_mm_ = kInfinity;
+};
+
+}  // namespace
+
+VisualHull::VisualHull(std::shared_ptr<const core::Rig> rig,
+                       std::vector<std::shared_ptr<const Silhouette>> silhouettes)
+    : rig_(std::move(rig)), silhouettes_(std::move(silhouettes)) {
+  core::Require(rig_ != nullptr && silhouettes_.size() == rig_->cameras.size(), "one silhouette a camera");
+  for (std::size_t i = 0; i < silhouettes_.size(); ++i) {
+    const core::CameraModel& camera = rig_->cameras[i];
+    const core::BitMask& mask = silhouettes_[i]->mask();
+    if (mask.width_px() != camera.width_px() || mask.height_px() != camera.height_px()) {
+      throw core::Error(
+          core::ErrorKind::kCamera,
+          fmt::format("camera '{}': the mask is {} x {} but the rig says {} x {}; use masks of the "
+                      "calibrated size",
+                      camera.name(), mask.width_px(), mask.height_px(), camera.width_px(),
+                      camera.height_px()));
+    }
+    const bool sees_nothing = mask.CountObjectPixels() == 0;
+    is_empty_ = is_empty_ || (sees_nothing && !ExteriorIsObject(*rig_));
+  }
+}
+
+bool VisualHull::Contains(const Eigen::Vector3d& x_in_world) const {
+  if (is_empty_ || !rig_->workspace_mm.contains(x_in_world)) return false;
+  const bool exterior_is_object = ExteriorIsObject(*rig_);
+  bool any_seen = !exterior_is_object;  // under `outside` an object pixel is a seen one
+  for (std::size_t i = 0; i < silhouettes_.size(); ++i) {
+    const std::optional<Eigen::Vector2d> pixel = rig_->cameras[i].Project(x_in_world);
+    if (!(pixel ? silhouettes_[i]->IsObject(*pixel) : exterior_is_object)) return false;
+    any_seen = any_seen || (pixel && silhouettes_[i]->IsInImage(*pixel));
+  }
+  return any_seen;
+}
+
+PointAnswer VisualHull::Probe(const Eigen::Vector3d& x_in_world) const {
+  if (is_empty_) return {false, kInfinity};
+  Tally tally;
+  for (std::size_t i = 0; i < silhouettes_.size(); ++i) {
+    tally.Add(AskCamera(rig_->cameras[i], *silhouettes_[i], ExteriorIsObject(*rig_), x_in_world));
+  }
+  PointAnswer answer = tally.Sum();
+  const Eigen::AlignedBox3d& workspace_mm = rig_->workspace_mm;
+  if (!workspace_mm.contains(x_in_world)) {
+    const double to_workspace_mm = workspace_mm.exteriorDistance(x_in_world) * (1.0 - 1e-9);
+    return {false, answer.is_inside ? to_workspace_mm : std::max(answer.radius_mm, to_workspace_mm)};
+  }
+  if (answer.is_inside)
+    answer.radius_mm = std::min(answer.radius_mm, DistanceToFace(workspace_mm, x_in_world));
+  return answer;
+}
+
+BallAnswer VisualHull::Classify(const Eigen::Vector3d& center_in_world, double radius_mm) const {
+  if (is_empty_) return BallAnswer::kOutside;
+  const Eigen::AlignedBox3d& workspace_mm = rig_->workspace_mm;
+  const double to_workspace_mm = workspace_mm.exteriorDistance(center_in_world);
+  if (to_workspace_mm * (1.0 - 1e-9) > radius_mm) return BallAnswer::kOutside;
+  Tally tally;
+  for (std::size_t i = 0; i < silhouettes_.size(); ++i) {
+    const CameraAnswer answer =
+        AskCamera(rig_->cameras[i], *silhouettes_[i], ExteriorIsObject(*rig_), center_in_world);
+    if (!answer.is_object && answer.radius_mm >= radius_mm) return BallAnswer::kOutside;
+    tally.Add(answer);
+  }
+  const PointAnswer sum = tally.Sum();
+  if (sum.radius_mm < radius_mm) return BallAnswer::kMixed;
+  if (!sum.is_inside) return BallAnswer::kOutside;
+  const bool is_in_workspace =
+      to_workspace_mm == 0.0 && DistanceToFace(workspace_mm, center_in_world) >= radius_mm;
+  return is_in_workspace ? BallAnswer::kInside : BallAnswer::kMixed;
+}
+
+BoundingEdge VisualHull::EdgeAt(const Eigen::Vector3d& surface_point_in_world) const {
+  // The surface is where some camera is about to change its mind: the one whose label reaches least far.
+  BoundingEdge edge;
+  double nearest_mm = std::abs(DistanceToFace(rig_->workspace_mm, surface_point_in_world));
+  for (std::size_t i = 0; i < silhouettes_.size(); ++i) {
+    const CameraAnswer answer =
+        AskCamera(rig_->cameras[i], *silhouettes_[i], ExteriorIsObject(*rig_), surface_point_in_world);
+    if (answer.is_seen && answer.radius_mm < nearest_mm) {
+      nearest_mm = answer.radius_mm;
+      edge.camera = i;
+    }
+  }
+  if (!edge.camera) return edge;
+  const core::CameraModel& camera = rig_->cameras[*edge.camera];
+  const Eigen::Vector2d pixel = *camera.Project(surface_point_in_world);
+  const Eigen::Vector2d outward = silhouettes_[*edge.camera]->OutwardDirection(pixel, kEdgeSpanPx);
+  if (outward.isZero()) return edge;
+  // The hull's surface there is the plane through the camera's centre that cuts the picture along the edge.
+  const auto ray_through = [&](const Eigen::Vector2d& at) -> std::optional<Eigen::Vector3d> {
+    const std::optional<Eigen::Vector2d> normalised = camera.NormalisedFromPixel(at);
+    if (!normalised) return std::nullopt;
+    return camera.cam_from_world().rotation.transpose() * normalised->homogeneous();
+  };
+  const std::optional<Eigen::Vector3d> ray = ray_through(pixel);
+  const std::optional<Eigen::Vector3d> along =
+      ray_through(pixel + Eigen::Vector2d(-outward.y(), outward.x()));
+  const std::optional<Eigen::Vector3d> out = ray_through(pixel + outward);
+  if (!ray || !along || !out) return edge;
+  const Eigen::Vector3d normal = ray->cross(*along - *ray).normalized();
+  edge.normal_in_world = normal.dot(*out) > 0.0 ? normal : Eigen::Vector3d(-normal);
+  return edge;
+}
+
+VisualHull MakeVisualHull(std::shared_ptr<const core::Rig> rig, std::span<const core::BitMask> masks) {
+  core::Require(rig != nullptr && masks.size() == rig->cameras.size(), "one mask a camera");
+  std::vector<std::shared_ptr<const Silhouette>> silhouettes(masks.size());
+  tbb::parallel_for(std::size_t{0}, masks.size(), [&](std::size_t i) {
+    silhouettes[i] = std::make_shared<const Silhouette>(masks[i], ExteriorIsObject(*rig));
+  });
+  return {std::move(rig), std::move(silhouettes)};
+}
+
+}  // namespace elbowroom::recon

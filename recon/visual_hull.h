@@ -1,0 +1,77 @@
+// The hull of one frame's silhouettes, asked of points and of balls.
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/ids.h"
+#include "core/rig.h"
+#include "recon/silhouette.h"
+
+namespace elbowroom::recon {
+
+enum class BallAnswer {
+  kOutside,  // no point of the ball is in the hull
+  kInside,   // every point of it is
+  kMixed,    // neither is certain
+};
+
+// Whether a point is in the hull, and the radius of a ball around it all of which agrees.
+struct PointAnswer {
+  bool is_inside = false;
+  double radius_mm = 0.0;  // certified, not largest; may be infinite
+};
+
+// The camera whose silhouette bounds the hull nearest to a point, and the direction out of the hull there.
+struct BoundingEdge {
+  std::optional<core::CameraIndex> camera;         // nothing: a face of the workspace
+  std::optional<Eigen::Vector3d> normal_in_world;  // unit; nothing where the silhouette gives none
+};
+
+// The visual hull: the points of the workspace that project on an object pixel in every camera, where
+// rig.unseen decides for cameras that can't see the point. An immutable snapshot; copies share silhouettes.
+// The certificate of the ball answers is derived in docs/algorithms.md and held to account by
+// tests/recon/ball_query_test.cc. Thread: any.
+class VisualHull {
+ public:
+  // Throws: core::Error{kCamera} naming the camera when a mask's size isn't the camera's;
+  // PreconditionError when there isn't one silhouette a camera.
+  VisualHull(std::shared_ptr<const core::Rig> rig,
+             std::vector<std::shared_ptr<const Silhouette>> silhouettes);
+
+  [[nodiscard]] const core::Rig& rig() const { return *rig_; }
+  [[nodiscard]] const std::shared_ptr<const core::Rig>& shared_rig() const { return rig_; }
+  [[nodiscard]] std::span<const std::shared_ptr<const Silhouette>> silhouettes() const {
+    return silhouettes_;
+  }
+
+  // True when no point can be inside: under `outside`, some camera sees no object at all.
+  [[nodiscard]] bool IsEmpty() const { return is_empty_; }
+
+  // The paper's volume query.
+  [[nodiscard]] bool Contains(const Eigen::Vector3d& x_in_world) const;
+
+  // Contains(), and how far around the point the answer is sure to hold.
+  [[nodiscard]] PointAnswer Probe(const Eigen::Vector3d& x_in_world) const;
+
+  // The volume query of a closed ball. A radius of 0 is the point's own query.
+  [[nodiscard]] BallAnswer Classify(const Eigen::Vector3d& center_in_world, double radius_mm) const;
+
+  // Which silhouette ends the hull at a point on its surface; the normal is that of the silhouette's edge,
+  // averaged over a few pixels, through the camera's centre.
+  [[nodiscard]] BoundingEdge EdgeAt(const Eigen::Vector3d& surface_point_in_world) const;
+
+ private:
+  std::shared_ptr<const core::Rig> rig_;
+  std::vector<std::shared_ptr<const Silhouette>> silhouettes_;
+  bool is_empty_ = false;
+};
+
+// One silhouette a mask, exteriors labelled as the rig's `unseen` policy asks. Computed in parallel.
+[[nodiscard]] VisualHull MakeVisualHull(std::shared_ptr<const core::Rig> rig,
+                                        std::span<const core::BitMask> masks);
+
+}  // namespace elbowroom::recon

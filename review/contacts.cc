@@ -1,0 +1,222 @@
+#include "review/contacts.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "recon/ray_cast.h"
+#include "review/point_spread.h"
+
+namespace elbowroom::review {
+namespace {
+
+using Eigen::Vector3d;
+using recon::BallAnswer;
+
+struct Triangle {
+  Vector3d a, b, c;  // in world
+
+  [[nodiscard]] double AreaMm2() const { return 0.5 * (b - a).cross(c - a).norm(); }
+  [[nodiscard]] Vector3d Centroid() const { return (a + b + c) / 3.0; }
+};
+
+// Two halves, cut at the middle of the longest side: needles shorten, nothing stays long.
+std::pair<Triangle, Triangle> Halve(const Triangle& t) {
+  const double ab = (t.b - t.a).squaredNorm(), bc = (t.c - t.b).squaredNorm(), ca = (t.a - t.c).squaredNorm();
+  if (ab >= bc && ab >= ca) {
+    const Vector3d m = 0.5 * (t.a + t.b);
+    return {{t.a, m, t.c}, {m, t.b, t.c}};
+  }
+  if (bc >= ca) {
+    const Vector3d m = 0.5 * (t.b + t.c);
+    return {{t.a, t.b, m}, {t.a, m, t.c}};
+  }
+  const Vector3d m = 0.5 * (t.c + t.a);
+  return {{t.a, t.b, m}, {m, t.b, t.c}};
+}
+
+// One part against one hull.
+class ContactSearch {
+ public:
+  ContactSearch(const recon::VisualHull& hull, const core::TriangleTree& part,
+                const core::RigidTransform& world_from_part, const ContactOptions& options,
+                double resolution_mm)
+      : hull_(hull),
+        part_(part),
+        world_from_part_(world_from_part),
+        options_(options),
+        resolution_mm_(resolution_mm) {}
+
+  void VisitNode(std::uint32_t index) {
+    const core::TriangleTree::Node& node = part_.nodes()[index];
+    const BallAnswer answer = Ask({world_from_part_ * node.ball.center, node.ball.radius_mm});
+    if (answer == BallAnswer::kOutside) {
+      count_.skipped += node.end - node.begin;
+      return;
+    }
+    if (answer == BallAnswer::kMixed && node.left != 0) {
+      VisitNode(node.left);
+      VisitNode(node.left + 1);
+      return;
+    }
+    if (answer == BallAnswer::kInside) count_.skipped += node.end - node.begin;
+    for (std::uint32_t i = node.begin; i < node.end; ++i) {
+      const Triangle triangle = TriangleAt(part_.order()[i]);
+      if (answer == BallAnswer::kInside) {
+        AddInside(triangle);
+      } else {
+        VisitTriangle(triangle);
+      }
+    }
+  }
+
+  [[nodiscard]] std::vector<core::ContactPoint> TakePoints() { return std::move(points_); }
+  [[nodiscard]] const core::QueryCount& count() const { return count_; }
+
+ private:
+  [[nodiscard]] Triangle TriangleAt(std::uint32_t index) const {
+    const auto& [a, b, c] = part_.mesh().triangles[index];
+    const auto vertex = [&](std::int32_t i) {
+      return world_from_part_ * part_.mesh().vertices_mm[static_cast<std::size_t>(i)];
+    };
+    return {vertex(a), vertex(b), vertex(c)};
+  }
+
+  BallAnswer Ask(const core::Ball& ball) {
+    ++count_.queries;
+    return hull_.Classify(ball.center, ball.radius_mm);
+  }
+
+  void VisitTriangle(const Triangle& triangle) {
+    const core::Ball ball = core::BallOf(triangle.a, triangle.b, triangle.c);
+    if (2.0 * ball.radius_mm <= resolution_mm_) {
+      ++count_.queries;
+      if (hull_.Contains(triangle.Centroid())) AddPoint(triangle);
+      return;
+    }
+    const BallAnswer answer = Ask(ball);
+    if (answer == BallAnswer::kOutside) return;
+    if (answer == BallAnswer::kInside) {
+      AddInside(triangle);
+      return;
+    }
+    const auto [first, second] = Halve(triangle);
+    VisitTriangle(first);
+    VisitTriangle(second);
+  }
+
+  void AddInside(const Triangle& triangle) {
+    if (2.0 * core::BallOf(triangle.a, triangle.b, triangle.c).radius_mm <= options_.point_spacing_mm) {
+      AddPoint(triangle);
+      return;
+    }
+    const auto [first, second] = Halve(triangle);
+    AddInside(first);
+    AddInside(second);
+  }
+
+  void AddPoint(const Triangle& triangle) {
+    points_.push_back({triangle.Centroid(), 0.0, triangle.AreaMm2()});
+  }
+
+  const recon::VisualHull& hull_;
+  const core::TriangleTree& part_;
+  const core::RigidTransform& world_from_part_;
+  const ContactOptions& options_;
+  double resolution_mm_;
+  std::vector<core::ContactPoint> points_;
+  core::QueryCount count_;
+};
+
+void Recover(const recon::VisualHull& hull, const std::vector<core::ContactPoint>& points,
+             const Vector3d& rp_obj, core::PartContact* contact) {
+  const auto farthest = std::max_element(points.begin(), points.end(), [&](const auto& p, const auto& q) {
+    return (p.position_in_world_mm - rp_obj).squaredNorm() < (q.position_in_world_mm - rp_obj).squaredNorm();
+  });
+  const Vector3d cp_obj = farthest->position_in_world_mm;
+  const double distance_mm = (rp_obj - cp_obj).norm();
+  if (!(distance_mm > 1e-9)) {
+    contact->recovery_status = core::RecoveryStatus::kNoDirection;
+    return;
+  }
+  const Vector3d v_rec = (rp_obj - cp_obj) / distance_mm;
+  if (hull.Contains(rp_obj)) {
+    contact->recovery_status = core::RecoveryStatus::kReferenceInsideHull;
+    return;
+  }
+  recon::RayOptions to_contact;
+  to_contact.to_mm = distance_mm;
+  const std::optional<double> crossing_mm = recon::FirstInside(hull, {rp_obj, -v_rec}, to_contact);
+  // CP_obj itself is in the hull, so the march ends there at the latest, but for rounding on its surface.
+  const double from_reference_mm = crossing_mm.value_or(distance_mm);
+  core::Recovery recovery{
+      cp_obj, rp_obj - from_reference_mm * v_rec, v_rec, distance_mm - from_reference_mm, {}};
+  recovery.n_hull_in_world = hull.EdgeAt(recovery.cp_hull_in_world_mm).normal_in_world;
+  contact->recovery_status = core::RecoveryStatus::kFound;
+  contact->recovery = recovery;
+}
+
+}  // namespace
+
+void ContactOptions::Validate() const {
+  const auto require = [](bool holds, const std::string& what) {
+    if (!holds) throw core::Error(core::ErrorKind::kRange, "contacts: " + what);
+  };
+  require(resolution_mm >= 0.0 && std::isfinite(resolution_mm),
+          fmt::format("resolution must be positive, not {} mm", resolution_mm));
+  require(point_spacing_mm > 0.0, fmt::format("point spacing must be positive, not {} mm", point_spacing_mm));
+  require(max_points > 0, fmt::format("at least one contact point must be kept, not {}", max_points));
+}
+
+std::optional<double> PixelFootprintMm(const core::Rig& rig, const Vector3d& x_in_world) {
+  std::optional<double> smallest_mm;
+  for (const core::CameraModel& camera : rig.cameras) {
+    const Vector3d x_in_cam = camera.cam_from_world() * x_in_world;
+    if (!(x_in_cam.z() > 0.0)) continue;
+    const double footprint_mm = x_in_cam.z() / camera.PixelStretch(0.0);
+    if (!smallest_mm || footprint_mm < *smallest_mm) smallest_mm = footprint_mm;
+  }
+  return smallest_mm;
+}
+
+core::PartContact FindContacts(const recon::VisualHull& hull, const core::TriangleTree& part,
+                               const core::RigidTransform& world_from_part, core::PartIndex part_index,
+                               const ContactOptions& options) {
+  options.Validate();
+  core::PartContact contact;
+  contact.part = part_index;
+  contact.count.triangles = static_cast<std::int64_t>(part.mesh().triangles.size());
+  contact.count.skipped = contact.count.triangles;
+  if (part.nodes().empty() || hull.IsEmpty()) return contact;
+
+  const Vector3d center_in_world = world_from_part * part.nodes()[0].ball.center;
+  constexpr double kFallbackResolutionMm = 1.0;  // no camera looks at the part: nothing will be mixed there
+  contact.resolution_mm =
+      options.resolution_mm > 0.0
+          ? options.resolution_mm
+          : 0.5 * PixelFootprintMm(hull.rig(), center_in_world).value_or(2.0 * kFallbackResolutionMm);
+  ContactSearch search(hull, part, world_from_part, options, contact.resolution_mm);
+  search.VisitNode(0);
+  contact.count.queries = search.count().queries;
+  contact.count.skipped = search.count().skipped;
+
+  std::vector<core::ContactPoint> points = search.TakePoints();
+  if (points.empty()) return contact;
+  contact.verdict = core::Verdict::kContact;
+  contact.contact_point_count = static_cast<std::int64_t>(points.size());
+  for (const core::ContactPoint& point : points) contact.contact_area_mm2 += point.area_mm2;
+  const Vector3d rp_obj =
+      world_from_part * options.reference_in_part.value_or(core::BoundsOf(part.mesh()).center());
+  Recover(hull, points, rp_obj, &contact);
+  contact.points = SpreadEvenly(std::move(points), static_cast<std::size_t>(options.max_points));
+  for (core::ContactPoint& point : contact.points) {
+    point.depth_mm = hull.Probe(point.position_in_world_mm).radius_mm;
+    ++contact.count.queries;
+    if (!contact.deepest || point.depth_mm > contact.deepest->depth_mm) contact.deepest = point;
+  }
+  return contact;
+}
+
+}  // namespace elbowroom::review

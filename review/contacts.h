@@ -1,0 +1,45 @@
+// Where a virtual part is inside the real: its tree, then its triangles, through the ball query.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "core/bvh.h"
+#include "core/contact.h"
+#include "core/ids.h"
+#include "core/rigid_transform.h"
+#include "recon/visual_hull.h"
+
+namespace elbowroom::review {
+
+struct ContactOptions {
+  // Pieces of surface no larger than this are decided by their centre. 0: half of the smallest pixel
+  // footprint of the rig at the part's centre.
+  double resolution_mm = 0.0;
+  // Pieces wholly inside are cut down to this size, so that a large face yields many points.
+  double point_spacing_mm = 10.0;
+  int max_points = 64;  // kept of them, spread evenly
+  // RP_obj of the paper, in the part's frame; nothing: the centre of the part's bounds.
+  std::optional<Eigen::Vector3d> reference_in_part;
+
+  // Throws: core::Error{kRange} naming the option.
+  void Validate() const;
+};
+
+// Contact of one part with the hull: verdict `contact` or `clear`, points, area, the deepest point found, and
+// the paper's recovery by exact ray crossing (CP_obj farthest from RP_obj, CP_hull the first hull point from
+// RP_obj towards it).
+//
+// Surface that the ball query calls outside or inside is certified; surface within one piece of `resolution`
+// of the hull's boundary is decided by the piece's centre, so a contact smaller than that can be missed and
+// the area is good to (boundary length x resolution). Only the part's surface is asked: a hull wholly inside
+// a closed part, touching no face, is not found. Held to a brute-force oracle by
+// tests/review/contacts_test.cc. Thread: any.
+[[nodiscard]] core::PartContact FindContacts(const recon::VisualHull& hull, const core::TriangleTree& part,
+                                             const core::RigidTransform& world_from_part,
+                                             core::PartIndex part_index, const ContactOptions& options = {});
+
+// Smallest width of a pixel at a point, over the cameras that look towards it; nothing if none does.
+[[nodiscard]] std::optional<double> PixelFootprintMm(const core::Rig& rig, const Eigen::Vector3d& x_in_world);
+
+}  // namespace elbowroom::review
