@@ -230,8 +230,10 @@ FROM event e LEFT JOIN spacing s USING (spacing_index);
 
 CREATE VIEW v_part AS
 SELECT p.part_index, p.name AS part, count(pf.frame_index) AS frames,
-  total(pf.verdict = 'contact') AS frames_in_contact, total(pf.verdict = 'near') AS frames_near,
-  total(pf.verdict = 'undecided') AS frames_undecided, total(pf.verdict = 'clear') AS frames_clear
+  count(*) FILTER (WHERE pf.verdict = 'contact') AS frames_in_contact,
+  count(*) FILTER (WHERE pf.verdict = 'near') AS frames_near,
+  count(*) FILTER (WHERE pf.verdict = 'undecided') AS frames_undecided,
+  count(*) FILTER (WHERE pf.verdict = 'clear') AS frames_clear
 FROM part p LEFT JOIN part_frame pf USING (part_index)
 GROUP BY p.part_index;
 
