@@ -1,0 +1,78 @@
+// Sizes and documents keep up with the tree.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <string>
+
+#include "tests/architecture/layer_checker.h"
+#include "tests/architecture/layers_file.h"
+#include "tests/support/text_file.h"
+
+namespace elbowroom::architecture {
+namespace {
+
+namespace fs = std::filesystem;
+using test_support::ReadText;
+
+const fs::path kRoot = ELBOWROOM_SOURCE_DIR;
+
+// CONTRIBUTING.md, "Sizes": beyond these a file holds more than one thing.
+constexpr long kLongestSource = 600;
+constexpr long kLongestHeader = 250;
+
+// First column of the table under "## Rooms".
+std::set<std::string> RoomsInDocument(const fs::path& file) {
+  std::istringstream stream(ReadText(file));
+  const std::regex row(R"(^\| `([^`]+)` \|.*)");
+  std::set<std::string> rooms;
+  std::smatch match;
+  bool in_section = false;
+  for (std::string line; std::getline(stream, line);) {
+    if (line.starts_with("## ")) in_section = line == "## Rooms";
+    if (in_section && std::regex_match(line, match, row)) rooms.insert(match[1]);
+  }
+  return rooms;
+}
+
+TEST(HouseRules, NoFileIsTooLong) {
+  for (const std::string& file : SourceFilesOf(kRoot)) {
+    const std::string text = ReadText(kRoot / file);
+    const long lines = std::ranges::count(text, '\n');
+    EXPECT_LE(lines, file.ends_with(".h") ? kLongestHeader : kLongestSource) << file << ": split it";
+  }
+}
+
+TEST(HouseRules, ArchitectureDocumentListsTheRooms) {
+  std::set<std::string> rooms;
+  for (const Room& room : ReadLayers(kRoot / "tests/architecture/layers.txt").rooms)
+    rooms.insert(room.folder);
+  EXPECT_EQ(RoomsInDocument(kRoot / "docs/architecture.md"), rooms);
+}
+
+TEST(HouseRules, LocalLinksInDocumentsLeadSomewhere) {
+  const std::regex link(R"(\]\(([^)#:\s]+)(#[^)]*)?\))");
+  int links = 0;
+  for (auto entry = fs::recursive_directory_iterator(kRoot); entry != fs::recursive_directory_iterator();
+       ++entry) {
+    const std::string name = entry->path().filename().string();
+    if (entry->is_directory() && (name.starts_with('.') || name == "build" || name == "out")) {
+      entry.disable_recursion_pending();
+    }
+    if (entry->path().extension() != ".md") continue;
+    const std::string text = ReadText(entry->path());
+    for (std::sregex_iterator found(text.begin(), text.end(), link), end; found != end; ++found) {
+      ++links;
+      const fs::path target = entry->path().parent_path() / (*found)[1].str();
+      EXPECT_TRUE(fs::exists(target))
+          << entry->path().lexically_relative(kRoot) << " links to " << (*found)[1];
+    }
+  }
+  EXPECT_GT(links, 10) << "the test looked in the wrong place";
+}
+
+}  // namespace
+}  // namespace elbowroom::architecture

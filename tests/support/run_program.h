@@ -1,0 +1,30 @@
+// Runs a program as a user would and keeps all that it said.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace elbowroom::test_support {
+
+struct ProgramRun {
+  int exit_status = 0;  // 128 + n when signal n ended it
+  std::string out;      // what it wrote on stdout
+  std::string err;      // on stderr
+};
+
+struct RunOptions {
+  std::filesystem::path working_folder{};            // empty: the test's own
+  std::map<std::string, std::string> environment{};  // set beside the test's own
+  double timeout_s = 300.0;
+};
+
+// Waits for it to end; its standard input is empty. `arguments` don't include the program's name.
+// Throws: std::system_error when it can't be started; std::runtime_error, after killing it and its children,
+// when it takes longer than the timeout.
+[[nodiscard]] ProgramRun RunProgram(const std::filesystem::path& program,
+                                    const std::vector<std::string>& arguments,
+                                    const RunOptions& options = {});
+
+}  // namespace elbowroom::test_support
