@@ -120,7 +120,7 @@ TEST(SceneRendererDepth, HullAndPartHideEachOther) {
     bool hull_owns;
     bool box_owns;
   };
-  for (const Case& c : {Case{250.0, true, false}, Case{-250.0, false, true}, Case{70.0, true, true}}) {
+  for (const Case& c : {Case{250.0, true, false}, Case{-250.0, false, true}, Case{48.0, true, true}}) {
     const std::vector<Capsule> ball{
         {c.offset_mm * to_eye, c.offset_mm * to_eye + Eigen::Vector3d(5, 0, 0), 40}};
     scene.hull = CastLayer(scene.view, 320, 240, ball);
