@@ -49,8 +49,9 @@ void LevelsWithin(const cv::Mat& mean_bgr, const cv::Mat& threshold_bgr, cv::Mat
     auto* lowest = lowest_bgr.ptr<std::uint8_t>(y);
     auto* highest = highest_bgr.ptr<std::uint8_t>(y);
     for (int i = 0; i < mean_bgr.cols * 3; ++i) {
-      lowest[i] = static_cast<std::uint8_t>(std::clamp(std::ceil(mean[i] - threshold[i]), 0.0F, 255.0F));
-      highest[i] = static_cast<std::uint8_t>(std::clamp(std::floor(mean[i] + threshold[i]), 0.0F, 255.0F));
+      const double middle = mean[i], slack = threshold[i];  // their sums are exact in double
+      lowest[i] = static_cast<std::uint8_t>(std::clamp(std::ceil(middle - slack), 0.0, 255.0));
+      highest[i] = static_cast<std::uint8_t>(std::clamp(std::floor(middle + slack), 0.0, 255.0));
     }
   }
 }
