@@ -32,7 +32,7 @@ JointHistogram JointHistogramOf(const cv::Mat& image_bgr, const cv::Mat& mean_bg
     const auto* image = image_bgr.ptr<std::uint8_t>(y);
     const auto* mean = mean_bgr.ptr<float>(y);
     for (int i = channel; i < image_bgr.cols * 3; i += 3) {
-      const int level = std::clamp(static_cast<int>(std::lround(mean[i])), 0, kLevels - 1);
+      const int level = static_cast<int>(mean[i] + 0.5F);  // a mean lies within 0..255
       ++joint[static_cast<std::size_t>(level * kLevels + image[i])];
     }
   }

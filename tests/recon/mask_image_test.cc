@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <random>
@@ -67,6 +68,11 @@ TEST(MaskImage, SaysWhatIsWrongWithAFile) {
     testing::CutFile(folder.path() / "whole.png", folder.path() / "cut.png", share);
     EXPECT_THAT(read("cut.png", ErrorKind::kFile), AllOf(HasSubstr("cut.png"), HasSubstr("cam7"))) << share;
   }
+  std::fstream whole(folder.path() / "whole.png", std::ios::in | std::ios::out | std::ios::binary);
+  whole.seekp(static_cast<std::streamoff>(std::filesystem::file_size(folder.path() / "whole.png") / 2));
+  whole.write("damage", 6);
+  whole.close();
+  EXPECT_THAT(read("whole.png", ErrorKind::kFile), HasSubstr("is damaged"));
   cv::imwrite(folder.File("mask.jpg"), ImageFromMask(RandomMask(80, 60, 3)));
   EXPECT_THAT(read("mask.jpg", ErrorKind::kFormat), HasSubstr("JPEG"));
   testing::CutFile(folder.path() / "mask.jpg", folder.path() / "cut.jpg", 0.7);

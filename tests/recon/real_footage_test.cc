@@ -74,7 +74,7 @@ TEST_F(RealFootage, RandomAccessGivesTheSamePictureAsReadingOn) {
 }
 
 TEST_F(RealFootage, SegmentationAgreesWithHandDrawnMasks) {
-  // Measured 0.870 over all four; without the checkerboard that stands by the wall in camera 3 only (it
+  // Measured 0.868 over all four; without the checkerboard that stands by the wall in camera 3 only (it
   // wasn't there when the background was taken, so it is an object, but the hand-drawn mask leaves it out)
   // 0.901.
   constexpr double kLeastMeanIou = 0.865;
@@ -105,7 +105,7 @@ TEST_F(RealFootage, SegmentationAgreesWithHandDrawnMasks) {
 TEST_F(RealFootage, AdaptiveHoldsTheMasksThroughAnExposureChange) {
   // The picture 15 % brighter: the masks must stay nearly those of the picture as it is. Measured 0.95 to
   // 0.98.
-  constexpr double kLeastIou = 0.92;
+  constexpr double kLeastIou = 0.95;
   RecordedRig rig(ReadRigFile(kData / "four_cameras" / "rig.yml"));
   const auto backgrounds = rig.ReadBackgrounds(core::Progress(), {});
   const FrameSet frames = rig.Read(0);
