@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <assimp/Importer.hpp>
 #include <exception>
+#include <map>
 
 #include "cad_import/mesh_format.h"
 #include "core/error.h"
@@ -147,11 +148,14 @@ void WarnOfSize(const Eigen::AlignedBox3d& bounds_mm, LengthUnit unit, std::vect
                                  SizeText(bounds_mm, 1.0), core::ToString(unit)));
 }
 
+// Every part gets a name of its own: the file's, its stem where it gives none, numbered where it recurs.
 void NameParts(std::vector<ImportedPart>& parts, const std::string& file_stem) {
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    const bool has_name =
-        !parts[i].name.empty() && !parts[i].name.starts_with("<");  // assimp's own: "<STL_BINARY>"
-    if (!has_name) parts[i].name = parts.size() == 1 ? file_stem : fmt::format("{} {}", file_stem, i + 1);
+  std::map<std::string, int> uses;
+  for (ImportedPart& part : parts) {
+    const bool has_name = !part.name.empty() && !part.name.starts_with("<");  // assimp's own: "<STL_BINARY>"
+    if (!has_name) part.name = file_stem;
+    const int use = ++uses[part.name];
+    if (use > 1) part.name += fmt::format(" {}", use);
   }
 }
 
