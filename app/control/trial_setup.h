@@ -4,9 +4,12 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <stop_token>
 #include <string>
+#include <variant>
 #include <vector>
 
+#include "app/control/trial_controls.h"
 #include "core/layout.h"
 #include "core/session.h"
 #include "recon/frame_set.h"
@@ -17,8 +20,7 @@ namespace elbowroom::control {
 // Something the experimenter is known to do at a frame: the demo's script.
 struct ScriptedChange {
   core::FrameIndex frame = 0;
-  std::string spacing;
-  double to_mm = 0.0;
+  std::variant<SpacingWish, ToolWish> what;
 };
 
 struct TrialSetup {
@@ -26,15 +28,15 @@ struct TrialSetup {
   core::Layout layout;
   recon::SegmentationOptions segmentation;
   std::shared_ptr<recon::FrameSetSource> source;
-  std::vector<ScriptedChange> script;   // by frame
-  std::string end_note;                 // what limits the footage, "" if nothing: goes into the session
-  std::vector<std::string> warnings;    // of the files that were read
+  std::vector<ScriptedChange> script;  // by frame
+  std::string end_note;                // what limits the footage, "" if nothing: goes into the session
+  std::vector<std::string> warnings;   // of the files that were read
 };
 
-// TRIAL.toml (docs/user_guide.md) with its rig and layout. Nothing is decoded yet but the files' headers.
+// TRIAL.toml (docs/user_guide.md) with its rig and layout; the footage is opened and its length measured.
 // Throws: core::Error with file, line and key for what the trial file has wrong; what the rig's and the
-// layout's readers throw.
-[[nodiscard]] TrialSetup ReadTrialFile(const std::filesystem::path& path);
+// layout's readers throw; Error{kCancelled}.
+[[nodiscard]] TrialSetup ReadTrialFile(const std::filesystem::path& path, std::stop_token stop = {});
 
 // The settings that a session keeps, as text.
 [[nodiscard]] std::map<std::string, std::string> SettingsOf(const recon::SegmentationOptions& options);
