@@ -32,6 +32,20 @@ bool IsFlat(const TriangleMesh& mesh, const Triangle& t) {
   return ab.cross(ac).norm() <= kFlatRatio * longest_squared;
 }
 
+// Sets coordinates that are rounding noise beside the size of the whole to zero. Modellers write 3e-17 for 0
+// in one triangle and 0 in the next; in single precision such twins only exist around zero.
+void ClearNoise(std::vector<RawPart>& parts) {
+  constexpr double kNoiseRatio = 1e-9;
+  Eigen::AlignedBox3d bounds;
+  for (const RawPart& part : parts) bounds.extend(core::BoundsOf(part.mesh));
+  const double noise_mm = bounds.isEmpty() ? 0.0 : kNoiseRatio * bounds.diagonal().norm();
+  for (RawPart& part : parts) {
+    for (Eigen::Vector3d& vertex : part.mesh.vertices_mm) {
+      vertex = (vertex.array().abs() <= noise_mm).select(0.0, vertex);
+    }
+  }
+}
+
 // For each vertex the one of its bit-equal twins that stands for all.
 std::vector<std::int32_t> Representatives(const TriangleMesh& mesh) {
   std::vector<std::int32_t> order(mesh.vertices_mm.size());
@@ -194,13 +208,14 @@ void Flatten(const Body& body, const std::vector<RawPart>& parts, CleanMesh& res
 
 }  // namespace
 
-CleanMesh CleanParts(const std::vector<RawPart>& parts, const std::string& where) {
+CleanMesh CleanParts(std::vector<RawPart> parts, const std::string& where) {
   std::int64_t before = 0;
   for (const RawPart& part : parts) {
     if (part.mesh.triangles.empty()) continue;
     core::ValidateMesh(part.mesh, where);  // before anything is sorted: NaN has no order
     before += static_cast<std::int64_t>(part.mesh.triangles.size());
   }
+  ClearNoise(parts);
   CleanMesh result;
   result.watertight = true;
   for (Body& body : SplitIntoBodies(parts)) {

@@ -31,11 +31,11 @@ struct CleanMesh {
   std::vector<std::string> warnings;
 };
 
-// Welds bit-equal vertices within each part; parts that are still open are welded with each other as well,
-// since exporters cut one surface up by material or group. A file of a single part is listed by its connected
-// pieces. Drops triangles without area, except those of
-// three different points that a closed surface hangs together by. Turns closed surfaces that face inwards.
-// Throws: Error{kGeometry} naming `where`: a vertex that is not finite, no triangle left.
-[[nodiscard]] CleanMesh CleanParts(const std::vector<RawPart>& parts, const std::string& where);
+// Welds equal vertices (noise around zero aside) within each part; parts that are still open are welded with
+// each other as well, since exporters cut one surface up by material or group. A file of a single part is
+// listed by its connected pieces. Drops triangles without area, except those of three different points that a
+// closed surface hangs together by. Turns closed surfaces that face inwards. Throws: Error{kGeometry} naming
+// `where`: a vertex that is not finite, no triangle left.
+[[nodiscard]] CleanMesh CleanParts(std::vector<RawPart> parts, const std::string& where);
 
 }  // namespace elbowroom::cad_import

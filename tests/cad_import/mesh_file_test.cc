@@ -266,6 +266,26 @@ TEST_F(MeshFile, ASurfaceCutUpByGroupsIsClosedAgain) {
   EXPECT_EQ(imported.mesh.vertices_mm.size(), 8U);
 }
 
+TEST_F(MeshFile, NoiseAroundZeroDoesntTearTheSurface) {
+  std::string text = testing::StlText(Box({10, 10, 10}));
+  const std::string corner = "vertex 0 0 0";
+  text.replace(text.find(corner), corner.size(), "vertex 0 -3e-17 2.8e-33");
+  const auto imported = Import("noise.stl", text);
+  EXPECT_TRUE(imported.report.watertight);
+  EXPECT_EQ(imported.mesh.vertices_mm.size(), 8U);
+}
+
+TEST_F(MeshFile, WhatAnObjSaysBesidesItsShapeCostsNoFaces) {
+  std::string text = "mtllib gone.mtl\nvn 0 0 1\nusemtl red\n" + testing::ObjText(Box({10, 10, 10}));
+  // Texture coordinates and normals that the file doesn't have; a face over two lines; a comment behind one.
+  text.replace(text.find("f 1 3 2\n"), 8, "usemtl blue\ns 1\nf 1/9/7 3/9/7 \\\n2/9/7\n");
+  text.replace(text.find("f 2 3 4\n"), 8, "f -7//1 -6//1 -5//1 # from the end\r\n");
+  const auto imported = Import("dressed.obj", text);
+  EXPECT_EQ(imported.report.triangles, 12);
+  EXPECT_TRUE(imported.report.watertight);
+  EXPECT_TRUE(imported.report.warnings.empty());
+}
+
 TEST_F(MeshFile, ClosedPartsThatTouchStayApart) {
   // Two boxes side by side share four corners and an edge of each: welded together they would be
   // non-manifold.
@@ -348,6 +368,13 @@ TEST_F(MeshFile, HeadersThatClaimMoreThanTheFileHoldsAreErrors) {
   auto gltf = testing::Gltf(box, {R"({"mesh":0})"}, {0}, "");
   gltf.json.replace(gltf.json.find("\"count\":8"), 9, "\"count\":900000000");
   EXPECT_TRUE(Mentions(FormatError("claims.glb", testing::Glb(gltf)), "more than its buffer view holds"));
+}
+
+TEST_F(MeshFile, GlbChunksOutOfStepAreAnError) {
+  auto sample = testing::Gltf(Box({1, 1, 1}), {R"({"mesh":0})"}, {0}, "");
+  std::string bytes = testing::Glb(sample);
+  bytes[12] = static_cast<char>(bytes[12] - 2);
+  EXPECT_TRUE(Mentions(FormatError("unaligned.glb", bytes), "multiples of 4 bytes"));
 }
 
 TEST_F(MeshFile, NodesInACircleAreAnError) {
