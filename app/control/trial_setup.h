@@ -5,8 +5,10 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <variant>
 #include <vector>
 
+#include "app/control/trial_controls.h"
 #include "core/layout.h"
 #include "core/session.h"
 #include "recon/frame_set.h"
@@ -17,8 +19,7 @@ namespace elbowroom::control {
 // Something the experimenter is known to do at a frame: the demo's script.
 struct ScriptedChange {
   core::FrameIndex frame = 0;
-  std::string spacing;
-  double to_mm = 0.0;
+  std::variant<SpacingWish, ToolWish> what;
 };
 
 struct TrialSetup {
