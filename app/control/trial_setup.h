@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <stop_token>
 #include <string>
 #include <variant>
 #include <vector>
@@ -32,10 +33,10 @@ struct TrialSetup {
   std::vector<std::string> warnings;   // of the files that were read
 };
 
-// TRIAL.toml (docs/user_guide.md) with its rig and layout. Nothing is decoded yet but the files' headers.
+// TRIAL.toml (docs/user_guide.md) with its rig and layout; the footage is opened and its length measured.
 // Throws: core::Error with file, line and key for what the trial file has wrong; what the rig's and the
-// layout's readers throw.
-[[nodiscard]] TrialSetup ReadTrialFile(const std::filesystem::path& path);
+// layout's readers throw; Error{kCancelled}.
+[[nodiscard]] TrialSetup ReadTrialFile(const std::filesystem::path& path, std::stop_token stop = {});
 
 // The settings that a session keeps, as text.
 [[nodiscard]] std::map<std::string, std::string> SettingsOf(const recon::SegmentationOptions& options);
