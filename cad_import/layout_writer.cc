@@ -5,9 +5,9 @@
 #include <sstream>
 
 #include "cad_import/layout_file.h"
-#include "cad_import/whole_file.h"
 #include "core/error.h"
 #include "core/units.h"
+#include "core/whole_file.h"
 
 namespace elbowroom::cad_import {
 namespace {
@@ -76,7 +76,7 @@ void WriteLayoutFile(const core::Layout& layout, const std::filesystem::path& pa
   WriteEntries(out, "spacing", layout.spacings,
                {"name", "moving", "reference", "axis", "min_mm", "max_mm", "initial_mm"});
   WriteEntries(out, "pair", layout.pair_rules, {"a", "b", "required_clearance_mm", "authorised_contact"});
-  WriteWholeFile(path, out.str());
+  core::WriteWholeFile(path, out.str());
 }
 
 }  // namespace elbowroom::cad_import

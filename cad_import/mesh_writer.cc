@@ -9,8 +9,8 @@
 
 #include "cad_import/mesh_file.h"
 #include "cad_import/mesh_format.h"
-#include "cad_import/whole_file.h"
 #include "core/error.h"
+#include "core/whole_file.h"
 
 namespace elbowroom::cad_import {
 namespace {
@@ -91,7 +91,7 @@ void WriteMeshFile(const core::TriangleMesh& mesh, const std::filesystem::path& 
   if (blob == nullptr) {
     throw Error(ErrorKind::kFile, fmt::format("{}: can't be written ({})", where, exporter.GetErrorString()));
   }
-  WriteWholeFile(path, {static_cast<const char*>(blob->data), blob->size});
+  core::WriteWholeFile(path, {static_cast<const char*>(blob->data), blob->size});
 }
 
 }  // namespace elbowroom::cad_import

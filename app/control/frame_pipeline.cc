@@ -29,14 +29,16 @@ std::vector<core::BitMask> SilhouettesOf(const recon::FrameSet& frames,
   std::vector<core::BitMask> masks(frames.cameras.size());
   tbb::parallel_for(std::size_t{0}, masks.size(), [&](std::size_t i) {
     const recon::CameraFrame& camera = frames.cameras[i];
-    masks[i] = camera.ready_mask ? *camera.ready_mask : recon::Segment(camera.image_bgr, backgrounds[i], options);
+    masks[i] =
+        camera.ready_mask ? *camera.ready_mask : recon::Segment(camera.image_bgr, backgrounds[i], options);
   });
   return masks;
 }
 
 }  // namespace
 
-FramePipeline::FramePipeline(core::Rig rig, core::Layout layout, std::vector<recon::BackgroundReference> backgrounds,
+FramePipeline::FramePipeline(core::Rig rig, core::Layout layout,
+                             std::vector<recon::BackgroundReference> backgrounds,
                              const recon::SegmentationOptions& segmentation)
     : rig_(std::make_shared<const core::Rig>(std::move(rig))),
       layout_(std::make_shared<const core::Layout>(std::move(layout))),
@@ -83,7 +85,8 @@ void FramePipeline::UpdateHull(std::vector<core::BitMask> masks, FrameResult* re
     return;
   }
   tbb::parallel_for(std::size_t{0}, masks.size(), [&](std::size_t i) {
-    if (!silhouettes[i]) silhouettes[i] = std::make_shared<const recon::Silhouette>(masks[i], exterior_is_object);
+    if (!silhouettes[i])
+      silhouettes[i] = std::make_shared<const recon::Silhouette>(masks[i], exterior_is_object);
   });
   result->hull = std::make_shared<const recon::VisualHull>(rig_, std::move(silhouettes));
   result->masks = std::make_shared<const std::vector<core::BitMask>>(std::move(masks));
@@ -94,10 +97,11 @@ void FramePipeline::UpdateContacts(FrameResult* result) {
   result->contacts.resize(parts);
   std::vector<std::uint8_t> is_unchanged(parts, 0);
   tbb::parallel_for(std::size_t{0}, parts, [&](std::size_t i) {
-    is_unchanged[i] = last_ && last_->hull == result->hull && last_->world_from_parts[i] == result->world_from_parts[i];
-    result->contacts[i] = is_unchanged[i]
-                              ? last_->contacts[i]
-                              : review::FindContacts(*result->hull, part_trees_[i], result->world_from_parts[i], i);
+    is_unchanged[i] =
+        last_ && last_->hull == result->hull && last_->world_from_parts[i] == result->world_from_parts[i];
+    result->contacts[i] =
+        is_unchanged[i] ? last_->contacts[i]
+                        : review::FindContacts(*result->hull, part_trees_[i], result->world_from_parts[i], i);
   });
   for (std::size_t i = 0; i < parts; ++i) {
     if (is_unchanged[i]) {

@@ -15,11 +15,11 @@ namespace elbowroom::control {
 
 // What a frame did not need to compute, and why.
 struct SkipCount {
-  int unchanged_silhouettes = 0;          // equal to the last frame's: their fields were kept
-  int unchanged_parts = 0;                // same hull, same pose: the last answer holds
-  std::int64_t triangles_in_all = 0;      // of the parts asked
-  std::int64_t triangles_skipped = 0;     // of those: settled with their whole branch of the part's tree
-  std::int64_t queries = 0;               // ball queries asked
+  int unchanged_silhouettes = 0;       // equal to the last frame's: their fields were kept
+  int unchanged_parts = 0;             // same hull, same pose: the last answer holds
+  std::int64_t triangles_in_all = 0;   // of the parts asked
+  std::int64_t triangles_skipped = 0;  // of those: settled with their whole branch of the part's tree
+  std::int64_t queries = 0;            // ball queries asked
 };
 
 struct StageTimes {
@@ -34,9 +34,9 @@ struct FrameResult {
   core::SharedMasks masks;
   std::shared_ptr<const recon::VisualHull> hull;
   std::shared_ptr<const core::Layout> layout;
-  std::vector<double> spacing_mm;                     // in the layout's order
+  std::vector<double> spacing_mm;                      // in the layout's order
   std::vector<core::RigidTransform> world_from_parts;  // in the layout's order
-  std::vector<core::PartContact> contacts;            // in the layout's order
+  std::vector<core::PartContact> contacts;             // in the layout's order
   SkipCount skipped;
   StageTimes times;
 };

@@ -25,6 +25,7 @@ ReportFiles WriteSessionReport(const std::filesystem::path& session, const std::
                                const core::Progress& progress, std::stop_token stop);
 
 // The operator's view of one recorded frame as a PNG, whole or not at all; for the demo's view.png.
-void WriteFramePicture(const FrameResult& result, const std::filesystem::path& png, int width_px, int height_px);
+void WriteFramePicture(const FrameResult& result, const std::filesystem::path& png, int width_px,
+                       int height_px);
 
 }  // namespace elbowroom::control

@@ -26,7 +26,7 @@ struct FrameRange {
 struct TrialOptions {
   std::filesystem::path session;  // must not exist yet
   FrameRange frames;
-  bool at_capture_rate = false;   // true: no faster than the frames were taken (console); false: flat out
+  bool at_capture_rate = false;  // true: no faster than the frames were taken (console); false: flat out
   // Called for every frame on the trial's thread; must not block.
   std::function<void(const SharedFrameResult&)> on_frame;
   core::Progress progress;

@@ -26,9 +26,9 @@ struct TrialSetup {
   core::Layout layout;
   recon::SegmentationOptions segmentation;
   std::shared_ptr<recon::FrameSetSource> source;
-  std::vector<ScriptedChange> script;   // by frame
-  std::string end_note;                 // what limits the footage, "" if nothing: goes into the session
-  std::vector<std::string> warnings;    // of the files that were read
+  std::vector<ScriptedChange> script;  // by frame
+  std::string end_note;                // what limits the footage, "" if nothing: goes into the session
+  std::vector<std::string> warnings;   // of the files that were read
 };
 
 // TRIAL.toml (docs/user_guide.md) with its rig and layout. Nothing is decoded yet but the files' headers.

@@ -92,7 +92,7 @@ void AddThumb(const core::RigidTransform& world_from_wrist, const std::array<Thu
 }
 
 void AddForearm(const Vector3d& wrist_in_world, const Vector3d& elbow_in_world, std::vector<Solid>& solids) {
-  constexpr double kSleeveStart = 0.45;  // share of the way to the elbow
+  constexpr double kSleeveStart = 0.3;  // share of the way to the elbow
   const Vector3d sleeve_in_world = wrist_in_world + kSleeveStart * (elbow_in_world - wrist_in_world);
   solids.push_back(CapsuleBetween(wrist_in_world, sleeve_in_world, kWristRadiusMm, kSkinBgr));
   solids.push_back(CapsuleBetween(sleeve_in_world, elbow_in_world, kForearmRadiusMm, kSleeveBgr));

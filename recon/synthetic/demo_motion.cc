@@ -59,7 +59,7 @@ Eigen::Matrix3d WristAxes(const Vector3d& fingers, const Vector3d& thumb) {
 }
 
 Vector3d ElbowBehind(const Vector3d& wrist_in_world, double drop_mm) {
-  return wrist_in_world + Vector3d(250.0, 25.0, -drop_mm);
+  return wrist_in_world + Vector3d(380.0, 40.0, -drop_mm);
 }
 
 // --- the pipe ---
@@ -84,10 +84,10 @@ SyntheticObject HandAtPipe(double time_s) {
   RigidTransform world_from_wrist = world_from_pipe * RigidTransform{pipe_from_wrist, wrist_in_pipe};
   // Up and off the pipe before it goes.
   world_from_wrist.translation_mm += Ease(time_s, kReleaseBeginsS + 0.2, 7.1) * Vector3d(0.0, 0.0, 52.0) +
-                                     Ease(time_s, 6.9, kHandGoneS) * Vector3d(560.0, 0.0, -60.0);
+                                     Ease(time_s, 6.9, kHandGoneS) * Vector3d(680.0, 0.0, -60.0);
   const double open = Ease(time_s, kReleaseBeginsS, kReleaseEndsS);
   return Hand(world_from_wrist, Blend(PipePinch(), OpenHand(), 0.5 * open),
-              ElbowBehind(world_from_wrist.translation_mm, 95.0));
+              ElbowBehind(world_from_wrist.translation_mm, 140.0));
 }
 
 // --- the cable ---
@@ -115,9 +115,9 @@ Feed FeedAt(double time_s) {
     open -= Ease(time_s, begin_s + 0.9 * kStrokeS, begin_s + kStrokeS);
   }
   const double arrive = Ease(time_s, kHandGoneS, kFeedBeginsS);
-  const Vector3d held(570.0 * (1.0 - arrive), 30.0 * (1.0 - arrive), kTipsLowZMm + lifted * kStrokeMm);
+  const Vector3d held(640.0 * (1.0 - arrive), 30.0 * (1.0 - arrive), kTipsLowZMm + lifted * kStrokeMm);
   const double leave = Ease(time_s, kFeedEndsS, kTaskSeconds);
-  const Vector3d gone(540.0 * leave, 20.0 * leave, 40.0 * Ease(time_s, kFeedEndsS, kFeedEndsS + 0.5));
+  const Vector3d gone(620.0 * leave, 20.0 * leave, 40.0 * Ease(time_s, kFeedEndsS, kFeedEndsS + 0.5));
   return {held + gone,
           {held.x(), held.y(), kTipsHighZMm - kPlugBelowTipsMm - pushed_mm},
           RadiansFromDegrees(kTongsClosedDeg + open * (kTongsOpenDeg - kTongsClosedDeg))};
@@ -127,11 +127,11 @@ Feed FeedAt(double time_s) {
 SyntheticObject CableAt(const Feed& feed, double time_s) {
   const double fed = Ease(time_s, kFeedBeginsS, kFeedEndsS);
   const Vector3d mouth(feed.plug_front_in_world.x(), feed.plug_front_in_world.y(),
-                       std::max(feed.plug_front_in_world.z() + kPlugLengthMm + 20.0, kTipsHighZMm - 14.0));
+                       std::max(feed.plug_front_in_world.z() + kPlugLengthMm + 20.0, kTipsHighZMm - 24.0));
   const double slack_mm = 45.0 * (1.0 - fed);
   const Vector3d on_table(60.0, -345.0, kCableRadiusMm);
   const std::array<Vector3d, 6> through{mouth,
-                                        mouth + Vector3d(4.0, -60.0, 22.0),
+                                        mouth + Vector3d(4.0, -60.0, 18.0),
                                         mouth + Vector3d(12.0, -155.0 - 0.3 * slack_mm, -8.0),
                                         Vector3d(0.5 * mouth.x() + 40.0, -250.0 - 0.5 * slack_mm, 110.0),
                                         on_table,
@@ -155,7 +155,7 @@ SyntheticObject HandAtTongs(const Feed& feed) {
       kTongsGripFromTipsMm * Vector3d(std::cos(elevation_rad), 0.0, std::sin(elevation_rad));
   const Eigen::Matrix3d axes = WristAxes(-Vector3d::UnitX(), Vector3d::UnitZ());
   const RigidTransform world_from_wrist{axes, grip_in_world - axes * kTongsGripInWrist};
-  return Hand(world_from_wrist, TongsPinch(), ElbowBehind(world_from_wrist.translation_mm, 75.0));
+  return Hand(world_from_wrist, TongsPinch(), ElbowBehind(world_from_wrist.translation_mm, 110.0));
 }
 
 DemoPhase PhaseAt(double time_s) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <vector>
 
 #include "core/camera_model.h"
@@ -33,6 +34,9 @@ class PixelRays {
   [[nodiscard]] bool MayMeet(const PixelTile& tile, const BoundingSphere& sphere) const;
 
  private:
+  [[nodiscard]] std::size_t Index(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_px_) + static_cast<std::size_t>(x);
+  }
   [[nodiscard]] PixelTile Tile(int x0, int y0) const;
 
   int width_px_ = 0;

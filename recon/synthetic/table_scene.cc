@@ -1,5 +1,6 @@
 #include "recon/synthetic/table_scene.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>

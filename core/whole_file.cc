@@ -1,4 +1,4 @@
-#include "cad_import/whole_file.h"
+#include "core/whole_file.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -7,7 +7,7 @@
 
 #include "core/error.h"
 
-namespace elbowroom::cad_import {
+namespace elbowroom::core {
 
 void WriteWholeFile(const std::filesystem::path& path, std::string_view bytes) {
   const std::filesystem::path temporary = fmt::format("{}.{}.part", path.string(), getpid());
@@ -26,4 +26,4 @@ void WriteWholeFile(const std::filesystem::path& path, std::string_view bytes) {
   }
 }
 
-}  // namespace elbowroom::cad_import
+}  // namespace elbowroom::core

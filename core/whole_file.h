@@ -4,10 +4,10 @@
 #include <filesystem>
 #include <string_view>
 
-namespace elbowroom::cad_import {
+namespace elbowroom::core {
 
 // Writes a temporary beside `path` and renames it over `path`; nothing is left behind on failure.
 // Throws: Error{kFile} naming the path.
 void WriteWholeFile(const std::filesystem::path& path, std::string_view bytes);
 
-}  // namespace elbowroom::cad_import
+}  // namespace elbowroom::core

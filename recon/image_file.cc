@@ -1,0 +1,114 @@
+#include "recon/image_file.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <fstream>
+#include <iterator>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+#include <string_view>
+#include <vector>
+
+#include "core/error.h"
+#include "recon/quiet_opencv.h"
+
+namespace elbowroom::recon {
+namespace {
+
+using core::Error;
+using core::ErrorKind;
+
+constexpr std::string_view kPngSignature{"\x89PNG\r\n\x1a\n", 8};
+constexpr std::string_view kJpegSignature{"\xff\xd8\xff", 3};
+// Cameras pad a JPEG's end; the marker is looked for in the last bytes only.
+constexpr std::size_t kJpegTailBytes = 4096;
+
+std::string ReadBytes(const std::filesystem::path& path, const std::string& who) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(path, ignored)) {
+    throw Error(ErrorKind::kFile, fmt::format("{}: image '{}' does not exist; check the path", who, path.string()));
+  }
+  std::ifstream file(path, std::ios::binary);
+  if (!file || std::filesystem::is_directory(path, ignored)) {
+    throw Error(ErrorKind::kFile, fmt::format("{}: image '{}' can't be opened; check that it is a file and may be read",
+                                              who, path.string()));
+  }
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+bool HasPngEnd(std::string_view bytes) {
+  std::size_t at = kPngSignature.size();
+  while (at + 12 <= bytes.size()) {
+    std::size_t length = 0;
+    for (std::size_t i = 0; i < 4; ++i) length = length * 256 + static_cast<unsigned char>(bytes[at + i]);
+    const std::string_view type = bytes.substr(at + 4, 4);
+    at += 12 + length;
+    if (type == "IEND") return at <= bytes.size();
+  }
+  return false;
+}
+
+bool IsCutShort(std::string_view bytes) {
+  if (bytes.starts_with(kPngSignature)) return !HasPngEnd(bytes);
+  if (!bytes.starts_with(kJpegSignature)) return false;
+  const std::string_view tail = bytes.substr(bytes.size() - std::min(bytes.size(), kJpegTailBytes));
+  return tail.find("\xff\xd9") == std::string_view::npos;
+}
+
+cv::Mat Decode(const std::filesystem::path& path, int flags, const std::string& who) {
+  SilenceOpenCv();
+  std::string bytes = ReadBytes(path, who);
+  const auto fail = [&](std::string_view what) {
+    throw Error(ErrorKind::kFile, fmt::format("{}: image '{}' {}", who, path.string(), what));
+  };
+  if (bytes.empty()) fail("is empty (0 bytes); write it again");
+  if (IsCutShort(bytes)) fail(fmt::format("is cut short ({} bytes, its end is missing); write or copy it again", bytes.size()));
+  cv::Mat image;
+  try {
+    const cv::Mat raw(1, static_cast<int>(bytes.size()), CV_8U, bytes.data());
+    image = cv::imdecode(raw, flags);
+  } catch (const cv::Exception&) {
+    image.release();
+  }
+  if (image.empty()) fail("can't be decoded; it must be an intact PNG, JPEG, TIFF or BMP");
+  return image;
+}
+
+}  // namespace
+
+cv::Mat ReadImageAsStored(const std::filesystem::path& path, const std::string& who) {
+  return Decode(path, cv::IMREAD_UNCHANGED, who);
+}
+
+cv::Mat ReadImageBgr(const std::filesystem::path& path, const std::string& who) {
+  return Decode(path, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION, who);
+}
+
+bool IsJpeg(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string start(kJpegSignature.size(), '\0');
+  file.read(start.data(), static_cast<std::streamsize>(start.size()));
+  return file && start == kJpegSignature;
+}
+
+void WriteFileWhole(const std::filesystem::path& path, const std::string& bytes) {
+  const std::filesystem::path temporary = fmt::format("{}.{}.part", path.string(), ::getpid());
+  std::error_code error;
+  {
+    std::ofstream file(temporary, std::ios::binary | std::ios::trunc);
+    file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    file.close();
+    if (!file) error = std::make_error_code(std::errc::io_error);
+  }
+  if (!error) std::filesystem::rename(temporary, path, error);
+  if (!error) return;
+  std::error_code ignored;
+  std::filesystem::remove(temporary, ignored);
+  throw Error(ErrorKind::kFile, fmt::format("'{}' can't be written; check that its folder exists, may be written to "
+                                            "and has space", path.string()));
+}
+
+}  // namespace elbowroom::recon
