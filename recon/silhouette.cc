@@ -82,14 +82,30 @@ bool Silhouette::IsObject(const Eigen::Vector2d& position_px) const {
 PixelLabel Silhouette::LabelAt(const Eigen::Vector2d& position_px) const {
   if (differing_px_.isEmpty()) return {exterior_is_object_, std::numeric_limits<double>::infinity()};
   const Eigen::Vector2i pixel = NearestPixel(position_px);
-  if (!IsPixel(pixel))
-    return {exterior_is_object_, DistanceToBox(differing_px_, position_px) - kPositionRoundingPx};
+  if (!IsPixel(pixel)) {
+    return {exterior_is_object_, std::max(DistanceFromOutside(position_px) - kPositionRoundingPx, 0.0)};
+  }
   const bool label = mask_.At(pixel.x(), pixel.y());
   const double field_px = FieldAt(pixel);
   double distance_px = field_px - kHalfDiagonalPx - (position_px - pixel.cast<double>()).norm() - kRoundingPx;
   if (distance_px < kWindowPx)
     distance_px = std::max(distance_px, DistanceWithinWindow(position_px, pixel, label));
   return {label, std::max(distance_px - kPositionRoundingPx, 0.0)};
+}
+
+double Silhouette::DistanceFromOutside(const Eigen::Vector2d& position_px) const {
+  // The picture is convex: what lies in it is at least as far as the legs to the picture's nearest position
+  // and from there make a right angle.
+  const Eigen::Vector2d nearest_px =
+      position_px.cwiseMax(-0.5).cwiseMin(Eigen::Vector2d(mask_.width_px() - 0.5, mask_.height_px() - 0.5));
+  const Eigen::Vector2i pixel =
+      NearestPixel(nearest_px).cwiseMin(Eigen::Vector2i(mask_.width_px() - 1, mask_.height_px() - 1));
+  double within_px = 0.0;
+  if (mask_.At(pixel.x(), pixel.y()) == exterior_is_object_) {
+    within_px = FieldAt(pixel) - kHalfDiagonalPx - (nearest_px - pixel.cast<double>()).norm() - kRoundingPx;
+  }
+  const double legs_px = std::hypot((position_px - nearest_px).norm(), std::max(within_px, 0.0));
+  return std::max(legs_px, DistanceToBox(differing_px_, position_px));
 }
 
 double Silhouette::DistanceWithinWindow(const Eigen::Vector2d& position_px, const Eigen::Vector2i& pixel,

@@ -32,7 +32,8 @@ class Silhouette {
   // The label alone, of any finite position; nearest pixel, halves away from minus infinity.
   [[nodiscard]] bool IsObject(const Eigen::Vector2d& position_px) const;
 
-  // The label and its certified reach. Exact to 1e-6 px within 2 px of a change, at most 1.5 px short beyond
+  // The label and its certified reach. In the image exact to 1e-6 px within 2 px of a change, at most 1.5 px
+  // short beyond; outside it no shorter than the distance to the image and to the box of all that differs
   // (tests/recon/silhouette_test.cc).
   [[nodiscard]] PixelLabel LabelAt(const Eigen::Vector2d& position_px) const;
 
@@ -44,6 +45,7 @@ class Silhouette {
   [[nodiscard]] bool IsPixel(const Eigen::Vector2i& pixel) const;
   [[nodiscard]] bool LabelOfPixel(const Eigen::Vector2i& pixel) const;
   [[nodiscard]] double FieldAt(const Eigen::Vector2i& pixel) const;
+  [[nodiscard]] double DistanceFromOutside(const Eigen::Vector2d& position_px) const;
   [[nodiscard]] double DistanceWithinWindow(const Eigen::Vector2d& position_px, const Eigen::Vector2i& pixel,
                                             bool label) const;
 

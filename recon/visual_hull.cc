@@ -23,6 +23,11 @@ double DistanceToFace(const Eigen::AlignedBox3d& box, const Eigen::Vector3d& x) 
   return std::min((x - box.min()).minCoeff(), (box.max() - x).minCoeff());
 }
 
+// Certified distances leave room for the rounding of the coordinates of the ball's points.
+double LessRounding(double distance_mm, const Eigen::Vector3d& x) {
+  return std::max(distance_mm * (1.0 - 1e-9) - 4e-15 * x.lpNorm<1>(), 0.0);
+}
+
 // What the cameras together say of a point: the inside needs all, the outside one.
 class Tally {
  public:
@@ -96,19 +101,24 @@ PointAnswer VisualHull::Probe(const Eigen::Vector3d& x_in_world) const {
   PointAnswer answer = tally.Sum();
   const Eigen::AlignedBox3d& workspace_mm = rig_->workspace_mm;
   if (!workspace_mm.contains(x_in_world)) {
-    const double to_workspace_mm = workspace_mm.exteriorDistance(x_in_world) * (1.0 - 1e-9);
+    const double to_workspace_mm = LessRounding(workspace_mm.exteriorDistance(x_in_world), x_in_world);
     return {false, answer.is_inside ? to_workspace_mm : std::max(answer.radius_mm, to_workspace_mm)};
   }
-  if (answer.is_inside)
-    answer.radius_mm = std::min(answer.radius_mm, DistanceToFace(workspace_mm, x_in_world));
+  if (answer.is_inside) {
+    const double to_face_mm = LessRounding(DistanceToFace(workspace_mm, x_in_world), x_in_world);
+    answer.radius_mm = std::min(answer.radius_mm, to_face_mm);
+  }
   return answer;
 }
 
 BallAnswer VisualHull::Classify(const Eigen::Vector3d& center_in_world, double radius_mm) const {
   if (is_empty_) return BallAnswer::kOutside;
   const Eigen::AlignedBox3d& workspace_mm = rig_->workspace_mm;
-  const double to_workspace_mm = workspace_mm.exteriorDistance(center_in_world);
-  if (to_workspace_mm * (1.0 - 1e-9) > radius_mm) return BallAnswer::kOutside;
+  const bool is_in_workspace = workspace_mm.contains(center_in_world);
+  if (!is_in_workspace &&
+      LessRounding(workspace_mm.exteriorDistance(center_in_world), center_in_world) >= radius_mm) {
+    return BallAnswer::kOutside;
+  }
   Tally tally;
   for (std::size_t i = 0; i < silhouettes_.size(); ++i) {
     const CameraAnswer answer =
@@ -119,9 +129,9 @@ BallAnswer VisualHull::Classify(const Eigen::Vector3d& center_in_world, double r
   const PointAnswer sum = tally.Sum();
   if (sum.radius_mm < radius_mm) return BallAnswer::kMixed;
   if (!sum.is_inside) return BallAnswer::kOutside;
-  const bool is_in_workspace =
-      to_workspace_mm == 0.0 && DistanceToFace(workspace_mm, center_in_world) >= radius_mm;
-  return is_in_workspace ? BallAnswer::kInside : BallAnswer::kMixed;
+  const bool keeps_inside = is_in_workspace && LessRounding(DistanceToFace(workspace_mm, center_in_world),
+                                                            center_in_world) >= radius_mm;
+  return keeps_inside ? BallAnswer::kInside : BallAnswer::kMixed;
 }
 
 BoundingEdge VisualHull::EdgeAt(const Eigen::Vector3d& surface_point_in_world) const {

@@ -81,10 +81,11 @@ void CameraView::DrawTile(const PixelTile& tile, std::span<const Solid> solids, 
   }
 }
 
-void CameraView::DrawShadow(const PixelTile& tile, std::span<const Solid> solids, cv::Mat& clean_bgr) const {
+void CameraView::DrawShadow(const PixelTile& tile, std::span<const Solid> solids,
+                            std::span<const BoundingSphere> spheres, cv::Mat& clean_bgr) const {
   for (int y = tile.y0; y < tile.y1; ++y) {
     for (int x = tile.x0; x < tile.x1; ++x)
-      clean_bgr.at<cv::Vec3f>(y, x) *= TableLight(rays_.At(x, y), solids);
+      clean_bgr.at<cv::Vec3f>(y, x) *= TableLight(rays_.At(x, y), solids, spheres);
   }
 }
 
@@ -93,7 +94,7 @@ cv::Mat CameraView::Render(std::span<const Solid> solids, const Exposure& exposu
   cv::Mat clean_bgr = empty_bgr_.clone();
   tbb::parallel_for(std::size_t{0}, rays_.tiles().size(), [&](std::size_t i) {
     const PixelTile& tile = rays_.tiles()[i];
-    if (exposure.table_shadow && !solids.empty()) DrawShadow(tile, solids, clean_bgr);
+    if (exposure.table_shadow && !solids.empty()) DrawShadow(tile, solids, spheres, clean_bgr);
     const std::vector<Solid> near = SolidsNear(tile, solids, spheres);
     if (!near.empty()) DrawTile(tile, near, clean_bgr);
   });

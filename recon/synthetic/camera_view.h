@@ -38,7 +38,8 @@ class CameraView {
   [[nodiscard]] std::vector<Solid> SolidsNear(const PixelTile& tile, std::span<const Solid> solids,
                                               std::span<const BoundingSphere> spheres) const;
   void DrawTile(const PixelTile& tile, std::span<const Solid> solids, cv::Mat& clean_bgr) const;
-  void DrawShadow(const PixelTile& tile, std::span<const Solid> solids, cv::Mat& clean_bgr) const;
+  void DrawShadow(const PixelTile& tile, std::span<const Solid> solids,
+                  std::span<const BoundingSphere> spheres, cv::Mat& clean_bgr) const;
 
   PixelRays rays_;
   cv::Mat empty_bgr_;  // CV_32FC3

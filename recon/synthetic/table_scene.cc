@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <optional>
 
 #include "recon/synthetic/sensor_noise.h"
@@ -41,6 +42,26 @@ std::optional<Vector2d> TablePoint(const Ray& ray) {
   return point;
 }
 
+// The lamp is a disc; these points of it stand for its area.
+constexpr double kLampRadius = 0.12;  // as seen from the table, per unit distance
+constexpr std::array<std::array<double, 2>, 8> kLampPoints{
+    {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {0.5, 0.5}, {-0.5, 0.5}, {0.5, -0.5}, {-0.5, -0.5}}};
+
+Vector3d ToLampPoint(std::size_t k) {
+  static const Vector3d aside = kToLampInWorld.cross(Vector3d::UnitX()).normalized();
+  static const Vector3d across = kToLampInWorld.cross(aside);
+  const auto& [u, v] = kLampPoints[k];
+  return (kToLampInWorld + kLampRadius * (u * aside + v * across)).normalized();
+}
+
+// False only if the cone from the point to the lamp misses the sphere.
+bool MayShade(const BoundingSphere& sphere, const Vector3d& x_in_world) {
+  const Vector3d to_sphere = sphere.center_in_world - x_in_world;
+  const double along = to_sphere.dot(kToLampInWorld);
+  const double beside = (to_sphere - along * kToLampInWorld).norm();
+  return beside <= kLampRadius * (std::max(along, 0.0) + sphere.radius_mm) + sphere.radius_mm;
+}
+
 }  // namespace
 
 Eigen::Vector3f EmptySceneColor(std::uint64_t seed, const Ray& ray) {
@@ -59,22 +80,20 @@ Eigen::Vector3f ShadedColor(const Vector3d& color_bgr, const Vector3d& normal_in
   return (light * color_bgr).cast<float>();
 }
 
-float TableLight(const Ray& ray, std::span<const Solid> solids) {
+float TableLight(const Ray& ray, std::span<const Solid> solids, std::span<const BoundingSphere> spheres) {
   constexpr float kShadowDepth = 0.5F;  // full umbra takes half the light
-  constexpr double kLampRadius = 0.12;  // as seen from the table, per unit distance
-  constexpr std::array<std::array<double, 2>, 8> kLampPoints{
-      {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {0.5, 0.5}, {-0.5, 0.5}, {0.5, -0.5}, {-0.5, -0.5}}};
   const auto point = TablePoint(ray);
   if (!point) return 1.0F;
-  const Vector3d aside = kToLampInWorld.cross(Vector3d::UnitX()).normalized();
-  const Vector3d across = kToLampInWorld.cross(aside);
-  int blocked = 0;
-  for (const auto& [u, v] : kLampPoints) {
-    const Ray to_lamp{{point->x(), point->y(), 0.0},
-                      (kToLampInWorld + kLampRadius * (u * aside + v * across)).normalized()};
-    blocked += std::ranges::any_of(solids, [&](const Solid& s) { return FirstHit(s, to_lamp).has_value(); });
+  const Vector3d x_in_world(point->x(), point->y(), 0.0);
+  std::array<bool, kLampPoints.size()> blocked{};
+  for (std::size_t i = 0; i < solids.size(); ++i) {
+    if (!MayShade(spheres[i], x_in_world)) continue;
+    for (std::size_t k = 0; k < kLampPoints.size(); ++k) {
+      blocked[k] = blocked[k] || FirstHit(solids[i], {x_in_world, ToLampPoint(k)});
+    }
   }
-  return 1.0F - kShadowDepth * static_cast<float>(blocked) / static_cast<float>(kLampPoints.size());
+  const auto count = static_cast<float>(std::ranges::count(blocked, true));
+  return 1.0F - kShadowDepth * count / static_cast<float>(kLampPoints.size());
 }
 
 }  // namespace elbowroom::recon

@@ -18,7 +18,8 @@ namespace elbowroom::recon {
                                           const Eigen::Vector3d& normal_in_world);
 
 // Share of the lamp's light (0 to 1) that reaches the table where the ray meets it; 1 where it meets no
-// table.
-[[nodiscard]] float TableLight(const Ray& ray, std::span<const Solid> solids);
+// table. `spheres` are the bounding spheres of the solids, in order.
+[[nodiscard]] float TableLight(const Ray& ray, std::span<const Solid> solids,
+                               std::span<const BoundingSphere> spheres);
 
 }  // namespace elbowroom::recon

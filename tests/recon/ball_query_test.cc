@@ -1,0 +1,295 @@
+// An answer "outside" or "inside" of a ball is never contradicted by any point of it: docs/algorithms.md,
+// sampled.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "recon/visual_hull.h"
+#include "tests/recon/random_scene.h"
+#include "tests/support/soak.h"
+
+namespace elbowroom::recon {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+constexpr int kScenes = 400;
+constexpr int kBallsPerScene = 500;
+// Sampled points stay inside the closed ball whatever the rounding of their own coordinates.
+constexpr double kInsideBall = 1.0 - 1e-12;
+
+Vector3d InWorld(const core::CameraModel& camera, const Vector3d& x_in_cam) {
+  return camera.cam_from_world().Inverse() * x_in_cam;
+}
+
+// A point that projects near a change of the mask, or about anywhere in and around the picture.
+std::optional<Vector3d> NearPicture(Random* random, const core::CameraModel& camera,
+                                    const core::BitMask& mask) {
+  Vector2d pixel(random->Uniform(-1.0, 2.0) * mask.width_px(), random->Uniform(-1.0, 2.0) * mask.height_px());
+  for (int tries = 0; tries < 20 && random->Chance(0.9); ++tries) {
+    const int x = random->Whole(0, mask.width_px() - 1), y = random->Whole(0, mask.height_px() - 1);
+    const bool at_border = x == 0 || y == 0 || x == mask.width_px() - 1 || y == mask.height_px() - 1;
+    const bool changes = x > 0 && mask.At(x - 1, y) != mask.At(x, y);
+    if (!at_border && !changes) continue;
+    const double jitter_px = random->LogUniform(1e-8, 3.0);
+    pixel = Vector2d(x - 0.5, y + random->Uniform(-0.5, 0.5)) + jitter_px * random->Direction().head<2>();
+    break;
+  }
+  const std::optional<Vector2d> normalised = camera.NormalisedFromPixel(pixel);
+  if (!normalised) return std::nullopt;
+  const double depth_mm = random->LogUniform(0.01, 4.0) * camera.center_in_world().norm();
+  return InWorld(camera, depth_mm * normalised->homogeneous());
+}
+
+Vector3d NearDomainRim(Random* random, const core::CameraModel& camera) {
+  const double off = random->LogUniform(1e-9, 0.5) * (random->Chance(0.5) ? 1.0 : -1.0);
+  const double angle_rad = random->Uniform(0.0, 2.0 * M_PI);
+  const Vector2d normalised =
+      camera.max_radius() * (1.0 + off) * Vector2d(std::cos(angle_rad), std::sin(angle_rad));
+  return InWorld(camera, random->LogUniform(1e-3, 2e3) * normalised.homogeneous());
+}
+
+Vector3d NearCameraPlane(Random* random, const core::CameraModel& camera) {
+  const double side_mm = random->LogUniform(1e-4, 1e3);
+  Vector3d x_in_cam = side_mm * random->Direction();
+  x_in_cam.z() = random->LogUniform(1e-6, 1e3) * (random->Chance(0.5) ? 1.0 : -1.0);
+  return InWorld(camera, x_in_cam);
+}
+
+Vector3d NearWorkspaceFace(Random* random, const Eigen::AlignedBox3d& workspace_mm) {
+  Vector3d x = random->PointIn(workspace_mm);
+  const int axis = random->Whole(0, 2);
+  x[axis] = (random->Chance(0.5) ? workspace_mm.min() : workspace_mm.max())[axis];
+  return x + random->LogUniform(1e-9, 10.0) * random->Direction();
+}
+
+Vector3d RandomCenter(Random* random, const RandomScene& scene) {
+  const Eigen::AlignedBox3d& workspace_mm = scene.rig->workspace_mm;
+  const int i = random->Whole(0, static_cast<int>(scene.rig->cameras.size()) - 1);
+  const core::CameraModel& camera = scene.rig->cameras[static_cast<std::size_t>(i)];
+  switch (random->Whole(0, 9)) {
+    case 0:
+      return NearDomainRim(random, camera);
+    case 1:
+      return NearCameraPlane(random, camera);
+    case 2:
+      return camera.center_in_world() + random->LogUniform(1e-6, 1e2) * random->Direction();
+    case 3:
+      return NearWorkspaceFace(random, workspace_mm);
+    case 4:
+    case 5:
+      return 1.5 * random->PointIn(workspace_mm);
+    default:
+      return NearPicture(random, camera, scene.masks[static_cast<std::size_t>(i)])
+          .value_or(random->PointIn(workspace_mm));
+  }
+}
+
+// Directions in which a ball's projection spreads farthest: across the line of sight towards each side of the
+// picture, tilted towards the camera and away from it, and along the axes that bound the workspace.
+std::vector<Vector3d> AdversarialDirections(const core::Rig& rig, const Vector3d& center) {
+  std::vector<Vector3d> directions;
+  for (int axis = 0; axis < 3; ++axis) {
+    directions.push_back(Vector3d::Unit(axis));
+    directions.push_back(-Vector3d::Unit(axis));
+  }
+  for (const core::CameraModel& camera : rig.cameras) {
+    const Vector3d x_in_cam = camera.cam_from_world() * center;
+    const Vector3d toward = -x_in_cam.normalized();
+    const Vector2d c = x_in_cam.head<2>() / x_in_cam.z();
+    for (int i = 0; i < 8; ++i) {
+      const Vector2d u(std::cos(i * M_PI / 4), std::sin(i * M_PI / 4));
+      const Vector3d across = Vector3d(u.x(), u.y(), -c.dot(u)).normalized();
+      for (const double tilt : {0.0, 0.7}) {
+        const Vector3d d =
+            camera.cam_from_world().rotation.transpose() * (across + tilt * toward).normalized();
+        if (d.allFinite()) directions.push_back(d);
+      }
+    }
+    directions.push_back(camera.cam_from_world().rotation.transpose() * toward);
+  }
+  return directions;
+}
+
+// Points of the closed ball: its centre, extremes, random ones of its surface and inside.
+std::vector<Vector3d> SampleBall(Random* random, const core::Rig& rig, const Vector3d& center,
+                                 double radius_mm) {
+  std::vector<Vector3d> samples = {center};
+  const double reach_mm = radius_mm * kInsideBall;
+  for (const Vector3d& direction : AdversarialDirections(rig, center))
+    samples.push_back(center + reach_mm * direction);
+  for (int i = 0; i < 8; ++i) {
+    samples.push_back(center + reach_mm * random->Direction());
+    samples.push_back(center + reach_mm * std::cbrt(random->Uniform(0.0, 1.0)) * random->Direction());
+  }
+  return samples;
+}
+
+struct Census {
+  int balls = 0;
+  int certified = 0;       // Classify said outside or inside
+  int inside = 0;          // ... inside
+  int agreeing = 0;        // ordinary balls whose samples all agree
+  int agreeing_mixed = 0;  // ... yet called mixed
+};
+
+// The number of samples that say otherwise.
+int Contradictions(const VisualHull& hull, const std::vector<Vector3d>& samples, bool is_inside) {
+  return static_cast<int>(
+      std::ranges::count_if(samples, [&](const Vector3d& x) { return hull.Contains(x) != is_inside; }));
+}
+
+void CheckBall(Random* random, const VisualHull& hull, const Vector3d& center, double radius_mm,
+               Census* census) {
+  const std::vector<Vector3d> samples = SampleBall(random, hull.rig(), center, radius_mm);
+  const BallAnswer answer = hull.Classify(center, radius_mm);
+  const int inside = Contradictions(hull, samples, false);
+  const auto all = static_cast<int>(samples.size());
+  ++census->balls;
+  if (answer != BallAnswer::kMixed) ++census->certified;
+  if (answer == BallAnswer::kOutside) {
+    ASSERT_EQ(inside, 0) << center.transpose() << " r " << radius_mm;
+  } else if (answer == BallAnswer::kInside) {
+    ++census->inside;
+    ASSERT_EQ(inside, all) << center.transpose() << " r " << radius_mm;
+  }
+  if (inside == 0 || inside == all) {
+    ++census->agreeing;
+    if (answer == BallAnswer::kMixed) ++census->agreeing_mixed;
+  }
+}
+
+void CheckProbe(Random* random, const VisualHull& hull, const Vector3d& center) {
+  const PointAnswer answer = hull.Probe(center);
+  ASSERT_EQ(answer.is_inside, hull.Contains(center)) << center.transpose();
+  ASSERT_GE(answer.radius_mm, 0.0) << center.transpose();
+  ASSERT_EQ(hull.Classify(center, 0.0), answer.is_inside ? BallAnswer::kInside : BallAnswer::kOutside);
+  const double radius_mm = std::min(answer.radius_mm, 1e5);
+  const std::vector<Vector3d> samples = SampleBall(random, hull.rig(), center, radius_mm);
+  ASSERT_EQ(Contradictions(hull, samples, answer.is_inside), 0)
+      << center.transpose() << " probe " << answer.radius_mm << " inside " << answer.is_inside;
+}
+
+TEST(BallQuery, NoSampledPointContradictsACertifiedAnswer) {
+  Random random(2001);
+  Census census;
+  for (int trial = 0; trial < kScenes * test_support::SoakScale(); ++trial) {
+    const RandomScene scene = MakeRandomScene(&random);
+    const VisualHull hull = MakeVisualHull(scene.rig, scene.masks);
+    for (int i = 0; i < kBallsPerScene / 2; ++i) {
+      const Vector3d center = RandomCenter(&random, scene);
+      CheckProbe(&random, hull, center);
+      CheckBall(&random, hull, center, random.LogUniform(1e-4, 1e3), &census);
+      if (HasFatalFailure()) FAIL() << "scene " << trial;
+    }
+  }
+  // The test asks something: a fair share of certified answers, of both kinds.
+  EXPECT_GT(census.certified, census.balls / 4);
+  EXPECT_GT(census.inside, census.balls / 200);
+  std::printf("%d balls, %d certified, %d inside\n", census.balls, census.certified, census.inside);
+}
+
+TEST(BallQuery, MixedIsRarelySaidOfABallThatAgrees) {
+  // Of ordinary balls of an ordinary rig; measured 2026: see docs/algorithms.md.
+  constexpr double kLargestShare = 0.25;
+  Random random(2002);
+  for (const auto unseen : {core::UnseenPolicy::kOutside, core::UnseenPolicy::kAbstain}) {
+    Census census;
+    for (int trial = 0; trial < 30; ++trial) {
+      const RandomScene scene = MakeRingScene(&random, random.Whole(2, 6), unseen);
+      const VisualHull hull = MakeVisualHull(scene.rig, scene.masks);
+      for (int i = 0; i < 300; ++i)
+        CheckBall(&random, hull, random.PointIn(scene.rig->workspace_mm), random.LogUniform(0.5, 50.0),
+                  &census);
+    }
+    const double share = static_cast<double>(census.agreeing_mixed) / census.agreeing;
+    std::printf("share %.4f of %d (%d balls)\n", share, census.agreeing, census.balls);
+    EXPECT_LT(share, kLargestShare);
+  }
+}
+
+TEST(BallQuery, HullShrinksWhenACameraIsAdded) {
+  Random random(2003);
+  for (int trial = 0; trial < 60; ++trial) {
+    RandomScene scene = MakeRandomScene(&random);
+    core::Rig rig = *scene.rig;
+    rig.unseen = core::UnseenPolicy::kOutside;  // under `abstain` a new camera may be the first witness
+    const VisualHull before = MakeVisualHull(std::make_shared<const core::Rig>(rig), scene.masks);
+    rig.cameras.push_back(RandomCamera(&random, static_cast<LensKind>(random.Whole(0, kLensKinds - 1))));
+    scene.masks.push_back(RandomMask(&random, rig.cameras.back().width_px(), rig.cameras.back().height_px()));
+    const VisualHull after = MakeVisualHull(std::make_shared<const core::Rig>(rig), scene.masks);
+    for (int i = 0; i < 500; ++i) {
+      const Vector3d x = RandomCenter(&random, scene);
+      const double radius_mm = random.LogUniform(1e-3, 1e2);
+      EXPECT_TRUE(before.Contains(x) || !after.Contains(x));
+      const BallAnswer was = before.Classify(x, radius_mm), is = after.Classify(x, radius_mm);
+      EXPECT_TRUE(was != BallAnswer::kOutside || is == BallAnswer::kOutside);
+      EXPECT_TRUE(is != BallAnswer::kInside || was == BallAnswer::kInside);
+    }
+  }
+}
+
+TEST(BallQuery, MovingRigAndPointsTogetherChangesNothing) {
+  // Coordinates up to 1e5 mm carry 1e-11 mm of rounding; a point nearer than this to a change may flip.
+  constexpr double kRoundingBandMm = 1e-6;
+  constexpr double kRadiusTolerance = 1e-5;
+  Random random(2004);
+  int asked = 0;
+  for (int trial = 0; trial < 60; ++trial) {
+    const RandomScene scene = MakeRandomScene(&random);
+    core::Rig rig = *scene.rig;
+    rig.workspace_mm = {Vector3d::Constant(-1e7), Vector3d::Constant(1e7)};  // a box doesn't turn
+    const VisualHull hull = MakeVisualHull(std::make_shared<const core::Rig>(rig), scene.masks);
+    const core::RigidTransform moved_from_world{random.Rotation(), 3000.0 * random.Direction()};
+    core::Rig moved = rig;
+    moved.cameras.clear();
+    for (const core::CameraModel& camera : rig.cameras) {
+      core::CameraCalibration calibration = camera.calibration();
+      calibration.cam_from_world = calibration.cam_from_world * moved_from_world.Inverse();
+      moved.cameras.emplace_back(std::move(calibration));
+    }
+    const VisualHull moved_hull = MakeVisualHull(std::make_shared<const core::Rig>(moved), scene.masks);
+    for (int i = 0; i < 300; ++i) {
+      const Vector3d x = RandomCenter(&random, scene);
+      const PointAnswer here = hull.Probe(x), there = moved_hull.Probe(moved_from_world * x);
+      if (here.radius_mm < kRoundingBandMm) continue;
+      ++asked;
+      ASSERT_EQ(here.is_inside, there.is_inside) << x.transpose();
+      if (here.radius_mm > 1e6) continue;
+      ASSERT_NEAR(here.radius_mm, there.radius_mm, kRadiusTolerance * (1.0 + here.radius_mm));
+    }
+  }
+  EXPECT_GT(asked, 10'000);
+}
+
+TEST(BallQuery, PixelEdgesBelongToTheSameSideForPointAndBall) {
+  // A pinhole whose pixels' edges fall on round numbers: positions exactly on the picture's border.
+  for (const auto unseen : {core::UnseenPolicy::kOutside, core::UnseenPolicy::kAbstain}) {
+    core::Rig rig;
+    rig.workspace_mm = {Vector3d::Constant(-100), Vector3d::Constant(100)};
+    rig.unseen = unseen;
+    core::CameraCalibration c;
+    c.image_width_px = c.image_height_px = 8;
+    c.camera_matrix << 64.0, 0.0, 3.5, 0.0, 64.0, 3.5, 0.0, 0.0, 1.0;
+    c.cam_from_world.translation_mm.z() = 64.0;
+    rig.cameras.emplace_back(c);
+    core::BitMask mask(8, 8);
+    for (int y = 0; y < 8; ++y) {
+      for (int x = 0; x < 8; ++x) mask.Set(x, y, true);
+    }
+    const std::array masks{mask};
+    const VisualHull hull = MakeVisualHull(std::make_shared<const core::Rig>(rig), masks);
+    Random random(2005);
+    for (int x = -5; x <= 5; ++x) {
+      for (int y = -5; y <= 5; ++y) CheckProbe(&random, hull, Vector3d(x, y, 0.0));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace elbowroom::recon
