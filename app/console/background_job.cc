@@ -10,7 +10,8 @@ BackgroundJob::BackgroundJob(Bridge& bridge, Work work, OnDone on_done)
         std::string error;
         try {
           work(stop);
-        } catch (const std::exception& failure) {  // the worker's outermost frame: nothing may escape a thread
+        } catch (
+            const std::exception& failure) {  // the worker's outermost frame: nothing may escape a thread
           error = failure.what();
         }
         bridge.Post([on_done, error] { on_done(error); });

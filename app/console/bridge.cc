@@ -15,7 +15,8 @@ void Bridge::PostLatest(Stream stream, Delivery delivery) {
     replaced = std::exchange(latest_[static_cast<std::size_t>(stream)], std::move(delivery));
   }
   if (replaced) return;  // its event is still on the way
-  QMetaObject::invokeMethod(this, [this, stream] { DeliverLatest(stream); }, Qt::QueuedConnection);
+  QMetaObject::invokeMethod(
+      this, [this, stream] { DeliverLatest(stream); }, Qt::QueuedConnection);
 }
 
 void Bridge::DeliverLatest(Stream stream) {

@@ -23,8 +23,8 @@ class SpacingControl : public QWidget {
 
   // Follows a change that nobody here asked for; one that was asked for is awaited.
   void ShowApplied(double applied_mm);
-  void Step(double by_mm);                // stays within the limits
-  void SetIsActive(bool is_active);       // the one that the keys move
+  void Step(double by_mm);           // stays within the limits
+  void SetIsActive(bool is_active);  // the one that the keys move
   [[nodiscard]] double wished_mm() const { return box_->value(); }
 
  signals:

@@ -51,10 +51,10 @@ void TrialDesk::Run(control::TrialSetup setup) {
                        [this, news = FrameNews{result, tally->Parts()}] { emit FrameArrived(news); });
   };
   EnterState(DeskState::kRunning);
-  trial_ = std::make_unique<control::LiveTrial>(
-      std::move(setup), std::move(options), [this](const control::LiveTrial::Ended& ended) {
-        bridge_.Post([this, ended] { FinishTrial(ended); });
-      });
+  trial_ = std::make_unique<control::LiveTrial>(std::move(setup), std::move(options),
+                                                [this](const control::LiveTrial::Ended& ended) {
+                                                  bridge_.Post([this, ended] { FinishTrial(ended); });
+                                                });
 }
 
 void TrialDesk::FinishTrial(const control::LiveTrial::Ended& ended) {

@@ -26,8 +26,8 @@ struct FrameNews {
   std::vector<control::PartTally> tallies;  // over every frame so far, shown or not
 };
 
-// One trial at a time. Nothing here waits: long work runs on threads of its own, whose news arrive as signals.
-// Thread: UI.
+// One trial at a time. Nothing here waits: long work runs on threads of its own, whose news arrive as
+// signals. Thread: UI.
 class TrialDesk : public QObject {
   Q_OBJECT
 
