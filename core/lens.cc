@@ -74,6 +74,7 @@ Lens::Lens(DistortionModel model, const std::vector<double>& d, const std::strin
   for (std::size_t i = 0; i < 4; ++i) s_[i] = at(8 + i);
   if (at(12) != 0.0 || at(13) != 0.0)
     fail("a tilted sensor model is not supported; calibrate without CALIB_TILTED_MODEL");
+  is_ideal_ = std::all_of(d.begin(), d.end(), [](double value) { return value == 0.0; });
 }
 
 double Lens::RadialImage(double radius) const {
@@ -130,6 +131,7 @@ Eigen::Vector2d Lens::OffAxis(const Eigen::Vector2d& x) const {
 }
 
 Eigen::Vector2d Lens::Distort(const Eigen::Vector2d& normalised) const {
+  if (is_ideal_) return normalised;
   if (model_ == DistortionModel::kFisheye) {
     const double radius = normalised.norm();
     if (radius < 1e-12) return normalised;
@@ -139,24 +141,32 @@ Eigen::Vector2d Lens::Distort(const Eigen::Vector2d& normalised) const {
   return normalised * (SeriesAt(k_, 3, t) / SeriesAt(k_ + 3, 3, t)) + OffAxis(normalised);
 }
 
+double Lens::InvertRadial(double image_radius, double max_radius) const {
+  // Monotone up to max_radius: Newton, kept within a bracket that shrinks with every step.
+  double low = 0.0, high = max_radius;
+  double radius = std::min(image_radius, max_radius);
+  for (int i = 0; i < 100; ++i) {
+    const double excess = RadialImage(radius) - image_radius;
+    (excess < 0.0 ? low : high) = radius;
+    double next = radius - excess / RadialSlope(radius, radius).upper;
+    if (!(next > low && next < high)) next = 0.5 * (low + high);
+    if (std::abs(next - radius) <= 4e-16 * max_radius || next == low || next == high) return next;
+    radius = next;
+  }
+  return radius;
+}
+
 std::optional<Eigen::Vector2d> Lens::Undistort(const Eigen::Vector2d& distorted, double max_radius) const {
-  // The radial part is monotone up to max_radius, so it inverts by bisection; the small off-axis terms follow
-  // by fixed-point iteration.
-  const auto invert_radial = [&](double image_radius) {
-    double low = 0.0, high = max_radius;
-    for (int i = 0; i < 80 && low < high; ++i) {
-      const double middle = 0.5 * (low + high);
-      (RadialImage(middle) < image_radius ? low : high) = middle;
-    }
-    return high;
-  };
+  if (is_ideal_) return distorted.norm() <= max_radius ? std::optional(distorted) : std::nullopt;
+  // The off-axis terms are small and follow by fixed-point iteration around the radial part's inverse.
   Eigen::Vector2d x = Eigen::Vector2d::Zero();
   for (int i = 0; i < 50; ++i) {
     const Eigen::Vector2d radial_part = distorted - OffAxis(x);
     const double image_radius = radial_part.norm();
     const Eigen::Vector2d next =
-        image_radius < 1e-15 ? Eigen::Vector2d::Zero()
-                             : Eigen::Vector2d(radial_part * (invert_radial(image_radius) / image_radius));
+        image_radius < 1e-15
+            ? Eigen::Vector2d::Zero()
+            : Eigen::Vector2d(radial_part * (InvertRadial(image_radius, max_radius) / image_radius));
     const bool settled = (next - x).norm() <= 1e-14;
     x = next;
     if (settled) break;

@@ -12,7 +12,7 @@ void AddRigFrameOptions(CLI::App& command, RigFrameOptions* options) {
 }
 
 RigFrame LoadRigFrame(const RigFrameOptions& options, const CommandContext& context) {
-  recon::RecordedRig source(recon::ReadRigFile(options.rig_file));
+  recon::RecordedRig source(recon::ReadRigFile(options.rig_file), context.stop);
   RigFrame result{std::make_shared<const core::Rig>(source.rig()), {}};
   // The frame first: it is the cheaper one to find missing.
   const recon::FrameSet frames = source.Read(options.frame);

@@ -8,6 +8,7 @@
 
 #include "app/cli/command.h"
 #include "core/bit_mask.h"
+#include "core/ids.h"
 #include "core/rig.h"
 
 namespace elbowroom::cli {

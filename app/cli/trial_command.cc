@@ -38,7 +38,7 @@ bool ParseRange(const std::string& text, control::FrameRange* range) {
 }
 
 CommandResult RunHeadless(const TrialRunOptions& options, const CommandContext& context) {
-  const control::TrialSetup setup = control::ReadTrialFile(options.trial_file);
+  const control::TrialSetup setup = control::ReadTrialFile(options.trial_file, context.stop);
   control::TrialOptions trial;
   trial.session = options.session;
   trial.frames = options.frames;

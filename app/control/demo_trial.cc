@@ -8,6 +8,21 @@
 #include "recon/synthetic/synthetic_rig.h"
 
 namespace elbowroom::control {
+namespace {
+
+// When the simulated hand takes up the tongs and lays them down.
+std::vector<ScriptedChange> ToolChanges(core::FrameIndex frames, double frame_rate_hz) {
+  std::vector<ScriptedChange> changes;
+  bool in_use = false;
+  for (core::FrameIndex frame = 0; frame < frames; ++frame) {
+    const bool now = recon::DemoSceneAt(static_cast<double>(frame) / frame_rate_hz).tongs_in_use;
+    if (now != in_use) changes.push_back({frame, ToolWish{"tongs", now}});
+    in_use = now;
+  }
+  return changes;
+}
+
+}  // namespace
 
 TrialSetup MakeDemoTrial(DemoPlay play) {
   recon::SyntheticRigOptions options;
@@ -22,7 +37,8 @@ TrialSetup MakeDemoTrial(DemoPlay play) {
   setup.layout = DemoLayout();
   if (play == DemoPlay::kOnce) {
     options.frame_count = 2 * frames_a_task;
-    setup.script = {{frames_a_task, "payload_a_gap", kGapNeededMm}};
+    setup.script = ToolChanges(*options.frame_count, options.frame_rate_hz);
+    setup.script.push_back({frames_a_task, SpacingWish{"payload_a_gap", kGapNeededMm}});
     setup.end_note = "ended with the simulated task, played twice";
   }
   setup.source = std::make_shared<recon::SyntheticRig>(

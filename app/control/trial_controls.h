@@ -8,22 +8,27 @@
 
 namespace elbowroom::control {
 
+struct SpacingWish {
+  std::string spacing;
+  double to_mm = 0.0;  // kept within the spacing's limits
+};
+struct ToolWish {
+  std::string tool;
+  bool in_use = false;
+};
+
 // A mailbox: any thread puts wishes in, the trial takes them out between two frames.
 // Thread: any.
 class TrialControls {
  public:
-  struct ToolWish {
-    std::string tool;
-    bool in_use = false;
-  };
   struct Wishes {
-    std::vector<std::pair<std::string, double>> spacings_mm;  // the last wish for a spacing holds
+    std::vector<SpacingWish> spacings;  // in order: the last one for a spacing holds
     std::vector<ToolWish> tools;
   };
 
   void SetSpacing(const std::string& spacing, double to_mm) {
     const std::lock_guard lock(mutex_);
-    wishes_.spacings_mm.emplace_back(spacing, to_mm);
+    wishes_.spacings.push_back({spacing, to_mm});
   }
   void MarkTool(const std::string& tool, bool in_use) {
     const std::lock_guard lock(mutex_);

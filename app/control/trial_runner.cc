@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <chrono>
 #include <condition_variable>
+#include <limits>
 #include <mutex>
+#include <utility>
+#include <variant>
 
 #include "app/control/frame_pipeline.h"
 #include "app/control/versions.h"
@@ -107,28 +110,31 @@ class Recording {
  private:
   void ApplyChanges(core::FrameIndex frame, double time_s) {
     for (const ScriptedChange& change : setup_.script) {
-      if (change.frame == frame) SetSpacing(frame, time_s, change.spacing, change.to_mm);
+      if (change.frame != frame) continue;
+      std::visit([&](const auto& wish) { Apply(frame, time_s, wish); }, change.what);
     }
     const TrialControls::Wishes wishes = controls_.Take();
-    for (const auto& [spacing, to_mm] : wishes.spacings_mm) SetSpacing(frame, time_s, spacing, to_mm);
-    for (const TrialControls::ToolWish& wish : wishes.tools) {
-      writer_.Append(core::SessionEvent{frame, time_s, core::ToolMarked{wish.tool, wish.in_use}});
-    }
+    for (const SpacingWish& wish : wishes.spacings) Apply(frame, time_s, wish);
+    for (const ToolWish& wish : wishes.tools) Apply(frame, time_s, wish);
   }
 
-  void SetSpacing(core::FrameIndex frame, double time_s, const std::string& name, double to_mm) {
-    const std::optional<core::SpacingIndex> index = setup_.layout.FindSpacing(name);
+  void Apply(core::FrameIndex frame, double time_s, const ToolWish& wish) {
+    writer_.Append(core::SessionEvent{frame, time_s, core::ToolMarked{wish.tool, wish.in_use}});
+  }
+
+  void Apply(core::FrameIndex frame, double time_s, const SpacingWish& wish) {
+    const std::optional<core::SpacingIndex> index = setup_.layout.FindSpacing(wish.spacing);
     if (!index) {
-      writer_.Append(
-          core::SessionEvent{frame, time_s, core::Note{fmt::format("no spacing is named '{}'", name)}});
+      const std::string note = fmt::format("no spacing is named '{}'", wish.spacing);
+      writer_.Append(core::SessionEvent{frame, time_s, core::Note{note}});
       return;
     }
     const core::Spacing& spacing = setup_.layout.spacings[*index];
-    const double allowed_mm = std::clamp(to_mm, spacing.min_mm, spacing.max_mm);
+    const double allowed_mm = std::clamp(wish.to_mm, spacing.min_mm, spacing.max_mm);
     const double from_mm = std::exchange(spacing_mm_[*index], allowed_mm);
-    if (from_mm != allowed_mm) {
-      writer_.Append(core::SessionEvent{frame, time_s, core::SpacingChanged{name, from_mm, allowed_mm}});
-    }
+    if (from_mm == allowed_mm) return;
+    writer_.Append(
+        core::SessionEvent{frame, time_s, core::SpacingChanged{wish.spacing, from_mm, allowed_mm}});
   }
 
   void Record(const FrameResult& result) {

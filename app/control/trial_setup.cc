@@ -49,15 +49,15 @@ recon::SegmentationOptions ReadSegmentation(const TomlEntry& root, const std::st
 
 // What the footage's length depends on, for the session's record.
 std::string EndNote(const recon::RecordedRig& source) {
-  const std::optional<core::FrameIndex> frames = source.frame_count();
-  if (!frames) return {};
+  const std::optional<recon::ShortestSource>& shortest = source.shortest_source();
+  if (!shortest) return {};
   return fmt::format("ended with the shortest source, camera '{}' ({} frames)",
-                     source.rig().cameras[source.shortest_source()].name(), *frames);
+                     source.rig().cameras[shortest->camera].name(), shortest->frames);
 }
 
 }  // namespace
 
-TrialSetup ReadTrialFile(const std::filesystem::path& path) {
+TrialSetup ReadTrialFile(const std::filesystem::path& path, std::stop_token stop) {
   const toml::table table = cad_import::ParseTomlFile(path, "trial file");
   const TomlEntry root(table, path.string(), "",
                        {"rig", "layout", "participant", "task", "estimate_mm", "required_clearance_mm",
@@ -73,7 +73,7 @@ TrialSetup ReadTrialFile(const std::filesystem::path& path) {
   cad_import::ImportedLayout imported = cad_import::ImportLayoutFile(folder / root.Text("layout"));
   setup.layout = std::move(imported.layout);
   setup.warnings = std::move(imported.warnings);
-  auto source = std::make_shared<recon::RecordedRig>(recon::ReadRigFile(folder / root.Text("rig")));
+  auto source = std::make_shared<recon::RecordedRig>(recon::ReadRigFile(folder / root.Text("rig")), stop);
   setup.end_note = EndNote(*source);
   setup.source = std::move(source);
   return setup;

@@ -4,9 +4,12 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <stop_token>
 #include <string>
+#include <variant>
 #include <vector>
 
+#include "app/control/trial_controls.h"
 #include "core/layout.h"
 #include "core/session.h"
 #include "recon/frame_set.h"
@@ -17,8 +20,7 @@ namespace elbowroom::control {
 // Something the experimenter is known to do at a frame: the demo's script.
 struct ScriptedChange {
   core::FrameIndex frame = 0;
-  std::string spacing;
-  double to_mm = 0.0;
+  std::variant<SpacingWish, ToolWish> what;
 };
 
 struct TrialSetup {
@@ -31,10 +33,10 @@ struct TrialSetup {
   std::vector<std::string> warnings;   // of the files that were read
 };
 
-// TRIAL.toml (docs/user_guide.md) with its rig and layout. Nothing is decoded yet but the files' headers.
+// TRIAL.toml (docs/user_guide.md) with its rig and layout; the footage is opened and its length measured.
 // Throws: core::Error with file, line and key for what the trial file has wrong; what the rig's and the
-// layout's readers throw.
-[[nodiscard]] TrialSetup ReadTrialFile(const std::filesystem::path& path);
+// layout's readers throw; Error{kCancelled}.
+[[nodiscard]] TrialSetup ReadTrialFile(const std::filesystem::path& path, std::stop_token stop = {});
 
 // The settings that a session keeps, as text.
 [[nodiscard]] std::map<std::string, std::string> SettingsOf(const recon::SegmentationOptions& options);
