@@ -1,6 +1,7 @@
 #include "app/console/camera_strip.h"
 
 #include <QHBoxLayout>
+#include <QLocale>
 #include <QPainter>
 
 #include "app/console/palette.h"

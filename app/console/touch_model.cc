@@ -16,15 +16,9 @@ Qt::Alignment AlignmentOf(int column) {
   return (is_text ? Qt::AlignLeft : Qt::AlignRight) | Qt::AlignVCenter;
 }
 
-QColor ColorOf(core::Verdict verdict) {
-  switch (verdict) {
-    case core::Verdict::kContact:
-      return kContactRed;
-    case core::Verdict::kClear:
-      return kClearGreen;
-    default:
-      return kQuietText;
-  }
+QColor ColorOf(std::optional<core::Verdict> verdict) {
+  if (verdict == core::Verdict::kContact) return kContactRed;
+  return verdict == core::Verdict::kClear ? kClearGreen : kQuietText;
 }
 
 }  // namespace
@@ -32,7 +26,7 @@ QColor ColorOf(core::Verdict verdict) {
 void TouchModel::Open(const core::Layout& layout) {
   beginResetModel();
   rows_.clear();
-  for (const core::Part& part : layout.parts) rows_.push_back({.part = QString::fromStdString(part.name)});
+  for (const core::Part& part : layout.parts) rows_.push_back({QString::fromStdString(part.name), {}, {}});
   endResetModel();
 }
 
@@ -56,7 +50,7 @@ QVariant TouchModel::CellText(const Row& row, int column) const {
     case kPart:
       return row.part;
     case kState:
-      return QString::fromUtf8(core::ToString(row.verdict).data());
+      return row.verdict ? QString::fromUtf8(core::ToString(*row.verdict).data()) : QString("–");
     case kTouches:
       return QLocale().toString(static_cast<qlonglong>(row.tally.episodes));
     case kFrames:

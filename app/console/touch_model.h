@@ -3,6 +3,7 @@
 
 #include <QAbstractTableModel>
 #include <QString>
+#include <optional>
 #include <vector>
 
 #include "app/control/episode_tally.h"
@@ -30,7 +31,7 @@ class TouchModel : public QAbstractTableModel {
  private:
   struct Row {
     QString part;
-    core::Verdict verdict = core::Verdict::kClear;
+    std::optional<core::Verdict> verdict;  // nothing before the first frame
     control::PartTally tally;
   };
   [[nodiscard]] QVariant CellText(const Row& row, int column) const;

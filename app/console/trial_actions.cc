@@ -43,12 +43,14 @@ std::optional<std::filesystem::path> SessionChoice::Choose(QWidget* window) {
 }
 
 void StartDemo(TrialDesk& desk, const std::filesystem::path& session) {
-  desk.Start([] { return control::MakeDemoTrial(control::DemoPlay::kForever); }, session);
+  desk.Start([](const std::stop_token&) { return control::MakeDemoTrial(control::DemoPlay::kForever); },
+             session);
 }
 
 void StartTrialFile(TrialDesk& desk, const std::filesystem::path& trial_file,
                     const std::filesystem::path& session) {
-  desk.Start([trial_file] { return control::ReadTrialFile(trial_file); }, session);
+  desk.Start([trial_file](const std::stop_token& stop) { return control::ReadTrialFile(trial_file, stop); },
+             session);
 }
 
 StartDemoAction::StartDemoAction(TrialDesk& desk, SessionChoice& choice, QWidget* window)

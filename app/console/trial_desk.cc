@@ -30,11 +30,13 @@ void TrialDesk::Start(SetupReader read_setup, const std::filesystem::path& sessi
   EnterState(DeskState::kReading);
   auto setup = std::make_shared<control::TrialSetup>();
   job_ = std::make_unique<BackgroundJob>(
-      bridge_, [read_setup = std::move(read_setup), setup](const std::stop_token&) { *setup = read_setup(); },
+      bridge_,
+      [read_setup = std::move(read_setup), setup](const std::stop_token& stop) { *setup = read_setup(stop); },
       [this, setup](const std::string& error) {
         if (error.empty() && !is_stopping_) return Run(std::move(*setup));
+        const bool was_stopped = is_stopping_;
         EnterState(DeskState::kIdle);
-        if (!error.empty()) emit Failed(QString::fromStdString(error));
+        if (!was_stopped) emit Failed(QString::fromStdString(error));
       });
 }
 

@@ -7,6 +7,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -32,7 +33,8 @@ class TrialDesk : public QObject {
   Q_OBJECT
 
  public:
-  using SetupReader = std::function<control::TrialSetup()>;  // runs on a worker thread; may throw
+  using SetupReader =
+      std::function<control::TrialSetup(const std::stop_token&)>;  // runs on a worker; may throw
 
   explicit TrialDesk(QObject* parent = nullptr) : QObject(parent) {}
   ~TrialDesk() override;
