@@ -7,8 +7,8 @@
 
 namespace elbowroom::recon {
 
-// Per-pixel, per-channel mean and sample standard deviation over frames of the empty scene. The sums are whole
-// numbers, so the result is exact to the last rounding and does not depend on the order of the frames.
+// Per-pixel, per-channel mean and sample standard deviation over frames of the empty scene. The sums are
+// whole numbers, so the result is exact to the last rounding and does not depend on the order of the frames.
 class BackgroundAccumulator {
  public:
   // More would overflow the sums; 44 minutes at 25 fps.

@@ -92,7 +92,8 @@ Line RobustFit(std::vector<LevelPair> pairs) {
     std::nth_element(misses.begin(), middle, misses.end());
     const double allowed = std::max(kLeastMissLevels, 2.5 * *middle);
     std::vector<LevelPair> kept;
-    std::copy_if(pairs.begin(), pairs.end(), std::back_inserter(kept), [&](const LevelPair& pair) { return miss(pair) <= allowed; });
+    std::copy_if(pairs.begin(), pairs.end(), std::back_inserter(kept),
+                 [&](const LevelPair& pair) { return miss(pair) <= allowed; });
     line = Fit(kept, line);
   }
   return line;
@@ -101,15 +102,17 @@ Line RobustFit(std::vector<LevelPair> pairs) {
 }  // namespace
 
 ExposureChange EstimateExposure(const cv::Mat& image_bgr, const cv::Mat& mean_bgr) {
-  core::Require(image_bgr.type() == CV_8UC3 && mean_bgr.type() == CV_32FC3 && image_bgr.size() == mean_bgr.size(),
-                "exposure is estimated from an 8-bit picture and a background mean of one size");
+  core::Require(
+      image_bgr.type() == CV_8UC3 && mean_bgr.type() == CV_32FC3 && image_bgr.size() == mean_bgr.size(),
+      "exposure is estimated from an 8-bit picture and a background mean of one size");
   ExposureChange change;
   for (int channel = 0; channel < 3; ++channel) {
     const JointHistogram joint = JointHistogramOf(image_bgr, mean_bgr, channel);
     std::vector<LevelPair> pairs;
     for (int level = kDarkestLevel; level <= kBrightestLevel; ++level) {
       const LevelPair pair = MedianOf(joint, level);
-      if (pair.weight > 0.0 && pair.picture >= kDarkestLevel && pair.picture <= kBrightestLevel) pairs.push_back(pair);
+      if (pair.weight > 0.0 && pair.picture >= kDarkestLevel && pair.picture <= kBrightestLevel)
+        pairs.push_back(pair);
     }
     const Line line = RobustFit(std::move(pairs));
     change.gain[static_cast<std::size_t>(channel)] = line.gain;
@@ -130,7 +133,8 @@ cv::Mat WithExposure(const cv::Mat& mean_bgr, const ExposureChange& change) {
     const auto* in = mean_bgr.ptr<float>(y);
     auto* out = changed.ptr<float>(y);
     for (int x = 0; x < mean_bgr.cols; ++x) {
-      for (int c = 0; c < 3; ++c) out[3 * x + c] = std::clamp(gain[c] * in[3 * x + c] + offset[c], 0.0F, 255.0F);
+      for (int c = 0; c < 3; ++c)
+        out[3 * x + c] = std::clamp(gain[c] * in[3 * x + c] + offset[c], 0.0F, 255.0F);
     }
   }
   return changed;

@@ -29,12 +29,14 @@ constexpr std::size_t kJpegTailBytes = 4096;
 std::string ReadBytes(const std::filesystem::path& path, const std::string& who) {
   std::error_code ignored;
   if (!std::filesystem::exists(path, ignored)) {
-    throw Error(ErrorKind::kFile, fmt::format("{}: image '{}' does not exist; check the path", who, path.string()));
+    throw Error(ErrorKind::kFile,
+                fmt::format("{}: image '{}' does not exist; check the path", who, path.string()));
   }
   std::ifstream file(path, std::ios::binary);
   if (!file || std::filesystem::is_directory(path, ignored)) {
-    throw Error(ErrorKind::kFile, fmt::format("{}: image '{}' can't be opened; check that it is a file and may be read",
-                                              who, path.string()));
+    throw Error(ErrorKind::kFile,
+                fmt::format("{}: image '{}' can't be opened; check that it is a file and may be read", who,
+                            path.string()));
   }
   return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
@@ -65,7 +67,8 @@ cv::Mat Decode(const std::filesystem::path& path, int flags, const std::string& 
     throw Error(ErrorKind::kFile, fmt::format("{}: image '{}' {}", who, path.string(), what));
   };
   if (bytes.empty()) fail("is empty (0 bytes); write it again");
-  if (IsCutShort(bytes)) fail(fmt::format("is cut short ({} bytes, its end is missing); write or copy it again", bytes.size()));
+  if (IsCutShort(bytes))
+    fail(fmt::format("is cut short ({} bytes, its end is missing); write or copy it again", bytes.size()));
   cv::Mat image;
   try {
     const cv::Mat raw(1, static_cast<int>(bytes.size()), CV_8U, bytes.data());
@@ -107,8 +110,10 @@ void WriteFileWhole(const std::filesystem::path& path, const std::string& bytes)
   if (!error) return;
   std::error_code ignored;
   std::filesystem::remove(temporary, ignored);
-  throw Error(ErrorKind::kFile, fmt::format("'{}' can't be written; check that its folder exists, may be written to "
-                                            "and has space", path.string()));
+  throw Error(ErrorKind::kFile,
+              fmt::format("'{}' can't be written; check that its folder exists, may be written to "
+                          "and has space",
+                          path.string()));
 }
 
 }  // namespace elbowroom::recon

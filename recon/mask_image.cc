@@ -61,7 +61,8 @@ core::BitMask ReadMaskImage(const std::filesystem::path& path, const std::string
   if (IsJpeg(path)) {
     throw core::Error(core::ErrorKind::kFormat,
                       fmt::format("{}: mask '{}' is a JPEG, whose rounding turns background into object; "
-                                  "save masks as PNG", who, path.string()));
+                                  "save masks as PNG",
+                                  who, path.string()));
   }
   return MaskFromImage(image);
 }

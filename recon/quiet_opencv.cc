@@ -17,7 +17,8 @@ void SilenceOpenCv() {
   std::call_once(once, [] {
     cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
     cv::redirectError(&IgnoreError);
-    // FFmpeg's own level, -8 = quiet; OpenCV reads it when the first video opens. A level set by the user stays.
+    // FFmpeg's own level, -8 = quiet; OpenCV reads it when the first video opens. A level set by the user
+    // stays.
     ::setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", 0);
   });
 }

@@ -3,8 +3,8 @@
 
 namespace elbowroom::recon {
 
-// Turns off OpenCV's log, its error print-out and FFmpeg's messages, for the whole process. Idempotent; called
-// before every use of OpenCV's readers.
+// Turns off OpenCV's log, its error print-out and FFmpeg's messages, for the whole process. Idempotent;
+// called before every use of OpenCV's readers.
 void SilenceOpenCv();
 
 }  // namespace elbowroom::recon
