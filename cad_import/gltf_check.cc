@@ -149,6 +149,9 @@ void CheckGlb(std::string_view bytes, const std::string& where) {
   if (WordAt(bytes, kHeaderBytes + 4) != kJsonChunk || json_bytes > bytes.size() - json_at) {
     Fail(where, "the GLB file's first chunk is not whole JSON");
   }
+  if (json_bytes % 4 != 0) {
+    Fail(where, "the GLB file's chunks don't end on multiples of 4 bytes, as its specification demands");
+  }
   const std::size_t next_at = json_at + json_bytes;
   if (next_at + kChunkHeaderBytes <= bytes.size() &&
       WordAt(bytes, next_at) > bytes.size() - next_at - kChunkHeaderBytes) {

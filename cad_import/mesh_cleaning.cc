@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <map>
 #include <numeric>
 #include <utility>
 
@@ -29,6 +30,20 @@ bool IsFlat(const TriangleMesh& mesh, const Triangle& t) {
   const Eigen::Vector3d ac = At(mesh, t[2]) - At(mesh, t[0]);
   const double longest_squared = std::max({ab.squaredNorm(), ac.squaredNorm(), (ac - ab).squaredNorm()});
   return ab.cross(ac).norm() <= kFlatRatio * longest_squared;
+}
+
+// Sets coordinates that are rounding noise beside the size of the whole to zero. Modellers write 3e-17 for 0
+// in one triangle and 0 in the next; in single precision such twins only exist around zero.
+void ClearNoise(std::vector<RawPart>& parts) {
+  constexpr double kNoiseRatio = 1e-9;
+  Eigen::AlignedBox3d bounds;
+  for (const RawPart& part : parts) bounds.extend(core::BoundsOf(part.mesh));
+  const double noise_mm = bounds.isEmpty() ? 0.0 : kNoiseRatio * bounds.diagonal().norm();
+  for (RawPart& part : parts) {
+    for (Eigen::Vector3d& vertex : part.mesh.vertices_mm) {
+      vertex = (vertex.array().abs() <= noise_mm).select(0.0, vertex);
+    }
+  }
 }
 
 // For each vertex the one of its bit-equal twins that stands for all.
@@ -142,30 +157,70 @@ void Settle(Body& body, CleanMesh& result) {
   result.watertight = result.watertight && core::IsWatertight(body.mesh);
 }
 
+// For each triangle the number of the connected piece it belongs to, counted in order of appearance.
+std::vector<std::size_t> PieceOfTriangle(const TriangleMesh& mesh) {
+  std::vector<std::size_t> parent(mesh.vertices_mm.size());
+  std::iota(parent.begin(), parent.end(), std::size_t{0});
+  const auto root_of = [&](std::int32_t vertex) {
+    auto i = static_cast<std::size_t>(vertex);
+    while (parent[i] != i) i = parent[i] = parent[parent[i]];
+    return i;
+  };
+  for (const auto& [a, b, c] : mesh.triangles) {
+    parent[root_of(b)] = root_of(a);
+    parent[root_of(c)] = root_of(a);
+  }
+  std::map<std::size_t, std::size_t> piece_of_root;
+  std::vector<std::size_t> pieces;
+  for (const Triangle& t : mesh.triangles) {
+    pieces.push_back(piece_of_root.try_emplace(root_of(t[0]), piece_of_root.size()).first->second);
+  }
+  return pieces;
+}
+
+// Sorts the triangles by connected piece, and numbers each piece as a part of its own.
+void SplitIntoPieces(Body& body) {
+  const std::vector<std::size_t> pieces = PieceOfTriangle(body.mesh);
+  std::vector<std::size_t> order(pieces.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return pieces[a] < pieces[b]; });
+  Body sorted{{body.mesh.vertices_mm, {}}, {}};
+  for (const std::size_t i : order) {
+    sorted.mesh.triangles.push_back(body.mesh.triangles[i]);
+    sorted.part_of_triangle.push_back(pieces[i]);
+  }
+  body = std::move(sorted);
+}
+
+// A file of one part has no other name for its pieces.
 void Flatten(const Body& body, const std::vector<RawPart>& parts, CleanMesh& result) {
   const auto first = static_cast<std::int64_t>(result.mesh.triangles.size());
   core::Append(result.mesh, body.mesh);
   const std::vector<std::size_t>& owners = body.part_of_triangle;
   for (auto begin = owners.begin(); begin != owners.end();) {
     const auto end = std::upper_bound(begin, owners.end(), *begin);
-    result.parts.push_back({parts[*begin].name, first + (begin - owners.begin()), end - begin});
+    const std::string& name = parts[parts.size() == 1 ? 0 : *begin].name;
+    result.parts.push_back({name, first + (begin - owners.begin()), end - begin});
     begin = end;
   }
 }
 
 }  // namespace
 
-CleanMesh CleanParts(const std::vector<RawPart>& parts, const std::string& where) {
+CleanMesh CleanParts(std::vector<RawPart> parts, const std::string& where) {
   std::int64_t before = 0;
   for (const RawPart& part : parts) {
     if (part.mesh.triangles.empty()) continue;
     core::ValidateMesh(part.mesh, where);  // before anything is sorted: NaN has no order
     before += static_cast<std::int64_t>(part.mesh.triangles.size());
   }
+  ClearNoise(parts);
   CleanMesh result;
   result.watertight = true;
   for (Body& body : SplitIntoBodies(parts)) {
     Settle(body, result);
+    if (parts.size() == 1) SplitIntoPieces(body);
     Flatten(body, parts, result);
   }
   core::ValidateMesh(result.mesh, where);

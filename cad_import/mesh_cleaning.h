@@ -15,7 +15,7 @@ struct RawPart {
   core::TriangleMesh mesh;
 };
 
-// Where a body of the file is in the flattened mesh.
+// Where a body of the file is in the flattened mesh: consecutive triangles.
 struct ImportedPart {
   std::string name;
   std::int64_t first_triangle = 0;
@@ -31,10 +31,11 @@ struct CleanMesh {
   std::vector<std::string> warnings;
 };
 
-// Welds bit-equal vertices within each part; parts that are still open are welded with each other as well,
-// since exporters cut one surface up by material or group. Drops triangles without area, except those of
-// three different points that a closed surface hangs together by. Turns closed surfaces that face inwards.
-// Throws: Error{kGeometry} naming `where`: a vertex that is not finite, no triangle left.
-[[nodiscard]] CleanMesh CleanParts(const std::vector<RawPart>& parts, const std::string& where);
+// Welds equal vertices (noise around zero aside) within each part; parts that are still open are welded with
+// each other as well, since exporters cut one surface up by material or group. A file of a single part is
+// listed by its connected pieces. Drops triangles without area, except those of three different points that a
+// closed surface hangs together by. Turns closed surfaces that face inwards. Throws: Error{kGeometry} naming
+// `where`: a vertex that is not finite, no triangle left.
+[[nodiscard]] CleanMesh CleanParts(std::vector<RawPart> parts, const std::string& where);
 
 }  // namespace elbowroom::cad_import

@@ -8,8 +8,11 @@
 #include <algorithm>
 #include <assimp/Importer.hpp>
 #include <exception>
+#include <map>
+#include <utility>
 
 #include "cad_import/mesh_format.h"
+#include "cad_import/obj_text.h"
 #include "core/error.h"
 
 namespace elbowroom::cad_import {
@@ -84,8 +87,17 @@ void AppendNode(const aiScene& scene, const aiNode& node, const Affine& file_fro
   }
 }
 
+// STL, OBJ and PLY from memory, so that what was checked is what is read; glTF and GLB from the disk, since
+// their buffers may be files beside them.
+const aiScene* Parse(Assimp::Importer& importer, const std::filesystem::path& path, MeshFormat format,
+                     const std::string& bytes) {
+  if (CarriesUnit(format)) return importer.ReadFile(path.string(), aiProcess_Triangulate);
+  const char* hint = format == MeshFormat::kStl ? "stl" : format == MeshFormat::kObj ? "obj" : "ply";
+  return importer.ReadFileFromMemory(bytes.data(), bytes.size(), aiProcess_Triangulate, hint);
+}
+
 // Everything assimp does, so that no exception, log line or type of its own gets out.
-SceneParts Load(const std::filesystem::path& path, MeshFormat format) {
+SceneParts Load(const std::filesystem::path& path, MeshFormat format, const std::string& bytes) {
   const std::string where = path.string();
   const auto fail = [&](const std::string& why) {
     return Error(ErrorKind::kFormat, fmt::format("{}: can't be read as {} ({}); export it again", where,
@@ -94,13 +106,23 @@ SceneParts Load(const std::filesystem::path& path, MeshFormat format) {
   Assimp::Importer importer;
   const aiScene* scene = nullptr;
   try {
-    scene = importer.ReadFile(where, aiProcess_Triangulate);
+    scene = Parse(importer, path, format, bytes);
   } catch (const std::exception& exception) {
     throw fail(exception.what());
   }
   if (scene == nullptr) throw fail(importer.GetErrorString());
   SceneParts result;
   if (scene->mRootNode != nullptr) AppendNode(*scene, *scene->mRootNode, Affine::Identity(), where, result);
+  return result;
+}
+
+// As Load, of an OBJ file's shape alone; faces that the parser lost are told.
+SceneParts LoadObj(const std::filesystem::path& path, const std::string& bytes,
+                   std::vector<std::string>& warnings) {
+  const PlainObj plain = PlainObjOf(bytes, path.string());
+  SceneParts result = Load(path, MeshFormat::kObj, plain.text);
+  const std::int64_t lost = plain.triangles - static_cast<std::int64_t>(result.triangles);
+  if (lost > 0) warnings.push_back(fmt::format("{} triangles of its polygons could not be formed", lost));
   return result;
 }
 
@@ -147,11 +169,14 @@ void WarnOfSize(const Eigen::AlignedBox3d& bounds_mm, LengthUnit unit, std::vect
                                  SizeText(bounds_mm, 1.0), core::ToString(unit)));
 }
 
+// Every part gets a name of its own: the file's, its stem where it gives none, numbered where it recurs.
 void NameParts(std::vector<ImportedPart>& parts, const std::string& file_stem) {
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    const bool has_name =
-        !parts[i].name.empty() && !parts[i].name.starts_with("<");  // assimp's own: "<STL_BINARY>"
-    if (!has_name) parts[i].name = parts.size() == 1 ? file_stem : fmt::format("{} {}", file_stem, i + 1);
+  std::map<std::string, int> uses;
+  for (ImportedPart& part : parts) {
+    const bool has_name = !part.name.empty() && !part.name.starts_with("<");  // assimp's own: "<STL_BINARY>"
+    if (!has_name) part.name = file_stem;
+    const int use = ++uses[part.name];
+    if (use > 1) part.name += fmt::format(" {}", use);
   }
 }
 
@@ -159,18 +184,19 @@ void NameParts(std::vector<ImportedPart>& parts, const std::string& file_stem) {
 
 ImportedMesh ImportMeshFile(const std::filesystem::path& path, const ImportOptions& options) {
   const std::string where = path.string();
-  const MeshFormat format = CheckMeshFile(path);
-  SceneParts scene = Load(path, format);
+  const auto [format, bytes] = ReadCheckedFile(path);
+  ImportedMesh result;
+  ImportReport& report = result.report;
+  SceneParts scene =
+      format == MeshFormat::kObj ? LoadObj(path, bytes, report.warnings) : Load(path, format, bytes);
   for (const RawPart& part : scene.parts) core::ValidateMesh(part.mesh, where);
   if (scene.parts.empty()) core::ValidateMesh({}, where);
 
-  ImportedMesh result;
-  ImportReport& report = result.report;
   report.unit = UnitOf(scene, format, options, where, report.warnings);
   for (RawPart& part : scene.parts) {
     for (Eigen::Vector3d& vertex : part.mesh.vertices_mm) vertex *= core::MillimetresPer(report.unit);
   }
-  CleanMesh clean = CleanParts(scene.parts, where);
+  CleanMesh clean = CleanParts(std::move(scene.parts), where);
   result.mesh = std::move(clean.mesh);
   result.parts = std::move(clean.parts);
   NameParts(result.parts, path.stem().string());

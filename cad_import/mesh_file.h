@@ -15,12 +15,12 @@
 namespace elbowroom::cad_import {
 
 struct ImportOptions {
-  std::optional<core::LengthUnit> unit;  // of the file's numbers; overrides what the file says
-  std::optional<core::LengthUnit> unit_if_file_has_none;  // for STL, OBJ and PLY when `unit` is not given
+  std::optional<core::LengthUnit> unit{};  // of the file's numbers; overrides what the file says
+  std::optional<core::LengthUnit> unit_if_file_has_none{};  // for STL, OBJ and PLY when `unit` is not given
 };
 
 struct ImportReport {
-  int parts = 0;  // bodies with triangles
+  int parts = 0;  // nodes with triangles; connected pieces where the file has only one node
   std::int64_t triangles = 0;
   core::LengthUnit unit = core::LengthUnit::kMillimetre;  // that the file's numbers were read in
   Eigen::AlignedBox3d bounds_mm;

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <cstring>
 #include <fstream>
+#include <utility>
 
 #include "cad_import/gltf_check.h"
 #include "cad_import/ply_check.h"
@@ -91,14 +92,6 @@ void CheckStl(std::string_view bytes, const std::string& where) {
   }
 }
 
-void CheckObj(std::string_view bytes, const std::string& where) {
-  if (!IsText(bytes)) FailFormat(where, "not an OBJ file (it holds binary data); check the extension");
-  const bool has_face = bytes.starts_with("f ") || bytes.find("\nf ") != std::string_view::npos ||
-                        bytes.find("\nf\t") != std::string_view::npos ||
-                        bytes.find(" f ") != std::string_view::npos;
-  if (!has_face) FailFormat(where, "the OBJ file holds no faces; export it again as a surface mesh");
-}
-
 }  // namespace
 
 std::string_view ToString(MeshFormat format) { return kFormats[static_cast<std::size_t>(format)].text; }
@@ -117,9 +110,9 @@ MeshFormat FormatOfExtension(const std::filesystem::path& path) {
                          extension.empty() ? "extensionless" : extension));
 }
 
-MeshFormat CheckMeshFile(const std::filesystem::path& path) {
+CheckedFile ReadCheckedFile(const std::filesystem::path& path) {
   const std::string where = path.string();
-  const std::string bytes = ReadWhole(path);  // first, so that a missing file is called missing
+  std::string bytes = ReadWhole(path);  // first, so that a missing file is called missing
   const MeshFormat format = FormatOfExtension(path);
   if (bytes.empty()) FailFormat(where, "the file is empty; export it again");
   switch (format) {
@@ -127,7 +120,6 @@ MeshFormat CheckMeshFile(const std::filesystem::path& path) {
       CheckStl(bytes, where);
       break;
     case MeshFormat::kObj:
-      CheckObj(bytes, where);
       break;
     case MeshFormat::kPly:
       CheckPly(bytes, where);
@@ -139,7 +131,7 @@ MeshFormat CheckMeshFile(const std::filesystem::path& path) {
       CheckGlb(bytes, where);
       break;
   }
-  return format;
+  return {format, std::move(bytes)};
 }
 
 }  // namespace elbowroom::cad_import

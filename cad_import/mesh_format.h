@@ -18,9 +18,14 @@ enum class MeshFormat { kStl, kObj, kPly, kGltf, kGlb };
 // Throws: Error{kFormat} naming what is supported.
 [[nodiscard]] MeshFormat FormatOfExtension(const std::filesystem::path& path);
 
-// As above, after a look inside: the content is of that format and holds all that its header claims.
-// Throws: Error{kFile} (missing, not a file, unreadable, over 1 GiB), Error{kFormat} (another format, cut
-// off).
-[[nodiscard]] MeshFormat CheckMeshFile(const std::filesystem::path& path);
+struct CheckedFile {
+  MeshFormat format = MeshFormat::kStl;
+  std::string bytes;  // the whole file
+};
+
+// Reads the file after a look inside: its content is of the format that its extension names and holds all
+// that its header claims. Throws: Error{kFile} (missing, not a file, unreadable, over 1 GiB), Error{kFormat}
+// (another format, cut off).
+[[nodiscard]] CheckedFile ReadCheckedFile(const std::filesystem::path& path);
 
 }  // namespace elbowroom::cad_import

@@ -86,6 +86,9 @@ std::optional<ContainerDamage> CheckAvi(ByteReader& reader) {
     const std::string header = reader.At(at, kHeaderBytes);
     if (header.empty()) return ContainerDamage{reader.size(), at + kHeaderBytes};
     const std::uint64_t size = LittleEndian(std::string_view(header).substr(4));
+    if (const std::string form = reader.At(at + kHeaderBytes, 4); form != "AVI " && form != "AVIX") {
+      return std::nullopt;  // a recorder's notes after the footage, in a form of its own
+    }
     if (size == 0 || size == 0xFFFFFFFFU) return std::nullopt;  // a stream: the writer never knew
     if (const auto damage = CheckRiff(reader, at, at + kHeaderBytes + size)) return damage;
     at += kHeaderBytes + size + size % 2;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <opencv2/core.hpp>
 #include <vector>
 
@@ -31,7 +32,7 @@ JointHistogram JointHistogramOf(const cv::Mat& image_bgr, const cv::Mat& mean_bg
     const auto* image = image_bgr.ptr<std::uint8_t>(y);
     const auto* mean = mean_bgr.ptr<float>(y);
     for (int i = channel; i < image_bgr.cols * 3; i += 3) {
-      const int level = std::clamp(static_cast<int>(std::lround(mean[i])), 0, kLevels - 1);
+      const int level = static_cast<int>(mean[i] + 0.5F);  // a mean lies within 0..255
       ++joint[static_cast<std::size_t>(level * kLevels + image[i])];
     }
   }
@@ -76,18 +77,18 @@ Line Fit(const std::vector<LevelPair>& pairs, const Line& before) {
   return {gain, p / w - gain * b / w};
 }
 
-// Refits without the levels that the line misses: there an object hides most of the background.
-Line RobustFit(std::vector<LevelPair> pairs) {
-  constexpr int kRounds = 10;
+// A first line through the medians, refitted without the levels that it misses: there an object hides most of
+// the background.
+Line FitMedians(const std::vector<LevelPair>& pairs) {
+  constexpr int kRounds = 5;
   constexpr double kLeastMissLevels = 1.5;
   Line line = Fit(pairs, {});
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kRounds && !pairs.empty(); ++round) {
     const auto miss = [&](const LevelPair& pair) {
       return std::abs(pair.picture - line.gain * pair.background - line.offset);
     };
     std::vector<double> misses;
     for (const LevelPair& pair : pairs) misses.push_back(miss(pair));
-    if (misses.empty()) break;
     const auto middle = misses.begin() + static_cast<std::ptrdiff_t>(misses.size() / 2);
     std::nth_element(misses.begin(), middle, misses.end());
     const double allowed = std::max(kLeastMissLevels, 2.5 * *middle);
@@ -95,6 +96,31 @@ Line RobustFit(std::vector<LevelPair> pairs) {
     std::copy_if(pairs.begin(), pairs.end(), std::back_inserter(kept),
                  [&](const LevelPair& pair) { return miss(pair) <= allowed; });
     line = Fit(kept, line);
+  }
+  return line;
+}
+
+// Refits to the pixels themselves, fewer and fewer levels around the line: what an object covers drops out.
+Line Refined(const JointHistogram& joint, Line line) {
+  for (const double window_levels : {24.0, 16.0, 11.0, 8.0, 8.0, 8.0}) {
+    std::vector<LevelPair> near;
+    for (int level = kDarkestLevel; level <= kBrightestLevel; ++level) {
+      const double expected = line.gain * level + line.offset;
+      // Windows that reach past the sensor's ends would hold only one side of the noise.
+      if (expected - window_levels < kDarkestLevel || expected + window_levels > kBrightestLevel) continue;
+      const int first = static_cast<int>(std::ceil(expected - window_levels));
+      const int last = static_cast<int>(std::floor(expected + window_levels));
+      LevelPair pair{static_cast<double>(level), 0.0, 0.0};
+      for (int picture = first; picture <= last; ++picture) {
+        const double pixels = joint[static_cast<std::size_t>(level * kLevels + picture)];
+        pair.weight += pixels;
+        pair.picture += pixels * picture;
+      }
+      if (!(pair.weight > 0.0)) continue;
+      pair.picture /= pair.weight;
+      near.push_back(pair);
+    }
+    line = Fit(near, line);
   }
   return line;
 }
@@ -114,7 +140,7 @@ ExposureChange EstimateExposure(const cv::Mat& image_bgr, const cv::Mat& mean_bg
       if (pair.weight > 0.0 && pair.picture >= kDarkestLevel && pair.picture <= kBrightestLevel)
         pairs.push_back(pair);
     }
-    const Line line = RobustFit(std::move(pairs));
+    const Line line = Refined(joint, FitMedians(pairs));
     change.gain[static_cast<std::size_t>(channel)] = line.gain;
     change.offset_levels[static_cast<std::size_t>(channel)] = line.offset;
   }

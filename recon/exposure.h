@@ -13,8 +13,8 @@ struct ExposureChange {
 };
 
 // Robust: holds as long as well over half of the picture is background. A line through the medians of the
-// picture's levels over bins of the background's levels, fitted with outlying bins left out; a background
-// without enough contrast for a line (one grey wall) gets a gain only. Saturated pixels have no say.
+// picture's levels over the background's levels, then refitted to the pixels near it. A background without
+// enough contrast for a line (one grey wall) gets a gain only. Saturated pixels have no say.
 // Throws: PreconditionError unless CV_8UC3 and CV_32FC3 of one size.
 [[nodiscard]] ExposureChange EstimateExposure(const cv::Mat& image_bgr, const cv::Mat& mean_bgr);
 

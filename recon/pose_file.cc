@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/error.h"
+#include "recon/quiet_opencv.h"
 
 namespace elbowroom::recon {
 namespace {
@@ -18,6 +19,7 @@ cv::FileStorage Open(const std::filesystem::path& path) {
   if (!std::filesystem::is_regular_file(path, error)) {
     throw Error(ErrorKind::kFile, fmt::format("{}: no such pose file; check the path", path.string()));
   }
+  SilenceOpenCv();
   std::string why = "it doesn't open";
   try {
     cv::FileStorage storage(path.string(), cv::FileStorage::READ | cv::FileStorage::FORMAT_YAML);

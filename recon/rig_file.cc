@@ -29,9 +29,7 @@ struct Section {
     throw Error(ErrorKind::kFormat, who + ": " + what);
   }
 
-  [[nodiscard]] cv::FileNode Find(const char* key) const {
-    return node[key];
-  }
+  [[nodiscard]] cv::FileNode Find(const char* key) const { return node[key]; }
   cv::FileNode Get(const char* key, const char* shape) const {
     const cv::FileNode found = Find(key);
     if (found.empty()) Fail(fmt::format("key '{}' is missing; add it: {}", key, shape));
@@ -166,7 +164,8 @@ void AddCamera(const cv::FileNode& node, const std::string& file, const std::fil
   Section section{node, fmt::format("{}: camera number {}", file, rig_file.sources.size() + 1)};
   if (!node.isMap()) section.Fail("must be a map of keys such as name and camera_matrix");
   const std::string name = Text(section, "name", "");
-  if (name.empty()) section.Fail("key 'name' is missing or empty; give the camera a name that no other bears");
+  if (name.empty())
+    section.Fail("key 'name' is missing or empty; give the camera a name that no other bears");
   section.who = fmt::format("{}: camera '{}'", file, name);
   for (const core::CameraModel& other : rig_file.rig.cameras) {
     if (other.name() == name) section.Fail("this name occurs twice; give every camera its own");

@@ -49,8 +49,13 @@ void LevelsWithin(const cv::Mat& mean_bgr, const cv::Mat& threshold_bgr, cv::Mat
     auto* lowest = lowest_bgr.ptr<std::uint8_t>(y);
     auto* highest = highest_bgr.ptr<std::uint8_t>(y);
     for (int i = 0; i < mean_bgr.cols * 3; ++i) {
-      lowest[i] = static_cast<std::uint8_t>(std::clamp(std::ceil(mean[i] - threshold[i]), 0.0F, 255.0F));
-      highest[i] = static_cast<std::uint8_t>(std::clamp(std::floor(mean[i] + threshold[i]), 0.0F, 255.0F));
+      // Sums of two floats are exact in double. Rounded by hand: std::ceil and std::floor are calls on plain
+      // x86-64.
+      const double low = std::clamp(static_cast<double>(mean[i]) - threshold[i], 0.0, 255.0);
+      const double high = std::clamp(static_cast<double>(mean[i]) + threshold[i], 0.0, 255.0);
+      const int below_low = static_cast<int>(low);
+      lowest[i] = static_cast<std::uint8_t>(below_low + (below_low < low ? 1 : 0));
+      highest[i] = static_cast<std::uint8_t>(static_cast<int>(high));
     }
   }
 }

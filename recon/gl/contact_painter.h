@@ -21,7 +21,7 @@ class ContactPainter {
 
  private:
   ShaderProgram program_;
-  VertexArray points_{3};
+  VertexArray marks_{3, 2};
 };
 
 }  // namespace elbowroom::recon::gl

@@ -24,10 +24,10 @@ class HullPainter {
   void DrawDepth(const HullLayer& layer, const ViewMatrices& matrices);
 
  private:
-  void DrawLayer(const HullLayer& layer, const ViewMatrices& matrices, const Eigen::Vector3f& color,
-                 bool smooth);
+  void DrawWith(const ShaderProgram& program, const HullLayer& layer, const SceneView& view);
 
-  ShaderProgram program_;
+  ShaderProgram picture_program_;
+  ShaderProgram depth_program_;
   FloatTexture depth_{1};
   FloatTexture normal_{3};
   VertexArray corners_{};

@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kCreaseRad = core::RadiansFromDegrees(30.0);
 constexpr float kContactTintShare = 0.72F;
+constexpr float kContactGlow = 0.35F;
 constexpr float kHiddenEdgeAlpha = 0.30F;  // of edges seen through their own transparent part
 constexpr float kEdgeAlpha = 0.85F;
 
@@ -38,10 +39,11 @@ in vec3 normal_in_cam;
 uniform vec3 up_in_cam;
 uniform vec3 color;
 uniform float opacity;
+uniform float glow;  // share of the color that needs no light
 out vec4 pixel;
 void main() {
   vec3 lit = Lit(color, normalize(normal_in_cam), normalize(-position_in_cam), up_in_cam, 0.10);
-  pixel = vec4(lit, opacity);
+  pixel = vec4(mix(lit, color, glow), opacity);
 }
 )";
 
@@ -109,6 +111,7 @@ void PartPainter::DrawFaces(const ScenePart& part, const ViewMatrices& matrices)
   face_program_.Set("up_in_cam", matrices.up_in_cam);
   face_program_.Set("color", ShownColour(part));
   face_program_.Set("opacity", part.opacity);
+  face_program_.Set("glow", part.in_contact ? kContactGlow : 0.0F);
   Uploaded(part.mesh).faces.Draw(GL_TRIANGLES);
 }
 

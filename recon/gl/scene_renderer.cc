@@ -120,7 +120,6 @@ SceneRenderer::SceneRenderer() : impl_(std::make_unique<Impl>()) {
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LEQUAL);
   glEnable(GL_MULTISAMPLE);
-  glEnable(GL_PROGRAM_POINT_SIZE);
   glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
   glPolygonOffset(1.0F, 1.0F);
   glPixelStorei(GL_PACK_ALIGNMENT, 1);

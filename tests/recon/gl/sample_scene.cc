@@ -171,11 +171,19 @@ Scene TrialScene(int width_px, int height_px) {
   scene.parts = {box, receptacle, pipe, payload, fin};
   const std::vector<Capsule> hand = Hand({55, 0, 225});
   scene.hull = CastLayer(scene.view, width_px, height_px, hand);
-  for (const double y : {-24.0, -8.0, 8.0, 24.0})
-    scene.contact_points_in_world.emplace_back(38, y, 232 - 0.1 * y);
+  for (const double y : {-31.0, -26.0, -13.0, 2.0}) scene.contact_points_in_world.emplace_back(45, y, 233);
   scene.table_in_world = Eigen::AlignedBox2d(Eigen::Vector2d(-400, -350), Eigen::Vector2d(450, 350));
   scene.workspace_in_world =
       Eigen::AlignedBox3d(Eigen::Vector3d(-300, -300, 0), Eigen::Vector3d(400, 300, 500));
+  for (const Eigen::Vector3d& eye : {Eigen::Vector3d(-350, 250, 430), Eigen::Vector3d(300, 280, 460)}) {
+    CameraFrustum frustum{eye, {}};
+    const core::RigidTransform world_from_cam = core::CamFromWorldLookingAt(eye, {0, 0, 150}).Inverse();
+    for (std::size_t i = 0; i < 4; ++i) {
+      frustum.corners_in_world[i] =
+          world_from_cam * Eigen::Vector3d(i == 0 || i == 3 ? -40.0 : 40.0, i < 2 ? -30.0 : 30.0, 80.0);
+    }
+    scene.cameras.push_back(frustum);
+  }
   return scene;
 }
 

@@ -30,8 +30,8 @@ std::size_t At(const SceneView& view, int x, int y) {
   return static_cast<std::size_t>(y) * static_cast<std::size_t>(view.width_px) + static_cast<std::size_t>(x);
 }
 
-bool OnlyHalfAPixelFromARim(const SceneView& view, const Eigen::Vector2d& pixel,
-                            const Eigen::AlignedBox3d& box) {
+// Too near a silhouette edge for single precision to tell the sides apart.
+bool OnARim(const SceneView& view, const Eigen::Vector2d& pixel, const Eigen::AlignedBox3d& box) {
   const bool here = BoxDepth(view, pixel, box).has_value();
   for (const double dx : {-0.01, 0.01}) {
     for (const double dy : {-0.01, 0.01}) {
@@ -55,7 +55,7 @@ TEST(SceneRendererDepth, BoxIsWhereTheRaysMeetIt) {
     for (int y = 0; y < scene.view.height_px; ++y) {
       for (int x = 0; x < scene.view.width_px; ++x) {
         const Eigen::Vector2d pixel(x, y);
-        if (OnlyHalfAPixelFromARim(scene.view, pixel, box)) continue;
+        if (OnARim(scene.view, pixel, box)) continue;
         const auto expected_mm = BoxDepth(scene.view, pixel, box);
         const double depth_mm = image.depth_mm[At(scene.view, x, y)];
         ASSERT_EQ(depth_mm > 0.0, expected_mm.has_value()) << x << ", " << y;
@@ -120,7 +120,7 @@ TEST(SceneRendererDepth, HullAndPartHideEachOther) {
     bool hull_owns;
     bool box_owns;
   };
-  for (const Case& c : {Case{250.0, true, false}, Case{-250.0, false, true}, Case{70.0, true, true}}) {
+  for (const Case& c : {Case{250.0, true, false}, Case{-250.0, false, true}, Case{48.0, true, true}}) {
     const std::vector<Capsule> ball{
         {c.offset_mm * to_eye, c.offset_mm * to_eye + Eigen::Vector3d(5, 0, 0), 40}};
     scene.hull = CastLayer(scene.view, 320, 240, ball);
@@ -130,7 +130,7 @@ TEST(SceneRendererDepth, HullAndPartHideEachOther) {
       for (int x = 0; x < 320; ++x) {
         const double hull_mm = scene.hull->depth_mm[At(scene.view, x, y)];
         const auto box_mm = BoxDepth(scene.view, {x, y}, box);
-        if (hull_mm == 0.0 || !box_mm || OnlyHalfAPixelFromARim(scene.view, {x, y}, box)) continue;
+        if (hull_mm == 0.0 || !box_mm || OnARim(scene.view, {x, y}, box)) continue;
         const double expected_mm = std::min(hull_mm, *box_mm);
         EXPECT_NEAR(image.depth_mm[At(scene.view, x, y)], expected_mm, BoundMm(scene.view, expected_mm));
         ++(hull_mm < *box_mm ? hull_pixels : box_pixels);
