@@ -18,7 +18,11 @@ void RenderWorker::Run() {
   std::optional<recon::gl::SceneRenderer> renderer;
   while (const std::optional<RenderRequest> request = requests_.Pop()) {
     try {
-      if (!renderer) renderer.emplace();
+      if (!renderer) {
+        renderer.emplace();
+        const std::lock_guard lock(driver_mutex_);
+        driver_ = renderer->driver();
+      }
       const recon::SceneView view = recon::ViewFrom(request->camera, request->width_px, request->height_px);
       on_image_(renderer->Render(ComposeScene(*request->result, view)), *request);
     } catch (const std::exception& error) {  // the worker's outermost loop: nothing may escape a thread

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <functional>
-#include <memory>
+#include <mutex>
 #include <string>
 #include <thread>
 
@@ -34,11 +34,19 @@ class RenderWorker {
 
   void Submit(RenderRequest request) { requests_.Push(std::move(request)); }
 
+  // Vendor, renderer and version in one line; "" until the first picture was drawn.
+  [[nodiscard]] std::string driver() const {
+    const std::lock_guard lock(driver_mutex_);
+    return driver_;
+  }
+
  private:
   void Run();
 
   OnImage on_image_;
   OnError on_error_;
+  mutable std::mutex driver_mutex_;
+  std::string driver_;
   core::BoundedQueue<RenderRequest> requests_{1, core::WhenFull::kDropOldest};
   std::jthread thread_;  // last: it starts when all else is there
 };
