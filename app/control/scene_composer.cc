@@ -53,7 +53,8 @@ bool Crosses(const Eigen::AlignedBox3d& box, const Vector3d& from, const Vector3
       if (from[axis] < box.min()[axis] || from[axis] > box.max()[axis]) return false;
       continue;
     }
-    const double at_min = (box.min()[axis] - from[axis]) / step, at_max = (box.max()[axis] - from[axis]) / step;
+    const double at_min = (box.min()[axis] - from[axis]) / step,
+                 at_max = (box.max()[axis] - from[axis]) / step;
     enters = std::max(enters, std::min(at_min, at_max));
     leaves = std::min(leaves, std::max(at_min, at_max));
   }
