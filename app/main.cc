@@ -6,8 +6,12 @@
 
 int main(int argc, char** argv) {
 #ifdef ELBOWROOM_WITH_CONSOLE
-  return elbowroom::cli::RunCommandLine(argc, argv, [](const elbowroom::cli::ConsoleRequest& request) {
-    elbowroom::console::RunConsole({request.trial_file, request.demo, request.session});
+  return elbowroom::cli::RunCommandLine(argc, argv, [&](const elbowroom::cli::ConsoleRequest& request) {
+    elbowroom::console::ConsoleOptions options;
+    options.trial_file = request.trial_file;
+    options.demo = request.demo;
+    options.session = request.session;
+    return elbowroom::console::RunConsole(options);
   });
 #else
   return elbowroom::cli::RunCommandLine(argc, argv, {});

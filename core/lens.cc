@@ -46,6 +46,27 @@ double SeriesAt(const double* c, int n, double t) {
   for (int i = n - 1; i >= 0; --i) sum = (sum + c[i]) * t;
   return 1.0 + sum;
 }
+double SeriesSlopeAt(const double* c, int n, double t) {
+  double sum = 0.0;
+  for (int i = n - 1; i >= 0; --i) sum = sum * t + c[i] * (i + 1);
+  return sum;
+}
+
+// Interval arithmetic forgets that numerator and denominator move together, which matters for lenses whose
+// coefficients nearly cancel: such a stretch is enclosed piece by piece.
+template <typename Enclosure>
+Interval EncloseTightly(const Enclosure& enclose, double r0, double r1) {
+  constexpr double kWidth = 0.01;  // of the slope and the scale, which are about 1
+  constexpr int kPieces = 256;
+  const Interval whole = enclose(r0, r1);
+  if (whole.upper - whole.lower <= kWidth) return whole;
+  Interval hull{HUGE_VAL, -HUGE_VAL};
+  for (int i = 0; i < kPieces; ++i) {
+    const Interval piece = enclose(r0 + (r1 - r0) * i / kPieces, r0 + (r1 - r0) * (i + 1) / kPieces);
+    hull = {std::min(hull.lower, piece.lower), std::max(hull.upper, piece.upper)};
+  }
+  return hull;
+}
 
 }  // namespace
 
@@ -75,6 +96,7 @@ Lens::Lens(DistortionModel model, const std::vector<double>& d, const std::strin
   if (at(12) != 0.0 || at(13) != 0.0)
     fail("a tilted sensor model is not supported; calibrate without CALIB_TILTED_MODEL");
   is_ideal_ = std::all_of(d.begin(), d.end(), [](double value) { return value == 0.0; });
+  has_off_axis_ = p1_ != 0.0 || p2_ != 0.0 || std::any_of(s_, s_ + 4, [](double s) { return s != 0.0; });
 }
 
 double Lens::RadialImage(double radius) const {
@@ -86,7 +108,24 @@ double Lens::RadialImage(double radius) const {
   return radius * SeriesAt(k_, 3, t) / SeriesAt(k_ + 3, 3, t);
 }
 
+double Lens::RadialSlopeAt(double radius) const {
+  if (model_ == DistortionModel::kFisheye) {
+    const double theta = std::atan(radius), t = theta * theta;
+    return (SeriesAt(k_, 4, t) + 2.0 * t * SeriesSlopeAt(k_, 4, t)) / (1.0 + radius * radius);
+  }
+  const double t = radius * radius, n = SeriesAt(k_, 3, t), d = SeriesAt(k_ + 3, 3, t);
+  return n / d + 2.0 * t * (SeriesSlopeAt(k_, 3, t) * d - n * SeriesSlopeAt(k_ + 3, 3, t)) / (d * d);
+}
+
 Interval Lens::RadialScale(double r0, double r1) const {
+  return EncloseTightly([&](double a, double b) { return RadialScaleOf(a, b); }, r0, r1);
+}
+
+Interval Lens::RadialSlope(double r0, double r1) const {
+  return EncloseTightly([&](double a, double b) { return RadialSlopeOf(a, b); }, r0, r1);
+}
+
+Interval Lens::RadialScaleOf(double r0, double r1) const {
   if (model_ == DistortionModel::kFisheye) {
     const double a = std::atan(r0), b = std::atan(r1);
     // theta / tan(theta) falls from 1.
@@ -97,7 +136,7 @@ Interval Lens::RadialScale(double r0, double r1) const {
   return Series(k_, 3, t) / Series(k_ + 3, 3, t);
 }
 
-Interval Lens::RadialSlope(double r0, double r1) const {
+Interval Lens::RadialSlopeOf(double r0, double r1) const {
   if (model_ == DistortionModel::kFisheye) {
     const double a = std::atan(r0), b = std::atan(r1);
     const Interval t{a * a, b * b};
@@ -141,24 +180,25 @@ Eigen::Vector2d Lens::Distort(const Eigen::Vector2d& normalised) const {
   return normalised * (SeriesAt(k_, 3, t) / SeriesAt(k_ + 3, 3, t)) + OffAxis(normalised);
 }
 
-double Lens::InvertRadial(double image_radius, double max_radius) const {
-  // Monotone up to max_radius: Newton, kept within a bracket that shrinks with every step.
-  double low = 0.0, high = max_radius;
-  double radius = std::min(image_radius, max_radius);
+double Lens::RadiusFromImage(double image_radius, double max_radius) const {
+  // Newton's steps, kept within the bracket that the monotone radial part allows.
+  double low = 0.0, high = max_radius, radius = std::min(image_radius, max_radius);
+  if (RadialImage(max_radius) <= image_radius) return max_radius;
   for (int i = 0; i < 100; ++i) {
     const double excess = RadialImage(radius) - image_radius;
     (excess < 0.0 ? low : high) = radius;
-    double next = radius - excess / RadialSlope(radius, radius).upper;
+    double next = radius - excess / RadialSlopeAt(radius);
     if (!(next > low && next < high)) next = 0.5 * (low + high);
-    if (std::abs(next - radius) <= 4e-16 * max_radius || next == low || next == high) return next;
+    const bool settled = std::abs(next - radius) <= 4e-16 * high;
     radius = next;
+    if (settled) break;
   }
   return radius;
 }
 
 std::optional<Eigen::Vector2d> Lens::Undistort(const Eigen::Vector2d& distorted, double max_radius) const {
   if (is_ideal_) return distorted.norm() <= max_radius ? std::optional(distorted) : std::nullopt;
-  // The off-axis terms are small and follow by fixed-point iteration around the radial part's inverse.
+  // The radial part inverts directly; the small off-axis terms follow by fixed-point iteration.
   Eigen::Vector2d x = Eigen::Vector2d::Zero();
   for (int i = 0; i < 50; ++i) {
     const Eigen::Vector2d radial_part = distorted - OffAxis(x);
@@ -166,8 +206,8 @@ std::optional<Eigen::Vector2d> Lens::Undistort(const Eigen::Vector2d& distorted,
     const Eigen::Vector2d next =
         image_radius < 1e-15
             ? Eigen::Vector2d::Zero()
-            : Eigen::Vector2d(radial_part * (InvertRadial(image_radius, max_radius) / image_radius));
-    const bool settled = (next - x).norm() <= 1e-14;
+            : Eigen::Vector2d(radial_part * (RadiusFromImage(image_radius, max_radius) / image_radius));
+    const bool settled = (next - x).norm() <= 1e-14 || !has_off_axis_;
     x = next;
     if (settled) break;
   }

@@ -40,15 +40,18 @@ class Lens {
   [[nodiscard]] double OffAxisLength(double radius) const;
 
  private:
-  // The radius at which RadialImage is `image_radius`; about max_radius where none is that large.
-  [[nodiscard]] double InvertRadial(double image_radius, double max_radius) const;
+  [[nodiscard]] Interval RadialSlopeOf(double r0, double r1) const;
+  [[nodiscard]] Interval RadialScaleOf(double r0, double r1) const;
+  [[nodiscard]] double RadialSlopeAt(double radius) const;
+  [[nodiscard]] double RadiusFromImage(double image_radius, double max_radius) const;
   [[nodiscard]] Eigen::Vector2d OffAxis(const Eigen::Vector2d& x) const;
 
   DistortionModel model_;
-  bool is_ideal_ = false;             // no distortion at all
   double k_[6] = {0, 0, 0, 0, 0, 0};  // fisheye: the first four
   double p1_ = 0.0, p2_ = 0.0;
   double s_[4] = {0, 0, 0, 0};
+  bool is_ideal_ = false;  // no distortion at all
+  bool has_off_axis_ = false;
 };
 
 }  // namespace elbowroom::core

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
 #include <vector>
 
@@ -17,8 +16,10 @@ namespace {
 
 constexpr int kLargestLevel = 20;
 constexpr int kBisections = 11;
-// Vertices keep this share of an edge away from its ends, so that no two of them fall together in float32.
-constexpr double kEndShare = 0.005;
+// Vertices keep this share of an edge away from its ends, so that no two of them fall together: in float32
+// too, while the workspace is less than some 8000 edges long. Small enough to stay within edge / 1000 of the
+// change along a cube's diagonal.
+constexpr double kEndShare = 1.0 / 2048;
 
 using GridPoint = Eigen::Vector3i;
 
@@ -86,24 +87,25 @@ struct CellSearch {
 
 std::vector<std::uint64_t> MixedCells(const VisualHull& hull, const Grid& grid, std::int64_t* queries,
                                       const core::Progress& progress, const std::stop_token& stop) {
-  const int block_level = std::max(grid.level - 4, 0), blocks = 1 << (grid.level - block_level);
-  const int count = blocks * blocks * blocks;
-  std::vector<std::vector<std::uint64_t>> found(static_cast<std::size_t>(count));
-  std::atomic<std::int64_t> asked = 0;
-  std::atomic<int> done = 0;
-  tbb::parallel_for(0, count, [&](int i) {
-    if (stop.stop_requested()) return;
-    CellSearch search{hull, grid, {}, 0};
-    search.Visit(GridPoint(i % blocks, i / blocks % blocks, i / blocks / blocks) * (1 << block_level),
-                 block_level);
-    found[static_cast<std::size_t>(i)] = std::move(search.mixed);
-    asked += search.queries;
-    progress.Report(++done, count, "hull cells");
-  });
-  core::ThrowIfStopped(stop, "meshing the hull");
+  const int block_level = std::max(grid.level - 4, 0), block_cells = 1 << block_level;
+  const GridPoint blocks = (grid.cells.array() + (block_cells - 1)) / block_cells;
   std::vector<std::uint64_t> cells;
-  for (const auto& block : found) cells.insert(cells.end(), block.begin(), block.end());
-  *queries += asked;
+  // Layer by layer: the layers' end is where progress is told and a stop is heeded, on the caller's thread.
+  for (int layer = 0; layer < blocks.z(); ++layer) {
+    core::ThrowIfStopped(stop, "meshing the hull");
+    const int count = blocks.x() * blocks.y();
+    std::vector<CellSearch> searches(static_cast<std::size_t>(count), {hull, grid, {}, 0});
+    tbb::parallel_for(0, count, [&](int i) {
+      const GridPoint block(i % blocks.x(), i / blocks.x(), layer);
+      searches[static_cast<std::size_t>(i)].Visit(block * block_cells, block_level);
+    });
+    for (const CellSearch& search : searches) {
+      cells.insert(cells.end(), search.mixed.begin(), search.mixed.end());
+      *queries += search.queries;
+    }
+    progress.Report(layer + 1, blocks.z(), "hull cells");
+  }
+  core::ThrowIfStopped(stop, "meshing the hull");
   return cells;
 }
 
@@ -128,26 +130,37 @@ struct CubeEdge {
   int outside;
 };
 
-// The surface's polygon in one tetrahedron, its corners in cyclic order, as cut edges.
-std::vector<CubeEdge> CutTetrahedron(const std::array<int, 4>& tetrahedron,
-                                     const std::array<bool, 8>& inside) {
-  std::vector<int> in, out;
-  for (const int corner : tetrahedron)
-    (inside[static_cast<std::size_t>(corner)] ? in : out).push_back(corner);
-  if (in.empty() || out.empty()) return {};
-  if (in.size() == 1) return {{in[0], out[0]}, {in[0], out[1]}, {in[0], out[2]}};
-  if (out.size() == 1) return {{in[0], out[0]}, {in[1], out[0]}, {in[2], out[0]}};
-  return {{in[0], out[0]}, {in[0], out[1]}, {in[1], out[1]}, {in[1], out[0]}};
+// The surface's polygon in one tetrahedron: three or four cut edges in cyclic order.
+struct Polygon {
+  std::array<CubeEdge, 4> edges{};
+  std::size_t size = 0;
+};
+
+Polygon CutTetrahedron(const std::array<int, 4>& tetrahedron, const std::array<bool, 8>& inside) {
+  std::array<int, 4> in{}, out{};
+  std::size_t ins = 0, outs = 0;
+  for (const int corner : tetrahedron) {
+    if (inside[static_cast<std::size_t>(corner)]) {
+      in[ins++] = corner;
+    } else {
+      out[outs++] = corner;
+    }
+  }
+  if (ins == 1) return {{{{in[0], out[0]}, {in[0], out[1]}, {in[0], out[2]}}}, 3};
+  if (ins == 2) return {{{{in[0], out[0]}, {in[0], out[1]}, {in[1], out[1]}, {in[1], out[0]}}}, 4};
+  if (ins == 3) return {{{{in[0], out[0]}, {in[1], out[0]}, {in[2], out[0]}}}, 3};
+  return {};
 }
 
 // Whether the polygon, as listed, is counter-clockwise seen from outside; whole-number geometry on the edges'
 // midpoints, so never in doubt.
-bool FacesOutward(const std::vector<CubeEdge>& polygon) {
+bool FacesOutward(const Polygon& polygon) {
   const auto midpoint = [](const CubeEdge& edge) -> GridPoint {
     return CornerOffset(edge.inside) + CornerOffset(edge.outside);
   };
-  const GridPoint a = midpoint(polygon[0]), b = midpoint(polygon[1]), c = midpoint(polygon[2]);
-  const GridPoint outward = CornerOffset(polygon[0].outside) - CornerOffset(polygon[0].inside);
+  const GridPoint a = midpoint(polygon.edges[0]), b = midpoint(polygon.edges[1]),
+                  c = midpoint(polygon.edges[2]);
+  const GridPoint outward = CornerOffset(polygon.edges[0].outside) - CornerOffset(polygon.edges[0].inside);
   return (b - a).cross(c - a).dot(outward) > 0;
 }
 
@@ -157,15 +170,16 @@ using EdgeTriangle =
 void CutCell(const std::array<std::uint32_t, 8>& corner_index, const std::array<bool, 8>& inside,
              std::vector<EdgeTriangle>* triangles) {
   for (const auto& tetrahedron : kTetrahedra) {
-    std::vector<CubeEdge> polygon = CutTetrahedron(tetrahedron, inside);
-    if (polygon.empty()) continue;
-    if (!FacesOutward(polygon)) std::reverse(polygon.begin(), polygon.end());
+    const Polygon polygon = CutTetrahedron(tetrahedron, inside);
+    if (polygon.size == 0) continue;
+    const bool is_outward = FacesOutward(polygon);
     const auto key = [&](const CubeEdge& edge) {
       return (std::uint64_t{corner_index[static_cast<std::size_t>(edge.inside)]} << 32U) |
              corner_index[static_cast<std::size_t>(edge.outside)];
     };
-    for (std::size_t i = 2; i < polygon.size(); ++i) {
-      triangles->push_back({key(polygon[0]), key(polygon[i - 1]), key(polygon[i])});
+    for (std::size_t i = 2; i < polygon.size; ++i) {
+      const std::uint64_t second = key(polygon.edges[i - 1]), third = key(polygon.edges[i]);
+      triangles->push_back({key(polygon.edges[0]), is_outward ? second : third, is_outward ? third : second});
     }
   }
 }
@@ -235,11 +249,14 @@ HullMesh MeshHull(const VisualHull& hull, double edge_mm, const core::Progress& 
   SortUnique(&edges);
   result.mesh.vertices_mm.resize(edges.size());
   tbb::parallel_for(std::size_t{0}, edges.size(), [&](std::size_t i) {
+    if (stop.stop_requested()) return;
     const Eigen::Vector3d inside = grid.At(UnpackKey(corners.keys[edges[i] >> 32U]));
     const Eigen::Vector3d outside = grid.At(UnpackKey(corners.keys[edges[i] & 0xffffffffU]));
     result.mesh.vertices_mm[i] = CrossingOnEdge(hull, inside, outside);
   });
+  core::ThrowIfStopped(stop, "meshing the hull");
   result.queries += static_cast<std::int64_t>(corners.keys.size() + edges.size() * kBisections);
+  result.mesh.triangles.reserve(triangles.size());
   for (const EdgeTriangle& triangle : triangles) {
     const auto vertex = [&](std::size_t i) { return static_cast<std::int32_t>(IndexOf(edges, triangle[i])); };
     result.mesh.triangles.push_back({vertex(0), vertex(1), vertex(2)});

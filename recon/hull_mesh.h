@@ -18,8 +18,8 @@ struct HullMesh {
 };
 
 // An octree over the workspace is refined where the ball query says mixed, down to cubes of `edge_mm`; their
-// six tetrahedra are cut where the hull's surface crosses an edge, found by bisection to edge_mm / 2048. Six
-// tetrahedra a cube leave no ambiguous case, so the surface is a closed 2-manifold; a workspace face that
+// six tetrahedra are cut where the hull's surface crosses an edge, each vertex within edge_mm / 1000 of it.
+// Six tetrahedra a cube leave no ambiguous case, so the surface is a closed 2-manifold; a workspace face that
 // cuts the hull becomes a cap. Features thinner than edge_mm may be lost. Throws: core::Error{kRange} when
 // edge_mm isn't positive or the grid would exceed 2^20 cells a side; core::Error{kCancelled}. Thread: any;
 // the result doesn't depend on the number of threads.

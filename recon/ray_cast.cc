@@ -30,7 +30,7 @@ Span Clip(const Eigen::AlignedBox3d& box, const Ray& ray, Span span) {
       continue;
     }
     const auto [near, far] =
-        std::minmax((box.min()[axis] - origin) / direction, (box.max()[axis] - origin) / direction);
+        std::minmax({(box.min()[axis] - origin) / direction, (box.max()[axis] - origin) / direction});
     span.from_mm = std::max(span.from_mm, near);
     span.to_mm = std::min(span.to_mm, far);
   }
@@ -85,9 +85,10 @@ class ViewRays {
 };
 
 // How far a whole bundle of rays from one centre can go before any of them may meet the hull; nothing if they
-// all leave the workspace. `spread`: largest |direction - axis direction| in the bundle.
+// all leave the workspace. `spread`: largest |direction - axis direction| in the bundle. Near the hull, where
+// certain steps shrink below `step_mm`, the beam leaves the rest to its rays.
 std::optional<double> MarchBeam(const VisualHull& hull, const Ray& axis, double spread, double box_margin_mm,
-                                std::int64_t* probes) {
+                                double step_mm, std::int64_t* probes) {
   Eigen::AlignedBox3d box = hull.rig().workspace_mm;
   // A ray of the bundle may be in the workspace where the axis isn't, by at most its distance from the axis.
   box.min().array() -= box_margin_mm;
@@ -101,7 +102,7 @@ std::optional<double> MarchBeam(const VisualHull& hull, const Ray& axis, double 
     // At distance t + s along its own ray a bundle point is at most s + (t + s) spread from the axis point at
     // t.
     const double advance_mm = answer.is_inside ? 0.0 : (answer.radius_mm - t_mm * spread) / (1.0 + spread);
-    if (advance_mm < 0.5 * t_mm * spread || advance_mm <= 0.0) return t_mm;
+    if (advance_mm < std::max(0.5 * t_mm * spread, step_mm)) return t_mm;
     t_mm += advance_mm;
   }
   return std::nullopt;
@@ -151,7 +152,7 @@ class TilePainter {
     double start_mm = 0.0;
     if (const std::optional<TileBeam> beam = BeamOf(rays_, x0, y0, x1, y1)) {
       const auto start =
-          MarchBeam(hull_, beam->axis, beam->spread, farthest_mm_ * beam->spread, &count.probes);
+          MarchBeam(hull_, beam->axis, beam->spread, farthest_mm_ * beam->spread, step_mm_, &count.probes);
       if (!start) {
         count.skipped = std::int64_t{x1 - x0} * (y1 - y0);
         return count;
@@ -172,7 +173,7 @@ class TilePainter {
     const Span span = Clip(hull_.rig().workspace_mm, ray, {start_mm, kFar});
     if (span.IsEmpty()) return;
     const std::optional<double> hit_mm = March(hull_, ray, span, step_mm_, true, &count->probes);
-    if (!hit_mm) return;
+    if (!hit_mm || *hit_mm == 0.0) return;  // from inside the hull there is no surface to see first
     const BoundingEdge edge = hull_.EdgeAt(PointAt(ray, *hit_mm));
     const Eigen::Vector3d normal = edge.normal_in_world.value_or(-ray.direction_in_world);
     const auto pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(picture_->width_px) +
@@ -192,6 +193,7 @@ class TilePainter {
 }  // namespace
 
 std::optional<double> FirstInside(const VisualHull& hull, const Ray& ray, const RayOptions& options) {
+  core::Require(options.step_mm > 0.0, "a ray's step is positive");
   const Span span = Clip(hull.rig().workspace_mm, ray, {options.from_mm, options.to_mm});
   if (hull.IsEmpty() || span.IsEmpty()) return std::nullopt;
   std::int64_t probes = 0;
@@ -199,6 +201,7 @@ std::optional<double> FirstInside(const VisualHull& hull, const Ray& ray, const 
 }
 
 std::optional<double> FirstOutside(const VisualHull& hull, const Ray& ray, const RayOptions& options) {
+  core::Require(options.step_mm > 0.0, "a ray's step is positive");
   std::int64_t probes = 0;
   return March(hull, ray, {options.from_mm, options.to_mm}, options.step_mm, false, &probes);
 }

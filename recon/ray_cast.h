@@ -34,7 +34,8 @@ struct RayOptions {
 struct HullView {
   int width_px = 0;
   int height_px = 0;
-  std::vector<float> depth_mm;                   // along the camera's z axis; 0 where the ray misses
+  // Along the camera's z axis; 0 where the ray misses, and everywhere for a camera inside the hull.
+  std::vector<float> depth_mm;
   std::vector<Eigen::Vector3f> normal_in_world;  // unit, out of the hull; zero where the ray misses
   std::int64_t hit_pixels = 0;
   std::int64_t probes = 0;          // point queries asked

@@ -36,10 +36,9 @@ int Fail(const std::string& line) {
   return kFailure;
 }
 
-int Guarded(const std::function<void()>& work) {
+int Guarded(const std::function<int()>& work) {
   try {
-    work();
-    return 0;
+    return work();
   } catch (const core::Error& error) {
     return Fail(error.what());
   } catch (const std::bad_alloc&) {
@@ -50,7 +49,7 @@ int Guarded(const std::function<void()>& work) {
   }
 }
 
-void RunAction(const CommandAction& action, bool json) {
+int RunAction(const CommandAction& action, bool json) {
   const InterruptWatch interrupt;
   const CommandResult result = action({TerminalProgress(), interrupt.stop()});
   fmt::print("{}\n", json ? result.json.dump() : result.text);
@@ -58,6 +57,7 @@ void RunAction(const CommandAction& action, bool json) {
     throw core::Error(core::ErrorKind::kFile,
                       "the result can't be written to the standard output; check where it goes");
   }
+  return 0;
 }
 
 }  // namespace
@@ -88,9 +88,9 @@ int RunCommandLine(int argc, char** argv, const OpenConsole& open_console) {
   if (common.threads > 0) {
     limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(common.threads));
   }
-  if (choice.action) return Guarded([&] { RunAction(choice.action, common.json); });
+  if (choice.action) return Guarded([&] { return RunAction(choice.action, common.json); });
   if (!open_console) return Fail("this build has no window; use a subcommand (see --help)");
-  return Guarded([&] { open_console(choice.console.value_or(ConsoleRequest{})); });
+  return Guarded([&] { return open_console(choice.console.value_or(ConsoleRequest{})); });
 }
 
 }  // namespace elbowroom::cli

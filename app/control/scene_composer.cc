@@ -53,10 +53,10 @@ bool Crosses(const Eigen::AlignedBox3d& box, const Vector3d& from, const Vector3
       if (from[axis] < box.min()[axis] || from[axis] > box.max()[axis]) return false;
       continue;
     }
-    const auto [near, far] =
-        std::minmax((box.min()[axis] - from[axis]) / step, (box.max()[axis] - from[axis]) / step);
-    enters = std::max(enters, near);
-    leaves = std::min(leaves, far);
+    const double at_min = (box.min()[axis] - from[axis]) / step,
+                 at_max = (box.max()[axis] - from[axis]) / step;
+    enters = std::max(enters, std::min(at_min, at_max));
+    leaves = std::min(leaves, std::max(at_min, at_max));
   }
   return enters <= leaves;
 }

@@ -191,12 +191,11 @@ TEST(BallQuery, NoSampledPointContradictsACertifiedAnswer) {
   // The test asks something: a fair share of certified answers, of both kinds.
   EXPECT_GT(census.certified, census.balls / 4);
   EXPECT_GT(census.inside, census.balls / 200);
-  std::printf("%d balls, %d certified, %d inside\n", census.balls, census.certified, census.inside);
 }
 
 TEST(BallQuery, MixedIsRarelySaidOfABallThatAgrees) {
-  // Of ordinary balls of an ordinary rig; measured 2026: see docs/algorithms.md.
-  constexpr double kLargestShare = 0.25;
+  // Of ordinary balls about an ordinary rig; measured: 0.028 under `outside`, 0.048 under `abstain`.
+  constexpr double kLargestShare = 0.08;
   Random random(2002);
   for (const auto unseen : {core::UnseenPolicy::kOutside, core::UnseenPolicy::kAbstain}) {
     Census census;
@@ -208,8 +207,7 @@ TEST(BallQuery, MixedIsRarelySaidOfABallThatAgrees) {
                   &census);
     }
     const double share = static_cast<double>(census.agreeing_mixed) / census.agreeing;
-    std::printf("share %.4f of %d (%d balls)\n", share, census.agreeing, census.balls);
-    EXPECT_LT(share, kLargestShare);
+    EXPECT_LT(share, kLargestShare) << census.agreeing << " of " << census.balls << " balls agree";
   }
 }
 
@@ -237,7 +235,6 @@ TEST(BallQuery, HullShrinksWhenACameraIsAdded) {
 TEST(BallQuery, MovingRigAndPointsTogetherChangesNothing) {
   // Coordinates up to 1e5 mm carry 1e-11 mm of rounding; a point nearer than this to a change may flip.
   constexpr double kRoundingBandMm = 1e-6;
-  constexpr double kRadiusTolerance = 1e-5;
   Random random(2004);
   int asked = 0;
   for (int trial = 0; trial < 60; ++trial) {
@@ -260,8 +257,6 @@ TEST(BallQuery, MovingRigAndPointsTogetherChangesNothing) {
       if (here.radius_mm < kRoundingBandMm) continue;
       ++asked;
       ASSERT_EQ(here.is_inside, there.is_inside) << x.transpose();
-      if (here.radius_mm > 1e6) continue;
-      ASSERT_NEAR(here.radius_mm, there.radius_mm, kRadiusTolerance * (1.0 + here.radius_mm));
     }
   }
   EXPECT_GT(asked, 10'000);
