@@ -9,11 +9,11 @@
 namespace elbowroom::console {
 
 struct ConsoleOptions {
-  std::filesystem::path trial_file;     // a TRIAL.toml to run at once; empty: none
-  bool demo = false;                    // or the built-in trial
-  std::filesystem::path session;        // where the first trial is recorded; empty: the user is asked
-  std::optional<PictureOrder> picture;  // take one picture of the window, then close
-  int argc = 0;                         // for Qt's own options
+  std::filesystem::path trial_file;       // a TRIAL.toml to run at once; empty: none
+  bool demo = false;                      // or the built-in trial
+  std::filesystem::path session;          // where the first trial is recorded; empty: the user is asked
+  std::optional<PictureOrder> picture{};  // take one picture of the window, then close
+  int argc = 0;                           // for Qt's own options
   char** argv = nullptr;
 };
 

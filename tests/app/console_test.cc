@@ -14,8 +14,6 @@
 #include <QTest>
 #include <QWheelEvent>
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <variant>
 
 #include "app/console/main_window.h"
@@ -24,6 +22,7 @@
 #include "sessions/session_reader.h"
 #include "tests/app/opened_urls.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/text_file.h"
 
 namespace elbowroom::console {
 namespace {
@@ -116,11 +115,6 @@ class ConsoleTest : public testing::Test {
   int frames_ = 0;
 };
 
-std::string ContentOf(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 TEST_F(ConsoleTest, ContactsVanishFromTheListAsTheGapIsOpenedLive) {
   const OpenedUrls opened;
   EXPECT_FALSE(Action("report").isEnabled());
@@ -174,7 +168,7 @@ TEST_F(ConsoleTest, ContactsVanishFromTheListAsTheGapIsOpenedLive) {
   EXPECT_FALSE(Action("start_demo").isEnabled());
   ASSERT_TRUE(WaitUntil([&] { return IsIdle(); }));
   const std::filesystem::path html = folder_ / "trial-report" / "report.html";
-  EXPECT_NE(ContentOf(html).find("payload_a"), std::string::npos) << Message().toStdString();
+  EXPECT_NE(test_support::ReadText(html).find("payload_a"), std::string::npos) << Message().toStdString();
   ASSERT_EQ(opened.urls().size(), 1U);
   EXPECT_EQ(opened.urls().front().toLocalFile().toStdString(), html.string());
 }
@@ -235,7 +229,7 @@ TEST_F(ConsoleTest, TheMouseTurnsTheOperatorsView) {
 }
 
 TEST_F(ConsoleTest, AnExistingSessionIsLeftAloneAndTheErrorShown) {
-  std::ofstream(session_) << "somebody's work";
+  test_support::WriteText(session_, "somebody's work");
   Action("start_demo").trigger();
   EXPECT_FALSE(Action("start_demo").isEnabled());
   ASSERT_TRUE(WaitUntil([&] { return IsIdle(); }));
@@ -244,12 +238,12 @@ TEST_F(ConsoleTest, AnExistingSessionIsLeftAloneAndTheErrorShown) {
   EXPECT_TRUE(Find<QLabel>("message")->isVisible());
   EXPECT_TRUE(Action("start_demo").isEnabled());
   EXPECT_FALSE(Action("report").isEnabled());
-  EXPECT_EQ(ContentOf(session_), "somebody's work");
+  EXPECT_EQ(test_support::ReadText(session_), "somebody's work");
 }
 
 TEST_F(ConsoleTest, ABrokenTrialFileIsOneLineAndLeavesNoSession) {
   const std::filesystem::path trial = folder_ / "trial.toml";
-  std::ofstream(trial) << "rig = ";
+  test_support::WriteText(trial, "rig = ");
   StartTrialFile(window_.desk(), trial, session_);
   ASSERT_TRUE(WaitUntil([&] { return IsIdle(); }));
   EXPECT_NE(Message().indexOf("trial.toml"), -1) << Message().toStdString();
