@@ -59,14 +59,17 @@ double FarthestCornerRadius(const CameraCalibration& c) {
 }
 
 // The smallest radius (to the step) beyond which nothing falls in the picture, or, if that comes first, the
-// largest up to which the lens is certainly one-to-one in radius.
+// largest up to which the lens is certainly one-to-one in radius. Steps shrink where their bounds can't tell.
 double DomainRadius(const Lens& lens, double corner_radius) {
   double radius = 0.0;
   while (radius < kLargestRadius) {
-    const double next = std::min(kLargestRadius, radius + std::max(corner_radius / 256.0, radius * 0.01));
-    if (!(lens.RadialSlope(radius, next).lower - lens.OffAxisSlope(next) > 0.0))
-      break;  // folds within this step
-    radius = next;
+    double step = std::max(corner_radius / 256.0, radius * 0.01);
+    const auto is_one_to_one = [&] {
+      return lens.RadialSlope(radius, radius + step).lower - lens.OffAxisSlope(radius + step) > 0.0;
+    };
+    while (step > radius / 4096.0 && radius > 0.0 && !is_one_to_one()) step *= 0.5;
+    if (!is_one_to_one()) break;  // the lens folds here
+    radius = std::min(kLargestRadius, radius + step);
     if (lens.RadialImage(radius) - lens.OffAxisLength(radius) > corner_radius)
       break;  // the picture is covered
   }

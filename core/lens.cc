@@ -95,6 +95,7 @@ Lens::Lens(DistortionModel model, const std::vector<double>& d, const std::strin
   for (std::size_t i = 0; i < 4; ++i) s_[i] = at(8 + i);
   if (at(12) != 0.0 || at(13) != 0.0)
     fail("a tilted sensor model is not supported; calibrate without CALIB_TILTED_MODEL");
+  is_ideal_ = std::all_of(d.begin(), d.end(), [](double value) { return value == 0.0; });
   has_off_axis_ = p1_ != 0.0 || p2_ != 0.0 || std::any_of(s_, s_ + 4, [](double s) { return s != 0.0; });
 }
 
@@ -169,6 +170,7 @@ Eigen::Vector2d Lens::OffAxis(const Eigen::Vector2d& x) const {
 }
 
 Eigen::Vector2d Lens::Distort(const Eigen::Vector2d& normalised) const {
+  if (is_ideal_) return normalised;
   if (model_ == DistortionModel::kFisheye) {
     const double radius = normalised.norm();
     if (radius < 1e-12) return normalised;
@@ -196,6 +198,7 @@ double Lens::RadiusFromImage(double image_radius, double start, double max_radiu
 }
 
 std::optional<Eigen::Vector2d> Lens::Undistort(const Eigen::Vector2d& distorted, double max_radius) const {
+  if (is_ideal_) return distorted.norm() <= max_radius ? std::optional(distorted) : std::nullopt;
   // The radial part inverts directly; the small off-axis terms follow by fixed-point iteration.
   Eigen::Vector2d x = Eigen::Vector2d::Zero();
   double radius = distorted.norm();

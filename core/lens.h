@@ -50,6 +50,7 @@ class Lens {
   double k_[6] = {0, 0, 0, 0, 0, 0};  // fisheye: the first four
   double p1_ = 0.0, p2_ = 0.0;
   double s_[4] = {0, 0, 0, 0};
+  bool is_ideal_ = false;  // no distortion at all
   bool has_off_axis_ = false;
 };
 

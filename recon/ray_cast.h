@@ -7,14 +7,10 @@
 #include <vector>
 
 #include "core/camera_model.h"
+#include "recon/ray.h"
 #include "recon/visual_hull.h"
 
 namespace elbowroom::recon {
-
-struct Ray {
-  Eigen::Vector3d origin_in_world = Eigen::Vector3d::Zero();
-  Eigen::Vector3d direction_in_world = Eigen::Vector3d::UnitX();  // unit
-};
 
 struct RayOptions {
   // Where no larger step is certain the ray advances by this much: a stretch of hull shorter than it can be

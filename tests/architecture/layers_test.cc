@@ -69,8 +69,8 @@ TEST_F(PlantedTree, CoreMayNotIncludeARoomAboveIt) {
 }
 
 TEST_F(PlantedTree, RoomsSideBySideMayNotIncludeEachOther) {
-  Plant("sessions/a.cc", "#include \"review/mesh_contacts.h\"\n");
-  ExpectOne("sessions/a.cc", 1, "sessions must not include review (\"review/mesh_contacts.h\")");
+  Plant("sessions/a.cc", "#include \"review/part_contact.h\"\n");
+  ExpectOne("sessions/a.cc", 1, "sessions must not include review (\"review/part_contact.h\")");
 }
 
 TEST_F(PlantedTree, AFolderInsideARoomIsARoomOfItsOwn) {
@@ -85,6 +85,11 @@ TEST_F(PlantedTree, AFolderInsideARoomIsARoomOfItsOwn) {
 TEST_F(PlantedTree, TheConsoleSeesOnlyThePictureValuesOfRecon) {
   Plant("app/console/a.cc", "#include \"recon/image.h\"\n#include \"recon/visual_hull.h\"\n");
   ExpectOne("app/console/a.cc", 2, "app/console must not include recon (\"recon/visual_hull.h\")");
+}
+
+TEST_F(PlantedTree, OnlyTheDoorsOfTheDrawingRoomAreOpen) {
+  Plant("app/control/a.cc", "#include \"recon/gl/scene_renderer.h\"\n#include \"recon/gl/texture.h\"\n");
+  ExpectOne("app/control/a.cc", 2, "app/control must not include recon/gl (\"recon/gl/texture.h\")");
 }
 
 TEST_F(PlantedTree, QtStaysInTheConsole) {

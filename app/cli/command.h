@@ -1,0 +1,59 @@
+// What every subcommand of the program shares.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <stop_token>
+#include <string>
+
+#include "core/progress.h"
+
+namespace elbowroom::cli {
+
+// Options that every subcommand takes.
+struct CommonOptions {
+  bool json = false;  // one JSON object on stdout instead of text
+  int threads = 0;    // 0: all cores
+};
+
+// What a running command has to hand.
+struct CommandContext {
+  core::Progress progress;  // a line on a terminal, else nothing
+  std::stop_token stop;     // asked for by Ctrl-C
+};
+
+// A command's result: the JSON that --json prints, and the text that is printed otherwise.
+struct CommandResult {
+  nlohmann::json json;
+  std::string text;
+};
+
+// What a subcommand does once its words have been understood.
+using CommandAction = std::function<CommandResult(const CommandContext&)>;
+
+// What the window is opened with.
+struct ConsoleRequest {
+  std::filesystem::path trial_file;  // empty: none
+  bool demo = false;                 // start the demo at once
+  std::filesystem::path session;     // empty: the window asks
+};
+
+// What the words on the command line chose.
+struct Choice {
+  CommandAction action;  // else
+  std::optional<ConsoleRequest> console;
+};
+
+// Each adds one subcommand and its options to `app`; when it is given, `*choice` is set.
+void AddContactsCommand(CLI::App& app, Choice* choice);
+void AddDemoCommand(CLI::App& app, Choice* choice);
+void AddHullCommand(CLI::App& app, Choice* choice);
+void AddImportCommand(CLI::App& app, Choice* choice);
+void AddReportCommand(CLI::App& app, Choice* choice);
+void AddSegmentCommand(CLI::App& app, Choice* choice);
+void AddTrialCommand(CLI::App& app, Choice* choice);
+
+}  // namespace elbowroom::cli

@@ -1,0 +1,96 @@
+#include "app/cli/command_line.h"
+
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <exception>
+#include <optional>
+
+#include "app/cli/interrupt.h"
+#include "app/control/versions.h"
+#include "core/error.h"
+
+namespace elbowroom::cli {
+namespace {
+
+constexpr int kUsageError = 2;
+constexpr int kFailure = 1;
+
+core::Progress TerminalProgress() {
+  if (!isatty(STDERR_FILENO)) return {};
+  return core::Progress([](std::int64_t done, std::int64_t total, const std::string& what) {
+    if (total > 0) {
+      fmt::print(stderr, "\r\033[K{} {} of {}", what, done, total);
+    } else {
+      fmt::print(stderr, "\r\033[K{} {}", what, done);
+    }
+    if (done == total) fmt::print(stderr, "\r\033[K");
+  });
+}
+
+int Fail(const std::string& line) {
+  if (isatty(STDERR_FILENO)) fmt::print(stderr, "\r\033[K");
+  fmt::print(stderr, "elbowroom: {}\n", line);
+  return kFailure;
+}
+
+int Guarded(const std::function<int()>& work) {
+  try {
+    return work();
+  } catch (const core::Error& error) {
+    return Fail(error.what());
+  } catch (const std::bad_alloc&) {
+    return Fail("out of memory; choose a coarser resolution or a smaller workspace");
+  } catch (const std::exception& error) {
+    return Fail(
+        fmt::format("internal error: {}; please report it with the command that you ran", error.what()));
+  }
+}
+
+int RunAction(const CommandAction& action, bool json) {
+  const InterruptWatch interrupt;
+  const CommandResult result = action({TerminalProgress(), interrupt.stop()});
+  fmt::print("{}\n", json ? result.json.dump() : result.text);
+  if (std::fflush(stdout) != 0) {
+    throw core::Error(core::ErrorKind::kFile,
+                      "the result can't be written to the standard output; check where it goes");
+  }
+  return 0;
+}
+
+}  // namespace
+
+int RunCommandLine(int argc, char** argv, const OpenConsole& open_console) {
+  CLI::App app{"Will a human fit? Real hands and tools against virtual CAD, before any hardware is built."};
+  app.set_version_flag("--version", "elbowroom " + control::ProgramVersion());
+  CommonOptions common;
+  app.add_flag("--json", common.json, "print one JSON object on stdout");
+  app.add_option("--threads", common.threads, "threads to use (default: all cores)")
+      ->check(CLI::Range(1, 1024));
+  app.fallthrough();  // so that common options may also come after the subcommand
+  app.require_subcommand(0, 1);
+  Choice choice;
+  AddDemoCommand(app, &choice);
+  AddTrialCommand(app, &choice);
+  AddReportCommand(app, &choice);
+  AddSegmentCommand(app, &choice);
+  AddHullCommand(app, &choice);
+  AddContactsCommand(app, &choice);
+  AddImportCommand(app, &choice);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : kUsageError;
+  }
+  std::optional<tbb::global_control> limit;
+  if (common.threads > 0) {
+    limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(common.threads));
+  }
+  if (choice.action) return Guarded([&] { return RunAction(choice.action, common.json); });
+  if (!open_console) return Fail("this build has no window; use a subcommand (see --help)");
+  return Guarded([&] { return open_console(choice.console.value_or(ConsoleRequest{})); });
+}
+
+}  // namespace elbowroom::cli

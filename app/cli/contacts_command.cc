@@ -1,0 +1,118 @@
+// elbowroom contacts RIG.yml --frame N --mesh FILE: one part against the hull of one frame.
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "app/cli/command.h"
+#include "app/cli/repeated_timing.h"
+#include "app/cli/rig_frame.h"
+#include "app/cli/unit_option.h"
+#include "cad_import/mesh_file.h"
+#include "core/bvh.h"
+#include "recon/pose_file.h"
+#include "review/contacts.h"
+
+namespace elbowroom::cli {
+namespace {
+
+struct ContactsOptions {
+  RigFrameOptions frame;
+  std::filesystem::path mesh;
+  std::optional<core::LengthUnit> unit;
+  std::filesystem::path world_from_part;
+  double resolution_mm = 0.0;
+};
+
+nlohmann::json Json(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
+// Keys without a meaning for the verdict are null.
+nlohmann::json Json(const core::PartContact& contact) {
+  nlohmann::json json = {{"verdict", ToString(contact.verdict)},
+                         {"contact_points", contact.contact_point_count},
+                         {"contact_area_mm2", contact.contact_area_mm2},
+                         {"cp_obj_mm", nullptr},
+                         {"cp_hull_mm", nullptr},
+                         {"v_rec", nullptr},
+                         {"d_rec_mm", nullptr},
+                         {"n_hull", nullptr},
+                         {"recovery_status", ToString(contact.recovery_status)},
+                         {"depth_mm", nullptr},
+                         {"deepest_mm", nullptr},
+                         {"points", nlohmann::json::array()},
+                         {"resolution_mm", contact.resolution_mm},
+                         {"triangles", contact.count.triangles},
+                         {"queries", contact.count.queries},
+                         {"skipped", contact.count.skipped}};
+  if (contact.recovery) {
+    json["cp_obj_mm"] = Json(contact.recovery->cp_obj_in_world_mm);
+    json["cp_hull_mm"] = Json(contact.recovery->cp_hull_in_world_mm);
+    json["v_rec"] = Json(contact.recovery->v_rec_in_world);
+    json["d_rec_mm"] = contact.recovery->d_rec_mm;
+    if (contact.recovery->n_hull_in_world) json["n_hull"] = Json(*contact.recovery->n_hull_in_world);
+  }
+  if (contact.deepest) {
+    json["depth_mm"] = contact.deepest->depth_mm;
+    json["deepest_mm"] = Json(contact.deepest->position_in_world_mm);
+  }
+  for (const core::ContactPoint& point : contact.points)
+    json["points"].push_back(Json(point.position_in_world_mm));
+  return json;
+}
+
+CommandResult Run(const ContactsOptions& options, const CommandContext& context, bool json) {
+  // The mesh and its pose first: they are cheaper to find wrong than a frame.
+  const auto mesh = std::make_shared<const core::TriangleMesh>(
+      cad_import::ImportMeshFile(options.mesh, {.unit = options.unit, .unit_if_file_has_none = std::nullopt})
+          .mesh);
+  core::RigidTransform world_from_part;
+  if (!options.world_from_part.empty()) world_from_part = recon::ReadPoseFile(options.world_from_part);
+  review::ContactOptions contact_options;
+  contact_options.resolution_mm = options.resolution_mm;
+  contact_options.Validate();
+  const RigFrame frame = LoadRigFrame(options.frame, context);
+  const core::TriangleTree part(mesh);
+  const recon::VisualHull hull = recon::MakeVisualHull(frame.rig, frame.masks);
+  core::PartContact contact;
+  const auto compute = [&] {
+    contact = review::FindContacts(hull, part, world_from_part, 0, contact_options);
+  };
+  CommandResult result;
+  double time_ms = 0.0;
+  if (json) {
+    time_ms = MedianTimeMs(compute);
+  } else {
+    compute();
+  }
+  result.json = Json(contact);
+  result.json["time_ms"] = time_ms;
+  result.text = contact.verdict == core::Verdict::kContact
+                    ? fmt::format("contact: {} points, {:.1f} mm2, at least {:.2f} mm deep",
+                                  contact.contact_point_count, contact.contact_area_mm2,
+                                  contact.deepest ? contact.deepest->depth_mm : 0.0)
+                    : std::string(ToString(contact.verdict));
+  return result;
+}
+
+}  // namespace
+
+void AddContactsCommand(CLI::App& app, Choice* choice) {
+  CLI::App* command = app.add_subcommand("contacts", "where a part touches the hull of one frame");
+  auto options = std::make_shared<ContactsOptions>();
+  AddRigFrameOptions(*command, &options->frame);
+  command->add_option("--mesh", options->mesh, "the part")->required();
+  AddUnitOption(*command, &options->unit);
+  command->add_option("--world-from-part", options->world_from_part,
+                      "the part's pose (YAML); default: where its file has it");
+  command
+      ->add_option("--resolution", options->resolution_mm,
+                   "decide pieces of this size by their centre, mm (default: half a pixel's footprint)")
+      ->check(CLI::PositiveNumber);
+  command->callback([=, &app] {
+    const bool json = app.get_option("--json")->as<bool>();
+    choice->action = [=](const CommandContext& context) { return Run(*options, context, json); };
+  });
+}
+
+}  // namespace elbowroom::cli

@@ -1,0 +1,76 @@
+// elbowroom demo: the paper's payload task, simulated, from camera frames to the report.
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+
+#include "app/cli/command.h"
+#include "app/cli/trial_summary.h"
+#include "app/control/demo_trial.h"
+#include "app/control/session_report.h"
+#include "core/error.h"
+
+namespace elbowroom::cli {
+namespace {
+
+struct DemoOptions {
+  std::filesystem::path out = "out";
+  bool headless = false;
+};
+
+void MakeFolder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) {
+    throw core::Error(core::ErrorKind::kFile, fmt::format("{}: can't be made: {}; choose another --out",
+                                                          folder.string(), error.message()));
+  }
+}
+
+CommandResult RunHeadless(const DemoOptions& options, const CommandContext& context) {
+  MakeFolder(options.out);
+  const control::TrialSetup setup = control::MakeDemoTrial(control::DemoPlay::kOnce);
+  control::TrialOptions trial;
+  trial.session = options.out / "session.db";
+  trial.progress = context.progress;
+  // view.png shows the trial at its most crowded: most contact points.
+  control::SharedFrameResult shown;
+  std::int64_t most_points = -1;
+  trial.on_frame = [&](const control::SharedFrameResult& result) {
+    std::int64_t points = 0;
+    for (const core::PartContact& contact : result->contacts) points += contact.contact_point_count;
+    if (points <= most_points) return;
+    most_points = points;
+    shown = result;
+  };
+  control::TrialControls controls;
+  const control::TrialOutcome outcome = control::RunTrial(setup, trial, controls, context.stop);
+  if (shown) control::WriteFramePicture(*shown, options.out / "view.png", 1200, 800);
+  control::WriteSessionReport(trial.session, options.out, context.progress, context.stop);
+  CommandResult result = SummaryOf(outcome, setup.layout, trial.session);
+  result.text += fmt::format("\nreport: {}\npicture: {}", (options.out / "report.html").string(),
+                             (options.out / "view.png").string());
+  result.json["report"] = (options.out / "report.html").string();
+  result.json["view"] = (options.out / "view.png").string();
+  return result;
+}
+
+}  // namespace
+
+void AddDemoCommand(CLI::App& app, Choice* choice) {
+  CLI::App* command =
+      app.add_subcommand("demo", "simulated rig, PMT / payload A trial: session.db, report.html, view.png");
+  auto options = std::make_shared<DemoOptions>();
+  command->add_option("--out", options->out, "folder for what the demo writes (default: out)");
+  command->add_flag("--headless", options->headless,
+                    "no window: play the task at 140 and 240 mm, then write the report");
+  command->callback([=] {
+    if (options->headless) {
+      choice->action = [=](const CommandContext& context) { return RunHeadless(*options, context); };
+    } else {
+      choice->console = ConsoleRequest{{}, true, options->out / "session.db"};
+    }
+  });
+}
+
+}  // namespace elbowroom::cli

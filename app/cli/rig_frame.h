@@ -1,0 +1,32 @@
+// One frame of a rig, as the commands that look at a single frame need it.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "app/cli/command.h"
+#include "core/bit_mask.h"
+#include "core/ids.h"
+#include "core/rig.h"
+
+namespace elbowroom::cli {
+
+struct RigFrameOptions {
+  std::filesystem::path rig_file;
+  core::FrameIndex frame = 0;
+};
+
+// Adds RIG.yml and --frame.
+void AddRigFrameOptions(CLI::App& command, RigFrameOptions* options);
+
+struct RigFrame {
+  std::shared_ptr<const core::Rig> rig;
+  std::vector<core::BitMask> masks;  // ready ones, or segmented with the default options
+};
+
+// Throws: core::Error for the rig's files and for a frame out of range.
+[[nodiscard]] RigFrame LoadRigFrame(const RigFrameOptions& options, const CommandContext& context);
+
+}  // namespace elbowroom::cli

@@ -1,0 +1,54 @@
+// elbowroom segment RIG.yml --frame N --out DIR: the silhouettes as pictures.
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+
+#include "app/cli/command.h"
+#include "app/cli/rig_frame.h"
+#include "core/error.h"
+#include "recon/mask_image.h"
+
+namespace elbowroom::cli {
+namespace {
+
+struct SegmentOptions {
+  RigFrameOptions frame;
+  std::filesystem::path out;
+};
+
+CommandResult Run(const SegmentOptions& options, const CommandContext& context) {
+  const RigFrame frame = LoadRigFrame(options.frame, context);
+  std::error_code error;
+  std::filesystem::create_directories(options.out, error);
+  if (error) {
+    throw core::Error(core::ErrorKind::kFile, fmt::format("{}: can't be made: {}; choose another --out",
+                                                          options.out.string(), error.message()));
+  }
+  CommandResult result;
+  result.json["masks"] = nlohmann::json::array();
+  for (std::size_t i = 0; i < frame.masks.size(); ++i) {
+    const std::string& camera = frame.rig->cameras[i].name();
+    const std::filesystem::path file =
+        options.out / fmt::format("{}_{:04d}.png", camera, options.frame.frame);
+    recon::WriteMaskPng(frame.masks[i], file);
+    const std::size_t object_pixels = frame.masks[i].CountObjectPixels();
+    result.json["masks"].push_back(
+        {{"camera", camera}, {"file", file.string()}, {"object_pixels", object_pixels}});
+    result.text += fmt::format("{}{}: {} object pixels", i == 0 ? "" : "\n", file.string(), object_pixels);
+  }
+  return result;
+}
+
+}  // namespace
+
+void AddSegmentCommand(CLI::App& app, Choice* choice) {
+  CLI::App* command = app.add_subcommand("segment", "write the silhouettes of one frame as PNG");
+  auto options = std::make_shared<SegmentOptions>();
+  AddRigFrameOptions(*command, &options->frame);
+  command->add_option("--out", options->out, "folder for the masks; made if it isn't there")->required();
+  command->callback(
+      [=] { choice->action = [=](const CommandContext& context) { return Run(*options, context); }; });
+}
+
+}  // namespace elbowroom::cli

@@ -1,0 +1,80 @@
+// elbowroom trial run TRIAL.toml --session S.db: a trial on recorded footage.
+#include <fmt/format.h>
+
+#include <charconv>
+#include <filesystem>
+#include <memory>
+
+#include "app/cli/command.h"
+#include "app/cli/trial_summary.h"
+#include "app/control/trial_runner.h"
+#include "app/control/trial_setup.h"
+
+namespace elbowroom::cli {
+namespace {
+
+struct TrialRunOptions {
+  std::filesystem::path trial_file;
+  std::filesystem::path session;
+  bool headless = false;
+  control::FrameRange frames;
+};
+
+// "A:B", "A:" or ":B".
+bool ParseRange(const std::string& text, control::FrameRange* range) {
+  const std::size_t colon = text.find(':');
+  if (colon == std::string::npos) return false;
+  const auto number = [&](std::size_t begin, std::size_t end, core::FrameIndex* value) {
+    const char* last = text.data() + end;
+    const auto [stop, error] = std::from_chars(text.data() + begin, last, *value);
+    return error == std::errc() && stop == last && *value >= 0;
+  };
+  core::FrameIndex end = 0;
+  if (colon > 0 && !number(0, colon, &range->first)) return false;
+  if (colon + 1 == text.size()) return true;
+  if (!number(colon + 1, text.size(), &end)) return false;
+  range->end = end;
+  return true;
+}
+
+CommandResult RunHeadless(const TrialRunOptions& options, const CommandContext& context) {
+  const control::TrialSetup setup = control::ReadTrialFile(options.trial_file, context.stop);
+  control::TrialOptions trial;
+  trial.session = options.session;
+  trial.frames = options.frames;
+  trial.progress = context.progress;
+  control::TrialControls controls;
+  CommandResult result =
+      SummaryOf(control::RunTrial(setup, trial, controls, context.stop), setup.layout, options.session);
+  result.json["warnings"] = setup.warnings;
+  for (const std::string& warning : setup.warnings) result.text += "\nwarning: " + warning;
+  return result;
+}
+
+}  // namespace
+
+void AddTrialCommand(CLI::App& app, Choice* choice) {
+  CLI::App* trial = app.add_subcommand("trial", "run trials");
+  trial->require_subcommand(1);
+  CLI::App* command = trial->add_subcommand("run", "run a trial and record it as a session");
+  auto options = std::make_shared<TrialRunOptions>();
+  command->add_option("TRIAL", options->trial_file, "the trial (TRIAL.toml)")->required();
+  command->add_option("--session", options->session, "session file to record; must not exist yet")
+      ->required();
+  command->add_flag("--headless", options->headless, "no window, as fast as it goes");
+  command->add_option("--frames", "frames A to B, B not included (default: all)")
+      ->type_name("A:B")
+      ->each([=](const std::string& text) {
+        if (!ParseRange(text, &options->frames))
+          throw CLI::ValidationError("--frames", "must be A:B, two frame numbers from 0");
+      });
+  command->callback([=] {
+    if (options->headless) {
+      choice->action = [=](const CommandContext& context) { return RunHeadless(*options, context); };
+    } else {
+      choice->console = ConsoleRequest{options->trial_file, false, options->session};
+    }
+  });
+}
+
+}  // namespace elbowroom::cli

@@ -1,0 +1,51 @@
+#include "app/cli/trial_summary.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace elbowroom::cli {
+
+CommandResult SummaryOf(const control::TrialOutcome& outcome, const core::Layout& layout,
+                        const std::filesystem::path& session) {
+  CommandResult result;
+  result.json = {{"session", session.string()},
+                 {"frames", outcome.frames},
+                 {"ended", outcome.end_note},
+                 {"parts", nlohmann::json::array()},
+                 {"episodes", nlohmann::json::array()},
+                 {"skipped",
+                  {{"unchanged_silhouettes", outcome.skipped.unchanged_silhouettes},
+                   {"unchanged_parts", outcome.skipped.unchanged_parts},
+                   {"triangles", outcome.skipped.triangles_skipped},
+                   {"of_triangles", outcome.skipped.triangles_in_all},
+                   {"queries", outcome.skipped.queries}}}};
+  result.text = fmt::format("{}: {} frames, {}", session.string(), outcome.frames, outcome.end_note);
+  if (!outcome.frame_ms.empty()) {
+    std::vector<double> times_ms = outcome.frame_ms;
+    const auto middle = times_ms.begin() + static_cast<std::ptrdiff_t>(times_ms.size() / 2);
+    std::nth_element(times_ms.begin(), middle, times_ms.end());
+    result.json["median_frame_ms"] = *middle;
+    result.text += fmt::format(" ({:.1f} ms a frame)", *middle);
+  }
+  for (core::PartIndex i = 0; i < layout.parts.size(); ++i) {
+    const auto episodes =
+        std::count_if(outcome.episodes.begin(), outcome.episodes.end(),
+                      [&](const core::ContactEpisode& episode) { return episode.part == i; });
+    result.json["parts"].push_back({{"name", layout.parts[i].name},
+                                    {"frames_in_contact", outcome.frames_in_contact[i]},
+                                    {"episodes", episodes}});
+    result.text += fmt::format("\n  {}: in contact in {} frames, {} episodes", layout.parts[i].name,
+                               outcome.frames_in_contact[i], episodes);
+  }
+  for (const core::ContactEpisode& episode : outcome.episodes) {
+    result.json["episodes"].push_back({{"part", layout.parts[episode.part].name},
+                                       {"begin_frame", episode.begin_frame},
+                                       {"peak_frame", episode.peak_frame},
+                                       {"end_frame", episode.end_frame},
+                                       {"peak_depth_mm", episode.peak_depth_mm}});
+  }
+  return result;
+}
+
+}  // namespace elbowroom::cli

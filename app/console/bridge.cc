@@ -1,0 +1,31 @@
+#include "app/console/bridge.h"
+
+#include <utility>
+
+namespace elbowroom::console {
+
+void Bridge::Post(Delivery delivery) {
+  QMetaObject::invokeMethod(this, std::move(delivery), Qt::QueuedConnection);
+}
+
+void Bridge::PostLatest(Stream stream, Delivery delivery) {
+  Delivery replaced;  // dies after the lock: what it holds may take time to free
+  {
+    const std::lock_guard lock(mutex_);
+    replaced = std::exchange(latest_[static_cast<std::size_t>(stream)], std::move(delivery));
+  }
+  if (replaced) return;  // its event is still on the way
+  QMetaObject::invokeMethod(
+      this, [this, stream] { DeliverLatest(stream); }, Qt::QueuedConnection);
+}
+
+void Bridge::DeliverLatest(Stream stream) {
+  Delivery delivery;
+  {
+    const std::lock_guard lock(mutex_);
+    delivery = std::exchange(latest_[static_cast<std::size_t>(stream)], nullptr);
+  }
+  if (delivery) delivery();
+}
+
+}  // namespace elbowroom::console

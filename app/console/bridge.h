@@ -1,0 +1,37 @@
+// The one way from worker threads to the UI thread.
+#pragma once
+
+#include <QObject>
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <mutex>
+
+namespace elbowroom::console {
+
+// What is posted runs later on the thread that the bridge lives on, and not at all once the bridge is gone.
+// Whoever owns a bridge ends the threads that post to it first. Thread: any may post; nothing ever waits.
+class Bridge : public QObject {
+ public:
+  using Delivery = std::function<void()>;  // must not throw
+
+  // Each keeps only its latest delivery, so that a slow UI never has a pile of them to work off.
+  enum class Stream { kFrame, kPicture, kProgress };
+
+  explicit Bridge(QObject* parent = nullptr) : QObject(parent) {}
+
+  // Every delivery arrives, in order.
+  void Post(Delivery delivery);
+
+  // Takes the place of the stream's delivery that hasn't run yet, if there is one.
+  void PostLatest(Stream stream, Delivery delivery);
+
+ private:
+  static constexpr std::size_t kStreams = 3;
+  void DeliverLatest(Stream stream);
+
+  std::mutex mutex_;
+  std::array<Delivery, kStreams> latest_;
+};
+
+}  // namespace elbowroom::console

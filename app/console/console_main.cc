@@ -1,0 +1,124 @@
+#include "app/console/console_main.h"
+
+#include <QApplication>
+#include <QPalette>
+#include <QStyleFactory>
+#include <QTimer>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <string>
+
+#include "app/console/main_window.h"
+#include "core/error.h"
+
+namespace elbowroom::console {
+namespace {
+
+constexpr const char* kWhatToDo =
+    "use --headless, or start a display server and set DISPLAY or WAYLAND_DISPLAY";
+
+bool IsSet(const char* variable) {
+  const char* value = std::getenv(variable);
+  return value != nullptr && *value != '\0';
+}
+
+// Qt ends the program with a core dump where it finds no display; here that is one line.
+void RequireDisplay() {
+  if (IsSet("DISPLAY") || IsSet("WAYLAND_DISPLAY") || IsSet("QT_QPA_PLATFORM")) return;
+  throw core::Error(core::ErrorKind::kGraphics,
+                    std::string("no display to open the window on: ") + kWhatToDo);
+}
+
+// While Qt connects to the display: what it can't survive becomes one line and exit 1.
+void ReportFatal(QtMsgType type, const QMessageLogContext& /*context*/, const QString& message) {
+  if (type != QtFatalMsg) return;  // its warnings say what the fatal message repeats
+  std::fprintf(stderr, "elbowroom: no display to open the window on: %s; %s\n",
+               qUtf8Printable(message.simplified()), kWhatToDo);
+  std::_Exit(EXIT_FAILURE);
+}
+
+// Nothing may be thrown through Qt's event loop: what a slot throws is shown, and the console lives on.
+class ConsoleApplication : public QApplication {
+ public:
+  using QApplication::QApplication;
+
+  void ShowErrorsIn(MainWindow* window) { window_ = window; }
+
+  bool notify(QObject* receiver, QEvent* event) override {
+    try {
+      return QApplication::notify(receiver, event);
+    } catch (const std::exception& error) {
+      if (window_ == nullptr) throw;
+      window_->ShowError(QString::fromUtf8(error.what()));
+      return true;
+    }
+  }
+
+ private:
+  MainWindow* window_ = nullptr;
+};
+
+QPalette LightPalette() {
+  QPalette palette(QColor(0xf2, 0xf4, 0xf6));
+  palette.setColor(QPalette::Base, Qt::white);
+  palette.setColor(QPalette::AlternateBase, QColor(0xf7, 0xf8, 0xfa));
+  palette.setColor(QPalette::Highlight, QColor(0x2f, 0x6f, 0xb3));
+  palette.setColor(QPalette::HighlightedText, Qt::white);
+  return palette;
+}
+
+void StartWhatWasAsked(MainWindow& window, const ConsoleOptions& options) {
+  if (options.trial_file.empty() && !options.demo) return;
+  const auto session = window.session_choice().Choose(&window);
+  if (!session) return;
+  if (!options.trial_file.empty()) {
+    StartTrialFile(window.desk(), options.trial_file, *session);
+  } else {
+    StartDemo(window.desk(), *session);
+  }
+}
+
+void MakeFolderOf(const std::filesystem::path& session) {
+  if (!session.has_parent_path()) return;
+  std::error_code error;
+  std::filesystem::create_directories(session.parent_path(), error);
+  if (!error) return;
+  throw core::Error(core::ErrorKind::kFile, session.parent_path().string() + ": can't be made: " +
+                                                error.message() + "; choose another folder");
+}
+
+}  // namespace
+
+int RunConsole(const ConsoleOptions& options) {
+  RequireDisplay();
+  if (options.demo) MakeFolderOf(options.session);
+  std::string program = "elbowroom";
+  char* default_argv[] = {program.data(), nullptr};
+  int argc = options.argv != nullptr ? options.argc : 1;
+  const QtMessageHandler usual = qInstallMessageHandler(ReportFatal);
+  ConsoleApplication application(argc, options.argv != nullptr ? options.argv : default_argv);
+  qInstallMessageHandler(usual);
+  QApplication::setApplicationName("Elbowroom");
+  QApplication::setStyle(QStyleFactory::create("Fusion"));
+  QApplication::setPalette(LightPalette());
+
+  MainWindow window(options.session);
+  application.ShowErrorsIn(&window);
+  std::string picture_error;
+  if (options.picture) {
+    auto* picture = new WindowPicture(*options.picture, window.desk(), &window);
+    QObject::connect(picture, &WindowPicture::Taken, &window, [&](const QString& error) {
+      picture_error = error.toStdString();
+      window.close();
+    });
+  }
+  window.show();
+  QTimer::singleShot(0, &window, [&] { StartWhatWasAsked(window, options); });
+  const int status = QApplication::exec();
+  application.ShowErrorsIn(nullptr);
+  if (!picture_error.empty()) throw core::Error(core::ErrorKind::kFile, picture_error);
+  return status;
+}
+
+}  // namespace elbowroom::console

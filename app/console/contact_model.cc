@@ -1,0 +1,103 @@
+#include "app/console/contact_model.h"
+
+#include <QLocale>
+#include <array>
+#include <utility>
+
+#include "app/console/palette.h"
+
+namespace elbowroom::console {
+namespace {
+
+struct Heading {
+  const char* text;
+  const char* explanation;
+};
+constexpr std::array<Heading, ContactModel::kColumns> kHeadings = {
+    {{"Part", "Parts of the layout that something real touches in this frame"},
+     {"Depth ≥ mm", "Certified lower bound of the deepest point's distance to the hull's surface"},
+     {"Area mm²", "Surface of the part that lies in the hull"},
+     {"Points", "Sampled surface points that lie in the hull"},
+     {"Deepest at mm", "The deepest point in the world frame: x, y, z"}}};
+
+QString PositionText(const core::PartContact& contact) {
+  if (!contact.deepest) return "–";
+  const Eigen::Vector3d& position_mm = contact.deepest->position_in_world_mm;
+  return QString("%1, %2, %3")
+      .arg(position_mm.x(), 0, 'f', 0)
+      .arg(position_mm.y(), 0, 'f', 0)
+      .arg(position_mm.z(), 0, 'f', 0);
+}
+
+QString CellText(const core::PartContact& contact, int column) {
+  switch (column) {
+    case ContactModel::kDepth:
+      return contact.deepest ? QString::number(contact.deepest->depth_mm, 'f', 1) : "–";
+    case ContactModel::kArea:
+      return QLocale().toString(contact.contact_area_mm2, 'f', 0);
+    case ContactModel::kPoints:
+      return QLocale().toString(static_cast<qlonglong>(contact.contact_point_count));
+    case ContactModel::kPosition:
+      return PositionText(contact);
+    default:
+      return {};
+  }
+}
+
+}  // namespace
+
+void ContactModel::ShowFrame(const control::FrameResult& result) {
+  std::vector<Row> rows;
+  for (const core::PartContact& contact : result.contacts) {
+    if (contact.verdict != core::Verdict::kContact) continue;
+    Row row{QString::fromStdString(result.layout->parts[contact.part].name), contact};
+    row.contact.points.clear();
+    rows.push_back(std::move(row));
+  }
+  ShowRows(std::move(rows));
+}
+
+void ContactModel::Clear() { ShowRows({}); }
+
+void ContactModel::ShowRows(std::vector<Row> rows) {
+  const bool is_same_count = rows.size() == rows_.size();
+  if (!is_same_count) beginResetModel();
+  rows_ = std::move(rows);
+  if (!is_same_count) {
+    endResetModel();
+  } else if (!rows_.empty()) {
+    emit dataChanged(index(0, 0), index(rowCount() - 1, kColumns - 1));
+  }
+}
+
+int ContactModel::rowCount(const QModelIndex& parent) const {
+  return parent.isValid() ? 0 : static_cast<int>(rows_.size());
+}
+
+int ContactModel::columnCount(const QModelIndex& parent) const { return parent.isValid() ? 0 : kColumns; }
+
+QVariant ContactModel::data(const QModelIndex& index, int role) const {
+  const Row& row = rows_.at(static_cast<std::size_t>(index.row()));
+  if (role == Qt::DisplayRole) {
+    return index.column() == kPart ? row.part : CellText(row.contact, index.column());
+  }
+  if (role == Qt::TextAlignmentRole) {
+    return QVariant((index.column() == kPart ? Qt::AlignLeft : Qt::AlignRight) | Qt::AlignVCenter);
+  }
+  if (role == Qt::BackgroundRole) return kContactTint;
+  if (role == Qt::ForegroundRole && index.column() == kPart) return kContactRed;
+  return {};
+}
+
+QVariant ContactModel::headerData(int section, Qt::Orientation orientation, int role) const {
+  if (orientation != Qt::Horizontal || section < 0 || section >= kColumns) return {};
+  const Heading& heading = kHeadings.at(static_cast<std::size_t>(section));
+  if (role == Qt::DisplayRole) return QString::fromUtf8(heading.text);
+  if (role == Qt::ToolTipRole) return QString::fromUtf8(heading.explanation);
+  if (role == Qt::TextAlignmentRole) {
+    return QVariant((section == kPart ? Qt::AlignLeft : Qt::AlignRight) | Qt::AlignVCenter);
+  }
+  return {};
+}
+
+}  // namespace elbowroom::console

@@ -1,0 +1,192 @@
+#include "app/console/main_window.h"
+
+#include <QCloseEvent>
+#include <QHeaderView>
+#include <QKeyEvent>
+#include <QMenuBar>
+#include <QSplitter>
+#include <QToolBar>
+#include <QVBoxLayout>
+#include <optional>
+#include <utility>
+
+#include "app/console/listing.h"
+
+namespace elbowroom::console {
+namespace {
+
+constexpr QSize kFirstSize(1360, 860);
+constexpr double kCoarseStepMm = 10.0;
+constexpr double kFineStepMm = 1.0;
+
+// The keys − and +, with Shift for the fine step: on many keyboards Shift turns them into _ and *, and = into
+// +.
+std::optional<double> SpacingStepFor(const QKeyEvent& event) {
+  const bool is_fine = event.modifiers().testFlag(Qt::ShiftModifier);
+  const double step_mm = is_fine ? kFineStepMm : kCoarseStepMm;
+  switch (event.key()) {
+    case Qt::Key_Plus:
+    case Qt::Key_Equal:
+    case Qt::Key_Asterisk:
+      return step_mm;
+    case Qt::Key_Minus:
+    case Qt::Key_Underscore:
+      return -step_mm;
+    default:
+      return std::nullopt;
+  }
+}
+
+QGroupBox* Boxed(const QString& title, QWidget* content) {
+  auto* box = new QGroupBox(title);
+  auto* column = new QVBoxLayout(box);
+  column->setContentsMargins(6, 6, 6, 6);
+  column->addWidget(content);
+  return box;
+}
+
+}  // namespace
+
+MainWindow::MainWindow(std::filesystem::path session)
+    : desk_(new TrialDesk(this)), choice_(std::move(session)) {
+  status_ = new StatusLine(this);
+  setStatusBar(status_);
+  AddActions();
+  auto* splitter = new QSplitter(Qt::Horizontal);
+  splitter->setChildrenCollapsible(false);
+  splitter->addWidget(MakeCentre());
+  splitter->addWidget(MakeSide());
+  splitter->setStretchFactor(0, 1);
+  splitter->setSizes({kFirstSize.width() - 460, 460});
+  setCentralWidget(splitter);
+  FollowDesk();
+  ShowState();
+  resize(kFirstSize);
+}
+
+MainWindow::~MainWindow() = default;
+
+void MainWindow::AddActions() {
+  auto* bar = addToolBar(tr("Trial"));
+  bar->setMovable(false);
+  bar->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
+  auto* demo = new StartDemoAction(*desk_, choice_, this);
+  demo->setObjectName("start_demo");
+  auto* open = new OpenTrialAction(*desk_, choice_, this);
+  open->setObjectName("open_trial");
+  auto* stop = new StopAction(*desk_, this);
+  stop->setObjectName("stop");
+  auto* report = new ReportAction(*desk_, this);
+  report->setObjectName("report");
+  bar->addActions({demo, open});
+  bar->addSeparator();
+  bar->addAction(stop);
+  bar->addSeparator();
+  bar->addAction(report);
+}
+
+QWidget* MainWindow::MakeCentre() {
+  messages_ = new MessageBar;
+  view_ = new OperatorView;
+  strip_ = new CameraStrip;
+  auto* centre = new QWidget;
+  auto* column = new QVBoxLayout(centre);
+  column->setContentsMargins(8, 8, 4, 4);
+  column->addWidget(messages_);
+  column->addWidget(view_, 1);
+  column->addWidget(strip_);
+  connect(view_, &OperatorView::Failed, this, &MainWindow::ShowError);
+  connect(view_, &OperatorView::PictureShown, this, [this] { status_->ShowDriver(view_->driver()); });
+  return centre;
+}
+
+QWidget* MainWindow::MakeSide() {
+  spacings_ = new SpacingPanel;
+  tools_ = new ToolPanel;
+  contacts_ = new ContactModel(this);
+  touches_ = new TouchModel(this);
+  auto* contact_list = new Listing(contacts_, tr("No contact in this frame"));
+  contact_list->setObjectName("contact_list");
+  contact_list->horizontalHeader()->setSectionResizeMode(ContactModel::kPosition,
+                                                         QHeaderView::ResizeToContents);
+  auto* touch_list = new Listing(touches_, tr("No parts yet"));
+  touch_list->setObjectName("touch_list");
+  auto* side = new QWidget;
+  side->setMinimumWidth(380);
+  auto* column = new QVBoxLayout(side);
+  column->setContentsMargins(4, 8, 8, 4);
+  column->addWidget(spacings_);
+  column->addWidget(tools_);
+  column->addWidget(Boxed(tr("Contacts now"), contact_list), 3);
+  column->addWidget(Boxed(tr("Touches so far"), touch_list), 2);
+  connect(spacings_, &SpacingPanel::Wished, desk_, &TrialDesk::SetSpacing);
+  connect(tools_, &ToolPanel::Marked, desk_, &TrialDesk::MarkTool);
+  return side;
+}
+
+void MainWindow::FollowDesk() {
+  connect(desk_, &TrialDesk::StateChanged, this, &MainWindow::ShowState);
+  connect(desk_, &TrialDesk::TrialOpened, this, &MainWindow::OpenTrial);
+  connect(desk_, &TrialDesk::FrameArrived, this, &MainWindow::ShowFrame);
+  connect(desk_, &TrialDesk::Failed, this, &MainWindow::ShowError);
+  connect(desk_, &TrialDesk::Progressed, status_, &StatusLine::ShowProgress);
+  connect(desk_, &TrialDesk::TrialEnded, messages_, &MessageBar::ShowNote);
+  connect(desk_, &TrialDesk::ReportWritten, this, [this](const QString& html_file) {
+    messages_->ShowNote(tr("The report is in %1").arg(html_file));
+  });
+}
+
+void MainWindow::ShowError(const QString& line) { messages_->ShowError(line); }
+
+void MainWindow::OpenTrial(const control::TrialSetup& setup) {
+  messages_->hide();
+  view_->Clear();
+  strip_->Open(setup.source->rig());
+  spacings_->Open(setup.layout);
+  tools_->Open(setup.info.tools);
+  contacts_->Clear();
+  touches_->Open(setup.layout);
+  status_->Open(desk_->session());
+  if (!setup.warnings.empty()) messages_->ShowNote(QString::fromStdString(setup.warnings.front()));
+  setWindowTitle(setup.info.task.empty() ? tr("Elbowroom")
+                                         : tr("Elbowroom – %1").arg(QString::fromStdString(setup.info.task)));
+}
+
+void MainWindow::ShowFrame(const FrameNews& news) {
+  view_->ShowFrame(news.result);
+  strip_->ShowMasks(news.result->masks);
+  spacings_->ShowApplied(news.result->spacing_mm);
+  contacts_->ShowFrame(*news.result);
+  touches_->ShowFrame(*news.result, news.tallies);
+  status_->ShowFrame(*news.result);
+}
+
+void MainWindow::ShowState() {
+  const bool is_running = desk_->state() == DeskState::kRunning && !desk_->is_stopping();
+  spacings_->setEnabled(is_running);
+  tools_->setEnabled(is_running);
+  if (desk_->state() == DeskState::kIdle) {
+    status_->HideProgress();
+    if (closes_when_idle_) close();
+  }
+}
+
+void MainWindow::closeEvent(QCloseEvent* event) {
+  if (desk_->state() == DeskState::kIdle) return event->accept();
+  closes_when_idle_ = true;
+  desk_->Stop();
+  messages_->ShowNote(tr("Closing as soon as the session is complete …"));
+  event->ignore();
+}
+
+void MainWindow::keyPressEvent(QKeyEvent* event) {
+  if (const std::optional<double> step_mm = SpacingStepFor(*event)) {
+    spacings_->StepActive(*step_mm);
+  } else if (event->key() == Qt::Key_F) {
+    view_->Fit();
+  } else {
+    QMainWindow::keyPressEvent(event);
+  }
+}
+
+}  // namespace elbowroom::console

@@ -1,0 +1,63 @@
+// The operator's view of the trial: the render worker's last picture, turned by the mouse.
+#pragma once
+
+#include <QImage>
+#include <QPoint>
+#include <QString>
+#include <QWidget>
+#include <memory>
+#include <optional>
+
+#include "app/console/background_job.h"
+#include "app/console/bridge.h"
+#include "app/control/frame_result.h"
+#include "app/control/render_worker.h"
+#include "recon/orbit_camera.h"
+
+namespace elbowroom::console {
+
+// Left drag orbits, right or middle drag pans, the wheel zooms, a double click fits. Never waits for a
+// picture: until the next one comes the last one is shown, scaled to the widget. Thread: UI.
+class OperatorView : public QWidget {
+  Q_OBJECT
+
+ public:
+  explicit OperatorView(QWidget* parent = nullptr);
+  ~OperatorView() override;
+
+  // Asks for a picture of it; the first one since Clear() is fitted to the view.
+  void ShowFrame(control::SharedFrameResult result);
+  void Clear();
+  void Fit();  // everything in the picture, from the front, above
+
+  [[nodiscard]] QString driver() const;  // of OpenGL; "" until the first picture
+  [[nodiscard]] const std::optional<recon::OrbitCamera>& camera() const { return camera_; }
+
+ signals:
+  void PictureShown(qint64 frame);
+  void Failed(const QString& line);
+
+ protected:
+  void paintEvent(QPaintEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
+  void mousePressEvent(QMouseEvent* event) override;
+  void mouseMoveEvent(QMouseEvent* event) override;
+  void mouseDoubleClickEvent(QMouseEvent* event) override;
+  void wheelEvent(QWheelEvent* event) override;
+
+ private:
+  void Turn(const recon::OrbitCamera& camera);
+  void AskForPicture();
+  void ShowPicture(const QImage& picture, const control::RenderRequest& request);
+  [[nodiscard]] QSize PictureSize() const;
+
+  std::optional<recon::OrbitCamera> camera_;  // nothing until the first fit
+  control::SharedFrameResult result_;
+  QImage picture_;
+  QPointF last_mouse_px_;
+  Bridge bridge_;  // before the threads that post to it
+  std::unique_ptr<BackgroundJob> fitting_;
+  control::RenderWorker worker_;
+};
+
+}  // namespace elbowroom::console

@@ -1,0 +1,136 @@
+#include "app/console/spacing_panel.h"
+
+#include <QGridLayout>
+#include <QSignalBlocker>
+#include <QToolButton>
+#include <QVBoxLayout>
+#include <algorithm>
+#include <cmath>
+
+#include "app/console/palette.h"
+
+namespace elbowroom::console {
+namespace {
+
+constexpr double kSliderStepsPerMm = 10.0;  // the tenth of a millimetre that the number shows
+constexpr double kButtonStepMm = 10.0;
+constexpr double kSameMm = 1e-6;  // closer values are the same wish
+
+int SliderFrom(double value_mm) { return static_cast<int>(std::lround(value_mm * kSliderStepsPerMm)); }
+
+}  // namespace
+
+SpacingControl::SpacingControl(const core::Spacing& spacing, QWidget* parent)
+    : QWidget(parent), name_(spacing.name) {
+  AddRows(spacing);
+  box_->setRange(spacing.min_mm, spacing.max_mm);
+  slider_->setRange(SliderFrom(spacing.min_mm), SliderFrom(spacing.max_mm));
+  ShowValue(spacing.initial_mm);
+  connect(slider_, &QSlider::valueChanged, this, [this](int value) { Wish(value / kSliderStepsPerMm); });
+  connect(box_, &QDoubleSpinBox::valueChanged, this, &SpacingControl::Wish);
+}
+
+void SpacingControl::AddRows(const core::Spacing& spacing) {
+  const QString name = QString::fromStdString(spacing.name);
+  auto* grid = new QGridLayout(this);
+  grid->setContentsMargins(0, 0, 0, 0);
+  title_ = new QLabel(name);
+  title_->setToolTip(tr("from %1 to %2 along %3")
+                         .arg(QString::fromStdString(spacing.reference),
+                              QString::fromStdString(spacing.moving),
+                              QString::fromUtf8(core::ToString(spacing.axis).data())));
+  applied_ = new QLabel;
+  applied_->setStyleSheet("color: " + kQuietText.name());
+  slider_ = new QSlider(Qt::Horizontal);
+  slider_->setObjectName("spacing_slider:" + name);
+  slider_->setPageStep(SliderFrom(kButtonStepMm));
+  box_ = new QDoubleSpinBox;
+  box_->setObjectName("spacing_box:" + name);
+  box_->setDecimals(1);
+  box_->setSuffix(" mm");
+  box_->setKeyboardTracking(false);  // a number that is half typed is no wish
+  grid->addWidget(title_, 0, 0, 1, 3);
+  grid->addWidget(applied_, 0, 3, Qt::AlignRight);
+  int column = 0;
+  for (const double by_mm : {-kButtonStepMm, kButtonStepMm}) {
+    auto* button = new QToolButton;
+    button->setText(by_mm < 0 ? "−" : "+");
+    button->setObjectName((by_mm < 0 ? "spacing_minus:" : "spacing_plus:") + name);
+    button->setToolTip(tr("%1 mm (keys − and +; with Shift 1 mm)").arg(by_mm, 0, 'f', 0));
+    button->setAutoRepeat(true);
+    connect(button, &QToolButton::clicked, this, [this, by_mm] { Step(by_mm); });
+    grid->addWidget(button, 1, column);
+    column += 2;
+  }
+  grid->addWidget(slider_, 1, 1);
+  grid->addWidget(box_, 1, 3);
+  grid->setColumnStretch(1, 1);
+}
+
+void SpacingControl::Step(double by_mm) { box_->setValue(box_->value() + by_mm); }
+
+void SpacingControl::SetIsActive(bool is_active) {
+  QFont font = title_->font();
+  font.setBold(is_active);
+  title_->setFont(font);
+}
+
+void SpacingControl::Wish(double to_mm) {
+  const double allowed_mm = std::clamp(to_mm, box_->minimum(), box_->maximum());
+  ShowValue(allowed_mm);
+  awaited_mm_ = allowed_mm;
+  emit Wished(name_, allowed_mm);
+}
+
+void SpacingControl::ShowValue(double value_mm) {
+  const QSignalBlocker slider_is_quiet(slider_);
+  const QSignalBlocker box_is_quiet(box_);
+  slider_->setValue(SliderFrom(value_mm));
+  box_->setValue(value_mm);
+}
+
+void SpacingControl::ShowApplied(double applied_mm) {
+  applied_->setText(tr("in frame: %1 mm").arg(applied_mm, 0, 'f', 1));
+  if (awaited_mm_ && std::abs(*awaited_mm_ - applied_mm) < kSameMm) awaited_mm_.reset();
+  const bool is_changed = !applied_mm_ || std::abs(*applied_mm_ - applied_mm) >= kSameMm;
+  applied_mm_ = applied_mm;
+  if (is_changed && !awaited_mm_) ShowValue(applied_mm);
+}
+
+SpacingPanel::SpacingPanel(QWidget* parent) : QGroupBox(tr("Layout"), parent) {
+  auto* column = new QVBoxLayout(this);
+  column->setSpacing(10);
+}
+
+void SpacingPanel::Open(const core::Layout& layout) {
+  qDeleteAll(controls_);
+  controls_.clear();
+  active_ = nullptr;
+  for (const core::Spacing& spacing : layout.spacings) {
+    auto* control = new SpacingControl(spacing, this);
+    controls_.push_back(control);
+    this->layout()->addWidget(control);
+    connect(control, &SpacingControl::Wished, this, [this, control](const std::string& name, double to_mm) {
+      Activate(control);
+      emit Wished(name, to_mm);
+    });
+  }
+  if (!controls_.empty()) Activate(controls_.front());
+}
+
+void SpacingPanel::Activate(SpacingControl* control) {
+  active_ = control;
+  for (SpacingControl* each : controls_) each->SetIsActive(each == active_ && controls_.size() > 1);
+}
+
+void SpacingPanel::ShowApplied(std::span<const double> spacing_mm) {
+  for (std::size_t i = 0; i < spacing_mm.size() && i < controls_.size(); ++i) {
+    controls_[i]->ShowApplied(spacing_mm[i]);
+  }
+}
+
+void SpacingPanel::StepActive(double by_mm) {
+  if (active_ != nullptr && isEnabled()) active_->Step(by_mm);
+}
+
+}  // namespace elbowroom::console

@@ -1,0 +1,70 @@
+// The gaps of the layout, for the experimenter's hand: slider, number, buttons, keys.
+#pragma once
+
+#include <QDoubleSpinBox>
+#include <QGroupBox>
+#include <QLabel>
+#include <QSlider>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/layout.h"
+
+namespace elbowroom::console {
+
+// One spacing. What the experimenter wishes is shown at once; what the frames were judged with stands beside.
+class SpacingControl : public QWidget {
+  Q_OBJECT
+
+ public:
+  explicit SpacingControl(const core::Spacing& spacing, QWidget* parent = nullptr);
+
+  // Follows a change that nobody here asked for; one that was asked for is awaited.
+  void ShowApplied(double applied_mm);
+  void Step(double by_mm);           // stays within the limits
+  void SetIsActive(bool is_active);  // the one that the keys move
+  [[nodiscard]] double wished_mm() const { return box_->value(); }
+
+ signals:
+  void Wished(const std::string& spacing, double to_mm);
+
+ private:
+  void AddRows(const core::Spacing& spacing);
+  void Wish(double to_mm);
+  void ShowValue(double value_mm);
+
+  std::string name_;
+  QLabel* title_ = nullptr;
+  QLabel* applied_ = nullptr;
+  QSlider* slider_ = nullptr;
+  QDoubleSpinBox* box_ = nullptr;
+  std::optional<double> awaited_mm_;  // wished, but no frame has come with it yet
+  std::optional<double> applied_mm_;
+};
+
+// Thread: UI.
+class SpacingPanel : public QGroupBox {
+  Q_OBJECT
+
+ public:
+  explicit SpacingPanel(QWidget* parent = nullptr);
+
+  void Open(const core::Layout& layout);
+  void ShowApplied(std::span<const double> spacing_mm);  // in the layout's order
+  void StepActive(double by_mm);  // the spacing that was moved last, at first the layout's first
+
+  [[nodiscard]] const std::vector<SpacingControl*>& controls() const { return controls_; }
+
+ signals:
+  void Wished(const std::string& spacing, double to_mm);
+
+ private:
+  void Activate(SpacingControl* control);
+
+  std::vector<SpacingControl*> controls_;  // owned by Qt as children
+  SpacingControl* active_ = nullptr;
+};
+
+}  // namespace elbowroom::console

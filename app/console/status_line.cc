@@ -1,0 +1,84 @@
+#include "app/console/status_line.h"
+
+#include <algorithm>
+
+namespace elbowroom::console {
+namespace {
+
+QString PercentOf(std::int64_t share, std::int64_t whole) {
+  return whole == 0 ? QString("–") : QString::number(100 * share / whole) + " %";
+}
+
+// Drivers name themselves at length: "Mesa/X.org · llvmpipe (LLVM 15.0.6, 256 bits) · 4.5 (Core Profile)
+// ...".
+constexpr int kLongestDriverChars = 34;
+
+}  // namespace
+
+StatusLine::StatusLine(QWidget* parent) : QStatusBar(parent) {
+  setSizeGripEnabled(false);
+  frame_ = AddField("status_frame", 0);
+  times_ = AddField("status_times", 0);
+  skipped_ = AddField("status_skipped", 0);
+  session_ = AddField("status_session", 1);
+  driver_ = AddField("status_driver", 0);
+  progress_ = new QProgressBar;
+  progress_->setFixedWidth(220);
+  progress_->hide();
+  addPermanentWidget(progress_);
+  frame_->setText(tr("ready"));
+}
+
+QLabel* StatusLine::AddField(const QString& name, int stretch) {
+  auto* field = new QLabel;
+  field->setObjectName(name);
+  field->setTextFormat(Qt::PlainText);
+  field->setContentsMargins(4, 0, 10, 0);
+  addWidget(field, stretch);
+  return field;
+}
+
+void StatusLine::Open(const std::filesystem::path& session) {
+  rate_.Clear();
+  session_->setText(QString::fromStdString(session.filename().string()));
+  session_->setToolTip(QString::fromStdString(session.string()));
+}
+
+void StatusLine::ShowFrame(const control::FrameResult& result) {
+  rate_.Add(result.frame, FrameRate::Clock::now());
+  const std::optional<double> frames_per_s = rate_.frames_per_s();
+  frame_->setText(tr("frame %1   %2 s   %3 frames/s")
+                      .arg(result.frame)
+                      .arg(result.time_s, 0, 'f', 1)
+                      .arg(frames_per_s ? QString::number(*frames_per_s, 'f', 1) : QString("–")));
+  times_->setText(tr("segmentation %1   hull %2   contacts %3 ms")
+                      .arg(result.times.segmentation_ms, 0, 'f', 1)
+                      .arg(result.times.hull_ms, 0, 'f', 1)
+                      .arg(result.times.contacts_ms, 0, 'f', 1));
+  skipped_->setText(tr("skipped: %1 of %2 silhouettes, %3 of %4 parts, %5 of triangles")
+                        .arg(result.skipped.unchanged_silhouettes)
+                        .arg(result.masks->size())
+                        .arg(result.skipped.unchanged_parts)
+                        .arg(result.contacts.size())
+                        .arg(PercentOf(result.skipped.triangles_skipped, result.skipped.triangles_in_all)));
+  // Text that grows pushes the other fields once, not back and forth with every frame.
+  for (QLabel* field : {frame_, times_, skipped_}) {
+    field->setMinimumWidth(std::max(field->minimumWidth(), field->sizeHint().width()));
+  }
+}
+
+void StatusLine::ShowDriver(const QString& driver) {
+  if (driver_->toolTip() == driver) return;
+  driver_->setToolTip(driver);
+  driver_->setText(driver.size() <= kLongestDriverChars ? driver : driver.left(kLongestDriverChars) + "…");
+}
+
+void StatusLine::ShowProgress(qint64 done, qint64 total, const QString& what) {
+  progress_->setVisible(total > 0);
+  if (total <= 0) return;
+  progress_->setRange(0, 1000);  // a share: totals may exceed what a progress bar counts in
+  progress_->setValue(static_cast<int>(1000 * std::clamp<qint64>(done, 0, total) / total));
+  progress_->setFormat(what + "  %p %");
+}
+
+}  // namespace elbowroom::console

@@ -1,0 +1,37 @@
+// The window's lower edge: where the trial is, what each frame cost, what it was spared.
+#pragma once
+
+#include <QLabel>
+#include <QProgressBar>
+#include <QStatusBar>
+#include <filesystem>
+
+#include "app/console/frame_rate.h"
+#include "app/control/frame_result.h"
+
+namespace elbowroom::console {
+
+// Thread: UI.
+class StatusLine : public QStatusBar {
+ public:
+  explicit StatusLine(QWidget* parent = nullptr);
+
+  void Open(const std::filesystem::path& session);
+  void ShowFrame(const control::FrameResult& result);
+  void ShowDriver(const QString& driver);
+  void ShowProgress(qint64 done, qint64 total, const QString& what);  // total <= 0: not known, not shown
+  void HideProgress() { progress_->hide(); }
+
+ private:
+  QLabel* AddField(const QString& name, int stretch);
+
+  QLabel* frame_ = nullptr;
+  QLabel* times_ = nullptr;
+  QLabel* skipped_ = nullptr;
+  QLabel* session_ = nullptr;
+  QLabel* driver_ = nullptr;
+  QProgressBar* progress_ = nullptr;
+  FrameRate rate_;
+};
+
+}  // namespace elbowroom::console

@@ -1,0 +1,94 @@
+#include "app/console/trial_actions.h"
+
+#include <QDateTime>
+#include <QDesktopServices>
+#include <QDir>
+#include <QFileDialog>
+#include <QStyle>
+#include <QUrl>
+#include <utility>
+
+#include "app/control/demo_trial.h"
+
+namespace elbowroom::console {
+namespace {
+
+std::filesystem::path PathFrom(const QString& text) { return text.toStdString(); }
+
+// Enabled whenever `is_possible` says so after a change of the desk's state.
+template <typename IsPossible>
+void EnableWhile(QAction* action, TrialDesk& desk, IsPossible is_possible) {
+  const auto follow = [action, &desk, is_possible] { action->setEnabled(is_possible(desk)); };
+  QObject::connect(&desk, &TrialDesk::StateChanged, action, follow);
+  follow();
+}
+
+bool IsIdle(const TrialDesk& desk) { return desk.state() == DeskState::kIdle; }
+
+}  // namespace
+
+QString DefaultSessionName(const QDateTime& at) {
+  return "elbowroom-" + at.toString("yyyyMMdd-hhmmss") + ".db";
+}
+
+std::optional<std::filesystem::path> SessionChoice::Choose(QWidget* window) {
+  if (!given_.empty()) return std::exchange(given_, {});
+  // No question about overwriting: a session never takes another one's place, and says so.
+  const QString path = QFileDialog::getSaveFileName(
+      window, QObject::tr("Record the session into"),
+      QDir::home().filePath(DefaultSessionName(QDateTime::currentDateTime())), QObject::tr("Sessions (*.db)"),
+      nullptr, QFileDialog::DontConfirmOverwrite);
+  if (path.isEmpty()) return std::nullopt;
+  return PathFrom(path);
+}
+
+void StartDemo(TrialDesk& desk, const std::filesystem::path& session) {
+  desk.Start([](const std::stop_token&) { return control::MakeDemoTrial(control::DemoPlay::kForever); },
+             session);
+}
+
+void StartTrialFile(TrialDesk& desk, const std::filesystem::path& trial_file,
+                    const std::filesystem::path& session) {
+  desk.Start([trial_file](const std::stop_token& stop) { return control::ReadTrialFile(trial_file, stop); },
+             session);
+}
+
+StartDemoAction::StartDemoAction(TrialDesk& desk, SessionChoice& choice, QWidget* window)
+    : QAction(window->style()->standardIcon(QStyle::SP_MediaPlay), tr("Start &demo"), window) {
+  setToolTip(tr("Play the built-in trial: a simulated hand at the PMT box, payload A above it"));
+  connect(this, &QAction::triggered, window, [&desk, &choice, window] {
+    if (const auto session = choice.Choose(window)) StartDemo(desk, *session);
+  });
+  EnableWhile(this, desk, IsIdle);
+}
+
+OpenTrialAction::OpenTrialAction(TrialDesk& desk, SessionChoice& choice, QWidget* window)
+    : QAction(window->style()->standardIcon(QStyle::SP_DialogOpenButton), tr("&Open trial …"), window) {
+  setShortcut(QKeySequence::Open);
+  setToolTip(tr("Run the trial that a TRIAL.toml describes"));
+  connect(this, &QAction::triggered, window, [&desk, &choice, window] {
+    const QString file =
+        QFileDialog::getOpenFileName(window, tr("Open a trial"), {}, tr("Trials (*.toml);;All files (*)"));
+    if (file.isEmpty()) return;
+    if (const auto session = choice.Choose(window)) StartTrialFile(desk, PathFrom(file), *session);
+  });
+  EnableWhile(this, desk, IsIdle);
+}
+
+StopAction::StopAction(TrialDesk& desk, QWidget* window)
+    : QAction(window->style()->standardIcon(QStyle::SP_MediaStop), tr("&Stop"), window) {
+  setToolTip(tr("End the trial; its session is complete up to this frame"));
+  connect(this, &QAction::triggered, &desk, &TrialDesk::Stop);
+  EnableWhile(this, desk, [](const TrialDesk& at) { return !IsIdle(at) && !at.is_stopping(); });
+}
+
+ReportAction::ReportAction(TrialDesk& desk, QWidget* window)
+    : QAction(window->style()->standardIcon(QStyle::SP_FileDialogDetailedView), tr("&Report"), window) {
+  setToolTip(tr("Write the last trial's report beside its session, and open it"));
+  connect(this, &QAction::triggered, &desk, &TrialDesk::WriteReport);
+  connect(&desk, &TrialDesk::ReportWritten, window,
+          [](const QString& html_file) { QDesktopServices::openUrl(QUrl::fromLocalFile(html_file)); });
+  EnableWhile(this, desk, [](const TrialDesk& at) { return at.can_report(); });
+}
+
+}  // namespace elbowroom::console

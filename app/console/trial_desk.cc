@@ -1,0 +1,134 @@
+#include "app/console/trial_desk.h"
+
+#include <utility>
+
+#include "app/control/session_report.h"
+#include "app/control/trial_runner.h"
+#include "core/error.h"
+
+namespace elbowroom::console {
+namespace {
+
+std::filesystem::path ReportFolderFor(const std::filesystem::path& session) {
+  return session.parent_path() / (session.stem().string() + "-report");
+}
+
+QString EndNote(const control::TrialOutcome& outcome, const std::filesystem::path& session) {
+  QString note = QString("%1 frames recorded in %2").arg(outcome.frames).arg(session.filename().c_str());
+  if (!outcome.end_note.empty()) note += ": " + QString::fromStdString(outcome.end_note);
+  return note;
+}
+
+}  // namespace
+
+TrialDesk::~TrialDesk() = default;
+
+void TrialDesk::Start(SetupReader read_setup, const std::filesystem::path& session) {
+  core::Require(state_ == DeskState::kIdle, "a trial starts on an idle desk");
+  session_ = session;
+  recorded_.reset();
+  EnterState(DeskState::kReading);
+  auto setup = std::make_shared<control::TrialSetup>();
+  job_ = std::make_unique<BackgroundJob>(
+      bridge_,
+      [read_setup = std::move(read_setup), setup](const std::stop_token& stop) { *setup = read_setup(stop); },
+      [this, setup](const std::string& error) {
+        if (error.empty() && !is_stopping_) return Run(std::move(*setup));
+        const bool was_stopped = is_stopping_;
+        EnterState(DeskState::kIdle);
+        if (!was_stopped) emit Failed(QString::fromStdString(error));
+      });
+}
+
+void TrialDesk::Run(control::TrialSetup setup) {
+  emit TrialOpened(setup);
+  control::TrialOptions options;
+  options.session = session_;
+  options.at_capture_rate = true;
+  options.progress = ProgressToHere();
+  auto tally = std::make_shared<control::EpisodeTally>(setup.layout.parts.size());
+  options.on_frame = [this, tally](const control::SharedFrameResult& result) {
+    tally->Add(*result);
+    bridge_.PostLatest(Bridge::Stream::kFrame,
+                       [this, news = FrameNews{result, tally->Parts()}] { emit FrameArrived(news); });
+  };
+  EnterState(DeskState::kRunning);
+  trial_ = std::make_unique<control::LiveTrial>(std::move(setup), std::move(options),
+                                                [this](const control::LiveTrial::Ended& ended) {
+                                                  bridge_.Post([this, ended] { FinishTrial(ended); });
+                                                });
+}
+
+void TrialDesk::FinishTrial(const control::LiveTrial::Ended& ended) {
+  trial_.reset();  // its thread has nothing left to do
+  if (ended.outcome) recorded_ = session_;
+  EnterState(DeskState::kIdle);
+  if (ended.outcome) {
+    emit TrialEnded(EndNote(*ended.outcome, session_));
+  } else {
+    emit Failed(QString::fromStdString(ended.error));
+  }
+}
+
+void TrialDesk::WriteReport() {
+  core::Require(can_report(), "a report needs a recorded session and an idle desk");
+  EnterState(DeskState::kReporting);
+  auto html_file = std::make_shared<QString>();
+  job_ = std::make_unique<BackgroundJob>(
+      bridge_,
+      [session = *recorded_, progress = ProgressToHere(), html_file](const std::stop_token& stop) {
+        const control::ReportFiles files =
+            control::WriteSessionReport(session, ReportFolderFor(session), progress, stop);
+        for (const std::filesystem::path& file : files.written) {
+          if (file.extension() == ".html") *html_file = QString::fromStdString(file.string());
+        }
+      },
+      [this, html_file](const std::string& error) { FinishReport(error, *html_file); });
+}
+
+void TrialDesk::FinishReport(const std::string& error, const QString& html_file) {
+  const bool was_stopped = is_stopping_;
+  EnterState(DeskState::kIdle);
+  if (error.empty()) {
+    emit ReportWritten(html_file);
+  } else if (was_stopped) {
+    emit TrialEnded("The report was not written: cancelled");
+  } else {
+    emit Failed(QString::fromStdString(error));
+  }
+}
+
+void TrialDesk::Stop() {
+  if (state_ == DeskState::kIdle || is_stopping_) return;
+  is_stopping_ = true;
+  if (trial_) {
+    trial_->Stop();
+  } else {
+    job_->Cancel();
+  }
+  emit StateChanged();
+}
+
+void TrialDesk::SetSpacing(const std::string& spacing, double to_mm) {
+  if (trial_) trial_->controls().SetSpacing(spacing, to_mm);
+}
+
+void TrialDesk::MarkTool(const std::string& tool, bool in_use) {
+  if (trial_) trial_->controls().MarkTool(tool, in_use);
+}
+
+void TrialDesk::EnterState(DeskState state) {
+  state_ = state;
+  is_stopping_ = false;
+  emit StateChanged();
+}
+
+core::Progress TrialDesk::ProgressToHere() {
+  return core::Progress([this](std::int64_t done, std::int64_t total, const std::string& what) {
+    bridge_.PostLatest(Bridge::Stream::kProgress, [this, done, total, text = QString::fromStdString(what)] {
+      emit Progressed(done, total, text);
+    });
+  });
+}
+
+}  // namespace elbowroom::console

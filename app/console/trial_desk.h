@@ -1,0 +1,88 @@
+// Where a trial is started, watched, stopped and reported on: the console without its widgets.
+#pragma once
+
+#include <QObject>
+#include <QString>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "app/console/background_job.h"
+#include "app/console/bridge.h"
+#include "app/control/episode_tally.h"
+#include "app/control/frame_result.h"
+#include "app/control/live_trial.h"
+#include "app/control/trial_setup.h"
+
+namespace elbowroom::console {
+
+enum class DeskState { kIdle, kReading, kRunning, kReporting };
+
+struct FrameNews {
+  control::SharedFrameResult result;
+  std::vector<control::PartTally> tallies;  // over every frame so far, shown or not
+};
+
+// One trial at a time. Nothing here waits: long work runs on threads of its own, whose news arrive as
+// signals. Thread: UI.
+class TrialDesk : public QObject {
+  Q_OBJECT
+
+ public:
+  using SetupReader =
+      std::function<control::TrialSetup(const std::stop_token&)>;  // runs on a worker; may throw
+
+  explicit TrialDesk(QObject* parent = nullptr) : QObject(parent) {}
+  ~TrialDesk() override;
+
+  [[nodiscard]] DeskState state() const { return state_; }
+  [[nodiscard]] bool is_stopping() const { return is_stopping_; }
+  [[nodiscard]] bool can_report() const { return state_ == DeskState::kIdle && recorded_.has_value(); }
+
+  // Of the trial under way or else the last one that was recorded to its end.
+  [[nodiscard]] const std::filesystem::path& session() const { return session_; }
+
+  // Reads a trial, then runs it at the pace at which its frames were taken, recording into `session`.
+  // The desk is idle.
+  void Start(SetupReader read_setup, const std::filesystem::path& session);
+
+  // The last trial's report, into the folder SESSION-report beside the session. can_report() holds.
+  void WriteReport();
+
+  // Ends what is under way in order: a trial's session is complete up to there, a report is given up.
+  void Stop();
+
+  // Take effect with the trial's next frame; without a trial, nothing.
+  void SetSpacing(const std::string& spacing, double to_mm);
+  void MarkTool(const std::string& tool, bool in_use);
+
+ signals:
+  void StateChanged();
+  void TrialOpened(const elbowroom::control::TrialSetup& setup);
+  void FrameArrived(const elbowroom::console::FrameNews& news);
+  void TrialEnded(const QString& note);
+  void ReportWritten(const QString& html_file);
+  void Progressed(qint64 done, qint64 total, const QString& what);  // total <= 0: not known
+  void Failed(const QString& line);
+
+ private:
+  void Run(control::TrialSetup setup);
+  void FinishTrial(const control::LiveTrial::Ended& ended);
+  void FinishReport(const std::string& error, const QString& html_file);
+  void EnterState(DeskState state);
+  [[nodiscard]] core::Progress ProgressToHere();
+
+  DeskState state_ = DeskState::kIdle;
+  bool is_stopping_ = false;
+  std::filesystem::path session_;
+  std::optional<std::filesystem::path> recorded_;  // can be reported on
+  Bridge bridge_;                                  // before the threads that post to it
+  std::unique_ptr<BackgroundJob> job_;
+  std::unique_ptr<control::LiveTrial> trial_;
+};
+
+}  // namespace elbowroom::console

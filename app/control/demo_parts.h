@@ -1,0 +1,27 @@
+// The demo's CAD parts, modelled by us (docs/demo_parts.md): what the paper's payload task is about.
+#pragma once
+
+#include "core/layout.h"
+#include "core/triangle_mesh.h"
+
+namespace elbowroom::control {
+
+// Dimensions that the motion of the simulated task is built around.
+inline constexpr double kPmtSizeMm = 300.0;  // square
+inline constexpr double kPmtHeightMm = 120.0;
+inline constexpr double kWellRadiusMm = 50.0;  // the receptacle, about the box's middle axis
+inline constexpr double kWellDepthMm = 100.0;
+inline constexpr double kOutletHeightMm = 8.0;  // boss on the well's floor
+inline constexpr double kGapInitialMm = 140.0;  // what the designers guessed
+inline constexpr double kGapNeededMm = 240.0;   // what the task takes with tongs
+
+// Part frame of each: z up, z = 0 at its lower side, x = y = 0 in its middle. Closed, oriented outwards.
+[[nodiscard]] core::TriangleMesh PmtBox();
+[[nodiscard]] core::TriangleMesh PayloadA();
+[[nodiscard]] core::TriangleMesh PayloadB();
+
+// Parts "pmt" on the table about the world's z axis, "payload_a" above it on the spacing "payload_a_gap" (z,
+// 60 to 400 mm, initially 140), "payload_b" beside the PMT box; a rule for each pair.
+[[nodiscard]] core::Layout DemoLayout();
+
+}  // namespace elbowroom::control

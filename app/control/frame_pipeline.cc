@@ -1,0 +1,117 @@
+#include "app/control/frame_pipeline.h"
+
+#include <tbb/parallel_for.h>
+
+#include <chrono>
+
+#include "core/error.h"
+
+namespace elbowroom::control {
+namespace {
+
+class Stopwatch {
+ public:
+  // Since the last lap or the start.
+  double LapMs() {
+    const auto now = std::chrono::steady_clock::now();
+    const double lap_ms = std::chrono::duration<double, std::milli>(now - last_).count();
+    last_ = now;
+    return lap_ms;
+  }
+
+ private:
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+std::vector<core::BitMask> SilhouettesOf(const recon::FrameSet& frames,
+                                         const std::vector<recon::BackgroundReference>& backgrounds,
+                                         const recon::SegmentationOptions& options) {
+  std::vector<core::BitMask> masks(frames.cameras.size());
+  tbb::parallel_for(std::size_t{0}, masks.size(), [&](std::size_t i) {
+    const recon::CameraFrame& camera = frames.cameras[i];
+    masks[i] =
+        camera.ready_mask ? *camera.ready_mask : recon::Segment(camera.image_bgr, backgrounds[i], options);
+  });
+  return masks;
+}
+
+}  // namespace
+
+FramePipeline::FramePipeline(core::Rig rig, core::Layout layout,
+                             std::vector<recon::BackgroundReference> backgrounds,
+                             const recon::SegmentationOptions& segmentation)
+    : rig_(std::make_shared<const core::Rig>(std::move(rig))),
+      layout_(std::make_shared<const core::Layout>(std::move(layout))),
+      backgrounds_(std::move(backgrounds)),
+      segmentation_(segmentation) {
+  rig_->Validate();
+  layout_->Validate();
+  segmentation_.Validate();
+  core::Require(backgrounds_.size() == rig_->cameras.size(), "one background reference a camera");
+  for (const core::Part& part : layout_->parts) part_trees_.emplace_back(part.mesh);
+}
+
+SharedFrameResult FramePipeline::Process(const recon::FrameSet& frames, std::span<const double> spacing_mm) {
+  core::Require(frames.cameras.size() == rig_->cameras.size(), "one frame a camera");
+  auto result = std::make_shared<FrameResult>();
+  result->frame = frames.index;
+  result->time_s = frames.time_s;
+  result->layout = layout_;
+  result->spacing_mm.assign(spacing_mm.begin(), spacing_mm.end());
+  result->world_from_parts = core::PosesAt(*layout_, spacing_mm);
+  Stopwatch watch;
+  std::vector<core::BitMask> masks = SilhouettesOf(frames, backgrounds_, segmentation_);
+  result->times.segmentation_ms = watch.LapMs();
+  UpdateHull(std::move(masks), result.get());
+  result->times.hull_ms = watch.LapMs();
+  UpdateContacts(result.get());
+  result->times.contacts_ms = watch.LapMs();
+  last_ = result;
+  return result;
+}
+
+void FramePipeline::UpdateHull(std::vector<core::BitMask> masks, FrameResult* result) {
+  std::vector<std::shared_ptr<const recon::Silhouette>> silhouettes(masks.size());
+  const bool exterior_is_object = rig_->unseen == core::UnseenPolicy::kAbstain;
+  for (std::size_t i = 0; i < masks.size(); ++i) {
+    if (last_ && masks[i] == (*last_->masks)[i]) {
+      silhouettes[i] = last_->hull->silhouettes()[i];
+      ++result->skipped.unchanged_silhouettes;
+    }
+  }
+  if (result->skipped.unchanged_silhouettes == static_cast<int>(masks.size())) {
+    result->masks = last_->masks;
+    result->hull = last_->hull;
+    return;
+  }
+  tbb::parallel_for(std::size_t{0}, masks.size(), [&](std::size_t i) {
+    if (!silhouettes[i])
+      silhouettes[i] = std::make_shared<const recon::Silhouette>(masks[i], exterior_is_object);
+  });
+  result->hull = std::make_shared<const recon::VisualHull>(rig_, std::move(silhouettes));
+  result->masks = std::make_shared<const std::vector<core::BitMask>>(std::move(masks));
+}
+
+void FramePipeline::UpdateContacts(FrameResult* result) {
+  const std::size_t parts = part_trees_.size();
+  result->contacts.resize(parts);
+  std::vector<std::uint8_t> is_unchanged(parts, 0);
+  tbb::parallel_for(std::size_t{0}, parts, [&](std::size_t i) {
+    is_unchanged[i] =
+        last_ && last_->hull == result->hull && last_->world_from_parts[i] == result->world_from_parts[i];
+    result->contacts[i] =
+        is_unchanged[i] ? last_->contacts[i]
+                        : review::FindContacts(*result->hull, part_trees_[i], result->world_from_parts[i], i);
+  });
+  for (std::size_t i = 0; i < parts; ++i) {
+    if (is_unchanged[i]) {
+      ++result->skipped.unchanged_parts;
+      continue;
+    }
+    result->skipped.triangles_in_all += result->contacts[i].count.triangles;
+    result->skipped.triangles_skipped += result->contacts[i].count.skipped;
+    result->skipped.queries += result->contacts[i].count.queries;
+  }
+}
+
+}  // namespace elbowroom::control

@@ -1,0 +1,45 @@
+// Camera frames in, contacts out: one frame's way through recon and review.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "app/control/frame_result.h"
+#include "core/bvh.h"
+#include "core/layout.h"
+#include "core/rig.h"
+#include "recon/frame_set.h"
+#include "recon/segmentation.h"
+#include "review/contacts.h"
+
+namespace elbowroom::control {
+
+// Keeps what the next frame may not have to compute again: silhouettes that didn't change, parts that
+// neither moved nor saw the hull change. Skipping never changes a result (frame_pipeline_test).
+// Thread: one frame at a time.
+class FramePipeline {
+ public:
+  // Throws: what Rig::Validate and Layout::Validate throw.
+  FramePipeline(core::Rig rig, core::Layout layout, std::vector<recon::BackgroundReference> backgrounds,
+                const recon::SegmentationOptions& segmentation);
+
+  [[nodiscard]] const std::shared_ptr<const core::Rig>& rig() const { return rig_; }
+  [[nodiscard]] const std::shared_ptr<const core::Layout>& layout() const { return layout_; }
+
+  // spacing_mm: in the layout's order.
+  [[nodiscard]] SharedFrameResult Process(const recon::FrameSet& frames, std::span<const double> spacing_mm);
+
+ private:
+  void UpdateHull(std::vector<core::BitMask> masks, FrameResult* result);
+  void UpdateContacts(FrameResult* result);
+
+  std::shared_ptr<const core::Rig> rig_;
+  std::shared_ptr<const core::Layout> layout_;
+  std::vector<core::TriangleTree> part_trees_;
+  std::vector<recon::BackgroundReference> backgrounds_;
+  recon::SegmentationOptions segmentation_;
+  SharedFrameResult last_;
+};
+
+}  // namespace elbowroom::control

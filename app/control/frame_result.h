@@ -1,0 +1,46 @@
+// Everything that one frame yielded, as a value that every room may keep.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "core/contact.h"
+#include "core/ids.h"
+#include "core/layout.h"
+#include "core/session.h"
+#include "recon/visual_hull.h"
+
+namespace elbowroom::control {
+
+// What a frame did not need to compute, and why.
+struct SkipCount {
+  int unchanged_silhouettes = 0;       // equal to the last frame's: their fields were kept
+  int unchanged_parts = 0;             // same hull, same pose: the last answer holds
+  std::int64_t triangles_in_all = 0;   // of the parts asked
+  std::int64_t triangles_skipped = 0;  // of those: settled with their whole branch of the part's tree
+  std::int64_t queries = 0;            // ball queries asked
+};
+
+struct StageTimes {
+  double segmentation_ms = 0.0;
+  double hull_ms = 0.0;
+  double contacts_ms = 0.0;
+};
+
+struct FrameResult {
+  core::FrameIndex frame = 0;
+  double time_s = 0.0;  // of capture
+  core::SharedMasks masks;
+  std::shared_ptr<const recon::VisualHull> hull;
+  std::shared_ptr<const core::Layout> layout;
+  std::vector<double> spacing_mm;                      // in the layout's order
+  std::vector<core::RigidTransform> world_from_parts;  // in the layout's order
+  std::vector<core::PartContact> contacts;             // in the layout's order
+  SkipCount skipped;
+  StageTimes times;
+};
+
+using SharedFrameResult = std::shared_ptr<const FrameResult>;
+
+}  // namespace elbowroom::control

@@ -1,0 +1,54 @@
+// The one thread that owns the GL context and every GL object; pictures come out as values.
+#pragma once
+
+#include <functional>
+#include <mutex>
+#include <string>
+#include <thread>
+
+#include "app/control/frame_result.h"
+#include "core/bounded_queue.h"
+#include "recon/image.h"
+#include "recon/orbit_camera.h"
+
+namespace elbowroom::control {
+
+struct RenderRequest {
+  SharedFrameResult result;
+  recon::OrbitCamera camera;
+  int width_px = 640;
+  int height_px = 480;
+};
+
+// The latest request wins: one that comes while a picture is being drawn replaces one that waits.
+// Thread: any may submit; the callbacks come on the worker's thread and must not block.
+class RenderWorker {
+ public:
+  using OnImage = std::function<void(const recon::Image&, const RenderRequest&)>;
+  using OnError = std::function<void(const std::string&)>;  // one line; no picture comes for that request
+
+  RenderWorker(OnImage on_image, OnError on_error);
+  ~RenderWorker();
+  RenderWorker(const RenderWorker&) = delete;
+  RenderWorker& operator=(const RenderWorker&) = delete;
+
+  void Submit(RenderRequest request) { requests_.Push(std::move(request)); }
+
+  // Vendor, renderer and version in one line; "" until the first picture was drawn.
+  [[nodiscard]] std::string driver() const {
+    const std::lock_guard lock(driver_mutex_);
+    return driver_;
+  }
+
+ private:
+  void Run();
+
+  OnImage on_image_;
+  OnError on_error_;
+  mutable std::mutex driver_mutex_;
+  std::string driver_;
+  core::BoundedQueue<RenderRequest> requests_{1, core::WhenFull::kDropOldest};
+  std::jthread thread_;  // last: it starts when all else is there
+};
+
+}  // namespace elbowroom::control

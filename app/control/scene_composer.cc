@@ -1,0 +1,165 @@
+#include "app/control/scene_composer.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/camera_model.h"
+#include "core/units.h"
+#include "recon/hull_mesh.h"
+#include "recon/ray_cast.h"
+
+namespace elbowroom::control {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kViewStepMm = 0.5;
+constexpr float kSeeThrough = 0.3F;
+// A part that stands before more than this share of the hull's pixels is drawn see-through.
+constexpr double kHidesShare = 0.35;
+constexpr std::array<std::array<float, 3>, 6> kPartColors = {{{0.55F, 0.63F, 0.72F},
+                                                              {0.72F, 0.68F, 0.55F},
+                                                              {0.58F, 0.70F, 0.60F},
+                                                              {0.66F, 0.60F, 0.72F},
+                                                              {0.70F, 0.62F, 0.60F},
+                                                              {0.55F, 0.69F, 0.71F}}};
+
+core::CameraModel CameraOf(const recon::SceneView& view) {
+  core::CameraCalibration calibration;
+  calibration.name = "operator";
+  calibration.image_width_px = view.width_px;
+  calibration.image_height_px = view.height_px;
+  calibration.camera_matrix << view.focal_px, 0.0, view.PrincipalPoint().x(), 0.0, view.focal_px,
+      view.PrincipalPoint().y(), 0.0, 0.0, 1.0;
+  calibration.cam_from_world = view.cam_from_world;
+  return core::CameraModel(calibration);
+}
+
+Eigen::AlignedBox3d BoundsInWorld(const FrameResult& result, core::PartIndex part) {
+  Eigen::AlignedBox3d bounds;
+  for (const Vector3d& vertex : result.layout->parts[part].mesh->vertices_mm) {
+    bounds.extend(result.world_from_parts[part] * vertex);
+  }
+  return bounds;
+}
+
+// Whether the segment meets the box (slab test).
+bool Crosses(const Eigen::AlignedBox3d& box, const Vector3d& from, const Vector3d& to) {
+  double enters = 0.0, leaves = 1.0;
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    const double step = to[axis] - from[axis];
+    if (step == 0.0) {
+      if (from[axis] < box.min()[axis] || from[axis] > box.max()[axis]) return false;
+      continue;
+    }
+    const double at_min = (box.min()[axis] - from[axis]) / step,
+                 at_max = (box.max()[axis] - from[axis]) / step;
+    enters = std::max(enters, std::min(at_min, at_max));
+    leaves = std::min(leaves, std::max(at_min, at_max));
+  }
+  return enters <= leaves;
+}
+
+// Share of the hull's pixels that the box stands before; every eighth pixel of every eighth row is looked at.
+double HiddenShare(const recon::HullView& hull, const recon::SceneView& view,
+                   const Eigen::AlignedBox3d& box) {
+  const core::RigidTransform world_from_cam = view.cam_from_world.Inverse();
+  int seen = 0, hidden = 0;
+  for (int y = 0; y < hull.height_px; y += 8) {
+    for (int x = 0; x < hull.width_px; x += 8) {
+      const float depth_mm = hull.depth_mm[static_cast<std::size_t>(y * hull.width_px + x)];
+      if (depth_mm <= 0.0F) continue;
+      ++seen;
+      const Vector3d point = world_from_cam * (view.RayInCam({x, y}) * static_cast<double>(depth_mm));
+      hidden += Crosses(box, world_from_cam.translation_mm, point) ? 1 : 0;
+    }
+  }
+  return seen == 0 ? 0.0 : static_cast<double>(hidden) / seen;
+}
+
+std::shared_ptr<const recon::gl::HullLayer> LayerOf(recon::HullView hull) {
+  auto layer = std::make_shared<recon::gl::HullLayer>();
+  layer->width_px = hull.width_px;
+  layer->height_px = hull.height_px;
+  layer->depth_mm = std::move(hull.depth_mm);
+  layer->normal_in_world = std::move(hull.normal_in_world);
+  return layer;
+}
+
+// A box around the hull, to about a fiftieth of the workspace.
+Eigen::AlignedBox3d HullBounds(const recon::VisualHull& hull) {
+  const double edge_mm = hull.rig().workspace_mm.sizes().maxCoeff() / 50.0;
+  return core::BoundsOf(recon::MeshHull(hull, edge_mm).mesh);
+}
+
+}  // namespace
+
+recon::gl::Scene ComposeScene(const FrameResult& result, const recon::SceneView& view) {
+  recon::gl::Scene scene;
+  scene.view = view;
+  recon::HullView hull = recon::ViewHull(*result.hull, CameraOf(view), kViewStepMm);
+  for (core::PartIndex i = 0; i < result.layout->parts.size(); ++i) {
+    recon::gl::ScenePart part;
+    part.mesh = result.layout->parts[i].mesh;
+    part.world_from_part = result.world_from_parts[i];
+    part.color = Eigen::Vector3f(kPartColors[i % kPartColors.size()].data());
+    part.in_contact = result.contacts[i].verdict == core::Verdict::kContact;
+    if (HiddenShare(hull, view, BoundsInWorld(result, i)) > kHidesShare) part.opacity = kSeeThrough;
+    scene.parts.push_back(std::move(part));
+    for (const core::ContactPoint& point : result.contacts[i].points) {
+      scene.contact_points_in_world.push_back(point.position_in_world_mm);
+    }
+  }
+  scene.hull = LayerOf(std::move(hull));
+  const Eigen::AlignedBox3d& workspace_mm = result.hull->rig().workspace_mm;
+  scene.table_in_world = Eigen::AlignedBox2d(workspace_mm.min().head<2>(), workspace_mm.max().head<2>());
+  scene.table_grid_mm = workspace_mm.sizes().head<2>().maxCoeff() > 2500.0 ? 500.0 : 100.0;
+  return scene;
+}
+
+recon::OrbitCamera OverviewCamera(const FrameResult& result, int width_px, int height_px) {
+  Eigen::AlignedBox3d box = HullBounds(*result.hull);
+  for (core::PartIndex i = 0; i < result.layout->parts.size(); ++i) box.extend(BoundsInWorld(result, i));
+  if (box.isEmpty()) box = result.hull->rig().workspace_mm;
+  recon::OrbitCamera camera;
+  camera.azimuth_rad = core::RadiansFromDegrees(-60.0);
+  camera.elevation_rad = core::RadiansFromDegrees(22.0);
+  return recon::FittedTo(camera, box, width_px, height_px);
+}
+
+recon::OrbitCamera ContactCamera(const FrameResult& result, core::PartIndex part, int width_px,
+                                 int height_px) {
+  const std::vector<core::ContactPoint>& points = result.contacts[part].points;
+  if (points.empty()) return OverviewCamera(result, width_px, height_px);
+  Eigen::AlignedBox3d box;
+  for (const core::ContactPoint& point : points) box.extend(point.position_in_world_mm);
+  // Room around the contact, to see what touches what.
+  constexpr double kAroundMm = 150.0;
+  const Eigen::AlignedBox3d around(box.min().array() - kAroundMm, box.max().array() + kAroundMm);
+
+  std::optional<recon::OrbitCamera> best;
+  int fewest_hidden = 0;
+  for (const double elevation_deg : {20.0, 45.0, -10.0}) {
+    for (int step = 0; step < 12; ++step) {
+      recon::OrbitCamera camera;
+      camera.azimuth_rad = core::RadiansFromDegrees(-60.0 + 30.0 * step);
+      camera.elevation_rad = core::RadiansFromDegrees(elevation_deg);
+      camera = recon::FittedTo(camera, around, width_px, height_px);
+      const Vector3d eye = recon::ViewFrom(camera, width_px, height_px).EyeInWorld();
+      int hidden = 0;
+      for (const core::ContactPoint& point : points) {
+        for (core::PartIndex i = 0; i < result.layout->parts.size(); ++i) {
+          hidden += i != part && Crosses(BoundsInWorld(result, i), eye, point.position_in_world_mm) ? 1 : 0;
+        }
+      }
+      if (!best || hidden < fewest_hidden) {
+        best = camera;
+        fewest_hidden = hidden;
+      }
+    }
+  }
+  return *best;
+}
+
+}  // namespace elbowroom::control

@@ -1,0 +1,106 @@
+#include "app/control/session_report.h"
+
+#include <fmt/format.h>
+
+#include <optional>
+
+#include "app/control/scene_composer.h"
+#include "core/error.h"
+#include "core/progress.h"
+#include "recon/gl/scene_renderer.h"
+#include "recon/png_file.h"
+#include "sessions/report.h"
+
+namespace elbowroom::control {
+namespace {
+
+constexpr int kPictureWidthPx = 1200;
+constexpr int kPictureHeightPx = 800;
+
+recon::Image Draw(recon::gl::SceneRenderer& renderer, const FrameResult& result,
+                  const recon::OrbitCamera& camera) {
+  return renderer.Render(ComposeScene(result, recon::ViewFrom(camera, kPictureWidthPx, kPictureHeightPx)));
+}
+
+// The deepest touch; of a session that was cut short, which has no episodes, the deepest contact recorded.
+struct WorstMoment {
+  core::FrameIndex frame = 0;
+  core::PartIndex part = 0;
+};
+std::optional<WorstMoment> WorstMomentOf(const sessions::SessionReader& session) {
+  const std::vector<core::ContactEpisode> episodes = session.episodes();
+  if (const auto episode = sessions::WorstEpisode(episodes))
+    return WorstMoment{episode->peak_frame, episode->part};
+  std::optional<WorstMoment> worst;
+  double deepest_mm = -1.0;
+  for (const sessions::ContactRow& row : session.contacts()) {
+    const double depth_mm = row.contact.deepest ? row.contact.deepest->depth_mm : 0.0;
+    if (depth_mm <= deepest_mm) continue;
+    deepest_mm = depth_mm;
+    worst = WorstMoment{row.frame, row.contact.part};
+  }
+  return worst;
+}
+
+std::string CaptionOf(const FrameResult& result, core::PartIndex part, const std::string& driver) {
+  const core::PartContact& contact = result.contacts[part];
+  return fmt::format(
+      "Frame {} ({:.2f} s): the hull of the real objects reaches at least {:.1f} mm into '{}', over {:.0f} "
+      "mm\u00b2. "
+      "Red points: contact. Drawn with {}.",
+      result.frame, result.time_s, contact.deepest ? contact.deepest->depth_mm : 0.0,
+      result.layout->parts[part].name, contact.contact_area_mm2, driver);
+}
+
+}  // namespace
+
+SharedFrameResult RebuildFrame(const sessions::SessionReader& session, core::FrameIndex frame) {
+  const core::FrameRecord record = session.ReadFrame(frame);
+  auto result = std::make_shared<FrameResult>();
+  result->frame = record.frame;
+  result->time_s = record.time_s;
+  result->masks = record.silhouettes;
+  result->hull = std::make_shared<const recon::VisualHull>(
+      recon::MakeVisualHull(std::make_shared<const core::Rig>(session.header().rig), *record.silhouettes));
+  result->layout = std::make_shared<const core::Layout>(session.header().layout);
+  result->spacing_mm = record.spacing_mm;
+  result->world_from_parts = core::PosesAt(*result->layout, record.spacing_mm);
+  result->contacts = record.contacts;
+  return result;
+}
+
+ReportFiles WriteSessionReport(const std::filesystem::path& session_path, const std::filesystem::path& folder,
+                               const core::Progress& progress, std::stop_token stop) {
+  const sessions::SessionReader session(session_path);
+  const std::vector<sessions::FrameSummary> frames = session.frames();
+  sessions::ReportPictures pictures;
+  if (!frames.empty()) {
+    recon::gl::SceneRenderer renderer;
+    const std::optional<WorstMoment> worst = WorstMomentOf(session);
+    const SharedFrameResult shown = RebuildFrame(session, worst ? worst->frame : frames.back().frame);
+    progress.Report(1, 4, "picture of the whole scene");
+    pictures.overview_png =
+        recon::EncodePng(Draw(renderer, *shown, OverviewCamera(*shown, kPictureWidthPx, kPictureHeightPx)));
+    core::ThrowIfStopped(stop, "the report");
+    if (worst) {
+      progress.Report(2, 4, "picture of the worst moment");
+      const recon::OrbitCamera camera = ContactCamera(*shown, worst->part, kPictureWidthPx, kPictureHeightPx);
+      pictures.worst_moment_png = recon::EncodePng(Draw(renderer, *shown, camera));
+      pictures.caption = CaptionOf(*shown, worst->part, renderer.driver());
+    }
+  }
+  core::ThrowIfStopped(stop, "the report");
+  progress.Report(3, 4, "writing the report");
+  sessions::WriteReport(session, pictures, folder);
+  return {{folder / "report.html", folder / "contacts.csv"}};
+}
+
+void WriteFramePicture(const FrameResult& result, const std::filesystem::path& png, int width_px,
+                       int height_px) {
+  recon::gl::SceneRenderer renderer;
+  const recon::SceneView view =
+      recon::ViewFrom(OverviewCamera(result, width_px, height_px), width_px, height_px);
+  recon::WritePng(renderer.Render(ComposeScene(result, view)), png);
+}
+
+}  // namespace elbowroom::control

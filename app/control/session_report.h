@@ -1,0 +1,31 @@
+// The report of a recorded session, with pictures drawn from what was recorded.
+#pragma once
+
+#include <filesystem>
+#include <stop_token>
+#include <vector>
+
+#include "app/control/frame_result.h"
+#include "core/progress.h"
+#include "sessions/session_reader.h"
+
+namespace elbowroom::control {
+
+// The frame as it was judged, rebuilt from its recorded silhouettes and layout; contacts are those recorded.
+// Throws: core::Error as SessionReader does.
+[[nodiscard]] SharedFrameResult RebuildFrame(const sessions::SessionReader& session, core::FrameIndex frame);
+
+struct ReportFiles {
+  std::vector<std::filesystem::path> written;
+};
+
+// report.html and contacts.csv in `folder` (made if it isn't there), with a picture of the deepest contact
+// and one of the whole scene. Throws: core::Error{kFile, kDatabase, kGraphics}.
+ReportFiles WriteSessionReport(const std::filesystem::path& session, const std::filesystem::path& folder,
+                               const core::Progress& progress, std::stop_token stop);
+
+// The operator's view of one recorded frame as a PNG, whole or not at all; for the demo's view.png.
+void WriteFramePicture(const FrameResult& result, const std::filesystem::path& png, int width_px,
+                       int height_px);
+
+}  // namespace elbowroom::control

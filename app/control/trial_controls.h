@@ -1,0 +1,47 @@
+// What the experimenter asks of a running trial.
+#pragma once
+
+#include <mutex>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace elbowroom::control {
+
+struct SpacingWish {
+  std::string spacing;
+  double to_mm = 0.0;  // kept within the spacing's limits
+};
+struct ToolWish {
+  std::string tool;
+  bool in_use = false;
+};
+
+// A mailbox: any thread puts wishes in, the trial takes them out between two frames.
+// Thread: any.
+class TrialControls {
+ public:
+  struct Wishes {
+    std::vector<SpacingWish> spacings;  // in order: the last one for a spacing holds
+    std::vector<ToolWish> tools;
+  };
+
+  void SetSpacing(const std::string& spacing, double to_mm) {
+    const std::lock_guard lock(mutex_);
+    wishes_.spacings.push_back({spacing, to_mm});
+  }
+  void MarkTool(const std::string& tool, bool in_use) {
+    const std::lock_guard lock(mutex_);
+    wishes_.tools.push_back({tool, in_use});
+  }
+  [[nodiscard]] Wishes Take() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(wishes_, {});
+  }
+
+ private:
+  std::mutex mutex_;
+  Wishes wishes_;
+};
+
+}  // namespace elbowroom::control

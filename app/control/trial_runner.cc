@@ -1,0 +1,201 @@
+#include "app/control/trial_runner.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <condition_variable>
+#include <limits>
+#include <mutex>
+#include <utility>
+#include <variant>
+
+#include "app/control/frame_pipeline.h"
+#include "app/control/versions.h"
+#include "core/error.h"
+#include "review/contact_tracker.h"
+#include "sessions/session_writer.h"
+
+namespace elbowroom::control {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+core::SessionHeader HeaderOf(const TrialSetup& setup) {
+  core::SessionHeader header;
+  header.trial = setup.info;
+  header.rig = setup.source->rig();
+  header.layout = setup.layout;
+  header.started_at_utc = NowUtc();
+  header.settings = SettingsOf(setup.segmentation);
+  header.versions = SoftwareVersions();
+  return header;
+}
+
+core::FrameIndex EndOf(const TrialSetup& setup, const FrameRange& range) {
+  const core::FrameIndex available =
+      setup.source->frame_count().value_or(std::numeric_limits<core::FrameIndex>::max());
+  const core::FrameIndex end = range.end.value_or(available);
+  if (range.first < 0 || range.first >= end) {
+    throw core::Error(
+        core::ErrorKind::kRange,
+        fmt::format("frames {}:{}: no frame is in that range; A:B counts from 0 and B is not included",
+                    range.first, end));
+  }
+  if (end > available) {
+    throw core::Error(core::ErrorKind::kRange,
+                      fmt::format("frames {}:{}: the footage has {} frames (0:{}); choose a range within it",
+                                  range.first, end, available, available));
+  }
+  return end;
+}
+
+// Waits for the time at which a frame was taken; wakes early on a stop.
+class Pace {
+ public:
+  void WaitFor(double time_s, const std::stop_token& stop) {
+    if (!begin_) {
+      begin_ =
+          Clock::now() - std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(time_s));
+    }
+    std::unique_lock lock(mutex_);
+    const auto due =
+        *begin_ + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(time_s));
+    wakes_.wait_until(lock, stop, due, [] { return false; });
+  }
+
+ private:
+  std::optional<Clock::time_point> begin_;
+  std::mutex mutex_;
+  std::condition_variable_any wakes_;
+};
+
+// One trial under way: what is recorded and what is counted.
+class Recording {
+ public:
+  Recording(const TrialSetup& setup, const TrialOptions& options, TrialControls& controls)
+      : setup_(setup), options_(options), controls_(controls), writer_(options.session, HeaderOf(setup)) {
+    spacing_mm_ = setup.layout.InitialSpacings();
+    outcome_.frames_in_contact.assign(setup.layout.parts.size(), 0);
+  }
+
+  void Run(core::FrameIndex end, const std::stop_token& stop) {
+    FramePipeline pipeline(setup_.source->rig(), setup_.layout,
+                           setup_.source->ReadBackgrounds(options_.progress, stop), setup_.segmentation);
+    const core::FrameIndex first = options_.frames.first;
+    for (core::FrameIndex frame = first; frame < end && !stop.stop_requested(); ++frame) {
+      const recon::FrameSet frames = setup_.source->Read(frame);
+      if (options_.at_capture_rate) pace_.WaitFor(frames.time_s, stop);
+      ApplyChanges(frame, frames.time_s);
+      const Clock::time_point begin = Clock::now();
+      const SharedFrameResult result = pipeline.Process(frames, spacing_mm_);
+      outcome_.frame_ms.push_back(std::chrono::duration<double, std::milli>(Clock::now() - begin).count());
+      Record(*result);
+      if (options_.on_frame) options_.on_frame(result);
+      options_.progress.Report(frame + 1 - first, setup_.source->frame_count() ? end - first : 0, "frames");
+    }
+  }
+
+  TrialOutcome Finish(const std::string& end_note) {
+    outcome_.end_note = end_note;
+    if (!end_note.empty())
+      writer_.Append(core::SessionEvent{last_frame_, last_time_s_, core::Note{end_note}});
+    outcome_.episodes = tracker_.Episodes();
+    writer_.Finish(outcome_.episodes);
+    return std::move(outcome_);
+  }
+
+  void Abandon() { writer_.Abandon(); }
+
+ private:
+  void ApplyChanges(core::FrameIndex frame, double time_s) {
+    for (const ScriptedChange& change : setup_.script) {
+      if (change.frame != frame) continue;
+      std::visit([&](const auto& wish) { Apply(frame, time_s, wish); }, change.what);
+    }
+    const TrialControls::Wishes wishes = controls_.Take();
+    for (const SpacingWish& wish : wishes.spacings) Apply(frame, time_s, wish);
+    for (const ToolWish& wish : wishes.tools) Apply(frame, time_s, wish);
+  }
+
+  void Apply(core::FrameIndex frame, double time_s, const ToolWish& wish) {
+    writer_.Append(core::SessionEvent{frame, time_s, core::ToolMarked{wish.tool, wish.in_use}});
+  }
+
+  void Apply(core::FrameIndex frame, double time_s, const SpacingWish& wish) {
+    const std::optional<core::SpacingIndex> index = setup_.layout.FindSpacing(wish.spacing);
+    if (!index) {
+      const std::string note = fmt::format("no spacing is named '{}'", wish.spacing);
+      writer_.Append(core::SessionEvent{frame, time_s, core::Note{note}});
+      return;
+    }
+    const core::Spacing& spacing = setup_.layout.spacings[*index];
+    const double allowed_mm = std::clamp(wish.to_mm, spacing.min_mm, spacing.max_mm);
+    const double from_mm = std::exchange(spacing_mm_[*index], allowed_mm);
+    if (from_mm == allowed_mm) return;
+    writer_.Append(
+        core::SessionEvent{frame, time_s, core::SpacingChanged{wish.spacing, from_mm, allowed_mm}});
+  }
+
+  void Record(const FrameResult& result) {
+    last_frame_ = result.frame;
+    last_time_s_ = result.time_s;
+    tracker_.Add(result.frame, result.time_s, result.contacts, result.spacing_mm);
+    writer_.Append(
+        core::FrameRecord{result.frame, result.time_s, result.masks, result.spacing_mm, result.contacts});
+    ++outcome_.frames;
+    for (const core::PartContact& contact : result.contacts) {
+      outcome_.frames_in_contact[contact.part] += contact.verdict == core::Verdict::kContact ? 1 : 0;
+    }
+    outcome_.skipped.unchanged_silhouettes += result.skipped.unchanged_silhouettes;
+    outcome_.skipped.unchanged_parts += result.skipped.unchanged_parts;
+    outcome_.skipped.triangles_in_all += result.skipped.triangles_in_all;
+    outcome_.skipped.triangles_skipped += result.skipped.triangles_skipped;
+    outcome_.skipped.queries += result.skipped.queries;
+  }
+
+  const TrialSetup& setup_;
+  const TrialOptions& options_;
+  TrialControls& controls_;
+  sessions::SessionWriter writer_;
+  review::ContactTracker tracker_;
+  Pace pace_;
+  std::vector<double> spacing_mm_;
+  TrialOutcome outcome_;
+  core::FrameIndex last_frame_ = 0;
+  double last_time_s_ = 0.0;
+};
+
+std::string EndNote(const TrialSetup& setup, core::FrameIndex end, const std::stop_token& stop) {
+  if (stop.stop_requested()) return "stopped by the experimenter";
+  return setup.source->frame_count() == end ? setup.end_note : fmt::format("ended at frame {} as asked", end);
+}
+
+}  // namespace
+
+TrialOutcome RunTrial(const TrialSetup& setup, const TrialOptions& options, TrialControls& controls,
+                      std::stop_token stop) {
+  const core::FrameIndex end = EndOf(setup, options.frames);
+  Recording recording(setup, options, controls);
+  try {
+    recording.Run(end, stop);
+  } catch (const core::Error& error) {
+    // A stop while the backgrounds were measured ends the trial in order. Footage can be read again, so a
+    // trial on bad footage leaves nothing; what a live camera has shown can't, so that is kept.
+    const bool is_stop = error.kind() == core::ErrorKind::kCancelled;
+    if (!is_stop && setup.source->frame_count()) {
+      recording.Abandon();
+      throw;
+    }
+    if (!is_stop) {
+      recording.Finish(fmt::format("ended by a failure: {}", error.what()));
+      throw;
+    }
+  } catch (...) {
+    recording.Abandon();
+    throw;
+  }
+  return recording.Finish(EndNote(setup, end, stop));
+}
+
+}  // namespace elbowroom::control

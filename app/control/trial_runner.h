@@ -1,0 +1,52 @@
+// Runs a trial from its first frame to its last, recording as it goes.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "app/control/frame_result.h"
+#include "app/control/trial_controls.h"
+#include "app/control/trial_setup.h"
+#include "core/progress.h"
+#include "core/session.h"
+
+namespace elbowroom::control {
+
+// Frames first, first + 1, ... up to but not including `end`; nothing: to the end of the footage.
+struct FrameRange {
+  core::FrameIndex first = 0;
+  std::optional<core::FrameIndex> end;
+};
+
+struct TrialOptions {
+  std::filesystem::path session;  // must not exist yet
+  FrameRange frames;
+  bool at_capture_rate = false;  // true: no faster than the frames were taken (console); false: flat out
+  // Called for every frame on the trial's thread; must not block.
+  std::function<void(const SharedFrameResult&)> on_frame;
+  core::Progress progress;
+};
+
+struct TrialOutcome {
+  std::int64_t frames = 0;
+  std::vector<std::int64_t> frames_in_contact;  // one a part
+  std::vector<core::ContactEpisode> episodes;
+  std::string end_note;  // why it ended: "ended with the shortest source, camera 'cam03' (426 frames)", ...
+  SkipCount skipped;     // over all frames
+  std::vector<double> frame_ms;  // segmentation to contacts, frame by frame
+};
+
+// Backgrounds are measured, the session is created, then each frame goes through the pipeline to the session,
+// whose writer never drops one. A stop ends the trial in order: the session is complete up to there. Footage
+// that turns out bad takes the session file away with it, so that nothing half-written stays.
+// Throws: core::Error: footage, session file, frame range beyond the footage, an unknown spacing in a wish is
+// ignored with a note in the session. Thread: the caller's; `controls` from any.
+TrialOutcome RunTrial(const TrialSetup& setup, const TrialOptions& options, TrialControls& controls,
+                      std::stop_token stop);
+
+}  // namespace elbowroom::control

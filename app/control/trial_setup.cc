@@ -1,0 +1,91 @@
+#include "app/control/trial_setup.h"
+
+#include <fmt/format.h>
+
+#include "cad_import/layout_file.h"
+#include "cad_import/toml_entry.h"
+#include "core/error.h"
+#include "recon/recorded_rig.h"
+#include "recon/rig_file.h"
+
+namespace elbowroom::control {
+namespace {
+
+using cad_import::TomlEntry;
+
+template <typename Value, typename Parse>
+Value Choice(const TomlEntry& entry, std::string_view key, Value otherwise, Parse parse,
+             std::string_view choices) {
+  if (entry.Find(key) == nullptr) return otherwise;
+  const std::optional<Value> value = parse(entry.Text(key));
+  if (!value) entry.Fail(key, fmt::format("must be {}", choices));
+  return *value;
+}
+
+recon::SegmentationOptions ReadSegmentation(const TomlEntry& root, const std::string& file) {
+  recon::SegmentationOptions options;
+  const toml::node* node = root.Find("segmentation");
+  if (node == nullptr) return options;
+  if (!node->is_table()) root.Fail("segmentation", "must be written as [segmentation]");
+  const TomlEntry entry(*node->as_table(), file, "[segmentation]",
+                        {"method", "k_sigma", "floor_levels", "min_blob_px", "shadows"});
+  options.method =
+      Choice(entry, "method", options.method, recon::ParseSegmentationMethod, R"("threshold" or "adaptive")");
+  options.shadows =
+      Choice(entry, "shadows", options.shadows, recon::ParseShadowRule, R"("keep" or "reject")");
+  options.k_sigma = entry.NumberOr("k_sigma", options.k_sigma);
+  options.floor_levels = entry.NumberOr("floor_levels", options.floor_levels);
+  const double min_blob_px = entry.NumberOr("min_blob_px", options.min_blob_px);
+  if (min_blob_px < 0.0 || min_blob_px > 1e9)
+    entry.Fail("min_blob_px", "must be a number of pixels, 0 or more");
+  options.min_blob_px = static_cast<int>(min_blob_px);
+  try {
+    options.Validate();
+  } catch (const core::Error& error) {
+    entry.FailAt(node->source(), error.what());
+  }
+  return options;
+}
+
+// What the footage's length depends on, for the session's record.
+std::string EndNote(const recon::RecordedRig& source) {
+  const std::optional<recon::ShortestSource>& shortest = source.shortest_source();
+  if (!shortest) return {};
+  return fmt::format("ended with the shortest source, camera '{}' ({} frames)",
+                     source.rig().cameras[shortest->camera].name(), shortest->frames);
+}
+
+}  // namespace
+
+TrialSetup ReadTrialFile(const std::filesystem::path& path, std::stop_token stop) {
+  const toml::table table = cad_import::ParseTomlFile(path, "trial file");
+  const TomlEntry root(table, path.string(), "",
+                       {"rig", "layout", "participant", "task", "estimate_mm", "required_clearance_mm",
+                        "tools", "segmentation"});
+  TrialSetup setup;
+  setup.info.participant = root.TextOr("participant", "");
+  setup.info.task = root.TextOr("task", "");
+  setup.info.estimate_mm = root.NumberOr("estimate_mm", 0.0);
+  setup.info.required_clearance_mm = root.NumberOr("required_clearance_mm", 0.0);
+  setup.info.tools = root.Texts("tools");
+  setup.segmentation = ReadSegmentation(root, path.string());
+  const std::filesystem::path folder = path.parent_path();
+  cad_import::ImportedLayout imported = cad_import::ImportLayoutFile(folder / root.Text("layout"));
+  setup.layout = std::move(imported.layout);
+  setup.warnings = std::move(imported.warnings);
+  auto source = std::make_shared<recon::RecordedRig>(recon::ReadRigFile(folder / root.Text("rig")), stop);
+  setup.end_note = EndNote(*source);
+  setup.source = std::move(source);
+  return setup;
+}
+
+std::map<std::string, std::string> SettingsOf(const recon::SegmentationOptions& options) {
+  return {{"segmentation.method", std::string(ToString(options.method))},
+          {"segmentation.k_sigma", fmt::format("{}", options.k_sigma)},
+          {"segmentation.floor_levels", fmt::format("{}", options.floor_levels)},
+          {"segmentation.min_blob_px", fmt::format("{}", options.min_blob_px)},
+          {"segmentation.max_hole_px", fmt::format("{}", options.max_hole_px)},
+          {"segmentation.shadows", std::string(ToString(options.shadows))}};
+}
+
+}  // namespace elbowroom::control

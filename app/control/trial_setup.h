@@ -1,0 +1,44 @@
+// A trial before it starts: who, what, which rig, which layout, where the frames come from.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <stop_token>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "app/control/trial_controls.h"
+#include "core/layout.h"
+#include "core/session.h"
+#include "recon/frame_set.h"
+#include "recon/segmentation.h"
+
+namespace elbowroom::control {
+
+// Something the experimenter is known to do at a frame: the demo's script.
+struct ScriptedChange {
+  core::FrameIndex frame = 0;
+  std::variant<SpacingWish, ToolWish> what;
+};
+
+struct TrialSetup {
+  core::TrialInfo info;
+  core::Layout layout;
+  recon::SegmentationOptions segmentation;
+  std::shared_ptr<recon::FrameSetSource> source;
+  std::vector<ScriptedChange> script;  // by frame
+  std::string end_note;                // what limits the footage, "" if nothing: goes into the session
+  std::vector<std::string> warnings;   // of the files that were read
+};
+
+// TRIAL.toml (docs/user_guide.md) with its rig and layout; the footage is opened and its length measured.
+// Throws: core::Error with file, line and key for what the trial file has wrong; what the rig's and the
+// layout's readers throw; Error{kCancelled}.
+[[nodiscard]] TrialSetup ReadTrialFile(const std::filesystem::path& path, std::stop_token stop = {});
+
+// The settings that a session keeps, as text.
+[[nodiscard]] std::map<std::string, std::string> SettingsOf(const recon::SegmentationOptions& options);
+
+}  // namespace elbowroom::control

@@ -1,0 +1,19 @@
+// The program: the command line, and the window that it may open.
+#include "app/cli/command_line.h"
+#ifdef ELBOWROOM_WITH_CONSOLE
+#include "app/console/console_main.h"
+#endif
+
+int main(int argc, char** argv) {
+#ifdef ELBOWROOM_WITH_CONSOLE
+  return elbowroom::cli::RunCommandLine(argc, argv, [&](const elbowroom::cli::ConsoleRequest& request) {
+    elbowroom::console::ConsoleOptions options;
+    options.trial_file = request.trial_file;
+    options.demo = request.demo;
+    options.session = request.session;
+    return elbowroom::console::RunConsole(options);
+  });
+#else
+  return elbowroom::cli::RunCommandLine(argc, argv, {});
+#endif
+}

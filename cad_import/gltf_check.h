@@ -1,0 +1,16 @@
+// Whether a glTF 2.0 document stays inside its own buffers and its nodes form trees.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace elbowroom::cad_import {
+
+// Throws: Error{kFormat} naming `where`: not JSON, not glTF 2.0, an accessor or view outside its buffer, a
+// node that is its own ancestor or nested deeper than 256.
+void CheckGltf(std::string_view json_text, const std::string& where);
+
+// The same for the binary container, whose chunks must also lie inside the file.
+void CheckGlb(std::string_view bytes, const std::string& where);
+
+}  // namespace elbowroom::cad_import

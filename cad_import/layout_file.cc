@@ -1,0 +1,139 @@
+#include "cad_import/layout_file.h"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <memory>
+#include <utility>
+
+#include "cad_import/mesh_file.h"
+#include "cad_import/spelling.h"
+#include "cad_import/toml_entry.h"
+#include "core/error.h"
+
+namespace elbowroom::cad_import {
+namespace {
+
+using core::Error;
+using core::ErrorKind;
+
+// Reads each file once for each unit that it is asked for in.
+class MeshShelf {
+ public:
+  struct Item {
+    core::SharedMesh mesh;
+    ImportReport report;
+  };
+  const Item& Get(const std::filesystem::path& path, const ImportOptions& options) {
+    const auto key = std::make_tuple(path.lexically_normal(), options.unit);
+    const auto found = items_.find(key);
+    if (found != items_.end()) return found->second;
+    ImportedMesh imported = ImportMeshFile(path, options);
+    return items_
+        .emplace(key, Item{std::make_shared<const core::TriangleMesh>(std::move(imported.mesh)),
+                           std::move(imported.report)})
+        .first->second;
+  }
+
+ private:
+  std::map<std::tuple<std::filesystem::path, std::optional<core::LengthUnit>>, Item> items_;
+};
+
+core::Part ReadPart(const TomlEntry& entry, const std::filesystem::path& folder,
+                    std::optional<core::LengthUnit> layout_unit, MeshShelf& shelf,
+                    std::vector<std::string>& warnings) {
+  core::Part part;
+  part.name = entry.Text("name");
+  part.file = entry.Text("file");
+  part.world_from_part = core::FromPositionAndRollPitchYaw(entry.VectorOrZero("position_mm"),
+                                                           entry.VectorOrZero("rotation_rpy_deg"));
+  const ImportOptions options{.unit = entry.Unit(), .unit_if_file_has_none = layout_unit};
+  try {
+    const MeshShelf::Item& item = shelf.Get(folder / part.file, options);
+    part.mesh = item.mesh;
+    part.unit = item.report.unit;
+    for (const std::string& warning : item.report.warnings) {
+      warnings.push_back(fmt::format("part '{}' ({}): {}", part.name, part.file, warning));
+    }
+  } catch (const Error& error) {
+    entry.FailAt(entry.Find("file")->source(), fmt::format("part '{}': {}", part.name, error.what()),
+                 error.kind());
+  }
+  return part;
+}
+
+void RequirePart(const core::Layout& layout, const TomlEntry& entry, std::string_view key,
+                 const std::string& name) {
+  if (layout.FindPart(name)) return;
+  std::vector<std::string_view> known;
+  for (const core::Part& part : layout.parts) known.emplace_back(part.name);
+  const auto nearest = NearestWord(name, known);
+  entry.Fail(
+      key, fmt::format("names no part: '{}'; {}", name,
+                       nearest ? fmt::format("did you mean '{}'?", *nearest) : "use the name of a [[part]]"));
+}
+
+core::Spacing ReadSpacing(const TomlEntry& entry, const core::Layout& layout) {
+  core::Spacing spacing;
+  spacing.name = entry.Text("name");
+  spacing.moving = entry.Text("moving");
+  spacing.reference = entry.Text("reference");
+  RequirePart(layout, entry, "moving", spacing.moving);
+  RequirePart(layout, entry, "reference", spacing.reference);
+  const auto axis = core::ParseAxis(entry.Text("axis"));
+  if (!axis) entry.Fail("axis", "must be \"x\", \"y\" or \"z\"");
+  spacing.axis = *axis;
+  spacing.min_mm = entry.Number("min_mm");
+  spacing.max_mm = entry.Number("max_mm");
+  spacing.initial_mm = entry.Number("initial_mm");
+  return spacing;
+}
+
+core::PairRule ReadPair(const TomlEntry& entry, const core::Layout& layout) {
+  core::PairRule rule;
+  rule.a = entry.Text("a");
+  rule.b = entry.Text("b");
+  RequirePart(layout, entry, "a", rule.a);
+  RequirePart(layout, entry, "b", rule.b);
+  rule.required_clearance_mm = entry.NumberOr("required_clearance_mm", 0.0);
+  if (rule.required_clearance_mm < 0.0) entry.Fail("required_clearance_mm", "must not be negative");
+  rule.authorised_contact = entry.FlagOr("authorised_contact", false);
+  return rule;
+}
+
+}  // namespace
+
+ImportedLayout ImportLayoutFile(const std::filesystem::path& path) {
+  const std::string file = path.string();
+  const toml::table table = ParseTomlFile(path, "layout file");
+  const TomlEntry root(table, file, "", {"unit", "part", "spacing", "pair"});
+  ImportedLayout result;
+  core::Layout& layout = result.layout;
+  const auto unit = root.Unit();
+  layout.unit = unit.value_or(layout.unit);
+  MeshShelf shelf;
+  for (const TomlEntry& entry :
+       root.Entries("part", {"name", "file", "unit", "position_mm", "rotation_rpy_deg"})) {
+    layout.parts.push_back(ReadPart(entry, path.parent_path(), unit, shelf, result.warnings));
+  }
+  if (layout.parts.empty())
+    throw Error(ErrorKind::kFormat, fmt::format("{}:1: no [[part]]; add at least one", file));
+  for (const TomlEntry& entry :
+       root.Entries("spacing", {"name", "moving", "reference", "axis", "min_mm", "max_mm", "initial_mm"})) {
+    layout.spacings.push_back(ReadSpacing(entry, layout));
+  }
+  for (const TomlEntry& entry :
+       root.Entries("pair", {"a", "b", "required_clearance_mm", "authorised_contact"})) {
+    layout.pair_rules.push_back(ReadPair(entry, layout));
+  }
+  try {
+    layout.Validate();
+  } catch (const Error& error) {
+    throw Error(error.kind(), fmt::format("{}: {}", file, error.what()));
+  }
+  return result;
+}
+
+core::Layout ReadLayoutFile(const std::filesystem::path& path) { return ImportLayoutFile(path).layout; }
+
+}  // namespace elbowroom::cad_import

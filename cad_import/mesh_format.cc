@@ -1,0 +1,137 @@
+#include "cad_import/mesh_format.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cstdint>
+#include <cstring>
+#include <fstream>
+#include <utility>
+
+#include "cad_import/gltf_check.h"
+#include "cad_import/ply_check.h"
+#include "core/error.h"
+
+namespace elbowroom::cad_import {
+namespace {
+
+using core::Error;
+using core::ErrorKind;
+
+constexpr std::uintmax_t kLargestFileBytes = std::uintmax_t{1} << 30U;
+constexpr std::size_t kStlHeaderBytes = 84;
+constexpr std::size_t kStlTriangleBytes = 50;
+
+struct FormatRow {
+  MeshFormat format;
+  std::string_view extension;
+  std::string_view text;
+};
+constexpr std::array<FormatRow, 5> kFormats = {{{MeshFormat::kStl, ".stl", "STL"},
+                                                {MeshFormat::kObj, ".obj", "OBJ"},
+                                                {MeshFormat::kPly, ".ply", "PLY"},
+                                                {MeshFormat::kGltf, ".gltf", "glTF"},
+                                                {MeshFormat::kGlb, ".glb", "GLB"}}};
+
+std::string ReadWhole(const std::filesystem::path& path) {
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (status.type() == std::filesystem::file_type::not_found) {
+    throw Error(ErrorKind::kFile, fmt::format("{}: no such file; check the path", path.string()));
+  }
+  if (status.type() != std::filesystem::file_type::regular) {
+    throw Error(ErrorKind::kFile, fmt::format("{}: not a readable file; name a mesh file", path.string()));
+  }
+  const std::uintmax_t size_bytes = std::filesystem::file_size(path, error);
+  if (error || size_bytes > kLargestFileBytes) {
+    throw Error(ErrorKind::kFile, fmt::format("{}: larger than 1 GiB; export a coarser mesh", path.string()));
+  }
+  std::ifstream file(path, std::ios::binary);
+  std::string bytes(static_cast<std::size_t>(size_bytes), '\0');
+  if (!file || (size_bytes > 0 && !file.read(bytes.data(), static_cast<std::streamsize>(size_bytes)))) {
+    throw Error(ErrorKind::kFile, fmt::format("{}: can't be read; check its permissions", path.string()));
+  }
+  return bytes;
+}
+
+[[noreturn]] void FailFormat(const std::string& where, const std::string& what) {
+  throw Error(ErrorKind::kFormat, fmt::format("{}: {}", where, what));
+}
+
+bool IsText(std::string_view bytes) { return bytes.find('\0') == std::string_view::npos; }
+
+void CheckTextStl(std::string_view bytes, const std::string& where) {
+  if (bytes.find("facet") == std::string_view::npos) {
+    FailFormat(where, "the STL file holds no facets; export it again as a surface mesh");
+  }
+  const std::size_t last_facet = bytes.rfind("endfacet");
+  if (last_facet == std::string_view::npos || bytes.find("endsolid", last_facet) == std::string_view::npos) {
+    FailFormat(where, "the STL file is cut off (it doesn't end with \"endsolid\"); export or copy it again");
+  }
+}
+
+// Binary if its size is what its count says, or if it can't be text.
+void CheckStl(std::string_view bytes, const std::string& where) {
+  std::uint32_t claimed = 0;
+  if (bytes.size() >= kStlHeaderBytes) std::memcpy(&claimed, bytes.data() + 80, sizeof claimed);
+  const std::uint64_t needed_bytes = kStlHeaderBytes + kStlTriangleBytes * std::uint64_t{claimed};
+  if (bytes.size() >= kStlHeaderBytes && bytes.size() == needed_bytes) return;
+  const std::size_t first = bytes.find_first_not_of(" \t\r\n");
+  const bool says_solid = first != std::string_view::npos && bytes.substr(first, 5) == "solid";
+  if (says_solid && IsText(bytes)) return CheckTextStl(bytes, where);
+  if (bytes.size() < kStlHeaderBytes)
+    FailFormat(where, "not an STL file (too short, and not text); export it again");
+  if (bytes.size() < needed_bytes) {
+    FailFormat(
+        where,
+        fmt::format("the STL header claims {} triangles but the file holds {}; it is cut off or not STL, "
+                    "export or copy it again",
+                    claimed, (bytes.size() - kStlHeaderBytes) / kStlTriangleBytes));
+  }
+}
+
+}  // namespace
+
+std::string_view ToString(MeshFormat format) { return kFormats[static_cast<std::size_t>(format)].text; }
+
+bool CarriesUnit(MeshFormat format) { return format == MeshFormat::kGltf || format == MeshFormat::kGlb; }
+
+MeshFormat FormatOfExtension(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  for (const FormatRow& row : kFormats) {
+    if (row.extension == extension) return row.format;
+  }
+  FailFormat(path.string(),
+             fmt::format("'{}' files can't be read; export the part as .stl, .obj, .ply, .gltf or .glb",
+                         extension.empty() ? "extensionless" : extension));
+}
+
+CheckedFile ReadCheckedFile(const std::filesystem::path& path) {
+  const std::string where = path.string();
+  std::string bytes = ReadWhole(path);  // first, so that a missing file is called missing
+  const MeshFormat format = FormatOfExtension(path);
+  if (bytes.empty()) FailFormat(where, "the file is empty; export it again");
+  switch (format) {
+    case MeshFormat::kStl:
+      CheckStl(bytes, where);
+      break;
+    case MeshFormat::kObj:
+      break;
+    case MeshFormat::kPly:
+      CheckPly(bytes, where);
+      break;
+    case MeshFormat::kGltf:
+      CheckGltf(bytes, where);
+      break;
+    case MeshFormat::kGlb:
+      CheckGlb(bytes, where);
+      break;
+  }
+  return {format, std::move(bytes)};
+}
+
+}  // namespace elbowroom::cad_import

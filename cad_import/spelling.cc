@@ -1,0 +1,42 @@
+#include "cad_import/spelling.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <numeric>
+#include <vector>
+
+namespace elbowroom::cad_import {
+namespace {
+
+// Levenshtein: letters to insert, delete or replace.
+std::size_t EditDistance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i + 1;
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
+      diagonal = row[j + 1];
+      row[j + 1] = std::min({row[j] + 1, row[j + 1] + 1, replaced});
+    }
+  }
+  return row.back();
+}
+
+}  // namespace
+
+std::optional<std::string_view> NearestWord(std::string_view word, std::span<const std::string_view> known) {
+  std::optional<std::string_view> nearest;
+  std::size_t fewest = std::max<std::size_t>(1, word.size() / 3);
+  for (const std::string_view candidate : known) {
+    const std::size_t edits = EditDistance(word, candidate);
+    if (edits < fewest || (edits == fewest && !nearest)) {
+      nearest = candidate;
+      fewest = edits;
+    }
+  }
+  return nearest;
+}
+
+}  // namespace elbowroom::cad_import

@@ -1,0 +1,134 @@
+#include "cad_import/toml_entry.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "cad_import/spelling.h"
+
+namespace elbowroom::cad_import {
+
+using core::Error;
+using core::ErrorKind;
+
+toml::table ParseTomlFile(const std::filesystem::path& path, std::string_view what) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) {
+    throw Error(ErrorKind::kFile, fmt::format("{}: no such {}; check the path", path.string(), what));
+  }
+  try {
+    return toml::parse_file(path.string());
+  } catch (const toml::parse_error& parse_error) {
+    throw Error(ErrorKind::kFormat, fmt::format("{}:{}: not TOML: {}; correct this line", path.string(),
+                                                parse_error.source().begin.line, parse_error.description()));
+  }
+}
+
+TomlEntry::TomlEntry(const toml::table& table, std::string file, std::string title,
+                     std::initializer_list<std::string_view> known)
+    : table_(table), file_(std::move(file)), title_(std::move(title)) {
+  for (const auto& [key, value] : table_) {
+    if (std::find(known.begin(), known.end(), key.str()) != known.end()) continue;
+    const auto nearest = NearestWord(key.str(), {known.begin(), known.size()});
+    FailAt(key.source(), fmt::format("unknown key '{}'; {}", key.str(),
+                                     nearest ? fmt::format("did you mean '{}'?", *nearest) : "remove it"));
+  }
+}
+
+void TomlEntry::FailAt(const toml::source_region& at, const std::string& what, ErrorKind kind) const {
+  throw Error(kind,
+              fmt::format("{}:{}: {}{}{}", file_, at.begin.line, title_, title_.empty() ? "" : ": ", what));
+}
+
+void TomlEntry::Fail(std::string_view key, const std::string& what, ErrorKind kind) const {
+  const toml::node* node = table_.get(key);
+  FailAt(node != nullptr ? node->source() : table_.source(), fmt::format("key '{}' {}", key, what), kind);
+}
+
+std::string TomlEntry::Text(std::string_view key) const {
+  const toml::node* node = Find(key);
+  if (node == nullptr) Fail(key, "is missing; add it");
+  const auto text = node->value_exact<std::string>();
+  if (!text || text->empty()) Fail(key, "must be a text in quotes");
+  return *text;
+}
+
+std::string TomlEntry::TextOr(std::string_view key, const std::string& otherwise) const {
+  const toml::node* node = Find(key);
+  if (node == nullptr) return otherwise;
+  const auto text = node->value_exact<std::string>();
+  if (!text) Fail(key, "must be a text in quotes");
+  return *text;
+}
+
+double TomlEntry::NumberOf(const toml::node& node, std::string_view key) const {
+  const auto number = node.is_number() ? node.value<double>() : std::nullopt;
+  if (!number || !std::isfinite(*number)) Fail(key, "must be a finite number");
+  return *number;
+}
+
+double TomlEntry::Number(std::string_view key) const {
+  if (Find(key) == nullptr) Fail(key, "is missing; add it");
+  return NumberOf(*Find(key), key);
+}
+
+double TomlEntry::NumberOr(std::string_view key, double otherwise) const {
+  return Find(key) == nullptr ? otherwise : NumberOf(*Find(key), key);
+}
+
+Eigen::Vector3d TomlEntry::VectorOrZero(std::string_view key) const {
+  const toml::node* node = Find(key);
+  if (node == nullptr) return Eigen::Vector3d::Zero();
+  const toml::array* array = node->as_array();
+  if (array == nullptr || array->size() != 3) Fail(key, "must be three numbers, [x, y, z]");
+  Eigen::Vector3d result;
+  for (std::size_t i = 0; i < 3; ++i) result[static_cast<Eigen::Index>(i)] = NumberOf(*array->get(i), key);
+  return result;
+}
+
+bool TomlEntry::FlagOr(std::string_view key, bool otherwise) const {
+  const toml::node* node = Find(key);
+  if (node == nullptr) return otherwise;
+  const auto value = node->value_exact<bool>();
+  if (!value) Fail(key, "must be true or false");
+  return *value;
+}
+
+std::vector<std::string> TomlEntry::Texts(std::string_view key) const {
+  const toml::node* node = Find(key);
+  if (node == nullptr) return {};
+  const toml::array* array = node->as_array();
+  if (array == nullptr) Fail(key, "must be a list of texts, [\"tongs\", \"screwdriver\"]");
+  std::vector<std::string> texts;
+  for (const toml::node& element : *array) {
+    const auto text = element.value_exact<std::string>();
+    if (!text || text->empty()) Fail(key, "must hold nothing but texts in quotes");
+    texts.push_back(*text);
+  }
+  return texts;
+}
+
+std::optional<core::LengthUnit> TomlEntry::Unit() const {
+  if (Find("unit") == nullptr) return std::nullopt;
+  const auto unit = core::ParseLengthUnit(Text("unit"));
+  if (!unit) Fail("unit", "must be \"mm\", \"cm\", \"m\" or \"in\"");
+  return unit;
+}
+
+std::vector<TomlEntry> TomlEntry::Entries(std::string_view key,
+                                          std::initializer_list<std::string_view> known) const {
+  const toml::node* node = Find(key);
+  if (node == nullptr) return {};
+  const toml::array* tables = node->as_array();
+  if (tables == nullptr) Fail(key, fmt::format("must be written as [[{}]]", key));
+  std::vector<TomlEntry> entries;
+  for (const toml::node& element : *tables) {
+    if (!element.is_table()) Fail(key, fmt::format("must be written as [[{}]]", key));
+    entries.emplace_back(*element.as_table(), file_, fmt::format("[[{}]]", key), known);
+  }
+  return entries;
+}
+
+}  // namespace elbowroom::cad_import

@@ -1,0 +1,123 @@
+#include "recon/container_check.h"
+
+#include <algorithm>
+#include <fstream>
+#include <string>
+#include <string_view>
+
+namespace elbowroom::recon {
+namespace {
+
+// A chunk (AVI) or box (MP4) ends here at the latest: 4 bytes type, 4 bytes size.
+constexpr std::uint64_t kHeaderBytes = 8;
+
+class ByteReader {
+ public:
+  explicit ByteReader(const std::filesystem::path& path) : file_(path, std::ios::binary) {
+    file_.seekg(0, std::ios::end);
+    size_ = file_ ? static_cast<std::uint64_t>(file_.tellg()) : 0;
+  }
+  [[nodiscard]] std::uint64_t size() const { return size_; }
+
+  // The `n` bytes at `at`; empty if the file ends before.
+  [[nodiscard]] std::string At(std::uint64_t at, std::size_t n) {
+    std::string bytes(n, '\0');
+    if (at + n > size_) return {};
+    file_.seekg(static_cast<std::streamoff>(at));
+    file_.read(bytes.data(), static_cast<std::streamsize>(n));
+    return file_ ? bytes : std::string();
+  }
+
+ private:
+  std::ifstream file_;
+  std::uint64_t size_ = 0;
+};
+
+std::uint64_t LittleEndian(std::string_view bytes) {
+  std::uint64_t value = 0;
+  for (auto it = bytes.rbegin(); it != bytes.rend(); ++it)
+    value = value * 256 + static_cast<unsigned char>(*it);
+  return value;
+}
+
+std::uint64_t BigEndian(std::string_view bytes) {
+  std::uint64_t value = 0;
+  for (const char byte : bytes) value = value * 256 + static_cast<unsigned char>(byte);
+  return value;
+}
+
+// A hole of zeros among the frames: space was reserved and never written.
+std::optional<ContainerDamage> FindHole(ByteReader& reader, std::uint64_t begin, std::uint64_t end) {
+  constexpr std::size_t kHoleBytes = 64;
+  for (std::uint64_t at = begin; at + kHeaderBytes <= end;) {
+    const std::string header = reader.At(at, kHeaderBytes);
+    if (header.empty()) break;
+    if (header == std::string(kHeaderBytes, '\0') &&
+        reader.At(at, kHoleBytes) == std::string(kHoleBytes, '\0')) {
+      return ContainerDamage{at, at};
+    }
+    const std::uint64_t size = LittleEndian(std::string_view(header).substr(4));
+    at += kHeaderBytes + size + size % 2;
+  }
+  return std::nullopt;
+}
+
+// One RIFF chunk from `begin`; its end in `end`.
+std::optional<ContainerDamage> CheckRiff(ByteReader& reader, std::uint64_t begin, std::uint64_t end) {
+  constexpr std::uint64_t kFormTypeBytes = 4;
+  std::uint64_t at = begin + kHeaderBytes + kFormTypeBytes;
+  while (at + kHeaderBytes <= end && at + kHeaderBytes <= reader.size()) {
+    const std::string header = reader.At(at, kHeaderBytes + kFormTypeBytes);
+    if (header.empty()) break;
+    const std::uint64_t size = LittleEndian(std::string_view(header).substr(4, 4));
+    const std::uint64_t next = at + kHeaderBytes + size;
+    if (next > reader.size()) return ContainerDamage{reader.size(), std::max(next, end)};
+    if (header.starts_with("LIST") && header.ends_with("movi")) {
+      if (const auto hole = FindHole(reader, at + kHeaderBytes + kFormTypeBytes, next)) return hole;
+    }
+    at = next + size % 2;
+  }
+  if (end > reader.size() + kHeaderBytes) return ContainerDamage{reader.size(), end};
+  return std::nullopt;
+}
+
+std::optional<ContainerDamage> CheckAvi(ByteReader& reader) {
+  for (std::uint64_t at = 0; reader.At(at, 4) == "RIFF";) {
+    const std::string header = reader.At(at, kHeaderBytes);
+    if (header.empty()) return ContainerDamage{reader.size(), at + kHeaderBytes};
+    const std::uint64_t size = LittleEndian(std::string_view(header).substr(4));
+    if (const std::string form = reader.At(at + kHeaderBytes, 4); form != "AVI " && form != "AVIX") {
+      return std::nullopt;  // a recorder's notes after the footage, in a form of its own
+    }
+    if (size == 0 || size == 0xFFFFFFFFU) return std::nullopt;  // a stream: the writer never knew
+    if (const auto damage = CheckRiff(reader, at, at + kHeaderBytes + size)) return damage;
+    at += kHeaderBytes + size + size % 2;
+  }
+  return std::nullopt;
+}
+
+std::optional<ContainerDamage> CheckMp4(ByteReader& reader) {
+  for (std::uint64_t at = 0; at < reader.size();) {
+    const std::string header = reader.At(at, kHeaderBytes);
+    if (header.empty()) return ContainerDamage{reader.size(), at + kHeaderBytes};
+    std::uint64_t size = BigEndian(std::string_view(header).substr(0, 4));
+    if (size == 0) return std::nullopt;  // to the end of the file, wherever that is
+    if (size == 1) size = BigEndian(reader.At(at + kHeaderBytes, 8));
+    if (size < kHeaderBytes) return ContainerDamage{at, at};
+    if (at + size > reader.size()) return ContainerDamage{reader.size(), at + size};
+    at += size;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<ContainerDamage> FindContainerDamage(const std::filesystem::path& path) {
+  ByteReader reader(path);
+  const std::string start = reader.At(0, 12);
+  if (start.starts_with("RIFF") && start.ends_with("AVI ")) return CheckAvi(reader);
+  if (start.substr(0, start.size() < 8 ? 0 : 8).ends_with("ftyp")) return CheckMp4(reader);
+  return std::nullopt;
+}
+
+}  // namespace elbowroom::recon

@@ -1,0 +1,21 @@
+// Whether a video file holds all the bytes that its own headers promise.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+
+namespace elbowroom::recon {
+
+struct ContainerDamage {
+  std::uint64_t at_byte = 0;         // where the file ends, or where its structure breaks
+  std::uint64_t promised_bytes = 0;  // by its headers; at_byte where only the structure is broken
+};
+
+// Nothing for a whole file, and for a container that this does not know (it knows AVI and the MP4 family).
+// Frame counts play no part: containers estimate them, and codecs hold frames back. An AVI whose writer left
+// its size open (a stream) is taken as whole, as is one whose headers overstep by no more than their own 8
+// bytes.
+[[nodiscard]] std::optional<ContainerDamage> FindContainerDamage(const std::filesystem::path& path);
+
+}  // namespace elbowroom::recon

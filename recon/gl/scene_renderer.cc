@@ -1,0 +1,160 @@
+#include "recon/gl/scene_renderer.h"
+
+#include <epoxy/gl.h>
+#include <fmt/format.h>
+
+#include <optional>
+#include <thread>
+
+#include "core/error.h"
+#include "recon/gl/contact_painter.h"
+#include "recon/gl/egl_context.h"
+#include "recon/gl/framebuffer.h"
+#include "recon/gl/hull_painter.h"
+#include "recon/gl/part_painter.h"
+#include "recon/gl/surroundings_painter.h"
+#include "recon/gl/view_matrices.h"
+
+namespace elbowroom::recon::gl {
+namespace {
+
+constexpr int kSamples = 4;  // OpenGL 3.3 promises as many
+
+struct Targets {
+  Framebuffer sampled;
+  Framebuffer single;
+
+  Targets(int width_px, int height_px)
+      : sampled(width_px, height_px, kSamples), single(width_px, height_px, 1) {}
+};
+
+void ThrowOnGlError(const std::string& renderer) {
+  GLenum first = glGetError();
+  if (first == GL_NO_ERROR) return;
+  while (glGetError() != GL_NO_ERROR) {
+  }
+  throw core::Error(
+      core::ErrorKind::kGraphics,
+      fmt::format("drawing failed on {} ({}); ask for a smaller picture or fewer triangles", renderer,
+                  first == GL_OUT_OF_MEMORY ? std::string("out of graphics memory")
+                                            : fmt::format("OpenGL error {:#x}", first)));
+}
+
+}  // namespace
+
+// The context comes first and so goes last.
+class SceneRenderer::Impl {
+ public:
+  Impl() : driver_(fmt::format("{} | {} | {}", context_.vendor(), context_.renderer(), context_.version())) {}
+
+  [[nodiscard]] Image Render(const Scene& scene);
+  [[nodiscard]] DepthImage RenderDepth(const Scene& scene);
+  void MakeCurrent() const { context_.MakeCurrent(); }
+
+  [[nodiscard]] const std::string& driver() const { return driver_; }
+  [[nodiscard]] const PartPainter& parts() const { return parts_; }
+  [[nodiscard]] std::thread::id thread() const { return thread_; }
+
+ private:
+  [[nodiscard]] const Targets& TargetsFor(const SceneView& view);
+
+  EglContext context_;
+  std::thread::id thread_ = std::this_thread::get_id();
+  std::string driver_;
+  PartPainter parts_;
+  HullPainter hull_;
+  SurroundingsPainter surroundings_;
+  ContactPainter contacts_;
+  std::optional<Targets> targets_;
+};
+
+const Targets& SceneRenderer::Impl::TargetsFor(const SceneView& view) {
+  if (!targets_ || targets_->single.width_px() != view.width_px ||
+      targets_->single.height_px() != view.height_px) {
+    targets_.reset();
+    targets_.emplace(view.width_px, view.height_px);
+  }
+  return *targets_;
+}
+
+Image SceneRenderer::Impl::Render(const Scene& scene) {
+  const ViewMatrices matrices = MatricesOf(scene.view);
+  const Targets& targets = TargetsFor(scene.view);
+  parts_.Update(scene.parts);
+  targets.sampled.Bind();
+  glClear(GL_DEPTH_BUFFER_BIT);
+  surroundings_.DrawBackground(scene);
+  parts_.DrawOpaque(scene.parts, matrices);
+  if (scene.hull != nullptr) hull_.Draw(*scene.hull, scene.hull_color, matrices);
+  surroundings_.DrawTable(scene, matrices);
+  surroundings_.DrawLines(scene, matrices);
+  parts_.DrawTransparent(scene.parts, matrices);
+  contacts_.Draw(scene.contact_points_in_world, matrices);
+  targets.single.ResolveColourFrom(targets.sampled);
+  targets.single.BindForReading();
+  Image image{scene.view.width_px, scene.view.height_px, {}};
+  image.rgb.resize(3 * static_cast<std::size_t>(image.width_px) * static_cast<std::size_t>(image.height_px));
+  glReadPixels(0, 0, image.width_px, image.height_px, GL_RGB, GL_UNSIGNED_BYTE, image.rgb.data());
+  ThrowOnGlError(context_.renderer());
+  return image;
+}
+
+DepthImage SceneRenderer::Impl::RenderDepth(const Scene& scene) {
+  const ViewMatrices matrices = MatricesOf(scene.view);
+  const Targets& targets = TargetsFor(scene.view);
+  parts_.Update(scene.parts);
+  targets.single.Bind();
+  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  parts_.DrawDepth(scene.parts, matrices);
+  if (scene.hull != nullptr) hull_.DrawDepth(*scene.hull, matrices);
+  targets.single.BindForReading();
+  DepthImage image{scene.view.width_px, scene.view.height_px, {}};
+  image.depth_mm.resize(static_cast<std::size_t>(image.width_px) * static_cast<std::size_t>(image.height_px));
+  glReadPixels(0, 0, image.width_px, image.height_px, GL_DEPTH_COMPONENT, GL_FLOAT, image.depth_mm.data());
+  ThrowOnGlError(context_.renderer());
+  for (float& value : image.depth_mm) value = value < 1.0F ? DepthMmOf(value, scene.view) : 0.0F;
+  return image;
+}
+
+SceneRenderer::SceneRenderer() : impl_(std::make_unique<Impl>()) {
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_LEQUAL);
+  glEnable(GL_MULTISAMPLE);
+  glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+  glPolygonOffset(1.0F, 1.0F);
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+}
+
+SceneRenderer::~SceneRenderer() {
+  if (impl_ != nullptr) impl_->MakeCurrent();  // what the destructors delete is in its context
+}
+
+SceneRenderer::SceneRenderer(SceneRenderer&&) noexcept = default;
+SceneRenderer& SceneRenderer::operator=(SceneRenderer&& other) noexcept {
+  std::swap(impl_, other.impl_);
+  return *this;
+}
+
+SceneRenderer::Impl& SceneRenderer::OnOwnThread() const {
+  core::Require(impl_ != nullptr, "a renderer that was moved from isn't used");
+  core::Require(impl_->thread() == std::this_thread::get_id(),
+                "a renderer is used on the thread that made it");
+  impl_->MakeCurrent();
+  return *impl_;
+}
+
+Image SceneRenderer::Render(const Scene& scene) {
+  scene.Validate();
+  return OnOwnThread().Render(scene);
+}
+
+DepthImage SceneRenderer::RenderDepth(const Scene& scene) {
+  scene.Validate();
+  return OnOwnThread().RenderDepth(scene);
+}
+
+const std::string& SceneRenderer::driver() const { return OnOwnThread().driver(); }
+std::size_t SceneRenderer::cached_meshes() const { return OnOwnThread().parts().cached_meshes(); }
+std::int64_t SceneRenderer::mesh_uploads() const { return OnOwnThread().parts().mesh_uploads(); }
+
+}  // namespace elbowroom::recon::gl

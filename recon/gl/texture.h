@@ -1,0 +1,36 @@
+// An image of floats on the graphics card. For the .cc files of this folder: it includes OpenGL.
+#pragma once
+
+#include <span>
+
+#include "recon/gl/gl_name.h"
+
+namespace elbowroom::recon::gl {
+
+// One or three floats a texel, read with texelFetch: no filtering, no mipmaps.
+class FloatTexture {
+ public:
+  explicit FloatTexture(int channels) : channels_(channels) {}
+
+  // Row-major, width_px * height_px * channels floats. Throws: PreconditionError when the count differs.
+  void Upload(int width_px, int height_px, std::span<const float> floats);
+
+  void BindTo(int unit) const;
+
+ private:
+  struct Kind {
+    static GLuint Create() {
+      GLuint name = 0;
+      glGenTextures(1, &name);
+      return name;
+    }
+    static void Destroy(GLuint name) { glDeleteTextures(1, &name); }
+  };
+
+  GlName<Kind> texture_;
+  int channels_;
+  int width_px_ = 0;
+  int height_px_ = 0;
+};
+
+}  // namespace elbowroom::recon::gl

@@ -1,0 +1,39 @@
+// One camera's pictures by number, wherever they are kept.
+#pragma once
+
+#include <memory>
+#include <opencv2/core/mat.hpp>
+#include <optional>
+#include <stop_token>
+#include <string>
+
+#include "core/camera_model.h"
+#include "core/ids.h"
+
+namespace elbowroom::recon {
+
+// Thread: one reader.
+class ImageSource {
+ public:
+  virtual ~ImageSource() = default;
+
+  // How many can be read for certain; nothing for a live camera.
+  [[nodiscard]] virtual std::optional<core::FrameIndex> frame_count() const = 0;
+  [[nodiscard]] virtual std::optional<double> frame_rate_hz() const = 0;  // if the file says
+
+  // 8-bit BGR of the camera's size, in memory of its own. Reading on is fast; going back in a video decodes
+  // it again from its beginning, since only that is right for every codec. A live camera gives its next
+  // picture, whatever the index. Throws: Error{kRange} past the end, Error{kFile} naming camera, file and
+  // frame.
+  [[nodiscard]] virtual cv::Mat Read(core::FrameIndex index) = 0;
+};
+
+// Opens what `location` (a resolved one of CameraSources) names. A video is decoded once to its end here:
+// what its container promises is not what can be read, and a broken file is found before anything is done
+// with it. Throws: Error{kFile} naming camera and file: missing, unreadable, no pictures in it, or cut short,
+// with the frame where it breaks off and how many it promised; Error{kCancelled} on a stop.
+[[nodiscard]] std::unique_ptr<ImageSource> OpenImageSource(const std::string& location,
+                                                           const core::CameraModel& camera,
+                                                           std::stop_token stop = {});
+
+}  // namespace elbowroom::recon

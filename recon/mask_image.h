@@ -1,0 +1,25 @@
+// Silhouettes as pictures: what `segment` writes and what ready masks are read from.
+#pragma once
+
+#include <filesystem>
+#include <opencv2/core/mat.hpp>
+#include <string>
+
+#include "core/bit_mask.h"
+
+namespace elbowroom::recon {
+
+// Object where any channel but alpha is not zero; 8 or 16 bit, 1, 3 or 4 channels.
+[[nodiscard]] core::BitMask MaskFromImage(const cv::Mat& image);
+
+// 8-bit, one channel: object 255, background 0.
+[[nodiscard]] cv::Mat ImageFromMask(const core::BitMask& mask);
+
+// Throws: Error{kFile} naming `who` and the file if it can't be read whole, Error{kFormat} for a JPEG (its
+// rounding makes background pixels non-zero).
+[[nodiscard]] core::BitMask ReadMaskImage(const std::filesystem::path& path, const std::string& who);
+
+// Writes the whole file or nothing. Throws: Error{kFile}.
+void WriteMaskPng(const core::BitMask& mask, const std::filesystem::path& path);
+
+}  // namespace elbowroom::recon

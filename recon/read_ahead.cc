@@ -1,0 +1,60 @@
+#include "recon/read_ahead.h"
+
+#include <utility>
+
+#include "core/error.h"
+
+namespace elbowroom::recon {
+namespace {
+
+constexpr std::size_t kFramesAhead = 4;
+
+}  // namespace
+
+ReadAhead::ReadAhead(ReadFrame read, std::optional<core::FrameIndex> end)
+    : read_(std::move(read)), end_(end) {}
+
+ReadAhead::~ReadAhead() { Stop(); }
+
+void ReadAhead::Stop() {
+  if (queue_) queue_->Close();  // a thread that waits for room gives up
+  if (thread_.joinable()) thread_.join();
+  next_.reset();
+}
+
+void ReadAhead::Expect(core::FrameIndex index) {
+  if (next_ == index) return;
+  Stop();
+  queue_ = end_ ? std::make_unique<Queue>(kFramesAhead, core::WhenFull::kBlock)
+                : std::make_unique<Queue>(1, core::WhenFull::kDropOldest);
+  next_ = index;
+  thread_ = std::jthread([this, queue = queue_.get(), index] { Run(*queue, index); });
+}
+
+void ReadAhead::Run(Queue& queue, core::FrameIndex begin) const {
+  for (core::FrameIndex index = begin; !end_ || index < *end_; ++index) {
+    CapturedFrame captured;
+    try {
+      captured.frame = read_(index);
+    } catch (...) {
+      captured.error = std::current_exception();
+    }
+    captured.captured_at = std::chrono::steady_clock::now();
+    const bool is_last = captured.error != nullptr;
+    if (!queue.Push(std::move(captured)) || is_last) return;
+  }
+}
+
+CapturedFrame ReadAhead::Take() {
+  core::Require(next_.has_value(), "a frame is expected before it is taken");
+  std::optional<CapturedFrame> captured = queue_->Pop();
+  core::Require(captured.has_value(), "a frame that is taken lies below the end");
+  if (captured->error) {
+    Stop();
+    std::rethrow_exception(captured->error);
+  }
+  ++*next_;
+  return std::move(*captured);
+}
+
+}  // namespace elbowroom::recon

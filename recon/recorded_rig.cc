@@ -1,0 +1,170 @@
+#include "recon/recorded_rig.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <cmath>
+#include <filesystem>
+#include <utility>
+
+#include "core/error.h"
+#include "recon/background_reader.h"
+#include "recon/image_sequence.h"
+#include "recon/image_source.h"
+#include "recon/mask_image.h"
+
+namespace elbowroom::recon {
+namespace {
+
+using core::Error;
+using core::ErrorKind;
+using core::FrameIndex;
+
+struct OpenedCamera {
+  std::string location;
+  std::optional<FrameIndex> frames;
+  std::optional<double> frame_rate_hz;
+  ReadAhead::ReadFrame read;
+};
+
+core::BitMask ReadSizedMask(const std::filesystem::path& file, const core::CameraModel& camera) {
+  const std::string who = fmt::format("camera '{}'", camera.name());
+  core::BitMask mask = ReadMaskImage(file, who);
+  if (mask.width_px() != camera.width_px() || mask.height_px() != camera.height_px()) {
+    throw Error(ErrorKind::kFile,
+                fmt::format("{}: mask '{}' is {} x {} px, but the rig says {} x {}; use masks of the "
+                            "calibrated size",
+                            who, file.string(), mask.width_px(), mask.height_px(), camera.width_px(),
+                            camera.height_px()));
+  }
+  return mask;
+}
+
+OpenedCamera OpenMasks(const std::string& location, const core::CameraModel& camera) {
+  const std::string who = fmt::format("camera '{}'", camera.name());
+  const SourceKind kind = KindOf(location);
+  if (kind == SourceKind::kDevice || kind == SourceKind::kUrl || kind == SourceKind::kVideo) {
+    throw Error(ErrorKind::kFormat,
+                fmt::format("{}: masks '{}' must be an image, a pattern such as mask_%04d.png or a "
+                            "folder of images",
+                            who, location));
+  }
+  std::vector<std::filesystem::path> files = FindImageFiles(location, who);
+  const auto count = static_cast<FrameIndex>(files.size());
+  const auto read = [files = std::move(files), camera](FrameIndex index) {
+    return CameraFrame{{}, ReadSizedMask(files[static_cast<std::size_t>(index)], camera)};
+  };
+  return {location, count, std::nullopt, read};
+}
+
+OpenedCamera OpenCamera(const CameraSources& sources, const core::CameraModel& camera,
+                        const std::stop_token& stop) {
+  if (!sources.masks.empty()) return OpenMasks(sources.masks, camera);
+  if (sources.frames.empty()) {
+    throw Error(ErrorKind::kFormat,
+                fmt::format("camera '{}': the rig names neither frames nor masks; add one", camera.name()));
+  }
+  const std::shared_ptr<ImageSource> source = OpenImageSource(sources.frames, camera, stop);
+  const auto read = [source](FrameIndex index) { return CameraFrame{source->Read(index), std::nullopt}; };
+  return {sources.frames, source->frame_count(), source->frame_rate_hz(), read};
+}
+
+// One result or error a camera; the first camera's error in the rig's order is thrown, whichever came first
+// in time.
+std::vector<OpenedCamera> OpenAll(const RigFile& rig_file, const std::stop_token& stop) {
+  const std::size_t n = rig_file.rig.cameras.size();
+  std::vector<OpenedCamera> opened(n);
+  std::vector<std::exception_ptr> errors(n);
+  tbb::parallel_for(std::size_t{0}, n, [&](std::size_t i) {
+    try {
+      opened[i] = OpenCamera(rig_file.sources[i], rig_file.rig.cameras[i], stop);
+    } catch (...) {
+      errors[i] = std::current_exception();
+    }
+  });
+  for (const std::exception_ptr& error : errors) {
+    if (error) std::rethrow_exception(error);
+  }
+  return opened;
+}
+
+// The rate that all videos share; 25 Hz where none says.
+double CommonFrameRateHz(const std::vector<OpenedCamera>& opened, const core::Rig& rig) {
+  constexpr double kUnsaidRateHz = 25.0;
+  constexpr double kAllowedRatio = 1.05;  // containers round, and average over dropped frames
+  std::optional<std::size_t> first;
+  for (std::size_t i = 0; i < opened.size(); ++i) {
+    if (!opened[i].frame_rate_hz) continue;
+    if (!first) first = i;
+    const double ratio = *opened[i].frame_rate_hz / *opened[*first].frame_rate_hz;
+    if (std::max(ratio, 1.0 / ratio) <= kAllowedRatio) continue;
+    throw Error(
+        ErrorKind::kFormat,
+        fmt::format(
+            "camera '{}' runs at {:.3g} frames/s and camera '{}' at {:.3g}; frames of one number must "
+            "be of one instant: use footage of one rate",
+            rig.cameras[*first].name(), *opened[*first].frame_rate_hz, rig.cameras[i].name(),
+            *opened[i].frame_rate_hz));
+  }
+  return first ? *opened[*first].frame_rate_hz : kUnsaidRateHz;
+}
+
+std::optional<ShortestSource> FindShortest(const std::vector<OpenedCamera>& opened) {
+  std::optional<ShortestSource> shortest;
+  for (std::size_t i = 0; i < opened.size(); ++i) {
+    if (opened[i].frames && (!shortest || *opened[i].frames < shortest->frames)) {
+      shortest = ShortestSource{i, opened[i].location, *opened[i].frames};
+    }
+  }
+  return shortest;
+}
+
+}  // namespace
+
+RecordedRig::RecordedRig(RigFile rig_file, std::stop_token stop) : rig_file_(std::move(rig_file)) {
+  core::Require(rig_file_.sources.size() == rig_file_.rig.cameras.size(),
+                "a rig file has sources for every camera");
+  rig_file_.rig.Validate();
+  std::vector<OpenedCamera> opened = OpenAll(rig_file_, stop);
+  shortest_source_ = FindShortest(opened);
+  frame_rate_hz_ = CommonFrameRateHz(opened, rig_file_.rig);
+  for (OpenedCamera& camera : opened) {
+    const auto end = camera.frames ? frame_count() : std::nullopt;
+    cameras_.push_back(std::make_unique<ReadAhead>(std::move(camera.read), end));
+  }
+}
+
+std::optional<FrameIndex> RecordedRig::frame_count() const {
+  if (!shortest_source_) return std::nullopt;
+  return shortest_source_->frames;
+}
+
+FrameSet RecordedRig::Read(FrameIndex index) {
+  if (index < 0 || (shortest_source_ && index >= shortest_source_->frames)) {
+    const std::string why =
+        shortest_source_
+            ? fmt::format("the shortest source, '{}' of camera '{}', has {} frames (0 to {})",
+                          shortest_source_->location, rig_file_.rig.cameras[shortest_source_->camera].name(),
+                          shortest_source_->frames, shortest_source_->frames - 1)
+            : std::string("frames count from 0");
+    throw Error(ErrorKind::kRange, fmt::format("frame {} is out of range: {}", index, why));
+  }
+  for (const auto& camera : cameras_) camera->Expect(index);
+  FrameSet set{index, static_cast<double>(index) / frame_rate_hz_, {}};
+  for (const auto& camera : cameras_) {
+    CapturedFrame captured = camera->Take();
+    if (!shortest_source_ && set.cameras.empty()) {
+      if (!first_capture_) first_capture_ = captured.captured_at;
+      set.time_s = std::chrono::duration<double>(captured.captured_at - *first_capture_).count();
+    }
+    set.cameras.push_back(std::move(captured.frame));
+  }
+  return set;
+}
+
+std::vector<BackgroundReference> RecordedRig::ReadBackgrounds(const core::Progress& progress,
+                                                              std::stop_token stop) {
+  return ReadBackgroundReferences(rig_file_, progress, stop);
+}
+
+}  // namespace elbowroom::recon

@@ -1,0 +1,40 @@
+// RIG.yml and VIEW.yml: a rig's calibration and where its cameras' pictures come from.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/camera_model.h"
+#include "core/rig.h"
+
+namespace elbowroom::recon {
+
+// Absolute paths (in RIG.yml they are relative to it), or "device:N", or a URL; empty = absent.
+struct CameraSources {
+  std::string frames;
+  std::string background;
+  std::string masks;
+
+  [[nodiscard]] bool operator==(const CameraSources&) const = default;
+};
+
+struct RigFile {
+  core::Rig rig;
+  std::vector<CameraSources> sources;  // one a camera
+};
+
+// Matrices may be !!opencv-matrix, a flat list, or a list of rows.
+// Throws: Error{kFile} if it can't be read, Error{kFormat} for a missing or wrong key, Error{kCamera} for a
+// camera that can't be (singular matrix, no rotation, wrong number of coefficients); all name the file, the
+// camera and the key.
+[[nodiscard]] RigFile ReadRigFile(const std::filesystem::path& path);
+
+// One camera: its keys at the top level, or the only element of `cameras`. Throws: as above.
+[[nodiscard]] core::CameraModel ReadViewFile(const std::filesystem::path& path);
+
+// Whole or not at all; every number reads back exactly. Sources below the file's folder become relative to
+// it. Throws: Error{kFile}; PreconditionError unless there is one entry in `sources` a camera.
+void WriteRigFile(const RigFile& rig_file, const std::filesystem::path& path);
+
+}  // namespace elbowroom::recon

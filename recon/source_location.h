@@ -1,0 +1,29 @@
+// How RIG.yml says where pictures come from.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace elbowroom::recon {
+
+enum class SourceKind {
+  kDevice,    // "device:0"
+  kUrl,       // "rtsp://..."
+  kSequence,  // "cam1/%04d.png"
+  kFolder,    // every image in it, by name
+  kImage,     // "cam1/background.png"
+  kVideo,     // any other file
+};
+
+[[nodiscard]] SourceKind KindOf(const std::string& location);
+
+// Files become absolute, relative to `folder`; devices, URLs and "" stay as they are.
+[[nodiscard]] std::string ResolvedLocation(const std::string& location, const std::filesystem::path& folder);
+
+// The reverse: files below `folder` become relative to it.
+[[nodiscard]] std::string LocationSeenFrom(const std::string& location, const std::filesystem::path& folder);
+
+// ".png", ".JPG" and the like.
+[[nodiscard]] bool HasImageExtension(const std::filesystem::path& path);
+
+}  // namespace elbowroom::recon

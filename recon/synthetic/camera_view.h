@@ -1,0 +1,48 @@
+// One synthetic camera: casts the ray of every pixel at solids in front of its empty scene.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <opencv2/core/mat.hpp>
+#include <span>
+#include <vector>
+
+#include "core/bit_mask.h"
+#include "core/camera_model.h"
+#include "recon/synthetic/pixel_rays.h"
+#include "recon/synthetic/solids.h"
+
+namespace elbowroom::recon {
+
+// How one exposure of one camera came out.
+struct Exposure {
+  double gain = 1.0;
+  double noise_sigma_levels = 0.0;
+  std::uint64_t noise_seed = 0;
+  bool table_shadow = false;
+};
+
+// Immutable: the rays of all pixels and the noise-free picture of the empty scene.
+class CameraView {
+ public:
+  // `seed` picks the cloth's pattern. Throws: Error{kCamera} naming a camera without a ray for some pixel.
+  CameraView(const core::CameraModel& camera, std::uint64_t seed);
+
+  // 8-bit BGR. Uses all cores; the same bits on any number of them.
+  [[nodiscard]] cv::Mat Render(std::span<const Solid> solids, const Exposure& exposure) const;
+
+  // The pixels whose centre ray hits a solid.
+  [[nodiscard]] core::BitMask TrueMask(std::span<const Solid> solids) const;
+
+ private:
+  [[nodiscard]] std::vector<Solid> SolidsNear(const PixelTile& tile, std::span<const Solid> solids,
+                                              std::span<const BoundingSphere> spheres) const;
+  void DrawTile(const PixelTile& tile, std::span<const Solid> solids, cv::Mat& clean_bgr) const;
+  void DrawShadow(const PixelTile& tile, std::span<const Solid> solids,
+                  std::span<const BoundingSphere> spheres, cv::Mat& clean_bgr) const;
+
+  PixelRays rays_;
+  cv::Mat empty_bgr_;  // CV_32FC3
+};
+
+}  // namespace elbowroom::recon

@@ -1,0 +1,64 @@
+// Cameras that see analytic solids: images as a real rig would bring them, with the truth beside.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <stop_token>
+#include <vector>
+
+#include "recon/frame_set.h"
+#include "recon/synthetic/camera_view.h"
+#include "recon/synthetic/solids.h"
+
+namespace elbowroom::recon {
+
+struct SyntheticRigOptions {
+  std::uint64_t seed = 1;
+  double frame_rate_hz = 15.0;                  // > 0
+  std::optional<core::FrameIndex> frame_count;  // > 0; nothing: no end
+  double noise_sigma_levels = 1.5;              // Gaussian, each pixel and channel on its own; >= 0
+  double flicker_share = 0.01;  // exposure gain of each camera and frame within 1 +- this; [0, 0.5]
+  int background_frames = 30;   // that a reference is measured from; > 0
+  bool table_shadow = false;    // the objects' soft shadow on the table (about ten times slower)
+
+  // Throws: PreconditionError naming the field out of range.
+  void Validate() const;
+};
+
+// What stands in front of the cameras at a time.
+using SceneAtTime = std::function<std::vector<SyntheticObject>(double time_s)>;
+
+// Frames are a function of (rig, scene, options, index) alone: any order, any number of threads, same bits.
+// Every pixel is the colour along the ray through its centre, so that a perfect segmentation yields TrueMasks
+// (synthetic_rig_test: Segmentation...). Thread: any, as long as the scene function is.
+class SyntheticRig : public FrameSetSource {
+ public:
+  // Undistorts every pixel of every camera once. Throws: PreconditionError for options out of range,
+  // Error{kCamera} for a rig without cameras or a lens without a ray for some pixel.
+  SyntheticRig(core::Rig rig, SceneAtTime scene_at, SyntheticRigOptions options = {});
+
+  [[nodiscard]] const core::Rig& rig() const override { return rig_; }
+  [[nodiscard]] std::optional<core::FrameIndex> frame_count() const override { return options_.frame_count; }
+  [[nodiscard]] FrameSet Read(core::FrameIndex index) override;
+  [[nodiscard]] std::vector<BackgroundReference> ReadBackgrounds(const core::Progress& progress,
+                                                                 std::stop_token stop) override;
+
+  [[nodiscard]] double TimeOfFrameS(core::FrameIndex index) const;
+
+  // The truth: what stood there, and the (distorted) pixels whose centre ray hits it, one mask a camera.
+  [[nodiscard]] std::vector<SyntheticObject> ObjectsAt(core::FrameIndex index) const;
+  [[nodiscard]] std::vector<core::BitMask> TrueMasks(std::span<const SyntheticObject> objects) const;
+
+ private:
+  [[nodiscard]] cv::Mat Capture(core::CameraIndex camera, core::FrameIndex noise_frame,
+                                std::span<const Solid> solids) const;
+
+  core::Rig rig_;
+  SceneAtTime scene_at_;
+  SyntheticRigOptions options_;
+  std::vector<CameraView> views_;
+};
+
+}  // namespace elbowroom::recon

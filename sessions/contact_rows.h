@@ -1,0 +1,36 @@
+// What is known of the parts, read back from rows.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/contact.h"
+#include "core/ids.h"
+#include "sessions/database.h"
+
+namespace elbowroom::sessions {
+
+// A part's contact in a frame, with what a report says beside it.
+struct ContactRow {
+  core::FrameIndex frame = 0;
+  double time_s = 0.0;
+  std::vector<double> spacing_mm;  // in the layout's order
+  core::PartContact contact;       // without its points
+};
+
+// How many frames found a part so.
+struct PartTotals {
+  core::PartIndex part = 0;
+  std::int64_t frames_in_contact = 0;
+  std::int64_t frames_near = 0;
+  std::int64_t frames_undecided = 0;
+  std::int64_t frames_clear = 0;
+};
+
+// All throw Error{kDatabase}, or Error{kFormat} where a row is damaged.
+[[nodiscard]] std::vector<core::PartContact> ReadContacts(Database& database, core::FrameIndex frame);
+[[nodiscard]] std::vector<ContactRow> ReadContactRows(
+    Database& database);  // verdict 'contact', by frame and part
+[[nodiscard]] std::vector<PartTotals> ReadPartTotals(Database& database);  // one a part
+
+}  // namespace elbowroom::sessions

@@ -1,0 +1,16 @@
+// Every contact as a line of comma-separated values.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "core/layout.h"
+#include "sessions/contact_rows.h"
+
+namespace elbowroom::sessions {
+
+// A header line, then a line for each row (RFC 4180, but lines end in \n). Numbers have the fewest digits
+// that read back exactly; what isn't known is empty. One column a spacing, named "spacing NAME mm".
+[[nodiscard]] std::string ContactsCsv(const core::Layout& layout, std::span<const ContactRow> rows);
+
+}  // namespace elbowroom::sessions

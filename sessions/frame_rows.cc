@@ -1,0 +1,149 @@
+#include "sessions/frame_rows.h"
+
+#include <fmt/format.h>
+
+#include <optional>
+#include <utility>
+
+#include "core/error.h"
+#include "sessions/contact_rows.h"
+
+namespace elbowroom::sessions {
+namespace {
+
+using core::Error;
+using core::ErrorKind;
+
+// Where a part has nothing to show, its row in part_frame says all.
+bool HasEvidence(const core::PartContact& contact) {
+  return contact.verdict == core::Verdict::kContact || contact.contact_point_count != 0 ||
+         !contact.points.empty() || contact.contact_area_mm2 != 0.0 || contact.deepest || contact.recovery ||
+         contact.recovery_status != core::RecoveryStatus::kNoContact;
+}
+
+// To the statement's end: one left open would hold its snapshot, and the log could never be folded back.
+std::int64_t LastRowsId(Statement& statement) {
+  const std::int64_t id = statement.Integer(0);
+  statement.Run();
+  return id;
+}
+
+std::vector<double> ReadSpacings(Database& database, core::FrameIndex frame) {
+  Statement rows(database,
+                 "SELECT spacing_mm FROM frame_spacing WHERE frame_index = ? ORDER BY spacing_index");
+  std::vector<double> spacing_mm;
+  for (rows.With(frame); rows.Next();) spacing_mm.push_back(rows.Real(0));
+  return spacing_mm;
+}
+
+core::SharedMasks ReadSilhouettes(Database& database, const core::Rig& rig, core::FrameIndex frame,
+                                  const std::string& where) {
+  Statement rows(database,
+                 "SELECT camera_index, width_px, height_px, content_hash, words_zstd FROM silhouette "
+                 "JOIN mask USING (mask_id) WHERE frame_index = ? ORDER BY camera_index");
+  auto masks = std::make_shared<std::vector<core::BitMask>>();
+  for (rows.With(frame); rows.Next();) {
+    const std::string silhouette = fmt::format("{}, silhouette of camera {}", where, rows.Integer(0));
+    const core::CameraIndex camera = masks->size();
+    if (camera >= rig.cameras.size() || rows.Integer(1) != rig.cameras[camera].width_px() ||
+        rows.Integer(2) != rig.cameras[camera].height_px()) {
+      throw Error(ErrorKind::kFormat,
+                  silhouette + " doesn't belong to the rig; restore the file from a copy");
+    }
+    masks->push_back(UnpackMask(rows.Bytes(4), rig.cameras[camera].width_px(),
+                                rig.cameras[camera].height_px(), rows.Bytes(3), silhouette));
+  }
+  return masks;
+}
+
+}  // namespace
+
+FrameInserter::FrameInserter(Database& database)
+    : insert_frame_(database, "INSERT INTO frame VALUES (?, ?)"),
+      insert_spacing_(database, "INSERT INTO frame_spacing VALUES (?, ?, ?)"),
+      find_mask_(database, "SELECT mask_id FROM mask WHERE content_hash = ?"),
+      insert_mask_(database,
+                   "INSERT INTO mask (content_hash, width_px, height_px, object_px, words_zstd) "
+                   "VALUES (?, ?, ?, ?, ?) RETURNING mask_id"),
+      insert_silhouette_(database, "INSERT INTO silhouette VALUES (?, ?, ?)"),
+      insert_part_frame_(database, "INSERT INTO part_frame VALUES (?, ?, ?, ?, ?, ?, ?)"),
+      insert_contact_(
+          database,
+          "INSERT INTO contact VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)"),
+      insert_point_(database, "INSERT INTO contact_point VALUES (?, ?, ?, ?, ?, ?, ?, ?)") {}
+
+void FrameInserter::Insert(const core::FrameRecord& record) {
+  insert_frame_.With(record.frame, record.time_s).Run();
+  for (core::SpacingIndex i = 0; i < record.spacing_mm.size(); ++i) {
+    insert_spacing_.With(record.frame, i, record.spacing_mm[i]).Run();
+  }
+  InsertSilhouettes(record.frame, *record.silhouettes);
+  for (const core::PartContact& contact : record.contacts) InsertPart(record.frame, contact);
+}
+
+void FrameInserter::InsertSilhouettes(core::FrameIndex frame, std::span<const core::BitMask> masks) {
+  for (core::CameraIndex camera = 0; camera < masks.size(); ++camera) {
+    insert_silhouette_.With(frame, camera, MaskIdOf(masks[camera])).Run();
+  }
+}
+
+std::int64_t FrameInserter::MaskIdOf(const core::BitMask& mask) {
+  const MaskHash hash = HashOf(mask);
+  const std::span<const std::byte> content_hash(hash);
+  if (find_mask_.With(content_hash).Next()) return LastRowsId(find_mask_);
+  const Bytes words_zstd = Pack(mask, compressor_);
+  insert_mask_.With(content_hash, mask.width_px(), mask.height_px(), mask.CountObjectPixels(), words_zstd);
+  core::Require(insert_mask_.Next(), "SQLite returns the id of a row that it inserts");
+  return LastRowsId(insert_mask_);
+}
+
+void FrameInserter::InsertPart(core::FrameIndex frame, const core::PartContact& contact) {
+  insert_part_frame_
+      .With(frame, contact.part, core::ToString(contact.verdict), contact.resolution_mm,
+            contact.count.triangles, contact.count.queries, contact.count.skipped)
+      .Run();
+  if (HasEvidence(contact)) InsertEvidence(frame, contact);
+}
+
+void FrameInserter::InsertEvidence(core::FrameIndex frame, const core::PartContact& contact) {
+  using Point = std::optional<Eigen::Vector3d>;
+  using Number = std::optional<double>;
+  const auto& deepest = contact.deepest;
+  const auto& recovery = contact.recovery;
+  insert_contact_
+      .With(frame, contact.part, contact.contact_area_mm2, contact.contact_point_count,
+            deepest ? Point(deepest->position_in_world_mm) : Point(),
+            deepest ? Number(deepest->depth_mm) : Number(), deepest ? Number(deepest->area_mm2) : Number(),
+            core::ToString(contact.recovery_status), recovery ? Point(recovery->cp_obj_in_world_mm) : Point(),
+            recovery ? Point(recovery->cp_hull_in_world_mm) : Point(),
+            recovery ? Point(recovery->v_rec_in_world) : Point(),
+            recovery ? Number(recovery->d_rec_mm) : Number(), recovery ? recovery->n_hull_in_world : Point())
+      .Run();
+  for (std::size_t i = 0; i < contact.points.size(); ++i) {
+    const core::ContactPoint& point = contact.points[i];
+    insert_point_.With(frame, contact.part, i, point.position_in_world_mm, point.depth_mm, point.area_mm2)
+        .Run();
+  }
+}
+
+core::FrameRecord ReadFrame(Database& database, const core::SessionHeader& header, core::FrameIndex frame) {
+  const std::string where = fmt::format("session '{}', frame {}", database.path().string(), frame);
+  Statement row(database, "SELECT time_s FROM frame WHERE frame_index = ?");
+  if (!row.With(frame).Next())
+    throw Error(ErrorKind::kRange, where + ": there is no such frame; choose a recorded one");
+  core::FrameRecord record;
+  record.frame = frame;
+  record.time_s = row.Real(0);
+  record.spacing_mm = ReadSpacings(database, frame);
+  record.silhouettes = ReadSilhouettes(database, header.rig, frame, where);
+  record.contacts = ReadContacts(database, frame);
+  if (record.spacing_mm.size() != header.layout.spacings.size() ||
+      record.silhouettes->size() != header.rig.cameras.size() ||
+      record.contacts.size() != header.layout.parts.size()) {
+    throw Error(ErrorKind::kFormat,
+                where + ": rows are missing; the file is damaged, restore it from a copy");
+  }
+  return record;
+}
+
+}  // namespace elbowroom::sessions

@@ -1,0 +1,43 @@
+// One frame as rows: time, spacings, silhouettes, and what is known of every part.
+#pragma once
+
+#include <span>
+
+#include "core/session.h"
+#include "sessions/database.h"
+#include "sessions/packing.h"
+#include "sessions/statement.h"
+
+namespace elbowroom::sessions {
+
+// Keeps its statements prepared from frame to frame.
+class FrameInserter {
+ public:
+  explicit FrameInserter(Database& database);
+
+  // Into the open transaction. Throws: Error{kDatabase}; also when the frame is there already.
+  void Insert(const core::FrameRecord& record);
+
+ private:
+  void InsertSilhouettes(core::FrameIndex frame, std::span<const core::BitMask> masks);
+  [[nodiscard]] std::int64_t MaskIdOf(const core::BitMask& mask);
+  void InsertPart(core::FrameIndex frame, const core::PartContact& contact);
+  void InsertEvidence(core::FrameIndex frame, const core::PartContact& contact);
+
+  Compressor compressor_;
+  Statement insert_frame_;
+  Statement insert_spacing_;
+  Statement find_mask_;
+  Statement insert_mask_;
+  Statement insert_silhouette_;
+  Statement insert_part_frame_;
+  Statement insert_contact_;
+  Statement insert_point_;
+};
+
+// Throws: Error{kRange} when there is no such frame; Error{kFormat} naming it where its rows are damaged or
+// are not those of `header`'s rig and layout.
+[[nodiscard]] core::FrameRecord ReadFrame(Database& database, const core::SessionHeader& header,
+                                          core::FrameIndex frame);
+
+}  // namespace elbowroom::sessions

@@ -1,0 +1,90 @@
+#include "sessions/header_rows.h"
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "sessions/layout_rows.h"
+#include "sessions/rig_rows.h"
+#include "sessions/statement.h"
+
+namespace elbowroom::sessions {
+namespace {
+
+void InsertSessionRow(Database& database, const core::SessionHeader& header) {
+  Statement insert(
+      database,
+      "INSERT INTO session (id, status, started_at_utc, participant, task, estimate_mm, "
+      "required_clearance_mm, rig_name, workspace_min_x_mm, workspace_min_y_mm, workspace_min_z_mm, "
+      "workspace_max_x_mm, workspace_max_y_mm, workspace_max_z_mm, unseen, layout_unit) "
+      "VALUES (1, 'recording', ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+  const core::TrialInfo& trial = header.trial;
+  const core::Rig& rig = header.rig;
+  insert
+      .With(header.started_at_utc, trial.participant, trial.task, trial.estimate_mm,
+            trial.required_clearance_mm, rig.name, rig.workspace_mm.min(), rig.workspace_mm.max(),
+            rig.unseen == core::UnseenPolicy::kAbstain ? "abstain" : "outside",
+            core::ToString(header.layout.unit))
+      .Run();
+}
+
+void ReadSessionRow(Database& database, core::SessionHeader& header) {
+  Statement row(
+      database,
+      "SELECT started_at_utc, participant, task, estimate_mm, required_clearance_mm, rig_name, unseen, "
+      "layout_unit, workspace_min_x_mm, workspace_min_y_mm, workspace_min_z_mm, workspace_max_x_mm, "
+      "workspace_max_y_mm, workspace_max_z_mm FROM session");
+  if (!row.Next()) {
+    throw core::Error(
+        core::ErrorKind::kFormat,
+        fmt::format("session '{}' is empty: it holds no set-up; check the path", database.path().string()));
+  }
+  header.started_at_utc = row.Text(0);
+  header.trial.participant = row.Text(1);
+  header.trial.task = row.Text(2);
+  header.trial.estimate_mm = row.Real(3);
+  header.trial.required_clearance_mm = row.Real(4);
+  header.rig.name = row.Text(5);
+  header.rig.unseen = row.Text(6) == "abstain" ? core::UnseenPolicy::kAbstain : core::UnseenPolicy::kOutside;
+  header.layout.unit = UnitFromText(row.Text(7), database);
+  header.rig.workspace_mm = Eigen::AlignedBox3d(row.Vector(8), row.Vector(11));
+}
+
+void InsertTexts(Database& database, const std::string& table,
+                 const std::map<std::string, std::string>& texts) {
+  Statement insert(database, "INSERT INTO " + table + " VALUES (?, ?)");
+  for (const auto& [key, value] : texts) insert.With(key, value).Run();
+}
+
+std::map<std::string, std::string> ReadTexts(Database& database, const std::string& table) {
+  Statement rows(database, "SELECT * FROM " + table);
+  std::map<std::string, std::string> texts;
+  while (rows.Next()) texts.emplace(rows.Text(0), rows.Text(1));
+  return texts;
+}
+
+}  // namespace
+
+void InsertHeader(Database& database, const core::SessionHeader& header) {
+  InsertSessionRow(database, header);
+  InsertTexts(database, "setting", header.settings);
+  InsertTexts(database, "version", header.versions);
+  Statement insert_tool(database, "INSERT INTO tool VALUES (?, ?)");
+  for (std::size_t i = 0; i < header.trial.tools.size(); ++i)
+    insert_tool.With(i, header.trial.tools[i]).Run();
+  InsertCameras(database, header.rig.cameras);
+  InsertLayout(database, header.layout);
+}
+
+core::SessionHeader ReadHeader(Database& database) {
+  core::SessionHeader header;
+  header.layout = ReadLayout(database);
+  ReadSessionRow(database, header);
+  header.settings = ReadTexts(database, "setting");
+  header.versions = ReadTexts(database, "version");
+  Statement tools(database, "SELECT name FROM tool ORDER BY tool_index");
+  while (tools.Next()) header.trial.tools.push_back(tools.Text(0));
+  header.rig.cameras = ReadCameras(database);
+  return header;
+}
+
+}  // namespace elbowroom::sessions

@@ -1,0 +1,156 @@
+#include "sessions/layout_rows.h"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <utility>
+
+#include "core/error.h"
+#include "sessions/packing.h"
+#include "sessions/statement.h"
+
+namespace elbowroom::sessions {
+namespace {
+
+using core::Error;
+using core::ErrorKind;
+
+void InsertParts(Database& database, const std::vector<core::Part>& parts) {
+  Compressor compressor;
+  Statement insert_mesh(database, "INSERT INTO mesh VALUES (?, ?, ?, ?, ?) ON CONFLICT DO NOTHING");
+  Statement insert_part(database, "INSERT INTO part VALUES (?, ?, ?, ?, ?, ?, ?)");
+  for (core::PartIndex i = 0; i < parts.size(); ++i) {
+    const core::Part& part = parts[i];
+    const std::string hash = core::ContentHash(*part.mesh);
+    const PackedMesh packed = Pack(*part.mesh, compressor);
+    insert_mesh
+        .With(hash, part.mesh->vertices_mm.size(), part.mesh->triangles.size(), packed.vertices_mm_zstd,
+              packed.triangles_zstd)
+        .Run();
+    insert_part
+        .With(i, part.name, part.file, core::ToString(part.unit), hash,
+              JsonFrom(part.world_from_part.rotation), JsonFrom(part.world_from_part.translation_mm))
+        .Run();
+  }
+}
+
+core::SharedMesh ReadMesh(const Statement& row, const std::string& path) {
+  const std::string hash = row.Text(0);
+  const std::string where = fmt::format("session '{}', mesh {}", path, hash);
+  auto mesh = std::make_shared<core::TriangleMesh>(
+      UnpackMesh(row.Bytes(3), static_cast<std::size_t>(row.Integer(1)), row.Bytes(4),
+                 static_cast<std::size_t>(row.Integer(2)), where));
+  if (core::ContentHash(*mesh) != hash) {
+    throw Error(ErrorKind::kFormat,
+                where + ": it doesn't match its checksum; the file is damaged, restore it from a copy");
+  }
+  return mesh;
+}
+
+std::map<std::string, core::SharedMesh> ReadMeshes(Database& database) {
+  Statement rows(
+      database, "SELECT mesh_hash, vertex_count, triangle_count, vertices_mm_zstd, triangles_zstd FROM mesh");
+  std::map<std::string, core::SharedMesh> meshes;
+  while (rows.Next()) meshes.emplace(rows.Text(0), ReadMesh(rows, database.path().string()));
+  return meshes;
+}
+
+std::vector<core::Part> ReadParts(Database& database) {
+  const std::map<std::string, core::SharedMesh> meshes = ReadMeshes(database);
+  Statement rows(database,
+                 "SELECT name, file, unit, mesh_hash, rotation_world_from_part, position_mm FROM part "
+                 "ORDER BY part_index");
+  std::vector<core::Part> parts;
+  while (rows.Next()) {
+    core::Part part;
+    part.name = rows.Text(0);
+    part.file = rows.Text(1);
+    part.unit = UnitFromText(rows.Text(2), database);
+    const std::string where = fmt::format("session '{}', part '{}'", database.path().string(), part.name);
+    const auto mesh = meshes.find(rows.Text(3));
+    if (mesh == meshes.end())
+      throw Error(ErrorKind::kFormat, where + ": its mesh is missing; restore the file from a copy");
+    part.mesh = mesh->second;
+    part.world_from_part.rotation = MatrixFromJson(rows.Text(4), where);
+    part.world_from_part.translation_mm = VectorFromJson(rows.Text(5), where);
+    parts.push_back(std::move(part));
+  }
+  return parts;
+}
+
+void InsertSpacings(Database& database, const core::Layout& layout) {
+  Statement insert(database, "INSERT INTO spacing VALUES (?, ?, ?, ?, ?, ?, ?, ?)");
+  for (core::SpacingIndex i = 0; i < layout.spacings.size(); ++i) {
+    const core::Spacing& spacing = layout.spacings[i];
+    insert
+        .With(i, spacing.name, layout.FindPart(spacing.moving), layout.FindPart(spacing.reference),
+              core::ToString(spacing.axis), spacing.min_mm, spacing.max_mm, spacing.initial_mm)
+        .Run();
+  }
+}
+
+std::vector<core::Spacing> ReadSpacings(Database& database) {
+  Statement rows(database,
+                 "SELECT s.name, m.name, r.name, axis, min_mm, max_mm, initial_mm FROM spacing s "
+                 "JOIN part m ON m.part_index = moving_part JOIN part r ON r.part_index = reference_part "
+                 "ORDER BY spacing_index");
+  std::vector<core::Spacing> spacings;
+  while (rows.Next()) {
+    const auto axis = core::ParseAxis(rows.Text(3));
+    if (!axis) {
+      throw Error(ErrorKind::kFormat,
+                  fmt::format("session '{}', spacing '{}': no axis is called '{}'; restore the file "
+                              "from a copy",
+                              database.path().string(), rows.Text(0), rows.Text(3)));
+    }
+    spacings.push_back(
+        {rows.Text(0), rows.Text(1), rows.Text(2), *axis, rows.Real(4), rows.Real(5), rows.Real(6)});
+  }
+  return spacings;
+}
+
+void InsertPairRules(Database& database, const core::Layout& layout) {
+  Statement insert(database, "INSERT INTO pair_rule VALUES (?, ?, ?, ?, ?)");
+  for (std::size_t i = 0; i < layout.pair_rules.size(); ++i) {
+    const core::PairRule& rule = layout.pair_rules[i];
+    insert
+        .With(i, layout.FindPart(rule.a), layout.FindPart(rule.b), rule.required_clearance_mm,
+              rule.authorised_contact)
+        .Run();
+  }
+}
+
+std::vector<core::PairRule> ReadPairRules(Database& database) {
+  Statement rows(
+      database,
+      "SELECT a.name, b.name, required_clearance_mm, authorised_contact FROM pair_rule "
+      "JOIN part a ON a.part_index = part_a JOIN part b ON b.part_index = part_b ORDER BY pair_index");
+  std::vector<core::PairRule> rules;
+  while (rows.Next()) rules.push_back({rows.Text(0), rows.Text(1), rows.Real(2), rows.Integer(3) != 0});
+  return rules;
+}
+
+}  // namespace
+
+core::LengthUnit UnitFromText(const std::string& text, const Database& database) {
+  if (const auto unit = core::ParseLengthUnit(text)) return *unit;
+  throw Error(ErrorKind::kFormat,
+              fmt::format("session '{}': no length unit is called '{}'; restore the file from a copy",
+                          database.path().string(), text));
+}
+
+void InsertLayout(Database& database, const core::Layout& layout) {
+  InsertParts(database, layout.parts);
+  InsertSpacings(database, layout);
+  InsertPairRules(database, layout);
+}
+
+core::Layout ReadLayout(Database& database) {
+  core::Layout layout;
+  layout.parts = ReadParts(database);
+  layout.spacings = ReadSpacings(database);
+  layout.pair_rules = ReadPairRules(database);
+  return layout;
+}
+
+}  // namespace elbowroom::sessions

@@ -1,0 +1,16 @@
+// Text and pictures made safe for a page.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace elbowroom::sessions {
+
+// Safe between tags and in quoted attributes; control characters but tab and newline become spaces.
+[[nodiscard]] std::string Escaped(std::string_view text);
+
+// "data:image/png;base64,..." (RFC 4648).
+[[nodiscard]] std::string PngAsDataUrl(std::span<const unsigned char> png);
+
+}  // namespace elbowroom::sessions

@@ -1,0 +1,134 @@
+#include "sessions/packing.h"
+
+#include <fmt/format.h>
+#include <xxhash.h>
+#include <zstd.h>
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+
+namespace elbowroom::sessions {
+namespace {
+
+using core::Error;
+using core::ErrorKind;
+
+static_assert(std::endian::native == std::endian::little,
+              "session files are little-endian, as is every machine in use");
+static_assert(sizeof(Eigen::Vector3d) == 3 * sizeof(double), "vertices are packed without gaps");
+
+// Fast enough for the writer thread; silhouettes pack about 30 : 1 at any level.
+constexpr int kCompressionLevel = 1;
+
+[[noreturn]] void FailAsDamaged(const std::string& where, const std::string& what) {
+  throw Error(ErrorKind::kFormat,
+              fmt::format("{}: {}; the file is damaged, restore it from a copy", where, what));
+}
+
+template <typename Value>
+std::vector<Value> DecompressAs(std::span<const std::byte> packed, std::size_t count,
+                                const std::string& where) {
+  const Bytes bytes = Decompress(packed, count * sizeof(Value), where);
+  std::vector<Value> values(count);
+  if (count > 0) std::memcpy(static_cast<void*>(values.data()), bytes.data(), bytes.size());
+  return values;
+}
+
+std::vector<double> NumbersFromJson(const std::string& json, std::size_t count, const std::string& where) {
+  std::vector<double> numbers = sessions::NumbersFromJson(json, where);
+  if (numbers.size() != count)
+    FailAsDamaged(where, fmt::format("{} numbers where {} belong", numbers.size(), count));
+  return numbers;
+}
+
+}  // namespace
+
+Compressor::Compressor() : context_(ZSTD_createCCtx(), ZSTD_freeCCtx) {}
+
+Bytes Compressor::Compress(std::span<const std::byte> bytes) {
+  Bytes packed(ZSTD_compressBound(bytes.size()));
+  const std::size_t size = ZSTD_compressCCtx(context_.get(), packed.data(), packed.size(), bytes.data(),
+                                             bytes.size(), kCompressionLevel);
+  core::Require(ZSTD_isError(size) == 0U, "a buffer of the compressor's own bound is large enough");
+  packed.resize(size);
+  return packed;
+}
+
+Bytes Decompress(std::span<const std::byte> packed, std::size_t size, const std::string& where) {
+  // Asked before allocating: a damaged size must not take all memory.
+  if (ZSTD_getFrameContentSize(packed.data(), packed.size()) != size) {
+    FailAsDamaged(where, "the packed data has another size than its row says");
+  }
+  Bytes bytes(size);
+  const std::size_t unpacked = ZSTD_decompress(bytes.data(), bytes.size(), packed.data(), packed.size());
+  if (ZSTD_isError(unpacked) != 0U) FailAsDamaged(where, ZSTD_getErrorName(unpacked));
+  return bytes;
+}
+
+PackedMesh Pack(const core::TriangleMesh& mesh, Compressor& compressor) {
+  return {compressor.Compress(std::as_bytes(std::span(mesh.vertices_mm))),
+          compressor.Compress(std::as_bytes(std::span(mesh.triangles)))};
+}
+
+core::TriangleMesh UnpackMesh(std::span<const std::byte> vertices_mm_zstd, std::size_t vertex_count,
+                              std::span<const std::byte> triangles_zstd, std::size_t triangle_count,
+                              const std::string& where) {
+  core::TriangleMesh mesh;
+  mesh.vertices_mm = DecompressAs<Eigen::Vector3d>(vertices_mm_zstd, vertex_count, where);
+  mesh.triangles = DecompressAs<std::array<std::int32_t, 3>>(triangles_zstd, triangle_count, where);
+  core::ValidateMesh(mesh, where);
+  return mesh;
+}
+
+MaskHash HashOf(const core::BitMask& mask) {
+  const auto size =
+      static_cast<XXH64_hash_t>(mask.width_px()) << 32U | static_cast<XXH64_hash_t>(mask.height_px());
+  const std::span<const std::uint64_t> words = mask.words();
+  XXH128_canonical_t canonical;
+  XXH128_canonicalFromHash(&canonical, XXH3_128bits_withSeed(words.data(), words.size_bytes(), size));
+  return std::bit_cast<MaskHash>(canonical);
+}
+
+Bytes Pack(const core::BitMask& mask, Compressor& compressor) {
+  return compressor.Compress(std::as_bytes(mask.words()));
+}
+
+core::BitMask UnpackMask(std::span<const std::byte> words_zstd, int width_px, int height_px,
+                         std::span<const std::byte> content_hash, const std::string& where) {
+  core::BitMask mask(width_px, height_px);
+  const Bytes bytes = Decompress(words_zstd, mask.words().size_bytes(), where);
+  if (!bytes.empty()) std::memcpy(mask.words().data(), bytes.data(), bytes.size());
+  if (!std::ranges::equal(HashOf(mask), content_hash))
+    FailAsDamaged(where, "its pixels don't match their checksum");
+  return mask;
+}
+
+std::string JsonFrom(std::span<const double> numbers) {
+  return nlohmann::json(std::vector<double>(numbers.begin(), numbers.end())).dump();
+}
+std::string JsonFrom(const Eigen::Vector3d& vector) { return JsonFrom(std::span(vector.data(), 3)); }
+std::string JsonFrom(const Eigen::Matrix3d& matrix) {
+  const Eigen::Matrix<double, 3, 3, Eigen::RowMajor> by_row = matrix;
+  return JsonFrom(std::span(by_row.data(), 9));
+}
+
+std::vector<double> NumbersFromJson(const std::string& json, const std::string& where) {
+  try {
+    return nlohmann::json::parse(json).get<std::vector<double>>();
+  } catch (const nlohmann::json::exception& exception) {
+    FailAsDamaged(where, exception.what());
+  }
+}
+Eigen::Vector3d VectorFromJson(const std::string& json, const std::string& where) {
+  return Eigen::Vector3d(NumbersFromJson(json, 3, where).data());
+}
+Eigen::Matrix3d MatrixFromJson(const std::string& json, const std::string& where) {
+  const std::vector<double> by_row = NumbersFromJson(json, 9, where);
+  return Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(by_row.data());
+}
+
+}  // namespace elbowroom::sessions

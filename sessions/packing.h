@@ -1,0 +1,61 @@
+// Meshes, masks and matrices in the form in which a session file keeps them: exact to the last bit.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/bit_mask.h"
+#include "core/triangle_mesh.h"
+
+struct ZSTD_CCtx_s;
+
+namespace elbowroom::sessions {
+
+using Bytes = std::vector<std::byte>;
+
+// Zstandard with a context that is kept from call to call. Thread: one.
+class Compressor {
+ public:
+  Compressor();
+  [[nodiscard]] Bytes Compress(std::span<const std::byte> bytes);
+
+ private:
+  std::shared_ptr<ZSTD_CCtx_s> context_;
+};
+
+// Throws: Error{kFormat} naming `where` unless `packed` unpacks to just `size` bytes.
+[[nodiscard]] Bytes Decompress(std::span<const std::byte> packed, std::size_t size, const std::string& where);
+
+struct PackedMesh {
+  Bytes vertices_mm_zstd;
+  Bytes triangles_zstd;
+};
+[[nodiscard]] PackedMesh Pack(const core::TriangleMesh& mesh, Compressor& compressor);
+// Throws: Error{kFormat} naming `where` unless sizes and indices are right.
+[[nodiscard]] core::TriangleMesh UnpackMesh(std::span<const std::byte> vertices_mm_zstd,
+                                            std::size_t vertex_count,
+                                            std::span<const std::byte> triangles_zstd,
+                                            std::size_t triangle_count, const std::string& where);
+
+using MaskHash = std::array<std::byte, 16>;
+[[nodiscard]] MaskHash HashOf(const core::BitMask& mask);  // 128-bit XXH3 of size and pixels
+[[nodiscard]] Bytes Pack(const core::BitMask& mask, Compressor& compressor);
+// Throws: Error{kFormat} naming `where` unless it unpacks to that size and hash.
+[[nodiscard]] core::BitMask UnpackMask(std::span<const std::byte> words_zstd, int width_px, int height_px,
+                                       std::span<const std::byte> content_hash, const std::string& where);
+
+// JSON arrays of doubles, each in the fewest digits that read back as the same double; matrices row by row.
+[[nodiscard]] std::string JsonFrom(std::span<const double> numbers);
+[[nodiscard]] std::string JsonFrom(const Eigen::Vector3d& vector);
+[[nodiscard]] std::string JsonFrom(const Eigen::Matrix3d& matrix);
+// Throws: Error{kFormat} naming `where`.
+[[nodiscard]] std::vector<double> NumbersFromJson(const std::string& json, const std::string& where);
+[[nodiscard]] Eigen::Vector3d VectorFromJson(const std::string& json, const std::string& where);
+[[nodiscard]] Eigen::Matrix3d MatrixFromJson(const std::string& json, const std::string& where);
+
+}  // namespace elbowroom::sessions

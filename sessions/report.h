@@ -1,0 +1,34 @@
+// The report of a trial: one page that explains itself, and a table for other programs.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/contact.h"
+#include "sessions/session_reader.h"
+
+namespace elbowroom::sessions {
+
+// Rendered by the caller: this room knows no graphics.
+struct ReportPictures {
+  std::vector<unsigned char> worst_moment_png;  // empty: the report has no such picture
+  std::string caption;                          // of the worst moment
+  std::optional<std::vector<unsigned char>> overview_png;
+};
+
+// The touch to draw: the deepest, ties go to the larger area, then to the earlier. Nothing if nothing
+// touched.
+[[nodiscard]] std::optional<core::ContactEpisode> WorstEpisode(
+    std::span<const core::ContactEpisode> episodes);
+
+// Writes `out_dir`/report.html (no script, nothing loaded from elsewhere, fit for print) and contacts.csv (a
+// row for each part in contact in each frame); both or neither. Makes the folder; replaces an older report.
+// Throws: Error{kFile} naming what can't be written; what SessionReader throws; PreconditionError for bytes
+// that are no PNG.
+void WriteReport(const SessionReader& session, const ReportPictures& pictures,
+                 const std::filesystem::path& out_dir);
+
+}  // namespace elbowroom::sessions

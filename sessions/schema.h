@@ -1,0 +1,23 @@
+// The tables of a session file and how an older file gets them.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "sessions/database.h"
+
+namespace elbowroom::sessions {
+
+inline constexpr std::int64_t kApplicationId = 0x456C6277;  // "Elbw" in the file's header
+inline constexpr std::int64_t kSchemaVersion = 1;
+
+// The SQL that leads from schema 0, an empty file, to schema 1.
+[[nodiscard]] std::string Schema1Sql();
+
+// Brings the open transaction's database to kSchemaVersion by the migrations that it lacks, in order.
+void Migrate(Database& database);
+
+// Throws: Error{kFormat} when the file is no session, or one of a newer schema than this program knows.
+void RequireReadableSession(Database& database);
+
+}  // namespace elbowroom::sessions

@@ -1,0 +1,87 @@
+#include "sessions/session_reader.h"
+
+#include <utility>
+
+#include "sessions/database.h"
+#include "sessions/frame_rows.h"
+#include "sessions/header_rows.h"
+#include "sessions/outcome_rows.h"
+#include "sessions/schema.h"
+#include "sessions/statement.h"
+
+namespace elbowroom::sessions {
+namespace {
+
+constexpr std::string_view kStatusNames[] = {"recording", "complete", "abandoned"};
+
+Database OpenSession(const std::filesystem::path& path) {
+  Database database = Database::OpenReadOnly(path);
+  RequireReadableSession(database);
+  if (database.ReadInteger("PRAGMA user_version") == kSchemaVersion) return database;
+  Database copy = database.CopyInMemory();
+  Migrate(copy);
+  return copy;
+}
+
+}  // namespace
+
+std::string_view ToString(SessionStatus status) { return kStatusNames[static_cast<std::size_t>(status)]; }
+
+struct SessionReader::Impl {
+  explicit Impl(const std::filesystem::path& path)
+      : database(OpenSession(path)), header(ReadHeader(database)) {}
+
+  Database database;
+  core::SessionHeader header;
+};
+
+SessionReader::SessionReader(const std::filesystem::path& path) : impl_(std::make_unique<Impl>(path)) {}
+SessionReader::~SessionReader() = default;
+SessionReader::SessionReader(SessionReader&&) noexcept = default;
+SessionReader& SessionReader::operator=(SessionReader&&) noexcept = default;
+
+const std::filesystem::path& SessionReader::path() const { return impl_->database.path(); }
+const core::SessionHeader& SessionReader::header() const { return impl_->header; }
+
+SessionStatus SessionReader::status() const {
+  Statement row(impl_->database, "SELECT status FROM session");
+  const std::string text = row.Next() ? row.Text(0) : "";
+  return text == "complete"    ? SessionStatus::kComplete
+         : text == "abandoned" ? SessionStatus::kAbandoned
+                               : SessionStatus::kRecording;
+}
+
+std::optional<std::string> SessionReader::ended_at_utc() const {
+  Statement row(impl_->database, "SELECT ended_at_utc FROM session WHERE ended_at_utc IS NOT NULL");
+  if (!row.Next()) return std::nullopt;
+  return row.Text(0);
+}
+
+std::int64_t SessionReader::frame_count() const {
+  return impl_->database.ReadInteger("SELECT count(*) FROM frame");
+}
+
+std::vector<FrameSummary> SessionReader::frames() const {
+  Statement rows(
+      impl_->database,
+      "SELECT frame_index, time_s, spacing_mm FROM frame LEFT JOIN frame_spacing USING (frame_index) "
+      "ORDER BY frame_index, spacing_index");
+  std::vector<FrameSummary> frames;
+  while (rows.Next()) {
+    if (frames.empty() || frames.back().frame != rows.Integer(0))
+      frames.push_back({rows.Integer(0), rows.Real(1), {}});
+    if (!rows.IsNull(2)) frames.back().spacing_mm.push_back(rows.Real(2));
+  }
+  return frames;
+}
+
+core::FrameRecord SessionReader::ReadFrame(core::FrameIndex frame) const {
+  return sessions::ReadFrame(impl_->database, impl_->header, frame);
+}
+
+std::vector<core::SessionEvent> SessionReader::events() const { return ReadEvents(impl_->database); }
+std::vector<core::ContactEpisode> SessionReader::episodes() const { return ReadEpisodes(impl_->database); }
+std::vector<ContactRow> SessionReader::contacts() const { return ReadContactRows(impl_->database); }
+std::vector<PartTotals> SessionReader::part_totals() const { return ReadPartTotals(impl_->database); }
+
+}  // namespace elbowroom::sessions

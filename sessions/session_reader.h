@@ -1,0 +1,66 @@
+// Reads a session back: for reports, for replay, also while it is still being recorded.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/session.h"
+#include "sessions/contact_rows.h"
+
+namespace elbowroom::sessions {
+
+enum class SessionStatus {
+  kRecording,  // under way, or its program ended without finishing it: frames and events, no episodes
+  kComplete,
+  kAbandoned,  // its writer is removing it
+};
+
+[[nodiscard]] std::string_view ToString(SessionStatus status);
+
+// A frame without its silhouettes and contacts.
+struct FrameSummary {
+  core::FrameIndex frame = 0;
+  double time_s = 0.0;
+  std::vector<double> spacing_mm;  // in the layout's order
+};
+
+// Never changes the file; a file of an older schema is migrated in memory. Each call sees what is committed
+// by then. Every call throws Error{kDatabase} or Error{kFormat} naming the file where it is damaged.
+// Thread: one at a time.
+class SessionReader {
+ public:
+  // Throws: Error{kFile} when there is no such file, Error{kFormat} when it is no session or one of a newer
+  // schema, Error{kDatabase} when it can't be read.
+  explicit SessionReader(const std::filesystem::path& path);
+  ~SessionReader();
+  SessionReader(SessionReader&&) noexcept;
+  SessionReader& operator=(SessionReader&&) noexcept;
+
+  [[nodiscard]] const std::filesystem::path& path() const;
+  [[nodiscard]] const core::SessionHeader& header() const;
+  [[nodiscard]] SessionStatus status() const;
+  [[nodiscard]] std::optional<std::string> ended_at_utc() const;  // nothing while recording
+
+  [[nodiscard]] std::int64_t frame_count() const;
+  [[nodiscard]] std::vector<FrameSummary> frames()
+      const;  // in order; numbers need not start at 0 nor be dense
+
+  // With bit-equal silhouettes and every contact. Throws: Error{kRange} for a frame that wasn't recorded.
+  [[nodiscard]] core::FrameRecord ReadFrame(core::FrameIndex frame) const;
+
+  [[nodiscard]] std::vector<core::SessionEvent> events() const;      // by frame, then as they came
+  [[nodiscard]] std::vector<core::ContactEpisode> episodes() const;  // by id; none while recording
+  [[nodiscard]] std::vector<ContactRow> contacts() const;            // every part in contact, frame by frame
+  [[nodiscard]] std::vector<PartTotals> part_totals() const;         // one a part
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace elbowroom::sessions

@@ -1,0 +1,216 @@
+// The console's parts on their own: bridge, silhouettes, contact list, frame rate, start without a display.
+#include <gtest/gtest.h>
+
+#include <QCoreApplication>
+#include <QTest>
+#include <QThread>
+#include <algorithm>
+#include <map>
+#include <random>
+#include <semaphore>
+#include <thread>
+
+#include "app/console/background_job.h"
+#include "app/console/bridge.h"
+#include "app/console/console_main.h"
+#include "app/console/contact_model.h"
+#include "app/console/frame_rate.h"
+#include "app/console/palette.h"
+#include "app/console/silhouette_picture.h"
+#include "app/console/trial_actions.h"
+#include "core/error.h"
+#include "tests/support/run_program.h"
+
+namespace elbowroom::console {
+namespace {
+
+constexpr int kPatienceMs = 30'000;  // far beyond what an event takes; a test that waits so long has failed
+
+TEST(Bridge, KeepsOnlyTheLatestOfAStreamThatTheUiIsTooSlowFor) {
+  Bridge bridge;
+  std::vector<int> delivered;
+  std::thread worker([&] {
+    for (int i = 0; i < 1000; ++i) {
+      bridge.PostLatest(Bridge::Stream::kFrame, [&delivered, i] { delivered.push_back(i); });
+    }
+  });
+  worker.join();  // the UI thread hasn't come to its events yet
+  QCoreApplication::processEvents();
+  EXPECT_EQ(delivered, std::vector<int>({999}));
+}
+
+TEST(Bridge, DeliversEveryPostInOrderOnItsOwnThread) {
+  Bridge bridge;
+  std::vector<int> delivered;
+  bool always_on_own_thread = true;
+  std::jthread worker([&] {
+    for (int i = 0; i < 100; ++i) {
+      bridge.Post([&, i] {
+        delivered.push_back(i);
+        always_on_own_thread = always_on_own_thread && QThread::currentThread() == bridge.thread();
+      });
+    }
+  });
+  ASSERT_TRUE(QTest::qWaitFor([&] { return delivered.size() == 100; }, kPatienceMs));
+  EXPECT_TRUE(std::is_sorted(delivered.begin(), delivered.end()));
+  EXPECT_TRUE(always_on_own_thread);
+}
+
+TEST(Bridge, AFramePostedBeforeTheEndArrivesBeforeIt) {
+  Bridge bridge;
+  std::vector<std::string> delivered;
+  bridge.PostLatest(Bridge::Stream::kFrame, [&] { delivered.emplace_back("frame"); });
+  bridge.Post([&] { delivered.emplace_back("end"); });
+  QCoreApplication::processEvents();
+  EXPECT_EQ(delivered, std::vector<std::string>({"frame", "end"}));
+}
+
+TEST(Bridge, ForgetsWhatIsUndeliveredWhenItGoes) {
+  bool is_delivered = false;
+  {
+    Bridge bridge;
+    bridge.Post([&] { is_delivered = true; });
+    bridge.PostLatest(Bridge::Stream::kFrame, [&] { is_delivered = true; });
+  }
+  QCoreApplication::processEvents();
+  EXPECT_FALSE(is_delivered);
+}
+
+TEST(BackgroundJob, HandsTheOneLineOfAFailureToTheUiThread) {
+  Bridge bridge;
+  std::string line;
+  const BackgroundJob job(
+      bridge,
+      [](const std::stop_token&) { throw core::Error(core::ErrorKind::kFile, "a.db: gone; look elsewhere"); },
+      [&](const std::string& error) { line = error; });
+  ASSERT_TRUE(QTest::qWaitFor([&] { return !line.empty(); }, kPatienceMs));
+  EXPECT_EQ(line, "a.db: gone; look elsewhere");
+}
+
+TEST(BackgroundJob, TellsItsWorkToStop) {
+  Bridge bridge;
+  std::binary_semaphore is_stopped(0);
+  bool is_done = false;
+  BackgroundJob job(
+      bridge,
+      [&](const std::stop_token& stop) {
+        const std::stop_callback on_stop(stop, [&] { is_stopped.release(); });
+        is_stopped.acquire();
+      },
+      [&](const std::string& error) { is_done = error.empty(); });
+  job.Cancel();
+  EXPECT_TRUE(QTest::qWaitFor([&] { return is_done; }, kPatienceMs));
+}
+
+// Mean of a picture's grey levels as a share of the way from background to object.
+double ObjectShare(const QImage& picture) {
+  double sum = 0.0;
+  for (int y = 0; y < picture.height(); ++y) {
+    for (int x = 0; x < picture.width(); ++x) sum += qRed(picture.pixel(x, y));
+  }
+  const double mean = sum / (picture.width() * picture.height());
+  return (mean - kSilhouetteBackground.red()) / (kSilhouetteObject.red() - kSilhouetteBackground.red());
+}
+
+TEST(SilhouettePicture, KeepsTheShareOfObjectPixelsOfAnyMask) {
+  constexpr double kRounding = 1.0 / 200.0;  // a grey level of the 208 between the two colours
+  std::mt19937 random(20010404);
+  for (const auto& [width_px, height_px] : {std::pair{640, 480}, {1280, 720}, {64, 64}, {256, 100}}) {
+    core::BitMask mask(width_px, height_px);
+    for (int y = 0; y < height_px; ++y) {
+      for (int x = 0; x < width_px; ++x) mask.Set(x, y, random() % 3 == 0);
+    }
+    const QImage picture = SilhouettePicture(mask, 160);
+    EXPECT_LE(picture.width(), 160);
+    const double share = static_cast<double>(mask.CountObjectPixels()) / (width_px * height_px);
+    EXPECT_NEAR(ObjectShare(picture), share, kRounding) << width_px;
+  }
+}
+
+TEST(SilhouettePicture, ShowsEachPixelInItsPlaceWhereItNeedNotShrink) {
+  core::BitMask mask(70, 3);
+  mask.Set(0, 0, true);
+  mask.Set(65, 1, true);
+  mask.Set(69, 2, true);
+  const QImage picture = SilhouettePicture(mask, 100);
+  ASSERT_EQ(picture.size(), QSize(70, 3));
+  for (int y = 0; y < 3; ++y) {
+    for (int x = 0; x < 70; ++x) {
+      const QColor expected = mask.At(x, y) ? kSilhouetteObject : kSilhouetteBackground;
+      EXPECT_EQ(picture.pixelColor(x, y), expected) << x << ", " << y;
+    }
+  }
+}
+
+control::FrameResult TwoPartsWith(core::Verdict first, core::Verdict second) {
+  auto layout = std::make_shared<core::Layout>();
+  layout->parts.resize(2);
+  layout->parts[0].name = "box";
+  layout->parts[1].name = "lid";
+  control::FrameResult result;
+  result.layout = layout;
+  result.contacts.resize(2);
+  result.contacts[0].verdict = first;
+  result.contacts[1].part = 1;
+  result.contacts[1].verdict = second;
+  return result;
+}
+
+TEST(ContactModel, ListsOnlyPartsInContact) {
+  ContactModel model;
+  control::FrameResult result = TwoPartsWith(core::Verdict::kNear, core::Verdict::kContact);
+  result.contacts[1].deepest = core::ContactPoint{{10.0, -20.0, 30.0}, 4.25, 1.0};
+  result.contacts[1].contact_area_mm2 = 12.4;
+  result.contacts[1].contact_point_count = 7;
+  model.ShowFrame(result);
+  ASSERT_EQ(model.rowCount(), 1);
+  const auto cell = [&](int column) {
+    return model.data(model.index(0, column), Qt::DisplayRole).toString();
+  };
+  EXPECT_EQ(cell(ContactModel::kPart), "lid");
+  EXPECT_EQ(cell(ContactModel::kDepth), "4.2");
+  EXPECT_EQ(cell(ContactModel::kArea), "12");
+  EXPECT_EQ(cell(ContactModel::kPoints), "7");
+  EXPECT_EQ(cell(ContactModel::kPosition), "10, -20, 30");
+
+  model.ShowFrame(TwoPartsWith(core::Verdict::kUndecided, core::Verdict::kClear));
+  EXPECT_EQ(model.rowCount(), 0);
+}
+
+TEST(FrameRate, CountsFramesByNumberOverTheLastTwoSeconds) {
+  FrameRate rate;
+  const FrameRate::Clock::time_point start{};
+  EXPECT_FALSE(rate.frames_per_s());
+  rate.Add(0, start);
+  EXPECT_FALSE(rate.frames_per_s());
+  for (int i = 1; i <= 10; ++i) rate.Add(3 * i, start + std::chrono::milliseconds(100 * i));
+  EXPECT_DOUBLE_EQ(*rate.frames_per_s(), 30.0);  // two of three frames weren't shown, and count
+  for (int i = 11; i <= 50; ++i) rate.Add(30 + i - 10, start + std::chrono::milliseconds(100 * i));
+  EXPECT_DOUBLE_EQ(*rate.frames_per_s(), 10.0);
+}
+
+TEST(SessionName, SortsByTime) {
+  const QDateTime at(QDate(2031, 2, 3), QTime(4, 5, 6));
+  EXPECT_EQ(DefaultSessionName(at), "elbowroom-20310203-040506.db");
+}
+
+// Runs the program where there is no display: no core dump, no list of Qt's plugins, one line.
+void ExpectOneLineWithoutDisplay(const std::map<std::string, std::string>& environment) {
+  const test_support::ProgramRun run =
+      test_support::RunProgram(ELBOWROOM_PROGRAM, {}, {.environment = environment});
+  EXPECT_EQ(run.exit_status, 1);
+  EXPECT_NE(run.err.find("no display"), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("--headless"), std::string::npos) << run.err;
+  EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+}
+
+TEST(ConsoleStart, WithoutADisplayIsOneLine) {
+  ExpectOneLineWithoutDisplay({{"DISPLAY", ""}, {"WAYLAND_DISPLAY", ""}, {"QT_QPA_PLATFORM", ""}});
+}
+
+TEST(ConsoleStart, WithADisplayThatDoesNotAnswerIsOneLine) {
+  ExpectOneLineWithoutDisplay({{"DISPLAY", ":987"}, {"WAYLAND_DISPLAY", ""}, {"QT_QPA_PLATFORM", "xcb"}});
+}
+
+}  // namespace
+}  // namespace elbowroom::console

@@ -1,0 +1,284 @@
+// The console plays the demo as an experimenter would: through its widgets, on Qt's offscreen platform.
+#include <gtest/gtest.h>
+
+#include <QAbstractEventDispatcher>
+#include <QAction>
+#include <QApplication>
+#include <QCheckBox>
+#include <QDoubleSpinBox>
+#include <QElapsedTimer>
+#include <QLabel>
+#include <QSignalSpy>
+#include <QSlider>
+#include <QTableView>
+#include <QTest>
+#include <QWheelEvent>
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <variant>
+
+#include "app/console/main_window.h"
+#include "app/console/window_picture.h"
+#include "recon/synthetic/demo_motion.h"
+#include "sessions/session_reader.h"
+#include "tests/app/opened_urls.h"
+#include "tests/support/temporary_folder.h"
+
+namespace elbowroom::console {
+namespace {
+
+constexpr double kGuessedGapMm = 140.0;
+constexpr double kNeededGapMm = 240.0;
+constexpr const char* kGap = "payload_a_gap";
+
+// Far beyond what any step takes on a loaded machine; a test that waits so long has failed.
+constexpr int kPatienceMs = 120'000;
+
+// A window that doesn't answer for a fifth of a second is felt to hang.
+constexpr double kLongestStallMs = 200.0;
+
+// The longest time that the UI thread worked at a stretch without coming back to its event loop.
+class StallWatch {
+ public:
+  StallWatch() {
+    auto* dispatcher = QAbstractEventDispatcher::instance();
+    QObject::connect(dispatcher, &QAbstractEventDispatcher::awake, &context_, [this] { awake_.start(); });
+    QObject::connect(dispatcher, &QAbstractEventDispatcher::aboutToBlock, &context_, [this] { Look(); });
+  }
+
+  [[nodiscard]] double longest_ms() const { return longest_ms_; }
+
+ private:
+  void Look() {
+    if (awake_.isValid())
+      longest_ms_ = std::max(longest_ms_, 1e-6 * static_cast<double>(awake_.nsecsElapsed()));
+  }
+
+  QObject context_;
+  QElapsedTimer awake_;
+  double longest_ms_ = 0.0;
+};
+
+class ConsoleTest : public testing::Test {
+ protected:
+  ConsoleTest() : session_(folder_ / "trial.db"), window_(session_) {
+    window_.resize(1280, 800);
+    window_.show();
+    QObject::connect(&window_.desk(), &TrialDesk::FrameArrived, &window_, [this](const FrameNews& news) {
+      last_frame_ = news.result;
+      ++frames_;
+    });
+  }
+
+  ~ConsoleTest() override {
+    window_.desk().Stop();
+    WaitUntil([&] { return IsIdle(); });
+  }
+
+  template <typename Condition>
+  static bool WaitUntil(Condition condition) {
+    return QTest::qWaitFor(condition, kPatienceMs);
+  }
+  template <typename Widget>
+  Widget* Find(const char* name) {
+    auto* widget = window_.findChild<Widget*>(name);
+    EXPECT_NE(widget, nullptr) << name;
+    return widget;
+  }
+  QAction& Action(const char* name) { return *Find<QAction>(name); }
+  [[nodiscard]] bool IsIdle() { return window_.desk().state() == DeskState::kIdle; }
+  [[nodiscard]] QString Message() { return Find<QLabel>("message")->text(); }
+
+  [[nodiscard]] QStringList ListedParts() {
+    const QAbstractItemModel& model = *Find<QTableView>("contact_list")->model();
+    QStringList parts;
+    for (int row = 0; row < model.rowCount(); ++row) {
+      parts << model.data(model.index(row, ContactModel::kPart)).toString();
+    }
+    return parts;
+  }
+  [[nodiscard]] bool GapIs(double gap_mm) { return last_frame_ && last_frame_->spacing_mm.at(0) == gap_mm; }
+
+  void StartDemoAndWaitForFrames() {
+    Action("start_demo").trigger();
+    ASSERT_TRUE(WaitUntil([&] { return last_frame_ != nullptr; })) << Message().toStdString();
+  }
+  void StopAndWait() {
+    Action("stop").trigger();
+    ASSERT_TRUE(WaitUntil([&] { return IsIdle(); }));
+  }
+
+  test_support::TemporaryFolder folder_;
+  std::filesystem::path session_;
+  MainWindow window_;
+  control::SharedFrameResult last_frame_;
+  int frames_ = 0;
+};
+
+std::string ContentOf(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+TEST_F(ConsoleTest, ContactsVanishFromTheListAsTheGapIsOpenedLive) {
+  const OpenedUrls opened;
+  EXPECT_FALSE(Action("report").isEnabled());
+  StartDemoAndWaitForFrames();
+  const StallWatch stalls;
+  ASSERT_TRUE(WaitUntil([&] { return ListedParts().contains("payload_a"); }));
+  EXPECT_TRUE(GapIs(kGuessedGapMm));
+  EXPECT_FALSE(Action("report").isEnabled());
+
+  Find<QSlider>("spacing_slider:payload_a_gap")->setValue(static_cast<int>(10.0 * kNeededGapMm));
+  EXPECT_EQ(Find<QDoubleSpinBox>("spacing_box:payload_a_gap")->value(), kNeededGapMm);
+  ASSERT_TRUE(WaitUntil([&] { return GapIs(kNeededGapMm); }));
+  EXPECT_EQ(ListedParts(), QStringList());
+
+  // A whole task at the opened gap, every frame that the window was told of.
+  const double task_ends_s = last_frame_->time_s + recon::kTaskSeconds;
+  std::vector<std::string> listed_again;
+  const QMetaObject::Connection watch =
+      QObject::connect(&window_.desk(), &TrialDesk::FrameArrived, &window_, [&](const FrameNews& news) {
+        for (const QString& part : ListedParts()) {
+          listed_again.push_back(part.toStdString() + " at frame " + std::to_string(news.result->frame));
+        }
+      });
+  const int frames_before = frames_;
+  ASSERT_TRUE(WaitUntil([&] { return last_frame_->time_s >= task_ends_s; }));
+  QObject::disconnect(watch);
+  EXPECT_EQ(listed_again, std::vector<std::string>());
+  constexpr int kFewestFrames = 40;  // of 240: enough to have seen every phase of the task
+  EXPECT_GT(frames_ - frames_before, kFewestFrames);
+  RecordProperty("longest_stall_ms", std::to_string(stalls.longest_ms()));
+  EXPECT_LT(stalls.longest_ms(), kLongestStallMs);
+
+  StopAndWait();
+  const sessions::SessionReader session(session_);
+  EXPECT_EQ(session.status(), sessions::SessionStatus::kComplete);
+  std::vector<core::FrameIndex> changes;
+  for (const core::SessionEvent& event : session.events()) {
+    const auto* change = std::get_if<core::SpacingChanged>(&event.what);
+    if (change == nullptr) continue;
+    EXPECT_EQ(change->spacing, kGap);
+    EXPECT_EQ(change->from_mm, kGuessedGapMm);
+    EXPECT_EQ(change->to_mm, kNeededGapMm);
+    changes.push_back(event.frame);
+  }
+  ASSERT_EQ(changes.size(), 1U);
+  EXPECT_GT(session.contacts().size(), 0U);
+  for (const sessions::ContactRow& row : session.contacts()) EXPECT_LT(row.frame, changes.front());
+
+  ASSERT_TRUE(Action("report").isEnabled());
+  Action("report").trigger();
+  EXPECT_FALSE(Action("start_demo").isEnabled());
+  ASSERT_TRUE(WaitUntil([&] { return IsIdle(); }));
+  const std::filesystem::path html = folder_ / "trial-report" / "report.html";
+  EXPECT_NE(ContentOf(html).find("payload_a"), std::string::npos) << Message().toStdString();
+  ASSERT_EQ(opened.urls().size(), 1U);
+  EXPECT_EQ(opened.urls().front().toLocalFile().toStdString(), html.string());
+}
+
+TEST_F(ConsoleTest, KeysAndCheckBoxesReachTheRunningTrial) {
+  EXPECT_TRUE(window_.findChildren<QSlider*>().isEmpty());  // no layout yet, nothing to set
+  StartDemoAndWaitForFrames();
+  QTest::keyClick(&window_, Qt::Key_Plus);
+  QTest::keyClick(&window_, Qt::Key_Plus);
+  QTest::keyClick(&window_, Qt::Key_Minus);
+  QTest::keyClick(&window_, Qt::Key_Underscore, Qt::ShiftModifier);
+  ASSERT_TRUE(WaitUntil([&] { return GapIs(kGuessedGapMm + 9.0); }));
+  EXPECT_EQ(Find<QDoubleSpinBox>("spacing_box:payload_a_gap")->value(), kGuessedGapMm + 9.0);
+
+  auto* gap = Find<QDoubleSpinBox>("spacing_box:payload_a_gap");
+  for (int step = 0; step < 50; ++step) QTest::keyClick(&window_, Qt::Key_Plus);
+  EXPECT_EQ(gap->value(), gap->maximum());
+  ASSERT_TRUE(WaitUntil([&] { return GapIs(gap->maximum()); }));
+
+  Find<QCheckBox>("tool:tongs")->click();
+  const int frames_before = frames_;
+  ASSERT_TRUE(WaitUntil([&] { return frames_ > frames_before + 2; }));
+  StopAndWait();
+  EXPECT_FALSE(gap->isEnabled());
+  const std::vector<core::SessionEvent> events = sessions::SessionReader(session_).events();
+  const auto marked = std::find_if(events.begin(), events.end(), [](const core::SessionEvent& event) {
+    return std::holds_alternative<core::ToolMarked>(event.what);
+  });
+  ASSERT_NE(marked, events.end());
+  EXPECT_EQ(std::get<core::ToolMarked>(marked->what).tool, "tongs");
+  EXPECT_TRUE(std::get<core::ToolMarked>(marked->what).in_use);
+}
+
+TEST_F(ConsoleTest, TheMouseTurnsTheOperatorsView) {
+  StartDemoAndWaitForFrames();
+  auto* view = window_.findChild<OperatorView*>();
+  ASSERT_NE(view, nullptr);
+  QSignalSpy pictures(view, &OperatorView::PictureShown);
+  ASSERT_TRUE(WaitUntil([&] { return !pictures.isEmpty(); }));
+  EXPECT_FALSE(view->driver().isEmpty());
+  const recon::OrbitCamera fitted = *view->camera();
+
+  QTest::mousePress(view, Qt::LeftButton, {}, QPoint(200, 200));
+  QTest::mouseMove(view, QPoint(260, 220));
+  QTest::mouseRelease(view, Qt::LeftButton, {}, QPoint(260, 220));
+  EXPECT_NE(view->camera()->azimuth_rad, fitted.azimuth_rad);
+  EXPECT_EQ(view->camera()->distance_mm, fitted.distance_mm);
+
+  QWheelEvent wheel(QPointF(200, 200), view->mapToGlobal(QPointF(200, 200)), {}, QPoint(0, 120), Qt::NoButton,
+                    Qt::NoModifier, Qt::NoScrollPhase, false);
+  QApplication::sendEvent(view, &wheel);
+  EXPECT_LT(view->camera()->distance_mm, fitted.distance_mm);
+  pictures.clear();
+  ASSERT_TRUE(WaitUntil([&] { return !pictures.isEmpty(); }));
+
+  QTest::keyClick(&window_, Qt::Key_F);
+  ASSERT_TRUE(WaitUntil([&] { return view->camera()->azimuth_rad == fitted.azimuth_rad; }));
+}
+
+TEST_F(ConsoleTest, AnExistingSessionIsLeftAloneAndTheErrorShown) {
+  std::ofstream(session_) << "somebody's work";
+  Action("start_demo").trigger();
+  EXPECT_FALSE(Action("start_demo").isEnabled());
+  ASSERT_TRUE(WaitUntil([&] { return IsIdle(); }));
+  EXPECT_NE(Message().indexOf(QString::fromStdString(session_.string())), -1) << Message().toStdString();
+  EXPECT_EQ(Message().indexOf('\n'), -1);
+  EXPECT_TRUE(Find<QLabel>("message")->isVisible());
+  EXPECT_TRUE(Action("start_demo").isEnabled());
+  EXPECT_FALSE(Action("report").isEnabled());
+  EXPECT_EQ(ContentOf(session_), "somebody's work");
+}
+
+TEST_F(ConsoleTest, ABrokenTrialFileIsOneLineAndLeavesNoSession) {
+  const std::filesystem::path trial = folder_ / "trial.toml";
+  std::ofstream(trial) << "rig = ";
+  StartTrialFile(window_.desk(), trial, session_);
+  ASSERT_TRUE(WaitUntil([&] { return IsIdle(); }));
+  EXPECT_NE(Message().indexOf("trial.toml"), -1) << Message().toStdString();
+  EXPECT_EQ(Message().indexOf('\n'), -1);
+  EXPECT_FALSE(std::filesystem::exists(session_));
+}
+
+TEST_F(ConsoleTest, ClosingTheWindowCompletesTheSessionFirst) {
+  StartDemoAndWaitForFrames();
+  EXPECT_FALSE(window_.close());
+  ASSERT_TRUE(WaitUntil([&] { return !window_.isVisible(); }));
+  const sessions::SessionReader session(session_);
+  EXPECT_EQ(session.status(), sessions::SessionStatus::kComplete);
+  EXPECT_GT(session.frame_count(), 0);
+}
+
+TEST_F(ConsoleTest, AnOrderedPictureShowsTheWindowAtTheOrderedGap) {
+  PictureOrder order;
+  order.png = folder_ / "window.png";
+  order.after_s = 0.2;
+  order.spacing_mm = kNeededGapMm;
+  WindowPicture picture(order, window_.desk(), &window_);
+  QSignalSpy taken(&picture, &WindowPicture::Taken);
+  StartDemoAndWaitForFrames();
+  ASSERT_TRUE(WaitUntil([&] { return !taken.isEmpty(); }));
+  EXPECT_EQ(taken.front().front().toString(), QString());
+  EXPECT_TRUE(GapIs(kNeededGapMm));
+  EXPECT_EQ(QImage(QString::fromStdString(order.png.string())).size(), window_.size());
+}
+
+}  // namespace
+}  // namespace elbowroom::console

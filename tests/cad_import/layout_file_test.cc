@@ -1,0 +1,250 @@
+#include "cad_import/layout_file.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <random>
+#include <string>
+
+#include "core/error.h"
+#include "tests/cad_import/error_of.h"
+#include "tests/cad_import/sample_files.h"
+#include "tests/core/solids.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/text_file.h"
+
+namespace elbowroom::cad_import {
+namespace {
+
+using core::ErrorKind;
+using core::LengthUnit;
+using core::testing::Box;
+using testing::ErrorOf;
+using testing::Mentions;
+
+constexpr double kRotationRounding = 1e-12;  // two conversions between angles and matrix
+
+// Lines are counted from 1 in the tests below.
+constexpr const char* kLayout = R"(unit = "cm"
+
+[[part]]
+name = "pmt box"
+file = "parts/box.stl"
+position_mm = [10, 20.5, -30]
+rotation_rpy_deg = [0, 0, 90]
+
+[[part]]
+name = "payload A"
+file = "parts/box.stl"
+unit = "in"
+
+[[part]]
+name = "payload B"
+file = "parts/metres.glb"
+
+[[spacing]]
+name = "gap"
+moving = "payload A"
+reference = "pmt box"
+axis = "z"
+min_mm = 100
+max_mm = 300.5
+initial_mm = 140
+
+[[pair]]
+a = "payload A"
+b = "payload B"
+required_clearance_mm = 5
+authorised_contact = true
+)";
+
+class LayoutFile : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    test_support::WriteText(folder_ / "parts/box.stl", testing::StlText(Box({1, 2, 3})));
+    const auto glb = testing::Gltf(Box({0.1, 0.2, 0.3}), {R"({"mesh":0})"}, {0}, "");
+    test_support::WriteText(folder_ / "parts/metres.glb", testing::Glb(glb));
+  }
+  std::filesystem::path Write(const std::string& text) {
+    test_support::WriteText(folder_ / "LAYOUT.toml", text);
+    return folder_ / "LAYOUT.toml";
+  }
+  // kLayout with its first `from` replaced.
+  std::filesystem::path WriteWith(const std::string& from, const std::string& to) {
+    std::string text = kLayout;
+    EXPECT_NE(text.find(from), std::string::npos) << from;
+    return Write(text.replace(text.find(from), from.size(), to));
+  }
+  // The message of what WriteWith(from, to) leads to; it must say that file and that line.
+  std::string ErrorAtLine(int line, const std::string& from, const std::string& to,
+                          ErrorKind kind = ErrorKind::kFormat) {
+    const auto path = WriteWith(from, to);
+    const std::string message = ErrorOf(kind, [&] { (void)ReadLayoutFile(path); });
+    EXPECT_TRUE(Mentions(message, path.string() + ":" + std::to_string(line) + ": ")) << message;
+    return message;
+  }
+
+  test_support::TemporaryFolder folder_;
+};
+
+TEST_F(LayoutFile, EveryKeyArrives) {
+  const core::Layout layout = ReadLayoutFile(Write(kLayout));
+  EXPECT_EQ(layout.unit, LengthUnit::kCentimetre);
+  ASSERT_EQ(layout.parts.size(), 3U);
+  const core::Part& box = layout.parts[0];
+  EXPECT_EQ(box.name, "pmt box");
+  EXPECT_EQ(box.file, "parts/box.stl");
+  EXPECT_EQ(box.world_from_part, core::FromPositionAndRollPitchYaw({10, 20.5, -30}, {0, 0, 90}));
+  ASSERT_EQ(layout.spacings.size(), 1U);
+  const core::Spacing& gap = layout.spacings[0];
+  EXPECT_EQ(gap.name, "gap");
+  EXPECT_EQ(gap.moving, "payload A");
+  EXPECT_EQ(gap.reference, "pmt box");
+  EXPECT_EQ(gap.axis, core::Axis::kZ);
+  EXPECT_EQ(gap.min_mm, 100.0);
+  EXPECT_EQ(gap.max_mm, 300.5);
+  EXPECT_EQ(gap.initial_mm, 140.0);
+  ASSERT_EQ(layout.pair_rules.size(), 1U);
+  EXPECT_EQ(layout.pair_rules[0].a, "payload A");
+  EXPECT_EQ(layout.pair_rules[0].b, "payload B");
+  EXPECT_EQ(layout.pair_rules[0].required_clearance_mm, 5.0);
+  EXPECT_TRUE(layout.pair_rules[0].authorised_contact);
+}
+
+TEST_F(LayoutFile, APartsUnitGoesBeforeItsFilesAndThatBeforeTheLayouts) {
+  const core::Layout layout = ReadLayoutFile(Write(kLayout));
+  const auto size_mm = [&](std::size_t i) -> Eigen::Vector3d {
+    return core::BoundsOf(*layout.parts[i].mesh).sizes();
+  };
+  EXPECT_EQ(layout.parts[0].unit, LengthUnit::kCentimetre);
+  EXPECT_TRUE(size_mm(0).isApprox(Eigen::Vector3d(10, 20, 30)));
+  EXPECT_EQ(layout.parts[1].unit, LengthUnit::kInch);
+  EXPECT_TRUE(size_mm(1).isApprox(Eigen::Vector3d(25.4, 50.8, 76.2)));
+  EXPECT_EQ(layout.parts[2].unit, LengthUnit::kMetre);
+  EXPECT_TRUE(size_mm(2).isApprox(Eigen::Vector3d(100, 200, 300), 1e-6));  // a file of floats
+}
+
+TEST_F(LayoutFile, AFileUsedTwiceIsLoadedOnce) {
+  const core::Layout layout = ReadLayoutFile(WriteWith("unit = \"in\"\n", ""));
+  EXPECT_EQ(layout.parts[0].mesh, layout.parts[1].mesh);
+  EXPECT_NE(layout.parts[0].mesh, layout.parts[2].mesh);
+}
+
+TEST_F(LayoutFile, WarningsNameTheirPart) {
+  EXPECT_TRUE(ImportLayoutFile(Write(kLayout)).warnings.empty());
+  auto open = Box({1, 2, 3});
+  open.triangles.pop_back();
+  test_support::WriteText(folder_ / "parts/box.stl", testing::StlText(open));
+  const auto warnings = ImportLayoutFile(folder_ / "LAYOUT.toml").warnings;
+  ASSERT_EQ(warnings.size(), 2U);
+  EXPECT_TRUE(Mentions(warnings[0], "part 'pmt box' (parts/box.stl): the surface is open")) << warnings[0];
+}
+
+TEST_F(LayoutFile, UnknownKeysAreNamedWithTheirLineAndWhatWasMeant) {
+  EXPECT_TRUE(Mentions(ErrorAtLine(6, "position_mm", "positon_mm"),
+                       "[[part]]: unknown key 'positon_mm'; did you mean 'position_mm'?"));
+  EXPECT_TRUE(Mentions(ErrorAtLine(25, "initial_mm", "inital_mm"), "did you mean 'initial_mm'?"));
+  EXPECT_TRUE(Mentions(ErrorAtLine(31, "authorised_contact", "authorized_contact"),
+                       "did you mean 'authorised_contact'?"));
+  EXPECT_TRUE(Mentions(ErrorAtLine(1, "unit = \"cm\"", "units = \"cm\""), "did you mean 'unit'?"));
+  EXPECT_TRUE(Mentions(ErrorAtLine(6, "position_mm = [10", "colour = 3\nposition_mm = [10"),
+                       "unknown key 'colour'; remove it"));
+}
+
+TEST_F(LayoutFile, MissingAndWronglyTypedKeysAreNamedWithTheirLine) {
+  EXPECT_TRUE(Mentions(ErrorAtLine(3, "name = \"pmt box\"\n", ""), "[[part]]: key 'name' is missing"));
+  EXPECT_TRUE(Mentions(ErrorAtLine(4, "\"pmt box\"", "7"), "key 'name' must be a text"));
+  EXPECT_TRUE(
+      Mentions(ErrorAtLine(6, "[10, 20.5, -30]", "[10, 20.5]"), "key 'position_mm' must be three numbers"));
+  EXPECT_TRUE(Mentions(ErrorAtLine(6, "[10, 20.5, -30]", "[10, nan, 0]"), "must be a finite number"));
+  EXPECT_TRUE(Mentions(ErrorAtLine(7, "[0, 0, 90]", "\"upright\""), "key 'rotation_rpy_deg'"));
+  EXPECT_TRUE(
+      Mentions(ErrorAtLine(12, "\"in\"", "\"inch\""), "key 'unit' must be \"mm\", \"cm\", \"m\" or \"in\""));
+  EXPECT_TRUE(Mentions(ErrorAtLine(22, "\"z\"", "\"up\""), "key 'axis' must be"));
+  EXPECT_TRUE(Mentions(ErrorAtLine(24, "300.5", "true"), "key 'max_mm' must be a finite number"));
+  EXPECT_TRUE(Mentions(ErrorAtLine(30, "= 5", "= -5"), "must not be negative"));
+  EXPECT_TRUE(Mentions(ErrorAtLine(31, "= true", "= 1"), "must be true or false"));
+}
+
+TEST_F(LayoutFile, PartsThatDontExistAreNamedWithTheirLine) {
+  EXPECT_TRUE(Mentions(ErrorAtLine(20, "moving = \"payload A\"", "moving = \"paylod A\""),
+                       "[[spacing]]: key 'moving' names no part: 'paylod A'; did you mean 'payload A'?"));
+  EXPECT_TRUE(Mentions(ErrorAtLine(29, "b = \"payload B\"", "b = \"chassis\""), "names no part: 'chassis'"));
+}
+
+TEST_F(LayoutFile, PartFilesThatFailAreNamedWithTheirLineAndPart) {
+  const std::string missing = ErrorAtLine(5, "parts/box.stl", "parts/bx.stl", ErrorKind::kFile);
+  EXPECT_TRUE(Mentions(missing, "part 'pmt box'") && Mentions(missing, "bx.stl: no such file")) << missing;
+  const std::string unitless = ErrorAtLine(5, "unit = \"cm\"\n", "\n", ErrorKind::kCad);
+  EXPECT_TRUE(Mentions(unitless, "carries no unit")) << unitless;
+}
+
+TEST_F(LayoutFile, LayoutsThatContradictThemselvesAreErrors) {
+  const auto message_of = [&](const std::filesystem::path& path) {
+    return ErrorOf(ErrorKind::kRange, [&] { (void)ReadLayoutFile(path); });
+  };
+  EXPECT_TRUE(
+      Mentions(message_of(WriteWith("[[spacing]]",
+                                    "[[part]]\nname = \"pmt box\"\nfile = \"parts/box.stl\"\n[[spacing]]")),
+               "LAYOUT.toml: two parts are named 'pmt box'"));
+  EXPECT_TRUE(Mentions(message_of(WriteWith("initial_mm = 140", "initial_mm = 99")),
+                       "min_mm <= initial_mm <= max_mm"));
+}
+
+TEST_F(LayoutFile, FilesThatAreNoLayoutAreErrors) {
+  const auto message_of = [](ErrorKind kind, const std::filesystem::path& path) {
+    return ErrorOf(kind, [&] { (void)ReadLayoutFile(path); });
+  };
+  EXPECT_TRUE(Mentions(message_of(ErrorKind::kFile, folder_ / "none.toml"), "no such layout file"));
+  EXPECT_TRUE(Mentions(message_of(ErrorKind::kFile, folder_.path()), "no such layout file"));
+  EXPECT_TRUE(
+      Mentions(message_of(ErrorKind::kFormat, Write("unit = \"mm\"\n[[part]\n")), "LAYOUT.toml:2: not TOML"));
+  EXPECT_TRUE(Mentions(message_of(ErrorKind::kFormat, Write("unit = \"mm\"\n")), "no [[part]]"));
+  EXPECT_TRUE(Mentions(message_of(ErrorKind::kFormat, Write("part = 3\n")), "must be written as [[part]]"));
+  EXPECT_TRUE(Mentions(message_of(ErrorKind::kFormat, Write("part = [3]\n")), "must be written as [[part]]"));
+}
+
+TEST_F(LayoutFile, WhatIsWrittenComesBack) {
+  core::Layout layout = ReadLayoutFile(Write(kLayout));
+  std::mt19937 random(8);
+  std::uniform_real_distribution<double> angle_deg(-180, 180), position_mm(-3000, 3000);
+  for (int i = 0; i < 50; ++i) {
+    core::Part part = layout.parts[0];
+    part.name = "random \"" + std::to_string(i) + "\"";
+    // Every fifth looks straight up or down, where roll and yaw can't be told apart.
+    const double pitch_deg = i % 5 == 0 ? (i % 2 == 0 ? 90.0 : -90.0) : angle_deg(random);
+    part.world_from_part =
+        core::FromPositionAndRollPitchYaw({position_mm(random), position_mm(random), position_mm(random)},
+                                          {angle_deg(random), pitch_deg, angle_deg(random)});
+    layout.parts.push_back(part);
+  }
+  layout.spacings[0].initial_mm = 140.1;
+  WriteLayoutFile(layout, folder_ / "copy.toml");
+  const core::Layout back = ReadLayoutFile(folder_ / "copy.toml");
+  EXPECT_EQ(back.unit, layout.unit);
+  ASSERT_EQ(back.parts.size(), layout.parts.size());
+  for (std::size_t i = 0; i < layout.parts.size(); ++i) {
+    EXPECT_EQ(back.parts[i].name, layout.parts[i].name);
+    EXPECT_EQ(back.parts[i].file, layout.parts[i].file);
+    EXPECT_EQ(back.parts[i].unit, layout.parts[i].unit);
+    EXPECT_EQ(*back.parts[i].mesh, *layout.parts[i].mesh);
+    EXPECT_EQ(back.parts[i].world_from_part.translation_mm, layout.parts[i].world_from_part.translation_mm);
+    EXPECT_LT((back.parts[i].world_from_part.rotation - layout.parts[i].world_from_part.rotation).norm(),
+              kRotationRounding);
+  }
+  EXPECT_EQ(back.spacings[0].initial_mm, 140.1);
+  EXPECT_EQ(back.spacings[0].axis, core::Axis::kZ);
+  EXPECT_EQ(back.pair_rules[0].required_clearance_mm, 5.0);
+  EXPECT_TRUE(back.pair_rules[0].authorised_contact);
+}
+
+TEST_F(LayoutFile, APartWithoutAFileCantBeWritten) {
+  core::Layout layout = ReadLayoutFile(Write(kLayout));
+  layout.parts[1].file.clear();
+  EXPECT_TRUE(Mentions(ErrorOf(ErrorKind::kCad, [&] { WriteLayoutFile(layout, folder_ / "copy.toml"); }),
+                       "part 'payload A' has no file"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "copy.toml"));
+}
+
+}  // namespace
+}  // namespace elbowroom::cad_import

@@ -1,0 +1,168 @@
+#include "core/layout.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include "core/error.h"
+#include "tests/core/solids.h"
+
+namespace elbowroom::core {
+namespace {
+
+constexpr double kRoundingMm = 1e-10;  // a few double roundings on positions of a metre
+
+Part BoxPart(const std::string& name, const Eigen::Vector3d& size_mm, const Eigen::Vector3d& position_mm,
+             const Eigen::Vector3d& rpy_deg) {
+  return {.name = name,
+          .file = name + ".stl",
+          .mesh = std::make_shared<const TriangleMesh>(testing::Box(size_mm)),
+          .world_from_part = FromPositionAndRollPitchYaw(position_mm, rpy_deg)};
+}
+
+Spacing Gap(const std::string& name, const std::string& moving, const std::string& reference,
+            Axis axis = Axis::kZ) {
+  return {.name = name,
+          .moving = moving,
+          .reference = reference,
+          .axis = axis,
+          .min_mm = -50,
+          .max_mm = 400,
+          .initial_mm = 140};
+}
+
+Layout TwoTurnedParts() {
+  Layout layout;
+  layout.parts = {BoxPart("payload", {300, 200, 100}, {10, 20, 333}, {12, -34, 56}),
+                  BoxPart("pmt", {250, 250, 400}, {-7, 3, 11}, {-80, 15, 140})};
+  layout.spacings = {Gap("gap", "payload", "pmt")};
+  return layout;
+}
+
+// Independent of ExtentAlong in the code: moves the whole mesh.
+Eigen::AlignedBox3d WorldBounds(const Part& part, const RigidTransform& world_from_part) {
+  return BoundsOf(Transformed(*part.mesh, world_from_part));
+}
+
+TEST(PosesAt, GapBetweenTurnedPartsIsTheSpacingAlongEveryAxis) {
+  for (const Axis axis : {Axis::kX, Axis::kY, Axis::kZ}) {
+    Layout layout = TwoTurnedParts();
+    layout.spacings[0].axis = axis;
+    const auto i = static_cast<Eigen::Index>(axis);
+    for (const double spacing_mm : {-50.0, 0.0, 140.0, 240.0, 399.9}) {
+      const auto poses = PosesAt(layout, std::vector<double>{spacing_mm});
+      const double gap_mm =
+          WorldBounds(layout.parts[0], poses[0]).min()[i] - WorldBounds(layout.parts[1], poses[1]).max()[i];
+      EXPECT_NEAR(gap_mm, spacing_mm, kRoundingMm) << ToString(axis);
+      // Only the moving part moves, only along the axis, and it doesn't turn.
+      EXPECT_EQ(poses[1], layout.parts[1].world_from_part);
+      EXPECT_EQ(poses[0].rotation, layout.parts[0].world_from_part.rotation);
+      for (Eigen::Index other = 0; other < 3; ++other) {
+        if (other == i) continue;
+        EXPECT_EQ(poses[0].translation_mm[other], layout.parts[0].world_from_part.translation_mm[other]);
+      }
+    }
+  }
+}
+
+TEST(PosesAt, OutAndBackIsBitEqual) {
+  const Layout layout = TwoTurnedParts();
+  const auto before = PosesAt(layout, std::vector<double>{140.0});
+  const auto opened = PosesAt(layout, std::vector<double>{240.0});
+  const auto after = PosesAt(layout, std::vector<double>{140.0});
+  EXPECT_EQ(before, after);
+  EXPECT_NE(before, opened);
+  EXPECT_NEAR(opened[0].translation_mm.z() - before[0].translation_mm.z(), 100.0, kRoundingMm);
+}
+
+TEST(PosesAt, ChainsCarryTheUpperPartsAlongInAnyOrderOfWriting) {
+  Layout layout;
+  layout.parts = {BoxPart("top", {10, 10, 10}, {0, 0, 900}, {0, 0, 0}),
+                  BoxPart("middle", {10, 10, 20}, {0, 0, 500}, {0, 0, 30}),
+                  BoxPart("base", {10, 10, 30}, {0, 0, 0}, {0, 0, 0})};
+  layout.spacings = {Gap("upper", "top", "middle"),
+                     Gap("lower", "middle", "base")};  // needs the second first
+  const auto poses = PosesAt(layout, std::vector<double>{7.0, 5.0});
+  EXPECT_NEAR(poses[1].translation_mm.z(), 35.0, kRoundingMm);
+  EXPECT_NEAR(poses[0].translation_mm.z(), 62.0, kRoundingMm);
+  std::swap(layout.spacings[0], layout.spacings[1]);
+  EXPECT_EQ(PosesAt(layout, std::vector<double>{5.0, 7.0}), poses);
+}
+
+TEST(PosesAt, TwoAxesOfOnePartAreIndependent) {
+  Layout layout = TwoTurnedParts();
+  layout.spacings = {Gap("up", "payload", "pmt", Axis::kZ), Gap("side", "payload", "pmt", Axis::kX)};
+  EXPECT_NO_THROW(layout.Validate());
+  const auto poses = PosesAt(layout, std::vector<double>{100.0, 30.0});
+  const Eigen::Vector3d gap_mm =
+      WorldBounds(layout.parts[0], poses[0]).min() - WorldBounds(layout.parts[1], poses[1]).max();
+  EXPECT_NEAR(gap_mm.z(), 100.0, kRoundingMm);
+  EXPECT_NEAR(gap_mm.x(), 30.0, kRoundingMm);
+}
+
+TEST(PosesAt, NeedsOneValueASpacing) { EXPECT_THROW((void)PosesAt(TwoTurnedParts(), {}), PreconditionError); }
+
+struct BadLayout {
+  const char* what;
+  std::function<void(Layout&)> spoil;
+  const char* expected;
+};
+
+TEST(LayoutValidate, NamesWhatIsWrong) {
+  const BadLayout kCases[] = {
+      {"nameless part", [](Layout& l) { l.parts[0].name = ""; }, "has no name"},
+      {"same part name", [](Layout& l) { l.parts[0].name = "pmt"; }, "two parts are named 'pmt'"},
+      {"no mesh", [](Layout& l) { l.parts[0].mesh = nullptr; }, "part 'payload' has no mesh"},
+      {"same spacing name", [](Layout& l) { l.spacings.push_back(l.spacings[0]); },
+       "two spacings are named 'gap'"},
+      {"unknown moving", [](Layout& l) { l.spacings[0].moving = "pyload"; },
+       "spacing 'gap': no part is named 'pyload'"},
+      {"unknown reference", [](Layout& l) { l.spacings[0].reference = "x"; }, "no part is named 'x'"},
+      {"itself", [](Layout& l) { l.spacings[0].moving = "pmt"; },
+       "spacing 'gap': a part can't move against itself"},
+      {"initial outside", [](Layout& l) { l.spacings[0].initial_mm = 500; },
+       "min_mm <= initial_mm <= max_mm"},
+      {"limits swapped", [](Layout& l) { std::swap(l.spacings[0].min_mm, l.spacings[0].max_mm); },
+       "spacing 'gap'"},
+      {"NaN", [](Layout& l) { l.spacings[0].initial_mm = std::nan(""); }, "spacing 'gap'"},
+      {"endless", [](Layout& l) { l.spacings[0].max_mm = std::numeric_limits<double>::infinity(); },
+       "spacing 'gap'"},
+      {"circular", [](Layout& l) { l.spacings.push_back(Gap("back", "pmt", "payload")); }, "circular"},
+      {"unknown in pair",
+       [](Layout& l) {
+         l.pair_rules.push_back({"pmt", "nobody", 5.0, false});
+       },
+       "'nobody'"},
+  };
+  EXPECT_NO_THROW(TwoTurnedParts().Validate());
+  for (const BadLayout& bad : kCases) {
+    Layout layout = TwoTurnedParts();
+    bad.spoil(layout);
+    try {
+      layout.Validate();
+      ADD_FAILURE() << bad.what << " passed";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::kRange) << bad.what;
+      EXPECT_NE(std::string(error.what()).find(bad.expected), std::string::npos) << error.what();
+    }
+  }
+}
+
+TEST(Layout, FindsByNameAndStartsAtInitialSpacings) {
+  const Layout layout = TwoTurnedParts();
+  EXPECT_EQ(layout.FindPart("pmt"), PartIndex{1});
+  EXPECT_EQ(layout.FindPart("PMT"), std::nullopt);
+  EXPECT_EQ(layout.FindSpacing("gap"), SpacingIndex{0});
+  EXPECT_EQ(layout.FindSpacing(""), std::nullopt);
+  EXPECT_EQ(layout.InitialSpacings(), std::vector<double>{140.0});
+}
+
+TEST(Axis, TextComesBackAsTheSameAxis) {
+  for (const Axis axis : {Axis::kX, Axis::kY, Axis::kZ}) EXPECT_EQ(ParseAxis(ToString(axis)), axis);
+  EXPECT_EQ(ParseAxis("Z"), std::nullopt);
+}
+
+}  // namespace
+}  // namespace elbowroom::core

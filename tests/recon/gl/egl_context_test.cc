@@ -1,0 +1,58 @@
+#include "recon/gl/egl_context.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <iostream>
+#include <string>
+#include <utility>
+
+#include "core/error.h"
+
+namespace elbowroom::recon::gl {
+namespace {
+
+TEST(EglContext, OpensWithoutAWindowSystem) {
+  ::unsetenv("DISPLAY");
+  ::unsetenv("WAYLAND_DISPLAY");
+  const EglContext context;
+  EXPECT_FALSE(context.vendor().empty());
+  EXPECT_FALSE(context.renderer().empty());
+  const bool new_enough = context.version() >= "3.3";
+  EXPECT_TRUE(new_enough) << context.version();
+  std::cout << context.platform() << " | " << context.vendor() << " | " << context.renderer() << " | "
+            << context.version() << '\n';
+}
+
+TEST(EglContext, SurvivesItsNeighboursEnd) {
+  const EglContext first;
+  { const EglContext second; }
+  EXPECT_NO_THROW(first.MakeCurrent());
+}
+
+TEST(EglContext, MovedFromIsNotUsed) {
+  EglContext first;
+  const EglContext second = std::move(first);
+  EXPECT_NO_THROW(second.MakeCurrent());
+  EXPECT_THROW(first.MakeCurrent(), core::PreconditionError);  // NOLINT(bugprone-use-after-move)
+}
+
+// In a process of its own, which reads the variable when it first touches EGL.
+void OpenWithoutAnyDriver() {
+  ::setenv("__EGL_VENDOR_LIBRARY_FILENAMES", "/nonexistent.json", 1);
+  try {
+    const EglContext context;
+  } catch (const core::Error& error) {
+    std::cerr << error.what() << '\n';
+    std::exit(error.kind() == core::ErrorKind::kGraphics ? 1 : 3);
+  }
+  std::exit(0);
+}
+
+TEST(EglContextDeathTest, NoDriverIsOneLineThatSaysWhatToInstall) {
+  testing::FLAGS_gtest_death_test_style = "threadsafe";
+  EXPECT_EXIT(OpenWithoutAnyDriver(), testing::ExitedWithCode(1), "^cannot draw: [^\n]*install [^\n]*\n$");
+}
+
+}  // namespace
+}  // namespace elbowroom::recon::gl

@@ -1,0 +1,122 @@
+#include <gtest/gtest.h>
+
+#include "tests/sessions/sample_session.h"
+
+namespace elbowroom::tests {
+namespace {
+
+void ExpectEqual(const core::ContactPoint& actual, const core::ContactPoint& expected) {
+  EXPECT_EQ(actual.position_in_world_mm, expected.position_in_world_mm);
+  EXPECT_EQ(actual.depth_mm, expected.depth_mm);
+  EXPECT_EQ(actual.area_mm2, expected.area_mm2);
+}
+
+void ExpectEqual(const core::Recovery& actual, const core::Recovery& expected) {
+  EXPECT_EQ(actual.cp_obj_in_world_mm, expected.cp_obj_in_world_mm);
+  EXPECT_EQ(actual.cp_hull_in_world_mm, expected.cp_hull_in_world_mm);
+  EXPECT_EQ(actual.v_rec_in_world, expected.v_rec_in_world);
+  EXPECT_EQ(actual.d_rec_mm, expected.d_rec_mm);
+  EXPECT_EQ(actual.n_hull_in_world, expected.n_hull_in_world);
+}
+
+void ExpectEqual(const core::Rig& actual, const core::Rig& expected) {
+  EXPECT_EQ(actual.name, expected.name);
+  EXPECT_EQ(actual.workspace_mm.min(), expected.workspace_mm.min());
+  EXPECT_EQ(actual.workspace_mm.max(), expected.workspace_mm.max());
+  EXPECT_EQ(actual.unseen, expected.unseen);
+  ASSERT_EQ(actual.cameras.size(), expected.cameras.size());
+  for (core::CameraIndex i = 0; i < expected.cameras.size(); ++i) {
+    const core::CameraCalibration& a = actual.cameras[i].calibration();
+    const core::CameraCalibration& e = expected.cameras[i].calibration();
+    EXPECT_EQ(a.name, e.name);
+    EXPECT_EQ(a.image_width_px, e.image_width_px);
+    EXPECT_EQ(a.image_height_px, e.image_height_px);
+    EXPECT_EQ(a.camera_matrix, e.camera_matrix);
+    EXPECT_EQ(a.distortion_model, e.distortion_model);
+    EXPECT_EQ(a.distortion_coefficients, e.distortion_coefficients);
+    EXPECT_EQ(a.cam_from_world, e.cam_from_world);
+  }
+}
+
+void ExpectEqual(const core::Layout& actual, const core::Layout& expected) {
+  EXPECT_EQ(actual.unit, expected.unit);
+  ASSERT_EQ(actual.parts.size(), expected.parts.size());
+  for (core::PartIndex i = 0; i < expected.parts.size(); ++i) {
+    EXPECT_EQ(actual.parts[i].name, expected.parts[i].name);
+    EXPECT_EQ(actual.parts[i].file, expected.parts[i].file);
+    EXPECT_EQ(actual.parts[i].unit, expected.parts[i].unit);
+    EXPECT_EQ(*actual.parts[i].mesh, *expected.parts[i].mesh);
+    EXPECT_EQ(actual.parts[i].world_from_part, expected.parts[i].world_from_part);
+  }
+  ASSERT_EQ(actual.spacings.size(), expected.spacings.size());
+  for (core::SpacingIndex i = 0; i < expected.spacings.size(); ++i) {
+    const core::Spacing &a = actual.spacings[i], &e = expected.spacings[i];
+    EXPECT_EQ(std::tie(a.name, a.moving, a.reference, a.axis, a.min_mm, a.max_mm, a.initial_mm),
+              std::tie(e.name, e.moving, e.reference, e.axis, e.min_mm, e.max_mm, e.initial_mm));
+  }
+  ASSERT_EQ(actual.pair_rules.size(), expected.pair_rules.size());
+  for (std::size_t i = 0; i < expected.pair_rules.size(); ++i) {
+    const core::PairRule &a = actual.pair_rules[i], &e = expected.pair_rules[i];
+    EXPECT_EQ(std::tie(a.a, a.b, a.required_clearance_mm, a.authorised_contact),
+              std::tie(e.a, e.b, e.required_clearance_mm, e.authorised_contact));
+  }
+}
+
+template <typename Value>
+void ExpectEqualWherePresent(const std::optional<Value>& actual, const std::optional<Value>& expected) {
+  ASSERT_EQ(actual.has_value(), expected.has_value());
+  if (expected) ExpectEqual(*actual, *expected);
+}
+
+}  // namespace
+
+void ExpectEqual(const core::PartContact& actual, const core::PartContact& expected) {
+  EXPECT_EQ(actual.part, expected.part);
+  EXPECT_EQ(actual.verdict, expected.verdict);
+  EXPECT_EQ(actual.contact_point_count, expected.contact_point_count);
+  EXPECT_EQ(actual.contact_area_mm2, expected.contact_area_mm2);
+  EXPECT_EQ(actual.recovery_status, expected.recovery_status);
+  EXPECT_EQ(actual.resolution_mm, expected.resolution_mm);
+  EXPECT_EQ(actual.count.triangles, expected.count.triangles);
+  EXPECT_EQ(actual.count.queries, expected.count.queries);
+  EXPECT_EQ(actual.count.skipped, expected.count.skipped);
+  ExpectEqualWherePresent(actual.deepest, expected.deepest);
+  ExpectEqualWherePresent(actual.recovery, expected.recovery);
+  ASSERT_EQ(actual.points.size(), expected.points.size());
+  for (std::size_t i = 0; i < expected.points.size(); ++i) ExpectEqual(actual.points[i], expected.points[i]);
+}
+
+void ExpectEqual(const core::FrameRecord& actual, const core::FrameRecord& expected) {
+  EXPECT_EQ(actual.frame, expected.frame);
+  EXPECT_EQ(actual.time_s, expected.time_s);
+  EXPECT_EQ(*actual.silhouettes, *expected.silhouettes) << "silhouettes of frame " << expected.frame;
+  EXPECT_EQ(actual.spacing_mm, expected.spacing_mm);
+  ASSERT_EQ(actual.contacts.size(), expected.contacts.size());
+  for (std::size_t i = 0; i < expected.contacts.size(); ++i)
+    ExpectEqual(actual.contacts[i], expected.contacts[i]);
+}
+
+void ExpectEqual(const core::ContactEpisode& actual, const core::ContactEpisode& expected) {
+  const auto fields = [](const core::ContactEpisode& e) {
+    return std::tie(e.id, e.part, e.begin_frame, e.peak_frame, e.end_frame, e.begin_time_s, e.peak_time_s,
+                    e.end_time_s, e.frames_in_contact, e.peak_depth_mm, e.peak_area_mm2,
+                    e.spacing_at_peak_mm);
+  };
+  EXPECT_EQ(fields(actual), fields(expected));
+  EXPECT_EQ(actual.peak_position_in_world_mm, expected.peak_position_in_world_mm);
+}
+
+void ExpectEqual(const core::SessionHeader& actual, const core::SessionHeader& expected) {
+  EXPECT_EQ(actual.trial.participant, expected.trial.participant);
+  EXPECT_EQ(actual.trial.task, expected.trial.task);
+  EXPECT_EQ(actual.trial.estimate_mm, expected.trial.estimate_mm);
+  EXPECT_EQ(actual.trial.required_clearance_mm, expected.trial.required_clearance_mm);
+  EXPECT_EQ(actual.trial.tools, expected.trial.tools);
+  EXPECT_EQ(actual.started_at_utc, expected.started_at_utc);
+  EXPECT_EQ(actual.settings, expected.settings);
+  EXPECT_EQ(actual.versions, expected.versions);
+  ExpectEqual(actual.rig, expected.rig);
+  ExpectEqual(actual.layout, expected.layout);
+}
+
+}  // namespace elbowroom::tests

@@ -1,0 +1,249 @@
+#include "sessions/report.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <regex>
+#include <sstream>
+
+#include "sessions/markup.h"
+#include "sessions/session_writer.h"
+#include "tests/sessions/expect_error.h"
+#include "tests/sessions/sample_session.h"
+#include "tests/sessions/sample_trial.h"
+
+namespace elbowroom::tests {
+namespace {
+
+namespace fs = std::filesystem;
+using sessions::ReportPictures;
+using sessions::SessionReader;
+
+// The start of a PNG file, enough to be taken for one.
+const std::vector<unsigned char> kPng = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n', 0, 1, 2, 3};
+
+std::string Contents(const fs::path& path) {
+  std::ostringstream text;
+  text << std::ifstream(path, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+std::int64_t Count(const std::string& text, const std::string& what) {
+  std::int64_t count = 0;
+  for (std::size_t at = 0; (at = text.find(what, at)) != std::string::npos; at += what.size()) ++count;
+  return count;
+}
+
+// Fails where a tag isn't closed in its place.
+void ExpectTagsNest(const std::string& html) {
+  const std::regex tag(R"(<(/?)([a-zA-Z][a-zA-Z0-9]*)((?:[^>'"]|'[^']*'|"[^"]*")*)>)");
+  const std::string body = html.substr(0, html.find("<style>")) + html.substr(html.find("</style>") + 8);
+  std::vector<std::string> open;
+  for (std::sregex_iterator it(body.begin(), body.end(), tag), end; it != end; ++it) {
+    const std::string name = (*it)[2], attributes = (*it)[3];
+    if (name == "meta" || name == "img" || name == "br" || attributes.ends_with("/")) continue;
+    if ((*it)[1].length() == 0) {
+      open.push_back(name);
+    } else {
+      ASSERT_FALSE(open.empty()) << "stray </" << name << ">";
+      ASSERT_EQ(open.back(), name) << "closed out of turn";
+      open.pop_back();
+    }
+  }
+  EXPECT_TRUE(open.empty());
+}
+
+void ExpectSelfContained(const std::string& html) {
+  for (const char* loads :
+       {"<script", "<link", "http:", "https:", "@import", "url(", "src='//", "javascript:"}) {
+    EXPECT_EQ(html.find(loads), std::string::npos) << loads;
+  }
+  EXPECT_EQ(Count(html, "src='"), Count(html, "src='data:image/png;base64,"));
+}
+
+void ExpectNoBrokenNumbers(const std::string& html) {
+  EXPECT_FALSE(std::regex_search(html, std::regex(R"([ ='](-?nan|-?inf)\b)"))) << "a number that isn't one";
+  EXPECT_FALSE(std::regex_search(html, std::regex(R"(width='-)"))) << "a rectangle of negative width";
+}
+
+std::string ReportOf(const fs::path& session, const fs::path& out_dir, const ReportPictures& pictures = {}) {
+  sessions::WriteReport(SessionReader(session), pictures, out_dir);
+  const std::string html = Contents(out_dir / "report.html");
+  ExpectTagsNest(html);
+  ExpectSelfContained(html);
+  ExpectNoBrokenNumbers(html);
+  return html;
+}
+
+TEST(Report, TellsTheUsualTrialAndNeedsNothingButItself) {
+  const TemporaryFolder folder;
+  WriteTrial(folder / "s.db", UsualTrial());
+  const std::string html = ReportOf(folder / "s.db", folder / "new" / "out", {kPng, "Deep & <deeper>", kPng});
+  EXPECT_NE(html.find("7 touches in 62.0 s, all with &#39;PMT to payload A&#39; at 140&nbsp;mm"),
+            std::string::npos);
+  EXPECT_EQ(Count(html, "<rect class='touch'"), 7);
+  EXPECT_EQ(Count(html, "class='tool'"), 1);
+  EXPECT_EQ(Count(html, "src='data:image/png;base64,iVBORw0KGgoAAQID'"), 2);
+  EXPECT_NE(html.find("Deep &amp; &lt;deeper&gt;"), std::string::npos);
+  EXPECT_EQ(Count(html, "<tr class='worst'>"), 1);
+  EXPECT_NE(html.find("contact errs on the safe side"), std::string::npos);
+}
+
+TEST(Report, DrawsEachTouchWhereItsTimesAre) {
+  const TemporaryFolder folder;
+  TrialPlan plan = UsualTrial();
+  plan.duration_s = 40.0;
+  plan.touches = {{1, 10.0, 20.0, 6.0}};
+  WriteTrial(folder / "s.db", plan);
+  const std::string html = ReportOf(folder / "s.db", folder.path());
+  const std::regex lane(R"(<rect class='lane' x='([0-9.]+)' y='[0-9.]+' width='([0-9.]+)')");
+  const std::regex touch(R"(<rect class='touch' x='([0-9.]+)' y='[0-9.]+' width='([0-9.]+)')");
+  std::smatch lane_found, touch_found;
+  ASSERT_TRUE(std::regex_search(html, lane_found, lane));
+  ASSERT_TRUE(std::regex_search(html, touch_found, touch));
+  const double left = std::stod(lane_found[1]), width = std::stod(lane_found[2]);
+  constexpr double kRounding = 0.11;  // positions are written with one decimal
+  EXPECT_NEAR(std::stod(touch_found[1]), left + width * 10.0 / 40.0, kRounding);
+  EXPECT_NEAR(std::stod(touch_found[2]), width * 10.1 / 40.0, kRounding) << "to the end of the last frame";
+}
+
+TEST(Report, EscapesEveryTextFromOutside) {
+  const TemporaryFolder folder;
+  const std::string hostile = "<script>alert('x')</script>\"&";
+  core::SessionHeader header = SampleHeader();
+  header.trial.participant = header.trial.task = header.rig.name = hostile;
+  header.layout.parts[1].name = header.layout.spacings[0].moving = header.layout.pair_rules[0].a = hostile;
+  header.layout.spacings[0].name = hostile;
+  header.settings[hostile] = header.versions[hostile] = hostile;
+  core::CameraCalibration renamed = header.rig.cameras[0].calibration();
+  renamed.name = hostile;
+  header.rig.cameras[0] = core::CameraModel(renamed);
+  {
+    sessions::SessionWriter writer(folder / "s.db", header);
+    for (core::FrameIndex i = 0; i < 20; ++i) writer.Append(SampleFrame(header, i, 1));
+    writer.Append(core::SessionEvent{1, 0.1, core::Note{hostile}});
+    writer.Append(core::SessionEvent{1, 0.1, core::ToolMarked{hostile, true}});
+    writer.Append(core::SessionEvent{4, 0.1, core::SpacingChanged{hostile, 140.0, 240.0}});
+    writer.Finish(SampleEpisodes(0, 19));
+  }
+  const std::string html = ReportOf(folder / "s.db", folder.path(), {kPng, hostile, std::nullopt});
+  EXPECT_EQ(html.find("alert('x')"), std::string::npos);
+  EXPECT_GT(Count(html, "&lt;script&gt;"), 12);
+}
+
+TEST(Report, ASessionThatBrokeOffIsReportedAsSuch) {
+  const TemporaryFolder folder;
+  TrialPlan plan = UsualTrial();
+  plan.is_finished = false;
+  WriteTrial(folder / "s.db", plan);
+  const std::string html = ReportOf(folder / "s.db", folder.path());
+  EXPECT_NE(html.find("The recording broke off after 62.0 s with contact in 207 of 620 frames"),
+            std::string::npos);
+  EXPECT_EQ(Count(html, "<rect class='touch'"), 0);
+}
+
+TEST(Report, AnEmptySessionHasAReportToo) {
+  const TemporaryFolder folder;
+  core::SessionHeader header = SampleHeader();
+  header.layout = {};
+  sessions::SessionWriter(folder / "s.db", header).Finish({});
+  EXPECT_NE(ReportOf(folder / "s.db", folder.path()).find("No frame was recorded"), std::string::npos);
+  EXPECT_EQ(Count(Contents(folder / "contacts.csv"), "\n"), 1);
+}
+
+TEST(Report, OneFrameHasAReportToo) {
+  const TemporaryFolder folder;
+  WriteSampleSession(folder / "s.db", 1);
+  (void)ReportOf(folder / "s.db", folder.path());
+}
+
+TEST(Report, IsTheSameEachTime) {
+  const TemporaryFolder folder;
+  WriteTrial(folder / "s.db", UsualTrial());
+  EXPECT_EQ(ReportOf(folder / "s.db", folder / "a"), ReportOf(folder / "s.db", folder / "b"));
+  EXPECT_EQ(Contents(folder / "a" / "contacts.csv"), Contents(folder / "b" / "contacts.csv"));
+}
+
+TEST(Report, ContactsCsvHasARowForEachPartInContact) {
+  const TemporaryFolder folder;
+  WriteTrial(folder / "s.db", UsualTrial());
+  (void)ReportOf(folder / "s.db", folder.path());
+  std::istringstream csv(Contents(folder / "contacts.csv"));
+  std::string head, first;
+  std::getline(csv, head);
+  std::getline(csv, first);
+  EXPECT_TRUE(head.starts_with("frame,time_s,part,contact_area_mm2,contact_points,depth_mm,deepest_x_mm"))
+      << head;
+  EXPECT_TRUE(head.ends_with(",spacing PMT to payload A mm")) << head;
+  EXPECT_TRUE(first.starts_with("40,4,payload A,")) << first;
+  EXPECT_TRUE(first.ends_with(",140")) << first;
+  EXPECT_EQ(Count(first, ","), Count(head, ","));
+  const std::size_t rows = SessionReader(folder / "s.db").contacts().size();
+  EXPECT_EQ(Count(csv.str(), "\n"), static_cast<std::int64_t>(rows) + 1);
+}
+
+TEST(Report, ContactsCsvQuotesNames) {
+  const TemporaryFolder folder;
+  core::SessionHeader header = SampleHeader();
+  header.layout.parts[0].name = header.layout.spacings[0].reference = "box, \"big\"";
+  header.layout.spacings[1].reference = header.layout.pair_rules[0].b = header.layout.pair_rules[1].b =
+      "box, \"big\"";
+  {
+    sessions::SessionWriter writer(folder / "s.db", header);
+    writer.Append(SampleFrame(header, 0, 1));
+    writer.Finish({});
+  }
+  (void)ReportOf(folder / "s.db", folder.path());
+  EXPECT_NE(Contents(folder / "contacts.csv").find(",\"box, \"\"big\"\"\","), std::string::npos);
+}
+
+TEST(Report, IsWrittenWholeOrNotAtAll) {
+  const TemporaryFolder folder;
+  WriteTrial(folder / "s.db", UsualTrial());
+  const SessionReader session(folder / "s.db");
+  std::ofstream(folder / "file") << "not a folder";
+  ExpectError([&] { sessions::WriteReport(session, {}, folder / "file" / "out"); }, core::ErrorKind::kFile,
+              "file");
+  fs::create_directories(folder / "out" / "report.html");
+  std::ofstream(folder / "out" / "contacts.csv") << "older";
+  ExpectError([&] { sessions::WriteReport(session, {}, folder / "out"); }, core::ErrorKind::kFile,
+              "report.html");
+  EXPECT_EQ(Contents(folder / "out" / "contacts.csv"), "older");
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder / "out"), fs::directory_iterator()), 2);
+}
+
+TEST(Report, TakesOnlyPngPictures) {
+  const TemporaryFolder folder;
+  WriteTrial(folder / "s.db", UsualTrial());
+  const SessionReader session(folder / "s.db");
+  EXPECT_THROW(sessions::WriteReport(session, {{1, 2, 3}, "", std::nullopt}, folder.path()),
+               core::PreconditionError);
+  EXPECT_FALSE(fs::exists(folder / "report.html"));
+}
+
+TEST(Report, WorstEpisodeIsTheDeepestThenTheLargestThenTheFirst) {
+  EXPECT_FALSE(sessions::WorstEpisode({}).has_value());
+  std::vector<core::ContactEpisode> episodes(4);
+  for (std::size_t i = 0; i < episodes.size(); ++i) {
+    episodes[i].id = static_cast<core::EpisodeId>(i) + 1;
+    episodes[i].peak_frame = static_cast<core::FrameIndex>(10 * i);
+    episodes[i].peak_depth_mm = i == 0 ? 5.0 : 7.0;
+    episodes[i].peak_area_mm2 = i == 1 ? 20.0 : 30.0;
+  }
+  EXPECT_EQ(sessions::WorstEpisode(episodes)->id, 3);
+}
+
+TEST(Markup, Base64IsThatOfRfc4648) {
+  const auto encoded = [](const std::string& text) {
+    return sessions::PngAsDataUrl({reinterpret_cast<const unsigned char*>(text.data()), text.size()})
+        .substr(22);
+  };
+  EXPECT_EQ(encoded(""), "");
+  EXPECT_EQ(encoded("f"), "Zg==");
+  EXPECT_EQ(encoded("fo"), "Zm8=");
+  EXPECT_EQ(encoded("foo"), "Zm9v");
+  EXPECT_EQ(encoded("foobar"), "Zm9vYmFy");
+}
+
+}  // namespace
+}  // namespace elbowroom::tests

@@ -1,0 +1,190 @@
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <gtest/gtest.h>
+
+#include <thread>
+
+#include "sessions/session_reader.h"
+#include "sessions/session_writer.h"
+#include "tests/sessions/sample_session.h"
+
+namespace elbowroom::tests {
+namespace {
+
+using sessions::SessionReader;
+using sessions::SessionWriter;
+
+constexpr std::uint32_t kSeed = 11;
+
+std::int64_t Count(const std::filesystem::path& path, const std::string& sql) {
+  return SQLite::Database(path.string()).execAndGet(sql).getInt64();
+}
+
+TEST(SessionRoundTrip, HeaderComesBackExactly) {
+  const TemporaryFolder folder;
+  WriteSampleSession(folder / "s.db", 3);
+  const SessionReader reader(folder / "s.db");
+  ExpectEqual(reader.header(), SampleHeader());
+  EXPECT_EQ(reader.status(), sessions::SessionStatus::kComplete);
+  ASSERT_TRUE(reader.ended_at_utc().has_value());
+  EXPECT_EQ(reader.ended_at_utc()->size(), std::string_view("2024-03-01T09:30:00Z").size());
+}
+
+TEST(SessionRoundTrip, EqualMeshesAreKeptOnceInTheFileAndInMemory) {
+  const TemporaryFolder folder;
+  WriteSampleSession(folder / "s.db", 1);
+  EXPECT_EQ(Count(folder / "s.db", "SELECT count(*) FROM mesh"), 2);
+  const SessionReader reader(folder / "s.db");
+  EXPECT_EQ(reader.header().layout.parts[0].mesh, reader.header().layout.parts[2].mesh);
+}
+
+TEST(SessionRoundTrip, EveryFrameComesBackExactlyInAnyOrder) {
+  const TemporaryFolder folder;
+  const core::SessionHeader header = SampleHeader();
+  constexpr core::FrameIndex kFirst = 100, kFrames = 40;
+  {
+    SessionWriter writer(folder / "s.db", header);
+    for (core::FrameIndex i = 0; i < kFrames; ++i) writer.Append(SampleFrame(header, kFirst + i, kSeed));
+    writer.Finish({});
+    EXPECT_EQ(writer.frames_committed(), kFrames);
+  }
+  const SessionReader reader(folder / "s.db");
+  ASSERT_EQ(reader.frame_count(), kFrames);
+  for (core::FrameIndex i = kFrames - 1; i >= 0; --i) {
+    ExpectEqual(reader.ReadFrame(kFirst + i), SampleFrame(header, kFirst + i, kSeed));
+  }
+  const std::vector<sessions::FrameSummary> frames = reader.frames();
+  ASSERT_EQ(frames.size(), static_cast<std::size_t>(kFrames));
+  EXPECT_EQ(frames.front().frame, kFirst);
+  EXPECT_EQ(frames.front().time_s, SampleFrame(header, kFirst, kSeed).time_s);
+  EXPECT_EQ(frames.front().spacing_mm, (std::vector<double>{240.0, 0.1}));
+}
+
+TEST(SessionRoundTrip, EvidenceOfAnUndecidedPartIsKeptButIsNoContact) {
+  const TemporaryFolder folder;
+  const core::SessionHeader header = SampleHeader();
+  core::FrameRecord record = SampleFrame(header, 0, kSeed);
+  for (core::PartContact& contact : record.contacts) contact.verdict = core::Verdict::kUndecided;
+  {
+    SessionWriter writer(folder / "s.db", header);
+    writer.Append(record);
+    writer.Finish({});
+  }
+  const SessionReader reader(folder / "s.db");
+  ExpectEqual(reader.ReadFrame(0), record);
+  EXPECT_TRUE(reader.contacts().empty());
+  EXPECT_EQ(Count(folder / "s.db", "SELECT count(*) FROM v_contact"), 0);
+}
+
+TEST(SessionRoundTrip, ARepeatedSilhouetteIsStoredOnce) {
+  const TemporaryFolder folder;
+  const core::SessionHeader header = SampleHeader();
+  {
+    SessionWriter writer(folder / "s.db", header);
+    core::FrameRecord record = SampleFrame(header, 0, kSeed);
+    for (; record.frame < 20; ++record.frame) writer.Append(record);
+    writer.Finish({});
+  }
+  EXPECT_EQ(Count(folder / "s.db", "SELECT count(*) FROM silhouette"), 40);
+  EXPECT_EQ(Count(folder / "s.db", "SELECT count(*) FROM mask"), 2);
+}
+
+TEST(SessionRoundTrip, MasksOfEqualWordsAndDifferentSizesStayApart) {
+  const TemporaryFolder folder;
+  core::SessionHeader header = SampleHeader();
+  core::CameraCalibration wider = header.rig.cameras[1].calibration();
+  wider.image_width_px = 129;  // as many words a row as 130
+  header.rig.cameras[1] = core::CameraModel(wider);
+  core::FrameRecord record = SampleFrame(header, 0, kSeed);
+  record.silhouettes = std::make_shared<const std::vector<core::BitMask>>(
+      std::vector<core::BitMask>{core::BitMask(130, 97), core::BitMask(129, 97)});
+  {
+    SessionWriter writer(folder / "s.db", header);
+    writer.Append(record);
+    writer.Finish({});
+  }
+  ExpectEqual(SessionReader(folder / "s.db").ReadFrame(0), record);
+}
+
+TEST(SessionRoundTrip, EventsKeepTheirOrder) {
+  const TemporaryFolder folder;
+  WriteSampleSession(folder / "s.db", 8);
+  const std::vector<core::SessionEvent> events = SessionReader(folder / "s.db").events();
+  const std::vector<core::SessionEvent> expected = SampleEvents();
+  ASSERT_EQ(events.size(), expected.size());
+  for (std::size_t i = 0; i < events.size(); ++i) {
+    EXPECT_EQ(events[i].frame, expected[i].frame);
+    EXPECT_EQ(events[i].time_s, expected[i].time_s);
+    EXPECT_EQ(events[i].what.index(), expected[i].what.index());
+  }
+  EXPECT_EQ(std::get<core::ToolMarked>(events[0].what).tool, "tongs");
+  EXPECT_TRUE(std::get<core::ToolMarked>(events[0].what).in_use);
+  const auto change = std::get<core::SpacingChanged>(events[1].what);
+  EXPECT_EQ(std::tie(change.spacing, change.from_mm, change.to_mm),
+            std::make_tuple("PMT to A", 140.0, 240.0));
+  EXPECT_FALSE(std::get<core::ToolMarked>(events[2].what).in_use);
+  EXPECT_EQ(std::get<core::Note>(events[3].what).text, "ended at the shortest source: 'left' <&>");
+}
+
+TEST(SessionRoundTrip, EpisodesComeBackExactly) {
+  const TemporaryFolder folder;
+  WriteSampleSession(folder / "s.db", 8);
+  const std::vector<core::ContactEpisode> episodes = SessionReader(folder / "s.db").episodes();
+  const std::vector<core::ContactEpisode> expected = SampleEpisodes(0, 7);
+  ASSERT_EQ(episodes.size(), expected.size());
+  for (std::size_t i = 0; i < episodes.size(); ++i) ExpectEqual(episodes[i], expected[i]);
+}
+
+TEST(SessionRoundTrip, ContactRowsAndTotalsAgreeWithTheFrames) {
+  const TemporaryFolder folder;
+  constexpr core::FrameIndex kFrames = 7;
+  WriteSampleSession(folder / "s.db", kFrames);
+  const SessionReader reader(folder / "s.db");
+  const std::vector<sessions::ContactRow> rows = reader.contacts();
+  ASSERT_EQ(rows.size(), 14U);  // two of the three parts in every frame
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    core::FrameRecord record = reader.ReadFrame(rows[i].frame);
+    core::PartContact& expected = record.contacts[i % 2];
+    expected.points.clear();
+    EXPECT_EQ(rows[i].frame, static_cast<core::FrameIndex>(i / 2));
+    EXPECT_EQ(rows[i].time_s, record.time_s);
+    EXPECT_EQ(rows[i].spacing_mm, record.spacing_mm);
+    ExpectEqual(rows[i].contact, expected);
+  }
+  const std::vector<sessions::PartTotals> totals = reader.part_totals();
+  ASSERT_EQ(totals.size(), 3U);
+  EXPECT_EQ(totals[0].frames_in_contact, kFrames);
+  EXPECT_EQ(totals[2].frames_in_contact, 0);
+  EXPECT_EQ(totals[2].frames_near, 3);
+  EXPECT_EQ(totals[2].frames_undecided, 2);
+  EXPECT_EQ(totals[2].frames_clear, 2);
+}
+
+TEST(SessionRoundTrip, SeveralThreadsAppendAtOnce) {
+  const TemporaryFolder folder;
+  const core::SessionHeader header = SampleHeader();
+  constexpr core::FrameIndex kFramesPerThread = 60;
+  constexpr int kThreads = 3;
+  {
+    SessionWriter writer(folder / "s.db", header);
+    std::vector<std::jthread> threads;
+    for (int t = 0; t < kThreads; ++t) {
+      threads.emplace_back([&, t] {
+        for (core::FrameIndex i = t; i < kFramesPerThread * kThreads; i += kThreads) {
+          writer.Append(SampleFrame(header, i, kSeed));
+          writer.Append(core::SessionEvent{i, 0.0, core::Note{"thread " + std::to_string(t)}});
+        }
+      });
+    }
+    threads.clear();
+    writer.Finish({});
+  }
+  const SessionReader reader(folder / "s.db");
+  ASSERT_EQ(reader.frame_count(), kFramesPerThread * kThreads);
+  EXPECT_EQ(reader.events().size(), static_cast<std::size_t>(kFramesPerThread * kThreads));
+  for (core::FrameIndex i = 0; i < reader.frame_count(); i += 7) {
+    ExpectEqual(reader.ReadFrame(i), SampleFrame(header, i, kSeed));
+  }
+}
+
+}  // namespace
+}  // namespace elbowroom::tests

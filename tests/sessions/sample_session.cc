@@ -1,0 +1,177 @@
+#include "tests/sessions/sample_session.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <random>
+
+#include "sessions/session_writer.h"
+
+namespace elbowroom::tests {
+namespace {
+
+using Random = std::mt19937;
+
+double Between(Random& random, double low, double high) {
+  return std::uniform_real_distribution(low, high)(random);
+}
+Eigen::Vector3d VectorFrom(Random& random) {
+  const double x = Between(random, -500.0, 500.0), y = Between(random, -500.0, 500.0),
+               z = Between(random, 0.0, 900.0);
+  return {x, y, z};
+}
+
+core::CameraModel Camera(const std::string& name, core::DistortionModel model,
+                         std::vector<double> coefficients, const Eigen::Vector3d& eye_in_world) {
+  core::CameraCalibration calibration;
+  calibration.name = name;
+  calibration.image_width_px = 130;  // not a multiple of 64: rows have padding
+  calibration.image_height_px = 97;
+  calibration.camera_matrix << 151.0 / 3.0, 0.0, 64.5, 0.0, 50.1, 48.0, 0.0, 0.0, 1.0;
+  calibration.distortion_model = model;
+  calibration.distortion_coefficients = std::move(coefficients);
+  calibration.cam_from_world = core::CamFromWorldLookingAt(eye_in_world, {0.0, 0.0, 100.0});
+  return core::CameraModel(std::move(calibration));
+}
+
+core::SharedMesh Tetrahedron(double edge_mm) {
+  core::TriangleMesh mesh;
+  mesh.vertices_mm = {{0.0, 0.0, 0.0}, {edge_mm, 0.0, 0.0}, {0.0, edge_mm, 0.0}, {0.0, 0.0, edge_mm / 3.0}};
+  mesh.triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
+  return std::make_shared<const core::TriangleMesh>(std::move(mesh));
+}
+
+core::BitMask Blob(int width_px, int height_px, Random& random) {
+  core::BitMask mask(width_px, height_px);
+  const double x0 = Between(random, 0.0, width_px), y0 = Between(random, 0.0, height_px);
+  const double radius_px = Between(random, 5.0, 60.0);
+  for (int y = 0; y < height_px; ++y) {
+    for (int x = 0; x < width_px; ++x) mask.Set(x, y, std::hypot(x - x0, y - y0) < radius_px);
+  }
+  return mask;
+}
+
+core::PartContact Touch(Random& random) {
+  core::PartContact contact;
+  contact.verdict = core::Verdict::kContact;
+  for (int i = 0; i < 12; ++i)
+    contact.points.push_back({VectorFrom(random), Between(random, 0.0, 20.0), 1.0 / 3.0});
+  contact.contact_point_count = 412;
+  contact.contact_area_mm2 = Between(random, 1.0, 900.0);
+  contact.deepest = contact.points[3];
+  return contact;
+}
+
+void AddRecovery(core::PartContact& contact, bool on_workspace_face, Random& random) {
+  contact.recovery_status = core::RecoveryStatus::kFound;
+  contact.recovery = core::Recovery{VectorFrom(random), VectorFrom(random), VectorFrom(random).normalized(),
+                                    Between(random, 0.0, 50.0), std::nullopt};
+  if (!on_workspace_face) contact.recovery->n_hull_in_world = VectorFrom(random).normalized();
+}
+
+}  // namespace
+
+TemporaryFolder::TemporaryFolder() {
+  std::string name = (std::filesystem::temp_directory_path() / "elbowroom_XXXXXX").string();
+  if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder: " + name);
+  path_ = name;
+}
+TemporaryFolder::~TemporaryFolder() {
+  std::error_code ignored;  // what can't be removed is the system's to clean
+  std::filesystem::remove_all(path_, ignored);
+}
+
+core::SessionHeader SampleHeader() {
+  core::SessionHeader header;
+  header.trial = {
+      "P. O'Hara <2>", "plug \"J4\" & screw the pipe; DROP TABLE frame", 140.0, 20.1, {"tongs", "driver"}};
+  header.rig.name = "bench";
+  header.rig.workspace_mm = {Eigen::Vector3d(-500.0, -400.5, 0.0),
+                             Eigen::Vector3d(500.0, 400.0, 1000.0 / 3.0)};
+  header.rig.unseen = core::UnseenPolicy::kAbstain;
+  header.rig.cameras = {
+      Camera("left", core::DistortionModel::kPlumbBob, {-0.1, 0.01, 1e-3, -2e-4, 1.0 / 7.0},
+             {-900.0, -800.0, 900.0}),
+      Camera("above", core::DistortionModel::kFisheye, {0.01, -0.002, 1e-17, 0.0}, {10.0, 0.1, 1500.0})};
+  const core::SharedMesh shared_mesh = Tetrahedron(100.0 / 3.0);
+  header.layout.unit = core::LengthUnit::kInch;
+  header.layout.parts = {{"PMT box", "pmt.stl", core::LengthUnit::kCentimetre, shared_mesh,
+                          core::FromPositionAndRollPitchYaw({0.1, -2e-9, 30.0}, {10.0, 20.0, 30.0})},
+                         {"payload A", "", core::LengthUnit::kMillimetre, Tetrahedron(80.0), {}},
+                         {"payload B", "b.obj", core::LengthUnit::kMetre, shared_mesh,
+                          core::FromPositionAndRollPitchYaw({400.0, 0.0, 5e300}, {0.0, 0.0, 90.0})}};
+  header.layout.spacings = {{"PMT to A", "payload A", "PMT box", core::Axis::kZ, 100.0, 300.0, 140.0},
+                            {"side gap", "payload B", "PMT box", core::Axis::kX, -10.0, 50.0, 0.1}};
+  header.layout.pair_rules = {{"payload A", "PMT box", 12.5, false}, {"payload B", "PMT box", 0.0, true}};
+  header.started_at_utc = "2024-03-01T09:30:00Z";
+  header.settings = {{"segmentation.method", "threshold"}, {"k_sigma", "4"}};
+  header.versions = {{"elbowroom", "0.1.0"}, {"opengl", "llvmpipe"}};
+  return header;
+}
+
+core::FrameRecord SampleFrame(const core::SessionHeader& header, core::FrameIndex frame, std::uint32_t seed) {
+  Random random(seed + static_cast<std::uint32_t>(frame) * 7919U);
+  core::FrameRecord record;
+  record.frame = frame;
+  record.time_s = static_cast<double>(frame) / 30.0;
+  auto masks = std::make_shared<std::vector<core::BitMask>>();
+  for (const core::CameraModel& camera : header.rig.cameras) {
+    masks->push_back(Blob(camera.width_px(), camera.height_px(), random));
+  }
+  record.silhouettes = std::move(masks);
+  record.spacing_mm = {frame < 4 ? 140.0 : 240.0, 0.1};
+  core::PartContact first = Touch(random);
+  AddRecovery(first, frame % 2 == 0, random);
+  core::PartContact second = Touch(random);
+  second.recovery_status = core::RecoveryStatus::kReferenceInsideHull;
+  core::PartContact third;
+  third.verdict = frame % 3 == 0   ? core::Verdict::kNear
+                  : frame % 3 == 1 ? core::Verdict::kUndecided
+                                   : core::Verdict::kClear;
+  record.contacts = {first, second, third};
+  for (core::PartIndex i = 0; i < record.contacts.size(); ++i) {
+    record.contacts[i].part = i;
+    record.contacts[i].resolution_mm = 0.7;
+    record.contacts[i].count = {720, 91 + frame, 654};
+  }
+  return record;
+}
+
+std::vector<core::SessionEvent> SampleEvents() {
+  return {{2, 2 / 30.0, core::ToolMarked{"tongs", true}},
+          {4, 4 / 30.0, core::SpacingChanged{"PMT to A", 140.0, 240.0}},
+          {4, 4 / 30.0, core::ToolMarked{"tongs", false}},
+          {6, 6 / 30.0, core::Note{"ended at the shortest source: 'left' <&>"}}};
+}
+
+std::vector<core::ContactEpisode> SampleEpisodes(core::FrameIndex first, core::FrameIndex last) {
+  std::vector<core::ContactEpisode> episodes(2);
+  for (std::size_t i = 0; i < episodes.size(); ++i) {
+    core::ContactEpisode& episode = episodes[i];
+    episode.id = static_cast<core::EpisodeId>(i) + 1;
+    episode.part = i;
+    episode.begin_frame = first;
+    episode.peak_frame = (first + last) / 2;
+    episode.end_frame = last;
+    episode.begin_time_s = static_cast<double>(first) / 30.0;
+    episode.peak_time_s = static_cast<double>(episode.peak_frame) / 30.0;
+    episode.end_time_s = static_cast<double>(last) / 30.0;
+    episode.frames_in_contact = last - first + 1;
+    episode.peak_depth_mm = 11.0 / 3.0 + static_cast<double>(i);
+    episode.peak_area_mm2 = 321.0;
+    episode.peak_position_in_world_mm = {1.0 / 3.0, -20.0, 155.5};
+    episode.spacing_at_peak_mm = {140.0, 0.1};
+  }
+  return episodes;
+}
+
+void WriteSampleSession(const std::filesystem::path& path, core::FrameIndex frames) {
+  const core::SessionHeader header = SampleHeader();
+  sessions::SessionWriter writer(path, header);
+  for (core::FrameIndex i = 0; i < frames; ++i) writer.Append(SampleFrame(header, i, 1));
+  for (const core::SessionEvent& event : SampleEvents()) writer.Append(event);
+  writer.Finish(SampleEpisodes(0, frames - 1));
+}
+
+}  // namespace elbowroom::tests

@@ -1,0 +1,52 @@
+// Made-up sessions, the same for the same seed, for the tests of this folder.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/session.h"
+
+namespace elbowroom::tests {
+
+// An empty folder of its own that goes when the test ends.
+class TemporaryFolder {
+ public:
+  TemporaryFolder();
+  ~TemporaryFolder();
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  [[nodiscard]] std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+// Two cameras of different lenses, three parts (two share a mesh), two spacings, a pair rule, odd doubles,
+// and texts that need escaping in SQL and HTML.
+[[nodiscard]] core::SessionHeader SampleHeader();
+
+// What the header's rig and layout would give: blobs for silhouettes, contacts with every optional field set
+// and unset. Frame `frame` is the same whatever was made before it.
+[[nodiscard]] core::FrameRecord SampleFrame(const core::SessionHeader& header, core::FrameIndex frame,
+                                            std::uint32_t seed);
+
+// A spacing change, a tool taken and put away, a note.
+[[nodiscard]] std::vector<core::SessionEvent> SampleEvents();
+
+// One of part 0 and one of part 1 within frames first..last.
+[[nodiscard]] std::vector<core::ContactEpisode> SampleEpisodes(core::FrameIndex first, core::FrameIndex last);
+
+// Writes `frames` frames from 0 on, the sample events and episodes, and finishes the session.
+void WriteSampleSession(const std::filesystem::path& path, core::FrameIndex frames);
+
+// Fails the running test where the two differ in anything, doubles compared exactly.
+void ExpectEqual(const core::PartContact& actual, const core::PartContact& expected);
+void ExpectEqual(const core::FrameRecord& actual, const core::FrameRecord& expected);
+void ExpectEqual(const core::ContactEpisode& actual, const core::ContactEpisode& expected);
+void ExpectEqual(const core::SessionHeader& actual, const core::SessionHeader& expected);
+
+}  // namespace elbowroom::tests

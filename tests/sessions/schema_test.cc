@@ -1,0 +1,98 @@
+#include "sessions/schema.h"
+
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "sessions/session_reader.h"
+#include "tests/sessions/expect_error.h"
+#include "tests/sessions/sample_session.h"
+
+namespace elbowroom::tests {
+namespace {
+
+using sessions::SessionReader;
+
+const std::filesystem::path kStored = std::filesystem::path(ELBOWROOM_SOURCE_DIR) / "tests/sessions/stored";
+
+std::string Contents(const std::filesystem::path& path) {
+  std::ostringstream text;
+  text << std::ifstream(path).rdbuf();
+  return text.str();
+}
+
+std::string SchemaOf(const std::filesystem::path& path) {
+  SQLite::Database database(path.string());
+  SQLite::Statement rows(database, "SELECT sql FROM sqlite_schema WHERE sql IS NOT NULL ORDER BY rowid");
+  std::string text;
+  while (rows.executeStep()) text += rows.getColumn(0).getString() + ";\n\n";
+  return text;
+}
+
+// A released schema never changes: whoever needs another writes the next migration, and stores a session of
+// the old schema beside this text.
+TEST(Schema, Version1IsTheOneOnRecord) {
+  const TemporaryFolder folder;
+  WriteSampleSession(folder / "s.db", 1);
+  const std::string found = SchemaOf(folder / "s.db");
+  EXPECT_EQ(found, Contents(kStored / "schema_1.sql"));
+}
+
+TEST(Schema, AnEmptyDatabaseBecomesTheNewestSchemaAndMigratingAgainChangesNothing) {
+  const TemporaryFolder folder;
+  sessions::Database database = sessions::Database::Create(folder / "s.db");
+  sessions::Migrate(database);
+  EXPECT_EQ(database.ReadInteger("PRAGMA user_version"), sessions::kSchemaVersion);
+  EXPECT_EQ(database.ReadInteger("PRAGMA application_id"), sessions::kApplicationId);
+  const std::int64_t entries = database.ReadInteger("SELECT count(*) FROM sqlite_schema");
+  EXPECT_GT(entries, 20);
+  sessions::Migrate(database);
+  EXPECT_EQ(database.ReadInteger("SELECT count(*) FROM sqlite_schema"), entries);
+}
+
+TEST(Schema, AStoredSessionOfSchema1IsRead) {
+  const SessionReader reader(kStored / "session_schema_1.db");
+  ExpectEqual(reader.header(), SampleHeader());
+  ASSERT_EQ(reader.frame_count(), 6);
+  for (core::FrameIndex i = 0; i < 6; ++i)
+    ExpectEqual(reader.ReadFrame(i), SampleFrame(reader.header(), i, 1));
+  EXPECT_EQ(reader.episodes().size(), 2U);
+  EXPECT_EQ(reader.events().size(), 4U);
+}
+
+TEST(Schema, AnOlderSchemaIsMigratedInMemoryAndTheFileStays) {
+  const TemporaryFolder folder;
+  {
+    SQLite::Database database((folder / "s.db").string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+    database.exec("PRAGMA application_id = " + std::to_string(sessions::kApplicationId));
+  }
+  const std::string before = Contents(folder / "s.db");
+  ExpectError([&] { SessionReader(folder / "s.db"); }, core::ErrorKind::kFormat, "it holds no set-up");
+  EXPECT_EQ(Contents(folder / "s.db"), before);
+}
+
+TEST(Schema, ANewerSchemaIsNamed) {
+  const TemporaryFolder folder;
+  WriteSampleSession(folder / "s.db", 1);
+  SQLite::Database((folder / "s.db").string(), SQLite::OPEN_READWRITE).exec("PRAGMA user_version = 2");
+  ExpectError([&] { SessionReader(folder / "s.db"); }, core::ErrorKind::kFormat, "has schema 2");
+}
+
+TEST(Schema, CountsAndFlagsOutOfRangeAreRefusedByTheDatabaseItself) {
+  const TemporaryFolder folder;
+  WriteSampleSession(folder / "s.db", 2);
+  SQLite::Database database((folder / "s.db").string(), SQLite::OPEN_READWRITE);
+  database.exec("PRAGMA foreign_keys = ON");
+  for (const char* sql :
+       {"UPDATE part_frame SET verdict = 'perhaps'", "UPDATE session SET status = 'done'",
+        "INSERT INTO frame VALUES (9, 'soon')", "DELETE FROM frame", "DELETE FROM mask",
+        "UPDATE camera SET camera_matrix = '[1]'", "INSERT INTO session SELECT * FROM session",
+        "UPDATE event SET to_mm = NULL WHERE kind = 'spacing'"}) {
+    EXPECT_THROW(database.exec(sql), SQLite::Exception) << sql;
+  }
+}
+
+}  // namespace
+}  // namespace elbowroom::tests

@@ -1,0 +1,110 @@
+#include "sessions/session_reader.h"
+
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <random>
+
+#include "tests/sessions/expect_error.h"
+#include "tests/sessions/sample_session.h"
+
+namespace elbowroom::tests {
+namespace {
+
+namespace fs = std::filesystem;
+using core::ErrorKind;
+using sessions::SessionReader;
+
+TEST(SessionReader, NamesAFileThatIsNotThere) {
+  const TemporaryFolder folder;
+  ExpectError([&] { SessionReader(folder / "none.db"); }, ErrorKind::kFile, "none.db");
+  ExpectError([&] { SessionReader(folder.path()); }, ErrorKind::kFile, folder.path().string());
+}
+
+TEST(SessionReader, TellsFilesThatAreNoSession) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "text.db") << std::string(5000, 'x');
+  ExpectError([&] { SessionReader(folder / "text.db"); }, ErrorKind::kDatabase, "not a session file");
+  std::ofstream(folder / "empty.db").flush();
+  ExpectError([&] { SessionReader(folder / "empty.db"); }, ErrorKind::kFormat, "not an elbowroom session");
+  SQLite::Database((folder / "other.db").string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE)
+      .exec("CREATE TABLE session (id INTEGER)");
+  ExpectError([&] { SessionReader(folder / "other.db"); }, ErrorKind::kFormat, "not an elbowroom session");
+}
+
+TEST(SessionReader, SaysWhichFramesThereAre) {
+  const TemporaryFolder folder;
+  WriteSampleSession(folder / "s.db", 2);
+  ExpectError([&] { (void)SessionReader(folder / "s.db").ReadFrame(2); }, ErrorKind::kRange, "frame 2");
+}
+
+// Reads all there is; throws what is wrong.
+void ReadEverything(const fs::path& path) {
+  const SessionReader reader(path);
+  for (const sessions::FrameSummary& frame : reader.frames()) (void)reader.ReadFrame(frame.frame);
+  (void)reader.events();
+  (void)reader.episodes();
+  (void)reader.contacts();
+  (void)reader.part_totals();
+  (void)reader.status();
+}
+
+TEST(SessionReader, ATruncatedFileIsAnErrorWhereverItIsCut) {
+  const TemporaryFolder folder;
+  WriteSampleSession(folder / "s.db", 30);
+  const std::uintmax_t size = fs::file_size(folder / "s.db");
+  std::mt19937 random(3);
+  for (int i = 0; i < 40; ++i) {
+    const fs::path cut = folder / "cut.db";
+    fs::copy_file(folder / "s.db", cut, fs::copy_options::overwrite_existing);
+    fs::resize_file(cut, std::uniform_int_distribution<std::uintmax_t>(1, size - 1)(random));
+    EXPECT_THROW(ReadEverything(cut), core::Error)
+        << "cut to " << fs::file_size(cut) << " of " << size << " bytes";
+  }
+}
+
+// Flips bytes all over a session: it reads, or says that it can't; nothing else.
+TEST(SessionReader, DamageIsNeverMoreThanAnError) {
+  const TemporaryFolder folder;
+  WriteSampleSession(folder / "s.db", 30);
+  const auto size = static_cast<std::streamoff>(fs::file_size(folder / "s.db"));
+  std::mt19937 random(4);
+  int errors = 0;
+  for (int i = 0; i < 150; ++i) {
+    const fs::path damaged = folder / "damaged.db";
+    fs::copy_file(folder / "s.db", damaged, fs::copy_options::overwrite_existing);
+    std::fstream file(damaged, std::ios::in | std::ios::out | std::ios::binary);
+    for (int byte = 0; byte < 40; ++byte) {
+      file.seekp(std::uniform_int_distribution<std::streamoff>(0, size - 1)(random));
+      file.put(static_cast<char>(random()));
+    }
+    file.close();
+    try {
+      ReadEverything(damaged);
+    } catch (const core::Error& error) {
+      EXPECT_NE(std::string(error.what()).find(damaged.string()), std::string::npos) << error.what();
+      ++errors;
+    }
+  }
+  EXPECT_GT(errors, 75) << "forty damaged bytes should rarely go unnoticed";
+}
+
+TEST(SessionReader, NoticesSilhouettesAndMeshesThatDontMatchTheirChecksums) {
+  const TemporaryFolder folder;
+  for (const char* damage :
+       {"UPDATE mask SET words_zstd = (SELECT words_zstd FROM mask WHERE mask_id = 2)",
+        "UPDATE mesh SET vertices_mm_zstd = (SELECT max(vertices_mm_zstd) FROM mesh)",
+        "UPDATE mask SET words_zstd = zeroblob(100)", "DELETE FROM silhouette WHERE camera_index = 1",
+        "UPDATE mask SET width_px = 1000000000", "DELETE FROM part_frame WHERE part_index = 2",
+        "UPDATE mesh SET triangle_count = 1000000000000"}) {
+    const fs::path path = folder / "s.db";
+    fs::remove(path);
+    WriteSampleSession(path, 3);
+    SQLite::Database(path.string(), SQLite::OPEN_READWRITE).exec(damage);
+    ExpectError([&] { ReadEverything(path); }, ErrorKind::kFormat, path.string());
+  }
+}
+
+}  // namespace
+}  // namespace elbowroom::tests
