@@ -180,16 +180,17 @@ Eigen::Vector2d Lens::Distort(const Eigen::Vector2d& normalised) const {
   return normalised * (SeriesAt(k_, 3, t) / SeriesAt(k_ + 3, 3, t)) + OffAxis(normalised);
 }
 
-double Lens::RadiusFromImage(double image_radius, double max_radius) const {
+double Lens::RadiusFromImage(double image_radius, double start, double max_radius) const {
   // Newton's steps, kept within the bracket that the monotone radial part allows.
-  double low = 0.0, high = max_radius, radius = std::min(image_radius, max_radius);
   if (RadialImage(max_radius) <= image_radius) return max_radius;
+  double low = 0.0, high = max_radius, radius = std::min(start, max_radius);
+  constexpr double kSettled = 4e-15;  // relative; the image radius itself is known no better
   for (int i = 0; i < 100; ++i) {
     const double excess = RadialImage(radius) - image_radius;
     (excess < 0.0 ? low : high) = radius;
     double next = radius - excess / RadialSlopeAt(radius);
-    if (!(next > low && next < high)) next = 0.5 * (low + high);
-    const bool settled = std::abs(next - radius) <= 4e-16 * high;
+    if (!(next >= low && next <= high)) next = 0.5 * (low + high);
+    const bool settled = std::abs(next - radius) <= kSettled * radius;
     radius = next;
     if (settled) break;
   }
@@ -200,14 +201,15 @@ std::optional<Eigen::Vector2d> Lens::Undistort(const Eigen::Vector2d& distorted,
   if (is_ideal_) return distorted.norm() <= max_radius ? std::optional(distorted) : std::nullopt;
   // The radial part inverts directly; the small off-axis terms follow by fixed-point iteration.
   Eigen::Vector2d x = Eigen::Vector2d::Zero();
+  double radius = distorted.norm();
   for (int i = 0; i < 50; ++i) {
-    const Eigen::Vector2d radial_part = distorted - OffAxis(x);
+    const Eigen::Vector2d radial_part = has_off_axis_ ? distorted - OffAxis(x) : distorted;
     const double image_radius = radial_part.norm();
-    const Eigen::Vector2d next =
-        image_radius < 1e-15
-            ? Eigen::Vector2d::Zero()
-            : Eigen::Vector2d(radial_part * (RadiusFromImage(image_radius, max_radius) / image_radius));
-    const bool settled = (next - x).norm() <= 1e-14 || !has_off_axis_;
+    radius = RadiusFromImage(image_radius, radius, max_radius);
+    const Eigen::Vector2d next = image_radius < 1e-15
+                                     ? Eigen::Vector2d::Zero()
+                                     : Eigen::Vector2d(radial_part * (radius / image_radius));
+    const bool settled = !has_off_axis_ || (next - x).norm() <= 1e-14;
     x = next;
     if (settled) break;
   }

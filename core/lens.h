@@ -43,7 +43,7 @@ class Lens {
   [[nodiscard]] Interval RadialSlopeOf(double r0, double r1) const;
   [[nodiscard]] Interval RadialScaleOf(double r0, double r1) const;
   [[nodiscard]] double RadialSlopeAt(double radius) const;
-  [[nodiscard]] double RadiusFromImage(double image_radius, double max_radius) const;
+  [[nodiscard]] double RadiusFromImage(double image_radius, double start, double max_radius) const;
   [[nodiscard]] Eigen::Vector2d OffAxis(const Eigen::Vector2d& x) const;
 
   DistortionModel model_;

@@ -2,14 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <atomic>
-#include <exception>
-#include <thread>
 
 #include "core/bounded_queue.h"
 #include "core/error.h"
 #include "recon/background.h"
 #include "recon/image_source.h"
+#include "recon/per_camera.h"
 
 namespace elbowroom::recon {
 namespace {
@@ -61,6 +61,21 @@ void ReportTicks(Ticks& ticks, const core::Progress& progress) {
   }
 }
 
+// Closes the queue when the last of them goes, or at once when reporting fails: nobody waits for room then.
+class Closer {
+ public:
+  Closer(Ticks& ticks, std::atomic<std::size_t>& still_needed) : ticks_(ticks), still_needed_(still_needed) {}
+  ~Closer() {
+    if (--still_needed_ == 0) ticks_.Close();
+  }
+  Closer(const Closer&) = delete;
+  Closer& operator=(const Closer&) = delete;
+
+ private:
+  Ticks& ticks_;
+  std::atomic<std::size_t>& still_needed_;
+};
+
 }  // namespace
 
 std::vector<BackgroundReference> ReadBackgroundReferences(const RigFile& rig_file,
@@ -69,32 +84,19 @@ std::vector<BackgroundReference> ReadBackgroundReferences(const RigFile& rig_fil
   const std::size_t n = rig_file.rig.cameras.size();
   core::Require(rig_file.sources.size() == n && n > 0, "a rig file has sources for every camera");
   std::vector<BackgroundReference> references(n);
-  std::vector<std::exception_ptr> errors(n);
   constexpr std::size_t kTicksWaiting = 64;
   Ticks ticks(kTicksWaiting, core::WhenFull::kBlock);
-  std::atomic<std::size_t> running = n;
-  {
-    std::vector<std::jthread> threads;
-    for (std::size_t i = 0; i < n; ++i) {
-      threads.emplace_back([&, i] {
-        try {
-          references[i] = ReadOne(rig_file.sources[i], rig_file.rig.cameras[i], ticks, stop);
-        } catch (...) {
-          errors[i] = std::current_exception();
-        }
-        if (--running == 0) ticks.Close();
+  std::atomic<std::size_t> readers = n, reporter = 1;
+  RunPerCamera(
+      n,
+      [&](core::CameraIndex i) {
+        const Closer closer(ticks, readers);
+        references[i] = ReadOne(rig_file.sources[i], rig_file.rig.cameras[i], ticks, stop);
+      },
+      [&] {
+        const Closer closer(ticks, reporter);
+        ReportTicks(ticks, progress);
       });
-    }
-    try {
-      ReportTicks(ticks, progress);
-    } catch (...) {
-      ticks.Close();  // so that no thread waits for room that will not come
-      throw;
-    }
-  }
-  for (const std::exception_ptr& error : errors) {
-    if (error) std::rethrow_exception(error);
-  }
   return references;
 }
 

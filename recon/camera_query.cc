@@ -82,7 +82,6 @@ CameraAnswer AskCamera(const core::CameraModel& camera, const Silhouette& silhou
   const Eigen::Vector2d pixel = camera.PixelFromNormalised(normalised);
   const PixelLabel label = silhouette.LabelAt(pixel);
   const double stretch_px = camera.PixelStretch(camera.max_radius());
-  const double border_px = DistanceToBorder(camera, pixel);
   // Beyond the lens's domain everything is exterior: a different label may begin there.
   const double domain_reach = std::max(camera.max_radius() * (1.0 - kNormRounding) - radius, 0.0);
   double reach = label.distance_px / stretch_px;
@@ -92,6 +91,11 @@ CameraAnswer AskCamera(const core::CameraModel& camera, const Silhouette& silhou
   answer.is_object = label.is_object;
   answer.is_seen = silhouette.IsInImage(pixel);
   answer.radius_mm = RadiusOfReach(x_in_cam, reach);
+  if (!exterior_is_object) {  // an object pixel is one in the picture; what else is seen doesn't matter
+    answer.seen_radius_mm = answer.is_object ? answer.radius_mm : 0.0;
+    return Shrunk(answer, rounding_mm);
+  }
+  const double border_px = DistanceToBorder(camera, pixel);
   const double border_reach = std::max(std::abs(border_px) - kPixelRoundingPx, 0.0) / stretch_px;
   (answer.is_seen ? answer.seen_radius_mm : answer.unseen_radius_mm) =
       RadiusOfReach(x_in_cam, answer.is_seen ? std::min(border_reach, domain_reach) : border_reach);

@@ -12,6 +12,8 @@ namespace elbowroom::recon {
 namespace {
 
 constexpr double kRefineToMm = 1e-6;
+// A view's depths are float: a thousandth of the step is as fine as they get.
+constexpr double kViewRefinement = 1000.0;
 constexpr int kTilePx = 8;
 constexpr double kFar = 1e9;
 
@@ -41,25 +43,30 @@ Eigen::Vector3d PointAt(const Ray& ray, double t_mm) {
   return ray.origin_in_world + t_mm * ray.direction_in_world;
 }
 
-// Marches until Contains() equals `wanted`; then bisects.
-std::optional<double> March(const VisualHull& hull, const Ray& ray, Span span, double step_mm, bool wanted,
-                            std::int64_t* probes) {
-  double previous_mm = span.from_mm;
+struct March {
+  double step_mm;    // where no larger one is certain
+  double refine_mm;  // the crossing is bisected to this
+  bool wanted;       // what Contains() says where the march ends
+};
+
+std::optional<double> Run(const March& march, const VisualHull& hull, const Ray& ray, Span span,
+                          std::int64_t* probes) {
+  double not_yet_mm = span.from_mm;  // all before this is certain to be unwanted
   for (double t_mm = span.from_mm; t_mm <= span.to_mm;) {
     const PointAnswer answer = hull.Probe(PointAt(ray, t_mm));
     ++*probes;
-    if (answer.is_inside == wanted) {
-      double not_yet_mm = previous_mm, found_mm = t_mm;
-      while (found_mm - not_yet_mm > kRefineToMm) {
+    if (answer.is_inside == march.wanted) {
+      double found_mm = t_mm;
+      while (found_mm - not_yet_mm > march.refine_mm) {
         const double middle_mm = 0.5 * (not_yet_mm + found_mm);
         if (middle_mm <= not_yet_mm || middle_mm >= found_mm) break;
-        (hull.Contains(PointAt(ray, middle_mm)) == wanted ? found_mm : not_yet_mm) = middle_mm;
+        (hull.Contains(PointAt(ray, middle_mm)) == march.wanted ? found_mm : not_yet_mm) = middle_mm;
       }
       return found_mm;
     }
-    previous_mm = t_mm;
     if (t_mm == span.to_mm) break;
-    t_mm = std::min(t_mm + std::max(answer.radius_mm, step_mm), span.to_mm);
+    not_yet_mm = t_mm + answer.radius_mm;
+    t_mm = std::min(t_mm + std::max(answer.radius_mm, march.step_mm), span.to_mm);
   }
   return std::nullopt;
 }
@@ -172,7 +179,8 @@ class TilePainter {
     const Ray ray = rays_.InWorld(*direction_in_cam);
     const Span span = Clip(hull_.rig().workspace_mm, ray, {start_mm, kFar});
     if (span.IsEmpty()) return;
-    const std::optional<double> hit_mm = March(hull_, ray, span, step_mm_, true, &count->probes);
+    const std::optional<double> hit_mm =
+        Run({step_mm_, step_mm_ / kViewRefinement, true}, hull_, ray, span, &count->probes);
     if (!hit_mm || *hit_mm == 0.0) return;  // from inside the hull there is no surface to see first
     const BoundingEdge edge = hull_.EdgeAt(PointAt(ray, *hit_mm));
     const Eigen::Vector3d normal = edge.normal_in_world.value_or(-ray.direction_in_world);
@@ -197,13 +205,13 @@ std::optional<double> FirstInside(const VisualHull& hull, const Ray& ray, const 
   const Span span = Clip(hull.rig().workspace_mm, ray, {options.from_mm, options.to_mm});
   if (hull.IsEmpty() || span.IsEmpty()) return std::nullopt;
   std::int64_t probes = 0;
-  return March(hull, ray, span, options.step_mm, true, &probes);
+  return Run({options.step_mm, kRefineToMm, true}, hull, ray, span, &probes);
 }
 
 std::optional<double> FirstOutside(const VisualHull& hull, const Ray& ray, const RayOptions& options) {
   core::Require(options.step_mm > 0.0, "a ray's step is positive");
   std::int64_t probes = 0;
-  return March(hull, ray, {options.from_mm, options.to_mm}, options.step_mm, false, &probes);
+  return Run({options.step_mm, kRefineToMm, false}, hull, ray, {options.from_mm, options.to_mm}, &probes);
 }
 
 HullView ViewHull(const VisualHull& hull, const core::CameraModel& view, double step_mm) {

@@ -8,6 +8,8 @@ namespace elbowroom::recon {
 namespace {
 
 constexpr std::size_t kFramesAhead = 4;
+// The latest, and one more, so that the end of a stream does not push out its last picture.
+constexpr std::size_t kLiveFrames = 2;
 
 }  // namespace
 
@@ -26,7 +28,7 @@ void ReadAhead::Expect(core::FrameIndex index) {
   if (next_ == index) return;
   Stop();
   queue_ = end_ ? std::make_unique<Queue>(kFramesAhead, core::WhenFull::kBlock)
-                : std::make_unique<Queue>(1, core::WhenFull::kDropOldest);
+                : std::make_unique<Queue>(kLiveFrames, core::WhenFull::kDropOldest);
   next_ = index;
   thread_ = std::jthread([this, queue = queue_.get(), index] { Run(*queue, index); });
 }

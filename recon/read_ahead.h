@@ -25,7 +25,7 @@ class ReadAhead {
  public:
   using ReadFrame = std::function<CameraFrame(core::FrameIndex)>;
 
-  // Recorded frames (with `end`) wait until they are taken; of a live camera's the latest wins.
+  // Recorded frames (with `end`) wait until they are taken; of a live camera's only the latest are kept.
   ReadAhead(ReadFrame read, std::optional<core::FrameIndex> end);
   ~ReadAhead();
   ReadAhead(const ReadAhead&) = delete;

@@ -1,9 +1,8 @@
 #include "recon/recorded_rig.h"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
-#include <cmath>
+#include <algorithm>
 #include <filesystem>
 #include <utility>
 
@@ -12,6 +11,7 @@
 #include "recon/image_sequence.h"
 #include "recon/image_source.h"
 #include "recon/mask_image.h"
+#include "recon/per_camera.h"
 
 namespace elbowroom::recon {
 namespace {
@@ -69,22 +69,11 @@ OpenedCamera OpenCamera(const CameraSources& sources, const core::CameraModel& c
   return {sources.frames, source->frame_count(), source->frame_rate_hz(), read};
 }
 
-// One result or error a camera; the first camera's error in the rig's order is thrown, whichever came first
-// in time.
 std::vector<OpenedCamera> OpenAll(const RigFile& rig_file, const std::stop_token& stop) {
-  const std::size_t n = rig_file.rig.cameras.size();
-  std::vector<OpenedCamera> opened(n);
-  std::vector<std::exception_ptr> errors(n);
-  tbb::parallel_for(std::size_t{0}, n, [&](std::size_t i) {
-    try {
-      opened[i] = OpenCamera(rig_file.sources[i], rig_file.rig.cameras[i], stop);
-    } catch (...) {
-      errors[i] = std::current_exception();
-    }
+  std::vector<OpenedCamera> opened(rig_file.rig.cameras.size());
+  RunPerCamera(opened.size(), [&](core::CameraIndex i) {
+    opened[i] = OpenCamera(rig_file.sources[i], rig_file.rig.cameras[i], stop);
   });
-  for (const std::exception_ptr& error : errors) {
-    if (error) std::rethrow_exception(error);
-  }
   return opened;
 }
 

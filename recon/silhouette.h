@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <cstdint>
 #include <limits>
 #include <vector>
 
@@ -43,18 +44,19 @@ class Silhouette {
 
  private:
   [[nodiscard]] bool IsPixel(const Eigen::Vector2i& pixel) const;
-  [[nodiscard]] bool LabelOfPixel(const Eigen::Vector2i& pixel) const;
-  [[nodiscard]] double FieldAt(const Eigen::Vector2i& pixel) const;
+  [[nodiscard]] std::size_t Index(const Eigen::Vector2i& pixel) const;  // into labels_ and field_px_
   [[nodiscard]] double DistanceFromOutside(const Eigen::Vector2d& position_px) const;
-  [[nodiscard]] double DistanceWithinWindow(const Eigen::Vector2d& position_px, const Eigen::Vector2i& pixel,
-                                            bool label) const;
+  [[nodiscard]] double DistanceWithinWindow(const Eigen::Vector2d& position_px,
+                                            const Eigen::Vector2i& pixel) const;
 
   core::BitMask mask_;
   bool exterior_is_object_ = false;
   // Of the pixels whose label differs from the exterior's, as a box of their squares; empty if none.
   Eigen::AlignedBox2d differing_px_;
-  // Distance from a pixel's centre to the nearest centre of the other label; one ring of exterior around the
-  // image; empty if all labels are equal.
+  // The mask as bytes (255: object) with two rings of exterior around it.
+  std::vector<std::uint8_t> labels_;
+  // On the same grid, distance from a pixel's centre to the nearest centre of the other label; empty if all
+  // labels are equal.
   std::vector<float> field_px_;
 };
 

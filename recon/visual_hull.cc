@@ -148,22 +148,21 @@ BoundingEdge VisualHull::EdgeAt(const Eigen::Vector3d& surface_point_in_world) c
   }
   if (!edge.camera) return edge;
   const core::CameraModel& camera = rig_->cameras[*edge.camera];
-  const Eigen::Vector2d pixel = *camera.Project(surface_point_in_world);
-  const Eigen::Vector2d outward = silhouettes_[*edge.camera]->OutwardDirection(pixel, kEdgeSpanPx);
+  const Eigen::Vector3d x_in_cam = camera.cam_from_world() * surface_point_in_world;
+  const Eigen::Vector2d at = x_in_cam.head<2>() / x_in_cam.z();
+  const Eigen::Vector2d outward =
+      silhouettes_[*edge.camera]->OutwardDirection(camera.PixelFromNormalised(at), kEdgeSpanPx);
   if (outward.isZero()) return edge;
-  // The hull's surface there is the plane through the camera's centre that cuts the picture along the edge.
-  const auto ray_through = [&](const Eigen::Vector2d& at) -> std::optional<Eigen::Vector3d> {
-    const std::optional<Eigen::Vector2d> normalised = camera.NormalisedFromPixel(at);
-    if (!normalised) return std::nullopt;
-    return camera.cam_from_world().rotation.transpose() * normalised->homogeneous();
+  // The hull's surface there is the plane through the camera's centre that cuts the picture along the edge;
+  // the lens's slope takes the edge's normal from pixels to the normalised plane.
+  const double step = 1e-6 * camera.max_radius();
+  const auto slope_along = [&](const Eigen::Vector2d& direction) {
+    return outward.dot(camera.PixelFromNormalised(at + step * direction) -
+                       camera.PixelFromNormalised(at - step * direction));
   };
-  const std::optional<Eigen::Vector3d> ray = ray_through(pixel);
-  const std::optional<Eigen::Vector3d> along =
-      ray_through(pixel + Eigen::Vector2d(-outward.y(), outward.x()));
-  const std::optional<Eigen::Vector3d> out = ray_through(pixel + outward);
-  if (!ray || !along || !out) return edge;
-  const Eigen::Vector3d normal = ray->cross(*along - *ray).normalized();
-  edge.normal_in_world = normal.dot(*out) > 0.0 ? normal : Eigen::Vector3d(-normal);
+  const Eigen::Vector2d normal(slope_along(Eigen::Vector2d::UnitX()), slope_along(Eigen::Vector2d::UnitY()));
+  const Eigen::Vector3d normal_in_cam(normal.x(), normal.y(), -normal.dot(at));
+  edge.normal_in_world = camera.cam_from_world().rotation.transpose() * normal_in_cam.normalized();
   return edge;
 }
 

@@ -1,8 +1,8 @@
 #include "app/cli/rig_frame.h"
 
+#include "recon/frame_segmenter.h"
 #include "recon/recorded_rig.h"
 #include "recon/rig_file.h"
-#include "recon/segmentation.h"
 
 namespace elbowroom::cli {
 
@@ -16,13 +16,8 @@ RigFrame LoadRigFrame(const RigFrameOptions& options, const CommandContext& cont
   RigFrame result{std::make_shared<const core::Rig>(source.rig()), {}};
   // The frame first: it is the cheaper one to find missing.
   const recon::FrameSet frames = source.Read(options.frame);
-  const std::vector<recon::BackgroundReference> backgrounds =
-      source.ReadBackgrounds(context.progress, context.stop);
-  for (std::size_t i = 0; i < frames.cameras.size(); ++i) {
-    const recon::CameraFrame& camera = frames.cameras[i];
-    result.masks.push_back(camera.ready_mask ? *camera.ready_mask
-                                             : recon::Segment(camera.image_bgr, backgrounds[i], {}));
-  }
+  result.masks =
+      recon::FrameSegmenter(source.ReadBackgrounds(context.progress, context.stop), {}).Segment(frames);
   return result;
 }
 

@@ -23,31 +23,17 @@ class Stopwatch {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-std::vector<core::BitMask> SilhouettesOf(const recon::FrameSet& frames,
-                                         const std::vector<recon::BackgroundReference>& backgrounds,
-                                         const recon::SegmentationOptions& options) {
-  std::vector<core::BitMask> masks(frames.cameras.size());
-  tbb::parallel_for(std::size_t{0}, masks.size(), [&](std::size_t i) {
-    const recon::CameraFrame& camera = frames.cameras[i];
-    masks[i] =
-        camera.ready_mask ? *camera.ready_mask : recon::Segment(camera.image_bgr, backgrounds[i], options);
-  });
-  return masks;
-}
-
 }  // namespace
 
 FramePipeline::FramePipeline(core::Rig rig, core::Layout layout,
-                             std::vector<recon::BackgroundReference> backgrounds,
+                             const std::vector<recon::BackgroundReference>& backgrounds,
                              const recon::SegmentationOptions& segmentation)
     : rig_(std::make_shared<const core::Rig>(std::move(rig))),
       layout_(std::make_shared<const core::Layout>(std::move(layout))),
-      backgrounds_(std::move(backgrounds)),
-      segmentation_(segmentation) {
+      segmenter_(backgrounds, segmentation) {
   rig_->Validate();
   layout_->Validate();
-  segmentation_.Validate();
-  core::Require(backgrounds_.size() == rig_->cameras.size(), "one background reference a camera");
+  core::Require(backgrounds.size() == rig_->cameras.size(), "one background reference a camera");
   for (const core::Part& part : layout_->parts) part_trees_.emplace_back(part.mesh);
 }
 
@@ -60,7 +46,7 @@ SharedFrameResult FramePipeline::Process(const recon::FrameSet& frames, std::spa
   result->spacing_mm.assign(spacing_mm.begin(), spacing_mm.end());
   result->world_from_parts = core::PosesAt(*layout_, spacing_mm);
   Stopwatch watch;
-  std::vector<core::BitMask> masks = SilhouettesOf(frames, backgrounds_, segmentation_);
+  std::vector<core::BitMask> masks = segmenter_.Segment(frames);
   result->times.segmentation_ms = watch.LapMs();
   UpdateHull(std::move(masks), result.get());
   result->times.hull_ms = watch.LapMs();

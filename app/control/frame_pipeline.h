@@ -9,8 +9,8 @@
 #include "core/bvh.h"
 #include "core/layout.h"
 #include "core/rig.h"
+#include "recon/frame_segmenter.h"
 #include "recon/frame_set.h"
-#include "recon/segmentation.h"
 #include "review/contacts.h"
 
 namespace elbowroom::control {
@@ -21,7 +21,8 @@ namespace elbowroom::control {
 class FramePipeline {
  public:
   // Throws: what Rig::Validate and Layout::Validate throw.
-  FramePipeline(core::Rig rig, core::Layout layout, std::vector<recon::BackgroundReference> backgrounds,
+  FramePipeline(core::Rig rig, core::Layout layout,
+                const std::vector<recon::BackgroundReference>& backgrounds,
                 const recon::SegmentationOptions& segmentation);
 
   [[nodiscard]] const std::shared_ptr<const core::Rig>& rig() const { return rig_; }
@@ -37,8 +38,7 @@ class FramePipeline {
   std::shared_ptr<const core::Rig> rig_;
   std::shared_ptr<const core::Layout> layout_;
   std::vector<core::TriangleTree> part_trees_;
-  std::vector<recon::BackgroundReference> backgrounds_;
-  recon::SegmentationOptions segmentation_;
+  recon::FrameSegmenter segmenter_;
   SharedFrameResult last_;
 };
 

@@ -93,6 +93,20 @@ Eigen::AlignedBox3d HullBounds(const recon::VisualHull& hull) {
   return core::BoundsOf(recon::MeshHull(hull, edge_mm).mesh);
 }
 
+// How many points an eye can't see well: behind another part's box, or on the far side of their own part's.
+std::size_t CountHidden(const std::vector<core::ContactPoint>& points, const Vector3d& eye,
+                        const std::vector<Eigen::AlignedBox3d>& part_bounds, core::PartIndex own) {
+  return static_cast<std::size_t>(
+      std::count_if(points.begin(), points.end(), [&](const core::ContactPoint& point) {
+        const Vector3d& at = point.position_in_world_mm;
+        if ((eye - at).dot(at - part_bounds[own].center()) < 0.0) return true;
+        for (core::PartIndex i = 0; i < part_bounds.size(); ++i) {
+          if (i != own && Crosses(part_bounds[i], eye, at)) return true;
+        }
+        return false;
+      }));
+}
+
 }  // namespace
 
 recon::gl::Scene ComposeScene(const FrameResult& result, const recon::SceneView& view) {
@@ -124,7 +138,7 @@ recon::OrbitCamera OverviewCamera(const FrameResult& result, int width_px, int h
   if (box.isEmpty()) box = result.hull->rig().workspace_mm;
   recon::OrbitCamera camera;
   camera.azimuth_rad = core::RadiansFromDegrees(-60.0);
-  camera.elevation_rad = core::RadiansFromDegrees(22.0);
+  camera.elevation_rad = core::RadiansFromDegrees(9.0);
   return recon::FittedTo(camera, box, width_px, height_px);
 }
 
@@ -138,21 +152,19 @@ recon::OrbitCamera ContactCamera(const FrameResult& result, core::PartIndex part
   constexpr double kAroundMm = 150.0;
   const Eigen::AlignedBox3d around(box.min().array() - kAroundMm, box.max().array() + kAroundMm);
 
+  std::vector<Eigen::AlignedBox3d> part_bounds;
+  for (core::PartIndex i = 0; i < result.layout->parts.size(); ++i)
+    part_bounds.push_back(BoundsInWorld(result, i));
   std::optional<recon::OrbitCamera> best;
-  int fewest_hidden = 0;
-  for (const double elevation_deg : {20.0, 45.0, -10.0}) {
+  std::size_t fewest_hidden = 0;
+  for (const double elevation_deg : {20.0, 4.0, -12.0, 45.0}) {
     for (int step = 0; step < 12; ++step) {
       recon::OrbitCamera camera;
       camera.azimuth_rad = core::RadiansFromDegrees(-60.0 + 30.0 * step);
       camera.elevation_rad = core::RadiansFromDegrees(elevation_deg);
       camera = recon::FittedTo(camera, around, width_px, height_px);
       const Vector3d eye = recon::ViewFrom(camera, width_px, height_px).EyeInWorld();
-      int hidden = 0;
-      for (const core::ContactPoint& point : points) {
-        for (core::PartIndex i = 0; i < result.layout->parts.size(); ++i) {
-          hidden += i != part && Crosses(BoundsInWorld(result, i), eye, point.position_in_world_mm) ? 1 : 0;
-        }
-      }
+      const std::size_t hidden = CountHidden(points, eye, part_bounds, part);
       if (!best || hidden < fewest_hidden) {
         best = camera;
         fewest_hidden = hidden;

@@ -5,6 +5,7 @@
 #include <functional>
 #include <opencv2/core/mat.hpp>
 #include <string>
+#include <vector>
 
 #include "core/camera_model.h"
 #include "core/error.h"

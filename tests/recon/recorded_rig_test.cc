@@ -149,6 +149,11 @@ TEST(RecordedRig, StampsALiveStreamWithTheClock) {
   EXPECT_FALSE(rig.frame_count().has_value());
   EXPECT_FALSE(rig.shortest_source().has_value());
   EXPECT_EQ(rig.Read(0).time_s, 0.0);
+  // The reader is late for most of the stream, then it ends.
+  std::string message = ErrorOf(ErrorKind::kCamera, [&] {
+    for (int i = 1; i < 11; ++i) EXPECT_GE(rig.Read(i).time_s, 0.0);
+  });
+  EXPECT_THAT(message, AllOf(HasSubstr("cam1"), HasSubstr("ended")));
 }
 
 TEST(RecordedRig, MeasuresBackgroundsWithProgressAndStops) {
