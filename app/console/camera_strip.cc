@@ -3,6 +3,7 @@
 #include <QHBoxLayout>
 #include <QLocale>
 #include <QPainter>
+#include <algorithm>
 
 #include "app/console/palette.h"
 #include "app/console/silhouette_picture.h"
@@ -12,6 +13,7 @@ namespace {
 
 constexpr int kLargestPictureWidthPx = 360;
 constexpr int kStripHeightPx = 148;
+constexpr int kCaptionWidthPx = 140;
 
 }  // namespace
 
@@ -38,12 +40,15 @@ void CameraThumbnail::paintEvent(QPaintEvent* /*event*/) {
   painter.fillRect(target, kSilhouetteBackground);
   if (!picture_.isNull()) painter.drawImage(target, picture_);
 
-  const QRect caption(0, height() - text_height_px, width(), text_height_px);
+  // Under its picture, and beyond it where that is too narrow for name and count.
+  const int caption_width_px = std::min(width(), std::max(target.width(), kCaptionWidthPx));
+  QRect caption(0, height() - text_height_px, caption_width_px, text_height_px);
+  caption.moveLeft((width() - caption_width_px) / 2);
   const QString count = QLocale().toString(static_cast<qulonglong>(object_px_)) + " px";
   painter.setPen(kQuietText);
   painter.drawText(caption, Qt::AlignRight | Qt::AlignVCenter, count);
   painter.setPen(palette().color(QPalette::WindowText));
-  const int name_width_px = width() - painter.fontMetrics().horizontalAdvance(count) - 8;
+  const int name_width_px = caption.width() - painter.fontMetrics().horizontalAdvance(count) - 8;
   painter.drawText(caption, Qt::AlignLeft | Qt::AlignVCenter,
                    painter.fontMetrics().elidedText(name_, Qt::ElideRight, name_width_px));
 }

@@ -4,6 +4,7 @@
 #include <array>
 #include <utility>
 
+#include "app/console/lower_bound_text.h"
 #include "app/console/palette.h"
 
 namespace elbowroom::console {
@@ -32,7 +33,7 @@ QString PositionText(const core::PartContact& contact) {
 QString CellText(const core::PartContact& contact, int column) {
   switch (column) {
     case ContactModel::kDepth:
-      return contact.deepest ? QString::number(contact.deepest->depth_mm, 'f', 1) : "–";
+      return contact.deepest ? LowerBoundText(contact.deepest->depth_mm) : "–";
     case ContactModel::kArea:
       return QLocale().toString(contact.contact_area_mm2, 'f', 0);
     case ContactModel::kPoints:

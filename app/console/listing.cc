@@ -18,7 +18,8 @@ Listing::Listing(QAbstractItemModel* model, QString empty_text, QWidget* parent)
   setShowGrid(false);
   verticalHeader()->hide();
   verticalHeader()->setDefaultSectionSize(fontMetrics().height() + 8);
-  horizontalHeader()->setSectionResizeMode(QHeaderView::Stretch);
+  horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
+  horizontalHeader()->setSectionResizeMode(0, QHeaderView::Stretch);
   horizontalHeader()->setHighlightSections(false);
 }
 

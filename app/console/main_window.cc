@@ -1,7 +1,6 @@
 #include "app/console/main_window.h"
 
 #include <QCloseEvent>
-#include <QHeaderView>
 #include <QKeyEvent>
 #include <QMenuBar>
 #include <QSplitter>
@@ -107,8 +106,6 @@ QWidget* MainWindow::MakeSide() {
   touches_ = new TouchModel(this);
   auto* contact_list = new Listing(contacts_, tr("No contact in this frame"));
   contact_list->setObjectName("contact_list");
-  contact_list->horizontalHeader()->setSectionResizeMode(ContactModel::kPosition,
-                                                         QHeaderView::ResizeToContents);
   auto* touch_list = new Listing(touches_, tr("No parts yet"));
   touch_list->setObjectName("touch_list");
   auto* side = new QWidget;
@@ -117,8 +114,8 @@ QWidget* MainWindow::MakeSide() {
   column->setContentsMargins(4, 8, 8, 4);
   column->addWidget(spacings_);
   column->addWidget(tools_);
-  column->addWidget(Boxed(tr("Contacts now"), contact_list), 3);
-  column->addWidget(Boxed(tr("Touches so far"), touch_list), 2);
+  column->addWidget(Boxed(tr("Contacts now"), contact_list), 1);
+  column->addWidget(Boxed(tr("Touches so far"), touch_list), 1);
   connect(spacings_, &SpacingPanel::Wished, desk_, &TrialDesk::SetSpacing);
   connect(tools_, &ToolPanel::Marked, desk_, &TrialDesk::MarkTool);
   return side;

@@ -9,9 +9,11 @@ QString PercentOf(std::int64_t share, std::int64_t whole) {
   return whole == 0 ? QString("–") : QString::number(100 * share / whole) + " %";
 }
 
-// Drivers name themselves at length: "Mesa/X.org · llvmpipe (LLVM 15.0.6, 256 bits) · 4.5 (Core Profile)
-// ...".
-constexpr int kLongestDriverChars = 34;
+// Of "vendor | renderer | version" the renderer, without its remarks: "llvmpipe".
+QString ShortDriver(const QString& driver) {
+  const QString renderer = driver.section('|', 1, 1).section('(', 0, 0).trimmed();
+  return renderer.isEmpty() ? driver : renderer;
+}
 
 }  // namespace
 
@@ -21,6 +23,8 @@ StatusLine::StatusLine(QWidget* parent) : QStatusBar(parent) {
   times_ = AddField("status_times", 0);
   skipped_ = AddField("status_skipped", 0);
   session_ = AddField("status_session", 1);
+  session_->setMinimumWidth(60);  // cut off rather than widening the window
+  session_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
   driver_ = AddField("status_driver", 0);
   progress_ = new QProgressBar;
   progress_->setFixedWidth(220);
@@ -70,7 +74,7 @@ void StatusLine::ShowFrame(const control::FrameResult& result) {
 void StatusLine::ShowDriver(const QString& driver) {
   if (driver_->toolTip() == driver) return;
   driver_->setToolTip(driver);
-  driver_->setText(driver.size() <= kLongestDriverChars ? driver : driver.left(kLongestDriverChars) + "…");
+  driver_->setText(ShortDriver(driver));
 }
 
 void StatusLine::ShowProgress(qint64 done, qint64 total, const QString& what) {

@@ -3,6 +3,7 @@
 #include <QLocale>
 #include <array>
 
+#include "app/console/lower_bound_text.h"
 #include "app/console/palette.h"
 
 namespace elbowroom::console {
@@ -56,7 +57,7 @@ QVariant TouchModel::CellText(const Row& row, int column) const {
     case kFrames:
       return QLocale().toString(static_cast<qlonglong>(row.tally.frames_in_contact));
     case kDeepest:
-      return row.tally.episodes == 0 ? QString("–") : QString::number(row.tally.deepest_mm, 'f', 1);
+      return row.tally.episodes == 0 ? QString("–") : LowerBoundText(row.tally.deepest_mm);
     default:
       return {};
   }

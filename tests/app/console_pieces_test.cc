@@ -4,6 +4,7 @@
 #include <QCoreApplication>
 #include <QTest>
 #include <QThread>
+#include <QTimer>
 #include <algorithm>
 #include <map>
 #include <random>
@@ -19,6 +20,7 @@
 #include "app/console/silhouette_picture.h"
 #include "app/console/trial_actions.h"
 #include "core/error.h"
+#include "tests/app/stall_watch.h"
 #include "tests/support/run_program.h"
 
 namespace elbowroom::console {
@@ -159,7 +161,7 @@ control::FrameResult TwoPartsWith(core::Verdict first, core::Verdict second) {
 TEST(ContactModel, ListsOnlyPartsInContact) {
   ContactModel model;
   control::FrameResult result = TwoPartsWith(core::Verdict::kNear, core::Verdict::kContact);
-  result.contacts[1].deepest = core::ContactPoint{{10.0, -20.0, 30.0}, 4.25, 1.0};
+  result.contacts[1].deepest = core::ContactPoint{{10.0, -20.0, 30.0}, 4.29, 1.0};
   result.contacts[1].contact_area_mm2 = 12.4;
   result.contacts[1].contact_point_count = 7;
   model.ShowFrame(result);
@@ -168,7 +170,7 @@ TEST(ContactModel, ListsOnlyPartsInContact) {
     return model.data(model.index(0, column), Qt::DisplayRole).toString();
   };
   EXPECT_EQ(cell(ContactModel::kPart), "lid");
-  EXPECT_EQ(cell(ContactModel::kDepth), "4.2");
+  EXPECT_EQ(cell(ContactModel::kDepth), "4.2");  // a lower bound stays one
   EXPECT_EQ(cell(ContactModel::kArea), "12");
   EXPECT_EQ(cell(ContactModel::kPoints), "7");
   EXPECT_EQ(cell(ContactModel::kPosition), "10, -20, 30");
@@ -192,6 +194,13 @@ TEST(FrameRate, CountsFramesByNumberOverTheLastTwoSeconds) {
 TEST(SessionName, SortsByTime) {
   const QDateTime at(QDate(2031, 2, 3), QTime(4, 5, 6));
   EXPECT_EQ(DefaultSessionName(at), "elbowroom-20310203-040506.db");
+}
+
+TEST(StallWatch, SeesAThreadThatWaits) {
+  const StallWatch stalls;
+  std::binary_semaphore never(0);
+  QTimer::singleShot(0, [&] { EXPECT_FALSE(never.try_acquire_for(std::chrono::milliseconds(300))); });
+  ASSERT_TRUE(QTest::qWaitFor([&] { return stalls.longest_ms() > 250.0; }, kPatienceMs));
 }
 
 // Runs the program where there is no display: no core dump, no list of Qt's plugins, one line.
