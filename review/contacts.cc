@@ -213,7 +213,8 @@ core::PartContact FindContacts(const recon::VisualHull& hull, const core::Triang
           ? options.resolution_mm
           : 0.5 * PixelFootprintMm(hull.rig(), center_in_world).value_or(2.0 * kFallbackResolutionMm);
   // The root ball stands at the centre of the bounds.
-  const Vector3d rp_obj = world_from_part * options.reference_in_part.value_or(part.nodes()[0].ball.center);
+  const Vector3d rp_obj =
+      options.reference_in_part ? world_from_part * *options.reference_in_part : center_in_world;
   ContactSearch search(hull, part, world_from_part, options, contact.resolution_mm, rp_obj);
   search.VisitNode(0);
   contact.count.queries = search.count().queries;
