@@ -107,7 +107,7 @@ int RunConsole(const ConsoleOptions& options) {
   application.ShowErrorsIn(&window);
   std::string picture_error;
   if (options.picture) {
-    auto* picture = new WindowPicture(*options.picture, window.desk(), &window);
+    auto* picture = new WindowPicture(*options.picture, window);
     QObject::connect(picture, &WindowPicture::Taken, &window, [&](const QString& error) {
       picture_error = error.toStdString();
       window.close();

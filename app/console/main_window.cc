@@ -95,7 +95,8 @@ QWidget* MainWindow::MakeCentre() {
   column->addWidget(view_, 1);
   column->addWidget(strip_);
   connect(view_, &OperatorView::Failed, this, &MainWindow::ShowError);
-  connect(view_, &OperatorView::PictureShown, this, [this] { status_->ShowDriver(view_->driver()); });
+  connect(view_, &OperatorView::PictureShown, this,
+          [this](qint64, double drawing_ms) { status_->ShowPicture(drawing_ms, view_->driver()); });
   return centre;
 }
 

@@ -29,7 +29,7 @@ class MainWindow : public QMainWindow {
 
   [[nodiscard]] TrialDesk& desk() { return *desk_; }
   [[nodiscard]] SessionChoice& session_choice() { return choice_; }
-  [[nodiscard]] const ContactModel& contacts() const { return *contacts_; }
+  [[nodiscard]] OperatorView& view() { return *view_; }
 
  public slots:
   void ShowError(const QString& line);

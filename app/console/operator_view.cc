@@ -3,6 +3,7 @@
 #include <QMouseEvent>
 #include <QPainter>
 #include <QWheelEvent>
+#include <chrono>
 #include <utility>
 
 #include "app/console/palette.h"
@@ -13,6 +14,8 @@ namespace {
 
 // Beyond this a picture costs software OpenGL more time than it gains in sharpness.
 constexpr QSize kLargestPicture(800, 600);
+// After which a scene without news is drawn in full.
+constexpr std::chrono::milliseconds kRests(400);
 constexpr double kWheelStepEighths = 120.0;  // one notch of a wheel, in Qt's eighths of a degree
 
 QImage ToQImage(const recon::Image& image) {
@@ -31,12 +34,19 @@ OperatorView::OperatorView(QWidget* parent)
                                [this, picture = ToQImage(image), request] { ShowPicture(picture, request); });
           },
           [this](const std::string& line) {
-            bridge_.PostLatest(Bridge::Stream::kPicture,
-                               [this, text = QString::fromStdString(line)] { emit Failed(text); });
+            bridge_.PostLatest(Bridge::Stream::kPicture, [this, text = QString::fromStdString(line)] {
+              drawing_.invalidate();
+              if (text != std::exchange(last_error_, text)) emit Failed(text);
+            });
           }) {
   setMinimumSize(320, 240);
   setFocusPolicy(Qt::StrongFocus);
   setAttribute(Qt::WA_OpaquePaintEvent);
+  rest_.setSingleShot(true);
+  rest_.setInterval(kRests);
+  connect(&rest_, &QTimer::timeout, this, [this] {
+    if (result_ && camera_ && !drawing_.isValid()) Submit(1.0);
+  });
 }
 
 OperatorView::~OperatorView() = default;
@@ -53,6 +63,7 @@ void OperatorView::ShowFrame(control::SharedFrameResult result) {
 void OperatorView::Clear() {
   camera_.reset();
   result_.reset();
+  is_outdated_ = false;
   picture_ = QImage();
   update();
 }
@@ -62,7 +73,7 @@ void OperatorView::Fit() {
   auto camera = std::make_shared<recon::OrbitCamera>();
   fitting_ = std::make_unique<BackgroundJob>(
       bridge_,
-      [camera, result = result_, size = PictureSize()](const std::stop_token&) {
+      [camera, result = result_, size = LargestPicture()](const std::stop_token&) {
         *camera = control::OverviewCamera(*result, size.width(), size.height());
       },
       [this, camera](const std::string& error) {
@@ -84,20 +95,42 @@ void OperatorView::Turn(const recon::OrbitCamera& camera) {
 
 void OperatorView::AskForPicture() {
   if (!result_ || !camera_) return;
-  const QSize size = PictureSize();
+  if (drawing_.isValid()) {
+    is_outdated_ = true;
+  } else {
+    Submit(pace_.scale());
+  }
+}
+
+void OperatorView::Submit(double scale) {
+  const QSize size = LargestPicture() * scale;
+  is_outdated_ = false;
+  drawing_.start();
   worker_.Submit({result_, *camera_, size.width(), size.height()});
 }
 
-QSize OperatorView::PictureSize() const {
+QSize OperatorView::LargestPicture() const {
   const QSize pixels = size() * devicePixelRatio();
-  return pixels.boundedTo(pixels.scaled(kLargestPicture, Qt::KeepAspectRatio)).expandedTo(QSize(16, 16));
+  return pixels.boundedTo(pixels.scaled(kLargestPicture, Qt::KeepAspectRatio)).expandedTo(QSize(64, 64));
 }
 
 void OperatorView::ShowPicture(const QImage& picture, const control::RenderRequest& request) {
-  if (!result_) return;  // cleared since it was asked for
+  const double drawing_ms = 1e-6 * static_cast<double>(drawing_.nsecsElapsed());
+  drawing_.invalidate();
+  if (!result_ || request.result->layout != result_->layout)
+    return AskForPicture();  // of a trial that is over
+  last_error_.clear();
+  const bool is_at_pace = request.width_px == (LargestPicture() * pace_.scale()).width();
+  if (is_at_pace) pace_.Add(drawing_ms);
   picture_ = picture;
+  picture_frame_ = request.result->frame;
   update();
-  emit PictureShown(request.result->frame);
+  if (is_outdated_) {
+    Submit(pace_.scale());
+  } else if (picture.size() != LargestPicture()) {
+    rest_.start();
+  }
+  emit PictureShown(picture_frame_, drawing_ms);
 }
 
 void OperatorView::paintEvent(QPaintEvent* /*event*/) {
@@ -114,9 +147,15 @@ void OperatorView::paintEvent(QPaintEvent* /*event*/) {
   QRect target(QPoint(), picture_.size().scaled(size(), Qt::KeepAspectRatio));
   target.moveCenter(rect().center());
   painter.drawImage(target, picture_);
+  PaintCaption(painter);
+}
+
+void OperatorView::PaintCaption(QPainter& painter) const {
+  const QRect room = rect().adjusted(10, 0, -10, -8);
   painter.setPen(kQuietText);
-  painter.drawText(rect().adjusted(10, 0, -10, -8), Qt::AlignBottom | Qt::AlignLeft,
+  painter.drawText(room, Qt::AlignBottom | Qt::AlignLeft,
                    tr("drag: orbit   right drag: pan   wheel: zoom   F: fit"));
+  painter.drawText(room, Qt::AlignBottom | Qt::AlignRight, tr("frame %1").arg(picture_frame_));
 }
 
 void OperatorView::resizeEvent(QResizeEvent* /*event*/) { AskForPicture(); }

@@ -1,15 +1,18 @@
 // The operator's view of the trial: the render worker's last picture, turned by the mouse.
 #pragma once
 
+#include <QElapsedTimer>
 #include <QImage>
 #include <QPoint>
 #include <QString>
+#include <QTimer>
 #include <QWidget>
 #include <memory>
 #include <optional>
 
 #include "app/console/background_job.h"
 #include "app/console/bridge.h"
+#include "app/console/picture_pace.h"
 #include "app/control/frame_result.h"
 #include "app/control/render_worker.h"
 #include "recon/orbit_camera.h"
@@ -17,7 +20,9 @@
 namespace elbowroom::console {
 
 // Left drag orbits, right or middle drag pans, the wheel zooms, a double click fits. Never waits for a
-// picture: until the next one comes the last one is shown, scaled to the widget. Thread: UI.
+// picture: until the next one comes the last one is shown, scaled to the widget. One is asked for at a time,
+// of the latest frame and camera, as large as keeps it fluid; a scene that rests is drawn once more in full.
+// Thread: UI.
 class OperatorView : public QWidget {
   Q_OBJECT
 
@@ -34,7 +39,7 @@ class OperatorView : public QWidget {
   [[nodiscard]] const std::optional<recon::OrbitCamera>& camera() const { return camera_; }
 
  signals:
-  void PictureShown(qint64 frame);
+  void PictureShown(qint64 frame, double drawing_ms);
   void Failed(const QString& line);
 
  protected:
@@ -48,12 +53,20 @@ class OperatorView : public QWidget {
  private:
   void Turn(const recon::OrbitCamera& camera);
   void AskForPicture();
+  void Submit(double scale);
   void ShowPicture(const QImage& picture, const control::RenderRequest& request);
-  [[nodiscard]] QSize PictureSize() const;
+  void PaintCaption(QPainter& painter) const;
+  [[nodiscard]] QSize LargestPicture() const;
 
   std::optional<recon::OrbitCamera> camera_;  // nothing until the first fit
   control::SharedFrameResult result_;
   QImage picture_;
+  qint64 picture_frame_ = 0;
+  PicturePace pace_;
+  QElapsedTimer drawing_;     // valid while a picture is asked for
+  bool is_outdated_ = false;  // what is being drawn
+  QTimer rest_;
+  QString last_error_;  // told once, until a picture succeeds
   QPointF last_mouse_px_;
   Bridge bridge_;  // before the threads that post to it
   std::unique_ptr<BackgroundJob> fitting_;

@@ -55,10 +55,11 @@ void StatusLine::ShowFrame(const control::FrameResult& result) {
                       .arg(result.frame)
                       .arg(result.time_s, 0, 'f', 1)
                       .arg(frames_per_s ? QString::number(*frames_per_s, 'f', 1) : QString("–")));
-  times_->setText(tr("segmentation %1   hull %2   contacts %3 ms")
-                      .arg(result.times.segmentation_ms, 0, 'f', 1)
-                      .arg(result.times.hull_ms, 0, 'f', 1)
-                      .arg(result.times.contacts_ms, 0, 'f', 1));
+  times_->setText(tr("segmentation %1   hull %2   contacts %3   picture %4 ms")
+                      .arg(result.times.segmentation_ms, 0, 'f', 0)
+                      .arg(result.times.hull_ms, 0, 'f', 0)
+                      .arg(result.times.contacts_ms, 0, 'f', 0)
+                      .arg(picture_ms_, 0, 'f', 0));
   skipped_->setText(tr("skipped: %1 of %2 silhouettes, %3 of %4 parts, %5 of triangles")
                         .arg(result.skipped.unchanged_silhouettes)
                         .arg(result.masks->size())
@@ -71,7 +72,8 @@ void StatusLine::ShowFrame(const control::FrameResult& result) {
   }
 }
 
-void StatusLine::ShowDriver(const QString& driver) {
+void StatusLine::ShowPicture(double drawing_ms, const QString& driver) {
+  picture_ms_ = drawing_ms;
   if (driver_->toolTip() == driver) return;
   driver_->setToolTip(driver);
   driver_->setText(ShortDriver(driver));

@@ -18,7 +18,7 @@ class StatusLine : public QStatusBar {
 
   void Open(const std::filesystem::path& session);
   void ShowFrame(const control::FrameResult& result);
-  void ShowDriver(const QString& driver);
+  void ShowPicture(double drawing_ms, const QString& driver);
   void ShowProgress(qint64 done, qint64 total, const QString& what);  // total <= 0: not known, not shown
   void HideProgress() { progress_->hide(); }
 
@@ -31,6 +31,7 @@ class StatusLine : public QStatusBar {
   QLabel* session_ = nullptr;
   QLabel* driver_ = nullptr;
   QProgressBar* progress_ = nullptr;
+  double picture_ms_ = 0.0;
   FrameRate rate_;
 };
 

@@ -1,17 +1,11 @@
 #include "app/console/window_picture.h"
 
 #include <QPixmap>
-#include <QTimer>
 #include <algorithm>
-#include <chrono>
 #include <utility>
 
 namespace elbowroom::console {
 namespace {
-
-// The operator's view follows the lists by as long as a picture takes to draw; the window is taken once it
-// has caught up.
-constexpr std::chrono::milliseconds kViewCatchesUp(600);
 
 bool HasContact(const control::FrameResult& result) {
   return std::any_of(result.contacts.begin(), result.contacts.end(), [](const core::PartContact& contact) {
@@ -21,24 +15,32 @@ bool HasContact(const control::FrameResult& result) {
 
 }  // namespace
 
-WindowPicture::WindowPicture(PictureOrder order, TrialDesk& desk, QWidget* window)
-    : QObject(window), order_(std::move(order)), desk_(desk), window_(window) {
-  connect(&desk, &TrialDesk::FrameArrived, this, [this](const FrameNews& news) { Look(*news.result); });
+WindowPicture::WindowPicture(PictureOrder order, MainWindow& window)
+    : QObject(&window), order_(std::move(order)), window_(window) {
+  connect(&window.desk(), &TrialDesk::FrameArrived, this,
+          [this](const FrameNews& news) { Look(*news.result); });
+  connect(&window.view(), &OperatorView::PictureShown, this, &WindowPicture::TakeIfDue);
 }
 
 void WindowPicture::Look(const control::FrameResult& result) {
   const auto& spacings = result.layout->spacings;
   if (order_.spacing_mm && !spacings.empty()) {
-    desk_.SetSpacing(spacings.front().name, *std::exchange(order_.spacing_mm, std::nullopt));
+    window_.desk().SetSpacing(spacings.front().name, *std::exchange(order_.spacing_mm, std::nullopt));
+    return;  // this frame was judged before
   }
-  if (is_due_ || result.time_s < order_.after_s || (order_.wants_contact && !HasContact(result))) return;
-  is_due_ = true;
-  QTimer::singleShot(kViewCatchesUp, this, &WindowPicture::Take);
+  const bool is_as_ordered = result.time_s >= order_.after_s && (!order_.wants_contact || HasContact(result));
+  if (!is_as_ordered) {
+    due_frame_.reset();
+  } else if (!due_frame_) {
+    due_frame_ = result.frame;
+  }
 }
 
-void WindowPicture::Take() {
+void WindowPicture::TakeIfDue(qint64 shown_frame) {
+  if (!due_frame_ || shown_frame < *due_frame_) return;
+  disconnect(&window_.view(), nullptr, this, nullptr);  // one picture
   const QString path = QString::fromStdString(order_.png.string());
-  const bool is_written = window_->grab().save(path, "PNG");
+  const bool is_written = window_.grab().save(path, "PNG");
   emit Taken(is_written ? QString() : path + ": can't be written; choose another file for the picture");
 }
 

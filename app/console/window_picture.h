@@ -2,12 +2,11 @@
 #pragma once
 
 #include <QObject>
-#include <QWidget>
 #include <filesystem>
 #include <optional>
 #include <string>
 
-#include "app/console/trial_desk.h"
+#include "app/console/main_window.h"
 
 namespace elbowroom::console {
 
@@ -18,24 +17,24 @@ struct PictureOrder {
   bool wants_contact = false;        // wait on for a frame in which something is touched
 };
 
-// Takes the picture as soon as the trial has come to what was ordered, then ends the trial. Thread: UI.
+// Takes the picture as soon as the trial, and the operator's view of it, have come to what was ordered.
+// Thread: UI.
 class WindowPicture : public QObject {
   Q_OBJECT
 
  public:
-  WindowPicture(PictureOrder order, TrialDesk& desk, QWidget* window);
+  WindowPicture(PictureOrder order, MainWindow& window);
 
  signals:
   void Taken(const QString& error);  // "" when the file was written
 
  private:
   void Look(const control::FrameResult& result);
-  void Take();
+  void TakeIfDue(qint64 shown_frame);
 
   PictureOrder order_;
-  TrialDesk& desk_;
-  QWidget* window_;
-  bool is_due_ = false;
+  MainWindow& window_;
+  std::optional<qint64> due_frame_;  // the first frame that is as ordered, while frames stay so
 };
 
 }  // namespace elbowroom::console

@@ -17,6 +17,7 @@
 #include "app/console/contact_model.h"
 #include "app/console/frame_rate.h"
 #include "app/console/palette.h"
+#include "app/console/picture_pace.h"
 #include "app/console/silhouette_picture.h"
 #include "app/console/trial_actions.h"
 #include "core/error.h"
@@ -189,6 +190,27 @@ TEST(FrameRate, CountsFramesByNumberOverTheLastTwoSeconds) {
   EXPECT_DOUBLE_EQ(*rate.frames_per_s(), 30.0);  // two of three frames weren't shown, and count
   for (int i = 11; i <= 50; ++i) rate.Add(30 + i - 10, start + std::chrono::milliseconds(100 * i));
   EXPECT_DOUBLE_EQ(*rate.frames_per_s(), 10.0);
+}
+
+TEST(PicturePace, ShrinksPicturesOnASlowMachineAndGrowsThemBack) {
+  PicturePace pace;
+  EXPECT_EQ(pace.scale(), 1.0);
+  // Drawing time as the number of pixels has it: 400 ms for a full picture.
+  for (int i = 0; i < 20; ++i) pace.Add(400.0 * pace.scale() * pace.scale());
+  EXPECT_LE(400.0 * pace.scale() * pace.scale(), PicturePace::kAimMs);
+  const double settled = pace.scale();
+  for (int i = 0; i < 20; ++i) {
+    pace.Add(400.0 * pace.scale() * pace.scale());
+    EXPECT_EQ(pace.scale(), settled);  // no to and fro
+  }
+  for (int i = 0; i < 20; ++i) pace.Add(40.0 * pace.scale() * pace.scale());
+  EXPECT_EQ(pace.scale(), 1.0);
+}
+
+TEST(PicturePace, OneSlowPictureChangesNothing) {
+  PicturePace pace;
+  for (int i = 0; i < 10; ++i) pace.Add(i % 2 == 0 ? 1000.0 : 20.0);
+  EXPECT_EQ(pace.scale(), 1.0);
 }
 
 TEST(SessionName, SortsByTime) {

@@ -243,7 +243,7 @@ TEST_F(ConsoleTest, AnOrderedPictureShowsTheWindowAtTheOrderedGap) {
   order.png = folder_ / "window.png";
   order.after_s = 0.2;
   order.spacing_mm = kNeededGapMm;
-  WindowPicture picture(order, window_.desk(), &window_);
+  WindowPicture picture(order, window_);
   QSignalSpy taken(&picture, &WindowPicture::Taken);
   StartDemoAndWaitForFrames();
   ASSERT_TRUE(WaitUntil([&] { return !taken.isEmpty(); }));
