@@ -18,7 +18,7 @@ class PicturePace {
   void Add(double drawing_ms);  // of the last picture, drawn at scale()
 
  private:
-  static constexpr std::array<double, 5> kScales = {1.0, 0.8, 0.6, 0.45, 0.35};
+  static constexpr std::array<double, 4> kScales = {1.0, 0.8, 0.65, 0.5};
 
   std::size_t step_ = 0;
   int in_a_row_ = 0;  // pictures that asked for the same change: above zero smaller, below zero larger

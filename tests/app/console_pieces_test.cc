@@ -195,12 +195,12 @@ TEST(FrameRate, CountsFramesByNumberOverTheLastTwoSeconds) {
 TEST(PicturePace, ShrinksPicturesOnASlowMachineAndGrowsThemBack) {
   PicturePace pace;
   EXPECT_EQ(pace.scale(), 1.0);
-  // Drawing time as the number of pixels has it: 400 ms for a full picture.
-  for (int i = 0; i < 20; ++i) pace.Add(400.0 * pace.scale() * pace.scale());
-  EXPECT_LE(400.0 * pace.scale() * pace.scale(), PicturePace::kAimMs);
+  // Drawing time as the number of pixels has it: 380 ms for a full picture.
+  for (int i = 0; i < 20; ++i) pace.Add(380.0 * pace.scale() * pace.scale());
+  EXPECT_LE(380.0 * pace.scale() * pace.scale(), PicturePace::kAimMs);
   const double settled = pace.scale();
   for (int i = 0; i < 20; ++i) {
-    pace.Add(400.0 * pace.scale() * pace.scale());
+    pace.Add(380.0 * pace.scale() * pace.scale());
     EXPECT_EQ(pace.scale(), settled);  // no to and fro
   }
   for (int i = 0; i < 20; ++i) pace.Add(40.0 * pace.scale() * pace.scale());
