@@ -12,8 +12,10 @@ namespace elbowroom::recon {
 namespace {
 
 constexpr double kRefineToMm = 1e-6;
-// A view's depths are float: a thousandth of the step is as fine as they get.
-constexpr double kViewRefinement = 1000.0;
+// A view's depths are float and its step a fraction of a millimetre: finer than a micrometre is lost on them.
+constexpr double kViewRefinement = 256.0;
+// In empty space the first camera that vouches for so many steps is enough.
+constexpr double kContentSteps = 2.0;
 constexpr int kTilePx = 8;
 constexpr double kFar = 1e9;
 
@@ -51,9 +53,10 @@ struct March {
 
 std::optional<double> Run(const March& march, const VisualHull& hull, const Ray& ray, Span span,
                           std::int64_t* probes) {
+  core::CameraIndex first = 0;
   double not_yet_mm = span.from_mm;  // all before this is certain to be unwanted
   for (double t_mm = span.from_mm; t_mm <= span.to_mm;) {
-    const PointAnswer answer = hull.Probe(PointAt(ray, t_mm));
+    const PointAnswer answer = hull.Probe(PointAt(ray, t_mm), kContentSteps * march.step_mm, &first);
     ++*probes;
     if (answer.is_inside == march.wanted) {
       double found_mm = t_mm;

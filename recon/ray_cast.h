@@ -42,7 +42,7 @@ struct HullView {
   std::int64_t skipped_pixels = 0;  // settled by a beam or by the workspace, without a ray of their own
 };
 
-// First hull surface along the ray through each pixel's centre, refined to step_mm / 1000. Beams over 8 x 8
+// First hull surface along the ray through each pixel's centre, refined to step_mm / 256. Beams over 8 x 8
 // tiles march first and hand their rays a start; a beam that leaves the workspace settles its tile. Parallel
 // over tiles; the result doesn't depend on the number of threads.
 [[nodiscard]] HullView ViewHull(const VisualHull& hull, const core::CameraModel& view, double step_mm = 0.25);

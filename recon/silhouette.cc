@@ -17,15 +17,16 @@ constexpr double kHalfDiagonalPx = 0.70710678118654757;
 // Within this distance the neighbourhood is looked at pixel by pixel.
 constexpr int kWindowPx = 2;
 
-int Floor(double value) {  // std::floor is a call where the processor's baseline lacks the instruction
-  const int truncated = static_cast<int>(value);
-  return truncated - (value < truncated ? 1 : 0);
+// floor(position + 0.5). std::floor is a call where the processor's baseline lacks the instruction; far
+// positions are all alike: outside the image.
+int NearestPixel(double position_px) {
+  const double shifted_px = std::min(std::max(position_px, -1e6), 1e6) + 0.5;
+  const int truncated = static_cast<int>(shifted_px);
+  return truncated - (shifted_px < truncated ? 1 : 0);
 }
 
 Eigen::Vector2i NearestPixel(const Eigen::Vector2d& position_px) {
-  // Far positions are all alike: outside the image.
-  const Eigen::Vector2d clamped = position_px.cwiseMax(-1e6).cwiseMin(1e6);
-  return {Floor(clamped.x() + 0.5), Floor(clamped.y() + 0.5)};
+  return {NearestPixel(position_px.x()), NearestPixel(position_px.y())};
 }
 
 double DistanceToBox(const Eigen::AlignedBox2d& box, const Eigen::Vector2d& position_px) {

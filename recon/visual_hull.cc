@@ -93,10 +93,23 @@ bool VisualHull::Contains(const Eigen::Vector3d& x_in_world) const {
 }
 
 PointAnswer VisualHull::Probe(const Eigen::Vector3d& x_in_world) const {
+  core::CameraIndex first = 0;
+  return Probe(x_in_world, kInfinity, &first);
+}
+
+PointAnswer VisualHull::Probe(const Eigen::Vector3d& x_in_world, double enough_mm,
+                              core::CameraIndex* first) const {
   if (is_empty_) return {false, kInfinity};
+  const bool exterior_is_object = ExteriorIsObject(*rig_);
   Tally tally;
-  for (std::size_t i = 0; i < silhouettes_.size(); ++i) {
-    tally.Add(AskCamera(rig_->cameras[i], *silhouettes_[i], ExteriorIsObject(*rig_), x_in_world));
+  for (std::size_t k = 0, i = *first; k < silhouettes_.size();
+       ++k, i = i + 1 < silhouettes_.size() ? i + 1 : 0) {
+    const CameraAnswer answer = AskCamera(rig_->cameras[i], *silhouettes_[i], exterior_is_object, x_in_world);
+    if (!answer.is_object && answer.radius_mm >= enough_mm) {
+      *first = i;
+      return {false, answer.radius_mm};
+    }
+    tally.Add(answer);
   }
   PointAnswer answer = tally.Sum();
   const Eigen::AlignedBox3d& workspace_mm = rig_->workspace_mm;

@@ -57,6 +57,11 @@ class VisualHull {
   // Contains(), and how far around the point the answer is sure to hold.
   [[nodiscard]] PointAnswer Probe(const Eigen::Vector3d& x_in_world) const;
 
+  // The same for a march through empty space: content with the first camera that is sure of background for at
+  // least `enough_mm` around, it asks `*first` (a camera of the rig) first and leaves there who answered.
+  [[nodiscard]] PointAnswer Probe(const Eigen::Vector3d& x_in_world, double enough_mm,
+                                  core::CameraIndex* first) const;
+
   // The volume query of a closed ball. A radius of 0 is the point's own query.
   [[nodiscard]] BallAnswer Classify(const Eigen::Vector3d& center_in_world, double radius_mm) const;
 

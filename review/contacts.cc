@@ -42,12 +42,14 @@ class ContactSearch {
  public:
   ContactSearch(const recon::VisualHull& hull, const core::TriangleTree& part,
                 const core::RigidTransform& world_from_part, const ContactOptions& options,
-                double resolution_mm)
+                double resolution_mm, const Vector3d& rp_obj)
       : hull_(hull),
         part_(part),
         world_from_part_(world_from_part),
         options_(options),
-        resolution_mm_(resolution_mm) {}
+        resolution_mm_(resolution_mm),
+        rp_obj_(rp_obj),
+        farthest_(rp_obj) {}
 
   void VisitNode(std::uint32_t index) {
     const core::TriangleTree::Node& node = part_.nodes()[index];
@@ -65,7 +67,7 @@ class ContactSearch {
     for (std::uint32_t i = node.begin; i < node.end; ++i) {
       const Triangle triangle = TriangleAt(part_.order()[i]);
       if (answer == BallAnswer::kInside) {
-        AddInside(triangle);
+        AddWhollyInside(triangle);
       } else {
         VisitTriangle(triangle);
       }
@@ -73,6 +75,9 @@ class ContactSearch {
   }
 
   [[nodiscard]] std::vector<core::ContactPoint> TakePoints() { return std::move(points_); }
+  // CP_obj: the point of the part in the hull that is farthest from RP_obj. A piece wholly inside is farthest
+  // at a vertex; one decided by its centre, at its centre.
+  [[nodiscard]] const Vector3d& farthest() const { return farthest_; }
   [[nodiscard]] const core::QueryCount& count() const { return count_; }
 
  private:
@@ -93,18 +98,30 @@ class ContactSearch {
     const core::Ball ball = core::BallOf(triangle.a, triangle.b, triangle.c);
     if (2.0 * ball.radius_mm <= resolution_mm_) {
       ++count_.queries;
-      if (hull_.Contains(triangle.Centroid())) AddPoint(triangle);
+      if (hull_.Contains(triangle.Centroid())) {
+        Reach(triangle.Centroid());
+        AddPoint(triangle);
+      }
       return;
     }
     const BallAnswer answer = Ask(ball);
     if (answer == BallAnswer::kOutside) return;
     if (answer == BallAnswer::kInside) {
-      AddInside(triangle);
+      AddWhollyInside(triangle);
       return;
     }
     const auto [first, second] = Halve(triangle);
     VisitTriangle(first);
     VisitTriangle(second);
+  }
+
+  void AddWhollyInside(const Triangle& triangle) {
+    for (const Vector3d& vertex : {triangle.a, triangle.b, triangle.c}) Reach(vertex);
+    AddInside(triangle);
+  }
+
+  void Reach(const Vector3d& x) {
+    if ((x - rp_obj_).squaredNorm() > (farthest_ - rp_obj_).squaredNorm()) farthest_ = x;
   }
 
   void AddInside(const Triangle& triangle) {
@@ -126,16 +143,14 @@ class ContactSearch {
   const core::RigidTransform& world_from_part_;
   const ContactOptions& options_;
   double resolution_mm_;
+  Vector3d rp_obj_;
+  Vector3d farthest_;
   std::vector<core::ContactPoint> points_;
   core::QueryCount count_;
 };
 
-void Recover(const recon::VisualHull& hull, const std::vector<core::ContactPoint>& points,
-             const Vector3d& rp_obj, core::PartContact* contact) {
-  const auto farthest = std::max_element(points.begin(), points.end(), [&](const auto& p, const auto& q) {
-    return (p.position_in_world_mm - rp_obj).squaredNorm() < (q.position_in_world_mm - rp_obj).squaredNorm();
-  });
-  const Vector3d cp_obj = farthest->position_in_world_mm;
+void Recover(const recon::VisualHull& hull, const Vector3d& cp_obj, const Vector3d& rp_obj,
+             core::PartContact* contact) {
   const double distance_mm = (rp_obj - cp_obj).norm();
   if (!(distance_mm > 1e-9)) {
     contact->recovery_status = core::RecoveryStatus::kNoDirection;
@@ -197,7 +212,10 @@ core::PartContact FindContacts(const recon::VisualHull& hull, const core::Triang
       options.resolution_mm > 0.0
           ? options.resolution_mm
           : 0.5 * PixelFootprintMm(hull.rig(), center_in_world).value_or(2.0 * kFallbackResolutionMm);
-  ContactSearch search(hull, part, world_from_part, options, contact.resolution_mm);
+  // The root ball stands at the centre of the bounds.
+  const Vector3d rp_obj =
+      options.reference_in_part ? world_from_part * *options.reference_in_part : center_in_world;
+  ContactSearch search(hull, part, world_from_part, options, contact.resolution_mm, rp_obj);
   search.VisitNode(0);
   contact.count.queries = search.count().queries;
   contact.count.skipped = search.count().skipped;
@@ -207,15 +225,13 @@ core::PartContact FindContacts(const recon::VisualHull& hull, const core::Triang
   contact.verdict = core::Verdict::kContact;
   contact.contact_point_count = static_cast<std::int64_t>(points.size());
   for (const core::ContactPoint& point : points) contact.contact_area_mm2 += point.area_mm2;
-  const Vector3d rp_obj =
-      world_from_part * options.reference_in_part.value_or(core::BoundsOf(part.mesh()).center());
-  Recover(hull, points, rp_obj, &contact);
-  contact.points = SpreadEvenly(std::move(points), static_cast<std::size_t>(options.max_points));
-  for (core::ContactPoint& point : contact.points) {
+  Recover(hull, search.farthest(), rp_obj, &contact);
+  for (core::ContactPoint& point : points) {
     point.depth_mm = hull.Probe(point.position_in_world_mm).radius_mm;
     ++contact.count.queries;
     if (!contact.deepest || point.depth_mm > contact.deepest->depth_mm) contact.deepest = point;
   }
+  contact.points = SpreadEvenly(std::move(points), static_cast<std::size_t>(options.max_points));
   return contact;
 }
 

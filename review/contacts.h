@@ -26,9 +26,9 @@ struct ContactOptions {
   void Validate() const;
 };
 
-// Contact of one part with the hull: verdict `contact` or `clear`, points, area, the deepest point found, and
-// the paper's recovery by exact ray crossing (CP_obj farthest from RP_obj, CP_hull the first hull point from
-// RP_obj towards it).
+// Contact of one part with the hull: verdict `contact` or `clear`, points, area, the deepest of all points,
+// and the paper's recovery by exact ray crossing (CP_obj, of the part's points in the hull the farthest from
+// RP_obj, to the resolution; CP_hull, the first hull point from RP_obj towards it).
 //
 // Surface that the ball query calls outside or inside is certified; surface within one piece of `resolution`
 // of the hull's boundary is decided by the piece's centre, so a contact smaller than that can be missed and

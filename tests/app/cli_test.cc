@@ -1,0 +1,254 @@
+// The program as a user runs it: exit statuses, single lines, JSON keys, files whole or not at all.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "core/triangle_mesh.h"
+#include "tests/app/mask_rig.h"
+#include "tests/support/run_program.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/text_file.h"
+
+namespace elbowroom {
+namespace {
+
+using test_support::ProgramRun;
+using test_support::RunProgram;
+using test_support::TemporaryFolder;
+using test_support::WriteText;
+
+ProgramRun Elbowroom(const std::vector<std::string>& arguments) {
+  return RunProgram(ELBOWROOM_PROGRAM, arguments);
+}
+
+// Exit status 1, nothing on stdout, one line on stderr that says all of `words`.
+void ExpectOneLine(const ProgramRun& run, const std::vector<std::string>& words) {
+  EXPECT_EQ(run.exit_status, 1);
+  EXPECT_EQ(run.out, "");
+  EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+  for (const std::string& word : words)
+    EXPECT_NE(run.err.find(word), std::string::npos) << word << " in: " << run.err;
+}
+
+class CliOnBallRig : public testing::Test {
+ protected:
+  void SetUp() override {
+    rig_ = test_support::WriteBallRig(folder_.path() / "rig").string();
+    box_ = (folder_ / "box.stl").string();
+    test_support::WriteBoxStl(box_, 80.0);
+  }
+  // A pose file that puts the part at a point of the world.
+  std::string PoseAt(double x, double y, double z) const {
+    const std::filesystem::path file = folder_ / "pose.yml";
+    WriteText(
+        file,
+        "%YAML:1.0\nrotation_world_from_part: !!opencv-matrix\n   rows: 3\n   cols: 3\n   dt: d\n"
+        "   data: [ 1., 0., 0., 0., 1., 0., 0., 0., 1. ]\n"
+        "translation_world_from_part_mm: !!opencv-matrix\n   rows: 3\n   cols: 1\n   dt: d\n   data: [ " +
+            std::to_string(x) + ", " + std::to_string(y) + ", " + std::to_string(z) + " ]\n");
+    return file.string();
+  }
+
+  TemporaryFolder folder_;
+  std::string rig_;
+  std::string box_;
+};
+
+TEST(Cli, HelpNamesWhatIsBuiltAndNothingElse) {
+  const ProgramRun run = Elbowroom({"--help"});
+  EXPECT_EQ(run.exit_status, 0);
+  for (const char* command : {"demo", "trial", "report", "segment", "hull", "contacts", "import"}) {
+    EXPECT_NE(run.out.find(std::string("\n  ") + command + " "), std::string::npos) << command;
+  }
+  for (const char* later : {"replay", "sweep", "clash", "clearance", "\n  view ", "bench"}) {
+    EXPECT_EQ(run.out.find(later), std::string::npos) << later;
+  }
+}
+
+TEST(Cli, EveryCommandHasHelp) {
+  for (const char* command : {"demo", "report", "segment", "hull", "contacts", "import"}) {
+    EXPECT_EQ(Elbowroom({command, "--help"}).exit_status, 0) << command;
+  }
+  EXPECT_EQ(Elbowroom({"trial", "run", "--help"}).exit_status, 0);
+}
+
+TEST(Cli, WrongUsageExitsWithTwo) {
+  EXPECT_EQ(Elbowroom({"levitate"}).exit_status, 2);
+  EXPECT_EQ(Elbowroom({"hull"}).exit_status, 2);
+  EXPECT_EQ(Elbowroom({"hull", "rig.yml", "--frame", "x", "--edge", "1", "--out", "o.ply"}).exit_status, 2);
+  EXPECT_EQ(Elbowroom({"import", "a.stl", "--unit", "furlong"}).exit_status, 2);
+  EXPECT_EQ(
+      Elbowroom({"trial", "run", "t.toml", "--session", "s.db", "--headless", "--frames", "a:b"}).exit_status,
+      2);
+  EXPECT_EQ(Elbowroom({"--threads", "0", "--version"}).exit_status == 2 ||
+                Elbowroom({"--threads", "0", "import", "a.stl"}).exit_status == 2,
+            true);
+}
+
+TEST(Cli, VersionIsOneLine) {
+  const ProgramRun run = Elbowroom({"--version"});
+  EXPECT_EQ(run.exit_status, 0);
+  EXPECT_TRUE(run.out.starts_with("elbowroom "));
+}
+
+TEST_F(CliOnBallRig, HullIsWatertightAndAroundTheBall) {
+  const std::string out = (folder_ / "hull.ply").string();
+  const ProgramRun run = Elbowroom({"hull", rig_, "--frame", "0", "--edge", "3", "--out", out, "--json"});
+  ASSERT_EQ(run.exit_status, 0) << run.err;
+  const auto json = nlohmann::json::parse(run.out);
+  for (const char* key : {"vertices", "triangles", "volume_mm3", "watertight", "time_ms"})
+    EXPECT_TRUE(json.contains(key)) << key;
+  EXPECT_TRUE(json["watertight"].get<bool>());
+  const double ball_mm3 = 4.0 / 3.0 * M_PI * std::pow(test_support::kBallRadiusMm, 3);
+  EXPECT_GT(json["volume_mm3"].get<double>(), ball_mm3);
+  EXPECT_LT(json["volume_mm3"].get<double>(),
+            1.5 * ball_mm3);  // four views leave corners, not twice the ball
+  EXPECT_GT(json["time_ms"].get<double>(), 0.0);
+  EXPECT_TRUE(std::filesystem::exists(out));
+}
+
+TEST_F(CliOnBallRig, OneThreadGivesTheSameMesh) {
+  const std::string one = (folder_ / "one.ply").string(), two = (folder_ / "two.ply").string();
+  ASSERT_EQ(
+      Elbowroom({"hull", rig_, "--frame", "0", "--edge", "5", "--out", one, "--threads", "1"}).exit_status,
+      0);
+  ASSERT_EQ(
+      Elbowroom({"hull", rig_, "--frame", "0", "--edge", "5", "--out", two, "--threads", "2"}).exit_status,
+      0);
+  EXPECT_EQ(test_support::ReadText(one), test_support::ReadText(two));
+}
+
+TEST_F(CliOnBallRig, ContactsTouchWhereTheBallIs) {
+  const ProgramRun touching = Elbowroom({"contacts", rig_, "--frame", "0", "--mesh", box_, "--unit", "mm",
+                                         "--world-from-part", PoseAt(80, 0, 200), "--json"});
+  ASSERT_EQ(touching.exit_status, 0) << touching.err;
+  const auto json = nlohmann::json::parse(touching.out);
+  EXPECT_EQ(json["verdict"], "contact");
+  EXPECT_GT(json["contact_points"].get<int>(), 0);
+  EXPECT_GT(json["contact_area_mm2"].get<double>(), 0.0);
+  EXPECT_EQ(json["cp_obj_mm"].size(), 3U);
+  EXPECT_EQ(json["cp_hull_mm"].size(), 3U);
+  EXPECT_EQ(json["v_rec"].size(), 3U);
+  EXPECT_GT(json["d_rec_mm"].get<double>(), 0.0);
+  EXPECT_EQ(json["n_hull"].size(), 3U);
+  EXPECT_EQ(json["triangles"], 12);
+  for (const char* key : {"time_ms", "queries", "skipped"}) EXPECT_TRUE(json.contains(key)) << key;
+}
+
+TEST_F(CliOnBallRig, ContactsAreNullWhereNothingTouches) {
+  const ProgramRun apart = Elbowroom({"contacts", rig_, "--frame", "0", "--mesh", box_, "--unit", "mm",
+                                      "--world-from-part", PoseAt(600, 0, 200), "--json"});
+  ASSERT_EQ(apart.exit_status, 0) << apart.err;
+  const auto json = nlohmann::json::parse(apart.out);
+  EXPECT_EQ(json["verdict"], "clear");
+  EXPECT_EQ(json["contact_points"], 0);
+  for (const char* key : {"cp_obj_mm", "cp_hull_mm", "v_rec", "d_rec_mm", "n_hull"})
+    EXPECT_TRUE(json[key].is_null()) << key;
+  EXPECT_EQ(json["skipped"], 12);
+}
+
+TEST_F(CliOnBallRig, SegmentWritesTheReadyMasks) {
+  const ProgramRun run =
+      Elbowroom({"segment", rig_, "--frame", "0", "--out", (folder_ / "masks").string(), "--json"});
+  ASSERT_EQ(run.exit_status, 0) << run.err;
+  const auto json = nlohmann::json::parse(run.out);
+  ASSERT_EQ(json["masks"].size(), 4U);
+  for (const auto& mask : json["masks"]) {
+    EXPECT_GT(mask["object_pixels"].get<int>(), 1000);
+    EXPECT_TRUE(std::filesystem::exists(mask["file"].get<std::string>()));
+  }
+}
+
+TEST_F(CliOnBallRig, ImportEchoesUnitAndSize) {
+  const ProgramRun run = Elbowroom({"import", box_, "--unit", "in", "--json"});
+  ASSERT_EQ(run.exit_status, 0) << run.err;
+  const auto json = nlohmann::json::parse(run.out);
+  for (const char* key : {"parts", "triangles", "unit", "bounds_mm", "watertight", "repaired",
+                          "dropped_triangles", "warnings"}) {
+    EXPECT_TRUE(json.contains(key)) << key;
+  }
+  EXPECT_EQ(json["unit"], "in");
+  EXPECT_NEAR(json["bounds_mm"][1][0].get<double>(), 40.0 * 25.4, 1e-3);  // single precision file
+  ExpectOneLine(Elbowroom({"import", box_}), {"box.stl", "--unit"});
+}
+
+TEST_F(CliOnBallRig, BadInputIsOneLineAndLeavesNothing) {
+  const std::string out = (folder_ / "none.ply").string();
+  ExpectOneLine(
+      Elbowroom({"hull", (folder_ / "no.yml").string(), "--frame", "0", "--edge", "3", "--out", out}),
+      {"no.yml"});
+  ExpectOneLine(Elbowroom({"hull", rig_, "--frame", "7", "--edge", "3", "--out", out}), {"7"});
+  ExpectOneLine(Elbowroom({"hull", rig_, "--frame", "-1", "--edge", "3", "--out", out}), {"-1"});
+  ExpectOneLine(Elbowroom({"hull", rig_, "--frame", "0", "--edge", "0", "--out", out}), {"edge"});
+  ExpectOneLine(Elbowroom({"hull", rig_, "--frame", "0", "--edge", "3", "--out", "/nowhere/none.ply"}),
+                {"/nowhere/none.ply"});
+  ExpectOneLine(Elbowroom({"contacts", rig_, "--frame", "0", "--mesh", "missing.stl", "--unit", "mm"}),
+                {"missing.stl"});
+  ExpectOneLine(Elbowroom({"report", (folder_ / "no.db").string(), "--out", (folder_ / "report").string()}),
+                {"no.db"});
+  ExpectOneLine(Elbowroom({"report", rig_, "--out", (folder_ / "report").string()}), {"rig.yml"});
+  EXPECT_FALSE(std::filesystem::exists(out));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "report" / "report.html"));
+}
+
+TEST_F(CliOnBallRig, DamagedMasksAreNamed) {
+  const std::filesystem::path mask = folder_.path() / "rig" / "cam2" / "mask_0000.png";
+  const std::string whole = test_support::ReadText(mask);
+  const std::string out = (folder_ / "none.ply").string();
+  const std::vector<std::string> hull = {"hull", rig_, "--frame", "0", "--edge", "3", "--out", out};
+  WriteText(mask, whole.substr(0, whole.size() / 2));
+  ExpectOneLine(Elbowroom(hull), {"cam2", "mask_0000.png"});
+  WriteText(mask, "no picture");
+  ExpectOneLine(Elbowroom(hull), {"cam2", "mask_0000.png"});
+  std::filesystem::remove(mask);
+  ExpectOneLine(Elbowroom(hull), {"cam2"});
+  EXPECT_FALSE(std::filesystem::exists(out));
+}
+
+TEST_F(CliOnBallRig, TrialRunRecordsAndReports) {
+  WriteText(folder_ / "layout.toml",
+            "unit = \"mm\"\n[[part]]\nname = \"near\"\nfile = \"box.stl\"\nposition_mm = [80, 0, 200]\n"
+            "[[part]]\nname = \"far\"\nfile = \"box.stl\"\nposition_mm = [600, 0, 200]\n");
+  WriteText(folder_ / "trial.toml", "rig = \"rig/rig.yml\"\nlayout = \"layout.toml\"\n");
+  const std::string trial = (folder_ / "trial.toml").string(), session = (folder_ / "s.db").string();
+  const ProgramRun run = Elbowroom({"trial", "run", trial, "--session", session, "--headless", "--json"});
+  ASSERT_EQ(run.exit_status, 0) << run.err;
+  const auto json = nlohmann::json::parse(run.out);
+  EXPECT_EQ(json["frames"], 1);
+  EXPECT_EQ(json["parts"][0]["frames_in_contact"], 1);
+  EXPECT_EQ(json["parts"][1]["frames_in_contact"], 0);
+  EXPECT_NE(json["ended"].get<std::string>().find("shortest source"), std::string::npos);
+  // The same session again would overwrite it.
+  ExpectOneLine(Elbowroom({"trial", "run", trial, "--session", session, "--headless"}), {"s.db"});
+  ExpectOneLine(Elbowroom({"trial", "run", trial, "--session", (folder_ / "t.db").string(), "--headless",
+                           "--frames", "0:9"}),
+                {"0:9"});
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "t.db"));
+  const ProgramRun report = Elbowroom({"report", session, "--out", (folder_ / "report").string()});
+  ASSERT_EQ(report.exit_status, 0) << report.err;
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "report" / "report.html"));
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "report" / "contacts.csv"));
+}
+
+TEST_F(CliOnBallRig, ATrialWithABadMaskLeavesNoSession) {
+  WriteText(folder_ / "layout.toml", "unit = \"mm\"\n[[part]]\nname = \"near\"\nfile = \"box.stl\"\n");
+  WriteText(folder_ / "trial.toml", "rig = \"rig/rig.yml\"\nlayout = \"layout.toml\"\n");
+  const std::filesystem::path mask = folder_.path() / "rig" / "cam3" / "mask_0000.png";
+  WriteText(mask, test_support::ReadText(mask).substr(0, 60));
+  ExpectOneLine(Elbowroom({"trial", "run", (folder_ / "trial.toml").string(), "--session",
+                           (folder_ / "s.db").string(), "--headless"}),
+                {"cam3"});
+  for (const char* left : {"s.db", "s.db-wal", "s.db-shm"})
+    EXPECT_FALSE(std::filesystem::exists(folder_ / left)) << left;
+}
+
+TEST(Cli, TheWindowNeedsADisplay) {
+  const ProgramRun run =
+      RunProgram(ELBOWROOM_PROGRAM, {},
+                 {.environment = {{"DISPLAY", ""}, {"WAYLAND_DISPLAY", ""}, {"QT_QPA_PLATFORM", ""}}});
+  ExpectOneLine(run, {"display"});
+}
+
+}  // namespace
+}  // namespace elbowroom

@@ -1,0 +1,42 @@
+// The demo, whole: what a newcomer runs first.
+#include <gtest/gtest.h>
+
+#include "sessions/session_reader.h"
+#include "tests/support/run_program.h"
+#include "tests/support/temporary_folder.h"
+
+namespace elbowroom {
+namespace {
+
+constexpr core::PartIndex kPayloadA = 1;
+
+TEST(Demo, TouchesPayloadAAt140MmAndNothingAt240) {
+  const test_support::TemporaryFolder folder;
+  const std::filesystem::path out = folder / "out";
+  const test_support::ProgramRun run =
+      test_support::RunProgram(ELBOWROOM_PROGRAM, {"demo", "--out", out.string(), "--headless"});
+  ASSERT_EQ(run.exit_status, 0) << run.err;
+  for (const char* file : {"session.db", "report.html", "contacts.csv", "view.png"}) {
+    EXPECT_GT(std::filesystem::file_size(out / file), 1000U) << file;
+  }
+  const sessions::SessionReader session(out / "session.db");
+  EXPECT_EQ(session.status(), sessions::SessionStatus::kComplete);
+  ASSERT_EQ(session.header().layout.parts[kPayloadA].name, "payload_a");
+  int touches_at_140 = 0;
+  for (const sessions::ContactRow& row : session.contacts()) {
+    EXPECT_EQ(row.contact.part, kPayloadA) << "frame " << row.frame;
+    EXPECT_EQ(row.spacing_mm.at(0), 140.0) << "frame " << row.frame;
+    touches_at_140 += 1;
+  }
+  EXPECT_GT(touches_at_140, 100);  // of 240 frames
+  EXPECT_EQ(session.frame_count(), 480);
+  EXPECT_EQ(session.episodes().size(), 2U);  // the pipe, then the tongs: two long touches
+  // The database answers to sqlite3 itself.
+  const test_support::ProgramRun sql = test_support::RunProgram(
+      "/usr/bin/sqlite3",
+      {(out / "session.db").string(), "SELECT count(*) FROM v_contact WHERE part = 'payload_a'"});
+  EXPECT_EQ(sql.out, std::to_string(touches_at_140) + "\n") << sql.err;
+}
+
+}  // namespace
+}  // namespace elbowroom

@@ -1,0 +1,87 @@
+// Skipping never changes a result.
+#include "app/control/frame_pipeline.h"
+
+#include <gtest/gtest.h>
+
+#include "app/control/demo_parts.h"
+#include "recon/synthetic/demo_motion.h"
+#include "recon/synthetic/rig_presets.h"
+#include "recon/synthetic/synthetic_rig.h"
+
+namespace elbowroom::control {
+namespace {
+
+// The demo's rig with exact masks in place of pictures.
+class FramePipelineTest : public testing::Test {
+ protected:
+  FramePipelineTest()
+      : source_(recon::FourCameraRig(), [](double time_s) { return recon::DemoSceneAt(time_s).objects; }) {}
+
+  recon::FrameSet MasksOf(core::FrameIndex index) const {
+    recon::FrameSet frames;
+    frames.index = index;
+    frames.time_s = source_.TimeOfFrameS(index);
+    for (core::BitMask& mask : source_.TrueMasks(source_.ObjectsAt(index)))
+      frames.cameras.push_back({{}, std::move(mask)});
+    return frames;
+  }
+  FramePipeline MakePipeline() const {
+    return {source_.rig(), DemoLayout(), std::vector<recon::BackgroundReference>(4), {}};
+  }
+
+  recon::SyntheticRig source_;
+};
+
+constexpr core::FrameIndex kTouching = 60;  // the pipe is being lowered
+
+void ExpectSameContacts(const FrameResult& a, const FrameResult& b) {
+  ASSERT_EQ(a.contacts.size(), b.contacts.size());
+  for (std::size_t i = 0; i < a.contacts.size(); ++i) {
+    EXPECT_EQ(a.contacts[i].verdict, b.contacts[i].verdict);
+    EXPECT_EQ(a.contacts[i].contact_area_mm2, b.contacts[i].contact_area_mm2);
+    EXPECT_EQ(a.contacts[i].contact_point_count, b.contacts[i].contact_point_count);
+  }
+}
+
+TEST_F(FramePipelineTest, AnUnchangedFrameIsNotComputedAgain) {
+  FramePipeline pipeline = MakePipeline();
+  const std::vector<double> gap = {kGapInitialMm};
+  const SharedFrameResult first = pipeline.Process(MasksOf(kTouching), gap);
+  const SharedFrameResult again = pipeline.Process(MasksOf(kTouching), gap);
+  EXPECT_EQ(first->skipped.unchanged_silhouettes, 0);
+  EXPECT_EQ(again->skipped.unchanged_silhouettes, 4);
+  EXPECT_EQ(again->skipped.unchanged_parts, 3);
+  EXPECT_EQ(again->skipped.queries, 0);
+  EXPECT_EQ(again->hull, first->hull);
+  ExpectSameContacts(*first, *again);
+}
+
+TEST_F(FramePipelineTest, OnlyTheMovedPartIsAskedAgain) {
+  FramePipeline pipeline = MakePipeline();
+  const SharedFrameResult at_140 = pipeline.Process(MasksOf(kTouching), std::vector<double>{kGapInitialMm});
+  const SharedFrameResult at_240 = pipeline.Process(MasksOf(kTouching), std::vector<double>{kGapNeededMm});
+  EXPECT_EQ(at_140->contacts[1].verdict, core::Verdict::kContact);
+  EXPECT_EQ(at_240->contacts[1].verdict, core::Verdict::kClear);
+  EXPECT_EQ(at_240->skipped.unchanged_parts, 2);
+}
+
+TEST_F(FramePipelineTest, WhatCameBeforeDoesntChangeAFrame) {
+  FramePipeline warm = MakePipeline();
+  const std::vector<double> gap = {kGapInitialMm};
+  for (const core::FrameIndex frame : {kTouching - 2, kTouching - 2, kTouching - 1})
+    (void)warm.Process(MasksOf(frame), gap);
+  FramePipeline cold = MakePipeline();
+  ExpectSameContacts(*warm.Process(MasksOf(kTouching), gap), *cold.Process(MasksOf(kTouching), gap));
+}
+
+TEST_F(FramePipelineTest, AnEmptySceneTouchesNothingAndAsksNothing) {
+  FramePipeline pipeline = MakePipeline();
+  recon::FrameSet frames;
+  for (int i = 0; i < 4; ++i) frames.cameras.push_back({{}, core::BitMask(640, 480)});
+  const SharedFrameResult result = pipeline.Process(frames, std::vector<double>{kGapInitialMm});
+  for (const core::PartContact& contact : result->contacts) EXPECT_EQ(contact.verdict, core::Verdict::kClear);
+  EXPECT_EQ(result->skipped.queries, 0);
+}
+
+}  // namespace
+}  // namespace elbowroom::control

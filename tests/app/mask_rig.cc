@@ -1,0 +1,62 @@
+#include "tests/app/mask_rig.h"
+
+#include "cad_import/mesh_file.h"
+#include "core/rigid_transform.h"
+#include "recon/mask_image.h"
+#include "recon/rig_file.h"
+#include "recon/synthetic/synthetic_rig.h"
+
+namespace elbowroom::test_support {
+namespace {
+
+constexpr double kRigRadiusMm = 900.0;
+
+core::Rig FourAround() {
+  core::Rig rig;
+  rig.name = "ball";
+  rig.workspace_mm = Eigen::AlignedBox3d(Eigen::Vector3d(-150, -150, 50), Eigen::Vector3d(150, 150, 350));
+  const Eigen::Vector3d target(0, 0, 200);
+  const Eigen::Vector3d directions[] = {{1, 0, 0.3}, {0, 1, 0.3}, {-0.7, -0.7, 0.2}, {0.1, 0.2, 1.0}};
+  for (const Eigen::Vector3d& direction : directions) {
+    core::CameraCalibration camera;
+    camera.name = "cam" + std::to_string(rig.cameras.size() + 1);
+    camera.image_width_px = 320;
+    camera.image_height_px = 240;
+    camera.camera_matrix << 500, 0, 159.5, 0, 500, 119.5, 0, 0, 1;
+    camera.cam_from_world =
+        core::CamFromWorldLookingAt(target + kRigRadiusMm * direction.normalized(), target);
+    rig.cameras.emplace_back(camera);
+  }
+  return rig;
+}
+
+}  // namespace
+
+std::filesystem::path WriteBallRig(const std::filesystem::path& folder) {
+  recon::RigFile file{FourAround(), {}};
+  recon::SyntheticObject ball{"ball", {{recon::Sphere{kBallRadiusMm}, {}, Eigen::Vector3d::Constant(200)}}};
+  ball.solids[0].world_from_solid.translation_mm = {0, 0, 200};
+  const recon::SyntheticRig rig(file.rig, [&](double) { return std::vector{ball}; });
+  const std::vector<core::BitMask> masks = rig.TrueMasks(std::vector{ball});
+  for (std::size_t i = 0; i < masks.size(); ++i) {
+    const std::filesystem::path camera_folder = folder / file.rig.cameras[i].name();
+    std::filesystem::create_directories(camera_folder);
+    recon::WriteMaskPng(masks[i], camera_folder / "mask_0000.png");
+    file.sources.push_back({"", "", (camera_folder / "mask_%04d.png").string()});
+  }
+  recon::WriteRigFile(file, folder / "rig.yml");
+  return folder / "rig.yml";
+}
+
+void WriteBoxStl(const std::filesystem::path& file, double size_mm) {
+  core::TriangleMesh box;
+  for (int i = 0; i < 8; ++i) {
+    box.vertices_mm.emplace_back(Eigen::Vector3d((i & 1) - 0.5, ((i >> 1) & 1) - 0.5, (i >> 2) - 0.5) *
+                                 size_mm);
+  }
+  box.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+                   {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+  cad_import::WriteMeshFile(box, file);
+}
+
+}  // namespace elbowroom::test_support

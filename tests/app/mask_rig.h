@@ -1,0 +1,17 @@
+// A small rig on disk with ready masks of a ball, for tests that run the program.
+#pragma once
+
+#include <filesystem>
+
+namespace elbowroom::test_support {
+
+inline constexpr double kBallRadiusMm = 60.0;  // about (0, 0, 200) in world
+
+// Writes rig.yml and cam1..cam4/mask_0000.png below `folder`; four 320 x 240 cameras around the ball.
+// Returns the path of rig.yml.
+std::filesystem::path WriteBallRig(const std::filesystem::path& folder);
+
+// An STL box of that size about the origin, in millimetres.
+void WriteBoxStl(const std::filesystem::path& file, double size_mm);
+
+}  // namespace elbowroom::test_support
