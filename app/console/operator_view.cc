@@ -45,7 +45,7 @@ OperatorView::OperatorView(QWidget* parent)
   rest_.setSingleShot(true);
   rest_.setInterval(kRests);
   connect(&rest_, &QTimer::timeout, this, [this] {
-    if (result_ && camera_ && !drawing_.isValid()) Submit(1.0);
+    if (result_ && camera_ && !drawing_.isValid()) Submit(PicturePace::kFinest);
   });
 }
 
@@ -98,15 +98,16 @@ void OperatorView::AskForPicture() {
   if (drawing_.isValid()) {
     is_outdated_ = true;
   } else {
-    Submit(pace_.scale());
+    Submit(pace_.fineness());
   }
 }
 
-void OperatorView::Submit(double scale) {
-  const QSize size = LargestPicture() * scale;
+void OperatorView::Submit(const PictureFineness& fineness) {
+  const QSize size = LargestPicture() * fineness.picture;
+  drawn_with_ = fineness;
   is_outdated_ = false;
   drawing_.start();
-  worker_.Submit({result_, *camera_, size.width(), size.height()});
+  worker_.Submit({result_, *camera_, size.width(), size.height(), fineness.hull});
 }
 
 QSize OperatorView::LargestPicture() const {
@@ -120,14 +121,13 @@ void OperatorView::ShowPicture(const QImage& picture, const control::RenderReque
   if (!result_ || request.result->layout != result_->layout)
     return AskForPicture();  // of a trial that is over
   last_error_.clear();
-  const bool is_at_pace = request.width_px == (LargestPicture() * pace_.scale()).width();
-  if (is_at_pace) pace_.Add(drawing_ms);
+  if (drawn_with_ == pace_.fineness()) pace_.Add(drawing_ms);
   picture_ = picture;
   picture_frame_ = request.result->frame;
   update();
   if (is_outdated_) {
-    Submit(pace_.scale());
-  } else if (picture.size() != LargestPicture()) {
+    Submit(pace_.fineness());
+  } else if (drawn_with_ != PicturePace::kFinest) {
     rest_.start();
   }
   emit PictureShown(picture_frame_, drawing_ms);

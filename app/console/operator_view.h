@@ -21,7 +21,7 @@ namespace elbowroom::console {
 
 // Left drag orbits, right or middle drag pans, the wheel zooms, a double click fits. Never waits for a
 // picture: until the next one comes the last one is shown, scaled to the widget. One is asked for at a time,
-// of the latest frame and camera, as large as keeps it fluid; a scene that rests is drawn once more in full.
+// of the latest frame and camera, as fine as keeps it fluid; a scene that rests is drawn once more in full.
 // Thread: UI.
 class OperatorView : public QWidget {
   Q_OBJECT
@@ -53,7 +53,7 @@ class OperatorView : public QWidget {
  private:
   void Turn(const recon::OrbitCamera& camera);
   void AskForPicture();
-  void Submit(double scale);
+  void Submit(const PictureFineness& fineness);
   void ShowPicture(const QImage& picture, const control::RenderRequest& request);
   void PaintCaption(QPainter& painter) const;
   [[nodiscard]] QSize LargestPicture() const;
@@ -63,8 +63,9 @@ class OperatorView : public QWidget {
   QImage picture_;
   qint64 picture_frame_ = 0;
   PicturePace pace_;
-  QElapsedTimer drawing_;     // valid while a picture is asked for
-  bool is_outdated_ = false;  // what is being drawn
+  PictureFineness drawn_with_;  // the picture asked for last
+  QElapsedTimer drawing_;       // valid while a picture is asked for
+  bool is_outdated_ = false;    // what is being drawn
   QTimer rest_;
   QString last_error_;  // told once, until a picture succeeds
   QPointF last_mouse_px_;

@@ -1,4 +1,4 @@
-// How large the operator's pictures may be to keep up with the trial.
+// How fine the operator's pictures may be to keep up with the trial.
 #pragma once
 
 #include <array>
@@ -6,22 +6,32 @@
 
 namespace elbowroom::console {
 
-// Follows the machine: pictures shrink where they take too long to draw and grow again where there is time,
-// in a few steps, so that the size doesn't change with every picture. Thread: one.
+// A picture's side and the hull's resolution in it, as shares of the finest.
+struct PictureFineness {
+  double picture = 1.0;
+  double hull = 1.0;
+  double relative_cost = 1.0;  // of drawing, roughly: casting the hull's rays takes most of it
+
+  [[nodiscard]] bool operator==(const PictureFineness&) const = default;
+};
+
+// Follows the machine: pictures become coarser where they take too long to draw and finer again where there
+// is time, in a few steps and with patience, so that they don't change to and fro. Thread: one.
 class PicturePace {
  public:
-  static constexpr double kAimMs = 120.0;  // a picture this old still follows the hand
+  static constexpr double kAimMs = 140.0;  // a picture this old still follows the hand
+  static constexpr PictureFineness kFinest{};
 
-  // Of the side of the largest picture.
-  [[nodiscard]] double scale() const { return kScales[step_]; }
+  [[nodiscard]] const PictureFineness& fineness() const { return kSteps[step_]; }
 
-  void Add(double drawing_ms);  // of the last picture, drawn at scale()
+  void Add(double drawing_ms);  // of a picture drawn with fineness()
 
  private:
-  static constexpr std::array<double, 5> kScales = {1.0, 0.8, 0.6, 0.45, 0.35};
+  static constexpr std::array<PictureFineness, 4> kSteps = {
+      {{1.0, 1.0, 1.0}, {1.0, 0.5, 0.36}, {0.8, 0.5, 0.23}, {0.65, 0.5, 0.15}}};
 
   std::size_t step_ = 0;
-  int in_a_row_ = 0;  // pictures that asked for the same change: above zero smaller, below zero larger
+  int in_a_row_ = 0;  // pictures that asked for the same change: above zero coarser, below zero finer
 };
 
 }  // namespace elbowroom::console

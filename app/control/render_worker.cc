@@ -24,7 +24,7 @@ void RenderWorker::Run() {
         driver_ = renderer->driver();
       }
       const recon::SceneView view = recon::ViewFrom(request->camera, request->width_px, request->height_px);
-      on_image_(renderer->Render(ComposeScene(*request->result, view)), *request);
+      on_image_(renderer->Render(ComposeScene(*request->result, view, request->hull_scale)), *request);
     } catch (const std::exception& error) {  // the worker's outermost loop: nothing may escape a thread
       on_error_(error.what());
     }

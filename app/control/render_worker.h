@@ -18,6 +18,7 @@ struct RenderRequest {
   recon::OrbitCamera camera;
   int width_px = 640;
   int height_px = 480;
+  double hull_scale = 1.0;  // as ComposeScene
 };
 
 // The latest request wins: one that comes while a picture is being drawn replaces one that waits.

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/camera_model.h"
+#include "core/error.h"
 #include "core/units.h"
 #include "recon/hull_mesh.h"
 #include "recon/ray_cast.h"
@@ -24,6 +25,16 @@ constexpr std::array<std::array<float, 3>, 6> kPartColors = {{{0.55F, 0.63F, 0.7
                                                               {0.66F, 0.60F, 0.72F},
                                                               {0.70F, 0.62F, 0.60F},
                                                               {0.55F, 0.69F, 0.71F}}};
+
+// The same picture with fewer pixels.
+recon::SceneView Scaled(const recon::SceneView& view, double scale) {
+  core::Require(scale > 0.0 && scale <= 1.0, "a hull's share of a picture's side is within (0, 1]");
+  recon::SceneView scaled = view;
+  scaled.width_px = std::max(1, static_cast<int>(std::lround(scale * view.width_px)));
+  scaled.height_px = std::max(1, static_cast<int>(std::lround(scale * view.height_px)));
+  scaled.focal_px = view.focal_px * scaled.width_px / view.width_px;
+  return scaled;
+}
 
 core::CameraModel CameraOf(const recon::SceneView& view) {
   core::CameraCalibration calibration;
@@ -109,17 +120,18 @@ std::size_t CountHidden(const std::vector<core::ContactPoint>& points, const Vec
 
 }  // namespace
 
-recon::gl::Scene ComposeScene(const FrameResult& result, const recon::SceneView& view) {
+recon::gl::Scene ComposeScene(const FrameResult& result, const recon::SceneView& view, double hull_scale) {
   recon::gl::Scene scene;
   scene.view = view;
-  recon::HullView hull = recon::ViewHull(*result.hull, CameraOf(view), kViewStepMm);
+  const recon::SceneView hull_view = Scaled(view, hull_scale);
+  recon::HullView hull = recon::ViewHull(*result.hull, CameraOf(hull_view), kViewStepMm);
   for (core::PartIndex i = 0; i < result.layout->parts.size(); ++i) {
     recon::gl::ScenePart part;
     part.mesh = result.layout->parts[i].mesh;
     part.world_from_part = result.world_from_parts[i];
     part.color = Eigen::Vector3f(kPartColors[i % kPartColors.size()].data());
     part.in_contact = result.contacts[i].verdict == core::Verdict::kContact;
-    if (HiddenShare(hull, view, BoundsInWorld(result, i)) > kHidesShare) part.opacity = kSeeThrough;
+    if (HiddenShare(hull, hull_view, BoundsInWorld(result, i)) > kHidesShare) part.opacity = kSeeThrough;
     scene.parts.push_back(std::move(part));
     for (const core::ContactPoint& point : result.contacts[i].points) {
       scene.contact_points_in_world.push_back(point.position_in_world_mm);

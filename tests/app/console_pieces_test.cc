@@ -192,25 +192,27 @@ TEST(FrameRate, CountsFramesByNumberOverTheLastTwoSeconds) {
   EXPECT_DOUBLE_EQ(*rate.frames_per_s(), 10.0);
 }
 
-TEST(PicturePace, ShrinksPicturesOnASlowMachineAndGrowsThemBack) {
+TEST(PicturePace, CoarsensPicturesOnASlowMachineAndRefinesThemAgain) {
   PicturePace pace;
-  EXPECT_EQ(pace.scale(), 1.0);
-  // Drawing time as the number of pixels has it: 400 ms for a full picture.
-  for (int i = 0; i < 20; ++i) pace.Add(400.0 * pace.scale() * pace.scale());
-  EXPECT_LE(400.0 * pace.scale() * pace.scale(), PicturePace::kAimMs);
-  const double settled = pace.scale();
-  for (int i = 0; i < 20; ++i) {
-    pace.Add(400.0 * pace.scale() * pace.scale());
-    EXPECT_EQ(pace.scale(), settled);  // no to and fro
+  EXPECT_EQ(pace.fineness(), PicturePace::kFinest);
+  const auto draw = [&](double finest_ms) {
+    for (int i = 0; i < 20; ++i) pace.Add(finest_ms * pace.fineness().relative_cost);
+  };
+  for (const double finest_ms : {200.0, 300.0, 450.0, 600.0, 900.0}) {
+    draw(finest_ms);
+    EXPECT_LE(finest_ms * pace.fineness().relative_cost, PicturePace::kAimMs);
+    const PictureFineness settled = pace.fineness();
+    draw(finest_ms);
+    EXPECT_EQ(pace.fineness(), settled);  // no to and fro
   }
-  for (int i = 0; i < 20; ++i) pace.Add(40.0 * pace.scale() * pace.scale());
-  EXPECT_EQ(pace.scale(), 1.0);
+  draw(50.0);
+  EXPECT_EQ(pace.fineness(), PicturePace::kFinest);
 }
 
 TEST(PicturePace, OneSlowPictureChangesNothing) {
   PicturePace pace;
   for (int i = 0; i < 10; ++i) pace.Add(i % 2 == 0 ? 1000.0 : 20.0);
-  EXPECT_EQ(pace.scale(), 1.0);
+  EXPECT_EQ(pace.fineness(), PicturePace::kFinest);
 }
 
 TEST(SessionName, SortsByTime) {
