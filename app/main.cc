@@ -11,6 +11,10 @@ int main(int argc, char** argv) {
     options.trial_file = request.trial_file;
     options.demo = request.demo;
     options.session = request.session;
+    if (request.picture) {
+      options.picture = elbowroom::console::PictureOrder{request.picture->png, request.picture->after_s,
+                                                         request.picture->gap_mm, !request.picture->gap_mm};
+    }
     return elbowroom::console::RunConsole(options);
   });
 #else

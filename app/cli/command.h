@@ -34,11 +34,19 @@ struct CommandResult {
 // What a subcommand does once its words have been understood.
 using CommandAction = std::function<CommandResult(const CommandContext&)>;
 
+// A picture of the window at work, after which it closes.
+struct WindowPictureRequest {
+  std::filesystem::path png;
+  double after_s = 0.0;          // of the trial's time
+  std::optional<double> gap_mm;  // set the layout's first spacing to this; nothing: wait for a touch
+};
+
 // What the window is opened with.
 struct ConsoleRequest {
   std::filesystem::path trial_file;  // empty: none
   bool demo = false;                 // start the demo at once
   std::filesystem::path session;     // empty: the window asks
+  std::optional<WindowPictureRequest> picture;
 };
 
 // What the words on the command line chose.

@@ -16,6 +16,7 @@ namespace {
 struct DemoOptions {
   std::filesystem::path out = "out";
   bool headless = false;
+  WindowPictureRequest picture;  // without a file: none
 };
 
 void MakeFolder(const std::filesystem::path& folder) {
@@ -64,11 +65,20 @@ void AddDemoCommand(CLI::App& app, Choice* choice) {
   command->add_option("--out", options->out, "folder for what the demo writes (default: out)");
   command->add_flag("--headless", options->headless,
                     "no window: play the task at 140 and 240 mm, then write the report");
+  CLI::Option* picture = command->add_option("--picture", options->picture.png,
+                                             "write a picture of the window as PNG, then close it");
+  command->add_option("--after", options->picture.after_s, "seconds of the trial before the picture")
+      ->needs(picture);
+  command
+      ->add_option("--gap", options->picture.gap_mm,
+                   "set the gap to this for the picture, mm (default: wait for a touch)")
+      ->needs(picture);
   command->callback([=] {
     if (options->headless) {
       choice->action = [=](const CommandContext& context) { return RunHeadless(*options, context); };
     } else {
-      choice->console = ConsoleRequest{{}, true, options->out / "session.db"};
+      choice->console = ConsoleRequest{{}, true, options->out / "session.db", {}};
+      if (!options->picture.png.empty()) choice->console->picture = options->picture;
     }
   });
 }

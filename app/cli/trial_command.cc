@@ -72,7 +72,7 @@ void AddTrialCommand(CLI::App& app, Choice* choice) {
     if (options->headless) {
       choice->action = [=](const CommandContext& context) { return RunHeadless(*options, context); };
     } else {
-      choice->console = ConsoleRequest{options->trial_file, false, options->session};
+      choice->console = ConsoleRequest{options->trial_file, false, options->session, {}};
     }
   });
 }
