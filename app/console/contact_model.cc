@@ -2,6 +2,7 @@
 
 #include <QLocale>
 #include <array>
+#include <cmath>
 #include <utility>
 
 #include "app/console/lower_bound_text.h"
@@ -24,10 +25,10 @@ constexpr std::array<Heading, ContactModel::kColumns> kHeadings = {
 QString PositionText(const core::PartContact& contact) {
   if (!contact.deepest) return "–";
   const Eigen::Vector3d& position_mm = contact.deepest->position_in_world_mm;
-  return QString("%1, %2, %3")
-      .arg(position_mm.x(), 0, 'f', 0)
-      .arg(position_mm.y(), 0, 'f', 0)
-      .arg(position_mm.z(), 0, 'f', 0);
+  const auto text = [](double coordinate_mm) {
+    return QString::number(std::round(coordinate_mm) + 0.0, 'f', 0);  // + 0.0: no "-0"
+  };
+  return text(position_mm.x()) + ", " + text(position_mm.y()) + ", " + text(position_mm.z());
 }
 
 QString CellText(const core::PartContact& contact, int column) {
