@@ -1,7 +1,6 @@
 #include "recon/image_file.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -131,25 +130,6 @@ bool IsJpeg(const std::filesystem::path& path) {
   std::string start(kJpegSignature.size(), '\0');
   file.read(start.data(), static_cast<std::streamsize>(start.size()));
   return file && start == kJpegSignature;
-}
-
-void WriteFileWhole(const std::filesystem::path& path, const std::string& bytes) {
-  const std::filesystem::path temporary = fmt::format("{}.{}.part", path.string(), ::getpid());
-  std::error_code error;
-  {
-    std::ofstream file(temporary, std::ios::binary | std::ios::trunc);
-    file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    file.close();
-    if (!file) error = std::make_error_code(std::errc::io_error);
-  }
-  if (!error) std::filesystem::rename(temporary, path, error);
-  if (!error) return;
-  std::error_code ignored;
-  std::filesystem::remove(temporary, ignored);
-  throw Error(ErrorKind::kFile,
-              fmt::format("'{}' can't be written; check that its folder exists, may be written to "
-                          "and has space",
-                          path.string()));
 }
 
 }  // namespace elbowroom::recon

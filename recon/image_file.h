@@ -19,8 +19,4 @@ namespace elbowroom::recon {
 // True for a file that begins as a JPEG does.
 [[nodiscard]] bool IsJpeg(const std::filesystem::path& path);
 
-// The file "whole or not at all": `bytes` go to a temporary file beside `path`, which then takes its name.
-// Throws: Error{kFile} if that fails; nothing is left behind then.
-void WriteFileWhole(const std::filesystem::path& path, const std::string& bytes);
-
 }  // namespace elbowroom::recon

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/whole_file.h"
 #include "recon/image_file.h"
 
 namespace elbowroom::recon {
@@ -71,7 +72,7 @@ void WriteMaskPng(const core::BitMask& mask, const std::filesystem::path& path) 
   core::Require(mask.width_px() > 0 && mask.height_px() > 0, "a mask that is written has pixels");
   std::vector<std::uint8_t> png;
   cv::imencode(".png", ImageFromMask(mask), png);
-  WriteFileWhole(path, std::string(png.begin(), png.end()));
+  core::WriteWholeFile(path, {reinterpret_cast<const char*>(png.data()), png.size()});
 }
 
 }  // namespace elbowroom::recon

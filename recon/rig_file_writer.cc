@@ -5,7 +5,7 @@
 #include <string>
 
 #include "core/error.h"
-#include "recon/image_file.h"
+#include "core/whole_file.h"
 #include "recon/rig_file.h"
 #include "recon/source_location.h"
 
@@ -80,7 +80,7 @@ void WriteRigFile(const RigFile& rig_file, const std::filesystem::path& path) {
     add("background", rig_file.sources[i].background);
     add("masks", rig_file.sources[i].masks);
   }
-  WriteFileWhole(path, text);
+  core::WriteWholeFile(path, text);
 }
 
 }  // namespace elbowroom::recon

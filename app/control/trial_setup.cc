@@ -85,6 +85,9 @@ std::map<std::string, std::string> SettingsOf(const recon::SegmentationOptions& 
           {"segmentation.floor_levels", fmt::format("{}", options.floor_levels)},
           {"segmentation.min_blob_px", fmt::format("{}", options.min_blob_px)},
           {"segmentation.max_hole_px", fmt::format("{}", options.max_hole_px)},
+          {"segmentation.edge_slack_px", fmt::format("{}", options.edge_slack_px)},
+          {"segmentation.shadow_darkest", fmt::format("{}", options.shadow_darkest)},
+          {"segmentation.shadow_chroma", fmt::format("{}", options.shadow_chroma)},
           {"segmentation.shadows", std::string(ToString(options.shadows))}};
 }
 
