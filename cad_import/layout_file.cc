@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "cad_import/mesh_file.h"
-#include "cad_import/spelling.h"
 #include "cad_import/toml_entry.h"
 #include "core/error.h"
+#include "core/spelling.h"
 
 namespace elbowroom::cad_import {
 namespace {
@@ -67,7 +67,7 @@ void RequirePart(const core::Layout& layout, const TomlEntry& entry, std::string
   if (layout.FindPart(name)) return;
   std::vector<std::string_view> known;
   for (const core::Part& part : layout.parts) known.emplace_back(part.name);
-  const auto nearest = NearestWord(name, known);
+  const auto nearest = core::NearestWord(name, known);
   entry.Fail(
       key, fmt::format("names no part: '{}'; {}", name,
                        nearest ? fmt::format("did you mean '{}'?", *nearest) : "use the name of a [[part]]"));

@@ -98,13 +98,19 @@ std::string_view ToString(MeshFormat format) { return kFormats[static_cast<std::
 
 bool CarriesUnit(MeshFormat format) { return format == MeshFormat::kGltf || format == MeshFormat::kGlb; }
 
-MeshFormat FormatOfExtension(const std::filesystem::path& path) {
+std::optional<MeshFormat> FindFormat(const std::filesystem::path& path) {
   std::string extension = path.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   for (const FormatRow& row : kFormats) {
     if (row.extension == extension) return row.format;
   }
+  return std::nullopt;
+}
+
+MeshFormat FormatOfExtension(const std::filesystem::path& path) {
+  if (const std::optional<MeshFormat> format = FindFormat(path)) return *format;
+  const std::string extension = path.extension().string();
   FailFormat(path.string(),
              fmt::format("'{}' files can't be read; export the part as .stl, .obj, .ply, .gltf or .glb",
                          extension.empty() ? "extensionless" : extension));

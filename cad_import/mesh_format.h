@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -13,6 +14,9 @@ enum class MeshFormat { kStl, kObj, kPly, kGltf, kGlb };
 
 // True for glTF and GLB, which are in metres by their specification; the others don't say.
 [[nodiscard]] bool CarriesUnit(MeshFormat format);
+
+// The format that the path's extension names (any case); nothing for another one.
+[[nodiscard]] std::optional<MeshFormat> FindFormat(const std::filesystem::path& path);
 
 // The format that the file's extension names (any case).
 // Throws: Error{kFormat} naming what is supported.

@@ -6,6 +6,7 @@
 #include <assimp/Exporter.hpp>
 #include <exception>
 #include <memory>
+#include <optional>
 
 #include "cad_import/mesh_file.h"
 #include "cad_import/mesh_format.h"
@@ -24,17 +25,10 @@ struct Target {
   double mm_per_unit;
 };
 Target TargetOf(const std::filesystem::path& path) {
-  switch (FormatOfExtension(path)) {
-    case MeshFormat::kPly:
-      return {"plyb", 1.0};
-    case MeshFormat::kStl:
-      return {"stlb", 1.0};
-    case MeshFormat::kGlb:
-      return {"glb2", 1000.0};
-    case MeshFormat::kObj:
-    case MeshFormat::kGltf:
-      break;
-  }
+  const std::optional<MeshFormat> format = FindFormat(path);
+  if (format == MeshFormat::kPly) return {"plyb", 1.0};
+  if (format == MeshFormat::kStl) return {"stlb", 1.0};
+  if (format == MeshFormat::kGlb) return {"glb2", 1000.0};
   throw Error(ErrorKind::kFormat,
               fmt::format("{}: meshes are written as .ply, .stl or .glb; choose one of these extensions",
                           path.string()));

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "cad_import/spelling.h"
+#include "core/spelling.h"
 
 namespace elbowroom::cad_import {
 
@@ -31,7 +31,7 @@ TomlEntry::TomlEntry(const toml::table& table, std::string file, std::string tit
     : table_(table), file_(std::move(file)), title_(std::move(title)) {
   for (const auto& [key, value] : table_) {
     if (std::find(known.begin(), known.end(), key.str()) != known.end()) continue;
-    const auto nearest = NearestWord(key.str(), {known.begin(), known.size()});
+    const auto nearest = core::NearestWord(key.str(), {known.begin(), known.size()});
     FailAt(key.source(), fmt::format("unknown key '{}'; {}", key.str(),
                                      nearest ? fmt::format("did you mean '{}'?", *nearest) : "remove it"));
   }

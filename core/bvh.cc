@@ -62,6 +62,8 @@ Ball BallOf(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vec
 
 TriangleTree::TriangleTree(SharedMesh mesh) : mesh_(std::move(mesh)) {
   Require(mesh_ != nullptr, "a tree has a mesh");
+  is_closed_ = IsWatertight(*mesh_);
+  bounds_ = BoundsOf(*mesh_);
   order_.resize(mesh_->triangles.size());
   std::iota(order_.begin(), order_.end(), 0U);
   if (order_.empty()) return;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -34,6 +35,8 @@ class TriangleTree {
   explicit TriangleTree(SharedMesh mesh);
 
   [[nodiscard]] const TriangleMesh& mesh() const { return *mesh_; }
+  [[nodiscard]] bool is_closed() const { return is_closed_; }  // as IsWatertight
+  [[nodiscard]] const Eigen::AlignedBox3d& bounds() const { return bounds_; }
   [[nodiscard]] std::span<const Node> nodes() const { return nodes_; }
   [[nodiscard]] std::span<const std::uint32_t> order() const { return order_; }
 
@@ -41,6 +44,8 @@ class TriangleTree {
   void Build(std::uint32_t node);
 
   SharedMesh mesh_;
+  bool is_closed_ = false;
+  Eigen::AlignedBox3d bounds_;
   std::vector<Node> nodes_;
   std::vector<std::uint32_t> order_;
 };

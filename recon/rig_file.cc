@@ -3,12 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <fstream>
 #include <opencv2/core.hpp>
 #include <optional>
+#include <span>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "core/error.h"
+#include "core/spelling.h"
 #include "recon/quiet_opencv.h"
 #include "recon/source_location.h"
 
@@ -35,7 +39,30 @@ struct Section {
     if (found.empty()) Fail(fmt::format("key '{}' is missing; add it: {}", key, shape));
     return found;
   }
+
+  // An unknown key is nobody's business unless it looks like a slip: `unsen` would change the hull unseen.
+  void RefuseMisspelt(std::span<const std::string_view> known) const {
+    for (const std::string& key : node.keys()) {
+      if (std::find(known.begin(), known.end(), key) != known.end()) continue;
+      if (const auto meant = core::NearestWord(key, known)) {
+        Fail(fmt::format("unknown key '{}'; did you mean '{}'?", key, *meant));
+      }
+    }
+  }
 };
+
+constexpr std::string_view kRigKeys[] = {"rig_name", "workspace_mm", "unseen", "cameras"};
+constexpr std::string_view kCameraKeys[] = {"name",
+                                            "image_width",
+                                            "image_height",
+                                            "camera_matrix",
+                                            "distortion_model",
+                                            "distortion_coefficients",
+                                            "rotation_cam_from_world",
+                                            "translation_cam_from_world_mm",
+                                            "frames",
+                                            "background",
+                                            "masks"};
 
 // Appends every number of a list or of lists in it; false if something else is among them.
 bool AppendNumbers(const cv::FileNode& node, std::vector<double>& numbers) {
@@ -137,7 +164,8 @@ cv::FileStorage OpenStorage(const std::filesystem::path& path, const std::string
   if (!std::filesystem::exists(path, ignored))
     throw Error(ErrorKind::kFile, file + ": does not exist; check the path");
   if (!std::filesystem::is_regular_file(path, ignored))
-    throw Error(ErrorKind::kFile, file + ": is not a file");
+    throw Error(ErrorKind::kFile, file + ": is not a file; name the rig's YAML file");
+  if (!std::ifstream(path)) throw Error(ErrorKind::kFile, file + ": can't be read; check its permissions");
   try {
     cv::FileStorage storage(path.string(), cv::FileStorage::READ);
     if (storage.isOpened() && storage.root().isMap()) return storage;
@@ -167,6 +195,9 @@ void AddCamera(const cv::FileNode& node, const std::string& file, const std::fil
   if (name.empty())
     section.Fail("key 'name' is missing or empty; give the camera a name that no other bears");
   section.who = fmt::format("{}: camera '{}'", file, name);
+  if (name.find('/') != std::string::npos || name == "." || name == "..")
+    section.Fail("this name can't be part of a file's name; choose one without '/'");
+  section.RefuseMisspelt(kCameraKeys);
   for (const core::CameraModel& other : rig_file.rig.cameras) {
     if (other.name() == name) section.Fail("this name occurs twice; give every camera its own");
   }
@@ -184,6 +215,7 @@ RigFile ReadRigFile(const std::filesystem::path& path) {
   return Guarded(file, [&] {
     const cv::FileStorage storage = OpenStorage(path, file);
     const Section root{storage.root(), file};
+    root.RefuseMisspelt(kRigKeys);
     RigFile rig_file;
     rig_file.rig.name = Text(root, "rig_name", path.stem().string());
     rig_file.rig.workspace_mm = ReadWorkspace(root);

@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "recon/ray_cast.h"
+#include "review/containment.h"
 #include "review/point_spread.h"
 
 namespace elbowroom::review {
@@ -14,6 +15,9 @@ namespace {
 
 using Eigen::Vector3d;
 using recon::BallAnswer;
+
+// Hull inside a closed part is looked for in at most this many cells along the part's longest side.
+constexpr double kContainmentCells = 64.0;
 
 struct Triangle {
   Vector3d a, b, c;  // in world
@@ -221,7 +225,17 @@ core::PartContact FindContacts(const recon::VisualHull& hull, const core::Triang
   contact.count.skipped = search.count().skipped;
 
   std::vector<core::ContactPoint> points = search.TakePoints();
-  if (points.empty()) return contact;
+  if (points.empty()) {
+    if (contact.count.queries == 1) return contact;  // the ball around the whole part is outside the hull
+    const double cell_mm =
+        std::max(4.0 * contact.resolution_mm, part.bounds().sizes().maxCoeff() / kContainmentCells);
+    contact.contained_in_world_mm =
+        FindHullInside(hull, part, world_from_part, cell_mm, &contact.count.queries);
+    if (!contact.contained_in_world_mm) return contact;
+    contact.verdict = core::Verdict::kContact;
+    contact.recovery_status = core::RecoveryStatus::kNoDirection;
+    return contact;
+  }
   contact.verdict = core::Verdict::kContact;
   contact.contact_point_count = static_cast<std::int64_t>(points.size());
   for (const core::ContactPoint& point : points) contact.contact_area_mm2 += point.area_mm2;

@@ -32,8 +32,8 @@ struct ContactOptions {
 //
 // Surface that the ball query calls outside or inside is certified; surface within one piece of `resolution`
 // of the hull's boundary is decided by the piece's centre, so a contact smaller than that can be missed and
-// the area is good to (boundary length x resolution). Only the part's surface is asked: a hull wholly inside
-// a closed part, touching no face, is not found. Held to a brute-force oracle by
+// the area is good to (boundary length x resolution). A hull that touches no face but stands inside a closed
+// part is a contact without points (containment.h says how small it may be). Held to a brute-force oracle by
 // tests/review/contacts_test.cc. Thread: any.
 [[nodiscard]] core::PartContact FindContacts(const recon::VisualHull& hull, const core::TriangleTree& part,
                                              const core::RigidTransform& world_from_part,

@@ -25,9 +25,10 @@ void MeasureTime(ReportData& data) {
 double DepthOf(const ContactRow& row) { return row.contact.deepest ? row.contact.deepest->depth_mm : 0.0; }
 
 // The deepest contact of each frame that has one.
-std::map<core::FrameIndex, double> DepthByFrame(const ReportData& data) {
+std::map<core::FrameIndex, double> DepthByFrame(const ReportData& data, core::SpacingIndex spacing) {
   std::map<core::FrameIndex, double> depth_mm;
   for (const ContactRow& row : data.contacts) {
+    if (!IsBoundedBy(data, row.contact.part, spacing)) continue;
     double& deepest = depth_mm[row.frame];
     deepest = std::max(deepest, DepthOf(row));
   }
@@ -50,8 +51,8 @@ void SumUpParts(const SessionReader& session, ReportData& data) {
   data.frames_in_contact = static_cast<std::int64_t>(touched.size());
 }
 
-std::map<double, SpacingLevel> LevelsOf(const ReportData& data, core::SpacingIndex spacing,
-                                        const std::map<core::FrameIndex, double>& depth_by_frame) {
+std::map<double, SpacingLevel> LevelsOf(const ReportData& data, core::SpacingIndex spacing) {
+  const std::map<core::FrameIndex, double> depth_by_frame = DepthByFrame(data, spacing);
   std::map<double, SpacingLevel> levels;
   for (std::size_t i = 0; i < data.frames.size(); ++i) {
     SpacingLevel& level = levels[data.frames[i].spacing_mm[spacing]];
@@ -64,14 +65,14 @@ std::map<double, SpacingLevel> LevelsOf(const ReportData& data, core::SpacingInd
     level.deepest_mm = std::max(level.deepest_mm, depth->second);
   }
   for (const core::ContactEpisode& episode : data.episodes) {
+    if (!IsBoundedBy(data, episode.part, spacing)) continue;
     const auto level = levels.find(episode.spacing_at_peak_mm.at(spacing));
     if (level != levels.end()) ++level->second.touches;
   }
   return levels;
 }
 
-SpacingStudy StudyOf(const ReportData& data, core::SpacingIndex spacing,
-                     const std::map<core::FrameIndex, double>& depth_by_frame) {
+SpacingStudy StudyOf(const ReportData& data, core::SpacingIndex spacing) {
   SpacingStudy study;
   study.spacing = spacing;
   for (const FrameSummary& frame : data.frames) {
@@ -79,7 +80,7 @@ SpacingStudy StudyOf(const ReportData& data, core::SpacingIndex spacing,
     if (study.steps.empty() || study.steps.back().spacing_mm != spacing_mm)
       study.steps.push_back({frame.time_s, spacing_mm});
   }
-  for (const auto& [spacing_mm, level] : LevelsOf(data, spacing, depth_by_frame)) {
+  for (const auto& [spacing_mm, level] : LevelsOf(data, spacing)) {
     study.levels.push_back(level);
     if (level.frames_in_contact > 0) {
       study.largest_touched_mm = spacing_mm;
@@ -99,6 +100,12 @@ std::optional<core::SpacingIndex> SpacingToJudge(const std::vector<SpacingStudy>
 
 }  // namespace
 
+bool IsBoundedBy(const ReportData& data, core::PartIndex part, core::SpacingIndex spacing) {
+  const core::Spacing& gap = data.header.layout.spacings[spacing];
+  const std::string& name = data.header.layout.parts[part].name;
+  return name == gap.moving || name == gap.reference;
+}
+
 ReportData CollectReportData(const SessionReader& session) {
   ReportData data;
   data.session_name = session.path().filename().string();
@@ -111,9 +118,8 @@ ReportData CollectReportData(const SessionReader& session) {
   data.contacts = session.contacts();
   MeasureTime(data);
   SumUpParts(session, data);
-  const std::map<core::FrameIndex, double> depth_by_frame = DepthByFrame(data);
   for (core::SpacingIndex i = 0; i < data.header.layout.spacings.size(); ++i) {
-    data.spacings.push_back(StudyOf(data, i, depth_by_frame));
+    data.spacings.push_back(StudyOf(data, i));
   }
   data.judged_spacing = SpacingToJudge(data.spacings);
   return data;

@@ -15,8 +15,8 @@ struct SpacingLevel {
   double spacing_mm = 0.0;
   double held_s = 0.0;  // in all
   std::int64_t frames = 0;
-  std::int64_t frames_in_contact = 0;  // of any part
-  std::int64_t touches = 0;            // whose deepest moment was at this value
+  std::int64_t frames_in_contact = 0;  // of one of the two parts that the spacing lies between
+  std::int64_t touches = 0;            // of those, whose deepest moment was at this value
   double deepest_mm = 0.0;
 };
 
@@ -65,6 +65,9 @@ struct ReportData {
   std::int64_t frames_in_contact = 0;
   double deepest_mm = 0.0;
 };
+
+// Whether the part is one of the two that the spacing lies between: a touch of another says nothing of it.
+[[nodiscard]] bool IsBoundedBy(const ReportData& data, core::PartIndex part, core::SpacingIndex spacing);
 
 [[nodiscard]] ReportData CollectReportData(const SessionReader& session);
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <vector>
 
 namespace elbowroom::sessions {
@@ -28,6 +29,10 @@ const SpacingStudy* Judged(const ReportData& data) {
 std::string AtWhichSpacings(const ReportData& data) {
   const SpacingStudy* study = Judged(data);
   if (study == nullptr || !study->largest_touched_mm) return "";
+  const bool is_about_all_touches = std::ranges::all_of(data.contacts, [&](const ContactRow& row) {
+    return IsBoundedBy(data, row.contact.part, study->spacing);
+  });
+  if (!is_about_all_touches) return "";
   std::vector<SpacingLevel> touched;
   for (const SpacingLevel& level : study->levels) {
     if (level.frames_in_contact > 0) touched.push_back(level);

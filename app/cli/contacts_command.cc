@@ -40,6 +40,7 @@ nlohmann::json Json(const core::PartContact& contact) {
                          {"recovery_status", ToString(contact.recovery_status)},
                          {"depth_mm", nullptr},
                          {"deepest_mm", nullptr},
+                         {"contained_mm", nullptr},
                          {"points", nlohmann::json::array()},
                          {"resolution_mm", contact.resolution_mm},
                          {"triangles", contact.count.triangles},
@@ -56,6 +57,7 @@ nlohmann::json Json(const core::PartContact& contact) {
     json["depth_mm"] = contact.deepest->depth_mm;
     json["deepest_mm"] = Json(contact.deepest->position_in_world_mm);
   }
+  if (contact.contained_in_world_mm) json["contained_mm"] = Json(*contact.contained_in_world_mm);
   for (const core::ContactPoint& point : contact.points)
     json["points"].push_back(Json(point.position_in_world_mm));
   return json;
@@ -108,7 +110,7 @@ void AddContactsCommand(CLI::App& app, Choice* choice) {
   command
       ->add_option("--resolution", options->resolution_mm,
                    "decide pieces of this size by their centre, mm (default: half a pixel's footprint)")
-      ->check(CLI::PositiveNumber);
+      ->check(PositiveLength());
   command->callback([=, &app] {
     const bool json = app.get_option("--json")->as<bool>();
     choice->action = [=](const CommandContext& context) { return Run(*options, context, json); };

@@ -7,6 +7,7 @@
 #include "app/cli/command.h"
 #include "app/cli/repeated_timing.h"
 #include "app/cli/rig_frame.h"
+#include "app/cli/unit_option.h"
 #include "cad_import/mesh_file.h"
 #include "core/error.h"
 #include "recon/hull_mesh.h"
@@ -62,7 +63,9 @@ void AddHullCommand(CLI::App& app, Choice* choice) {
   CLI::App* command = app.add_subcommand("hull", "write the hull of one frame as a closed mesh");
   auto options = std::make_shared<HullOptions>();
   AddRigFrameOptions(*command, &options->frame);
-  command->add_option("--edge", options->edge_mm, "edge length of the mesh's cells, mm")->required();
+  command->add_option("--edge", options->edge_mm, "edge length of the mesh's cells, mm")
+      ->required()
+      ->check(PositiveLength());
   command->add_option("--out", options->out, "mesh to write (.ply, .stl, .glb)")->required();
   command->callback([=, &app] {
     const bool json = app.get_option("--json")->as<bool>();

@@ -7,7 +7,7 @@
 
 namespace elbowroom::cli {
 
-// While it lives, SIGINT and SIGTERM ask the token to stop; a second one ends the program at once.
+// While it lives, SIGINT, SIGTERM and SIGHUP ask the token to stop; a second one ends the program at once.
 // Make it before other threads: they inherit the blocked signals.
 class InterruptWatch {
  public:

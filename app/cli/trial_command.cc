@@ -20,7 +20,7 @@ struct TrialRunOptions {
   control::FrameRange frames;
 };
 
-// "A:B", "A:" or ":B".
+// "A:B", "A:" or ":B", A below B.
 bool ParseRange(const std::string& text, control::FrameRange* range) {
   const std::size_t colon = text.find(':');
   if (colon == std::string::npos) return false;
@@ -34,7 +34,7 @@ bool ParseRange(const std::string& text, control::FrameRange* range) {
   if (colon + 1 == text.size()) return true;
   if (!number(colon + 1, text.size(), &end)) return false;
   range->end = end;
-  return true;
+  return range->first < end;
 }
 
 CommandResult RunHeadless(const TrialRunOptions& options, const CommandContext& context) {
@@ -62,11 +62,12 @@ void AddTrialCommand(CLI::App& app, Choice* choice) {
   command->add_option("--session", options->session, "session file to record; must not exist yet")
       ->required();
   command->add_flag("--headless", options->headless, "no window, as fast as it goes");
-  command->add_option("--frames", "frames A to B, B not included (default: all)")
+  command
+      ->add_option("--frames", "frames A to B, B not included; A: and :B leave one end open (default: all)")
       ->type_name("A:B")
       ->each([=](const std::string& text) {
         if (!ParseRange(text, &options->frames))
-          throw CLI::ValidationError("--frames", "must be A:B, two frame numbers from 0");
+          throw CLI::ValidationError("must be A:B, two frame numbers from 0 with A below B");
       });
   command->callback([=] {
     if (options->headless) {

@@ -107,6 +107,8 @@ class Recording {
 
   void Abandon() { writer_.Abandon(); }
 
+  [[nodiscard]] bool HasFrames() const { return outcome_.frames > 0; }
+
  private:
   void ApplyChanges(core::FrameIndex frame, double time_s) {
     for (const ScriptedChange& change : setup_.script) {
@@ -194,6 +196,11 @@ TrialOutcome RunTrial(const TrialSetup& setup, const TrialOptions& options, Tria
   } catch (...) {
     recording.Abandon();
     throw;
+  }
+  if (!recording.HasFrames()) {
+    recording.Abandon();
+    throw core::Error(core::ErrorKind::kCancelled,
+                      "the trial was stopped before its first frame; nothing was recorded");
   }
   return recording.Finish(EndNote(setup, end, stop));
 }

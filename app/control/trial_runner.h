@@ -42,10 +42,11 @@ struct TrialOutcome {
 };
 
 // Backgrounds are measured, the session is created, then each frame goes through the pipeline to the session,
-// whose writer never drops one. A stop ends the trial in order: the session is complete up to there. Footage
-// that turns out bad takes the session file away with it, so that nothing half-written stays.
-// Throws: core::Error: footage, session file, frame range beyond the footage, an unknown spacing in a wish is
-// ignored with a note in the session. Thread: the caller's; `controls` from any.
+// whose writer never drops one. A stop ends the trial in order: the session is complete up to there, or,
+// before the first frame, there is none (Error{kCancelled}). Footage that turns out bad takes the session
+// file away with it, so that nothing half-written stays. Throws: core::Error: footage, session file, frame
+// range beyond the footage, an unknown spacing in a wish is ignored with a note in the session. Thread: the
+// caller's; `controls` from any.
 TrialOutcome RunTrial(const TrialSetup& setup, const TrialOptions& options, TrialControls& controls,
                       std::stop_token stop);
 

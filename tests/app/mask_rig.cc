@@ -30,6 +30,17 @@ core::Rig FourAround() {
   return rig;
 }
 
+core::TriangleMesh Box(double size_mm) {
+  core::TriangleMesh box;
+  for (int i = 0; i < 8; ++i) {
+    box.vertices_mm.emplace_back(Eigen::Vector3d((i & 1) - 0.5, ((i >> 1) & 1) - 0.5, (i >> 2) - 0.5) *
+                                 size_mm);
+  }
+  box.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+                   {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+  return box;
+}
+
 }  // namespace
 
 std::filesystem::path WriteBallRig(const std::filesystem::path& folder) {
@@ -49,14 +60,14 @@ std::filesystem::path WriteBallRig(const std::filesystem::path& folder) {
 }
 
 void WriteBoxStl(const std::filesystem::path& file, double size_mm) {
-  core::TriangleMesh box;
-  for (int i = 0; i < 8; ++i) {
-    box.vertices_mm.emplace_back(Eigen::Vector3d((i & 1) - 0.5, ((i >> 1) & 1) - 0.5, (i >> 2) - 0.5) *
-                                 size_mm);
-  }
-  box.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
-                   {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
-  cad_import::WriteMeshFile(box, file);
+  cad_import::WriteMeshFile(Box(size_mm), file);
+}
+
+void WriteHollowBoxStl(const std::filesystem::path& file, double size_mm, double cavity_mm) {
+  core::TriangleMesh mesh = Box(size_mm), cavity = Box(cavity_mm);
+  for (auto& triangle : cavity.triangles) std::swap(triangle[1], triangle[2]);
+  core::Append(mesh, cavity);
+  cad_import::WriteMeshFile(mesh, file);
 }
 
 }  // namespace elbowroom::test_support

@@ -14,4 +14,7 @@ std::filesystem::path WriteBallRig(const std::filesystem::path& folder);
 // An STL box of that size about the origin, in millimetres.
 void WriteBoxStl(const std::filesystem::path& file, double size_mm);
 
+// The same with a box-shaped cavity in its middle.
+void WriteHollowBoxStl(const std::filesystem::path& file, double size_mm, double cavity_mm);
+
 }  // namespace elbowroom::test_support

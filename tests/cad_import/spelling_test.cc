@@ -1,4 +1,4 @@
-#include "cad_import/spelling.h"
+#include "core/spelling.h"
 
 #include <gtest/gtest.h>
 
@@ -8,16 +8,16 @@ namespace {
 constexpr std::string_view kKeys[] = {"name", "file", "position_mm", "rotation_rpy_deg", "min_mm", "max_mm"};
 
 TEST(NearestWord, FindsTheKeyThatWasMeant) {
-  EXPECT_EQ(NearestWord("positon_mm", kKeys), "position_mm");
-  EXPECT_EQ(NearestWord("rotation_deg", kKeys), "rotation_rpy_deg");
-  EXPECT_EQ(NearestWord("Name", kKeys), "name");
-  EXPECT_EQ(NearestWord("mx_mm", kKeys), "max_mm");
+  EXPECT_EQ(core::NearestWord("positon_mm", kKeys), "position_mm");
+  EXPECT_EQ(core::NearestWord("rotation_deg", kKeys), "rotation_rpy_deg");
+  EXPECT_EQ(core::NearestWord("Name", kKeys), "name");
+  EXPECT_EQ(core::NearestWord("mx_mm", kKeys), "max_mm");
 }
 
 TEST(NearestWord, OffersNothingForAWordUnlikeAll) {
-  EXPECT_EQ(NearestWord("colour", kKeys), std::nullopt);
-  EXPECT_EQ(NearestWord("xyz", kKeys), std::nullopt);
-  EXPECT_EQ(NearestWord("", kKeys), std::nullopt);
+  EXPECT_EQ(core::NearestWord("colour", kKeys), std::nullopt);
+  EXPECT_EQ(core::NearestWord("xyz", kKeys), std::nullopt);
+  EXPECT_EQ(core::NearestWord("", kKeys), std::nullopt);
 }
 
 }  // namespace

@@ -193,9 +193,26 @@ TEST(FindContacts, GapAndTouchOfATenthOfAMillimetre) {
   EXPECT_LE(touch.deepest->depth_mm, 0.1 + kBoxHullMm);
 }
 
-TEST(FindContacts, HullWhollyInsideAClosedPartIsNotFound) {
-  EXPECT_EQ(Find(BoxHull(), BoxAround(Vector3d::Zero(), 120.0)).verdict, core::Verdict::kClear)
-      << "contacts.h says so: only the surface is asked";
+TEST(FindContacts, HullWhollyInsideAClosedPartIsAContactWithoutPoints) {
+  const core::PartContact contact = Find(BoxHull(), BoxAround(Vector3d::Zero(), 120.0));
+  EXPECT_EQ(contact.verdict, core::Verdict::kContact);
+  EXPECT_EQ(contact.contact_point_count, 0);
+  EXPECT_EQ(contact.recovery_status, core::RecoveryStatus::kNoDirection);
+  ASSERT_TRUE(contact.contained_in_world_mm);
+  EXPECT_TRUE(BoxHull().Contains(*contact.contained_in_world_mm));
+}
+
+TEST(FindContacts, HullWhollyInsideAnOpenPartIsNotLookedFor) {
+  core::TriangleMesh open = BoxAround(Vector3d::Zero(), 120.0);
+  open.triangles.pop_back();
+  EXPECT_EQ(Find(BoxHull(), open).verdict, core::Verdict::kClear);
+}
+
+TEST(FindContacts, HullInTheCavityOfAClosedPartIsClear) {
+  core::TriangleMesh shell = BoxAround(Vector3d::Zero(), 200.0), cavity = BoxAround(Vector3d::Zero(), 120.0);
+  for (auto& triangle : cavity.triangles) std::swap(triangle[1], triangle[2]);
+  core::Append(shell, cavity);
+  EXPECT_EQ(Find(BoxHull(), shell).verdict, core::Verdict::kClear);
 }
 
 TEST(FindContacts, RecoveryBacksOutOfTheNearFace) {

@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "core/error.h"
-#include "recon/png_file.h"
 #include "recon/orbit_camera.h"
+#include "recon/png_file.h"
 #include "tests/recon/gl/sample_scene.h"
 
 namespace elbowroom::recon::gl {

@@ -1,11 +1,11 @@
-#include "cad_import/spelling.h"
+#include "core/spelling.h"
 
 #include <algorithm>
 #include <cstddef>
 #include <numeric>
 #include <vector>
 
-namespace elbowroom::cad_import {
+namespace elbowroom::core {
 namespace {
 
 // Levenshtein: letters to insert, delete or replace.
@@ -39,4 +39,4 @@ std::optional<std::string_view> NearestWord(std::string_view word, std::span<con
   return nearest;
 }
 
-}  // namespace elbowroom::cad_import
+}  // namespace elbowroom::core

@@ -5,10 +5,10 @@
 #include <span>
 #include <string_view>
 
-namespace elbowroom::cad_import {
+namespace elbowroom::core {
 
 // The known word that `word` is fewest edits away from, if those are few (a third of its letters).
 [[nodiscard]] std::optional<std::string_view> NearestWord(std::string_view word,
                                                           std::span<const std::string_view> known);
 
-}  // namespace elbowroom::cad_import
+}  // namespace elbowroom::core
