@@ -35,7 +35,7 @@ InterruptWatch::InterruptWatch() {
 
 InterruptWatch::~InterruptWatch() {
   is_over_ = true;
-  pthread_kill(thread_.native_handle(), SIGTERM);  // wakes the waiting thread, and only it
+  pthread_kill(thread_.native_handle(), SIGHUP);  // wakes the waiting thread, and only it
   thread_.join();
 }
 
