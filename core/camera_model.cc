@@ -113,6 +113,12 @@ CameraModel::CameraModel(CameraCalibration calibration) : calibration_(std::move
   }
 }
 
+bool CameraModel::is_ideal() const {
+  const std::vector<double>& k = calibration_.distortion_coefficients;
+  return calibration_.distortion_model != DistortionModel::kFisheye &&
+         std::all_of(k.begin(), k.end(), [](double coefficient) { return coefficient == 0.0; });
+}
+
 std::optional<Eigen::Vector2d> CameraModel::ProjectInCam(const Eigen::Vector3d& x_in_cam) const {
   if (!(x_in_cam.z() > 0.0)) return std::nullopt;
   const Eigen::Vector2d normalised = x_in_cam.head<2>() / x_in_cam.z();

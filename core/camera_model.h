@@ -50,6 +50,9 @@ class CameraModel {
   [[nodiscard]] const Eigen::Vector3d& center_in_world() const { return center_in_world_; }
   [[nodiscard]] double max_radius() const { return max_radius_; }
 
+  // No distortion: a pinhole.
+  [[nodiscard]] bool is_ideal() const;
+
   // Pixel position (may lie outside the image), or nothing: behind the camera plane or outside the domain.
   [[nodiscard]] std::optional<Eigen::Vector2d> Project(const Eigen::Vector3d& x_in_world) const {
     return ProjectInCam(calibration_.cam_from_world * x_in_world);

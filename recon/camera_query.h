@@ -8,20 +8,21 @@
 
 namespace elbowroom::recon {
 
-struct CameraAnswer {
-  bool is_object = false;         // the label of the point, exterior label where the camera can't see it
-  bool is_seen = false;           // the point is in the picture
-  double radius_mm = 0.0;         // certified: the label holds this far around
-  double seen_radius_mm = 0.0;    // certified: if seen, all points this near are in the picture too; else 0
-  double unseen_radius_mm = 0.0;  // certified: if unseen, all points this near are unseen too; else 0
+// What a labelled plane says of a point and of the ball around it. Points behind the camera are exterior.
+struct BallLabel {
+  bool is_object = false;
+  double radius_mm = 0.0;  // certified: the label holds this far around
 };
 
-// Frames: x_in_world. Exact as the silhouette's labels are; derivation in docs/algorithms.md.
-[[nodiscard]] CameraAnswer AskCamera(const core::CameraModel& camera, const Silhouette& silhouette,
-                                     bool exterior_is_object, const Eigen::Vector3d& x_in_world);
+// Frames: x_in_world. `focal_px` is the plane's. Derivation in docs/algorithms.md.
+[[nodiscard]] BallLabel AskPlane(const core::CameraModel& camera, double focal_px, const ContourMap& labels,
+                                 const Eigen::Vector3d& x_in_world);
 
 // The label alone.
-[[nodiscard]] bool IsObjectTo(const core::CameraModel& camera, const Silhouette& silhouette,
-                              bool exterior_is_object, const Eigen::Vector3d& x_in_world);
+[[nodiscard]] bool IsObjectTo(const core::CameraModel& camera, double focal_px, const ContourMap& labels,
+                              const Eigen::Vector3d& x_in_world);
+
+// The label of a point in the camera's frame, by parity: builds nothing. For one point in a frame.
+[[nodiscard]] bool LabelInCam(const ContourMap& labels, double focal_px, const Eigen::Vector3d& x_in_cam);
 
 }  // namespace elbowroom::recon

@@ -13,11 +13,6 @@ namespace elbowroom::recon {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-// A silhouette's edge is a staircase; its direction is taken over this many pixels.
-constexpr double kEdgeSpanPx = 4.0;
-
-bool ExteriorIsObject(const core::Rig& rig) { return rig.unseen == core::UnseenPolicy::kAbstain; }
-
 // Distance to the nearest face from inside.
 double DistanceToFace(const Eigen::AlignedBox3d& box, const Eigen::Vector3d& x) {
   return std::min((x - box.min()).minCoeff(), (box.max() - x).minCoeff());
@@ -31,86 +26,100 @@ double LessRounding(double distance_mm, const Eigen::Vector3d& x) {
 // What the cameras together say of a point: the inside needs all, the outside one.
 class Tally {
  public:
-  void Add(const CameraAnswer& answer) {
-    if (answer.is_object) {
-      inside_radius_mm_ = std::min(inside_radius_mm_, answer.radius_mm);
+  void Add(const BallLabel& label) {
+    if (label.is_object) {
+      inside_radius_mm_ = std::min(inside_radius_mm_, label.radius_mm);
     } else {
-      outside_radius_mm_ = std::max(outside_radius_mm_, answer.radius_mm);
+      outside_radius_mm_ = std::max(outside_radius_mm_, label.radius_mm);
       is_inside_ = false;
     }
-    if (answer.is_seen) seen_radius_mm_ = std::max(seen_radius_mm_, answer.seen_radius_mm);
-    unseen_radius_mm_ = std::min(unseen_radius_mm_, answer.unseen_radius_mm);
-    any_seen_ = any_seen_ || answer.is_seen;
+  }
+  void AddSight(const BallLabel& seen) {
+    asks_for_sight_ = true;
+    if (seen.is_object) {
+      any_sees_ = true;
+      seen_radius_mm_ = std::max(seen_radius_mm_, seen.radius_mm);
+      unseen_radius_mm_ = 0.0;
+    } else {
+      unseen_radius_mm_ = std::min(unseen_radius_mm_, seen.radius_mm);
+    }
   }
 
   [[nodiscard]] PointAnswer Sum() const {
-    if (!is_inside_) return {false, std::max(outside_radius_mm_, any_seen_ ? 0.0 : unseen_radius_mm_)};
-    if (!any_seen_) return {false, unseen_radius_mm_};  // nobody vouches for the point
+    const double nobody_mm = asks_for_sight_ ? unseen_radius_mm_ : 0.0;
+    if (!is_inside_) return {false, std::max(outside_radius_mm_, nobody_mm)};
+    if (!asks_for_sight_) return {true, inside_radius_mm_};
+    if (!any_sees_) return {false, nobody_mm};  // nobody vouches for the point
     return {true, std::min(inside_radius_mm_, seen_radius_mm_)};
   }
 
  private:
   bool is_inside_ = true;
-  bool any_seen_ = false;
+  bool asks_for_sight_ = false;
+  bool any_sees_ = false;
   double inside_radius_mm_ = kInfinity;
   double outside_radius_mm_ = 0.0;
   double seen_radius_mm_ = 0.0;  // the best witness's
   double unseen_radius_mm_ = kInfinity;
 };
 
+BallLabel AskSilhouette(const VisualHull& hull, std::size_t camera, const Eigen::Vector3d& x_in_world) {
+  const Silhouette& silhouette = *hull.silhouettes()[camera];
+  return AskPlane(hull.rig().cameras[camera], silhouette.plane().focal_px(), silhouette.labels(), x_in_world);
+}
+
+// Under `abstain` a point must be seen by someone; under `outside` an object pixel is a seen one.
+void AddSights(const VisualHull& hull, const Eigen::Vector3d& x_in_world, Tally* tally) {
+  if (!ExteriorIsObject(hull.rig())) return;
+  for (std::size_t i = 0; i < hull.silhouettes().size(); ++i) {
+    const PicturePlane& plane = hull.silhouettes()[i]->plane();
+    tally->AddSight(AskPlane(hull.rig().cameras[i], plane.focal_px(), plane.outline(), x_in_world));
+  }
+}
+
+// Throws: core::Error{kCamera} naming the camera.
+void CheckSize(const core::CameraModel& camera, const core::BitMask& mask) {
+  if (mask.width_px() == camera.width_px() && mask.height_px() == camera.height_px()) return;
+  throw core::Error(
+      core::ErrorKind::kCamera,
+      fmt::format("camera '{}': the mask is {} x {} but the rig says {} x {}; use masks of the "
+                  "calibrated size",
+                  camera.name(), mask.width_px(), mask.height_px(), camera.width_px(), camera.height_px()));
+}
+
 }  // namespace
+
+bool ExteriorIsObject(const core::Rig& rig) { return rig.unseen == core::UnseenPolicy::kAbstain; }
 
 VisualHull::VisualHull(std::shared_ptr<const core::Rig> rig,
                        std::vector<std::shared_ptr<const Silhouette>> silhouettes)
     : rig_(std::move(rig)), silhouettes_(std::move(silhouettes)) {
   core::Require(rig_ != nullptr && silhouettes_.size() == rig_->cameras.size(), "one silhouette a camera");
-  for (std::size_t i = 0; i < silhouettes_.size(); ++i) {
-    const core::CameraModel& camera = rig_->cameras[i];
-    const core::BitMask& mask = silhouettes_[i]->mask();
-    if (mask.width_px() != camera.width_px() || mask.height_px() != camera.height_px()) {
-      throw core::Error(
-          core::ErrorKind::kCamera,
-          fmt::format("camera '{}': the mask is {} x {} but the rig says {} x {}; use masks of the "
-                      "calibrated size",
-                      camera.name(), mask.width_px(), mask.height_px(), camera.width_px(),
-                      camera.height_px()));
-    }
-    const bool sees_nothing = mask.CountObjectPixels() == 0;
+  for (const auto& silhouette : silhouettes_) {
+    core::Require(silhouette->labels().exterior_is_object() == ExteriorIsObject(*rig_),
+                  "silhouettes follow the rig's unseen policy");
+    const bool sees_nothing = silhouette->labels().bounds_px().isEmpty();
     is_empty_ = is_empty_ || (sees_nothing && !ExteriorIsObject(*rig_));
   }
 }
 
 bool VisualHull::Contains(const Eigen::Vector3d& x_in_world) const {
   if (is_empty_ || !rig_->workspace_mm.contains(x_in_world)) return false;
-  const bool exterior_is_object = ExteriorIsObject(*rig_);
-  bool any_seen = !exterior_is_object;  // under `outside` an object pixel is a seen one
+  bool any_sees = !ExteriorIsObject(*rig_);  // under `outside` an object pixel is a seen one
   for (std::size_t i = 0; i < silhouettes_.size(); ++i) {
-    const std::optional<Eigen::Vector2d> pixel = rig_->cameras[i].Project(x_in_world);
-    if (!(pixel ? silhouettes_[i]->IsObject(*pixel) : exterior_is_object)) return false;
-    any_seen = any_seen || (pixel && silhouettes_[i]->IsInImage(*pixel));
+    const PicturePlane& plane = silhouettes_[i]->plane();
+    const core::CameraModel& camera = rig_->cameras[i];
+    if (!IsObjectTo(camera, plane.focal_px(), silhouettes_[i]->labels(), x_in_world)) return false;
+    any_sees = any_sees || IsObjectTo(camera, plane.focal_px(), plane.outline(), x_in_world);
   }
-  return any_seen;
+  return any_sees;
 }
 
 PointAnswer VisualHull::Probe(const Eigen::Vector3d& x_in_world) const {
-  core::CameraIndex first = 0;
-  return Probe(x_in_world, kInfinity, &first);
-}
-
-PointAnswer VisualHull::Probe(const Eigen::Vector3d& x_in_world, double enough_mm,
-                              core::CameraIndex* first) const {
   if (is_empty_) return {false, kInfinity};
-  const bool exterior_is_object = ExteriorIsObject(*rig_);
   Tally tally;
-  for (std::size_t k = 0, i = *first; k < silhouettes_.size();
-       ++k, i = i + 1 < silhouettes_.size() ? i + 1 : 0) {
-    const CameraAnswer answer = AskCamera(rig_->cameras[i], *silhouettes_[i], exterior_is_object, x_in_world);
-    if (!answer.is_object && answer.radius_mm >= enough_mm) {
-      *first = i;
-      return {false, answer.radius_mm};
-    }
-    tally.Add(answer);
-  }
+  for (std::size_t i = 0; i < silhouettes_.size(); ++i) tally.Add(AskSilhouette(*this, i, x_in_world));
+  AddSights(*this, x_in_world, &tally);
   PointAnswer answer = tally.Sum();
   const Eigen::AlignedBox3d& workspace_mm = rig_->workspace_mm;
   if (!workspace_mm.contains(x_in_world)) {
@@ -134,11 +143,11 @@ BallAnswer VisualHull::Classify(const Eigen::Vector3d& center_in_world, double r
   }
   Tally tally;
   for (std::size_t i = 0; i < silhouettes_.size(); ++i) {
-    const CameraAnswer answer =
-        AskCamera(rig_->cameras[i], *silhouettes_[i], ExteriorIsObject(*rig_), center_in_world);
-    if (!answer.is_object && answer.radius_mm >= radius_mm) return BallAnswer::kOutside;
-    tally.Add(answer);
+    const BallLabel label = AskSilhouette(*this, i, center_in_world);
+    if (!label.is_object && label.radius_mm >= radius_mm) return BallAnswer::kOutside;
+    tally.Add(label);
   }
+  AddSights(*this, center_in_world, &tally);
   const PointAnswer sum = tally.Sum();
   if (sum.radius_mm < radius_mm) return BallAnswer::kMixed;
   if (!sum.is_inside) return BallAnswer::kOutside;
@@ -148,44 +157,52 @@ BallAnswer VisualHull::Classify(const Eigen::Vector3d& center_in_world, double r
 }
 
 BoundingEdge VisualHull::EdgeAt(const Eigen::Vector3d& surface_point_in_world) const {
-  // The surface is where some camera is about to change its mind: the one whose label reaches least far.
-  BoundingEdge edge;
-  double nearest_mm = std::abs(DistanceToFace(rig_->workspace_mm, surface_point_in_world));
+  BoundingEdge bounding;
+  double nearest_mm = rig_->workspace_mm.contains(surface_point_in_world)
+                          ? DistanceToFace(rig_->workspace_mm, surface_point_in_world)
+                          : 0.0;
   for (std::size_t i = 0; i < silhouettes_.size(); ++i) {
-    const CameraAnswer answer =
-        AskCamera(rig_->cameras[i], *silhouettes_[i], ExteriorIsObject(*rig_), surface_point_in_world);
-    if (answer.is_seen && answer.radius_mm < nearest_mm) {
-      nearest_mm = answer.radius_mm;
-      edge.camera = i;
-    }
+    const core::CameraModel& camera = rig_->cameras[i];
+    const Eigen::Vector3d x_in_cam = camera.cam_from_world() * surface_point_in_world;
+    const double focal_px = silhouettes_[i]->plane().focal_px();
+    if (!(x_in_cam.z() > 0.0)) continue;
+    const Eigen::Vector2d position = x_in_cam.head<2>() * (focal_px / x_in_cam.z());
+    const ContourMap& labels = silhouettes_[i]->labels();
+    const std::optional<std::uint32_t> edge = labels.NearestEdge(position);
+    if (!edge) continue;
+    // How far the point is from the plane that the edge and the camera's centre span, about.
+    const double distance_mm = DistanceToEdge(labels.contour(), *edge, position) * x_in_cam.z() / focal_px;
+    if (distance_mm >= nearest_mm) continue;
+    nearest_mm = distance_mm;
+    bounding.camera = i;
+    bounding.normal_in_world =
+        camera.cam_from_world().rotation.transpose() * OutwardNormalInCam(labels.contour(), *edge, focal_px);
   }
-  if (!edge.camera) return edge;
-  const core::CameraModel& camera = rig_->cameras[*edge.camera];
-  const Eigen::Vector3d x_in_cam = camera.cam_from_world() * surface_point_in_world;
-  const Eigen::Vector2d at = x_in_cam.head<2>() / x_in_cam.z();
-  const Eigen::Vector2d outward =
-      silhouettes_[*edge.camera]->OutwardDirection(camera.PixelFromNormalised(at), kEdgeSpanPx);
-  if (outward.isZero()) return edge;
-  // The hull's surface there is the plane through the camera's centre that cuts the picture along the edge;
-  // the lens's slope takes the edge's normal from pixels to the normalised plane.
-  const double step = 1e-6 * camera.max_radius();
-  const auto slope_along = [&](const Eigen::Vector2d& direction) {
-    return outward.dot(camera.PixelFromNormalised(at + step * direction) -
-                       camera.PixelFromNormalised(at - step * direction));
-  };
-  const Eigen::Vector2d normal(slope_along(Eigen::Vector2d::UnitX()), slope_along(Eigen::Vector2d::UnitY()));
-  const Eigen::Vector3d normal_in_cam(normal.x(), normal.y(), -normal.dot(at));
-  edge.normal_in_world = camera.cam_from_world().rotation.transpose() * normal_in_cam.normalized();
-  return edge;
+  return bounding;
+}
+
+VisualHull MakeVisualHull(std::shared_ptr<const core::Rig> rig, const PicturePlanes& planes,
+                          std::span<const core::SoftMask> masks) {
+  core::Require(rig != nullptr && masks.size() == rig->cameras.size() && planes.size() == masks.size(),
+                "one mask and one plane a camera");
+  for (std::size_t i = 0; i < masks.size(); ++i) CheckSize(rig->cameras[i], masks[i].mask);
+  std::vector<std::shared_ptr<const Silhouette>> silhouettes(masks.size());
+  tbb::parallel_for(std::size_t{0}, masks.size(), [&](std::size_t i) {
+    silhouettes[i] = std::make_shared<const Silhouette>(planes[i], masks[i], ExteriorIsObject(*rig));
+  });
+  return {std::move(rig), std::move(silhouettes)};
+}
+
+VisualHull MakeVisualHull(std::shared_ptr<const core::Rig> rig, std::span<const core::SoftMask> masks) {
+  core::Require(rig != nullptr, "a rig");
+  const PicturePlanes planes = MakePicturePlanes(*rig);
+  return MakeVisualHull(std::move(rig), planes, masks);
 }
 
 VisualHull MakeVisualHull(std::shared_ptr<const core::Rig> rig, std::span<const core::BitMask> masks) {
-  core::Require(rig != nullptr && masks.size() == rig->cameras.size(), "one mask a camera");
-  std::vector<std::shared_ptr<const Silhouette>> silhouettes(masks.size());
-  tbb::parallel_for(std::size_t{0}, masks.size(), [&](std::size_t i) {
-    silhouettes[i] = std::make_shared<const Silhouette>(masks[i], ExteriorIsObject(*rig));
-  });
-  return {std::move(rig), std::move(silhouettes)};
+  std::vector<core::SoftMask> soft(masks.size());
+  for (std::size_t i = 0; i < masks.size(); ++i) soft[i].mask = masks[i];
+  return MakeVisualHull(std::move(rig), soft);
 }
 
 }  // namespace elbowroom::recon

@@ -31,14 +31,14 @@ struct BoundingEdge {
   std::optional<Eigen::Vector3d> normal_in_world;  // unit; nothing where the silhouette gives none
 };
 
-// The visual hull: the points of the workspace that project on an object pixel in every camera, where
-// rig.unseen decides for cameras that can't see the point. An immutable snapshot; copies share silhouettes.
+// The visual hull: the points of the workspace that project into every camera's silhouette, where rig.unseen
+// decides for cameras that can't see the point. An immutable snapshot; copies share silhouettes.
 // The certificate of the ball answers is derived in docs/algorithms.md and held to account by
 // tests/recon/ball_query_test.cc. Thread: any.
 class VisualHull {
  public:
-  // Throws: core::Error{kCamera} naming the camera when a mask's size isn't the camera's;
-  // PreconditionError when there isn't one silhouette a camera.
+  // Throws: PreconditionError when there isn't one silhouette a camera, with the exterior label that the rig
+  // asks for.
   VisualHull(std::shared_ptr<const core::Rig> rig,
              std::vector<std::shared_ptr<const Silhouette>> silhouettes);
 
@@ -57,16 +57,11 @@ class VisualHull {
   // Contains(), and how far around the point the answer is sure to hold.
   [[nodiscard]] PointAnswer Probe(const Eigen::Vector3d& x_in_world) const;
 
-  // The same for a march through empty space: content with the first camera that is sure of background for at
-  // least `enough_mm` around, it asks `*first` (a camera of the rig) first and leaves there who answered.
-  [[nodiscard]] PointAnswer Probe(const Eigen::Vector3d& x_in_world, double enough_mm,
-                                  core::CameraIndex* first) const;
-
   // The volume query of a closed ball. A radius of 0 is the point's own query.
   [[nodiscard]] BallAnswer Classify(const Eigen::Vector3d& center_in_world, double radius_mm) const;
 
-  // Which silhouette ends the hull at a point on its surface; the normal is that of the silhouette's edge,
-  // averaged over a few pixels, through the camera's centre.
+  // Which silhouette ends the hull at a point on its surface; the normal is that of the silhouette's edge
+  // there, smoothed along the contour (SmoothTangent), through the camera's centre.
   [[nodiscard]] BoundingEdge EdgeAt(const Eigen::Vector3d& surface_point_in_world) const;
 
  private:
@@ -75,7 +70,15 @@ class VisualHull {
   bool is_empty_ = false;
 };
 
-// One silhouette a mask, exteriors labelled as the rig's `unseen` policy asks. Computed in parallel.
+// What a rig's unseen policy says of positions outside a picture.
+[[nodiscard]] bool ExteriorIsObject(const core::Rig& rig);
+
+// One silhouette a mask, in parallel. Throws: core::Error{kCamera} naming the camera when a mask's size isn't
+// the camera's. The overloads without planes work them out anew: for a single frame.
+[[nodiscard]] VisualHull MakeVisualHull(std::shared_ptr<const core::Rig> rig, const PicturePlanes& planes,
+                                        std::span<const core::SoftMask> masks);
+[[nodiscard]] VisualHull MakeVisualHull(std::shared_ptr<const core::Rig> rig,
+                                        std::span<const core::SoftMask> masks);
 [[nodiscard]] VisualHull MakeVisualHull(std::shared_ptr<const core::Rig> rig,
                                         std::span<const core::BitMask> masks);
 

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "recon/ray_cast.h"
+#include "recon/ray_crossings.h"
 #include "review/containment.h"
 #include "review/point_spread.h"
 
@@ -165,10 +165,9 @@ void Recover(const recon::VisualHull& hull, const Vector3d& cp_obj, const Vector
     contact->recovery_status = core::RecoveryStatus::kReferenceInsideHull;
     return;
   }
-  recon::RayOptions to_contact;
-  to_contact.to_mm = distance_mm;
-  const std::optional<double> crossing_mm = recon::FirstInside(hull, {rp_obj, -v_rec}, to_contact);
-  // CP_obj itself is in the hull, so the march ends there at the latest, but for rounding on its surface.
+  const std::optional<double> crossing_mm =
+      recon::FirstInside(hull, {rp_obj, -v_rec}, {0.0, distance_mm});
+  // CP_obj itself is in the hull, so the ray has entered it by then, but for rounding on its surface.
   const double from_reference_mm = crossing_mm.value_or(distance_mm);
   core::Recovery recovery{
       cp_obj, rp_obj - from_reference_mm * v_rec, v_rec, distance_mm - from_reference_mm, {}};

@@ -29,6 +29,7 @@ FramePipeline::FramePipeline(core::Rig rig, core::Layout layout,
                              const std::vector<recon::BackgroundReference>& backgrounds,
                              const recon::SegmentationOptions& segmentation)
     : rig_(std::make_shared<const core::Rig>(std::move(rig))),
+      planes_(recon::MakePicturePlanes(*rig_)),
       layout_(std::make_shared<const core::Layout>(std::move(layout))),
       segmenter_(backgrounds, segmentation) {
   rig_->Validate();
@@ -58,7 +59,6 @@ SharedFrameResult FramePipeline::Process(const recon::FrameSet& frames, std::spa
 
 void FramePipeline::UpdateHull(std::vector<core::BitMask> masks, FrameResult* result) {
   std::vector<std::shared_ptr<const recon::Silhouette>> silhouettes(masks.size());
-  const bool exterior_is_object = rig_->unseen == core::UnseenPolicy::kAbstain;
   for (std::size_t i = 0; i < masks.size(); ++i) {
     if (last_ && masks[i] == (*last_->masks)[i]) {
       silhouettes[i] = last_->hull->silhouettes()[i];
@@ -71,8 +71,10 @@ void FramePipeline::UpdateHull(std::vector<core::BitMask> masks, FrameResult* re
     return;
   }
   tbb::parallel_for(std::size_t{0}, masks.size(), [&](std::size_t i) {
-    if (!silhouettes[i])
-      silhouettes[i] = std::make_shared<const recon::Silhouette>(masks[i], exterior_is_object);
+    if (!silhouettes[i]) {
+      silhouettes[i] = std::make_shared<const recon::Silhouette>(
+          planes_[i], core::SoftMask{masks[i], {}}, recon::ExteriorIsObject(*rig_));
+    }
   });
   result->hull = std::make_shared<const recon::VisualHull>(rig_, std::move(silhouettes));
   result->masks = std::make_shared<const std::vector<core::BitMask>>(std::move(masks));

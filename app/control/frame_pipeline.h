@@ -11,6 +11,7 @@
 #include "core/rig.h"
 #include "recon/frame_segmenter.h"
 #include "recon/frame_set.h"
+#include "recon/picture_plane.h"
 #include "review/contacts.h"
 
 namespace elbowroom::control {
@@ -36,6 +37,7 @@ class FramePipeline {
   void UpdateContacts(FrameResult* result);
 
   std::shared_ptr<const core::Rig> rig_;
+  recon::PicturePlanes planes_;
   std::shared_ptr<const core::Layout> layout_;
   std::vector<core::TriangleTree> part_trees_;
   recon::FrameSegmenter segmenter_;

@@ -8,14 +8,13 @@
 #include "core/error.h"
 #include "core/units.h"
 #include "recon/hull_mesh.h"
-#include "recon/ray_cast.h"
+#include "recon/hull_view.h"
 
 namespace elbowroom::control {
 namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kViewStepMm = 0.5;
 constexpr float kSeeThrough = 0.3F;
 // A part that stands before more than this share of the hull's pixels is drawn see-through.
 constexpr double kHidesShare = 0.35;
@@ -124,7 +123,7 @@ recon::gl::Scene ComposeScene(const FrameResult& result, const recon::SceneView&
   recon::gl::Scene scene;
   scene.view = view;
   const recon::SceneView hull_view = Scaled(view, hull_scale);
-  recon::HullView hull = recon::ViewHull(*result.hull, CameraOf(hull_view), kViewStepMm);
+  recon::HullView hull = recon::ViewHull(*result.hull, CameraOf(hull_view));
   for (core::PartIndex i = 0; i < result.layout->parts.size(); ++i) {
     recon::gl::ScenePart part;
     part.mesh = result.layout->parts[i].mesh;

@@ -1,0 +1,60 @@
+// What a contour says of any position of its plane: the label, and how far it is sure to hold.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <optional>
+
+#include "recon/contour.h"
+
+namespace elbowroom::recon {
+
+struct PlaneLabel {
+  bool is_object = false;
+  // Certified: every position nearer than this carries the same label. Infinite where nothing differs.
+  double distance_px = 0.0;
+};
+
+// A contour that can be asked. Its grid of cells is built with the first question about a position, in time
+// and memory that follow the contour's bounds; nothing is built for a contour that isn't asked. Immutable.
+// Thread: any.
+class ContourMap {
+ public:
+  ContourMap(Contour contour, bool exterior_is_object);
+  ~ContourMap();
+
+  [[nodiscard]] const Contour& contour() const { return contour_; }
+  [[nodiscard]] bool exterior_is_object() const { return exterior_is_object_; }
+
+  // Of all edges; empty if there are none: then every position is exterior.
+  [[nodiscard]] const Eigen::AlignedBox2d& bounds_px() const { return bounds_px_; }
+
+  // All edges lie within this distance of the principal axis.
+  [[nodiscard]] double max_radius_px() const { return max_radius_px_; }
+
+  // Of any finite position.
+  [[nodiscard]] bool IsObject(const Eigen::Vector2d& position) const;
+
+  // Exact to 1e-6 within 2 cells of an edge, at most 1.6 cells short up to 32 cells from one, farther away no
+  // shorter than that; a cell is 1 px where the bounds allow (contour_map_test).
+  [[nodiscard]] PlaneLabel LabelAt(const Eigen::Vector2d& position) const;
+
+  // The nearest edge, if one is within 2 cells.
+  [[nodiscard]] std::optional<std::uint32_t> NearestEdge(const Eigen::Vector2d& position) const;
+
+ private:
+  class Grid;
+  [[nodiscard]] const Grid& grid() const;
+
+  Contour contour_;
+  bool exterior_is_object_ = false;
+  Eigen::AlignedBox2d bounds_px_;
+  double max_radius_px_ = 0.0;
+  mutable std::once_flag once_;
+  mutable std::unique_ptr<const Grid> grid_;
+};
+
+}  // namespace elbowroom::recon

@@ -1,0 +1,132 @@
+#include "recon/picture_plane.h"
+
+#include <tbb/parallel_for.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "recon/contour.h"
+#include "recon/contour_map.h"
+
+namespace elbowroom::recon {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+// Cubic interpolation between nodes this far apart follows ordinary lenses; it is halved until it follows
+// this one.
+constexpr int kWidestStepPx = 16;
+constexpr double kTableErrorPx = 5e-6;
+
+// Of the nodes -1, 0, 1, 2 about a place t past node 0 (Lagrange).
+std::array<double, 4> CubicWeights(double t) {
+  const double a = t + 1.0, b = t - 1.0, c = t - 2.0;
+  return {-t * b * c / 6.0, a * b * c / 2.0, -a * t * c / 2.0, a * t * b / 6.0};
+}
+
+}  // namespace
+
+PicturePlane::PicturePlane(const core::CameraModel& camera) : camera_(camera) {
+  const core::CameraCalibration& calibration = camera_.calibration();
+  const Eigen::Matrix2d scale = calibration.camera_matrix.topLeftCorner<2, 2>();
+  focal_px_ = std::max(std::abs(scale(0, 0)), std::abs(scale(1, 1)));
+  is_mirrored_ = scale.determinant() < 0.0;
+  is_ideal_ = camera_.is_ideal();
+  principal_px_ = calibration.camera_matrix.topRightCorner<2, 1>();
+  plane_from_pixel_ = focal_px_ * scale.inverse();
+  if (is_ideal_) return;
+  for (int step_px = kWidestStepPx;; step_px /= 2) {
+    FillTable(step_px);
+    if (step_px == 1 || TableErrorPx() <= kTableErrorPx) break;
+  }
+  const bool is_whole =
+      std::none_of(table_.begin(), table_.end(), [](const Eigen::Vector2d& p) { return std::isnan(p.x()); });
+  if (is_whole) return;
+  core::BitMask unseen(camera_.width_px(), camera_.height_px());
+  for (int y = 0; y < camera_.height_px(); ++y)
+    for (int x = 0; x < camera_.width_px(); ++x) unseen.Set(x, y, !FromPixel({x, y}));
+  if (unseen.CountObjectPixels() > 0) unseen_pixels_ = std::move(unseen);
+}
+
+PicturePlane::~PicturePlane() = default;
+
+const ContourMap& PicturePlane::outline() const {
+  std::call_once(once_, [this] {
+    core::SoftMask all{core::BitMask(camera_.width_px(), camera_.height_px()), {}};
+    for (int y = 0; y < camera_.height_px(); ++y)
+      for (int x = 0; x < camera_.width_px(); ++x) all.mask.Set(x, y, true);
+    outline_ = std::make_unique<const ContourMap>(TraceContour(all, false, *this), false);
+  });
+  return *outline_;
+}
+
+std::optional<Eigen::Vector2d> PicturePlane::Exactly(const Eigen::Vector2d& pixel) const {
+  const std::optional<Eigen::Vector2d> normalised = camera_.NormalisedFromPixel(pixel);
+  if (!normalised) return std::nullopt;
+  return *normalised * focal_px_;
+}
+
+void PicturePlane::FillTable(int step_px) {
+  const Eigen::Vector2i size(camera_.width_px(), camera_.height_px());
+  // At least the four nodes of one cubic; the outermost stand on the picture's border.
+  nodes_ = ((size.array() + step_px - 1) / step_px + 1).max(4);
+  pixels_per_node_ = size.cast<double>().array() / (nodes_.array() - 1).cast<double>();
+  table_.resize(static_cast<std::size_t>(nodes_.x()) * static_cast<std::size_t>(nodes_.y()));
+  for (int y = 0; y < nodes_.y(); ++y) {
+    for (int x = 0; x < nodes_.x(); ++x) {
+      const Eigen::Vector2d pixel =
+          Eigen::Vector2d(x, y).cwiseProduct(pixels_per_node_) - Eigen::Vector2d::Constant(0.5);
+      table_[static_cast<std::size_t>(y) * static_cast<std::size_t>(nodes_.x()) +
+             static_cast<std::size_t>(x)] = Exactly(pixel).value_or(Eigen::Vector2d::Constant(kNaN));
+    }
+  }
+}
+
+Eigen::Vector2d PicturePlane::FromTable(const Eigen::Vector2d& pixel) const {
+  const Eigen::Vector2d at = (pixel + Eigen::Vector2d::Constant(0.5)).cwiseQuotient(pixels_per_node_);
+  // At the border the cubic of the four outermost nodes.
+  const int i = std::clamp(static_cast<int>(at.x()), 1, nodes_.x() - 3);
+  const int j = std::clamp(static_cast<int>(at.y()), 1, nodes_.y() - 3);
+  const std::array<double, 4> across = CubicWeights(at.x() - i), down = CubicWeights(at.y() - j);
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  for (int v = 0; v < 4; ++v) {
+    const Eigen::Vector2d* row =
+        &table_[static_cast<std::size_t>(j - 1 + v) * static_cast<std::size_t>(nodes_.x()) +
+                static_cast<std::size_t>(i - 1)];
+    sum += down[static_cast<std::size_t>(v)] *
+           (across[0] * row[0] + across[1] * row[1] + across[2] * row[2] + across[3] * row[3]);
+  }
+  return sum;
+}
+
+double PicturePlane::TableErrorPx() const {
+  double error_px = 0.0;
+  for (int y = 0; y + 1 < nodes_.y(); ++y) {
+    for (int x = 0; x + 1 < nodes_.x(); ++x) {
+      const Eigen::Vector2d pixel =
+          Eigen::Vector2d(x + 0.5, y + 0.5).cwiseProduct(pixels_per_node_) - Eigen::Vector2d::Constant(0.5);
+      const std::optional<Eigen::Vector2d> exact = Exactly(pixel);
+      const Eigen::Vector2d found = FromTable(pixel);
+      if (exact && found.allFinite()) error_px = std::max(error_px, (*exact - found).norm());
+    }
+  }
+  return error_px;
+}
+
+std::optional<Eigen::Vector2d> PicturePlane::FromPixel(const Eigen::Vector2d& pixel) const {
+  if (is_ideal_) return Eigen::Vector2d(plane_from_pixel_ * (pixel - principal_px_));
+  const Eigen::Vector2d found = FromTable(pixel);
+  if (!std::isnan(found.x())) return found;
+  return Exactly(pixel);
+}
+
+PicturePlanes MakePicturePlanes(const core::Rig& rig) {
+  PicturePlanes planes(rig.cameras.size());
+  tbb::parallel_for(std::size_t{0}, planes.size(),
+                    [&](std::size_t i) { planes[i] = std::make_shared<const PicturePlane>(rig.cameras[i]); });
+  return planes;
+}
+
+}  // namespace elbowroom::recon

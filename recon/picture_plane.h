@@ -1,0 +1,67 @@
+// One camera's picture without its lens: where silhouettes become straight-edged and projection a division.
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+#include "core/bit_mask.h"
+#include "core/camera_model.h"
+#include "core/rig.h"
+
+namespace elbowroom::recon {
+
+class ContourMap;
+
+// The plane of a camera at z = focal_px(): a point X, Y, Z in cam falls on focal_px() * (X, Y) / Z, the
+// principal axis on (0, 0). Isotropic and free of distortion; a pixel is about one unit wide (its finer side,
+// if they differ). The lens is applied once, to the silhouette's vertices. Immutable. Thread: any.
+class PicturePlane {
+ public:
+  explicit PicturePlane(const core::CameraModel& camera);
+  ~PicturePlane();
+
+  [[nodiscard]] const core::CameraModel& camera() const { return camera_; }
+  [[nodiscard]] double focal_px() const { return focal_px_; }
+
+  // Where a position of the picture falls in the plane, to 1e-5 units (picture_plane_test); nothing where the
+  // lens's domain doesn't reach.
+  [[nodiscard]] std::optional<Eigen::Vector2d> FromPixel(const Eigen::Vector2d& pixel) const;
+
+  // Whether the picture's right is the plane's right or, mirrored, its left.
+  [[nodiscard]] bool is_mirrored() const { return is_mirrored_; }
+
+  // The pixels whose centres the lens's domain doesn't reach; nothing if there are none, as is usual.
+  [[nodiscard]] const std::optional<core::BitMask>& unseen_pixels() const { return unseen_pixels_; }
+
+  // What the camera sees, as object, for whom that matters: made when first asked for.
+  [[nodiscard]] const ContourMap& outline() const;
+
+ private:
+  void FillTable(int step_px);
+  [[nodiscard]] Eigen::Vector2d FromTable(const Eigen::Vector2d& pixel) const;
+  [[nodiscard]] std::optional<Eigen::Vector2d> Exactly(const Eigen::Vector2d& pixel) const;
+  [[nodiscard]] double TableErrorPx() const;
+
+  core::CameraModel camera_;
+  double focal_px_ = 1.0;
+  bool is_mirrored_ = false;
+  bool is_ideal_ = false;                                           // no lens to speak of
+  Eigen::Matrix2d plane_from_pixel_ = Eigen::Matrix2d::Identity();  // of an ideal lens, about
+  Eigen::Vector2d principal_px_ = Eigen::Vector2d::Zero();          // this pixel
+  // Nodes over the picture, each on its place in the plane, NaN where there is none; between them cubic.
+  Eigen::Vector2i nodes_{0, 0};
+  Eigen::Vector2d pixels_per_node_{0.0, 0.0};
+  std::vector<Eigen::Vector2d> table_;
+  std::optional<core::BitMask> unseen_pixels_;
+  mutable std::once_flag once_;
+  mutable std::unique_ptr<const ContourMap> outline_;
+};
+
+// One a camera, in the rig's order. Worked out once a rig: a lens costs about a millisecond.
+using PicturePlanes = std::vector<std::shared_ptr<const PicturePlane>>;
+[[nodiscard]] PicturePlanes MakePicturePlanes(const core::Rig& rig);
+
+}  // namespace elbowroom::recon

@@ -1,0 +1,77 @@
+#include "recon/view_rays.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/error.h"
+#include "recon/picture_plane.h"
+
+namespace elbowroom::recon {
+namespace {
+
+constexpr int kTilePx = 8;
+
+}  // namespace
+
+ViewRays::ViewRays(const core::CameraModel& view, Projection projection)
+    : projection_(projection),
+      width_px_(view.width_px()),
+      height_px_(view.height_px()),
+      view_from_world_(view.cam_from_world()) {
+  if (projection == Projection::kOrthographic && !view.is_ideal()) {
+    throw core::Error(
+        core::ErrorKind::kCamera,
+        fmt::format("camera '{}': an orthographic view has no lens; leave out its distortion", view.name()));
+  }
+  const Eigen::Matrix3d& matrix = view.calibration().camera_matrix;
+  uv_from_pixel_ = matrix.topLeftCorner<2, 2>().inverse();
+  uv_of_origin_ = -uv_from_pixel_ * matrix.topRightCorner<2, 1>();
+  if (!view.is_ideal()) FillByPixel(view);
+}
+
+ViewRays ViewRays::From(const core::RigidTransform& view_from_world) const {
+  ViewRays rays = *this;
+  rays.view_from_world_ = view_from_world;
+  return rays;
+}
+
+void ViewRays::FillByPixel(const core::CameraModel& view) {
+  const PicturePlane plane(view);
+  const auto width = static_cast<std::size_t>(width_px_);
+  by_pixel_.resize(width * static_cast<std::size_t>(height_px_));
+  const int tiles_across = (width_px_ + kTilePx - 1) / kTilePx;
+  const int tiles_down = (height_px_ + kTilePx - 1) / kTilePx;
+  tile_boxes_.resize(static_cast<std::size_t>(tiles_across) * static_cast<std::size_t>(tiles_down));
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  tbb::parallel_for(0, tiles_down, [&](int tile_y) {
+    for (int y = tile_y * kTilePx; y < std::min((tile_y + 1) * kTilePx, height_px_); ++y) {
+      for (int x = 0; x < width_px_; ++x) {
+        const std::optional<Eigen::Vector2d> position = plane.FromPixel({x, y});
+        Eigen::Vector2d& uv = by_pixel_[static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)];
+        uv = position ? Eigen::Vector2d(*position / plane.focal_px()) : Eigen::Vector2d(kNaN, kNaN);
+        if (position) tile_boxes_[static_cast<std::size_t>(tile_y * tiles_across + x / kTilePx)].extend(uv);
+      }
+    }
+  });
+}
+
+Eigen::AlignedBox2d ViewRays::BoundsOf(int x0, int y0, int x1, int y1) const {
+  Eigen::AlignedBox2d box;
+  if (by_pixel_.empty()) {
+    for (const int x : {x0, x1 - 1})
+      for (const int y : {y0, y1 - 1}) box.extend(At(x, y));
+    return box;
+  }
+  const int tiles_across = (width_px_ + kTilePx - 1) / kTilePx;
+  for (int y = y0 / kTilePx; y * kTilePx < y1; ++y)
+    for (int x = x0 / kTilePx; x * kTilePx < x1; ++x)
+      box.extend(tile_boxes_[static_cast<std::size_t>(y * tiles_across + x)]);
+  return box;
+}
+
+}  // namespace elbowroom::recon
