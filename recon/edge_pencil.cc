@@ -28,18 +28,24 @@ double Turn(double a, double b) {
   return turn > 2.0 ? turn - 4.0 : turn < -2.0 ? turn + 4.0 : turn;
 }
 
+// Float32 sides may put a ray on the other side of an end that is nearer than this to its plane, in bins.
+constexpr double kBinSlack = 1e-2;
 constexpr EdgePencil::BinRange kAllBins{0, EdgePencil::kBins};
 
-// The bins from `start` on along `turn` >= 0, and one more on both sides for the rounding.
+// The bins from `start` on along `turn` >= 0, with room for the rounding of angles.
 EdgePencil::BinRange BinsAlong(double start, double turn) {
   constexpr double kPerUnit = EdgePencil::kBins / 4.0;
   // Written so that a NaN takes all bins.
   if (!(turn < 1.9)) return kAllBins;
-  const int first = static_cast<int>(std::floor(start * kPerUnit)) - 1;
-  const int last = static_cast<int>(std::floor((start + turn) * kPerUnit)) + 1;
+  const int first = static_cast<int>(std::floor(start * kPerUnit - kBinSlack));
+  const int last = static_cast<int>(std::floor((start + turn) * kPerUnit + kBinSlack));
   constexpr int kCount = EdgePencil::kBins;
   return {static_cast<std::uint32_t>((first + 2 * kCount) % kCount),
           static_cast<std::uint32_t>(last - first + 1)};
+}
+
+CastForm Narrow(const AffineForm& form) {
+  return {static_cast<float>(form.du), static_cast<float>(form.dv), static_cast<float>(form.at_origin)};
 }
 
 double AwayFromZero(double height, double least) {
@@ -70,67 +76,99 @@ EdgePencil::EdgePencil(const ContourMap& labels, double focal_px, const core::Ca
   }
   axis_uv_ = is_perspective ? Eigen::Vector2d(centre_in_view_.head<2>() / centre_in_view_.z())
                             : Eigen::Vector2d(centre_in_view_.head<2>());
-  MakeEdges(labels.contour(), view_from_cam.rotation);
-  SortIntoBins(labels.contour(), view_from_cam.rotation);
+  SortEdges(labels.contour(), view_from_cam.rotation);
 }
 
-void EdgePencil::MakeEdges(const Contour& contour, const Eigen::Matrix3d& view_from_cam) {
+// Works out where rays meet the plane of an edge from `from` along `along`; returns whether they enter there.
+bool EdgePencil::MakeEdge(const Vector3d& from, const Vector3d& along, CastForm* key) const {
+  const Vector3d normal = from.cross(along);
+  const double least = kLeastHeight * normal.norm() + std::numeric_limits<double>::min();
+  if (projection_ == Projection::kPerspective) {
+    const double height = AwayFromZero(normal.dot(centre_in_view_), least * centre_in_view_.norm());
+    *key = Narrow({-normal.x() / height, -normal.y() / height, -normal.z() / height});
+    return height > 0.0;
+  }
+  const double rise = AwayFromZero(normal.z(), least);
+  *key = Narrow({-normal.x() / rise, -normal.y() / rise, normal.dot(centre_in_view_) / rise});
+  return rise > 0.0;
+}
+
+void EdgePencil::SortEdges(const Contour& contour, const Eigen::Matrix3d& view_from_cam) {
+  struct Vertex {
+    Vector3d in_view;  // a direction
+    CastForm side;
+    double angle;
+  };
   const Vector3d& c = centre_in_view_;
   const bool is_perspective = projection_ == Projection::kPerspective;
-  std::vector<AffineForm> sides(contour.vertices.size());
-  for (std::size_t i = 0; i < sides.size(); ++i) {
-    const Vector3d q = InView(view_from_cam, contour.vertices[i]);
-    if (is_perspective) {
-      const Vector3d side = c.cross(q);  // det(d, c, q) with d = (u, v, 1)
-      sides[i] = {side.x(), side.y(), side.z()};
-    } else {
-      // det(z, c - o, q) with o = (u, v, 0)
-      sides[i] = {-q.y(), q.x(), c.x() * q.y() - c.y() * q.x()};
-    }
+  std::vector<Vertex> vertices(contour.vertices.size());
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    const Eigen::Vector2d& at = contour.vertices[i];
+    const Vector3d q = view_from_cam * Vector3d(at.x(), at.y(), focal_px_);
+    // det(d, c, q) with d = (u, v, 1); det(z, c - o, q) with o = (u, v, 0).
+    const Vector3d side =
+        is_perspective ? Vector3d(c.cross(q)) : Vector3d(-q.y(), q.x(), c.x() * q.y() - c.y() * q.x());
+    vertices[i] = {q, Narrow({side.x(), side.y(), side.z()}),
+                   PseudoAngle(across_axes_[0].dot(q), across_axes_[1].dot(q))};
   }
-  edges_.resize(contour.edges.size());
-  for (std::size_t i = 0; i < edges_.size(); ++i) {
+  std::vector<UnsortedEdge> entries, exits;
+  entries.reserve(contour.edges.size()), exits.reserve(contour.edges.size());
+  for (std::uint32_t i = 0; i < contour.edges.size(); ++i) {
     const ContourEdge& ends = contour.edges[i];
+    const Vertex &from = vertices[ends.from], &to = vertices[ends.to];
     const Eigen::Vector2d along = contour.vertices[ends.to] - contour.vertices[ends.from];
-    const Vector3d q = InView(view_from_cam, contour.vertices[ends.from]);
-    const Vector3d normal = q.cross(view_from_cam.leftCols<2>() * along);
-    PencilEdge& edge = edges_[i];
-    edge.from = sides[ends.from], edge.to = sides[ends.to];
-    if (is_perspective) {
-      const double height = AwayFromZero(
-          normal.dot(c), kLeastHeight * normal.norm() * c.norm() + std::numeric_limits<double>::min());
-      edge.key = {-normal.x() / height, -normal.y() / height, -normal.z() / height};
-      edge.enters = height > 0.0;
-    } else {
-      const double rise =
-          AwayFromZero(normal.z(), kLeastHeight * normal.norm() + std::numeric_limits<double>::min());
-      edge.key = {-normal.x() / rise, -normal.y() / rise, normal.dot(c) / rise};
-      edge.enters = rise > 0.0;
-    }
+    const double turn = Turn(from.angle, to.angle);
+    UnsortedEdge edge{{from.side, to.side, {}, i},
+                      BinsAlong(turn < 0.0 ? to.angle : from.angle, std::abs(turn))};
+    const bool enters = MakeEdge(from.in_view, view_from_cam.leftCols<2>() * along, &edge.edge.key);
+    (enters ? entries : exits).push_back(edge);
   }
+  entries_ = Sorted(entries);
+  exits_ = Sorted(exits);
 }
 
-void EdgePencil::SortIntoBins(const Contour& contour, const Eigen::Matrix3d& view_from_cam) {
-  std::vector<double> angles(contour.vertices.size());
-  for (std::size_t i = 0; i < angles.size(); ++i) {
-    const Vector3d q = InView(view_from_cam, contour.vertices[i]);
-    angles[i] = PseudoAngle(across_axes_[0].dot(q), across_axes_[1].dot(q));
+EdgePencil::SortedEdges EdgePencil::Sorted(const std::vector<UnsortedEdge>& edges) {
+  SortedEdges sorted;
+  sorted.first.assign(kBins + 1, 0);
+  sorted.first_carried.assign(kBins + 1, 0);
+  for (const UnsortedEdge& edge : edges) {
+    ++sorted.first[edge.bins.first + 1];
+    for (std::uint32_t k = 1; k < edge.bins.count; ++k)
+      ++sorted.first_carried[(edge.bins.first + k) % kBins + 1];
   }
-  std::vector<BinRange> ranges(contour.edges.size());
-  first_.assign(kBins + 1, 0);
-  for (std::size_t i = 0; i < ranges.size(); ++i) {
-    const double from = angles[contour.edges[i].from], to = angles[contour.edges[i].to];
-    const double turn = Turn(from, to);
-    ranges[i] = BinsAlong(turn < 0.0 ? to : from, std::abs(turn));
-    for (std::uint32_t k = 0; k < ranges[i].count; ++k) ++first_[(ranges[i].first + k) % kBins + 1];
+  for (std::uint32_t bin = 0; bin < kBins; ++bin) {
+    sorted.first[bin + 1] += sorted.first[bin];
+    sorted.first_carried[bin + 1] += sorted.first_carried[bin];
   }
-  for (std::uint32_t bin = 0; bin < kBins; ++bin) first_[bin + 1] += first_[bin];
-  entries_.resize(first_.back());
-  std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
-  for (std::uint32_t i = 0; i < ranges.size(); ++i) {
-    for (std::uint32_t k = 0; k < ranges[i].count; ++k)
-      entries_[next[(ranges[i].first + k) % kBins]++] = {i & 0x7FFFFFFFU, k == 0 ? 1U : 0U};
+  sorted.edges.resize(edges.size());
+  sorted.carried.resize(sorted.first_carried.back());
+  std::vector<std::uint32_t> next(sorted.first.begin(), sorted.first.end() - 1);
+  std::vector<std::uint32_t> next_carried(sorted.first_carried.begin(), sorted.first_carried.end() - 1);
+  for (const UnsortedEdge& edge : edges) {
+    const std::uint32_t number = next[edge.bins.first]++;
+    sorted.edges[number] = edge.edge;
+    for (std::uint32_t k = 1; k < edge.bins.count; ++k)
+      sorted.carried[next_carried[(edge.bins.first + k) % kBins]++] = number;
   }
+  return sorted;
+}
+
+// Those that begin in the bins, and those carried into the first of them.
+CastEdges EdgePencil::SortedEdges::In(const BinRange& range) const {
+  CastEdges found;
+  if (edges.empty()) return found;
+  found.all = edges.data();
+  if (range.count >= kBins) {
+    found.runs[0] = edges;
+    return found;
+  }
+  const std::uint32_t end = range.first + range.count;
+  const std::span<const CastEdge> all(edges);
+  found.runs[0] = all.subspan(first[range.first], first[std::min(end, kBins)] - first[range.first]);
+  if (end > kBins) found.runs[1] = all.first(first[end - kBins]);
+  found.singles = std::span<const std::uint32_t>(carried).subspan(
+      first_carried[range.first], first_carried[range.first + 1] - first_carried[range.first]);
+  return found;
 }
 
 bool EdgePencil::IsObjectAlong(const Eigen::Vector2d& uv) const {
@@ -158,14 +196,6 @@ EdgePencil::BinRange EdgePencil::BinsOf(const Eigen::AlignedBox2d& uv_box) const
   double first = start + least;
   if (first < 0.0) first += 4.0;
   return BinsAlong(first, most - least);
-}
-
-bool EdgePencil::HasEdges(const BinRange& range) const {
-  if (first_.empty()) return false;
-  const std::uint32_t end = range.first + range.count;
-  if (range.count >= kBins) return first_.back() > 0;
-  if (end <= kBins) return first_[end] > first_[range.first];
-  return first_[kBins] > first_[range.first] || first_[end - kBins] > 0;
 }
 
 }  // namespace elbowroom::recon

@@ -8,6 +8,7 @@
 
 #include "core/camera_model.h"
 #include "recon/contour_map.h"
+#include "recon/tile_cast.h"
 #include "recon/view_rays.h"
 
 namespace elbowroom::recon {
@@ -19,16 +20,6 @@ struct AffineForm {
   double at_origin = 0.0;
 
   [[nodiscard]] double At(const Eigen::Vector2d& uv) const { return uv.x() * du + uv.y() * dv + at_origin; }
-};
-
-// The surface that one edge sweeps, from the camera's centre outwards. The ray (u, v) meets it where its
-// `key` is key.At(u, v), provided that the ends' sides agree with the kind: entering the object, from > 0 and
-// not to > 0; leaving it, not from > 0 and to > 0. Derivation: docs/exact_view.md.
-struct PencilEdge {
-  AffineForm from;  // side of the epipolar plane that the edge's ends are on
-  AffineForm to;
-  AffineForm key;
-  bool enters = false;
 };
 
 // All rays of a view and all edges of one camera, ordered by the angle of the epipolar plane they are in, so
@@ -54,34 +45,30 @@ class EdgePencil {
   };
   [[nodiscard]] BinRange BinsOf(const Eigen::AlignedBox2d& uv_box) const;
 
-  [[nodiscard]] bool HasEdges(const BinRange& range) const;
+  // The edges that may cross rays of the bins.
+  [[nodiscard]] CastEdges EntriesIn(const BinRange& range) const { return entries_.In(range); }
+  [[nodiscard]] CastEdges ExitsIn(const BinRange& range) const { return exits_.In(range); }
 
-  // Calls visit(index of edge, edge) once for each edge with a bin in the range.
-  template <typename Visit>
-  void VisitEdges(const BinRange& range, const Visit& visit) const {
-    for (std::uint32_t i = 0; i < range.count; ++i) {
-      const std::uint32_t bin = (range.first + i) % kBins;
-      for (std::uint32_t j = first_[bin]; j < first_[bin + 1]; ++j) {
-        const Entry& entry = entries_[j];
-        // An edge of several bins is visited in the first of them that the range has.
-        if (entry.is_first_bin || i == 0) visit(entry.edge, edges_[entry.edge]);
-      }
-    }
-  }
-
-  static constexpr std::uint32_t kBins = 2048;
+  static constexpr std::uint32_t kBins = 4096;
 
  private:
-  struct Entry {
-    std::uint32_t edge : 31;
-    std::uint32_t is_first_bin : 1;
+  // Edges by the bin where they begin, and of each bin those that began before it.
+  struct SortedEdges {
+    std::vector<CastEdge> edges;
+    std::vector<std::uint32_t> first;          // in `edges`, by bin; one more at the end
+    std::vector<std::uint32_t> carried;        // numbers in `edges`
+    std::vector<std::uint32_t> first_carried;  // in `carried`, by bin; one more at the end
+
+    [[nodiscard]] CastEdges In(const BinRange& range) const;
+  };
+  struct UnsortedEdge {
+    CastEdge edge;
+    BinRange bins;
   };
 
-  void MakeEdges(const Contour& contour, const Eigen::Matrix3d& view_from_cam);
-  void SortIntoBins(const Contour& contour, const Eigen::Matrix3d& view_from_cam);
-  [[nodiscard]] Eigen::Vector3d InView(const Eigen::Matrix3d& view_from_cam, const Eigen::Vector2d& v) const {
-    return view_from_cam * Eigen::Vector3d(v.x(), v.y(), focal_px_);
-  }
+  void SortEdges(const Contour& contour, const Eigen::Matrix3d& view_from_cam);
+  static SortedEdges Sorted(const std::vector<UnsortedEdge>& edges);
+  [[nodiscard]] bool MakeEdge(const Eigen::Vector3d& from, const Eigen::Vector3d& along, CastForm* key) const;
 
   const ContourMap& labels_;
   double focal_px_;
@@ -95,9 +82,8 @@ class EdgePencil {
   AffineForm across_[2];
   Eigen::Vector3d across_axes_[2];
   Eigen::Vector2d axis_uv_{0.0, 0.0};  // the ray that is the axis; not finite if there is none
-  std::vector<PencilEdge> edges_;
-  std::vector<std::uint32_t> first_;
-  std::vector<Entry> entries_;
+  SortedEdges entries_;
+  SortedEdges exits_;
 };
 
 }  // namespace elbowroom::recon

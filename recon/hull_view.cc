@@ -21,10 +21,10 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-// The largest square of pixels that is asked about at once.
+// The largest square of pixels that is asked about at once, and the one that is a piece of work.
 constexpr int kLargestSquarePx = 64;
-constexpr std::size_t kTilesATask = 8;
+constexpr int kTaskPx = 16;
+constexpr std::size_t kSquaresATask = 4;
 
 // One face of the workspace as rays (u, v) meet it: they are on its inner side from, or up to, the key
 // `bound`; rays along the face, all the way where `bound` isn't negative.
@@ -80,19 +80,36 @@ class Caster {
         sights_[i] = std::make_unique<const EdgePencil>(silhouette.plane().outline(), focal_px, camera, rays);
       }
     });
+    for (const Face& face : faces_) {
+      (face.kind == Face::Kind::kNotBefore  ? box_.not_before
+       : face.kind == Face::Kind::kNotAfter ? box_.not_after
+                                            : box_.beside)
+          .push_back({static_cast<float>(face.bound.du), static_cast<float>(face.bound.dv),
+                      static_cast<float>(face.bound.at_origin)});
+    }
     for (const auto& silhouette : hull.silhouettes())
       view_.edges += static_cast<std::int64_t>(silhouette->labels().contour().edges.size());
   }
 
   void Run() {
-    for (int y = 0; y < rays_.height_px(); y += kLargestSquarePx)
-      for (int x = 0; x < rays_.width_px(); x += kLargestSquarePx) Divide(x, y, kLargestSquarePx);
-    tbb::enumerable_thread_specific<Worker> workers;
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, tiles_.size(), kTilesATask),
+    std::vector<Square> squares;
+    for (int y = 0; y < rays_.height_px(); y += kLargestSquarePx) {
+      for (int x = 0; x < rays_.width_px(); x += kLargestSquarePx)
+        Divide(SquareAt(x, y, kLargestSquarePx), kTaskPx,
+               [&](const Square& square) { squares.push_back(square); });
+    }
+    tbb::enumerable_thread_specific<Worker> workers([this] {
+      Worker worker;
+      worker.cameras.resize(pencils_.size());
+      worker.sights.resize(sights_.size());
+      return worker;
+    });
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, squares.size(), kSquaresATask),
                       [&](const tbb::blocked_range<std::size_t>& range) {
                         Worker& worker = workers.local();
                         for (std::size_t i = range.begin(); i < range.end(); ++i)
-                          CastTileAt(tiles_[i], &worker);
+                          Divide(squares[i], kTilePx,
+                                 [&](const Square& square) { CastSquare(square, &worker); });
                       });
     for (const Worker& worker : workers) {
       view_.hit_pixels += worker.hit_pixels;
@@ -104,33 +121,45 @@ class Caster {
 
  private:
   struct Worker {
-    Tile tile;
+    TileRays rays;
+    TileHits hits;
+    TileScratch scratch;
+    std::vector<CastCamera> cameras;
+    std::vector<CastCamera> sights;
     std::int64_t hit_pixels = 0;
     std::int64_t cast_pixels = 0;
     std::int64_t edges_cast = 0;
   };
 
-  // Lists the tiles of a square of pixels whose rays might meet the hull.
-  void Divide(int x, int y, int size) {
+  // A square of pixels, cut off at the picture's border.
+  struct Square {
+    int x, y, size;
+    int right, bottom;
+    Eigen::AlignedBox2d box;  // of its rays
+  };
+  [[nodiscard]] Square SquareAt(int x, int y, int size) const {
     const int right = std::min(x + size, rays_.width_px()), bottom = std::min(y + size, rays_.height_px());
-    const Eigen::AlignedBox2d box = rays_.BoundsOf(x, y, right, bottom);
-    if (box.isEmpty() || MissesWorkspace(box) || MissesSomeContour(box)) return;
-    if (size == kTilePx) {
-      tiles_.emplace_back(x, y);
-      return;
-    }
-    const int half = size / 2;
-    for (const int next_y : {y, y + half})
-      for (const int next_x : {x, x + half})
-        if (next_x < right && next_y < bottom) Divide(next_x, next_y, half);
+    return {x, y, size, right, bottom, rays_.BoundsOf(x, y, right, bottom)};
+  }
+
+  // Calls visit(square) for the squares of `least` pixels a side whose rays might meet the hull.
+  template <typename Visit>
+  void Divide(const Square& square, int least, const Visit& visit) const {
+    if (square.box.isEmpty() || MissesWorkspace(square.box) || MissesSomeContour(square.box)) return;
+    if (square.size == least) return visit(square);
+    const int half = square.size / 2;
+    for (const int y : {square.y, square.y + half})
+      for (const int x : {square.x, square.x + half})
+        if (x < square.right && y < square.bottom) Divide(SquareAt(x, y, half), least, visit);
   }
 
   // True if all rays of the box pass some face on the outer side, or some pair of faces in the wrong order.
   [[nodiscard]] bool MissesWorkspace(const Eigen::AlignedBox2d& box) const {
+    const bool is_perspective = rays_.projection() == Projection::kPerspective;
     for (const Face& a : faces_) {
       if (a.kind == Face::Kind::kBeside && HighestOf(a.bound, box) < 0.0) return true;
       if (a.kind != Face::Kind::kNotBefore) continue;
-      if (-LowestOf(a.bound, box) < 0.0 && rays_.projection() == Projection::kPerspective) return true;
+      if (is_perspective && LowestOf(a.bound, box) > 0.0) return true;
       for (const Face& b : faces_) {
         if (b.kind != Face::Kind::kNotAfter) continue;
         const AffineForm gap{b.bound.du - a.bound.du, b.bound.dv - a.bound.dv,
@@ -152,118 +181,75 @@ class Caster {
   // True if some camera's background is all that the box's rays pass.
   [[nodiscard]] bool MissesSomeContour(const Eigen::AlignedBox2d& box) const {
     for (const auto& pencil : pencils_) {
-      if (!pencil->is_concentric() && !pencil->starts_inside() && !pencil->HasEdges(pencil->BinsOf(box)))
-        return true;
+      if (pencil->is_concentric() || pencil->starts_inside()) continue;
+      if (pencil->EntriesIn(pencil->BinsOf(box)).size() == 0) return true;
     }
     return false;
   }
 
-  void CastTileAt(const Eigen::Vector2i& corner, Worker* worker) {
-    Tile& tile = worker->tile;
-    const Vector2d centre = PlaceRays(corner, &tile);
-    if (Clip(centre, &tile) == 0) return;
-    const int right = std::min(corner.x() + kTilePx, rays_.width_px());
-    const int bottom = std::min(corner.y() + kTilePx, rays_.height_px());
-    worker->cast_pixels += (right - corner.x()) * (bottom - corner.y());
-    const Eigen::AlignedBox2d box = rays_.BoundsOf(corner.x(), corner.y(), right, bottom);
-    tile.cameras.resize(pencils_.size());
-    tile.sights.resize(sights_.size());
+  void CastSquare(const Square& square, Worker* worker) {
+    PlaceRays(square, &worker->rays);
+    worker->cast_pixels += (square.right - square.x) * (square.bottom - square.y);
     for (std::size_t i = 0; i < pencils_.size(); ++i)
-      if (!Gather(*pencils_[i], corner, box, centre, &tile.cameras[i], worker)) return;
-    for (std::size_t i = 0; i < sights_.size(); ++i)
-      (void)Gather(*sights_[i], corner, box, centre, &tile.sights[i], worker);
-    CastTile(&tile);
-    Record(corner, tile, worker);
+      worker->cameras[i] = Gather(*pencils_[i], square, worker);
+    for (std::size_t i = 0; i < sights_.size(); ++i) worker->sights[i] = Gather(*sights_[i], square, worker);
+    CastTile(worker->rays, box_, worker->cameras, worker->sights, &worker->scratch, &worker->hits);
+    if (worker->hits.any) Record(square, worker);
   }
 
-  // Returns the place of the tile's centre, from which its rays count.
-  Vector2d PlaceRays(const Eigen::Vector2i& corner, Tile* tile) const {
-    const int right = std::min(corner.x() + kTilePx, rays_.width_px());
-    const int bottom = std::min(corner.y() + kTilePx, rays_.height_px());
-    const Vector2d centre = rays_.BoundsOf(corner.x(), corner.y(), right, bottom).center();
+  void PlaceRays(const Square& square, TileRays* rays) const {
     for (int i = 0; i < kTileRays; ++i) {
-      const int x = corner.x() + i % kTilePx, y = corner.y() + i / kTilePx;
+      const int x = square.x + i % kTilePx, y = square.y + i / kTilePx;
       Vector2d uv = Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
-      if (x < right && y < bottom) uv = rays_.At(x, y) - centre;
-      tile->u[i] = static_cast<float>(uv.x());
-      tile->v[i] = static_cast<float>(uv.y());
+      if (x < square.right && y < square.bottom) uv = rays_.At(x, y);
+      rays->u[i] = static_cast<float>(uv.x());
+      rays->v[i] = static_cast<float>(uv.y());
     }
-    tile->key_end =
+    rays->key_end =
         rays_.projection() == Projection::kPerspective ? 0.0F : std::numeric_limits<float>::infinity();
-    return centre;
   }
 
-  // Where each ray is in the workspace; how many are.
-  int Clip(const Vector2d& centre, Tile* tile) const {
-    const bool is_perspective = rays_.projection() == Projection::kPerspective;
-    int count = 0;
-    for (int i = 0; i < kTileRays; ++i) {
-      const Vector2d uv = centre + Vector2d(tile->u[i], tile->v[i]);
-      double from = -kInfinity, to = is_perspective ? 0.0 : kInfinity;
-      bool is_beside = std::isnan(tile->u[i]);
-      for (const Face& face : faces_) {
-        const double bound = face.bound.At(uv);
-        if (face.kind == Face::Kind::kNotBefore) from = std::max(from, bound);
-        if (face.kind == Face::Kind::kNotAfter) to = std::min(to, bound);
-        if (face.kind == Face::Kind::kBeside) is_beside = is_beside || bound < 0.0;
-      }
-      const bool is_within = !is_beside && from <= to && (!is_perspective || from < 0.0);
-      tile->key_from[i] = is_within ? static_cast<float>(from) : 1.0F;
-      tile->key_to[i] = is_within ? static_cast<float>(to) : 0.0F;
-      count += is_within ? 1 : 0;
-    }
-    return count;
-  }
-
-  static TileForm AboutCentre(const AffineForm& form, const Vector2d& centre) {
-    return {static_cast<float>(form.du), static_cast<float>(form.dv), static_cast<float>(form.At(centre))};
-  }
-
-  // The edges that the tile's rays can meet; false if no ray of it has this camera's object before it.
-  bool Gather(const EdgePencil& pencil, const Eigen::Vector2i& corner, const Eigen::AlignedBox2d& box,
-              const Vector2d& centre, TileCamera* camera, Worker* worker) const {
-    camera->Clear();
+  // What the square's rays can meet of one camera.
+  CastCamera Gather(const EdgePencil& pencil, const Square& square, Worker* worker) const {
+    CastCamera camera;
     if (pencil.is_concentric()) {
       for (int i = 0; i < kTileRays; ++i) {
-        const int x = std::min(corner.x() + i % kTilePx, rays_.width_px() - 1);
-        const int y = std::min(corner.y() + i / kTilePx, rays_.height_px() - 1);
-        if (pencil.IsObjectAlong(rays_.At(x, y))) camera->starts_inside |= std::uint64_t{1} << i;
+        const int x = square.x + i % kTilePx, y = square.y + i / kTilePx;
+        if (x < square.right && y < square.bottom && pencil.IsObjectAlong(rays_.At(x, y)))
+          camera.starts_inside |= 1U << static_cast<unsigned>(i);
       }
-      return camera->starts_inside != 0;
+      return camera;
     }
-    if (pencil.starts_inside()) camera->starts_inside = ~std::uint64_t{0};
-    pencil.VisitEdges(pencil.BinsOf(box), [&](std::uint32_t index, const PencilEdge& edge) {
-      (edge.enters ? camera->entries : camera->exits)
-          .push_back({AboutCentre(edge.from, centre), AboutCentre(edge.to, centre),
-                      AboutCentre(edge.key, centre), index});
-    });
-    worker->edges_cast += static_cast<std::int64_t>(camera->entries.size() + camera->exits.size());
-    return camera->starts_inside != 0 || !camera->entries.empty();
+    const EdgePencil::BinRange bins = pencil.BinsOf(square.box);
+    camera.entries = pencil.EntriesIn(bins);
+    camera.exits = pencil.ExitsIn(bins);
+    camera.starts_inside = pencil.starts_inside() ? ~0U : 0U;
+    worker->edges_cast += static_cast<std::int64_t>(camera.entries.size() + camera.exits.size());
+    return camera;
   }
 
-  void Record(const Eigen::Vector2i& corner, const Tile& tile, Worker* worker) {
+  void Record(const Square& square, Worker* worker) {
+    const TileHits& hits = worker->hits;
+    const bool is_perspective = rays_.projection() == Projection::kPerspective;
     for (int i = 0; i < kTileRays; ++i) {
-      const int x = corner.x() + i % kTilePx, y = corner.y() + i / kTilePx;
+      const int x = square.x + i % kTilePx, y = square.y + i / kTilePx;
       // A centre in the hull has the whole picture in front of it, and nothing to see.
-      if (!std::isfinite(tile.key[i]) || x >= rays_.width_px() || y >= rays_.height_px()) continue;
+      if (!std::isfinite(hits.key[i]) || x >= square.right || y >= square.bottom) continue;
       const std::size_t pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(rays_.width_px()) +
                                 static_cast<std::size_t>(x);
-      view_.depth_mm[pixel] =
-          rays_.projection() == Projection::kPerspective ? -1.0F / tile.key[i] : tile.key[i];
-      view_.surface[pixel] = SurfaceOf(tile, i);
+      view_.depth_mm[pixel] = is_perspective ? -1.0F / hits.key[i] : hits.key[i];
+      view_.surface[pixel] = SurfaceOf(hits.camera[i], static_cast<std::uint32_t>(hits.edge[i]));
       ++worker->hit_pixels;
     }
   }
 
-  [[nodiscard]] HullSurface SurfaceOf(const Tile& tile, int ray) const {
-    if (tile.camera[ray] == Tile::kNoCamera) return {HullSurface::kWorkspace, 0};
-    const auto camera = static_cast<std::size_t>(tile.camera[ray]);
-    const auto entry = static_cast<std::size_t>(tile.entry[ray]);
-    const std::vector<TileEdge>& entries = tile.cameras[camera].entries;
-    if (entry < entries.size()) return {tile.camera[ray], entries[entry].edge};
-    const auto contour_edges =
-        static_cast<std::uint32_t>(hull_.silhouettes()[camera]->labels().contour().edges.size());
-    return {tile.camera[ray], contour_edges + tile.sights[camera].entries[entry - entries.size()].edge};
+  [[nodiscard]] HullSurface SurfaceOf(std::int32_t camera, std::uint32_t edge) const {
+    if (camera == TileHits::kNoCamera) return {HullSurface::kWorkspace, 0};
+    const auto cameras = static_cast<std::int32_t>(pencils_.size());
+    if (camera < cameras) return {camera, edge};
+    const auto of_contour = static_cast<std::uint32_t>(
+        hull_.silhouettes()[static_cast<std::size_t>(camera - cameras)]->labels().contour().edges.size());
+    return {camera - cameras, of_contour + edge};
   }
 
   const VisualHull& hull_;
@@ -272,7 +258,7 @@ class Caster {
   std::array<Face, 6> faces_;
   std::vector<std::unique_ptr<const EdgePencil>> pencils_;
   std::vector<std::unique_ptr<const EdgePencil>> sights_;  // of outlines
-  std::vector<Eigen::Vector2i> tiles_;                     // upper left corners
+  CastBox box_;
 };
 
 }  // namespace

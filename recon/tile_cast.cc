@@ -5,6 +5,7 @@
 
 #include <hwy/highway.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -19,32 +20,119 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Floats = hn::CappedTag<float, kTileRays>;
 using Ints = hn::RebindToSigned<Floats>;
 using VF = hn::Vec<Floats>;
+using VI = hn::Vec<Ints>;
 using MF = hn::Mask<Floats>;
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 // No fused operation: it would round differently on processors without one.
-VF At(const TileForm& form, VF u, VF v) {
+HWY_INLINE VF At(const CastForm& form, VF u, VF v) {
   const Floats f;
   return hn::Add(hn::Add(hn::Mul(u, hn::Set(f, form.du)), hn::Mul(v, hn::Set(f, form.dv))),
-                 hn::Set(f, form.at_centre));
+                 hn::Set(f, form.at_origin));
 }
 
-// The keys at which rays cross one kind of edge, infinite where they don't, one vector an edge into `keys`.
-void CrossingKeys(const std::vector<TileEdge>& edges, bool enters, VF u, VF v, VF key_end, float* keys) {
+// Some rays of the tile.
+struct Rays {
+  VF u;
+  VF v;
+  VF key_end;
+};
+
+// Where rays are now, and what brought them there.
+struct Front {
+  VF key;
+  VI camera;
+  VI edge;
+};
+
+// One camera's crossings with rays about a key: the last entry and the last exit up to it, the first entry
+// beyond.
+struct About {
+  VF last_entry;
+  VF last_exit;
+  VF next_entry;
+  VI next_edge;
+};
+
+HWY_INLINE About NothingAbout() {
   const Floats f;
-  const VF zero = hn::Zero(f), infinity = hn::Set(f, kInfinity);
-  for (const TileEdge& edge : edges) {
-    const MF from = hn::Gt(At(edge.from, u, v), zero), to = hn::Gt(At(edge.to, u, v), zero);
-    const MF crosses = enters ? hn::AndNot(to, from) : hn::AndNot(from, to);
-    const VF key = At(edge.key, u, v);
-    hn::Store(hn::IfThenElse(hn::And(crosses, hn::Lt(key, key_end)), key, infinity), f, keys);
+  return {hn::Set(f, -kInfinity), hn::Set(f, -kInfinity), hn::Set(f, kInfinity), hn::Zero(Ints())};
+}
+
+HWY_INLINE VF LastOf(VF last, VF key, VF at) {
+  return hn::IfThenElse(hn::And(hn::Le(key, at), hn::Gt(key, last)), key, last);
+}
+
+HWY_INLINE void AddEntry(VF key, VF at, std::uint32_t edge, About* about) {
+  about->last_entry = LastOf(about->last_entry, key, at);
+  const MF is_next = hn::And(hn::Gt(key, at), hn::Lt(key, about->next_entry));
+  about->next_entry = hn::IfThenElse(is_next, key, about->next_entry);
+  about->next_edge = hn::IfThenElse(hn::RebindMask(Ints(), is_next),
+                                    hn::Set(Ints(), static_cast<std::int32_t>(edge)), about->next_edge);
+}
+
+// The key at which rays cross an edge, infinite where they don't.
+template <bool kEnters>
+HWY_INLINE VF KeyOf(const CastEdge& edge, const Rays& rays) {
+  const Floats f;
+  const MF from = hn::Gt(At(edge.from, rays.u, rays.v), hn::Zero(f));
+  const MF to = hn::Gt(At(edge.to, rays.u, rays.v), hn::Zero(f));
+  const MF crosses = kEnters ? hn::AndNot(to, from) : hn::AndNot(from, to);
+  const VF key = At(edge.key, rays.u, rays.v);
+  return hn::IfThenElse(hn::And(crosses, hn::Lt(key, rays.key_end)), key, hn::Set(f, kInfinity));
+}
+
+template <typename Visit>
+HWY_INLINE void VisitEdges(const CastEdges& edges, const Visit& visit) {
+  for (const std::span<const CastEdge>& run : edges.runs)
+    for (const CastEdge& edge : run) visit(edge);
+  for (const std::uint32_t i : edges.singles) visit(edges.all[i]);
+}
+
+using Kept = TileScratch::Kept;
+
+// Works out all crossings, keeps those that some ray has, and says what they are about `at`.
+About CrossFirst(const CastCamera& camera, const Rays& rays, VF at, Kept* kept) {
+  const Floats f;
+  const VF infinity = hn::Set(f, kInfinity);
+  About about = NothingAbout();
+  float* keys = kept->keys;
+  const auto keep = [&](VF key) {
+    if (hn::AllTrue(f, hn::Eq(key, infinity))) return false;
+    hn::StoreU(key, f, keys);
     keys += hn::Lanes(f);
-  }
+    return true;
+  };
+  VisitEdges(camera.entries, [&](const CastEdge& edge) {
+    const VF key = KeyOf<true>(edge, rays);
+    if (!keep(key)) return;
+    kept->edges[kept->entries++] = edge.edge;
+    AddEntry(key, at, edge.edge, &about);
+  });
+  VisitEdges(camera.exits, [&](const CastEdge& edge) {
+    const VF key = KeyOf<false>(edge, rays);
+    if (!keep(key)) return;
+    ++kept->exits;
+    about.last_exit = LastOf(about.last_exit, key, at);
+  });
+  return about;
+}
+
+// The same again about another key.
+About CrossAgain(const Kept& kept, VF at) {
+  const Floats f;
+  About about = NothingAbout();
+  const float* keys = kept.keys;
+  for (std::size_t i = 0; i < kept.entries; ++i, keys += hn::Lanes(f))
+    AddEntry(hn::LoadU(f, keys), at, kept.edges[i], &about);
+  for (std::size_t i = 0; i < kept.exits; ++i, keys += hn::Lanes(f))
+    about.last_exit = LastOf(about.last_exit, hn::LoadU(f, keys), at);
+  return about;
 }
 
 // The lowest bits, one a ray.
-MF MaskOf(std::uint64_t bits) {
+HWY_INLINE MF MaskOf(std::uint32_t bits) {
   const Floats f;
   if (bits == 0) return hn::Gt(hn::Zero(f), hn::Zero(f));
   alignas(64) float lanes[kTileRays];
@@ -52,149 +140,138 @@ MF MaskOf(std::uint64_t bits) {
   return hn::Gt(hn::Load(f, lanes), hn::Zero(f));
 }
 
-// The last of the crossings up to `at`, minus infinity without one.
-VF LastUpTo(const float* keys, std::size_t count, VF at) {
+// By the last crossing, or else the label that the ray came with.
+HWY_INLINE MF IsInside(const About& about, std::uint32_t starts_inside) {
   const Floats f;
-  const VF none = hn::Set(f, -kInfinity);
-  VF last = none;
-  for (std::size_t i = 0; i < count; ++i) {
-    const VF key = hn::Load(f, keys + i * hn::Lanes(f));
-    last = hn::Max(last, hn::IfThenElse(hn::Le(key, at), key, none));
+  const MF by_crossing = hn::Gt(about.last_entry, about.last_exit);
+  if (starts_inside == 0) return by_crossing;
+  const MF none = hn::Eq(hn::Max(about.last_entry, about.last_exit), hn::Set(f, -kInfinity));
+  return hn::Or(by_crossing, hn::And(none, MaskOf(starts_inside)));
+}
+
+HWY_INLINE void MoveOn(MF which, const About& about, std::size_t camera, Front* front) {
+  const Ints n;
+  const auto which_ints = hn::RebindMask(n, which);
+  front->key = hn::IfThenElse(which, about.next_entry, front->key);
+  front->camera = hn::IfThenElse(which_ints, hn::Set(n, static_cast<std::int32_t>(camera)), front->camera);
+  front->edge = hn::IfThenElse(which_ints, about.next_edge, front->edge);
+}
+
+// The walk of some rays, from camera to camera, until all agree.
+class Walk {
+ public:
+  Walk(const Rays& rays, std::span<const CastCamera> cameras, std::span<const CastCamera> sights,
+       std::size_t first, TileScratch* scratch)
+      : rays_(rays),
+        cameras_(cameras),
+        sights_(sights),
+        first_(first),
+        keys_(scratch->keys.data()),
+        edges_(scratch->edges.data()),
+        kept_(scratch->kept) {}
+
+  Front Run(VF key_from, VF key_to) {
+    const Floats f;
+    Front front{key_from, hn::Set(Ints(), TileHits::kNoCamera), hn::Zero(Ints())};
+    MF alive = hn::Le(key_from, key_to);
+    for (bool moved = true, is_first = true; moved && !hn::AllFalse(f, alive); is_first = false) {
+      moved = false;
+      for (std::size_t i = 0; i < cameras_.size(); ++i) {
+        const About about = is_first ? First(cameras_[i], i, front.key) : CrossAgain(kept_[i], front.key);
+        const MF outside = hn::AndNot(IsInside(about, cameras_[i].starts_inside >> first_), alive);
+        if (hn::AllFalse(f, outside)) continue;
+        MoveOn(outside, about, i, &front);
+        alive = hn::And(alive, hn::Le(front.key, key_to));
+        moved = true;
+        if (hn::AllFalse(f, alive)) break;
+      }
+      if (!moved && !sights_.empty() && !hn::AllFalse(f, alive)) {
+        moved = MoveIntoSight(alive, &front);
+        alive = hn::And(alive, hn::Le(front.key, key_to));
+      }
+    }
+    front.key = hn::IfThenElse(alive, front.key, hn::Set(f, kInfinity));
+    return front;
   }
-  return last;
-}
 
-MF IsInside(const TileCrossings& crossings, VF at) {
-  const Floats f;
-  const VF entry = LastUpTo(crossings.entries, crossings.entry_count, at);
-  const VF exit = LastUpTo(crossings.exits, crossings.exit_count, at);
-  const MF none = hn::Eq(hn::Max(entry, exit), hn::Set(f, -kInfinity));
-  return hn::Or(hn::Gt(entry, exit), hn::And(none, MaskOf(crossings.starts_inside)));
-}
+ private:
+  About First(const CastCamera& camera, std::size_t i, VF at) {
+    Kept& kept = kept_[i];
+    kept = {keys_, edges_, 0, 0};
+    const About about = CrossFirst(camera, rays_, at, &kept);
+    keys_ += (kept.entries + kept.exits) * hn::Lanes(Floats());
+    edges_ += kept.entries;
+    return about;
+  }
 
-// Where rays are now, and what brought them there.
-struct Front {
-  VF key;
-  hn::Vec<Ints> camera;
-  hn::Vec<Ints> entry;
+  // Rays that no camera sees go on to where one does. Rare enough to work all crossings out anew.
+  bool MoveIntoSight(MF alive, Front* front) {
+    const Floats f;
+    const VF at = front->key;
+    MF unseen = alive;
+    About nearest = NothingAbout();
+    VI camera = hn::Zero(Ints());
+    for (std::size_t i = 0; i < sights_.size(); ++i) {
+      Kept kept{keys_, edges_, 0, 0};
+      const About about = CrossFirst(sights_[i], rays_, at, &kept);
+      unseen = hn::AndNot(IsInside(about, sights_[i].starts_inside >> first_), unseen);
+      const MF is_nearer = hn::Lt(about.next_entry, nearest.next_entry);
+      const auto is_nearer_ints = hn::RebindMask(Ints(), is_nearer);
+      nearest.next_entry = hn::IfThenElse(is_nearer, about.next_entry, nearest.next_entry);
+      nearest.next_edge = hn::IfThenElse(is_nearer_ints, about.next_edge, nearest.next_edge);
+      camera = hn::IfThenElse(is_nearer_ints, hn::Set(Ints(), static_cast<std::int32_t>(cameras_.size() + i)),
+                              camera);
+    }
+    if (hn::AllFalse(f, unseen)) return false;
+    MoveOn(unseen, nearest, 0, front);
+    front->camera = hn::IfThenElse(hn::RebindMask(Ints(), unseen), camera, front->camera);
+    return true;
+  }
+
+  const Rays& rays_;
+  std::span<const CastCamera> cameras_;
+  std::span<const CastCamera> sights_;
+  std::size_t first_;
+  float* keys_;
+  std::uint32_t* edges_;
+  std::span<Kept> kept_;
 };
 
-// The first entry beyond `at`, with its number from `number_offset` on.
-struct Next {
-  VF key;
-  hn::Vec<Ints> entry;
-};
-Next NextEntry(const TileCrossings& crossings, VF at, std::size_t number_offset) {
+HWY_INLINE void Clip(const CastBox& box, const Rays& rays, VF* key_from, VF* key_to) {
   const Floats f;
-  const Ints n;
-  const VF infinity = hn::Set(f, kInfinity);
-  Next next{infinity, hn::Zero(n)};
-  for (std::size_t i = 0; i < crossings.entry_count; ++i) {
-    const VF key = hn::Load(f, crossings.entries + i * hn::Lanes(f));
-    const MF is_nearer = hn::And(hn::Gt(key, at), hn::Lt(key, next.key));
-    next.key = hn::IfThenElse(is_nearer, key, next.key);
-    next.entry = hn::IfThenElse(hn::RebindMask(n, is_nearer),
-                                hn::Set(n, static_cast<std::int32_t>(number_offset + i)), next.entry);
-  }
-  return next;
+  MF is_beside = hn::Ne(rays.u, rays.u);  // no ray
+  for (const CastForm& form : box.not_before) *key_from = hn::Max(*key_from, At(form, rays.u, rays.v));
+  for (const CastForm& form : box.not_after) *key_to = hn::Min(*key_to, At(form, rays.u, rays.v));
+  for (const CastForm& form : box.beside)
+    is_beside = hn::Or(is_beside, hn::Lt(At(form, rays.u, rays.v), hn::Zero(f)));
+  *key_to = hn::IfThenElse(is_beside, hn::Set(f, -kInfinity), *key_to);
+  *key_from = hn::IfThenElse(is_beside, hn::Set(f, kInfinity), *key_from);
 }
 
-// Moves the rays of `which` on to `next`.
-void MoveOn(MF which, const Next& next, std::size_t camera, Front* front) {
-  const Ints n;
-  front->key = hn::IfThenElse(which, next.key, front->key);
-  front->camera =
-      hn::IfThenElse(hn::RebindMask(n, which), hn::Set(n, static_cast<std::int32_t>(camera)), front->camera);
-  front->entry = hn::IfThenElse(hn::RebindMask(n, which), next.entry, front->entry);
-}
-
-// Moves rays of `alive` that no camera sees on to where one does. Returns those that moved.
-MF MoveIntoSight(std::span<const TileCrossings> sights, const Tile& tile, MF alive, Front* front) {
-  MF unseen = alive;
-  for (const TileCrossings& sight : sights) unseen = hn::AndNot(IsInside(sight, front->key), unseen);
-  if (hn::AllFalse(Floats(), unseen)) return unseen;
-  const VF at = front->key;
-  front->key = hn::IfThenElse(unseen, hn::Set(Floats(), kInfinity), front->key);
-  for (std::size_t i = 0; i < sights.size(); ++i) {
-    const Next next = NextEntry(sights[i], at, tile.cameras[i].entries.size());
-    MoveOn(hn::And(unseen, hn::Lt(next.key, front->key)), next, i, front);
-  }
-  return unseen;
-}
-
-// The first key at which all cameras agree; infinite if that isn't before `key_to`.
-Front FirstAgreement(std::span<const TileCrossings> cameras, std::span<const TileCrossings> sights,
-                     const Tile& tile, VF key_from, VF key_to) {
-  const Floats f;
-  const Ints n;
-  Front front{key_from, hn::Set(n, Tile::kNoCamera), hn::Zero(n)};
-  MF alive = hn::Le(key_from, key_to);
-  bool moved = true;
-  while (moved && !hn::AllFalse(f, alive)) {
-    moved = false;
-    for (std::size_t i = 0; i < cameras.size(); ++i) {
-      const MF outside = hn::AndNot(IsInside(cameras[i], front.key), alive);
-      if (hn::AllFalse(f, outside)) continue;
-      MoveOn(outside, NextEntry(cameras[i], front.key, 0), i, &front);
-      alive = hn::And(alive, hn::Le(front.key, key_to));
-      moved = true;
-      if (hn::AllFalse(f, alive)) break;
-    }
-    if (!moved && !sights.empty()) {
-      moved = !hn::AllFalse(f, MoveIntoSight(sights, tile, alive, &front));
-      alive = hn::And(alive, hn::Le(front.key, key_to));
-    }
-  }
-  front.key = hn::IfThenElse(alive, front.key, hn::Set(f, kInfinity));
-  return front;
-}
-
-std::size_t EdgeCount(const std::vector<TileCamera>& cameras) {
+std::size_t CountOf(std::span<const CastCamera> cameras) {
   std::size_t count = 0;
-  for (const TileCamera& camera : cameras) count += camera.entries.size() + camera.exits.size();
+  for (const CastCamera& camera : cameras) count += camera.entries.size() + camera.exits.size();
   return count;
 }
 
-// Works out the crossings of each camera with the rays from `first` on; returns where free room begins.
-float* CrossAll(const std::vector<TileCamera>& cameras, const Tile& tile, std::size_t first, float* keys,
-                std::vector<TileCrossings>* crossings) {
+void Cast(const TileRays& tile, const CastBox& box, std::span<const CastCamera> cameras,
+          std::span<const CastCamera> sights, TileScratch* scratch, TileHits* hits) {
   const Floats f;
-  const VF u = hn::Load(f, tile.u + first), v = hn::Load(f, tile.v + first);
-  const VF key_end = hn::Set(f, tile.key_end);
-  for (const TileCamera& camera : cameras) {
-    float* exits = keys + camera.entries.size() * hn::Lanes(f);
-    CrossingKeys(camera.entries, true, u, v, key_end, keys);
-    CrossingKeys(camera.exits, false, u, v, key_end, exits);
-    crossings->push_back(
-        {keys, camera.entries.size(), exits, camera.exits.size(), camera.starts_inside >> first});
-    keys = exits + camera.exits.size() * hn::Lanes(f);
+  const std::size_t lanes = hn::Lanes(f), count = CountOf(cameras) + CountOf(sights);
+  scratch->kept.resize(cameras.size());
+  if (scratch->keys.size() < count * lanes) scratch->keys.resize(2 * count * lanes);
+  if (scratch->edges.size() < count) scratch->edges.resize(2 * count);
+  hits->any = false;
+  for (std::size_t first = 0; first < kTileRays; first += lanes) {
+    const Rays rays{hn::Load(f, tile.u + first), hn::Load(f, tile.v + first), hn::Set(f, tile.key_end)};
+    VF key_from = hn::Set(f, -kInfinity), key_to = rays.key_end;
+    Clip(box, rays, &key_from, &key_to);
+    const Front front = Walk(rays, cameras, sights, first, scratch).Run(key_from, key_to);
+    hits->any = hits->any || !hn::AllTrue(f, hn::Eq(front.key, hn::Set(f, kInfinity)));
+    hn::Store(front.key, f, hits->key + first);
+    hn::Store(front.camera, Ints(), hits->camera + first);
+    hn::Store(front.edge, Ints(), hits->edge + first);
   }
-  return keys;
-}
-
-void CastVector(Tile* tile, std::size_t first, float* keys) {
-  const Floats f;
-  const Ints n;
-  tile->crossings.clear();
-  keys = CrossAll(tile->cameras, *tile, first, keys, &tile->crossings);
-  CrossAll(tile->sights, *tile, first, keys, &tile->crossings);
-  const std::span<const TileCrossings> all = tile->crossings;
-  const Front front =
-      FirstAgreement(all.first(tile->cameras.size()), all.subspan(tile->cameras.size()), *tile,
-                     hn::Load(f, tile->key_from + first), hn::Load(f, tile->key_to + first));
-  hn::Store(front.key, f, tile->key + first);
-  hn::Store(front.camera, n, tile->camera + first);
-  hn::Store(front.entry, n, tile->entry + first);
-}
-
-void Cast(Tile* tile) {
-  const std::size_t lanes = hn::Lanes(Floats());
-  const std::size_t floats = (EdgeCount(tile->cameras) + EdgeCount(tile->sights)) * lanes;
-  constexpr std::size_t kAlignment = 64;
-  if (tile->keys.size() < floats + kAlignment) tile->keys.resize(2 * floats + kAlignment);
-  const auto address = reinterpret_cast<std::uintptr_t>(tile->keys.data());
-  float* keys = tile->keys.data() + (kAlignment - address % kAlignment) % kAlignment / sizeof(float);
-  for (std::size_t first = 0; first < kTileRays; first += lanes) CastVector(tile, first, keys);
 }
 
 }  // namespace
@@ -206,7 +283,10 @@ namespace elbowroom::recon {
 
 HWY_EXPORT(Cast);
 
-void CastTile(Tile* tile) { HWY_DYNAMIC_DISPATCH(Cast)(tile); }
+void CastTile(const TileRays& rays, const CastBox& box, std::span<const CastCamera> cameras,
+              std::span<const CastCamera> sights, TileScratch* scratch, TileHits* hits) {
+  HWY_DYNAMIC_DISPATCH(Cast)(rays, box, cameras, sights, scratch, hits);
+}
 
 }  // namespace elbowroom::recon
 #endif

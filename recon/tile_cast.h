@@ -1,6 +1,7 @@
-// The rays of one 8 x 8 tile, cast at the edges they can meet: the inner loop of the exact view.
+// The rays of one small tile, cast at the edges they can meet: the inner loop of the exact view.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -8,70 +9,84 @@
 
 namespace elbowroom::recon {
 
-inline constexpr int kTilePx = 8;
+inline constexpr int kTilePx = 4;
 inline constexpr int kTileRays = kTilePx * kTilePx;
 
-// value(u, v) = u * du + v * dv + at_centre; u and v count from the tile's own centre, so that float32 keeps
-// what the tile can tell apart.
-struct TileForm {
+// value(u, v) = u * du + v * dv + at_origin, in float32.
+struct CastForm {
   float du = 0.0F;
   float dv = 0.0F;
-  float at_centre = 0.0F;
+  float at_origin = 0.0F;
 };
 
-// A PencilEdge about the tile's centre.
-struct TileEdge {
-  TileForm from;
-  TileForm to;
-  TileForm key;
+// The surface that one edge sweeps, from the camera's centre outwards. The ray (u, v) meets it at key(u, v),
+// provided that the ends' sides agree with the kind: entering the object, from > 0 and not to > 0; leaving
+// it, not from > 0 and to > 0. Derivation: docs/exact_view.md.
+struct CastEdge {
+  CastForm from;  // side of the epipolar plane that the edge's ends are on
+  CastForm to;
+  CastForm key;
   std::uint32_t edge = 0;  // of the contour
 };
 
+// Some of a pencil's edges: two runs of neighbours, and single ones.
+struct CastEdges {
+  std::array<std::span<const CastEdge>, 2> runs;
+  const CastEdge* all = nullptr;
+  std::span<const std::uint32_t> singles;  // numbers in `all`
+
+  [[nodiscard]] std::size_t size() const { return runs[0].size() + runs[1].size() + singles.size(); }
+};
+
 // What one camera can tell the tile's rays.
-struct TileCamera {
-  std::vector<TileEdge> entries;  // edges that rays enter the object by
-  std::vector<TileEdge> exits;
-  std::uint64_t starts_inside = 0;  // a bit a ray: the label that it comes with
-
-  void Clear() {
-    entries.clear();
-    exits.clear();
-    starts_inside = 0;
-  }
+struct CastCamera {
+  CastEdges entries;  // edges that rays enter the object by
+  CastEdges exits;
+  std::uint32_t starts_inside = 0;  // a bit a ray: the label that it comes with
 };
 
-// Where the rays of one vector cross one camera's edges: a vector of keys an edge.
-struct TileCrossings {
-  const float* entries = nullptr;
-  std::size_t entry_count = 0;
-  const float* exits = nullptr;
-  std::size_t exit_count = 0;
-  std::uint64_t starts_inside = 0;
+// Where rays (u, v) are in the workspace: not before the largest of some keys, not after the smallest of
+// others, and only where all of `beside` aren't negative.
+struct CastBox {
+  std::vector<CastForm> not_before;
+  std::vector<CastForm> not_after;
+  std::vector<CastForm> beside;
 };
 
-struct Tile {
-  alignas(64) float u[kTileRays];
+struct TileRays {
+  alignas(64) float u[kTileRays];  // NaN: no ray
   alignas(64) float v[kTileRays];
-  // Where each ray is in the workspace; from > to: nowhere.
-  alignas(64) float key_from[kTileRays];
-  alignas(64) float key_to[kTileRays];
   float key_end = 0.0F;  // of the rays themselves: 0 perspective, infinite orthographic
-  std::vector<TileCamera> cameras;
-  std::vector<TileCamera>
-      sights;  // of pictures' outlines, one of which must hold a point; none: no such rule
-  // Out: the key of each ray's first point in the hull, infinite if there is none; which camera's edge it is
-  // on (kNoCamera: a face of the workspace).
+};
+
+// Of each ray: the key of its first point in the hull, infinite if there is none, and whose edge it is on
+// (kNoCamera: a face of the workspace).
+struct TileHits {
   static constexpr std::int32_t kNoCamera = -1;
   alignas(64) float key[kTileRays];
-  alignas(64) std::int32_t camera[kTileRays];
-  alignas(
-      64) std::int32_t entry[kTileRays];  // number of that edge among the camera's entries, then its sight's
-  std::vector<float> keys;                // room to work in
-  std::vector<TileCrossings> crossings;
+  alignas(64) std::int32_t camera[kTileRays];  // sights count on after the cameras
+  alignas(64) std::int32_t edge[kTileRays];
+  bool any = false;
 };
 
-// The processor's widest vectors decide how many rays go at once, never the result: the same bits for all
-// (tile_cast_test).
-void CastTile(Tile* tile);
+// Room to work in, kept from tile to tile.
+struct TileScratch {
+  // One camera's crossings with the rays of one vector: keys, a vector each, entries first.
+  struct Kept {
+    float* keys = nullptr;
+    std::uint32_t* edges = nullptr;  // of the entries
+    std::size_t entries = 0;
+    std::size_t exits = 0;
+  };
+
+  std::vector<Kept> kept;
+  std::vector<float> keys;
+  std::vector<std::uint32_t> edges;
+};
+
+// `cameras` must all agree that a point is in the hull, and one of `sights` if there are any. The processor's
+// widest vectors decide how many rays go at once, never the result: the same bits for all (hull_view_test).
+void CastTile(const TileRays& rays, const CastBox& box, std::span<const CastCamera> cameras,
+              std::span<const CastCamera> sights, TileScratch* scratch, TileHits* hits);
 
 }  // namespace elbowroom::recon
