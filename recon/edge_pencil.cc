@@ -15,12 +15,8 @@ using Eigen::Vector3d;
 // distances it is taken to be beside it.
 constexpr double kLeastHeight = 1e-14;
 
-// Grows with the angle from the x axis, 0 to 4 for a turn. NaN at the origin.
-double PseudoAngle(double x, double y) {
-  const double share = y / (std::abs(x) + std::abs(y));
-  if (x < 0.0) return 2.0 - share;
-  return share < 0.0 ? 4.0 + share : share;
-}
+// Grows with the angle from the x axis, -2 to 2 for a turn. NaN at the origin.
+double PseudoAngle(double x, double y) { return std::copysign(1.0 - x / (std::abs(x) + std::abs(y)), y); }
 
 // b - a as the shorter way round, -2 to 2.
 double Turn(double a, double b) {
@@ -37,11 +33,11 @@ EdgePencil::BinRange BinsAlong(double start, double turn) {
   constexpr double kPerUnit = EdgePencil::kBins / 4.0;
   // Written so that a NaN takes all bins.
   if (!(turn < 1.9)) return kAllBins;
-  const int first = static_cast<int>(std::floor(start * kPerUnit - kBinSlack));
-  const int last = static_cast<int>(std::floor((start + turn) * kPerUnit + kBinSlack));
+  // Angles from -4 on, so that truncation is rounding down.
+  const int first = static_cast<int>((start + 4.0) * kPerUnit - kBinSlack);
+  const int last = static_cast<int>((start + 4.0 + turn) * kPerUnit + kBinSlack);
   constexpr int kCount = EdgePencil::kBins;
-  return {static_cast<std::uint32_t>((first + 2 * kCount) % kCount),
-          static_cast<std::uint32_t>(last - first + 1)};
+  return {static_cast<std::uint32_t>(first % kCount), static_cast<std::uint32_t>(last - first + 1)};
 }
 
 CastForm Narrow(const AffineForm& form) {
@@ -180,22 +176,24 @@ bool EdgePencil::IsObjectAlong(const Eigen::Vector2d& uv) const {
 
 EdgePencil::BinRange EdgePencil::BinsOf(const Eigen::AlignedBox2d& uv_box) const {
   // Angles on both sides of the axis itself go all the way round.
-  const Eigen::Vector2d slack = 1e-9 * (uv_box.sizes() + uv_box.min().cwiseAbs() + uv_box.max().cwiseAbs());
+  const Eigen::Vector2d slack = 1e-9 * (uv_box.min().cwiseAbs() + uv_box.max().cwiseAbs());
   const Eigen::AlignedBox2d grown(uv_box.min() - slack, uv_box.max() + slack);
-  if (axis_uv_.allFinite() && grown.contains(axis_uv_)) return kAllBins;
-  double start = 0.0, least = 0.0, most = 0.0;
+  if (grown.contains(axis_uv_)) return kAllBins;
+  // The four corners at once.
+  const Eigen::Array4d u(uv_box.min().x(), uv_box.max().x(), uv_box.min().x(), uv_box.max().x());
+  const Eigen::Array4d v(uv_box.min().y(), uv_box.min().y(), uv_box.max().y(), uv_box.max().y());
+  const Eigen::Array4d x = u * across_[0].du + v * across_[0].dv + across_[0].at_origin;
+  const Eigen::Array4d y = u * across_[1].du + v * across_[1].dv + across_[1].at_origin;
+  const Eigen::Array4d turned = 1.0 - x / (x.abs() + y.abs());  // PseudoAngle, but for the sign
+  double least = 0.0, most = 0.0, start = 0.0;
   for (int corner = 0; corner < 4; ++corner) {
-    const Eigen::Vector2d uv((corner & 1) != 0 ? uv_box.max().x() : uv_box.min().x(),
-                             (corner & 2) != 0 ? uv_box.max().y() : uv_box.min().y());
-    const double angle = PseudoAngle(across_[0].At(uv), across_[1].At(uv));
+    const double angle = std::copysign(turned[corner], y[corner]);
     if (corner == 0) start = angle;
     const double turn = Turn(start, angle);
     if (std::isnan(turn)) return kAllBins;
     least = std::min(least, turn), most = std::max(most, turn);
   }
-  double first = start + least;
-  if (first < 0.0) first += 4.0;
-  return BinsAlong(first, most - least);
+  return BinsAlong(start + least, most - least);
 }
 
 }  // namespace elbowroom::recon

@@ -46,9 +46,9 @@ std::vector<Vector3f> NormalsOf(const VisualHull& hull, const ViewRays& rays, co
       const std::size_t pixel =
           static_cast<std::size_t>(y) * static_cast<std::size_t>(view.width_px) + static_cast<std::size_t>(x);
       const HullSurface& surface = view.surface[pixel];
-      if (surface.camera == HullSurface::kNowhere) continue;
-      if (surface.camera != HullSurface::kWorkspace) {
-        normals[pixel] = edge_normals[static_cast<std::size_t>(surface.camera)][surface.edge];
+      if (!surface.is_hit()) continue;
+      if (const auto camera = surface.camera()) {
+        normals[pixel] = edge_normals[*camera][surface.edge()];
         continue;
       }
       const double depth_mm = view.depth_mm[pixel];

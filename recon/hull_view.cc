@@ -95,8 +95,7 @@ class Caster {
     std::vector<Square> squares;
     for (int y = 0; y < rays_.height_px(); y += kLargestSquarePx) {
       for (int x = 0; x < rays_.width_px(); x += kLargestSquarePx)
-        Divide(SquareAt(x, y, kLargestSquarePx), kTaskPx,
-               [&](const Square& square) { squares.push_back(square); });
+        Divide(SquareAt(x, y, kLargestSquarePx), &squares);
     }
     tbb::enumerable_thread_specific<Worker> workers([this] {
       Worker worker;
@@ -107,9 +106,7 @@ class Caster {
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, squares.size(), kSquaresATask),
                       [&](const tbb::blocked_range<std::size_t>& range) {
                         Worker& worker = workers.local();
-                        for (std::size_t i = range.begin(); i < range.end(); ++i)
-                          Divide(squares[i], kTilePx,
-                                 [&](const Square& square) { CastSquare(square, &worker); });
+                        for (std::size_t i = range.begin(); i < range.end(); ++i) Work(squares[i], &worker);
                       });
     for (const Worker& worker : workers) {
       view_.hit_pixels += worker.hit_pixels;
@@ -142,15 +139,19 @@ class Caster {
     return {x, y, size, right, bottom, rays_.BoundsOf(x, y, right, bottom)};
   }
 
-  // Calls visit(square) for the squares of `least` pixels a side whose rays might meet the hull.
-  template <typename Visit>
-  void Divide(const Square& square, int least, const Visit& visit) const {
+  // Lists the squares that are pieces of work and whose rays might meet the hull.
+  void Divide(const Square& square, std::vector<Square>* squares) const {
     if (square.box.isEmpty() || MissesWorkspace(square.box) || MissesSomeContour(square.box)) return;
-    if (square.size == least) return visit(square);
+    if (square.size == kTaskPx) return squares->push_back(square);
     const int half = square.size / 2;
     for (const int y : {square.y, square.y + half})
       for (const int x : {square.x, square.x + half})
-        if (x < square.right && y < square.bottom) Divide(SquareAt(x, y, half), least, visit);
+        if (x < square.right && y < square.bottom) Divide(SquareAt(x, y, half), squares);
+  }
+
+  void Work(const Square& square, Worker* worker) {
+    for (int y = square.y; y < square.bottom; y += kTilePx)
+      for (int x = square.x; x < square.right; x += kTilePx) CastSquare(SquareAt(x, y, kTilePx), worker);
   }
 
   // True if all rays of the box pass some face on the outer side, or some pair of faces in the wrong order.
@@ -188,11 +189,15 @@ class Caster {
   }
 
   void CastSquare(const Square& square, Worker* worker) {
+    if (square.box.isEmpty()) return;
+    for (std::size_t i = 0; i < pencils_.size(); ++i) {
+      worker->cameras[i] = Gather(*pencils_[i], square, worker);
+      // Background of this camera is all that the square's rays pass.
+      if (worker->cameras[i].starts_inside == 0 && worker->cameras[i].entries.size() == 0) return;
+    }
+    for (std::size_t i = 0; i < sights_.size(); ++i) worker->sights[i] = Gather(*sights_[i], square, worker);
     PlaceRays(square, &worker->rays);
     worker->cast_pixels += (square.right - square.x) * (square.bottom - square.y);
-    for (std::size_t i = 0; i < pencils_.size(); ++i)
-      worker->cameras[i] = Gather(*pencils_[i], square, worker);
-    for (std::size_t i = 0; i < sights_.size(); ++i) worker->sights[i] = Gather(*sights_[i], square, worker);
     CastTile(worker->rays, box_, worker->cameras, worker->sights, &worker->scratch, &worker->hits);
     if (worker->hits.any) Record(square, worker);
   }
@@ -243,13 +248,13 @@ class Caster {
     }
   }
 
-  [[nodiscard]] HullSurface SurfaceOf(std::int32_t camera, std::uint32_t edge) const {
-    if (camera == TileHits::kNoCamera) return {HullSurface::kWorkspace, 0};
-    const auto cameras = static_cast<std::int32_t>(pencils_.size());
-    if (camera < cameras) return {camera, edge};
-    const auto of_contour = static_cast<std::uint32_t>(
-        hull_.silhouettes()[static_cast<std::size_t>(camera - cameras)]->labels().contour().edges.size());
-    return {camera - cameras, of_contour + edge};
+  [[nodiscard]] HullSurface SurfaceOf(std::int32_t number, std::uint32_t edge) const {
+    if (number == TileHits::kNoCamera) return HullSurface::Workspace();
+    const auto camera = static_cast<std::size_t>(number);
+    if (camera < pencils_.size()) return {camera, edge};
+    const std::size_t seen_by = camera - pencils_.size();
+    return {seen_by,
+            edge + static_cast<std::uint32_t>(hull_.silhouettes()[seen_by]->labels().contour().edges.size())};
   }
 
   const VisualHull& hull_;

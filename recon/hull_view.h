@@ -14,11 +14,26 @@
 namespace elbowroom::recon {
 
 // The surface at a pixel: an edge of a camera's contour, seen from that camera, or a face of the workspace.
-struct HullSurface {
-  static constexpr std::int32_t kNowhere = -2;  // the ray misses
-  static constexpr std::int32_t kWorkspace = -1;
-  std::int32_t camera = kNowhere;  // of the rig, or one of the above
-  std::uint32_t edge = 0;          // of its contour; under `abstain` those of the outline follow
+class HullSurface {
+ public:
+  HullSurface() = default;  // none: the ray misses
+  [[nodiscard]] static HullSurface Workspace() { return HullSurface(1U); }
+  // Cameras up to 253, edges up to 2^24 - 1; under `abstain` the edges of the outline follow the contour's.
+  HullSurface(core::CameraIndex camera, std::uint32_t edge)
+      : packed_(static_cast<std::uint32_t>((camera + 2) << 24U) | edge) {}
+
+  [[nodiscard]] bool is_hit() const { return packed_ != 0; }
+  // Nothing: a face of the workspace.
+  [[nodiscard]] std::optional<core::CameraIndex> camera() const {
+    if (packed_ >> 24U < 2) return std::nullopt;
+    return (packed_ >> 24U) - 2;
+  }
+  [[nodiscard]] std::uint32_t edge() const { return packed_ & 0xFFFFFFU; }
+  [[nodiscard]] bool operator==(const HullSurface&) const = default;
+
+ private:
+  explicit HullSurface(std::uint32_t packed) : packed_(packed) {}
+  std::uint32_t packed_ = 0;
 };
 
 struct HullView {

@@ -72,15 +72,18 @@ HWY_INLINE void AddEntry(VF key, VF at, std::uint32_t edge, About* about) {
                                     hn::Set(Ints(), static_cast<std::int32_t>(edge)), about->next_edge);
 }
 
-// The key at which rays cross an edge, infinite where they don't.
+// The rays that pass between an edge's ends on the way that its kind asks for.
 template <bool kEnters>
-HWY_INLINE VF KeyOf(const CastEdge& edge, const Rays& rays) {
-  const Floats f;
-  const MF from = hn::Gt(At(edge.from, rays.u, rays.v), hn::Zero(f));
-  const MF to = hn::Gt(At(edge.to, rays.u, rays.v), hn::Zero(f));
-  const MF crosses = kEnters ? hn::AndNot(to, from) : hn::AndNot(from, to);
+HWY_INLINE MF Crosses(const CastEdge& edge, const Rays& rays) {
+  const VF zero = hn::Zero(Floats());
+  const MF from = hn::Gt(At(edge.from, rays.u, rays.v), zero), to = hn::Gt(At(edge.to, rays.u, rays.v), zero);
+  return kEnters ? hn::AndNot(to, from) : hn::AndNot(from, to);
+}
+
+// The key at which they cross it, infinite where they don't.
+HWY_INLINE VF KeyOf(const CastEdge& edge, MF crosses, const Rays& rays) {
   const VF key = At(edge.key, rays.u, rays.v);
-  return hn::IfThenElse(hn::And(crosses, hn::Lt(key, rays.key_end)), key, hn::Set(f, kInfinity));
+  return hn::IfThenElse(hn::And(crosses, hn::Lt(key, rays.key_end)), key, hn::Set(Floats(), kInfinity));
 }
 
 template <typename Visit>
@@ -95,24 +98,23 @@ using Kept = TileScratch::Kept;
 // Works out all crossings, keeps those that some ray has, and says what they are about `at`.
 About CrossFirst(const CastCamera& camera, const Rays& rays, VF at, Kept* kept) {
   const Floats f;
-  const VF infinity = hn::Set(f, kInfinity);
   About about = NothingAbout();
   float* keys = kept->keys;
-  const auto keep = [&](VF key) {
-    if (hn::AllTrue(f, hn::Eq(key, infinity))) return false;
+  VisitEdges(camera.entries, [&](const CastEdge& edge) {
+    const MF crosses = Crosses<true>(edge, rays);
+    if (hn::AllFalse(f, crosses)) return;
+    const VF key = KeyOf(edge, crosses, rays);
     hn::StoreU(key, f, keys);
     keys += hn::Lanes(f);
-    return true;
-  };
-  VisitEdges(camera.entries, [&](const CastEdge& edge) {
-    const VF key = KeyOf<true>(edge, rays);
-    if (!keep(key)) return;
     kept->edges[kept->entries++] = edge.edge;
     AddEntry(key, at, edge.edge, &about);
   });
   VisitEdges(camera.exits, [&](const CastEdge& edge) {
-    const VF key = KeyOf<false>(edge, rays);
-    if (!keep(key)) return;
+    const MF crosses = Crosses<false>(edge, rays);
+    if (hn::AllFalse(f, crosses)) return;
+    const VF key = KeyOf(edge, crosses, rays);
+    hn::StoreU(key, f, keys);
+    keys += hn::Lanes(f);
     ++kept->exits;
     about.last_exit = LastOf(about.last_exit, key, at);
   });
