@@ -11,12 +11,12 @@ namespace {
 
 using Eigen::Vector3d;
 
-// A view centre in the plane of an edge meets it at the start of its rays: as near as this share of the
+// A view centre in the plane of an edge meets it at the start of its rays: nearer than this share of the
 // distances it is taken to be beside it.
 constexpr double kLeastHeight = 1e-14;
-
-// Grows with the angle from the x axis, -2 to 2 for a turn. NaN at the origin.
-double PseudoAngle(double x, double y) { return std::copysign(1.0 - x / (std::abs(x) + std::abs(y)), y); }
+constexpr std::uint32_t kBins = 2048;
+// Room for the rounding of rays' angles to float32.
+constexpr double kAngleSlack = 1e-6;
 
 // b - a as the shorter way round, -2 to 2.
 double Turn(double a, double b) {
@@ -24,29 +24,10 @@ double Turn(double a, double b) {
   return turn > 2.0 ? turn - 4.0 : turn < -2.0 ? turn + 4.0 : turn;
 }
 
-// Float32 sides may put a ray on the other side of an end that is nearer than this to its plane, in bins.
-constexpr double kBinSlack = 1e-2;
-constexpr EdgePencil::BinRange kAllBins{0, EdgePencil::kBins};
-
-// The bins from `start` on along `turn` >= 0, with room for the rounding of angles.
-EdgePencil::BinRange BinsAlong(double start, double turn) {
-  constexpr double kPerUnit = EdgePencil::kBins / 4.0;
-  // Written so that a NaN takes all bins.
-  if (!(turn < 1.9)) return kAllBins;
-  // Angles from -4 on, so that truncation is rounding down.
-  const int first = static_cast<int>((start + 4.0) * kPerUnit - kBinSlack);
-  const int last = static_cast<int>((start + 4.0 + turn) * kPerUnit + kBinSlack);
-  constexpr int kCount = EdgePencil::kBins;
-  return {static_cast<std::uint32_t>(first % kCount), static_cast<std::uint32_t>(last - first + 1)};
-}
-
-CastForm Narrow(const AffineForm& form) {
-  return {static_cast<float>(form.du), static_cast<float>(form.dv), static_cast<float>(form.at_origin)};
-}
-
-double AwayFromZero(double height, double least) {
-  if (std::abs(height) >= least) return height;
-  return std::signbit(height) ? -least : least;
+Vector3d Across(const Vector3d& axis, const Vector3d& toward) {
+  const Vector3d across = toward - axis.dot(toward) * axis;
+  return across.norm() > 1e-6 * toward.norm() ? Vector3d(across.normalized())
+                                              : Vector3d(axis.unitOrthogonal());
 }
 
 }  // namespace
@@ -63,74 +44,122 @@ EdgePencil::EdgePencil(const ContourMap& labels, double focal_px, const core::Ca
   // Where the rays come from: the view's centre, or infinitely far behind the picture.
   const Vector3d start_in_view = is_perspective ? Vector3d(-centre_in_view_) : Vector3d(0.0, 0.0, -1.0);
   starts_inside_ = LabelInCam(labels, focal_px, cam_from_view_ * start_in_view);
-  const Vector3d axis = is_perspective ? centre_in_view_.normalized() : Vector3d::UnitZ();
-  across_axes_[0] = axis.unitOrthogonal();
-  across_axes_[1] = axis.cross(across_axes_[0]);
-  for (int i = 0; i < 2; ++i) {
-    const Vector3d& a = across_axes_[i];
-    across_[i] = {a.x(), a.y(), is_perspective ? a.z() : -a.dot(centre_in_view_)};
-  }
-  axis_uv_ = is_perspective ? Eigen::Vector2d(centre_in_view_.head<2>() / centre_in_view_.z())
-                            : Eigen::Vector2d(centre_in_view_.head<2>());
+  ChooseAxes(rays.BoundsOf(0, 0, rays.width_px(), rays.height_px()));
   SortEdges(labels.contour(), view_from_cam.rotation);
 }
 
-// Works out where rays meet the plane of an edge from `from` along `along`; returns whether they enter there.
-bool EdgePencil::MakeEdge(const Vector3d& from, const Vector3d& along, CastForm* key) const {
+void EdgePencil::ChooseAxes(const Eigen::AlignedBox2d& view_box) {
+  const Vector3d& c = centre_in_view_;
+  const Eigen::Vector2d middle = view_box.center();
+  const bool is_perspective = projection_ == Projection::kPerspective;
+  const Vector3d axis = is_perspective ? Vector3d(c.normalized()) : Vector3d::UnitZ();
+  const Vector3d toward = is_perspective ? Vector3d(middle.x(), middle.y(), 1.0)
+                                         : Vector3d(middle.x() - c.x(), middle.y() - c.y(), 0.0);
+  across_axes_[0] = Across(axis, toward);
+  across_axes_[1] = axis.cross(across_axes_[0]);
+  for (int i = 0; i < 2; ++i) {
+    const Vector3d& a = across_axes_[i];
+    across_[i] = {a.x(), a.y(), is_perspective ? a.z() : -a.dot(c)};
+  }
+  axis_uv_ = is_perspective ? Eigen::Vector2d(c.head<2>() / c.z()) : Eigen::Vector2d(c.head<2>());
+  view_angles_ = AnglesOf(view_box);
+  cast_.x = across_[0].Narrow();
+  cast_.y = across_[1].Narrow();
+  cast_.bins = kBins;
+  cast_.least_angle = static_cast<float>(view_angles_.least);
+  cast_.bins_per_angle = static_cast<float>(kBins / (view_angles_.most - view_angles_.least));
+}
+
+EdgePencil::AngleRange EdgePencil::AnglesOf(const Eigen::AlignedBox2d& uv_box) const {
+  constexpr AngleRange kAll{-2.0, 2.0};
+  // Around the axis itself, angles go all the way round.
+  const Eigen::Vector2d slack = 1e-9 * (uv_box.min().cwiseAbs() + uv_box.max().cwiseAbs());
+  const Eigen::AlignedBox2d grown(uv_box.min() - slack, uv_box.max() + slack);
+  if (grown.contains(axis_uv_)) return kAll;
+  AngleRange range{2.0, -2.0};
+  for (int corner = 0; corner < 4; ++corner) {
+    const Eigen::Vector2d uv((corner & 1) != 0 ? uv_box.max().x() : uv_box.min().x(),
+                             (corner & 2) != 0 ? uv_box.max().y() : uv_box.min().y());
+    const double angle = PencilAngle(across_[0].At(uv), across_[1].At(uv));
+    if (std::isnan(angle)) return kAll;
+    range = {std::min(range.least, angle), std::max(range.most, angle)};
+  }
+  // Corners on both sides of the negative x axis.
+  if (range.most - range.least > 2.0) return kAll;
+  return {range.least - kAngleSlack, range.most + kAngleSlack};
+}
+
+std::uint32_t EdgePencil::BinOf(double angle) const {
+  const double bin = (angle - cast_.least_angle) * cast_.bins_per_angle;
+  return static_cast<std::uint32_t>(std::clamp(bin, 0.0, kBins - 1.0));
+}
+
+// Where rays meet the plane of an edge from `from` along `along`.
+CastForm EdgePencil::KeyOf(const Vector3d& from, const Vector3d& along, bool enters) const {
   const Vector3d normal = from.cross(along);
+  const double sign = enters ? 1.0 : -1.0;
   const double least = kLeastHeight * normal.norm() + std::numeric_limits<double>::min();
   if (projection_ == Projection::kPerspective) {
-    const double height = AwayFromZero(normal.dot(centre_in_view_), least * centre_in_view_.norm());
-    *key = Narrow({-normal.x() / height, -normal.y() / height, -normal.z() / height});
-    return height > 0.0;
+    const double height = sign * std::max(sign * normal.dot(centre_in_view_), least * centre_in_view_.norm());
+    return AffineForm{-normal.x() / height, -normal.y() / height, -normal.z() / height}.Narrow();
   }
-  const double rise = AwayFromZero(normal.z(), least);
-  *key = Narrow({-normal.x() / rise, -normal.y() / rise, normal.dot(centre_in_view_) / rise});
-  return rise > 0.0;
+  const double rise = sign * std::max(sign * normal.z(), least);
+  return AffineForm{-normal.x() / rise, -normal.y() / rise, normal.dot(centre_in_view_) / rise}.Narrow();
+}
+
+// The part of an edge's angles, from < to, that the view has.
+void EdgePencil::AddEdge(CastEdge edge, double from, double to, std::vector<UnsortedEdge>* edges) const {
+  edge.from = static_cast<float>(from), edge.to = static_cast<float>(to);
+  if (!(from <= view_angles_.most) || !(to >= view_angles_.least)) return;
+  // Of the angles as rounded, with room for the rounding of bins.
+  edges->push_back({edge, BinOf(from - kAngleSlack), BinOf(to + kAngleSlack)});
 }
 
 void EdgePencil::SortEdges(const Contour& contour, const Eigen::Matrix3d& view_from_cam) {
   struct Vertex {
     Vector3d in_view;  // a direction
-    CastForm side;
     double angle;
   };
-  const Vector3d& c = centre_in_view_;
-  const bool is_perspective = projection_ == Projection::kPerspective;
   std::vector<Vertex> vertices(contour.vertices.size());
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     const Eigen::Vector2d& at = contour.vertices[i];
     const Vector3d q = view_from_cam * Vector3d(at.x(), at.y(), focal_px_);
-    // det(d, c, q) with d = (u, v, 1); det(z, c - o, q) with o = (u, v, 0).
-    const Vector3d side =
-        is_perspective ? Vector3d(c.cross(q)) : Vector3d(-q.y(), q.x(), c.x() * q.y() - c.y() * q.x());
-    vertices[i] = {q, Narrow({side.x(), side.y(), side.z()}),
-                   PseudoAngle(across_axes_[0].dot(q), across_axes_[1].dot(q))};
+    const double angle = PencilAngle(across_axes_[0].dot(q), across_axes_[1].dot(q));
+    vertices[i] = {q, std::isnan(angle) ? 0.0 : angle};
   }
   std::vector<UnsortedEdge> entries, exits;
   entries.reserve(contour.edges.size()), exits.reserve(contour.edges.size());
   for (std::uint32_t i = 0; i < contour.edges.size(); ++i) {
     const ContourEdge& ends = contour.edges[i];
     const Vertex &from = vertices[ends.from], &to = vertices[ends.to];
-    const Eigen::Vector2d along = contour.vertices[ends.to] - contour.vertices[ends.from];
     const double turn = Turn(from.angle, to.angle);
-    UnsortedEdge edge{{from.side, to.side, {}, i},
-                      BinsAlong(turn < 0.0 ? to.angle : from.angle, std::abs(turn))};
-    const bool enters = MakeEdge(from.in_view, view_from_cam.leftCols<2>() * along, &edge.edge.key);
-    (enters ? entries : exits).push_back(edge);
+    if (turn == 0.0) continue;
+    // About the axis the object is on the left of an edge: with the turn rays come in from outside.
+    const bool enters = turn > 0.0;
+    const double least = enters ? from.angle : to.angle, most = enters ? to.angle : from.angle;
+    std::vector<UnsortedEdge>* edges = enters ? &entries : &exits;
+    CastEdge edge;
+    edge.edge = i;
+    const Eigen::Vector2d along = contour.vertices[ends.to] - contour.vertices[ends.from];
+    edge.key = KeyOf(from.in_view, view_from_cam.leftCols<2>() * along, enters);
+    if (least <= most) {
+      AddEdge(edge, least, most, edges);
+    } else {  // across the negative x axis
+      AddEdge(edge, least, std::numeric_limits<float>::infinity(), edges);
+      AddEdge(edge, -std::numeric_limits<float>::infinity(), most, edges);
+    }
   }
-  entries_ = Sorted(entries);
-  exits_ = Sorted(exits);
+  cast_.entries = Sorted(entries);
+  cast_.exits = Sorted(exits);
 }
 
-EdgePencil::SortedEdges EdgePencil::Sorted(const std::vector<UnsortedEdge>& edges) {
-  SortedEdges sorted;
+CastEdges EdgePencil::Sorted(const std::vector<UnsortedEdge>& edges) const {
+  CastEdges sorted;
   sorted.first.assign(kBins + 1, 0);
   sorted.first_carried.assign(kBins + 1, 0);
   for (const UnsortedEdge& edge : edges) {
-    ++sorted.first[edge.bins.first + 1];
-    for (std::uint32_t k = 1; k < edge.bins.count; ++k)
-      ++sorted.first_carried[(edge.bins.first + k) % kBins + 1];
+    ++sorted.first[edge.first_bin + 1];
+    for (std::uint32_t bin = edge.first_bin + 1; bin <= edge.last_bin; ++bin) ++sorted.first_carried[bin + 1];
   }
   for (std::uint32_t bin = 0; bin < kBins; ++bin) {
     sorted.first[bin + 1] += sorted.first[bin];
@@ -141,30 +170,12 @@ EdgePencil::SortedEdges EdgePencil::Sorted(const std::vector<UnsortedEdge>& edge
   std::vector<std::uint32_t> next(sorted.first.begin(), sorted.first.end() - 1);
   std::vector<std::uint32_t> next_carried(sorted.first_carried.begin(), sorted.first_carried.end() - 1);
   for (const UnsortedEdge& edge : edges) {
-    const std::uint32_t number = next[edge.bins.first]++;
+    const std::uint32_t number = next[edge.first_bin]++;
     sorted.edges[number] = edge.edge;
-    for (std::uint32_t k = 1; k < edge.bins.count; ++k)
-      sorted.carried[next_carried[(edge.bins.first + k) % kBins]++] = number;
+    for (std::uint32_t bin = edge.first_bin + 1; bin <= edge.last_bin; ++bin)
+      sorted.carried[next_carried[bin]++] = number;
   }
   return sorted;
-}
-
-// Those that begin in the bins, and those carried into the first of them.
-CastEdges EdgePencil::SortedEdges::In(const BinRange& range) const {
-  CastEdges found;
-  if (edges.empty()) return found;
-  found.all = edges.data();
-  if (range.count >= kBins) {
-    found.runs[0] = edges;
-    return found;
-  }
-  const std::uint32_t end = range.first + range.count;
-  const std::span<const CastEdge> all(edges);
-  found.runs[0] = all.subspan(first[range.first], first[std::min(end, kBins)] - first[range.first]);
-  if (end > kBins) found.runs[1] = all.first(first[end - kBins]);
-  found.singles = std::span<const std::uint32_t>(carried).subspan(
-      first_carried[range.first], first_carried[range.first + 1] - first_carried[range.first]);
-  return found;
 }
 
 bool EdgePencil::IsObjectAlong(const Eigen::Vector2d& uv) const {
@@ -174,26 +185,12 @@ bool EdgePencil::IsObjectAlong(const Eigen::Vector2d& uv) const {
   return labels_.IsObject(position);
 }
 
-EdgePencil::BinRange EdgePencil::BinsOf(const Eigen::AlignedBox2d& uv_box) const {
-  // Angles on both sides of the axis itself go all the way round.
-  const Eigen::Vector2d slack = 1e-9 * (uv_box.min().cwiseAbs() + uv_box.max().cwiseAbs());
-  const Eigen::AlignedBox2d grown(uv_box.min() - slack, uv_box.max() + slack);
-  if (grown.contains(axis_uv_)) return kAllBins;
-  // The four corners at once.
-  const Eigen::Array4d u(uv_box.min().x(), uv_box.max().x(), uv_box.min().x(), uv_box.max().x());
-  const Eigen::Array4d v(uv_box.min().y(), uv_box.min().y(), uv_box.max().y(), uv_box.max().y());
-  const Eigen::Array4d x = u * across_[0].du + v * across_[0].dv + across_[0].at_origin;
-  const Eigen::Array4d y = u * across_[1].du + v * across_[1].dv + across_[1].at_origin;
-  const Eigen::Array4d turned = 1.0 - x / (x.abs() + y.abs());  // PseudoAngle, but for the sign
-  double least = 0.0, most = 0.0, start = 0.0;
-  for (int corner = 0; corner < 4; ++corner) {
-    const double angle = std::copysign(turned[corner], y[corner]);
-    if (corner == 0) start = angle;
-    const double turn = Turn(start, angle);
-    if (std::isnan(turn)) return kAllBins;
-    least = std::min(least, turn), most = std::max(most, turn);
-  }
-  return BinsAlong(start + least, most - least);
+bool EdgePencil::MayEnter(const Eigen::AlignedBox2d& uv_box) const {
+  if (cast_.entries.edges.empty()) return false;
+  const AngleRange range = AnglesOf(uv_box);
+  const std::uint32_t first = BinOf(range.least), last = BinOf(range.most);
+  return cast_.entries.first[last + 1] > cast_.entries.first[first] ||
+         cast_.entries.first_carried[first + 1] > cast_.entries.first_carried[first];
 }
 
 }  // namespace elbowroom::recon

@@ -20,17 +20,22 @@ struct AffineForm {
   double at_origin = 0.0;
 
   [[nodiscard]] double At(const Eigen::Vector2d& uv) const { return uv.x() * du + uv.y() * dv + at_origin; }
+  [[nodiscard]] CastForm Narrow() const {
+    return {static_cast<float>(du), static_cast<float>(dv), static_cast<float>(at_origin)};
+  }
 };
 
 // All rays of a view and all edges of one camera, ordered by the angle of the epipolar plane they are in, so
 // that a bundle of rays finds the edges it can meet at once. Key: grows along the ray; perspective
-// -1 / depth_mm, orthographic depth_mm.
+// -1 / depth_mm, orthographic depth_mm. Edges that no ray of the view can meet are left out.
 class EdgePencil {
  public:
   EdgePencil(const ContourMap& labels, double focal_px, const core::CameraModel& camera,
              const ViewRays& rays);
 
-  // The rays all start at, or run away from, a point that the camera labels so.
+  [[nodiscard]] const CastPencil& cast() const { return cast_; }
+
+  // The rays all start at, or come from, a point that the camera labels so.
   [[nodiscard]] bool starts_inside() const { return starts_inside_; }
 
   // The view's centre is the camera's: no ray crosses an edge, each keeps the label of its direction.
@@ -38,37 +43,27 @@ class EdgePencil {
   // Then: that label.
   [[nodiscard]] bool IsObjectAlong(const Eigen::Vector2d& uv) const;
 
-  // Angular bins that rays of the box can lie in.
-  struct BinRange {
-    std::uint32_t first = 0;
-    std::uint32_t count = 0;
-  };
-  [[nodiscard]] BinRange BinsOf(const Eigen::AlignedBox2d& uv_box) const;
-
-  // The edges that may cross rays of the bins.
-  [[nodiscard]] CastEdges EntriesIn(const BinRange& range) const { return entries_.In(range); }
-  [[nodiscard]] CastEdges ExitsIn(const BinRange& range) const { return exits_.In(range); }
-
-  static constexpr std::uint32_t kBins = 4096;
+  // Whether rays of the box can enter the camera's object; if not, all of them keep the label of their start.
+  [[nodiscard]] bool MayEnter(const Eigen::AlignedBox2d& uv_box) const;
 
  private:
-  // Edges by the bin where they begin, and of each bin those that began before it.
-  struct SortedEdges {
-    std::vector<CastEdge> edges;
-    std::vector<std::uint32_t> first;          // in `edges`, by bin; one more at the end
-    std::vector<std::uint32_t> carried;        // numbers in `edges`
-    std::vector<std::uint32_t> first_carried;  // in `carried`, by bin; one more at the end
-
-    [[nodiscard]] CastEdges In(const BinRange& range) const;
+  struct AngleRange {
+    double least = 0.0;
+    double most = 0.0;
   };
   struct UnsortedEdge {
     CastEdge edge;
-    BinRange bins;
+    std::uint32_t first_bin = 0;
+    std::uint32_t last_bin = 0;
   };
 
+  void ChooseAxes(const Eigen::AlignedBox2d& view_box);
+  [[nodiscard]] AngleRange AnglesOf(const Eigen::AlignedBox2d& uv_box) const;
+  [[nodiscard]] std::uint32_t BinOf(double angle) const;
   void SortEdges(const Contour& contour, const Eigen::Matrix3d& view_from_cam);
-  static SortedEdges Sorted(const std::vector<UnsortedEdge>& edges);
-  [[nodiscard]] bool MakeEdge(const Eigen::Vector3d& from, const Eigen::Vector3d& along, CastForm* key) const;
+  void AddEdge(CastEdge edge, double from, double to, std::vector<UnsortedEdge>* edges) const;
+  [[nodiscard]] CastEdges Sorted(const std::vector<UnsortedEdge>& edges) const;
+  [[nodiscard]] CastForm KeyOf(const Eigen::Vector3d& from, const Eigen::Vector3d& along, bool enters) const;
 
   const ContourMap& labels_;
   double focal_px_;
@@ -77,13 +72,12 @@ class EdgePencil {
   Eigen::Vector3d centre_in_view_;
   bool starts_inside_ = false;
   bool is_concentric_ = false;
-  // Of the plane across the pencil's axis: the coordinates in which angles are taken, by (u, v) and by
-  // vector.
-  AffineForm across_[2];
+  // Of the plane across the pencil's axis, the view's middle along the first: angles there are near 0.
   Eigen::Vector3d across_axes_[2];
+  AffineForm across_[2];
   Eigen::Vector2d axis_uv_{0.0, 0.0};  // the ray that is the axis; not finite if there is none
-  SortedEdges entries_;
-  SortedEdges exits_;
+  AngleRange view_angles_;
+  CastPencil cast_;
 };
 
 }  // namespace elbowroom::recon

@@ -84,8 +84,7 @@ class Caster {
       (face.kind == Face::Kind::kNotBefore  ? box_.not_before
        : face.kind == Face::Kind::kNotAfter ? box_.not_after
                                             : box_.beside)
-          .push_back({static_cast<float>(face.bound.du), static_cast<float>(face.bound.dv),
-                      static_cast<float>(face.bound.at_origin)});
+          .push_back(face.bound.Narrow());
     }
     for (const auto& silhouette : hull.silhouettes())
       view_.edges += static_cast<std::int64_t>(silhouette->labels().contour().edges.size());
@@ -99,8 +98,12 @@ class Caster {
     }
     tbb::enumerable_thread_specific<Worker> workers([this] {
       Worker worker;
-      worker.cameras.resize(pencils_.size());
-      worker.sights.resize(sights_.size());
+      worker.rays.key_end =
+          rays_.projection() == Projection::kPerspective ? 0.0F : std::numeric_limits<float>::infinity();
+      for (const auto& pencil : pencils_)
+        worker.cameras.push_back({&pencil->cast(), pencil->starts_inside() ? ~0U : 0U});
+      for (const auto& pencil : sights_)
+        worker.sights.push_back({&pencil->cast(), pencil->starts_inside() ? ~0U : 0U});
       return worker;
     });
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, squares.size(), kSquaresATask),
@@ -110,10 +113,11 @@ class Caster {
                       });
     for (const Worker& worker : workers) {
       view_.hit_pixels += worker.hit_pixels;
-      view_.edges_cast += worker.edges_cast;
+      view_.edges_met += worker.scratch.edges_met;
       view_.cast_pixels += worker.cast_pixels;
     }
-    view_.skipped_pixels = std::int64_t{view_.width_px} * view_.height_px - view_.cast_pixels;
+    view_.skipped_pixels =
+        std::max(std::int64_t{view_.width_px} * view_.height_px - view_.cast_pixels, std::int64_t{0});
   }
 
  private:
@@ -121,11 +125,10 @@ class Caster {
     TileRays rays;
     TileHits hits;
     TileScratch scratch;
-    std::vector<CastCamera> cameras;
-    std::vector<CastCamera> sights;
+    std::vector<TileCamera> cameras;
+    std::vector<TileCamera> sights;
     std::int64_t hit_pixels = 0;
     std::int64_t cast_pixels = 0;
-    std::int64_t edges_cast = 0;
   };
 
   // A square of pixels, cut off at the picture's border.
@@ -151,7 +154,7 @@ class Caster {
 
   void Work(const Square& square, Worker* worker) {
     for (int y = square.y; y < square.bottom; y += kTilePx)
-      for (int x = square.x; x < square.right; x += kTilePx) CastSquare(SquareAt(x, y, kTilePx), worker);
+      for (int x = square.x; x < square.right; x += kTilePx) CastTileAt(x, y, worker);
   }
 
   // True if all rays of the box pass some face on the outer side, or some pair of faces in the wrong order.
@@ -181,69 +184,55 @@ class Caster {
 
   // True if some camera's background is all that the box's rays pass.
   [[nodiscard]] bool MissesSomeContour(const Eigen::AlignedBox2d& box) const {
-    for (const auto& pencil : pencils_) {
-      if (pencil->is_concentric() || pencil->starts_inside()) continue;
-      if (pencil->EntriesIn(pencil->BinsOf(box)).size() == 0) return true;
-    }
-    return false;
+    return std::any_of(pencils_.begin(), pencils_.end(), [&](const auto& pencil) {
+      return !pencil->is_concentric() && !pencil->starts_inside() && !pencil->MayEnter(box);
+    });
   }
 
-  void CastSquare(const Square& square, Worker* worker) {
-    if (square.box.isEmpty()) return;
-    for (std::size_t i = 0; i < pencils_.size(); ++i) {
-      worker->cameras[i] = Gather(*pencils_[i], square, worker);
-      // Background of this camera is all that the square's rays pass.
-      if (worker->cameras[i].starts_inside == 0 && worker->cameras[i].entries.size() == 0) return;
-    }
-    for (std::size_t i = 0; i < sights_.size(); ++i) worker->sights[i] = Gather(*sights_[i], square, worker);
-    PlaceRays(square, &worker->rays);
-    worker->cast_pixels += (square.right - square.x) * (square.bottom - square.y);
+  void CastTileAt(int x, int y, Worker* worker) {
+    PlaceRays(x, y, &worker->rays);
+    for (std::size_t i = 0; i < pencils_.size(); ++i)
+      if (pencils_[i]->is_concentric()) worker->cameras[i].starts_inside = LabelsAlong(*pencils_[i], x, y);
     CastTile(worker->rays, box_, worker->cameras, worker->sights, &worker->scratch, &worker->hits);
-    if (worker->hits.any) Record(square, worker);
+    worker->cast_pixels += kTileRays;
+    if (worker->hits.any) Record(x, y, worker);
   }
 
-  void PlaceRays(const Square& square, TileRays* rays) const {
+  [[nodiscard]] bool IsPixel(int x, int y) const { return x < rays_.width_px() && y < rays_.height_px(); }
+
+  void PlaceRays(int x, int y, TileRays* rays) const {
     for (int i = 0; i < kTileRays; ++i) {
-      const int x = square.x + i % kTilePx, y = square.y + i / kTilePx;
-      Vector2d uv = Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
-      if (x < square.right && y < square.bottom) uv = rays_.At(x, y);
+      const int ray_x = x + i % kTilePx, ray_y = y + i / kTilePx;
+      constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+      const Vector2d uv = IsPixel(ray_x, ray_y) ? rays_.At(ray_x, ray_y) : Vector2d(kNaN, kNaN);
       rays->u[i] = static_cast<float>(uv.x());
       rays->v[i] = static_cast<float>(uv.y());
     }
-    rays->key_end =
-        rays_.projection() == Projection::kPerspective ? 0.0F : std::numeric_limits<float>::infinity();
   }
 
-  // What the square's rays can meet of one camera.
-  CastCamera Gather(const EdgePencil& pencil, const Square& square, Worker* worker) const {
-    CastCamera camera;
-    if (pencil.is_concentric()) {
-      for (int i = 0; i < kTileRays; ++i) {
-        const int x = square.x + i % kTilePx, y = square.y + i / kTilePx;
-        if (x < square.right && y < square.bottom && pencil.IsObjectAlong(rays_.At(x, y)))
-          camera.starts_inside |= 1U << static_cast<unsigned>(i);
-      }
-      return camera;
+  // Of the tile's rays, each in its own direction from the camera's centre.
+  [[nodiscard]] std::uint32_t LabelsAlong(const EdgePencil& pencil, int x, int y) const {
+    std::uint32_t labels = 0;
+    for (int i = 0; i < kTileRays; ++i) {
+      const int ray_x = x + i % kTilePx, ray_y = y + i / kTilePx;
+      if (IsPixel(ray_x, ray_y) && pencil.IsObjectAlong(rays_.At(ray_x, ray_y)))
+        labels |= 1U << static_cast<unsigned>(i);
     }
-    const EdgePencil::BinRange bins = pencil.BinsOf(square.box);
-    camera.entries = pencil.EntriesIn(bins);
-    camera.exits = pencil.ExitsIn(bins);
-    camera.starts_inside = pencil.starts_inside() ? ~0U : 0U;
-    worker->edges_cast += static_cast<std::int64_t>(camera.entries.size() + camera.exits.size());
-    return camera;
+    return labels;
   }
 
-  void Record(const Square& square, Worker* worker) {
+  void Record(int x, int y, Worker* worker) {
     const TileHits& hits = worker->hits;
     const bool is_perspective = rays_.projection() == Projection::kPerspective;
     for (int i = 0; i < kTileRays; ++i) {
-      const int x = square.x + i % kTilePx, y = square.y + i / kTilePx;
       // A centre in the hull has the whole picture in front of it, and nothing to see.
-      if (!std::isfinite(hits.key[i]) || x >= square.right || y >= square.bottom) continue;
-      const std::size_t pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(rays_.width_px()) +
-                                static_cast<std::size_t>(x);
+      if (!std::isfinite(hits.key[i])) continue;
+      const std::size_t pixel =
+          static_cast<std::size_t>(y + i / kTilePx) * static_cast<std::size_t>(rays_.width_px()) +
+          static_cast<std::size_t>(x + i % kTilePx);
       view_.depth_mm[pixel] = is_perspective ? -1.0F / hits.key[i] : hits.key[i];
-      view_.surface[pixel] = SurfaceOf(hits.camera[i], static_cast<std::uint32_t>(hits.edge[i]));
+      if (!view_.surface.empty())
+        view_.surface[pixel] = SurfaceOf(hits.camera[i], static_cast<std::uint32_t>(hits.edge[i]));
       ++worker->hit_pixels;
     }
   }
@@ -273,7 +262,7 @@ HullView ViewHull(const VisualHull& hull, const ViewRays& rays, const HullViewOp
   view.width_px = rays.width_px(), view.height_px = rays.height_px();
   const auto pixels = static_cast<std::size_t>(view.width_px) * static_cast<std::size_t>(view.height_px);
   view.depth_mm.assign(pixels, 0.0F);
-  view.surface.assign(pixels, {});
+  if (options.surfaces || options.normals) view.surface.assign(pixels, {});
   view.skipped_pixels = static_cast<std::int64_t>(pixels);
   if (!hull.IsEmpty()) Caster(hull, rays, &view).Run();
   if (options.normals) view.normal_in_world = NormalsOf(hull, rays, view);

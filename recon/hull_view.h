@@ -47,11 +47,12 @@ struct HullView {
   std::int64_t cast_pixels = 0;     // whose rays were cast
   std::int64_t skipped_pixels = 0;  // settled with a larger square of them
   std::int64_t edges = 0;           // of all contours
-  std::int64_t edges_cast = 0;      // tile by tile, edges that its rays were cast at
+  std::int64_t edges_met = 0;       // angular intervals of edges that vectors of rays were compared with
 };
 
 struct HullViewOptions {
-  bool normals = true;  // fill normal_in_world; otherwise it stays empty
+  bool surfaces = true;  // fill `surface`; otherwise, and without normals, it stays empty
+  bool normals = true;   // fill `normal_in_world`; otherwise it stays empty
 };
 
 // First hull surface along each ray, where the ray's picture in each camera crosses the contours: exact but

@@ -22,6 +22,7 @@ using Ints = hn::RebindToSigned<Floats>;
 using VF = hn::Vec<Floats>;
 using VI = hn::Vec<Ints>;
 using MF = hn::Mask<Floats>;
+using Kept = TileScratch::Kept;
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
@@ -30,6 +31,15 @@ HWY_INLINE VF At(const CastForm& form, VF u, VF v) {
   const Floats f;
   return hn::Add(hn::Add(hn::Mul(u, hn::Set(f, form.du)), hn::Mul(v, hn::Set(f, form.dv))),
                  hn::Set(f, form.at_origin));
+}
+
+// PencilAngle of some rays.
+HWY_INLINE VF Angle(const CastPencil& pencil, VF u, VF v) {
+  const Floats f;
+  const VF x = At(pencil.x, u, v), y = At(pencil.y, u, v);
+  const VF share = hn::Div(y, hn::Add(hn::Abs(x), hn::Abs(y)));
+  const VF two = hn::IfThenElse(hn::Lt(y, hn::Zero(f)), hn::Set(f, -2.0F), hn::Set(f, 2.0F));
+  return hn::IfThenElse(hn::Lt(x, hn::Zero(f)), hn::Sub(two, share), share);
 }
 
 // Some rays of the tile.
@@ -72,68 +82,7 @@ HWY_INLINE void AddEntry(VF key, VF at, std::uint32_t edge, About* about) {
                                     hn::Set(Ints(), static_cast<std::int32_t>(edge)), about->next_edge);
 }
 
-// The rays that pass between an edge's ends on the way that its kind asks for.
-template <bool kEnters>
-HWY_INLINE MF Crosses(const CastEdge& edge, const Rays& rays) {
-  const VF zero = hn::Zero(Floats());
-  const MF from = hn::Gt(At(edge.from, rays.u, rays.v), zero), to = hn::Gt(At(edge.to, rays.u, rays.v), zero);
-  return kEnters ? hn::AndNot(to, from) : hn::AndNot(from, to);
-}
-
-// The key at which they cross it, infinite where they don't.
-HWY_INLINE VF KeyOf(const CastEdge& edge, MF crosses, const Rays& rays) {
-  const VF key = At(edge.key, rays.u, rays.v);
-  return hn::IfThenElse(hn::And(crosses, hn::Lt(key, rays.key_end)), key, hn::Set(Floats(), kInfinity));
-}
-
-template <typename Visit>
-HWY_INLINE void VisitEdges(const CastEdges& edges, const Visit& visit) {
-  for (const std::span<const CastEdge>& run : edges.runs)
-    for (const CastEdge& edge : run) visit(edge);
-  for (const std::uint32_t i : edges.singles) visit(edges.all[i]);
-}
-
-using Kept = TileScratch::Kept;
-
-// Works out all crossings, keeps those that some ray has, and says what they are about `at`.
-About CrossFirst(const CastCamera& camera, const Rays& rays, VF at, Kept* kept) {
-  const Floats f;
-  About about = NothingAbout();
-  float* keys = kept->keys;
-  VisitEdges(camera.entries, [&](const CastEdge& edge) {
-    const MF crosses = Crosses<true>(edge, rays);
-    if (hn::AllFalse(f, crosses)) return;
-    const VF key = KeyOf(edge, crosses, rays);
-    hn::StoreU(key, f, keys);
-    keys += hn::Lanes(f);
-    kept->edges[kept->entries++] = edge.edge;
-    AddEntry(key, at, edge.edge, &about);
-  });
-  VisitEdges(camera.exits, [&](const CastEdge& edge) {
-    const MF crosses = Crosses<false>(edge, rays);
-    if (hn::AllFalse(f, crosses)) return;
-    const VF key = KeyOf(edge, crosses, rays);
-    hn::StoreU(key, f, keys);
-    keys += hn::Lanes(f);
-    ++kept->exits;
-    about.last_exit = LastOf(about.last_exit, key, at);
-  });
-  return about;
-}
-
-// The same again about another key.
-About CrossAgain(const Kept& kept, VF at) {
-  const Floats f;
-  About about = NothingAbout();
-  const float* keys = kept.keys;
-  for (std::size_t i = 0; i < kept.entries; ++i, keys += hn::Lanes(f))
-    AddEntry(hn::LoadU(f, keys), at, kept.edges[i], &about);
-  for (std::size_t i = 0; i < kept.exits; ++i, keys += hn::Lanes(f))
-    about.last_exit = LastOf(about.last_exit, hn::LoadU(f, keys), at);
-  return about;
-}
-
-// The lowest bits, one a ray.
+// The bits of the vector's rays.
 HWY_INLINE MF MaskOf(std::uint32_t bits) {
   const Floats f;
   if (bits == 0) return hn::Gt(hn::Zero(f), hn::Zero(f));
@@ -162,15 +111,9 @@ HWY_INLINE void MoveOn(MF which, const About& about, std::size_t camera, Front* 
 // The walk of some rays, from camera to camera, until all agree.
 class Walk {
  public:
-  Walk(const Rays& rays, std::span<const CastCamera> cameras, std::span<const CastCamera> sights,
+  Walk(const Rays& rays, std::span<const TileCamera> cameras, std::span<const TileCamera> sights,
        std::size_t first, TileScratch* scratch)
-      : rays_(rays),
-        cameras_(cameras),
-        sights_(sights),
-        first_(first),
-        keys_(scratch->keys.data()),
-        edges_(scratch->edges.data()),
-        kept_(scratch->kept) {}
+      : rays_(rays), cameras_(cameras), sights_(sights), first_(first), scratch_(*scratch) {}
 
   Front Run(VF key_from, VF key_to) {
     const Floats f;
@@ -179,7 +122,8 @@ class Walk {
     for (bool moved = true, is_first = true; moved && !hn::AllFalse(f, alive); is_first = false) {
       moved = false;
       for (std::size_t i = 0; i < cameras_.size(); ++i) {
-        const About about = is_first ? First(cameras_[i], i, front.key) : CrossAgain(kept_[i], front.key);
+        const About about = is_first ? CrossFirst(cameras_[i], alive, front.key, &scratch_.kept[i])
+                                     : CrossAgain(cameras_[i], alive, front.key, &scratch_.kept[i]);
         const MF outside = hn::AndNot(IsInside(about, cameras_[i].starts_inside >> first_), alive);
         if (hn::AllFalse(f, outside)) continue;
         MoveOn(outside, about, i, &front);
@@ -187,7 +131,7 @@ class Walk {
         moved = true;
         if (hn::AllFalse(f, alive)) break;
       }
-      if (!moved && !sights_.empty() && !hn::AllFalse(f, alive)) {
+      if (!moved && !sights_.empty()) {
         moved = MoveIntoSight(alive, &front);
         alive = hn::And(alive, hn::Le(front.key, key_to));
       }
@@ -197,13 +141,100 @@ class Walk {
   }
 
  private:
-  About First(const CastCamera& camera, std::size_t i, VF at) {
-    Kept& kept = kept_[i];
-    kept = {keys_, edges_, 0, 0};
-    const About about = CrossFirst(camera, rays_, at, &kept);
-    keys_ += (kept.entries + kept.exits) * hn::Lanes(Floats());
-    edges_ += kept.entries;
+  // Calls visit(edge, key) for the edges of the bins that some ray crosses; key is infinite for the rays that
+  // don't.
+  template <typename Visit>
+  HWY_INLINE void Cross(const CastEdges& edges, const Kept& bins, VF angle, const Visit& visit) {
+    const Floats f;
+    const auto cross = [&](const CastEdge& edge) {
+      const MF crosses = hn::And(hn::Ge(angle, hn::Set(f, edge.from)), hn::Lt(angle, hn::Set(f, edge.to)));
+      if (hn::AllFalse(f, crosses)) return;
+      const VF key = At(edge.key, rays_.u, rays_.v);
+      const MF is_ahead = hn::And(crosses, hn::Lt(key, rays_.key_end));
+      visit(edge, hn::IfThenElse(is_ahead, key, hn::Set(f, kInfinity)));
+    };
+    const std::uint32_t begin = edges.first[bins.first_bin], end = edges.first[bins.last_bin + 1];
+    for (std::uint32_t i = begin; i < end; ++i) cross(edges.edges[i]);
+    const std::uint32_t carried_begin = edges.first_carried[bins.first_bin];
+    const std::uint32_t carried_end = edges.first_carried[bins.first_bin + 1];
+    for (std::uint32_t i = carried_begin; i < carried_end; ++i) cross(edges.edges[edges.carried[i]]);
+    scratch_.edges_met += end - begin + carried_end - carried_begin;
+  }
+
+  void Store(VF key) {
+    const Floats f;
+    if (scratch_.keys.size() < keys_ + hn::Lanes(f)) scratch_.keys.resize(2 * keys_ + hn::Lanes(f));
+    hn::StoreU(key, f, scratch_.keys.data() + keys_);
+    keys_ += hn::Lanes(f);
+  }
+  void StoreEdge(std::uint32_t edge) {
+    if (scratch_.edges.size() <= edges_) scratch_.edges.resize(2 * edges_ + 1);
+    scratch_.edges[edges_++] = edge;
+  }
+
+  // The bins of the living rays' angles.
+  static void FindBins(const CastPencil& pencil, MF alive, VF angle, Kept* kept) {
+    const Floats f;
+    const float least = hn::GetLane(hn::MinOfLanes(f, hn::IfThenElse(alive, angle, hn::Set(f, 2.0F))));
+    const float most = hn::GetLane(hn::MaxOfLanes(f, hn::IfThenElse(alive, angle, hn::Set(f, -2.0F))));
+    const auto last = static_cast<float>(pencil.bins - 1);
+    // Rays on both sides of the negative x axis, or a ray along the pencil's own: all bins.
+    const bool is_anywhere = !(most - least <= 2.0F);
+    const float first_bin = (least - pencil.least_angle) * pencil.bins_per_angle;
+    const float last_bin = (most - pencil.least_angle) * pencil.bins_per_angle;
+    kept->first_bin = is_anywhere ? 0 : static_cast<std::uint32_t>(std::clamp(first_bin, 0.0F, last));
+    kept->last_bin =
+        is_anywhere ? pencil.bins - 1 : static_cast<std::uint32_t>(std::clamp(last_bin, 0.0F, last));
+  }
+
+  // Works out one camera's crossings, and says what they are about `at`.
+  About CrossFirst(const TileCamera& camera, MF alive, VF at, Kept* kept) {
+    About about = NothingAbout();
+    *kept = {keys_, edges_, 0, 0, 0, false, 0, 0};
+    if (camera.pencil->bins == 0) {
+      kept->has_exits = true;
+      return about;
+    }
+    const VF angle = Angle(*camera.pencil, rays_.u, rays_.v);
+    FindBins(*camera.pencil, alive, angle, kept);
+    Cross(camera.pencil->entries, *kept, angle, [&](const CastEdge& edge, VF key) {
+      Store(key);
+      StoreEdge(edge.edge);
+      ++kept->entries;
+      AddEntry(key, at, edge.edge, &about);
+    });
+    AddExits(camera, alive, at, kept, &about);
     return about;
+  }
+
+  // The same again about another key.
+  About CrossAgain(const TileCamera& camera, MF alive, VF at, Kept* kept) {
+    const Floats f;
+    About about = NothingAbout();
+    const float* keys = scratch_.keys.data() + kept->keys;
+    for (std::size_t i = 0; i < kept->entries; ++i, keys += hn::Lanes(f))
+      AddEntry(hn::LoadU(f, keys), at, scratch_.edges[kept->edges + i], &about);
+    AddExits(camera, alive, at, kept, &about);
+    return about;
+  }
+
+  // Exits matter only to rays that are, or may be, inside.
+  void AddExits(const TileCamera& camera, MF alive, VF at, Kept* kept, About* about) {
+    const Floats f;
+    const MF has_entered = hn::And(alive, hn::Gt(about->last_entry, hn::Set(f, -kInfinity)));
+    if (camera.starts_inside == 0 && hn::AllFalse(f, has_entered)) return;
+    if (!kept->has_exits) {
+      kept->has_exits = true;
+      kept->exit_keys = keys_;
+      Cross(camera.pencil->exits, *kept, Angle(*camera.pencil, rays_.u, rays_.v),
+            [&](const CastEdge&, VF key) {
+              Store(key);
+              ++kept->exits;
+            });
+    }
+    const float* keys = scratch_.keys.data() + kept->exit_keys;
+    for (std::size_t i = 0; i < kept->exits; ++i, keys += hn::Lanes(f))
+      about->last_exit = LastOf(about->last_exit, hn::LoadU(f, keys), at);
   }
 
   // Rays that no camera sees go on to where one does. Rare enough to work all crossings out anew.
@@ -214,8 +245,8 @@ class Walk {
     About nearest = NothingAbout();
     VI camera = hn::Zero(Ints());
     for (std::size_t i = 0; i < sights_.size(); ++i) {
-      Kept kept{keys_, edges_, 0, 0};
-      const About about = CrossFirst(sights_[i], rays_, at, &kept);
+      Kept kept;
+      const About about = CrossFirst(sights_[i], alive, at, &kept);
       unseen = hn::AndNot(IsInside(about, sights_[i].starts_inside >> first_), unseen);
       const MF is_nearer = hn::Lt(about.next_entry, nearest.next_entry);
       const auto is_nearer_ints = hn::RebindMask(Ints(), is_nearer);
@@ -231,12 +262,12 @@ class Walk {
   }
 
   const Rays& rays_;
-  std::span<const CastCamera> cameras_;
-  std::span<const CastCamera> sights_;
+  std::span<const TileCamera> cameras_;
+  std::span<const TileCamera> sights_;
   std::size_t first_;
-  float* keys_;
-  std::uint32_t* edges_;
-  std::span<Kept> kept_;
+  TileScratch& scratch_;
+  std::size_t keys_ = 0;  // in use
+  std::size_t edges_ = 0;
 };
 
 HWY_INLINE void Clip(const CastBox& box, const Rays& rays, VF* key_from, VF* key_to) {
@@ -250,27 +281,19 @@ HWY_INLINE void Clip(const CastBox& box, const Rays& rays, VF* key_from, VF* key
   *key_from = hn::IfThenElse(is_beside, hn::Set(f, kInfinity), *key_from);
 }
 
-std::size_t CountOf(std::span<const CastCamera> cameras) {
-  std::size_t count = 0;
-  for (const CastCamera& camera : cameras) count += camera.entries.size() + camera.exits.size();
-  return count;
-}
-
-void Cast(const TileRays& tile, const CastBox& box, std::span<const CastCamera> cameras,
-          std::span<const CastCamera> sights, TileScratch* scratch, TileHits* hits) {
+void Cast(const TileRays& tile, const CastBox& box, std::span<const TileCamera> cameras,
+          std::span<const TileCamera> sights, TileScratch* scratch, TileHits* hits) {
   const Floats f;
-  const std::size_t lanes = hn::Lanes(f), count = CountOf(cameras) + CountOf(sights);
   scratch->kept.resize(cameras.size());
-  if (scratch->keys.size() < count * lanes) scratch->keys.resize(2 * count * lanes);
-  if (scratch->edges.size() < count) scratch->edges.resize(2 * count);
   hits->any = false;
-  for (std::size_t first = 0; first < kTileRays; first += lanes) {
+  for (std::size_t first = 0; first < kTileRays; first += hn::Lanes(f)) {
     const Rays rays{hn::Load(f, tile.u + first), hn::Load(f, tile.v + first), hn::Set(f, tile.key_end)};
     VF key_from = hn::Set(f, -kInfinity), key_to = rays.key_end;
     Clip(box, rays, &key_from, &key_to);
     const Front front = Walk(rays, cameras, sights, first, scratch).Run(key_from, key_to);
-    hits->any = hits->any || !hn::AllTrue(f, hn::Eq(front.key, hn::Set(f, kInfinity)));
     hn::Store(front.key, f, hits->key + first);
+    if (hn::AllTrue(f, hn::Eq(front.key, hn::Set(f, kInfinity)))) continue;
+    hits->any = true;
     hn::Store(front.camera, Ints(), hits->camera + first);
     hn::Store(front.edge, Ints(), hits->edge + first);
   }
@@ -285,8 +308,8 @@ namespace elbowroom::recon {
 
 HWY_EXPORT(Cast);
 
-void CastTile(const TileRays& rays, const CastBox& box, std::span<const CastCamera> cameras,
-              std::span<const CastCamera> sights, TileScratch* scratch, TileHits* hits) {
+void CastTile(const TileRays& rays, const CastBox& box, std::span<const TileCamera> cameras,
+              std::span<const TileCamera> sights, TileScratch* scratch, TileHits* hits) {
   HWY_DYNAMIC_DISPATCH(Cast)(rays, box, cameras, sights, scratch, hits);
 }
 

@@ -1,7 +1,6 @@
 // The rays of one small tile, cast at the edges they can meet: the inner loop of the exact view.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -19,34 +18,47 @@ struct CastForm {
   float at_origin = 0.0F;
 };
 
-// The surface that one edge sweeps, from the camera's centre outwards. The ray (u, v) meets it at key(u, v),
-// provided that the ends' sides agree with the kind: entering the object, from > 0 and not to > 0; leaving
-// it, not from > 0 and to > 0. Derivation: docs/exact_view.md.
+// The surface that one edge sweeps, from the camera's centre outwards: rays whose angle is at least `from`
+// and less than `to` meet it at key(u, v). Derivation: docs/exact_view.md.
 struct CastEdge {
-  CastForm from;  // side of the epipolar plane that the edge's ends are on
-  CastForm to;
+  float from = 0.0F;
+  float to = 0.0F;
   CastForm key;
   std::uint32_t edge = 0;  // of the contour
 };
 
-// Some of a pencil's edges: two runs of neighbours, and single ones.
+// Edges by the angular bin in which they begin, and of each bin those that began before it.
 struct CastEdges {
-  std::array<std::span<const CastEdge>, 2> runs;
-  const CastEdge* all = nullptr;
-  std::span<const std::uint32_t> singles;  // numbers in `all`
-
-  [[nodiscard]] std::size_t size() const { return runs[0].size() + runs[1].size() + singles.size(); }
+  std::vector<CastEdge> edges;
+  std::vector<std::uint32_t> first;          // in `edges`, by bin; one more at the end
+  std::vector<std::uint32_t> carried;        // numbers in `edges`
+  std::vector<std::uint32_t> first_carried;  // in `carried`, by bin; one more at the end
 };
 
-// What one camera can tell the tile's rays.
-struct CastCamera {
+// All that one camera can tell a view's rays.
+struct CastPencil {
+  // A ray's angle is that of (x(u, v), y(u, v)), as PencilAngle takes it.
+  CastForm x;
+  CastForm y;
+  // Of bin i: from least_angle + i / bins_per_angle on.
+  float least_angle = -2.0F;
+  float bins_per_angle = 1.0F;
+  std::uint32_t bins = 0;
   CastEdges entries;  // edges that rays enter the object by
   CastEdges exits;
-  std::uint32_t starts_inside = 0;  // a bit a ray: the label that it comes with
 };
 
+// -2 to 2 for a turn from the negative x axis on, 0 along the positive one, where it is exact to the last
+// bit.
+template <typename Real>
+[[nodiscard]] Real PencilAngle(Real x, Real y) {
+  const Real size = (x < 0 ? -x : x) + (y < 0 ? -y : y);
+  const Real share = y / size;
+  return x < 0 ? (y < 0 ? -2 - share : 2 - share) : share;
+}
+
 // Where rays (u, v) are in the workspace: not before the largest of some keys, not after the smallest of
-// others, and only where all of `beside` aren't negative.
+// others, and only where none of `beside` is negative.
 struct CastBox {
   std::vector<CastForm> not_before;
   std::vector<CastForm> not_after;
@@ -57,6 +69,12 @@ struct TileRays {
   alignas(64) float u[kTileRays];  // NaN: no ray
   alignas(64) float v[kTileRays];
   float key_end = 0.0F;  // of the rays themselves: 0 perspective, infinite orthographic
+};
+
+// One camera's pencil, and the labels that the tile's rays come with, a bit a ray.
+struct TileCamera {
+  const CastPencil* pencil = nullptr;
+  std::uint32_t starts_inside = 0;
 };
 
 // Of each ray: the key of its first point in the hull, infinite if there is none, and whose edge it is on
@@ -71,22 +89,25 @@ struct TileHits {
 
 // Room to work in, kept from tile to tile.
 struct TileScratch {
-  // One camera's crossings with the rays of one vector: keys, a vector each, entries first.
-  struct Kept {
-    float* keys = nullptr;
-    std::uint32_t* edges = nullptr;  // of the entries
+  std::vector<float> keys;           // of crossings, a vector each
+  std::vector<std::uint32_t> edges;  // of the entries among them
+  struct Kept {                      // one camera's part of both
+    std::size_t keys = 0;
+    std::size_t edges = 0;
     std::size_t entries = 0;
+    std::size_t exit_keys = 0;
     std::size_t exits = 0;
+    bool has_exits = false;
+    std::uint32_t first_bin = 0;
+    std::uint32_t last_bin = 0;
   };
-
   std::vector<Kept> kept;
-  std::vector<float> keys;
-  std::vector<std::uint32_t> edges;
+  std::int64_t edges_met = 0;  // angular intervals that rays were compared with, so far
 };
 
 // `cameras` must all agree that a point is in the hull, and one of `sights` if there are any. The processor's
 // widest vectors decide how many rays go at once, never the result: the same bits for all (hull_view_test).
-void CastTile(const TileRays& rays, const CastBox& box, std::span<const CastCamera> cameras,
-              std::span<const CastCamera> sights, TileScratch* scratch, TileHits* hits);
+void CastTile(const TileRays& rays, const CastBox& box, std::span<const TileCamera> cameras,
+              std::span<const TileCamera> sights, TileScratch* scratch, TileHits* hits);
 
 }  // namespace elbowroom::recon

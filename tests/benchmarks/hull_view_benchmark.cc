@@ -44,7 +44,7 @@ void ExactView(benchmark::State& state) {
   const PicturePlanes planes = MakePicturePlanes(*rig);
   const ViewRays rays(View(*rig, 1000.0));
   HullViewOptions options;
-  options.normals = false;
+  options.surfaces = options.normals = false;
   HullView view;
   for (auto _ : state) {
     view = ViewHull(MakeVisualHull(rig, planes, masks), rays, options);
@@ -54,7 +54,7 @@ void ExactView(benchmark::State& state) {
   state.counters["hit_share"] = static_cast<double>(view.hit_pixels) / (640.0 * 480.0);
   state.counters["cast_pixels"] = static_cast<double>(view.cast_pixels);
   state.counters["edges"] = static_cast<double>(view.edges);
-  state.counters["edges_cast"] = static_cast<double>(view.edges_cast);
+  state.counters["edges_met"] = static_cast<double>(view.edges_met);
 }
 BENCHMARK(ExactView)
     ->ArgNames({"cameras", "threads"})
