@@ -193,7 +193,8 @@ class Caster {
     PlaceRays(x, y, &worker->rays);
     for (std::size_t i = 0; i < pencils_.size(); ++i)
       if (pencils_[i]->is_concentric()) worker->cameras[i].starts_inside = LabelsAlong(*pencils_[i], x, y);
-    CastTile(worker->rays, box_, worker->cameras, worker->sights, &worker->scratch, &worker->hits);
+    CastTile(worker->rays, box_, worker->cameras, worker->sights, !view_.surface.empty(), &worker->scratch,
+             &worker->hits);
     worker->cast_pixels += kTileRays;
     if (worker->hits.any) Record(x, y, worker);
   }

@@ -49,11 +49,10 @@ struct Rays {
   VF key_end;
 };
 
-// Where rays are now, and what brought them there.
+// Where rays are now, and whose entry brought them there.
 struct Front {
   VF key;
   VI camera;
-  VI edge;
 };
 
 // One camera's crossings with rays about a key: the last entry and the last exit up to it, the first entry
@@ -62,24 +61,21 @@ struct About {
   VF last_entry;
   VF last_exit;
   VF next_entry;
-  VI next_edge;
 };
 
 HWY_INLINE About NothingAbout() {
   const Floats f;
-  return {hn::Set(f, -kInfinity), hn::Set(f, -kInfinity), hn::Set(f, kInfinity), hn::Zero(Ints())};
+  return {hn::Set(f, -kInfinity), hn::Set(f, -kInfinity), hn::Set(f, kInfinity)};
 }
 
-HWY_INLINE VF LastOf(VF last, VF key, VF at) {
-  return hn::IfThenElse(hn::And(hn::Le(key, at), hn::Gt(key, last)), key, last);
+HWY_INLINE void AddEntry(VF key, VF at, About* about) {
+  const MF is_past = hn::Le(key, at);
+  about->last_entry = hn::IfThenElse(is_past, hn::Max(about->last_entry, key), about->last_entry);
+  about->next_entry = hn::IfThenElse(is_past, about->next_entry, hn::Min(about->next_entry, key));
 }
 
-HWY_INLINE void AddEntry(VF key, VF at, std::uint32_t edge, About* about) {
-  about->last_entry = LastOf(about->last_entry, key, at);
-  const MF is_next = hn::And(hn::Gt(key, at), hn::Lt(key, about->next_entry));
-  about->next_entry = hn::IfThenElse(is_next, key, about->next_entry);
-  about->next_edge = hn::IfThenElse(hn::RebindMask(Ints(), is_next),
-                                    hn::Set(Ints(), static_cast<std::int32_t>(edge)), about->next_edge);
+HWY_INLINE void AddExit(VF key, VF at, About* about) {
+  about->last_exit = hn::IfThenElse(hn::Le(key, at), hn::Max(about->last_exit, key), about->last_exit);
 }
 
 // The bits of the vector's rays.
@@ -100,12 +96,11 @@ HWY_INLINE MF IsInside(const About& about, std::uint32_t starts_inside) {
   return hn::Or(by_crossing, hn::And(none, MaskOf(starts_inside)));
 }
 
-HWY_INLINE void MoveOn(MF which, const About& about, std::size_t camera, Front* front) {
+HWY_INLINE void MoveOn(MF which, VF key, std::size_t camera, Front* front) {
   const Ints n;
-  const auto which_ints = hn::RebindMask(n, which);
-  front->key = hn::IfThenElse(which, about.next_entry, front->key);
-  front->camera = hn::IfThenElse(which_ints, hn::Set(n, static_cast<std::int32_t>(camera)), front->camera);
-  front->edge = hn::IfThenElse(which_ints, about.next_edge, front->edge);
+  front->key = hn::IfThenElse(which, key, front->key);
+  front->camera =
+      hn::IfThenElse(hn::RebindMask(n, which), hn::Set(n, static_cast<std::int32_t>(camera)), front->camera);
 }
 
 // The walk of some rays, from camera to camera, until all agree.
@@ -117,27 +112,51 @@ class Walk {
 
   Front Run(VF key_from, VF key_to) {
     const Floats f;
-    Front front{key_from, hn::Set(Ints(), TileHits::kNoCamera), hn::Zero(Ints())};
+    Front front{key_from, hn::Set(Ints(), TileHits::kNoCamera)};
     MF alive = hn::Le(key_from, key_to);
-    for (bool moved = true, is_first = true; moved && !hn::AllFalse(f, alive); is_first = false) {
-      moved = false;
-      for (std::size_t i = 0; i < cameras_.size(); ++i) {
-        const About about = is_first ? CrossFirst(cameras_[i], alive, front.key, &scratch_.kept[i])
-                                     : CrossAgain(cameras_[i], alive, front.key, &scratch_.kept[i]);
-        const MF outside = hn::AndNot(IsInside(about, cameras_[i].starts_inside >> first_), alive);
-        if (hn::AllFalse(f, outside)) continue;
-        MoveOn(outside, about, i, &front);
+    if (hn::AllFalse(f, alive)) return {hn::Set(f, kInfinity), front.camera};
+    // Until as many in a row agree as there are cameras.
+    const std::size_t cameras = cameras_.size();
+    for (std::size_t asked = 0, agreed = 0; agreed < cameras; ++asked) {
+      const std::size_t i = asked % cameras;
+      const About about = asked < cameras ? CrossFirst(cameras_[i], alive, front.key, &scratch_.kept[i])
+                                          : CrossAgain(cameras_[i], alive, front.key, &scratch_.kept[i]);
+      const MF outside = hn::AndNot(IsInside(about, cameras_[i].starts_inside >> first_), alive);
+      ++agreed;
+      if (!hn::AllFalse(f, outside)) {
+        MoveOn(outside, about.next_entry, i, &front);
         alive = hn::And(alive, hn::Le(front.key, key_to));
-        moved = true;
         if (hn::AllFalse(f, alive)) break;
+        agreed = 1;
       }
-      if (!moved && !sights_.empty()) {
-        moved = MoveIntoSight(alive, &front);
+      if (agreed == cameras && !sights_.empty() && MoveIntoSight(alive, &front)) {
         alive = hn::And(alive, hn::Le(front.key, key_to));
+        agreed = 0;
       }
     }
     front.key = hn::IfThenElse(alive, front.key, hn::Set(f, kInfinity));
     return front;
+  }
+
+  // The edges that the rays of a front are on, of the cameras that brought them there.
+  VI EdgesOf(const Front& front) {
+    const Floats f;
+    const Ints n;
+    VI found = hn::Zero(n);
+    for (std::size_t i = 0; i < cameras_.size() + sights_.size(); ++i) {
+      const MF is_by = hn::RebindMask(f, hn::Eq(front.camera, hn::Set(n, static_cast<std::int32_t>(i))));
+      if (hn::AllFalse(f, is_by)) continue;
+      const TileCamera& camera = i < cameras_.size() ? cameras_[i] : sights_[i - cameras_.size()];
+      Kept bins;
+      const VF angle = Angle(*camera.pencil, rays_.u, rays_.v);
+      FindBins(*camera.pencil, is_by, angle, &bins);
+      Cross(camera.pencil->entries, bins, angle, [&](const CastEdge& edge, VF key) {
+        const MF is_edge = hn::And(is_by, hn::Eq(key, front.key));
+        found = hn::IfThenElse(hn::RebindMask(n, is_edge), hn::Set(n, static_cast<std::int32_t>(edge.edge)),
+                               found);
+      });
+    }
+    return found;
   }
 
  private:
@@ -161,15 +180,16 @@ class Walk {
     scratch_.edges_met += end - begin + carried_end - carried_begin;
   }
 
-  void Store(VF key) {
-    const Floats f;
-    if (scratch_.keys.size() < keys_ + hn::Lanes(f)) scratch_.keys.resize(2 * keys_ + hn::Lanes(f));
-    hn::StoreU(key, f, scratch_.keys.data() + keys_);
-    keys_ += hn::Lanes(f);
+  // Room for the keys of the edges of some bins.
+  void Reserve(const CastEdges& edges, const Kept& bins) {
+    const std::size_t count = edges.first[bins.last_bin + 1] - edges.first[bins.first_bin] +
+                              edges.first_carried[bins.first_bin + 1] - edges.first_carried[bins.first_bin];
+    const std::size_t needed = keys_ + count * hn::Lanes(Floats());
+    if (scratch_.keys.size() < needed) scratch_.keys.resize(2 * needed);
   }
-  void StoreEdge(std::uint32_t edge) {
-    if (scratch_.edges.size() <= edges_) scratch_.edges.resize(2 * edges_ + 1);
-    scratch_.edges[edges_++] = edge;
+  HWY_INLINE void Store(VF key) {
+    hn::StoreU(key, Floats(), scratch_.keys.data() + keys_);
+    keys_ += hn::Lanes(Floats());
   }
 
   // The bins of the living rays' angles.
@@ -190,18 +210,19 @@ class Walk {
   // Works out one camera's crossings, and says what they are about `at`.
   About CrossFirst(const TileCamera& camera, MF alive, VF at, Kept* kept) {
     About about = NothingAbout();
-    *kept = {keys_, edges_, 0, 0, 0, false, 0, 0};
+    *kept = {};
+    kept->entry_keys = keys_;
     if (camera.pencil->bins == 0) {
       kept->has_exits = true;
       return about;
     }
     const VF angle = Angle(*camera.pencil, rays_.u, rays_.v);
     FindBins(*camera.pencil, alive, angle, kept);
-    Cross(camera.pencil->entries, *kept, angle, [&](const CastEdge& edge, VF key) {
+    Reserve(camera.pencil->entries, *kept);
+    Cross(camera.pencil->entries, *kept, angle, [&](const CastEdge&, VF key) {
       Store(key);
-      StoreEdge(edge.edge);
       ++kept->entries;
-      AddEntry(key, at, edge.edge, &about);
+      AddEntry(key, at, &about);
     });
     AddExits(camera, alive, at, kept, &about);
     return about;
@@ -211,9 +232,9 @@ class Walk {
   About CrossAgain(const TileCamera& camera, MF alive, VF at, Kept* kept) {
     const Floats f;
     About about = NothingAbout();
-    const float* keys = scratch_.keys.data() + kept->keys;
+    const float* keys = scratch_.keys.data() + kept->entry_keys;
     for (std::size_t i = 0; i < kept->entries; ++i, keys += hn::Lanes(f))
-      AddEntry(hn::LoadU(f, keys), at, scratch_.edges[kept->edges + i], &about);
+      AddEntry(hn::LoadU(f, keys), at, &about);
     AddExits(camera, alive, at, kept, &about);
     return about;
   }
@@ -226,6 +247,7 @@ class Walk {
     if (!kept->has_exits) {
       kept->has_exits = true;
       kept->exit_keys = keys_;
+      Reserve(camera.pencil->exits, *kept);
       Cross(camera.pencil->exits, *kept, Angle(*camera.pencil, rays_.u, rays_.v),
             [&](const CastEdge&, VF key) {
               Store(key);
@@ -234,7 +256,7 @@ class Walk {
     }
     const float* keys = scratch_.keys.data() + kept->exit_keys;
     for (std::size_t i = 0; i < kept->exits; ++i, keys += hn::Lanes(f))
-      about->last_exit = LastOf(about->last_exit, hn::LoadU(f, keys), at);
+      AddExit(hn::LoadU(f, keys), at, about);
   }
 
   // Rays that no camera sees go on to where one does. Rare enough to work all crossings out anew.
@@ -242,22 +264,16 @@ class Walk {
     const Floats f;
     const VF at = front->key;
     MF unseen = alive;
-    About nearest = NothingAbout();
-    VI camera = hn::Zero(Ints());
+    Front nearest{hn::Set(f, kInfinity), front->camera};
     for (std::size_t i = 0; i < sights_.size(); ++i) {
       Kept kept;
       const About about = CrossFirst(sights_[i], alive, at, &kept);
       unseen = hn::AndNot(IsInside(about, sights_[i].starts_inside >> first_), unseen);
-      const MF is_nearer = hn::Lt(about.next_entry, nearest.next_entry);
-      const auto is_nearer_ints = hn::RebindMask(Ints(), is_nearer);
-      nearest.next_entry = hn::IfThenElse(is_nearer, about.next_entry, nearest.next_entry);
-      nearest.next_edge = hn::IfThenElse(is_nearer_ints, about.next_edge, nearest.next_edge);
-      camera = hn::IfThenElse(is_nearer_ints, hn::Set(Ints(), static_cast<std::int32_t>(cameras_.size() + i)),
-                              camera);
+      MoveOn(hn::Lt(about.next_entry, nearest.key), about.next_entry, cameras_.size() + i, &nearest);
     }
     if (hn::AllFalse(f, unseen)) return false;
-    MoveOn(unseen, nearest, 0, front);
-    front->camera = hn::IfThenElse(hn::RebindMask(Ints(), unseen), camera, front->camera);
+    front->key = hn::IfThenElse(unseen, nearest.key, front->key);
+    front->camera = hn::IfThenElse(hn::RebindMask(Ints(), unseen), nearest.camera, front->camera);
     return true;
   }
 
@@ -267,7 +283,6 @@ class Walk {
   std::size_t first_;
   TileScratch& scratch_;
   std::size_t keys_ = 0;  // in use
-  std::size_t edges_ = 0;
 };
 
 HWY_INLINE void Clip(const CastBox& box, const Rays& rays, VF* key_from, VF* key_to) {
@@ -282,7 +297,7 @@ HWY_INLINE void Clip(const CastBox& box, const Rays& rays, VF* key_from, VF* key
 }
 
 void Cast(const TileRays& tile, const CastBox& box, std::span<const TileCamera> cameras,
-          std::span<const TileCamera> sights, TileScratch* scratch, TileHits* hits) {
+          std::span<const TileCamera> sights, bool wants_edges, TileScratch* scratch, TileHits* hits) {
   const Floats f;
   scratch->kept.resize(cameras.size());
   hits->any = false;
@@ -290,12 +305,13 @@ void Cast(const TileRays& tile, const CastBox& box, std::span<const TileCamera> 
     const Rays rays{hn::Load(f, tile.u + first), hn::Load(f, tile.v + first), hn::Set(f, tile.key_end)};
     VF key_from = hn::Set(f, -kInfinity), key_to = rays.key_end;
     Clip(box, rays, &key_from, &key_to);
-    const Front front = Walk(rays, cameras, sights, first, scratch).Run(key_from, key_to);
+    Walk walk(rays, cameras, sights, first, scratch);
+    const Front front = walk.Run(key_from, key_to);
     hn::Store(front.key, f, hits->key + first);
     if (hn::AllTrue(f, hn::Eq(front.key, hn::Set(f, kInfinity)))) continue;
     hits->any = true;
     hn::Store(front.camera, Ints(), hits->camera + first);
-    hn::Store(front.edge, Ints(), hits->edge + first);
+    if (wants_edges) hn::Store(walk.EdgesOf(front), Ints(), hits->edge + first);
   }
 }
 
@@ -309,8 +325,8 @@ namespace elbowroom::recon {
 HWY_EXPORT(Cast);
 
 void CastTile(const TileRays& rays, const CastBox& box, std::span<const TileCamera> cameras,
-              std::span<const TileCamera> sights, TileScratch* scratch, TileHits* hits) {
-  HWY_DYNAMIC_DISPATCH(Cast)(rays, box, cameras, sights, scratch, hits);
+              std::span<const TileCamera> sights, bool wants_edges, TileScratch* scratch, TileHits* hits) {
+  HWY_DYNAMIC_DISPATCH(Cast)(rays, box, cameras, sights, wants_edges, scratch, hits);
 }
 
 }  // namespace elbowroom::recon

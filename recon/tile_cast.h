@@ -83,31 +83,30 @@ struct TileHits {
   static constexpr std::int32_t kNoCamera = -1;
   alignas(64) float key[kTileRays];
   alignas(64) std::int32_t camera[kTileRays];  // sights count on after the cameras
-  alignas(64) std::int32_t edge[kTileRays];
+  alignas(64) std::int32_t edge[kTileRays];    // if wanted; of hits on edges
   bool any = false;
 };
 
 // Room to work in, kept from tile to tile.
 struct TileScratch {
-  std::vector<float> keys;           // of crossings, a vector each
-  std::vector<std::uint32_t> edges;  // of the entries among them
-  struct Kept {                      // one camera's part of both
-    std::size_t keys = 0;
-    std::size_t edges = 0;
+  // One camera's crossings with the rays of one vector, as they were worked out.
+  struct Kept {
+    std::size_t entry_keys = 0;  // in `keys`
     std::size_t entries = 0;
     std::size_t exit_keys = 0;
     std::size_t exits = 0;
     bool has_exits = false;
-    std::uint32_t first_bin = 0;
+    std::uint32_t first_bin = 0;  // of the rays' angles
     std::uint32_t last_bin = 0;
   };
   std::vector<Kept> kept;
+  std::vector<float> keys;     // a vector a crossing
   std::int64_t edges_met = 0;  // angular intervals that rays were compared with, so far
 };
 
 // `cameras` must all agree that a point is in the hull, and one of `sights` if there are any. The processor's
 // widest vectors decide how many rays go at once, never the result: the same bits for all (hull_view_test).
 void CastTile(const TileRays& rays, const CastBox& box, std::span<const TileCamera> cameras,
-              std::span<const TileCamera> sights, TileScratch* scratch, TileHits* hits);
+              std::span<const TileCamera> sights, bool wants_edges, TileScratch* scratch, TileHits* hits);
 
 }  // namespace elbowroom::recon
