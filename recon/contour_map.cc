@@ -79,7 +79,31 @@ class ContourMap::Grid {
     return edge;
   }
 
+  [[nodiscard]] std::optional<double> FirstCrossing(const Vector2d& from, const Vector2d& to) const {
+    const Vector2d low = (from.cwiseMin(to) - origin_) / cell_px_,
+                   high = (from.cwiseMax(to) - origin_) / cell_px_;
+    const Vector2d most = (cells_ - Eigen::Vector2i::Ones()).cast<double>();
+    const Eigen::Vector2i first = low.cwiseMax(0.0).cwiseMin(most).cast<int>();
+    const Eigen::Vector2i last = high.cwiseMax(0.0).cwiseMin(most).cast<int>();
+    const Vector2d way = to - from;
+    double nearest = kInfinity;
+    for (int y = first.y(); y <= last.y(); ++y) {
+      for (std::uint32_t i = first_[Index(first.x(), y)]; i < first_[Index(last.x(), y) + 1]; ++i) {
+        const Vector2d &a = From(listed_[i]), &b = To(listed_[i]);
+        // The ends of the edge on different sides of the way, and those of the way of the edge.
+        const double side_a = Cross(way, a - from), side_b = Cross(way, b - from);
+        if ((side_a > 0.0) == (side_b > 0.0)) continue;
+        const double share = Cross(a - from, b - a) / Cross(way, b - a);
+        if (share >= 0.0 && share <= 1.0) nearest = std::min(nearest, share);
+      }
+    }
+    if (nearest > 1.0) return std::nullopt;
+    return nearest;
+  }
+
  private:
+  static double Cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
+
   [[nodiscard]] std::size_t Index(int x, int y) const {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(cells_.x()) + static_cast<std::size_t>(x);
   }
@@ -228,6 +252,11 @@ PlaneLabel ContourMap::LabelAt(const Vector2d& position) const {
   }
   label.distance_px = std::max(label.distance_px - kRoundingPx, 0.0);
   return label;
+}
+
+std::optional<double> ContourMap::FirstCrossing(const Vector2d& from, const Vector2d& to) const {
+  if (bounds_px_.isEmpty()) return std::nullopt;
+  return grid().FirstCrossing(from, to);
 }
 
 std::optional<std::uint32_t> ContourMap::NearestEdge(const Vector2d& position) const {

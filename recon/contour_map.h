@@ -45,6 +45,11 @@ class ContourMap {
   // The nearest edge, if one is within 2 cells.
   [[nodiscard]] std::optional<std::uint32_t> NearestEdge(const Eigen::Vector2d& position) const;
 
+  // How far along the straight way from one position to another the first edge is crossed, 0 to 1. For ways
+  // of a few cells: cost follows their box.
+  [[nodiscard]] std::optional<double> FirstCrossing(const Eigen::Vector2d& from,
+                                                    const Eigen::Vector2d& to) const;
+
  private:
   class Grid;
   [[nodiscard]] const Grid& grid() const;

@@ -1,0 +1,26 @@
+// How a surface cuts a cube whose corners are inside or outside: marching cubes.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace elbowroom::recon {
+
+// Corner c stands at (c & 1, c >> 1 & 1, c >> 2). Edge 4 a + i runs along axis a; its ends are kCubeEdges'.
+struct CubeEdge {
+  int low = 0;  // corner with the smaller coordinate
+  int high = 0;
+};
+inline constexpr std::array<CubeEdge, 12> kCubeEdges = {
+    {{0, 1}, {2, 3}, {4, 5}, {6, 7}, {0, 2}, {1, 3}, {4, 6}, {5, 7}, {0, 4}, {1, 5}, {2, 6}, {3, 7}}};
+
+// Triangles whose corners stand on cube edges, counter-clockwise seen from outside.
+using CubeTriangles = std::vector<std::array<std::uint8_t, 3>>;
+
+// By the corners inside, a bit each. On a face with two inside corners across from each other these are kept
+// apart, in both of its cubes; no triangle's inner side joins two points of one face. So the surface of a
+// grid of cubes is a closed 2-manifold (cube_table_test).
+[[nodiscard]] const std::array<CubeTriangles, 256>& CubeTable();
+
+}  // namespace elbowroom::recon
