@@ -13,6 +13,8 @@ constexpr double kRelativeSlack = 1e-9;
 // ... and by this share of the coordinates' size for theirs: of the centre, of the ball's points, on the way
 // into the camera.
 constexpr double kCoordinateRounding = 4e-15;
+// What a label's distance loses to rounding, and more.
+constexpr double kPositionSlackPx = 1e-6;
 
 // Largest r such that every point within r of x projects, in the normalised plane, within `reach` of x's own
 // projection: r |x| / (Z (Z - r)) <= reach, solved for r; always below Z.
@@ -22,9 +24,16 @@ double RadiusOfReach(const Eigen::Vector3d& x_in_cam, double reach) {
   return reach * z * z / (x_in_cam.norm() + reach * z) * (1.0 - kRelativeSlack);
 }
 
+// The reach that a radius needs; infinite for a ball that reaches the camera's plane.
+double ReachOfRadius(const Eigen::Vector3d& x_in_cam, double radius_mm) {
+  const double z = x_in_cam.z();
+  if (!(radius_mm < z)) return std::numeric_limits<double>::infinity();
+  return radius_mm * x_in_cam.norm() / (z * (z - radius_mm));
+}
+
 // Distance from x to the cone about the z axis that holds all edges: negative inside it.
 double DistanceToCone(const Eigen::Vector3d& x_in_cam, double slope) {
-  const double length = std::hypot(1.0, slope);
+  const double length = std::sqrt(1.0 + slope * slope);
   const double across = x_in_cam.head<2>().norm();
   const double to_surface = (across - slope * x_in_cam.z()) / length;
   const double along_surface = (across * slope + x_in_cam.z()) / length;
@@ -47,17 +56,20 @@ std::optional<Eigen::Vector2d> PositionOf(const Eigen::Vector3d& x_in_cam, doubl
 }  // namespace
 
 BallLabel AskPlane(const core::CameraModel& camera, double focal_px, const ContourMap& labels,
-                   const Eigen::Vector3d& x_in_world) {
+                   const Eigen::Vector3d& x_in_world, double enough_mm) {
   const Eigen::Vector3d x_in_cam = camera.cam_from_world() * x_in_world;
   const double rounding_mm =
       kCoordinateRounding * (x_in_world.lpNorm<1>() + camera.cam_from_world().translation_mm.lpNorm<1>());
   BallLabel answer{labels.exterior_is_object(), 0.0};
   if (const std::optional<Eigen::Vector2d> position = PositionOf(x_in_cam, focal_px)) {
-    const PlaneLabel label = labels.LabelAt(*position);
+    const double enough =
+        ReachOfRadius(x_in_cam, enough_mm * (1.0 + 2.0 * kRelativeSlack) + 2.0 * rounding_mm);
+    const PlaneLabel label =
+        labels.LabelAt(*position, enough * focal_px * (1.0 + kRelativeSlack) + kPositionSlackPx);
     answer = {label.is_object, RadiusOfReach(x_in_cam, label.distance_px / focal_px)};
   }
   // A ball that isn't in front of the camera, or reaches behind it.
-  if (answer.is_object == labels.exterior_is_object())
+  if (answer.is_object == labels.exterior_is_object() && answer.radius_mm < enough_mm)
     answer.radius_mm = std::max(answer.radius_mm, DistanceToEdges(x_in_cam, focal_px, labels));
   answer.radius_mm = std::max(answer.radius_mm - rounding_mm, 0.0);
   return answer;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 
 #include "core/camera_model.h"
 #include "recon/silhouette.h"
@@ -14,9 +15,11 @@ struct BallLabel {
   double radius_mm = 0.0;  // certified: the label holds this far around
 };
 
-// Frames: x_in_world. `focal_px` is the plane's. Derivation in docs/algorithms.md.
+// Frames: x_in_world. `focal_px` is the plane's. Derivation in docs/algorithms.md. A radius that is sure to
+// be at least, or sure to be less than, `enough_mm` isn't worked out any closer.
 [[nodiscard]] BallLabel AskPlane(const core::CameraModel& camera, double focal_px, const ContourMap& labels,
-                                 const Eigen::Vector3d& x_in_world);
+                                 const Eigen::Vector3d& x_in_world,
+                                 double enough_mm = std::numeric_limits<double>::infinity());
 
 // The label alone.
 [[nodiscard]] bool IsObjectTo(const core::CameraModel& camera, double focal_px, const ContourMap& labels,

@@ -26,6 +26,16 @@ std::vector<std::uint8_t> DistancesDown(std::size_t width, std::size_t height,
   return down;
 }
 
+// nearest[x] = min(nearest[x], squares[x] + across). Bytes may alias anything, so the compiler is told that
+// these don't: sixteen or more at a time.
+void TakeNearer(const std::uint8_t* __restrict squares, std::uint8_t across, std::size_t width,
+                std::uint8_t* __restrict nearest) {
+  for (std::size_t x = 0; x < width; ++x) {
+    const auto square = static_cast<std::uint8_t>(squares[x] + across);
+    nearest[x] = square < nearest[x] ? square : nearest[x];
+  }
+}
+
 // floor(8 * sqrt(square)), by square.
 const std::array<std::uint8_t, kNear * kNear + 1>& Eighths() {
   static const auto table = [] {
@@ -47,22 +57,19 @@ CellDistances::CellDistances(int width, int height, std::span<const std::uint32_
 
 void CellDistances::FillNear(std::span<const std::uint8_t> down) {
   near_eighths_.resize(width_ * height_);
-  constexpr auto kFar = static_cast<std::uint16_t>(kNear * kNear);
+  // Two of them together fit a byte.
+  constexpr auto kFar = static_cast<std::uint8_t>(kNear * kNear);
+  static_assert(2 * kNear * kNear <= 255);
   // A row of squares with kNear far ones on both sides, so that the loops below run without a test.
-  std::vector<std::uint16_t> squares(width_ + 2 * kNear, kFar), nearest(width_);
+  std::vector<std::uint8_t> squares(width_ + 2 * kNear, kFar), nearest(width_);
   for (std::size_t y = 0; y < height_; ++y) {
     for (std::size_t x = 0; x < width_; ++x) {
-      const std::uint16_t cells = down[y * width_ + x];
-      squares[x + kNear] = static_cast<std::uint16_t>(cells * cells);
+      const std::uint8_t cells = down[y * width_ + x];
+      squares[x + kNear] = static_cast<std::uint8_t>(cells * cells);
     }
     std::fill(nearest.begin(), nearest.end(), kFar);
     for (int dx = -kNear; dx <= kNear; ++dx) {
-      const std::uint16_t* shifted = squares.data() + kNear + dx;
-      const auto across = static_cast<std::uint16_t>(dx * dx);
-      for (std::size_t x = 0; x < width_; ++x) {
-        const auto square = static_cast<std::uint16_t>(shifted[x] + across);
-        nearest[x] = std::min(nearest[x], square);
-      }
+      TakeNearer(squares.data() + kNear + dx, static_cast<std::uint8_t>(dx * dx), width_, nearest.data());
     }
     for (std::size_t x = 0; x < width_; ++x) near_eighths_[y * width_ + x] = Eighths()[nearest[x]];
   }
@@ -88,11 +95,16 @@ void CellDistances::FillBlocks(std::span<const std::uint32_t> first) {
   const auto gap = [](int blocks) { return std::max(blocks - 1, 0) * kBlock + (blocks > 0 ? 1 : 0); };
   for (std::size_t y = 0; y < block_height_; ++y) {
     for (std::size_t x = 0; x < block_width_; ++x) {
+      // Outwards from the block itself, as long as a column can be nearer.
       double square = std::numeric_limits<double>::max();
-      for (std::size_t other = 0; other < block_width_; ++other) {
-        const int across = gap(static_cast<int>(x > other ? x - other : other - x));
-        const int along = gap(down[y * block_width_ + other]);
-        square = std::min(square, static_cast<double>(across) * across + static_cast<double>(along) * along);
+      for (std::size_t step = 0; step < block_width_; ++step) {
+        const double across = gap(static_cast<int>(step));
+        if (across * across >= square) break;
+        for (const std::size_t other : {x - step, x + step}) {
+          if (other >= block_width_) continue;  // also of a wrapped x - step
+          const double along = gap(down[y * block_width_ + other]);
+          square = std::min(square, across * across + along * along);
+        }
       }
       blocks_[y * block_width_ + x] =
           std::max(static_cast<float>(std::sqrt(square)) * (1.0F - 1e-6F), static_cast<float>(kNear));

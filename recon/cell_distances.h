@@ -9,10 +9,10 @@
 namespace elbowroom::recon {
 
 // Euclidean distances between cells' centres, in cells: lower bounds, short by at most 1/8 up to kNearCells;
-// farther away by at most 12 more, from blocks of 8 x 8 cells.
+// farther away by at most 6, from blocks of 4 x 4 cells.
 class CellDistances {
  public:
-  static constexpr int kNearCells = 31;
+  static constexpr int kNearCells = 11;
 
   CellDistances() = default;
   // Cell (x, y) is item i = y * width + x; it holds something where first[i] != first[i + 1].
@@ -27,7 +27,7 @@ class CellDistances {
   }
 
  private:
-  static constexpr int kBlock = 8;
+  static constexpr int kBlock = 4;
   void FillNear(std::span<const std::uint8_t> down);
   void FillBlocks(std::span<const std::uint32_t> first);
 

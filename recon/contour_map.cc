@@ -26,6 +26,14 @@ constexpr double kRoundingPx = 1e-7;
 // An edge is listed in cells that it only nearly touches, so that rounding can't lose it.
 constexpr double kTouch = 1e-6;
 
+double SquaredDistance(const Vector2d& p, const Vector2d& a, const Vector2d& b) {
+  const Vector2d ab = b - a, ap = p - a;
+  const double along = ab.dot(ap), length2 = ab.squaredNorm();
+  if (!(along > 0.0)) return ap.squaredNorm();
+  if (along >= length2) return (p - b).squaredNorm();
+  return (ap - ab * (along / length2)).squaredNorm();
+}
+
 }  // namespace
 
 // Square cells over the contour's bounds and a margin. In each: the edges that touch it, the label of its
@@ -65,10 +73,14 @@ class ContourMap::Grid {
   }
 
   // Lower bound, in px.
-  [[nodiscard]] double DistanceOf(const Place& place, const Vector2d& position) const {
-    const double cells = distances_.LowerBound(place.cell.x(), place.cell.y()) - kHalfDiagonal;
-    const double bound_px = (cells - place.from_centre.norm()) * cell_px_;
-    if (cells > kWindowCells) return bound_px;
+  [[nodiscard]] double DistanceOf(const Place& place, const Vector2d& position, double enough_px) const {
+    const double to_centre = distances_.LowerBound(place.cell.x(), place.cell.y());
+    const double off_centre = place.from_centre.norm();
+    const double bound_px = (to_centre - kHalfDiagonal - off_centre) * cell_px_;
+    if (bound_px >= enough_px || to_centre - kHalfDiagonal > kWindowCells) return bound_px;
+    constexpr double kShortBy = 0.125;
+    if ((to_centre + kShortBy + kHalfDiagonal + off_centre) * cell_px_ < enough_px && !std::isinf(enough_px))
+      return bound_px;
     const double within_px = NearestInWindow(place, position).second;
     return std::max(bound_px, std::min(within_px, kWindowCells * cell_px_));
   }
@@ -200,10 +212,11 @@ class ContourMap::Grid {
     const int bottom = std::min(place.cell.y() + kWindowCells, cells_.y() - 1);
     for (int y = std::max(place.cell.y() - kWindowCells, 0); y <= bottom; ++y) {
       for (std::uint32_t i = first_[Index(left, y)]; i < first_[Index(right, y) + 1]; ++i) {
-        const double distance_px = DistanceToEdge(contour_, listed_[i], p);
-        if (distance_px < nearest.second) nearest = {listed_[i], distance_px};
+        const double squared = SquaredDistance(p, From(listed_[i]), To(listed_[i]));
+        if (squared < nearest.second) nearest = {listed_[i], squared};
       }
     }
+    nearest.second = std::sqrt(nearest.second);
     return nearest;
   }
 
@@ -230,8 +243,10 @@ ContourMap::ContourMap(Contour contour, bool exterior_is_object)
 ContourMap::~ContourMap() = default;
 
 const ContourMap::Grid& ContourMap::grid() const {
+  if (const Grid* ready = ready_.load(std::memory_order_acquire)) return *ready;
   std::call_once(once_,
                  [this] { grid_ = std::make_unique<const Grid>(contour_, exterior_is_object_, bounds_px_); });
+  ready_.store(grid_.get(), std::memory_order_release);
   return *grid_;
 }
 
@@ -241,12 +256,12 @@ bool ContourMap::IsObject(const Vector2d& position) const {
   return place ? grid().LabelOf(*place, position) : exterior_is_object_;
 }
 
-PlaneLabel ContourMap::LabelAt(const Vector2d& position) const {
+PlaneLabel ContourMap::LabelAt(const Vector2d& position, double enough_px) const {
   if (bounds_px_.isEmpty()) return {exterior_is_object_, kInfinity};
   const std::optional<Grid::Place> place = grid().Find(position);
   PlaneLabel label{exterior_is_object_, 0.0};
   if (place) {
-    label = {grid().LabelOf(*place, position), grid().DistanceOf(*place, position)};
+    label = {grid().LabelOf(*place, position), grid().DistanceOf(*place, position, enough_px)};
   } else {
     label.distance_px = bounds_px_.exteriorDistance(position);
   }

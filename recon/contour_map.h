@@ -3,7 +3,9 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <atomic>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -38,9 +40,11 @@ class ContourMap {
   // Of any finite position.
   [[nodiscard]] bool IsObject(const Eigen::Vector2d& position) const;
 
-  // Exact to 1e-6 within 2 cells of an edge, at most 1.6 cells short up to 32 cells from one, farther away no
-  // shorter than that; a cell is 1 px where the bounds allow (contour_map_test).
-  [[nodiscard]] PlaneLabel LabelAt(const Eigen::Vector2d& position) const;
+  // Exact to 1e-6 within 2 cells of an edge, at most 1.6 cells short up to 11 cells from one, 8 farther away;
+  // a cell is 1 px where the bounds allow (contour_map_test). Content with `enough_px`: a distance that is
+  // sure to be at least that, or sure to be less, isn't worked out any closer.
+  [[nodiscard]] PlaneLabel LabelAt(const Eigen::Vector2d& position,
+                                   double enough_px = std::numeric_limits<double>::infinity()) const;
 
   // The nearest edge, if one is within 2 cells.
   [[nodiscard]] std::optional<std::uint32_t> NearestEdge(const Eigen::Vector2d& position) const;
@@ -60,6 +64,7 @@ class ContourMap {
   double max_radius_px_ = 0.0;
   mutable std::once_flag once_;
   mutable std::unique_ptr<const Grid> grid_;
+  mutable std::atomic<const Grid*> ready_ = nullptr;  // grid_, once it is there
 };
 
 }  // namespace elbowroom::recon

@@ -85,8 +85,8 @@ class Search {
     for (std::size_t i = 0; i < before.camera_count; ++i) {
       const std::uint8_t camera = before.cameras[i];
       const Silhouette& silhouette = *hull_.silhouettes()[camera];
-      const BallLabel label =
-          AskPlane(hull_.rig().cameras[camera], silhouette.plane().focal_px(), silhouette.labels(), center);
+      const BallLabel label = AskPlane(hull_.rig().cameras[camera], silhouette.plane().focal_px(),
+                                       silhouette.labels(), center, radius_mm);
       ++queries_;
       if (label.radius_mm < radius_mm) {
         doubts->cameras[doubts->camera_count++] = camera;
@@ -102,7 +102,8 @@ class Search {
   bool IsSeen(const Eigen::Vector3d& center, double radius_mm) {
     for (std::size_t i = 0; i < hull_.silhouettes().size(); ++i) {
       const PicturePlane& plane = hull_.silhouettes()[i]->plane();
-      const BallLabel seen = AskPlane(hull_.rig().cameras[i], plane.focal_px(), plane.outline(), center);
+      const BallLabel seen =
+          AskPlane(hull_.rig().cameras[i], plane.focal_px(), plane.outline(), center, radius_mm);
       ++queries_;
       if (seen.is_object && seen.radius_mm >= radius_mm) return true;
     }

@@ -63,9 +63,11 @@ class Tally {
   double unseen_radius_mm_ = kInfinity;
 };
 
-BallLabel AskSilhouette(const VisualHull& hull, std::size_t camera, const Eigen::Vector3d& x_in_world) {
+BallLabel AskSilhouette(const VisualHull& hull, std::size_t camera, const Eigen::Vector3d& x_in_world,
+                        double enough_mm) {
   const Silhouette& silhouette = *hull.silhouettes()[camera];
-  return AskPlane(hull.rig().cameras[camera], silhouette.plane().focal_px(), silhouette.labels(), x_in_world);
+  return AskPlane(hull.rig().cameras[camera], silhouette.plane().focal_px(), silhouette.labels(), x_in_world,
+                  enough_mm);
 }
 
 // Under `abstain` a point must be seen by someone; under `outside` an object pixel is a seen one.
@@ -118,7 +120,8 @@ bool VisualHull::Contains(const Eigen::Vector3d& x_in_world) const {
 PointAnswer VisualHull::Probe(const Eigen::Vector3d& x_in_world) const {
   if (is_empty_) return {false, kInfinity};
   Tally tally;
-  for (std::size_t i = 0; i < silhouettes_.size(); ++i) tally.Add(AskSilhouette(*this, i, x_in_world));
+  for (std::size_t i = 0; i < silhouettes_.size(); ++i)
+    tally.Add(AskSilhouette(*this, i, x_in_world, kInfinity));
   AddSights(*this, x_in_world, &tally);
   PointAnswer answer = tally.Sum();
   const Eigen::AlignedBox3d& workspace_mm = rig_->workspace_mm;
@@ -143,7 +146,7 @@ BallAnswer VisualHull::Classify(const Eigen::Vector3d& center_in_world, double r
   }
   Tally tally;
   for (std::size_t i = 0; i < silhouettes_.size(); ++i) {
-    const BallLabel label = AskSilhouette(*this, i, center_in_world);
+    const BallLabel label = AskSilhouette(*this, i, center_in_world, radius_mm);
     if (!label.is_object && label.radius_mm >= radius_mm) return BallAnswer::kOutside;
     tally.Add(label);
   }
