@@ -33,21 +33,10 @@ SweepAsker AskerOf(const SweepCamera& camera, bool exterior_is_object) {
   const core::CameraCalibration& c = camera.model.calibration();
   SweepAsker asker;
   asker.max_radius_squared = static_cast<float>(camera.model.max_radius() * camera.model.max_radius());
-  const bool is_fisheye = c.distortion_model == core::DistortionModel::kFisheye;
-  asker.lens =
-      is_fisheye ? SweepLens::kFisheye : (IsIdeal(camera.model) ? SweepLens::kIdeal : SweepLens::kPolynomial);
-  // OpenCV's order: k1 k2 p1 p2 k3 k4 k5 k6 s1 s2 s3 s4, or k1 k2 k3 k4.
-  const auto coefficient = [&](std::size_t i) {
-    return i < c.distortion_coefficients.size() ? static_cast<float>(c.distortion_coefficients[i]) : 0.0F;
-  };
-  if (is_fisheye) {
-    asker.radial = {coefficient(0), coefficient(1), coefficient(2), coefficient(3), 0.0F, 0.0F};
-  } else {
-    asker.radial = {coefficient(0), coefficient(1), coefficient(4),
-                    coefficient(5), coefficient(6), coefficient(7)};
-    asker.tangential = {coefficient(2), coefficient(3)};
-    asker.prism = {coefficient(8), coefficient(9), coefficient(10), coefficient(11)};
-  }
+  asker.coefficients = LensCoefficientsOf(camera.model);
+  asker.lens = asker.coefficients.is_fisheye
+                   ? SweepLens::kFisheye
+                   : (IsIdeal(camera.model) ? SweepLens::kIdeal : SweepLens::kPolynomial);
   const CoverageTexture& coverage = camera.coverage;
   const Eigen::Vector2d first(coverage.left_px, coverage.top_px);
   asker.fx = static_cast<float>(c.camera_matrix(0, 0));

@@ -44,7 +44,7 @@ template <SweepLens kLens>
 Position Distort(const SweepAsker& asker, Float x, Float y, Float r2) {
   if constexpr (kLens == SweepLens::kIdeal) return {x, y};
   const Float one = At(1.0F);
-  const auto& k = asker.radial;
+  const auto& k = asker.coefficients.radial;
   if constexpr (kLens == SweepLens::kFisheye) {
     const Float r = hn::Sqrt(r2);
     const Float theta = hn::Atan(kFloats, r), t2 = hn::Mul(theta, theta);
@@ -57,12 +57,14 @@ Position Distort(const SweepAsker& asker, Float x, Float y, Float r2) {
     return hn::MulAdd(r2, hn::MulAdd(r2, hn::MulAdd(r2, At(k[i + 2]), At(k[i + 1])), At(k[i])), one);
   };
   const Float scale = hn::Div(series(0), series(3));
-  const Float p1 = At(asker.tangential[0]), p2 = At(asker.tangential[1]);
+  const Float p1 = At(asker.coefficients.tangential[0]), p2 = At(asker.coefficients.tangential[1]);
   const Float xy2 = hn::Mul(hn::Add(x, x), y), x2 = hn::Mul(x, x), y2 = hn::Mul(y, y);
-  const Float off_x = hn::MulAdd(r2, hn::MulAdd(r2, At(asker.prism[1]), At(asker.prism[0])),
-                                 hn::MulAdd(p1, xy2, hn::Mul(p2, hn::Add(r2, hn::Add(x2, x2)))));
-  const Float off_y = hn::MulAdd(r2, hn::MulAdd(r2, At(asker.prism[3]), At(asker.prism[2])),
-                                 hn::MulAdd(p2, xy2, hn::Mul(p1, hn::Add(r2, hn::Add(y2, y2)))));
+  const Float off_x =
+      hn::MulAdd(r2, hn::MulAdd(r2, At(asker.coefficients.prism[1]), At(asker.coefficients.prism[0])),
+                 hn::MulAdd(p1, xy2, hn::Mul(p2, hn::Add(r2, hn::Add(x2, x2)))));
+  const Float off_y =
+      hn::MulAdd(r2, hn::MulAdd(r2, At(asker.coefficients.prism[3]), At(asker.coefficients.prism[2])),
+                 hn::MulAdd(p2, xy2, hn::Mul(p1, hn::Add(r2, hn::Add(y2, y2)))));
   return {hn::MulAdd(x, scale, off_x), hn::MulAdd(y, scale, off_y)};
 }
 

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "recon/sweep_rays.h"
+#include "recon/sweep_space.h"
 
 namespace elbowroom::recon {
 
@@ -17,9 +17,7 @@ struct SweepAsker {
   std::array<float, 3> origin{}, along_x{}, along_y{};
   float max_radius_squared = 0.0F;
   SweepLens lens = SweepLens::kIdeal;
-  std::array<float, 6> radial{};      // k1..k6, or fisheye's k1..k4
-  std::array<float, 2> tangential{};  // p1, p2
-  std::array<float, 4> prism{};       // s1..s4
+  SweepLensCoefficients coefficients;
   float fx = 0.0F, skew = 0.0F, cx = 0.0F, fy = 0.0F, cy = 0.0F;
   std::array<float, 2> valid_min{}, valid_max{};      // CoverageTexture::valid_px
   std::array<float, 2> picture_min{}, picture_max{};  // where it sees

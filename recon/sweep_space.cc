@@ -114,6 +114,18 @@ void RequireFit(const core::Rig& rig, std::span<const core::SoftMask> masks) {
 
 }  // namespace
 
+SweepLensCoefficients LensCoefficientsOf(const core::CameraModel& camera) {
+  const core::CameraCalibration& c = camera.calibration();
+  // OpenCV's order: k1 k2 p1 p2 k3 k4 k5 k6 s1 s2 s3 s4, or k1 k2 k3 k4.
+  const auto at = [&](std::size_t i) {
+    return i < c.distortion_coefficients.size() ? static_cast<float>(c.distortion_coefficients[i]) : 0.0F;
+  };
+  if (c.distortion_model == core::DistortionModel::kFisheye) {
+    return {true, {at(0), at(1), at(2), at(3), 0.0F, 0.0F}, {}, {}};
+  }
+  return {false, {at(0), at(1), at(4), at(5), at(6), at(7)}, {at(2), at(3)}, {at(8), at(9), at(10), at(11)}};
+}
+
 void PlaneSweepOptions::Validate() const {
   core::Require(spacing_mm > 0.0 && std::isfinite(spacing_mm), "planes have a positive spacing");
   core::Require(near_mm >= 0.0 && far_mm >= near_mm, "planes lie in front of the view, near before far");

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -19,6 +20,16 @@ struct SweepCamera {
   CoverageTexture coverage;
   BlockOccupancy occupancy;
 };
+
+// The lens in single precision, by name; zero where the model has none.
+struct SweepLensCoefficients {
+  bool is_fisheye = false;
+  std::array<float, 6> radial{};      // k1..k6, or fisheye's k1..k4
+  std::array<float, 2> tangential{};  // p1, p2
+  std::array<float, 4> prism{};       // s1..s4
+};
+
+[[nodiscard]] SweepLensCoefficients LensCoefficientsOf(const core::CameraModel& camera);
 
 // Pixels [x0, x1) x [y0, y1) of the view (lower ends multiples of kSweepTilePx) on planes [first, end).
 struct SweepRegion {
