@@ -128,8 +128,9 @@ class PlaneSweepGl::Impl {
   EglContext context_;
   std::thread::id thread_ = std::this_thread::get_id();
   std::string driver_;
-  VertexArray corners_{{}};
-  std::map<std::string, ShaderProgram> programs_;  // by fragment source
+  VertexArray corners_ = VertexArray({});
+  // By fragment source and first camera: what holds for all planes is set once a sweep.
+  std::map<std::pair<std::string, std::size_t>, ShaderProgram> programs_;
   std::vector<ByteTexture> masks_;
   FloatTexture rays_{3};
   std::optional<PlaneTarget> target_;
@@ -168,9 +169,11 @@ PlaneSweepGl::Impl::Pass PlaneSweepGl::Impl::PassOf(const SweepSpace& space, Swe
   shader.tests_workspace = first == 0 && (kind == SweepPass::kHull || kind == SweepPass::kObject);
   shader.has_ray_texture = !space.rays().is_ideal();
   const std::string source = shader.FragmentSource();
-  auto found = programs_.find(source);
+  auto found = programs_.find({source, first});
   if (found == programs_.end()) {
-    found = programs_.emplace(source, ShaderProgram("plane sweep", SweepVertexSource(), source)).first;
+    found =
+        programs_.emplace(std::pair(source, first), ShaderProgram("plane sweep", SweepVertexSource(), source))
+            .first;
   }
   return {kind, &found->second, first, count, shader.tests_workspace};
 }
