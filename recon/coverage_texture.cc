@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstring>
 
@@ -120,6 +121,19 @@ CoverageTexture MakeCoverageTexture(const core::SoftMask& soft) {
   if (!soft.levels.empty()) WriteLevels(soft, &texture);
   RepeatBorder(mask, &texture);
   return texture;
+}
+
+double CoverageAt(const CoverageTexture& texture, const Eigen::Vector2d& position_px) {
+  const Eigen::AlignedBox2d& valid = texture.valid_px;
+  if ((position_px.array() < valid.min().array()).any() || (position_px.array() >= valid.max().array()).any())
+    return 0.0;
+  const double x = position_px.x() - texture.left_px, y = position_px.y() - texture.top_px;
+  const double column = std::floor(x), row = std::floor(y), u = x - column, v = y - row;
+  const auto width = static_cast<std::size_t>(texture.width_texels);
+  const std::uint8_t* texel =
+      texture.texels.data() + static_cast<std::size_t>(row) * width + static_cast<std::size_t>(column);
+  return (1.0 - v) * ((1.0 - u) * texel[0] + u * texel[1]) +
+         v * ((1.0 - u) * texel[width] + u * texel[width + 1]);
 }
 
 BlockOccupancy::BlockOccupancy(const core::BitMask& mask) {

@@ -25,6 +25,9 @@ struct CoverageTexture {
 
 [[nodiscard]] CoverageTexture MakeCoverageTexture(const core::SoftMask& mask);
 
+// The coverage at a position of the picture, 0 to 255.
+[[nodiscard]] double CoverageAt(const CoverageTexture& texture, const Eigen::Vector2d& position_px);
+
 // What blocks of 8 x 8 pixels hold, summed so that any rectangle is answered at once.
 class BlockOccupancy {
  public:

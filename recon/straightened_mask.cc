@@ -1,6 +1,7 @@
 #include "recon/straightened_mask.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <utility>
@@ -12,6 +13,7 @@
 namespace elbowroom::recon {
 namespace {
 
+using Eigen::AlignedBox1d;
 using Eigen::AlignedBox2d;
 using Eigen::Vector2d;
 
@@ -54,36 +56,6 @@ core::CameraModel StraightCamera(const core::CameraModel& camera) {
   return core::CameraModel(std::move(c));
 }
 
-// The coverage, 0 to 255, at a position of the real picture.
-class Sampler {
- public:
-  Sampler(const core::SoftMask& mask, bool exterior_is_object)
-      : texture_(MakeCoverageTexture(mask)),
-        picture_(Vector2d::Constant(-0.5), Vector2d(mask.mask.width_px() - 0.5, mask.mask.height_px() - 0.5)),
-        exterior_(exterior_is_object ? 255.0 : 0.0) {}
-
-  [[nodiscard]] double At(const Vector2d& position_px) const {
-    if (!Holds(picture_, position_px)) return exterior_;
-    if (!Holds(texture_.valid_px, position_px)) return 0.0;
-    const double x = position_px.x() - texture_.left_px, y = position_px.y() - texture_.top_px;
-    const double column = std::floor(x), row = std::floor(y), u = x - column, v = y - row;
-    const auto width = static_cast<std::size_t>(texture_.width_texels);
-    const std::uint8_t* texel =
-        texture_.texels.data() + static_cast<std::size_t>(row) * width + static_cast<std::size_t>(column);
-    return (1.0 - v) * ((1.0 - u) * texel[0] + u * texel[1]) +
-           v * ((1.0 - u) * texel[width] + u * texel[width + 1]);
-  }
-
- private:
-  static bool Holds(const AlignedBox2d& box, const Vector2d& p) {
-    return (p.array() >= box.min().array()).all() && (p.array() < box.max().array()).all();
-  }
-
-  CoverageTexture texture_;
-  AlignedBox2d picture_;
-  double exterior_;
-};
-
 // Positions in the real picture of grid x grid places spread over the straight one.
 std::vector<Vector2d> GridPositions(const core::CameraModel& real, const core::CameraModel& straight,
                                     int grid) {
@@ -102,20 +74,104 @@ std::vector<Vector2d> GridPositions(const core::CameraModel& real, const core::C
   return positions;
 }
 
-core::SoftMask SoftMaskOf(const std::vector<std::uint8_t>& coverage, int width_px, int height_px) {
-  core::SoftMask soft{core::BitMask(width_px, height_px), {}};
-  const auto pixels = static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px);
-  const auto width = static_cast<std::size_t>(width_px);
-  for (std::size_t i = 0; i < pixels; ++i) {
-    if (coverage[i] >= 128) soft.mask.Set(static_cast<int>(i % width), static_cast<int>(i / width), true);
+// One byte a place of the straight picture.
+struct Coverage {
+  std::size_t width = 0, height = 0;
+  std::vector<std::uint8_t> bytes;
+};
+
+core::SoftMask SoftMaskOf(const Coverage& coverage) {
+  core::SoftMask soft{core::BitMask(static_cast<int>(coverage.width), static_cast<int>(coverage.height)), {}};
+  const std::size_t words = soft.mask.words_per_row();
+  for (std::size_t y = 0; y < coverage.height; ++y) {
+    const std::uint8_t* row = coverage.bytes.data() + y * coverage.width;
+    for (std::size_t word = 0; word < words; ++word) {
+      std::uint64_t bits = 0;
+      for (std::size_t x = 64 * word; x < std::min(64 * word + 64, coverage.width); ++x) {
+        bits |= std::uint64_t{row[x]} >> 7U << (x & 63U);
+      }
+      soft.mask.words()[y * words + word] = bits;
+    }
   }
   const core::BitMask boundary = core::BoundaryPixels(soft.mask);
-  for (std::size_t i = 0; i < pixels; ++i) {
-    if (boundary.At(static_cast<int>(i % width), static_cast<int>(i / width)))
-      soft.levels.push_back(coverage[i]);
+  for (std::size_t i = 0; i < boundary.words().size(); ++i) {
+    const std::uint8_t* bytes = coverage.bytes.data() + i / words * coverage.width + i % words * 64;
+    for (std::uint64_t bits = boundary.words()[i]; bits != 0; bits &= bits - 1) {
+      soft.levels.push_back(bytes[std::countr_zero(bits)]);
+    }
   }
   return soft;
 }
+
+// Half a level up is object, as the threshold has it.
+std::uint8_t ByteOf(double value) {
+  return static_cast<std::uint8_t>(value >= kThreshold ? std::max(128.0, std::round(value))
+                                                       : std::min(127.0, std::round(value)));
+}
+
+// The part of [0, 1] where from + u * (to - from) is in the box, and perhaps a little more.
+AlignedBox1d PartWithin(const AlignedBox2d& box, const Vector2d& from, const Vector2d& to) {
+  AlignedBox1d part(0.0, 1.0);
+  for (Eigen::Index axis = 0; axis < 2; ++axis) {
+    const double step = to[axis] - from[axis];
+    if (step == 0.0) continue;
+    const double a = (box.min()[axis] - from[axis]) / step, b = (box.max()[axis] - from[axis]) / step;
+    part = part.intersection(AlignedBox1d(std::min(a, b), std::max(a, b)));
+  }
+  return part;
+}
+
+// Fills the straight picture from the real one, cell by cell of the grid.
+class Straightener {
+ public:
+  Straightener(const core::SoftMask& mask, bool exterior_is_object)
+      : texture_(MakeCoverageTexture(mask)),
+        picture_(Vector2d::Constant(-0.5), Vector2d(mask.mask.width_px() - 0.5, mask.mask.height_px() - 0.5)),
+        exterior_is_object_(exterior_is_object) {}
+
+  [[nodiscard]] Coverage Fill(const std::vector<Vector2d>& positions, int grid, int width_px,
+                              int height_px) const {
+    Coverage coverage{static_cast<std::size_t>(width_px), static_cast<std::size_t>(height_px), {}};
+    coverage.bytes.resize(coverage.width * coverage.height);
+    const double cells_a_row = static_cast<double>(grid - 1) / (height_px - 1),
+                 cells_a_column = static_cast<double>(grid - 1) / (width_px - 1);
+    for (int y = 0; y < height_px; ++y) {
+      const int j = std::min(static_cast<int>(y * cells_a_row), grid - 2);
+      const double v = y * cells_a_row - j;
+      const auto at = [&](int i) -> Vector2d {
+        const auto index =
+            static_cast<std::size_t>(j) * static_cast<std::size_t>(grid) + static_cast<std::size_t>(i);
+        return (1.0 - v) * positions[index] + v * positions[index + static_cast<std::size_t>(grid)];
+      };
+      std::uint8_t* row = coverage.bytes.data() + static_cast<std::size_t>(y) * coverage.width;
+      for (int i = 0; i + 1 < grid; ++i) FillCell(at(i), at(i + 1), i, cells_a_column, width_px, row);
+    }
+    return coverage;
+  }
+
+ private:
+  // A row's places in cell `i` lie on the line from one position to the next.
+  void FillCell(const Vector2d& from, const Vector2d& to, int i, double cells_a_column, int width_px,
+                std::uint8_t* row) const {
+    const AlignedBox1d part =
+        exterior_is_object_ ? AlignedBox1d(0.0, 1.0) : PartWithin(texture_.valid_px, from, to);
+    if (part.isEmpty()) return;
+    const int begin = std::max(static_cast<int>((i + part.min()[0]) / cells_a_column), 0),
+              end = std::min(static_cast<int>((i + part.max()[0]) / cells_a_column) + 2, width_px);
+    for (int x = begin; x < end; ++x) {
+      const double u = x * cells_a_column - i;
+      // A place on the border of two cells has the same position in both.
+      if (u < 0.0 || u > 1.0) continue;
+      const Vector2d position_px = from + u * (to - from);
+      const bool is_seen = !exterior_is_object_ || picture_.contains(position_px);
+      row[x] = is_seen ? ByteOf(CoverageAt(texture_, position_px)) : std::uint8_t{255};
+    }
+  }
+
+  CoverageTexture texture_;
+  AlignedBox2d picture_;
+  bool exterior_is_object_;
+};
 
 }  // namespace
 
@@ -123,31 +179,10 @@ StraightenedMask Straighten(const core::CameraModel& camera, const core::SoftMas
                             bool exterior_is_object) {
   core::Require(grid >= 2, "an undistortion grid has at least 2 positions a side");
   core::CameraModel straight = StraightCamera(camera);
-  const int width_px = straight.width_px(), height_px = straight.height_px();
-  const std::vector<Vector2d> positions = GridPositions(camera, straight, grid);
-  const Sampler sampler(mask, exterior_is_object);
-  std::vector<std::uint8_t> coverage;
-  coverage.reserve(static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px));
-  const auto at = [&](int i, int j) {
-    return positions[static_cast<std::size_t>(j) * static_cast<std::size_t>(grid) +
-                     static_cast<std::size_t>(i)];
-  };
-  for (int y = 0; y < height_px; ++y) {
-    const double row = static_cast<double>(y) * (grid - 1) / (height_px - 1);
-    const int j = std::min(static_cast<int>(row), grid - 2);
-    for (int x = 0; x < width_px; ++x) {
-      const double column = static_cast<double>(x) * (grid - 1) / (width_px - 1);
-      const int i = std::min(static_cast<int>(column), grid - 2);
-      const double u = column - i, v = row - j;
-      const Vector2d position_px = (1.0 - v) * ((1.0 - u) * at(i, j) + u * at(i + 1, j)) +
-                                   v * ((1.0 - u) * at(i, j + 1) + u * at(i + 1, j + 1));
-      const double value = sampler.At(position_px);
-      // Half a level up is object, as the threshold has it.
-      coverage.push_back(static_cast<std::uint8_t>(value >= kThreshold ? std::max(128.0, std::round(value))
-                                                                       : std::min(127.0, std::round(value))));
-    }
-  }
-  return {std::move(straight), SoftMaskOf(coverage, width_px, height_px)};
+  const Coverage coverage =
+      Straightener(mask, exterior_is_object)
+          .Fill(GridPositions(camera, straight, grid), grid, straight.width_px(), straight.height_px());
+  return {std::move(straight), SoftMaskOf(coverage)};
 }
 
 }  // namespace elbowroom::recon

@@ -18,7 +18,7 @@ core::CameraModel OperatorsView() {
   view.name = "view";
   view.image_width_px = 640;
   view.image_height_px = 480;
-  view.camera_matrix << 600.0, 0.0, 319.5, 0.0, 600.0, 239.5, 0.0, 0.0, 1.0;
+  view.camera_matrix << 720.0, 0.0, 319.5, 0.0, 720.0, 239.5, 0.0, 0.0, 1.0;
   view.cam_from_world = core::CamFromWorldLookingAt({500.0, -900.0, 650.0}, {60.0, 0.0, 200.0});
   return core::CameraModel(std::move(view));
 }

@@ -43,7 +43,8 @@ void SweepOnGl(benchmark::State& state, recon::gl::SweepPasses passes) {
   const HandScene scene = MakeHandScene(static_cast<int>(state.range(0)));
   const recon::SweepRays rays(scene.view);
   recon::gl::PlaneSweepGl sweep;
-  recon::SweptView swept;
+  // The first sweep compiles the shaders.
+  recon::SweptView swept = sweep.Sweep(scene.rig, scene.masks, scene.view, rays, FiftyPlanes(), passes);
   for (auto _ : state) {
     swept = sweep.Sweep(scene.rig, scene.masks, scene.view, rays, FiftyPlanes(), passes);
     benchmark::DoNotOptimize(swept);

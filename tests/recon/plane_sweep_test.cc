@@ -12,6 +12,7 @@
 #include "core/error.h"
 #include "recon/ray_cast.h"
 #include "recon/straightened_mask.h"
+#include "recon/sweep_comparison.h"
 #include "tests/recon/random_scene.h"
 #include "tests/recon/sweep_oracle.h"
 #include "tests/support/soak.h"
@@ -316,6 +317,21 @@ TEST(PlaneSweep, AGridsSweepIsTheOraclesOfTheStraightCameras) {
     const SweepCheck check = CheckSweep(straight_rig, straight_masks, view, {}, swept.picture, {});
     EXPECT_EQ(check.wrong_pixels, 0) << check.first_wrong;
   }
+}
+
+TEST(SweepComparison, ExplainsRoundingAndNothingElse) {
+  const BallScene scene = MakeBallScene(core::UnseenPolicy::kOutside);
+  const auto view = PinholeView({450.0, 250.0, 300.0}, Vector3d::Zero());
+  const auto masks = Ready(scene.masks);
+  const DepthMap right = SweepPlanes(scene.rig, masks, view).picture;
+  DepthMap wrong = right;
+  EXPECT_EQ(CompareSweeps(scene.rig, masks, view, right, wrong).differing_pixels, 0);
+  const std::size_t middle = 37 * 100 + 50, corner = 0;
+  wrong.depth_mm[middle] += 15.0F;  // misses a plane well inside the ball
+  wrong.depth_mm[corner] = 600.0F;  // sees one where all cameras see background
+  const SweepComparison comparison = CompareSweeps(scene.rig, masks, view, right, wrong);
+  EXPECT_EQ(comparison.differing_pixels, 2);
+  EXPECT_EQ(comparison.unexplained_pixels, 2);
 }
 
 TEST(PlaneSweep, WrongInputIsNamed) {
