@@ -39,14 +39,16 @@ void SweepOnCpu(benchmark::State& state, int grid) {
   Report(state, swept);
 }
 
-void SweepOnGl(benchmark::State& state, recon::gl::SweepPasses passes) {
+void SweepOnGl(benchmark::State& state, recon::gl::SweepPasses passes, int grid) {
   const HandScene scene = MakeHandScene(static_cast<int>(state.range(0)));
   const recon::SweepRays rays(scene.view);
+  recon::PlaneSweepOptions options = FiftyPlanes();
+  options.undistortion_grid = grid;
   recon::gl::PlaneSweepGl sweep;
   // The first sweep compiles the shaders.
-  recon::SweptView swept = sweep.Sweep(scene.rig, scene.masks, scene.view, rays, FiftyPlanes(), passes);
+  recon::SweptView swept = sweep.Sweep(scene.rig, scene.masks, scene.view, rays, options, passes);
   for (auto _ : state) {
-    swept = sweep.Sweep(scene.rig, scene.masks, scene.view, rays, FiftyPlanes(), passes);
+    swept = sweep.Sweep(scene.rig, scene.masks, scene.view, rays, options, passes);
     benchmark::DoNotOptimize(swept);
   }
   Report(state, swept);
@@ -63,13 +65,13 @@ BENCHMARK_CAPTURE(SweepOnCpu, grid_of_5, 5)
     ->ArgsProduct({{3, 4, 8}, {1, 2}})
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime();
-BENCHMARK_CAPTURE(SweepOnGl, a_draw_a_plane, recon::gl::SweepPasses::kOneAPlane)
+BENCHMARK_CAPTURE(SweepOnGl, a_draw_a_plane, recon::gl::SweepPasses::kOneAPlane, 0)
     ->ArgName("cameras")
     ->DenseRange(3, 4)
     ->Arg(8)
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime();
-BENCHMARK_CAPTURE(SweepOnGl, the_papers_passes, recon::gl::SweepPasses::kOneAPlaneAndCamera)
+BENCHMARK_CAPTURE(SweepOnGl, the_papers_passes_and_grid, recon::gl::SweepPasses::kOneAPlaneAndCamera, 5)
     ->ArgName("cameras")
     ->DenseRange(3, 4)
     ->Arg(8)
