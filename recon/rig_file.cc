@@ -15,6 +15,7 @@
 #include "core/spelling.h"
 #include "recon/quiet_opencv.h"
 #include "recon/source_location.h"
+#include "recon/sweep_rays.h"
 
 namespace elbowroom::recon {
 namespace {
@@ -63,6 +64,17 @@ constexpr std::string_view kCameraKeys[] = {"name",
                                             "frames",
                                             "background",
                                             "masks"};
+constexpr std::string_view kViewKeys[] = {"name",
+                                          "image_width",
+                                          "image_height",
+                                          "camera_matrix",
+                                          "distortion_model",
+                                          "distortion_coefficients",
+                                          "rotation_cam_from_world",
+                                          "translation_cam_from_world_mm",
+                                          "projection",
+                                          "camera",
+                                          "cameras"};
 
 // Appends every number of a list or of lists in it; false if something else is among them.
 bool AppendNumbers(const cv::FileNode& node, std::vector<double>& numbers) {
@@ -207,6 +219,27 @@ void AddCamera(const cv::FileNode& node, const std::string& file, const std::fil
                               ResolvedLocation(Text(section, "masks", ""), folder)});
 }
 
+// Where a view file has its camera's keys.
+Section ViewSection(const Section& root) {
+  const cv::FileNode camera = root.Find("camera"), cameras = root.Find("cameras");
+  root.RefuseMisspelt(kViewKeys);
+  if (camera.empty() && cameras.empty()) return root;
+  if (!camera.empty() && !cameras.empty()) root.Fail("has both 'camera' and 'cameras'; keep one");
+  if (camera.empty() && (!cameras.isSeq() || cameras.size() != 1))
+    root.Fail("'cameras' must list exactly one camera");
+  const Section section{camera.empty() ? *cameras.begin() : camera, root.who};
+  if (!section.node.isMap()) section.Fail("the camera must be a map of keys such as camera_matrix");
+  if (!root.Find("projection").empty()) root.Fail("'projection' must stand among the camera's keys");
+  return section;
+}
+
+bool ReadIsOrthographic(const Section& section) {
+  const std::string text = Text(section, "projection", "perspective");
+  if (text != "perspective" && text != "orthographic")
+    section.Fail(fmt::format("projection is '{}'; say \"perspective\" or \"orthographic\"", text));
+  return text == "orthographic";
+}
+
 }  // namespace
 
 RigFile ReadRigFile(const std::filesystem::path& path) {
@@ -232,20 +265,19 @@ RigFile ReadRigFile(const std::filesystem::path& path) {
   });
 }
 
-core::CameraModel ReadViewFile(const std::filesystem::path& path) {
+ViewFile ReadViewFile(const std::filesystem::path& path) {
   const std::string file = fmt::format("view file '{}'", path.string());
   return Guarded(file, [&] {
     const cv::FileStorage storage = OpenStorage(path, file);
-    Section section{storage.root(), file};
-    const cv::FileNode cameras = section.Find("cameras");
-    if (!cameras.empty()) {
-      if (!cameras.isSeq() || cameras.size() != 1) section.Fail("'cameras' must list exactly one camera");
-      section.node = *cameras.begin();
-      if (!section.node.isMap()) section.Fail("the camera must be a map of keys such as camera_matrix");
-    }
+    Section section = ViewSection({storage.root(), file});
+    section.RefuseMisspelt(kViewKeys);
     const std::string name = Text(section, "name", "view");
     section.who = fmt::format("{}: camera '{}'", file, name);
-    return ReadCamera(section, name, file);
+    ViewFile view{ReadCamera(section, name, file), ReadIsOrthographic(section)};
+    if (view.is_orthographic && !IsIdeal(view.camera)) {
+      section.Fail("an orthographic view has no lens; make all distortion_coefficients of a plumb_bob 0");
+    }
+    return view;
   });
 }
 

@@ -30,8 +30,16 @@ struct RigFile {
 // camera and the key.
 [[nodiscard]] RigFile ReadRigFile(const std::filesystem::path& path);
 
-// One camera: its keys at the top level, or the only element of `cameras`. Throws: as above.
-[[nodiscard]] core::CameraModel ReadViewFile(const std::filesystem::path& path);
+// What VIEW.yml says.
+struct ViewFile {
+  core::CameraModel camera;
+  // Rays run along the camera's z axis, and camera_matrix maps (X, Y, 1), in mm, to pixels.
+  bool is_orthographic = false;
+};
+
+// One camera: its keys at the top level, below `camera`, or the only element of `cameras`; beside them
+// `projection`: "perspective" (default) or "orthographic", which takes no distortion. Throws: as above.
+[[nodiscard]] ViewFile ReadViewFile(const std::filesystem::path& path);
 
 // Whole or not at all; every number reads back exactly. Sources below the file's folder become relative to
 // it. Throws: Error{kFile}; PreconditionError unless there is one entry in `sources` a camera.

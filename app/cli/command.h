@@ -63,5 +63,6 @@ void AddImportCommand(CLI::App& app, Choice* choice);
 void AddReportCommand(CLI::App& app, Choice* choice);
 void AddSegmentCommand(CLI::App& app, Choice* choice);
 void AddTrialCommand(CLI::App& app, Choice* choice);
+void AddViewCommand(CLI::App& app, Choice* choice);
 
 }  // namespace elbowroom::cli

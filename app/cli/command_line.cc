@@ -76,6 +76,7 @@ int RunCommandLine(int argc, char** argv, const OpenConsole& open_console) {
   AddTrialCommand(app, &choice);
   AddReportCommand(app, &choice);
   AddSegmentCommand(app, &choice);
+  AddViewCommand(app, &choice);
   AddHullCommand(app, &choice);
   AddContactsCommand(app, &choice);
   AddImportCommand(app, &choice);

@@ -23,6 +23,9 @@ class ShaderProgram {
   void Set(const char* name, const Eigen::Vector2f& value) const { glUniform2fv(At(name), 1, value.data()); }
   void Set(const char* name, const Eigen::Vector3f& value) const { glUniform3fv(At(name), 1, value.data()); }
   void Set(const char* name, const Eigen::Vector4f& value) const { glUniform4fv(At(name), 1, value.data()); }
+  void Set(const char* name, const Eigen::Matrix3f& value) const {
+    glUniformMatrix3fv(At(name), 1, GL_FALSE, value.data());
+  }
   void Set(const char* name, const Eigen::Matrix4f& value) const {
     glUniformMatrix4fv(At(name), 1, GL_FALSE, value.data());
   }

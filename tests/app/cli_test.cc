@@ -2,9 +2,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
 
 #include "core/triangle_mesh.h"
+#include "recon/rig_file.h"
 #include "tests/app/mask_rig.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
@@ -50,6 +54,22 @@ class CliOnBallRig : public testing::Test {
     return file.string();
   }
 
+  // A camera that looks down on the ball from (300, -350, 450).
+  std::string WriteView() const {
+    core::CameraCalibration c;
+    c.name = "view";
+    c.image_width_px = 200;
+    c.image_height_px = 150;
+    c.camera_matrix << 360.0, 0.0, 100.0, 0.0, 360.0, 75.0, 0.0, 0.0, 1.0;
+    c.distortion_coefficients = {-0.1, 0.02, 0.0, 0.0, 0.0};
+    c.cam_from_world = core::CamFromWorldLookingAt({300.0, -350.0, 450.0}, {0.0, 0.0, 200.0});
+    core::Rig rig;
+    rig.workspace_mm = {Eigen::Vector3d::Zero(), Eigen::Vector3d::Ones()};
+    rig.cameras.emplace_back(c);
+    recon::WriteRigFile({rig, {{}}}, folder_ / "view.yml");
+    return (folder_ / "view.yml").string();
+  }
+
   TemporaryFolder folder_;
   std::string rig_;
   std::string box_;
@@ -58,16 +78,16 @@ class CliOnBallRig : public testing::Test {
 TEST(Cli, HelpNamesWhatIsBuiltAndNothingElse) {
   const ProgramRun run = Elbowroom({"--help"});
   EXPECT_EQ(run.exit_status, 0);
-  for (const char* command : {"demo", "trial", "report", "segment", "hull", "contacts", "import"}) {
+  for (const char* command : {"demo", "trial", "report", "segment", "view", "hull", "contacts", "import"}) {
     EXPECT_NE(run.out.find(std::string("\n  ") + command + " "), std::string::npos) << command;
   }
-  for (const char* later : {"replay", "sweep", "clash", "clearance", "\n  view ", "bench"}) {
-    EXPECT_EQ(run.out.find(later), std::string::npos) << later;
+  for (const char* later : {"replay", "sweep", "clash", "clearance", "bench"}) {
+    EXPECT_EQ(run.out.find(std::string("\n  ") + later + " "), std::string::npos) << later;
   }
 }
 
 TEST(Cli, EveryCommandHasHelp) {
-  for (const char* command : {"demo", "report", "segment", "hull", "contacts", "import"}) {
+  for (const char* command : {"demo", "report", "segment", "view", "hull", "contacts", "import"}) {
     EXPECT_EQ(Elbowroom({command, "--help"}).exit_status, 0) << command;
   }
   EXPECT_EQ(Elbowroom({"trial", "run", "--help"}).exit_status, 0);
@@ -105,6 +125,103 @@ TEST_F(CliOnBallRig, HullIsWatertightAndAroundTheBall) {
             1.5 * ball_mm3);  // four views leave corners, not twice the ball
   EXPECT_GT(json["time_ms"].get<double>(), 0.0);
   EXPECT_TRUE(std::filesystem::exists(out));
+}
+
+TEST_F(CliOnBallRig, ViewSeesTheBallByEveryMethod) {
+  const std::string view = WriteView();
+  std::map<std::string, cv::Mat> depth;
+  for (const std::string method : {"exact", "sweep", "sweep-gl"}) {
+    const std::string tiff = (folder_ / (method + ".tiff")).string(),
+                      png = (folder_ / (method + ".png")).string();
+    const ProgramRun run = Elbowroom({"view", rig_, "--frame", "0", "--camera", view, "--method", method,
+                                      "--depth", tiff, "--image", png, "--json"});
+    ASSERT_EQ(run.exit_status, 0) << run.err;
+    const auto json = nlohmann::json::parse(run.out);
+    EXPECT_EQ(json["method"], method);
+    EXPECT_EQ(json["width"], 200);
+    EXPECT_EQ(json["height"], 150);
+    EXPECT_GT(json["time_ms"].get<double>(), 0.0);
+    depth[method] = cv::imread(tiff, cv::IMREAD_UNCHANGED);
+    ASSERT_EQ(depth[method].type(), CV_32FC1);
+    EXPECT_EQ(json["hit_pixels"], cv::countNonZero(depth[method]));
+    EXPECT_EQ(depth[method].at<float>(0, 0), 0.0F);
+    const cv::Mat picture = cv::imread(png, cv::IMREAD_COLOR);
+    ASSERT_EQ(picture.size(), cv::Size(200, 150));
+    EXPECT_NE(picture.at<cv::Vec3b>(75, 100), picture.at<cv::Vec3b>(75, 2));
+  }
+  const double distance_mm = Eigen::Vector3d(300.0, -350.0, 250.0).norm();
+  const float exact_mm = depth["exact"].at<float>(75, 100);
+  EXPECT_LT(exact_mm, distance_mm - test_support::kBallRadiusMm + 1.0);  // the hull holds the ball
+  EXPECT_GT(exact_mm, distance_mm - 2.0 * test_support::kBallRadiusMm);
+  constexpr float kSpacingMm = 15.0F, kPixelMm = 1.5F;
+  for (const char* method : {"sweep", "sweep-gl"}) {
+    EXPECT_GT(depth[method].at<float>(75, 100), exact_mm - kPixelMm);
+    EXPECT_LT(depth[method].at<float>(75, 100), exact_mm + kSpacingMm + kPixelMm);
+  }
+}
+
+TEST_F(CliOnBallRig, OnlySweepsHaveASpacing) {
+  const std::string view = WriteView(), tiff = (folder_ / "depth.tiff").string();
+  const std::vector<std::string> common = {"view", rig_, "--frame", "0", "--camera", view, "--depth", tiff};
+  const auto with = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> all = common;
+    all.insert(all.end(), more.begin(), more.end());
+    return Elbowroom(all);
+  };
+  EXPECT_EQ(with({"--spacing", "5"}).exit_status, 2);
+  EXPECT_EQ(with({"--method", "exact", "--spacing", "5"}).exit_status, 2);
+  EXPECT_EQ(with({"--method", "sweep", "--spacing", "0"}).exit_status, 2);
+  EXPECT_EQ(with({"--method", "sculpt"}).exit_status, 2);
+  EXPECT_FALSE(std::filesystem::exists(tiff));
+  const ProgramRun run = with({"--method", "sweep", "--spacing", "3", "--json"});
+  ASSERT_EQ(run.exit_status, 0) << run.err;
+  const auto json = nlohmann::json::parse(run.out);
+  EXPECT_EQ(json["spacing_mm"], 3.0);
+  EXPECT_GT(json["planes"].get<int>(), 90);
+  ExpectOneLine(with({"--method", "sweep", "--spacing", "0.0001"}), {"planes", "choose a wider one"});
+}
+
+TEST_F(CliOnBallRig, AViewThatFailsIsOneLineAndLeavesNothing) {
+  const std::string view = WriteView();
+  const std::filesystem::path out = folder_ / "out";
+  std::filesystem::create_directory(out);
+  const std::string tiff = (out / "depth.tiff").string(), nowhere = (folder_ / "no" / "where.png").string();
+  const auto run = [&](const std::string& frame, const std::string& camera, const std::string& image) {
+    return Elbowroom({"view", rig_, "--frame", frame, "--camera", camera, "--method", "sweep", "--depth",
+                      tiff, "--image", image});
+  };
+  ExpectOneLine(run("7", view, (out / "image.png").string()), {"7"});
+  ExpectOneLine(run("0", (folder_ / "none.yml").string(), (out / "image.png").string()),
+                {"none.yml", "check"});
+  WriteText(folder_ / "bad.yml", "%YAML:1.0\n---\nimage_width: 5\n");
+  ExpectOneLine(run("0", (folder_ / "bad.yml").string(), (out / "image.png").string()),
+                {"bad.yml", "image_height"});
+  ExpectOneLine(run("0", view, nowhere), {"where.png", "can't be written"});
+  EXPECT_TRUE(std::filesystem::is_empty(out));
+}
+
+TEST(CliOnSharedData, ViewSeesTheBunny) {
+  const std::filesystem::path bunny = std::filesystem::path(ELBOWROOM_SHARED_DATA_DIR) / "bunny6";
+  if (!std::filesystem::exists(bunny))
+    GTEST_SKIP() << bunny << " isn't there: no view of the bunny was tested";
+  const TemporaryFolder folder;
+  // From the first camera of the rig: the hull then fills its mask.
+  const auto rig = recon::ReadRigFile(bunny / "rig.yml");
+  recon::RigFile view{rig.rig, {{}}};
+  view.rig.cameras.resize(1, rig.rig.cameras[0]);
+  recon::WriteRigFile(view, folder / "camera.yml");
+  std::map<std::string, int> hits;
+  for (const std::string method : {"exact", "sweep", "sweep-gl"}) {
+    const ProgramRun run = Elbowroom({"view", (bunny / "rig.yml").string(), "--frame", "0", "--camera",
+                                      (folder / "camera.yml").string(), "--method", method, "--depth",
+                                      (folder / "depth.tiff").string(), "--json"});
+    ASSERT_EQ(run.exit_status, 0) << run.err;
+    hits[method] = nlohmann::json::parse(run.out)["hit_pixels"];
+  }
+  EXPECT_GT(hits["exact"], 10'000);
+  constexpr double kRim = 0.05;  // of the pixels: the hull is thinner there than the planes' spacing
+  EXPECT_NEAR(hits["sweep"], hits["exact"], kRim * hits["exact"]);
+  EXPECT_NEAR(hits["sweep-gl"], hits["sweep"], 0.002 * hits["sweep"]);
 }
 
 TEST_F(CliOnBallRig, OneThreadGivesTheSameMesh) {

@@ -205,8 +205,14 @@ TEST(ViewFile, TakesTheKeysAtTheTopOrInAListOfOne) {
     if (std::isalpha(static_cast<unsigned char>(block[at + 2])) != 0) block.replace(at, 2, "\n");
   }
   WriteText(folder.path() / "top.yml", "%YAML:1.0\n---\n" + block + "\n");
-  for (const char* name : {"list.yml", "top.yml"}) {
-    const core::CameraModel view = ReadViewFile(folder.path() / name);
+  std::string below = block;
+  for (std::size_t at = 0; (at = below.find('\n', at)) != std::string::npos; at += 3)
+    below.insert(at + 1, "  ");
+  WriteText(folder.path() / "below.yml", "%YAML:1.0\n---\ncamera:\n  " + below + "\n");
+  for (const char* name : {"list.yml", "top.yml", "below.yml"}) {
+    const ViewFile file = ReadViewFile(folder.path() / name);
+    EXPECT_FALSE(file.is_orthographic);
+    const core::CameraModel& view = file.camera;
     EXPECT_EQ(view.name(), "cam1") << name;
     EXPECT_EQ(view.calibration().camera_matrix(1, 1), 501.5) << name;
   }
@@ -216,6 +222,35 @@ TEST(ViewFile, TakesTheKeysAtTheTopOrInAListOfOne) {
   WriteText(folder.path() / "bare.yml", "%YAML:1.0\n---\nimage_width: 5\n");
   EXPECT_THAT(ErrorOf(ErrorKind::kFormat, [&] { (void)ReadViewFile(folder.path() / "bare.yml"); }),
               AllOf(HasSubstr("bare.yml"), HasSubstr("image_height")));
+}
+
+TEST(ViewFile, MayBeOrthographicWithoutALens) {
+  const TestFolder folder;
+  const std::string keys = R"(%YAML:1.0
+---
+image_width: 320
+image_height: 240
+camera_matrix: [2, 0, 159.5, 0, 2, 119.5, 0, 0, 1]
+distortion_model: "plumb_bob"
+distortion_coefficients: [0, 0, 0, 0, 0]
+rotation_cam_from_world: [1, 0, 0, 0, 1, 0, 0, 0, 1]
+translation_cam_from_world_mm: [0, 0, 500]
+)";
+  WriteText(folder.path() / "ortho.yml", keys + "projection: \"orthographic\"\n");
+  const ViewFile view = ReadViewFile(folder.path() / "ortho.yml");
+  EXPECT_TRUE(view.is_orthographic);
+  EXPECT_EQ(view.camera.calibration().camera_matrix(0, 0), 2.0);
+  const auto expect_refused = [&](const std::string& text, const std::string& word) {
+    WriteText(folder.path() / "bad.yml", text);
+    EXPECT_THAT(ErrorOf(ErrorKind::kFormat, [&] { (void)ReadViewFile(folder.path() / "bad.yml"); }),
+                AllOf(HasSubstr("bad.yml"), HasSubstr(word)));
+  };
+  expect_refused(keys + "projection: \"fish\"\n", "perspective");
+  expect_refused(keys + "projecton: \"orthographic\"\n", "did you mean 'projection'");
+  std::string bent = keys + "projection: \"orthographic\"\n";
+  bent.replace(bent.find("[0, 0, 0, 0, 0]"), 2, "[1");
+  expect_refused(bent, "no lens");
+  expect_refused(keys + "camera: {}\ncameras: [ {} ]\n", "both");
 }
 
 }  // namespace

@@ -1,0 +1,161 @@
+// elbowroom view RIG.yml --frame N --camera VIEW.yml --method exact|sweep|sweep-gl: the hull as a camera sees
+// it.
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "app/cli/command.h"
+#include "app/cli/repeated_timing.h"
+#include "app/cli/rig_frame.h"
+#include "app/cli/unit_option.h"
+#include "core/error.h"
+#include "core/whole_file.h"
+#include "recon/depth_file.h"
+#include "recon/gl/plane_sweep_gl.h"
+#include "recon/hull_picture.h"
+#include "recon/plane_sweep.h"
+#include "recon/png_file.h"
+#include "recon/ray_cast.h"
+#include "recon/rig_file.h"
+
+namespace elbowroom::cli {
+namespace {
+
+constexpr const char* kExact = "exact";
+constexpr const char* kSweep = "sweep";
+constexpr const char* kSweepGl = "sweep-gl";
+
+struct ViewOptions {
+  RigFrameOptions frame;
+  std::filesystem::path camera;
+  std::string method = kExact;
+  std::optional<double> spacing_mm;
+  std::filesystem::path depth;
+  std::filesystem::path image;
+};
+
+// What a method saw, and what it says of its work.
+struct HullSeen {
+  recon::DepthMap picture;
+  std::vector<Eigen::Vector3f> normal_in_world;  // none from a sweep
+  nlohmann::json counts = nlohmann::json::object();
+};
+
+HullSeen Seen(recon::SweptView swept, double spacing_mm) {
+  return {std::move(swept.picture),
+          {},
+          {{"spacing_mm", spacing_mm},
+           {"planes", swept.stats.planes},
+           {"tested_points", swept.stats.tested_points},
+           {"skipped_points", swept.stats.skipped_points}}};
+}
+
+HullSeen Seen(recon::HullView view) {
+  return {{view.width_px, view.height_px, std::move(view.depth_mm), view.hit_pixels},
+          std::move(view.normal_in_world),
+          {{"skipped_pixels", view.skipped_pixels}}};
+}
+
+// Sees the frame once, or often for the time's sake.
+class Viewer {
+ public:
+  Viewer(const ViewOptions& options, const RigFrame& frame, const core::CameraModel& view)
+      : options_(options), frame_(frame), view_(view), rays_(view) {
+    for (const core::BitMask& mask : frame.masks) masks_.push_back({mask, {}});
+    if (options.method == kSweepGl) gl_.emplace();
+    if (options.spacing_mm) sweep_.spacing_mm = *options.spacing_mm;
+  }
+
+  [[nodiscard]] HullSeen See() {
+    if (options_.method == kSweep)
+      return Seen(recon::SweepPlanes(*frame_.rig, masks_, view_, rays_, sweep_), sweep_.spacing_mm);
+    if (options_.method == kSweepGl) {
+      HullSeen seen = Seen(gl_->Sweep(*frame_.rig, masks_, view_, rays_, sweep_), sweep_.spacing_mm);
+      seen.counts["driver"] = gl_->driver();
+      return seen;
+    }
+    return Seen(recon::ViewHull(recon::MakeVisualHull(frame_.rig, frame_.masks), view_));
+  }
+
+ private:
+  const ViewOptions& options_;
+  const RigFrame& frame_;
+  const core::CameraModel& view_;
+  recon::SweepRays rays_;
+  std::vector<core::SoftMask> masks_;
+  recon::PlaneSweepOptions sweep_;
+  std::optional<recon::gl::PlaneSweepGl> gl_;
+};
+
+core::CameraModel ReadView(const ViewOptions& options) {
+  const recon::ViewFile view = recon::ReadViewFile(options.camera);
+  if (view.is_orthographic) {
+    throw core::Error(
+        core::ErrorKind::kCamera,
+        fmt::format("view file '{}': --method {} takes perspective views alone; remove 'projection'",
+                    options.camera.string(), options.method));
+  }
+  return view.camera;
+}
+
+CommandResult Run(const ViewOptions& options, const CommandContext& context, bool json) {
+  const core::CameraModel view = ReadView(options);
+  const RigFrame frame = LoadRigFrame(options.frame, context);
+  Viewer viewer(options, frame, view);
+  HullSeen seen;
+  const auto compute = [&] { seen = viewer.See(); };
+  // The five timed runs are for those who read the figure.
+  CommandResult result;
+  if (json) {
+    result.json["time_ms"] = MedianTimeMs(compute);
+  } else {
+    compute();
+  }
+  core::PendingFiles files;
+  files.Write(options.depth, recon::EncodeDepthTiff(seen.picture));
+  if (!options.image.empty()) {
+    const std::vector<std::uint8_t> png =
+        recon::EncodePng(recon::DrawHull(view, seen.picture, seen.normal_in_world));
+    files.Write(options.image, {reinterpret_cast<const char*>(png.data()), png.size()});
+  }
+  files.RenameAll();
+  result.json.update(seen.counts);
+  result.json["method"] = options.method;
+  result.json["width"] = seen.picture.width_px;
+  result.json["height"] = seen.picture.height_px;
+  result.json["hit_pixels"] = seen.picture.hit_pixels;
+  result.text = fmt::format("{}: {} x {}, the hull on {} pixels", options.depth.string(),
+                            seen.picture.width_px, seen.picture.height_px, seen.picture.hit_pixels);
+  return result;
+}
+
+}  // namespace
+
+void AddViewCommand(CLI::App& app, Choice* choice) {
+  CLI::App* command =
+      app.add_subcommand("view", "how far the hull of one frame is from a camera, pixel by pixel");
+  auto options = std::make_shared<ViewOptions>();
+  AddRigFrameOptions(*command, &options->frame);
+  command->add_option("--camera", options->camera, "the camera to see it from (VIEW.yml)")->required();
+  command
+      ->add_option("--method", options->method, "the surface itself, or the first of many planes in the hull")
+      ->check(CLI::IsMember({kExact, kSweep, kSweepGl}))
+      ->capture_default_str();
+  command->add_option("--spacing", options->spacing_mm, "between a sweep's planes, mm (default: 15)")
+      ->check(PositiveLength());
+  command->add_option("--depth", options->depth, "depths to write (.tiff: 32-bit float, mm, 0: nothing)")
+      ->required();
+  command->add_option("--image", options->image, "picture to write (.png)");
+  command->callback([=, &app] {
+    if (options->spacing_mm && options->method == kExact)
+      throw CLI::ValidationError("--spacing",
+                                 "is for --method sweep and sweep-gl; the exact view has no planes");
+    const bool json = app.get_option("--json")->as<bool>();
+    choice->action = [=](const CommandContext& context) { return Run(*options, context, json); };
+  });
+}
+
+}  // namespace elbowroom::cli

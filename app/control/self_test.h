@@ -1,0 +1,29 @@
+// Whether this machine's graphics driver computes what its processor does.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace elbowroom::control {
+
+// One computation in OpenGL against the same on the processor.
+struct SelfTestLine {
+  std::string what;             // "plane sweep, a draw a plane"
+  std::int64_t hit_pixels = 0;  // on the processor
+  std::int64_t differing_pixels = 0;
+  std::int64_t unexplained_pixels = 0;  // of those, more than rounding: 0 where all is well
+};
+
+struct SelfTestReport {
+  std::string driver;
+  std::vector<SelfTestLine> lines;
+
+  [[nodiscard]] bool Passed() const;
+};
+
+// Sweeps the demo's hand before a built-in rig, both ways in OpenGL, with and without undistortion grid.
+// Throws: core::Error{kGraphics} when nothing can be drawn at all.
+[[nodiscard]] SelfTestReport RunSelfTest();
+
+}  // namespace elbowroom::control

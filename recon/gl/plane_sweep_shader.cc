@@ -1,0 +1,150 @@
+#include "recon/gl/plane_sweep_shader.h"
+
+#include <cstddef>
+
+namespace elbowroom::recon::gl {
+namespace {
+
+constexpr const char* kVertexSource = R"(
+uniform float plane_depth;
+void main() {
+  gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0,
+                     2.0 * plane_depth - 1.0, 1.0);
+}
+)";
+
+// Camera `@` of the group. Positions count from its coverage's first texel.
+constexpr const char* kCameraSource = R"(
+uniform mat3 from_ray_@;   // ideal: to picture positions, homogeneous; else to cam
+uniform sampler2D mask_@;
+uniform vec2 texel_@;      // 1 / size of mask_@
+uniform vec2 valid_min_@;
+uniform vec2 valid_max_@;
+uniform vec2 picture_min_@;
+uniform vec2 picture_max_@;
+)";
+
+constexpr const char* kLensSource = R"(
+uniform mat3 picture_from_normalised_@;
+uniform float max_radius_squared_@;
+uniform vec3 radial_a_@;
+uniform vec3 radial_b_@;
+uniform vec4 prism_@;
+uniform vec2 tangential_@;
+)";
+
+constexpr const char* kIdealPositionSource = R"(
+vec2 Position_@(vec3 ray, out bool in_domain) {
+  vec3 h = from_ray_@ * ray;
+  in_domain = h.z > 0.0;
+  return h.xy / h.z;
+}
+)";
+
+constexpr const char* kPolynomialPositionSource = R"(
+vec2 Position_@(vec3 ray, out bool in_domain) {
+  vec3 h = from_ray_@ * ray;
+  vec2 x = h.xy / h.z;
+  float r2 = dot(x, x);
+  in_domain = h.z > 0.0 && r2 <= max_radius_squared_@;
+  vec3 powers = vec3(1.0, r2, r2 * r2) * r2;
+  float scale = (1.0 + dot(radial_a_@, powers)) / (1.0 + dot(radial_b_@, powers));
+  vec2 off = 2.0 * x.x * x.y * tangential_@ + tangential_@.yx * (r2 + 2.0 * x * x) +
+             r2 * prism_@.xz + r2 * r2 * prism_@.yw;
+  return (picture_from_normalised_@ * vec3(x * scale + off, 1.0)).xy;
+}
+)";
+
+constexpr const char* kFisheyePositionSource = R"(
+vec2 Position_@(vec3 ray, out bool in_domain) {
+  vec3 h = from_ray_@ * ray;
+  vec2 x = h.xy / h.z;
+  float r2 = dot(x, x);
+  in_domain = h.z > 0.0 && r2 <= max_radius_squared_@;
+  float r = sqrt(r2), theta = atan(r), t2 = theta * theta;
+  float series = 1.0 + t2 * (radial_a_@.x + t2 * (radial_a_@.y + t2 * (radial_a_@.z + t2 * radial_b_@.x)));
+  float scale = r2 > 1e-12 ? theta * series / r : 1.0;
+  return (picture_from_normalised_@ * vec3(x * scale, 1.0)).xy;
+}
+)";
+
+constexpr const char* kAnswerSource = R"(
+bool IsWithin(vec2 p, vec2 lower, vec2 upper) {
+  return all(greaterThanEqual(p, lower)) && all(lessThan(p, upper));
+}
+)";
+
+constexpr const char* kCameraAnswerSource = R"(
+bool IsObject_@(vec3 ray, out bool is_seen) {
+  bool in_domain;
+  vec2 p = Position_@(ray, in_domain);
+  is_seen = in_domain && IsWithin(p, picture_min_@, picture_max_@);
+  return in_domain && IsWithin(p, valid_min_@, valid_max_@) &&
+         textureLod(mask_@, (p + 0.5) * texel_@, 0.0).r >= 0.5;
+}
+)";
+
+constexpr const char* kRaySource = R"(
+uniform mat3 ray_from_pixel;
+vec3 Ray() { return ray_from_pixel * vec3(gl_FragCoord.xy - 0.5, 1.0); }
+)";
+
+constexpr const char* kRayTextureSource = R"(
+uniform sampler2D rays;  // z: 1, or 0 where the lens has no ray
+vec3 Ray() { return texelFetch(rays, ivec2(gl_FragCoord.xy), 0).xyz; }
+)";
+
+constexpr const char* kWorkspaceSource = R"(
+uniform mat3 world_from_ray;
+uniform vec3 workspace_min;
+uniform vec3 workspace_max;
+bool InWorkspace(vec3 ray) {
+  vec3 x = world_from_ray * ray;
+  return all(greaterThanEqual(x, workspace_min)) && all(lessThanEqual(x, workspace_max));
+}
+)";
+
+std::string ForCamera(std::string text, std::size_t index) {
+  const std::string number = std::to_string(index);
+  for (std::size_t at = 0; (at = text.find('@', at)) != std::string::npos;) text.replace(at, 1, number);
+  return text;
+}
+
+std::string CameraSource(const core::CameraModel& camera, std::size_t index) {
+  std::string source = kCameraSource;
+  if (IsIdeal(camera)) {
+    source += kIdealPositionSource;
+  } else {
+    const bool is_fisheye = camera.calibration().distortion_model == core::DistortionModel::kFisheye;
+    source += kLensSource;
+    source += is_fisheye ? kFisheyePositionSource : kPolynomialPositionSource;
+  }
+  return ForCamera(source + kCameraAnswerSource, index);
+}
+
+}  // namespace
+
+std::string SweepVertexSource() { return kVertexSource; }
+
+std::string SweepShader::FragmentSource() const {
+  if (pass == SweepPass::kPlane) return "void main() {}\n";
+  std::string source = has_ray_texture ? kRayTextureSource : kRaySource;
+  source += kAnswerSource;
+  for (std::size_t i = 0; i < group.size(); ++i) source += CameraSource(group[i].model, i);
+  if (tests_workspace) source += kWorkspaceSource;
+  source +=
+      "void main() {\n  vec3 ray = Ray();\n  bool kept = ray.z > 0.0, any_seen = false, is_seen, "
+      "is_object;\n";
+  if (tests_workspace) source += "  kept = kept && InWorkspace(ray);\n";
+  for (std::size_t i = 0; i < group.size(); ++i) {
+    source += ForCamera("  is_object = IsObject_@(ray, is_seen);\n  any_seen = any_seen || is_seen;\n", i);
+    if (pass == SweepPass::kSeen) continue;
+    source +=
+        exterior_is_object ? "  kept = kept && (is_object || !is_seen);\n" : "  kept = kept && is_object;\n";
+  }
+  const bool must_be_seen = pass == SweepPass::kSeen || (pass == SweepPass::kHull && exterior_is_object);
+  source += must_be_seen ? "  if (!(kept && any_seen)) discard;\n}\n" : "  if (!kept) discard;\n}\n";
+  return source;
+}
+
+}  // namespace elbowroom::recon::gl

@@ -1,0 +1,125 @@
+#include "recon/gl/plane_sweep_gl.h"
+
+#include <gtest/gtest.h>
+
+#include <iostream>
+#include <utility>
+#include <vector>
+
+#include "core/error.h"
+#include "tests/recon/random_scene.h"
+#include "tests/recon/sweep_oracle.h"
+#include "tests/support/soak.h"
+
+namespace elbowroom::recon::gl {
+namespace {
+
+// The whole way in single precision, from the pixel on (docs/plane_sweep.md, "Rounding").
+constexpr SweepBand kGlBand{64.0, kGlFilterCoverage};
+
+std::vector<core::SoftMask> WithLevels(Random* random, const std::vector<core::BitMask>& masks) {
+  std::vector<core::SoftMask> soft;
+  for (const core::BitMask& mask : masks) {
+    soft.push_back(random->Chance(0.5) ? WithRandomLevels(random, mask) : core::SoftMask{mask, {}});
+  }
+  return soft;
+}
+
+// Both pictures against the oracle: where they differ, the oracle is unsure.
+void ExpectOracles(Random* random, const RandomScene& scene, const core::CameraModel& view,
+                   SweepPasses passes, PlaneSweepGl* sweep, const PlaneSweepOptions& options, int* hits) {
+  const auto masks = WithLevels(random, scene.masks);
+  const SweptView swept = sweep->Sweep(*scene.rig, masks, view, SweepRays(view), options, passes);
+  const SweepCheck check = CheckSweep(*scene.rig, masks, view, options, swept.picture, kGlBand);
+  ASSERT_EQ(check.wrong_pixels, 0) << check.first_wrong;
+  EXPECT_EQ(swept.picture.hit_pixels, check.hit_pixels);
+  *hits += check.hit_pixels;
+}
+
+TEST(PlaneSweepGl, IsTheOraclesOnRandomRigs) {
+  Random random(7201);
+  PlaneSweepGl sweep;
+  std::cout << sweep.driver() << '\n';
+  int hits = 0;
+  for (int i = 0; i < 36 * test_support::SoakScale(); ++i) {
+    const RandomScene scene = MakeRandomScene(&random);
+    const auto view = RandomView(&random, static_cast<LensKind>(i % kLensKinds), *scene.rig);
+    PlaneSweepOptions options;
+    options.spacing_mm = scene.rig->workspace_mm.diagonal().norm() / 40.0;
+    const auto passes = i % 2 == 0 ? SweepPasses::kOneAPlane : SweepPasses::kOneAPlaneAndCamera;
+    ExpectOracles(&random, scene, view, passes, &sweep, options, &hits);
+    if (HasFatalFailure()) FAIL() << "scene " << i;
+  }
+  EXPECT_GT(hits, 10'000);
+}
+
+// The two ways and the CPU: the same picture but for a few pixels of the band.
+TEST(PlaneSweepGl, BothWaysAgreeWithTheCpu) {
+  constexpr double kMostInTheBand = 0.02;  // of the hit pixels
+  Random random(7202);
+  PlaneSweepGl sweep;
+  std::int64_t hits = 0, differing = 0;
+  for (int i = 0; i < 8; ++i) {
+    const auto unseen = i % 2 == 0 ? core::UnseenPolicy::kOutside : core::UnseenPolicy::kAbstain;
+    const RandomScene scene = MakeRingScene(&random, 3 + i % 3, unseen);
+    const auto masks = WithLevels(&random, scene.masks);
+    const auto view = RandomView(&random, static_cast<LensKind>(i % kLensKinds), *scene.rig);
+    PlaneSweepOptions options;
+    options.spacing_mm = 12.0;
+    options.undistortion_grid = i < 6 ? 0 : 5;
+    const SweptView cpu = SweepPlanes(*scene.rig, masks, view, options);
+    for (const auto passes : {SweepPasses::kOneAPlane, SweepPasses::kOneAPlaneAndCamera}) {
+      const SweptView gl = sweep.Sweep(*scene.rig, masks, view, SweepRays(view), options, passes);
+      EXPECT_EQ(gl.stats.planes, cpu.stats.planes);
+      for (std::size_t p = 0; p < cpu.picture.depth_mm.size(); ++p) {
+        hits += cpu.picture.depth_mm[p] != 0.0F ? 1 : 0;
+        differing += cpu.picture.depth_mm[p] != gl.picture.depth_mm[p] ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_GT(hits, 5000);
+  EXPECT_LT(static_cast<double>(differing), kMostInTheBand * static_cast<double>(hits));
+}
+
+// More cameras than OpenGL has textures at once are asked in groups.
+TEST(PlaneSweepGl, TwentyCamerasAreAskedInGroups) {
+  Random random(7203);
+  PlaneSweepGl sweep;
+  int hits = 0;
+  for (const auto unseen : {core::UnseenPolicy::kOutside, core::UnseenPolicy::kAbstain}) {
+    RandomScene scene = MakeRingScene(&random, 20, unseen);
+    // Blobs for the first and the last few; all of the others' pictures is object.
+    for (std::size_t i = 2; i < 18; ++i) {
+      for (int p = 0; p < 160 * 120; ++p) scene.masks[i].Set(p % 160, p / 160, true);
+    }
+    const auto view = RandomView(&random, LensKind::kPinhole, *scene.rig);
+    PlaneSweepOptions options;
+    options.spacing_mm = 8.0;
+    ExpectOracles(&random, scene, view, SweepPasses::kOneAPlane, &sweep, options, &hits);
+  }
+  EXPECT_GT(hits, 100);
+}
+
+TEST(PlaneSweepGl, OnlyTheCutWaySkips) {
+  Random random(7204);
+  PlaneSweepGl sweep;
+  const RandomScene scene = MakeRingScene(&random, 4, core::UnseenPolicy::kOutside);
+  const auto view = RandomView(&random, LensKind::kPinhole, *scene.rig);
+  const auto masks = WithLevels(&random, scene.masks);
+  const SweepRays rays(view);
+  const SweptView cut = sweep.Sweep(*scene.rig, masks, view, rays);
+  const SweptView whole = sweep.Sweep(*scene.rig, masks, view, rays, {}, SweepPasses::kOneAPlaneAndCamera);
+  EXPECT_GT(cut.stats.skipped_points, 0);
+  EXPECT_EQ(whole.stats.skipped_points, 0);
+  EXPECT_EQ(cut.picture.depth_mm, whole.picture.depth_mm);
+}
+
+TEST(PlaneSweepGl, MovedFromIsNotUsed) {
+  PlaneSweepGl first;
+  const PlaneSweepGl second = std::move(first);
+  EXPECT_FALSE(second.driver().empty());
+  EXPECT_THROW((void)first.driver(), core::PreconditionError);  // NOLINT(bugprone-use-after-move)
+}
+
+}  // namespace
+}  // namespace elbowroom::recon::gl

@@ -1,0 +1,38 @@
+// The plane sweep the slow, obviously right way: every pixel, every plane, every camera, in double precision,
+// with an opinion on what rounding may decide.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "recon/plane_sweep.h"
+#include "tests/recon/random_scene.h"
+
+namespace elbowroom::recon {
+
+// How far an implementation may be off before a label is wrong (docs/plane_sweep.md, "Rounding").
+struct SweepBand {
+  double roundings = 32.0;       // of single precision, on the way to a position
+  double filter_coverage = 0.0;  // of the interpolation, in shares of a pixel
+};
+
+inline constexpr double kGlFilterCoverage = 4.0 / 256.0;
+
+struct SweepCheck {
+  int wrong_pixels = 0;   // a hit where the oracle is sure of none, or past a plane where it is sure of one
+  int unsure_pixels = 0;  // some plane up to the answer is within the band
+  int hit_pixels = 0;
+  std::string first_wrong;  // what and where
+};
+
+[[nodiscard]] SweepCheck CheckSweep(const core::Rig& rig, std::span<const core::SoftMask> masks,
+                                    const core::CameraModel& view, const PlaneSweepOptions& options,
+                                    const DepthMap& picture, const SweepBand& band);
+
+// The mask with random levels along its boundary.
+[[nodiscard]] core::SoftMask WithRandomLevels(Random* random, core::BitMask mask);
+
+// Somewhere around the workspace, towards it; its lens of any kind.
+[[nodiscard]] core::CameraModel RandomView(Random* random, LensKind kind, const core::Rig& rig);
+
+}  // namespace elbowroom::recon
