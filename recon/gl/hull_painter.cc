@@ -205,7 +205,7 @@ void HullPainter::UploadSurface(const Scene& scene) {
   if (ShowsCameraColor(scene)) {
     camera_color_.Upload(layer.width_px, layer.height_px, layer.camera_color);
   } else {
-    camera_color_.Upload(1, 1, std::array<std::array<std::uint8_t, 4>, 1>{});
+    camera_color_.Upload(1, 1, std::vector<CameraColor>(1));
   }
 }
 

@@ -4,7 +4,6 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <array>
-#include <cstdint>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -35,9 +34,8 @@ struct HullLayer {
   std::vector<float> depth_mm;                   // row-major, along the camera's z axis; 0: the ray misses
   std::vector<Eigen::Vector3f> normal_in_world;  // unit, outwards; zero: unknown, taken from the depths.
                                                  // Empty: all unknown
-  // What cameras saw of it: red, green, blue, and how far that is to be trusted (0: the shaded colour shows).
-  // Empty: nothing.
-  std::vector<std::array<std::uint8_t, 4>> camera_color = {};
+  // As ColorHull gives them; the shaded colour shows as far as they aren't to be trusted. Empty: no camera.
+  std::vector<CameraColor> camera_color = {};
 };
 
 // A real camera, shown as a pyramid from its centre.
