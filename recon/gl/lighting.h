@@ -44,6 +44,8 @@ class Lighting {
   std::vector<Caster> casters_;
   std::weak_ptr<const HullLayer> hull_from_lamp_;
   bool has_hull_shadow_ = false;
+  Eigen::AlignedBox2f part_bounds_;  // of what throws the shadow, in shares of its map
+  Eigen::AlignedBox2f hull_bounds_;
   ShadowMap part_shadow_;
   ShadowMap hull_shadow_;
   ShadowCount count_;

@@ -1,7 +1,6 @@
 #include "recon/gl/part_painter.h"
 
 #include <algorithm>
-#include <array>
 #include <functional>
 #include <string>
 #include <vector>
@@ -81,21 +80,21 @@ Eigen::Vector3f ShownColour(const ScenePart& part) {
                          : part.color;
 }
 
-// Whether some of the box may be in the view's picture; before the near plane and beyond the far one too.
-bool MayBeInPicture(const Eigen::AlignedBox3d& box_in_part, const core::RigidTransform& cam_from_part,
-                    const SceneView& view) {
-  const double across = 0.5 * view.width_px / view.focal_px;
-  const double down = 0.5 * view.height_px / view.focal_px;
-  std::array<int, 4> beyond{};  // corners beyond each side
+// A box around the box's picture, in shares of the view's sides from its upper left; where some of the box is
+// behind the camera, all of the picture.
+Eigen::AlignedBox2f PictureBounds(const Eigen::AlignedBox3d& box_in_part,
+                                  const core::RigidTransform& cam_from_part, const SceneView& view) {
+  const Eigen::AlignedBox2f picture(Eigen::Vector2f::Zero(), Eigen::Vector2f::Ones());
+  const Eigen::Array2d focal_shares(view.focal_px / view.width_px, view.focal_px / view.height_px);
+  Eigen::AlignedBox2f bounds;
   for (int i = 0; i < 8; ++i) {
     const Eigen::Vector3d corner =
         cam_from_part * box_in_part.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i));
-    beyond[0] += corner.x() < -across * corner.z() ? 1 : 0;
-    beyond[1] += corner.x() > across * corner.z() ? 1 : 0;
-    beyond[2] += corner.y() < -down * corner.z() ? 1 : 0;
-    beyond[3] += corner.y() > down * corner.z() ? 1 : 0;
+    if (corner.z() <= 0.0) return picture;
+    const Eigen::Array2d place = 0.5 + focal_shares * corner.head<2>().array() / corner.z();
+    bounds.extend(Eigen::Vector2f(place.cast<float>().matrix()));
   }
-  return std::ranges::find(beyond, 8) == beyond.end();
+  return bounds.intersection(picture);
 }
 
 Eigen::Matrix4f CamFromPart(const ScenePart& part, const ViewMatrices& matrices) {
@@ -205,20 +204,22 @@ void PartPainter::DrawTransparent(std::span<const ScenePart> parts, const ViewMa
   }
 }
 
-std::int64_t PartPainter::DrawCasters(std::span<const ScenePart> parts, const ViewMatrices& lamp) {
-  std::int64_t outside = 0;
+CasterPass PartPainter::DrawCasters(std::span<const ScenePart> parts, const ViewMatrices& lamp) {
+  CasterPass pass;
   glEnable(GL_DEPTH_CLAMP);
   for (const ScenePart& part : parts) {
     if (part.opacity <= 0.0F) continue;
-    if (MayBeInPicture(Uploaded(part.mesh).bounds_in_part, lamp.view.cam_from_world * part.world_from_part,
-                       lamp.view)) {
-      DrawFaceDepth(part, lamp);
-    } else {
-      ++outside;
+    const Eigen::AlignedBox2f bounds = PictureBounds(
+        Uploaded(part.mesh).bounds_in_part, lamp.view.cam_from_world * part.world_from_part, lamp.view);
+    if (bounds.isEmpty()) {
+      ++pass.parts_outside;
+      continue;
     }
+    DrawFaceDepth(part, lamp);
+    pass.bounds.extend(bounds);
   }
   glDisable(GL_DEPTH_CLAMP);
-  return outside;
+  return pass;
 }
 
 void PartPainter::DrawDepth(std::span<const ScenePart> parts, const ViewMatrices& matrices) {

@@ -1,6 +1,7 @@
 // Draws the virtual parts. For the .cc files of this folder: it includes OpenGL.
 #pragma once
 
+#include <Eigen/Geometry>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -14,6 +15,12 @@
 namespace elbowroom::recon::gl {
 
 class Lighting;
+
+// What a lamp saw of the parts.
+struct CasterPass {
+  Eigen::AlignedBox2f bounds;      // around all of them, in shares of the lamp's picture; empty: none
+  std::int64_t parts_outside = 0;  // left out: nowhere in the picture
+};
 
 // Keeps each mesh on the graphics card for as long as somebody else keeps the mesh.
 class PartPainter {
@@ -30,8 +37,8 @@ class PartPainter {
   void DrawTransparent(std::span<const ScenePart> parts, const ViewMatrices& matrices, const Lighting& light);
 
   // Depths alone, as a lamp sees them, of every part that isn't invisible; what stands before its near plane
-  // is drawn on it. Returns how many were left out because they reach nowhere into its picture.
-  [[nodiscard]] std::int64_t DrawCasters(std::span<const ScenePart> parts, const ViewMatrices& lamp);
+  // is drawn on it.
+  [[nodiscard]] CasterPass DrawCasters(std::span<const ScenePart> parts, const ViewMatrices& lamp);
 
   // Faces alone, of every part that isn't invisible.
   void DrawDepth(std::span<const ScenePart> parts, const ViewMatrices& matrices);

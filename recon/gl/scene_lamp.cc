@@ -38,7 +38,7 @@ SceneLamp LampOver(const Eigen::AlignedBox3d& box_in_world) {
   SceneLamp lamp;
   lamp.target_in_world = box_in_world.center();
   lamp.reach_mm = std::max(0.5 * box_in_world.diagonal().norm(), 1.0);
-  const Eigen::Vector3d to_lamp = Eigen::Vector3d(-0.20, -0.66, 0.72).normalized();
+  const Eigen::Vector3d to_lamp = Eigen::Vector3d(-0.32, -0.71, 0.63).normalized();
   lamp.position_in_world = lamp.target_in_world + kLampDistance * lamp.reach_mm * to_lamp;
   return lamp;
 }
