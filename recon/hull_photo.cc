@@ -1,6 +1,7 @@
 #include "recon/hull_photo.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 #include <utility>
@@ -18,21 +19,27 @@ constexpr float kFeatherPx = 6.0F;
 // A depth that changes by more footprints than this from pixel to pixel is a rim: surfaces as steep as that
 // (76 degrees) are hardly seen.
 constexpr double kSteepest = 4.0;
+// In footprints: up to here behind the surface that its camera sees a point counts as on it, which the relief
+// of the silhouettes' pixels asks for; from kSteepest on as hidden.
+constexpr double kOnSurface = 1.0;
 // Cosine between normal and line of sight below which a camera has no say.
 constexpr double kGrazing = 0.1;
 
-// 255 where all four neighbours are in the picture, on the hull and on the same surface; else 0.
+// 255 where all eight neighbours are in the picture, on the hull and on the same surface; else 0. Of four
+// pixels around a place that a rim passes between, none is inside.
 cv::Mat InsideOfSurfaces(const HullView& sight, double focal_px) {
   cv::Mat inside(sight.height_px, sight.width_px, CV_8UC1, cv::Scalar(0));
+  const int width_px = sight.width_px;
+  const std::array<int, 8> around{-width_px - 1, -width_px, -width_px + 1, -1, 1,
+                                  width_px - 1,  width_px,  width_px + 1};
   for (int y = 1; y + 1 < sight.height_px; ++y) {
-    const float* depth_mm = &sight.depth_mm[static_cast<std::size_t>(y * sight.width_px)];
-    for (int x = 1; x + 1 < sight.width_px; ++x) {
+    const float* depth_mm = &sight.depth_mm[static_cast<std::size_t>(y * width_px)];
+    for (int x = 1; x + 1 < width_px; ++x) {
       const float here_mm = depth_mm[x];
       if (here_mm <= 0.0F) continue;
       const auto jump_mm = static_cast<float>(kSteepest / focal_px) * here_mm;
-      const auto is_near = [&](float there_mm) { return std::abs(there_mm - here_mm) <= jump_mm; };
-      const bool is_inside = is_near(depth_mm[x - 1]) && is_near(depth_mm[x + 1]) &&
-                             is_near(depth_mm[x - sight.width_px]) && is_near(depth_mm[x + sight.width_px]);
+      const bool is_inside = std::ranges::all_of(
+          around, [&](int step) { return std::abs(depth_mm[x + step] - here_mm) <= jump_mm; });
       inside.at<std::uint8_t>(y, x) = is_inside ? 255 : 0;
     }
   }
@@ -92,20 +99,21 @@ std::optional<PhotoLook> HullPhoto::LookAt(const Eigen::Vector3d& x_in_world,
                                trust_.at<float>(at.y + 1, at.x), trust_.at<float>(at.y + 1, at.x + 1));
   if (trust <= 0.0F) return std::nullopt;
 
-  // The surface's depth at the nearest pixel's centre, half a pixel away in each direction at most.
-  const int nearest_x = at.x + (at.u >= 0.5F ? 1 : 0), nearest_y = at.y + (at.v >= 0.5F ? 1 : 0);
-  const double sight_mm = depth_mm_[static_cast<std::size_t>(nearest_y * camera_.width_px() + nearest_x)];
-  const Eigen::Vector3d n_in_cam = camera_.cam_from_world().rotation * normal_in_world;
-  const Eigen::Vector2d slope = x_in_cam.z() * n_in_cam.head<2>() / n_in_cam.dot(x_in_cam);
-  const double slope_px = std::min(std::abs(slope.x()), kSteepest) + std::min(std::abs(slope.y()), kSteepest);
-  const double footprint_mm = x_in_cam.z() / focal_px_;
-  if (sight_mm <= 0.0 || x_in_cam.z() > sight_mm + footprint_mm * (1.0 + 0.5 * slope_px)) return std::nullopt;
+  // Where there is trust all four corners are on one surface, and the point is on it or behind.
+  const auto sight_mm = [&](int x, int y) {
+    return depth_mm_[static_cast<std::size_t>(y * camera_.width_px() + x)];
+  };
+  const double surface_mm = at.Blend(sight_mm(at.x, at.y), sight_mm(at.x + 1, at.y), sight_mm(at.x, at.y + 1),
+                                     sight_mm(at.x + 1, at.y + 1));
+  const double behind = (x_in_cam.z() - surface_mm) * focal_px_ / x_in_cam.z();  // in footprints
+  const float visible = SmoothStep(static_cast<float>((kSteepest - behind) / (kSteepest - kOnSurface)));
+  if (visible <= 0.0F) return std::nullopt;
 
   PhotoLook look;
   look.color_bgr = at.Blend(
       Bgr(image_bgr_.at<cv::Vec3b>(at.y, at.x)), Bgr(image_bgr_.at<cv::Vec3b>(at.y, at.x + 1)),
       Bgr(image_bgr_.at<cv::Vec3b>(at.y + 1, at.x)), Bgr(image_bgr_.at<cv::Vec3b>(at.y + 1, at.x + 1)));
-  look.weight = trust * static_cast<float>((facing - kGrazing) / (1.0 - kGrazing));
+  look.weight = trust * visible * static_cast<float>((facing - kGrazing) / (1.0 - kGrazing));
   look.to_camera_in_world = to_camera.cast<float>();
   return look;
 }
