@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/control/demo_parts.h"
@@ -83,6 +84,49 @@ recon::Image Above(recon::Image top, const recon::Image& bottom) {
   return top;
 }
 
+TEST(SceneComposer, AFrameKeepsItsPicturesWithoutCopyingThem) {
+  const TrialSetup setup = MakeDemoTrial(DemoPlay::kOnce);
+  FramePipeline pipeline(setup.source->rig(), setup.layout, setup.source->ReadBackgrounds({}, {}),
+                         setup.segmentation);
+  recon::FrameSet frames = setup.source->Read(10);
+  const std::uint8_t* bytes = frames.cameras[2].image_bgr.data;
+  const SharedFrameResult result = pipeline.Process(std::move(frames), std::vector<double>{kGapNeededMm});
+  ASSERT_NE(result->camera_frames, nullptr);
+  EXPECT_EQ(result->camera_frames->cameras[2].image_bgr.data, bytes);
+}
+
+TEST(SceneComposer, KeepingChangesNothingAndSavesTheViewsOfOneFrame) {
+  const SharedFrameResult frame = Demo().At(kPipeIsHeldS), other = Demo().At(kTongsAreInS);
+  const recon::SceneView view = TrialView(240, 180, -62.0, 14.0), turned = TrialView(240, 180, -20.0, 30.0);
+  SceneComposer kept;
+  for (const HullAppearance look : {HullAppearance::kByNormal, HullAppearance::kRigCameras}) {
+    (void)kept.Compose(*other, view);
+    (void)kept.Compose(*frame, turned, {look});
+    EXPECT_EQ(Draw(kept.Compose(*frame, view, {look})), Draw(SceneComposer().Compose(*frame, view, {look})));
+  }
+  EXPECT_NE(Draw(kept.Compose(*other, view)), Draw(kept.Compose(*frame, view)));
+  SceneComposer counted;
+  (void)counted.Compose(*frame, view);
+  EXPECT_EQ(counted.extra_hull_views(), 1);  // the lamp's
+  const auto from_lamp = counted.Compose(*frame, turned).hull_from_lamp;
+  EXPECT_EQ(counted.Compose(*frame, view).hull_from_lamp, from_lamp);
+  EXPECT_EQ(counted.extra_hull_views(), 1);
+  (void)counted.Compose(*frame, view, {HullAppearance::kOneCamera});
+  EXPECT_EQ(counted.extra_hull_views(), 2);
+  (void)counted.Compose(*frame, view, {HullAppearance::kRigCameras});
+  EXPECT_EQ(counted.extra_hull_views(), 5);  // the three cameras more
+  (void)counted.Compose(*frame, turned, {HullAppearance::kRigCameras});
+  EXPECT_EQ(counted.extra_hull_views(), 5);
+}
+
+TEST(SceneComposer, WithoutPicturesTheHullIsShaded) {
+  FrameResult bare = *Demo().At(kPipeIsHeldS);
+  bare.camera_frames.reset();
+  const recon::SceneView view = TrialView(240, 180, -62.0, 14.0);
+  EXPECT_EQ(Draw(SceneComposer().Compose(bare, view, {HullAppearance::kRigCameras})),
+            Draw(SceneComposer().Compose(bare, view, {HullAppearance::kByNormal})));
+}
+
 // With ELBOWROOM_PICTURE_DIR set it leaves the pictures there to be looked at.
 TEST(SceneComposer, EveryLookIsAPictureOfItsOwn) {
   SceneComposer composer;
@@ -97,17 +141,7 @@ TEST(SceneComposer, EveryLookIsAPictureOfItsOwn) {
     const std::string path = folder;
     recon::WritePng(Above(Beside(pictures[0], pictures[1]), Beside(pictures[2], pictures[3])),
                     path + "/hull_appearance.png");
-    const recon::SceneView large = TrialView(960, 720, -62.0, 14.0);
-    const SharedFrameResult held = Demo().At(kPipeIsHeldS);
-    for (const HullAppearance look : {HullAppearance::kByNormal, HullAppearance::kRigCameras}) {
-      const std::string name = look == HullAppearance::kByNormal ? "/shadows" : "/rig_cameras";
-      recon::WritePng(Draw(composer.Compose(*held, large, {look})), path + name + ".png");
-      recon::WritePng(
-          Draw(composer.Compose(*Demo().At(kTongsAreInS), TrialView(960, 720, -40.0, 35.0), {look})),
-          path + name + "_tongs.png");
-      recon::WritePng(Draw(composer.Compose(*Demo().At(kPipeIsHeldS, 140.0), large, {look})),
-                      path + name + "_140.png");
-    }
+    recon::WritePng(Draw(composer.Compose(*frame, TrialView(960, 720, -40.0, 35.0))), path + "/shadows.png");
   }
 }
 
