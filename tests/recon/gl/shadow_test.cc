@@ -220,8 +220,8 @@ TEST(Shadow, TheTableTakesShadowsOfBoth) {
   }
 }
 
-// All neighbours up to two pixels away hit something too. On the very outline a sample may show the inside of a part's far wall,
-// which is in its own shadow rightly.
+// All neighbours up to two pixels away hit something too. On the very outline a sample may show the inside of
+// a part's far wall, which is in its own shadow rightly.
 bool IsInsideOfOutline(const DepthImage& depth, int x, int y) {
   for (int i = 0; i < 25; ++i) {
     const int at = (y + i / 5 - 2) * depth.width_px + x + i % 5 - 2;
