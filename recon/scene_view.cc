@@ -30,4 +30,15 @@ Eigen::Vector3d SceneView::RayInCam(const Eigen::Vector2d& pixel) const {
   return {normalised.x(), normalised.y(), 1.0};
 }
 
+core::CameraModel CameraOf(const SceneView& view) {
+  core::CameraCalibration calibration;
+  calibration.name = "view";
+  calibration.image_width_px = view.width_px;
+  calibration.image_height_px = view.height_px;
+  calibration.camera_matrix << view.focal_px, 0.0, view.PrincipalPoint().x(), 0.0, view.focal_px,
+      view.PrincipalPoint().y(), 0.0, 0.0, 1.0;
+  calibration.cam_from_world = view.cam_from_world;
+  return core::CameraModel(calibration);
+}
+
 }  // namespace elbowroom::recon

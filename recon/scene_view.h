@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <optional>
 
+#include "core/camera_model.h"
 #include "core/rigid_transform.h"
 
 namespace elbowroom::recon {
@@ -35,5 +36,8 @@ struct SceneView {
 
   [[nodiscard]] Eigen::Vector3d EyeInWorld() const { return cam_from_world.Inverse().translation_mm; }
 };
+
+// The view as a camera, for those who look at the hull: the same picture but for what near and far cut off.
+[[nodiscard]] core::CameraModel CameraOf(const SceneView& view);
 
 }  // namespace elbowroom::recon

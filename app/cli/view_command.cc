@@ -18,7 +18,7 @@
 #include "recon/hull_picture.h"
 #include "recon/plane_sweep.h"
 #include "recon/png_file.h"
-#include "recon/ray_cast.h"
+#include "recon/hull_view.h"
 #include "recon/rig_file.h"
 
 namespace elbowroom::cli {

@@ -77,11 +77,15 @@ void MainWindow::AddActions() {
   stop->setObjectName("stop");
   auto* report = new ReportAction(*desk_, this);
   report->setObjectName("report");
+  hull_look_ = new HullLookButton;
+  hull_look_->setObjectName("hull_look");
   bar->addActions({demo, open});
   bar->addSeparator();
   bar->addAction(stop);
   bar->addSeparator();
   bar->addAction(report);
+  bar->addSeparator();
+  bar->addWidget(hull_look_);
 }
 
 QWidget* MainWindow::MakeCentre() {
@@ -95,6 +99,7 @@ QWidget* MainWindow::MakeCentre() {
   column->addWidget(view_, 1);
   column->addWidget(strip_);
   connect(view_, &OperatorView::Failed, this, &MainWindow::ShowError);
+  connect(hull_look_, &HullLookButton::Chosen, view_, &OperatorView::SetLook);
   connect(view_, &OperatorView::PictureShown, this,
           [this](qint64, double drawing_ms) { status_->ShowPicture(drawing_ms, view_->driver()); });
   return centre;

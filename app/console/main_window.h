@@ -6,6 +6,7 @@
 
 #include "app/console/camera_strip.h"
 #include "app/console/contact_model.h"
+#include "app/console/hull_look_button.h"
 #include "app/console/message_bar.h"
 #include "app/console/operator_view.h"
 #include "app/console/spacing_panel.h"
@@ -52,6 +53,7 @@ class MainWindow : public QMainWindow {
   bool closes_when_idle_ = false;
   MessageBar* messages_ = nullptr;
   OperatorView* view_ = nullptr;
+  HullLookButton* hull_look_ = nullptr;
   CameraStrip* strip_ = nullptr;
   SpacingPanel* spacings_ = nullptr;
   ToolPanel* tools_ = nullptr;

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "app/console/palette.h"
-#include "app/control/scene_composer.h"
 
 namespace elbowroom::console {
 namespace {
@@ -86,6 +85,11 @@ void OperatorView::Fit() {
       });
 }
 
+void OperatorView::SetLook(const control::SceneLook& look) {
+  look_ = look;
+  AskForPicture();
+}
+
 QString OperatorView::driver() const { return QString::fromStdString(worker_.driver()); }
 
 void OperatorView::Turn(const recon::OrbitCamera& camera) {
@@ -107,7 +111,7 @@ void OperatorView::Submit(const PictureFineness& fineness) {
   drawn_with_ = fineness;
   is_outdated_ = false;
   drawing_.start();
-  worker_.Submit({result_, *camera_, size.width(), size.height(), fineness.hull});
+  worker_.Submit({result_, *camera_, size.width(), size.height(), fineness.hull, look_});
 }
 
 QSize OperatorView::LargestPicture() const {

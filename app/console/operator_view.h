@@ -15,6 +15,7 @@
 #include "app/console/picture_pace.h"
 #include "app/control/frame_result.h"
 #include "app/control/render_worker.h"
+#include "app/control/scene_composer.h"
 #include "recon/orbit_camera.h"
 
 namespace elbowroom::console {
@@ -34,6 +35,8 @@ class OperatorView : public QWidget {
   void ShowFrame(control::SharedFrameResult result);
   void Clear();
   void Fit();  // everything in the picture, from the front, above
+
+  void SetLook(const control::SceneLook& look);
 
   [[nodiscard]] QString driver() const;  // of OpenGL; "" until the first picture
   [[nodiscard]] const std::optional<recon::OrbitCamera>& camera() const { return camera_; }
@@ -60,6 +63,7 @@ class OperatorView : public QWidget {
 
   std::optional<recon::OrbitCamera> camera_;  // nothing until the first fit
   control::SharedFrameResult result_;
+  control::SceneLook look_;
   QImage picture_;
   qint64 picture_frame_ = 0;
   PicturePace pace_;

@@ -38,7 +38,7 @@ FramePipeline::FramePipeline(core::Rig rig, core::Layout layout,
   for (const core::Part& part : layout_->parts) part_trees_.emplace_back(part.mesh);
 }
 
-SharedFrameResult FramePipeline::Process(const recon::FrameSet& frames, std::span<const double> spacing_mm) {
+SharedFrameResult FramePipeline::Process(recon::FrameSet frames, std::span<const double> spacing_mm) {
   core::Require(frames.cameras.size() == rig_->cameras.size(), "one frame a camera");
   auto result = std::make_shared<FrameResult>();
   result->frame = frames.index;
@@ -53,6 +53,7 @@ SharedFrameResult FramePipeline::Process(const recon::FrameSet& frames, std::spa
   result->times.hull_ms = watch.LapMs();
   UpdateContacts(result.get());
   result->times.contacts_ms = watch.LapMs();
+  result->camera_frames = std::make_shared<const recon::FrameSet>(std::move(frames));
   last_ = result;
   return result;
 }

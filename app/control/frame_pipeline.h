@@ -29,8 +29,8 @@ class FramePipeline {
   [[nodiscard]] const std::shared_ptr<const core::Rig>& rig() const { return rig_; }
   [[nodiscard]] const std::shared_ptr<const core::Layout>& layout() const { return layout_; }
 
-  // spacing_mm: in the layout's order.
-  [[nodiscard]] SharedFrameResult Process(const recon::FrameSet& frames, std::span<const double> spacing_mm);
+  // spacing_mm: in the layout's order. The result shares the frames' pictures.
+  [[nodiscard]] SharedFrameResult Process(recon::FrameSet frames, std::span<const double> spacing_mm);
 
  private:
   void UpdateHull(std::vector<core::BitMask> masks, FrameResult* result);

@@ -9,6 +9,7 @@
 #include "core/ids.h"
 #include "core/layout.h"
 #include "core/session.h"
+#include "recon/frame_set.h"
 #include "recon/visual_hull.h"
 
 namespace elbowroom::control {
@@ -31,6 +32,9 @@ struct StageTimes {
 struct FrameResult {
   core::FrameIndex frame = 0;
   double time_s = 0.0;  // of capture
+  // What the cameras took, with the pictures that hull and silhouettes come from; null where only the
+  // silhouettes were kept, as in a session.
+  std::shared_ptr<const recon::FrameSet> camera_frames;
   core::SharedMasks masks;
   std::shared_ptr<const recon::VisualHull> hull;
   std::shared_ptr<const core::Layout> layout;

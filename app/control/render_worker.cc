@@ -4,7 +4,6 @@
 #include <optional>
 #include <utility>
 
-#include "app/control/scene_composer.h"
 #include "recon/gl/scene_renderer.h"
 
 namespace elbowroom::control {
@@ -16,6 +15,7 @@ RenderWorker::~RenderWorker() { requests_.Close(); }
 
 void RenderWorker::Run() {
   std::optional<recon::gl::SceneRenderer> renderer;
+  SceneComposer composer;
   while (const std::optional<RenderRequest> request = requests_.Pop()) {
     try {
       if (!renderer) {
@@ -24,7 +24,9 @@ void RenderWorker::Run() {
         driver_ = renderer->driver();
       }
       const recon::SceneView view = recon::ViewFrom(request->camera, request->width_px, request->height_px);
-      on_image_(renderer->Render(ComposeScene(*request->result, view, request->hull_scale)), *request);
+      const recon::gl::Scene scene =
+          composer.Compose(*request->result, view, request->look, request->hull_scale);
+      on_image_(renderer->Render(scene), *request);
     } catch (const std::exception& error) {  // the worker's outermost loop: nothing may escape a thread
       on_error_(error.what());
     }

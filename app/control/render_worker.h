@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "app/control/frame_result.h"
+#include "app/control/scene_composer.h"
 #include "core/bounded_queue.h"
 #include "recon/image.h"
 #include "recon/orbit_camera.h"
@@ -18,7 +19,8 @@ struct RenderRequest {
   recon::OrbitCamera camera;
   int width_px = 640;
   int height_px = 480;
-  double hull_scale = 1.0;  // as ComposeScene
+  double hull_scale = 1.0;  // as SceneComposer::Compose
+  SceneLook look;
 };
 
 // The latest request wins: one that comes while a picture is being drawn replaces one that waits.

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <opencv2/core/mat.hpp>
+#include <optional>
 
-#include "core/camera_model.h"
 #include "core/error.h"
 #include "core/units.h"
 #include "recon/hull_mesh.h"
+#include "recon/hull_photo.h"
 #include "recon/hull_view.h"
 
 namespace elbowroom::control {
@@ -15,6 +17,8 @@ namespace {
 
 using Eigen::Vector3d;
 
+// A side of the hull's picture from the lamp: about 2.5 mm a pixel in a workspace of a metre.
+constexpr int kHullFromLampPx = 512;
 constexpr float kSeeThrough = 0.3F;
 // A part that stands before more than this share of the hull's pixels is drawn see-through.
 constexpr double kHidesShare = 0.35;
@@ -33,17 +37,6 @@ recon::SceneView Scaled(const recon::SceneView& view, double scale) {
   scaled.height_px = std::max(1, static_cast<int>(std::lround(scale * view.height_px)));
   scaled.focal_px = view.focal_px * scaled.width_px / view.width_px;
   return scaled;
-}
-
-core::CameraModel CameraOf(const recon::SceneView& view) {
-  core::CameraCalibration calibration;
-  calibration.name = "operator";
-  calibration.image_width_px = view.width_px;
-  calibration.image_height_px = view.height_px;
-  calibration.camera_matrix << view.focal_px, 0.0, view.PrincipalPoint().x(), 0.0, view.focal_px,
-      view.PrincipalPoint().y(), 0.0, 0.0, 1.0;
-  calibration.cam_from_world = view.cam_from_world;
-  return core::CameraModel(calibration);
 }
 
 Eigen::AlignedBox3d BoundsInWorld(const FrameResult& result, core::PartIndex part) {
@@ -88,13 +81,31 @@ double HiddenShare(const recon::HullView& hull, const recon::SceneView& view,
   return seen == 0 ? 0.0 : static_cast<double>(hidden) / seen;
 }
 
-std::shared_ptr<const recon::gl::HullLayer> LayerOf(recon::HullView hull) {
+std::shared_ptr<const recon::gl::HullLayer> LayerOf(recon::HullView hull,
+                                                    std::vector<recon::CameraColor> camera_color) {
   auto layer = std::make_shared<recon::gl::HullLayer>();
   layer->width_px = hull.width_px;
   layer->height_px = hull.height_px;
   layer->depth_mm = std::move(hull.depth_mm);
   layer->normal_in_world = std::move(hull.normal_in_world);
+  layer->camera_color = std::move(camera_color);
   return layer;
+}
+
+// The camera with a picture whose view direction is closest to the viewer's.
+std::optional<core::CameraIndex> NearestToViewer(const std::vector<core::CameraModel>& cameras,
+                                                 const recon::FrameSet& frames,
+                                                 const recon::SceneView& view) {
+  std::optional<core::CameraIndex> nearest;
+  double best_cosine = -2.0;
+  for (core::CameraIndex i = 0; i < cameras.size(); ++i) {
+    const double cosine =
+        cameras[i].cam_from_world().rotation.row(2).dot(view.cam_from_world.rotation.row(2));
+    if (frames.cameras[i].image_bgr.empty() || cosine <= best_cosine) continue;
+    nearest = i;
+    best_cosine = cosine;
+  }
+  return nearest;
 }
 
 // A box around the hull, to about a fiftieth of the workspace.
@@ -119,9 +130,18 @@ std::size_t CountHidden(const std::vector<core::ContactPoint>& points, const Vec
 
 }  // namespace
 
-recon::gl::Scene ComposeScene(const FrameResult& result, const recon::SceneView& view, double hull_scale) {
+recon::gl::Scene SceneComposer::Compose(const FrameResult& result, const recon::SceneView& view,
+                                        const SceneLook& look, double hull_scale) {
+  if (hull_ != result.hull || camera_frames_ != result.camera_frames) {
+    if (hull_ != result.hull) hull_from_lamp_.reset();
+    hull_ = result.hull;
+    camera_frames_ = result.camera_frames;
+    photos_.clear();
+  }
   recon::gl::Scene scene;
   scene.view = view;
+  scene.lamp = recon::gl::LampOver(result.hull->rig().workspace_mm);
+  scene.hull_appearance = look.hull;
   const recon::SceneView hull_view = Scaled(view, hull_scale);
   recon::HullView hull = recon::ViewHull(*result.hull, CameraOf(hull_view));
   for (core::PartIndex i = 0; i < result.layout->parts.size(); ++i) {
@@ -136,11 +156,45 @@ recon::gl::Scene ComposeScene(const FrameResult& result, const recon::SceneView&
       scene.contact_points_in_world.push_back(point.position_in_world_mm);
     }
   }
-  scene.hull = LayerOf(std::move(hull));
+  const std::vector<SharedPhoto> photos = PhotosFor(look, view);
+  std::vector<recon::CameraColor> camera_color;
+  if (!photos.empty()) camera_color = recon::ColorHull(hull, hull_view, photos);
+  scene.hull = LayerOf(std::move(hull), std::move(camera_color));
+  scene.hull_from_lamp = HullFromLamp(scene.lamp);
   const Eigen::AlignedBox3d& workspace_mm = result.hull->rig().workspace_mm;
   scene.table_in_world = Eigen::AlignedBox2d(workspace_mm.min().head<2>(), workspace_mm.max().head<2>());
   scene.table_grid_mm = workspace_mm.sizes().head<2>().maxCoeff() > 2500.0 ? 500.0 : 100.0;
   return scene;
+}
+
+std::shared_ptr<const recon::gl::HullLayer> SceneComposer::HullFromLamp(const recon::gl::SceneLamp& lamp) {
+  if (hull_from_lamp_ == nullptr) {
+    const recon::SceneView from_lamp = lamp.ShadowView(kHullFromLampPx);
+    hull_from_lamp_ = LayerOf(recon::ViewHull(*hull_, recon::CameraOf(from_lamp)), {});
+    ++extra_hull_views_;
+  }
+  return hull_from_lamp_;
+}
+
+std::vector<SceneComposer::SharedPhoto> SceneComposer::PhotosFor(const SceneLook& look,
+                                                                 const recon::SceneView& view) {
+  const bool wants_one = look.hull == recon::HullAppearance::kOneCamera;
+  if (camera_frames_ == nullptr || !(wants_one || look.hull == recon::HullAppearance::kRigCameras)) return {};
+  const std::vector<core::CameraModel>& cameras = hull_->rig().cameras;
+  photos_.resize(cameras.size());
+  std::optional<core::CameraIndex> chosen;
+  if (wants_one) chosen = NearestToViewer(cameras, *camera_frames_, view);
+  std::vector<SharedPhoto> wanted;
+  for (core::CameraIndex i = 0; i < cameras.size(); ++i) {
+    const cv::Mat& image_bgr = camera_frames_->cameras[i].image_bgr;
+    if (image_bgr.empty() || (wants_one && chosen != i)) continue;
+    if (photos_[i] == nullptr) {
+      photos_[i] = std::make_shared<const recon::HullPhoto>(*hull_, cameras[i], image_bgr);
+      ++extra_hull_views_;
+    }
+    wanted.push_back(photos_[i]);
+  }
+  return wanted;
 }
 
 recon::OrbitCamera OverviewCamera(const FrameResult& result, int width_px, int height_px) {

@@ -1,17 +1,51 @@
 // A frame's result as a scene to draw.
 #pragma once
 
+#include <cstdint>
+#include <memory>
+#include <vector>
+
 #include "app/control/frame_result.h"
 #include "recon/gl/scene.h"
+#include "recon/hull_appearance.h"
 #include "recon/orbit_camera.h"
 
 namespace elbowroom::control {
 
-// Parts at their poses (those in contact tinted), the hull as it is seen from `view` exactly, contact points,
-// the table. A part between the operator and the hull can be seen through.
-// hull_scale: of the picture's side, (0, 1]; a hull of fewer pixels is drawn sooner and scaled up.
-[[nodiscard]] recon::gl::Scene ComposeScene(const FrameResult& result, const recon::SceneView& view,
-                                            double hull_scale = 1.0);
+// How a picture is meant to look.
+struct SceneLook {
+  // Camera colours need the frame's pictures: without them the hull is shaded by its normals. kOneCamera
+  // takes the rig's camera that looks along with the operator most.
+  recon::HullAppearance hull = recon::HullAppearance::kByNormal;
+
+  [[nodiscard]] bool operator==(const SceneLook&) const = default;
+};
+
+// Keeps what the next picture of the same frame can show again: the hull as the lamp sees it, and what of it
+// the rig's cameras see. Keeping never changes a picture (scene_composer_test). Thread: one.
+class SceneComposer {
+ public:
+  // Parts at their poses (those in contact tinted), the hull as it is seen from `view` exactly, contact
+  // points, the table, a lamp over the workspace. A part between the operator and the hull can be seen
+  // through. hull_scale: of the picture's side, (0, 1]; a hull of fewer pixels is drawn sooner and scaled up.
+  [[nodiscard]] recon::gl::Scene Compose(const FrameResult& result, const recon::SceneView& view,
+                                         const SceneLook& look = {}, double hull_scale = 1.0);
+
+  // Views of the hull that were worked out beside the pictures' own, since the start.
+  [[nodiscard]] std::int64_t extra_hull_views() const { return extra_hull_views_; }
+
+ private:
+  using SharedPhoto = std::shared_ptr<const recon::HullPhoto>;
+  [[nodiscard]] std::shared_ptr<const recon::gl::HullLayer> HullFromLamp(const recon::gl::SceneLamp& lamp);
+  [[nodiscard]] std::vector<SharedPhoto> PhotosFor(const SceneLook& look, const recon::SceneView& view);
+
+  // Of the last frame drawn; what is null hasn't been asked for yet.
+  std::shared_ptr<const recon::VisualHull> hull_;
+  std::shared_ptr<const recon::FrameSet> camera_frames_;
+  std::shared_ptr<const recon::gl::HullLayer> hull_from_lamp_;
+  std::vector<SharedPhoto> photos_;  // one a camera
+  std::int64_t extra_hull_views_ = 0;
+};
 
 // A first view of a layout and the hull's whereabouts: everything in the picture, from the front, above.
 [[nodiscard]] recon::OrbitCamera OverviewCamera(const FrameResult& result, int width_px, int height_px);

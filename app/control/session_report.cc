@@ -17,9 +17,10 @@ namespace {
 constexpr int kPictureWidthPx = 1200;
 constexpr int kPictureHeightPx = 800;
 
-recon::Image Draw(recon::gl::SceneRenderer& renderer, const FrameResult& result,
+recon::Image Draw(recon::gl::SceneRenderer& renderer, SceneComposer& composer, const FrameResult& result,
                   const recon::OrbitCamera& camera) {
-  return renderer.Render(ComposeScene(result, recon::ViewFrom(camera, kPictureWidthPx, kPictureHeightPx)));
+  return renderer.Render(
+      composer.Compose(result, recon::ViewFrom(camera, kPictureWidthPx, kPictureHeightPx)));
 }
 
 // The deepest touch; of a session that was cut short, which has no episodes, the deepest contact recorded.
@@ -76,16 +77,17 @@ ReportFiles WriteSessionReport(const std::filesystem::path& session_path, const 
   sessions::ReportPictures pictures;
   if (!frames.empty()) {
     recon::gl::SceneRenderer renderer;
+    SceneComposer composer;
     const std::optional<WorstMoment> worst = WorstMomentOf(session);
     const SharedFrameResult shown = RebuildFrame(session, worst ? worst->frame : frames.back().frame);
     progress.Report(1, 4, "picture of the whole scene");
-    pictures.overview_png =
-        recon::EncodePng(Draw(renderer, *shown, OverviewCamera(*shown, kPictureWidthPx, kPictureHeightPx)));
+    pictures.overview_png = recon::EncodePng(
+        Draw(renderer, composer, *shown, OverviewCamera(*shown, kPictureWidthPx, kPictureHeightPx)));
     core::ThrowIfStopped(stop, "the report");
     if (worst) {
       progress.Report(2, 4, "picture of the worst moment");
       const recon::OrbitCamera camera = ContactCamera(*shown, worst->part, kPictureWidthPx, kPictureHeightPx);
-      pictures.worst_moment_png = recon::EncodePng(Draw(renderer, *shown, camera));
+      pictures.worst_moment_png = recon::EncodePng(Draw(renderer, composer, *shown, camera));
       pictures.caption = CaptionOf(*shown, worst->part, renderer.driver());
     }
   }
@@ -100,7 +102,7 @@ void WriteFramePicture(const FrameResult& result, const std::filesystem::path& p
   recon::gl::SceneRenderer renderer;
   const recon::SceneView view =
       recon::ViewFrom(OverviewCamera(result, width_px, height_px), width_px, height_px);
-  recon::WritePng(renderer.Render(ComposeScene(result, view)), png);
+  recon::WritePng(renderer.Render(SceneComposer().Compose(result, view)), png);
 }
 
 }  // namespace elbowroom::control

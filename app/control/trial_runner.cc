@@ -84,11 +84,11 @@ class Recording {
                            setup_.source->ReadBackgrounds(options_.progress, stop), setup_.segmentation);
     const core::FrameIndex first = options_.frames.first;
     for (core::FrameIndex frame = first; frame < end && !stop.stop_requested(); ++frame) {
-      const recon::FrameSet frames = setup_.source->Read(frame);
+      recon::FrameSet frames = setup_.source->Read(frame);
       if (options_.at_capture_rate) pace_.WaitFor(frames.time_s, stop);
       ApplyChanges(frame, frames.time_s);
       const Clock::time_point begin = Clock::now();
-      const SharedFrameResult result = pipeline.Process(frames, spacing_mm_);
+      const SharedFrameResult result = pipeline.Process(std::move(frames), spacing_mm_);
       outcome_.frame_ms.push_back(std::chrono::duration<double, std::milli>(Clock::now() - begin).count());
       Record(*result);
       if (options_.on_frame) options_.on_frame(result);

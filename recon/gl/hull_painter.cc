@@ -1,6 +1,7 @@
 #include "recon/gl/hull_painter.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 
@@ -11,6 +12,7 @@ namespace {
 
 constexpr int kDepthUnit = 0;
 constexpr int kNormalUnit = 1;
+constexpr int kCameraColorUnit = 2;
 
 // One triangle over the whole picture.
 constexpr const char* kVertexSource = R"(
@@ -47,11 +49,16 @@ void main() {
 // Loops run over no turn where there is nothing to do: software drivers step through both sides of an if.
 constexpr const char* kPictureFragmentSource = R"(
 uniform sampler2D layer_normal;
+uniform sampler2D layer_camera_color;
+uniform bool has_camera_color;
+uniform bool is_flat;
 uniform float focal_px;
 uniform mat4 cam_from_world;
-uniform vec3 up_in_cam;
 uniform vec3 color;
 out vec4 pixel;
+
+// The hull in the shadow's map stands this near to the same hull in the picture, whatever their sizes.
+const float kHullSlackMm = 3.0;
 
 // Surfaces whose depths differ by more than this share are not one surface.
 const float kSameSurface = 0.02;
@@ -112,13 +119,35 @@ void main() {
     normal = cross(Slope(surface_texel, surface, ivec2(0, 1)), Slope(surface_texel, surface, ivec2(1, 0)));
   }
   normal = normalize(normal);
-  vec3 to_eye = -normalize(Ray(gl_FragCoord.xy));
+  vec4 seen = vec4(0.0);  // by cameras; the colour times its trust
+  for (int i = has_camera_color ? 0 : 9; i < 9; ++i) {
+    ivec2 texel = middle + ivec2(i % 3 - 1, i / 3 - 1);
+    float depth = DepthAt(texel);
+    bool is_kept = depth > 0.0 && abs(depth - surface) <= kSameSurface * surface;
+    vec4 there = texelFetch(layer_camera_color, min(texel, textureSize(layer_camera_color, 0) - 1), 0);
+    seen += (is_kept ? weight_x[i % 3] * weight_y[i / 3] / kept : 0.0) * vec4(there.rgb * there.a, there.a);
+  }
+  float depth = kept / inverse_depth;
+  vec3 x = depth * Ray(gl_FragCoord.xy);
+  vec3 to_eye = -normalize(x);
+  float part_light = PartLight(x, normal);
+  float light = part_light * HullLight(x, normal, kHullSlackMm);
   float facing = abs(dot(normal, to_eye));
   vec3 base = color * mix(vec3(0.72, 0.60, 0.56), vec3(1.0), smoothstep(0.0, 0.55, facing));
-  pixel = vec4(Lit(base, normal, to_eye, up_in_cam, 0.05), 0.25 * samples - 0.01);
-  gl_FragDepth = BufferDepth(kept / inverse_depth);
+  vec3 shown = Lit(base, x, normal, 0.05, light);
+  if (is_flat) shown = color * mix(kUnlit, 1.0, light);
+  // A camera's picture has the room's light in it; what virtual parts keep away is missing from that.
+  shown = mix(shown, vec3(0.0), seen.a) + seen.rgb * mix(kUnlit, 1.0, part_light);
+  pixel = vec4(shown, 0.25 * samples - 0.01);
+  gl_FragDepth = BufferDepth(depth);
 }
 )";
+
+bool ShowsCameraColor(const Scene& scene) {
+  const bool is_asked_for = scene.hull_appearance == HullAppearance::kOneCamera ||
+                            scene.hull_appearance == HullAppearance::kRigCameras;
+  return is_asked_for && !scene.hull->camera_color.empty();
+}
 
 // The picture's rows and columns that the layer's hits can reach, as glScissor takes them.
 struct Window {
@@ -163,7 +192,8 @@ HullPainter::HullPainter()
                        std::string(kLightingSource) + kLayerSource + kPictureFragmentSource),
       depth_program_("hull depth", kVertexSource, std::string(kLayerSource) + kDepthFragmentSource) {}
 
-void HullPainter::Draw(const HullLayer& layer, const Eigen::Vector3f& color, const ViewMatrices& matrices) {
+void HullPainter::UploadSurface(const Scene& scene) {
+  const HullLayer& layer = *scene.hull;
   static_assert(sizeof(Eigen::Vector3f) == 3 * sizeof(float), "normals upload as packed floats");
   const Eigen::Vector3f unknown = Eigen::Vector3f::Zero();
   if (layer.normal_in_world.empty()) {
@@ -172,14 +202,26 @@ void HullPainter::Draw(const HullLayer& layer, const Eigen::Vector3f& color, con
     normal_.Upload(layer.width_px, layer.height_px,
                    {layer.normal_in_world.front().data(), 3 * layer.normal_in_world.size()});
   }
+  if (ShowsCameraColor(scene)) {
+    camera_color_.Upload(layer.width_px, layer.height_px, layer.camera_color);
+  } else {
+    camera_color_.Upload(1, 1, std::vector<CameraColor>(1));
+  }
+}
+
+void HullPainter::Draw(const Scene& scene, const ViewMatrices& matrices, const Lighting& light) {
+  UploadSurface(scene);
   picture_program_.Use();
   picture_program_.Set("layer_normal", kNormalUnit);
   picture_program_.Set("focal_px", static_cast<float>(matrices.view.focal_px));
   picture_program_.Set("cam_from_world", matrices.cam_from_world);
-  picture_program_.Set("up_in_cam", matrices.up_in_cam);
-  picture_program_.Set("color", color);
+  picture_program_.Set("color", scene.hull_color);
+  picture_program_.Set("is_flat", scene.hull_appearance == HullAppearance::kFlat ? 1 : 0);
+  picture_program_.Set("has_camera_color", ShowsCameraColor(scene) ? 1 : 0);
+  picture_program_.Set("layer_camera_color", kCameraColorUnit);
+  light.Apply(picture_program_, matrices);
   glEnable(GL_SAMPLE_ALPHA_TO_COVERAGE);
-  DrawWith(picture_program_, layer, matrices.view);
+  DrawWith(picture_program_, *scene.hull, matrices.view);
   glDisable(GL_SAMPLE_ALPHA_TO_COVERAGE);
 }
 
@@ -194,6 +236,7 @@ void HullPainter::DrawWith(const ShaderProgram& program, const HullLayer& layer,
   depth_.Upload(layer.width_px, layer.height_px, layer.depth_mm);
   depth_.BindTo(kDepthUnit);
   normal_.BindTo(kNormalUnit);
+  camera_color_.BindTo(kCameraColorUnit);
   program.Set("layer_depth", kDepthUnit);
   program.Set("view_size",
               Eigen::Vector2f(static_cast<float>(view.width_px), static_cast<float>(view.height_px)));

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "recon/gl/lighting.h"
 #include "recon/gl/scene.h"
 #include "recon/gl/shader_program.h"
 #include "recon/gl/texture.h"
@@ -18,18 +19,21 @@ class HullPainter {
  public:
   HullPainter();
 
-  void Draw(const HullLayer& layer, const Eigen::Vector3f& color, const ViewMatrices& matrices);
+  // The layer's camera colours show where the appearance asks for them.
+  void Draw(const Scene& scene, const ViewMatrices& matrices, const Lighting& light);
 
   // The depth of the layer's nearest texel as it is.
   void DrawDepth(const HullLayer& layer, const ViewMatrices& matrices);
 
  private:
+  void UploadSurface(const Scene& scene);
   void DrawWith(const ShaderProgram& program, const HullLayer& layer, const SceneView& view);
 
   ShaderProgram picture_program_;
   ShaderProgram depth_program_;
   FloatTexture depth_{1};
   FloatTexture normal_{3};
+  ByteTexture camera_color_;
   VertexArray corners_{};
 };
 

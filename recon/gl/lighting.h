@@ -1,21 +1,62 @@
-// The light that parts and hull share, as shader source.
+// The light that parts, hull and table share, with its shadows. For the .cc files of this folder: it includes
+// OpenGL.
 #pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "recon/gl/part_painter.h"
+#include "recon/gl/scene.h"
+#include "recon/gl/scene_renderer.h"
+#include "recon/gl/shader_program.h"
+#include "recon/gl/shadow_map.h"
+#include "recon/gl/view_matrices.h"
 
 namespace elbowroom::recon::gl {
 
-// vec3 Lit(vec3 color, vec3 normal, vec3 to_eye, vec3 up, float gloss): Blinn-Phong on both sides of a
-// surface, lit by the sky, by a light over the viewer's left shoulder and a little by the viewer. All in
-// camera axes.
-inline constexpr const char* kLightingSource = R"(
-vec3 Lit(vec3 color, vec3 normal, vec3 to_eye, vec3 up, float gloss) {
-  vec3 n = dot(normal, to_eye) < 0.0 ? -normal : normal;
-  vec3 to_light = normalize(vec3(-0.45, -0.75, -0.85));
-  vec3 ambient = mix(vec3(0.42, 0.40, 0.39), vec3(0.56, 0.58, 0.60), 0.5 + 0.5 * dot(n, up));
-  float key = max(dot(n, to_light), 0.0);
-  float head = max(dot(n, to_eye), 0.0);
-  float highlight = pow(max(dot(n, normalize(to_light + to_eye)), 0.0), 40.0);
-  return color * (ambient + 0.36 * key + 0.14 * head) + gloss * highlight;
-}
-)";
+// Keeps the shadows of parts and of the hull apart: each is renewed only when it changed, and a hull with the
+// colours of camera pictures, which show its own shadows already, takes those of the parts alone.
+class Lighting {
+ public:
+  Lighting();
+
+  // Before the picture's target is bound: leaves another one behind. The parts' meshes must be uploaded.
+  // Throws: Error{kGraphics} when the driver can't hold a shadow's texture.
+  void Update(const Scene& scene, PartPainter& parts);
+
+  // Sets what kLightingSource declares; the program must be in use.
+  void Apply(const ShaderProgram& program, const ViewMatrices& matrices) const;
+
+  [[nodiscard]] const ShadowCount& count() const { return count_; }
+
+ private:
+  struct Caster {
+    std::weak_ptr<const core::TriangleMesh> mesh;
+    core::RigidTransform world_from_part;
+  };
+  void UpdatePartShadow(const Scene& scene, PartPainter& parts);
+  void UpdateHullShadow(const Scene& scene);
+  [[nodiscard]] bool CastersAre(const std::vector<Caster>& now) const;
+
+  SceneLamp lamp_;  // that the maps were made with
+  bool has_part_shadow_ = false;
+  std::vector<Caster> casters_;
+  std::weak_ptr<const HullLayer> hull_from_lamp_;
+  bool has_hull_shadow_ = false;
+  Eigen::AlignedBox2f part_bounds_;  // of what throws the shadow, in shares of its map
+  Eigen::AlignedBox2f hull_bounds_;
+  ShadowMap part_shadow_;
+  ShadowMap hull_shadow_;
+  ShadowCount count_;
+};
+
+// Fragment shader source; all in camera axes.
+//   float PartLight(vec3 x, vec3 normal), float HullLight(vec3 x, vec3 normal, float slack_mm): share of the
+//     lamp's light that parts, and the hull, let through to x on a surface with that normal; a caster nearer
+//     to it than the slack doesn't count.
+//   vec3 Lit(vec3 color, vec3 x, vec3 normal, float gloss, float light): Blinn-Phong on both sides of a
+//     surface, lit by the sky, by the lamp with that share of its light, and a little by the viewer.
+extern const char* const kLightingSource;
 
 }  // namespace elbowroom::recon::gl

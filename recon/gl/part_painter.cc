@@ -25,6 +25,7 @@ uniform mat4 cam_from_part;
 uniform mat4 clip_from_cam;
 out vec3 position_in_cam;
 out vec3 normal_in_cam;
+invariant gl_Position;  // depths drawn by another program are met exactly
 void main() {
   vec4 x_in_cam = cam_from_part * vec4(position, 1.0);
   position_in_cam = x_in_cam.xyz;
@@ -33,16 +34,25 @@ void main() {
 }
 )";
 
+constexpr const char* kDepthFragmentSource = R"(
+void main() {}
+)";
+
 constexpr const char* kFaceFragmentSource = R"(
 in vec3 position_in_cam;
 in vec3 normal_in_cam;
-uniform vec3 up_in_cam;
 uniform vec3 color;
 uniform float opacity;
 uniform float glow;  // share of the color that needs no light
 out vec4 pixel;
 void main() {
-  vec3 lit = Lit(color, normalize(normal_in_cam), normalize(-position_in_cam), up_in_cam, 0.10);
+  vec3 normal = normalize(normal_in_cam);
+  float light = 0.0;
+  bool is_turned_to_lamp = dot(normal, lamp_in_cam - position_in_cam) * dot(normal, -position_in_cam) > 0.0;
+  for (int i = is_turned_to_lamp ? 0 : 1; i < 1; ++i) {
+    light = PartLight(position_in_cam, normal) * HullLight(position_in_cam, normal, 0.3);
+  }
+  vec3 lit = Lit(color, position_in_cam, normal, 0.10, light);
   pixel = vec4(mix(lit, color, glow), opacity);
 }
 )";
@@ -70,6 +80,23 @@ Eigen::Vector3f ShownColour(const ScenePart& part) {
                          : part.color;
 }
 
+// A box around the box's picture, in shares of the view's sides from its upper left; where some of the box is
+// behind the camera, all of the picture.
+Eigen::AlignedBox2f PictureBounds(const Eigen::AlignedBox3d& box_in_part,
+                                  const core::RigidTransform& cam_from_part, const SceneView& view) {
+  const Eigen::AlignedBox2f picture(Eigen::Vector2f::Zero(), Eigen::Vector2f::Ones());
+  const Eigen::Array2d focal_shares(view.focal_px / view.width_px, view.focal_px / view.height_px);
+  Eigen::AlignedBox2f bounds;
+  for (int i = 0; i < 8; ++i) {
+    const Eigen::Vector3d corner =
+        cam_from_part * box_in_part.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i));
+    if (corner.z() <= 0.0) return picture;
+    const Eigen::Array2d place = 0.5 + focal_shares * corner.head<2>().array() / corner.z();
+    bounds.extend(Eigen::Vector2f(place.cast<float>().matrix()));
+  }
+  return bounds.intersection(picture);
+}
+
 Eigen::Matrix4f CamFromPart(const ScenePart& part, const ViewMatrices& matrices) {
   return ToMatrix4f(matrices.view.cam_from_world * part.world_from_part);
 }
@@ -84,7 +111,8 @@ bool PartPainter::MeshKey::operator<(const MeshKey& other) const {
 
 PartPainter::PartPainter()
     : face_program_("part", kFaceVertexSource, std::string(kLightingSource) + kFaceFragmentSource),
-      edge_program_("part edge", kEdgeVertexSource, kEdgeFragmentSource) {}
+      edge_program_("part edge", kEdgeVertexSource, kEdgeFragmentSource),
+      depth_program_("part depth", kFaceVertexSource, kDepthFragmentSource) {}
 
 void PartPainter::Update(std::span<const ScenePart> parts) {
   std::erase_if(meshes_, [](const auto& entry) { return entry.first.owner.expired(); });
@@ -96,6 +124,7 @@ void PartPainter::Update(std::span<const ScenePart> parts) {
     UploadedMesh& uploaded = meshes_[key];
     uploaded.faces.Upload(surface.corners, Refill::kOnce);
     uploaded.edges.Upload(surface.feature_edges, Refill::kOnce);
+    uploaded.bounds_in_part = core::BoundsOf(*part.mesh);
     ++mesh_uploads_;
   }
 }
@@ -108,10 +137,16 @@ void PartPainter::DrawFaces(const ScenePart& part, const ViewMatrices& matrices)
   face_program_.Use();
   face_program_.Set("clip_from_cam", matrices.clip_from_cam);
   face_program_.Set("cam_from_part", CamFromPart(part, matrices));
-  face_program_.Set("up_in_cam", matrices.up_in_cam);
   face_program_.Set("color", ShownColour(part));
   face_program_.Set("opacity", part.opacity);
   face_program_.Set("glow", part.in_contact ? kContactGlow : 0.0F);
+  Uploaded(part.mesh).faces.Draw(GL_TRIANGLES);
+}
+
+void PartPainter::DrawFaceDepth(const ScenePart& part, const ViewMatrices& matrices) {
+  depth_program_.Use();
+  depth_program_.Set("clip_from_cam", matrices.clip_from_cam);
+  depth_program_.Set("cam_from_part", CamFromPart(part, matrices));
   Uploaded(part.mesh).faces.Draw(GL_TRIANGLES);
 }
 
@@ -128,7 +163,10 @@ void PartPainter::DrawEdges(const ScenePart& part, const ViewMatrices& matrices,
   glDisable(GL_BLEND);
 }
 
-void PartPainter::DrawOpaque(std::span<const ScenePart> parts, const ViewMatrices& matrices) {
+void PartPainter::DrawOpaque(std::span<const ScenePart> parts, const ViewMatrices& matrices,
+                             const Lighting& light) {
+  face_program_.Use();
+  light.Apply(face_program_, matrices);
   glEnable(GL_POLYGON_OFFSET_FILL);
   for (const ScenePart& part : parts) {
     if (part.opacity >= 1.0F) DrawFaces(part, matrices);
@@ -139,11 +177,14 @@ void PartPainter::DrawOpaque(std::span<const ScenePart> parts, const ViewMatrice
   }
 }
 
-void PartPainter::DrawTransparent(std::span<const ScenePart> parts, const ViewMatrices& matrices) {
+void PartPainter::DrawTransparent(std::span<const ScenePart> parts, const ViewMatrices& matrices,
+                                  const Lighting& light) {
+  face_program_.Use();
+  light.Apply(face_program_, matrices);
   std::vector<std::pair<double, const ScenePart*>> by_depth;
   for (const ScenePart& part : parts) {
     if (part.opacity <= 0.0F || part.opacity >= 1.0F) continue;
-    const Eigen::Vector3d center = BoundsOf(*part.mesh).center();
+    const Eigen::Vector3d center = Uploaded(part.mesh).bounds_in_part.center();
     by_depth.emplace_back((matrices.view.cam_from_world * part.world_from_part * center).z(), &part);
   }
   std::stable_sort(by_depth.begin(), by_depth.end(),
@@ -153,7 +194,7 @@ void PartPainter::DrawTransparent(std::span<const ScenePart> parts, const ViewMa
     // Depth first, so that only the nearest surface of a part is blended, whatever its triangles' order.
     glEnable(GL_POLYGON_OFFSET_FILL);
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-    DrawFaces(*part, matrices);
+    DrawFaceDepth(*part, matrices);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     glEnable(GL_BLEND);
     DrawFaces(*part, matrices);
@@ -163,9 +204,27 @@ void PartPainter::DrawTransparent(std::span<const ScenePart> parts, const ViewMa
   }
 }
 
+CasterPass PartPainter::DrawCasters(std::span<const ScenePart> parts, const ViewMatrices& lamp) {
+  CasterPass pass;
+  glEnable(GL_DEPTH_CLAMP);
+  for (const ScenePart& part : parts) {
+    if (part.opacity <= 0.0F) continue;
+    const Eigen::AlignedBox2f bounds = PictureBounds(
+        Uploaded(part.mesh).bounds_in_part, lamp.view.cam_from_world * part.world_from_part, lamp.view);
+    if (bounds.isEmpty()) {
+      ++pass.parts_outside;
+      continue;
+    }
+    DrawFaceDepth(part, lamp);
+    pass.bounds.extend(bounds);
+  }
+  glDisable(GL_DEPTH_CLAMP);
+  return pass;
+}
+
 void PartPainter::DrawDepth(std::span<const ScenePart> parts, const ViewMatrices& matrices) {
   for (const ScenePart& part : parts) {
-    if (part.opacity > 0.0F) DrawFaces(part, matrices);
+    if (part.opacity > 0.0F) DrawFaceDepth(part, matrices);
   }
 }
 

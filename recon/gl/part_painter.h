@@ -1,6 +1,7 @@
 // Draws the virtual parts. For the .cc files of this folder: it includes OpenGL.
 #pragma once
 
+#include <Eigen/Geometry>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -13,6 +14,14 @@
 
 namespace elbowroom::recon::gl {
 
+class Lighting;
+
+// What a lamp saw of the parts.
+struct CasterPass {
+  Eigen::AlignedBox2f bounds;      // around all of them, in shares of the lamp's picture; empty: none
+  std::int64_t parts_outside = 0;  // left out: nowhere in the picture
+};
+
 // Keeps each mesh on the graphics card for as long as somebody else keeps the mesh.
 class PartPainter {
  public:
@@ -22,10 +31,14 @@ class PartPainter {
   // Throws: Error{kGeometry} for a mesh that can't be drawn (see core::ValidateMesh).
   void Update(std::span<const ScenePart> parts);
 
-  void DrawOpaque(std::span<const ScenePart> parts, const ViewMatrices& matrices);
+  void DrawOpaque(std::span<const ScenePart> parts, const ViewMatrices& matrices, const Lighting& light);
 
   // Back to front. What is drawn later and stands behind a part is hidden.
-  void DrawTransparent(std::span<const ScenePart> parts, const ViewMatrices& matrices);
+  void DrawTransparent(std::span<const ScenePart> parts, const ViewMatrices& matrices, const Lighting& light);
+
+  // Depths alone, as a lamp sees them, of every part that isn't invisible; what stands before its near plane
+  // is drawn on it.
+  [[nodiscard]] CasterPass DrawCasters(std::span<const ScenePart> parts, const ViewMatrices& lamp);
 
   // Faces alone, of every part that isn't invisible.
   void DrawDepth(std::span<const ScenePart> parts, const ViewMatrices& matrices);
@@ -37,6 +50,7 @@ class PartPainter {
   struct UploadedMesh {
     VertexArray faces{3, 3};
     VertexArray edges{3};
+    Eigen::AlignedBox3d bounds_in_part;
   };
   // The address too: shared pointers to different members of one object have one owner.
   struct MeshKey {
@@ -47,10 +61,12 @@ class PartPainter {
 
   [[nodiscard]] const UploadedMesh& Uploaded(const core::SharedMesh& mesh) const;
   void DrawFaces(const ScenePart& part, const ViewMatrices& matrices);
+  void DrawFaceDepth(const ScenePart& part, const ViewMatrices& matrices);
   void DrawEdges(const ScenePart& part, const ViewMatrices& matrices, float alpha);
 
   ShaderProgram face_program_;
   ShaderProgram edge_program_;
+  ShaderProgram depth_program_;
   std::map<MeshKey, UploadedMesh> meshes_;
   std::int64_t mesh_uploads_ = 0;
 };

@@ -5,6 +5,20 @@
 #include "core/error.h"
 
 namespace elbowroom::recon::gl {
+namespace {
+
+void RequireWhole(const HullLayer& layer) {
+  core::Require(layer.width_px > 0 && layer.height_px > 0, "a hull layer has a positive size");
+  const std::size_t texels =
+      static_cast<std::size_t>(layer.width_px) * static_cast<std::size_t>(layer.height_px);
+  core::Require(layer.depth_mm.size() == texels, "a hull layer has a depth for each texel");
+  core::Require(layer.normal_in_world.empty() || layer.normal_in_world.size() == texels,
+                "a hull layer has a normal for each texel, or none");
+  core::Require(layer.camera_color.empty() || layer.camera_color.size() == texels,
+                "a hull layer has a camera colour for each texel, or none");
+}
+
+}  // namespace
 
 std::optional<CameraFrustum> FrustumOf(const core::CameraModel& camera, double depth_mm) {
   const double right = camera.width_px() - 0.5;
@@ -30,13 +44,12 @@ void Scene::Validate() const {
     core::Require(part.mesh != nullptr, "a part to draw has a mesh");
     core::Require(part.opacity >= 0.0F && part.opacity <= 1.0F, "a part's opacity lies within [0, 1]");
   }
-  if (hull == nullptr) return;
-  core::Require(hull->width_px > 0 && hull->height_px > 0, "a hull layer has a positive size");
-  const std::size_t texels =
-      static_cast<std::size_t>(hull->width_px) * static_cast<std::size_t>(hull->height_px);
-  core::Require(hull->depth_mm.size() == texels, "a hull layer has a depth for each texel");
-  core::Require(hull->normal_in_world.empty() || hull->normal_in_world.size() == texels,
-                "a hull layer has a normal for each texel, or none");
+  lamp.Validate();
+  if (hull != nullptr) RequireWhole(*hull);
+  if (hull_from_lamp == nullptr) return;
+  RequireWhole(*hull_from_lamp);
+  core::Require(hull_from_lamp->width_px == hull_from_lamp->height_px,
+                "a hull layer from the lamp is square");
 }
 
 }  // namespace elbowroom::recon::gl

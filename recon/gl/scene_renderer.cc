@@ -12,6 +12,7 @@
 #include "recon/gl/framebuffer.h"
 #include "recon/gl/gl_error.h"
 #include "recon/gl/hull_painter.h"
+#include "recon/gl/lighting.h"
 #include "recon/gl/part_painter.h"
 #include "recon/gl/surroundings_painter.h"
 #include "recon/gl/view_matrices.h"
@@ -42,6 +43,7 @@ class SceneRenderer::Impl {
 
   [[nodiscard]] const std::string& driver() const { return driver_; }
   [[nodiscard]] const PartPainter& parts() const { return parts_; }
+  [[nodiscard]] const Lighting& lighting() const { return lighting_; }
   [[nodiscard]] std::thread::id thread() const { return thread_; }
 
  private:
@@ -51,6 +53,7 @@ class SceneRenderer::Impl {
   std::thread::id thread_ = std::this_thread::get_id();
   std::string driver_;
   PartPainter parts_;
+  Lighting lighting_;
   HullPainter hull_;
   SurroundingsPainter surroundings_;
   ContactPainter contacts_;
@@ -70,14 +73,15 @@ Image SceneRenderer::Impl::Render(const Scene& scene) {
   const ViewMatrices matrices = MatricesOf(scene.view);
   const Targets& targets = TargetsFor(scene.view);
   parts_.Update(scene.parts);
+  lighting_.Update(scene, parts_);
   targets.sampled.Bind();
   glClear(GL_DEPTH_BUFFER_BIT);
   surroundings_.DrawBackground(scene);
-  parts_.DrawOpaque(scene.parts, matrices);
-  if (scene.hull != nullptr) hull_.Draw(*scene.hull, scene.hull_color, matrices);
-  surroundings_.DrawTable(scene, matrices);
+  parts_.DrawOpaque(scene.parts, matrices, lighting_);
+  if (scene.hull != nullptr) hull_.Draw(scene, matrices, lighting_);
+  surroundings_.DrawTable(scene, matrices, lighting_);
   surroundings_.DrawLines(scene, matrices);
-  parts_.DrawTransparent(scene.parts, matrices);
+  parts_.DrawTransparent(scene.parts, matrices, lighting_);
   contacts_.Draw(scene.contact_points_in_world, matrices);
   targets.single.ResolveColourFrom(targets.sampled);
   targets.single.BindForReading();
@@ -145,5 +149,6 @@ DepthImage SceneRenderer::RenderDepth(const Scene& scene) {
 const std::string& SceneRenderer::driver() const { return OnOwnThread().driver(); }
 std::size_t SceneRenderer::cached_meshes() const { return OnOwnThread().parts().cached_meshes(); }
 std::int64_t SceneRenderer::mesh_uploads() const { return OnOwnThread().parts().mesh_uploads(); }
+ShadowCount SceneRenderer::shadow_count() const { return OnOwnThread().lighting().count(); }
 
 }  // namespace elbowroom::recon::gl

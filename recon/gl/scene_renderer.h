@@ -18,6 +18,15 @@ struct DepthImage {
   std::vector<float> depth_mm;  // row-major, along the camera's z axis; 0: nothing there
 };
 
+// What of the shadows was drawn anew, and what the last picture's still held for.
+struct ShadowCount {
+  std::int64_t part_passes = 0;         // the parts were drawn from the lamp
+  std::int64_t kept_part_passes = 0;    // same lamp, same parts at the same poses
+  std::int64_t hull_uploads = 0;        // the hull's layer from the lamp went to the graphics card
+  std::int64_t kept_hull_uploads = 0;   // same lamp, same layer
+  std::int64_t parts_outside_lamp = 0;  // left out of a pass: nowhere in the lamp's cone
+};
+
 // Owns an OpenGL context and all that lives in it; a mesh stays on the graphics card until the last owner of
 // its SharedMesh lets go of it. Move-only.
 // Thread: every call, the destructor too, on the thread that made it. Several may live in a process.
@@ -43,6 +52,7 @@ class SceneRenderer {
 
   [[nodiscard]] std::size_t cached_meshes() const;
   [[nodiscard]] std::int64_t mesh_uploads() const;  // since the start
+  [[nodiscard]] ShadowCount shadow_count() const;   // since the start
 
  private:
   class Impl;

@@ -1,6 +1,7 @@
 #include "recon/gl/surroundings_painter.h"
 
 #include <array>
+#include <string>
 #include <vector>
 
 namespace elbowroom::recon::gl {
@@ -28,15 +29,18 @@ uniform vec4 extent;  // x0 y0 x1 y1 on z = 0
 uniform mat4 cam_from_world;
 uniform mat4 clip_from_cam;
 out vec2 place;
+out vec3 place_in_cam;
 void main() {
   place = vec2((gl_VertexID & 1) == 0 ? extent.x : extent.z, (gl_VertexID & 2) == 0 ? extent.y : extent.w);
-  gl_Position = clip_from_cam * (cam_from_world * vec4(place, 0.0, 1.0));
+  place_in_cam = (cam_from_world * vec4(place, 0.0, 1.0)).xyz;
+  gl_Position = clip_from_cam * vec4(place_in_cam, 1.0);
 }
 )";
 
 // Each fifth line is stronger; lines closer together than two pixels fade out.
 constexpr const char* kTableFragmentSource = R"(
 in vec2 place;
+in vec3 place_in_cam;
 uniform vec4 extent;
 uniform float grid;
 uniform float opacity;
@@ -57,7 +61,8 @@ void main() {
   vec3 color = mix(vec3(0.845, 0.850, 0.855), vec3(0.745, 0.755, 0.770), minor);
   color = mix(color, vec3(0.60, 0.62, 0.65), major);
   color = mix(color, vec3(0.45, 0.47, 0.50), rim);
-  pixel = vec4(color, opacity);
+  float light = PartLight(place_in_cam, up_in_cam) * HullLight(place_in_cam, up_in_cam, 0.3);
+  pixel = vec4(color * mix(kUnlit, 1.0, light), opacity);
 }
 )";
 
@@ -108,7 +113,7 @@ void AppendFrustum(std::vector<float>& floats, const CameraFrustum& frustum, con
 
 SurroundingsPainter::SurroundingsPainter()
     : background_program_("background", kBackgroundVertexSource, kBackgroundFragmentSource),
-      table_program_("table", kTableVertexSource, kTableFragmentSource),
+      table_program_("table", kTableVertexSource, std::string(kLightingSource) + kTableFragmentSource),
       line_program_("line", kLineVertexSource, kLineFragmentSource) {}
 
 void SurroundingsPainter::DrawBackground(const Scene& scene) const {
@@ -120,7 +125,8 @@ void SurroundingsPainter::DrawBackground(const Scene& scene) const {
   glEnable(GL_DEPTH_TEST);
 }
 
-void SurroundingsPainter::DrawTable(const Scene& scene, const ViewMatrices& matrices) const {
+void SurroundingsPainter::DrawTable(const Scene& scene, const ViewMatrices& matrices,
+                                    const Lighting& light) const {
   if (!scene.table_in_world || scene.table_in_world->isEmpty()) return;
   const Eigen::Vector2f low = scene.table_in_world->min().cast<float>();
   const Eigen::Vector2f high = scene.table_in_world->max().cast<float>();
@@ -128,6 +134,7 @@ void SurroundingsPainter::DrawTable(const Scene& scene, const ViewMatrices& matr
   table_program_.Set("extent", Eigen::Vector4f(low.x(), low.y(), high.x(), high.y()));
   table_program_.Set("cam_from_world", matrices.cam_from_world);
   table_program_.Set("clip_from_cam", matrices.clip_from_cam);
+  light.Apply(table_program_, matrices);
   table_program_.Set("grid", static_cast<float>(scene.table_grid_mm));
   table_program_.Set("opacity", scene.view.EyeInWorld().z() >= 0.0 ? 0.9F : 0.25F);
   glEnable(GL_BLEND);

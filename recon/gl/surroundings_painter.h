@@ -2,6 +2,7 @@
 // folder: it includes OpenGL.
 #pragma once
 
+#include "recon/gl/lighting.h"
 #include "recon/gl/scene.h"
 #include "recon/gl/shader_program.h"
 #include "recon/gl/vertex_array.h"
@@ -16,8 +17,8 @@ class SurroundingsPainter {
   // Over everything; leaves the depth as it is.
   void DrawBackground(const Scene& scene) const;
 
-  // The grid on z = 0, seen through faintly from below. After all that is opaque.
-  void DrawTable(const Scene& scene, const ViewMatrices& matrices) const;
+  // The grid on z = 0 with the shadows on it, seen through faintly from below. After all that is opaque.
+  void DrawTable(const Scene& scene, const ViewMatrices& matrices, const Lighting& light) const;
 
   // The workspace's edges and the cameras' pyramids.
   void DrawLines(const Scene& scene, const ViewMatrices& matrices);

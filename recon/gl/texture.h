@@ -1,11 +1,22 @@
-// An image of floats on the graphics card. For the .cc files of this folder: it includes OpenGL.
+// Images on the graphics card. For the .cc files of this folder: it includes OpenGL.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <span>
 
 #include "recon/gl/gl_name.h"
 
 namespace elbowroom::recon::gl {
+
+struct TextureKind {
+  static GLuint Create() {
+    GLuint name = 0;
+    glGenTextures(1, &name);
+    return name;
+  }
+  static void Destroy(GLuint name) { glDeleteTextures(1, &name); }
+};
 
 // One or three floats a texel, read with texelFetch: no filtering, no mipmaps.
 class FloatTexture {
@@ -18,19 +29,22 @@ class FloatTexture {
   void BindTo(int unit) const;
 
  private:
-  struct Kind {
-    static GLuint Create() {
-      GLuint name = 0;
-      glGenTextures(1, &name);
-      return name;
-    }
-    static void Destroy(GLuint name) { glDeleteTextures(1, &name); }
-  };
-
-  GlName<Kind> texture_;
+  GlName<TextureKind> texture_;
   int channels_;
   int width_px_ = 0;
   int height_px_ = 0;
+};
+
+// Four bytes a texel, read with texelFetch as numbers in [0, 1].
+class ByteTexture {
+ public:
+  // Row-major, width_px * height_px texels. Throws: PreconditionError when the count differs.
+  void Upload(int width_px, int height_px, std::span<const std::array<std::uint8_t, 4>> texels);
+
+  void BindTo(int unit) const;
+
+ private:
+  GlName<TextureKind> texture_;
 };
 
 }  // namespace elbowroom::recon::gl

@@ -6,6 +6,7 @@
 #include <QCheckBox>
 #include <QDoubleSpinBox>
 #include <QLabel>
+#include <QMenu>
 #include <QSignalSpy>
 #include <QSlider>
 #include <QTableView>
@@ -178,6 +179,20 @@ TEST_F(ConsoleTest, KeysAndCheckBoxesReachTheRunningTrial) {
   ASSERT_NE(marked, events.end());
   EXPECT_EQ(std::get<core::ToolMarked>(marked->what).tool, "tongs");
   EXPECT_TRUE(std::get<core::ToolMarked>(marked->what).in_use);
+}
+
+TEST_F(ConsoleTest, TheHullsLookIsChosenFromAMenu) {
+  auto* button = Find<HullLookButton>("hull_look");
+  EXPECT_EQ(button->text(), "Hull: shaded");
+  QSignalSpy chosen(button, &HullLookButton::Chosen);
+  StartDemoAndWaitForFrames();
+  QSignalSpy pictures(&window_.view(), &OperatorView::PictureShown);
+  button->menu()->actions().back()->trigger();
+  EXPECT_EQ(button->text(), "Hull: camera colours");
+  ASSERT_EQ(chosen.size(), 1);
+  EXPECT_EQ(chosen.front().front().value<control::SceneLook>().hull, recon::HullAppearance::kRigCameras);
+  ASSERT_TRUE(WaitUntil([&] { return !pictures.isEmpty(); }));
+  StopAndWait();
 }
 
 TEST_F(ConsoleTest, TheMouseTurnsTheOperatorsView) {

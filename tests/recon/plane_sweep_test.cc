@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/error.h"
-#include "recon/ray_cast.h"
+#include "recon/hull_view.h"
 #include "recon/straightened_mask.h"
 #include "recon/sweep_comparison.h"
 #include "tests/recon/random_scene.h"

@@ -10,6 +10,8 @@
 namespace elbowroom::recon::gl {
 namespace {
 
+constexpr int kLampLayerPx = 512;
+
 struct Ray {
   Eigen::Vector3d origin_in_world;
   Eigen::Vector3d direction_in_world;  // z = 1 in camera axes, so that its parameter is the depth
@@ -171,6 +173,8 @@ Scene TrialScene(int width_px, int height_px) {
   scene.parts = {box, receptacle, pipe, payload, fin};
   const std::vector<Capsule> hand = Hand({55, 0, 225});
   scene.hull = CastLayer(scene.view, width_px, height_px, hand);
+  scene.lamp = LampOver({Eigen::Vector3d(-300, -300, 0), Eigen::Vector3d(400, 300, 500)});
+  scene.hull_from_lamp = CastLayer(scene.lamp.ShadowView(kLampLayerPx), kLampLayerPx, kLampLayerPx, hand);
   for (const double y : {-31.0, -26.0, -13.0, 2.0}) scene.contact_points_in_world.emplace_back(45, y, 233);
   scene.table_in_world = Eigen::AlignedBox2d(Eigen::Vector2d(-400, -350), Eigen::Vector2d(450, 350));
   scene.workspace_in_world =

@@ -134,6 +134,53 @@ TEST(SceneRenderer, LayerWithoutNormalsIsShadedFromItsDepths) {
   EXPECT_LT(sum / static_cast<double>(exact.rgb.size()), 0.5);  // grey levels on average: the same shading
 }
 
+TEST(SceneRenderer, CameraColoursShowOnTheirOwnPixelsWhereTheyAreTrusted) {
+  constexpr int kSquarePx = 10;
+  SceneRenderer renderer;
+  Scene scene = GreyScene();
+  const std::vector<Capsule> ball{{{0, 0, 0}, {5, 0, 0}, 100}};
+  HullLayer layer = *CastLayer(scene.view, 320, 240, ball);
+  const auto is_light = [](int x, int y) { return (x / kSquarePx + y / kSquarePx) % 2 == 0; };
+  for (int y = 0; y < 240; ++y) {
+    for (int x = 0; x < 320; ++x) {
+      const std::uint8_t trust = x < 160 ? 255 : 0;
+      layer.camera_color.push_back(is_light(x, y) ? CameraColor{220, 40, 200, trust}
+                                                  : CameraColor{60, 20, 100, trust});
+    }
+  }
+  const Image shaded = renderer.Render([&] {
+    Scene bare = scene;
+    bare.hull = std::make_shared<const HullLayer>(HullLayer{320, 240, layer.depth_mm, layer.normal_in_world});
+    return bare;
+  }());
+  scene.hull = std::make_shared<const HullLayer>(layer);
+  scene.hull_appearance = HullAppearance::kRigCameras;
+  const Image image = renderer.Render(scene);
+  int checked = 0;
+  for (int y = 2; y < 238; ++y) {
+    for (int x = 2; x < 318; ++x) {
+      const bool is_inside =
+          CastRay(scene.view, {x - 2, y - 2}, ball) && CastRay(scene.view, {x + 2, y + 2}, ball) &&
+          CastRay(scene.view, {x - 2, y + 2}, ball) && CastRay(scene.view, {x + 2, y - 2}, ball);
+      if (!is_inside || x == 159 || x == 160) continue;
+      const Rgb pixel = PixelAt(image, x, y);
+      if (x >= 160) {
+        EXPECT_EQ(pixel, PixelAt(shaded, x, y)) << x << ", " << y;
+        continue;
+      }
+      // Half a pixel of shift would mix a square's outermost pixels half and half.
+      EXPECT_EQ(pixel[0] > 140, is_light(x, y)) << x << ", " << y;
+      ++checked;
+    }
+  }
+  EXPECT_GT(checked, 2000);
+  scene.hull_appearance = HullAppearance::kByNormal;
+  EXPECT_EQ(renderer.Render(scene), shaded);
+  scene.hull_appearance = HullAppearance::kFlat;
+  const Image flat = renderer.Render(scene);
+  EXPECT_EQ(PixelAt(flat, 160, 120), PixelAt(flat, 140, 100));
+}
+
 TEST(SceneRenderer, SmallerLayerCoversTheSamePicture) {
   SceneRenderer renderer;
   Scene scene = GreyScene();

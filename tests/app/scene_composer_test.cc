@@ -1,0 +1,149 @@
+// Frames of the simulated trial to pictures: every look of the hull, with shadows.
+#include "app/control/scene_composer.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/control/demo_parts.h"
+#include "app/control/demo_trial.h"
+#include "app/control/frame_pipeline.h"
+#include "core/units.h"
+#include "recon/gl/scene_renderer.h"
+#include "recon/png_file.h"
+
+namespace elbowroom::control {
+namespace {
+
+using recon::HullAppearance;
+
+constexpr std::array kLooks{HullAppearance::kFlat, HullAppearance::kByNormal, HullAppearance::kOneCamera,
+                            HullAppearance::kRigCameras};
+
+// The demo's task, segmented from its pictures.
+class DemoFrames {
+ public:
+  DemoFrames()
+      : setup_(MakeDemoTrial(DemoPlay::kOnce)),
+        pipeline_(setup_.source->rig(), setup_.layout, setup_.source->ReadBackgrounds({}, {}),
+                  setup_.segmentation) {}
+
+  [[nodiscard]] SharedFrameResult At(double time_s, double gap_mm = kGapNeededMm) {
+    const auto frame = static_cast<core::FrameIndex>(std::lround(15.0 * time_s));
+    return pipeline_.Process(setup_.source->Read(frame), std::vector<double>{gap_mm});
+  }
+
+ private:
+  TrialSetup setup_;
+  FramePipeline pipeline_;
+};
+
+DemoFrames& Demo() {
+  static DemoFrames demo;
+  return demo;
+}
+
+constexpr double kPipeIsHeldS = 4.4;
+constexpr double kTongsAreInS = 11.0;
+
+recon::SceneView TrialView(int width_px, int height_px, double azimuth_deg, double elevation_deg) {
+  recon::OrbitCamera camera;
+  camera.target_in_world = {50.0, 0.0, 210.0};
+  camera.distance_mm = 1350.0;
+  camera.azimuth_rad = core::RadiansFromDegrees(azimuth_deg);
+  camera.elevation_rad = core::RadiansFromDegrees(elevation_deg);
+  return recon::ViewFrom(camera, width_px, height_px);
+}
+
+recon::Image Draw(const recon::gl::Scene& scene) {
+  static recon::gl::SceneRenderer renderer;
+  return renderer.Render(scene);
+}
+
+// Two pictures of one height, side by side.
+recon::Image Beside(const recon::Image& left, const recon::Image& right) {
+  recon::Image both{left.width_px + right.width_px, left.height_px, {}};
+  for (int y = 0; y < left.height_px; ++y) {
+    for (const recon::Image* image : {&left, &right}) {
+      const auto row = image->rgb.begin() + std::ptrdiff_t{3} * y * image->width_px;
+      both.rgb.insert(both.rgb.end(), row, row + std::ptrdiff_t{3} * image->width_px);
+    }
+  }
+  return both;
+}
+
+recon::Image Above(recon::Image top, const recon::Image& bottom) {
+  top.rgb.insert(top.rgb.end(), bottom.rgb.begin(), bottom.rgb.end());
+  top.height_px += bottom.height_px;
+  return top;
+}
+
+TEST(SceneComposer, AFrameKeepsItsPicturesWithoutCopyingThem) {
+  const TrialSetup setup = MakeDemoTrial(DemoPlay::kOnce);
+  FramePipeline pipeline(setup.source->rig(), setup.layout, setup.source->ReadBackgrounds({}, {}),
+                         setup.segmentation);
+  recon::FrameSet frames = setup.source->Read(10);
+  const std::uint8_t* bytes = frames.cameras[2].image_bgr.data;
+  const SharedFrameResult result = pipeline.Process(std::move(frames), std::vector<double>{kGapNeededMm});
+  ASSERT_NE(result->camera_frames, nullptr);
+  EXPECT_EQ(result->camera_frames->cameras[2].image_bgr.data, bytes);
+}
+
+TEST(SceneComposer, KeepingChangesNothingAndSavesTheViewsOfOneFrame) {
+  const SharedFrameResult frame = Demo().At(kPipeIsHeldS), other = Demo().At(kTongsAreInS);
+  const recon::SceneView view = TrialView(240, 180, -62.0, 14.0), turned = TrialView(240, 180, -20.0, 30.0);
+  SceneComposer kept;
+  for (const HullAppearance look : {HullAppearance::kByNormal, HullAppearance::kRigCameras}) {
+    (void)kept.Compose(*other, view);
+    (void)kept.Compose(*frame, turned, {look});
+    EXPECT_EQ(Draw(kept.Compose(*frame, view, {look})), Draw(SceneComposer().Compose(*frame, view, {look})));
+  }
+  EXPECT_NE(Draw(kept.Compose(*other, view)), Draw(kept.Compose(*frame, view)));
+  SceneComposer counted;
+  (void)counted.Compose(*frame, view);
+  EXPECT_EQ(counted.extra_hull_views(), 1);  // the lamp's
+  const auto from_lamp = counted.Compose(*frame, turned).hull_from_lamp;
+  EXPECT_EQ(counted.Compose(*frame, view).hull_from_lamp, from_lamp);
+  EXPECT_EQ(counted.extra_hull_views(), 1);
+  (void)counted.Compose(*frame, view, {HullAppearance::kOneCamera});
+  EXPECT_EQ(counted.extra_hull_views(), 2);
+  (void)counted.Compose(*frame, view, {HullAppearance::kRigCameras});
+  EXPECT_EQ(counted.extra_hull_views(), 5);  // the three cameras more
+  (void)counted.Compose(*frame, turned, {HullAppearance::kRigCameras});
+  EXPECT_EQ(counted.extra_hull_views(), 5);
+}
+
+TEST(SceneComposer, WithoutPicturesTheHullIsShaded) {
+  FrameResult bare = *Demo().At(kPipeIsHeldS);
+  bare.camera_frames.reset();
+  const recon::SceneView view = TrialView(240, 180, -62.0, 14.0);
+  EXPECT_EQ(Draw(SceneComposer().Compose(bare, view, {HullAppearance::kRigCameras})),
+            Draw(SceneComposer().Compose(bare, view, {HullAppearance::kByNormal})));
+}
+
+// With ELBOWROOM_PICTURE_DIR set it leaves the pictures there to be looked at.
+TEST(SceneComposer, EveryLookIsAPictureOfItsOwn) {
+  SceneComposer composer;
+  const SharedFrameResult frame = Demo().At(kTongsAreInS);
+  const recon::SceneView view = TrialView(640, 480, -35.0, 22.0);
+  std::vector<recon::Image> pictures;
+  for (const HullAppearance look : kLooks) {
+    pictures.push_back(Draw(composer.Compose(*frame, view, {look})));
+    for (std::size_t i = 0; i + 1 < pictures.size(); ++i) EXPECT_NE(pictures[i], pictures.back());
+  }
+  if (const char* folder = std::getenv("ELBOWROOM_PICTURE_DIR")) {
+    const std::string path = folder;
+    recon::WritePng(Above(Beside(pictures[0], pictures[1]), Beside(pictures[2], pictures[3])),
+                    path + "/hull_appearance.png");
+    recon::WritePng(Draw(composer.Compose(*frame, TrialView(960, 720, -40.0, 35.0))), path + "/shadows.png");
+  }
+}
+
+}  // namespace
+}  // namespace elbowroom::control
