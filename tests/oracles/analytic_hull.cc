@@ -11,7 +11,7 @@ namespace {
 using Eigen::Vector3d;
 using recon::BoundingSphere;
 
-constexpr double kAngleSlackRad = 1e-9;  // for the rounding of the coarse test
+constexpr double kConeSlack = 1e-9;  // for the rounding of the coarse test
 
 // Balls of one size along z that cover a cylinder with round ends (`cap_mm`: how far those reach beyond).
 std::vector<BoundingSphere> AlongAxis(const core::RigidTransform& world_from_solid, double radius_mm,
@@ -23,18 +23,6 @@ std::vector<BoundingSphere> AlongAxis(const core::RigidTransform& world_from_sol
   for (int i = 0; i < pieces; ++i)
     balls.push_back({world_from_solid * Vector3d(0.0, 0.0, (i + 0.5) * piece_mm), ball_mm});
   return balls;
-}
-
-double HalfAngle(double radius_mm, double distance_mm) {
-  return distance_mm <= radius_mm ? std::numbers::pi : std::asin(radius_mm / distance_mm);
-}
-
-// Whether some half-line from `eye` meets both balls.
-bool MayShareARay(const Vector3d& eye, const BoundingSphere& a, const BoundingSphere& b) {
-  const Vector3d to_a = a.center_in_world - eye, to_b = b.center_in_world - eye;
-  const double between = std::atan2(to_a.cross(to_b).norm(), to_a.dot(to_b));
-  return between <=
-         HalfAngle(a.radius_mm, to_a.norm()) + HalfAngle(b.radius_mm, to_b.norm()) + kAngleSlackRad;
 }
 
 }  // namespace
@@ -68,11 +56,25 @@ AnalyticHull::AnalyticHull(const Eigen::AlignedBox3d& workspace_mm, core::Unseen
     Eye eye{std::move(sight), {}, world_from_cam.translation_mm, {}};
     eye.seen_from_world = world_from_cam * eye.sight.believed.cam_from_world();
     for (const recon::Solid& solid : eye.sight.solids) {
-      const std::vector<BoundingSphere> balls = CoveringBalls(solid);
-      eye.balls.insert(eye.balls.end(), balls.begin(), balls.end());
+      for (const BoundingSphere& ball : CoveringBalls(solid))
+        eye.cones.push_back(ConeAround(eye.center_in_world, ball));
     }
     eyes_.push_back(std::move(eye));
   }
+}
+
+AnalyticHull::Cone AnalyticHull::ConeAround(const Vector3d& eye, const BoundingSphere& ball) {
+  const Vector3d to_ball = ball.center_in_world - eye;
+  const double distance_mm = to_ball.norm();
+  if (distance_mm <= ball.radius_mm) return {Vector3d::UnitZ(), std::numbers::pi, -1.0, 0.0};
+  const double sine = ball.radius_mm / distance_mm;
+  return {to_ball / distance_mm, std::asin(sine), std::sqrt(1.0 - sine * sine), sine};
+}
+
+bool AnalyticHull::MayShareARay(const Cone& a, const Cone& b) {
+  if (a.half_angle_rad + b.half_angle_rad >= std::numbers::pi) return true;
+  const double cos_sum = a.cos_half_angle * b.cos_half_angle - a.sin_half_angle * b.sin_half_angle;
+  return a.axis_in_world.dot(b.axis_in_world) >= cos_sum - kConeSlack;
 }
 
 bool AnalyticHull::Contains(const Vector3d& x_in_world) const {
@@ -102,10 +104,9 @@ bool AnalyticHull::IsEmpty(const Vector3d& a_in_world, const Vector3d& b_in_worl
   if (unseen_ == core::UnseenPolicy::kAbstain) return false;
   const double half_mm = 0.5 * (b_in_world - a_in_world).norm();
   return std::ranges::any_of(eyes_, [&](const Eye& eye) {
-    const BoundingSphere stretch{eye.seen_from_world * (0.5 * (a_in_world + b_in_world)), half_mm};
-    return std::ranges::none_of(eye.balls, [&](const BoundingSphere& ball) {
-      return MayShareARay(eye.center_in_world, stretch, ball);
-    });
+    const Vector3d middle = eye.seen_from_world * (0.5 * (a_in_world + b_in_world));
+    const Cone stretch = ConeAround(eye.center_in_world, {middle, half_mm});
+    return std::ranges::none_of(eye.cones, [&](const Cone& cone) { return MayShareARay(stretch, cone); });
   });
 }
 

@@ -39,13 +39,22 @@ class AnalyticHull {
                                                    const MarchOptions& options = {.step_mm = 0.05}) const;
 
  private:
+  // The cone from an eye around a ball; an eye inside the ball looks everywhere.
+  struct Cone {
+    Eigen::Vector3d axis_in_world = Eigen::Vector3d::UnitZ();
+    double half_angle_rad = 0.0;
+    double cos_half_angle = 1.0;
+    double sin_half_angle = 0.0;
+  };
   struct Eye {
     Sight sight;
     core::RigidTransform seen_from_world;  // from where a point is believed to where the camera sees it
     Eigen::Vector3d center_in_world;       // the true one
-    std::vector<recon::BoundingSphere> balls;
+    std::vector<Cone> cones;               // around balls that cover the solids
   };
 
+  [[nodiscard]] static Cone ConeAround(const Eigen::Vector3d& eye, const recon::BoundingSphere& ball);
+  [[nodiscard]] static bool MayShareARay(const Cone& a, const Cone& b);
   [[nodiscard]] static std::vector<Sight> SightsOf(const core::Rig& rig,
                                                    std::span<const recon::Solid> solids);
   [[nodiscard]] bool IsEmpty(const Eigen::Vector3d& a_in_world, const Eigen::Vector3d& b_in_world) const;

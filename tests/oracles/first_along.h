@@ -44,7 +44,7 @@ struct MarchOptions {
 template <std::predicate<long double> Contains, std::predicate<long double, long double> IsEmpty>
 [[nodiscard]] std::optional<double> FirstAlong(long double begin, long double end, double step_mm,
                                                const Contains& contains, const IsEmpty& is_empty) {
-  constexpr std::int64_t kAskEach = 4;  // steps, below which stretches aren't halved any more
+  constexpr std::int64_t kAskEach = 12;  // steps, below which stretches aren't halved any more
   constexpr int kBisections = 48;
   const auto at = [&](std::int64_t i) {
     return std::min(begin + static_cast<long double>(i) * step_mm, end);
