@@ -38,12 +38,13 @@ DepthMap DisturbedView(const BudgetScene& scene, const Disturbance& disturbance,
   return PictureOfHull(scene, hull, stride);
 }
 
-DepthMap MaskView(const BudgetScene& scene, BoundaryConvention convention, int stride) {
+// `footprint_px` as oracles::CoverageMask has it.
+DepthMap MaskView(const BudgetScene& scene, BoundaryConvention convention, double footprint_px, int stride) {
   std::vector<core::SoftMask> masks;
   for (const core::CameraModel& camera : scene.rig.cameras) {
     masks.push_back(convention == BoundaryConvention::kPixelSquares
                         ? core::SoftMask{oracles::CenterMask(camera, scene.solids), {}}
-                        : oracles::CoverageMask(camera, scene.solids));
+                        : oracles::CoverageMask(camera, scene.solids, footprint_px));
   }
   const oracles::MaskHullOracle oracle(scene.rig, masks, convention);
   return PictureOf(
@@ -110,11 +111,15 @@ std::vector<BudgetTerm> ShapeTerms() {
            }},
           {"pixel footprint", "5.8 x 2.5 mm at 3.3 m (Accuracy)", Convention::kSquares, false, false, 2.2,
            [](const BudgetScene& scene, std::uint64_t, int stride) {
-             return MaskView(scene, BoundaryConvention::kPixelSquares, stride);
+             return MaskView(scene, BoundaryConvention::kPixelSquares, 1.0, stride);
            }},
           {"sub-pixel boundary", "", Convention::kMarching, false, false, 0.8,
            [](const BudgetScene& scene, std::uint64_t, int stride) {
-             return MaskView(scene, BoundaryConvention::kMarchingSquares, stride);
+             return MaskView(scene, BoundaryConvention::kMarchingSquares, 1.0, stride);
+           }},
+          {"sub-pixel boundary, lens blurs by a pixel", "", Convention::kMarching, false, false, 0.6,
+           [](const BudgetScene& scene, std::uint64_t, int stride) {
+             return MaskView(scene, BoundaryConvention::kMarchingSquares, 2.0, stride);
            }}};
 }
 
