@@ -11,7 +11,8 @@ namespace elbowroom::reporting {
 
 void RunGnuplot(const std::filesystem::path& script, const std::string& program) {
   constexpr int kNotFound = 127;  // as env has it
-  const auto run = test_support::RunProgram("/usr/bin/env", {program, script.string()});
+  const auto run = test_support::RunProgram("/usr/bin/env", {program, script.filename().string()},
+                                            {.working_folder = script.parent_path()});
   if (run.exit_status == 0) return;
   if (run.exit_status == kNotFound) {
     throw core::Error(

@@ -24,8 +24,9 @@ struct ParetoPicture {
   std::vector<ParetoPoint> points;
 };
 
-// Writes stem.svg and stem.png, logarithmic axes, dominated points grey; errors below 1e-5 mm stand at 1e-5.
-// Throws: core::Error as RunGnuplot; PreconditionError without points or with a time that isn't positive.
+// Writes stem.svg, stem.png and the script with the data, stem.gnuplot: logarithmic axes, dominated points
+// grey; errors below 1e-5 mm stand at 1e-5. Throws: core::Error as RunGnuplot; PreconditionError without
+// points or with a time that isn't positive.
 void DrawPareto(const ParetoPicture& picture, const std::filesystem::path& stem);
 
 }  // namespace elbowroom::reporting

@@ -95,6 +95,18 @@ TEST(RunGnuplot, SaysInOneLineWhatToInstall) {
       "'gnuplot-that-is-not-there' isn't installed, so there is no picture; install the package gnuplot-nox");
 }
 
+TEST(DrawPareto, DrawsBothPicturesAndNamesNoFolder) {
+  const test_support::TemporaryFolder folder;
+  DrawPareto({"title", "ms", "mm", {{"a", "one", 1.0, 0.5}, {"a", "two", 2.0, 0.0}, {"b", "one", 9.0, 9.0}}},
+             folder / "views");
+  EXPECT_TRUE(test_support::ReadText(folder / "views.png").starts_with("\x89PNG"));
+  const std::string svg = test_support::ReadText(folder / "views.svg");
+  EXPECT_NE(svg.find("two"), std::string::npos);
+  EXPECT_NE(svg.find("#b8b8b8"), std::string::npos) << "the dominated point is grey";
+  EXPECT_EQ(test_support::ReadText(folder / "views.gnuplot").find(folder.path().string()), std::string::npos);
+  EXPECT_THROW(DrawPareto({"t", "x", "y", {}}, folder / "none"), core::PreconditionError);
+}
+
 TEST(DominatedOf, IsWhatAnotherBeatsInBoth) {
   const std::vector<ParetoPoint> points = {{"a", "1", 1.0, 1.0},
                                            {"a", "2", 2.0, 0.5},
