@@ -81,7 +81,7 @@ void DrawPareto(const ParetoPicture& picture, const std::filesystem::path& stem)
   script += fmt::format(
       "set logscale xy\nset grid lc rgb '#cccccc'\nset border 3\nset tics nomirror\nset key bottom left Left "
       "reverse\n"
-      "set title '{}'\nset xlabel '{}'\nset ylabel '{}'\nset format xy '%g'\nset offsets graph 0.02, graph "
+      "set title '{}'\nset xlabel '{}'\nset ylabel '{}'\nset format xy '%g'\nset offsets graph 0.08, graph "
       "0.22, graph 0.1, graph 0.1\n",
       picture.title, picture.time_label, picture.error_label);
   // Names without a folder: the script runs beside them.

@@ -102,7 +102,7 @@ TEST(DrawPareto, DrawsBothPicturesAndNamesNoFolder) {
   EXPECT_TRUE(test_support::ReadText(folder / "views.png").starts_with("\x89PNG"));
   const std::string svg = test_support::ReadText(folder / "views.svg");
   EXPECT_NE(svg.find("two"), std::string::npos);
-  EXPECT_NE(svg.find("#b8b8b8"), std::string::npos) << "the dominated point is grey";
+  EXPECT_NE(svg.find("rgb(184, 184, 184)"), std::string::npos) << "the dominated point is grey";
   EXPECT_EQ(test_support::ReadText(folder / "views.gnuplot").find(folder.path().string()), std::string::npos);
   EXPECT_THROW(DrawPareto({"t", "x", "y", {}}, folder / "none"), core::PreconditionError);
 }
