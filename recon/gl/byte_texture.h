@@ -5,6 +5,7 @@
 #include <span>
 
 #include "recon/gl/gl_name.h"
+#include "recon/gl/texture.h"
 
 namespace elbowroom::recon::gl {
 
@@ -17,16 +18,7 @@ class ByteTexture {
   void BindTo(int unit) const;
 
  private:
-  struct Kind {
-    static GLuint Create() {
-      GLuint name = 0;
-      glGenTextures(1, &name);
-      return name;
-    }
-    static void Destroy(GLuint name) { glDeleteTextures(1, &name); }
-  };
-
-  GlName<Kind> texture_;
+  GlName<TextureKind> texture_;
 };
 
 }  // namespace elbowroom::recon::gl

@@ -33,7 +33,7 @@ class HullPainter {
   ShaderProgram depth_program_;
   FloatTexture depth_{1};
   FloatTexture normal_{3};
-  ByteTexture camera_color_;
+  ColorTexture camera_color_;
   VertexArray corners_{};
 };
 

@@ -41,7 +41,7 @@ void FloatTexture::BindTo(int unit) const {
   glBindTexture(GL_TEXTURE_2D, texture_.get());
 }
 
-void ByteTexture::Upload(int width_px, int height_px, std::span<const std::array<std::uint8_t, 4>> texels) {
+void ColorTexture::Upload(int width_px, int height_px, std::span<const std::array<std::uint8_t, 4>> texels) {
   core::Require(width_px > 0 && height_px > 0 &&
                     texels.size() == static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px),
                 "a texture's texels match its size");
@@ -51,7 +51,7 @@ void ByteTexture::Upload(int width_px, int height_px, std::span<const std::array
   ReadTexelsAlone();
 }
 
-void ByteTexture::BindTo(int unit) const {
+void ColorTexture::BindTo(int unit) const {
   glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
   glBindTexture(GL_TEXTURE_2D, texture_.get());
 }

@@ -36,7 +36,7 @@ class FloatTexture {
 };
 
 // Four bytes a texel, read with texelFetch as numbers in [0, 1].
-class ByteTexture {
+class ColorTexture {
  public:
   // Row-major, width_px * height_px texels. Throws: PreconditionError when the count differs.
   void Upload(int width_px, int height_px, std::span<const std::array<std::uint8_t, 4>> texels);

@@ -1,21 +1,30 @@
 // What a view by the paper's plane sweep costs, masks in memory to depths in memory: 640 x 480, the demo's
-// hand in about 6 % of it, 50 planes. Arguments: cameras, and threads on the CPU.
+// hand in about 6 % of it, 50 planes. The CPU's argument is the number of threads.
 #include <benchmark/benchmark.h>
 #include <tbb/global_control.h>
 
 #include "recon/gl/plane_sweep_gl.h"
 #include "recon/plane_sweep.h"
-#include "tests/benchmarks/hand_scene.h"
+#include "recon/synthetic/view_scene.h"
 
 namespace elbowroom::benchmarks {
 namespace {
 
-// 50 planes at the paper's 15 mm, around the hand.
-recon::PlaneSweepOptions FiftyPlanes() {
-  recon::PlaneSweepOptions options;
-  options.near_mm = 780.0;
-  options.far_mm = options.near_mm + 49.0 * options.spacing_mm;
-  return options;
+using recon::ViewSceneRig;
+
+struct SweepScene {
+  recon::ViewScene scene;
+  std::vector<core::SoftMask> masks;
+  recon::SweepRays rays;
+};
+
+SweepScene SceneOf(ViewSceneRig rig) {
+  recon::ViewScene scene = recon::MakeViewScene(rig);
+  std::vector<core::SoftMask> masks;
+  for (core::BitMask& mask : recon::TrueMasks(scene.rig, scene.objects))
+    masks.push_back({std::move(mask), {}});
+  recon::SweepRays rays(scene.view);
+  return {std::move(scene), std::move(masks), std::move(rays)};
 }
 
 void Report(benchmark::State& state, const recon::SweptView& swept) {
@@ -24,59 +33,60 @@ void Report(benchmark::State& state, const recon::SweptView& swept) {
   state.counters["tested_points"] = static_cast<double>(swept.stats.tested_points);
 }
 
-void SweepOnCpu(benchmark::State& state, int grid) {
-  const HandScene scene = MakeHandScene(static_cast<int>(state.range(0)));
+void SweepOnCpu(benchmark::State& state, ViewSceneRig rig, int grid) {
+  const auto [scene, masks, rays] = SceneOf(rig);
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
-                                  static_cast<std::size_t>(state.range(1)));
-  const recon::SweepRays rays(scene.view);
-  recon::PlaneSweepOptions options = FiftyPlanes();
+                                  static_cast<std::size_t>(state.range(0)));
+  recon::PlaneSweepOptions options = recon::FiftyPlanes();
   options.undistortion_grid = grid;
   recon::SweptView swept;
   for (auto _ : state) {
-    swept = recon::SweepPlanes(scene.rig, scene.masks, scene.view, rays, options);
+    swept = recon::SweepPlanes(scene.rig, masks, scene.view, rays, options);
     benchmark::DoNotOptimize(swept);
   }
   Report(state, swept);
 }
 
-void SweepOnGl(benchmark::State& state, recon::gl::SweepPasses passes, int grid) {
-  const HandScene scene = MakeHandScene(static_cast<int>(state.range(0)));
-  const recon::SweepRays rays(scene.view);
-  recon::PlaneSweepOptions options = FiftyPlanes();
+void SweepOnGl(benchmark::State& state, ViewSceneRig rig, recon::gl::SweepPasses passes, int grid) {
+  const auto [scene, masks, rays] = SceneOf(rig);
+  recon::PlaneSweepOptions options = recon::FiftyPlanes();
   options.undistortion_grid = grid;
   recon::gl::PlaneSweepGl sweep;
   // The first sweep compiles the shaders.
-  recon::SweptView swept = sweep.Sweep(scene.rig, scene.masks, scene.view, rays, options, passes);
+  recon::SweptView swept = sweep.Sweep(scene.rig, masks, scene.view, rays, options, passes);
   for (auto _ : state) {
-    swept = sweep.Sweep(scene.rig, scene.masks, scene.view, rays, options, passes);
+    swept = sweep.Sweep(scene.rig, masks, scene.view, rays, options, passes);
     benchmark::DoNotOptimize(swept);
   }
   Report(state, swept);
   state.SetLabel(sweep.driver());
 }
 
-BENCHMARK_CAPTURE(SweepOnCpu, lens, 0)
-    ->ArgNames({"cameras", "threads"})
-    ->ArgsProduct({{3, 4, 8}, {1, 2}})
-    ->Unit(benchmark::kMillisecond)
-    ->UseRealTime();
-BENCHMARK_CAPTURE(SweepOnCpu, grid_of_5, 5)
-    ->ArgNames({"cameras", "threads"})
-    ->ArgsProduct({{3, 4, 8}, {1, 2}})
-    ->Unit(benchmark::kMillisecond)
-    ->UseRealTime();
-BENCHMARK_CAPTURE(SweepOnGl, a_draw_a_plane, recon::gl::SweepPasses::kOneAPlane, 0)
-    ->ArgName("cameras")
-    ->DenseRange(3, 4)
-    ->Arg(8)
-    ->Unit(benchmark::kMillisecond)
-    ->UseRealTime();
-BENCHMARK_CAPTURE(SweepOnGl, the_papers_passes_and_grid, recon::gl::SweepPasses::kOneAPlaneAndCamera, 5)
-    ->ArgName("cameras")
-    ->DenseRange(3, 4)
-    ->Arg(8)
-    ->Unit(benchmark::kMillisecond)
-    ->UseRealTime();
+#define ON_CPU(rig, of_rig)                                 \
+  BENCHMARK_CAPTURE(SweepOnCpu, rig##_lens, of_rig, 0)      \
+      ->Arg(1)                                              \
+      ->Arg(2)                                              \
+      ->Unit(benchmark::kMillisecond)                       \
+      ->UseRealTime();                                      \
+  BENCHMARK_CAPTURE(SweepOnCpu, rig##_grid_of_5, of_rig, 5) \
+      ->Arg(1)                                              \
+      ->Arg(2)                                              \
+      ->Unit(benchmark::kMillisecond)                       \
+      ->UseRealTime()
+#define ON_GL(rig, of_rig)                                                                          \
+  BENCHMARK_CAPTURE(SweepOnGl, rig##_a_draw_a_plane, of_rig, recon::gl::SweepPasses::kOneAPlane, 0) \
+      ->Unit(benchmark::kMillisecond)                                                               \
+      ->UseRealTime();                                                                              \
+  BENCHMARK_CAPTURE(SweepOnGl, rig##_the_papers_passes_and_grid, of_rig,                            \
+                    recon::gl::SweepPasses::kOneAPlaneAndCamera, 5)                                 \
+      ->Unit(benchmark::kMillisecond)                                                               \
+      ->UseRealTime()
+ON_CPU(three_cameras, ViewSceneRig::kThree);
+ON_CPU(eight_cameras, ViewSceneRig::kEight);
+ON_GL(three_cameras, ViewSceneRig::kThree);
+ON_GL(eight_cameras, ViewSceneRig::kEight);
+#undef ON_CPU
+#undef ON_GL
 
 }  // namespace
 }  // namespace elbowroom::benchmarks

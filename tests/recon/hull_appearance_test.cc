@@ -14,7 +14,7 @@
 
 #include "core/error.h"
 #include "recon/orbit_camera.h"
-#include "recon/ray_cast.h"
+#include "recon/hull_view.h"
 #include "recon/synthetic/rig_presets.h"
 #include "recon/synthetic/synthetic_rig.h"
 

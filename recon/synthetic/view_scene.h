@@ -1,0 +1,41 @@
+// A hand at work before a rig, and from where it is looked at: the scene that speed and accuracy are measured
+// on.
+#pragma once
+
+#include <vector>
+
+#include "core/bit_mask.h"
+#include "core/camera_model.h"
+#include "core/rig.h"
+#include "recon/plane_sweep.h"
+#include "recon/synthetic/solids.h"
+
+namespace elbowroom::recon {
+
+enum class ViewSceneRig {
+  kPaper,  // PaperRig()
+  kThree,  // FourCameraRig() less its last camera
+  kFour,   // FourCameraRig()
+  kEight   // EightCameraRig()
+};
+
+struct ViewScene {
+  core::Rig rig;
+  std::vector<SyntheticObject> objects;  // the demo's hand lowering its pipe
+  core::CameraModel view;                // looks over the shoulder, without distortion
+};
+
+// The hull fills about 6 % of the view's pixels, whatever its size (synthetic_view_scene_test).
+[[nodiscard]] ViewScene MakeViewScene(ViewSceneRig rig, int view_width_px = 640, int view_height_px = 480);
+
+// 50 planes of the view at the paper's 15 mm (or `times` as many, as much closer), the hand amid them.
+[[nodiscard]] PlaneSweepOptions FiftyPlanes(int times = 1);
+
+// The view's camera, looking at the scene's hand from the same place with another focal length, px.
+[[nodiscard]] core::CameraModel HandView(int width_px, int height_px, double focal_px);
+
+// The pixels whose centre ray hits an object, one mask a camera.
+[[nodiscard]] std::vector<core::BitMask> TrueMasks(const core::Rig& rig,
+                                                   const std::vector<SyntheticObject>& objects);
+
+}  // namespace elbowroom::recon

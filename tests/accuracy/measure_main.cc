@@ -1,0 +1,34 @@
+// elbowroom_measure WHAT: the programs behind `./dev bench`.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <filesystem>
+
+#include "tests/accuracy/measurements.h"
+
+int main(int argc, char** argv) {
+  using namespace elbowroom::accuracy;
+  CLI::App app{"Measures accuracy and speed, and writes the tables and pictures in docs/."};
+  std::filesystem::path docs, view_cost, json;
+  app.add_option("--docs", docs, "folder of accuracy.md and performance.md")->required();
+  app.require_subcommand(1);
+  app.fallthrough();
+  app.add_subcommand("budget", "the paper's error budget")->callback([&] { MeasureBudget(docs); });
+  app.add_subcommand("methods", "run time against error")->callback([&] { MeasureMethods(docs); });
+  CLI::App* cost = app.add_subcommand("cost", "instructions by callgrind");
+  cost->add_option("PROGRAM", view_cost, "view_cost")->required();
+  cost->callback([&] { MeasureCost(docs, view_cost); });
+  CLI::App* micro = app.add_subcommand("micro", "Google Benchmark's results as a table");
+  micro->add_option("JSON", json, "what --benchmark_out wrote")->required();
+  micro->callback([&] { WriteMicroTable(docs, json); });
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "elbowroom_measure: {}\n", error.what());
+    return 1;
+  }
+  return 0;
+}

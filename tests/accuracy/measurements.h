@@ -1,0 +1,24 @@
+// What `./dev bench` measures, and the tables and pictures that it leaves in docs/.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace elbowroom::accuracy {
+
+// Each writes its sections of docs/accuracy.md or docs/performance.md in `docs` and tells stderr how far it
+// is. Throws: core::Error for what can't be written or run.
+
+// accuracy.md, "budget". Throws also: core::Error{kRange} naming a term that exceeds its ceiling.
+void MeasureBudget(const std::filesystem::path& docs);
+
+// performance.md, "methods"; docs/pictures/view_methods.{svg,png}.
+void MeasureMethods(const std::filesystem::path& docs);
+
+// performance.md, "cost": instructions by callgrind, of `view_cost` (the program).
+void MeasureCost(const std::filesystem::path& docs, const std::filesystem::path& view_cost);
+
+// performance.md, "micro": what Google Benchmark wrote into `json`.
+void WriteMicroTable(const std::filesystem::path& docs, const std::filesystem::path& json);
+
+}  // namespace elbowroom::accuracy

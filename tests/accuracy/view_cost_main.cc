@@ -1,0 +1,74 @@
+// view_cost: one exact view on one thread, for callgrind to count; prints the pixels that the hull fills.
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "recon/hull_view.h"
+#include "recon/synthetic/view_scene.h"
+#include "recon/visual_hull.h"
+
+namespace elbowroom::accuracy {
+namespace {
+
+struct CostOptions {
+  double zoom = 1.0;            // of the view's focal length
+  int view_size = 1;            // factor on the view's width and height, its focal length unchanged
+  int picture_size = 1;         // the same for the rig's cameras
+  double workspace_size = 1.0;  // factor on its sides, its centre unchanged
+  bool away = false;            // look the other way
+  bool blind = false;           // the first camera sees no object
+};
+
+core::CameraModel WithMorePicture(const core::CameraModel& camera, int factor) {
+  core::CameraCalibration c = camera.calibration();
+  c.camera_matrix(0, 2) += 0.5 * (factor - 1) * c.image_width_px;
+  c.camera_matrix(1, 2) += 0.5 * (factor - 1) * c.image_height_px;
+  c.image_width_px *= factor;
+  c.image_height_px *= factor;
+  return core::CameraModel(std::move(c));
+}
+
+core::CameraModel ViewOf(const core::CameraModel& standard, const CostOptions& options) {
+  core::CameraCalibration c = WithMorePicture(standard, options.view_size).calibration();
+  c.camera_matrix.topLeftCorner<2, 2>() *= options.zoom;
+  if (options.away) {
+    const Eigen::Vector3d center_in_world = standard.center_in_world();
+    c.cam_from_world.rotation.row(0) *= -1.0;
+    c.cam_from_world.rotation.row(2) *= -1.0;
+    c.cam_from_world.translation_mm = -(c.cam_from_world.rotation * center_in_world);
+  }
+  return core::CameraModel(std::move(c));
+}
+
+void Run(const CostOptions& options) {
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 1);
+  recon::ViewScene scene = recon::MakeViewScene(recon::ViewSceneRig::kThree);
+  for (core::CameraModel& camera : scene.rig.cameras) camera = WithMorePicture(camera, options.picture_size);
+  std::vector<core::BitMask> masks = recon::TrueMasks(scene.rig, scene.objects);
+  if (options.blind) masks[0] = core::BitMask(masks[0].width_px(), masks[0].height_px());
+  const Eigen::Vector3d center = scene.rig.workspace_mm.center();
+  const Eigen::Vector3d half = 0.5 * options.workspace_size * scene.rig.workspace_mm.sizes();
+  scene.rig.workspace_mm = {center - half, center + half};
+  const auto rig = std::make_shared<const core::Rig>(scene.rig);
+  const recon::VisualHull hull = recon::MakeVisualHull(rig, masks);
+  fmt::print("{}\n", recon::ViewHull(hull, ViewOf(scene.view, options)).hit_pixels);
+}
+
+}  // namespace
+}  // namespace elbowroom::accuracy
+
+int main(int argc, char** argv) {
+  CLI::App app{"One exact view of the demo's hand, for callgrind to count."};
+  elbowroom::accuracy::CostOptions options;
+  app.add_option("--zoom", options.zoom, "factor on the view's focal length");
+  app.add_option("--view-size", options.view_size, "factor on the view's width and height");
+  app.add_option("--picture-size", options.picture_size, "factor on the rig's pictures' width and height");
+  app.add_option("--workspace-size", options.workspace_size, "factor on the workspace's sides");
+  app.add_flag("--away", options.away, "look the other way");
+  app.add_flag("--blind", options.blind, "the first camera sees no object");
+  CLI11_PARSE(app, argc, argv);
+  elbowroom::accuracy::Run(options);
+  return 0;
+}

@@ -1,0 +1,75 @@
+// Masks in memory to a picture of the hull, and the steps on the way.
+#include <benchmark/benchmark.h>
+#include <tbb/global_control.h>
+
+#include <map>
+#include <memory>
+
+#include "recon/hull_mesh.h"
+#include "recon/hull_view.h"
+#include "recon/synthetic/view_scene.h"
+#include "recon/visual_hull.h"
+
+namespace elbowroom::recon {
+namespace {
+
+struct MaskScene {
+  std::shared_ptr<const core::Rig> rig;
+  PicturePlanes planes;
+  std::vector<core::SoftMask> masks;
+  ViewRays view;
+
+  [[nodiscard]] VisualHull Hull() const { return MakeVisualHull(rig, planes, masks); }
+};
+
+const MaskScene& SceneOf(ViewSceneRig rig) {
+  static std::map<ViewSceneRig, MaskScene> scenes;
+  const auto found = scenes.find(rig);
+  if (found != scenes.end()) return found->second;
+  const ViewScene scene = MakeViewScene(rig);
+  MaskScene made{
+      std::make_shared<const core::Rig>(scene.rig), MakePicturePlanes(scene.rig), {}, ViewRays(scene.view)};
+  for (core::BitMask& mask : TrueMasks(scene.rig, scene.objects)) made.masks.push_back({std::move(mask), {}});
+  return scenes.emplace(rig, std::move(made)).first->second;
+}
+
+// The benchmark's argument is the number of threads.
+tbb::global_control Limit(const benchmark::State& state) {
+  return {tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(state.range(0))};
+}
+
+void ExactView(benchmark::State& state, ViewSceneRig rig) {
+  const MaskScene& scene = SceneOf(rig);
+  const auto limit = Limit(state);
+  for (auto _ : state)
+    benchmark::DoNotOptimize(
+        ViewHull(scene.Hull(), scene.view, {.surfaces = false, .normals = false}).hit_pixels);
+}
+
+void HullOfMasks(benchmark::State& state, ViewSceneRig rig) {
+  const MaskScene& scene = SceneOf(rig);
+  const auto limit = Limit(state);
+  for (auto _ : state) benchmark::DoNotOptimize(scene.Hull().IsEmpty());
+}
+
+void MeshAt2Mm(benchmark::State& state, ViewSceneRig rig) {
+  const MaskScene& scene = SceneOf(rig);
+  const VisualHull hull = scene.Hull();
+  const auto limit = Limit(state);
+  for (auto _ : state) benchmark::DoNotOptimize(MeshHull(hull, 2.0).cells);
+}
+
+#define ON_EVERY_RIG(what)                                                                             \
+  BENCHMARK_CAPTURE(what, three_cameras, ViewSceneRig::kThree)                                         \
+      ->Arg(1)                                                                                         \
+      ->Arg(2)                                                                                         \
+      ->Unit(benchmark::kMillisecond);                                                                 \
+  BENCHMARK_CAPTURE(what, paper, ViewSceneRig::kPaper)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond); \
+  BENCHMARK_CAPTURE(what, eight_cameras, ViewSceneRig::kEight)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)
+ON_EVERY_RIG(ExactView);
+ON_EVERY_RIG(HullOfMasks);
+ON_EVERY_RIG(MeshAt2Mm);
+#undef ON_EVERY_RIG
+
+}  // namespace
+}  // namespace elbowroom::recon

@@ -1,0 +1,165 @@
+#include "tests/oracles/mask_hull_oracle.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "recon/synthetic/demo_motion.h"
+#include "recon/synthetic/rig_presets.h"
+#include "recon/visual_hull.h"
+#include "tests/oracles/analytic_hull.h"
+#include "tests/oracles/camera_projection.h"
+#include "tests/oracles/coverage_mask.h"
+#include "tests/recon/random_scene.h"
+#include "tests/support/soak.h"
+
+namespace elbowroom::oracles {
+namespace {
+
+using Eigen::Vector3d;
+
+std::vector<core::SoftMask> Soft(std::span<const core::BitMask> masks) {
+  std::vector<core::SoftMask> soft;
+  for (const core::BitMask& mask : masks) soft.push_back({mask, {}});
+  return soft;
+}
+
+TEST(CameraProjection, IsTheCameraModelsOwn) {
+  recon::Random random(21);
+  constexpr double kRelative = 1e-10;  // of positions of up to 1e5 px in double
+  int seen = 0;
+  for (int trial = 0; trial < 120; ++trial) {
+    const core::CameraModel camera =
+        recon::RandomCamera(&random, static_cast<recon::LensKind>(trial % recon::kLensKinds));
+    for (int i = 0; i < 50; ++i) {
+      const Vector3d x = camera.center_in_world() + random.LogUniform(10.0, 1e4) * random.Direction();
+      const auto expected = camera.Project(x);
+      const auto found = Project(camera, x.cast<long double>());
+      ASSERT_EQ(found.has_value(), expected.has_value());
+      if (!expected) continue;
+      ++seen;
+      EXPECT_LT((found->cast<double>() - *expected).norm(), kRelative * (1e3 + expected->norm()));
+    }
+  }
+  EXPECT_GT(seen, 200);
+}
+
+TEST(MaskHullOracle, AgreesWithTheVolumeQueryOfPixelSquares) {
+  recon::Random random(22);
+  int inside = 0;
+  for (int trial = 0; trial < 60 * test_support::SoakScale(); ++trial) {
+    const auto unseen = trial % 2 == 0 ? core::UnseenPolicy::kOutside : core::UnseenPolicy::kAbstain;
+    const recon::RandomScene scene = trial % 3 == 0 ? recon::MakeRandomScene(&random)
+                                                    : recon::MakeRingScene(&random, 1 + trial % 5, unseen);
+    const recon::VisualHull hull = recon::MakeVisualHull(scene.rig, scene.masks);
+    const MaskHullOracle oracle(*scene.rig, Soft(scene.masks), BoundaryConvention::kPixelSquares);
+    for (int i = 0; i < 300; ++i) {
+      const Vector3d x = 1.1 * random.PointIn(scene.rig->workspace_mm);
+      // Within 1e-6 px of a boundary double and long double may differ.
+      const bool is_sure =
+          oracle.Contains(x.cast<long double>(), 1e-6) == oracle.Contains(x.cast<long double>(), -1e-6);
+      if (!is_sure) continue;
+      const bool expected = oracle.Contains(x.cast<long double>());
+      inside += expected ? 1 : 0;
+      ASSERT_EQ(hull.Contains(x), expected) << "trial " << trial << " at " << x.transpose();
+    }
+  }
+  EXPECT_GT(inside, 500);
+}
+
+TEST(MaskHullOracle, FirstSurfaceIsTheSameWithoutPassingOverAnything) {
+  recon::Random random(23);
+  constexpr double kStepMm = 0.5;
+  int hits = 0;
+  for (const auto convention : {BoundaryConvention::kPixelSquares, BoundaryConvention::kMarchingSquares}) {
+    for (int trial = 0; trial < 12; ++trial) {
+      const recon::RandomScene scene =
+          recon::MakeRingScene(&random, random.Whole(2, 5), core::UnseenPolicy::kOutside);
+      const MaskHullOracle oracle(*scene.rig, Soft(scene.masks), convention);
+      for (int i = 0; i < 6; ++i) {
+        const Vector3d origin = 2.0 * random.PointIn(scene.rig->workspace_mm);
+        const recon::Ray ray{origin, (0.3 * random.PointIn(scene.rig->workspace_mm) - origin).normalized()};
+        const auto span = ClipToBox(scene.rig->workspace_mm, ray, 0.0);
+        if (!span) continue;
+        std::optional<double> truth;
+        for (int step = 0; !truth && span->first + step * kStepMm < span->second; ++step) {
+          const long double t = span->first + step * kStepMm;
+          if (oracle.Contains(PointAt(ray, t))) truth = static_cast<double>(t);
+        }
+        const auto found = oracle.FirstSurface(ray, 0.0, {.step_mm = kStepMm});
+        ASSERT_EQ(found.has_value(), truth.has_value());
+        if (!found) continue;
+        ++hits;
+        EXPECT_LE(*found, *truth + 1e-6);
+        EXPECT_GE(*found, *truth - kStepMm - 1e-6);
+      }
+    }
+  }
+  EXPECT_GT(hits, 30);
+}
+
+TEST(MaskHullOracle, OfCoverageMasksLiesWithinAFractionOfAPixelOfTheAnalyticHull) {
+  // PaperRig: a pixel is up to 5.8 mm high; the coverage's boundary is good to a tenth of one, and a view
+  // ray meets the hull at a slant.
+  constexpr double kTypicalMm = 0.5;
+  const core::Rig rig = recon::PaperRig();
+  const auto solids = recon::AllSolids(recon::DemoSceneAt(5.0).objects);
+  std::vector<core::SoftMask> masks;
+  for (const core::CameraModel& camera : rig.cameras) masks.push_back(CoverageMask(camera, solids));
+  const AnalyticHull truth(rig, solids);
+  const MaskHullOracle oracle(rig, masks, BoundaryConvention::kMarchingSquares);
+  const MaskHullOracle squares(rig, masks, BoundaryConvention::kPixelSquares);
+  const Vector3d eye(300.0, -900.0, 700.0);
+  std::vector<double> error_mm, squares_error_mm;
+  for (double x_mm = -20.0; x_mm < 350.0; x_mm += 7.0) {
+    for (double z_mm = 120.0; z_mm < 280.0; z_mm += 13.0) {
+      const recon::Ray ray{eye, (Vector3d(x_mm, 0.0, z_mm) - eye).normalized()};
+      const auto expected = truth.FirstSurface(ray), found = oracle.FirstSurface(ray),
+                 coarse = squares.FirstSurface(ray);
+      if (!expected || !found || !coarse) continue;
+      error_mm.push_back(std::abs(*found - *expected));
+      squares_error_mm.push_back(std::abs(*coarse - *expected));
+    }
+  }
+  ASSERT_GT(error_mm.size(), 100U);
+  const auto median = [](std::vector<double> values) {
+    std::ranges::sort(values);
+    return values[values.size() / 2];
+  };
+  EXPECT_LT(median(error_mm), kTypicalMm);
+  EXPECT_GT(median(squares_error_mm), 2.0 * median(error_mm));
+}
+
+TEST(MaskHullOracle, GrowsAndShrinksWithItsSilhouettes) {
+  recon::Random random(24);
+  int between = 0;
+  for (int trial = 0; trial < 10; ++trial) {
+    const recon::RandomScene scene = recon::MakeRingScene(&random, 3, core::UnseenPolicy::kOutside);
+    const MaskHullOracle oracle(*scene.rig, Soft(scene.masks), BoundaryConvention::kMarchingSquares);
+    for (int i = 0; i < 10; ++i) {
+      const Vector3d origin = 2.0 * random.PointIn(scene.rig->workspace_mm);
+      const recon::Ray ray{origin, (0.3 * random.PointIn(scene.rig->workspace_mm) - origin).normalized()};
+      const auto grown = oracle.FirstSurface(ray, 0.1), exact = oracle.FirstSurface(ray),
+                 shrunk = oracle.FirstSurface(ray, -0.1);
+      if (shrunk) {
+        ASSERT_TRUE(exact.has_value());
+      }
+      if (exact) {
+        ASSERT_TRUE(grown.has_value());
+      }
+      if (exact) {
+        EXPECT_LE(*grown, *exact);
+      }
+      if (shrunk) {
+        EXPECT_GE(*shrunk, *exact);
+      }
+      between += exact && *grown < *exact - 1e-3 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(between, 10);
+}
+
+}  // namespace
+}  // namespace elbowroom::oracles

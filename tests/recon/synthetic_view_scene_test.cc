@@ -1,0 +1,34 @@
+#include "recon/synthetic/view_scene.h"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+
+#include "recon/hull_view.h"
+#include "recon/visual_hull.h"
+
+namespace elbowroom::recon {
+namespace {
+
+class ViewScenes : public testing::TestWithParam<ViewSceneRig> {};
+
+TEST_P(ViewScenes, ShowTheHullOnAboutSixPercentOfTheView) {
+  // Hulls of different rigs differ in size; "about 6 %" is what the figures in docs/performance.md are told
+  // for.
+  constexpr double kLeastShare = 0.045, kLargestShare = 0.075;
+  for (const auto& [width_px, height_px] : {std::pair{640, 480}, {160, 120}}) {
+    const ViewScene scene = MakeViewScene(GetParam(), width_px, height_px);
+    const auto rig = std::make_shared<const core::Rig>(scene.rig);
+    const HullView view = ViewHull(MakeVisualHull(rig, TrueMasks(scene.rig, scene.objects)), scene.view);
+    const double share = static_cast<double>(view.hit_pixels) / (width_px * height_px);
+    EXPECT_GT(share, kLeastShare);
+    EXPECT_LT(share, kLargestShare);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(OfEveryRig, ViewScenes,
+                         testing::Values(ViewSceneRig::kPaper, ViewSceneRig::kThree, ViewSceneRig::kFour,
+                                         ViewSceneRig::kEight));
+
+}  // namespace
+}  // namespace elbowroom::recon

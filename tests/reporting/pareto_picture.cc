@@ -1,0 +1,99 @@
+#include "tests/reporting/pareto_picture.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "core/error.h"
+#include "core/whole_file.h"
+#include "tests/reporting/gnuplot.h"
+
+namespace elbowroom::reporting {
+namespace {
+
+constexpr double kLeastErrorMm = 1e-5;
+// Told apart by those who see colours differently, too (Okabe and Ito).
+constexpr std::array<const char*, 6> kColors = {"#0072B2", "#D55E00", "#009E73",
+                                                "#CC79A7", "#E69F00", "#56B4E9"};
+
+std::vector<std::string> FamiliesOf(const std::vector<ParetoPoint>& points) {
+  std::vector<std::string> families;
+  for (const ParetoPoint& point : points)
+    if (std::ranges::find(families, point.family) == families.end()) families.push_back(point.family);
+  return families;
+}
+
+// One data block a family: time, error, label; first all points, then the dominated ones.
+std::string DataBlocks(const ParetoPicture& picture, const std::vector<std::string>& families) {
+  const std::vector<bool> dominated = DominatedOf(picture.points);
+  std::string text;
+  for (std::size_t f = 0; f < families.size(); ++f) {
+    std::string all, grey;
+    for (std::size_t i = 0; i < picture.points.size(); ++i) {
+      const ParetoPoint& point = picture.points[i];
+      if (point.family != families[f]) continue;
+      const std::string line = fmt::format("{} {} \"{}\"\n", point.time_ms,
+                                           std::max(point.error_mm, kLeastErrorMm), point.setting);
+      all += line;
+      if (dominated[i]) grey += line;
+    }
+    if (grey.empty()) grey = "NaN NaN \"\"\n";
+    text += fmt::format("$all{} << EOD\n{}EOD\n$grey{} << EOD\n{}EOD\n", f, all, f, grey);
+  }
+  return text;
+}
+
+std::string PlotCommand(const std::vector<std::string>& families) {
+  std::string text = "plot ";
+  for (std::size_t f = 0; f < families.size(); ++f) {
+    const char* color = kColors[f % kColors.size()];
+    // Beside the points of one family, above those of the next: labels of neighbours don't meet.
+    const char* place = f % 2 == 0 ? "left offset 0.9,0" : "center offset 0,0.9";
+    text += fmt::format(
+        "{0}$all{1} using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '{2}' title '{3}', "
+        "$grey{1} using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, "
+        "$all{1} using 1:2:3 with labels {4} tc rgb '{2}' notitle",
+        f == 0 ? "" : ", ", f, color, families[f], place);
+  }
+  return text + "\n";
+}
+
+}  // namespace
+
+std::vector<bool> DominatedOf(const std::vector<ParetoPoint>& points) {
+  std::vector<bool> dominated;
+  for (const ParetoPoint& point : points) {
+    dominated.push_back(std::ranges::any_of(points, [&](const ParetoPoint& other) {
+      const bool is_no_worse = other.time_ms <= point.time_ms && other.error_mm <= point.error_mm;
+      return is_no_worse && (other.time_ms < point.time_ms || other.error_mm < point.error_mm);
+    }));
+  }
+  return dominated;
+}
+
+void DrawPareto(const ParetoPicture& picture, const std::filesystem::path& stem) {
+  core::Require(!picture.points.empty(), "a picture has points");
+  for (const ParetoPoint& point : picture.points)
+    core::Require(point.time_ms > 0.0, "a run time is positive");
+  const std::vector<std::string> families = FamiliesOf(picture.points);
+  std::string script = DataBlocks(picture, families);
+  script += fmt::format(
+      "set logscale xy\nset grid lc rgb '#cccccc'\nset border 3\nset tics nomirror\nset key bottom left Left "
+      "reverse\n"
+      "set title '{}'\nset xlabel '{}'\nset ylabel '{}'\nset format xy '%g'\nset offsets graph 0.08, graph "
+      "0.22, graph 0.1, graph 0.1\n",
+      picture.title, picture.time_label, picture.error_label);
+  // Names without a folder: the script runs beside them.
+  const std::string name = stem.filename().string(), plot = PlotCommand(families);
+  script += fmt::format(
+      "set terminal svg size 900,620 font 'Sans,15' background rgb 'white'\nset output '{}.svg'\n{}", name,
+      plot);
+  script +=
+      fmt::format("set terminal pngcairo size 1350,930 font 'Sans,17'\nset output '{}.png'\nreplot\n", name);
+  const std::filesystem::path file = stem.string() + ".gnuplot";
+  core::WriteWholeFile(file, script);
+  RunGnuplot(file);
+}
+
+}  // namespace elbowroom::reporting
