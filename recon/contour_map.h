@@ -38,8 +38,9 @@ class ContourMap {
   // Of any finite position.
   [[nodiscard]] bool IsObject(const Eigen::Vector2d& position) const;
 
-  // Exact to 1e-6 within 2 cells of an edge, at most 1.6 cells short up to 32 cells from one, farther away no
-  // shorter than that; a cell is 1 px where the bounds allow (contour_map_test).
+  // Within the bounds the distance is exact to 1e-6 up to 2 cells from an edge, at most 3 cells short up to
+  // 32, farther away no shorter than that; outside it is at least as good as the distance to the bounds, less
+  // 3 cells. A cell is 1 px, or larger where that would make more than 4e6 of them (contour_map_test).
   [[nodiscard]] PlaneLabel LabelAt(const Eigen::Vector2d& position) const;
 
   // The nearest edge, if one is within 2 cells.

@@ -14,6 +14,11 @@ using Eigen::Vector3d;
 // A view centre in the plane of an edge meets it at the start of its rays: as near as this share of the
 // distances it is taken to be beside it.
 constexpr double kLeastHeight = 1e-14;
+// An epipole within this angle of the contour is on it: rounding would decide, edge by edge, on which side
+// the rays start. The camera is turned then, by an angle that is nothing to a pixel.
+constexpr double kOnContourRad = 1e-11;
+constexpr double kTurnRad = 1e-10;
+constexpr int kMostTurns = 8;
 
 // Grows with the angle from the x axis, 0 to 4 for a turn. NaN at the origin.
 double PseudoAngle(double x, double y) {
@@ -60,6 +65,7 @@ EdgePencil::EdgePencil(const ContourMap& labels, double focal_px, const core::Ca
   if (is_concentric_) return;
   // Where the rays come from: the view's centre, or infinitely far behind the picture.
   const Vector3d start_in_view = is_perspective ? Vector3d(-centre_in_view_) : Vector3d(0.0, 0.0, -1.0);
+  TurnOffContour(start_in_view);
   starts_inside_ = LabelInCam(labels, focal_px, cam_from_view_ * start_in_view);
   const Vector3d axis = is_perspective ? centre_in_view_.normalized() : Vector3d::UnitZ();
   across_axes_[0] = axis.unitOrthogonal();
@@ -70,8 +76,24 @@ EdgePencil::EdgePencil(const ContourMap& labels, double focal_px, const core::Ca
   }
   axis_uv_ = is_perspective ? Eigen::Vector2d(centre_in_view_.head<2>() / centre_in_view_.z())
                             : Eigen::Vector2d(centre_in_view_.head<2>());
-  MakeEdges(labels.contour(), view_from_cam.rotation);
-  SortIntoBins(labels.contour(), view_from_cam.rotation);
+  MakeEdges(labels.contour(), cam_from_view_.transpose());
+  SortIntoBins(labels.contour(), cam_from_view_.transpose());
+}
+
+void EdgePencil::TurnOffContour(const Vector3d& start_in_view) {
+  const auto is_on_contour = [&] {
+    const Vector3d x = cam_from_view_ * start_in_view;
+    const Eigen::Vector2d epipole = x.head<2>() * (focal_px_ / x.z());
+    if (!(x.z() > 0.0) || !epipole.allFinite()) return false;
+    const double near_px = kOnContourRad * (focal_px_ + epipole.squaredNorm() / focal_px_);
+    const Contour& contour = labels_.contour();
+    for (std::uint32_t i = 0; i < contour.edges.size(); ++i)
+      if (DistanceToEdge(contour, i, epipole) <= near_px) return true;
+    return false;
+  };
+  const Eigen::Matrix3d turn =
+      Eigen::AngleAxisd(kTurnRad, Vector3d(0.8, 0.53, 0.29).normalized()).toRotationMatrix();
+  for (int i = 0; i < kMostTurns && is_on_contour(); ++i) cam_from_view_ = turn * cam_from_view_;
 }
 
 void EdgePencil::MakeEdges(const Contour& contour, const Eigen::Matrix3d& view_from_cam) {

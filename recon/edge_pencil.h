@@ -77,6 +77,7 @@ class EdgePencil {
     std::uint32_t is_first_bin : 1;
   };
 
+  void TurnOffContour(const Eigen::Vector3d& start_in_view);
   void MakeEdges(const Contour& contour, const Eigen::Matrix3d& view_from_cam);
   void SortIntoBins(const Contour& contour, const Eigen::Matrix3d& view_from_cam);
   [[nodiscard]] Eigen::Vector3d InView(const Eigen::Matrix3d& view_from_cam, const Eigen::Vector2d& v) const {
