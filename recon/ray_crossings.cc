@@ -49,13 +49,13 @@ bool AddCentreEvent(const ContourMap& labels, double focal_px, const RayInCam& r
   return before;
 }
 
-// All crossings of the ray's line, those behind its origin too: the last of them is a surer word on the label
-// at an origin on the hull's surface than that label itself. Derivation in docs/exact_view.md. With q a
-// vertex's direction, the sign of (direction x centre) . q says on which side of the epipolar plane the
-// vertex is; an edge whose ends are on different sides is crossed by the ray's line, and the order of the
-// sides tells crossings of the edge's cone from those of its mirror image behind the camera.
-void AddEvents(const Contour& contour, double focal_px, const RayInCam& ray, std::size_t camera,
+// Derivation in docs/exact_view.md. With q a vertex's direction, the sign of (direction x centre) . q says on
+// which side of the epipolar plane the vertex is; an edge whose ends are on different sides is crossed by the
+// ray's line, and the order of the sides tells crossings of the edge's cone from those of its mirror image
+// behind the camera. Returns the label before the first event.
+bool AddEvents(const ContourMap& labels, double focal_px, const RayInCam& ray, std::size_t camera,
                bool is_outline, std::vector<Event>* events) {
+  const Contour& contour = labels.contour();
   const Vector3d centre = -ray.origin;
   const Vector3d side = ray.direction.cross(centre);
   std::vector<std::uint8_t> is_positive(contour.vertices.size());
@@ -63,6 +63,7 @@ void AddEvents(const Contour& contour, double focal_px, const RayInCam& ray, std
     const Eigen::Vector2d& v = contour.vertices[i];
     is_positive[i] = side.x() * v.x() + side.y() * v.y() + side.z() * focal_px > 0.0 ? 1 : 0;
   }
+  double first_mm = std::numeric_limits<double>::infinity();
   for (std::uint32_t e = 0; e < contour.edges.size(); ++e) {
     const ContourEdge& edge = contour.edges[e];
     if (is_positive[edge.from] == is_positive[edge.to]) continue;
@@ -73,8 +74,13 @@ void AddEvents(const Contour& contour, double focal_px, const RayInCam& ray, std
     const bool is_entry = is_positive[edge.from] != 0;
     if (is_entry != (rise > 0.0)) continue;  // of the mirror image
     const double t_mm = height / rise;
+    if (!(t_mm > 0.0)) continue;
     events->push_back({t_mm, camera, e, is_entry, is_outline});
+    first_mm = std::min(first_mm, t_mm);
   }
+  // Not at the origin, which may be on the hull's surface: halfway to the first event, or anywhere.
+  const double between_mm = std::isinf(first_mm) ? centre.norm() : 0.5 * first_mm;
+  return LabelInCam(labels, focal_px, ray.origin + between_mm * ray.direction);
 }
 
 // The stretch of a ray inside a box (slab test); empty (from > to) if it misses.
@@ -118,7 +124,7 @@ class Votes {
   std::vector<std::uint8_t> sights_;
 };
 
-// The votes at the ray's origin without the events before it, and every event in order.
+// The votes where the ray starts, and every event beyond in order.
 std::vector<Event> EventsAlong(const VisualHull& hull, const Ray& ray, Votes* votes) {
   std::vector<Event> events;
   for (std::size_t i = 0; i < hull.silhouettes().size(); ++i) {
@@ -131,8 +137,7 @@ std::vector<Event> EventsAlong(const VisualHull& hull, const Ray& ray, Votes* vo
         votes->Set(i, is_outline, AddCentreEvent(labels, plane.focal_px(), in_cam, i, is_outline, &events));
         return;
       }
-      votes->Set(i, is_outline, LabelInCam(labels, plane.focal_px(), in_cam.origin));
-      AddEvents(labels.contour(), plane.focal_px(), in_cam, i, is_outline, &events);
+      votes->Set(i, is_outline, AddEvents(labels, plane.focal_px(), in_cam, i, is_outline, &events));
     };
     add(hull.silhouettes()[i]->labels(), false);
     if (ExteriorIsObject(hull.rig())) add(plane.outline(), true);

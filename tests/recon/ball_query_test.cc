@@ -18,7 +18,7 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr int kScenes = 400;
+constexpr int kScenes = 200;
 constexpr int kBallsPerScene = 500;
 // Sampled points stay inside the closed ball whatever the rounding of their own coordinates.
 constexpr double kInsideBall = 1.0 - 1e-12;
