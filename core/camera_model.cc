@@ -41,6 +41,14 @@ void ValidateCalibration(const CameraCalibration& c) {
   if (!c.cam_from_world.translation_mm.allFinite()) fail("translation_cam_from_world_mm is not finite");
 }
 
+// Itself where rounding alone keeps it from being one.
+Eigen::Matrix3d NearestRotation(const Eigen::Matrix3d& matrix) {
+  constexpr double kRounding = 1e-15;
+  if (IsRotation(matrix, kRounding)) return matrix;
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(matrix, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  return svd.matrixU() * svd.matrixV().transpose();
+}
+
 Lens LensOf(const CameraCalibration& c) {
   return {c.distortion_model, c.distortion_coefficients, fmt::format("camera '{}'", c.name)};
 }
@@ -94,7 +102,9 @@ CameraModel::CameraModel(CameraCalibration calibration) : calibration_(std::move
   ValidateCalibration(calibration_);
   const auto lens = std::make_shared<const Lens>(LensOf(calibration_));
   lens_ = lens;
-  center_in_world_ = calibration_.cam_from_world.Inverse().translation_mm;
+  cam_from_world_ = {NearestRotation(calibration_.cam_from_world.rotation),
+                     calibration_.cam_from_world.translation_mm};
+  center_in_world_ = cam_from_world_.Inverse().translation_mm;
   max_radius_ = DomainRadius(*lens, FarthestCornerRadius(calibration_));
   if (!(max_radius_ > 0.0)) {
     throw Error(ErrorKind::kCamera,

@@ -46,7 +46,9 @@ class CameraModel {
   [[nodiscard]] const std::string& name() const { return calibration_.name; }
   [[nodiscard]] int width_px() const { return calibration_.image_width_px; }
   [[nodiscard]] int height_px() const { return calibration_.image_height_px; }
-  [[nodiscard]] const RigidTransform& cam_from_world() const { return calibration_.cam_from_world; }
+  // The calibration's, with the exact rotation nearest to its rounded one: so that its transpose is its
+  // inverse, and a point means the same to those who project it and to those who cast rays.
+  [[nodiscard]] const RigidTransform& cam_from_world() const { return cam_from_world_; }
   [[nodiscard]] const Eigen::Vector3d& center_in_world() const { return center_in_world_; }
   [[nodiscard]] double max_radius() const { return max_radius_; }
 
@@ -55,7 +57,7 @@ class CameraModel {
 
   // Pixel position (may lie outside the image), or nothing: behind the camera plane or outside the domain.
   [[nodiscard]] std::optional<Eigen::Vector2d> Project(const Eigen::Vector3d& x_in_world) const {
-    return ProjectInCam(calibration_.cam_from_world * x_in_world);
+    return ProjectInCam(cam_from_world_ * x_in_world);
   }
   [[nodiscard]] std::optional<Eigen::Vector2d> ProjectInCam(const Eigen::Vector3d& x_in_cam) const;
 
@@ -71,6 +73,7 @@ class CameraModel {
 
  private:
   CameraCalibration calibration_;
+  RigidTransform cam_from_world_;
   Eigen::Vector3d center_in_world_ = Eigen::Vector3d::Zero();
   double max_radius_ = 0.0;
   std::vector<double> stretch_px_;  // running maximum over radius bins

@@ -9,7 +9,7 @@
 namespace elbowroom::recon {
 
 // Euclidean distances between cells' centres, in cells: lower bounds, short by at most 1/8 up to kNearCells;
-// farther away by at most 6, from blocks of 4 x 4 cells.
+// farther away by at most 6 along each axis, from blocks of 4 x 4 cells (contour_map_test).
 class CellDistances {
  public:
   static constexpr int kNearCells = 11;

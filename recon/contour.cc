@@ -27,7 +27,10 @@ class Tracer {
         plane_(plane),
         exterior_(exterior_is_object ? ~std::uint64_t{0} : 0),
         boundary_(silhouette.levels.empty() ? core::BitMask() : core::BoundaryPixels(silhouette.mask)),
-        bits_(static_cast<std::size_t>(silhouette.mask.width_px()) + 2) {}
+        bits_(static_cast<std::size_t>(silhouette.mask.width_px()) + 2) {
+    core::Require(soft_.levels.size() == (soft_.levels.empty() ? 0 : boundary_.CountObjectPixels()),
+                  "a soft mask has one level a boundary pixel");
+  }
 
   Contour Trace() {
     LatticeRow above, below;
@@ -97,7 +100,9 @@ class Tracer {
       pixel = 0.5 * (pixel + seen_end);
       at = plane_.FromPixel(pixel);
     }
-    contour_.vertices.push_back(at.value_or(Eigen::Vector2d::Zero()));
+    if (!at) at = plane_.FromPixel(seen_end);
+    core::Require(at.has_value(), "one of two pixels with different labels is seen");
+    contour_.vertices.push_back(*at);
     return static_cast<std::uint32_t>(contour_.vertices.size() - 1);
   }
 
@@ -211,9 +216,7 @@ class Tracer {
     }
   }
 
-  void Add(std::uint32_t from, std::uint32_t to) {
-    contour_.edges.push_back(plane_.is_mirrored() ? ContourEdge{to, from} : ContourEdge{from, to});
-  }
+  void Add(std::uint32_t from, std::uint32_t to) { contour_.edges.push_back({from, to}); }
 
   const core::SoftMask& soft_;
   const PicturePlane& plane_;
@@ -263,7 +266,9 @@ Eigen::Vector2d SmoothTangent(const Contour& contour, std::uint32_t edge) {
   std::uint32_t from = contour.edges[edge].from, to = contour.edges[edge].to;
   for (int i = 0; i < kTangentReach; ++i) {
     from = contour.edges[contour.edge_to[from]].from;
+    if (from == to) return Eigen::Vector2d::Zero();
     to = contour.edges[contour.edge_from[to]].to;
+    if (from == to) return Eigen::Vector2d::Zero();
   }
   return contour.vertices[to] - contour.vertices[from];
 }

@@ -74,14 +74,16 @@ class ContourMap::Grid {
 
   // Lower bound, in px.
   [[nodiscard]] double DistanceOf(const Place& place, const Vector2d& position, double enough_px) const {
-    const double to_centre = distances_.LowerBound(place.cell.x(), place.cell.y());
+    const double cells = distances_.LowerBound(place.cell.x(), place.cell.y());
     const double off_centre = place.from_centre.norm();
-    const double bound_px = (to_centre - kHalfDiagonal - off_centre) * cell_px_;
-    if (bound_px >= enough_px || to_centre - kHalfDiagonal > kWindowCells) return bound_px;
+    const double bound_px = (cells - kHalfDiagonal - off_centre) * cell_px_;
+    if (bound_px >= enough_px) return bound_px;
     constexpr double kShortBy = 0.125;
-    if ((to_centre + kShortBy + kHalfDiagonal + off_centre) * cell_px_ < enough_px && !std::isinf(enough_px))
-      return bound_px;
-    const double within_px = NearestInWindow(place, position).second;
+    const bool is_sure_to_be_less =
+        !std::isinf(enough_px) && (cells + kShortBy + kHalfDiagonal + off_centre) * cell_px_ < enough_px;
+    if (is_sure_to_be_less) return bound_px;
+    double within_px = kInfinity;  // cells as far as that aren't in the window
+    if (cells < kWindowCells + 1) within_px = NearestInWindow(place, position).second;
     return std::max(bound_px, std::min(within_px, kWindowCells * cell_px_));
   }
 
@@ -186,19 +188,24 @@ class ContourMap::Grid {
   }
 
   // From the centre along the row to the position's x, then along the column to the position: both legs stay
-  // in the cell, so its edges are all that matter.
+  // in the cell, so its edges are all that matter. Each edge decides once on which side of it the legs meet,
+  // or an edge through that very corner would count for one leg and not for the other.
   [[nodiscard]] bool ChangesOnTheWay(const Place& place, const Vector2d& p) const {
     const Vector2d c = Centre(place.cell.x(), place.cell.y());
     bool changes = false;
     for (std::uint32_t i = first_[place.index]; i < first_[place.index + 1]; ++i) {
       const Vector2d &a = From(listed_[i]), &b = To(listed_[i]);
+      const bool rises = (b.x() - a.x()) * (b.y() - a.y()) > 0.0;
+      bool corner_is_below = a.y() <= c.y();
       if ((a.y() > c.y()) != (b.y() > c.y())) {
         const double x = CrossingX(a, b, c.y());
-        changes ^= (x <= p.x()) != (x <= c.x());
+        const bool corner_is_right = x <= p.x();
+        changes ^= corner_is_right != (x <= c.x());
+        corner_is_below = corner_is_right != rises;
       }
       if ((a.x() > p.x()) != (b.x() > p.x())) {
         const double y = a.y() + (p.x() - a.x()) / (b.x() - a.x()) * (b.y() - a.y());
-        changes ^= (y <= p.y()) != (y <= c.y());
+        changes ^= corner_is_below != (rises ? y < p.y() : y <= p.y());
       }
     }
     return changes;

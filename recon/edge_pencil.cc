@@ -17,6 +17,11 @@ constexpr double kLeastHeight = 1e-14;
 constexpr std::uint32_t kBins = 2048;
 // Room for the rounding of rays' angles to float32.
 constexpr double kAngleSlack = 1e-6;
+// An epipole within this angle of the contour is on it: rounding would decide, edge by edge, on which side
+// the rays start. The camera is turned then, by an angle that is nothing to a pixel.
+constexpr double kOnContourRad = 1e-11;
+constexpr double kTurnRad = 1e-10;
+constexpr int kMostTurns = 8;
 
 // b - a as the shorter way round, -2 to 2.
 double Turn(double a, double b) {
@@ -43,9 +48,10 @@ EdgePencil::EdgePencil(const ContourMap& labels, double focal_px, const core::Ca
   if (is_concentric_) return;
   // Where the rays come from: the view's centre, or infinitely far behind the picture.
   const Vector3d start_in_view = is_perspective ? Vector3d(-centre_in_view_) : Vector3d(0.0, 0.0, -1.0);
+  TurnOffContour(start_in_view);
   starts_inside_ = LabelInCam(labels, focal_px, cam_from_view_ * start_in_view);
   ChooseAxes(rays.BoundsOf(0, 0, rays.width_px(), rays.height_px()));
-  SortEdges(labels.contour(), view_from_cam.rotation);
+  SortEdges(labels.contour(), cam_from_view_.transpose());
 }
 
 void EdgePencil::ChooseAxes(const Eigen::AlignedBox2d& view_box) {
@@ -68,6 +74,23 @@ void EdgePencil::ChooseAxes(const Eigen::AlignedBox2d& view_box) {
   cast_.bins = kBins;
   cast_.least_angle = static_cast<float>(view_angles_.least);
   cast_.bins_per_angle = static_cast<float>(kBins / (view_angles_.most - view_angles_.least));
+}
+
+void EdgePencil::TurnOffContour(const Vector3d& start_in_view) {
+  const auto is_on_contour = [&] {
+    const Vector3d x = cam_from_view_ * start_in_view;
+    const Eigen::Vector2d epipole = x.head<2>() * (focal_px_ / x.z());
+    if (!(x.z() > 0.0) || !epipole.allFinite()) return false;
+    const double near_px = kOnContourRad * (focal_px_ + epipole.squaredNorm() / focal_px_);
+    if (labels_.bounds_px().squaredExteriorDistance(epipole) > near_px * near_px) return false;
+    const Contour& contour = labels_.contour();
+    for (std::uint32_t i = 0; i < contour.edges.size(); ++i)
+      if (DistanceToEdge(contour, i, epipole) <= near_px) return true;
+    return false;
+  };
+  const Eigen::Matrix3d turn =
+      Eigen::AngleAxisd(kTurnRad, Vector3d(0.8, 0.53, 0.29).normalized()).toRotationMatrix();
+  for (int i = 0; i < kMostTurns && is_on_contour(); ++i) cam_from_view_ = turn * cam_from_view_;
 }
 
 EdgePencil::AngleRange EdgePencil::AnglesOf(const Eigen::AlignedBox2d& uv_box) const {

@@ -57,6 +57,7 @@ class EdgePencil {
     std::uint32_t last_bin = 0;
   };
 
+  void TurnOffContour(const Eigen::Vector3d& start_in_view);
   void ChooseAxes(const Eigen::AlignedBox2d& view_box);
   [[nodiscard]] AngleRange AnglesOf(const Eigen::AlignedBox2d& uv_box) const;
   [[nodiscard]] std::uint32_t BinOf(double angle) const;

@@ -16,8 +16,9 @@ namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 // Cubic interpolation between nodes this far apart follows ordinary lenses; it is halved until it follows
-// this one.
+// this one, or, where the lens bends too much even so, isn't used.
 constexpr int kWidestStepPx = 16;
+constexpr int kNarrowestStepPx = 4;
 constexpr double kTableErrorPx = 5e-6;
 
 // Of the nodes -1, 0, 1, 2 about a place t past node 0 (Lagrange).
@@ -31,15 +32,15 @@ std::array<double, 4> CubicWeights(double t) {
 PicturePlane::PicturePlane(const core::CameraModel& camera) : camera_(camera) {
   const core::CameraCalibration& calibration = camera_.calibration();
   const Eigen::Matrix2d scale = calibration.camera_matrix.topLeftCorner<2, 2>();
-  focal_px_ = std::max(std::abs(scale(0, 0)), std::abs(scale(1, 1)));
-  is_mirrored_ = scale.determinant() < 0.0;
+  focal_px_ = std::max(scale(0, 0), scale(1, 1));
   is_ideal_ = camera_.is_ideal();
   principal_px_ = calibration.camera_matrix.topRightCorner<2, 1>();
   plane_from_pixel_ = focal_px_ * scale.inverse();
   if (is_ideal_) return;
   for (int step_px = kWidestStepPx;; step_px /= 2) {
     FillTable(step_px);
-    if (step_px == 1 || TableErrorPx() <= kTableErrorPx) break;
+    FindBentCells();
+    if (step_px == kNarrowestStepPx || bent_cells_.CountObjectPixels() == 0) break;
   }
   const bool is_whole =
       std::none_of(table_.begin(), table_.end(), [](const Eigen::Vector2d& p) { return std::isnan(p.x()); });
@@ -101,24 +102,36 @@ Eigen::Vector2d PicturePlane::FromTable(const Eigen::Vector2d& pixel) const {
   return sum;
 }
 
-double PicturePlane::TableErrorPx() const {
-  double error_px = 0.0;
+void PicturePlane::FindBentCells() {
+  bent_cells_ = core::BitMask(nodes_.x() - 1, nodes_.y() - 1);
   for (int y = 0; y + 1 < nodes_.y(); ++y) {
     for (int x = 0; x + 1 < nodes_.x(); ++x) {
       const Eigen::Vector2d pixel =
           Eigen::Vector2d(x + 0.5, y + 0.5).cwiseProduct(pixels_per_node_) - Eigen::Vector2d::Constant(0.5);
-      const std::optional<Eigen::Vector2d> exact = Exactly(pixel);
       const Eigen::Vector2d found = FromTable(pixel);
-      if (exact && found.allFinite()) error_px = std::max(error_px, (*exact - found).norm());
+      if (std::isnan(found.x())) continue;
+      const std::optional<Eigen::Vector2d> exact = Exactly(pixel);
+      if (exact && (*exact - found).norm() <= kTableErrorPx) continue;
+      // Its neighbours too: where a lens is about to fold, the error grows fast.
+      for (int v = std::max(y - 1, 0); v <= std::min(y + 1, nodes_.y() - 2); ++v)
+        for (int u = std::max(x - 1, 0); u <= std::min(x + 1, nodes_.x() - 2); ++u)
+          bent_cells_.Set(u, v, true);
     }
   }
-  return error_px;
+}
+
+bool PicturePlane::IsBent(const Eigen::Vector2d& pixel) const {
+  const Eigen::Vector2d at = (pixel + Eigen::Vector2d::Constant(0.5)).cwiseQuotient(pixels_per_node_);
+  return bent_cells_.At(std::clamp(static_cast<int>(at.x()), 0, nodes_.x() - 2),
+                        std::clamp(static_cast<int>(at.y()), 0, nodes_.y() - 2));
 }
 
 std::optional<Eigen::Vector2d> PicturePlane::FromPixel(const Eigen::Vector2d& pixel) const {
   if (is_ideal_) return Eigen::Vector2d(plane_from_pixel_ * (pixel - principal_px_));
-  const Eigen::Vector2d found = FromTable(pixel);
-  if (!std::isnan(found.x())) return found;
+  if (!IsBent(pixel)) {
+    const Eigen::Vector2d found = FromTable(pixel);
+    if (!std::isnan(found.x())) return found;
+  }
   return Exactly(pixel);
 }
 

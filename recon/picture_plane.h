@@ -26,12 +26,9 @@ class PicturePlane {
   [[nodiscard]] const core::CameraModel& camera() const { return camera_; }
   [[nodiscard]] double focal_px() const { return focal_px_; }
 
-  // Where a position of the picture falls in the plane, to 1e-5 units (picture_plane_test); nothing where the
-  // lens's domain doesn't reach.
+  // Where a position of the picture, its border included, falls in the plane, to 1e-5 units
+  // (picture_plane_test); nothing where the lens's domain doesn't reach.
   [[nodiscard]] std::optional<Eigen::Vector2d> FromPixel(const Eigen::Vector2d& pixel) const;
-
-  // Whether the picture's right is the plane's right or, mirrored, its left.
-  [[nodiscard]] bool is_mirrored() const { return is_mirrored_; }
 
   // The pixels whose centres the lens's domain doesn't reach; nothing if there are none, as is usual.
   [[nodiscard]] const std::optional<core::BitMask>& unseen_pixels() const { return unseen_pixels_; }
@@ -43,11 +40,11 @@ class PicturePlane {
   void FillTable(int step_px);
   [[nodiscard]] Eigen::Vector2d FromTable(const Eigen::Vector2d& pixel) const;
   [[nodiscard]] std::optional<Eigen::Vector2d> Exactly(const Eigen::Vector2d& pixel) const;
-  [[nodiscard]] double TableErrorPx() const;
+  void FindBentCells();
+  [[nodiscard]] bool IsBent(const Eigen::Vector2d& pixel) const;
 
   core::CameraModel camera_;
   double focal_px_ = 1.0;
-  bool is_mirrored_ = false;
   bool is_ideal_ = false;                                           // no lens to speak of
   Eigen::Matrix2d plane_from_pixel_ = Eigen::Matrix2d::Identity();  // of an ideal lens, about
   Eigen::Vector2d principal_px_ = Eigen::Vector2d::Zero();          // this pixel
@@ -55,6 +52,7 @@ class PicturePlane {
   Eigen::Vector2i nodes_{0, 0};
   Eigen::Vector2d pixels_per_node_{0.0, 0.0};
   std::vector<Eigen::Vector2d> table_;
+  core::BitMask bent_cells_;  // between nodes: the cubic doesn't follow the lens there
   std::optional<core::BitMask> unseen_pixels_;
   mutable std::once_flag once_;
   mutable std::unique_ptr<const ContourMap> outline_;

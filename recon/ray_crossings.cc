@@ -14,6 +14,9 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kUnitSlack = 1e-9;
+// A ray that passes a camera's centre this near, as a share of how far away it starts, passes through it:
+// rounding would decide the order in which it crosses the edges, which all meet there.
+constexpr double kThroughCentre = 1e-11;
 
 // A ray in a camera's frame.
 struct RayInCam {
@@ -30,17 +33,29 @@ struct Event {
   bool is_outline = false;
 };
 
-// The label at the ray's origin; a ray from the camera's centre keeps the label of its direction.
-bool LabelAtStart(const ContourMap& labels, double focal_px, const RayInCam& ray) {
-  return LabelInCam(labels, focal_px, ray.origin.isZero() ? ray.direction : ray.origin);
+bool PassesThroughCentre(const RayInCam& ray) {
+  return ray.direction.cross(ray.origin).norm() <= kThroughCentre * ray.origin.norm();
+}
+
+// A ray through the camera's centre has the label of one direction up to it and of the other from there on.
+// Returns the label at the ray's origin.
+bool AddCentreEvent(const ContourMap& labels, double focal_px, const RayInCam& ray, std::size_t camera,
+                    bool is_outline, std::vector<Event>* events) {
+  const bool before = LabelInCam(labels, focal_px, -ray.direction);
+  const bool after = LabelInCam(labels, focal_px, ray.direction);
+  const double t_mm = -ray.origin.dot(ray.direction);
+  if (t_mm <= 0.0) return after;
+  if (before != after) events->push_back({t_mm, camera, 0, after, is_outline});  // as good as any edge
+  return before;
 }
 
 // Derivation in docs/exact_view.md. With q a vertex's direction, the sign of (direction x centre) . q says on
 // which side of the epipolar plane the vertex is; an edge whose ends are on different sides is crossed by the
 // ray's line, and the order of the sides tells crossings of the edge's cone from those of its mirror image
-// behind the camera.
-void AddEvents(const Contour& contour, double focal_px, const RayInCam& ray, std::size_t camera,
+// behind the camera. Returns the label before the first event.
+bool AddEvents(const ContourMap& labels, double focal_px, const RayInCam& ray, std::size_t camera,
                bool is_outline, std::vector<Event>* events) {
+  const Contour& contour = labels.contour();
   const Vector3d centre = -ray.origin;
   const Vector3d side = ray.direction.cross(centre);
   std::vector<std::uint8_t> is_positive(contour.vertices.size());
@@ -48,6 +63,7 @@ void AddEvents(const Contour& contour, double focal_px, const RayInCam& ray, std
     const Eigen::Vector2d& v = contour.vertices[i];
     is_positive[i] = side.x() * v.x() + side.y() * v.y() + side.z() * focal_px > 0.0 ? 1 : 0;
   }
+  double first_mm = std::numeric_limits<double>::infinity();
   for (std::uint32_t e = 0; e < contour.edges.size(); ++e) {
     const ContourEdge& edge = contour.edges[e];
     if (is_positive[edge.from] == is_positive[edge.to]) continue;
@@ -58,8 +74,13 @@ void AddEvents(const Contour& contour, double focal_px, const RayInCam& ray, std
     const bool is_entry = is_positive[edge.from] != 0;
     if (is_entry != (rise > 0.0)) continue;  // of the mirror image
     const double t_mm = height / rise;
-    if (t_mm > 0.0) events->push_back({t_mm, camera, e, is_entry, is_outline});
+    if (!(t_mm > 0.0)) continue;
+    events->push_back({t_mm, camera, e, is_entry, is_outline});
+    first_mm = std::min(first_mm, t_mm);
   }
+  // Not at the origin, which may be on the hull's surface: halfway to the first event, or anywhere.
+  const double between_mm = std::isinf(first_mm) ? centre.norm() : 0.5 * first_mm;
+  return LabelInCam(labels, focal_px, ray.origin + between_mm * ray.direction);
 }
 
 // The stretch of a ray inside a box (slab test); empty (from > to) if it misses.
@@ -103,7 +124,7 @@ class Votes {
   std::vector<std::uint8_t> sights_;
 };
 
-// The votes at the ray's origin, and every event beyond it in order.
+// The votes where the ray starts, and every event beyond in order.
 std::vector<Event> EventsAlong(const VisualHull& hull, const Ray& ray, Votes* votes) {
   std::vector<Event> events;
   for (std::size_t i = 0; i < hull.silhouettes().size(); ++i) {
@@ -112,8 +133,11 @@ std::vector<Event> EventsAlong(const VisualHull& hull, const Ray& ray, Votes* vo
                           cam_from_world.rotation * ray.direction_in_world};
     const PicturePlane& plane = hull.silhouettes()[i]->plane();
     const auto add = [&](const ContourMap& labels, bool is_outline) {
-      votes->Set(i, is_outline, LabelAtStart(labels, plane.focal_px(), in_cam));
-      AddEvents(labels.contour(), plane.focal_px(), in_cam, i, is_outline, &events);
+      if (PassesThroughCentre(in_cam)) {
+        votes->Set(i, is_outline, AddCentreEvent(labels, plane.focal_px(), in_cam, i, is_outline, &events));
+        return;
+      }
+      votes->Set(i, is_outline, AddEvents(labels, plane.focal_px(), in_cam, i, is_outline, &events));
     };
     add(hull.silhouettes()[i]->labels(), false);
     if (ExteriorIsObject(hull.rig())) add(plane.outline(), true);

@@ -31,10 +31,23 @@ TEST(CliBench, SaysWhatThereIsForAnUnknownName) {
   EXPECT_EQ(run.err, "elbowroom: there is no benchmark 'levitation'; there are: view, segmentation, hull\n");
 }
 
+TEST(CliBench, SelfTestFindsThatOpenGlComputesWhatTheProcessorDoes) {
+  const ProgramRun run = RunProgram(ELBOWROOM_PROGRAM, {"--json", "bench", "selftest"});
+  ASSERT_EQ(run.exit_status, 0) << run.err;
+  const nlohmann::json result = nlohmann::json::parse(run.out);
+  EXPECT_EQ(result.at("passed"), true);
+  EXPECT_NE(result.at("driver"), "");
+  ASSERT_GE(result.at("tests").size(), 2U);
+  for (const nlohmann::json& test : result["tests"]) {
+    EXPECT_GT(test.at("hit_pixels"), 1000) << test;
+    EXPECT_EQ(test.at("unexplained_pixels"), 0) << test;
+  }
+}
+
 TEST(CliBench, HelpListsTheBenchmarks) {
   const ProgramRun run = RunProgram(ELBOWROOM_PROGRAM, {"bench", "--help"});
   EXPECT_EQ(run.exit_status, 0);
-  for (const char* name : {"view", "segmentation", "hull"})
+  for (const char* name : {"view", "segmentation", "hull", "selftest"})
     EXPECT_NE(run.out.find(std::string("\n  ") + name + " "), std::string::npos) << run.out;
 }
 

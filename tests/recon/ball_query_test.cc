@@ -18,7 +18,7 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr int kScenes = 400;
+constexpr int kScenes = 200;
 constexpr int kBallsPerScene = 500;
 // Sampled points stay inside the closed ball whatever the rounding of their own coordinates.
 constexpr double kInsideBall = 1.0 - 1e-12;
@@ -175,16 +175,6 @@ void CheckProbe(Random* random, const VisualHull& hull, const Vector3d& center) 
       << center.transpose() << " probe " << answer.radius_mm << " inside " << answer.is_inside;
 }
 
-// The march's variant: the same answer, and a radius as certain.
-void CheckContentProbe(Random* random, const VisualHull& hull, const Vector3d& center) {
-  const auto cameras = static_cast<int>(hull.rig().cameras.size());
-  auto first = static_cast<core::CameraIndex>(random->Whole(0, cameras - 1));
-  const PointAnswer answer = hull.Probe(center, random->LogUniform(1e-3, 1e2), &first);
-  ASSERT_EQ(answer.is_inside, hull.Contains(center));
-  ASSERT_LE(answer.radius_mm, hull.Probe(center).radius_mm);
-  ASSERT_LT(first, hull.rig().cameras.size());
-}
-
 TEST(BallQuery, NoSampledPointContradictsACertifiedAnswer) {
   Random random(2001);
   Census census;
@@ -194,7 +184,6 @@ TEST(BallQuery, NoSampledPointContradictsACertifiedAnswer) {
     for (int i = 0; i < kBallsPerScene / 2; ++i) {
       const Vector3d center = RandomCenter(&random, scene);
       CheckProbe(&random, hull, center);
-      CheckContentProbe(&random, hull, center);
       CheckBall(&random, hull, center, random.LogUniform(1e-4, 1e3), &census);
       if (HasFatalFailure()) FAIL() << "scene " << trial;
     }
@@ -273,8 +262,8 @@ TEST(BallQuery, MovingRigAndPointsTogetherChangesNothing) {
   EXPECT_GT(asked, 10'000);
 }
 
-TEST(BallQuery, PixelEdgesBelongToTheSameSideForPointAndBall) {
-  // A pinhole whose pixels' edges fall on round numbers: positions exactly on the picture's border.
+TEST(BallQuery, ThePicturesBorderBelongsToTheSameSideForPointAndBall) {
+  // A pinhole whose border falls on round numbers: positions exactly on the contour.
   for (const auto unseen : {core::UnseenPolicy::kOutside, core::UnseenPolicy::kAbstain}) {
     core::Rig rig;
     rig.workspace_mm = {Vector3d::Constant(-100), Vector3d::Constant(100)};

@@ -153,6 +153,20 @@ core::BitMask RandomMask(Random* random, int width_px, int height_px) {
   return mask;
 }
 
+core::SoftMask RandomLevels(Random* random, core::BitMask mask) {
+  core::SoftMask soft{std::move(mask), {}};
+  const core::BitMask boundary = core::BoundaryPixels(soft.mask);
+  for (int y = 0; y < boundary.height_px(); ++y) {
+    for (int x = 0; x < boundary.width_px(); ++x) {
+      if (!boundary.At(x, y)) continue;
+      const bool is_object = soft.mask.At(x, y);
+      soft.levels.push_back(
+          static_cast<std::uint8_t>(is_object ? random->Whole(128, 255) : random->Whole(0, 127)));
+    }
+  }
+  return soft;
+}
+
 RandomScene MakeRandomScene(Random* random) {
   core::Rig rig;
   rig.name = "random";

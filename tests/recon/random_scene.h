@@ -9,6 +9,7 @@
 
 #include "core/bit_mask.h"
 #include "core/rig.h"
+#include "core/soft_mask.h"
 #include "recon/visual_hull.h"
 
 namespace elbowroom::recon {
@@ -40,6 +41,9 @@ inline constexpr int kLensKinds = 6;
 [[nodiscard]] core::BitMask RandomMask(Random* random, int width_px, int height_px);
 // Blobs alone, in the middle of the picture.
 [[nodiscard]] core::BitMask BlobMask(Random* random, int width_px, int height_px);
+
+// The same mask with random coverage along its boundary.
+[[nodiscard]] core::SoftMask RandomLevels(Random* random, core::BitMask mask);
 
 struct RandomScene {
   std::shared_ptr<const core::Rig> rig;

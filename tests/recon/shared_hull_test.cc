@@ -69,10 +69,12 @@ TEST(SharedHull, Bunny6ContainsItsGroundTruthButForHalfAPixelAtTheRim) {
     bool is_seen = true;
     double off_px = 0.0;
     for (std::size_t i = 0; i < scene->masks.size(); ++i) {
-      const auto pixel = scene->rig->cameras[i].Project(vertex);
-      is_seen = is_seen && pixel && hull.silhouettes()[i]->IsInImage(*pixel);
+      const Silhouette& silhouette = *hull.silhouettes()[i];
+      const Vector3d x_in_cam = scene->rig->cameras[i].cam_from_world() * vertex;
+      const Eigen::Vector2d position = x_in_cam.head<2>() * (silhouette.plane().focal_px() / x_in_cam.z());
+      is_seen = is_seen && x_in_cam.z() > 0.0 && silhouette.plane().outline().IsObject(position);
       if (!is_seen) break;
-      const PixelLabel label = hull.silhouettes()[i]->LabelAt(*pixel);
+      const PlaneLabel label = silhouette.labels().LabelAt(position);
       if (!label.is_object) off_px = std::max(off_px, label.distance_px);
     }
     // The tip of an ear leaves the workspace and the second picture.
