@@ -10,6 +10,7 @@
 #include "recon/gl/contact_painter.h"
 #include "recon/gl/egl_context.h"
 #include "recon/gl/framebuffer.h"
+#include "recon/gl/gl_error.h"
 #include "recon/gl/hull_painter.h"
 #include "recon/gl/part_painter.h"
 #include "recon/gl/surroundings_painter.h"
@@ -27,18 +28,6 @@ struct Targets {
   Targets(int width_px, int height_px)
       : sampled(width_px, height_px, kSamples), single(width_px, height_px, 1) {}
 };
-
-void ThrowOnGlError(const std::string& renderer) {
-  GLenum first = glGetError();
-  if (first == GL_NO_ERROR) return;
-  while (glGetError() != GL_NO_ERROR) {
-  }
-  throw core::Error(
-      core::ErrorKind::kGraphics,
-      fmt::format("drawing failed on {} ({}); ask for a smaller picture or fewer triangles", renderer,
-                  first == GL_OUT_OF_MEMORY ? std::string("out of graphics memory")
-                                            : fmt::format("OpenGL error {:#x}", first)));
-}
 
 }  // namespace
 

@@ -1,0 +1,22 @@
+#include "recon/gl/gl_error.h"
+
+#include <epoxy/gl.h>
+#include <fmt/format.h>
+
+#include "core/error.h"
+
+namespace elbowroom::recon::gl {
+
+void ThrowOnGlError(const std::string& renderer) {
+  GLenum first = glGetError();
+  if (first == GL_NO_ERROR) return;
+  while (glGetError() != GL_NO_ERROR) {
+  }
+  throw core::Error(
+      core::ErrorKind::kGraphics,
+      fmt::format("drawing failed on {} ({}); ask for a smaller picture or fewer triangles", renderer,
+                  first == GL_OUT_OF_MEMORY ? std::string("out of graphics memory")
+                                            : fmt::format("OpenGL error {:#x}", first)));
+}
+
+}  // namespace elbowroom::recon::gl
