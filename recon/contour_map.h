@@ -40,10 +40,11 @@ class ContourMap {
   // Of any finite position.
   [[nodiscard]] bool IsObject(const Eigen::Vector2d& position) const;
 
-  // Within the bounds the distance is exact to 1e-6 up to 2 cells from an edge, at most 3 cells short up to 11,
-  // farther away at most 10; outside it is at least as good as the distance to the bounds, less 3 cells. A
-  // cell is 1 px, or larger where that would make more than 4e6 of them (contour_map_test). Content with
-  // `enough_px`: a distance that is sure to be at least that, or sure to be less, isn't worked out any closer.
+  // Within the bounds the distance is exact to 1e-6 up to 2 cells from an edge, at most 3 cells short up to
+  // 11, farther away at most 11.5; outside it is at least as good as the distance to the bounds, less 3
+  // cells. A cell is 1 px, or larger where that would make more than 4e6 of them (contour_map_test). Content
+  // with `enough_px`: a distance that is sure to be at least that, or sure to be less, isn't worked out any
+  // closer.
   [[nodiscard]] PlaneLabel LabelAt(const Eigen::Vector2d& position,
                                    double enough_px = std::numeric_limits<double>::infinity()) const;
 

@@ -131,6 +131,7 @@ class Walk {
       }
       if (agreed == cameras && !sights_.empty() && MoveIntoSight(alive, &front)) {
         alive = hn::And(alive, hn::Le(front.key, key_to));
+        if (hn::AllFalse(f, alive)) break;
         agreed = 0;
       }
     }
@@ -145,8 +146,8 @@ class Walk {
     VI found = hn::Zero(n);
     for (std::size_t i = 0; i < cameras_.size() + sights_.size(); ++i) {
       const MF is_by = hn::RebindMask(f, hn::Eq(front.camera, hn::Set(n, static_cast<std::int32_t>(i))));
-      if (hn::AllFalse(f, is_by)) continue;
       const TileCamera& camera = i < cameras_.size() ? cameras_[i] : sights_[i - cameras_.size()];
+      if (hn::AllFalse(f, is_by) || camera.pencil->bins == 0) continue;
       Kept bins;
       const VF angle = Angle(*camera.pencil, rays_.u, rays_.v);
       FindBins(*camera.pencil, is_by, angle, &bins);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "core/error.h"
 #include "recon/picture_plane.h"
@@ -31,7 +32,7 @@ ViewRays::ViewRays(const core::CameraModel& view, Projection projection)
   const Eigen::Matrix3d& matrix = view.calibration().camera_matrix;
   uv_from_pixel_ = matrix.topLeftCorner<2, 2>().inverse();
   uv_of_origin_ = -uv_from_pixel_ * matrix.topRightCorner<2, 1>();
-  if (!view.is_ideal()) FillByPixel(view);
+  if (!view.is_ideal()) lens_ = LensOf(view);
 }
 
 ViewRays ViewRays::From(const core::RigidTransform& view_from_world) const {
@@ -40,29 +41,39 @@ ViewRays ViewRays::From(const core::RigidTransform& view_from_world) const {
   return rays;
 }
 
-void ViewRays::FillByPixel(const core::CameraModel& view) {
+bool ViewRays::HasSameRays(const ViewRays& other) const {
+  return projection_ == other.projection_ && width_px_ == other.width_px_ && height_px_ == other.height_px_ &&
+         uv_from_pixel_ == other.uv_from_pixel_ && uv_of_origin_ == other.uv_of_origin_ &&
+         lens_ == other.lens_;
+}
+
+std::shared_ptr<const ViewRays::Lens> ViewRays::LensOf(const core::CameraModel& view) {
   const PicturePlane plane(view);
-  const auto width = static_cast<std::size_t>(width_px_);
-  by_pixel_.resize(width * static_cast<std::size_t>(height_px_));
-  const int tiles_across = (width_px_ + kTilePx - 1) / kTilePx;
-  const int tiles_down = (height_px_ + kTilePx - 1) / kTilePx;
-  tile_boxes_.resize(static_cast<std::size_t>(tiles_across) * static_cast<std::size_t>(tiles_down));
+  const auto width = static_cast<std::size_t>(view.width_px());
+  const int tiles_across = (view.width_px() + kTilePx - 1) / kTilePx;
+  const int tiles_down = (view.height_px() + kTilePx - 1) / kTilePx;
+  auto lens = std::make_shared<Lens>();
+  lens->by_pixel.resize(width * static_cast<std::size_t>(view.height_px()));
+  lens->tile_boxes.resize(static_cast<std::size_t>(tiles_across) * static_cast<std::size_t>(tiles_down));
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   tbb::parallel_for(0, tiles_down, [&](int tile_y) {
-    for (int y = tile_y * kTilePx; y < std::min((tile_y + 1) * kTilePx, height_px_); ++y) {
-      for (int x = 0; x < width_px_; ++x) {
+    for (int y = tile_y * kTilePx; y < std::min((tile_y + 1) * kTilePx, view.height_px()); ++y) {
+      for (int x = 0; x < view.width_px(); ++x) {
         const std::optional<Eigen::Vector2d> position = plane.FromPixel({x, y});
-        Eigen::Vector2d& uv = by_pixel_[static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)];
+        Eigen::Vector2d& uv =
+            lens->by_pixel[static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)];
         uv = position ? Eigen::Vector2d(*position / plane.focal_px()) : Eigen::Vector2d(kNaN, kNaN);
-        if (position) tile_boxes_[static_cast<std::size_t>(tile_y * tiles_across + x / kTilePx)].extend(uv);
+        const auto tile = static_cast<std::size_t>(tile_y * tiles_across + x / kTilePx);
+        if (position) lens->tile_boxes[tile].extend(uv);
       }
     }
   });
+  return lens;
 }
 
 Eigen::AlignedBox2d ViewRays::BoundsOf(int x0, int y0, int x1, int y1) const {
   Eigen::AlignedBox2d box;
-  if (by_pixel_.empty()) {
+  if (lens_ == nullptr) {
     for (const int x : {x0, x1 - 1})
       for (const int y : {y0, y1 - 1}) box.extend(At(x, y));
     return box;
@@ -70,7 +81,7 @@ Eigen::AlignedBox2d ViewRays::BoundsOf(int x0, int y0, int x1, int y1) const {
   const int tiles_across = (width_px_ + kTilePx - 1) / kTilePx;
   for (int y = y0 / kTilePx; y * kTilePx < y1; ++y)
     for (int x = x0 / kTilePx; x * kTilePx < x1; ++x)
-      box.extend(tile_boxes_[static_cast<std::size_t>(y * tiles_across + x)]);
+      box.extend(lens_->tile_boxes[static_cast<std::size_t>(y * tiles_across + x)]);
   return box;
 }
 

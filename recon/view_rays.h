@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <cstddef>
+#include <memory>
 #include <vector>
 
 #include "core/camera_model.h"
@@ -25,6 +26,10 @@ class ViewRays {
   // The same rays from elsewhere.
   [[nodiscard]] ViewRays From(const core::RigidTransform& view_from_world) const;
 
+  // Whether the two are the same rays, if from different places. Of lenses: whether one is a copy of the
+  // other.
+  [[nodiscard]] bool HasSameRays(const ViewRays& other) const;
+
   [[nodiscard]] Projection projection() const { return projection_; }
   [[nodiscard]] int width_px() const { return width_px_; }
   [[nodiscard]] int height_px() const { return height_px_; }
@@ -32,16 +37,20 @@ class ViewRays {
 
   // NaN where the lens has no ray for the pixel.
   [[nodiscard]] Eigen::Vector2d At(int x, int y) const {
-    if (by_pixel_.empty()) return uv_from_pixel_ * Eigen::Vector2d(x, y) + uv_of_origin_;
-    return by_pixel_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_px_) +
-                     static_cast<std::size_t>(x)];
+    if (lens_ == nullptr) return uv_from_pixel_ * Eigen::Vector2d(x, y) + uv_of_origin_;
+    return lens_->by_pixel[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_px_) +
+                           static_cast<std::size_t>(x)];
   }
 
   // Of the rays of pixels [x0, x1) x [y0, y1), whose corners are multiples of 8 or the picture's: their box.
   [[nodiscard]] Eigen::AlignedBox2d BoundsOf(int x0, int y0, int x1, int y1) const;
 
  private:
-  void FillByPixel(const core::CameraModel& view);
+  struct Lens {
+    std::vector<Eigen::Vector2d> by_pixel;
+    std::vector<Eigen::AlignedBox2d> tile_boxes;  // of its 8 x 8 tiles
+  };
+  [[nodiscard]] static std::shared_ptr<const Lens> LensOf(const core::CameraModel& view);
 
   Projection projection_;
   int width_px_;
@@ -49,8 +58,7 @@ class ViewRays {
   core::RigidTransform view_from_world_;
   Eigen::Matrix2d uv_from_pixel_ = Eigen::Matrix2d::Identity();
   Eigen::Vector2d uv_of_origin_ = Eigen::Vector2d::Zero();
-  std::vector<Eigen::Vector2d> by_pixel_;        // of a lens with distortion
-  std::vector<Eigen::AlignedBox2d> tile_boxes_;  // of its 8 x 8 tiles
+  std::shared_ptr<const Lens> lens_;  // null: none
 };
 
 }  // namespace elbowroom::recon

@@ -1,6 +1,7 @@
 // Where pictures are drawn. For the .cc files of this folder: it includes OpenGL.
 #pragma once
 
+#include "recon/gl/framebuffer_name.h"
 #include "recon/gl/gl_name.h"
 
 namespace elbowroom::recon::gl {
@@ -22,23 +23,6 @@ class Framebuffer {
   void ResolveColourFrom(const Framebuffer& source) const;
 
  private:
-  struct FramebufferKind {
-    static GLuint Create() {
-      GLuint name = 0;
-      glGenFramebuffers(1, &name);
-      return name;
-    }
-    static void Destroy(GLuint name) { glDeleteFramebuffers(1, &name); }
-  };
-  struct RenderbufferKind {
-    static GLuint Create() {
-      GLuint name = 0;
-      glGenRenderbuffers(1, &name);
-      return name;
-    }
-    static void Destroy(GLuint name) { glDeleteRenderbuffers(1, &name); }
-  };
-
   int width_px_;
   int height_px_;
   GlName<RenderbufferKind> colour_;

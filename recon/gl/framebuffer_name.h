@@ -1,0 +1,26 @@
+// The names of what can be drawn to. For the .cc files of this folder: it includes OpenGL.
+#pragma once
+
+#include "recon/gl/gl_name.h"
+
+namespace elbowroom::recon::gl {
+
+struct FramebufferKind {
+  static GLuint Create() {
+    GLuint name = 0;
+    glGenFramebuffers(1, &name);
+    return name;
+  }
+  static void Destroy(GLuint name) { glDeleteFramebuffers(1, &name); }
+};
+
+struct RenderbufferKind {
+  static GLuint Create() {
+    GLuint name = 0;
+    glGenRenderbuffers(1, &name);
+    return name;
+  }
+  static void Destroy(GLuint name) { glDeleteRenderbuffers(1, &name); }
+};
+
+}  // namespace elbowroom::recon::gl

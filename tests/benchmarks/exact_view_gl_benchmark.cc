@@ -1,0 +1,62 @@
+// Exact views of the demo's hand by the graphics card, beside the processor's: from masks in memory to a
+// 640 x 480 depth picture.
+#include <benchmark/benchmark.h>
+#include <tbb/global_control.h>
+
+#include <memory>
+
+#include "recon/gl/exact_view_gl.h"
+#include "recon/synthetic/view_scene.h"
+#include "recon/view_comparison.h"
+
+namespace elbowroom::recon {
+namespace {
+
+// What is new in each picture.
+enum Fresh { kNothing, kView, kMasks };
+
+void ExactViewGl(benchmark::State& state, ViewSceneRig of_rig) {
+  const ViewScene scene = MakeViewScene(of_rig);
+  const auto rig = std::make_shared<const core::Rig>(scene.rig);
+  const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
+                                    static_cast<std::size_t>(state.range(0)));
+  const auto fresh = static_cast<Fresh>(state.range(1));
+  const PicturePlanes planes = MakePicturePlanes(*rig);
+  std::vector<core::SoftMask> masks;
+  for (core::BitMask& mask : TrueMasks(*rig, scene.objects)) masks.push_back({std::move(mask), {}});
+  const ViewRays rays(scene.view);
+  core::RigidTransform moved = scene.view.cam_from_world();
+  moved.translation_mm.x() += 1e-3;
+  const ViewRays views[2] = {rays, rays.From(moved)};
+  HullViewOptions options;
+  options.surfaces = options.normals = false;
+  gl::ExactViewGl card;
+  VisualHull hull = MakeVisualHull(rig, planes, masks);
+  HullView view = card.ViewHull(hull, rays, options);
+  const ViewComparison comparison = CompareViews(hull, rays, recon::ViewHull(hull, rays, options), view);
+  std::size_t number = 0;
+  for (auto _ : state) {
+    if (fresh == kMasks) hull = MakeVisualHull(rig, planes, masks);
+    if (fresh == kView) ++number;
+    view = card.ViewHull(hull, views[number % 2], options);
+    benchmark::DoNotOptimize(view.depth_mm.data());
+  }
+  state.SetLabel(card.driver());
+  state.counters["hit_pixels"] = static_cast<double>(view.hit_pixels);
+  state.counters["cast_pixels"] = static_cast<double>(view.cast_pixels);
+  state.counters["band_pixels"] = static_cast<double>(comparison.band_pixels);
+  state.counters["differing"] = static_cast<double>(comparison.differing_pixels);
+  state.counters["max_mm"] = comparison.largest_difference_mm;
+}
+#define ON(rig, of_rig)                                  \
+  BENCHMARK_CAPTURE(ExactViewGl, rig, of_rig)            \
+      ->ArgNames({"threads", "fresh"})                   \
+      ->ArgsProduct({{1, 2}, {kNothing, kView, kMasks}}) \
+      ->Unit(benchmark::kMillisecond)                    \
+      ->UseRealTime()
+ON(three_cameras, ViewSceneRig::kThree);
+ON(eight_cameras, ViewSceneRig::kEight);
+#undef ON
+
+}  // namespace
+}  // namespace elbowroom::recon

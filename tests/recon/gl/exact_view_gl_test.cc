@@ -1,0 +1,93 @@
+#include "recon/gl/exact_view_gl.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <optional>
+#include <utility>
+
+#include "recon/view_comparison.h"
+#include "tests/recon/random_scene.h"
+#include "tests/support/soak.h"
+
+namespace elbowroom::recon::gl {
+namespace {
+
+using Eigen::Vector3d;
+
+// Pixels that float32 can't decide are few: of all of them together.
+constexpr double kMostInBand = 0.02;
+
+core::CameraCalibration ViewFrom(const Vector3d& eye, const Vector3d& target) {
+  core::CameraCalibration view;
+  view.name = "view";
+  view.image_width_px = 150, view.image_height_px = 101;  // no whole number of squares
+  view.camera_matrix << 170.0, 0.5, 73.0, 0.0, 165.0, 52.0, 0.0, 0.0, 1.0;
+  view.cam_from_world = core::CamFromWorldLookingAt(eye, target);
+  return view;
+}
+
+// Far, near, in the middle of things; with a lens now and then, or from a rig camera.
+ViewRays RandomView(Random* random, const core::Rig& rig) {
+  if (random->Chance(0.15)) return ViewRays(rig.cameras[0]);
+  core::CameraCalibration view =
+      ViewFrom(random->LogUniform(20.0, 1500.0) * random->Direction(), 40.0 * random->Direction());
+  if (random->Chance(0.3)) {  // orthographic, pixels per mm
+    view.camera_matrix << 0.4, 0.0, 75.0, 0.0, 0.45, 50.0, 0.0, 0.0, 1.0;
+    return ViewRays(core::CameraModel(view), Projection::kOrthographic);
+  }
+  if (random->Chance(0.4)) view.distortion_coefficients = {-0.2, 0.05, 1e-3, -5e-4, 0.0};
+  return ViewRays(core::CameraModel(view));
+}
+
+class Tally {
+ public:
+  void Add(const VisualHull& hull, const ViewRays& rays, ExactViewGl* gl) {
+    const HullView cpu = recon::ViewHull(hull, rays, {});
+    const HullView card = gl->ViewHull(hull, rays, {});
+    const ViewComparison comparison = CompareViews(hull, rays, cpu, card);
+    EXPECT_TRUE(comparison.Agree()) << comparison.differing_pixels << " of " << comparison.hit_pixels
+                                    << " hits differ outside the band of " << comparison.band_pixels;
+    EXPECT_EQ(card.edges, cpu.edges);
+    hits += comparison.hit_pixels, band += comparison.band_pixels, pixels += comparison.pixels;
+    differing += comparison.differing_in_band;
+    std::int64_t unlike = 0;
+    for (std::size_t i = 0; i < cpu.surface.size(); ++i) {
+      EXPECT_EQ(card.surface[i].is_hit(), card.depth_mm[i] != 0.0F);
+      unlike += card.surface[i] == cpu.surface[i] ? 0 : 1;
+    }
+    EXPECT_LE(unlike, comparison.band_pixels);
+    surfaces += unlike;
+  }
+
+  std::int64_t hits = 0, band = 0, pixels = 0, differing = 0, surfaces = 0;
+};
+
+void ExpectEqualViews(std::uint64_t seed, int scenes, bool ring) {
+  Random random(seed);
+  ExactViewGl gl;
+  Tally tally;
+  for (int i = 0; i < scenes; ++i) {
+    const auto unseen = i % 2 == 0 ? core::UnseenPolicy::kOutside : core::UnseenPolicy::kAbstain;
+    const RandomScene scene =
+        ring ? MakeRingScene(&random, random.Whole(1, 8), unseen) : MakeRandomScene(&random);
+    const VisualHull hull = MakeVisualHull(scene.rig, scene.masks);
+    SCOPED_TRACE(i);
+    tally.Add(hull, RandomView(&random, *scene.rig), &gl);
+  }
+  std::printf("%ld pixels, %ld hits, %ld in the band, %ld of them differ, %ld surfaces\n", tally.pixels,
+              tally.hits, tally.band, tally.differing, tally.surfaces);
+  EXPECT_GT(tally.hits, 1000 * scenes);
+  EXPECT_LT(static_cast<double>(tally.band), kMostInBand * static_cast<double>(tally.pixels));
+}
+
+TEST(ExactViewGl, EqualsTheProcessorsOnRings) {
+  ExpectEqualViews(7001, 40 * test_support::SoakScale(), true);
+}
+
+TEST(ExactViewGl, EqualsTheProcessorsOnRandomRigs) {
+  ExpectEqualViews(7002, 60 * test_support::SoakScale(), false);
+}
+
+}  // namespace
+}  // namespace elbowroom::recon::gl
