@@ -36,7 +36,7 @@ void MeasureCost(const std::filesystem::path& docs, const std::filesystem::path&
   double first = 0.0;
   for (const CostCase& cost_case : CostCases()) {
     fmt::print(stderr, "cost: {}\n", cost_case.what);
-    const CallgrindCount count = CountInstructions(view_cost, cost_case.arguments, "*recon::ViewHull*");
+    const CallgrindCount count = CountInstructions(view_cost, cost_case.arguments, "*CountedView*");
     const double instructions = static_cast<double>(count.instructions);
     if (first == 0.0) first = instructions;
     table.rows.push_back({cost_case.what, count.output, fmt::format("{:.1f}", 1e-6 * instructions),

@@ -34,10 +34,12 @@ TEST(WriteMicroTable, TellsWhatGoogleBenchmarkMeasured) {
 
 TEST(CountInstructions, FollowsTheHullOnScreen) {
   const auto count = [](const std::vector<std::string>& arguments) {
-    return CountInstructions(ELBOWROOM_VIEW_COST, arguments, "*recon::ViewHull*");
+    return CountInstructions(ELBOWROOM_VIEW_COST, arguments, "*CountedView*");
   };
   const CallgrindCount small = count({"--zoom", "0.25"}), larger = count({"--zoom", "0.5"});
   EXPECT_GT(std::stoi(larger.output), 3 * std::stoi(small.output));
+  constexpr std::int64_t kAtLeast = 100'000;  // were it less, nothing was counted
+  EXPECT_GT(small.instructions, kAtLeast);
   EXPECT_GT(larger.instructions, small.instructions);
 }
 

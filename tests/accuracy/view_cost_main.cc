@@ -42,18 +42,29 @@ core::CameraModel ViewOf(const core::CameraModel& standard, const CostOptions& o
   return core::CameraModel(std::move(c));
 }
 
+// What is counted: masks in memory to depth.
+[[gnu::noinline]] recon::HullView CountedView(const std::shared_ptr<const core::Rig>& rig,
+                                              const recon::PicturePlanes& planes,
+                                              const std::vector<core::SoftMask>& masks,
+                                              const recon::ViewRays& view) {
+  return recon::ViewHull(recon::MakeVisualHull(rig, planes, masks), view,
+                         {.surfaces = false, .normals = false});
+}
+
 void Run(const CostOptions& options) {
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 1);
   recon::ViewScene scene = recon::MakeViewScene(recon::ViewSceneRig::kThree);
   for (core::CameraModel& camera : scene.rig.cameras) camera = WithMorePicture(camera, options.picture_size);
-  std::vector<core::BitMask> masks = recon::TrueMasks(scene.rig, scene.objects);
-  if (options.blind) masks[0] = core::BitMask(masks[0].width_px(), masks[0].height_px());
+  std::vector<core::SoftMask> masks;
+  for (core::BitMask& mask : recon::TrueMasks(scene.rig, scene.objects))
+    masks.push_back({std::move(mask), {}});
+  if (options.blind) masks[0].mask = core::BitMask(masks[0].mask.width_px(), masks[0].mask.height_px());
   const Eigen::Vector3d center = scene.rig.workspace_mm.center();
   const Eigen::Vector3d half = 0.5 * options.workspace_size * scene.rig.workspace_mm.sizes();
   scene.rig.workspace_mm = {center - half, center + half};
   const auto rig = std::make_shared<const core::Rig>(scene.rig);
-  const recon::VisualHull hull = recon::MakeVisualHull(rig, masks);
-  fmt::print("{}\n", recon::ViewHull(hull, ViewOf(scene.view, options)).hit_pixels);
+  const recon::ViewRays view(ViewOf(scene.view, options));
+  fmt::print("{}\n", CountedView(rig, recon::MakePicturePlanes(*rig), masks, view).hit_pixels);
 }
 
 }  // namespace

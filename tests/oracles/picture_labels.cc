@@ -56,9 +56,15 @@ PictureLabels::PictureLabels(const core::SoftMask& mask, BoundaryConvention conv
 }
 
 int PictureLabels::ValueAt(int x, int y) const {
-  const int inside_x = std::clamp(x, 0, width_px_ - 1), inside_y = std::clamp(y, 0, height_px_ - 1);
-  return values_[static_cast<std::size_t>(inside_y) * static_cast<std::size_t>(width_px_) +
-                 static_cast<std::size_t>(inside_x)];
+  if (!IsPixel(x, y)) return exterior_is_object_ ? 255 : 0;
+  return values_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_px_) +
+                 static_cast<std::size_t>(x)];
+}
+
+long double PictureLabels::CrossingShare(int ax, int ay, int bx, int by) const {
+  if (!IsPixel(ax, ay) || !IsPixel(bx, by)) return 0.5L;
+  const long double a = ValueAt(ax, ay), b = ValueAt(bx, by);
+  return (a - kThreshold) / (a - b);
 }
 
 bool PictureLabels::IsInPicture(const Vector2L& p) const {
@@ -74,9 +80,9 @@ PictureLabels::Cell PictureLabels::CellAt(int x, int y) const {
   }
   const auto is_object = [&](int i) { return value[static_cast<std::size_t>(i & 3)] >= kLeastObjectValue; };
   const auto crossing = [&](int i, int j) -> Vector2L {
-    const long double a = value[static_cast<std::size_t>(i & 3)], b = value[static_cast<std::size_t>(j & 3)];
+    const auto &a = kCorners[static_cast<std::size_t>(i & 3)], &b = kCorners[static_cast<std::size_t>(j & 3)];
     const Vector2L from = CornerPosition(x, y, i), to = CornerPosition(x, y, j);
-    return from + (a - kThreshold) / (a - b) * (to - from);
+    return from + CrossingShare(x + a[0], y + a[1], x + b[0], y + b[1]) * (to - from);
   };
   Cell cell{objects == 4, 0, {}};
   // `object_corner` lies on the object's side of the segment.
@@ -99,11 +105,13 @@ PictureLabels::Cell PictureLabels::CellAt(int x, int y) const {
 }
 
 bool PictureLabels::LabelAt(const Vector2L& p) const {
-  if (!IsInPicture(p)) return exterior_is_object_;
   if (convention_ == BoundaryConvention::kPixelSquares) {
+    if (!IsInPicture(p)) return exterior_is_object_;
     return ValueAt(static_cast<int>(std::floor(p.x() + 0.5L)), static_cast<int>(std::floor(p.y() + 0.5L))) >=
            kLeastObjectValue;
   }
+  if (!(p.x() > -1.0L && p.y() > -1.0L && p.x() < width_px_ && p.y() < height_px_))
+    return exterior_is_object_;
   const Cell cell = CellAt(static_cast<int>(std::floor(p.x())), static_cast<int>(std::floor(p.y())));
   if (cell.segments == 0) return cell.is_object;
   for (int i = 0; i < cell.segments; ++i) {
@@ -113,8 +121,7 @@ bool PictureLabels::LabelAt(const Vector2L& p) const {
   return true;
 }
 
-long double PictureLabels::BoundaryDistance(const Vector2L& p) const {
-  const bool label = LabelAt(p);
+long double PictureLabels::SquaresDistance(const Vector2L& p, bool label) const {
   long double nearest = std::numeric_limits<long double>::infinity();
   const Vector2L in_picture = {std::clamp(p.x(), -0.5L, width_px_ - 0.5L),
                                std::clamp(p.y(), -0.5L, height_px_ - 0.5L)};
@@ -122,22 +129,27 @@ long double PictureLabels::BoundaryDistance(const Vector2L& p) const {
   if (IsInPicture(p) && label != exterior_is_object_) {
     nearest = std::min({p.x() + 0.5L, width_px_ - 0.5L - p.x(), p.y() + 0.5L, height_px_ - 0.5L - p.y()});
   }
-  const bool is_squares = convention_ == BoundaryConvention::kPixelSquares;
-  const long double shift = is_squares ? 0.5L : 0.0L;
-  const int x0 = static_cast<int>(std::floor(in_picture.x() + shift));
-  const int y0 = static_cast<int>(std::floor(in_picture.y() + shift));
+  const int x0 = static_cast<int>(std::floor(in_picture.x() + 0.5L));
+  const int y0 = static_cast<int>(std::floor(in_picture.y() + 0.5L));
   for (int y = y0 - 1; y <= y0 + 1; ++y) {
     for (int x = x0 - 1; x <= x0 + 1; ++x) {
-      if (is_squares) {
-        const bool is_pixel = x >= 0 && y >= 0 && x < width_px_ && y < height_px_;
-        const bool other = is_pixel && (ValueAt(x, y) >= kLeastObjectValue) != label;
-        if (other) nearest = std::min(nearest, DistanceToSquare(x, y, p));
-        continue;
-      }
+      if (IsPixel(x, y) && (ValueAt(x, y) >= kLeastObjectValue) != label)
+        nearest = std::min(nearest, DistanceToSquare(x, y, p));
+    }
+  }
+  return nearest;
+}
+
+// Up to a pixel.
+long double PictureLabels::BoundaryDistance(const Vector2L& p) const {
+  if (convention_ == BoundaryConvention::kPixelSquares) return SquaresDistance(p, LabelAt(p));
+  long double nearest = std::numeric_limits<long double>::infinity();
+  if (!(p.x() > -2.0L && p.y() > -2.0L && p.x() < width_px_ + 1.0L && p.y() < height_px_ + 1.0L))
+    return nearest;
+  const int x0 = static_cast<int>(std::floor(p.x())), y0 = static_cast<int>(std::floor(p.y()));
+  for (int y = y0 - 1; y <= y0 + 1; ++y) {
+    for (int x = x0 - 1; x <= x0 + 1; ++x) {
       const Cell cell = CellAt(x, y);
-      if (!IsInPicture(p) && cell.segments == 0 && cell.is_object != label) {
-        nearest = std::min(nearest, (in_picture - p).norm());
-      }
       for (int i = 0; i < cell.segments; ++i) {
         const Segment& segment = cell.segment[static_cast<std::size_t>(i)];
         nearest = std::min(nearest, DistanceToSegment(segment.a, segment.b, p));

@@ -20,9 +20,9 @@ using Vector3L = Eigen::Matrix<long double, 3, 1>;
 
 // Marching squares: pixels' values are their levels, 255 and 0 where there is none; the boundary crosses the
 // line between two centres a (object) and b at (a - 127.5) / (a - b) of the way. In a saddle cell (object in
-// two opposite corners) the object joins. In the half pixel between the outermost centres and the picture's
-// border the outermost row or column goes on. Positions outside the picture carry the exterior's label.
-// Immutable. Thread: any.
+// two opposite corners) the object joins. The picture is surrounded by pixels of the exterior's label;
+// against them the boundary is halfway, on the picture's border. Positions outside carry the exterior's
+// label. Immutable. Thread: any.
 class PictureLabels {
  public:
   PictureLabels(const core::SoftMask& mask, BoundaryConvention convention, bool exterior_is_object);
@@ -41,8 +41,13 @@ class PictureLabels {
     std::array<Segment, 2> segment{};
   };
 
-  [[nodiscard]] int ValueAt(int x, int y) const;
+  [[nodiscard]] bool IsPixel(int x, int y) const {
+    return x >= 0 && y >= 0 && x < width_px_ && y < height_px_;
+  }
+  [[nodiscard]] int ValueAt(int x, int y) const;  // the exterior's outside
+  [[nodiscard]] long double CrossingShare(int ax, int ay, int bx, int by) const;
   [[nodiscard]] bool IsInPicture(const Vector2L& position_px) const;
+  [[nodiscard]] long double SquaresDistance(const Vector2L& position_px, bool label) const;
   [[nodiscard]] bool LabelAt(const Vector2L& position_px) const;
   [[nodiscard]] long double BoundaryDistance(const Vector2L& position_px) const;
   [[nodiscard]] Cell CellAt(int x, int y) const;

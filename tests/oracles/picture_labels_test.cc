@@ -33,10 +33,14 @@ TEST(PictureLabels, TheBoundaryCrossesWhereTheLevelsSay) {
         TwoColumns(static_cast<std::uint8_t>(object), static_cast<std::uint8_t>(background)),
         BoundaryConvention::kMarchingSquares, false);
     const long double x = 1.0L + (object - 127.5L) / (object - background);
-    for (const long double y : {-0.5L, 0.0L, 0.7L, 2.0L, 2.4L}) {
+    for (const long double y : {0.0L, 0.7L, 2.0L}) {
       EXPECT_TRUE(labels.IsObject({x - kTinyPx, y}));
       EXPECT_FALSE(labels.IsObject({x + kTinyPx, y}));
     }
+    // Then straight to the picture's border, above the object's last pixel.
+    EXPECT_TRUE(labels.IsObject({0.5L * (x + 1.0L) - kTinyPx, -0.25L}));
+    EXPECT_FALSE(labels.IsObject({0.5L * (x + 1.0L) + kTinyPx, -0.25L}));
+    EXPECT_FALSE(labels.IsObject({1.0L, -0.5L - kTinyPx}));
   }
 }
 

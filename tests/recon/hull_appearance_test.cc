@@ -13,8 +13,9 @@
 #include <vector>
 
 #include "core/error.h"
-#include "recon/orbit_camera.h"
 #include "recon/hull_view.h"
+#include "recon/orbit_camera.h"
+#include "recon/ray_crossings.h"
 #include "recon/synthetic/rig_presets.h"
 #include "recon/synthetic/synthetic_rig.h"
 

@@ -18,25 +18,9 @@ Lattice::Lattice(const core::SoftMask& silhouette, bool exterior_is_object)
       for (int x = 0; x < width_; ++x)
         if (boundary.At(x, y)) levels_[static_cast<std::size_t>(y * width_ + x)] = silhouette.levels[next++];
   }
-  // A cell [x, x + 1] x [y, y + 1] and the cells around it.
-  for (int y = -2; y <= height_; ++y) {
-    for (int x = -2; x <= width_; ++x) {
-      bool changes = false;
-      for (int v = y - 1; v <= y + 2; ++v)
-        for (int u = x - 1; u <= x + 2; ++u) changes = changes || IsObject(u, v) != IsObject(x, y);
-      may_change_.push_back(changes);
-    }
-  }
 }
 
 bool Lattice::IsObject(int x, int y) const { return IsInside(x, y) ? mask_.At(x, y) : exterior_; }
-
-bool Lattice::MayChangeNear(const Eigen::Vector2d& pixel) const {
-  const double x = std::floor(pixel.x()) + 2.0, y = std::floor(pixel.y()) + 2.0;
-  if (!(x >= 0.0 && y >= 0.0 && x < width_ + 3 && y < height_ + 3)) return false;
-  return may_change_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_ + 3) +
-                     static_cast<std::size_t>(x)];
-}
 
 double Lattice::CrossingShare(int x, int y, int dx, int dy) const {
   if (!IsInside(x, y) || !IsInside(x + dx, y + dy)) return 0.5;

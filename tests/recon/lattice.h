@@ -16,9 +16,6 @@ class Lattice {
   // The label of a position of the picture plane, in pixels (finite).
   [[nodiscard]] bool At(const Eigen::Vector2d& pixel) const;
 
-  // False only if all positions within 0.4 px are of one label.
-  [[nodiscard]] bool MayChangeNear(const Eigen::Vector2d& pixel) const;
-
   // Share of the way from pixel (x, y) to its neighbour (x + dx, y + dy), of the other label, at which the
   // boundary is.
   [[nodiscard]] double CrossingShare(int x, int y, int dx, int dy) const;
@@ -32,8 +29,7 @@ class Lattice {
   const core::BitMask mask_;
   bool exterior_;
   int width_, height_;
-  std::vector<int> levels_;       // by pixel, -1 where there is none
-  std::vector<bool> may_change_;  // by cell from (-2, -2) on
+  std::vector<int> levels_;  // by pixel, -1 where there is none
 };
 
 }  // namespace elbowroom::recon

@@ -15,8 +15,10 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Pixels that float32 can't decide are few: of all of them together.
-constexpr double kMostInBand = 0.02;
+// Pixels that float32 can't decide, as a share of all of them together. Random rigs have cameras that show
+// noise through 50,000 px of focal length: edges closer to each other than float32 can tell apart.
+constexpr double kMostInBandOnRings = 0.01;
+constexpr double kMostInBandOnRandomRigs = 0.1;
 
 core::CameraCalibration ViewFrom(const Vector3d& eye, const Vector3d& target) {
   core::CameraCalibration view;
@@ -63,7 +65,7 @@ class Tally {
   std::int64_t hits = 0, band = 0, pixels = 0, differing = 0, surfaces = 0;
 };
 
-void ExpectEqualViews(std::uint64_t seed, int scenes, bool ring) {
+void ExpectEqualViews(std::uint64_t seed, int scenes, bool ring, double most_in_band) {
   Random random(seed);
   ExactViewGl gl;
   Tally tally;
@@ -78,15 +80,15 @@ void ExpectEqualViews(std::uint64_t seed, int scenes, bool ring) {
   std::printf("%ld pixels, %ld hits, %ld in the band, %ld of them differ, %ld surfaces\n", tally.pixels,
               tally.hits, tally.band, tally.differing, tally.surfaces);
   EXPECT_GT(tally.hits, 1000 * scenes);
-  EXPECT_LT(static_cast<double>(tally.band), kMostInBand * static_cast<double>(tally.pixels));
+  EXPECT_LT(static_cast<double>(tally.band), most_in_band * static_cast<double>(tally.pixels));
 }
 
 TEST(ExactViewGl, EqualsTheProcessorsOnRings) {
-  ExpectEqualViews(7001, 40 * test_support::SoakScale(), true);
+  ExpectEqualViews(7001, 40 * test_support::SoakScale(), true, kMostInBandOnRings);
 }
 
 TEST(ExactViewGl, EqualsTheProcessorsOnRandomRigs) {
-  ExpectEqualViews(7002, 60 * test_support::SoakScale(), false);
+  ExpectEqualViews(7002, 60 * test_support::SoakScale(), false, kMostInBandOnRandomRigs);
 }
 
 }  // namespace
