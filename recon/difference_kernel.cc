@@ -1,0 +1,188 @@
+#include "recon/difference_kernel.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+
+#include "core/error.h"
+
+// Highway compiles what stands between HWY_BEFORE_NAMESPACE and HWY_AFTER_NAMESPACE once a target.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "recon/difference_kernel.cc"  // NOLINT(bugprone-macro-parentheses)
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace elbowroom::recon {
+namespace HWY_NAMESPACE {  // NOLINT(google-build-namespaces)
+namespace hn = hwy::HWY_NAMESPACE;
+
+constexpr std::size_t kWordBytes = 192;  // of 64 pixels
+
+// ORs the three bits of each of 16 pixels and closes the gaps.
+HWY_INLINE std::uint64_t PixelsOf16(std::uint64_t channels) {
+  std::uint64_t x = (channels | (channels >> 1U) | (channels >> 2U)) & 0x0000249249249249U;
+  x = (x ^ (x >> 2U)) & 0x10c30c30c30c30c3U;
+  x = (x ^ (x >> 4U)) & 0x100f00f00f00f00fU;
+  x = (x ^ (x >> 8U)) & 0x001f0000ff0000ffU;
+  x = (x ^ (x >> 16U)) & 0x001f00000000ffffU;
+  return x & 0xffffU;
+}
+
+HWY_INLINE std::uint64_t PixelsOf64(const std::uint64_t (&c)[3]) {
+  return PixelsOf16(c[0]) | (PixelsOf16((c[0] >> 48U) | (c[1] << 16U)) << 16U) |
+         (PixelsOf16((c[1] >> 32U) | (c[2] << 32U)) << 32U) | (PixelsOf16(c[2] >> 16U) << 48U);
+}
+
+// Bit i: pixel i of 64 has a channel outside of its range. Channels stay interleaved: only bits are merged.
+HWY_INLINE std::uint64_t Differing(const std::uint8_t* image, const std::uint8_t* ranges) {
+  const hn::CappedTag<std::uint8_t, 64> d;
+  const std::size_t lanes = hn::Lanes(d);
+  using V = hn::Vec<decltype(d)>;
+  const auto outside = [&](std::size_t i) HWY_ATTR {
+    const V level = hn::LoadU(d, image + i);
+    return hn::Or(hn::SaturatedSub(hn::Load(d, ranges + i), level),
+                  hn::SaturatedSub(level, hn::Load(d, ranges + kWordBytes + i)));
+  };
+  V any = outside(0);
+  for (std::size_t i = lanes; i < kWordBytes; i += lanes) any = hn::Or(any, outside(i));
+  const V zero = hn::Zero(d);
+  if (hn::AllTrue(d, hn::Eq(any, zero))) return 0;
+  std::uint8_t bytes[kWordBytes / 8 + 8];
+  for (std::size_t i = 0; i < kWordBytes; i += lanes)
+    hn::StoreMaskBits(d, hn::Ne(outside(i), zero), bytes + i / 8);
+  std::uint64_t channels[3];
+  std::memcpy(channels, bytes, sizeof channels);
+  return PixelsOf64(channels);
+}
+
+template <class DF>
+HWY_INLINE hn::Vec<DF> FloatsOf(DF df, hn::Vec<hn::Rebind<std::uint8_t, DF>> levels) {
+  return hn::ConvertTo(df, hn::PromoteTo(hn::Rebind<std::int32_t, DF>(), levels));
+}
+
+// Bit i: pixel i of 64 is shade. Sums of products of whole levels; no contraction to fused multiply-add, so
+// that every target rounds alike.
+HWY_INLINE std::uint64_t Shade(const std::uint8_t* image, const float* mean, const ShadeRule& rule) {
+  const hn::CappedTag<float, 64> df;
+  const hn::Rebind<std::uint8_t, decltype(df)> du;
+  using V = hn::Vec<decltype(df)>;
+  const V darkest = hn::Set(df, rule.darkest), chroma2 = hn::Set(df, rule.chroma * rule.chroma);
+  const V noise2 = hn::Set(df, rule.noise_levels * rule.noise_levels);
+  std::uint64_t bits = 0;
+  for (std::size_t i = 0; i < 64; i += hn::Lanes(df)) {
+    hn::Vec<decltype(du)> image_b, image_g, image_r;
+    hn::LoadInterleaved3(du, image + 3 * i, image_b, image_g, image_r);
+    const V ib = FloatsOf(df, image_b), ig = FloatsOf(df, image_g), ir = FloatsOf(df, image_r);
+    V mb, mg, mr;
+    hn::LoadInterleaved3(df, mean + 3 * i, mb, mg, mr);
+    const auto dot = [](V a, V b, V c, V x, V y, V z)
+                         HWY_ATTR { return hn::Add(hn::Add(hn::Mul(a, x), hn::Mul(b, y)), hn::Mul(c, z)); };
+    const V im = dot(ib, ig, ir, mb, mg, mr), mm = dot(mb, mg, mr, mb, mg, mr);
+    const V ii = dot(ib, ig, ir, ib, ig, ir), im2 = hn::Mul(im, im);
+    // |I - g B|^2 = I.I - (I.B)^2 / B.B and |g B|^2 = (I.B)^2 / B.B; both times B.B.
+    const V off = hn::Sub(hn::Mul(ii, mm), im2);
+    const V allowed = hn::Max(hn::Mul(chroma2, im2), hn::Mul(noise2, mm));
+    const auto is_shade =
+        hn::And(hn::And(hn::Ge(im, hn::Mul(darkest, mm)), hn::Lt(im, mm)), hn::Lt(off, allowed));
+    std::uint8_t bytes[8] = {};
+    hn::StoreMaskBits(df, is_shade, bytes);
+    std::uint64_t lane_bits = 0;
+    std::memcpy(&lane_bits, bytes, sizeof bytes);
+    bits |= lane_bits << i;
+  }
+  return bits;
+}
+
+// The shade among 64 pixels of which `count` are in the picture.
+HWY_NOINLINE std::uint64_t ShadeOfWord(const std::uint8_t* image, const float* mean, std::size_t count,
+                                       const ShadeRule& rule) {
+  HWY_ALIGN std::uint8_t levels[kWordBytes + 64] = {};
+  HWY_ALIGN float means[kWordBytes] = {};
+  std::memcpy(levels, image, count * 3);
+  std::memcpy(means, mean, count * 3 * sizeof(float));
+  return Shade(levels, means, rule);
+}
+
+void DifferingRow(const std::uint8_t* image, const std::uint8_t* ranges, const float* mean,
+                  const ShadeRule* shade, std::size_t width, std::uint64_t* out) {
+  for (std::size_t x = 0; x < width; x += 64, ranges += 2 * kWordBytes, ++out) {
+    const std::size_t count = std::min<std::size_t>(64, width - x);
+    std::uint64_t bits = 0;
+    if (count == 64) {
+      bits = Differing(image + 3 * x, ranges);
+    } else {
+      std::uint8_t rest[kWordBytes] = {};
+      std::memcpy(rest, image + 3 * x, count * 3);
+      bits = Differing(rest, ranges);
+    }
+    if (bits != 0 && shade != nullptr) bits &= ~ShadeOfWord(image + 3 * x, mean + 3 * x, count, *shade);
+    *out = bits;
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace elbowroom::recon
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace elbowroom::recon {
+namespace {
+
+HWY_EXPORT(DifferingRow);
+
+core::BitMask Differing(const LevelRanges& ranges, const cv::Mat& image_bgr, const cv::Mat& mean_bgr,
+                        const ShadeRule* shade) {
+  const cv::Size size(ranges.width_px(), ranges.height_px());
+  core::Require(image_bgr.type() == CV_8UC3 && image_bgr.size() == size,
+                "a picture is 8-bit BGR and of its ranges' size");
+  core::BitMask mask(size.width, size.height);
+  const auto row = HWY_DYNAMIC_DISPATCH(DifferingRow);
+  for (int y = 0; y < size.height; ++y) {
+    row(image_bgr.ptr<std::uint8_t>(y), ranges.row(y), shade != nullptr ? mean_bgr.ptr<float>(y) : nullptr,
+        shade, static_cast<std::size_t>(size.width),
+        mask.words().data() + static_cast<std::size_t>(y) * mask.words_per_row());
+  }
+  return mask;
+}
+
+}  // namespace
+
+LevelRanges::LevelRanges(const cv::Mat& mean_bgr, const cv::Mat& threshold_bgr)
+    : width_px_(mean_bgr.cols), height_px_(mean_bgr.rows) {
+  constexpr int kBytes = 192;
+  levels_.create(height_px_, (width_px_ + 63) / 64 * 2 * kBytes, CV_8U);
+  for (int y = 0; y < height_px_; ++y) {
+    const auto* mean = mean_bgr.ptr<float>(y);
+    const auto* threshold = threshold_bgr.ptr<float>(y);
+    auto* levels = levels_.ptr<std::uint8_t>(y);
+    for (int word = 0; word < levels_.cols / (2 * kBytes); ++word) {
+      std::fill_n(levels + word * 2 * kBytes, kBytes, std::uint8_t{0});
+      std::fill_n(levels + word * 2 * kBytes + kBytes, kBytes, std::uint8_t{255});
+    }
+    for (int i = 0; i < width_px_ * 3; ++i) {
+      // Sums of two floats are exact in double. Rounded by hand: std::ceil and std::floor are calls on plain
+      // x86-64.
+      const double low = std::clamp(static_cast<double>(mean[i]) - threshold[i], 0.0, 255.0);
+      const double high = std::clamp(static_cast<double>(mean[i]) + threshold[i], 0.0, 255.0);
+      const int below_low = static_cast<int>(low);
+      std::uint8_t* lowest = levels + i / kBytes * 2 * kBytes + i % kBytes;
+      lowest[0] = static_cast<std::uint8_t>(below_low + (below_low < low ? 1 : 0));
+      lowest[kBytes] = static_cast<std::uint8_t>(static_cast<int>(high));
+    }
+  }
+}
+
+core::BitMask DifferingPixels(const LevelRanges& ranges, const cv::Mat& image_bgr) {
+  return Differing(ranges, image_bgr, {}, nullptr);
+}
+
+core::BitMask DifferingPixels(const LevelRanges& ranges, const cv::Mat& image_bgr, const cv::Mat& mean_bgr,
+                              const ShadeRule& shade) {
+  core::Require(mean_bgr.type() == CV_32FC3 && mean_bgr.size() == image_bgr.size(),
+                "a background's mean is CV_32FC3 and of the picture's size");
+  return Differing(ranges, image_bgr, mean_bgr, &shade);
+}
+
+}  // namespace elbowroom::recon
+#endif  // HWY_ONCE

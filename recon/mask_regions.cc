@@ -1,0 +1,164 @@
+#include "recon/mask_regions.h"
+
+#include <algorithm>
+#include <bit>
+#include <utility>
+
+#include "core/error.h"
+
+namespace elbowroom::recon {
+namespace {
+
+std::uint64_t BitsFrom(int first) { return ~std::uint64_t{0} << static_cast<unsigned>(first); }
+
+// First pixel in [x, width) whose bit is `value`; width if none.
+int NextOf(const std::uint64_t* row, int x, int width, bool value) {
+  if (x >= width) return width;
+  int word = x / 64;
+  const std::uint64_t flip = value ? 0 : ~std::uint64_t{0};
+  for (std::uint64_t bits = (row[word] ^ flip) & BitsFrom(x % 64);; bits = row[word] ^ flip) {
+    if (bits != 0) return std::min(width, word * 64 + std::countr_zero(bits));
+    if (++word * 64 >= width) return width;
+  }
+}
+
+// Sets or clears pixels [x0, x1) of a row.
+void Fill(std::uint64_t* row, int x0, int x1, bool value) {
+  for (int word = x0 / 64; word * 64 < x1; ++word) {
+    std::uint64_t bits = ~std::uint64_t{0};
+    if (word == x0 / 64) bits &= BitsFrom(x0 % 64);
+    if (x1 - word * 64 < 64) bits &= ~BitsFrom(x1 - word * 64);
+    row[word] = value ? row[word] | bits : row[word] & ~bits;
+  }
+}
+
+std::uint64_t* RowOf(core::BitMask& mask, int y) {
+  return mask.words().data() + static_cast<std::size_t>(y) * mask.words_per_row();
+}
+const std::uint64_t* RowOf(const core::BitMask& mask, int y) {
+  return mask.words().data() + static_cast<std::size_t>(y) * mask.words_per_row();
+}
+
+struct RowRange {
+  int begin = 0;
+  int end = 0;
+};
+
+RowRange ObjectRows(const core::BitMask& mask) {
+  const auto words = mask.words();
+  const auto is_object = [](std::uint64_t word) { return word != 0; };
+  const auto first = std::ranges::find_if(words, is_object);
+  if (first == words.end()) return {};
+  const auto last = std::find_if(words.rbegin(), words.rend(), is_object);
+  const auto per_row = static_cast<std::ptrdiff_t>(mask.words_per_row());
+  return {static_cast<int>((first - words.begin()) / per_row),
+          static_cast<int>((words.rend() - last - 1) / per_row) + 1};
+}
+
+// Union-find over runs; the root of a region is its first run.
+class RunForest {
+ public:
+  RunForest(const core::BitMask& mask, bool value, RowRange rows) {
+    for (int y = rows.begin; y < rows.end; ++y) {
+      row_begin_.push_back(runs_.size());
+      const std::uint64_t* row = RowOf(mask, y);
+      for (int x = NextOf(row, 0, mask.width_px(), value); x < mask.width_px();) {
+        const int end = NextOf(row, x, mask.width_px(), !value);
+        runs_.push_back({y, x, end, static_cast<std::uint32_t>(runs_.size())});
+        x = NextOf(row, end, mask.width_px(), value);
+      }
+    }
+    row_begin_.push_back(runs_.size());
+  }
+
+  // Joins runs of adjoining rows that overlap, or (reach 1) touch at a corner.
+  void Join(int reach) {
+    for (std::size_t row = 1; row + 1 < row_begin_.size(); ++row) {
+      std::size_t above = row_begin_[row - 1];
+      for (std::size_t i = row_begin_[row]; i < row_begin_[row + 1]; ++i) {
+        while (above < row_begin_[row] && runs_[above].x1 + reach <= runs_[i].x0) ++above;
+        for (std::size_t j = above; j < row_begin_[row] && runs_[j].x0 < runs_[i].x1 + reach; ++j)
+          Unite(static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j));
+      }
+    }
+  }
+
+  // Numbers the regions in the order of their first runs.
+  [[nodiscard]] Regions Take() && {
+    Regions regions;
+    for (std::uint32_t i = 0; i < runs_.size(); ++i) {
+      // Links point backwards, where regions have their numbers already.
+      Run& run = runs_[i];
+      if (run.region == i) {
+        run.region = static_cast<std::uint32_t>(regions.area_px.size());
+        regions.area_px.push_back(0);
+      } else {
+        run.region = runs_[run.region].region;
+      }
+      regions.area_px[run.region] += run.x1 - run.x0;
+    }
+    regions.runs = std::move(runs_);
+    return regions;
+  }
+
+ private:
+  std::uint32_t Root(std::uint32_t i) {
+    while (runs_[i].region != i) {
+      runs_[i].region = runs_[runs_[i].region].region;
+      i = runs_[i].region;
+    }
+    return i;
+  }
+
+  void Unite(std::uint32_t a, std::uint32_t b) {
+    a = Root(a), b = Root(b);
+    runs_[std::max(a, b)].region = std::min(a, b);
+  }
+
+  std::vector<Run> runs_;  // region: a run of the same region that comes before, or itself
+  std::vector<std::size_t> row_begin_;
+};
+
+}  // namespace
+
+Regions ObjectRegions(const core::BitMask& mask) {
+  RunForest forest(mask, true, ObjectRows(mask));
+  forest.Join(1);
+  return std::move(forest).Take();
+}
+
+void ClearRegions(core::BitMask& mask, const Regions& regions, const std::vector<bool>& keep) {
+  core::Require(keep.size() == regions.area_px.size(), "one decision a region");
+  for (const Run& run : regions.runs) {
+    if (!keep[run.region]) Fill(RowOf(mask, run.y), run.x0, run.x1, false);
+  }
+}
+
+void RemoveSmallBlobs(core::BitMask& mask, int least_px) {
+  if (least_px <= 1) return;
+  const Regions regions = ObjectRegions(mask);
+  std::vector<bool> keep;
+  keep.reserve(regions.area_px.size());
+  for (const std::int64_t area_px : regions.area_px) keep.push_back(area_px >= least_px);
+  ClearRegions(mask, regions, keep);
+}
+
+void FillSmallHoles(core::BitMask& mask, int least_px) {
+  const RowRange object = ObjectRows(mask);
+  if (least_px <= 1 || object.begin == object.end) return;
+  // One row of background above and below stands for all that there are.
+  const RowRange rows{std::max(object.begin - 1, 0), std::min(object.end + 1, mask.height_px())};
+  RunForest forest(mask, false, rows);
+  forest.Join(0);
+  Regions regions = std::move(forest).Take();
+  const std::int64_t width = mask.width_px();
+  if (rows.begin < object.begin) regions.area_px[regions.runs.front().region] += width * rows.begin;
+  if (rows.end > object.end) {
+    regions.area_px[regions.runs.back().region] += width * (mask.height_px() - rows.end);
+  }
+  for (const Run& run : regions.runs) {
+    if (regions.area_px[run.region] < least_px) Fill(RowOf(mask, run.y), run.x0, run.x1, true);
+  }
+}
+
+}  // namespace elbowroom::recon
