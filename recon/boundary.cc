@@ -23,6 +23,11 @@ float Dot(const Bgr& p, const Bgr& q) { return p.b * q.b + p.g * q.g + p.r * q.r
 
 struct Offset {
   int x = 0, y = 0;
+  bool operator==(const Offset&) const = default;
+};
+// Two and three pixels along a direction, rounded to pixels; zero without a direction.
+struct Steps {
+  Offset two, three;
 };
 
 // A pixel's share of object, and how far inside the boundary its centre lies along a row or column.
@@ -58,8 +63,8 @@ class Scene {
     return {p[0], p[1], p[2]};
   }
   [[nodiscard]] Offset Inwards(int x, int y) const;
-  [[nodiscard]] Bgr ObjectColor(int x, int y, Offset gradient) const;
-  [[nodiscard]] float BackgroundLight(int x, int y, Offset gradient) const;
+  [[nodiscard]] Bgr ObjectColor(int x, int y, const Steps& steps) const;
+  [[nodiscard]] float BackgroundLight(int x, int y, const Steps& steps) const;
   [[nodiscard]] Bgr StrongestAround(int x, int y) const;
 
   const core::BitMask& detected_;
@@ -108,12 +113,13 @@ Offset Scene::Inwards(int x, int y) const {
   return gradient;
 }
 
-// `steps` pixels along a direction, rounded to a pixel.
-Offset Along(Offset direction, float steps) {
+Steps StepsAlong(Offset direction) {
+  if (direction.x == 0 && direction.y == 0) return {};
   const auto x = static_cast<float>(direction.x), y = static_cast<float>(direction.y);
-  const float scale = steps / std::sqrt(x * x + y * y);
+  const float unit = 1.0F / std::sqrt(x * x + y * y);
   const auto rounded = [](float v) { return static_cast<int>(v + (v < 0.0F ? -0.5F : 0.5F)); };
-  return {rounded(x * scale), rounded(y * scale)};
+  return {{rounded(2.0F * x * unit), rounded(2.0F * y * unit)},
+          {rounded(3.0F * x * unit), rounded(3.0F * y * unit)}};
 }
 
 // Of the object pixels among 3 x 3 the one that differs most: for objects without an interior.
@@ -132,55 +138,49 @@ Bgr Scene::StrongestAround(int x, int y) const {
   return strongest;
 }
 
-Bgr Scene::ObjectColor(int x, int y, Offset gradient) const {
-  Bgr sum;
-  int count = 0;
-  if (gradient.x != 0 || gradient.y != 0) {
-    for (const float steps : {2.0F, 3.0F}) {
-      const Offset step = Along(gradient, steps);
-      if (!IsPixel(x + step.x, y + step.y) || !detected_.At(x + step.x, y + step.y)) break;
-      sum = sum + Image(x + step.x, y + step.y);
-      ++count;
-    }
-  }
-  return count == 0 ? StrongestAround(x, y) : (1.0F / static_cast<float>(count)) * sum;
+Bgr Scene::ObjectColor(int x, int y, const Steps& steps) const {
+  const auto is_object = [&](Offset o) {
+    return IsPixel(x + o.x, y + o.y) && detected_.At(x + o.x, y + o.y);
+  };
+  if (steps.two == Offset{} || !is_object(steps.two)) return StrongestAround(x, y);
+  const Bgr near = Image(x + steps.two.x, y + steps.two.y);
+  return is_object(steps.three) ? 0.5F * (near + Image(x + steps.three.x, y + steps.three.y)) : near;
 }
 
 // The share of the background's light that reaches the pixels outwards: shade, or a change of exposure.
-float Scene::BackgroundLight(int x, int y, Offset gradient) const {
+float Scene::BackgroundLight(int x, int y, const Steps& steps) const {
   constexpr float kDarkest = 0.3F, kBrightest = 1.5F;
-  if (gradient.x == 0 && gradient.y == 0) return 1.0F;
+  if (steps.two == Offset{}) return 1.0F;
   float im = 0.0F, mm = 0.0F;
-  for (const float steps : {-2.0F, -3.0F}) {
-    const Offset step = Along(gradient, steps);
-    if (!IsPixel(x + step.x, y + step.y) || detected_.At(x + step.x, y + step.y)) break;
-    const Bgr mean = Mean(x + step.x, y + step.y);
-    im += Dot(Image(x + step.x, y + step.y), mean), mm += Dot(mean, mean);
+  for (const Offset& step : {steps.two, steps.three}) {
+    const int u = x - step.x, v = y - step.y;
+    if (!IsPixel(u, v) || detected_.At(u, v)) break;
+    const Bgr mean = Mean(u, v);
+    im += Dot(Image(u, v), mean), mm += Dot(mean, mean);
   }
   return mm > 0.0F ? std::clamp(im / mm, kDarkest, kBrightest) : 1.0F;
 }
 
 std::optional<Coverage> Scene::At(int x, int y) const {
   const Offset gradient = Inwards(x, y);
-  const Bgr object = ObjectColor(x, y, gradient);
-  const float light = BackgroundLight(x, y, gradient);
-  const auto alpha_at = [&](int u, int v, float* contrast2) {
-    const Bgr background = light * Mean(u, v);
-    const Bgr whole = object - background;
-    *contrast2 = Dot(whole, whole);
-    return std::clamp(Dot(Image(u, v) - background, whole) / std::max(*contrast2, 1.0F), 0.0F, 1.0F);
+  const Steps steps = StepsAlong(gradient);
+  const float light = BackgroundLight(x, y, steps);
+  const Bgr whole = ObjectColor(x, y, steps) - light * Mean(x, y);
+  const float contrast2 = Dot(whole, whole);
+  if (contrast2 < least_contrast2_ || !(contrast2 > 0.0F)) return std::nullopt;
+  const Bgr per_whole = (1.0F / contrast2) * whole;
+  const auto alpha_at = [&](int u, int v) {
+    return std::clamp(Dot(Image(u, v) - light * Mean(u, v), per_whole), 0.0F, 1.0F);
   };
-  float contrast2 = 0.0F, ignored = 0.0F;
   Coverage coverage;
-  coverage.alpha = alpha_at(x, y, &contrast2);
-  if (contrast2 < least_contrast2_) return std::nullopt;
-  // Across the boundary: along the axis that it is steeper to. Past the picture's edge the edge goes on.
+  coverage.alpha = alpha_at(x, y);
+  // Across the boundary: along the axis that it is steeper to. Past the picture's edge it goes on as here.
   const bool is_along_x = std::abs(gradient.x) >= std::abs(gradient.y);
   const Offset axis{is_along_x ? 1 : 0, is_along_x ? 0 : 1};
   float sum = coverage.alpha;
   for (const int side : {-1, 1}) {
     const int u = x + side * axis.x, v = y + side * axis.y;
-    sum += IsPixel(u, v) ? alpha_at(u, v, &ignored) : coverage.alpha;
+    sum += IsPixel(u, v) ? alpha_at(u, v) : coverage.alpha;
   }
   coverage.inside_px = sum - 1.5F;
   // Both sides fall off (or rise): a line a pixel wide, half of it on either side of the centre.
@@ -189,10 +189,9 @@ std::optional<Coverage> Scene::At(int x, int y) const {
   return coverage;
 }
 
-// The levels of SoftMask: 127.5 at the boundary, a unit of 127.5 a pixel.
-std::uint8_t LevelOf(float inside_px, bool is_object) {
-  const auto level = static_cast<int>(127.5F + 127.5F * std::clamp(inside_px, -1.0F, 1.0F) + 0.5F);
-  return static_cast<std::uint8_t>(is_object ? std::clamp(level, 128, 255) : std::clamp(level, 0, 127));
+// The levels of SoftMask: 127.5 at the boundary, 127.5 more or less a pixel away.
+std::uint8_t LevelOf(float inside_px) {
+  return static_cast<std::uint8_t>(128.0F + 127.5F * std::clamp(inside_px, -1.0F, 0.999F));
 }
 
 // Calls visit(x, y, word, bit) for each object pixel of `mask`, row by row from the left.
@@ -223,16 +222,16 @@ core::SoftMask LocateBoundary(const core::BitMask& detected, const cv::Mat& imag
   const auto width = static_cast<std::size_t>(detected.width_px());
   core::SoftMask located{detected, {}};
   core::BitMask known(detected.width_px(), detected.height_px());
-  // Of the pixels that are known; not cleared, since only they are read.
-  const auto inside_px =
-      std::make_unique_for_overwrite<float[]>(width * static_cast<std::size_t>(detected.height_px()));
+  // Not cleared, since only those of known pixels are read.
+  const auto levels =
+      std::make_unique_for_overwrite<std::uint8_t[]>(width * static_cast<std::size_t>(detected.height_px()));
   const auto measure = [&](int x, int y, std::size_t word, std::uint64_t bit, bool may_move) {
     if ((known.words()[word] & bit) != 0) return;
     known.words()[word] |= bit;
     const bool was_object = (located.mask.words()[word] & bit) != 0;
     const auto coverage = scene.At(x, y);
-    inside_px[static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)] =
-        coverage ? coverage->inside_px : (was_object ? kHalfwayPx : -kHalfwayPx);
+    levels[static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)] =
+        LevelOf(coverage ? coverage->inside_px : (was_object ? kHalfwayPx : -kHalfwayPx));
     if (coverage && may_move && was_object != (coverage->alpha >= 0.5F)) located.mask.words()[word] ^= bit;
   };
   core::BitMask boundary = core::BoundaryPixels(detected);
@@ -244,9 +243,10 @@ core::SoftMask LocateBoundary(const core::BitMask& detected, const cv::Mat& imag
   located.levels.reserve(boundary.CountObjectPixels());
   ForEachPixel(boundary, [&](int x, int y, std::size_t word, std::uint64_t bit) {
     measure(x, y, word, bit, false);
-    located.levels.push_back(
-        LevelOf(inside_px[static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)],
-                (located.mask.words()[word] & bit) != 0));
+    const std::uint8_t level = levels[static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)];
+    const bool is_object = (located.mask.words()[word] & bit) != 0;
+    located.levels.push_back(is_object ? std::max<std::uint8_t>(level, 128)
+                                       : std::min<std::uint8_t>(level, 127));
   });
   return located;
 }

@@ -63,14 +63,18 @@ HWY_INLINE hn::Vec<DF> FloatsOf(DF df, hn::Vec<hn::Rebind<std::uint8_t, DF>> lev
 
 // Bit i: pixel i of 64 is shade. Sums of products of whole levels; no contraction to fused multiply-add, so
 // that every target rounds alike.
-HWY_INLINE std::uint64_t Shade(const std::uint8_t* image, const float* mean, const ShadeRule& rule) {
+HWY_INLINE std::uint64_t Shade(std::uint64_t candidates, const std::uint8_t* image, const float* mean,
+                               const ShadeRule& rule) {
   const hn::CappedTag<float, 64> df;
   const hn::Rebind<std::uint8_t, decltype(df)> du;
   using V = hn::Vec<decltype(df)>;
   const V darkest = hn::Set(df, rule.darkest), chroma2 = hn::Set(df, rule.chroma * rule.chroma);
   const V noise2 = hn::Set(df, rule.noise_levels * rule.noise_levels);
   std::uint64_t bits = 0;
+  const std::uint64_t group =
+      hn::Lanes(df) < 64 ? (std::uint64_t{1} << hn::Lanes(df)) - 1 : ~std::uint64_t{0};
   for (std::size_t i = 0; i < 64; i += hn::Lanes(df)) {
+    if (((candidates >> i) & group) == 0) continue;
     hn::Vec<decltype(du)> image_b, image_g, image_r;
     hn::LoadInterleaved3(du, image + 3 * i, image_b, image_g, image_r);
     const V ib = FloatsOf(df, image_b), ig = FloatsOf(df, image_g), ir = FloatsOf(df, image_r);
@@ -94,14 +98,14 @@ HWY_INLINE std::uint64_t Shade(const std::uint8_t* image, const float* mean, con
   return bits;
 }
 
-// The shade among 64 pixels of which `count` are in the picture.
-HWY_NOINLINE std::uint64_t ShadeOfWord(const std::uint8_t* image, const float* mean, std::size_t count,
-                                       const ShadeRule& rule) {
-  HWY_ALIGN std::uint8_t levels[kWordBytes + 64] = {};
+// The same for the `count` pixels that are left at the end of a row.
+HWY_NOINLINE std::uint64_t ShadeAtEnd(std::uint64_t candidates, const std::uint8_t* image, const float* mean,
+                                      std::size_t count, const ShadeRule& rule) {
+  HWY_ALIGN std::uint8_t levels[kWordBytes] = {};
   HWY_ALIGN float means[kWordBytes] = {};
   std::memcpy(levels, image, count * 3);
   std::memcpy(means, mean, count * 3 * sizeof(float));
-  return Shade(levels, means, rule);
+  return Shade(candidates, levels, means, rule);
 }
 
 void DifferingRow(const std::uint8_t* image, const std::uint8_t* ranges, const float* mean,
@@ -116,7 +120,10 @@ void DifferingRow(const std::uint8_t* image, const std::uint8_t* ranges, const f
       std::memcpy(rest, image + 3 * x, count * 3);
       bits = Differing(rest, ranges);
     }
-    if (bits != 0 && shade != nullptr) bits &= ~ShadeOfWord(image + 3 * x, mean + 3 * x, count, *shade);
+    if (bits != 0 && shade != nullptr) {
+      bits &= ~(count == 64 ? Shade(bits, image + 3 * x, mean + 3 * x, *shade)
+                            : ShadeAtEnd(bits, image + 3 * x, mean + 3 * x, count, *shade));
+    }
     *out = bits;
   }
 }

@@ -11,15 +11,27 @@ namespace {
 
 std::uint64_t BitsFrom(int first) { return ~std::uint64_t{0} << static_cast<unsigned>(first); }
 
-// First pixel in [x, width) whose bit is `value`; width if none.
-int NextOf(const std::uint64_t* row, int x, int width, bool value) {
-  if (x >= width) return width;
-  int word = x / 64;
+// Calls visit(x0, x1) for each run of `value` in a row of `width` pixels, from the left.
+template <typename Visit>
+void ForEachRun(const std::uint64_t* row, int width, bool value, Visit visit) {
   const std::uint64_t flip = value ? 0 : ~std::uint64_t{0};
-  for (std::uint64_t bits = (row[word] ^ flip) & BitsFrom(x % 64);; bits = row[word] ^ flip) {
-    if (bits != 0) return std::min(width, word * 64 + std::countr_zero(bits));
-    if (++word * 64 >= width) return width;
+  int begin = -1;  // of the run that is open
+  for (int x = 0; x < width; x += 64, ++row) {
+    std::uint64_t bits = *row ^ flip;
+    if (width - x < 64) bits &= ~BitsFrom(width - x);
+    // A bit where a run begins or ends.
+    for (std::uint64_t edges = bits ^ ((bits << 1U) | (begin >= 0 ? 1U : 0U)); edges != 0;
+         edges &= edges - 1) {
+      const int at = x + std::countr_zero(edges);
+      if (begin < 0) {
+        begin = at;
+      } else {
+        visit(begin, at);
+        begin = -1;
+      }
+    }
   }
+  if (begin >= 0) visit(begin, width);
 }
 
 // Sets or clears pixels [x0, x1) of a row.
@@ -59,14 +71,14 @@ RowRange ObjectRows(const core::BitMask& mask) {
 class RunForest {
  public:
   RunForest(const core::BitMask& mask, bool value, RowRange rows) {
+    runs_.reserve(static_cast<std::size_t>(rows.end - rows.begin) * 4);
+    row_begin_.reserve(static_cast<std::size_t>(rows.end - rows.begin) + 1);
     for (int y = rows.begin; y < rows.end; ++y) {
       row_begin_.push_back(runs_.size());
       const std::uint64_t* row = RowOf(mask, y);
-      for (int x = NextOf(row, 0, mask.width_px(), value); x < mask.width_px();) {
-        const int end = NextOf(row, x, mask.width_px(), !value);
-        runs_.push_back({y, x, end, static_cast<std::uint32_t>(runs_.size())});
-        x = NextOf(row, end, mask.width_px(), value);
-      }
+      ForEachRun(row, mask.width_px(), value, [&](int x0, int x1) {
+        runs_.push_back({y, x0, x1, static_cast<std::uint32_t>(runs_.size())});
+      });
     }
     row_begin_.push_back(runs_.size());
   }
