@@ -48,11 +48,16 @@ HWY_INLINE std::uint64_t Differing(const std::uint8_t* image, const std::uint8_t
   for (std::size_t i = lanes; i < kWordBytes; i += lanes) any = hn::Or(any, outside(i));
   const V zero = hn::Zero(d);
   if (hn::AllTrue(d, hn::Eq(any, zero))) return 0;
-  std::uint8_t bytes[kWordBytes / 8 + 8];
-  for (std::size_t i = 0; i < kWordBytes; i += lanes)
-    hn::StoreMaskBits(d, hn::Ne(outside(i), zero), bytes + i / 8);
-  std::uint64_t channels[3];
-  std::memcpy(channels, bytes, sizeof channels);
+  std::uint64_t channels[3] = {};
+  if constexpr (hn::MaxLanes(d) < 8) {  // plain code: one lane
+    for (std::size_t i = 0; i < kWordBytes; i += lanes)
+      channels[i / 64] |= std::uint64_t{hn::GetLane(outside(i)) != 0} << (i % 64);
+  } else {
+    std::uint8_t bytes[kWordBytes / 8 + 8];
+    for (std::size_t i = 0; i < kWordBytes; i += lanes)
+      hn::StoreMaskBits(d, hn::Ne(outside(i), zero), bytes + i / 8);
+    std::memcpy(channels, bytes, sizeof channels);
+  }
   return PixelsOf64(channels);
 }
 

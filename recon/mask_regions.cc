@@ -164,10 +164,14 @@ void FillSmallHoles(core::BitMask& mask, int least_px) {
   forest.Join(0);
   Regions regions = std::move(forest).Take();
   const std::int64_t width = mask.width_px();
-  if (rows.begin < object.begin) regions.area_px[regions.runs.front().region] += width * rows.begin;
-  if (rows.end > object.end) {
-    regions.area_px[regions.runs.back().region] += width * (mask.height_px() - rows.end);
-  }
+  const auto count_rows = [&](int begin, int end, std::uint32_t region) {
+    if (begin == end) return;
+    regions.area_px[region] += width * (end - begin);
+    for (int y = begin; y < end; ++y) regions.runs.push_back({y, 0, mask.width_px(), region});
+  };
+  const std::uint32_t below = regions.runs.empty() ? 0 : regions.runs.back().region;
+  count_rows(0, rows.begin, regions.runs.empty() ? 0 : regions.runs.front().region);
+  count_rows(rows.end, mask.height_px(), below);
   for (const Run& run : regions.runs) {
     if (regions.area_px[run.region] < least_px) Fill(RowOf(mask, run.y), run.x0, run.x1, true);
   }
