@@ -17,7 +17,6 @@ struct Bgr {
   float b = 0.0F, g = 0.0F, r = 0.0F;
 };
 Bgr operator-(const Bgr& p, const Bgr& q) { return {p.b - q.b, p.g - q.g, p.r - q.r}; }
-Bgr operator+(const Bgr& p, const Bgr& q) { return {p.b + q.b, p.g + q.g, p.r + q.r}; }
 Bgr operator*(float s, const Bgr& p) { return {s * p.b, s * p.g, s * p.r}; }
 float Dot(const Bgr& p, const Bgr& q) { return p.b * q.b + p.g * q.g + p.r * q.r; }
 
@@ -25,9 +24,9 @@ struct Offset {
   int x = 0, y = 0;
   bool operator==(const Offset&) const = default;
 };
-// Two and three pixels along a direction, rounded to pixels; zero without a direction.
+// One to three pixels along a direction, rounded to pixels; zero without a direction.
 struct Steps {
-  Offset two, three;
+  Offset one, two, three;
 };
 
 // A pixel's share of object, and how far inside the boundary its centre lies along a row or column.
@@ -63,7 +62,7 @@ class Scene {
     return {p[0], p[1], p[2]};
   }
   [[nodiscard]] Offset Inwards(int x, int y) const;
-  [[nodiscard]] Bgr ObjectColor(int x, int y, const Steps& steps) const;
+  [[nodiscard]] Bgr ObjectColor(int x, int y, const Steps& steps, const Bgr& background) const;
   [[nodiscard]] float BackgroundLight(int x, int y, const Steps& steps) const;
   [[nodiscard]] Bgr StrongestAround(int x, int y) const;
 
@@ -118,7 +117,8 @@ Steps StepsAlong(Offset direction) {
   const auto x = static_cast<float>(direction.x), y = static_cast<float>(direction.y);
   const float unit = 1.0F / std::sqrt(x * x + y * y);
   const auto rounded = [](float v) { return static_cast<int>(v + (v < 0.0F ? -0.5F : 0.5F)); };
-  return {{rounded(2.0F * x * unit), rounded(2.0F * y * unit)},
+  return {{rounded(x * unit), rounded(y * unit)},
+          {rounded(2.0F * x * unit), rounded(2.0F * y * unit)},
           {rounded(3.0F * x * unit), rounded(3.0F * y * unit)}};
 }
 
@@ -138,13 +138,20 @@ Bgr Scene::StrongestAround(int x, int y) const {
   return strongest;
 }
 
-Bgr Scene::ObjectColor(int x, int y, const Steps& steps) const {
+// As near to the boundary as pixels are wholly object, since shading changes towards an object's rim: a pixel
+// that is much weaker than the next one inwards is taken for a mixture.
+Bgr Scene::ObjectColor(int x, int y, const Steps& steps, const Bgr& background) const {
+  constexpr float kLeastShare = 0.8F;
   const auto is_object = [&](Offset o) {
     return IsPixel(x + o.x, y + o.y) && detected_.At(x + o.x, y + o.y);
   };
-  if (steps.two == Offset{} || !is_object(steps.two)) return StrongestAround(x, y);
-  const Bgr near = Image(x + steps.two.x, y + steps.two.y);
-  return is_object(steps.three) ? 0.5F * (near + Image(x + steps.three.x, y + steps.three.y)) : near;
+  const bool is_inside = detected_.At(x, y);
+  const Offset first = is_inside ? steps.one : steps.two, second = is_inside ? steps.two : steps.three;
+  if (first == Offset{} || !is_object(first)) return StrongestAround(x, y);
+  const Bgr near = Image(x + first.x, y + first.y);
+  if (!is_object(second)) return near;
+  const Bgr far = Image(x + second.x, y + second.y), whole = far - background;
+  return Dot(near - background, whole) >= kLeastShare * Dot(whole, whole) ? near : far;
 }
 
 // The share of the background's light that reaches the pixels outwards: shade, or a change of exposure.
@@ -165,7 +172,8 @@ std::optional<Coverage> Scene::At(int x, int y) const {
   const Offset gradient = Inwards(x, y);
   const Steps steps = StepsAlong(gradient);
   const float light = BackgroundLight(x, y, steps);
-  const Bgr whole = ObjectColor(x, y, steps) - light * Mean(x, y);
+  const Bgr background = light * Mean(x, y);
+  const Bgr whole = ObjectColor(x, y, steps, background) - background;
   const float contrast2 = Dot(whole, whole);
   if (contrast2 < least_contrast2_ || !(contrast2 > 0.0F)) return std::nullopt;
   const Bgr per_whole = (1.0F / contrast2) * whole;
