@@ -141,7 +141,7 @@ Bgr Scene::StrongestAround(int x, int y) const {
 // As near to the boundary as pixels are wholly object, since shading changes towards an object's rim: a pixel
 // that is much weaker than the next one inwards is taken for a mixture.
 Bgr Scene::ObjectColor(int x, int y, const Steps& steps, const Bgr& background) const {
-  constexpr float kLeastShare = 0.8F;
+  constexpr float kLeastShare = 0.85F;
   const auto is_object = [&](Offset o) {
     return IsPixel(x + o.x, y + o.y) && detected_.At(x + o.x, y + o.y);
   };
