@@ -242,7 +242,9 @@ core::SoftMask LocateBoundary(const core::BitMask& detected, const cv::Mat& imag
         LevelOf(coverage ? coverage->inside_px : (was_object ? kHalfwayPx : -kHalfwayPx));
     if (coverage && may_move && was_object != (coverage->alpha >= 0.5F)) located.mask.words()[word] ^= bit;
   };
+  // First what was detected along the boundary: thresholds err outwards. Then both sides of where that leads.
   core::BitMask boundary = core::BoundaryPixels(detected);
+  for (std::size_t i = 0; i < boundary.words().size(); ++i) boundary.words()[i] &= detected.words()[i];
   for (int round = 0; round < kRounds; ++round) {
     ForEachPixel(boundary,
                  [&](int x, int y, std::size_t word, std::uint64_t bit) { measure(x, y, word, bit, true); });

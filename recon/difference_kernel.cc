@@ -167,20 +167,23 @@ LevelRanges::LevelRanges(const cv::Mat& mean_bgr, const cv::Mat& threshold_bgr)
   for (int y = 0; y < height_px_; ++y) {
     const auto* mean = mean_bgr.ptr<float>(y);
     const auto* threshold = threshold_bgr.ptr<float>(y);
-    auto* levels = levels_.ptr<std::uint8_t>(y);
-    for (int word = 0; word < levels_.cols / (2 * kBytes); ++word) {
-      std::fill_n(levels + word * 2 * kBytes, kBytes, std::uint8_t{0});
-      std::fill_n(levels + word * 2 * kBytes + kBytes, kBytes, std::uint8_t{255});
-    }
-    for (int i = 0; i < width_px_ * 3; ++i) {
-      // Sums of two floats are exact in double. Rounded by hand: std::ceil and std::floor are calls on plain
-      // x86-64.
-      const double low = std::clamp(static_cast<double>(mean[i]) - threshold[i], 0.0, 255.0);
-      const double high = std::clamp(static_cast<double>(mean[i]) + threshold[i], 0.0, 255.0);
-      const int below_low = static_cast<int>(low);
-      std::uint8_t* lowest = levels + i / kBytes * 2 * kBytes + i % kBytes;
-      lowest[0] = static_cast<std::uint8_t>(below_low + (below_low < low ? 1 : 0));
-      lowest[kBytes] = static_cast<std::uint8_t>(static_cast<int>(high));
+    auto* lowest = levels_.ptr<std::uint8_t>(y);
+    for (int first = 0; first < width_px_ * 3; first += kBytes, lowest += 2 * kBytes) {
+      std::uint8_t* highest = lowest + kBytes;
+      const int count = std::min(kBytes, width_px_ * 3 - first);
+      for (int i = 0; i < count; ++i) {
+        // Sums of two floats are exact in double. Rounded by hand: std::ceil and std::floor are calls on
+        // plain x86-64.
+        const double low =
+            std::clamp(static_cast<double>(mean[first + i]) - threshold[first + i], 0.0, 255.0);
+        const double high =
+            std::clamp(static_cast<double>(mean[first + i]) + threshold[first + i], 0.0, 255.0);
+        const int below_low = static_cast<int>(low);
+        lowest[i] = static_cast<std::uint8_t>(below_low + (below_low < low ? 1 : 0));
+        highest[i] = static_cast<std::uint8_t>(static_cast<int>(high));
+      }
+      std::fill(lowest + count, lowest + kBytes, std::uint8_t{0});
+      std::fill(highest + count, highest + kBytes, std::uint8_t{255});
     }
   }
 }

@@ -151,7 +151,9 @@ TEST(Boundary, IsExactToATwentiethOfAPixelWithoutNoise) {
       std::cout << "blur " << blur_px << " px, light " << light << ": rms " << std::sqrt(squares)
                 << " px, bias " << sum << " px\n";
       EXPECT_LE(std::sqrt(squares), blur_px > 0.0 ? kMostBlurredRmsPx : kMostRmsPx) << "blur " << blur_px;
-      if (blur_px == 0.0) EXPECT_LE(std::abs(sum), kMostBiasPx) << "light " << light;
+      if (blur_px == 0.0) {
+        EXPECT_LE(std::abs(sum), kMostBiasPx) << "light " << light;
+      }
     }
   }
 }
