@@ -12,6 +12,25 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#ifndef ELBOWROOM_RECON_DIFFERENCE_KERNEL_ROWS
+#define ELBOWROOM_RECON_DIFFERENCE_KERNEL_ROWS
+namespace elbowroom::recon {
+namespace {
+
+// Rows below one another, and the ranges that their pixels share.
+struct RowGroup {
+  std::size_t count = 0;
+  const std::uint8_t* shared = nullptr;
+  const std::uint8_t* image[LevelRanges::kSharingRows];
+  const std::uint8_t* ranges[LevelRanges::kSharingRows];
+  const float* mean[LevelRanges::kSharingRows];
+  std::uint64_t* out[LevelRanges::kSharingRows];
+};
+
+}  // namespace
+}  // namespace elbowroom::recon
+#endif
+
 HWY_BEFORE_NAMESPACE();
 namespace elbowroom::recon {
 namespace HWY_NAMESPACE {  // NOLINT(google-build-namespaces)
@@ -34,28 +53,38 @@ HWY_INLINE std::uint64_t PixelsOf64(const std::uint64_t (&c)[3]) {
          (PixelsOf16((c[1] >> 32U) | (c[2] << 32U)) << 32U) | (PixelsOf16(c[2] >> 16U) << 48U);
 }
 
+using Bytes = hn::CappedTag<std::uint8_t, 64>;
+
+// Not zero where a level is outside of its range: lowest - level or level - highest, whichever is above zero.
+HWY_INLINE hn::Vec<Bytes> Outside(const std::uint8_t* image, const std::uint8_t* ranges) {
+  const Bytes d;
+  const auto level = hn::LoadU(d, image);
+  return hn::Or(hn::SaturatedSub(hn::Load(d, ranges), level),
+                hn::SaturatedSub(level, hn::Load(d, ranges + kWordBytes)));
+}
+
+// Whether the 192 levels of 64 pixels are all within their ranges.
+HWY_INLINE bool IsWithin(const std::uint8_t* image, const std::uint8_t* ranges) {
+  const Bytes d;
+  auto any = Outside(image, ranges);
+  for (std::size_t i = hn::Lanes(d); i < kWordBytes; i += hn::Lanes(d))
+    any = hn::Or(any, Outside(image + i, ranges + i));
+  return hn::AllTrue(d, hn::Eq(any, hn::Zero(d)));
+}
+
 // Bit i: pixel i of 64 has a channel outside of its range. Channels stay interleaved: only bits are merged.
 HWY_INLINE std::uint64_t Differing(const std::uint8_t* image, const std::uint8_t* ranges) {
-  const hn::CappedTag<std::uint8_t, 64> d;
+  const Bytes d;
   const std::size_t lanes = hn::Lanes(d);
-  using V = hn::Vec<decltype(d)>;
-  const auto outside = [&](std::size_t i) HWY_ATTR {
-    const V level = hn::LoadU(d, image + i);
-    return hn::Or(hn::SaturatedSub(hn::Load(d, ranges + i), level),
-                  hn::SaturatedSub(level, hn::Load(d, ranges + kWordBytes + i)));
-  };
-  V any = outside(0);
-  for (std::size_t i = lanes; i < kWordBytes; i += lanes) any = hn::Or(any, outside(i));
-  const V zero = hn::Zero(d);
-  if (hn::AllTrue(d, hn::Eq(any, zero))) return 0;
+  const auto zero = hn::Zero(d);
   std::uint64_t channels[3] = {};
   if constexpr (hn::MaxLanes(d) < 8) {  // plain code: one lane
     for (std::size_t i = 0; i < kWordBytes; i += lanes)
-      channels[i / 64] |= std::uint64_t{hn::GetLane(outside(i)) != 0} << (i % 64);
+      channels[i / 64] |= std::uint64_t{hn::GetLane(Outside(image + i, ranges + i)) != 0} << (i % 64);
   } else {
     std::uint8_t bytes[kWordBytes / 8 + 8];
     for (std::size_t i = 0; i < kWordBytes; i += lanes)
-      hn::StoreMaskBits(d, hn::Ne(outside(i), zero), bytes + i / 8);
+      hn::StoreMaskBits(d, hn::Ne(Outside(image + i, ranges + i), zero), bytes + i / 8);
     std::memcpy(channels, bytes, sizeof channels);
   }
   return PixelsOf64(channels);
@@ -113,23 +142,33 @@ HWY_NOINLINE std::uint64_t ShadeAtEnd(std::uint64_t candidates, const std::uint8
   return Shade(candidates, levels, means, rule);
 }
 
-void DifferingRow(const std::uint8_t* image, const std::uint8_t* ranges, const float* mean,
-                  const ShadeRule* shade, std::size_t width, std::uint64_t* out) {
-  for (std::size_t x = 0; x < width; x += 64, ranges += 2 * kWordBytes, ++out) {
-    const std::size_t count = std::min<std::size_t>(64, width - x);
-    std::uint64_t bits = 0;
-    if (count == 64) {
-      bits = Differing(image + 3 * x, ranges);
-    } else {
-      std::uint8_t rest[kWordBytes] = {};
-      std::memcpy(rest, image + 3 * x, count * 3);
-      bits = Differing(rest, ranges);
+// The 64 pixels (or `count` of them) from `image` on.
+HWY_INLINE std::uint64_t DifferingWord(const std::uint8_t* image, const std::uint8_t* shared,
+                                       const std::uint8_t* ranges, const float* mean, const ShadeRule* shade,
+                                       std::size_t count) {
+  const std::uint8_t* levels = image;
+  HWY_ALIGN std::uint8_t rest[kWordBytes];
+  if (count < 64) {
+    std::memset(rest, 0, sizeof rest);
+    std::memcpy(rest, image, count * 3);
+    levels = rest;
+  }
+  if (IsWithin(levels, shared)) return 0;
+  const std::uint64_t bits = Differing(levels, ranges);
+  if (bits == 0 || shade == nullptr) return bits;
+  return bits &
+         ~(count == 64 ? Shade(bits, image, mean, *shade) : ShadeAtEnd(bits, image, mean, count, *shade));
+}
+
+void DifferingRows(const RowGroup& rows, std::size_t width, const ShadeRule* shade) {
+  const std::uint8_t* shared = rows.shared;
+  for (std::size_t x = 0; x < width; x += 64, shared += 2 * kWordBytes) {
+    const std::size_t count = std::min<std::size_t>(64, width - x), word = x / 64;
+    for (std::size_t i = 0; i < rows.count; ++i) {
+      const float* mean = shade != nullptr ? rows.mean[i] + 3 * x : nullptr;
+      rows.out[i][word] = DifferingWord(rows.image[i] + 3 * x, shared, rows.ranges[i] + word * 2 * kWordBytes,
+                                        mean, shade, count);
     }
-    if (bits != 0 && shade != nullptr) {
-      bits &= ~(count == 64 ? Shade(bits, image + 3 * x, mean + 3 * x, *shade)
-                            : ShadeAtEnd(bits, image + 3 * x, mean + 3 * x, count, *shade));
-    }
-    *out = bits;
   }
 }
 
@@ -141,7 +180,9 @@ HWY_AFTER_NAMESPACE();
 namespace elbowroom::recon {
 namespace {
 
-HWY_EXPORT(DifferingRow);
+HWY_EXPORT(DifferingRows);
+
+constexpr int kBytes = 192;  // of 64 pixels
 
 core::BitMask Differing(const LevelRanges& ranges, const cv::Mat& image_bgr, const cv::Mat& mean_bgr,
                         const ShadeRule* shade) {
@@ -149,11 +190,19 @@ core::BitMask Differing(const LevelRanges& ranges, const cv::Mat& image_bgr, con
   core::Require(image_bgr.type() == CV_8UC3 && image_bgr.size() == size,
                 "a picture is 8-bit BGR and of its ranges' size");
   core::BitMask mask(size.width, size.height);
-  const auto row = HWY_DYNAMIC_DISPATCH(DifferingRow);
-  for (int y = 0; y < size.height; ++y) {
-    row(image_bgr.ptr<std::uint8_t>(y), ranges.row(y), shade != nullptr ? mean_bgr.ptr<float>(y) : nullptr,
-        shade, static_cast<std::size_t>(size.width),
-        mask.words().data() + static_cast<std::size_t>(y) * mask.words_per_row());
+  const auto differing_rows = HWY_DYNAMIC_DISPATCH(DifferingRows);
+  for (int y0 = 0; y0 < size.height; y0 += LevelRanges::kSharingRows) {
+    RowGroup rows;
+    rows.count = static_cast<std::size_t>(std::min(LevelRanges::kSharingRows, size.height - y0));
+    rows.shared = ranges.shared(y0);
+    for (std::size_t i = 0; i < rows.count; ++i) {
+      const int y = y0 + static_cast<int>(i);
+      rows.image[i] = image_bgr.ptr<std::uint8_t>(y);
+      rows.ranges[i] = ranges.row(y);
+      rows.mean[i] = shade != nullptr ? mean_bgr.ptr<float>(y) : nullptr;
+      rows.out[i] = mask.words().data() + static_cast<std::size_t>(y) * mask.words_per_row();
+    }
+    differing_rows(rows, static_cast<std::size_t>(size.width), shade);
   }
   return mask;
 }
@@ -162,7 +211,6 @@ core::BitMask Differing(const LevelRanges& ranges, const cv::Mat& image_bgr, con
 
 LevelRanges::LevelRanges(const cv::Mat& mean_bgr, const cv::Mat& threshold_bgr)
     : width_px_(mean_bgr.cols), height_px_(mean_bgr.rows) {
-  constexpr int kBytes = 192;
   levels_.create(height_px_, (width_px_ + 63) / 64 * 2 * kBytes, CV_8U);
   for (int y = 0; y < height_px_; ++y) {
     const auto* mean = mean_bgr.ptr<float>(y);
@@ -184,6 +232,21 @@ LevelRanges::LevelRanges(const cv::Mat& mean_bgr, const cv::Mat& threshold_bgr)
       }
       std::fill(lowest + count, lowest + kBytes, std::uint8_t{0});
       std::fill(highest + count, highest + kBytes, std::uint8_t{255});
+    }
+  }
+  Share();
+}
+
+void LevelRanges::Share() {
+  shared_.create((height_px_ + kSharingRows - 1) / kSharingRows, levels_.cols, CV_8U);
+  for (int y = 0; y < height_px_; ++y) {
+    const auto* levels = levels_.ptr<std::uint8_t>(y);
+    auto* together = shared_.ptr<std::uint8_t>(y / kSharingRows);
+    if (y % kSharingRows == 0) std::memcpy(together, levels, static_cast<std::size_t>(levels_.cols));
+    for (int first = 0; first < levels_.cols; first += 2 * kBytes) {
+      for (int i = first; i < first + kBytes; ++i) together[i] = std::max(together[i], levels[i]);
+      for (int i = first + kBytes; i < first + 2 * kBytes; ++i)
+        together[i] = std::min(together[i], levels[i]);
     }
   }
 }

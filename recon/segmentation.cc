@@ -11,6 +11,7 @@
 
 #include "core/error.h"
 #include "recon/boundary.h"
+#include "recon/coverage.h"
 #include "recon/exposure.h"
 #include "recon/mask_regions.h"
 
@@ -80,7 +81,7 @@ Segmenter::Segmenter(BackgroundReference background, const SegmentationOptions& 
                 "a background reference has mean and sigma, CV_32FC3 of one size");
   background.mean_bgr = mean_bgr_;
   threshold_bgr_ = ThresholdOf(background, options);
-  as_measured_ = {mean_bgr_, LevelRanges(mean_bgr_, threshold_bgr_)};
+  as_measured_ = {mean_bgr_, PackedMean(mean_bgr_), LevelRanges(mean_bgr_, threshold_bgr_)};
 }
 
 Segmenter::EmptyScene Segmenter::EmptySceneFor(const cv::Mat& image_bgr) const {
@@ -88,7 +89,7 @@ Segmenter::EmptyScene Segmenter::EmptySceneFor(const cv::Mat& image_bgr) const {
                 "a picture to segment is 8-bit BGR of its background's size");
   if (options_.method == SegmentationMethod::kThreshold) return as_measured_;
   const cv::Mat mean = WithExposure(mean_bgr_, EstimateExposure(image_bgr, mean_bgr_));
-  return {mean, LevelRanges(mean, threshold_bgr_)};
+  return {mean, PackedMean(mean), LevelRanges(mean, threshold_bgr_)};
 }
 
 core::BitMask Segmenter::Detect(const cv::Mat& image_bgr, const EmptyScene& scene) const {
@@ -108,7 +109,7 @@ core::BitMask Segmenter::Segment(const cv::Mat& image_bgr) const {
 
 core::SoftMask Segmenter::SegmentSoft(const cv::Mat& image_bgr) const {
   const EmptyScene scene = EmptySceneFor(image_bgr);
-  return LocateBoundary(Detect(image_bgr, scene), image_bgr, scene.mean_bgr, options_.floor_levels);
+  return LocateBoundary(Detect(image_bgr, scene), image_bgr, scene.packed_mean, options_.floor_levels);
 }
 
 }  // namespace elbowroom::recon

@@ -61,6 +61,7 @@ class Segmenter {
   // What the camera would show without an object.
   struct EmptyScene {
     cv::Mat mean_bgr;  // CV_32FC3
+    cv::Mat packed_mean;
     LevelRanges ranges;
   };
   [[nodiscard]] EmptyScene EmptySceneFor(const cv::Mat& image_bgr) const;

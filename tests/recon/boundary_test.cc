@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "recon/coverage.h"
 #include "recon/segmentation.h"
 #include "recon/synthetic/demo_motion.h"
 #include "recon/synthetic/rig_presets.h"
@@ -159,7 +160,7 @@ TEST(Boundary, IsExactToATwentiethOfAPixelWithoutNoise) {
 }
 
 TEST(Boundary, KeepsALineOfAPixelAndTheMaskWhereContrastIsNone) {
-  cv::Mat mean(20, 40, CV_32FC3, kGround);
+  const cv::Mat mean = PackedMean(cv::Mat(20, 40, CV_32FC3, kGround));
   cv::Mat picture(20, 40, CV_8UC3, kGround);
   picture.col(17).setTo(kDisc);
   core::BitMask line(40, 20);
