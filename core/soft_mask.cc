@@ -19,15 +19,14 @@ BitMask BoundaryPixels(const BitMask& mask) {
     const std::uint64_t* above = y > 0 ? row - words : row;
     const std::uint64_t* below = y + 1 < height ? row + words : row;
     std::uint64_t* out = boundary.words().data() + y * words;
-    const auto differs = [&](std::size_t i, std::uint64_t before, std::uint64_t after) {
+    for (std::size_t i = 0; i < words; ++i) {
+      // The first and the last column are their own neighbours.
+      const std::uint64_t before = i > 0 ? row[i - 1] >> 63U : row[0] & 1U;
+      const std::uint64_t after = i + 1 < words ? row[i + 1] << 63U : row[i] & (std::uint64_t{1} << top);
+      if ((row[i] | above[i] | below[i] | before | after) == 0) continue;  // most words
       const std::uint64_t left = (row[i] << 1U) | before, right = (row[i] >> 1U) | after;
-      return (row[i] ^ left) | (row[i] ^ right) | (row[i] ^ above[i]) | (row[i] ^ below[i]);
-    };
-    // The first and the last column are their own neighbours.
-    const std::uint64_t first = row[0] & 1U, last = row[words - 1] & (std::uint64_t{1} << top);
-    out[0] = differs(0, first, words > 1 ? row[1] << 63U : last);
-    for (std::size_t i = 1; i + 1 < words; ++i) out[i] = differs(i, row[i - 1] >> 63U, row[i + 1] << 63U);
-    if (words > 1) out[words - 1] = differs(words - 1, row[words - 2] >> 63U, last);
+      out[i] = (row[i] ^ left) | (row[i] ^ right) | (row[i] ^ above[i]) | (row[i] ^ below[i]);
+    }
     // Padding differs from its neighbour where the last pixel is object.
     if (top < 63U) out[words - 1] &= (std::uint64_t{2} << top) - 1;
   }

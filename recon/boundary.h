@@ -14,8 +14,9 @@ namespace elbowroom::recon {
 // inwards and outwards; the boundary is placed by the sum of alpha across it, which doesn't depend on how the
 // lens blurs (docs/segmentation.md, tests/recon/boundary_test.cc). Where object and background differ by less
 // than `least_contrast_levels` the detected boundary stays, halfway between the pixels. Thin objects stay at
-// least a pixel wide. Throws: PreconditionError unless CV_8UC3 and CV_32FC3 of the mask's size.
+// least a pixel wide. `packed_mean`: the background, as PackedMean (recon/coverage.h). Throws:
+// PreconditionError unless CV_8UC3 and CV_32SC1 of the mask's size.
 [[nodiscard]] core::SoftMask LocateBoundary(const core::BitMask& detected, const cv::Mat& image_bgr,
-                                            const cv::Mat& mean_bgr, double least_contrast_levels);
+                                            const cv::Mat& packed_mean, double least_contrast_levels);
 
 }  // namespace elbowroom::recon

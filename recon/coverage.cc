@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 
 #include "core/error.h"
 #include "recon/coverage_kernel.h"
@@ -10,9 +11,15 @@
 namespace elbowroom::recon {
 namespace {
 
+// In bytes, so that a table of all stays near.
 struct Offset {
-  int x = 0, y = 0;
+  std::int8_t x = 0, y = 0;
   bool operator==(const Offset&) const = default;
+};
+
+// From background to object: first moments of the labels of 5 x 5 pixels.
+struct Direction {
+  int x = 0, y = 0;
 };
 
 // One to three pixels along a direction, rounded to pixels; zero without a direction.
@@ -24,16 +31,16 @@ struct Steps {
 constexpr int kMostMoment = 15;  // of 5 x 5 labels
 constexpr int kMoments = 2 * kMostMoment + 1;
 using StepTable = std::array<Steps, static_cast<std::size_t>(kMoments* kMoments)>;
-std::size_t StepIndex(Offset direction) {
+std::size_t StepIndex(Direction direction) {
   return static_cast<std::size_t>((direction.y + kMostMoment) * kMoments + direction.x + kMostMoment);
 }
 
-Steps StepsAlong(Offset direction) {
-  if (direction == Offset{}) return {};
+Steps StepsAlong(Direction direction) {
+  if (direction.x == 0 && direction.y == 0) return {};
   const double length = std::hypot(direction.x, direction.y);
   const auto step = [&](double steps) {
-    return Offset{static_cast<int>(std::lround(steps * direction.x / length)),
-                  static_cast<int>(std::lround(steps * direction.y / length))};
+    return Offset{static_cast<std::int8_t>(std::lround(steps * direction.x / length)),
+                  static_cast<std::int8_t>(std::lround(steps * direction.y / length))};
   };
   return {step(1.0), step(2.0), step(3.0), std::abs(direction.x) >= std::abs(direction.y)};
 }
@@ -70,11 +77,10 @@ constexpr std::array<Five, 32> kFives = [] {
   return fives;
 }();
 
-// From background to object: first moments of the labels of 5 x 5 pixels.
-Offset Inwards(const core::BitMask& mask, int x, int y) {
+Direction Inwards(const core::BitMask& mask, int x, int y) {
   const std::size_t per_row = mask.words_per_row();
   const auto row_at = [&](int v) { return mask.words().data() + static_cast<std::size_t>(v) * per_row; };
-  Offset gradient;
+  Direction gradient;
   const auto add = [&](unsigned five, int dy) {
     gradient.x += kFives[five].moment;
     gradient.y += dy * kFives[five].count;
@@ -168,7 +174,7 @@ void CoverageEstimator::Read(PixelPlace place, std::size_t i, CoverageSamples* s
   };
   read(place, &samples->here);
   // Across the boundary: along the axis that it is steeper to. Past the picture's edge it goes on as here.
-  const Offset axis{steps.is_along_x ? 1 : 0, steps.is_along_x ? 0 : 1};
+  const Offset axis = steps.is_along_x ? Offset{1, 0} : Offset{0, 1};
   const PixelPlace before = MovedBack(place, axis), after = Moved(place, axis);
   read(IsPixel(before) ? before : place, &samples->before);
   read(IsPixel(after) ? after : place, &samples->after);

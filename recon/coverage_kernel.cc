@@ -76,8 +76,8 @@ template <class Mask>
 HWY_INLINE hn::Vec<Ints> LevelOf(V inside_px, Mask is_object) {
   const V middle = hn::Set(Floats(), 128.0F), scale = hn::Set(Floats(), 127.5F);
   const V level = hn::Add(middle, hn::Mul(scale, Clamped(inside_px, -1.0F, 0.999F)));
-  return hn::ConvertTo(Ints(), hn::IfThenElse(is_object, hn::Max(level, middle),
-                                              hn::Min(level, hn::Set(Floats(), 127.0F))));
+  return hn::ConvertTo(
+      Ints(), hn::IfThenElse(is_object, hn::Max(level, middle), hn::Min(level, hn::Set(Floats(), 127.0F))));
 }
 
 void Reckon(const CoverageSamples& samples, float least_contrast2, std::size_t count, std::uint32_t* levels) {

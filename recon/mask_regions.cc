@@ -11,14 +11,20 @@ namespace {
 
 std::uint64_t BitsFrom(int first) { return ~std::uint64_t{0} << static_cast<unsigned>(first); }
 
-// Calls visit(x0, x1) for each run of `value` in a row of `width` pixels, from the left.
+// The words of a mask that hold object: rows [top, bottom), words [first, last) of each.
+struct ObjectWords {
+  int top = 0, bottom = 0;
+  std::size_t first = 0, last = 0;
+};
+
+// Calls visit(x0, x1) for each run of `value` in a row of `width` pixels, from the left. Words outside of
+// [first, last) are known to be background.
 template <typename Visit>
-void ForEachRun(const std::uint64_t* row, int width, bool value, Visit visit) {
+void ForEachRun(const std::uint64_t* row, int width, const ObjectWords& object, bool value, Visit visit) {
   const std::uint64_t flip = value ? 0 : ~std::uint64_t{0};
-  int begin = -1;  // of the run that is open
-  for (int x = 0; x < width; x += 64, ++row) {
-    std::uint64_t bits = *row ^ flip;
-    if (width - x < 64) bits &= ~BitsFrom(width - x);
+  int begin = !value && object.first > 0 ? 0 : -1;  // of the run that is open
+  int x = static_cast<int>(object.first * 64);
+  const auto visit_edges = [&](std::uint64_t bits) {
     // A bit where a run begins or ends.
     for (std::uint64_t edges = bits ^ ((bits << 1U) | (begin >= 0 ? 1U : 0U)); edges != 0;
          edges &= edges - 1) {
@@ -30,7 +36,13 @@ void ForEachRun(const std::uint64_t* row, int width, bool value, Visit visit) {
         begin = -1;
       }
     }
+  };
+  for (std::size_t i = object.first; i < object.last; ++i, x += 64) {
+    const std::uint64_t bits = row[i] ^ flip;
+    visit_edges(width - x < 64 ? bits & ~BitsFrom(width - x) : bits);
   }
+  if (x < width && !value && begin < 0) begin = x;
+  if (x < width && value && begin >= 0) visit(begin, x), begin = -1;
   if (begin >= 0) visit(begin, width);
 }
 
@@ -51,32 +63,35 @@ const std::uint64_t* RowOf(const core::BitMask& mask, int y) {
   return mask.words().data() + static_cast<std::size_t>(y) * mask.words_per_row();
 }
 
-struct RowRange {
-  int begin = 0;
-  int end = 0;
-};
-
-RowRange ObjectRows(const core::BitMask& mask) {
+ObjectWords ObjectWordsOf(const core::BitMask& mask) {
   const auto words = mask.words();
   const auto is_object = [](std::uint64_t word) { return word != 0; };
-  const auto first = std::ranges::find_if(words, is_object);
-  if (first == words.end()) return {};
-  const auto last = std::find_if(words.rbegin(), words.rend(), is_object);
+  const auto found = std::ranges::find_if(words, is_object);
+  if (found == words.end()) return {};
+  const auto found_last = std::find_if(words.rbegin(), words.rend(), is_object);
   const auto per_row = static_cast<std::ptrdiff_t>(mask.words_per_row());
-  return {static_cast<int>((first - words.begin()) / per_row),
-          static_cast<int>((words.rend() - last - 1) / per_row) + 1};
+  ObjectWords object{static_cast<int>((found - words.begin()) / per_row),
+                     static_cast<int>((words.rend() - found_last - 1) / per_row) + 1, 0, 0};
+  std::vector<std::uint64_t> any(mask.words_per_row());
+  for (int y = object.top; y < object.bottom; ++y) {
+    const std::uint64_t* row = RowOf(mask, y);
+    for (std::size_t i = 0; i < any.size(); ++i) any[i] |= row[i];
+  }
+  object.first = static_cast<std::size_t>(std::ranges::find_if(any, is_object) - any.begin());
+  object.last = static_cast<std::size_t>(any.rend() - std::find_if(any.rbegin(), any.rend(), is_object));
+  return object;
 }
 
 // Union-find over runs; the root of a region is its first run.
 class RunForest {
  public:
-  RunForest(const core::BitMask& mask, bool value, RowRange rows) {
-    runs_.reserve(static_cast<std::size_t>(rows.end - rows.begin) * 4);
-    row_begin_.reserve(static_cast<std::size_t>(rows.end - rows.begin) + 1);
-    for (int y = rows.begin; y < rows.end; ++y) {
+  RunForest(const core::BitMask& mask, bool value, const ObjectWords& object) {
+    runs_.reserve(static_cast<std::size_t>(object.bottom - object.top) * 4);
+    row_begin_.reserve(static_cast<std::size_t>(object.bottom - object.top) + 1);
+    for (int y = object.top; y < object.bottom; ++y) {
       row_begin_.push_back(runs_.size());
       const std::uint64_t* row = RowOf(mask, y);
-      ForEachRun(row, mask.width_px(), value, [&](int x0, int x1) {
+      ForEachRun(row, mask.width_px(), object, value, [&](int x0, int x1) {
         runs_.push_back({y, x0, x1, static_cast<std::uint32_t>(runs_.size())});
       });
     }
@@ -134,7 +149,7 @@ class RunForest {
 }  // namespace
 
 Regions ObjectRegions(const core::BitMask& mask) {
-  RunForest forest(mask, true, ObjectRows(mask));
+  RunForest forest(mask, true, ObjectWordsOf(mask));
   forest.Join(1);
   return std::move(forest).Take();
 }
@@ -156,11 +171,13 @@ void RemoveSmallBlobs(core::BitMask& mask, int least_px) {
 }
 
 void FillSmallHoles(core::BitMask& mask, int least_px) {
-  const RowRange object = ObjectRows(mask);
-  if (least_px <= 1 || object.begin == object.end) return;
+  if (least_px <= 1) return;
+  ObjectWords object = ObjectWordsOf(mask);
+  if (object.top == object.bottom) return;
   // One row of background above and below stands for all that there are.
-  const RowRange rows{std::max(object.begin - 1, 0), std::min(object.end + 1, mask.height_px())};
-  RunForest forest(mask, false, rows);
+  object.top = std::max(object.top - 1, 0);
+  object.bottom = std::min(object.bottom + 1, mask.height_px());
+  RunForest forest(mask, false, object);
   forest.Join(0);
   Regions regions = std::move(forest).Take();
   const std::int64_t width = mask.width_px();
@@ -170,8 +187,8 @@ void FillSmallHoles(core::BitMask& mask, int least_px) {
     for (int y = begin; y < end; ++y) regions.runs.push_back({y, 0, mask.width_px(), region});
   };
   const std::uint32_t below = regions.runs.empty() ? 0 : regions.runs.back().region;
-  count_rows(0, rows.begin, regions.runs.empty() ? 0 : regions.runs.front().region);
-  count_rows(rows.end, mask.height_px(), below);
+  count_rows(0, object.top, regions.runs.empty() ? 0 : regions.runs.front().region);
+  count_rows(object.bottom, mask.height_px(), below);
   for (const Run& run : regions.runs) {
     if (regions.area_px[run.region] < least_px) Fill(RowOf(mask, run.y), run.x0, run.x1, true);
   }

@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "core/error.h"
+#include "recon/boundary.h"
+#include "recon/coverage.h"
 
 namespace elbowroom::recon {
 namespace {
@@ -20,7 +22,7 @@ struct Case {
 };
 
 // Rows that end anywhere within a word, and a picture that is a window of a wider one; where `busy`, most
-// pixels differ and many are shade, else only a few.
+// pixels differ and many are shade, else only a few, on a ground of which rows have levels in common.
 Case RandomCase(int width, int height, bool busy, std::mt19937& random) {
   Case made{cv::Mat(height, width + 5, CV_8UC3), cv::Mat(height, width, CV_32FC3),
             cv::Mat(height, width, CV_32FC3)};
@@ -31,9 +33,10 @@ Case RandomCase(int width, int height, bool busy, std::mt19937& random) {
           busy && random() % 2 == 0 ? 0.4 + static_cast<double>(random() % 700U) / 1000.0 : 1.0;
       const bool differs = busy ? random() % 3 == 0 : random() % 200 == 0;
       for (int c = 0; c < 3; ++c) {
-        const float mean = static_cast<float>(random() % 25500U) / 100.0F;
+        const float mean = static_cast<float>(busy ? random() % 25500U : 12000U + random() % 600U) / 100.0F;
         made.mean_bgr.at<cv::Vec3f>(y, x)[c] = mean;
-        made.threshold_bgr.at<cv::Vec3f>(y, x)[c] = static_cast<float>(random() % 3000U) / 100.0F;
+        made.threshold_bgr.at<cv::Vec3f>(y, x)[c] =
+            static_cast<float>((busy ? 0U : 1000U) + random() % 3000U) / 100.0F;
         made.image_bgr.at<cv::Vec3b>(y, x)[c] = cv::saturate_cast<std::uint8_t>(
             differs ? static_cast<double>(random() % 256U) : light * static_cast<double>(mean));
       }
@@ -117,6 +120,26 @@ TEST_F(EachTarget, GivesTheSameBits) {
   }
   RecordProperty("targets", static_cast<int>(targets.size()));
   EXPECT_GE(targets.size(), 2U) << "only one instruction set to compare";
+}
+
+TEST_F(EachTarget, LocatesTheSameBoundary) {
+  std::mt19937 random(4);
+  for (const int width : {1, 5, 64, 65, 191}) {
+    const Case made = RandomCase(width, 33, true, random);
+    const cv::Mat mean = PackedMean(made.mean_bgr);
+    core::BitMask detected(width, 33);
+    for (int y = 0; y < 33; ++y)
+      for (int x = 0; x < width; ++x) detected.Set(x, y, (x / 9 + y / 7) % 2 == 0 && random() % 20 != 0);
+    std::optional<core::SoftMask> first;
+    for (const std::int64_t target : Targets()) {
+      SCOPED_TRACE(hwy::TargetName(target));
+      Choose(target);
+      const core::SoftMask located = LocateBoundary(detected, made.image_bgr, mean, 20.0);
+      located.Validate();
+      if (!first) first = located;
+      EXPECT_EQ(located, *first) << width;
+    }
+  }
 }
 
 TEST(DifferenceKernel, RefusesAPictureOfAnotherSize) {
