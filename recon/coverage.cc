@@ -24,8 +24,8 @@ struct Direction {
 
 // One to three pixels along a direction, rounded to pixels; zero without a direction.
 struct Steps {
-  Offset one, two, three;
-  bool is_along_x = true;  // rather than along y
+  std::array<Offset, 3> to;
+  Offset axis{1, 0};  // across the boundary, as nearly as a row or a column can be
 };
 
 constexpr int kMostMoment = 15;  // of 5 x 5 labels
@@ -42,7 +42,8 @@ Steps StepsAlong(Direction direction) {
     return Offset{static_cast<std::int8_t>(std::lround(steps * direction.x / length)),
                   static_cast<std::int8_t>(std::lround(steps * direction.y / length))};
   };
-  return {step(1.0), step(2.0), step(3.0), std::abs(direction.x) >= std::abs(direction.y)};
+  const bool is_along_x = std::abs(direction.x) >= std::abs(direction.y);
+  return {{step(1.0), step(2.0), step(3.0)}, is_along_x ? Offset{1, 0} : Offset{0, 1}};
 }
 
 StepTable AllSteps() {
@@ -174,22 +175,21 @@ void CoverageEstimator::Read(PixelPlace place, std::size_t i, CoverageSamples* s
   };
   read(place, &samples->here);
   // Across the boundary: along the axis that it is steeper to. Past the picture's edge it goes on as here.
-  const Offset axis = steps.is_along_x ? Offset{1, 0} : Offset{0, 1};
-  const PixelPlace before = MovedBack(place, axis), after = Moved(place, axis);
+  const PixelPlace before = MovedBack(place, steps.axis), after = Moved(place, steps.axis);
   read(IsPixel(before) ? before : place, &samples->before);
   read(IsPixel(after) ? after : place, &samples->after);
-  bool is_background = steps.two != Offset{};
-  const PixelPlace outwards[2] = {MovedBack(place, steps.two), MovedBack(place, steps.three)};
+  // Bits of what is kept, since a branch would often be mispredicted.
+  std::uint32_t kept = steps.to[1] == Offset{} ? 0 : ~std::uint32_t{0};
   for (std::size_t k = 0; k < 2; ++k) {
-    const bool is_pixel = IsPixel(outwards[k]);
-    const PixelPlace at = is_pixel ? outwards[k] : place;
-    is_background = is_background && is_pixel && !detected_.At(at.x, at.y);
-    samples->light[k].image[i] = is_background ? Image(at) : 0;
-    samples->light[k].mean[i] = is_background ? Mean(at) : 0;
+    const PixelPlace outwards = MovedBack(place, steps.to[k + 1]);
+    const bool is_pixel = IsPixel(outwards);
+    const PixelPlace at = is_pixel ? outwards : place;
+    kept = is_pixel ? kept & (static_cast<std::uint32_t>(detected_.At(at.x, at.y)) - 1U) : 0;
+    samples->light[k].image[i] = Image(at) & kept;
+    samples->light[k].mean[i] = Mean(at) & kept;
   }
-  const bool is_inside = detected_.At(place.x, place.y);
-  ReadObject(place, Moved(place, is_inside ? steps.one : steps.two),
-             Moved(place, is_inside ? steps.two : steps.three), i, samples);
+  const std::size_t first = detected_.At(place.x, place.y) ? 0 : 1;
+  ReadObject(place, Moved(place, steps.to[first]), Moved(place, steps.to[first + 1]), i, samples);
 }
 
 void CoverageEstimator::Estimate(std::span<const PixelPlace> places, std::span<Coverage> coverages) const {

@@ -7,6 +7,8 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/video.hpp>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "recon/boundary.h"
@@ -202,9 +204,7 @@ void OpenCvMog2(benchmark::State& state) {
     for (std::size_t i = 0; i < kCameras; ++i) models[i]->apply(Picture(i), mask, 0.0);
 }
 
-// --- the real recording
-// -------------------------------------------------------------------------------------------
-
+// The real recording.
 struct RealScene {
   core::Rig rig;
   std::vector<BackgroundReference> backgrounds;
@@ -242,17 +242,35 @@ bool HasReal(benchmark::State& state) {
   return Real() != nullptr;
 }
 
-void RealFootage(benchmark::State& state) {
-  if (!HasReal(state)) return;
+std::vector<Segmenter> RealSegmenters() {
   std::vector<Segmenter> segmenters;
   for (const BackgroundReference& background : Real()->backgrounds)
     segmenters.emplace_back(background, SegmentationOptions());
+  return segmenters;
+}
+
+FrameSegmenter RealFrameSegmenter() { return {Real()->backgrounds, SegmentationOptions(), Real()->rig}; }
+
+void RealFootageDetect(benchmark::State& state) {
+  if (!HasReal(state)) return;
+  const std::vector<Segmenter> segmenters = RealSegmenters();
+  for (auto _ : state)
+    for (std::size_t i = 0; i < kCameras; ++i)
+      benchmark::DoNotOptimize(segmenters[i].Segment(Real()->frames.cameras[i].image_bgr));
+  std::vector<cv::Mat> found;
+  for (const core::BitMask& mask : RealFrameSegmenter().Segment(Real()->frames))
+    found.push_back(ImageFromMask(mask));
+  CountIou(state, found);
+}
+
+void RealFootage(benchmark::State& state) {
+  if (!HasReal(state)) return;
+  const std::vector<Segmenter> segmenters = RealSegmenters();
   for (auto _ : state)
     for (std::size_t i = 0; i < kCameras; ++i)
       benchmark::DoNotOptimize(segmenters[i].SegmentSoft(Real()->frames.cameras[i].image_bgr));
   std::vector<cv::Mat> found;
-  const FrameSegmenter frame_segmenter(Real()->backgrounds, SegmentationOptions(), Real()->rig);
-  for (const core::SoftMask& soft : frame_segmenter.SegmentSoft(Real()->frames))
+  for (const core::SoftMask& soft : RealFrameSegmenter().SegmentSoft(Real()->frames))
     found.push_back(ImageFromMask(soft.mask));
   CountIou(state, found);
 }
@@ -313,6 +331,7 @@ BENCHMARK(SegmentAdaptive)->Unit(benchmark::kMillisecond);
 BENCHMARK(ConfirmBlobs)->Unit(benchmark::kMillisecond);
 BENCHMARK(OpenCvDifference)->Unit(benchmark::kMillisecond);
 BENCHMARK(OpenCvMog2)->Unit(benchmark::kMillisecond);
+BENCHMARK(RealFootageDetect)->Unit(benchmark::kMillisecond);
 BENCHMARK(RealFootage)->Unit(benchmark::kMillisecond);
 BENCHMARK(RealFootageOpenCvDifference)->Unit(benchmark::kMillisecond);
 BENCHMARK(RealFootageOpenCvMog2)->Unit(benchmark::kMillisecond);
