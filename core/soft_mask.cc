@@ -12,26 +12,23 @@ BitMask BoundaryPixels(const BitMask& mask) {
   const std::size_t words = mask.words_per_row();
   const auto height = static_cast<std::size_t>(mask.height_px());
   const std::uint64_t* in = mask.words().data();
-  const unsigned used = static_cast<unsigned>(mask.width_px()) & 63U;
-  const std::uint64_t last_mask = used == 0 ? ~std::uint64_t{0} : (std::uint64_t{1} << used) - 1;
+  if (words == 0) return boundary;
+  const unsigned top = (static_cast<unsigned>(mask.width_px()) - 1) & 63U;  // of the last word's bits
   for (std::size_t y = 0; y < height; ++y) {
     const std::uint64_t* row = in + y * words;
     const std::uint64_t* above = y > 0 ? row - words : row;
     const std::uint64_t* below = y + 1 < height ? row + words : row;
+    std::uint64_t* out = boundary.words().data() + y * words;
     for (std::size_t i = 0; i < words; ++i) {
-      const bool is_last = i + 1 == words;
       // The first and the last column are their own neighbours.
-      const std::uint64_t before = i > 0 ? row[i - 1] >> 63U : row[i] & 1U;
-      const std::uint64_t left = (row[i] << 1U) | before;
-      std::uint64_t right = (row[i] >> 1U) | (is_last ? 0 : row[i + 1] << 63U);
-      if (is_last) {
-        const unsigned top = used == 0 ? 63U : used - 1;
-        right |= row[i] & (std::uint64_t{1} << top);
-      }
-      const std::uint64_t differs =
-          (row[i] ^ left) | (row[i] ^ right) | (row[i] ^ above[i]) | (row[i] ^ below[i]);
-      boundary.words()[y * words + i] = is_last ? differs & last_mask : differs;
+      const std::uint64_t before = i > 0 ? row[i - 1] >> 63U : row[0] & 1U;
+      const std::uint64_t after = i + 1 < words ? row[i + 1] << 63U : row[i] & (std::uint64_t{1} << top);
+      if ((row[i] | above[i] | below[i] | before | after) == 0) continue;  // most words
+      const std::uint64_t left = (row[i] << 1U) | before, right = (row[i] >> 1U) | after;
+      out[i] = (row[i] ^ left) | (row[i] ^ right) | (row[i] ^ above[i]) | (row[i] ^ below[i]);
     }
+    // Padding differs from its neighbour where the last pixel is object.
+    if (top < 63U) out[words - 1] &= (std::uint64_t{2} << top) - 1;
   }
   return boundary;
 }

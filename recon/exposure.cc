@@ -27,8 +27,10 @@ struct LevelPair {
 };
 
 JointHistogram JointHistogramOf(const cv::Mat& image_bgr, const cv::Mat& mean_bgr, int channel) {
+  constexpr int kPixelsEnough = 40'000;  // more make the estimate no better than its use
+  const int every = std::max(1, image_bgr.rows * image_bgr.cols / kPixelsEnough);
   JointHistogram joint(static_cast<std::size_t>(kLevels * kLevels), 0);
-  for (int y = 0; y < image_bgr.rows; ++y) {
+  for (int y = 0; y < image_bgr.rows; y += every) {
     const auto* image = image_bgr.ptr<std::uint8_t>(y);
     const auto* mean = mean_bgr.ptr<float>(y);
     for (int i = channel; i < image_bgr.cols * 3; i += 3) {

@@ -2,12 +2,36 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
+#include <bit>
+#include <utility>
+
 #include "core/error.h"
+#include "recon/mask_regions.h"
 
 namespace elbowroom::recon {
+namespace {
+
+// A soft mask less some blobs. What stays on the boundary was on it before, with the same level.
+core::SoftMask WithoutBlobs(const core::SoftMask& soft, const Regions& regions,
+                            const std::vector<bool>& keep) {
+  core::SoftMask left{soft.mask, {}};
+  ClearRegions(left.mask, regions, keep);
+  const core::BitMask before = core::BoundaryPixels(soft.mask), after = core::BoundaryPixels(left.mask);
+  auto level = soft.levels.begin();
+  for (std::size_t i = 0; i < before.words().size() && !soft.levels.empty(); ++i) {
+    for (std::uint64_t bits = before.words()[i]; bits != 0; bits &= bits - 1, ++level) {
+      if ((after.words()[i] & bits & (~bits + 1)) != 0) left.levels.push_back(*level);
+    }
+  }
+  return left;
+}
+
+}  // namespace
 
 FrameSegmenter::FrameSegmenter(const std::vector<BackgroundReference>& backgrounds,
-                               const SegmentationOptions& options) {
+                               const SegmentationOptions& options, const core::Rig& rig)
+    : support_(rig) {
   options.Validate();
   for (const BackgroundReference& background : backgrounds) {
     segmenters_.emplace_back();
@@ -15,15 +39,44 @@ FrameSegmenter::FrameSegmenter(const std::vector<BackgroundReference>& backgroun
   }
 }
 
-std::vector<core::BitMask> FrameSegmenter::Segment(const FrameSet& frames) const {
+std::vector<core::SoftMask> FrameSegmenter::Masks(const FrameSet& frames, Edges edges) const {
   core::Require(frames.cameras.size() == segmenters_.size(), "one frame a camera");
-  std::vector<core::BitMask> masks(frames.cameras.size());
+  std::vector<core::SoftMask> masks(frames.cameras.size());
   tbb::parallel_for(std::size_t{0}, masks.size(), [&](std::size_t i) {
     const CameraFrame& camera = frames.cameras[i];
     core::Require(camera.ready_mask || segmenters_[i], "a picture to segment has a background");
-    masks[i] = camera.ready_mask ? *camera.ready_mask : segmenters_[i]->Segment(camera.image_bgr);
+    if (camera.ready_mask) {
+      masks[i].mask = *camera.ready_mask;
+    } else if (edges == Edges::kLocated) {
+      masks[i] = segmenters_[i]->SegmentSoft(camera.image_bgr);
+    } else {
+      masks[i].mask = segmenters_[i]->Segment(camera.image_bgr);
+    }
   });
+  DropUnconfirmed(frames, &masks);
   return masks;
+}
+
+void FrameSegmenter::DropUnconfirmed(const FrameSet& frames, std::vector<core::SoftMask>* masks) const {
+  std::vector<const core::BitMask*> bits;
+  for (const core::SoftMask& mask : *masks) bits.push_back(&mask.mask);
+  const std::vector<std::vector<bool>> confirmed = support_.ConfirmedBlobs(bits);
+  for (std::size_t i = 0; i < masks->size(); ++i) {
+    if (frames.cameras[i].ready_mask || std::ranges::find(confirmed[i], false) == confirmed[i].end())
+      continue;
+    core::SoftMask& mask = (*masks)[i];
+    mask = WithoutBlobs(mask, ObjectRegions(mask.mask), confirmed[i]);
+  }
+}
+
+std::vector<core::BitMask> FrameSegmenter::Segment(const FrameSet& frames) const {
+  std::vector<core::BitMask> masks;
+  for (core::SoftMask& mask : Masks(frames, Edges::kDetected)) masks.push_back(std::move(mask.mask));
+  return masks;
+}
+
+std::vector<core::SoftMask> FrameSegmenter::SegmentSoft(const FrameSet& frames) const {
+  return Masks(frames, Edges::kLocated);
 }
 
 }  // namespace elbowroom::recon

@@ -10,13 +10,15 @@
 #include <vector>
 
 #include "core/error.h"
+#include "recon/boundary.h"
+#include "recon/coverage.h"
 #include "recon/exposure.h"
-#include "recon/mask_image.h"
+#include "recon/mask_regions.h"
 
 namespace elbowroom::recon {
 namespace {
 
-constexpr std::uint8_t kObject = 255;
+constexpr float kShadeNoiseLevels = 0.0F;
 
 void RequireInRange(bool holds, std::string_view option, double value, std::string_view range) {
   if (holds) return;
@@ -35,73 +37,6 @@ cv::Mat ThresholdOf(const BackgroundReference& background, const SegmentationOpt
   cv::max(threshold, options.floor_levels, threshold);
   threshold += gradient * options.edge_slack_px;
   return threshold.reshape(3);
-}
-
-// The whole levels within `threshold` of `mean`: a picture's levels are whole, so asking lowest <= I <=
-// highest is the same as asking |I - mean| <= threshold.
-void LevelsWithin(const cv::Mat& mean_bgr, const cv::Mat& threshold_bgr, cv::Mat& lowest_bgr,
-                  cv::Mat& highest_bgr) {
-  lowest_bgr.create(mean_bgr.size(), CV_8UC3);
-  highest_bgr.create(mean_bgr.size(), CV_8UC3);
-  for (int y = 0; y < mean_bgr.rows; ++y) {
-    const auto* mean = mean_bgr.ptr<float>(y);
-    const auto* threshold = threshold_bgr.ptr<float>(y);
-    auto* lowest = lowest_bgr.ptr<std::uint8_t>(y);
-    auto* highest = highest_bgr.ptr<std::uint8_t>(y);
-    for (int i = 0; i < mean_bgr.cols * 3; ++i) {
-      // Sums of two floats are exact in double. Rounded by hand: std::ceil and std::floor are calls on plain
-      // x86-64.
-      const double low = std::clamp(static_cast<double>(mean[i]) - threshold[i], 0.0, 255.0);
-      const double high = std::clamp(static_cast<double>(mean[i]) + threshold[i], 0.0, 255.0);
-      const int below_low = static_cast<int>(low);
-      lowest[i] = static_cast<std::uint8_t>(below_low + (below_low < low ? 1 : 0));
-      highest[i] = static_cast<std::uint8_t>(static_cast<int>(high));
-    }
-  }
-}
-
-// Clears the pixels that are the background in shade. With I the pixel, B the background's mean and
-// g = I.B / B.B the share of its brightness that is left, it is shade where darkest <= g < 1 and the rest
-// I - g B, which is change of colour, is short beside g B.
-void ClearShadowRow(const std::uint8_t* image, const float* mean, float darkest, float chroma,
-                    std::uint8_t* object, int width) {
-  for (int x = 0; x < width; ++x) {
-    if (object[x] == 0) continue;
-    float ib = 0.0F, bb = 0.0F, ii = 0.0F;
-    for (int c = 0; c < 3; ++c) {
-      const auto i = static_cast<float>(image[3 * x + c]);
-      const float b = mean[3 * x + c];
-      ib += i * b, bb += b * b, ii += i * i;
-    }
-    // |I - g B|^2 = I.I - (I.B)^2 / B.B and |g B|^2 = (I.B)^2 / B.B; both times B.B.
-    const bool is_shade = ib >= darkest * bb && ib < bb && ii * bb - ib * ib < chroma * chroma * ib * ib;
-    if (is_shade) object[x] = 0;
-  }
-}
-
-// Regions of `value` smaller than `least_px` take the other value.
-void RemoveSmallRegions(cv::Mat& object, std::uint8_t value, int least_px, int connectivity) {
-  if (least_px <= 1) return;
-  cv::Mat labels, stats, centroids;
-  // Nothing changes outside the object's bounds; a border of background around them keeps the outside one
-  // region.
-  const cv::Rect bounds = cv::boundingRect(object);
-  const cv::Rect picture(0, 0, object.cols, object.rows);
-  cv::Mat part = object(cv::Rect(bounds.x - 1, bounds.y - 1, bounds.width + 2, bounds.height + 2) & picture);
-  if (bounds.empty()) return;
-  const cv::Mat region = value == kObject ? part : cv::Mat(part == 0);
-  const int count = cv::connectedComponentsWithStats(region, labels, stats, centroids, connectivity, CV_32S);
-  std::vector<std::uint8_t> is_small(static_cast<std::size_t>(count), 0);
-  for (int i = 1; i < count; ++i) {
-    is_small[static_cast<std::size_t>(i)] = stats.at<int>(i, cv::CC_STAT_AREA) < least_px ? 1 : 0;
-  }
-  const std::uint8_t other = value == kObject ? 0 : kObject;
-  for (int y = 0; y < part.rows; ++y) {
-    const int* label = labels.ptr<int>(y);
-    auto* row = part.ptr<std::uint8_t>(y);
-    for (int x = 0; x < part.cols; ++x)
-      row[x] = is_small[static_cast<std::size_t>(label[x])] ? other : row[x];
-  }
 }
 
 }  // namespace
@@ -146,32 +81,35 @@ Segmenter::Segmenter(BackgroundReference background, const SegmentationOptions& 
                 "a background reference has mean and sigma, CV_32FC3 of one size");
   background.mean_bgr = mean_bgr_;
   threshold_bgr_ = ThresholdOf(background, options);
-  LevelsWithin(mean_bgr_, threshold_bgr_, lowest_bgr_, highest_bgr_);
+  as_measured_ = {mean_bgr_, PackedMean(mean_bgr_), LevelRanges(mean_bgr_, threshold_bgr_)};
+}
+
+Segmenter::EmptyScene Segmenter::EmptySceneFor(const cv::Mat& image_bgr) const {
+  core::Require(image_bgr.type() == CV_8UC3 && image_bgr.size() == mean_bgr_.size(),
+                "a picture to segment is 8-bit BGR of its background's size");
+  if (options_.method == SegmentationMethod::kThreshold) return as_measured_;
+  const cv::Mat mean = WithExposure(mean_bgr_, EstimateExposure(image_bgr, mean_bgr_));
+  return {mean, PackedMean(mean), LevelRanges(mean, threshold_bgr_)};
+}
+
+core::BitMask Segmenter::Detect(const cv::Mat& image_bgr, const EmptyScene& scene) const {
+  const ShadeRule shade{static_cast<float>(options_.shadow_darkest),
+                        static_cast<float>(options_.shadow_chroma), kShadeNoiseLevels};
+  core::BitMask mask = options_.shadows == ShadowRule::kReject
+                           ? DifferingPixels(scene.ranges, image_bgr, scene.mean_bgr, shade)
+                           : DifferingPixels(scene.ranges, image_bgr);
+  RemoveSmallBlobs(mask, options_.min_blob_px);
+  FillSmallHoles(mask, options_.max_hole_px);
+  return mask;
 }
 
 core::BitMask Segmenter::Segment(const cv::Mat& image_bgr) const {
-  core::Require(image_bgr.type() == CV_8UC3 && image_bgr.size() == mean_bgr_.size(),
-                "a picture to segment is 8-bit BGR of its background's size");
-  cv::Mat mean = mean_bgr_, lowest = lowest_bgr_, highest = highest_bgr_;
-  if (options_.method == SegmentationMethod::kAdaptive) {
-    mean = WithExposure(mean_bgr_, EstimateExposure(image_bgr, mean_bgr_));
-    cv::Mat own_lowest, own_highest;
-    LevelsWithin(mean, threshold_bgr_, own_lowest, own_highest);
-    lowest = own_lowest, highest = own_highest;
-  }
-  cv::Mat object;
-  cv::inRange(image_bgr, lowest, highest, object);
-  cv::bitwise_not(object, object);
-  if (options_.shadows == ShadowRule::kReject) {
-    for (int y = 0; y < object.rows; ++y) {
-      ClearShadowRow(image_bgr.ptr<std::uint8_t>(y), mean.ptr<float>(y),
-                     static_cast<float>(options_.shadow_darkest), static_cast<float>(options_.shadow_chroma),
-                     object.ptr<std::uint8_t>(y), object.cols);
-    }
-  }
-  RemoveSmallRegions(object, kObject, options_.min_blob_px, 8);
-  RemoveSmallRegions(object, 0, options_.max_hole_px, 4);
-  return MaskFromImage(object);
+  return Detect(image_bgr, EmptySceneFor(image_bgr));
+}
+
+core::SoftMask Segmenter::SegmentSoft(const cv::Mat& image_bgr) const {
+  const EmptyScene scene = EmptySceneFor(image_bgr);
+  return LocateBoundary(Detect(image_bgr, scene), image_bgr, scene.packed_mean, options_.floor_levels);
 }
 
 }  // namespace elbowroom::recon

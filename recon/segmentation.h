@@ -6,6 +6,8 @@
 #include <string_view>
 
 #include "core/bit_mask.h"
+#include "core/soft_mask.h"
+#include "recon/difference_kernel.h"
 #include "recon/frame_set.h"
 
 namespace elbowroom::recon {
@@ -48,15 +50,27 @@ class Segmenter {
   // Throws: Error{kRange} as Validate(); PreconditionError for an empty background.
   Segmenter(BackgroundReference background, const SegmentationOptions& options);
 
-  // Throws: PreconditionError unless `image_bgr` is CV_8UC3 of the background's size.
+  // The pixels detected as above. Throws: PreconditionError unless `image_bgr` is CV_8UC3 of the background's
+  // size.
   [[nodiscard]] core::BitMask Segment(const cv::Mat& image_bgr) const;
 
+  // The same with its boundary located between pixels, as LocateBoundary. Throws: likewise.
+  [[nodiscard]] core::SoftMask SegmentSoft(const cv::Mat& image_bgr) const;
+
  private:
+  // What the camera would show without an object.
+  struct EmptyScene {
+    cv::Mat mean_bgr;  // CV_32FC3
+    cv::Mat packed_mean;
+    LevelRanges ranges;
+  };
+  [[nodiscard]] EmptyScene EmptySceneFor(const cv::Mat& image_bgr) const;
+  [[nodiscard]] core::BitMask Detect(const cv::Mat& image_bgr, const EmptyScene& scene) const;
+
   SegmentationOptions options_;
   cv::Mat mean_bgr_;       // CV_32FC3
   cv::Mat threshold_bgr_;  // CV_32FC3, grey levels
-  cv::Mat lowest_bgr_;     // CV_8UC3: least and greatest picture level that is background
-  cv::Mat highest_bgr_;
+  EmptyScene as_measured_;
 };
 
 }  // namespace elbowroom::recon

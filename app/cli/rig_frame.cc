@@ -17,7 +17,8 @@ RigFrame LoadRigFrame(const RigFrameOptions& options, const CommandContext& cont
   // The frame first: it is the cheaper one to find missing.
   const recon::FrameSet frames = source.Read(options.frame);
   result.masks =
-      recon::FrameSegmenter(source.ReadBackgrounds(context.progress, context.stop), {}).Segment(frames);
+      recon::FrameSegmenter(source.ReadBackgrounds(context.progress, context.stop), {}, source.rig())
+          .Segment(frames);
   return result;
 }
 

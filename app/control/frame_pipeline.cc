@@ -31,7 +31,7 @@ FramePipeline::FramePipeline(core::Rig rig, core::Layout layout,
     : rig_(std::make_shared<const core::Rig>(std::move(rig))),
       planes_(recon::MakePicturePlanes(*rig_)),
       layout_(std::make_shared<const core::Layout>(std::move(layout))),
-      segmenter_(backgrounds, segmentation) {
+      segmenter_(backgrounds, segmentation, *rig_) {
   rig_->Validate();
   layout_->Validate();
   core::Require(backgrounds.size() == rig_->cameras.size(), "one background reference a camera");

@@ -70,13 +70,25 @@ std::vector<Solid> CameraView::SolidsNear(const PixelTile& tile, std::span<const
   return near;
 }
 
-void CameraView::DrawTile(const PixelTile& tile, std::span<const Solid> solids, cv::Mat& clean_bgr) const {
+void CameraView::DrawTile(const PixelTile& tile, std::span<const Solid> solids, int samples_per_pixel_side,
+                          cv::Mat& clean_bgr) const {
+  const int n = samples_per_pixel_side;
+  const float share = 1.0F / static_cast<float>(n * n);
+  const auto from_center = [&](int i) { return (i + 0.5) / n - 0.5; };
   for (int y = tile.y0; y < tile.y1; ++y) {
     for (int x = tile.x0; x < tile.x1; ++x) {
-      const auto nearest = NearestOf(solids, rays_.At(x, y));
-      if (!nearest) continue;
-      clean_bgr.at<cv::Vec3f>(y, x) =
-          Levels(ShadedColor(nearest->solid->color_bgr, nearest->hit.normal_in_world));
+      cv::Vec3f color(0.0F, 0.0F, 0.0F);
+      int hits = 0;
+      for (int i = 0; i < n * n; ++i) {
+        const Ray ray = n == 1 ? rays_.At(x, y) : rays_.At(x, y, {from_center(i % n), from_center(i / n)});
+        const auto nearest = NearestOf(solids, ray);
+        if (!nearest) continue;
+        color += Levels(ShadedColor(nearest->solid->color_bgr, nearest->hit.normal_in_world));
+        ++hits;
+      }
+      if (hits == 0) continue;
+      auto& clean = clean_bgr.at<cv::Vec3f>(y, x);
+      clean = share * (color + static_cast<float>(n * n - hits) * clean);
     }
   }
 }
@@ -96,7 +108,7 @@ cv::Mat CameraView::Render(std::span<const Solid> solids, const Exposure& exposu
     const PixelTile& tile = rays_.tiles()[i];
     if (exposure.table_shadow && !solids.empty()) DrawShadow(tile, solids, spheres, clean_bgr);
     const std::vector<Solid> near = SolidsNear(tile, solids, spheres);
-    if (!near.empty()) DrawTile(tile, near, clean_bgr);
+    if (!near.empty()) DrawTile(tile, near, exposure.samples_per_pixel_side, clean_bgr);
   });
   cv::Mat image_bgr(clean_bgr.size(), CV_8UC3);
   tbb::parallel_for(0, clean_bgr.rows, [&](int y) {

@@ -20,6 +20,7 @@ struct Exposure {
   double noise_sigma_levels = 0.0;
   std::uint64_t noise_seed = 0;
   bool table_shadow = false;
+  int samples_per_pixel_side = 1;  // rays of a pixel, each way
 };
 
 // Immutable: the rays of all pixels and the noise-free picture of the empty scene.
@@ -37,7 +38,8 @@ class CameraView {
  private:
   [[nodiscard]] std::vector<Solid> SolidsNear(const PixelTile& tile, std::span<const Solid> solids,
                                               std::span<const BoundingSphere> spheres) const;
-  void DrawTile(const PixelTile& tile, std::span<const Solid> solids, cv::Mat& clean_bgr) const;
+  void DrawTile(const PixelTile& tile, std::span<const Solid> solids, int samples_per_pixel_side,
+                cv::Mat& clean_bgr) const;
   void DrawShadow(const PixelTile& tile, std::span<const Solid> solids,
                   std::span<const BoundingSphere> spheres, cv::Mat& clean_bgr) const;
 

@@ -72,6 +72,16 @@ Ray PixelRays::At(int x, int y) const {
   return {center_in_world_, (world_from_cam_ * normalised.homogeneous()).normalized()};
 }
 
+Ray PixelRays::At(int x, int y, const Eigen::Vector2d& from_center_px) const {
+  const auto at = [&](int u, int v) -> Eigen::Vector2d { return normalised_[Index(u, v)].cast<double>(); };
+  const int x0 = std::max(x - 1, 0), x1 = std::min(x + 1, width_px_ - 1);
+  const int y0 = std::max(y - 1, 0), y1 = std::min(y + 1, height_px_ - 1);
+  Eigen::Vector2d normalised = at(x, y);
+  if (x1 > x0) normalised += from_center_px.x() / (x1 - x0) * (at(x1, y) - at(x0, y));
+  if (y1 > y0) normalised += from_center_px.y() / (y1 - y0) * (at(x, y1) - at(x, y0));
+  return {center_in_world_, (world_from_cam_ * normalised.homogeneous()).normalized()};
+}
+
 PixelTile PixelRays::Tile(int x0, int y0) const {
   PixelTile tile{x0,  y0, std::min(x0 + kTileSidePx, width_px_), std::min(y0 + kTileSidePx, height_px_), {},
                  1.0, 0.0};

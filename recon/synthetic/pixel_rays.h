@@ -30,6 +30,9 @@ class PixelRays {
 
   [[nodiscard]] Ray At(int x, int y) const;
 
+  // The ray through a point within the pixel, at most half a pixel from its centre: linear between centres.
+  [[nodiscard]] Ray At(int x, int y, const Eigen::Vector2d& from_center_px) const;
+
   // False only if no ray of the tile meets the sphere.
   [[nodiscard]] bool MayMeet(const PixelTile& tile, const BoundingSphere& sphere) const;
 

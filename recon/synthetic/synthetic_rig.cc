@@ -59,6 +59,8 @@ void SyntheticRigOptions::Validate() const {
   core::Require(noise_sigma_levels >= 0.0, "noise_sigma_levels is not negative");
   core::Require(flicker_share >= 0.0 && flicker_share <= 0.5, "flicker_share lies between 0 and 0.5");
   core::Require(background_frames > 0, "background_frames is positive");
+  core::Require(samples_per_pixel_side >= 1 && samples_per_pixel_side <= 16,
+                "samples_per_pixel_side lies between 1 and 16");
 }
 
 SyntheticRig::SyntheticRig(core::Rig rig, SceneAtTime scene_at, SyntheticRigOptions options)
@@ -78,6 +80,7 @@ cv::Mat SyntheticRig::Capture(core::CameraIndex camera, core::FrameIndex noise_f
   exposure.gain = 1.0 + options_.flicker_share * swing;
   exposure.noise_sigma_levels = options_.noise_sigma_levels;
   exposure.table_shadow = options_.table_shadow;
+  exposure.samples_per_pixel_side = options_.samples_per_pixel_side;
   return views_[camera].Render(solids, exposure);
 }
 

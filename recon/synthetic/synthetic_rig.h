@@ -22,6 +22,9 @@ struct SyntheticRigOptions {
   double flicker_share = 0.01;  // exposure gain of each camera and frame within 1 +- this; [0, 0.5]
   int background_frames = 30;   // that a reference is measured from; > 0
   bool table_shadow = false;    // the objects' soft shadow on the table (about ten times slower)
+  // Rays of a pixel that may see an object, each way; 1: through its centre alone. More give a pixel on an
+  // edge the mixture of what it covers, as a sensor does. [1, 16]
+  int samples_per_pixel_side = 1;
 
   // Throws: PreconditionError naming the field out of range.
   void Validate() const;
@@ -31,8 +34,8 @@ struct SyntheticRigOptions {
 using SceneAtTime = std::function<std::vector<SyntheticObject>(double time_s)>;
 
 // Frames are a function of (rig, scene, options, index) alone: any order, any number of threads, same bits.
-// Every pixel is the colour along the ray through its centre, so that a perfect segmentation yields TrueMasks
-// (synthetic_rig_test: Segmentation...). Thread: any, as long as the scene function is.
+// With one sample a pixel it is the colour along the ray through its centre, so that a perfect segmentation
+// yields TrueMasks (synthetic_rig_test: Segmentation...). Thread: any, as long as the scene function is.
 class SyntheticRig : public FrameSetSource {
  public:
   // Undistorts every pixel of every camera once. Throws: PreconditionError for options out of range,

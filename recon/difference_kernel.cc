@@ -1,0 +1,266 @@
+#include "recon/difference_kernel.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+
+#include "core/error.h"
+
+// Highway compiles what stands between HWY_BEFORE_NAMESPACE and HWY_AFTER_NAMESPACE once a target.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "recon/difference_kernel.cc"  // NOLINT(bugprone-macro-parentheses)
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#ifndef ELBOWROOM_RECON_DIFFERENCE_KERNEL_ROWS
+#define ELBOWROOM_RECON_DIFFERENCE_KERNEL_ROWS
+namespace elbowroom::recon {
+namespace {
+
+// Rows below one another, and the ranges that their pixels share.
+struct RowGroup {
+  std::size_t count = 0;
+  const std::uint8_t* shared = nullptr;
+  const std::uint8_t* image[LevelRanges::kSharingRows];
+  const std::uint8_t* ranges[LevelRanges::kSharingRows];
+  const float* mean[LevelRanges::kSharingRows];
+  std::uint64_t* out[LevelRanges::kSharingRows];
+};
+
+}  // namespace
+}  // namespace elbowroom::recon
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace elbowroom::recon {
+namespace HWY_NAMESPACE {  // NOLINT(google-build-namespaces)
+namespace hn = hwy::HWY_NAMESPACE;
+
+constexpr std::size_t kWordBytes = 192;  // of 64 pixels
+
+// ORs the three bits of each of 16 pixels and closes the gaps.
+HWY_INLINE std::uint64_t PixelsOf16(std::uint64_t channels) {
+  std::uint64_t x = (channels | (channels >> 1U) | (channels >> 2U)) & 0x0000249249249249U;
+  x = (x ^ (x >> 2U)) & 0x10c30c30c30c30c3U;
+  x = (x ^ (x >> 4U)) & 0x100f00f00f00f00fU;
+  x = (x ^ (x >> 8U)) & 0x001f0000ff0000ffU;
+  x = (x ^ (x >> 16U)) & 0x001f00000000ffffU;
+  return x & 0xffffU;
+}
+
+HWY_INLINE std::uint64_t PixelsOf64(const std::uint64_t (&c)[3]) {
+  return PixelsOf16(c[0]) | (PixelsOf16((c[0] >> 48U) | (c[1] << 16U)) << 16U) |
+         (PixelsOf16((c[1] >> 32U) | (c[2] << 32U)) << 32U) | (PixelsOf16(c[2] >> 16U) << 48U);
+}
+
+using Bytes = hn::CappedTag<std::uint8_t, 64>;
+
+// Not zero where a level is outside of its range: lowest - level or level - highest, whichever is above zero.
+HWY_INLINE hn::Vec<Bytes> Outside(const std::uint8_t* image, const std::uint8_t* ranges) {
+  const Bytes d;
+  const auto level = hn::LoadU(d, image);
+  return hn::Or(hn::SaturatedSub(hn::Load(d, ranges), level),
+                hn::SaturatedSub(level, hn::Load(d, ranges + kWordBytes)));
+}
+
+// Whether the 192 levels of 64 pixels are all within their ranges.
+HWY_INLINE bool IsWithin(const std::uint8_t* image, const std::uint8_t* ranges) {
+  const Bytes d;
+  auto any = Outside(image, ranges);
+  for (std::size_t i = hn::Lanes(d); i < kWordBytes; i += hn::Lanes(d))
+    any = hn::Or(any, Outside(image + i, ranges + i));
+  return hn::AllTrue(d, hn::Eq(any, hn::Zero(d)));
+}
+
+// Bit i: pixel i of 64 has a channel outside of its range. Channels stay interleaved: only bits are merged.
+HWY_INLINE std::uint64_t Differing(const std::uint8_t* image, const std::uint8_t* ranges) {
+  const Bytes d;
+  const std::size_t lanes = hn::Lanes(d);
+  const auto zero = hn::Zero(d);
+  std::uint64_t channels[3] = {};
+  if constexpr (hn::MaxLanes(d) < 8) {  // plain code: one lane
+    for (std::size_t i = 0; i < kWordBytes; i += lanes)
+      channels[i / 64] |= std::uint64_t{hn::GetLane(Outside(image + i, ranges + i)) != 0} << (i % 64);
+  } else {
+    std::uint8_t bytes[kWordBytes / 8 + 8];
+    for (std::size_t i = 0; i < kWordBytes; i += lanes)
+      hn::StoreMaskBits(d, hn::Ne(Outside(image + i, ranges + i), zero), bytes + i / 8);
+    std::memcpy(channels, bytes, sizeof channels);
+  }
+  return PixelsOf64(channels);
+}
+
+template <class DF>
+HWY_INLINE hn::Vec<DF> FloatsOf(DF df, hn::Vec<hn::Rebind<std::uint8_t, DF>> levels) {
+  return hn::ConvertTo(df, hn::PromoteTo(hn::Rebind<std::int32_t, DF>(), levels));
+}
+
+// Bit i: pixel i of 64 is shade. Sums of products of whole levels; no contraction to fused multiply-add, so
+// that every target rounds alike.
+HWY_INLINE std::uint64_t Shade(std::uint64_t candidates, const std::uint8_t* image, const float* mean,
+                               const ShadeRule& rule) {
+  const hn::CappedTag<float, 64> df;
+  const hn::Rebind<std::uint8_t, decltype(df)> du;
+  using V = hn::Vec<decltype(df)>;
+  const V darkest = hn::Set(df, rule.darkest), chroma2 = hn::Set(df, rule.chroma * rule.chroma);
+  const V noise2 = hn::Set(df, rule.noise_levels * rule.noise_levels);
+  std::uint64_t bits = 0;
+  const std::uint64_t group =
+      hn::Lanes(df) < 64 ? (std::uint64_t{1} << hn::Lanes(df)) - 1 : ~std::uint64_t{0};
+  for (std::size_t i = 0; i < 64; i += hn::Lanes(df)) {
+    if (((candidates >> i) & group) == 0) continue;
+    hn::Vec<decltype(du)> image_b, image_g, image_r;
+    hn::LoadInterleaved3(du, image + 3 * i, image_b, image_g, image_r);
+    const V ib = FloatsOf(df, image_b), ig = FloatsOf(df, image_g), ir = FloatsOf(df, image_r);
+    V mb, mg, mr;
+    hn::LoadInterleaved3(df, mean + 3 * i, mb, mg, mr);
+    const auto dot = [](V a, V b, V c, V x, V y, V z)
+                         HWY_ATTR { return hn::Add(hn::Add(hn::Mul(a, x), hn::Mul(b, y)), hn::Mul(c, z)); };
+    const V im = dot(ib, ig, ir, mb, mg, mr), mm = dot(mb, mg, mr, mb, mg, mr);
+    const V ii = dot(ib, ig, ir, ib, ig, ir), im2 = hn::Mul(im, im);
+    // |I - g B|^2 = I.I - (I.B)^2 / B.B and |g B|^2 = (I.B)^2 / B.B; both times B.B.
+    const V off = hn::Sub(hn::Mul(ii, mm), im2);
+    const V allowed = hn::Max(hn::Mul(chroma2, im2), hn::Mul(noise2, mm));
+    const auto is_shade =
+        hn::And(hn::And(hn::Ge(im, hn::Mul(darkest, mm)), hn::Lt(im, mm)), hn::Lt(off, allowed));
+    std::uint8_t bytes[8] = {};
+    hn::StoreMaskBits(df, is_shade, bytes);
+    std::uint64_t lane_bits = 0;
+    std::memcpy(&lane_bits, bytes, sizeof bytes);
+    bits |= lane_bits << i;
+  }
+  return bits;
+}
+
+// The same for the `count` pixels that are left at the end of a row.
+HWY_NOINLINE std::uint64_t ShadeAtEnd(std::uint64_t candidates, const std::uint8_t* image, const float* mean,
+                                      std::size_t count, const ShadeRule& rule) {
+  HWY_ALIGN std::uint8_t levels[kWordBytes] = {};
+  HWY_ALIGN float means[kWordBytes] = {};
+  std::memcpy(levels, image, count * 3);
+  std::memcpy(means, mean, count * 3 * sizeof(float));
+  return Shade(candidates, levels, means, rule);
+}
+
+// The 64 pixels (or `count` of them) from `image` on.
+HWY_INLINE std::uint64_t DifferingWord(const std::uint8_t* image, const std::uint8_t* shared,
+                                       const std::uint8_t* ranges, const float* mean, const ShadeRule* shade,
+                                       std::size_t count) {
+  const std::uint8_t* levels = image;
+  HWY_ALIGN std::uint8_t rest[kWordBytes];
+  if (count < 64) {
+    std::memset(rest, 0, sizeof rest);
+    std::memcpy(rest, image, count * 3);
+    levels = rest;
+  }
+  if (IsWithin(levels, shared)) return 0;
+  const std::uint64_t bits = Differing(levels, ranges);
+  if (bits == 0 || shade == nullptr) return bits;
+  return bits &
+         ~(count == 64 ? Shade(bits, image, mean, *shade) : ShadeAtEnd(bits, image, mean, count, *shade));
+}
+
+void DifferingRows(const RowGroup& rows, std::size_t width, const ShadeRule* shade) {
+  const std::uint8_t* shared = rows.shared;
+  for (std::size_t x = 0; x < width; x += 64, shared += 2 * kWordBytes) {
+    const std::size_t count = std::min<std::size_t>(64, width - x), word = x / 64;
+    for (std::size_t i = 0; i < rows.count; ++i) {
+      const float* mean = shade != nullptr ? rows.mean[i] + 3 * x : nullptr;
+      rows.out[i][word] = DifferingWord(rows.image[i] + 3 * x, shared, rows.ranges[i] + word * 2 * kWordBytes,
+                                        mean, shade, count);
+    }
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace elbowroom::recon
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace elbowroom::recon {
+namespace {
+
+HWY_EXPORT(DifferingRows);
+
+constexpr int kBytes = 192;  // of 64 pixels
+
+core::BitMask Differing(const LevelRanges& ranges, const cv::Mat& image_bgr, const cv::Mat& mean_bgr,
+                        const ShadeRule* shade) {
+  const cv::Size size(ranges.width_px(), ranges.height_px());
+  core::Require(image_bgr.type() == CV_8UC3 && image_bgr.size() == size,
+                "a picture is 8-bit BGR and of its ranges' size");
+  core::BitMask mask(size.width, size.height);
+  const auto differing_rows = HWY_DYNAMIC_DISPATCH(DifferingRows);
+  for (int y0 = 0; y0 < size.height; y0 += LevelRanges::kSharingRows) {
+    RowGroup rows;
+    rows.count = static_cast<std::size_t>(std::min(LevelRanges::kSharingRows, size.height - y0));
+    rows.shared = ranges.shared(y0);
+    for (std::size_t i = 0; i < rows.count; ++i) {
+      const int y = y0 + static_cast<int>(i);
+      rows.image[i] = image_bgr.ptr<std::uint8_t>(y);
+      rows.ranges[i] = ranges.row(y);
+      rows.mean[i] = shade != nullptr ? mean_bgr.ptr<float>(y) : nullptr;
+      rows.out[i] = mask.words().data() + static_cast<std::size_t>(y) * mask.words_per_row();
+    }
+    differing_rows(rows, static_cast<std::size_t>(size.width), shade);
+  }
+  return mask;
+}
+
+}  // namespace
+
+LevelRanges::LevelRanges(const cv::Mat& mean_bgr, const cv::Mat& threshold_bgr)
+    : width_px_(mean_bgr.cols), height_px_(mean_bgr.rows) {
+  levels_.create(height_px_, (width_px_ + 63) / 64 * 2 * kBytes, CV_8U);
+  for (int y = 0; y < height_px_; ++y) {
+    const auto* mean = mean_bgr.ptr<float>(y);
+    const auto* threshold = threshold_bgr.ptr<float>(y);
+    auto* lowest = levels_.ptr<std::uint8_t>(y);
+    for (int first = 0; first < width_px_ * 3; first += kBytes, lowest += 2 * kBytes) {
+      std::uint8_t* highest = lowest + kBytes;
+      const int count = std::min(kBytes, width_px_ * 3 - first);
+      for (int i = 0; i < count; ++i) {
+        // Sums of two floats are exact in double. Rounded by hand: std::ceil and std::floor are calls on
+        // plain x86-64.
+        const double low =
+            std::clamp(static_cast<double>(mean[first + i]) - threshold[first + i], 0.0, 255.0);
+        const double high =
+            std::clamp(static_cast<double>(mean[first + i]) + threshold[first + i], 0.0, 255.0);
+        const int below_low = static_cast<int>(low);
+        lowest[i] = static_cast<std::uint8_t>(below_low + (below_low < low ? 1 : 0));
+        highest[i] = static_cast<std::uint8_t>(static_cast<int>(high));
+      }
+      std::fill(lowest + count, lowest + kBytes, std::uint8_t{0});
+      std::fill(highest + count, highest + kBytes, std::uint8_t{255});
+    }
+  }
+  Share();
+}
+
+void LevelRanges::Share() {
+  shared_.create((height_px_ + kSharingRows - 1) / kSharingRows, levels_.cols, CV_8U);
+  for (int y = 0; y < height_px_; ++y) {
+    const auto* levels = levels_.ptr<std::uint8_t>(y);
+    auto* together = shared_.ptr<std::uint8_t>(y / kSharingRows);
+    if (y % kSharingRows == 0) std::memcpy(together, levels, static_cast<std::size_t>(levels_.cols));
+    for (int first = 0; first < levels_.cols; first += 2 * kBytes) {
+      for (int i = first; i < first + kBytes; ++i) together[i] = std::max(together[i], levels[i]);
+      for (int i = first + kBytes; i < first + 2 * kBytes; ++i)
+        together[i] = std::min(together[i], levels[i]);
+    }
+  }
+}
+
+core::BitMask DifferingPixels(const LevelRanges& ranges, const cv::Mat& image_bgr) {
+  return Differing(ranges, image_bgr, {}, nullptr);
+}
+
+core::BitMask DifferingPixels(const LevelRanges& ranges, const cv::Mat& image_bgr, const cv::Mat& mean_bgr,
+                              const ShadeRule& shade) {
+  core::Require(mean_bgr.type() == CV_32FC3 && mean_bgr.size() == image_bgr.size(),
+                "a background's mean is CV_32FC3 and of the picture's size");
+  return Differing(ranges, image_bgr, mean_bgr, &shade);
+}
+
+}  // namespace elbowroom::recon
+#endif  // HWY_ONCE

@@ -1,0 +1,59 @@
+// The inner loop of segmentation: which pixels differ from the empty scene and aren't its shade.
+#pragma once
+
+#include <opencv2/core/mat.hpp>
+
+#include "core/bit_mask.h"
+
+namespace elbowroom::recon {
+
+// The levels that every pixel and channel may have and still be background, laid out for the kernel. Most
+// pixels are also within the levels that they share with those above and below: reading these first leaves
+// out two thirds of what reading is about, and the result is the same.
+class LevelRanges {
+ public:
+  static constexpr int kSharingRows = 4;  // rows 4 i to 4 i + 3
+
+  LevelRanges() = default;
+
+  // The whole levels within `threshold_bgr` of `mean_bgr` (both CV_32FC3): a picture's levels are whole, so
+  // asking lowest <= I <= highest is the same as asking |I - mean| <= threshold. Exact.
+  LevelRanges(const cv::Mat& mean_bgr, const cv::Mat& threshold_bgr);
+
+  [[nodiscard]] int width_px() const { return width_px_; }
+  [[nodiscard]] int height_px() const { return height_px_; }
+
+  // For each 64 pixels of a row their 192 lowest, then their 192 highest levels; 64-byte aligned. Pixels past
+  // the row's end may have any level.
+  [[nodiscard]] const std::uint8_t* row(int y) const { return levels_.ptr<std::uint8_t>(y); }
+
+  // The levels that are within range in all of the rows that y shares with; none where lowest > highest.
+  [[nodiscard]] const std::uint8_t* shared(int y) const {
+    return shared_.ptr<std::uint8_t>(y / kSharingRows);
+  }
+
+ private:
+  void Share();
+
+  int width_px_ = 0;
+  int height_px_ = 0;
+  cv::Mat levels_, shared_;  // CV_8U
+};
+
+// Shade is the background with less light: with B the background's mean and g = I.B / B.B the share of its
+// light that is left, darkest <= g < 1, and the rest I - g B, a change of colour, is shorter than
+// chroma |g B| or than noise_levels.
+struct ShadeRule {
+  float darkest = 0.0F;
+  float chroma = 0.0F;
+  float noise_levels = 0.0F;
+};
+
+// Pixels with a channel outside its range; those that are shade are left out if there is a rule. `image_bgr`
+// (CV_8UC3, any row stride) and `mean_bgr` (CV_32FC3) are of the ranges' size. AVX-512, AVX2, SSE4, SSSE3 and
+// plain code, chosen at run time, give the same bits (tests/recon/difference_kernel_test.cc).
+[[nodiscard]] core::BitMask DifferingPixels(const LevelRanges& ranges, const cv::Mat& image_bgr);
+[[nodiscard]] core::BitMask DifferingPixels(const LevelRanges& ranges, const cv::Mat& image_bgr,
+                                            const cv::Mat& mean_bgr, const ShadeRule& shade);
+
+}  // namespace elbowroom::recon
