@@ -51,7 +51,7 @@ EdgePencil::EdgePencil(const ContourMap& labels, double focal_px, const core::Ca
   TurnOffContour(start_in_view);
   starts_inside_ = LabelInCam(labels, focal_px, cam_from_view_ * start_in_view);
   ChooseAxes(rays.BoundsOf(0, 0, rays.width_px(), rays.height_px()));
-  SortEdges(labels.contour(), cam_from_view_.transpose());
+  AddEdges(labels.contour(), cam_from_view_.transpose());
 }
 
 void EdgePencil::ChooseAxes(const Eigen::AlignedBox2d& view_box) {
@@ -117,28 +117,32 @@ std::uint32_t EdgePencil::BinOf(double angle) const {
   return static_cast<std::uint32_t>(std::clamp(bin, 0.0, kBins - 1.0));
 }
 
-// Where rays meet the plane of an edge from `from` along `along`.
-CastForm EdgePencil::KeyOf(const Vector3d& from, const Vector3d& along, bool enters) const {
+// Where rays meet the plane of an edge from `from` along `along`, and in which order: the crossing's
+// direction from the camera is order * axis + (x, y) across it.
+OrderedEdge EdgePencil::EdgeAlong(const Vector3d& from, const Vector3d& along, bool enters) const {
   const Vector3d normal = from.cross(along);
+  const bool is_perspective = projection_ == Projection::kPerspective;
+  const double rise = is_perspective ? normal.dot(centre_in_view_) : normal.z();
+  const double reach = is_perspective ? centre_in_view_.norm() : 1.0;
   const double sign = enters ? 1.0 : -1.0;
-  const double least = kLeastHeight * normal.norm() + std::numeric_limits<double>::min();
-  if (projection_ == Projection::kPerspective) {
-    const double height = sign * std::max(sign * normal.dot(centre_in_view_), least * centre_in_view_.norm());
-    return AffineForm{-normal.x() / height, -normal.y() / height, -normal.z() / height}.Narrow();
-  }
-  const double rise = sign * std::max(sign * normal.z(), least);
-  return AffineForm{-normal.x() / rise, -normal.y() / rise, normal.dot(centre_in_view_) / rise}.Narrow();
+  const double least = kLeastHeight * normal.norm() * reach + std::numeric_limits<double>::min();
+  const double height = sign * std::max(sign * rise, least);
+  const double at_origin = is_perspective ? -normal.z() : normal.dot(centre_in_view_);
+  OrderedEdge edge;
+  edge.cast.key = AffineForm{-normal.x() / height, -normal.y() / height, at_origin / height}.Narrow();
+  edge.cast.is_entry = enters;
+  edge.order = {-normal.dot(across_axes_[0]) / height, -normal.dot(across_axes_[1]) / height};
+  return edge;
 }
 
 // The part of an edge's angles, from < to, that the view has.
-void EdgePencil::AddEdge(CastEdge edge, double from, double to, std::vector<UnsortedEdge>* edges) const {
-  edge.from = static_cast<float>(from), edge.to = static_cast<float>(to);
-  if (!(from <= view_angles_.most) || !(to >= view_angles_.least)) return;
-  // Of the angles as rounded, with room for the rounding of bins.
-  edges->push_back({edge, BinOf(from - kAngleSlack), BinOf(to + kAngleSlack)});
+void EdgePencil::AddEdge(OrderedEdge edge, double from, double to, std::vector<OrderedEdge>* edges) const {
+  edge.cast.from = static_cast<float>(from), edge.cast.to = static_cast<float>(to);
+  if (!(edge.cast.from < edge.cast.to)) return;
+  if (from <= view_angles_.most && to >= view_angles_.least) edges->push_back(edge);
 }
 
-void EdgePencil::SortEdges(const Contour& contour, const Eigen::Matrix3d& view_from_cam) {
+void EdgePencil::AddEdges(const Contour& contour, const Eigen::Matrix3d& view_from_cam) {
   struct Vertex {
     Vector3d in_view;  // a direction
     double angle;
@@ -150,8 +154,8 @@ void EdgePencil::SortEdges(const Contour& contour, const Eigen::Matrix3d& view_f
     const double angle = PencilAngle(across_axes_[0].dot(q), across_axes_[1].dot(q));
     vertices[i] = {q, std::isnan(angle) ? 0.0 : angle};
   }
-  std::vector<UnsortedEdge> entries, exits;
-  entries.reserve(contour.edges.size()), exits.reserve(contour.edges.size());
+  std::vector<OrderedEdge> edges;
+  edges.reserve(contour.edges.size());
   for (std::uint32_t i = 0; i < contour.edges.size(); ++i) {
     const ContourEdge& ends = contour.edges[i];
     const Vertex &from = vertices[ends.from], &to = vertices[ends.to];
@@ -160,45 +164,17 @@ void EdgePencil::SortEdges(const Contour& contour, const Eigen::Matrix3d& view_f
     // About the axis the object is on the left of an edge: with the turn rays come in from outside.
     const bool enters = turn > 0.0;
     const double least = enters ? from.angle : to.angle, most = enters ? to.angle : from.angle;
-    std::vector<UnsortedEdge>* edges = enters ? &entries : &exits;
-    CastEdge edge;
-    edge.edge = i;
     const Eigen::Vector2d along = contour.vertices[ends.to] - contour.vertices[ends.from];
-    edge.key = KeyOf(from.in_view, view_from_cam.leftCols<2>() * along, enters);
+    OrderedEdge edge = EdgeAlong(from.in_view, view_from_cam.leftCols<2>() * along, enters);
+    edge.cast.edge = i;
     if (least <= most) {
-      AddEdge(edge, least, most, edges);
+      AddEdge(edge, least, most, &edges);
     } else {  // across the negative x axis
-      AddEdge(edge, least, std::numeric_limits<float>::infinity(), edges);
-      AddEdge(edge, -std::numeric_limits<float>::infinity(), most, edges);
+      AddEdge(edge, least, std::numeric_limits<float>::infinity(), &edges);
+      AddEdge(edge, -std::numeric_limits<float>::infinity(), most, &edges);
     }
   }
-  cast_.entries = Sorted(entries);
-  cast_.exits = Sorted(exits);
-}
-
-CastEdges EdgePencil::Sorted(const std::vector<UnsortedEdge>& edges) const {
-  CastEdges sorted;
-  sorted.first.assign(kBins + 1, 0);
-  sorted.first_carried.assign(kBins + 1, 0);
-  for (const UnsortedEdge& edge : edges) {
-    ++sorted.first[edge.first_bin + 1];
-    for (std::uint32_t bin = edge.first_bin + 1; bin <= edge.last_bin; ++bin) ++sorted.first_carried[bin + 1];
-  }
-  for (std::uint32_t bin = 0; bin < kBins; ++bin) {
-    sorted.first[bin + 1] += sorted.first[bin];
-    sorted.first_carried[bin + 1] += sorted.first_carried[bin];
-  }
-  sorted.edges.resize(edges.size());
-  sorted.carried.resize(sorted.first_carried.back());
-  std::vector<std::uint32_t> next(sorted.first.begin(), sorted.first.end() - 1);
-  std::vector<std::uint32_t> next_carried(sorted.first_carried.begin(), sorted.first_carried.end() - 1);
-  for (const UnsortedEdge& edge : edges) {
-    const std::uint32_t number = next[edge.first_bin]++;
-    sorted.edges[number] = edge.edge;
-    for (std::uint32_t bin = edge.first_bin + 1; bin <= edge.last_bin; ++bin)
-      sorted.carried[next_carried[bin]++] = number;
-  }
-  return sorted;
+  FillIntervals(std::move(edges), &cast_);
 }
 
 bool EdgePencil::IsObjectAlong(const Eigen::Vector2d& uv) const {
@@ -209,11 +185,11 @@ bool EdgePencil::IsObjectAlong(const Eigen::Vector2d& uv) const {
 }
 
 bool EdgePencil::MayEnter(const Eigen::AlignedBox2d& uv_box) const {
-  if (cast_.entries.edges.empty()) return false;
+  if (cast_.edges.empty()) return false;
   const AngleRange range = AnglesOf(uv_box);
-  const std::uint32_t first = BinOf(range.least), last = BinOf(range.most);
-  return cast_.entries.first[last + 1] > cast_.entries.first[first] ||
-         cast_.entries.first_carried[first + 1] > cast_.entries.first_carried[first];
+  const auto [first, last] = IntervalsOf(cast_, BinOf(range.least), BinOf(range.most));
+  const std::vector<std::int32_t>& first_crossing = cast_.intervals.first_crossing;
+  return first_crossing[last + 1] > first_crossing[first];
 }
 
 }  // namespace elbowroom::recon

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/camera_model.h"
+#include "recon/cast_intervals.h"
 #include "recon/contour_map.h"
 #include "recon/tile_cast.h"
 #include "recon/view_rays.h"
@@ -51,20 +52,14 @@ class EdgePencil {
     double least = 0.0;
     double most = 0.0;
   };
-  struct UnsortedEdge {
-    CastEdge edge;
-    std::uint32_t first_bin = 0;
-    std::uint32_t last_bin = 0;
-  };
-
   void TurnOffContour(const Eigen::Vector3d& start_in_view);
   void ChooseAxes(const Eigen::AlignedBox2d& view_box);
   [[nodiscard]] AngleRange AnglesOf(const Eigen::AlignedBox2d& uv_box) const;
   [[nodiscard]] std::uint32_t BinOf(double angle) const;
-  void SortEdges(const Contour& contour, const Eigen::Matrix3d& view_from_cam);
-  void AddEdge(CastEdge edge, double from, double to, std::vector<UnsortedEdge>* edges) const;
-  [[nodiscard]] CastEdges Sorted(const std::vector<UnsortedEdge>& edges) const;
-  [[nodiscard]] CastForm KeyOf(const Eigen::Vector3d& from, const Eigen::Vector3d& along, bool enters) const;
+  void AddEdges(const Contour& contour, const Eigen::Matrix3d& view_from_cam);
+  void AddEdge(OrderedEdge edge, double from, double to, std::vector<OrderedEdge>* edges) const;
+  [[nodiscard]] OrderedEdge EdgeAlong(const Eigen::Vector3d& from, const Eigen::Vector3d& along,
+                                      bool enters) const;
 
   const ContourMap& labels_;
   double focal_px_;

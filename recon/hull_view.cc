@@ -46,7 +46,7 @@ class Caster {
                       });
     for (const Worker& worker : workers) {
       view_.hit_pixels += worker.hit_pixels;
-      view_.edges_met += worker.scratch.edges_met;
+      view_.crossings_met += worker.scratch.crossings_met;
       view_.cast_pixels += worker.cast_pixels;
     }
     view_.skipped_pixels = std::int64_t{view_.width_px} * view_.height_px - view_.cast_pixels;
@@ -117,9 +117,15 @@ class Caster {
           static_cast<std::size_t>(x + i % kTilePx);
       view_.depth_mm[pixel] = is_perspective ? -1.0F / hits.key[i] : hits.key[i];
       if (!view_.surface.empty())
-        view_.surface[pixel] = SurfaceOf(hull_, hits.camera[i], static_cast<std::uint32_t>(hits.edge[i]));
+        view_.surface[pixel] = SurfaceOf(hull_, hits.camera[i], ContourEdge(hits.camera[i], hits.edge[i]));
       ++worker->hit_pixels;
     }
+  }
+
+  [[nodiscard]] std::uint32_t ContourEdge(std::int32_t caster, std::int32_t edge) const {
+    if (caster == TileHits::kNoCamera) return 0;
+    const EdgePencil& pencil = pencils_.Caster(static_cast<std::size_t>(caster));
+    return pencil.cast().edges[static_cast<std::size_t>(edge)].edge;
   }
 
   const VisualHull& hull_;

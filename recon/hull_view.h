@@ -47,7 +47,7 @@ struct HullView {
   std::int64_t cast_pixels = 0;     // whose rays were cast
   std::int64_t skipped_pixels = 0;  // settled with a larger square of them
   std::int64_t edges = 0;           // of all contours
-  std::int64_t edges_met = 0;       // angular intervals of edges that vectors of rays were compared with
+  std::int64_t crossings_met = 0;   // of rays with edges, as far as they were worked out
 };
 
 struct HullViewOptions {

@@ -22,7 +22,6 @@ using Ints = hn::RebindToSigned<Floats>;
 using VF = hn::Vec<Floats>;
 using VI = hn::Vec<Ints>;
 using MF = hn::Mask<Floats>;
-using Kept = TileScratch::Kept;
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
@@ -53,55 +52,36 @@ struct Rays {
 struct Front {
   VF key;
   VI camera;
+  VI place;  // of the entry, in the camera's crossings
 };
 
-// One camera's crossings with rays about a key: the last entry and the last exit up to it, the first entry
-// beyond.
-struct About {
-  VF last_entry;
-  VF last_exit;
-  VF next_entry;
-};
-
-HWY_INLINE About NothingAbout() {
-  const Floats f;
-  return {hn::Set(f, -kInfinity), hn::Set(f, -kInfinity), hn::Set(f, kInfinity)};
-}
-
-HWY_INLINE void AddEntry(VF key, VF at, About* about) {
-  const MF is_past = hn::Le(key, at);
-  about->last_entry = hn::IfThenElse(is_past, hn::Max(about->last_entry, key), about->last_entry);
-  about->next_entry = hn::IfThenElse(is_past, about->next_entry, hn::Min(about->next_entry, key));
-}
-
-HWY_INLINE void AddExit(VF key, VF at, About* about) {
-  about->last_exit = hn::IfThenElse(hn::Le(key, at), hn::Max(about->last_exit, key), about->last_exit);
-}
+HWY_INLINE VI Lanes(MF mask) { return hn::VecFromMask(Ints(), hn::RebindMask(Ints(), mask)); }
+HWY_INLINE MF MaskOf(VI lanes) { return hn::RebindMask(Floats(), hn::Lt(lanes, hn::Zero(Ints()))); }
 
 // The bits of the vector's rays.
-HWY_INLINE MF MaskOf(std::uint32_t bits) {
-  const Floats f;
-  if (bits == 0) return hn::Gt(hn::Zero(f), hn::Zero(f));
-  alignas(64) float lanes[kTileRays];
-  for (std::size_t i = 0; i < hn::Lanes(f); ++i) lanes[i] = ((bits >> i) & 1U) != 0 ? 1.0F : 0.0F;
-  return hn::Gt(hn::Load(f, lanes), hn::Zero(f));
-}
-
-// By the last crossing, or else the label that the ray came with.
-HWY_INLINE MF IsInside(const About& about, std::uint32_t starts_inside) {
-  const Floats f;
-  const MF by_crossing = hn::Gt(about.last_entry, about.last_exit);
-  if (starts_inside == 0) return by_crossing;
-  const MF none = hn::Eq(hn::Max(about.last_entry, about.last_exit), hn::Set(f, -kInfinity));
-  return hn::Or(by_crossing, hn::And(none, MaskOf(starts_inside)));
-}
-
-HWY_INLINE void MoveOn(MF which, VF key, std::size_t camera, Front* front) {
+HWY_INLINE MF MaskOfBits(std::uint32_t bits) {
   const Ints n;
-  front->key = hn::IfThenElse(which, key, front->key);
-  front->camera =
-      hn::IfThenElse(hn::RebindMask(n, which), hn::Set(n, static_cast<std::int32_t>(camera)), front->camera);
+  const VI one = hn::Set(n, 1);
+  const VI shifted = hn::And(hn::Set(n, static_cast<std::int32_t>(bits)), hn::Shl(one, hn::Iota(n, 0)));
+  return hn::RebindMask(Floats(), hn::Ne(shifted, hn::Zero(n)));
 }
+
+HWY_INLINE void MoveOn(MF which, VF key, std::size_t camera, VI place, Front* front) {
+  const Ints n;
+  const auto which_n = hn::RebindMask(n, which);
+  front->key = hn::IfThenElse(which, key, front->key);
+  front->camera = hn::IfThenElse(which_n, hn::Set(n, static_cast<std::int32_t>(camera)), front->camera);
+  front->place = hn::IfThenElse(which_n, place, front->place);
+}
+
+// One camera's next crossing with each ray, and what the one before said.
+struct Course {
+  VF key;
+  VI place;
+  VI end;
+  MF is_entry;
+  MF is_inside;
+};
 
 // The walk of some rays, from camera to camera, until all agree.
 class Walk {
@@ -112,19 +92,19 @@ class Walk {
 
   Front Run(VF key_from, VF key_to) {
     const Floats f;
-    Front front{key_from, hn::Set(Ints(), TileHits::kNoCamera)};
+    const Ints n;
+    Front front{key_from, hn::Set(n, TileHits::kNoCamera), hn::Zero(n)};
     MF alive = hn::Le(key_from, key_to);
-    if (hn::AllFalse(f, alive)) return {hn::Set(f, kInfinity), front.camera};
+    if (hn::AllFalse(f, alive)) return {hn::Set(f, kInfinity), front.camera, front.place};
     // Until as many in a row agree as there are cameras.
     const std::size_t cameras = cameras_.size();
     for (std::size_t asked = 0, agreed = 0; agreed < cameras; ++asked) {
       const std::size_t i = asked % cameras;
-      const About about = asked < cameras ? CrossFirst(cameras_[i], alive, front.key, &scratch_.kept[i])
-                                          : CrossAgain(cameras_[i], alive, front.key, &scratch_.kept[i]);
-      const MF outside = hn::AndNot(IsInside(about, cameras_[i].starts_inside >> first_), alive);
+      const Course course = CourseTo(cameras_[i], asked < cameras, alive, front.key, &scratch_.courses[i]);
+      const MF outside = hn::AndNot(course.is_inside, alive);
       ++agreed;
       if (!hn::AllFalse(f, outside)) {
-        MoveOn(outside, about.next_entry, i, &front);
+        MoveOn(outside, course.key, i, course.place, &front);
         alive = hn::And(alive, hn::Le(front.key, key_to));
         if (hn::AllFalse(f, alive)) break;
         agreed = 1;
@@ -140,141 +120,116 @@ class Walk {
   }
 
   // The edges that the rays of a front are on, of the cameras that brought them there.
-  VI EdgesOf(const Front& front) {
+  [[nodiscard]] VI EdgesOf(const Front& front) const {
     const Floats f;
     const Ints n;
     VI found = hn::Zero(n);
     for (std::size_t i = 0; i < cameras_.size() + sights_.size(); ++i) {
-      const MF is_by = hn::RebindMask(f, hn::Eq(front.camera, hn::Set(n, static_cast<std::int32_t>(i))));
+      const auto is_by = hn::Eq(front.camera, hn::Set(n, static_cast<std::int32_t>(i)));
       const TileCamera& camera = i < cameras_.size() ? cameras_[i] : sights_[i - cameras_.size()];
-      if (hn::AllFalse(f, is_by) || camera.pencil->bins == 0) continue;
-      Kept bins;
-      const VF angle = Angle(*camera.pencil, rays_.u, rays_.v);
-      FindBins(*camera.pencil, is_by, angle, &bins);
-      Cross(camera.pencil->entries, bins, angle, [&](const CastEdge& edge, VF key) {
-        const MF is_edge = hn::And(is_by, hn::Eq(key, front.key));
-        found = hn::IfThenElse(hn::RebindMask(n, is_edge), hn::Set(n, static_cast<std::int32_t>(edge.edge)),
-                               found);
-      });
+      if (hn::AllFalse(n, is_by) || camera.pencil->bins == 0) continue;
+      const VI at = hn::ShiftLeft<2>(hn::IfThenElseZero(is_by, front.place));
+      const VF bits = hn::GatherIndex(f, camera.pencil->intervals.crossings.data() + 3, at);
+      found = hn::IfThenElse(is_by, hn::ShiftRight<1>(hn::BitCast(n, bits)), found);
     }
     return found;
   }
 
  private:
-  // Calls visit(edge, key) for the edges of the bins that some ray crosses; key is infinite for the rays that
-  // don't.
-  template <typename Visit>
-  HWY_INLINE void Cross(const CastEdges& edges, const Kept& bins, VF angle, const Visit& visit) {
+  // The crossings of the rays' angles, none of them passed.
+  [[nodiscard]] HWY_INLINE Course Start(const TileCamera& camera) const {
     const Floats f;
-    const auto cross = [&](const CastEdge& edge) {
-      const MF crosses = hn::And(hn::Ge(angle, hn::Set(f, edge.from)), hn::Lt(angle, hn::Set(f, edge.to)));
-      if (hn::AllFalse(f, crosses)) return;
-      const VF key = At(edge.key, rays_.u, rays_.v);
-      const MF is_ahead = hn::And(crosses, hn::Lt(key, rays_.key_end));
-      visit(edge, hn::IfThenElse(is_ahead, key, hn::Set(f, kInfinity)));
-    };
-    const std::uint32_t begin = edges.first[bins.first_bin], end = edges.first[bins.last_bin + 1];
-    for (std::uint32_t i = begin; i < end; ++i) cross(edges.edges[i]);
-    const std::uint32_t carried_begin = edges.first_carried[bins.first_bin];
-    const std::uint32_t carried_end = edges.first_carried[bins.first_bin + 1];
-    for (std::uint32_t i = carried_begin; i < carried_end; ++i) cross(edges.edges[edges.carried[i]]);
-    scratch_.edges_met += end - begin + carried_end - carried_begin;
-  }
-
-  // Room for the keys of the edges of some bins.
-  void Reserve(const CastEdges& edges, const Kept& bins) {
-    const std::size_t count = edges.first[bins.last_bin + 1] - edges.first[bins.first_bin] +
-                              edges.first_carried[bins.first_bin + 1] - edges.first_carried[bins.first_bin];
-    const std::size_t needed = keys_ + count * hn::Lanes(Floats());
-    if (scratch_.keys.size() < needed) scratch_.keys.resize(2 * needed);
-  }
-  HWY_INLINE void Store(VF key) {
-    hn::StoreU(key, Floats(), scratch_.keys.data() + keys_);
-    keys_ += hn::Lanes(Floats());
-  }
-
-  // The bins of the living rays' angles.
-  static void FindBins(const CastPencil& pencil, MF alive, VF angle, Kept* kept) {
-    const Floats f;
-    const float least = hn::GetLane(hn::MinOfLanes(f, hn::IfThenElse(alive, angle, hn::Set(f, 2.0F))));
-    const float most = hn::GetLane(hn::MaxOfLanes(f, hn::IfThenElse(alive, angle, hn::Set(f, -2.0F))));
-    const auto last = static_cast<float>(pencil.bins - 1);
-    // Rays on both sides of the negative x axis, or a ray along the pencil's own: all bins.
-    const bool is_anywhere = !(most - least <= 2.0F);
-    const float first_bin = (least - pencil.least_angle) * pencil.bins_per_angle;
-    const float last_bin = (most - pencil.least_angle) * pencil.bins_per_angle;
-    kept->first_bin = is_anywhere ? 0 : static_cast<std::uint32_t>(std::clamp(first_bin, 0.0F, last));
-    kept->last_bin =
-        is_anywhere ? pencil.bins - 1 : static_cast<std::uint32_t>(std::clamp(last_bin, 0.0F, last));
-  }
-
-  // Works out one camera's crossings, and says what they are about `at`.
-  About CrossFirst(const TileCamera& camera, MF alive, VF at, Kept* kept) {
-    About about = NothingAbout();
-    *kept = {};
-    kept->entry_keys = keys_;
-    if (camera.pencil->bins == 0) {
-      kept->has_exits = true;
-      return about;
+    const Ints n;
+    const CastPencil& pencil = *camera.pencil;
+    const MF is_inside = MaskOfBits(camera.starts_inside >> first_);
+    Course course{hn::Set(f, kInfinity), hn::Zero(n), hn::Zero(n), MaskOf(hn::Zero(n)), is_inside};
+    if (pencil.bins == 0) return course;
+    const VF angle = Angle(pencil, rays_.u, rays_.v);
+    const MF has_angle = hn::Eq(angle, angle);  // a ray along the pencil's axis has none, and meets no edge
+    const VF bin = hn::Mul(hn::Sub(angle, hn::Set(f, pencil.least_angle)), hn::Set(f, pencil.bins_per_angle));
+    const VF last_bin = hn::Set(f, static_cast<float>(pencil.bins - 1));
+    const VF in_range = hn::Min(hn::Max(hn::IfThenElseZero(has_angle, bin), hn::Zero(f)), last_bin);
+    const CastIntervals& intervals = pencil.intervals;
+    VI interval = hn::GatherIndex(n, intervals.first_interval.data(), hn::ConvertTo(n, in_range));
+    for (;;) {
+      const MF is_later = hn::Ge(angle, hn::GatherIndex(f, intervals.begins.data() + 1, interval));
+      if (hn::AllFalse(f, is_later)) break;
+      interval = hn::Sub(interval, Lanes(is_later));
     }
-    const VF angle = Angle(*camera.pencil, rays_.u, rays_.v);
-    FindBins(*camera.pencil, alive, angle, kept);
-    Reserve(camera.pencil->entries, *kept);
-    Cross(camera.pencil->entries, *kept, angle, [&](const CastEdge&, VF key) {
-      Store(key);
-      ++kept->entries;
-      AddEntry(key, at, &about);
-    });
-    AddExits(camera, alive, at, kept, &about);
-    return about;
+    course.place = hn::GatherIndex(n, intervals.first_crossing.data(), interval);
+    course.end = hn::GatherIndex(n, intervals.first_crossing.data() + 1, interval);
+    course.end = hn::IfThenElse(hn::RebindMask(n, has_angle), course.end, course.place);
+    Fetch(pencil, &course);
+    return course;
   }
 
-  // The same again about another key.
-  About CrossAgain(const TileCamera& camera, MF alive, VF at, Kept* kept) {
+  // The crossing at course->place; infinite behind the last, and from the rays' end on.
+  HWY_INLINE void Fetch(const CastPencil& pencil, Course* course) const {
     const Floats f;
-    About about = NothingAbout();
-    const float* keys = scratch_.keys.data() + kept->entry_keys;
-    for (std::size_t i = 0; i < kept->entries; ++i, keys += hn::Lanes(f))
-      AddEntry(hn::LoadU(f, keys), at, &about);
-    AddExits(camera, alive, at, kept, &about);
-    return about;
+    const Ints n;
+    const float* crossings = pencil.intervals.crossings.data();
+    const VI at = hn::ShiftLeft<2>(course->place);
+    const VF du = hn::GatherIndex(f, crossings, at), dv = hn::GatherIndex(f, crossings + 1, at);
+    const VF at_origin = hn::GatherIndex(f, crossings + 2, at);
+    const VI bits = hn::BitCast(n, hn::GatherIndex(f, crossings + 3, at));
+    // No fused operation, as in At.
+    const VF key = hn::Add(hn::Add(hn::Mul(rays_.u, du), hn::Mul(rays_.v, dv)), at_origin);
+    const MF is_there = hn::RebindMask(f, hn::Lt(course->place, course->end));
+    const MF is_ahead = hn::And(is_there, hn::Lt(key, rays_.key_end));
+    course->key = hn::IfThenElse(is_ahead, key, hn::Set(f, kInfinity));
+    course->is_entry = MaskOf(hn::ShiftLeft<31>(bits));
   }
 
-  // Exits matter only to rays that are, or may be, inside.
-  void AddExits(const TileCamera& camera, MF alive, VF at, Kept* kept, About* about) {
+  // Passes all crossings up to `at`, and exits of rays that are outside already (rounding may have put them
+  // in the wrong order).
+  Course CourseTo(const TileCamera& camera, bool is_first, MF alive, VF at, TileScratch::Course* kept) {
     const Floats f;
-    const MF has_entered = hn::And(alive, hn::Gt(about->last_entry, hn::Set(f, -kInfinity)));
-    if (camera.starts_inside == 0 && hn::AllFalse(f, has_entered)) return;
-    if (!kept->has_exits) {
-      kept->has_exits = true;
-      kept->exit_keys = keys_;
-      Reserve(camera.pencil->exits, *kept);
-      Cross(camera.pencil->exits, *kept, Angle(*camera.pencil, rays_.u, rays_.v),
-            [&](const CastEdge&, VF key) {
-              Store(key);
-              ++kept->exits;
-            });
+    const Ints n;
+    Course course = is_first ? Start(camera) : Load(*kept);
+    std::int64_t met = is_first ? static_cast<std::int64_t>(hn::CountTrue(f, alive)) : 0;
+    for (;;) {
+      const MF is_idle = hn::And(hn::Not(hn::Or(course.is_entry, course.is_inside)),
+                                 hn::Lt(course.key, hn::Set(f, kInfinity)));
+      const MF passes = hn::And(alive, hn::Or(hn::Le(course.key, at), is_idle));
+      if (hn::AllFalse(f, passes)) break;
+      met += static_cast<std::int64_t>(hn::CountTrue(f, passes));
+      course.is_inside = hn::Or(hn::And(passes, course.is_entry), hn::AndNot(passes, course.is_inside));
+      course.place = hn::Sub(course.place, Lanes(passes));
+      Fetch(*camera.pencil, &course);
     }
-    const float* keys = scratch_.keys.data() + kept->exit_keys;
-    for (std::size_t i = 0; i < kept->exits; ++i, keys += hn::Lanes(f))
-      AddExit(hn::LoadU(f, keys), at, about);
+    scratch_.crossings_met += met;
+    hn::Store(course.key, f, kept->key);
+    hn::Store(course.place, n, kept->place);
+    hn::Store(course.end, n, kept->end);
+    hn::Store(Lanes(course.is_entry), n, kept->is_entry);
+    hn::Store(Lanes(course.is_inside), n, kept->is_inside);
+    return course;
   }
 
-  // Rays that no camera sees go on to where one does. Rare enough to work all crossings out anew.
+  [[nodiscard]] static Course Load(const TileScratch::Course& kept) {
+    const Floats f;
+    const Ints n;
+    return {hn::Load(f, kept.key), hn::Load(n, kept.place), hn::Load(n, kept.end),
+            MaskOf(hn::Load(n, kept.is_entry)), MaskOf(hn::Load(n, kept.is_inside))};
+  }
+
+  // Rays that no camera sees go on to where one does.
   bool MoveIntoSight(MF alive, Front* front) {
     const Floats f;
-    const VF at = front->key;
     MF unseen = alive;
-    Front nearest{hn::Set(f, kInfinity), front->camera};
+    Front nearest{hn::Set(f, kInfinity), front->camera, front->place};
     for (std::size_t i = 0; i < sights_.size(); ++i) {
-      Kept kept;
-      const About about = CrossFirst(sights_[i], alive, at, &kept);
-      unseen = hn::AndNot(IsInside(about, sights_[i].starts_inside >> first_), unseen);
-      MoveOn(hn::Lt(about.next_entry, nearest.key), about.next_entry, cameras_.size() + i, &nearest);
+      const std::size_t number = cameras_.size() + i;
+      const Course course = CourseTo(sights_[i], !has_sights_, alive, front->key, &scratch_.courses[number]);
+      unseen = hn::AndNot(course.is_inside, unseen);
+      MoveOn(hn::Lt(course.key, nearest.key), course.key, number, course.place, &nearest);
     }
+    has_sights_ = true;
     if (hn::AllFalse(f, unseen)) return false;
+    const auto unseen_n = hn::RebindMask(Ints(), unseen);
     front->key = hn::IfThenElse(unseen, nearest.key, front->key);
-    front->camera = hn::IfThenElse(hn::RebindMask(Ints(), unseen), nearest.camera, front->camera);
+    front->camera = hn::IfThenElse(unseen_n, nearest.camera, front->camera);
+    front->place = hn::IfThenElse(unseen_n, nearest.place, front->place);
     return true;
   }
 
@@ -283,7 +238,7 @@ class Walk {
   std::span<const TileCamera> sights_;
   std::size_t first_;
   TileScratch& scratch_;
-  std::size_t keys_ = 0;  // in use
+  bool has_sights_ = false;  // their courses have begun
 };
 
 HWY_INLINE void Clip(const CastBox& box, const Rays& rays, VF* key_from, VF* key_to) {
@@ -300,7 +255,7 @@ HWY_INLINE void Clip(const CastBox& box, const Rays& rays, VF* key_from, VF* key
 void Cast(const TileRays& tile, const CastBox& box, std::span<const TileCamera> cameras,
           std::span<const TileCamera> sights, bool wants_edges, TileScratch* scratch, TileHits* hits) {
   const Floats f;
-  scratch->kept.resize(cameras.size());
+  scratch->courses.resize(cameras.size() + sights.size());
   hits->any = false;
   for (std::size_t first = 0; first < kTileRays; first += hn::Lanes(f)) {
     const Rays rays{hn::Load(f, tile.u + first), hn::Load(f, tile.v + first), hn::Set(f, tile.key_end)};

@@ -1,6 +1,7 @@
 // The rays of one small tile, cast at the edges they can meet: the inner loop of the exact view.
 #pragma once
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -25,15 +26,34 @@ struct CastEdge {
   float to = 0.0F;
   CastForm key;
   std::uint32_t edge = 0;  // of the contour
+  bool is_entry = false;   // rays enter the object by it
 };
 
-// Edges by the angular bin in which they begin, and of each bin those that began before it.
-struct CastEdges {
-  std::vector<CastEdge> edges;
-  std::vector<std::uint32_t> first;          // in `edges`, by bin; one more at the end
-  std::vector<std::uint32_t> carried;        // numbers in `edges`
-  std::vector<std::uint32_t> first_carried;  // in `carried`, by bin; one more at the end
+// Angles in which rays meet the same edges, in the same order: [begins[i], begins[i + 1]) is interval i.
+// begins[0] is -infinity, the last one infinity.
+struct CastIntervals {
+  std::vector<float> begins;
+  // Crossings of interval i: first_crossing[i] to first_crossing[i + 1], in their order along the rays,
+  // entries and exits in turn. Four numbers each: du, dv and at_origin of the key, and a CrossingTag's bits;
+  // one crossing more than there are.
+  std::vector<std::int32_t> first_crossing;
+  std::vector<float> crossings;
+  // By bin: no later than the interval of any ray whose angle is in the bin.
+  std::vector<std::int32_t> first_interval;
 };
+
+// Number in CastPencil::edges, and whether rays enter the object by it.
+struct CrossingTag {
+  std::int32_t edge = 0;
+  bool is_entry = false;
+};
+[[nodiscard]] inline float BitsOf(const CrossingTag& tag) {
+  return std::bit_cast<float>(tag.edge * 2 + (tag.is_entry ? 1 : 0));
+}
+[[nodiscard]] inline CrossingTag TagOf(float bits) {
+  const auto whole = std::bit_cast<std::int32_t>(bits);
+  return {whole / 2, whole % 2 != 0};
+}
 
 // All that one camera can tell a view's rays.
 struct CastPencil {
@@ -44,8 +64,8 @@ struct CastPencil {
   float least_angle = -2.0F;
   float bins_per_angle = 1.0F;
   std::uint32_t bins = 0;
-  CastEdges entries;  // edges that rays enter the object by
-  CastEdges exits;
+  std::vector<CastEdge> edges;  // by `from`
+  CastIntervals intervals;
 };
 
 // -2 to 2 for a turn from the negative x axis on, 0 along the positive one, where it is exact to the last
@@ -83,25 +103,22 @@ struct TileHits {
   static constexpr std::int32_t kNoCamera = -1;
   alignas(64) float key[kTileRays];
   alignas(64) std::int32_t camera[kTileRays];  // sights count on after the cameras
-  alignas(64) std::int32_t edge[kTileRays];    // if wanted; of hits on edges
+  alignas(64) std::int32_t edge[kTileRays];    // if wanted: number in CastPencil::edges, of hits on edges
   bool any = false;
 };
 
 // Room to work in, kept from tile to tile.
 struct TileScratch {
-  // One camera's crossings with the rays of one vector, as they were worked out.
-  struct Kept {
-    std::size_t entry_keys = 0;  // in `keys`
-    std::size_t entries = 0;
-    std::size_t exit_keys = 0;
-    std::size_t exits = 0;
-    bool has_exits = false;
-    std::uint32_t first_bin = 0;  // of the rays' angles
-    std::uint32_t last_bin = 0;
+  // One camera's next crossing with each ray, and what the one before said.
+  struct Course {
+    alignas(64) float key[kTileRays];
+    alignas(64) std::int32_t place[kTileRays];  // in CastIntervals::crossings
+    alignas(64) std::int32_t end[kTileRays];
+    alignas(64) std::int32_t is_entry[kTileRays];   // all bits, or none
+    alignas(64) std::int32_t is_inside[kTileRays];  // likewise
   };
-  std::vector<Kept> kept;
-  std::vector<float> keys;     // a vector a crossing
-  std::int64_t edges_met = 0;  // angular intervals that rays were compared with, so far
+  std::vector<Course> courses;     // cameras', then sights'
+  std::int64_t crossings_met = 0;  // of rays with edges, worked out so far
 };
 
 // `cameras` must all agree that a point is in the hull, and one of `sights` if there are any. The processor's

@@ -6,6 +6,8 @@
 #include <optional>
 #include <span>
 
+#include "recon/cast_intervals.h"
+
 namespace elbowroom::recon {
 namespace {
 
@@ -73,16 +75,20 @@ std::uint32_t BinOf(const CastPencil& pencil, double angle) {
   return static_cast<std::uint32_t>(std::clamp(bin, 0.0, pencil.bins - 1.0));
 }
 
-// The edges that rays at an angle in the range may be on.
-std::vector<CastEdge> EdgesAt(const CastPencil& pencil, const CastEdges& edges, const Range& angle) {
-  const std::uint32_t first = BinOf(pencil, angle.low), last = BinOf(pencil, angle.high);
+// The edges of a kind that rays at an angle in the range may be on.
+std::vector<CastEdge> EdgesAt(const CastPencil& pencil, bool is_entry, const Range& angle) {
+  const auto [first, last] = IntervalsOf(pencil, BinOf(pencil, angle.low), BinOf(pencil, angle.high));
+  std::vector<std::int32_t> numbers;
+  for (auto i = pencil.intervals.first_crossing[first]; i < pencil.intervals.first_crossing[last + 1]; ++i) {
+    const CrossingTag tag = TagOf(pencil.intervals.crossings[4 * static_cast<std::size_t>(i) + 3]);
+    const CastEdge& edge = pencil.edges[static_cast<std::size_t>(tag.edge)];
+    if (tag.is_entry == is_entry && edge.from <= angle.high && edge.to > angle.low)
+      numbers.push_back(tag.edge);
+  }
+  std::ranges::sort(numbers);
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
   std::vector<CastEdge> found;
-  const auto add = [&](const CastEdge& edge) {
-    if (edge.from <= angle.high && edge.to > angle.low) found.push_back(edge);
-  };
-  for (std::uint32_t i = edges.first[first]; i < edges.first[last + 1]; ++i) add(edges.edges[i]);
-  for (std::uint32_t i = edges.first_carried[first]; i < edges.first_carried[first + 1]; ++i)
-    add(edges.edges[edges.carried[i]]);
+  for (const std::int32_t number : numbers) found.push_back(pencil.edges[static_cast<std::size_t>(number)]);
   return found;
 }
 
@@ -91,7 +97,7 @@ std::vector<CastEdge> EdgesAt(const CastPencil& pencil, const CastEdges& edges, 
 // own.
 void AddEvents(const CastPencil& pencil, bool is_entry, const Range& angle, const Ray& ray,
                std::vector<Event>* events) {
-  std::vector<CastEdge> loose = EdgesAt(pencil, is_entry ? pencil.entries : pencil.exits, angle);
+  std::vector<CastEdge> loose = EdgesAt(pencil, is_entry, angle);
   const auto take = [&](const auto& is_next) -> std::optional<CastEdge> {
     const auto found = std::find_if(loose.begin(), loose.end(), is_next);
     if (found == loose.end()) return std::nullopt;
@@ -197,7 +203,7 @@ class Course {
     const bool is_object = pencil.is_concentric() ? pencil.IsObjectAlong(uv_) : pencil.starts_inside();
     words_.push_back(is_object ? Word::kInside : Word::kOutside);
     const CastPencil& cast = pencil.cast();
-    if (cast.entries.edges.empty() && cast.exits.edges.empty()) return;
+    if (cast.edges.empty()) return;
     const std::optional<Range> angle = AngleOf(cast, ray_);
     if (!angle) {
       words_.back() = Word::kEither;

@@ -52,6 +52,11 @@ class ViewPencils {
   // Of all contours.
   [[nodiscard]] std::int64_t edges() const;
 
+  // Cameras count first, sights after them.
+  [[nodiscard]] const EdgePencil& Caster(std::size_t number) const {
+    return number < cameras_.size() ? *cameras_[number] : *sights_[number - cameras_.size()];
+  }
+
   // The squares, aligned to kSquarePx, whose rays might meet the hull.
   [[nodiscard]] std::vector<PixelSquare> Squares() const;
 
@@ -76,7 +81,8 @@ class ViewPencils {
   CastBox box_;
 };
 
-// Edge `edge` of caster `caster`: cameras count first, sights after them; TileHits::kNoCamera is a face.
+// Edge `edge` of the contour of caster `caster`: cameras count first, sights after them; TileHits::kNoCamera
+// is a face.
 [[nodiscard]] HullSurface SurfaceOf(const VisualHull& hull, std::int32_t caster, std::uint32_t edge);
 
 }  // namespace elbowroom::recon

@@ -6,26 +6,36 @@
 #include <cmath>
 #include <cstddef>
 
+#include "recon/cast_intervals.h"
+
 namespace elbowroom::recon::gl {
 namespace {
 
 // Stands for an infinite angle: shaders needn't know infinities, and angles end at 2.
 constexpr float kBeyondAngles = 4.0F;
 
-void AddEdge(const CastEdge& edge, PencilTables* tables) {
-  tables->angles.emplace_back(std::clamp(edge.from, -kBeyondAngles, kBeyondAngles),
-                              std::clamp(edge.to, -kBeyondAngles, kBeyondAngles));
-  tables->keys.emplace_back(edge.key.du, edge.key.dv, edge.key.at_origin, static_cast<float>(edge.edge));
+// What rays of one interval meet by entries, or by exits.
+void AddCrossings(const CastPencil& pencil, std::size_t interval, bool entries, PencilTables* tables) {
+  const CastIntervals& intervals = pencil.intervals;
+  const Eigen::Vector2f angles(std::max(intervals.begins[interval], -kBeyondAngles),
+                               std::min(intervals.begins[interval + 1], kBeyondAngles));
+  for (auto i = intervals.first_crossing[interval]; i < intervals.first_crossing[interval + 1]; ++i) {
+    const float* form = intervals.crossings.data() + 4 * static_cast<std::size_t>(i);
+    const CrossingTag tag = TagOf(form[3]);
+    if (tag.is_entry != entries) continue;
+    tables->angles.push_back(angles);
+    const std::uint32_t edge = pencil.edges[static_cast<std::size_t>(tag.edge)].edge;
+    tables->keys.emplace_back(form[0], form[1], form[2], static_cast<float>(edge));
+  }
 }
 
-// Each bin's edges side by side, those carried into it too. Returns the first run.
-std::size_t AddRuns(const CastEdges& edges, std::uint32_t bins, PencilTables* tables) {
+// Each bin's crossings side by side. Returns the first run.
+std::size_t AddRuns(const CastPencil& pencil, bool entries, PencilTables* tables) {
   const std::size_t first_run = tables->runs.size();
-  for (std::uint32_t bin = 0; bin < bins; ++bin) {
+  for (std::uint32_t bin = 0; bin < pencil.bins; ++bin) {
     const auto begin = static_cast<std::uint32_t>(tables->angles.size());
-    for (std::uint32_t i = edges.first[bin]; i < edges.first[bin + 1]; ++i) AddEdge(edges.edges[i], tables);
-    for (std::uint32_t i = edges.first_carried[bin]; i < edges.first_carried[bin + 1]; ++i)
-      AddEdge(edges.edges[edges.carried[i]], tables);
+    const auto [first, last] = IntervalsOf(pencil, bin, bin);
+    for (std::size_t i = first; i <= last; ++i) AddCrossings(pencil, i, entries, tables);
     tables->runs.push_back({begin, static_cast<std::uint32_t>(tables->angles.size())});
   }
   return first_run;
@@ -38,8 +48,8 @@ RayLabel LabelOf(const EdgePencil& pencil) {
 
 void AddCaster(const EdgePencil& pencil, PencilTables* tables) {
   const CastPencil& cast = pencil.cast();
-  const std::size_t entries = AddRuns(cast.entries, cast.bins, tables);
-  const std::size_t exits = AddRuns(cast.exits, cast.bins, tables);
+  const std::size_t entries = AddRuns(cast, true, tables);
+  const std::size_t exits = AddRuns(cast, false, tables);
   tables->forms.emplace_back(cast.x.du, cast.x.dv, cast.x.at_origin, cast.least_angle);
   tables->forms.emplace_back(cast.y.du, cast.y.dv, cast.y.at_origin, cast.bins_per_angle);
   tables->forms.emplace_back(static_cast<float>(entries), static_cast<float>(exits),

@@ -21,9 +21,9 @@ struct PencilTables {
   // run of entries, of exits, bins, RayLabel. After the casters the faces of the workspace, (du, dv,
   // at_origin, 0): not before, not after, beside.
   std::vector<Eigen::Vector4f> forms;
-  // A run of edges a bin, first and past the last: all that rays of the bin can meet.
+  // A run of crossings a bin, first and past the last: all that rays of the bin can meet.
   std::vector<std::array<std::uint32_t, 2>> runs;
-  std::vector<Eigen::Vector2f> angles;  // from, to
+  std::vector<Eigen::Vector2f> angles;  // from, to, of the interval
   std::vector<Eigen::Vector4f> keys;    // du, dv, at_origin, edge: exact, below 2^24
 };
 

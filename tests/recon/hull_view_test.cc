@@ -376,7 +376,7 @@ TEST(ViewHull, OneThreadPaintsWhatManyPaint) {
   EXPECT_GT(one.hit_pixels, 500);
   EXPECT_EQ(one.depth_mm, many.depth_mm);
   EXPECT_EQ(one.normal_in_world, many.normal_in_world);
-  EXPECT_EQ(one.edges_met, many.edges_met);
+  EXPECT_EQ(one.crossings_met, many.crossings_met);
   EXPECT_EQ(one.skipped_pixels, many.skipped_pixels);
   EXPECT_TRUE(one.surface == many.surface);
 }

@@ -8,6 +8,7 @@
 #include <limits>
 #include <vector>
 
+#include "recon/cast_intervals.h"
 #include "recon/hull_view.h"
 #include "tests/recon/random_scene.h"
 
@@ -50,23 +51,18 @@ TEST(CastTile, GivesTheSameBitsOnEveryTarget) {
   }
 }
 
-// Crossings of rays at angle 0, all in one bin.
-CastEdges EdgesAt(const std::vector<float>& keys) {
-  CastEdges edges;
-  for (const float key : keys)
-    edges.edges.push_back({-0.5F, 0.5F, {0.0F, 0.0F, key}, static_cast<std::uint32_t>(edges.edges.size())});
-  edges.first = {0, static_cast<std::uint32_t>(keys.size())};
-  edges.first_carried = {0, 0};
-  return edges;
-}
-
-CastPencil PencilOf(const std::vector<float>& entries, const std::vector<float>& exits) {
+// Crossings of rays at angle 0, entries from the first on and exits in turn.
+CastPencil PencilOf(const std::vector<float>& keys) {
   CastPencil pencil;
   pencil.x = {0.0F, 0.0F, 1.0F};
   pencil.bins = 1;
   pencil.bins_per_angle = 0.25F;
-  pencil.entries = EdgesAt(entries);
-  pencil.exits = EdgesAt(exits);
+  std::vector<OrderedEdge> edges;
+  for (const float key : keys) {
+    const auto number = static_cast<std::uint32_t>(edges.size());
+    edges.push_back({{-0.5F, 0.5F, {0.0F, 0.0F, key}, number, number % 2 == 0}, {key, 0.0}});
+  }
+  FillIntervals(std::move(edges), &pencil);
   return pencil;
 }
 
@@ -76,8 +72,7 @@ TEST(CastTile, FindsTheFirstKeyAtWhichAllAgree) {
   TileRays rays;
   for (int i = 0; i < kTileRays; ++i) rays.u[i] = rays.v[i] = 0.0F;
   const CastBox box{{{0.0F, 0.0F, -10.0F}}, {{0.0F, 0.0F, -0.1F}}, {}};
-  const CastPencil twice = PencilOf({-3.0F, -9.0F}, {-6.0F}), once = PencilOf({-5.0F}, {});
-  const CastPencil none = PencilOf({}, {});
+  const CastPencil twice = PencilOf({-9.0F, -6.0F, -3.0F}), once = PencilOf({-5.0F}), none = PencilOf({});
   ForEachTarget([&](std::int64_t target) {
     SCOPED_TRACE(hwy::TargetName(target));
     TileScratch scratch;
@@ -91,7 +86,7 @@ TEST(CastTile, FindsTheFirstKeyAtWhichAllAgree) {
     for (int i = 0; i < kTileRays; ++i) {
       ASSERT_EQ(hits.key[i], -3.0F);
       ASSERT_EQ(hits.camera[i], 0);
-      ASSERT_EQ(hits.edge[i], 0);
+      ASSERT_EQ(twice.edges[static_cast<std::size_t>(hits.edge[i])].edge, 2U);
     }
     // Inside from the start: a face of the workspace.
     cast(none, kAllRays, none, kAllRays);

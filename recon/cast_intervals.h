@@ -1,0 +1,33 @@
+// A pencil's edges in the order in which rays meet them.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "recon/tile_cast.h"
+
+namespace elbowroom::recon {
+
+// Where on the way along the rays at angle of direction (x, y) an edge is: order(x, y) = x * dx + y * dy.
+struct EdgeOrder {
+  double dx = 0.0;
+  double dy = 0.0;
+};
+
+struct OrderedEdge {
+  CastEdge cast;  // from < to
+  EdgeOrder order;
+};
+
+// Fills the pencil's edges and intervals, bins known. Contours don't cross themselves, so the order changes
+// only where edges begin or end. Derivation: docs/exact_view.md.
+void FillIntervals(std::vector<OrderedEdge> edges, CastPencil* pencil);
+
+// The first and the last interval that rays of these bins can be in.
+[[nodiscard]] std::pair<std::size_t, std::size_t> IntervalsOf(const CastPencil& pencil,
+                                                              std::uint32_t first_bin,
+                                                              std::uint32_t last_bin);
+
+}  // namespace elbowroom::recon
