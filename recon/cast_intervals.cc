@@ -29,27 +29,34 @@ Direction DirectionAt(double angle) {
 // Goes through the angles and keeps the edges that rays meet, in order.
 class Sweep {
  public:
-  Sweep(std::span<const OrderedEdge> edges, CastIntervals* intervals) : edges_(edges), out_(*intervals) {
+  Sweep(std::span<const OrderedEdge> edges, bool starts_inside, CastIntervals* intervals)
+      : edges_(edges), starts_inside_(starts_inside), out_(*intervals) {
     out_.begins.reserve(edges.size() + 2);
     out_.first_crossing.reserve(edges.size() + 2);
     out_.crossings.reserve(16 * edges.size() + 4);
+    ranges_.reserve(edges.size() + 2);
   }
 
-  void Run() {
+  std::vector<OrderRange> Run() {
     float at = -kInfinity;
-    while (next_ < edges_.size() || !met_.empty()) {
-      Emit(at);
-      at = NextAngle();
-      Leave(at);
-      Enter(at);
+    end_ = NextAngle();
+    for (;;) {
+      if (end_ > at) Emit(at);
+      if (next_ == edges_.size() && met_.empty()) break;
+      at = end_;
+      Pass(at);
     }
-    Emit(at);
     out_.begins.push_back(kInfinity);
-    out_.first_crossing.push_back(out_.first_crossing.back());
+    out_.first_crossing.push_back(static_cast<std::int32_t>(out_.crossings.size() / 4));
     out_.crossings.resize(out_.crossings.size() + 4, 0.0F);
+    return std::move(ranges_);
   }
 
  private:
+  [[nodiscard]] double OrderOf(std::uint32_t edge, const Direction& direction) const {
+    return direction.x * edges_[edge].order.dx + direction.y * edges_[edge].order.dy;
+  }
+
   // Where the next edge begins or ends.
   [[nodiscard]] float NextAngle() const {
     float next = next_ < edges_.size() ? edges_[next_].cast.from : kInfinity;
@@ -57,49 +64,61 @@ class Sweep {
     return next;
   }
 
-  void Leave(float at) {
+  // Edges that end at an angle go, edges that begin there come.
+  void Pass(float at) {
     std::erase_if(met_, [&](std::uint32_t edge) { return edges_[edge].cast.to <= at; });
-  }
-
-  void Enter(float at) {
     const std::size_t first = next_;
-    float end = kInfinity;
     for (; next_ < edges_.size() && edges_[next_].cast.from <= at; ++next_)
-      end = std::min(end, edges_[next_].cast.to);
+      met_.push_back(static_cast<std::uint32_t>(next_));
+    end_ = NextAngle();
     if (first == next_) return;
-    if (next_ < edges_.size()) end = std::min(end, edges_[next_].cast.from);
-    for (const std::uint32_t edge : met_) end = std::min(end, edges_[edge].cast.to);
-    const Direction middle = DirectionAt(0.5 * (std::max(double{at}, -2.0) + std::min(double{end}, 2.0)));
-    const auto order = [&](std::uint32_t edge) {
-      return middle.x * edges_[edge].order.dx + middle.y * edges_[edge].order.dy;
-    };
-    for (std::size_t i = first; i < next_; ++i) {
-      const auto edge = static_cast<std::uint32_t>(i);
-      const double place = order(edge);
-      auto before = met_.end();
-      while (before != met_.begin() && order(*(before - 1)) > place) --before;
-      met_.insert(before, edge);
+    const Direction middle = DirectionAt(0.5 * (std::max(double{at}, -2.0) + std::min(double{end_}, 2.0)));
+    std::size_t sorted = met_.size() - (next_ - first);
+    for (; sorted < met_.size(); ++sorted) {
+      const std::uint32_t edge = met_[sorted];
+      const double place = OrderOf(edge, middle);
+      std::size_t i = sorted;
+      for (; i > 0 && OrderOf(met_[i - 1], middle) > place; --i) met_[i] = met_[i - 1];
+      met_[i] = edge;
     }
   }
 
+  // Orders are linear in an angle but for its whole numbers.
+  [[nodiscard]] OrderRange RangeOf(double begin, double end) const {
+    if (met_.empty() && !starts_inside_) return {kInfinity, -kInfinity};
+    const bool has_first = !met_.empty() && edges_[met_.front()].cast.is_entry;
+    const bool has_last = !met_.empty() && !edges_[met_.back()].cast.is_entry;
+    OrderRange range{has_first ? kInfinity : -kInfinity, has_last ? -kInfinity : kInfinity};
+    const auto add = [&](double angle) {
+      const Direction direction = DirectionAt(angle);
+      if (has_first) range.first = std::min(range.first, OrderOf(met_.front(), direction));
+      if (has_last) range.last = std::max(range.last, OrderOf(met_.back(), direction));
+    };
+    add(begin);
+    for (double whole = std::ceil(begin); whole < end; whole += 1.0) add(whole);
+    add(end);
+    return range;
+  }
+
+  // The interval from `at` to end_.
   void Emit(float at) {
-    if (!out_.begins.empty() && out_.begins.back() == at) {  // edges from -infinity on
-      out_.crossings.resize(4 * static_cast<std::size_t>(out_.first_crossing.back()));
-    } else {
-      out_.begins.push_back(at);
-      out_.first_crossing.push_back(static_cast<std::int32_t>(out_.crossings.size() / 4));
-    }
+    out_.begins.push_back(at);
+    out_.first_crossing.push_back(static_cast<std::int32_t>(out_.crossings.size() / 4));
     for (const std::uint32_t number : met_) {
       const CastEdge& edge = edges_[number].cast;
       const CrossingTag tag{static_cast<std::int32_t>(number), edge.is_entry};
-      out_.crossings.insert(out_.crossings.end(),
-                            {edge.key.du, edge.key.dv, edge.key.at_origin, BitsOf(tag)});
+      const float fields[] = {edge.key.du, edge.key.dv, edge.key.at_origin, BitsOf(tag)};
+      out_.crossings.insert(out_.crossings.end(), std::begin(fields), std::end(fields));
     }
+    ranges_.push_back(RangeOf(std::max(double{at}, -2.0), std::min(double{end_}, 2.0)));
   }
 
   std::span<const OrderedEdge> edges_;
+  const bool starts_inside_;
   CastIntervals& out_;
+  std::vector<OrderRange> ranges_;
   std::size_t next_ = 0;
+  float end_ = kInfinity;  // of the edges met: where the next one comes or the first of them goes
   std::vector<std::uint32_t> met_;
 };
 
@@ -112,8 +131,7 @@ void FillBins(CastPencil* pencil) {
   intervals.first_interval.assign(pencil->bins, 0);
   std::size_t interval = 0;
   for (std::uint32_t bin = 1; bin < pencil->bins; ++bin) {
-    const double begin =
-        pencil->least_angle + bin / static_cast<double>(pencil->bins_per_angle) - kAngleSlack;
+    const double begin = BeginOf(*pencil, bin) - kAngleSlack;
     while (intervals.begins[interval + 1] <= begin) ++interval;
     intervals.first_interval[bin] = static_cast<std::int32_t>(interval);
   }
@@ -121,13 +139,15 @@ void FillBins(CastPencil* pencil) {
 
 }  // namespace
 
-void FillIntervals(std::vector<OrderedEdge> edges, CastPencil* pencil) {
+std::vector<OrderRange> FillIntervals(std::vector<OrderedEdge> edges, bool starts_inside,
+                                      CastPencil* pencil) {
   std::sort(edges.begin(), edges.end(),
             [](const OrderedEdge& a, const OrderedEdge& b) { return a.cast.from < b.cast.from; });
   pencil->edges.clear();
   for (const OrderedEdge& edge : edges) pencil->edges.push_back(edge.cast);
-  Sweep(edges, &pencil->intervals).Run();
+  std::vector<OrderRange> ranges = Sweep(edges, starts_inside, &pencil->intervals).Run();
   FillBins(pencil);
+  return ranges;
 }
 
 std::pair<std::size_t, std::size_t> IntervalsOf(const CastPencil& pencil, std::uint32_t first_bin,

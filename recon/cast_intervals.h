@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -21,9 +22,17 @@ struct OrderedEdge {
   EdgeOrder order;
 };
 
-// Fills the pencil's edges and intervals, bins known. Contours don't cross themselves, so the order changes
-// only where edges begin or end. Derivation: docs/exact_view.md.
-void FillIntervals(std::vector<OrderedEdge> edges, CastPencil* pencil);
+// Between which orders rays of an interval can be in the object, their directions (x, y) of |x| + |y| = 1.
+// Nowhere: first > last.
+struct OrderRange {
+  double first = -std::numeric_limits<double>::infinity();
+  double last = std::numeric_limits<double>::infinity();
+};
+
+// Fills the pencil's edges and intervals, bins known; returns one range an interval. Contours don't cross
+// themselves, so the order changes only where edges begin or end. Derivation: docs/exact_view.md.
+[[nodiscard]] std::vector<OrderRange> FillIntervals(std::vector<OrderedEdge> edges, bool starts_inside,
+                                                    CastPencil* pencil);
 
 // The first and the last interval that rays of these bins can be in.
 [[nodiscard]] std::pair<std::size_t, std::size_t> IntervalsOf(const CastPencil& pencil,

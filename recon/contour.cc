@@ -34,8 +34,9 @@ class Tracer {
 
   Contour Trace() {
     LatticeRow above, below;
-    ReadRow(-1, &above);
-    for (int y = -1; y < soft_.mask.height_px(); ++y) {
+    const auto [first, end] = Rows();
+    ReadRow(first - 1, &above);
+    for (int y = first - 1; y < end; ++y) {
       ReadRow(y + 1, &below);
       TraceCells(y, above, below);
       std::swap(above, below);
@@ -50,6 +51,23 @@ class Tracer {
   }
 
  private:
+  // First and past the last of the rows that aren't the exterior's all along; one that is if there are none.
+  // Beyond the rows next to them there are no boundary pixels, and so no levels.
+  [[nodiscard]] std::pair<int, int> Rows() const {
+    int first = 0, end = soft_.mask.height_px();
+    while (first < end && IsExterior(first)) ++first;
+    while (first < end && IsExterior(end - 1)) --end;
+    return {first, end};
+  }
+  [[nodiscard]] bool IsExterior(int y) const {
+    const std::size_t words = soft_.mask.words_per_row();
+    const std::uint64_t* row = soft_.mask.words().data() + static_cast<std::size_t>(y) * words;
+    const std::size_t spare = words * 64 - static_cast<std::size_t>(soft_.mask.width_px());
+    std::uint64_t differs = (row[words - 1] ^ exterior_) << spare;
+    for (std::size_t i = 0; i + 1 < words; ++i) differs |= row[i] ^ exterior_;
+    return differs == 0;
+  }
+
   static bool Bit(const Words& words, std::size_t i) { return ((words[i >> 6U] >> (i & 63U)) & 1U) != 0; }
 
   void ReadRow(int y, LatticeRow* row) {

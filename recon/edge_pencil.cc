@@ -35,6 +35,10 @@ Vector3d Across(const Vector3d& axis, const Vector3d& toward) {
                                               : Vector3d(axis.unitOrthogonal());
 }
 
+OrderRange Union(const OrderRange& a, const OrderRange& b) {
+  return {std::min(a.first, b.first), std::max(a.last, b.last)};
+}
+
 }  // namespace
 
 EdgePencil::EdgePencil(const ContourMap& labels, double focal_px, const core::CameraModel& camera,
@@ -174,7 +178,10 @@ void EdgePencil::AddEdges(const Contour& contour, const Eigen::Matrix3d& view_fr
       AddEdge(edge, -std::numeric_limits<float>::infinity(), most, &edges);
     }
   }
-  FillIntervals(std::move(edges), &cast_);
+  orders_ = FillIntervals(std::move(edges), starts_inside_, &cast_);
+  const std::size_t intervals = orders_.size();
+  orders_.insert(orders_.begin(), intervals, OrderRange());
+  for (std::size_t i = intervals - 1; i > 0; --i) orders_[i] = Union(orders_[2 * i], orders_[2 * i + 1]);
 }
 
 bool EdgePencil::IsObjectAlong(const Eigen::Vector2d& uv) const {
@@ -184,12 +191,46 @@ bool EdgePencil::IsObjectAlong(const Eigen::Vector2d& uv) const {
   return labels_.IsObject(position);
 }
 
-bool EdgePencil::MayEnter(const Eigen::AlignedBox2d& uv_box) const {
-  if (cast_.edges.empty()) return false;
-  const AngleRange range = AnglesOf(uv_box);
-  const auto [first, last] = IntervalsOf(cast_, BinOf(range.least), BinOf(range.most));
-  const std::vector<std::int32_t>& first_crossing = cast_.intervals.first_crossing;
-  return first_crossing[last + 1] > first_crossing[first];
+OrderRange EdgePencil::OrdersIn(std::size_t first_interval, std::size_t last_interval) const {
+  OrderRange range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  const std::size_t intervals = orders_.size() / 2;
+  for (std::size_t begin = first_interval + intervals, end = last_interval + intervals + 1; begin < end;
+       begin /= 2, end /= 2) {
+    if (begin % 2 != 0) range = Union(range, orders_[begin++]);
+    if (end % 2 != 0) range = Union(range, orders_[--end]);
+  }
+  return range;
+}
+
+// A ray at (x, y) across the axis meets order t at the key t * (|x| + |y|) - along, where perspective `along`
+// is the ray's (u, v, 1) along the axis in units of the centre's distance.
+EdgePencil::KeyRange EdgePencil::ObjectKeys(const Eigen::AlignedBox2d& uv_box) const {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  constexpr double kRounding = 1e-9;
+  if (is_concentric_) return {};
+  const AngleRange angles = AnglesOf(uv_box);
+  const auto [first, last] = IntervalsOf(cast_, BinOf(angles.least), BinOf(angles.most));
+  const OrderRange orders = OrdersIn(first, last);
+  if (orders.first > orders.last) return {kInfinity, -kInfinity};
+  const bool is_perspective = projection_ == Projection::kPerspective;
+  const Eigen::Vector2d middle = uv_box.center(), half = 0.5 * uv_box.sizes();
+  const Vector3d axis = centre_in_view_ / centre_in_view_.squaredNorm();
+  const double along = is_perspective ? axis.dot(middle.homogeneous()) : -centre_in_view_.z();
+  const double along_half = is_perspective ? axis.head<2>().cwiseAbs().dot(half) : 0.0;
+  double across = 0.0, across_half = 0.0;
+  for (const AffineForm& form : across_) {
+    across += std::abs(form.At(middle));
+    across_half += std::abs(form.du) * half.x() + std::abs(form.dv) * half.y();
+  }
+  const double nearest = std::max(across - across_half, 0.0), farthest = across + across_half;
+  const double slack = along_half + kRounding * std::abs(along);
+  const auto key = [&](double order, double sign) {
+    if (std::isinf(order)) return order;
+    const double at_nearest = order * nearest, at_farthest = order * farthest;
+    const double extreme = sign < 0.0 ? std::min(at_nearest, at_farthest) : std::max(at_nearest, at_farthest);
+    return extreme - along + sign * (slack + kRounding * std::abs(extreme));
+  };
+  return {key(orders.first, -1.0), key(orders.last, 1.0)};
 }
 
 }  // namespace elbowroom::recon

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "core/camera_model.h"
@@ -44,8 +45,12 @@ class EdgePencil {
   // Then: that label.
   [[nodiscard]] bool IsObjectAlong(const Eigen::Vector2d& uv) const;
 
-  // Whether rays of the box can enter the camera's object; if not, all of them keep the label of their start.
-  [[nodiscard]] bool MayEnter(const Eigen::AlignedBox2d& uv_box) const;
+  // Rays of the box can be in the camera's object between these keys only; nowhere: least > most.
+  struct KeyRange {
+    double least = -std::numeric_limits<double>::infinity();
+    double most = std::numeric_limits<double>::infinity();
+  };
+  [[nodiscard]] KeyRange ObjectKeys(const Eigen::AlignedBox2d& uv_box) const;
 
  private:
   struct AngleRange {
@@ -53,6 +58,7 @@ class EdgePencil {
     double most = 0.0;
   };
   void TurnOffContour(const Eigen::Vector3d& start_in_view);
+  [[nodiscard]] OrderRange OrdersIn(std::size_t first_interval, std::size_t last_interval) const;
   void ChooseAxes(const Eigen::AlignedBox2d& view_box);
   [[nodiscard]] AngleRange AnglesOf(const Eigen::AlignedBox2d& uv_box) const;
   [[nodiscard]] std::uint32_t BinOf(double angle) const;
@@ -74,6 +80,8 @@ class EdgePencil {
   Eigen::Vector2d axis_uv_{0.0, 0.0};  // the ray that is the axis; not finite if there is none
   AngleRange view_angles_;
   CastPencil cast_;
+  // The intervals' ranges from item i = their number on; item i < that spans items 2 i and 2 i + 1.
+  std::vector<OrderRange> orders_;
 };
 
 }  // namespace elbowroom::recon

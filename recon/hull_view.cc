@@ -32,7 +32,7 @@ class Caster {
     const std::vector<PixelSquare> squares = pencils_.Squares();
     tbb::enumerable_thread_specific<Worker> workers([this] {
       Worker worker;
-      worker.rays.key_end = pencils_.key_end();
+      worker.rays.is_perspective = rays_.projection() == Projection::kPerspective;
       for (const auto& pencil : pencils_.cameras())
         worker.cameras.push_back({&pencil->cast(), pencil->starts_inside() ? ~0U : 0U});
       for (const auto& pencil : pencils_.sights())
@@ -69,26 +69,16 @@ class Caster {
   }
 
   void CastTileAt(int x, int y, Worker* worker) {
-    PlaceRays(x, y, &worker->rays);
+    rays_.FillSquare(x, y, kTilePx, worker->rays.u, worker->rays.v);
     LabelConcentric(pencils_.cameras(), x, y, &worker->cameras);
     LabelConcentric(pencils_.sights(), x, y, &worker->sights);
     CastTile(worker->rays, pencils_.box(), worker->cameras, worker->sights, !view_.surface.empty(),
              &worker->scratch, &worker->hits);
     worker->cast_pixels += std::min(kTilePx, rays_.width_px() - x) * std::min(kTilePx, rays_.height_px() - y);
-    if (worker->hits.any) Record(x, y, worker);
+    if (worker->hits.count > 0) Record(x, y, worker);
   }
 
   [[nodiscard]] bool IsPixel(int x, int y) const { return x < rays_.width_px() && y < rays_.height_px(); }
-
-  void PlaceRays(int x, int y, TileRays* rays) const {
-    for (int i = 0; i < kTileRays; ++i) {
-      const int ray_x = x + i % kTilePx, ray_y = y + i / kTilePx;
-      constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-      const Vector2d uv = IsPixel(ray_x, ray_y) ? rays_.At(ray_x, ray_y) : Vector2d(kNaN, kNaN);
-      rays->u[i] = static_cast<float>(uv.x());
-      rays->v[i] = static_cast<float>(uv.y());
-    }
-  }
 
   // What cameras at the rays' origin say of them, of each in its own direction.
   void LabelConcentric(const ViewPencils::Pencils& pencils, int x, int y,
@@ -108,17 +98,19 @@ class Caster {
 
   void Record(int x, int y, Worker* worker) {
     const TileHits& hits = worker->hits;
-    const bool is_perspective = rays_.projection() == Projection::kPerspective;
-    for (int i = 0; i < kTileRays; ++i) {
-      // A centre in the hull has the whole picture in front of it, and nothing to see.
-      if (!std::isfinite(hits.key[i])) continue;
-      const std::size_t pixel =
-          static_cast<std::size_t>(y + i / kTilePx) * static_cast<std::size_t>(rays_.width_px()) +
-          static_cast<std::size_t>(x + i % kTilePx);
-      view_.depth_mm[pixel] = is_perspective ? -1.0F / hits.key[i] : hits.key[i];
-      if (!view_.surface.empty())
-        view_.surface[pixel] = SurfaceOf(hull_, hits.camera[i], ContourEdge(hits.camera[i], hits.edge[i]));
-      ++worker->hit_pixels;
+    worker->hit_pixels += hits.count;
+    const int columns = std::min(kTilePx, rays_.width_px() - x);
+    for (int row = 0; row < std::min(kTilePx, rays_.height_px() - y); ++row) {
+      const std::size_t first =
+          static_cast<std::size_t>(y + row) * static_cast<std::size_t>(rays_.width_px()) +
+          static_cast<std::size_t>(x);
+      std::copy_n(hits.depth_mm + row * kTilePx, columns, view_.depth_mm.data() + first);
+      if (view_.surface.empty()) continue;
+      for (int i = row * kTilePx; i < row * kTilePx + columns; ++i) {
+        if (hits.depth_mm[i] == 0.0F) continue;
+        view_.surface[first + static_cast<std::size_t>(i % kTilePx)] =
+            SurfaceOf(hull_, hits.camera[i], ContourEdge(hits.camera[i], hits.edge[i]));
+      }
     }
   }
 

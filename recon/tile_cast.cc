@@ -256,16 +256,20 @@ void Cast(const TileRays& tile, const CastBox& box, std::span<const TileCamera> 
           std::span<const TileCamera> sights, bool wants_edges, TileScratch* scratch, TileHits* hits) {
   const Floats f;
   scratch->courses.resize(cameras.size() + sights.size());
-  hits->any = false;
+  hits->count = 0;
+  const float key_end = tile.is_perspective ? 0.0F : kInfinity;
   for (std::size_t first = 0; first < kTileRays; first += hn::Lanes(f)) {
-    const Rays rays{hn::Load(f, tile.u + first), hn::Load(f, tile.v + first), hn::Set(f, tile.key_end)};
+    const Rays rays{hn::Load(f, tile.u + first), hn::Load(f, tile.v + first), hn::Set(f, key_end)};
     VF key_from = hn::Set(f, -kInfinity), key_to = rays.key_end;
     Clip(box, rays, &key_from, &key_to);
     Walk walk(rays, cameras, sights, first, scratch);
     const Front front = walk.Run(key_from, key_to);
-    hn::Store(front.key, f, hits->key + first);
-    if (hn::AllTrue(f, hn::Eq(front.key, hn::Set(f, kInfinity)))) continue;
-    hits->any = true;
+    const MF is_hit = hn::Lt(hn::Abs(front.key), hn::Set(f, kInfinity));
+    const VF depth_mm = tile.is_perspective ? hn::Div(hn::Set(f, -1.0F), front.key) : front.key;
+    hn::Store(hn::IfThenElseZero(is_hit, depth_mm), f, hits->depth_mm + first);
+    const std::size_t count = hn::CountTrue(f, is_hit);
+    if (count == 0) continue;
+    hits->count += static_cast<int>(count);
     hn::Store(front.camera, Ints(), hits->camera + first);
     if (wants_edges) hn::Store(walk.EdgesOf(front), Ints(), hits->edge + first);
   }

@@ -88,7 +88,8 @@ struct CastBox {
 struct TileRays {
   alignas(64) float u[kTileRays];  // NaN: no ray
   alignas(64) float v[kTileRays];
-  float key_end = 0.0F;  // of the rays themselves: 0 perspective, infinite orthographic
+  // Perspective: keys are -1 / depth_mm and end at 0; otherwise they are depths, and don't end.
+  bool is_perspective = true;
 };
 
 // One camera's pencil, and the labels that the tile's rays come with, a bit a ray.
@@ -97,14 +98,14 @@ struct TileCamera {
   std::uint32_t starts_inside = 0;
 };
 
-// Of each ray: the key of its first point in the hull, infinite if there is none, and whose edge it is on
-// (kNoCamera: a face of the workspace).
+// Of each ray: the depth of its first point in the hull, 0 if there is none or if that is where perspective
+// rays start, and whose edge it is on (kNoCamera: a face of the workspace).
 struct TileHits {
   static constexpr std::int32_t kNoCamera = -1;
-  alignas(64) float key[kTileRays];
+  alignas(64) float depth_mm[kTileRays];
   alignas(64) std::int32_t camera[kTileRays];  // sights count on after the cameras
   alignas(64) std::int32_t edge[kTileRays];    // if wanted: number in CastPencil::edges, of hits on edges
-  bool any = false;
+  int count = 0;
 };
 
 // Room to work in, kept from tile to tile.

@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace elbowroom::recon {
@@ -12,6 +13,8 @@ using Eigen::Vector3d;
 
 // The largest square of pixels that is asked about at once.
 constexpr int kLargestSquarePx = 64;
+
+constexpr double kFaceRounding = 1e-5;
 
 double HighestOf(const AffineForm& form, const Eigen::AlignedBox2d& box) {
   return form.at_origin + std::max(form.du * box.min().x(), form.du * box.max().x()) +
@@ -94,7 +97,7 @@ std::vector<PixelSquare> ViewPencils::Squares() const {
 void ViewPencils::Divide(int x, int y, int size, std::vector<PixelSquare>* squares) const {
   const int right = std::min(x + size, rays_.width_px()), bottom = std::min(y + size, rays_.height_px());
   const Eigen::AlignedBox2d box = rays_.BoundsOf(x, y, right, bottom);
-  if (box.isEmpty() || MissesWorkspace(box) || MissesSomeContour(box)) return;
+  if (box.isEmpty() || MissesHull(box)) return;
   if (size == kSquarePx) return squares->push_back({x, y, right, bottom});
   const int half = size / 2;
   for (const int part_y : {y, y + half})
@@ -102,28 +105,23 @@ void ViewPencils::Divide(int x, int y, int size, std::vector<PixelSquare>* squar
       if (part_x < right && part_y < bottom) Divide(part_x, part_y, half, squares);
 }
 
-// True if all rays of the box pass some face on the outer side, or some pair of faces in the wrong order.
-bool ViewPencils::MissesWorkspace(const Eigen::AlignedBox2d& box) const {
-  const bool is_perspective = rays_.projection() == Projection::kPerspective;
-  for (const Face& a : faces_) {
-    if (a.kind == Face::Kind::kBeside && HighestOf(a.bound, box) < 0.0) return true;
-    if (a.kind != Face::Kind::kNotBefore) continue;
-    if (is_perspective && LowestOf(a.bound, box) > 0.0) return true;
-    for (const Face& b : faces_) {
-      if (b.kind != Face::Kind::kNotAfter) continue;
-      const AffineForm gap{b.bound.du - a.bound.du, b.bound.dv - a.bound.dv,
-                           b.bound.at_origin - a.bound.at_origin};
-      if (HighestOf(gap, box) < 0.0) return true;
-    }
+// True if no ray of the box is in the workspace and in all cameras' objects at one place.
+bool ViewPencils::MissesHull(const Eigen::AlignedBox2d& box) const {
+  double least = -std::numeric_limits<double>::infinity(), most = key_end();
+  for (const Face& face : faces_) {
+    if (face.kind == Face::Kind::kBeside && HighestOf(face.bound, box) < 0.0) return true;
+    if (face.kind == Face::Kind::kNotBefore) least = std::max(least, LowestOf(face.bound, box));
+    if (face.kind == Face::Kind::kNotAfter) most = std::min(most, HighestOf(face.bound, box));
   }
-  return false;
-}
-
-// True if some camera's background is all that the box's rays pass.
-bool ViewPencils::MissesSomeContour(const Eigen::AlignedBox2d& box) const {
-  return std::any_of(cameras_.begin(), cameras_.end(), [&](const auto& pencil) {
-    return !pencil->is_concentric() && !pencil->starts_inside() && !pencil->MayEnter(box);
-  });
+  // Faces are rounded to float32 where rays are cast.
+  if (std::isfinite(least)) least -= kFaceRounding * std::abs(least);
+  if (std::isfinite(most)) most += kFaceRounding * std::abs(most);
+  for (const auto& pencil : cameras_) {
+    if (least > most) return true;
+    const EdgePencil::KeyRange keys = pencil->ObjectKeys(box);
+    least = std::max(least, keys.least), most = std::min(most, keys.most);
+  }
+  return least > most;
 }
 
 HullSurface SurfaceOf(const VisualHull& hull, std::int32_t caster, std::uint32_t edge) {

@@ -32,7 +32,7 @@ struct PixelSquare {
 class ViewPencils {
  public:
   using Pencils = std::vector<std::unique_ptr<const EdgePencil>>;
-  static constexpr int kSquarePx = 16;
+  static constexpr int kSquarePx = 8;
 
   ViewPencils(const VisualHull& hull, const ViewRays& rays);
 
@@ -70,8 +70,7 @@ class ViewPencils {
 
   [[nodiscard]] static std::array<Face, 6> FacesOf(const Eigen::AlignedBox3d& box, const ViewRays& rays);
   void Divide(int x, int y, int size, std::vector<PixelSquare>* squares) const;
-  [[nodiscard]] bool MissesWorkspace(const Eigen::AlignedBox2d& box) const;
-  [[nodiscard]] bool MissesSomeContour(const Eigen::AlignedBox2d& box) const;
+  [[nodiscard]] bool MissesHull(const Eigen::AlignedBox2d& box) const;
 
   const VisualHull& hull_;
   const ViewRays& rays_;

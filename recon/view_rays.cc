@@ -47,6 +47,30 @@ bool ViewRays::HasSameRays(const ViewRays& other) const {
          lens_ == other.lens_;
 }
 
+void ViewRays::FillSquare(int x, int y, int size, float* u, float* v) const {
+  const bool is_whole = x + size <= width_px_ && y + size <= height_px_;
+  if (is_whole && lens_ == nullptr) {
+    const Eigen::Matrix2d m = uv_from_pixel_;
+    const Eigen::Vector2d origin = uv_of_origin_;
+    for (int row = 0; row < size; ++row) {
+      const double u_of_row = m(0, 1) * (y + row), v_of_row = m(1, 1) * (y + row);
+      for (int column = 0; column < size; ++column, ++u, ++v) {
+        *u = static_cast<float>(m(0, 0) * (x + column) + u_of_row + origin.x());
+        *v = static_cast<float>(m(1, 0) * (x + column) + v_of_row + origin.y());
+      }
+    }
+    return;
+  }
+  for (int i = 0; i < size * size; ++i) {
+    constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+    const int at_x = x + i % size, at_y = y + i / size;
+    const bool is_pixel = at_x < width_px_ && at_y < height_px_;
+    const Eigen::Vector2d uv = is_pixel ? At(at_x, at_y) : Eigen::Vector2d(kNaN, kNaN);
+    u[i] = static_cast<float>(uv.x());
+    v[i] = static_cast<float>(uv.y());
+  }
+}
+
 std::shared_ptr<const ViewRays::Lens> ViewRays::LensOf(const core::CameraModel& view) {
   const PicturePlane plane(view);
   const auto width = static_cast<std::size_t>(view.width_px());

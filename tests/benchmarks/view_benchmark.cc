@@ -41,9 +41,14 @@ tbb::global_control Limit(const benchmark::State& state) {
 void ExactView(benchmark::State& state, ViewSceneRig rig) {
   const MaskScene& scene = SceneOf(rig);
   const auto limit = Limit(state);
-  for (auto _ : state)
-    benchmark::DoNotOptimize(
-        ViewHull(scene.Hull(), scene.view, {.surfaces = false, .normals = false}).hit_pixels);
+  HullView view;
+  for (auto _ : state) {
+    view = ViewHull(scene.Hull(), scene.view, {.surfaces = false, .normals = false});
+    benchmark::DoNotOptimize(view);
+  }
+  state.counters["hit_pixels"] = static_cast<double>(view.hit_pixels);
+  state.counters["cast_pixels"] = static_cast<double>(view.cast_pixels);
+  state.counters["crossings_met"] = static_cast<double>(view.crossings_met);
 }
 
 void HullOfMasks(benchmark::State& state, ViewSceneRig rig) {

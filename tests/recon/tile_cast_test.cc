@@ -5,7 +5,6 @@
 
 #include <array>
 #include <cstring>
-#include <limits>
 #include <vector>
 
 #include "recon/cast_intervals.h"
@@ -62,7 +61,7 @@ CastPencil PencilOf(const std::vector<float>& keys) {
     const auto number = static_cast<std::uint32_t>(edges.size());
     edges.push_back({{-0.5F, 0.5F, {0.0F, 0.0F, key}, number, number % 2 == 0}, {key, 0.0}});
   }
-  FillIntervals(std::move(edges), &pencil);
+  (void)FillIntervals(std::move(edges), false, &pencil);
   return pencil;
 }
 
@@ -84,18 +83,19 @@ TEST(CastTile, FindsTheFirstKeyAtWhichAllAgree) {
     };
     cast(twice, 0, once, 0);
     for (int i = 0; i < kTileRays; ++i) {
-      ASSERT_EQ(hits.key[i], -3.0F);
+      ASSERT_EQ(hits.depth_mm[i], 1.0F / 3.0F);
       ASSERT_EQ(hits.camera[i], 0);
       ASSERT_EQ(twice.edges[static_cast<std::size_t>(hits.edge[i])].edge, 2U);
     }
     // Inside from the start: a face of the workspace.
     cast(none, kAllRays, none, kAllRays);
-    EXPECT_EQ(hits.key[15], -10.0F);
+    EXPECT_EQ(hits.depth_mm[15], 1.0F / 10.0F);
     EXPECT_EQ(hits.camera[15], TileHits::kNoCamera);
     // One ray of them starts outside, and enters nothing.
     cast(none, kAllRays, none, kAllRays & ~(1U << 7U));
-    EXPECT_EQ(hits.key[6], -10.0F);
-    EXPECT_EQ(hits.key[7], std::numeric_limits<float>::infinity());
+    EXPECT_EQ(hits.depth_mm[6], 1.0F / 10.0F);
+    EXPECT_EQ(hits.depth_mm[7], 0.0F);
+    EXPECT_EQ(hits.count, kTileRays - 1);
   });
 }
 
