@@ -346,6 +346,35 @@ TEST_P(Stress, SweepsAreWithinTheirBand) {
       });
 }
 
+// Two full pictures: a hull that begins 54 mm over the table, seen from the table.
+TEST(ViewHull, FromAFaceOfTheWorkspaceAndAlmostNothingBesideIt) {
+  core::Rig rig;
+  rig.workspace_mm = {Vector3d(-200, -200, 0), Vector3d(200, 200, 300)};
+  std::vector<core::BitMask> masks;
+  for (const Vector3d& eye : {Vector3d(400, 0, 150), Vector3d(0, 400, 150)}) {
+    core::CameraCalibration c;
+    c.image_width_px = 96, c.image_height_px = 72;
+    c.camera_matrix << 150.0, 0.0, 47.5, 0.0, 150.0, 35.5, 0.0, 0.0, 1.0;
+    c.cam_from_world = core::CamFromWorldLookingAt(eye, Vector3d(0, 0, 150));
+    rig.cameras.emplace_back(c);
+    core::BitMask& mask = masks.emplace_back(96, 72);
+    for (int i = 0; i < 96 * 72; ++i) mask.Set(i % 96, i / 96, true);
+  }
+  const VisualHull hull = MakeVisualHull(std::make_shared<const core::Rig>(rig), masks);
+  const auto picture_from = [&](double z_mm) {
+    core::CameraCalibration c;
+    c.image_width_px = 40, c.image_height_px = 28;
+    c.camera_matrix << 30.0, 0.0, 19.3, 0.0, 30.0, 13.8, 0.0, 0.0, 1.0;
+    c.cam_from_world = core::CamFromWorldLookingAt(Vector3d(0, 0, z_mm), Vector3d(30, 20, 150));
+    return ViewHull(hull, core::CameraModel(c));
+  };
+  const HullView on_it = picture_from(0.0);
+  EXPECT_GT(on_it.hit_pixels, 300);
+  for (const double beside_mm : {1e-300, 1e-100, 1e-40, 1e-35, 1e-19, 1e-15})
+    for (const double z_mm : {beside_mm, -beside_mm})
+      EXPECT_EQ(picture_from(z_mm).depth_mm, on_it.depth_mm) << z_mm << " mm from the face";
+}
+
 std::string NameOf(const testing::TestParamInfo<int>& kind) {
   std::string name(ToString(static_cast<StressKind>(kind.param)));
   std::ranges::replace(name, ' ', '_');
