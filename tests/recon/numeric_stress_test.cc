@@ -32,8 +32,9 @@ using oracles::Vector3L;
 constexpr double kRoundings = 4.0;
 // Of single precision in a view, in half units in the last place of the distance from the view.
 constexpr double kViewRoundings = 4.0;
-// Pictures of 96 px through lenses of up to 90 degrees: a straight edge is that far from the lens's.
-constexpr double kLensPx = 2e-2;
+// An edge that is straight in the picture plane is less than that beside one that is straight through the
+// lens.
+constexpr double kLensPx = 1e-3;
 // A ray that passes a camera's centre nearer than this, as a share of how far away it starts, goes through.
 constexpr double kThroughCentre = 1e-11;
 // A view whose epipole is on a contour turns that camera: by 8 times 1e-10 at most.

@@ -129,19 +129,23 @@ core::CameraModel CameraOf(Random* random, const StressScene& scene, StressKind 
   return core::CameraModel(std::move(c));
 }
 
+// Whether a ray from a camera's centre meets a ball, or begins in it.
+bool Meets(const Vector3d& direction_in_cam, const Vector3d& center_in_cam, double radius_mm) {
+  if (center_in_cam.norm() <= radius_mm) return true;
+  return direction_in_cam.cross(center_in_cam).norm() <= radius_mm &&
+         direction_in_cam.dot(center_in_cam) > 0.0;
+}
+
 core::BitMask MaskOf(const core::CameraModel& camera, const std::vector<Ball>& balls) {
   core::BitMask mask(camera.width_px(), camera.height_px());
-  for (const Ball& ball : balls) {
-    const Vector3d center = camera.cam_from_world() * ball.center_in_world;
-    const bool is_in_it = center.norm() <= ball.radius_mm;
-    for (int y = 0; y < mask.height_px(); ++y) {
-      for (int x = 0; x < mask.width_px(); ++x) {
-        const auto ray = camera.NormalisedFromPixel(Eigen::Vector2d(x, y));
-        if (!ray) continue;
-        const Vector3d d = ray->homogeneous().normalized();
-        const bool is_hit = d.cross(center).norm() <= ball.radius_mm && d.dot(center) > 0.0;
-        if (is_in_it || is_hit) mask.Set(x, y, true);
-      }
+  for (int y = 0; y < mask.height_px(); ++y) {
+    for (int x = 0; x < mask.width_px(); ++x) {
+      const auto ray = camera.NormalisedFromPixel(Eigen::Vector2d(x, y));
+      if (!ray) continue;
+      const Vector3d d = ray->homogeneous().normalized();
+      mask.Set(x, y, std::ranges::any_of(balls, [&](const Ball& ball) {
+                 return Meets(d, camera.cam_from_world() * ball.center_in_world, ball.radius_mm);
+               }));
     }
   }
   return mask;
