@@ -13,6 +13,9 @@ using Eigen::Vector3d;
 
 // The largest square of pixels that is asked about at once.
 constexpr int kLargestSquarePx = 64;
+// A view's centre nearer to a face than this many mm is on it, rays that climb less in a mm run along it: what
+// is divided by less has no room in float32.
+constexpr double kLeastDivisor = 1e-20;
 
 constexpr double kFaceRounding = 1e-5;
 
@@ -39,13 +42,13 @@ std::array<ViewPencils::Face, 6> ViewPencils::FacesOf(const Eigen::AlignedBox3d&
     Face& face = faces[static_cast<std::size_t>(i)];
     if (rays.projection() == Projection::kPerspective) {
       // outward . d <= height / depth = -height * key.
-      if (height == 0.0) {
+      if (std::abs(height) < kLeastDivisor) {
         face = {Face::Kind::kBeside, {-outward.x(), -outward.y(), -outward.z()}};
       } else {
         face = {height > 0.0 ? Face::Kind::kNotAfter : Face::Kind::kNotBefore,
                 {-outward.x() / height, -outward.y() / height, -outward.z() / height}};
       }
-    } else if (outward.z() == 0.0) {
+    } else if (std::abs(outward.z()) < kLeastDivisor) {
       face = {Face::Kind::kBeside, {-outward.x(), -outward.y(), height}};
     } else {
       face = {outward.z() > 0.0 ? Face::Kind::kNotAfter : Face::Kind::kNotBefore,
