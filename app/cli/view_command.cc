@@ -64,16 +64,15 @@ class Viewer {
  public:
   Viewer(const ViewOptions& options, const RigFrame& frame, const core::CameraModel& view)
       : options_(options), frame_(frame), view_(view), rays_(view) {
-    for (const core::BitMask& mask : frame.masks) masks_.push_back({mask, {}});
     if (options.method == kSweepGl) gl_.emplace();
     if (options.spacing_mm) sweep_.spacing_mm = *options.spacing_mm;
   }
 
   [[nodiscard]] HullSeen See() {
     if (options_.method == kSweep)
-      return Seen(recon::SweepPlanes(*frame_.rig, masks_, view_, rays_, sweep_), sweep_.spacing_mm);
+      return Seen(recon::SweepPlanes(*frame_.rig, frame_.masks, view_, rays_, sweep_), sweep_.spacing_mm);
     if (options_.method == kSweepGl) {
-      HullSeen seen = Seen(gl_->Sweep(*frame_.rig, masks_, view_, rays_, sweep_), sweep_.spacing_mm);
+      HullSeen seen = Seen(gl_->Sweep(*frame_.rig, frame_.masks, view_, rays_, sweep_), sweep_.spacing_mm);
       seen.counts["driver"] = gl_->driver();
       return seen;
     }
@@ -85,7 +84,6 @@ class Viewer {
   const RigFrame& frame_;
   const core::CameraModel& view_;
   recon::SweepRays rays_;
-  std::vector<core::SoftMask> masks_;
   recon::PlaneSweepOptions sweep_;
   std::optional<recon::gl::PlaneSweepGl> gl_;
 };

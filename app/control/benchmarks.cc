@@ -67,8 +67,8 @@ std::vector<Job> SegmentationJobs() {
   recon::SyntheticRig rig(scene.rig, [objects = scene.objects](double) { return objects; });
   auto segmenter = std::make_shared<const recon::FrameSegmenter>(rig.ReadBackgrounds({}, {}),
                                                                  recon::SegmentationOptions{}, rig.rig());
-  return {
-      {"4 cameras of 640 x 480", [segmenter, frames = rig.Read(0)] { (void)segmenter->Segment(frames); }}};
+  return {{"4 cameras of 640 x 480",
+           [segmenter, frames = rig.Read(0)] { (void)segmenter->SegmentSoft(frames); }}};
 }
 
 // Masks in memory to the hull's mesh.
