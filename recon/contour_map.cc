@@ -1,6 +1,7 @@
 #include "recon/contour_map.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -25,6 +26,8 @@ constexpr int kWindowCells = 2;
 constexpr double kRoundingPx = 1e-7;
 // An edge is listed in cells that it only nearly touches, so that rounding can't lose it.
 constexpr double kTouch = 1e-6;
+// Behind a raster, so that a cell's byte may be read with those that follow it.
+constexpr std::size_t kBytesBehind = 3;
 
 double SquaredDistance(const Vector2d& p, const Vector2d& a, const Vector2d& b) {
   const Vector2d ab = b - a, ap = p - a;
@@ -52,6 +55,8 @@ class ContourMap::Grid {
     distances_ = CellDistances(cells_.x(), cells_.y(), first_);
   }
 
+  [[nodiscard]] LabelRaster Raster() const { return {origin_, cell_px_, cells_, labels_}; }
+
   struct Place {
     Eigen::Vector2i cell;
     std::size_t index = 0;
@@ -67,8 +72,9 @@ class ContourMap::Grid {
   }
 
   [[nodiscard]] bool LabelOf(const Place& place, const Vector2d& position) const {
-    const bool at_centre = centre_labels_[place.index] != 0;
-    if (first_[place.index] == first_[place.index + 1]) return at_centre;
+    const std::uint8_t label = labels_[place.index];
+    const bool at_centre = (label & LabelRaster::kObject) != 0;
+    if ((label & LabelRaster::kMixed) == 0) return at_centre;
     return at_centre != ChangesOnTheWay(place, position);
   }
 
@@ -161,7 +167,7 @@ class ContourMap::Grid {
 
   // Along each row of centres, from the left; an edge flips every centre at or right of where it crosses.
   void LabelCentres(bool exterior_is_object) {
-    centre_labels_.assign(first_.size() - 1, 0);
+    labels_.assign(first_.size() - 1 + kBytesBehind, 0);
     for (std::uint32_t e = 0; e < contour_.edges.size(); ++e) {
       const Vector2d &a = From(e), &b = To(e);
       const double low = std::min(a.y(), b.y()), high = std::max(a.y(), b.y());
@@ -171,12 +177,15 @@ class ContourMap::Grid {
         if ((a.y() > centre_y) == (b.y() > centre_y)) continue;
         int x = static_cast<int>((CrossingX(a, b, centre_y) - origin_.x()) / cell_px_);
         if (Centre(x, y).x() < CrossingX(a, b, centre_y)) ++x;
-        centre_labels_[Index(x, y)] ^= 1U;
+        labels_[Index(x, y)] ^= LabelRaster::kObject;
       }
     }
     for (int y = 0; y < cells_.y(); ++y) {
-      std::uint8_t label = exterior_is_object ? 1 : 0;
-      for (int x = 0; x < cells_.x(); ++x) label = centre_labels_[Index(x, y)] ^= label;
+      std::uint8_t label = exterior_is_object ? LabelRaster::kObject : 0;
+      for (std::size_t i = Index(0, y); i < Index(0, y + 1); ++i) {
+        label ^= labels_[i];
+        labels_[i] = first_[i] == first_[i + 1] ? label : label | LabelRaster::kMixed;
+      }
     }
   }
 
@@ -233,7 +242,7 @@ class ContourMap::Grid {
   Vector2d origin_{0.0, 0.0};
   std::vector<std::uint32_t> first_;  // of each cell's edges, in listed_; one more at the end
   std::vector<std::uint32_t> listed_;
-  std::vector<std::uint8_t> centre_labels_;  // 1: object
+  std::vector<std::uint8_t> labels_;  // LabelRaster's; of a mixed cell kObject is its centre's
   CellDistances distances_;
 };
 
@@ -274,6 +283,14 @@ PlaneLabel ContourMap::LabelAt(const Vector2d& position, double enough_px) const
   }
   label.distance_px = std::max(label.distance_px - kRoundingPx, 0.0);
   return label;
+}
+
+LabelRaster ContourMap::Raster() const {
+  if (!bounds_px_.isEmpty()) return grid().Raster();
+  static constexpr std::array<std::uint8_t, 1 + kBytesBehind> kBackground{0}, kObject{LabelRaster::kObject};
+  LabelRaster nothing;
+  nothing.labels = exterior_is_object_ ? kObject : kBackground;
+  return nothing;
 }
 
 std::optional<double> ContourMap::FirstCrossing(const Vector2d& from, const Vector2d& to) const {
