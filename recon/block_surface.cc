@@ -79,14 +79,13 @@ VertexNumbers NumberEdges(std::span<const BlockNeighbour> blocks) {
   VertexNumbers numbers;
   numbers.fill(-1);
   for (const BlockNeighbour& block : blocks) {
-    const Eigen::Array3i shift = block.offset * kBlockCells;
+    const unsigned steps = block.steps;
+    const std::size_t shift =
+        Index(0, (steps & 1U) * kBlockCells, (steps >> 1U & 1U) * kBlockCells, (steps >> 2U) * kBlockCells);
     std::int32_t number = block.first_vertex;
     for (const BlockEdge& edge : block.surface->edges) {
-      const Eigen::Array3i at = shift + Eigen::Array3i(edge.x, edge.y, edge.z);
-      if ((at < kBlockPoints).all()) {
-        numbers[Index(edge.axis, static_cast<std::size_t>(at.x()), static_cast<std::size_t>(at.y()),
-                      static_cast<std::size_t>(at.z()))] = number;
-      }
+      const auto [x, y, z] = edge.low;
+      if ((steps & ~unsigned{edge.near_faces}) == 0) numbers[shift + Index(edge.axis, x, y, z)] = number;
       ++number;
     }
   }
@@ -99,18 +98,18 @@ BlockSurface CutBlock(const HullLattice& lattice, const HullBlock& block) {
   BlockSurface surface;
   surface.labels = lattice.LabelsOf(block, &surface.queries);
   const Rows rows = RowsOf(surface.labels);
+  const std::array<CubeTriangles, 256>& table = CubeTable();
   VisitCutCells(rows, [&](std::size_t, std::size_t, std::size_t, unsigned inside) {
-    surface.triangles += CubeTable()[inside].count;
+    surface.triangles += table[inside].count;
   });
+  if (surface.triangles == 0) return surface;
+  surface.edges.reserve(surface.triangles);  // about half of them, and those that cells before don't have
   VisitChanges(rows, [&](std::size_t axis, std::size_t x, std::size_t y, std::size_t z, bool low_is_inside) {
     const auto byte = [](std::size_t number) { return static_cast<std::uint8_t>(number); };
-    surface.edges.push_back({byte(axis), byte(x), byte(y), byte(z)});
-    const GridPoint low =
-        block.corner + GridPoint(static_cast<int>(x), static_cast<int>(y), static_cast<int>(z));
-    const GridPoint high = low + GridPoint(GridPoint::Unit(static_cast<int>(axis)));
-    surface.vertices_in_world.push_back(low_is_inside ? lattice.Exit(block, low, high)
-                                                      : lattice.Exit(block, high, low));
+    const unsigned near_faces = unsigned{x == 0} | unsigned{y == 0} << 1U | unsigned{z == 0} << 2U;
+    surface.edges.push_back({byte(axis), {byte(x), byte(y), byte(z)}, low_is_inside, byte(near_faces)});
   });
+  surface.vertices_in_world = lattice.ExitsOf(block, surface.edges);
   surface.queries += static_cast<std::int64_t>(surface.edges.size());
   return surface;
 }

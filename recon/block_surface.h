@@ -11,12 +11,6 @@
 
 namespace elbowroom::recon {
 
-// A grid edge of a block: along `axis` from the point (x, y, z), kBlockPoints to the side.
-struct BlockEdge {
-  std::uint8_t axis = 0;
-  std::uint8_t x = 0, y = 0, z = 0;
-};
-
 // The part of the surface that belongs to a block: the vertices on grid edges that start within it or on its
 // near faces, and the triangles in its cells, whose corners may be vertices of the next blocks.
 struct BlockSurface {
@@ -33,7 +27,7 @@ struct BlockSurface {
 
 // What a block's triangles are made of.
 struct BlockNeighbour {
-  GridPoint offset = GridPoint::Zero();  // in blocks: 0 or 1 along each axis
+  unsigned steps = 0;  // bit a: the next one along axis a
   const BlockSurface* surface = nullptr;
   std::int32_t first_vertex = 0;  // of its vertices, in the whole mesh
 };

@@ -48,6 +48,7 @@ class ContourMap::Grid {
     const Vector2d size_px = bounds_px.sizes();
     cell_px_ = std::max(1.0, std::sqrt(size_px.prod() / kMostCells));
     cell_px_ = std::max(cell_px_, size_px.maxCoeff() / kMostCells);
+    cells_per_px_ = 1.0 / cell_px_;
     cells_ = (size_px / cell_px_).array().ceil().cast<int>() + 1 + 2 * kMarginCells;
     origin_ = bounds_px.center() - 0.5 * cell_px_ * cells_.cast<double>();
     ListEdges();
@@ -57,6 +58,10 @@ class ContourMap::Grid {
 
   [[nodiscard]] LabelRaster Raster() const { return {origin_, cell_px_, cells_, labels_}; }
 
+  struct Segment {
+    Vector2d a, b;
+  };
+
   struct Place {
     Eigen::Vector2i cell;
     std::size_t index = 0;
@@ -64,7 +69,7 @@ class ContourMap::Grid {
   };
 
   [[nodiscard]] std::optional<Place> Find(const Vector2d& position) const {
-    const Vector2d at = (position - origin_) / cell_px_;
+    const Vector2d at = (position - origin_) * cells_per_px_;
     // Written so that a NaN is outside.
     if (!(at.x() >= 0.0 && at.y() >= 0.0 && at.x() < cells_.x() && at.y() < cells_.y())) return std::nullopt;
     const Eigen::Vector2i cell = at.cast<int>();
@@ -100,19 +105,18 @@ class ContourMap::Grid {
   }
 
   [[nodiscard]] std::optional<double> FirstCrossing(const Vector2d& from, const Vector2d& to) const {
-    const Vector2d low = (from.cwiseMin(to) - origin_) / cell_px_,
-                   high = (from.cwiseMax(to) - origin_) / cell_px_;
-    const Vector2d most = (cells_ - Eigen::Vector2i::Ones()).cast<double>();
-    const Eigen::Vector2i first = low.cwiseMax(0.0).cwiseMin(most).cast<int>();
-    const Eigen::Vector2i last = high.cwiseMax(0.0).cwiseMin(most).cast<int>();
     const Vector2d way = to - from;
+    if (IsFarFromEdges(from, way.squaredNorm())) return std::nullopt;
+    const Eigen::Vector2i one = NearestCell(from), other = NearestCell(to);
+    const Eigen::Vector2i first = one.cwiseMin(other), last = one.cwiseMax(other);
+    const double side_of_way = Cross(way, from);
     double nearest = kInfinity;
     for (int y = first.y(); y <= last.y(); ++y) {
-      for (std::uint32_t i = first_[Index(first.x(), y)]; i < first_[Index(last.x(), y) + 1]; ++i) {
-        const Vector2d &a = From(listed_[i]), &b = To(listed_[i]);
+      const std::uint32_t end = first_[Index(last.x(), y) + 1];
+      for (std::uint32_t i = first_[Index(first.x(), y)]; i < end; ++i) {
+        const auto& [a, b] = segments_[i];
         // The ends of the edge on different sides of the way, and those of the way of the edge.
-        const double side_a = Cross(way, a - from), side_b = Cross(way, b - from);
-        if ((side_a > 0.0) == (side_b > 0.0)) continue;
+        if ((Cross(way, a) > side_of_way) == (Cross(way, b) > side_of_way)) continue;
         const double share = Cross(a - from, b - a) / Cross(way, b - a);
         if (share >= 0.0 && share <= 1.0) nearest = std::min(nearest, share);
       }
@@ -123,6 +127,21 @@ class ContourMap::Grid {
 
  private:
   static double Cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+  [[nodiscard]] Eigen::Vector2i NearestCell(const Vector2d& position) const {
+    const Vector2d at = (position - origin_) * cells_per_px_;
+    return {static_cast<int>(std::clamp(at.x(), 0.0, cells_.x() - 1.0)),
+            static_cast<int>(std::clamp(at.y(), 0.0, cells_.y() - 1.0))};
+  }
+
+  // Farther than a length, to a coarse look.
+  [[nodiscard]] bool IsFarFromEdges(const Vector2d& position, double squared_length) const {
+    const Vector2d at = (position - origin_) * cells_per_px_;
+    if (!(at.x() >= 0.0 && at.y() >= 0.0 && at.x() < cells_.x() && at.y() < cells_.y())) return false;
+    const double cells = distances_.LowerBound(static_cast<int>(at.x()), static_cast<int>(at.y()));
+    const double least_px = (cells - 2.0 * kHalfDiagonal) * cell_px_ - kRoundingPx;
+    return least_px > 0.0 && least_px * least_px > squared_length;
+  }
 
   [[nodiscard]] std::size_t Index(int x, int y) const {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(cells_.x()) + static_cast<std::size_t>(x);
@@ -138,7 +157,7 @@ class ContourMap::Grid {
   // Calls visit(index of cell) for the cells that an edge touches, row by row.
   template <typename Visit>
   void VisitCells(std::uint32_t edge, const Visit& visit) const {
-    Vector2d a = (From(edge) - origin_) / cell_px_, b = (To(edge) - origin_) / cell_px_;
+    Vector2d a = (From(edge) - origin_) * cells_per_px_, b = (To(edge) - origin_) * cells_per_px_;
     if (a.y() > b.y()) std::swap(a, b);
     const int top = static_cast<int>(a.y() - kTouch), bottom = static_cast<int>(b.y() + kTouch);
     const double slope = b.y() > a.y() ? (b.x() - a.x()) / (b.y() - a.y()) : 0.0;
@@ -160,9 +179,14 @@ class ContourMap::Grid {
     for (std::uint32_t e = 0; e < edges; ++e) VisitCells(e, [&](std::size_t cell) { ++first_[cell + 1]; });
     for (std::size_t i = 1; i < first_.size(); ++i) first_[i] += first_[i - 1];
     listed_.resize(first_.back());
+    segments_.resize(first_.back());
     std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
-    for (std::uint32_t e = 0; e < edges; ++e)
-      VisitCells(e, [&](std::size_t cell) { listed_[next[cell]++] = e; });
+    for (std::uint32_t e = 0; e < edges; ++e) {
+      VisitCells(e, [&](std::size_t cell) {
+        segments_[next[cell]] = {From(e), To(e)};
+        listed_[next[cell]++] = e;
+      });
+    }
   }
 
   // Along each row of centres, from the left; an edge flips every centre at or right of where it crosses.
@@ -203,7 +227,7 @@ class ContourMap::Grid {
     const Vector2d c = Centre(place.cell.x(), place.cell.y());
     bool changes = false;
     for (std::uint32_t i = first_[place.index]; i < first_[place.index + 1]; ++i) {
-      const Vector2d &a = From(listed_[i]), &b = To(listed_[i]);
+      const auto& [a, b] = segments_[i];
       const bool rises = (b.x() - a.x()) * (b.y() - a.y()) > 0.0;
       bool corner_is_below = a.y() <= c.y();
       if ((a.y() > c.y()) != (b.y() > c.y())) {
@@ -228,7 +252,7 @@ class ContourMap::Grid {
     const int bottom = std::min(place.cell.y() + kWindowCells, cells_.y() - 1);
     for (int y = std::max(place.cell.y() - kWindowCells, 0); y <= bottom; ++y) {
       for (std::uint32_t i = first_[Index(left, y)]; i < first_[Index(right, y) + 1]; ++i) {
-        const double squared = SquaredDistance(p, From(listed_[i]), To(listed_[i]));
+        const double squared = SquaredDistance(p, segments_[i].a, segments_[i].b);
         if (squared < nearest.second) nearest = {listed_[i], squared};
       }
     }
@@ -237,11 +261,12 @@ class ContourMap::Grid {
   }
 
   const Contour& contour_;
-  double cell_px_ = 1.0;
+  double cell_px_ = 1.0, cells_per_px_ = 1.0;
   Eigen::Vector2i cells_{0, 0};
   Vector2d origin_{0.0, 0.0};
   std::vector<std::uint32_t> first_;  // of each cell's edges, in listed_; one more at the end
   std::vector<std::uint32_t> listed_;
+  std::vector<Segment> segments_;     // as listed_
   std::vector<std::uint8_t> labels_;  // LabelRaster's; of a mixed cell kObject is its centre's
   CellDistances distances_;
 };

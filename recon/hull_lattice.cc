@@ -1,6 +1,11 @@
 #include "recon/hull_lattice.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
+#include <cstddef>
+#include <optional>
+#include <utility>
 
 namespace elbowroom::recon {
 namespace {
@@ -12,24 +17,39 @@ constexpr int kBisections = 40;
 // too, while the workspace is less than some 8000 edges long.
 constexpr double kEndShare = 1.0 / 2048;
 
+// Instead of an edge's share of the way: no crossing was met; or one can't be worked out.
+constexpr double kNone = 2.0;
+constexpr double kUnknown = -1.0;
+
+GridPoint LowEnd(const HullBlock& block, const BlockEdge& edge) {
+  return block.corner + GridPoint(edge.low[0], edge.low[1], edge.low[2]);
+}
+
 BlockBits AllPoints() {
   BlockBits bits;
-  for (BlockBits::Layer& layer : bits.layers) {
-    layer.fill(0xFF);
-    layer.back() = static_cast<std::uint8_t>((1U << (BlockBits::kLayerPoints % 8)) - 1U);
-  }
+  bits.groups.fill(0xFF);
+  bits.groups.back() = static_cast<std::uint8_t>((1U << (BlockBits::kRows % 8)) - 1U);
   return bits;
+}
+
+void Clear(const BlockBits& others, BlockBits* bits) {
+  for (std::size_t i = 0; i < bits->groups.size(); ++i)
+    bits->groups[i] = static_cast<std::uint8_t>(bits->groups[i] & ~others.groups[i]);
 }
 
 }  // namespace
 
 HullLattice::HullLattice(const VisualHull& hull, const HullGrid& grid) : hull_(hull), grid_(grid) {
-  for (std::size_t i = 0; i < hull.silhouettes().size(); ++i) {
+  const std::size_t cameras = hull.silhouettes().size();
+  rasters_.resize(cameras);
+  if (ExteriorIsObject(hull.rig())) outlines_.resize(cameras);
+  tbb::parallel_for(std::size_t{0}, cameras, [&](std::size_t i) {
     const Silhouette& silhouette = *hull.silhouettes()[i];
-    projections_.emplace_back(hull.rig().cameras[i], silhouette.plane().focal_px(), grid);
-    rasters_.push_back(silhouette.labels().Raster());
-    if (ExteriorIsObject(hull.rig())) outlines_.push_back(silhouette.plane().outline().Raster());
-  }
+    rasters_[i] = silhouette.labels().Raster();
+    if (!outlines_.empty()) outlines_[i] = silhouette.plane().outline().Raster();
+  });
+  for (std::size_t i = 0; i < cameras; ++i)
+    projections_.emplace_back(hull.rig().cameras[i], hull.silhouettes()[i]->plane().focal_px(), grid);
   first_.setZero(), last_ = grid.cells;
   const Eigen::AlignedBox3d& box = hull.rig().workspace_mm;
   for (int axis = 0; axis < 3; ++axis) {
@@ -50,13 +70,14 @@ BlockBits HullLattice::LabelsOf(const HullBlock& block, std::int64_t* queries) c
 BlockBits HullLattice::InWorkspace(const GridPoint& corner) const {
   BlockBits bits;
   const GridPoint first = (first_ - corner).cwiseMax(0), last = (last_ - corner).cwiseMin(kBlockCells);
+  unsigned row = 0;
+  for (int x = first.x(); x <= last.x(); ++x) row |= 1U << static_cast<unsigned>(x);
   for (int z = first.z(); z <= last.z(); ++z) {
-    BlockBits::Layer& layer = bits.layers[static_cast<std::size_t>(z)];
     for (int y = first.y(); y <= last.y(); ++y) {
-      for (int bit = y * kBlockPoints + first.x(); bit <= y * kBlockPoints + last.x(); ++bit) {
-        std::uint8_t& byte = layer[static_cast<std::size_t>(bit / 8)];
-        byte = static_cast<std::uint8_t>(byte | 1U << static_cast<unsigned>(bit % 8));
-      }
+      const auto i = static_cast<std::size_t>(y + kBlockPoints * z);
+      std::uint8_t& far = bits.groups[BlockBits::kRows + i / 8];
+      bits.groups[i] = static_cast<std::uint8_t>(row);
+      far = static_cast<std::uint8_t>(far | (row >> 8U) << (i % 8));
     }
   }
   return bits;
@@ -70,54 +91,70 @@ std::int64_t HullLattice::KeepSeen(const GridPoint& corner, BlockBits* bits) con
     BlockBits seen = unseen;
     queries +=
         projections_[i].KeepObject(hull_.silhouettes()[i]->plane().outline(), outlines_[i], corner, &seen);
-    for (std::size_t z = 0; z < seen.layers.size(); ++z)
-      for (std::size_t byte = 0; byte < seen.layers[z].size(); ++byte)
-        unseen.layers[z][byte] = static_cast<std::uint8_t>(unseen.layers[z][byte] & ~seen.layers[z][byte]);
+    Clear(seen, &unseen);
   }
-  for (std::size_t z = 0; z < unseen.layers.size(); ++z)
-    for (std::size_t byte = 0; byte < unseen.layers[z].size(); ++byte)
-      bits->layers[z][byte] = static_cast<std::uint8_t>(bits->layers[z][byte] & ~unseen.layers[z][byte]);
+  Clear(unseen, bits);
   return queries;
 }
 
-Vector3d HullLattice::Exit(const HullBlock& block, const GridPoint& inside, const GridPoint& outside) const {
-  const std::optional<double> exact = block.is_seen ? FirstExit(block, inside, outside) : std::nullopt;
-  const double share = exact ? *exact : BisectedExit(inside, outside);
-  const Vector3d from = grid_.At(inside);
-  return from + std::clamp(share, kEndShare, 1.0 - kEndShare) * (grid_.At(outside) - from);
+std::vector<Vector3d> HullLattice::ExitsOf(const HullBlock& block, std::span<const BlockEdge> edges) const {
+  std::vector<double> shares(edges.size(), block.is_seen ? kNone : kUnknown);
+  if (!block.is_in_workspace) OfferFaces(block, edges, shares);
+  for (const std::uint8_t i : block.cameras) OfferCrossings(i, block.corner, edges, shares);
+  std::vector<Vector3d> exits(edges.size());
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    const GridPoint low = LowEnd(block, edges[i]), high = low + GridPoint(GridPoint::Unit(edges[i].axis));
+    const Vector3d inside = grid_.At(edges[i].low_is_inside ? low : high);
+    const Vector3d outside = grid_.At(edges[i].low_is_inside ? high : low);
+    const bool is_exact = shares[i] >= 0.0 && shares[i] <= 1.0;
+    const double share = is_exact ? shares[i] : BisectedExit(inside, outside);
+    exits[i] = inside + std::clamp(share, kEndShare, 1.0 - kEndShare) * (outside - inside);
+  }
+  return exits;
 }
 
-// Share of the way where the first camera sees the hull end, or the workspace does.
-std::optional<double> HullLattice::FirstExit(const HullBlock& block, const GridPoint& inside,
-                                             const GridPoint& outside) const {
-  std::optional<double> first;
-  const auto offer = [&](double share) { first = std::min(first.value_or(share), share); };
-  if (!block.is_in_workspace) {
-    const Eigen::AlignedBox3d& box = hull_.rig().workspace_mm;
-    const Vector3d from = grid_.At(inside), to = grid_.At(outside);
-    for (int axis = 0; axis < 3; ++axis) {
-      const double way = to[axis] - from[axis];
-      if (to[axis] > box.max()[axis]) offer((box.max()[axis] - from[axis]) / way);
-      if (to[axis] < box.min()[axis]) offer((box.min()[axis] - from[axis]) / way);
+void HullLattice::OfferFaces(const HullBlock& block, std::span<const BlockEdge> edges,
+                             std::span<double> shares) const {
+  const Eigen::AlignedBox3d& box = hull_.rig().workspace_mm;
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    const int axis = edges[i].axis;
+    const GridPoint low = LowEnd(block, edges[i]);
+    const double ends[2] = {grid_.At(low)[axis], grid_.At(low + GridPoint(GridPoint::Unit(axis)))[axis]};
+    const double inside = ends[edges[i].low_is_inside ? 0 : 1],
+                 outside = ends[edges[i].low_is_inside ? 1 : 0];
+    const double face = std::clamp(outside, box.min()[axis], box.max()[axis]);
+    if (face != outside) shares[i] = std::min(shares[i], (face - inside) / (outside - inside));
+  }
+}
+
+void HullLattice::OfferCrossings(std::size_t camera, const GridPoint& corner,
+                                 std::span<const BlockEdge> edges, std::span<double> shares) const {
+  const ContourMap& labels = hull_.silhouettes()[camera]->labels();
+  const PointProjection::Block points(projections_[camera], corner);
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    const auto [x, y, z] = edges[i].low;
+    const auto axis = edges[i].axis;
+    PointProjection::Point from = points.At(x, y, z);
+    PointProjection::Point to =
+        points.At(x + (axis == 0 ? 1U : 0U), y + (axis == 1 ? 1U : 0U), z + (axis == 2 ? 1U : 0U));
+    if (!edges[i].low_is_inside) std::swap(from, to);
+    if (!(from.z_mm > 0.0) || !(to.z_mm > 0.0)) {
+      shares[i] = kUnknown;
+      continue;
     }
-  }
-  for (const std::uint8_t i : block.cameras) {
-    const PointProjection::Point from = projections_[i].Of(inside), to = projections_[i].Of(outside);
-    if (!(from.z_mm > 0.0) || !(to.z_mm > 0.0)) return std::nullopt;
-    const std::optional<double> in_picture =
-        hull_.silhouettes()[i]->labels().FirstCrossing(from.position, to.position);
+    const std::optional<double> in_picture = labels.FirstCrossing(from.position, to.position);
+    if (!in_picture) continue;
     // From a share of the way in the picture to one of the way in space.
-    if (in_picture) offer(*in_picture * from.z_mm / (to.z_mm + *in_picture * (from.z_mm - to.z_mm)));
+    const double share = *in_picture * from.z_mm / (to.z_mm + *in_picture * (from.z_mm - to.z_mm));
+    shares[i] = std::min(shares[i], share);
   }
-  return first;
 }
 
-double HullLattice::BisectedExit(const GridPoint& inside, const GridPoint& outside) const {
-  const Vector3d from = grid_.At(inside), to = grid_.At(outside);
+double HullLattice::BisectedExit(const Vector3d& inside, const Vector3d& outside) const {
   double low = 0.0, high = 1.0;
   for (int i = 0; i < kBisections; ++i) {
     const double middle = 0.5 * (low + high);
-    (hull_.Contains(from + middle * (to - from)) ? low : high) = middle;
+    (hull_.Contains(inside + middle * (outside - inside)) ? low : high) = middle;
   }
   return 0.5 * (low + high);
 }

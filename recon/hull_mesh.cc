@@ -43,13 +43,13 @@ core::TriangleMesh Join(std::span<const HullBlock> blocks, std::span<const Block
     if (surfaces[i].triangles == 0) return;
     std::array<BlockNeighbour, 8> around;
     std::size_t count = 0;
-    for (int step = 0; step < 8; ++step) {
-      const GridPoint offset(step & 1, (step >> 1) & 1, step >> 2);
+    for (unsigned steps = 0; steps < 8; ++steps) {
+      const GridPoint offset(steps & 1U, steps >> 1U & 1U, steps >> 2U);
       const std::uint64_t key = MortonKey(blocks[i].corner + offset * kBlockCells);
       const auto found = std::lower_bound(keys.begin() + static_cast<std::ptrdiff_t>(i), keys.end(), key);
       if (found == keys.end() || *found != key) continue;
       const auto block = static_cast<std::size_t>(found - keys.begin());
-      around[count++] = {offset, &surfaces[block], static_cast<std::int32_t>(firsts.vertices[block])};
+      around[count++] = {steps, &surfaces[block], static_cast<std::int32_t>(firsts.vertices[block])};
     }
     WriteTriangles({around.data(), count},
                    std::span(mesh.triangles).subspan(firsts.triangles[i], surfaces[i].triangles));
@@ -69,8 +69,8 @@ HullMesh MeshHull(const VisualHull& hull, double edge_mm, const core::Progress& 
   HullMesh result;
   result.skipped_cells = grid.cells.cast<std::int64_t>().prod();
   if (hull.IsEmpty()) return result;
-  const HullBlocks found = FindHullBlocks(hull, grid, progress, stop);
   const HullLattice lattice(hull, grid);
+  const HullBlocks found = FindHullBlocks(hull, grid, progress, stop);
   std::vector<BlockSurface> surfaces(found.blocks.size());
   tbb::parallel_for(std::size_t{0}, surfaces.size(), [&](std::size_t i) {
     if (!stop.stop_requested()) surfaces[i] = CutBlock(lattice, found.blocks[i]);

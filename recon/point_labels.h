@@ -9,26 +9,9 @@
 #include "core/camera_model.h"
 #include "recon/contour_map.h"
 #include "recon/hull_blocks.h"
+#include "recon/label_kernel.h"
 
 namespace elbowroom::recon {
-
-inline constexpr int kBlockPoints = kBlockCells + 1;  // grid points on a side of a block
-
-// A bit for each of a block's kBlockPoints^3 grid points.
-struct BlockBits {
-  static constexpr std::size_t kLayerPoints = kBlockPoints * kBlockPoints;
-  static constexpr std::size_t kLayerBytes = (kLayerPoints + 7) / 8;
-  using Layer = std::array<std::uint8_t, kLayerBytes>;  // point (x, y): bit x + kBlockPoints * y
-  std::array<Layer, kBlockPoints> layers{};             // by z
-
-  // The points (x, y, z), bit x each.
-  [[nodiscard]] unsigned Row(int y, int z) const {
-    const auto bit = static_cast<unsigned>(y * kBlockPoints);
-    const Layer& layer = layers[static_cast<std::size_t>(z)];
-    const unsigned pair = layer[bit / 8] | static_cast<unsigned>(layer[bit / 8 + 1]) << 8U;
-    return (pair >> bit % 8) & ((1U << kBlockPoints) - 1U);
-  }
-};
 
 // From a grid's points to a camera's picture plane.
 class PointProjection {
@@ -39,8 +22,19 @@ class PointProjection {
     Eigen::Vector2d position;
     double z_mm = 0.0;  // not positive: not in front of the camera, and the position means nothing
   };
-  // The same to the last bit as KeepObject has it, on every processor.
-  [[nodiscard]] Point Of(const GridPoint& p) const;
+  // The grid points of one block, as KeepObject has them to the last bit, on every processor.
+  class Block {
+   public:
+    Block(const PointProjection& projection, const GridPoint& corner);
+    [[nodiscard]] Point At(std::size_t x, std::size_t y, std::size_t z) const {
+      const std::array<double, 3>&a = along_[0][x], &b = along_[1][y], &c = along_[2][z];
+      const double z_mm = (a[2] + b[2]) + c[2], per_z = 1.0 / z_mm;
+      return {{((a[0] + b[0]) + c[0]) * per_z, ((a[1] + b[1]) + c[1]) * per_z}, z_mm};
+    }
+
+   private:
+    std::array<std::array<std::array<double, 3>, kBlockPoints>, 3> along_;
+  };
 
   // Clears the bits of points of the block at `corner` that `labels` doesn't call object, exactly. `raster`
   // is that of `labels`. Points whose bits are clear aren't asked, eight at a time; returns how many were.
@@ -49,8 +43,8 @@ class PointProjection {
 
  private:
   // In cam, x and y times the focal length: of point (0, 0, 0), and of a step along each axis.
-  Eigen::Vector3d origin_;
-  std::array<Eigen::Vector3d, 3> steps_;
+  std::array<double, 3> origin_{};
+  std::array<std::array<double, 3>, 3> steps_{};
 };
 
 }  // namespace elbowroom::recon
