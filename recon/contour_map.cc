@@ -106,8 +106,11 @@ class ContourMap::Grid {
 
   [[nodiscard]] std::optional<double> FirstCrossing(const Vector2d& from, const Vector2d& to) const {
     const Vector2d way = to - from;
-    if (IsFarFromEdges(from, way.squaredNorm())) return std::nullopt;
-    const Eigen::Vector2i one = NearestCell(from), other = NearestCell(to);
+    const Eigen::Vector2i one = NearestCell(from);
+    const double far_px =
+        (distances_.LowerBound(one.x(), one.y()) - 2.0 * kHalfDiagonal) * cell_px_ - kRoundingPx;
+    if (far_px > 0.0 && far_px * far_px > way.squaredNorm()) return std::nullopt;
+    const Eigen::Vector2i other = NearestCell(to);
     const Eigen::Vector2i first = one.cwiseMin(other), last = one.cwiseMax(other);
     const double side_of_way = Cross(way, from);
     double nearest = kInfinity;
@@ -116,8 +119,9 @@ class ContourMap::Grid {
       for (std::uint32_t i = first_[Index(first.x(), y)]; i < end; ++i) {
         const auto& [a, b] = segments_[i];
         // The ends of the edge on different sides of the way, and those of the way of the edge.
-        if ((Cross(way, a) > side_of_way) == (Cross(way, b) > side_of_way)) continue;
-        const double share = Cross(a - from, b - a) / Cross(way, b - a);
+        const double side_a = Cross(way, a) - side_of_way, side_b = Cross(way, b) - side_of_way;
+        if ((side_a > 0.0) == (side_b > 0.0)) continue;
+        const double share = Cross(a - from, b - a) / (side_b - side_a);
         if (share >= 0.0 && share <= 1.0) nearest = std::min(nearest, share);
       }
     }
@@ -132,15 +136,6 @@ class ContourMap::Grid {
     const Vector2d at = (position - origin_) * cells_per_px_;
     return {static_cast<int>(std::clamp(at.x(), 0.0, cells_.x() - 1.0)),
             static_cast<int>(std::clamp(at.y(), 0.0, cells_.y() - 1.0))};
-  }
-
-  // Farther than a length, to a coarse look.
-  [[nodiscard]] bool IsFarFromEdges(const Vector2d& position, double squared_length) const {
-    const Vector2d at = (position - origin_) * cells_per_px_;
-    if (!(at.x() >= 0.0 && at.y() >= 0.0 && at.x() < cells_.x() && at.y() < cells_.y())) return false;
-    const double cells = distances_.LowerBound(static_cast<int>(at.x()), static_cast<int>(at.y()));
-    const double least_px = (cells - 2.0 * kHalfDiagonal) * cell_px_ - kRoundingPx;
-    return least_px > 0.0 && least_px * least_px > squared_length;
   }
 
   [[nodiscard]] std::size_t Index(int x, int y) const {

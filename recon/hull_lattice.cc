@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <optional>
-#include <utility>
 
 namespace elbowroom::recon {
 namespace {
@@ -132,12 +131,9 @@ void HullLattice::OfferCrossings(std::size_t camera, const GridPoint& corner,
   const ContourMap& labels = hull_.silhouettes()[camera]->labels();
   const PointProjection::Block points(projections_[camera], corner);
   for (std::size_t i = 0; i < edges.size(); ++i) {
-    const auto [x, y, z] = edges[i].low;
-    const auto axis = edges[i].axis;
-    PointProjection::Point from = points.At(x, y, z);
-    PointProjection::Point to =
-        points.At(x + (axis == 0 ? 1U : 0U), y + (axis == 1 ? 1U : 0U), z + (axis == 2 ? 1U : 0U));
-    if (!edges[i].low_is_inside) std::swap(from, to);
+    std::array<std::size_t, 3> inside{edges[i].low[0], edges[i].low[1], edges[i].low[2]}, outside = inside;
+    ++(edges[i].low_is_inside ? outside : inside)[edges[i].axis];
+    const PointProjection::Point from = points.At(inside), to = points.At(outside);
     if (!(from.z_mm > 0.0) || !(to.z_mm > 0.0)) {
       shares[i] = kUnknown;
       continue;

@@ -26,8 +26,8 @@ class PointProjection {
   class Block {
    public:
     Block(const PointProjection& projection, const GridPoint& corner);
-    [[nodiscard]] Point At(std::size_t x, std::size_t y, std::size_t z) const {
-      const std::array<double, 3>&a = along_[0][x], &b = along_[1][y], &c = along_[2][z];
+    [[nodiscard]] Point At(const std::array<std::size_t, 3>& p) const {
+      const std::array<double, 3>&a = along_[0][p[0]], &b = along_[1][p[1]], &c = along_[2][p[2]];
       const double z_mm = (a[2] + b[2]) + c[2], per_z = 1.0 / z_mm;
       return {{((a[0] + b[0]) + c[0]) * per_z, ((a[1] + b[1]) + c[1]) * per_z}, z_mm};
     }
