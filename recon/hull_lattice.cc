@@ -59,9 +59,16 @@ HullLattice::HullLattice(const VisualHull& hull, const HullGrid& grid) : hull_(h
 
 BlockBits HullLattice::LabelsOf(const HullBlock& block, std::int64_t* queries) const {
   BlockBits bits = block.is_in_workspace ? AllPoints() : InWorkspace(block.corner);
-  for (const std::uint8_t i : block.cameras)
-    *queries +=
-        projections_[i].KeepObject(hull_.silhouettes()[i]->labels(), rasters_[i], block.corner, &bits);
+  // Cells first, of all cameras: most points in one's mixed cells are outside to another.
+  std::vector<BlockBits> mixed(block.cameras.size());
+  for (std::size_t i = 0; i < mixed.size(); ++i) {
+    const std::uint8_t camera = block.cameras[i];
+    *queries += projections_[camera].KeepByCells(rasters_[camera], block.corner, &bits, &mixed[i]);
+  }
+  for (std::size_t i = 0; i < mixed.size(); ++i) {
+    const std::uint8_t camera = block.cameras[i];
+    projections_[camera].SettleMixed(hull_.silhouettes()[camera]->labels(), block.corner, mixed[i], &bits);
+  }
   if (!block.is_seen) *queries += KeepSeen(block.corner, &bits);
   return bits;
 }
@@ -87,9 +94,9 @@ std::int64_t HullLattice::KeepSeen(const GridPoint& corner, BlockBits* bits) con
   std::int64_t queries = 0;
   BlockBits unseen = *bits;
   for (std::size_t i = 0; i < outlines_.size(); ++i) {
-    BlockBits seen = unseen;
-    queries +=
-        projections_[i].KeepObject(hull_.silhouettes()[i]->plane().outline(), outlines_[i], corner, &seen);
+    BlockBits seen = unseen, mixed;
+    queries += projections_[i].KeepByCells(outlines_[i], corner, &seen, &mixed);
+    projections_[i].SettleMixed(hull_.silhouettes()[i]->plane().outline(), corner, mixed, &seen);
     Clear(seen, &unseen);
   }
   Clear(unseen, bits);
@@ -131,9 +138,11 @@ void HullLattice::OfferCrossings(std::size_t camera, const GridPoint& corner,
   const ContourMap& labels = hull_.silhouettes()[camera]->labels();
   const PointProjection::Block points(projections_[camera], corner);
   for (std::size_t i = 0; i < edges.size(); ++i) {
-    std::array<std::size_t, 3> inside{edges[i].low[0], edges[i].low[1], edges[i].low[2]}, outside = inside;
-    ++(edges[i].low_is_inside ? outside : inside)[edges[i].axis];
-    const PointProjection::Point from = points.At(inside), to = points.At(outside);
+    const auto [x, y, z] = edges[i].low;
+    const std::size_t in_x = edges[i].axis == 0, in_y = edges[i].axis == 1, in_z = edges[i].axis == 2;
+    const PointProjection::Point low = points.At(x, y, z), high = points.At(x + in_x, y + in_y, z + in_z);
+    const PointProjection::Point &from = edges[i].low_is_inside ? low : high,
+                                 &to = edges[i].low_is_inside ? high : low;
     if (!(from.z_mm > 0.0) || !(to.z_mm > 0.0)) {
       shares[i] = kUnknown;
       continue;

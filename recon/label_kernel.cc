@@ -30,7 +30,7 @@ struct Points {
 HWY_INLINE VD Set(double number) { return hn::Set(Doubles(), number); }
 
 // No fused operation anywhere: it would round differently on processors without one. The order of the sums is
-// PointProjection::Of's.
+// PointProjection::Block::At's.
 HWY_INLINE Points Times(VD count, const std::array<double, 3>& step) {
   return {hn::Mul(count, Set(step[0])), hn::Mul(count, Set(step[1])), hn::Mul(count, Set(step[2]))};
 }
@@ -54,12 +54,12 @@ HWY_INLINE unsigned BitsOf(VI label, std::int32_t bit) {
 
 class Labeller {
  public:
-  Labeller(const RasterView& raster, BlockBits* bits, MixedPoints* mixed)
+  Labeller(const RasterView& raster, BlockBits* bits, BlockBits* mixed)
       : raster_(raster), bits_(*bits), mixed_(*mixed) {}
 
   // Points `first` and on of a group.
-  HWY_INLINE void Ask(std::size_t group, std::size_t first, const Points& points) {
-    const VI label = LabelsOf(points, 8 * group + first);
+  HWY_INLINE void Ask(std::size_t first, const Points& points) {
+    const VI label = LabelsOf(points);
     object_ |= BitsOf(label, LabelRaster::kObject) << first;
     unsure_ |= BitsOf(label, LabelRaster::kMixed) << first;
   }
@@ -77,13 +77,11 @@ class Labeller {
   [[nodiscard]] std::size_t asked() const { return asked_; }
 
  private:
-  HWY_INLINE VI LabelsOf(const Points& points, std::size_t first) {
+  HWY_INLINE VI LabelsOf(const Points& points) const {
     const Doubles d;
     const Ints n;
     const VD per_z = hn::Div(Set(1.0), points.z), zero = hn::Zero(d);
     const VD x = hn::Mul(points.x, per_z), y = hn::Mul(points.y, per_z);
-    hn::Store(x, d, mixed_.x_px.data() + first);
-    hn::Store(y, d, mixed_.y_px.data() + first);
     const VD across = hn::Mul(hn::Sub(x, Set(raster_.origin_x_px)), Set(raster_.cells_per_px));
     const VD down = hn::Mul(hn::Sub(y, Set(raster_.origin_y_px)), Set(raster_.cells_per_px));
     // Written so that a NaN is in no cell.
@@ -98,12 +96,12 @@ class Labeller {
 
   const RasterView& raster_;
   BlockBits& bits_;
-  MixedPoints& mixed_;
+  BlockBits& mixed_;
   unsigned object_ = 0, unsure_ = 0;
   std::size_t asked_ = 0;
 };
 
-std::size_t Label(const BlockView& block, const RasterView& raster, BlockBits* bits, MixedPoints* mixed) {
+std::size_t Label(const BlockView& block, const RasterView& raster, BlockBits* bits, BlockBits* mixed) {
   const Doubles d;
   const std::size_t at_once = hn::Lanes(d);
   Labeller labeller(raster, bits, mixed);
@@ -117,7 +115,7 @@ std::size_t Label(const BlockView& block, const RasterView& raster, BlockBits* b
     for (std::size_t i = 0; i < 8; i += at_once) {
       const VD x = hn::Add(hn::Iota(d, static_cast<double>(i)), Set(block.corner[0]));
       const Points in_layer = Sum(Times(x, block.steps[0]), Spread(rows[group % kSide]));
-      labeller.Ask(group, i, Sum(in_layer, Spread(layers[group / kSide])));
+      labeller.Ask(i, Sum(in_layer, Spread(layers[group / kSide])));
     }
     labeller.Finish(group);
   }
@@ -133,7 +131,7 @@ std::size_t Label(const BlockView& block, const RasterView& raster, BlockBits* b
         z[lane] = block.corner[2] + static_cast<double>(row / kSide);
       }
       const Points in_layer = Sum(across, Times(hn::Load(d, y), block.steps[1]));
-      labeller.Ask(group, i, Sum(in_layer, Sum(Spread(block.origin), Times(hn::Load(d, z), block.steps[2]))));
+      labeller.Ask(i, Sum(in_layer, Sum(Spread(block.origin), Times(hn::Load(d, z), block.steps[2]))));
     }
     labeller.Finish(group);
   }
@@ -150,7 +148,7 @@ namespace elbowroom::recon {
 HWY_EXPORT(Label);
 
 std::size_t LabelByCells(const BlockView& block, const RasterView& raster, BlockBits* bits,
-                         MixedPoints* mixed) {
+                         BlockBits* mixed) {
   return HWY_DYNAMIC_DISPATCH(Label)(block, raster, bits, mixed);
 }
 

@@ -1,4 +1,4 @@
-// The inner loop of PointProjection::KeepObject, eight points at a time.
+// The inner loop of PointProjection::KeepByCells, eight points at a time.
 #pragma once
 
 #include <array>
@@ -19,6 +19,13 @@ struct BlockBits {
   // First the rows: group y + kBlockPoints * z, bit x, of x up to 7. Then the points of x = 8: bit
   // y + kBlockPoints * z, counted on from group to group.
   std::array<std::uint8_t, kGroups> groups{};
+
+  // The grid point of a bit of a group.
+  [[nodiscard]] static std::array<std::size_t, 3> PointOf(std::size_t group, std::size_t bit) {
+    if (group < kRows) return {bit, group % kBlockPoints, group / kBlockPoints};
+    const std::size_t row = 8 * (group - kRows) + bit;
+    return {kBlockCells, row % kBlockPoints, row / kBlockPoints};
+  }
 
   // The points (x, y, z), bit x each.
   [[nodiscard]] unsigned Row(int y, int z) const {
@@ -46,17 +53,8 @@ struct RasterView {
   std::int32_t height = 0;
 };
 
-// What can't be said by cells.
-struct MixedPoints {
-  std::array<std::uint8_t, BlockBits::kGroups> groups;  // their bits
-  // Where a group's points are in the picture plane; nothing where the group wasn't asked.
-  alignas(64) std::array<double, 8 * BlockBits::kGroups> x_px;
-  alignas(64) std::array<double, 8 * BlockBits::kGroups> y_px;
-};
-
-// Clears the bits of points in cells of background; leaves those in mixed ones. Groups without a bit aren't
-// asked; returns how many were.
-std::size_t LabelByCells(const BlockView& block, const RasterView& raster, BlockBits* bits,
-                         MixedPoints* mixed);
+// Clears the bits of points in cells of background; those in mixed cells stay, and are set in `mixed`. Groups
+// without a bit aren't asked; returns how many were.
+std::size_t LabelByCells(const BlockView& block, const RasterView& raster, BlockBits* bits, BlockBits* mixed);
 
 }  // namespace elbowroom::recon

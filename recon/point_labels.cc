@@ -4,21 +4,6 @@
 #include <cstddef>
 
 namespace elbowroom::recon {
-namespace {
-
-// Labels the points in mixed cells, one by one.
-void Settle(const ContourMap& labels, const MixedPoints& mixed, BlockBits* bits) {
-  for (std::size_t group = 0; group < mixed.groups.size(); ++group) {
-    for (unsigned left = mixed.groups[group]; left != 0; left &= left - 1) {
-      const std::size_t i = 8 * group + static_cast<std::size_t>(std::countr_zero(left));
-      if (labels.IsObject({mixed.x_px[i], mixed.y_px[i]})) continue;
-      bits->groups[group] = static_cast<std::uint8_t>(bits->groups[group] & ~(left & -left));
-    }
-  }
-}
-
-}  // namespace
-
 PointProjection::PointProjection(const core::CameraModel& camera, double focal_px, const HullGrid& grid) {
   const Eigen::Vector3d scale(focal_px, focal_px, 1.0);
   const core::RigidTransform& cam_from_world = camera.cam_from_world();
@@ -44,18 +29,29 @@ PointProjection::Block::Block(const PointProjection& projection, const GridPoint
   }
 }
 
-std::int64_t PointProjection::KeepObject(const ContourMap& labels, const LabelRaster& raster,
-                                         const GridPoint& corner, BlockBits* bits) const {
+std::int64_t PointProjection::KeepByCells(const LabelRaster& raster, const GridPoint& corner, BlockBits* bits,
+                                          BlockBits* mixed) const {
   const BlockView block{
       origin_,
       steps_,
       {static_cast<double>(corner.x()), static_cast<double>(corner.y()), static_cast<double>(corner.z())}};
   const RasterView view{raster.labels.data(), raster.origin_px.x(), raster.origin_px.y(),
                         1.0 / raster.cell_px, raster.cells.x(),     raster.cells.y()};
-  MixedPoints mixed;
-  const std::size_t asked = LabelByCells(block, view, bits, &mixed);
-  Settle(labels, mixed, bits);
-  return static_cast<std::int64_t>(8 * asked);
+  return static_cast<std::int64_t>(8 * LabelByCells(block, view, bits, mixed));
+}
+
+void PointProjection::SettleMixed(const ContourMap& labels, const GridPoint& corner, const BlockBits& mixed,
+                                  BlockBits* bits) const {
+  const Block points(*this, corner);
+  for (std::size_t group = 0; group < mixed.groups.size(); ++group) {
+    std::uint8_t& kept = bits->groups[group];
+    for (unsigned left = mixed.groups[group] & kept; left != 0; left &= left - 1) {
+      const auto bit = static_cast<std::size_t>(std::countr_zero(left));
+      const auto [x, y, z] = BlockBits::PointOf(group, bit);
+      if (labels.IsObject(points.At(x, y, z).position)) continue;
+      kept = static_cast<std::uint8_t>(kept & ~(1U << bit));
+    }
+  }
 }
 
 }  // namespace elbowroom::recon
