@@ -91,7 +91,7 @@ TEST_F(RecordedFrameTest, ABoundaryThatMovesBetweenTwoPixelsIsAChange) {
   const SharedFrameResult second = pipeline_.Process(frames, gap_);
   ASSERT_EQ((*second->masks)[2].mask, before.mask);
   ASSERT_NE((*second->masks)[2].levels, before.levels);
-  EXPECT_EQ(second->skipped.unchanged_silhouettes, 3);
+  EXPECT_EQ(second->skipped.hull.unchanged_silhouettes, 3);
   EXPECT_NE(second->hull, first->hull);
   EXPECT_NE(second->hull->silhouettes()[2]->labels().contour().vertices,
             first->hull->silhouettes()[2]->labels().contour().vertices);
