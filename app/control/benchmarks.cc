@@ -66,7 +66,7 @@ std::vector<Job> SegmentationJobs() {
   const recon::ViewScene scene = recon::MakeViewScene(recon::ViewSceneRig::kFour);
   recon::SyntheticRig rig(scene.rig, [objects = scene.objects](double) { return objects; });
   auto segmenter = std::make_shared<const recon::FrameSegmenter>(rig.ReadBackgrounds({}, {}),
-                                                                 recon::SegmentationOptions{});
+                                                                 recon::SegmentationOptions{}, scene.rig);
   return {
       {"4 cameras of 640 x 480", [segmenter, frames = rig.Read(0)] { (void)segmenter->Segment(frames); }}};
 }
