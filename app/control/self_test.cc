@@ -55,9 +55,17 @@ recon::ViewRays OrthographicView() {
   return recon::ViewRays(core::CameraModel(std::move(view)), recon::Projection::kOrthographic);
 }
 
-Scene HandScene() {
+// A camera whose picture the hand leaves: there the policies for the unseen part.
+core::CameraModel CloseUp(const core::CameraModel& camera) {
+  core::CameraCalibration close = camera.calibration();
+  close.name = "close-up";
+  close.camera_matrix.topLeftCorner<2, 2>() *= 3.0;
+  return core::CameraModel(std::move(close));
+}
+
+Scene HandScene(core::Rig rig) {
   const std::vector<recon::SyntheticObject> objects = recon::DemoSceneAt(kHandOverTheTableS).objects;
-  Scene scene{recon::FourCameraRig(), {}, OperatorsView()};
+  Scene scene{std::move(rig), {}, OperatorsView()};
   const recon::SyntheticRig cameras(scene.rig, [&](double) { return objects; });
   for (core::BitMask& mask : cameras.TrueMasks(objects)) scene.masks.push_back({std::move(mask), {}});
   return scene;
@@ -103,7 +111,7 @@ bool SelfTestReport::Passed() const {
 
 SelfTestReport RunSelfTest() {
   recon::gl::PlaneSweepGl sweep;
-  const Scene scene = HandScene(), straight = Straightened(scene);
+  const Scene scene = HandScene(recon::FourCameraRig()), straight = Straightened(scene);
   SelfTestReport report{sweep.driver(), {}};
   for (const auto& [passes, name] :
        {std::pair{recon::gl::SweepPasses::kOneAPlane, "a draw a plane"},
@@ -121,7 +129,9 @@ SelfTestReport RunSelfTest() {
 }
 
 std::vector<SelfTestLine> TestExactViews(const MakeView& graphics) {
-  Scene scene = HandScene();
+  core::Rig rig = recon::FourCameraRig();
+  rig.cameras.push_back(CloseUp(rig.cameras[2]));
+  Scene scene = HandScene(std::move(rig));
   const std::array<std::pair<const char*, recon::ViewRays>, 4> views = {
       {{"perspective", recon::ViewRays(scene.view)},
        {"through a lens", ViewThroughALens()},
