@@ -1,10 +1,14 @@
 // The program: the command line, and the window that it may open.
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+
 #include "app/cli/command_line.h"
 #ifdef ELBOWROOM_WITH_CONSOLE
 #include "app/console/console_main.h"
 #endif
 
 int main(int argc, char** argv) {
+  spdlog::set_default_logger(spdlog::stderr_color_mt("elbowroom"));  // stdout is for results
 #ifdef ELBOWROOM_WITH_CONSOLE
   return elbowroom::cli::RunCommandLine(argc, argv, [&](const elbowroom::cli::ConsoleRequest& request) {
     elbowroom::console::ConsoleOptions options;

@@ -15,11 +15,15 @@ RenderWorker::~RenderWorker() { requests_.Close(); }
 
 void RenderWorker::Run() {
   std::optional<recon::gl::SceneRenderer> renderer;
-  SceneComposer composer;
+  std::optional<ExactViewMaker> views;
+  SceneComposer composer([&views](const recon::VisualHull& hull, const recon::ViewRays& rays) {
+    return views->Make(hull, rays);
+  });
   while (const std::optional<RenderRequest> request = requests_.Pop()) {
     try {
       if (!renderer) {
         renderer.emplace();
+        views.emplace(GraphicsCard(renderer->driver(), renderer->is_software()));
         const std::lock_guard lock(driver_mutex_);
         driver_ = renderer->driver();
       }

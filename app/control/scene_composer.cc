@@ -143,7 +143,7 @@ recon::gl::Scene SceneComposer::Compose(const FrameResult& result, const recon::
   scene.lamp = recon::gl::LampOver(result.hull->rig().workspace_mm);
   scene.hull_appearance = look.hull;
   const recon::SceneView hull_view = Scaled(view, hull_scale);
-  recon::HullView hull = recon::ViewHull(*result.hull, CameraOf(hull_view));
+  recon::HullView hull = make_view_(*result.hull, recon::ViewRays(CameraOf(hull_view)));
   for (core::PartIndex i = 0; i < result.layout->parts.size(); ++i) {
     recon::gl::ScenePart part;
     part.mesh = result.layout->parts[i].mesh;

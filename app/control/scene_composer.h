@@ -3,9 +3,11 @@
 
 #include <cstdint>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "app/control/frame_result.h"
+#include "app/control/view_method.h"
 #include "recon/gl/scene.h"
 #include "recon/hull_appearance.h"
 #include "recon/orbit_camera.h"
@@ -25,6 +27,9 @@ struct SceneLook {
 // the rig's cameras see. Keeping never changes a picture (scene_composer_test). Thread: one.
 class SceneComposer {
  public:
+  // How the hull is seen from `view`; it may look different in recon::ViewBand.
+  explicit SceneComposer(MakeView make_view = ProcessorsViews()) : make_view_(std::move(make_view)) {}
+
   // Parts at their poses (those in contact tinted), the hull as it is seen from `view` exactly, contact
   // points, the table, a lamp over the workspace. A part between the operator and the hull can be seen
   // through. hull_scale: of the picture's side, (0, 1]; a hull of fewer pixels is drawn sooner and scaled up.
@@ -39,6 +44,7 @@ class SceneComposer {
   [[nodiscard]] std::shared_ptr<const recon::gl::HullLayer> HullFromLamp(const recon::gl::SceneLamp& lamp);
   [[nodiscard]] std::vector<SharedPhoto> PhotosFor(const SceneLook& look, const recon::SceneView& view);
 
+  MakeView make_view_;
   // Of the last frame drawn; what is null hasn't been asked for yet.
   std::shared_ptr<const recon::VisualHull> hull_;
   std::shared_ptr<const recon::FrameSet> camera_frames_;

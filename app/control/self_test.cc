@@ -1,14 +1,21 @@
 #include "app/control/self_test.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
+#include <memory>
 #include <utility>
 
+#include "recon/gl/exact_view_gl.h"
 #include "recon/gl/plane_sweep_gl.h"
+#include "recon/hull_view.h"
 #include "recon/straightened_mask.h"
 #include "recon/sweep_comparison.h"
 #include "recon/synthetic/demo_motion.h"
 #include "recon/synthetic/rig_presets.h"
 #include "recon/synthetic/synthetic_rig.h"
+#include "recon/view_comparison.h"
 
 namespace elbowroom::control {
 namespace {
@@ -22,19 +29,43 @@ struct Scene {
   core::CameraModel view;
 };
 
-core::CameraModel OperatorsView() {
+const Eigen::Vector3d kOperatorsEye(500.0, -900.0, 650.0), kHand(60.0, 0.0, 200.0);
+
+core::CameraCalibration OperatorsCalibration() {
   core::CameraCalibration view;
   view.name = "view";
   view.image_width_px = 320;
   view.image_height_px = 240;
   view.camera_matrix << 360.0, 0.0, 159.5, 0.0, 360.0, 119.5, 0.0, 0.0, 1.0;
-  view.cam_from_world = core::CamFromWorldLookingAt({500.0, -900.0, 650.0}, {60.0, 0.0, 200.0});
-  return core::CameraModel(std::move(view));
+  view.cam_from_world = core::CamFromWorldLookingAt(kOperatorsEye, kHand);
+  return view;
 }
 
-Scene HandScene() {
+core::CameraModel OperatorsView() { return core::CameraModel(OperatorsCalibration()); }
+
+recon::ViewRays ViewThroughALens() {
+  core::CameraCalibration view = OperatorsCalibration();
+  view.distortion_coefficients = {-0.2, 0.05, 1e-3, -5e-4, 0.0};
+  return recon::ViewRays(core::CameraModel(std::move(view)));
+}
+
+recon::ViewRays OrthographicView() {
+  core::CameraCalibration view = OperatorsCalibration();
+  view.camera_matrix.topLeftCorner<2, 2>() *= 0.4 / 360.0;  // 0.4 pixels per mm
+  return recon::ViewRays(core::CameraModel(std::move(view)), recon::Projection::kOrthographic);
+}
+
+// A camera whose picture the hand leaves: there the policies for the unseen part.
+core::CameraModel CloseUp(const core::CameraModel& camera) {
+  core::CameraCalibration close = camera.calibration();
+  close.name = "close-up";
+  close.camera_matrix.topLeftCorner<2, 2>() *= 3.0;
+  return core::CameraModel(std::move(close));
+}
+
+Scene HandScene(core::Rig rig) {
   const std::vector<recon::SyntheticObject> objects = recon::DemoSceneAt(kHandOverTheTableS).objects;
-  Scene scene{recon::FourCameraRig(), {}, OperatorsView()};
+  Scene scene{std::move(rig), {}, OperatorsView()};
   const recon::SyntheticRig cameras(scene.rig, [&](double) { return objects; });
   for (core::BitMask& mask : cameras.TrueMasks(objects)) scene.masks.push_back({std::move(mask), {}});
   return scene;
@@ -52,14 +83,22 @@ Scene Straightened(const Scene& scene) {
   return straight;
 }
 
-SelfTestLine Compare(const std::string& what, const Scene& scene, recon::gl::SweepPasses passes,
-                     recon::gl::PlaneSweepGl* sweep) {
+SelfTestLine CompareSwept(const std::string& what, const Scene& scene, recon::gl::SweepPasses passes,
+                          recon::gl::PlaneSweepGl* sweep) {
   const recon::SweepRays rays(scene.view);
   const recon::SweptView cpu = recon::SweepPlanes(scene.rig, scene.masks, scene.view, rays);
   const recon::SweptView gl = sweep->Sweep(scene.rig, scene.masks, scene.view, rays, {}, passes);
   const recon::SweepComparison comparison =
       recon::CompareSweeps(scene.rig, scene.masks, scene.view, cpu.picture, gl.picture);
   return {what, cpu.picture.hit_pixels, comparison.differing_pixels, comparison.unexplained_pixels};
+}
+
+SelfTestLine CompareExact(std::string what, const recon::VisualHull& hull, const recon::ViewRays& rays,
+                          const MakeView& graphics) {
+  const recon::HullView cpu = recon::ViewHull(hull, rays);
+  const recon::ViewComparison comparison = recon::CompareViews(hull, rays, cpu, graphics(hull, rays));
+  return {std::move(what), cpu.hit_pixels, comparison.differing_pixels + comparison.differing_in_band,
+          comparison.differing_pixels};
 }
 
 }  // namespace
@@ -72,16 +111,42 @@ bool SelfTestReport::Passed() const {
 
 SelfTestReport RunSelfTest() {
   recon::gl::PlaneSweepGl sweep;
-  const Scene scene = HandScene(), straight = Straightened(scene);
+  const Scene scene = HandScene(recon::FourCameraRig()), straight = Straightened(scene);
   SelfTestReport report{sweep.driver(), {}};
   for (const auto& [passes, name] :
        {std::pair{recon::gl::SweepPasses::kOneAPlane, "a draw a plane"},
         std::pair{recon::gl::SweepPasses::kOneAPlaneAndCamera, "the paper's passes"}}) {
-    report.lines.push_back(Compare(std::string("plane sweep, ") + name, scene, passes, &sweep));
+    report.lines.push_back(CompareSwept(std::string("plane sweep, ") + name, scene, passes, &sweep));
     report.lines.push_back(
-        Compare(std::string("plane sweep, undistortion grid, ") + name, straight, passes, &sweep));
+        CompareSwept(std::string("plane sweep, undistortion grid, ") + name, straight, passes, &sweep));
   }
+  recon::gl::ExactViewGl card;
+  for (SelfTestLine& line : TestExactViews([&](const recon::VisualHull&hull, const recon::ViewRays&rays) {
+         return card.ViewHull(hull, rays);
+       }))
+    report.lines.push_back(std::move(line));
   return report;
+}
+
+std::vector<SelfTestLine> TestExactViews(const MakeView& graphics) {
+  core::Rig rig = recon::FourCameraRig();
+  rig.cameras.push_back(CloseUp(rig.cameras[2]));
+  Scene scene = HandScene(std::move(rig));
+  const std::array<std::pair<const char*, recon::ViewRays>, 4> views = {
+      {{"perspective", recon::ViewRays(scene.view)},
+       {"through a lens", ViewThroughALens()},
+       {"from a camera's place", recon::ViewRays(scene.rig.cameras.front())},
+       {"orthographic", OrthographicView()}}};
+  std::vector<SelfTestLine> lines;
+  for (const auto& [unseen, policy] : {std::pair{core::UnseenPolicy::kOutside, "outside"},
+                                       std::pair{core::UnseenPolicy::kAbstain, "abstain"}}) {
+    scene.rig.unseen = unseen;
+    const recon::VisualHull hull =
+        recon::MakeVisualHull(std::make_shared<const core::Rig>(scene.rig), scene.masks);
+    for (const auto& [name, rays] : views)
+      lines.push_back(CompareExact(fmt::format("exact view, {}, {}", name, policy), hull, rays, graphics));
+  }
+  return lines;
 }
 
 }  // namespace elbowroom::control

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "app/control/view_method.h"
+
 namespace elbowroom::control {
 
 // One computation in OpenGL against the same on the processor.
@@ -22,8 +24,14 @@ struct SelfTestReport {
   [[nodiscard]] bool Passed() const;
 };
 
-// Sweeps the demo's hand before a built-in rig, both ways in OpenGL, with and without undistortion grid.
-// Throws: core::Error{kGraphics} when nothing can be drawn at all.
+// The demo's hand before a built-in rig: swept with planes, both ways in OpenGL, with and without
+// undistortion grid; and seen exactly, as TestExactViews. Throws: core::Error{kGraphics} when nothing can be
+// drawn at all.
 [[nodiscard]] SelfTestReport RunSelfTest();
+
+// Of exact views by `graphics` against recon::ViewHull's, perspective without and with a lens, from where a
+// camera of the rig is, and orthographic, each under both `unseen` policies. Unexplained: outside of
+// recon::ViewBand.
+[[nodiscard]] std::vector<SelfTestLine> TestExactViews(const MakeView& graphics);
 
 }  // namespace elbowroom::control

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "recon/gl/gl_name.h"
+#include "recon/gl/object_kinds.h"
 
 namespace elbowroom::recon::gl {
 
@@ -25,23 +26,6 @@ class BufferTexture {
   void BindTo(int unit) const;
 
  private:
-  struct BufferKind {
-    static GLuint Create() {
-      GLuint name = 0;
-      glGenBuffers(1, &name);
-      return name;
-    }
-    static void Destroy(GLuint name) { glDeleteBuffers(1, &name); }
-  };
-  struct TextureKind {
-    static GLuint Create() {
-      GLuint name = 0;
-      glGenTextures(1, &name);
-      return name;
-    }
-    static void Destroy(GLuint name) { glDeleteTextures(1, &name); }
-  };
-
   GlName<BufferKind> buffer_;
   GlName<TextureKind> texture_;
   std::size_t texel_bytes_;

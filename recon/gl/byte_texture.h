@@ -5,7 +5,7 @@
 #include <span>
 
 #include "recon/gl/gl_name.h"
-#include "recon/gl/texture.h"
+#include "recon/gl/object_kinds.h"
 
 namespace elbowroom::recon::gl {
 

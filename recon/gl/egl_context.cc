@@ -5,6 +5,7 @@
 #include <epoxy/gl.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <string_view>
 #include <vector>
@@ -19,6 +20,10 @@ using core::ErrorKind;
 
 constexpr std::string_view kRemedy =
     "install libegl1, libgl1 and libegl-mesa0 (software) or the GPU's driver";
+
+// As Mesa, X servers and ANGLE call those that draw with the processor; Zink names the one below it.
+constexpr std::array<std::string_view, 5> kSoftwareRenderers = {"llvmpipe", "softpipe", "swrast",
+                                                                "Software Rasterizer", "SwiftShader"};
 
 struct Display {
   std::string name;
@@ -159,6 +164,7 @@ EglContext::EglContext() {
       vendor_ = GlString(GL_VENDOR);
       renderer_ = GlString(GL_RENDERER);
       version_ = GlString(GL_VERSION);
+      driver_ = fmt::format("{} | {} | {}", vendor_, renderer_, version_);
       return;
     }
     failures += fmt::format("{}{}: {}", failures.empty() ? "" : ", ", candidate.name, attempt.failure);
@@ -170,6 +176,11 @@ EglContext::EglContext() {
 EglContext::~EglContext() = default;
 EglContext::EglContext(EglContext&&) noexcept = default;
 EglContext& EglContext::operator=(EglContext&&) noexcept = default;
+
+bool EglContext::is_software() const {
+  return std::any_of(kSoftwareRenderers.begin(), kSoftwareRenderers.end(),
+                     [&](std::string_view name) { return renderer_.find(name) != std::string::npos; });
+}
 
 void EglContext::MakeCurrent() const {
   core::Require(native_ != nullptr, "a context that was moved from isn't used");

@@ -24,6 +24,10 @@ class EglContext {
   [[nodiscard]] const std::string& vendor() const { return vendor_; }
   [[nodiscard]] const std::string& renderer() const { return renderer_; }
   [[nodiscard]] const std::string& version() const { return version_; }
+  [[nodiscard]] const std::string& driver() const { return driver_; }  // the three in one line
+
+  // The processor does the drawing, as far as the renderer's name tells.
+  [[nodiscard]] bool is_software() const;
 
  private:
   struct Native;
@@ -32,6 +36,7 @@ class EglContext {
   std::string vendor_;
   std::string renderer_;
   std::string version_;
+  std::string driver_;
 };
 
 }  // namespace elbowroom::recon::gl

@@ -1,7 +1,6 @@
 #include "recon/gl/exact_view_gl.h"
 
 #include <epoxy/gl.h>
-#include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -84,7 +83,7 @@ class ExactViewGl::Impl {
 
   void MakeCurrent() const { context_.MakeCurrent(); }
   [[nodiscard]] std::thread::id thread() const { return thread_; }
-  [[nodiscard]] const std::string& driver() const { return driver_; }
+  [[nodiscard]] const std::string& driver() const { return context_.driver(); }
   [[nodiscard]] std::int64_t draws() const { return draws_; }
   [[nodiscard]] std::int64_t edge_uploads() const { return edge_uploads_; }
   [[nodiscard]] std::int64_t ray_uploads() const { return ray_uploads_; }
@@ -98,7 +97,6 @@ class ExactViewGl::Impl {
 
   EglContext context_;
   std::thread::id thread_ = std::this_thread::get_id();
-  std::string driver_;
   ShaderProgram program_{"exact view", kExactViewVertexSource, kExactViewFragmentSource};
   VertexArray corners_{2};
   FloatTexture ray_texture_{3};
@@ -116,8 +114,7 @@ class ExactViewGl::Impl {
   std::int64_t ray_uploads_ = 0;
 };
 
-ExactViewGl::Impl::Impl()
-    : driver_(fmt::format("{} | {} | {}", context_.vendor(), context_.renderer(), context_.version())) {
+ExactViewGl::Impl::Impl() {
   program_.Use();
   program_.Set("rays", kRays);
   program_.Set("labels", kLabels);

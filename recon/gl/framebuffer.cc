@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "recon/gl/gl_error.h"
 
 namespace elbowroom::recon::gl {
 namespace {
@@ -21,13 +22,7 @@ Framebuffer::Framebuffer(int width_px, int height_px, int samples)
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.get());
   glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, colour_.get());
   glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth_.get());
-  const GLenum status = glCheckFramebufferStatus(GL_FRAMEBUFFER);
-  if (status != GL_FRAMEBUFFER_COMPLETE) {
-    throw core::Error(core::ErrorKind::kGraphics,
-                      fmt::format("the graphics driver can't draw {} x {} pixels with {} samples ({:#x}); "
-                                  "ask for a smaller picture",
-                                  width_px, height_px, samples, status));
-  }
+  ThrowUnlessDrawable(fmt::format("{} x {} pixels with {} samples", width_px, height_px, samples));
 }
 
 void Framebuffer::Bind() const {

@@ -1,8 +1,8 @@
 // Where pictures are drawn. For the .cc files of this folder: it includes OpenGL.
 #pragma once
 
-#include "recon/gl/framebuffer_name.h"
 #include "recon/gl/gl_name.h"
+#include "recon/gl/object_kinds.h"
 
 namespace elbowroom::recon::gl {
 

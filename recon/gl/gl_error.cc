@@ -19,4 +19,12 @@ void ThrowOnGlError(const std::string& renderer) {
                                             : fmt::format("OpenGL error {:#x}", first)));
 }
 
+void ThrowUnlessDrawable(const std::string& what) {
+  const GLenum status = glCheckFramebufferStatus(GL_FRAMEBUFFER);
+  if (status == GL_FRAMEBUFFER_COMPLETE) return;
+  throw core::Error(
+      core::ErrorKind::kGraphics,
+      fmt::format("the graphics driver can't draw {} ({:#x}); ask for a smaller picture", what, status));
+}
+
 }  // namespace elbowroom::recon::gl

@@ -9,4 +9,8 @@ namespace elbowroom::recon::gl {
 // one.
 void ThrowOnGlError(const std::string& renderer);
 
+// Throws: core::Error{kGraphics} when the driver can't draw to the framebuffer that is bound; `what` as in
+// "planes of 640 x 480 pixels".
+void ThrowUnlessDrawable(const std::string& what);
+
 }  // namespace elbowroom::recon::gl

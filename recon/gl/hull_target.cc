@@ -5,7 +5,7 @@
 #include <array>
 #include <cstddef>
 
-#include "core/error.h"
+#include "recon/gl/gl_error.h"
 
 namespace elbowroom::recon::gl {
 namespace {
@@ -23,13 +23,7 @@ HullTarget::HullTarget(int width_px, int height_px) : width_px_(width_px), heigh
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.get());
   glFramebufferRenderbuffer(GL_FRAMEBUFFER, kDepth, GL_RENDERBUFFER, depth_.get());
   glFramebufferRenderbuffer(GL_FRAMEBUFFER, kSurface, GL_RENDERBUFFER, surface_.get());
-  const GLenum status = glCheckFramebufferStatus(GL_FRAMEBUFFER);
-  if (status != GL_FRAMEBUFFER_COMPLETE) {
-    throw core::Error(core::ErrorKind::kGraphics,
-                      fmt::format("the graphics driver can't draw {} x {} pixels of depth ({:#x}); ask for a "
-                                  "smaller picture",
-                                  width_px, height_px, status));
-  }
+  ThrowUnlessDrawable(fmt::format("{} x {} pixels of depth", width_px, height_px));
 }
 
 void HullTarget::Bind(bool with_surfaces) const {

@@ -1,7 +1,6 @@
 #include "recon/gl/plane_sweep_gl.h"
 
 #include <epoxy/gl.h>
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -99,12 +98,10 @@ class Survey {
 // The context comes first and so goes last.
 class PlaneSweepGl::Impl {
  public:
-  Impl() : driver_(fmt::format("{} | {} | {}", context_.vendor(), context_.renderer(), context_.version())) {}
-
   [[nodiscard]] SweptView Sweep(const SweepSpace& space, const core::CameraModel& view, SweepPasses passes);
 
   void MakeCurrent() const { context_.MakeCurrent(); }
-  [[nodiscard]] const std::string& driver() const { return driver_; }
+  [[nodiscard]] const std::string& driver() const { return context_.driver(); }
   [[nodiscard]] std::thread::id thread() const { return thread_; }
 
  private:
@@ -127,7 +124,6 @@ class PlaneSweepGl::Impl {
 
   EglContext context_;
   std::thread::id thread_ = std::this_thread::get_id();
-  std::string driver_;
   VertexArray corners_ = VertexArray({});
   // By fragment source and first camera: what holds for all planes is set once a sweep.
   std::map<std::pair<std::string, std::size_t>, ShaderProgram> programs_;

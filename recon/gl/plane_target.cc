@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
+#include "recon/gl/gl_error.h"
 
 namespace elbowroom::recon::gl {
 
@@ -14,14 +14,7 @@ PlaneTarget::PlaneTarget(int width_px, int height_px) : width_px_(width_px), hei
                             depth_stencil_.get());
   glDrawBuffer(GL_NONE);
   glReadBuffer(GL_NONE);
-  const GLenum status = glCheckFramebufferStatus(GL_FRAMEBUFFER);
-  if (status != GL_FRAMEBUFFER_COMPLETE) {
-    throw core::Error(
-        core::ErrorKind::kGraphics,
-        fmt::format("the graphics driver can't draw planes of {} x {} pixels ({:#x}); ask for a "
-                    "smaller picture",
-                    width_px, height_px, status));
-  }
+  ThrowUnlessDrawable(fmt::format("planes of {} x {} pixels", width_px, height_px));
 }
 
 void PlaneTarget::Bind() const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "recon/gl/gl_name.h"
+#include "recon/gl/object_kinds.h"
 
 namespace elbowroom::recon::gl {
 
@@ -18,23 +19,6 @@ class PlaneTarget {
   void Bind() const;
 
  private:
-  struct FramebufferKind {
-    static GLuint Create() {
-      GLuint name = 0;
-      glGenFramebuffers(1, &name);
-      return name;
-    }
-    static void Destroy(GLuint name) { glDeleteFramebuffers(1, &name); }
-  };
-  struct RenderbufferKind {
-    static GLuint Create() {
-      GLuint name = 0;
-      glGenRenderbuffers(1, &name);
-      return name;
-    }
-    static void Destroy(GLuint name) { glDeleteRenderbuffers(1, &name); }
-  };
-
   int width_px_;
   int height_px_;
   GlName<RenderbufferKind> depth_stencil_;

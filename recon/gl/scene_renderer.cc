@@ -1,7 +1,6 @@
 #include "recon/gl/scene_renderer.h"
 
 #include <epoxy/gl.h>
-#include <fmt/format.h>
 
 #include <optional>
 #include <thread>
@@ -35,13 +34,11 @@ struct Targets {
 // The context comes first and so goes last.
 class SceneRenderer::Impl {
  public:
-  Impl() : driver_(fmt::format("{} | {} | {}", context_.vendor(), context_.renderer(), context_.version())) {}
-
   [[nodiscard]] Image Render(const Scene& scene);
   [[nodiscard]] DepthImage RenderDepth(const Scene& scene);
   void MakeCurrent() const { context_.MakeCurrent(); }
 
-  [[nodiscard]] const std::string& driver() const { return driver_; }
+  [[nodiscard]] const EglContext& context() const { return context_; }
   [[nodiscard]] const PartPainter& parts() const { return parts_; }
   [[nodiscard]] const Lighting& lighting() const { return lighting_; }
   [[nodiscard]] std::thread::id thread() const { return thread_; }
@@ -51,7 +48,6 @@ class SceneRenderer::Impl {
 
   EglContext context_;
   std::thread::id thread_ = std::this_thread::get_id();
-  std::string driver_;
   PartPainter parts_;
   Lighting lighting_;
   HullPainter hull_;
@@ -146,7 +142,8 @@ DepthImage SceneRenderer::RenderDepth(const Scene& scene) {
   return OnOwnThread().RenderDepth(scene);
 }
 
-const std::string& SceneRenderer::driver() const { return OnOwnThread().driver(); }
+const std::string& SceneRenderer::driver() const { return OnOwnThread().context().driver(); }
+bool SceneRenderer::is_software() const { return OnOwnThread().context().is_software(); }
 std::size_t SceneRenderer::cached_meshes() const { return OnOwnThread().parts().cached_meshes(); }
 std::int64_t SceneRenderer::mesh_uploads() const { return OnOwnThread().parts().mesh_uploads(); }
 ShadowCount SceneRenderer::shadow_count() const { return OnOwnThread().lighting().count(); }

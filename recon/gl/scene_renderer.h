@@ -49,6 +49,8 @@ class SceneRenderer {
 
   // Driver's vendor, renderer and version in one line, for the session's record.
   [[nodiscard]] const std::string& driver() const;
+  // The processor does the drawing, as EglContext tells.
+  [[nodiscard]] bool is_software() const;
 
   [[nodiscard]] std::size_t cached_meshes() const;
   [[nodiscard]] std::int64_t mesh_uploads() const;  // since the start

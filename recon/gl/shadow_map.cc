@@ -6,6 +6,7 @@
 #include <cstddef>
 
 #include "core/error.h"
+#include "recon/gl/gl_error.h"
 
 namespace elbowroom::recon::gl {
 
@@ -45,12 +46,7 @@ void ShadowMap::BeginDrawing(int side_px) {
   glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, texture_.get(), 0);
   glDrawBuffer(GL_NONE);
   glReadBuffer(GL_NONE);
-  if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
-    throw core::Error(
-        core::ErrorKind::kGraphics,
-        fmt::format("the graphics driver can't hold a shadow of {0} x {0} texels; ask for a smaller one",
-                    side_px));
-  }
+  ThrowUnlessDrawable(fmt::format("a shadow of {0} x {0} texels", side_px));
   glViewport(0, 0, side_px, side_px);
   glClear(GL_DEPTH_BUFFER_BIT);
 }

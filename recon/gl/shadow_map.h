@@ -4,7 +4,7 @@
 #include <span>
 
 #include "recon/gl/gl_name.h"
-#include "recon/gl/texture.h"
+#include "recon/gl/object_kinds.h"
 
 namespace elbowroom::recon::gl {
 
@@ -24,15 +24,6 @@ class ShadowMap {
   void BindTo(int unit) const;
 
  private:
-  struct FramebufferKind {
-    static GLuint Create() {
-      GLuint name = 0;
-      glGenFramebuffers(1, &name);
-      return name;
-    }
-    static void Destroy(GLuint name) { glDeleteFramebuffers(1, &name); }
-  };
-
   GlName<TextureKind> texture_;
   GlName<FramebufferKind> framebuffer_;
   int side_px_ = 0;

@@ -6,17 +6,9 @@
 #include <span>
 
 #include "recon/gl/gl_name.h"
+#include "recon/gl/object_kinds.h"
 
 namespace elbowroom::recon::gl {
-
-struct TextureKind {
-  static GLuint Create() {
-    GLuint name = 0;
-    glGenTextures(1, &name);
-    return name;
-  }
-  static void Destroy(GLuint name) { glDeleteTextures(1, &name); }
-};
 
 // One or three floats a texel, read with texelFetch: no filtering, no mipmaps.
 class FloatTexture {

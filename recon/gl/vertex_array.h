@@ -6,6 +6,7 @@
 #include <span>
 
 #include "recon/gl/gl_name.h"
+#include "recon/gl/object_kinds.h"
 
 namespace elbowroom::recon::gl {
 
@@ -32,14 +33,6 @@ class VertexArray {
       return name;
     }
     static void Destroy(GLuint name) { glDeleteVertexArrays(1, &name); }
-  };
-  struct BufferKind {
-    static GLuint Create() {
-      GLuint name = 0;
-      glGenBuffers(1, &name);
-      return name;
-    }
-    static void Destroy(GLuint name) { glDeleteBuffers(1, &name); }
   };
 
   GlName<ArrayKind> array_;

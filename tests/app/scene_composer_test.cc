@@ -17,6 +17,7 @@
 #include "core/units.h"
 #include "recon/gl/scene_renderer.h"
 #include "recon/png_file.h"
+#include "recon/view_comparison.h"
 
 namespace elbowroom::control {
 namespace {
@@ -125,6 +126,24 @@ TEST(SceneComposer, WithoutPicturesTheHullIsShaded) {
   const recon::SceneView view = TrialView(240, 180, -62.0, 14.0);
   EXPECT_EQ(Draw(SceneComposer().Compose(bare, view, {HullAppearance::kRigCameras})),
             Draw(SceneComposer().Compose(bare, view, {HullAppearance::kByNormal})));
+}
+
+TEST(SceneComposer, TheHullIsTheSameWhicheverWayItIsMade) {
+  const SharedFrameResult frame = Demo().At(kPipeIsHeldS);
+  const recon::SceneView view = TrialView(240, 180, -62.0, 14.0);
+  SceneComposer on_card(GraphicsCard("the driver at hand", false).open());
+  const recon::gl::Scene cpu = SceneComposer().Compose(*frame, view), gl = on_card.Compose(*frame, view);
+  const recon::ViewRays rays(recon::CameraOf(view));
+  const auto depths = [](const recon::gl::Scene& scene) {
+    recon::HullView hull;
+    hull.depth_mm = scene.hull->depth_mm;
+    return hull;
+  };
+  const recon::ViewComparison comparison = recon::CompareViews(*frame->hull, rays, depths(cpu), depths(gl));
+  EXPECT_GT(comparison.hit_pixels, 1000);
+  EXPECT_TRUE(comparison.Agree()) << comparison.differing_pixels;
+  EXPECT_EQ(gl.parts.size(), cpu.parts.size());
+  EXPECT_EQ(gl.hull_from_lamp->depth_mm, cpu.hull_from_lamp->depth_mm);  // the lamp's is the processor's
 }
 
 // With ELBOWROOM_PICTURE_DIR set it leaves the pictures there to be looked at.

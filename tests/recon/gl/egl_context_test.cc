@@ -54,5 +54,19 @@ TEST(EglContextDeathTest, NoDriverIsOneLineThatSaysWhatToInstall) {
   EXPECT_EXIT(OpenWithoutAnyDriver(), testing::ExitedWithCode(1), "^cannot draw: [^\n]*install [^\n]*\n$");
 }
 
+// Likewise: Mesa alone, drawing with the processor.
+void OpenSoftware() {
+  ::setenv("__EGL_VENDOR_LIBRARY_FILENAMES", "/usr/share/glvnd/egl_vendor.d/50_mesa.json", 1);
+  ::setenv("LIBGL_ALWAYS_SOFTWARE", "1", 1);
+  const EglContext context;
+  std::cerr << context.driver() << '\n';
+  std::exit(context.is_software() ? 0 : 1);
+}
+
+TEST(EglContextDeathTest, KnowsSoftware) {
+  testing::FLAGS_gtest_death_test_style = "threadsafe";
+  EXPECT_EXIT(OpenSoftware(), testing::ExitedWithCode(0), "");
+}
+
 }  // namespace
 }  // namespace elbowroom::recon::gl
