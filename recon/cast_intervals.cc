@@ -32,8 +32,8 @@ class Sweep {
   Sweep(std::span<const OrderedEdge> edges, bool starts_inside, CastIntervals* intervals)
       : edges_(edges), starts_inside_(starts_inside), out_(*intervals) {
     out_.begins.reserve(edges.size() + 2);
-    out_.first_crossing.reserve(edges.size() + 2);
-    out_.crossings.reserve(16 * edges.size() + 4);
+    out_.runs.reserve(edges.size() + 2);
+    out_.crossings.reserve(8 * edges.size() + 2);
     ranges_.reserve(edges.size() + 2);
   }
 
@@ -47,8 +47,7 @@ class Sweep {
       Pass(at);
     }
     out_.begins.push_back(kInfinity);
-    out_.first_crossing.push_back(static_cast<std::int32_t>(out_.crossings.size() / 4));
-    out_.crossings.resize(out_.crossings.size() + 4, 0.0F);
+    out_.crossings.resize(out_.crossings.size() + 2);
     return std::move(ranges_);
   }
 
@@ -103,13 +102,11 @@ class Sweep {
   // The interval from `at` to end_.
   void Emit(float at) {
     out_.begins.push_back(at);
-    out_.first_crossing.push_back(static_cast<std::int32_t>(out_.crossings.size() / 4));
-    for (const std::uint32_t number : met_) {
-      const CastEdge& edge = edges_[number].cast;
-      const CrossingTag tag{static_cast<std::int32_t>(number), edge.is_entry};
-      const float fields[] = {edge.key.du, edge.key.dv, edge.key.at_origin, BitsOf(tag)};
-      out_.crossings.insert(out_.crossings.end(), std::begin(fields), std::end(fields));
-    }
+    std::size_t place = out_.crossings.size() / 2;
+    out_.runs.push_back(place | (place + met_.size()) << 32U);
+    out_.crossings.resize(out_.crossings.size() + 2 * met_.size());
+    for (const std::uint32_t number : met_)
+      out_.SetCrossing(place++, {edges_[number].cast.key, number, edges_[number].cast.is_entry});
     ranges_.push_back(RangeOf(std::max(double{at}, -2.0), std::min(double{end_}, 2.0)));
   }
 
@@ -154,7 +151,7 @@ std::pair<std::size_t, std::size_t> IntervalsOf(const CastPencil& pencil, std::u
                                                 std::uint32_t last_bin) {
   const CastIntervals& intervals = pencil.intervals;
   const auto first = static_cast<std::size_t>(intervals.first_interval[first_bin]);
-  if (last_bin + 1 == pencil.bins) return {first, intervals.begins.size() - 2};
+  if (last_bin + 1 == pencil.bins) return {first, intervals.size() - 1};
   auto last = static_cast<std::size_t>(intervals.first_interval[last_bin + 1]);
   while (intervals.begins[last + 1] <= BeginOf(pencil, last_bin + 1) + kAngleSlack) ++last;
   return {first, last};

@@ -58,6 +58,24 @@ struct Front {
 HWY_INLINE VI Lanes(MF mask) { return hn::VecFromMask(Ints(), hn::RebindMask(Ints(), mask)); }
 HWY_INLINE MF MaskOf(VI lanes) { return hn::RebindMask(Floats(), hn::Lt(lanes, hn::Zero(Ints()))); }
 
+// The lower and the upper halves of some words.
+struct Halves {
+  VI lower;
+  VI upper;
+};
+
+HWY_INLINE Halves GatherWords(const std::uint64_t* words, VI at) {
+  const Ints n;
+  const hn::Half<Ints> half;
+  const hn::RepartitionToWide<Ints> wide;
+  const hn::RebindToUnsigned<decltype(wide)> word;
+  const auto gather = [&](auto where) {
+    return hn::BitCast(n, hn::GatherIndex(word, words, hn::PromoteTo(wide, where)));
+  };
+  const VI first = gather(hn::LowerHalf(half, at)), second = gather(hn::UpperHalf(half, at));
+  return {hn::ConcatEven(n, second, first), hn::ConcatOdd(n, second, first)};
+}
+
 // The bits of the vector's rays.
 HWY_INLINE MF MaskOfBits(std::uint32_t bits) {
   const Ints n;
@@ -128,9 +146,9 @@ class Walk {
       const auto is_by = hn::Eq(front.camera, hn::Set(n, static_cast<std::int32_t>(i)));
       const TileCamera& camera = i < cameras_.size() ? cameras_[i] : sights_[i - cameras_.size()];
       if (hn::AllFalse(n, is_by) || camera.pencil->bins == 0) continue;
-      const VI at = hn::ShiftLeft<2>(hn::IfThenElseZero(is_by, front.place));
-      const VF bits = hn::GatherIndex(f, camera.pencil->intervals.crossings.data() + 3, at);
-      found = hn::IfThenElse(is_by, hn::ShiftRight<1>(hn::BitCast(n, bits)), found);
+      const VI at = hn::ShiftLeft<1>(hn::IfThenElseZero(is_by, front.place));
+      const VI tags = GatherWords(camera.pencil->intervals.crossings.data() + 1, at).upper;
+      found = hn::IfThenElse(is_by, hn::ShiftRight<1>(tags), found);
     }
     return found;
   }
@@ -156,9 +174,9 @@ class Walk {
       if (hn::AllFalse(f, is_later)) break;
       interval = hn::Sub(interval, Lanes(is_later));
     }
-    course.place = hn::GatherIndex(n, intervals.first_crossing.data(), interval);
-    course.end = hn::GatherIndex(n, intervals.first_crossing.data() + 1, interval);
-    course.end = hn::IfThenElse(hn::RebindMask(n, has_angle), course.end, course.place);
+    const Halves run = GatherWords(intervals.runs.data(), interval);
+    course.place = run.lower;
+    course.end = hn::IfThenElse(hn::RebindMask(n, has_angle), run.upper, run.lower);
     Fetch(pencil, &course);
     return course;
   }
@@ -167,17 +185,17 @@ class Walk {
   HWY_INLINE void Fetch(const CastPencil& pencil, Course* course) const {
     const Floats f;
     const Ints n;
-    const float* crossings = pencil.intervals.crossings.data();
-    const VI at = hn::ShiftLeft<2>(course->place);
-    const VF du = hn::GatherIndex(f, crossings, at), dv = hn::GatherIndex(f, crossings + 1, at);
-    const VF at_origin = hn::GatherIndex(f, crossings + 2, at);
-    const VI bits = hn::BitCast(n, hn::GatherIndex(f, crossings + 3, at));
+    const std::uint64_t* crossings = pencil.intervals.crossings.data();
+    const VI at = hn::ShiftLeft<1>(course->place);
+    const Halves slopes = GatherWords(crossings, at), rest = GatherWords(crossings + 1, at);
+    const VF du = hn::BitCast(f, slopes.lower), dv = hn::BitCast(f, slopes.upper);
+    const VF at_origin = hn::BitCast(f, rest.lower);
     // No fused operation, as in At.
     const VF key = hn::Add(hn::Add(hn::Mul(rays_.u, du), hn::Mul(rays_.v, dv)), at_origin);
     const MF is_there = hn::RebindMask(f, hn::Lt(course->place, course->end));
     const MF is_ahead = hn::And(is_there, hn::Lt(key, rays_.key_end));
     course->key = hn::IfThenElse(is_ahead, key, hn::Set(f, kInfinity));
-    course->is_entry = MaskOf(hn::ShiftLeft<31>(bits));
+    course->is_entry = MaskOf(hn::ShiftLeft<31>(rest.upper));
   }
 
   // Passes all crossings up to `at`, and exits of rays that are outside already (rounding may have put them

@@ -29,31 +29,48 @@ struct CastEdge {
   bool is_entry = false;   // rays enter the object by it
 };
 
-// Angles in which rays meet the same edges, in the same order: [begins[i], begins[i + 1]) is interval i.
-// begins[0] is -infinity, the last one infinity.
-struct CastIntervals {
-  std::vector<float> begins;
-  // Crossings of interval i: first_crossing[i] to first_crossing[i + 1], in their order along the rays,
-  // entries and exits in turn. Four numbers each: du, dv and at_origin of the key, and a CrossingTag's bits;
-  // one crossing more than there are.
-  std::vector<std::int32_t> first_crossing;
-  std::vector<float> crossings;
-  // By bin: no later than the interval of any ray whose angle is in the bin.
-  std::vector<std::int32_t> first_interval;
+// An edge in the list of those that a ray meets.
+struct CastCrossing {
+  CastForm key;
+  std::uint32_t edge = 0;  // number in CastPencil::edges, below 2^31
+  bool is_entry = false;   // rays enter the object by it
 };
 
-// Number in CastPencil::edges, and whether rays enter the object by it.
-struct CrossingTag {
-  std::int32_t edge = 0;
-  bool is_entry = false;
+// Angles in which rays meet the same edges, in the same order: [begins[i], begins[i + 1]) is interval i.
+// begins[0] is -infinity, the last one infinity. Packed into words, which rays gather.
+struct CastIntervals {
+  std::vector<float> begins;
+  // By interval: the first of its crossings, and past the last, in their order along the rays, entries and
+  // exits in turn.
+  std::vector<std::uint64_t> runs;
+  // Two words each: the key's du and dv; its at_origin, and edge and is_entry. One crossing more than there
+  // are.
+  std::vector<std::uint64_t> crossings;
+  // By bin: no later than the interval of any ray whose angle is in the bin.
+  std::vector<std::int32_t> first_interval;
+
+  struct Run {
+    std::size_t begin = 0;
+    std::size_t end = 0;
+  };
+  [[nodiscard]] std::size_t size() const { return runs.size(); }
+  [[nodiscard]] Run RunOf(std::size_t interval) const {
+    return {runs[interval] & 0xFFFFFFFFU, runs[interval] >> 32U};
+  }
+  [[nodiscard]] CastCrossing CrossingAt(std::size_t place) const {
+    const auto real = [](std::uint64_t bits) {
+      return std::bit_cast<float>(static_cast<std::uint32_t>(bits));
+    };
+    const std::uint64_t a = crossings[2 * place], b = crossings[2 * place + 1];
+    return {{real(a), real(a >> 32U), real(b)}, static_cast<std::uint32_t>(b >> 33U), ((b >> 32U) & 1U) != 0};
+  }
+  void SetCrossing(std::size_t place, const CastCrossing& crossing) {
+    const auto bits = [](float real) { return std::uint64_t{std::bit_cast<std::uint32_t>(real)}; };
+    const std::uint64_t tag = 2 * std::uint64_t{crossing.edge} + (crossing.is_entry ? 1 : 0);
+    crossings[2 * place] = bits(crossing.key.du) | bits(crossing.key.dv) << 32U;
+    crossings[2 * place + 1] = bits(crossing.key.at_origin) | tag << 32U;
+  }
 };
-[[nodiscard]] inline float BitsOf(const CrossingTag& tag) {
-  return std::bit_cast<float>(tag.edge * 2 + (tag.is_entry ? 1 : 0));
-}
-[[nodiscard]] inline CrossingTag TagOf(float bits) {
-  const auto whole = std::bit_cast<std::int32_t>(bits);
-  return {whole / 2, whole % 2 != 0};
-}
 
 // All that one camera can tell a view's rays.
 struct CastPencil {

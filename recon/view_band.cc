@@ -78,17 +78,17 @@ std::uint32_t BinOf(const CastPencil& pencil, double angle) {
 // The edges of a kind that rays at an angle in the range may be on.
 std::vector<CastEdge> EdgesAt(const CastPencil& pencil, bool is_entry, const Range& angle) {
   const auto [first, last] = IntervalsOf(pencil, BinOf(pencil, angle.low), BinOf(pencil, angle.high));
-  std::vector<std::int32_t> numbers;
-  for (auto i = pencil.intervals.first_crossing[first]; i < pencil.intervals.first_crossing[last + 1]; ++i) {
-    const CrossingTag tag = TagOf(pencil.intervals.crossings[4 * static_cast<std::size_t>(i) + 3]);
-    const CastEdge& edge = pencil.edges[static_cast<std::size_t>(tag.edge)];
-    if (tag.is_entry == is_entry && edge.from <= angle.high && edge.to > angle.low)
-      numbers.push_back(tag.edge);
+  std::vector<std::uint32_t> numbers;
+  for (std::size_t i = pencil.intervals.RunOf(first).begin; i < pencil.intervals.RunOf(last).end; ++i) {
+    const CastCrossing crossing = pencil.intervals.CrossingAt(i);
+    const CastEdge& edge = pencil.edges[crossing.edge];
+    if (crossing.is_entry == is_entry && edge.from <= angle.high && edge.to > angle.low)
+      numbers.push_back(crossing.edge);
   }
   std::ranges::sort(numbers);
   numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
   std::vector<CastEdge> found;
-  for (const std::int32_t number : numbers) found.push_back(pencil.edges[static_cast<std::size_t>(number)]);
+  for (const std::uint32_t number : numbers) found.push_back(pencil.edges[number]);
   return found;
 }
 

@@ -19,13 +19,13 @@ void AddCrossings(const CastPencil& pencil, std::size_t interval, bool entries, 
   const CastIntervals& intervals = pencil.intervals;
   const Eigen::Vector2f angles(std::max(intervals.begins[interval], -kBeyondAngles),
                                std::min(intervals.begins[interval + 1], kBeyondAngles));
-  for (auto i = intervals.first_crossing[interval]; i < intervals.first_crossing[interval + 1]; ++i) {
-    const float* form = intervals.crossings.data() + 4 * static_cast<std::size_t>(i);
-    const CrossingTag tag = TagOf(form[3]);
-    if (tag.is_entry != entries) continue;
+  const CastIntervals::Run run = intervals.RunOf(interval);
+  for (std::size_t i = run.begin; i < run.end; ++i) {
+    const CastCrossing crossing = intervals.CrossingAt(i);
+    if (crossing.is_entry != entries) continue;
     tables->angles.push_back(angles);
-    const std::uint32_t edge = pencil.edges[static_cast<std::size_t>(tag.edge)].edge;
-    tables->keys.emplace_back(form[0], form[1], form[2], static_cast<float>(edge));
+    tables->keys.emplace_back(crossing.key.du, crossing.key.dv, crossing.key.at_origin,
+                              static_cast<float>(pencil.edges[crossing.edge].edge));
   }
 }
 

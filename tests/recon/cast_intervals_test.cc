@@ -45,9 +45,10 @@ std::vector<Crossing> ListedAt(const CastPencil& pencil, float angle, const Vect
   const auto after = std::upper_bound(intervals.begins.begin(), intervals.begins.end(), angle);
   const auto interval = static_cast<std::size_t>(after - intervals.begins.begin()) - 1;
   std::vector<Crossing> listed;
-  for (auto i = intervals.first_crossing[interval]; i < intervals.first_crossing[interval + 1]; ++i) {
-    const float* fields = intervals.crossings.data() + 4 * static_cast<std::size_t>(i);
-    listed.push_back(CrossingAt({fields[0], fields[1], fields[2]}, uv, TagOf(fields[3]).is_entry));
+  const CastIntervals::Run run = intervals.RunOf(interval);
+  for (std::size_t i = run.begin; i < run.end; ++i) {
+    const CastCrossing crossing = intervals.CrossingAt(i);
+    listed.push_back(CrossingAt(crossing.key, uv, crossing.is_entry));
   }
   return listed;
 }
