@@ -8,11 +8,11 @@
 #include <variant>
 #include <vector>
 
-#include "core/bit_mask.h"
 #include "core/contact.h"
 #include "core/ids.h"
 #include "core/layout.h"
 #include "core/rig.h"
+#include "core/soft_mask.h"
 
 namespace elbowroom::core {
 
@@ -54,7 +54,7 @@ struct SessionHeader {
   std::map<std::string, std::string> versions;  // software and drivers
 };
 
-using SharedMasks = std::shared_ptr<const std::vector<BitMask>>;
+using SharedMasks = std::shared_ptr<const std::vector<SoftMask>>;
 
 struct FrameRecord {
   FrameIndex frame = 0;

@@ -33,17 +33,23 @@ BitMask BoundaryPixels(const BitMask& mask) {
   return boundary;
 }
 
-void SoftMask::Validate() const {
-  if (levels.empty()) return;
+std::optional<std::string_view> SoftMask::BrokenRule() const {
+  if (levels.empty()) return std::nullopt;
   const BitMask boundary = BoundaryPixels(mask);
-  Require(levels.size() == boundary.CountObjectPixels(), "a soft mask has one level a boundary pixel");
+  if (levels.size() != boundary.CountObjectPixels()) return "a soft mask has one level a boundary pixel";
   std::size_t next = 0;
   for (std::size_t i = 0; i < boundary.words().size(); ++i) {
     for (std::uint64_t bits = boundary.words()[i]; bits != 0; bits &= bits - 1) {
       const bool is_object = ((mask.words()[i] >> static_cast<unsigned>(std::countr_zero(bits))) & 1U) != 0;
-      Require((levels[next++] >= 128) == is_object, "a soft mask's levels agree with its bits");
+      if ((levels[next++] >= 128) != is_object) return "a soft mask's levels agree with its bits";
     }
   }
+  return std::nullopt;
+}
+
+void SoftMask::Validate() const {
+  const std::optional<std::string_view> broken = BrokenRule();
+  Require(!broken, broken.value_or(""));
 }
 
 }  // namespace elbowroom::core

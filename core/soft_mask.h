@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
+#include <string_view>
 #include <vector>
 
 #include "core/bit_mask.h"
@@ -18,6 +20,9 @@ namespace elbowroom::core {
 struct SoftMask {
   BitMask mask;
   std::vector<std::uint8_t> levels;
+
+  // Which of these rules the levels break; nothing: they are as said.
+  [[nodiscard]] std::optional<std::string_view> BrokenRule() const;
 
   // Throws: PreconditionError when `levels` is neither empty nor one a boundary pixel, or contradicts the
   // mask.

@@ -1,162 +1,138 @@
 #include "recon/block_surface.h"
 
-#include <algorithm>
+#include <bit>
 #include <cstddef>
-#include <optional>
 
-#include "recon/camera_query.h"
+#include "core/error.h"
 #include "recon/cube_table.h"
 
 namespace elbowroom::recon {
 namespace {
 
-using Eigen::Vector3d;
+constexpr auto kSide = static_cast<std::size_t>(kBlockPoints);
+constexpr unsigned kRowOfCells = (1U << kBlockCells) - 1U;
 
-constexpr int kPoints = kBlockCells + 1;  // grid points on a side
-constexpr int kPairs = kBlockCells / 2;
-constexpr int kBisections = 40;
-// Vertices keep this share of an edge away from its ends, so that no two of them fall together: in float32
-// too, while the workspace is less than some 8000 edges long.
-constexpr double kEndShare = 1.0 / 2048;
+using Rows = std::array<std::array<unsigned, kSide>, kSide>;  // of labels, by z and y
 
-class Cutter {
- public:
-  Cutter(const VisualHull& hull, const HullGrid& grid, const HullBlock& block)
-      : hull_(hull), grid_(grid), block_(block) {
-    labels_.fill(kUnknown);
-    for (auto& vertices : vertices_) vertices.fill(-1);
-  }
+Rows RowsOf(const BlockBits& labels) {
+  Rows rows;
+  for (int z = 0; z < kBlockPoints; ++z)
+    for (int y = 0; y < kBlockPoints; ++y)
+      rows[static_cast<std::size_t>(z)][static_cast<std::size_t>(y)] = labels.Row(y, z);
+  return rows;
+}
 
-  BlockSurface Cut() {
-    for (std::size_t i = 0; i < block_.mixed.size(); ++i) {
-      if (!block_.mixed[i]) continue;
-      const auto pair = static_cast<int>(i);
-      const GridPoint corner(pair % kPairs * 2, pair / kPairs % kPairs * 2, pair / (kPairs * kPairs) * 2);
-      for (int cell = 0; cell < 8; ++cell) CutCell(corner + CornerOffset(cell));
-    }
-    return std::move(surface_);
-  }
-
- private:
-  static constexpr std::uint8_t kUnknown = 2;
-
-  static GridPoint CornerOffset(int corner) { return {corner & 1, (corner >> 1) & 1, corner >> 2}; }
-  static std::size_t Index(const GridPoint& p) {
-    return static_cast<std::size_t>(p.x() + kPoints * (p.y() + kPoints * p.z()));
-  }
-
-  void CutCell(const GridPoint& cell) {
-    if (((block_.corner + cell).array() >= grid_.cells.array()).any()) return;
-    ++surface_.cells;
-    unsigned inside = 0;
-    for (int corner = 0; corner < 8; ++corner)
-      inside |= static_cast<unsigned>(IsInside(cell + CornerOffset(corner))) << static_cast<unsigned>(corner);
-    for (const std::array<std::uint8_t, 3>& triangle : CubeTable()[inside])
-      surface_.triangles.push_back(
-          {VertexOn(cell, triangle[0]), VertexOn(cell, triangle[1]), VertexOn(cell, triangle[2])});
-  }
-
-  bool IsInside(const GridPoint& p) {
-    std::uint8_t& label = labels_[Index(p)];
-    if (label == kUnknown) label = ContainsAt(grid_.At(block_.corner + p)) ? 1 : 0;
-    return label != 0;
-  }
-
-  // VisualHull::Contains, of a point in the block.
-  bool ContainsAt(const Vector3d& x) {
-    ++surface_.queries;
-    if (!block_.is_in_workspace && !hull_.rig().workspace_mm.contains(x)) return false;
-    for (const std::uint8_t i : block_.cameras) {
-      const Silhouette& silhouette = *hull_.silhouettes()[i];
-      if (!IsObjectTo(hull_.rig().cameras[i], silhouette.plane().focal_px(), silhouette.labels(), x))
-        return false;
-    }
-    return block_.is_seen || IsSeen(x);
-  }
-
-  [[nodiscard]] bool IsSeen(const Vector3d& x) const {
-    for (std::size_t i = 0; i < hull_.silhouettes().size(); ++i) {
-      const PicturePlane& plane = hull_.silhouettes()[i]->plane();
-      if (IsObjectTo(hull_.rig().cameras[i], plane.focal_px(), plane.outline(), x)) return true;
-    }
-    return false;
-  }
-
-  std::int32_t VertexOn(const GridPoint& cell, std::size_t cube_edge) {
-    const int axis = static_cast<int>(cube_edge / 4);
-    const GridPoint low = cell + CornerOffset(kCubeEdges[cube_edge].low);
-    std::int32_t& vertex = vertices_[static_cast<std::size_t>(axis)][Index(low)];
-    if (vertex >= 0) return vertex;
-    const GridPoint high = low + GridPoint(GridPoint::Unit(axis));
-    vertex = static_cast<std::int32_t>(surface_.vertices_in_world.size());
-    const bool low_is_inside = IsInside(low);
-    surface_.vertices_in_world.push_back(Crossing(grid_.At(block_.corner + (low_is_inside ? low : high)),
-                                                  grid_.At(block_.corner + (low_is_inside ? high : low))));
-    bool is_shared = false;
-    for (int other = 0; other < 3; ++other)
-      is_shared = is_shared || (other != axis && (low[other] == 0 || low[other] == kBlockCells));
-    surface_.shared_edges.push_back(is_shared ? EdgeKey(block_.corner + low, axis) : 0);
-    return vertex;
-  }
-
-  Vector3d Crossing(const Vector3d& inside, const Vector3d& outside) {
-    ++surface_.queries;
-    const std::optional<double> exact = block_.is_seen ? FirstExit(inside, outside) : std::nullopt;
-    const double share = exact ? *exact : BisectedExit(inside, outside);
-    return inside + std::clamp(share, kEndShare, 1.0 - kEndShare) * (outside - inside);
-  }
-
-  // Share of the way where the first camera sees the hull end, or the workspace does.
-  [[nodiscard]] std::optional<double> FirstExit(const Vector3d& inside, const Vector3d& outside) const {
-    std::optional<double> first;
-    const auto offer = [&](double share) { first = std::min(first.value_or(share), share); };
-    if (!block_.is_in_workspace) {
-      const Eigen::AlignedBox3d& box = hull_.rig().workspace_mm;
-      for (int axis = 0; axis < 3; ++axis) {
-        const double way = outside[axis] - inside[axis];
-        if (outside[axis] > box.max()[axis]) offer((box.max()[axis] - inside[axis]) / way);
-        if (outside[axis] < box.min()[axis]) offer((box.min()[axis] - inside[axis]) / way);
+// Calls visit(x, y, z, corners inside) for the cells that the surface cuts.
+template <typename Visit>
+void VisitCutCells(const Rows& rows, const Visit& visit) {
+  for (std::size_t z = 0; z + 1 < kSide; ++z) {
+    for (std::size_t y = 0; y + 1 < kSide; ++y) {
+      const unsigned a = rows[z][y], b = rows[z][y + 1], c = rows[z + 1][y], d = rows[z + 1][y + 1];
+      const unsigned any = a | b | c | d, all = a & b & c & d;
+      unsigned cut = (any | any >> 1U) & ~(all & all >> 1U) & kRowOfCells;
+      for (; cut != 0; cut &= cut - 1) {
+        const auto x = static_cast<unsigned>(std::countr_zero(cut));
+        const unsigned inside =
+            (a >> x & 3U) | (b >> x & 3U) << 2U | (c >> x & 3U) << 4U | (d >> x & 3U) << 6U;
+        visit(x, y, z, inside);
       }
     }
-    for (const std::uint8_t i : block_.cameras) {
-      const core::RigidTransform& cam_from_world = hull_.rig().cameras[i].cam_from_world();
-      const Vector3d from = cam_from_world * inside, to = cam_from_world * outside;
-      if (!(from.z() > 0.0) || !(to.z() > 0.0)) return std::nullopt;
-      const double focal_px = hull_.silhouettes()[i]->plane().focal_px();
-      const std::optional<double> in_picture = hull_.silhouettes()[i]->labels().FirstCrossing(
-          from.head<2>() * (focal_px / from.z()), to.head<2>() * (focal_px / to.z()));
-      // From a share of the way in the picture to one of the way in space.
-      if (in_picture) offer(*in_picture * from.z() / (to.z() + *in_picture * (from.z() - to.z())));
-    }
-    return first;
   }
+}
 
-  double BisectedExit(const Vector3d& inside, const Vector3d& outside) {
-    double low = 0.0, high = 1.0;
-    for (int i = 0; i < kBisections; ++i) {
-      const double middle = 0.5 * (low + high);
-      (ContainsAt(inside + middle * (outside - inside)) ? low : high) = middle;
+// Calls visit(axis, x, y, z, whether the edge's lower end is inside) for the block's own edges that change.
+template <typename Visit>
+void VisitChanges(const Rows& rows, const Visit& visit) {
+  for (std::size_t z = 0; z + 1 < kSide; ++z) {
+    for (std::size_t y = 0; y + 1 < kSide; ++y) {
+      const unsigned row = rows[z][y];
+      const std::array<unsigned, 3> next = {row >> 1U, rows[z][y + 1], rows[z + 1][y]};
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        for (unsigned changes = (row ^ next[axis]) & kRowOfCells; changes != 0; changes &= changes - 1) {
+          const auto x = static_cast<unsigned>(std::countr_zero(changes));
+          visit(axis, x, y, z, (row >> x & 1U) != 0);
+        }
+      }
     }
-    return 0.5 * (low + high);
   }
+}
 
-  const VisualHull& hull_;
-  const HullGrid& grid_;
-  const HullBlock& block_;
-  std::array<std::uint8_t, kPoints * kPoints * kPoints> labels_;
-  std::array<std::array<std::int32_t, kPoints * kPoints * kPoints>, 3> vertices_;  // by axis and lower end
-  BlockSurface surface_;
-};
+constexpr std::size_t Index(std::size_t axis, std::size_t x, std::size_t y, std::size_t z) {
+  return ((axis * kSide + z) * kSide + y) * kSide + x;
+}
+
+// By edge of a cube: how far from the index of the cell's corner, along axis 0.
+constexpr std::array<std::size_t, kCubeEdges.size()> EdgeOffsets() {
+  std::array<std::size_t, kCubeEdges.size()> offsets{};
+  for (std::size_t edge = 0; edge < offsets.size(); ++edge) {
+    const auto low = static_cast<std::size_t>(kCubeEdges[edge].low);
+    offsets[edge] = Index(edge / 4, low & 1U, low >> 1U & 1U, low >> 2U);
+  }
+  return offsets;
+}
+constexpr auto kEdgeOffsets = EdgeOffsets();
+
+// By Index(): a grid edge's vertex in the mesh, or -1.
+using VertexNumbers = std::array<std::int32_t, Index(3, 0, 0, 0)>;
+
+VertexNumbers NumberEdges(std::span<const BlockNeighbour> blocks) {
+  VertexNumbers numbers;
+  numbers.fill(-1);
+  for (const BlockNeighbour& block : blocks) {
+    const unsigned steps = block.steps;
+    const std::size_t shift =
+        Index(0, (steps & 1U) * kBlockCells, (steps >> 1U & 1U) * kBlockCells, (steps >> 2U) * kBlockCells);
+    std::int32_t number = block.first_vertex;
+    for (const BlockEdge& edge : block.surface->edges) {
+      const auto [x, y, z] = edge.low;
+      if ((steps & ~unsigned{edge.near_faces}) == 0) numbers[shift + Index(edge.axis, x, y, z)] = number;
+      ++number;
+    }
+  }
+  return numbers;
+}
 
 }  // namespace
 
-std::uint64_t EdgeKey(const GridPoint& low, int axis) {
-  return (static_cast<std::uint64_t>(axis + 1) << 60U) | (static_cast<std::uint64_t>(low.z()) << 40U) |
-         (static_cast<std::uint64_t>(low.y()) << 20U) | static_cast<std::uint64_t>(low.x());
+BlockSurface CutBlock(const HullLattice& lattice, const HullBlock& block) {
+  BlockSurface surface;
+  surface.labels = lattice.LabelsOf(block, &surface.queries);
+  const Rows rows = RowsOf(surface.labels);
+  const std::array<CubeTriangles, 256>& table = CubeTable();
+  VisitCutCells(rows, [&](std::size_t, std::size_t, std::size_t, unsigned inside) {
+    surface.triangles += table[inside].count;
+  });
+  if (surface.triangles == 0) return surface;
+  surface.edges.reserve(surface.triangles);  // about half of them, and those that cells before don't have
+  VisitChanges(rows, [&](std::size_t axis, std::size_t x, std::size_t y, std::size_t z, bool low_is_inside) {
+    const auto byte = [](std::size_t number) { return static_cast<std::uint8_t>(number); };
+    const unsigned near_faces = unsigned{x == 0} | unsigned{y == 0} << 1U | unsigned{z == 0} << 2U;
+    surface.edges.push_back({byte(axis), {byte(x), byte(y), byte(z)}, low_is_inside, byte(near_faces)});
+  });
+  surface.vertices_in_world = lattice.ExitsOf(block, surface.edges);
+  surface.queries += static_cast<std::int64_t>(surface.edges.size());
+  return surface;
 }
 
-BlockSurface CutBlock(const VisualHull& hull, const HullGrid& grid, const HullBlock& block) {
-  return Cutter(hull, grid, block).Cut();
+void WriteTriangles(std::span<const BlockNeighbour> blocks,
+                    std::span<std::array<std::int32_t, 3>> triangles) {
+  const VertexNumbers numbers = NumberEdges(blocks);
+  const std::array<CubeTriangles, 256>& table = CubeTable();
+  std::size_t next = 0;
+  std::int32_t least = 0;
+  VisitCutCells(RowsOf(blocks.front().surface->labels),
+                [&](std::size_t x, std::size_t y, std::size_t z, unsigned inside) {
+                  const std::int32_t* const cell = numbers.data() + Index(0, x, y, z);
+                  const CubeTriangles& cut = table[inside];
+                  for (std::size_t i = 0; i < cut.count; ++i) {
+                    std::array<std::int32_t, 3>& triangle = triangles[next++];
+                    for (std::size_t corner = 0; corner < 3; ++corner) {
+                      triangle[corner] = cell[kEdgeOffsets[cut.all[i][corner]]];
+                      least = std::min(least, triangle[corner]);
+                    }
+                  }
+                });
+  core::Require(least >= 0, "the surface goes on in the next blocks");
 }
 
 }  // namespace elbowroom::recon

@@ -1,30 +1,39 @@
-// The hull's surface in one cube of an octree.
+// The hull's surface in one block of an octree.
 #pragma once
 
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
-#include "recon/hull_blocks.h"
-#include "recon/visual_hull.h"
+#include "recon/hull_lattice.h"
 
 namespace elbowroom::recon {
 
+// The part of the surface that belongs to a block: the vertices on grid edges that start within it or on its
+// near faces, and the triangles in its cells, whose corners may be vertices of the next blocks.
 struct BlockSurface {
-  std::vector<Eigen::Vector3d> vertices_in_world;
-  // By vertex: the grid edge that it stands on (EdgeKey) if other blocks have that edge too; else 0.
-  std::vector<std::uint64_t> shared_edges;
-  std::vector<std::array<std::int32_t, 3>> triangles;  // counter-clockwise seen from outside
-  std::int64_t cells = 0;                              // looked at
-  std::int64_t queries = 0;  // labels and crossings asked, of all cameras of the block
+  BlockBits labels;
+  std::vector<BlockEdge> edges;                    // that the surface crosses
+  std::vector<Eigen::Vector3d> vertices_in_world;  // one an edge
+  std::size_t triangles = 0;
+  std::int64_t queries = 0;  // labels and crossings asked
 };
 
-// Never 0. `low`: the end of the grid edge with the smaller coordinate along `axis`.
-[[nodiscard]] std::uint64_t EdgeKey(const GridPoint& low, int axis);
+// Marching cubes over the block's cells. A vertex stands where its grid edge first leaves the hull, counted
+// from the end that is inside: on the exact surface, but at least edge / 2048 from the ends.
+[[nodiscard]] BlockSurface CutBlock(const HullLattice& lattice, const HullBlock& block);
 
-// Marching cubes over the block's mixed cells. A vertex stands where its grid edge first leaves the hull,
-// counted from the end that is inside: on the exact surface, but at least edge / 2048 from the ends.
-[[nodiscard]] BlockSurface CutBlock(const VisualHull& hull, const HullGrid& grid, const HullBlock& block);
+// What a block's triangles are made of.
+struct BlockNeighbour {
+  unsigned steps = 0;  // bit a: the next one along axis a
+  const BlockSurface* surface = nullptr;
+  std::int32_t first_vertex = 0;  // of its vertices, in the whole mesh
+};
+
+// Writes the triangles of a block, counter-clockwise seen from outside, from its own surface and those of the
+// blocks behind it. Throws: PreconditionError when one is missing.
+void WriteTriangles(std::span<const BlockNeighbour> blocks, std::span<std::array<std::int32_t, 3>> triangles);
 
 }  // namespace elbowroom::recon

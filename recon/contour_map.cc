@@ -1,6 +1,7 @@
 #include "recon/contour_map.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -25,6 +26,8 @@ constexpr int kWindowCells = 2;
 constexpr double kRoundingPx = 1e-7;
 // An edge is listed in cells that it only nearly touches, so that rounding can't lose it.
 constexpr double kTouch = 1e-6;
+// Behind a raster, so that a cell's byte may be read with those that follow it.
+constexpr std::size_t kBytesBehind = 3;
 
 double SquaredDistance(const Vector2d& p, const Vector2d& a, const Vector2d& b) {
   const Vector2d ab = b - a, ap = p - a;
@@ -45,12 +48,19 @@ class ContourMap::Grid {
     const Vector2d size_px = bounds_px.sizes();
     cell_px_ = std::max(1.0, std::sqrt(size_px.prod() / kMostCells));
     cell_px_ = std::max(cell_px_, size_px.maxCoeff() / kMostCells);
+    cells_per_px_ = 1.0 / cell_px_;
     cells_ = (size_px / cell_px_).array().ceil().cast<int>() + 1 + 2 * kMarginCells;
     origin_ = bounds_px.center() - 0.5 * cell_px_ * cells_.cast<double>();
     ListEdges();
     LabelCentres(exterior_is_object);
     distances_ = CellDistances(cells_.x(), cells_.y(), first_);
   }
+
+  [[nodiscard]] LabelRaster Raster() const { return {origin_, cell_px_, cells_, labels_}; }
+
+  struct Segment {
+    Vector2d a, b;
+  };
 
   struct Place {
     Eigen::Vector2i cell;
@@ -59,7 +69,7 @@ class ContourMap::Grid {
   };
 
   [[nodiscard]] std::optional<Place> Find(const Vector2d& position) const {
-    const Vector2d at = (position - origin_) / cell_px_;
+    const Vector2d at = (position - origin_) * cells_per_px_;
     // Written so that a NaN is outside.
     if (!(at.x() >= 0.0 && at.y() >= 0.0 && at.x() < cells_.x() && at.y() < cells_.y())) return std::nullopt;
     const Eigen::Vector2i cell = at.cast<int>();
@@ -67,8 +77,9 @@ class ContourMap::Grid {
   }
 
   [[nodiscard]] bool LabelOf(const Place& place, const Vector2d& position) const {
-    const bool at_centre = centre_labels_[place.index] != 0;
-    if (first_[place.index] == first_[place.index + 1]) return at_centre;
+    const std::uint8_t label = labels_[place.index];
+    const bool at_centre = (label & LabelRaster::kObject) != 0;
+    if ((label & LabelRaster::kMixed) == 0) return at_centre;
     return at_centre != ChangesOnTheWay(place, position);
   }
 
@@ -94,20 +105,23 @@ class ContourMap::Grid {
   }
 
   [[nodiscard]] std::optional<double> FirstCrossing(const Vector2d& from, const Vector2d& to) const {
-    const Vector2d low = (from.cwiseMin(to) - origin_) / cell_px_,
-                   high = (from.cwiseMax(to) - origin_) / cell_px_;
-    const Vector2d most = (cells_ - Eigen::Vector2i::Ones()).cast<double>();
-    const Eigen::Vector2i first = low.cwiseMax(0.0).cwiseMin(most).cast<int>();
-    const Eigen::Vector2i last = high.cwiseMax(0.0).cwiseMin(most).cast<int>();
     const Vector2d way = to - from;
+    const Eigen::Vector2i one = NearestCell(from);
+    const double far_px =
+        (distances_.LowerBound(one.x(), one.y()) - 2.0 * kHalfDiagonal) * cell_px_ - kRoundingPx;
+    if (far_px > 0.0 && far_px * far_px > way.squaredNorm()) return std::nullopt;
+    const Eigen::Vector2i other = NearestCell(to);
+    const Eigen::Vector2i first = one.cwiseMin(other), last = one.cwiseMax(other);
+    const double side_of_way = Cross(way, from);
     double nearest = kInfinity;
     for (int y = first.y(); y <= last.y(); ++y) {
-      for (std::uint32_t i = first_[Index(first.x(), y)]; i < first_[Index(last.x(), y) + 1]; ++i) {
-        const Vector2d &a = From(listed_[i]), &b = To(listed_[i]);
+      const std::uint32_t end = first_[Index(last.x(), y) + 1];
+      for (std::uint32_t i = first_[Index(first.x(), y)]; i < end; ++i) {
+        const auto& [a, b] = segments_[i];
         // The ends of the edge on different sides of the way, and those of the way of the edge.
-        const double side_a = Cross(way, a - from), side_b = Cross(way, b - from);
+        const double side_a = Cross(way, a) - side_of_way, side_b = Cross(way, b) - side_of_way;
         if ((side_a > 0.0) == (side_b > 0.0)) continue;
-        const double share = Cross(a - from, b - a) / Cross(way, b - a);
+        const double share = Cross(a - from, b - a) / (side_b - side_a);
         if (share >= 0.0 && share <= 1.0) nearest = std::min(nearest, share);
       }
     }
@@ -117,6 +131,12 @@ class ContourMap::Grid {
 
  private:
   static double Cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+  [[nodiscard]] Eigen::Vector2i NearestCell(const Vector2d& position) const {
+    const Vector2d at = (position - origin_) * cells_per_px_;
+    return {static_cast<int>(std::clamp(at.x(), 0.0, cells_.x() - 1.0)),
+            static_cast<int>(std::clamp(at.y(), 0.0, cells_.y() - 1.0))};
+  }
 
   [[nodiscard]] std::size_t Index(int x, int y) const {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(cells_.x()) + static_cast<std::size_t>(x);
@@ -132,7 +152,7 @@ class ContourMap::Grid {
   // Calls visit(index of cell) for the cells that an edge touches, row by row.
   template <typename Visit>
   void VisitCells(std::uint32_t edge, const Visit& visit) const {
-    Vector2d a = (From(edge) - origin_) / cell_px_, b = (To(edge) - origin_) / cell_px_;
+    Vector2d a = (From(edge) - origin_) * cells_per_px_, b = (To(edge) - origin_) * cells_per_px_;
     if (a.y() > b.y()) std::swap(a, b);
     const int top = static_cast<int>(a.y() - kTouch), bottom = static_cast<int>(b.y() + kTouch);
     const double slope = b.y() > a.y() ? (b.x() - a.x()) / (b.y() - a.y()) : 0.0;
@@ -154,14 +174,19 @@ class ContourMap::Grid {
     for (std::uint32_t e = 0; e < edges; ++e) VisitCells(e, [&](std::size_t cell) { ++first_[cell + 1]; });
     for (std::size_t i = 1; i < first_.size(); ++i) first_[i] += first_[i - 1];
     listed_.resize(first_.back());
+    segments_.resize(first_.back());
     std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
-    for (std::uint32_t e = 0; e < edges; ++e)
-      VisitCells(e, [&](std::size_t cell) { listed_[next[cell]++] = e; });
+    for (std::uint32_t e = 0; e < edges; ++e) {
+      VisitCells(e, [&](std::size_t cell) {
+        segments_[next[cell]] = {From(e), To(e)};
+        listed_[next[cell]++] = e;
+      });
+    }
   }
 
   // Along each row of centres, from the left; an edge flips every centre at or right of where it crosses.
   void LabelCentres(bool exterior_is_object) {
-    centre_labels_.assign(first_.size() - 1, 0);
+    labels_.assign(first_.size() - 1 + kBytesBehind, 0);
     for (std::uint32_t e = 0; e < contour_.edges.size(); ++e) {
       const Vector2d &a = From(e), &b = To(e);
       const double low = std::min(a.y(), b.y()), high = std::max(a.y(), b.y());
@@ -171,12 +196,15 @@ class ContourMap::Grid {
         if ((a.y() > centre_y) == (b.y() > centre_y)) continue;
         int x = static_cast<int>((CrossingX(a, b, centre_y) - origin_.x()) / cell_px_);
         if (Centre(x, y).x() < CrossingX(a, b, centre_y)) ++x;
-        centre_labels_[Index(x, y)] ^= 1U;
+        labels_[Index(x, y)] ^= LabelRaster::kObject;
       }
     }
     for (int y = 0; y < cells_.y(); ++y) {
-      std::uint8_t label = exterior_is_object ? 1 : 0;
-      for (int x = 0; x < cells_.x(); ++x) label = centre_labels_[Index(x, y)] ^= label;
+      std::uint8_t label = exterior_is_object ? LabelRaster::kObject : 0;
+      for (std::size_t i = Index(0, y); i < Index(0, y + 1); ++i) {
+        label ^= labels_[i];
+        labels_[i] = first_[i] == first_[i + 1] ? label : label | LabelRaster::kMixed;
+      }
     }
   }
 
@@ -194,7 +222,7 @@ class ContourMap::Grid {
     const Vector2d c = Centre(place.cell.x(), place.cell.y());
     bool changes = false;
     for (std::uint32_t i = first_[place.index]; i < first_[place.index + 1]; ++i) {
-      const Vector2d &a = From(listed_[i]), &b = To(listed_[i]);
+      const auto& [a, b] = segments_[i];
       const bool rises = (b.x() - a.x()) * (b.y() - a.y()) > 0.0;
       bool corner_is_below = a.y() <= c.y();
       if ((a.y() > c.y()) != (b.y() > c.y())) {
@@ -219,7 +247,7 @@ class ContourMap::Grid {
     const int bottom = std::min(place.cell.y() + kWindowCells, cells_.y() - 1);
     for (int y = std::max(place.cell.y() - kWindowCells, 0); y <= bottom; ++y) {
       for (std::uint32_t i = first_[Index(left, y)]; i < first_[Index(right, y) + 1]; ++i) {
-        const double squared = SquaredDistance(p, From(listed_[i]), To(listed_[i]));
+        const double squared = SquaredDistance(p, segments_[i].a, segments_[i].b);
         if (squared < nearest.second) nearest = {listed_[i], squared};
       }
     }
@@ -228,12 +256,13 @@ class ContourMap::Grid {
   }
 
   const Contour& contour_;
-  double cell_px_ = 1.0;
+  double cell_px_ = 1.0, cells_per_px_ = 1.0;
   Eigen::Vector2i cells_{0, 0};
   Vector2d origin_{0.0, 0.0};
   std::vector<std::uint32_t> first_;  // of each cell's edges, in listed_; one more at the end
   std::vector<std::uint32_t> listed_;
-  std::vector<std::uint8_t> centre_labels_;  // 1: object
+  std::vector<Segment> segments_;     // as listed_
+  std::vector<std::uint8_t> labels_;  // LabelRaster's; of a mixed cell kObject is its centre's
   CellDistances distances_;
 };
 
@@ -274,6 +303,14 @@ PlaneLabel ContourMap::LabelAt(const Vector2d& position, double enough_px) const
   }
   label.distance_px = std::max(label.distance_px - kRoundingPx, 0.0);
   return label;
+}
+
+LabelRaster ContourMap::Raster() const {
+  if (!bounds_px_.isEmpty()) return grid().Raster();
+  static constexpr std::array<std::uint8_t, 1 + kBytesBehind> kBackground{0}, kObject{LabelRaster::kObject};
+  LabelRaster nothing;
+  nothing.labels = exterior_is_object_ ? kObject : kBackground;
+  return nothing;
 }
 
 std::optional<double> ContourMap::FirstCrossing(const Vector2d& from, const Vector2d& to) const {

@@ -4,11 +4,14 @@
 #include <cstddef>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "core/error.h"
 
 namespace elbowroom::recon {
 namespace {
+
+using Triangles = std::vector<std::array<std::uint8_t, 3>>;
 
 // The corners of each face in a round, counter-clockwise seen from outside the cube.
 constexpr std::array<std::array<int, 4>, 6> kFaces = {
@@ -52,17 +55,16 @@ std::array<int, 12> OutlineOf(unsigned inside) {
 }
 
 // Cuts polygon[first..last] into triangles without an inner side between two points of one face.
-std::optional<CubeTriangles> Triangulate(const std::vector<int>& polygon, std::size_t first,
-                                         std::size_t last) {
-  if (last - first < 2) return CubeTriangles{};
+std::optional<Triangles> Triangulate(const std::vector<int>& polygon, std::size_t first, std::size_t last) {
+  if (last - first < 2) return Triangles{};
   const auto is_fine = [&](std::size_t a, std::size_t b) {
     const bool is_side = b - a == 1 || (a == 0 && b + 1 == polygon.size());
     return is_side || !ShareFace(polygon[a], polygon[b]);
   };
   for (std::size_t middle = first + 1; middle < last; ++middle) {
     if (!is_fine(first, middle) || !is_fine(middle, last)) continue;
-    std::optional<CubeTriangles> left = Triangulate(polygon, first, middle);
-    const std::optional<CubeTriangles> right = Triangulate(polygon, middle, last);
+    std::optional<Triangles> left = Triangulate(polygon, first, middle);
+    const std::optional<Triangles> right = Triangulate(polygon, middle, last);
     if (!left || !right) continue;
     left->insert(left->end(), right->begin(), right->end());
     left->push_back({static_cast<std::uint8_t>(polygon[first]), static_cast<std::uint8_t>(polygon[middle]),
@@ -74,7 +76,7 @@ std::optional<CubeTriangles> Triangulate(const std::vector<int>& polygon, std::s
 
 CubeTriangles TrianglesOf(unsigned inside) {
   std::array<int, 12> next = OutlineOf(inside);
-  CubeTriangles triangles;
+  Triangles triangles;
   for (std::size_t start = 0; start < next.size(); ++start) {
     std::vector<int> polygon;
     for (int edge = static_cast<int>(start); next[static_cast<std::size_t>(edge)] >= 0;) {
@@ -82,11 +84,15 @@ CubeTriangles TrianglesOf(unsigned inside) {
       edge = std::exchange(next[static_cast<std::size_t>(edge)], -1);
     }
     if (polygon.empty()) continue;
-    const std::optional<CubeTriangles> cut = Triangulate(polygon, 0, polygon.size() - 1);
+    const std::optional<Triangles> cut = Triangulate(polygon, 0, polygon.size() - 1);
     core::Require(cut.has_value(), "every outline on a cube has a triangulation");
     triangles.insert(triangles.end(), cut->begin(), cut->end());
   }
-  return triangles;
+  core::Require(triangles.size() <= CubeTriangles::kMost, "five triangles a cube at most");
+  CubeTriangles result;
+  result.count = triangles.size();
+  std::copy(triangles.begin(), triangles.end(), result.all.begin());
+  return result;
 }
 
 }  // namespace

@@ -2,8 +2,8 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
-#include <vector>
 
 namespace elbowroom::recon {
 
@@ -16,7 +16,11 @@ inline constexpr std::array<CubeEdge, 12> kCubeEdges = {
     {{0, 1}, {2, 3}, {4, 5}, {6, 7}, {0, 2}, {1, 3}, {4, 6}, {5, 7}, {0, 4}, {1, 5}, {2, 6}, {3, 7}}};
 
 // Triangles whose corners stand on cube edges, counter-clockwise seen from outside.
-using CubeTriangles = std::vector<std::array<std::uint8_t, 3>>;
+struct CubeTriangles {
+  static constexpr std::size_t kMost = 5;
+  std::size_t count = 0;
+  std::array<std::array<std::uint8_t, 3>, kMost> all{};
+};
 
 // By the corners inside, a bit each. On a face with two inside corners across from each other these are kept
 // apart, in both of its cubes; no triangle's inner side joins two points of one face. So the surface of a

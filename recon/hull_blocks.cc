@@ -7,7 +7,6 @@
 #include <array>
 #include <cmath>
 #include <iterator>
-#include <optional>
 #include <utility>
 
 #include "core/error.h"
@@ -21,7 +20,6 @@ constexpr int kLargestSide = (1 << 20) - 1;
 // Cubes of this many cells are pieces of work.
 constexpr int kTaskCells = 32;
 constexpr std::size_t kMostCameras = 255;
-constexpr int kPairs = kBlockCells / 2;
 
 // What is still open about a cube.
 struct Doubts {
@@ -46,25 +44,6 @@ class Search {
       Descend(corner + GridPoint(child & 1, (child >> 1) & 1, child >> 2) * (size / 2), size / 2, least,
               doubts, visit);
     }
-  }
-
-  // A block with its mixed pairs; none if all of them are settled.
-  std::optional<HullBlock> BlockAt(const GridPoint& corner, const Doubts& doubts) {
-    HullBlock block;
-    block.corner = corner;
-    block.cameras.assign(doubts.cameras.begin(),
-                         doubts.cameras.begin() + static_cast<std::ptrdiff_t>(doubts.camera_count));
-    block.is_in_workspace = doubts.is_in_workspace;
-    block.is_seen = doubts.is_seen;
-    for (int half = 0; half < 8; ++half) {
-      const GridPoint at = corner + GridPoint(half & 1, (half >> 1) & 1, half >> 2) * (kBlockCells / 2);
-      Descend(at, kBlockCells / 2, 2, doubts, [&](const GridPoint& pair, const Doubts&) {
-        const GridPoint p = (pair - corner) / 2;
-        block.mixed.set(static_cast<std::size_t>(p.x() + kPairs * (p.y() + kPairs * p.z())));
-      });
-    }
-    if (block.mixed.none()) return std::nullopt;
-    return block;
   }
 
   [[nodiscard]] std::int64_t queries() const { return queries_; }
@@ -115,6 +94,21 @@ class Search {
   std::int64_t queries_ = 0;
 };
 
+HullBlock BlockAt(const GridPoint& corner, const Doubts& doubts) {
+  const auto* const cameras = doubts.cameras.data();
+  return {corner, {cameras, cameras + doubts.camera_count}, doubts.is_in_workspace, doubts.is_seen};
+}
+
+// The lowest 20 bits, two zeros between each and the next.
+std::uint64_t SpreadBits(int number) {
+  auto bits = static_cast<std::uint64_t>(number);
+  bits = (bits | bits << 32U) & 0x001F00000000FFFFU;
+  bits = (bits | bits << 16U) & 0x001F0000FF0000FFU;
+  bits = (bits | bits << 8U) & 0x100F00F00F00F00FU;
+  bits = (bits | bits << 4U) & 0x10C30C30C30C30C3U;
+  return (bits | bits << 2U) & 0x1249249249249249U;
+}
+
 struct OpenCube {
   GridPoint corner;
   Doubts doubts;
@@ -135,6 +129,10 @@ HullGrid MakeHullGrid(const Eigen::AlignedBox3d& workspace_mm, double edge_mm) {
                     edge_mm, cells.maxCoeff()));
   }
   return {workspace_mm.center() - 0.5 * edge_mm * cells, edge_mm, cells.cast<int>()};
+}
+
+std::uint64_t MortonKey(const GridPoint& corner) {
+  return SpreadBits(corner.x()) | SpreadBits(corner.y()) << 1U | SpreadBits(corner.z()) << 2U;
 }
 
 HullBlocks FindHullBlocks(const VisualHull& hull, const HullGrid& grid, const core::Progress& progress,
@@ -165,8 +163,7 @@ HullBlocks FindHullBlocks(const VisualHull& hull, const HullGrid& grid, const co
       Search fine(hull, grid);
       fine.Descend(cubes[i].corner, kTaskCells, kBlockCells, cubes[i].doubts,
                    [&](const GridPoint& corner, const Doubts& doubts) {
-                     if (auto block = fine.BlockAt(corner, doubts))
-                       parts[i - begin].push_back(std::move(*block));
+                     parts[i - begin].push_back(BlockAt(corner, doubts));
                    });
       queries[i - begin] = fine.queries();
     });

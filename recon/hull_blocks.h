@@ -3,7 +3,6 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
-#include <bitset>
 #include <cstdint>
 #include <stop_token>
 #include <vector>
@@ -37,11 +36,13 @@ struct HullBlock {
   std::vector<std::uint8_t> cameras;  // that may see a change in it; all others see object all over it
   bool is_in_workspace = false;       // all of it
   bool is_seen = true;                // all of it by some camera, where the rig asks for that
-  std::bitset<64> mixed;              // its pairs^3 of cells that aren't settled, x fastest
 };
 
+// The order of the blocks at these corners: along the octree's curve.
+[[nodiscard]] std::uint64_t MortonKey(const GridPoint& corner);
+
 struct HullBlocks {
-  std::vector<HullBlock> blocks;  // in a fixed order
+  std::vector<HullBlock> blocks;  // in MortonKey's order
   std::int64_t queries = 0;       // balls asked, of one camera each
 };
 

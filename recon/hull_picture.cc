@@ -24,7 +24,7 @@ const Vector3f kTop(0.93F, 0.94F, 0.96F), kBottom(0.72F, 0.75F, 0.79F);
 
 class Painter {
  public:
-  Painter(const core::CameraModel& view, const DepthMap& picture) : view_(view), picture_(picture) {}
+  Painter(const ViewRays& rays, const DepthMap& picture) : rays_(rays), picture_(picture) {}
 
   // Mean of the depths around, on the same surface.
   [[nodiscard]] std::vector<float> Smoothed() const {
@@ -36,15 +36,15 @@ class Painter {
   }
 
   // Towards the viewer, from differences of depths; straight at the viewer where there are no neighbours.
-  [[nodiscard]] Vector3f NormalInCam(const std::vector<float>& depth_mm, int x, int y) const {
+  [[nodiscard]] Vector3f NormalInView(const std::vector<float>& depth_mm, int x, int y) const {
     const Vector3f across = Difference(depth_mm, x, y, 1, 0), down = Difference(depth_mm, x, y, 0, 1);
     const Vector3f normal = down.cross(across);
     return normal.squaredNorm() > 0.0F ? Vector3f(normal.normalized()) : Vector3f(-Vector3f::UnitZ());
   }
 
-  [[nodiscard]] static Vector3f Lit(const Vector3f& normal_in_cam, const Vector3f& to_eye) {
+  [[nodiscard]] static Vector3f Lit(const Vector3f& normal_in_view, const Vector3f& to_eye) {
     const Vector3f to_light = Vector3f(-0.45F, -0.75F, -0.85F).normalized();
-    const Vector3f n = normal_in_cam.dot(to_eye) < 0.0F ? Vector3f(-normal_in_cam) : normal_in_cam;
+    const Vector3f n = normal_in_view.dot(to_eye) < 0.0F ? Vector3f(-normal_in_view) : normal_in_view;
     const float key = std::max(n.dot(to_light), 0.0F), facing = std::max(n.dot(to_eye), 0.0F);
     const float highlight = std::pow(std::max(n.dot((to_light + to_eye).normalized()), 0.0F), 40.0F);
     const float sky = 0.5F - 0.5F * n.y();
@@ -52,9 +52,10 @@ class Painter {
            Vector3f::Constant(0.06F * highlight);
   }
 
-  [[nodiscard]] Vector3f Ray(int x, int y) const {
-    const auto normalised = view_.NormalisedFromPixel({x, y});
-    return normalised ? Vector3f(normalised->homogeneous().cast<float>()) : Vector3f(Vector3f::Zero());
+  // Unit, against the pixel's ray.
+  [[nodiscard]] Vector3f ToEye(int x, int y) const {
+    if (rays_.projection() == Projection::kOrthographic) return -Vector3f::UnitZ();
+    return -rays_.At(x, y).cast<float>().homogeneous().normalized();
   }
 
   [[nodiscard]] std::size_t Index(int x, int y) const {
@@ -88,40 +89,45 @@ class Painter {
       const int i = std::clamp(x + sign * dx, 0, picture_.width_px - 1),
                 j = std::clamp(y + sign * dy, 0, picture_.height_px - 1);
       const float other_mm = depth_mm[Index(i, j)];
-      return IsOnSurface(here_mm, other_mm) ? Vector3f(other_mm * Ray(i, j)) : Vector3f(here_mm * Ray(x, y));
+      return IsOnSurface(here_mm, other_mm) ? PointInView(i, j, other_mm) : PointInView(x, y, here_mm);
     };
     return point(1) - point(-1);
   }
 
-  const core::CameraModel& view_;
+  [[nodiscard]] Vector3f PointInView(int x, int y, float depth_mm) const {
+    const Eigen::Vector2f uv = rays_.At(x, y).cast<float>();
+    if (rays_.projection() == Projection::kOrthographic) return {uv.x(), uv.y(), depth_mm};
+    return depth_mm * uv.homogeneous();
+  }
+
+  const ViewRays& rays_;
   const DepthMap& picture_;
 };
 
 }  // namespace
 
-Image DrawHull(const core::CameraModel& view, const DepthMap& picture,
-               std::span<const Vector3f> normal_in_world) {
+Image DrawHull(const ViewRays& rays, const DepthMap& picture, std::span<const Vector3f> normal_in_world) {
   const std::size_t pixels = picture.depth_mm.size();
-  core::Require(picture.width_px == view.width_px() && picture.height_px == view.height_px(),
+  core::Require(picture.width_px == rays.width_px() && picture.height_px == rays.height_px(),
                 "a picture has its view's size");
   core::Require(normal_in_world.empty() || normal_in_world.size() == pixels,
                 "normals are one a pixel, or none");
-  const Painter painter(view, picture);
+  const Painter painter(rays, picture);
   const std::vector<float> smooth = normal_in_world.empty() ? painter.Smoothed() : std::vector<float>();
-  const Eigen::Matrix3f cam_from_world = view.cam_from_world().rotation.cast<float>();
+  const Eigen::Matrix3f view_from_world = rays.view_from_world().rotation.cast<float>();
   Image image{picture.width_px, picture.height_px, std::vector<std::uint8_t>(3 * pixels)};
   tbb::parallel_for(0, image.height_px, [&](int y) {
     const float share = (static_cast<float>(y) + 0.5F) / static_cast<float>(image.height_px);
     for (int x = 0; x < image.width_px; ++x) {
       const std::size_t pixel = painter.Index(x, y);
       Vector3f color = kTop + share * (kBottom - kTop);
-      if (picture.depth_mm[pixel] > 0.0F) {
-        const Vector3f to_eye = -painter.Ray(x, y).normalized();
+      if (picture.depth_mm[pixel] != 0.0F) {  // negative behind an orthographic view's plane
+        const Vector3f to_eye = painter.ToEye(x, y);
         const bool is_known = !normal_in_world.empty() && normal_in_world[pixel].squaredNorm() > 0.0F;
-        Vector3f normal_in_cam = to_eye;
-        if (is_known) normal_in_cam = cam_from_world * normal_in_world[pixel];
-        if (normal_in_world.empty()) normal_in_cam = painter.NormalInCam(smooth, x, y);
-        color = Painter::Lit(normal_in_cam, to_eye);
+        Vector3f normal_in_view = to_eye;
+        if (is_known) normal_in_view = view_from_world * normal_in_world[pixel];
+        if (normal_in_world.empty()) normal_in_view = painter.NormalInView(smooth, x, y);
+        color = Painter::Lit(normal_in_view, to_eye);
       }
       for (Eigen::Index i = 0; i < 3; ++i) {
         image.rgb[3 * pixel + static_cast<std::size_t>(i)] =

@@ -4,17 +4,17 @@
 #include <Eigen/Core>
 #include <span>
 
-#include "core/camera_model.h"
 #include "recon/depth_map.h"
 #include "recon/image.h"
+#include "recon/view_rays.h"
 
 namespace elbowroom::recon {
 
 // The surface in one colour, lit from over the viewer's left shoulder, before a plain background.
 // `normal_in_world`: unit, one a pixel, zero where unknown; empty: normals follow from the depths, smoothed
-// over a few pixels and a sweep's planes show as contour lines. `view` is that of the depths. Throws:
-// PreconditionError when the sizes differ.
-[[nodiscard]] Image DrawHull(const core::CameraModel& view, const DepthMap& picture,
+// over a few pixels and a sweep's planes show as contour lines. `rays`: those of the depths, of either
+// projection. Throws: PreconditionError when the sizes differ.
+[[nodiscard]] Image DrawHull(const ViewRays& rays, const DepthMap& picture,
                              std::span<const Eigen::Vector3f> normal_in_world);
 
 }  // namespace elbowroom::recon

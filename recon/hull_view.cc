@@ -1,6 +1,5 @@
 #include "recon/hull_view.h"
 
-#include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
@@ -18,8 +17,6 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr std::size_t kSquaresATask = 4;
-
 // All that doesn't depend on the pixel.
 class Caster {
  public:
@@ -29,7 +26,6 @@ class Caster {
   }
 
   void Run() {
-    const std::vector<PixelSquare> squares = pencils_.Squares();
     tbb::enumerable_thread_specific<Worker> workers([this] {
       Worker worker;
       worker.rays.is_perspective = rays_.projection() == Projection::kPerspective;
@@ -39,11 +35,15 @@ class Caster {
         worker.sights.push_back({&pencil->cast(), pencil->starts_inside() ? ~0U : 0U});
       return worker;
     });
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, squares.size(), kSquaresATask),
-                      [&](const tbb::blocked_range<std::size_t>& range) {
-                        Worker& worker = workers.local();
-                        for (std::size_t i = range.begin(); i < range.end(); ++i) Work(squares[i], &worker);
-                      });
+    constexpr int kSizePx = ViewPencils::kLargestSquarePx;
+    const int across = (rays_.width_px() + kSizePx - 1) / kSizePx;
+    const int down = (rays_.height_px() + kSizePx - 1) / kSizePx;
+    tbb::parallel_for(0, across * down, [&](int i) {
+      Worker& worker = workers.local();
+      worker.squares.clear();
+      pencils_.AddSquaresIn(i % across * kSizePx, i / across * kSizePx, &worker.squares);
+      for (const PixelSquare& square : worker.squares) Work(square, &worker);
+    });
     for (const Worker& worker : workers) {
       view_.hit_pixels += worker.hit_pixels;
       view_.crossings_met += worker.scratch.crossings_met;
@@ -57,6 +57,7 @@ class Caster {
     TileRays rays;
     TileHits hits;
     TileScratch scratch;
+    std::vector<PixelSquare> squares;
     std::vector<TileCamera> cameras;
     std::vector<TileCamera> sights;
     std::int64_t hit_pixels = 0;

@@ -11,10 +11,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-// The largest square of pixels that is asked about at once.
-constexpr int kLargestSquarePx = 64;
-// A view's centre nearer to a face than this many mm is on it, rays that climb less in a mm run along it: what
-// is divided by less has no room in float32.
+// A view's centre nearer to a face than this many mm is on it, rays that climb less in a mm run along it:
+// what is divided by less has no room in float32.
 constexpr double kLeastDivisor = 1e-20;
 
 constexpr double kFaceRounding = 1e-5;

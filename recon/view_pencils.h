@@ -33,6 +33,7 @@ class ViewPencils {
  public:
   using Pencils = std::vector<std::unique_ptr<const EdgePencil>>;
   static constexpr int kSquarePx = 8;
+  static constexpr int kLargestSquarePx = 64;
 
   ViewPencils(const VisualHull& hull, const ViewRays& rays);
 
@@ -57,8 +58,12 @@ class ViewPencils {
     return number < cameras_.size() ? *cameras_[number] : *sights_[number - cameras_.size()];
   }
 
-  // The squares, aligned to kSquarePx, whose rays might meet the hull.
+  // The squares, aligned to kSquarePx, whose rays might meet the hull; of the picture, or of the square of
+  // kLargestSquarePx at (x, y).
   [[nodiscard]] std::vector<PixelSquare> Squares() const;
+  void AddSquaresIn(int x, int y, std::vector<PixelSquare>* squares) const {
+    Divide(x, y, kLargestSquarePx, squares);
+  }
 
  private:
   // One face of the workspace as rays (u, v) meet it: they are on its inner side from, or up to, the key

@@ -97,12 +97,17 @@ VisualHull::VisualHull(std::shared_ptr<const core::Rig> rig,
                        std::vector<std::shared_ptr<const Silhouette>> silhouettes)
     : rig_(std::move(rig)), silhouettes_(std::move(silhouettes)) {
   core::Require(rig_ != nullptr && silhouettes_.size() == rig_->cameras.size(), "one silhouette a camera");
+  const bool exterior_is_object = ExteriorIsObject(*rig_);
   for (const auto& silhouette : silhouettes_) {
-    core::Require(silhouette->labels().exterior_is_object() == ExteriorIsObject(*rig_),
+    core::Require(silhouette->exterior_is_object() == exterior_is_object,
                   "silhouettes follow the rig's unseen policy");
-    const bool sees_nothing = silhouette->labels().bounds_px().isEmpty();
-    is_empty_ = is_empty_ || (sees_nothing && !ExteriorIsObject(*rig_));
+    is_empty_ = is_empty_ || (!silhouette->shows_object() && !exterior_is_object);
   }
+  if (is_empty_) return;  // no contour is needed any more
+  tbb::parallel_for(std::size_t{0}, silhouettes_.size(), [&](std::size_t i) { silhouettes_[i]->labels(); });
+  // What a camera shows, its lens may not see.
+  const auto sees_nothing = [](const auto& silhouette) { return silhouette->labels().bounds_px().isEmpty(); };
+  is_empty_ = !exterior_is_object && std::ranges::any_of(silhouettes_, sees_nothing);
 }
 
 bool VisualHull::Contains(const Eigen::Vector3d& x_in_world) const {
@@ -184,16 +189,33 @@ BoundingEdge VisualHull::EdgeAt(const Eigen::Vector3d& surface_point_in_world) c
   return bounding;
 }
 
-VisualHull MakeVisualHull(std::shared_ptr<const core::Rig> rig, const PicturePlanes& planes,
-                          std::span<const core::SoftMask> masks) {
+FrameHull NextHull(const std::shared_ptr<const VisualHull>& last, const std::shared_ptr<const core::Rig>& rig,
+                   const PicturePlanes& planes, std::span<const core::SoftMask> masks) {
   core::Require(rig != nullptr && masks.size() == rig->cameras.size() && planes.size() == masks.size(),
                 "one mask and one plane a camera");
-  for (std::size_t i = 0; i < masks.size(); ++i) CheckSize(rig->cameras[i], masks[i].mask);
+  core::Require(!last || last->shared_rig() == rig, "frames of one rig");
+  FrameHull next;
   std::vector<std::shared_ptr<const Silhouette>> silhouettes(masks.size());
-  tbb::parallel_for(std::size_t{0}, masks.size(), [&](std::size_t i) {
-    silhouettes[i] = std::make_shared<const Silhouette>(planes[i], masks[i], ExteriorIsObject(*rig));
-  });
-  return {std::move(rig), std::move(silhouettes)};
+  for (std::size_t i = 0; i < masks.size(); ++i) {
+    CheckSize(rig->cameras[i], masks[i].mask);
+    if (last && masks[i] == last->silhouettes()[i]->soft_mask()) {
+      silhouettes[i] = last->silhouettes()[i];
+      ++next.stats.unchanged_silhouettes;
+    } else {
+      silhouettes[i] = std::make_shared<const Silhouette>(planes[i], masks[i], ExteriorIsObject(*rig));
+    }
+    next.stats.empty_silhouettes += silhouettes[i]->shows_object() ? 0 : 1;
+  }
+  const bool is_unchanged = last && next.stats.unchanged_silhouettes == std::ssize(masks);
+  next.hull = is_unchanged ? last : std::make_shared<const VisualHull>(rig, std::move(silhouettes));
+  for (const auto& silhouette : next.hull->silhouettes())
+    next.stats.untraced_silhouettes += silhouette->is_traced() ? 0 : 1;
+  return next;
+}
+
+VisualHull MakeVisualHull(std::shared_ptr<const core::Rig> rig, const PicturePlanes& planes,
+                          std::span<const core::SoftMask> masks) {
+  return *NextHull(nullptr, rig, planes, masks).hull;
 }
 
 VisualHull MakeVisualHull(std::shared_ptr<const core::Rig> rig, std::span<const core::SoftMask> masks) {

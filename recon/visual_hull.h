@@ -73,6 +73,23 @@ class VisualHull {
 // What a rig's unseen policy says of positions outside a picture.
 [[nodiscard]] bool ExteriorIsObject(const core::Rig& rig);
 
+// What a frame's hull could do without.
+struct HullStats {
+  int unchanged_silhouettes = 0;  // the last frame's, with all that is known about them
+  int empty_silhouettes = 0;      // without object
+  int untraced_silhouettes = 0;   // whose contour nobody needs: under `outside` an empty one empties the hull
+};
+
+struct FrameHull {
+  std::shared_ptr<const VisualHull> hull;  // the last one itself if no silhouette has changed
+  HullStats stats;
+};
+
+// The hull of a frame's masks; `last`: the one of the frame before, or null. Throws: as MakeVisualHull.
+[[nodiscard]] FrameHull NextHull(const std::shared_ptr<const VisualHull>& last,
+                                 const std::shared_ptr<const core::Rig>& rig, const PicturePlanes& planes,
+                                 std::span<const core::SoftMask> masks);
+
 // One silhouette a mask, in parallel. Throws: core::Error{kCamera} naming the camera when a mask's size isn't
 // the camera's. The overloads without planes work them out anew: for a single frame.
 [[nodiscard]] VisualHull MakeVisualHull(std::shared_ptr<const core::Rig> rig, const PicturePlanes& planes,

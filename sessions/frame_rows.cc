@@ -38,10 +38,11 @@ std::vector<double> ReadSpacings(Database& database, core::FrameIndex frame) {
 
 core::SharedMasks ReadSilhouettes(Database& database, const core::Rig& rig, core::FrameIndex frame,
                                   const std::string& where) {
-  Statement rows(database,
-                 "SELECT camera_index, width_px, height_px, content_hash, words_zstd FROM silhouette "
-                 "JOIN mask USING (mask_id) WHERE frame_index = ? ORDER BY camera_index");
-  auto masks = std::make_shared<std::vector<core::BitMask>>();
+  Statement rows(
+      database,
+      "SELECT camera_index, width_px, height_px, content_hash, words_zstd, levels_zstd FROM silhouette "
+      "JOIN mask USING (mask_id) WHERE frame_index = ? ORDER BY camera_index");
+  auto masks = std::make_shared<std::vector<core::SoftMask>>();
   for (rows.With(frame); rows.Next();) {
     const std::string silhouette = fmt::format("{}, silhouette of camera {}", where, rows.Integer(0));
     const core::CameraIndex camera = masks->size();
@@ -50,7 +51,9 @@ core::SharedMasks ReadSilhouettes(Database& database, const core::Rig& rig, core
       throw Error(ErrorKind::kFormat,
                   silhouette + " doesn't belong to the rig; restore the file from a copy");
     }
-    masks->push_back(UnpackMask(rows.Bytes(4), rig.cameras[camera].width_px(),
+    const auto levels_zstd =
+        rows.IsNull(5) ? std::nullopt : std::optional<std::span<const std::byte>>(rows.Bytes(5));
+    masks->push_back(UnpackMask(rows.Bytes(4), levels_zstd, rig.cameras[camera].width_px(),
                                 rig.cameras[camera].height_px(), rows.Bytes(3), silhouette));
   }
   return masks;
@@ -63,8 +66,8 @@ FrameInserter::FrameInserter(Database& database)
       insert_spacing_(database, "INSERT INTO frame_spacing VALUES (?, ?, ?)"),
       find_mask_(database, "SELECT mask_id FROM mask WHERE content_hash = ?"),
       insert_mask_(database,
-                   "INSERT INTO mask (content_hash, width_px, height_px, object_px, words_zstd) "
-                   "VALUES (?, ?, ?, ?, ?) RETURNING mask_id"),
+                   "INSERT INTO mask (content_hash, width_px, height_px, object_px, words_zstd, levels_zstd) "
+                   "VALUES (?, ?, ?, ?, ?, ?) RETURNING mask_id"),
       insert_silhouette_(database, "INSERT INTO silhouette VALUES (?, ?, ?)"),
       insert_part_frame_(database, "INSERT INTO part_frame VALUES (?, ?, ?, ?, ?, ?, ?)"),
       insert_contact_(
@@ -81,18 +84,19 @@ void FrameInserter::Insert(const core::FrameRecord& record) {
   for (const core::PartContact& contact : record.contacts) InsertPart(record.frame, contact);
 }
 
-void FrameInserter::InsertSilhouettes(core::FrameIndex frame, std::span<const core::BitMask> masks) {
+void FrameInserter::InsertSilhouettes(core::FrameIndex frame, std::span<const core::SoftMask> masks) {
   for (core::CameraIndex camera = 0; camera < masks.size(); ++camera) {
     insert_silhouette_.With(frame, camera, MaskIdOf(masks[camera])).Run();
   }
 }
 
-std::int64_t FrameInserter::MaskIdOf(const core::BitMask& mask) {
+std::int64_t FrameInserter::MaskIdOf(const core::SoftMask& mask) {
   const MaskHash hash = HashOf(mask);
   const std::span<const std::byte> content_hash(hash);
   if (find_mask_.With(content_hash).Next()) return LastRowsId(find_mask_);
-  const Bytes words_zstd = Pack(mask, compressor_);
-  insert_mask_.With(content_hash, mask.width_px(), mask.height_px(), mask.CountObjectPixels(), words_zstd);
+  const PackedMask packed = Pack(mask, compressor_);
+  insert_mask_.With(content_hash, mask.mask.width_px(), mask.mask.height_px(), mask.mask.CountObjectPixels(),
+                    packed.words_zstd, packed.levels_zstd);
   core::Require(insert_mask_.Next(), "SQLite returns the id of a row that it inserts");
   return LastRowsId(insert_mask_);
 }

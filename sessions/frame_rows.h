@@ -19,8 +19,8 @@ class FrameInserter {
   void Insert(const core::FrameRecord& record);
 
  private:
-  void InsertSilhouettes(core::FrameIndex frame, std::span<const core::BitMask> masks);
-  [[nodiscard]] std::int64_t MaskIdOf(const core::BitMask& mask);
+  void InsertSilhouettes(core::FrameIndex frame, std::span<const core::SoftMask> masks);
+  [[nodiscard]] std::int64_t MaskIdOf(const core::SoftMask& mask);
   void InsertPart(core::FrameIndex frame, const core::PartContact& contact);
   void InsertEvidence(core::FrameIndex frame, const core::PartContact& contact);
 

@@ -61,7 +61,7 @@ Bytes Compressor::Compress(std::span<const std::byte> bytes) {
 Bytes Decompress(std::span<const std::byte> packed, std::size_t size, const std::string& where) {
   // Asked before allocating: a damaged size must not take all memory.
   if (ZSTD_getFrameContentSize(packed.data(), packed.size()) != size) {
-    FailAsDamaged(where, "the packed data has another size than its row says");
+    FailAsDamaged(where, "the packed data has another size than belongs there");
   }
   Bytes bytes(size);
   const std::size_t unpacked = ZSTD_decompress(bytes.data(), bytes.size(), packed.data(), packed.size());
@@ -84,27 +84,39 @@ core::TriangleMesh UnpackMesh(std::span<const std::byte> vertices_mm_zstd, std::
   return mesh;
 }
 
-MaskHash HashOf(const core::BitMask& mask) {
-  const auto size =
-      static_cast<XXH64_hash_t>(mask.width_px()) << 32U | static_cast<XXH64_hash_t>(mask.height_px());
-  const std::span<const std::uint64_t> words = mask.words();
+MaskHash HashOf(const core::SoftMask& mask) {
+  const auto size = static_cast<XXH64_hash_t>(mask.mask.width_px()) << 32U |
+                    static_cast<XXH64_hash_t>(mask.mask.height_px());
+  const std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state(XXH3_createState(), XXH3_freeState);
+  XXH3_128bits_reset_withSeed(state.get(), size);
+  const std::span<const std::uint64_t> words = mask.mask.words();
+  XXH3_128bits_update(state.get(), words.data(), words.size_bytes());
+  XXH3_128bits_update(state.get(), mask.levels.data(), mask.levels.size());
   XXH128_canonical_t canonical;
-  XXH128_canonicalFromHash(&canonical, XXH3_128bits_withSeed(words.data(), words.size_bytes(), size));
+  XXH128_canonicalFromHash(&canonical, XXH3_128bits_digest(state.get()));
   return std::bit_cast<MaskHash>(canonical);
 }
 
-Bytes Pack(const core::BitMask& mask, Compressor& compressor) {
-  return compressor.Compress(std::as_bytes(mask.words()));
+PackedMask Pack(const core::SoftMask& mask, Compressor& compressor) {
+  PackedMask packed{compressor.Compress(std::as_bytes(mask.mask.words())), std::nullopt};
+  if (!mask.levels.empty()) packed.levels_zstd = compressor.Compress(std::as_bytes(std::span(mask.levels)));
+  return packed;
 }
 
-core::BitMask UnpackMask(std::span<const std::byte> words_zstd, int width_px, int height_px,
-                         std::span<const std::byte> content_hash, const std::string& where) {
-  core::BitMask mask(width_px, height_px);
-  const Bytes bytes = Decompress(words_zstd, mask.words().size_bytes(), where);
-  if (!bytes.empty()) std::memcpy(mask.words().data(), bytes.data(), bytes.size());
-  if (!std::ranges::equal(HashOf(mask), content_hash))
-    FailAsDamaged(where, "its pixels don't match their checksum");
-  return mask;
+core::SoftMask UnpackMask(std::span<const std::byte> words_zstd,
+                          std::optional<std::span<const std::byte>> levels_zstd, int width_px, int height_px,
+                          std::span<const std::byte> content_hash, const std::string& where) {
+  core::SoftMask soft{core::BitMask(width_px, height_px), {}};
+  const Bytes bytes = Decompress(words_zstd, soft.mask.words().size_bytes(), where);
+  if (!bytes.empty()) std::memcpy(soft.mask.words().data(), bytes.data(), bytes.size());
+  if (levels_zstd) {
+    const std::size_t boundary_px = core::BoundaryPixels(soft.mask).CountObjectPixels();
+    soft.levels = DecompressAs<std::uint8_t>(*levels_zstd, boundary_px, where + ", levels of its boundary");
+  }
+  if (!std::ranges::equal(HashOf(soft), content_hash))
+    FailAsDamaged(where, "its pixels and levels don't match their checksum");
+  if (const auto rule = soft.BrokenRule()) FailAsDamaged(where, fmt::format("wrong levels: {}", *rule));
+  return soft;
 }
 
 std::string JsonFrom(std::span<const double> numbers) {

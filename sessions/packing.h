@@ -5,11 +5,12 @@
 #include <array>
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "core/bit_mask.h"
+#include "core/soft_mask.h"
 #include "core/triangle_mesh.h"
 
 struct ZSTD_CCtx_s;
@@ -43,11 +44,18 @@ struct PackedMesh {
                                             std::size_t triangle_count, const std::string& where);
 
 using MaskHash = std::array<std::byte, 16>;
-[[nodiscard]] MaskHash HashOf(const core::BitMask& mask);  // 128-bit XXH3 of size and pixels
-[[nodiscard]] Bytes Pack(const core::BitMask& mask, Compressor& compressor);
-// Throws: Error{kFormat} naming `where` unless it unpacks to that size and hash.
-[[nodiscard]] core::BitMask UnpackMask(std::span<const std::byte> words_zstd, int width_px, int height_px,
-                                       std::span<const std::byte> content_hash, const std::string& where);
+[[nodiscard]] MaskHash HashOf(const core::SoftMask& mask);  // 128-bit XXH3 of size, pixels, levels if any
+struct PackedMask {
+  Bytes words_zstd;
+  std::optional<Bytes> levels_zstd;  // nothing: none
+};
+[[nodiscard]] PackedMask Pack(const core::SoftMask& mask, Compressor& compressor);
+// Throws: Error{kFormat} naming `where` unless it unpacks to that size and hash, and its levels fit its
+// pixels.
+[[nodiscard]] core::SoftMask UnpackMask(std::span<const std::byte> words_zstd,
+                                        std::optional<std::span<const std::byte>> levels_zstd, int width_px,
+                                        int height_px, std::span<const std::byte> content_hash,
+                                        const std::string& where);
 
 // JSON arrays of doubles, each in the fewest digits that read back as the same double; matrices row by row.
 [[nodiscard]] std::string JsonFrom(std::span<const double> numbers);

@@ -9,10 +9,13 @@
 namespace elbowroom::sessions {
 
 inline constexpr std::int64_t kApplicationId = 0x456C6277;  // "Elbw" in the file's header
-inline constexpr std::int64_t kSchemaVersion = 1;
+inline constexpr std::int64_t kSchemaVersion = 2;
 
 // The SQL that leads from schema 0, an empty file, to schema 1.
 [[nodiscard]] std::string Schema1Sql();
+
+// From schema 1 to schema 2: where a silhouette's boundary lies between pixel centres.
+[[nodiscard]] std::string Schema2Sql();
 
 // Brings the open transaction's database to kSchemaVersion by the migrations that it lacks, in order.
 void Migrate(Database& database);

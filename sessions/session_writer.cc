@@ -56,10 +56,12 @@ void RequireFits(const core::FrameRecord& record, const core::SessionHeader& hea
   Require(record.silhouettes && record.silhouettes->size() == header.rig.cameras.size(),
           "one silhouette a camera");
   for (core::CameraIndex i = 0; i < header.rig.cameras.size(); ++i) {
-    const core::BitMask& mask = (*record.silhouettes)[i];
+    const core::SoftMask& silhouette = (*record.silhouettes)[i];
     const core::CameraModel& camera = header.rig.cameras[i];
-    Require(mask.width_px() == camera.width_px() && mask.height_px() == camera.height_px(),
-            "a silhouette has its camera's size");
+    Require(
+        silhouette.mask.width_px() == camera.width_px() && silhouette.mask.height_px() == camera.height_px(),
+        "a silhouette has its camera's size");
+    silhouette.Validate();
   }
   Require(record.spacing_mm.size() == header.layout.spacings.size(), "one value a spacing");
   Require(record.contacts.size() == header.layout.parts.size(), "one contact a part");

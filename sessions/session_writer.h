@@ -26,7 +26,8 @@ class SessionWriter {
   SessionWriter& operator=(const SessionWriter&) = delete;
 
   // Waits where the disk is behind by a queue's length. The record fits the header: one silhouette of the
-  // right size a camera, one value a spacing, one contact a part in the layout's order; a frame comes once.
+  // right size a camera (core::SoftMask::Validate), one value a spacing, one contact a part in the layout's
+  // order; a frame comes once.
   void Append(core::FrameRecord record);
   // A changed spacing is one of the layout's.
   void Append(core::SessionEvent event);

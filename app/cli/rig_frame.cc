@@ -18,7 +18,7 @@ RigFrame LoadRigFrame(const RigFrameOptions& options, const CommandContext& cont
   const recon::FrameSet frames = source.Read(options.frame);
   result.masks =
       recon::FrameSegmenter(source.ReadBackgrounds(context.progress, context.stop), {}, source.rig())
-          .Segment(frames);
+          .SegmentSoft(frames);
   return result;
 }
 

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "app/cli/command.h"
-#include "core/bit_mask.h"
 #include "core/ids.h"
 #include "core/rig.h"
+#include "core/soft_mask.h"
 
 namespace elbowroom::cli {
 
@@ -23,7 +23,8 @@ void AddRigFrameOptions(CLI::App& command, RigFrameOptions* options);
 
 struct RigFrame {
   std::shared_ptr<const core::Rig> rig;
-  std::vector<core::BitMask> masks;  // ready ones, or segmented with the default options
+  // One a camera: ready ones, or segmented with the default options, boundaries located between pixels.
+  std::vector<core::SoftMask> masks;
 };
 
 // Throws: core::Error for the rig's files and for a frame out of range.

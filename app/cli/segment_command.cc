@@ -31,8 +31,9 @@ CommandResult Run(const SegmentOptions& options, const CommandContext& context) 
     const std::string& camera = frame.rig->cameras[i].name();
     const std::filesystem::path file =
         options.out / fmt::format("{}_{:04d}.png", camera, options.frame.frame);
-    recon::WriteMaskPng(frame.masks[i], file);
-    const std::size_t object_pixels = frame.masks[i].CountObjectPixels();
+    const core::BitMask& mask = frame.masks[i].mask;
+    recon::WriteMaskPng(mask, file);
+    const std::size_t object_pixels = mask.CountObjectPixels();
     result.json["masks"].push_back(
         {{"camera", camera}, {"file", file.string()}, {"object_pixels", object_pixels}});
     result.text += fmt::format("{}{}: {} object pixels", i == 0 ? "" : "\n", file.string(), object_pixels);

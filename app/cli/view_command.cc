@@ -16,10 +16,11 @@
 #include "recon/depth_file.h"
 #include "recon/gl/plane_sweep_gl.h"
 #include "recon/hull_picture.h"
+#include "recon/hull_view.h"
 #include "recon/plane_sweep.h"
 #include "recon/png_file.h"
-#include "recon/hull_view.h"
 #include "recon/rig_file.h"
+#include "recon/view_rays.h"
 
 namespace elbowroom::cli {
 namespace {
@@ -62,49 +63,54 @@ HullSeen Seen(recon::HullView view) {
 // Sees the frame once, or often for the time's sake.
 class Viewer {
  public:
-  Viewer(const ViewOptions& options, const RigFrame& frame, const core::CameraModel& view)
-      : options_(options), frame_(frame), view_(view), rays_(view) {
-    for (const core::BitMask& mask : frame.masks) masks_.push_back({mask, {}});
+  Viewer(const ViewOptions& options, const RigFrame& frame, const core::CameraModel& view,
+         const recon::ViewRays& rays)
+      : options_(options), frame_(frame), view_(view), rays_(rays) {
+    if (options.method != kExact) sweep_rays_.emplace(view);
     if (options.method == kSweepGl) gl_.emplace();
     if (options.spacing_mm) sweep_.spacing_mm = *options.spacing_mm;
   }
 
   [[nodiscard]] HullSeen See() {
     if (options_.method == kSweep)
-      return Seen(recon::SweepPlanes(*frame_.rig, masks_, view_, rays_, sweep_), sweep_.spacing_mm);
+      return Seen(recon::SweepPlanes(*frame_.rig, frame_.masks, view_, *sweep_rays_, sweep_),
+                  sweep_.spacing_mm);
     if (options_.method == kSweepGl) {
-      HullSeen seen = Seen(gl_->Sweep(*frame_.rig, masks_, view_, rays_, sweep_), sweep_.spacing_mm);
+      HullSeen seen =
+          Seen(gl_->Sweep(*frame_.rig, frame_.masks, view_, *sweep_rays_, sweep_), sweep_.spacing_mm);
       seen.counts["driver"] = gl_->driver();
       return seen;
     }
-    return Seen(recon::ViewHull(recon::MakeVisualHull(frame_.rig, frame_.masks), view_));
+    return Seen(recon::ViewHull(recon::MakeVisualHull(frame_.rig, frame_.masks), rays_));
   }
 
  private:
   const ViewOptions& options_;
   const RigFrame& frame_;
   const core::CameraModel& view_;
-  recon::SweepRays rays_;
-  std::vector<core::SoftMask> masks_;
+  const recon::ViewRays& rays_;
+  std::optional<recon::SweepRays> sweep_rays_;
   recon::PlaneSweepOptions sweep_;
   std::optional<recon::gl::PlaneSweepGl> gl_;
 };
 
-core::CameraModel ReadView(const ViewOptions& options) {
-  const recon::ViewFile view = recon::ReadViewFile(options.camera);
-  if (view.is_orthographic) {
-    throw core::Error(
-        core::ErrorKind::kCamera,
-        fmt::format("view file '{}': --method {} takes perspective views alone; remove 'projection'",
-                    options.camera.string(), options.method));
+recon::ViewFile ReadView(const ViewOptions& options) {
+  recon::ViewFile view = recon::ReadViewFile(options.camera);
+  if (view.is_orthographic && options.method != kExact) {
+    throw core::Error(core::ErrorKind::kCamera,
+                      fmt::format("view file '{}': --method {} takes perspective views alone; take --method "
+                                  "{} or remove 'projection'",
+                                  options.camera.string(), options.method, kExact));
   }
-  return view.camera;
+  return view;
 }
 
 CommandResult Run(const ViewOptions& options, const CommandContext& context, bool json) {
-  const core::CameraModel view = ReadView(options);
+  const recon::ViewFile view = ReadView(options);
+  const recon::ViewRays rays(
+      view.camera, view.is_orthographic ? recon::Projection::kOrthographic : recon::Projection::kPerspective);
   const RigFrame frame = LoadRigFrame(options.frame, context);
-  Viewer viewer(options, frame, view);
+  Viewer viewer(options, frame, view.camera, rays);
   HullSeen seen;
   const auto compute = [&] { seen = viewer.See(); };
   // The five timed runs are for those who read the figure.
@@ -118,7 +124,7 @@ CommandResult Run(const ViewOptions& options, const CommandContext& context, boo
   files.Write(options.depth, recon::EncodeDepthTiff(seen.picture));
   if (!options.image.empty()) {
     const std::vector<std::uint8_t> png =
-        recon::EncodePng(recon::DrawHull(view, seen.picture, seen.normal_in_world));
+        recon::EncodePng(recon::DrawHull(rays, seen.picture, seen.normal_in_world));
     files.Write(options.image, {reinterpret_cast<const char*>(png.data()), png.size()});
   }
   files.RenameAll();

@@ -72,7 +72,8 @@ void CameraStrip::Open(const core::Rig& rig) {
 
 void CameraStrip::ShowMasks(const core::SharedMasks& masks) {
   for (std::size_t i = 0; i < masks->size() && i < thumbnails_.size(); ++i) {
-    if (!shown_ || (*shown_)[i] != (*masks)[i]) thumbnails_[i]->ShowMask((*masks)[i]);
+    const core::BitMask& mask = (*masks)[i].mask;
+    if (!shown_ || (*shown_)[i].mask != mask) thumbnails_[i]->ShowMask(mask);
   }
   shown_ = masks;
 }

@@ -61,7 +61,7 @@ void StatusLine::ShowFrame(const control::FrameResult& result) {
                       .arg(result.times.contacts_ms, 0, 'f', 0)
                       .arg(picture_ms_, 0, 'f', 0));
   skipped_->setText(tr("skipped: %1 of %2 silhouettes, %3 of %4 parts, %5 of triangles")
-                        .arg(result.skipped.unchanged_silhouettes)
+                        .arg(result.skipped.hull.unchanged_silhouettes)
                         .arg(result.masks->size())
                         .arg(result.skipped.unchanged_parts)
                         .arg(result.contacts.size())

@@ -66,9 +66,9 @@ std::vector<Job> SegmentationJobs() {
   const recon::ViewScene scene = recon::MakeViewScene(recon::ViewSceneRig::kFour);
   recon::SyntheticRig rig(scene.rig, [objects = scene.objects](double) { return objects; });
   auto segmenter = std::make_shared<const recon::FrameSegmenter>(rig.ReadBackgrounds({}, {}),
-                                                                 recon::SegmentationOptions{}, scene.rig);
-  return {
-      {"4 cameras of 640 x 480", [segmenter, frames = rig.Read(0)] { (void)segmenter->Segment(frames); }}};
+                                                                 recon::SegmentationOptions{}, rig.rig());
+  return {{"4 cameras of 640 x 480",
+           [segmenter, frames = rig.Read(0)] { (void)segmenter->SegmentSoft(frames); }}};
 }
 
 // Masks in memory to the hull's mesh.

@@ -47,7 +47,7 @@ SharedFrameResult FramePipeline::Process(recon::FrameSet frames, std::span<const
   result->spacing_mm.assign(spacing_mm.begin(), spacing_mm.end());
   result->world_from_parts = core::PosesAt(*layout_, spacing_mm);
   Stopwatch watch;
-  std::vector<core::BitMask> masks = segmenter_.Segment(frames);
+  std::vector<core::SoftMask> masks = segmenter_.SegmentSoft(frames);
   result->times.segmentation_ms = watch.LapMs();
   UpdateHull(std::move(masks), result.get());
   result->times.hull_ms = watch.LapMs();
@@ -58,27 +58,13 @@ SharedFrameResult FramePipeline::Process(recon::FrameSet frames, std::span<const
   return result;
 }
 
-void FramePipeline::UpdateHull(std::vector<core::BitMask> masks, FrameResult* result) {
-  std::vector<std::shared_ptr<const recon::Silhouette>> silhouettes(masks.size());
-  for (std::size_t i = 0; i < masks.size(); ++i) {
-    if (last_ && masks[i] == (*last_->masks)[i]) {
-      silhouettes[i] = last_->hull->silhouettes()[i];
-      ++result->skipped.unchanged_silhouettes;
-    }
-  }
-  if (result->skipped.unchanged_silhouettes == static_cast<int>(masks.size())) {
-    result->masks = last_->masks;
-    result->hull = last_->hull;
-    return;
-  }
-  tbb::parallel_for(std::size_t{0}, masks.size(), [&](std::size_t i) {
-    if (!silhouettes[i]) {
-      silhouettes[i] = std::make_shared<const recon::Silhouette>(
-          planes_[i], core::SoftMask{masks[i], {}}, recon::ExteriorIsObject(*rig_));
-    }
-  });
-  result->hull = std::make_shared<const recon::VisualHull>(rig_, std::move(silhouettes));
-  result->masks = std::make_shared<const std::vector<core::BitMask>>(std::move(masks));
+void FramePipeline::UpdateHull(std::vector<core::SoftMask> masks, FrameResult* result) {
+  recon::FrameHull next = recon::NextHull(last_ ? last_->hull : nullptr, rig_, planes_, masks);
+  result->hull = std::move(next.hull);
+  result->skipped.hull = next.stats;
+  const bool is_unchanged = last_ && result->hull == last_->hull;
+  result->masks =
+      is_unchanged ? last_->masks : std::make_shared<const std::vector<core::SoftMask>>(std::move(masks));
 }
 
 void FramePipeline::UpdateContacts(FrameResult* result) {

@@ -9,6 +9,7 @@
 #include "core/bvh.h"
 #include "core/layout.h"
 #include "core/rig.h"
+#include "core/soft_mask.h"
 #include "recon/frame_segmenter.h"
 #include "recon/frame_set.h"
 #include "recon/picture_plane.h"
@@ -33,7 +34,7 @@ class FramePipeline {
   [[nodiscard]] SharedFrameResult Process(recon::FrameSet frames, std::span<const double> spacing_mm);
 
  private:
-  void UpdateHull(std::vector<core::BitMask> masks, FrameResult* result);
+  void UpdateHull(std::vector<core::SoftMask> masks, FrameResult* result);
   void UpdateContacts(FrameResult* result);
 
   std::shared_ptr<const core::Rig> rig_;

@@ -16,7 +16,7 @@ namespace elbowroom::control {
 
 // What a frame did not need to compute, and why.
 struct SkipCount {
-  int unchanged_silhouettes = 0;       // equal to the last frame's: their fields were kept
+  int unchanged_silhouettes = 0;       // equal to the last frame's, levels and all: their contours were kept
   int unchanged_parts = 0;             // same hull, same pose: the last answer holds
   std::int64_t triangles_in_all = 0;   // of the parts asked
   std::int64_t triangles_skipped = 0;  // of those: settled with their whole branch of the part's tree
@@ -35,7 +35,7 @@ struct FrameResult {
   // What the cameras took, with the pictures that hull and silhouettes come from; null where only the
   // silhouettes were kept, as in a session.
   std::shared_ptr<const recon::FrameSet> camera_frames;
-  core::SharedMasks masks;
+  core::SharedMasks masks;  // one a camera
   std::shared_ptr<const recon::VisualHull> hull;
   std::shared_ptr<const core::Layout> layout;
   std::vector<double> spacing_mm;                      // in the layout's order

@@ -149,7 +149,9 @@ class Recording {
     for (const core::PartContact& contact : result.contacts) {
       outcome_.frames_in_contact[contact.part] += contact.verdict == core::Verdict::kContact ? 1 : 0;
     }
-    outcome_.skipped.unchanged_silhouettes += result.skipped.unchanged_silhouettes;
+    outcome_.skipped.hull.unchanged_silhouettes += result.skipped.hull.unchanged_silhouettes;
+    outcome_.skipped.hull.empty_silhouettes += result.skipped.hull.empty_silhouettes;
+    outcome_.skipped.hull.untraced_silhouettes += result.skipped.hull.untraced_silhouettes;
     outcome_.skipped.unchanged_parts += result.skipped.unchanged_parts;
     outcome_.skipped.triangles_in_all += result.skipped.triangles_in_all;
     outcome_.skipped.triangles_skipped += result.skipped.triangles_skipped;

@@ -94,7 +94,7 @@ BudgetTerm SegmentedTerm(const std::string& name, const std::string& paper, cons
                          double noise_levels, double spacing_mm, double ceiling_mm) {
   return {name,
           paper,
-          Convention::kSquares,
+          Convention::kMarching,
           true,
           false,
           ceiling_mm,
@@ -162,10 +162,10 @@ std::vector<BudgetTerm> BudgetTerms() {
                                   {.skew_s = apart_s, .velocity_mm_s = {500.0, 0.0, 0.0}},
                                   0.5 * 500.0 * apart_s));
   }
-  terms.push_back(SegmentedTerm("segmented without noise", "", {}, 0.0, 0.0, 3.0));
+  terms.push_back(SegmentedTerm("segmented without noise", "", {}, 0.0, 0.0, 1.5));
   terms.push_back(SegmentedTerm("segmented with 2 % noise",
                                 "\"do not contribute to errors in the visual hull location\" (Accuracy)", {},
-                                kPaperNoiseLevels, 0.0, 3.0));
+                                kPaperNoiseLevels, 0.0, 1.5));
   const Disturbance paper_rig{.rotation_deg = kOnePixelDeg,
                               .position_mm = kSubMillimetreMm,
                               .skew_s = kVideoFrameS,

@@ -48,8 +48,8 @@ TEST_F(FramePipelineTest, AnUnchangedFrameIsNotComputedAgain) {
   const std::vector<double> gap = {kGapInitialMm};
   const SharedFrameResult first = pipeline.Process(MasksOf(kTouching), gap);
   const SharedFrameResult again = pipeline.Process(MasksOf(kTouching), gap);
-  EXPECT_EQ(first->skipped.unchanged_silhouettes, 0);
-  EXPECT_EQ(again->skipped.unchanged_silhouettes, 4);
+  EXPECT_EQ(first->skipped.hull.unchanged_silhouettes, 0);
+  EXPECT_EQ(again->skipped.hull.unchanged_silhouettes, 4);
   EXPECT_EQ(again->skipped.unchanged_parts, 3);
   EXPECT_EQ(again->skipped.queries, 0);
   EXPECT_EQ(again->hull, first->hull);
@@ -81,6 +81,8 @@ TEST_F(FramePipelineTest, AnEmptySceneTouchesNothingAndAsksNothing) {
   const SharedFrameResult result = pipeline.Process(frames, std::vector<double>{kGapInitialMm});
   for (const core::PartContact& contact : result->contacts) EXPECT_EQ(contact.verdict, core::Verdict::kClear);
   EXPECT_EQ(result->skipped.queries, 0);
+  EXPECT_EQ(result->skipped.hull.empty_silhouettes, 4);
+  EXPECT_EQ(result->skipped.hull.untraced_silhouettes, 4);
 }
 
 }  // namespace

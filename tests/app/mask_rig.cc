@@ -1,6 +1,11 @@
 #include "tests/app/mask_rig.h"
 
+#include <fmt/format.h>
+
+#include <opencv2/imgcodecs.hpp>
+
 #include "cad_import/mesh_file.h"
+#include "core/error.h"
 #include "core/rigid_transform.h"
 #include "recon/mask_image.h"
 #include "recon/rig_file.h"
@@ -41,19 +46,54 @@ core::TriangleMesh Box(double size_mm) {
   return box;
 }
 
+recon::SyntheticObject Ball() {
+  recon::SyntheticObject ball{"ball", {{recon::Sphere{kBallRadiusMm}, {}, Eigen::Vector3d::Constant(200)}}};
+  ball.solids[0].world_from_solid.translation_mm = {0, 0, 200};
+  return ball;
+}
+
+void WritePictures(const recon::FrameSet& pictures, const core::Rig& rig, const std::filesystem::path& folder,
+                   const std::string& name) {
+  for (std::size_t i = 0; i < pictures.cameras.size(); ++i) {
+    const std::filesystem::path camera_folder = folder / rig.cameras[i].name();
+    std::filesystem::create_directories(camera_folder);
+    core::Require(cv::imwrite((camera_folder / name).string(), pictures.cameras[i].image_bgr),
+                  "a test's folder can be written");
+  }
+}
+
 }  // namespace
 
 std::filesystem::path WriteBallRig(const std::filesystem::path& folder) {
   recon::RigFile file{FourAround(), {}};
-  recon::SyntheticObject ball{"ball", {{recon::Sphere{kBallRadiusMm}, {}, Eigen::Vector3d::Constant(200)}}};
-  ball.solids[0].world_from_solid.translation_mm = {0, 0, 200};
-  const recon::SyntheticRig rig(file.rig, [&](double) { return std::vector{ball}; });
-  const std::vector<core::BitMask> masks = rig.TrueMasks(std::vector{ball});
+  const recon::SyntheticRig rig(file.rig, [&](double) { return std::vector{Ball()}; });
+  const std::vector<core::BitMask> masks = rig.TrueMasks(std::vector{Ball()});
   for (std::size_t i = 0; i < masks.size(); ++i) {
     const std::filesystem::path camera_folder = folder / file.rig.cameras[i].name();
     std::filesystem::create_directories(camera_folder);
     recon::WriteMaskPng(masks[i], camera_folder / "mask_0000.png");
     file.sources.push_back({"", "", (camera_folder / "mask_%04d.png").string()});
+  }
+  recon::WriteRigFile(file, folder / "rig.yml");
+  return folder / "rig.yml";
+}
+
+std::filesystem::path WriteBallFootage(const std::filesystem::path& folder) {
+  constexpr core::FrameIndex kBackgroundFrames = 4;
+  recon::RigFile file{FourAround(), {}};
+  recon::SyntheticRigOptions options;
+  options.samples_per_pixel_side = 4;
+  const auto scene_at = [](double time_s) {
+    return time_s == 0.0 ? std::vector{Ball()} : std::vector<recon::SyntheticObject>();
+  };
+  recon::SyntheticRig source(file.rig, scene_at, options);
+  WritePictures(source.Read(0), file.rig, folder, "ball_0000.png");
+  for (core::FrameIndex i = 0; i < kBackgroundFrames; ++i)
+    WritePictures(source.Read(i + 1), file.rig, folder, fmt::format("cloth_{:04d}.png", i));
+  for (const core::CameraModel& camera : file.rig.cameras) {
+    const std::filesystem::path camera_folder = folder / camera.name();
+    file.sources.push_back(
+        {(camera_folder / "ball_%04d.png").string(), (camera_folder / "cloth_%04d.png").string(), ""});
   }
   recon::WriteRigFile(file, folder / "rig.yml");
   return folder / "rig.yml";

@@ -88,6 +88,28 @@ TEST(SessionRoundTrip, ARepeatedSilhouetteIsStoredOnce) {
   EXPECT_EQ(Count(folder / "s.db", "SELECT count(*) FROM mask"), 2);
 }
 
+TEST(SessionRoundTrip, EqualPixelsWithOtherLevelsOrNoneStayApart) {
+  const TemporaryFolder folder;
+  const core::SessionHeader header = SampleHeader();
+  core::FrameRecord soft = SampleFrame(header, 0, kSeed);
+  ASSERT_GT((*soft.silhouettes)[0].levels.size(), 20U);
+  core::FrameRecord ready = WithoutLevels(soft), other = soft;
+  std::vector<core::SoftMask> masks = *soft.silhouettes;
+  masks[0].levels.back() ^= 1U;
+  other.silhouettes = std::make_shared<const std::vector<core::SoftMask>>(std::move(masks));
+  soft.frame = 0, other.frame = 1, ready.frame = 2;
+  {
+    SessionWriter writer(folder / "s.db", header);
+    for (const core::FrameRecord& record : {soft, other, ready}) writer.Append(record);
+    writer.Finish({});
+  }
+  const SessionReader reader(folder / "s.db");
+  for (const core::FrameRecord& record : {soft, other, ready})
+    ExpectEqual(reader.ReadFrame(record.frame), record);
+  EXPECT_EQ(Count(folder / "s.db", "SELECT count(*) FROM mask"), 4);
+  EXPECT_EQ(Count(folder / "s.db", "SELECT count(*) FROM mask WHERE levels_zstd IS NULL"), 2);
+}
+
 TEST(SessionRoundTrip, MasksOfEqualWordsAndDifferentSizesStayApart) {
   const TemporaryFolder folder;
   core::SessionHeader header = SampleHeader();
@@ -95,8 +117,8 @@ TEST(SessionRoundTrip, MasksOfEqualWordsAndDifferentSizesStayApart) {
   wider.image_width_px = 129;  // as many words a row as 130
   header.rig.cameras[1] = core::CameraModel(wider);
   core::FrameRecord record = SampleFrame(header, 0, kSeed);
-  record.silhouettes = std::make_shared<const std::vector<core::BitMask>>(
-      std::vector<core::BitMask>{core::BitMask(130, 97), core::BitMask(129, 97)});
+  record.silhouettes = std::make_shared<const std::vector<core::SoftMask>>(
+      std::vector<core::SoftMask>{{core::BitMask(130, 97), {}}, {core::BitMask(129, 97), {}}});
   {
     SessionWriter writer(folder / "s.db", header);
     writer.Append(record);

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <random>
+#include <utility>
 
 #include "sessions/session_writer.h"
 
@@ -50,6 +51,20 @@ core::BitMask Blob(int width_px, int height_px, Random& random) {
     for (int x = 0; x < width_px; ++x) mask.Set(x, y, std::hypot(x - x0, y - y0) < radius_px);
   }
   return mask;
+}
+
+// With levels as a segmented picture has them.
+core::SoftMask WithLevels(core::BitMask mask, Random& random) {
+  core::SoftMask soft{std::move(mask), {}};
+  const core::BitMask boundary = core::BoundaryPixels(soft.mask);
+  for (int y = 0; y < soft.mask.height_px(); ++y) {
+    for (int x = 0; x < soft.mask.width_px(); ++x) {
+      if (!boundary.At(x, y)) continue;
+      const unsigned least = soft.mask.At(x, y) ? 128 : 0;
+      soft.levels.push_back(static_cast<std::uint8_t>(least + random() % 128));
+    }
+  }
+  return soft;
 }
 
 core::PartContact Touch(Random& random) {
@@ -115,11 +130,13 @@ core::FrameRecord SampleFrame(const core::SessionHeader& header, core::FrameInde
   core::FrameRecord record;
   record.frame = frame;
   record.time_s = static_cast<double>(frame) / 30.0;
-  auto masks = std::make_shared<std::vector<core::BitMask>>();
-  for (const core::CameraModel& camera : header.rig.cameras) {
-    masks->push_back(Blob(camera.width_px(), camera.height_px(), random));
-  }
-  record.silhouettes = std::move(masks);
+  std::vector<core::SoftMask> masks;
+  for (const core::CameraModel& camera : header.rig.cameras)
+    masks.push_back({Blob(camera.width_px(), camera.height_px(), random), {}});
+  // From a source of their own: without them all else is as in the stored sessions of schema 1.
+  Random of_levels(seed + static_cast<std::uint32_t>(frame));
+  masks[0] = WithLevels(std::move(masks[0].mask), of_levels);
+  record.silhouettes = std::make_shared<const std::vector<core::SoftMask>>(std::move(masks));
   record.spacing_mm = {frame < 4 ? 140.0 : 240.0, 0.1};
   core::PartContact first = Touch(random);
   AddRecovery(first, frame % 2 == 0, random);
@@ -135,6 +152,13 @@ core::FrameRecord SampleFrame(const core::SessionHeader& header, core::FrameInde
     record.contacts[i].resolution_mm = 0.7;
     record.contacts[i].count = {720, 91 + frame, 654};
   }
+  return record;
+}
+
+core::FrameRecord WithoutLevels(core::FrameRecord record) {
+  std::vector<core::SoftMask> masks = *record.silhouettes;
+  for (core::SoftMask& soft : masks) soft.levels.clear();
+  record.silhouettes = std::make_shared<const std::vector<core::SoftMask>>(std::move(masks));
   return record;
 }
 

@@ -29,10 +29,13 @@ class TemporaryFolder {
 // and texts that need escaping in SQL and HTML.
 [[nodiscard]] core::SessionHeader SampleHeader();
 
-// What the header's rig and layout would give: blobs for silhouettes, contacts with every optional field set
-// and unset. Frame `frame` is the same whatever was made before it.
+// What the header's rig and layout would give: blobs for silhouettes, the first with levels, contacts with
+// every optional field set and unset. Frame `frame` is the same whatever was made before it.
 [[nodiscard]] core::FrameRecord SampleFrame(const core::SessionHeader& header, core::FrameIndex frame,
                                             std::uint32_t seed);
+
+// As a file of schema 1 keeps it.
+[[nodiscard]] core::FrameRecord WithoutLevels(core::FrameRecord record);
 
 // A spacing change, a tool taken and put away, a note.
 [[nodiscard]] std::vector<core::SessionEvent> SampleEvents();

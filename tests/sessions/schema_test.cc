@@ -1,6 +1,7 @@
 #include "sessions/schema.h"
 
 #include <SQLiteCpp/SQLiteCpp.h>
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -33,11 +34,12 @@ std::string SchemaOf(const std::filesystem::path& path) {
 
 // A released schema never changes: whoever needs another writes the next migration, and stores a session of
 // the old schema beside this text.
-TEST(Schema, Version1IsTheOneOnRecord) {
+TEST(Schema, EveryVersionIsTheOneOnRecord) {
   const TemporaryFolder folder;
-  WriteSampleSession(folder / "s.db", 1);
-  const std::string found = SchemaOf(folder / "s.db");
-  EXPECT_EQ(found, Contents(kStored / "schema_1.sql"));
+  sessions::Database::Create(folder / "1.db").Execute(sessions::Schema1Sql());
+  EXPECT_EQ(SchemaOf(folder / "1.db"), Contents(kStored / "schema_1.sql"));
+  WriteSampleSession(folder / "2.db", 1);
+  EXPECT_EQ(SchemaOf(folder / "2.db"), Contents(kStored / "schema_2.sql"));
 }
 
 TEST(Schema, AnEmptyDatabaseBecomesTheNewestSchemaAndMigratingAgainChangesNothing) {
@@ -52,14 +54,27 @@ TEST(Schema, AnEmptyDatabaseBecomesTheNewestSchemaAndMigratingAgainChangesNothin
   EXPECT_EQ(database.ReadInteger("SELECT count(*) FROM sqlite_schema"), entries);
 }
 
-TEST(Schema, AStoredSessionOfSchema1IsRead) {
-  const SessionReader reader(kStored / "session_schema_1.db");
-  ExpectEqual(reader.header(), SampleHeader());
-  ASSERT_EQ(reader.frame_count(), 6);
-  for (core::FrameIndex i = 0; i < 6; ++i)
-    ExpectEqual(reader.ReadFrame(i), SampleFrame(reader.header(), i, 1));
-  EXPECT_EQ(reader.episodes().size(), 2U);
-  EXPECT_EQ(reader.events().size(), 4U);
+TEST(Schema, StoredSessionsOfEverySchemaAreRead) {
+  for (const int schema : {1, 2}) {
+    const SessionReader reader(kStored / fmt::format("session_schema_{}.db", schema));
+    ExpectEqual(reader.header(), SampleHeader());
+    ASSERT_EQ(reader.frame_count(), 6);
+    for (core::FrameIndex i = 0; i < 6; ++i) {
+      const core::FrameRecord written = SampleFrame(reader.header(), i, 1);
+      ExpectEqual(reader.ReadFrame(i), schema == 1 ? WithoutLevels(written) : written);
+    }
+    EXPECT_EQ(reader.episodes().size(), 2U);
+    EXPECT_EQ(reader.events().size(), 4U);
+  }
+}
+
+TEST(Schema, ADatabaseOfSchema1BecomesOneOfSchema2) {
+  const TemporaryFolder folder;
+  sessions::Database database = sessions::Database::Create(folder / "s.db");
+  database.Execute(sessions::Schema1Sql());
+  database.Execute("PRAGMA user_version = 1");
+  sessions::Migrate(database);
+  EXPECT_EQ(SchemaOf(folder / "s.db"), Contents(kStored / "schema_2.sql"));
 }
 
 TEST(Schema, AnOlderSchemaIsMigratedInMemoryAndTheFileStays) {
@@ -76,8 +91,8 @@ TEST(Schema, AnOlderSchemaIsMigratedInMemoryAndTheFileStays) {
 TEST(Schema, ANewerSchemaIsNamed) {
   const TemporaryFolder folder;
   WriteSampleSession(folder / "s.db", 1);
-  SQLite::Database((folder / "s.db").string(), SQLite::OPEN_READWRITE).exec("PRAGMA user_version = 2");
-  ExpectError([&] { SessionReader(folder / "s.db"); }, core::ErrorKind::kFormat, "has schema 2");
+  SQLite::Database((folder / "s.db").string(), SQLite::OPEN_READWRITE).exec("PRAGMA user_version = 3");
+  ExpectError([&] { SessionReader(folder / "s.db"); }, core::ErrorKind::kFormat, "has schema 3");
 }
 
 TEST(Schema, CountsAndFlagsOutOfRangeAreRefusedByTheDatabaseItself) {

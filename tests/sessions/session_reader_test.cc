@@ -6,6 +6,7 @@
 #include <fstream>
 #include <random>
 
+#include "sessions/packing.h"
 #include "tests/sessions/expect_error.h"
 #include "tests/sessions/sample_session.h"
 
@@ -96,6 +97,8 @@ TEST(SessionReader, NoticesSilhouettesAndMeshesThatDontMatchTheirChecksums) {
        {"UPDATE mask SET words_zstd = (SELECT words_zstd FROM mask WHERE mask_id = 2)",
         "UPDATE mesh SET vertices_mm_zstd = (SELECT max(vertices_mm_zstd) FROM mesh)",
         "UPDATE mask SET words_zstd = zeroblob(100)", "DELETE FROM silhouette WHERE camera_index = 1",
+        "UPDATE mask SET levels_zstd = (SELECT levels_zstd FROM mask WHERE mask_id = 3) WHERE mask_id = 1",
+        "UPDATE mask SET levels_zstd = zeroblob(100)", "UPDATE mask SET levels_zstd = NULL",
         "UPDATE mask SET width_px = 1000000000", "DELETE FROM part_frame WHERE part_index = 2",
         "UPDATE mesh SET triangle_count = 1000000000000"}) {
     const fs::path path = folder / "s.db";
@@ -103,6 +106,37 @@ TEST(SessionReader, NoticesSilhouettesAndMeshesThatDontMatchTheirChecksums) {
     WriteSampleSession(path, 3);
     SQLite::Database(path.string(), SQLite::OPEN_READWRITE).exec(damage);
     ExpectError([&] { ReadEverything(path); }, ErrorKind::kFormat, path.string());
+  }
+}
+
+// Hidden from the checksum, as a faulty writer would: the levels themselves must make sense.
+TEST(SessionReader, NamesFrameAndCameraOfLevelsThatDontFitTheirMask) {
+  const TemporaryFolder folder;
+  const core::SessionHeader header = SampleHeader();
+  const core::SoftMask good = (*SampleFrame(header, 0, 1).silhouettes)[0];
+  core::SoftMask short_by_one = good, contradicting = good;
+  short_by_one.levels.pop_back();
+  contradicting.levels.back() ^= 128U;
+  sessions::Compressor compressor;
+  for (const auto& [bad, says] :
+       {std::pair{short_by_one, "levels of its boundary: the packed data has another size"},
+        {contradicting, "levels agree with its bits"}}) {
+    const fs::path path = folder / "s.db";
+    fs::remove(path);
+    WriteSampleSession(path, 1);
+    {
+      SQLite::Database database(path.string(), SQLite::OPEN_READWRITE);
+      const sessions::MaskHash hash = sessions::HashOf(bad);
+      const sessions::Bytes levels = sessions::Pack(bad, compressor).levels_zstd.value();
+      SQLite::Statement spoil(database,
+                              "UPDATE mask SET content_hash = ?, levels_zstd = ? WHERE levels_zstd NOT NULL");
+      spoil.bind(1, hash.data(), static_cast<int>(hash.size()));
+      spoil.bind(2, levels.data(), static_cast<int>(levels.size()));
+      ASSERT_EQ(spoil.exec(), 1);
+    }
+    ExpectError([&] { ReadEverything(path); }, ErrorKind::kFormat, path.string());
+    ExpectError([&] { ReadEverything(path); }, ErrorKind::kFormat, "frame 0, silhouette of camera 0");
+    ExpectError([&] { ReadEverything(path); }, ErrorKind::kFormat, says);
   }
 }
 

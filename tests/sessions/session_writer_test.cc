@@ -83,7 +83,14 @@ TEST(SessionWriter, RejectsRecordsThatDontFitTheHeader) {
   };
   EXPECT_THROW(append([](auto& r) { r.silhouettes = nullptr; }), core::PreconditionError);
   EXPECT_THROW(append([](auto& r) {
-                 r.silhouettes = std::make_shared<const std::vector<core::BitMask>>(2, core::BitMask(64, 64));
+                 r.silhouettes = std::make_shared<const std::vector<core::SoftMask>>(
+                     2, core::SoftMask{core::BitMask(64, 64), {}});
+               }),
+               core::PreconditionError);
+  EXPECT_THROW(append([](auto& r) {
+                 std::vector<core::SoftMask> masks = *r.silhouettes;
+                 masks[0].levels.pop_back();
+                 r.silhouettes = std::make_shared<const std::vector<core::SoftMask>>(std::move(masks));
                }),
                core::PreconditionError);
   EXPECT_THROW(append([](auto& r) { r.spacing_mm.pop_back(); }), core::PreconditionError);

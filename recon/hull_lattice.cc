@@ -1,0 +1,167 @@
+#include "recon/hull_lattice.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+
+namespace elbowroom::recon {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr int kBisections = 40;
+// Vertices keep this share of an edge away from its ends, so that no two of them fall together: in float32
+// too, while the workspace is less than some 8000 edges long.
+constexpr double kEndShare = 1.0 / 2048;
+
+// Instead of an edge's share of the way: no crossing was met; or one can't be worked out.
+constexpr double kNone = 2.0;
+constexpr double kUnknown = -1.0;
+
+GridPoint LowEnd(const HullBlock& block, const BlockEdge& edge) {
+  return block.corner + GridPoint(edge.low[0], edge.low[1], edge.low[2]);
+}
+
+BlockBits AllPoints() {
+  BlockBits bits;
+  bits.groups.fill(0xFF);
+  bits.groups.back() = static_cast<std::uint8_t>((1U << (BlockBits::kRows % 8)) - 1U);
+  return bits;
+}
+
+void Clear(const BlockBits& others, BlockBits* bits) {
+  for (std::size_t i = 0; i < bits->groups.size(); ++i)
+    bits->groups[i] = static_cast<std::uint8_t>(bits->groups[i] & ~others.groups[i]);
+}
+
+}  // namespace
+
+HullLattice::HullLattice(const VisualHull& hull, const HullGrid& grid) : hull_(hull), grid_(grid) {
+  const std::size_t cameras = hull.silhouettes().size();
+  rasters_.resize(cameras);
+  if (ExteriorIsObject(hull.rig())) outlines_.resize(cameras);
+  tbb::parallel_for(std::size_t{0}, cameras, [&](std::size_t i) {
+    const Silhouette& silhouette = *hull.silhouettes()[i];
+    rasters_[i] = silhouette.labels().Raster();
+    if (!outlines_.empty()) outlines_[i] = silhouette.plane().outline().Raster();
+  });
+  for (std::size_t i = 0; i < cameras; ++i)
+    projections_.emplace_back(hull.rig().cameras[i], hull.silhouettes()[i]->plane().focal_px(), grid);
+  first_.setZero(), last_ = grid.cells;
+  const Eigen::AlignedBox3d& box = hull.rig().workspace_mm;
+  for (int axis = 0; axis < 3; ++axis) {
+    while (first_[axis] <= last_[axis] && grid.At(first_)[axis] < box.min()[axis]) ++first_[axis];
+    while (first_[axis] <= last_[axis] && grid.At(last_)[axis] > box.max()[axis]) --last_[axis];
+  }
+}
+
+BlockBits HullLattice::LabelsOf(const HullBlock& block, std::int64_t* queries) const {
+  BlockBits bits = block.is_in_workspace ? AllPoints() : InWorkspace(block.corner);
+  // Cells first, of all cameras: most points in one's mixed cells are outside to another.
+  std::vector<BlockBits> mixed(block.cameras.size());
+  for (std::size_t i = 0; i < mixed.size(); ++i) {
+    const std::uint8_t camera = block.cameras[i];
+    *queries += projections_[camera].KeepByCells(rasters_[camera], block.corner, &bits, &mixed[i]);
+  }
+  for (std::size_t i = 0; i < mixed.size(); ++i) {
+    const std::uint8_t camera = block.cameras[i];
+    projections_[camera].SettleMixed(hull_.silhouettes()[camera]->labels(), block.corner, mixed[i], &bits);
+  }
+  if (!block.is_seen) *queries += KeepSeen(block.corner, &bits);
+  return bits;
+}
+
+BlockBits HullLattice::InWorkspace(const GridPoint& corner) const {
+  BlockBits bits;
+  const GridPoint first = (first_ - corner).cwiseMax(0), last = (last_ - corner).cwiseMin(kBlockCells);
+  unsigned row = 0;
+  for (int x = first.x(); x <= last.x(); ++x) row |= 1U << static_cast<unsigned>(x);
+  for (int z = first.z(); z <= last.z(); ++z) {
+    for (int y = first.y(); y <= last.y(); ++y) {
+      const auto i = static_cast<std::size_t>(y + kBlockPoints * z);
+      std::uint8_t& far = bits.groups[BlockBits::kRows + i / 8];
+      bits.groups[i] = static_cast<std::uint8_t>(row);
+      far = static_cast<std::uint8_t>(far | (row >> 8U) << (i % 8));
+    }
+  }
+  return bits;
+}
+
+// Under `abstain`: somebody must see a point.
+std::int64_t HullLattice::KeepSeen(const GridPoint& corner, BlockBits* bits) const {
+  std::int64_t queries = 0;
+  BlockBits unseen = *bits;
+  for (std::size_t i = 0; i < outlines_.size(); ++i) {
+    BlockBits seen = unseen, mixed;
+    queries += projections_[i].KeepByCells(outlines_[i], corner, &seen, &mixed);
+    projections_[i].SettleMixed(hull_.silhouettes()[i]->plane().outline(), corner, mixed, &seen);
+    Clear(seen, &unseen);
+  }
+  Clear(unseen, bits);
+  return queries;
+}
+
+std::vector<Vector3d> HullLattice::ExitsOf(const HullBlock& block, std::span<const BlockEdge> edges) const {
+  std::vector<double> shares(edges.size(), block.is_seen ? kNone : kUnknown);
+  if (!block.is_in_workspace) OfferFaces(block, edges, shares);
+  for (const std::uint8_t i : block.cameras) OfferCrossings(i, block.corner, edges, shares);
+  std::vector<Vector3d> exits(edges.size());
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    const GridPoint low = LowEnd(block, edges[i]), high = low + GridPoint(GridPoint::Unit(edges[i].axis));
+    const Vector3d inside = grid_.At(edges[i].low_is_inside ? low : high);
+    const Vector3d outside = grid_.At(edges[i].low_is_inside ? high : low);
+    const bool is_exact = shares[i] >= 0.0 && shares[i] <= 1.0;
+    const double share = is_exact ? shares[i] : BisectedExit(inside, outside);
+    exits[i] = inside + std::clamp(share, kEndShare, 1.0 - kEndShare) * (outside - inside);
+  }
+  return exits;
+}
+
+void HullLattice::OfferFaces(const HullBlock& block, std::span<const BlockEdge> edges,
+                             std::span<double> shares) const {
+  const Eigen::AlignedBox3d& box = hull_.rig().workspace_mm;
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    const int axis = edges[i].axis;
+    const GridPoint low = LowEnd(block, edges[i]);
+    const double ends[2] = {grid_.At(low)[axis], grid_.At(low + GridPoint(GridPoint::Unit(axis)))[axis]};
+    const double inside = ends[edges[i].low_is_inside ? 0 : 1],
+                 outside = ends[edges[i].low_is_inside ? 1 : 0];
+    const double face = std::clamp(outside, box.min()[axis], box.max()[axis]);
+    if (face != outside) shares[i] = std::min(shares[i], (face - inside) / (outside - inside));
+  }
+}
+
+void HullLattice::OfferCrossings(std::size_t camera, const GridPoint& corner,
+                                 std::span<const BlockEdge> edges, std::span<double> shares) const {
+  const ContourMap& labels = hull_.silhouettes()[camera]->labels();
+  const PointProjection::Block points(projections_[camera], corner);
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    const auto [x, y, z] = edges[i].low;
+    const std::size_t in_x = edges[i].axis == 0, in_y = edges[i].axis == 1, in_z = edges[i].axis == 2;
+    const PointProjection::Point low = points.At(x, y, z), high = points.At(x + in_x, y + in_y, z + in_z);
+    const PointProjection::Point &from = edges[i].low_is_inside ? low : high,
+                                 &to = edges[i].low_is_inside ? high : low;
+    if (!(from.z_mm > 0.0) || !(to.z_mm > 0.0)) {
+      shares[i] = kUnknown;
+      continue;
+    }
+    const std::optional<double> in_picture = labels.FirstCrossing(from.position, to.position);
+    if (!in_picture) continue;
+    // From a share of the way in the picture to one of the way in space.
+    const double share = *in_picture * from.z_mm / (to.z_mm + *in_picture * (from.z_mm - to.z_mm));
+    shares[i] = std::min(shares[i], share);
+  }
+}
+
+double HullLattice::BisectedExit(const Vector3d& inside, const Vector3d& outside) const {
+  double low = 0.0, high = 1.0;
+  for (int i = 0; i < kBisections; ++i) {
+    const double middle = 0.5 * (low + high);
+    (hull_.Contains(inside + middle * (outside - inside)) ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+}  // namespace elbowroom::recon

@@ -1,0 +1,134 @@
+// elbowroom view along parallel rays, and with silhouettes that are known between pixels.
+#include <gtest/gtest.h>
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
+
+#include "recon/recorded_rig.h"
+#include "recon/rig_file.h"
+#include "recon/visual_hull.h"
+#include "tests/app/mask_rig.h"
+#include "tests/support/run_program.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/text_file.h"
+
+namespace elbowroom {
+namespace {
+
+using test_support::ProgramRun;
+
+// From above, one pixel a 1.25 mm, x to world x, y to minus world y.
+constexpr double kPxPerMm = 0.8;
+constexpr int kWidthPx = 150, kHeightPx = 130;
+constexpr double kCenterX = 74.5, kCenterY = 64.5;
+
+class OrthographicView : public testing::Test {
+ protected:
+  struct Seen {
+    nlohmann::json json;
+    cv::Mat depth_mm;
+    cv::Mat picture;
+  };
+
+  [[nodiscard]] std::string WriteView(double above_mm, double center_x_px) const {
+    const std::filesystem::path file = folder_ / "view.yml";
+    test_support::WriteText(
+        file, fmt::format("%YAML:1.0\n---\nprojection: \"orthographic\"\nimage_width: {}\nimage_height: {}\n"
+                          "camera_matrix: [ {}, 0, {}, 0, {}, {}, 0, 0, 1 ]\n"
+                          "distortion_model: \"plumb_bob\"\ndistortion_coefficients: [ 0, 0, 0, 0, 0 ]\n"
+                          "rotation_cam_from_world: [ 1, 0, 0,  0, -1, 0,  0, 0, -1 ]\n"
+                          "translation_cam_from_world_mm: [ 0, 0, {} ]\n",
+                          kWidthPx, kHeightPx, kPxPerMm, center_x_px, kPxPerMm, kCenterY, above_mm));
+    return file.string();
+  }
+
+  [[nodiscard]] ProgramRun View(const std::string& view, const std::string& method) const {
+    return test_support::RunProgram(
+        ELBOWROOM_PROGRAM,
+        {"view", rig_.string(), "--frame", "0", "--camera", view, "--method", method, "--depth",
+         (folder_ / "o.tiff").string(), "--image", (folder_ / "o.png").string(), "--json"});
+  }
+
+  [[nodiscard]] Seen See(double above_mm, double center_x_px = kCenterX) const {
+    const ProgramRun run = View(WriteView(above_mm, center_x_px), "exact");
+    EXPECT_EQ(run.exit_status, 0) << run.err;
+    if (run.exit_status != 0) return {};
+    return {nlohmann::json::parse(run.out), cv::imread((folder_ / "o.tiff").string(), cv::IMREAD_UNCHANGED),
+            cv::imread((folder_ / "o.png").string(), cv::IMREAD_COLOR)};
+  }
+
+  test_support::TemporaryFolder folder_;
+  std::filesystem::path rig_ = test_support::WriteBallRig(folder_.path() / "rig");
+};
+
+TEST_F(OrthographicView, FindsWhereEachParallelRayEntersTheHull) {
+  constexpr double kAboveMm = 500.0;
+  const Seen seen = See(kAboveMm);
+  ASSERT_EQ(seen.depth_mm.size(), cv::Size(kWidthPx, kHeightPx));
+  EXPECT_EQ(seen.json["hit_pixels"], cv::countNonZero(seen.depth_mm));
+
+  recon::RecordedRig source(recon::ReadRigFile(rig_), {});
+  std::vector<core::BitMask> masks;
+  for (const recon::CameraFrame& camera : source.Read(0).cameras) masks.push_back(*camera.ready_mask);
+  const recon::VisualHull hull = recon::MakeVisualHull(std::make_shared<core::Rig>(source.rig()), masks);
+  constexpr double kDepthErrorMm = 0.01;  // float32 at 500 mm, with room
+  int hits = 0, wrong = 0;
+  for (int y = 0; y < kHeightPx; ++y) {
+    for (int x = 0; x < kWidthPx; ++x) {
+      const auto contains = [&](double depth_mm) {
+        return hull.Contains({(x - kCenterX) / kPxPerMm, -(y - kCenterY) / kPxPerMm, kAboveMm - depth_mm});
+      };
+      const double depth_mm = seen.depth_mm.at<float>(y, x);
+      const double first_mm = depth_mm == 0.0 ? 450.0 : depth_mm - kDepthErrorMm;
+      for (double before_mm = 150.0; before_mm < first_mm; before_mm += 3.0) wrong += contains(before_mm);
+      if (depth_mm == 0.0) continue;
+      ++hits;
+      wrong += contains(depth_mm - kDepthErrorMm) || !contains(depth_mm + kDepthErrorMm);
+    }
+  }
+  const double ball_px = M_PI * std::pow(kPxPerMm * test_support::kBallRadiusMm, 2);
+  EXPECT_GT(hits, ball_px);  // the hull holds the ball, and its drawing is to scale
+  EXPECT_LT(hits, 1.4 * ball_px);
+  EXPECT_LE(wrong, 2);  // rays that cut less than 0.01 mm off a corner
+}
+
+TEST_F(OrthographicView, HasNoVanishingPoint) {
+  const Seen near = See(400.0), far = See(900.0), within = See(200.0), shifted = See(400.0, kCenterX - 30.0);
+  // Farther away all is as large, and as much deeper; from the ball's middle its upper half lies behind.
+  EXPECT_EQ(far.json["hit_pixels"], near.json["hit_pixels"]);
+  const cv::Mat hit = near.depth_mm != 0.0F;
+  EXPECT_LE(cv::norm(far.depth_mm - near.depth_mm, cv::Mat(hit.size(), CV_32F, 500.0F), cv::NORM_INF, hit),
+            1e-3);
+  EXPECT_LE(cv::norm(near.depth_mm - within.depth_mm, cv::Mat(hit.size(), CV_32F, 200.0F), cv::NORM_INF, hit),
+            1e-3);
+  EXPECT_LT(within.depth_mm.at<float>(65, 75), -test_support::kBallRadiusMm + 1.0);
+  // Light and eye have the same direction all over: whatever moves in the picture keeps its colours.
+  ASSERT_GT(cv::countNonZero(hit), 1000);
+  for (const Seen* other : {&far, &within})
+    EXPECT_EQ(cv::norm(near.picture, other->picture, cv::NORM_INF), 0.0);
+  const cv::Rect there(30, 0, kWidthPx - 30, kHeightPx), here(0, 0, kWidthPx - 30, kHeightPx);
+  EXPECT_EQ(cv::norm(near.picture(there), shifted.picture(here), cv::NORM_INF, hit(there)), 0.0);
+  EXPECT_GT(cv::norm(near.picture.at<cv::Vec3b>(65, 40), near.picture.at<cv::Vec3b>(65, 110)), 10.0)
+      << "shaded";
+}
+
+TEST_F(OrthographicView, IsRefusedByTheSweepsInOneLine) {
+  const std::string view = WriteView(500.0, kCenterX);
+  for (const char* method : {"sweep", "sweep-gl"}) {
+    const ProgramRun run = View(view, method);
+    EXPECT_EQ(run.exit_status, 1);
+    EXPECT_EQ(run.out, "");
+    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+    for (const char* word : {"view.yml", method, "perspective", "exact"})
+      EXPECT_NE(run.err.find(word), std::string::npos) << word << " in: " << run.err;
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "o.tiff"));
+  }
+}
+
+}  // namespace
+}  // namespace elbowroom
