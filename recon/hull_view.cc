@@ -108,7 +108,7 @@ class Caster {
       std::copy_n(hits.depth_mm + row * kTilePx, columns, view_.depth_mm.data() + first);
       if (view_.surface.empty()) continue;
       for (int i = row * kTilePx; i < row * kTilePx + columns; ++i) {
-        if (hits.depth_mm[i] == 0.0F) continue;
+        if (hits.camera[i] == TileHits::kMiss) continue;
         view_.surface[first + static_cast<std::size_t>(i % kTilePx)] =
             SurfaceOf(hull_, hits.camera[i], ContourEdge(hits.camera[i], hits.edge[i]));
       }
@@ -137,7 +137,11 @@ HullView ViewHull(const VisualHull& hull, const ViewRays& rays, const HullViewOp
   if (options.surfaces || options.normals) view.surface.assign(pixels, {});
   view.skipped_pixels = static_cast<std::int64_t>(pixels);
   if (!hull.IsEmpty()) Caster(hull, rays, &view).Run();
-  if (options.normals) view.normal_in_world = NormalsOf(hull, rays, view);
+  if (options.normals) {
+    view.normal_in_world = view.hit_pixels > 0
+                               ? NormalsOf(hull, rays, view)
+                               : std::vector<Eigen::Vector3f>(pixels, Eigen::Vector3f::Zero());
+  }
   return view;
 }
 

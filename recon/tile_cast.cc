@@ -286,10 +286,11 @@ void Cast(const TileRays& tile, const CastBox& box, std::span<const TileCamera> 
     const VF depth_mm = tile.is_perspective ? hn::Div(hn::Set(f, -1.0F), front.key) : front.key;
     hn::Store(hn::IfThenElseZero(is_hit, depth_mm), f, hits->depth_mm + first);
     const std::size_t count = hn::CountTrue(f, is_hit);
-    if (count == 0) continue;
     hits->count += static_cast<int>(count);
-    hn::Store(front.camera, Ints(), hits->camera + first);
-    if (wants_edges) hn::Store(walk.EdgesOf(front), Ints(), hits->edge + first);
+    const VI miss = hn::Set(Ints(), TileHits::kMiss);
+    hn::Store(hn::IfThenElse(hn::RebindMask(Ints(), is_hit), front.camera, miss), Ints(),
+              hits->camera + first);
+    if (wants_edges && count > 0) hn::Store(walk.EdgesOf(front), Ints(), hits->edge + first);
   }
 }
 

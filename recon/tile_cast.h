@@ -115,10 +115,11 @@ struct TileCamera {
   std::uint32_t starts_inside = 0;
 };
 
-// Of each ray: the depth of its first point in the hull, 0 if there is none or if that is where perspective
-// rays start, and whose edge it is on (kNoCamera: a face of the workspace).
+// Of each ray: the depth of its first point in the hull, and whose edge it is on (kNoCamera: a face of the
+// workspace). 0 and kMiss if there is none or if that is where perspective rays start.
 struct TileHits {
   static constexpr std::int32_t kNoCamera = -1;
+  static constexpr std::int32_t kMiss = -2;
   alignas(64) float depth_mm[kTileRays];
   alignas(64) std::int32_t camera[kTileRays];  // sights count on after the cameras
   alignas(64) std::int32_t edge[kTileRays];    // if wanted: number in CastPencil::edges, of hits on edges

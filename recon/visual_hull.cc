@@ -104,7 +104,7 @@ VisualHull::VisualHull(std::shared_ptr<const core::Rig> rig,
     is_empty_ = is_empty_ || (!silhouette->shows_object() && !exterior_is_object);
   }
   if (is_empty_) return;  // no contour is needed any more
-  tbb::parallel_for(std::size_t{0}, silhouettes_.size(), [&](std::size_t i) { silhouettes_[i]->labels(); });
+  tbb::parallel_for(std::size_t{0}, silhouettes_.size(), [&](std::size_t i) { (void)silhouettes_[i]->labels(); });
   // What a camera shows, its lens may not see.
   const auto sees_nothing = [](const auto& silhouette) { return silhouette->labels().bounds_px().isEmpty(); };
   is_empty_ = !exterior_is_object && std::ranges::any_of(silhouettes_, sees_nothing);

@@ -67,8 +67,9 @@ std::vector<Job> SegmentationJobs() {
   recon::SyntheticRig rig(scene.rig, [objects = scene.objects](double) { return objects; });
   auto segmenter = std::make_shared<const recon::FrameSegmenter>(rig.ReadBackgrounds({}, {}),
                                                                  recon::SegmentationOptions{}, rig.rig());
-  return {{"4 cameras of 640 x 480",
-           [segmenter, frames = rig.Read(0)] { (void)segmenter->SegmentSoft(frames); }}};
+  const recon::FrameSet frames = rig.Read(0);
+  return {{"4 cameras of 640 x 480, detected", [=] { (void)segmenter->Segment(frames); }},
+          {"the same, bounded between pixels", [=] { (void)segmenter->SegmentSoft(frames); }}};
 }
 
 // Masks in memory to the hull's mesh.

@@ -16,7 +16,7 @@ namespace elbowroom::control {
 
 // What a frame did not need to compute, and why.
 struct SkipCount {
-  int unchanged_silhouettes = 0;       // equal to the last frame's, levels and all: their contours were kept
+  recon::HullStats hull;
   int unchanged_parts = 0;             // same hull, same pose: the last answer holds
   std::int64_t triangles_in_all = 0;   // of the parts asked
   std::int64_t triangles_skipped = 0;  // of those: settled with their whole branch of the part's tree

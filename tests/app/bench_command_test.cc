@@ -16,7 +16,7 @@ TEST(CliBench, TimesWhatItIsAskedFor) {
   ASSERT_EQ(run.exit_status, 0) << run.err;
   const nlohmann::json result = nlohmann::json::parse(run.out);
   EXPECT_EQ(result.at("threads"), 1);
-  ASSERT_EQ(result.at("benchmarks").size(), 1U);
+  ASSERT_EQ(result.at("benchmarks").size(), 2U);
   const nlohmann::json& timing = result["benchmarks"][0];
   EXPECT_EQ(timing.at("name"), "segmentation");
   EXPECT_GE(timing.at("repetitions"), 31);

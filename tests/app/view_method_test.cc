@@ -193,6 +193,19 @@ TEST(ExactViewMaker, AGraphicsCardThatFailsLaterIsLeft) {
             "warning: exact view: by the processor, as OpenGL failed (card): out of graphics memory\n");
 }
 
+// Software or not: whoever wins, nothing is amiss, and the picture is right.
+TEST(ExactViewMaker, TheDriverAtHandStandsTheContest) {
+  const LogLines log;
+  ExactViewMaker maker(GraphicsCard("the driver at hand", false));
+  const HullView cpu = recon::ViewHull(Hand().hull, Hand().rays);
+  for (int i = 0; i < 2; ++i) {
+    const HullView view = maker.Make(Hand().hull, Hand().rays);
+    EXPECT_TRUE(recon::CompareViews(Hand().hull, Hand().rays, cpu, view).Agree());
+  }
+  EXPECT_TRUE(log.text().starts_with("info: exact view: by ")) << log.text();
+  EXPECT_TRUE(log.text().ends_with("(the driver at hand)\n")) << log.text();
+}
+
 TEST(ExactViewMaker, OnTheCardAtHandPicturesAreTheProcessorsOutsideTheBand) {
   const MakeView card = GraphicsCard("the driver at hand", false).open();
   const HullView cpu = recon::ViewHull(Hand().hull, Hand().rays);

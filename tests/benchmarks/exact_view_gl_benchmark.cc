@@ -45,6 +45,7 @@ void ExactViewGl(benchmark::State& state, ViewSceneRig of_rig) {
   state.counters["hit_pixels"] = static_cast<double>(view.hit_pixels);
   state.counters["cast_pixels"] = static_cast<double>(view.cast_pixels);
   state.counters["band_pixels"] = static_cast<double>(comparison.band_pixels);
+  state.counters["differing_in_band"] = static_cast<double>(comparison.differing_in_band);
   state.counters["differing"] = static_cast<double>(comparison.differing_pixels);
   state.counters["max_mm"] = comparison.largest_difference_mm;
 }

@@ -10,6 +10,7 @@
 #include <map>
 #include <random>
 #include <set>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -19,6 +20,11 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr unsigned kCases = 256;
+
+std::span<const std::array<std::uint8_t, 3>> TrianglesOf(std::size_t inside) {
+  const CubeTriangles& triangles = CubeTable()[inside];
+  return std::span(triangles.all).first(triangles.count);
+}
 
 using Segment = std::pair<int, int>;  // from one cube edge to another
 
@@ -56,7 +62,7 @@ int SharedFace(int a, int b) {
 // The triangles' sides that no other triangle of the case runs along the other way.
 std::vector<Segment> OutlineOf(unsigned inside) {
   std::map<Segment, int> sides;
-  for (const auto& triangle : CubeTable()[inside])
+  for (const auto& triangle : TrianglesOf(inside))
     for (std::size_t i = 0; i < 3; ++i) ++sides[{triangle[i], triangle[(i + 1) % 3]}];
   std::vector<Segment> outline;
   for (const auto& [side, count] : sides) {
@@ -91,7 +97,7 @@ Segment SeenFromBeyond(const Segment& segment, int face) {
 TEST(CubeTable, TrianglesUseEveryEdgeThatChangesAndNoOther) {
   for (unsigned inside = 0; inside < kCases; ++inside) {
     std::set<int> used;
-    for (const auto& triangle : CubeTable()[inside]) {
+    for (const auto& triangle : TrianglesOf(inside)) {
       used.insert(triangle.begin(), triangle.end());
       EXPECT_TRUE(triangle[0] != triangle[1] && triangle[1] != triangle[2] && triangle[2] != triangle[0])
           << "case " << inside;
@@ -113,7 +119,7 @@ TEST(CubeTable, OutlinesLieInFacesAndInnerSidesInNone) {
       EXPECT_EQ(starts[edge], Changes(inside, edge) ? 1 : 0) << "case " << inside;
       EXPECT_EQ(ends[edge], starts[edge]) << "case " << inside;
     }
-    for (const auto& triangle : CubeTable()[inside]) {
+    for (const auto& triangle : TrianglesOf(inside)) {
       for (std::size_t i = 0; i < 3; ++i) {
         const Segment side{triangle[i], triangle[(i + 1) % 3]};
         const bool is_outline = std::ranges::find(outline, side) != outline.end();
@@ -132,11 +138,11 @@ TEST(CubeTable, EveryPieceIsADisc) {
       const int from = piece[static_cast<std::size_t>(a)], to = piece[static_cast<std::size_t>(b)];
       std::ranges::replace(piece, from, to);
     };
-    for (const auto& [a, b, c] : CubeTable()[inside]) join(a, b), join(b, c);
+    for (const auto& [a, b, c] : TrianglesOf(inside)) join(a, b), join(b, c);
     std::map<int, int> vertices, triangles, outline_sides;
     for (int edge = 0; edge < 12; ++edge)
       if (Changes(inside, edge)) ++vertices[piece[static_cast<std::size_t>(edge)]];
-    for (const auto& triangle : CubeTable()[inside]) ++triangles[piece[triangle[0]]];
+    for (const auto& triangle : TrianglesOf(inside)) ++triangles[piece[triangle[0]]];
     for (const Segment& side : OutlineOf(inside))
       ++outline_sides[piece[static_cast<std::size_t>(side.first)]];
     for (const auto& [name, count] : vertices) {
@@ -184,7 +190,7 @@ TEST(CubeTable, NormalsPointOutOfTheObject) {
     for (int trial = 0; trial < 20; ++trial) {
       std::array<Vector3d, 12> at;
       for (int edge = 0; edge < 12; ++edge) at[static_cast<std::size_t>(edge)] = PointOn(edge, share(engine));
-      for (const auto& [a, b, c] : CubeTable()[inside])
+      for (const auto& [a, b, c] : TrianglesOf(inside))
         EXPECT_GT((at[b] - at[a]).cross(at[c] - at[a]).norm(), 0.0) << "case " << inside;
       for (const auto& [from, to] : OutlineOf(inside)) {
         const int face = SharedFace(from, to);
@@ -203,7 +209,7 @@ TEST(CubeTable, NormalsPointOutOfTheObject) {
 
 TEST(CubeTable, OneCornerInsideIsCutOffFacingAwayFromIt) {
   for (int corner = 0; corner < 8; ++corner) {
-    const CubeTriangles& triangles = CubeTable()[std::size_t{1} << static_cast<unsigned>(corner)];
+    const auto triangles = TrianglesOf(std::size_t{1} << static_cast<unsigned>(corner));
     ASSERT_EQ(triangles.size(), 1U);
     const Vector3d a = PointOn(triangles[0][0], 0.5), b = PointOn(triangles[0][1], 0.5),
                    c = PointOn(triangles[0][2], 0.5);

@@ -60,7 +60,7 @@ TEST_F(NextHullTest, AnEmptyCameraMakesAllContoursSuperfluous) {
   EXPECT_TRUE(next.hull->IsEmpty());
   EXPECT_EQ(next.stats.empty_silhouettes, 1);
   EXPECT_EQ(next.stats.untraced_silhouettes, 4);
-  const HullView view = ViewHull(*next.hull, scene_.rig->cameras[0]);
+  const HullView view = ViewHull(*next.hull, ViewRays(scene_.rig->cameras[0]));
   EXPECT_EQ(view.hit_pixels, 0);
   EXPECT_EQ(view.skipped_pixels, std::int64_t{view.width_px} * view.height_px);
   EXPECT_FALSE(next.hull->silhouettes()[0]->is_traced()) << "nor does a view need them";
