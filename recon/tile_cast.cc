@@ -66,6 +66,10 @@ struct Halves {
 
 HWY_INLINE Halves GatherWords(const std::uint64_t* words, VI at) {
   const Ints n;
+#if HWY_TARGET == HWY_SCALAR
+  const std::uint64_t word = words[hn::GetLane(at)];
+  return {hn::Set(n, static_cast<std::int32_t>(word)), hn::Set(n, static_cast<std::int32_t>(word >> 32U))};
+#else
   const hn::Half<Ints> half;
   const hn::RepartitionToWide<Ints> wide;
   const hn::RebindToUnsigned<decltype(wide)> word;
@@ -74,6 +78,7 @@ HWY_INLINE Halves GatherWords(const std::uint64_t* words, VI at) {
   };
   const VI first = gather(hn::LowerHalf(half, at)), second = gather(hn::UpperHalf(half, at));
   return {hn::ConcatEven(n, second, first), hn::ConcatOdd(n, second, first)};
+#endif
 }
 
 // The bits of the vector's rays.
