@@ -144,7 +144,6 @@ class Walk {
 
   // The edges that the rays of a front are on, of the cameras that brought them there.
   [[nodiscard]] VI EdgesOf(const Front& front) const {
-    const Floats f;
     const Ints n;
     VI found = hn::Zero(n);
     for (std::size_t i = 0; i < cameras_.size() + sights_.size(); ++i) {
@@ -189,7 +188,6 @@ class Walk {
   // The crossing at course->place; infinite behind the last, and from the rays' end on.
   HWY_INLINE void Fetch(const CastPencil& pencil, Course* course) const {
     const Floats f;
-    const Ints n;
     const std::uint64_t* crossings = pencil.intervals.crossings.data();
     const VI at = hn::ShiftLeft<1>(course->place);
     const Halves slopes = GatherWords(crossings, at), rest = GatherWords(crossings + 1, at);
