@@ -21,7 +21,7 @@ TEST(WriteMicroTable, TellsWhatGoogleBenchmarkMeasured) {
             R"({"benchmarks": [
               {"run_name": "Project", "run_type": "iteration", "repetitions": 3, "real_time": 9.0, "time_unit": "us"},
               {"run_name": "Project", "run_type": "aggregate", "aggregate_name": "median", "repetitions": 3,
-               "real_time": 12.5, "time_unit": "us", "items_per_second": 8e7},
+               "real_time": 12.5, "time_unit": "us", "items_per_second": 8e7, "differing": NaN},
               {"run_name": "View", "run_type": "iteration", "real_time": 3.21, "time_unit": "ms"}]})");
   WriteMicroTable(folder.path(), folder / "run.json");
   const std::string text = ReadText(folder / "performance.md");

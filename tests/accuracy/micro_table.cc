@@ -2,7 +2,10 @@
 #include <fmt/format.h>
 
 #include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
+#include <regex>
+#include <string>
 
 #include "core/error.h"
 #include "tests/accuracy/measurements.h"
@@ -31,11 +34,17 @@ bool IsTold(const nlohmann::json& run) {
                                                   : run.value("aggregate_name", "") == "median";
 }
 
+// Google Benchmark writes counters of no mean as NaN, which JSON doesn't know.
+std::string WithoutNan(const std::string& json) {
+  return std::regex_replace(json, std::regex(": -?NaN\\b"), ": null");
+}
+
 }  // namespace
 
 void WriteMicroTable(const std::filesystem::path& docs, const std::filesystem::path& json) {
   std::ifstream stream(json);
-  const nlohmann::json file = nlohmann::json::parse(stream, nullptr, false);
+  const std::string text{std::istreambuf_iterator<char>(stream), {}};
+  const nlohmann::json file = nlohmann::json::parse(WithoutNan(text), nullptr, false);
   if (!file.is_object() || !file.contains("benchmarks")) {
     throw core::Error(
         core::ErrorKind::kFormat,

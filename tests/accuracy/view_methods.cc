@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "recon/gl/exact_view_gl.h"
 #include "recon/gl/plane_sweep_gl.h"
 #include "recon/hull_mesh.h"
 #include "recon/hull_view.h"
@@ -13,6 +14,12 @@
 
 namespace elbowroom::accuracy {
 namespace {
+
+constexpr recon::HullViewOptions kDepthsAlone{.surfaces = false, .normals = false};
+
+recon::DepthMap DepthsOf(recon::HullView view) {
+  return {view.width_px, view.height_px, std::move(view.depth_mm), view.hit_pixels};
+}
 
 void AddPlaneSweeps(std::vector<ViewMethod>& methods) {
   for (const int times : {1, 3, 15}) {
@@ -34,7 +41,7 @@ void AddPlaneSweeps(std::vector<ViewMethod>& methods) {
   }
   recon::PlaneSweepOptions paper = recon::FiftyPlanes();
   paper.undistortion_grid = 5;
-  methods.push_back({"plane sweep, GL", "the paper's passes and grid", [=](const ViewTask& task) {
+  methods.push_back({"the paper's sweep, GL", "planes 15 mm apart", [=](const ViewTask& task) {
                        return sweep_gl
                            ->Sweep(*task.rig, task.masks, task.view, task.sweep_rays, paper,
                                    recon::gl::SweepPasses::kOneAPlaneAndCamera)
@@ -54,13 +61,16 @@ ViewTask::ViewTask(std::shared_ptr<const core::Rig> of_rig, std::vector<core::So
       sweep_rays(view) {}
 
 recon::DepthMap ExactView(const ViewTask& task) {
-  recon::HullView view = recon::ViewHull(task.Hull(), task.rays, {.surfaces = false, .normals = false});
-  return {view.width_px, view.height_px, std::move(view.depth_mm), view.hit_pixels};
+  return DepthsOf(recon::ViewHull(task.Hull(), task.rays, kDepthsAlone));
 }
 
 std::vector<ViewMethod> ViewMethods() {
   std::vector<ViewMethod> methods;
   methods.push_back({"exact view", "CPU", ExactView});
+  methods.push_back(
+      {"exact view", "GL", [card = std::make_shared<recon::gl::ExactViewGl>()](const ViewTask& task) {
+         return DepthsOf(card->ViewHull(task.Hull(), task.rays, kDepthsAlone));
+       }});
   AddPlaneSweeps(methods);
   for (const double edge_mm : {2.0, 4.0, 8.0}) {
     methods.push_back({"octree mesh", fmt::format("edges of {} mm", edge_mm), [=](const ViewTask& task) {

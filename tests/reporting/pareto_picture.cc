@@ -44,17 +44,27 @@ std::string DataBlocks(const ParetoPicture& picture, const std::vector<std::stri
   return text;
 }
 
+// Beside the points of one family, above or below those of the next: labels of neighbours seldom meet.
+constexpr std::array kLabelPlaces = {"left offset 0.9,0", "center offset 0,0.9", "left offset 0.9,0",
+                                     "center offset 0,0.9", "center offset 0,-0.9"};
+
+// As gnuplot takes text in single quotes.
+std::string Quoted(const std::string& text) {
+  std::string quoted = "'";
+  for (const char c : text) quoted += c == '\'' ? std::string("''") : std::string(1, c);
+  return quoted + "'";
+}
+
 std::string PlotCommand(const std::vector<std::string>& families) {
   std::string text = "plot ";
   for (std::size_t f = 0; f < families.size(); ++f) {
     const char* color = kColors[f % kColors.size()];
-    // Beside the points of one family, above those of the next: labels of neighbours don't meet.
-    const char* place = f % 2 == 0 ? "left offset 0.9,0" : "center offset 0,0.9";
+    const char* place = kLabelPlaces[f % kLabelPlaces.size()];
     text += fmt::format(
-        "{0}$all{1} using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '{2}' title '{3}', "
+        "{0}$all{1} using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '{2}' title {3}, "
         "$grey{1} using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, "
         "$all{1} using 1:2:3 with labels {4} tc rgb '{2}' notitle",
-        f == 0 ? "" : ", ", f, color, families[f], place);
+        f == 0 ? "" : ", ", f, color, Quoted(families[f]), place);
   }
   return text + "\n";
 }
@@ -79,11 +89,12 @@ void DrawPareto(const ParetoPicture& picture, const std::filesystem::path& stem)
   const std::vector<std::string> families = FamiliesOf(picture.points);
   std::string script = DataBlocks(picture, families);
   script += fmt::format(
-      "set logscale xy\nset grid lc rgb '#cccccc'\nset border 3\nset tics nomirror\nset key bottom left Left "
+      "set logscale xy\nset grid lc rgb '#cccccc'\nset border 3\nset tics nomirror\nset key center right "
+      "Left "
       "reverse\n"
-      "set title '{}'\nset xlabel '{}'\nset ylabel '{}'\nset format xy '%g'\nset offsets graph 0.08, graph "
-      "0.22, graph 0.1, graph 0.1\n",
-      picture.title, picture.time_label, picture.error_label);
+      "set title {}\nset xlabel {}\nset ylabel {}\nset format xy '%g'\nset offsets graph 0.08, graph "
+      "0.3, graph 0.1, graph 0.1\n",
+      Quoted(picture.title), Quoted(picture.time_label), Quoted(picture.error_label));
   // Names without a folder: the script runs beside them.
   const std::string name = stem.filename().string(), plot = PlotCommand(families);
   script += fmt::format(
