@@ -11,8 +11,6 @@ namespace elbowroom::recon {
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
-// Room for the rounding of rays' angles to float32.
-constexpr double kAngleSlack = 1e-6;
 
 struct Direction {
   double x = 0.0;
@@ -145,6 +143,11 @@ std::vector<OrderRange> FillIntervals(std::vector<OrderedEdge> edges, bool start
   std::vector<OrderRange> ranges = Sweep(edges, starts_inside, &pencil->intervals).Run();
   FillBins(pencil);
   return ranges;
+}
+
+std::uint32_t BinOf(const CastPencil& pencil, double angle) {
+  const double bin = (angle - pencil.least_angle) * pencil.bins_per_angle;
+  return static_cast<std::uint32_t>(std::clamp(bin, 0.0, pencil.bins - 1.0));
 }
 
 std::pair<std::size_t, std::size_t> IntervalsOf(const CastPencil& pencil, std::uint32_t first_bin,

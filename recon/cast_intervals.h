@@ -34,6 +34,12 @@ struct OrderRange {
 [[nodiscard]] std::vector<OrderRange> FillIntervals(std::vector<OrderedEdge> edges, bool starts_inside,
                                                     CastPencil* pencil);
 
+// Room for the rounding of rays' angles to float32.
+inline constexpr double kAngleSlack = 1e-6;
+
+// The nearest bin for angles that the view doesn't have.
+[[nodiscard]] std::uint32_t BinOf(const CastPencil& pencil, double angle);
+
 // The first and the last interval that rays of these bins can be in.
 [[nodiscard]] std::pair<std::size_t, std::size_t> IntervalsOf(const CastPencil& pencil,
                                                               std::uint32_t first_bin,

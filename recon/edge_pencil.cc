@@ -15,8 +15,6 @@ using Eigen::Vector3d;
 // distances it is taken to be beside it.
 constexpr double kLeastHeight = 1e-14;
 constexpr std::uint32_t kBins = 2048;
-// Room for the rounding of rays' angles to float32.
-constexpr double kAngleSlack = 1e-6;
 // An epipole within this angle of the contour is on it: rounding would decide, edge by edge, on which side
 // the rays start. The camera is turned then, by an angle that is nothing to a pixel.
 constexpr double kOnContourRad = 1e-11;
@@ -116,11 +114,6 @@ EdgePencil::AngleRange EdgePencil::AnglesOf(const Eigen::AlignedBox2d& uv_box) c
   return {range.least - kAngleSlack, range.most + kAngleSlack};
 }
 
-std::uint32_t EdgePencil::BinOf(double angle) const {
-  const double bin = (angle - cast_.least_angle) * cast_.bins_per_angle;
-  return static_cast<std::uint32_t>(std::clamp(bin, 0.0, kBins - 1.0));
-}
-
 // Where rays meet the plane of an edge from `from` along `along`, and in which order: the crossing's
 // direction from the camera is order * axis + (x, y) across it.
 OrderedEdge EdgePencil::EdgeAlong(const Vector3d& from, const Vector3d& along, bool enters) const {
@@ -209,7 +202,7 @@ EdgePencil::KeyRange EdgePencil::ObjectKeys(const Eigen::AlignedBox2d& uv_box) c
   constexpr double kRounding = 1e-9;
   if (is_concentric_) return {};
   const AngleRange angles = AnglesOf(uv_box);
-  const auto [first, last] = IntervalsOf(cast_, BinOf(angles.least), BinOf(angles.most));
+  const auto [first, last] = IntervalsOf(cast_, BinOf(cast_, angles.least), BinOf(cast_, angles.most));
   const OrderRange orders = OrdersIn(first, last);
   if (orders.first > orders.last) return {kInfinity, -kInfinity};
   const bool is_perspective = projection_ == Projection::kPerspective;

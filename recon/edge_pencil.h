@@ -61,7 +61,6 @@ class EdgePencil {
   [[nodiscard]] OrderRange OrdersIn(std::size_t first_interval, std::size_t last_interval) const;
   void ChooseAxes(const Eigen::AlignedBox2d& view_box);
   [[nodiscard]] AngleRange AnglesOf(const Eigen::AlignedBox2d& uv_box) const;
-  [[nodiscard]] std::uint32_t BinOf(double angle) const;
   void AddEdges(const Contour& contour, const Eigen::Matrix3d& view_from_cam);
   void AddEdge(OrderedEdge edge, double from, double to, std::vector<OrderedEdge>* edges) const;
   [[nodiscard]] OrderedEdge EdgeAlong(const Eigen::Vector3d& from, const Eigen::Vector3d& along,

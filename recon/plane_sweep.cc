@@ -36,7 +36,7 @@ SweepAsker AskerOf(const SweepCamera& camera, bool exterior_is_object) {
   asker.coefficients = LensCoefficientsOf(camera.model);
   asker.lens = asker.coefficients.is_fisheye
                    ? SweepLens::kFisheye
-                   : (IsIdeal(camera.model) ? SweepLens::kIdeal : SweepLens::kPolynomial);
+                   : (camera.model.is_ideal() ? SweepLens::kIdeal : SweepLens::kPolynomial);
   const CoverageTexture& coverage = camera.coverage;
   const Eigen::Vector2d first(coverage.left_px, coverage.top_px);
   asker.fx = static_cast<float>(c.camera_matrix(0, 0));

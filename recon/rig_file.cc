@@ -274,7 +274,7 @@ ViewFile ReadViewFile(const std::filesystem::path& path) {
     const std::string name = Text(section, "name", "view");
     section.who = fmt::format("{}: camera '{}'", file, name);
     ViewFile view{ReadCamera(section, name, file), ReadIsOrthographic(section)};
-    if (view.is_orthographic && !IsIdeal(view.camera)) {
+    if (view.is_orthographic && !view.camera.is_ideal()) {
       section.Fail("an orthographic view has no lens; make all distortion_coefficients of a plumb_bob 0");
     }
     return view;

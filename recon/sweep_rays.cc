@@ -19,19 +19,12 @@ int TilesAlong(int pixels) { return (pixels + kSweepTilePx - 1) / kSweepTilePx; 
 
 }  // namespace
 
-bool IsIdeal(const core::CameraModel& camera) {
-  const core::CameraCalibration& c = camera.calibration();
-  return c.distortion_model != core::DistortionModel::kFisheye &&
-         std::all_of(c.distortion_coefficients.begin(), c.distortion_coefficients.end(),
-                     [](double k) { return k == 0.0; });
-}
-
 SweepRays::SweepRays(const core::CameraModel& view)
     : width_px_(view.width_px()),
       height_px_(view.height_px()),
       camera_matrix_(view.calibration().camera_matrix),
       tiles_x_(TilesAlong(view.width_px())) {
-  if (IsIdeal(view)) return;
+  if (view.is_ideal()) return;
   normalised_.resize(PixelAt(0, height_px_, width_px_));
   bounds_.resize(PixelAt(0, TilesAlong(height_px_), tiles_x_));
   tbb::parallel_for(0, TilesAlong(height_px_), [&](int tile_y) {

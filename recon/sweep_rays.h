@@ -52,7 +52,4 @@ class SweepRays {
   std::vector<Eigen::AlignedBox2d> bounds_;  // one a tile
 };
 
-// True if the lens bends nothing: positions are the camera matrix's alone.
-[[nodiscard]] bool IsIdeal(const core::CameraModel& camera);
-
 }  // namespace elbowroom::recon

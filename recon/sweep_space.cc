@@ -46,7 +46,7 @@ std::optional<AlignedBox2d> PictureBounds(const core::CameraModel& camera, const
   const Vector2d center = camera.PixelFromNormalised(normalised.center());
   const Vector2d half = 0.5 * normalised.sizes();
   Vector2d reach_px;
-  if (IsIdeal(camera)) {
+  if (camera.is_ideal()) {
     reach_px = camera.calibration().camera_matrix.topLeftCorner<2, 2>().cwiseAbs() * half;
   } else {
     reach_px.setConstant(camera.PixelStretch(far.norm()) * half.norm());
@@ -149,7 +149,7 @@ SweepSpace::SweepSpace(const core::Rig& rig, std::span<const core::SoftMask> mas
   tbb::parallel_for(std::size_t{0}, cameras.size(), [&](std::size_t i) {
     const core::CameraModel& camera = rig.cameras[i];
     const core::RigidTransform cam_from_view = camera.cam_from_world() * world_from_view_;
-    if (options.undistortion_grid == 0 || IsIdeal(camera)) {
+    if (options.undistortion_grid == 0 || camera.is_ideal()) {
       cameras[i] = {camera, cam_from_view, MakeCoverageTexture(masks[i]), BlockOccupancy(masks[i].mask)};
       return;
     }

@@ -70,11 +70,6 @@ struct Event {
   bool is_sure = false;  // exactly one crossing in the range; otherwise one or none
 };
 
-std::uint32_t BinOf(const CastPencil& pencil, double angle) {
-  const double bin = (angle - pencil.least_angle) * pencil.bins_per_angle;
-  return static_cast<std::uint32_t>(std::clamp(bin, 0.0, pencil.bins - 1.0));
-}
-
 // The edges of a kind that rays at an angle in the range may be on.
 std::vector<CastEdge> EdgesAt(const CastPencil& pencil, bool is_entry, const Range& angle) {
   const auto [first, last] = IntervalsOf(pencil, BinOf(pencil, angle.low), BinOf(pencil, angle.high));

@@ -29,7 +29,6 @@ namespace {
 // Texture units.
 enum Unit { kRays, kLabels, kForms, kRuns, kAngles, kKeys };
 
-constexpr GLint kMiss = -2;          // as the shader writes it
 constexpr float kLargest = 3.0e38F;  // stands for infinity, there too
 
 // What a picture on the card shows: silhouettes don't change, so the same ones are the same hull.
@@ -207,7 +206,7 @@ void ExactViewGl::Impl::Draw(const VisualHull& hull, const ViewRays& rays, bool 
     corners_.Upload(CornersOf(squares, rays), Refill::kEachFrame);
     target_->Bind(with_surfaces);
     const GLfloat no_depth[4] = {0.0F, 0.0F, 0.0F, 0.0F};
-    const GLint no_surface[4] = {kMiss, 0, 0, 0};
+    const GLint no_surface[4] = {TileHits::kMiss, 0, 0, 0};
     glClearBufferfv(GL_COLOR, 0, no_depth);
     if (with_surfaces) glClearBufferiv(GL_COLOR, 1, no_surface);
     ray_texture_.BindTo(kRays), labels_.BindTo(kLabels), forms_.BindTo(kForms);
@@ -237,7 +236,7 @@ void ExactViewGl::Impl::Read(bool with_surfaces, HullView* view) {
     for (int x = b.x; x < b.right; ++x) {
       const std::size_t pixel = static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x);
       const GLint* surface = surfaces_.data() + 2 * pixel;
-      if (surface[0] == kMiss) continue;
+      if (surface[0] == TileHits::kMiss) continue;
       view->surface[pixel] = SurfaceOf(drawn_->hull, surface[0], static_cast<std::uint32_t>(surface[1]));
     }
   });

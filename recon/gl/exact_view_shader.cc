@@ -25,7 +25,7 @@ layout(location = 1) out ivec2 surface;
 
 const float kFar = 3.0e38;  // stands for infinity
 const int kNoCaster = -1;
-const int kMiss = -2;
+const int kMiss = -2;  // TileHits::kMiss
 
 float At(vec4 form, vec2 uv) { return uv.x * form.x + uv.y * form.y + form.z; }
 

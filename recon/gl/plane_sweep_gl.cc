@@ -218,7 +218,7 @@ void PlaneSweepGl::Impl::SetUp(const SweepSpace& space, const core::CameraModel&
     set("valid_max", relative(coverage.valid_px.max()));
     set("picture_min", relative(Eigen::Vector2d::Constant(-0.5)));
     set("picture_max", relative({c.image_width_px - 0.5, c.image_height_px - 0.5}));
-    if (IsIdeal(camera.model)) continue;
+    if (camera.model.is_ideal()) continue;
     const SweepLensCoefficients lens = LensCoefficientsOf(camera.model);
     set("picture_from_normalised", Eigen::Matrix3f(PictureFromNormalised(camera).cast<float>()));
     set("max_radius_squared", static_cast<float>(camera.model.max_radius() * camera.model.max_radius()));
@@ -268,7 +268,7 @@ void PlaneSweepGl::Impl::Draw(const SweepSpace& space, const Pass& pass, int pla
   for (std::size_t i = 0; i < pass.cameras; ++i) {
     const SweepCamera& camera = space.cameras()[pass.first_camera + i];
     Eigen::Matrix3d from_ray = FromRay(camera.cam_from_view, depth_mm);
-    if (IsIdeal(camera.model)) from_ray = PictureFromNormalised(camera) * from_ray;
+    if (camera.model.is_ideal()) from_ray = PictureFromNormalised(camera) * from_ray;
     program.Set(("from_ray_" + std::to_string(i)).c_str(), Eigen::Matrix3f(from_ray.cast<float>()));
     masks_[pass.first_camera + i].BindTo(static_cast<int>(i));
   }

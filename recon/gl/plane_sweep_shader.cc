@@ -112,7 +112,7 @@ std::string ForCamera(std::string text, std::size_t index) {
 
 std::string CameraSource(const core::CameraModel& camera, std::size_t index) {
   std::string source = kCameraSource;
-  if (IsIdeal(camera)) {
+  if (camera.is_ideal()) {
     source += kIdealPositionSource;
   } else {
     const bool is_fisheye = camera.calibration().distortion_model == core::DistortionModel::kFisheye;
