@@ -12,7 +12,7 @@ find_package(SQLiteCpp REQUIRED)
 find_package(assimp REQUIRED)
 find_package(GTest REQUIRED)
 pkg_check_modules(EPOXY REQUIRED IMPORTED_TARGET epoxy)
-pkg_check_modules(HIGHWAY REQUIRED IMPORTED_TARGET libhwy)
+pkg_check_modules(HIGHWAY REQUIRED IMPORTED_TARGET libhwy libhwy-contrib)
 pkg_check_modules(ZSTD REQUIRED IMPORTED_TARGET libzstd)
 pkg_check_modules(XXHASH REQUIRED IMPORTED_TARGET libxxhash)
 find_package(OpenCVParts REQUIRED)   # only the modules in use; Debian ships no CMake config for single modules

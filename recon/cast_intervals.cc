@@ -1,6 +1,9 @@
 #include "recon/cast_intervals.h"
 
+#include <hwy/contrib/sort/vqsort.h>
+
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -24,15 +27,33 @@ Direction DirectionAt(double angle) {
   return {1.0 - std::abs(angle), angle};
 }
 
+// The edges' numbers by `from`.
+std::vector<std::uint32_t> ByFrom(std::span<const CastEdge> edges) {
+  std::vector<std::uint64_t> keys(edges.size());
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    const auto bits = std::bit_cast<std::uint32_t>(edges[i].from);
+    const std::uint32_t ascending = (bits >> 31U) != 0 ? ~bits : bits | 0x80000000U;
+    keys[i] = std::uint64_t{ascending} << 32U | i;
+  }
+  hwy::Sorter()(keys.data(), keys.size(), hwy::SortAscending());
+  std::vector<std::uint32_t> numbers(edges.size());
+  for (std::size_t i = 0; i < keys.size(); ++i) numbers[i] = static_cast<std::uint32_t>(keys[i]);
+  return numbers;
+}
+
 // Goes through the angles and keeps the edges that rays meet, in order.
 class Sweep {
  public:
-  Sweep(std::span<const OrderedEdge> edges, bool starts_inside, CastIntervals* intervals)
-      : edges_(edges), starts_inside_(starts_inside), out_(*intervals) {
-    out_.begins.reserve(edges.size() + 2);
-    out_.runs.reserve(edges.size() + 2);
-    out_.crossings.reserve(8 * edges.size() + 2);
-    ranges_.reserve(edges.size() + 2);
+  Sweep(std::span<const EdgeOrder> orders, bool starts_inside, CastPencil* pencil)
+      : edges_(pencil->edges),
+        orders_(orders),
+        by_from_(ByFrom(edges_)),
+        starts_inside_(starts_inside),
+        out_(pencil->intervals) {
+    out_.begins.reserve(edges_.size() + 2);
+    out_.runs.reserve(edges_.size() + 2);
+    out_.crossings.reserve(kCrossingsPerEdge * 2 * edges_.size() + 2);
+    ranges_.reserve(edges_.size() + 2);
   }
 
   std::vector<OrderRange> Run() {
@@ -50,49 +71,80 @@ class Sweep {
   }
 
  private:
-  [[nodiscard]] double OrderOf(std::uint32_t edge, const Direction& direction) const {
-    return direction.x * edges_[edge].order.dx + direction.y * edges_[edge].order.dy;
+  // Rays of a compact object's view meet about as many.
+  static constexpr std::size_t kCrossingsPerEdge = 8;
+
+  // An edge that rays meet now.
+  struct Met {
+    EdgeOrder order;
+    float to = 0.0F;
+    CastCrossing::Words words;
+    [[nodiscard]] double OrderAt(const Direction& direction) const {
+      return direction.x * order.dx + direction.y * order.dy;
+    }
+  };
+
+  [[nodiscard]] float NextBegin() const {
+    return next_ < edges_.size() ? edges_[by_from_[next_]].from : kInfinity;
   }
 
   // Where the next edge begins or ends.
   [[nodiscard]] float NextAngle() const {
-    float next = next_ < edges_.size() ? edges_[next_].cast.from : kInfinity;
-    for (const std::uint32_t edge : met_) next = std::min(next, edges_[edge].cast.to);
+    float next = NextBegin();
+    for (const Met& edge : met_) next = edge.to < next ? edge.to : next;
     return next;
   }
 
-  // Edges that end at an angle go, edges that begin there come.
+  [[nodiscard]] Met MetAt(std::size_t place) const {
+    const std::uint32_t number = by_from_[place];
+    const CastEdge& edge = edges_[number];
+    return {orders_[number], edge.to, CastCrossing{edge.key, number, edge.is_entry}.Pack()};
+  }
+
+  // Edges that end at an angle go, edges that begin there come: where the contour goes on, in their place.
   void Pass(float at) {
-    std::erase_if(met_, [&](std::uint32_t edge) { return edges_[edge].cast.to <= at; });
     const std::size_t first = next_;
-    for (; next_ < edges_.size() && edges_[next_].cast.from <= at; ++next_)
-      met_.push_back(static_cast<std::uint32_t>(next_));
-    end_ = NextAngle();
-    if (first == next_) return;
-    const Direction middle = DirectionAt(0.5 * (std::max(double{at}, -2.0) + std::min(double{end_}, 2.0)));
-    std::size_t sorted = met_.size() - (next_ - first);
-    for (; sorted < met_.size(); ++sorted) {
-      const std::uint32_t edge = met_[sorted];
-      const double place = OrderOf(edge, middle);
-      std::size_t i = sorted;
-      for (; i > 0 && OrderOf(met_[i - 1], middle) > place; --i) met_[i] = met_[i - 1];
-      met_[i] = edge;
+    while (next_ < edges_.size() && NextBegin() <= at) ++next_;
+    const auto has_ended = [at](const Met& edge) { return edge.to <= at; };
+    const auto ended = std::ranges::find_if(met_, has_ended);
+    std::size_t unsettled = static_cast<std::size_t>(ended - met_.begin());
+    if (next_ == first + 1 && ended != met_.end() && std::none_of(ended + 1, met_.end(), has_ended)) {
+      *ended = MetAt(first);
+      end_ = NextAngle();
+      return Settle(unsettled, met_.size(), MiddleOf(at, end_));
     }
+    std::erase_if(met_, has_ended);
+    unsettled = met_.size();
+    for (std::size_t i = first; i < next_; ++i) met_.push_back(MetAt(i));
+    end_ = NextAngle();
+    const Direction middle = MiddleOf(at, end_);
+    for (; unsettled < met_.size(); ++unsettled) Settle(unsettled, unsettled + 1, middle);
+  }
+
+  static Direction MiddleOf(double begin, double end) {
+    return DirectionAt(0.5 * (std::max(begin, -2.0) + std::min(end, 2.0)));
+  }
+
+  // Edge i to its place among the first `count`, which are in order but for itself.
+  void Settle(std::size_t i, std::size_t count, const Direction& middle) {
+    const double order = met_[i].OrderAt(middle);
+    for (; i > 0 && met_[i - 1].OrderAt(middle) > order; --i) std::swap(met_[i - 1], met_[i]);
+    for (; i + 1 < count && met_[i + 1].OrderAt(middle) < order; ++i) std::swap(met_[i], met_[i + 1]);
   }
 
   // Orders are linear in an angle but for its whole numbers.
   [[nodiscard]] OrderRange RangeOf(double begin, double end) const {
     if (met_.empty() && !starts_inside_) return {kInfinity, -kInfinity};
-    const bool has_first = !met_.empty() && edges_[met_.front()].cast.is_entry;
-    const bool has_last = !met_.empty() && !edges_[met_.back()].cast.is_entry;
+    const bool has_first = !met_.empty() && met_.front().words.is_entry();
+    const bool has_last = !met_.empty() && !met_.back().words.is_entry();
     OrderRange range{has_first ? kInfinity : -kInfinity, has_last ? -kInfinity : kInfinity};
     const auto add = [&](double angle) {
       const Direction direction = DirectionAt(angle);
-      if (has_first) range.first = std::min(range.first, OrderOf(met_.front(), direction));
-      if (has_last) range.last = std::max(range.last, OrderOf(met_.back(), direction));
+      if (has_first) range.first = std::min(range.first, met_.front().OrderAt(direction));
+      if (has_last) range.last = std::max(range.last, met_.back().OrderAt(direction));
     };
     add(begin);
-    for (double whole = std::ceil(begin); whole < end; whole += 1.0) add(whole);
+    for (double whole = std::floor(begin) + 1.0; whole < end; whole += 1.0) add(whole);
     add(end);
     return range;
   }
@@ -100,21 +152,24 @@ class Sweep {
   // The interval from `at` to end_.
   void Emit(float at) {
     out_.begins.push_back(at);
-    std::size_t place = out_.crossings.size() / 2;
+    const std::size_t place = out_.crossings.size() / 2;
     out_.runs.push_back(place | (place + met_.size()) << 32U);
-    out_.crossings.resize(out_.crossings.size() + 2 * met_.size());
-    for (const std::uint32_t number : met_)
-      out_.SetCrossing(place++, {edges_[number].cast.key, number, edges_[number].cast.is_entry});
+    for (const Met& edge : met_) {
+      out_.crossings.push_back(edge.words.slopes);
+      out_.crossings.push_back(edge.words.rest);
+    }
     ranges_.push_back(RangeOf(std::max(double{at}, -2.0), std::min(double{end_}, 2.0)));
   }
 
-  std::span<const OrderedEdge> edges_;
+  std::span<const CastEdge> edges_;
+  std::span<const EdgeOrder> orders_;
+  const std::vector<std::uint32_t> by_from_;
   const bool starts_inside_;
   CastIntervals& out_;
   std::vector<OrderRange> ranges_;
-  std::size_t next_ = 0;
+  std::size_t next_ = 0;   // in by_from_
   float end_ = kInfinity;  // of the edges met: where the next one comes or the first of them goes
-  std::vector<std::uint32_t> met_;
+  std::vector<Met> met_;
 };
 
 double BeginOf(const CastPencil& pencil, std::uint32_t bin) {
@@ -134,13 +189,9 @@ void FillBins(CastPencil* pencil) {
 
 }  // namespace
 
-std::vector<OrderRange> FillIntervals(std::vector<OrderedEdge> edges, bool starts_inside,
+std::vector<OrderRange> FillIntervals(std::span<const EdgeOrder> orders, bool starts_inside,
                                       CastPencil* pencil) {
-  std::sort(edges.begin(), edges.end(),
-            [](const OrderedEdge& a, const OrderedEdge& b) { return a.cast.from < b.cast.from; });
-  pencil->edges.clear();
-  for (const OrderedEdge& edge : edges) pencil->edges.push_back(edge.cast);
-  std::vector<OrderRange> ranges = Sweep(edges, starts_inside, &pencil->intervals).Run();
+  std::vector<OrderRange> ranges = Sweep(orders, starts_inside, pencil).Run();
   FillBins(pencil);
   return ranges;
 }

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -17,11 +18,6 @@ struct EdgeOrder {
   double dy = 0.0;
 };
 
-struct OrderedEdge {
-  CastEdge cast;  // from < to
-  EdgeOrder order;
-};
-
 // Between which orders rays of an interval can be in the object, their directions (x, y) of |x| + |y| = 1.
 // Nowhere: first > last.
 struct OrderRange {
@@ -29,9 +25,10 @@ struct OrderRange {
   double last = std::numeric_limits<double>::infinity();
 };
 
-// Fills the pencil's edges and intervals, bins known; returns one range an interval. Contours don't cross
-// themselves, so the order changes only where edges begin or end. Derivation: docs/exact_view.md.
-[[nodiscard]] std::vector<OrderRange> FillIntervals(std::vector<OrderedEdge> edges, bool starts_inside,
+// Fills the pencil's intervals; its edges (from < to), the order of each, and its bins are known. Returns one
+// range an interval. Contours don't cross themselves, so the order changes only where edges begin or end.
+// Derivation: docs/exact_view.md.
+[[nodiscard]] std::vector<OrderRange> FillIntervals(std::span<const EdgeOrder> orders, bool starts_inside,
                                                     CastPencil* pencil);
 
 // Room for the rounding of rays' angles to float32.

@@ -22,9 +22,9 @@ constexpr double kTurnRad = 1e-10;
 constexpr int kMostTurns = 8;
 
 // b - a as the shorter way round, -2 to 2.
-double Turn(double a, double b) {
-  const double turn = b - a;
-  return turn > 2.0 ? turn - 4.0 : turn < -2.0 ? turn + 4.0 : turn;
+float Turn(float a, float b) {
+  const float turn = b - a;
+  return turn > 2.0F ? turn - 4.0F : turn < -2.0F ? turn + 4.0F : turn;
 }
 
 Vector3d Across(const Vector3d& axis, const Vector3d& toward) {
@@ -48,6 +48,7 @@ EdgePencil::EdgePencil(const ContourMap& labels, double focal_px, const core::Ca
   const bool is_perspective = projection_ == Projection::kPerspective;
   is_concentric_ = is_perspective && centre_in_view_.isZero();
   if (is_concentric_) return;
+  reach_ = is_perspective ? centre_in_view_.norm() : 1.0;
   // Where the rays come from: the view's centre, or infinitely far behind the picture.
   const Vector3d start_in_view = is_perspective ? Vector3d(-centre_in_view_) : Vector3d(0.0, 0.0, -1.0);
   TurnOffContour(start_in_view);
@@ -116,62 +117,61 @@ EdgePencil::AngleRange EdgePencil::AnglesOf(const Eigen::AlignedBox2d& uv_box) c
 
 // Where rays meet the plane of an edge from `from` along `along`, and in which order: the crossing's
 // direction from the camera is order * axis + (x, y) across it.
-OrderedEdge EdgePencil::EdgeAlong(const Vector3d& from, const Vector3d& along, bool enters) const {
+EdgePencil::EdgePlane EdgePencil::PlaneAlong(const Vector3d& from, const Vector3d& along, bool enters) const {
   const Vector3d normal = from.cross(along);
   const bool is_perspective = projection_ == Projection::kPerspective;
   const double rise = is_perspective ? normal.dot(centre_in_view_) : normal.z();
-  const double reach = is_perspective ? centre_in_view_.norm() : 1.0;
   const double sign = enters ? 1.0 : -1.0;
-  const double least = kLeastHeight * normal.norm() * reach + std::numeric_limits<double>::min();
-  const double height = sign * std::max(sign * rise, least);
-  const double at_origin = is_perspective ? -normal.z() : normal.dot(centre_in_view_);
-  OrderedEdge edge;
-  edge.cast.key = AffineForm{-normal.x() / height, -normal.y() / height, at_origin / height}.Narrow();
-  edge.cast.is_entry = enters;
-  edge.order = {-normal.dot(across_axes_[0]) / height, -normal.dot(across_axes_[1]) / height};
-  return edge;
-}
-
-// The part of an edge's angles, from < to, that the view has.
-void EdgePencil::AddEdge(OrderedEdge edge, double from, double to, std::vector<OrderedEdge>* edges) const {
-  edge.cast.from = static_cast<float>(from), edge.cast.to = static_cast<float>(to);
-  if (!(edge.cast.from < edge.cast.to)) return;
-  if (from <= view_angles_.most && to >= view_angles_.least) edges->push_back(edge);
+  const double least = kLeastHeight * reach_ * normal.lpNorm<1>() + std::numeric_limits<double>::min();
+  const double per_height = -sign / std::max(sign * rise, least);
+  const double at_origin = is_perspective ? normal.z() : -normal.dot(centre_in_view_);
+  return {AffineForm{normal.x() * per_height, normal.y() * per_height, at_origin * per_height}.Narrow(),
+          {normal.dot(across_axes_[0]) * per_height, normal.dot(across_axes_[1]) * per_height}};
 }
 
 void EdgePencil::AddEdges(const Contour& contour, const Eigen::Matrix3d& view_from_cam) {
   struct Vertex {
     Vector3d in_view;  // a direction
-    double angle;
+    float angle = 0.0F;
   };
   std::vector<Vertex> vertices(contour.vertices.size());
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     const Eigen::Vector2d& at = contour.vertices[i];
     const Vector3d q = view_from_cam * Vector3d(at.x(), at.y(), focal_px_);
-    const double angle = PencilAngle(across_axes_[0].dot(q), across_axes_[1].dot(q));
-    vertices[i] = {q, std::isnan(angle) ? 0.0 : angle};
+    const auto angle = static_cast<float>(PencilAngle(across_axes_[0].dot(q), across_axes_[1].dot(q)));
+    vertices[i] = {q, std::isnan(angle) ? 0.0F : angle};
   }
-  std::vector<OrderedEdge> edges;
-  edges.reserve(contour.edges.size());
+  std::vector<EdgeOrder> orders;
+  orders.reserve(contour.edges.size());
+  cast_.edges.reserve(contour.edges.size());
+  const auto is_seen = [this](float begin, float end) {
+    return begin <= view_angles_.most && end >= view_angles_.least;
+  };
   for (std::uint32_t i = 0; i < contour.edges.size(); ++i) {
     const ContourEdge& ends = contour.edges[i];
     const Vertex &from = vertices[ends.from], &to = vertices[ends.to];
-    const double turn = Turn(from.angle, to.angle);
-    if (turn == 0.0) continue;
+    const float turn = Turn(from.angle, to.angle);
+    if (turn == 0.0F) continue;
     // About the axis the object is on the left of an edge: with the turn rays come in from outside.
-    const bool enters = turn > 0.0;
-    const double least = enters ? from.angle : to.angle, most = enters ? to.angle : from.angle;
+    const bool enters = turn > 0.0F;
+    const float least = enters ? from.angle : to.angle, most = enters ? to.angle : from.angle;
+    const bool goes_round = least > most;  // across the negative x axis
+    if (!goes_round && !is_seen(least, most)) continue;
     const Eigen::Vector2d along = contour.vertices[ends.to] - contour.vertices[ends.from];
-    OrderedEdge edge = EdgeAlong(from.in_view, view_from_cam.leftCols<2>() * along, enters);
-    edge.cast.edge = i;
-    if (least <= most) {
-      AddEdge(edge, least, most, &edges);
-    } else {  // across the negative x axis
-      AddEdge(edge, least, std::numeric_limits<float>::infinity(), &edges);
-      AddEdge(edge, -std::numeric_limits<float>::infinity(), most, &edges);
+    const EdgePlane plane = PlaneAlong(from.in_view, view_from_cam.leftCols<2>() * along, enters);
+    const auto add = [&](float begin, float end) {
+      if (!is_seen(begin, end)) return;
+      cast_.edges.push_back({begin, end, plane.key, i, enters});
+      orders.push_back(plane.order);
+    };
+    if (!goes_round) {
+      add(least, most);
+    } else {
+      add(least, std::numeric_limits<float>::infinity());
+      add(-std::numeric_limits<float>::infinity(), most);
     }
   }
-  orders_ = FillIntervals(std::move(edges), starts_inside_, &cast_);
+  orders_ = FillIntervals(orders, starts_inside_, &cast_);
   const std::size_t intervals = orders_.size();
   orders_.insert(orders_.begin(), intervals, OrderRange());
   for (std::size_t i = intervals - 1; i > 0; --i) orders_[i] = Union(orders_[2 * i], orders_[2 * i + 1]);

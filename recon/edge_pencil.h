@@ -62,15 +62,19 @@ class EdgePencil {
   void ChooseAxes(const Eigen::AlignedBox2d& view_box);
   [[nodiscard]] AngleRange AnglesOf(const Eigen::AlignedBox2d& uv_box) const;
   void AddEdges(const Contour& contour, const Eigen::Matrix3d& view_from_cam);
-  void AddEdge(OrderedEdge edge, double from, double to, std::vector<OrderedEdge>* edges) const;
-  [[nodiscard]] OrderedEdge EdgeAlong(const Eigen::Vector3d& from, const Eigen::Vector3d& along,
-                                      bool enters) const;
+  struct EdgePlane {
+    CastForm key;
+    EdgeOrder order;
+  };
+  [[nodiscard]] EdgePlane PlaneAlong(const Eigen::Vector3d& from, const Eigen::Vector3d& along,
+                                     bool enters) const;
 
   const ContourMap& labels_;
   double focal_px_;
   Projection projection_;
   Eigen::Matrix3d cam_from_view_;
   Eigen::Vector3d centre_in_view_;
+  double reach_ = 1.0;  // its distance, perspective
   bool starts_inside_ = false;
   bool is_concentric_ = false;
   // Of the plane across the pencil's axis, the view's middle along the first: angles there are near 0.

@@ -24,7 +24,7 @@ constexpr double kTableErrorPx = 5e-6;
 // Of the nodes -1, 0, 1, 2 about a place t past node 0 (Lagrange).
 std::array<double, 4> CubicWeights(double t) {
   const double a = t + 1.0, b = t - 1.0, c = t - 2.0;
-  return {-t * b * c / 6.0, a * b * c / 2.0, -a * t * c / 2.0, a * t * b / 6.0};
+  return {(-1.0 / 6.0) * (t * b * c), 0.5 * (a * b * c), -0.5 * (a * t * c), (1.0 / 6.0) * (a * t * b)};
 }
 
 }  // namespace
@@ -74,6 +74,7 @@ void PicturePlane::FillTable(int step_px) {
   // At least the four nodes of one cubic; the outermost stand on the picture's border.
   nodes_ = ((size.array() + step_px - 1) / step_px + 1).max(4);
   pixels_per_node_ = size.cast<double>().array() / (nodes_.array() - 1).cast<double>();
+  nodes_per_pixel_ = pixels_per_node_.cwiseInverse();
   table_.resize(static_cast<std::size_t>(nodes_.x()) * static_cast<std::size_t>(nodes_.y()));
   for (int y = 0; y < nodes_.y(); ++y) {
     for (int x = 0; x < nodes_.x(); ++x) {
@@ -85,12 +86,15 @@ void PicturePlane::FillTable(int step_px) {
   }
 }
 
-Eigen::Vector2d PicturePlane::FromTable(const Eigen::Vector2d& pixel) const {
-  const Eigen::Vector2d at = (pixel + Eigen::Vector2d::Constant(0.5)).cwiseQuotient(pixels_per_node_);
+Eigen::Vector2d PicturePlane::NodesAt(const Eigen::Vector2d& pixel) const {
+  return (pixel + Eigen::Vector2d::Constant(0.5)).cwiseProduct(nodes_per_pixel_);
+}
+
+Eigen::Vector2d PicturePlane::FromTable(const Eigen::Vector2d& at_nodes) const {
   // At the border the cubic of the four outermost nodes.
-  const int i = std::clamp(static_cast<int>(at.x()), 1, nodes_.x() - 3);
-  const int j = std::clamp(static_cast<int>(at.y()), 1, nodes_.y() - 3);
-  const std::array<double, 4> across = CubicWeights(at.x() - i), down = CubicWeights(at.y() - j);
+  const int i = std::clamp(static_cast<int>(at_nodes.x()), 1, nodes_.x() - 3);
+  const int j = std::clamp(static_cast<int>(at_nodes.y()), 1, nodes_.y() - 3);
+  const std::array<double, 4> across = CubicWeights(at_nodes.x() - i), down = CubicWeights(at_nodes.y() - j);
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   for (int v = 0; v < 4; ++v) {
     const Eigen::Vector2d* row =
@@ -108,7 +112,7 @@ void PicturePlane::FindBentCells() {
     for (int x = 0; x + 1 < nodes_.x(); ++x) {
       const Eigen::Vector2d pixel =
           Eigen::Vector2d(x + 0.5, y + 0.5).cwiseProduct(pixels_per_node_) - Eigen::Vector2d::Constant(0.5);
-      const Eigen::Vector2d found = FromTable(pixel);
+      const Eigen::Vector2d found = FromTable(NodesAt(pixel));
       if (std::isnan(found.x())) continue;
       const std::optional<Eigen::Vector2d> exact = Exactly(pixel);
       if (exact && (*exact - found).norm() <= kTableErrorPx) continue;
@@ -120,16 +124,16 @@ void PicturePlane::FindBentCells() {
   }
 }
 
-bool PicturePlane::IsBent(const Eigen::Vector2d& pixel) const {
-  const Eigen::Vector2d at = (pixel + Eigen::Vector2d::Constant(0.5)).cwiseQuotient(pixels_per_node_);
-  return bent_cells_.At(std::clamp(static_cast<int>(at.x()), 0, nodes_.x() - 2),
-                        std::clamp(static_cast<int>(at.y()), 0, nodes_.y() - 2));
+bool PicturePlane::IsBent(const Eigen::Vector2d& at_nodes) const {
+  return bent_cells_.At(std::clamp(static_cast<int>(at_nodes.x()), 0, nodes_.x() - 2),
+                        std::clamp(static_cast<int>(at_nodes.y()), 0, nodes_.y() - 2));
 }
 
 std::optional<Eigen::Vector2d> PicturePlane::FromPixel(const Eigen::Vector2d& pixel) const {
   if (is_ideal_) return Eigen::Vector2d(plane_from_pixel_ * (pixel - principal_px_));
-  if (!IsBent(pixel)) {
-    const Eigen::Vector2d found = FromTable(pixel);
+  const Eigen::Vector2d at = NodesAt(pixel);
+  if (!IsBent(at)) {
+    const Eigen::Vector2d found = FromTable(at);
     if (!std::isnan(found.x())) return found;
   }
   return Exactly(pixel);

@@ -38,10 +38,11 @@ class PicturePlane {
 
  private:
   void FillTable(int step_px);
-  [[nodiscard]] Eigen::Vector2d FromTable(const Eigen::Vector2d& pixel) const;
+  [[nodiscard]] Eigen::Vector2d NodesAt(const Eigen::Vector2d& pixel) const;
+  [[nodiscard]] Eigen::Vector2d FromTable(const Eigen::Vector2d& at_nodes) const;
   [[nodiscard]] std::optional<Eigen::Vector2d> Exactly(const Eigen::Vector2d& pixel) const;
   void FindBentCells();
-  [[nodiscard]] bool IsBent(const Eigen::Vector2d& pixel) const;
+  [[nodiscard]] bool IsBent(const Eigen::Vector2d& at_nodes) const;
 
   core::CameraModel camera_;
   double focal_px_ = 1.0;
@@ -51,6 +52,7 @@ class PicturePlane {
   // Nodes over the picture, each on its place in the plane, NaN where there is none; between them cubic.
   Eigen::Vector2i nodes_{0, 0};
   Eigen::Vector2d pixels_per_node_{0.0, 0.0};
+  Eigen::Vector2d nodes_per_pixel_{0.0, 0.0};
   std::vector<Eigen::Vector2d> table_;
   core::BitMask bent_cells_;  // between nodes: the cubic doesn't follow the lens there
   std::optional<core::BitMask> unseen_pixels_;

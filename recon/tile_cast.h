@@ -34,6 +34,26 @@ struct CastCrossing {
   CastForm key;
   std::uint32_t edge = 0;  // number in CastPencil::edges, below 2^31
   bool is_entry = false;   // rays enter the object by it
+
+  // As rays gather it.
+  struct Words {
+    std::uint64_t slopes = 0;  // the key's du, dv
+    std::uint64_t rest = 0;    // its at_origin; is_entry; edge
+    [[nodiscard]] bool is_entry() const { return ((rest >> 32U) & 1U) != 0; }
+  };
+  [[nodiscard]] Words Pack() const {
+    const auto bits = [](float real) { return std::uint64_t{std::bit_cast<std::uint32_t>(real)}; };
+    const std::uint64_t tag = 2 * std::uint64_t{edge} + (is_entry ? 1 : 0);
+    return {bits(key.du) | bits(key.dv) << 32U, bits(key.at_origin) | tag << 32U};
+  }
+  [[nodiscard]] static CastCrossing Unpack(const Words& words) {
+    const auto real = [](std::uint64_t bits) {
+      return std::bit_cast<float>(static_cast<std::uint32_t>(bits));
+    };
+    return {{real(words.slopes), real(words.slopes >> 32U), real(words.rest)},
+            static_cast<std::uint32_t>(words.rest >> 33U),
+            words.is_entry()};
+  }
 };
 
 // Angles in which rays meet the same edges, in the same order: [begins[i], begins[i + 1]) is interval i.
@@ -43,8 +63,7 @@ struct CastIntervals {
   // By interval: the first of its crossings, and past the last, in their order along the rays, entries and
   // exits in turn.
   std::vector<std::uint64_t> runs;
-  // Two words each: the key's du and dv; its at_origin, and edge and is_entry. One crossing more than there
-  // are.
+  // CastCrossing::Words one after the other; one crossing more than there are.
   std::vector<std::uint64_t> crossings;
   // By bin: no later than the interval of any ray whose angle is in the bin.
   std::vector<std::int32_t> first_interval;
@@ -58,17 +77,7 @@ struct CastIntervals {
     return {runs[interval] & 0xFFFFFFFFU, runs[interval] >> 32U};
   }
   [[nodiscard]] CastCrossing CrossingAt(std::size_t place) const {
-    const auto real = [](std::uint64_t bits) {
-      return std::bit_cast<float>(static_cast<std::uint32_t>(bits));
-    };
-    const std::uint64_t a = crossings[2 * place], b = crossings[2 * place + 1];
-    return {{real(a), real(a >> 32U), real(b)}, static_cast<std::uint32_t>(b >> 33U), ((b >> 32U) & 1U) != 0};
-  }
-  void SetCrossing(std::size_t place, const CastCrossing& crossing) {
-    const auto bits = [](float real) { return std::uint64_t{std::bit_cast<std::uint32_t>(real)}; };
-    const std::uint64_t tag = 2 * std::uint64_t{crossing.edge} + (crossing.is_entry ? 1 : 0);
-    crossings[2 * place] = bits(crossing.key.du) | bits(crossing.key.dv) << 32U;
-    crossings[2 * place + 1] = bits(crossing.key.at_origin) | tag << 32U;
+    return CastCrossing::Unpack({crossings[2 * place], crossings[2 * place + 1]});
   }
 };
 
@@ -81,7 +90,7 @@ struct CastPencil {
   float least_angle = -2.0F;
   float bins_per_angle = 1.0F;
   std::uint32_t bins = 0;
-  std::vector<CastEdge> edges;  // by `from`
+  std::vector<CastEdge> edges;
   CastIntervals intervals;
 };
 

@@ -56,12 +56,13 @@ CastPencil PencilOf(const std::vector<float>& keys) {
   pencil.x = {0.0F, 0.0F, 1.0F};
   pencil.bins = 1;
   pencil.bins_per_angle = 0.25F;
-  std::vector<OrderedEdge> edges;
+  std::vector<EdgeOrder> orders;
   for (const float key : keys) {
-    const auto number = static_cast<std::uint32_t>(edges.size());
-    edges.push_back({{-0.5F, 0.5F, {0.0F, 0.0F, key}, number, number % 2 == 0}, {key, 0.0}});
+    const auto number = static_cast<std::uint32_t>(orders.size());
+    pencil.edges.push_back({-0.5F, 0.5F, {0.0F, 0.0F, key}, number, number % 2 == 0});
+    orders.push_back({key, 0.0});
   }
-  (void)FillIntervals(std::move(edges), false, &pencil);
+  (void)FillIntervals(orders, false, &pencil);
   return pencil;
 }
 
