@@ -14,6 +14,9 @@ namespace elbowroom::recon {
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr std::size_t kBinsPerInterval = 2;
+constexpr std::size_t kMostBins = 8192;
+constexpr double kLeastBinWidth = 8.0 * kAngleSlack;
 
 struct Direction {
   double x = 0.0;
@@ -44,20 +47,24 @@ std::vector<std::uint32_t> ByFrom(std::span<const CastEdge> edges) {
 // Goes through the angles and keeps the edges that rays meet, in order.
 class Sweep {
  public:
-  Sweep(std::span<const EdgeOrder> orders, bool starts_inside, CastPencil* pencil)
+  Sweep(std::span<const EdgeOrder> orders, CastPencil* pencil)
       : edges_(pencil->edges),
         orders_(orders),
         by_from_(ByFrom(edges_)),
-        starts_inside_(starts_inside),
+        starts_inside_(pencil->starts_inside),
         out_(pencil->intervals) {
     out_.begins.reserve(edges_.size() + 2);
-    out_.runs.reserve(edges_.size() + 2);
-    out_.crossings.reserve(kCrossingsPerEdge * 2 * edges_.size() + 2);
+    out_.firsts.reserve(edges_.size() + 2);
+    const std::size_t crossings = kCrossingsPerEdge * edges_.size() + 2;
+    out_.slopes.reserve(crossings);
+    out_.at_origins.reserve(crossings);
+    out_.edges.reserve(crossings);
     ranges_.reserve(edges_.size() + 2);
   }
 
   std::vector<OrderRange> Run() {
     float at = -kInfinity;
+    AddLast();
     end_ = NextAngle();
     for (;;) {
       if (end_ > at) Emit(at);
@@ -66,7 +73,7 @@ class Sweep {
       Pass(at);
     }
     out_.begins.push_back(kInfinity);
-    out_.crossings.resize(out_.crossings.size() + 2);
+    out_.firsts.push_back(NextPlace());
     return std::move(ranges_);
   }
 
@@ -78,7 +85,7 @@ class Sweep {
   struct Met {
     EdgeOrder order;
     float to = 0.0F;
-    CastCrossing::Words words;
+    std::int32_t number = 0;
     [[nodiscard]] double OrderAt(const Direction& direction) const {
       return direction.x * order.dx + direction.y * order.dy;
     }
@@ -97,8 +104,7 @@ class Sweep {
 
   [[nodiscard]] Met MetAt(std::size_t place) const {
     const std::uint32_t number = by_from_[place];
-    const CastEdge& edge = edges_[number];
-    return {orders_[number], edge.to, CastCrossing{edge.key, number, edge.is_entry}.Pack()};
+    return {orders_[number], edges_[number].to, static_cast<std::int32_t>(number)};
   }
 
   // Edges that end at an angle go, edges that begin there come: where the contour goes on, in their place.
@@ -135,8 +141,8 @@ class Sweep {
   // Orders are linear in an angle but for its whole numbers.
   [[nodiscard]] OrderRange RangeOf(double begin, double end) const {
     if (met_.empty() && !starts_inside_) return {kInfinity, -kInfinity};
-    const bool has_first = !met_.empty() && met_.front().words.is_entry();
-    const bool has_last = !met_.empty() && !met_.back().words.is_entry();
+    const bool has_first = !starts_inside_;
+    const bool has_last = starts_inside_ == (met_.size() % 2 != 0);
     OrderRange range{has_first ? kInfinity : -kInfinity, has_last ? -kInfinity : kInfinity};
     const auto add = [&](double angle) {
       const Direction direction = DirectionAt(angle);
@@ -152,14 +158,13 @@ class Sweep {
   // The interval from `at` to end_.
   void Emit(float at) {
     out_.begins.push_back(at);
-    const std::size_t place = out_.crossings.size() / 2;
-    out_.runs.push_back(place | (place + met_.size()) << 32U);
-    for (const Met& edge : met_) {
-      out_.crossings.push_back(edge.words.slopes);
-      out_.crossings.push_back(edge.words.rest);
-    }
+    out_.firsts.push_back(NextPlace());
+    for (const Met& edge : met_) out_.Add(edges_[static_cast<std::size_t>(edge.number)].key, edge.number);
+    AddLast();
     ranges_.push_back(RangeOf(std::max(double{at}, -2.0), std::min(double{end_}, 2.0)));
   }
+  void AddLast() { out_.Add({0.0F, 0.0F, kInfinity}, 0); }
+  [[nodiscard]] std::int32_t NextPlace() const { return static_cast<std::int32_t>(out_.edges.size()); }
 
   std::span<const CastEdge> edges_;
   std::span<const EdgeOrder> orders_;
@@ -173,40 +178,54 @@ class Sweep {
 };
 
 double BeginOf(const CastPencil& pencil, std::uint32_t bin) {
-  return pencil.least_angle + bin / static_cast<double>(pencil.bins_per_angle);
+  return pencil.least_angle + bin * (1.0 / pencil.bins_per_angle);
+}
+
+// Bins over the angles where intervals begin. None begins in the first bin or the last one, which take what
+// lies beyond.
+std::size_t ChooseBins(CastPencil* pencil) {
+  const std::vector<float>& begins = pencil->intervals.begins;
+  if (pencil->intervals.size() == 1) return 1;
+  const double first = std::max(begins[1], -2.0F), last = std::min(begins[begins.size() - 2], 2.0F);
+  const std::size_t bins = std::min(std::bit_ceil(kBinsPerInterval * begins.size()), kMostBins);
+  const double width = std::max((last - first) / static_cast<double>(bins), kLeastBinWidth);
+  pencil->least_angle = static_cast<float>(first - 1.25 * width);
+  pencil->bins_per_angle = static_cast<float>(1.0 / width);
+  return bins + 3;
 }
 
 void FillBins(CastPencil* pencil) {
-  CastIntervals& intervals = pencil->intervals;
-  intervals.first_interval.assign(pencil->bins, 0);
-  std::size_t interval = 0;
-  for (std::uint32_t bin = 1; bin < pencil->bins; ++bin) {
-    const double begin = BeginOf(*pencil, bin) - kAngleSlack;
-    while (intervals.begins[interval + 1] <= begin) ++interval;
-    intervals.first_interval[bin] = static_cast<std::int32_t>(interval);
+  const std::vector<float>& begins = pencil->intervals.begins;
+  const std::size_t bins = ChooseBins(pencil);
+  pencil->intervals.bins.resize(bins);
+  std::uint32_t interval = 0;
+  for (std::uint32_t bin = 0; bin < bins; ++bin) {
+    const double begin = BeginOf(*pencil, bin) - kAngleSlack, end = BeginOf(*pencil, bin + 1) + kAngleSlack;
+    while (bin > 0 && begins[interval + 1] <= begin) ++interval;
+    const bool has_more = interval + 2 < begins.size() && begins[interval + 2] <= end;
+    pencil->intervals.bins[bin] = CastBin{interval, has_more, begins[interval + 1]}.Pack();
   }
 }
 
 }  // namespace
 
-std::vector<OrderRange> FillIntervals(std::span<const EdgeOrder> orders, bool starts_inside,
-                                      CastPencil* pencil) {
-  std::vector<OrderRange> ranges = Sweep(orders, starts_inside, pencil).Run();
+std::vector<OrderRange> FillIntervals(std::span<const EdgeOrder> orders, CastPencil* pencil) {
+  std::vector<OrderRange> ranges = Sweep(orders, pencil).Run();
   FillBins(pencil);
   return ranges;
 }
 
 std::uint32_t BinOf(const CastPencil& pencil, double angle) {
   const double bin = (angle - pencil.least_angle) * pencil.bins_per_angle;
-  return static_cast<std::uint32_t>(std::clamp(bin, 0.0, pencil.bins - 1.0));
+  return static_cast<std::uint32_t>(std::clamp(bin, 0.0, pencil.bins() - 1.0));
 }
 
 std::pair<std::size_t, std::size_t> IntervalsOf(const CastPencil& pencil, std::uint32_t first_bin,
                                                 std::uint32_t last_bin) {
   const CastIntervals& intervals = pencil.intervals;
-  const auto first = static_cast<std::size_t>(intervals.first_interval[first_bin]);
-  if (last_bin + 1 == pencil.bins) return {first, intervals.size() - 1};
-  auto last = static_cast<std::size_t>(intervals.first_interval[last_bin + 1]);
+  const std::size_t first = CastBin::IntervalOf(intervals.bins[first_bin]);
+  if (last_bin + 1 == pencil.bins()) return {first, intervals.size() - 1};
+  std::size_t last = CastBin::IntervalOf(intervals.bins[last_bin + 1]);
   while (intervals.begins[last + 1] <= BeginOf(pencil, last_bin + 1) + kAngleSlack) ++last;
   return {first, last};
 }

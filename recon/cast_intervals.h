@@ -25,11 +25,10 @@ struct OrderRange {
   double last = std::numeric_limits<double>::infinity();
 };
 
-// Fills the pencil's intervals; its edges (from < to), the order of each, and its bins are known. Returns one
-// range an interval. Contours don't cross themselves, so the order changes only where edges begin or end.
+// Fills the pencil's intervals and bins from its edges (from < to) and the order of each. Returns one range
+// an interval. Contours don't cross themselves, so the order changes only where edges begin or end.
 // Derivation: docs/exact_view.md.
-[[nodiscard]] std::vector<OrderRange> FillIntervals(std::span<const EdgeOrder> orders, bool starts_inside,
-                                                    CastPencil* pencil);
+[[nodiscard]] std::vector<OrderRange> FillIntervals(std::span<const EdgeOrder> orders, CastPencil* pencil);
 
 // Room for the rounding of rays' angles to float32.
 inline constexpr double kAngleSlack = 1e-6;

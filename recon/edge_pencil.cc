@@ -14,7 +14,6 @@ using Eigen::Vector3d;
 // A view centre in the plane of an edge meets it at the start of its rays: nearer than this share of the
 // distances it is taken to be beside it.
 constexpr double kLeastHeight = 1e-14;
-constexpr std::uint32_t kBins = 2048;
 // An epipole within this angle of the contour is on it: rounding would decide, edge by edge, on which side
 // the rays start. The camera is turned then, by an angle that is nothing to a pixel.
 constexpr double kOnContourRad = 1e-11;
@@ -52,7 +51,7 @@ EdgePencil::EdgePencil(const ContourMap& labels, double focal_px, const core::Ca
   // Where the rays come from: the view's centre, or infinitely far behind the picture.
   const Vector3d start_in_view = is_perspective ? Vector3d(-centre_in_view_) : Vector3d(0.0, 0.0, -1.0);
   TurnOffContour(start_in_view);
-  starts_inside_ = LabelInCam(labels, focal_px, cam_from_view_ * start_in_view);
+  cast_.starts_inside = LabelInCam(labels, focal_px, cam_from_view_ * start_in_view);
   ChooseAxes(rays.BoundsOf(0, 0, rays.width_px(), rays.height_px()));
   AddEdges(labels.contour(), cam_from_view_.transpose());
 }
@@ -74,9 +73,6 @@ void EdgePencil::ChooseAxes(const Eigen::AlignedBox2d& view_box) {
   view_angles_ = AnglesOf(view_box);
   cast_.x = across_[0].Narrow();
   cast_.y = across_[1].Narrow();
-  cast_.bins = kBins;
-  cast_.least_angle = static_cast<float>(view_angles_.least);
-  cast_.bins_per_angle = static_cast<float>(kBins / (view_angles_.most - view_angles_.least));
 }
 
 void EdgePencil::TurnOffContour(const Vector3d& start_in_view) {
@@ -171,7 +167,7 @@ void EdgePencil::AddEdges(const Contour& contour, const Eigen::Matrix3d& view_fr
       add(-std::numeric_limits<float>::infinity(), most);
     }
   }
-  orders_ = FillIntervals(orders, starts_inside_, &cast_);
+  orders_ = FillIntervals(orders, &cast_);
   const std::size_t intervals = orders_.size();
   orders_.insert(orders_.begin(), intervals, OrderRange());
   for (std::size_t i = intervals - 1; i > 0; --i) orders_[i] = Union(orders_[2 * i], orders_[2 * i + 1]);

@@ -38,7 +38,7 @@ class EdgePencil {
   [[nodiscard]] const CastPencil& cast() const { return cast_; }
 
   // The rays all start at, or come from, a point that the camera labels so.
-  [[nodiscard]] bool starts_inside() const { return starts_inside_; }
+  [[nodiscard]] bool starts_inside() const { return cast_.starts_inside; }
 
   // The view's centre is the camera's: no ray crosses an edge, each keeps the label of its direction.
   [[nodiscard]] bool is_concentric() const { return is_concentric_; }
@@ -75,7 +75,6 @@ class EdgePencil {
   Eigen::Matrix3d cam_from_view_;
   Eigen::Vector3d centre_in_view_;
   double reach_ = 1.0;  // its distance, perspective
-  bool starts_inside_ = false;
   bool is_concentric_ = false;
   // Of the plane across the pencil's axis, the view's middle along the first: angles there are near 0.
   Eigen::Vector3d across_axes_[2];

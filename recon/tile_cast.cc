@@ -45,7 +45,6 @@ HWY_INLINE VF Angle(const CastPencil& pencil, VF u, VF v) {
 struct Rays {
   VF u;
   VF v;
-  VF key_end;
 };
 
 // Where rays are now, and whose entry brought them there.
@@ -97,12 +96,10 @@ HWY_INLINE void MoveOn(MF which, VF key, std::size_t camera, VI place, Front* fr
   front->place = hn::IfThenElse(which_n, place, front->place);
 }
 
-// One camera's next crossing with each ray, and what the one before said.
+// One camera's next crossing with each ray, and what it says before: entries and exits come in turn.
 struct Course {
   VF key;
   VI place;
-  VI end;
-  MF is_entry;
   MF is_inside;
 };
 
@@ -149,10 +146,9 @@ class Walk {
     for (std::size_t i = 0; i < cameras_.size() + sights_.size(); ++i) {
       const auto is_by = hn::Eq(front.camera, hn::Set(n, static_cast<std::int32_t>(i)));
       const TileCamera& camera = i < cameras_.size() ? cameras_[i] : sights_[i - cameras_.size()];
-      if (hn::AllFalse(n, is_by) || camera.pencil->bins == 0) continue;
-      const VI at = hn::ShiftLeft<1>(hn::IfThenElseZero(is_by, front.place));
-      const VI tags = GatherWords(camera.pencil->intervals.crossings.data() + 1, at).upper;
-      found = hn::IfThenElse(is_by, hn::ShiftRight<1>(tags), found);
+      if (hn::AllFalse(n, is_by) || camera.pencil->bins() == 0) continue;
+      const VI at = hn::IfThenElseZero(is_by, front.place);
+      found = hn::IfThenElse(is_by, hn::GatherIndex(n, camera.pencil->intervals.edges.data(), at), found);
     }
     return found;
   }
@@ -164,65 +160,61 @@ class Walk {
     const Ints n;
     const CastPencil& pencil = *camera.pencil;
     const MF is_inside = MaskOfBits(camera.starts_inside >> first_);
-    Course course{hn::Set(f, kInfinity), hn::Zero(n), hn::Zero(n), MaskOf(hn::Zero(n)), is_inside};
-    if (pencil.bins == 0) return course;
+    if (pencil.bins() == 0) return {hn::Set(f, kInfinity), hn::Zero(n), is_inside};
     const VF angle = Angle(pencil, rays_.u, rays_.v);
     const MF has_angle = hn::Eq(angle, angle);  // a ray along the pencil's axis has none, and meets no edge
     const VF bin = hn::Mul(hn::Sub(angle, hn::Set(f, pencil.least_angle)), hn::Set(f, pencil.bins_per_angle));
-    const VF last_bin = hn::Set(f, static_cast<float>(pencil.bins - 1));
+    const VF last_bin = hn::Set(f, static_cast<float>(pencil.bins() - 1));
     const VF in_range = hn::Min(hn::Max(hn::IfThenElseZero(has_angle, bin), hn::Zero(f)), last_bin);
-    const CastIntervals& intervals = pencil.intervals;
-    VI interval = hn::GatherIndex(n, intervals.first_interval.data(), hn::ConvertTo(n, in_range));
-    for (;;) {
-      const MF is_later = hn::Ge(angle, hn::GatherIndex(f, intervals.begins.data() + 1, interval));
-      if (hn::AllFalse(f, is_later)) break;
-      interval = hn::Sub(interval, Lanes(is_later));
-    }
-    const Halves run = GatherWords(intervals.runs.data(), interval);
-    course.place = run.lower;
-    course.end = hn::IfThenElse(hn::RebindMask(n, has_angle), run.upper, run.lower);
+    const VI interval = IntervalsAt(pencil.intervals, hn::ConvertTo(n, in_range), angle);
+    const VI first = hn::GatherIndex(n, pencil.intervals.firsts.data(), interval);
+    Course course{hn::Zero(f), hn::IfThenElseZero(hn::RebindMask(n, has_angle), first), is_inside};
     Fetch(pencil, &course);
     return course;
   }
 
-  // The crossing at course->place; infinite behind the last, and from the rays' end on.
-  HWY_INLINE void Fetch(const CastPencil& pencil, Course* course) const {
+  [[nodiscard]] static HWY_INLINE VI IntervalsAt(const CastIntervals& intervals, VI bin, VF angle) {
     const Floats f;
-    const std::uint64_t* crossings = pencil.intervals.crossings.data();
-    const VI at = hn::ShiftLeft<1>(course->place);
-    const Halves slopes = GatherWords(crossings, at), rest = GatherWords(crossings + 1, at);
-    const VF du = hn::BitCast(f, slopes.lower), dv = hn::BitCast(f, slopes.upper);
-    const VF at_origin = hn::BitCast(f, rest.lower);
-    // No fused operation, as in At.
-    const VF key = hn::Add(hn::Add(hn::Mul(rays_.u, du), hn::Mul(rays_.v, dv)), at_origin);
-    const MF is_there = hn::RebindMask(f, hn::Lt(course->place, course->end));
-    const MF is_ahead = hn::And(is_there, hn::Lt(key, rays_.key_end));
-    course->key = hn::IfThenElse(is_ahead, key, hn::Set(f, kInfinity));
-    course->is_entry = MaskOf(hn::ShiftLeft<31>(rest.upper));
+    const Ints n;
+    const Halves word = GatherWords(intervals.bins.data(), bin);
+    const MF has_more = MaskOf(word.lower);
+    VI interval = hn::And(word.lower, hn::Set(n, 0x7FFFFFFF));
+    MF is_later = hn::Ge(angle, hn::BitCast(f, word.upper));
+    interval = hn::Sub(interval, Lanes(is_later));
+    for (is_later = hn::And(is_later, has_more); !hn::AllFalse(f, is_later);) {
+      is_later = hn::And(is_later, hn::Ge(angle, hn::GatherIndex(f, intervals.begins.data() + 1, interval)));
+      interval = hn::Sub(interval, Lanes(is_later));
+    }
+    return interval;
   }
 
-  // Passes all crossings up to `at`, and exits of rays that are outside already (rounding may have put them
-  // in the wrong order).
+  // The key at course->place; behind the last crossing it is infinite.
+  HWY_INLINE void Fetch(const CastPencil& pencil, Course* course) const {
+    const Floats f;
+    const Halves slopes = GatherWords(pencil.intervals.slopes.data(), course->place);
+    const VF at_origin = hn::GatherIndex(f, pencil.intervals.at_origins.data(), course->place);
+    const VF du = hn::BitCast(f, slopes.lower), dv = hn::BitCast(f, slopes.upper);
+    // No fused operation, as in At.
+    course->key = hn::Add(hn::Add(hn::Mul(rays_.u, du), hn::Mul(rays_.v, dv)), at_origin);
+  }
+
+  // Passes all crossings up to `at`.
   Course CourseTo(const TileCamera& camera, bool is_first, MF alive, VF at, TileScratch::Course* kept) {
     const Floats f;
     const Ints n;
     Course course = is_first ? Start(camera) : Load(*kept);
     std::int64_t met = is_first ? static_cast<std::int64_t>(hn::CountTrue(f, alive)) : 0;
     for (;;) {
-      const MF is_idle = hn::And(hn::Not(hn::Or(course.is_entry, course.is_inside)),
-                                 hn::Lt(course.key, hn::Set(f, kInfinity)));
-      const MF passes = hn::And(alive, hn::Or(hn::Le(course.key, at), is_idle));
+      const MF passes = hn::And(alive, hn::Le(course.key, at));
       if (hn::AllFalse(f, passes)) break;
       met += static_cast<std::int64_t>(hn::CountTrue(f, passes));
-      course.is_inside = hn::Or(hn::And(passes, course.is_entry), hn::AndNot(passes, course.is_inside));
+      course.is_inside = hn::Xor(course.is_inside, passes);
       course.place = hn::Sub(course.place, Lanes(passes));
       Fetch(*camera.pencil, &course);
     }
     scratch_.crossings_met += met;
     hn::Store(course.key, f, kept->key);
     hn::Store(course.place, n, kept->place);
-    hn::Store(course.end, n, kept->end);
-    hn::Store(Lanes(course.is_entry), n, kept->is_entry);
     hn::Store(Lanes(course.is_inside), n, kept->is_inside);
     return course;
   }
@@ -230,8 +222,7 @@ class Walk {
   [[nodiscard]] static Course Load(const TileScratch::Course& kept) {
     const Floats f;
     const Ints n;
-    return {hn::Load(f, kept.key), hn::Load(n, kept.place), hn::Load(n, kept.end),
-            MaskOf(hn::Load(n, kept.is_entry)), MaskOf(hn::Load(n, kept.is_inside))};
+    return {hn::Load(f, kept.key), hn::Load(n, kept.place), MaskOf(hn::Load(n, kept.is_inside))};
   }
 
   // Rays that no camera sees go on to where one does.
@@ -278,10 +269,11 @@ void Cast(const TileRays& tile, const CastBox& box, std::span<const TileCamera> 
   const Floats f;
   scratch->courses.resize(cameras.size() + sights.size());
   hits->count = 0;
-  const float key_end = tile.is_perspective ? 0.0F : kInfinity;
+  using Limits = std::numeric_limits<float>;
+  const float last_key = tile.is_perspective ? -Limits::denorm_min() : Limits::max();
   for (std::size_t first = 0; first < kTileRays; first += hn::Lanes(f)) {
-    const Rays rays{hn::Load(f, tile.u + first), hn::Load(f, tile.v + first), hn::Set(f, key_end)};
-    VF key_from = hn::Set(f, -kInfinity), key_to = rays.key_end;
+    const Rays rays{hn::Load(f, tile.u + first), hn::Load(f, tile.v + first)};
+    VF key_from = hn::Set(f, -kInfinity), key_to = hn::Set(f, last_key);
     Clip(box, rays, &key_from, &key_to);
     Walk walk(rays, cameras, sights, first, scratch);
     const Front front = walk.Run(key_from, key_to);

@@ -29,56 +29,52 @@ struct CastEdge {
   bool is_entry = false;   // rays enter the object by it
 };
 
-// An edge in the list of those that a ray meets.
-struct CastCrossing {
-  CastForm key;
-  std::uint32_t edge = 0;  // number in CastPencil::edges, below 2^31
-  bool is_entry = false;   // rays enter the object by it
-
-  // As rays gather it.
-  struct Words {
-    std::uint64_t slopes = 0;  // the key's du, dv
-    std::uint64_t rest = 0;    // its at_origin; is_entry; edge
-    [[nodiscard]] bool is_entry() const { return ((rest >> 32U) & 1U) != 0; }
-  };
-  [[nodiscard]] Words Pack() const {
-    const auto bits = [](float real) { return std::uint64_t{std::bit_cast<std::uint32_t>(real)}; };
-    const std::uint64_t tag = 2 * std::uint64_t{edge} + (is_entry ? 1 : 0);
-    return {bits(key.du) | bits(key.dv) << 32U, bits(key.at_origin) | tag << 32U};
-  }
-  [[nodiscard]] static CastCrossing Unpack(const Words& words) {
-    const auto real = [](std::uint64_t bits) {
-      return std::bit_cast<float>(static_cast<std::uint32_t>(bits));
-    };
-    return {{real(words.slopes), real(words.slopes >> 32U), real(words.rest)},
-            static_cast<std::uint32_t>(words.rest >> 33U),
-            words.is_entry()};
-  }
-};
-
 // Angles in which rays meet the same edges, in the same order: [begins[i], begins[i + 1]) is interval i.
-// begins[0] is -infinity, the last one infinity. Packed into words, which rays gather.
+// begins[0] is -infinity, the last one infinity.
 struct CastIntervals {
   std::vector<float> begins;
-  // By interval: the first of its crossings, and past the last, in their order along the rays, entries and
-  // exits in turn.
-  std::vector<std::uint64_t> runs;
-  // CastCrossing::Words one after the other; one crossing more than there are.
-  std::vector<std::uint64_t> crossings;
-  // By bin: no later than the interval of any ray whose angle is in the bin.
-  std::vector<std::int32_t> first_interval;
+  // By interval and once more: the place of its first crossing. Its last is two places before the next
+  // interval's first.
+  std::vector<std::int32_t> firsts;
+  // By place, in their order along the rays, entries and exits in turn; behind each interval's last a key
+  // that is infinite, and one in place 0. Of keys du and dv, packed into words, which rays gather; the rest;
+  // and the number in CastPencil::edges.
+  std::vector<std::uint64_t> slopes;
+  std::vector<float> at_origins;
+  std::vector<std::int32_t> edges;
+  // By bin: CastBin, packed likewise.
+  std::vector<std::uint64_t> bins;
 
   struct Run {
     std::size_t begin = 0;
     std::size_t end = 0;
   };
-  [[nodiscard]] std::size_t size() const { return runs.size(); }
+  [[nodiscard]] std::size_t size() const { return begins.size() - 1; }
   [[nodiscard]] Run RunOf(std::size_t interval) const {
-    return {runs[interval] & 0xFFFFFFFFU, runs[interval] >> 32U};
+    return {static_cast<std::size_t>(firsts[interval]), static_cast<std::size_t>(firsts[interval + 1] - 1)};
   }
-  [[nodiscard]] CastCrossing CrossingAt(std::size_t place) const {
-    return CastCrossing::Unpack({crossings[2 * place], crossings[2 * place + 1]});
+  [[nodiscard]] CastForm KeyAt(std::size_t place) const {
+    return {std::bit_cast<float>(static_cast<std::uint32_t>(slopes[place])),
+            std::bit_cast<float>(static_cast<std::uint32_t>(slopes[place] >> 32U)), at_origins[place]};
   }
+  void Add(const CastForm& key, std::int32_t edge) {
+    slopes.push_back(std::bit_cast<std::uint32_t>(key.du) |
+                     std::uint64_t{std::bit_cast<std::uint32_t>(key.dv)} << 32U);
+    at_origins.push_back(key.at_origin);
+    edges.push_back(edge);
+  }
+};
+
+// No later than the interval of any ray whose angle is in the bin, and where the next one begins.
+struct CastBin {
+  std::uint32_t interval = 0;
+  bool has_more = false;  // intervals behind the next one
+  float next = 0.0F;
+
+  [[nodiscard]] std::uint64_t Pack() const {
+    return interval | (has_more ? 1U << 31U : 0U) | std::uint64_t{std::bit_cast<std::uint32_t>(next)} << 32U;
+  }
+  [[nodiscard]] static std::size_t IntervalOf(std::uint64_t bin) { return bin & 0x7FFFFFFFU; }
 };
 
 // All that one camera can tell a view's rays.
@@ -89,9 +85,16 @@ struct CastPencil {
   // Of bin i: from least_angle + i / bins_per_angle on.
   float least_angle = -2.0F;
   float bins_per_angle = 1.0F;
-  std::uint32_t bins = 0;
   std::vector<CastEdge> edges;
   CastIntervals intervals;
+  bool starts_inside = false;  // rays do: their first crossing is an exit
+
+  [[nodiscard]] bool IsEntry(const CastIntervals::Run& run, std::size_t place) const {
+    return ((place - run.begin) % 2 != 0) == starts_inside;
+  }
+
+  // None: the pencil tells no ray anything.
+  [[nodiscard]] std::uint32_t bins() const { return static_cast<std::uint32_t>(intervals.bins.size()); }
 };
 
 // -2 to 2 for a turn from the negative x axis on, 0 along the positive one, where it is exact to the last
@@ -140,10 +143,8 @@ struct TileScratch {
   // One camera's next crossing with each ray, and what the one before said.
   struct Course {
     alignas(64) float key[kTileRays];
-    alignas(64) std::int32_t place[kTileRays];  // in CastIntervals::crossings
-    alignas(64) std::int32_t end[kTileRays];
-    alignas(64) std::int32_t is_entry[kTileRays];   // all bits, or none
-    alignas(64) std::int32_t is_inside[kTileRays];  // likewise
+    alignas(64) std::int32_t place[kTileRays];      // in CastIntervals
+    alignas(64) std::int32_t is_inside[kTileRays];  // all bits, or none
   };
   std::vector<Course> courses;     // cameras', then sights'
   std::int64_t crossings_met = 0;  // of rays with edges, worked out so far

@@ -74,11 +74,14 @@ struct Event {
 std::vector<CastEdge> EdgesAt(const CastPencil& pencil, bool is_entry, const Range& angle) {
   const auto [first, last] = IntervalsOf(pencil, BinOf(pencil, angle.low), BinOf(pencil, angle.high));
   std::vector<std::uint32_t> numbers;
-  for (std::size_t i = pencil.intervals.RunOf(first).begin; i < pencil.intervals.RunOf(last).end; ++i) {
-    const CastCrossing crossing = pencil.intervals.CrossingAt(i);
-    const CastEdge& edge = pencil.edges[crossing.edge];
-    if (crossing.is_entry == is_entry && edge.from <= angle.high && edge.to > angle.low)
-      numbers.push_back(crossing.edge);
+  for (std::size_t interval = first; interval <= last; ++interval) {
+    const CastIntervals::Run run = pencil.intervals.RunOf(interval);
+    for (std::size_t i = run.begin; i < run.end; ++i) {
+      const auto number = static_cast<std::uint32_t>(pencil.intervals.edges[i]);
+      const CastEdge& edge = pencil.edges[number];
+      if (edge.is_entry == is_entry && edge.from <= angle.high && edge.to > angle.low)
+        numbers.push_back(number);
+    }
   }
   std::ranges::sort(numbers);
   numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());

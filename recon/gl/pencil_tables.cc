@@ -21,18 +21,18 @@ void AddCrossings(const CastPencil& pencil, std::size_t interval, bool entries, 
                                std::min(intervals.begins[interval + 1], kBeyondAngles));
   const CastIntervals::Run run = intervals.RunOf(interval);
   for (std::size_t i = run.begin; i < run.end; ++i) {
-    const CastCrossing crossing = intervals.CrossingAt(i);
-    if (crossing.is_entry != entries) continue;
+    if (pencil.IsEntry(run, i) != entries) continue;
+    const CastForm key = intervals.KeyAt(i);
+    const auto edge = static_cast<std::size_t>(intervals.edges[i]);
     tables->angles.push_back(angles);
-    tables->keys.emplace_back(crossing.key.du, crossing.key.dv, crossing.key.at_origin,
-                              static_cast<float>(pencil.edges[crossing.edge].edge));
+    tables->keys.emplace_back(key.du, key.dv, key.at_origin, static_cast<float>(pencil.edges[edge].edge));
   }
 }
 
 // Each bin's crossings side by side. Returns the first run.
 std::size_t AddRuns(const CastPencil& pencil, bool entries, PencilTables* tables) {
   const std::size_t first_run = tables->runs.size();
-  for (std::uint32_t bin = 0; bin < pencil.bins; ++bin) {
+  for (std::uint32_t bin = 0; bin < pencil.bins(); ++bin) {
     const auto begin = static_cast<std::uint32_t>(tables->angles.size());
     const auto [first, last] = IntervalsOf(pencil, bin, bin);
     for (std::size_t i = first; i <= last; ++i) AddCrossings(pencil, i, entries, tables);
@@ -53,7 +53,7 @@ void AddCaster(const EdgePencil& pencil, PencilTables* tables) {
   tables->forms.emplace_back(cast.x.du, cast.x.dv, cast.x.at_origin, cast.least_angle);
   tables->forms.emplace_back(cast.y.du, cast.y.dv, cast.y.at_origin, cast.bins_per_angle);
   tables->forms.emplace_back(static_cast<float>(entries), static_cast<float>(exits),
-                             static_cast<float>(cast.bins), static_cast<float>(LabelOf(pencil)));
+                             static_cast<float>(cast.bins()), static_cast<float>(LabelOf(pencil)));
 }
 
 std::vector<const EdgePencil*> ConcentricOf(const ViewPencils::Pencils& pencils) {

@@ -54,15 +54,13 @@ TEST(CastTile, GivesTheSameBitsOnEveryTarget) {
 CastPencil PencilOf(const std::vector<float>& keys) {
   CastPencil pencil;
   pencil.x = {0.0F, 0.0F, 1.0F};
-  pencil.bins = 1;
-  pencil.bins_per_angle = 0.25F;
   std::vector<EdgeOrder> orders;
   for (const float key : keys) {
     const auto number = static_cast<std::uint32_t>(orders.size());
     pencil.edges.push_back({-0.5F, 0.5F, {0.0F, 0.0F, key}, number, number % 2 == 0});
     orders.push_back({key, 0.0});
   }
-  (void)FillIntervals(orders, false, &pencil);
+  (void)FillIntervals(orders, &pencil);
   return pencil;
 }
 
