@@ -150,7 +150,8 @@ class Sweep {
       if (has_last) range.last = std::max(range.last, met_.back().OrderAt(direction));
     };
     add(begin);
-    for (double whole = std::floor(begin) + 1.0; whole < end; whole += 1.0) add(whole);
+    for (const double whole : {-1.0, 0.0, 1.0})
+      if (begin < whole && whole < end) add(whole);
     add(end);
     return range;
   }

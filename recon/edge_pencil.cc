@@ -21,9 +21,9 @@ constexpr double kTurnRad = 1e-10;
 constexpr int kMostTurns = 8;
 
 // b - a as the shorter way round, -2 to 2.
-float Turn(float a, float b) {
-  const float turn = b - a;
-  return turn > 2.0F ? turn - 4.0F : turn < -2.0F ? turn + 4.0F : turn;
+double Turn(double a, double b) {
+  const double turn = b - a;
+  return turn > 2.0 ? turn - 4.0 : turn < -2.0 ? turn + 4.0 : turn;
 }
 
 Vector3d Across(const Vector3d& axis, const Vector3d& toward) {
@@ -128,14 +128,14 @@ EdgePencil::EdgePlane EdgePencil::PlaneAlong(const Vector3d& from, const Vector3
 void EdgePencil::AddEdges(const Contour& contour, const Eigen::Matrix3d& view_from_cam) {
   struct Vertex {
     Vector3d in_view;  // a direction
-    float angle = 0.0F;
+    double angle = 0.0;
   };
   std::vector<Vertex> vertices(contour.vertices.size());
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     const Eigen::Vector2d& at = contour.vertices[i];
     const Vector3d q = view_from_cam * Vector3d(at.x(), at.y(), focal_px_);
-    const auto angle = static_cast<float>(PencilAngle(across_axes_[0].dot(q), across_axes_[1].dot(q)));
-    vertices[i] = {q, std::isnan(angle) ? 0.0F : angle};
+    const double angle = PencilAngle(across_axes_[0].dot(q), across_axes_[1].dot(q));
+    vertices[i] = {q, std::isnan(angle) ? 0.0 : angle};
   }
   std::vector<EdgeOrder> orders;
   orders.reserve(contour.edges.size());
@@ -146,11 +146,13 @@ void EdgePencil::AddEdges(const Contour& contour, const Eigen::Matrix3d& view_fr
   for (std::uint32_t i = 0; i < contour.edges.size(); ++i) {
     const ContourEdge& ends = contour.edges[i];
     const Vertex &from = vertices[ends.from], &to = vertices[ends.to];
-    const float turn = Turn(from.angle, to.angle);
-    if (turn == 0.0F) continue;
+    const double turn = Turn(from.angle, to.angle);
+    if (turn == 0.0) continue;
     // About the axis the object is on the left of an edge: with the turn rays come in from outside.
-    const bool enters = turn > 0.0F;
-    const float least = enters ? from.angle : to.angle, most = enters ? to.angle : from.angle;
+    const bool enters = turn > 0.0;
+    const auto least = static_cast<float>(enters ? from.angle : to.angle);
+    const auto most = static_cast<float>(enters ? to.angle : from.angle);
+    if (least == most) continue;
     const bool goes_round = least > most;  // across the negative x axis
     if (!goes_round && !is_seen(least, most)) continue;
     const Eigen::Vector2d along = contour.vertices[ends.to] - contour.vertices[ends.from];

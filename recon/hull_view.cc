@@ -70,7 +70,7 @@ class Caster {
   }
 
   void CastTileAt(int x, int y, Worker* worker) {
-    rays_.FillSquare(x, y, kTilePx, worker->rays.u, worker->rays.v);
+    rays_.FillTile(x, y, worker->rays.u, worker->rays.v);
     LabelConcentric(pencils_.cameras(), x, y, &worker->cameras);
     LabelConcentric(pencils_.sights(), x, y, &worker->sights);
     CastTile(worker->rays, pencils_.box(), worker->cameras, worker->sights, !view_.surface.empty(),

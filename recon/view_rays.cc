@@ -11,11 +11,12 @@
 
 #include "core/error.h"
 #include "recon/picture_plane.h"
+#include "recon/tile_cast.h"
 
 namespace elbowroom::recon {
 namespace {
 
-constexpr int kTilePx = 8;
+constexpr int kBoxPx = 8;
 
 }  // namespace
 
@@ -47,23 +48,25 @@ bool ViewRays::HasSameRays(const ViewRays& other) const {
          lens_ == other.lens_;
 }
 
-void ViewRays::FillSquare(int x, int y, int size, float* u, float* v) const {
-  const bool is_whole = x + size <= width_px_ && y + size <= height_px_;
+void ViewRays::FillTile(int x, int y, float* u, float* v) const {
+  const bool is_whole = x + kTilePx <= width_px_ && y + kTilePx <= height_px_;
   if (is_whole && lens_ == nullptr) {
-    const Eigen::Matrix2d m = uv_from_pixel_;
-    const Eigen::Vector2d origin = uv_of_origin_;
-    for (int row = 0; row < size; ++row) {
+    using Row = Eigen::Array<double, kTilePx, 1>;
+    const Row columns = Row::LinSpaced(x, x + kTilePx - 1);
+    const Eigen::Matrix2d& m = uv_from_pixel_;
+    const Row u_of_columns = m(0, 0) * columns, v_of_columns = m(1, 0) * columns;
+    for (int row = 0; row < kTilePx; ++row) {
       const double u_of_row = m(0, 1) * (y + row), v_of_row = m(1, 1) * (y + row);
-      for (int column = 0; column < size; ++column, ++u, ++v) {
-        *u = static_cast<float>(m(0, 0) * (x + column) + u_of_row + origin.x());
-        *v = static_cast<float>(m(1, 0) * (x + column) + v_of_row + origin.y());
-      }
+      Eigen::Map<Eigen::Array<float, kTilePx, 1>>(u + row * kTilePx) =
+          (u_of_columns + u_of_row + uv_of_origin_.x()).cast<float>();
+      Eigen::Map<Eigen::Array<float, kTilePx, 1>>(v + row * kTilePx) =
+          (v_of_columns + v_of_row + uv_of_origin_.y()).cast<float>();
     }
     return;
   }
-  for (int i = 0; i < size * size; ++i) {
+  for (int i = 0; i < kTileRays; ++i) {
     constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-    const int at_x = x + i % size, at_y = y + i / size;
+    const int at_x = x + i % kTilePx, at_y = y + i / kTilePx;
     const bool is_pixel = at_x < width_px_ && at_y < height_px_;
     const Eigen::Vector2d uv = is_pixel ? At(at_x, at_y) : Eigen::Vector2d(kNaN, kNaN);
     u[i] = static_cast<float>(uv.x());
@@ -74,20 +77,20 @@ void ViewRays::FillSquare(int x, int y, int size, float* u, float* v) const {
 std::shared_ptr<const ViewRays::Lens> ViewRays::LensOf(const core::CameraModel& view) {
   const PicturePlane plane(view);
   const auto width = static_cast<std::size_t>(view.width_px());
-  const int tiles_across = (view.width_px() + kTilePx - 1) / kTilePx;
-  const int tiles_down = (view.height_px() + kTilePx - 1) / kTilePx;
+  const int tiles_across = (view.width_px() + kBoxPx - 1) / kBoxPx;
+  const int tiles_down = (view.height_px() + kBoxPx - 1) / kBoxPx;
   auto lens = std::make_shared<Lens>();
   lens->by_pixel.resize(width * static_cast<std::size_t>(view.height_px()));
   lens->tile_boxes.resize(static_cast<std::size_t>(tiles_across) * static_cast<std::size_t>(tiles_down));
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   tbb::parallel_for(0, tiles_down, [&](int tile_y) {
-    for (int y = tile_y * kTilePx; y < std::min((tile_y + 1) * kTilePx, view.height_px()); ++y) {
+    for (int y = tile_y * kBoxPx; y < std::min((tile_y + 1) * kBoxPx, view.height_px()); ++y) {
       for (int x = 0; x < view.width_px(); ++x) {
         const std::optional<Eigen::Vector2d> position = plane.FromPixel({x, y});
         Eigen::Vector2d& uv =
             lens->by_pixel[static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)];
         uv = position ? Eigen::Vector2d(*position / plane.focal_px()) : Eigen::Vector2d(kNaN, kNaN);
-        const auto tile = static_cast<std::size_t>(tile_y * tiles_across + x / kTilePx);
+        const auto tile = static_cast<std::size_t>(tile_y * tiles_across + x / kBoxPx);
         if (position) lens->tile_boxes[tile].extend(uv);
       }
     }
@@ -102,9 +105,9 @@ Eigen::AlignedBox2d ViewRays::BoundsOf(int x0, int y0, int x1, int y1) const {
       for (const int y : {y0, y1 - 1}) box.extend(At(x, y));
     return box;
   }
-  const int tiles_across = (width_px_ + kTilePx - 1) / kTilePx;
-  for (int y = y0 / kTilePx; y * kTilePx < y1; ++y)
-    for (int x = x0 / kTilePx; x * kTilePx < x1; ++x)
+  const int tiles_across = (width_px_ + kBoxPx - 1) / kBoxPx;
+  for (int y = y0 / kBoxPx; y * kBoxPx < y1; ++y)
+    for (int x = x0 / kBoxPx; x * kBoxPx < x1; ++x)
       box.extend(lens_->tile_boxes[static_cast<std::size_t>(y * tiles_across + x)]);
   return box;
 }

@@ -42,8 +42,8 @@ class ViewRays {
                            static_cast<std::size_t>(x)];
   }
 
-  // Narrowed to float32, of a square of `size` pixels a side, row by row; NaN outside the picture too.
-  void FillSquare(int x, int y, int size, float* u, float* v) const;
+  // Narrowed to float32, of a tile (kTilePx) from (x, y) on, row by row; NaN outside the picture too.
+  void FillTile(int x, int y, float* u, float* v) const;
 
   // Of the rays of pixels [x0, x1) x [y0, y1), whose corners are multiples of 8 or the picture's: their box.
   [[nodiscard]] Eigen::AlignedBox2d BoundsOf(int x0, int y0, int x1, int y1) const;
