@@ -32,10 +32,6 @@ Vector3d Across(const Vector3d& axis, const Vector3d& toward) {
                                               : Vector3d(axis.unitOrthogonal());
 }
 
-OrderRange Union(const OrderRange& a, const OrderRange& b) {
-  return {std::min(a.first, b.first), std::max(a.last, b.last)};
-}
-
 }  // namespace
 
 EdgePencil::EdgePencil(const ContourMap& labels, double focal_px, const core::CameraModel& camera,
@@ -169,10 +165,8 @@ void EdgePencil::AddEdges(const Contour& contour, const Eigen::Matrix3d& view_fr
       add(-std::numeric_limits<float>::infinity(), most);
     }
   }
-  orders_ = FillIntervals(orders, &cast_);
-  const std::size_t intervals = orders_.size();
-  orders_.insert(orders_.begin(), intervals, OrderRange());
-  for (std::size_t i = intervals - 1; i > 0; --i) orders_[i] = Union(orders_[2 * i], orders_[2 * i + 1]);
+  const std::vector<OrderRange> ranges = FillIntervals(orders, &cast_);
+  orders_ = OrderTable(cast_.intervals.begins, ranges);
 }
 
 bool EdgePencil::IsObjectAlong(const Eigen::Vector2d& uv) const {
@@ -182,17 +176,6 @@ bool EdgePencil::IsObjectAlong(const Eigen::Vector2d& uv) const {
   return labels_.IsObject(position);
 }
 
-OrderRange EdgePencil::OrdersIn(std::size_t first_interval, std::size_t last_interval) const {
-  OrderRange range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
-  const std::size_t intervals = orders_.size() / 2;
-  for (std::size_t begin = first_interval + intervals, end = last_interval + intervals + 1; begin < end;
-       begin /= 2, end /= 2) {
-    if (begin % 2 != 0) range = Union(range, orders_[begin++]);
-    if (end % 2 != 0) range = Union(range, orders_[--end]);
-  }
-  return range;
-}
-
 // A ray at (x, y) across the axis meets order t at the key t * (|x| + |y|) - along, where perspective `along`
 // is the ray's (u, v, 1) along the axis in units of the centre's distance.
 EdgePencil::KeyRange EdgePencil::ObjectKeys(const Eigen::AlignedBox2d& uv_box) const {
@@ -200,8 +183,7 @@ EdgePencil::KeyRange EdgePencil::ObjectKeys(const Eigen::AlignedBox2d& uv_box) c
   constexpr double kRounding = 1e-9;
   if (is_concentric_) return {};
   const AngleRange angles = AnglesOf(uv_box);
-  const auto [first, last] = IntervalsOf(cast_, BinOf(cast_, angles.least), BinOf(cast_, angles.most));
-  const OrderRange orders = OrdersIn(first, last);
+  const OrderRange orders = orders_.Over(angles.least, angles.most);
   if (orders.first > orders.last) return {kInfinity, -kInfinity};
   const bool is_perspective = projection_ == Projection::kPerspective;
   const Eigen::Vector2d middle = uv_box.center(), half = 0.5 * uv_box.sizes();

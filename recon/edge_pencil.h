@@ -10,6 +10,7 @@
 #include "core/camera_model.h"
 #include "recon/cast_intervals.h"
 #include "recon/contour_map.h"
+#include "recon/order_table.h"
 #include "recon/tile_cast.h"
 #include "recon/view_rays.h"
 
@@ -58,7 +59,6 @@ class EdgePencil {
     double most = 0.0;
   };
   void TurnOffContour(const Eigen::Vector3d& start_in_view);
-  [[nodiscard]] OrderRange OrdersIn(std::size_t first_interval, std::size_t last_interval) const;
   void ChooseAxes(const Eigen::AlignedBox2d& view_box);
   [[nodiscard]] AngleRange AnglesOf(const Eigen::AlignedBox2d& uv_box) const;
   void AddEdges(const Contour& contour, const Eigen::Matrix3d& view_from_cam);
@@ -82,8 +82,7 @@ class EdgePencil {
   Eigen::Vector2d axis_uv_{0.0, 0.0};  // the ray that is the axis; not finite if there is none
   AngleRange view_angles_;
   CastPencil cast_;
-  // The intervals' ranges from item i = their number on; item i < that spans items 2 i and 2 i + 1.
-  std::vector<OrderRange> orders_;
+  OrderTable orders_;
 };
 
 }  // namespace elbowroom::recon
