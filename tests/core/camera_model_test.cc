@@ -6,6 +6,7 @@
 #include <limits>
 #include <opencv2/calib3d.hpp>
 #include <optional>
+#include <ostream>
 #include <random>
 #include <string>
 #include <vector>
@@ -13,6 +14,9 @@
 #include "core/error.h"
 
 namespace elbowroom::core {
+
+void PrintTo(const CameraCalibration& lens, std::ostream* out) { *out << lens.name; }
+
 namespace {
 
 constexpr double kSamePx = 1e-9;          // double rounding on pixel positions of a few thousand
