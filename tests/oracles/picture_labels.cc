@@ -168,4 +168,11 @@ bool PictureLabels::IsObject(const Vector2L& position_px, double grow_px) const 
   return BoundaryDistance(position_px) <= std::abs(static_cast<long double>(grow_px)) ? !label : label;
 }
 
+PictureLabels OutlineLabels(int width_px, int height_px, BoundaryConvention convention) {
+  core::SoftMask all{core::BitMask(width_px, height_px), {}};
+  for (int y = 0; y < height_px; ++y)
+    for (int x = 0; x < width_px; ++x) all.mask.Set(x, y, true);
+  return {all, convention, false};
+}
+
 }  // namespace elbowroom::oracles

@@ -64,4 +64,8 @@ class PictureLabels {
   std::vector<std::uint8_t> values_;
 };
 
+// What a camera sees of such a picture, as object: all of it, less the corners' tips where boundaries run
+// between pixel centres.
+[[nodiscard]] PictureLabels OutlineLabels(int width_px, int height_px, BoundaryConvention convention);
+
 }  // namespace elbowroom::oracles

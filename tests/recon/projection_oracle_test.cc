@@ -62,19 +62,12 @@ double FoldRadius(const core::CameraCalibration& c) {
   return fold;
 }
 
-core::BitMask AllObject(int width_px, int height_px) {
-  core::BitMask mask(width_px, height_px);
-  for (int y = 0; y < height_px; ++y)
-    for (int x = 0; x < width_px; ++x) mask.Set(x, y, true);
-  return mask;
-}
-
 // A camera as OpenCV has it, with its fold looked up once.
 struct Oracle {
   Oracle(const core::CameraModel& model, const core::BitMask& mask, bool exterior_is_object)
       : camera(model),
         labels({mask, {}}, kConvention, exterior_is_object),
-        outline({AllObject(model.width_px(), model.height_px()), {}}, kConvention, false),
+        outline(oracles::OutlineLabels(model.width_px(), model.height_px(), kConvention)),
         fold(FoldRadius(model.calibration())) {}
 
   enum class Says { kObject, kBackground, kUnseen, kTooClose };
