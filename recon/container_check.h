@@ -16,10 +16,9 @@ struct ContainerDamage {
 };
 
 // Nothing for a whole file, and for a container that this does not know (it knows AVI and the MP4 family).
-// Frame counts play no part: containers estimate them, and codecs hold frames back. What
-// is overwritten within a chunk isn't seen. An AVI whose writer left
-// its size open (a stream) is taken as whole, as is one whose headers overstep by no more than their own 8
-// bytes.
+// Frame counts play no part: containers estimate them, and codecs hold frames back. What is overwritten
+// within a chunk isn't seen. An AVI whose writer left its size open (a stream) is taken as whole, as is one
+// whose headers overstep by no more than their own 8 bytes.
 [[nodiscard]] std::optional<ContainerDamage> FindContainerDamage(const std::filesystem::path& path);
 
 }  // namespace elbowroom::recon
