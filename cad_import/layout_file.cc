@@ -134,6 +134,4 @@ ImportedLayout ImportLayoutFile(const std::filesystem::path& path) {
   return result;
 }
 
-core::Layout ReadLayoutFile(const std::filesystem::path& path) { return ImportLayoutFile(path).layout; }
-
 }  // namespace elbowroom::cad_import

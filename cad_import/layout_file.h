@@ -21,9 +21,6 @@ struct ImportedLayout {
 // Layout::Validate throw, naming file, line and part.
 [[nodiscard]] ImportedLayout ImportLayoutFile(const std::filesystem::path& path);
 
-// As above, without the warnings.
-[[nodiscard]] core::Layout ReadLayoutFile(const std::filesystem::path& path);
-
 // Writes the layout whole or not at all; the meshes are the caller's to write, to each part's `file`.
 // Reading it back gives the same names and numbers, rotations to 1e-12.
 // Throws: Error{kFile} if it can't be written, Error{kCad} naming a part without a file.

@@ -14,8 +14,6 @@ namespace elbowroom::core {
 namespace {
 
 constexpr int kStretchBins = 256;
-// tan(89.5 degrees): a pinhole can't look sideways, and a fisheye's domain ends there.
-constexpr double kLargestRadius = 114.6;
 
 void ValidateCalibration(const CameraCalibration& c) {
   const auto fail = [&](const std::string& what) {
@@ -70,14 +68,14 @@ double FarthestCornerRadius(const CameraCalibration& c) {
 // largest up to which the lens is certainly one-to-one in radius. Steps shrink where their bounds can't tell.
 double DomainRadius(const Lens& lens, double corner_radius) {
   double radius = 0.0;
-  while (radius < kLargestRadius) {
+  while (radius < Lens::kLargestRadius) {
     double step = std::max(corner_radius / 256.0, radius * 0.01);
     const auto is_one_to_one = [&] {
       return lens.RadialSlope(radius, radius + step).lower - lens.OffAxisSlope(radius + step) > 0.0;
     };
     while (step > radius / 4096.0 && radius > 0.0 && !is_one_to_one()) step *= 0.5;
     if (!is_one_to_one()) break;  // the lens folds here
-    radius = std::min(kLargestRadius, radius + step);
+    radius = std::min(Lens::kLargestRadius, radius + step);
     if (lens.RadialImage(radius) - lens.OffAxisLength(radius) > corner_radius)
       break;  // the picture is covered
   }
@@ -123,11 +121,7 @@ CameraModel::CameraModel(CameraCalibration calibration) : calibration_(std::move
   }
 }
 
-bool CameraModel::is_ideal() const {
-  const std::vector<double>& k = calibration_.distortion_coefficients;
-  return calibration_.distortion_model != DistortionModel::kFisheye &&
-         std::all_of(k.begin(), k.end(), [](double coefficient) { return coefficient == 0.0; });
-}
+bool CameraModel::is_ideal() const { return lens_->is_ideal(); }
 
 std::optional<Eigen::Vector2d> CameraModel::ProjectInCam(const Eigen::Vector3d& x_in_cam) const {
   if (!(x_in_cam.z() > 0.0)) return std::nullopt;

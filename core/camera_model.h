@@ -52,7 +52,7 @@ class CameraModel {
   [[nodiscard]] const Eigen::Vector3d& center_in_world() const { return center_in_world_; }
   [[nodiscard]] double max_radius() const { return max_radius_; }
 
-  // No distortion: a pinhole.
+  // No distortion (Lens::kLeastCoefficient): a pinhole.
   [[nodiscard]] bool is_ideal() const;
 
   // Pixel position (may lie outside the image), or nothing: behind the camera plane or outside the domain.

@@ -70,11 +70,15 @@ Interval EncloseTightly(const Enclosure& enclose, double r0, double r1) {
 
 }  // namespace
 
-Lens::Lens(DistortionModel model, const std::vector<double>& d, const std::string& who) : model_(model) {
+Lens::Lens(DistortionModel model, const std::vector<double>& coefficients, const std::string& who)
+    : model_(model) {
   const auto fail = [&](const std::string& what) { throw Error(ErrorKind::kCamera, who + ": " + what); };
+  std::vector<double> d = coefficients;
   if (!std::all_of(d.begin(), d.end(), [](double value) { return std::isfinite(value); })) {
     fail("a distortion coefficient is not a finite number; calibrate this camera again");
   }
+  std::replace_if(
+      d.begin(), d.end(), [](double value) { return std::abs(value) < kLeastCoefficient; }, 0.0);
   if (model == DistortionModel::kFisheye) {
     if (!d.empty() && d.size() != 4)
       fail(fmt::format("fisheye takes 4 distortion coefficients, not {}", d.size()));

@@ -1,6 +1,7 @@
 #include "recon/container_check.h"
 
 #include <algorithm>
+#include <cctype>
 #include <fstream>
 #include <string>
 #include <string_view>
@@ -46,18 +47,41 @@ std::uint64_t BigEndian(std::string_view bytes) {
   return value;
 }
 
-// A hole of zeros among the frames: space was reserved and never written.
-std::optional<ContainerDamage> FindHole(ByteReader& reader, std::uint64_t begin, std::uint64_t end) {
+bool IsDigit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
+bool IsLetter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; }
+
+// "00dc", "01wb" and the like: a stream's data.
+bool IsStreamChunk(std::string_view type) {
+  return type.size() == 4 && IsDigit(type[0]) && IsDigit(type[1]) && IsLetter(type[2]) && IsLetter(type[3]);
+}
+
+bool IsPicture(std::string_view type) {
+  return IsStreamChunk(type) && (type.ends_with("dc") || type.ends_with("db"));
+}
+
+// Whether chunks may be called so.
+bool IsText(std::string_view type) {
+  return std::all_of(type.begin(), type.end(),
+                     [](char c) { return IsDigit(c) || IsLetter(c) || c == ' ' || c == '_'; });
+}
+
+// Among the frames: a hole of zeros, space that was reserved and never written; or bytes that are no chunk.
+std::optional<ContainerDamage> FindBreak(ByteReader& reader, std::uint64_t begin, std::uint64_t end) {
   constexpr std::size_t kHoleBytes = 64;
+  std::int64_t pictures = 0;
   for (std::uint64_t at = begin; at + kHeaderBytes <= end;) {
     const std::string header = reader.At(at, kHeaderBytes);
     if (header.empty()) break;
-    if (header == std::string(kHeaderBytes, '\0') &&
-        reader.At(at, kHoleBytes) == std::string(kHoleBytes, '\0')) {
-      return ContainerDamage{at, at};
-    }
+    const bool is_zero = header == std::string(kHeaderBytes, '\0');
+    if (is_zero && reader.At(at, kHoleBytes) == std::string(kHoleBytes, '\0'))
+      return ContainerDamage{at, at, std::nullopt};
+    const std::string_view type = std::string_view(header).substr(0, 4);
     const std::uint64_t size = LittleEndian(std::string_view(header).substr(4));
-    at += kHeaderBytes + size + size % 2;
+    const std::uint64_t next = at + kHeaderBytes + size;
+    if ((!is_zero && !IsText(type)) || next > end + kHeaderBytes) return ContainerDamage{at, at, pictures};
+    pictures += IsPicture(type) ? 1 : 0;
+    // Odd chunks are padded, but not by every writer.
+    at = next + (size % 2 == 1 && !IsStreamChunk(reader.At(next, 4)) ? 1 : 0);
   }
   return std::nullopt;
 }
@@ -71,20 +95,20 @@ std::optional<ContainerDamage> CheckRiff(ByteReader& reader, std::uint64_t begin
     if (header.empty()) break;
     const std::uint64_t size = LittleEndian(std::string_view(header).substr(4, 4));
     const std::uint64_t next = at + kHeaderBytes + size;
-    if (next > reader.size()) return ContainerDamage{reader.size(), std::max(next, end)};
+    if (next > reader.size()) return ContainerDamage{reader.size(), std::max(next, end), std::nullopt};
     if (header.starts_with("LIST") && header.ends_with("movi")) {
-      if (const auto hole = FindHole(reader, at + kHeaderBytes + kFormTypeBytes, next)) return hole;
+      if (const auto damage = FindBreak(reader, at + kHeaderBytes + kFormTypeBytes, next)) return damage;
     }
     at = next + size % 2;
   }
-  if (end > reader.size() + kHeaderBytes) return ContainerDamage{reader.size(), end};
+  if (end > reader.size() + kHeaderBytes) return ContainerDamage{reader.size(), end, std::nullopt};
   return std::nullopt;
 }
 
 std::optional<ContainerDamage> CheckAvi(ByteReader& reader) {
   for (std::uint64_t at = 0; reader.At(at, 4) == "RIFF";) {
     const std::string header = reader.At(at, kHeaderBytes);
-    if (header.empty()) return ContainerDamage{reader.size(), at + kHeaderBytes};
+    if (header.empty()) return ContainerDamage{reader.size(), at + kHeaderBytes, std::nullopt};
     const std::uint64_t size = LittleEndian(std::string_view(header).substr(4));
     if (const std::string form = reader.At(at + kHeaderBytes, 4); form != "AVI " && form != "AVIX") {
       return std::nullopt;  // a recorder's notes after the footage, in a form of its own
@@ -99,12 +123,12 @@ std::optional<ContainerDamage> CheckAvi(ByteReader& reader) {
 std::optional<ContainerDamage> CheckMp4(ByteReader& reader) {
   for (std::uint64_t at = 0; at < reader.size();) {
     const std::string header = reader.At(at, kHeaderBytes);
-    if (header.empty()) return ContainerDamage{reader.size(), at + kHeaderBytes};
+    if (header.empty()) return ContainerDamage{reader.size(), at + kHeaderBytes, std::nullopt};
     std::uint64_t size = BigEndian(std::string_view(header).substr(0, 4));
     if (size == 0) return std::nullopt;  // to the end of the file, wherever that is
     if (size == 1) size = BigEndian(reader.At(at + kHeaderBytes, 8));
-    if (size < kHeaderBytes) return ContainerDamage{at, at};
-    if (at + size > reader.size()) return ContainerDamage{reader.size(), at + size};
+    if (size < kHeaderBytes) return ContainerDamage{at, at, std::nullopt};
+    if (at + size > reader.size()) return ContainerDamage{reader.size(), at + size, std::nullopt};
     at += size;
   }
   return std::nullopt;

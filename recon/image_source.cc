@@ -94,9 +94,12 @@ class VideoFile : public ImageSource {
       CountFrames(stop);
       if (count_ == 0)
         subject_.Fail(fmt::format("no frame of '{}' can be decoded; {}", subject_.location, kWhatToDo));
+      if (GoesOn()) FailAsDamaged(count_, "it can't be decoded, though later ones can");
       Rewind();
       return;
     }
+    if (damage->frame)
+      FailAsDamaged(*damage->frame, fmt::format("byte {} isn't where a picture begins", damage->at_byte));
     FailAsCutShort(*damage, stop);
   }
 
@@ -126,6 +129,19 @@ class VideoFile : public ImageSource {
       ++count_;
       core::ThrowIfStopped(stop, fmt::format("reading '{}'", subject_.location));
     }
+  }
+
+  // Whether what OpenCV gave as the end is none: it stops at every packet that can't be decoded at all.
+  bool GoesOn() {
+    constexpr int kTries = 256;  // packets in a row; at the end of a file they cost nothing
+    for (int i = 0; i < kTries; ++i)
+      if (capture_.grab()) return true;
+    return false;
+  }
+
+  [[noreturn]] void FailAsDamaged(FrameIndex frame, const std::string& how) {
+    subject_.Fail(fmt::format("video '{}' is damaged at about frame {}: {}; record or copy it again",
+                              subject_.location, frame, how));
   }
 
   [[noreturn]] void FailAsCutShort(const ContainerDamage& damage, const std::stop_token& stop) {

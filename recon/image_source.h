@@ -30,8 +30,10 @@ class ImageSource {
 
 // Opens what `location` (a resolved one of CameraSources) names. A video is decoded once to its end here:
 // what its container promises is not what can be read, and a broken file is found before anything is done
-// with it. Throws: Error{kFile} naming camera and file: missing, unreadable, no pictures in it, or cut short,
-// with the frame where it breaks off and how many it promised; Error{kCancelled} on a stop.
+// with it. Throws: Error{kFile} naming camera and file: missing, unreadable, no pictures in it, cut short,
+// with the frame where it breaks off and how many it promised, or damaged between pictures or so that one
+// can't be decoded at all, with about its frame; Error{kCancelled} on a stop. Damage that decoders paint
+// over isn't noticed: OpenCV passes on no sign of it.
 [[nodiscard]] std::unique_ptr<ImageSource> OpenImageSource(const std::string& location,
                                                            const core::CameraModel& camera,
                                                            std::stop_token stop = {});

@@ -18,8 +18,6 @@ class CameraThumbnail : public QWidget {
   explicit CameraThumbnail(const core::CameraModel& camera, QWidget* parent = nullptr);
 
   void ShowMask(const core::BitMask& mask);
-  [[nodiscard]] std::size_t object_px() const { return object_px_; }
-  [[nodiscard]] const QImage& picture() const { return picture_; }
 
  protected:
   void paintEvent(QPaintEvent* event) override;
@@ -38,8 +36,6 @@ class CameraStrip : public QFrame {
 
   void Open(const core::Rig& rig);
   void ShowMasks(const core::SharedMasks& masks);  // one a camera; those already shown cost nothing
-
-  [[nodiscard]] const std::vector<CameraThumbnail*>& thumbnails() const { return thumbnails_; }
 
  private:
   std::vector<CameraThumbnail*> thumbnails_;  // owned by Qt as children

@@ -25,7 +25,6 @@ class SpacingControl : public QWidget {
   void ShowApplied(double applied_mm);
   void Step(double by_mm);           // stays within the limits
   void SetIsActive(bool is_active);  // the one that the keys move
-  [[nodiscard]] double wished_mm() const { return box_->value(); }
 
  signals:
   void Wished(const std::string& spacing, double to_mm);

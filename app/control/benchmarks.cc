@@ -38,9 +38,8 @@ struct MaskedScene {
   explicit MaskedScene(const recon::ViewScene& scene)
       : rig(std::make_shared<const core::Rig>(scene.rig)),
         planes(recon::MakePicturePlanes(*rig)),
-        view(scene.view) {
-    for (core::BitMask& mask : recon::TrueMasks(*rig, scene.objects)) masks.push_back({std::move(mask), {}});
-  }
+        view(scene.view),
+        masks(recon::TrueMasks(*rig, scene.objects)) {}
 
   [[nodiscard]] recon::VisualHull Hull() const { return recon::MakeVisualHull(rig, planes, masks); }
 

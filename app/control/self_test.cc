@@ -14,7 +14,7 @@
 #include "recon/sweep_comparison.h"
 #include "recon/synthetic/demo_motion.h"
 #include "recon/synthetic/rig_presets.h"
-#include "recon/synthetic/synthetic_rig.h"
+#include "recon/synthetic/view_scene.h"
 #include "recon/view_comparison.h"
 
 namespace elbowroom::control {
@@ -65,10 +65,8 @@ core::CameraModel CloseUp(const core::CameraModel& camera) {
 
 Scene HandScene(core::Rig rig) {
   const std::vector<recon::SyntheticObject> objects = recon::DemoSceneAt(kHandOverTheTableS).objects;
-  Scene scene{std::move(rig), {}, OperatorsView()};
-  const recon::SyntheticRig cameras(scene.rig, [&](double) { return objects; });
-  for (core::BitMask& mask : cameras.TrueMasks(objects)) scene.masks.push_back({std::move(mask), {}});
-  return scene;
+  std::vector<core::SoftMask> masks = recon::TrueMasks(rig, objects);
+  return {std::move(rig), std::move(masks), OperatorsView()};
 }
 
 // The rig of ideal cameras that a sweep with a grid is a sweep of.

@@ -84,7 +84,6 @@ class ExactViewGl::Impl {
   [[nodiscard]] std::thread::id thread() const { return thread_; }
   [[nodiscard]] const std::string& driver() const { return context_.driver(); }
   [[nodiscard]] std::int64_t draws() const { return draws_; }
-  [[nodiscard]] std::int64_t edge_uploads() const { return edge_uploads_; }
   [[nodiscard]] std::int64_t ray_uploads() const { return ray_uploads_; }
 
  private:
@@ -109,7 +108,6 @@ class ExactViewGl::Impl {
   std::optional<Drawn> drawn_;    // the picture there
   std::vector<GLint> surfaces_;   // caster and edge a pixel, as read
   std::int64_t draws_ = 0;
-  std::int64_t edge_uploads_ = 0;
   std::int64_t ray_uploads_ = 0;
 };
 
@@ -176,7 +174,6 @@ void ExactViewGl::Impl::UploadPencils(const ViewPencils& pencils, const std::vec
   const std::vector<float> labels = LabelsByPixel(pencils, squares);
   const ViewRays& rays = pencils.rays();
   if (!labels.empty()) labels_.Upload(rays.width_px(), rays.height_px(), labels);
-  ++edge_uploads_;
   program_.Use();
   program_.Set("has_labels", labels.empty() ? 0 : 1);
   program_.Set("cameras", static_cast<int>(pencils.cameras().size()));
@@ -268,7 +265,6 @@ HullView ExactViewGl::ViewHull(const VisualHull& hull, const ViewRays& rays, con
 
 const std::string& ExactViewGl::driver() const { return OnOwnThread().driver(); }
 std::int64_t ExactViewGl::draws() const { return OnOwnThread().draws(); }
-std::int64_t ExactViewGl::edge_uploads() const { return OnOwnThread().edge_uploads(); }
 std::int64_t ExactViewGl::ray_uploads() const { return OnOwnThread().ray_uploads(); }
 
 }  // namespace elbowroom::recon::gl

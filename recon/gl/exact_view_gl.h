@@ -29,9 +29,8 @@ class ExactViewGl {
   // Driver's vendor, renderer and version in one line.
   [[nodiscard]] const std::string& driver() const;
 
-  // Since the start: pictures drawn, and tables of edges and of rays brought to the card.
+  // Since the start: pictures drawn, and tables of rays brought to the card.
   [[nodiscard]] std::int64_t draws() const;
-  [[nodiscard]] std::int64_t edge_uploads() const;
   [[nodiscard]] std::int64_t ray_uploads() const;
 
  private:

@@ -15,8 +15,6 @@ enum class RayLabel { kBackground = 0, kObject = 1, kByPixel = 2 };
 
 // Casters: the cameras' pencils, then the sights'. Every table fits a buffer texture; row by row:
 struct PencilTables {
-  static constexpr int kRowsACaster = 3;
-
   // A caster's three rows: x (du, dv, at_origin, least_angle); y (du, dv, at_origin, bins_per_angle); first
   // run of entries, of exits, bins, RayLabel. After the casters the faces of the workspace, (du, dv,
   // at_origin, 0): not before, not after, beside.

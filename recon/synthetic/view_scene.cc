@@ -46,10 +46,11 @@ ViewScene MakeViewScene(ViewSceneRig rig, int view_width_px, int view_height_px)
           HandView(view_width_px, view_height_px, kFocalShare * view_height_px)};
 }
 
-std::vector<core::BitMask> TrueMasks(const core::Rig& rig, const std::vector<SyntheticObject>& objects) {
+std::vector<core::SoftMask> TrueMasks(const core::Rig& rig, const std::vector<SyntheticObject>& objects) {
   const std::vector<Solid> solids = AllSolids(objects);
-  std::vector<core::BitMask> masks;
-  for (const core::CameraModel& camera : rig.cameras) masks.push_back(CameraView(camera, 1).TrueMask(solids));
+  std::vector<core::SoftMask> masks;
+  for (const core::CameraModel& camera : rig.cameras)
+    masks.push_back({CameraView(camera, 1).TrueMask(solids), {}});
   return masks;
 }
 

@@ -4,9 +4,9 @@
 
 #include <vector>
 
-#include "core/bit_mask.h"
 #include "core/camera_model.h"
 #include "core/rig.h"
+#include "core/soft_mask.h"
 #include "recon/plane_sweep.h"
 #include "recon/synthetic/solids.h"
 
@@ -34,8 +34,8 @@ struct ViewScene {
 // The view's camera, looking at the scene's hand from the same place with another focal length, px.
 [[nodiscard]] core::CameraModel HandView(int width_px, int height_px, double focal_px);
 
-// The pixels whose centre ray hits an object, one mask a camera.
-[[nodiscard]] std::vector<core::BitMask> TrueMasks(const core::Rig& rig,
-                                                   const std::vector<SyntheticObject>& objects);
+// The pixels whose centre ray hits an object, one mask a camera, without levels.
+[[nodiscard]] std::vector<core::SoftMask> TrueMasks(const core::Rig& rig,
+                                                    const std::vector<SyntheticObject>& objects);
 
 }  // namespace elbowroom::recon

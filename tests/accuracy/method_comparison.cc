@@ -22,9 +22,7 @@ DepthError ErrorAgainst(const SurfacePicture& reference, const recon::DepthMap& 
 ComparedScene MakeComparedScene(const std::string& name, recon::ViewSceneRig rig, int view_width_px,
                                 int view_height_px) {
   recon::ViewScene scene = recon::MakeViewScene(rig, view_width_px, view_height_px);
-  std::vector<core::SoftMask> masks;
-  for (core::BitMask& mask : recon::TrueMasks(scene.rig, scene.objects))
-    masks.push_back({std::move(mask), {}});
+  std::vector<core::SoftMask> masks = recon::TrueMasks(scene.rig, scene.objects);
   const oracles::MaskHullOracle oracle(scene.rig, masks, kConvention);
   const oracles::AnalyticHull analytic(scene.rig, recon::AllSolids(scene.objects));
   SurfacePicture mask_hull(

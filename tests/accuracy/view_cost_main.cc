@@ -55,9 +55,7 @@ void Run(const CostOptions& options) {
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 1);
   recon::ViewScene scene = recon::MakeViewScene(recon::ViewSceneRig::kThree);
   for (core::CameraModel& camera : scene.rig.cameras) camera = WithMorePicture(camera, options.picture_size);
-  std::vector<core::SoftMask> masks;
-  for (core::BitMask& mask : recon::TrueMasks(scene.rig, scene.objects))
-    masks.push_back({std::move(mask), {}});
+  std::vector<core::SoftMask> masks = recon::TrueMasks(scene.rig, scene.objects);
   if (options.blind) masks[0].mask = core::BitMask(masks[0].mask.width_px(), masks[0].mask.height_px());
   const Eigen::Vector3d center = scene.rig.workspace_mm.center();
   const Eigen::Vector3d half = 0.5 * options.workspace_size * scene.rig.workspace_mm.sizes();

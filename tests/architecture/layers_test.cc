@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -149,6 +150,8 @@ struct BadLine {
   std::string text;
   std::string message;
 };
+
+void PrintTo(const BadLine& line, std::ostream* out) { *out << line.text; }
 
 class BadLayersFile : public testing::TestWithParam<BadLine> {};
 

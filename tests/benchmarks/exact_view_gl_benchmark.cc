@@ -22,8 +22,7 @@ void ExactViewGl(benchmark::State& state, ViewSceneRig of_rig) {
                                     static_cast<std::size_t>(state.range(0)));
   const auto fresh = static_cast<Fresh>(state.range(1));
   const PicturePlanes planes = MakePicturePlanes(*rig);
-  std::vector<core::SoftMask> masks;
-  for (core::BitMask& mask : TrueMasks(*rig, scene.objects)) masks.push_back({std::move(mask), {}});
+  const std::vector<core::SoftMask> masks = TrueMasks(*rig, scene.objects);
   const ViewRays rays(scene.view);
   core::RigidTransform moved = scene.view.cam_from_world();
   moved.translation_mm.x() += 1e-3;

@@ -20,9 +20,7 @@ struct SweepScene {
 
 SweepScene SceneOf(ViewSceneRig rig) {
   recon::ViewScene scene = recon::MakeViewScene(rig);
-  std::vector<core::SoftMask> masks;
-  for (core::BitMask& mask : recon::TrueMasks(scene.rig, scene.objects))
-    masks.push_back({std::move(mask), {}});
+  std::vector<core::SoftMask> masks = recon::TrueMasks(scene.rig, scene.objects);
   recon::SweepRays rays(scene.view);
   return {std::move(scene), std::move(masks), std::move(rays)};
 }

@@ -73,9 +73,13 @@ SegmentationOptions Bare(ShadowRule shadows) {
 
 void CountBoundaryError(benchmark::State& state, const std::vector<core::SoftMask>& masks) {
   std::vector<BoundaryError> errors;
-  for (std::size_t i = 0; i < kCameras; ++i)
+  std::size_t boundary_pixels = 0;
+  for (std::size_t i = 0; i < kCameras; ++i) {
     errors.push_back(ErrorOfBoundary(masks[i], Simulated().rig.cameras[i], Simulated().solids));
+    boundary_pixels += core::BoundaryPixels(masks[i].mask).CountObjectPixels();
+  }
   const BoundaryError all = Pooled(errors);
+  state.counters["boundary_pixels"] = static_cast<double>(boundary_pixels);
   state.counters["boundary_rms_px"] = all.rms_px;
   state.counters["boundary_bias_px"] = all.bias_px;
 }

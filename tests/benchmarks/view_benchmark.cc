@@ -27,9 +27,8 @@ const MaskScene& SceneOf(ViewSceneRig rig) {
   const auto found = scenes.find(rig);
   if (found != scenes.end()) return found->second;
   const ViewScene scene = MakeViewScene(rig);
-  MaskScene made{
-      std::make_shared<const core::Rig>(scene.rig), MakePicturePlanes(scene.rig), {}, ViewRays(scene.view)};
-  for (core::BitMask& mask : TrueMasks(scene.rig, scene.objects)) made.masks.push_back({std::move(mask), {}});
+  MaskScene made{std::make_shared<const core::Rig>(scene.rig), MakePicturePlanes(scene.rig),
+                 TrueMasks(scene.rig, scene.objects), ViewRays(scene.view)};
   return scenes.emplace(rig, std::move(made)).first->second;
 }
 

@@ -79,7 +79,7 @@ class LayoutFile : public ::testing::Test {
   std::string ErrorAtLine(int line, const std::string& from, const std::string& to,
                           ErrorKind kind = ErrorKind::kFormat) {
     const auto path = WriteWith(from, to);
-    const std::string message = ErrorOf(kind, [&] { (void)ReadLayoutFile(path); });
+    const std::string message = ErrorOf(kind, [&] { (void)ImportLayoutFile(path); });
     EXPECT_TRUE(Mentions(message, path.string() + ":" + std::to_string(line) + ": ")) << message;
     return message;
   }
@@ -88,7 +88,7 @@ class LayoutFile : public ::testing::Test {
 };
 
 TEST_F(LayoutFile, EveryKeyArrives) {
-  const core::Layout layout = ReadLayoutFile(Write(kLayout));
+  const core::Layout layout = ImportLayoutFile(Write(kLayout)).layout;
   EXPECT_EQ(layout.unit, LengthUnit::kCentimetre);
   ASSERT_EQ(layout.parts.size(), 3U);
   const core::Part& box = layout.parts[0];
@@ -112,7 +112,7 @@ TEST_F(LayoutFile, EveryKeyArrives) {
 }
 
 TEST_F(LayoutFile, APartsUnitGoesBeforeItsFilesAndThatBeforeTheLayouts) {
-  const core::Layout layout = ReadLayoutFile(Write(kLayout));
+  const core::Layout layout = ImportLayoutFile(Write(kLayout)).layout;
   const auto size_mm = [&](std::size_t i) -> Eigen::Vector3d {
     return core::BoundsOf(*layout.parts[i].mesh).sizes();
   };
@@ -125,7 +125,7 @@ TEST_F(LayoutFile, APartsUnitGoesBeforeItsFilesAndThatBeforeTheLayouts) {
 }
 
 TEST_F(LayoutFile, AFileUsedTwiceIsLoadedOnce) {
-  const core::Layout layout = ReadLayoutFile(WriteWith("unit = \"in\"\n", ""));
+  const core::Layout layout = ImportLayoutFile(WriteWith("unit = \"in\"\n", "")).layout;
   EXPECT_EQ(layout.parts[0].mesh, layout.parts[1].mesh);
   EXPECT_NE(layout.parts[0].mesh, layout.parts[2].mesh);
 }
@@ -181,7 +181,7 @@ TEST_F(LayoutFile, PartFilesThatFailAreNamedWithTheirLineAndPart) {
 
 TEST_F(LayoutFile, LayoutsThatContradictThemselvesAreErrors) {
   const auto message_of = [&](const std::filesystem::path& path) {
-    return ErrorOf(ErrorKind::kRange, [&] { (void)ReadLayoutFile(path); });
+    return ErrorOf(ErrorKind::kRange, [&] { (void)ImportLayoutFile(path); });
   };
   EXPECT_TRUE(
       Mentions(message_of(WriteWith("[[spacing]]",
@@ -193,7 +193,7 @@ TEST_F(LayoutFile, LayoutsThatContradictThemselvesAreErrors) {
 
 TEST_F(LayoutFile, FilesThatAreNoLayoutAreErrors) {
   const auto message_of = [](ErrorKind kind, const std::filesystem::path& path) {
-    return ErrorOf(kind, [&] { (void)ReadLayoutFile(path); });
+    return ErrorOf(kind, [&] { (void)ImportLayoutFile(path); });
   };
   EXPECT_TRUE(Mentions(message_of(ErrorKind::kFile, folder_ / "none.toml"), "no such layout file"));
   EXPECT_TRUE(Mentions(message_of(ErrorKind::kFile, folder_.path()), "no such layout file"));
@@ -205,7 +205,7 @@ TEST_F(LayoutFile, FilesThatAreNoLayoutAreErrors) {
 }
 
 TEST_F(LayoutFile, WhatIsWrittenComesBack) {
-  core::Layout layout = ReadLayoutFile(Write(kLayout));
+  core::Layout layout = ImportLayoutFile(Write(kLayout)).layout;
   std::mt19937 random(8);
   std::uniform_real_distribution<double> angle_deg(-180, 180), position_mm(-3000, 3000);
   for (int i = 0; i < 50; ++i) {
@@ -220,7 +220,7 @@ TEST_F(LayoutFile, WhatIsWrittenComesBack) {
   }
   layout.spacings[0].initial_mm = 140.1;
   WriteLayoutFile(layout, folder_ / "copy.toml");
-  const core::Layout back = ReadLayoutFile(folder_ / "copy.toml");
+  const core::Layout back = ImportLayoutFile(folder_ / "copy.toml").layout;
   EXPECT_EQ(back.unit, layout.unit);
   ASSERT_EQ(back.parts.size(), layout.parts.size());
   for (std::size_t i = 0; i < layout.parts.size(); ++i) {
@@ -239,7 +239,7 @@ TEST_F(LayoutFile, WhatIsWrittenComesBack) {
 }
 
 TEST_F(LayoutFile, APartWithoutAFileCantBeWritten) {
-  core::Layout layout = ReadLayoutFile(Write(kLayout));
+  core::Layout layout = ImportLayoutFile(Write(kLayout)).layout;
   layout.parts[1].file.clear();
   EXPECT_TRUE(Mentions(ErrorOf(ErrorKind::kCad, [&] { WriteLayoutFile(layout, folder_ / "copy.toml"); }),
                        "part 'payload A' has no file"));

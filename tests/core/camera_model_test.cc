@@ -6,13 +6,18 @@
 #include <limits>
 #include <opencv2/calib3d.hpp>
 #include <optional>
+#include <ostream>
 #include <random>
 #include <string>
 #include <vector>
 
 #include "core/error.h"
+#include "core/lens.h"
 
 namespace elbowroom::core {
+
+void PrintTo(const CameraCalibration& lens, std::ostream* out) { *out << lens.name; }
+
 namespace {
 
 constexpr double kSamePx = 1e-9;          // double rounding on pixel positions of a few thousand
@@ -48,9 +53,12 @@ std::vector<CameraCalibration> Lenses() {
       Calibration("rational8", kRationalPolynomial, {1.2, -0.4, 0.0003, -0.0002, 0.01, 1.5, -0.2, 0.03}),
       Calibration("prism12", kRationalPolynomial,
                   {-0.3, 0.1, 0.001, -0.001, 0.002, 0.05, 0.01, 0.002, 0.003, -0.001, -0.002, 0.0005}),
+      Calibration("denormal", kPlumbBob, {-0.2, 0.05, 1e-310, -5e-324, -3e-308}),
+      Calibration("nothing_but_denormals", kPlumbBob, {1e-310, -3e-308, 5e-324, 1e-320, 2e-308}),
       Calibration("untilted14", kRationalPolynomial, {-0.2, 0.05, 0, 0, 0, 0.1, 0, 0, 0, 0, 0, 0, 0, 0}),
       Calibration("fisheye", kFisheye, {0.05, -0.01, 0.004, -0.001}),
       Calibration("fisheye_ideal", kFisheye, {}),
+      Calibration("fisheye_denormal", kFisheye, {1e-310, -3e-308, 5e-324, 1e-320}),
       Calibration("fisheye_folding", kFisheye, {-0.15, 0.01, 0.0, 0.0}),
   };
   CameraCalibration wide = Calibration("fisheye_wide", kFisheye, {-0.01, 0.002, -0.0005, 0.0001});
@@ -159,6 +167,50 @@ TEST_P(CameraModelLens, PixelStretchIsNotWastefulAtTheCentre) {
   EXPECT_LT(camera.PixelStretch(0.0), 1.01 * focal_px);
   EXPECT_LE(camera.PixelStretch(0.0), camera.PixelStretch(camera.max_radius()));
   EXPECT_EQ(camera.PixelStretch(10.0 * camera.max_radius()), camera.PixelStretch(camera.max_radius()));
+}
+
+// Where the largest coefficients that the lens leaves out would move a position of the plane, in long double.
+Eigen::Matrix<long double, 2, 1> MovedByTheLeast(const Eigen::Vector2d& at, DistortionModel model) {
+  const long double k = std::nextafter(Lens::kLeastCoefficient, 0.0), x = at.x(), y = at.y();
+  const long double r2 = x * x + y * y, r4 = r2 * r2, r6 = r4 * r2;
+  if (model == DistortionModel::kFisheye) {
+    const long double t2 = std::pow(std::atan(std::sqrt(r2)), 2.0L);
+    const long double share = k * t2 * (1.0L + t2 * (1.0L + t2 * (1.0L + t2)));
+    return {x * share, y * share};
+  }
+  const long double series = k * (r2 + r4 + r6);
+  const long double radial = 2.0L * series / (1.0L - series);  // (1 + series) / (1 - series), less 1
+  const long double prism = k * (r2 + r4);
+  return {x * radial + k * (2.0L * x * y + r2 + 2.0L * x * x) + prism,
+          y * radial + k * (2.0L * x * y + r2 + 2.0L * y * y) + prism};
+}
+
+TEST(Lens, LeavesOutNoCoefficientThatRoundingWouldNotHide) {
+  const long double half_ulp = std::ldexp(1.0L, -54);  // of a radius, at the least
+  std::mt19937 random(17);
+  for (const DistortionModel model : {DistortionModel::kRationalPolynomial, DistortionModel::kFisheye}) {
+    for (int i = 0; i < kPoints; ++i) {
+      const Eigen::Vector2d at = RandomInDisc(random, Lens::kLargestRadius);
+      EXPECT_LT(MovedByTheLeast(at, model).norm(), half_ulp * at.norm());
+    }
+  }
+}
+
+TEST(Lens, WithoutTheseCoefficientsIsTheSame) {
+  const double most = std::nextafter(Lens::kLeastCoefficient, 0.0);
+  const auto ideal = [](std::vector<double> k) {
+    return Lens(DistortionModel::kPlumbBob, k, "lens").is_ideal();
+  };
+  EXPECT_TRUE(ideal({most, -most, most, -most, most}));
+  EXPECT_FALSE(ideal({0.0, 0.0, 0.0, Lens::kLeastCoefficient, 0.0}));
+  const Lens lens(DistortionModel::kPlumbBob, {-0.2, 0.05, most, 0.001, -most}, "lens"),
+      without(DistortionModel::kPlumbBob, {-0.2, 0.05, 0.0, 0.001, 0.0}, "lens");
+  std::mt19937 random(18);
+  for (int i = 0; i < kInversions; ++i) {
+    const Eigen::Vector2d at = RandomInDisc(random, 0.9);
+    EXPECT_EQ(lens.Distort(at), without.Distort(at));
+    EXPECT_EQ(lens.Undistort(at, 0.9), without.Undistort(at, 0.9));
+  }
 }
 
 TEST(CameraModel, PixelStretchBoundsSkewedPixelsToo) {

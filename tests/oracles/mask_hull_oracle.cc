@@ -82,21 +82,23 @@ MaskHullOracle::MaskHullOracle(core::Rig rig, std::span<const core::SoftMask> ma
     core::Require(
         masks[i].mask.width_px() == camera.width_px() && masks[i].mask.height_px() == camera.height_px(),
         "a mask has its camera's size");
-    labels_.emplace_back(masks[i], convention, rig_.unseen == core::UnseenPolicy::kAbstain);
-    if (rig_.unseen == core::UnseenPolicy::kOutside) tiles_.emplace_back(camera, masks[i].mask);
+    const bool abstains = rig_.unseen == core::UnseenPolicy::kAbstain;
+    labels_.emplace_back(masks[i], convention, abstains);
+    if (abstains)
+      outlines_.push_back(OutlineLabels(camera.width_px(), camera.height_px(), convention));
+    else
+      tiles_.emplace_back(camera, masks[i].mask);
   }
 }
 
 bool MaskHullOracle::Contains(const Vector3L& x_in_world, double grow_px) const {
   if (!rig_.workspace_mm.contains(x_in_world.cast<double>())) return false;
-  bool is_seen = false;
+  const bool abstains = rig_.unseen == core::UnseenPolicy::kAbstain;
+  bool is_seen = !abstains;  // under `outside` whoever doesn't see it says no
   for (std::size_t i = 0; i < labels_.size(); ++i) {
-    const core::CameraModel& camera = rig_.cameras[i];
-    const std::optional<Vector2L> pixel = Project(camera, x_in_world);
-    const bool exterior = rig_.unseen == core::UnseenPolicy::kAbstain;
-    if (!(pixel ? labels_[i].IsObject(*pixel, grow_px) : exterior)) return false;
-    is_seen = is_seen || (pixel && pixel->x() >= -0.5L && pixel->y() >= -0.5L &&
-                          pixel->x() < camera.width_px() - 0.5L && pixel->y() < camera.height_px() - 0.5L);
+    const std::optional<Vector2L> pixel = Project(rig_.cameras[i], x_in_world);
+    if (!(pixel ? labels_[i].IsObject(*pixel, grow_px) : abstains)) return false;
+    is_seen = is_seen || (pixel && outlines_[i].IsObject(*pixel, grow_px));
   }
   return is_seen;
 }

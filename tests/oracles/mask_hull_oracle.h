@@ -16,7 +16,8 @@
 namespace elbowroom::oracles {
 
 // Labels straight from the masks (PictureLabels), projection in long double (camera_projection.h), the rig's
-// `unseen` policy, the workspace's closed box. Shares no code with recon's hull. Immutable. Thread: any.
+// `unseen` policy (what a camera sees ends at its picture's outline, by the same convention as silhouettes),
+// the workspace's closed box. Shares no code with recon's hull. Immutable. Thread: any.
 class MaskHullOracle {
  public:
   // Throws: PreconditionError unless there is one mask a camera, of its picture's size.
@@ -50,6 +51,7 @@ class MaskHullOracle {
 
   core::Rig rig_;
   std::vector<PictureLabels> labels_;
+  std::vector<PictureLabels> outlines_;  // under `abstain`: what each camera sees
   std::vector<ObjectTiles> tiles_;
 };
 

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <memory>
 #include <numbers>
 
 #include "recon/synthetic/demo_motion.h"
@@ -68,6 +69,32 @@ TEST(MaskHullOracle, AgreesWithTheVolumeQuery) {
     }
   }
   EXPECT_GT(inside, 500);
+}
+
+TEST(MaskHullOracle, UnderAbstainACameraSeesAsFarAsItsOutline) {
+  core::CameraCalibration c;
+  c.name = "camera";
+  c.image_width_px = 8, c.image_height_px = 6;
+  c.camera_matrix << 10.0, 0.0, 4.0, 0.0, 10.0, 3.0, 0.0, 0.0, 1.0;
+  const core::CameraModel camera(c);
+  const auto rig = std::make_shared<const core::Rig>(core::Rig{
+      "one", {Vector3d::Constant(-1e3), Vector3d::Constant(1e3)}, core::UnseenPolicy::kAbstain, {camera}});
+  std::vector<core::SoftMask> all = {{core::BitMask(8, 6), {}}};
+  for (int y = 0; y < 6; ++y)
+    for (int x = 0; x < 8; ++x) all[0].mask.Set(x, y, true);
+  const recon::VisualHull hull = recon::MakeVisualHull(rig, all);
+  const MaskHullOracle oracle(*rig, all, BoundaryConvention::kMarchingSquares),
+      squares(*rig, all, BoundaryConvention::kPixelSquares);
+  int tips = 0;
+  for (double x_px = -0.73; x_px < 8.0; x_px += 0.05) {
+    for (double y_px = -0.73; y_px < 6.0; y_px += 0.05) {
+      const Vector3d x_in_world(100.0 * (x_px - 4.0) / 10.0, 100.0 * (y_px - 3.0) / 10.0, 100.0);
+      const bool is_seen = oracle.Contains(x_in_world.cast<long double>());
+      ASSERT_EQ(hull.Contains(x_in_world), is_seen) << x_px << ' ' << y_px;
+      tips += squares.Contains(x_in_world.cast<long double>()) != is_seen ? 1 : 0;
+    }
+  }
+  EXPECT_GT(tips, 4 * 30);  // four triangles of an eighth of a pixel, 400 places a pixel
 }
 
 TEST(MaskHullOracle, FirstSurfaceIsTheSameWithoutPassingOverAnything) {

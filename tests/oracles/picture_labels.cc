@@ -61,6 +61,8 @@ int PictureLabels::ValueAt(int x, int y) const {
                  static_cast<std::size_t>(x)];
 }
 
+bool PictureLabels::IsObjectPixel(int x, int y) const { return ValueAt(x, y) >= kLeastObjectValue; }
+
 long double PictureLabels::CrossingShare(int ax, int ay, int bx, int by) const {
   if (!IsPixel(ax, ay) || !IsPixel(bx, by)) return 0.5L;
   const long double a = ValueAt(ax, ay), b = ValueAt(bx, by);
@@ -107,8 +109,8 @@ PictureLabels::Cell PictureLabels::CellAt(int x, int y) const {
 bool PictureLabels::LabelAt(const Vector2L& p) const {
   if (convention_ == BoundaryConvention::kPixelSquares) {
     if (!IsInPicture(p)) return exterior_is_object_;
-    return ValueAt(static_cast<int>(std::floor(p.x() + 0.5L)), static_cast<int>(std::floor(p.y() + 0.5L))) >=
-           kLeastObjectValue;
+    return IsObjectPixel(static_cast<int>(std::floor(p.x() + 0.5L)),
+                         static_cast<int>(std::floor(p.y() + 0.5L)));
   }
   if (!(p.x() > -1.0L && p.y() > -1.0L && p.x() < width_px_ && p.y() < height_px_))
     return exterior_is_object_;
@@ -133,7 +135,7 @@ long double PictureLabels::SquaresDistance(const Vector2L& p, bool label) const 
   const int y0 = static_cast<int>(std::floor(in_picture.y() + 0.5L));
   for (int y = y0 - 1; y <= y0 + 1; ++y) {
     for (int x = x0 - 1; x <= x0 + 1; ++x) {
-      if (IsPixel(x, y) && (ValueAt(x, y) >= kLeastObjectValue) != label)
+      if (IsPixel(x, y) && IsObjectPixel(x, y) != label)
         nearest = std::min(nearest, DistanceToSquare(x, y, p));
     }
   }
@@ -164,6 +166,13 @@ bool PictureLabels::IsObject(const Vector2L& position_px, double grow_px) const 
   if (grow_px == 0.0 || label == (grow_px > 0.0)) return label;
   core::Require(std::abs(grow_px) <= 0.5, "a boundary is moved by half a pixel at most");
   return BoundaryDistance(position_px) <= std::abs(static_cast<long double>(grow_px)) ? !label : label;
+}
+
+PictureLabels OutlineLabels(int width_px, int height_px, BoundaryConvention convention) {
+  core::SoftMask all{core::BitMask(width_px, height_px), {}};
+  for (int y = 0; y < height_px; ++y)
+    for (int x = 0; x < width_px; ++x) all.mask.Set(x, y, true);
+  return {all, convention, false};
 }
 
 }  // namespace elbowroom::oracles

@@ -30,6 +30,12 @@ class PictureLabels {
   // With every boundary moved by `grow_px`: outwards of the object if positive. |grow_px| <= 0.5.
   [[nodiscard]] bool IsObject(const Vector2L& position_px, double grow_px = 0.0) const;
 
+  // Of a pixel, or the exterior's.
+  [[nodiscard]] bool IsObjectPixel(int x, int y) const;
+
+  // Share of the way from pixel a to its neighbour b, of the other label, at which the boundary is.
+  [[nodiscard]] long double CrossingShare(int ax, int ay, int bx, int by) const;
+
  private:
   // A piece of the boundary in one cell; the object lies left of a to b.
   struct Segment {
@@ -45,7 +51,6 @@ class PictureLabels {
     return x >= 0 && y >= 0 && x < width_px_ && y < height_px_;
   }
   [[nodiscard]] int ValueAt(int x, int y) const;  // the exterior's outside
-  [[nodiscard]] long double CrossingShare(int ax, int ay, int bx, int by) const;
   [[nodiscard]] bool IsInPicture(const Vector2L& position_px) const;
   [[nodiscard]] long double SquaresDistance(const Vector2L& position_px, bool label) const;
   [[nodiscard]] bool LabelAt(const Vector2L& position_px) const;
@@ -58,5 +63,9 @@ class PictureLabels {
   bool exterior_is_object_;
   std::vector<std::uint8_t> values_;
 };
+
+// What a camera sees of such a picture, as object: all of it, less the corners' tips where boundaries run
+// between pixel centres.
+[[nodiscard]] PictureLabels OutlineLabels(int width_px, int height_px, BoundaryConvention convention);
 
 }  // namespace elbowroom::oracles

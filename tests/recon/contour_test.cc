@@ -9,13 +9,14 @@
 #include <vector>
 
 #include "core/error.h"
-#include "tests/recon/lattice.h"
+#include "tests/oracles/picture_labels.h"
 #include "tests/recon/random_scene.h"
 
 namespace elbowroom::recon {
 namespace {
 
 using Eigen::Vector2d;
+using oracles::PictureLabels;
 
 core::CameraModel CameraOf(int width_px, int height_px, std::vector<double> coefficients = {}) {
   core::CameraCalibration c;
@@ -56,23 +57,23 @@ void ExpectObjectOnTheLeft(const Contour& contour, bool exterior) {
 }
 
 // Labels by the contour's parity against the definition, cell by cell.
-void ExpectLabelsOfTheLattice(Random* random, const Contour& contour, const Lattice& lattice, bool exterior,
-                              const PicturePlane& plane, double band_px) {
+void ExpectLabelsOfThePicture(Random* random, const Contour& contour, const PictureLabels& labels,
+                              bool exterior, const PicturePlane& plane, double band_px) {
   const core::CameraModel& camera = plane.camera();
   for (int i = 0; i < 150; ++i) {
     const Vector2d pixel(random->Uniform(-2.0, camera.width_px() + 1.0),
                          random->Uniform(-2.0, camera.height_px() + 1.0));
     const std::optional<Vector2d> normalised = camera.NormalisedFromPixel(pixel);
     if (!normalised) continue;
-    bool is_clear = true;
-    for (int k = 0; k < 8; ++k) {
-      const Vector2d aside(std::cos(k * M_PI / 4), std::sin(k * M_PI / 4));
-      is_clear = is_clear && lattice.At(pixel + band_px * aside) == lattice.At(pixel);
-    }
-    if (!is_clear) continue;
-    EXPECT_EQ(IsObjectByParity(contour, exterior, plane.focal_px() * *normalised), lattice.At(pixel))
+    const oracles::Vector2L at = pixel.cast<long double>();
+    if (labels.IsObject(at, band_px) != labels.IsObject(at, -band_px)) continue;
+    EXPECT_EQ(IsObjectByParity(contour, exterior, plane.focal_px() * *normalised), labels.IsObject(at))
         << pixel.transpose();
   }
+}
+
+PictureLabels LabelsOf(const core::SoftMask& silhouette, bool exterior) {
+  return {silhouette, oracles::BoundaryConvention::kMarchingSquares, exterior};
 }
 
 core::SoftMask RandomSilhouette(Random* random, int width_px, int height_px) {
@@ -94,13 +95,14 @@ TEST(Contour, IsClosedAndHasTheObjectOnOneSideForEveryWidthAndExterior) {
       ExpectClosedLoops(contour);
       ExpectObjectOnTheLeft(contour, exterior);
       constexpr double kRoundingPx = 1e-9;
-      ExpectLabelsOfTheLattice(&random, contour, Lattice(silhouette, exterior), exterior, plane, kRoundingPx);
+      ExpectLabelsOfThePicture(&random, contour, LabelsOf(silhouette, exterior), exterior, plane,
+                               kRoundingPx);
       if (HasFailure()) FAIL() << width_px << " x " << height_px << ", trial " << trial;
     }
   }
 }
 
-TEST(Contour, LabelsAreThoseOfTheLatticeThroughEveryLens) {
+TEST(Contour, LabelsAreThoseOfThePictureThroughEveryLens) {
   Random random(5102);
   for (int trial = 0; trial < 150; ++trial) {
     const core::CameraModel camera = RandomCamera(&random, static_cast<LensKind>(trial % kLensKinds));
@@ -112,7 +114,7 @@ TEST(Contour, LabelsAreThoseOfTheLatticeThroughEveryLens) {
     ExpectClosedLoops(contour);
     // Pictures of 40 px through lenses of 100 degrees: a pixel bends by some thousandths.
     constexpr double kCoarsePx = 2e-2;
-    ExpectLabelsOfTheLattice(&random, contour, Lattice(silhouette, exterior), exterior, plane, kCoarsePx);
+    ExpectLabelsOfThePicture(&random, contour, LabelsOf(silhouette, exterior), exterior, plane, kCoarsePx);
     if (HasFailure()) FAIL() << "trial " << trial;
   }
 }
@@ -146,15 +148,18 @@ TEST(Contour, CrossesBetweenCentresWhereTheLevelsSay) {
   for (int trial = 0; trial < 40; ++trial) {
     const core::SoftMask silhouette = RandomSilhouette(&random, 70, 9);
     const bool exterior = trial % 2 == 0;
-    const Lattice lattice(silhouette, exterior);
+    const PictureLabels labels = LabelsOf(silhouette, exterior);
+    const auto share = [&](int x, int y, int dx, int dy) {
+      return static_cast<double>(labels.CrossingShare(x, y, x + dx, y + dy));
+    };
     const Contour contour = TraceContour(silhouette, exterior, plane);
     std::vector<Vector2d> expected;
     for (int y = -1; y <= 9; ++y) {
       for (int x = -1; x <= 70; ++x) {
-        if (lattice.IsObject(x, y) != lattice.IsObject(x + 1, y))
-          expected.push_back(InPlane(plane, x + lattice.CrossingShare(x, y, 1, 0), y));
-        if (lattice.IsObject(x, y) != lattice.IsObject(x, y + 1))
-          expected.push_back(InPlane(plane, x, y + lattice.CrossingShare(x, y, 0, 1)));
+        if (labels.IsObjectPixel(x, y) != labels.IsObjectPixel(x + 1, y))
+          expected.push_back(InPlane(plane, x + share(x, y, 1, 0), y));
+        if (labels.IsObjectPixel(x, y) != labels.IsObjectPixel(x, y + 1))
+          expected.push_back(InPlane(plane, x, y + share(x, y, 0, 1)));
       }
     }
     ASSERT_EQ(contour.vertices.size(), expected.size());

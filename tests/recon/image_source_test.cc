@@ -9,6 +9,7 @@
 
 #include "recon/container_check.h"
 #include "tests/recon/made_footage.h"
+#include "tests/support/text_file.h"
 
 namespace elbowroom::recon {
 namespace {
@@ -142,6 +143,33 @@ TEST(VideoFile, FindsSpaceThatWasReservedAndNeverWritten) {
   EXPECT_THAT(message, AllOf(HasSubstr("hole.avi"), HasSubstr("cut short")));
 }
 
+// Where picture `number` of an AVI begins: its chunk's header.
+std::size_t PictureAt(const std::string& bytes, int number) {
+  std::size_t at = bytes.find("00dc", bytes.find("movi"));
+  for (int i = 0; i < number; ++i) at = bytes.find("00dc", at + 4);
+  return at;
+}
+
+void Overwrite(std::string* bytes, std::size_t at, std::size_t count) {
+  std::mt19937 random(12);
+  for (std::size_t i = at; i < at + count; ++i) (*bytes)[i] = static_cast<char>(random() % 256U);
+}
+
+TEST(VideoFile, NamesTheFrameWhereItIsOverwritten) {
+  const TestFolder folder;
+  testing::WriteVideo(folder.File("v.avi"), 60);
+  const std::string whole = test_support::ReadText(folder.path() / "v.avi");
+  std::string headless = whole, blank = whole;
+  Overwrite(&headless, PictureAt(whole, 23), 8);     // its chunk's header: decoders pass over it
+  Overwrite(&blank, PictureAt(whole, 41) + 8, 700);  // its picture's headers: decoders stop there
+  testing::WriteText(folder.path() / "headless.avi", headless);
+  testing::WriteText(folder.path() / "blank.avi", blank);
+  EXPECT_THAT(OpenError(folder.File("headless.avi")),
+              AllOf(HasSubstr("cam3"), HasSubstr("headless.avi"), HasSubstr("damaged at about frame 23")));
+  EXPECT_THAT(OpenError(folder.File("blank.avi")),
+              AllOf(HasSubstr("cam3"), HasSubstr("blank.avi"), HasSubstr("damaged at about frame 4")));
+}
+
 TEST(VideoFile, SaysWhatIsMissingOrUnreadable) {
   const TestFolder folder;
   EXPECT_THAT(OpenError(folder.File("none.avi")), AllOf(HasSubstr("none.avi"), HasSubstr("does not exist")));
@@ -198,6 +226,37 @@ TEST(ContainerCheck, KnowsTheMp4Family) {
   EXPECT_EQ(damage->promised_bytes - damage->at_byte, 200U);
   EXPECT_THAT(OpenError(folder.File("cut.mp4")),
               AllOf(HasSubstr("cut short"), HasSubstr("none of its frames")));
+}
+
+// An AVI's frames by hand: their chunks, the odd ones padded or not.
+std::string Avi(const std::vector<std::size_t>& picture_bytes, bool is_padded) {
+  const auto chunk = [](const std::string& type, const std::string& content) {
+    std::string header = type;
+    for (int shift = 0; shift < 32; shift += 8)
+      header += static_cast<char>((content.size() >> static_cast<unsigned>(shift)) & 0xFFU);
+    return header + content;
+  };
+  std::string movi = "movi";
+  for (const std::size_t bytes : picture_bytes) {
+    movi += chunk("00dc", std::string(bytes, '\xFE'));
+    if (is_padded && bytes % 2 == 1) movi += '\0';
+  }
+  return chunk("RIFF", "AVI " + chunk("LIST", movi));
+}
+
+TEST(ContainerCheck, FollowsChunksPaddedOrNot) {
+  const TestFolder folder;
+  for (const bool is_padded : {true, false}) {
+    std::string bytes = Avi({301, 200, 77, 33, 400}, is_padded);
+    testing::WriteText(folder.path() / "v.avi", bytes);
+    EXPECT_FALSE(FindContainerDamage(folder.path() / "v.avi").has_value()) << is_padded;
+    bytes[PictureAt(bytes, 3) + 5] = 'x';  // a size beyond the end
+    testing::WriteText(folder.path() / "v.avi", bytes);
+    const auto damage = FindContainerDamage(folder.path() / "v.avi");
+    ASSERT_TRUE(damage.has_value()) << is_padded;
+    EXPECT_EQ(damage->frame, 3);
+    EXPECT_EQ(damage->at_byte, PictureAt(bytes, 3));
+  }
 }
 
 TEST(ContainerCheck, LetsPassWhatItCannotJudge) {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "recon/visual_hull.h"
-#include "tests/recon/lattice.h"
+#include "tests/oracles/picture_labels.h"
 #include "tests/recon/random_scene.h"
 
 namespace elbowroom::recon {
@@ -16,6 +16,7 @@ namespace {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
+using oracles::PictureLabels;
 
 // Samples nearer to the boundary than this are left out: edges are straight in the picture plane, not in the
 // picture, and pictures of 40 px through lenses of 100 degrees bend a pixel by some thousandths.
@@ -61,19 +62,12 @@ double FoldRadius(const core::CameraCalibration& c) {
   return fold;
 }
 
-core::BitMask AllObject(int width_px, int height_px) {
-  core::BitMask mask(width_px, height_px);
-  for (int y = 0; y < height_px; ++y)
-    for (int x = 0; x < width_px; ++x) mask.Set(x, y, true);
-  return mask;
-}
-
 // A camera as OpenCV has it, with its fold looked up once.
 struct Oracle {
   Oracle(const core::CameraModel& model, const core::BitMask& mask, bool exterior_is_object)
       : camera(model),
-        lattice({mask, {}}, exterior_is_object),
-        outline({AllObject(model.width_px(), model.height_px()), {}}, false),
+        labels({mask, {}}, kConvention, exterior_is_object),
+        outline(oracles::OutlineLabels(model.width_px(), model.height_px(), kConvention)),
         fold(FoldRadius(model.calibration())) {}
 
   enum class Says { kObject, kBackground, kUnseen, kTooClose };
@@ -87,23 +81,20 @@ struct Oracle {
     if (radius > fold * (1.0 + kFoldBand)) return Says::kUnseen;
     if (radius > fold * (1.0 - kFoldBand)) return Says::kTooClose;
     const Vector2d pixel = (c.camera_matrix * DistortWithOpenCv(c, {normalised})[0].homogeneous()).head<2>();
-    const bool label = lattice.At(pixel);
-    bool is_seen = false, is_unseen = false;
-    for (int k = 0; k < 8; ++k) {
-      const Vector2d aside = kEdgeBandPx * Vector2d(std::cos(k * M_PI / 4), std::sin(k * M_PI / 4));
-      if (lattice.At(pixel + aside) != label) return Says::kTooClose;
-      (outline.At(pixel + aside) ? is_seen : is_unseen) = true;
+    const oracles::Vector2L at = pixel.cast<long double>();
+    for (const PictureLabels* picture : {&labels, &outline}) {
+      if (picture->IsObject(at, kEdgeBandPx) != picture->IsObject(at, -kEdgeBandPx)) return Says::kTooClose;
     }
-    if (is_seen && is_unseen) return Says::kTooClose;
-    if (is_unseen) return Says::kUnseen;
+    if (!outline.IsObject(at)) return Says::kUnseen;
     // The domain ends a little before the fold where off-axis terms are bounded, not known.
     if (radius > camera.max_radius()) return Says::kTooClose;
-    return label ? Says::kObject : Says::kBackground;
+    return labels.IsObject(at) ? Says::kObject : Says::kBackground;
   }
 
+  static constexpr auto kConvention = oracles::BoundaryConvention::kMarchingSquares;
   const core::CameraModel& camera;
-  Lattice lattice;
-  Lattice outline;  // object: what the picture shows
+  PictureLabels labels;
+  PictureLabels outline;  // object: what the picture shows
   double fold;
 };
 

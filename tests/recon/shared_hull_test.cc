@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <optional>
+#include <ostream>
 
 #include "recon/hull_mesh.h"
 #include "tests/recon/carve.h"
@@ -19,6 +20,8 @@ struct SharedSet {
   double truth_mm3;        // as the data's README has it, from a coarse carve
   double truth_tolerance;  // of that: two or three digits
 };
+
+void PrintTo(const SharedSet& set, std::ostream* out) { *out << set.name; }
 
 class SharedHull : public testing::TestWithParam<SharedSet> {};
 

@@ -19,13 +19,6 @@ Sure SureOf(long double value, long double error) {
   return value > error ? Sure::kYes : value < -error ? Sure::kNo : Sure::kUnsure;
 }
 
-core::SoftMask AllObject(const core::BitMask& mask) {
-  core::SoftMask all{core::BitMask(mask.width_px(), mask.height_px()), {}};
-  for (int y = 0; y < mask.height_px(); ++y)
-    for (int x = 0; x < mask.width_px(); ++x) all.mask.Set(x, y, true);
-  return all;
-}
-
 // Of all positions within `error_px` of p.
 Sure LabelAround(const oracles::PictureLabels& labels, const core::CameraModel& camera,
                  bool exterior_is_object, const Vector2L& p, long double error_px) {
@@ -46,7 +39,7 @@ SureHull::SureHull(const core::Rig& rig, std::span<const core::SoftMask> masks) 
   constexpr auto kConvention = oracles::BoundaryConvention::kMarchingSquares;
   for (const core::SoftMask& mask : masks) {
     labels_.emplace_back(mask, kConvention, rig.unseen == core::UnseenPolicy::kAbstain);
-    outlines_.emplace_back(AllObject(mask.mask), kConvention, false);
+    outlines_.push_back(oracles::OutlineLabels(mask.mask.width_px(), mask.mask.height_px(), kConvention));
   }
 }
 

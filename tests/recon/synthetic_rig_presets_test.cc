@@ -5,6 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ostream>
+
+namespace elbowroom::core {
+
+void PrintTo(const Rig& rig, std::ostream* out) { *out << rig.name; }
+
+}  // namespace elbowroom::core
 
 namespace elbowroom::recon {
 namespace {

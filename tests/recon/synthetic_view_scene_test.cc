@@ -3,11 +3,18 @@
 #include <gtest/gtest.h>
 
 #include <memory>
+#include <ostream>
 
 #include "recon/hull_view.h"
 #include "recon/visual_hull.h"
 
 namespace elbowroom::recon {
+
+void PrintTo(ViewSceneRig rig, std::ostream* out) {
+  constexpr const char* kNames[] = {"Paper", "Three", "Four", "Eight"};
+  *out << kNames[static_cast<std::size_t>(rig)];
+}
+
 namespace {
 
 class ViewScenes : public testing::TestWithParam<ViewSceneRig> {};
@@ -28,7 +35,8 @@ TEST_P(ViewScenes, ShowTheHullOnAboutSixPercentOfTheView) {
 
 INSTANTIATE_TEST_SUITE_P(OfEveryRig, ViewScenes,
                          testing::Values(ViewSceneRig::kPaper, ViewSceneRig::kThree, ViewSceneRig::kFour,
-                                         ViewSceneRig::kEight));
+                                         ViewSceneRig::kEight),
+                         [](const auto& rig) { return testing::PrintToString(rig.param); });
 
 }  // namespace
 }  // namespace elbowroom::recon

@@ -6,9 +6,12 @@
 #include <vector>
 
 #include "tests/sessions/sample_session.h"
+#include "tests/support/temporary_folder.h"
 
 namespace elbowroom::tests {
 namespace {
+
+using test_support::TemporaryFolder;
 
 // The text of every ```sql block of a Markdown file.
 std::vector<std::string> SqlBlocksOf(const std::filesystem::path& path) {

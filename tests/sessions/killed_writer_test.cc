@@ -9,9 +9,12 @@
 #include "sessions/session_reader.h"
 #include "sessions/session_writer.h"
 #include "tests/sessions/sample_session.h"
+#include "tests/support/temporary_folder.h"
 
 namespace elbowroom::tests {
 namespace {
+
+using test_support::TemporaryFolder;
 
 // The child: records for ever and tells through `pipe` how many frames are committed.
 [[noreturn]] void RecordForEver(const std::filesystem::path& path, std::uint32_t seed, int pipe) {

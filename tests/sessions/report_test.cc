@@ -11,6 +11,7 @@
 #include "tests/sessions/expect_error.h"
 #include "tests/sessions/sample_session.h"
 #include "tests/sessions/sample_trial.h"
+#include "tests/support/temporary_folder.h"
 
 namespace elbowroom::tests {
 namespace {
@@ -18,6 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 using sessions::ReportPictures;
 using sessions::SessionReader;
+using test_support::TemporaryFolder;
 
 // The start of a PNG file, enough to be taken for one.
 const std::vector<unsigned char> kPng = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n', 0, 1, 2, 3};

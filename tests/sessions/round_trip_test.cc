@@ -6,12 +6,14 @@
 #include "sessions/session_reader.h"
 #include "sessions/session_writer.h"
 #include "tests/sessions/sample_session.h"
+#include "tests/support/temporary_folder.h"
 
 namespace elbowroom::tests {
 namespace {
 
 using sessions::SessionReader;
 using sessions::SessionWriter;
+using test_support::TemporaryFolder;
 
 constexpr std::uint32_t kSeed = 11;
 

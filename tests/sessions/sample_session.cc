@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <random>
 #include <utility>
@@ -86,16 +85,6 @@ void AddRecovery(core::PartContact& contact, bool on_workspace_face, Random& ran
 }
 
 }  // namespace
-
-TemporaryFolder::TemporaryFolder() {
-  std::string name = (std::filesystem::temp_directory_path() / "elbowroom_XXXXXX").string();
-  if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder: " + name);
-  path_ = name;
-}
-TemporaryFolder::~TemporaryFolder() {
-  std::error_code ignored;  // what can't be removed is the system's to clean
-  std::filesystem::remove_all(path_, ignored);
-}
 
 core::SessionHeader SampleHeader() {
   core::SessionHeader header;

@@ -10,11 +10,13 @@
 #include "sessions/session_reader.h"
 #include "tests/sessions/expect_error.h"
 #include "tests/sessions/sample_session.h"
+#include "tests/support/temporary_folder.h"
 
 namespace elbowroom::tests {
 namespace {
 
 using sessions::SessionReader;
+using test_support::TemporaryFolder;
 
 const std::filesystem::path kStored = std::filesystem::path(ELBOWROOM_SOURCE_DIR) / "tests/sessions/stored";
 

@@ -9,6 +9,7 @@
 #include "sessions/packing.h"
 #include "tests/sessions/expect_error.h"
 #include "tests/sessions/sample_session.h"
+#include "tests/support/temporary_folder.h"
 
 namespace elbowroom::tests {
 namespace {
@@ -16,6 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 using core::ErrorKind;
 using sessions::SessionReader;
+using test_support::TemporaryFolder;
 
 TEST(SessionReader, NamesAFileThatIsNotThere) {
   const TemporaryFolder folder;

@@ -15,6 +15,7 @@
 #include "sessions/session_reader.h"
 #include "tests/sessions/expect_error.h"
 #include "tests/sessions/sample_session.h"
+#include "tests/support/temporary_folder.h"
 
 namespace elbowroom::tests {
 namespace {
@@ -24,6 +25,7 @@ using core::Error;
 using core::ErrorKind;
 using sessions::SessionReader;
 using sessions::SessionWriter;
+using test_support::TemporaryFolder;
 
 constexpr std::uint32_t kSeed = 5;
 

@@ -5,11 +5,13 @@
 #include "sessions/chart.h"
 #include "tests/sessions/sample_session.h"
 #include "tests/sessions/sample_trial.h"
+#include "tests/support/temporary_folder.h"
 
 namespace elbowroom::tests {
 namespace {
 
 using namespace std::string_literals;
+using test_support::TemporaryFolder;
 
 sessions::ReportData DataOf(const TrialPlan& plan) {
   const TemporaryFolder folder;

@@ -83,6 +83,30 @@ void ExpectEqualViews(std::uint64_t seed, int scenes, bool ring, double most_in_
   EXPECT_LT(static_cast<double>(tally.band), most_in_band * static_cast<double>(tally.pixels));
 }
 
+TEST(ExactViewGl, DrawsAndUploadsOnlyWhatIsNew) {
+  Random random(5203);
+  const RandomScene scene = MakeRingScene(&random, 3, core::UnseenPolicy::kOutside);
+  const VisualHull hull = MakeVisualHull(scene.rig, scene.masks);
+  const ViewRays rays(core::CameraModel(ViewFrom({300.0, -200.0, 250.0}, Vector3d::Zero())));
+  ExactViewGl gl;
+  const HullView first = gl.ViewHull(hull, rays);
+  ASSERT_GT(first.hit_pixels, 100);
+  EXPECT_EQ(gl.draws(), 1);
+  EXPECT_EQ(gl.ViewHull(hull, rays).depth_mm, first.depth_mm);
+  EXPECT_EQ(gl.draws(), 1) << "the same view";
+  core::RigidTransform moved = rays.view_from_world();
+  moved.translation_mm.x() += 1.0;
+  EXPECT_NE(gl.ViewHull(hull, rays.From(moved)).depth_mm, first.depth_mm);
+  EXPECT_EQ(gl.draws(), 2) << "from elsewhere";
+  (void)gl.ViewHull(MakeVisualHull(scene.rig, scene.masks), rays);
+  EXPECT_EQ(gl.draws(), 3) << "another hull";
+  EXPECT_EQ(gl.ray_uploads(), 1) << "all with the same rays";
+  core::CameraCalibration longer = ViewFrom({300.0, -200.0, 250.0}, Vector3d::Zero());
+  longer.camera_matrix(0, 0) *= 1.5;
+  (void)gl.ViewHull(hull, ViewRays(core::CameraModel(longer)));
+  EXPECT_EQ(gl.ray_uploads(), 2);
+}
+
 TEST(ExactViewGl, EqualsTheProcessorsOnRings) {
   ExpectEqualViews(7001, 40 * test_support::SoakScale(), true, kMostInBandOnRings);
 }
