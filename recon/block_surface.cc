@@ -109,7 +109,8 @@ BlockSurface CutBlock(const HullLattice& lattice, const HullBlock& block) {
     const unsigned near_faces = unsigned{x == 0} | unsigned{y == 0} << 1U | unsigned{z == 0} << 2U;
     surface.edges.push_back({byte(axis), {byte(x), byte(y), byte(z)}, low_is_inside, byte(near_faces)});
   });
-  surface.vertices_in_world = lattice.ExitsOf(block, surface.edges);
+  surface.vertices_in_world.resize(surface.edges.size());
+  lattice.FindExits(block, surface.edges, surface.vertices_in_world);
   surface.queries += static_cast<std::int64_t>(surface.edges.size());
   return surface;
 }

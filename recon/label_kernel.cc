@@ -5,7 +5,9 @@
 
 #include <hwy/highway.h>
 
-#include "recon/contour_map.h"
+#include <algorithm>
+#include <cmath>
+
 #include "recon/label_kernel.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -13,25 +15,23 @@ namespace elbowroom::recon::HWY_NAMESPACE {
 namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
-using Doubles = hn::CappedTag<double, 8>;
-using Ints = hn::Rebind<std::int32_t, Doubles>;
-using VD = hn::Vec<Doubles>;
+using Floats = hn::CappedTag<float, 8>;
+using Ints = hn::Rebind<std::int32_t, Floats>;
+using VF = hn::Vec<Floats>;
 using VI = hn::Vec<Ints>;
 
 constexpr std::size_t kSide = kBlockPoints;
 
 // As many points as a vector holds.
 struct Points {
-  VD x;
-  VD y;
-  VD z;
+  VF x;
+  VF y;
+  VF z;
 };
 
-HWY_INLINE VD Set(double number) { return hn::Set(Doubles(), number); }
+HWY_INLINE VF Set(double number) { return hn::Set(Floats(), static_cast<float>(number)); }
 
-// No fused operation anywhere: it would round differently on processors without one. The order of the sums is
-// PointProjection::Block::At's.
-HWY_INLINE Points Times(VD count, const std::array<double, 3>& step) {
+HWY_INLINE Points Times(VF count, const std::array<double, 3>& step) {
   return {hn::Mul(count, Set(step[0])), hn::Mul(count, Set(step[1])), hn::Mul(count, Set(step[2]))};
 }
 HWY_INLINE Points Sum(const Points& a, const Points& b) {
@@ -54,8 +54,16 @@ HWY_INLINE unsigned BitsOf(VI label, std::int32_t bit) {
 
 class Labeller {
  public:
-  Labeller(const RasterView& raster, BlockBits* bits, BlockBits* mixed)
-      : raster_(raster), bits_(*bits), mixed_(*mixed) {}
+  Labeller(const LabelRaster& raster, BlockBits* bits, BlockBits* mixed)
+      : labels_(reinterpret_cast<const std::int32_t*>(raster.labels.data())),
+        origin_x_px_(Set(raster.origin_x_px)),
+        origin_y_px_(Set(raster.origin_y_px)),
+        cells_per_px_(Set(raster.cells_per_px)),
+        width_(Set(raster.width)),
+        height_(Set(raster.height)),
+        columns_(hn::Set(Ints(), raster.width)),
+        bits_(*bits),
+        mixed_(*mixed) {}
 
   // Points `first` and on of a group.
   HWY_INLINE void Ask(std::size_t first, const Points& points) {
@@ -78,60 +86,64 @@ class Labeller {
 
  private:
   HWY_INLINE VI LabelsOf(const Points& points) const {
-    const Doubles d;
     const Ints n;
-    const VD per_z = hn::Div(Set(1.0), points.z), zero = hn::Zero(d);
-    const VD x = hn::Mul(points.x, per_z), y = hn::Mul(points.y, per_z);
-    const VD across = hn::Mul(hn::Sub(x, Set(raster_.origin_x_px)), Set(raster_.cells_per_px));
-    const VD down = hn::Mul(hn::Sub(y, Set(raster_.origin_y_px)), Set(raster_.cells_per_px));
-    // Written so that a NaN is in no cell.
-    const auto is_across = hn::And(hn::Ge(across, zero), hn::Lt(across, Set(raster_.width)));
-    const auto is_down = hn::And(hn::Ge(down, zero), hn::Lt(down, Set(raster_.height)));
-    const auto is_in_cell = hn::And(hn::And(is_across, is_down), hn::Gt(points.z, zero));
-    const VI column = hn::DemoteTo(n, hn::IfThenElseZero(is_in_cell, across));
-    const VI row = hn::DemoteTo(n, hn::IfThenElseZero(is_in_cell, down));
-    const VI index = hn::Add(hn::Mul(row, hn::Set(n, raster_.width)), column);
-    return hn::GatherOffset(n, reinterpret_cast<const std::int32_t*>(raster_.labels), index);
+    const VF per_z = hn::Div(Set(1.0), points.z), zero = hn::Zero(Floats());
+    const VF x = hn::Mul(points.x, per_z), y = hn::Mul(points.y, per_z);
+    const VF across = hn::Mul(hn::Sub(x, origin_x_px_), cells_per_px_);
+    const VF down = hn::Mul(hn::Sub(y, origin_y_px_), cells_per_px_);
+    const auto is_across = hn::And(hn::Ge(across, zero), hn::Lt(across, width_));
+    const auto is_down = hn::And(hn::Ge(down, zero), hn::Lt(down, height_));
+    const auto is_in_cell = hn::And(is_across, is_down);
+    const VI column = hn::ConvertTo(n, hn::IfThenElseZero(is_in_cell, across));
+    const VI row = hn::ConvertTo(n, hn::IfThenElseZero(is_in_cell, down));
+    return hn::GatherOffset(n, labels_, hn::Add(hn::Mul(row, columns_), column));
   }
 
-  const RasterView& raster_;
+  const std::int32_t* const labels_;
+  const VF origin_x_px_, origin_y_px_, cells_per_px_, width_, height_;
+  const VI columns_;
   BlockBits& bits_;
   BlockBits& mixed_;
   unsigned object_ = 0, unsure_ = 0;
   std::size_t asked_ = 0;
 };
 
-std::size_t Label(const BlockView& block, const RasterView& raster, BlockBits* bits, BlockBits* mixed) {
-  const Doubles d;
-  const std::size_t at_once = hn::Lanes(d);
-  Labeller labeller(raster, bits, mixed);
-  std::array<std::array<double, 3>, kSide> rows, layers;
-  for (std::size_t i = 0; i < kSide; ++i) {
-    rows[i] = Along({}, block.corner[1] + static_cast<double>(i), block.steps[1]);
-    layers[i] = Along(block.origin, block.corner[2] + static_cast<double>(i), block.steps[2]);
+// y and z of the far face's points, in the order of their bits.
+struct FarPoints {
+  alignas(32) std::array<float, 8 * BlockBits::kFarGroups> y{}, z{};
+};
+constexpr FarPoints MakeFarPoints() {
+  FarPoints points;
+  for (std::size_t i = 0; i < points.y.size(); ++i) {
+    points.y[i] = static_cast<float>(i % kSide);
+    points.z[i] = static_cast<float>(i / kSide);
   }
+  return points;
+}
+constexpr FarPoints kFarPoints = MakeFarPoints();
+
+// `block`: its steps, from its own corner.
+std::size_t Label(const GridView& block, const LabelRaster& raster, BlockBits* bits, BlockBits* mixed) {
+  const Floats f;
+  const std::size_t at_once = hn::Lanes(f);
+  Labeller labeller(raster, bits, mixed);
   for (std::size_t group = 0; group < BlockBits::kRows; ++group) {
     if (!labeller.Begin(group)) continue;
-    for (std::size_t i = 0; i < 8; i += at_once) {
-      const VD x = hn::Add(hn::Iota(d, static_cast<double>(i)), Set(block.corner[0]));
-      const Points in_layer = Sum(Times(x, block.steps[0]), Spread(rows[group % kSide]));
-      labeller.Ask(i, Sum(in_layer, Spread(layers[group / kSide])));
-    }
+    const std::array<double, 3> layer =
+        Along(block.origin, static_cast<double>(group / kSide), block.steps[2]);
+    const Points row = Spread(Along(layer, static_cast<double>(group % kSide), block.steps[1]));
+    for (std::size_t i = 0; i < 8; i += at_once)
+      labeller.Ask(i, Sum(row, Times(hn::Iota(f, static_cast<float>(i)), block.steps[0])));
     labeller.Finish(group);
   }
   // The far face.
-  const Points across = Times(Set(block.corner[0] + kBlockCells), block.steps[0]);
+  const Points far = Spread(Along(block.origin, kBlockCells, block.steps[0]));
   for (std::size_t group = BlockBits::kRows; group < BlockBits::kGroups; ++group) {
     if (!labeller.Begin(group)) continue;
     for (std::size_t i = 0; i < 8; i += at_once) {
-      alignas(64) double y[8] = {}, z[8] = {};
-      for (std::size_t lane = 0; lane < at_once; ++lane) {
-        const std::size_t row = 8 * (group - BlockBits::kRows) + i + lane;
-        y[lane] = block.corner[1] + static_cast<double>(row % kSide);
-        z[lane] = block.corner[2] + static_cast<double>(row / kSide);
-      }
-      const Points in_layer = Sum(across, Times(hn::Load(d, y), block.steps[1]));
-      labeller.Ask(i, Sum(in_layer, Sum(Spread(block.origin), Times(hn::Load(d, z), block.steps[2]))));
+      const std::size_t point = 8 * (group - BlockBits::kRows) + i;
+      const VF y = hn::Load(f, &kFarPoints.y[point]), z = hn::Load(f, &kFarPoints.z[point]);
+      labeller.Ask(i, Sum(far, Sum(Times(y, block.steps[1]), Times(z, block.steps[2]))));
     }
     labeller.Finish(group);
   }
@@ -147,9 +159,43 @@ namespace elbowroom::recon {
 
 HWY_EXPORT(Label);
 
-std::size_t LabelByCells(const BlockView& block, const RasterView& raster, BlockBits* bits,
-                         BlockBits* mixed) {
-  return HWY_DYNAMIC_DISPATCH(Label)(block, raster, bits, mixed);
+namespace {
+
+// Whether the kernel's float32 puts all points of a block in front of the camera, each less than kTouchCells
+// from where it is. A coordinate is rounded to 2^-24 of itself some six times on the way: its terms, their
+// sums; so is what the division leaves, and the place among the cells.
+bool FloatsWillDo(const GridView& block, const LabelRaster& raster) {
+  constexpr double kRounding = 8.0 / (1 << 24);
+  std::array<double, 3> most{}, error{};  // of a coordinate's terms together
+  double least_z = block.origin[2];
+  for (std::size_t k = 0; k < 3; ++k) {
+    most[k] = std::abs(block.origin[k]);
+    for (const std::array<double, 3>& step : block.steps) most[k] += kBlockCells * std::abs(step[k]);
+    error[k] = kRounding * most[k];
+  }
+  for (const std::array<double, 3>& step : block.steps) least_z += kBlockCells * std::min(step[2], 0.0);
+  least_z -= error[2];
+  if (!(least_z > 0.0)) return false;
+  // Positions farther out than twice the cells don't come near them by an error that passes below.
+  const double reach_px = std::max({std::abs(raster.origin_x_px), std::abs(raster.origin_y_px),
+                                    std::abs(raster.origin_x_px + raster.width * raster.cell_px),
+                                    std::abs(raster.origin_y_px + raster.height * raster.cell_px)});
+  const double error_px =
+      (std::max(error[0], error[1]) + 2.0 * reach_px * error[2]) / least_z + kRounding * reach_px;
+  return error_px * raster.cells_per_px < LabelRaster::kTouchCells;
+}
+
+}  // namespace
+
+std::size_t LabelByCells(const GridView& grid, const GridPoint& corner, const LabelRaster& raster,
+                         BlockBits* bits, BlockBits* mixed) {
+  GridView block = grid;
+  for (std::size_t k = 0; k < 3; ++k)
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      block.origin[k] += corner[static_cast<Eigen::Index>(axis)] * grid.steps[axis][k];
+  if (FloatsWillDo(block, raster)) return HWY_DYNAMIC_DISPATCH(Label)(block, raster, bits, mixed);
+  *mixed = *bits;
+  return BlockBits::kGroups - static_cast<std::size_t>(std::ranges::count(bits->groups, 0));
 }
 
 }  // namespace elbowroom::recon

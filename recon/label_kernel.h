@@ -1,11 +1,13 @@
-// The inner loop of PointProjection::KeepByCells, eight points at a time.
+// Labels of a block's grid points by the cells that they fall in, eight points at a time.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
 
+#include "recon/contour_kernel.h"
 #include "recon/hull_blocks.h"
+#include "recon/label_raster.h"
 
 namespace elbowroom::recon {
 
@@ -36,25 +38,12 @@ struct BlockBits {
 };
 static_assert(kBlockCells == 8, "a row of cells is a group of points");
 
-// A block before a camera: x and y are in focal lengths of pixels, mm; z in mm.
-struct BlockView {
-  std::array<double, 3> origin{};                // of grid point (0, 0, 0)
-  std::array<std::array<double, 3>, 3> steps{};  // along each axis
-  std::array<double, 3> corner{};                // the block's, as a grid point
-};
-
-// LabelRaster, as the loop wants it.
-struct RasterView {
-  const std::uint8_t* labels = nullptr;
-  double origin_x_px = 0.0;
-  double origin_y_px = 0.0;
-  double cells_per_px = 1.0;
-  std::int32_t width = 0;
-  std::int32_t height = 0;
-};
-
-// Clears the bits of points in cells of background; those in mixed cells stay, and are set in `mixed`. Groups
-// without a bit aren't asked; returns how many were.
-std::size_t LabelByCells(const BlockView& block, const RasterView& raster, BlockBits* bits, BlockBits* mixed);
+// Clears the bits of points of the block at `corner` that are in cells of background; those in mixed cells
+// stay, and are set in `mixed`. In float32, whose error stays below LabelRaster::kTouchCells: a cell that
+// isn't mixed answers for the points near it as well. Where that can't be said (a block that reaches behind
+// the camera, or far beside its axis) all points are mixed. Groups without a bit aren't asked; returns how
+// many were.
+std::size_t LabelByCells(const GridView& grid, const GridPoint& corner, const LabelRaster& raster,
+                         BlockBits* bits, BlockBits* mixed);
 
 }  // namespace elbowroom::recon

@@ -1,57 +1,76 @@
 #include "recon/point_labels.h"
 
+#include <array>
 #include <bit>
 #include <cstddef>
 
 namespace elbowroom::recon {
-PointProjection::PointProjection(const core::CameraModel& camera, double focal_px, const HullGrid& grid) {
+namespace {
+
+// Points that wait for their labels, and whose bits they are.
+class Waiting {
+ public:
+  Waiting(const GridView& grid, const LabelRaster& raster, BlockBits* bits)
+      : grid_(grid), raster_(raster), bits_(*bits) {}
+
+  void Add(std::size_t group, std::size_t bit, const GridPoint& corner) {
+    const std::array<std::size_t, 3> in_block = BlockBits::PointOf(group, bit);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      points_.at[axis][points_.count] =
+          corner[static_cast<Eigen::Index>(axis)] + static_cast<double>(in_block[axis]);
+    }
+    bits_of_points_[points_.count] = {static_cast<std::uint8_t>(group), static_cast<std::uint8_t>(1U << bit)};
+    if (++points_.count == GridPoints::kMost) Settle();
+  }
+
+  void Settle() {
+    const std::uint64_t object = LabelPoints(grid_, raster_, points_);
+    for (std::size_t i = 0; i < points_.count; ++i) {
+      const auto [group, bit] = bits_of_points_[i];
+      const unsigned clear = (object >> i & 1U) != 0 ? 0U : bit;
+      bits_.groups[group] = static_cast<std::uint8_t>(bits_.groups[group] & ~clear);
+    }
+    points_.count = 0;
+  }
+
+ private:
+  struct BitOfPoint {
+    std::uint8_t group, bit;
+  };
+  static_assert(BlockBits::kGroups <= 256);
+
+  const GridView& grid_;
+  const LabelRaster& raster_;
+  BlockBits& bits_;
+  GridPoints points_;
+  std::array<BitOfPoint, GridPoints::kMost> bits_of_points_{};
+};
+
+}  // namespace
+
+GridView ViewGrid(const core::CameraModel& camera, double focal_px, const HullGrid& grid) {
   const Eigen::Vector3d scale(focal_px, focal_px, 1.0);
   const core::RigidTransform& cam_from_world = camera.cam_from_world();
   const Eigen::Vector3d origin = scale.cwiseProduct(cam_from_world * grid.origin_in_world);
   const Eigen::Matrix3d steps = scale.asDiagonal() * cam_from_world.rotation * grid.edge_mm;
+  GridView view;
   for (std::size_t i = 0; i < 3; ++i) {
     const auto row = static_cast<Eigen::Index>(i);
-    origin_[i] = origin[row];
+    view.origin[i] = origin[row];
     for (std::size_t axis = 0; axis < 3; ++axis)
-      steps_[axis][i] = steps(row, static_cast<Eigen::Index>(axis));
+      view.steps[axis][i] = steps(row, static_cast<Eigen::Index>(axis));
   }
+  return view;
 }
 
-PointProjection::Block::Block(const PointProjection& projection, const GridPoint& corner) {
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    for (std::size_t i = 0; i < kBlockPoints; ++i) {
-      const double steps = corner[static_cast<Eigen::Index>(axis)] + static_cast<double>(i);
-      for (std::size_t k = 0; k < 3; ++k) {
-        along_[axis][i][k] = steps * projection.steps_[axis][k];
-        if (axis == 2) along_[axis][i][k] = projection.origin_[k] + along_[axis][i][k];
-      }
-    }
-  }
-}
-
-std::int64_t PointProjection::KeepByCells(const LabelRaster& raster, const GridPoint& corner, BlockBits* bits,
-                                          BlockBits* mixed) const {
-  const BlockView block{
-      origin_,
-      steps_,
-      {static_cast<double>(corner.x()), static_cast<double>(corner.y()), static_cast<double>(corner.z())}};
-  const RasterView view{raster.labels.data(), raster.origin_px.x(), raster.origin_px.y(),
-                        1.0 / raster.cell_px, raster.cells.x(),     raster.cells.y()};
-  return static_cast<std::int64_t>(8 * LabelByCells(block, view, bits, mixed));
-}
-
-void PointProjection::SettleMixed(const ContourMap& labels, const GridPoint& corner, const BlockBits& mixed,
-                                  BlockBits* bits) const {
-  const Block points(*this, corner);
+void SettleMixed(const GridView& grid, const LabelRaster& raster, const GridPoint& corner,
+                 const BlockBits& mixed, BlockBits* bits) {
+  Waiting waiting(grid, raster, bits);
   for (std::size_t group = 0; group < mixed.groups.size(); ++group) {
-    std::uint8_t& kept = bits->groups[group];
-    for (unsigned left = mixed.groups[group] & kept; left != 0; left &= left - 1) {
-      const auto bit = static_cast<std::size_t>(std::countr_zero(left));
-      const auto [x, y, z] = BlockBits::PointOf(group, bit);
-      if (labels.IsObject(points.At(x, y, z).position)) continue;
-      kept = static_cast<std::uint8_t>(kept & ~(1U << bit));
-    }
+    for (unsigned left = mixed.groups[group] & bits->groups[group]; left != 0; left &= left - 1)
+      waiting.Add(group, static_cast<std::size_t>(std::countr_zero(left)), corner);
   }
+  waiting.Settle();
 }
 
 }  // namespace elbowroom::recon
