@@ -27,8 +27,7 @@ using Edges = hn::CappedTag<double, LabelRaster::kEdgesBehind + 1>;
 using VE = hn::Vec<Edges>;
 using ME = hn::Mask<Edges>;
 
-constexpr std::size_t kMostLanes = 8;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr std::size_t kMost = GridPoints::kMost;
 constexpr double kCellDiagonal = 1.4142135623730951;
 // Rounding of a position and of a distance.
 constexpr double kRoundingPx = 1e-7;
@@ -103,17 +102,24 @@ HWY_INLINE VI Bytes(std::span<const std::uint8_t> bytes, VI index) {
   return hn::And(words, hn::Set(Ints(), 0xFF));
 }
 template <typename D, typename M>
-HWY_INLINE unsigned BitsOf(D d, M mask) {
+HWY_INLINE std::uint64_t BitsOf(D d, M mask) {
   std::uint8_t bytes[8] = {};
   hn::StoreMaskBits(d, mask, bytes);
   return bytes[0];
+}
+
+// Bits of the points that are there.
+std::uint64_t There(const GridPoints& points) {
+  return points.count == 0 ? 0 : ~std::uint64_t{0} >> (kMost - points.count);
 }
 
 std::uint64_t LabelSome(const GridView& grid, const LabelRaster& raster, const GridPoints& points) {
   const Doubles d;
   const Ints n;
   const VD zero = hn::Zero(d);
-  std::uint64_t object = 0;
+  std::uint64_t object = 0, mixed = 0;
+  alignas(64) double x[kMost], y[kMost];
+  alignas(32) std::int32_t columns[kMost], rows[kMost], cells[kMost];
   for (std::size_t begin = 0; begin < points.count; begin += hn::Lanes(d)) {
     const Points p = Project(grid, points, begin);
     const VD across = InCells(raster, p.x, raster.origin_x_px),
@@ -125,70 +131,88 @@ std::uint64_t LabelSome(const GridView& grid, const LabelRaster& raster, const G
     const VI column = hn::DemoteTo(n, hn::IfThenElseZero(is_in_cell, across));
     const VI row = hn::DemoteTo(n, hn::IfThenElseZero(is_in_cell, down));
     const VI index = Index(raster, column, row), label = Bytes(raster.labels, index);
-    const std::size_t lanes = std::min(hn::Lanes(d), points.count - begin);
-    const unsigned there = (1U << lanes) - 1U;
-    unsigned bits = BitsOf(n, hn::TestBit(label, hn::Set(n, LabelRaster::kObject)));
-    unsigned mixed = BitsOf(n, hn::TestBit(label, hn::Set(n, LabelRaster::kMixed))) & there;
-    alignas(64) double x[kMostLanes], y[kMostLanes];
-    alignas(32) std::int32_t columns[kMostLanes], rows[kMostLanes], cells[kMostLanes];
-    hn::Store(p.x, d, x), hn::Store(p.y, d, y);
-    hn::Store(column, n, columns), hn::Store(row, n, rows), hn::Store(index, n, cells);
-    for (; mixed != 0; mixed &= mixed - 1) {
-      const auto i = static_cast<std::size_t>(std::countr_zero(mixed));
-      const double centre[2] = {raster.origin_x_px + raster.cell_px * (columns[i] + 0.5),
-                                raster.origin_y_px + raster.cell_px * (rows[i] + 0.5)};
-      const double position[2] = {x[i], y[i]};
-      const std::uint32_t* const first = raster.first.data() + cells[i];
-      if (Change(raster.edges.data() + first[0], first[1] - first[0], centre, position)) bits ^= 1U << i;
-    }
-    object |= std::uint64_t{bits & there} << begin;
+    object |= BitsOf(n, hn::TestBit(label, hn::Set(n, LabelRaster::kObject))) << begin;
+    mixed |= BitsOf(n, hn::TestBit(label, hn::Set(n, LabelRaster::kMixed))) << begin;
+    hn::Store(p.x, d, x + begin), hn::Store(p.y, d, y + begin);
+    hn::Store(column, n, columns + begin), hn::Store(row, n, rows + begin),
+        hn::Store(index, n, cells + begin);
   }
-  return object;
+  for (mixed &= There(points); mixed != 0; mixed &= mixed - 1) {
+    const auto i = static_cast<std::size_t>(std::countr_zero(mixed));
+    const double centre[2] = {raster.origin_x_px + raster.cell_px * (columns[i] + 0.5),
+                              raster.origin_y_px + raster.cell_px * (rows[i] + 0.5)};
+    const double position[2] = {x[i], y[i]};
+    const std::uint32_t* const first = raster.first.data() + cells[i];
+    const bool changes = Change(raster.edges.data() + first[0], first[1] - first[0], centre, position);
+    object ^= std::uint64_t{changes} << i;
+  }
+  return object & There(points);
 }
 
-// The cells that some ways' boxes reach to.
-struct Boxes {
-  alignas(32) std::int32_t left[kMostLanes], right[kMostLanes], top[kMostLanes], bottom[kMostLanes];
-};
+// Ways in the picture, and the cells that their boxes reach to.
 struct Ways {
-  alignas(64) double from_x[kMostLanes], from_y[kMostLanes], from_z[kMostLanes];
-  alignas(64) double to_x[kMostLanes], to_y[kMostLanes], to_z[kMostLanes];
-  Boxes boxes;
+  alignas(64) double from_x[kMost], from_y[kMost], from_z[kMost];
+  alignas(64) double to_x[kMost], to_y[kMost], to_z[kMost];
+  alignas(32) std::int32_t left[kMost], right[kMost], top[kMost], bottom[kMost];
 };
 
-// The nearest share at which way i meets an edge of the cells in its box; infinite if there is none.
+class Way {
+ public:
+  HWY_INLINE Way(const Ways& ways, std::size_t i)
+      : from_x_(SetE(ways.from_x[i])),
+        from_y_(SetE(ways.from_y[i])),
+        way_x_(hn::Sub(SetE(ways.to_x[i]), from_x_)),
+        way_y_(hn::Sub(SetE(ways.to_y[i]), from_y_)),
+        side_of_way_(Cross(way_x_, way_y_, from_x_, from_y_)) {}
+
+  // The lesser of each lane's share and that at which the way meets the lane's edge, of `count` edges.
+  [[nodiscard]] HWY_INLINE VE Meet(const LabelRaster::Edge* edges, std::size_t count, VE nearest) const {
+    const Edges d;
+    const VE zero = hn::Zero(d);
+    const EdgeLanes e = Load(edges);
+    // The ends of the edge on different sides of the way, and those of the way of the edge.
+    const VE side_a = hn::Sub(Cross(way_x_, way_y_, e.ax, e.ay), side_of_way_);
+    const VE side_b = hn::Sub(Cross(way_x_, way_y_, e.bx, e.by), side_of_way_);
+    const VE apart =
+        Cross(hn::Sub(e.ax, from_x_), hn::Sub(e.ay, from_y_), hn::Sub(e.bx, e.ax), hn::Sub(e.by, e.ay));
+    const VE share = hn::Div(apart, hn::Sub(side_b, side_a));
+    const ME is_there = hn::Lt(hn::Iota(d, 0.0), SetE(static_cast<double>(count)));
+    const ME differs = hn::And(is_there, hn::Xor(hn::Gt(side_a, zero), hn::Gt(side_b, zero)));
+    const ME meets = hn::And(hn::And(differs, hn::Ge(share, zero)), hn::Le(share, nearest));
+    return hn::IfThenElse(meets, share, nearest);
+  }
+
+ private:
+  static HWY_INLINE VE Cross(VE ax, VE ay, VE bx, VE by) { return hn::Sub(hn::Mul(ax, by), hn::Mul(ay, bx)); }
+
+  const VE from_x_, from_y_, way_x_, way_y_, side_of_way_;
+};
+
+// The least share at which way i meets an edge of the cells in its box; kNoCrossing if there is none. Most
+// boxes have one row or two of up to four edges: so many are looked at without asking.
 HWY_INLINE double FirstCrossing(const LabelRaster& raster, const Ways& ways, std::size_t i) {
   const Edges d;
-  const VE from_x = SetE(ways.from_x[i]), from_y = SetE(ways.from_y[i]);
-  const VE way_x = hn::Sub(SetE(ways.to_x[i]), from_x), way_y = hn::Sub(SetE(ways.to_y[i]), from_y);
-  const auto cross = [](VE ax, VE ay, VE bx, VE by)
-                         HWY_ATTR { return hn::Sub(hn::Mul(ax, by), hn::Mul(ay, bx)); };
-  const VE zero = hn::Zero(d), side_of_way = cross(way_x, way_y, from_x, from_y);
-  VE nearest = SetE(kInfinity);
-  for (std::int32_t row = ways.boxes.top[i]; row <= ways.boxes.bottom[i]; ++row) {
+  const Way way(ways, i);
+  VE nearest = SetE(kNoCrossing);
+  const auto meet_row = [&](std::int32_t row) HWY_ATTR {
     const std::uint32_t* const first = raster.first.data() + row * raster.width;
-    const std::uint32_t begin = first[ways.boxes.left[i]], end = first[ways.boxes.right[i] + 1];
-    for (std::size_t at = begin; at < end; at += hn::Lanes(d)) {
-      const EdgeLanes e = Load(raster.edges.data() + at);
-      // The ends of the edge on different sides of the way, and those of the way of the edge.
-      const VE side_a = hn::Sub(cross(way_x, way_y, e.ax, e.ay), side_of_way);
-      const VE side_b = hn::Sub(cross(way_x, way_y, e.bx, e.by), side_of_way);
-      const VE apart =
-          cross(hn::Sub(e.ax, from_x), hn::Sub(e.ay, from_y), hn::Sub(e.bx, e.ax), hn::Sub(e.by, e.ay));
-      const VE share = hn::Div(apart, hn::Sub(side_b, side_a));
-      const ME differs =
-          hn::And(hn::FirstN(d, end - at), hn::Xor(hn::Gt(side_a, zero), hn::Gt(side_b, zero)));
-      const ME meets = hn::And(hn::And(differs, hn::Ge(share, zero)), hn::Le(share, SetE(1.0)));
-      nearest = hn::IfThenElse(meets, hn::Min(nearest, share), nearest);
-    }
-  }
-  return hn::GetLane(hn::MinOfLanes(d, nearest));
+    std::size_t at = first[ways.left[i]];
+    const std::size_t end = first[ways.right[i] + 1];
+    nearest = way.Meet(raster.edges.data() + at, end - at, nearest);
+    for (at += hn::Lanes(d); at < end; at += hn::Lanes(d))
+      nearest = way.Meet(raster.edges.data() + at, end - at, nearest);
+  };
+  meet_row(ways.top[i]);
+  for (std::int32_t row = ways.top[i] + 1; row < ways.bottom[i]; ++row) meet_row(row);
+  meet_row(ways.bottom[i]);
+  const double share = hn::GetLane(hn::MinOfLanes(d, nearest));
+  return share > 1.0 ? kNoCrossing : share;
 }
 
-// Projects some ways; returns a bit each for those that may meet an edge, in `unknown` for those that can't
-// be worked out.
-HWY_INLINE unsigned Sift(const LabelRaster& raster, const Points& from, const Points& to, Ways* ways,
-                         unsigned* unknown) {
+// Projects the ways from i on, as many as a vector holds. A bit each of those that may meet an edge; in
+// `unknown` of those that can't be worked out.
+HWY_INLINE std::uint64_t Sift(const LabelRaster& raster, const Points& from, const Points& to, std::size_t i,
+                              Ways* ways, std::uint64_t* unknown) {
   const Doubles d;
   const Ints n;
   const VD zero = hn::Zero(d), largest = Set(std::numeric_limits<double>::max());
@@ -197,7 +221,7 @@ HWY_INLINE unsigned Sift(const LabelRaster& raster, const Points& from, const Po
   };
   const auto is_in_front = hn::And(hn::Gt(from.z, zero), hn::Gt(to.z, zero));
   const auto is_known = hn::And(is_in_front, hn::And(is_finite(from.x, from.y), is_finite(to.x, to.y)));
-  *unknown = ~BitsOf(d, is_known);
+  *unknown = BitsOf(d, hn::Not(is_known)) << i;
   const auto nearest_cell = [&](VD px, double origin_px, std::int32_t cells) HWY_ATTR {
     const VD at = hn::IfThenElseZero(is_known, InCells(raster, px, origin_px));
     return hn::DemoteTo(n, hn::Min(hn::Max(at, zero), Set(cells - 1)));
@@ -212,38 +236,38 @@ HWY_INLINE unsigned Sift(const LabelRaster& raster, const Points& from, const Po
   const VD half_x = hn::Sub(to.x, x), half_y = hn::Sub(to.y, y);
   const VD reach2 = hn::Add(hn::Mul(half_x, half_x), hn::Mul(half_y, half_y));
   const auto is_far = hn::And(hn::Gt(clear_px, zero), hn::Gt(hn::Mul(clear_px, clear_px), reach2));
-  const unsigned near = BitsOf(d, hn::AndNot(is_far, is_known));
+  const std::uint64_t near = BitsOf(d, hn::AndNot(is_far, is_known));
   if (near == 0) return 0;
-  hn::Store(from.x, d, ways->from_x), hn::Store(from.y, d, ways->from_y), hn::Store(from.z, d, ways->from_z);
-  hn::Store(to.x, d, ways->to_x), hn::Store(to.y, d, ways->to_y), hn::Store(to.z, d, ways->to_z);
+  hn::Store(from.x, d, ways->from_x + i), hn::Store(from.y, d, ways->from_y + i);
+  hn::Store(to.x, d, ways->to_x + i), hn::Store(to.y, d, ways->to_y + i);
+  hn::Store(from.z, d, ways->from_z + i), hn::Store(to.z, d, ways->to_z + i);
   const VI x0 = nearest_cell(from.x, raster.origin_x_px, raster.width),
            x1 = nearest_cell(to.x, raster.origin_x_px, raster.width),
            y0 = nearest_cell(from.y, raster.origin_y_px, raster.height),
            y1 = nearest_cell(to.y, raster.origin_y_px, raster.height);
-  hn::Store(hn::Min(x0, x1), n, ways->boxes.left), hn::Store(hn::Max(x0, x1), n, ways->boxes.right);
-  hn::Store(hn::Min(y0, y1), n, ways->boxes.top), hn::Store(hn::Max(y0, y1), n, ways->boxes.bottom);
-  return near;
+  hn::Store(hn::Min(x0, x1), n, ways->left + i), hn::Store(hn::Max(x0, x1), n, ways->right + i);
+  hn::Store(hn::Min(y0, y1), n, ways->top + i), hn::Store(hn::Max(y0, y1), n, ways->bottom + i);
+  return near << i;
 }
 
 void Offer(const GridView& grid, const LabelRaster& raster, const GridPoints& from, const GridPoints& to,
            double* shares) {
-  const std::size_t at_once = hn::Lanes(Doubles());
   Ways ways;
-  for (std::size_t begin = 0; begin < from.count; begin += at_once) {
-    unsigned unknown = 0;
-    unsigned near = Sift(raster, Project(grid, from, begin), Project(grid, to, begin), &ways, &unknown);
-    const unsigned there = (1U << std::min(at_once, from.count - begin)) - 1U;
-    for (unknown &= there; unknown != 0; unknown &= unknown - 1)
-      shares[begin + static_cast<std::size_t>(std::countr_zero(unknown))] = kUnknownCrossing;
-    for (near &= there; near != 0; near &= near - 1) {
-      const auto i = static_cast<std::size_t>(std::countr_zero(near));
-      const double in_picture = FirstCrossing(raster, ways, i);
-      if (in_picture > 1.0) continue;
-      // From a share of the way in the picture to one of the way in space.
-      const double from_z = ways.from_z[i], to_z = ways.to_z[i];
-      const double share = in_picture * from_z / (to_z + in_picture * (from_z - to_z));
-      shares[begin + i] = std::min(shares[begin + i], share);
-    }
+  std::uint64_t near = 0, unknown = 0;
+  for (std::size_t i = 0; i < from.count; i += hn::Lanes(Doubles())) {
+    std::uint64_t not_known = 0;
+    near |= Sift(raster, Project(grid, from, i), Project(grid, to, i), i, &ways, &not_known);
+    unknown |= not_known;
+  }
+  for (unknown &= There(from); unknown != 0; unknown &= unknown - 1)
+    shares[std::countr_zero(unknown)] = kUnknownCrossing;
+  for (near &= There(from); near != 0; near &= near - 1) {
+    const auto i = static_cast<std::size_t>(std::countr_zero(near));
+    const double in_picture = FirstCrossing(raster, ways, i);
+    // From a share of the way in the picture to one of the way in space.
+    const double from_z = ways.from_z[i], to_z = ways.to_z[i];
+    const double in_space = in_picture * from_z / (to_z + in_picture * (from_z - to_z));
+    shares[i] = std::min(shares[i], in_picture > 1.0 ? kNoCrossing : in_space);
   }
 }
 

@@ -17,10 +17,10 @@ struct GridView {
   std::array<std::array<double, 3>, 3> steps{};
 };
 
-// Some points of a grid, by coordinate. What is behind the last of them is finite.
+// Some points of a grid, by coordinate.
 struct GridPoints {
   static constexpr std::size_t kMost = 64;
-  alignas(64) std::array<std::array<double, kMost>, 3> at{};
+  alignas(64) std::array<std::array<double, kMost>, 3> at;
   std::size_t count = 0;
 };
 

@@ -29,8 +29,8 @@ void SetEnds(const HullBlock& block, const BlockEdge& edge, std::size_t i, GridP
   }
 }
 
-GridPoint PointAt(const GridPoints& points, std::size_t i) {
-  return Vector3d(points.at[0][i], points.at[1][i], points.at[2][i]).cast<int>();
+Vector3d PointOf(const GridPoints& points, std::size_t i) {
+  return {points.at[0][i], points.at[1][i], points.at[2][i]};
 }
 
 BlockBits AllPoints() {
@@ -127,7 +127,7 @@ void HullLattice::FindExits(const HullBlock& block, std::span<const BlockEdge> e
     if (!block.is_in_workspace) OfferFaces(block, edges.first(from.count), shares);
     for (const std::uint8_t i : block.cameras) OfferCrossings(views_[i], rasters_[i], from, to, shares);
     for (std::size_t i = 0; i < from.count; ++i) {
-      const Vector3d inside = grid_.At(PointAt(from, i)), outside = grid_.At(PointAt(to, i));
+      const Vector3d inside = grid_.At(PointOf(from, i)), outside = grid_.At(PointOf(to, i));
       const bool is_exact = shares[i] >= 0.0 && shares[i] <= 1.0;
       const double share = is_exact ? shares[i] : BisectedExit(inside, outside);
       exits_in_world[i] = inside + std::clamp(share, kEndShare, 1.0 - kEndShare) * (outside - inside);
@@ -141,7 +141,7 @@ void HullLattice::OfferFaces(const HullBlock& block, std::span<const BlockEdge> 
   for (std::size_t i = 0; i < edges.size(); ++i) {
     const int axis = edges[i].axis;
     const GridPoint low = LowEnd(block, edges[i]);
-    const double ends[2] = {grid_.At(low)[axis], grid_.At(low + GridPoint(GridPoint::Unit(axis)))[axis]};
+    const double ends[2] = {grid_.At(low)[axis], grid_.At(GridPoint(low + GridPoint::Unit(axis)))[axis]};
     const double inside = ends[edges[i].low_is_inside ? 0 : 1],
                  outside = ends[edges[i].low_is_inside ? 1 : 0];
     const double face = std::clamp(outside, box.min()[axis], box.max()[axis]);

@@ -17,12 +17,13 @@ namespace {
 namespace hn = hwy::HWY_NAMESPACE;
 using Floats = hn::CappedTag<float, 8>;
 using Ints = hn::Rebind<std::int32_t, Floats>;
+using Unsigned = hn::RebindToUnsigned<Ints>;
 using VF = hn::Vec<Floats>;
 using VI = hn::Vec<Ints>;
 
 constexpr std::size_t kSide = kBlockPoints;
 
-// As many points as a vector holds.
+// As many points as a vector holds, across and down in cells times z.
 struct Points {
   VF x;
   VF y;
@@ -31,8 +32,8 @@ struct Points {
 
 HWY_INLINE VF Set(double number) { return hn::Set(Floats(), static_cast<float>(number)); }
 
-HWY_INLINE Points Times(VF count, const std::array<double, 3>& step) {
-  return {hn::Mul(count, Set(step[0])), hn::Mul(count, Set(step[1])), hn::Mul(count, Set(step[2]))};
+HWY_INLINE Points Times(VF count, const Points& step) {
+  return {hn::Mul(count, step.x), hn::Mul(count, step.y), hn::Mul(count, step.z)};
 }
 HWY_INLINE Points Sum(const Points& a, const Points& b) {
   return {hn::Add(a.x, b.x), hn::Add(a.y, b.y), hn::Add(a.z, b.z)};
@@ -52,59 +53,68 @@ HWY_INLINE unsigned BitsOf(VI label, std::int32_t bit) {
   return bytes[0];
 }
 
+class Cells {
+ public:
+  explicit Cells(const LabelRaster& raster)
+      : labels_(reinterpret_cast<const std::int32_t*>(raster.labels.data())),
+        origin_x_(Set(raster.origin_x_px * raster.cells_per_px)),
+        origin_y_(Set(raster.origin_y_px * raster.cells_per_px)),
+        width_(hn::Set(Ints(), raster.width)),
+        height_(hn::Set(Ints(), raster.height)) {}
+
+  [[nodiscard]] HWY_INLINE VI LabelsOf(const Points& points) const {
+    const VF per_z = hn::Div(Set(1.0), points.z);
+    const VI column = CellOf(hn::Sub(hn::Mul(points.x, per_z), origin_x_));
+    const VI row = CellOf(hn::Sub(hn::Mul(points.y, per_z), origin_y_));
+    const VI index = hn::Add(hn::Mul(row, width_), column);
+    // Negative numbers are the largest of all.
+    const auto is_below = [](VI number, VI end) HWY_ATTR {
+      return hn::Lt(hn::BitCast(Unsigned(), number), hn::BitCast(Unsigned(), end));
+    };
+    const auto is_in_cell = hn::And(is_below(column, width_), is_below(row, height_));
+    return hn::GatherOffset(Ints(), labels_, hn::IfThenElseZero(hn::RebindMask(Ints(), is_in_cell), index));
+  }
+
+ private:
+  // The number's floor by its last bits beside 2^23; of one on the border between two cells, either.
+  // Negative, or at least 2^23, if it isn't from 0 to 2^23.
+  static HWY_INLINE VI CellOf(VF number) {
+    constexpr double kLastBitIsOne = 1 << 23;
+    const VF beside = hn::Add(hn::Sub(number, Set(0.5)), Set(kLastBitIsOne));
+    return hn::Sub(hn::BitCast(Ints(), beside), hn::BitCast(Ints(), Set(kLastBitIsOne)));
+  }
+  const std::int32_t* const labels_;
+  const VF origin_x_, origin_y_;
+  const VI width_, height_;
+};
+
 class Labeller {
  public:
   Labeller(const LabelRaster& raster, BlockBits* bits, BlockBits* mixed)
-      : labels_(reinterpret_cast<const std::int32_t*>(raster.labels.data())),
-        origin_x_px_(Set(raster.origin_x_px)),
-        origin_y_px_(Set(raster.origin_y_px)),
-        cells_per_px_(Set(raster.cells_per_px)),
-        width_(Set(raster.width)),
-        height_(Set(raster.height)),
-        columns_(hn::Set(Ints(), raster.width)),
-        bits_(*bits),
-        mixed_(*mixed) {}
+      : cells_(raster), bits_(*bits), mixed_(*mixed) {}
 
-  // Points `first` and on of a group.
-  HWY_INLINE void Ask(std::size_t first, const Points& points) {
-    const VI label = LabelsOf(points);
-    object_ |= BitsOf(label, LabelRaster::kObject) << first;
-    unsure_ |= BitsOf(label, LabelRaster::kMixed) << first;
-  }
-  HWY_INLINE void Finish(std::size_t group) {
-    mixed_.groups[group] = static_cast<std::uint8_t>(bits_.groups[group] & unsure_);
-    bits_.groups[group] = static_cast<std::uint8_t>(bits_.groups[group] & (object_ | unsure_));
-    object_ = unsure_ = 0;
-    ++asked_;
-  }
-  // False if nothing is to be asked.
-  HWY_INLINE bool Begin(std::size_t group) {
-    mixed_.groups[group] = 0;
-    return bits_.groups[group] != 0;
+  // A group whose points are those of `points_from(i)`, i points on. One without a bit isn't asked.
+  template <typename PointsFrom>
+  HWY_INLINE void Ask(std::size_t group, const PointsFrom& points_from) {
+    const unsigned bits = bits_.groups[group];
+    unsigned object = 0, unsure = 0;
+    if (bits != 0) {
+      for (std::size_t i = 0; i < 8; i += hn::Lanes(Floats())) {
+        const VI label = cells_.LabelsOf(points_from(i));
+        object |= BitsOf(label, LabelRaster::kObject) << i;
+        unsure |= BitsOf(label, LabelRaster::kMixed) << i;
+      }
+      ++asked_;
+    }
+    mixed_.groups[group] = static_cast<std::uint8_t>(bits & unsure);
+    bits_.groups[group] = static_cast<std::uint8_t>(bits & (object | unsure));
   }
   [[nodiscard]] std::size_t asked() const { return asked_; }
 
  private:
-  HWY_INLINE VI LabelsOf(const Points& points) const {
-    const Ints n;
-    const VF per_z = hn::Div(Set(1.0), points.z), zero = hn::Zero(Floats());
-    const VF x = hn::Mul(points.x, per_z), y = hn::Mul(points.y, per_z);
-    const VF across = hn::Mul(hn::Sub(x, origin_x_px_), cells_per_px_);
-    const VF down = hn::Mul(hn::Sub(y, origin_y_px_), cells_per_px_);
-    const auto is_across = hn::And(hn::Ge(across, zero), hn::Lt(across, width_));
-    const auto is_down = hn::And(hn::Ge(down, zero), hn::Lt(down, height_));
-    const auto is_in_cell = hn::And(is_across, is_down);
-    const VI column = hn::ConvertTo(n, hn::IfThenElseZero(is_in_cell, across));
-    const VI row = hn::ConvertTo(n, hn::IfThenElseZero(is_in_cell, down));
-    return hn::GatherOffset(n, labels_, hn::Add(hn::Mul(row, columns_), column));
-  }
-
-  const std::int32_t* const labels_;
-  const VF origin_x_px_, origin_y_px_, cells_per_px_, width_, height_;
-  const VI columns_;
+  const Cells cells_;
   BlockBits& bits_;
   BlockBits& mixed_;
-  unsigned object_ = 0, unsure_ = 0;
   std::size_t asked_ = 0;
 };
 
@@ -122,30 +132,34 @@ constexpr FarPoints MakeFarPoints() {
 }
 constexpr FarPoints kFarPoints = MakeFarPoints();
 
-// `block`: its steps, from its own corner.
+// `block`: x and y in cells times z; from its own corner.
 std::size_t Label(const GridView& block, const LabelRaster& raster, BlockBits* bits, BlockBits* mixed) {
   const Floats f;
-  const std::size_t at_once = hn::Lanes(f);
+  const GridView view = block;  // no byte that is written may be part of it
   Labeller labeller(raster, bits, mixed);
-  for (std::size_t group = 0; group < BlockBits::kRows; ++group) {
-    if (!labeller.Begin(group)) continue;
-    const std::array<double, 3> layer =
-        Along(block.origin, static_cast<double>(group / kSide), block.steps[2]);
-    const Points row = Spread(Along(layer, static_cast<double>(group % kSide), block.steps[1]));
-    for (std::size_t i = 0; i < 8; i += at_once)
-      labeller.Ask(i, Sum(row, Times(hn::Iota(f, static_cast<float>(i)), block.steps[0])));
-    labeller.Finish(group);
+  const Points step_x = Spread(view.steps[0]);
+  const Points near = Times(hn::Iota(f, 0.0F), step_x);
+  std::array<double, 3> layer = view.origin;
+  for (std::size_t group = 0; group < BlockBits::kRows;) {
+    std::array<double, 3> row = layer;
+    for (const std::size_t end = group + kSide; group < end; ++group) {
+      const Points begin = Sum(near, Spread(row));
+      labeller.Ask(group, [&](std::size_t i) HWY_ATTR {
+        return i == 0 ? begin : Sum(begin, Times(Set(static_cast<double>(i)), step_x));
+      });
+      row = Along(row, 1.0, view.steps[1]);
+    }
+    layer = Along(layer, 1.0, view.steps[2]);
   }
   // The far face.
-  const Points far = Spread(Along(block.origin, kBlockCells, block.steps[0]));
+  const Points far = Spread(Along(view.origin, kBlockCells, view.steps[0]));
+  const Points step_y = Spread(view.steps[1]), step_z = Spread(view.steps[2]);
   for (std::size_t group = BlockBits::kRows; group < BlockBits::kGroups; ++group) {
-    if (!labeller.Begin(group)) continue;
-    for (std::size_t i = 0; i < 8; i += at_once) {
+    labeller.Ask(group, [&](std::size_t i) HWY_ATTR {
       const std::size_t point = 8 * (group - BlockBits::kRows) + i;
       const VF y = hn::Load(f, &kFarPoints.y[point]), z = hn::Load(f, &kFarPoints.z[point]);
-      labeller.Ask(i, Sum(far, Sum(Times(y, block.steps[1]), Times(z, block.steps[2]))));
-    }
-    labeller.Finish(group);
+      return Sum(far, Sum(Times(y, step_y), Times(z, step_z)));
+    });
   }
   return labeller.asked();
 }
@@ -166,33 +180,39 @@ namespace {
 // sums; so is what the division leaves, and the place among the cells.
 bool FloatsWillDo(const GridView& block, const LabelRaster& raster) {
   constexpr double kRounding = 8.0 / (1 << 24);
-  std::array<double, 3> most{}, error{};  // of a coordinate's terms together
+  std::array<double, 3> error{};  // of a coordinate's terms together
   double least_z = block.origin[2];
   for (std::size_t k = 0; k < 3; ++k) {
-    most[k] = std::abs(block.origin[k]);
-    for (const std::array<double, 3>& step : block.steps) most[k] += kBlockCells * std::abs(step[k]);
-    error[k] = kRounding * most[k];
+    double most = std::abs(block.origin[k]);
+    for (const std::array<double, 3>& step : block.steps) most += kBlockCells * std::abs(step[k]);
+    error[k] = kRounding * most;
   }
   for (const std::array<double, 3>& step : block.steps) least_z += kBlockCells * std::min(step[2], 0.0);
   least_z -= error[2];
   if (!(least_z > 0.0)) return false;
   // Positions farther out than twice the cells don't come near them by an error that passes below.
-  const double reach_px = std::max({std::abs(raster.origin_x_px), std::abs(raster.origin_y_px),
-                                    std::abs(raster.origin_x_px + raster.width * raster.cell_px),
-                                    std::abs(raster.origin_y_px + raster.height * raster.cell_px)});
-  const double error_px =
-      (std::max(error[0], error[1]) + 2.0 * reach_px * error[2]) / least_z + kRounding * reach_px;
-  return error_px * raster.cells_per_px < LabelRaster::kTouchCells;
+  const double left = raster.origin_x_px * raster.cells_per_px,
+               top = raster.origin_y_px * raster.cells_per_px;
+  const double reach =
+      std::max({std::abs(left), std::abs(top), std::abs(left + raster.width), std::abs(top + raster.height)});
+  const double error_cells =
+      (std::max(error[0], error[1]) + 2.0 * reach * error[2]) / least_z + kRounding * reach;
+  return error_cells < LabelRaster::kTouchCells;
 }
 
 }  // namespace
 
 std::size_t LabelByCells(const GridView& grid, const GridPoint& corner, const LabelRaster& raster,
                          BlockBits* bits, BlockBits* mixed) {
-  GridView block = grid;
-  for (std::size_t k = 0; k < 3; ++k)
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      block.origin[k] += corner[static_cast<Eigen::Index>(axis)] * grid.steps[axis][k];
+  GridView block;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double scale = k < 2 ? raster.cells_per_px : 1.0;
+    block.origin[k] = scale * grid.origin[k];
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      block.steps[axis][k] = scale * grid.steps[axis][k];
+      block.origin[k] += corner[static_cast<Eigen::Index>(axis)] * block.steps[axis][k];
+    }
+  }
   if (FloatsWillDo(block, raster)) return HWY_DYNAMIC_DISPATCH(Label)(block, raster, bits, mixed);
   *mixed = *bits;
   return BlockBits::kGroups - static_cast<std::size_t>(std::ranges::count(bits->groups, 0));

@@ -22,18 +22,21 @@ struct BlockBits {
   // y + kBlockPoints * z, counted on from group to group.
   std::array<std::uint8_t, kGroups> groups{};
 
-  // The grid point of a bit of a group.
-  [[nodiscard]] static std::array<std::size_t, 3> PointOf(std::size_t group, std::size_t bit) {
-    if (group < kRows) return {bit, group % kBlockPoints, group / kBlockPoints};
-    const std::size_t row = 8 * (group - kRows) + bit;
-    return {kBlockCells, row % kBlockPoints, row / kBlockPoints};
-  }
+  // The grid points of the bits, 8 to a group.
+  static constexpr std::array<std::array<std::uint8_t, 3>, 8 * kGroups> kPoints = [] {
+    std::array<std::array<std::uint8_t, 3>, 8 * kGroups> points{};
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const std::size_t row = i < 8 * kRows ? i / 8 : i - 8 * kRows, x = i < 8 * kRows ? i % 8 : kBlockCells;
+      points[i] = {static_cast<std::uint8_t>(x), static_cast<std::uint8_t>(row % kBlockPoints),
+                   static_cast<std::uint8_t>(row / kBlockPoints)};
+    }
+    return points;
+  }();
 
-  // The points (x, y, z), bit x each.
-  [[nodiscard]] unsigned Row(int y, int z) const {
+  [[nodiscard]] bool At(int x, int y, int z) const {
     const auto row = static_cast<std::size_t>(y + kBlockPoints * z);
-    const unsigned far = groups[kRows + row / 8] >> (row % 8) & 1U;
-    return groups[row] | far << 8U;
+    if (x < kBlockCells) return (groups[row] >> x & 1) != 0;
+    return (groups[kRows + row / 8] >> (row % 8) & 1) != 0;
   }
 };
 static_assert(kBlockCells == 8, "a row of cells is a group of points");

@@ -1,50 +1,64 @@
 #include "recon/point_labels.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstddef>
+#include <cstring>
 
 namespace elbowroom::recon {
 namespace {
 
+static_assert(std::endian::native == std::endian::little, "bit i of a group's byte is bit i of its word");
+
 // Points that wait for their labels, and whose bits they are.
 class Waiting {
  public:
-  Waiting(const GridView& grid, const LabelRaster& raster, BlockBits* bits)
-      : grid_(grid), raster_(raster), bits_(*bits) {}
+  Waiting(const GridView& grid, const LabelRaster& raster, const GridPoint& corner, BlockBits* bits)
+      : grid_(grid),
+        raster_(raster),
+        corner_{double(corner.x()), double(corner.y()), double(corner.z())},
+        bits_(*bits) {}
 
-  void Add(std::size_t group, std::size_t bit, const GridPoint& corner) {
-    const std::array<std::size_t, 3> in_block = BlockBits::PointOf(group, bit);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      points_.at[axis][points_.count] =
-          corner[static_cast<Eigen::Index>(axis)] + static_cast<double>(in_block[axis]);
-    }
-    bits_of_points_[points_.count] = {static_cast<std::uint8_t>(group), static_cast<std::uint8_t>(1U << bit)};
+  void Add(std::size_t bit) {
+    const std::array<std::uint8_t, 3>& in_block = BlockBits::kPoints[bit];
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      points_.at[axis][points_.count] = corner_[axis] + in_block[axis];
+    bits_of_points_[points_.count] = static_cast<std::uint16_t>(bit);
     if (++points_.count == GridPoints::kMost) Settle();
   }
 
   void Settle() {
     const std::uint64_t object = LabelPoints(grid_, raster_, points_);
     for (std::size_t i = 0; i < points_.count; ++i) {
-      const auto [group, bit] = bits_of_points_[i];
-      const unsigned clear = (object >> i & 1U) != 0 ? 0U : bit;
-      bits_.groups[group] = static_cast<std::uint8_t>(bits_.groups[group] & ~clear);
+      const unsigned bit = bits_of_points_[i], clear = static_cast<unsigned>(~object >> i & 1U) << bit % 8;
+      bits_.groups[bit / 8] = static_cast<std::uint8_t>(bits_.groups[bit / 8] & ~clear);
     }
     points_.count = 0;
   }
 
  private:
-  struct BitOfPoint {
-    std::uint8_t group, bit;
-  };
-  static_assert(BlockBits::kGroups <= 256);
-
   const GridView& grid_;
   const LabelRaster& raster_;
+  const std::array<double, 3> corner_;
   BlockBits& bits_;
   GridPoints points_;
-  std::array<BitOfPoint, GridPoints::kMost> bits_of_points_{};
+  std::array<std::uint16_t, GridPoints::kMost> bits_of_points_;
 };
+
+// Calls visit(bit) for the bits that both have.
+template <typename Visit>
+void VisitCommon(const BlockBits& a, const BlockBits& b, const Visit& visit) {
+  constexpr std::size_t kWordGroups = sizeof(std::uint64_t);
+  for (std::size_t group = 0; group < a.groups.size(); group += kWordGroups) {
+    const std::size_t size = std::min(kWordGroups, a.groups.size() - group);
+    std::uint64_t in_a = 0, in_b = 0;
+    std::memcpy(&in_a, &a.groups[group], size);
+    std::memcpy(&in_b, &b.groups[group], size);
+    for (std::uint64_t left = in_a & in_b; left != 0; left &= left - 1)
+      visit(8 * group + static_cast<std::size_t>(std::countr_zero(left)));
+  }
+}
 
 }  // namespace
 
@@ -65,11 +79,8 @@ GridView ViewGrid(const core::CameraModel& camera, double focal_px, const HullGr
 
 void SettleMixed(const GridView& grid, const LabelRaster& raster, const GridPoint& corner,
                  const BlockBits& mixed, BlockBits* bits) {
-  Waiting waiting(grid, raster, bits);
-  for (std::size_t group = 0; group < mixed.groups.size(); ++group) {
-    for (unsigned left = mixed.groups[group] & bits->groups[group]; left != 0; left &= left - 1)
-      waiting.Add(group, static_cast<std::size_t>(std::countr_zero(left)), corner);
-  }
+  Waiting waiting(grid, raster, corner, bits);
+  VisitCommon(mixed, BlockBits(*bits), [&](std::size_t bit) { waiting.Add(bit); });
   waiting.Settle();
 }
 

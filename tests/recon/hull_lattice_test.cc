@@ -37,7 +37,7 @@ void CompareBlock(const VisualHull& hull, const HullGrid& grid, const HullBlock&
     for (int y = 0; y < kBlockPoints; ++y) {
       for (int x = 0; x < kBlockPoints; ++x) {
         const Vector3d point = grid.At(block.corner + GridPoint(x, y, z));
-        const bool is_inside = (labels.Row(y, z) >> static_cast<unsigned>(x) & 1U) != 0;
+        const bool is_inside = labels.At(x, y, z);
         ++count->points;
         count->inside += is_inside ? 1 : 0;
         if (is_inside != hull.Contains(point) && !IsAtAChange(hull, point, grid.edge_mm)) ++count->wrong;
