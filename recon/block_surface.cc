@@ -97,8 +97,9 @@ constexpr std::array<std::size_t, kCubeEdges.size()> EdgeOffsets() {
 }
 constexpr auto kEdgeOffsets = EdgeOffsets();
 
-// By Index(): a grid edge's vertex in the mesh, or -1.
-using VertexNumbers = std::array<std::int32_t, Index(3, 0, 0, 0)>;
+// By Index(): a grid edge's vertex in the mesh, or -1. At the end one more, for edges that aren't asked for.
+constexpr std::size_t kNoEdge = Index(3, 0, 0, 0);
+using VertexNumbers = std::array<std::int32_t, kNoEdge + 1>;
 
 VertexNumbers NumberEdges(std::span<const BlockNeighbour> blocks) {
   VertexNumbers numbers;
@@ -111,8 +112,8 @@ VertexNumbers NumberEdges(std::span<const BlockNeighbour> blocks) {
     std::int32_t number = block.first_vertex;
     for (const BlockEdge& edge : steps == 0 ? edges : edges.first(block.surface->near_edges)) {
       const auto [x, y, z] = edge.low;
-      if ((steps & ~unsigned{edge.near_faces}) == 0) numbers[shift + Index(edge.axis, x, y, z)] = number;
-      ++number;
+      const bool is_shared = (steps & ~unsigned{edge.near_faces}) == 0;
+      numbers[is_shared ? shift + Index(edge.axis, x, y, z) : kNoEdge] = number++;
     }
   }
   return numbers;
@@ -143,7 +144,7 @@ void WriteTriangles(std::span<const BlockNeighbour> blocks,
   const VertexNumbers numbers = NumberEdges(blocks);
   const std::array<CubeTriangles, 256>& table = CubeTable();
   std::size_t next = 0;
-  std::int32_t least = 0;
+  std::int64_t all = 0;  // their bits
   VisitCutCells(blocks.front().surface->labels,
                 [&](std::size_t x, std::size_t y, std::size_t z, std::size_t inside) {
                   const std::int32_t* const cell = numbers.data() + Index(0, x, y, z);
@@ -152,11 +153,11 @@ void WriteTriangles(std::span<const BlockNeighbour> blocks,
                     std::array<std::int32_t, 3>& triangle = triangles[next++];
                     for (std::size_t corner = 0; corner < 3; ++corner) {
                       triangle[corner] = cell[kEdgeOffsets[cut.all[i][corner]]];
-                      least = std::min(least, triangle[corner]);
+                      all |= triangle[corner];
                     }
                   }
                 });
-  core::Require(least >= 0, "the surface goes on in the next blocks");
+  core::Require(all >= 0, "the surface goes on in the next blocks");
 }
 
 }  // namespace elbowroom::recon

@@ -188,7 +188,7 @@ class Way {
   const VE from_x_, from_y_, way_x_, way_y_, side_of_way_;
 };
 
-// The least share at which way i meets an edge of the cells in its box; kNoCrossing if there is none. Most
+// The least share at which way i meets an edge of the cells in its box; more than 1 if there is none. Most
 // boxes have one row or two of up to four edges: so many are looked at without asking.
 HWY_INLINE double FirstCrossing(const LabelRaster& raster, const Ways& ways, std::size_t i) {
   const Edges d;
@@ -205,14 +205,13 @@ HWY_INLINE double FirstCrossing(const LabelRaster& raster, const Ways& ways, std
   meet_row(ways.top[i]);
   for (std::int32_t row = ways.top[i] + 1; row < ways.bottom[i]; ++row) meet_row(row);
   meet_row(ways.bottom[i]);
-  const double share = hn::GetLane(hn::MinOfLanes(d, nearest));
-  return share > 1.0 ? kNoCrossing : share;
+  return hn::GetLane(hn::MinOfLanes(d, nearest));
 }
 
-// Projects the ways from i on, as many as a vector holds. A bit each of those that may meet an edge; in
-// `unknown` of those that can't be worked out.
+// The ways from i on, as many as a vector holds: a bit each of those that may meet an edge. Shares of those
+// that can't be worked out become kUnknownCrossing.
 HWY_INLINE std::uint64_t Sift(const LabelRaster& raster, const Points& from, const Points& to, std::size_t i,
-                              Ways* ways, std::uint64_t* unknown) {
+                              Ways* ways, double* shares) {
   const Doubles d;
   const Ints n;
   const VD zero = hn::Zero(d), largest = Set(std::numeric_limits<double>::max());
@@ -221,7 +220,7 @@ HWY_INLINE std::uint64_t Sift(const LabelRaster& raster, const Points& from, con
   };
   const auto is_in_front = hn::And(hn::Gt(from.z, zero), hn::Gt(to.z, zero));
   const auto is_known = hn::And(is_in_front, hn::And(is_finite(from.x, from.y), is_finite(to.x, to.y)));
-  *unknown = BitsOf(d, hn::Not(is_known)) << i;
+  hn::Store(hn::IfThenElse(is_known, hn::Load(d, shares + i), Set(kUnknownCrossing)), d, shares + i);
   const auto nearest_cell = [&](VD px, double origin_px, std::int32_t cells) HWY_ATTR {
     const VD at = hn::IfThenElseZero(is_known, InCells(raster, px, origin_px));
     return hn::DemoteTo(n, hn::Min(hn::Max(at, zero), Set(cells - 1)));
@@ -252,22 +251,24 @@ HWY_INLINE std::uint64_t Sift(const LabelRaster& raster, const Points& from, con
 
 void Offer(const GridView& grid, const LabelRaster& raster, const GridPoints& from, const GridPoints& to,
            double* shares) {
+  const Doubles d;
   Ways ways;
-  std::uint64_t near = 0, unknown = 0;
-  for (std::size_t i = 0; i < from.count; i += hn::Lanes(Doubles())) {
-    std::uint64_t not_known = 0;
-    near |= Sift(raster, Project(grid, from, i), Project(grid, to, i), i, &ways, &not_known);
-    unknown |= not_known;
-  }
-  for (unknown &= There(from); unknown != 0; unknown &= unknown - 1)
-    shares[std::countr_zero(unknown)] = kUnknownCrossing;
+  std::uint64_t near = 0;
+  for (std::size_t i = 0; i < from.count; i += hn::Lanes(d))
+    near |= Sift(raster, Project(grid, from, i), Project(grid, to, i), i, &ways, shares);
+  alignas(64) double in_picture[kMost];
+  for (std::size_t i = 0; i < from.count; i += hn::Lanes(d)) hn::Store(Set(kNoCrossing), d, in_picture + i);
   for (near &= There(from); near != 0; near &= near - 1) {
     const auto i = static_cast<std::size_t>(std::countr_zero(near));
-    const double in_picture = FirstCrossing(raster, ways, i);
-    // From a share of the way in the picture to one of the way in space.
-    const double from_z = ways.from_z[i], to_z = ways.to_z[i];
-    const double in_space = in_picture * from_z / (to_z + in_picture * (from_z - to_z));
-    shares[i] = std::min(shares[i], in_picture > 1.0 ? kNoCrossing : in_space);
+    in_picture[i] = FirstCrossing(raster, ways, i);
+  }
+  // From a share of the way in the picture to one of the way in space.
+  for (std::size_t i = 0; i < from.count; i += hn::Lanes(d)) {
+    const VD share = hn::Load(d, in_picture + i), so_far = hn::Load(d, shares + i);
+    const VD from_z = hn::Load(d, ways.from_z + i), to_z = hn::Load(d, ways.to_z + i);
+    const VD in_space = hn::Div(hn::Mul(share, from_z), hn::Add(to_z, hn::Mul(share, hn::Sub(from_z, to_z))));
+    const auto is_nearer = hn::And(hn::Le(share, Set(1.0)), hn::Lt(in_space, so_far));
+    hn::Store(hn::IfThenElse(is_nearer, in_space, so_far), d, shares + i);
   }
 }
 
@@ -292,9 +293,9 @@ std::uint64_t LabelPoints(const GridView& grid, const LabelRaster& raster, const
 }
 
 void OfferCrossings(const GridView& grid, const LabelRaster& raster, const GridPoints& from,
-                    const GridPoints& to, std::span<double> shares) {
+                    const GridPoints& to, WayShares* shares) {
   if (raster.width == 0) return;  // no edges: everywhere the exterior's label
-  HWY_DYNAMIC_DISPATCH(Offer)(grid, raster, from, to, shares.data());
+  HWY_DYNAMIC_DISPATCH(Offer)(grid, raster, from, to, shares->at.data());
 }
 
 }  // namespace elbowroom::recon

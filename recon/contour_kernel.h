@@ -39,10 +39,15 @@ inline constexpr double kUnknownCrossing = -1.0;
 [[nodiscard]] std::uint64_t LabelPoints(const GridView& grid, const LabelRaster& raster,
                                         const GridPoints& points);
 
-// Lowers shares[i] to that of the straight way between two points at which the contour is first crossed in
+// Shares of some ways between grid points; what is behind the last of them means nothing.
+struct WayShares {
+  alignas(64) std::array<double, GridPoints::kMost> at;
+};
+
+// Lowers share i to that of the straight way between two points at which the contour is first crossed in
 // the picture, if it is; to kUnknownCrossing where an end isn't in front of the camera. For ways of a few
 // cells: cost follows their box.
 void OfferCrossings(const GridView& grid, const LabelRaster& raster, const GridPoints& from,
-                    const GridPoints& to, std::span<double> shares);
+                    const GridPoints& to, WayShares* shares);
 
 }  // namespace elbowroom::recon

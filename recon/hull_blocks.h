@@ -20,8 +20,10 @@ struct HullGrid {
   double edge_mm = 1.0;
   GridPoint cells = GridPoint::Zero();  // in each direction
 
-  [[nodiscard]] Eigen::Vector3d At(const Eigen::Vector3d& p) const { return origin_in_world + edge_mm * p; }
-  [[nodiscard]] Eigen::Vector3d At(const GridPoint& p) const { return At(Eigen::Vector3d(p.cast<double>())); }
+  [[nodiscard]] Eigen::Vector3d At(const GridPoint& p) const { return AtSteps(p.cast<double>()); }
+  [[nodiscard]] Eigen::Vector3d AtSteps(const Eigen::Vector3d& steps) const {
+    return origin_in_world + edge_mm * steps;
+  }
 };
 
 // Over the workspace with a cell's margin. Throws: core::Error{kRange} when edge_mm isn't positive or the

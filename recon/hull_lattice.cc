@@ -116,18 +116,18 @@ std::int64_t HullLattice::KeepSeen(const GridPoint& corner, BlockBits* bits) con
 
 void HullLattice::FindExits(const HullBlock& block, std::span<const BlockEdge> edges,
                             std::span<Vector3d> exits_in_world) const {
-  std::array<double, GridPoints::kMost> all_shares;
+  WayShares all_shares;
   GridPoints from, to;
   for (; !edges.empty();
        exits_in_world = exits_in_world.subspan(from.count), edges = edges.subspan(from.count)) {
     from.count = to.count = std::min(edges.size(), GridPoints::kMost);
     for (std::size_t i = 0; i < from.count; ++i) SetEnds(block, edges[i], i, &from, &to);
-    const std::span shares(all_shares.data(), from.count);
+    const std::span shares(all_shares.at.data(), from.count);
     std::ranges::fill(shares, block.is_seen ? kNoCrossing : kUnknownCrossing);
     if (!block.is_in_workspace) OfferFaces(block, edges.first(from.count), shares);
-    for (const std::uint8_t i : block.cameras) OfferCrossings(views_[i], rasters_[i], from, to, shares);
+    for (const std::uint8_t i : block.cameras) OfferCrossings(views_[i], rasters_[i], from, to, &all_shares);
     for (std::size_t i = 0; i < from.count; ++i) {
-      const Vector3d inside = grid_.At(PointOf(from, i)), outside = grid_.At(PointOf(to, i));
+      const Vector3d inside = grid_.AtSteps(PointOf(from, i)), outside = grid_.AtSteps(PointOf(to, i));
       const bool is_exact = shares[i] >= 0.0 && shares[i] <= 1.0;
       const double share = is_exact ? shares[i] : BisectedExit(inside, outside);
       exits_in_world[i] = inside + std::clamp(share, kEndShare, 1.0 - kEndShare) * (outside - inside);
@@ -141,7 +141,7 @@ void HullLattice::OfferFaces(const HullBlock& block, std::span<const BlockEdge> 
   for (std::size_t i = 0; i < edges.size(); ++i) {
     const int axis = edges[i].axis;
     const GridPoint low = LowEnd(block, edges[i]);
-    const double ends[2] = {grid_.At(low)[axis], grid_.At(GridPoint(low + GridPoint::Unit(axis)))[axis]};
+    const double ends[2] = {grid_.At(low)[axis], grid_.At(low + GridPoint::Unit(axis))[axis]};
     const double inside = ends[edges[i].low_is_inside ? 0 : 1],
                  outside = ends[edges[i].low_is_inside ? 1 : 0];
     const double face = std::clamp(outside, box.min()[axis], box.max()[axis]);
