@@ -23,7 +23,7 @@ using Ints = hn::Rebind<std::int32_t, Doubles>;
 using VD = hn::Vec<Doubles>;
 using VI = hn::Vec<Ints>;
 // Edges side by side: a cell has two or three.
-using Edges = hn::CappedTag<double, LabelRaster::kEdgesBehind + 1>;
+using Edges = hn::CappedTag<double, LabelRaster::kEdgesBehind>;
 using VE = hn::Vec<Edges>;
 using ME = hn::Mask<Edges>;
 

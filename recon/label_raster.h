@@ -14,9 +14,10 @@ struct LabelRaster {
   // An edge touches the cells that are this near, in cells: a position misplaced by less is still in a cell
   // that knows of it.
   static constexpr double kTouchCells = 1.0 / 64;
-  // Behind the last item, so that it may be read with those that follow it.
+  // More items behind the last: a label is read with the bytes that follow it; edges four at a time, even
+  // where there are none.
   static constexpr std::size_t kBytesBehind = 3;
-  static constexpr std::size_t kEdgesBehind = 3;
+  static constexpr std::size_t kEdgesBehind = 4;
 
   struct Edge {
     double from_x, from_y, to_x, to_y;
@@ -26,8 +27,8 @@ struct LabelRaster {
   double cell_px = 1.0, cells_per_px = 1.0;
   std::int32_t width = 0, height = 0;
   std::span<const std::uint8_t> labels;
-  std::span<const std::uint8_t>
-      clear_eighths;                     // from a cell's centre to that of the nearest mixed one, at least
+  // From a cell's centre to that of the nearest mixed one, at least; in eighths of a cell.
+  std::span<const std::uint8_t> clear_eighths;
   std::span<const std::uint32_t> first;  // of each cell's edges; one more at the end
   std::span<const Edge> edges;           // cell by cell
 };
