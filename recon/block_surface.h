@@ -15,7 +15,8 @@ namespace elbowroom::recon {
 // near faces, and the triangles in its cells, whose corners may be vertices of the next blocks.
 struct BlockSurface {
   BlockBits labels;
-  std::vector<BlockEdge> edges;                    // that the surface crosses
+  std::vector<BlockEdge> edges;                    // that the surface crosses; first those on near faces
+  std::size_t near_edges = 0;                      // so many
   std::vector<Eigen::Vector3d> vertices_in_world;  // one an edge
   std::size_t triangles = 0;
   std::int64_t queries = 0;  // labels and crossings asked

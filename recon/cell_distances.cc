@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "recon/label_raster.h"
+
 namespace elbowroom::recon {
 namespace {
 
@@ -56,7 +58,7 @@ CellDistances::CellDistances(int width, int height, std::span<const std::uint32_
 }
 
 void CellDistances::FillNear(std::span<const std::uint8_t> down) {
-  near_eighths_.resize(width_ * height_);
+  near_eighths_.resize(width_ * height_ + LabelRaster::kBytesBehind);
   // Two of them together fit a byte.
   constexpr auto kFar = static_cast<std::uint8_t>(kNear * kNear);
   static_assert(2 * kNear * kNear <= 255);

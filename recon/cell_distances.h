@@ -26,6 +26,9 @@ class CellDistances {
                    static_cast<std::size_t>(x / kBlock)];
   }
 
+  // Item by item in eighths of a cell, capped at kNearCells; LabelRaster::kBytesBehind more behind them.
+  [[nodiscard]] std::span<const std::uint8_t> near_eighths() const { return near_eighths_; }
+
  private:
   static constexpr int kBlock = 4;
   void FillNear(std::span<const std::uint8_t> down);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "recon/cell_distances.h"
+#include "recon/contour_kernel.h"
 
 namespace elbowroom::recon {
 namespace {
@@ -24,13 +25,10 @@ constexpr double kHalfDiagonal = 0.70710678118654757;
 constexpr int kWindowCells = 2;
 // Rounding of a position and of a distance.
 constexpr double kRoundingPx = 1e-7;
-// An edge is listed in cells that it only nearly touches, so that rounding can't lose it.
-constexpr double kTouch = 1e-6;
-// Behind a raster, so that a cell's byte may be read with those that follow it.
-constexpr std::size_t kBytesBehind = 3;
+constexpr double kTouch = LabelRaster::kTouchCells;
 
-double SquaredDistance(const Vector2d& p, const Vector2d& a, const Vector2d& b) {
-  const Vector2d ab = b - a, ap = p - a;
+double SquaredDistance(const Vector2d& p, const LabelRaster::Edge& edge) {
+  const Vector2d a(edge.from_x, edge.from_y), b(edge.to_x, edge.to_y), ab = b - a, ap = p - a;
   const double along = ab.dot(ap), length2 = ab.squaredNorm();
   if (!(along > 0.0)) return ap.squaredNorm();
   if (along >= length2) return (p - b).squaredNorm();
@@ -56,11 +54,11 @@ class ContourMap::Grid {
     distances_ = CellDistances(cells_.x(), cells_.y(), first_);
   }
 
-  [[nodiscard]] LabelRaster Raster() const { return {origin_, cell_px_, cells_, labels_}; }
-
-  struct Segment {
-    Vector2d a, b;
-  };
+  [[nodiscard]] LabelRaster Raster() const {
+    return {origin_.x(), origin_.y(), cell_px_, cells_per_px_,
+            cells_.x(),  cells_.y(),  labels_,  distances_.near_eighths(),
+            first_,      segments_};
+  }
 
   struct Place {
     Eigen::Vector2i cell;
@@ -80,7 +78,9 @@ class ContourMap::Grid {
     const std::uint8_t label = labels_[place.index];
     const bool at_centre = (label & LabelRaster::kObject) != 0;
     if ((label & LabelRaster::kMixed) == 0) return at_centre;
-    return at_centre != ChangesOnTheWay(place, position);
+    const Vector2d centre = Centre(place.cell.x(), place.cell.y());
+    const std::span edges(segments_.data() + first_[place.index], segments_.data() + first_[place.index + 1]);
+    return at_centre != ChangesInCell(edges, {centre.x(), centre.y()}, {position.x(), position.y()});
   }
 
   // Lower bound, in px.
@@ -104,40 +104,7 @@ class ContourMap::Grid {
     return edge;
   }
 
-  [[nodiscard]] std::optional<double> FirstCrossing(const Vector2d& from, const Vector2d& to) const {
-    const Vector2d way = to - from;
-    const Eigen::Vector2i one = NearestCell(from);
-    const double far_px =
-        (distances_.LowerBound(one.x(), one.y()) - 2.0 * kHalfDiagonal) * cell_px_ - kRoundingPx;
-    if (far_px > 0.0 && far_px * far_px > way.squaredNorm()) return std::nullopt;
-    const Eigen::Vector2i other = NearestCell(to);
-    const Eigen::Vector2i first = one.cwiseMin(other), last = one.cwiseMax(other);
-    const double side_of_way = Cross(way, from);
-    double nearest = kInfinity;
-    for (int y = first.y(); y <= last.y(); ++y) {
-      const std::uint32_t end = first_[Index(last.x(), y) + 1];
-      for (std::uint32_t i = first_[Index(first.x(), y)]; i < end; ++i) {
-        const auto& [a, b] = segments_[i];
-        // The ends of the edge on different sides of the way, and those of the way of the edge.
-        const double side_a = Cross(way, a) - side_of_way, side_b = Cross(way, b) - side_of_way;
-        if ((side_a > 0.0) == (side_b > 0.0)) continue;
-        const double share = Cross(a - from, b - a) / (side_b - side_a);
-        if (share >= 0.0 && share <= 1.0) nearest = std::min(nearest, share);
-      }
-    }
-    if (nearest > 1.0) return std::nullopt;
-    return nearest;
-  }
-
  private:
-  static double Cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
-
-  [[nodiscard]] Eigen::Vector2i NearestCell(const Vector2d& position) const {
-    const Vector2d at = (position - origin_) * cells_per_px_;
-    return {static_cast<int>(std::clamp(at.x(), 0.0, cells_.x() - 1.0)),
-            static_cast<int>(std::clamp(at.y(), 0.0, cells_.y() - 1.0))};
-  }
-
   [[nodiscard]] std::size_t Index(int x, int y) const {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(cells_.x()) + static_cast<std::size_t>(x);
   }
@@ -174,11 +141,11 @@ class ContourMap::Grid {
     for (std::uint32_t e = 0; e < edges; ++e) VisitCells(e, [&](std::size_t cell) { ++first_[cell + 1]; });
     for (std::size_t i = 1; i < first_.size(); ++i) first_[i] += first_[i - 1];
     listed_.resize(first_.back());
-    segments_.resize(first_.back());
+    segments_.resize(first_.back() + LabelRaster::kEdgesBehind);
     std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
     for (std::uint32_t e = 0; e < edges; ++e) {
       VisitCells(e, [&](std::size_t cell) {
-        segments_[next[cell]] = {From(e), To(e)};
+        segments_[next[cell]] = {From(e).x(), From(e).y(), To(e).x(), To(e).y()};
         listed_[next[cell]++] = e;
       });
     }
@@ -186,7 +153,7 @@ class ContourMap::Grid {
 
   // Along each row of centres, from the left; an edge flips every centre at or right of where it crosses.
   void LabelCentres(bool exterior_is_object) {
-    labels_.assign(first_.size() - 1 + kBytesBehind, 0);
+    labels_.assign(first_.size() - 1 + LabelRaster::kBytesBehind, 0);
     for (std::uint32_t e = 0; e < contour_.edges.size(); ++e) {
       const Vector2d &a = From(e), &b = To(e);
       const double low = std::min(a.y(), b.y()), high = std::max(a.y(), b.y());
@@ -215,30 +182,6 @@ class ContourMap::Grid {
     return a.x() + (y - a.y()) / (b.y() - a.y()) * (b.x() - a.x());
   }
 
-  // From the centre along the row to the position's x, then along the column to the position: both legs stay
-  // in the cell, so its edges are all that matter. Each edge decides once on which side of it the legs meet,
-  // or an edge through that very corner would count for one leg and not for the other.
-  [[nodiscard]] bool ChangesOnTheWay(const Place& place, const Vector2d& p) const {
-    const Vector2d c = Centre(place.cell.x(), place.cell.y());
-    bool changes = false;
-    for (std::uint32_t i = first_[place.index]; i < first_[place.index + 1]; ++i) {
-      const auto& [a, b] = segments_[i];
-      const bool rises = (b.x() - a.x()) * (b.y() - a.y()) > 0.0;
-      bool corner_is_below = a.y() <= c.y();
-      if ((a.y() > c.y()) != (b.y() > c.y())) {
-        const double x = CrossingX(a, b, c.y());
-        const bool corner_is_right = x <= p.x();
-        changes ^= corner_is_right != (x <= c.x());
-        corner_is_below = corner_is_right != rises;
-      }
-      if ((a.x() > p.x()) != (b.x() > p.x())) {
-        const double y = a.y() + (p.x() - a.x()) / (b.x() - a.x()) * (b.y() - a.y());
-        changes ^= corner_is_below != (rises ? y < p.y() : y <= p.y());
-      }
-    }
-    return changes;
-  }
-
   [[nodiscard]] std::pair<std::uint32_t, double> NearestInWindow(const Place& place,
                                                                  const Vector2d& p) const {
     std::pair<std::uint32_t, double> nearest{0, kInfinity};
@@ -247,7 +190,7 @@ class ContourMap::Grid {
     const int bottom = std::min(place.cell.y() + kWindowCells, cells_.y() - 1);
     for (int y = std::max(place.cell.y() - kWindowCells, 0); y <= bottom; ++y) {
       for (std::uint32_t i = first_[Index(left, y)]; i < first_[Index(right, y) + 1]; ++i) {
-        const double squared = SquaredDistance(p, segments_[i].a, segments_[i].b);
+        const double squared = SquaredDistance(p, segments_[i]);
         if (squared < nearest.second) nearest = {listed_[i], squared};
       }
     }
@@ -261,8 +204,8 @@ class ContourMap::Grid {
   Vector2d origin_{0.0, 0.0};
   std::vector<std::uint32_t> first_;  // of each cell's edges, in listed_; one more at the end
   std::vector<std::uint32_t> listed_;
-  std::vector<Segment> segments_;     // as listed_
-  std::vector<std::uint8_t> labels_;  // LabelRaster's; of a mixed cell kObject is its centre's
+  std::vector<LabelRaster::Edge> segments_;  // as listed_, and kEdgesBehind more
+  std::vector<std::uint8_t> labels_;         // LabelRaster's; of a mixed cell kObject is its centre's
   CellDistances distances_;
 };
 
@@ -307,15 +250,11 @@ PlaneLabel ContourMap::LabelAt(const Vector2d& position, double enough_px) const
 
 LabelRaster ContourMap::Raster() const {
   if (!bounds_px_.isEmpty()) return grid().Raster();
-  static constexpr std::array<std::uint8_t, 1 + kBytesBehind> kBackground{0}, kObject{LabelRaster::kObject};
+  static constexpr std::array<std::uint8_t, 1 + LabelRaster::kBytesBehind> kBackground{0},
+      kObject{LabelRaster::kObject};
   LabelRaster nothing;
   nothing.labels = exterior_is_object_ ? kObject : kBackground;
   return nothing;
-}
-
-std::optional<double> ContourMap::FirstCrossing(const Vector2d& from, const Vector2d& to) const {
-  if (bounds_px_.isEmpty()) return std::nullopt;
-  return grid().FirstCrossing(from, to);
 }
 
 std::optional<std::uint32_t> ContourMap::NearestEdge(const Vector2d& position) const {

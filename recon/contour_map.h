@@ -9,9 +9,9 @@
 #include <memory>
 #include <mutex>
 #include <optional>
-#include <span>
 
 #include "recon/contour.h"
+#include "recon/label_raster.h"
 
 namespace elbowroom::recon {
 
@@ -19,18 +19,6 @@ struct PlaneLabel {
   bool is_object = false;
   // Certified: every position nearer than this carries the same label. Infinite where nothing differs.
   double distance_px = 0.0;
-};
-
-// Square cells over a contour: for labels in bulk. Positions in no cell are exterior, and so is all of cell
-// 0.
-struct LabelRaster {
-  static constexpr std::uint8_t kObject = 1;  // all of the cell
-  static constexpr std::uint8_t kMixed = 2;  // edges touch it: the other bit says nothing of a position in it
-
-  Eigen::Vector2d origin_px = Eigen::Vector2d::Zero();
-  double cell_px = 1.0;
-  Eigen::Vector2i cells{0, 0};
-  std::span<const std::uint8_t> labels;  // row by row; three more bytes behind the last may be read
 };
 
 // A contour that can be asked. Its grid of cells is built with the first question about a position, in time
@@ -61,16 +49,11 @@ class ContourMap {
   [[nodiscard]] PlaneLabel LabelAt(const Eigen::Vector2d& position,
                                    double enough_px = std::numeric_limits<double>::infinity()) const;
 
-  // The grid's cells; of no cells where there are no edges. As long-lived as the map.
+  // The grid's cells, for questions in bulk; of no cells where there are no edges. As long-lived as the map.
   [[nodiscard]] LabelRaster Raster() const;
 
   // The nearest edge, if one is within 2 cells.
   [[nodiscard]] std::optional<std::uint32_t> NearestEdge(const Eigen::Vector2d& position) const;
-
-  // How far along the straight way from one position to another the first edge is crossed, 0 to 1. For ways
-  // of a few cells: cost follows their box.
-  [[nodiscard]] std::optional<double> FirstCrossing(const Eigen::Vector2d& from,
-                                                    const Eigen::Vector2d& to) const;
 
  private:
   class Grid;

@@ -20,8 +20,9 @@ struct HullGrid {
   double edge_mm = 1.0;
   GridPoint cells = GridPoint::Zero();  // in each direction
 
-  [[nodiscard]] Eigen::Vector3d At(const GridPoint& p) const {
-    return origin_in_world + edge_mm * p.cast<double>();
+  [[nodiscard]] Eigen::Vector3d At(const GridPoint& p) const { return AtSteps(p.cast<double>()); }
+  [[nodiscard]] Eigen::Vector3d AtSteps(const Eigen::Vector3d& steps) const {
+    return origin_in_world + edge_mm * steps;
   }
 };
 

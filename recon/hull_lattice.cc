@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <optional>
 
 namespace elbowroom::recon {
 namespace {
@@ -16,12 +15,22 @@ constexpr int kBisections = 40;
 // too, while the workspace is less than some 8000 edges long.
 constexpr double kEndShare = 1.0 / 2048;
 
-// Instead of an edge's share of the way: no crossing was met; or one can't be worked out.
-constexpr double kNone = 2.0;
-constexpr double kUnknown = -1.0;
-
 GridPoint LowEnd(const HullBlock& block, const BlockEdge& edge) {
   return block.corner + GridPoint(edge.low[0], edge.low[1], edge.low[2]);
+}
+
+// Point i of both, from inside to outside.
+void SetEnds(const HullBlock& block, const BlockEdge& edge, std::size_t i, GridPoints* from, GridPoints* to) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double low = block.corner[static_cast<Eigen::Index>(axis)] + edge.low[axis];
+    const double high = low + (edge.axis == axis ? 1.0 : 0.0);
+    from->at[axis][i] = edge.low_is_inside ? low : high;
+    to->at[axis][i] = edge.low_is_inside ? high : low;
+  }
+}
+
+Vector3d PointOf(const GridPoints& points, std::size_t i) {
+  return {points.at[0][i], points.at[1][i], points.at[2][i]};
 }
 
 BlockBits AllPoints() {
@@ -48,7 +57,7 @@ HullLattice::HullLattice(const VisualHull& hull, const HullGrid& grid) : hull_(h
     if (!outlines_.empty()) outlines_[i] = silhouette.plane().outline().Raster();
   });
   for (std::size_t i = 0; i < cameras; ++i)
-    projections_.emplace_back(hull.rig().cameras[i], hull.silhouettes()[i]->plane().focal_px(), grid);
+    views_.push_back(ViewGrid(hull.rig().cameras[i], hull.silhouettes()[i]->plane().focal_px(), grid));
   first_.setZero(), last_ = grid.cells;
   const Eigen::AlignedBox3d& box = hull.rig().workspace_mm;
   for (int axis = 0; axis < 3; ++axis) {
@@ -63,11 +72,12 @@ BlockBits HullLattice::LabelsOf(const HullBlock& block, std::int64_t* queries) c
   std::vector<BlockBits> mixed(block.cameras.size());
   for (std::size_t i = 0; i < mixed.size(); ++i) {
     const std::uint8_t camera = block.cameras[i];
-    *queries += projections_[camera].KeepByCells(rasters_[camera], block.corner, &bits, &mixed[i]);
+    const std::size_t groups = LabelByCells(views_[camera], block.corner, rasters_[camera], &bits, &mixed[i]);
+    *queries += static_cast<std::int64_t>(8 * groups);
   }
   for (std::size_t i = 0; i < mixed.size(); ++i) {
     const std::uint8_t camera = block.cameras[i];
-    projections_[camera].SettleMixed(hull_.silhouettes()[camera]->labels(), block.corner, mixed[i], &bits);
+    SettleMixed(views_[camera], rasters_[camera], block.corner, mixed[i], &bits);
   }
   if (!block.is_seen) *queries += KeepSeen(block.corner, &bits);
   return bits;
@@ -95,28 +105,34 @@ std::int64_t HullLattice::KeepSeen(const GridPoint& corner, BlockBits* bits) con
   BlockBits unseen = *bits;
   for (std::size_t i = 0; i < outlines_.size(); ++i) {
     BlockBits seen = unseen, mixed;
-    queries += projections_[i].KeepByCells(outlines_[i], corner, &seen, &mixed);
-    projections_[i].SettleMixed(hull_.silhouettes()[i]->plane().outline(), corner, mixed, &seen);
+    const std::size_t groups = LabelByCells(views_[i], corner, outlines_[i], &seen, &mixed);
+    queries += static_cast<std::int64_t>(8 * groups);
+    SettleMixed(views_[i], outlines_[i], corner, mixed, &seen);
     Clear(seen, &unseen);
   }
   Clear(unseen, bits);
   return queries;
 }
 
-std::vector<Vector3d> HullLattice::ExitsOf(const HullBlock& block, std::span<const BlockEdge> edges) const {
-  std::vector<double> shares(edges.size(), block.is_seen ? kNone : kUnknown);
-  if (!block.is_in_workspace) OfferFaces(block, edges, shares);
-  for (const std::uint8_t i : block.cameras) OfferCrossings(i, block.corner, edges, shares);
-  std::vector<Vector3d> exits(edges.size());
-  for (std::size_t i = 0; i < edges.size(); ++i) {
-    const GridPoint low = LowEnd(block, edges[i]), high = low + GridPoint(GridPoint::Unit(edges[i].axis));
-    const Vector3d inside = grid_.At(edges[i].low_is_inside ? low : high);
-    const Vector3d outside = grid_.At(edges[i].low_is_inside ? high : low);
-    const bool is_exact = shares[i] >= 0.0 && shares[i] <= 1.0;
-    const double share = is_exact ? shares[i] : BisectedExit(inside, outside);
-    exits[i] = inside + std::clamp(share, kEndShare, 1.0 - kEndShare) * (outside - inside);
+void HullLattice::FindExits(const HullBlock& block, std::span<const BlockEdge> edges,
+                            std::span<Vector3d> exits_in_world) const {
+  WayShares all_shares;
+  GridPoints from, to;
+  for (; !edges.empty();
+       exits_in_world = exits_in_world.subspan(from.count), edges = edges.subspan(from.count)) {
+    from.count = to.count = std::min(edges.size(), GridPoints::kMost);
+    for (std::size_t i = 0; i < from.count; ++i) SetEnds(block, edges[i], i, &from, &to);
+    const std::span shares(all_shares.at.data(), from.count);
+    std::ranges::fill(shares, block.is_seen ? kNoCrossing : kUnknownCrossing);
+    if (!block.is_in_workspace) OfferFaces(block, edges.first(from.count), shares);
+    for (const std::uint8_t i : block.cameras) OfferCrossings(views_[i], rasters_[i], from, to, &all_shares);
+    for (std::size_t i = 0; i < from.count; ++i) {
+      const Vector3d inside = grid_.AtSteps(PointOf(from, i)), outside = grid_.AtSteps(PointOf(to, i));
+      const bool is_exact = shares[i] >= 0.0 && shares[i] <= 1.0;
+      const double share = is_exact ? shares[i] : BisectedExit(inside, outside);
+      exits_in_world[i] = inside + std::clamp(share, kEndShare, 1.0 - kEndShare) * (outside - inside);
+    }
   }
-  return exits;
 }
 
 void HullLattice::OfferFaces(const HullBlock& block, std::span<const BlockEdge> edges,
@@ -125,33 +141,11 @@ void HullLattice::OfferFaces(const HullBlock& block, std::span<const BlockEdge> 
   for (std::size_t i = 0; i < edges.size(); ++i) {
     const int axis = edges[i].axis;
     const GridPoint low = LowEnd(block, edges[i]);
-    const double ends[2] = {grid_.At(low)[axis], grid_.At(low + GridPoint(GridPoint::Unit(axis)))[axis]};
+    const double ends[2] = {grid_.At(low)[axis], grid_.At(low + GridPoint::Unit(axis))[axis]};
     const double inside = ends[edges[i].low_is_inside ? 0 : 1],
                  outside = ends[edges[i].low_is_inside ? 1 : 0];
     const double face = std::clamp(outside, box.min()[axis], box.max()[axis]);
     if (face != outside) shares[i] = std::min(shares[i], (face - inside) / (outside - inside));
-  }
-}
-
-void HullLattice::OfferCrossings(std::size_t camera, const GridPoint& corner,
-                                 std::span<const BlockEdge> edges, std::span<double> shares) const {
-  const ContourMap& labels = hull_.silhouettes()[camera]->labels();
-  const PointProjection::Block points(projections_[camera], corner);
-  for (std::size_t i = 0; i < edges.size(); ++i) {
-    const auto [x, y, z] = edges[i].low;
-    const std::size_t in_x = edges[i].axis == 0, in_y = edges[i].axis == 1, in_z = edges[i].axis == 2;
-    const PointProjection::Point low = points.At(x, y, z), high = points.At(x + in_x, y + in_y, z + in_z);
-    const PointProjection::Point &from = edges[i].low_is_inside ? low : high,
-                                 &to = edges[i].low_is_inside ? high : low;
-    if (!(from.z_mm > 0.0) || !(to.z_mm > 0.0)) {
-      shares[i] = kUnknown;
-      continue;
-    }
-    const std::optional<double> in_picture = labels.FirstCrossing(from.position, to.position);
-    if (!in_picture) continue;
-    // From a share of the way in the picture to one of the way in space.
-    const double share = *in_picture * from.z_mm / (to.z_mm + *in_picture * (from.z_mm - to.z_mm));
-    shares[i] = std::min(shares[i], share);
   }
 }
 

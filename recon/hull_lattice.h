@@ -32,21 +32,19 @@ class HullLattice {
   [[nodiscard]] BlockBits LabelsOf(const HullBlock& block, std::int64_t* queries) const;
 
   // Where each of some edges of a block, its ends of different labels, first leaves the hull, from the end
-  // that is inside; at least edge / 2048 from its ends.
-  [[nodiscard]] std::vector<Eigen::Vector3d> ExitsOf(const HullBlock& block,
-                                                     std::span<const BlockEdge> edges) const;
+  // that is inside; at least edge / 2048 from its ends. One an edge.
+  void FindExits(const HullBlock& block, std::span<const BlockEdge> edges,
+                 std::span<Eigen::Vector3d> exits_in_world) const;
 
  private:
   [[nodiscard]] BlockBits InWorkspace(const GridPoint& corner) const;
   std::int64_t KeepSeen(const GridPoint& corner, BlockBits* bits) const;
   void OfferFaces(const HullBlock& block, std::span<const BlockEdge> edges, std::span<double> shares) const;
-  void OfferCrossings(std::size_t camera, const GridPoint& corner, std::span<const BlockEdge> edges,
-                      std::span<double> shares) const;
   [[nodiscard]] double BisectedExit(const Eigen::Vector3d& inside, const Eigen::Vector3d& outside) const;
 
   const VisualHull& hull_;
   const HullGrid& grid_;
-  std::vector<PointProjection> projections_;  // by camera, as these
+  std::vector<GridView> views_;  // by camera, as these
   std::vector<LabelRaster> rasters_;
   std::vector<LabelRaster> outlines_;  // empty where the rig doesn't ask for sight
   // The grid points in the workspace: along each axis from `first` to `last`.

@@ -5,7 +5,9 @@
 
 #include <hwy/highway.h>
 
-#include "recon/contour_map.h"
+#include <algorithm>
+#include <cmath>
+
 #include "recon/label_kernel.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -13,26 +15,25 @@ namespace elbowroom::recon::HWY_NAMESPACE {
 namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
-using Doubles = hn::CappedTag<double, 8>;
-using Ints = hn::Rebind<std::int32_t, Doubles>;
-using VD = hn::Vec<Doubles>;
+using Floats = hn::CappedTag<float, 8>;
+using Ints = hn::Rebind<std::int32_t, Floats>;
+using Unsigned = hn::RebindToUnsigned<Ints>;
+using VF = hn::Vec<Floats>;
 using VI = hn::Vec<Ints>;
 
 constexpr std::size_t kSide = kBlockPoints;
 
-// As many points as a vector holds.
+// As many points as a vector holds, across and down in cells times z.
 struct Points {
-  VD x;
-  VD y;
-  VD z;
+  VF x;
+  VF y;
+  VF z;
 };
 
-HWY_INLINE VD Set(double number) { return hn::Set(Doubles(), number); }
+HWY_INLINE VF Set(double number) { return hn::Set(Floats(), static_cast<float>(number)); }
 
-// No fused operation anywhere: it would round differently on processors without one. The order of the sums is
-// PointProjection::Block::At's.
-HWY_INLINE Points Times(VD count, const std::array<double, 3>& step) {
-  return {hn::Mul(count, Set(step[0])), hn::Mul(count, Set(step[1])), hn::Mul(count, Set(step[2]))};
+HWY_INLINE Points Times(VF count, const Points& step) {
+  return {hn::Mul(count, step.x), hn::Mul(count, step.y), hn::Mul(count, step.z)};
 }
 HWY_INLINE Points Sum(const Points& a, const Points& b) {
   return {hn::Add(a.x, b.x), hn::Add(a.y, b.y), hn::Add(a.z, b.z)};
@@ -52,88 +53,113 @@ HWY_INLINE unsigned BitsOf(VI label, std::int32_t bit) {
   return bytes[0];
 }
 
+class Cells {
+ public:
+  explicit Cells(const LabelRaster& raster)
+      : labels_(reinterpret_cast<const std::int32_t*>(raster.labels.data())),
+        origin_x_(Set(raster.origin_x_px * raster.cells_per_px)),
+        origin_y_(Set(raster.origin_y_px * raster.cells_per_px)),
+        width_(hn::Set(Ints(), raster.width)),
+        height_(hn::Set(Ints(), raster.height)) {}
+
+  [[nodiscard]] HWY_INLINE VI LabelsOf(const Points& points) const {
+    const VF per_z = hn::Div(Set(1.0), points.z);
+    const VI column = CellOf(hn::Sub(hn::Mul(points.x, per_z), origin_x_));
+    const VI row = CellOf(hn::Sub(hn::Mul(points.y, per_z), origin_y_));
+    const VI index = hn::Add(hn::Mul(row, width_), column);
+    // Negative numbers are the largest of all.
+    const auto is_below = [](VI number, VI end) HWY_ATTR {
+      return hn::Lt(hn::BitCast(Unsigned(), number), hn::BitCast(Unsigned(), end));
+    };
+    const auto is_in_cell = hn::And(is_below(column, width_), is_below(row, height_));
+    return hn::GatherOffset(Ints(), labels_, hn::IfThenElseZero(hn::RebindMask(Ints(), is_in_cell), index));
+  }
+
+ private:
+  // The number's floor by its last bits beside 2^23; of one on the border between two cells, either.
+  // Negative, or at least 2^23, if it isn't from 0 to 2^23.
+  static HWY_INLINE VI CellOf(VF number) {
+    constexpr double kLastBitIsOne = 1 << 23;
+    const VF beside = hn::Add(hn::Sub(number, Set(0.5)), Set(kLastBitIsOne));
+    return hn::Sub(hn::BitCast(Ints(), beside), hn::BitCast(Ints(), Set(kLastBitIsOne)));
+  }
+  const std::int32_t* const labels_;
+  const VF origin_x_, origin_y_;
+  const VI width_, height_;
+};
+
 class Labeller {
  public:
-  Labeller(const RasterView& raster, BlockBits* bits, BlockBits* mixed)
-      : raster_(raster), bits_(*bits), mixed_(*mixed) {}
+  Labeller(const LabelRaster& raster, BlockBits* bits, BlockBits* mixed)
+      : cells_(raster), bits_(*bits), mixed_(*mixed) {}
 
-  // Points `first` and on of a group.
-  HWY_INLINE void Ask(std::size_t first, const Points& points) {
-    const VI label = LabelsOf(points);
-    object_ |= BitsOf(label, LabelRaster::kObject) << first;
-    unsure_ |= BitsOf(label, LabelRaster::kMixed) << first;
-  }
-  HWY_INLINE void Finish(std::size_t group) {
-    mixed_.groups[group] = static_cast<std::uint8_t>(bits_.groups[group] & unsure_);
-    bits_.groups[group] = static_cast<std::uint8_t>(bits_.groups[group] & (object_ | unsure_));
-    object_ = unsure_ = 0;
-    ++asked_;
-  }
-  // False if nothing is to be asked.
-  HWY_INLINE bool Begin(std::size_t group) {
-    mixed_.groups[group] = 0;
-    return bits_.groups[group] != 0;
+  // A group whose points are those of `points_from(i)`, i points on. One without a bit isn't asked.
+  template <typename PointsFrom>
+  HWY_INLINE void Ask(std::size_t group, const PointsFrom& points_from) {
+    const unsigned bits = bits_.groups[group];
+    unsigned object = 0, unsure = 0;
+    if (bits != 0) {
+      for (std::size_t i = 0; i < 8; i += hn::Lanes(Floats())) {
+        const VI label = cells_.LabelsOf(points_from(i));
+        object |= BitsOf(label, LabelRaster::kObject) << i;
+        unsure |= BitsOf(label, LabelRaster::kMixed) << i;
+      }
+      ++asked_;
+    }
+    mixed_.groups[group] = static_cast<std::uint8_t>(bits & unsure);
+    bits_.groups[group] = static_cast<std::uint8_t>(bits & (object | unsure));
   }
   [[nodiscard]] std::size_t asked() const { return asked_; }
 
  private:
-  HWY_INLINE VI LabelsOf(const Points& points) const {
-    const Doubles d;
-    const Ints n;
-    const VD per_z = hn::Div(Set(1.0), points.z), zero = hn::Zero(d);
-    const VD x = hn::Mul(points.x, per_z), y = hn::Mul(points.y, per_z);
-    const VD across = hn::Mul(hn::Sub(x, Set(raster_.origin_x_px)), Set(raster_.cells_per_px));
-    const VD down = hn::Mul(hn::Sub(y, Set(raster_.origin_y_px)), Set(raster_.cells_per_px));
-    // Written so that a NaN is in no cell.
-    const auto is_across = hn::And(hn::Ge(across, zero), hn::Lt(across, Set(raster_.width)));
-    const auto is_down = hn::And(hn::Ge(down, zero), hn::Lt(down, Set(raster_.height)));
-    const auto is_in_cell = hn::And(hn::And(is_across, is_down), hn::Gt(points.z, zero));
-    const VI column = hn::DemoteTo(n, hn::IfThenElseZero(is_in_cell, across));
-    const VI row = hn::DemoteTo(n, hn::IfThenElseZero(is_in_cell, down));
-    const VI index = hn::Add(hn::Mul(row, hn::Set(n, raster_.width)), column);
-    return hn::GatherOffset(n, reinterpret_cast<const std::int32_t*>(raster_.labels), index);
-  }
-
-  const RasterView& raster_;
+  const Cells cells_;
   BlockBits& bits_;
   BlockBits& mixed_;
-  unsigned object_ = 0, unsure_ = 0;
   std::size_t asked_ = 0;
 };
 
-std::size_t Label(const BlockView& block, const RasterView& raster, BlockBits* bits, BlockBits* mixed) {
-  const Doubles d;
-  const std::size_t at_once = hn::Lanes(d);
-  Labeller labeller(raster, bits, mixed);
-  std::array<std::array<double, 3>, kSide> rows, layers;
-  for (std::size_t i = 0; i < kSide; ++i) {
-    rows[i] = Along({}, block.corner[1] + static_cast<double>(i), block.steps[1]);
-    layers[i] = Along(block.origin, block.corner[2] + static_cast<double>(i), block.steps[2]);
+// y and z of the far face's points, in the order of their bits.
+struct FarPoints {
+  alignas(32) std::array<float, 8 * BlockBits::kFarGroups> y{}, z{};
+};
+constexpr FarPoints MakeFarPoints() {
+  FarPoints points;
+  for (std::size_t i = 0; i < points.y.size(); ++i) {
+    points.y[i] = static_cast<float>(i % kSide);
+    points.z[i] = static_cast<float>(i / kSide);
   }
-  for (std::size_t group = 0; group < BlockBits::kRows; ++group) {
-    if (!labeller.Begin(group)) continue;
-    for (std::size_t i = 0; i < 8; i += at_once) {
-      const VD x = hn::Add(hn::Iota(d, static_cast<double>(i)), Set(block.corner[0]));
-      const Points in_layer = Sum(Times(x, block.steps[0]), Spread(rows[group % kSide]));
-      labeller.Ask(i, Sum(in_layer, Spread(layers[group / kSide])));
+  return points;
+}
+constexpr FarPoints kFarPoints = MakeFarPoints();
+
+// `block`: x and y in cells times z; from its own corner.
+std::size_t Label(const GridView& block, const LabelRaster& raster, BlockBits* bits, BlockBits* mixed) {
+  const Floats f;
+  const GridView view = block;  // no byte that is written may be part of it
+  Labeller labeller(raster, bits, mixed);
+  const Points step_x = Spread(view.steps[0]);
+  const Points near = Times(hn::Iota(f, 0.0F), step_x);
+  std::array<double, 3> layer = view.origin;
+  for (std::size_t group = 0; group < BlockBits::kRows;) {
+    std::array<double, 3> row = layer;
+    for (const std::size_t end = group + kSide; group < end; ++group) {
+      const Points begin = Sum(near, Spread(row));
+      labeller.Ask(group, [&](std::size_t i) HWY_ATTR {
+        return i == 0 ? begin : Sum(begin, Times(Set(static_cast<double>(i)), step_x));
+      });
+      row = Along(row, 1.0, view.steps[1]);
     }
-    labeller.Finish(group);
+    layer = Along(layer, 1.0, view.steps[2]);
   }
   // The far face.
-  const Points across = Times(Set(block.corner[0] + kBlockCells), block.steps[0]);
+  const Points far = Spread(Along(view.origin, kBlockCells, view.steps[0]));
+  const Points step_y = Spread(view.steps[1]), step_z = Spread(view.steps[2]);
   for (std::size_t group = BlockBits::kRows; group < BlockBits::kGroups; ++group) {
-    if (!labeller.Begin(group)) continue;
-    for (std::size_t i = 0; i < 8; i += at_once) {
-      alignas(64) double y[8] = {}, z[8] = {};
-      for (std::size_t lane = 0; lane < at_once; ++lane) {
-        const std::size_t row = 8 * (group - BlockBits::kRows) + i + lane;
-        y[lane] = block.corner[1] + static_cast<double>(row % kSide);
-        z[lane] = block.corner[2] + static_cast<double>(row / kSide);
-      }
-      const Points in_layer = Sum(across, Times(hn::Load(d, y), block.steps[1]));
-      labeller.Ask(i, Sum(in_layer, Sum(Spread(block.origin), Times(hn::Load(d, z), block.steps[2]))));
-    }
-    labeller.Finish(group);
+    labeller.Ask(group, [&](std::size_t i) HWY_ATTR {
+      const std::size_t point = 8 * (group - BlockBits::kRows) + i;
+      const VF y = hn::Load(f, &kFarPoints.y[point]), z = hn::Load(f, &kFarPoints.z[point]);
+      return Sum(far, Sum(Times(y, step_y), Times(z, step_z)));
+    });
   }
   return labeller.asked();
 }
@@ -147,9 +173,49 @@ namespace elbowroom::recon {
 
 HWY_EXPORT(Label);
 
-std::size_t LabelByCells(const BlockView& block, const RasterView& raster, BlockBits* bits,
-                         BlockBits* mixed) {
-  return HWY_DYNAMIC_DISPATCH(Label)(block, raster, bits, mixed);
+namespace {
+
+// Whether the kernel's float32 puts all points of a block in front of the camera, each less than kTouchCells
+// from where it is. A coordinate is rounded to 2^-24 of itself some six times on the way: its terms, their
+// sums; so is what the division leaves, and the place among the cells.
+bool FloatsWillDo(const GridView& block, const LabelRaster& raster) {
+  constexpr double kRounding = 8.0 / (1 << 24);
+  std::array<double, 3> error{};  // of a coordinate's terms together
+  double least_z = block.origin[2];
+  for (std::size_t k = 0; k < 3; ++k) {
+    double most = std::abs(block.origin[k]);
+    for (const std::array<double, 3>& step : block.steps) most += kBlockCells * std::abs(step[k]);
+    error[k] = kRounding * most;
+  }
+  for (const std::array<double, 3>& step : block.steps) least_z += kBlockCells * std::min(step[2], 0.0);
+  least_z -= error[2];
+  if (!(least_z > 0.0)) return false;
+  // Positions farther out than twice the cells don't come near them by an error that passes below.
+  const double left = raster.origin_x_px * raster.cells_per_px,
+               top = raster.origin_y_px * raster.cells_per_px;
+  const double reach =
+      std::max({std::abs(left), std::abs(top), std::abs(left + raster.width), std::abs(top + raster.height)});
+  const double error_cells =
+      (std::max(error[0], error[1]) + 2.0 * reach * error[2]) / least_z + kRounding * reach;
+  return error_cells < LabelRaster::kTouchCells;
+}
+
+}  // namespace
+
+std::size_t LabelByCells(const GridView& grid, const GridPoint& corner, const LabelRaster& raster,
+                         BlockBits* bits, BlockBits* mixed) {
+  GridView block;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double scale = k < 2 ? raster.cells_per_px : 1.0;
+    block.origin[k] = scale * grid.origin[k];
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      block.steps[axis][k] = scale * grid.steps[axis][k];
+      block.origin[k] += corner[static_cast<Eigen::Index>(axis)] * block.steps[axis][k];
+    }
+  }
+  if (FloatsWillDo(block, raster)) return HWY_DYNAMIC_DISPATCH(Label)(block, raster, bits, mixed);
+  *mixed = *bits;
+  return BlockBits::kGroups - static_cast<std::size_t>(std::ranges::count(bits->groups, 0));
 }
 
 }  // namespace elbowroom::recon

@@ -1,11 +1,13 @@
-// The inner loop of PointProjection::KeepByCells, eight points at a time.
+// Labels of a block's grid points by the cells that they fall in, eight points at a time.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
 
+#include "recon/contour_kernel.h"
 #include "recon/hull_blocks.h"
+#include "recon/label_raster.h"
 
 namespace elbowroom::recon {
 
@@ -20,41 +22,31 @@ struct BlockBits {
   // y + kBlockPoints * z, counted on from group to group.
   std::array<std::uint8_t, kGroups> groups{};
 
-  // The grid point of a bit of a group.
-  [[nodiscard]] static std::array<std::size_t, 3> PointOf(std::size_t group, std::size_t bit) {
-    if (group < kRows) return {bit, group % kBlockPoints, group / kBlockPoints};
-    const std::size_t row = 8 * (group - kRows) + bit;
-    return {kBlockCells, row % kBlockPoints, row / kBlockPoints};
-  }
+  // The grid points of the bits, 8 to a group.
+  static constexpr std::array<std::array<std::uint8_t, 3>, 8 * kGroups> kPoints = [] {
+    std::array<std::array<std::uint8_t, 3>, 8 * kGroups> points{};
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const std::size_t row = i < 8 * kRows ? i / 8 : i - 8 * kRows, x = i < 8 * kRows ? i % 8 : kBlockCells;
+      points[i] = {static_cast<std::uint8_t>(x), static_cast<std::uint8_t>(row % kBlockPoints),
+                   static_cast<std::uint8_t>(row / kBlockPoints)};
+    }
+    return points;
+  }();
 
-  // The points (x, y, z), bit x each.
-  [[nodiscard]] unsigned Row(int y, int z) const {
+  [[nodiscard]] bool At(int x, int y, int z) const {
     const auto row = static_cast<std::size_t>(y + kBlockPoints * z);
-    const unsigned far = groups[kRows + row / 8] >> (row % 8) & 1U;
-    return groups[row] | far << 8U;
+    if (x < kBlockCells) return (groups[row] >> x & 1) != 0;
+    return (groups[kRows + row / 8] >> (row % 8) & 1) != 0;
   }
 };
 static_assert(kBlockCells == 8, "a row of cells is a group of points");
 
-// A block before a camera: x and y are in focal lengths of pixels, mm; z in mm.
-struct BlockView {
-  std::array<double, 3> origin{};                // of grid point (0, 0, 0)
-  std::array<std::array<double, 3>, 3> steps{};  // along each axis
-  std::array<double, 3> corner{};                // the block's, as a grid point
-};
-
-// LabelRaster, as the loop wants it.
-struct RasterView {
-  const std::uint8_t* labels = nullptr;
-  double origin_x_px = 0.0;
-  double origin_y_px = 0.0;
-  double cells_per_px = 1.0;
-  std::int32_t width = 0;
-  std::int32_t height = 0;
-};
-
-// Clears the bits of points in cells of background; those in mixed cells stay, and are set in `mixed`. Groups
-// without a bit aren't asked; returns how many were.
-std::size_t LabelByCells(const BlockView& block, const RasterView& raster, BlockBits* bits, BlockBits* mixed);
+// Clears the bits of points of the block at `corner` that are in cells of background; those in mixed cells
+// stay, and are set in `mixed`. In float32, whose error stays below LabelRaster::kTouchCells: a cell that
+// isn't mixed answers for the points near it as well. Where that can't be said (a block that reaches behind
+// the camera, or far beside its axis) all points are mixed. Groups without a bit aren't asked; returns how
+// many were.
+std::size_t LabelByCells(const GridView& grid, const GridPoint& corner, const LabelRaster& raster,
+                         BlockBits* bits, BlockBits* mixed);
 
 }  // namespace elbowroom::recon
