@@ -179,12 +179,11 @@ bool EdgePencil::IsObjectAlong(const Eigen::Vector2d& uv) const {
 // A ray at (x, y) across the axis meets order t at the key t * (|x| + |y|) - along, where perspective `along`
 // is the ray's (u, v, 1) along the axis in units of the centre's distance.
 EdgePencil::KeyRange EdgePencil::ObjectKeys(const Eigen::AlignedBox2d& uv_box) const {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   constexpr double kRounding = 1e-9;
   if (is_concentric_) return {};
   const AngleRange angles = AnglesOf(uv_box);
   const OrderRange orders = orders_.Over(angles.least, angles.most);
-  if (orders.first > orders.last) return {kInfinity, -kInfinity};
+  if (orders.first > orders.last) return kNoKeys;
   const bool is_perspective = projection_ == Projection::kPerspective;
   const Eigen::Vector2d middle = uv_box.center(), half = 0.5 * uv_box.sizes();
   const Vector3d axis = centre_in_view_ / centre_in_view_.squaredNorm();

@@ -50,7 +50,10 @@ class EdgePencil {
   struct KeyRange {
     double least = -std::numeric_limits<double>::infinity();
     double most = std::numeric_limits<double>::infinity();
+    [[nodiscard]] bool is_empty() const { return least > most; }
   };
+  static constexpr KeyRange kNoKeys{std::numeric_limits<double>::infinity(),
+                                    -std::numeric_limits<double>::infinity()};
   [[nodiscard]] KeyRange ObjectKeys(const Eigen::AlignedBox2d& uv_box) const;
 
  private:

@@ -58,6 +58,14 @@ std::array<ViewPencils::Face, 6> ViewPencils::FacesOf(const Eigen::AlignedBox3d&
 
 ViewPencils::ViewPencils(const VisualHull& hull, const ViewRays& rays)
     : hull_(hull), rays_(rays), faces_(FacesOf(hull.rig().workspace_mm, rays)) {
+  for (const Face& face : faces_) {
+    (face.kind == Face::Kind::kNotBefore  ? box_.not_before
+     : face.kind == Face::Kind::kNotAfter ? box_.not_after
+                                          : box_.beside)
+        .push_back(face.bound.Narrow());
+  }
+  // A view that turns its back on the workspace asks the cameras nothing.
+  if (KeysInWorkspace(rays.BoundsOf(0, 0, rays.width_px(), rays.height_px())).is_empty()) return;
   const std::size_t cameras = hull.silhouettes().size();
   cameras_.resize(cameras);
   if (ExteriorIsObject(hull.rig())) sights_.resize(cameras);
@@ -69,12 +77,6 @@ ViewPencils::ViewPencils(const VisualHull& hull, const ViewRays& rays)
     if (!sights_.empty())
       sights_[i] = std::make_unique<const EdgePencil>(silhouette.plane().outline(), focal_px, camera, rays);
   });
-  for (const Face& face : faces_) {
-    (face.kind == Face::Kind::kNotBefore  ? box_.not_before
-     : face.kind == Face::Kind::kNotAfter ? box_.not_after
-                                          : box_.beside)
-        .push_back(face.bound.Narrow());
-  }
 }
 
 float ViewPencils::key_end() const {
@@ -83,6 +85,7 @@ float ViewPencils::key_end() const {
 
 std::int64_t ViewPencils::edges() const {
   std::int64_t edges = 0;
+  if (cameras_.empty()) return edges;
   for (const auto& silhouette : hull_.silhouettes())
     edges += static_cast<std::int64_t>(silhouette->labels().contour().edges.size());
   return edges;
@@ -106,23 +109,29 @@ void ViewPencils::Divide(int x, int y, int size, std::vector<PixelSquare>* squar
       if (part_x < right && part_y < bottom) Divide(part_x, part_y, half, squares);
 }
 
-// True if no ray of the box is in the workspace and in all cameras' objects at one place.
-bool ViewPencils::MissesHull(const Eigen::AlignedBox2d& box) const {
-  double least = -std::numeric_limits<double>::infinity(), most = key_end();
+EdgePencil::KeyRange ViewPencils::KeysInWorkspace(const Eigen::AlignedBox2d& box) const {
+  EdgePencil::KeyRange keys;
+  keys.most = key_end();
   for (const Face& face : faces_) {
-    if (face.kind == Face::Kind::kBeside && HighestOf(face.bound, box) < 0.0) return true;
-    if (face.kind == Face::Kind::kNotBefore) least = std::max(least, LowestOf(face.bound, box));
-    if (face.kind == Face::Kind::kNotAfter) most = std::min(most, HighestOf(face.bound, box));
+    if (face.kind == Face::Kind::kBeside && HighestOf(face.bound, box) < 0.0) return EdgePencil::kNoKeys;
+    if (face.kind == Face::Kind::kNotBefore) keys.least = std::max(keys.least, LowestOf(face.bound, box));
+    if (face.kind == Face::Kind::kNotAfter) keys.most = std::min(keys.most, HighestOf(face.bound, box));
   }
   // Faces are rounded to float32 where rays are cast.
-  if (std::isfinite(least)) least -= kFaceRounding * std::abs(least);
-  if (std::isfinite(most)) most += kFaceRounding * std::abs(most);
+  if (std::isfinite(keys.least)) keys.least -= kFaceRounding * std::abs(keys.least);
+  if (std::isfinite(keys.most)) keys.most += kFaceRounding * std::abs(keys.most);
+  return keys;
+}
+
+// True if no ray of the box is in the workspace and in all cameras' objects at one place.
+bool ViewPencils::MissesHull(const Eigen::AlignedBox2d& box) const {
+  EdgePencil::KeyRange keys = KeysInWorkspace(box);
   for (const auto& pencil : cameras_) {
-    if (least > most) return true;
-    const EdgePencil::KeyRange keys = pencil->ObjectKeys(box);
-    least = std::max(least, keys.least), most = std::min(most, keys.most);
+    if (keys.is_empty()) return true;
+    const EdgePencil::KeyRange object = pencil->ObjectKeys(box);
+    keys = {std::max(keys.least, object.least), std::min(keys.most, object.most)};
   }
-  return least > most;
+  return keys.is_empty();
 }
 
 HullSurface SurfaceOf(const VisualHull& hull, std::int32_t caster, std::uint32_t edge) {

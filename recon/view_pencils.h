@@ -40,7 +40,7 @@ class ViewPencils {
   [[nodiscard]] const VisualHull& hull() const { return hull_; }
   [[nodiscard]] const ViewRays& rays() const { return rays_; }
 
-  // One a camera: all must agree that a point is in the hull.
+  // One a camera: all must agree that a point is in the hull. None at all where no ray meets the workspace.
   [[nodiscard]] const Pencils& cameras() const { return cameras_; }
   // Under `abstain` one a camera, of its picture's outline: one must see the point.
   [[nodiscard]] const Pencils& sights() const { return sights_; }
@@ -75,6 +75,7 @@ class ViewPencils {
 
   [[nodiscard]] static std::array<Face, 6> FacesOf(const Eigen::AlignedBox3d& box, const ViewRays& rays);
   void Divide(int x, int y, int size, std::vector<PixelSquare>* squares) const;
+  [[nodiscard]] EdgePencil::KeyRange KeysInWorkspace(const Eigen::AlignedBox2d& box) const;
   [[nodiscard]] bool MissesHull(const Eigen::AlignedBox2d& box) const;
 
   const VisualHull& hull_;
