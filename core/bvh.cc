@@ -38,6 +38,14 @@ Ball BallAround(const TriangleMesh& mesh, std::span<const std::uint32_t> triangl
   return ball;
 }
 
+Eigen::AlignedBox3d BoxAround(const TriangleMesh& mesh, std::span<const std::uint32_t> triangles) {
+  Eigen::AlignedBox3d box;
+  for (const std::uint32_t triangle : triangles)
+    for (const std::int32_t vertex : mesh.triangles[triangle])
+      box.extend(mesh.vertices_mm[static_cast<std::size_t>(vertex)]);
+  return box;
+}
+
 }  // namespace
 
 Ball BallOf(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
@@ -67,7 +75,7 @@ TriangleTree::TriangleTree(SharedMesh mesh) : mesh_(std::move(mesh)) {
   order_.resize(mesh_->triangles.size());
   std::iota(order_.begin(), order_.end(), 0U);
   if (order_.empty()) return;
-  nodes_.push_back({{}, 0, static_cast<std::uint32_t>(order_.size()), 0});
+  nodes_.push_back({{}, {}, 0, static_cast<std::uint32_t>(order_.size()), 0});
   Build(0);
 }
 
@@ -75,6 +83,7 @@ void TriangleTree::Build(std::uint32_t node) {
   const std::uint32_t begin = nodes_[node].begin, end = nodes_[node].end;
   const std::span<std::uint32_t> triangles(order_.data() + begin, end - begin);
   nodes_[node].ball = BallAround(*mesh_, triangles);
+  nodes_[node].box = BoxAround(*mesh_, triangles);
   if (end - begin <= kTrianglesInLeaf) return;
   Eigen::AlignedBox3d box;
   for (const std::uint32_t triangle : triangles) box.extend(Centroid(*mesh_, triangle));
@@ -88,8 +97,8 @@ void TriangleTree::Build(std::uint32_t node) {
       });
   const auto left = static_cast<std::uint32_t>(nodes_.size());
   nodes_[node].left = left;
-  nodes_.push_back({{}, begin, begin + half, 0});
-  nodes_.push_back({{}, begin + half, end, 0});
+  nodes_.push_back({{}, {}, begin, begin + half, 0});
+  nodes_.push_back({{}, {}, begin + half, end, 0});
   Build(left);
   Build(left + 1);
 }

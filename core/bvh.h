@@ -1,4 +1,4 @@
-// A tree of balls over a mesh's triangles.
+// A tree of balls and boxes over a mesh's triangles.
 #pragma once
 
 #include <Eigen/Core>
@@ -20,12 +20,13 @@ struct Ball {
 [[nodiscard]] Ball BallOf(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c);
 
 // Node 0 is the root; children are `left` and `left + 1`, leaves have left == 0. Each node covers the
-// triangles order()[begin .. end) and its ball encloses them, in the mesh's frame.
+// triangles order()[begin .. end); its ball and its box, the tightest, enclose them, in the mesh's frame.
 // Immutable. Thread: any.
 class TriangleTree {
  public:
   struct Node {
     Ball ball;
+    Eigen::AlignedBox3d box;
     std::uint32_t begin = 0;
     std::uint32_t end = 0;
     std::uint32_t left = 0;

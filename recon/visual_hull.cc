@@ -23,46 +23,6 @@ double LessRounding(double distance_mm, const Eigen::Vector3d& x) {
   return std::max(distance_mm * (1.0 - 1e-9) - 4e-15 * x.lpNorm<1>(), 0.0);
 }
 
-// What the cameras together say of a point: the inside needs all, the outside one.
-class Tally {
- public:
-  void Add(const BallLabel& label) {
-    if (label.is_object) {
-      inside_radius_mm_ = std::min(inside_radius_mm_, label.radius_mm);
-    } else {
-      outside_radius_mm_ = std::max(outside_radius_mm_, label.radius_mm);
-      is_inside_ = false;
-    }
-  }
-  void AddSight(const BallLabel& seen) {
-    asks_for_sight_ = true;
-    if (seen.is_object) {
-      any_sees_ = true;
-      seen_radius_mm_ = std::max(seen_radius_mm_, seen.radius_mm);
-      unseen_radius_mm_ = 0.0;
-    } else {
-      unseen_radius_mm_ = std::min(unseen_radius_mm_, seen.radius_mm);
-    }
-  }
-
-  [[nodiscard]] PointAnswer Sum() const {
-    const double nobody_mm = asks_for_sight_ ? unseen_radius_mm_ : 0.0;
-    if (!is_inside_) return {false, std::max(outside_radius_mm_, nobody_mm)};
-    if (!asks_for_sight_) return {true, inside_radius_mm_};
-    if (!any_sees_) return {false, nobody_mm};  // nobody vouches for the point
-    return {true, std::min(inside_radius_mm_, seen_radius_mm_)};
-  }
-
- private:
-  bool is_inside_ = true;
-  bool asks_for_sight_ = false;
-  bool any_sees_ = false;
-  double inside_radius_mm_ = kInfinity;
-  double outside_radius_mm_ = 0.0;
-  double seen_radius_mm_ = 0.0;  // the best witness's
-  double unseen_radius_mm_ = kInfinity;
-};
-
 BallLabel AskSilhouette(const VisualHull& hull, std::size_t camera, const Eigen::Vector3d& x_in_world,
                         double enough_mm) {
   const Silhouette& silhouette = *hull.silhouettes()[camera];
@@ -70,13 +30,22 @@ BallLabel AskSilhouette(const VisualHull& hull, std::size_t camera, const Eigen:
                   enough_mm);
 }
 
-// Under `abstain` a point must be seen by someone; under `outside` an object pixel is a seen one.
-void AddSights(const VisualHull& hull, const Eigen::Vector3d& x_in_world, Tally* tally) {
-  if (!ExteriorIsObject(hull.rig())) return;
+// Under `abstain` a point must be seen by someone: whether it is, and how far around somebody, or nobody,
+// sees everything.
+PointAnswer SightsOf(const VisualHull& hull, const Eigen::Vector3d& x_in_world) {
+  double seen_mm = 0.0, unseen_mm = kInfinity;
+  bool is_seen = false;
   for (std::size_t i = 0; i < hull.silhouettes().size(); ++i) {
     const PicturePlane& plane = hull.silhouettes()[i]->plane();
-    tally->AddSight(AskPlane(hull.rig().cameras[i], plane.focal_px(), plane.outline(), x_in_world));
+    const BallLabel sight = AskPlane(hull.rig().cameras[i], plane.focal_px(), plane.outline(), x_in_world);
+    is_seen = is_seen || sight.is_object;
+    if (sight.is_object) {
+      seen_mm = std::max(seen_mm, sight.radius_mm);
+    } else {
+      unseen_mm = std::min(unseen_mm, sight.radius_mm);
+    }
   }
+  return is_seen ? PointAnswer{true, seen_mm} : PointAnswer{false, unseen_mm};
 }
 
 // Throws: core::Error{kCamera} naming the camera.
@@ -104,19 +73,24 @@ VisualHull::VisualHull(std::shared_ptr<const core::Rig> rig,
     is_empty_ = is_empty_ || (!silhouette->shows_object() && !exterior_is_object);
   }
   if (is_empty_) return;  // no contour is needed any more
-  tbb::parallel_for(std::size_t{0}, silhouettes_.size(), [&](std::size_t i) { (void)silhouettes_[i]->labels(); });
+  tbb::parallel_for(std::size_t{0}, silhouettes_.size(),
+                    [&](std::size_t i) { (void)silhouettes_[i]->labels(); });
   // What a camera shows, its lens may not see.
   const auto sees_nothing = [](const auto& silhouette) { return silhouette->labels().bounds_px().isEmpty(); };
   is_empty_ = !exterior_is_object && std::ranges::any_of(silhouettes_, sees_nothing);
 }
 
-bool VisualHull::Contains(const Eigen::Vector3d& x_in_world) const {
+bool VisualHull::Contains(const Eigen::Vector3d& x_in_world) const { return Contains(x_in_world, {}); }
+
+bool VisualHull::Contains(const Eigen::Vector3d& x_in_world, const OpenCameras& open) const {
   if (is_empty_ || !rig_->workspace_mm.contains(x_in_world)) return false;
-  bool any_sees = !ExteriorIsObject(*rig_);  // under `outside` an object pixel is a seen one
+  // Under `outside` an object pixel is a seen one.
+  bool any_sees = !ExteriorIsObject(*rig_) || !open.asks_sights;
   for (std::size_t i = 0; i < silhouettes_.size(); ++i) {
     const PicturePlane& plane = silhouettes_[i]->plane();
     const core::CameraModel& camera = rig_->cameras[i];
-    if (!IsObjectTo(camera, plane.focal_px(), silhouettes_[i]->labels(), x_in_world)) return false;
+    if (open.Asks(i) && !IsObjectTo(camera, plane.focal_px(), silhouettes_[i]->labels(), x_in_world))
+      return false;
     any_sees = any_sees || IsObjectTo(camera, plane.focal_px(), plane.outline(), x_in_world);
   }
   return any_sees;
@@ -124,11 +98,21 @@ bool VisualHull::Contains(const Eigen::Vector3d& x_in_world) const {
 
 PointAnswer VisualHull::Probe(const Eigen::Vector3d& x_in_world) const {
   if (is_empty_) return {false, kInfinity};
-  Tally tally;
-  for (std::size_t i = 0; i < silhouettes_.size(); ++i)
-    tally.Add(AskSilhouette(*this, i, x_in_world, kInfinity));
-  AddSights(*this, x_in_world, &tally);
-  PointAnswer answer = tally.Sum();
+  // The inside needs all cameras, the outside one.
+  PointAnswer answer{true, kInfinity};
+  const auto add = [&answer](const PointAnswer& word) {
+    if (answer.is_inside == word.is_inside) {
+      answer.radius_mm = word.is_inside ? std::min(answer.radius_mm, word.radius_mm)
+                                        : std::max(answer.radius_mm, word.radius_mm);
+    } else if (answer.is_inside) {
+      answer = word;
+    }
+  };
+  for (std::size_t i = 0; i < silhouettes_.size(); ++i) {
+    const BallLabel label = AskSilhouette(*this, i, x_in_world, kInfinity);
+    add({label.is_object, label.radius_mm});
+  }
+  if (ExteriorIsObject(*rig_)) add(SightsOf(*this, x_in_world));
   const Eigen::AlignedBox3d& workspace_mm = rig_->workspace_mm;
   if (!workspace_mm.contains(x_in_world)) {
     const double to_workspace_mm = LessRounding(workspace_mm.exteriorDistance(x_in_world), x_in_world);
@@ -142,6 +126,12 @@ PointAnswer VisualHull::Probe(const Eigen::Vector3d& x_in_world) const {
 }
 
 BallAnswer VisualHull::Classify(const Eigen::Vector3d& center_in_world, double radius_mm) const {
+  OpenCameras open;
+  return Classify(center_in_world, radius_mm, &open);
+}
+
+BallAnswer VisualHull::Classify(const Eigen::Vector3d& center_in_world, double radius_mm,
+                                OpenCameras* open) const {
   if (is_empty_) return BallAnswer::kOutside;
   const Eigen::AlignedBox3d& workspace_mm = rig_->workspace_mm;
   const bool is_in_workspace = workspace_mm.contains(center_in_world);
@@ -149,19 +139,33 @@ BallAnswer VisualHull::Classify(const Eigen::Vector3d& center_in_world, double r
       LessRounding(workspace_mm.exteriorDistance(center_in_world), center_in_world) >= radius_mm) {
     return BallAnswer::kOutside;
   }
-  Tally tally;
-  for (std::size_t i = 0; i < silhouettes_.size(); ++i) {
+  bool is_inside = is_in_workspace &&
+                   LessRounding(DistanceToFace(workspace_mm, center_in_world), center_in_world) >= radius_mm;
+  const std::size_t first = std::min(open->likely, silhouettes_.size() - 1);
+  for (std::size_t k = 0; k < silhouettes_.size(); ++k) {
+    const std::size_t i = k == 0 ? first : k <= first ? k - 1 : k;
+    if (!open->Asks(i)) continue;
     const BallLabel label = AskSilhouette(*this, i, center_in_world, radius_mm);
-    if (!label.is_object && label.radius_mm >= radius_mm) return BallAnswer::kOutside;
-    tally.Add(label);
+    if (label.radius_mm < radius_mm) {
+      is_inside = false;
+    } else if (label.is_object) {
+      open->Close(i);
+    } else {
+      open->likely = i;
+      return BallAnswer::kOutside;
+    }
   }
-  AddSights(*this, center_in_world, &tally);
-  const PointAnswer sum = tally.Sum();
-  if (sum.radius_mm < radius_mm) return BallAnswer::kMixed;
-  if (!sum.is_inside) return BallAnswer::kOutside;
-  const bool keeps_inside = is_in_workspace && LessRounding(DistanceToFace(workspace_mm, center_in_world),
-                                                            center_in_world) >= radius_mm;
-  return keeps_inside ? BallAnswer::kInside : BallAnswer::kMixed;
+  if (ExteriorIsObject(*rig_) && open->asks_sights) {
+    const PointAnswer seen = SightsOf(*this, center_in_world);
+    if (seen.radius_mm < radius_mm) {
+      is_inside = false;
+    } else if (seen.is_inside) {
+      open->asks_sights = false;
+    } else {
+      return BallAnswer::kOutside;
+    }
+  }
+  return is_inside ? BallAnswer::kInside : BallAnswer::kMixed;
 }
 
 BoundingEdge VisualHull::EdgeAt(const Eigen::Vector3d& surface_point_in_world) const {

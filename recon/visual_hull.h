@@ -31,6 +31,23 @@ struct BoundingEdge {
   std::optional<Eigen::Vector3d> normal_in_world;  // unit; nothing where the silhouette gives none
 };
 
+// Who may still have something to say of a set of points: a camera to which all of a larger set is object
+// needn't be asked of a smaller one.
+struct OpenCameras {
+  static constexpr std::size_t kMost = 64;  // cameras beyond are always asked
+
+  std::uint64_t bits = ~std::uint64_t{0};
+  bool asks_sights = true;       // `abstain`: no camera is known to see all of the set
+  core::CameraIndex likely = 0;  // to be asked first: it excluded a set near by
+
+  [[nodiscard]] bool Asks(core::CameraIndex camera) const {
+    return camera >= kMost || ((bits >> camera) & 1U) != 0;
+  }
+  void Close(core::CameraIndex camera) {
+    if (camera < kMost) bits &= ~(std::uint64_t{1} << camera);
+  }
+};
+
 // The visual hull: the points of the workspace that project into every camera's silhouette, where rig.unseen
 // decides for cameras that can't see the point. An immutable snapshot; copies share silhouettes.
 // The certificate of the ball answers is derived in docs/algorithms.md and held to account by
@@ -53,12 +70,18 @@ class VisualHull {
 
   // The paper's volume query.
   [[nodiscard]] bool Contains(const Eigen::Vector3d& x_in_world) const;
+  [[nodiscard]] bool Contains(const Eigen::Vector3d& x_in_world, const OpenCameras& open) const;
 
   // Contains(), and how far around the point the answer is sure to hold.
   [[nodiscard]] PointAnswer Probe(const Eigen::Vector3d& x_in_world) const;
 
   // The volume query of a closed ball. A radius of 0 is the point's own query.
   [[nodiscard]] BallAnswer Classify(const Eigen::Vector3d& center_in_world, double radius_mm) const;
+
+  // The same of a set of points in the ball, of which only the open cameras need to be asked; closes those to
+  // which all of the ball is object, for the set's own parts.
+  [[nodiscard]] BallAnswer Classify(const Eigen::Vector3d& center_in_world, double radius_mm,
+                                    OpenCameras* open) const;
 
   // Which silhouette ends the hull at a point on its surface; the normal is that of the silhouette's edge
   // there, smoothed along the contour (SmoothTangent), through the camera's centre.

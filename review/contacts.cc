@@ -55,16 +55,16 @@ class ContactSearch {
         rp_obj_(rp_obj),
         farthest_(rp_obj) {}
 
-  void VisitNode(std::uint32_t index) {
+  void VisitNode(std::uint32_t index, recon::OpenCameras open = {}) {
     const core::TriangleTree::Node& node = part_.nodes()[index];
-    const BallAnswer answer = Ask({world_from_part_ * node.ball.center, node.ball.radius_mm});
+    const BallAnswer answer = Ask({world_from_part_ * node.ball.center, node.ball.radius_mm}, &open);
     if (answer == BallAnswer::kOutside) {
       count_.skipped += node.end - node.begin;
       return;
     }
     if (answer == BallAnswer::kMixed && node.left != 0) {
-      VisitNode(node.left);
-      VisitNode(node.left + 1);
+      VisitNode(node.left, open);
+      VisitNode(node.left + 1, open);
       return;
     }
     if (answer == BallAnswer::kInside) count_.skipped += node.end - node.begin;
@@ -73,7 +73,7 @@ class ContactSearch {
       if (answer == BallAnswer::kInside) {
         AddWhollyInside(triangle);
       } else {
-        VisitTriangle(triangle);
+        VisitTriangle(triangle, open);
       }
     }
   }
@@ -93,30 +93,30 @@ class ContactSearch {
     return {vertex(a), vertex(b), vertex(c)};
   }
 
-  BallAnswer Ask(const core::Ball& ball) {
+  BallAnswer Ask(const core::Ball& ball, recon::OpenCameras* open) {
     ++count_.queries;
-    return hull_.Classify(ball.center, ball.radius_mm);
+    return hull_.Classify(ball.center, ball.radius_mm, open);
   }
 
-  void VisitTriangle(const Triangle& triangle) {
+  void VisitTriangle(const Triangle& triangle, recon::OpenCameras open) {
     const core::Ball ball = core::BallOf(triangle.a, triangle.b, triangle.c);
     if (2.0 * ball.radius_mm <= resolution_mm_) {
       ++count_.queries;
-      if (hull_.Contains(triangle.Centroid())) {
+      if (hull_.Contains(triangle.Centroid(), open)) {
         Reach(triangle.Centroid());
         AddPoint(triangle);
       }
       return;
     }
-    const BallAnswer answer = Ask(ball);
+    const BallAnswer answer = Ask(ball, &open);
     if (answer == BallAnswer::kOutside) return;
     if (answer == BallAnswer::kInside) {
       AddWhollyInside(triangle);
       return;
     }
     const auto [first, second] = Halve(triangle);
-    VisitTriangle(first);
-    VisitTriangle(second);
+    VisitTriangle(first, open);
+    VisitTriangle(second, open);
   }
 
   void AddWhollyInside(const Triangle& triangle) {
@@ -165,8 +165,7 @@ void Recover(const recon::VisualHull& hull, const Vector3d& cp_obj, const Vector
     contact->recovery_status = core::RecoveryStatus::kReferenceInsideHull;
     return;
   }
-  const std::optional<double> crossing_mm =
-      recon::FirstInside(hull, {rp_obj, -v_rec}, {0.0, distance_mm});
+  const std::optional<double> crossing_mm = recon::FirstInside(hull, {rp_obj, -v_rec}, {0.0, distance_mm});
   // CP_obj itself is in the hull, so the ray has entered it by then, but for rounding on its surface.
   const double from_reference_mm = crossing_mm.value_or(distance_mm);
   core::Recovery recovery{

@@ -1,0 +1,255 @@
+#include "review/clearance.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <queue>
+#include <string>
+#include <vector>
+
+#include "core/error.h"
+#include "recon/ray_crossings.h"
+#include "review/containment.h"
+#include "review/part_distance.h"
+
+namespace elbowroom::review {
+namespace {
+
+using Eigen::Vector3d;
+using recon::BallAnswer;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+// Of the coordinates: what distances are off by.
+constexpr double kRounding = 1e-12;
+// Smaller cells than this share of the tolerance tell nothing more.
+constexpr double kSmallestCell = 1.0 / 64.0;
+constexpr int kHalvings = 24;
+constexpr int kMostSlides = 8;
+// A hull point is slid along for as long as that brings this share of the tolerance.
+constexpr double kWorthwhile = 0.05;
+
+// A box of space around `center`, its half diagonal the radius.
+struct Cell {
+  double lower_mm = 0.0;  // no point of the cell is nearer to the part
+  Vector3d center;
+  Vector3d half;
+  std::uint32_t triangle = 0;  // the nearest to the centre
+  recon::OpenCameras open;
+
+  [[nodiscard]] bool operator<(const Cell& other) const { return lower_mm > other.lower_mm; }
+};
+
+// Cells by their lower bounds, nearest first; those that the hull isn't in are dropped.
+class Search {
+ public:
+  Search(const recon::VisualHull& hull, const core::TriangleTree& part,
+         const core::RigidTransform& world_from_part, const ClearanceOptions& options)
+      : hull_(hull),
+        part_(part),
+        world_from_part_(world_from_part),
+        part_from_world_(world_from_part.Inverse()),
+        options_(options) {
+    const Eigen::AlignedBox3d& box = hull.rig().workspace_mm;
+    const double reach_mm = box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).norm() +
+                            part.nodes()[0].ball.radius_mm + part.nodes()[0].ball.center.norm() +
+                            world_from_part.translation_mm.norm();
+    slack_mm_ = kRounding * reach_mm;
+  }
+
+  Clearance Run(const std::optional<ClearanceHint>& hint) {
+    if (hint) TryHint(*hint);
+    const Eigen::AlignedBox3d& box = hull_.rig().workspace_mm;
+    recon::OpenCameras all;
+    Push(box.center(), 0.5 * box.sizes(), 0, &all);
+    double lower_mm = kInfinity;
+    while (!cells_.empty()) {
+      const Cell cell = cells_.top();
+      lower_mm = cell.lower_mm;
+      if (IsSettled(lower_mm) || queries_ >= options_.max_queries) break;
+      cells_.pop();
+      lower_mm = kInfinity;
+      if (!Divide(cell)) {
+        lower_mm = cell.lower_mm;
+        break;
+      }
+    }
+    return Conclude(std::min(lower_mm, upper_mm_));
+  }
+
+ private:
+  [[nodiscard]] bool IsSettled(double lower_mm) const {
+    return lower_mm >= upper_mm_ - options_.tolerance_mm || lower_mm >= options_.enough_mm;
+  }
+
+  NearestOnPart Nearest(const Vector3d& x_in_world, std::uint32_t likely, const Vector3d& half = {0, 0, 0}) {
+    ++distances_;
+    const double enough_mm = std::min(upper_mm_ - options_.tolerance_mm, options_.enough_mm) + slack_mm_;
+    return FindNearest(
+        part_, {part_from_world_ * x_in_world, part_from_world_.rotation * half.asDiagonal(), enough_mm},
+        likely);
+  }
+  [[nodiscard]] bool Contains(const Vector3d& x_in_world, const recon::OpenCameras& open = {}) {
+    ++queries_;
+    return hull_.Contains(x_in_world, open);
+  }
+
+  // Keeps the cell if the hull may be in it nearer than what is known. Where hull and part don't meet, no
+  // point inside the hull is its nearest: of a cell wholly inside only the way to the part matters.
+  void Push(const Vector3d& center, const Vector3d& half, std::uint32_t likely,
+            recon::OpenCameras* of_parent) {
+    ++queries_;
+    recon::OpenCameras open = *of_parent;
+    const BallAnswer answer = hull_.Classify(center, half.norm(), &open);
+    of_parent->likely = open.likely;
+    if (answer == BallAnswer::kOutside) return;
+    const NearestOnPart nearest = Nearest(center, likely, half);
+    const double lower_mm = std::max(nearest.box_lower_mm - slack_mm_, 0.0);
+    if (lower_mm >= upper_mm_) return;
+    const bool is_inside = answer == BallAnswer::kInside;
+    if (nearest.distance_mm < upper_mm_ && (is_inside || Contains(center, open))) Slide(center, nearest);
+    if (!is_inside) cells_.push({lower_mm, center, half, nearest.triangle, open});
+  }
+
+  // False if the cell is too small to tell any more.
+  bool Divide(const Cell& cell) {
+    if (cell.half.norm() < kSmallestCell * options_.tolerance_mm) {
+      LookAcross(cell);
+      return IsSettled(cell.lower_mm);
+    }
+    const Vector3d half = 0.5 * cell.half;
+    recon::OpenCameras open = cell.open;
+    for (int i = 0; i < 8; ++i) {
+      const Vector3d signs((i & 1) != 0 ? 1.0 : -1.0, (i & 2) != 0 ? 1.0 : -1.0, (i & 4) != 0 ? 1.0 : -1.0);
+      Push(cell.center + half.cwiseProduct(signs), half, cell.triangle, &open);
+    }
+    return true;
+  }
+
+  // From a hull point towards the part, along the hull, for as long as it comes nearer.
+  void Slide(Vector3d x_in_world, NearestOnPart nearest) {
+    for (int slide = 0; slide < kMostSlides; ++slide) {
+      const double before_mm = upper_mm_;
+      const Vector3d p_in_world = world_from_part_ * nearest.position_in_part;
+      x_in_world = LastInside(x_in_world, p_in_world);
+      nearest = Nearest(x_in_world, nearest.triangle);
+      Offer(x_in_world, nearest);
+      if (upper_mm_ == 0.0 || !(upper_mm_ < before_mm - kWorthwhile * options_.tolerance_mm)) return;
+    }
+  }
+
+  // A hull point between `inside` and `end`, next to one that isn't; the end itself if that is inside.
+  Vector3d LastInside(Vector3d inside, const Vector3d& end) {
+    if (Contains(end)) return end;
+    Vector3d outside = end;
+    for (int i = 0; i < kHalvings && (outside - inside).norm() > kSmallestCell * options_.tolerance_mm; ++i) {
+      const Vector3d middle = 0.5 * (inside + outside);
+      (Contains(middle) ? inside : outside) = middle;
+    }
+    return inside;
+  }
+
+  void Offer(const Vector3d& x_in_world, const NearestOnPart& nearest) {
+    if (nearest.distance_mm + slack_mm_ >= upper_mm_) return;
+    upper_mm_ = nearest.distance_mm <= slack_mm_ ? 0.0 : nearest.distance_mm + slack_mm_;
+    witness_hull_in_world_ = x_in_world;
+    witness_part_in_world_ = world_from_part_ * nearest.position_in_part;
+  }
+
+  // What cells don't find: hull too thin for their centres.
+  void LookAcross(const Cell& cell) {
+    const NearestOnPart nearest = Nearest(cell.center, cell.triangle);
+    const Vector3d p_in_world = world_from_part_ * nearest.position_in_part;
+    const double distance_mm = (cell.center - p_in_world).norm();
+    if (!(distance_mm > 0.0)) return;
+    const recon::Ray ray{p_in_world, (cell.center - p_in_world) / distance_mm};
+    ++queries_;
+    const std::optional<double> first_mm =
+        recon::FirstInside(hull_, ray, {0.0, distance_mm + cell.half.norm()});
+    if (!first_mm) return;
+    const Vector3d x_in_world = p_in_world + *first_mm * ray.direction_in_world;
+    Offer(x_in_world, Nearest(x_in_world, nearest.triangle));
+  }
+
+  void TryHint(const ClearanceHint& hint) {
+    const Vector3d p_in_world = world_from_part_ * hint.witness_part_in_part;
+    const Vector3d way = hint.witness_hull_in_world - p_in_world;
+    if (!(way.norm() > 0.0)) return;
+    ++queries_;
+    const recon::Ray ray{p_in_world, way.normalized()};
+    const std::optional<double> first_mm = recon::FirstInside(hull_, ray);
+    if (!first_mm) return;
+    const Vector3d x_in_world = p_in_world + *first_mm * ray.direction_in_world;
+    const NearestOnPart nearest = Nearest(x_in_world, 0);
+    Offer(x_in_world, nearest);
+  }
+
+  Clearance Conclude(double lower_mm) {
+    Clearance result;
+    result.has_witnesses = upper_mm_ < kInfinity;
+    if (result.has_witnesses && part_.is_closed() &&
+        IsInsideClosedMesh(part_, part_from_world_ * witness_hull_in_world_)) {
+      upper_mm_ = 0.0;
+      witness_part_in_world_ = witness_hull_in_world_;
+    }
+    result.interval = {std::min(lower_mm, upper_mm_), upper_mm_, witness_part_in_world_,
+                       witness_hull_in_world_};
+    result.queries = queries_;
+    result.distances = distances_;
+    result.cells_left = static_cast<std::int64_t>(cells_.size());
+    return result;
+  }
+
+  const recon::VisualHull& hull_;
+  const core::TriangleTree& part_;
+  const core::RigidTransform& world_from_part_;
+  const core::RigidTransform part_from_world_;
+  const ClearanceOptions& options_;
+  double slack_mm_ = 0.0;
+  std::priority_queue<Cell> cells_;
+  double upper_mm_ = kInfinity;
+  Vector3d witness_hull_in_world_ = Vector3d::Zero();
+  Vector3d witness_part_in_world_ = Vector3d::Zero();
+  std::int64_t queries_ = 0;
+  std::int64_t distances_ = 0;
+};
+
+}  // namespace
+
+void ClearanceOptions::Validate() const {
+  const auto require = [](bool holds, const std::string& what) {
+    if (!holds) throw core::Error(core::ErrorKind::kRange, "clearance: " + what);
+  };
+  require(tolerance_mm > 0.0 && std::isfinite(tolerance_mm),
+          fmt::format("tolerance must be positive, not {} mm", tolerance_mm));
+  require(enough_mm > 0.0, fmt::format("enough must be positive, not {} mm", enough_mm));
+  require(max_queries > 0, fmt::format("at least one query must be allowed, not {}", max_queries));
+}
+
+Clearance FindClearance(const recon::VisualHull& hull, const core::TriangleTree& part,
+                        const core::RigidTransform& world_from_part, const ClearanceOptions& options,
+                        const std::optional<ClearanceHint>& hint) {
+  options.Validate();
+  Clearance nothing;
+  nothing.interval.lower_mm = kInfinity;
+  if (part.nodes().empty() || hull.IsEmpty()) return nothing;
+  if (std::isfinite(options.enough_mm)) {
+    const core::Ball& ball = part.nodes()[0].ball;
+    nothing.queries = 1;
+    if (hull.Classify(world_from_part * ball.center, ball.radius_mm + options.enough_mm) ==
+        BallAnswer::kOutside) {
+      nothing.interval.lower_mm = options.enough_mm;
+      return nothing;
+    }
+  }
+  return Search(hull, part, world_from_part, options).Run(hint);
+}
+
+core::Verdict Judge(const core::ClearanceInterval& interval, double required_mm, double uncertainty_mm) {
+  if (interval.upper_mm == 0.0) return core::Verdict::kContact;
+  if (interval.lower_mm - uncertainty_mm >= required_mm) return core::Verdict::kClear;
+  if (interval.upper_mm + uncertainty_mm < required_mm) return core::Verdict::kNear;
+  return core::Verdict::kUndecided;
+}
+
+}  // namespace elbowroom::review

@@ -1,0 +1,159 @@
+#include "review/part_distance.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace elbowroom::review {
+namespace {
+
+using Eigen::Vector3d;
+
+// Squared sine of a corner: smaller ones are needles.
+constexpr double kNeedle = 1e-6;
+
+Vector3d NearestOnSegment(const Vector3d& x, const Vector3d& a, const Vector3d& b) {
+  const Vector3d ab = b - a;
+  const double length2 = ab.squaredNorm();
+  const double share = length2 > 0.0 ? std::clamp(ab.dot(x - a) / length2, 0.0, 1.0) : 0.0;
+  return a + share * ab;
+}
+
+Vector3d Nearer(const Vector3d& x, const Vector3d& p, const Vector3d& q) {
+  return (q - x).squaredNorm() < (p - x).squaredNorm() ? q : p;
+}
+
+Vector3d NearestOnNeedle(const Vector3d& x, const Vector3d& a, const Vector3d& b, const Vector3d& c) {
+  const Vector3d normal = (b - a).cross(c - a);
+  const auto is_left_of = [&](const Vector3d& from, const Vector3d& to) {
+    return normal.dot((to - from).cross(x - from)) >= 0.0;
+  };
+  const double length2 = normal.squaredNorm();
+  if (length2 > 0.0 && is_left_of(a, b) && is_left_of(b, c) && is_left_of(c, a)) {
+    const Vector3d foot = x - (normal.dot(x - a) / length2) * normal;
+    if (foot.allFinite()) return foot;
+  }
+  return Nearer(x, Nearer(x, NearestOnSegment(x, a, b), NearestOnSegment(x, b, c)),
+                NearestOnSegment(x, c, a));
+}
+
+// Goes down the tree, nearer child first; whole branches are passed over whose box is too far.
+class Search {
+ public:
+  Search(const core::TriangleTree& part, const BoxInPart& box)
+      : part_(part), x_(box.center), edges_(box.half_edges.transpose()) {}
+
+  void FindNearest(std::uint32_t likely) {
+    TryNearest(likely);
+    VisitNearest(0, SquaredFromBox(0));
+  }
+
+  // After FindNearest: what the nearest triangle alone leaves of the box's bound.
+  [[nodiscard]] double MostOfBox() const {
+    return nearest_.distance_mm - Reach(x_ - nearest_.position_in_part);
+  }
+
+  void BoundBox() {
+    nearest_.box_lower_mm = MostOfBox();
+    VisitBound(0);
+  }
+
+  [[nodiscard]] const NearestOnPart& nearest() const { return nearest_; }
+
+ private:
+  [[nodiscard]] Vector3d NearestOn(std::uint32_t triangle) const {
+    const auto& [a, b, c] = part_.mesh().triangles[triangle];
+    const auto vertex = [&](std::int32_t i) -> const Vector3d& {
+      return part_.mesh().vertices_mm[static_cast<std::size_t>(i)];
+    };
+    return NearestOnTriangle(x_, vertex(a), vertex(b), vertex(c));
+  }
+
+  [[nodiscard]] double SquaredFromBox(std::uint32_t index) const {
+    return part_.nodes()[index].box.squaredExteriorDistance(x_);
+  }
+
+  // How much nearer some point of the box is than its centre to what lies beyond a plane across `away`.
+  [[nodiscard]] double Reach(const Vector3d& away) const {
+    const double length = away.norm();
+    return length > 0.0 ? (edges_ * away).lpNorm<1>() / length : edges_.norm();
+  }
+
+  void TryNearest(std::uint32_t triangle) {
+    const Vector3d p = NearestOn(triangle);
+    const double squared = (p - x_).squaredNorm();
+    if (squared >= squared_) return;
+    squared_ = squared;
+    nearest_ = {std::sqrt(squared), p, triangle};
+  }
+
+  void VisitNearest(std::uint32_t index, double squared_bound) {
+    if (squared_bound >= squared_) return;
+    const core::TriangleTree::Node& node = part_.nodes()[index];
+    if (node.left == 0) {
+      for (std::uint32_t i = node.begin; i < node.end; ++i) TryNearest(part_.order()[i]);
+      return;
+    }
+    const double left = SquaredFromBox(node.left), right = SquaredFromBox(node.left + 1);
+    if (left <= right) {
+      VisitNearest(node.left, left);
+      VisitNearest(node.left + 1, right);
+    } else {
+      VisitNearest(node.left + 1, right);
+      VisitNearest(node.left, left);
+    }
+  }
+
+  void VisitBound(std::uint32_t index) {
+    const core::TriangleTree::Node& node = part_.nodes()[index];
+    const Vector3d away = x_ - node.box.min().cwiseMax(x_.cwiseMin(node.box.max()));
+    if (away.norm() - Reach(away) >= nearest_.box_lower_mm) return;
+    if (node.left != 0) {
+      VisitBound(node.left);
+      VisitBound(node.left + 1);
+      return;
+    }
+    for (std::uint32_t i = node.begin; i < node.end; ++i) {
+      const Vector3d from_triangle = x_ - NearestOn(part_.order()[i]);
+      nearest_.box_lower_mm = std::min(nearest_.box_lower_mm, from_triangle.norm() - Reach(from_triangle));
+    }
+  }
+
+  const core::TriangleTree& part_;
+  const Vector3d x_;
+  const Eigen::Matrix3d edges_;  // rows: the box's half edges
+  NearestOnPart nearest_;
+  double squared_ = std::numeric_limits<double>::infinity();
+};
+
+}  // namespace
+
+// By the regions of the plane that are nearest to a corner, to a side or to the inside (Ericson, Real-Time
+// Collision Detection, 5.1.5). Of needles, where regions drown in rounding, the nearest of the sides and of
+// the foot point on the plane.
+Vector3d NearestOnTriangle(const Vector3d& x, const Vector3d& a, const Vector3d& b, const Vector3d& c) {
+  const Vector3d ab = b - a, ac = c - a, ax = x - a, bx = x - b, cx = x - c;
+  const double d1 = ab.dot(ax), d2 = ac.dot(ax), d3 = ab.dot(bx), d4 = ac.dot(bx), d5 = ab.dot(cx),
+               d6 = ac.dot(cx);
+  const double vc = d1 * d4 - d3 * d2, vb = d5 * d2 - d1 * d6, va = d3 * d6 - d5 * d4;
+  const double sum = va + vb + vc;  // the normal's square
+  if (!(sum > kNeedle * ab.squaredNorm() * ac.squaredNorm())) return NearestOnNeedle(x, a, b, c);
+  if (d1 <= 0.0 && d2 <= 0.0) return a;
+  if (d3 >= 0.0 && d4 <= d3) return b;
+  if (d6 >= 0.0 && d5 <= d6) return c;
+  if (vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0) return a + d1 / (d1 - d3) * ab;
+  if (vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0) return a + d2 / (d2 - d6) * ac;
+  if (va <= 0.0 && d4 >= d3 && d5 >= d6) return b + (d4 - d3) / ((d4 - d3) + (d5 - d6)) * (c - b);
+  return a + (vb / sum) * ab + (vc / sum) * ac;
+}
+
+NearestOnPart FindNearest(const core::TriangleTree& part, const BoxInPart& box, std::uint32_t likely) {
+  Search search(part, box);
+  search.FindNearest(likely);
+  NearestOnPart nearest = search.nearest();
+  nearest.box_lower_mm = std::max(nearest.distance_mm - box.half_edges.norm(), 0.0);
+  if (nearest.box_lower_mm >= box.enough_mm || search.MostOfBox() < box.enough_mm) return nearest;
+  search.BoundBox();
+  return search.nearest();
+}
+
+}  // namespace elbowroom::review

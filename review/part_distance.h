@@ -1,0 +1,39 @@
+// How far a point is from a part's surface, and where that surface is nearest.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <limits>
+
+#include "core/bvh.h"
+
+namespace elbowroom::review {
+
+struct NearestOnPart {
+  double distance_mm = std::numeric_limits<double>::infinity();
+  Eigen::Vector3d position_in_part = Eigen::Vector3d::Zero();
+  std::uint32_t triangle = 0;  // of the mesh
+  // No point of the box that was asked about is nearer to the part than this.
+  double box_lower_mm = std::numeric_limits<double>::infinity();
+};
+
+// A box with edges along any three perpendicular directions; none: a point.
+struct BoxInPart {
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();
+  // Columns: from the centre to the middles of three faces.
+  Eigen::Matrix3d half_edges = Eigen::Matrix3d::Zero();
+  double enough_mm = std::numeric_limits<double>::infinity();  // a bound is only worth its work to reach this
+};
+
+// The nearest point of the triangle a, b, c; of one without area, of its sides.
+[[nodiscard]] Eigen::Vector3d NearestOnTriangle(const Eigen::Vector3d& x, const Eigen::Vector3d& a,
+                                                const Eigen::Vector3d& b, const Eigen::Vector3d& c);
+
+// Of the box's centre: exact but for double's rounding (part_distance_test). Of the box: a bound, by the
+// plane through each triangle's nearest point that keeps the triangle, which is convex, on its far side.
+// `likely`: a triangle that is probably near, which saves work and changes nothing. The part has triangles.
+// Thread: any.
+[[nodiscard]] NearestOnPart FindNearest(const core::TriangleTree& part, const BoxInPart& box,
+                                        std::uint32_t likely = 0);
+
+}  // namespace elbowroom::review
