@@ -46,6 +46,17 @@ Eigen::AlignedBox3d BoxAround(const TriangleMesh& mesh, std::span<const std::uin
   return box;
 }
 
+double AreaOf(const TriangleMesh& mesh, std::span<const std::uint32_t> triangles) {
+  double area_mm2 = 0.0;
+  for (const std::uint32_t triangle : triangles) {
+    const auto vertex = [&](std::size_t i) -> const Eigen::Vector3d& {
+      return mesh.vertices_mm[static_cast<std::size_t>(mesh.triangles[triangle][i])];
+    };
+    area_mm2 += 0.5 * (vertex(1) - vertex(0)).cross(vertex(2) - vertex(0)).norm();
+  }
+  return area_mm2;
+}
+
 }  // namespace
 
 Ball BallOf(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
@@ -75,7 +86,7 @@ TriangleTree::TriangleTree(SharedMesh mesh) : mesh_(std::move(mesh)) {
   order_.resize(mesh_->triangles.size());
   std::iota(order_.begin(), order_.end(), 0U);
   if (order_.empty()) return;
-  nodes_.push_back({{}, {}, 0, static_cast<std::uint32_t>(order_.size()), 0});
+  nodes_.push_back({{}, {}, 0.0, 0, static_cast<std::uint32_t>(order_.size()), 0});
   Build(0);
 }
 
@@ -84,6 +95,7 @@ void TriangleTree::Build(std::uint32_t node) {
   const std::span<std::uint32_t> triangles(order_.data() + begin, end - begin);
   nodes_[node].ball = BallAround(*mesh_, triangles);
   nodes_[node].box = BoxAround(*mesh_, triangles);
+  nodes_[node].area_mm2 = AreaOf(*mesh_, triangles);
   if (end - begin <= kTrianglesInLeaf) return;
   Eigen::AlignedBox3d box;
   for (const std::uint32_t triangle : triangles) box.extend(Centroid(*mesh_, triangle));
@@ -97,8 +109,8 @@ void TriangleTree::Build(std::uint32_t node) {
       });
   const auto left = static_cast<std::uint32_t>(nodes_.size());
   nodes_[node].left = left;
-  nodes_.push_back({{}, {}, begin, begin + half, 0});
-  nodes_.push_back({{}, {}, begin + half, end, 0});
+  nodes_.push_back({{}, {}, 0.0, begin, begin + half, 0});
+  nodes_.push_back({{}, {}, 0.0, begin + half, end, 0});
   Build(left);
   Build(left + 1);
 }

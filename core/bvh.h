@@ -27,6 +27,7 @@ class TriangleTree {
   struct Node {
     Ball ball;
     Eigen::AlignedBox3d box;
+    double area_mm2 = 0.0;  // of its triangles
     std::uint32_t begin = 0;
     std::uint32_t end = 0;
     std::uint32_t left = 0;

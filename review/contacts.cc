@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "core/error.h"
 #include "recon/ray_crossings.h"
+#include "recon/triangle_pieces.h"
 #include "review/containment.h"
 #include "review/point_spread.h"
 
@@ -18,6 +20,9 @@ using recon::BallAnswer;
 
 // Hull inside a closed part is looked for in at most this many cells along the part's longest side.
 constexpr double kContainmentCells = 64.0;
+
+// Triangles of no more pieces a side are cut at once: a ball query costs as much as a few centres.
+constexpr double kSidesWithoutBall = 2.0;
 
 struct Triangle {
   Vector3d a, b, c;  // in world
@@ -41,6 +46,20 @@ std::pair<Triangle, Triangle> Halve(const Triangle& t) {
   return {{t.a, t.b, m}, {m, t.b, t.c}};
 }
 
+// What of a small stretch of surface is inside: one contact point.
+struct Patch {
+  double area_mm2 = 0.0;
+  double largest_mm2 = -1.0;
+  Vector3d position = Vector3d::Zero();  // of its largest piece
+
+  void Add(double piece_mm2, const Vector3d& at) {
+    area_mm2 += piece_mm2;
+    if (piece_mm2 <= largest_mm2) return;
+    largest_mm2 = piece_mm2;
+    position = at;
+  }
+};
+
 // One part against one hull.
 class ContactSearch {
  public:
@@ -55,28 +74,7 @@ class ContactSearch {
         rp_obj_(rp_obj),
         farthest_(rp_obj) {}
 
-  void VisitNode(std::uint32_t index, recon::OpenCameras open = {}) {
-    const core::TriangleTree::Node& node = part_.nodes()[index];
-    const BallAnswer answer = Ask({world_from_part_ * node.ball.center, node.ball.radius_mm}, &open);
-    if (answer == BallAnswer::kOutside) {
-      count_.skipped += node.end - node.begin;
-      return;
-    }
-    if (answer == BallAnswer::kMixed && node.left != 0) {
-      VisitNode(node.left, open);
-      VisitNode(node.left + 1, open);
-      return;
-    }
-    if (answer == BallAnswer::kInside) count_.skipped += node.end - node.begin;
-    for (std::uint32_t i = node.begin; i < node.end; ++i) {
-      const Triangle triangle = TriangleAt(part_.order()[i]);
-      if (answer == BallAnswer::kInside) {
-        AddWhollyInside(triangle);
-      } else {
-        VisitTriangle(triangle, open);
-      }
-    }
-  }
+  void Run() { VisitNode(0, {}, nullptr); }
 
   [[nodiscard]] std::vector<core::ContactPoint> TakePoints() { return std::move(points_); }
   // CP_obj: the point of the part in the hull that is farthest from RP_obj. A piece wholly inside is farthest
@@ -98,48 +96,126 @@ class ContactSearch {
     return hull_.Classify(ball.center, ball.radius_mm, open);
   }
 
-  void VisitTriangle(const Triangle& triangle, recon::OpenCameras open) {
-    const core::Ball ball = core::BallOf(triangle.a, triangle.b, triangle.c);
-    if (2.0 * ball.radius_mm <= resolution_mm_) {
-      ++count_.queries;
-      if (hull_.Contains(triangle.Centroid(), open)) {
-        Reach(triangle.Centroid());
-        AddPoint(triangle);
-      }
-      return;
-    }
-    const BallAnswer answer = Ask(ball, &open);
-    if (answer == BallAnswer::kOutside) return;
-    if (answer == BallAnswer::kInside) {
-      AddWhollyInside(triangle);
-      return;
-    }
-    const auto [first, second] = Halve(triangle);
-    VisitTriangle(first, open);
-    VisitTriangle(second, open);
+  // Calls visit(patch) with the patch that a stretch of this size belongs to: the one given, or its own;
+  // null for one too large to be one contact point.
+  template <typename Visit>
+  void InPatch(double size_mm, Patch* given, const Visit& visit) {
+    if (given != nullptr || size_mm > options_.point_spacing_mm) return visit(given);
+    Patch own;
+    visit(&own);
+    AddPoint(own);
   }
 
-  void AddWhollyInside(const Triangle& triangle) {
+  void AddPoint(const Patch& patch) {
+    if (patch.largest_mm2 >= 0.0) points_.push_back({patch.position, 0.0, patch.area_mm2});
+  }
+
+  void VisitNode(std::uint32_t index, recon::OpenCameras open, Patch* given) {
+    const core::TriangleTree::Node& node = part_.nodes()[index];
+    const BallAnswer answer = Ask({world_from_part_ * node.ball.center, node.ball.radius_mm}, &open);
+    if (answer != BallAnswer::kMixed) count_.skipped += node.end - node.begin;
+    if (answer == BallAnswer::kOutside) return;
+    if (answer == BallAnswer::kInside) return AddNodeInside(index, given);
+    InPatch(2.0 * node.ball.radius_mm, given, [&](Patch* patch) {
+      if (node.left != 0) {
+        VisitNode(node.left, open, patch);
+        VisitNode(node.left + 1, open, patch);
+        return;
+      }
+      for (std::uint32_t i = node.begin; i < node.end; ++i)
+        VisitTriangle(TriangleAt(part_.order()[i]), open, patch);
+    });
+  }
+
+  void VisitTriangle(const Triangle& triangle, recon::OpenCameras open, Patch* given) {
+    const double size_mm = 2.0 * core::BallOf(triangle.a, triangle.b, triangle.c).radius_mm;
+    InPatch(size_mm, given, [&](Patch* patch) {
+      const double sides = std::max(std::ceil(size_mm / resolution_mm_), 1.0);
+      if (sides > kSidesWithoutBall && AskTriangle(triangle, &open, patch)) return;
+      if (sides == 1.0 || (patch != nullptr && sides <= recon::CutTriangle::kMostSides))
+        return Cut({triangle.a, triangle.b, triangle.c, static_cast<int>(sides)}, triangle.AreaMm2(), open,
+                   patch);
+      const auto [first, second] = Halve(triangle);
+      VisitTriangle(first, open, patch);
+      VisitTriangle(second, open, patch);
+    });
+  }
+
+  // True if the triangle's ball settles it.
+  bool AskTriangle(const Triangle& triangle, recon::OpenCameras* open, Patch* patch) {
+    const BallAnswer answer = Ask(core::BallOf(triangle.a, triangle.b, triangle.c), open);
+    if (answer == BallAnswer::kInside) AddTriangleInside(triangle, patch);
+    return answer != BallAnswer::kMixed;
+  }
+
+  // Pieces of the resolution's size, decided by their centres.
+  void Cut(const recon::CutTriangle& triangle, double area_mm2, const recon::OpenCameras& open,
+           Patch* patch) {
+    count_.queries += triangle.pieces();
+    const std::uint64_t inside = triangle.sides > 1 ? recon::PiecesInHull(hull_, triangle, open)
+                                 : hull_.Contains(triangle.CentreOf(0), open) ? 1
+                                                                              : 0;
+    if (inside == 0) return;
+    const int count = std::popcount(inside);
+    int middle = 0;
+    for (std::uint64_t left = inside; left != 0; left &= left - 1) {
+      const int piece = std::countr_zero(left);
+      if (2 * std::popcount(left) > count) middle = piece;
+      Reach(triangle.CentreOf(piece));
+    }
+    InPatch(0.0, patch, [&](Patch* whole) {
+      whole->Add(area_mm2 * count / triangle.pieces(), triangle.CentreOf(middle));
+    });
+  }
+
+  void AddNodeInside(std::uint32_t index, Patch* given) {
+    const core::TriangleTree::Node& node = part_.nodes()[index];
+    InPatch(2.0 * node.ball.radius_mm, given, [&](Patch* patch) {
+      if (patch != nullptr) {
+        ReachNode(index);
+        patch->Add(node.area_mm2, TriangleAt(part_.order()[node.begin]).Centroid());
+      } else if (node.left != 0) {
+        AddNodeInside(node.left, nullptr);
+        AddNodeInside(node.left + 1, nullptr);
+      } else {
+        for (std::uint32_t i = node.begin; i < node.end; ++i)
+          AddTriangleInside(TriangleAt(part_.order()[i]), nullptr);
+      }
+    });
+  }
+
+  void AddTriangleInside(const Triangle& triangle, Patch* patch) {
     for (const Vector3d& vertex : {triangle.a, triangle.b, triangle.c}) Reach(vertex);
-    AddInside(triangle);
+    AddInside(triangle, patch);
+  }
+
+  void AddInside(const Triangle& triangle, Patch* given) {
+    InPatch(2.0 * core::BallOf(triangle.a, triangle.b, triangle.c).radius_mm, given, [&](Patch* patch) {
+      if (patch != nullptr) return patch->Add(triangle.AreaMm2(), triangle.Centroid());
+      const auto [first, second] = Halve(triangle);
+      AddInside(first, nullptr);
+      AddInside(second, nullptr);
+    });
   }
 
   void Reach(const Vector3d& x) {
     if ((x - rp_obj_).squaredNorm() > (farthest_ - rp_obj_).squaredNorm()) farthest_ = x;
   }
 
-  void AddInside(const Triangle& triangle) {
-    if (2.0 * core::BallOf(triangle.a, triangle.b, triangle.c).radius_mm <= options_.point_spacing_mm) {
-      AddPoint(triangle);
+  // All vertices of a node wholly inside.
+  void ReachNode(std::uint32_t index) {
+    const core::TriangleTree::Node& node = part_.nodes()[index];
+    const double most_mm = (world_from_part_ * node.ball.center - rp_obj_).norm() + node.ball.radius_mm;
+    if (most_mm <= (farthest_ - rp_obj_).norm()) return;
+    if (node.left != 0) {
+      ReachNode(node.left);
+      ReachNode(node.left + 1);
       return;
     }
-    const auto [first, second] = Halve(triangle);
-    AddInside(first);
-    AddInside(second);
-  }
-
-  void AddPoint(const Triangle& triangle) {
-    points_.push_back({triangle.Centroid(), 0.0, triangle.AreaMm2()});
+    for (std::uint32_t i = node.begin; i < node.end; ++i) {
+      const Triangle triangle = TriangleAt(part_.order()[i]);
+      for (const Vector3d& vertex : {triangle.a, triangle.b, triangle.c}) Reach(vertex);
+    }
   }
 
   const recon::VisualHull& hull_;
@@ -218,7 +294,7 @@ core::PartContact FindContacts(const recon::VisualHull& hull, const core::Triang
   const Vector3d rp_obj =
       options.reference_in_part ? world_from_part * *options.reference_in_part : center_in_world;
   ContactSearch search(hull, part, world_from_part, options, contact.resolution_mm, rp_obj);
-  search.VisitNode(0);
+  search.Run();
   contact.count.queries = search.count().queries;
   contact.count.skipped = search.count().skipped;
 

@@ -22,7 +22,8 @@ struct BoxInPart {
   Eigen::Vector3d center = Eigen::Vector3d::Zero();
   // Columns: from the centre to the middles of three faces.
   Eigen::Matrix3d half_edges = Eigen::Matrix3d::Zero();
-  double enough_mm = std::numeric_limits<double>::infinity();  // a bound is only worth its work to reach this
+  // A bound is worth work only to reach this; infinite: not worth any, the box's own ball will do.
+  double enough_mm = std::numeric_limits<double>::infinity();
 };
 
 // The nearest point of the triangle a, b, c; of one without area, of its sides.

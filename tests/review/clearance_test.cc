@@ -1,0 +1,236 @@
+// Clearance bounds against pairs of points: whatever hull point is found by other means is no nearer than
+// `lower`, and the witnesses show `upper`.
+#include "review/clearance.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <optional>
+
+#include "core/error.h"
+#include "recon/hull_mesh.h"
+#include "review/contacts.h"
+#include "review/part_distance.h"
+#include "tests/core/solids.h"
+#include "tests/recon/random_scene.h"
+#include "tests/support/soak.h"
+
+namespace elbowroom::review {
+namespace {
+
+using Eigen::Vector3d;
+using recon::Random;
+using recon::VisualHull;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kRoundingMm = 1e-6;
+
+core::TriangleTree TreeOf(core::TriangleMesh mesh) {
+  return core::TriangleTree(std::make_shared<const core::TriangleMesh>(std::move(mesh)));
+}
+
+core::TriangleMesh BoxAround(const Vector3d& center, const Vector3d& size_mm) {
+  return core::Transformed(core::testing::Box(size_mm),
+                           {Eigen::Matrix3d::Identity(), center - 0.5 * size_mm});
+}
+
+// The hull as three far cameras of 1 px a millimetre make it: the box [-50, 50]^3 to a ten-thousandth, or
+// nothing.
+VisualHull BoxHull(bool is_empty = false) {
+  core::Rig rig;
+  rig.name = "box";
+  rig.workspace_mm = {Vector3d::Constant(-95), Vector3d::Constant(95)};
+  std::vector<core::BitMask> masks;
+  for (const Vector3d& axis : {Vector3d(1, 0, 0), Vector3d(0, 1, 0), Vector3d(0, 0, 1)}) {
+    core::CameraCalibration c;
+    c.name = "far";
+    c.image_width_px = c.image_height_px = 200;
+    c.camera_matrix << 1e6, 0.0, 99.5, 0.0, 1e6, 99.5, 0.0, 0.0, 1.0;
+    c.cam_from_world = core::CamFromWorldLookingAt(1e6 * axis, Vector3d::Zero());
+    rig.cameras.emplace_back(std::move(c));
+    core::BitMask& mask = masks.emplace_back(200, 200);
+    for (int y = 50; y < 150 && !is_empty; ++y)
+      for (int x = 50; x < 150; ++x) mask.Set(x, y, true);
+  }
+  return recon::MakeVisualHull(std::make_shared<const core::Rig>(std::move(rig)), masks);
+}
+constexpr double kBoxHullMm = 0.01;  // how far its faces are from +-50
+
+// The witnesses are what they are said to be: points of hull and part, as far from each other as `upper`.
+void CheckWitnesses(const VisualHull& hull, const core::TriangleTree& part,
+                    const core::RigidTransform& world_from_part, const Clearance& clearance) {
+  const core::ClearanceInterval& interval = clearance.interval;
+  ASSERT_LE(interval.lower_mm, interval.upper_mm);
+  ASSERT_EQ(clearance.has_witnesses, std::isfinite(interval.upper_mm));
+  if (!clearance.has_witnesses) return;
+  const Vector3d on_hull = interval.witness_hull_in_world_mm, on_part = interval.witness_part_in_world_mm;
+  // A crossing found by a ray is on the surface to the last bits, to either side.
+  ASSERT_NE(hull.Classify(on_hull, kRoundingMm), recon::BallAnswer::kOutside);
+  ASSERT_NEAR((on_hull - on_part).norm(), interval.upper_mm, kRoundingMm);
+  if (interval.upper_mm > 0.0) {
+    ASSERT_LE(FindNearest(part, {.center = world_from_part.Inverse() * on_part}).distance_mm, kRoundingMm);
+  }
+}
+
+// Hull points of the marching cubes' and of a search around the witness.
+double NearestFoundMm(const VisualHull& hull, const core::TriangleTree& part,
+                      const core::RigidTransform& world_from_part, const Clearance& clearance,
+                      Random* random) {
+  const core::RigidTransform part_from_world = world_from_part.Inverse();
+  const auto distance = [&](const Vector3d& x) {
+    return FindNearest(part, {.center = part_from_world * x}).distance_mm;
+  };
+  double nearest_mm = kInfinity;
+  for (const Vector3d& vertex : recon::MeshHull(hull, 8.0).mesh.vertices_mm)
+    nearest_mm = std::min(nearest_mm, distance(vertex));
+  for (int i = 0; clearance.has_witnesses && i < 200; ++i) {
+    const Vector3d x =
+        clearance.interval.witness_hull_in_world_mm + random->LogUniform(1e-3, 10.0) * random->Direction();
+    if (hull.Contains(x)) nearest_mm = std::min(nearest_mm, distance(x));
+  }
+  return nearest_mm;
+}
+
+core::TriangleMesh RandomPart(Random* random) {
+  core::TriangleMesh mesh =
+      BoxAround(Vector3d::Zero(),
+                {random->Uniform(5.0, 80.0), random->Uniform(5.0, 80.0), random->LogUniform(0.1, 40.0)});
+  for (int i = 0; i < random->Whole(0, 12); ++i) {
+    const Vector3d a = random->Uniform(0.0, 60.0) * random->Direction();
+    const double size = random->LogUniform(0.1, 60.0), thin = i % 3 == 0 ? 1e-6 : 1.0;
+    const Vector3d b = i % 5 == 0 ? a : Vector3d(a + size * random->Direction());
+    const Vector3d c = a + random->Uniform(0.0, 1.0) * (b - a) + size * thin * random->Direction();
+    core::Append(mesh, {{a, b, c}, {{0, 1, 2}}});
+  }
+  return mesh;
+}
+
+TEST(FindClearance, BoundsAreNeverWrong) {
+  Random random(7201);
+  const int trials = 150 * test_support::SoakScale();
+  int apart = 0, touching = 0, undecided = 0;
+  for (int trial = 0; trial < trials; ++trial) {
+    SCOPED_TRACE(trial);
+    const auto unseen = trial % 3 == 0 ? core::UnseenPolicy::kAbstain : core::UnseenPolicy::kOutside;
+    const recon::RandomScene scene = MakeRingScene(&random, random.Whole(2, 5), unseen);
+    const VisualHull hull = recon::MakeVisualHull(scene.rig, scene.masks);
+    const core::TriangleTree part = TreeOf(RandomPart(&random));
+    const core::RigidTransform world_from_part{random.Rotation(),
+                                               random.Uniform(0.0, 250.0) * random.Direction()};
+    ClearanceOptions options;
+    options.tolerance_mm = random.LogUniform(0.2, 10.0);
+    std::optional<ClearanceHint> hint;
+    if (random.Chance(0.5))
+      hint = ClearanceHint{10.0 * random.Direction(), random.Uniform(0.0, 100.0) * random.Direction()};
+    const Clearance clearance = FindClearance(hull, part, world_from_part, options, hint);
+    ASSERT_NO_FATAL_FAILURE(CheckWitnesses(hull, part, world_from_part, clearance));
+    const core::ClearanceInterval& interval = clearance.interval;
+    const double found_mm = NearestFoundMm(hull, part, world_from_part, clearance, &random);
+    ASSERT_LE(interval.lower_mm, found_mm + kRoundingMm);
+    const core::PartContact contact = FindContacts(hull, part, world_from_part, 0);
+    if (contact.verdict == core::Verdict::kContact) {
+      ASSERT_EQ(interval.lower_mm, 0.0);
+      ++touching;
+    }
+    if (interval.upper_mm > 0.0 && std::isfinite(interval.upper_mm)) ++apart;
+    if (std::isfinite(interval.lower_mm) &&
+        interval.upper_mm - interval.lower_mm > options.tolerance_mm + kRoundingMm)
+      ++undecided;
+  }
+  EXPECT_GT(apart, trials / 4);
+  EXPECT_GT(touching, trials / 10);
+  EXPECT_LE(undecided, trials / 20) << "hull thinner than cells, or queries that ran out";
+}
+
+TEST(FindClearance, OfABoxBesideABox) {
+  for (const double gap_mm : {0.5, 3.0, 30.0}) {
+    const core::TriangleTree part = TreeOf(BoxAround({65.0 + gap_mm, 3.0, -2.0}, {30.0, 25.0, 40.0}));
+    ClearanceOptions options;
+    options.tolerance_mm = 0.1;
+    const Clearance clearance = FindClearance(BoxHull(), part, {}, options);
+    EXPECT_LE(clearance.interval.lower_mm, gap_mm + kBoxHullMm);
+    EXPECT_GE(clearance.interval.upper_mm, gap_mm - kBoxHullMm);
+    EXPECT_LE(clearance.interval.upper_mm - clearance.interval.lower_mm, options.tolerance_mm);
+    CheckWitnesses(BoxHull(), part, {}, clearance);
+  }
+}
+
+TEST(FindClearance, IsNothingWhereTheyMeet) {
+  const VisualHull hull = BoxHull();
+  const auto upper = [&](const core::TriangleMesh& mesh) {
+    const Clearance clearance = FindClearance(hull, TreeOf(mesh), {});
+    EXPECT_EQ(clearance.interval.lower_mm, 0.0);
+    return clearance.interval.upper_mm;
+  };
+  EXPECT_EQ(upper(BoxAround({60.0, 0.0, 0.0}, {40.0, 10.0, 10.0})), 0.0) << "across a face";
+  EXPECT_EQ(upper(BoxAround({5.0, 0.0, 0.0}, {10.0, 10.0, 10.0})), 0.0) << "the part in the hull";
+  EXPECT_EQ(upper(BoxAround(Vector3d::Zero(), {180.0, 180.0, 180.0})), 0.0) << "the hull in the part";
+}
+
+TEST(FindClearance, OfNothing) {
+  const core::TriangleTree part = TreeOf(BoxAround({70.0, 0.0, 0.0}, {10.0, 10.0, 10.0}));
+  EXPECT_EQ(FindClearance(BoxHull(true), part, {}).interval.lower_mm, kInfinity);
+  EXPECT_EQ(FindClearance(BoxHull(), TreeOf({}), {}).interval.lower_mm, kInfinity);
+}
+
+TEST(FindClearance, WhatIsFarEnoughCostsOneQuery) {
+  const core::TriangleTree part = TreeOf(BoxAround({85.0, 0.0, 0.0}, {5.0, 5.0, 5.0}));
+  ClearanceOptions options;
+  options.enough_mm = 20.0;
+  const Clearance clearance = FindClearance(BoxHull(), part, {}, options);
+  EXPECT_EQ(clearance.queries, 1);
+  EXPECT_EQ(clearance.distances, 0);
+  EXPECT_EQ(clearance.interval.lower_mm, 20.0);
+  EXPECT_EQ(Judge(clearance.interval, 20.0, 0.0), core::Verdict::kClear);
+  options.enough_mm = 60.0;
+  EXPECT_GT(FindClearance(BoxHull(), part, {}, options).queries, 1);
+}
+
+TEST(FindClearance, StaysTrueWhenItsQueriesRunOut) {
+  const core::TriangleTree part = TreeOf(BoxAround({80.0, 0.0, 0.0}, {20.0, 20.0, 20.0}));
+  ClearanceOptions options;
+  options.tolerance_mm = 0.01;
+  double last_mm = kInfinity;
+  for (const std::int64_t most : {10, 100, 1000, 10'000}) {
+    options.max_queries = most;
+    const core::ClearanceInterval interval = FindClearance(BoxHull(), part, {}, options).interval;
+    EXPECT_LE(interval.lower_mm, 20.0 + kBoxHullMm);
+    EXPECT_GE(interval.upper_mm, 20.0 - kBoxHullMm);
+    EXPECT_LE(interval.upper_mm - interval.lower_mm, last_mm);
+    last_mm = interval.upper_mm - interval.lower_mm;
+  }
+}
+
+TEST(FindClearance, RefusesWhatMeansNothing) {
+  const auto refused = [](const auto& spoil, const std::string& what) {
+    ClearanceOptions options;
+    spoil(&options);
+    try {
+      options.Validate();
+      FAIL() << "accepted";
+    } catch (const core::Error& error) {
+      EXPECT_NE(std::string(error.what()).find(what), std::string::npos) << error.what();
+    }
+  };
+  refused([](ClearanceOptions* o) { o->tolerance_mm = 0.0; }, "tolerance");
+  refused([](ClearanceOptions* o) { o->tolerance_mm = kInfinity; }, "tolerance");
+  refused([](ClearanceOptions* o) { o->enough_mm = std::nan(""); }, "enough");
+  refused([](ClearanceOptions* o) { o->max_queries = 0; }, "query");
+}
+
+TEST(Judge, SaysOnlyWhatTheBoundsAllow) {
+  const auto verdict = [](double lower, double upper, double uncertainty) {
+    return Judge({.lower_mm = lower, .upper_mm = upper}, 10.0, uncertainty);
+  };
+  EXPECT_EQ(verdict(0.0, 0.0, 1.0), core::Verdict::kContact);
+  EXPECT_EQ(verdict(5.0, 6.0, 1.0), core::Verdict::kNear);
+  EXPECT_EQ(verdict(12.0, 13.0, 1.0), core::Verdict::kClear);
+  EXPECT_EQ(verdict(10.5, 11.5, 1.0), core::Verdict::kUndecided);
+  EXPECT_EQ(verdict(9.5, 10.5, 0.0), core::Verdict::kUndecided);
+  EXPECT_EQ(verdict(10.0, kInfinity, 0.0), core::Verdict::kClear);
+}
+
+}  // namespace
+}  // namespace elbowroom::review
