@@ -1,17 +1,13 @@
 // elbowroom contacts RIG.yml --frame N --mesh FILE: one part against the hull of one frame.
 #include <fmt/format.h>
 
-#include <filesystem>
 #include <memory>
-#include <optional>
 
 #include "app/cli/command.h"
+#include "app/cli/part_option.h"
 #include "app/cli/repeated_timing.h"
 #include "app/cli/rig_frame.h"
 #include "app/cli/unit_option.h"
-#include "cad_import/mesh_file.h"
-#include "core/bvh.h"
-#include "recon/pose_file.h"
 #include "review/contacts.h"
 
 namespace elbowroom::cli {
@@ -19,13 +15,9 @@ namespace {
 
 struct ContactsOptions {
   RigFrameOptions frame;
-  std::filesystem::path mesh;
-  std::optional<core::LengthUnit> unit;
-  std::filesystem::path world_from_part;
+  PartOptions part;
   double resolution_mm = 0.0;
 };
-
-nlohmann::json Json(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
 // Keys without a meaning for the verdict are null.
 nlohmann::json Json(const core::PartContact& contact) {
@@ -47,38 +39,34 @@ nlohmann::json Json(const core::PartContact& contact) {
                          {"queries", contact.count.queries},
                          {"skipped", contact.count.skipped}};
   if (contact.recovery) {
-    json["cp_obj_mm"] = Json(contact.recovery->cp_obj_in_world_mm);
-    json["cp_hull_mm"] = Json(contact.recovery->cp_hull_in_world_mm);
-    json["v_rec"] = Json(contact.recovery->v_rec_in_world);
+    json["cp_obj_mm"] = JsonOf(contact.recovery->cp_obj_in_world_mm);
+    json["cp_hull_mm"] = JsonOf(contact.recovery->cp_hull_in_world_mm);
+    json["v_rec"] = JsonOf(contact.recovery->v_rec_in_world);
     json["d_rec_mm"] = contact.recovery->d_rec_mm;
-    if (contact.recovery->n_hull_in_world) json["n_hull"] = Json(*contact.recovery->n_hull_in_world);
+    if (contact.recovery->n_hull_in_world) json["n_hull"] = JsonOf(*contact.recovery->n_hull_in_world);
   }
   if (contact.deepest) {
     json["depth_mm"] = contact.deepest->depth_mm;
-    json["deepest_mm"] = Json(contact.deepest->position_in_world_mm);
+    json["deepest_mm"] = JsonOf(contact.deepest->position_in_world_mm);
   }
-  if (contact.contained_in_world_mm) json["contained_mm"] = Json(*contact.contained_in_world_mm);
+  if (contact.contained_in_world_mm) json["contained_mm"] = JsonOf(*contact.contained_in_world_mm);
   for (const core::ContactPoint& point : contact.points)
-    json["points"].push_back(Json(point.position_in_world_mm));
+    json["points"].push_back(JsonOf(point.position_in_world_mm));
   return json;
 }
 
 CommandResult Run(const ContactsOptions& options, const CommandContext& context, bool json) {
   // The mesh and its pose first: they are cheaper to find wrong than a frame.
-  const auto mesh = std::make_shared<const core::TriangleMesh>(
-      cad_import::ImportMeshFile(options.mesh, {.unit = options.unit, .unit_if_file_has_none = std::nullopt})
-          .mesh);
-  core::RigidTransform world_from_part;
-  if (!options.world_from_part.empty()) world_from_part = recon::ReadPoseFile(options.world_from_part);
+  const PosedPart posed = LoadPart(options.part);
   review::ContactOptions contact_options;
   contact_options.resolution_mm = options.resolution_mm;
   contact_options.Validate();
   const RigFrame frame = LoadRigFrame(options.frame, context);
-  const core::TriangleTree part(mesh);
+  const core::TriangleTree part(posed.mesh);
   const recon::VisualHull hull = recon::MakeVisualHull(frame.rig, frame.masks);
   core::PartContact contact;
   const auto compute = [&] {
-    contact = review::FindContacts(hull, part, world_from_part, 0, contact_options);
+    contact = review::FindContacts(hull, part, posed.world_from_part, 0, contact_options);
   };
   CommandResult result;
   double time_ms = 0.0;
@@ -103,10 +91,7 @@ void AddContactsCommand(CLI::App& app, Choice* choice) {
   CLI::App* command = app.add_subcommand("contacts", "where a part touches the hull of one frame");
   auto options = std::make_shared<ContactsOptions>();
   AddRigFrameOptions(*command, &options->frame);
-  command->add_option("--mesh", options->mesh, "the part")->required();
-  AddUnitOption(*command, &options->unit);
-  command->add_option("--world-from-part", options->world_from_part,
-                      "the part's pose (YAML); default: where its file has it");
+  AddPartOptions(*command, &options->part);
   command
       ->add_option("--resolution", options->resolution_mm,
                    "decide pieces of this size by their centre, mm (default: half a pixel's footprint)")

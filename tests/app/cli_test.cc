@@ -78,7 +78,8 @@ class CliOnBallRig : public testing::Test {
 TEST(Cli, HelpNamesWhatIsBuiltAndNothingElse) {
   const ProgramRun run = Elbowroom({"--help"});
   EXPECT_EQ(run.exit_status, 0);
-  for (const char* command : {"demo", "trial", "report", "segment", "view", "hull", "contacts", "import", "bench"}) {
+  for (const char* command :
+       {"demo", "trial", "report", "segment", "view", "hull", "contacts", "import", "bench"}) {
     EXPECT_NE(run.out.find(std::string("\n  ") + command + " "), std::string::npos) << command;
   }
   for (const char* later : {"replay", "sweep", "clash", "clearance"}) {
@@ -262,6 +263,43 @@ TEST_F(CliOnBallRig, ContactsAreNullWhereNothingTouches) {
   for (const char* key : {"cp_obj_mm", "cp_hull_mm", "v_rec", "d_rec_mm", "n_hull"})
     EXPECT_TRUE(json[key].is_null()) << key;
   EXPECT_EQ(json["skipped"], 12);
+}
+
+TEST_F(CliOnBallRig, ClearanceLiesBetweenItsBounds) {
+  const std::vector<std::string> clearance = {"clearance",
+                                              rig_,
+                                              "--frame",
+                                              "0",
+                                              "--mesh",
+                                              box_,
+                                              "--unit",
+                                              "mm",
+                                              "--world-from-part",
+                                              PoseAt(200, 0, 200),
+                                              "--tolerance",
+                                              "0.5",
+                                              "--required",
+                                              "20",
+                                              "--json"};
+  const ProgramRun apart = Elbowroom(clearance);
+  ASSERT_EQ(apart.exit_status, 0) << apart.err;
+  const auto json = nlohmann::json::parse(apart.out);
+  const double lower_mm = json["lower_mm"], upper_mm = json["upper_mm"];
+  EXPECT_GT(lower_mm, 0.0);
+  EXPECT_LE(lower_mm, upper_mm);
+  EXPECT_LE(upper_mm - lower_mm, 0.5);
+  EXPECT_EQ(json["witness_part_mm"].size(), 3U);
+  EXPECT_EQ(json["witness_hull_mm"].size(), 3U);
+  EXPECT_EQ(json["verdict"], lower_mm >= 20.0 ? "clear" : upper_mm < 20.0 ? "near" : "undecided");
+  for (const char* key : {"time_ms", "queries"}) EXPECT_TRUE(json.contains(key)) << key;
+
+  const ProgramRun touching = Elbowroom({"clearance", rig_, "--frame", "0", "--mesh", box_, "--unit", "mm",
+                                         "--world-from-part", PoseAt(80, 0, 200), "--json"});
+  ASSERT_EQ(touching.exit_status, 0) << touching.err;
+  EXPECT_EQ(nlohmann::json::parse(touching.out)["upper_mm"], 0.0);
+  const ProgramRun refused =
+      Elbowroom({"clearance", rig_, "--frame", "0", "--mesh", box_, "--unit", "mm", "--tolerance", "0"});
+  EXPECT_EQ(refused.exit_status, 2);
 }
 
 TEST_F(CliOnBallRig, MatterInsideAClosedPartIsAContactAndInItsCavityIsNot) {

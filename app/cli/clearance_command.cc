@@ -1,0 +1,103 @@
+// elbowroom clearance RIG.yml --frame N --mesh FILE: how far a part is from the hull of one frame.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <memory>
+#include <optional>
+
+#include "app/cli/command.h"
+#include "app/cli/part_option.h"
+#include "app/cli/repeated_timing.h"
+#include "app/cli/rig_frame.h"
+#include "app/cli/unit_option.h"
+#include "review/clearance.h"
+
+namespace elbowroom::cli {
+namespace {
+
+struct ClearanceCommandOptions {
+  RigFrameOptions frame;
+  PartOptions part;
+  review::ClearanceOptions clearance;
+  std::optional<double> required_mm;
+  double uncertainty_mm = 0.0;
+};
+
+nlohmann::json OrNull(double length_mm) {
+  return std::isfinite(length_mm) ? nlohmann::json(length_mm) : nlohmann::json();
+}
+
+nlohmann::json Json(const review::Clearance& clearance) {
+  const core::ClearanceInterval& interval = clearance.interval;
+  const auto witness = [&](const Eigen::Vector3d& x) {
+    return clearance.has_witnesses ? JsonOf(x) : nlohmann::json();
+  };
+  return {{"lower_mm", OrNull(interval.lower_mm)},
+          {"upper_mm", OrNull(interval.upper_mm)},
+          {"witness_part_mm", witness(interval.witness_part_in_world_mm)},
+          {"witness_hull_mm", witness(interval.witness_hull_in_world_mm)},
+          {"queries", clearance.queries},
+          {"distances", clearance.distances},
+          {"cells_left", clearance.cells_left}};
+}
+
+std::string TextOf(const core::ClearanceInterval& interval) {
+  if (interval.upper_mm == 0.0) return "contact: part and hull meet";
+  if (std::isinf(interval.lower_mm)) return "clear: the hull has no points in this frame";
+  if (std::isinf(interval.upper_mm)) return fmt::format("at least {:.3f} mm", interval.lower_mm);
+  return fmt::format("{:.3f} to {:.3f} mm", interval.lower_mm, interval.upper_mm);
+}
+
+CommandResult Run(const ClearanceCommandOptions& options, const CommandContext& context, bool json) {
+  options.clearance.Validate();
+  // The mesh and its pose first: they are cheaper to find wrong than a frame.
+  const PosedPart posed = LoadPart(options.part);
+  const RigFrame frame = LoadRigFrame(options.frame, context);
+  const core::TriangleTree part(posed.mesh);
+  const recon::VisualHull hull = recon::MakeVisualHull(frame.rig, frame.masks);
+  review::Clearance clearance;
+  const auto compute = [&] {
+    clearance = review::FindClearance(hull, part, posed.world_from_part, options.clearance);
+  };
+  CommandResult result;
+  double time_ms = 0.0;
+  if (json) {
+    time_ms = MedianTimeMs(compute);
+  } else {
+    compute();
+  }
+  result.json = Json(clearance);
+  result.json["time_ms"] = time_ms;
+  result.text = TextOf(clearance.interval);
+  if (options.required_mm) {
+    const core::Verdict verdict =
+        review::Judge(clearance.interval, *options.required_mm, options.uncertainty_mm);
+    result.json["verdict"] = ToString(verdict);
+    result.json["required_mm"] = *options.required_mm;
+    result.text += fmt::format("; {} mm required: {}", *options.required_mm, ToString(verdict));
+  }
+  return result;
+}
+
+}  // namespace
+
+void AddClearanceCommand(CLI::App& app, Choice* choice) {
+  CLI::App* command = app.add_subcommand("clearance", "how far a part is from the hull of one frame");
+  auto options = std::make_shared<ClearanceCommandOptions>();
+  AddRigFrameOptions(*command, &options->frame);
+  AddPartOptions(*command, &options->part);
+  command->add_option("--tolerance", options->clearance.tolerance_mm, "between the bounds, mm (default: 1)")
+      ->check(PositiveLength());
+  command->add_option("--required", options->required_mm, "clearance that is required: adds a verdict, mm")
+      ->check(PositiveLength());
+  command
+      ->add_option("--uncertainty", options->uncertainty_mm,
+                   "what the verdict allows for the rig and the part, mm (default: 0)")
+      ->check(CLI::NonNegativeNumber);
+  command->callback([=, &app] {
+    const bool json = app.get_option("--json")->as<bool>();
+    choice->action = [=](const CommandContext& context) { return Run(*options, context, json); };
+  });
+}
+
+}  // namespace elbowroom::cli

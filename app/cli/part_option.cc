@@ -1,0 +1,27 @@
+#include "app/cli/part_option.h"
+
+#include "app/cli/unit_option.h"
+#include "cad_import/mesh_file.h"
+#include "recon/pose_file.h"
+
+namespace elbowroom::cli {
+
+void AddPartOptions(CLI::App& command, PartOptions* options) {
+  command.add_option("--mesh", options->mesh, "the part")->required();
+  AddUnitOption(command, &options->unit);
+  command.add_option("--world-from-part", options->world_from_part,
+                     "the part's pose (YAML); default: where its file has it");
+}
+
+PosedPart LoadPart(const PartOptions& options) {
+  PosedPart part;
+  part.mesh = std::make_shared<const core::TriangleMesh>(
+      cad_import::ImportMeshFile(options.mesh, {.unit = options.unit, .unit_if_file_has_none = std::nullopt})
+          .mesh);
+  if (!options.world_from_part.empty()) part.world_from_part = recon::ReadPoseFile(options.world_from_part);
+  return part;
+}
+
+nlohmann::json JsonOf(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
+}  // namespace elbowroom::cli
