@@ -79,6 +79,7 @@ int RunCommandLine(int argc, char** argv, const OpenConsole& open_console) {
   AddViewCommand(app, &choice);
   AddHullCommand(app, &choice);
   AddContactsCommand(app, &choice);
+  AddClashCommand(app, &choice);
   AddImportCommand(app, &choice);
   AddBenchCommand(app, &choice);
   try {

@@ -119,9 +119,12 @@ Gap GapOfMeshes(const core::TriangleMesh& a, const core::RigidTransform& world_f
   const auto of_a = TrianglesOf(a, rotation_a, LongVector::Zero());
   const auto of_b = TrianglesOf(b, rotation_b, world_from_b.translation_mm.cast<long double>() - origin_mm);
   const auto boxes_a = BoxesOf(of_a), boxes_b = BoxesOf(of_b);
+  LongBox around_b;
+  for (const LongBox& box : boxes_b) around_b.extend(box);
   Gap least;
   least.distance_mm = std::numeric_limits<long double>::infinity();
   for (std::size_t i = 0; i < of_a.size(); ++i) {
+    if (boxes_a[i].squaredExteriorDistance(around_b) > least.distance_mm * least.distance_mm) continue;
     for (std::size_t j = 0; j < of_b.size(); ++j) {
       const long double square = least.distance_mm * least.distance_mm;
       if (boxes_a[i].squaredExteriorDistance(boxes_b[j]) > square) continue;
@@ -143,6 +146,17 @@ long double WindingNumber(const core::TriangleMesh& mesh, const LongVector& x_in
     angle += 2.0L * std::atan2(p.dot(q.cross(r)), below);
   }
   return angle / (4.0L * std::numbers::pi_v<long double>);
+}
+
+bool HasVertexInside(const core::TriangleMesh& whole, const core::RigidTransform& world_from_whole,
+                     const core::TriangleMesh& piece, const core::RigidTransform& world_from_piece) {
+  if (!core::IsWatertight(whole)) return false;
+  const Eigen::AlignedBox3d bounds = core::BoundsOf(whole);
+  const core::RigidTransform whole_from_piece = world_from_whole.Inverse() * world_from_piece;
+  return std::any_of(piece.vertices_mm.begin(), piece.vertices_mm.end(), [&](const Eigen::Vector3d& vertex) {
+    const Eigen::Vector3d x_in_whole = whole_from_piece * vertex;
+    return bounds.contains(x_in_whole) && WindingNumber(whole, x_in_whole.cast<long double>()) > 0.5L;
+  });
 }
 
 }  // namespace elbowroom::oracles

@@ -32,4 +32,11 @@ struct Gap {
 // turned outwards: 1 inside, 0 outside. x_in_mesh in the mesh's frame, not on its surface.
 [[nodiscard]] long double WindingNumber(const core::TriangleMesh& mesh, const LongVector& x_in_mesh);
 
+// Whether a vertex of `piece` is inside `whole`, if that is closed; of all surfaces that don't meet, this is
+// how one can be within the other.
+[[nodiscard]] bool HasVertexInside(const core::TriangleMesh& whole,
+                                   const core::RigidTransform& world_from_whole,
+                                   const core::TriangleMesh& piece,
+                                   const core::RigidTransform& world_from_piece);
+
 }  // namespace elbowroom::oracles

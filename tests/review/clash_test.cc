@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "tests/core/solids.h"
 #include "tests/oracles/mesh_gap.h"
+#include "tests/review/fcl_answers.h"
 #include "tests/review/random_parts.h"
 #include "tests/support/soak.h"
 
@@ -21,7 +22,6 @@ using core::RigidTransform;
 using core::TriangleMesh;
 using core::Verdict;
 using Eigen::Vector3d;
-using oracles::LongVector;
 
 // Parts of 10 to 100 mm near their frame's origin: rounding in double is some 1e-13 mm.
 constexpr double kRoundingMm = 1e-9;
@@ -47,16 +47,6 @@ PairClash Judge(const core::SharedMesh& a, const RigidTransform& world_from_a, c
   return checker.Check(std::vector{world_from_a, world_from_b}).pairs.at(0);
 }
 
-// Brute force: a vertex of `piece` inside `whole`. Surfaces don't meet.
-bool HasVertexInside(const TriangleMesh& whole, const RigidTransform& world_from_whole,
-                     const TriangleMesh& piece, const RigidTransform& world_from_piece) {
-  if (!core::IsWatertight(whole)) return false;
-  const RigidTransform whole_from_piece = world_from_whole.Inverse() * world_from_piece;
-  return std::any_of(piece.vertices_mm.begin(), piece.vertices_mm.end(), [&](const Vector3d& vertex) {
-    return oracles::WindingNumber(whole, (whole_from_piece * vertex).cast<long double>()) > 0.5L;
-  });
-}
-
 double DistanceTo(const TriangleMesh& mesh, const RigidTransform& world_from_mesh, const Vector3d& x) {
   const TriangleMesh point{{x, x, x}, {{0, 1, 2}}};
   return static_cast<double>(oracles::GapOfMeshes(mesh, world_from_mesh, point, {}).distance_mm);
@@ -70,8 +60,8 @@ void ExpectAsByBruteForce(const PairClash& pair, const TriangleMesh& a, const Ri
   const double required_mm = pair.demand.required_mm;
   Verdict verdict = truth_mm < required_mm ? Verdict::kNear : Verdict::kClear;
   const bool meets = truth_mm <= kTouchMm;
-  const bool contained = !meets && (HasVertexInside(a, world_from_a, b, world_from_b) ||
-                                    HasVertexInside(b, world_from_b, a, world_from_a));
+  const bool contained = !meets && (oracles::HasVertexInside(a, world_from_a, b, world_from_b) ||
+                                    oracles::HasVertexInside(b, world_from_b, a, world_from_a));
   if (meets || contained) verdict = Verdict::kContact;
   EXPECT_EQ(pair.verdict, verdict) << truth_mm << " mm apart";
   EXPECT_EQ(pair.contained, contained);
@@ -86,11 +76,33 @@ void ExpectAsByBruteForce(const PairClash& pair, const TriangleMesh& a, const Ri
   EXPECT_LE(DistanceTo(b, world_from_b, pair.gap->on_b), rounding_mm);
 }
 
+// How FCL alone would have done.
+struct FclTally {
+  void Add(const testing::FclAnswers& fcl, const PairClash& pair, const TriangleMesh& a,
+           const RigidTransform& world_from_a) {
+    const double truth_mm = pair.gap->distance_mm;
+    const bool meets = truth_mm <= kTouchMm;
+    missed += meets && !fcl.meets ? 1 : 0;
+    made_up += !meets && fcl.meets ? 1 : 0;
+    const double error_mm = std::abs(fcl.distance_mm - truth_mm);
+    wrong += error_mm > kTouchMm ? 1 : 0;
+    worst_mm = std::max(worst_mm, error_mm);
+    if (meets && fcl.distance_mm == 0.0 && DistanceTo(a, world_from_a, fcl.on_b) > kTouchMm) ++off_surface;
+  }
+
+  int missed = 0;       // touches
+  int made_up = 0;      // touches
+  int wrong = 0;        // distances
+  int off_surface = 0;  // nearest points of parts that meet
+  double worst_mm = 0.0;
+};
+
 TEST(Clash, RandomPairsAreAsByBruteForce) {
   const int count = 2500 * test_support::SoakScale();
   std::mt19937_64 random(20'261'121);
   std::uniform_int_distribution<int> kind(0, testing::kPartKinds - 1);
   int contacts = 0, contained = 0, near = 0, by_bounds = 0;
+  FclTally fcl;
   for (int i = 0; i < count && !HasFailure(); ++i) {
     const auto a = Shared(MakePart(static_cast<testing::PartKind>(kind(random)), random));
     const auto b = Shared(MakePart(static_cast<testing::PartKind>(kind(random)), random));
@@ -103,9 +115,15 @@ TEST(Clash, RandomPairsAreAsByBruteForce) {
     contained += pair.contained ? 1 : 0;
     near += pair.verdict == Verdict::kNear ? 1 : 0;
     by_bounds += pair.gap ? 0 : 1;
+    if (pair.gap)
+      fcl.Add(testing::AskFcl(*a, poses.world_from_a, *b, poses.world_from_b), pair, *a, poses.world_from_a);
   }
   std::printf("%d pairs: %d contacts (%d contained), %d near, %d clear by their bounds\n", count, contacts,
               contained, near, by_bounds);
+  std::printf(
+      "FCL alone: %d touches missed, %d made up, %d distances wrong by up to %.3g mm, %d nearest points off "
+      "the surface where parts meet\n",
+      fcl.missed, fcl.made_up, fcl.wrong, fcl.worst_mm, fcl.off_surface);
   EXPECT_GT(contained, count / 100);
   EXPECT_GT(near, count / 20);
 }
