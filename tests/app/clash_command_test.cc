@@ -166,7 +166,7 @@ TEST_F(ClashCommand, AnIgnoredPairIsNotJudged) {
 }
 
 TEST_F(ClashCommand, MistakesAreOneLine) {
-  ExpectFailure({"--within", "left,rihgt"}, "no part is named 'rihgt'; did you mean 'right'?");
+  ExpectFailure({"--within", "left,rigt"}, "no part is named 'rigt'; did you mean 'right'?");
   ExpectFailure({"--between", "left"}, "two sides");
   ExpectFailure({"--spacing", "gab=3"}, "did you mean 'gap'?");
   ExpectFailure({"--spacing", "gap=501"}, "goes from -50 to 500 mm");
