@@ -97,20 +97,26 @@ PairClash ClashChecker::Ask(const PairDemand& demand, const std::vector<Part>& p
   pair.demand = demand;
   pair.uncertainty_mm = a.uncertainty_mm + b.uncertainty_mm;
   pair.at_least_mm = std::sqrt(a.bounds_in_world.squaredExteriorDistance(b.bounds_in_world));
-  const double surely_mm = pair.at_least_mm - pair.uncertainty_mm;
-  if (VerdictAt(surely_mm, demand.required_mm) == core::Verdict::kClear) {
+  const auto is_clear = [&] {
+    return VerdictAt(pair.at_least_mm - pair.uncertainty_mm, demand.required_mm) == core::Verdict::kClear;
+  };
+  std::optional<SurfacePair> surfaces;
+  if (!is_clear()) {
+    surfaces.emplace(*a.model, a.world_from_part, *b.model, b.world_from_part);
+    pair.at_least_mm = std::max(pair.at_least_mm, surfaces->BoundsGapMm());
+  }
+  if (is_clear()) {
     ++count.settled_by_bounds;
     return pair;
   }
-  const SurfacePair surfaces(*a.model, a.world_from_part, *b.model, b.world_from_part);
   if (pair.at_least_mm <= kTouchMm) {
     ++count.collision_calls;
-    pair.gap = surfaces.FindMeeting();
+    pair.gap = surfaces->FindMeeting();
     if (pair.gap && pair.gap->distance_mm > kTouchMm) pair.gap.reset();
   }
   if (!pair.gap) {
     ++count.distance_calls;
-    pair.gap = surfaces.Measure();
+    pair.gap = surfaces->Measure();
   }
   pair.at_least_mm = pair.gap->distance_mm;
   pair.contained = pair.gap->distance_mm > kTouchMm &&

@@ -5,6 +5,8 @@
 #include <fcl/narrowphase/detail/traversal/distance/mesh_distance_traversal_node.h>
 #include <fcl/narrowphase/detail/traversal/traversal_recurse.h>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 #include <utility>
@@ -17,28 +19,11 @@ namespace {
 using Eigen::Vector3d;
 using FclMesh = fcl::BVHModel<fcl::OBBRSSd>;
 
-// FCL fits a triangle's box along its normal. Of a triangle thinner than this part of its length the normal
-// is rounding, and the box need not hold the triangle.
-constexpr double kThin = 1e-4;
+// Two sides of boxes with a smaller sine between them are one axis, which is tried anyway.
+constexpr double kParallel = 1e-3;
 
-// A triangle whose box holds this one and can be fitted: itself or, of a needle, its longest side with a
-// corner farther out on the third corner's side.
-Triangle Fattened(const Triangle& triangle) {
-  const auto side = [&](std::size_t i) -> Vector3d { return triangle[(i + 1) % 3] - triangle[i]; };
-  std::size_t longest = 0;
-  for (std::size_t i = 1; i < 3; ++i) {
-    if (side(i).squaredNorm() > side(longest).squaredNorm()) longest = i;
-  }
-  const Vector3d &from = triangle[longest], along = side(longest);
-  const double square = along.squaredNorm();
-  if (square == 0.0) return {from, from + Vector3d::UnitX(), from + Vector3d::UnitY()};
-  if (side(0).cross(side(1)).norm() > kThin * square) return triangle;
-  const Vector3d to_third = triangle[(longest + 2) % 3] - from;
-  const double share = to_third.dot(along) / square;
-  const Vector3d out = to_third - share * along;
-  const Vector3d direction = out.norm() > 0.0 ? Vector3d(out.normalized()) : along.unitOrthogonal();
-  return {from, from + along, from + share * along + 2.0 * kThin * along.norm() * direction};
-}
+// Rounding of a gap between boxes, of the sum of the sizes that went into it.
+constexpr double kInwards = 1e-14;
 
 std::vector<Vector3d> PointOfEachPiece(const core::TriangleMesh& mesh) {
   std::vector<std::size_t> parent(mesh.vertices_mm.size());
@@ -74,7 +59,7 @@ std::vector<Triangle> TrianglesAbout(const core::TriangleMesh& mesh, const Vecto
   return triangles;
 }
 
-// In place: FCL's models are assigned without their arrays.
+// In place: assigning FCL's models leaves two with one set of arrays.
 void Build(const std::vector<Triangle>& triangles, FclMesh& mesh) {
   std::vector<fcl::Vector3d> vertices;
   std::vector<fcl::Triangle> corners;
@@ -82,7 +67,7 @@ void Build(const std::vector<Triangle>& triangles, FclMesh& mesh) {
   corners.reserve(triangles.size());
   for (const Triangle& triangle : triangles) {
     const std::size_t first = vertices.size();
-    for (const Vector3d& corner : Fattened(triangle)) vertices.push_back(corner);
+    vertices.insert(vertices.end(), triangle.begin(), triangle.end());
     corners.emplace_back(first, first + 1, first + 2);
   }
   mesh.beginModel();
@@ -166,6 +151,27 @@ SurfacePair::SurfacePair(const SurfaceModel& a, const core::RigidTransform& worl
   const auto offset = (middle_in_world(b, world_from_b) - middle_in_world(a, world_from_a)).eval();
   a_from_b_.rotation = world_from_a.rotation.transpose() * world_from_b.rotation;
   a_from_b_.translation_mm = world_from_a.rotation.transpose() * offset.cast<double>();
+}
+
+double SurfacePair::BoundsGapMm() const {
+  const Vector3d half_a = 0.5 * a_.tree().bounds().sizes(), half_b = 0.5 * b_.tree().bounds().sizes();
+  const Eigen::Matrix3d& axes_b = a_from_b_.rotation;  // its columns: b's axes in a
+  const Vector3d& offset = a_from_b_.translation_mm;
+  double gap_mm = 0.0;
+  const auto try_axis = [&](const Vector3d& axis) {
+    const double length = axis.norm();
+    if (length < kParallel) return;
+    const double reach_mm = half_a.dot(axis.cwiseAbs()) + half_b.dot((axes_b.transpose() * axis).cwiseAbs());
+    gap_mm = std::max(gap_mm, (std::abs(offset.dot(axis)) - reach_mm) / length);
+  };
+  for (int i = 0; i < 3; ++i) {
+    try_axis(Vector3d::Unit(i));
+    try_axis(axes_b.col(i));
+    for (int j = 0; j < 3; ++j) try_axis(Vector3d::Unit(i).cross(axes_b.col(j)));
+  }
+  const double size_mm = half_a.sum() + half_b.sum() + offset.cwiseAbs().sum() +
+                         a_.fcl_->middle_in_part.cwiseAbs().sum() + b_.fcl_->middle_in_part.cwiseAbs().sum();
+  return std::max(0.0, gap_mm - kInwards * size_mm);
 }
 
 std::optional<SurfaceGap> SurfacePair::FindMeeting() const {

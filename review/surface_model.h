@@ -45,6 +45,10 @@ class SurfacePair {
   SurfacePair(const SurfaceModel& a, const core::RigidTransform& world_from_a, const SurfaceModel& b,
               const core::RigidTransform& world_from_b);
 
+  // The surfaces are no nearer than this: how far apart the meshes' own boxes are, turned as the parts are,
+  // along the best of the fifteen axes that can separate two boxes. 0 where none does.
+  [[nodiscard]] double BoundsGapMm() const;
+
   // Two triangles that FCL says meet, measured; nothing if it finds none. The distance needn't be 0: FCL says
   // so of some needles that are apart.
   [[nodiscard]] std::optional<SurfaceGap> FindMeeting() const;
