@@ -93,6 +93,14 @@ struct FclTally {
       ++(meets ? wrong_points_of_touches : wrong_points);
   }
 
+  void Print() const {
+    std::printf(
+        "FCL alone: %d touches missed, %d made up; %d distances wrong, by up to %.3g mm; nearest points "
+        "wrong "
+        "for %d pairs that are apart and %d that meet\n",
+        missed, made_up, wrong, worst_mm, wrong_points, wrong_points_of_touches);
+  }
+
   int missed = 0;                   // touches
   int made_up = 0;                  // touches
   int wrong = 0;                    // distances
@@ -125,12 +133,32 @@ TEST(Clash, RandomPairsAreAsByBruteForce) {
   }
   std::printf("%d pairs: %d contacts (%d contained), %d near, %d clear by their bounds\n", count, contacts,
               contained, near, by_bounds);
-  std::printf(
-      "FCL alone: %d touches missed, %d made up; %d distances wrong, by up to %.3g mm; nearest points wrong "
-      "for %d pairs that are apart and %d that meet\n",
-      fcl.missed, fcl.made_up, fcl.wrong, fcl.worst_mm, fcl.wrong_points, fcl.wrong_points_of_touches);
+  fcl.Print();
   EXPECT_GT(contained, count / 100);
   EXPECT_GT(near, count / 20);
+}
+
+// Parts of one triangle each, with one edge along one direction: where FCL's own distance fails most.
+TEST(Clash, PartsWithParallelEdgesAreAsByBruteForce) {
+  const int count = 2000 * test_support::SoakScale();
+  std::mt19937_64 random(11);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  const auto any = [&] { return Vector3d(10.0 * unit(random), 10.0 * unit(random), 10.0 * unit(random)); };
+  FclTally fcl;
+  for (int i = 0; i < count && !HasFailure(); ++i) {
+    const Vector3d a = any(), along = any(), b = any() + any();
+    const auto of_a = Shared({{a, a + along, any()}, {{0, 1, 2}}});
+    const auto of_b = Shared({{b, b + 0.7 * along, any() + any()}, {{0, 1, 2}}});
+    const RigidTransform turn = testing::AnyPose(random, 10.0);
+    SCOPED_TRACE(::testing::Message() << "pair " << i);
+    const PairClash pair = Judge(of_a, turn, of_b, turn, 100.0);
+    ExpectAsByBruteForce(pair, *of_a, turn, *of_b, turn, kRoundingMm);
+    // FCL joins equal poses to none, so it is given the turned triangles.
+    const TriangleMesh turned_a = core::Transformed(*of_a, turn), turned_b = core::Transformed(*of_b, turn);
+    fcl.Add(testing::AskFcl(turned_a, {}, turned_b, {}), pair, turned_a, {}, turned_b, {});
+  }
+  std::printf("%d pairs with parallel edges; ", count);
+  fcl.Print();
 }
 
 TEST(Clash, FacesThatTouchExactlyAreInContact) {
