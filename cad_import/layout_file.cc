@@ -98,6 +98,7 @@ core::PairRule ReadPair(const TomlEntry& entry, const core::Layout& layout) {
   rule.required_clearance_mm = entry.NumberOr("required_clearance_mm", 0.0);
   if (rule.required_clearance_mm < 0.0) entry.Fail("required_clearance_mm", "must not be negative");
   rule.authorised_contact = entry.FlagOr("authorised_contact", false);
+  rule.ignore = entry.FlagOr("ignore", false);
   return rule;
 }
 
@@ -123,7 +124,7 @@ ImportedLayout ImportLayoutFile(const std::filesystem::path& path) {
     layout.spacings.push_back(ReadSpacing(entry, layout));
   }
   for (const TomlEntry& entry :
-       root.Entries("pair", {"a", "b", "required_clearance_mm", "authorised_contact"})) {
+       root.Entries("pair", {"a", "b", "required_clearance_mm", "authorised_contact", "ignore"})) {
     layout.pair_rules.push_back(ReadPair(entry, layout));
   }
   try {

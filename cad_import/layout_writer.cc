@@ -53,7 +53,8 @@ toml::table ToToml(const core::PairRule& rule) {
   return toml::table{{"a", rule.a},
                      {"b", rule.b},
                      {"required_clearance_mm", rule.required_clearance_mm},
-                     {"authorised_contact", rule.authorised_contact}};
+                     {"authorised_contact", rule.authorised_contact},
+                     {"ignore", rule.ignore}};
 }
 
 // "[[key]]" and its keys in the order given, one a line (a toml::table would sort them).
@@ -75,7 +76,7 @@ void WriteLayoutFile(const core::Layout& layout, const std::filesystem::path& pa
   WriteEntries(out, "part", layout.parts, {"name", "file", "unit", "position_mm", "rotation_rpy_deg"});
   WriteEntries(out, "spacing", layout.spacings,
                {"name", "moving", "reference", "axis", "min_mm", "max_mm", "initial_mm"});
-  WriteEntries(out, "pair", layout.pair_rules, {"a", "b", "required_clearance_mm", "authorised_contact"});
+  WriteEntries(out, "pair", layout.pair_rules, {"a", "b", "required_clearance_mm", "authorised_contact", "ignore"});
   core::WriteWholeFile(path, out.str());
 }
 

@@ -45,6 +45,7 @@ struct PairRule {
   std::string b;  // part name
   double required_clearance_mm = 0.0;
   bool authorised_contact = false;
+  bool ignore = false;  // the pair is never asked about
 };
 
 struct Layout {

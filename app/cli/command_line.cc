@@ -80,6 +80,7 @@ int RunCommandLine(int argc, char** argv, const OpenConsole& open_console) {
   AddHullCommand(app, &choice);
   AddContactsCommand(app, &choice);
   AddClearanceCommand(app, &choice);
+  AddClashCommand(app, &choice);
   AddImportCommand(app, &choice);
   AddBenchCommand(app, &choice);
   try {

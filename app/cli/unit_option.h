@@ -20,16 +20,28 @@ inline void AddUnitOption(CLI::App& command, std::optional<core::LengthUnit>* un
       ->check(CLI::IsMember({"mm", "cm", "m", "in"}));
 }
 
+// The whole text as a finite number.
+inline std::optional<double> ParseNumber(const std::string& text) {
+  double value = 0.0;
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, value);
+  if (error != std::errc() || stop != end || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
 // Accepts finite numbers above zero.
 inline CLI::Validator PositiveLength() {
   return {[](const std::string& text) -> std::string {
-            double value = 0.0;
-            const char* end = text.data() + text.size();
-            const auto [stop, error] = std::from_chars(text.data(), end, value);
-            const bool is_number = error == std::errc() && stop == end;
-            return is_number && std::isfinite(value) && value > 0.0
-                       ? ""
-                       : "must be a positive number, not " + text;
+            return ParseNumber(text).value_or(0.0) > 0.0 ? "" : "must be a positive number, not " + text;
+          },
+          "MM"};
+}
+
+// Accepts finite numbers from zero.
+inline CLI::Validator LengthFromZero() {
+  return {[](const std::string& text) -> std::string {
+            return ParseNumber(text).value_or(-1.0) >= 0.0 ? ""
+                                                           : "must be 0 or a positive number, not " + text;
           },
           "MM"};
 }

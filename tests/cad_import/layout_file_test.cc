@@ -109,6 +109,16 @@ TEST_F(LayoutFile, EveryKeyArrives) {
   EXPECT_EQ(layout.pair_rules[0].b, "payload B");
   EXPECT_EQ(layout.pair_rules[0].required_clearance_mm, 5.0);
   EXPECT_TRUE(layout.pair_rules[0].authorised_contact);
+  EXPECT_FALSE(layout.pair_rules[0].ignore);
+}
+
+TEST_F(LayoutFile, APairThatIsIgnoredStaysSoWhenWritten) {
+  const auto path = WriteWith("authorised_contact = true", "ignore = true");
+  core::Layout layout = ImportLayoutFile(path).layout;
+  EXPECT_TRUE(layout.pair_rules[0].ignore);
+  EXPECT_FALSE(layout.pair_rules[0].authorised_contact);
+  WriteLayoutFile(layout, folder_ / "copy.toml");
+  EXPECT_TRUE(ImportLayoutFile(folder_ / "copy.toml").layout.pair_rules[0].ignore);
 }
 
 TEST_F(LayoutFile, APartsUnitGoesBeforeItsFilesAndThatBeforeTheLayouts) {
