@@ -110,8 +110,8 @@ TwoTriangleResponse RespondByTwoTriangles(const recon::CoverageHull& hull,
   }
   response.triangles = 2;
   response.pixels = static_cast<std::int64_t>(hull.cameras().size()) * options.window_px * options.window_px;
-  const double begin_share = options.v_rec_in_world ? 1.0 : to_reference_mm / options.height_mm;
-  const auto cp_hull = FirstInHull(hull, {cp_obj, options.height_mm * v_rec}, options.window_px, begin_share);
+  const double reach_px = options.v_rec_in_world ? HUGE_VAL : to_reference_mm / response.step_mm;
+  const auto cp_hull = FirstInHull(hull, {cp_obj, options.height_mm * v_rec}, options.window_px, reach_px);
   if (!cp_hull) {
     response.status = TwoTriangleStatus::kDeeperThanTriangle;
     return response;

@@ -19,7 +19,7 @@ struct TwoTriangleOptions {
   double height_mm = 50.0;                           // from A to BC, > 0; the paper's
   int window_px = 400;  // 2 to 4096, square; the paper's: CP_hull to height / window = 0.125 mm
   // V_rec of a part with constrained motion, unit; nothing: from CP_obj to RP_obj.
-  std::optional<Eigen::Vector3d> v_rec_in_world;
+  std::optional<Eigen::Vector3d> v_rec_in_world = std::nullopt;
 
   // Throws: PreconditionError naming the field out of range.
   void Validate() const;
