@@ -17,6 +17,7 @@ using Eigen::Vector3d;
 
 constexpr int kMostPx = 400;
 constexpr int kSixteenths = 16;
+constexpr double kEighths = 8.0;
 
 // A side of the triangle as base, lying from `p` to `q` below `apex`.
 struct Based {
@@ -63,9 +64,9 @@ TriangleViewport::TriangleViewport(const std::array<Vector3d, 3>& corners_mm,
                                    const TriangleViewportOptions& options)
     : width_px_(options.width_px), height_px_(options.height_px) {
   const Based based = BestBase(corners_mm, options);
-  const double eighths = based.foot * options.width_px * (kSixteenths / 2);
+  const double eighths = based.foot * options.width_px * kEighths;
   apex_sixteenths_ =
-      2 * static_cast<int>(std::clamp(std::floor(eighths), 0.0, options.width_px * 8.0 - 1.0)) + 1;
+      2 * static_cast<int>(std::clamp(std::floor(eighths), 0.0, kEighths * options.width_px - 1.0)) + 1;
   origin_mm_ = based.p;
   along_x_mm_ = (based.q - based.p) / options.width_px;
   along_y_mm_ = (based.apex - based.p - apex_x_px() * along_x_mm_) / options.height_px;

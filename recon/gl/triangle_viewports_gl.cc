@@ -43,11 +43,12 @@ struct Page {
 
 // As square as may be, for that many triangles or as many as it can hold.
 Page PageFor(std::size_t triangles, const TriangleViewportOptions& options) {
+  const int most_columns = kPagePx / options.width_px, most_rows = kPagePx / options.height_px;
   Page page{1, 1, options.width_px, options.height_px};
   const double side = std::ceil(std::sqrt(static_cast<double>(triangles)));
-  page.columns = static_cast<int>(std::clamp(side, 1.0, double(kPagePx / options.width_px)));
+  page.columns = static_cast<int>(std::clamp<double>(side, 1.0, most_columns));
   const double rows = std::ceil(static_cast<double>(triangles) / page.columns);
-  page.rows = static_cast<int>(std::clamp(rows, 1.0, double(kPagePx / options.height_px)));
+  page.rows = static_cast<int>(std::clamp<double>(rows, 1.0, most_rows));
   return page;
 }
 

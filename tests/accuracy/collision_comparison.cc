@@ -99,11 +99,11 @@ const Vector3d kHandMm(140.0, 10.0, 200.0);
 std::string NameOf(CollisionMethod method) {
   switch (method) {
     case CollisionMethod::kViewportsGl:
-      return "the paper's: viewports, GL, and two triangles";
+      return "the paper's viewports, GL";
     case CollisionMethod::kViewportsCpu:
-      return "its twin: viewports, CPU, and two triangles";
+      return "the paper's viewports, CPU";
     case CollisionMethod::kExact:
-      return "exact: ball query and ray crossing";
+      return "exact";
     case CollisionMethod::kExactAtTwoMm:
       break;
   }
@@ -116,7 +116,7 @@ core::TriangleMesh Curtain() {
   core::TriangleMesh mesh;
   for (int j = 0; j <= kUp; ++j)
     for (int i = 0; i <= kAcross; ++i)
-      mesh.vertices_mm.emplace_back(0.0, kCellMm * (i - kAcross / 2), kCellMm * (j - kUp / 2));
+      mesh.vertices_mm.emplace_back(0.0, kCellMm * (i - 0.5 * kAcross), kCellMm * (j - 0.5 * kUp));
   for (int j = 0; j < kUp; ++j) {
     for (int i = 0; i < kAcross; ++i) {
       const int a = j * (kAcross + 1) + i, b = a + 1, c = a + kAcross + 1, d = c + 1;

@@ -66,7 +66,7 @@ reporting::Table WorkTable(const CollisionCost& measured) {
 
 reporting::Table MissedTable(const std::vector<SmallContacts>& sizes) {
   reporting::Table table{{"contact, across", "contacts"}, {}};
-  for (const CollisionMethod method : kCollisionMethods) table.header.push_back(NameOf(method) + ": missed");
+  for (const CollisionMethod method : kCollisionMethods) table.header.push_back("missed: " + NameOf(method));
   for (const SmallContacts& size : sizes) {
     std::vector<std::string> row = {RangeOf(size.from_mm, size.to_mm), std::to_string(size.contacts)};
     for (const int missed : size.missed) row.push_back(std::to_string(missed));

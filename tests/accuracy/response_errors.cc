@@ -46,7 +46,7 @@ std::optional<Vector3d> NormalAt(const core::Rig& rig, const Round& round, const
   std::optional<Vector3d> normal;
   double largest_mm = -HUGE_VAL, second_mm = -HUGE_VAL;
   for (const core::CameraModel& camera : rig.cameras) {
-    const Vector3d eye = camera.center_in_world();
+    const Vector3d& eye = camera.center_in_world();
     const Vector3d out = FromAxis(round, {eye, (x_in_world - eye).normalized()});
     const double margin_mm = out.norm() - round.radius_mm;
     second_mm = std::max(second_mm, std::min(margin_mm, largest_mm));
@@ -126,45 +126,67 @@ core::TriangleTree PointPart(const Vector3d& x_in_world) {
       std::make_shared<const core::TriangleMesh>(core::TriangleMesh{{x_in_world}, {{0, 0, 0}}}));
 }
 
+// One solid and the hulls of it.
+struct Sight {
+  Sight(std::shared_ptr<const core::Rig> shared, const Round& of)
+      : rig(*shared),
+        round(of),
+        masks(MasksOf(rig, of)),
+        hull(recon::MakeVisualHull(shared, masks)),
+        textures(rig, masks),
+        analytic(rig, std::vector{SolidOf(of)}),
+        brute_force(rig, masks, oracles::BoundaryConvention::kMarchingSquares) {}
+
+  static std::vector<core::SoftMask> MasksOf(const core::Rig& rig, const Round& round) {
+    const std::vector<recon::Solid> solids = {SolidOf(round)};
+    std::vector<core::SoftMask> masks;
+    for (const core::CameraModel& camera : rig.cameras)
+      masks.push_back(oracles::CoverageMask(camera, solids, kSharpPicturePx));
+    return masks;
+  }
+
+  core::Rig rig;
+  Round round;
+  std::vector<core::SoftMask> masks;
+  recon::VisualHull hull;
+  recon::CoverageHull textures;
+  oracles::AnalyticHull analytic;
+  oracles::MaskHullOracle brute_force;
+};
+
+// Backs a point out of the hull towards a random reference, both ways.
+void RespondOnce(const Sight& sight, recon::Random* random, Depths* depths) {
+  const Vector3d on_axis = sight.round.a + random->Uniform(0.0, 1.0) * (sight.round.b - sight.round.a);
+  const Vector3d v_rec = random->Direction(), rp_obj = on_axis + kReferenceAwayMm * v_rec;
+  const double depth_mm = random->Uniform(depths->from_mm, depths->to_mm);
+  const auto to_analytic_mm = sight.analytic.FirstSurface({rp_obj, -v_rec});
+  const auto to_masks_mm = sight.brute_force.FirstSurface({rp_obj, -v_rec});
+  if (!to_analytic_mm || !to_masks_mm) return;
+  const Vector3d cp_obj = rp_obj - (*to_masks_mm + depth_mm) * v_rec;
+  if (!sight.textures.Contains(cp_obj)) return;  // through to the other side
+  const auto two = review::RespondByTwoTriangles(sight.textures, std::span(&cp_obj, 1), rp_obj);
+  review::ContactOptions options;
+  options.reference_in_part = rp_obj;
+  const auto exact = review::FindContacts(sight.hull, PointPart(cp_obj), {}, 0, options);
+  if (!two.recovery || !exact.recovery) return;
+  const Truth truth{*to_masks_mm, *to_analytic_mm,
+                    NormalAt(sight.rig, sight.round, rp_obj - *to_analytic_mm * v_rec)};
+  ++depths->responses;
+  Add(*two.recovery, rp_obj, truth, &depths->two_triangles);
+  Add(*exact.recovery, rp_obj, truth, &depths->exact);
+}
+
 }  // namespace
 
-std::vector<ResponseErrors> MeasureResponses(recon::ViewSceneRig rig_kind, int solids, int rays,
+std::vector<ResponseErrors> MeasureResponses(recon::ViewSceneRig rig, int solids, int rays,
                                              std::uint64_t seed) {
-  const core::Rig rig = recon::MakeViewScene(rig_kind).rig;
-  const auto shared = std::make_shared<const core::Rig>(rig);
+  const auto shared = std::make_shared<const core::Rig>(recon::MakeViewScene(rig).rig);
   recon::Random random(seed);
   std::vector<Depths> depths = {{1.0, 3.0}, {3.0, 8.0}, {8.0, 20.0}, {20.0, 45.0}};
   for (int i = 0; i < solids; ++i) {
-    const Round round = RandomRound(&random, i % 2 == 1);
-    const std::vector<recon::Solid> solid = {SolidOf(round)};
-    std::vector<core::SoftMask> masks;
-    for (const core::CameraModel& camera : rig.cameras)
-      masks.push_back(oracles::CoverageMask(camera, solid, kSharpPicturePx));
-    const recon::VisualHull hull = recon::MakeVisualHull(shared, masks);
-    const recon::CoverageHull textures(rig, masks);
-    const oracles::AnalyticHull analytic(rig, solid);
-    const oracles::MaskHullOracle brute_force(rig, masks, oracles::BoundaryConvention::kMarchingSquares);
-    for (int ray = 0; ray < rays; ++ray) {
-      const Vector3d on_axis = round.a + random.Uniform(0.0, 1.0) * (round.b - round.a);
-      const Vector3d v_rec = random.Direction(), rp_obj = on_axis + kReferenceAwayMm * v_rec;
-      Depths& depth = depths[static_cast<std::size_t>(ray) % depths.size()];
-      const double depth_mm = random.Uniform(depth.from_mm, depth.to_mm);
-      const auto to_analytic_mm = analytic.FirstSurface({rp_obj, -v_rec});
-      const auto to_masks_mm = brute_force.FirstSurface({rp_obj, -v_rec});
-      if (!to_analytic_mm || !to_masks_mm) continue;
-      const Vector3d cp_obj = rp_obj - (*to_masks_mm + depth_mm) * v_rec;
-      if (!textures.Contains(cp_obj)) continue;  // through to the other side
-      const auto two = review::RespondByTwoTriangles(textures, std::span(&cp_obj, 1), rp_obj);
-      review::ContactOptions options;
-      options.reference_in_part = rp_obj;
-      const auto exact = review::FindContacts(hull, PointPart(cp_obj), {}, 0, options);
-      if (!two.recovery || !exact.recovery) continue;
-      const Truth truth{*to_masks_mm, *to_analytic_mm,
-                        NormalAt(rig, round, rp_obj - *to_analytic_mm * v_rec)};
-      ++depth.responses;
-      Add(*two.recovery, rp_obj, truth, &depth.two_triangles);
-      Add(*exact.recovery, rp_obj, truth, &depth.exact);
-    }
+    const Sight sight(shared, RandomRound(&random, i % 2 == 1));
+    for (int ray = 0; ray < rays; ++ray)
+      RespondOnce(sight, &random, &depths[static_cast<std::size_t>(ray) % depths.size()]);
   }
   Depths all{depths.front().from_mm, depths.back().to_mm};
   for (const Depths& depth : depths) {

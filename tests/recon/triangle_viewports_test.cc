@@ -138,7 +138,7 @@ TEST(SampleTriangles, CountsWorkAsThePaperDoes) {
       SampleTriangles(CoverageHull(*scene.rig, SoftMasks(&random, scene.masks)), part, {});
   EXPECT_EQ(sampled.work.triangles, 3 * 720);  // n m
   EXPECT_EQ(sampled.work.pixels, 3 * sampled.samples);
-  EXPECT_NEAR(static_cast<double>(sampled.work.pixels), 3 * 720 * 100 / 2,
+  EXPECT_NEAR(static_cast<double>(sampled.work.pixels), 108'000.0,
               0.05 * 3 * 720 * 50);  // n m u v / 2
   EXPECT_EQ(sampled.work.read_backs, 0);
 }
