@@ -1,17 +1,14 @@
 #include "recon/sweep_space.h"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 #include "core/error.h"
-#include "recon/straightened_mask.h"
 
 namespace elbowroom::recon {
 namespace {
@@ -20,7 +17,6 @@ using Eigen::AlignedBox2d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr std::size_t kMostCameras = 64;
 constexpr double kMostPlanes = 100'000;
 // Certain answers keep this far from where rounding decides.
 constexpr double kMarginPx = 1e-2;
@@ -93,44 +89,12 @@ CameraAnswer Ask(const SweepCamera& camera, const Corners& corners_in_view, bool
   return AskPicture(camera, Grown(*bounds_px, kMarginPx), exterior_is_object);
 }
 
-void RequireFit(const core::Rig& rig, std::span<const core::SoftMask> masks) {
-  core::Require(masks.size() == rig.cameras.size(), "a plane sweep has one mask a camera");
-  if (rig.cameras.size() > kMostCameras) {
-    throw core::Error(core::ErrorKind::kRange,
-                      fmt::format("rig '{}' has {} cameras; the plane sweep takes {}, use the exact view",
-                                  rig.name, rig.cameras.size(), kMostCameras));
-  }
-  for (std::size_t i = 0; i < masks.size(); ++i) {
-    const core::CameraModel& camera = rig.cameras[i];
-    const core::BitMask& mask = masks[i].mask;
-    if (mask.width_px() == camera.width_px() && mask.height_px() == camera.height_px()) continue;
-    throw core::Error(
-        core::ErrorKind::kCamera,
-        fmt::format("camera '{}': its mask has {} x {} pixels and it has {} x {}; take the mask "
-                    "from this camera's picture",
-                    camera.name(), mask.width_px(), mask.height_px(), camera.width_px(), camera.height_px()));
-  }
-}
-
 }  // namespace
-
-SweepLensCoefficients LensCoefficientsOf(const core::CameraModel& camera) {
-  const core::CameraCalibration& c = camera.calibration();
-  // OpenCV's order: k1 k2 p1 p2 k3 k4 k5 k6 s1 s2 s3 s4, or k1 k2 k3 k4.
-  const auto at = [&](std::size_t i) {
-    return i < c.distortion_coefficients.size() ? static_cast<float>(c.distortion_coefficients[i]) : 0.0F;
-  };
-  if (c.distortion_model == core::DistortionModel::kFisheye) {
-    return {true, {at(0), at(1), at(2), at(3), 0.0F, 0.0F}, {}, {}};
-  }
-  return {false, {at(0), at(1), at(4), at(5), at(6), at(7)}, {at(2), at(3)}, {at(8), at(9), at(10), at(11)}};
-}
 
 void PlaneSweepOptions::Validate() const {
   core::Require(spacing_mm > 0.0 && std::isfinite(spacing_mm), "planes have a positive spacing");
   core::Require(near_mm >= 0.0 && far_mm >= near_mm, "planes lie in front of the view, near before far");
-  core::Require(undistortion_grid == 0 || (undistortion_grid >= 2 && undistortion_grid <= 1024),
-                "an undistortion grid has 2 to 1024 positions a side, or there is none (0)");
+  RequireUndistortionGrid(undistortion_grid);
 }
 
 SweepSpace::SweepSpace(const core::Rig& rig, std::span<const core::SoftMask> masks,
@@ -143,26 +107,8 @@ SweepSpace::SweepSpace(const core::Rig& rig, std::span<const core::SoftMask> mas
   options.Validate();
   core::Require(rays.width_px() == view.width_px() && rays.height_px() == view.height_px(),
                 "a view's rays are its own");
-  RequireFit(rig, masks);
+  cameras_ = MakeSweepCameras(rig, masks, world_from_view_, options.undistortion_grid);
   PlacePlanes(options);
-  std::vector<std::optional<SweepCamera>> cameras(rig.cameras.size());
-  tbb::parallel_for(std::size_t{0}, cameras.size(), [&](std::size_t i) {
-    const core::CameraModel& camera = rig.cameras[i];
-    const core::RigidTransform cam_from_view = camera.cam_from_world() * world_from_view_;
-    if (options.undistortion_grid == 0 || camera.is_ideal()) {
-      cameras[i] = {camera, cam_from_view, MakeCoverageTexture(masks[i]), BlockOccupancy(masks[i].mask)};
-      return;
-    }
-    StraightenedMask straight = Straighten(camera, masks[i], options.undistortion_grid, exterior_is_object_);
-    cameras[i] = {std::move(straight.camera), cam_from_view, MakeCoverageTexture(straight.mask),
-                  BlockOccupancy(straight.mask.mask)};
-  });
-  std::vector<std::size_t> order(cameras.size());
-  std::iota(order.begin(), order.end(), 0);
-  const auto texels = [&](std::size_t i) { return cameras[i]->coverage.texels.size(); };
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return texels(a) < texels(b); });
-  for (const std::size_t i : order) cameras_.push_back(std::move(*cameras[i]));
 }
 
 void SweepSpace::PlacePlanes(const PlaneSweepOptions& options) {
@@ -190,7 +136,7 @@ void SweepSpace::PlacePlanes(const PlaneSweepOptions& options) {
 
 OpenQuestions SweepSpace::AllQuestions() const {
   const std::uint64_t all =
-      cameras_.size() == kMostCameras ? ~std::uint64_t{0} : (std::uint64_t{1} << cameras_.size()) - 1;
+      cameras_.size() == kMostSweepCameras ? ~std::uint64_t{0} : (std::uint64_t{1} << cameras_.size()) - 1;
   // Where the unseen is outside, a point that is object to every camera is seen by all.
   return {all, !exterior_is_object_, false};
 }

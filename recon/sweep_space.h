@@ -1,4 +1,4 @@
-// What CPU and OpenGL plane sweep share: cameras, textures, planes, and which regions can't hold any hull.
+// What CPU and OpenGL plane sweep share: cameras, planes, and which regions can't hold any hull.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,27 +9,10 @@
 #include <span>
 #include <vector>
 
-#include "recon/coverage_texture.h"
 #include "recon/plane_sweep.h"
+#include "recon/sweep_cameras.h"
 
 namespace elbowroom::recon {
-
-struct SweepCamera {
-  core::CameraModel model;
-  core::RigidTransform cam_from_view;
-  CoverageTexture coverage;
-  BlockOccupancy occupancy;
-};
-
-// The lens in single precision, by name; zero where the model has none.
-struct SweepLensCoefficients {
-  bool is_fisheye = false;
-  std::array<float, 6> radial{};      // k1..k6, or fisheye's k1..k4
-  std::array<float, 2> tangential{};  // p1, p2
-  std::array<float, 4> prism{};       // s1..s4
-};
-
-[[nodiscard]] SweepLensCoefficients LensCoefficientsOf(const core::CameraModel& camera);
 
 // Pixels [x0, x1) x [y0, y1) of the view (lower ends multiples of kSweepTilePx) on planes [first, end).
 struct SweepRegion {

@@ -57,8 +57,8 @@ struct Choice {
 
 // Each adds one subcommand and its options to `app`; when it is given, `*choice` is set.
 void AddBenchCommand(CLI::App& app, Choice* choice);
-void AddClearanceCommand(CLI::App& app, Choice* choice);
 void AddClashCommand(CLI::App& app, Choice* choice);
+void AddClearanceCommand(CLI::App& app, Choice* choice);
 void AddContactsCommand(CLI::App& app, Choice* choice);
 void AddDemoCommand(CLI::App& app, Choice* choice);
 void AddHullCommand(CLI::App& app, Choice* choice);

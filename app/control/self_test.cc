@@ -7,8 +7,10 @@
 #include <memory>
 #include <utility>
 
+#include "app/control/demo_parts.h"
 #include "recon/gl/exact_view_gl.h"
 #include "recon/gl/plane_sweep_gl.h"
+#include "recon/gl/triangle_viewports_gl.h"
 #include "recon/hull_view.h"
 #include "recon/straightened_mask.h"
 #include "recon/sweep_comparison.h"
@@ -91,6 +93,18 @@ SelfTestLine CompareSwept(const std::string& what, const Scene& scene, recon::gl
   return {what, cpu.picture.hit_pixels, comparison.differing_pixels, comparison.unexplained_pixels};
 }
 
+// The demo's PMT box where the hand is: all its triangles in viewports.
+SelfTestLine CompareSampled(const Scene& scene, recon::gl::TriangleViewportsGl* viewports) {
+  const recon::CoverageHull hull(scene.rig, scene.masks);
+  const core::TriangleMesh part = PmtBox();
+  const core::RigidTransform world_from_part{Eigen::Matrix3d::Identity(), kHand};
+  const recon::SampledContacts cpu = recon::SampleTriangles(hull, part, world_from_part);
+  const recon::SampledContacts gl = viewports->Sample(hull, part, world_from_part);
+  const recon::SampleComparison comparison = recon::CompareSamples(hull, cpu, gl);
+  return {"collision, the paper's viewports", static_cast<std::int64_t>(cpu.contacts.size()),
+          comparison.differing_samples, comparison.unexplained_samples};
+}
+
 SelfTestLine CompareExact(std::string what, const recon::VisualHull& hull, const recon::ViewRays& rays,
                           const MakeView& graphics) {
   const recon::HullView cpu = recon::ViewHull(hull, rays);
@@ -123,6 +137,8 @@ SelfTestReport RunSelfTest() {
          return card.ViewHull(hull, rays);
        }))
     report.lines.push_back(std::move(line));
+  recon::gl::TriangleViewportsGl viewports;
+  report.lines.push_back(CompareSampled(scene, &viewports));
   return report;
 }
 

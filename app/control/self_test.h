@@ -25,7 +25,8 @@ struct SelfTestReport {
 };
 
 // The demo's hand before a built-in rig: swept with planes, both ways in OpenGL, with and without
-// undistortion grid; and seen exactly, as TestExactViews. Throws: core::Error{kGraphics} when nothing can be
+// undistortion grid; seen exactly, as TestExactViews; and in collision with the demo's PMT box, by the
+// paper's viewports, whose samples count as pixels. Throws: core::Error{kGraphics} when nothing can be
 // drawn at all.
 [[nodiscard]] SelfTestReport RunSelfTest();
 

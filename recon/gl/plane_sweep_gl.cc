@@ -27,8 +27,6 @@ namespace {
 constexpr std::size_t kMostTextures = 15;  // OpenGL 3.3 promises 16 units; one is for the view's rays
 constexpr int kRayUnit = 15;
 constexpr int kSurveyPx = 2 * kSweepTilePx;
-constexpr GLuint kSeenBit = 0x80;
-constexpr GLuint kCountBits = 0x7F;
 
 using PixelRect = Eigen::AlignedBox2i;  // upper ends excluded
 
@@ -41,14 +39,6 @@ Eigen::Matrix3d FromRay(const core::RigidTransform& b_from_view, double depth_mm
 
 Eigen::Matrix3d RayFromPixel(const core::CameraModel& view) {
   return view.calibration().camera_matrix.inverse();
-}
-
-// From the normalised plane to positions that count from the coverage's first texel.
-Eigen::Matrix3d PictureFromNormalised(const SweepCamera& camera) {
-  Eigen::Matrix3d matrix = camera.model.calibration().camera_matrix;
-  matrix(0, 2) -= camera.coverage.left_px;
-  matrix(1, 2) -= camera.coverage.top_px;
-  return matrix;
 }
 
 // The pixels of each plane that the hull can be in.
@@ -119,7 +109,6 @@ class PlaneSweepGl::Impl {
   [[nodiscard]] Pass PassOf(const SweepSpace& space, SweepPass kind, std::size_t first, std::size_t count);
   void SetUp(const SweepSpace& space, const core::CameraModel& view, const Pass& pass) const;
   void Draw(const SweepSpace& space, const Pass& pass, int plane, GLuint wanted_count) const;
-  void SetStencil(SweepPass kind, GLuint wanted_count) const;
   [[nodiscard]] DepthMap ReadPicture(const SweepSpace& space) const;
 
   EglContext context_;
@@ -163,7 +152,7 @@ PlaneSweepGl::Impl::Pass PlaneSweepGl::Impl::PassOf(const SweepSpace& space, Swe
   shader.group = space.cameras().subspan(first, count);
   shader.exterior_is_object = space.exterior_is_object();
   shader.tests_workspace = first == 0 && (kind == SweepPass::kHull || kind == SweepPass::kObject);
-  shader.has_ray_texture = !space.rays().is_ideal();
+  if (!space.rays().is_ideal()) shader.ray_source = SweepRaySource::kRayTexture;
   const std::string source = shader.FragmentSource();
   auto found = programs_.find({source, first});
   if (found == programs_.end()) {
@@ -198,62 +187,9 @@ void PlaneSweepGl::Impl::SetUp(const SweepSpace& space, const core::CameraModel&
   program.Use();
   program.Set("rays", kRayUnit);
   program.Set("ray_from_pixel", Eigen::Matrix3f(RayFromPixel(view).cast<float>()));
-  program.Set("workspace_min", Eigen::Vector3f(space.workspace_mm().min().cast<float>()));
-  program.Set("workspace_max", Eigen::Vector3f(space.workspace_mm().max().cast<float>()));
-  for (std::size_t i = 0; i < pass.cameras; ++i) {
-    const SweepCamera& camera = space.cameras()[pass.first_camera + i];
-    const core::CameraCalibration& c = camera.model.calibration();
-    const CoverageTexture& coverage = camera.coverage;
-    const auto set = [&](const std::string& name, const auto& value) {
-      program.Set((name + "_" + std::to_string(i)).c_str(), value);
-    };
-    const Eigen::Vector2d first(coverage.left_px, coverage.top_px);
-    const auto relative = [&](const Eigen::Vector2d& p) {
-      return Eigen::Vector2f((p - first).cast<float>());
-    };
-    set("mask", static_cast<int>(i));
-    set("texel", Eigen::Vector2f(1.0F / static_cast<float>(std::max(coverage.width_texels, 1)),
-                                 1.0F / static_cast<float>(std::max(coverage.height_texels, 1))));
-    set("valid_min", relative(coverage.valid_px.min()));
-    set("valid_max", relative(coverage.valid_px.max()));
-    set("picture_min", relative(Eigen::Vector2d::Constant(-0.5)));
-    set("picture_max", relative({c.image_width_px - 0.5, c.image_height_px - 0.5}));
-    if (camera.model.is_ideal()) continue;
-    const SweepLensCoefficients lens = LensCoefficientsOf(camera.model);
-    set("picture_from_normalised", Eigen::Matrix3f(PictureFromNormalised(camera).cast<float>()));
-    set("max_radius_squared", static_cast<float>(camera.model.max_radius() * camera.model.max_radius()));
-    set("radial_a", Eigen::Vector3f(lens.radial[0], lens.radial[1], lens.radial[2]));
-    set("radial_b", Eigen::Vector3f(lens.radial[3], lens.radial[4], lens.radial[5]));
-    set("prism", Eigen::Vector4f(lens.prism[0], lens.prism[1], lens.prism[2], lens.prism[3]));
-    set("tangential", Eigen::Vector2f(lens.tangential[0], lens.tangential[1]));
-  }
-}
-
-void PlaneSweepGl::Impl::SetStencil(SweepPass kind, GLuint wanted) const {
-  switch (kind) {
-    case SweepPass::kHull:
-      glDisable(GL_STENCIL_TEST);
-      glDepthMask(GL_TRUE);
-      return;
-    case SweepPass::kObject:
-      glStencilFunc(GL_ALWAYS, 0, ~0U);
-      glStencilOp(GL_KEEP, GL_KEEP, GL_INCR);
-      glStencilMask(kCountBits);
-      glDepthMask(GL_FALSE);
-      return;
-    case SweepPass::kSeen:
-      glStencilFunc(GL_ALWAYS, static_cast<GLint>(kSeenBit), ~0U);
-      glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
-      glStencilMask(kSeenBit);
-      glDepthMask(GL_FALSE);
-      return;
-    case SweepPass::kPlane:
-      glStencilFunc(GL_EQUAL, static_cast<GLint>(wanted), ~0U);
-      glStencilOp(GL_ZERO, GL_KEEP, GL_KEEP);
-      glStencilMask(~0U);
-      glDepthMask(GL_TRUE);
-      return;
-  }
+  SetWorkspace(program, space.workspace_mm());
+  for (std::size_t i = 0; i < pass.cameras; ++i)
+    SetCamera(program, space.cameras()[pass.first_camera + i], i);
 }
 
 void PlaneSweepGl::Impl::Draw(const SweepSpace& space, const Pass& pass, int plane,

@@ -11,11 +11,14 @@ int main(int argc, char** argv) {
   using namespace elbowroom::accuracy;
   CLI::App app{"Measures accuracy and speed, and writes the tables and pictures in docs/."};
   std::filesystem::path docs, view_cost, json;
-  app.add_option("--docs", docs, "folder of accuracy.md and performance.md")->required();
+  app.add_option("--docs", docs, "folder of the documents")->required();
   app.require_subcommand(1);
   app.fallthrough();
   app.add_subcommand("budget", "the paper's error budget")->callback([&] { MeasureBudget(docs); });
   app.add_subcommand("methods", "run time against error")->callback([&] { MeasureMethods(docs); });
+  app.add_subcommand("collision", "the paper's collision method beside the exact one")->callback([&] {
+    MeasureCollisions(docs);
+  });
   CLI::App* cost = app.add_subcommand("cost", "instructions by callgrind");
   cost->add_option("PROGRAM", view_cost, "view_cost")->required();
   cost->callback([&] { MeasureCost(docs, view_cost); });

@@ -6,7 +6,7 @@
 
 namespace elbowroom::accuracy {
 
-// Each writes its sections of docs/accuracy.md or docs/performance.md in `docs` and tells stderr how far it
+// Each writes its sections of a document in `docs` and tells stderr how far it
 // is. Throws: core::Error for what can't be written or run.
 
 // accuracy.md, "budget". Throws also: core::Error{kRange} naming a term that exceeds its ceiling.
@@ -17,6 +17,9 @@ void MeasureMethods(const std::filesystem::path& docs);
 
 // performance.md, "cost": instructions by callgrind, of `view_cost` (the program).
 void MeasureCost(const std::filesystem::path& docs, const std::filesystem::path& view_cost);
+
+// paper_collision.md, all its sections.
+void MeasureCollisions(const std::filesystem::path& docs);
 
 // performance.md, "micro": what Google Benchmark wrote into `json`.
 void WriteMicroTable(const std::filesystem::path& docs, const std::filesystem::path& json);

@@ -10,7 +10,7 @@ namespace {
 TEST(SelfTest, GraphicsAndProcessorAgree) {
   const SelfTestReport report = RunSelfTest();
   EXPECT_FALSE(report.driver.empty());
-  ASSERT_EQ(report.lines.size(), 4U + 8U);  // sweeps, exact views
+  ASSERT_EQ(report.lines.size(), 4U + 8U + 1U);  // sweeps, exact views, collisions
   for (const SelfTestLine& line : report.lines) {
     EXPECT_GT(line.hit_pixels, 1000) << line.what;
     EXPECT_LT(line.differing_pixels, line.hit_pixels / 50) << line.what;  // the band is narrow

@@ -16,8 +16,6 @@ using Eigen::Vector3d;
 
 constexpr double kUnit = 0x1p-24;  // half a last place of single precision
 
-enum class Sure { kNo, kYes, kUnsure };
-
 Sure SureOf(double value, double tolerance) {
   if (value > tolerance) return Sure::kYes;
   return value < -tolerance ? Sure::kNo : Sure::kUnsure;
@@ -43,75 +41,72 @@ std::vector<double> CoverageOf(const core::SoftMask& soft) {
   return coverage;
 }
 
-struct Eye {
-  const core::CameraModel& camera;
-  std::vector<double> coverage;
-  SweepBand band;
-
-  [[nodiscard]] double CoverageAt(const Vector2d& p) const {
-    const auto at = [&](double x, double y) {
-      const auto column = static_cast<std::size_t>(std::clamp(x, 0.0, camera.width_px() - 1.0)),
-                 row = static_cast<std::size_t>(std::clamp(y, 0.0, camera.height_px() - 1.0));
-      return coverage[row * static_cast<std::size_t>(camera.width_px()) + column];
-    };
-    const double x = std::floor(p.x()), y = std::floor(p.y()), u = p.x() - x, v = p.y() - y;
-    return (1 - v) * ((1 - u) * at(x, y) + u * at(x + 1, y)) +
-           v * ((1 - u) * at(x, y + 1) + u * at(x + 1, y + 1));
-  }
-
-  struct Opinion {
-    Sure seen, object;
-  };
-  // `size_mm`: of the numbers that the point was computed from.
-  [[nodiscard]] Opinion Of(const Vector3d& x_in_world, double size_mm) const {
-    const Vector3d x = camera.cam_from_world() * x_in_world;
-    size_mm += camera.cam_from_world().translation_mm.norm() + x.norm();
-    const double error_mm = band.roundings * kUnit * size_mm;
-    const Sure in_front = SureOf(x.z(), error_mm);
-    if (in_front != Sure::kYes) return {in_front, in_front};
-    const Vector2d n = x.head<2>() / x.z();
-    const double error_n = error_mm / (x.z() - error_mm) * (1.0 + n.norm());
-    const Sure in_domain = SureOf(camera.max_radius() - n.norm(), error_n + kUnit * camera.max_radius());
-    if (in_domain != Sure::kYes) return {in_domain, in_domain};
-    const Vector2d p = camera.PixelFromNormalised(n);
-    const double size_px = camera.width_px() + camera.height_px() +
-                           camera.calibration().camera_matrix.cwiseAbs().maxCoeff() * n.norm();
-    const double error_px =
-        camera.PixelStretch(n.norm() + error_n) * error_n + band.roundings * kUnit * size_px;
-    const Vector2d half(0.5 * camera.width_px(), 0.5 * camera.height_px());
-    const Vector2d center = half - Vector2d::Constant(0.5);
-    const Sure in_picture = SureOf((half - (p - center).cwiseAbs()).minCoeff(), error_px);
-    if (in_picture == Sure::kNo) return {Sure::kNo, Sure::kNo};
-    const Sure object = SureOf(CoverageAt(p) - 0.5, 2.0 * error_px + band.filter_coverage);
-    return {in_picture, And(in_picture, object)};
-  }
-};
-
 Sure InBox(const Eigen::AlignedBox3d& box, const Vector3d& x_in_world, double error_mm) {
   const Vector3d inside = (x_in_world - box.min()).cwiseMin(box.max() - x_in_world);
   return SureOf(inside.minCoeff(), error_mm);
 }
 
-Sure InHull(const core::Rig& rig, const std::vector<Eye>& eyes, const Vector3d& x_in_world, double size_mm) {
-  const double error_mm = eyes.front().band.roundings * kUnit * (size_mm + x_in_world.norm());
-  Sure inside = InBox(rig.workspace_mm, x_in_world, error_mm), seen = Sure::kNo;
-  for (const Eye& eye : eyes) {
+}  // namespace
+
+PointOracle::PointOracle(const core::Rig& rig, std::span<const core::SoftMask> masks, const SweepBand& band)
+    : rig_(rig), band_(band) {
+  for (const core::SoftMask& mask : masks) coverages_.push_back(CoverageOf(mask));
+}
+
+double PointOracle::CoverageAt(std::size_t camera, const Vector2d& p) const {
+  const int width_px = rig_.cameras[camera].width_px(), height_px = rig_.cameras[camera].height_px();
+  const auto at = [&](double x, double y) {
+    const auto column = static_cast<std::size_t>(std::clamp(x, 0.0, width_px - 1.0)),
+               row = static_cast<std::size_t>(std::clamp(y, 0.0, height_px - 1.0));
+    return coverages_[camera][row * static_cast<std::size_t>(width_px) + column];
+  };
+  const double x = std::floor(p.x()), y = std::floor(p.y()), u = p.x() - x, v = p.y() - y;
+  return (1 - v) * ((1 - u) * at(x, y) + u * at(x + 1, y)) +
+         v * ((1 - u) * at(x, y + 1) + u * at(x + 1, y + 1));
+}
+
+PointOracle::Opinion PointOracle::OpinionOf(std::size_t index, const Vector3d& x_in_world,
+                                            double size_mm) const {
+  const core::CameraModel& camera = rig_.cameras[index];
+  const Vector3d x = camera.cam_from_world() * x_in_world;
+  size_mm += camera.cam_from_world().translation_mm.norm() + x.norm();
+  const double error_mm = band_.roundings * kUnit * size_mm;
+  const Sure in_front = SureOf(x.z(), error_mm);
+  if (in_front != Sure::kYes) return {in_front, in_front};
+  const Vector2d n = x.head<2>() / x.z();
+  const double error_n = error_mm / (x.z() - error_mm) * (1.0 + n.norm());
+  const Sure in_domain = SureOf(camera.max_radius() - n.norm(), error_n + kUnit * camera.max_radius());
+  if (in_domain != Sure::kYes) return {in_domain, in_domain};
+  const Vector2d p = camera.PixelFromNormalised(n);
+  const double size_px = camera.width_px() + camera.height_px() +
+                         camera.calibration().camera_matrix.cwiseAbs().maxCoeff() * n.norm();
+  const double error_px =
+      camera.PixelStretch(n.norm() + error_n) * error_n + band_.roundings * kUnit * size_px;
+  const Vector2d half(0.5 * camera.width_px(), 0.5 * camera.height_px());
+  const Vector2d center = half - Vector2d::Constant(0.5);
+  const Sure in_picture = SureOf((half - (p - center).cwiseAbs()).minCoeff(), error_px);
+  if (in_picture == Sure::kNo) return {Sure::kNo, Sure::kNo};
+  const Sure object = SureOf(CoverageAt(index, p) - 0.5, 2.0 * error_px + band_.filter_coverage);
+  return {in_picture, And(in_picture, object)};
+}
+
+Sure PointOracle::InHull(const Vector3d& x_in_world, double size_mm) const {
+  const double error_mm = band_.roundings * kUnit * (size_mm + x_in_world.norm());
+  Sure inside = InBox(rig_.workspace_mm, x_in_world, error_mm), seen = Sure::kNo;
+  for (std::size_t i = 0; i < coverages_.size(); ++i) {
     if (inside == Sure::kNo) return inside;
-    const Eye::Opinion opinion = eye.Of(x_in_world, size_mm);
+    const Opinion opinion = OpinionOf(i, x_in_world, size_mm);
     seen = Or(seen, opinion.seen);
-    const bool abstains = rig.unseen == core::UnseenPolicy::kAbstain;
+    const bool abstains = rig_.unseen == core::UnseenPolicy::kAbstain;
     inside = And(inside, abstains ? Or(opinion.object, Not(opinion.seen)) : opinion.object);
   }
   return And(inside, seen);
 }
 
-}  // namespace
-
 SweepCheck CheckSweep(const core::Rig& rig, std::span<const core::SoftMask> masks,
                       const core::CameraModel& view, const PlaneSweepOptions& options,
                       const DepthMap& picture, const SweepBand& band) {
-  std::vector<Eye> eyes;
-  for (std::size_t i = 0; i < masks.size(); ++i) eyes.push_back({rig.cameras[i], CoverageOf(masks[i]), band});
+  const PointOracle oracle(rig, masks, band);
   const core::RigidTransform world_from_view = view.cam_from_world().Inverse();
   double far_mm = 0.0;
   for (int i = 0; i < 8; ++i) {
@@ -128,8 +123,8 @@ SweepCheck CheckSweep(const core::Rig& rig, std::span<const core::SoftMask> mask
         const double z_mm = k * options.spacing_mm;
         if (z_mm < options.near_mm) continue;
         const Vector3d x_in_view = z_mm * ray->homogeneous();
-        const Sure inside = InHull(rig, eyes, world_from_view * x_in_view,
-                                   x_in_view.norm() + world_from_view.translation_mm.norm());
+        const Sure inside = oracle.InHull(world_from_view * x_in_view,
+                                          x_in_view.norm() + world_from_view.translation_mm.norm());
         is_unsure |= inside == Sure::kUnsure;
         is_found |= static_cast<float>(z_mm) == depth;
         const bool is_here = depth != 0.0F && is_found;

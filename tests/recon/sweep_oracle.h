@@ -2,8 +2,11 @@
 // with an opinion on what rounding may decide.
 #pragma once
 
+#include <Eigen/Core>
+#include <cstddef>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "recon/plane_sweep.h"
 #include "tests/recon/random_scene.h"
@@ -17,6 +20,30 @@ struct SweepBand {
 };
 
 inline constexpr double kGlFilterCoverage = 4.0 / 256.0;
+
+enum class Sure { kNo, kYes, kUnsure };
+
+// The volume query of a point, in double precision.
+class PointOracle {
+ public:
+  // Keeps a reference to the rig. One mask a camera.
+  PointOracle(const core::Rig& rig, std::span<const core::SoftMask> masks, const SweepBand& band);
+
+  // Whether the point is in the hull. `size_mm`: of the numbers that it was computed from.
+  [[nodiscard]] Sure InHull(const Eigen::Vector3d& x_in_world, double size_mm) const;
+
+ private:
+  struct Opinion {
+    Sure seen, object;
+  };
+  [[nodiscard]] double CoverageAt(std::size_t camera, const Eigen::Vector2d& pixel) const;
+  [[nodiscard]] Opinion OpinionOf(std::size_t camera, const Eigen::Vector3d& x_in_world,
+                                  double size_mm) const;
+
+  const core::Rig& rig_;
+  std::vector<std::vector<double>> coverages_;  // 0 to 1, row-major, one a camera
+  SweepBand band_;
+};
 
 struct SweepCheck {
   int wrong_pixels = 0;   // a hit where the oracle is sure of none, or past a plane where it is sure of one
