@@ -81,7 +81,7 @@ class Viewer {
       seen.counts["driver"] = gl_->driver();
       return seen;
     }
-    return Seen(recon::ViewHull(recon::MakeVisualHull(frame_.rig, frame_.masks), rays_));
+    return Seen(recon::ViewHull(recon::MakeVisualHull(frame_.rig, frame_.planes, frame_.masks), rays_));
   }
 
  private:
