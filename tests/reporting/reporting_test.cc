@@ -97,14 +97,19 @@ TEST(RunGnuplot, SaysInOneLineWhatToInstall) {
 
 TEST(DrawPareto, DrawsBothPicturesAndNamesNoFolder) {
   const test_support::TemporaryFolder folder;
-  DrawPareto({"title", "ms", "mm", {{"a", "one", 1.0, 0.5}, {"a", "two", 2.0, 0.0}, {"b", "one", 9.0, 9.0}}},
+  DrawPareto({"ms",
+              "mm",
+              {{"first panel", {{"a", "one", 1.0, 0.5}, {"a", "two", 2.0, 0.0}, {"b", "one", 9.0, 9.0}}},
+               {"second panel", {{"b", "three", 9.0, 9.0}}}}},
              folder / "views");
   EXPECT_TRUE(test_support::ReadText(folder / "views.png").starts_with("\x89PNG"));
   const std::string svg = test_support::ReadText(folder / "views.svg");
-  EXPECT_NE(svg.find("two"), std::string::npos);
+  for (const char* word : {"two", "three", "first panel", "second panel", "dominated"})
+    EXPECT_NE(svg.find(word), std::string::npos) << word;
   EXPECT_NE(svg.find("rgb(184, 184, 184)"), std::string::npos) << "the dominated point is grey";
   EXPECT_EQ(test_support::ReadText(folder / "views.gnuplot").find(folder.path().string()), std::string::npos);
-  EXPECT_THROW(DrawPareto({"t", "x", "y", {}}, folder / "none"), core::PreconditionError);
+  EXPECT_THROW(DrawPareto({"x", "y", {}}, folder / "none"), core::PreconditionError);
+  EXPECT_THROW(DrawPareto({"x", "y", {{"t", {}}}}, folder / "none"), core::PreconditionError);
 }
 
 TEST(DominatedOf, IsWhatAnotherBeatsInBoth) {
