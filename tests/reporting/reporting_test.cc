@@ -69,6 +69,22 @@ TEST(ToMarkdown, AlignsFiguresToTheRight) {
   EXPECT_THROW((void)ToMarkdown({{"what", "ms"}, {{"a"}}}), core::PreconditionError);
 }
 
+TEST(TableOf, ReadsWhatToMarkdownWrites) {
+  const Table table{{"what", "ms"}, {{"a|b", "1"}, {"", "2.5 us"}}};
+  const Table read =
+      TableOf("Prose.\n\n" + ToMarkdown(table) + "\n*a machine*\n" + ToMarkdown({{"x"}, {{"y"}}}));
+  EXPECT_EQ(read.header, table.header);
+  EXPECT_EQ(read.rows, table.rows);
+  EXPECT_THROW((void)TableOf("Prose.\n"), core::Error);
+  EXPECT_THROW((void)TableOf("| a | b |\n| --- | ---: |\n| 1 |\n"), core::Error);
+}
+
+TEST(SectionOf, IsWhatWithSectionWrote) {
+  const std::string written = WithSection(kDocument, "hulls", "| a |", "doc");
+  EXPECT_EQ(SectionOf(written, "hulls", "doc"), "\n\n| a |\n\n");
+  EXPECT_THROW((void)SectionOf(written, "masks", "doc"), core::Error);
+}
+
 TEST(ThreeDigits, AreThreeDigits) {
   EXPECT_EQ(ThreeDigits(0.0), "0");
   EXPECT_EQ(ThreeDigits(0.0012345), "0.00123");
