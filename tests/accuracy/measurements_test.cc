@@ -102,6 +102,18 @@ TEST(CountInstructions, FollowsTheHullOnScreen) {
   EXPECT_GT(larger.instructions, small.instructions);
 }
 
+TEST(CountInstructions, KnowsWhatAnUnchangedFrameNeedsNoMore) {
+  const auto count = [](const std::vector<std::string>& arguments) {
+    return CountInstructions(ELBOWROOM_VIEW_COST, arguments, "*CountedView*");
+  };
+  const CallgrindCount fresh = count({"--zoom", "0.25"}), again = count({"--zoom", "0.25", "--unchanged"}),
+                       beside = count({"--zoom", "0.25", "--unchanged", "--moved"});
+  EXPECT_EQ(again.output, fresh.output);
+  EXPECT_LT(again.instructions, fresh.instructions);
+  EXPECT_LT(beside.instructions, fresh.instructions);
+  EXPECT_GT(again.instructions, 0);
+}
+
 TEST(CountInstructions, SaysInOneLineWhatToInstall) {
   try {
     (void)CountInstructions("/bin/true", {}, "main", "valgrind-that-is-not-there");
