@@ -20,7 +20,8 @@ void ValidateCalibration(const CameraCalibration& c) {
     throw Error(ErrorKind::kCamera, fmt::format("camera '{}': {}", c.name, what));
   };
   if (c.image_width_px <= 0 || c.image_height_px <= 0) {
-    fail(fmt::format("image size {} x {} is not positive", c.image_width_px, c.image_height_px));
+    fail(fmt::format("image size {} x {} is not positive; say how many pixels wide and high its pictures are",
+                     c.image_width_px, c.image_height_px));
   }
   const Eigen::Matrix3d& k = c.camera_matrix;
   if (!k.allFinite()) fail("camera_matrix has an entry that is not a finite number");
@@ -136,11 +137,21 @@ Eigen::Vector2d CameraModel::PixelFromNormalised(const Eigen::Vector2d& normalis
   return {k(0, 0) * distorted.x() + k(0, 1) * distorted.y() + k(0, 2), k(1, 1) * distorted.y() + k(1, 2)};
 }
 
-std::optional<Eigen::Vector2d> CameraModel::NormalisedFromPixel(const Eigen::Vector2d& pixel) const {
+Eigen::Vector2d CameraModel::DistortedFromPixel(const Eigen::Vector2d& pixel) const {
   const Eigen::Matrix3d& k = calibration_.camera_matrix;
   const double y = (pixel.y() - k(1, 2)) / k(1, 1);
-  const double x = (pixel.x() - k(0, 2) - k(0, 1) * y) / k(0, 0);
-  return lens_->Undistort({x, y}, max_radius_);
+  return {(pixel.x() - k(0, 2) - k(0, 1) * y) / k(0, 0), y};
+}
+
+std::optional<Eigen::Vector2d> CameraModel::NormalisedFromPixel(const Eigen::Vector2d& pixel) const {
+  return lens_->Undistort(DistortedFromPixel(pixel), max_radius_);
+}
+
+std::optional<Eigen::Vector2d> CameraModel::NormalisedFromPixel(const Eigen::Vector2d& pixel,
+                                                                const Eigen::Vector2d& nearby) const {
+  const Eigen::Vector2d distorted = DistortedFromPixel(pixel);
+  const std::optional<Eigen::Vector2d> found = lens_->UndistortNear(distorted, nearby, max_radius_);
+  return found ? found : lens_->Undistort(distorted, max_radius_);
 }
 
 double CameraModel::PixelStretch(double radius) const {

@@ -66,12 +66,17 @@ class CameraModel {
 
   // Normalised image point that falls on `pixel`, to 1e-12; nothing where the lens's domain has none.
   [[nodiscard]] std::optional<Eigen::Vector2d> NormalisedFromPixel(const Eigen::Vector2d& pixel) const;
+  // The same, sooner, for who knows a normalised point nearby.
+  [[nodiscard]] std::optional<Eigen::Vector2d> NormalisedFromPixel(const Eigen::Vector2d& pixel,
+                                                                   const Eigen::Vector2d& nearby) const;
 
   // Certified bound on |d pixel / d normalised| over the disc of that radius (clamped to the domain), in px:
   // two normalised points of the disc that are d apart fall at most PixelStretch(radius) * d pixels apart.
   [[nodiscard]] double PixelStretch(double radius) const;
 
  private:
+  [[nodiscard]] Eigen::Vector2d DistortedFromPixel(const Eigen::Vector2d& pixel) const;
+
   CameraCalibration calibration_;
   RigidTransform cam_from_world_;
   Eigen::Vector3d center_in_world_ = Eigen::Vector3d::Zero();

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -182,6 +183,37 @@ Eigen::Vector2d Lens::Distort(const Eigen::Vector2d& normalised) const {
   }
   const double t = normalised.squaredNorm();
   return normalised * (SeriesAt(k_, 3, t) / SeriesAt(k_ + 3, 3, t)) + OffAxis(normalised);
+}
+
+Eigen::Matrix2d Lens::Slope(const Eigen::Vector2d& x) const {
+  // x R(r)/r: R' along x, R/r across.
+  const double r2 = x.squaredNorm(), radius = std::sqrt(r2);
+  Eigen::Matrix2d slope = Eigen::Matrix2d::Identity();
+  if (radius > 1e-12) {
+    const double across = RadialImage(radius) / radius, along = RadialSlopeAt(radius);
+    slope = across * Eigen::Matrix2d::Identity() + ((along - across) / r2) * x * x.transpose();
+  }
+  if (!has_off_axis_) return slope;
+  const Eigen::Vector2d prism(2 * s_[0] + 4 * s_[1] * r2, 2 * s_[2] + 4 * s_[3] * r2);
+  Eigen::Matrix2d tangential;
+  tangential << 2 * p1_ * x.y() + 6 * p2_ * x.x(), 2 * p1_ * x.x() + 2 * p2_ * x.y(),
+      2 * p1_ * x.x() + 2 * p2_ * x.y(), 6 * p1_ * x.y() + 2 * p2_ * x.x();
+  return slope + tangential + prism * x.transpose();
+}
+
+std::optional<Eigen::Vector2d> Lens::UndistortNear(const Eigen::Vector2d& distorted,
+                                                   const Eigen::Vector2d& start, double max_radius) const {
+  constexpr int kSteps = 6;
+  constexpr double kLastStep = 1e-10;  // what it leaves is of the order of its square
+  constexpr double kRim = 1e-6;        // of the radius: nearer to it, the domain's end is to be heeded
+  Eigen::Vector2d x = start;
+  for (int i = 0; i < kSteps; ++i) {
+    const Eigen::Vector2d step = Slope(x).inverse() * (distorted - Distort(x));
+    x += step;
+    if (!(x.norm() < max_radius * (1.0 - kRim))) return std::nullopt;
+    if (step.norm() <= kLastStep) return x;
+  }
+  return std::nullopt;
 }
 
 double Lens::RadiusFromImage(double image_radius, double start, double max_radius) const {

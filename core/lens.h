@@ -41,6 +41,12 @@ class Lens {
   [[nodiscard]] std::optional<Eigen::Vector2d> Undistort(const Eigen::Vector2d& distorted,
                                                          double max_radius) const;
 
+  // The same from a point nearby, to 1e-12, by Newton's steps; nothing also where they don't settle well
+  // within the domain: then Undistort decides.
+  [[nodiscard]] std::optional<Eigen::Vector2d> UndistortNear(const Eigen::Vector2d& distorted,
+                                                             const Eigen::Vector2d& start,
+                                                             double max_radius) const;
+
   // R(r), and enclosures of R'(r) and R(r)/r over [r0, r1].
   [[nodiscard]] double RadialImage(double radius) const;
   [[nodiscard]] Interval RadialSlope(double r0, double r1) const;
@@ -56,6 +62,7 @@ class Lens {
   [[nodiscard]] double RadialSlopeAt(double radius) const;
   [[nodiscard]] double RadiusFromImage(double image_radius, double start, double max_radius) const;
   [[nodiscard]] Eigen::Vector2d OffAxis(const Eigen::Vector2d& x) const;
+  [[nodiscard]] Eigen::Matrix2d Slope(const Eigen::Vector2d& x) const;  // of Distort
 
   DistortionModel model_;
   double k_[6] = {0, 0, 0, 0, 0, 0};  // fisheye: the first four

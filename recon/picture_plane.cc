@@ -45,9 +45,7 @@ PicturePlane::PicturePlane(const core::CameraModel& camera) : camera_(camera) {
   const bool is_whole =
       std::none_of(table_.begin(), table_.end(), [](const Eigen::Vector2d& p) { return std::isnan(p.x()); });
   if (is_whole) return;
-  core::BitMask unseen(camera_.width_px(), camera_.height_px());
-  for (int y = 0; y < camera_.height_px(); ++y)
-    for (int x = 0; x < camera_.width_px(); ++x) unseen.Set(x, y, !FromPixel({x, y}));
+  core::BitMask unseen = FindUnseenPixels();
   if (unseen.CountObjectPixels() > 0) unseen_pixels_ = std::move(unseen);
 }
 
@@ -63,8 +61,11 @@ const ContourMap& PicturePlane::outline() const {
   return *outline_;
 }
 
-std::optional<Eigen::Vector2d> PicturePlane::Exactly(const Eigen::Vector2d& pixel) const {
-  const std::optional<Eigen::Vector2d> normalised = camera_.NormalisedFromPixel(pixel);
+std::optional<Eigen::Vector2d> PicturePlane::Exactly(const Eigen::Vector2d& pixel,
+                                                     const Eigen::Vector2d& nearby) const {
+  const std::optional<Eigen::Vector2d> normalised =
+      std::isnan(nearby.x()) ? camera_.NormalisedFromPixel(pixel)
+                             : camera_.NormalisedFromPixel(pixel, nearby / focal_px_);
   if (!normalised) return std::nullopt;
   return *normalised * focal_px_;
 }
@@ -72,18 +73,27 @@ std::optional<Eigen::Vector2d> PicturePlane::Exactly(const Eigen::Vector2d& pixe
 void PicturePlane::FillTable(int step_px) {
   const Eigen::Vector2i size(camera_.width_px(), camera_.height_px());
   // At least the four nodes of one cubic; the outermost stand on the picture's border.
-  nodes_ = ((size.array() + step_px - 1) / step_px + 1).max(4);
-  pixels_per_node_ = size.cast<double>().array() / (nodes_.array() - 1).cast<double>();
-  nodes_per_pixel_ = pixels_per_node_.cwiseInverse();
-  table_.resize(static_cast<std::size_t>(nodes_.x()) * static_cast<std::size_t>(nodes_.y()));
-  for (int y = 0; y < nodes_.y(); ++y) {
-    for (int x = 0; x < nodes_.x(); ++x) {
+  const Eigen::Vector2i nodes = ((size.array() + step_px - 1) / step_px + 1).max(4);
+  const Eigen::Vector2d pixels_per_node = size.cast<double>().array() / (nodes.array() - 1).cast<double>();
+  std::vector<Eigen::Vector2d> table;
+  table.reserve(static_cast<std::size_t>(nodes.x()) * static_cast<std::size_t>(nodes.y()));
+  for (int y = 0; y < nodes.y(); ++y) {
+    Eigen::Vector2d last = Eigen::Vector2d::Constant(kNaN);
+    for (int x = 0; x < nodes.x(); ++x) {
       const Eigen::Vector2d pixel =
-          Eigen::Vector2d(x, y).cwiseProduct(pixels_per_node_) - Eigen::Vector2d::Constant(0.5);
-      table_[static_cast<std::size_t>(y) * static_cast<std::size_t>(nodes_.x()) +
-             static_cast<std::size_t>(x)] = Exactly(pixel).value_or(Eigen::Vector2d::Constant(kNaN));
+          Eigen::Vector2d(x, y).cwiseProduct(pixels_per_node) - Eigen::Vector2d::Constant(0.5);
+      // The coarser table is hardly off; without one the last node is a start.
+      Eigen::Vector2d nearby = table_.empty() ? last : FromTable(NodesAt(pixel));
+      if (std::isnan(nearby.x())) nearby = last;
+      const std::optional<Eigen::Vector2d> exact = Exactly(pixel, nearby);
+      if (exact) last = *exact;
+      table.push_back(exact.value_or(Eigen::Vector2d::Constant(kNaN)));
     }
   }
+  nodes_ = nodes;
+  nodes_per_pixel_ = pixels_per_node.cwiseInverse();
+  pixels_per_node_ = pixels_per_node;
+  table_ = std::move(table);
 }
 
 Eigen::Vector2d PicturePlane::NodesAt(const Eigen::Vector2d& pixel) const {
@@ -114,7 +124,7 @@ void PicturePlane::FindBentCells() {
           Eigen::Vector2d(x + 0.5, y + 0.5).cwiseProduct(pixels_per_node_) - Eigen::Vector2d::Constant(0.5);
       const Eigen::Vector2d found = FromTable(NodesAt(pixel));
       if (std::isnan(found.x())) continue;
-      const std::optional<Eigen::Vector2d> exact = Exactly(pixel);
+      const std::optional<Eigen::Vector2d> exact = Exactly(pixel, found);
       if (exact && (*exact - found).norm() <= kTableErrorPx) continue;
       // Its neighbours too: where a lens is about to fold, the error grows fast.
       for (int v = std::max(y - 1, 0); v <= std::min(y + 1, nodes_.y() - 2); ++v)
@@ -124,19 +134,35 @@ void PicturePlane::FindBentCells() {
   }
 }
 
-bool PicturePlane::IsBent(const Eigen::Vector2d& at_nodes) const {
-  return bent_cells_.At(std::clamp(static_cast<int>(at_nodes.x()), 0, nodes_.x() - 2),
-                        std::clamp(static_cast<int>(at_nodes.y()), 0, nodes_.y() - 2));
+core::BitMask PicturePlane::FindUnseenPixels() const {
+  // Where cubics are asked, all is seen; each pixel of the other cells is looked at.
+  core::BitMask doubtful(nodes_.x() - 1, nodes_.y() - 1);
+  for (int y = 0; y + 1 < nodes_.y(); ++y) {
+    for (int x = 0; x + 1 < nodes_.x(); ++x)
+      doubtful.Set(x, y, bent_cells_.At(x, y) || std::isnan(FromTable({x + 0.5, y + 0.5}).x()));
+  }
+  core::BitMask unseen(camera_.width_px(), camera_.height_px());
+  for (int y = 0; y < camera_.height_px(); ++y) {
+    for (int x = 0; x < camera_.width_px(); ++x) {
+      const Eigen::Vector2i cell = CellOf(NodesAt({x, y}));
+      if (doubtful.At(cell.x(), cell.y())) unseen.Set(x, y, !FromPixel({x, y}));
+    }
+  }
+  return unseen;
+}
+
+Eigen::Vector2i PicturePlane::CellOf(const Eigen::Vector2d& at_nodes) const {
+  return {std::clamp(static_cast<int>(at_nodes.x()), 0, nodes_.x() - 2),
+          std::clamp(static_cast<int>(at_nodes.y()), 0, nodes_.y() - 2)};
 }
 
 std::optional<Eigen::Vector2d> PicturePlane::FromPixel(const Eigen::Vector2d& pixel) const {
   if (is_ideal_) return Eigen::Vector2d(plane_from_pixel_ * (pixel - principal_px_));
   const Eigen::Vector2d at = NodesAt(pixel);
-  if (!IsBent(at)) {
-    const Eigen::Vector2d found = FromTable(at);
-    if (!std::isnan(found.x())) return found;
-  }
-  return Exactly(pixel);
+  const Eigen::Vector2d found = FromTable(at);
+  const Eigen::Vector2i cell = CellOf(at);
+  if (!std::isnan(found.x()) && !bent_cells_.At(cell.x(), cell.y())) return found;
+  return Exactly(pixel, found);
 }
 
 PicturePlanes MakePicturePlanes(const core::Rig& rig) {

@@ -40,9 +40,12 @@ class PicturePlane {
   void FillTable(int step_px);
   [[nodiscard]] Eigen::Vector2d NodesAt(const Eigen::Vector2d& pixel) const;
   [[nodiscard]] Eigen::Vector2d FromTable(const Eigen::Vector2d& at_nodes) const;
-  [[nodiscard]] std::optional<Eigen::Vector2d> Exactly(const Eigen::Vector2d& pixel) const;
+  // `nearby`: a place in the plane that isn't far off; NaN: none is known.
+  [[nodiscard]] std::optional<Eigen::Vector2d> Exactly(const Eigen::Vector2d& pixel,
+                                                       const Eigen::Vector2d& nearby) const;
   void FindBentCells();
-  [[nodiscard]] bool IsBent(const Eigen::Vector2d& at_nodes) const;
+  [[nodiscard]] core::BitMask FindUnseenPixels() const;
+  [[nodiscard]] Eigen::Vector2i CellOf(const Eigen::Vector2d& at_nodes) const;
 
   core::CameraModel camera_;
   double focal_px_ = 1.0;

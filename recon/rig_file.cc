@@ -132,20 +132,26 @@ int Pixels(const Section& section, const char* key) {
   return static_cast<int>(node);
 }
 
-core::CameraModel ReadCamera(const Section& section, const std::string& name, const std::string& file) {
-  core::CameraCalibration calibration;
-  calibration.name = name;
-  calibration.image_width_px = Pixels(section, "image_width");
-  calibration.image_height_px = Pixels(section, "image_height");
-  calibration.camera_matrix = Matrix3(section, "camera_matrix");
+void ReadLens(const Section& section, core::CameraCalibration* calibration) {
   section.Get("distortion_model", kDistortionModels);
   const std::string model = Text(section, "distortion_model", "");
   const auto parsed = core::ParseDistortionModel(model);
   if (!parsed) {
     section.Fail(fmt::format("distortion_model '{}' is unknown; it must be {}", model, kDistortionModels));
   }
-  calibration.distortion_model = *parsed;
-  calibration.distortion_coefficients = Numbers(section, "distortion_coefficients", 1, 0, "a 1 x N matrix");
+  calibration->distortion_model = *parsed;
+  calibration->distortion_coefficients = Numbers(section, "distortion_coefficients", 1, 0, "a 1 x N matrix");
+}
+
+// A camera without a lens needs no keys that describe one.
+core::CameraModel ReadCamera(const Section& section, const std::string& name, const std::string& file,
+                             bool has_lens) {
+  core::CameraCalibration calibration;
+  calibration.name = name;
+  calibration.image_width_px = Pixels(section, "image_width");
+  calibration.image_height_px = Pixels(section, "image_height");
+  calibration.camera_matrix = Matrix3(section, "camera_matrix");
+  if (has_lens) ReadLens(section, &calibration);
   calibration.cam_from_world.rotation = Matrix3(section, "rotation_cam_from_world");
   const std::vector<double> t =
       Numbers(section, "translation_cam_from_world_mm", 3, 3, "a 3 x 1 matrix in millimetres");
@@ -213,7 +219,7 @@ void AddCamera(const cv::FileNode& node, const std::string& file, const std::fil
   for (const core::CameraModel& other : rig_file.rig.cameras) {
     if (other.name() == name) section.Fail("this name occurs twice; give every camera its own");
   }
-  rig_file.rig.cameras.push_back(ReadCamera(section, name, file));
+  rig_file.rig.cameras.push_back(ReadCamera(section, name, file, true));
   rig_file.sources.push_back({ResolvedLocation(Text(section, "frames", ""), folder),
                               ResolvedLocation(Text(section, "background", ""), folder),
                               ResolvedLocation(Text(section, "masks", ""), folder)});
@@ -273,9 +279,14 @@ ViewFile ReadViewFile(const std::filesystem::path& path) {
     section.RefuseMisspelt(kViewKeys);
     const std::string name = Text(section, "name", "view");
     section.who = fmt::format("{}: camera '{}'", file, name);
-    ViewFile view{ReadCamera(section, name, file), ReadIsOrthographic(section)};
+    const bool is_orthographic = ReadIsOrthographic(section);
+    const bool has_lens = !is_orthographic || !section.Find("distortion_model").empty() ||
+                          !section.Find("distortion_coefficients").empty();
+    const ViewFile view{ReadCamera(section, name, file, has_lens), is_orthographic};
     if (view.is_orthographic && !view.camera.is_ideal()) {
-      section.Fail("an orthographic view has no lens; make all distortion_coefficients of a plumb_bob 0");
+      section.Fail(
+          "an orthographic view has no lens; leave out distortion_model and "
+          "distortion_coefficients");
     }
     return view;
   });

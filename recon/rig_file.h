@@ -38,7 +38,8 @@ struct ViewFile {
 };
 
 // One camera: its keys at the top level, below `camera`, or the only element of `cameras`; beside them
-// `projection`: "perspective" (default) or "orthographic", which takes no distortion. Throws: as above.
+// `projection`: "perspective" (default) or "orthographic", which takes no distortion and may do without its
+// keys. Throws: as above.
 [[nodiscard]] ViewFile ReadViewFile(const std::filesystem::path& path);
 
 // Whole or not at all; every number reads back exactly. Sources below the file's folder become relative to

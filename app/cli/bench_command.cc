@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
@@ -21,14 +22,17 @@ CommandResult RunTheSelfTest() {
   const control::SelfTestReport report = control::RunSelfTest();
   CommandResult result;
   result.json = {{"driver", report.driver}, {"passed", report.Passed()}, {"tests", nlohmann::json::array()}};
-  result.text = fmt::format("{}\n{:<48}{:>12}{:>12}{:>14}", report.driver, "OpenGL against the processor",
-                            "hit pixels", "differing", "unexplained");
+  const std::string title = "OpenGL against the processor";
+  std::size_t width = title.size();
+  for (const control::SelfTestLine& line : report.lines) width = std::max(width, line.what.size());
+  result.text = fmt::format("{}\n{:<{}}{:>12}{:>12}{:>14}", report.driver, title, width, "hit pixels",
+                            "differing", "unexplained");
   for (const control::SelfTestLine& line : report.lines) {
     result.json["tests"].push_back({{"name", line.what},
                                     {"hit_pixels", line.hit_pixels},
                                     {"differing_pixels", line.differing_pixels},
                                     {"unexplained_pixels", line.unexplained_pixels}});
-    result.text += fmt::format("\n{:<48}{:>12}{:>12}{:>14}", line.what, line.hit_pixels,
+    result.text += fmt::format("\n{:<{}}{:>12}{:>12}{:>14}", line.what, width, line.hit_pixels,
                                line.differing_pixels, line.unexplained_pixels);
   }
   if (!report.Passed()) {

@@ -54,7 +54,7 @@ CommandResult Run(const ClearanceCommandOptions& options, const CommandContext& 
   const PosedPart posed = LoadPart(options.part);
   const RigFrame frame = LoadRigFrame(options.frame, context);
   const core::TriangleTree part(posed.mesh);
-  const recon::VisualHull hull = recon::MakeVisualHull(frame.rig, frame.masks);
+  const recon::VisualHull hull = recon::MakeVisualHull(frame.rig, frame.planes, frame.masks);
   review::Clearance clearance;
   const auto compute = [&] {
     clearance = review::FindClearance(hull, part, posed.world_from_part, options.clearance);

@@ -25,10 +25,12 @@ struct CommandContext {
   std::stop_token stop;     // asked for by Ctrl-C
 };
 
-// A command's result: the JSON that --json prints, and the text that is printed otherwise.
+// A command's result: the JSON that --json prints, and the text that is printed otherwise; beside either, on
+// stderr, a line for who may not have expected this result, if any.
 struct CommandResult {
   nlohmann::json json;
   std::string text;
+  std::string hint = {};
 };
 
 // What a subcommand does once its words have been understood.

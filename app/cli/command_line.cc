@@ -30,9 +30,13 @@ core::Progress TerminalProgress() {
   });
 }
 
-int Fail(const std::string& line) {
+void PrintToStderr(const std::string& line) {
   if (isatty(STDERR_FILENO)) fmt::print(stderr, "\r\033[K");
   fmt::print(stderr, "elbowroom: {}\n", line);
+}
+
+int Fail(const std::string& line) {
+  PrintToStderr(line);
   return kFailure;
 }
 
@@ -57,6 +61,7 @@ int RunAction(const CommandAction& action, bool json) {
     throw core::Error(core::ErrorKind::kFile,
                       "the result can't be written to the standard output; check where it goes");
   }
+  if (!result.hint.empty()) PrintToStderr(result.hint);
   return 0;
 }
 

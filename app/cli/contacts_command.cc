@@ -63,7 +63,7 @@ CommandResult Run(const ContactsOptions& options, const CommandContext& context,
   contact_options.Validate();
   const RigFrame frame = LoadRigFrame(options.frame, context);
   const core::TriangleTree part(posed.mesh);
-  const recon::VisualHull hull = recon::MakeVisualHull(frame.rig, frame.masks);
+  const recon::VisualHull hull = recon::MakeVisualHull(frame.rig, frame.planes, frame.masks);
   core::PartContact contact;
   const auto compute = [&] {
     contact = review::FindContacts(hull, part, posed.world_from_part, 0, contact_options);

@@ -25,8 +25,8 @@ CommandResult Run(const HullOptions& options, const CommandContext& context, boo
   const RigFrame frame = LoadRigFrame(options.frame, context);
   recon::HullMesh hull;
   const auto compute = [&] {
-    hull = recon::MeshHull(recon::MakeVisualHull(frame.rig, frame.masks), options.edge_mm, context.progress,
-                           context.stop);
+    hull = recon::MeshHull(recon::MakeVisualHull(frame.rig, frame.planes, frame.masks), options.edge_mm,
+                           context.progress, context.stop);
   };
   // The five timed runs are for those who read the figure.
   CommandResult result;

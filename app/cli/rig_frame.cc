@@ -1,8 +1,12 @@
 #include "app/cli/rig_frame.h"
 
+#include <tbb/parallel_for.h>
+
+#include "recon/contour_map.h"
 #include "recon/frame_segmenter.h"
 #include "recon/recorded_rig.h"
 #include "recon/rig_file.h"
+#include "recon/visual_hull.h"
 
 namespace elbowroom::cli {
 
@@ -13,12 +17,19 @@ void AddRigFrameOptions(CLI::App& command, RigFrameOptions* options) {
 
 RigFrame LoadRigFrame(const RigFrameOptions& options, const CommandContext& context) {
   recon::RecordedRig source(recon::ReadRigFile(options.rig_file), context.stop);
-  RigFrame result{std::make_shared<const core::Rig>(source.rig()), {}};
+  RigFrame result{std::make_shared<const core::Rig>(source.rig()), {}, {}};
   // The frame first: it is the cheaper one to find missing.
   const recon::FrameSet frames = source.Read(options.frame);
   result.masks =
       recon::FrameSegmenter(source.ReadBackgrounds(context.progress, context.stop), {}, source.rig())
           .SegmentSoft(frames);
+  result.planes = recon::MakePicturePlanes(*result.rig);
+  // Outlines, which `abstain` alone asks for, are made with the first question.
+  if (recon::ExteriorIsObject(*result.rig)) {
+    tbb::parallel_for(std::size_t{0}, result.planes.size(), [&](std::size_t i) {
+      (void)result.planes[i]->outline().LabelAt(Eigen::Vector2d::Zero());
+    });
+  }
   return result;
 }
 

@@ -2,7 +2,9 @@
 // it.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <initializer_list>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -81,7 +83,7 @@ class Viewer {
       seen.counts["driver"] = gl_->driver();
       return seen;
     }
-    return Seen(recon::ViewHull(recon::MakeVisualHull(frame_.rig, frame_.masks), rays_));
+    return Seen(recon::ViewHull(recon::MakeVisualHull(frame_.rig, frame_.planes, frame_.masks), rays_));
   }
 
  private:
@@ -105,7 +107,36 @@ recon::ViewFile ReadView(const ViewOptions& options) {
   return view;
 }
 
+void CheckEnding(const char* option, const std::filesystem::path& file,
+                 std::initializer_list<const char*> endings) {
+  if (std::ranges::any_of(endings, [&](const char* ending) { return file.extension() == ending; })) return;
+  throw core::Error(core::ErrorKind::kFile,
+                    fmt::format("{} '{}': is written as {} alone; choose a name that ends so", option,
+                                file.string(), fmt::join(endings, " or ")));
+}
+
+// Before anything is computed: what is written must be what its name says.
+void CheckFiles(const ViewOptions& options) {
+  if (options.depth == options.image) {
+    throw core::Error(
+        core::ErrorKind::kFile,
+        fmt::format("--depth and --image are both '{}'; choose two names", options.depth.string()));
+  }
+  CheckEnding("--depth", options.depth, {".tiff", ".tif"});
+  if (!options.image.empty()) CheckEnding("--image", options.image, {".png"});
+}
+
+// An exact view from within the hull shows nothing, as its surface lies behind every ray's start.
+std::string HintOfPlace(const ViewOptions& options, const recon::ViewFile& view, const RigFrame& frame) {
+  if (options.method != kExact || view.is_orthographic) return {};
+  if (!recon::MakeVisualHull(frame.rig, frame.planes, frame.masks).Contains(view.camera.center_in_world()))
+    return {};
+  return fmt::format("view file '{}': this camera stands inside the hull and sees nothing of it; move it out",
+                     options.camera.string());
+}
+
 CommandResult Run(const ViewOptions& options, const CommandContext& context, bool json) {
+  CheckFiles(options);
   const recon::ViewFile view = ReadView(options);
   const recon::ViewRays rays(
       view.camera, view.is_orthographic ? recon::Projection::kOrthographic : recon::Projection::kPerspective);
@@ -128,6 +159,7 @@ CommandResult Run(const ViewOptions& options, const CommandContext& context, boo
     files.Write(options.image, {reinterpret_cast<const char*>(png.data()), png.size()});
   }
   files.RenameAll();
+  if (seen.picture.hit_pixels == 0) result.hint = HintOfPlace(options, view, frame);
   result.json.update(seen.counts);
   result.json["method"] = options.method;
   result.json["width"] = seen.picture.width_px;

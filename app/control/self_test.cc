@@ -152,11 +152,12 @@ std::vector<SelfTestLine> TestExactViews(const MakeView& graphics) {
        {"from a camera's place", recon::ViewRays(scene.rig.cameras.front())},
        {"orthographic", OrthographicView()}}};
   std::vector<SelfTestLine> lines;
+  const recon::PicturePlanes planes = recon::MakePicturePlanes(scene.rig);
   for (const auto& [unseen, policy] : {std::pair{core::UnseenPolicy::kOutside, "outside"},
                                        std::pair{core::UnseenPolicy::kAbstain, "abstain"}}) {
     scene.rig.unseen = unseen;
     const recon::VisualHull hull =
-        recon::MakeVisualHull(std::make_shared<const core::Rig>(scene.rig), scene.masks);
+        recon::MakeVisualHull(std::make_shared<const core::Rig>(scene.rig), planes, scene.masks);
     for (const auto& [name, rays] : views)
       lines.push_back(CompareExact(fmt::format("exact view, {}, {}", name, policy), hull, rays, graphics));
   }

@@ -26,7 +26,9 @@ std::vector<CostCase> CostCases() {
           {"rig's pictures twice as wide and high, hull as large in pixels", {"--picture-size", "2"}},
           {"workspace four times as wide, deep and high", {"--workspace-size", "4"}},
           {"view turned away from the hull", {"--away"}},
-          {"one camera sees nothing", {"--blind"}}};
+          {"one camera sees nothing", {"--blind"}},
+          {"unchanged masks, same view", {"--unchanged"}},
+          {"unchanged masks, new view", {"--unchanged", "--moved"}}};
 }
 
 }  // namespace

@@ -22,6 +22,9 @@ int main(int argc, char** argv) {
   CLI::App* cost = app.add_subcommand("cost", "instructions by callgrind");
   cost->add_option("PROGRAM", view_cost, "view_cost")->required();
   cost->callback([&] { MeasureCost(docs, view_cost); });
+  app.add_subcommand("aims", "the tables of methods and steps against the aims")->callback([&] {
+    WriteAimsTable(docs);
+  });
   CLI::App* micro = app.add_subcommand("micro", "Google Benchmark's results as a table");
   micro->add_option("JSON", json, "what --benchmark_out wrote")->required();
   micro->callback([&] { WriteMicroTable(docs, json); });

@@ -24,4 +24,8 @@ void MeasureCollisions(const std::filesystem::path& docs);
 // performance.md, "micro": what Google Benchmark wrote into `json`.
 void WriteMicroTable(const std::filesystem::path& docs, const std::filesystem::path& json);
 
+// performance.md, "aims": what its tables "methods" and "micro" say of each aim. Throws also:
+// core::Error{kFormat} where one of them lacks a figure.
+void WriteAimsTable(const std::filesystem::path& docs);
+
 }  // namespace elbowroom::accuracy

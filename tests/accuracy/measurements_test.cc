@@ -32,6 +32,65 @@ TEST(WriteMicroTable, TellsWhatGoogleBenchmarkMeasured) {
   EXPECT_THROW(WriteMicroTable(folder.path(), folder / "performance.md"), core::Error);
 }
 
+// A document whose tables hold all that the aims ask for.
+std::string MeasuredDocument(const std::string& exact_three) {
+  std::string methods = "| method | scene | 1 thread, ms | 2 threads, ms |\n| --- | ---: | ---: | ---: |\n";
+  for (const std::string scene : {"3 cameras, 640 x 480", "8 cameras, 1280 x 720"}) {
+    methods += "| exact view, CPU | " + scene + " | " + exact_three + " | 1.00 |\n";
+    methods += "| plane sweep, CPU, planes 15 mm apart | " + scene + " | 4.00 | 2.50 |\n";
+    methods += "| plane sweep, GL, planes 15 mm apart | " + scene + " | 60.0 | 50.0 |\n";
+  }
+  std::string micro = "| benchmark | time | time an item |\n| --- | ---: | ---: |\n";
+  for (const std::string name :
+       {"ExactView/three_cameras", "ExactView/eight_cameras", "MeshAt2Mm/three_cameras",
+        "MeshAt2Mm/four_cameras", "MeshAt2Mm/eight_cameras"})
+    micro += "| " + name + "/1 | 1.50 ms | - |\n| " + name + "/2 | 900 us | - |\n";
+  micro += "| OpenCvMog2 | 20.0 ms | - |\n| SegmentDetect | 500 us | - |\n| SegmentWhole | 2.00 ms | - |\n";
+  return "<!-- bench:methods begin -->\n" + methods +
+         "<!-- bench:methods end -->\n<!-- bench:micro begin -->\n" + micro +
+         "<!-- bench:micro end -->\n<!-- bench:aims begin -->\n<!-- bench:aims end -->\n";
+}
+
+TEST(WriteAimsTable, HoldsTheOtherTablesToTheAims) {
+  const test_support::TemporaryFolder folder;
+  WriteText(folder / "performance.md", MeasuredDocument("2.00"));
+  WriteAimsTable(folder.path());
+  const std::string text = ReadText(folder / "performance.md");
+  for (const char* row :
+       {"| exact view in turns with all methods: 3 cameras, 640 x 480 | <= 2.00 ms | 2.00 | <= 1.20 ms | "
+        "1.00 | yes |",
+        "| exact view repeated alone: 3 cameras, 640 x 480 | <= 2.00 ms | 1.50 | <= 1.20 ms | 0.900 | yes |",
+        "| exact view against plane sweep, GL, planes 15 mm apart: 3 cameras, 640 x 480 | >= 25 x | 30.0 x | "
+        ">= 25 x "
+        "| 50.0 x | yes |",
+        "| exact view against plane sweep, CPU, planes 15 mm apart: 3 cameras, 640 x 480 | >= 3 x | 2.0 x | "
+        ">= 3 x | "
+        "2.5 x | no |",
+        "| hull mesh, edges of 2 mm: 3 cameras, 640 x 480 | - | 1.50 | <= 10.0 ms | 0.900 | yes |",
+        "| segmentation of 4 pictures: whole, with levels | <= 0.600 ms | 2.00 | - | - | no |",
+        "| segmentation against MOG2: detection | >= 15 x | 40.0 x | - | - | yes |"})
+    EXPECT_NE(text.find(row), std::string::npos) << row << "\nin\n" << text;
+  WriteAimsTable(folder.path());
+  EXPECT_EQ(ReadText(folder / "performance.md"), text);
+}
+
+TEST(WriteAimsTable, NamesTheFigureThatIsMissing) {
+  const test_support::TemporaryFolder folder;
+  for (const auto& [without, named] : {std::pair<std::string, std::string>{"OpenCvMog2", "OpenCvMog2"},
+                                       {"exact view, CPU", "exact view, CPU"},
+                                       {"2.00", "number"}}) {
+    std::string document = MeasuredDocument("2.00");
+    document.replace(document.find(without), without.size(), "nothing");
+    WriteText(folder / "performance.md", document);
+    try {
+      WriteAimsTable(folder.path());
+      FAIL() << without;
+    } catch (const core::Error& error) {
+      EXPECT_NE(std::string(error.what()).find(named), std::string::npos) << error.what();
+    }
+  }
+}
+
 TEST(CountInstructions, FollowsTheHullOnScreen) {
   const auto count = [](const std::vector<std::string>& arguments) {
     return CountInstructions(ELBOWROOM_VIEW_COST, arguments, "*CountedView*");
@@ -41,6 +100,18 @@ TEST(CountInstructions, FollowsTheHullOnScreen) {
   constexpr std::int64_t kAtLeast = 100'000;  // were it less, nothing was counted
   EXPECT_GT(small.instructions, kAtLeast);
   EXPECT_GT(larger.instructions, small.instructions);
+}
+
+TEST(CountInstructions, KnowsWhatAnUnchangedFrameNeedsNoMore) {
+  const auto count = [](const std::vector<std::string>& arguments) {
+    return CountInstructions(ELBOWROOM_VIEW_COST, arguments, "*CountedView*");
+  };
+  const CallgrindCount fresh = count({"--zoom", "0.25"}), again = count({"--zoom", "0.25", "--unchanged"}),
+                       beside = count({"--zoom", "0.25", "--unchanged", "--moved"});
+  EXPECT_EQ(again.output, fresh.output);
+  EXPECT_LT(again.instructions, fresh.instructions);
+  EXPECT_LT(beside.instructions, fresh.instructions);
+  EXPECT_GT(again.instructions, 0);
 }
 
 TEST(CountInstructions, SaysInOneLineWhatToInstall) {

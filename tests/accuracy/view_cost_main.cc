@@ -19,6 +19,8 @@ struct CostOptions {
   double workspace_size = 1.0;  // factor on its sides, its centre unchanged
   bool away = false;            // look the other way
   bool blind = false;           // the first camera sees no object
+  bool unchanged = false;       // the frame before had the same masks, and was seen from the standard place
+  bool moved = false;           // look from 10 mm beside
 };
 
 core::CameraModel WithMorePicture(const core::CameraModel& camera, int factor) {
@@ -39,15 +41,17 @@ core::CameraModel ViewOf(const core::CameraModel& standard, const CostOptions& o
     c.cam_from_world.rotation.row(2) *= -1.0;
     c.cam_from_world.translation_mm = -(c.cam_from_world.rotation * center_in_world);
   }
+  if (options.moved) c.cam_from_world.translation_mm.x() += 10.0;
   return core::CameraModel(std::move(c));
 }
 
-// What is counted: masks in memory to depth.
-[[gnu::noinline]] recon::HullView CountedView(const std::shared_ptr<const core::Rig>& rig,
+// What is counted: masks in memory to depth, after the hull of the frame before, if any.
+[[gnu::noinline]] recon::HullView CountedView(const std::shared_ptr<const recon::VisualHull>& last,
+                                              const std::shared_ptr<const core::Rig>& rig,
                                               const recon::PicturePlanes& planes,
                                               const std::vector<core::SoftMask>& masks,
                                               const recon::ViewRays& view) {
-  return recon::ViewHull(recon::MakeVisualHull(rig, planes, masks), view,
+  return recon::ViewHull(*recon::NextHull(last, rig, planes, masks).hull, view,
                          {.surfaces = false, .normals = false});
 }
 
@@ -61,8 +65,14 @@ void Run(const CostOptions& options) {
   const Eigen::Vector3d half = 0.5 * options.workspace_size * scene.rig.workspace_mm.sizes();
   scene.rig.workspace_mm = {center - half, center + half};
   const auto rig = std::make_shared<const core::Rig>(scene.rig);
+  const recon::PicturePlanes planes = recon::MakePicturePlanes(*rig);
+  std::shared_ptr<const recon::VisualHull> last;
+  if (options.unchanged) {
+    last = recon::NextHull(nullptr, rig, planes, masks).hull;
+    (void)recon::ViewHull(*last, recon::ViewRays(scene.view));
+  }
   const recon::ViewRays view(ViewOf(scene.view, options));
-  fmt::print("{}\n", CountedView(rig, recon::MakePicturePlanes(*rig), masks, view).hit_pixels);
+  fmt::print("{}\n", CountedView(last, rig, planes, masks, view).hit_pixels);
 }
 
 }  // namespace
@@ -77,6 +87,8 @@ int main(int argc, char** argv) {
   app.add_option("--workspace-size", options.workspace_size, "factor on the workspace's sides");
   app.add_flag("--away", options.away, "look the other way");
   app.add_flag("--blind", options.blind, "the first camera sees no object");
+  app.add_flag("--unchanged", options.unchanged, "the frame before had the same masks");
+  app.add_flag("--moved", options.moved, "look from 10 mm beside");
   CLI11_PARSE(app, argc, argv);
   elbowroom::accuracy::Run(options);
   return 0;

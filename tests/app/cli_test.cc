@@ -202,6 +202,41 @@ TEST_F(CliOnBallRig, AViewThatFailsIsOneLineAndLeavesNothing) {
   EXPECT_TRUE(std::filesystem::is_empty(out));
 }
 
+TEST_F(CliOnBallRig, AViewsFilesAreWhatTheirNamesSay) {
+  const std::string view = WriteView();
+  const auto run = [&](const std::string& depth, const std::string& image) {
+    return Elbowroom({"view", rig_, "--frame", "0", "--camera", view, "--depth", (folder_ / depth).string(),
+                      "--image", (folder_ / image).string()});
+  };
+  ExpectOneLine(run("a.png", "b.png"), {"--depth", "a.png", ".tiff"});
+  ExpectOneLine(run("a.tiff", "b.jpg"), {"--image", "b.jpg", ".png"});
+  ExpectOneLine(run("a.tiff", "a.tiff"), {"--depth", "--image", "a.tiff", "two names"});
+  for (const char* file : {"a.png", "b.png", "a.tiff", "b.jpg"})
+    EXPECT_FALSE(std::filesystem::exists(folder_ / file)) << file;
+}
+
+TEST_F(CliOnBallRig, AViewFromWithinTheHullSaysSo) {
+  const auto run = [&](double z_mm) {
+    const std::filesystem::path view = folder_ / "place.yml";
+    WriteText(view,
+              "%YAML:1.0\n---\nimage_width: 8\nimage_height: 6\n"
+              "camera_matrix: [ 8, 0, 3.5, 0, 8, 2.5, 0, 0, 1 ]\ndistortion_model: \"plumb_bob\"\n"
+              "distortion_coefficients: [ 0, 0, 0, 0, 0 ]\n"
+              "rotation_cam_from_world: [ 1, 0, 0,  0, -1, 0,  0, 0, -1 ]\n"
+              "translation_cam_from_world_mm: [ 0, 0, " +
+                  std::to_string(z_mm) + " ]\n");
+    return Elbowroom(
+        {"view", rig_, "--frame", "0", "--camera", view.string(), "--depth", (folder_ / "d.tiff").string()});
+  };
+  // The ball's middle, where all cameras look, and a place far above.
+  const ProgramRun within = run(200.0), above = run(2000.0);
+  ASSERT_EQ(within.exit_status, 0) << within.err;
+  EXPECT_NE(within.err.find("place.yml"), std::string::npos) << within.err;
+  EXPECT_NE(within.err.find("inside the hull"), std::string::npos) << within.err;
+  EXPECT_EQ(std::count(within.err.begin(), within.err.end(), '\n'), 1);
+  EXPECT_EQ(above.err, "");
+}
+
 TEST(CliOnSharedData, ViewSeesTheBunny) {
   const std::filesystem::path bunny = std::filesystem::path(ELBOWROOM_SHARED_DATA_DIR) / "bunny6";
   if (!std::filesystem::exists(bunny))

@@ -117,6 +117,19 @@ TEST_F(OrthographicView, HasNoVanishingPoint) {
       << "shaded";
 }
 
+TEST_F(OrthographicView, NeedsNoLens) {
+  const std::string view = WriteView(400.0, kCenterX);
+  ASSERT_EQ(View(view, "exact").exit_status, 0);
+  const std::string with_lens = test_support::ReadText(folder_ / "o.tiff");
+  std::string text = test_support::ReadText(view);
+  const std::size_t begin = text.find("distortion_model");
+  text.erase(begin, text.find("rotation_cam_from_world") - begin);
+  test_support::WriteText(view, text);
+  const ProgramRun run = View(view, "exact");
+  ASSERT_EQ(run.exit_status, 0) << run.err;
+  EXPECT_EQ(test_support::ReadText(folder_ / "o.tiff"), with_lens);
+}
+
 TEST_F(OrthographicView, IsRefusedByTheSweepsInOneLine) {
   const std::string view = WriteView(500.0, kCenterX);
   for (const char* method : {"sweep", "sweep-gl"}) {

@@ -130,6 +130,26 @@ TEST_P(CameraModelLens, PixelAndNormalisedPointUndoEachOther) {
   }
 }
 
+TEST_P(CameraModelLens, APointNearbyLeadsToTheSamePlaceAsNone) {
+  const CameraModel camera(GetParam());
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> u(-0.5, camera.width_px() - 0.5), v(-0.5, camera.height_px() - 0.5);
+  constexpr double kRim = 1e-4;  // of the radius: nearer to a fold the inverse is ill-conditioned
+  for (int i = 0; i < kInversions; ++i) {
+    const Eigen::Vector2d pixel(u(random), v(random));
+    const auto exact = camera.NormalisedFromPixel(pixel);
+    // From the place itself, from a few pixels beside it, and from one that is no help at all.
+    for (const double off : {0.0, 1e-8, 1e-2, 1e3}) {
+      const Eigen::Vector2d nearby =
+          exact.value_or(Eigen::Vector2d::Zero()) + off * RandomInDisc(random, 1.0);
+      const auto found = camera.NormalisedFromPixel(pixel, nearby);
+      ASSERT_EQ(found.has_value(), exact.has_value()) << pixel.transpose();
+      if (!exact || exact->norm() > (1.0 - kRim) * camera.max_radius()) continue;
+      ASSERT_LT((*found - *exact).norm(), kSameNormalised * std::max(1.0, exact->norm())) << off;
+    }
+  }
+}
+
 TEST_P(CameraModelLens, EveryPixelThatItSeesLeadsBackToItself) {
   const CameraModel camera(GetParam());
   std::mt19937 random(5);

@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "tests/recon/carve.h"
 #include "tests/recon/random_scene.h"
+#include "tests/recon/vertex_fans.h"
 
 namespace elbowroom::recon {
 namespace {
@@ -28,27 +29,6 @@ std::vector<core::BitMask> FullMasks(const core::Rig& rig) {
     }
   }
   return masks;
-}
-
-// The mesh's own fans: every vertex has one ring of triangles around it, not two that touch in a point.
-bool EveryVertexHasOneFan(const core::TriangleMesh& mesh) {
-  std::vector<std::vector<std::pair<int, int>>> opposite(mesh.vertices_mm.size());
-  for (const auto& [a, b, c] : mesh.triangles) {
-    opposite[static_cast<std::size_t>(a)].emplace_back(b, c);
-    opposite[static_cast<std::size_t>(b)].emplace_back(c, a);
-    opposite[static_cast<std::size_t>(c)].emplace_back(a, b);
-  }
-  return std::ranges::all_of(opposite, [](const auto& edges) {
-    std::size_t steps = 0;
-    int at = edges.front().first;
-    do {
-      const auto next = std::ranges::find(edges, at, &std::pair<int, int>::first);
-      if (next == edges.end()) return false;
-      at = next->second;
-      ++steps;
-    } while (at != edges.front().first && steps <= edges.size());
-    return steps == edges.size();
-  });
 }
 
 // Whether Contains() changes within kVertexShare of an edge along one of the grid's seven directions.

@@ -75,7 +75,7 @@ TEST_F(RealFootage, RandomAccessGivesTheSamePictureAsReadingOn) {
 }
 
 TEST_F(RealFootage, SegmentationAgreesWithHandDrawnMasks) {
-  // Measured 0.916: 0.924, 0.925, 0.923, 0.892. The checkerboard that camera 3 alone shows is no part of the
+  // The figures are in docs/segmentation.md. The checkerboard that camera 3 alone shows is no part of the
   // hull, so that it is dropped; without that 0.88.
   constexpr double kLeastMeanIou = 0.91;
   constexpr double kLeastIou = 0.885;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include "core/error.h"
 
@@ -20,7 +21,48 @@ std::string Row(const std::vector<std::string>& cells) {
   return line + '\n';
 }
 
+// The cells of a line that is a row: between unescaped bars, without the spaces around.
+std::vector<std::string> CellsOf(const std::string& line) {
+  std::vector<std::string> cells(1);
+  for (std::size_t i = 1; i < line.size(); ++i) {
+    const bool is_escaped = line[i] == '\\' && i + 1 < line.size() && line[i + 1] == '|';
+    if (is_escaped) {
+      cells.back() += line[++i];
+    } else if (line[i] == '|') {
+      cells.emplace_back();
+    } else {
+      cells.back() += line[i];
+    }
+  }
+  cells.pop_back();  // behind the last bar
+  for (std::string& cell : cells) {
+    const std::size_t begin = cell.find_first_not_of(' '), end = cell.find_last_not_of(' ');
+    cell = begin == std::string::npos ? "" : cell.substr(begin, end - begin + 1);
+  }
+  return cells;
+}
+
 }  // namespace
+
+Table TableOf(const std::string& markdown) {
+  std::vector<std::vector<std::string>> rows;
+  std::istringstream lines(markdown);
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with('|')) {
+      rows.push_back(CellsOf(line));
+    } else if (!rows.empty()) {
+      break;
+    }
+  }
+  const bool is_table = rows.size() >= 2 && std::ranges::all_of(rows, [&](const auto& row) {
+                          return row.size() == rows.front().size();
+                        });
+  if (!is_table) {
+    throw core::Error(core::ErrorKind::kFormat,
+                      "there is no whole table where one is expected; measure it anew with ./dev bench");
+  }
+  return {rows.front(), {rows.begin() + 2, rows.end()}};
+}
 
 std::string ToMarkdown(const Table& table) {
   std::vector<std::string> rule(table.header.size(), "---:");

@@ -22,20 +22,33 @@ std::size_t OnlyPlaceOf(std::string_view document, std::string_view marker, std:
                   marker));
 }
 
+// Where a section's body begins, behind its first marker, and ends, before its second.
+struct BodyPlace {
+  std::size_t begin = 0, end = 0;
+};
+
+BodyPlace PlaceOf(std::string_view document, std::string_view name, std::string_view where) {
+  const std::string begin_marker = fmt::format("<!-- bench:{} begin -->", name);
+  const std::string end_marker = fmt::format("<!-- bench:{} end -->", name);
+  const BodyPlace place{OnlyPlaceOf(document, begin_marker, where) + begin_marker.size(),
+                        OnlyPlaceOf(document, end_marker, where)};
+  if (place.begin <= place.end) return place;
+  throw core::Error(core::ErrorKind::kFormat,
+                    fmt::format("{}: '{}' stands before '{}'; swap them", where, end_marker, begin_marker));
+}
+
 }  // namespace
+
+std::string SectionOf(std::string_view document, std::string_view name, std::string_view where) {
+  const BodyPlace place = PlaceOf(document, name, where);
+  return std::string(document.substr(place.begin, place.end - place.begin));
+}
 
 std::string WithSection(std::string_view document, std::string_view name, std::string_view body,
                         std::string_view where) {
-  const std::string begin_marker = fmt::format("<!-- bench:{} begin -->", name);
-  const std::string end_marker = fmt::format("<!-- bench:{} end -->", name);
-  const std::size_t begin = OnlyPlaceOf(document, begin_marker, where) + begin_marker.size();
-  const std::size_t end = OnlyPlaceOf(document, end_marker, where);
-  if (begin > end) {
-    throw core::Error(core::ErrorKind::kFormat,
-                      fmt::format("{}: '{}' stands before '{}'; swap them", where, end_marker, begin_marker));
-  }
+  const BodyPlace place = PlaceOf(document, name, where);
   while (body.ends_with('\n')) body.remove_suffix(1);
-  return fmt::format("{}\n\n{}\n\n{}", document.substr(0, begin), body, document.substr(end));
+  return fmt::format("{}\n\n{}\n\n{}", document.substr(0, place.begin), body, document.substr(place.end));
 }
 
 void WriteSection(const std::filesystem::path& file, std::string_view name, std::string_view body) {

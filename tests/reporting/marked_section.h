@@ -13,7 +13,10 @@ namespace elbowroom::reporting {
 [[nodiscard]] std::string WithSection(std::string_view document, std::string_view name, std::string_view body,
                                       std::string_view where);
 
-// The same on a file, whole or not at all. Throws: as above; core::Error{kFile}.
+// What stands between those lines. Throws: as above.
+[[nodiscard]] std::string SectionOf(std::string_view document, std::string_view name, std::string_view where);
+
+// WithSection on a file, whole or not at all. Throws: as above; core::Error{kFile}.
 void WriteSection(const std::filesystem::path& file, std::string_view name, std::string_view body);
 
 }  // namespace elbowroom::reporting

@@ -17,16 +17,20 @@ struct ParetoPoint {
 // One flag a point: another is at least as fast and as exact, and better in one of the two.
 [[nodiscard]] std::vector<bool> DominatedOf(const std::vector<ParetoPoint>& points);
 
-struct ParetoPicture {
+struct ParetoPanel {
   std::string title;
-  std::string time_label;
-  std::string error_label;
   std::vector<ParetoPoint> points;
 };
 
+struct ParetoPicture {
+  std::string time_label;
+  std::string error_label;
+  std::vector<ParetoPanel> panels;  // one below the other; the same families have the same colours
+};
+
 // Writes stem.svg, stem.png and the script with the data, stem.gnuplot: logarithmic axes, dominated points
-// grey; errors below 1e-5 mm stand at 1e-5. Throws: core::Error as RunGnuplot; PreconditionError without
-// points or with a time that isn't positive.
+// grey (within their panel); errors below 1e-5 mm stand at 1e-5. Throws: core::Error as RunGnuplot;
+// PreconditionError without panels, for one without points, or for a time that isn't positive.
 void DrawPareto(const ParetoPicture& picture, const std::filesystem::path& stem);
 
 }  // namespace elbowroom::reporting

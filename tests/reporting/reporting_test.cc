@@ -69,6 +69,22 @@ TEST(ToMarkdown, AlignsFiguresToTheRight) {
   EXPECT_THROW((void)ToMarkdown({{"what", "ms"}, {{"a"}}}), core::PreconditionError);
 }
 
+TEST(TableOf, ReadsWhatToMarkdownWrites) {
+  const Table table{{"what", "ms"}, {{"a|b", "1"}, {"", "2.5 us"}}};
+  const Table read =
+      TableOf("Prose.\n\n" + ToMarkdown(table) + "\n*a machine*\n" + ToMarkdown({{"x"}, {{"y"}}}));
+  EXPECT_EQ(read.header, table.header);
+  EXPECT_EQ(read.rows, table.rows);
+  EXPECT_THROW((void)TableOf("Prose.\n"), core::Error);
+  EXPECT_THROW((void)TableOf("| a | b |\n| --- | ---: |\n| 1 |\n"), core::Error);
+}
+
+TEST(SectionOf, IsWhatWithSectionWrote) {
+  const std::string written = WithSection(kDocument, "hulls", "| a |", "doc");
+  EXPECT_EQ(SectionOf(written, "hulls", "doc"), "\n\n| a |\n\n");
+  EXPECT_THROW((void)SectionOf(written, "masks", "doc"), core::Error);
+}
+
 TEST(ThreeDigits, AreThreeDigits) {
   EXPECT_EQ(ThreeDigits(0.0), "0");
   EXPECT_EQ(ThreeDigits(0.0012345), "0.00123");
@@ -97,14 +113,19 @@ TEST(RunGnuplot, SaysInOneLineWhatToInstall) {
 
 TEST(DrawPareto, DrawsBothPicturesAndNamesNoFolder) {
   const test_support::TemporaryFolder folder;
-  DrawPareto({"title", "ms", "mm", {{"a", "one", 1.0, 0.5}, {"a", "two", 2.0, 0.0}, {"b", "one", 9.0, 9.0}}},
+  DrawPareto({"ms",
+              "mm",
+              {{"first panel", {{"a", "one", 1.0, 0.5}, {"a", "two", 2.0, 0.0}, {"b", "one", 9.0, 9.0}}},
+               {"second panel", {{"b", "three", 9.0, 9.0}}}}},
              folder / "views");
   EXPECT_TRUE(test_support::ReadText(folder / "views.png").starts_with("\x89PNG"));
   const std::string svg = test_support::ReadText(folder / "views.svg");
-  EXPECT_NE(svg.find("two"), std::string::npos);
+  for (const char* word : {"two", "three", "first panel", "second panel", "dominated"})
+    EXPECT_NE(svg.find(word), std::string::npos) << word;
   EXPECT_NE(svg.find("rgb(184, 184, 184)"), std::string::npos) << "the dominated point is grey";
   EXPECT_EQ(test_support::ReadText(folder / "views.gnuplot").find(folder.path().string()), std::string::npos);
-  EXPECT_THROW(DrawPareto({"t", "x", "y", {}}, folder / "none"), core::PreconditionError);
+  EXPECT_THROW(DrawPareto({"x", "y", {}}, folder / "none"), core::PreconditionError);
+  EXPECT_THROW(DrawPareto({"x", "y", {{"t", {}}}}, folder / "none"), core::PreconditionError);
 }
 
 TEST(DominatedOf, IsWhatAnotherBeatsInBoth) {
