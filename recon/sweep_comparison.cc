@@ -18,9 +18,9 @@ SweepComparison CompareSweeps(const core::Rig& rig, std::span<const core::SoftMa
   for (std::size_t i = 0; i < a.depth_mm.size(); ++i) {
     if (a.depth_mm[i] == b.depth_mm[i]) continue;
     ++comparison.differing_pixels;
-    const auto width = static_cast<std::size_t>(a.width_px);
-    const auto ray =
-        view.NormalisedFromPixel({static_cast<double>(i % width), static_cast<double>(i / width)});
+    const std::size_t row = i / static_cast<std::size_t>(a.width_px),
+                      column = i % static_cast<std::size_t>(a.width_px);
+    const auto ray = view.NormalisedFromPixel({static_cast<double>(column), static_cast<double>(row)});
     const auto [low, high] = std::minmax(a.depth_mm[i], b.depth_mm[i]);
     const bool is_explained =
         ray &&

@@ -34,7 +34,7 @@ std::optional<Based> OnBase(const Vector3d& p, const Vector3d& q, const Vector3d
   if (!(length_mm > 0.0)) return std::nullopt;
   const double foot = side.dot(base) / (length_mm * length_mm);
   const double tolerance = 1.0 / (kSixteenths * options.width_px);
-  if (foot < -tolerance || foot > 1.0 + tolerance) return std::nullopt;
+  if (!(foot >= -tolerance && foot <= 1.0 + tolerance)) return std::nullopt;  // nor where squares underflow
   const double height_mm = side.cross(base).norm() / length_mm;
   return Based{p, q, apex, foot, std::max(length_mm / options.width_px, height_mm / options.height_px)};
 }

@@ -14,6 +14,7 @@ using reporting::ThreeDigits;
 
 constexpr int kCurtains = 600, kSolids = 24, kRays = 160;
 constexpr std::uint64_t kSeed = 7601;
+constexpr TimingEffort kEffort{.repetitions = 101};  // of some milliseconds each
 constexpr double kPaperStepMm = 2.0;
 
 std::string Both(const ErrorShare& share) {
@@ -93,8 +94,8 @@ reporting::Table ResponseTable(const std::vector<ResponseErrors>& all) {
 
 void MeasureCollisions(const std::filesystem::path& docs) {
   fmt::print(stderr, "collision: times\n");
-  const std::vector<CollisionCost> three = TimeCollisions(recon::ViewSceneRig::kThree);
-  const std::vector<CollisionCost> paper = TimeCollisions(recon::ViewSceneRig::kPaper);
+  const std::vector<CollisionCost> three = TimeCollisions(recon::ViewSceneRig::kThree, kEffort);
+  const std::vector<CollisionCost> paper = TimeCollisions(recon::ViewSceneRig::kPaper, kEffort);
   fmt::print(stderr, "collision: small contacts\n");
   const std::vector<SmallContacts> sizes = CountMissed(recon::ViewSceneRig::kThree, kCurtains, kSeed);
   fmt::print(stderr, "collision: responses\n");

@@ -128,7 +128,7 @@ core::TriangleTree PointPart(const Vector3d& x_in_world) {
 
 // One solid and the hulls of it.
 struct Sight {
-  Sight(std::shared_ptr<const core::Rig> shared, const Round& of)
+  Sight(const std::shared_ptr<const core::Rig>& shared, const Round& of)
       : rig(*shared),
         round(of),
         masks(MasksOf(rig, of)),

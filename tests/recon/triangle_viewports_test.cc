@@ -65,6 +65,24 @@ TEST(TriangleViewport, CornersKeepTheirPlaces) {
   }
 }
 
+TEST(TriangleViewport, WithoutAreaItIsStillOnItsPoints) {
+  const Vector3d a(10, 20, 30), b(50, 20, 30);
+  const std::array<std::array<Vector3d, 3>, 4> flat = {
+      {{a, a, a}, {a, b, a}, {a, b, 0.3 * a + 0.7 * b}, {a, a + Vector3d(1e-200, 0, 0), a}}};
+  for (const auto& corners : flat) {
+    const TriangleViewport viewport(corners, {});
+    for (int row = 0; row < 10; ++row) {
+      const TriangleViewport::Columns columns = viewport.ColumnsOf(row);
+      for (int column = columns.begin; column < columns.end; ++column) {
+        const Vector3d x = viewport.PositionOf(column, row);
+        EXPECT_LT((b - a).cross(x - a).norm(), 1e-9);
+        EXPECT_GE(x.x(), a.x() - 1e-9);
+        EXPECT_LE(x.x(), b.x() + 1e-9);
+      }
+    }
+  }
+}
+
 TEST(TriangleViewport, CoversHalfOfIt) {
   Random random(7302);
   constexpr double kMostBesideHalf = 2.5;  // either way half a sample of a row, of ten, half of them alike
