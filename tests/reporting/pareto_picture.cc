@@ -41,8 +41,7 @@ std::string DataBlocks(const ParetoPanel& panel, std::size_t number,
       all += line;
       if (dominated[i]) grey += line;
     }
-    for (std::string* block : {&all, &grey})
-      if (block->empty()) *block = "NaN NaN \"\"\n";
+    if (grey.empty()) grey = "NaN NaN \"\"\n";
     text += fmt::format("$all{0}_{1} << EOD\n{2}EOD\n$grey{0}_{1} << EOD\n{3}EOD\n", number, f, all, grey);
   }
   return text;
@@ -60,9 +59,11 @@ std::string Quoted(const std::string& text) {
   return quoted + "'";
 }
 
-std::string PlotCommand(std::size_t number, const std::vector<std::string>& families) {
+std::string PlotCommand(const ParetoPanel& panel, std::size_t number,
+                        const std::vector<std::string>& families) {
   std::string text = "plot ";
   for (std::size_t f = 0; f < families.size(); ++f) {
+    if (std::ranges::find(panel.points, families[f], &ParetoPoint::family) == panel.points.end()) continue;
     const char* color = kColors[f % kColors.size()];
     const char* place = kLabelPlaces[f % kLabelPlaces.size()];
     text += fmt::format(
@@ -80,7 +81,7 @@ std::string PlotAll(const ParetoPicture& picture, const std::vector<std::string>
   std::string text = fmt::format("set multiplot layout {},1\n", picture.panels.size());
   for (std::size_t i = 0; i < picture.panels.size(); ++i) {
     text += fmt::format("set title {}\n", Quoted(picture.panels[i].title));
-    text += PlotCommand(i, families);
+    text += PlotCommand(picture.panels[i], i, families);
   }
   return text + "unset multiplot\n";
 }

@@ -29,8 +29,9 @@ struct ParetoPicture {
 };
 
 // Writes stem.svg, stem.png and the script with the data, stem.gnuplot: logarithmic axes, dominated points
-// grey (within their panel); errors below 1e-5 mm stand at 1e-5. Throws: core::Error as RunGnuplot;
-// PreconditionError without panels, for one without points, or for a time that isn't positive.
+// grey (within their panel); errors below 1e-5 mm stand at 1e-5. Throws: core::Error as RunGnuplot, also
+// where a panel's points have but one time or one error; PreconditionError without panels, for one without
+// points, or for a time that isn't positive.
 void DrawPareto(const ParetoPicture& picture, const std::filesystem::path& stem);
 
 }  // namespace elbowroom::reporting

@@ -116,7 +116,7 @@ TEST(DrawPareto, DrawsBothPicturesAndNamesNoFolder) {
   DrawPareto({"ms",
               "mm",
               {{"first panel", {{"a", "one", 1.0, 0.5}, {"a", "two", 2.0, 0.0}, {"b", "one", 9.0, 9.0}}},
-               {"second panel", {{"b", "three", 9.0, 9.0}}}}},
+               {"second panel", {{"b", "three", 9.0, 9.0}, {"b", "four", 10.0, 1.0}}}}},
              folder / "views");
   EXPECT_TRUE(test_support::ReadText(folder / "views.png").starts_with("\x89PNG"));
   const std::string svg = test_support::ReadText(folder / "views.svg");
