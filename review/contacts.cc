@@ -241,7 +241,8 @@ void Recover(const recon::VisualHull& hull, const Vector3d& cp_obj, const Vector
     contact->recovery_status = core::RecoveryStatus::kReferenceInsideHull;
     return;
   }
-  const std::optional<double> crossing_mm = recon::FirstInside(hull, {rp_obj, -v_rec}, {0.0, distance_mm});
+  const std::optional<double> crossing_mm =
+      recon::FirstInside(hull, {rp_obj, -v_rec}, {0.0, distance_mm});
   // CP_obj itself is in the hull, so the ray has entered it by then, but for rounding on its surface.
   const double from_reference_mm = crossing_mm.value_or(distance_mm);
   core::Recovery recovery{

@@ -6,8 +6,11 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <random>
+#include <string>
 #include <vector>
 
 #include "cad_import/layout_file.h"
@@ -130,6 +133,23 @@ Truth ByBruteForce(const core::Part& a, const core::Part& b) {
   return truth;
 }
 
+// Counts the verdicts; the largest error of a distance.
+double ExpectAll(const nlohmann::json& results, const std::vector<Truth>& truths,
+                 std::map<std::string, int>& of_verdict) {
+  double worst_mm = 0.0;
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    const nlohmann::json& result = results[i];
+    SCOPED_TRACE(result.dump());
+    EXPECT_EQ(result["verdict"], truths[i].Verdict()) << truths[i].distance_mm;
+    EXPECT_EQ(result["contained"], truths[i].contained);
+    EXPECT_LE(result["at_least_mm"].get<double>(), truths[i].distance_mm + kToleranceMm);
+    ++of_verdict[result["verdict"].get<std::string>()];
+    if (result["distance_mm"].is_null()) continue;
+    worst_mm = std::max(worst_mm, std::abs(result["distance_mm"].get<double>() - truths[i].distance_mm));
+  }
+  return worst_mm;
+}
+
 TEST(ClashOnRealCad, FiftyPartsAreJudgedAsByBruteForce) {
   if (!std::filesystem::is_directory(kCad))
     GTEST_SKIP() << "NOT TESTED: the real CAD files of " << kCad << " are not on this machine";
@@ -151,18 +171,8 @@ TEST(ClashOnRealCad, FiftyPartsAreJudgedAsByBruteForce) {
   tbb::parallel_for(std::size_t{0}, results.size(), [&](std::size_t i) {
     truths[i] = ByBruteForce(part(results[i]["a"]), part(results[i]["b"]));
   });
-  double worst_mm = 0.0;
   std::map<std::string, int> of_verdict;
-  for (std::size_t i = 0; i < results.size(); ++i) {
-    const nlohmann::json& result = results[i];
-    SCOPED_TRACE(result.dump());
-    EXPECT_EQ(result["verdict"], truths[i].Verdict()) << truths[i].distance_mm;
-    EXPECT_EQ(result["contained"], truths[i].contained);
-    EXPECT_LE(result["at_least_mm"].get<double>(), truths[i].distance_mm + kToleranceMm);
-    ++of_verdict[result["verdict"].get<std::string>()];
-    if (result["distance_mm"].is_null()) continue;
-    worst_mm = std::max(worst_mm, std::abs(result["distance_mm"].get<double>() - truths[i].distance_mm));
-  }
+  const double worst_mm = ExpectAll(results, truths, of_verdict);
   EXPECT_LE(worst_mm, kToleranceMm);
   EXPECT_GT(of_verdict["contact"], 20);
   EXPECT_GT(of_verdict["near"], 5);

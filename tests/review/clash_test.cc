@@ -52,6 +52,21 @@ double DistanceTo(const TriangleMesh& mesh, const RigidTransform& world_from_mes
   return static_cast<double>(oracles::GapOfMeshes(mesh, world_from_mesh, point, {}).distance_mm);
 }
 
+// The distance, on both surfaces, or a bound of it.
+void ExpectGap(const PairClash& pair, double truth_mm, const TriangleMesh& a,
+               const RigidTransform& world_from_a, const TriangleMesh& b, const RigidTransform& world_from_b,
+               double rounding_mm) {
+  EXPECT_LE(pair.at_least_mm, truth_mm + rounding_mm);
+  if (!pair.gap) {
+    EXPECT_EQ(pair.verdict, Verdict::kClear);
+    return;
+  }
+  EXPECT_NEAR(pair.gap->distance_mm, truth_mm, rounding_mm);
+  EXPECT_NEAR((pair.gap->on_a - pair.gap->on_b).norm(), truth_mm, rounding_mm);
+  EXPECT_LE(DistanceTo(a, world_from_a, pair.gap->on_a), rounding_mm);
+  EXPECT_LE(DistanceTo(b, world_from_b, pair.gap->on_b), rounding_mm);
+}
+
 // What the pair should have been judged by brute force; `rounding_mm` of the distance.
 void ExpectAsByBruteForce(const PairClash& pair, const TriangleMesh& a, const RigidTransform& world_from_a,
                           const TriangleMesh& b, const RigidTransform& world_from_b, double rounding_mm) {
@@ -65,15 +80,7 @@ void ExpectAsByBruteForce(const PairClash& pair, const TriangleMesh& a, const Ri
   if (meets || contained) verdict = Verdict::kContact;
   EXPECT_EQ(pair.verdict, verdict) << truth_mm << " mm apart";
   EXPECT_EQ(pair.contained, contained);
-  EXPECT_LE(pair.at_least_mm, truth_mm + rounding_mm);
-  if (!pair.gap) {
-    EXPECT_EQ(verdict, Verdict::kClear);
-    return;
-  }
-  EXPECT_NEAR(pair.gap->distance_mm, truth_mm, rounding_mm);
-  EXPECT_NEAR((pair.gap->on_a - pair.gap->on_b).norm(), truth_mm, rounding_mm);
-  EXPECT_LE(DistanceTo(a, world_from_a, pair.gap->on_a), rounding_mm);
-  EXPECT_LE(DistanceTo(b, world_from_b, pair.gap->on_b), rounding_mm);
+  ExpectGap(pair, truth_mm, a, world_from_a, b, world_from_b, rounding_mm);
 }
 
 // How FCL alone would have done.
