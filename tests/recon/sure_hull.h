@@ -8,10 +8,9 @@
 #include "core/rig.h"
 #include "core/soft_mask.h"
 #include "tests/oracles/picture_labels.h"
+#include "tests/recon/sure.h"
 
 namespace elbowroom::recon {
-
-enum class Sure { kNo, kUnsure, kYes };
 
 // How far off an answer may be.
 struct StressError {

@@ -10,6 +10,7 @@
 
 #include "recon/plane_sweep.h"
 #include "tests/recon/random_scene.h"
+#include "tests/recon/sure.h"
 
 namespace elbowroom::recon {
 
@@ -20,8 +21,6 @@ struct SweepBand {
 };
 
 inline constexpr double kGlFilterCoverage = 4.0 / 256.0;
-
-enum class Sure { kNo, kYes, kUnsure };
 
 // The volume query of a point, in double precision.
 class PointOracle {
