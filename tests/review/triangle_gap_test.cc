@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cstdint>
+#include <ostream>
 #include <random>
 #include <string>
 
@@ -96,6 +97,8 @@ double FclDistance(const Triangle& a, const Triangle& b) {
   Vector3d on_a, on_b;
   return fcl::detail::TriangleDistance<double>::triDistance(a[0], a[1], a[2], b[0], b[1], b[2], on_a, on_b);
 }
+
+void PrintTo(Family family, std::ostream* out) { *out << NameOf(family); }
 
 class TriangleGap : public testing::TestWithParam<Family> {};
 
