@@ -1,84 +1,84 @@
 $all0_0 << EOD
-1.28 3.11e-05 "CPU"
-6.72 3.46e-05 "GL"
+1.264356 3.110487184156514e-05 "CPU"
+6.623001 3.456495934914582e-05 "GL"
 EOD
 $grey0_0 << EOD
-6.72 3.46e-05 "GL"
+6.623001 3.456495934914582e-05 "GL"
 EOD
 $all0_1 << EOD
-3.2 6.42 "planes 15 mm apart"
-5.7 2.24 "planes 5 mm apart"
-20 0.479 "planes 1 mm apart"
+3.167778 6.4196256297815735 "planes 15 mm apart"
+5.685924 2.238645512054733 "planes 5 mm apart"
+20.251042 0.47912261597162503 "planes 1 mm apart"
 EOD
 $grey0_1 << EOD
-3.2 6.42 "planes 15 mm apart"
-5.7 2.24 "planes 5 mm apart"
-20 0.479 "planes 1 mm apart"
+3.167778 6.4196256297815735 "planes 15 mm apart"
+5.685924 2.238645512054733 "planes 5 mm apart"
+20.251042 0.47912261597162503 "planes 1 mm apart"
 EOD
 $all0_2 << EOD
-40.3 6.42 "planes 15 mm apart"
-112 2.24 "planes 5 mm apart"
+34.612205 6.417599769735659 "planes 15 mm apart"
+97.502693 2.2367650210878196 "planes 5 mm apart"
 EOD
 $grey0_2 << EOD
-40.3 6.42 "planes 15 mm apart"
-112 2.24 "planes 5 mm apart"
+34.612205 6.417599769735659 "planes 15 mm apart"
+97.502693 2.2367650210878196 "planes 5 mm apart"
 EOD
 $all0_3 << EOD
-551 6.33 "planes 15 mm apart"
+501.938029 6.326158033929101 "planes 15 mm apart"
 EOD
 $grey0_3 << EOD
-551 6.33 "planes 15 mm apart"
+501.938029 6.326158033929101 "planes 15 mm apart"
 EOD
 $all0_4 << EOD
-17.6 0.207 "edges of 2 mm"
-6.98 0.367 "edges of 4 mm"
-3.94 0.795 "edges of 8 mm"
+17.426816 0.20675565984478014 "edges of 2 mm"
+6.850785 0.3666517614642404 "edges of 4 mm"
+3.81493 0.7954425340882524 "edges of 8 mm"
 EOD
 $grey0_4 << EOD
-17.6 0.207 "edges of 2 mm"
-6.98 0.367 "edges of 4 mm"
-3.94 0.795 "edges of 8 mm"
+17.426816 0.20675565984478014 "edges of 2 mm"
+6.850785 0.3666517614642404 "edges of 4 mm"
+3.81493 0.7954425340882524 "edges of 8 mm"
 EOD
 $all1_0 << EOD
-5.04 0.0259 "CPU"
-19.4 0.0259 "GL"
+4.805995 0.025936238265934726 "CPU"
+19.983396 0.02593603067590106 "GL"
 EOD
 $grey1_0 << EOD
-19.4 0.0259 "GL"
+NaN NaN ""
 EOD
 $all1_1 << EOD
-5.59 6.2 "planes 15 mm apart"
-8.67 2.2 "planes 5 mm apart"
-28.7 0.51 "planes 1 mm apart"
+5.821711 6.202984683564714 "planes 15 mm apart"
+9.763329 2.2048762968171434 "planes 5 mm apart"
+32.649661 0.5102606810397988 "planes 1 mm apart"
 EOD
 $grey1_1 << EOD
-5.59 6.2 "planes 15 mm apart"
-8.67 2.2 "planes 5 mm apart"
-28.7 0.51 "planes 1 mm apart"
+5.821711 6.202984683564714 "planes 15 mm apart"
+9.763329 2.2048762968171434 "planes 5 mm apart"
+32.649661 0.5102606810397988 "planes 1 mm apart"
 EOD
 $all1_2 << EOD
-82.1 6.2 "planes 15 mm apart"
-244 2.2 "planes 5 mm apart"
+86.010814 6.202492429757415 "planes 15 mm apart"
+248.962574 2.2030387844793116 "planes 5 mm apart"
 EOD
 $grey1_2 << EOD
-82.1 6.2 "planes 15 mm apart"
-244 2.2 "planes 5 mm apart"
+86.010814 6.202492429757415 "planes 15 mm apart"
+248.962574 2.2030387844793116 "planes 5 mm apart"
 EOD
 $all1_3 << EOD
-1360 6.09 "planes 15 mm apart"
+1525.923126 6.085492261502713 "planes 15 mm apart"
 EOD
 $grey1_3 << EOD
-1360 6.09 "planes 15 mm apart"
+1525.923126 6.085492261502713 "planes 15 mm apart"
 EOD
 $all1_4 << EOD
-43.3 0.227 "edges of 2 mm"
-20.3 0.399 "edges of 4 mm"
-13.8 0.791 "edges of 8 mm"
+35.871433 0.22701659343812378 "edges of 2 mm"
+18.646635 0.3986796917867054 "edges of 4 mm"
+11.859531 0.7914416185139392 "edges of 8 mm"
 EOD
 $grey1_4 << EOD
-43.3 0.227 "edges of 2 mm"
-20.3 0.399 "edges of 4 mm"
-13.8 0.791 "edges of 8 mm"
+35.871433 0.22701659343812378 "edges of 2 mm"
+18.646635 0.3986796917867054 "edges of 4 mm"
+11.859531 0.7914416185139392 "edges of 8 mm"
 EOD
 set logscale xy
 set grid lc rgb '#cccccc'
