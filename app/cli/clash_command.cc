@@ -10,6 +10,7 @@
 #include "app/cli/repeated_timing.h"
 #include "app/cli/spacing_option.h"
 #include "app/cli/unit_option.h"
+#include "app/cli/vector_json.h"
 #include "cad_import/layout_file.h"
 #include "review/clash.h"
 
@@ -44,8 +45,6 @@ std::vector<PairClash> WorstFirst(std::vector<PairClash> pairs) {
   return pairs;
 }
 
-nlohmann::json Json(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
-
 nlohmann::json Json(const PairClash& pair, const core::Layout& layout) {
   nlohmann::json json = {{"a", layout.parts[pair.demand.a].name},
                          {"b", layout.parts[pair.demand.b].name},
@@ -60,8 +59,8 @@ nlohmann::json Json(const PairClash& pair, const core::Layout& layout) {
                          {"authorised", pair.demand.authorised_contact}};
   if (pair.gap) {
     json["distance_mm"] = pair.gap->distance_mm;
-    json["witness_a_mm"] = Json(pair.gap->on_a);
-    json["witness_b_mm"] = Json(pair.gap->on_b);
+    json["witness_a_mm"] = JsonOf(pair.gap->on_a);
+    json["witness_b_mm"] = JsonOf(pair.gap->on_b);
   }
   return json;
 }
@@ -139,12 +138,7 @@ CommandResult Run(const ClashCommandOptions& options, const CommandContext& cont
     review::ClashChecker checker(layout, matrix.pairs, uncertainty_mm);
     report = checker.Check(world_from_parts, context.progress, context.stop);
   };
-  double time_ms = 0.0;
-  if (json) {
-    time_ms = MedianTimeMs(compute);
-  } else {
-    compute();
-  }
+  const double time_ms = ComputeAndTimeMs(json, compute);
   CommandResult result = ResultOf(report, layout, matrix.ignored);
   result.json["time_ms"] = time_ms;
   result.json["warnings"] = imported.warnings;

@@ -10,6 +10,7 @@
 #include "app/cli/repeated_timing.h"
 #include "app/cli/rig_frame.h"
 #include "app/cli/unit_option.h"
+#include "app/cli/vector_json.h"
 #include "review/clearance.h"
 
 namespace elbowroom::cli {
@@ -60,12 +61,7 @@ CommandResult Run(const ClearanceCommandOptions& options, const CommandContext& 
     clearance = review::FindClearance(hull, part, posed.world_from_part, options.clearance);
   };
   CommandResult result;
-  double time_ms = 0.0;
-  if (json) {
-    time_ms = MedianTimeMs(compute);
-  } else {
-    compute();
-  }
+  const double time_ms = ComputeAndTimeMs(json, compute);
   result.json = Json(clearance);
   result.json["time_ms"] = time_ms;
   result.text = TextOf(clearance.interval);
@@ -93,7 +89,7 @@ void AddClearanceCommand(CLI::App& app, Choice* choice) {
   command
       ->add_option("--uncertainty", options->uncertainty_mm,
                    "what the verdict allows for the rig and the part, mm (default: 0)")
-      ->check(CLI::NonNegativeNumber);
+      ->check(LengthFromZero());
   command->callback([=, &app] {
     const bool json = app.get_option("--json")->as<bool>();
     choice->action = [=](const CommandContext& context) { return Run(*options, context, json); };

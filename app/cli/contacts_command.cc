@@ -8,6 +8,7 @@
 #include "app/cli/repeated_timing.h"
 #include "app/cli/rig_frame.h"
 #include "app/cli/unit_option.h"
+#include "app/cli/vector_json.h"
 #include "review/contacts.h"
 
 namespace elbowroom::cli {
@@ -69,12 +70,7 @@ CommandResult Run(const ContactsOptions& options, const CommandContext& context,
     contact = review::FindContacts(hull, part, posed.world_from_part, 0, contact_options);
   };
   CommandResult result;
-  double time_ms = 0.0;
-  if (json) {
-    time_ms = MedianTimeMs(compute);
-  } else {
-    compute();
-  }
+  const double time_ms = ComputeAndTimeMs(json, compute);
   result.json = Json(contact);
   result.json["time_ms"] = time_ms;
   result.text = contact.verdict == core::Verdict::kContact

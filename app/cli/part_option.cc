@@ -22,6 +22,4 @@ PosedPart LoadPart(const PartOptions& options) {
   return part;
 }
 
-nlohmann::json JsonOf(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
-
 }  // namespace elbowroom::cli

@@ -4,7 +4,6 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "core/bvh.h"
@@ -28,7 +27,5 @@ void AddPartOptions(CLI::App& command, PartOptions* options);
 
 // Throws: core::Error naming the file.
 [[nodiscard]] PosedPart LoadPart(const PartOptions& options);
-
-[[nodiscard]] nlohmann::json JsonOf(const Eigen::Vector3d& v);
 
 }  // namespace elbowroom::cli

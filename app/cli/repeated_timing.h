@@ -21,4 +21,12 @@ template <typename Compute>
   return times_ms[2];
 }
 
+// Computes: `is_timed`, as often as MedianTimeMs does, whose time it returns; otherwise once.
+template <typename Compute>
+double ComputeAndTimeMs(bool is_timed, const Compute& compute) {
+  if (is_timed) return MedianTimeMs(compute);
+  compute();
+  return 0.0;
+}
+
 }  // namespace elbowroom::cli

@@ -15,6 +15,7 @@
 #include "review/part_distance.h"
 #include "tests/core/solids.h"
 #include "tests/recon/random_scene.h"
+#include "tests/review/box_hull.h"
 #include "tests/support/soak.h"
 
 namespace elbowroom::review {
@@ -35,28 +36,6 @@ core::TriangleMesh BoxAround(const Vector3d& center, const Vector3d& size_mm) {
   return core::Transformed(core::testing::Box(size_mm),
                            {Eigen::Matrix3d::Identity(), center - 0.5 * size_mm});
 }
-
-// The hull as three far cameras of 1 px a millimetre make it: the box [-50, 50]^3 to a ten-thousandth, or
-// nothing.
-VisualHull BoxHull(bool is_empty = false) {
-  core::Rig rig;
-  rig.name = "box";
-  rig.workspace_mm = {Vector3d::Constant(-95), Vector3d::Constant(95)};
-  std::vector<core::BitMask> masks;
-  for (const Vector3d& axis : {Vector3d(1, 0, 0), Vector3d(0, 1, 0), Vector3d(0, 0, 1)}) {
-    core::CameraCalibration c;
-    c.name = "far";
-    c.image_width_px = c.image_height_px = 200;
-    c.camera_matrix << 1e6, 0.0, 99.5, 0.0, 1e6, 99.5, 0.0, 0.0, 1.0;
-    c.cam_from_world = core::CamFromWorldLookingAt(1e6 * axis, Vector3d::Zero());
-    rig.cameras.emplace_back(std::move(c));
-    core::BitMask& mask = masks.emplace_back(200, 200);
-    for (int y = 50; y < 150 && !is_empty; ++y)
-      for (int x = 50; x < 150; ++x) mask.Set(x, y, true);
-  }
-  return recon::MakeVisualHull(std::make_shared<const core::Rig>(std::move(rig)), masks);
-}
-constexpr double kBoxHullMm = 0.01;  // how far its faces are from +-50
 
 // The witnesses are what they are said to be: points of hull and part, as far from each other as `upper`.
 void CheckWitnesses(const VisualHull& hull, const core::TriangleTree& part,
