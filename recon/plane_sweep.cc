@@ -78,6 +78,17 @@ class RootSweep {
     Visit({x0_, y0_, x0_ + kRootPx, y0_ + kRootPx, 0, space_.plane_count()}, space_.AllQuestions());
   }
 
+  // Without settling anything but whole tiles.
+  void RunPlain() {
+    ForEachTile([this](int x0, int y0) {
+      const SweepRegion tile{x0, y0, x0 + kSweepTilePx, y0 + kSweepTilePx, 0, space_.plane_count()};
+      const std::optional<OpenQuestions> open = space_.Narrow(tile, space_.AllQuestions());
+      if (!open) return;
+      for (int plane = 0; plane < tile.end_plane && TileAt(x0, y0).open_pixels > 0; ++plane)
+        Test({tile.x0, tile.y0, tile.x1, tile.y1, plane, plane + 1}, *open);
+    });
+  }
+
   void CopyTo(DepthMap* picture) const {
     for (const TilePicture& tile : tiles_) {
       if (!tile.is_ready) continue;
@@ -125,11 +136,18 @@ class RootSweep {
       half.end_plane = region.end_plane;
       Visit(half, *open);
     } else {
-      for (int i = 0; i < 4; ++i) {
-        const int x0 = region.x0 + i % 2 * kSweepTilePx, y0 = region.y0 + i / 2 * kSweepTilePx;
-        if (x0 >= space_.rays().width_px() || y0 >= space_.rays().height_px()) continue;
+      ForEachTile([&](int x0, int y0) {
         Visit({x0, y0, x0 + kSweepTilePx, y0 + kSweepTilePx, region.first_plane, region.end_plane}, *open);
-      }
+      });
+    }
+  }
+
+  // Calls visit(x0, y0) with the root's tiles in the picture.
+  template <typename OnTile>
+  void ForEachTile(const OnTile& visit) {
+    for (int i = 0; i < 4; ++i) {
+      const int x0 = x0_ + i % 2 * kSweepTilePx, y0 = y0_ + i / 2 * kSweepTilePx;
+      if (x0 < space_.rays().width_px() && y0 < space_.rays().height_px()) visit(x0, y0);
     }
   }
 
@@ -202,7 +220,7 @@ SweptView SweepPlanes(const core::Rig& rig, std::span<const core::SoftMask> mask
   if (space.plane_count() > 0) {
     tbb::parallel_for(0, roots_x * roots_y, [&](int root) {
       RootSweep sweep(space, askers, root % roots_x * kRootPx, root / roots_x * kRootPx);
-      sweep.Run();
+      options.settles_regions ? sweep.Run() : sweep.RunPlain();
       sweep.CopyTo(&picture);
       tested += sweep.tested_points();
     });

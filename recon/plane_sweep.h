@@ -21,6 +21,9 @@ struct PlaneSweepOptions {
   // of n x n positions (the paper: 5), bilinear between them: faster for each point, and off by the grid's
   // error.
   int undistortion_grid = 0;
+  // CPU alone. False: the plain sweep, bounded to tiles of pixels that may show hull and ended where all of a
+  // tile's are hit, but with every plane asked point by point. The same picture, as yardstick.
+  bool settles_regions = true;
 
   // Throws: PreconditionError naming the field out of range.
   void Validate() const;

@@ -113,8 +113,9 @@ void WriteAimsTable(const std::filesystem::path& docs) {
   }
   for (const char* scene : {kThree, kEight})
     table.rows.push_back(RatioRow(measured, "plane sweep, GL, planes 15 mm apart", scene, 25.0));
-  for (const char* scene : {kThree, kEight})
-    table.rows.push_back(RatioRow(measured, "plane sweep, CPU, planes 15 mm apart", scene, 3.0));
+  for (const char* sweep :
+       {"plain plane sweep, CPU, planes 15 mm apart", "plane sweep, CPU, planes 15 mm apart"})
+    for (const char* scene : {kThree, kEight}) table.rows.push_back(RatioRow(measured, sweep, scene, 3.0));
   for (const auto& [what, name] : {std::pair{"the demo's four cameras", "MeshAt2Mm/four_cameras"},
                                    {kThree, "MeshAt2Mm/three_cameras"},
                                    {kEight, "MeshAt2Mm/eight_cameras"}}) {

@@ -30,6 +30,12 @@ void AddPlaneSweeps(std::vector<ViewMethod>& methods) {
            return recon::SweepPlanes(*task.rig, task.masks, task.view, task.sweep_rays, planes).picture;
          }});
   }
+  recon::PlaneSweepOptions plain = recon::FiftyPlanes();
+  plain.settles_regions = false;
+  methods.push_back(
+      {"plain plane sweep, CPU", "planes 15 mm apart", [=](const ViewTask& task) {
+         return recon::SweepPlanes(*task.rig, task.masks, task.view, task.sweep_rays, plain).picture;
+       }});
   const auto sweep_gl = std::make_shared<recon::gl::PlaneSweepGl>();
   for (const int times : {1, 3}) {
     const recon::PlaneSweepOptions planes = recon::FiftyPlanes(times);

@@ -271,6 +271,27 @@ TEST(PlaneSweep, OneThreadGivesTheSamePicture) {
   }
 }
 
+TEST(PlaneSweep, ThePlainSweepAsksMoreAndSeesTheSame) {
+  Random random(7106);
+  std::int64_t plain_points = 0, points = 0, hits = 0;
+  for (int i = 0; i < 8; ++i) {
+    const auto unseen = i % 2 == 0 ? core::UnseenPolicy::kOutside : core::UnseenPolicy::kAbstain;
+    const RandomScene scene = MakeRingScene(&random, 4, unseen);
+    const auto view = RandomView(&random, LensKind::kPinhole, *scene.rig);
+    const auto masks = SoftMasks(&random, scene.masks);
+    PlaneSweepOptions options;
+    options.spacing_mm = SpacingFor(*scene.rig);
+    const SweptView swept = SweepPlanes(*scene.rig, masks, view, options);
+    options.settles_regions = false;
+    const SweptView plain = SweepPlanes(*scene.rig, masks, view, options);
+    EXPECT_EQ(plain.picture.depth_mm, swept.picture.depth_mm) << "scene " << i;
+    plain_points += plain.stats.tested_points, points += swept.stats.tested_points;
+    hits += swept.picture.hit_pixels;
+  }
+  EXPECT_GT(hits, 3000);
+  EXPECT_GT(plain_points, 3 * points);
+}
+
 // Straightened by n x n positions, the pictures come closer to those through the lens the finer the grid.
 TEST(PlaneSweep, AFinerUndistortionGridIsCloserToTheLens) {
   Random random(7105);
