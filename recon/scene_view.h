@@ -35,6 +35,8 @@ struct SceneView {
   [[nodiscard]] Eigen::Vector3d RayInCam(const Eigen::Vector2d& pixel) const;
 
   [[nodiscard]] Eigen::Vector3d EyeInWorld() const { return cam_from_world.Inverse().translation_mm; }
+
+  [[nodiscard]] bool operator==(const SceneView&) const = default;
 };
 
 // The view as a camera, for those who look at the hull: the same picture but for what near and far cut off.

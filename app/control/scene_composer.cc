@@ -81,17 +81,6 @@ double HiddenShare(const recon::HullView& hull, const recon::SceneView& view,
   return seen == 0 ? 0.0 : static_cast<double>(hidden) / seen;
 }
 
-std::shared_ptr<const recon::gl::HullLayer> LayerOf(recon::HullView hull,
-                                                    std::vector<recon::CameraColor> camera_color) {
-  auto layer = std::make_shared<recon::gl::HullLayer>();
-  layer->width_px = hull.width_px;
-  layer->height_px = hull.height_px;
-  layer->depth_mm = std::move(hull.depth_mm);
-  layer->normal_in_world = std::move(hull.normal_in_world);
-  layer->camera_color = std::move(camera_color);
-  return layer;
-}
-
 // The camera with a picture whose view direction is closest to the viewer's.
 std::optional<core::CameraIndex> NearestToViewer(const std::vector<core::CameraModel>& cameras,
                                                  const recon::FrameSet& frames,
@@ -132,34 +121,28 @@ std::size_t CountHidden(const std::vector<core::ContactPoint>& points, const Vec
 
 recon::gl::Scene SceneComposer::Compose(const FrameResult& result, const recon::SceneView& view,
                                         const SceneLook& look, double hull_scale) {
-  if (hull_ != result.hull || camera_frames_ != result.camera_frames) {
-    if (hull_ != result.hull) hull_from_lamp_.reset();
-    hull_ = result.hull;
-    camera_frames_ = result.camera_frames;
-    photos_.clear();
-  }
+  Forget(result);
   recon::gl::Scene scene;
   scene.view = view;
   scene.lamp = recon::gl::LampOver(result.hull->rig().workspace_mm);
   scene.hull_appearance = look.hull;
   const recon::SceneView hull_view = Scaled(view, hull_scale);
-  recon::HullView hull = make_view_(*result.hull, recon::ViewRays(CameraOf(hull_view)));
+  scene.hull = HullFrom(hull_view);
   for (core::PartIndex i = 0; i < result.layout->parts.size(); ++i) {
     recon::gl::ScenePart part;
     part.mesh = result.layout->parts[i].mesh;
     part.world_from_part = result.world_from_parts[i];
     part.color = Eigen::Vector3f(kPartColors[i % kPartColors.size()].data());
     part.in_contact = result.contacts[i].verdict == core::Verdict::kContact;
-    if (HiddenShare(hull, hull_view, BoundsInWorld(result, i)) > kHidesShare) part.opacity = kSeeThrough;
+    if (HiddenShare(*scene.hull, hull_view, BoundsInWorld(result, i)) > kHidesShare)
+      part.opacity = kSeeThrough;
     scene.parts.push_back(std::move(part));
     for (const core::ContactPoint& point : result.contacts[i].points) {
       scene.contact_points_in_world.push_back(point.position_in_world_mm);
     }
   }
   const std::vector<SharedPhoto> photos = PhotosFor(look, view);
-  std::vector<recon::CameraColor> camera_color;
-  if (!photos.empty()) camera_color = recon::ColorHull(hull, hull_view, photos);
-  scene.hull = LayerOf(std::move(hull), std::move(camera_color));
+  if (!photos.empty()) scene.hull_camera_color = recon::ColorHull(*scene.hull, hull_view, photos);
   scene.hull_from_lamp = HullFromLamp(scene.lamp);
   const Eigen::AlignedBox3d& workspace_mm = result.hull->rig().workspace_mm;
   scene.table_in_world = Eigen::AlignedBox2d(workspace_mm.min().head<2>(), workspace_mm.max().head<2>());
@@ -167,10 +150,34 @@ recon::gl::Scene SceneComposer::Compose(const FrameResult& result, const recon::
   return scene;
 }
 
-std::shared_ptr<const recon::gl::HullLayer> SceneComposer::HullFromLamp(const recon::gl::SceneLamp& lamp) {
+// What isn't of this frame.
+void SceneComposer::Forget(const FrameResult& result) {
+  if (hull_ != result.hull) {
+    hull_ = result.hull;
+    hull_from_view_.reset();
+    hull_from_lamp_.reset();
+  } else if (camera_frames_ == result.camera_frames) {
+    return;
+  }
+  camera_frames_ = result.camera_frames;
+  photos_.clear();
+}
+
+SceneComposer::SharedView SceneComposer::HullFrom(const recon::SceneView& view) {
+  if (hull_from_view_ == nullptr || !(view_ == view)) {
+    hull_from_view_ =
+        std::make_shared<const recon::HullView>(make_view_(*hull_, recon::ViewRays(CameraOf(view))));
+    view_ = view;
+    ++hull_views_;
+  }
+  return hull_from_view_;
+}
+
+SceneComposer::SharedView SceneComposer::HullFromLamp(const recon::gl::SceneLamp& lamp) {
   if (hull_from_lamp_ == nullptr) {
     const recon::SceneView from_lamp = lamp.ShadowView(kHullFromLampPx);
-    hull_from_lamp_ = LayerOf(recon::ViewHull(*hull_, recon::CameraOf(from_lamp)), {});
+    hull_from_lamp_ =
+        std::make_shared<const recon::HullView>(recon::ViewHull(*hull_, recon::CameraOf(from_lamp)));
     ++extra_hull_views_;
   }
   return hull_from_lamp_;

@@ -23,8 +23,9 @@ struct SceneLook {
   [[nodiscard]] bool operator==(const SceneLook&) const = default;
 };
 
-// Keeps what the next picture of the same frame can show again: the hull as the lamp sees it, and what of it
-// the rig's cameras see. Keeping never changes a picture (scene_composer_test). Thread: one.
+// Keeps what the next picture can show again: the hull as operator and lamp see it until hull or view change,
+// what of it the rig's cameras see until the frame does. Keeping never changes a picture
+// (scene_composer_test). Thread: one.
 class SceneComposer {
  public:
   // How the hull is seen from `view`; it may look different in recon::ViewBand.
@@ -36,20 +37,27 @@ class SceneComposer {
   [[nodiscard]] recon::gl::Scene Compose(const FrameResult& result, const recon::SceneView& view,
                                          const SceneLook& look = {}, double hull_scale = 1.0);
 
-  // Views of the hull that were worked out beside the pictures' own, since the start.
+  // Views of the hull that were worked out since the start: the pictures' own, and those beside.
+  [[nodiscard]] std::int64_t hull_views() const { return hull_views_; }
   [[nodiscard]] std::int64_t extra_hull_views() const { return extra_hull_views_; }
 
  private:
   using SharedPhoto = std::shared_ptr<const recon::HullPhoto>;
-  [[nodiscard]] std::shared_ptr<const recon::gl::HullLayer> HullFromLamp(const recon::gl::SceneLamp& lamp);
+  using SharedView = std::shared_ptr<const recon::HullView>;
+  void Forget(const FrameResult& result);
+  [[nodiscard]] SharedView HullFrom(const recon::SceneView& view);
+  [[nodiscard]] SharedView HullFromLamp(const recon::gl::SceneLamp& lamp);
   [[nodiscard]] std::vector<SharedPhoto> PhotosFor(const SceneLook& look, const recon::SceneView& view);
 
   MakeView make_view_;
-  // Of the last frame drawn; what is null hasn't been asked for yet.
+  // Of the last frame drawn; what is null hasn't been asked for since.
   std::shared_ptr<const recon::VisualHull> hull_;
   std::shared_ptr<const recon::FrameSet> camera_frames_;
-  std::shared_ptr<const recon::gl::HullLayer> hull_from_lamp_;
+  SharedView hull_from_view_;
+  recon::SceneView view_;  // that one's
+  SharedView hull_from_lamp_;
   std::vector<SharedPhoto> photos_;  // one a camera
+  std::int64_t hull_views_ = 0;
   std::int64_t extra_hull_views_ = 0;
 };
 

@@ -146,7 +146,7 @@ void main() {
 bool ShowsCameraColor(const Scene& scene) {
   const bool is_asked_for = scene.hull_appearance == HullAppearance::kOneCamera ||
                             scene.hull_appearance == HullAppearance::kRigCameras;
-  return is_asked_for && !scene.hull->camera_color.empty();
+  return is_asked_for && !scene.hull_camera_color.empty();
 }
 
 // The picture's rows and columns that the layer's hits can reach, as glScissor takes them.
@@ -157,7 +157,7 @@ struct Window {
   GLsizei height = 0;
 };
 
-Window ReachOf(const HullLayer& layer, const SceneView& view) {
+Window ReachOf(const HullView& layer, const SceneView& view) {
   int x0 = layer.width_px, x1 = -1, y0 = layer.height_px, y1 = -1;
   const float* depth_mm = layer.depth_mm.data();
   for (int y = 0; y < layer.height_px; ++y, depth_mm += layer.width_px) {
@@ -193,7 +193,7 @@ HullPainter::HullPainter()
       depth_program_("hull depth", kVertexSource, std::string(kLayerSource) + kDepthFragmentSource) {}
 
 void HullPainter::UploadSurface(const Scene& scene) {
-  const HullLayer& layer = *scene.hull;
+  const HullView& layer = *scene.hull;
   static_assert(sizeof(Eigen::Vector3f) == 3 * sizeof(float), "normals upload as packed floats");
   const Eigen::Vector3f unknown = Eigen::Vector3f::Zero();
   if (layer.normal_in_world.empty()) {
@@ -203,7 +203,7 @@ void HullPainter::UploadSurface(const Scene& scene) {
                    {layer.normal_in_world.front().data(), 3 * layer.normal_in_world.size()});
   }
   if (ShowsCameraColor(scene)) {
-    camera_color_.Upload(layer.width_px, layer.height_px, layer.camera_color);
+    camera_color_.Upload(layer.width_px, layer.height_px, scene.hull_camera_color);
   } else {
     camera_color_.Upload(1, 1, std::vector<CameraColor>(1));
   }
@@ -225,12 +225,12 @@ void HullPainter::Draw(const Scene& scene, const ViewMatrices& matrices, const L
   glDisable(GL_SAMPLE_ALPHA_TO_COVERAGE);
 }
 
-void HullPainter::DrawDepth(const HullLayer& layer, const ViewMatrices& matrices) {
+void HullPainter::DrawDepth(const HullView& layer, const ViewMatrices& matrices) {
   depth_program_.Use();
   DrawWith(depth_program_, layer, matrices.view);
 }
 
-void HullPainter::DrawWith(const ShaderProgram& program, const HullLayer& layer, const SceneView& view) {
+void HullPainter::DrawWith(const ShaderProgram& program, const HullView& layer, const SceneView& view) {
   const Window reach = ReachOf(layer, view);
   if (reach.width == 0) return;
   depth_.Upload(layer.width_px, layer.height_px, layer.depth_mm);

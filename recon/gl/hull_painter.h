@@ -23,11 +23,11 @@ class HullPainter {
   void Draw(const Scene& scene, const ViewMatrices& matrices, const Lighting& light);
 
   // The depth of the layer's nearest texel as it is.
-  void DrawDepth(const HullLayer& layer, const ViewMatrices& matrices);
+  void DrawDepth(const HullView& layer, const ViewMatrices& matrices);
 
  private:
   void UploadSurface(const Scene& scene);
-  void DrawWith(const ShaderProgram& program, const HullLayer& layer, const SceneView& view);
+  void DrawWith(const ShaderProgram& program, const HullView& layer, const SceneView& view);
 
   ShaderProgram picture_program_;
   ShaderProgram depth_program_;

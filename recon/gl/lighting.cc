@@ -13,7 +13,7 @@ constexpr int kPartShadowUnit = 6;
 constexpr int kHullShadowUnit = 7;
 
 // Depth-buffer values of the layer, as ViewMatrices' clip space has them.
-std::vector<float> BufferDepths(const HullLayer& layer, const SceneView& view) {
+std::vector<float> BufferDepths(const HullView& layer, const SceneView& view) {
   std::vector<float> values(layer.depth_mm.size(), 1.0F);
   const double scale = view.far_mm / (view.far_mm - view.near_mm);
   for (std::size_t i = 0; i < values.size(); ++i) {
@@ -25,7 +25,7 @@ std::vector<float> BufferDepths(const HullLayer& layer, const SceneView& view) {
 }
 
 // Around the texels with hits, in shares of the layer's sides.
-Eigen::AlignedBox2f BoundsOfHits(const HullLayer& layer) {
+Eigen::AlignedBox2f BoundsOfHits(const HullView& layer) {
   Eigen::AlignedBox2f bounds;
   const auto side = static_cast<float>(layer.width_px);
   for (int y = 0; y < layer.height_px; ++y) {
@@ -172,7 +172,7 @@ void Lighting::UpdateHullShadow(const Scene& scene) {
     hull_shadow_.Upload(1, std::vector<float>{1.0F});
     hull_bounds_.setEmpty();
   } else {
-    const HullLayer& layer = *scene.hull_from_lamp;
+    const HullView& layer = *scene.hull_from_lamp;
     hull_bounds_ = BoundsOfHits(layer);
     hull_shadow_.Upload(layer.width_px, BufferDepths(layer, scene.lamp.ShadowView(layer.width_px)));
   }

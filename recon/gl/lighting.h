@@ -42,7 +42,7 @@ class Lighting {
   SceneLamp lamp_;  // that the maps were made with
   bool has_part_shadow_ = false;
   std::vector<Caster> casters_;
-  std::weak_ptr<const HullLayer> hull_from_lamp_;
+  std::weak_ptr<const HullView> hull_from_lamp_;
   bool has_hull_shadow_ = false;
   Eigen::AlignedBox2f part_bounds_;  // of what throws the shadow, in shares of its map
   Eigen::AlignedBox2f hull_bounds_;

@@ -7,15 +7,15 @@
 namespace elbowroom::recon::gl {
 namespace {
 
-void RequireWhole(const HullLayer& layer) {
-  core::Require(layer.width_px > 0 && layer.height_px > 0, "a hull layer has a positive size");
-  const std::size_t texels =
-      static_cast<std::size_t>(layer.width_px) * static_cast<std::size_t>(layer.height_px);
-  core::Require(layer.depth_mm.size() == texels, "a hull layer has a depth for each texel");
-  core::Require(layer.normal_in_world.empty() || layer.normal_in_world.size() == texels,
-                "a hull layer has a normal for each texel, or none");
-  core::Require(layer.camera_color.empty() || layer.camera_color.size() == texels,
-                "a hull layer has a camera colour for each texel, or none");
+std::size_t TexelsOf(const HullView& hull) {
+  return static_cast<std::size_t>(hull.width_px) * static_cast<std::size_t>(hull.height_px);
+}
+
+void RequireWhole(const HullView& hull) {
+  core::Require(hull.width_px > 0 && hull.height_px > 0, "a hull's picture has a positive size");
+  core::Require(hull.depth_mm.size() == TexelsOf(hull), "a hull's picture has a depth for each texel");
+  core::Require(hull.normal_in_world.empty() || hull.normal_in_world.size() == TexelsOf(hull),
+                "a hull's picture has a normal for each texel, or none");
 }
 
 }  // namespace
@@ -45,11 +45,15 @@ void Scene::Validate() const {
     core::Require(part.opacity >= 0.0F && part.opacity <= 1.0F, "a part's opacity lies within [0, 1]");
   }
   lamp.Validate();
-  if (hull != nullptr) RequireWhole(*hull);
+  if (hull != nullptr) {
+    RequireWhole(*hull);
+    core::Require(hull_camera_color.empty() || hull_camera_color.size() == TexelsOf(*hull),
+                  "a hull's picture has a camera colour for each texel, or none");
+  }
   if (hull_from_lamp == nullptr) return;
   RequireWhole(*hull_from_lamp);
   core::Require(hull_from_lamp->width_px == hull_from_lamp->height_px,
-                "a hull layer from the lamp is square");
+                "a hull's picture from the lamp is square");
 }
 
 }  // namespace elbowroom::recon::gl

@@ -13,6 +13,7 @@
 #include "core/triangle_mesh.h"
 #include "recon/gl/scene_lamp.h"
 #include "recon/hull_appearance.h"
+#include "recon/hull_view.h"
 #include "recon/scene_view.h"
 
 namespace elbowroom::recon::gl {
@@ -24,18 +25,6 @@ struct ScenePart {
   Eigen::Vector3f color = {0.62F, 0.67F, 0.73F};
   bool in_contact = false;  // tinted orange-red
   float opacity = 1.0F;     // below 1: what stands behind shows through; 0: not drawn
-};
-
-// The hull from the scene's view, worked out elsewhere: texel (i, j) of a layer with the view's own size is
-// pixel (i, j); a smaller layer covers the same picture and is scaled up.
-struct HullLayer {
-  int width_px = 0;
-  int height_px = 0;
-  std::vector<float> depth_mm;                   // row-major, along the camera's z axis; 0: the ray misses
-  std::vector<Eigen::Vector3f> normal_in_world;  // unit, outwards; zero: unknown, taken from the depths.
-                                                 // Empty: all unknown
-  // As ColorHull gives them; the shaded colour shows as far as they aren't to be trusted. Empty: no camera.
-  std::vector<CameraColor> camera_color = {};
 };
 
 // A real camera, shown as a pyramid from its centre.
@@ -50,12 +39,17 @@ struct CameraFrustum {
 struct Scene {
   SceneView view;
   std::vector<ScenePart> parts;
-  std::shared_ptr<const HullLayer> hull;  // null: none
+  // The hull from the scene's view; null: none. Texel (i, j) of one with the view's own size is pixel (i, j);
+  // a smaller one covers the same picture and is scaled up. Normals that are zero, or not there, are taken
+  // from the depths.
+  std::shared_ptr<const HullView> hull;
+  // As ColorHull gives them; the shaded colour shows as far as they aren't to be trusted. Empty: no camera.
+  std::vector<CameraColor> hull_camera_color;
   HullAppearance hull_appearance = HullAppearance::kByNormal;
   Eigen::Vector3f hull_color = {0.87F, 0.67F, 0.55F};
   SceneLamp lamp;
   // The hull as lamp.ShadowView(its side) sees it, square; null: the hull throws no shadow.
-  std::shared_ptr<const HullLayer> hull_from_lamp;
+  std::shared_ptr<const HullView> hull_from_lamp;
   std::vector<Eigen::Vector3d> contact_points_in_world;
   std::optional<Eigen::AlignedBox2d> table_in_world;  // its extent on z = 0, drawn with a grid
   double table_grid_mm = 50.0;
@@ -65,7 +59,7 @@ struct Scene {
   Eigen::Vector3f background_bottom = {0.69F, 0.73F, 0.78F};
 
   // Throws: PreconditionError: a view that isn't valid, a part without a mesh, an opacity outside [0, 1],
-  // a hull layer whose vectors don't match its size, one from the lamp that isn't square, a lamp that isn't
+  // a hull whose vectors don't match its size, one from the lamp that isn't square, a lamp that isn't
   // valid, a grid step not positive.
   void Validate() const;
 };

@@ -109,8 +109,15 @@ TEST(SceneComposer, KeepingChangesNothingAndSavesTheViewsOfOneFrame) {
   SceneComposer counted;
   (void)counted.Compose(*frame, view);
   EXPECT_EQ(counted.extra_hull_views(), 1);  // the lamp's
+  // Another frame of the same silhouettes costs no view, whatever else is new in it.
+  FrameResult next = *frame;
+  next.camera_frames = std::make_shared<const recon::FrameSet>(*frame->camera_frames);
+  EXPECT_EQ(counted.Compose(next, view).hull, counted.Compose(*frame, view).hull);
+  EXPECT_EQ(counted.hull_views(), 1);
   const auto from_lamp = counted.Compose(*frame, turned).hull_from_lamp;
+  EXPECT_EQ(counted.hull_views(), 2);
   EXPECT_EQ(counted.Compose(*frame, view).hull_from_lamp, from_lamp);
+  EXPECT_EQ(counted.hull_views(), 3);
   EXPECT_EQ(counted.extra_hull_views(), 1);
   (void)counted.Compose(*frame, view, {HullAppearance::kOneCamera});
   EXPECT_EQ(counted.extra_hull_views(), 2);

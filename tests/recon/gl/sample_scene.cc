@@ -123,9 +123,10 @@ std::optional<double> BoxDepth(const SceneView& view, const Eigen::Vector2d& pix
   return enter_mm > 0.0 && enter_mm < leave_mm ? std::optional(enter_mm) : std::nullopt;
 }
 
-std::shared_ptr<const HullLayer> CastLayer(const SceneView& view, int width_px, int height_px,
-                                           const std::vector<Capsule>& capsules) {
-  HullLayer layer{width_px, height_px, {}, {}};
+std::shared_ptr<const HullView> CastLayer(const SceneView& view, int width_px, int height_px,
+                                          const std::vector<Capsule>& capsules) {
+  HullView layer;
+  layer.width_px = width_px, layer.height_px = height_px;
   for (int y = 0; y < height_px; ++y) {
     for (int x = 0; x < width_px; ++x) {
       const Eigen::Vector2d pixel((x + 0.5) * view.width_px / width_px - 0.5,
@@ -136,7 +137,7 @@ std::shared_ptr<const HullLayer> CastLayer(const SceneView& view, int width_px, 
                                           : Eigen::Vector3f::Zero());
     }
   }
-  return std::make_shared<const HullLayer>(std::move(layer));
+  return std::make_shared<const HullView>(std::move(layer));
 }
 
 std::vector<Capsule> Hand(const Eigen::Vector3d& palm_in_world) {

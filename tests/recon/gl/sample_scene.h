@@ -36,7 +36,7 @@ struct RayHit {
                                              const Eigen::AlignedBox3d& box_in_world);
 
 // The capsules as a layer of the given size for the view.
-[[nodiscard]] std::shared_ptr<const HullLayer> CastLayer(const SceneView& view, int width_px, int height_px,
+[[nodiscard]] std::shared_ptr<const HullView> CastLayer(const SceneView& view, int width_px, int height_px,
                                                          const std::vector<Capsule>& capsules);
 
 // A forearm and hand with five fingers.

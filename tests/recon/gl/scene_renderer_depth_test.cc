@@ -90,7 +90,7 @@ TEST(SceneRendererDepth, PosedPartIsWhereItsPosePutsIt) {
   EXPECT_LE(differing, 4);  // pixels whose centre rounding puts on the other side of a silhouette edge
 }
 
-TEST(SceneRendererDepth, HullLayerComesThroughTexelForTexel) {
+TEST(SceneRendererDepth, TheHullComesThroughTexelForTexel) {
   SceneRenderer renderer;
   Scene scene;
   scene.view = ViewFrom(OverTheShoulder(), 320, 240);

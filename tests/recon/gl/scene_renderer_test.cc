@@ -124,9 +124,9 @@ TEST(SceneRenderer, LayerWithoutNormalsIsShadedFromItsDepths) {
   const std::vector<Capsule> ball{{{0, 0, 0}, {5, 0, 0}, 100}};
   scene.hull = CastLayer(scene.view, 320, 240, ball);
   const Image exact = renderer.Render(scene);
-  HullLayer bare = *scene.hull;
+  HullView bare = *scene.hull;
   bare.normal_in_world.clear();
-  scene.hull = std::make_shared<const HullLayer>(bare);
+  scene.hull = std::make_shared<const HullView>(bare);
   const Image derived = renderer.Render(scene);
   double sum = 0.0;
   for (std::size_t i = 0; i < exact.rgb.size(); ++i) sum += std::abs(int{exact.rgb[i]} - int{derived.rgb[i]});
@@ -139,21 +139,16 @@ TEST(SceneRenderer, CameraColoursShowOnTheirOwnPixelsWhereTheyAreTrusted) {
   SceneRenderer renderer;
   Scene scene = GreyScene();
   const std::vector<Capsule> ball{{{0, 0, 0}, {5, 0, 0}, 100}};
-  HullLayer layer = *CastLayer(scene.view, 320, 240, ball);
+  scene.hull = CastLayer(scene.view, 320, 240, ball);
+  const Image shaded = renderer.Render(scene);
   const auto is_light = [](int x, int y) { return (x / kSquarePx + y / kSquarePx) % 2 == 0; };
   for (int y = 0; y < 240; ++y) {
     for (int x = 0; x < 320; ++x) {
       const std::uint8_t trust = x < 160 ? 255 : 0;
-      layer.camera_color.push_back(is_light(x, y) ? CameraColor{220, 40, 200, trust}
-                                                  : CameraColor{60, 20, 100, trust});
+      scene.hull_camera_color.push_back(is_light(x, y) ? CameraColor{220, 40, 200, trust}
+                                                       : CameraColor{60, 20, 100, trust});
     }
   }
-  const Image shaded = renderer.Render([&] {
-    Scene bare = scene;
-    bare.hull = std::make_shared<const HullLayer>(HullLayer{320, 240, layer.depth_mm, layer.normal_in_world});
-    return bare;
-  }());
-  scene.hull = std::make_shared<const HullLayer>(layer);
   scene.hull_appearance = HullAppearance::kRigCameras;
   const Image image = renderer.Render(scene);
   int checked = 0;
@@ -379,7 +374,7 @@ TEST(SceneRenderer, SceneThatIsNotValidIsABug) {
   scene.parts.push_back({});
   EXPECT_THROW((void)renderer.Render(scene), core::PreconditionError);
   scene.parts.clear();
-  scene.hull = std::make_shared<const HullLayer>(HullLayer{2, 2, {1, 2, 3}, {}});
+  scene.hull = std::make_shared<const HullView>(HullView{2, 2, {1, 2, 3}, {}, {}});
   EXPECT_THROW((void)renderer.Render(scene), core::PreconditionError);
   scene.hull.reset();
   scene.view.near_mm = 0.0;

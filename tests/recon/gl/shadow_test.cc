@@ -295,7 +295,7 @@ TEST(Shadow, PassesAreSkippedWhileNothingChanges) {
   (void)renderer.Render(scene);
   EXPECT_EQ(renderer.shadow_count().part_passes, 2);
   EXPECT_EQ(renderer.shadow_count().hull_uploads, 1);
-  scene.hull_from_lamp = std::make_shared<const HullLayer>(*scene.hull_from_lamp);
+  scene.hull_from_lamp = std::make_shared<const HullView>(*scene.hull_from_lamp);
   (void)renderer.Render(scene);
   EXPECT_EQ(renderer.shadow_count().part_passes, 2);
   EXPECT_EQ(renderer.shadow_count().hull_uploads, 2);
