@@ -1,12 +1,14 @@
 // What the cameras of a rig saw at one instant, and where such sets come from.
 #pragma once
 
+#include <memory>
 #include <opencv2/core/mat.hpp>
 #include <optional>
 #include <stop_token>
 #include <vector>
 
 #include "core/bit_mask.h"
+#include "core/camera_model.h"
 #include "core/ids.h"
 #include "core/progress.h"
 #include "core/rig.h"
@@ -18,10 +20,17 @@ struct CameraFrame {
   std::optional<core::BitMask> ready_mask;  // then there is nothing to segment
 };
 
+// Of a camera that isn't the rig's (recon/viewer_footage.h).
+struct ViewerPicture {
+  std::shared_ptr<const core::CameraModel> camera;
+  cv::Mat image_bgr;  // 8-bit, 3 channels, of the camera's size
+};
+
 struct FrameSet {
   core::FrameIndex index = 0;
   double time_s = 0.0;               // of capture, from frame 0
   std::vector<CameraFrame> cameras;  // in the rig's order
+  std::optional<ViewerPicture> viewer = std::nullopt;
 };
 
 // The empty scene as one camera sees it: mean and noise of every pixel and channel.

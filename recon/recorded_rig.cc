@@ -80,20 +80,12 @@ std::vector<OpenedCamera> OpenAll(const RigFile& rig_file, const std::stop_token
 // The rate that all videos share; 25 Hz where none says.
 double CommonFrameRateHz(const std::vector<OpenedCamera>& opened, const core::Rig& rig) {
   constexpr double kUnsaidRateHz = 25.0;
-  constexpr double kAllowedRatio = 1.05;  // containers round, and average over dropped frames
   std::optional<std::size_t> first;
   for (std::size_t i = 0; i < opened.size(); ++i) {
     if (!opened[i].frame_rate_hz) continue;
     if (!first) first = i;
-    const double ratio = *opened[i].frame_rate_hz / *opened[*first].frame_rate_hz;
-    if (std::max(ratio, 1.0 / ratio) <= kAllowedRatio) continue;
-    throw Error(
-        ErrorKind::kFormat,
-        fmt::format(
-            "camera '{}' runs at {:.3g} frames/s and camera '{}' at {:.3g}; frames of one number must "
-            "be of one instant: use footage of one rate",
-            rig.cameras[*first].name(), *opened[*first].frame_rate_hz, rig.cameras[i].name(),
-            *opened[i].frame_rate_hz));
+    RequireOneRate({rig.cameras[*first].name(), *opened[*first].frame_rate_hz},
+                   {rig.cameras[i].name(), *opened[i].frame_rate_hz});
   }
   return first ? *opened[*first].frame_rate_hz : kUnsaidRateHz;
 }
@@ -109,6 +101,16 @@ std::optional<ShortestSource> FindShortest(const std::vector<OpenedCamera>& open
 }
 
 }  // namespace
+
+void RequireOneRate(const CameraRate& one, const CameraRate& other) {
+  constexpr double kAllowedRatio = 1.05;  // containers round, and average over dropped frames
+  const double ratio = one.frames_hz / other.frames_hz;
+  if (std::max(ratio, 1.0 / ratio) <= kAllowedRatio) return;
+  throw Error(ErrorKind::kFormat,
+              fmt::format("camera '{}' runs at {:.3g} frames/s and camera '{}' at {:.3g}; frames of one "
+                          "number must be of one instant: use footage of one rate",
+                          one.camera, one.frames_hz, other.camera, other.frames_hz));
+}
 
 RecordedRig::RecordedRig(RigFile rig_file, std::stop_token stop) : rig_file_(std::move(rig_file)) {
   core::Require(rig_file_.sources.size() == rig_file_.rig.cameras.size(),

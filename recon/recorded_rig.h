@@ -21,6 +21,14 @@ struct ShortestSource {
   core::FrameIndex frames = 0;
 };
 
+struct CameraRate {
+  std::string camera;
+  double frames_hz = 0.0;
+};
+
+// Throws: Error{kFormat} naming both cameras when their rates differ by more than containers round.
+void RequireOneRate(const CameraRate& one, const CameraRate& other);
+
 // Frame i of a set is frame i of every camera's source. Times come from the videos' frame rate, 25 Hz if none
 // says; from the clock for live cameras, of which the latest pictures make up a set. A camera with ready
 // masks brings those and no picture. Thread: one reader; a capture thread a camera reads a few frames ahead.

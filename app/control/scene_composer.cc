@@ -188,20 +188,27 @@ std::vector<SceneComposer::SharedPhoto> SceneComposer::PhotosFor(const SceneLook
   const bool wants_one = look.hull == recon::HullAppearance::kOneCamera;
   if (camera_frames_ == nullptr || !(wants_one || look.hull == recon::HullAppearance::kRigCameras)) return {};
   const std::vector<core::CameraModel>& cameras = hull_->rig().cameras;
-  photos_.resize(cameras.size());
+  photos_.resize(cameras.size() + 1);
+  if (const auto& viewer = camera_frames_->viewer; viewer && wants_one)
+    return {PhotoOf(cameras.size(), *viewer->camera, viewer->image_bgr)};
   std::optional<core::CameraIndex> chosen;
   if (wants_one) chosen = NearestToViewer(cameras, *camera_frames_, view);
   std::vector<SharedPhoto> wanted;
   for (core::CameraIndex i = 0; i < cameras.size(); ++i) {
     const cv::Mat& image_bgr = camera_frames_->cameras[i].image_bgr;
     if (image_bgr.empty() || (wants_one && chosen != i)) continue;
-    if (photos_[i] == nullptr) {
-      photos_[i] = std::make_shared<const recon::HullPhoto>(*hull_, cameras[i], image_bgr);
-      ++extra_hull_views_;
-    }
-    wanted.push_back(photos_[i]);
+    wanted.push_back(PhotoOf(i, cameras[i], image_bgr));
   }
   return wanted;
+}
+
+const SceneComposer::SharedPhoto& SceneComposer::PhotoOf(std::size_t place, const core::CameraModel& camera,
+                                                         const cv::Mat& image_bgr) {
+  if (photos_[place] == nullptr) {
+    photos_[place] = std::make_shared<const recon::HullPhoto>(*hull_, camera, image_bgr);
+    ++extra_hull_views_;
+  }
+  return photos_[place];
 }
 
 recon::OrbitCamera OverviewCamera(const FrameResult& result, int width_px, int height_px) {

@@ -17,7 +17,8 @@ namespace elbowroom::control {
 // How a picture is meant to look.
 struct SceneLook {
   // Camera colours need the frame's pictures: without them the hull is shaded by its normals. kOneCamera
-  // takes the rig's camera that looks along with the operator most.
+  // takes the viewer camera's, or, without one, those of the rig's camera that looks along with the operator
+  // most.
   recon::HullAppearance hull = recon::HullAppearance::kByNormal;
 
   [[nodiscard]] bool operator==(const SceneLook&) const = default;
@@ -48,6 +49,8 @@ class SceneComposer {
   [[nodiscard]] SharedView HullFrom(const recon::SceneView& view);
   [[nodiscard]] SharedView HullFromLamp(const recon::gl::SceneLamp& lamp);
   [[nodiscard]] std::vector<SharedPhoto> PhotosFor(const SceneLook& look, const recon::SceneView& view);
+  [[nodiscard]] const SharedPhoto& PhotoOf(std::size_t place, const core::CameraModel& camera,
+                                           const cv::Mat& image_bgr);
 
   MakeView make_view_;
   // Of the last frame drawn; what is null hasn't been asked for since.
@@ -56,7 +59,7 @@ class SceneComposer {
   SharedView hull_from_view_;
   recon::SceneView view_;  // that one's
   SharedView hull_from_lamp_;
-  std::vector<SharedPhoto> photos_;  // one a camera
+  std::vector<SharedPhoto> photos_;  // one a camera, and the viewer camera's
   std::int64_t hull_views_ = 0;
   std::int64_t extra_hull_views_ = 0;
 };

@@ -7,6 +7,8 @@
 #include "core/error.h"
 #include "recon/recorded_rig.h"
 #include "recon/rig_file.h"
+#include "recon/source_location.h"
+#include "recon/viewer_footage.h"
 
 namespace elbowroom::control {
 namespace {
@@ -47,6 +49,31 @@ recon::SegmentationOptions ReadSegmentation(const TomlEntry& root, const std::st
   return options;
 }
 
+// The rig's footage, with that of the viewer camera if the trial has one.
+std::shared_ptr<recon::FrameSetSource> WithViewer(std::shared_ptr<recon::RecordedRig> rig,
+                                                  const TomlEntry& root, const std::filesystem::path& file,
+                                                  const std::stop_token& stop,
+                                                  std::vector<std::string>* warnings) {
+  const toml::node* node = root.Find("viewer");
+  if (node == nullptr) return rig;
+  if (!node->is_table()) root.Fail("viewer", "must be written as [viewer]");
+  const TomlEntry entry(*node->as_table(), file.string(), "[viewer]", {"camera", "frames"});
+  const std::filesystem::path folder = file.parent_path();
+  const recon::ViewFile view = recon::ReadViewFile(folder / entry.Text("camera"));
+  if (view.is_orthographic) entry.Fail("camera", "must name a perspective camera; this one is orthographic");
+  const std::string frames = entry.Text("frames");
+  auto footage = std::make_shared<recon::ViewerFootage>(
+      std::move(rig), view.camera, recon::ResolvedLocation(frames, std::filesystem::absolute(folder)), stop);
+  const auto viewer_frames = footage->viewer_frame_count(), rig_frames = footage->frame_count();
+  if (viewer_frames && (!rig_frames || *viewer_frames < *rig_frames)) {
+    warnings->push_back(
+        fmt::format("the viewer's footage '{}' ends after {} frames; later ones take their colours from the "
+                    "rig's cameras",
+                    frames, *viewer_frames));
+  }
+  return footage;
+}
+
 // What the footage's length depends on, for the session's record.
 std::string EndNote(const recon::RecordedRig& source) {
   const std::optional<recon::ShortestSource>& shortest = source.shortest_source();
@@ -61,7 +88,7 @@ TrialSetup ReadTrialFile(const std::filesystem::path& path, std::stop_token stop
   const toml::table table = cad_import::ParseTomlFile(path, "trial file");
   const TomlEntry root(table, path.string(), "",
                        {"rig", "layout", "participant", "task", "estimate_mm", "required_clearance_mm",
-                        "tools", "segmentation"});
+                        "tools", "segmentation", "viewer"});
   TrialSetup setup;
   setup.info.participant = root.TextOr("participant", "");
   setup.info.task = root.TextOr("task", "");
@@ -75,7 +102,7 @@ TrialSetup ReadTrialFile(const std::filesystem::path& path, std::stop_token stop
   setup.warnings = std::move(imported.warnings);
   auto source = std::make_shared<recon::RecordedRig>(recon::ReadRigFile(folder / root.Text("rig")), stop);
   setup.end_note = EndNote(*source);
-  setup.source = std::move(source);
+  setup.source = WithViewer(std::move(source), root, path, stop, &setup.warnings);
   return setup;
 }
 

@@ -127,6 +127,27 @@ TEST(SceneComposer, KeepingChangesNothingAndSavesTheViewsOfOneFrame) {
   EXPECT_EQ(counted.extra_hull_views(), 5);
 }
 
+TEST(SceneComposer, OneCameraIsTheViewersIfThereIsOne) {
+  FrameResult worn = *Demo().At(kPipeIsHeldS);
+  const recon::SceneView view = TrialView(240, 180, -62.0, 14.0);
+  const auto head = std::make_shared<const core::CameraModel>(recon::CameraOf(view));
+  recon::FrameSet frames = *worn.camera_frames;
+  frames.viewer = recon::ViewerPicture{head, cv::Mat(180, 240, CV_8UC3, cv::Scalar(250, 10, 20))};
+  worn.camera_frames = std::make_shared<const recon::FrameSet>(std::move(frames));
+  SceneComposer composer;
+  const recon::gl::Scene scene = composer.Compose(worn, view, {HullAppearance::kOneCamera});
+  EXPECT_EQ(composer.extra_hull_views(), 2);  // the lamp's and the head's
+  int trusted = 0;
+  for (const recon::CameraColor& color : scene.hull_camera_color) {
+    if (color[3] == 0) continue;
+    EXPECT_EQ((recon::CameraColor{color[0], color[1], color[2], 0}), (recon::CameraColor{20, 10, 250, 0}));
+    ++trusted;
+  }
+  EXPECT_GT(trusted, 500);
+  (void)composer.Compose(worn, view, {HullAppearance::kRigCameras});
+  EXPECT_EQ(composer.extra_hull_views(), 6);  // the demo's four cameras, and not the head's again
+}
+
 TEST(SceneComposer, WithoutPicturesTheHullIsShaded) {
   FrameResult bare = *Demo().At(kPipeIsHeldS);
   bare.camera_frames.reset();

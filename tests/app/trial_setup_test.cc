@@ -1,0 +1,84 @@
+#include "app/control/trial_setup.h"
+
+#include <gtest/gtest.h>
+
+#include <opencv2/imgcodecs.hpp>
+
+#include "core/error.h"
+#include "tests/app/mask_rig.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/text_file.h"
+
+namespace elbowroom::control {
+namespace {
+
+using test_support::WriteText;
+
+constexpr const char* kHead = R"(%YAML:1.0
+---
+name: "head"
+image_width: 64
+image_height: 48
+camera_matrix: [60, 0, 31.5, 0, 60, 23.5, 0, 0, 1]
+distortion_model: "plumb_bob"
+distortion_coefficients: [0, 0, 0, 0, 0]
+rotation_cam_from_world: [1, 0, 0, 0, -1, 0, 0, 0, -1]
+translation_cam_from_world_mm: [0, 0, 900]
+)";
+
+constexpr const char* kLayout = R"(unit = "mm"
+[[part]]
+name = "box"
+file = "box.stl"
+position_mm = [0, 0, 200]
+)";
+
+// A trial of one frame with a viewer camera, whose table is as given.
+class ViewerTrial {
+ public:
+  explicit ViewerTrial(const std::string& viewer) {
+    test_support::WriteBallRig(folder_.path());
+    test_support::WriteBoxStl(folder_ / "box.stl", 40.0);
+    WriteText(folder_ / "layout.toml", kLayout);
+    WriteText(folder_ / "head.yml", kHead);
+    WriteText(folder_ / "flat.yml", std::string(kHead) + "projection: \"orthographic\"\n");
+    cv::imwrite((folder_ / "head_0.png").string(), cv::Mat(48, 64, CV_8UC3, cv::Scalar(0, 200, 0)));
+    WriteText(file(), "rig = \"rig.yml\"\nlayout = \"layout.toml\"\n[viewer]\n" + viewer);
+  }
+  [[nodiscard]] std::filesystem::path file() const { return folder_ / "trial.toml"; }
+
+ private:
+  test_support::TemporaryFolder folder_;
+};
+
+TEST(ReadTrialFile, TheViewersPicturesComeWithTheFrames) {
+  const ViewerTrial trial("camera = \"head.yml\"\nframes = \"head_%d.png\"\n");
+  const TrialSetup setup = ReadTrialFile(trial.file());
+  EXPECT_TRUE(setup.warnings.empty());
+  const recon::FrameSet frames = setup.source->Read(0);
+  ASSERT_TRUE(frames.viewer.has_value());
+  EXPECT_EQ(frames.viewer->camera->name(), "head");
+  EXPECT_EQ(frames.viewer->image_bgr.at<cv::Vec3b>(20, 20), cv::Vec3b(0, 200, 0));
+}
+
+TEST(ReadTrialFile, WhatAViewerHasWrongIsOneLine) {
+  for (const auto& [viewer, said] :
+       {std::pair{"camera = \"head.yml\"\n", "frames"},
+        {"frames = \"head_%d.png\"\n", "camera"},
+        {"camera = \"none.yml\"\nframes = \"head_%d.png\"\n", "none.yml"},
+        {"camera = \"flat.yml\"\nframes = \"head_%d.png\"\n", "orthographic"},
+        {"camera = \"head.yml\"\nframes = \"other_%d.png\"\n", "other_%d.png"},
+        {"camera = \"head.yml\"\nframes = \"head_%d.png\"\nlens = 3\n", "lens"}}) {
+    const ViewerTrial trial(viewer);
+    try {
+      (void)ReadTrialFile(trial.file());
+      FAIL() << viewer;
+    } catch (const core::Error& error) {
+      EXPECT_NE(std::string(error.what()).find(said), std::string::npos) << error.what();
+      EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
+    }
+  }
+}
+
+}  // namespace
+}  // namespace elbowroom::control
