@@ -110,11 +110,12 @@ void SegmentCleanUp(benchmark::State& state) {
 }
 
 void SegmentDetect(benchmark::State& state) {
+  const SimulatedScene& scene = Simulated();
   for (auto _ : state)
     for (std::size_t i = 0; i < kCameras; ++i)
-      benchmark::DoNotOptimize(Simulated().segmenters[i].Segment(Picture(i)));
+      benchmark::DoNotOptimize(scene.segmenters[i].Segment(Picture(i)));
   std::vector<core::SoftMask> masks;
-  for (const core::BitMask& mask : Simulated().detected) masks.push_back({mask, {}});
+  for (const core::BitMask& mask : scene.detected) masks.push_back({mask, {}});
   CountBoundaryError(state, masks);
 }
 
