@@ -122,11 +122,13 @@ class ContourMap::Grid {
     Vector2d a = (From(edge) - origin_) * cells_per_px_, b = (To(edge) - origin_) * cells_per_px_;
     if (a.y() > b.y()) std::swap(a, b);
     const int top = static_cast<int>(a.y() - kTouch), bottom = static_cast<int>(b.y() + kTouch);
-    const double slope = b.y() > a.y() ? (b.x() - a.x()) / (b.y() - a.y()) : 0.0;
+    // A level edge is near all of the rows that it touches, from end to end.
+    const bool is_level = b.y() - a.y() < kTouch;
+    const double slope = is_level ? 0.0 : (b.x() - a.x()) / (b.y() - a.y());
     for (int y = top; y <= bottom; ++y) {
       double x0 = a.x(), x1 = b.x();
-      if (y > top) x0 = a.x() + (y - kTouch - a.y()) * slope;
-      if (y < bottom) x1 = a.x() + (y + 1 + kTouch - a.y()) * slope;
+      if (y > top && !is_level) x0 = a.x() + (y - kTouch - a.y()) * slope;
+      if (y < bottom && !is_level) x1 = a.x() + (y + 1 + kTouch - a.y()) * slope;
       if (x0 > x1) std::swap(x0, x1);
       // Rounding must not leave the edge's own box.
       x0 = std::max(x0, std::min(a.x(), b.x())), x1 = std::min(x1, std::max(a.x(), b.x()));

@@ -117,6 +117,32 @@ TEST(ContourMap, LabelsOfRoundPositionsAgreeWithParity) {
   }
 }
 
+// Edges along a row or a column of cells, or nearly, however near to the next one: each position about them
+// is in a cell that must know of them.
+TEST(ContourMap, LevelAndUprightEdgesAreKnownToTheCellsOnBothSides) {
+  Random random(5204);
+  for (int trial = 0; trial < 200; ++trial) {
+    const double right = random.Uniform(6.0, 9.0), bottom = random.Uniform(6.0, 9.0);
+    const double lean = random.Chance(0.5) ? 0.0 : random.LogUniform(1e-17, 0.1);
+    Contour contour;
+    contour.vertices = {
+        {0.0, lean},     {0.5 * right, 0.0}, {right, 0.0},        {right - lean, 0.5 * bottom},
+        {right, bottom}, {0.0, bottom},      {lean, 0.5 * bottom}};
+    const auto count = static_cast<std::uint32_t>(contour.vertices.size());
+    for (std::uint32_t i = 0; i < count; ++i) contour.edges.push_back({i, (i + 1) % count});
+    for (std::uint32_t i = 0; i < count; ++i)
+      contour.edge_from.push_back(i), contour.edge_to.push_back((i + count - 1) % count);
+    const ContourMap map(contour, random.Chance(0.5));
+    for (int i = 0; i < 200; ++i) {
+      const ContourEdge& edge = contour.edges[static_cast<std::size_t>(random.Whole(0, 6))];
+      const Vector2d &from = contour.vertices[edge.from], &to = contour.vertices[edge.to];
+      ExpectPromiseHolds(map, from + random.Uniform(0.0, 1.0) * (to - from) +
+                                  random.LogUniform(1e-6, 0.1) * random.Direction().head<2>());
+    }
+    if (HasFailure()) FAIL() << "trial " << trial;
+  }
+}
+
 TEST(ContourMap, LargeBoundsTakeLargerCells) {
   // Two small loops 4000 px apart along both axes: cells grow, promises hold in cells.
   Contour contour;
