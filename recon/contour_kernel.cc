@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <limits>
 
 #include "recon/contour_kernel.h"
@@ -272,6 +273,105 @@ void Offer(const GridView& grid, const LabelRaster& raster, const GridPoints& fr
   }
 }
 
+// Directions in which something convex is told from edges beside it: it lies between `low` and `high` along
+// (x, y).
+struct Slab {
+  double x, y, low, high;
+};
+
+constexpr std::size_t kCorners = 8;
+constexpr std::size_t kSlabs = 5;
+
+struct Corners {
+  alignas(64) double x[kCorners], y[kCorners];
+  bool are_seen = false;
+};
+
+Corners ProjectCorners(const GridView& box) {
+  const Doubles d;
+  GridPoints signs;
+  signs.count = kCorners;
+  for (std::size_t i = 0; i < kCorners; ++i)
+    for (std::size_t axis = 0; axis < 3; ++axis) signs.at[axis][i] = ((i >> axis) & 1U) != 0 ? 1.0 : -1.0;
+  Corners corners;
+  VD least_z = Set(std::numeric_limits<double>::max());
+  for (std::size_t i = 0; i < kCorners; i += hn::Lanes(d)) {
+    const Points p = Project(box, signs, i);
+    hn::Store(p.x, d, corners.x + i), hn::Store(p.y, d, corners.y + i);
+    least_z = hn::Min(least_z, p.z);
+  }
+  corners.are_seen = hn::GetLane(hn::MinOfLanes(d, least_z)) > 0.0;
+  return corners;
+}
+
+// Grown by `slack_px` to both sides.
+HWY_INLINE Slab SlabAlong(const Corners& corners, double x, double y, double slack_px) {
+  const Doubles d;
+  VD low = Set(std::numeric_limits<double>::max()), high = hn::Neg(low);
+  for (std::size_t i = 0; i < kCorners; i += hn::Lanes(d)) {
+    const VD at =
+        hn::Add(hn::Mul(hn::Load(d, corners.x + i), Set(x)), hn::Mul(hn::Load(d, corners.y + i), Set(y)));
+    low = hn::Min(low, at), high = hn::Max(high, at);
+  }
+  const double slack = slack_px * (std::abs(x) + std::abs(y));
+  return {x, y, hn::GetLane(hn::MinOfLanes(d, low)) - slack, hn::GetLane(hn::MaxOfLanes(d, high)) + slack};
+}
+
+// Lanes: edges that a slab, or their own line, keeps from all corners.
+HWY_INLINE ME AreBeside(const EdgeLanes& e, const Slab* slabs, const Corners& corners, double slack_px) {
+  const Edges d;
+  ME beside = hn::FirstN(d, 0);
+  for (std::size_t i = 0; i < kSlabs; ++i) {
+    const VE x = SetE(slabs[i].x), y = SetE(slabs[i].y);
+    const VE a = hn::Add(hn::Mul(e.ax, x), hn::Mul(e.ay, y)), b = hn::Add(hn::Mul(e.bx, x), hn::Mul(e.by, y));
+    beside = hn::Or(beside, hn::Or(hn::Lt(hn::Max(a, b), SetE(slabs[i].low)),
+                                   hn::Gt(hn::Min(a, b), SetE(slabs[i].high))));
+  }
+  if (hn::AllTrue(d, beside)) return beside;
+  const VE along_x = hn::Sub(e.bx, e.ax), along_y = hn::Sub(e.by, e.ay);
+  VE low = SetE(std::numeric_limits<double>::max()), high = hn::Neg(low);
+  for (std::size_t i = 0; i < kCorners; ++i) {
+    const VE side = hn::Sub(hn::Mul(along_x, hn::Sub(SetE(corners.y[i]), e.ay)),
+                            hn::Mul(along_y, hn::Sub(SetE(corners.x[i]), e.ax)));
+    low = hn::Min(low, side), high = hn::Max(high, side);
+  }
+  const VE slack = hn::Mul(SetE(slack_px), hn::Add(hn::Abs(along_x), hn::Abs(along_y)));
+  return hn::Or(beside, hn::Or(hn::Gt(low, slack), hn::Lt(high, hn::Neg(slack))));
+}
+
+bool IsClear(const GridView& box, const LabelRaster& raster, double slack_px) {
+  const Corners corners = ProjectCorners(box);
+  if (!corners.are_seen) return false;
+  Slab slabs[kSlabs] = {SlabAlong(corners, 1.0, 0.0, slack_px), SlabAlong(corners, 0.0, 1.0, slack_px)};
+  const auto cell = [&](double px, double origin_px, std::int32_t cells) {
+    return static_cast<std::int32_t>(
+        std::clamp(std::floor((px - origin_px) * raster.cells_per_px), -1.0, static_cast<double>(cells)));
+  };
+  const std::int32_t left = cell(slabs[0].low, raster.origin_x_px, raster.width),
+                     right = cell(slabs[0].high, raster.origin_x_px, raster.width),
+                     top = cell(slabs[1].low, raster.origin_y_px, raster.height),
+                     bottom = cell(slabs[1].high, raster.origin_y_px, raster.height);
+  if (right < 0 || bottom < 0 || left == raster.width || top == raster.height) return true;
+  if (bottom - top >= kMostBoxRows) return false;
+  // Across the box's edges, as they are seen from corner 0.
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t other = std::size_t{1} << i;
+    slabs[2 + i] =
+        SlabAlong(corners, corners.y[0] - corners.y[other], corners.x[other] - corners.x[0], slack_px);
+  }
+  const Edges d;
+  for (std::int32_t row = std::max(top, 0); row <= std::min(bottom, raster.height - 1); ++row) {
+    const std::uint32_t* const first = raster.first.data() + row * raster.width;
+    const std::size_t end = first[std::min(right, raster.width - 1) + 1];
+    for (std::size_t i = first[std::max(left, 0)]; i < end; i += hn::Lanes(d)) {
+      const ME is_there = hn::FirstN(d, end - i);
+      const ME beside = AreBeside(Load(raster.edges.data() + i), slabs, corners, slack_px);
+      if (!hn::AllFalse(d, hn::AndNot(beside, is_there))) return false;
+    }
+  }
+  return true;
+}
+
 }  // namespace
 }  // namespace elbowroom::recon::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
@@ -282,6 +382,7 @@ namespace elbowroom::recon {
 HWY_EXPORT(Change);
 HWY_EXPORT(LabelSome);
 HWY_EXPORT(Offer);
+HWY_EXPORT(IsClear);
 
 bool ChangesInCell(std::span<const LabelRaster::Edge> edges, const std::array<double, 2>& centre_px,
                    const std::array<double, 2>& position_px) {
@@ -296,6 +397,10 @@ void OfferCrossings(const GridView& grid, const LabelRaster& raster, const GridP
                     const GridPoints& to, WayShares* shares) {
   if (raster.width == 0) return;  // no edges: everywhere the exterior's label
   HWY_DYNAMIC_DISPATCH(Offer)(grid, raster, from, to, shares->at.data());
+}
+
+bool IsClearOfEdges(const GridView& box, const LabelRaster& raster, double slack_px) {
+  return HWY_DYNAMIC_DISPATCH(IsClear)(box, raster, slack_px);
 }
 
 }  // namespace elbowroom::recon

@@ -50,4 +50,10 @@ struct WayShares {
 void OfferCrossings(const GridView& grid, const LabelRaster& raster, const GridPoints& from,
                     const GridPoints& to, WayShares* shares);
 
+// Whether no edge comes within `slack_px` of what a box covers in the picture: its corners are the grid's
+// points (+-1, +-1, +-1). False where that isn't certain: an edge about between the corners, a corner that
+// isn't in front of the camera, a box that covers more than kMostBoxRows rows of cells.
+inline constexpr std::int32_t kMostBoxRows = 64;
+[[nodiscard]] bool IsClearOfEdges(const GridView& box, const LabelRaster& raster, double slack_px);
+
 }  // namespace elbowroom::recon

@@ -168,6 +168,31 @@ BallAnswer VisualHull::Classify(const Eigen::Vector3d& center_in_world, double r
   return is_inside ? BallAnswer::kInside : BallAnswer::kMixed;
 }
 
+BallAnswer VisualHull::Classify(const WorldBox& box, OpenCameras* open) const {
+  if (is_empty_) return BallAnswer::kOutside;
+  const Eigen::Vector3d reach = box.half_edges.cwiseAbs().rowwise().sum() * (1.0 + 1e-12) +
+                                Eigen::Vector3d::Constant(4e-15 * box.center.lpNorm<1>());
+  const Eigen::AlignedBox3d around(box.center - reach, box.center + reach);
+  if (!rig_->workspace_mm.intersects(around)) return BallAnswer::kOutside;
+  bool is_inside = rig_->workspace_mm.contains(around) && !(ExteriorIsObject(*rig_) && open->asks_sights);
+  const std::size_t first = std::min(open->likely, silhouettes_.size() - 1);
+  for (std::size_t k = 0; k < silhouettes_.size(); ++k) {
+    const std::size_t i = k == 0 ? first : k <= first ? k - 1 : k;
+    if (!open->Asks(i)) continue;
+    const std::optional<bool> label =
+        LabelOfBox(rig_->cameras[i], silhouettes_[i]->plane().focal_px(), silhouettes_[i]->labels(), box);
+    if (!label) {
+      is_inside = false;
+    } else if (*label) {
+      open->Close(i);
+    } else {
+      open->likely = i;
+      return BallAnswer::kOutside;
+    }
+  }
+  return is_inside ? BallAnswer::kInside : BallAnswer::kMixed;
+}
+
 BoundingEdge VisualHull::EdgeAt(const Eigen::Vector3d& surface_point_in_world) const {
   BoundingEdge bounding;
   double nearest_mm = rig_->workspace_mm.contains(surface_point_in_world)

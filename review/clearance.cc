@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <queue>
 #include <string>
@@ -28,6 +29,10 @@ constexpr int kHalvings = 24;
 constexpr int kMostSlides = 8;
 // A hull point is slid along for as long as that brings this share of the tolerance.
 constexpr double kWorthwhile = 0.05;
+// A cell is cut off where no more than this share of it is left.
+constexpr double kMostLeft = 0.8;
+// Edges shorter than this share of the longest aren't divided.
+constexpr double kFlat = 0.7;
 
 // A box of space around `center`, its half diagonal the radius.
 struct Cell {
@@ -74,7 +79,7 @@ class Search {
         break;
       }
     }
-    return Conclude(std::min(lower_mm, upper_mm_));
+    return Conclude(std::min({lower_mm, upper_mm_, passed_mm_}));
   }
 
  private:
@@ -82,12 +87,18 @@ class Search {
     return lower_mm >= upper_mm_ - options_.tolerance_mm || lower_mm >= options_.enough_mm;
   }
 
+  // What lies at least so far from the part can't change the answer.
+  [[nodiscard]] double FarEnoughMm() const {
+    return std::min(upper_mm_ - options_.tolerance_mm + slack_mm_, options_.enough_mm);
+  }
+
   NearestOnPart Nearest(const Vector3d& x_in_world, std::uint32_t likely, const Vector3d& half = {0, 0, 0}) {
     ++distances_;
-    const double enough_mm = std::min(upper_mm_ - options_.tolerance_mm, options_.enough_mm) + slack_mm_;
-    return FindNearest(
-        part_, {part_from_world_ * x_in_world, part_from_world_.rotation * half.asDiagonal(), enough_mm},
-        likely);
+    return FindNearest(part_, BoxOf(x_in_world, half), likely);
+  }
+  [[nodiscard]] BoxInPart BoxOf(const Vector3d& center, const Vector3d& half) const {
+    return {part_from_world_ * center, part_from_world_.rotation * half.asDiagonal(),
+            FarEnoughMm() + slack_mm_};
   }
   [[nodiscard]] bool Contains(const Vector3d& x_in_world, const recon::OpenCameras& open = {}) {
     ++queries_;
@@ -108,7 +119,43 @@ class Search {
     if (lower_mm >= upper_mm_) return;
     const bool is_inside = answer == BallAnswer::kInside;
     if (nearest.distance_mm < upper_mm_ && (is_inside || Contains(center, open))) Slide(center, nearest);
-    if (!is_inside) cells_.push({lower_mm, center, half, nearest.triangle, open});
+    if (is_inside) return;
+    Cell cell{lower_mm, center, half, nearest.triangle, open};
+    const Cut cut = CutOff(nearest, &cell);
+    if (cut == Cut::kAll) return;
+    ++queries_;
+    switch (hull_.Classify(recon::WorldBox{cell.center, cell.half.asDiagonal()}, &cell.open)) {
+      case BallAnswer::kOutside:
+        return;
+      case BallAnswer::kInside:
+        if (cut == Cut::kSome) Slide(cell.center, Nearest(cell.center, cell.triangle));
+        return;
+      case BallAnswer::kMixed:
+        cells_.push(cell);
+    }
+  }
+
+  enum class Cut { kNothing, kSome, kAll };
+
+  // Cuts off what of the cell is far enough from the part, across the edges that lead away from it most,
+  // unless that is little.
+  Cut CutOff(const NearestOnPart& nearest, Cell* cell) {
+    const double within_mm = FarEnoughMm();
+    if (!(within_mm > 0.0 && within_mm < kInfinity && nearest.distance_mm > 0.0)) return Cut::kNothing;
+    const Vector3d way = cell->center - world_from_part_ * nearest.position_in_part;
+    Eigen::Index axis = 0;
+    const double climb_mm = way.cwiseAbs().cwiseProduct(cell->half).maxCoeff(&axis) / nearest.distance_mm;
+    if (nearest.distance_mm + climb_mm <= within_mm) return Cut::kNothing;  // the far end is near
+    ++distances_;
+    const NearStretch near =
+        FindNearStretch(part_, BoxOf(cell->center, cell->half), axis, within_mm + slack_mm_);
+    if (near.to - near.from > kMostLeft * 2.0) return Cut::kNothing;
+    passed_mm_ = std::min(passed_mm_, within_mm);
+    ++cut_cells_;
+    if (near.is_empty()) return Cut::kAll;
+    cell->center[axis] += 0.5 * (near.from + near.to) * cell->half[axis];
+    cell->half[axis] = 0.5 * (near.to - near.from) * cell->half[axis] + slack_mm_;
+    return Cut::kSome;
   }
 
   // False if the cell is too small to tell any more.
@@ -117,12 +164,21 @@ class Search {
       LookAcross(cell);
       return IsSettled(cell.lower_mm);
     }
-    const Vector3d half = 0.5 * cell.half;
-    recon::OpenCameras open = cell.open;
-    for (int i = 0; i < 8; ++i) {
-      const Vector3d signs((i & 1) != 0 ? 1.0 : -1.0, (i & 2) != 0 ? 1.0 : -1.0, (i & 4) != 0 ? 1.0 : -1.0);
-      Push(cell.center + half.cwiseProduct(signs), half, cell.triangle, &open);
+    // Flat cells aren't cut into flatter ones.
+    Vector3d half = cell.half;
+    const double longest_mm = half.maxCoeff();
+    std::array<int, 3> parts{};
+    for (Eigen::Index i = 0; i < 3; ++i) {
+      const bool is_cut = half[i] > kFlat * longest_mm;
+      parts[static_cast<std::size_t>(i)] = is_cut ? 2 : 1;
+      if (is_cut) half[i] *= 0.5;
     }
+    const Vector3d first = cell.center - cell.half + half;
+    recon::OpenCameras open = cell.open;
+    for (int z = 0; z < parts[2]; ++z)
+      for (int y = 0; y < parts[1]; ++y)
+        for (int x = 0; x < parts[0]; ++x)
+          Push(first + 2.0 * half.cwiseProduct(Vector3d(x, y, z)), half, cell.triangle, &open);
     return true;
   }
 
@@ -197,6 +253,7 @@ class Search {
     result.queries = queries_;
     result.distances = distances_;
     result.cells_left = static_cast<std::int64_t>(cells_.size());
+    result.cut_cells = cut_cells_;
     return result;
   }
 
@@ -208,10 +265,12 @@ class Search {
   double slack_mm_ = 0.0;
   std::priority_queue<Cell> cells_;
   double upper_mm_ = kInfinity;
+  double passed_mm_ = kInfinity;  // what was cut off cells is at least this far away
   Vector3d witness_hull_in_world_ = Vector3d::Zero();
   Vector3d witness_part_in_world_ = Vector3d::Zero();
   std::int64_t queries_ = 0;
   std::int64_t distances_ = 0;
+  std::int64_t cut_cells_ = 0;
 };
 
 }  // namespace

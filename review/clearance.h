@@ -32,6 +32,7 @@ struct Clearance {
   std::int64_t queries = 0;     // of the hull
   std::int64_t distances = 0;   // of a point to the part
   std::int64_t cells_left = 0;  // of space, that were never looked into
+  std::int64_t cut_cells = 0;   // of which a part was left out as it is far enough from the part
 };
 
 // What the last frame's answer is good for in the next one: where to look first.

@@ -59,6 +59,12 @@ class Search {
 
   [[nodiscard]] const NearestOnPart& nearest() const { return nearest_; }
 
+  NearStretch FindNearStretch(Eigen::Index axis, double within_mm) {
+    NearStretch stretch;
+    VisitNear(0, axis, within_mm, &stretch);
+    return stretch;
+  }
+
  private:
   [[nodiscard]] Vector3d NearestOn(std::uint32_t triangle) const {
     const auto& [a, b, c] = part_.mesh().triangles[triangle];
@@ -118,6 +124,37 @@ class Search {
     }
   }
 
+  // Of the box's points center + sum a_i e_i those that the plane across `away` doesn't keep at `within_mm`
+  // from what is beyond it: |away| - sum_(i != axis) |n . e_i| + a_axis n . e_axis < within_mm.
+  [[nodiscard]] NearStretch NearTo(const Vector3d& away, Eigen::Index axis, double within_mm) const {
+    const double length = away.norm();
+    if (!(length > 0.0)) return {-1.0, 1.0};
+    const Vector3d climbs = edges_ * away / length;
+    const double along = climbs[axis];
+    const double room_mm = within_mm - length + climbs.lpNorm<1>() - std::abs(along);
+    if (room_mm + std::abs(along) <= 0.0) return {};
+    if (room_mm >= std::abs(along)) return {-1.0, 1.0};
+    return along > 0.0 ? NearStretch{-1.0, room_mm / along} : NearStretch{room_mm / along, 1.0};
+  }
+
+  void VisitNear(std::uint32_t index, Eigen::Index axis, double within_mm, NearStretch* stretch) {
+    const core::TriangleTree::Node& node = part_.nodes()[index];
+    const Vector3d away = x_ - node.box.min().cwiseMax(x_.cwiseMin(node.box.max()));
+    const NearStretch most = NearTo(away, axis, within_mm);
+    if (most.is_empty() || (most.from >= stretch->from && most.to <= stretch->to)) return;
+    if (node.left != 0) {
+      VisitNear(node.left, axis, within_mm, stretch);
+      VisitNear(node.left + 1, axis, within_mm, stretch);
+      return;
+    }
+    for (std::uint32_t i = node.begin; i < node.end; ++i) {
+      const NearStretch near = NearTo(x_ - NearestOn(part_.order()[i]), axis, within_mm);
+      if (near.is_empty()) continue;
+      stretch->from = std::min(stretch->from, near.from);
+      stretch->to = std::max(stretch->to, near.to);
+    }
+  }
+
   const core::TriangleTree& part_;
   const Vector3d x_;
   const Eigen::Matrix3d edges_;  // rows: the box's half edges
@@ -154,6 +191,11 @@ NearestOnPart FindNearest(const core::TriangleTree& part, const BoxInPart& box, 
   if (nearest.box_lower_mm >= box.enough_mm || search.MostOfBox() < box.enough_mm) return nearest;
   search.BoundBox();
   return search.nearest();
+}
+
+NearStretch FindNearStretch(const core::TriangleTree& part, const BoxInPart& box, Eigen::Index axis,
+                            double within_mm) {
+  return Search(part, box).FindNearStretch(axis, within_mm);
 }
 
 }  // namespace elbowroom::review

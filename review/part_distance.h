@@ -37,4 +37,16 @@ struct BoxInPart {
 [[nodiscard]] NearestOnPart FindNearest(const core::TriangleTree& part, const BoxInPart& box,
                                         std::uint32_t likely = 0);
 
+// Of a box along one of its half edges, -1 to 1: where it may be near.
+struct NearStretch {
+  double from = 1.0;
+  double to = -1.0;
+  [[nodiscard]] bool is_empty() const { return from > to; }
+};
+
+// All points of the box that are nearer to the part than `within_mm` are in the stretch along half edge
+// `axis`, by the same planes. Rounding is the caller's. Thread: any.
+[[nodiscard]] NearStretch FindNearStretch(const core::TriangleTree& part, const BoxInPart& box,
+                                          Eigen::Index axis, double within_mm);
+
 }  // namespace elbowroom::review

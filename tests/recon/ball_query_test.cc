@@ -1,5 +1,5 @@
-// An answer "outside" or "inside" of a ball is never contradicted by any point of it: docs/algorithms.md,
-// sampled.
+// An answer "outside" or "inside" of a ball or a box is never contradicted by any point of it:
+// docs/algorithms.md, sampled.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -191,6 +191,75 @@ TEST(BallQuery, NoSampledPointContradictsACertifiedAnswer) {
   // The test asks something: a fair share of certified answers, of both kinds.
   EXPECT_GT(census.certified, census.balls / 4);
   EXPECT_GT(census.inside, census.balls / 200);
+}
+
+// Flat, long and cubic boxes, turned any way.
+WorldBox RandomBox(Random* random, const Vector3d& center) {
+  const double size_mm = random->LogUniform(1e-4, 1e3);
+  const Vector3d half(size_mm, size_mm * random->LogUniform(1e-4, 1.0),
+                      size_mm * random->LogUniform(1e-4, 1.0));
+  return {center, random->Rotation() * half.asDiagonal()};
+}
+
+// Its centre, its corners and what lies between.
+std::vector<Vector3d> SampleBox(Random* random, const WorldBox& box) {
+  std::vector<Vector3d> samples = {box.center};
+  for (int i = 0; i < 40; ++i) {
+    Vector3d at(random->Uniform(-1.0, 1.0), random->Uniform(-1.0, 1.0), random->Uniform(-1.0, 1.0));
+    if (i < 8) at = Vector3d((i & 1) != 0 ? 1 : -1, (i & 2) != 0 ? 1 : -1, (i & 4) != 0 ? 1 : -1);
+    if (i >= 8 && i < 20) at[i % 3] = at[i % 3] < 0.0 ? -1.0 : 1.0;
+    samples.emplace_back(box.center + box.half_edges * (kInsideBall * at));
+  }
+  return samples;
+}
+
+TEST(BoxQuery, NoSampledPointContradictsACertifiedAnswer) {
+  Random random(2006);
+  Census census;
+  int where_balls_are_mixed = 0;
+  for (int trial = 0; trial < kScenes * test_support::SoakScale(); ++trial) {
+    const RandomScene scene = MakeRandomScene(&random);
+    const VisualHull hull = MakeVisualHull(scene.rig, scene.masks);
+    for (int i = 0; i < kBallsPerScene / 2; ++i) {
+      const WorldBox box = RandomBox(&random, RandomCenter(&random, scene));
+      const std::vector<Vector3d> samples = SampleBox(&random, box);
+      OpenCameras open;
+      const BallAnswer answer = hull.Classify(box, &open);
+      ++census.balls;
+      if (answer == BallAnswer::kMixed) continue;
+      ++census.certified;
+      census.inside += answer == BallAnswer::kInside ? 1 : 0;
+      where_balls_are_mixed += hull.Classify(box.center, box.half_edges.norm()) == BallAnswer::kMixed ? 1 : 0;
+      ASSERT_EQ(Contradictions(hull, samples, answer == BallAnswer::kInside), 0)
+          << "scene " << trial << ": " << box.center.transpose() << "\n"
+          << box.half_edges;
+    }
+  }
+  EXPECT_GT(census.certified, census.balls / 4);
+  EXPECT_GT(census.inside, census.balls / 400);
+  EXPECT_GT(where_balls_are_mixed, census.certified / 50);
+}
+
+// A camera that a box closes has nothing to say of any point of it.
+TEST(BoxQuery, ClosedCamerasCallAllOfTheBoxObject) {
+  Random random(2007);
+  int closed = 0;
+  for (int trial = 0; trial < 60; ++trial) {
+    const RandomScene scene = MakeRandomScene(&random);
+    const VisualHull hull = MakeVisualHull(scene.rig, scene.masks);
+    for (int i = 0; i < 100; ++i) {
+      const WorldBox box = RandomBox(&random, RandomCenter(&random, scene));
+      OpenCameras open;
+      if (hull.Classify(box, &open) == BallAnswer::kOutside) continue;
+      for (const Vector3d& x : SampleBox(&random, box)) {
+        OpenCameras all;
+        all.asks_sights = open.asks_sights;
+        ASSERT_EQ(hull.Contains(x, open), hull.Contains(x, all));
+      }
+      closed += open.bits != ~std::uint64_t{0} ? 1 : 0;
+    }
+  }
+  EXPECT_GT(closed, 500);
 }
 
 TEST(BallQuery, MixedIsRarelySaidOfABallThatAgrees) {
