@@ -77,28 +77,30 @@ BallLabel AskPlane(const core::CameraModel& camera, double focal_px, const Conto
   return answer;
 }
 
-std::optional<bool> LabelOfBox(const core::CameraModel& camera, double focal_px, const ContourMap& labels,
-                               const WorldBox& box) {
+std::optional<bool> LabelOfShape(const core::CameraModel& camera, double focal_px, const ContourMap& labels,
+                                 const WorldShape& shape) {
   const core::RigidTransform& cam_from_world = camera.cam_from_world();
-  const Eigen::Vector3d center = cam_from_world * box.center;
-  const Eigen::Matrix3d edges = cam_from_world.rotation * box.half_edges;
-  const double least_z = center.z() - edges.row(2).lpNorm<1>();
+  const Eigen::Vector3d origin = cam_from_world * shape.origin;
+  const Eigen::Matrix3d edges = cam_from_world.rotation * shape.edges;
+  const double least_z = origin.z() - edges.row(2).lpNorm<1>();
   if (!(least_z > 0.0)) return std::nullopt;
   if (labels.bounds_px().isEmpty()) return labels.exterior_is_object();
   GridView view;
   for (Eigen::Index k = 0; k < 3; ++k) {
     const double scale = k < 2 ? focal_px : 1.0;
-    view.origin[static_cast<std::size_t>(k)] = scale * center[k];
+    view.origin[static_cast<std::size_t>(k)] = scale * origin[k];
     for (Eigen::Index axis = 0; axis < 3; ++axis)
       view.steps[static_cast<std::size_t>(axis)][static_cast<std::size_t>(k)] = scale * edges(k, axis);
   }
   // As for a ball: what rounding moves a point by, in the picture.
-  const double rounding_mm = kCoordinateRounding * (box.center.lpNorm<1>() + box.half_edges.lpNorm<1>() +
+  const double rounding_mm = kCoordinateRounding * (shape.origin.lpNorm<1>() + shape.edges.lpNorm<1>() +
                                                     cam_from_world.translation_mm.lpNorm<1>());
-  const double farthest_mm = center.norm() + edges.norm();
+  const double farthest_mm = origin.norm() + edges.norm();
   const double slack_px = kPositionSlackPx + focal_px * rounding_mm * farthest_mm / (least_z * least_z);
-  if (!IsClearOfEdges(view, labels.Raster(), slack_px)) return std::nullopt;
-  return labels.IsObject(center.head<2>() * (focal_px / center.z()));
+  const ConvexCorners& corners =
+      shape.kind == WorldShape::Kind::kBox ? ConvexCorners::OfBox() : ConvexCorners::OfTriangle();
+  if (!IsClearOfEdges(view, corners, labels.Raster(), slack_px)) return std::nullopt;
+  return labels.IsObject(origin.head<2>() * (focal_px / origin.z()));
 }
 
 bool IsObjectTo(const core::CameraModel& camera, double focal_px, const ContourMap& labels,

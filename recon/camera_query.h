@@ -7,7 +7,7 @@
 
 #include "core/camera_model.h"
 #include "recon/silhouette.h"
-#include "recon/world_box.h"
+#include "recon/world_shape.h"
 
 namespace elbowroom::recon {
 
@@ -23,10 +23,10 @@ struct BallLabel {
                                  const Eigen::Vector3d& x_in_world,
                                  double enough_mm = std::numeric_limits<double>::infinity());
 
-// The label that a plane gives to every point of a box; nothing where it gives both, or that isn't certain: a
-// box that reaches behind the camera, or covers much of the picture (contour_kernel.h).
-[[nodiscard]] std::optional<bool> LabelOfBox(const core::CameraModel& camera, double focal_px,
-                                             const ContourMap& labels, const WorldBox& box);
+// The label that a plane gives to every point of a shape; nothing where it gives both, or that isn't certain:
+// one that reaches behind the camera, or covers much of the picture (contour_kernel.h).
+[[nodiscard]] std::optional<bool> LabelOfShape(const core::CameraModel& camera, double focal_px,
+                                               const ContourMap& labels, const WorldShape& shape);
 
 // The label alone.
 [[nodiscard]] bool IsObjectTo(const core::CameraModel& camera, double focal_px, const ContourMap& labels,

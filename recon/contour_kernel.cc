@@ -279,33 +279,29 @@ struct Slab {
   double x, y, low, high;
 };
 
-constexpr std::size_t kCorners = 8;
+constexpr std::size_t kCorners = ConvexCorners::kCount;
 constexpr std::size_t kSlabs = 5;
 
-struct Corners {
+struct SeenCorners {
   alignas(64) double x[kCorners], y[kCorners];
-  bool are_seen = false;
+  bool are_in_front = false;
 };
 
-Corners ProjectCorners(const GridView& box) {
+SeenCorners ProjectCorners(const GridView& grid, const ConvexCorners& corners) {
   const Doubles d;
-  GridPoints signs;
-  signs.count = kCorners;
-  for (std::size_t i = 0; i < kCorners; ++i)
-    for (std::size_t axis = 0; axis < 3; ++axis) signs.at[axis][i] = ((i >> axis) & 1U) != 0 ? 1.0 : -1.0;
-  Corners corners;
+  SeenCorners seen;
   VD least_z = Set(std::numeric_limits<double>::max());
   for (std::size_t i = 0; i < kCorners; i += hn::Lanes(d)) {
-    const Points p = Project(box, signs, i);
-    hn::Store(p.x, d, corners.x + i), hn::Store(p.y, d, corners.y + i);
+    const Points p = Project(grid, corners.points, i);
+    hn::Store(p.x, d, seen.x + i), hn::Store(p.y, d, seen.y + i);
     least_z = hn::Min(least_z, p.z);
   }
-  corners.are_seen = hn::GetLane(hn::MinOfLanes(d, least_z)) > 0.0;
-  return corners;
+  seen.are_in_front = hn::GetLane(hn::MinOfLanes(d, least_z)) > 0.0;
+  return seen;
 }
 
 // Grown by `slack_px` to both sides.
-HWY_INLINE Slab SlabAlong(const Corners& corners, double x, double y, double slack_px) {
+HWY_INLINE Slab SlabAlong(const SeenCorners& corners, double x, double y, double slack_px) {
   const Doubles d;
   VD low = Set(std::numeric_limits<double>::max()), high = hn::Neg(low);
   for (std::size_t i = 0; i < kCorners; i += hn::Lanes(d)) {
@@ -318,7 +314,7 @@ HWY_INLINE Slab SlabAlong(const Corners& corners, double x, double y, double sla
 }
 
 // Lanes: edges that a slab, or their own line, keeps from all corners.
-HWY_INLINE ME AreBeside(const EdgeLanes& e, const Slab* slabs, const Corners& corners, double slack_px) {
+HWY_INLINE ME AreBeside(const EdgeLanes& e, const Slab* slabs, const SeenCorners& corners, double slack_px) {
   const Edges d;
   ME beside = hn::FirstN(d, 0);
   for (std::size_t i = 0; i < kSlabs; ++i) {
@@ -339,9 +335,9 @@ HWY_INLINE ME AreBeside(const EdgeLanes& e, const Slab* slabs, const Corners& co
   return hn::Or(beside, hn::Or(hn::Gt(low, slack), hn::Lt(high, hn::Neg(slack))));
 }
 
-bool IsClear(const GridView& box, const LabelRaster& raster, double slack_px) {
-  const Corners corners = ProjectCorners(box);
-  if (!corners.are_seen) return false;
+bool IsClear(const GridView& grid, const ConvexCorners& shape, const LabelRaster& raster, double slack_px) {
+  const SeenCorners corners = ProjectCorners(grid, shape);
+  if (!corners.are_in_front) return false;
   Slab slabs[kSlabs] = {SlabAlong(corners, 1.0, 0.0, slack_px), SlabAlong(corners, 0.0, 1.0, slack_px)};
   const auto cell = [&](double px, double origin_px, std::int32_t cells) {
     return static_cast<std::int32_t>(
@@ -352,12 +348,11 @@ bool IsClear(const GridView& box, const LabelRaster& raster, double slack_px) {
                      top = cell(slabs[1].low, raster.origin_y_px, raster.height),
                      bottom = cell(slabs[1].high, raster.origin_y_px, raster.height);
   if (right < 0 || bottom < 0 || left == raster.width || top == raster.height) return true;
-  if (bottom - top >= kMostBoxRows) return false;
-  // Across the box's edges, as they are seen from corner 0.
-  for (std::size_t i = 0; i < 3; ++i) {
-    const std::size_t other = std::size_t{1} << i;
+  if (bottom - top >= kMostConvexRows) return false;
+  for (std::size_t i = 0; i < shape.sides.size(); ++i) {
+    const auto [from, to] = shape.sides[i];
     slabs[2 + i] =
-        SlabAlong(corners, corners.y[0] - corners.y[other], corners.x[other] - corners.x[0], slack_px);
+        SlabAlong(corners, corners.y[from] - corners.y[to], corners.x[to] - corners.x[from], slack_px);
   }
   const Edges d;
   for (std::int32_t row = std::max(top, 0); row <= std::min(bottom, raster.height - 1); ++row) {
@@ -399,8 +394,31 @@ void OfferCrossings(const GridView& grid, const LabelRaster& raster, const GridP
   HWY_DYNAMIC_DISPATCH(Offer)(grid, raster, from, to, shares->at.data());
 }
 
-bool IsClearOfEdges(const GridView& box, const LabelRaster& raster, double slack_px) {
-  return HWY_DYNAMIC_DISPATCH(IsClear)(box, raster, slack_px);
+const ConvexCorners& ConvexCorners::OfBox() {
+  static const ConvexCorners box = [] {
+    ConvexCorners made{{}, {{{0, 1}, {0, 2}, {0, 4}}}};
+    made.points.count = kCount;
+    for (std::size_t i = 0; i < kCount; ++i)
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        made.points.at[axis][i] = ((i >> axis) & 1U) != 0 ? 1.0 : -1.0;
+    return made;
+  }();
+  return box;
+}
+
+const ConvexCorners& ConvexCorners::OfTriangle() {
+  static const ConvexCorners triangle = [] {
+    ConvexCorners made{{}, {{{0, 1}, {0, 2}, {1, 2}}}};
+    made.points.count = kCount;  // the first corner again, instead of those that there aren't
+    made.points.at[0][1] = made.points.at[1][2] = 1.0;
+    return made;
+  }();
+  return triangle;
+}
+
+bool IsClearOfEdges(const GridView& grid, const ConvexCorners& corners, const LabelRaster& raster,
+                    double slack_px) {
+  return HWY_DYNAMIC_DISPATCH(IsClear)(grid, corners, raster, slack_px);
 }
 
 }  // namespace elbowroom::recon

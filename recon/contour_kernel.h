@@ -50,10 +50,23 @@ struct WayShares {
 void OfferCrossings(const GridView& grid, const LabelRaster& raster, const GridPoints& from,
                     const GridPoints& to, WayShares* shares);
 
-// Whether no edge comes within `slack_px` of what a box covers in the picture: its corners are the grid's
-// points (+-1, +-1, +-1). False where that isn't certain: an edge about between the corners, a corner that
-// isn't in front of the camera, a box that covers more than kMostBoxRows rows of cells.
-inline constexpr std::int32_t kMostBoxRows = 64;
-[[nodiscard]] bool IsClearOfEdges(const GridView& box, const LabelRaster& raster, double slack_px);
+// Points of a grid that span something convex.
+struct ConvexCorners {
+  static constexpr std::size_t kCount = 8;
+
+  GridPoints points;
+  // Three of its edges, from corner to corner: an edge of the contour beside them is found to be beside it.
+  std::array<std::array<std::size_t, 2>, 3> sides;
+
+  [[nodiscard]] static const ConvexCorners& OfBox();       // (+-1, +-1, +-1)
+  [[nodiscard]] static const ConvexCorners& OfTriangle();  // (0, 0, 0), (1, 0, 0), (0, 1, 0)
+};
+
+// Whether no edge comes within `slack_px` of what something convex covers in the picture. False where that
+// isn't certain: an edge about between the corners, a corner that isn't in front of the camera, more than
+// kMostConvexRows rows of cells.
+inline constexpr std::int32_t kMostConvexRows = 64;
+[[nodiscard]] bool IsClearOfEdges(const GridView& grid, const ConvexCorners& corners,
+                                  const LabelRaster& raster, double slack_px);
 
 }  // namespace elbowroom::recon

@@ -168,11 +168,12 @@ BallAnswer VisualHull::Classify(const Eigen::Vector3d& center_in_world, double r
   return is_inside ? BallAnswer::kInside : BallAnswer::kMixed;
 }
 
-BallAnswer VisualHull::Classify(const WorldBox& box, OpenCameras* open) const {
+BallAnswer VisualHull::Classify(const WorldShape& shape, OpenCameras* open) const {
   if (is_empty_) return BallAnswer::kOutside;
-  const Eigen::Vector3d reach = box.half_edges.cwiseAbs().rowwise().sum() * (1.0 + 1e-12) +
-                                Eigen::Vector3d::Constant(4e-15 * box.center.lpNorm<1>());
-  const Eigen::AlignedBox3d around(box.center - reach, box.center + reach);
+  const Eigen::AlignedBox3d bounds = shape.Bounds();
+  const Eigen::Vector3d rounding =
+      Eigen::Vector3d::Constant(4e-15 * (shape.origin.lpNorm<1>() + shape.edges.lpNorm<1>()));
+  const Eigen::AlignedBox3d around(bounds.min() - rounding, bounds.max() + rounding);
   if (!rig_->workspace_mm.intersects(around)) return BallAnswer::kOutside;
   bool is_inside = rig_->workspace_mm.contains(around) && !(ExteriorIsObject(*rig_) && open->asks_sights);
   const std::size_t first = std::min(open->likely, silhouettes_.size() - 1);
@@ -180,7 +181,7 @@ BallAnswer VisualHull::Classify(const WorldBox& box, OpenCameras* open) const {
     const std::size_t i = k == 0 ? first : k <= first ? k - 1 : k;
     if (!open->Asks(i)) continue;
     const std::optional<bool> label =
-        LabelOfBox(rig_->cameras[i], silhouettes_[i]->plane().focal_px(), silhouettes_[i]->labels(), box);
+        LabelOfShape(rig_->cameras[i], silhouettes_[i]->plane().focal_px(), silhouettes_[i]->labels(), shape);
     if (!label) {
       is_inside = false;
     } else if (*label) {

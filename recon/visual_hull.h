@@ -10,11 +10,11 @@
 #include "core/ids.h"
 #include "core/rig.h"
 #include "recon/silhouette.h"
-#include "recon/world_box.h"
+#include "recon/world_shape.h"
 
 namespace elbowroom::recon {
 
-// Of a ball or a box.
+// Of a ball, a box or a triangle.
 enum class BallAnswer {
   kOutside,  // no point of it is in the hull
   kInside,   // every point of it is
@@ -85,10 +85,10 @@ class VisualHull {
   [[nodiscard]] BallAnswer Classify(const Eigen::Vector3d& center_in_world, double radius_mm,
                                     OpenCameras* open) const;
 
-  // The same of a box. Where a ball around a box is mixed the box may not be: it is asked what it covers in
-  // each picture. Costs a few times as much. Held to account by ball_query_test. Under `abstain` a box is
-  // seen by a camera only if `open` knows that already.
-  [[nodiscard]] BallAnswer Classify(const WorldBox& box, OpenCameras* open) const;
+  // The same of a box or a triangle, by what it covers in each picture: certain where a ball around it is
+  // mixed, and a few times as dear. Held to account by ball_query_test. Under `abstain` it is seen by a
+  // camera only if `open` knows that already.
+  [[nodiscard]] BallAnswer Classify(const WorldShape& shape, OpenCameras* open) const;
 
   // Which silhouette ends the hull at a point on its surface; the normal is that of the silhouette's edge
   // there, smoothed along the contour (SmoothTangent), through the camera's centre.

@@ -124,7 +124,7 @@ class Search {
     const Cut cut = CutOff(nearest, &cell);
     if (cut == Cut::kAll) return;
     ++queries_;
-    switch (hull_.Classify(recon::WorldBox{cell.center, cell.half.asDiagonal()}, &cell.open)) {
+    switch (hull_.Classify(recon::WorldShape::Box(cell.center, cell.half.asDiagonal()), &cell.open)) {
       case BallAnswer::kOutside:
         return;
       case BallAnswer::kInside:

@@ -143,7 +143,11 @@ class ContactSearch {
 
   // True if the triangle's ball settles it.
   bool AskTriangle(const Triangle& triangle, recon::OpenCameras* open, Patch* patch) {
-    const BallAnswer answer = Ask(core::BallOf(triangle.a, triangle.b, triangle.c), open);
+    BallAnswer answer = Ask(core::BallOf(triangle.a, triangle.b, triangle.c), open);
+    if (answer == BallAnswer::kMixed) {
+      ++count_.queries;
+      answer = hull_.Classify(recon::WorldShape::Triangle(triangle.a, triangle.b, triangle.c), open);
+    }
     if (answer == BallAnswer::kInside) AddTriangleInside(triangle, patch);
     return answer != BallAnswer::kMixed;
   }
@@ -241,8 +245,7 @@ void Recover(const recon::VisualHull& hull, const Vector3d& cp_obj, const Vector
     contact->recovery_status = core::RecoveryStatus::kReferenceInsideHull;
     return;
   }
-  const std::optional<double> crossing_mm =
-      recon::FirstInside(hull, {rp_obj, -v_rec}, {0.0, distance_mm});
+  const std::optional<double> crossing_mm = recon::FirstInside(hull, {rp_obj, -v_rec}, {0.0, distance_mm});
   // CP_obj itself is in the hull, so the ray has entered it by then, but for rounding on its surface.
   const double from_reference_mm = crossing_mm.value_or(distance_mm);
   core::Recovery recovery{

@@ -1,4 +1,4 @@
-// An answer "outside" or "inside" of a ball or a box is never contradicted by any point of it:
+// An answer "outside" or "inside" of a ball, a box or a triangle is never contradicted by any point of it:
 // docs/algorithms.md, sampled.
 #include <gtest/gtest.h>
 
@@ -193,27 +193,38 @@ TEST(BallQuery, NoSampledPointContradictsACertifiedAnswer) {
   EXPECT_GT(census.inside, census.balls / 200);
 }
 
-// Flat, long and cubic boxes, turned any way.
-WorldBox RandomBox(Random* random, const Vector3d& center) {
+// Flat, long and cubic boxes, turned any way; triangles, needles, and such without area.
+WorldShape RandomShape(Random* random, const Vector3d& at) {
   const double size_mm = random->LogUniform(1e-4, 1e3);
-  const Vector3d half(size_mm, size_mm * random->LogUniform(1e-4, 1.0),
-                      size_mm * random->LogUniform(1e-4, 1.0));
-  return {center, random->Rotation() * half.asDiagonal()};
+  const double thin = random->LogUniform(1e-4, 1.0), thinner = random->LogUniform(1e-4, 1.0);
+  if (random->Chance(0.5))
+    return WorldShape::Box(at, random->Rotation() * (size_mm * Vector3d(1.0, thin, thinner)).asDiagonal());
+  const Vector3d b = at + size_mm * random->Direction();
+  const Vector3d c = at + random->Uniform(-0.5, 1.5) * (b - at) + size_mm * thin * random->Direction();
+  return WorldShape::Triangle(at, b, random->Chance(0.05) ? b : c);
 }
 
-// Its centre, its corners and what lies between.
-std::vector<Vector3d> SampleBox(Random* random, const WorldBox& box) {
-  std::vector<Vector3d> samples = {box.center};
+// Corners and what lies between; a hair inside.
+std::vector<Vector3d> SampleShape(Random* random, const WorldShape& shape) {
+  std::vector<Vector3d> samples;
+  const Vector3d middle =
+      shape.kind == WorldShape::Kind::kBox ? Vector3d::Zero() : Vector3d(1.0 / 3.0, 1.0 / 3.0, 0.0);
   for (int i = 0; i < 40; ++i) {
-    Vector3d at(random->Uniform(-1.0, 1.0), random->Uniform(-1.0, 1.0), random->Uniform(-1.0, 1.0));
-    if (i < 8) at = Vector3d((i & 1) != 0 ? 1 : -1, (i & 2) != 0 ? 1 : -1, (i & 4) != 0 ? 1 : -1);
-    if (i >= 8 && i < 20) at[i % 3] = at[i % 3] < 0.0 ? -1.0 : 1.0;
-    samples.emplace_back(box.center + box.half_edges * (kInsideBall * at));
+    Vector3d at;
+    if (shape.kind == WorldShape::Kind::kBox) {
+      at = Vector3d(random->Uniform(-1.0, 1.0), random->Uniform(-1.0, 1.0), random->Uniform(-1.0, 1.0));
+      if (i < 8) at = Vector3d((i & 1) != 0 ? 1 : -1, (i & 2) != 0 ? 1 : -1, (i & 4) != 0 ? 1 : -1);
+      if (i >= 8 && i < 20) at[i % 3] = at[i % 3] < 0.0 ? -1.0 : 1.0;
+    } else {
+      const double x = random->Uniform(0.0, 1.0), y = random->Uniform(0.0, 1.0 - x);
+      at = i < 3 ? Vector3d(i == 1 ? 1.0 : 0.0, i == 2 ? 1.0 : 0.0, 0.0) : Vector3d(x, y, 0.0);
+    }
+    samples.emplace_back(shape.origin + shape.edges * (middle + kInsideBall * (at - middle)));
   }
   return samples;
 }
 
-TEST(BoxQuery, NoSampledPointContradictsACertifiedAnswer) {
+TEST(ShapeQuery, NoSampledPointContradictsACertifiedAnswer) {
   Random random(2006);
   Census census;
   int where_balls_are_mixed = 0;
@@ -221,18 +232,20 @@ TEST(BoxQuery, NoSampledPointContradictsACertifiedAnswer) {
     const RandomScene scene = MakeRandomScene(&random);
     const VisualHull hull = MakeVisualHull(scene.rig, scene.masks);
     for (int i = 0; i < kBallsPerScene / 2; ++i) {
-      const WorldBox box = RandomBox(&random, RandomCenter(&random, scene));
-      const std::vector<Vector3d> samples = SampleBox(&random, box);
+      const WorldShape shape = RandomShape(&random, RandomCenter(&random, scene));
+      const std::vector<Vector3d> samples = SampleShape(&random, shape);
       OpenCameras open;
-      const BallAnswer answer = hull.Classify(box, &open);
+      const BallAnswer answer = hull.Classify(shape, &open);
       ++census.balls;
       if (answer == BallAnswer::kMixed) continue;
       ++census.certified;
       census.inside += answer == BallAnswer::kInside ? 1 : 0;
-      where_balls_are_mixed += hull.Classify(box.center, box.half_edges.norm()) == BallAnswer::kMixed ? 1 : 0;
+      const Eigen::AlignedBox3d bounds = shape.Bounds();
+      where_balls_are_mixed +=
+          hull.Classify(bounds.center(), 0.5 * bounds.diagonal().norm()) == BallAnswer::kMixed ? 1 : 0;
       ASSERT_EQ(Contradictions(hull, samples, answer == BallAnswer::kInside), 0)
-          << "scene " << trial << ": " << box.center.transpose() << "\n"
-          << box.half_edges;
+          << "scene " << trial << ": " << shape.origin.transpose() << "\n"
+          << shape.edges;
     }
   }
   EXPECT_GT(census.certified, census.balls / 4);
@@ -240,18 +253,18 @@ TEST(BoxQuery, NoSampledPointContradictsACertifiedAnswer) {
   EXPECT_GT(where_balls_are_mixed, census.certified / 50);
 }
 
-// A camera that a box closes has nothing to say of any point of it.
-TEST(BoxQuery, ClosedCamerasCallAllOfTheBoxObject) {
+// A camera that a shape closes has nothing to say of any point of it.
+TEST(ShapeQuery, ClosedCamerasCallAllOfItObject) {
   Random random(2007);
   int closed = 0;
   for (int trial = 0; trial < 60; ++trial) {
     const RandomScene scene = MakeRandomScene(&random);
     const VisualHull hull = MakeVisualHull(scene.rig, scene.masks);
     for (int i = 0; i < 100; ++i) {
-      const WorldBox box = RandomBox(&random, RandomCenter(&random, scene));
+      const WorldShape shape = RandomShape(&random, RandomCenter(&random, scene));
       OpenCameras open;
-      if (hull.Classify(box, &open) == BallAnswer::kOutside) continue;
-      for (const Vector3d& x : SampleBox(&random, box)) {
+      if (hull.Classify(shape, &open) == BallAnswer::kOutside) continue;
+      for (const Vector3d& x : SampleShape(&random, shape)) {
         OpenCameras all;
         all.asks_sights = open.asks_sights;
         ASSERT_EQ(hull.Contains(x, open), hull.Contains(x, all));
