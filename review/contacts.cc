@@ -128,10 +128,11 @@ class ContactSearch {
   }
 
   void VisitTriangle(const Triangle& triangle, recon::OpenCameras open, Patch* given) {
-    const double size_mm = 2.0 * core::BallOf(triangle.a, triangle.b, triangle.c).radius_mm;
+    const core::Ball ball = core::BallOf(triangle.a, triangle.b, triangle.c);
+    const double size_mm = 2.0 * ball.radius_mm;
     InPatch(size_mm, given, [&](Patch* patch) {
       const double sides = std::max(std::ceil(size_mm / resolution_mm_), 1.0);
-      if (sides > kSidesWithoutBall && AskTriangle(triangle, &open, patch)) return;
+      if (sides > kSidesWithoutBall && AskTriangle(triangle, ball, &open, patch)) return;
       if (sides == 1.0 || (patch != nullptr && sides <= recon::CutTriangle::kMostSides))
         return Cut({triangle.a, triangle.b, triangle.c, static_cast<int>(sides)}, triangle.AreaMm2(), open,
                    patch);
@@ -141,9 +142,9 @@ class ContactSearch {
     });
   }
 
-  // True if the triangle's ball settles it.
-  bool AskTriangle(const Triangle& triangle, recon::OpenCameras* open, Patch* patch) {
-    BallAnswer answer = Ask(core::BallOf(triangle.a, triangle.b, triangle.c), open);
+  // True if the triangle's ball, or what it covers in the pictures, settles it.
+  bool AskTriangle(const Triangle& triangle, const core::Ball& ball, recon::OpenCameras* open, Patch* patch) {
+    BallAnswer answer = Ask(ball, open);
     if (answer == BallAnswer::kMixed) {
       ++count_.queries;
       answer = hull_.Classify(recon::WorldShape::Triangle(triangle.a, triangle.b, triangle.c), open);
@@ -161,11 +162,12 @@ class ContactSearch {
                                                                               : 0;
     if (inside == 0) return;
     const int count = std::popcount(inside);
-    int middle = 0;
+    const bool may_reach = Reaches(triangle.a) || Reaches(triangle.b) || Reaches(triangle.c);
+    int middle = 0, passed = 0;
     for (std::uint64_t left = inside; left != 0; left &= left - 1) {
       const int piece = std::countr_zero(left);
-      if (2 * std::popcount(left) > count) middle = piece;
-      Reach(triangle.CentreOf(piece));
+      if (2 * passed++ <= count) middle = piece;
+      if (may_reach) Reach(triangle.CentreOf(piece));
     }
     InPatch(0.0, patch, [&](Patch* whole) {
       whole->Add(area_mm2 * count / triangle.pieces(), triangle.CentreOf(middle));
@@ -202,8 +204,12 @@ class ContactSearch {
     });
   }
 
+  // Farther from RP_obj than all before.
+  [[nodiscard]] bool Reaches(const Vector3d& x) const {
+    return (x - rp_obj_).squaredNorm() > (farthest_ - rp_obj_).squaredNorm();
+  }
   void Reach(const Vector3d& x) {
-    if ((x - rp_obj_).squaredNorm() > (farthest_ - rp_obj_).squaredNorm()) farthest_ = x;
+    if (Reaches(x)) farthest_ = x;
   }
 
   // All vertices of a node wholly inside.
