@@ -94,6 +94,7 @@ void Layout::Validate() const {
     if (!names.insert(part.name).second)
       Fail(fmt::format("two parts are named '{}'; names must differ", part.name));
     if (!part.mesh) Fail(fmt::format("part '{}' has no mesh", part.name));
+    ValidateGivesWay(part.gives_way, fmt::format("part '{}'", part.name));
   }
   std::set<std::string> spacing_names;
   for (const Spacing& spacing : spacings) {
@@ -101,6 +102,12 @@ void Layout::Validate() const {
       Fail(fmt::format("two spacings are named '{}'; names must differ", spacing.name));
     }
     ValidateSpacing(*this, spacing);
+  }
+  std::set<std::string> stream_names;
+  for (const Stream& stream : streams) {
+    if (!stream_names.insert(stream.name).second)
+      Fail(fmt::format("two streams are named '{}'; names must differ", stream.name));
+    ValidateStream(stream);
   }
   for (const PairRule& rule : pair_rules) {
     RequirePart(*this, rule.a, "[[pair]]");

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/gives_way.h"
 #include "core/ids.h"
 #include "core/rigid_transform.h"
 #include "core/triangle_mesh.h"
@@ -21,6 +22,7 @@ struct Part {
   LengthUnit unit = LengthUnit::kMillimetre;  // of the file; the mesh is in millimetres
   SharedMesh mesh;
   RigidTransform world_from_part;  // as authored, before spacings
+  GivesWay gives_way;              // to what is real; by default not at all
 };
 
 enum class Axis { kX, kY, kZ };
@@ -53,9 +55,11 @@ struct Layout {
   std::vector<Part> parts;
   std::vector<Spacing> spacings;
   std::vector<PairRule> pair_rules;
+  std::vector<Stream> streams;
 
-  // Throws: Error{kRange} naming the part, spacing or pair: duplicate or unknown names, a part without a
-  // mesh, limits not in order, a spacing whose moving part is its own reference, circular spacings.
+  // Throws: Error{kRange} naming the part, spacing, pair or stream: duplicate or unknown names, a part
+  // without a mesh, limits not in order, a spacing whose moving part is its own reference, circular spacings,
+  // a figure of what gives way or of a stream out of range.
   void Validate() const;
 
   [[nodiscard]] std::optional<PartIndex> FindPart(std::string_view name) const;

@@ -1,0 +1,216 @@
+#include "review/cloth_contact.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "review/hull_march.h"
+
+namespace elbowroom::review {
+namespace {
+
+using Eigen::Vector3d;
+
+// Pieces are moved this far beyond the hull's end, so that what lies on the hull isn't in it by rounding.
+constexpr double kMarginMm = 1.0;
+// Nothing real is thicker along V_rec.
+constexpr double kThickestMm = 3000.0;
+// A point that free vertices have less say of than this is held by pins.
+constexpr double kLeastSay = 0.05;
+
+double LongestSide(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
+  return std::sqrt(std::max({(a - b).squaredNorm(), (b - c).squaredNorm(), (c - a).squaredNorm()}));
+}
+
+}  // namespace
+
+ClothContact::ClothContact(const ClothPanel& panel, const recon::VisualHull& hull,
+                           const Vector3d& v_rec_in_world, ClothState* state)
+    : panel_(panel),
+      hull_(hull),
+      v_rec_(v_rec_in_world),
+      state_(state),
+      known_(panel.rest().triangles.size()),
+      touched_(state->x_in_world.size(), 0) {}
+
+ClothContact::Corners ClothContact::CornersOf(std::size_t triangle) const {
+  const auto& vertices = panel_.rest().triangles[triangle];
+  return {static_cast<std::uint32_t>(vertices[0]), static_cast<std::uint32_t>(vertices[1]),
+          static_cast<std::uint32_t>(vertices[2])};
+}
+
+Vector3d ClothContact::At(const Corners& corners, const Vector3d& weights) const {
+  const std::vector<Vector3d>& x = state_->x_in_world;
+  return weights[0] * x[corners[0]] + weights[1] * x[corners[1]] + weights[2] * x[corners[2]];
+}
+
+recon::PointAnswer ClothContact::Ask(const Vector3d& x_in_world) {
+  ++state_->count.queries;
+  return hull_.Probe(x_in_world);
+}
+
+std::int64_t ClothContact::MoveOut() {
+  const std::int64_t before = state_->count.contacts;
+  for (std::size_t i = 0; i < known_.size(); ++i) {
+    const Corners corners = CornersOf(i);
+    Known& known = known_[i];
+    if (known.free_mm >= 0.0) {
+      double moved_mm2 = 0.0;
+      for (std::size_t k = 0; k < 3; ++k)
+        moved_mm2 = std::max(moved_mm2, (state_->x_in_world[corners[k]] - known.corners[k]).squaredNorm());
+      if (moved_mm2 <= known.free_mm * known.free_mm) continue;
+    }
+    known.free_mm = MoveTriangleOut(i);
+    for (std::size_t k = 0; k < 3; ++k) known.corners[k] = state_->x_in_world[corners[k]];
+  }
+  return state_->count.contacts - before;
+}
+
+// How far its corners may move while it stays out; negative if some of it had to be moved.
+double ClothContact::MoveTriangleOut(std::size_t triangle) {
+  const Corners corners = CornersOf(triangle);
+  return MovePieceOut(corners, {{Vector3d::UnitX(), Vector3d::UnitY(), Vector3d::UnitZ()}});
+}
+
+double ClothContact::MovePieceOut(const Corners& corners, const Piece& piece) {
+  const Vector3d a = At(corners, piece.weights[0]), b = At(corners, piece.weights[1]),
+                 c = At(corners, piece.weights[2]);
+  const Vector3d middle_weights = (piece.weights[0] + piece.weights[1] + piece.weights[2]) / 3.0;
+  const Vector3d middle = (a + b + c) / 3.0;
+  const recon::PointAnswer answer = Ask(middle);
+  if (!answer.is_inside) {
+    const double to_corner_mm = std::sqrt(
+        std::max({(a - middle).squaredNorm(), (b - middle).squaredNorm(), (c - middle).squaredNorm()}));
+    if (answer.radius_mm > to_corner_mm) return answer.radius_mm - to_corner_mm;
+  }
+  if (LongestSide(a, b, c) <= kClothPieceMm) {
+    if (!answer.is_inside) return answer.radius_mm;
+    Leave(corners, middle_weights);
+    return -1.0;
+  }
+  const Vector3d ab = 0.5 * (piece.weights[0] + piece.weights[1]),
+                 bc = 0.5 * (piece.weights[1] + piece.weights[2]),
+                 ca = 0.5 * (piece.weights[2] + piece.weights[0]);
+  double free_mm = std::numeric_limits<double>::infinity();
+  for (const Piece& part : {Piece{{ab, bc, ca}}, Piece{{piece.weights[0], ab, ca}},
+                            Piece{{ab, piece.weights[1], bc}}, Piece{{ca, bc, piece.weights[2]}}}) {
+    free_mm = std::min(free_mm, MovePieceOut(corners, part));
+  }
+  return free_mm;
+}
+
+// A point in the hull, and with it its triangle's corners, to the hull's end.
+void ClothContact::Leave(const Corners& corners, const Vector3d& weights) {
+  const Vector3d from = At(corners, weights);
+  int side = SideOf(corners, weights);
+  std::optional<double> exit_mm;
+  if (side != 0) {
+    exit_mm = ExitAlong(hull_, {from, side * v_rec_}, kThickestMm);
+  } else {
+    exit_mm = ExitAlong(hull_, {from, v_rec_}, kThickestMm);
+    const std::optional<double> other_mm = ExitAlong(hull_, {from, -v_rec_}, exit_mm.value_or(kThickestMm));
+    side = other_mm ? -1 : 1;
+    if (other_mm) exit_mm = other_mm;
+  }
+  if (!exit_mm || !Push(corners, weights, side, *exit_mm + kMarginMm)) {
+    ++state_->count.blocked;
+    return;
+  }
+  ++state_->count.contacts;
+}
+
+int ClothContact::SideOf(const Corners& corners, const Vector3d& weights) const {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < 3; ++k)
+    sum += weights[static_cast<Eigen::Index>(k)] * state_->sides[corners[k]];
+  return sum > 0.0 ? 1 : sum < 0.0 ? -1 : 0;
+}
+
+// Moves a point of a triangle by moving its corners as little as that takes. False: pins hold it.
+bool ClothContact::Push(const Corners& corners, const Vector3d& weights, int side, double by_mm) {
+  double say = 0.0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double weight = weights[static_cast<Eigen::Index>(k)];
+    if (panel_.inverse_mass_per_kg()[corners[k]] > 0.0) say += weight * weight;
+  }
+  if (say < kLeastSay) return false;
+  const Vector3d out = side * v_rec_;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::uint32_t vertex = corners[k];
+    const double weight = weights[static_cast<Eigen::Index>(k)];
+    if (panel_.inverse_mass_per_kg()[vertex] <= 0.0 || weight <= 0.0) continue;
+    state_->x_in_world[vertex] += weight / say * by_mm * out;
+    Vector3d& velocity = state_->velocity_in_world[vertex];
+    const double leaving = std::max(velocity.dot(out), 0.0);
+    const Vector3d along = velocity - velocity.dot(out) * out;
+    velocity = leaving * out + (touched_[vertex] ? 1.0 : 1.0 - panel_.rule().friction) * along;
+    touched_[vertex] = 1;
+    if (state_->sides[vertex] == 0) state_->sides[vertex] = static_cast<std::int8_t>(side);
+  }
+  return true;
+}
+
+void ClothContact::ForgetSides() {
+  for (std::size_t i = 0; i < touched_.size(); ++i)
+    if (!touched_[i]) state_->sides[i] = 0;
+}
+
+// Looks along V_rec from every vertex and every triangle's middle, where the hull is near.
+void ClothContact::CarryAlong(const recon::VisualHull& last, double dt_s) {
+  const double reach_mm = kFastestHandMmPerS * dt_s;
+  const auto& nodes = panel_.tree().nodes();
+  const auto& order = panel_.tree().order();
+  std::vector<std::uint8_t> is_asked(state_->x_in_world.size(), 0);
+  constexpr std::uint32_t kFewTriangles = 32;
+  std::vector<std::uint32_t> waiting{0};
+  while (!waiting.empty()) {
+    const core::TriangleTree::Node& node = nodes[waiting.back()];
+    waiting.pop_back();
+    Eigen::AlignedBox3d box;
+    for (std::uint32_t i = node.begin; i < node.end; ++i)
+      for (const std::uint32_t vertex : CornersOf(order[i])) {
+        box.extend(state_->x_in_world[vertex] + reach_mm * v_rec_);
+        box.extend(state_->x_in_world[vertex] - reach_mm * v_rec_);
+      }
+    recon::OpenCameras open;
+    ++state_->count.queries;
+    const auto shape = recon::WorldShape::Box(box.center(), (0.5 * box.sizes()).asDiagonal());
+    if (hull_.Classify(shape, &open) == recon::BallAnswer::kOutside) continue;
+    if (node.left != 0 && node.end - node.begin > kFewTriangles) {
+      waiting.push_back(node.left + 1);
+      waiting.push_back(node.left);
+      continue;
+    }
+    for (std::uint32_t i = node.begin; i < node.end; ++i) {
+      const Corners corners = CornersOf(order[i]);
+      CarryPoint(last, corners, Vector3d::Constant(1.0 / 3.0), reach_mm);
+      for (Eigen::Index k = 0; k < 3; ++k) {
+        std::uint8_t& asked = is_asked[corners[static_cast<std::size_t>(k)]];
+        if (!asked) CarryPoint(last, corners, Vector3d::Unit(k), reach_mm);
+        asked = 1;
+      }
+    }
+  }
+}
+
+// What was on one side of the point and is on the other now has passed it: the point goes to its far end.
+void ClothContact::CarryPoint(const recon::VisualHull& last, const Corners& corners, const Vector3d& weights,
+                              double reach_mm) {
+  const Vector3d from = At(corners, weights);
+  ++state_->count.queries;
+  if (hull_.Contains(from) || last.Contains(from)) return;
+  for (const int side : {1, -1}) {
+    const Vector3d ahead = side * v_rec_;
+    const std::optional<double> entry_mm = EntryAlong(hull_, {from, ahead}, reach_mm);
+    if (!entry_mm) continue;
+    const auto was_behind_mm = EntryAlong(last, {from, -ahead}, reach_mm - *entry_mm);
+    if (!was_behind_mm || EntryAlong(last, {from, ahead}, reach_mm)) continue;
+    const double in_mm = *entry_mm + kExitStepMm;
+    const auto through_mm = ExitAlong(hull_, {from + in_mm * ahead, ahead}, kThickestMm);
+    if (through_mm && Push(corners, weights, side, in_mm + *through_mm + kMarginMm)) ++state_->count.carried;
+    return;
+  }
+}
+
+}  // namespace elbowroom::review

@@ -1,0 +1,59 @@
+#include "tests/review/sweeping_hand.h"
+
+#include "recon/synthetic/actors.h"
+#include "recon/synthetic/rig_presets.h"
+#include "recon/synthetic/view_scene.h"
+
+namespace elbowroom::review {
+
+using Eigen::Vector3d;
+
+core::Part Curtain(int across, int down, double width_mm, double height_mm) {
+  auto mesh = std::make_shared<core::TriangleMesh>();
+  for (int z = 0; z <= down; ++z)
+    for (int x = 0; x <= across; ++x)
+      mesh->vertices_mm.emplace_back((static_cast<double>(x) / across - 0.5) * width_mm, 0.0,
+                                     -static_cast<double>(z) / down * height_mm);
+  const auto at = [&](int x, int z) { return z * (across + 1) + x; };
+  for (int z = 0; z < down; ++z) {
+    for (int x = 0; x < across; ++x) {
+      mesh->triangles.push_back({at(x, z), at(x, z + 1), at(x + 1, z)});
+      mesh->triangles.push_back({at(x + 1, z), at(x, z + 1), at(x + 1, z + 1)});
+    }
+  }
+  core::Part part;
+  part.name = "curtain";
+  part.mesh = std::move(mesh);
+  core::ClothRule rule;
+  rule.pins = {core::BoundsSide::kZMax};
+  part.gives_way = rule;
+  return part;
+}
+
+core::RigidTransform WorldFromCurtain() { return {Eigen::Matrix3d::Identity(), Vector3d(0.0, 0.0, 400.0)}; }
+
+std::vector<recon::SyntheticObject> HandAt(double y_mm) {
+  // Wrist frame: x along the fingers, here up; z out of the back of the hand, here along y.
+  core::RigidTransform world_from_wrist;
+  world_from_wrist.rotation.col(0) = Vector3d(-0.6, 0.0, 0.8);
+  world_from_wrist.rotation.col(2) = Vector3d(0.0, 1.0, 0.0);
+  world_from_wrist.rotation.col(1) = world_from_wrist.rotation.col(2).cross(world_from_wrist.rotation.col(0));
+  world_from_wrist.translation_mm = Vector3d(60.0, y_mm, 130.0);
+  return {recon::Hand(world_from_wrist, recon::OpenHand(), {260.0, y_mm, 60.0})};
+}
+
+std::vector<recon::SyntheticObject> RodAt(double x_mm, double y_mm, double z_mm) {
+  const Vector3d end_in_world(x_mm, y_mm, z_mm);
+  constexpr double kRadiusMm = 8.0, kLengthMm = 250.0;
+  return {{"rod",
+           {recon::CapsuleBetween(end_in_world, end_in_world - kLengthMm * Vector3d::UnitY(), kRadiusMm,
+                                  Vector3d::Constant(200.0))}}};
+}
+
+std::shared_ptr<const recon::VisualHull> HullOf(const std::vector<recon::SyntheticObject>& objects) {
+  static const auto rig = std::make_shared<const core::Rig>(recon::FourCameraRig());
+  return std::make_shared<const recon::VisualHull>(
+      recon::MakeVisualHull(rig, recon::TrueMasks(*rig, objects)));
+}
+
+}  // namespace elbowroom::review

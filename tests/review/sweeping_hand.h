@@ -1,0 +1,31 @@
+// A hand of analytic solids before the demo's cameras, and a curtain in its way.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "core/layout.h"
+#include "core/rigid_transform.h"
+#include "recon/synthetic/solids.h"
+#include "recon/visual_hull.h"
+
+namespace elbowroom::review {
+
+// A panel of 2 * across * down triangles in the x-z plane, its upper edge at z = 0 and pinned, its middle at
+// x = 0; the paper's curtain by default.
+[[nodiscard]] core::Part Curtain(int across = 20, int down = 18, double width_mm = 400.0,
+                                 double height_mm = 360.0);
+// Where it hangs in the tests: over the table's middle, lower edge 40 mm above it.
+[[nodiscard]] core::RigidTransform WorldFromCurtain();
+
+// The open hand and its forearm, upright fingers, its palm facing along y, at y_mm; the forearm comes from
+// the right (+x).
+[[nodiscard]] std::vector<recon::SyntheticObject> HandAt(double y_mm);
+// An upright pipe 20 mm across, end first: along y, its front end at y_mm.
+[[nodiscard]] std::vector<recon::SyntheticObject> RodAt(double x_mm, double y_mm, double z_mm);
+
+// What the four cameras of the demo's rig make of it.
+[[nodiscard]] std::shared_ptr<const recon::VisualHull> HullOf(
+    const std::vector<recon::SyntheticObject>& objects);
+
+}  // namespace elbowroom::review
