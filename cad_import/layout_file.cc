@@ -6,6 +6,7 @@
 #include <memory>
 #include <utility>
 
+#include "cad_import/gives_way_keys.h"
 #include "cad_import/mesh_file.h"
 #include "cad_import/toml_entry.h"
 #include "core/error.h"
@@ -47,6 +48,7 @@ core::Part ReadPart(const TomlEntry& entry, const std::filesystem::path& folder,
   part.file = entry.Text("file");
   part.world_from_part = core::FromPositionAndRollPitchYaw(entry.VectorOrZero("position_mm"),
                                                            entry.VectorOrZero("rotation_rpy_deg"));
+  part.gives_way = ReadGivesWay(entry);
   const ImportOptions options{.unit = entry.Unit(), .unit_if_file_has_none = layout_unit};
   try {
     const MeshShelf::Item& item = shelf.Get(folder / part.file, options);
@@ -60,6 +62,17 @@ core::Part ReadPart(const TomlEntry& entry, const std::filesystem::path& folder,
                  error.kind());
   }
   return part;
+}
+
+core::Stream ReadStream(const TomlEntry& entry) {
+  core::Stream stream;
+  stream.name = entry.Text("name");
+  stream.position_mm = entry.VectorOrZero("position_mm");
+  if (entry.Find("direction")) stream.direction = entry.VectorOrZero("direction");
+  stream.rate_per_s = entry.NumberOr("rate_per_s", stream.rate_per_s);
+  stream.speed_mm_per_s = entry.NumberOr("speed_mm_per_s", stream.speed_mm_per_s);
+  stream.radius_mm = entry.NumberOr("radius_mm", stream.radius_mm);
+  return stream;
 }
 
 void RequirePart(const core::Layout& layout, const TomlEntry& entry, std::string_view key,
@@ -107,14 +120,16 @@ core::PairRule ReadPair(const TomlEntry& entry, const core::Layout& layout) {
 ImportedLayout ImportLayoutFile(const std::filesystem::path& path) {
   const std::string file = path.string();
   const toml::table table = ParseTomlFile(path, "layout file");
-  const TomlEntry root(table, file, "", {"unit", "part", "spacing", "pair"});
+  const TomlEntry root(table, file, "", {"unit", "part", "spacing", "pair", "stream"});
   ImportedLayout result;
   core::Layout& layout = result.layout;
   const auto unit = root.Unit();
   layout.unit = unit.value_or(layout.unit);
   MeshShelf shelf;
   for (const TomlEntry& entry :
-       root.Entries("part", {"name", "file", "unit", "position_mm", "rotation_rpy_deg"})) {
+       root.Entries("part", {"name", "file", "unit", "position_mm", "rotation_rpy_deg", "gives_way", "pins",
+                             "v_rec", "stretch_stiffness_n_per_m", "bending_stiffness_n_per_m",
+                             "mass_per_area_kg_per_m2", "damping_per_s", "friction", "max_speed_mm_per_s"})) {
     layout.parts.push_back(ReadPart(entry, path.parent_path(), unit, shelf, result.warnings));
   }
   if (layout.parts.empty())
@@ -126,6 +141,10 @@ ImportedLayout ImportLayoutFile(const std::filesystem::path& path) {
   for (const TomlEntry& entry :
        root.Entries("pair", {"a", "b", "required_clearance_mm", "authorised_contact", "ignore"})) {
     layout.pair_rules.push_back(ReadPair(entry, layout));
+  }
+  for (const TomlEntry& entry : root.Entries(
+           "stream", {"name", "position_mm", "direction", "rate_per_s", "speed_mm_per_s", "radius_mm"})) {
+    layout.streams.push_back(ReadStream(entry));
   }
   try {
     layout.Validate();

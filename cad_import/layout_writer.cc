@@ -4,6 +4,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "cad_import/gives_way_keys.h"
 #include "cad_import/layout_file.h"
 #include "core/error.h"
 #include "core/units.h"
@@ -32,11 +33,22 @@ toml::table ToToml(const core::Part& part) {
         core::ErrorKind::kCad,
         fmt::format("part '{}' has no file; write its mesh and name the file first", part.name));
   }
-  return toml::table{{"name", part.name},
-                     {"file", part.file},
-                     {"unit", core::ToString(part.unit)},
-                     {"position_mm", ToToml(part.world_from_part.translation_mm)},
-                     {"rotation_rpy_deg", ToToml(RollPitchYawDeg(part.world_from_part.rotation))}};
+  toml::table table = ToToml(part.gives_way);
+  table.insert("name", part.name);
+  table.insert("file", part.file);
+  table.insert("unit", core::ToString(part.unit));
+  table.insert("position_mm", ToToml(part.world_from_part.translation_mm));
+  table.insert("rotation_rpy_deg", ToToml(RollPitchYawDeg(part.world_from_part.rotation)));
+  return table;
+}
+
+toml::table ToToml(const core::Stream& stream) {
+  return toml::table{{"name", stream.name},
+                     {"position_mm", ToToml(stream.position_mm)},
+                     {"direction", ToToml(stream.direction)},
+                     {"rate_per_s", stream.rate_per_s},
+                     {"speed_mm_per_s", stream.speed_mm_per_s},
+                     {"radius_mm", stream.radius_mm}};
 }
 
 toml::table ToToml(const core::Spacing& spacing) {
@@ -57,14 +69,16 @@ toml::table ToToml(const core::PairRule& rule) {
                      {"ignore", rule.ignore}};
 }
 
-// "[[key]]" and its keys in the order given, one a line (a toml::table would sort them).
+// "[[key]]" and those of its keys that there are, in the order given, one a line (a toml::table would sort
+// them).
 template <typename Value>
 void WriteEntries(std::ostream& out, const char* key, const std::vector<Value>& values,
                   std::initializer_list<const char*> order) {
   for (const Value& value : values) {
     const toml::table table = ToToml(value);
     out << "\n[[" << key << "]]\n";
-    for (const char* name : order) out << name << " = " << toml::node_view(table.at(name)) << '\n';
+    for (const char* name : order)
+      if (const toml::node* node = table.get(name)) out << name << " = " << toml::node_view(*node) << '\n';
   }
 }
 
@@ -73,10 +87,15 @@ void WriteEntries(std::ostream& out, const char* key, const std::vector<Value>& 
 void WriteLayoutFile(const core::Layout& layout, const std::filesystem::path& path) {
   std::ostringstream out;
   out << "unit = \"" << core::ToString(layout.unit) << "\"\n";
-  WriteEntries(out, "part", layout.parts, {"name", "file", "unit", "position_mm", "rotation_rpy_deg"});
+  WriteEntries(out, "part", layout.parts,
+               {"name", "file", "unit", "position_mm", "rotation_rpy_deg", "gives_way", "pins", "v_rec",
+                "stretch_stiffness_n_per_m", "bending_stiffness_n_per_m", "mass_per_area_kg_per_m2",
+                "damping_per_s", "friction", "max_speed_mm_per_s"});
   WriteEntries(out, "spacing", layout.spacings,
                {"name", "moving", "reference", "axis", "min_mm", "max_mm", "initial_mm"});
   WriteEntries(out, "pair", layout.pair_rules, {"a", "b", "required_clearance_mm", "authorised_contact", "ignore"});
+  WriteEntries(out, "stream", layout.streams,
+               {"name", "position_mm", "direction", "rate_per_s", "speed_mm_per_s", "radius_mm"});
   core::WriteWholeFile(path, out.str());
 }
 

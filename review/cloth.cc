@@ -15,9 +15,10 @@ using Eigen::Vector3d;
 constexpr double kGravityMmPerS2 = 9806.65;
 // No vertex is let go faster: a hull that jumps must not throw the cloth.
 constexpr double kFastestVertexMmPerS = 4000.0;
-// Steps between two looks at the hull, and looks at a frame's end at most.
-constexpr int kStepsPerLook = 4;
-constexpr int kLastLooks = 40;
+// Steps between two looks at the hull; looks at a frame's end at most, and when sides are given up there.
+constexpr int kStepsPerLook = 8;
+constexpr int kLastLooks = 60;
+constexpr int kLooksBeforeOneSide = 12;
 
 // Where a vertex that the part holds is at a share of the frame's way.
 void MovePins(const ClothPanel& panel, const core::RigidTransform& world_from_part, double share,
@@ -28,39 +29,21 @@ void MovePins(const ClothPanel& panel, const core::RigidTransform& world_from_pa
   }
 }
 
-// Moves both ends of a spring along it by an impulse.
-void Apply(const ClothPanel& panel, const ClothSpring& spring, const Vector3d& direction, double impulse,
-           std::vector<Vector3d>* x) {
-  (*x)[spring.a] += panel.inverse_mass_per_kg()[spring.a] * impulse * direction;
-  (*x)[spring.b] -= panel.inverse_mass_per_kg()[spring.b] * impulse * direction;
-}
-
-// One pass over the springs, from the last step's impulses.
-void PullSprings(const ClothPanel& panel, double step_s, ClothState* state) {
+// One pass over the springs, each from nothing.
+void PullSprings(const ClothPanel& panel, double step_s, std::vector<Vector3d>* positions) {
   constexpr double kLeastLengthMm = 1e-9;
-  // What a spring may carry over: the panel's weight. More comes from jumps and must not act twice.
-  const double most = panel.mass_kg() * kGravityMmPerS2 * step_s * step_s;
-  const auto& springs = panel.springs();
-  std::vector<Vector3d>& x = state->x_in_world;
-  const std::vector<Vector3d> before = x;
-  for (std::size_t i = 0; i < springs.size(); ++i) {
-    double& multiplier = state->multipliers[i];
-    multiplier = std::clamp(multiplier, -most, most);
-    const Vector3d along = before[springs[i].a] - before[springs[i].b];
-    const double length_mm = along.norm();
-    if (length_mm > kLeastLengthMm) Apply(panel, springs[i], along / length_mm, multiplier, &x);
-  }
-  for (std::size_t i = 0; i < springs.size(); ++i) {
-    const ClothSpring& spring = springs[i];
+  std::vector<Vector3d>& x = *positions;
+  const std::vector<double>& inverse_mass = panel.inverse_mass_per_kg();
+  const double per_step2 = 1.0 / (step_s * step_s);
+  for (const ClothSpring& spring : panel.springs()) {
     const Vector3d along = x[spring.a] - x[spring.b];
     const double length_mm = along.norm();
     if (length_mm <= kLeastLengthMm) continue;
-    const double softness = spring.compliance_mm_per_mn / (step_s * step_s);
-    const double inverse_mass = panel.inverse_mass_per_kg()[spring.a] + panel.inverse_mass_per_kg()[spring.b];
-    const double change =
-        (spring.rest_mm - length_mm - softness * state->multipliers[i]) / (inverse_mass + softness);
-    state->multipliers[i] += change;
-    Apply(panel, spring, along / length_mm, change, &x);
+    const double w_a = inverse_mass[spring.a], w_b = inverse_mass[spring.b];
+    const double impulse =
+        (spring.rest_mm - length_mm) / (w_a + w_b + spring.compliance_mm_per_mn * per_step2);
+    x[spring.a] += (w_a * impulse / length_mm) * along;
+    x[spring.b] -= (w_b * impulse / length_mm) * along;
   }
 }
 
@@ -72,7 +55,7 @@ void StepSprings(const ClothPanel& panel, double step_s, ClothState* state) {
     state->velocity_in_world[i].z() -= kGravityMmPerS2 * step_s;
     state->x_in_world[i] += step_s * state->velocity_in_world[i];
   }
-  PullSprings(panel, step_s, state);
+  PullSprings(panel, step_s, &state->x_in_world);
   for (std::size_t i = 0; i < before.size(); ++i) {
     if (panel.inverse_mass_per_kg()[i] <= 0.0) continue;
     Vector3d velocity = kept * (state->x_in_world[i] - before[i]) / step_s;
@@ -101,16 +84,13 @@ ClothState ClothAtRest(const ClothPanel& panel, const core::RigidTransform& worl
   for (const Vector3d& vertex : panel.rest().vertices_mm)
     state.x_in_world.push_back(world_from_part * vertex);
   state.velocity_in_world.assign(state.x_in_world.size(), Vector3d::Zero());
-  state.multipliers.assign(panel.springs().size(), 0.0);
   state.sides.assign(state.x_in_world.size(), 0);
   return state;
 }
 
 ClothState StepCloth(const ClothPanel& panel, ClothState state, const core::RigidTransform& world_from_part,
                      const std::shared_ptr<const recon::VisualHull>& hull, double dt_s) {
-  core::Require(state.x_in_world.size() == panel.rest().vertices_mm.size() &&
-                    state.multipliers.size() == panel.springs().size(),
-                "a cloth's state is its panel's");
+  core::Require(state.x_in_world.size() == panel.rest().vertices_mm.size(), "a cloth's state is its panel's");
   core::Require(hull != nullptr && dt_s > 0.0 && dt_s <= 1.0, "a hull, and a step within (0, 1] s");
   state.count = {};
   ClothContact contact(panel, *hull, world_from_part.rotation * panel.v_rec_in_part(), &state);
@@ -121,8 +101,8 @@ ClothState StepCloth(const ClothPanel& panel, ClothState state, const core::Rigi
     StepSprings(panel, dt_s / steps, &state);
     if (i % kStepsPerLook == 0) (void)contact.MoveOut();
   }
-  for (int look = 0; look < kLastLooks; ++look)
-    if (contact.MoveOut() == 0) break;
+  for (int look = 0; look < kLastLooks && contact.MoveOut() > 0; ++look)
+    if (look == kLooksBeforeOneSide) contact.ChooseOneSide();
   contact.ForgetSides();
   state.hull = hull;
   MeasureStretch(panel, &state);
@@ -141,11 +121,6 @@ double EnergyUj(const ClothPanel& panel, const ClothState& state) {
     energy_uj +=
         (0.5 * state.velocity_in_world[i].squaredNorm() + kGravityMmPerS2 * state.x_in_world[i].z()) /
         inverse_mass;
-  }
-  for (const ClothSpring& spring : panel.springs()) {
-    const double longer_mm =
-        (state.x_in_world[spring.a] - state.x_in_world[spring.b]).norm() - spring.rest_mm;
-    energy_uj += 0.5 * longer_mm * longer_mm / spring.compliance_mm_per_mn;
   }
   return energy_uj;
 }

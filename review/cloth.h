@@ -14,7 +14,7 @@
 namespace elbowroom::review {
 
 // The solver's fixed step; a frame is cut into as many of these as fit, and one that fits the rest.
-inline constexpr double kClothStepS = 1.0 / 240.0;
+inline constexpr double kClothStepS = 1.0 / 960.0;
 // The surface is looked at in pieces with no longer side; each is decided at its centre.
 inline constexpr double kClothPieceMm = 8.0;
 // So no point of the cloth is deeper in the hull than this: the farthest that a piece's corner can be from
@@ -38,7 +38,6 @@ struct ClothCount {
 struct ClothState {
   std::vector<Eigen::Vector3d> x_in_world;
   std::vector<Eigen::Vector3d> velocity_in_world;  // mm/s
-  std::vector<double> multipliers;                 // one a spring, kg mm: its last impulse times the step
   std::vector<std::int8_t>
       sides;  // of those in touch: along (+1) or against V_rec they leave; 0: not in touch
   std::shared_ptr<const recon::VisualHull> hull;  // of the last step; null: none yet
@@ -59,7 +58,7 @@ struct ClothState {
 // The panel's triangles where the state has them, in world.
 [[nodiscard]] core::TriangleMesh MeshInWorld(const ClothPanel& panel, const ClothState& state);
 
-// Kinetic, of the springs, and of height over z = 0; uJ (mN mm).
+// Of motion and of height over z = 0, without the springs'; uJ (mN mm).
 [[nodiscard]] double EnergyUj(const ClothPanel& panel, const ClothState& state);
 
 }  // namespace elbowroom::review

@@ -121,6 +121,7 @@ void ClothContact::Leave(const Corners& corners, const Vector3d& weights) {
 }
 
 int ClothContact::SideOf(const Corners& corners, const Vector3d& weights) const {
+  if (one_side_ != 0) return one_side_;
   double sum = 0.0;
   for (std::size_t k = 0; k < 3; ++k)
     sum += weights[static_cast<Eigen::Index>(k)] * state_->sides[corners[k]];
@@ -146,9 +147,15 @@ bool ClothContact::Push(const Corners& corners, const Vector3d& weights, int sid
     const Vector3d along = velocity - velocity.dot(out) * out;
     velocity = leaving * out + (touched_[vertex] ? 1.0 : 1.0 - panel_.rule().friction) * along;
     touched_[vertex] = 1;
-    if (state_->sides[vertex] == 0) state_->sides[vertex] = static_cast<std::int8_t>(side);
+    if (state_->sides[vertex] == 0 || one_side_ != 0) state_->sides[vertex] = static_cast<std::int8_t>(side);
   }
   return true;
+}
+
+void ClothContact::ChooseOneSide() {
+  int sum = 0;
+  for (const std::int8_t side : state_->sides) sum += side;
+  one_side_ = sum < 0 ? -1 : 1;
 }
 
 void ClothContact::ForgetSides() {

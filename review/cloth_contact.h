@@ -23,9 +23,13 @@ class ClothContact {
   // Takes along what the hull has stepped over since `last`, moving no faster than kFastestHandMmPerS.
   void CarryAlong(const recon::VisualHull& last, double dt_s);
 
-  // Moves what is in the hull out of it along V_rec, once; how many pieces were. To be called after every
-  // change of the state's positions, with how far a vertex has moved at most since the last call.
+  // Moves what is in the hull out of it along V_rec, once, each piece to its side; how many pieces were
+  // moved. What hasn't moved since the last call isn't asked about again.
   std::int64_t MoveOut();
+
+  // From now on every piece leaves to one and the same side: the one that most vertices in touch leave to.
+  // Then nothing is moved to and fro, and MoveOut() ends up with nothing to move.
+  void ChooseOneSide();
 
   // Vertices that were in touch since this was made; the others' sides are forgotten.
   void ForgetSides();
@@ -52,6 +56,7 @@ class ClothContact {
   const recon::VisualHull& hull_;
   Eigen::Vector3d v_rec_;  // in world
   ClothState* state_;
+  int one_side_ = 0;  // 0: to each its own
   struct Known {
     std::array<Eigen::Vector3d, 3> corners;  // where they were when the hull was asked
     double free_mm = -1.0;                   // while none has moved farther, the triangle is out of the hull

@@ -68,7 +68,7 @@ double Advance(const StandingPart& part, const Vector3d& from, const WayOut& way
                std::span<const StandingPart> others) {
   double gone_mm = 0.0, gap_mm = GapMm(part, from, others);
   for (int i = 0; i < kMostAdvances && gone_mm < wanted_mm; ++i) {
-    const double step_mm = std::min(std::max(gap_mm - kPushGapMm, kPushGapMm), wanted_mm - gone_mm);
+    const double step_mm = std::min(std::max(gap_mm - 2.0 * kPushGapMm, kPushGapMm), wanted_mm - gone_mm);
     const double next_gap_mm = GapMm(part, from + (gone_mm + step_mm) * way.v_rec_in_world, others);
     // A step into the last of the gap must lead away from what is there.
     if (next_gap_mm < kPushGapMm && next_gap_mm <= gap_mm) break;

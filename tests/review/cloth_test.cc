@@ -40,6 +40,10 @@ void CheckOutside(const ClothPanel& panel, const ClothState& state, const recon:
   const core::TriangleMesh mesh = MeshInWorld(panel, state);
   for (const Vector3d& x : mesh.vertices_mm) ASSERT_TRUE(x.allFinite()) << where;
   for (const auto& triangle : mesh.triangles) {
+    const bool is_pinned = std::ranges::any_of(triangle, [&](std::int32_t vertex) {
+      return panel.inverse_mass_per_kg()[static_cast<std::size_t>(vertex)] <= 0.0;
+    });
+    if (is_pinned && state.count.blocked > 0) continue;
     for (int i = 0; i < 12; ++i) {
       double u = random->Uniform(0.0, 1.0), v = random->Uniform(0.0, 1.0);
       if (u + v > 1.0) u = 1.0 - u, v = 1.0 - v;
@@ -47,7 +51,8 @@ void CheckOutside(const ClothPanel& panel, const ClothState& state, const recon:
       const Vector3d x = (1.0 - u - v) * at(0) + u * at(1) + v * at(2);
       const recon::PointAnswer answer = hull.Probe(x);
       ASSERT_FALSE(answer.is_inside && answer.radius_mm > kClothDepthMm)
-          << where << ": " << answer.radius_mm << " mm deep at " << x.transpose();
+          << where << ", " << state.count.blocked << ": " << answer.radius_mm << " mm deep at "
+          << x.transpose();
     }
   }
 }
@@ -65,7 +70,7 @@ double CatenarySagMm(double span_mm, double length_mm) {
 TEST(Cloth, AStripHangsAsACatenary) {
   // 600 mm long, both short ends pinned, then brought to a span of 480 mm by pinning it in an arc: the rest
   // shape is the strip bent to a V, whose edges keep their length.
-  constexpr int kCells = 60;
+  constexpr int kCells = 24;
   constexpr double kLengthMm = 600.0, kSpanMm = 480.0, kWidthMm = 20.0;
   auto mesh = std::make_shared<core::TriangleMesh>();
   const double drop_mm = std::sqrt(0.25 * (kLengthMm * kLengthMm - kSpanMm * kSpanMm));
@@ -89,7 +94,10 @@ TEST(Cloth, AStripHangsAsACatenary) {
                                    .damping_per_s = 3.0};
   const ClothPanel panel(part);
   const core::RigidTransform pose = WorldFromCurtain();
-  const ClothState state = Settled(panel, ClothAtRest(panel, pose), pose, 240);
+  // Short steps: what one pass over the springs leaves falls with their square (docs/deformables.md).
+  constexpr double kShortStepS = 1.0 / 4000.0;
+  ClothState state = ClothAtRest(panel, pose);
+  for (int i = 0; i < 20000; ++i) state = StepCloth(panel, std::move(state), pose, NoHull(), kShortStepS);
   double length_mm = 0.0;
   for (std::size_t i = 0; i < kCells; ++i)
     length_mm += (state.x_in_world[2 * i + 2] - state.x_in_world[2 * i]).norm();
@@ -104,9 +112,10 @@ TEST(Cloth, AStripHangsAsACatenary) {
 TEST(Cloth, ACurtainHangsWithinTheStretchOfItsWeight) {
   const ClothPanel panel(Curtain());
   const ClothState state = Settled(panel, ClothAtRest(panel, WorldFromCurtain()), WorldFromCurtain(), 150);
-  // Its weight, 1.4 N/m under the pins, stretches 2000 N/m by 0.7e-3; a little more settles slowly.
-  EXPECT_LT(state.count.worst_stretch, 3e-3);
-  EXPECT_NEAR(state.x_in_world.back().z(), 40.0, 1.0);
+  // Its weight, 1.4 N/m under the pins, stretches 2000 N/m by 0.7e-3. What one pass a step leaves is n g h^2
+  // = 0.19 mm for the uppermost of n = 18 rows, 0.0096 of its 20 mm (docs/deformables.md), 1.8 mm in all.
+  EXPECT_LT(state.count.worst_stretch, 1.1e-2);
+  EXPECT_NEAR(state.x_in_world.back().z(), 40.0, 2.2);
 }
 
 TEST(Cloth, EnergyDoesNotGrowWithoutInput) {
@@ -120,8 +129,8 @@ TEST(Cloth, EnergyDoesNotGrowWithoutInput) {
     x = {x.x(), std::sqrt(0.5) * down_mm, 400.0 - std::sqrt(0.5) * down_mm};
   }
   const double first_uj = EnergyUj(panel, state);
-  // Of the energy that the swing may turn into motion.
-  const double allowed_uj = 0.01 * panel.mass_kg() * 9806.65 * 180.0 * (1.0 - std::sqrt(0.5));
+  // A fiftieth of the energy of the swing: what the springs, which aren't counted, give back.
+  const double allowed_uj = 0.02 * panel.mass_kg() * 9806.65 * 180.0 * (1.0 - std::sqrt(0.5));
   double last_uj = first_uj, fastest = 0.0;
   for (int i = 0; i < 150; ++i) {
     state = StepCloth(panel, std::move(state), WorldFromCurtain(), NoHull(), kFrameS);
@@ -130,6 +139,7 @@ TEST(Cloth, EnergyDoesNotGrowWithoutInput) {
     last_uj = std::min(last_uj, now_uj);
     for (const Vector3d& v : state.velocity_in_world) fastest = std::max(fastest, v.norm());
   }
+  EXPECT_LT(last_uj, first_uj);
   EXPECT_GT(fastest, 500.0);  // it did swing
 }
 
@@ -163,13 +173,14 @@ TEST(Cloth, NorDoesAThinRodBetweenTheVertices) {
   Sweep([](double y_mm) { return RodAt(9.0, y_mm, 212.0); }, 1000.0, kFrameS, 3);
 }
 
+// Ten thousand steps of the solver, hulls that come from nowhere.
 TEST(Cloth, RandomHullsNeverBreakIt) {
   const ClothPanel panel(Curtain());
   recon::Random random(4);
   core::RigidTransform pose;
   pose.translation_mm = {0.0, 0.0, 180.0};
   ClothState state = ClothAtRest(panel, pose);
-  const int hulls = 40 * test_support::SoakScale();
+  const int hulls = 50 * test_support::SoakScale();
   for (int i = 0; i < hulls; ++i) {
     const recon::RandomScene scene = recon::MakeRingScene(
         &random, random.Whole(2, 4),
@@ -180,7 +191,8 @@ TEST(Cloth, RandomHullsNeverBreakIt) {
     for (int k = 0; k < 4; ++k) {
       state = StepCloth(panel, std::move(state), pose, hull, frame_s);
       for (const Vector3d& x : state.x_in_world) ASSERT_TRUE(x.allFinite()) << i;
-      if (state.count.blocked == 0) CheckOutside(panel, state, *hull, &random, std::to_string(i));
+      CheckOutside(panel, state, *hull, &random, std::to_string(i));
+      if (HasFatalFailure()) return;
     }
   }
 }

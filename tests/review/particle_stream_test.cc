@@ -89,11 +89,13 @@ TEST(ParticleStream, IsDeflectedByAHandAndByAPart) {
 }
 
 TEST(ParticleStream, AMovingHandSwallowsNoneUnnoticed) {
+  std::vector<std::shared_ptr<const recon::VisualHull>> hulls;
+  for (const double y_mm : {-60.0, -27.0, 6.0, 39.0, 72.0}) hulls.push_back(HullOf(HandAt(y_mm)));
   StreamState state;
-  for (int i = 0; i < 60; ++i) {
-    const auto hull = HullOf(HandAt(-60.0 + 33.0 * (i % 5)));
-    state = StepStream(Faucet(), std::move(state), *hull, {}, kFrameS);
-    Check(state, *hull, {});
+  for (std::size_t i = 0; i < 60; ++i) {
+    const recon::VisualHull& hull = *hulls[i % hulls.size()];
+    state = StepStream(Faucet(), std::move(state), hull, {}, kFrameS);
+    Check(state, hull, {});
   }
 }
 
