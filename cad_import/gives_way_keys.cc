@@ -84,7 +84,7 @@ core::GivesWay ReadGivesWay(const TomlEntry& entry) {
   return rule;
 }
 
-toml::table ToToml(const core::GivesWay& gives_way) {
+toml::table GivesWayToToml(const core::GivesWay& gives_way) {
   toml::table table;
   if (const auto* cloth = std::get_if<core::ClothRule>(&gives_way)) table = ClothToToml(*cloth);
   if (const auto* push = std::get_if<core::PushRule>(&gives_way)) {

@@ -12,6 +12,6 @@ namespace elbowroom::cad_import {
 [[nodiscard]] core::GivesWay ReadGivesWay(const TomlEntry& entry);
 
 // The same keys; none for a part that doesn't give way.
-[[nodiscard]] toml::table ToToml(const core::GivesWay& gives_way);
+[[nodiscard]] toml::table GivesWayToToml(const core::GivesWay& gives_way);
 
 }  // namespace elbowroom::cad_import

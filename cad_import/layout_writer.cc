@@ -33,7 +33,7 @@ toml::table ToToml(const core::Part& part) {
         core::ErrorKind::kCad,
         fmt::format("part '{}' has no file; write its mesh and name the file first", part.name));
   }
-  toml::table table = ToToml(part.gives_way);
+  toml::table table = GivesWayToToml(part.gives_way);
   table.insert("name", part.name);
   table.insert("file", part.file);
   table.insert("unit", core::ToString(part.unit));
@@ -93,7 +93,8 @@ void WriteLayoutFile(const core::Layout& layout, const std::filesystem::path& pa
                 "damping_per_s", "friction", "max_speed_mm_per_s"});
   WriteEntries(out, "spacing", layout.spacings,
                {"name", "moving", "reference", "axis", "min_mm", "max_mm", "initial_mm"});
-  WriteEntries(out, "pair", layout.pair_rules, {"a", "b", "required_clearance_mm", "authorised_contact", "ignore"});
+  WriteEntries(out, "pair", layout.pair_rules,
+               {"a", "b", "required_clearance_mm", "authorised_contact", "ignore"});
   WriteEntries(out, "stream", layout.streams,
                {"name", "position_mm", "direction", "rate_per_s", "speed_mm_per_s", "radius_mm"});
   core::WriteWholeFile(path, out.str());

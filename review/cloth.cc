@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
 
 #include "core/error.h"
@@ -16,8 +17,11 @@ constexpr double kGravityMmPerS2 = 9806.65;
 // No vertex is let go faster: a hull that jumps must not throw the cloth.
 constexpr double kFastestVertexMmPerS = 4000.0;
 // Steps between two looks at the hull; looks at a frame's end at most, and when sides are given up there.
-constexpr int kStepsPerLook = 8;
+constexpr int kStepsPerLook = 16;
+constexpr int kStepsPerBend = 4;
 constexpr int kLastLooks = 60;
+// A cloth whose vertices are slower in a frame, and touch nothing, rests until something happens.
+constexpr double kStillMmPerS = 0.5;
 constexpr int kLooksBeforeOneSide = 12;
 
 // Where a vertex that the part holds is at a share of the frame's way.
@@ -25,29 +29,31 @@ void MovePins(const ClothPanel& panel, const core::RigidTransform& world_from_pa
               std::vector<Vector3d>* x) {
   for (std::size_t i = 0; i < x->size(); ++i) {
     if (panel.inverse_mass_per_kg()[i] > 0.0) continue;
-    (*x)[i] += share * (world_from_part * panel.rest().vertices_mm[i] - (*x)[i]);
+    const Vector3d there = world_from_part * panel.rest().vertices_mm[i];
+    (*x)[i] = share == 1.0 ? there : Vector3d((*x)[i] + share * (there - (*x)[i]));
   }
 }
 
-// One pass over the springs, each from nothing.
-void PullSprings(const ClothPanel& panel, double step_s, std::vector<Vector3d>* positions) {
+// One pass over some springs, each from nothing.
+void PullSprings(std::span<const ClothSpring> springs, const std::vector<double>& inverse_mass, double step_s,
+                 std::vector<Vector3d>* positions) {
   constexpr double kLeastLengthMm = 1e-9;
-  std::vector<Vector3d>& x = *positions;
-  const std::vector<double>& inverse_mass = panel.inverse_mass_per_kg();
+  Vector3d* x = positions->data();
   const double per_step2 = 1.0 / (step_s * step_s);
-  for (const ClothSpring& spring : panel.springs()) {
+  for (const ClothSpring& spring : springs) {
     const Vector3d along = x[spring.a] - x[spring.b];
     const double length_mm = along.norm();
     if (length_mm <= kLeastLengthMm) continue;
     const double w_a = inverse_mass[spring.a], w_b = inverse_mass[spring.b];
     const double impulse =
-        (spring.rest_mm - length_mm) / (w_a + w_b + spring.compliance_mm_per_mn * per_step2);
-    x[spring.a] += (w_a * impulse / length_mm) * along;
-    x[spring.b] -= (w_b * impulse / length_mm) * along;
+        (spring.rest_mm - length_mm) / (length_mm * (w_a + w_b + spring.compliance_mm_per_mn * per_step2));
+    x[spring.a] += w_a * impulse * along;
+    x[spring.b] -= w_b * impulse * along;
   }
 }
 
-void StepSprings(const ClothPanel& panel, double step_s, ClothState* state) {
+// Springs across triangles are soft: every few steps do.
+void StepSprings(const ClothPanel& panel, double step_s, int step, ClothState* state) {
   const std::vector<Vector3d> before = state->x_in_world;
   const double kept = std::exp(-panel.rule().damping_per_s * step_s);
   for (std::size_t i = 0; i < before.size(); ++i) {
@@ -55,7 +61,12 @@ void StepSprings(const ClothPanel& panel, double step_s, ClothState* state) {
     state->velocity_in_world[i].z() -= kGravityMmPerS2 * step_s;
     state->x_in_world[i] += step_s * state->velocity_in_world[i];
   }
-  PullSprings(panel, step_s, &state->x_in_world);
+  const std::span<const ClothSpring> springs = panel.springs();
+  PullSprings(springs.first(panel.edge_springs()), panel.inverse_mass_per_kg(), step_s, &state->x_in_world);
+  if (step % kStepsPerBend == 0) {
+    PullSprings(springs.subspan(panel.edge_springs()), panel.inverse_mass_per_kg(),
+                std::sqrt(kStepsPerBend) * step_s, &state->x_in_world);
+  }
   for (std::size_t i = 0; i < before.size(); ++i) {
     if (panel.inverse_mass_per_kg()[i] <= 0.0) continue;
     Vector3d velocity = kept * (state->x_in_world[i] - before[i]) / step_s;
@@ -63,6 +74,23 @@ void StepSprings(const ClothPanel& panel, double step_s, ClothState* state) {
     if (speed > kFastestVertexMmPerS) velocity *= kFastestVertexMmPerS / speed;
     state->velocity_in_world[i] = velocity;
   }
+}
+
+// Pinned vertices are where the part has them.
+bool HasPins(const ClothPanel& panel, const core::RigidTransform& world_from_part,
+             const std::vector<Vector3d>& x) {
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    if (panel.inverse_mass_per_kg()[i] <= 0.0 && x[i] != world_from_part * panel.rest().vertices_mm[i])
+      return false;
+  }
+  return true;
+}
+
+double FarthestMove(const std::vector<Vector3d>& from, const std::vector<Vector3d>& to) {
+  double farthest_mm2 = 0.0;
+  for (std::size_t i = 0; i < from.size(); ++i)
+    farthest_mm2 = std::max(farthest_mm2, (to[i] - from[i]).squaredNorm());
+  return std::sqrt(farthest_mm2);
 }
 
 void MeasureStretch(const ClothPanel& panel, ClothState* state) {
@@ -95,16 +123,24 @@ ClothState StepCloth(const ClothPanel& panel, ClothState state, const core::Rigi
   state.count = {};
   ClothContact contact(panel, *hull, world_from_part.rotation * panel.v_rec_in_part(), &state);
   if (state.hull != nullptr && state.hull != hull) contact.CarryAlong(*state.hull, dt_s);
+  if (state.is_still && HasPins(panel, world_from_part, state.x_in_world) && state.count.carried == 0 &&
+      (state.hull == hull || contact.MoveOut() == 0)) {
+    state.hull = hull;
+    MeasureStretch(panel, &state);
+    return state;
+  }
+  const std::vector<Vector3d> before = state.x_in_world;
   const int steps = std::max(1, static_cast<int>(std::ceil(dt_s / kClothStepS - 1e-9)));
   for (int i = 0; i < steps; ++i) {
     MovePins(panel, world_from_part, 1.0 / (steps - i), &state.x_in_world);
-    StepSprings(panel, dt_s / steps, &state);
+    StepSprings(panel, dt_s / steps, i, &state);
     if (i % kStepsPerLook == 0) (void)contact.MoveOut();
   }
   for (int look = 0; look < kLastLooks && contact.MoveOut() > 0; ++look)
     if (look == kLooksBeforeOneSide) contact.ChooseOneSide();
   contact.ForgetSides();
   state.hull = hull;
+  state.is_still = state.count.contacts == 0 && FarthestMove(before, state.x_in_world) < kStillMmPerS * dt_s;
   MeasureStretch(panel, &state);
   return state;
 }

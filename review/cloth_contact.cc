@@ -16,6 +16,8 @@ using Eigen::Vector3d;
 constexpr double kMarginMm = 1.0;
 // Nothing real is thicker along V_rec.
 constexpr double kThickestMm = 3000.0;
+// Nothing real comes this far through the side that a vertex left it to within a frame: another came.
+constexpr double kDeepestMm = 200.0;
 // A point that free vertices have less say of than this is held by pins.
 constexpr double kLeastSay = 0.05;
 
@@ -105,9 +107,8 @@ void ClothContact::Leave(const Corners& corners, const Vector3d& weights) {
   const Vector3d from = At(corners, weights);
   int side = SideOf(corners, weights);
   std::optional<double> exit_mm;
-  if (side != 0) {
-    exit_mm = ExitAlong(hull_, {from, side * v_rec_}, kThickestMm);
-  } else {
+  if (side != 0) exit_mm = ExitAlong(hull_, {from, side * v_rec_}, one_side_ != 0 ? kThickestMm : kDeepestMm);
+  if (!exit_mm) {
     exit_mm = ExitAlong(hull_, {from, v_rec_}, kThickestMm);
     const std::optional<double> other_mm = ExitAlong(hull_, {from, -v_rec_}, exit_mm.value_or(kThickestMm));
     side = other_mm ? -1 : 1;

@@ -2,6 +2,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <chrono>
 
 #include "core/error.h"
@@ -31,6 +32,7 @@ FramePipeline::FramePipeline(core::Rig rig, core::Layout layout,
     : rig_(std::make_shared<const core::Rig>(std::move(rig))),
       planes_(recon::MakePicturePlanes(*rig_)),
       layout_(std::make_shared<const core::Layout>(std::move(layout))),
+      responders_(*layout_),
       segmenter_(backgrounds, segmentation, *rig_) {
   rig_->Validate();
   layout_->Validate();
@@ -45,7 +47,8 @@ SharedFrameResult FramePipeline::Process(recon::FrameSet frames, std::span<const
   result->time_s = frames.time_s;
   result->layout = layout_;
   result->spacing_mm.assign(spacing_mm.begin(), spacing_mm.end());
-  result->world_from_parts = core::PosesAt(*layout_, spacing_mm);
+  const std::vector<core::RigidTransform> world_from_parts = core::PosesAt(*layout_, spacing_mm);
+  result->world_from_parts = Responders::Pushed(world_from_parts, last_ ? last_->response.get() : nullptr);
   Stopwatch watch;
   std::vector<core::SoftMask> masks = segmenter_.SegmentSoft(frames);
   result->times.segmentation_ms = watch.LapMs();
@@ -53,6 +56,8 @@ SharedFrameResult FramePipeline::Process(recon::FrameSet frames, std::span<const
   result->times.hull_ms = watch.LapMs();
   UpdateContacts(result.get());
   result->times.contacts_ms = watch.LapMs();
+  UpdateResponse(world_from_parts, result.get());
+  result->times.response_ms = watch.LapMs();
   result->camera_frames = std::make_shared<const recon::FrameSet>(std::move(frames));
   last_ = result;
   return result;
@@ -65,6 +70,18 @@ void FramePipeline::UpdateHull(std::vector<core::SoftMask> masks, FrameResult* r
   const bool is_unchanged = last_ && result->hull == last_->hull;
   result->masks =
       is_unchanged ? last_->masks : std::make_shared<const std::vector<core::SoftMask>>(std::move(masks));
+}
+
+void FramePipeline::UpdateResponse(std::span<const core::RigidTransform> world_from_parts,
+                                   FrameResult* result) {
+  if (responders_.is_empty()) return;
+  // Of the first frame, and at most after a pause.
+  constexpr double kFirstS = 1.0 / 30.0, kLongestS = 0.25;
+  const double since_s = last_ ? result->time_s - last_->time_s : kFirstS;
+  const SharedResponse last = last_ ? last_->response : nullptr;
+  result->response =
+      since_s > 0.0 ? responders_.Step(last, world_from_parts, result->hull, std::min(since_s, kLongestS))
+                    : last;
 }
 
 void FramePipeline::UpdateContacts(FrameResult* result) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/control/frame_result.h"
+#include "app/control/response.h"
 #include "core/bvh.h"
 #include "core/layout.h"
 #include "core/rig.h"
@@ -30,17 +31,21 @@ class FramePipeline {
   [[nodiscard]] const std::shared_ptr<const core::Rig>& rig() const { return rig_; }
   [[nodiscard]] const std::shared_ptr<const core::Layout>& layout() const { return layout_; }
 
-  // spacing_mm: in the layout's order. The result shares the frames' pictures.
+  // spacing_mm: in the layout's order. The result shares the frames' pictures. Contacts are those of the
+  // parts before they give way, cloths as they are at rest; then they respond to the time since the last
+  // frame.
   [[nodiscard]] SharedFrameResult Process(recon::FrameSet frames, std::span<const double> spacing_mm);
 
  private:
   void UpdateHull(std::vector<core::SoftMask> masks, FrameResult* result);
   void UpdateContacts(FrameResult* result);
+  void UpdateResponse(std::span<const core::RigidTransform> world_from_parts, FrameResult* result);
 
   std::shared_ptr<const core::Rig> rig_;
   recon::PicturePlanes planes_;
   std::shared_ptr<const core::Layout> layout_;
   std::vector<core::TriangleTree> part_trees_;
+  Responders responders_;
   recon::FrameSegmenter segmenter_;
   SharedFrameResult last_;
 };

@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "app/control/response.h"
 #include "core/contact.h"
 #include "core/ids.h"
 #include "core/layout.h"
@@ -27,6 +28,7 @@ struct StageTimes {
   double segmentation_ms = 0.0;
   double hull_ms = 0.0;
   double contacts_ms = 0.0;
+  double response_ms = 0.0;
 };
 
 struct FrameResult {
@@ -38,9 +40,11 @@ struct FrameResult {
   core::SharedMasks masks;  // one a camera
   std::shared_ptr<const recon::VisualHull> hull;
   std::shared_ptr<const core::Layout> layout;
-  std::vector<double> spacing_mm;                      // in the layout's order
-  std::vector<core::RigidTransform> world_from_parts;  // in the layout's order
-  std::vector<core::PartContact> contacts;             // in the layout's order
+  std::vector<double> spacing_mm;  // in the layout's order
+  std::vector<core::RigidTransform>
+      world_from_parts;                     // in the layout's order; pushed ones where they were pushed
+  std::vector<core::PartContact> contacts;  // in the layout's order
+  SharedResponse response;                  // to this frame; null: nothing gives way or flows
   SkipCount skipped;
   StageTimes times;
 };

@@ -39,7 +39,13 @@ recon::SceneView Scaled(const recon::SceneView& view, double scale) {
   return scaled;
 }
 
+// A cloth as it hangs; null for other parts.
+core::SharedMesh MeshInWorld(const FrameResult& result, core::PartIndex part) {
+  return result.response ? result.response->meshes_in_world[part] : nullptr;
+}
+
 Eigen::AlignedBox3d BoundsInWorld(const FrameResult& result, core::PartIndex part) {
+  if (const core::SharedMesh mesh = MeshInWorld(result, part)) return core::BoundsOf(*mesh);
   Eigen::AlignedBox3d bounds;
   for (const Vector3d& vertex : result.layout->parts[part].mesh->vertices_mm) {
     bounds.extend(result.world_from_parts[part] * vertex);
@@ -97,6 +103,23 @@ std::optional<core::CameraIndex> NearestToViewer(const std::vector<core::CameraM
   return nearest;
 }
 
+// A stream's particles, an octahedron each.
+recon::gl::ScenePart StreamPart(const review::StreamState& state, double radius_mm) {
+  core::TriangleMesh octahedron;
+  for (Eigen::Index axis = 0; axis < 3; ++axis)
+    for (const double side : {1.0, -1.0})
+      octahedron.vertices_mm.push_back(side * radius_mm * Vector3d::Unit(axis));
+  octahedron.triangles = {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4},
+                          {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
+  auto mesh = std::make_shared<core::TriangleMesh>();
+  for (const review::Particle& particle : state.particles)
+    core::Append(*mesh, core::Transformed(octahedron, {Eigen::Matrix3d::Identity(), particle.x_in_world}));
+  recon::gl::ScenePart part;
+  part.mesh = std::move(mesh);
+  part.color = {0.30F, 0.55F, 0.85F};
+  return part;
+}
+
 // A box around the hull, to about a fiftieth of the workspace.
 Eigen::AlignedBox3d HullBounds(const recon::VisualHull& hull) {
   const double edge_mm = hull.rig().workspace_mm.sizes().maxCoeff() / 50.0;
@@ -130,8 +153,12 @@ recon::gl::Scene SceneComposer::Compose(const FrameResult& result, const recon::
   scene.hull = HullFrom(hull_view);
   for (core::PartIndex i = 0; i < result.layout->parts.size(); ++i) {
     recon::gl::ScenePart part;
-    part.mesh = result.layout->parts[i].mesh;
-    part.world_from_part = result.world_from_parts[i];
+    if (const core::SharedMesh in_world = MeshInWorld(result, i)) {
+      part.mesh = in_world;
+    } else {
+      part.mesh = result.layout->parts[i].mesh;
+      part.world_from_part = result.world_from_parts[i];
+    }
     part.color = Eigen::Vector3f(kPartColors[i % kPartColors.size()].data());
     part.in_contact = result.contacts[i].verdict == core::Verdict::kContact;
     if (HiddenShare(*scene.hull, hull_view, BoundsInWorld(result, i)) > kHidesShare)
@@ -140,6 +167,11 @@ recon::gl::Scene SceneComposer::Compose(const FrameResult& result, const recon::
     for (const core::ContactPoint& point : result.contacts[i].points) {
       scene.contact_points_in_world.push_back(point.position_in_world_mm);
     }
+  }
+  for (std::size_t i = 0; result.response && i < result.response->streams.size(); ++i) {
+    const review::StreamState& stream = result.response->streams[i];
+    if (!stream.particles.empty())
+      scene.parts.push_back(StreamPart(stream, result.layout->streams[i].radius_mm));
   }
   const std::vector<SharedPhoto> photos = PhotosFor(look, view);
   if (!photos.empty()) scene.hull_camera_color = recon::ColorHull(*scene.hull, hull_view, photos);

@@ -192,5 +192,60 @@ TEST(SceneComposer, EveryLookIsAPictureOfItsOwn) {
   }
 }
 
+// A panel of 720 triangles across x, and a faucet before it, over the demo's table.
+core::Layout CurtainAndFaucet() {
+  constexpr int kAcross = 20, kDown = 18;
+  constexpr double kCellMm = 20.0;
+  auto mesh = std::make_shared<core::TriangleMesh>();
+  for (int z = 0; z <= kDown; ++z)
+    for (int y = 0; y <= kAcross; ++y) mesh->vertices_mm.emplace_back(0.0, kCellMm * (y - 10), -kCellMm * z);
+  const auto at = [&](int y, int z) { return z * (kAcross + 1) + y; };
+  for (int z = 0; z < kDown; ++z) {
+    for (int y = 0; y < kAcross; ++y) {
+      mesh->triangles.push_back({at(y, z), at(y, z + 1), at(y + 1, z)});
+      mesh->triangles.push_back({at(y + 1, z), at(y, z + 1), at(y + 1, z + 1)});
+    }
+  }
+  core::ClothRule rule;
+  rule.pins = {core::BoundsSide::kZMax};
+  core::Part curtain;
+  curtain.name = "curtain";
+  curtain.mesh = std::move(mesh);
+  curtain.world_from_part.translation_mm = {100.0, 0.0, 440.0};
+  curtain.gives_way = rule;
+  core::Stream faucet;
+  faucet.name = "faucet";
+  faucet.position_mm = {230.0, 15.0, 480.0};
+  core::Layout layout;
+  layout.parts = {curtain};
+  layout.streams = {faucet};
+  return layout;
+}
+
+// With ELBOWROOM_PICTURE_DIR set it leaves the picture there to be looked at.
+TEST(SceneComposer, ACurtainAndAStreamAreDrawnAsTheyGiveWay) {
+  const TrialSetup setup = MakeDemoTrial(DemoPlay::kOnce);
+  FramePipeline pipeline(setup.source->rig(), CurtainAndFaucet(), setup.source->ReadBackgrounds({}, {}),
+                         setup.segmentation);
+  SharedFrameResult frame;
+  for (core::FrameIndex i = 0; i <= static_cast<core::FrameIndex>(15.0 * kPipeIsHeldS); ++i)
+    frame = pipeline.Process(setup.source->Read(i), {});
+  ASSERT_NE(frame->response, nullptr);
+  const core::SharedMesh& curtain = frame->response->meshes_in_world[0];
+  double pushed_mm = 0.0;
+  for (const Eigen::Vector3d& x : curtain->vertices_mm) pushed_mm = std::max(pushed_mm, 100.0 - x.x());
+  EXPECT_GT(pushed_mm, 60.0);  // the hand holds its pipe over x = 0, coming from x > 0
+  EXPECT_GT(frame->response->streams[0].particles.size(), 20U);
+  const recon::SceneView view = TrialView(960, 720, -35.0, 22.0);
+  FrameResult bare = *frame;
+  bare.response.reset();
+  const recon::Image picture = Draw(SceneComposer().Compose(*frame, view));
+  EXPECT_NE(picture, Draw(SceneComposer().Compose(bare, view)));
+  if (const char* folder = std::getenv("ELBOWROOM_PICTURE_DIR")) {
+    recon::WritePng(Beside(picture, Draw(SceneComposer().Compose(*frame, TrialView(960, 720, -125.0, 22.0)))),
+                    std::string(folder) + "/gives_way.png");
+  }
+}
+
 }  // namespace
 }  // namespace elbowroom::control

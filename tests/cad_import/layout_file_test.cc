@@ -248,6 +248,48 @@ TEST_F(LayoutFile, WhatIsWrittenComesBack) {
   EXPECT_TRUE(back.pair_rules[0].authorised_contact);
 }
 
+TEST_F(LayoutFile, WhatGivesWayComesBack) {
+  core::Layout layout = ImportLayoutFile(Write(kLayout)).layout;
+  core::ClothRule cloth;
+  cloth.pins = {core::BoundsSide::kZMax, core::BoundsSide::kXMin};
+  cloth.v_rec = Eigen::Vector3d(0.0, 1.0, 0.25);
+  cloth.stretch_stiffness_n_per_m = 1234.5;
+  cloth.friction = 0.75;
+  layout.parts[0].gives_way = cloth;
+  layout.parts[1].gives_way =
+      core::PushRule{.v_rec = Eigen::Vector3d(1.0, 0.0, 0.0), .max_speed_mm_per_s = 80.0};
+  core::Stream stream;
+  stream.name = "faucet";
+  stream.position_mm = {1.0, 2.0, 300.0};
+  stream.rate_per_s = 77.0;
+  layout.streams = {stream};
+  WriteLayoutFile(layout, folder_ / "copy.toml");
+  const core::Layout back = ImportLayoutFile(folder_ / "copy.toml").layout;
+  for (std::size_t i = 0; i < layout.parts.size(); ++i)
+    EXPECT_EQ(back.parts[i].gives_way, layout.parts[i].gives_way) << i;
+  EXPECT_EQ(back.streams, layout.streams);
+}
+
+TEST_F(LayoutFile, WhatCantGiveWaySaysWhy) {
+  const std::string file = "file = \"parts/metres.glb\"\n";
+  EXPECT_TRUE(Mentions(ErrorAtLine(17, file, file + "gives_way = \"jelly\"\n"),
+                       "must be \"cloth\", \"pushed\" or \"none\""));
+  EXPECT_TRUE(Mentions(ErrorAtLine(17, file, file + "friction = 0.5\n"), "goes with gives_way = \"cloth\""));
+  EXPECT_TRUE(Mentions(ErrorAtLine(18, file, file + "gives_way = \"cloth\"\npins = [\"top\"]\n"),
+                       "'top' is no side; use x_min"));
+  const auto message_of = [&](const std::filesystem::path& path) {
+    return ErrorOf(ErrorKind::kRange, [&] { (void)ImportLayoutFile(path); });
+  };
+  EXPECT_TRUE(Mentions(message_of(WriteWith(file, file + "gives_way = \"cloth\"\n")),
+                       "part 'payload B': a cloth without pins falls off the table"));
+  EXPECT_TRUE(
+      Mentions(message_of(WriteWith(file, file + "gives_way = \"pushed\"\nmax_speed_mm_per_s = -1\n")),
+               "part 'payload B': max_speed_mm_per_s must be from"));
+  EXPECT_TRUE(
+      Mentions(message_of(WriteWith("[[pair]]", "[[stream]]\nname = \"tap\"\nrate_per_s = 0\n[[pair]]")),
+               "stream 'tap': rate_per_s must be from"));
+}
+
 TEST_F(LayoutFile, APartWithoutAFileCantBeWritten) {
   core::Layout layout = ImportLayoutFile(Write(kLayout)).layout;
   layout.parts[1].file.clear();

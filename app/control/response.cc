@@ -1,0 +1,81 @@
+#include "app/control/response.h"
+
+#include <tbb/parallel_for.h>
+
+#include <variant>
+
+namespace elbowroom::control {
+
+Responders::Responders(const core::Layout& layout) : layout_(layout) {
+  for (const core::Part& part : layout.parts) is_empty_ = is_empty_ && part.gives_way.index() == 0;
+  is_empty_ = is_empty_ && layout.streams.empty();
+  panels_.resize(layout.parts.size());
+  surfaces_.resize(layout.parts.size());
+  if (is_empty_) return;
+  for (core::PartIndex i = 0; i < layout.parts.size(); ++i) {
+    if (std::holds_alternative<core::ClothRule>(layout.parts[i].gives_way)) {
+      panels_[i].emplace(layout.parts[i]);
+    } else {
+      surfaces_[i].emplace(layout.parts[i].mesh);
+    }
+  }
+}
+
+std::vector<core::RigidTransform> Responders::Pushed(std::span<const core::RigidTransform> world_from_parts,
+                                                     const ResponseState* state) {
+  std::vector<core::RigidTransform> pushed(world_from_parts.begin(), world_from_parts.end());
+  for (core::PartIndex i = 0; state != nullptr && i < pushed.size(); ++i)
+    pushed[i].translation_mm += state->pushes[i].moved_in_world;
+  return pushed;
+}
+
+SharedResponse Responders::Step(const SharedResponse& last,
+                                std::span<const core::RigidTransform> world_from_parts,
+                                const std::shared_ptr<const recon::VisualHull>& hull, double dt_s) const {
+  auto state = last ? std::make_shared<ResponseState>(*last) : std::make_shared<ResponseState>();
+  const std::size_t parts = layout_.parts.size();
+  state->cloths.resize(parts);
+  state->pushes.resize(parts);
+  state->meshes_in_world.resize(parts);
+  state->streams.resize(layout_.streams.size());
+  StepCloths(world_from_parts, hull, dt_s, state.get());
+  StepPushes(world_from_parts, *hull, dt_s, state.get());
+  const std::vector<core::RigidTransform> pushed = Pushed(world_from_parts, state.get());
+  std::vector<review::StreamObstacle> obstacles;
+  for (core::PartIndex i = 0; i < parts; ++i)
+    if (surfaces_[i]) obstacles.push_back({&surfaces_[i]->tree(), pushed[i]});
+  for (std::size_t i = 0; i < layout_.streams.size(); ++i) {
+    state->streams[i] =
+        review::StepStream(layout_.streams[i], std::move(state->streams[i]), *hull, obstacles, dt_s);
+  }
+  return state;
+}
+
+void Responders::StepCloths(std::span<const core::RigidTransform> world_from_parts,
+                            const std::shared_ptr<const recon::VisualHull>& hull, double dt_s,
+                            ResponseState* state) const {
+  tbb::parallel_for(std::size_t{0}, panels_.size(), [&](std::size_t i) {
+    if (!panels_[i]) return;
+    std::optional<review::ClothState>& cloth = state->cloths[i];
+    if (!cloth) cloth = review::ClothAtRest(*panels_[i], world_from_parts[i]);
+    cloth = review::StepCloth(*panels_[i], std::move(*cloth), world_from_parts[i], hull, dt_s);
+    state->meshes_in_world[i] =
+        std::make_shared<const core::TriangleMesh>(review::MeshInWorld(*panels_[i], *cloth));
+  });
+}
+
+void Responders::StepPushes(std::span<const core::RigidTransform> world_from_parts,
+                            const recon::VisualHull& hull, double dt_s, ResponseState* state) const {
+  for (core::PartIndex i = 0; i < layout_.parts.size(); ++i) {
+    const auto* rule = std::get_if<core::PushRule>(&layout_.parts[i].gives_way);
+    if (rule == nullptr) continue;
+    const std::vector<core::RigidTransform> pushed = Pushed(world_from_parts, state);
+    std::vector<review::StandingPart> others;
+    for (core::PartIndex k = 0; k < pushed.size(); ++k)
+      if (k != i && surfaces_[k]) others.push_back({&*surfaces_[k], pushed[k]});
+    state->pushes[i] =
+        review::StepPush(*rule, state->pushes[i], {&*surfaces_[i], world_from_parts[i]}, others, hull, dt_s);
+  }
+}
+
+}  // namespace elbowroom::control

@@ -1,0 +1,63 @@
+// What of a layout gives way or flows, from frame to frame.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/bvh.h"
+#include "core/layout.h"
+#include "core/rigid_transform.h"
+#include "recon/visual_hull.h"
+#include "review/cloth.h"
+#include "review/particle_stream.h"
+#include "review/pushed_part.h"
+#include "review/surface_model.h"
+
+namespace elbowroom::control {
+
+// A value; parts and streams in the layout's order.
+struct ResponseState {
+  std::vector<std::optional<review::ClothState>> cloths;  // nothing: the part is no cloth
+  std::vector<review::PushState> pushes;                  // zero for parts that aren't pushed
+  std::vector<review::StreamState> streams;
+  std::vector<core::SharedMesh> meshes_in_world;  // of the cloths as they hang; null for other parts
+};
+
+using SharedResponse = std::shared_ptr<const ResponseState>;
+
+// Immutable. Thread: any.
+class Responders {
+ public:
+  // Throws: what review::ClothPanel throws. The layout must outlive it.
+  explicit Responders(const core::Layout& layout);
+
+  // No part gives way and nothing flows.
+  [[nodiscard]] bool is_empty() const { return is_empty_; }
+
+  // The layout's poses, the pushed parts where they were pushed.
+  [[nodiscard]] static std::vector<core::RigidTransform> Pushed(
+      std::span<const core::RigidTransform> world_from_parts, const ResponseState* state);
+
+  // `dt_s` later; `last` null: from rest. Cloths in parallel, then pushed parts one after the other, each
+  // against the others where they are by then (cloth is in nobody's way), then the streams. The same for any
+  // number of threads. world_from_parts: the layout's, before pushing.
+  [[nodiscard]] SharedResponse Step(const SharedResponse& last,
+                                    std::span<const core::RigidTransform> world_from_parts,
+                                    const std::shared_ptr<const recon::VisualHull>& hull, double dt_s) const;
+
+ private:
+  void StepCloths(std::span<const core::RigidTransform> world_from_parts,
+                  const std::shared_ptr<const recon::VisualHull>& hull, double dt_s,
+                  ResponseState* state) const;
+  void StepPushes(std::span<const core::RigidTransform> world_from_parts, const recon::VisualHull& hull,
+                  double dt_s, ResponseState* state) const;
+
+  const core::Layout& layout_;
+  bool is_empty_ = true;
+  std::vector<std::optional<review::ClothPanel>> panels_;
+  std::vector<std::optional<review::SurfaceModel>> surfaces_;  // of what isn't cloth
+};
+
+}  // namespace elbowroom::control
