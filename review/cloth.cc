@@ -19,10 +19,11 @@ constexpr double kFastestVertexMmPerS = 4000.0;
 // Steps between two looks at the hull; looks at a frame's end at most, and when sides are given up there.
 constexpr int kStepsPerLook = 16;
 constexpr int kStepsPerBend = 4;
-constexpr int kLastLooks = 60;
+constexpr int kLastLooks = 100;
 // A cloth whose vertices are slower in a frame, and touch nothing, rests until something happens.
 constexpr double kStillMmPerS = 0.5;
-constexpr int kLooksBeforeOneSide = 12;
+constexpr int kLooksBeforeAgreeing = 10;
+constexpr int kLooksBeforeOneSide = 40;
 
 // Where a vertex that the part holds is at a share of the frame's way.
 void MovePins(const ClothPanel& panel, const core::RigidTransform& world_from_part, double share,
@@ -136,8 +137,10 @@ ClothState StepCloth(const ClothPanel& panel, ClothState state, const core::Rigi
     StepSprings(panel, dt_s / steps, i, &state);
     if (i % kStepsPerLook == 0) (void)contact.MoveOut();
   }
-  for (int look = 0; look < kLastLooks && contact.MoveOut() > 0; ++look)
+  for (int look = 0; look < kLastLooks && contact.MoveOut() > 0; ++look) {
+    if (look == kLooksBeforeAgreeing) contact.AgreeOnSides();
     if (look == kLooksBeforeOneSide) contact.ChooseOneSide();
+  }
   contact.ForgetSides();
   state.hull = hull;
   state.is_still = state.count.contacts == 0 && FarthestMove(before, state.x_in_world) < kStillMmPerS * dt_s;

@@ -42,7 +42,7 @@ struct ClothState {
       sides;  // of those in touch: along (+1) or against V_rec they leave; 0: not in touch
   std::shared_ptr<const recon::VisualHull> hull;  // of the last step; null: none yet
   bool is_still = false;  // nothing moved in the last step, or touched: the next is skipped if nothing does
-  ClothCount count;                               // of the last step
+  ClothCount count;       // of the last step
 };
 
 [[nodiscard]] ClothState ClothAtRest(const ClothPanel& panel, const core::RigidTransform& world_from_part);

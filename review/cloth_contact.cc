@@ -148,7 +148,7 @@ bool ClothContact::Push(const Corners& corners, const Vector3d& weights, int sid
     const Vector3d along = velocity - velocity.dot(out) * out;
     velocity = leaving * out + (touched_[vertex] ? 1.0 : 1.0 - panel_.rule().friction) * along;
     touched_[vertex] = 1;
-    if (state_->sides[vertex] == 0 || one_side_ != 0) state_->sides[vertex] = static_cast<std::int8_t>(side);
+    if (state_->sides[vertex] == 0 || sides_agree_) state_->sides[vertex] = static_cast<std::int8_t>(side);
   }
   return true;
 }
@@ -156,6 +156,7 @@ bool ClothContact::Push(const Corners& corners, const Vector3d& weights, int sid
 void ClothContact::ChooseOneSide() {
   int sum = 0;
   for (const std::int8_t side : state_->sides) sum += side;
+  sides_agree_ = true;
   one_side_ = sum < 0 ? -1 : 1;
 }
 

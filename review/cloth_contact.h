@@ -27,6 +27,8 @@ class ClothContact {
   // moved. What hasn't moved since the last call isn't asked about again.
   std::int64_t MoveOut();
 
+  // From now on a piece's corners leave to its side, whatever theirs was.
+  void AgreeOnSides() { sides_agree_ = true; }
   // From now on every piece leaves to one and the same side: the one that most vertices in touch leave to.
   // Then nothing is moved to and fro, and MoveOut() ends up with nothing to move.
   void ChooseOneSide();
@@ -56,6 +58,7 @@ class ClothContact {
   const recon::VisualHull& hull_;
   Eigen::Vector3d v_rec_;  // in world
   ClothState* state_;
+  bool sides_agree_ = false;
   int one_side_ = 0;  // 0: to each its own
   struct Known {
     std::array<Eigen::Vector3d, 3> corners;  // where they were when the hull was asked

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "recon/hull_mesh.h"
 #include "recon/synthetic/demo_motion.h"
 #include "recon/synthetic/rig_presets.h"
 #include "recon/synthetic/view_scene.h"
@@ -65,9 +66,11 @@ enum class Hand { kFar, kStops, kMoves };
 // The curtain hangs across x before the fingers, or far behind the table.
 void CurtainFrame(benchmark::State& bench, Hand hand) {
   const ClothPanel panel(Curtain());
-  core::RigidTransform pose =
-      core::FromPositionAndRollPitchYaw({hand == Hand::kFar ? -380.0 : -75.0, 0.0, 420.0}, {0.0, 0.0, 90.0});
   const std::vector<SharedHull> hulls = Hulls();
+  constexpr double kGapMm = 15.0;
+  const double before_hand_mm = core::BoundsOf(recon::MeshHull(*hulls[0], 5.0).mesh).min().x() - kGapMm;
+  const core::RigidTransform pose = core::FromPositionAndRollPitchYaw(
+      {hand == Hand::kFar ? -380.0 : before_hand_mm, 0.0, 420.0}, {0.0, 0.0, 90.0});
   ClothState state = ClothAtRest(panel, pose);
   // Hangs itself out, is pushed once; the hand that stops does so where it reaches farthest.
   for (int i = 0; i < 60; ++i) state = StepCloth(panel, std::move(state), pose, hulls[0], kFrameS);
