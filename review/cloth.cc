@@ -17,8 +17,7 @@ constexpr double kGravityMmPerS2 = 9806.65;
 // No vertex is let go faster: a hull that jumps must not throw the cloth.
 constexpr double kFastestVertexMmPerS = 4000.0;
 // Steps between two looks at the hull; looks at a frame's end at most, and when sides are given up there.
-constexpr int kStepsPerLook = 16;
-constexpr int kStepsPerBend = 4;
+constexpr int kStepsPerLook = 8;
 constexpr int kLastLooks = 100;
 // A cloth whose vertices are slower in a frame, and touch nothing, rests until something happens.
 constexpr double kStillMmPerS = 0.5;
@@ -53,8 +52,7 @@ void PullSprings(std::span<const ClothSpring> springs, const std::vector<double>
   }
 }
 
-// Springs across triangles are soft: every few steps do.
-void StepSprings(const ClothPanel& panel, double step_s, int step, ClothState* state) {
+void StepSprings(const ClothPanel& panel, double step_s, ClothState* state) {
   const std::vector<Vector3d> before = state->x_in_world;
   const double kept = std::exp(-panel.rule().damping_per_s * step_s);
   for (std::size_t i = 0; i < before.size(); ++i) {
@@ -62,12 +60,7 @@ void StepSprings(const ClothPanel& panel, double step_s, int step, ClothState* s
     state->velocity_in_world[i].z() -= kGravityMmPerS2 * step_s;
     state->x_in_world[i] += step_s * state->velocity_in_world[i];
   }
-  const std::span<const ClothSpring> springs = panel.springs();
-  PullSprings(springs.first(panel.edge_springs()), panel.inverse_mass_per_kg(), step_s, &state->x_in_world);
-  if (step % kStepsPerBend == 0) {
-    PullSprings(springs.subspan(panel.edge_springs()), panel.inverse_mass_per_kg(),
-                std::sqrt(kStepsPerBend) * step_s, &state->x_in_world);
-  }
+  PullSprings(panel.springs(), panel.inverse_mass_per_kg(), step_s, &state->x_in_world);
   for (std::size_t i = 0; i < before.size(); ++i) {
     if (panel.inverse_mass_per_kg()[i] <= 0.0) continue;
     Vector3d velocity = kept * (state->x_in_world[i] - before[i]) / step_s;
@@ -134,7 +127,7 @@ ClothState StepCloth(const ClothPanel& panel, ClothState state, const core::Rigi
   const int steps = std::max(1, static_cast<int>(std::ceil(dt_s / kClothStepS - 1e-9)));
   for (int i = 0; i < steps; ++i) {
     MovePins(panel, world_from_part, 1.0 / (steps - i), &state.x_in_world);
-    StepSprings(panel, dt_s / steps, i, &state);
+    StepSprings(panel, dt_s / steps, &state);
     if (i % kStepsPerLook == 0) (void)contact.MoveOut();
   }
   for (int look = 0; look < kLastLooks && contact.MoveOut() > 0; ++look) {

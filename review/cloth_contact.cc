@@ -203,12 +203,23 @@ void ClothContact::CarryAlong(const recon::VisualHull& last, double dt_s) {
   }
 }
 
+// The hull has come over a point: it leaves away from where the hull was.
+void ClothContact::NoteSide(const recon::VisualHull& last, const Corners& corners, const Vector3d& from,
+                            double reach_mm) {
+  const auto ahead_mm = EntryAlong(last, {from, v_rec_}, reach_mm);
+  const auto behind_mm = EntryAlong(last, {from, -v_rec_}, ahead_mm.value_or(reach_mm));
+  if (!ahead_mm && !behind_mm) return;
+  for (const std::uint32_t vertex : corners)
+    if (state_->sides[vertex] == 0) state_->sides[vertex] = behind_mm ? 1 : -1;
+}
+
 // What was on one side of the point and is on the other now has passed it: the point goes to its far end.
 void ClothContact::CarryPoint(const recon::VisualHull& last, const Corners& corners, const Vector3d& weights,
                               double reach_mm) {
   const Vector3d from = At(corners, weights);
   ++state_->count.queries;
-  if (hull_.Contains(from) || last.Contains(from)) return;
+  if (last.Contains(from)) return;
+  if (hull_.Contains(from)) return NoteSide(last, corners, from, reach_mm);
   for (const int side : {1, -1}) {
     const Vector3d ahead = side * v_rec_;
     const std::optional<double> entry_mm = EntryAlong(hull_, {from, ahead}, reach_mm);

@@ -51,6 +51,8 @@ class ClothContact {
   void Leave(const Corners& corners, const Eigen::Vector3d& weights);
   bool Push(const Corners& corners, const Eigen::Vector3d& weights, int side, double by_mm);
   [[nodiscard]] int SideOf(const Corners& corners, const Eigen::Vector3d& weights) const;
+  void NoteSide(const recon::VisualHull& last, const Corners& corners, const Eigen::Vector3d& from,
+                double reach_mm);
   void CarryPoint(const recon::VisualHull& last, const Corners& corners, const Eigen::Vector3d& weights,
                   double reach_mm);
 

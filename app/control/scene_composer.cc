@@ -164,6 +164,7 @@ recon::gl::Scene SceneComposer::Compose(const FrameResult& result, const recon::
     if (HiddenShare(*scene.hull, hull_view, BoundsInWorld(result, i)) > kHidesShare)
       part.opacity = kSeeThrough;
     scene.parts.push_back(std::move(part));
+    if (MeshInWorld(result, i)) continue;  // its contacts are on its shape at rest
     for (const core::ContactPoint& point : result.contacts[i].points) {
       scene.contact_points_in_world.push_back(point.position_in_world_mm);
     }
