@@ -53,28 +53,41 @@ class Way {
   [[nodiscard]] Freeing Run(std::vector<Vector3d>* witnesses) {
     double at_mm = known_mm_ > 0.0 ? known_mm_ + step_mm_ : 0.0;
     while (known_mm_ < options_.give_up_mm) {
-      const Meeting meeting = MeetingAt(at_mm);
-      if (meeting.answer == Meeting::Answer::kApart) {
+      const double before_mm = known_mm_;
+      if (IsFree(at_mm, witnesses)) {
         result_.upper_mm = at_mm;
         break;
       }
-      const double before_mm = known_mm_;
-      if (meeting.answer == Meeting::Answer::kMeets) {
-        witnesses->push_back(meeting.common_in_world - at_mm * direction_);
-        Follow(witnesses->back());
-      }
       at_mm = NextPlace(at_mm, before_mm);
     }
+    if (std::isfinite(result_.upper_mm)) StepBack(witnesses);
     result_.lower_mm = std::clamp(known_mm_ - kRoundingMm, 0.0, result_.upper_mm);
     return result_;
   }
 
  private:
-  [[nodiscard]] Meeting MeetingAt(double at_mm) {
+  // Certain; a common point of a place that isn't becomes a witness.
+  [[nodiscard]] bool IsFree(double at_mm, std::vector<Vector3d>* witnesses) {
     const core::RigidTransform moved{world_from_part_.rotation,
                                      world_from_part_.translation_mm + at_mm * direction_};
-    return FindMeeting(hull_, part_, moved, kSmallestPiece * options_.tolerance_mm * kFirstStep,
-                       &result_.queries);
+    const Meeting meeting = FindMeeting(
+        hull_, part_, moved, kSmallestPiece * options_.tolerance_mm * kFirstStep, &result_.queries);
+    if (meeting.answer == Meeting::Answer::kApart) return true;
+    taken_mm_ = std::max(taken_mm_, at_mm);
+    if (meeting.answer == Meeting::Answer::kMeets) {
+      witnesses->push_back(meeting.common_in_world - at_mm * direction_);
+      Follow(witnesses->back());
+    }
+    return false;
+  }
+
+  // Between the last place that isn't free and the first that is, which long steps may have left far apart.
+  void StepBack(std::vector<Vector3d>* witnesses) {
+    double taken_mm = std::max(taken_mm_, known_mm_);
+    while (result_.upper_mm - taken_mm > options_.tolerance_mm) {
+      const double middle_mm = 0.5 * (taken_mm + result_.upper_mm);
+      (IsFree(middle_mm, witnesses) ? result_.upper_mm : taken_mm) = middle_mm;
+    }
   }
 
   // After a place that isn't free: past what is known by now; into the first gap of it, if that is wide
@@ -106,6 +119,7 @@ class Way {
   double step_mm_;
   double known_mm_ = 0.0;  // from 0 up to here some known point of the part is in the hull
   double tried_mm_ = -1.0;
+  double taken_mm_ = 0.0;  // the farthest place found not to be free
   double farthest_mm_ = 0.0;
   std::vector<HullInterval> in_contact_;
   Freeing result_;

@@ -23,7 +23,7 @@ struct Meeting {
 };
 
 // The part is its surface, and if it is closed what that encloses (cavities are outside). Ends with the first
-// common point, or the first piece that stays undecided. Counts its ball queries in `*queries`. The part has
+// common point, or when too many pieces stay undecided. Counts its ball queries in `*queries`. The part has
 // triangles. Held to dense samples by penetration_test. Thread: any.
 [[nodiscard]] Meeting FindMeeting(const recon::VisualHull& hull, const core::TriangleTree& part,
                                   const core::RigidTransform& world_from_part, double smallest_mm,
