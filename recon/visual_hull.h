@@ -83,8 +83,8 @@ class VisualHull {
   [[nodiscard]] BallAnswer Classify(const Eigen::Vector3d& center_in_world, double radius_mm,
                                     OpenCameras* open) const;
 
-  // Which silhouette ends the hull at a point on its surface; the normal is that of the silhouette's edge
-  // there, smoothed along the contour (SmoothTangent), through the camera's centre.
+  // Which silhouette ends the hull at a point on its surface; the normal is that of the plane
+  // through the camera's centre and the contour's tangent there (FitTangent).
   [[nodiscard]] BoundingEdge EdgeAt(const Eigen::Vector3d& surface_point_in_world) const;
 
  private:
