@@ -83,7 +83,8 @@ class Way {
 
   // Between the last place that isn't free and the first that is, which long steps may have left far apart.
   void StepBack(std::vector<Vector3d>* witnesses) {
-    double taken_mm = std::max(taken_mm_, known_mm_);
+    // Farther places were tried if it is one in a gap.
+    double taken_mm = taken_mm_ < result_.upper_mm ? std::max(taken_mm_, known_mm_) : known_mm_;
     while (result_.upper_mm - taken_mm > options_.tolerance_mm) {
       const double middle_mm = 0.5 * (taken_mm + result_.upper_mm);
       (IsFree(middle_mm, witnesses) ? result_.upper_mm : taken_mm) = middle_mm;

@@ -50,7 +50,8 @@ class PenetrationSearch {
         tolerance_mm_(tolerance_mm) {}
 
   Penetration Run(const core::PartContact& contact) {
-    std::vector<Vector3d> starts = PointsOf(contact);
+    const std::vector<Vector3d> starts = PointsOf(contact);
+    core::Require(!starts.empty(), "a contact has points");
     std::vector<Deep> deep;
     for (const Vector3d& start : starts) deep.push_back(DeepAt(start));
     std::ranges::sort(deep, std::greater(), &Deep::sum_mm);

@@ -115,13 +115,13 @@ TEST(RecoveryAccuracy, ShiftedSilhouettesStayWithinTheUncertainty) {
   Random random(7602);
   int compared = 0, grazing = 0, at_edge = 0;
   double used = 0.0;
-  for (int trial = 0; trial < 8; ++trial) {
+  for (int trial = 0; trial < 5; ++trial) {
     const Scene scene(
         Vector3d(random.Uniform(-150, 150), random.Uniform(-150, 150), random.Uniform(150, 350)));
     const recon::VisualHull hull = recon::MakeVisualHull(scene.rig, scene.masks);
     const double shift_px = random.Uniform(0.1, 1.0);
     const recon::VisualHull shifted = ShiftedHull(scene, shift_px, &random);
-    for (int ray = 0; ray < 100; ++ray) {
+    for (int ray = 0; ray < 160; ++ray) {
       const Vector3d cp_obj = scene.center + random.Uniform(0.0, 20.0) * random.Direction();
       const RecoveryWay way = ray % 2 == 0 ? RecoveryWay{.rp_obj = cp_obj + kReferenceMm * random.Direction()}
                                            : RecoveryWay{.kind = core::RecoveryKind::kDirection,
