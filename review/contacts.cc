@@ -139,10 +139,10 @@ class ContactSearch {
                                                                               : 0;
     if (inside == 0) return;
     const int count = std::popcount(inside);
-    int middle = 0;
-    for (std::uint64_t left = inside; left != 0; left &= left - 1) {
+    int middle = 0, to_come = count;
+    for (std::uint64_t left = inside; left != 0; left &= left - 1, --to_come) {
       const int piece = std::countr_zero(left);
-      if (2 * std::popcount(left) > count) middle = piece;
+      if (2 * to_come > count) middle = piece;
       Reach(triangle.CentreOf(piece));
     }
     InPatch(0.0, patch, [&](Patch* whole) {

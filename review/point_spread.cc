@@ -1,6 +1,5 @@
 #include "review/point_spread.h"
 
-#include <algorithm>
 #include <limits>
 
 #include "core/error.h"
@@ -17,15 +16,19 @@ std::vector<core::ContactPoint> SpreadEvenly(std::vector<core::ContactPoint> poi
   while (kept.size() < count) {
     kept.push_back(points[next]);
     kept.back().area_mm2 = 0.0;
+    const Eigen::Vector3d latest = points[next].position_in_world_mm;
+    double farthest = -1.0;
     for (std::size_t i = 0; i < points.size(); ++i) {
-      const double distance =
-          (points[i].position_in_world_mm - points[next].position_in_world_mm).squaredNorm();
+      const double distance = (points[i].position_in_world_mm - latest).squaredNorm();
       if (distance < nearest[i]) {
         nearest[i] = distance;
         nearest_kept[i] = kept.size() - 1;
       }
+      if (nearest[i] > farthest) {
+        farthest = nearest[i];
+        next = i;
+      }
     }
-    next = static_cast<std::size_t>(std::max_element(nearest.begin(), nearest.end()) - nearest.begin());
   }
   for (std::size_t i = 0; i < points.size(); ++i) kept[nearest_kept[i]].area_mm2 += points[i].area_mm2;
   return kept;
