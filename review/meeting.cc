@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <deque>
 
 #include "review/containment.h"
 #include "review/longest_side.h"
@@ -19,6 +20,8 @@ constexpr double kOutwards = 1.0 + 1e-12;
 // After so many undecided pieces it won't become certain that the part is apart; it may still meet.
 constexpr int kMostOpen = 64;
 
+// From coarse to fine, all of a size before their parts: what is common shows at a coarse size, while next to
+// the hull's surface pieces get as small as they may.
 class MeetingSearch {
  public:
   MeetingSearch(const recon::VisualHull& hull, const core::TriangleTree& part,
@@ -29,51 +32,32 @@ class MeetingSearch {
         smallest_mm_(smallest_mm),
         queries_(queries) {}
 
-  // Nothing: no common point was found, and apart if no piece is open.
-  [[nodiscard]] std::optional<Meeting> VisitNode(std::uint32_t index, recon::OpenCameras open) {
-    const core::TriangleTree::Node& node = part_.nodes()[index];
-    const BallAnswer answer = Ask({world_from_part_ * node.ball.center, node.ball.radius_mm}, &open);
-    if (answer == BallAnswer::kOutside) return std::nullopt;
-    if (answer == BallAnswer::kInside) return OnFace(CornersOf(part_.order()[node.begin]).a);
-    if (node.left != 0) {
-      if (const std::optional<Meeting> meeting = VisitNode(node.left, open)) return meeting;
-      return VisitNode(node.left + 1, open);
-    }
-    for (std::uint32_t i = node.begin; i < node.end; ++i) {
-      if (const std::optional<Meeting> meeting = VisitTriangle(CornersOf(part_.order()[i]), open))
-        return meeting;
-    }
-    return std::nullopt;
+  [[nodiscard]] Meeting OfSurface() {
+    if (VisitNode(0, {})) return meeting_;
+    for (; !triangles_.empty(); triangles_.pop_front())
+      if (VisitTriangle(triangles_.front())) return meeting_;
+    return {open_ > 0 ? kOpen : kApart};
   }
 
   // What of the hull is inside the closed part, whose surface is apart from it.
-  [[nodiscard]] std::optional<Meeting> VisitCell(const Eigen::AlignedBox3d& cell_in_part,
-                                                 recon::OpenCameras open) {
-    const Vector3d center = cell_in_part.center(), center_in_world = world_from_part_ * center;
-    const double radius_mm = 0.5 * cell_in_part.diagonal().norm() * kOutwards;
-    if (Ask({center_in_world, radius_mm}, &open) == BallAnswer::kOutside) return std::nullopt;
-    const bool is_inside = IsInsideClosedMesh(part_, center);
-    if (is_inside && hull_.Contains(center_in_world, open)) return Meeting{kMeets, center_in_world, false};
-    const bool is_on_one_side = FindNearest(part_, {center}).distance_mm > radius_mm;
-    if (is_on_one_side && !is_inside) return std::nullopt;
-    if (2.0 * radius_mm <= smallest_mm_) return LeaveOpen();
-    for (int child = 0; child < 8; ++child) {
-      const Vector3d corner = cell_in_part.corner(static_cast<Eigen::AlignedBox3d::CornerType>(child));
-      const Eigen::AlignedBox3d eighth(corner.cwiseMin(center), corner.cwiseMax(center));
-      if (const std::optional<Meeting> meeting = VisitCell(eighth, open)) return meeting;
-    }
-    return std::nullopt;
+  [[nodiscard]] Meeting OfInside() {
+    cells_.push_back({part_.bounds(), {}});
+    for (; !cells_.empty(); cells_.pop_front())
+      if (VisitCell(cells_.front())) return meeting_;
+    return {open_ > 0 ? kOpen : kApart};
   }
-
-  [[nodiscard]] bool is_open() const { return open_ > 0; }
 
  private:
-  std::optional<Meeting> LeaveOpen() {
-    if (++open_ < kMostOpen) return std::nullopt;
-    return Meeting{};
-  }
+  struct Piece {
+    Corners corners;  // in world
+    recon::OpenCameras open;
+  };
+  struct Cell {
+    Eigen::AlignedBox3d box_in_part;
+    recon::OpenCameras open;
+  };
 
-  BallAnswer Ask(const core::Ball& ball, recon::OpenCameras* open) const {
+  BallAnswer Ask(const core::Ball& ball, recon::OpenCameras* open) {
     ++*queries_;
     return hull_.Classify(ball.center, ball.radius_mm, open);
   }
@@ -86,18 +70,51 @@ class MeetingSearch {
     return {vertex(a), vertex(b), vertex(c)};
   }
 
-  static Meeting OnFace(const Vector3d& x_in_world) { return {kMeets, x_in_world, true}; }
+  // These are true where the search has come to its end, with meeting_.
+  bool End(const Vector3d& common_in_world) {
+    meeting_ = {kMeets, common_in_world};
+    return true;
+  }
+  bool LeaveOpen() { return ++open_ >= kMostOpen; }
 
-  [[nodiscard]] std::optional<Meeting> VisitTriangle(const Corners& corners, recon::OpenCameras open) {
+  bool VisitNode(std::uint32_t index, recon::OpenCameras open) {
+    const core::TriangleTree::Node& node = part_.nodes()[index];
+    const BallAnswer answer = Ask({world_from_part_ * node.ball.center, node.ball.radius_mm}, &open);
+    if (answer == BallAnswer::kOutside) return false;
+    if (answer == BallAnswer::kInside) return End(CornersOf(part_.order()[node.begin]).a);
+    if (node.left != 0) return VisitNode(node.left, open) || VisitNode(node.left + 1, open);
+    for (std::uint32_t i = node.begin; i < node.end; ++i)
+      triangles_.push_back({CornersOf(part_.order()[i]), open});
+    return false;
+  }
+
+  bool VisitTriangle(Piece piece) {
+    const Corners& corners = piece.corners;
     const core::Ball ball = core::BallOf(corners.a, corners.b, corners.c);
-    const BallAnswer answer = Ask(ball, &open);
-    if (answer == BallAnswer::kOutside) return std::nullopt;
+    const BallAnswer answer = Ask(ball, &piece.open);
+    if (answer == BallAnswer::kOutside) return false;
     const Vector3d middle = (corners.a + corners.b + corners.c) / 3.0;
-    if (answer == BallAnswer::kInside || hull_.Contains(middle, open)) return OnFace(middle);
+    if (answer == BallAnswer::kInside || hull_.Contains(middle, piece.open)) return End(middle);
     if (2.0 * ball.radius_mm <= smallest_mm_) return LeaveOpen();
     const auto [first, second] = Halve(corners);
-    if (const std::optional<Meeting> meeting = VisitTriangle(first, open)) return meeting;
-    return VisitTriangle(second, open);
+    triangles_.push_back({first, piece.open});
+    triangles_.push_back({second, piece.open});
+    return false;
+  }
+
+  bool VisitCell(Cell cell) {
+    const Vector3d center = cell.box_in_part.center(), center_in_world = world_from_part_ * center;
+    const double radius_mm = 0.5 * cell.box_in_part.diagonal().norm() * kOutwards;
+    if (Ask({center_in_world, radius_mm}, &cell.open) == BallAnswer::kOutside) return false;
+    const bool is_inside = IsInsideClosedMesh(part_, center);
+    if (is_inside && hull_.Contains(center_in_world, cell.open)) return End(center_in_world);
+    if (!is_inside && FindNearest(part_, {center}).distance_mm > radius_mm) return false;
+    if (2.0 * radius_mm <= smallest_mm_) return LeaveOpen();
+    for (int child = 0; child < 8; ++child) {
+      const Vector3d corner = cell.box_in_part.corner(static_cast<Eigen::AlignedBox3d::CornerType>(child));
+      cells_.push_back({{corner.cwiseMin(center), corner.cwiseMax(center)}, cell.open});
+    }
+    return false;
   }
 
   const recon::VisualHull& hull_;
@@ -105,7 +122,10 @@ class MeetingSearch {
   const core::RigidTransform& world_from_part_;
   double smallest_mm_;
   std::int64_t* queries_;
+  std::deque<Piece> triangles_;
+  std::deque<Cell> cells_;
   int open_ = 0;
+  Meeting meeting_;  // open, until it is known to be common
 };
 
 }  // namespace
@@ -118,11 +138,8 @@ Meeting FindMeeting(const recon::VisualHull& hull, const core::TriangleTree& par
   ++*queries;
   const core::Ball& ball = part.nodes()[0].ball;
   if (hull.Classify(world_from_part * ball.center, ball.radius_mm) == BallAnswer::kOutside) return apart;
-  if (const std::optional<Meeting> on_surface = search.VisitNode(0, {})) return *on_surface;
-  if (search.is_open()) return {};
-  if (!part.is_closed()) return apart;
-  if (const std::optional<Meeting> within = search.VisitCell(part.bounds(), {})) return *within;
-  return search.is_open() ? Meeting{} : apart;
+  const Meeting of_surface = search.OfSurface();
+  return of_surface.answer == kApart && part.is_closed() ? search.OfInside() : of_surface;
 }
 
 }  // namespace elbowroom::review

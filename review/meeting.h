@@ -3,7 +3,6 @@
 
 #include <Eigen/Core>
 #include <cstdint>
-#include <optional>
 
 #include "core/bvh.h"
 #include "core/rigid_transform.h"
@@ -19,7 +18,6 @@ struct Meeting {
   };
   Answer answer = Answer::kOpen;
   Eigen::Vector3d common_in_world = Eigen::Vector3d::Zero();  // of kMeets
-  bool is_on_face = false;                                    // the common point is on the part's surface
 };
 
 // The part is its surface, and if it is closed what that encloses (cavities are outside). Ends with the first
