@@ -23,9 +23,10 @@ using Eigen::Vector3d;
 // Points from which the deepest is looked for, and rays that a direction begins with.
 constexpr std::size_t kStarts = 3;
 constexpr std::size_t kFirstWitnesses = 12;
-// The best direction is turned by so much, then by half as much, and so on.
+// The best direction is turned by so much to four sides, for as long as that helps, then by half as much.
 constexpr double kFirstTurnRad = core::RadiansFromDegrees(16.0);
-constexpr int kTurns = 4;
+constexpr double kLastTurnRad = core::RadiansFromDegrees(2.0);
+constexpr int kMostTurns = 16;
 // Steps towards the deepest point, as shares of the part's size at first.
 constexpr double kFirstStep = 0.25;
 constexpr int kMostSteps = 200;
@@ -149,15 +150,16 @@ class PenetrationSearch {
     return true;
   }
 
-  // The best direction, turned to four sides.
   void Turn() {
     double turn_rad = kFirstTurnRad;
-    for (int i = 0; i < kTurns && result_.upper_mm - result_.lower_mm > tolerance_mm_; ++i) {
+    for (int i = 0; i < kMostTurns && turn_rad >= kLastTurnRad; ++i) {
+      if (result_.upper_mm - result_.lower_mm <= tolerance_mm_) return;
       const Vector3d best = result_.direction_in_world;
       const Vector3d across = best.unitOrthogonal(), other = best.cross(across);
+      bool is_better = false;
       for (const Vector3d& side : {across, other, Vector3d(-across), Vector3d(-other)})
-        Try((std::cos(turn_rad) * best + std::sin(turn_rad) * side).normalized());
-      turn_rad *= 0.5;
+        is_better |= Try((std::cos(turn_rad) * best + std::sin(turn_rad) * side).normalized());
+      if (!is_better) turn_rad *= 0.5;
     }
   }
 

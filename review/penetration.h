@@ -27,7 +27,7 @@ struct Penetration {
 };
 
 // Lower: a ball in the hull and one in the part about the same point still meet while the part moves less
-// than both radii together; upper: the best of some sixty directions by FindFreeing (docs/recovery.md). Both
+// than both radii together; upper: the best of some fifty directions by FindFreeing (docs/recovery.md). Both
 // always hold; how near they come to each other depends on the shapes. `contact`: of the same part and hull.
 // Its own work is some ten thousand ball queries and hundreds of exact rays: for a result that is looked
 // at, not for every frame. Throws: PreconditionError unless the contact's verdict is contact and the
