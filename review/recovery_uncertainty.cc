@@ -23,7 +23,8 @@ constexpr double kGrazing = 0.17;
 constexpr double kFootprintPx = 1.0;
 
 // The largest width of a pixel at a point, over the cameras that look towards it.
-double LargestPixelMm(const core::Rig& rig, const recon::VisualHull& hull, const Vector3d& x_in_world) {
+double LargestPixelMm(const recon::VisualHull& hull, const Vector3d& x_in_world) {
+  const core::Rig& rig = hull.rig();
   double largest_mm = 0.0;
   for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
     const double depth_mm = (rig.cameras[i].cam_from_world() * x_in_world).z();
@@ -78,7 +79,7 @@ RecoveryUncertainty UncertaintyOf(const recon::VisualHull& hull, const core::Par
   const Recovery& recovery = *contact.recovery;
   RecoveryUncertainty result;
   result.cp_obj_mm =
-      contact.resolution_mm + silhouette_px * LargestPixelMm(hull.rig(), hull, recovery.cp_obj_in_world_mm);
+      contact.resolution_mm + silhouette_px * LargestPixelMm(hull, recovery.cp_obj_in_world_mm);
   result.v_rec_rad = AngleOfWay(recovery, way, result.cp_obj_mm);
   if (contact.recovery_status == core::RecoveryStatus::kNoExit) return result;
   const auto edges = EdgesAt(hull, recovery.cp_hull_in_world_mm, silhouette_px);

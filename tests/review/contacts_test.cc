@@ -220,7 +220,8 @@ TEST(FindContacts, RecoveryBacksOutOfTheNearFace) {
 
 TEST(FindContacts, ReferenceOfTheCallersChoice) {
   ContactOptions options = Fine();
-  options.recovery.reference_in_part_mm = Vector3d(20, 0, 0);  // world (80, 0, 0): outside, though the centre is inside
+  options.recovery.reference_in_part_mm =
+      Vector3d(20, 0, 0);  // world (80, 0, 0): outside, though the centre is inside
   const core::RigidTransform world_from_part{Eigen::Matrix3d::Identity(), Vector3d(60, 0, 0)};
   const TriangleMesh part = BoxAround(Vector3d(-20, 0, 0), 60.0);
   EXPECT_EQ(Find(BoxHull(), part, Fine(), world_from_part).recovery_status,

@@ -21,7 +21,8 @@ namespace {
 using Eigen::Vector3d;
 using recon::Random;
 
-constexpr double kBallMm = 60.0;
+constexpr double kSmallestBallMm = 20.0, kLargestBallMm = 60.0;
+constexpr double kOffCentre = 0.3;  // of the radius: how far CP_obj is from the centre, at most
 constexpr double kReferenceMm = 250.0;
 // The bounds are of first order; a round surface adds a little of second.
 constexpr double kFirstOrder = 1.05;
@@ -32,17 +33,19 @@ double DegreesBetween(const Vector3d& a, const Vector3d& b) {
 }
 
 struct Scene {
-  explicit Scene(const Vector3d& ball_center)
+  explicit Scene(Random* random)
       : rig(std::make_shared<const core::Rig>(recon::MakeViewScene(recon::ViewSceneRig::kThree).rig)),
-        center(ball_center) {
+        center(random->Uniform(-150, 150), random->Uniform(-150, 150), random->Uniform(150, 350)),
+        radius_mm(random->Uniform(kSmallestBallMm, kLargestBallMm)) {
     const std::vector<recon::Solid> solids = {
-        {recon::Sphere{kBallMm}, {Eigen::Matrix3d::Identity(), center}, Vector3d::Constant(200.0)}};
+        {recon::Sphere{radius_mm}, {Eigen::Matrix3d::Identity(), center}, Vector3d::Constant(200.0)}};
     for (const core::CameraModel& camera : rig->cameras)
       masks.push_back(oracles::CoverageMask(camera, solids, kSharpPicturePx));
   }
 
   std::shared_ptr<const core::Rig> rig;
   Vector3d center;
+  double radius_mm;
   std::vector<core::SoftMask> masks;
 };
 
@@ -53,7 +56,7 @@ std::optional<Vector3d> NormalAt(const Scene& scene, const Vector3d& x, double e
     const Vector3d sight = (x - camera.center_in_world()).normalized();
     const Vector3d from_center = camera.center_in_world() - scene.center;
     const Vector3d out = from_center - from_center.dot(sight) * sight;
-    cones.emplace_back(out.norm() - kBallMm, out.normalized());
+    cones.emplace_back(out.norm() - scene.radius_mm, out.normalized());
   }
   std::ranges::sort(cones, [](const auto& a, const auto& b) { return a.first > b.first; });
   if (cones[1].first > cones[0].first - edge_mm) return std::nullopt;
@@ -65,14 +68,14 @@ TEST(RecoveryAccuracy, HullPointToAFiftiethOfAMillimetreAndNormalToADegree) {
   Random random(7601);
   std::vector<double> normal_deg;
   for (int ball = 0; ball < 4; ++ball) {
-    const Scene scene(
-        Vector3d(random.Uniform(-150, 150), random.Uniform(-150, 150), random.Uniform(150, 350)));
+    const Scene scene(&random);
     const recon::VisualHull hull = recon::MakeVisualHull(scene.rig, scene.masks);
     const oracles::MaskHullOracle oracle(*scene.rig, scene.masks,
                                          oracles::BoundaryConvention::kMarchingSquares);
     for (int ray = 0; ray < 40; ++ray) {
       const Vector3d v_rec = random.Direction();
-      const Vector3d cp_obj = scene.center + random.Uniform(0.0, 20.0) * random.Direction();
+      const Vector3d cp_obj =
+          scene.center + random.Uniform(0.0, kOffCentre) * scene.radius_mm * random.Direction();
       const Vector3d rp_obj = cp_obj + kReferenceMm * v_rec;
       const RecoveryAnswer answer = Recover(hull, cp_obj, {.rp_obj = rp_obj});
       ASSERT_EQ(answer.status, core::RecoveryStatus::kFound);
@@ -116,13 +119,13 @@ TEST(RecoveryAccuracy, ShiftedSilhouettesStayWithinTheUncertainty) {
   int compared = 0, grazing = 0, at_edge = 0;
   double used = 0.0;
   for (int trial = 0; trial < 5; ++trial) {
-    const Scene scene(
-        Vector3d(random.Uniform(-150, 150), random.Uniform(-150, 150), random.Uniform(150, 350)));
+    const Scene scene(&random);
     const recon::VisualHull hull = recon::MakeVisualHull(scene.rig, scene.masks);
     const double shift_px = random.Uniform(0.1, 1.0);
     const recon::VisualHull shifted = ShiftedHull(scene, shift_px, &random);
     for (int ray = 0; ray < 160; ++ray) {
-      const Vector3d cp_obj = scene.center + random.Uniform(0.0, 20.0) * random.Direction();
+      const Vector3d cp_obj =
+          scene.center + random.Uniform(0.0, kOffCentre) * scene.radius_mm * random.Direction();
       const RecoveryWay way = ray % 2 == 0 ? RecoveryWay{.rp_obj = cp_obj + kReferenceMm * random.Direction()}
                                            : RecoveryWay{.kind = core::RecoveryKind::kDirection,
                                                          .rp_obj = scene.center,
