@@ -32,11 +32,18 @@ toml::table ToToml(const core::Part& part) {
         core::ErrorKind::kCad,
         fmt::format("part '{}' has no file; write its mesh and name the file first", part.name));
   }
-  return toml::table{{"name", part.name},
-                     {"file", part.file},
-                     {"unit", core::ToString(part.unit)},
-                     {"position_mm", ToToml(part.world_from_part.translation_mm)},
-                     {"rotation_rpy_deg", ToToml(RollPitchYawDeg(part.world_from_part.rotation))}};
+  toml::table table{{"name", part.name},
+                    {"file", part.file},
+                    {"unit", core::ToString(part.unit)},
+                    {"position_mm", ToToml(part.world_from_part.translation_mm)},
+                    {"rotation_rpy_deg", ToToml(RollPitchYawDeg(part.world_from_part.rotation))}};
+  const core::RecoveryRule& recovery = part.recovery;
+  if (recovery.reference_in_part_mm) table.insert("reference_mm", ToToml(*recovery.reference_in_part_mm));
+  if (recovery.kind != core::RecoveryKind::kReference)
+    table.insert("recovery", core::ToString(recovery.kind));
+  if (recovery.axis_in_part) table.insert("recovery_axis", ToToml(*recovery.axis_in_part));
+  if (recovery.at_in_part_mm) table.insert("recovery_at_mm", ToToml(*recovery.at_in_part_mm));
+  return table;
 }
 
 toml::table ToToml(const core::Spacing& spacing) {
@@ -57,14 +64,17 @@ toml::table ToToml(const core::PairRule& rule) {
                      {"ignore", rule.ignore}};
 }
 
-// "[[key]]" and its keys in the order given, one a line (a toml::table would sort them).
+// "[[key]]" and those of its keys that it has, in the order given, one a line (a toml::table would sort
+// them).
 template <typename Value>
 void WriteEntries(std::ostream& out, const char* key, const std::vector<Value>& values,
                   std::initializer_list<const char*> order) {
   for (const Value& value : values) {
     const toml::table table = ToToml(value);
     out << "\n[[" << key << "]]\n";
-    for (const char* name : order) out << name << " = " << toml::node_view(table.at(name)) << '\n';
+    for (const char* name : order) {
+      if (const toml::node* node = table.get(name)) out << name << " = " << toml::node_view(*node) << '\n';
+    }
   }
 }
 
@@ -73,10 +83,13 @@ void WriteEntries(std::ostream& out, const char* key, const std::vector<Value>& 
 void WriteLayoutFile(const core::Layout& layout, const std::filesystem::path& path) {
   std::ostringstream out;
   out << "unit = \"" << core::ToString(layout.unit) << "\"\n";
-  WriteEntries(out, "part", layout.parts, {"name", "file", "unit", "position_mm", "rotation_rpy_deg"});
+  WriteEntries(out, "part", layout.parts,
+               {"name", "file", "unit", "position_mm", "rotation_rpy_deg", "reference_mm", "recovery",
+                "recovery_axis", "recovery_at_mm"});
   WriteEntries(out, "spacing", layout.spacings,
                {"name", "moving", "reference", "axis", "min_mm", "max_mm", "initial_mm"});
-  WriteEntries(out, "pair", layout.pair_rules, {"a", "b", "required_clearance_mm", "authorised_contact", "ignore"});
+  WriteEntries(out, "pair", layout.pair_rules,
+               {"a", "b", "required_clearance_mm", "authorised_contact", "ignore"});
   core::WriteWholeFile(path, out.str());
 }
 

@@ -24,23 +24,30 @@ struct ContactPoint {
   double area_mm2 = 0.0;  // of the surface piece that it stands for
 };
 
-// The paper's response: how to back the part out of the hull along V_rec.
+// The paper's response: how to back the part out of the hull, the way its constraint lets it go
+// (core::RecoveryRule). Of a hinge the way is an arc, and V_rec its tangent at CP_obj.
 struct Recovery {
   Eigen::Vector3d cp_obj_in_world_mm = Eigen::Vector3d::Zero();   // contact point farthest from RP_obj
-  Eigen::Vector3d cp_hull_in_world_mm = Eigen::Vector3d::Zero();  // where V_rec leaves the hull
-  Eigen::Vector3d v_rec_in_world = Eigen::Vector3d::Zero();       // unit, CP_obj to RP_obj
-  double d_rec_mm = 0.0;
+  Eigen::Vector3d cp_hull_in_world_mm = Eigen::Vector3d::Zero();  // where CP_obj's way leaves the hull
+  Eigen::Vector3d v_rec_in_world = Eigen::Vector3d::Zero();       // unit, the way CP_obj sets out
+  double d_rec_mm = 0.0;                                          // of CP_obj's way; along the arc
   std::optional<Eigen::Vector3d> n_hull_in_world;  // unit, out of the hull; nothing on a workspace face
+  std::optional<double> angle_rad = {};            // of a hinge: signed about its axis
 };
 
+// docs/recovery.md says what is known with each.
 enum class RecoveryStatus {
   kFound,
   kNoContact,
-  kReferenceInsideHull,  // V_rec never leaves the hull before RP_obj
-  kNoDirection,          // CP_obj and RP_obj coincide
+  kReferenceInsideHull,  // RP_obj is no way out: V_rec is followed on, past it where need be
+  kNoDirection,          // CP_obj and RP_obj coincide, or CP_obj is on the hinge's axis: no recovery
+  kNoExit,               // nothing but the end of what the cameras see ends the way: D_rec is a lower bound
+  kHullInsidePart,       // no face of the part is in the hull, so there is no CP_obj: no recovery
+  kOnSurface,            // CP_obj is on the hull's surface: D_rec is 0
 };
 
 [[nodiscard]] std::string_view ToString(RecoveryStatus status);
+[[nodiscard]] std::optional<RecoveryStatus> ParseRecoveryStatus(std::string_view text);
 
 // How much work one answer took and how much it was spared.
 struct QueryCount {

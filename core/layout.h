@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/ids.h"
+#include "core/recovery_rule.h"
 #include "core/rigid_transform.h"
 #include "core/triangle_mesh.h"
 #include "core/units.h"
@@ -21,6 +22,7 @@ struct Part {
   LengthUnit unit = LengthUnit::kMillimetre;  // of the file; the mesh is in millimetres
   SharedMesh mesh;
   RigidTransform world_from_part;  // as authored, before spacings
+  RecoveryRule recovery = {};      // how it gives way to the hull
 };
 
 enum class Axis { kX, kY, kZ };
@@ -55,7 +57,8 @@ struct Layout {
   std::vector<PairRule> pair_rules;
 
   // Throws: Error{kRange} naming the part, spacing or pair: duplicate or unknown names, a part without a
-  // mesh, limits not in order, a spacing whose moving part is its own reference, circular spacings.
+  // mesh or with a recovery that can't be used, limits not in order, a spacing whose moving part is its own
+  // reference, circular spacings.
   void Validate() const;
 
   [[nodiscard]] std::optional<PartIndex> FindPart(std::string_view name) const;

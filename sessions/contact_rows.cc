@@ -20,21 +20,13 @@ constexpr const char* kContactColumns =
     "c.deepest_depth_mm, c.deepest_area_mm2, c.deepest_x_mm, c.deepest_y_mm, c.deepest_z_mm, "
     "c.d_rec_mm, c.cp_obj_x_mm, c.cp_obj_y_mm, c.cp_obj_z_mm, c.cp_hull_x_mm, c.cp_hull_y_mm, "
     "c.cp_hull_z_mm, "
-    "c.v_rec_x, c.v_rec_y, c.v_rec_z, c.n_hull_x, c.n_hull_y, c.n_hull_z ";
-constexpr int kContactColumnCount = 27;
+    "c.v_rec_x, c.v_rec_y, c.v_rec_z, c.n_hull_x, c.n_hull_y, c.n_hull_z, c.recovery_angle_rad ";
+constexpr int kContactColumnCount = 28;
 
 [[noreturn]] void FailAsUnknown(const Database& database, const std::string& what, const std::string& text) {
   throw Error(ErrorKind::kFormat,
               fmt::format("session '{}': no {} is called '{}'; restore the file from a copy",
                           database.path().string(), what, text));
-}
-
-core::RecoveryStatus ParseRecoveryStatus(const Database& database, const std::string& text) {
-  using enum core::RecoveryStatus;
-  for (const core::RecoveryStatus status : {kFound, kNoContact, kReferenceInsideHull, kNoDirection}) {
-    if (core::ToString(status) == text) return status;
-  }
-  FailAsUnknown(database, "recovery status", text);
 }
 
 core::Recovery ReadRecovery(const Statement& row) {
@@ -44,6 +36,7 @@ core::Recovery ReadRecovery(const Statement& row) {
   recovery.cp_hull_in_world_mm = row.Vector(18);
   recovery.v_rec_in_world = row.Vector(21);
   if (!row.IsNull(24)) recovery.n_hull_in_world = row.Vector(24);
+  if (!row.IsNull(27)) recovery.angle_rad = row.Real(27);
   return recovery;
 }
 
@@ -56,7 +49,9 @@ core::PartContact ReadContact(const Statement& row, const Database& database) {
   contact.resolution_mm = row.Real(2);
   contact.count = {row.Integer(3), row.Integer(4), row.Integer(5)};
   if (row.IsNull(6)) return contact;
-  contact.recovery_status = ParseRecoveryStatus(database, row.Text(6));
+  const auto recovery_status = core::ParseRecoveryStatus(row.Text(6));
+  if (!recovery_status) FailAsUnknown(database, "recovery status", row.Text(6));
+  contact.recovery_status = *recovery_status;
   contact.contact_area_mm2 = row.Real(7);
   contact.contact_point_count = row.Integer(8);
   if (!row.IsNull(9)) contact.deepest = core::ContactPoint{row.Vector(11), row.Real(9), row.Real(10)};

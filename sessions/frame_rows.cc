@@ -72,7 +72,8 @@ FrameInserter::FrameInserter(Database& database)
       insert_part_frame_(database, "INSERT INTO part_frame VALUES (?, ?, ?, ?, ?, ?, ?)"),
       insert_contact_(
           database,
-          "INSERT INTO contact VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)"),
+          "INSERT INTO contact VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, "
+          "?)"),
       insert_point_(database, "INSERT INTO contact_point VALUES (?, ?, ?, ?, ?, ?, ?, ?)") {}
 
 void FrameInserter::Insert(const core::FrameRecord& record) {
@@ -121,7 +122,8 @@ void FrameInserter::InsertEvidence(core::FrameIndex frame, const core::PartConta
             core::ToString(contact.recovery_status), recovery ? Point(recovery->cp_obj_in_world_mm) : Point(),
             recovery ? Point(recovery->cp_hull_in_world_mm) : Point(),
             recovery ? Point(recovery->v_rec_in_world) : Point(),
-            recovery ? Number(recovery->d_rec_mm) : Number(), recovery ? recovery->n_hull_in_world : Point())
+            recovery ? Number(recovery->d_rec_mm) : Number(), recovery ? recovery->n_hull_in_world : Point(),
+            recovery ? recovery->angle_rad : Number())
       .Run();
   for (std::size_t i = 0; i < contact.points.size(); ++i) {
     const core::ContactPoint& point = contact.points[i];

@@ -74,9 +74,14 @@ void FramePipeline::UpdateContacts(FrameResult* result) {
   tbb::parallel_for(std::size_t{0}, parts, [&](std::size_t i) {
     is_unchanged[i] =
         last_ && last_->hull == result->hull && last_->world_from_parts[i] == result->world_from_parts[i];
+    if (is_unchanged[i]) {
+      result->contacts[i] = last_->contacts[i];
+      return;
+    }
+    review::ContactOptions options;
+    options.recovery = layout_->parts[i].recovery;
     result->contacts[i] =
-        is_unchanged[i] ? last_->contacts[i]
-                        : review::FindContacts(*result->hull, part_trees_[i], result->world_from_parts[i], i);
+        review::FindContacts(*result->hull, part_trees_[i], result->world_from_parts[i], i, options);
   });
   for (std::size_t i = 0; i < parts; ++i) {
     if (is_unchanged[i]) {

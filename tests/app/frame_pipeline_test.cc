@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "app/control/demo_parts.h"
 #include "recon/synthetic/demo_motion.h"
 #include "recon/synthetic/rig_presets.h"
@@ -72,6 +74,26 @@ TEST_F(FramePipelineTest, WhatCameBeforeDoesntChangeAFrame) {
     (void)warm.Process(MasksOf(frame), gap);
   FramePipeline cold = MakePipeline();
   ExpectSameContacts(*warm.Process(MasksOf(kTouching), gap), *cold.Process(MasksOf(kTouching), gap));
+}
+
+TEST_F(FramePipelineTest, PartsGiveWayAsTheirLayoutSays) {
+  core::Layout layout = DemoLayout();
+  for (core::Part& part : layout.parts)
+    part.recovery = {core::RecoveryKind::kSlider, {}, Eigen::Vector3d(0, 2, 0), {}};
+  FramePipeline pipeline(source_.rig(), layout, std::vector<recon::BackgroundReference>(4), {});
+  const std::vector<double> gap = {kGapInitialMm};
+  int recovered = 0;
+  for (core::FrameIndex frame = 0; frame < 3 * kTouching; frame += 20) {
+    const SharedFrameResult result = pipeline.Process(MasksOf(frame), gap);
+    for (std::size_t i = 0; i < result->contacts.size(); ++i) {
+      const auto& recovery = result->contacts[i].recovery;
+      if (!recovery) continue;
+      ++recovered;
+      const Eigen::Vector3d axis = result->world_from_parts[i].rotation.col(1);
+      EXPECT_NEAR(std::abs(recovery->v_rec_in_world.dot(axis)), 1.0, 1e-12);
+    }
+  }
+  EXPECT_GT(recovered, 0);
 }
 
 TEST_F(FramePipelineTest, AnEmptySceneTouchesNothingAndAsksNothing) {

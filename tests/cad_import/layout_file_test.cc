@@ -248,6 +248,38 @@ TEST_F(LayoutFile, WhatIsWrittenComesBack) {
   EXPECT_TRUE(back.pair_rules[0].authorised_contact);
 }
 
+TEST_F(LayoutFile, APartsWayOutOfTheHullArrivesAndComesBack) {
+  const auto path = WriteWith("unit = \"in\"\n",
+                              "reference_mm = [1, 2.5, -3]\nrecovery = \"hinge\"\n"
+                              "recovery_axis = [0, 0, 2]\nrecovery_at_mm = [4, 5, 6]\n");
+  const core::Layout layout = ImportLayoutFile(path).layout;
+  EXPECT_EQ(layout.parts[0].recovery, core::RecoveryRule());
+  const core::RecoveryRule hinge{core::RecoveryKind::kHinge, Eigen::Vector3d(1, 2.5, -3),
+                                 Eigen::Vector3d(0, 0, 2), Eigen::Vector3d(4, 5, 6)};
+  EXPECT_EQ(layout.parts[1].recovery, hinge) << "in millimetres, whatever the part's unit";
+  WriteLayoutFile(layout, folder_ / "copy.toml");
+  const core::Layout back = ImportLayoutFile(folder_ / "copy.toml").layout;
+  for (std::size_t i = 0; i < layout.parts.size(); ++i)
+    EXPECT_EQ(back.parts[i].recovery, layout.parts[i].recovery);
+}
+
+TEST_F(LayoutFile, AWayOutThatMakesNoSenseIsNamedWithItsLine) {
+  const auto message = [&](const std::string& keys) {
+    return ErrorAtLine(12, "unit = \"in\"\n", keys + "\n");
+  };
+  EXPECT_TRUE(Mentions(message("recovery = \"sideways\""), "key 'recovery' must be \"reference\","));
+  EXPECT_TRUE(
+      Mentions(message("recovery = \"slider\""),
+               "[[part]]: key 'recovery' (slider): a direction, slider or hinge needs an axis; add it"));
+  EXPECT_TRUE(
+      Mentions(message("recovery_axis = [0, 0, 1]"), "key 'recovery_axis' (reference): an axis has no"));
+  EXPECT_TRUE(
+      Mentions(message("recovery_at_mm = [0, 0, 1]"), "only a hinge has a point of its axis; remove it"));
+  EXPECT_TRUE(Mentions(message("recovery = \"slider\"\nrecovery_axis = [0, 0, 0]"), "must not be zero"));
+  EXPECT_TRUE(Mentions(message("reference_mm = [0, 0]"), "key 'reference_mm' must be three numbers"));
+  EXPECT_TRUE(Mentions(message("recovery_axes = [0, 0, 1]"), "did you mean 'recovery_axis'?"));
+}
+
 TEST_F(LayoutFile, APartWithoutAFileCantBeWritten) {
   core::Layout layout = ImportLayoutFile(Write(kLayout)).layout;
   layout.parts[1].file.clear();

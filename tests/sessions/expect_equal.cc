@@ -17,6 +17,7 @@ void ExpectEqual(const core::Recovery& actual, const core::Recovery& expected) {
   EXPECT_EQ(actual.v_rec_in_world, expected.v_rec_in_world);
   EXPECT_EQ(actual.d_rec_mm, expected.d_rec_mm);
   EXPECT_EQ(actual.n_hull_in_world, expected.n_hull_in_world);
+  EXPECT_EQ(actual.angle_rad, expected.angle_rad);
 }
 
 void ExpectEqual(const core::Rig& actual, const core::Rig& expected) {
@@ -47,6 +48,7 @@ void ExpectEqual(const core::Layout& actual, const core::Layout& expected) {
     EXPECT_EQ(actual.parts[i].unit, expected.parts[i].unit);
     EXPECT_EQ(*actual.parts[i].mesh, *expected.parts[i].mesh);
     EXPECT_EQ(actual.parts[i].world_from_part, expected.parts[i].world_from_part);
+    EXPECT_EQ(actual.parts[i].recovery, expected.parts[i].recovery);
   }
   ASSERT_EQ(actual.spacings.size(), expected.spacings.size());
   for (core::SpacingIndex i = 0; i < expected.spacings.size(); ++i) {

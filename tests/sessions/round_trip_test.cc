@@ -31,6 +31,32 @@ TEST(SessionRoundTrip, HeaderComesBackExactly) {
   EXPECT_EQ(reader.ended_at_utc()->size(), std::string_view("2024-03-01T09:30:00Z").size());
 }
 
+TEST(SessionRoundTrip, EveryWayOutOfTheHullComesBackExactly) {
+  using enum core::RecoveryStatus;
+  const TemporaryFolder folder;
+  core::SessionHeader header = SampleHeader();
+  const Eigen::Vector3d axis(1.0 / 3.0, -2e-9, 7.0), at(0.1, 0.2, 5e300);
+  header.layout.parts[0].recovery = {core::RecoveryKind::kHinge, {}, axis, at};
+  header.layout.parts[1].recovery = {core::RecoveryKind::kSlider, at, axis, {}};
+  header.layout.parts[2].recovery = {core::RecoveryKind::kReference, at, {}, {}};
+  std::vector<core::FrameRecord> frames;
+  for (const core::RecoveryStatus status :
+       {kFound, kReferenceInsideHull, kNoExit, kHullInsidePart, kOnSurface}) {
+    core::FrameRecord record = SampleFrame(header, static_cast<core::FrameIndex>(frames.size()), kSeed);
+    record.contacts[0].recovery_status = status;
+    record.contacts[0].recovery->angle_rad = -1.0 / 3.0;
+    frames.push_back(std::move(record));
+  }
+  {
+    SessionWriter writer(folder / "s.db", header);
+    for (const core::FrameRecord& frame : frames) writer.Append(frame);
+    writer.Finish({});
+  }
+  const SessionReader reader(folder / "s.db");
+  ExpectEqual(reader.header(), header);
+  for (const core::FrameRecord& frame : frames) ExpectEqual(reader.ReadFrame(frame.frame), frame);
+}
+
 TEST(SessionRoundTrip, EqualMeshesAreKeptOnceInTheFileAndInMemory) {
   const TemporaryFolder folder;
   WriteSampleSession(folder / "s.db", 1);

@@ -40,8 +40,12 @@ TEST(Schema, EveryVersionIsTheOneOnRecord) {
   const TemporaryFolder folder;
   sessions::Database::Create(folder / "1.db").Execute(sessions::Schema1Sql());
   EXPECT_EQ(SchemaOf(folder / "1.db"), Contents(kStored / "schema_1.sql"));
-  WriteSampleSession(folder / "2.db", 1);
+  sessions::Database second = sessions::Database::Create(folder / "2.db");
+  second.Execute(sessions::Schema1Sql());
+  second.Execute(sessions::Schema2Sql());
   EXPECT_EQ(SchemaOf(folder / "2.db"), Contents(kStored / "schema_2.sql"));
+  WriteSampleSession(folder / "3.db", 1);
+  EXPECT_EQ(SchemaOf(folder / "3.db"), Contents(kStored / "schema_3.sql"));
 }
 
 TEST(Schema, AnEmptyDatabaseBecomesTheNewestSchemaAndMigratingAgainChangesNothing) {
@@ -57,7 +61,7 @@ TEST(Schema, AnEmptyDatabaseBecomesTheNewestSchemaAndMigratingAgainChangesNothin
 }
 
 TEST(Schema, StoredSessionsOfEverySchemaAreRead) {
-  for (const int schema : {1, 2}) {
+  for (const int schema : {1, 2, 3}) {
     const SessionReader reader(kStored / fmt::format("session_schema_{}.db", schema));
     ExpectEqual(reader.header(), SampleHeader());
     ASSERT_EQ(reader.frame_count(), 6);
@@ -70,13 +74,17 @@ TEST(Schema, StoredSessionsOfEverySchemaAreRead) {
   }
 }
 
-TEST(Schema, ADatabaseOfSchema1BecomesOneOfSchema2) {
+TEST(Schema, ADatabaseOfAnOlderSchemaBecomesOneOfTheNewest) {
   const TemporaryFolder folder;
-  sessions::Database database = sessions::Database::Create(folder / "s.db");
-  database.Execute(sessions::Schema1Sql());
-  database.Execute("PRAGMA user_version = 1");
-  sessions::Migrate(database);
-  EXPECT_EQ(SchemaOf(folder / "s.db"), Contents(kStored / "schema_2.sql"));
+  for (const int schema : {1, 2}) {
+    const std::filesystem::path path = folder / fmt::format("{}.db", schema);
+    sessions::Database database = sessions::Database::Create(path);
+    database.Execute(sessions::Schema1Sql());
+    if (schema == 2) database.Execute(sessions::Schema2Sql());
+    database.Execute(fmt::format("PRAGMA user_version = {}", schema));
+    sessions::Migrate(database);
+    EXPECT_EQ(SchemaOf(path), Contents(kStored / "schema_3.sql"));
+  }
 }
 
 TEST(Schema, AnOlderSchemaIsMigratedInMemoryAndTheFileStays) {
@@ -93,8 +101,8 @@ TEST(Schema, AnOlderSchemaIsMigratedInMemoryAndTheFileStays) {
 TEST(Schema, ANewerSchemaIsNamed) {
   const TemporaryFolder folder;
   WriteSampleSession(folder / "s.db", 1);
-  SQLite::Database((folder / "s.db").string(), SQLite::OPEN_READWRITE).exec("PRAGMA user_version = 3");
-  ExpectError([&] { SessionReader(folder / "s.db"); }, core::ErrorKind::kFormat, "has schema 3");
+  SQLite::Database((folder / "s.db").string(), SQLite::OPEN_READWRITE).exec("PRAGMA user_version = 4");
+  ExpectError([&] { SessionReader(folder / "s.db"); }, core::ErrorKind::kFormat, "has schema 4");
 }
 
 TEST(Schema, CountsAndFlagsOutOfRangeAreRefusedByTheDatabaseItself) {
