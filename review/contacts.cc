@@ -127,7 +127,8 @@ class ContactSearch {
   // True if the triangle's ball, or what it covers in the pictures, settles it.
   bool AskTriangle(const Corners& triangle, const core::Ball& ball, recon::OpenCameras* open, Patch* patch) {
     BallAnswer answer = Ask(ball, open);
-    if (answer == BallAnswer::kMixed) {
+    if (answer == BallAnswer::kMixed &&
+        2.0 * ball.radius_mm > recon::CutTriangle::kMostSides * resolution_mm_) {
       ++count_.queries;
       answer = hull_.Classify(recon::WorldShape::Triangle(triangle.a, triangle.b, triangle.c), open);
     }
