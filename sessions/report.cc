@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "core/error.h"
+#include "sessions/clearance_csv.h"
 #include "sessions/contacts_csv.h"
 #include "sessions/report_data.h"
 #include "sessions/report_page.h"
@@ -37,7 +38,8 @@ void WriteReport(const SessionReader& session, const ReportPictures& pictures,
   if (pictures.overview_png) RequirePng(*pictures.overview_png);
   const ReportData data = CollectReportData(session);
   WriteWholeFiles(out_dir, {{"report.html", ReportPage(data, pictures)},
-                            {"contacts.csv", ContactsCsv(data.header.layout, data.contacts)}});
+                            {"contacts.csv", ContactsCsv(data.header.layout, data.contacts)},
+                            {"clearance.csv", ClearanceCsv(data.header, session.clearances())}});
 }
 
 }  // namespace elbowroom::sessions

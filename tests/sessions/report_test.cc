@@ -126,7 +126,7 @@ TEST(Report, EscapesEveryTextFromOutside) {
     writer.Append(core::SessionEvent{1, 0.1, core::Note{hostile}});
     writer.Append(core::SessionEvent{1, 0.1, core::ToolMarked{hostile, true}});
     writer.Append(core::SessionEvent{4, 0.1, core::SpacingChanged{hostile, 140.0, 240.0}});
-    writer.Finish(SampleEpisodes(0, 19));
+    writer.Finish({SampleEpisodes(0, 19), {}, {}});
   }
   const std::string html = ReportOf(folder / "s.db", folder.path(), {kPng, hostile, std::nullopt});
   EXPECT_EQ(html.find("alert('x')"), std::string::npos);
