@@ -36,6 +36,7 @@ void WriteReport(const SessionReader& session, const ReportPictures& pictures,
                  const std::filesystem::path& out_dir) {
   if (!pictures.worst_moment_png.empty()) RequirePng(pictures.worst_moment_png);
   if (pictures.overview_png) RequirePng(*pictures.overview_png);
+  for (const ReportPictures::Heat& heat : pictures.heat) RequirePng(heat.png);
   const ReportData data = CollectReportData(session);
   WriteWholeFiles(out_dir, {{"report.html", ReportPage(data, pictures)},
                             {"contacts.csv", ContactsCsv(data.header.layout, data.contacts)},

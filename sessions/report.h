@@ -17,6 +17,11 @@ struct ReportPictures {
   std::vector<unsigned char> worst_moment_png;  // empty: the report has no such picture
   std::string caption;                          // of the worst moment
   std::optional<std::vector<unsigned char>> overview_png;
+  struct Heat {
+    core::PartIndex part = 0;
+    std::vector<unsigned char> png;
+  };
+  std::vector<Heat> heat = {};  // where each touched part was touched
 };
 
 // The touch to draw: the deepest, ties go to the larger area, then to the earlier. Nothing if nothing

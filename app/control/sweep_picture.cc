@@ -90,15 +90,23 @@ double HighestMm(const review::SpacingStudy& study) {
   return 1.05 * highest_mm;
 }
 
+// Where a step was asked; in between, lines only join.
+LineDrawing::Area DotAt(const LineDrawing::Point& at, const char* color) {
+  constexpr double kHalf = 3.5;
+  return {{{at.x - kHalf, at.y - kHalf}, {at.x + kHalf, at.y + kHalf}}, color};
+}
+
 void AddPart(const review::SpacingStudy& study, core::PartIndex part, std::size_t color,
              const sessions::Plot& frames, const sessions::Plot& clearance, LineDrawing* drawing) {
   LineDrawing::Line contacts{{}, kColors[color], 2.0}, lower{{}, kColors[color], 1.0}, upper = lower;
   LineDrawing::Area band{{}, kPaleColors[color]};
   for (const review::StudyStep& step : study.steps) {
     const review::PartAtSpacing& at = step.parts[part];
-    const double x = frames.X(step.spacing_mm);
-    contacts.points.push_back({x, frames.Y(static_cast<double>(at.frames_in_contact))});
+    const double x = frames.X(step.spacing_mm), y = frames.Y(static_cast<double>(at.frames_in_contact));
+    contacts.points.push_back({x, y});
+    drawing->areas.push_back(DotAt({x, y}, kColors[color]));
     if (!std::isfinite(at.upper_mm)) continue;
+    drawing->areas.push_back(DotAt({x, clearance.Y(at.upper_mm)}, kColors[color]));
     lower.points.push_back({x, clearance.Y(at.lower_mm)});
     upper.points.push_back({x, clearance.Y(at.upper_mm)});
   }
