@@ -124,6 +124,12 @@ LineDrawing ColorBar(const std::string& what, float most, const char* unit) {
   return drawing;
 }
 
+LineDrawing TurnedOverNote() {
+  LineDrawing note;
+  note.texts = {{{kViewPx, 22.0}, "seen from below: turned over", LineDrawing::Anchor::kMiddle, 14.0}};
+  return note;
+}
+
 void CopyInto(const recon::Image& view, int left_px, recon::Image* picture) {
   for (int y = 0; y < view.height_px; ++y) {
     const auto row = static_cast<std::size_t>(y);
@@ -155,6 +161,7 @@ recon::Image HeatPicture(recon::gl::SceneRenderer& renderer, const core::SharedM
   };
   add(map.dwell_s, "touched for", "s", 0);
   add(map.peak_depth_mm, "deepest", "mm", kViewPx);
+  if (!view.world_from_part.rotation.isIdentity()) PaintOn(&picture, TurnedOverNote());
   return picture;
 }
 
