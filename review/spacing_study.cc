@@ -69,6 +69,8 @@ class Study {
     for (std::size_t begin = 0; begin < frames_.count;)
       begin = AskBatch(begin, std::clamp(begin, std::size_t{1}, kLargestBatch));
     Conclude();
+    const auto all = static_cast<std::int64_t>(frames_.count);
+    progress_.Report(all, all, "frames");
     return std::move(result_);
   }
 
@@ -221,8 +223,11 @@ class Study {
   void Conclude() {
     std::size_t free = steps_mm_.size();
     Freedom below = Freedom::kFree;
-    for (; free > 0 && below == Freedom::kFree; free -= below == Freedom::kFree ? 1 : 0)
+    while (free > 0) {
       below = IsTouched(free - 1) ? Freedom::kTouched : FreedomAt(steps_mm_[free - 1]);
+      if (below != Freedom::kFree) break;
+      --free;
+    }
     for (std::size_t step = 0; step < free; ++step) {
       if (IsTouched(step) || (step + 1 == free && below == Freedom::kTouched))
         result_.largest_touched_mm = steps_mm_[step];
