@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/clearance.h"
 #include "core/ids.h"
 
 namespace elbowroom::core {
@@ -69,6 +70,7 @@ struct PartContact {
   std::optional<Recovery> recovery;
   double resolution_mm = 0.0;  // pieces of surface below this size were decided by their centre
   QueryCount count;
+  std::optional<PartClearance> clearance;  // nothing: no clearance is required
 };
 
 // One touch of one part: frames that follow each other with gaps no longer than the tracker's rule.
@@ -85,7 +87,26 @@ struct ContactEpisode {
   double peak_depth_mm = 0.0;
   double peak_area_mm2 = 0.0;  // of the peak frame
   Eigen::Vector3d peak_position_in_world_mm = Eigen::Vector3d::Zero();
-  std::vector<double> spacing_at_peak_mm;  // in the layout's order
+  std::optional<Eigen::Vector3d> peak_position_in_part_mm;  // nothing: recorded before it was kept
+  std::vector<double> spacing_at_peak_mm;                   // in the layout's order
+  std::vector<std::string> tools;  // marked in use in any of its frames in contact, in order of name
+};
+
+// A part came below its required clearance and went again, untouched.
+struct NearMiss {
+  EpisodeId id = 0;
+  PartIndex part = 0;
+  FrameIndex begin_frame = 0;
+  FrameIndex closest_frame = 0;  // least upper bound; ties go to the lower one, then the earlier frame
+  FrameIndex end_frame = 0;      // last frame that wasn't clear
+  double begin_time_s = 0.0;
+  double closest_time_s = 0.0;
+  double end_time_s = 0.0;
+  std::int64_t frames_below = 0;              // those that weren't clear
+  Verdict verdict = Verdict::kUndecided;      // near: some frame was surely below
+  PartClearance closest;                      // of the closest frame
+  std::vector<double> spacing_at_closest_mm;  // in the layout's order
+  std::vector<std::string> tools;             // marked in use meanwhile, in order of name
 };
 
 }  // namespace elbowroom::core

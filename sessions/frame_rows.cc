@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -74,7 +75,8 @@ FrameInserter::FrameInserter(Database& database)
           database,
           "INSERT INTO contact VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, "
           "?)"),
-      insert_point_(database, "INSERT INTO contact_point VALUES (?, ?, ?, ?, ?, ?, ?, ?)") {}
+      insert_point_(database, "INSERT INTO contact_point VALUES (?, ?, ?, ?, ?, ?, ?, ?)"),
+      insert_clearance_(database, "INSERT INTO clearance VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)") {}
 
 void FrameInserter::Insert(const core::FrameRecord& record) {
   insert_frame_.With(record.frame, record.time_s).Run();
@@ -108,6 +110,7 @@ void FrameInserter::InsertPart(core::FrameIndex frame, const core::PartContact& 
             contact.count.triangles, contact.count.queries, contact.count.skipped)
       .Run();
   if (HasEvidence(contact)) InsertEvidence(frame, contact);
+  if (contact.clearance) InsertClearance(frame, contact);
 }
 
 void FrameInserter::InsertEvidence(core::FrameIndex frame, const core::PartContact& contact) {
@@ -130,6 +133,21 @@ void FrameInserter::InsertEvidence(core::FrameIndex frame, const core::PartConta
     insert_point_.With(frame, contact.part, i, point.position_in_world_mm, point.depth_mm, point.area_mm2)
         .Run();
   }
+}
+
+void FrameInserter::InsertClearance(core::FrameIndex frame, const core::PartContact& contact) {
+  const core::ClearanceInterval& interval = contact.clearance->interval;
+  const auto finite = [](double length_mm) {
+    return std::isfinite(length_mm) ? std::optional(length_mm) : std::nullopt;
+  };
+  const auto witness = [&](const Eigen::Vector3d& x) {
+    return contact.clearance->has_witnesses ? std::optional(x) : std::nullopt;
+  };
+  insert_clearance_
+      .With(frame, contact.part, finite(interval.lower_mm), finite(interval.upper_mm),
+            witness(interval.witness_part_in_world_mm), witness(interval.witness_hull_in_world_mm),
+            contact.clearance->queries)
+      .Run();
 }
 
 core::FrameRecord ReadFrame(Database& database, const core::SessionHeader& header, core::FrameIndex frame) {

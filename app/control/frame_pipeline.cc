@@ -27,13 +27,16 @@ class Stopwatch {
 
 FramePipeline::FramePipeline(core::Rig rig, core::Layout layout,
                              const std::vector<recon::BackgroundReference>& backgrounds,
-                             const recon::SegmentationOptions& segmentation)
+                             const recon::SegmentationOptions& segmentation,
+                             const review::PartReviewOptions& review)
     : rig_(std::make_shared<const core::Rig>(std::move(rig))),
       planes_(recon::MakePicturePlanes(*rig_)),
       layout_(std::make_shared<const core::Layout>(std::move(layout))),
-      segmenter_(backgrounds, segmentation, *rig_) {
+      segmenter_(backgrounds, segmentation, *rig_),
+      review_(review) {
   rig_->Validate();
   layout_->Validate();
+  review_.Validate();
   core::Require(backgrounds.size() == rig_->cameras.size(), "one background reference a camera");
   for (const core::Part& part : layout_->parts) part_trees_.emplace_back(part.mesh);
 }
@@ -74,14 +77,7 @@ void FramePipeline::UpdateContacts(FrameResult* result) {
   tbb::parallel_for(std::size_t{0}, parts, [&](std::size_t i) {
     is_unchanged[i] =
         last_ && last_->hull == result->hull && last_->world_from_parts[i] == result->world_from_parts[i];
-    if (is_unchanged[i]) {
-      result->contacts[i] = last_->contacts[i];
-      return;
-    }
-    review::ContactOptions options;
-    options.recovery = layout_->parts[i].recovery;
-    result->contacts[i] =
-        review::FindContacts(*result->hull, part_trees_[i], result->world_from_parts[i], i, options);
+    result->contacts[i] = is_unchanged[i] ? last_->contacts[i] : Review(*result, i);
   });
   for (std::size_t i = 0; i < parts; ++i) {
     if (is_unchanged[i]) {
@@ -91,7 +87,24 @@ void FramePipeline::UpdateContacts(FrameResult* result) {
     result->skipped.triangles_in_all += result->contacts[i].count.triangles;
     result->skipped.triangles_skipped += result->contacts[i].count.skipped;
     result->skipped.queries += result->contacts[i].count.queries;
+    if (!result->contacts[i].clearance) continue;
+    const core::PartClearance& clearance = *result->contacts[i].clearance;
+    result->skipped.clearance_queries += clearance.queries;
+    if (result->contacts[i].contact_point_count > 0 || result->contacts[i].contained_in_world_mm) {
+      ++result->skipped.clearances_by_contact;
+    } else if (clearance.queries == 1) {
+      ++result->skipped.clearances_by_ball;
+    }
   }
+}
+
+core::PartContact FramePipeline::Review(const FrameResult& result, core::PartIndex part) const {
+  const auto hint = last_ ? review::HintFrom(last_->contacts[part], last_->world_from_parts[part])
+                          : std::optional<review::ClearanceHint>();
+  review::PartReviewOptions options = review_;
+  options.contacts.recovery = layout_->parts[part].recovery;
+  return review::ReviewPart(*result.hull, part_trees_[part], result.world_from_parts[part], part, options,
+                            hint);
 }
 
 }  // namespace elbowroom::control

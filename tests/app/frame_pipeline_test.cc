@@ -27,8 +27,10 @@ class FramePipelineTest : public testing::Test {
       frames.cameras.push_back({{}, std::move(mask)});
     return frames;
   }
-  FramePipeline MakePipeline() const {
-    return {source_.rig(), DemoLayout(), std::vector<recon::BackgroundReference>(4), {}};
+  FramePipeline MakePipeline(double required_mm = 0.0, const core::Layout& layout = DemoLayout()) const {
+    review::PartReviewOptions review;
+    review.required_clearance_mm = required_mm;
+    return {source_.rig(), layout, std::vector<recon::BackgroundReference>(4), {}, review};
   }
 
   recon::SyntheticRig source_;
@@ -105,6 +107,44 @@ TEST_F(FramePipelineTest, AnEmptySceneTouchesNothingAndAsksNothing) {
   EXPECT_EQ(result->skipped.queries, 0);
   EXPECT_EQ(result->skipped.hull.empty_silhouettes, 4);
   EXPECT_EQ(result->skipped.hull.untraced_silhouettes, 4);
+}
+
+TEST_F(FramePipelineTest, ClearanceIsAskedOnlyWhereItIsNotSettled) {
+  core::Layout layout = DemoLayout();
+  layout.parts[2].world_from_part.translation_mm.x() = -900.0;  // payload B, far from the hand
+  FramePipeline pipeline = MakePipeline(20.0, layout);
+  const std::vector<double> gap = {kGapInitialMm};
+  const SharedFrameResult first = pipeline.Process(MasksOf(kTouching), gap);
+  for (const core::PartContact& contact : first->contacts) ASSERT_TRUE(contact.clearance.has_value());
+  EXPECT_EQ(first->contacts[1].verdict, core::Verdict::kContact);
+  EXPECT_EQ(first->skipped.clearances_by_contact, 1);
+  EXPECT_EQ(first->skipped.clearances_by_ball, 1);
+  EXPECT_GT(first->skipped.clearance_queries, 2) << "the PMT box had to be searched for";
+  const SharedFrameResult again = pipeline.Process(MasksOf(kTouching), gap);
+  EXPECT_EQ(again->skipped.unchanged_parts, 3);
+  EXPECT_EQ(again->skipped.clearance_queries, 0);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(again->contacts[i].verdict, first->contacts[i].verdict);
+    EXPECT_EQ(again->contacts[i].clearance->interval.upper_mm,
+              first->contacts[i].clearance->interval.upper_mm);
+  }
+}
+
+TEST_F(FramePipelineTest, ClearanceWarmedByTheLastFrameIsAsTrue) {
+  FramePipeline warm = MakePipeline(40.0);
+  std::int64_t warm_queries = 0, cold_queries = 0;
+  for (core::FrameIndex frame = kTouching - 20; frame < kTouching; ++frame) {
+    const std::vector<double> gap = {kGapNeededMm};
+    FramePipeline cold = MakePipeline(40.0);
+    const SharedFrameResult a = warm.Process(MasksOf(frame), gap), b = cold.Process(MasksOf(frame), gap);
+    for (std::size_t i = 0; i < 3; ++i) {
+      EXPECT_LE(a->contacts[i].clearance->interval.lower_mm, b->contacts[i].clearance->interval.upper_mm);
+      EXPECT_LE(b->contacts[i].clearance->interval.lower_mm, a->contacts[i].clearance->interval.upper_mm);
+    }
+    warm_queries += a->skipped.clearance_queries;
+    cold_queries += b->skipped.clearance_queries;
+  }
+  EXPECT_LT(warm_queries, cold_queries);
 }
 
 }  // namespace

@@ -62,28 +62,31 @@ TEST(Schema, AnEmptyDatabaseBecomesTheNewestSchemaAndMigratingAgainChangesNothin
 
 TEST(Schema, StoredSessionsOfEverySchemaAreRead) {
   for (const int schema : {1, 2, 3}) {
+    SCOPED_TRACE(schema);
     const SessionReader reader(kStored / fmt::format("session_schema_{}.db", schema));
-    ExpectEqual(reader.header(), SampleHeader());
+    ExpectEqual(reader.header(), AsOfSchema(schema, SampleHeader()));
     ASSERT_EQ(reader.frame_count(), 6);
     for (core::FrameIndex i = 0; i < 6; ++i) {
-      const core::FrameRecord written = SampleFrame(reader.header(), i, 1);
-      ExpectEqual(reader.ReadFrame(i), schema == 1 ? WithoutLevels(written) : written);
+      ExpectEqual(reader.ReadFrame(i), AsOfSchema(schema, SampleFrame(reader.header(), i, 1)));
     }
-    EXPECT_EQ(reader.episodes().size(), 2U);
+    ASSERT_EQ(reader.episodes().size(), 2U);
+    EXPECT_EQ(reader.episodes()[0].peak_position_in_part_mm.has_value(), schema >= 3);
+    EXPECT_EQ(reader.near_misses().size(), schema >= 3 ? 1U : 0U);
+    EXPECT_EQ(reader.heat_maps().size(), schema >= 3 ? 1U : 0U);
+    EXPECT_EQ(reader.clearances().empty(), schema < 3);
     EXPECT_EQ(reader.events().size(), 4U);
   }
 }
 
-TEST(Schema, ADatabaseOfAnOlderSchemaBecomesOneOfTheNewest) {
-  const TemporaryFolder folder;
+TEST(Schema, ADatabaseOfAnyOlderSchemaBecomesOneOfTheNewest) {
   for (const int schema : {1, 2}) {
-    const std::filesystem::path path = folder / fmt::format("{}.db", schema);
-    sessions::Database database = sessions::Database::Create(path);
+    const TemporaryFolder folder;
+    sessions::Database database = sessions::Database::Create(folder / "s.db");
     database.Execute(sessions::Schema1Sql());
     if (schema == 2) database.Execute(sessions::Schema2Sql());
     database.Execute(fmt::format("PRAGMA user_version = {}", schema));
     sessions::Migrate(database);
-    EXPECT_EQ(SchemaOf(path), Contents(kStored / "schema_3.sql"));
+    EXPECT_EQ(SchemaOf(folder / "s.db"), Contents(kStored / "schema_3.sql"));
   }
 }
 
@@ -114,7 +117,9 @@ TEST(Schema, CountsAndFlagsOutOfRangeAreRefusedByTheDatabaseItself) {
        {"UPDATE part_frame SET verdict = 'perhaps'", "UPDATE session SET status = 'done'",
         "INSERT INTO frame VALUES (9, 'soon')", "DELETE FROM frame", "DELETE FROM mask",
         "UPDATE camera SET camera_matrix = '[1]'", "INSERT INTO session SELECT * FROM session",
-        "UPDATE event SET to_mm = NULL WHERE kind = 'spacing'"}) {
+        "UPDATE event SET to_mm = NULL WHERE kind = 'spacing'", "UPDATE clearance SET lower_mm = -1",
+        "UPDATE clearance SET upper_mm = lower_mm - 1", "UPDATE near_miss SET verdict = 'contact'",
+        "UPDATE episode SET tools = 'tongs'", "DELETE FROM clearance"}) {
     EXPECT_THROW(database.exec(sql), SQLite::Exception) << sql;
   }
 }

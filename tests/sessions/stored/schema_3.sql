@@ -12,7 +12,7 @@ CREATE TABLE session (
   workspace_max_x_mm REAL NOT NULL, workspace_max_y_mm REAL NOT NULL, workspace_max_z_mm REAL NOT NULL,
   unseen TEXT NOT NULL CHECK (unseen IN ('outside', 'abstain')),
   layout_unit TEXT NOT NULL CHECK (layout_unit IN ('mm', 'cm', 'm', 'in'))
-) STRICT;
+, uncertainty_mm REAL NOT NULL DEFAULT 0 CHECK (uncertainty_mm >= 0)) STRICT;
 
 CREATE TABLE setting (key TEXT PRIMARY KEY, value TEXT NOT NULL) STRICT, WITHOUT ROWID;
 
@@ -118,7 +118,7 @@ CREATE TABLE episode (
   frames_in_contact INTEGER NOT NULL CHECK (frames_in_contact > 0),
   peak_depth_mm REAL NOT NULL,
   peak_area_mm2 REAL NOT NULL,
-  peak_x_mm REAL NOT NULL, peak_y_mm REAL NOT NULL, peak_z_mm REAL NOT NULL,
+  peak_x_mm REAL NOT NULL, peak_y_mm REAL NOT NULL, peak_z_mm REAL NOT NULL, peak_part_x_mm REAL, peak_part_y_mm REAL, peak_part_z_mm REAL, tools TEXT NOT NULL DEFAULT '[]' CHECK (json_type(tools) = 'array'),
   CHECK (begin_frame <= peak_frame AND peak_frame <= end_frame)
 ) STRICT;
 
@@ -149,14 +149,6 @@ CREATE INDEX event_by_frame ON event (frame_index);
 CREATE VIEW v_spacing AS
 SELECT frame_index, time_s, name AS spacing, spacing_mm
 FROM frame_spacing JOIN frame USING (frame_index) JOIN spacing USING (spacing_index);
-
-CREATE VIEW v_episode AS
-SELECT e.episode_id, p.name AS part, e.begin_time_s, e.peak_time_s, e.end_time_s,
-  e.end_time_s - e.begin_time_s AS duration_s, e.begin_frame, e.peak_frame, e.end_frame, e.frames_in_contact,
-  e.peak_depth_mm, e.peak_area_mm2, e.peak_x_mm, e.peak_y_mm, e.peak_z_mm,
-  (SELECT group_concat(s.name || ' = ' || es.spacing_at_peak_mm || ' mm', ', ')
-   FROM episode_spacing es JOIN spacing s USING (spacing_index) WHERE es.episode_id = e.episode_id) AS spacings_at_peak
-FROM episode e JOIN part p USING (part_index);
 
 CREATE VIEW v_event AS
 SELECT e.event_id, e.frame_index, e.time_s, e.kind,
@@ -229,4 +221,69 @@ WHERE pf.verdict = 'contact';
 CREATE VIEW v_contact_point AS
 SELECT frame_index, time_s, name AS part, point_index, x_mm, y_mm, z_mm, depth_mm, area_mm2
 FROM contact_point JOIN frame USING (frame_index) JOIN part USING (part_index);
+
+CREATE TABLE clearance (
+  frame_index INTEGER NOT NULL,
+  part_index INTEGER NOT NULL,
+  lower_mm REAL CHECK (lower_mm >= 0),         -- never above the true distance; NULL: the hull has no points
+  upper_mm REAL CHECK (upper_mm >= lower_mm),  -- never below it; NULL: not looked for, lower_mm is enough
+  part_x_mm REAL, part_y_mm REAL, part_z_mm REAL,  -- on the part, in world, upper_mm from
+  hull_x_mm REAL, hull_y_mm REAL, hull_z_mm REAL,  -- a point of the hull
+  queries INTEGER NOT NULL,
+  PRIMARY KEY (frame_index, part_index),
+  FOREIGN KEY (frame_index, part_index) REFERENCES part_frame (frame_index, part_index)
+) STRICT, WITHOUT ROWID;
+
+CREATE TABLE near_miss (
+  near_miss_id INTEGER PRIMARY KEY,
+  part_index INTEGER NOT NULL REFERENCES part (part_index),
+  begin_frame INTEGER NOT NULL REFERENCES frame (frame_index),
+  closest_frame INTEGER NOT NULL REFERENCES frame (frame_index),
+  end_frame INTEGER NOT NULL REFERENCES frame (frame_index),
+  begin_time_s REAL NOT NULL,
+  closest_time_s REAL NOT NULL,
+  end_time_s REAL NOT NULL,
+  frames_below INTEGER NOT NULL CHECK (frames_below > 0),
+  verdict TEXT NOT NULL CHECK (verdict IN ('near', 'undecided')),
+  spacing_at_closest_mm TEXT NOT NULL CHECK (json_type(spacing_at_closest_mm) = 'array'),  -- in order of index
+  tools TEXT NOT NULL CHECK (json_type(tools) = 'array'),
+  CHECK (begin_frame <= closest_frame AND closest_frame <= end_frame),
+  FOREIGN KEY (closest_frame, part_index) REFERENCES clearance (frame_index, part_index)
+) STRICT;
+
+CREATE TABLE heat_map (
+  part_index INTEGER PRIMARY KEY REFERENCES part (part_index),
+  patch_mm REAL NOT NULL CHECK (patch_mm > 0),
+  patch_count INTEGER NOT NULL CHECK (patch_count > 0),
+  dwell_s_zstd BLOB NOT NULL,       -- little-endian 32-bit floats, triangle by triangle
+  peak_depth_mm_zstd BLOB NOT NULL  -- likewise
+) STRICT;
+
+CREATE VIEW v_clearance AS
+SELECT c.frame_index, f.time_s, p.name AS part, pf.verdict, s.required_clearance_mm, s.uncertainty_mm,
+  c.lower_mm, c.upper_mm, c.part_x_mm, c.part_y_mm, c.part_z_mm, c.hull_x_mm, c.hull_y_mm, c.hull_z_mm,
+  (SELECT group_concat(v.spacing || ' = ' || v.spacing_mm || ' mm', ', ')
+   FROM v_spacing v WHERE v.frame_index = c.frame_index) AS spacings
+FROM clearance c
+JOIN part_frame pf USING (frame_index, part_index)
+JOIN frame f USING (frame_index)
+JOIN part p USING (part_index)
+JOIN session s;
+
+CREATE VIEW v_near_miss AS
+SELECT n.near_miss_id, p.name AS part, n.verdict, n.begin_time_s, n.closest_time_s, n.end_time_s,
+  n.begin_frame, n.closest_frame, n.end_frame, n.frames_below, c.lower_mm, c.upper_mm,
+  c.part_x_mm, c.part_y_mm, c.part_z_mm, c.hull_x_mm, c.hull_y_mm, c.hull_z_mm, n.tools, c.spacings
+FROM near_miss n
+JOIN part p USING (part_index)
+JOIN v_clearance c ON c.frame_index = n.closest_frame AND c.part = p.name;
+
+CREATE VIEW v_episode AS
+SELECT e.episode_id, p.name AS part, e.begin_time_s, e.peak_time_s, e.end_time_s,
+  e.end_time_s - e.begin_time_s AS duration_s, e.begin_frame, e.peak_frame, e.end_frame, e.frames_in_contact,
+  e.peak_depth_mm, e.peak_area_mm2, e.peak_x_mm, e.peak_y_mm, e.peak_z_mm,
+  e.peak_part_x_mm, e.peak_part_y_mm, e.peak_part_z_mm, e.tools,
+  (SELECT group_concat(s.name || ' = ' || es.spacing_at_peak_mm || ' mm', ', ')
+   FROM episode_spacing es JOIN spacing s USING (spacing_index) WHERE es.episode_id = e.episode_id) AS spacings_at_peak
+FROM episode e JOIN part p USING (part_index);
 
