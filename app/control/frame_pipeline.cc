@@ -2,6 +2,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <chrono>
 
 #include "core/error.h"
@@ -74,9 +75,14 @@ void FramePipeline::UpdateContacts(FrameResult* result) {
   const std::size_t parts = part_trees_.size();
   result->contacts.resize(parts);
   std::vector<std::uint8_t> is_unchanged(parts, 0);
-  tbb::parallel_for(std::size_t{0}, parts, [&](std::size_t i) {
+  for (std::size_t i = 0; i < parts; ++i)
     is_unchanged[i] =
         last_ && last_->hull == result->hull && last_->world_from_parts[i] == result->world_from_parts[i];
+  // What the first question would build, camera by camera, while the others wait.
+  if (!result->hull->IsEmpty() && std::ranges::count(is_unchanged, 0) > 0)
+    tbb::parallel_for(std::size_t{0}, rig_->cameras.size(),
+                      [&](std::size_t i) { (void)result->hull->silhouettes()[i]->labels().Raster(); });
+  tbb::parallel_for(std::size_t{0}, parts, [&](std::size_t i) {
     result->contacts[i] = is_unchanged[i] ? last_->contacts[i] : Review(*result, i);
   });
   for (std::size_t i = 0; i < parts; ++i) {
