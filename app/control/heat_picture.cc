@@ -82,7 +82,8 @@ std::vector<std::optional<std::size_t>> PatchesSeen(const recon::gl::DepthImage&
   for (std::size_t i = 0; i < seen.size(); ++i) {
     if (!(depth.depth_mm[i] > 0.0F)) continue;
     const auto width = static_cast<std::size_t>(depth.width_px);
-    const Eigen::Vector2d pixel(static_cast<double>(i % width), static_cast<double>(i / width));
+    const std::size_t row = i / width;
+    const Eigen::Vector2d pixel(static_cast<double>(i % width), static_cast<double>(row));
     const Vector3d x_in_part =
         part_from_cam * (view.view.RayInCam(pixel) * static_cast<double>(depth.depth_mm[i]));
     likely = review::FindNearest(tree, {.center = x_in_part}, likely).triangle;
