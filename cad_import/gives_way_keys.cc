@@ -17,7 +17,6 @@ constexpr std::array<std::string_view, 6> kClothKeys{"pins",
                                                      "damping_per_s",
                                                      "friction"};
 constexpr std::array<std::string_view, 1> kPushKeys{"max_speed_mm_per_s"};
-constexpr std::array<std::string_view, 1> kEitherKeys{"v_rec"};
 
 template <std::size_t kCount>
 void RefuseKeys(const TomlEntry& entry, const std::array<std::string_view, kCount>& keys,
@@ -28,11 +27,6 @@ void RefuseKeys(const TomlEntry& entry, const std::array<std::string_view, kCoun
   }
 }
 
-std::optional<Eigen::Vector3d> ReadVRec(const TomlEntry& entry) {
-  if (!entry.Find("v_rec")) return std::nullopt;
-  return entry.VectorOrZero("v_rec");
-}
-
 core::ClothRule ReadCloth(const TomlEntry& entry) {
   core::ClothRule rule;
   for (const std::string& pin : entry.Texts("pins")) {
@@ -41,7 +35,6 @@ core::ClothRule ReadCloth(const TomlEntry& entry) {
       entry.Fail("pins", fmt::format("'{}' is no side; use x_min, x_max, y_min, y_max, z_min, z_max", pin));
     rule.pins.push_back(*side);
   }
-  rule.v_rec = ReadVRec(entry);
   rule.stretch_stiffness_n_per_m =
       entry.NumberOr("stretch_stiffness_n_per_m", rule.stretch_stiffness_n_per_m);
   rule.bending_stiffness_n_per_m =
@@ -52,19 +45,15 @@ core::ClothRule ReadCloth(const TomlEntry& entry) {
   return rule;
 }
 
-toml::array ToToml(const Eigen::Vector3d& v) { return toml::array{v.x(), v.y(), v.z()}; }
-
 toml::table ClothToToml(const core::ClothRule& rule) {
   toml::array pins;
   for (const core::BoundsSide side : rule.pins) pins.push_back(core::ToString(side));
-  toml::table table{{"pins", std::move(pins)},
-                    {"stretch_stiffness_n_per_m", rule.stretch_stiffness_n_per_m},
-                    {"bending_stiffness_n_per_m", rule.bending_stiffness_n_per_m},
-                    {"mass_per_area_kg_per_m2", rule.mass_per_area_kg_per_m2},
-                    {"damping_per_s", rule.damping_per_s},
-                    {"friction", rule.friction}};
-  if (rule.v_rec) table.insert("v_rec", ToToml(*rule.v_rec));
-  return table;
+  return toml::table{{"pins", std::move(pins)},
+                     {"stretch_stiffness_n_per_m", rule.stretch_stiffness_n_per_m},
+                     {"bending_stiffness_n_per_m", rule.bending_stiffness_n_per_m},
+                     {"mass_per_area_kg_per_m2", rule.mass_per_area_kg_per_m2},
+                     {"damping_per_s", rule.damping_per_s},
+                     {"friction", rule.friction}};
 }
 
 }  // namespace
@@ -75,11 +64,9 @@ core::GivesWay ReadGivesWay(const TomlEntry& entry) {
     entry.Fail("gives_way", "must be \"cloth\", \"pushed\" or \"none\"");
   if (way != "cloth") RefuseKeys(entry, kClothKeys, "cloth");
   if (way != "pushed") RefuseKeys(entry, kPushKeys, "pushed");
-  if (way == "none") RefuseKeys(entry, kEitherKeys, "cloth\" or \"pushed");
   if (way == "cloth") return ReadCloth(entry);
   if (way == "none") return {};
   core::PushRule rule;
-  rule.v_rec = ReadVRec(entry);
   rule.max_speed_mm_per_s = entry.NumberOr("max_speed_mm_per_s", rule.max_speed_mm_per_s);
   return rule;
 }
@@ -87,10 +74,8 @@ core::GivesWay ReadGivesWay(const TomlEntry& entry) {
 toml::table GivesWayToToml(const core::GivesWay& gives_way) {
   toml::table table;
   if (const auto* cloth = std::get_if<core::ClothRule>(&gives_way)) table = ClothToToml(*cloth);
-  if (const auto* push = std::get_if<core::PushRule>(&gives_way)) {
+  if (const auto* push = std::get_if<core::PushRule>(&gives_way))
     table.insert("max_speed_mm_per_s", push->max_speed_mm_per_s);
-    if (push->v_rec) table.insert("v_rec", ToToml(*push->v_rec));
-  }
   if (gives_way.index() != 0) table.insert("gives_way", core::ToString(gives_way));
   return table;
 }

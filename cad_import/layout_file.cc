@@ -40,6 +40,24 @@ class MeshShelf {
   std::map<std::tuple<std::filesystem::path, std::optional<core::LengthUnit>>, Item> items_;
 };
 
+// The first key of the part's constraint that is there, for the line of what is wrong with them together.
+std::string_view RecoveryKeyOf(const TomlEntry& entry) {
+  for (const std::string_view key : {"recovery", "recovery_axis", "recovery_at_mm"}) {
+    if (entry.Find(key) != nullptr) return key;
+  }
+  return "reference_mm";
+}
+
+core::RecoveryRule ReadRecovery(const TomlEntry& entry) {
+  core::RecoveryRule rule;
+  const auto kind = core::ParseRecoveryKind(entry.TextOr("recovery", std::string(core::ToString(rule.kind))));
+  if (!kind) entry.Fail("recovery", "must be \"reference\", \"direction\", \"slider\" or \"hinge\"");
+  rule = {*kind, entry.Vector("reference_mm"), entry.Vector("recovery_axis"), entry.Vector("recovery_at_mm")};
+  if (const auto broken = rule.BrokenRule())
+    entry.Fail(RecoveryKeyOf(entry), fmt::format("({}): {}", core::ToString(rule.kind), *broken));
+  return rule;
+}
+
 core::Part ReadPart(const TomlEntry& entry, const std::filesystem::path& folder,
                     std::optional<core::LengthUnit> layout_unit, MeshShelf& shelf,
                     std::vector<std::string>& warnings) {
@@ -48,6 +66,7 @@ core::Part ReadPart(const TomlEntry& entry, const std::filesystem::path& folder,
   part.file = entry.Text("file");
   part.world_from_part = core::FromPositionAndRollPitchYaw(entry.VectorOrZero("position_mm"),
                                                            entry.VectorOrZero("rotation_rpy_deg"));
+  part.recovery = ReadRecovery(entry);
   part.gives_way = ReadGivesWay(entry);
   const ImportOptions options{.unit = entry.Unit(), .unit_if_file_has_none = layout_unit};
   try {
@@ -127,8 +146,9 @@ ImportedLayout ImportLayoutFile(const std::filesystem::path& path) {
   layout.unit = unit.value_or(layout.unit);
   MeshShelf shelf;
   for (const TomlEntry& entry :
-       root.Entries("part", {"name", "file", "unit", "position_mm", "rotation_rpy_deg", "gives_way", "pins",
-                             "v_rec", "stretch_stiffness_n_per_m", "bending_stiffness_n_per_m",
+       root.Entries("part", {"name", "file", "unit", "position_mm", "rotation_rpy_deg", "reference_mm",
+                             "recovery", "recovery_axis", "recovery_at_mm", "gives_way", "pins",
+                             "stretch_stiffness_n_per_m", "bending_stiffness_n_per_m",
                              "mass_per_area_kg_per_m2", "damping_per_s", "friction", "max_speed_mm_per_s"})) {
     layout.parts.push_back(ReadPart(entry, path.parent_path(), unit, shelf, result.warnings));
   }

@@ -39,6 +39,12 @@ toml::table ToToml(const core::Part& part) {
   table.insert("unit", core::ToString(part.unit));
   table.insert("position_mm", ToToml(part.world_from_part.translation_mm));
   table.insert("rotation_rpy_deg", ToToml(RollPitchYawDeg(part.world_from_part.rotation)));
+  const core::RecoveryRule& recovery = part.recovery;
+  if (recovery.reference_in_part_mm) table.insert("reference_mm", ToToml(*recovery.reference_in_part_mm));
+  if (recovery.kind != core::RecoveryKind::kReference)
+    table.insert("recovery", core::ToString(recovery.kind));
+  if (recovery.axis_in_part) table.insert("recovery_axis", ToToml(*recovery.axis_in_part));
+  if (recovery.at_in_part_mm) table.insert("recovery_at_mm", ToToml(*recovery.at_in_part_mm));
   return table;
 }
 
@@ -69,7 +75,7 @@ toml::table ToToml(const core::PairRule& rule) {
                      {"ignore", rule.ignore}};
 }
 
-// "[[key]]" and those of its keys that there are, in the order given, one a line (a toml::table would sort
+// "[[key]]" and those of its keys that it has, in the order given, one a line (a toml::table would sort
 // them).
 template <typename Value>
 void WriteEntries(std::ostream& out, const char* key, const std::vector<Value>& values,
@@ -77,8 +83,9 @@ void WriteEntries(std::ostream& out, const char* key, const std::vector<Value>& 
   for (const Value& value : values) {
     const toml::table table = ToToml(value);
     out << "\n[[" << key << "]]\n";
-    for (const char* name : order)
+    for (const char* name : order) {
       if (const toml::node* node = table.get(name)) out << name << " = " << toml::node_view(*node) << '\n';
+    }
   }
 }
 
@@ -88,9 +95,10 @@ void WriteLayoutFile(const core::Layout& layout, const std::filesystem::path& pa
   std::ostringstream out;
   out << "unit = \"" << core::ToString(layout.unit) << "\"\n";
   WriteEntries(out, "part", layout.parts,
-               {"name", "file", "unit", "position_mm", "rotation_rpy_deg", "gives_way", "pins", "v_rec",
-                "stretch_stiffness_n_per_m", "bending_stiffness_n_per_m", "mass_per_area_kg_per_m2",
-                "damping_per_s", "friction", "max_speed_mm_per_s"});
+               {"name", "file", "unit", "position_mm", "rotation_rpy_deg", "reference_mm", "recovery",
+                "recovery_axis", "recovery_at_mm", "gives_way", "pins", "stretch_stiffness_n_per_m",
+                "bending_stiffness_n_per_m", "mass_per_area_kg_per_m2", "damping_per_s", "friction",
+                "max_speed_mm_per_s"});
   WriteEntries(out, "spacing", layout.spacings,
                {"name", "moving", "reference", "axis", "min_mm", "max_mm", "initial_mm"});
   WriteEntries(out, "pair", layout.pair_rules,

@@ -79,8 +79,12 @@ double TomlEntry::NumberOr(std::string_view key, double otherwise) const {
 }
 
 Eigen::Vector3d TomlEntry::VectorOrZero(std::string_view key) const {
+  return Vector(key).value_or(Eigen::Vector3d::Zero());
+}
+
+std::optional<Eigen::Vector3d> TomlEntry::Vector(std::string_view key) const {
   const toml::node* node = Find(key);
-  if (node == nullptr) return Eigen::Vector3d::Zero();
+  if (node == nullptr) return std::nullopt;
   const toml::array* array = node->as_array();
   if (array == nullptr || array->size() != 3) Fail(key, "must be three numbers, [x, y, z]");
   Eigen::Vector3d result;

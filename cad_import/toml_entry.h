@@ -43,6 +43,7 @@ class TomlEntry {
   [[nodiscard]] std::string TextOr(std::string_view key, const std::string& otherwise) const;
   [[nodiscard]] double NumberOr(std::string_view key, double otherwise) const;
   [[nodiscard]] Eigen::Vector3d VectorOrZero(std::string_view key) const;
+  [[nodiscard]] std::optional<Eigen::Vector3d> Vector(std::string_view key) const;
   [[nodiscard]] bool FlagOr(std::string_view key, bool otherwise) const;
   [[nodiscard]] std::vector<std::string> Texts(std::string_view key) const;
   [[nodiscard]] std::optional<core::LengthUnit> Unit() const;  // of the key `unit`

@@ -37,6 +37,7 @@ class TriangleTree {
   explicit TriangleTree(SharedMesh mesh);
 
   [[nodiscard]] const TriangleMesh& mesh() const { return *mesh_; }
+  [[nodiscard]] const SharedMesh& shared_mesh() const { return mesh_; }
   [[nodiscard]] bool is_closed() const { return is_closed_; }  // as IsWatertight
   [[nodiscard]] const Eigen::AlignedBox3d& bounds() const { return bounds_; }
   [[nodiscard]] std::span<const Node> nodes() const { return nodes_; }

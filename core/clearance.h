@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <limits>
 
 namespace elbowroom::core {
@@ -11,6 +12,13 @@ struct ClearanceInterval {
   double upper_mm = std::numeric_limits<double>::infinity();  // never below it
   Eigen::Vector3d witness_part_in_world_mm = Eigen::Vector3d::Zero();
   Eigen::Vector3d witness_hull_in_world_mm = Eigen::Vector3d::Zero();
+};
+
+// Of one part to the hull in one frame.
+struct PartClearance {
+  ClearanceInterval interval;  // both 0: they meet; both infinite: the hull has no points
+  bool has_witnesses = false;  // the interval's, of its upper bound
+  std::int64_t queries = 0;    // of the hull
 };
 
 }  // namespace elbowroom::core

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/clearance.h"
 #include "core/ids.h"
 
 namespace elbowroom::core {
@@ -24,23 +25,30 @@ struct ContactPoint {
   double area_mm2 = 0.0;  // of the surface piece that it stands for
 };
 
-// The paper's response: how to back the part out of the hull along V_rec.
+// The paper's response: how to back the part out of the hull, the way its constraint lets it go
+// (core::RecoveryRule). Of a hinge the way is an arc, and V_rec its tangent at CP_obj.
 struct Recovery {
   Eigen::Vector3d cp_obj_in_world_mm = Eigen::Vector3d::Zero();   // contact point farthest from RP_obj
-  Eigen::Vector3d cp_hull_in_world_mm = Eigen::Vector3d::Zero();  // where V_rec leaves the hull
-  Eigen::Vector3d v_rec_in_world = Eigen::Vector3d::Zero();       // unit, CP_obj to RP_obj
-  double d_rec_mm = 0.0;
+  Eigen::Vector3d cp_hull_in_world_mm = Eigen::Vector3d::Zero();  // where CP_obj's way leaves the hull
+  Eigen::Vector3d v_rec_in_world = Eigen::Vector3d::Zero();       // unit, the way CP_obj sets out
+  double d_rec_mm = 0.0;                                          // of CP_obj's way; along the arc
   std::optional<Eigen::Vector3d> n_hull_in_world;  // unit, out of the hull; nothing on a workspace face
+  std::optional<double> angle_rad = {};            // of a hinge: signed about its axis
 };
 
+// docs/recovery.md says what is known with each.
 enum class RecoveryStatus {
   kFound,
   kNoContact,
-  kReferenceInsideHull,  // V_rec never leaves the hull before RP_obj
-  kNoDirection,          // CP_obj and RP_obj coincide
+  kReferenceInsideHull,  // RP_obj is no way out: V_rec is followed on, past it where need be
+  kNoDirection,          // CP_obj and RP_obj coincide, or CP_obj is on the hinge's axis: no recovery
+  kNoExit,               // nothing but the end of what the cameras see ends the way: D_rec is a lower bound
+  kHullInsidePart,       // no face of the part is in the hull, so there is no CP_obj: no recovery
+  kOnSurface,            // CP_obj is on the hull's surface: D_rec is 0
 };
 
 [[nodiscard]] std::string_view ToString(RecoveryStatus status);
+[[nodiscard]] std::optional<RecoveryStatus> ParseRecoveryStatus(std::string_view text);
 
 // How much work one answer took and how much it was spared.
 struct QueryCount {
@@ -62,6 +70,7 @@ struct PartContact {
   std::optional<Recovery> recovery;
   double resolution_mm = 0.0;  // pieces of surface below this size were decided by their centre
   QueryCount count;
+  std::optional<PartClearance> clearance;  // nothing: no clearance is required
 };
 
 // One touch of one part: frames that follow each other with gaps no longer than the tracker's rule.
@@ -78,7 +87,26 @@ struct ContactEpisode {
   double peak_depth_mm = 0.0;
   double peak_area_mm2 = 0.0;  // of the peak frame
   Eigen::Vector3d peak_position_in_world_mm = Eigen::Vector3d::Zero();
-  std::vector<double> spacing_at_peak_mm;  // in the layout's order
+  std::optional<Eigen::Vector3d> peak_position_in_part_mm;  // nothing: recorded before it was kept
+  std::vector<double> spacing_at_peak_mm;                   // in the layout's order
+  std::vector<std::string> tools;  // marked in use in any of its frames in contact, in order of name
+};
+
+// A part came below its required clearance and went again, untouched.
+struct NearMiss {
+  EpisodeId id = 0;
+  PartIndex part = 0;
+  FrameIndex begin_frame = 0;
+  FrameIndex closest_frame = 0;  // least upper bound; ties go to the lower one, then the earlier frame
+  FrameIndex end_frame = 0;      // last frame that wasn't clear
+  double begin_time_s = 0.0;
+  double closest_time_s = 0.0;
+  double end_time_s = 0.0;
+  std::int64_t frames_below = 0;              // those that weren't clear
+  Verdict verdict = Verdict::kUndecided;      // near: some frame was surely below
+  PartClearance closest;                      // of the closest frame
+  std::vector<double> spacing_at_closest_mm;  // in the layout's order
+  std::vector<std::string> tools;             // marked in use meanwhile, in order of name
 };
 
 }  // namespace elbowroom::core

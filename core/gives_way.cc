@@ -35,7 +35,6 @@ void Validate(const ClothRule& rule, const std::string& who) {
   RequireWithin(who, "mass_per_area_kg_per_m2", rule.mass_per_area_kg_per_m2, {1e-3, 1e3});
   RequireWithin(who, "damping_per_s", rule.damping_per_s, {0.0, 100.0});
   RequireWithin(who, "friction", rule.friction, {0.0, 1.0});
-  if (rule.v_rec) RequireDirection(who, "v_rec", *rule.v_rec);
   if (rule.pins.empty()) {
     throw Error(ErrorKind::kRange,
                 who + ": a cloth without pins falls off the table; name a side, pins = [\"z_max\"]");
@@ -44,7 +43,6 @@ void Validate(const ClothRule& rule, const std::string& who) {
 
 void Validate(const PushRule& rule, const std::string& who) {
   RequireWithin(who, "max_speed_mm_per_s", rule.max_speed_mm_per_s, {1e-3, 1e4});
-  if (rule.v_rec) RequireDirection(who, "v_rec", *rule.v_rec);
 }
 
 }  // namespace

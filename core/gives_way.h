@@ -16,10 +16,10 @@ enum class BoundsSide { kXMin, kXMax, kYMin, kYMax, kZMin, kZMax };
 [[nodiscard]] std::optional<BoundsSide> ParseBoundsSide(std::string_view text);  // "x_min", ...
 [[nodiscard]] std::string_view ToString(BoundsSide side);
 
-// A panel, blanket or curtain (`gives_way = "cloth"`): it hangs, stretches, bends, is pushed aside.
+// A panel, blanket or curtain (`gives_way = "cloth"`): it hangs, stretches, bends, is pushed aside. V_rec is
+// the axis of the part's recovery, a slider's or a direction; without one, the panel's mean normal, either way.
 struct ClothRule {
-  std::vector<BoundsSide> pins;          // vertices on these sides stay with the part
-  std::optional<Eigen::Vector3d> v_rec;  // in part: the line along which it leaves the hull; its mean normal
+  std::vector<BoundsSide> pins;               // vertices on these sides stay with the part
   double stretch_stiffness_n_per_m = 2000.0;  // tension per width and strain; [1, 1e7]
   double bending_stiffness_n_per_m = 1.0;     // of a spring across two triangles; [0.001, 1e5]
   double mass_per_area_kg_per_m2 = 0.4;       // [0.001, 1000]
@@ -29,10 +29,10 @@ struct ClothRule {
   [[nodiscard]] bool operator==(const ClothRule&) const = default;
 };
 
-// A rigid part (`gives_way = "pushed"`) that moves out of the hull and stays where it was pushed.
+// A rigid part (`gives_way = "pushed"`) that moves out of the hull the way its recovery says, and stays where
+// it was pushed.
 struct PushRule {
-  std::optional<Eigen::Vector3d> v_rec;  // in part: a slider's axis, either way; nothing: towards RP_obj
-  double max_speed_mm_per_s = 500.0;     // (0, 1e4]
+  double max_speed_mm_per_s = 500.0;  // of its fastest point; [0.001, 1e4]
 
   [[nodiscard]] bool operator==(const PushRule&) const = default;
 };

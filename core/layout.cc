@@ -94,6 +94,8 @@ void Layout::Validate() const {
     if (!names.insert(part.name).second)
       Fail(fmt::format("two parts are named '{}'; names must differ", part.name));
     if (!part.mesh) Fail(fmt::format("part '{}' has no mesh", part.name));
+    if (const auto broken = part.recovery.BrokenRule())
+      Fail(fmt::format("part '{}': recovery: {}", part.name, *broken));
     ValidateGivesWay(part.gives_way, fmt::format("part '{}'", part.name));
   }
   std::set<std::string> spacing_names;

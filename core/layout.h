@@ -10,6 +10,7 @@
 
 #include "core/gives_way.h"
 #include "core/ids.h"
+#include "core/recovery_rule.h"
 #include "core/rigid_transform.h"
 #include "core/triangle_mesh.h"
 #include "core/units.h"
@@ -22,7 +23,8 @@ struct Part {
   LengthUnit unit = LengthUnit::kMillimetre;  // of the file; the mesh is in millimetres
   SharedMesh mesh;
   RigidTransform world_from_part;  // as authored, before spacings
-  GivesWay gives_way;              // to what is real; by default not at all
+  RecoveryRule recovery = {};      // which way it gives way to the hull
+  GivesWay gives_way = {};         // whether and how it does; by default not at all
 };
 
 enum class Axis { kX, kY, kZ };
@@ -58,8 +60,8 @@ struct Layout {
   std::vector<Stream> streams;
 
   // Throws: Error{kRange} naming the part, spacing, pair or stream: duplicate or unknown names, a part
-  // without a mesh, limits not in order, a spacing whose moving part is its own reference, circular spacings,
-  // a figure of what gives way or of a stream out of range.
+  // without a mesh or with a recovery that can't be used, limits not in order, a spacing whose moving part is
+  // its own reference, circular spacings, a figure of what gives way or of a stream out of range.
   void Validate() const;
 
   [[nodiscard]] std::optional<PartIndex> FindPart(std::string_view name) const;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/contact.h"
+#include "core/heat_map.h"
 #include "core/ids.h"
 #include "core/layout.h"
 #include "core/rig.h"
@@ -20,9 +21,10 @@ namespace elbowroom::core {
 struct TrialInfo {
   std::string participant;
   std::string task;
-  double estimate_mm = 0.0;  // the participant's guess of the space needed; 0: none given
-  double required_clearance_mm = 0.0;
+  double estimate_mm = 0.0;            // the participant's guess of the space needed; 0: none given
+  double required_clearance_mm = 0.0;  // of parts to the hull; 0: how near it comes isn't judged
   std::vector<std::string> tools;
+  double uncertainty_mm = 0.0;  // of rig and parts: what a verdict on clearance allows for
 };
 
 struct SpacingChanged {
@@ -62,6 +64,13 @@ struct FrameRecord {
   SharedMasks silhouettes;            // one a camera
   std::vector<double> spacing_mm;     // in the layout's order
   std::vector<PartContact> contacts;  // one a part, in the layout's order
+};
+
+// What is put together at a session's end.
+struct SessionOutcome {
+  std::vector<ContactEpisode> episodes;
+  std::vector<NearMiss> near_misses;
+  std::vector<HeatMap> heat_maps;  // of the parts that were touched, in the layout's order
 };
 
 }  // namespace elbowroom::core

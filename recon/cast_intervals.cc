@@ -55,10 +55,7 @@ class Sweep {
         out_(pencil->intervals) {
     out_.begins.reserve(edges_.size() + 2);
     out_.firsts.reserve(edges_.size() + 2);
-    const std::size_t crossings = kCrossingsPerEdge * edges_.size() + 2;
-    out_.slopes.reserve(crossings);
-    out_.at_origins.reserve(crossings);
-    out_.edges.reserve(crossings);
+    out_.crossings.reserve(kCrossingsPerEdge * edges_.size() + 2);
     ranges_.reserve(edges_.size() + 2);
   }
 
@@ -165,7 +162,7 @@ class Sweep {
     ranges_.push_back(RangeOf(std::max(double{at}, -2.0), std::min(double{end_}, 2.0)));
   }
   void AddLast() { out_.Add({0.0F, 0.0F, kInfinity}, 0); }
-  [[nodiscard]] std::int32_t NextPlace() const { return static_cast<std::int32_t>(out_.edges.size()); }
+  [[nodiscard]] std::int32_t NextPlace() const { return static_cast<std::int32_t>(out_.crossings.size()); }
 
   std::span<const CastEdge> edges_;
   std::span<const EdgeOrder> orders_;
@@ -188,7 +185,7 @@ std::size_t ChooseBins(CastPencil* pencil) {
   const std::vector<float>& begins = pencil->intervals.begins;
   if (pencil->intervals.size() == 1) return 1;
   const double first = std::max(begins[1], -2.0F), last = std::min(begins[begins.size() - 2], 2.0F);
-  const std::size_t bins = std::min(std::bit_ceil(kBinsPerInterval * begins.size()), kMostBins);
+  const std::size_t bins = std::min(kBinsPerInterval * begins.size(), kMostBins);
   const double width = std::max((last - first) / static_cast<double>(bins), kLeastBinWidth);
   pencil->least_angle = static_cast<float>(first - 1.25 * width);
   pencil->bins_per_angle = static_cast<float>(1.0 / width);
@@ -200,11 +197,13 @@ void FillBins(CastPencil* pencil) {
   const std::size_t bins = ChooseBins(pencil);
   pencil->intervals.bins.resize(bins);
   std::uint32_t interval = 0;
+  double begin = -kInfinity;  // of the first bin, which takes what lies before
   for (std::uint32_t bin = 0; bin < bins; ++bin) {
-    const double begin = BeginOf(*pencil, bin) - kAngleSlack, end = BeginOf(*pencil, bin + 1) + kAngleSlack;
-    while (bin > 0 && begins[interval + 1] <= begin) ++interval;
-    const bool has_more = interval + 2 < begins.size() && begins[interval + 2] <= end;
+    const double end = BeginOf(*pencil, bin + 1);
+    while (begins[interval + 1] <= begin - kAngleSlack) ++interval;
+    const bool has_more = interval + 2 < begins.size() && begins[interval + 2] <= end + kAngleSlack;
     pencil->intervals.bins[bin] = CastBin{interval, has_more, begins[interval + 1]}.Pack();
+    begin = end;
   }
 }
 

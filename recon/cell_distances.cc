@@ -1,9 +1,7 @@
 #include "recon/cell_distances.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
 
 #include "recon/label_raster.h"
 
@@ -38,15 +36,13 @@ void TakeNearer(const std::uint8_t* __restrict squares, std::uint8_t across, std
   }
 }
 
-// floor(8 * sqrt(square)), by square.
-const std::array<std::uint8_t, kNear * kNear + 1>& Eighths() {
-  static const auto table = [] {
-    std::array<std::uint8_t, kNear * kNear + 1> result{};
-    for (std::size_t i = 0; i < result.size(); ++i)
-      result[i] = static_cast<std::uint8_t>(8.0 * std::sqrt(static_cast<double>(i)));
-    return result;
-  }();
-  return table;
+// nearest[x] = min(nearest[x], squares[x - step] + across, squares[x + step] + across), of those that there
+// are.
+void TakeNearerBlocks(const float* __restrict squares, float across, std::size_t step, std::size_t width,
+                      float* __restrict nearest) {
+  for (std::size_t x = step; x < width; ++x) nearest[x] = std::min(nearest[x], squares[x - step] + across);
+  for (std::size_t x = 0; x + step < width; ++x)
+    nearest[x] = std::min(nearest[x], squares[x + step] + across);
 }
 
 }  // namespace
@@ -58,22 +54,21 @@ CellDistances::CellDistances(int width, int height, std::span<const std::uint32_
 }
 
 void CellDistances::FillNear(std::span<const std::uint8_t> down) {
-  near_eighths_.resize(width_ * height_ + LabelRaster::kBytesBehind);
-  // Two of them together fit a byte.
   constexpr auto kFar = static_cast<std::uint8_t>(kNear * kNear);
+  near_squares_.assign(width_ * height_ + LabelRaster::kBytesBehind, kFar);
+  // Two of them together fit a byte.
   static_assert(2 * kNear * kNear <= 255);
   // A row of squares with kNear far ones on both sides, so that the loops below run without a test.
-  std::vector<std::uint8_t> squares(width_ + 2 * kNear, kFar), nearest(width_);
+  std::vector<std::uint8_t> squares(width_ + 2 * kNear, kFar);
   for (std::size_t y = 0; y < height_; ++y) {
     for (std::size_t x = 0; x < width_; ++x) {
       const std::uint8_t cells = down[y * width_ + x];
       squares[x + kNear] = static_cast<std::uint8_t>(cells * cells);
     }
-    std::fill(nearest.begin(), nearest.end(), kFar);
     for (int dx = -kNear; dx <= kNear; ++dx) {
-      TakeNearer(squares.data() + kNear + dx, static_cast<std::uint8_t>(dx * dx), width_, nearest.data());
+      TakeNearer(squares.data() + kNear + dx, static_cast<std::uint8_t>(dx * dx), width_,
+                 near_squares_.data() + y * width_);
     }
-    for (std::size_t x = 0; x < width_; ++x) near_eighths_[y * width_ + x] = Eighths()[nearest[x]];
   }
 }
 
@@ -95,22 +90,24 @@ void CellDistances::FillBlocks(std::span<const std::uint32_t> first) {
     down[i] = std::min(down[i], down[i + block_width_] + 1);
   blocks_.resize(holds.size());
   const auto gap = [](int blocks) { return std::max(blocks - 1, 0) * kBlock + (blocks > 0 ? 1 : 0); };
+  std::vector<float> squares(block_width_);
   for (std::size_t y = 0; y < block_height_; ++y) {
     for (std::size_t x = 0; x < block_width_; ++x) {
-      // Outwards from the block itself, as long as a column can be nearer.
-      double square = std::numeric_limits<double>::max();
-      for (std::size_t step = 0; step < block_width_; ++step) {
-        const double across = gap(static_cast<int>(step));
-        if (across * across >= square) break;
-        for (const std::size_t other : {x - step, x + step}) {
-          if (other >= block_width_) continue;  // also of a wrapped x - step
-          const double along = gap(down[y * block_width_ + other]);
-          square = std::min(square, across * across + along * along);
-        }
-      }
-      blocks_[y * block_width_ + x] =
-          std::max(static_cast<float>(std::sqrt(square)) * (1.0F - 1e-6F), static_cast<float>(kNear));
+      const auto along = static_cast<float>(gap(down[y * block_width_ + x]));
+      squares[x] = along * along;
     }
+    float* const nearest = blocks_.data() + y * block_width_;
+    std::copy(squares.begin(), squares.end(), nearest);
+    // All of the row outwards, as long as a column can be nearer; that is asked now and then.
+    constexpr std::size_t kStepsUnasked = 8;
+    for (std::size_t step = 1; step < block_width_; ++step) {
+      const auto across = static_cast<float>(gap(static_cast<int>(step)));
+      if (step % kStepsUnasked == 1 && across * across >= *std::max_element(nearest, nearest + block_width_))
+        break;
+      TakeNearerBlocks(squares.data(), across * across, step, block_width_, nearest);
+    }
+    for (std::size_t x = 0; x < block_width_; ++x)
+      nearest[x] = std::max(std::sqrt(nearest[x]) * (1.0F - 1e-6F), static_cast<float>(kNear));
   }
 }
 

@@ -1,6 +1,7 @@
 // How far each cell of a grid is from the nearest one that holds something.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -8,8 +9,8 @@
 
 namespace elbowroom::recon {
 
-// Euclidean distances between cells' centres, in cells: lower bounds, short by at most 1/8 up to kNearCells;
-// farther away by at most 6 along each axis, from blocks of 4 x 4 cells (contour_map_test).
+// Euclidean distances between cells' centres, in cells: lower bounds, exact up to kNearCells; farther away
+// short by at most 6 along each axis, from blocks of 4 x 4 cells (contour_map_test).
 class CellDistances {
  public:
   static constexpr int kNearCells = 11;
@@ -19,15 +20,15 @@ class CellDistances {
   CellDistances(int width, int height, std::span<const std::uint32_t> first);
 
   [[nodiscard]] double LowerBound(int x, int y) const {
-    const std::uint8_t eighths =
-        near_eighths_[static_cast<std::size_t>(y) * width_ + static_cast<std::size_t>(x)];
-    if (eighths < kNearCells * 8) return 0.125 * eighths;
+    const std::uint8_t square =
+        near_squares_[static_cast<std::size_t>(y) * width_ + static_cast<std::size_t>(x)];
+    if (square < kNearCells * kNearCells) return std::sqrt(static_cast<double>(square));
     return blocks_[static_cast<std::size_t>(y / kBlock) * block_width_ +
                    static_cast<std::size_t>(x / kBlock)];
   }
 
-  // Item by item in eighths of a cell, capped at kNearCells; LabelRaster::kBytesBehind more behind them.
-  [[nodiscard]] std::span<const std::uint8_t> near_eighths() const { return near_eighths_; }
+  // Item by item the square, capped at that of kNearCells; LabelRaster::kBytesBehind more behind them.
+  [[nodiscard]] std::span<const std::uint8_t> near_squares() const { return near_squares_; }
 
  private:
   static constexpr int kBlock = 4;
@@ -36,7 +37,7 @@ class CellDistances {
 
   std::size_t width_ = 0, height_ = 0;
   std::size_t block_width_ = 0, block_height_ = 0;
-  std::vector<std::uint8_t> near_eighths_;  // kNearCells * 8: at least as far
+  std::vector<std::uint8_t> near_squares_;  // kNearCells * kNearCells: at least as far
   std::vector<float> blocks_;               // at least kNearCells
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstddef>
+#include <span>
 #include <utility>
 
 #include "core/error.h"
@@ -15,12 +16,15 @@ using Words = std::vector<std::uint64_t>;
 // One row of the lattice with a position of the exterior before and after it: bit i is pixel i - 1.
 struct LatticeRow {
   Words bits;
+  Words changes;                      // bit i: bits i and i + 1 differ (the last has no next)
   std::vector<std::uint8_t> levels;   // by bit; of boundary pixels only
   std::vector<std::uint32_t> across;  // vertices on the row, from the left
 };
 
 // Vertices and edges come out row by row, from the left.
 class Tracer {
+  static constexpr std::size_t kUsualVertices = 2048;  // room for them, before it grows
+
  public:
   Tracer(const core::SoftMask& silhouette, bool exterior_is_object, const PicturePlane& plane)
       : soft_(silhouette),
@@ -33,8 +37,11 @@ class Tracer {
   }
 
   Contour Trace() {
+    contour_.vertices.reserve(kUsualVertices);
+    contour_.edges.reserve(kUsualVertices);
     LatticeRow above, below;
     const auto [first, end] = Rows();
+    FindWords(first, end);
     ReadRow(first - 1, &above);
     for (int y = first - 1; y < end; ++y) {
       ReadRow(y + 1, &below);
@@ -60,18 +67,43 @@ class Tracer {
     return {first, end};
   }
   [[nodiscard]] bool IsExterior(int y) const {
-    const std::size_t words = soft_.mask.words_per_row();
-    const std::uint64_t* row = soft_.mask.words().data() + static_cast<std::size_t>(y) * words;
-    const std::size_t spare = words * 64 - static_cast<std::size_t>(soft_.mask.width_px());
-    std::uint64_t differs = (row[words - 1] ^ exterior_) << spare;
-    for (std::size_t i = 0; i + 1 < words; ++i) differs |= row[i] ^ exterior_;
+    const std::span<const std::uint64_t> row = MaskRow(y);
+    std::uint64_t differs = (row.back() ^ exterior_) << SpareBits();
+    for (const std::uint64_t word : row.first(row.size() - 1)) differs |= word ^ exterior_;
     return differs == 0;
   }
+  [[nodiscard]] std::span<const std::uint64_t> MaskRow(int y) const {
+    const std::size_t words = soft_.mask.words_per_row();
+    return {soft_.mask.words().data() + static_cast<std::size_t>(y) * words, words};
+  }
+  // Of a row's last word, behind the picture.
+  [[nodiscard]] std::size_t SpareBits() const {
+    return soft_.mask.words_per_row() * 64 - static_cast<std::size_t>(soft_.mask.width_px());
+  }
+
+  // The words of the lattice's rows that labels change in, those next to pixels that aren't the exterior's.
+  void FindWords(int first, int end) {
+    Words differs(soft_.mask.words_per_row(), 0);
+    for (int y = first; y < end; ++y) {
+      const std::span<const std::uint64_t> row = MaskRow(y);
+      for (std::size_t i = 0; i < row.size(); ++i) differs[i] |= row[i] ^ exterior_;
+    }
+    differs.back() <<= SpareBits();
+    const auto is_any = [](std::uint64_t word) { return word != 0; };
+    const auto found = std::ranges::find_if(differs, is_any);
+    if (found == differs.end()) return;
+    const auto last = std::find_if(differs.rbegin(), differs.rend(), is_any).base() - 1;
+    // Pixel i is bit i + 1: labels change from bit i to the next, or from there on.
+    first_word_ = static_cast<std::size_t>(found - differs.begin());
+    end_word_ = std::min(static_cast<std::size_t>(last - differs.begin()) + 2, LatticeWords());
+  }
+  [[nodiscard]] std::size_t LatticeWords() const { return (bits_ + 63) / 64; }
 
   static bool Bit(const Words& words, std::size_t i) { return ((words[i >> 6U] >> (i & 63U)) & 1U) != 0; }
 
   void ReadRow(int y, LatticeRow* row) {
-    row->bits.assign((bits_ + 63) / 64, exterior_);
+    row->bits.assign(LatticeWords(), exterior_);
+    row->changes.assign(LatticeWords(), 0);
     row->across.clear();
     if (y >= 0 && y < soft_.mask.height_px()) {
       FillBits(y, &row->bits);
@@ -81,18 +113,14 @@ class Tracer {
   }
 
   void FillBits(int y, Words* bits) const {
-    const std::size_t in_words = soft_.mask.words_per_row();
-    const std::uint64_t* in = soft_.mask.words().data() + static_cast<std::size_t>(y) * in_words;
-    const std::size_t width = bits_ - 2;
+    const std::span<const std::uint64_t> in = MaskRow(y);
     Words& out = *bits;
-    out.assign(out.size(), 0);
-    for (std::size_t i = 0; i < in_words; ++i) {
-      out[i] |= in[i] << 1U;
-      if (i + 1 < out.size()) out[i + 1] |= in[i] >> 63U;
+    for (std::size_t i = first_word_; i < end_word_; ++i) {
+      const std::uint64_t before = i > 0 ? in[i - 1] : exterior_;
+      out[i] = (i < in.size() ? in[i] << 1U : 0) | before >> 63U;
     }
     if (exterior_ == 0) return;
-    out[0] |= 1U;
-    for (std::size_t i = width + 1; i < out.size() * 64; ++i) out[i >> 6U] |= std::uint64_t{1} << (i & 63U);
+    for (std::size_t i = bits_ - 1; i < out.size() * 64; ++i) out[i >> 6U] |= std::uint64_t{1} << (i & 63U);
   }
 
   void FillLevels(int y, std::vector<std::uint8_t>* levels) {
@@ -126,8 +154,9 @@ class Tracer {
 
   // Between bits i and i + 1 of a row.
   void AddVerticesAcross(int y, LatticeRow* row) {
-    for (std::size_t word = 0; word < row->bits.size(); ++word) {
-      for (std::uint64_t left = ChangesAlong(row->bits, word); left != 0; left &= left - 1) {
+    for (std::size_t word = first_word_; word < end_word_; ++word) {
+      row->changes[word] = ChangesAlong(row->bits, word);
+      for (std::uint64_t left = row->changes[word]; left != 0; left &= left - 1) {
         const std::size_t i = word * 64 + static_cast<std::size_t>(std::countr_zero(left));
         double share = 0.5;
         const bool is_border = i == 0 || i + 2 == bits_;
@@ -144,7 +173,6 @@ class Tracer {
     return x >= 0 && y >= 0 && !(plane_.unseen_pixels() && plane_.unseen_pixels()->At(x, y));
   }
 
-  // Bit i: bits i and i + 1 of the row differ (the last has no next).
   [[nodiscard]] std::uint64_t ChangesAlong(const Words& bits, std::size_t word) const {
     const std::uint64_t next = word + 1 < bits.size() ? bits[word + 1] << 63U : 0;
     std::uint64_t changes = bits[word] ^ ((bits[word] >> 1U) | next);
@@ -166,8 +194,8 @@ class Tracer {
   void TraceCells(int y, const LatticeRow& above, const LatticeRow& below) {
     std::size_t next_above = 0, next_below = 0;
     std::uint32_t down = 0;  // the vertex on the cell's left side, if that changes
-    for (std::size_t word = 0; word < above.bits.size(); ++word) {
-      const std::uint64_t top = ChangesAlong(above.bits, word), bottom = ChangesAlong(below.bits, word);
+    for (std::size_t word = first_word_; word < end_word_; ++word) {
+      const std::uint64_t top = above.changes[word], bottom = below.changes[word];
       const std::uint64_t differs = above.bits[word] ^ below.bits[word];
       const std::uint64_t carry =
           word + 1 < above.bits.size() ? (above.bits[word + 1] ^ below.bits[word + 1]) << 63U : 0;
@@ -240,7 +268,9 @@ class Tracer {
   const PicturePlane& plane_;
   const std::uint64_t exterior_;
   const core::BitMask boundary_;
-  const std::size_t bits_;  // of a lattice row
+  const std::size_t bits_;      // of a lattice row
+  std::size_t first_word_ = 0;  // of a lattice row; and past the last
+  std::size_t end_word_ = 0;
   std::size_t next_level_ = 0;
   Contour contour_;
 };

@@ -230,8 +230,8 @@ HWY_INLINE std::uint64_t Sift(const LabelRaster& raster, const Points& from, con
   const VD x = hn::Mul(half, hn::Add(from.x, to.x)), y = hn::Mul(half, hn::Add(from.y, to.y));
   const VI middle = Index(raster, nearest_cell(x, raster.origin_x_px, raster.width),
                           nearest_cell(y, raster.origin_y_px, raster.height));
-  const VD eighths = hn::PromoteTo(d, Bytes(raster.clear_eighths, middle));
-  const VD clear_cells = hn::Sub(hn::Mul(eighths, Set(0.125)), Set(kCellDiagonal));
+  const VD squares = hn::PromoteTo(d, Bytes(raster.clear_squares, middle));
+  const VD clear_cells = hn::Sub(hn::Sqrt(squares), Set(kCellDiagonal));
   const VD clear_px = hn::Sub(hn::Mul(clear_cells, Set(raster.cell_px)), Set(kRoundingPx));
   const VD half_x = hn::Sub(to.x, x), half_y = hn::Sub(to.y, y);
   const VD reach2 = hn::Add(hn::Mul(half_x, half_x), hn::Mul(half_y, half_y));

@@ -56,7 +56,7 @@ class ContourMap::Grid {
 
   [[nodiscard]] LabelRaster Raster() const {
     return {origin_.x(), origin_.y(), cell_px_, cells_per_px_,
-            cells_.x(),  cells_.y(),  labels_,  distances_.near_eighths(),
+            cells_.x(),  cells_.y(),  labels_,  distances_.near_squares(),
             first_,      segments_};
   }
 

@@ -27,8 +27,8 @@ struct LabelRaster {
   double cell_px = 1.0, cells_per_px = 1.0;
   std::int32_t width = 0, height = 0;
   std::span<const std::uint8_t> labels;
-  // From a cell's centre to that of the nearest mixed one, at least; in eighths of a cell.
-  std::span<const std::uint8_t> clear_eighths;
+  // From a cell's centre to that of the nearest mixed one, at least; squared, in cells.
+  std::span<const std::uint8_t> clear_squares;
   std::span<const std::uint32_t> first;  // of each cell's edges; one more at the end
   std::span<const Edge> edges;           // cell by cell
 };

@@ -64,6 +64,7 @@ bool AddEvents(const ContourMap& labels, double focal_px, const RayInCam& ray, s
     is_positive[i] = side.x() * v.x() + side.y() * v.y() + side.z() * focal_px > 0.0 ? 1 : 0;
   }
   double first_mm = std::numeric_limits<double>::infinity();
+  bool first_is_entry = false, is_tied = false;
   for (std::uint32_t e = 0; e < contour.edges.size(); ++e) {
     const ContourEdge& edge = contour.edges[e];
     if (is_positive[edge.from] == is_positive[edge.to]) continue;
@@ -76,8 +77,13 @@ bool AddEvents(const ContourMap& labels, double focal_px, const RayInCam& ray, s
     const double t_mm = height / rise;
     if (!(t_mm > 0.0)) continue;
     events->push_back({t_mm, camera, e, is_entry, is_outline});
-    first_mm = std::min(first_mm, t_mm);
+    is_tied = t_mm == first_mm || (is_tied && t_mm > first_mm);
+    if (t_mm >= first_mm) continue;
+    first_mm = t_mm;
+    first_is_entry = is_entry;
   }
+  // What is entered was background before.
+  if (std::isfinite(first_mm) && !is_tied) return !first_is_entry;
   // Not at the origin, which may be on the hull's surface: halfway to the first event, or anywhere.
   const double between_mm = std::isinf(first_mm) ? centre.norm() : 0.5 * first_mm;
   return LabelInCam(labels, focal_px, ray.origin + between_mm * ray.direction);

@@ -147,8 +147,9 @@ class Walk {
       const auto is_by = hn::Eq(front.camera, hn::Set(n, static_cast<std::int32_t>(i)));
       const TileCamera& camera = i < cameras_.size() ? cameras_[i] : sights_[i - cameras_.size()];
       if (hn::AllFalse(n, is_by) || camera.pencil->bins() == 0) continue;
-      const VI at = hn::IfThenElseZero(is_by, front.place);
-      found = hn::IfThenElse(is_by, hn::GatherIndex(n, camera.pencil->intervals.edges.data(), at), found);
+      const std::uint64_t* words = CastCrossing::Words(camera.pencil->intervals.crossings.data());
+      const VI place = hn::IfThenElseZero(is_by, front.place);
+      found = hn::IfThenElse(is_by, GatherWords(words + 1, hn::Add(place, place)).upper, found);
     }
     return found;
   }
@@ -191,11 +192,12 @@ class Walk {
   // The key at course->place; behind the last crossing it is infinite.
   HWY_INLINE void Fetch(const CastPencil& pencil, Course* course) const {
     const Floats f;
-    const Halves slopes = GatherWords(pencil.intervals.slopes.data(), course->place);
-    const VF at_origin = hn::GatherIndex(f, pencil.intervals.at_origins.data(), course->place);
+    const std::uint64_t* words = CastCrossing::Words(pencil.intervals.crossings.data());
+    const VI at = hn::Add(course->place, course->place);
+    const Halves slopes = GatherWords(words, at), rest = GatherWords(words + 1, at);
     const VF du = hn::BitCast(f, slopes.lower), dv = hn::BitCast(f, slopes.upper);
     // No fused operation, as in At.
-    course->key = hn::Add(hn::Add(hn::Mul(rays_.u, du), hn::Mul(rays_.v, dv)), at_origin);
+    course->key = hn::Add(hn::Add(hn::Mul(rays_.u, du), hn::Mul(rays_.v, dv)), hn::BitCast(f, rest.lower));
   }
 
   // Passes all crossings up to `at`.

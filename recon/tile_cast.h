@@ -29,6 +29,23 @@ struct CastEdge {
   bool is_entry = false;   // rays enter the object by it
 };
 
+// A key and the number of its edge, packed into two words, which rays gather: du and dv; at_origin and edge.
+class CastCrossing {
+ public:
+  CastCrossing(const CastForm& key, std::int32_t edge)
+      : words_{Pack(std::bit_cast<std::uint32_t>(key.du), std::bit_cast<std::uint32_t>(key.dv)),
+               Pack(std::bit_cast<std::uint32_t>(key.at_origin), static_cast<std::uint32_t>(edge))} {}
+  [[nodiscard]] std::int32_t edge() const { return static_cast<std::int32_t>(words_[1] >> 32U); }
+  // Of some crossings in a row, two each.
+  [[nodiscard]] static const std::uint64_t* Words(const CastCrossing* crossings) { return crossings->words_; }
+
+ private:
+  static std::uint64_t Pack(std::uint32_t lower, std::uint32_t upper) {
+    return lower | std::uint64_t{upper} << 32U;
+  }
+  std::uint64_t words_[2];
+};
+
 // Angles in which rays meet the same edges, in the same order: [begins[i], begins[i + 1]) is interval i.
 // begins[0] is -infinity, the last one infinity.
 struct CastIntervals {
@@ -36,13 +53,10 @@ struct CastIntervals {
   // By interval and once more: the place of its first crossing. Its last is two places before the next
   // interval's first.
   std::vector<std::int32_t> firsts;
-  // By place, in their order along the rays, entries and exits in turn; behind each interval's last a key
-  // that is infinite, and one in place 0. Of keys du and dv, packed into words, which rays gather; the rest;
-  // and the number in CastPencil::edges.
-  std::vector<std::uint64_t> slopes;
-  std::vector<float> at_origins;
-  std::vector<std::int32_t> edges;
-  // By bin: CastBin, packed likewise.
+  // By place, in their order along the rays, entries and exits in turn: keys and numbers in
+  // CastPencil::edges. Behind each interval's last there is a key that is infinite, and one in place 0.
+  std::vector<CastCrossing> crossings;
+  // By bin: CastBin, packed into words, which rays gather.
   std::vector<std::uint64_t> bins;
 
   struct Run {
@@ -53,16 +67,7 @@ struct CastIntervals {
   [[nodiscard]] Run RunOf(std::size_t interval) const {
     return {static_cast<std::size_t>(firsts[interval]), static_cast<std::size_t>(firsts[interval + 1] - 1)};
   }
-  [[nodiscard]] CastForm KeyAt(std::size_t place) const {
-    return {std::bit_cast<float>(static_cast<std::uint32_t>(slopes[place])),
-            std::bit_cast<float>(static_cast<std::uint32_t>(slopes[place] >> 32U)), at_origins[place]};
-  }
-  void Add(const CastForm& key, std::int32_t edge) {
-    slopes.push_back(std::bit_cast<std::uint32_t>(key.du) |
-                     std::uint64_t{std::bit_cast<std::uint32_t>(key.dv)} << 32U);
-    at_origins.push_back(key.at_origin);
-    edges.push_back(edge);
-  }
+  void Add(const CastForm& key, std::int32_t edge) { crossings.push_back(CastCrossing(key, edge)); }
 };
 
 // No later than the interval of any ray whose angle is in the bin, and where the next one begins.

@@ -77,7 +77,7 @@ std::vector<CastEdge> EdgesAt(const CastPencil& pencil, bool is_entry, const Ran
   for (std::size_t interval = first; interval <= last; ++interval) {
     const CastIntervals::Run run = pencil.intervals.RunOf(interval);
     for (std::size_t i = run.begin; i < run.end; ++i) {
-      const auto number = static_cast<std::uint32_t>(pencil.intervals.edges[i]);
+      const auto number = static_cast<std::uint32_t>(pencil.intervals.crossings[i].edge());
       const CastEdge& edge = pencil.edges[number];
       if (edge.is_entry == is_entry && edge.from <= angle.high && edge.to > angle.low)
         numbers.push_back(number);

@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "recon/camera_query.h"
+#include "recon/hull_edges.h"
 
 namespace elbowroom::recon {
 namespace {
@@ -199,22 +200,18 @@ BoundingEdge VisualHull::EdgeAt(const Eigen::Vector3d& surface_point_in_world) c
   double nearest_mm = rig_->workspace_mm.contains(surface_point_in_world)
                           ? DistanceToFace(rig_->workspace_mm, surface_point_in_world)
                           : 0.0;
-  for (std::size_t i = 0; i < silhouettes_.size(); ++i) {
-    const core::CameraModel& camera = rig_->cameras[i];
-    const Eigen::Vector3d x_in_cam = camera.cam_from_world() * surface_point_in_world;
-    const double focal_px = silhouettes_[i]->plane().focal_px();
-    if (!(x_in_cam.z() > 0.0)) continue;
-    const Eigen::Vector2d position = x_in_cam.head<2>() * (focal_px / x_in_cam.z());
-    const ContourMap& labels = silhouettes_[i]->labels();
-    const std::optional<std::uint32_t> edge = labels.NearestEdge(position);
-    if (!edge) continue;
+  const std::vector<NearEdge> edges = NearEdges(*this, surface_point_in_world);
+  const NearEdge* nearest = nullptr;
+  for (const NearEdge& edge : edges) {
     // How far the point is from the plane that the edge and the camera's centre span, about.
-    const double distance_mm = DistanceToEdge(labels.contour(), *edge, position) * x_in_cam.z() / focal_px;
+    const double distance_mm = edge.distance_px * edge.px_mm;
     if (distance_mm >= nearest_mm) continue;
     nearest_mm = distance_mm;
-    bounding.camera = i;
-    bounding.normal_in_world =
-        camera.cam_from_world().rotation.transpose() * OutwardNormalInCam(labels.contour(), *edge, focal_px);
+    nearest = &edge;
+  }
+  if (nearest != nullptr) {
+    bounding.camera = nearest->camera;
+    bounding.normal_in_world = NormalOf(*this, *nearest).in_world;
   }
   return bounding;
 }

@@ -90,8 +90,8 @@ class VisualHull {
   // camera only if `open` knows that already.
   [[nodiscard]] BallAnswer Classify(const WorldShape& shape, OpenCameras* open) const;
 
-  // Which silhouette ends the hull at a point on its surface; the normal is that of the silhouette's edge
-  // there, smoothed along the contour (SmoothTangent), through the camera's centre.
+  // Which silhouette ends the hull at a point on its surface; the normal is that of the plane
+  // through the camera's centre and the contour's tangent there (FitTangent).
   [[nodiscard]] BoundingEdge EdgeAt(const Eigen::Vector3d& surface_point_in_world) const;
 
  private:

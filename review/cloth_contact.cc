@@ -33,6 +33,8 @@ ClothContact::ClothContact(const ClothPanel& panel, const recon::VisualHull& hul
       hull_(hull),
       v_rec_(v_rec_in_world),
       state_(state),
+      sides_agree_(panel.leaves_one_way()),
+      one_side_(panel.leaves_one_way() ? 1 : 0),
       known_(panel.rest().triangles.size()),
       touched_(state->x_in_world.size(), 0) {}
 
@@ -154,6 +156,7 @@ bool ClothContact::Push(const Corners& corners, const Vector3d& weights, int sid
 }
 
 void ClothContact::ChooseOneSide() {
+  if (one_side_ != 0) return;
   int sum = 0;
   for (const std::int8_t side : state_->sides) sum += side;
   sides_agree_ = true;

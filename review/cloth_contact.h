@@ -60,8 +60,8 @@ class ClothContact {
   const recon::VisualHull& hull_;
   Eigen::Vector3d v_rec_;  // in world
   ClothState* state_;
-  bool sides_agree_ = false;
-  int one_side_ = 0;  // 0: to each its own
+  bool sides_agree_;
+  int one_side_;  // 0: to each its own
   struct Known {
     std::array<Eigen::Vector3d, 3> corners;  // where they were when the hull was asked
     double free_mm = -1.0;                   // while none has moved farther, the triangle is out of the hull

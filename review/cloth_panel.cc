@@ -64,15 +64,32 @@ ClothPanel::ClothPanel(const core::Part& part)
   Weigh();
   Pin(part.name);
   AddSprings();
+  ChooseWayOut(part);
+}
+
+void ClothPanel::ChooseWayOut(const core::Part& part) {
+  const core::RecoveryRule& recovery = part.recovery;
+  if (recovery.kind == core::RecoveryKind::kHinge) {
+    throw core::Error(core::ErrorKind::kGeometry,
+                      fmt::format("part '{}': a cloth leaves the hull along a line, not about a hinge; make its "
+                                  "recovery a slider or a direction",
+                                  part.name));
+  }
+  leaves_one_way_ = recovery.kind == core::RecoveryKind::kDirection;
+  if (recovery.axis_in_part) {
+    v_rec_ = recovery.axis_in_part->stableNormalized();
+    return;
+  }
   Vector3d normal = Vector3d::Zero();
   for (const auto& triangle : rest_->triangles) normal += DoubleArea(*rest_, triangle);
-  v_rec_ = rule_.v_rec.value_or(normal);
   constexpr double kFacesNoWayMm2 = 1e-6;
-  if (v_rec_.norm() < kFacesNoWayMm2) {
+  if (normal.norm() < kFacesNoWayMm2) {
     throw core::Error(core::ErrorKind::kGeometry,
-                      fmt::format("part '{}': its cloth faces no way; give v_rec", part.name));
+                      fmt::format("part '{}': its cloth faces no way; give it recovery = \"slider\" and a "
+                                  "recovery_axis",
+                                  part.name));
   }
-  v_rec_.normalize();
+  v_rec_ = normal.normalized();
 }
 
 void ClothPanel::Weigh() {

@@ -24,7 +24,7 @@ struct ClothSpring {
 class ClothPanel {
  public:
   // Throws: core::Error{kGeometry} naming the part: a triangle without area, pins that hold every vertex, a
-  // closed surface (it faces no way) without v_rec.
+  // closed surface (it faces no way) without an axis of recovery, a hinge.
   explicit ClothPanel(const core::Part& part);
 
   [[nodiscard]] const core::ClothRule& rule() const { return rule_; }
@@ -37,13 +37,16 @@ class ClothPanel {
   // Along the triangles' edges, then across them, between the far corners of two triangles.
   [[nodiscard]] const std::vector<ClothSpring>& springs() const { return springs_; }
   [[nodiscard]] std::size_t edge_springs() const { return edge_springs_; }
-  // Unit: the line along which vertices leave the hull, either way (the paper's constrained V_rec).
+  // Unit: the line along which vertices leave the hull (the paper's constrained V_rec); whether in its sense
+  // alone.
   [[nodiscard]] const Eigen::Vector3d& v_rec_in_part() const { return v_rec_; }
+  [[nodiscard]] bool leaves_one_way() const { return leaves_one_way_; }
 
  private:
   void Weigh();
   void Pin(const std::string& part);
   void AddSprings();
+  void ChooseWayOut(const core::Part& part);
 
   core::ClothRule rule_;
   core::SharedMesh rest_;
@@ -53,6 +56,7 @@ class ClothPanel {
   std::vector<ClothSpring> springs_;
   std::size_t edge_springs_ = 0;
   Eigen::Vector3d v_rec_;
+  bool leaves_one_way_ = false;
 };
 
 }  // namespace elbowroom::review

@@ -1,39 +1,80 @@
-// Frames to episodes: one touch is one episode, however the contact flickers.
+// Frames to episodes: one touch is one episode, however the contact flickers; near misses beside them.
 #pragma once
 
 #include <map>
+#include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "core/contact.h"
 #include "core/ids.h"
+#include "core/rigid_transform.h"
 
 namespace elbowroom::review {
 
 struct TrackerOptions {
   // A part that is out of contact for no longer than this is still in the same touch, s.
   double max_gap_s = 0.5;
+  // A touch begins with a contact at least this deep, mm. 0: any.
+  double enter_depth_mm = 0.0;
+  // A part that is sure to be no farther than so many times its contact's resolution is still touching.
+  double leave_resolutions = 2.0;
+  // What the trial requires, as PartReviewOptions has it, mm. 0: no near misses.
+  double required_clearance_mm = 0.0;
+  double uncertainty_mm = 0.0;
+  // An approach is over when the part is sure to be farther than required by this, mm.
+  double leave_margin_mm = 1.0;
 
-  // Throws: core::Error{kRange}.
+  // Throws: core::Error{kRange} naming the option.
   void Validate() const;
 };
 
-// Fed frame by frame, in order of time; episodes of one part never overlap. Thread: one.
+struct TrackedFrame {
+  core::FrameIndex frame = 0;
+  double time_s = 0.0;
+  std::span<const core::PartContact> contacts;             // one a part, at most
+  std::span<const core::RigidTransform> world_from_parts;  // of every part, by its index
+  std::span<const double> spacing_mm;
+  std::span<const std::string> tools_in_use;  // in order of name
+};
+
+// The rules are those of docs/contact_tracking.md. Fed frame by frame, in order of time; episodes of one part
+// never overlap. A change of spacing between two frames doesn't end a touch by itself. Thread: one.
 class ContactTracker {
  public:
   explicit ContactTracker(const TrackerOptions& options = {});
 
-  // contacts: one a part. A change of spacing between two frames doesn't end a touch by itself.
-  void Add(core::FrameIndex frame, double time_s, std::span<const core::PartContact> contacts,
-           std::span<const double> spacing_mm);
+  void Add(const TrackedFrame& frame);
 
-  // All episodes so far, those still open with what is known of them, by begin and then part; ids from 1.
+  // All so far, those still open with what is known of them, by begin and then part; ids from 1.
   [[nodiscard]] std::vector<core::ContactEpisode> Episodes() const;
+  [[nodiscard]] std::vector<core::NearMiss> NearMisses() const;
 
  private:
+  struct Touch {
+    core::ContactEpisode episode;
+    double held_until_s = 0.0;  // in contact or as good as
+  };
+  // The part is nearer than required, or may be.
+  struct Approach {
+    core::NearMiss miss;
+    double held_until_s = 0.0;
+    bool has_touched = false;
+  };
+  struct PartState {
+    std::optional<Touch> touch;
+    std::optional<Approach> approach;
+  };
+
+  void CloseWhatIsOver(double time_s);
+  void FollowTouch(const TrackedFrame& frame, const core::PartContact& contact, PartState* state) const;
+  void FollowApproach(const TrackedFrame& frame, const core::PartContact& contact, PartState* state) const;
+
   TrackerOptions options_;
-  std::vector<core::ContactEpisode> closed_;
-  std::map<core::PartIndex, core::ContactEpisode> open_;
+  std::vector<core::ContactEpisode> touches_;  // closed
+  std::vector<core::NearMiss> near_misses_;    // closed
+  std::map<core::PartIndex, PartState> parts_;
 };
 
 }  // namespace elbowroom::review

@@ -7,10 +7,11 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "recon/ray_crossings.h"
 #include "recon/triangle_pieces.h"
 #include "review/containment.h"
+#include "review/longest_side.h"
 #include "review/point_spread.h"
+#include "review/recovery.h"
 
 namespace elbowroom::review {
 namespace {
@@ -24,27 +25,8 @@ constexpr double kContainmentCells = 64.0;
 // Triangles of no more pieces a side are cut at once: a ball query costs as much as a few centres.
 constexpr double kSidesWithoutBall = 2.0;
 
-struct Triangle {
-  Vector3d a, b, c;  // in world
-
-  [[nodiscard]] double AreaMm2() const { return 0.5 * (b - a).cross(c - a).norm(); }
-  [[nodiscard]] Vector3d Centroid() const { return (a + b + c) / 3.0; }
-};
-
-// Two halves, cut at the middle of the longest side: needles shorten, nothing stays long.
-std::pair<Triangle, Triangle> Halve(const Triangle& t) {
-  const double ab = (t.b - t.a).squaredNorm(), bc = (t.c - t.b).squaredNorm(), ca = (t.a - t.c).squaredNorm();
-  if (ab >= bc && ab >= ca) {
-    const Vector3d m = 0.5 * (t.a + t.b);
-    return {{t.a, m, t.c}, {m, t.b, t.c}};
-  }
-  if (bc >= ca) {
-    const Vector3d m = 0.5 * (t.b + t.c);
-    return {{t.a, t.b, m}, {t.a, m, t.c}};
-  }
-  const Vector3d m = 0.5 * (t.c + t.a);
-  return {{t.a, t.b, m}, {m, t.b, t.c}};
-}
+double AreaMm2(const Corners& t) { return 0.5 * (t.b - t.a).cross(t.c - t.a).norm(); }
+Vector3d Centroid(const Corners& t) { return (t.a + t.b + t.c) / 3.0; }
 
 // What of a small stretch of surface is inside: one contact point.
 struct Patch {
@@ -83,7 +65,7 @@ class ContactSearch {
   [[nodiscard]] const core::QueryCount& count() const { return count_; }
 
  private:
-  [[nodiscard]] Triangle TriangleAt(std::uint32_t index) const {
+  [[nodiscard]] Corners TriangleAt(std::uint32_t index) const {
     const auto& [a, b, c] = part_.mesh().triangles[index];
     const auto vertex = [&](std::int32_t i) {
       return world_from_part_ * part_.mesh().vertices_mm[static_cast<std::size_t>(i)];
@@ -127,14 +109,14 @@ class ContactSearch {
     });
   }
 
-  void VisitTriangle(const Triangle& triangle, recon::OpenCameras open, Patch* given) {
+  void VisitTriangle(const Corners& triangle, recon::OpenCameras open, Patch* given) {
     const core::Ball ball = core::BallOf(triangle.a, triangle.b, triangle.c);
     const double size_mm = 2.0 * ball.radius_mm;
     InPatch(size_mm, given, [&](Patch* patch) {
       const double sides = std::max(std::ceil(size_mm / resolution_mm_), 1.0);
       if (sides > kSidesWithoutBall && AskTriangle(triangle, ball, &open, patch)) return;
       if (sides == 1.0 || (patch != nullptr && sides <= recon::CutTriangle::kMostSides))
-        return Cut({triangle.a, triangle.b, triangle.c, static_cast<int>(sides)}, triangle.AreaMm2(), open,
+        return Cut({triangle.a, triangle.b, triangle.c, static_cast<int>(sides)}, AreaMm2(triangle), open,
                    patch);
       const auto [first, second] = Halve(triangle);
       VisitTriangle(first, open, patch);
@@ -143,9 +125,10 @@ class ContactSearch {
   }
 
   // True if the triangle's ball, or what it covers in the pictures, settles it.
-  bool AskTriangle(const Triangle& triangle, const core::Ball& ball, recon::OpenCameras* open, Patch* patch) {
+  bool AskTriangle(const Corners& triangle, const core::Ball& ball, recon::OpenCameras* open, Patch* patch) {
     BallAnswer answer = Ask(ball, open);
-    if (answer == BallAnswer::kMixed) {
+    if (answer == BallAnswer::kMixed &&
+        2.0 * ball.radius_mm > recon::CutTriangle::kMostSides * resolution_mm_) {
       ++count_.queries;
       answer = hull_.Classify(recon::WorldShape::Triangle(triangle.a, triangle.b, triangle.c), open);
     }
@@ -179,7 +162,7 @@ class ContactSearch {
     InPatch(2.0 * node.ball.radius_mm, given, [&](Patch* patch) {
       if (patch != nullptr) {
         ReachNode(index);
-        patch->Add(node.area_mm2, TriangleAt(part_.order()[node.begin]).Centroid());
+        patch->Add(node.area_mm2, Centroid(TriangleAt(part_.order()[node.begin])));
       } else if (node.left != 0) {
         AddNodeInside(node.left, nullptr);
         AddNodeInside(node.left + 1, nullptr);
@@ -190,14 +173,14 @@ class ContactSearch {
     });
   }
 
-  void AddTriangleInside(const Triangle& triangle, Patch* patch) {
+  void AddTriangleInside(const Corners& triangle, Patch* patch) {
     for (const Vector3d& vertex : {triangle.a, triangle.b, triangle.c}) Reach(vertex);
     AddInside(triangle, patch);
   }
 
-  void AddInside(const Triangle& triangle, Patch* given) {
+  void AddInside(const Corners& triangle, Patch* given) {
     InPatch(2.0 * core::BallOf(triangle.a, triangle.b, triangle.c).radius_mm, given, [&](Patch* patch) {
-      if (patch != nullptr) return patch->Add(triangle.AreaMm2(), triangle.Centroid());
+      if (patch != nullptr) return patch->Add(AreaMm2(triangle), Centroid(triangle));
       const auto [first, second] = Halve(triangle);
       AddInside(first, nullptr);
       AddInside(second, nullptr);
@@ -223,7 +206,7 @@ class ContactSearch {
       return;
     }
     for (std::uint32_t i = node.begin; i < node.end; ++i) {
-      const Triangle triangle = TriangleAt(part_.order()[i]);
+      const Corners triangle = TriangleAt(part_.order()[i]);
       for (const Vector3d& vertex : {triangle.a, triangle.b, triangle.c}) Reach(vertex);
     }
   }
@@ -239,28 +222,6 @@ class ContactSearch {
   core::QueryCount count_;
 };
 
-void Recover(const recon::VisualHull& hull, const Vector3d& cp_obj, const Vector3d& rp_obj,
-             core::PartContact* contact) {
-  const double distance_mm = (rp_obj - cp_obj).norm();
-  if (!(distance_mm > 1e-9)) {
-    contact->recovery_status = core::RecoveryStatus::kNoDirection;
-    return;
-  }
-  const Vector3d v_rec = (rp_obj - cp_obj) / distance_mm;
-  if (hull.Contains(rp_obj)) {
-    contact->recovery_status = core::RecoveryStatus::kReferenceInsideHull;
-    return;
-  }
-  const std::optional<double> crossing_mm = recon::FirstInside(hull, {rp_obj, -v_rec}, {0.0, distance_mm});
-  // CP_obj itself is in the hull, so the ray has entered it by then, but for rounding on its surface.
-  const double from_reference_mm = crossing_mm.value_or(distance_mm);
-  core::Recovery recovery{
-      cp_obj, rp_obj - from_reference_mm * v_rec, v_rec, distance_mm - from_reference_mm, {}};
-  recovery.n_hull_in_world = hull.EdgeAt(recovery.cp_hull_in_world_mm).normal_in_world;
-  contact->recovery_status = core::RecoveryStatus::kFound;
-  contact->recovery = recovery;
-}
-
 }  // namespace
 
 void ContactOptions::Validate() const {
@@ -270,6 +231,8 @@ void ContactOptions::Validate() const {
   require(resolution_mm >= 0.0 && std::isfinite(resolution_mm),
           fmt::format("resolution must be positive, not {} mm", resolution_mm));
   require(point_spacing_mm > 0.0, fmt::format("point spacing must be positive, not {} mm", point_spacing_mm));
+  const auto broken = recovery.BrokenRule();
+  require(!broken, fmt::format("recovery: {}", broken.value_or("")));
   require(max_points > 0, fmt::format("at least one contact point must be kept, not {}", max_points));
 }
 
@@ -300,10 +263,8 @@ core::PartContact FindContacts(const recon::VisualHull& hull, const core::Triang
       options.resolution_mm > 0.0
           ? options.resolution_mm
           : 0.5 * PixelFootprintMm(hull.rig(), center_in_world).value_or(2.0 * kFallbackResolutionMm);
-  // The root ball stands at the centre of the bounds.
-  const Vector3d rp_obj =
-      options.reference_in_part ? world_from_part * *options.reference_in_part : center_in_world;
-  ContactSearch search(hull, part, world_from_part, options, contact.resolution_mm, rp_obj);
+  const RecoveryWay way = WayOf(options.recovery, part, world_from_part);
+  ContactSearch search(hull, part, world_from_part, options, contact.resolution_mm, way.rp_obj);
   search.Run();
   contact.count.queries = search.count().queries;
   contact.count.skipped = search.count().skipped;
@@ -317,13 +278,15 @@ core::PartContact FindContacts(const recon::VisualHull& hull, const core::Triang
         FindHullInside(hull, part, world_from_part, cell_mm, &contact.count.queries);
     if (!contact.contained_in_world_mm) return contact;
     contact.verdict = core::Verdict::kContact;
-    contact.recovery_status = core::RecoveryStatus::kNoDirection;
+    contact.recovery_status = core::RecoveryStatus::kHullInsidePart;
     return contact;
   }
   contact.verdict = core::Verdict::kContact;
   contact.contact_point_count = static_cast<std::int64_t>(points.size());
   for (const core::ContactPoint& point : points) contact.contact_area_mm2 += point.area_mm2;
-  Recover(hull, search.farthest(), rp_obj, &contact);
+  RecoveryAnswer answer = Recover(hull, search.farthest(), way);
+  contact.recovery_status = answer.status;
+  contact.recovery = std::move(answer.recovery);
   for (core::ContactPoint& point : points) {
     point.depth_mm = hull.Probe(point.position_in_world_mm).radius_mm;
     ++contact.count.queries;

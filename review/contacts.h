@@ -7,6 +7,7 @@
 #include "core/bvh.h"
 #include "core/contact.h"
 #include "core/ids.h"
+#include "core/recovery_rule.h"
 #include "core/rigid_transform.h"
 #include "recon/visual_hull.h"
 
@@ -18,17 +19,16 @@ struct ContactOptions {
   double resolution_mm = 0.0;
   // Pieces wholly inside are cut down to this size, so that a large face yields many points.
   double point_spacing_mm = 10.0;
-  int max_points = 64;  // kept of them, spread evenly
-  // RP_obj of the paper, in the part's frame; nothing: the centre of the part's bounds.
-  std::optional<Eigen::Vector3d> reference_in_part;
+  int max_points = 64;          // kept of them, spread evenly
+  core::RecoveryRule recovery;  // RP_obj, and which way the part may give way
 
   // Throws: core::Error{kRange} naming the option.
   void Validate() const;
 };
 
 // Contact of one part with the hull: verdict `contact` or `clear`, points, area, the deepest of all points,
-// and the paper's recovery by exact ray crossing (CP_obj, of the part's points in the hull the farthest from
-// RP_obj, to the resolution; CP_hull, the first hull point from RP_obj towards it).
+// and the recovery (recovery.h) of CP_obj, of the part's points in the hull the farthest from RP_obj, to the
+// resolution.
 //
 // Surface that the ball query calls outside or inside is certified; surface within one piece of `resolution`
 // of the hull's boundary is decided by the piece's centre, so a contact smaller than that can be missed and

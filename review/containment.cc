@@ -3,6 +3,8 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "review/part_distance.h"
+
 namespace elbowroom::review {
 namespace {
 
@@ -53,25 +55,35 @@ class InsideSearch {
                const core::RigidTransform& world_from_part, double cell_mm, std::int64_t* queries)
       : hull_(hull), part_(part), world_from_part_(world_from_part), cell_mm_(cell_mm), queries_(queries) {}
 
-  [[nodiscard]] std::optional<Vector3d> Visit(const Eigen::AlignedBox3d& cell_in_part) const {
+  [[nodiscard]] std::optional<Vector3d> Run() { return Visit(part_.bounds(), 0, {}); }
+
+ private:
+  // `likely`: a triangle that is probably near.
+  [[nodiscard]] std::optional<Vector3d> Visit(const Eigen::AlignedBox3d& cell_in_part, std::uint32_t likely,
+                                              recon::OpenCameras open) {
     const Vector3d center = cell_in_part.center(), center_in_world = world_from_part_ * center;
+    const double radius_mm = 0.5 * cell_in_part.diagonal().norm() * (1.0 + 1e-12);
     ++*queries_;
-    const recon::BallAnswer answer =
-        hull_.Classify(center_in_world, 0.5 * cell_in_part.diagonal().norm() * (1.0 + 1e-12));
+    const recon::BallAnswer answer = hull_.Classify(center_in_world, radius_mm, &open);
     if (answer == recon::BallAnswer::kOutside) return std::nullopt;
-    if (hull_.Contains(center_in_world) && IsInsideClosedMesh(part_, center)) return center_in_world;
-    // No face lies in the hull: a cell wholly in it is on one side of the part's surface.
-    if (answer == recon::BallAnswer::kInside || cell_in_part.sizes().maxCoeff() <= cell_mm_)
-      return std::nullopt;
+    const bool is_hull = hull_.Contains(center_in_world, open);
+    const NearestOnPart nearest = FindNearest(part_, {.center = center}, likely);
+    // A cell without surface is on one side of it; so is one wholly in the hull, where no face is.
+    const bool is_one_side = nearest.distance_mm > radius_mm || answer == recon::BallAnswer::kInside;
+    if (is_hull || is_one_side) {
+      const bool is_in_part = IsInsideClosedMesh(part_, center);
+      if (is_hull && is_in_part) return center_in_world;
+      if (is_one_side && !is_in_part) return std::nullopt;
+    }
+    if (cell_in_part.sizes().maxCoeff() <= cell_mm_) return std::nullopt;
     for (int child = 0; child < 8; ++child) {
       const Vector3d corner = cell_in_part.corner(static_cast<Eigen::AlignedBox3d::CornerType>(child));
       const Eigen::AlignedBox3d eighth(corner.cwiseMin(center), corner.cwiseMax(center));
-      if (std::optional<Vector3d> found = Visit(eighth)) return found;
+      if (std::optional<Vector3d> found = Visit(eighth, nearest.triangle, open)) return found;
     }
     return std::nullopt;
   }
 
- private:
   const recon::VisualHull& hull_;
   const core::TriangleTree& part_;
   const core::RigidTransform& world_from_part_;
@@ -89,7 +101,7 @@ std::optional<Vector3d> FindHullInside(const recon::VisualHull& hull, const core
                                        const core::RigidTransform& world_from_part, double cell_mm,
                                        std::int64_t* queries) {
   if (!part.is_closed()) return std::nullopt;
-  return InsideSearch(hull, part, world_from_part, cell_mm, queries).Visit(part.bounds());
+  return InsideSearch(hull, part, world_from_part, cell_mm, queries).Run();
 }
 
 }  // namespace elbowroom::review

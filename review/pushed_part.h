@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <span>
 
+#include "core/contact.h"
 #include "core/layout.h"
 #include "core/rigid_transform.h"
 #include "recon/visual_hull.h"
@@ -11,13 +12,12 @@
 
 namespace elbowroom::review {
 
-// Where pushing has taken a part, and how the last step went.
+// Where pushing has taken a part, and how the last step went. Lengths are the way of the part's fastest point.
 struct PushState {
-  Eigen::Vector3d moved_in_world = Eigen::Vector3d::Zero();  // mm, from where the layout has it
-  // Of the last step: what it took to leave the hull, how far it went, whether another part was in the way.
-  double wanted_mm = 0.0;
+  core::RigidTransform rest_from_part;  // rest: the frame of the part where the layout has it
+  double wanted_mm = 0.0;               // to leave the hull
   double went_mm = 0.0;
-  bool is_blocked = false;
+  bool is_blocked = false;  // another part was in the way
 };
 
 struct StandingPart {
@@ -28,14 +28,15 @@ struct StandingPart {
 // A pushed part keeps this far from the others.
 inline constexpr double kPushGapMm = 0.05;
 
-// The state `dt_s` later. A part in the hull moves by D_rec along V_rec: towards RP_obj as FindContacts finds
-// it, or along the rule's axis, to the side where less brings every contact point out. Never faster than the
-// rule allows, and never into another part: it goes as far as the gap to the others is wide, again and again,
-// so nothing is passed however thin (pushed_part_test). Where V_rec isn't defined (RP_obj in the hull, a hull
-// inside the part) it stays; a part that already touches another moves only away from it.
+// The state `dt_s` later. `contact`: FindContacts of the part, with its recovery, where `state` has it; `rest`:
+// where the layout has it. Towards RP_obj the part moves as the paper's do, by CP_obj's D_rec; along a
+// direction or slider, or about a hinge, by what brings every contact point out, in the sense that takes least.
+// No point of it goes faster than the rule allows, nor into another part: it goes as far as the gap to the
+// others is wide, again and again, so nothing is passed however thin (pushed_part_test). Without a way out
+// (contact.recovery_status) it stays; a part that already touches another moves only away from it.
 // Throws: PreconditionError for a dt_s that isn't within (0, 1] s. Thread: any.
-[[nodiscard]] PushState StepPush(const core::PushRule& rule, PushState state, const StandingPart& part,
-                                 std::span<const StandingPart> others, const recon::VisualHull& hull,
-                                 double dt_s);
+[[nodiscard]] PushState StepPush(const core::Part& part, const core::PartContact& contact, PushState state,
+                                 const StandingPart& rest, std::span<const StandingPart> others,
+                                 const recon::VisualHull& hull, double dt_s);
 
 }  // namespace elbowroom::review

@@ -31,6 +31,8 @@ struct PartTotals {
 [[nodiscard]] std::vector<core::PartContact> ReadContacts(Database& database, core::FrameIndex frame);
 [[nodiscard]] std::vector<ContactRow> ReadContactRows(
     Database& database);  // verdict 'contact', by frame and part
+[[nodiscard]] std::vector<ContactRow> ReadClearanceRows(
+    Database& database);  // with a clearance, by frame and part
 [[nodiscard]] std::vector<PartTotals> ReadPartTotals(Database& database);  // one a part
 
 }  // namespace elbowroom::sessions

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -72,8 +73,10 @@ FrameInserter::FrameInserter(Database& database)
       insert_part_frame_(database, "INSERT INTO part_frame VALUES (?, ?, ?, ?, ?, ?, ?)"),
       insert_contact_(
           database,
-          "INSERT INTO contact VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)"),
-      insert_point_(database, "INSERT INTO contact_point VALUES (?, ?, ?, ?, ?, ?, ?, ?)") {}
+          "INSERT INTO contact VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, "
+          "?)"),
+      insert_point_(database, "INSERT INTO contact_point VALUES (?, ?, ?, ?, ?, ?, ?, ?)"),
+      insert_clearance_(database, "INSERT INTO clearance VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)") {}
 
 void FrameInserter::Insert(const core::FrameRecord& record) {
   insert_frame_.With(record.frame, record.time_s).Run();
@@ -107,6 +110,7 @@ void FrameInserter::InsertPart(core::FrameIndex frame, const core::PartContact& 
             contact.count.triangles, contact.count.queries, contact.count.skipped)
       .Run();
   if (HasEvidence(contact)) InsertEvidence(frame, contact);
+  if (contact.clearance) InsertClearance(frame, contact);
 }
 
 void FrameInserter::InsertEvidence(core::FrameIndex frame, const core::PartContact& contact) {
@@ -121,13 +125,29 @@ void FrameInserter::InsertEvidence(core::FrameIndex frame, const core::PartConta
             core::ToString(contact.recovery_status), recovery ? Point(recovery->cp_obj_in_world_mm) : Point(),
             recovery ? Point(recovery->cp_hull_in_world_mm) : Point(),
             recovery ? Point(recovery->v_rec_in_world) : Point(),
-            recovery ? Number(recovery->d_rec_mm) : Number(), recovery ? recovery->n_hull_in_world : Point())
+            recovery ? Number(recovery->d_rec_mm) : Number(), recovery ? recovery->n_hull_in_world : Point(),
+            recovery ? recovery->angle_rad : Number())
       .Run();
   for (std::size_t i = 0; i < contact.points.size(); ++i) {
     const core::ContactPoint& point = contact.points[i];
     insert_point_.With(frame, contact.part, i, point.position_in_world_mm, point.depth_mm, point.area_mm2)
         .Run();
   }
+}
+
+void FrameInserter::InsertClearance(core::FrameIndex frame, const core::PartContact& contact) {
+  const core::ClearanceInterval& interval = contact.clearance->interval;
+  const auto finite = [](double length_mm) {
+    return std::isfinite(length_mm) ? std::optional(length_mm) : std::nullopt;
+  };
+  const auto witness = [&](const Eigen::Vector3d& x) {
+    return contact.clearance->has_witnesses ? std::optional(x) : std::nullopt;
+  };
+  insert_clearance_
+      .With(frame, contact.part, finite(interval.lower_mm), finite(interval.upper_mm),
+            witness(interval.witness_part_in_world_mm), witness(interval.witness_hull_in_world_mm),
+            contact.clearance->queries)
+      .Run();
 }
 
 core::FrameRecord ReadFrame(Database& database, const core::SessionHeader& header, core::FrameIndex frame) {

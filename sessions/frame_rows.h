@@ -23,6 +23,7 @@ class FrameInserter {
   [[nodiscard]] std::int64_t MaskIdOf(const core::SoftMask& mask);
   void InsertPart(core::FrameIndex frame, const core::PartContact& contact);
   void InsertEvidence(core::FrameIndex frame, const core::PartContact& contact);
+  void InsertClearance(core::FrameIndex frame, const core::PartContact& contact);
 
   Compressor compressor_;
   Statement insert_frame_;
@@ -33,6 +34,7 @@ class FrameInserter {
   Statement insert_part_frame_;
   Statement insert_contact_;
   Statement insert_point_;
+  Statement insert_clearance_;
 };
 
 // Throws: Error{kRange} when there is no such frame; Error{kFormat} naming it where its rows are damaged or

@@ -15,15 +15,15 @@ void InsertSessionRow(Database& database, const core::SessionHeader& header) {
       database,
       "INSERT INTO session (id, status, started_at_utc, participant, task, estimate_mm, "
       "required_clearance_mm, rig_name, workspace_min_x_mm, workspace_min_y_mm, workspace_min_z_mm, "
-      "workspace_max_x_mm, workspace_max_y_mm, workspace_max_z_mm, unseen, layout_unit) "
-      "VALUES (1, 'recording', ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+      "workspace_max_x_mm, workspace_max_y_mm, workspace_max_z_mm, unseen, layout_unit, uncertainty_mm) "
+      "VALUES (1, 'recording', ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
   const core::TrialInfo& trial = header.trial;
   const core::Rig& rig = header.rig;
   insert
       .With(header.started_at_utc, trial.participant, trial.task, trial.estimate_mm,
             trial.required_clearance_mm, rig.name, rig.workspace_mm.min(), rig.workspace_mm.max(),
             rig.unseen == core::UnseenPolicy::kAbstain ? "abstain" : "outside",
-            core::ToString(header.layout.unit))
+            core::ToString(header.layout.unit), trial.uncertainty_mm)
       .Run();
 }
 
@@ -32,7 +32,7 @@ void ReadSessionRow(Database& database, core::SessionHeader& header) {
       database,
       "SELECT started_at_utc, participant, task, estimate_mm, required_clearance_mm, rig_name, unseen, "
       "layout_unit, workspace_min_x_mm, workspace_min_y_mm, workspace_min_z_mm, workspace_max_x_mm, "
-      "workspace_max_y_mm, workspace_max_z_mm FROM session");
+      "workspace_max_y_mm, workspace_max_z_mm, uncertainty_mm FROM session");
   if (!row.Next()) {
     throw core::Error(
         core::ErrorKind::kFormat,
@@ -46,6 +46,7 @@ void ReadSessionRow(Database& database, core::SessionHeader& header) {
   header.rig.name = row.Text(5);
   header.rig.unseen = row.Text(6) == "abstain" ? core::UnseenPolicy::kAbstain : core::UnseenPolicy::kOutside;
   header.layout.unit = UnitFromText(row.Text(7), database);
+  header.trial.uncertainty_mm = row.Real(14);
   header.rig.workspace_mm = Eigen::AlignedBox3d(row.Vector(8), row.Vector(11));
 }
 

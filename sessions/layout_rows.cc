@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <map>
+#include <optional>
 #include <utility>
 
 #include "core/error.h"
@@ -15,10 +16,30 @@ namespace {
 using core::Error;
 using core::ErrorKind;
 
+std::optional<std::string> JsonOrNull(const std::optional<Eigen::Vector3d>& vector) {
+  if (!vector) return std::nullopt;
+  return JsonFrom(*vector);
+}
+
+// Of four columns.
+core::RecoveryRule ReadRecoveryRule(const Statement& row, int first_column, const std::string& where) {
+  const auto kind = core::ParseRecoveryKind(row.Text(first_column));
+  const auto vector = [&](int column) -> std::optional<Eigen::Vector3d> {
+    if (row.IsNull(column)) return std::nullopt;
+    return VectorFromJson(row.Text(column), where);
+  };
+  if (!kind) {
+    throw Error(ErrorKind::kFormat,
+                fmt::format("{}: no recovery is called '{}'; restore the file from a copy", where,
+                            row.Text(first_column)));
+  }
+  return {*kind, vector(first_column + 1), vector(first_column + 2), vector(first_column + 3)};
+}
+
 void InsertParts(Database& database, const std::vector<core::Part>& parts) {
   Compressor compressor;
   Statement insert_mesh(database, "INSERT INTO mesh VALUES (?, ?, ?, ?, ?) ON CONFLICT DO NOTHING");
-  Statement insert_part(database, "INSERT INTO part VALUES (?, ?, ?, ?, ?, ?, ?)");
+  Statement insert_part(database, "INSERT INTO part VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
   for (core::PartIndex i = 0; i < parts.size(); ++i) {
     const core::Part& part = parts[i];
     const std::string hash = core::ContentHash(*part.mesh);
@@ -29,7 +50,9 @@ void InsertParts(Database& database, const std::vector<core::Part>& parts) {
         .Run();
     insert_part
         .With(i, part.name, part.file, core::ToString(part.unit), hash,
-              JsonFrom(part.world_from_part.rotation), JsonFrom(part.world_from_part.translation_mm))
+              JsonFrom(part.world_from_part.rotation), JsonFrom(part.world_from_part.translation_mm),
+              core::ToString(part.recovery.kind), JsonOrNull(part.recovery.reference_in_part_mm),
+              JsonOrNull(part.recovery.axis_in_part), JsonOrNull(part.recovery.at_in_part_mm))
         .Run();
   }
 }
@@ -58,7 +81,8 @@ std::map<std::string, core::SharedMesh> ReadMeshes(Database& database) {
 std::vector<core::Part> ReadParts(Database& database) {
   const std::map<std::string, core::SharedMesh> meshes = ReadMeshes(database);
   Statement rows(database,
-                 "SELECT name, file, unit, mesh_hash, rotation_world_from_part, position_mm FROM part "
+                 "SELECT name, file, unit, mesh_hash, rotation_world_from_part, position_mm, "
+                 "recovery, reference_mm, recovery_axis, recovery_at_mm FROM part "
                  "ORDER BY part_index");
   std::vector<core::Part> parts;
   while (rows.Next()) {
@@ -73,6 +97,7 @@ std::vector<core::Part> ReadParts(Database& database) {
     part.mesh = mesh->second;
     part.world_from_part.rotation = MatrixFromJson(rows.Text(4), where);
     part.world_from_part.translation_mm = VectorFromJson(rows.Text(5), where);
+    part.recovery = ReadRecoveryRule(rows, 6, where);
     parts.push_back(std::move(part));
   }
   return parts;

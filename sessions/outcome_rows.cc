@@ -1,5 +1,11 @@
 #include "sessions/outcome_rows.h"
 
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "core/surface_patches.h"
+#include "sessions/contact_rows.h"
+#include "sessions/packing.h"
 #include "sessions/statement.h"
 
 namespace elbowroom::sessions {
@@ -20,7 +26,7 @@ core::SessionEvent ReadEvent(const Statement& row) {
   return event;
 }
 
-core::ContactEpisode ReadEpisode(const Statement& row) {
+core::ContactEpisode ReadEpisode(const Statement& row, const std::string& where) {
   core::ContactEpisode episode;
   episode.id = row.Integer(0);
   episode.part = static_cast<core::PartIndex>(row.Integer(1));
@@ -34,7 +40,67 @@ core::ContactEpisode ReadEpisode(const Statement& row) {
   episode.peak_depth_mm = row.Real(9);
   episode.peak_area_mm2 = row.Real(10);
   episode.peak_position_in_world_mm = row.Vector(11);
+  if (!row.IsNull(14)) episode.peak_position_in_part_mm = row.Vector(14);
+  episode.tools = TextsFromJson(row.Text(17), where);
   return episode;
+}
+
+core::NearMiss ReadNearMiss(const Statement& row, const std::string& where) {
+  core::NearMiss miss;
+  miss.id = row.Integer(0);
+  miss.part = static_cast<core::PartIndex>(row.Integer(1));
+  miss.begin_frame = row.Integer(2);
+  miss.closest_frame = row.Integer(3);
+  miss.end_frame = row.Integer(4);
+  miss.begin_time_s = row.Real(5);
+  miss.closest_time_s = row.Real(6);
+  miss.end_time_s = row.Real(7);
+  miss.frames_below = row.Integer(8);
+  miss.verdict = row.Text(9) == "near" ? core::Verdict::kNear : core::Verdict::kUndecided;
+  miss.spacing_at_closest_mm = NumbersFromJson(row.Text(10), where);
+  miss.tools = TextsFromJson(row.Text(11), where);
+  return miss;
+}
+
+void InsertEpisodes(Database& database, std::span<const core::ContactEpisode> episodes) {
+  Statement insert(database,
+                   "INSERT INTO episode VALUES "
+                   "(?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+  Statement insert_spacing(database, "INSERT INTO episode_spacing VALUES (?, ?, ?)");
+  for (const core::ContactEpisode& episode : episodes) {
+    insert
+        .With(episode.id, episode.part, episode.begin_frame, episode.peak_frame, episode.end_frame,
+              episode.begin_time_s, episode.peak_time_s, episode.end_time_s, episode.frames_in_contact,
+              episode.peak_depth_mm, episode.peak_area_mm2, episode.peak_position_in_world_mm,
+              episode.peak_position_in_part_mm, JsonFrom(episode.tools))
+        .Run();
+    for (core::SpacingIndex i = 0; i < episode.spacing_at_peak_mm.size(); ++i) {
+      insert_spacing.With(episode.id, i, episode.spacing_at_peak_mm[i]).Run();
+    }
+  }
+}
+
+void InsertNearMisses(Database& database, std::span<const core::NearMiss> misses) {
+  Statement insert(database, "INSERT INTO near_miss VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+  for (const core::NearMiss& miss : misses) {
+    insert
+        .With(miss.id, miss.part, miss.begin_frame, miss.closest_frame, miss.end_frame, miss.begin_time_s,
+              miss.closest_time_s, miss.end_time_s, miss.frames_below, core::ToString(miss.verdict),
+              JsonFrom(miss.spacing_at_closest_mm), JsonFrom(miss.tools))
+        .Run();
+  }
+}
+
+void InsertHeatMaps(Database& database, std::span<const core::HeatMap> maps) {
+  Statement insert(database, "INSERT INTO heat_map VALUES (?, ?, ?, ?, ?)");
+  Compressor compressor;
+  for (const core::HeatMap& map : maps) {
+    const Bytes dwell_s = Pack(map.dwell_s, compressor), depth_mm = Pack(map.peak_depth_mm, compressor);
+    insert
+        .With(map.part, map.patch_mm, map.dwell_s.size(), std::span<const std::byte>(dwell_s),
+              std::span<const std::byte>(depth_mm))
+        .Run();
+  }
 }
 
 }  // namespace
@@ -54,19 +120,10 @@ void InsertEvent(Database& database, const core::Layout& layout, const core::Ses
   }
 }
 
-void InsertEpisodes(Database& database, std::span<const core::ContactEpisode> episodes) {
-  Statement insert(database, "INSERT INTO episode VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
-  Statement insert_spacing(database, "INSERT INTO episode_spacing VALUES (?, ?, ?)");
-  for (const core::ContactEpisode& episode : episodes) {
-    insert
-        .With(episode.id, episode.part, episode.begin_frame, episode.peak_frame, episode.end_frame,
-              episode.begin_time_s, episode.peak_time_s, episode.end_time_s, episode.frames_in_contact,
-              episode.peak_depth_mm, episode.peak_area_mm2, episode.peak_position_in_world_mm)
-        .Run();
-    for (core::SpacingIndex i = 0; i < episode.spacing_at_peak_mm.size(); ++i) {
-      insert_spacing.With(episode.id, i, episode.spacing_at_peak_mm[i]).Run();
-    }
-  }
+void InsertOutcome(Database& database, const core::SessionOutcome& outcome) {
+  InsertEpisodes(database, outcome.episodes);
+  InsertNearMisses(database, outcome.near_misses);
+  InsertHeatMaps(database, outcome.heat_maps);
 }
 
 std::vector<core::SessionEvent> ReadEvents(Database& database) {
@@ -84,12 +141,53 @@ std::vector<core::ContactEpisode> ReadEpisodes(Database& database) {
       database, "SELECT spacing_at_peak_mm FROM episode_spacing WHERE episode_id = ? ORDER BY spacing_index");
   std::vector<core::ContactEpisode> episodes;
   while (rows.Next()) {
-    episodes.push_back(ReadEpisode(rows));
+    episodes.push_back(ReadEpisode(
+        rows, fmt::format("session '{}', episode {}", database.path().string(), rows.Integer(0))));
     for (spacings.With(episodes.back().id); spacings.Next();) {
       episodes.back().spacing_at_peak_mm.push_back(spacings.Real(0));
     }
   }
   return episodes;
+}
+
+std::vector<core::NearMiss> ReadNearMisses(Database& database) {
+  Statement rows(database, "SELECT * FROM near_miss ORDER BY near_miss_id");
+  std::vector<core::NearMiss> misses;
+  while (rows.Next()) {
+    const std::string where =
+        fmt::format("session '{}', near miss {}", database.path().string(), rows.Integer(0));
+    core::NearMiss miss = ReadNearMiss(rows, where);
+    const std::vector<core::PartContact> contacts = ReadContacts(database, miss.closest_frame);
+    if (miss.part >= contacts.size() || !contacts[miss.part].clearance) {
+      throw core::Error(core::ErrorKind::kFormat,
+                        where + ": its closest frame has no clearance; restore the file from a copy");
+    }
+    miss.closest = *contacts[miss.part].clearance;
+    misses.push_back(std::move(miss));
+  }
+  return misses;
+}
+
+std::vector<core::HeatMap> ReadHeatMaps(Database& database, const core::Layout& layout) {
+  Statement rows(database, "SELECT * FROM heat_map ORDER BY part_index");
+  std::vector<core::HeatMap> maps;
+  while (rows.Next()) {
+    const std::string where =
+        fmt::format("session '{}', heat map of part {}", database.path().string(), rows.Integer(0));
+    core::HeatMap map;
+    map.part = static_cast<core::PartIndex>(rows.Integer(0));
+    map.patch_mm = rows.Real(1);
+    const auto count = static_cast<std::size_t>(rows.Integer(2));
+    if (map.part >= layout.parts.size() ||
+        core::SurfacePatches(layout.parts[map.part].mesh, map.patch_mm).size() != count) {
+      throw core::Error(core::ErrorKind::kFormat,
+                        where + ": it isn't one of its part's mesh; restore the file from a copy");
+    }
+    map.dwell_s = UnpackFloats(rows.Bytes(3), count, where);
+    map.peak_depth_mm = UnpackFloats(rows.Bytes(4), count, where);
+    maps.push_back(std::move(map));
+  }
+  return maps;
 }
 
 }  // namespace elbowroom::sessions

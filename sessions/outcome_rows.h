@@ -1,7 +1,6 @@
-// Events and episodes as rows.
+// Events, episodes, near misses and heat maps as rows.
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include "core/session.h"
@@ -11,10 +10,13 @@ namespace elbowroom::sessions {
 
 // Into the open transaction. A changed spacing is one of `layout`'s. Throws: Error{kDatabase}.
 void InsertEvent(Database& database, const core::Layout& layout, const core::SessionEvent& event);
-void InsertEpisodes(Database& database, std::span<const core::ContactEpisode> episodes);
+void InsertOutcome(Database& database, const core::SessionOutcome& outcome);
 
 // In the order of their frames; equal frames in the order in which they came.
 [[nodiscard]] std::vector<core::SessionEvent> ReadEvents(Database& database);
 [[nodiscard]] std::vector<core::ContactEpisode> ReadEpisodes(Database& database);  // by id
+[[nodiscard]] std::vector<core::NearMiss> ReadNearMisses(Database& database);      // by id
+// By part. Throws: Error{kFormat} where one is damaged or isn't of its mesh's patches.
+[[nodiscard]] std::vector<core::HeatMap> ReadHeatMaps(Database& database, const core::Layout& layout);
 
 }  // namespace elbowroom::sessions

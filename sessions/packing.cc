@@ -45,6 +45,15 @@ std::vector<double> NumbersFromJson(const std::string& json, std::size_t count, 
   return numbers;
 }
 
+template <typename Value>
+std::vector<Value> ArrayFromJson(const std::string& json, const std::string& where) {
+  try {
+    return nlohmann::json::parse(json).get<std::vector<Value>>();
+  } catch (const nlohmann::json::exception& exception) {
+    FailAsDamaged(where, exception.what());
+  }
+}
+
 }  // namespace
 
 Compressor::Compressor() : context_(ZSTD_createCCtx(), ZSTD_freeCCtx) {}
@@ -119,6 +128,18 @@ core::SoftMask UnpackMask(std::span<const std::byte> words_zstd,
   return soft;
 }
 
+Bytes Pack(std::span<const float> numbers, Compressor& compressor) {
+  return compressor.Compress(std::as_bytes(numbers));
+}
+
+std::vector<float> UnpackFloats(std::span<const std::byte> packed, std::size_t count,
+                                const std::string& where) {
+  return DecompressAs<float>(packed, count, where);
+}
+
+std::string JsonFrom(std::span<const std::string> texts) {
+  return nlohmann::json(std::vector<std::string>(texts.begin(), texts.end())).dump();
+}
 std::string JsonFrom(std::span<const double> numbers) {
   return nlohmann::json(std::vector<double>(numbers.begin(), numbers.end())).dump();
 }
@@ -128,12 +149,11 @@ std::string JsonFrom(const Eigen::Matrix3d& matrix) {
   return JsonFrom(std::span(by_row.data(), 9));
 }
 
+std::vector<std::string> TextsFromJson(const std::string& json, const std::string& where) {
+  return ArrayFromJson<std::string>(json, where);
+}
 std::vector<double> NumbersFromJson(const std::string& json, const std::string& where) {
-  try {
-    return nlohmann::json::parse(json).get<std::vector<double>>();
-  } catch (const nlohmann::json::exception& exception) {
-    FailAsDamaged(where, exception.what());
-  }
+  return ArrayFromJson<double>(json, where);
 }
 Eigen::Vector3d VectorFromJson(const std::string& json, const std::string& where) {
   return Eigen::Vector3d(NumbersFromJson(json, 3, where).data());

@@ -57,11 +57,19 @@ struct PackedMask {
                                         int height_px, std::span<const std::byte> content_hash,
                                         const std::string& where);
 
-// JSON arrays of doubles, each in the fewest digits that read back as the same double; matrices row by row.
+[[nodiscard]] Bytes Pack(std::span<const float> numbers, Compressor& compressor);
+// Throws: Error{kFormat} naming `where` unless it unpacks to that many.
+[[nodiscard]] std::vector<float> UnpackFloats(std::span<const std::byte> packed, std::size_t count,
+                                              const std::string& where);
+
+// JSON arrays of texts; of doubles, each in the fewest digits that read back as the same double; matrices row
+// by row.
+[[nodiscard]] std::string JsonFrom(std::span<const std::string> texts);
 [[nodiscard]] std::string JsonFrom(std::span<const double> numbers);
 [[nodiscard]] std::string JsonFrom(const Eigen::Vector3d& vector);
 [[nodiscard]] std::string JsonFrom(const Eigen::Matrix3d& matrix);
 // Throws: Error{kFormat} naming `where`.
+[[nodiscard]] std::vector<std::string> TextsFromJson(const std::string& json, const std::string& where);
 [[nodiscard]] std::vector<double> NumbersFromJson(const std::string& json, const std::string& where);
 [[nodiscard]] Eigen::Vector3d VectorFromJson(const std::string& json, const std::string& where);
 [[nodiscard]] Eigen::Matrix3d MatrixFromJson(const std::string& json, const std::string& where);

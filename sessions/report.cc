@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "core/error.h"
+#include "sessions/clearance_csv.h"
 #include "sessions/contacts_csv.h"
 #include "sessions/report_data.h"
 #include "sessions/report_page.h"
@@ -35,9 +36,11 @@ void WriteReport(const SessionReader& session, const ReportPictures& pictures,
                  const std::filesystem::path& out_dir) {
   if (!pictures.worst_moment_png.empty()) RequirePng(pictures.worst_moment_png);
   if (pictures.overview_png) RequirePng(*pictures.overview_png);
+  for (const ReportPictures::Heat& heat : pictures.heat) RequirePng(heat.png);
   const ReportData data = CollectReportData(session);
   WriteWholeFiles(out_dir, {{"report.html", ReportPage(data, pictures)},
-                            {"contacts.csv", ContactsCsv(data.header.layout, data.contacts)}});
+                            {"contacts.csv", ContactsCsv(data.header.layout, data.contacts)},
+                            {"clearance.csv", ClearanceCsv(data.header, session.clearances())}});
 }
 
 }  // namespace elbowroom::sessions

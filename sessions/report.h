@@ -17,6 +17,11 @@ struct ReportPictures {
   std::vector<unsigned char> worst_moment_png;  // empty: the report has no such picture
   std::string caption;                          // of the worst moment
   std::optional<std::vector<unsigned char>> overview_png;
+  struct Heat {
+    core::PartIndex part = 0;
+    std::vector<unsigned char> png;
+  };
+  std::vector<Heat> heat = {};  // where each touched part was touched
 };
 
 // The touch to draw: the deepest, ties go to the larger area, then to the earlier. Nothing if nothing
@@ -24,8 +29,9 @@ struct ReportPictures {
 [[nodiscard]] std::optional<core::ContactEpisode> WorstEpisode(
     std::span<const core::ContactEpisode> episodes);
 
-// Writes `out_dir`/report.html (no script, nothing loaded from elsewhere, fit for print) and contacts.csv (a
-// row for each part in contact in each frame); both or neither. Makes the folder; replaces an older report.
+// Writes `out_dir`/report.html (no script, nothing loaded from elsewhere, fit for print), contacts.csv (a row
+// for each part in contact in each frame) and clearance.csv (a row for each part whose clearance was asked);
+// all or none. Makes the folder; replaces an older report.
 // Throws: Error{kFile} naming what can't be written; what SessionReader throws; PreconditionError for bytes
 // that are no PNG.
 void WriteReport(const SessionReader& session, const ReportPictures& pictures,

@@ -115,6 +115,7 @@ ReportData CollectReportData(const SessionReader& session) {
   data.frames = session.frames();
   data.events = session.events();
   data.episodes = session.episodes();
+  data.near_misses = session.near_misses();
   data.contacts = session.contacts();
   MeasureTime(data);
   SumUpParts(session, data);

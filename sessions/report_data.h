@@ -53,6 +53,7 @@ struct ReportData {
   std::vector<FrameSummary> frames;
   std::vector<core::SessionEvent> events;
   std::vector<core::ContactEpisode> episodes;
+  std::vector<core::NearMiss> near_misses;
   std::vector<ContactRow> contacts;
   std::vector<PartSummary> parts;      // the layout's order
   std::vector<SpacingStudy> spacings;  // the layout's order

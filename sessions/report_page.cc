@@ -27,7 +27,7 @@ std::string PageHeader(const ReportData& data) {
 std::string PageFooter(const ReportData& data) {
   return fmt::format(
       "<footer>Made from <b>{}</b>, which holds every frame behind these figures; contacts.csv beside this "
-      "page lists each part in contact in each frame.</footer>\n",
+      "page lists each part in contact in each frame, clearance.csv how far each part was.</footer>\n",
       Escaped(data.session_name));
 }
 
@@ -41,8 +41,9 @@ std::string ReportPage(const ReportData& data, const ReportPictures& pictures) {
              "</head>\n<body><main>\n",
              TitleOf(data), ReportStyle()) +
          PageHeader(data) + SummarySection(data) + TimelineSection(data) + PictureSection(pictures) +
-         SpacingSection(data) + EpisodeSection(data) + PartSection(data) + EventSection(data) +
-         ReadingSection(data) + RigSection(data) + PageFooter(data) + "</main></body></html>\n";
+         SpacingSection(data) + EpisodeSection(data) + NearMissSection(data) + PartSection(data) +
+         HeatSection(data, pictures) + EventSection(data) + ReadingSection(data) + RigSection(data) +
+         PageFooter(data) + "</main></body></html>\n";
 }
 
 }  // namespace elbowroom::sessions

@@ -19,7 +19,9 @@ namespace elbowroom::sessions {
 [[nodiscard]] std::string SpacingSection(const ReportData& data);
 [[nodiscard]] std::string TimelineSection(const ReportData& data);
 [[nodiscard]] std::string EpisodeSection(const ReportData& data);
+[[nodiscard]] std::string NearMissSection(const ReportData& data);
 [[nodiscard]] std::string PartSection(const ReportData& data);
+[[nodiscard]] std::string HeatSection(const ReportData& data, const ReportPictures& pictures);
 [[nodiscard]] std::string EventSection(const ReportData& data);
 [[nodiscard]] std::string PictureSection(const ReportPictures& pictures);
 [[nodiscard]] std::string ReadingSection(const ReportData& data);

@@ -87,14 +87,20 @@ std::string Moment(double time_s, core::FrameIndex frame) {
   return fmt::format("{:.2f} s <small>frame {}</small>", time_s, frame);
 }
 
-std::string SpacingsAtPeak(const ReportData& data, const core::ContactEpisode& episode) {
+std::string SpacingTexts(const ReportData& data, const std::vector<double>& spacing_mm) {
   std::string text;
-  for (std::size_t i = 0; i < episode.spacing_at_peak_mm.size(); ++i) {
-    text += fmt::format("{}{}", i == 0 ? "" : "<br>", Millimetres(episode.spacing_at_peak_mm[i]));
+  for (std::size_t i = 0; i < spacing_mm.size(); ++i) {
+    text += fmt::format("{}{}", i == 0 ? "" : "<br>", Millimetres(spacing_mm[i]));
     if (data.spacings.size() > 1)
       text += " <small>" + Escaped(data.header.layout.spacings[i].name) + "</small>";
   }
   return text;
+}
+
+std::string ToolTexts(const std::vector<std::string>& tools) {
+  std::string text;
+  for (const std::string& tool : tools) text += (text.empty() ? "" : ", ") + Escaped(tool);
+  return text.empty() ? "&ndash;" : text;
 }
 
 std::string WhatHappened(const core::SessionEvent& event) {
@@ -176,7 +182,8 @@ std::string EpisodeSection(const ReportData& data) {
                    {"Depth <small>at peak</small>", true},
                    {"Area <small>at peak</small>", true},
                    {"Position <small>x, y, z in mm</small>", true},
-                   {"Spacing <small>at peak</small>", true}});
+                   {"Spacing <small>at peak</small>", true},
+                   {"Tools"}});
   const auto worst = WorstEpisode(data.episodes);
   for (const core::ContactEpisode& e : data.episodes) {
     const Eigen::Vector3d& at = e.peak_position_in_world_mm;
@@ -186,12 +193,58 @@ std::string EpisodeSection(const ReportData& data) {
          Moment(e.end_time_s, e.end_frame),
          fmt::format("{:.2f} s", e.end_time_s - e.begin_time_s + data.frame_period_s),
          Millimetres(e.peak_depth_mm), fmt::format("{:.0f} mm&sup2;", e.peak_area_mm2),
-         fmt::format("{:.0f}, {:.0f}, {:.0f}", at.x(), at.y(), at.z()), SpacingsAtPeak(data, e)},
+         fmt::format("{:.0f}, {:.0f}, {:.0f}", at.x(), at.y(), at.z()),
+         SpacingTexts(data, e.spacing_at_peak_mm), ToolTexts(e.tools)},
         worst->id == e.id ? "worst" : "");
   }
   if (table.empty()) return "";
   return "<section><h2>Every touch</h2><p class='lead'>The deepest one is highlighted.</p>\n" + table.Html() +
          "</section>\n";
+}
+
+std::string NearMissSection(const ReportData& data) {
+  HtmlTable table({{"Near miss", true},
+                   {"Part"},
+                   {"Begin", true},
+                   {"Closest", true},
+                   {"End", true},
+                   {"Clearance <small>at least, at most</small>", true},
+                   {"Position <small>x, y, z in mm, on the part</small>", true},
+                   {"Spacing <small>at closest</small>", true},
+                   {"Tools"},
+                   {"Below"}});
+  for (const core::NearMiss& miss : data.near_misses) {
+    const core::ClearanceInterval& closest = miss.closest.interval;
+    const Eigen::Vector3d& at = closest.witness_part_in_world_mm;
+    table.Add({std::to_string(miss.id), Escaped(data.header.layout.parts[miss.part].name),
+               Moment(miss.begin_time_s, miss.begin_frame), Moment(miss.closest_time_s, miss.closest_frame),
+               Moment(miss.end_time_s, miss.end_frame),
+               miss.closest.has_witnesses
+                   ? fmt::format("{} to {}", Millimetres(closest.lower_mm), Millimetres(closest.upper_mm))
+                   : "at least " + Millimetres(closest.lower_mm),
+               miss.closest.has_witnesses ? fmt::format("{:.0f}, {:.0f}, {:.0f}", at.x(), at.y(), at.z())
+                                          : "&ndash;",
+               SpacingTexts(data, miss.spacing_at_closest_mm), ToolTexts(miss.tools),
+               miss.verdict == core::Verdict::kNear ? "yes" : "undecided"});
+  }
+  if (table.empty()) return "";
+  return fmt::format(
+      "<section><h2>Near misses</h2><p class='lead'>Approaches below the required {} that ended without a "
+      "touch. The real distance may be larger: the hull is larger than the hand.</p>\n{}</section>\n",
+      Millimetres(data.header.trial.required_clearance_mm), table.Html());
+}
+
+std::string HeatSection(const ReportData& data, const ReportPictures& pictures) {
+  std::string figures;
+  for (const ReportPictures::Heat& heat : pictures.heat) {
+    const std::string& name = data.header.layout.parts[heat.part].name;
+    figures += Figure(heat.png,
+                      fmt::format("{}: how long and how deep each patch of about {:.0f} mm was touched.",
+                                  name, core::kHeatPatchMm),
+                      "Where the part was touched");
+  }
+  if (figures.empty()) return "";
+  return "<section><h2>Where parts were touched</h2>\n" + figures + "</section>\n";
 }
 
 std::string PartSection(const ReportData& data) {

@@ -9,13 +9,17 @@
 namespace elbowroom::sessions {
 
 inline constexpr std::int64_t kApplicationId = 0x456C6277;  // "Elbw" in the file's header
-inline constexpr std::int64_t kSchemaVersion = 2;
+inline constexpr std::int64_t kSchemaVersion = 3;
 
 // The SQL that leads from schema 0, an empty file, to schema 1.
 [[nodiscard]] std::string Schema1Sql();
 
 // From schema 1 to schema 2: where a silhouette's boundary lies between pixel centres.
 [[nodiscard]] std::string Schema2Sql();
+
+// From schema 2 to schema 3: the parts' constraints, and what else a recovery may come to; clearance, near
+// misses, where on a part, with which tools, heat maps.
+[[nodiscard]] std::string Schema3Sql();
 
 // Brings the open transaction's database to kSchemaVersion by the migrations that it lacks, in order.
 void Migrate(Database& database);

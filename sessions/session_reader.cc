@@ -81,7 +81,12 @@ core::FrameRecord SessionReader::ReadFrame(core::FrameIndex frame) const {
 
 std::vector<core::SessionEvent> SessionReader::events() const { return ReadEvents(impl_->database); }
 std::vector<core::ContactEpisode> SessionReader::episodes() const { return ReadEpisodes(impl_->database); }
+std::vector<core::NearMiss> SessionReader::near_misses() const { return ReadNearMisses(impl_->database); }
+std::vector<core::HeatMap> SessionReader::heat_maps() const {
+  return ReadHeatMaps(impl_->database, impl_->header.layout);
+}
 std::vector<ContactRow> SessionReader::contacts() const { return ReadContactRows(impl_->database); }
+std::vector<ContactRow> SessionReader::clearances() const { return ReadClearanceRows(impl_->database); }
 std::vector<PartTotals> SessionReader::part_totals() const { return ReadPartTotals(impl_->database); }
 
 }  // namespace elbowroom::sessions

@@ -55,7 +55,10 @@ class SessionReader {
 
   [[nodiscard]] std::vector<core::SessionEvent> events() const;      // by frame, then as they came
   [[nodiscard]] std::vector<core::ContactEpisode> episodes() const;  // by id; none while recording
+  [[nodiscard]] std::vector<core::NearMiss> near_misses() const;     // likewise
+  [[nodiscard]] std::vector<core::HeatMap> heat_maps() const;        // by part; none while recording
   [[nodiscard]] std::vector<ContactRow> contacts() const;            // every part in contact, frame by frame
+  [[nodiscard]] std::vector<ContactRow> clearances() const;          // every part with a clearance, likewise
   [[nodiscard]] std::vector<PartTotals> part_totals() const;         // one a part
 
  private:

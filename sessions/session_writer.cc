@@ -159,12 +159,12 @@ void SessionWriter::Append(core::SessionEvent event) {
   impl_->Append(std::move(event));
 }
 
-void SessionWriter::Finish(std::span<const core::ContactEpisode> episodes) {
+void SessionWriter::Finish(const core::SessionOutcome& outcome) {
   Require(impl_->thread.joinable(), "a session is finished or abandoned once");
   impl_->DrainAndStop();
   impl_->RethrowFailure();
   Transaction transaction(impl_->database);
-  InsertEpisodes(impl_->database, episodes);
+  InsertOutcome(impl_->database, outcome);
   impl_->database.Execute(
       fmt::format("UPDATE session SET status = 'complete', ended_at_utc = '{}'", NowUtc()));
   transaction.Commit();

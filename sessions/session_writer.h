@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
-#include <span>
 
 #include "core/session.h"
 
@@ -32,9 +31,9 @@ class SessionWriter {
   // A changed spacing is one of the layout's.
   void Append(core::SessionEvent event);
 
-  // Writes what is still queued and the episodes, marks the session 'complete' and folds it into a single
+  // Writes what is still queued and the outcome, marks the session 'complete' and folds it into a single
   // file.
-  void Finish(std::span<const core::ContactEpisode> episodes);
+  void Finish(const core::SessionOutcome& outcome);
 
   // Removes the file: for a trial that failed, so that nothing half-written stays.
   void Abandon();

@@ -80,6 +80,7 @@ int RunCommandLine(int argc, char** argv, const OpenConsole& open_console) {
   AddDemoCommand(app, &choice);
   AddTrialCommand(app, &choice);
   AddReportCommand(app, &choice);
+  AddSweepCommand(app, &choice);
   AddSegmentCommand(app, &choice);
   AddViewCommand(app, &choice);
   AddHullCommand(app, &choice);

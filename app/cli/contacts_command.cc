@@ -5,10 +5,12 @@
 
 #include "app/cli/command.h"
 #include "app/cli/part_option.h"
+#include "app/cli/recovery_option.h"
 #include "app/cli/repeated_timing.h"
 #include "app/cli/rig_frame.h"
 #include "app/cli/unit_option.h"
 #include "app/cli/vector_json.h"
+#include "app/cli/way_out.h"
 #include "review/contacts.h"
 
 namespace elbowroom::cli {
@@ -18,6 +20,8 @@ struct ContactsOptions {
   RigFrameOptions frame;
   PartOptions part;
   double resolution_mm = 0.0;
+  core::RecoveryRule recovery;
+  double silhouette_px = review::kReadyMaskPx;
 };
 
 // Keys without a meaning for the verdict are null.
@@ -61,6 +65,7 @@ CommandResult Run(const ContactsOptions& options, const CommandContext& context,
   const PosedPart posed = LoadPart(options.part);
   review::ContactOptions contact_options;
   contact_options.resolution_mm = options.resolution_mm;
+  contact_options.recovery = options.recovery;
   contact_options.Validate();
   const RigFrame frame = LoadRigFrame(options.frame, context);
   const core::TriangleTree part(posed.mesh);
@@ -71,12 +76,16 @@ CommandResult Run(const ContactsOptions& options, const CommandContext& context,
   };
   CommandResult result;
   const double time_ms = ComputeAndTimeMs(json, compute);
+  const WayOut way_out =
+      FindWayOut(hull, part, posed.world_from_part, options.recovery, contact, options.silhouette_px);
   result.json = Json(contact);
+  AddWayOut(contact, way_out, &result.json);
   result.json["time_ms"] = time_ms;
   result.text = contact.verdict == core::Verdict::kContact
                     ? fmt::format("contact: {} points, {:.1f} mm2, at least {:.2f} mm deep",
                                   contact.contact_point_count, contact.contact_area_mm2,
-                                  contact.deepest ? contact.deepest->depth_mm : 0.0)
+                                  contact.deepest ? contact.deepest->depth_mm : 0.0) +
+                          TextOf(contact, way_out)
                     : std::string(ToString(contact.verdict));
   return result;
 }
@@ -92,7 +101,13 @@ void AddContactsCommand(CLI::App& app, Choice* choice) {
       ->add_option("--resolution", options->resolution_mm,
                    "decide pieces of this size by their centre, mm (default: half a pixel's footprint)")
       ->check(PositiveLength());
+  AddRecoveryOptions(*command, &options->recovery);
+  command
+      ->add_option("--silhouette-error", options->silhouette_px,
+                   "how far off silhouettes may be, for the uncertainties, px (default: 0.5)")
+      ->check(LengthFromZero().description("PX"));
   command->callback([=, &app] {
+    CheckRecoveryOptions(options->recovery);
     const bool json = app.get_option("--json")->as<bool>();
     choice->action = [=](const CommandContext& context) { return Run(*options, context, json); };
   });

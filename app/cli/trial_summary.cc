@@ -21,7 +21,11 @@ CommandResult SummaryOf(const control::TrialOutcome& outcome, const core::Layout
                    {"unchanged_parts", outcome.skipped.unchanged_parts},
                    {"triangles", outcome.skipped.triangles_skipped},
                    {"of_triangles", outcome.skipped.triangles_in_all},
-                   {"queries", outcome.skipped.queries}}}};
+                   {"queries", outcome.skipped.queries},
+                   {"clearances_by_contact", outcome.skipped.clearances_by_contact},
+                   {"clearances_by_ball", outcome.skipped.clearances_by_ball},
+                   {"clearance_queries", outcome.skipped.clearance_queries}}},
+                 {"near_misses", nlohmann::json::array()}};
   result.text = fmt::format("{}: {} frames, {}", session.string(), outcome.frames, outcome.end_note);
   if (!outcome.frame_ms.empty()) {
     std::vector<double> times_ms = outcome.frame_ms;
@@ -46,6 +50,15 @@ CommandResult SummaryOf(const control::TrialOutcome& outcome, const core::Layout
                                        {"peak_frame", episode.peak_frame},
                                        {"end_frame", episode.end_frame},
                                        {"peak_depth_mm", episode.peak_depth_mm}});
+  }
+  for (const core::NearMiss& miss : outcome.near_misses) {
+    result.json["near_misses"].push_back({{"part", layout.parts[miss.part].name},
+                                          {"verdict", ToString(miss.verdict)},
+                                          {"begin_frame", miss.begin_frame},
+                                          {"closest_frame", miss.closest_frame},
+                                          {"end_frame", miss.end_frame},
+                                          {"lower_mm", miss.closest.interval.lower_mm},
+                                          {"upper_mm", miss.closest.interval.upper_mm}});
   }
   return result;
 }

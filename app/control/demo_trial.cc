@@ -10,6 +10,9 @@
 namespace elbowroom::control {
 namespace {
 
+// Of parts to hand and tools.
+constexpr double kRequiredClearanceMm = 15.0;
+
 // When the simulated hand takes up the tongs and lays them down.
 std::vector<ScriptedChange> ToolChanges(core::FrameIndex frames, double frame_rate_hz) {
   std::vector<ScriptedChange> changes;
@@ -32,8 +35,9 @@ TrialSetup MakeDemoTrial(DemoPlay play) {
   setup.info = {.participant = "simulated hand",
                 .task = "screw the pipe into the PMT box, then plug the power cable in with tongs",
                 .estimate_mm = kGapInitialMm,
-                .required_clearance_mm = 0.0,
-                .tools = {"tongs"}};
+                .required_clearance_mm = kRequiredClearanceMm,
+                .tools = {"tongs"},
+                .uncertainty_mm = 0.0};
   setup.layout = DemoLayout();
   if (play == DemoPlay::kOnce) {
     options.frame_count = 2 * frames_a_task;

@@ -5,7 +5,8 @@
 namespace elbowroom::control {
 
 void EpisodeTally::Add(const FrameResult& result) {
-  tracker_.Add(result.frame, result.time_s, result.contacts, result.spacing_mm);
+  tracker_.Add(
+      {result.frame, result.time_s, result.contacts, result.world_from_parts, result.spacing_mm, {}});
 }
 
 std::vector<PartTally> EpisodeTally::Parts() const {

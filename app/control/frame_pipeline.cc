@@ -28,14 +28,17 @@ class Stopwatch {
 
 FramePipeline::FramePipeline(core::Rig rig, core::Layout layout,
                              const std::vector<recon::BackgroundReference>& backgrounds,
-                             const recon::SegmentationOptions& segmentation)
+                             const recon::SegmentationOptions& segmentation,
+                             const review::PartReviewOptions& review)
     : rig_(std::make_shared<const core::Rig>(std::move(rig))),
       planes_(recon::MakePicturePlanes(*rig_)),
       layout_(std::make_shared<const core::Layout>(std::move(layout))),
       responders_(*layout_),
-      segmenter_(backgrounds, segmentation, *rig_) {
+      segmenter_(backgrounds, segmentation, *rig_),
+      review_(review) {
   rig_->Validate();
   layout_->Validate();
+  review_.Validate();
   core::Require(backgrounds.size() == rig_->cameras.size(), "one background reference a camera");
   for (const core::Part& part : layout_->parts) part_trees_.emplace_back(part.mesh);
 }
@@ -80,7 +83,8 @@ void FramePipeline::UpdateResponse(std::span<const core::RigidTransform> world_f
   const double since_s = last_ ? result->time_s - last_->time_s : kFirstS;
   const SharedResponse last = last_ ? last_->response : nullptr;
   result->response =
-      since_s > 0.0 ? responders_.Step(last, world_from_parts, result->hull, std::min(since_s, kLongestS))
+      since_s > 0.0 ? responders_.Step(last, world_from_parts, result->contacts, result->hull,
+                                       std::min(since_s, kLongestS))
                     : last;
 }
 
@@ -88,12 +92,15 @@ void FramePipeline::UpdateContacts(FrameResult* result) {
   const std::size_t parts = part_trees_.size();
   result->contacts.resize(parts);
   std::vector<std::uint8_t> is_unchanged(parts, 0);
-  tbb::parallel_for(std::size_t{0}, parts, [&](std::size_t i) {
+  for (std::size_t i = 0; i < parts; ++i)
     is_unchanged[i] =
         last_ && last_->hull == result->hull && last_->world_from_parts[i] == result->world_from_parts[i];
-    result->contacts[i] =
-        is_unchanged[i] ? last_->contacts[i]
-                        : review::FindContacts(*result->hull, part_trees_[i], result->world_from_parts[i], i);
+  // What the first question would build, camera by camera, while the others wait.
+  if (!result->hull->IsEmpty() && std::ranges::count(is_unchanged, 0) > 0)
+    tbb::parallel_for(std::size_t{0}, rig_->cameras.size(),
+                      [&](std::size_t i) { (void)result->hull->silhouettes()[i]->labels().Raster(); });
+  tbb::parallel_for(std::size_t{0}, parts, [&](std::size_t i) {
+    result->contacts[i] = is_unchanged[i] ? last_->contacts[i] : Review(*result, i);
   });
   for (std::size_t i = 0; i < parts; ++i) {
     if (is_unchanged[i]) {
@@ -103,7 +110,24 @@ void FramePipeline::UpdateContacts(FrameResult* result) {
     result->skipped.triangles_in_all += result->contacts[i].count.triangles;
     result->skipped.triangles_skipped += result->contacts[i].count.skipped;
     result->skipped.queries += result->contacts[i].count.queries;
+    if (!result->contacts[i].clearance) continue;
+    const core::PartClearance& clearance = *result->contacts[i].clearance;
+    result->skipped.clearance_queries += clearance.queries;
+    if (result->contacts[i].contact_point_count > 0 || result->contacts[i].contained_in_world_mm) {
+      ++result->skipped.clearances_by_contact;
+    } else if (clearance.queries == 1) {
+      ++result->skipped.clearances_by_ball;
+    }
   }
+}
+
+core::PartContact FramePipeline::Review(const FrameResult& result, core::PartIndex part) const {
+  const auto hint = last_ ? review::HintFrom(last_->contacts[part], last_->world_from_parts[part])
+                          : std::optional<review::ClearanceHint>();
+  review::PartReviewOptions options = review_;
+  options.contacts.recovery = layout_->parts[part].recovery;
+  return review::ReviewPart(*result.hull, part_trees_[part], result.world_from_parts[part], part, options,
+                            hint);
 }
 
 }  // namespace elbowroom::control

@@ -14,22 +14,24 @@
 #include "recon/frame_segmenter.h"
 #include "recon/frame_set.h"
 #include "recon/picture_plane.h"
-#include "review/contacts.h"
+#include "review/part_review.h"
 
 namespace elbowroom::control {
 
 // Keeps what the next frame may not have to compute again: silhouettes that didn't change, parts that
-// neither moved nor saw the hull change. Skipping never changes a result (frame_pipeline_test).
+// neither moved nor saw the hull change. Skipping never changes a result; a clearance begun at the last
+// frame's witness points has bounds as true, which may differ within the tolerance (frame_pipeline_test).
 // Thread: one frame at a time.
 class FramePipeline {
  public:
-  // Throws: what Rig::Validate and Layout::Validate throw.
+  // Throws: what Rig::Validate, Layout::Validate and PartReviewOptions::Validate throw.
   FramePipeline(core::Rig rig, core::Layout layout,
                 const std::vector<recon::BackgroundReference>& backgrounds,
-                const recon::SegmentationOptions& segmentation);
+                const recon::SegmentationOptions& segmentation, const review::PartReviewOptions& review = {});
 
   [[nodiscard]] const std::shared_ptr<const core::Rig>& rig() const { return rig_; }
   [[nodiscard]] const std::shared_ptr<const core::Layout>& layout() const { return layout_; }
+  [[nodiscard]] std::span<const core::TriangleTree> part_trees() const { return part_trees_; }
 
   // spacing_mm: in the layout's order. The result shares the frames' pictures. Contacts are those of the
   // parts before they give way, cloths as they are at rest; then they respond to the time since the last
@@ -39,6 +41,7 @@ class FramePipeline {
  private:
   void UpdateHull(std::vector<core::SoftMask> masks, FrameResult* result);
   void UpdateContacts(FrameResult* result);
+  [[nodiscard]] core::PartContact Review(const FrameResult& result, core::PartIndex part) const;
   void UpdateResponse(std::span<const core::RigidTransform> world_from_parts, FrameResult* result);
 
   std::shared_ptr<const core::Rig> rig_;
@@ -47,6 +50,7 @@ class FramePipeline {
   std::vector<core::TriangleTree> part_trees_;
   Responders responders_;
   recon::FrameSegmenter segmenter_;
+  review::PartReviewOptions review_;
   SharedFrameResult last_;
 };
 

@@ -21,7 +21,13 @@ struct SkipCount {
   int unchanged_parts = 0;             // same hull, same pose: the last answer holds
   std::int64_t triangles_in_all = 0;   // of the parts asked
   std::int64_t triangles_skipped = 0;  // of those: settled with their whole branch of the part's tree
-  std::int64_t queries = 0;            // ball queries asked
+  std::int64_t queries = 0;            // ball queries asked for contacts
+  int clearances_by_contact = 0;       // parts asked whose clearance is 0 because they are in contact
+  int clearances_by_ball = 0;          // parts asked that one ball showed to be far enough away
+  std::int64_t clearance_queries = 0;  // queries of the hull asked for clearances
+
+  // The counts of another frame on top.
+  SkipCount& operator+=(const SkipCount& other);
 };
 
 struct StageTimes {

@@ -25,12 +25,13 @@ std::vector<core::RigidTransform> Responders::Pushed(std::span<const core::Rigid
                                                      const ResponseState* state) {
   std::vector<core::RigidTransform> pushed(world_from_parts.begin(), world_from_parts.end());
   for (core::PartIndex i = 0; state != nullptr && i < pushed.size(); ++i)
-    pushed[i].translation_mm += state->pushes[i].moved_in_world;
+    pushed[i] = pushed[i] * state->pushes[i].rest_from_part;
   return pushed;
 }
 
 SharedResponse Responders::Step(const SharedResponse& last,
                                 std::span<const core::RigidTransform> world_from_parts,
+                                std::span<const core::PartContact> contacts,
                                 const std::shared_ptr<const recon::VisualHull>& hull, double dt_s) const {
   auto state = last ? std::make_shared<ResponseState>(*last) : std::make_shared<ResponseState>();
   const std::size_t parts = layout_.parts.size();
@@ -39,7 +40,7 @@ SharedResponse Responders::Step(const SharedResponse& last,
   state->meshes_in_world.resize(parts);
   state->streams.resize(layout_.streams.size());
   StepCloths(world_from_parts, hull, dt_s, state.get());
-  StepPushes(world_from_parts, *hull, dt_s, state.get());
+  StepPushes(world_from_parts, contacts, *hull, dt_s, state.get());
   const std::vector<core::RigidTransform> pushed = Pushed(world_from_parts, state.get());
   std::vector<review::StreamObstacle> obstacles;
   for (core::PartIndex i = 0; i < parts; ++i)
@@ -65,16 +66,16 @@ void Responders::StepCloths(std::span<const core::RigidTransform> world_from_par
 }
 
 void Responders::StepPushes(std::span<const core::RigidTransform> world_from_parts,
-                            const recon::VisualHull& hull, double dt_s, ResponseState* state) const {
+                            std::span<const core::PartContact> contacts, const recon::VisualHull& hull,
+                            double dt_s, ResponseState* state) const {
   for (core::PartIndex i = 0; i < layout_.parts.size(); ++i) {
-    const auto* rule = std::get_if<core::PushRule>(&layout_.parts[i].gives_way);
-    if (rule == nullptr) continue;
+    if (!std::holds_alternative<core::PushRule>(layout_.parts[i].gives_way)) continue;
     const std::vector<core::RigidTransform> pushed = Pushed(world_from_parts, state);
     std::vector<review::StandingPart> others;
     for (core::PartIndex k = 0; k < pushed.size(); ++k)
       if (k != i && surfaces_[k]) others.push_back({&*surfaces_[k], pushed[k]});
-    state->pushes[i] =
-        review::StepPush(*rule, state->pushes[i], {&*surfaces_[i], world_from_parts[i]}, others, hull, dt_s);
+    state->pushes[i] = review::StepPush(layout_.parts[i], contacts[i], state->pushes[i],
+                                        {&*surfaces_[i], world_from_parts[i]}, others, hull, dt_s);
   }
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/bvh.h"
+#include "core/contact.h"
 #include "core/layout.h"
 #include "core/rigid_transform.h"
 #include "recon/visual_hull.h"
@@ -20,7 +21,7 @@ namespace elbowroom::control {
 // A value; parts and streams in the layout's order.
 struct ResponseState {
   std::vector<std::optional<review::ClothState>> cloths;  // nothing: the part is no cloth
-  std::vector<review::PushState> pushes;                  // zero for parts that aren't pushed
+  std::vector<review::PushState> pushes;                  // at rest for parts that aren't pushed
   std::vector<review::StreamState> streams;
   std::vector<core::SharedMesh> meshes_in_world;  // of the cloths as they hang; null for other parts
 };
@@ -36,23 +37,26 @@ class Responders {
   // No part gives way and nothing flows.
   [[nodiscard]] bool is_empty() const { return is_empty_; }
 
-  // The layout's poses, the pushed parts where they were pushed.
+  // The layout's poses, the pushed parts where they were pushed. `state` null: none was.
   [[nodiscard]] static std::vector<core::RigidTransform> Pushed(
       std::span<const core::RigidTransform> world_from_parts, const ResponseState* state);
 
   // `dt_s` later; `last` null: from rest. Cloths in parallel, then pushed parts one after the other, each
   // against the others where they are by then (cloth is in nobody's way), then the streams. The same for any
-  // number of threads. world_from_parts: the layout's, before pushing.
+  // number of threads. world_from_parts: the layout's, before pushing; contacts: of the parts where `last` has
+  // pushed them.
   [[nodiscard]] SharedResponse Step(const SharedResponse& last,
                                     std::span<const core::RigidTransform> world_from_parts,
+                                    std::span<const core::PartContact> contacts,
                                     const std::shared_ptr<const recon::VisualHull>& hull, double dt_s) const;
 
  private:
   void StepCloths(std::span<const core::RigidTransform> world_from_parts,
                   const std::shared_ptr<const recon::VisualHull>& hull, double dt_s,
                   ResponseState* state) const;
-  void StepPushes(std::span<const core::RigidTransform> world_from_parts, const recon::VisualHull& hull,
-                  double dt_s, ResponseState* state) const;
+  void StepPushes(std::span<const core::RigidTransform> world_from_parts,
+                  std::span<const core::PartContact> contacts, const recon::VisualHull& hull, double dt_s,
+                  ResponseState* state) const;
 
   const core::Layout& layout_;
   bool is_empty_ = true;

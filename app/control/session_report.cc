@@ -4,6 +4,7 @@
 
 #include <optional>
 
+#include "app/control/heat_picture.h"
 #include "app/control/scene_composer.h"
 #include "core/error.h"
 #include "core/progress.h"
@@ -53,6 +54,16 @@ std::string CaptionOf(const FrameResult& result, core::PartIndex part, const std
       result.layout->parts[part].name, contact.contact_area_mm2, driver);
 }
 
+void AddHeat(const sessions::SessionReader& session, sessions::ReportPictures* pictures) {
+  const std::vector<core::HeatMap> maps = session.heat_maps();
+  if (maps.empty()) return;
+  recon::gl::SceneRenderer renderer;
+  for (const core::HeatMap& map : maps) {
+    const core::SharedMesh& mesh = session.header().layout.parts[map.part].mesh;
+    pictures->heat.push_back({map.part, recon::EncodePng(HeatPicture(renderer, mesh, map))});
+  }
+}
+
 }  // namespace
 
 SharedFrameResult RebuildFrame(const sessions::SessionReader& session, core::FrameIndex frame) {
@@ -91,10 +102,11 @@ ReportFiles WriteSessionReport(const std::filesystem::path& session_path, const 
       pictures.caption = CaptionOf(*shown, worst->part, renderer.driver());
     }
   }
+  AddHeat(session, &pictures);
   core::ThrowIfStopped(stop, "the report");
   progress.Report(3, 4, "writing the report");
   sessions::WriteReport(session, pictures, folder);
-  return {{folder / "report.html", folder / "contacts.csv"}};
+  return {{folder / "report.html", folder / "contacts.csv", folder / "clearance.csv"}};
 }
 
 void WriteFramePicture(const FrameResult& result, const std::filesystem::path& png, int width_px,

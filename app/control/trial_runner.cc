@@ -7,12 +7,15 @@
 #include <condition_variable>
 #include <limits>
 #include <mutex>
+#include <set>
 #include <utility>
 #include <variant>
 
 #include "app/control/frame_pipeline.h"
+#include "app/control/trial_rules.h"
 #include "app/control/versions.h"
 #include "core/error.h"
+#include "review/contact_heat.h"
 #include "review/contact_tracker.h"
 #include "sessions/session_writer.h"
 
@@ -74,21 +77,27 @@ class Pace {
 class Recording {
  public:
   Recording(const TrialSetup& setup, const TrialOptions& options, TrialControls& controls)
-      : setup_(setup), options_(options), controls_(controls), writer_(options.session, HeaderOf(setup)) {
+      : setup_(setup),
+        options_(options),
+        controls_(controls),
+        writer_(options.session, HeaderOf(setup)),
+        tracker_(TrackerOptionsOf(setup.info)) {
     spacing_mm_ = setup.layout.InitialSpacings();
     outcome_.frames_in_contact.assign(setup.layout.parts.size(), 0);
   }
 
   void Run(core::FrameIndex end, const std::stop_token& stop) {
-    FramePipeline pipeline(setup_.source->rig(), setup_.layout,
-                           setup_.source->ReadBackgrounds(options_.progress, stop), setup_.segmentation);
+    pipeline_.emplace(setup_.source->rig(), setup_.layout,
+                      setup_.source->ReadBackgrounds(options_.progress, stop), setup_.segmentation,
+                      ReviewOptionsOf(setup_.info));
+    heat_.emplace(pipeline_->part_trees());
     const core::FrameIndex first = options_.frames.first;
     for (core::FrameIndex frame = first; frame < end && !stop.stop_requested(); ++frame) {
       recon::FrameSet frames = setup_.source->Read(frame);
       if (options_.at_capture_rate) pace_.WaitFor(frames.time_s, stop);
       ApplyChanges(frame, frames.time_s);
       const Clock::time_point begin = Clock::now();
-      const SharedFrameResult result = pipeline.Process(std::move(frames), spacing_mm_);
+      const SharedFrameResult result = pipeline_->Process(std::move(frames), spacing_mm_);
       outcome_.frame_ms.push_back(std::chrono::duration<double, std::milli>(Clock::now() - begin).count());
       Record(*result);
       if (options_.on_frame) options_.on_frame(result);
@@ -101,7 +110,9 @@ class Recording {
     if (!end_note.empty())
       writer_.Append(core::SessionEvent{last_frame_, last_time_s_, core::Note{end_note}});
     outcome_.episodes = tracker_.Episodes();
-    writer_.Finish(outcome_.episodes);
+    outcome_.near_misses = tracker_.NearMisses();
+    writer_.Finish(
+        {outcome_.episodes, outcome_.near_misses, heat_ ? heat_->Maps() : std::vector<core::HeatMap>()});
     return std::move(outcome_);
   }
 
@@ -121,6 +132,11 @@ class Recording {
   }
 
   void Apply(core::FrameIndex frame, double time_s, const ToolWish& wish) {
+    if (wish.in_use) {
+      tools_in_use_.insert(wish.tool);
+    } else {
+      tools_in_use_.erase(wish.tool);
+    }
     writer_.Append(core::SessionEvent{frame, time_s, core::ToolMarked{wish.tool, wish.in_use}});
   }
 
@@ -142,20 +158,17 @@ class Recording {
   void Record(const FrameResult& result) {
     last_frame_ = result.frame;
     last_time_s_ = result.time_s;
-    tracker_.Add(result.frame, result.time_s, result.contacts, result.spacing_mm);
+    heat_->Add(result.time_s, result.hull, result.world_from_parts, result.contacts);
+    const std::vector<std::string> tools(tools_in_use_.begin(), tools_in_use_.end());
+    tracker_.Add(
+        {result.frame, result.time_s, result.contacts, result.world_from_parts, result.spacing_mm, tools});
     writer_.Append(
         core::FrameRecord{result.frame, result.time_s, result.masks, result.spacing_mm, result.contacts});
     ++outcome_.frames;
     for (const core::PartContact& contact : result.contacts) {
       outcome_.frames_in_contact[contact.part] += contact.verdict == core::Verdict::kContact ? 1 : 0;
     }
-    outcome_.skipped.hull.unchanged_silhouettes += result.skipped.hull.unchanged_silhouettes;
-    outcome_.skipped.hull.empty_silhouettes += result.skipped.hull.empty_silhouettes;
-    outcome_.skipped.hull.untraced_silhouettes += result.skipped.hull.untraced_silhouettes;
-    outcome_.skipped.unchanged_parts += result.skipped.unchanged_parts;
-    outcome_.skipped.triangles_in_all += result.skipped.triangles_in_all;
-    outcome_.skipped.triangles_skipped += result.skipped.triangles_skipped;
-    outcome_.skipped.queries += result.skipped.queries;
+    outcome_.skipped += result.skipped;
   }
 
   const TrialSetup& setup_;
@@ -163,6 +176,9 @@ class Recording {
   TrialControls& controls_;
   sessions::SessionWriter writer_;
   review::ContactTracker tracker_;
+  std::optional<FramePipeline> pipeline_;
+  std::optional<review::ContactHeat> heat_;  // over the pipeline's parts
+  std::set<std::string> tools_in_use_;
   Pace pace_;
   std::vector<double> spacing_mm_;
   TrialOutcome outcome_;

@@ -36,6 +36,7 @@ struct TrialOutcome {
   std::int64_t frames = 0;
   std::vector<std::int64_t> frames_in_contact;  // one a part
   std::vector<core::ContactEpisode> episodes;
+  std::vector<core::NearMiss> near_misses;
   std::string end_note;  // why it ended: "ended with the shortest source, camera 'cam03' (426 frames)", ...
   SkipCount skipped;     // over all frames
   std::vector<double> frame_ms;  // segmentation to contacts, frame by frame

@@ -74,6 +74,12 @@ std::shared_ptr<recon::FrameSetSource> WithViewer(std::shared_ptr<recon::Recorde
   return footage;
 }
 
+double LengthFromZero(const TomlEntry& entry, std::string_view key) {
+  const double length_mm = entry.NumberOr(key, 0.0);
+  if (!(length_mm >= 0.0)) entry.Fail(key, "must not be negative");
+  return length_mm;
+}
+
 // What the footage's length depends on, for the session's record.
 std::string EndNote(const recon::RecordedRig& source) {
   const std::optional<recon::ShortestSource>& shortest = source.shortest_source();
@@ -88,12 +94,13 @@ TrialSetup ReadTrialFile(const std::filesystem::path& path, std::stop_token stop
   const toml::table table = cad_import::ParseTomlFile(path, "trial file");
   const TomlEntry root(table, path.string(), "",
                        {"rig", "layout", "participant", "task", "estimate_mm", "required_clearance_mm",
-                        "tools", "segmentation", "viewer"});
+                        "uncertainty_mm", "tools", "segmentation", "viewer"});
   TrialSetup setup;
   setup.info.participant = root.TextOr("participant", "");
   setup.info.task = root.TextOr("task", "");
   setup.info.estimate_mm = root.NumberOr("estimate_mm", 0.0);
-  setup.info.required_clearance_mm = root.NumberOr("required_clearance_mm", 0.0);
+  setup.info.required_clearance_mm = LengthFromZero(root, "required_clearance_mm");
+  setup.info.uncertainty_mm = LengthFromZero(root, "uncertainty_mm");
   setup.info.tools = root.Texts("tools");
   setup.segmentation = ReadSegmentation(root, path.string());
   const std::filesystem::path folder = path.parent_path();

@@ -1,84 +1,96 @@
 $all0_0 << EOD
-1.264356 3.110487184156514e-05 "CPU"
-6.623001 3.456495934914582e-05 "GL"
+1.345696 3.110487184156514e-05 "CPU"
+7.569624 3.456495934914582e-05 "GL"
 EOD
 $grey0_0 << EOD
-6.623001 3.456495934914582e-05 "GL"
+7.569624 3.456495934914582e-05 "GL"
 EOD
 $all0_1 << EOD
-3.167778 6.4196256297815735 "planes 15 mm apart"
-5.685924 2.238645512054733 "planes 5 mm apart"
-20.251042 0.47912261597162503 "planes 1 mm apart"
+3.343641 6.4196256297815735 "planes 15 mm apart"
+5.866149 2.238645512054733 "planes 5 mm apart"
+21.498045 0.47912261597162503 "planes 1 mm apart"
 EOD
 $grey0_1 << EOD
-3.167778 6.4196256297815735 "planes 15 mm apart"
-5.685924 2.238645512054733 "planes 5 mm apart"
-20.251042 0.47912261597162503 "planes 1 mm apart"
+3.343641 6.4196256297815735 "planes 15 mm apart"
+5.866149 2.238645512054733 "planes 5 mm apart"
+21.498045 0.47912261597162503 "planes 1 mm apart"
 EOD
 $all0_2 << EOD
-34.612205 6.417599769735659 "planes 15 mm apart"
-97.502693 2.2367650210878196 "planes 5 mm apart"
+20.373624 6.4196256297815735 "planes 15 mm apart"
 EOD
 $grey0_2 << EOD
-34.612205 6.417599769735659 "planes 15 mm apart"
-97.502693 2.2367650210878196 "planes 5 mm apart"
+20.373624 6.4196256297815735 "planes 15 mm apart"
 EOD
 $all0_3 << EOD
-501.938029 6.326158033929101 "planes 15 mm apart"
+40.625445 6.417599769735659 "planes 15 mm apart"
+113.894254 2.2367650210878196 "planes 5 mm apart"
 EOD
 $grey0_3 << EOD
-501.938029 6.326158033929101 "planes 15 mm apart"
+40.625445 6.417599769735659 "planes 15 mm apart"
+113.894254 2.2367650210878196 "planes 5 mm apart"
 EOD
 $all0_4 << EOD
-17.426816 0.20675565984478014 "edges of 2 mm"
-6.850785 0.3666517614642404 "edges of 4 mm"
-3.81493 0.7954425340882524 "edges of 8 mm"
+597.2954 6.326158033929101 "planes 15 mm apart"
 EOD
 $grey0_4 << EOD
-17.426816 0.20675565984478014 "edges of 2 mm"
-6.850785 0.3666517614642404 "edges of 4 mm"
-3.81493 0.7954425340882524 "edges of 8 mm"
+597.2954 6.326158033929101 "planes 15 mm apart"
+EOD
+$all0_5 << EOD
+18.989624 0.20675565984478014 "edges of 2 mm"
+7.103902 0.3666517614642404 "edges of 4 mm"
+3.822738 0.7954425340882524 "edges of 8 mm"
+EOD
+$grey0_5 << EOD
+18.989624 0.20675565984478014 "edges of 2 mm"
+7.103902 0.3666517614642404 "edges of 4 mm"
+3.822738 0.7954425340882524 "edges of 8 mm"
 EOD
 $all1_0 << EOD
-4.805995 0.025936238265934726 "CPU"
-19.983396 0.02593603067590106 "GL"
+5.535904 0.025936238265934726 "CPU"
+21.032753 0.02593603067590106 "GL"
 EOD
 $grey1_0 << EOD
 NaN NaN ""
 EOD
 $all1_1 << EOD
-5.821711 6.202984683564714 "planes 15 mm apart"
-9.763329 2.2048762968171434 "planes 5 mm apart"
-32.649661 0.5102606810397988 "planes 1 mm apart"
+6.708319 6.202984683564714 "planes 15 mm apart"
+11.030459 2.2048762968171434 "planes 5 mm apart"
+35.631361 0.5102606810397988 "planes 1 mm apart"
 EOD
 $grey1_1 << EOD
-5.821711 6.202984683564714 "planes 15 mm apart"
-9.763329 2.2048762968171434 "planes 5 mm apart"
-32.649661 0.5102606810397988 "planes 1 mm apart"
+6.708319 6.202984683564714 "planes 15 mm apart"
+11.030459 2.2048762968171434 "planes 5 mm apart"
+35.631361 0.5102606810397988 "planes 1 mm apart"
 EOD
 $all1_2 << EOD
-86.010814 6.202492429757415 "planes 15 mm apart"
-248.962574 2.2030387844793116 "planes 5 mm apart"
+26.255758 6.202984683564714 "planes 15 mm apart"
 EOD
 $grey1_2 << EOD
-86.010814 6.202492429757415 "planes 15 mm apart"
-248.962574 2.2030387844793116 "planes 5 mm apart"
+26.255758 6.202984683564714 "planes 15 mm apart"
 EOD
 $all1_3 << EOD
-1525.923126 6.085492261502713 "planes 15 mm apart"
+87.352636 6.202492429757415 "planes 15 mm apart"
+250.572207 2.2030387844793116 "planes 5 mm apart"
 EOD
 $grey1_3 << EOD
-1525.923126 6.085492261502713 "planes 15 mm apart"
+87.352636 6.202492429757415 "planes 15 mm apart"
+250.572207 2.2030387844793116 "planes 5 mm apart"
 EOD
 $all1_4 << EOD
-35.871433 0.22701659343812378 "edges of 2 mm"
-18.646635 0.3986796917867054 "edges of 4 mm"
-11.859531 0.7914416185139392 "edges of 8 mm"
+1767.31211 6.085492261502713 "planes 15 mm apart"
 EOD
 $grey1_4 << EOD
-35.871433 0.22701659343812378 "edges of 2 mm"
-18.646635 0.3986796917867054 "edges of 4 mm"
-11.859531 0.7914416185139392 "edges of 8 mm"
+1767.31211 6.085492261502713 "planes 15 mm apart"
+EOD
+$all1_5 << EOD
+42.41613 0.22701659343812378 "edges of 2 mm"
+18.052395 0.3986796917867054 "edges of 4 mm"
+13.063512 0.7914416185139392 "edges of 8 mm"
+EOD
+$grey1_5 << EOD
+42.41613 0.22701659343812378 "edges of 2 mm"
+18.052395 0.3986796917867054 "edges of 4 mm"
+13.063512 0.7914416185139392 "edges of 8 mm"
 EOD
 set logscale xy
 set grid lc rgb '#cccccc'
@@ -93,15 +105,15 @@ set terminal svg size 900,1120 font 'Sans,15' background rgb 'white'
 set output 'view_methods.svg'
 set multiplot layout 2,1
 set title 'Views of 640 x 480 from 3 cameras, 640 x 480: run time against error'
-plot $all0_0 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#0072B2' title 'exact view', $grey0_0 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all0_0 using 1:2:3 with labels center offset 0,0.9 tc rgb '#0072B2' notitle, $all0_1 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#D55E00' title 'plane sweep, CPU', $grey0_1 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all0_1 using 1:2:3 with labels left offset 0.9,0.5 tc rgb '#D55E00' notitle, $all0_2 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#009E73' title 'plane sweep, GL', $grey0_2 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all0_2 using 1:2:3 with labels left offset 0.9,0.5 tc rgb '#009E73' notitle, $all0_3 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#CC79A7' title 'the paper''s sweep, GL', $grey0_3 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all0_3 using 1:2:3 with labels left offset 0.9,0.5 tc rgb '#CC79A7' notitle, $all0_4 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#E69F00' title 'octree mesh', $grey0_4 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all0_4 using 1:2:3 with labels right offset -0.9,-0.5 tc rgb '#E69F00' notitle, NaN with points pt 7 ps 1.4 lc rgb '#b8b8b8' title 'dominated by another setting or method'
+plot $all0_0 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#0072B2' title 'exact view', $grey0_0 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all0_0 using 1:2:3 with labels center offset 0,0.9 tc rgb '#0072B2' notitle, $all0_1 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#D55E00' title 'plane sweep, CPU', $grey0_1 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all0_1 using 1:2:3 with labels left offset 0.9,0.5 tc rgb '#D55E00' notitle, $all0_2 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#009E73' title 'plain plane sweep, CPU', $grey0_2 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all0_2 using 1:2:3 with labels left offset 0.9,0.5 tc rgb '#009E73' notitle, $all0_3 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#CC79A7' title 'plane sweep, GL', $grey0_3 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all0_3 using 1:2:3 with labels left offset 0.9,0.5 tc rgb '#CC79A7' notitle, $all0_4 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#E69F00' title 'the paper''s sweep, GL', $grey0_4 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all0_4 using 1:2:3 with labels right offset -0.9,-0.5 tc rgb '#E69F00' notitle, $all0_5 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#56B4E9' title 'octree mesh', $grey0_5 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all0_5 using 1:2:3 with labels center offset 0,0.9 tc rgb '#56B4E9' notitle, NaN with points pt 7 ps 1.4 lc rgb '#b8b8b8' title 'dominated by another setting or method'
 set title 'Views of 640 x 480 from 8 cameras, 1280 x 720: run time against error'
-plot $all1_0 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#0072B2' title 'exact view', $grey1_0 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all1_0 using 1:2:3 with labels center offset 0,0.9 tc rgb '#0072B2' notitle, $all1_1 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#D55E00' title 'plane sweep, CPU', $grey1_1 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all1_1 using 1:2:3 with labels left offset 0.9,0.5 tc rgb '#D55E00' notitle, $all1_2 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#009E73' title 'plane sweep, GL', $grey1_2 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all1_2 using 1:2:3 with labels left offset 0.9,0.5 tc rgb '#009E73' notitle, $all1_3 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#CC79A7' title 'the paper''s sweep, GL', $grey1_3 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all1_3 using 1:2:3 with labels left offset 0.9,0.5 tc rgb '#CC79A7' notitle, $all1_4 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#E69F00' title 'octree mesh', $grey1_4 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all1_4 using 1:2:3 with labels right offset -0.9,-0.5 tc rgb '#E69F00' notitle, NaN with points pt 7 ps 1.4 lc rgb '#b8b8b8' title 'dominated by another setting or method'
+plot $all1_0 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#0072B2' title 'exact view', $grey1_0 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all1_0 using 1:2:3 with labels center offset 0,0.9 tc rgb '#0072B2' notitle, $all1_1 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#D55E00' title 'plane sweep, CPU', $grey1_1 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all1_1 using 1:2:3 with labels left offset 0.9,0.5 tc rgb '#D55E00' notitle, $all1_2 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#009E73' title 'plain plane sweep, CPU', $grey1_2 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all1_2 using 1:2:3 with labels left offset 0.9,0.5 tc rgb '#009E73' notitle, $all1_3 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#CC79A7' title 'plane sweep, GL', $grey1_3 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all1_3 using 1:2:3 with labels left offset 0.9,0.5 tc rgb '#CC79A7' notitle, $all1_4 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#E69F00' title 'the paper''s sweep, GL', $grey1_4 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all1_4 using 1:2:3 with labels right offset -0.9,-0.5 tc rgb '#E69F00' notitle, $all1_5 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#56B4E9' title 'octree mesh', $grey1_5 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all1_5 using 1:2:3 with labels center offset 0,0.9 tc rgb '#56B4E9' notitle, NaN with points pt 7 ps 1.4 lc rgb '#b8b8b8' title 'dominated by another setting or method'
 unset multiplot
 set terminal pngcairo size 1350,1680 font 'Sans,17'
 set output 'view_methods.png'
 set multiplot layout 2,1
 set title 'Views of 640 x 480 from 3 cameras, 640 x 480: run time against error'
-plot $all0_0 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#0072B2' title 'exact view', $grey0_0 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all0_0 using 1:2:3 with labels center offset 0,0.9 tc rgb '#0072B2' notitle, $all0_1 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#D55E00' title 'plane sweep, CPU', $grey0_1 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all0_1 using 1:2:3 with labels left offset 0.9,0.5 tc rgb '#D55E00' notitle, $all0_2 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#009E73' title 'plane sweep, GL', $grey0_2 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all0_2 using 1:2:3 with labels left offset 0.9,0.5 tc rgb '#009E73' notitle, $all0_3 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#CC79A7' title 'the paper''s sweep, GL', $grey0_3 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all0_3 using 1:2:3 with labels left offset 0.9,0.5 tc rgb '#CC79A7' notitle, $all0_4 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#E69F00' title 'octree mesh', $grey0_4 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all0_4 using 1:2:3 with labels right offset -0.9,-0.5 tc rgb '#E69F00' notitle, NaN with points pt 7 ps 1.4 lc rgb '#b8b8b8' title 'dominated by another setting or method'
+plot $all0_0 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#0072B2' title 'exact view', $grey0_0 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all0_0 using 1:2:3 with labels center offset 0,0.9 tc rgb '#0072B2' notitle, $all0_1 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#D55E00' title 'plane sweep, CPU', $grey0_1 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all0_1 using 1:2:3 with labels left offset 0.9,0.5 tc rgb '#D55E00' notitle, $all0_2 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#009E73' title 'plain plane sweep, CPU', $grey0_2 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all0_2 using 1:2:3 with labels left offset 0.9,0.5 tc rgb '#009E73' notitle, $all0_3 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#CC79A7' title 'plane sweep, GL', $grey0_3 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all0_3 using 1:2:3 with labels left offset 0.9,0.5 tc rgb '#CC79A7' notitle, $all0_4 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#E69F00' title 'the paper''s sweep, GL', $grey0_4 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all0_4 using 1:2:3 with labels right offset -0.9,-0.5 tc rgb '#E69F00' notitle, $all0_5 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#56B4E9' title 'octree mesh', $grey0_5 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all0_5 using 1:2:3 with labels center offset 0,0.9 tc rgb '#56B4E9' notitle, NaN with points pt 7 ps 1.4 lc rgb '#b8b8b8' title 'dominated by another setting or method'
 set title 'Views of 640 x 480 from 8 cameras, 1280 x 720: run time against error'
-plot $all1_0 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#0072B2' title 'exact view', $grey1_0 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all1_0 using 1:2:3 with labels center offset 0,0.9 tc rgb '#0072B2' notitle, $all1_1 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#D55E00' title 'plane sweep, CPU', $grey1_1 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all1_1 using 1:2:3 with labels left offset 0.9,0.5 tc rgb '#D55E00' notitle, $all1_2 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#009E73' title 'plane sweep, GL', $grey1_2 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all1_2 using 1:2:3 with labels left offset 0.9,0.5 tc rgb '#009E73' notitle, $all1_3 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#CC79A7' title 'the paper''s sweep, GL', $grey1_3 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all1_3 using 1:2:3 with labels left offset 0.9,0.5 tc rgb '#CC79A7' notitle, $all1_4 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#E69F00' title 'octree mesh', $grey1_4 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all1_4 using 1:2:3 with labels right offset -0.9,-0.5 tc rgb '#E69F00' notitle, NaN with points pt 7 ps 1.4 lc rgb '#b8b8b8' title 'dominated by another setting or method'
+plot $all1_0 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#0072B2' title 'exact view', $grey1_0 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all1_0 using 1:2:3 with labels center offset 0,0.9 tc rgb '#0072B2' notitle, $all1_1 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#D55E00' title 'plane sweep, CPU', $grey1_1 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all1_1 using 1:2:3 with labels left offset 0.9,0.5 tc rgb '#D55E00' notitle, $all1_2 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#009E73' title 'plain plane sweep, CPU', $grey1_2 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all1_2 using 1:2:3 with labels left offset 0.9,0.5 tc rgb '#009E73' notitle, $all1_3 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#CC79A7' title 'plane sweep, GL', $grey1_3 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all1_3 using 1:2:3 with labels left offset 0.9,0.5 tc rgb '#CC79A7' notitle, $all1_4 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#E69F00' title 'the paper''s sweep, GL', $grey1_4 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all1_4 using 1:2:3 with labels right offset -0.9,-0.5 tc rgb '#E69F00' notitle, $all1_5 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#56B4E9' title 'octree mesh', $grey1_5 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all1_5 using 1:2:3 with labels center offset 0,0.9 tc rgb '#56B4E9' notitle, NaN with points pt 7 ps 1.4 lc rgb '#b8b8b8' title 'dominated by another setting or method'
 unset multiplot

@@ -22,10 +22,9 @@ void AddCrossings(const CastPencil& pencil, std::size_t interval, bool entries, 
   const CastIntervals::Run run = intervals.RunOf(interval);
   for (std::size_t i = run.begin; i < run.end; ++i) {
     if (pencil.IsEntry(run, i) != entries) continue;
-    const CastForm key = intervals.KeyAt(i);
-    const auto edge = static_cast<std::size_t>(intervals.edges[i]);
+    const CastEdge& edge = pencil.edges[static_cast<std::size_t>(intervals.crossings[i].edge())];
     tables->angles.push_back(angles);
-    tables->keys.emplace_back(key.du, key.dv, key.at_origin, static_cast<float>(pencil.edges[edge].edge));
+    tables->keys.emplace_back(edge.key.du, edge.key.dv, edge.key.at_origin, static_cast<float>(edge.edge));
   }
 }
 

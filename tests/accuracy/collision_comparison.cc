@@ -45,7 +45,7 @@ Sight SightOf(const core::Rig& rig, const std::vector<recon::SyntheticObject>& o
 review::ContactOptions OptionsOf(CollisionMethod method) {
   review::ContactOptions options;
   if (method == CollisionMethod::kExactAtTwoMm) options.resolution_mm = 2.0;
-  options.reference_in_part = Vector3d(-kReferenceAwayMm, 0.0, 0.0);
+  options.recovery.reference_in_part_mm = Vector3d(-kReferenceAwayMm, 0.0, 0.0);
   return options;
 }
 
@@ -134,7 +134,7 @@ std::vector<CollisionCost> TimeCollisions(recon::ViewSceneRig rig, const TimingE
   const core::TriangleTree part = CurtainTree();
   const core::RigidTransform world_from_part =
       Pushed(sight.hull, part, Eigen::Matrix3d::Identity(), kHandMm, kThroughMm);
-  const Vector3d rp_obj = world_from_part * *OptionsOf(CollisionMethod::kExact).reference_in_part;
+  const Vector3d rp_obj = world_from_part * *OptionsOf(CollisionMethod::kExact).recovery.reference_in_part_mm;
   recon::gl::TriangleViewportsGl gl;
   const auto sample = [&](CollisionMethod method, const recon::CoverageHull& textures) {
     return method == CollisionMethod::kViewportsGl

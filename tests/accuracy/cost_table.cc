@@ -20,6 +20,7 @@ struct CostCase {
 
 std::vector<CostCase> CostCases() {
   return {{"as it is: view 640 x 480", {}},
+          {"eight cameras, 1280 x 720", {"--eight"}},
           {"hull half as wide on screen", {"--zoom", "0.5"}},
           {"hull twice as wide on screen", {"--zoom", "2"}},
           {"view 1280 x 960, hull as large in pixels", {"--view-size", "2"}},

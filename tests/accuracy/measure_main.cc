@@ -19,6 +19,12 @@ int main(int argc, char** argv) {
   app.add_subcommand("collision", "the paper's collision method beside the exact one")->callback([&] {
     MeasureCollisions(docs);
   });
+  int frame_count = 10'000;
+  CLI::App* frames = app.add_subcommand("frames", "whole frames of the demo");
+  frames->add_option("--count", frame_count, "frames a run")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  frames->callback([&] { MeasureFrames(docs, frame_count); });
   CLI::App* cost = app.add_subcommand("cost", "instructions by callgrind");
   cost->add_option("PROGRAM", view_cost, "view_cost")->required();
   cost->callback([&] { MeasureCost(docs, view_cost); });

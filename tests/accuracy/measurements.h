@@ -18,6 +18,10 @@ void MeasureMethods(const std::filesystem::path& docs);
 // performance.md, "cost": instructions by callgrind, of `view_cost` (the program).
 void MeasureCost(const std::filesystem::path& docs, const std::filesystem::path& view_cost);
 
+// performance.md, "frames": the demo's motion, whole frames with their pictures in memory, `count` of them on
+// one thread and on two; still and empty scenes beside.
+void MeasureFrames(const std::filesystem::path& docs, int count = 10'000);
+
 // paper_collision.md, all its sections.
 void MeasureCollisions(const std::filesystem::path& docs);
 

@@ -166,7 +166,7 @@ void RespondOnce(const Sight& sight, recon::Random* random, Depths* depths) {
   if (!sight.textures.Contains(cp_obj)) return;  // through to the other side
   const auto two = review::RespondByTwoTriangles(sight.textures, std::span(&cp_obj, 1), rp_obj);
   review::ContactOptions options;
-  options.reference_in_part = rp_obj;
+  options.recovery.reference_in_part_mm = rp_obj;
   const auto exact = review::FindContacts(sight.hull, PointPart(cp_obj), {}, 0, options);
   if (!two.recovery || !exact.recovery) return;
   const Truth truth{*to_masks_mm, *to_analytic_mm,

@@ -13,6 +13,7 @@ namespace elbowroom::accuracy {
 namespace {
 
 struct CostOptions {
+  bool eight = false;           // the rig of eight cameras, 1280 x 720
   double zoom = 1.0;            // of the view's focal length
   int view_size = 1;            // factor on the view's width and height, its focal length unchanged
   int picture_size = 1;         // the same for the rig's cameras
@@ -57,7 +58,8 @@ core::CameraModel ViewOf(const core::CameraModel& standard, const CostOptions& o
 
 void Run(const CostOptions& options) {
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 1);
-  recon::ViewScene scene = recon::MakeViewScene(recon::ViewSceneRig::kThree);
+  recon::ViewScene scene =
+      recon::MakeViewScene(options.eight ? recon::ViewSceneRig::kEight : recon::ViewSceneRig::kThree);
   for (core::CameraModel& camera : scene.rig.cameras) camera = WithMorePicture(camera, options.picture_size);
   std::vector<core::SoftMask> masks = recon::TrueMasks(scene.rig, scene.objects);
   if (options.blind) masks[0].mask = core::BitMask(masks[0].mask.width_px(), masks[0].mask.height_px());
@@ -81,6 +83,7 @@ void Run(const CostOptions& options) {
 int main(int argc, char** argv) {
   CLI::App app{"One exact view of the demo's hand, for callgrind to count."};
   elbowroom::accuracy::CostOptions options;
+  app.add_flag("--eight", options.eight, "the rig of eight cameras of 1280 x 720");
   app.add_option("--zoom", options.zoom, "factor on the view's focal length");
   app.add_option("--view-size", options.view_size, "factor on the view's width and height");
   app.add_option("--picture-size", options.picture_size, "factor on the rig's pictures' width and height");

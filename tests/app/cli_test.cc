@@ -79,17 +79,17 @@ TEST(Cli, HelpNamesWhatIsBuiltAndNothingElse) {
   const ProgramRun run = Elbowroom({"--help"});
   EXPECT_EQ(run.exit_status, 0);
   for (const char* command : {"demo", "trial", "report", "segment", "view", "hull", "contacts", "clearance",
-                              "clash", "import", "bench"}) {
+                              "clash", "sweep", "import", "bench"}) {
     EXPECT_NE(run.out.find(std::string("\n  ") + command + " "), std::string::npos) << command;
   }
-  for (const char* later : {"replay", "sweep"}) {
+  for (const char* later : {"replay"}) {
     EXPECT_EQ(run.out.find(std::string("\n  ") + later + " "), std::string::npos) << later;
   }
 }
 
 TEST(Cli, EveryCommandHasHelp) {
-  for (const char* command :
-       {"demo", "report", "segment", "view", "hull", "contacts", "clearance", "clash", "import", "bench"}) {
+  for (const char* command : {"demo", "report", "segment", "view", "hull", "contacts", "clearance", "clash",
+                              "sweep", "import", "bench"}) {
     EXPECT_EQ(Elbowroom({command, "--help"}).exit_status, 0) << command;
   }
   EXPECT_EQ(Elbowroom({"trial", "run", "--help"}).exit_status, 0);
@@ -289,6 +289,52 @@ TEST_F(CliOnBallRig, ContactsTouchWhereTheBallIs) {
   for (const char* key : {"time_ms", "queries", "skipped"}) EXPECT_TRUE(json.contains(key)) << key;
 }
 
+TEST_F(CliOnBallRig, ContactsSayWhichWayIsOut) {
+  const std::vector<std::string> contacts = {
+      "contacts",         rig_,    "--frame", "0", "--mesh", box_, "--unit", "mm", "--world-from-part",
+      PoseAt(80, 0, 200), "--json"};
+  const auto json_with = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words = contacts;
+    words.insert(words.end(), more.begin(), more.end());
+    const ProgramRun run = Elbowroom(words);
+    EXPECT_EQ(run.exit_status, 0) << run.err;
+    return nlohmann::json::parse(run.out);
+  };
+  const auto plain = json_with({});
+  EXPECT_EQ(plain["status"], plain["recovery_status"]);
+  EXPECT_EQ(plain["recovery"]["kind"], "reference");
+  EXPECT_TRUE(plain["recovery"]["axis"].is_null());
+  const double lower_mm = plain["penetration_mm"][0], upper_mm = plain["penetration_mm"][1];
+  EXPECT_GT(lower_mm, 0.0);
+  EXPECT_LE(lower_mm, upper_mm);
+  EXPECT_EQ(plain["penetration_direction"].size(), 3U);
+  EXPECT_LE(lower_mm, plain["recovery"]["part_free_mm"][1].get<double>()) << "one way is no shorter than any";
+  for (const char* key : {"cp_obj_mm", "v_rec_deg", "d_rec_mm", "cp_hull_mm", "n_hull_deg"})
+    EXPECT_GT(plain["uncertainty"][key].get<double>(), 0.0) << key;
+
+  const auto slider = json_with({"--recovery", "slider", "--axis", "-1,0,0"});
+  EXPECT_EQ(slider["recovery"]["sense"], "-") << "away from the ball, along +x";
+  EXPECT_NEAR(slider["v_rec"][0].get<double>(), 1.0, 1e-9);
+  EXPECT_EQ(slider["recovery"]["part_free_mm"].size(), 2U);
+  const auto hinge =
+      json_with({"--recovery", "hinge", "--axis", "0,0,1", "--at", "0,300,0", "--reference", "0,0,0"});
+  EXPECT_EQ(hinge["recovery"]["kind"], "hinge");
+  EXPECT_TRUE(hinge["recovery"]["angle_deg"].is_number());
+  EXPECT_TRUE(hinge["recovery"]["part_free_mm"].is_null());
+  const auto with_sure_silhouettes = json_with({"--silhouette-error", "0.05"});
+  EXPECT_LT(with_sure_silhouettes["uncertainty"]["d_rec_mm"].get<double>(),
+            plain["uncertainty"]["d_rec_mm"].get<double>());
+  for (const std::vector<std::string>& wrong : {std::vector<std::string>{"--recovery", "slider"},
+                                                {"--axis", "0,0,1"},
+                                                {"--recovery", "sideways"},
+                                                {"--recovery", "slider", "--axis", "0,1"},
+                                                {"--silhouette-error", "-1"}}) {
+    std::vector<std::string> words = contacts;
+    words.insert(words.end(), wrong.begin(), wrong.end());
+    EXPECT_EQ(Elbowroom(words).exit_status, 2) << wrong.front();
+  }
+}
+
 TEST_F(CliOnBallRig, ContactsAreNullWhereNothingTouches) {
   const ProgramRun apart = Elbowroom({"contacts", rig_, "--frame", "0", "--mesh", box_, "--unit", "mm",
                                       "--world-from-part", PoseAt(600, 0, 200), "--json"});
@@ -296,7 +342,8 @@ TEST_F(CliOnBallRig, ContactsAreNullWhereNothingTouches) {
   const auto json = nlohmann::json::parse(apart.out);
   EXPECT_EQ(json["verdict"], "clear");
   EXPECT_EQ(json["contact_points"], 0);
-  for (const char* key : {"cp_obj_mm", "cp_hull_mm", "v_rec", "d_rec_mm", "n_hull"})
+  for (const char* key : {"cp_obj_mm", "cp_hull_mm", "v_rec", "d_rec_mm", "n_hull", "recovery", "uncertainty",
+                          "penetration_mm", "penetration_direction"})
     EXPECT_TRUE(json[key].is_null()) << key;
   EXPECT_EQ(json["skipped"], 12);
 }
@@ -349,6 +396,8 @@ TEST_F(CliOnBallRig, MatterInsideAClosedPartIsAContactAndInItsCavityIsNot) {
   EXPECT_EQ(closed["contact_points"], 0);
   EXPECT_EQ(closed["contained_mm"].size(), 3U);
   EXPECT_TRUE(closed["v_rec"].is_null());
+  EXPECT_EQ(closed["status"], "hull inside part");
+  EXPECT_GT(closed["penetration_mm"][0].get<double>(), 100.0);
   test_support::WriteHollowBoxStl(part, 400.0, 260.0);
   EXPECT_EQ(nlohmann::json::parse(Elbowroom(contacts).out)["verdict"], "clear");
 }

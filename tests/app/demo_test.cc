@@ -16,7 +16,7 @@ TEST(Demo, TouchesPayloadAAt140MmAndNothingAt240) {
   const test_support::ProgramRun run =
       test_support::RunProgram(ELBOWROOM_PROGRAM, {"demo", "--out", out.string(), "--headless"});
   ASSERT_EQ(run.exit_status, 0) << run.err;
-  for (const char* file : {"session.db", "report.html", "contacts.csv", "view.png"}) {
+  for (const char* file : {"session.db", "report.html", "contacts.csv", "clearance.csv", "view.png"}) {
     EXPECT_GT(std::filesystem::file_size(out / file), 1000U) << file;
   }
   const sessions::SessionReader session(out / "session.db");
@@ -31,6 +31,13 @@ TEST(Demo, TouchesPayloadAAt140MmAndNothingAt240) {
   EXPECT_GT(touches_at_140, 100);  // of 240 frames
   EXPECT_EQ(session.frame_count(), 480);
   EXPECT_EQ(session.episodes().size(), 2U);  // the pipe, then the tongs: two long touches
+  EXPECT_EQ(session.episodes()[0].tools, std::vector<std::string>{});
+  EXPECT_EQ(session.episodes()[1].tools, std::vector<std::string>{"tongs"});
+  for (const core::NearMiss& miss : session.near_misses())
+    EXPECT_EQ(miss.part, 0U) << "the hand by the PMT box";
+  EXPECT_EQ(session.near_misses().size(), 2U);  // once in each play of the task
+  ASSERT_EQ(session.heat_maps().size(), 1U);
+  EXPECT_EQ(session.heat_maps()[0].part, kPayloadA);
   // The database answers to sqlite3 itself.
   const test_support::ProgramRun sql = test_support::RunProgram(
       "/usr/bin/sqlite3",

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "app/control/demo_parts.h"
 #include "recon/synthetic/demo_motion.h"
 #include "recon/synthetic/rig_presets.h"
@@ -25,8 +27,10 @@ class FramePipelineTest : public testing::Test {
       frames.cameras.push_back({{}, std::move(mask)});
     return frames;
   }
-  FramePipeline MakePipeline() const {
-    return {source_.rig(), DemoLayout(), std::vector<recon::BackgroundReference>(4), {}};
+  FramePipeline MakePipeline(double required_mm = 0.0, const core::Layout& layout = DemoLayout()) const {
+    review::PartReviewOptions review;
+    review.required_clearance_mm = required_mm;
+    return {source_.rig(), layout, std::vector<recon::BackgroundReference>(4), {}, review};
   }
 
   recon::SyntheticRig source_;
@@ -74,6 +78,26 @@ TEST_F(FramePipelineTest, WhatCameBeforeDoesntChangeAFrame) {
   ExpectSameContacts(*warm.Process(MasksOf(kTouching), gap), *cold.Process(MasksOf(kTouching), gap));
 }
 
+TEST_F(FramePipelineTest, PartsGiveWayAsTheirLayoutSays) {
+  core::Layout layout = DemoLayout();
+  for (core::Part& part : layout.parts)
+    part.recovery = {core::RecoveryKind::kSlider, {}, Eigen::Vector3d(0, 2, 0), {}};
+  FramePipeline pipeline(source_.rig(), layout, std::vector<recon::BackgroundReference>(4), {});
+  const std::vector<double> gap = {kGapInitialMm};
+  int recovered = 0;
+  for (core::FrameIndex frame = 0; frame < 3 * kTouching; frame += 20) {
+    const SharedFrameResult result = pipeline.Process(MasksOf(frame), gap);
+    for (std::size_t i = 0; i < result->contacts.size(); ++i) {
+      const auto& recovery = result->contacts[i].recovery;
+      if (!recovery) continue;
+      ++recovered;
+      const Eigen::Vector3d axis = result->world_from_parts[i].rotation.col(1);
+      EXPECT_NEAR(std::abs(recovery->v_rec_in_world.dot(axis)), 1.0, 1e-12);
+    }
+  }
+  EXPECT_GT(recovered, 0);
+}
+
 TEST_F(FramePipelineTest, AnEmptySceneTouchesNothingAndAsksNothing) {
   FramePipeline pipeline = MakePipeline();
   recon::FrameSet frames;
@@ -83,6 +107,44 @@ TEST_F(FramePipelineTest, AnEmptySceneTouchesNothingAndAsksNothing) {
   EXPECT_EQ(result->skipped.queries, 0);
   EXPECT_EQ(result->skipped.hull.empty_silhouettes, 4);
   EXPECT_EQ(result->skipped.hull.untraced_silhouettes, 4);
+}
+
+TEST_F(FramePipelineTest, ClearanceIsAskedOnlyWhereItIsNotSettled) {
+  core::Layout layout = DemoLayout();
+  layout.parts[2].world_from_part.translation_mm.x() = -900.0;  // payload B, far from the hand
+  FramePipeline pipeline = MakePipeline(20.0, layout);
+  const std::vector<double> gap = {kGapInitialMm};
+  const SharedFrameResult first = pipeline.Process(MasksOf(kTouching), gap);
+  for (const core::PartContact& contact : first->contacts) ASSERT_TRUE(contact.clearance.has_value());
+  EXPECT_EQ(first->contacts[1].verdict, core::Verdict::kContact);
+  EXPECT_EQ(first->skipped.clearances_by_contact, 1);
+  EXPECT_EQ(first->skipped.clearances_by_ball, 1);
+  EXPECT_GT(first->skipped.clearance_queries, 2) << "the PMT box had to be searched for";
+  const SharedFrameResult again = pipeline.Process(MasksOf(kTouching), gap);
+  EXPECT_EQ(again->skipped.unchanged_parts, 3);
+  EXPECT_EQ(again->skipped.clearance_queries, 0);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(again->contacts[i].verdict, first->contacts[i].verdict);
+    EXPECT_EQ(again->contacts[i].clearance->interval.upper_mm,
+              first->contacts[i].clearance->interval.upper_mm);
+  }
+}
+
+TEST_F(FramePipelineTest, ClearanceWarmedByTheLastFrameIsAsTrue) {
+  FramePipeline warm = MakePipeline(40.0);
+  std::int64_t warm_queries = 0, cold_queries = 0;
+  for (core::FrameIndex frame = kTouching - 20; frame < kTouching; ++frame) {
+    const std::vector<double> gap = {kGapNeededMm};
+    FramePipeline cold = MakePipeline(40.0);
+    const SharedFrameResult a = warm.Process(MasksOf(frame), gap), b = cold.Process(MasksOf(frame), gap);
+    for (std::size_t i = 0; i < 3; ++i) {
+      EXPECT_LE(a->contacts[i].clearance->interval.lower_mm, b->contacts[i].clearance->interval.upper_mm);
+      EXPECT_LE(b->contacts[i].clearance->interval.lower_mm, a->contacts[i].clearance->interval.upper_mm);
+    }
+    warm_queries += a->skipped.clearance_queries;
+    cold_queries += b->skipped.clearance_queries;
+  }
+  EXPECT_LT(warm_queries, cold_queries);
 }
 
 }  // namespace

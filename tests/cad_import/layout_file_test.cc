@@ -252,12 +252,10 @@ TEST_F(LayoutFile, WhatGivesWayComesBack) {
   core::Layout layout = ImportLayoutFile(Write(kLayout)).layout;
   core::ClothRule cloth;
   cloth.pins = {core::BoundsSide::kZMax, core::BoundsSide::kXMin};
-  cloth.v_rec = Eigen::Vector3d(0.0, 1.0, 0.25);
   cloth.stretch_stiffness_n_per_m = 1234.5;
   cloth.friction = 0.75;
   layout.parts[0].gives_way = cloth;
-  layout.parts[1].gives_way =
-      core::PushRule{.v_rec = Eigen::Vector3d(1.0, 0.0, 0.0), .max_speed_mm_per_s = 80.0};
+  layout.parts[1].gives_way = core::PushRule{.max_speed_mm_per_s = 80.0};
   core::Stream stream;
   stream.name = "faucet";
   stream.position_mm = {1.0, 2.0, 300.0};
@@ -288,6 +286,38 @@ TEST_F(LayoutFile, WhatCantGiveWaySaysWhy) {
   EXPECT_TRUE(
       Mentions(message_of(WriteWith("[[pair]]", "[[stream]]\nname = \"tap\"\nrate_per_s = 0\n[[pair]]")),
                "stream 'tap': rate_per_s must be from"));
+}
+
+TEST_F(LayoutFile, APartsWayOutOfTheHullArrivesAndComesBack) {
+  const auto path = WriteWith("unit = \"in\"\n",
+                              "reference_mm = [1, 2.5, -3]\nrecovery = \"hinge\"\n"
+                              "recovery_axis = [0, 0, 2]\nrecovery_at_mm = [4, 5, 6]\n");
+  const core::Layout layout = ImportLayoutFile(path).layout;
+  EXPECT_EQ(layout.parts[0].recovery, core::RecoveryRule());
+  const core::RecoveryRule hinge{core::RecoveryKind::kHinge, Eigen::Vector3d(1, 2.5, -3),
+                                 Eigen::Vector3d(0, 0, 2), Eigen::Vector3d(4, 5, 6)};
+  EXPECT_EQ(layout.parts[1].recovery, hinge) << "in millimetres, whatever the part's unit";
+  WriteLayoutFile(layout, folder_ / "copy.toml");
+  const core::Layout back = ImportLayoutFile(folder_ / "copy.toml").layout;
+  for (std::size_t i = 0; i < layout.parts.size(); ++i)
+    EXPECT_EQ(back.parts[i].recovery, layout.parts[i].recovery);
+}
+
+TEST_F(LayoutFile, AWayOutThatMakesNoSenseIsNamedWithItsLine) {
+  const auto message = [&](const std::string& keys) {
+    return ErrorAtLine(12, "unit = \"in\"\n", keys + "\n");
+  };
+  EXPECT_TRUE(Mentions(message("recovery = \"sideways\""), "key 'recovery' must be \"reference\","));
+  EXPECT_TRUE(
+      Mentions(message("recovery = \"slider\""),
+               "[[part]]: key 'recovery' (slider): a direction, slider or hinge needs an axis; add it"));
+  EXPECT_TRUE(
+      Mentions(message("recovery_axis = [0, 0, 1]"), "key 'recovery_axis' (reference): an axis has no"));
+  EXPECT_TRUE(
+      Mentions(message("recovery_at_mm = [0, 0, 1]"), "only a hinge has a point of its axis; remove it"));
+  EXPECT_TRUE(Mentions(message("recovery = \"slider\"\nrecovery_axis = [0, 0, 0]"), "must not be zero"));
+  EXPECT_TRUE(Mentions(message("reference_mm = [0, 0]"), "key 'reference_mm' must be three numbers"));
+  EXPECT_TRUE(Mentions(message("recovery_axes = [0, 0, 1]"), "did you mean 'recovery_axis'?"));
 }
 
 TEST_F(LayoutFile, APartWithoutAFileCantBeWritten) {

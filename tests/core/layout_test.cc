@@ -129,6 +129,8 @@ TEST(LayoutValidate, NamesWhatIsWrong) {
       {"NaN", [](Layout& l) { l.spacings[0].initial_mm = std::nan(""); }, "spacing 'gap'"},
       {"endless", [](Layout& l) { l.spacings[0].max_mm = std::numeric_limits<double>::infinity(); },
        "spacing 'gap'"},
+      {"a hinge without an axis", [](Layout& l) { l.parts[1].recovery.kind = RecoveryKind::kHinge; },
+       "part 'pmt': recovery: a direction, slider or hinge needs an axis"},
       {"circular", [](Layout& l) { l.spacings.push_back(Gap("back", "pmt", "payload")); }, "circular"},
       {"unknown in pair",
        [](Layout& l) {

@@ -47,6 +47,23 @@ TEST(CameraProjection, IsTheCameraModelsOwn) {
   EXPECT_GT(seen, 200);
 }
 
+// Beside pixels that the lens doesn't bring into the picture: there the program's outline goes from pixel to
+// pixel, the oracle's along the rim of the lens's domain.
+bool IsBesideUnseen(const recon::VisualHull& hull, const Vector3d& x) {
+  constexpr int kNearPx = 2;
+  for (std::size_t i = 0; i < hull.silhouettes().size(); ++i) {
+    const std::optional<core::BitMask>& unseen = hull.silhouettes()[i]->plane().unseen_pixels();
+    const std::optional<Eigen::Vector2d> pixel = hull.rig().cameras[i].Project(x);
+    if (!unseen || !pixel) continue;
+    const auto at_x = static_cast<int>(std::lround(pixel->x())),
+               at_y = static_cast<int>(std::lround(pixel->y()));
+    for (int py = std::max(at_y - kNearPx, 0); py <= std::min(at_y + kNearPx, unseen->height_px() - 1); ++py)
+      for (int px = std::max(at_x - kNearPx, 0); px <= std::min(at_x + kNearPx, unseen->width_px() - 1); ++px)
+        if (unseen->At(px, py)) return true;
+  }
+  return false;
+}
+
 TEST(MaskHullOracle, AgreesWithTheVolumeQuery) {
   recon::Random random(22);
   constexpr double kLensBendPx = 2e-3;  // of a segment of a pixel, by the wildest of these lenses
@@ -62,7 +79,7 @@ TEST(MaskHullOracle, AgreesWithTheVolumeQuery) {
       // The program's contours are straight between crossings in the plane without the lens's bend.
       const bool is_sure = oracle.Contains(x.cast<long double>(), kLensBendPx) ==
                            oracle.Contains(x.cast<long double>(), -kLensBendPx);
-      if (!is_sure) continue;
+      if (!is_sure || IsBesideUnseen(hull, x)) continue;
       const bool expected = oracle.Contains(x.cast<long double>());
       inside += expected ? 1 : 0;
       ASSERT_EQ(hull.Contains(x), expected) << "trial " << trial << " at " << x.transpose();

@@ -47,8 +47,8 @@ std::vector<Crossing> ListedAt(const CastPencil& pencil, float angle, const Vect
   std::vector<Crossing> listed;
   const CastIntervals::Run run = intervals.RunOf(interval);
   for (std::size_t i = run.begin; i < run.end; ++i) {
-    const auto edge = static_cast<std::size_t>(intervals.edges[i]);
-    listed.push_back(CrossingAt(intervals.KeyAt(i), uv, pencil.edges[edge].is_entry));
+    const CastEdge& edge = pencil.edges[static_cast<std::size_t>(intervals.crossings[i].edge())];
+    listed.push_back(CrossingAt(edge.key, uv, edge.is_entry));
   }
   return listed;
 }

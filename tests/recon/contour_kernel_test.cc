@@ -198,7 +198,7 @@ TEST(ContourKernel, CellsAreMixedIfAnEdgeIsNearlyInThem) {
       const auto cell = static_cast<std::size_t>(at.y()) * static_cast<std::size_t>(raster.width) +
                         static_cast<std::size_t>(at.x());
       ASSERT_NE(raster.labels[cell] & LabelRaster::kMixed, 0) << at.transpose();
-      ASSERT_EQ(raster.clear_eighths[cell], 0);
+      ASSERT_EQ(raster.clear_squares[cell], 0);
       ++looked_at;
     }
   });

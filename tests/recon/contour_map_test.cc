@@ -218,8 +218,8 @@ TEST(CellDistances, AreLowerBoundsAsShortAsPromised) {
         for (const Eigen::Vector2i& holder : holders)
           truth = std::min(truth, std::hypot(holder.x() - x, holder.y() - y));
         const double bound = distances.LowerBound(x, y);
-        ASSERT_LE(bound, truth);
-        ASSERT_GE(bound, truth - (truth < CellDistances::kNearCells ? 0.125 : 14.0 * std::sqrt(2.0)))
+        ASSERT_LE(bound, truth * (1.0 + 1e-15));
+        ASSERT_GE(bound, truth - (truth < CellDistances::kNearCells ? 1e-12 : 14.0 * std::sqrt(2.0)))
             << truth;
       }
     }

@@ -46,6 +46,8 @@ constexpr double kVertexShare = 1.0 / 1024.0;
 constexpr double kLeastMm = 1e-300;
 // in a view, where keys are -1 / mm in float32, anything nearer than that.
 constexpr double kLeastViewMm = 1e-20;
+// A camera less than 1e-12 mm along each axis from a perspective view's centre is taken to be at it.
+constexpr double kConcentricMm = 2e-12;
 
 constexpr int kScenes = 12;  // of each kind and query, in the ordinary run
 
@@ -218,14 +220,16 @@ TEST_P(Stress, RaysEnterAndLeaveWhereLongDoubleDoes) {
 StressError ErrorOf(const StressScene& scene, const ViewRays& rays, const Vector3d& x_in_view) {
   const core::RigidTransform& view_from_world = rays.view_from_world();
   const Vector3d x_in_world = view_from_world.Inverse() * x_in_view;
-  double size_mm = x_in_view.norm(), cam_size_mm = 0.0;
+  double size_mm = x_in_view.norm(), cam_size_mm = 0.0, moved_mm = 0.0;
   for (const core::CameraModel& camera : scene.rig->cameras) {
+    const double beside_mm = (view_from_world * camera.center_in_world()).norm();
+    if (rays.projection() == Projection::kPerspective && beside_mm < kConcentricMm)
+      moved_mm = std::max(moved_mm, beside_mm);
     cam_size_mm += (camera.cam_from_world() * x_in_world).norm();
-    if (rays.projection() == Projection::kOrthographic)
-      size_mm = std::max(size_mm, (view_from_world * camera.center_in_world()).norm());
+    if (rays.projection() == Projection::kOrthographic) size_mm = std::max(size_mm, beside_mm);
   }
   const double world_mm = view_from_world.translation_mm.lpNorm<1>() + x_in_world.lpNorm<1>();
-  return {kLeastViewMm + kViewRoundings * 0x1p-24 * size_mm + kTurnRad * cam_size_mm +
+  return {kLeastViewMm + moved_mm + kViewRoundings * 0x1p-24 * size_mm + kTurnRad * cam_size_mm +
               kRoundings * 0x1p-53 * world_mm,
           kRoundings, kLensPx};
 }

@@ -12,7 +12,10 @@ namespace elbowroom::review {
 
 using Eigen::Vector3d;
 
-recon::VisualHull BoxHull(bool is_empty) {
+namespace {
+
+// Object in [first, last)^2.
+recon::VisualHull HullOf(int first_px, int last_px) {
   core::Rig rig;
   rig.name = "box";
   rig.workspace_mm = {Vector3d::Constant(-95), Vector3d::Constant(95)};
@@ -25,10 +28,15 @@ recon::VisualHull BoxHull(bool is_empty) {
     c.cam_from_world = core::CamFromWorldLookingAt(1e6 * axis, Vector3d::Zero());
     rig.cameras.emplace_back(std::move(c));
     core::BitMask& mask = masks.emplace_back(200, 200);
-    for (int y = 50; y < 150 && !is_empty; ++y)
-      for (int x = 50; x < 150; ++x) mask.Set(x, y, true);
+    for (int y = first_px; y < last_px; ++y)
+      for (int x = first_px; x < last_px; ++x) mask.Set(x, y, true);
   }
   return recon::MakeVisualHull(std::make_shared<const core::Rig>(std::move(rig)), masks);
 }
+
+}  // namespace
+
+recon::VisualHull BoxHull(bool is_empty) { return HullOf(50, is_empty ? 50 : 150); }
+recon::VisualHull FullHull() { return HullOf(0, 200); }
 
 }  // namespace elbowroom::review

@@ -146,7 +146,6 @@ TEST(FindContacts, PartWhollyInside) {
   EXPECT_GT(contact.deepest->depth_mm, 29.0);
   EXPECT_LT(contact.deepest->depth_mm, 40.0);
   EXPECT_EQ(contact.recovery_status, core::RecoveryStatus::kReferenceInsideHull);
-  EXPECT_FALSE(contact.recovery.has_value());
 }
 
 TEST(FindContacts, FarPartCostsOneQuery) {
@@ -177,7 +176,8 @@ TEST(FindContacts, HullWhollyInsideAClosedPartIsAContactWithoutPoints) {
   const core::PartContact contact = Find(BoxHull(), BoxAround(Vector3d::Zero(), 120.0));
   EXPECT_EQ(contact.verdict, core::Verdict::kContact);
   EXPECT_EQ(contact.contact_point_count, 0);
-  EXPECT_EQ(contact.recovery_status, core::RecoveryStatus::kNoDirection);
+  EXPECT_EQ(contact.recovery_status, core::RecoveryStatus::kHullInsidePart);
+  EXPECT_FALSE(contact.recovery.has_value());
   ASSERT_TRUE(contact.contained_in_world_mm);
   EXPECT_TRUE(BoxHull().Contains(*contact.contained_in_world_mm));
 }
@@ -220,7 +220,8 @@ TEST(FindContacts, RecoveryBacksOutOfTheNearFace) {
 
 TEST(FindContacts, ReferenceOfTheCallersChoice) {
   ContactOptions options = Fine();
-  options.reference_in_part = Vector3d(20, 0, 0);  // world (80, 0, 0): outside, though the centre is inside
+  options.recovery.reference_in_part_mm =
+      Vector3d(20, 0, 0);  // world (80, 0, 0): outside, though the centre is inside
   const core::RigidTransform world_from_part{Eigen::Matrix3d::Identity(), Vector3d(60, 0, 0)};
   const TriangleMesh part = BoxAround(Vector3d(-20, 0, 0), 60.0);
   EXPECT_EQ(Find(BoxHull(), part, Fine(), world_from_part).recovery_status,
@@ -235,7 +236,7 @@ TEST(FindContacts, ReferenceOfTheCallersChoice) {
 TEST(FindContacts, NoDirectionWhenReferenceIsTheContact) {
   const TriangleMesh part{{Vector3d(1, 1, 0)}, {{0, 0, 0}}};  // a point
   ContactOptions options;
-  options.reference_in_part = Vector3d(1, 1, 0);
+  options.recovery.reference_in_part_mm = Vector3d(1, 1, 0);
   const core::PartContact contact = Find(BoxHull(), part, options);
   EXPECT_EQ(contact.verdict, core::Verdict::kContact);
   EXPECT_EQ(contact.recovery_status, core::RecoveryStatus::kNoDirection);
@@ -299,6 +300,7 @@ TEST(FindContacts, RefusesOptionsOutOfRange) {
   refused([](ContactOptions* o) { o->point_spacing_mm = 0.0; });
   refused([](ContactOptions* o) { o->point_spacing_mm = std::nan(""); });
   refused([](ContactOptions* o) { o->max_points = 0; });
+  refused([](ContactOptions* o) { o->recovery.kind = core::RecoveryKind::kSlider; });
 }
 
 TEST(PixelFootprint, IsThatOfTheNearestLookingCamera) {

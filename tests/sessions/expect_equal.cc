@@ -17,6 +17,16 @@ void ExpectEqual(const core::Recovery& actual, const core::Recovery& expected) {
   EXPECT_EQ(actual.v_rec_in_world, expected.v_rec_in_world);
   EXPECT_EQ(actual.d_rec_mm, expected.d_rec_mm);
   EXPECT_EQ(actual.n_hull_in_world, expected.n_hull_in_world);
+  EXPECT_EQ(actual.angle_rad, expected.angle_rad);
+}
+
+void ExpectEqual(const core::PartClearance& actual, const core::PartClearance& expected) {
+  EXPECT_EQ(actual.interval.lower_mm, expected.interval.lower_mm);
+  EXPECT_EQ(actual.interval.upper_mm, expected.interval.upper_mm);
+  EXPECT_EQ(actual.interval.witness_part_in_world_mm, expected.interval.witness_part_in_world_mm);
+  EXPECT_EQ(actual.interval.witness_hull_in_world_mm, expected.interval.witness_hull_in_world_mm);
+  EXPECT_EQ(actual.has_witnesses, expected.has_witnesses);
+  EXPECT_EQ(actual.queries, expected.queries);
 }
 
 void ExpectEqual(const core::Rig& actual, const core::Rig& expected) {
@@ -47,6 +57,7 @@ void ExpectEqual(const core::Layout& actual, const core::Layout& expected) {
     EXPECT_EQ(actual.parts[i].unit, expected.parts[i].unit);
     EXPECT_EQ(*actual.parts[i].mesh, *expected.parts[i].mesh);
     EXPECT_EQ(actual.parts[i].world_from_part, expected.parts[i].world_from_part);
+    EXPECT_EQ(actual.parts[i].recovery, expected.parts[i].recovery);
   }
   ASSERT_EQ(actual.spacings.size(), expected.spacings.size());
   for (core::SpacingIndex i = 0; i < expected.spacings.size(); ++i) {
@@ -82,6 +93,7 @@ void ExpectEqual(const core::PartContact& actual, const core::PartContact& expec
   EXPECT_EQ(actual.count.skipped, expected.count.skipped);
   ExpectEqualWherePresent(actual.deepest, expected.deepest);
   ExpectEqualWherePresent(actual.recovery, expected.recovery);
+  ExpectEqualWherePresent(actual.clearance, expected.clearance);
   ASSERT_EQ(actual.points.size(), expected.points.size());
   for (std::size_t i = 0; i < expected.points.size(); ++i) ExpectEqual(actual.points[i], expected.points[i]);
 }
@@ -104,6 +116,18 @@ void ExpectEqual(const core::ContactEpisode& actual, const core::ContactEpisode&
   };
   EXPECT_EQ(fields(actual), fields(expected));
   EXPECT_EQ(actual.peak_position_in_world_mm, expected.peak_position_in_world_mm);
+  EXPECT_EQ(actual.peak_position_in_part_mm, expected.peak_position_in_part_mm);
+  EXPECT_EQ(actual.tools, expected.tools);
+}
+
+void ExpectEqual(const core::NearMiss& actual, const core::NearMiss& expected) {
+  const auto fields = [](const core::NearMiss& m) {
+    return std::tie(m.id, m.part, m.begin_frame, m.closest_frame, m.end_frame, m.begin_time_s,
+                    m.closest_time_s, m.end_time_s, m.frames_below, m.verdict, m.spacing_at_closest_mm,
+                    m.tools);
+  };
+  EXPECT_EQ(fields(actual), fields(expected));
+  ExpectEqual(actual.closest, expected.closest);
 }
 
 void ExpectEqual(const core::SessionHeader& actual, const core::SessionHeader& expected) {
@@ -112,6 +136,7 @@ void ExpectEqual(const core::SessionHeader& actual, const core::SessionHeader& e
   EXPECT_EQ(actual.trial.estimate_mm, expected.trial.estimate_mm);
   EXPECT_EQ(actual.trial.required_clearance_mm, expected.trial.required_clearance_mm);
   EXPECT_EQ(actual.trial.tools, expected.trial.tools);
+  EXPECT_EQ(actual.trial.uncertainty_mm, expected.trial.uncertainty_mm);
   EXPECT_EQ(actual.started_at_utc, expected.started_at_utc);
   EXPECT_EQ(actual.settings, expected.settings);
   EXPECT_EQ(actual.versions, expected.versions);

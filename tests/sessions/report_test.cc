@@ -91,6 +91,29 @@ TEST(Report, TellsTheUsualTrialAndNeedsNothingButItself) {
   EXPECT_NE(html.find("contact errs on the safe side"), std::string::npos);
 }
 
+TEST(Report, ListsNearMissesClearancesAndHeat) {
+  const TemporaryFolder folder;
+  WriteSampleSession(folder / "s.db", 6);
+  const std::string html = ReportOf(folder / "s.db", folder / "out", {{}, "", std::nullopt, {{0, kPng}}});
+  EXPECT_NE(html.find("<h2>Near misses</h2>"), std::string::npos);
+  EXPECT_NE(html.find("6.7 mm to 7.3 mm"), std::string::npos);
+  EXPECT_NE(html.find("<h2>Where parts were touched</h2>"), std::string::npos);
+  EXPECT_NE(html.find("PMT box: how long and how deep"), std::string::npos);
+  EXPECT_NE(html.find("O&#39;Hara&#39;s &quot;driver&quot;, tongs"), std::string::npos);
+  const std::string csv = Contents(folder / "out" / "clearance.csv");
+  EXPECT_EQ(Count(csv, "\n"), 1 + 12) << "two of the parts in each of six frames";
+  EXPECT_EQ(Count(csv, ",contact,may be the hull's alone,20.1,"), 6);
+  EXPECT_EQ(Count(csv, ",near,may be farther,"), 2);
+  EXPECT_EQ(Count(csv, ",undecided,bounds don't tell,"), 2);
+  EXPECT_EQ(Count(csv, ",clear,sure,"), 2);
+  std::istringstream lines(csv);
+  std::string head, line;
+  std::getline(lines, head);
+  while (std::getline(lines, line)) EXPECT_EQ(Count(line, ","), Count(head, ",")) << line;
+  EXPECT_THROW(ReportOf(folder / "s.db", folder / "no", {{}, "", std::nullopt, {{0, {1, 2}}}}),
+               core::PreconditionError);
+}
+
 TEST(Report, DrawsEachTouchWhereItsTimesAre) {
   const TemporaryFolder folder;
   TrialPlan plan = UsualTrial();
@@ -126,7 +149,7 @@ TEST(Report, EscapesEveryTextFromOutside) {
     writer.Append(core::SessionEvent{1, 0.1, core::Note{hostile}});
     writer.Append(core::SessionEvent{1, 0.1, core::ToolMarked{hostile, true}});
     writer.Append(core::SessionEvent{4, 0.1, core::SpacingChanged{hostile, 140.0, 240.0}});
-    writer.Finish(SampleEpisodes(0, 19));
+    writer.Finish({SampleEpisodes(0, 19), {}, {}});
   }
   const std::string html = ReportOf(folder / "s.db", folder.path(), {kPng, hostile, std::nullopt});
   EXPECT_EQ(html.find("alert('x')"), std::string::npos);

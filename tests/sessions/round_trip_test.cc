@@ -31,6 +31,32 @@ TEST(SessionRoundTrip, HeaderComesBackExactly) {
   EXPECT_EQ(reader.ended_at_utc()->size(), std::string_view("2024-03-01T09:30:00Z").size());
 }
 
+TEST(SessionRoundTrip, EveryWayOutOfTheHullComesBackExactly) {
+  using enum core::RecoveryStatus;
+  const TemporaryFolder folder;
+  core::SessionHeader header = SampleHeader();
+  const Eigen::Vector3d axis(1.0 / 3.0, -2e-9, 7.0), at(0.1, 0.2, 5e300);
+  header.layout.parts[0].recovery = {core::RecoveryKind::kHinge, {}, axis, at};
+  header.layout.parts[1].recovery = {core::RecoveryKind::kSlider, at, axis, {}};
+  header.layout.parts[2].recovery = {core::RecoveryKind::kReference, at, {}, {}};
+  std::vector<core::FrameRecord> frames;
+  for (const core::RecoveryStatus status :
+       {kFound, kReferenceInsideHull, kNoExit, kHullInsidePart, kOnSurface}) {
+    core::FrameRecord record = SampleFrame(header, static_cast<core::FrameIndex>(frames.size()), kSeed);
+    record.contacts[0].recovery_status = status;
+    record.contacts[0].recovery->angle_rad = -1.0 / 3.0;
+    frames.push_back(std::move(record));
+  }
+  {
+    SessionWriter writer(folder / "s.db", header);
+    for (const core::FrameRecord& frame : frames) writer.Append(frame);
+    writer.Finish({});
+  }
+  const SessionReader reader(folder / "s.db");
+  ExpectEqual(reader.header(), header);
+  for (const core::FrameRecord& frame : frames) ExpectEqual(reader.ReadFrame(frame.frame), frame);
+}
+
 TEST(SessionRoundTrip, EqualMeshesAreKeptOnceInTheFileAndInMemory) {
   const TemporaryFolder folder;
   WriteSampleSession(folder / "s.db", 1);
@@ -95,7 +121,7 @@ TEST(SessionRoundTrip, EqualPixelsWithOtherLevelsOrNoneStayApart) {
   const core::SessionHeader header = SampleHeader();
   core::FrameRecord soft = SampleFrame(header, 0, kSeed);
   ASSERT_GT((*soft.silhouettes)[0].levels.size(), 20U);
-  core::FrameRecord ready = WithoutLevels(soft), other = soft;
+  core::FrameRecord ready = AsOfSchema(1, soft), other = soft;
   std::vector<core::SoftMask> masks = *soft.silhouettes;
   masks[0].levels.back() ^= 1U;
   other.silhouettes = std::make_shared<const std::vector<core::SoftMask>>(std::move(masks));
@@ -149,13 +175,22 @@ TEST(SessionRoundTrip, EventsKeepTheirOrder) {
   EXPECT_EQ(std::get<core::Note>(events[3].what).text, "ended at the shortest source: 'left' <&>");
 }
 
-TEST(SessionRoundTrip, EpisodesComeBackExactly) {
+TEST(SessionRoundTrip, TheOutcomeComesBackExactly) {
   const TemporaryFolder folder;
   WriteSampleSession(folder / "s.db", 8);
-  const std::vector<core::ContactEpisode> episodes = SessionReader(folder / "s.db").episodes();
-  const std::vector<core::ContactEpisode> expected = SampleEpisodes(0, 7);
-  ASSERT_EQ(episodes.size(), expected.size());
-  for (std::size_t i = 0; i < episodes.size(); ++i) ExpectEqual(episodes[i], expected[i]);
+  const SessionReader reader(folder / "s.db");
+  const core::SessionOutcome expected = SampleOutcome(0, 7);
+  ASSERT_EQ(reader.episodes().size(), expected.episodes.size());
+  for (std::size_t i = 0; i < expected.episodes.size(); ++i)
+    ExpectEqual(reader.episodes()[i], expected.episodes[i]);
+  ASSERT_EQ(reader.near_misses().size(), 1U);
+  ExpectEqual(reader.near_misses()[0], expected.near_misses[0]);
+  ASSERT_EQ(reader.heat_maps().size(), 1U);
+  const core::HeatMap map = reader.heat_maps()[0];
+  EXPECT_EQ(map.part, 0U);
+  EXPECT_EQ(map.patch_mm, core::kHeatPatchMm);
+  EXPECT_EQ(map.dwell_s, expected.heat_maps[0].dwell_s);
+  EXPECT_EQ(map.peak_depth_mm, expected.heat_maps[0].peak_depth_mm);
 }
 
 TEST(SessionRoundTrip, ContactRowsAndTotalsAgreeWithTheFrames) {
@@ -173,6 +208,13 @@ TEST(SessionRoundTrip, ContactRowsAndTotalsAgreeWithTheFrames) {
     EXPECT_EQ(rows[i].time_s, record.time_s);
     EXPECT_EQ(rows[i].spacing_mm, record.spacing_mm);
     ExpectEqual(rows[i].contact, expected);
+  }
+  const std::vector<sessions::ContactRow> clearances = reader.clearances();
+  ASSERT_EQ(clearances.size(), 14U);  // again two of the three, and another two
+  for (std::size_t i = 0; i < clearances.size(); ++i) {
+    core::PartContact expected = reader.ReadFrame(clearances[i].frame).contacts[i % 2 == 0 ? 0 : 2];
+    expected.points.clear();
+    ExpectEqual(clearances[i].contact, expected);
   }
   const std::vector<sessions::PartTotals> totals = reader.part_totals();
   ASSERT_EQ(totals.size(), 3U);

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <random>
 #include <utility>
 
+#include "core/surface_patches.h"
 #include "sessions/session_writer.h"
 
 namespace elbowroom::tests {
@@ -84,12 +86,25 @@ void AddRecovery(core::PartContact& contact, bool on_workspace_face, Random& ran
   if (!on_workspace_face) contact.recovery->n_hull_in_world = VectorFrom(random).normalized();
 }
 
+// Of a contact, of a part that was searched for, and of one that a ball or an empty hull settled.
+void AddClearances(core::FrameRecord* record) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  core::PartClearance& met = record->contacts[0].clearance.emplace();
+  const Eigen::Vector3d at = record->contacts[0].points[3].position_in_world_mm;
+  met = {{0.0, 0.0, at, at}, true, 0};
+  core::PartClearance& searched = record->contacts[2].clearance.emplace();
+  searched = {{20.0 / 3.0, 22.0 / 3.0, {1.0 / 3.0, 2.0, 3.0}, {4.0, 5e-9, 6.0}}, true, 412 + record->frame};
+  if (record->contacts[2].verdict != core::Verdict::kClear) return;
+  searched = {{record->frame == 2 ? kInfinity : 21.1, kInfinity, {0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}}, false, 1};
+}
+
 }  // namespace
 
 core::SessionHeader SampleHeader() {
   core::SessionHeader header;
   header.trial = {
-      "P. O'Hara <2>", "plug \"J4\" & screw the pipe; DROP TABLE frame", 140.0, 20.1, {"tongs", "driver"}};
+      "P. O'Hara <2>", "plug \"J4\" & screw the pipe; DROP TABLE frame", 140.0, 20.1, {"tongs", "driver"},
+      1.0 / 3.0};
   header.rig.name = "bench";
   header.rig.workspace_mm = {Eigen::Vector3d(-500.0, -400.5, 0.0),
                              Eigen::Vector3d(500.0, 400.0, 1000.0 / 3.0)};
@@ -141,14 +156,25 @@ core::FrameRecord SampleFrame(const core::SessionHeader& header, core::FrameInde
     record.contacts[i].resolution_mm = 0.7;
     record.contacts[i].count = {720, 91 + frame, 654};
   }
+  AddClearances(&record);
   return record;
 }
 
-core::FrameRecord WithoutLevels(core::FrameRecord record) {
-  std::vector<core::SoftMask> masks = *record.silhouettes;
-  for (core::SoftMask& soft : masks) soft.levels.clear();
-  record.silhouettes = std::make_shared<const std::vector<core::SoftMask>>(std::move(masks));
+core::FrameRecord AsOfSchema(int schema, core::FrameRecord record) {
+  if (schema < 2) {
+    std::vector<core::SoftMask> masks = *record.silhouettes;
+    for (core::SoftMask& soft : masks) soft.levels.clear();
+    record.silhouettes = std::make_shared<const std::vector<core::SoftMask>>(std::move(masks));
+  }
+  if (schema < 3) {
+    for (core::PartContact& contact : record.contacts) contact.clearance.reset();
+  }
   return record;
+}
+
+core::SessionHeader AsOfSchema(int schema, core::SessionHeader header) {
+  if (schema < 3) header.trial.uncertainty_mm = 0.0;
+  return header;
 }
 
 std::vector<core::SessionEvent> SampleEvents() {
@@ -179,12 +205,40 @@ std::vector<core::ContactEpisode> SampleEpisodes(core::FrameIndex first, core::F
   return episodes;
 }
 
+core::SessionOutcome SampleOutcome(core::FrameIndex first, core::FrameIndex last) {
+  core::SessionOutcome outcome{SampleEpisodes(first, last), {}, {}};
+  outcome.episodes[0].peak_position_in_part_mm = Eigen::Vector3d(1.0 / 7.0, -3.0, 0.0);
+  outcome.episodes[0].tools = {"O'Hara's \"driver\"", "tongs"};
+  core::NearMiss miss;
+  miss.id = 1;
+  miss.part = 2;
+  miss.begin_frame = miss.closest_frame = first;
+  miss.end_frame = last;
+  miss.begin_time_s = miss.closest_time_s = static_cast<double>(first) / 30.0;
+  miss.end_time_s = static_cast<double>(last) / 30.0;
+  miss.frames_below = last - first + 1;
+  miss.verdict = core::Verdict::kNear;
+  miss.closest = *SampleFrame(SampleHeader(), first, 1).contacts[2].clearance;
+  miss.spacing_at_closest_mm = {140.0, 0.1};
+  miss.tools = {"tongs"};
+  outcome.near_misses = {miss};
+  const std::size_t patches =
+      core::SurfacePatches(SampleHeader().layout.parts[0].mesh, core::kHeatPatchMm).size();
+  core::HeatMap map;
+  map.dwell_s.assign(patches, 0.0F);
+  map.dwell_s[1] = 1.0F / 3.0F;
+  map.peak_depth_mm.assign(patches, 0.0F);
+  map.peak_depth_mm[1] = 11.1F;
+  outcome.heat_maps = {map};
+  return outcome;
+}
+
 void WriteSampleSession(const std::filesystem::path& path, core::FrameIndex frames) {
   const core::SessionHeader header = SampleHeader();
   sessions::SessionWriter writer(path, header);
   for (core::FrameIndex i = 0; i < frames; ++i) writer.Append(SampleFrame(header, i, 1));
   for (const core::SessionEvent& event : SampleEvents()) writer.Append(event);
-  writer.Finish(SampleEpisodes(0, frames - 1));
+  writer.Finish(SampleOutcome(0, frames - 1));
 }
 
 }  // namespace elbowroom::tests

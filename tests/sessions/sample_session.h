@@ -18,8 +18,9 @@ namespace elbowroom::tests {
 [[nodiscard]] core::FrameRecord SampleFrame(const core::SessionHeader& header, core::FrameIndex frame,
                                             std::uint32_t seed);
 
-// As a file of schema 1 keeps it.
-[[nodiscard]] core::FrameRecord WithoutLevels(core::FrameRecord record);
+// As a file of that schema keeps them.
+[[nodiscard]] core::FrameRecord AsOfSchema(int schema, core::FrameRecord record);
+[[nodiscard]] core::SessionHeader AsOfSchema(int schema, core::SessionHeader header);
 
 // A spacing change, a tool taken and put away, a note.
 [[nodiscard]] std::vector<core::SessionEvent> SampleEvents();
@@ -27,13 +28,17 @@ namespace elbowroom::tests {
 // One of part 0 and one of part 1 within frames first..last.
 [[nodiscard]] std::vector<core::ContactEpisode> SampleEpisodes(core::FrameIndex first, core::FrameIndex last);
 
-// Writes `frames` frames from 0 on, the sample events and episodes, and finishes the session.
+// The episodes, with places and tools; a near miss of part 2 and a heat map of part 0.
+[[nodiscard]] core::SessionOutcome SampleOutcome(core::FrameIndex first, core::FrameIndex last);
+
+// Writes `frames` frames from 0 on, the sample events and outcome, and finishes the session.
 void WriteSampleSession(const std::filesystem::path& path, core::FrameIndex frames);
 
 // Fails the running test where the two differ in anything, doubles compared exactly.
 void ExpectEqual(const core::PartContact& actual, const core::PartContact& expected);
 void ExpectEqual(const core::FrameRecord& actual, const core::FrameRecord& expected);
 void ExpectEqual(const core::ContactEpisode& actual, const core::ContactEpisode& expected);
+void ExpectEqual(const core::NearMiss& actual, const core::NearMiss& expected);
 void ExpectEqual(const core::SessionHeader& actual, const core::SessionHeader& expected);
 
 }  // namespace elbowroom::tests

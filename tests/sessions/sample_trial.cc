@@ -114,7 +114,7 @@ void WriteTrial(const std::filesystem::path& path, const TrialPlan& plan) {
     episodes.push_back(EpisodeOf(header, plan, touch));
     episodes.back().id = static_cast<core::EpisodeId>(episodes.size());
   }
-  writer.Finish(episodes);
+  writer.Finish({episodes, {}, {}});
 }
 
 }  // namespace elbowroom::tests

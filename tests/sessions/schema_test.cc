@@ -40,8 +40,12 @@ TEST(Schema, EveryVersionIsTheOneOnRecord) {
   const TemporaryFolder folder;
   sessions::Database::Create(folder / "1.db").Execute(sessions::Schema1Sql());
   EXPECT_EQ(SchemaOf(folder / "1.db"), Contents(kStored / "schema_1.sql"));
-  WriteSampleSession(folder / "2.db", 1);
+  sessions::Database second = sessions::Database::Create(folder / "2.db");
+  second.Execute(sessions::Schema1Sql());
+  second.Execute(sessions::Schema2Sql());
   EXPECT_EQ(SchemaOf(folder / "2.db"), Contents(kStored / "schema_2.sql"));
+  WriteSampleSession(folder / "3.db", 1);
+  EXPECT_EQ(SchemaOf(folder / "3.db"), Contents(kStored / "schema_3.sql"));
 }
 
 TEST(Schema, AnEmptyDatabaseBecomesTheNewestSchemaAndMigratingAgainChangesNothing) {
@@ -57,26 +61,33 @@ TEST(Schema, AnEmptyDatabaseBecomesTheNewestSchemaAndMigratingAgainChangesNothin
 }
 
 TEST(Schema, StoredSessionsOfEverySchemaAreRead) {
-  for (const int schema : {1, 2}) {
+  for (const int schema : {1, 2, 3}) {
+    SCOPED_TRACE(schema);
     const SessionReader reader(kStored / fmt::format("session_schema_{}.db", schema));
-    ExpectEqual(reader.header(), SampleHeader());
+    ExpectEqual(reader.header(), AsOfSchema(schema, SampleHeader()));
     ASSERT_EQ(reader.frame_count(), 6);
     for (core::FrameIndex i = 0; i < 6; ++i) {
-      const core::FrameRecord written = SampleFrame(reader.header(), i, 1);
-      ExpectEqual(reader.ReadFrame(i), schema == 1 ? WithoutLevels(written) : written);
+      ExpectEqual(reader.ReadFrame(i), AsOfSchema(schema, SampleFrame(reader.header(), i, 1)));
     }
-    EXPECT_EQ(reader.episodes().size(), 2U);
+    ASSERT_EQ(reader.episodes().size(), 2U);
+    EXPECT_EQ(reader.episodes()[0].peak_position_in_part_mm.has_value(), schema >= 3);
+    EXPECT_EQ(reader.near_misses().size(), schema >= 3 ? 1U : 0U);
+    EXPECT_EQ(reader.heat_maps().size(), schema >= 3 ? 1U : 0U);
+    EXPECT_EQ(reader.clearances().empty(), schema < 3);
     EXPECT_EQ(reader.events().size(), 4U);
   }
 }
 
-TEST(Schema, ADatabaseOfSchema1BecomesOneOfSchema2) {
-  const TemporaryFolder folder;
-  sessions::Database database = sessions::Database::Create(folder / "s.db");
-  database.Execute(sessions::Schema1Sql());
-  database.Execute("PRAGMA user_version = 1");
-  sessions::Migrate(database);
-  EXPECT_EQ(SchemaOf(folder / "s.db"), Contents(kStored / "schema_2.sql"));
+TEST(Schema, ADatabaseOfAnyOlderSchemaBecomesOneOfTheNewest) {
+  for (const int schema : {1, 2}) {
+    const TemporaryFolder folder;
+    sessions::Database database = sessions::Database::Create(folder / "s.db");
+    database.Execute(sessions::Schema1Sql());
+    if (schema == 2) database.Execute(sessions::Schema2Sql());
+    database.Execute(fmt::format("PRAGMA user_version = {}", schema));
+    sessions::Migrate(database);
+    EXPECT_EQ(SchemaOf(folder / "s.db"), Contents(kStored / "schema_3.sql"));
+  }
 }
 
 TEST(Schema, AnOlderSchemaIsMigratedInMemoryAndTheFileStays) {
@@ -93,8 +104,8 @@ TEST(Schema, AnOlderSchemaIsMigratedInMemoryAndTheFileStays) {
 TEST(Schema, ANewerSchemaIsNamed) {
   const TemporaryFolder folder;
   WriteSampleSession(folder / "s.db", 1);
-  SQLite::Database((folder / "s.db").string(), SQLite::OPEN_READWRITE).exec("PRAGMA user_version = 3");
-  ExpectError([&] { SessionReader(folder / "s.db"); }, core::ErrorKind::kFormat, "has schema 3");
+  SQLite::Database((folder / "s.db").string(), SQLite::OPEN_READWRITE).exec("PRAGMA user_version = 4");
+  ExpectError([&] { SessionReader(folder / "s.db"); }, core::ErrorKind::kFormat, "has schema 4");
 }
 
 TEST(Schema, CountsAndFlagsOutOfRangeAreRefusedByTheDatabaseItself) {
@@ -106,7 +117,9 @@ TEST(Schema, CountsAndFlagsOutOfRangeAreRefusedByTheDatabaseItself) {
        {"UPDATE part_frame SET verdict = 'perhaps'", "UPDATE session SET status = 'done'",
         "INSERT INTO frame VALUES (9, 'soon')", "DELETE FROM frame", "DELETE FROM mask",
         "UPDATE camera SET camera_matrix = '[1]'", "INSERT INTO session SELECT * FROM session",
-        "UPDATE event SET to_mm = NULL WHERE kind = 'spacing'"}) {
+        "UPDATE event SET to_mm = NULL WHERE kind = 'spacing'", "UPDATE clearance SET lower_mm = -1",
+        "UPDATE clearance SET upper_mm = lower_mm - 1", "UPDATE near_miss SET verdict = 'contact'",
+        "UPDATE episode SET tools = 'tongs'", "DELETE FROM clearance"}) {
     EXPECT_THROW(database.exec(sql), SQLite::Exception) << sql;
   }
 }

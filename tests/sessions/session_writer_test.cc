@@ -149,7 +149,7 @@ TEST(SessionWriter, AReaderFollowsARecordingUnderWayAndSeesItsEnd) {
   while (writer.frames_committed() < 5) writer.Append(SampleFrame(header, appended++, kSeed));
   EXPECT_GE(reader.frame_count(), 5);
   ExpectEqual(reader.ReadFrame(4), SampleFrame(header, 4, kSeed));
-  writer.Finish(SampleEpisodes(0, appended - 1));
+  writer.Finish({SampleEpisodes(0, appended - 1), {}, {}});
   EXPECT_EQ(reader.status(), sessions::SessionStatus::kComplete);
   EXPECT_EQ(reader.frame_count(), appended);
   EXPECT_EQ(reader.episodes().size(), 2U);

@@ -37,7 +37,7 @@ struct RayHit {
 
 // The capsules as a layer of the given size for the view.
 [[nodiscard]] std::shared_ptr<const HullView> CastLayer(const SceneView& view, int width_px, int height_px,
-                                                         const std::vector<Capsule>& capsules);
+                                                        const std::vector<Capsule>& capsules);
 
 // A forearm and hand with five fingers.
 [[nodiscard]] std::vector<Capsule> Hand(const Eigen::Vector3d& palm_in_world);

@@ -1,0 +1,37 @@
+// What a contact's recovery comes to, and how to print it.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+#include "core/bvh.h"
+#include "core/contact.h"
+#include "core/recovery_rule.h"
+#include "core/rigid_transform.h"
+#include "recon/visual_hull.h"
+#include "review/freeing.h"
+#include "review/penetration.h"
+#include "review/recovery_uncertainty.h"
+
+namespace elbowroom::cli {
+
+// All that is known of the way out of one contact; empty where there is none.
+struct WayOut {
+  review::RecoveryWay way;
+  std::optional<review::RecoveryUncertainty> uncertainty;
+  std::optional<review::Freeing> part_free;  // of a straight way
+  std::optional<Eigen::Vector3d> part_free_direction_in_world;
+  std::optional<review::Penetration> penetration;
+};
+
+[[nodiscard]] WayOut FindWayOut(const recon::VisualHull& hull, const core::TriangleTree& part,
+                                const core::RigidTransform& world_from_part, const core::RecoveryRule& rule,
+                                const core::PartContact& contact, double silhouette_px);
+
+// Adds `status`, `recovery`, `uncertainty`, `penetration_mm` and the like; null where without meaning.
+void AddWayOut(const core::PartContact& contact, const WayOut& way_out, nlohmann::json* json);
+
+[[nodiscard]] std::string TextOf(const core::PartContact& contact, const WayOut& way_out);
+
+}  // namespace elbowroom::cli

@@ -1,0 +1,93 @@
+#include "app/control/session_sweep.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string_view>
+
+#include "app/control/sweep_picture.h"
+#include "app/control/trial_rules.h"
+#include "core/error.h"
+#include "core/spelling.h"
+#include "recon/picture_plane.h"
+#include "recon/png_file.h"
+#include "sessions/csv_text.h"
+#include "sessions/whole_files.h"
+
+namespace elbowroom::control {
+namespace {
+
+core::SpacingIndex FindSpacing(const core::Layout& layout, const std::string& name) {
+  if (const auto index = layout.FindSpacing(name)) return *index;
+  std::vector<std::string_view> known;
+  for (const core::Spacing& spacing : layout.spacings) known.emplace_back(spacing.name);
+  const auto nearest = core::NearestWord(name, known);
+  throw core::Error(
+      core::ErrorKind::kRange,
+      fmt::format("--spacing: no spacing of the session is named '{}'; {}", name,
+                  nearest ? fmt::format("did you mean '{}'?", *nearest) : "use the name of a [[spacing]]"));
+}
+
+std::string SweepCsv(const core::Layout& layout, const review::SpacingStudy& study) {
+  std::string csv =
+      "spacing_mm,part,moves,frames_in_contact,frames_near,frames_undecided,frames_clear,deepest_mm,lower_mm,"
+      "upper_mm,closest_frame\n";
+  const auto length = [](double length_mm) {
+    return std::isfinite(length_mm) ? fmt::format("{}", length_mm) : std::string();
+  };
+  for (const review::StudyStep& step : study.steps) {
+    for (core::PartIndex i = 0; i < step.parts.size(); ++i) {
+      const review::PartAtSpacing& part = step.parts[i];
+      const bool moves = std::ranges::find(study.moved, i) != study.moved.end();
+      csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", step.spacing_mm,
+                         sessions::Quoted(layout.parts[i].name), moves ? 1 : 0, part.frames_in_contact,
+                         part.frames_near, part.frames_undecided, part.frames_clear, part.deepest_mm,
+                         length(part.lower_mm), length(part.upper_mm),
+                         part.closest_frame ? std::to_string(*part.closest_frame) : "");
+    }
+  }
+  return csv;
+}
+
+}  // namespace
+
+review::SpacingStudy SweepSession(const sessions::SessionReader& session, const SweepRange& range,
+                                  const core::Progress& progress, std::stop_token stop) {
+  const core::SessionHeader& header = session.header();
+  review::SpacingStudyOptions options;
+  options.spacing = FindSpacing(header.layout, range.spacing);
+  options.from_mm = range.from_mm;
+  options.to_mm = range.to_mm;
+  options.step_mm = range.step_mm;
+  options.review = ReviewOptionsOf(header.trial);
+  const std::vector<sessions::FrameSummary> frames = session.frames();
+  if (frames.empty()) {
+    throw core::Error(core::ErrorKind::kRange, fmt::format("session '{}' has no frames; record a trial first",
+                                                           session.path().string()));
+  }
+  const auto rig = std::make_shared<const core::Rig>(header.rig);
+  const recon::PicturePlanes planes = recon::MakePicturePlanes(*rig);
+  const auto load = [&](std::size_t i) -> review::StudyFrame {
+    const core::FrameRecord record = session.ReadFrame(frames[i].frame);
+    return {
+        record.frame,
+        std::make_shared<const recon::VisualHull>(recon::MakeVisualHull(rig, planes, *record.silhouettes)),
+        record.spacing_mm};
+  };
+  return review::StudySpacing(header.layout, {frames.size(), load}, options, progress, stop);
+}
+
+std::vector<std::filesystem::path> WriteSweep(const core::SessionHeader& header, const SweepRange& range,
+                                              const review::SpacingStudy& study,
+                                              const std::filesystem::path& folder) {
+  const LineDrawing picture = SweepPicture(header, range.spacing, study);
+  const std::vector<std::uint8_t> png = recon::EncodePng(ImageOf(picture));
+  sessions::WriteWholeFiles(folder, {{"sweep.csv", SweepCsv(header.layout, study)},
+                                     {"sweep.svg", SvgOf(picture)},
+                                     {"sweep.png", std::string(png.begin(), png.end())}});
+  return {folder / "sweep.csv", folder / "sweep.svg", folder / "sweep.png"};
+}
+
+}  // namespace elbowroom::control

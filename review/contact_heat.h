@@ -1,0 +1,63 @@
+// Where on a part contacts dwelt and how deep they went, over all frames.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/bvh.h"
+#include "core/contact.h"
+#include "core/heat_map.h"
+#include "core/rigid_transform.h"
+#include "core/surface_patches.h"
+#include "recon/visual_hull.h"
+
+namespace elbowroom::review {
+
+struct TouchedPatch {
+  std::size_t patch = 0;
+  double depth_mm = 0.0;  // certified lower bound
+};
+
+// Patches whose middle is in the hull, and those of the contact's points, each once, by number. Thread: any.
+[[nodiscard]] std::vector<TouchedPatch> FindTouchedPatches(const recon::VisualHull& hull,
+                                                           const core::TriangleTree& part,
+                                                           const core::RigidTransform& world_from_part,
+                                                           const core::SurfacePatches& patches,
+                                                           const core::PartContact& contact);
+
+// Fed every frame in order of time; the rules are those of docs/contact_tracking.md. A patch touched in a
+// frame dwells until the next one; the last frame lasts as long as the mean one. Thread: one.
+class ContactHeat {
+ public:
+  // One tree a part, which must outlive this.
+  explicit ContactHeat(std::span<const core::TriangleTree> parts);
+
+  // An unmoved part under the hull of the frame before isn't looked at again.
+  void Add(double time_s, const std::shared_ptr<const recon::VisualHull>& hull,
+           std::span<const core::RigidTransform> world_from_parts,
+           std::span<const core::PartContact> contacts);
+
+  // Of the parts that were touched, in their order.
+  [[nodiscard]] std::vector<core::HeatMap> Maps() const;
+
+ private:
+  struct PartHeat {
+    std::shared_ptr<const core::SurfacePatches> patches;  // null: never touched
+    std::vector<double> dwell_s;
+    std::vector<double> peak_depth_mm;
+    std::vector<TouchedPatch> touched;  // in the last frame
+    core::RigidTransform world_from_part;
+  };
+  [[nodiscard]] static core::HeatMap MapOf(const PartHeat& heat, core::PartIndex part, double last_frame_s);
+
+  std::span<const core::TriangleTree> trees_;
+  std::vector<PartHeat> parts_;
+  std::shared_ptr<const recon::VisualHull> hull_;
+  std::int64_t frames_ = 0;
+  double first_time_s_ = 0.0;
+  double last_time_s_ = 0.0;
+};
+
+}  // namespace elbowroom::review

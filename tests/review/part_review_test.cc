@@ -1,0 +1,135 @@
+// One part in one frame: contact, clearance and verdict agree with those who answer them one by one.
+#include "review/part_review.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+
+#include "core/error.h"
+#include "tests/core/solids.h"
+#include "tests/recon/random_scene.h"
+#include "tests/review/box_hull.h"
+#include "tests/support/soak.h"
+
+namespace elbowroom::review {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kRoundingMm = 1e-6;
+
+core::TriangleTree BoxAround(const Vector3d& center, const Vector3d& size_mm) {
+  return core::TriangleTree(std::make_shared<const core::TriangleMesh>(
+      core::Transformed(core::testing::Box(size_mm), {Eigen::Matrix3d::Identity(), center - 0.5 * size_mm})));
+}
+
+PartReviewOptions Requiring(double required_mm, double uncertainty_mm = 0.0) {
+  PartReviewOptions options;
+  options.required_clearance_mm = required_mm;
+  options.uncertainty_mm = uncertainty_mm;
+  return options;
+}
+
+core::PartContact Review(double gap_mm, const PartReviewOptions& options) {
+  return ReviewPart(BoxHull(), BoxAround({60.0 + gap_mm, 0.0, 0.0}, {20.0, 20.0, 20.0}), {}, 4, options);
+}
+
+TEST(ReviewPart, OfABoxBesideABox) {
+  EXPECT_EQ(Review(10.0, Requiring(20.0)).verdict, core::Verdict::kNear);
+  EXPECT_EQ(Review(30.0, Requiring(20.0)).verdict, core::Verdict::kClear);
+  EXPECT_EQ(Review(20.5, Requiring(20.0, 2.0)).verdict, core::Verdict::kUndecided);
+  EXPECT_EQ(Review(-5.0, Requiring(20.0)).verdict, core::Verdict::kContact);
+  EXPECT_EQ(Review(10.0, Requiring(20.0)).part, 4U);
+}
+
+TEST(ReviewPart, WithoutARequiredClearanceOnlyContactIsAsked) {
+  const core::PartContact near = Review(5.0, {});
+  EXPECT_FALSE(near.clearance.has_value());
+  EXPECT_EQ(near.verdict, core::Verdict::kClear);
+  EXPECT_EQ(Review(-5.0, {}).verdict, core::Verdict::kContact);
+}
+
+TEST(ReviewPart, ContactNeedsNoSearch) {
+  const core::PartContact contact = Review(-5.0, Requiring(20.0));
+  ASSERT_TRUE(contact.clearance.has_value());
+  EXPECT_EQ(contact.clearance->interval.upper_mm, 0.0);
+  EXPECT_EQ(contact.clearance->queries, 0);
+  EXPECT_EQ(contact.clearance->interval.witness_hull_in_world_mm, contact.deepest->position_in_world_mm);
+}
+
+TEST(ReviewPart, HullInsideAPartIsShownByItsPoint) {
+  const core::PartContact contact =
+      ReviewPart(BoxHull(), BoxAround(Vector3d::Zero(), {180.0, 180.0, 180.0}), {}, 0, Requiring(20.0));
+  EXPECT_EQ(contact.verdict, core::Verdict::kContact);
+  ASSERT_TRUE(contact.contained_in_world_mm.has_value());
+  EXPECT_EQ(contact.clearance->interval.witness_hull_in_world_mm, *contact.contained_in_world_mm);
+}
+
+TEST(ReviewPart, AFarPartIsSettledByOneBall) {
+  const core::PartContact contact =
+      ReviewPart(BoxHull(), BoxAround({88.0, 0.0, 0.0}, {2.0, 2.0, 2.0}), {}, 0, Requiring(20.0));
+  EXPECT_EQ(contact.clearance->queries, 1);
+  EXPECT_EQ(contact.clearance->interval.lower_mm, Requiring(20.0).EnoughMm());
+  EXPECT_EQ(contact.clearance->interval.upper_mm, kInfinity);
+  EXPECT_EQ(contact.verdict, core::Verdict::kClear);
+}
+
+TEST(ReviewPart, AnEmptyHullIsClear) {
+  const core::PartContact contact =
+      ReviewPart(BoxHull(true), BoxAround({70.0, 0.0, 0.0}, {2.0, 2.0, 2.0}), {}, 0, Requiring(20.0));
+  EXPECT_EQ(contact.verdict, core::Verdict::kClear);
+  EXPECT_EQ(contact.clearance->interval.lower_mm, kInfinity);
+  EXPECT_FALSE(HintFrom(contact, {}).has_value());
+}
+
+// Parts that drift by the hull, each frame with the last one's hint.
+TEST(ReviewPart, WarmBoundsAreAsTrueAsColdOnes) {
+  recon::Random random(41);
+  std::int64_t warm_queries = 0, cold_queries = 0;
+  int near = 0;
+  for (int run = 0; run < 6 * test_support::SoakScale(); ++run) {
+    const recon::RandomScene scene = MakeRingScene(&random, random.Whole(2, 4), core::UnseenPolicy::kOutside);
+    const recon::VisualHull hull = recon::MakeVisualHull(scene.rig, scene.masks);
+    const core::TriangleTree part = BoxAround(Vector3d::Zero(), {40.0, 30.0, 20.0});
+    core::RigidTransform pose{random.Rotation(), random.Uniform(60.0, 160.0) * random.Direction()};
+    const Vector3d drift = 2.0 * random.Direction();
+    const PartReviewOptions options = Requiring(60.0, 1.0);
+    std::optional<ClearanceHint> hint;
+    for (int frame = 0; frame < 12; ++frame) {
+      pose.translation_mm += drift;
+      const core::PartContact warm = ReviewPart(hull, part, pose, 0, options, hint);
+      const core::PartContact cold = ReviewPart(hull, part, pose, 0, options);
+      const core::ClearanceInterval &a = warm.clearance->interval, &b = cold.clearance->interval;
+      ASSERT_LE(a.lower_mm, b.upper_mm + kRoundingMm);
+      ASSERT_LE(b.lower_mm, a.upper_mm + kRoundingMm);
+      const bool contradicts =
+          (warm.verdict == core::Verdict::kClear && cold.verdict == core::Verdict::kNear) ||
+          (warm.verdict == core::Verdict::kNear && cold.verdict == core::Verdict::kClear);
+      ASSERT_FALSE(contradicts);
+      ASSERT_EQ(warm.contact_area_mm2, cold.contact_area_mm2);
+      near += warm.verdict == core::Verdict::kNear ? 1 : 0;
+      warm_queries += warm.clearance->queries;
+      cold_queries += cold.clearance->queries;
+      hint = HintFrom(warm, pose);
+    }
+  }
+  EXPECT_GT(near, 10);
+  EXPECT_LT(warm_queries, cold_queries);
+}
+
+TEST(ReviewPart, RefusesWhatMeansNothing) {
+  for (double PartReviewOptions::*option :
+       {&PartReviewOptions::required_clearance_mm, &PartReviewOptions::uncertainty_mm,
+        &PartReviewOptions::tolerance_mm}) {
+    for (const double value : {-1.0, std::nan(""), kInfinity}) {
+      PartReviewOptions options;
+      options.*option = value;
+      EXPECT_THROW(options.Validate(), core::Error) << value;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace elbowroom::review

@@ -1,0 +1,276 @@
+// The study against an oracle that asks every frame at every step and skips nothing.
+#include "review/spacing_study.h"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "core/error.h"
+#include "tests/core/solids.h"
+#include "tests/recon/random_scene.h"
+#include "tests/review/box_hull.h"
+#include "tests/support/soak.h"
+
+namespace elbowroom::review {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kRoundingMm = 1e-6;
+constexpr core::PartIndex kMoving = 1, kRider = 2, kFixed = 3;
+
+core::Part BoxPart(const std::string& name, const Vector3d& size_mm, const Vector3d& center_mm) {
+  core::Part part;
+  part.name = name;
+  part.mesh = std::make_shared<const core::TriangleMesh>(
+      core::Transformed(core::testing::Box(size_mm), {Eigen::Matrix3d::Identity(), -0.5 * size_mm}));
+  part.world_from_part.translation_mm = center_mm;
+  return part;
+}
+
+// A lid that moves over a base, a rider on the lid, a part that doesn't move.
+core::Layout LidLayout() {
+  core::Layout layout;
+  layout.parts = {BoxPart("base", {60.0, 60.0, 10.0}, {0.0, 0.0, -85.0}),
+                  BoxPart("lid", {50.0, 50.0, 6.0}, {0.0, 0.0, 0.0}),
+                  BoxPart("rider", {10.0, 10.0, 10.0}, {20.0, 0.0, 40.0}),
+                  BoxPart("fixed", {20.0, 20.0, 20.0}, {70.0, 0.0, 0.0})};
+  layout.spacings = {{"gap", "lid", "base", core::Axis::kZ, 0.0, 300.0, 100.0},
+                     {"ride", "rider", "lid", core::Axis::kZ, 0.0, 50.0, 5.0}};
+  layout.Validate();
+  return layout;
+}
+
+StudyFrames Shared(const std::vector<StudyFrame>& frames) {
+  return {frames.size(), [&frames](std::size_t i) { return frames[i]; }};
+}
+
+std::vector<StudyFrame> RandomFrames(recon::Random* random, int count) {
+  const recon::RandomScene first = MakeRingScene(random, random->Whole(2, 4), core::UnseenPolicy::kOutside);
+  std::vector<StudyFrame> frames;
+  for (int i = 0; i < count; ++i) {
+    const recon::RandomScene scene =
+        i == 0 ? first : MakeRingScene(random, random->Whole(2, 4), core::UnseenPolicy::kOutside);
+    frames.push_back(
+        {10 + i,
+         std::make_shared<const recon::VisualHull>(recon::MakeVisualHull(scene.rig, scene.masks)),
+         {999.0, random->Uniform(0.0, 20.0)}});
+  }
+  return frames;
+}
+
+// What was asked of one part at one spacing, frame by frame, with nothing known from elsewhere.
+struct SlowAnswer {
+  PartAtSpacing sum;
+  // Frames without a contact point in which the bounds allow for one: they meet, if at all, in less than the
+  // contacts' resolution, and which side of it the bounds' search comes out on depends on where it began.
+  int touching = 0;
+};
+
+SlowAnswer AskAll(const core::Layout& layout, const std::vector<StudyFrame>& frames, double spacing_mm,
+                  core::PartIndex part, const PartReviewOptions& options) {
+  const core::TriangleTree tree(layout.parts[part].mesh);
+  SlowAnswer answer;
+  PartAtSpacing& sum = answer.sum;
+  for (const StudyFrame& frame : frames) {
+    const auto pose = core::PosesAt(layout, std::vector{spacing_mm, frame.spacing_mm[1]})[part];
+    const core::PartContact contact = FindContacts(*frame.hull, tree, pose, part, options.contacts);
+    if (contact.verdict == core::Verdict::kContact) {
+      ++sum.frames_in_contact;
+      sum.deepest_mm = std::max(sum.deepest_mm, contact.deepest ? contact.deepest->depth_mm : 0.0);
+      sum.lower_mm = sum.upper_mm = 0.0;
+      continue;
+    }
+    ClearanceOptions clearance_options;
+    clearance_options.tolerance_mm = options.tolerance_mm;
+    const core::ClearanceInterval interval =
+        FindClearance(*frame.hull, tree, pose, clearance_options).interval;
+    answer.touching += interval.lower_mm == 0.0 ? 1 : 0;
+    const core::Verdict verdict =
+        !(options.required_clearance_mm > 0.0)
+            ? core::Verdict::kClear
+            : Judge(interval, options.required_clearance_mm, options.uncertainty_mm);
+    if (verdict == core::Verdict::kNear || verdict == core::Verdict::kContact) ++sum.frames_near;
+    if (verdict == core::Verdict::kUndecided) ++sum.frames_undecided;
+    if (verdict == core::Verdict::kClear) ++sum.frames_clear;
+    sum.lower_mm = std::min(sum.lower_mm, interval.lower_mm);
+    sum.upper_mm = std::min(sum.upper_mm, interval.upper_mm);
+  }
+  return answer;
+}
+
+void ExpectAgree(const PartAtSpacing& fast, const SlowAnswer& answer) {
+  const PartAtSpacing& slow = answer.sum;
+  EXPECT_GE(fast.frames_in_contact, slow.frames_in_contact);
+  EXPECT_LE(fast.frames_in_contact, slow.frames_in_contact + answer.touching);
+  EXPECT_EQ(fast.deepest_mm, slow.deepest_mm);
+  EXPECT_LE(fast.lower_mm, slow.upper_mm + kRoundingMm);
+  EXPECT_LE(slow.lower_mm, fast.upper_mm + kRoundingMm);
+  if (slow.frames_in_contact > 0) {
+    EXPECT_EQ(fast.upper_mm, 0.0);
+  }
+  // What is clear to one may be undecided to the other, for bounds differ within their tolerance.
+  EXPECT_LE(fast.frames_near, slow.frames_near + slow.frames_undecided + answer.touching);
+  EXPECT_LE(slow.frames_near, fast.frames_near + fast.frames_undecided + answer.touching);
+  EXPECT_LE(fast.frames_clear, slow.frames_clear + slow.frames_undecided);
+  EXPECT_LE(slow.frames_clear, fast.frames_clear + fast.frames_undecided);
+}
+
+SpacingStudyOptions From(double from_mm, double to_mm, double step_mm, double required_mm = 8.0) {
+  SpacingStudyOptions options;
+  options.from_mm = from_mm;
+  options.to_mm = to_mm;
+  options.step_mm = step_mm;
+  options.review.required_clearance_mm = required_mm;
+  options.review.uncertainty_mm = required_mm > 0.0 ? 0.5 : 0.0;
+  return options;
+}
+
+TEST(StudySpacing, AgreesWithAskingEveryFrameAtEveryStep) {
+  recon::Random random(977);
+  const core::Layout layout = LidLayout();
+  std::int64_t contacts = 0, by_motion = 0;
+  for (int trial = 0; trial < 4 * test_support::SoakScale(); ++trial) {
+    SCOPED_TRACE(trial);
+    const std::vector<StudyFrame> frames = RandomFrames(&random, 8);
+    const SpacingStudyOptions options = From(0.0, 190.0, 19.0, trial % 2 == 0 ? 8.0 : 0.0);
+    const SpacingStudy study = StudySpacing(layout, Shared(frames), options);
+    ASSERT_EQ(study.steps.size(), 11U);
+    for (const StudyStep& step : study.steps) {
+      for (core::PartIndex part = 0; part < layout.parts.size(); ++part) {
+        SCOPED_TRACE(layout.parts[part].name + " at " + std::to_string(step.spacing_mm));
+        ExpectAgree(step.parts[part], AskAll(layout, frames, step.spacing_mm, part, options.review));
+        contacts += step.parts[part].frames_in_contact;
+      }
+    }
+    by_motion += study.count.settled_by_motion;
+    EXPECT_EQ(study.moved, (std::vector<core::PartIndex>{kMoving, kRider}));
+    EXPECT_EQ(study.count.unmoved, 8 * 2 * 10) << "frames, parts, all steps but one";
+  }
+  EXPECT_GT(contacts, 20);
+  EXPECT_GT(by_motion, 8);
+}
+
+PartReviewOptions Fine() {
+  PartReviewOptions options;
+  options.tolerance_mm = 0.005;
+  return options;
+}
+
+// Contact of any moved part in any frame, or as good as.
+bool Touches(const core::Layout& layout, const std::vector<StudyFrame>& frames, double spacing_mm) {
+  return std::ranges::any_of(std::vector{kMoving, kRider}, [&](core::PartIndex part) {
+    return AskAll(layout, frames, spacing_mm, part, Fine()).sum.upper_mm <= Fine().tolerance_mm;
+  });
+}
+
+TEST(StudySpacing, FindsTheSmallestSpacingWithoutContactBetweenTwoValuesThatShowIt) {
+  recon::Random random(31);
+  const core::Layout layout = LidLayout();
+  int found = 0, left_open = 0;
+  for (int trial = 0; trial < 6 * test_support::SoakScale(); ++trial) {
+    SCOPED_TRACE(trial);
+    const std::vector<StudyFrame> frames = RandomFrames(&random, 3);
+    const SpacingStudyOptions options = From(0.0, 280.0, 20.0, 0.0);
+    const SpacingStudy study = StudySpacing(layout, Shared(frames), options);
+    if (!study.largest_touched_mm || !study.smallest_free_mm) continue;
+    ++found;
+    EXPECT_GT(*study.smallest_free_mm, *study.largest_touched_mm);
+    const double between_mm = 0.5 * (*study.smallest_free_mm + *study.largest_touched_mm);
+    if (*study.smallest_free_mm - *study.largest_touched_mm > options.tolerance_mm) {
+      ++left_open;
+      double least_mm = 1e9;
+      for (const core::PartIndex part : {kMoving, kRider})
+        least_mm = std::min(least_mm, AskAll(layout, frames, between_mm, part, Fine()).sum.upper_mm);
+      EXPECT_LE(least_mm, 2.0 * Fine().tolerance_mm) << "only what grazes may be left open";
+    }
+    EXPECT_TRUE(Touches(layout, frames, *study.largest_touched_mm));
+    EXPECT_FALSE(Touches(layout, frames, *study.smallest_free_mm));
+    for (double above_mm = 280.0; above_mm > *study.smallest_free_mm; above_mm -= 20.0)
+      EXPECT_FALSE(Touches(layout, frames, above_mm)) << above_mm;
+  }
+  EXPECT_GT(found, 1);
+  EXPECT_LT(left_open, found);
+}
+
+// The box hull's top is at +50 mm, the base's at -80: a lid touches it up to 130 mm.
+TEST(StudySpacing, OfABoxIsItsHeight) {
+  const auto hull = std::make_shared<const recon::VisualHull>(BoxHull());
+  const std::vector<StudyFrame> frames{{7, hull, {100.0, 5.0}}};
+  const SpacingStudy study = StudySpacing(LidLayout(), Shared(frames), From(60.0, 200.0, 10.0, 0.0));
+  ASSERT_TRUE(study.largest_touched_mm && study.smallest_free_mm);
+  EXPECT_NEAR(*study.largest_touched_mm, 130.0, 0.5 + kBoxHullMm);
+  EXPECT_NEAR(*study.smallest_free_mm, 130.0, 0.5 + kBoxHullMm);
+  EXPECT_EQ(study.steps.back().parts[kMoving].closest_frame, 7);
+  const PartAtSpacing& at_200 = study.steps.back().parts[kMoving];
+  EXPECT_LE(at_200.lower_mm, 70.0 + kBoxHullMm);
+  EXPECT_GE(at_200.upper_mm, 70.0 - kBoxHullMm);
+  EXPECT_NEAR(study.steps[0].parts[kFixed].upper_mm, study.steps[5].parts[kFixed].upper_mm, 0.0);
+}
+
+TEST(StudySpacing, SaysWhenNothingOrEverythingTouches) {
+  const auto hull = std::make_shared<const recon::VisualHull>(BoxHull());
+  const std::vector<StudyFrame> frames{{0, hull, {100.0, 5.0}}};
+  const SpacingStudy above = StudySpacing(LidLayout(), Shared(frames), From(140.0, 160.0, 10.0));
+  EXPECT_FALSE(above.largest_touched_mm.has_value());
+  EXPECT_EQ(above.smallest_free_mm, 140.0);
+  const SpacingStudy within = StudySpacing(LidLayout(), Shared(frames), From(60.0, 100.0, 10.0));
+  EXPECT_EQ(within.largest_touched_mm, 100.0);
+  EXPECT_FALSE(within.smallest_free_mm.has_value());
+  EXPECT_EQ(StudySpacing(LidLayout(), {}, From(60.0, 100.0, 10.0)).smallest_free_mm, 60.0) << "no frames";
+}
+
+TEST(StudySpacing, IsTheSameOnAnyNumberOfThreads) {
+  recon::Random random(5);
+  const std::vector<StudyFrame> frames = RandomFrames(&random, 20);
+  const auto study = [&] { return StudySpacing(LidLayout(), Shared(frames), From(0.0, 200.0, 25.0)); };
+  const SpacingStudy many = study();
+  const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
+  const SpacingStudy one = study();
+  EXPECT_EQ(one.count.queries, many.count.queries);
+  EXPECT_EQ(one.smallest_free_mm, many.smallest_free_mm);
+  for (std::size_t step = 0; step < one.steps.size(); ++step) {
+    for (std::size_t part = 0; part < 4; ++part) {
+      EXPECT_EQ(one.steps[step].parts[part].lower_mm, many.steps[step].parts[part].lower_mm);
+      EXPECT_EQ(one.steps[step].parts[part].upper_mm, many.steps[step].parts[part].upper_mm);
+    }
+  }
+}
+
+TEST(StudySpacing, ReportsProgressAndStops) {
+  const auto hull = std::make_shared<const recon::VisualHull>(BoxHull());
+  const std::vector<StudyFrame> frames(40, {0, hull, {100.0, 5.0}});
+  std::stop_source stop;
+  std::int64_t reports = 0;
+  const core::Progress progress([&](std::int64_t, std::int64_t total, const std::string&) {
+    EXPECT_EQ(total, 40);
+    if (++reports == 2) stop.request_stop();
+  });
+  try {
+    (void)StudySpacing(LidLayout(), Shared(frames), From(60.0, 200.0, 70.0), progress, stop.get_token());
+    FAIL() << "ran to its end";
+  } catch (const core::Error& error) {
+    EXPECT_EQ(error.kind(), core::ErrorKind::kCancelled);
+  }
+  EXPECT_EQ(reports, 2);
+}
+
+TEST(SpacingStudyOptions, StepsReachBothEnds) {
+  EXPECT_EQ(From(10.0, 30.0, 10.0).Steps(), (std::vector{10.0, 20.0, 30.0}));
+  EXPECT_EQ(From(10.0, 25.0, 10.0).Steps(), (std::vector{10.0, 20.0, 25.0}));
+  EXPECT_EQ(From(10.0, 10.0, 1.0).Steps(), (std::vector{10.0}));
+}
+
+TEST(SpacingStudyOptions, RefusesWhatIsNoRange) {
+  const core::Layout layout = LidLayout();
+  for (const SpacingStudyOptions& options :
+       {From(-1.0, 10.0, 1.0), From(0.0, 301.0, 1.0), From(20.0, 10.0, 1.0), From(0.0, 10.0, 0.0),
+        From(0.0, 10.0, std::nan("")), From(0.0, 300.0, 1e-3), From(std::nan(""), 10.0, 1.0)})
+    EXPECT_THROW(options.Validate(layout), core::Error);
+}
+
+}  // namespace
+}  // namespace elbowroom::review
