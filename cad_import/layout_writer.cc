@@ -94,11 +94,11 @@ void WriteEntries(std::ostream& out, const char* key, const std::vector<Value>& 
 void WriteLayoutFile(const core::Layout& layout, const std::filesystem::path& path) {
   std::ostringstream out;
   out << "unit = \"" << core::ToString(layout.unit) << "\"\n";
-  WriteEntries(out, "part", layout.parts,
-               {"name", "file", "unit", "position_mm", "rotation_rpy_deg", "reference_mm", "recovery",
-                "recovery_axis", "recovery_at_mm", "gives_way", "pins", "stretch_stiffness_n_per_m",
-                "bending_stiffness_n_per_m", "mass_per_area_kg_per_m2", "damping_per_s", "friction",
-                "max_speed_mm_per_s"});
+  WriteEntries(
+      out, "part", layout.parts,
+      {"name", "file", "unit", "position_mm", "rotation_rpy_deg", "reference_mm", "recovery", "recovery_axis",
+       "recovery_at_mm", "gives_way", "pins", "stretch_stiffness_n_per_m", "bending_stiffness_n_per_m",
+       "mass_per_area_kg_per_m2", "damping_per_s", "friction", "max_speed_mm_per_s"});
   WriteEntries(out, "spacing", layout.spacings,
                {"name", "moving", "reference", "axis", "min_mm", "max_mm", "initial_mm"});
   WriteEntries(out, "pair", layout.pair_rules,

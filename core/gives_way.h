@@ -17,7 +17,8 @@ enum class BoundsSide { kXMin, kXMax, kYMin, kYMax, kZMin, kZMax };
 [[nodiscard]] std::string_view ToString(BoundsSide side);
 
 // A panel, blanket or curtain (`gives_way = "cloth"`): it hangs, stretches, bends, is pushed aside. V_rec is
-// the axis of the part's recovery, a slider's or a direction; without one, the panel's mean normal, either way.
+// the axis of the part's recovery, a slider's or a direction; without one, the panel's mean normal, either
+// way.
 struct ClothRule {
   std::vector<BoundsSide> pins;               // vertices on these sides stay with the part
   double stretch_stiffness_n_per_m = 2000.0;  // tension per width and strain; [1, 1e7]

@@ -156,4 +156,14 @@ std::vector<RigidTransform> PosesAt(const Layout& layout, std::span<const double
   return world_from_parts;
 }
 
+std::vector<RigidTransform> WithMotions(std::span<const RigidTransform> world_from_rests,
+                                        std::span<const RigidTransform> rest_from_parts) {
+  Require(rest_from_parts.empty() || rest_from_parts.size() == world_from_rests.size(),
+          "one motion a part, or none");
+  std::vector<RigidTransform> world_from_parts(world_from_rests.begin(), world_from_rests.end());
+  for (std::size_t i = 0; i < rest_from_parts.size(); ++i)
+    world_from_parts[i] = world_from_rests[i] * rest_from_parts[i];
+  return world_from_parts;
+}
+
 }  // namespace elbowroom::core

@@ -74,4 +74,8 @@ struct Layout {
 // them. Throws: PreconditionError when the count differs from the layout's spacings.
 [[nodiscard]] std::vector<RigidTransform> PosesAt(const Layout& layout, std::span<const double> spacing_mm);
 
+// Those poses with parts moved from there, each in its own frame; rest_from_parts empty: none.
+[[nodiscard]] std::vector<RigidTransform> WithMotions(std::span<const RigidTransform> world_from_rests,
+                                                      std::span<const RigidTransform> rest_from_parts);
+
 }  // namespace elbowroom::core

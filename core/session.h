@@ -13,6 +13,7 @@
 #include "core/ids.h"
 #include "core/layout.h"
 #include "core/rig.h"
+#include "core/rigid_transform.h"
 #include "core/soft_mask.h"
 
 namespace elbowroom::core {
@@ -64,6 +65,9 @@ struct FrameRecord {
   SharedMasks silhouettes;            // one a camera
   std::vector<double> spacing_mm;     // in the layout's order
   std::vector<PartContact> contacts;  // one a part, in the layout's order
+  // Where pushed parts were, from where layout and spacings have them; likewise, or nothing if none was
+  // pushed.
+  std::vector<RigidTransform> rest_from_parts;
 };
 
 // What is put together at a session's end.

@@ -36,7 +36,9 @@ ClothContact::ClothContact(const ClothPanel& panel, const recon::VisualHull& hul
       sides_agree_(panel.leaves_one_way()),
       one_side_(panel.leaves_one_way() ? 1 : 0),
       known_(panel.rest().triangles.size()),
-      touched_(state->x_in_world.size(), 0) {}
+      touched_(state->x_in_world.size(), 0) {
+  for (const std::int8_t side : state->sides) driven_ += side;
+}
 
 ClothContact::Corners ClothContact::CornersOf(std::size_t triangle) const {
   const auto& vertices = panel_.rest().triangles[triangle];
@@ -108,6 +110,7 @@ double ClothContact::MovePieceOut(const Corners& corners, const Piece& piece) {
 void ClothContact::Leave(const Corners& corners, const Vector3d& weights) {
   const Vector3d from = At(corners, weights);
   int side = SideOf(corners, weights);
+  if (side == 0) side = SideAwayFromLast(from);
   std::optional<double> exit_mm;
   if (side != 0) exit_mm = ExitAlong(hull_, {from, side * v_rec_}, one_side_ != 0 ? kThickestMm : kDeepestMm);
   if (!exit_mm) {
@@ -157,8 +160,9 @@ bool ClothContact::Push(const Corners& corners, const Vector3d& weights, int sid
 
 void ClothContact::ChooseOneSide() {
   if (one_side_ != 0) return;
-  int sum = 0;
-  for (const std::int8_t side : state_->sides) sum += side;
+  int sum = driven_;
+  if (sum == 0)
+    for (const std::int8_t side : state_->sides) sum += side;
   sides_agree_ = true;
   one_side_ = sum < 0 ? -1 : 1;
 }
@@ -171,6 +175,8 @@ void ClothContact::ForgetSides() {
 // Looks along V_rec from every vertex and every triangle's middle, where the hull is near.
 void ClothContact::CarryAlong(const recon::VisualHull& last, double dt_s) {
   const double reach_mm = kFastestHandMmPerS * dt_s;
+  last_ = &last;
+  reach_mm_ = reach_mm;
   const auto& nodes = panel_.tree().nodes();
   const auto& order = panel_.tree().order();
   std::vector<std::uint8_t> is_asked(state_->x_in_world.size(), 0);
@@ -196,33 +202,40 @@ void ClothContact::CarryAlong(const recon::VisualHull& last, double dt_s) {
     }
     for (std::uint32_t i = node.begin; i < node.end; ++i) {
       const Corners corners = CornersOf(order[i]);
-      CarryPoint(last, corners, Vector3d::Constant(1.0 / 3.0), reach_mm);
+      CarryPoint(corners, Vector3d::Constant(1.0 / 3.0));
       for (Eigen::Index k = 0; k < 3; ++k) {
         std::uint8_t& asked = is_asked[corners[static_cast<std::size_t>(k)]];
-        if (!asked) CarryPoint(last, corners, Vector3d::Unit(k), reach_mm);
+        if (!asked) CarryPoint(corners, Vector3d::Unit(k));
         asked = 1;
       }
     }
   }
 }
 
+// Away from where the hull was; 0: it was there already, or isn't known to have come.
+int ClothContact::SideAwayFromLast(const Vector3d& from) const {
+  if (last_ == nullptr || last_->Contains(from)) return 0;
+  const auto ahead_mm = EntryAlong(*last_, {from, v_rec_}, reach_mm_);
+  const auto behind_mm = EntryAlong(*last_, {from, -v_rec_}, ahead_mm.value_or(reach_mm_));
+  return behind_mm ? 1 : ahead_mm ? -1 : 0;
+}
+
 // The hull has come over a point: it leaves away from where the hull was.
-void ClothContact::NoteSide(const recon::VisualHull& last, const Corners& corners, const Vector3d& from,
-                            double reach_mm) {
-  const auto ahead_mm = EntryAlong(last, {from, v_rec_}, reach_mm);
-  const auto behind_mm = EntryAlong(last, {from, -v_rec_}, ahead_mm.value_or(reach_mm));
-  if (!ahead_mm && !behind_mm) return;
+void ClothContact::NoteSide(const Corners& corners, const Vector3d& from) {
+  const int side = SideAwayFromLast(from);
+  driven_ += side;
   for (const std::uint32_t vertex : corners)
-    if (state_->sides[vertex] == 0) state_->sides[vertex] = behind_mm ? 1 : -1;
+    if (state_->sides[vertex] == 0) state_->sides[vertex] = static_cast<std::int8_t>(side);
 }
 
 // What was on one side of the point and is on the other now has passed it: the point goes to its far end.
-void ClothContact::CarryPoint(const recon::VisualHull& last, const Corners& corners, const Vector3d& weights,
-                              double reach_mm) {
+void ClothContact::CarryPoint(const Corners& corners, const Vector3d& weights) {
+  const recon::VisualHull& last = *last_;
+  const double reach_mm = reach_mm_;
   const Vector3d from = At(corners, weights);
   ++state_->count.queries;
   if (last.Contains(from)) return;
-  if (hull_.Contains(from)) return NoteSide(last, corners, from, reach_mm);
+  if (hull_.Contains(from)) return NoteSide(corners, from);
   for (const int side : {1, -1}) {
     const Vector3d ahead = side * v_rec_;
     const std::optional<double> entry_mm = EntryAlong(hull_, {from, ahead}, reach_mm);
@@ -231,7 +244,10 @@ void ClothContact::CarryPoint(const recon::VisualHull& last, const Corners& corn
     if (!was_behind_mm || EntryAlong(last, {from, ahead}, reach_mm)) continue;
     const double in_mm = *entry_mm + kExitStepMm;
     const auto through_mm = ExitAlong(hull_, {from + in_mm * ahead, ahead}, kThickestMm);
-    if (through_mm && Push(corners, weights, side, in_mm + *through_mm + kMarginMm)) ++state_->count.carried;
+    if (through_mm && Push(corners, weights, side, in_mm + *through_mm + kMarginMm)) {
+      ++state_->count.carried;
+      driven_ += side;
+    }
     return;
   }
 }

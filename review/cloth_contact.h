@@ -20,7 +20,8 @@ class ClothContact {
   ClothContact(const ClothPanel& panel, const recon::VisualHull& hull, const Eigen::Vector3d& v_rec_in_world,
                ClothState* state);
 
-  // Takes along what the hull has stepped over since `last`, moving no faster than kFastestHandMmPerS.
+  // Takes along what the hull has stepped over since `last`, moving no faster than kFastestHandMmPerS; `last`
+  // must outlive this.
   void CarryAlong(const recon::VisualHull& last, double dt_s);
 
   // Moves what is in the hull out of it along V_rec, once, each piece to its side; how many pieces were
@@ -29,8 +30,9 @@ class ClothContact {
 
   // From now on a piece's corners leave to its side, whatever theirs was.
   void AgreeOnSides() { sides_agree_ = true; }
-  // From now on every piece leaves to one and the same side: the one that most vertices in touch leave to.
-  // Then nothing is moved to and fro, and MoveOut() ends up with nothing to move.
+  // From now on every piece leaves to one and the same side: where the hull drives the cloth, as far as its
+  // motion tells; else where most vertices in touch leave to. Then nothing is moved to and fro, and MoveOut()
+  // ends up with nothing to move.
   void ChooseOneSide();
 
   // Vertices that were in touch since this was made; the others' sides are forgotten.
@@ -51,17 +53,19 @@ class ClothContact {
   void Leave(const Corners& corners, const Eigen::Vector3d& weights);
   bool Push(const Corners& corners, const Eigen::Vector3d& weights, int side, double by_mm);
   [[nodiscard]] int SideOf(const Corners& corners, const Eigen::Vector3d& weights) const;
-  void NoteSide(const recon::VisualHull& last, const Corners& corners, const Eigen::Vector3d& from,
-                double reach_mm);
-  void CarryPoint(const recon::VisualHull& last, const Corners& corners, const Eigen::Vector3d& weights,
-                  double reach_mm);
+  [[nodiscard]] int SideAwayFromLast(const Eigen::Vector3d& from) const;
+  void NoteSide(const Corners& corners, const Eigen::Vector3d& from);
+  void CarryPoint(const Corners& corners, const Eigen::Vector3d& weights);
 
   const ClothPanel& panel_;
   const recon::VisualHull& hull_;
   Eigen::Vector3d v_rec_;  // in world
   ClothState* state_;
   bool sides_agree_;
-  int one_side_;  // 0: to each its own
+  int one_side_;                             // 0: to each its own
+  const recon::VisualHull* last_ = nullptr;  // of the frame before; null: none, or the same
+  double reach_mm_ = 0.0;                    // how far anything may have come since
+  int driven_ = 0;  // to which side the hull's motion drives points, each by one: > 0 along V_rec
   struct Known {
     std::array<Eigen::Vector3d, 3> corners;  // where they were when the hull was asked
     double free_mm = -1.0;                   // while none has moved farther, the triangle is out of the hull

@@ -70,10 +70,11 @@ ClothPanel::ClothPanel(const core::Part& part)
 void ClothPanel::ChooseWayOut(const core::Part& part) {
   const core::RecoveryRule& recovery = part.recovery;
   if (recovery.kind == core::RecoveryKind::kHinge) {
-    throw core::Error(core::ErrorKind::kGeometry,
-                      fmt::format("part '{}': a cloth leaves the hull along a line, not about a hinge; make its "
-                                  "recovery a slider or a direction",
-                                  part.name));
+    throw core::Error(
+        core::ErrorKind::kGeometry,
+        fmt::format("part '{}': a cloth leaves the hull along a line, not about a hinge; make its "
+                    "recovery a slider or a direction",
+                    part.name));
   }
   leaves_one_way_ = recovery.kind == core::RecoveryKind::kDirection;
   if (recovery.axis_in_part) {

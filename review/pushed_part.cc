@@ -40,7 +40,8 @@ double DistanceToAxis(const RecoveryWay& way, const Vector3d& x_in_world) {
   return way.axis.cross(x_in_world - way.at_mm).norm();
 }
 
-double LongestArm(const RecoveryWay& way, const SurfaceModel& surface, const RigidTransform& world_from_part) {
+double LongestArm(const RecoveryWay& way, const SurfaceModel& surface,
+                  const RigidTransform& world_from_part) {
   double longest_mm = 0.0;
   for (const Vector3d& vertex : surface.tree().mesh().vertices_mm)
     longest_mm = std::max(longest_mm, DistanceToAxis(way, world_from_part * vertex));
@@ -125,8 +126,7 @@ PushState StepPush(const core::Part& part, const core::PartContact& contact, Pus
   state.went_mm = Advance(standing, *way, may_mm, others);
   state.is_blocked = state.went_mm < may_mm;
   if (state.went_mm > 0.0) {
-    state.rest_from_part =
-        rest.world_from_part.Inverse() * way->By(state.went_mm) * standing.world_from_part;
+    state.rest_from_part = rest.world_from_part.Inverse() * way->By(state.went_mm) * standing.world_from_part;
     state.rest_from_part.rotation = Eigen::Quaterniond(state.rest_from_part.rotation).normalized();
   }
   return state;

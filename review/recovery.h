@@ -18,7 +18,7 @@ struct RecoveryWay {
   Eigen::Vector3d rp_obj = Eigen::Vector3d::Zero();
   Eigen::Vector3d axis = Eigen::Vector3d::Zero();   // unit; none towards RP_obj
   Eigen::Vector3d at_mm = Eigen::Vector3d::Zero();  // on the hinge's axis
-  int sense = 0;                                    // of a slider or hinge: 1 or -1, that one alone; 0: the shorter
+  int sense = 0;  // of a slider or hinge: 1 or -1, that one alone; 0: the shorter
 };
 
 // The part has triangles. Throws: PreconditionError for a rule that can't be used.

@@ -60,6 +60,25 @@ core::SharedMasks ReadSilhouettes(Database& database, const core::Rig& rig, core
   return masks;
 }
 
+std::vector<core::RigidTransform> ReadMotions(Database& database, std::size_t parts, core::FrameIndex frame,
+                                              const std::string& where) {
+  Statement rows(database,
+                 "SELECT part_index, rotation_rest_from_part, translation_mm FROM part_motion "
+                 "WHERE frame_index = ?");
+  std::vector<core::RigidTransform> rest_from_parts;
+  for (rows.With(frame); rows.Next();) {
+    const auto part = static_cast<core::PartIndex>(rows.Integer(0));
+    const std::string motion = fmt::format("{}, motion of part {}", where, part);
+    if (part >= parts) {
+      throw Error(ErrorKind::kFormat,
+                  motion + ": it doesn't belong to the layout; restore the file from a copy");
+    }
+    rest_from_parts.resize(parts);
+    rest_from_parts[part] = {MatrixFromJson(rows.Text(1), motion), VectorFromJson(rows.Text(2), motion)};
+  }
+  return rest_from_parts;
+}
+
 }  // namespace
 
 FrameInserter::FrameInserter(Database& database)
@@ -76,7 +95,8 @@ FrameInserter::FrameInserter(Database& database)
           "INSERT INTO contact VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, "
           "?)"),
       insert_point_(database, "INSERT INTO contact_point VALUES (?, ?, ?, ?, ?, ?, ?, ?)"),
-      insert_clearance_(database, "INSERT INTO clearance VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)") {}
+      insert_clearance_(database, "INSERT INTO clearance VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)"),
+      insert_motion_(database, "INSERT INTO part_motion VALUES (?, ?, ?, ?)") {}
 
 void FrameInserter::Insert(const core::FrameRecord& record) {
   insert_frame_.With(record.frame, record.time_s).Run();
@@ -85,6 +105,17 @@ void FrameInserter::Insert(const core::FrameRecord& record) {
   }
   InsertSilhouettes(record.frame, *record.silhouettes);
   for (const core::PartContact& contact : record.contacts) InsertPart(record.frame, contact);
+  InsertMotions(record);
+}
+
+void FrameInserter::InsertMotions(const core::FrameRecord& record) {
+  for (core::PartIndex i = 0; i < record.rest_from_parts.size(); ++i) {
+    const core::RigidTransform& rest_from_part = record.rest_from_parts[i];
+    if (rest_from_part == core::RigidTransform()) continue;
+    insert_motion_
+        .With(record.frame, i, JsonFrom(rest_from_part.rotation), JsonFrom(rest_from_part.translation_mm))
+        .Run();
+  }
 }
 
 void FrameInserter::InsertSilhouettes(core::FrameIndex frame, std::span<const core::SoftMask> masks) {
@@ -161,6 +192,7 @@ core::FrameRecord ReadFrame(Database& database, const core::SessionHeader& heade
   record.spacing_mm = ReadSpacings(database, frame);
   record.silhouettes = ReadSilhouettes(database, header.rig, frame, where);
   record.contacts = ReadContacts(database, frame);
+  record.rest_from_parts = ReadMotions(database, header.layout.parts.size(), frame, where);
   if (record.spacing_mm.size() != header.layout.spacings.size() ||
       record.silhouettes->size() != header.rig.cameras.size() ||
       record.contacts.size() != header.layout.parts.size()) {

@@ -24,6 +24,7 @@ class FrameInserter {
   void InsertPart(core::FrameIndex frame, const core::PartContact& contact);
   void InsertEvidence(core::FrameIndex frame, const core::PartContact& contact);
   void InsertClearance(core::FrameIndex frame, const core::PartContact& contact);
+  void InsertMotions(const core::FrameRecord& record);
 
   Compressor compressor_;
   Statement insert_frame_;
@@ -35,6 +36,7 @@ class FrameInserter {
   Statement insert_contact_;
   Statement insert_point_;
   Statement insert_clearance_;
+  Statement insert_motion_;
 };
 
 // Throws: Error{kRange} when there is no such frame; Error{kFormat} naming it where its rows are damaged or

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "sessions/gives_way_rows.h"
 #include "sessions/packing.h"
 #include "sessions/statement.h"
 
@@ -135,12 +136,12 @@ std::vector<core::Spacing> ReadSpacings(Database& database) {
 }
 
 void InsertPairRules(Database& database, const core::Layout& layout) {
-  Statement insert(database, "INSERT INTO pair_rule VALUES (?, ?, ?, ?, ?)");
+  Statement insert(database, "INSERT INTO pair_rule VALUES (?, ?, ?, ?, ?, ?)");
   for (std::size_t i = 0; i < layout.pair_rules.size(); ++i) {
     const core::PairRule& rule = layout.pair_rules[i];
     insert
         .With(i, layout.FindPart(rule.a), layout.FindPart(rule.b), rule.required_clearance_mm,
-              rule.authorised_contact)
+              rule.authorised_contact, rule.ignore)
         .Run();
   }
 }
@@ -148,10 +149,12 @@ void InsertPairRules(Database& database, const core::Layout& layout) {
 std::vector<core::PairRule> ReadPairRules(Database& database) {
   Statement rows(
       database,
-      "SELECT a.name, b.name, required_clearance_mm, authorised_contact FROM pair_rule "
+      "SELECT a.name, b.name, required_clearance_mm, authorised_contact, ignored FROM pair_rule "
       "JOIN part a ON a.part_index = part_a JOIN part b ON b.part_index = part_b ORDER BY pair_index");
   std::vector<core::PairRule> rules;
-  while (rows.Next()) rules.push_back({rows.Text(0), rows.Text(1), rows.Real(2), rows.Integer(3) != 0});
+  while (rows.Next()) {
+    rules.push_back({rows.Text(0), rows.Text(1), rows.Real(2), rows.Integer(3) != 0, rows.Integer(4) != 0});
+  }
   return rules;
 }
 
@@ -168,6 +171,7 @@ void InsertLayout(Database& database, const core::Layout& layout) {
   InsertParts(database, layout.parts);
   InsertSpacings(database, layout);
   InsertPairRules(database, layout);
+  InsertGivesWay(database, layout);
 }
 
 core::Layout ReadLayout(Database& database) {
@@ -175,6 +179,7 @@ core::Layout ReadLayout(Database& database) {
   layout.parts = ReadParts(database);
   layout.spacings = ReadSpacings(database);
   layout.pair_rules = ReadPairRules(database);
+  ReadGivesWay(database, &layout);
   return layout;
 }
 

@@ -1,4 +1,4 @@
-// The layout as rows: parts, their meshes by content, spacings, pair rules.
+// The layout as rows: parts, their meshes by content, spacings, pair rules, what gives way.
 #pragma once
 
 #include "core/layout.h"

@@ -9,7 +9,7 @@
 namespace elbowroom::sessions {
 
 inline constexpr std::int64_t kApplicationId = 0x456C6277;  // "Elbw" in the file's header
-inline constexpr std::int64_t kSchemaVersion = 3;
+inline constexpr std::int64_t kSchemaVersion = 4;
 
 // The SQL that leads from schema 0, an empty file, to schema 1.
 [[nodiscard]] std::string Schema1Sql();
@@ -20,6 +20,9 @@ inline constexpr std::int64_t kSchemaVersion = 3;
 // From schema 2 to schema 3: the parts' constraints, and what else a recovery may come to; clearance, near
 // misses, where on a part, with which tools, heat maps.
 [[nodiscard]] std::string Schema3Sql();
+
+// From schema 3 to schema 4: what gives way or flows, and where parts were pushed; pairs that are ignored.
+[[nodiscard]] std::string Schema4Sql();
 
 // Brings the open transaction's database to kSchemaVersion by the migrations that it lacks, in order.
 void Migrate(Database& database);

@@ -68,6 +68,8 @@ void RequireFits(const core::FrameRecord& record, const core::SessionHeader& hea
   for (core::PartIndex i = 0; i < record.contacts.size(); ++i) {
     Require(record.contacts[i].part == i, "contacts come in the layout's order of parts");
   }
+  Require(record.rest_from_parts.empty() || record.rest_from_parts.size() == header.layout.parts.size(),
+          "one motion a part, or none");
 }
 
 }  // namespace

@@ -50,8 +50,9 @@ SharedFrameResult FramePipeline::Process(recon::FrameSet frames, std::span<const
   result->time_s = frames.time_s;
   result->layout = layout_;
   result->spacing_mm.assign(spacing_mm.begin(), spacing_mm.end());
-  const std::vector<core::RigidTransform> world_from_parts = core::PosesAt(*layout_, spacing_mm);
-  result->world_from_parts = Responders::Pushed(world_from_parts, last_ ? last_->response.get() : nullptr);
+  const std::vector<core::RigidTransform> world_from_rests = core::PosesAt(*layout_, spacing_mm);
+  if (last_ && last_->response) result->rest_from_parts = MotionsOf(*last_->response);
+  result->world_from_parts = core::WithMotions(world_from_rests, result->rest_from_parts);
   Stopwatch watch;
   std::vector<core::SoftMask> masks = segmenter_.SegmentSoft(frames);
   result->times.segmentation_ms = watch.LapMs();
@@ -59,7 +60,7 @@ SharedFrameResult FramePipeline::Process(recon::FrameSet frames, std::span<const
   result->times.hull_ms = watch.LapMs();
   UpdateContacts(result.get());
   result->times.contacts_ms = watch.LapMs();
-  UpdateResponse(world_from_parts, result.get());
+  UpdateResponse(world_from_rests, result.get());
   result->times.response_ms = watch.LapMs();
   result->camera_frames = std::make_shared<const recon::FrameSet>(std::move(frames));
   last_ = result;
@@ -75,17 +76,16 @@ void FramePipeline::UpdateHull(std::vector<core::SoftMask> masks, FrameResult* r
       is_unchanged ? last_->masks : std::make_shared<const std::vector<core::SoftMask>>(std::move(masks));
 }
 
-void FramePipeline::UpdateResponse(std::span<const core::RigidTransform> world_from_parts,
+void FramePipeline::UpdateResponse(std::span<const core::RigidTransform> world_from_rests,
                                    FrameResult* result) {
   if (responders_.is_empty()) return;
   // Of the first frame, and at most after a pause.
   constexpr double kFirstS = 1.0 / 30.0, kLongestS = 0.25;
   const double since_s = last_ ? result->time_s - last_->time_s : kFirstS;
   const SharedResponse last = last_ ? last_->response : nullptr;
-  result->response =
-      since_s > 0.0 ? responders_.Step(last, world_from_parts, result->contacts, result->hull,
-                                       std::min(since_s, kLongestS))
-                    : last;
+  result->response = since_s > 0.0 ? responders_.Step(last, world_from_rests, result->contacts, result->hull,
+                                                      std::min(since_s, kLongestS))
+                                   : last;
 }
 
 void FramePipeline::UpdateContacts(FrameResult* result) {

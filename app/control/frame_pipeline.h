@@ -42,7 +42,7 @@ class FramePipeline {
   void UpdateHull(std::vector<core::SoftMask> masks, FrameResult* result);
   void UpdateContacts(FrameResult* result);
   [[nodiscard]] core::PartContact Review(const FrameResult& result, core::PartIndex part) const;
-  void UpdateResponse(std::span<const core::RigidTransform> world_from_parts, FrameResult* result);
+  void UpdateResponse(std::span<const core::RigidTransform> world_from_rests, FrameResult* result);
 
   std::shared_ptr<const core::Rig> rig_;
   recon::PicturePlanes planes_;

@@ -47,8 +47,10 @@ struct FrameResult {
   std::shared_ptr<const recon::VisualHull> hull;
   std::shared_ptr<const core::Layout> layout;
   std::vector<double> spacing_mm;  // in the layout's order
-  std::vector<core::RigidTransform>
-      world_from_parts;                     // in the layout's order; pushed ones where they were pushed
+  // In the layout's order: where the frames before have pushed parts, from where layout and spacings have
+  // them, or nothing if none was pushed; and so where they are.
+  std::vector<core::RigidTransform> rest_from_parts;
+  std::vector<core::RigidTransform> world_from_parts;
   std::vector<core::PartContact> contacts;  // in the layout's order
   SharedResponse response;                  // to this frame; null: nothing gives way or flows
   SkipCount skipped;

@@ -2,9 +2,20 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <variant>
 
 namespace elbowroom::control {
+
+std::vector<core::RigidTransform> MotionsOf(const ResponseState& state) {
+  std::vector<core::RigidTransform> rest_from_parts;
+  for (const review::PushState& push : state.pushes) rest_from_parts.push_back(push.rest_from_part);
+  const bool none = std::ranges::count(rest_from_parts, core::RigidTransform()) ==
+                    static_cast<std::ptrdiff_t>(rest_from_parts.size());
+  if (none) rest_from_parts.clear();
+  return rest_from_parts;
+}
 
 Responders::Responders(const core::Layout& layout) : layout_(layout) {
   for (const core::Part& part : layout.parts) is_empty_ = is_empty_ && part.gives_way.index() == 0;
@@ -21,16 +32,8 @@ Responders::Responders(const core::Layout& layout) : layout_(layout) {
   }
 }
 
-std::vector<core::RigidTransform> Responders::Pushed(std::span<const core::RigidTransform> world_from_parts,
-                                                     const ResponseState* state) {
-  std::vector<core::RigidTransform> pushed(world_from_parts.begin(), world_from_parts.end());
-  for (core::PartIndex i = 0; state != nullptr && i < pushed.size(); ++i)
-    pushed[i] = pushed[i] * state->pushes[i].rest_from_part;
-  return pushed;
-}
-
 SharedResponse Responders::Step(const SharedResponse& last,
-                                std::span<const core::RigidTransform> world_from_parts,
+                                std::span<const core::RigidTransform> world_from_rests,
                                 std::span<const core::PartContact> contacts,
                                 const std::shared_ptr<const recon::VisualHull>& hull, double dt_s) const {
   auto state = last ? std::make_shared<ResponseState>(*last) : std::make_shared<ResponseState>();
@@ -39,9 +42,9 @@ SharedResponse Responders::Step(const SharedResponse& last,
   state->pushes.resize(parts);
   state->meshes_in_world.resize(parts);
   state->streams.resize(layout_.streams.size());
-  StepCloths(world_from_parts, hull, dt_s, state.get());
-  StepPushes(world_from_parts, contacts, *hull, dt_s, state.get());
-  const std::vector<core::RigidTransform> pushed = Pushed(world_from_parts, state.get());
+  StepCloths(world_from_rests, hull, dt_s, state.get());
+  StepPushes(world_from_rests, contacts, *hull, dt_s, state.get());
+  const std::vector<core::RigidTransform> pushed = core::WithMotions(world_from_rests, MotionsOf(*state));
   std::vector<review::StreamObstacle> obstacles;
   for (core::PartIndex i = 0; i < parts; ++i)
     if (surfaces_[i]) obstacles.push_back({&surfaces_[i]->tree(), pushed[i]});
@@ -52,30 +55,30 @@ SharedResponse Responders::Step(const SharedResponse& last,
   return state;
 }
 
-void Responders::StepCloths(std::span<const core::RigidTransform> world_from_parts,
+void Responders::StepCloths(std::span<const core::RigidTransform> world_from_rests,
                             const std::shared_ptr<const recon::VisualHull>& hull, double dt_s,
                             ResponseState* state) const {
   tbb::parallel_for(std::size_t{0}, panels_.size(), [&](std::size_t i) {
     if (!panels_[i]) return;
     std::optional<review::ClothState>& cloth = state->cloths[i];
-    if (!cloth) cloth = review::ClothAtRest(*panels_[i], world_from_parts[i]);
-    cloth = review::StepCloth(*panels_[i], std::move(*cloth), world_from_parts[i], hull, dt_s);
+    if (!cloth) cloth = review::ClothAtRest(*panels_[i], world_from_rests[i]);
+    cloth = review::StepCloth(*panels_[i], std::move(*cloth), world_from_rests[i], hull, dt_s);
     state->meshes_in_world[i] =
         std::make_shared<const core::TriangleMesh>(review::MeshInWorld(*panels_[i], *cloth));
   });
 }
 
-void Responders::StepPushes(std::span<const core::RigidTransform> world_from_parts,
+void Responders::StepPushes(std::span<const core::RigidTransform> world_from_rests,
                             std::span<const core::PartContact> contacts, const recon::VisualHull& hull,
                             double dt_s, ResponseState* state) const {
   for (core::PartIndex i = 0; i < layout_.parts.size(); ++i) {
     if (!std::holds_alternative<core::PushRule>(layout_.parts[i].gives_way)) continue;
-    const std::vector<core::RigidTransform> pushed = Pushed(world_from_parts, state);
+    const std::vector<core::RigidTransform> pushed = core::WithMotions(world_from_rests, MotionsOf(*state));
     std::vector<review::StandingPart> others;
     for (core::PartIndex k = 0; k < pushed.size(); ++k)
       if (k != i && surfaces_[k]) others.push_back({&*surfaces_[k], pushed[k]});
     state->pushes[i] = review::StepPush(layout_.parts[i], contacts[i], state->pushes[i],
-                                        {&*surfaces_[i], world_from_parts[i]}, others, hull, dt_s);
+                                        {&*surfaces_[i], world_from_rests[i]}, others, hull, dt_s);
   }
 }
 

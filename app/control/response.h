@@ -28,6 +28,9 @@ struct ResponseState {
 
 using SharedResponse = std::shared_ptr<const ResponseState>;
 
+// Where parts were pushed, from where they rest; nothing if none was.
+[[nodiscard]] std::vector<core::RigidTransform> MotionsOf(const ResponseState& state);
+
 // Immutable. Thread: any.
 class Responders {
  public:
@@ -37,24 +40,20 @@ class Responders {
   // No part gives way and nothing flows.
   [[nodiscard]] bool is_empty() const { return is_empty_; }
 
-  // The layout's poses, the pushed parts where they were pushed. `state` null: none was.
-  [[nodiscard]] static std::vector<core::RigidTransform> Pushed(
-      std::span<const core::RigidTransform> world_from_parts, const ResponseState* state);
-
   // `dt_s` later; `last` null: from rest. Cloths in parallel, then pushed parts one after the other, each
   // against the others where they are by then (cloth is in nobody's way), then the streams. The same for any
-  // number of threads. world_from_parts: the layout's, before pushing; contacts: of the parts where `last` has
-  // pushed them.
+  // number of threads. world_from_rests: before any pushing; contacts: of the parts where `last` has pushed
+  // them.
   [[nodiscard]] SharedResponse Step(const SharedResponse& last,
-                                    std::span<const core::RigidTransform> world_from_parts,
+                                    std::span<const core::RigidTransform> world_from_rests,
                                     std::span<const core::PartContact> contacts,
                                     const std::shared_ptr<const recon::VisualHull>& hull, double dt_s) const;
 
  private:
-  void StepCloths(std::span<const core::RigidTransform> world_from_parts,
+  void StepCloths(std::span<const core::RigidTransform> world_from_rests,
                   const std::shared_ptr<const recon::VisualHull>& hull, double dt_s,
                   ResponseState* state) const;
-  void StepPushes(std::span<const core::RigidTransform> world_from_parts,
+  void StepPushes(std::span<const core::RigidTransform> world_from_rests,
                   std::span<const core::PartContact> contacts, const recon::VisualHull& hull, double dt_s,
                   ResponseState* state) const;
 

@@ -76,7 +76,9 @@ SharedFrameResult RebuildFrame(const sessions::SessionReader& session, core::Fra
       recon::MakeVisualHull(std::make_shared<const core::Rig>(session.header().rig), *record.silhouettes));
   result->layout = std::make_shared<const core::Layout>(session.header().layout);
   result->spacing_mm = record.spacing_mm;
-  result->world_from_parts = core::PosesAt(*result->layout, record.spacing_mm);
+  result->rest_from_parts = record.rest_from_parts;
+  result->world_from_parts =
+      core::WithMotions(core::PosesAt(*result->layout, record.spacing_mm), record.rest_from_parts);
   result->contacts = record.contacts;
   return result;
 }

@@ -162,8 +162,8 @@ class Recording {
     const std::vector<std::string> tools(tools_in_use_.begin(), tools_in_use_.end());
     tracker_.Add(
         {result.frame, result.time_s, result.contacts, result.world_from_parts, result.spacing_mm, tools});
-    writer_.Append(
-        core::FrameRecord{result.frame, result.time_s, result.masks, result.spacing_mm, result.contacts});
+    writer_.Append(core::FrameRecord{result.frame, result.time_s, result.masks, result.spacing_mm,
+                                     result.contacts, result.rest_from_parts});
     ++outcome_.frames;
     for (const core::PartContact& contact : result.contacts) {
       outcome_.frames_in_contact[contact.part] += contact.verdict == core::Verdict::kContact ? 1 : 0;

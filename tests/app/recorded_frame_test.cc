@@ -52,7 +52,7 @@ TEST_F(RecordedFrameTest, ComesBackWithTheSameHullToTheLastBit) {
     header.layout = DemoLayout();
     sessions::SessionWriter writer(folder / "s.db", header);
     writer.Append(core::FrameRecord{judged->frame, judged->time_s, judged->masks, judged->spacing_mm,
-                                    judged->contacts});
+                                    judged->contacts, judged->rest_from_parts});
     writer.Finish({});
   }
   const SharedFrameResult rebuilt = RebuildFrame(sessions::SessionReader(folder / "s.db"), kTouching);
@@ -68,6 +68,31 @@ TEST_F(RecordedFrameTest, ComesBackWithTheSameHullToTheLastBit) {
     ExpectSameContact(judged->contacts[i],
                       review::FindContacts(*rebuilt->hull, part, rebuilt->world_from_parts[i], i));
   }
+}
+
+// The payload over the gap slides up while the pipe is lowered onto it.
+TEST_F(RecordedFrameTest, APushedPartComesBackWhereItWas) {
+  core::Layout layout = DemoLayout();
+  layout.parts[1].recovery = {core::RecoveryKind::kSlider, {}, Eigen::Vector3d::UnitZ(), {}};
+  layout.parts[1].gives_way = core::PushRule{};
+  FramePipeline pipeline(source_.rig(), layout, source_.ReadBackgrounds({}, {}), {});
+  const test_support::TemporaryFolder folder;
+  core::SessionHeader header;
+  header.rig = source_.rig();
+  header.layout = layout;
+  sessions::SessionWriter writer(folder / "s.db", header);
+  SharedFrameResult judged;
+  for (core::FrameIndex frame = kTouching - 2; frame <= kTouching; ++frame) {
+    judged = pipeline.Process(source_.Read(frame), gap_);
+    writer.Append(core::FrameRecord{judged->frame, judged->time_s, judged->masks, judged->spacing_mm,
+                                    judged->contacts, judged->rest_from_parts});
+  }
+  writer.Finish({});
+  ASSERT_EQ(judged->rest_from_parts.size(), layout.parts.size());
+  EXPECT_GT(judged->rest_from_parts[1].translation_mm.norm(), 1.0);
+  const SharedFrameResult rebuilt = RebuildFrame(sessions::SessionReader(folder / "s.db"), kTouching);
+  EXPECT_EQ(rebuilt->world_from_parts, judged->world_from_parts);
+  EXPECT_EQ(rebuilt->layout->parts[1].gives_way, layout.parts[1].gives_way);
 }
 
 TEST_F(RecordedFrameTest, ABoundaryThatMovesBetweenTwoPixelsIsAChange) {

@@ -87,8 +87,11 @@ TEST(Cloth, AStripHangsAsACatenary) {
   core::Part part;
   part.name = "strip";
   part.mesh = mesh;
+  part.recovery = {.kind = core::RecoveryKind::kSlider,
+                   .reference_in_part_mm = {},
+                   .axis_in_part = Vector3d::UnitZ(),
+                   .at_in_part_mm = {}};
   part.gives_way = core::ClothRule{.pins = {core::BoundsSide::kXMin, core::BoundsSide::kXMax},
-                                   .v_rec = Vector3d::UnitZ(),
                                    .stretch_stiffness_n_per_m = 1e5,
                                    .bending_stiffness_n_per_m = 1e-3,
                                    .damping_per_s = 3.0};
@@ -113,8 +116,12 @@ TEST(Cloth, ACurtainHangsWithinTheStretchOfItsWeight) {
   const ClothPanel panel(Curtain());
   const ClothState state = Settled(panel, ClothAtRest(panel, WorldFromCurtain()), WorldFromCurtain(), 150);
   // Its weight, 1.4 N/m under the pins, stretches 2000 N/m by 0.7e-3. What one pass a step leaves is n g h^2
-  // = 0.19 mm for the uppermost of n = 18 rows, 0.0096 of its 20 mm (docs/deformables.md), 1.8 mm in all.
-  EXPECT_LT(state.count.worst_stretch, 1.1e-2);
+  // = 0.19 mm for the uppermost of n = 18 rows, 0.0096 of its 20 mm (docs/deformables.md), 1.8 mm in all. On
+  // the side where no diagonal helps, a fifth more.
+  constexpr double kTopRow = 0.0007 + 0.0096, kFreeSide = 1.2;
+  for (std::size_t i = 0; i < 20; ++i)
+    EXPECT_LT((state.x_in_world[i] - state.x_in_world[i + 21]).norm() / 20.0 - 1.0, kTopRow) << i;
+  EXPECT_LT(state.count.worst_stretch, kFreeSide * kTopRow);
   EXPECT_NEAR(state.x_in_world.back().z(), 40.0, 2.2);
 }
 

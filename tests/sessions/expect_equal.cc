@@ -58,6 +58,7 @@ void ExpectEqual(const core::Layout& actual, const core::Layout& expected) {
     EXPECT_EQ(*actual.parts[i].mesh, *expected.parts[i].mesh);
     EXPECT_EQ(actual.parts[i].world_from_part, expected.parts[i].world_from_part);
     EXPECT_EQ(actual.parts[i].recovery, expected.parts[i].recovery);
+    EXPECT_EQ(actual.parts[i].gives_way, expected.parts[i].gives_way);
   }
   ASSERT_EQ(actual.spacings.size(), expected.spacings.size());
   for (core::SpacingIndex i = 0; i < expected.spacings.size(); ++i) {
@@ -68,9 +69,10 @@ void ExpectEqual(const core::Layout& actual, const core::Layout& expected) {
   ASSERT_EQ(actual.pair_rules.size(), expected.pair_rules.size());
   for (std::size_t i = 0; i < expected.pair_rules.size(); ++i) {
     const core::PairRule &a = actual.pair_rules[i], &e = expected.pair_rules[i];
-    EXPECT_EQ(std::tie(a.a, a.b, a.required_clearance_mm, a.authorised_contact),
-              std::tie(e.a, e.b, e.required_clearance_mm, e.authorised_contact));
+    EXPECT_EQ(std::tie(a.a, a.b, a.required_clearance_mm, a.authorised_contact, a.ignore),
+              std::tie(e.a, e.b, e.required_clearance_mm, e.authorised_contact, e.ignore));
   }
+  EXPECT_EQ(actual.streams, expected.streams);
 }
 
 template <typename Value>
@@ -106,6 +108,7 @@ void ExpectEqual(const core::FrameRecord& actual, const core::FrameRecord& expec
   ASSERT_EQ(actual.contacts.size(), expected.contacts.size());
   for (std::size_t i = 0; i < expected.contacts.size(); ++i)
     ExpectEqual(actual.contacts[i], expected.contacts[i]);
+  EXPECT_EQ(actual.rest_from_parts, expected.rest_from_parts);
 }
 
 void ExpectEqual(const core::ContactEpisode& actual, const core::ContactEpisode& expected) {

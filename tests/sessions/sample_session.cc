@@ -122,7 +122,14 @@ core::SessionHeader SampleHeader() {
                           core::FromPositionAndRollPitchYaw({400.0, 0.0, 5e300}, {0.0, 0.0, 90.0})}};
   header.layout.spacings = {{"PMT to A", "payload A", "PMT box", core::Axis::kZ, 100.0, 300.0, 140.0},
                             {"side gap", "payload B", "PMT box", core::Axis::kX, -10.0, 50.0, 0.1}};
-  header.layout.pair_rules = {{"payload A", "PMT box", 12.5, false}, {"payload B", "PMT box", 0.0, true}};
+  header.layout.pair_rules = {{"payload A", "PMT box", 12.5, false},
+                              {"payload B", "PMT box", 0.0, true},
+                              {"payload A", "payload B", 0.0, false, true}};
+  header.layout.parts[1].gives_way = core::ClothRule{
+      {core::BoundsSide::kZMax, core::BoundsSide::kXMin}, 1e6 / 3.0, 0.1, 0.4, 1.0 / 7.0, 0.3};
+  header.layout.parts[2].gives_way = core::PushRule{.max_speed_mm_per_s = 1e3 / 3.0};
+  header.layout.streams = {
+      {"faucet; DROP", {0.1, -2e-9, 300.0}, {0.0, 1.0 / 3.0, -1.0}, 200.0 / 3.0, 500.0, 3.0}};
   header.started_at_utc = "2024-03-01T09:30:00Z";
   header.settings = {{"segmentation.method", "threshold"}, {"k_sigma", "4"}};
   header.versions = {{"elbowroom", "0.1.0"}, {"opengl", "llvmpipe"}};
@@ -157,6 +164,11 @@ core::FrameRecord SampleFrame(const core::SessionHeader& header, core::FrameInde
     record.contacts[i].count = {720, 91 + frame, 654};
   }
   AddClearances(&record);
+  if (frame >= 3) {
+    record.rest_from_parts.resize(3);
+    record.rest_from_parts[2] =
+        core::FromPositionAndRollPitchYaw({static_cast<double>(frame) / 3.0, 0.0, -1e-9}, {0.0, 7.0, 0.1});
+  }
   return record;
 }
 
@@ -169,11 +181,17 @@ core::FrameRecord AsOfSchema(int schema, core::FrameRecord record) {
   if (schema < 3) {
     for (core::PartContact& contact : record.contacts) contact.clearance.reset();
   }
+  if (schema < 4) record.rest_from_parts.clear();
   return record;
 }
 
 core::SessionHeader AsOfSchema(int schema, core::SessionHeader header) {
   if (schema < 3) header.trial.uncertainty_mm = 0.0;
+  if (schema < 4) {
+    for (core::Part& part : header.layout.parts) part.gives_way = {};
+    header.layout.streams.clear();
+    header.layout.pair_rules.pop_back();
+  }
   return header;
 }
 

@@ -44,8 +44,12 @@ TEST(Schema, EveryVersionIsTheOneOnRecord) {
   second.Execute(sessions::Schema1Sql());
   second.Execute(sessions::Schema2Sql());
   EXPECT_EQ(SchemaOf(folder / "2.db"), Contents(kStored / "schema_2.sql"));
-  WriteSampleSession(folder / "3.db", 1);
+  sessions::Database third = sessions::Database::Create(folder / "3.db");
+  for (const std::string& sql : {sessions::Schema1Sql(), sessions::Schema2Sql(), sessions::Schema3Sql()})
+    third.Execute(sql);
   EXPECT_EQ(SchemaOf(folder / "3.db"), Contents(kStored / "schema_3.sql"));
+  WriteSampleSession(folder / "4.db", 1);
+  EXPECT_EQ(SchemaOf(folder / "4.db"), Contents(kStored / "schema_4.sql"));
 }
 
 TEST(Schema, AnEmptyDatabaseBecomesTheNewestSchemaAndMigratingAgainChangesNothing) {
@@ -61,7 +65,7 @@ TEST(Schema, AnEmptyDatabaseBecomesTheNewestSchemaAndMigratingAgainChangesNothin
 }
 
 TEST(Schema, StoredSessionsOfEverySchemaAreRead) {
-  for (const int schema : {1, 2, 3}) {
+  for (const int schema : {1, 2, 3, 4}) {
     SCOPED_TRACE(schema);
     const SessionReader reader(kStored / fmt::format("session_schema_{}.db", schema));
     ExpectEqual(reader.header(), AsOfSchema(schema, SampleHeader()));
@@ -79,14 +83,15 @@ TEST(Schema, StoredSessionsOfEverySchemaAreRead) {
 }
 
 TEST(Schema, ADatabaseOfAnyOlderSchemaBecomesOneOfTheNewest) {
-  for (const int schema : {1, 2}) {
+  for (const int schema : {1, 2, 3}) {
     const TemporaryFolder folder;
     sessions::Database database = sessions::Database::Create(folder / "s.db");
     database.Execute(sessions::Schema1Sql());
-    if (schema == 2) database.Execute(sessions::Schema2Sql());
+    if (schema >= 2) database.Execute(sessions::Schema2Sql());
+    if (schema >= 3) database.Execute(sessions::Schema3Sql());
     database.Execute(fmt::format("PRAGMA user_version = {}", schema));
     sessions::Migrate(database);
-    EXPECT_EQ(SchemaOf(folder / "s.db"), Contents(kStored / "schema_3.sql"));
+    EXPECT_EQ(SchemaOf(folder / "s.db"), Contents(kStored / "schema_4.sql"));
   }
 }
 
@@ -104,8 +109,8 @@ TEST(Schema, AnOlderSchemaIsMigratedInMemoryAndTheFileStays) {
 TEST(Schema, ANewerSchemaIsNamed) {
   const TemporaryFolder folder;
   WriteSampleSession(folder / "s.db", 1);
-  SQLite::Database((folder / "s.db").string(), SQLite::OPEN_READWRITE).exec("PRAGMA user_version = 4");
-  ExpectError([&] { SessionReader(folder / "s.db"); }, core::ErrorKind::kFormat, "has schema 4");
+  SQLite::Database((folder / "s.db").string(), SQLite::OPEN_READWRITE).exec("PRAGMA user_version = 5");
+  ExpectError([&] { SessionReader(folder / "s.db"); }, core::ErrorKind::kFormat, "has schema 5");
 }
 
 TEST(Schema, CountsAndFlagsOutOfRangeAreRefusedByTheDatabaseItself) {
@@ -119,7 +124,11 @@ TEST(Schema, CountsAndFlagsOutOfRangeAreRefusedByTheDatabaseItself) {
         "UPDATE camera SET camera_matrix = '[1]'", "INSERT INTO session SELECT * FROM session",
         "UPDATE event SET to_mm = NULL WHERE kind = 'spacing'", "UPDATE clearance SET lower_mm = -1",
         "UPDATE clearance SET upper_mm = lower_mm - 1", "UPDATE near_miss SET verdict = 'contact'",
-        "UPDATE episode SET tools = 'tongs'", "DELETE FROM clearance"}) {
+        "UPDATE episode SET tools = 'tongs'", "DELETE FROM clearance", "UPDATE pair_rule SET ignored = 2",
+        "UPDATE stream SET direction = '[1]'",
+        "INSERT INTO part_motion SELECT 99, part_index, rotation_rest_from_part, translation_mm FROM "
+        "part_motion "
+        "LIMIT 1"}) {
     EXPECT_THROW(database.exec(sql), SQLite::Exception) << sql;
   }
 }
