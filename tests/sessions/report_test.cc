@@ -137,7 +137,8 @@ TEST(Report, EscapesEveryTextFromOutside) {
   const std::string hostile = "<script>alert('x')</script>\"&";
   core::SessionHeader header = SampleHeader();
   header.trial.participant = header.trial.task = header.rig.name = hostile;
-  header.layout.parts[1].name = header.layout.spacings[0].moving = header.layout.pair_rules[0].a = hostile;
+  header.layout.parts[1].name = header.layout.spacings[0].moving = hostile;
+  header.layout.pair_rules[0].a = header.layout.pair_rules[2].a = hostile;
   header.layout.spacings[0].name = hostile;
   header.settings[hostile] = header.versions[hostile] = hostile;
   core::CameraCalibration renamed = header.rig.cameras[0].calibration();

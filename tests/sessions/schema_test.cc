@@ -126,9 +126,8 @@ TEST(Schema, CountsAndFlagsOutOfRangeAreRefusedByTheDatabaseItself) {
         "UPDATE clearance SET upper_mm = lower_mm - 1", "UPDATE near_miss SET verdict = 'contact'",
         "UPDATE episode SET tools = 'tongs'", "DELETE FROM clearance", "UPDATE pair_rule SET ignored = 2",
         "UPDATE stream SET direction = '[1]'",
-        "INSERT INTO part_motion SELECT 99, part_index, rotation_rest_from_part, translation_mm FROM "
-        "part_motion "
-        "LIMIT 1"}) {
+        "INSERT INTO part_motion VALUES (99, 0, '[1,0,0,0,1,0,0,0,1]', '[0,0,0]')",
+        "INSERT INTO part_motion VALUES (0, 0, '[1]', '[0,0,0]')"}) {
     EXPECT_THROW(database.exec(sql), SQLite::Exception) << sql;
   }
 }
