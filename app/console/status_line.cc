@@ -55,10 +55,13 @@ void StatusLine::ShowFrame(const control::FrameResult& result) {
                       .arg(result.frame)
                       .arg(result.time_s, 0, 'f', 1)
                       .arg(frames_per_s ? QString::number(*frames_per_s, 'f', 1) : QString("–")));
-  times_->setText(tr("segmentation %1   hull %2   contacts %3   picture %4 ms")
+  const QString response =
+      result.response ? tr("   response %1").arg(result.times.response_ms, 0, 'f', 0) : QString();
+  times_->setText(tr("segmentation %1   hull %2   contacts %3%4   picture %5 ms")
                       .arg(result.times.segmentation_ms, 0, 'f', 0)
                       .arg(result.times.hull_ms, 0, 'f', 0)
                       .arg(result.times.contacts_ms, 0, 'f', 0)
+                      .arg(response)
                       .arg(picture_ms_, 0, 'f', 0));
   skipped_->setText(tr("skipped: %1 of %2 silhouettes, %3 of %4 parts, %5 of triangles")
                         .arg(result.skipped.hull.unchanged_silhouettes)

@@ -18,6 +18,7 @@
 #include "recon/gl/scene_renderer.h"
 #include "recon/png_file.h"
 #include "recon/view_comparison.h"
+#include "tests/review/curtain.h"
 
 namespace elbowroom::control {
 namespace {
@@ -172,6 +173,37 @@ TEST(SceneComposer, TheHullIsTheSameWhicheverWayItIsMade) {
   EXPECT_TRUE(comparison.Agree()) << comparison.differing_pixels;
   EXPECT_EQ(gl.parts.size(), cpu.parts.size());
   EXPECT_EQ(gl.hull_from_lamp->depth_mm, cpu.hull_from_lamp->depth_mm);  // the lamp's is the processor's
+}
+
+// With ELBOWROOM_PICTURE_DIR set it leaves the pictures there to be looked at.
+TEST(SceneComposer, EveryLookIsAPictureOfItsOwn) {
+  SceneComposer composer;
+  const SharedFrameResult frame = Demo().At(kTongsAreInS);
+  const recon::SceneView view = TrialView(640, 480, -35.0, 22.0);
+  std::vector<recon::Image> pictures;
+  for (const HullAppearance look : kLooks) {
+    pictures.push_back(Draw(composer.Compose(*frame, view, {look})));
+    for (std::size_t i = 0; i + 1 < pictures.size(); ++i) EXPECT_NE(pictures[i], pictures.back());
+  }
+  if (const char* folder = std::getenv("ELBOWROOM_PICTURE_DIR")) {
+    const std::string path = folder;
+    recon::WritePng(Above(Beside(pictures[0], pictures[1]), Beside(pictures[2], pictures[3])),
+                    path + "/hull_appearance.png");
+    recon::WritePng(Draw(composer.Compose(*frame, TrialView(960, 720, -40.0, 35.0))), path + "/shadows.png");
+  }
+}
+
+// The curtain across x, and a faucet before it, over the demo's table.
+core::Layout CurtainAndFaucet() {
+  core::Part curtain = review::Curtain();
+  curtain.world_from_part = core::FromPositionAndRollPitchYaw({100.0, 0.0, 440.0}, {0.0, 0.0, 90.0});
+  core::Stream faucet;
+  faucet.name = "faucet";
+  faucet.position_mm = {230.0, 15.0, 480.0};
+  core::Layout layout;
+  layout.parts = {curtain};
+  layout.streams = {faucet};
+  return layout;
 }
 
 // With ELBOWROOM_PICTURE_DIR set it leaves the pictures there to be looked at.

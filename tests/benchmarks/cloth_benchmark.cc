@@ -13,6 +13,7 @@
 #include "recon/synthetic/rig_presets.h"
 #include "recon/synthetic/view_scene.h"
 #include "review/cloth.h"
+#include "tests/review/curtain.h"
 
 namespace elbowroom::review {
 namespace {
@@ -21,28 +22,6 @@ using SharedHull = std::shared_ptr<const recon::VisualHull>;
 
 constexpr double kFrameS = 1.0 / 30.0;
 constexpr double kHandIsInS = 5.0;  // of the demo's task
-
-core::Part Curtain() {
-  constexpr int kAcross = 20, kDown = 18;
-  constexpr double kCellMm = 20.0;
-  auto mesh = std::make_shared<core::TriangleMesh>();
-  for (int z = 0; z <= kDown; ++z)
-    for (int x = 0; x <= kAcross; ++x) mesh->vertices_mm.emplace_back(kCellMm * (x - 10), 0.0, -kCellMm * z);
-  const auto at = [&](int x, int z) { return z * (kAcross + 1) + x; };
-  for (int z = 0; z < kDown; ++z) {
-    for (int x = 0; x < kAcross; ++x) {
-      mesh->triangles.push_back({at(x, z), at(x, z + 1), at(x + 1, z)});
-      mesh->triangles.push_back({at(x + 1, z), at(x, z + 1), at(x + 1, z + 1)});
-    }
-  }
-  core::ClothRule rule;
-  rule.pins = {core::BoundsSide::kZMax};
-  core::Part part;
-  part.name = "curtain";
-  part.mesh = std::move(mesh);
-  part.gives_way = rule;
-  return part;
-}
 
 // The demo's hand, its fingers towards -x, pushed 90 mm along them and back in 12 frames: 700 mm/s at most.
 constexpr int kFramesOfPush = 12;

@@ -11,6 +11,7 @@
 
 #include "core/error.h"
 #include "tests/recon/random_scene.h"
+#include "tests/review/curtain.h"
 #include "tests/review/sweeping_hand.h"
 #include "tests/support/soak.h"
 

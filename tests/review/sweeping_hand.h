@@ -1,21 +1,16 @@
-// A hand of analytic solids before the demo's cameras, and a curtain in its way.
+// A hand of analytic solids before the demo's cameras, in the way of a curtain.
 #pragma once
 
 #include <memory>
 #include <vector>
 
-#include "core/layout.h"
 #include "core/rigid_transform.h"
 #include "recon/synthetic/solids.h"
 #include "recon/visual_hull.h"
 
 namespace elbowroom::review {
 
-// A panel of 2 * across * down triangles in the x-z plane, its upper edge at z = 0 and pinned, its middle at
-// x = 0; the paper's curtain by default.
-[[nodiscard]] core::Part Curtain(int across = 20, int down = 18, double width_mm = 400.0,
-                                 double height_mm = 360.0);
-// Where it hangs in the tests: over the table's middle, lower edge 40 mm above it.
+// Where the curtain (curtain.h) hangs in the tests: over the table's middle, lower edge 40 mm above it.
 [[nodiscard]] core::RigidTransform WorldFromCurtain();
 
 // The open hand and its forearm, upright fingers, its palm facing along y, at y_mm; the forearm comes from
