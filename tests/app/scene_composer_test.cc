@@ -206,54 +206,6 @@ core::Layout CurtainAndFaucet() {
   return layout;
 }
 
-// With ELBOWROOM_PICTURE_DIR set it leaves the pictures there to be looked at.
-TEST(SceneComposer, EveryLookIsAPictureOfItsOwn) {
-  SceneComposer composer;
-  const SharedFrameResult frame = Demo().At(kTongsAreInS);
-  const recon::SceneView view = TrialView(640, 480, -35.0, 22.0);
-  std::vector<recon::Image> pictures;
-  for (const HullAppearance look : kLooks) {
-    pictures.push_back(Draw(composer.Compose(*frame, view, {look})));
-    for (std::size_t i = 0; i + 1 < pictures.size(); ++i) EXPECT_NE(pictures[i], pictures.back());
-  }
-  if (const char* folder = std::getenv("ELBOWROOM_PICTURE_DIR")) {
-    const std::string path = folder;
-    recon::WritePng(Above(Beside(pictures[0], pictures[1]), Beside(pictures[2], pictures[3])),
-                    path + "/hull_appearance.png");
-    recon::WritePng(Draw(composer.Compose(*frame, TrialView(960, 720, -40.0, 35.0))), path + "/shadows.png");
-  }
-}
-
-// A panel of 720 triangles across x, and a faucet before it, over the demo's table.
-core::Layout CurtainAndFaucet() {
-  constexpr int kAcross = 20, kDown = 18;
-  constexpr double kCellMm = 20.0;
-  auto mesh = std::make_shared<core::TriangleMesh>();
-  for (int z = 0; z <= kDown; ++z)
-    for (int y = 0; y <= kAcross; ++y) mesh->vertices_mm.emplace_back(0.0, kCellMm * (y - 10), -kCellMm * z);
-  const auto at = [&](int y, int z) { return z * (kAcross + 1) + y; };
-  for (int z = 0; z < kDown; ++z) {
-    for (int y = 0; y < kAcross; ++y) {
-      mesh->triangles.push_back({at(y, z), at(y, z + 1), at(y + 1, z)});
-      mesh->triangles.push_back({at(y + 1, z), at(y, z + 1), at(y + 1, z + 1)});
-    }
-  }
-  core::ClothRule rule;
-  rule.pins = {core::BoundsSide::kZMax};
-  core::Part curtain;
-  curtain.name = "curtain";
-  curtain.mesh = std::move(mesh);
-  curtain.world_from_part.translation_mm = {100.0, 0.0, 440.0};
-  curtain.gives_way = rule;
-  core::Stream faucet;
-  faucet.name = "faucet";
-  faucet.position_mm = {230.0, 15.0, 480.0};
-  core::Layout layout;
-  layout.parts = {curtain};
-  layout.streams = {faucet};
-  return layout;
-}
-
 // With ELBOWROOM_PICTURE_DIR set it leaves the picture there to be looked at.
 TEST(SceneComposer, ACurtainAndAStreamAreDrawnAsTheyGiveWay) {
   const TrialSetup setup = MakeDemoTrial(DemoPlay::kOnce);
