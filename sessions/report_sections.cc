@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <variant>
 
 #include "sessions/chart.h"
 #include "sessions/html_table.h"
@@ -247,6 +248,19 @@ std::string HeatSection(const ReportData& data, const ReportPictures& pictures) 
   return "<section><h2>Where parts were touched</h2>\n" + figures + "</section>\n";
 }
 
+// How parts that give way were judged.
+std::string GivesWayNotes(const core::Layout& layout) {
+  std::string notes;
+  for (const core::Part& part : layout.parts) {
+    if (std::holds_alternative<core::ClothRule>(part.gives_way))
+      notes += fmt::format("<p>{} hangs as cloth: judged in its shape at rest.</p>\n", Escaped(part.name));
+    if (std::holds_alternative<core::PushRule>(part.gives_way))
+      notes += fmt::format("<p>{} moves out of the way: judged where each frame found it.</p>\n",
+                           Escaped(part.name));
+  }
+  return notes;
+}
+
 std::string PartSection(const ReportData& data) {
   HtmlTable table({{"Part"},
                    {"Touches", true},
@@ -264,7 +278,8 @@ std::string PartSection(const ReportData& data) {
                std::to_string(part.frames.frames_in_contact), std::to_string(part.frames.frames_near),
                std::to_string(part.frames.frames_undecided), std::to_string(part.frames.frames_clear)});
   }
-  return table.empty() ? "" : "<section><h2>Parts</h2>\n" + table.Html() + "</section>\n";
+  if (table.empty()) return "";
+  return "<section><h2>Parts</h2>\n" + table.Html() + GivesWayNotes(data.header.layout) + "</section>\n";
 }
 
 std::string EventSection(const ReportData& data) {

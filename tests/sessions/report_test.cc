@@ -100,6 +100,8 @@ TEST(Report, ListsNearMissesClearancesAndHeat) {
   EXPECT_NE(html.find("<h2>Where parts were touched</h2>"), std::string::npos);
   EXPECT_NE(html.find("PMT box: how long and how deep"), std::string::npos);
   EXPECT_NE(html.find("O&#39;Hara&#39;s &quot;driver&quot;, tongs"), std::string::npos);
+  EXPECT_EQ(Count(html, "payload A hangs as cloth: judged in its shape at rest"), 1);
+  EXPECT_EQ(Count(html, "payload B moves out of the way: judged where each frame found it"), 1);
   const std::string csv = Contents(folder / "out" / "clearance.csv");
   EXPECT_EQ(Count(csv, "\n"), 1 + 12) << "two of the parts in each of six frames";
   EXPECT_EQ(Count(csv, ",contact,may be the hull's alone,20.1,"), 6);
