@@ -49,9 +49,12 @@ void ReadCloths(Database& database, const std::string& where, core::Layout* layo
                  "SELECT part_index, pins, stretch_stiffness_n_per_m, bending_stiffness_n_per_m, "
                  "mass_per_area_kg_per_m2, damping_per_s, friction FROM cloth");
   while (rows.Next()) {
-    GivesWayOf(layout, rows.Integer(0), where) =
-        core::ClothRule{PinsFromJson(rows.Text(1), where), rows.Real(2), rows.Real(3), rows.Real(4),
-                        rows.Real(5), rows.Real(6)};
+    GivesWayOf(layout, rows.Integer(0), where) = core::ClothRule{PinsFromJson(rows.Text(1), where),
+                                                                 rows.Real(2),
+                                                                 rows.Real(3),
+                                                                 rows.Real(4),
+                                                                 rows.Real(5),
+                                                                 rows.Real(6)};
   }
 }
 
