@@ -115,7 +115,7 @@ TEST(ContactHeat, ANarrowContactShowsByItsPoints) {
   feed.Add(0.0, hull, pose);
   ASSERT_EQ(FindContacts(*hull, tree, pose, 0).verdict, core::Verdict::kContact);
   ASSERT_EQ(feed.Maps().size(), 1U);
-  const std::vector<float>& depth_mm = feed.Maps()[0].peak_depth_mm;
+  const std::vector<float> depth_mm = feed.Maps()[0].peak_depth_mm;
   EXPECT_GT(*std::max_element(depth_mm.begin(), depth_mm.end()), 0.0F);
 }
 
