@@ -23,6 +23,9 @@ constexpr int kLastLooks = 100;
 constexpr double kStillMmPerS = 0.5;
 constexpr int kLooksBeforeAgreeing = 10;
 constexpr int kLooksBeforeOneSide = 40;
+// An edge so much longer is caught behind something real that moves on: a real curtain would slip off or
+// tear.
+constexpr double kCaughtStretch = 2.0;
 
 // Where a vertex that the part holds is at a share of the frame's way.
 void MovePins(const ClothPanel& panel, const core::RigidTransform& world_from_part, double share,
@@ -89,6 +92,7 @@ double FarthestMove(const std::vector<Vector3d>& from, const std::vector<Vector3
 
 void MeasureStretch(const ClothPanel& panel, ClothState* state) {
   double sum = 0.0;
+  state->count.worst_stretch = 0.0;
   for (std::size_t i = 0; i < panel.edge_springs(); ++i) {
     const ClothSpring& spring = panel.springs()[i];
     const double length_mm = (state->x_in_world[spring.a] - state->x_in_world[spring.b]).norm();
@@ -97,6 +101,20 @@ void MeasureStretch(const ClothPanel& panel, ClothState* state) {
     state->count.worst_stretch = std::max(state->count.worst_stretch, stretch);
   }
   state->count.mean_stretch = sum / static_cast<double>(panel.edge_springs());
+}
+
+// From where it was before the frame, all of it out of the hull to one side, at rest.
+void LetGo(const ClothPanel& panel, const core::RigidTransform& world_from_part,
+           const recon::VisualHull& hull, const std::vector<Vector3d>& from, ClothState* state) {
+  state->x_in_world = from;
+  MovePins(panel, world_from_part, 1.0, &state->x_in_world);
+  std::ranges::fill(state->velocity_in_world, Vector3d::Zero());
+  std::ranges::fill(state->sides, std::int8_t{0});
+  state->count.was_caught = true;
+  ClothContact contact(panel, hull, world_from_part.rotation * panel.v_rec_in_part(), state);
+  contact.ChooseOneSide();
+  for (int look = 0; look < kLastLooks && contact.MoveOut() > 0;) ++look;
+  MeasureStretch(panel, state);
 }
 
 }  // namespace
@@ -115,6 +133,7 @@ ClothState StepCloth(const ClothPanel& panel, ClothState state, const core::Rigi
   core::Require(state.x_in_world.size() == panel.rest().vertices_mm.size(), "a cloth's state is its panel's");
   core::Require(hull != nullptr && dt_s > 0.0 && dt_s <= 1.0, "a hull, and a step within (0, 1] s");
   state.count = {};
+  const std::vector<Vector3d> at_first = state.x_in_world;
   ClothContact contact(panel, *hull, world_from_part.rotation * panel.v_rec_in_part(), &state);
   if (state.hull != nullptr && state.hull != hull) contact.CarryAlong(*state.hull, dt_s);
   if (state.is_still && HasPins(panel, world_from_part, state.x_in_world) && state.count.carried == 0 &&
@@ -135,9 +154,10 @@ ClothState StepCloth(const ClothPanel& panel, ClothState state, const core::Rigi
     if (look == kLooksBeforeOneSide) contact.ChooseOneSide();
   }
   contact.ForgetSides();
+  MeasureStretch(panel, &state);
+  if (state.count.worst_stretch > kCaughtStretch) LetGo(panel, world_from_part, *hull, at_first, &state);
   state.hull = hull;
   state.is_still = state.count.contacts == 0 && FarthestMove(before, state.x_in_world) < kStillMmPerS * dt_s;
-  MeasureStretch(panel, &state);
   return state;
 }
 

@@ -30,6 +30,7 @@ struct ClothCount {
   std::int64_t contacts = 0;   // pieces and vertices moved out
   std::int64_t carried = 0;    // vertices and triangles that the hull had stepped over between two frames
   std::int64_t blocked = 0;    // pieces in the hull that pins hold there
+  bool was_caught = false;     // it was about to tear, and let go: all of it left to one side, at rest
   double worst_stretch = 0.0;  // of an edge: |length / rest - 1|
   double mean_stretch = 0.0;
 };

@@ -36,9 +36,7 @@ ClothContact::ClothContact(const ClothPanel& panel, const recon::VisualHull& hul
       sides_agree_(panel.leaves_one_way()),
       one_side_(panel.leaves_one_way() ? 1 : 0),
       known_(panel.rest().triangles.size()),
-      touched_(state->x_in_world.size(), 0) {
-  for (const std::int8_t side : state->sides) driven_ += side;
-}
+      touched_(state->x_in_world.size(), 0) {}
 
 ClothContact::Corners ClothContact::CornersOf(std::size_t triangle) const {
   const auto& vertices = panel_.rest().triangles[triangle];
@@ -160,11 +158,15 @@ bool ClothContact::Push(const Corners& corners, const Vector3d& weights, int sid
 
 void ClothContact::ChooseOneSide() {
   if (one_side_ != 0) return;
-  int sum = driven_;
-  if (sum == 0)
-    for (const std::int8_t side : state_->sides) sum += side;
+  double along_mm = 0.0, against_mm = 0.0;
+  for (std::size_t i = 0; i < known_.size(); ++i) {
+    const Vector3d middle = At(CornersOf(i), Vector3d::Constant(1.0 / 3.0));
+    if (!hull_.Contains(middle)) continue;
+    along_mm += ExitAlong(hull_, {middle, v_rec_}, kThickestMm).value_or(kThickestMm);
+    against_mm += ExitAlong(hull_, {middle, -v_rec_}, kThickestMm).value_or(kThickestMm);
+  }
   sides_agree_ = true;
-  one_side_ = sum < 0 ? -1 : 1;
+  one_side_ = along_mm <= against_mm ? 1 : -1;
 }
 
 void ClothContact::ForgetSides() {
@@ -212,18 +214,20 @@ void ClothContact::CarryAlong(const recon::VisualHull& last, double dt_s) {
   }
 }
 
-// Away from where the hull was; 0: it was there already, or isn't known to have come.
+// Of a point in the hull: away from where that was; 0: it was there already, or isn't known to have come, or
+// (beside a hull that slopes) to leave that way is farther than it may have come.
 int ClothContact::SideAwayFromLast(const Vector3d& from) const {
   if (last_ == nullptr || last_->Contains(from)) return 0;
   const auto ahead_mm = EntryAlong(*last_, {from, v_rec_}, reach_mm_);
   const auto behind_mm = EntryAlong(*last_, {from, -v_rec_}, ahead_mm.value_or(reach_mm_));
-  return behind_mm ? 1 : ahead_mm ? -1 : 0;
+  if (!ahead_mm && !behind_mm) return 0;
+  const int side = behind_mm ? 1 : -1;
+  return ExitAlong(hull_, {from, side * v_rec_}, reach_mm_) ? side : 0;
 }
 
 // The hull has come over a point: it leaves away from where the hull was.
 void ClothContact::NoteSide(const Corners& corners, const Vector3d& from) {
   const int side = SideAwayFromLast(from);
-  driven_ += side;
   for (const std::uint32_t vertex : corners)
     if (state_->sides[vertex] == 0) state_->sides[vertex] = static_cast<std::int8_t>(side);
 }
@@ -244,10 +248,7 @@ void ClothContact::CarryPoint(const Corners& corners, const Vector3d& weights) {
     if (!was_behind_mm || EntryAlong(last, {from, ahead}, reach_mm)) continue;
     const double in_mm = *entry_mm + kExitStepMm;
     const auto through_mm = ExitAlong(hull_, {from + in_mm * ahead, ahead}, kThickestMm);
-    if (through_mm && Push(corners, weights, side, in_mm + *through_mm + kMarginMm)) {
-      ++state_->count.carried;
-      driven_ += side;
-    }
+    if (through_mm && Push(corners, weights, side, in_mm + *through_mm + kMarginMm)) ++state_->count.carried;
     return;
   }
 }

@@ -30,9 +30,8 @@ class ClothContact {
 
   // From now on a piece's corners leave to its side, whatever theirs was.
   void AgreeOnSides() { sides_agree_ = true; }
-  // From now on every piece leaves to one and the same side: where the hull drives the cloth, as far as its
-  // motion tells; else where most vertices in touch leave to. Then nothing is moved to and fro, and MoveOut()
-  // ends up with nothing to move.
+  // From now on every piece leaves to one and the same side: the one to which the triangles in the hull have
+  // less far to go in all. Then nothing is moved to and fro, and MoveOut() ends up with nothing to move.
   void ChooseOneSide();
 
   // Vertices that were in touch since this was made; the others' sides are forgotten.
@@ -65,7 +64,6 @@ class ClothContact {
   int one_side_;                             // 0: to each its own
   const recon::VisualHull* last_ = nullptr;  // of the frame before; null: none, or the same
   double reach_mm_ = 0.0;                    // how far anything may have come since
-  int driven_ = 0;  // to which side the hull's motion drives points, each by one: > 0 along V_rec
   struct Known {
     std::array<Eigen::Vector3d, 3> corners;  // where they were when the hull was asked
     double free_mm = -1.0;                   // while none has moved farther, the triangle is out of the hull

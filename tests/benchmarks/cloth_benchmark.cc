@@ -2,18 +2,14 @@
 // hand that moves through it. Beside the time: what the springs have left over.
 #include <benchmark/benchmark.h>
 
-#include <cmath>
 #include <memory>
-#include <numbers>
 #include <utility>
 #include <vector>
 
 #include "recon/hull_mesh.h"
-#include "recon/synthetic/demo_motion.h"
-#include "recon/synthetic/rig_presets.h"
-#include "recon/synthetic/view_scene.h"
 #include "review/cloth.h"
 #include "tests/review/curtain.h"
+#include "tests/review/sweeping_hand.h"
 
 namespace elbowroom::review {
 namespace {
@@ -21,31 +17,15 @@ namespace {
 using SharedHull = std::shared_ptr<const recon::VisualHull>;
 
 constexpr double kFrameS = 1.0 / 30.0;
-constexpr double kHandIsInS = 5.0;  // of the demo's task
 
-// The demo's hand, its fingers towards -x, pushed 90 mm along them and back in 12 frames: 700 mm/s at most.
-constexpr int kFramesOfPush = 12;
-std::vector<SharedHull> Hulls() {
-  constexpr double kReachMm = 90.0;
-  const auto rig = std::make_shared<const core::Rig>(recon::FourCameraRig());
-  std::vector<SharedHull> hulls;
-  for (int i = 0; i < kFramesOfPush; ++i) {
-    std::vector<recon::SyntheticObject> objects = recon::DemoSceneAt(kHandIsInS).objects;
-    const double along_mm = 0.5 * kReachMm * (1.0 - std::cos(2.0 * std::numbers::pi * i / kFramesOfPush));
-    for (recon::SyntheticObject& object : objects)
-      for (recon::Solid& solid : object.solids) solid.world_from_solid.translation_mm.x() -= along_mm;
-    hulls.push_back(std::make_shared<const recon::VisualHull>(
-        recon::MakeVisualHull(rig, recon::TrueMasks(*rig, objects))));
-  }
-  return hulls;
-}
+constexpr int kFramesOfPush = 12;  // 700 mm/s at most
 
 enum class Hand { kFar, kStops, kMoves };
 
 // The curtain hangs across x before the fingers, or far behind the table.
 void CurtainFrame(benchmark::State& bench, Hand hand) {
   const ClothPanel panel(Curtain());
-  const std::vector<SharedHull> hulls = Hulls();
+  const std::vector<SharedHull> hulls = PokingHand(kFramesOfPush);
   constexpr double kGapMm = 15.0;
   const double before_hand_mm = core::BoundsOf(recon::MeshHull(*hulls[0], 5.0).mesh).min().x() - kGapMm;
   const core::RigidTransform pose = core::FromPositionAndRollPitchYaw(

@@ -205,6 +205,25 @@ TEST(Cloth, RandomHullsNeverBreakIt) {
   }
 }
 
+// Fingers, a thumb and a pipe that a curtain can hang on behind.
+TEST(Cloth, WhatIsCaughtLetsGo) {
+  const ClothPanel panel(Curtain());
+  const std::vector<SharedHull> hulls = PokingHand(12);
+  const core::RigidTransform pose = core::FromPositionAndRollPitchYaw({-70.0, 0.0, 420.0}, {0.0, 0.0, 90.0});
+  ClothState state = ClothAtRest(panel, pose);
+  recon::Random random(5);
+  std::int64_t contacts = 0;
+  for (std::size_t frame = 0; frame < 120 * static_cast<std::size_t>(test_support::SoakScale()); ++frame) {
+    const SharedHull& hull = hulls[frame % hulls.size()];
+    state = StepCloth(panel, std::move(state), pose, hull, kFrameS);
+    ASSERT_LT(state.count.worst_stretch, 2.0) << frame;
+    CheckOutside(panel, state, *hull, &random, std::to_string(frame));
+    if (HasFatalFailure()) return;
+    contacts += state.count.contacts;
+  }
+  EXPECT_GT(contacts, 1000);
+}
+
 TEST(Cloth, ThreadsChangeNothing) {
   const ClothPanel panel(Curtain());
   const SharedHull far = HullOf(HandAt(-60.0)), near = HullOf(HandAt(-10.0));

@@ -1,6 +1,10 @@
 #include "tests/review/sweeping_hand.h"
 
+#include <cmath>
+#include <numbers>
+
 #include "recon/synthetic/actors.h"
+#include "recon/synthetic/demo_motion.h"
 #include "recon/synthetic/rig_presets.h"
 #include "recon/synthetic/view_scene.h"
 
@@ -26,6 +30,20 @@ std::vector<recon::SyntheticObject> RodAt(double x_mm, double y_mm, double z_mm)
   return {{"rod",
            {recon::CapsuleBetween(end_in_world, end_in_world - kLengthMm * Vector3d::UnitY(), kRadiusMm,
                                   Vector3d::Constant(200.0))}}};
+}
+
+std::vector<std::shared_ptr<const recon::VisualHull>> PokingHand(int frames) {
+  constexpr double kReachMm = 90.0;
+  constexpr double kHandIsInS = 5.0;  // of the demo's task
+  std::vector<std::shared_ptr<const recon::VisualHull>> hulls;
+  for (int i = 0; i < frames; ++i) {
+    std::vector<recon::SyntheticObject> objects = recon::DemoSceneAt(kHandIsInS).objects;
+    const double along_mm = 0.5 * kReachMm * (1.0 - std::cos(2.0 * std::numbers::pi * i / frames));
+    for (recon::SyntheticObject& object : objects)
+      for (recon::Solid& solid : object.solids) solid.world_from_solid.translation_mm.x() -= along_mm;
+    hulls.push_back(HullOf(objects));
+  }
+  return hulls;
 }
 
 std::shared_ptr<const recon::VisualHull> HullOf(const std::vector<recon::SyntheticObject>& objects) {

@@ -19,6 +19,10 @@ namespace elbowroom::review {
 // An upright pipe 20 mm across, end first: along y, its front end at y_mm.
 [[nodiscard]] std::vector<recon::SyntheticObject> RodAt(double x_mm, double y_mm, double z_mm);
 
+// The demo's hand as its four cameras see it, its fingers towards -x, pushed 90 mm along them and back in
+// `frames` frames.
+[[nodiscard]] std::vector<std::shared_ptr<const recon::VisualHull>> PokingHand(int frames);
+
 // What the four cameras of the demo's rig make of it.
 [[nodiscard]] std::shared_ptr<const recon::VisualHull> HullOf(
     const std::vector<recon::SyntheticObject>& objects);
