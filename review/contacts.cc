@@ -19,9 +19,6 @@ namespace {
 using Eigen::Vector3d;
 using recon::BallAnswer;
 
-// Hull inside a closed part is looked for in at most this many cells along the part's longest side.
-constexpr double kContainmentCells = 64.0;
-
 // Triangles of no more pieces a side are cut at once: a ball query costs as much as a few centres.
 constexpr double kSidesWithoutBall = 2.0;
 
@@ -272,10 +269,8 @@ core::PartContact FindContacts(const recon::VisualHull& hull, const core::Triang
   std::vector<core::ContactPoint> points = search.TakePoints();
   if (points.empty()) {
     if (contact.count.queries == 1) return contact;  // the ball around the whole part is outside the hull
-    const double cell_mm =
-        std::max(4.0 * contact.resolution_mm, part.bounds().sizes().maxCoeff() / kContainmentCells);
-    contact.contained_in_world_mm =
-        FindHullInside(hull, part, world_from_part, cell_mm, &contact.count.queries);
+    contact.contained_in_world_mm = FindHullInside(
+        hull, part, world_from_part, kContainmentCell * contact.resolution_mm, &contact.count.queries);
     if (!contact.contained_in_world_mm) return contact;
     contact.verdict = core::Verdict::kContact;
     contact.recovery_status = core::RecoveryStatus::kHullInsidePart;

@@ -26,6 +26,10 @@ struct ContactOptions {
   void Validate() const;
 };
 
+// Hull that stands inside a closed part and touches no face of it is looked for in cells of this many
+// resolutions: a ball of that radius is always found.
+inline constexpr double kContainmentCell = 4.0;
+
 // Contact of one part with the hull: verdict `contact` or `clear`, points, area, the deepest of all points,
 // and the recovery (recovery.h) of CP_obj, of the part's points in the hull the farthest from RP_obj, to the
 // resolution.
@@ -33,8 +37,8 @@ struct ContactOptions {
 // Surface that the ball query calls outside or inside is certified; surface within one piece of `resolution`
 // of the hull's boundary is decided by the piece's centre, so a contact smaller than that can be missed and
 // the area is good to (boundary length x resolution). A hull that touches no face but stands inside a closed
-// part is a contact without points (containment.h says how small it may be). Held to a brute-force oracle by
-// tests/review/contacts_test.cc. Thread: any.
+// part is a contact without points (kContainmentCell says how small it may be). Held to a brute-force oracle
+// by tests/review/contacts_test.cc. Thread: any.
 [[nodiscard]] core::PartContact FindContacts(const recon::VisualHull& hull, const core::TriangleTree& part,
                                              const core::RigidTransform& world_from_part,
                                              core::PartIndex part_index, const ContactOptions& options = {});

@@ -163,7 +163,8 @@ class Trial {
     }
     for (const Vector3d& x : ground_.hull_points) {
       if (!part_.bounds().contains(part_from_world_ * x) || !IsEnclosed(x)) continue;
-      Expect(ground_.hull.Probe(x).radius_mm <= contact_.resolution_mm, "no hull in a part is missed");
+      Expect(ground_.hull.Probe(x).radius_mm <= kContainmentCell * contact_.resolution_mm,
+             "no hull in a part is missed");
     }
   }
 
