@@ -49,7 +49,7 @@ std::string DataBlocks(const ParetoPanel& panel, std::size_t number,
 
 // Settings that cost more are more exact: lines fall to the right, so that above on the right and below on
 // the left of a point there is room for its label; a flat line has it above. One a family, in turns.
-constexpr std::array kLabelPlaces = {"center offset 0,0.9", "left offset 0.9,0.5", "left offset 0.9,0.5",
+constexpr std::array kLabelPlaces = {"center offset 0,0.9", "left offset 0.9,0.5", "center offset 0,1.6",
                                      "left offset 0.9,0.5", "right offset -0.9,-0.5"};
 
 // As gnuplot takes text in single quotes.
