@@ -4,8 +4,11 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
+
+#include "recon/label_raster.h"
 
 namespace elbowroom::recon {
 
@@ -16,8 +19,8 @@ class CellDistances {
   static constexpr int kNearCells = 11;
 
   CellDistances() = default;
-  // Cell (x, y) is item i = y * width + x; it holds something where first[i] != first[i + 1].
-  CellDistances(int width, int height, std::span<const std::uint32_t> first);
+  // Cell (x, y) is item y * width + x; `holders`: those that hold something, ascending.
+  CellDistances(int width, int height, std::span<const std::uint32_t> holders);
 
   [[nodiscard]] double LowerBound(int x, int y) const {
     const std::uint8_t square =
@@ -28,17 +31,19 @@ class CellDistances {
   }
 
   // Item by item the square, capped at that of kNearCells; LabelRaster::kBytesBehind more behind them.
-  [[nodiscard]] std::span<const std::uint8_t> near_squares() const { return near_squares_; }
+  [[nodiscard]] std::span<const std::uint8_t> near_squares() const {
+    return {near_squares_.get(), width_ * height_ + LabelRaster::kBytesBehind};
+  }
 
  private:
   static constexpr int kBlock = 4;
-  void FillNear(std::span<const std::uint8_t> down);
-  void FillBlocks(std::span<const std::uint32_t> first);
+  void FillNear(std::span<const std::uint32_t> holders);
+  void FillBlocks(std::span<const std::uint32_t> holders);
 
   std::size_t width_ = 0, height_ = 0;
   std::size_t block_width_ = 0, block_height_ = 0;
-  std::vector<std::uint8_t> near_squares_;  // kNearCells * kNearCells: at least as far
-  std::vector<float> blocks_;               // at least kNearCells
+  std::unique_ptr<std::uint8_t[]> near_squares_;  // kNearCells * kNearCells: at least as far
+  std::vector<float> blocks_;  // at least kNearCells
 };
 
 }  // namespace elbowroom::recon

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <thread>
 #include <vector>
 
@@ -203,15 +204,13 @@ TEST(CellDistances, AreLowerBoundsAsShortAsPromised) {
   Random random(5205);
   for (int trial = 0; trial < 12; ++trial) {
     const int width = random.Whole(1, 130), height = random.Whole(1, 130);
-    std::vector<std::uint32_t> first(static_cast<std::size_t>(width * height) + 1, 0);
     std::vector<Eigen::Vector2i> holders;
     for (int n = random.Whole(1, 6); n > 0; --n)
       holders.emplace_back(random.Whole(0, width - 1), random.Whole(0, height - 1));
+    std::set<std::uint32_t> indices;
     for (const Eigen::Vector2i& holder : holders)
-      for (std::size_t i = static_cast<std::size_t>(holder.y() * width + holder.x()) + 1; i < first.size();
-           ++i)
-        ++first[i];
-    const CellDistances distances(width, height, first);
+      indices.insert(static_cast<std::uint32_t>(holder.y() * width + holder.x()));
+    const CellDistances distances(width, height, std::vector(indices.begin(), indices.end()));
     for (int y = 0; y < height; ++y) {
       for (int x = 0; x < width; ++x) {
         double truth = kInfinity;
