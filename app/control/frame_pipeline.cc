@@ -1,6 +1,7 @@
 #include "app/control/frame_pipeline.h"
 
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
 
 #include <algorithm>
 #include <chrono>
@@ -43,7 +44,8 @@ FramePipeline::FramePipeline(core::Rig rig, core::Layout layout,
   for (const core::Part& part : layout_->parts) part_trees_.emplace_back(part.mesh);
 }
 
-SharedFrameResult FramePipeline::Process(recon::FrameSet frames, std::span<const double> spacing_mm) {
+SharedFrameResult FramePipeline::Process(recon::FrameSet frames, std::span<const double> spacing_mm,
+                                         const WithHull& beside) {
   core::Require(frames.cameras.size() == rig_->cameras.size(), "one frame a camera");
   auto result = std::make_shared<FrameResult>();
   result->frame = frames.index;
@@ -58,13 +60,22 @@ SharedFrameResult FramePipeline::Process(recon::FrameSet frames, std::span<const
   result->times.segmentation_ms = watch.LapMs();
   UpdateHull(std::move(masks), result.get());
   result->times.hull_ms = watch.LapMs();
-  UpdateContacts(result.get());
-  result->times.contacts_ms = watch.LapMs();
-  UpdateResponse(world_from_rests, result.get());
-  result->times.response_ms = watch.LapMs();
+  if (beside) {
+    tbb::parallel_invoke([&] { Judge(world_from_rests, result.get()); }, [&] { beside(result->hull); });
+  } else {
+    Judge(world_from_rests, result.get());
+  }
   result->camera_frames = std::make_shared<const recon::FrameSet>(std::move(frames));
   last_ = result;
   return result;
+}
+
+void FramePipeline::Judge(std::span<const core::RigidTransform> world_from_rests, FrameResult* result) {
+  Stopwatch watch;
+  UpdateContacts(result);
+  result->times.contacts_ms = watch.LapMs();
+  UpdateResponse(world_from_rests, result);
+  result->times.response_ms = watch.LapMs();
 }
 
 void FramePipeline::UpdateHull(std::vector<core::SoftMask> masks, FrameResult* result) {

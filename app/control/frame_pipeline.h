@@ -1,6 +1,7 @@
 // Camera frames in, contacts out: one frame's way through recon and review.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -24,6 +25,9 @@ namespace elbowroom::control {
 // Thread: one frame at a time.
 class FramePipeline {
  public:
+  // Is given the frame's hull.
+  using WithHull = std::function<void(const std::shared_ptr<const recon::VisualHull>&)>;
+
   // Throws: what Rig::Validate, Layout::Validate and PartReviewOptions::Validate throw.
   FramePipeline(core::Rig rig, core::Layout layout,
                 const std::vector<recon::BackgroundReference>& backgrounds,
@@ -35,11 +39,14 @@ class FramePipeline {
 
   // spacing_mm: in the layout's order. The result shares the frames' pictures. Contacts are those of the
   // parts before they give way, cloths as they are at rest; then they respond to the time since the last
-  // frame.
-  [[nodiscard]] SharedFrameResult Process(recon::FrameSet frames, std::span<const double> spacing_mm);
+  // frame. `beside`: what needs no more than the hull, on any thread, while the parts are judged; Process
+  // waits for it.
+  [[nodiscard]] SharedFrameResult Process(recon::FrameSet frames, std::span<const double> spacing_mm,
+                                          const WithHull& beside = {});
 
  private:
   void UpdateHull(std::vector<core::SoftMask> masks, FrameResult* result);
+  void Judge(std::span<const core::RigidTransform> world_from_rests, FrameResult* result);
   void UpdateContacts(FrameResult* result);
   [[nodiscard]] core::PartContact Review(const FrameResult& result, core::PartIndex part) const;
   void UpdateResponse(std::span<const core::RigidTransform> world_from_rests, FrameResult* result);

@@ -32,7 +32,7 @@ constexpr int kEmptyFrames = 30;
 // One frame's times, ms.
 struct FrameTimes {
   double segmentation = 0.0, contours = 0.0, contacts = 0.0, view = 0.0;
-  [[nodiscard]] double Whole() const { return segmentation + contours + contacts + view; }
+  double whole = 0.0;  // the last two side by side
 };
 
 std::vector<recon::FrameSet> Kept(recon::FrameSetSource* source, core::FrameIndex count) {
@@ -51,23 +51,32 @@ class Player {
   }
 
   FrameTimes Play(const recon::FrameSet& frames) {
-    const control::SharedFrameResult result = pipeline_.Process(frames, spacing_mm_);
+    double view_ms = 0.0;
+    const auto see = [&](const std::shared_ptr<const recon::VisualHull>& hull) {
+      const auto begin = Clock::now();
+      if (rays_ && hull != hull_) view_ = recon::ViewHull(*hull, *rays_);
+      hull_ = hull;
+      view_ms = Ms(begin);
+    };
     const auto begin = Clock::now();
+    const control::SharedFrameResult result = pipeline_.Process(frames, spacing_mm_, see);
+    const double whole_ms = Ms(begin);
     if (!rays_) {
       const recon::OrbitCamera camera = control::OverviewCamera(*result, 640, 480);
       rays_.emplace(recon::CameraOf(recon::ViewFrom(camera, 640, 480)));
     }
-    if (result->hull != hull_) view_ = recon::ViewHull(*result->hull, *rays_);
-    hull_ = result->hull;
     hit_pixels_ += view_.hit_pixels;
     const control::StageTimes& times = result->times;
-    return {times.segmentation_ms, times.hull_ms, times.contacts_ms,
-            std::chrono::duration<double, std::milli>(Clock::now() - begin).count()};
+    return {times.segmentation_ms, times.hull_ms, times.contacts_ms, view_ms, whole_ms};
   }
 
   [[nodiscard]] std::int64_t hit_pixels() const { return hit_pixels_; }
 
  private:
+  static double Ms(Clock::time_point begin) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
+  }
+
   control::FramePipeline pipeline_;
   std::vector<double> spacing_mm_;
   std::optional<recon::ViewRays> rays_;
@@ -87,7 +96,7 @@ double Quantile(const std::vector<FrameTimes>& times, double share, const Part& 
 
 std::vector<std::string> RowOf(const std::string& what, const std::vector<FrameTimes>& times) {
   const auto median = [&](auto part) { return fmt::format("{:.2f}", Quantile(times, 0.5, part)); };
-  const auto whole = [](const FrameTimes& t) { return t.Whole(); };
+  const auto whole = [](const FrameTimes& t) { return t.whole; };
   return {what,
           fmt::format("{}", times.size()),
           median([](const FrameTimes& t) { return t.segmentation; }),
