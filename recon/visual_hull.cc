@@ -126,6 +126,23 @@ PointAnswer VisualHull::Probe(const Eigen::Vector3d& x_in_world) const {
   return answer;
 }
 
+bool VisualHull::MayBeDeeper(const Eigen::Vector3d& x_in_world, double radius_mm,
+                             core::CameraIndex* likely) const {
+  // Less than what rounding makes of a radius that is asked about.
+  const double enough_mm = radius_mm * (1.0 - 1e-8) - 1e-9;
+  if (is_empty_ || !(enough_mm > 0.0)) return true;
+  const std::size_t first = std::min(*likely, silhouettes_.size() - 1);
+  for (std::size_t k = 0; k < silhouettes_.size(); ++k) {
+    const std::size_t i = k == 0 ? first : k <= first ? k - 1 : k;
+    const BallLabel label = AskSilhouette(*this, i, x_in_world, enough_mm);
+    if (!label.is_object) return true;
+    if (label.radius_mm >= enough_mm) continue;
+    *likely = i;
+    return false;
+  }
+  return true;
+}
+
 BallAnswer VisualHull::Classify(const Eigen::Vector3d& center_in_world, double radius_mm) const {
   OpenCameras open;
   return Classify(center_in_world, radius_mm, &open);

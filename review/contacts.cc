@@ -1,6 +1,7 @@
 #include "review/contacts.h"
 
 #include <fmt/format.h>
+#include <tbb/parallel_invoke.h>
 
 #include <algorithm>
 #include <bit>
@@ -21,6 +22,8 @@ using recon::BallAnswer;
 
 // Triangles of no more pieces a side are cut at once: a ball query costs as much as a few centres.
 constexpr double kSidesWithoutBall = 2.0;
+// Halves of what is larger are searched beside each other.
+constexpr double kSpacingsAlone = 8.0;
 
 double AreaMm2(const Corners& t) { return 0.5 * (t.b - t.a).cross(t.c - t.a).norm(); }
 Vector3d Centroid(const Corners& t) { return (t.a + t.b + t.c) / 3.0; }
@@ -85,6 +88,21 @@ class ContactSearch {
     AddPoint(own);
   }
 
+  // Searches both halves of something of this size; the same as one after the other.
+  template <typename First, typename Second>
+  void VisitBoth(double size_mm, const First& first, const Second& second) {
+    if (size_mm <= kSpacingsAlone * options_.point_spacing_mm) {
+      first(this);
+      return second(this);
+    }
+    ContactSearch beside(hull_, part_, world_from_part_, options_, resolution_mm_, rp_obj_);
+    tbb::parallel_invoke([&] { first(this); }, [&] { second(&beside); });
+    points_.insert(points_.end(), beside.points_.begin(), beside.points_.end());
+    Reach(beside.farthest_);
+    count_.queries += beside.count_.queries;
+    count_.skipped += beside.count_.skipped;
+  }
+
   void AddPoint(const Patch& patch) {
     if (patch.largest_mm2 >= 0.0) points_.push_back({patch.position, 0.0, patch.area_mm2});
   }
@@ -95,11 +113,12 @@ class ContactSearch {
     if (answer != BallAnswer::kMixed) count_.skipped += node.end - node.begin;
     if (answer == BallAnswer::kOutside) return;
     if (answer == BallAnswer::kInside) return AddNodeInside(index, given);
-    InPatch(2.0 * node.ball.radius_mm, given, [&](Patch* patch) {
+    const double size_mm = 2.0 * node.ball.radius_mm;
+    InPatch(size_mm, given, [&](Patch* patch) {
       if (node.left != 0) {
-        VisitNode(node.left, open, patch);
-        VisitNode(node.left + 1, open, patch);
-        return;
+        return VisitBoth(
+            size_mm, [&](ContactSearch* search) { search->VisitNode(node.left, open, patch); },
+            [&](ContactSearch* search) { search->VisitNode(node.left + 1, open, patch); });
       }
       for (std::uint32_t i = node.begin; i < node.end; ++i)
         VisitTriangle(TriangleAt(part_.order()[i]), open, patch);
@@ -115,9 +134,10 @@ class ContactSearch {
       if (sides == 1.0 || (patch != nullptr && sides <= recon::CutTriangle::kMostSides))
         return Cut({triangle.a, triangle.b, triangle.c, static_cast<int>(sides)}, AreaMm2(triangle), open,
                    patch);
-      const auto [first, second] = Halve(triangle);
-      VisitTriangle(first, open, patch);
-      VisitTriangle(second, open, patch);
+      const auto halves = Halve(triangle);
+      VisitBoth(
+          size_mm, [&](ContactSearch* search) { search->VisitTriangle(halves.first, open, patch); },
+          [&](ContactSearch* search) { search->VisitTriangle(halves.second, open, patch); });
     });
   }
 
@@ -219,6 +239,21 @@ class ContactSearch {
   core::QueryCount count_;
 };
 
+// The first of the deepest.
+core::ContactPoint Deepest(const recon::VisualHull& hull, const std::vector<core::ContactPoint>& points) {
+  core::ContactPoint deepest;
+  core::CameraIndex likely = 0;
+  for (const core::ContactPoint& point : points) {
+    const bool is_first = &point == points.data();
+    if (!is_first && !hull.MayBeDeeper(point.position_in_world_mm, deepest.depth_mm, &likely)) continue;
+    const double depth_mm = hull.Probe(point.position_in_world_mm).radius_mm;
+    if (!is_first && !(depth_mm > deepest.depth_mm)) continue;
+    deepest = point;
+    deepest.depth_mm = depth_mm;
+  }
+  return deepest;
+}
+
 }  // namespace
 
 void ContactOptions::Validate() const {
@@ -282,12 +317,11 @@ core::PartContact FindContacts(const recon::VisualHull& hull, const core::Triang
   RecoveryAnswer answer = Recover(hull, search.farthest(), way);
   contact.recovery_status = answer.status;
   contact.recovery = std::move(answer.recovery);
-  for (core::ContactPoint& point : points) {
-    point.depth_mm = hull.Probe(point.position_in_world_mm).radius_mm;
-    ++contact.count.queries;
-    if (!contact.deepest || point.depth_mm > contact.deepest->depth_mm) contact.deepest = point;
-  }
+  contact.count.queries += contact.contact_point_count;
+  contact.deepest = Deepest(hull, points);
   contact.points = SpreadEvenly(std::move(points), static_cast<std::size_t>(options.max_points));
+  for (core::ContactPoint& point : contact.points)
+    point.depth_mm = hull.Probe(point.position_in_world_mm).radius_mm;
   return contact;
 }
 

@@ -63,8 +63,7 @@ class InsideSearch {
                                               recon::OpenCameras open) {
     const Vector3d center = cell_in_part.center(), center_in_world = world_from_part_ * center;
     const double radius_mm = 0.5 * cell_in_part.diagonal().norm() * (1.0 + 1e-12);
-    ++*queries_;
-    const recon::BallAnswer answer = hull_.Classify(center_in_world, radius_mm, &open);
+    const recon::BallAnswer answer = Ask(center_in_world, radius_mm, 0.5 * cell_in_part.sizes(), &open);
     if (answer == recon::BallAnswer::kOutside) return std::nullopt;
     const bool is_hull = hull_.Contains(center_in_world, open);
     const NearestOnPart nearest = FindNearest(part_, {.center = center}, likely);
@@ -82,6 +81,17 @@ class InsideSearch {
       if (std::optional<Vector3d> found = Visit(eighth, nearest.triangle, open)) return found;
     }
     return std::nullopt;
+  }
+
+  // Of the cell's ball, and where that is mixed, of the cell.
+  recon::BallAnswer Ask(const Vector3d& center_in_world, double radius_mm, const Vector3d& half_mm,
+                        recon::OpenCameras* open) {
+    ++*queries_;
+    const recon::BallAnswer answer = hull_.Classify(center_in_world, radius_mm, open);
+    if (answer != recon::BallAnswer::kMixed) return answer;
+    ++*queries_;
+    return hull_.Classify(
+        recon::WorldShape::Box(center_in_world, world_from_part_.rotation * half_mm.asDiagonal()), open);
   }
 
   const recon::VisualHull& hull_;
