@@ -35,28 +35,38 @@ Vector3f FaceNormal(const Eigen::AlignedBox3d& box, const Vector3d& x_in_world) 
 
 }  // namespace
 
-std::vector<Vector3f> NormalsOf(const VisualHull& hull, const ViewRays& rays, const HullView& view) {
-  std::vector<std::vector<Vector3f>> edge_normals(hull.silhouettes().size());
-  tbb::parallel_for(std::size_t{0}, edge_normals.size(),
-                    [&](std::size_t i) { edge_normals[i] = EdgeNormals(hull, i); });
-  const core::RigidTransform world_from_view = rays.view_from_world().Inverse();
-  std::vector<Vector3f> normals(view.surface.size(), Vector3f::Zero());
+HullNormals::HullNormals(const VisualHull& hull, const ViewRays& rays)
+    : hull_(hull),
+      rays_(rays),
+      world_from_view_(rays.view_from_world().Inverse()),
+      edge_normals_(hull.silhouettes().size()) {
+  tbb::parallel_for(std::size_t{0}, edge_normals_.size(),
+                    [&](std::size_t i) { edge_normals_[i] = EdgeNormals(hull, i); });
+}
+
+Vector3f HullNormals::Of(const HullSurface& surface, int x, int y, float depth_mm) const {
+  if (const auto camera = surface.camera()) return edge_normals_[*camera][surface.edge()];
+  const Eigen::Vector2d uv = rays_.At(x, y);
+  const double z_mm = depth_mm;
+  const bool is_perspective = rays_.projection() == Projection::kPerspective;
+  const Vector3d x_in_view = is_perspective ? Vector3d(uv.x() * z_mm, uv.y() * z_mm, z_mm)
+                                            : Vector3d(uv.x(), uv.y(), z_mm);
+  return FaceNormal(hull_.rig().workspace_mm, world_from_view_ * x_in_view);
+}
+
+PictureBuffer<Vector3f> NormalsOf(const VisualHull& hull, const ViewRays& rays, const HullView& view) {
+  if (view.hit_pixels == 0) {
+    return {view.surface.size(), Vector3f(Vector3f::Zero()), LeavesUnset<Vector3f>()};
+  }
+  PictureBuffer<Vector3f> normals(view.surface.size());
+  const HullNormals hull_normals(hull, rays);
   tbb::parallel_for(0, view.height_px, [&](int y) {
     for (int x = 0; x < view.width_px; ++x) {
       const std::size_t pixel =
           static_cast<std::size_t>(y) * static_cast<std::size_t>(view.width_px) + static_cast<std::size_t>(x);
       const HullSurface& surface = view.surface[pixel];
-      if (!surface.is_hit()) continue;
-      if (const auto camera = surface.camera()) {
-        normals[pixel] = edge_normals[*camera][surface.edge()];
-        continue;
-      }
-      const double depth_mm = view.depth_mm[pixel];
-      const Eigen::Vector2d uv = rays.At(x, y);
-      const bool is_perspective = rays.projection() == Projection::kPerspective;
-      const Vector3d x_in_view = is_perspective ? Vector3d(uv.x() * depth_mm, uv.y() * depth_mm, depth_mm)
-                                                : Vector3d(uv.x(), uv.y(), depth_mm);
-      normals[pixel] = FaceNormal(hull.rig().workspace_mm, world_from_view * x_in_view);
+      normals[pixel] =
+          surface.is_hit() ? hull_normals.Of(surface, x, y, view.depth_mm[pixel]) : Vector3f(Vector3f::Zero());
     }
   });
   return normals;

@@ -76,7 +76,7 @@ HullPhoto::HullPhoto(const VisualHull& hull, core::CameraModel camera, cv::Mat i
   core::Require(image_bgr_.type() == CV_8UC3 && image_bgr_.cols == camera_.width_px() &&
                     image_bgr_.rows == camera_.height_px(),
                 "a photo is 8-bit BGR of its camera's size");
-  HullView sight = ViewHull(hull, camera_);
+  HullView sight = ViewHull(hull, camera_, {.surfaces = false, .normals = false});
   cv::distanceTransform(InsideOfSurfaces(sight, focal_px_), trust_, cv::DIST_L2, cv::DIST_MASK_5, CV_32F);
   trust_.forEach<float>([](float& value, const int*) { value = SmoothStep(value / kFeatherPx); });
   depth_mm_ = std::move(sight.depth_mm);

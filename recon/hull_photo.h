@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/camera_model.h"
+#include "recon/picture_buffer.h"
 #include "recon/visual_hull.h"
 
 namespace elbowroom::recon {
@@ -38,7 +39,7 @@ class HullPhoto {
   core::CameraModel camera_;
   cv::Mat image_bgr_;
   double focal_px_;              // the shorter one
-  std::vector<float> depth_mm_;  // of the hull, a pixel; 0: it isn't there
+  PictureBuffer<float> depth_mm_;  // of the hull, a pixel; 0: it isn't there
   cv::Mat trust_;                // CV_32FC1: 0 at rims and borders, 1 from kFeatherPx away
 };
 

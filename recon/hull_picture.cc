@@ -36,7 +36,7 @@ class Painter {
   }
 
   // Towards the viewer, from differences of depths; straight at the viewer where there are no neighbours.
-  [[nodiscard]] Vector3f NormalInView(const std::vector<float>& depth_mm, int x, int y) const {
+  [[nodiscard]] Vector3f NormalInView(std::span<const float> depth_mm, int x, int y) const {
     const Vector3f across = Difference(depth_mm, x, y, 1, 0), down = Difference(depth_mm, x, y, 0, 1);
     const Vector3f normal = down.cross(across);
     return normal.squaredNorm() > 0.0F ? Vector3f(normal.normalized()) : Vector3f(-Vector3f::UnitZ());
@@ -83,7 +83,7 @@ class Painter {
     return sum / count;
   }
 
-  [[nodiscard]] Vector3f Difference(const std::vector<float>& depth_mm, int x, int y, int dx, int dy) const {
+  [[nodiscard]] Vector3f Difference(std::span<const float> depth_mm, int x, int y, int dx, int dy) const {
     const float here_mm = depth_mm[Index(x, y)];
     const auto point = [&](int sign) -> Vector3f {
       const int i = std::clamp(x + sign * dx, 0, picture_.width_px - 1),

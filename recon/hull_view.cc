@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <optional>
 
 #include "recon/hull_normals.h"
 #include "recon/tile_cast.h"
@@ -17,12 +18,27 @@ namespace {
 
 using Eigen::Vector2d;
 
+// Writes that the rays of a square's pixels miss.
+void ClearSquare(int x, int y, int size_px, HullView* view) {
+  const auto columns = static_cast<std::size_t>(std::min(size_px, view->width_px - x));
+  const int bottom = std::min(y + size_px, view->height_px);
+  for (int row = y; row < bottom; ++row) {
+    const std::size_t first =
+        static_cast<std::size_t>(row) * static_cast<std::size_t>(view->width_px) + static_cast<std::size_t>(x);
+    std::fill_n(view->depth_mm.data() + first, columns, 0.0F);
+    if (!view->surface.empty()) std::fill_n(view->surface.data() + first, columns, HullSurface());
+    if (!view->normal_in_world.empty())
+      std::fill_n(view->normal_in_world[first].data(), 3 * columns, 0.0F);  // one piece of memory
+  }
+}
+
 // All that doesn't depend on the pixel.
 class Caster {
  public:
   Caster(const VisualHull& hull, const ViewRays& rays, HullView* view)
       : hull_(hull), pencils_(hull, rays), rays_(rays), view_(*view) {
     view_.edges = pencils_.edges();
+    if (!view_.normal_in_world.empty()) normals_.emplace(hull, rays);
   }
 
   void Run() {
@@ -40,6 +56,7 @@ class Caster {
     const int down = (rays_.height_px() + kSizePx - 1) / kSizePx;
     tbb::parallel_for(0, across * down, [&](int i) {
       Worker& worker = workers.local();
+      ClearSquare(i % across * kSizePx, i / across * kSizePx, kSizePx, &view_);
       worker.squares.clear();
       pencils_.AddSquaresIn(i % across * kSizePx, i / across * kSizePx, &worker.squares);
       for (const PixelSquare& square : worker.squares) Work(square, &worker);
@@ -73,7 +90,7 @@ class Caster {
     rays_.FillTile(x, y, worker->rays.u, worker->rays.v);
     LabelConcentric(pencils_.cameras(), x, y, &worker->cameras);
     LabelConcentric(pencils_.sights(), x, y, &worker->sights);
-    CastTile(worker->rays, pencils_.box(), worker->cameras, worker->sights, !view_.surface.empty(),
+    CastTile(worker->rays, pencils_.box(), worker->cameras, worker->sights, normals_ || !view_.surface.empty(),
              &worker->scratch, &worker->hits);
     worker->cast_pixels += std::min(kTilePx, rays_.width_px() - x) * std::min(kTilePx, rays_.height_px() - y);
     if (worker->hits.count > 0) Record(x, y, worker);
@@ -106,11 +123,16 @@ class Caster {
           static_cast<std::size_t>(y + row) * static_cast<std::size_t>(rays_.width_px()) +
           static_cast<std::size_t>(x);
       std::copy_n(hits.depth_mm + row * kTilePx, columns, view_.depth_mm.data() + first);
-      if (view_.surface.empty()) continue;
-      for (int i = row * kTilePx; i < row * kTilePx + columns; ++i) {
+      if (!normals_ && view_.surface.empty()) continue;
+      for (int column = 0; column < columns; ++column) {
+        const int i = row * kTilePx + column;
         if (hits.camera[i] == TileHits::kMiss) continue;
-        view_.surface[first + static_cast<std::size_t>(i % kTilePx)] =
+        const std::size_t pixel = first + static_cast<std::size_t>(column);
+        const HullSurface surface =
             SurfaceOf(hull_, hits.camera[i], ContourEdge(hits.camera[i], hits.edge[i]));
+        if (!view_.surface.empty()) view_.surface[pixel] = surface;
+        if (normals_)
+          view_.normal_in_world[pixel] = normals_->Of(surface, x + column, y + row, hits.depth_mm[i]);
       }
     }
   }
@@ -125,6 +147,7 @@ class Caster {
   ViewPencils pencils_;
   const ViewRays& rays_;
   HullView& view_;
+  std::optional<HullNormals> normals_;
 };
 
 }  // namespace
@@ -133,14 +156,14 @@ HullView ViewHull(const VisualHull& hull, const ViewRays& rays, const HullViewOp
   HullView view;
   view.width_px = rays.width_px(), view.height_px = rays.height_px();
   const auto pixels = static_cast<std::size_t>(view.width_px) * static_cast<std::size_t>(view.height_px);
-  view.depth_mm.assign(pixels, 0.0F);
-  if (options.surfaces || options.normals) view.surface.assign(pixels, {});
+  view.depth_mm.resize(pixels);
+  if (options.surfaces) view.surface.resize(pixels);
+  if (options.normals) view.normal_in_world.resize(pixels);
   view.skipped_pixels = static_cast<std::int64_t>(pixels);
-  if (!hull.IsEmpty()) Caster(hull, rays, &view).Run();
-  if (options.normals) {
-    view.normal_in_world = view.hit_pixels > 0
-                               ? NormalsOf(hull, rays, view)
-                               : std::vector<Eigen::Vector3f>(pixels, Eigen::Vector3f::Zero());
+  if (hull.IsEmpty()) {
+    ClearSquare(0, 0, std::max(view.width_px, view.height_px), &view);
+  } else {
+    Caster(hull, rays, &view).Run();
   }
   return view;
 }

@@ -4,10 +4,10 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <optional>
-#include <vector>
 
 #include "core/camera_model.h"
 #include "core/ids.h"
+#include "recon/picture_buffer.h"
 #include "recon/view_rays.h"
 #include "recon/visual_hull.h"
 
@@ -40,9 +40,9 @@ struct HullView {
   int width_px = 0;
   int height_px = 0;
   // Along the view's z axis; 0 where the ray misses, and where a perspective view's centre is in the hull.
-  std::vector<float> depth_mm;
-  std::vector<HullSurface> surface;
-  std::vector<Eigen::Vector3f> normal_in_world;  // unit, out of the hull; zero where the ray misses
+  PictureBuffer<float> depth_mm;
+  PictureBuffer<HullSurface> surface;
+  PictureBuffer<Eigen::Vector3f> normal_in_world;  // unit, out of the hull; zero where the ray misses
   std::int64_t hit_pixels = 0;
   std::int64_t cast_pixels = 0;     // whose rays were cast
   std::int64_t skipped_pixels = 0;  // settled with a larger square of them
@@ -51,7 +51,7 @@ struct HullView {
 };
 
 struct HullViewOptions {
-  bool surfaces = true;  // fill `surface`; otherwise, and without normals, it stays empty
+  bool surfaces = true;  // fill `surface`; otherwise it stays empty
   bool normals = true;   // fill `normal_in_world`; otherwise it stays empty
 };
 

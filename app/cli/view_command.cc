@@ -43,7 +43,7 @@ struct ViewOptions {
 // What a method saw, and what it says of its work.
 struct HullSeen {
   recon::DepthMap picture;
-  std::vector<Eigen::Vector3f> normal_in_world;  // none from a sweep
+  recon::PictureBuffer<Eigen::Vector3f> normal_in_world;  // none from a sweep
   nlohmann::json counts = nlohmann::json::object();
 };
 
@@ -83,7 +83,8 @@ class Viewer {
       seen.counts["driver"] = gl_->driver();
       return seen;
     }
-    return Seen(recon::ViewHull(recon::MakeVisualHull(frame_.rig, frame_.planes, frame_.masks), rays_));
+    return Seen(recon::ViewHull(recon::MakeVisualHull(frame_.rig, frame_.planes, frame_.masks), rays_,
+                                {.surfaces = false}));
   }
 
  private:

@@ -210,7 +210,7 @@ SceneComposer::SharedView SceneComposer::HullFromLamp(const recon::gl::SceneLamp
   if (hull_from_lamp_ == nullptr) {
     const recon::SceneView from_lamp = lamp.ShadowView(kHullFromLampPx);
     hull_from_lamp_ =
-        std::make_shared<const recon::HullView>(recon::ViewHull(*hull_, recon::CameraOf(from_lamp)));
+        std::make_shared<const recon::HullView>(recon::ViewHull(*hull_, recon::CameraOf(from_lamp), {.surfaces = false, .normals = false}));
     ++extra_hull_views_;
   }
   return hull_from_lamp_;

@@ -16,6 +16,9 @@
 namespace elbowroom::control {
 namespace {
 
+// The operator sees depths and normals.
+constexpr recon::HullViewOptions kNoSurfaces{.surfaces = false};
+
 constexpr double kStepMm = 1e-3;  // a picture that looks the same, and must be made anew
 
 using Times = std::array<double, kViewRounds>;
@@ -80,15 +83,16 @@ void Log(const ViewChoice& choice) {
 }  // namespace
 
 MakeView ProcessorsViews() {
-  return
-      [](const recon::VisualHull& hull, const recon::ViewRays& rays) { return recon::ViewHull(hull, rays); };
+  return [](const recon::VisualHull& hull, const recon::ViewRays& rays) {
+    return recon::ViewHull(hull, rays, kNoSurfaces);
+  };
 }
 
 GraphicsContender GraphicsCard(std::string driver, bool is_software) {
   return {std::move(driver), is_software, [] {
             return [card = std::make_shared<recon::gl::ExactViewGl>()](const recon::VisualHull& hull,
                                                                        const recon::ViewRays& rays) {
-              return card->ViewHull(hull, rays);
+              return card->ViewHull(hull, rays, kNoSurfaces);
             };
           }};
 }
@@ -135,7 +139,7 @@ recon::HullView ExactViewMaker::Make(const recon::VisualHull& hull, const recon:
       Log(Failed(contender_.driver, error.what()));
     }
   }
-  recon::HullView view = recon::ViewHull(hull, rays);
+  recon::HullView view = recon::ViewHull(hull, rays, kNoSurfaces);
   if (!has_chosen_ && view.hit_pixels > 0) Choose(hull, rays);
   return view;
 }

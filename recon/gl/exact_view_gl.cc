@@ -138,6 +138,7 @@ HullView ExactViewGl::Impl::View(const VisualHull& hull, const ViewRays& rays,
   }
   view.skipped_pixels = static_cast<std::int64_t>(pixels) - view.cast_pixels;
   if (options.normals) view.normal_in_world = NormalsOf(hull, rays, view);
+  if (!options.surfaces) view.surface = {};
   return view;
 }
 

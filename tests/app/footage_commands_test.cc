@@ -56,7 +56,7 @@ class FootageCommands : public testing::Test {
   std::vector<core::SoftMask> detected_;  // as the thresholds have them
 };
 
-cv::Mat MatOf(const std::vector<float>& depth_mm, const cv::Mat& like) {
+cv::Mat MatOf(std::span<const float> depth_mm, const cv::Mat& like) {
   return cv::Mat(like.size(), CV_32FC1, const_cast<float*>(depth_mm.data())).clone();
 }
 

@@ -50,6 +50,17 @@ void ExactView(benchmark::State& state, ViewSceneRig rig) {
   state.counters["crossings_met"] = static_cast<double>(view.crossings_met);
 }
 
+// As the console has it made: normals too, of a hull that is there.
+void OperatorsView(benchmark::State& state, ViewSceneRig rig) {
+  const VisualHull hull = SceneOf(rig).Hull();
+  const auto limit = Limit(state);
+  HullView view;
+  for (auto _ : state) {
+    view = ViewHull(hull, SceneOf(rig).view, {.surfaces = false});
+    benchmark::DoNotOptimize(view);
+  }
+}
+
 void HullOfMasks(benchmark::State& state, ViewSceneRig rig) {
   const MaskScene& scene = SceneOf(rig);
   const auto limit = Limit(state);
@@ -77,6 +88,7 @@ void MeshAt2Mm(benchmark::State& state, ViewSceneRig rig) {
   BENCHMARK_CAPTURE(what, paper, ViewSceneRig::kPaper)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond);       \
   BENCHMARK_CAPTURE(what, eight_cameras, ViewSceneRig::kEight)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)
 ON_EVERY_RIG(ExactView);
+ON_EVERY_RIG(OperatorsView);
 ON_EVERY_RIG(HullOfMasks);
 ON_EVERY_RIG(MeshAt2Mm);
 #undef ON_EVERY_RIG
