@@ -1,5 +1,6 @@
 #include "core/bit_mask.h"
 
+#include <algorithm>
 #include <bit>
 
 #include "core/error.h"
@@ -16,6 +17,10 @@ std::size_t BitMask::CountObjectPixels() const {
   std::size_t count = 0;
   for (const std::uint64_t word : words_) count += static_cast<std::size_t>(std::popcount(word));
   return count;
+}
+
+bool BitMask::ShowsObject() const {
+  return std::ranges::any_of(words_, [](std::uint64_t word) { return word != 0; });
 }
 
 }  // namespace elbowroom::core

@@ -14,7 +14,15 @@ BitMask BoundaryPixels(const BitMask& mask) {
   const std::uint64_t* in = mask.words().data();
   if (words == 0) return boundary;
   const unsigned top = (static_cast<unsigned>(mask.width_px()) - 1) & 63U;  // of the last word's bits
+  const auto shows_object = [&](std::size_t y) {
+    std::uint64_t any = 0;
+    for (std::size_t i = 0; y < height && i < words; ++i) any |= in[y * words + i];
+    return any != 0;
+  };
+  bool is_above = false, is_here = false, is_below = shows_object(0);
   for (std::size_t y = 0; y < height; ++y) {
+    is_above = is_here, is_here = is_below, is_below = shows_object(y + 1);
+    if (!is_above && !is_here && !is_below) continue;  // most rows
     const std::uint64_t* row = in + y * words;
     const std::uint64_t* above = y > 0 ? row - words : row;
     const std::uint64_t* below = y + 1 < height ? row + words : row;

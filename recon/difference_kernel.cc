@@ -1,8 +1,11 @@
 #include "recon/difference_kernel.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstdint>
 #include <cstring>
+#include <utility>
+#include <vector>
 
 #include "core/error.h"
 
@@ -37,6 +40,8 @@ namespace HWY_NAMESPACE {  // NOLINT(google-build-namespaces)
 namespace hn = hwy::HWY_NAMESPACE;
 
 constexpr std::size_t kWordBytes = 192;  // of 64 pixels
+// What of a cell's rows but the first is looked at: whole pixels 22 to 41, which one vector holds.
+constexpr std::size_t kLookFrom = 64, kLookTo = 128;
 
 // ORs the three bits of each of 16 pixels and closes the gaps.
 HWY_INLINE std::uint64_t PixelsOf16(std::uint64_t channels) {
@@ -63,12 +68,17 @@ HWY_INLINE hn::Vec<Bytes> Outside(const std::uint8_t* image, const std::uint8_t*
                 hn::SaturatedSub(level, hn::Load(d, ranges + kWordBytes)));
 }
 
-// Whether the 192 levels of 64 pixels are all within their ranges.
-HWY_INLINE bool IsWithin(const std::uint8_t* image, const std::uint8_t* ranges) {
+// Not zero where one of the levels [begin, end) of 64 pixels is outside of its range.
+HWY_INLINE hn::Vec<Bytes> AnyOutside(const std::uint8_t* image, const std::uint8_t* ranges, std::size_t begin,
+                                     std::size_t end) {
   const Bytes d;
-  auto any = Outside(image, ranges);
-  for (std::size_t i = hn::Lanes(d); i < kWordBytes; i += hn::Lanes(d))
+  auto any = Outside(image + begin, ranges + begin);
+  for (std::size_t i = begin + hn::Lanes(d); i < end; i += hn::Lanes(d))
     any = hn::Or(any, Outside(image + i, ranges + i));
+  return any;
+}
+HWY_INLINE bool AreNone(hn::Vec<Bytes> any) {
+  const Bytes d;
   return hn::AllTrue(d, hn::Eq(any, hn::Zero(d)));
 }
 
@@ -153,23 +163,37 @@ HWY_INLINE std::uint64_t DifferingWord(const std::uint8_t* image, const std::uin
     std::memcpy(rest, image, count * 3);
     levels = rest;
   }
-  if (IsWithin(levels, shared)) return 0;
+  if (AreNone(AnyOutside(levels, shared, 0, kWordBytes))) return 0;
   const std::uint64_t bits = Differing(levels, ranges);
   if (bits == 0 || shade == nullptr) return bits;
   return bits &
          ~(count == 64 ? Shade(bits, image, mean, *shade) : ShadeAtEnd(bits, image, mean, count, *shade));
 }
 
-void DifferingRows(const RowGroup& rows, std::size_t width, const ShadeRule* shade) {
+// Bit w: of the cell of word w, which has all of its pixels, one that is looked at has a channel outside of its
+// range, or may have.
+void LookAtCells(const RowGroup& rows, std::size_t width, std::uint64_t* bits) {
   const std::uint8_t* shared = rows.shared;
-  for (std::size_t x = 0; x < width; x += 64, shared += 2 * kWordBytes) {
-    const std::size_t count = std::min<std::size_t>(64, width - x), word = x / 64;
-    for (std::size_t i = 0; i < rows.count; ++i) {
-      const float* mean = shade != nullptr ? rows.mean[i] + 3 * x : nullptr;
-      rows.out[i][word] = DifferingWord(rows.image[i] + 3 * x, shared, rows.ranges[i] + word * 2 * kWordBytes,
-                                        mean, shade, count);
-    }
+  for (std::size_t word = 0; word < width / 64; ++word, shared += 2 * kWordBytes) {
+    auto any = AnyOutside(rows.image[0] + word * kWordBytes, shared, 0, kWordBytes);
+    for (std::size_t i = 1; i < rows.count; ++i)
+      any = hn::Or(any, AnyOutside(rows.image[i] + word * kWordBytes, shared, kLookFrom, kLookTo));
+    if (!AreNone(any)) bits[word / 64] |= std::uint64_t{1} << (word % 64);
   }
+}
+
+// Writes a cell's pixels; whether there are any.
+bool DifferInCell(const RowGroup& rows, std::size_t word, std::size_t width, const ShadeRule* shade) {
+  const std::size_t x = word * 64, count = std::min<std::size_t>(64, width - x);
+  std::uint64_t any = 0;
+  for (std::size_t i = 0; i < rows.count; ++i) {
+    const float* mean = shade != nullptr ? rows.mean[i] + 3 * x : nullptr;
+    const std::uint64_t bits = DifferingWord(rows.image[i] + 3 * x, rows.shared + word * 2 * kWordBytes,
+                                             rows.ranges[i] + word * 2 * kWordBytes, mean, shade, count);
+    rows.out[i][word] = bits;
+    any |= bits;
+  }
+  return any != 0;
 }
 
 }  // namespace HWY_NAMESPACE
@@ -180,31 +204,110 @@ HWY_AFTER_NAMESPACE();
 namespace elbowroom::recon {
 namespace {
 
-HWY_EXPORT(DifferingRows);
+HWY_EXPORT(LookAtCells);
+HWY_EXPORT(DifferInCell);
 
 constexpr int kBytes = 192;  // of 64 pixels
+// Between the pixels that are looked at: rows 1 to 3 of a cell, from pixel 42 to pixel 21 of the next one.
+constexpr int kMostUnseenPx = (LevelRanges::kSharingRows - 1) * (64 - 20);
 
-core::BitMask Differing(const LevelRanges& ranges, const cv::Mat& image_bgr, const cv::Mat& mean_bgr,
-                        const ShadeRule* shade) {
-  const cv::Size size(ranges.width_px(), ranges.height_px());
-  core::Require(image_bgr.type() == CV_8UC3 && image_bgr.size() == size,
-                "a picture is 8-bit BGR and of its ranges' size");
-  core::BitMask mask(size.width, size.height);
-  const auto differing_rows = HWY_DYNAMIC_DISPATCH(DifferingRows);
-  for (int y0 = 0; y0 < size.height; y0 += LevelRanges::kSharingRows) {
+// A picture in cells of 64 pixels by LevelRanges::kSharingRows rows.
+class DifferenceSearch {
+ public:
+  DifferenceSearch(const LevelRanges& ranges, const cv::Mat& image_bgr, const cv::Mat& mean_bgr,
+                   const ShadeRule* shade)
+      : ranges_(ranges),
+        image_bgr_(image_bgr),
+        mean_bgr_(mean_bgr),
+        shade_(shade),
+        mask_(image_bgr.cols, image_bgr.rows),
+        across_(static_cast<int>(mask_.words_per_row())),
+        down_((image_bgr.rows + LevelRanges::kSharingRows - 1) / LevelRanges::kSharingRows) {}
+
+  [[nodiscard]] core::BitMask All() && {
+    for (int group = 0; group < down_; ++group) {
+      const RowGroup rows = RowsOf(group);
+      for (int word = 0; word < across_; ++word) (void)Differs(rows, word);
+    }
+    return std::move(mask_);
+  }
+
+  // Cells of which a pixel that is looked at differs, and from there on all that adjoin one with a pixel that
+  // does.
+  [[nodiscard]] core::BitMask Large() && {
+    Look();
+    while (!waiting_.empty()) {
+      const auto [group, word] = waiting_.back();
+      waiting_.pop_back();
+      if (!Differs(RowsOf(group), word)) continue;
+      for (int y = std::max(group - 1, 0); y <= std::min(group + 1, down_ - 1); ++y)
+        for (int x = std::max(word - 1, 0); x <= std::min(word + 1, across_ - 1); ++x) Await(y, x);
+    }
+    return std::move(mask_);
+  }
+
+ private:
+  struct Cell {
+    int group, word;
+  };
+
+  [[nodiscard]] RowGroup RowsOf(int group) {
+    const int y0 = group * LevelRanges::kSharingRows;
     RowGroup rows;
-    rows.count = static_cast<std::size_t>(std::min(LevelRanges::kSharingRows, size.height - y0));
-    rows.shared = ranges.shared(y0);
+    rows.count = static_cast<std::size_t>(std::min(LevelRanges::kSharingRows, image_bgr_.rows - y0));
+    rows.shared = ranges_.shared(y0);
     for (std::size_t i = 0; i < rows.count; ++i) {
       const int y = y0 + static_cast<int>(i);
-      rows.image[i] = image_bgr.ptr<std::uint8_t>(y);
-      rows.ranges[i] = ranges.row(y);
-      rows.mean[i] = shade != nullptr ? mean_bgr.ptr<float>(y) : nullptr;
-      rows.out[i] = mask.words().data() + static_cast<std::size_t>(y) * mask.words_per_row();
+      rows.image[i] = image_bgr_.ptr<std::uint8_t>(y);
+      rows.ranges[i] = ranges_.row(y);
+      rows.mean[i] = shade_ != nullptr ? mean_bgr_.ptr<float>(y) : nullptr;
+      rows.out[i] = mask_.words().data() + static_cast<std::size_t>(y) * mask_.words_per_row();
     }
-    differing_rows(rows, static_cast<std::size_t>(size.width), shade);
+    return rows;
   }
-  return mask;
+
+  bool Differs(const RowGroup& rows, int word) {
+    return HWY_DYNAMIC_DISPATCH(DifferInCell)(rows, static_cast<std::size_t>(word),
+                                              static_cast<std::size_t>(image_bgr_.cols), shade_);
+  }
+
+  void Look() {
+    is_waited_for_.assign(static_cast<std::size_t>(down_ * across_), 0);
+    std::vector<std::uint64_t> bits(static_cast<std::size_t>(across_ + 63) / 64);
+    const auto look = HWY_DYNAMIC_DISPATCH(LookAtCells);
+    for (int group = 0; group < down_; ++group) {
+      std::ranges::fill(bits, 0);
+      look(RowsOf(group), static_cast<std::size_t>(image_bgr_.cols), bits.data());
+      for (std::size_t i = 0; i < bits.size(); ++i)
+        for (std::uint64_t left = bits[i]; left != 0; left &= left - 1)
+          Await(group, static_cast<int>(64 * i) + std::countr_zero(left));
+      if (image_bgr_.cols % 64 != 0) Await(group, across_ - 1);  // isn't looked at
+    }
+  }
+
+  void Await(int group, int word) {
+    std::uint8_t& is_waited_for = is_waited_for_[static_cast<std::size_t>(group * across_ + word)];
+    if (is_waited_for == 0) waiting_.push_back({group, word});
+    is_waited_for = 1;
+  }
+
+  const LevelRanges& ranges_;
+  const cv::Mat& image_bgr_;
+  const cv::Mat& mean_bgr_;
+  const ShadeRule* const shade_;
+  core::BitMask mask_;
+  const int across_, down_;
+  std::vector<Cell> waiting_;
+  std::vector<std::uint8_t> is_waited_for_;
+};
+
+core::BitMask Differing(const LevelRanges& ranges, const cv::Mat& image_bgr, const cv::Mat& mean_bgr,
+                        const ShadeRule* shade, int least_px) {
+  core::Require(image_bgr.type() == CV_8UC3 &&
+                    image_bgr.size() == cv::Size(ranges.width_px(), ranges.height_px()),
+                "a picture is 8-bit BGR and of its ranges' size");
+  DifferenceSearch search(ranges, image_bgr, mean_bgr, shade);
+  return least_px > kMostUnseenPx ? std::move(search).Large() : std::move(search).All();
 }
 
 }  // namespace
@@ -251,15 +354,15 @@ void LevelRanges::Share() {
   }
 }
 
-core::BitMask DifferingPixels(const LevelRanges& ranges, const cv::Mat& image_bgr) {
-  return Differing(ranges, image_bgr, {}, nullptr);
+core::BitMask DifferingPixels(const LevelRanges& ranges, const cv::Mat& image_bgr, int least_px) {
+  return Differing(ranges, image_bgr, {}, nullptr, least_px);
 }
 
 core::BitMask DifferingPixels(const LevelRanges& ranges, const cv::Mat& image_bgr, const cv::Mat& mean_bgr,
-                              const ShadeRule& shade) {
+                              const ShadeRule& shade, int least_px) {
   core::Require(mean_bgr.type() == CV_32FC3 && mean_bgr.size() == image_bgr.size(),
                 "a background's mean is CV_32FC3 and of the picture's size");
-  return Differing(ranges, image_bgr, mean_bgr, &shade);
+  return Differing(ranges, image_bgr, mean_bgr, &shade, least_px);
 }
 
 }  // namespace elbowroom::recon

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
+#include <utility>
 #include <vector>
 
 #include "core/error.h"
@@ -96,8 +97,9 @@ core::BitMask Segmenter::Detect(const cv::Mat& image_bgr, const EmptyScene& scen
   const ShadeRule shade{static_cast<float>(options_.shadow_darkest),
                         static_cast<float>(options_.shadow_chroma), kShadeNoiseLevels};
   core::BitMask mask = options_.shadows == ShadowRule::kReject
-                           ? DifferingPixels(scene.ranges, image_bgr, scene.mean_bgr, shade)
-                           : DifferingPixels(scene.ranges, image_bgr);
+                           ? DifferingPixels(scene.ranges, image_bgr, scene.mean_bgr, shade, options_.min_blob_px)
+                           : DifferingPixels(scene.ranges, image_bgr, options_.min_blob_px);
+  if (!mask.ShowsObject()) return mask;
   RemoveSmallBlobs(mask, options_.min_blob_px);
   FillSmallHoles(mask, options_.max_hole_px);
   return mask;
@@ -109,7 +111,9 @@ core::BitMask Segmenter::Segment(const cv::Mat& image_bgr) const {
 
 core::SoftMask Segmenter::SegmentSoft(const cv::Mat& image_bgr) const {
   const EmptyScene scene = EmptySceneFor(image_bgr);
-  return LocateBoundary(Detect(image_bgr, scene), image_bgr, scene.packed_mean, options_.floor_levels);
+  core::BitMask detected = Detect(image_bgr, scene);
+  if (!detected.ShowsObject()) return {std::move(detected), {}};
+  return LocateBoundary(detected, image_bgr, scene.packed_mean, options_.floor_levels);
 }
 
 }  // namespace elbowroom::recon

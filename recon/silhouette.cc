@@ -14,7 +14,7 @@ Silhouette::Silhouette(std::shared_ptr<const PicturePlane> plane, core::SoftMask
   core::Require(
       mask.width_px() == plane_->camera().width_px() && mask.height_px() == plane_->camera().height_px(),
       "a silhouette has its camera's size");
-  shows_object_ = std::ranges::any_of(mask.words(), [](std::uint64_t word) { return word != 0; });
+  shows_object_ = mask.ShowsObject();
 }
 
 const ContourMap& Silhouette::labels() const {

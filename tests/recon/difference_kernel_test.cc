@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "recon/boundary.h"
 #include "recon/coverage.h"
+#include "recon/mask_regions.h"
 
 namespace elbowroom::recon {
 namespace {
@@ -120,6 +121,40 @@ TEST_F(EachTarget, GivesTheSameBits) {
   }
   RecordProperty("targets", static_cast<int>(targets.size()));
   EXPECT_GE(targets.size(), 2U) << "only one instruction set to compare";
+}
+
+// Noise of few pixels, thin lines and frames all over the picture, between the pixels that are looked at too:
+// what is left of it without small regions is the same.
+TEST_F(EachTarget, FindsAllLargeRegionsWithoutLookingAtEveryPixel) {
+  std::mt19937 random(5);
+  for (const int width : {63, 64, 200, 320, 333}) {
+    for (int trial = 0; trial < 12; ++trial) {
+      const int height = 40 + trial;
+      const cv::Mat mean(height, width, CV_32FC3, cv::Scalar::all(100.0));
+      const cv::Mat threshold(height, width, CV_32FC3, cv::Scalar::all(10.0));
+      cv::Mat image(height, width, CV_8UC3, cv::Scalar::all(100.0));
+      for (int n = 0; n < 8; ++n) {
+        const bool is_line = random() % 2 == 0;
+        const cv::Rect box(static_cast<int>(random() % static_cast<unsigned>(width)),
+                           static_cast<int>(random() % static_cast<unsigned>(height)),
+                           static_cast<int>(1 + random() % 150), static_cast<int>(1 + random() % (is_line ? 3 : 20)));
+        const cv::Scalar color = cv::Scalar::all(random() % 3 == 0 ? 80.0 : 130.0);  // shade, or light
+        image(box & cv::Rect(0, 0, width, height)).setTo(color);
+      }
+      const LevelRanges ranges(mean, threshold);
+      for (const int least_px : {50, 133, 200}) {
+        core::BitMask all = DifferingPixels(ranges, image, mean, kRule);
+        RemoveSmallBlobs(all, least_px);
+        for (const std::int64_t target : Targets()) {
+          SCOPED_TRACE(hwy::TargetName(target));
+          Choose(target);
+          core::BitMask large = DifferingPixels(ranges, image, mean, kRule, least_px);
+          RemoveSmallBlobs(large, least_px);
+          ASSERT_EQ(large, all) << width << ' ' << trial << ' ' << least_px;
+        }
+      }
+    }
+  }
 }
 
 TEST_F(EachTarget, LocatesTheSameBoundary) {
