@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "core/error.h"
-#include "review/containment.h"
+#include "review/inside_cells.h"
 
 namespace elbowroom::review {
 namespace {

@@ -11,7 +11,7 @@
 
 #include "core/error.h"
 #include "recon/ray_crossings.h"
-#include "review/containment.h"
+#include "review/inside_cells.h"
 #include "review/part_distance.h"
 
 namespace elbowroom::review {

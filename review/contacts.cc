@@ -281,7 +281,7 @@ std::optional<double> PixelFootprintMm(const core::Rig& rig, const Vector3d& x_i
 
 core::PartContact FindContacts(const recon::VisualHull& hull, const core::TriangleTree& part,
                                const core::RigidTransform& world_from_part, core::PartIndex part_index,
-                               const ContactOptions& options) {
+                               const ContactOptions& options, InsideCells* inside) {
   options.Validate();
   core::PartContact contact;
   contact.part = part_index;
@@ -304,8 +304,10 @@ core::PartContact FindContacts(const recon::VisualHull& hull, const core::Triang
   std::vector<core::ContactPoint> points = search.TakePoints();
   if (points.empty()) {
     if (contact.count.queries == 1) return contact;  // the ball around the whole part is outside the hull
-    contact.contained_in_world_mm = FindHullInside(
-        hull, part, world_from_part, kContainmentCell * contact.resolution_mm, &contact.count.queries);
+    InsideCells own_cells(part);
+    contact.contained_in_world_mm =
+        FindHullInside(hull, world_from_part, kContainmentCell * contact.resolution_mm,
+                       inside != nullptr ? inside : &own_cells, &contact.count.queries);
     if (!contact.contained_in_world_mm) return contact;
     contact.verdict = core::Verdict::kContact;
     contact.recovery_status = core::RecoveryStatus::kHullInsidePart;

@@ -10,6 +10,7 @@
 #include "core/recovery_rule.h"
 #include "core/rigid_transform.h"
 #include "recon/visual_hull.h"
+#include "review/inside_cells.h"
 
 namespace elbowroom::review {
 
@@ -38,10 +39,12 @@ inline constexpr double kContainmentCell = 4.0;
 // of the hull's boundary is decided by the piece's centre, so a contact smaller than that can be missed and
 // the area is good to (boundary length x resolution). A hull that touches no face but stands inside a closed
 // part is a contact without points (kContainmentCell says how small it may be). Held to a brute-force oracle
-// by tests/review/contacts_test.cc. Thread: any.
+// by tests/review/contacts_test.cc. `inside`: the part's, from frame to frame; it saves work and changes
+// nothing. Thread: any.
 [[nodiscard]] core::PartContact FindContacts(const recon::VisualHull& hull, const core::TriangleTree& part,
                                              const core::RigidTransform& world_from_part,
-                                             core::PartIndex part_index, const ContactOptions& options = {});
+                                             core::PartIndex part_index, const ContactOptions& options = {},
+                                             InsideCells* inside = nullptr);
 
 // Smallest width of a pixel at a point, over the cameras that look towards it; nothing if none does.
 [[nodiscard]] std::optional<double> PixelFootprintMm(const core::Rig& rig, const Eigen::Vector3d& x_in_world);

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <deque>
 
-#include "review/containment.h"
+#include "review/inside_cells.h"
 #include "review/longest_side.h"
 #include "review/part_distance.h"
 

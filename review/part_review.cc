@@ -40,8 +40,9 @@ double PartReviewOptions::EnoughMm() const { return required_clearance_mm + unce
 
 core::PartContact ReviewPart(const recon::VisualHull& hull, const core::TriangleTree& part,
                              const core::RigidTransform& world_from_part, core::PartIndex part_index,
-                             const PartReviewOptions& options, const std::optional<ClearanceHint>& hint) {
-  core::PartContact contact = FindContacts(hull, part, world_from_part, part_index, options.contacts);
+                             const PartReviewOptions& options, const std::optional<ClearanceHint>& hint,
+                             InsideCells* inside) {
+  core::PartContact contact = FindContacts(hull, part, world_from_part, part_index, options.contacts, inside);
   if (!(options.required_clearance_mm > 0.0)) return contact;
   if (contact.verdict == core::Verdict::kContact) {
     contact.clearance = Meeting(contact);

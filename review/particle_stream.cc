@@ -10,8 +10,8 @@
 #include <optional>
 
 #include "core/error.h"
-#include "review/containment.h"
 #include "review/hull_march.h"
+#include "review/inside_cells.h"
 #include "review/part_distance.h"
 
 namespace elbowroom::review {

@@ -11,8 +11,8 @@
 #include "core/error.h"
 #include "core/units.h"
 #include "recon/hull_depth.h"
-#include "review/containment.h"
 #include "review/freeing.h"
+#include "review/inside_cells.h"
 #include "review/part_distance.h"
 
 namespace elbowroom::review {

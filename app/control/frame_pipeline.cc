@@ -42,6 +42,7 @@ FramePipeline::FramePipeline(core::Rig rig, core::Layout layout,
   review_.Validate();
   core::Require(backgrounds.size() == rig_->cameras.size(), "one background reference a camera");
   for (const core::Part& part : layout_->parts) part_trees_.emplace_back(part.mesh);
+  for (const core::TriangleTree& part : part_trees_) inside_parts_.emplace_back(part);
 }
 
 SharedFrameResult FramePipeline::Process(recon::FrameSet frames, std::span<const double> spacing_mm,
@@ -132,13 +133,13 @@ void FramePipeline::UpdateContacts(FrameResult* result) {
   }
 }
 
-core::PartContact FramePipeline::Review(const FrameResult& result, core::PartIndex part) const {
+core::PartContact FramePipeline::Review(const FrameResult& result, core::PartIndex part) {
   const auto hint = last_ ? review::HintFrom(last_->contacts[part], last_->world_from_parts[part])
                           : std::optional<review::ClearanceHint>();
   review::PartReviewOptions options = review_;
   options.contacts.recovery = layout_->parts[part].recovery;
   return review::ReviewPart(*result.hull, part_trees_[part], result.world_from_parts[part], part, options,
-                            hint);
+                            hint, &inside_parts_[part]);
 }
 
 }  // namespace elbowroom::control

@@ -48,13 +48,14 @@ class FramePipeline {
   void UpdateHull(std::vector<core::SoftMask> masks, FrameResult* result);
   void Judge(std::span<const core::RigidTransform> world_from_rests, FrameResult* result);
   void UpdateContacts(FrameResult* result);
-  [[nodiscard]] core::PartContact Review(const FrameResult& result, core::PartIndex part) const;
+  [[nodiscard]] core::PartContact Review(const FrameResult& result, core::PartIndex part);
   void UpdateResponse(std::span<const core::RigidTransform> world_from_rests, FrameResult* result);
 
   std::shared_ptr<const core::Rig> rig_;
   recon::PicturePlanes planes_;
   std::shared_ptr<const core::Layout> layout_;
   std::vector<core::TriangleTree> part_trees_;
+  std::vector<review::InsideCells> inside_parts_;
   Responders responders_;
   recon::FrameSegmenter segmenter_;
   review::PartReviewOptions review_;

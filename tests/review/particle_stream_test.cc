@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/error.h"
-#include "review/containment.h"
+#include "review/inside_cells.h"
 #include "review/part_distance.h"
 #include "tests/core/solids.h"
 #include "tests/recon/random_scene.h"

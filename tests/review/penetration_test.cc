@@ -12,8 +12,8 @@
 
 #include "core/error.h"
 #include "review/contacts.h"
-#include "review/containment.h"
 #include "review/freeing.h"
+#include "review/inside_cells.h"
 #include "review/meeting.h"
 #include "review/part_distance.h"
 #include "tests/core/solids.h"

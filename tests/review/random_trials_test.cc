@@ -15,7 +15,7 @@
 
 #include "review/clearance.h"
 #include "review/contacts.h"
-#include "review/containment.h"
+#include "review/inside_cells.h"
 #include "review/part_distance.h"
 #include "tests/oracles/mask_hull_oracle.h"
 #include "tests/recon/random_scene.h"
