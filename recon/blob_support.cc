@@ -1,7 +1,10 @@
 #include "recon/blob_support.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "core/error.h"
 #include "recon/mask_regions.h"
@@ -18,6 +21,7 @@ int TilesIn(int length_px) { return (length_px + kTilePx - 1) / kTilePx; }
 // Whether a picture's tiles hold object, as sums: any rectangle takes four look-ups.
 class TileSums {
  public:
+  TileSums() = default;
   explicit TileSums(const core::BitMask& mask)
       : across_(TilesIn(mask.width_px()) + 1),
         sums_(static_cast<std::size_t>(across_) * static_cast<std::size_t>(TilesIn(mask.height_px()) + 1),
@@ -38,6 +42,9 @@ class TileSums {
     }
   }
 
+  // Tiles with object.
+  [[nodiscard]] std::uint32_t all() const { return sums_.back(); }
+
   [[nodiscard]] bool AnyIn(int x0, int y0, int x1, int y1) const {
     return sums_[Index(x1, y1)] - sums_[Index(x0, y1)] - sums_[Index(x1, y0)] + sums_[Index(x0, y0)] != 0;
   }
@@ -46,8 +53,42 @@ class TileSums {
   [[nodiscard]] std::size_t Index(int x, int y) const {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(across_) + static_cast<std::size_t>(x);
   }
-  int across_;
+  int across_ = 0;
   std::vector<std::uint32_t> sums_;
+};
+
+// Which of a picture's tiles some of many rectangles cover: their corners first, then sums.
+class TileCover {
+ public:
+  TileCover(int width_px, int height_px)
+      : across_(TilesIn(width_px) + 1),
+        counts_(static_cast<std::size_t>(across_) * static_cast<std::size_t>(TilesIn(height_px) + 1), 0) {}
+
+  // Tiles [x0, x1) x [y0, y1).
+  void Add(int x0, int y0, int x1, int y1) {
+    ++counts_[Index(x0, y0)], --counts_[Index(x1, y0)];
+    --counts_[Index(x0, y1)], ++counts_[Index(x1, y1)];
+  }
+
+  // Once, after all of them.
+  void Sum() {
+    const auto across = static_cast<std::size_t>(across_);
+    for (std::size_t row = 0; row < counts_.size(); row += across)
+      for (std::size_t x = 1; x < across; ++x) counts_[row + x] += counts_[row + x - 1];
+    for (std::size_t i = across; i < counts_.size(); ++i) counts_[i] += counts_[i - across];
+  }
+
+  [[nodiscard]] bool AnyIn(int y, int x0, int x1) const {
+    const std::int32_t* const row = &counts_[Index(0, y)];
+    return std::any_of(row + x0, row + x1, [](std::int32_t count) { return count != 0; });
+  }
+
+ private:
+  [[nodiscard]] std::size_t Index(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(across_) + static_cast<std::size_t>(x);
+  }
+  int across_;
+  std::vector<std::int32_t> counts_;
 };
 
 }  // namespace
@@ -114,39 +155,44 @@ std::vector<std::vector<bool>> BlobSupport::ConfirmedBlobs(
     std::span<const core::BitMask* const> masks) const {
   const std::size_t cameras = pictures_.size();
   core::Require(masks.size() == cameras, "one mask a camera");
-  std::vector<TileSums> sums;
-  std::vector<std::vector<std::uint8_t>> confirmed(cameras);  // a tile
   for (std::size_t c = 0; c < cameras; ++c) {
     core::Require(
         masks[c]->width_px() == pictures_[c].width_px && masks[c]->height_px() == pictures_[c].height_px,
         "a mask is of its camera's size");
-    sums.emplace_back(*masks[c]);
-    confirmed[c].assign(
-        static_cast<std::size_t>(TilesIn(pictures_[c].width_px) * TilesIn(pictures_[c].height_px)), 0);
   }
+  std::vector<TileSums> sums(cameras);
+  std::vector<Regions> regions(cameras);
+  tbb::parallel_for(std::size_t{0}, cameras, [&](std::size_t c) {
+    sums[c] = TileSums(*masks[c]);
+    regions[c] = ObjectRegions(*masks[c]);
+  });
+  // The camera that shows the least object rules out the most cells.
+  std::vector<std::size_t> order(cameras);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::sort(order, {}, [&](std::size_t c) { return sums[c].all(); });
+  std::vector<TileCover> confirmed;
+  for (const Picture& picture : pictures_) confirmed.emplace_back(picture.width_px, picture.height_px);
   bool any = false;
   for (std::size_t cell = 0; cell < boxes_.size(); cell += cameras) {
-    bool is_confirmed = true;
-    for (std::size_t c = 0; c < cameras && is_confirmed; ++c) {
+    const bool is_confirmed = std::ranges::all_of(order, [&](std::size_t c) {
       const TileBox& box = boxes_[cell + c];
-      is_confirmed = !box.has_say || sums[c].AnyIn(box.x0, box.y0, box.x1, box.y1);
-    }
+      return !box.has_say || sums[c].AnyIn(box.x0, box.y0, box.x1, box.y1);
+    });
     if (!is_confirmed) continue;
     any = true;
     for (std::size_t c = 0; c < cameras; ++c) {
       const TileBox& box = boxes_[cell + c];
-      for (int y = box.y0; y < box.y1; ++y)
-        std::fill_n(confirmed[c].begin() + y * TilesIn(pictures_[c].width_px) + box.x0, box.x1 - box.x0, 1);
+      confirmed[c].Add(box.x0, box.y0, box.x1, box.y1);
     }
   }
   std::vector<std::vector<bool>> blobs(cameras);
   for (std::size_t c = 0; c < cameras; ++c) {
-    const Regions regions = ObjectRegions(*masks[c]);
-    blobs[c].assign(regions.area_px.size(), !any);
-    for (const Run& run : regions.runs) {
-      const auto row = confirmed[c].begin() + run.y / kTilePx * TilesIn(pictures_[c].width_px);
-      if (std::find(row + run.x0 / kTilePx, row + (run.x1 - 1) / kTilePx + 1, 1) !=
-          row + (run.x1 - 1) / kTilePx + 1)
+    blobs[c].assign(regions[c].area_px.size(), !any);
+    if (!any) continue;
+    confirmed[c].Sum();
+    for (const Run& run : regions[c].runs) {
+      if (!blobs[c][run.region] &&
+          confirmed[c].AnyIn(run.y / kTilePx, run.x0 / kTilePx, (run.x1 - 1) / kTilePx + 1))
         blobs[c][run.region] = true;
     }
   }
