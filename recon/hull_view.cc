@@ -18,13 +18,13 @@ namespace {
 
 using Eigen::Vector2d;
 
-// Writes that the rays of a square's pixels miss.
-void ClearSquare(int x, int y, int size_px, HullView* view) {
-  const auto columns = static_cast<std::size_t>(std::min(size_px, view->width_px - x));
-  const int bottom = std::min(y + size_px, view->height_px);
-  for (int row = y; row < bottom; ++row) {
-    const std::size_t first =
-        static_cast<std::size_t>(row) * static_cast<std::size_t>(view->width_px) + static_cast<std::size_t>(x);
+// Writes that the rays of a box's pixels miss.
+void Clear(const PixelBox& box, HullView* view) {
+  if (box.right <= box.x) return;
+  const auto columns = static_cast<std::size_t>(box.right - box.x);
+  for (int row = box.y; row < box.bottom; ++row) {
+    const std::size_t first = static_cast<std::size_t>(row) * static_cast<std::size_t>(view->width_px) +
+                              static_cast<std::size_t>(box.x);
     std::fill_n(view->depth_mm.data() + first, columns, 0.0F);
     if (!view->surface.empty()) std::fill_n(view->surface.data() + first, columns, HullSurface());
     if (!view->normal_in_world.empty())
@@ -32,11 +32,22 @@ void ClearSquare(int x, int y, int size_px, HullView* view) {
   }
 }
 
+PixelBox Common(const PixelBox& a, const PixelBox& b) {
+  return {std::max(a.x, b.x), std::max(a.y, b.y), std::min(a.right, b.right), std::min(a.bottom, b.bottom)};
+}
+
+PixelBox Around(const PixelBox& a, const PixelBox& b) {
+  if (b.right <= b.x) return a;
+  if (a.right <= a.x) return b;
+  return {std::min(a.x, b.x), std::min(a.y, b.y), std::max(a.right, b.right), std::max(a.bottom, b.bottom)};
+}
+
 // All that doesn't depend on the pixel.
 class Caster {
  public:
-  Caster(const VisualHull& hull, const ViewRays& rays, HullView* view)
-      : hull_(hull), pencils_(hull, rays), rays_(rays), view_(*view) {
+  // `stale`: what of the view is to be cleared.
+  Caster(const VisualHull& hull, const ViewRays& rays, const PixelBox& stale, HullView* view)
+      : hull_(hull), pencils_(hull, rays), rays_(rays), stale_(stale), view_(*view) {
     view_.edges = pencils_.edges();
     if (!view_.normal_in_world.empty()) normals_.emplace(hull, rays);
   }
@@ -56,13 +67,15 @@ class Caster {
     const int down = (rays_.height_px() + kSizePx - 1) / kSizePx;
     tbb::parallel_for(0, across * down, [&](int i) {
       Worker& worker = workers.local();
-      ClearSquare(i % across * kSizePx, i / across * kSizePx, kSizePx, &view_);
+      const int x = i % across * kSizePx, y = i / across * kSizePx;
+      Clear(Common(stale_, {x, y, x + kSizePx, y + kSizePx}), &view_);
       worker.squares.clear();
-      pencils_.AddSquaresIn(i % across * kSizePx, i / across * kSizePx, &worker.squares);
+      pencils_.AddSquaresIn(x, y, &worker.squares);
       for (const PixelSquare& square : worker.squares) Work(square, &worker);
     });
     for (const Worker& worker : workers) {
       view_.hit_pixels += worker.hit_pixels;
+      view_.hits = Around(view_.hits, worker.hit_box);
       view_.crossings_met += worker.scratch.crossings_met;
       view_.cast_pixels += worker.cast_pixels;
     }
@@ -78,6 +91,7 @@ class Caster {
     std::vector<TileCamera> cameras;
     std::vector<TileCamera> sights;
     std::int64_t hit_pixels = 0;
+    PixelBox hit_box;
     std::int64_t cast_pixels = 0;
   };
 
@@ -90,8 +104,8 @@ class Caster {
     rays_.FillTile(x, y, worker->rays.u, worker->rays.v);
     LabelConcentric(pencils_.cameras(), x, y, &worker->cameras);
     LabelConcentric(pencils_.sights(), x, y, &worker->sights);
-    CastTile(worker->rays, pencils_.box(), worker->cameras, worker->sights, normals_ || !view_.surface.empty(),
-             &worker->scratch, &worker->hits);
+    CastTile(worker->rays, pencils_.box(), worker->cameras, worker->sights,
+             normals_ || !view_.surface.empty(), &worker->scratch, &worker->hits);
     worker->cast_pixels += std::min(kTilePx, rays_.width_px() - x) * std::min(kTilePx, rays_.height_px() - y);
     if (worker->hits.count > 0) Record(x, y, worker);
   }
@@ -117,6 +131,8 @@ class Caster {
   void Record(int x, int y, Worker* worker) {
     const TileHits& hits = worker->hits;
     worker->hit_pixels += hits.count;
+    worker->hit_box = Around(worker->hit_box, {x, y, std::min(x + kTilePx, rays_.width_px()),
+                                               std::min(y + kTilePx, rays_.height_px())});
     const int columns = std::min(kTilePx, rays_.width_px() - x);
     for (int row = 0; row < std::min(kTilePx, rays_.height_px() - y); ++row) {
       const std::size_t first =
@@ -146,24 +162,31 @@ class Caster {
   const VisualHull& hull_;
   ViewPencils pencils_;
   const ViewRays& rays_;
+  const PixelBox stale_;
   HullView& view_;
   std::optional<HullNormals> normals_;
 };
 
 }  // namespace
 
-HullView ViewHull(const VisualHull& hull, const ViewRays& rays, const HullViewOptions& options) {
+HullView ViewHull(const VisualHull& hull, const ViewRays& rays, const HullViewOptions& options,
+                  HullView kept) {
   HullView view;
   view.width_px = rays.width_px(), view.height_px = rays.height_px();
   const auto pixels = static_cast<std::size_t>(view.width_px) * static_cast<std::size_t>(view.height_px);
-  view.depth_mm.resize(pixels);
-  if (options.surfaces) view.surface.resize(pixels);
-  if (options.normals) view.normal_in_world.resize(pixels);
+  const bool can_keep = kept.width_px == view.width_px && kept.height_px == view.height_px &&
+                        kept.surface.empty() != options.surfaces &&
+                        kept.normal_in_world.empty() != options.normals;
+  view.depth_mm = std::move(kept.depth_mm), view.depth_mm.resize(pixels);
+  view.surface = std::move(kept.surface), view.surface.resize(options.surfaces ? pixels : 0);
+  view.normal_in_world = std::move(kept.normal_in_world),
+  view.normal_in_world.resize(options.normals ? pixels : 0);
   view.skipped_pixels = static_cast<std::int64_t>(pixels);
+  const PixelBox stale = can_keep ? kept.hits : PixelBox{0, 0, view.width_px, view.height_px};
   if (hull.IsEmpty()) {
-    ClearSquare(0, 0, std::max(view.width_px, view.height_px), &view);
+    Clear(stale, &view);
   } else {
-    Caster(hull, rays, &view).Run();
+    Caster(hull, rays, stale, &view).Run();
   }
   return view;
 }

@@ -36,6 +36,14 @@ class HullSurface {
   std::uint32_t packed_ = 0;
 };
 
+// Pixels [x, right) by [y, bottom).
+struct PixelBox {
+  int x = 0;
+  int y = 0;
+  int right = 0;
+  int bottom = 0;
+};
+
 struct HullView {
   int width_px = 0;
   int height_px = 0;
@@ -44,6 +52,7 @@ struct HullView {
   PictureBuffer<HullSurface> surface;
   PictureBuffer<Eigen::Vector3f> normal_in_world;  // unit, out of the hull; zero where the ray misses
   std::int64_t hit_pixels = 0;
+  PixelBox hits;                    // around them
   std::int64_t cast_pixels = 0;     // whose rays were cast
   std::int64_t skipped_pixels = 0;  // settled with a larger square of them
   std::int64_t edges = 0;           // of all contours
@@ -58,9 +67,10 @@ struct HullViewOptions {
 // First hull surface along each ray, where the ray's picture in each camera crosses the contours: exact but
 // for float32, 1e-6 of the depth (hull_view_test). Squares of pixels whose rays can't meet the contours of
 // some camera are settled together. Parallel; the result doesn't depend on the number of threads, nor on the
-// processor's vector width.
+// processor's vector width. `kept`: a view that nobody needs any more; where it was made with the same
+// options at the same size its memory is taken, and only what it hit is cleared.
 [[nodiscard]] HullView ViewHull(const VisualHull& hull, const ViewRays& rays,
-                                const HullViewOptions& options = {});
+                                const HullViewOptions& options = {}, HullView kept = {});
 
 // The same, for a view that is used once.
 [[nodiscard]] HullView ViewHull(const VisualHull& hull, const core::CameraModel& view,

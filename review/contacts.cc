@@ -316,14 +316,19 @@ core::PartContact FindContacts(const recon::VisualHull& hull, const core::Triang
   contact.verdict = core::Verdict::kContact;
   contact.contact_point_count = static_cast<std::int64_t>(points.size());
   for (const core::ContactPoint& point : points) contact.contact_area_mm2 += point.area_mm2;
-  RecoveryAnswer answer = Recover(hull, search.farthest(), way);
-  contact.recovery_status = answer.status;
-  contact.recovery = std::move(answer.recovery);
   contact.count.queries += contact.contact_point_count;
-  contact.deepest = Deepest(hull, points);
-  contact.points = SpreadEvenly(std::move(points), static_cast<std::size_t>(options.max_points));
-  for (core::ContactPoint& point : contact.points)
-    point.depth_mm = hull.Probe(point.position_in_world_mm).radius_mm;
+  tbb::parallel_invoke(
+      [&] {
+        RecoveryAnswer answer = Recover(hull, search.farthest(), way);
+        contact.recovery_status = answer.status;
+        contact.recovery = std::move(answer.recovery);
+        contact.deepest = Deepest(hull, points);
+      },
+      [&] {
+        contact.points = SpreadEvenly(points, static_cast<std::size_t>(options.max_points));
+        for (core::ContactPoint& point : contact.points)
+          point.depth_mm = hull.Probe(point.position_in_world_mm).radius_mm;
+      });
   return contact;
 }
 

@@ -8,9 +8,9 @@
 
 namespace elbowroom::review {
 
-std::vector<core::ContactPoint> SpreadEvenly(std::vector<core::ContactPoint> points, std::size_t count) {
+std::vector<core::ContactPoint> SpreadEvenly(std::span<const core::ContactPoint> points, std::size_t count) {
   core::Require(count > 0, "at least one point is kept");
-  if (points.size() <= count) return points;
+  if (points.size() <= count) return {points.begin(), points.end()};
   // Float32 about the first point: nobody minds which of two is farther by a millionth.
   using Row = Eigen::Array<float, 1, Eigen::Dynamic>;
   const auto size = static_cast<Eigen::Index>(points.size());

@@ -16,9 +16,8 @@ RenderWorker::~RenderWorker() { requests_.Close(); }
 void RenderWorker::Run() {
   std::optional<recon::gl::SceneRenderer> renderer;
   std::optional<ExactViewMaker> views;
-  SceneComposer composer([&views](const recon::VisualHull& hull, const recon::ViewRays& rays) {
-    return views->Make(hull, rays);
-  });
+  SceneComposer composer([&views](const recon::VisualHull& hull, const recon::ViewRays& rays,
+                                  recon::HullView kept) { return views->Make(hull, rays, std::move(kept)); });
   while (const std::optional<RenderRequest> request = requests_.Pop()) {
     try {
       if (!renderer) {

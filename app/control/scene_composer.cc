@@ -187,7 +187,7 @@ recon::gl::Scene SceneComposer::Compose(const FrameResult& result, const recon::
 void SceneComposer::Forget(const FrameResult& result) {
   if (hull_ != result.hull) {
     hull_ = result.hull;
-    hull_from_view_.reset();
+    Spare(std::exchange(hull_from_view_, nullptr));
     hull_from_lamp_.reset();
   } else if (camera_frames_ == result.camera_frames) {
     return;
@@ -196,10 +196,16 @@ void SceneComposer::Forget(const FrameResult& result) {
   photos_.clear();
 }
 
+// Keeps a view's memory for the next one, unless a scene still shows it.
+void SceneComposer::Spare(std::shared_ptr<recon::HullView> view) {
+  if (view != nullptr && view.use_count() == 1) spare_ = std::move(*view);
+}
+
 SceneComposer::SharedView SceneComposer::HullFrom(const recon::SceneView& view) {
   if (hull_from_view_ == nullptr || !(view_ == view)) {
-    hull_from_view_ =
-        std::make_shared<const recon::HullView>(make_view_(*hull_, recon::ViewRays(CameraOf(view))));
+    Spare(std::exchange(hull_from_view_, nullptr));
+    hull_from_view_ = std::make_shared<recon::HullView>(
+        make_view_(*hull_, recon::ViewRays(CameraOf(view)), std::exchange(spare_, {})));
     view_ = view;
     ++hull_views_;
   }
@@ -209,8 +215,8 @@ SceneComposer::SharedView SceneComposer::HullFrom(const recon::SceneView& view) 
 SceneComposer::SharedView SceneComposer::HullFromLamp(const recon::gl::SceneLamp& lamp) {
   if (hull_from_lamp_ == nullptr) {
     const recon::SceneView from_lamp = lamp.ShadowView(kHullFromLampPx);
-    hull_from_lamp_ =
-        std::make_shared<const recon::HullView>(recon::ViewHull(*hull_, recon::CameraOf(from_lamp), {.surfaces = false, .normals = false}));
+    hull_from_lamp_ = std::make_shared<const recon::HullView>(
+        recon::ViewHull(*hull_, recon::CameraOf(from_lamp), {.surfaces = false, .normals = false}));
     ++extra_hull_views_;
   }
   return hull_from_lamp_;

@@ -46,6 +46,7 @@ class SceneComposer {
   using SharedPhoto = std::shared_ptr<const recon::HullPhoto>;
   using SharedView = std::shared_ptr<const recon::HullView>;
   void Forget(const FrameResult& result);
+  void Spare(std::shared_ptr<recon::HullView> view);
   [[nodiscard]] SharedView HullFrom(const recon::SceneView& view);
   [[nodiscard]] SharedView HullFromLamp(const recon::gl::SceneLamp& lamp);
   [[nodiscard]] std::vector<SharedPhoto> PhotosFor(const SceneLook& look, const recon::SceneView& view);
@@ -56,7 +57,8 @@ class SceneComposer {
   // Of the last frame drawn; what is null hasn't been asked for since.
   std::shared_ptr<const recon::VisualHull> hull_;
   std::shared_ptr<const recon::FrameSet> camera_frames_;
-  SharedView hull_from_view_;
+  std::shared_ptr<recon::HullView> hull_from_view_;
+  recon::HullView spare_;
   recon::SceneView view_;  // that one's
   SharedView hull_from_lamp_;
   std::vector<SharedPhoto> photos_;  // one a camera, and the viewer camera's

@@ -108,7 +108,7 @@ SelfTestLine CompareSampled(const Scene& scene, recon::gl::TriangleViewportsGl* 
 SelfTestLine CompareExact(std::string what, const recon::VisualHull& hull, const recon::ViewRays& rays,
                           const MakeView& graphics) {
   const recon::HullView cpu = recon::ViewHull(hull, rays);
-  const recon::ViewComparison comparison = recon::CompareViews(hull, rays, cpu, graphics(hull, rays));
+  const recon::ViewComparison comparison = recon::CompareViews(hull, rays, cpu, graphics(hull, rays, {}));
   return {std::move(what), cpu.hit_pixels, comparison.differing_pixels + comparison.differing_in_band,
           comparison.differing_pixels};
 }
@@ -133,9 +133,8 @@ SelfTestReport RunSelfTest() {
         CompareSwept(std::string("plane sweep, undistortion grid, ") + name, straight, passes, &sweep));
   }
   recon::gl::ExactViewGl card;
-  for (SelfTestLine& line : TestExactViews([&](const recon::VisualHull&hull, const recon::ViewRays&rays) {
-         return card.ViewHull(hull, rays);
-       }))
+  for (SelfTestLine& line : TestExactViews([&](const recon::VisualHull&hull, const recon::ViewRays&rays,
+                                               const recon::HullView&) { return card.ViewHull(hull, rays); }))
     report.lines.push_back(std::move(line));
   recon::gl::TriangleViewportsGl viewports;
   report.lines.push_back(CompareSampled(scene, &viewports));

@@ -49,7 +49,7 @@ Contest Hold(const MakeView& processor, const MakeView& graphics, const recon::V
   recon::HullView by_processor, by_graphics;
   const auto time = [&](const MakeView& make, int round, recon::HullView* view) {
     const double begin_ms = now_ms();
-    *view = make(hull, places[static_cast<std::size_t>(round % 2)]);
+    *view = make(hull, places[static_cast<std::size_t>(round % 2)], std::move(*view));
     return now_ms() - begin_ms;
   };
   (void)time(processor, 0, &by_processor);
@@ -83,15 +83,15 @@ void Log(const ViewChoice& choice) {
 }  // namespace
 
 MakeView ProcessorsViews() {
-  return [](const recon::VisualHull& hull, const recon::ViewRays& rays) {
-    return recon::ViewHull(hull, rays, kNoSurfaces);
+  return [](const recon::VisualHull& hull, const recon::ViewRays& rays, recon::HullView kept) {
+    return recon::ViewHull(hull, rays, kNoSurfaces, std::move(kept));
   };
 }
 
 GraphicsContender GraphicsCard(std::string driver, bool is_software) {
   return {std::move(driver), is_software, [] {
-            return [card = std::make_shared<recon::gl::ExactViewGl>()](const recon::VisualHull& hull,
-                                                                       const recon::ViewRays& rays) {
+            return [card = std::make_shared<recon::gl::ExactViewGl>()](
+                       const recon::VisualHull& hull, const recon::ViewRays& rays, const recon::HullView&) {
               return card->ViewHull(hull, rays, kNoSurfaces);
             };
           }};
@@ -130,16 +130,17 @@ ExactViewMaker::ExactViewMaker(GraphicsContender contender, NowMs now_ms)
        fmt::format("exact view: by the processor, as OpenGL is software ({})", contender_.driver), false});
 }
 
-recon::HullView ExactViewMaker::Make(const recon::VisualHull& hull, const recon::ViewRays& rays) {
+recon::HullView ExactViewMaker::Make(const recon::VisualHull& hull, const recon::ViewRays& rays,
+                                     recon::HullView kept) {
   if (graphics_ != nullptr) {
     try {
-      return graphics_(hull, rays);
+      return graphics_(hull, rays, {});
     } catch (const core::Error& error) {  // the picture needn't go without the hull
       graphics_ = nullptr;
       Log(Failed(contender_.driver, error.what()));
     }
   }
-  recon::HullView view = recon::ViewHull(hull, rays, kNoSurfaces);
+  recon::HullView view = recon::ViewHull(hull, rays, kNoSurfaces, std::move(kept));
   if (!has_chosen_ && view.hit_pixels > 0) Choose(hull, rays);
   return view;
 }

@@ -10,8 +10,10 @@
 
 namespace elbowroom::control {
 
-// As recon::ViewHull with its default options, and equal to it outside of recon::ViewBand.
-using MakeView = std::function<recon::HullView(const recon::VisualHull&, const recon::ViewRays&)>;
+// As recon::ViewHull without surfaces, and equal to it outside of recon::ViewBand; the last is one of its
+// views that nobody needs any more, whose memory may be taken.
+using MakeView =
+    std::function<recon::HullView(const recon::VisualHull&, const recon::ViewRays&, recon::HullView)>;
 
 // The processor's way: recon::ViewHull.
 [[nodiscard]] MakeView ProcessorsViews();
@@ -54,7 +56,9 @@ class ExactViewMaker {
  public:
   explicit ExactViewMaker(GraphicsContender contender, NowMs now_ms = SteadyNowMs);
 
-  [[nodiscard]] recon::HullView Make(const recon::VisualHull& hull, const recon::ViewRays& rays);
+  // `kept`: as MakeView's.
+  [[nodiscard]] recon::HullView Make(const recon::VisualHull& hull, const recon::ViewRays& rays,
+                                     recon::HullView kept = {});
 
   // So far.
   [[nodiscard]] ViewMethod method() const {

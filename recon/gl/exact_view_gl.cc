@@ -227,6 +227,7 @@ void ExactViewGl::Impl::Read(bool with_surfaces, HullView* view) {
     const float* row = view->depth_mm.data() + width * static_cast<std::size_t>(y);
     view->hit_pixels += std::count_if(row + b.x, row + b.right, [](float depth) { return depth != 0.0F; });
   }
+  view->hits = {b.x, b.y, b.right, b.bottom};
   if (!with_surfaces) return;
   surfaces_.resize(2 * view->depth_mm.size());
   target_->ReadSurfaces(b.x, b.y, b.right, b.bottom, surfaces_.data());

@@ -54,7 +54,8 @@ class Player {
     double view_ms = 0.0;
     const auto see = [&](const std::shared_ptr<const recon::VisualHull>& hull) {
       const auto begin = Clock::now();
-      if (rays_ && hull != hull_) view_ = recon::ViewHull(*hull, *rays_);
+      if (rays_ && hull != hull_)
+        view_ = recon::ViewHull(*hull, *rays_, {.surfaces = false}, std::move(view_));
       hull_ = hull;
       view_ms = Ms(begin);
     };

@@ -32,7 +32,8 @@ TEST(SelfTest, OneUnexplainedPixelFailsIt) {
 
 // What the exact views' lines are if every 500th surface point is off by `factor`, or gone where it is 0.
 SelfTestReport WithPlanted(float factor) {
-  return {"driver", TestExactViews([factor](const recon::VisualHull& hull, const recon::ViewRays& rays) {
+  return {"driver", TestExactViews([factor](const recon::VisualHull& hull, const recon::ViewRays& rays,
+                                            const recon::HullView&) {
             recon::HullView view = recon::ViewHull(hull, rays);
             int hits = 0;
             for (float& depth_mm : view.depth_mm)

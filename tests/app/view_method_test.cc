@@ -49,10 +49,11 @@ VisualHull NoHull() {
 class Stage {
  public:
   [[nodiscard]] MakeView Taking(double ms, int* views, MakeView make = ProcessorsViews()) {
-    return [this, ms, views, make = std::move(make)](const VisualHull& hull, const ViewRays& rays) {
+    return [this, ms, views, make = std::move(make)](const VisualHull& hull, const ViewRays& rays,
+                                                     HullView kept) {
       now_ms_ += ms;
       ++*views;
-      return make(hull, rays);
+      return make(hull, rays, std::move(kept));
     };
   }
   [[nodiscard]] ViewChoice Choose(double processor_ms, double graphics_ms,
@@ -68,13 +69,13 @@ class Stage {
   double now_ms_ = 100.0;
 };
 
-HullView WithoutTheHand(const VisualHull& hull, const ViewRays& rays) {
+HullView WithoutTheHand(const VisualHull& hull, const ViewRays& rays, const HullView&) {
   HullView view = recon::ViewHull(hull, rays);
   view.depth_mm.assign(view.depth_mm.size(), 0.0F);
   return view;
 }
 
-HullView Broken(const VisualHull&, const ViewRays&) {
+HullView Broken(const VisualHull&, const ViewRays&, const HullView&) {
   throw core::Error(core::ErrorKind::kGraphics, "out of graphics memory");
 }
 
@@ -175,9 +176,9 @@ TEST(ExactViewMaker, AGraphicsCardThatFailsLaterIsLeft) {
   const LogLines log;
   double now_ms = 0.0;
   bool is_broken = false;
-  const MakeView graphics = [&](const VisualHull& hull, const ViewRays& rays) {
+  const MakeView graphics = [&](const VisualHull& hull, const ViewRays& rays, const HullView& kept) {
     now_ms -= 1.0;  // a clock that runs back lets the contender win on any machine
-    return is_broken ? Broken(hull, rays) : recon::ViewHull(hull, rays);
+    return is_broken ? Broken(hull, rays, kept) : recon::ViewHull(hull, rays);
   };
   ExactViewMaker maker({"card", false, [&] { return graphics; }}, [&] { return now_ms; });
   (void)maker.Make(Hand().hull, Hand().rays);
@@ -208,8 +209,8 @@ TEST(ExactViewMaker, TheDriverAtHandStandsTheContest) {
 
 TEST(ExactViewMaker, OnTheCardAtHandPicturesAreTheProcessorsOutsideTheBand) {
   const MakeView card = GraphicsCard("the driver at hand", false).open();
-  const HullView cpu = recon::ViewHull(Hand().hull, Hand().rays);
-  const HullView gl = card(Hand().hull, Hand().rays);
+  const HullView cpu = ProcessorsViews()(Hand().hull, Hand().rays, {});
+  const HullView gl = card(Hand().hull, Hand().rays, {});
   EXPECT_TRUE(recon::CompareViews(Hand().hull, Hand().rays, cpu, gl).Agree());
   EXPECT_EQ(gl.normal_in_world.size(), cpu.normal_in_world.size());
   EXPECT_EQ(gl.surface.size(), cpu.surface.size());

@@ -42,7 +42,7 @@ TEST(SpreadEvenly, KeepsFewPointsAsTheyAre) {
     EXPECT_EQ(kept[i].position_in_world_mm, points[i].position_in_world_mm);
     EXPECT_EQ(kept[i].area_mm2, points[i].area_mm2);
   }
-  EXPECT_TRUE(SpreadEvenly({}, 3).empty());
+  EXPECT_TRUE(SpreadEvenly(std::span<const ContactPoint>(), 3).empty());
 }
 
 TEST(SpreadEvenly, KeepsAreaDepthsAndCoversAll) {
