@@ -60,6 +60,19 @@ TEST_F(FramePipelineTest, AnUnchangedFrameIsNotComputedAgain) {
   ExpectSameContacts(*first, *again);
 }
 
+TEST_F(FramePipelineTest, WhatNeedsNoMoreThanTheHullRunsBeside) {
+  FramePipeline alone = MakePipeline(15.0), beside = MakePipeline(15.0);
+  const std::vector<double> gap = {kGapInitialMm};
+  for (const core::FrameIndex frame : {kTouching - 1, kTouching, kTouching}) {
+    std::vector<std::shared_ptr<const recon::VisualHull>> seen;
+    const SharedFrameResult result =
+        beside.Process(MasksOf(frame), gap, [&](const auto& hull) { seen.push_back(hull); });
+    ASSERT_EQ(seen.size(), 1U);
+    EXPECT_EQ(seen[0], result->hull);
+    ExpectSameContacts(*result, *alone.Process(MasksOf(frame), gap));
+  }
+}
+
 TEST_F(FramePipelineTest, OnlyTheMovedPartIsAskedAgain) {
   FramePipeline pipeline = MakePipeline();
   const SharedFrameResult at_140 = pipeline.Process(MasksOf(kTouching), std::vector<double>{kGapInitialMm});

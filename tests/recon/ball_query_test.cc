@@ -293,6 +293,34 @@ TEST(BallQuery, MixedIsRarelySaidOfABallThatAgrees) {
   }
 }
 
+TEST(BallQuery, WhatMayNotBeDeeperIsNot) {
+  Random random(2007);
+  int deeper = 0, shallower = 0, said_so = 0;
+  for (int trial = 0; trial < 40; ++trial) {
+    const auto unseen = trial % 2 == 0 ? core::UnseenPolicy::kOutside : core::UnseenPolicy::kAbstain;
+    const RandomScene scene = MakeRingScene(&random, random.Whole(2, 6), unseen);
+    const VisualHull hull = MakeVisualHull(scene.rig, scene.masks);
+    core::CameraIndex likely = 0;
+    for (int i = 0; i < 400; ++i) {
+      const Vector3d x = random.PointIn(scene.rig->workspace_mm);
+      const PointAnswer answer = hull.Probe(x);
+      const double asked_mm = answer.radius_mm * (random.Chance(0.5) ? 1.0 - random.LogUniform(1e-12, 0.9)
+                                                                     : 1.0 + random.LogUniform(1e-6, 2.0));
+      const bool may_be = hull.MayBeDeeper(x, asked_mm, &likely);
+      if (answer.radius_mm > asked_mm) {
+        ++deeper;
+        ASSERT_TRUE(may_be) << answer.radius_mm << " mm, asked " << asked_mm;
+      } else if (answer.is_inside) {
+        ++shallower;
+        said_so += may_be ? 0 : 1;
+      }
+    }
+  }
+  EXPECT_GT(deeper, 1000);
+  EXPECT_GT(shallower, 100);
+  EXPECT_GT(said_so, shallower / 2);  // else it saves nothing
+}
+
 TEST(BallQuery, HullShrinksWhenACameraIsAdded) {
   Random random(2003);
   for (int trial = 0; trial < 60; ++trial) {

@@ -381,6 +381,32 @@ TEST(ViewHull, OneThreadPaintsWhatManyPaint) {
   EXPECT_TRUE(one.surface == many.surface);
 }
 
+TEST(ViewHull, TheMemoryOfAnotherViewChangesNothing) {
+  Random random(5409);
+  const core::CameraModel camera = ViewCamera(200, 150, Vector3d(500, 300, 400), Vector3d::Zero());
+  const core::CameraModel small = ViewCamera(90, 150, Vector3d(500, 300, 400), Vector3d::Zero());
+  HullView kept;
+  for (int trial = 0; trial < 24; ++trial) {
+    RandomScene scene = MakeRingScene(&random, 3, core::UnseenPolicy::kOutside);
+    if (trial % 6 == 5) scene.masks[0] = core::BitMask(scene.masks[0].width_px(), scene.masks[0].height_px());
+    const VisualHull hull = MakeVisualHull(scene.rig, scene.masks);
+    const ViewRays rays(trial % 7 == 6 ? small : camera);
+    const HullViewOptions options{random.Chance(0.7), random.Chance(0.7)};
+    const HullView fresh = ViewHull(hull, rays, options);
+    kept = ViewHull(hull, rays, options, std::move(kept));
+    EXPECT_EQ(kept.depth_mm, fresh.depth_mm);
+    EXPECT_TRUE(kept.surface == fresh.surface);
+    EXPECT_EQ(kept.normal_in_world, fresh.normal_in_world);
+    EXPECT_EQ(kept.hit_pixels, fresh.hit_pixels);
+    for (int y = 0; y < kept.height_px; ++y) {
+      for (int x = 0; x < kept.width_px; ++x) {
+        if (kept.depth_mm[static_cast<std::size_t>(y * kept.width_px + x)] == 0.0F) continue;
+        EXPECT_TRUE(x >= kept.hits.x && x < kept.hits.right && y >= kept.hits.y && y < kept.hits.bottom);
+      }
+    }
+  }
+}
+
 TEST(ViewHull, OfEmptyAndFullMasks) {
   Random random(5408);
   RandomScene scene = MakeRingScene(&random, 2, core::UnseenPolicy::kAbstain);

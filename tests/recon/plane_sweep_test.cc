@@ -136,7 +136,7 @@ TEST(PlaneSweep, FirstSurfaceIsWithinOneSpacingBehindTheHulls) {
   const auto view = PinholeView({450.0, 250.0, 300.0}, Vector3d::Zero());
   const SweptView swept = SweepPlanes(scene.rig, Ready(scene.masks), view, {.spacing_mm = kSpacingMm});
   const HullView exact = ViewHull(MakeVisualHull(std::make_shared<core::Rig>(scene.rig), scene.masks), view);
-  const auto at = [&](const std::vector<float>& depth_mm, int x, int y) {
+  const auto at = [&](std::span<const float> depth_mm, int x, int y) {
     return depth_mm[static_cast<std::size_t>(y * view.width_px() + x)];
   };
   int compared = 0;

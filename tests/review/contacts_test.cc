@@ -2,6 +2,7 @@
 #include "review/contacts.h"
 
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
 
 #include <algorithm>
 #include <cmath>
@@ -193,6 +194,67 @@ TEST(FindContacts, HullInTheCavityOfAClosedPartIsClear) {
   for (auto& triangle : cavity.triangles) std::swap(triangle[1], triangle[2]);
   core::Append(shell, cavity);
   EXPECT_EQ(Find(BoxHull(), shell).verdict, core::Verdict::kClear);
+}
+
+TEST(FindContacts, KeptCellsOfThePartsInsideChangeNothing) {
+  Random random(6009);
+  TriangleMesh shell = BoxAround(Vector3d::Zero(), 150.0), cavity = BoxAround(Vector3d(12, 0, 0), 118.0);
+  for (auto& triangle : cavity.triangles) std::swap(triangle[1], triangle[2]);
+  core::Append(shell, cavity);
+  const core::TriangleTree part(std::make_shared<const TriangleMesh>(shell));
+  InsideCells inside(part);
+  int contained = 0, clear = 0;
+  const VisualHull hull = BoxHull();
+  for (int trial = 0; trial < 40; ++trial) {
+    const core::RigidTransform world_from_part{random.Rotation(),
+                                               random.Uniform(0.0, 150.0) * random.Direction()};
+    const core::PartContact kept = FindContacts(hull, part, world_from_part, 0, Fine(), &inside);
+    const core::PartContact fresh = FindContacts(hull, part, world_from_part, 0, Fine());
+    EXPECT_EQ(kept.verdict, fresh.verdict);
+    EXPECT_EQ(kept.contained_in_world_mm, fresh.contained_in_world_mm);
+    EXPECT_EQ(kept.count.queries, fresh.count.queries);
+    clear += kept.verdict == core::Verdict::kClear ? 1 : 0;
+  }
+  EXPECT_GT(clear, 3);
+  const core::TriangleTree box(std::make_shared<const TriangleMesh>(BoxAround(Vector3d::Zero(), 200.0)));
+  InsideCells inside_box(box);
+  for (int trial = 0; trial < 20; ++trial) {
+    const core::RigidTransform world_from_part{random.Rotation(),
+                                               random.Uniform(0.0, 20.0) * random.Direction()};
+    const core::PartContact kept = FindContacts(hull, box, world_from_part, 0, Fine(), &inside_box);
+    EXPECT_EQ(kept.contained_in_world_mm,
+              FindContacts(hull, box, world_from_part, 0, Fine()).contained_in_world_mm);
+    contained += kept.contained_in_world_mm ? 1 : 0;
+  }
+  EXPECT_GT(contained, 10);
+}
+
+// Faces far larger than what is searched alone.
+TEST(FindContacts, OneThreadFindsWhatManyFind) {
+  Random random(6010);
+  for (int trial = 0; trial < 10; ++trial) {
+    const core::RigidTransform world_from_part{random.Rotation(), 60.0 * random.Direction()};
+    const TriangleMesh part = BoxAround(Vector3d(200.0, 0.0, 0.0), 400.0);
+    ContactOptions options;
+    options.point_spacing_mm = 4.0;
+    const core::PartContact many = Find(BoxHull(), part, options, world_from_part);
+    const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
+    const core::PartContact one = Find(BoxHull(), part, options, world_from_part);
+    ASSERT_GT(one.contact_point_count, 10);
+    EXPECT_EQ(one.contact_area_mm2, many.contact_area_mm2);
+    EXPECT_EQ(one.count.queries, many.count.queries);
+    EXPECT_EQ(one.count.skipped, many.count.skipped);
+    EXPECT_EQ(one.deepest->position_in_world_mm, many.deepest->position_in_world_mm);
+    ASSERT_EQ(one.points.size(), many.points.size());
+    for (std::size_t i = 0; i < one.points.size(); ++i) {
+      EXPECT_EQ(one.points[i].position_in_world_mm, many.points[i].position_in_world_mm);
+      EXPECT_EQ(one.points[i].depth_mm, many.points[i].depth_mm);
+    }
+    ASSERT_EQ(one.recovery.has_value(), many.recovery.has_value());
+    if (one.recovery) {
+      EXPECT_EQ(one.recovery->cp_obj_in_world_mm, many.recovery->cp_obj_in_world_mm);
+    }
+  }
 }
 
 TEST(FindContacts, RecoveryBacksOutOfTheNearFace) {

@@ -374,7 +374,10 @@ TEST(SceneRenderer, SceneThatIsNotValidIsABug) {
   scene.parts.push_back({});
   EXPECT_THROW((void)renderer.Render(scene), core::PreconditionError);
   scene.parts.clear();
-  scene.hull = std::make_shared<const HullView>(HullView{2, 2, {1, 2, 3}, {}, {}});
+  HullView hull;
+  hull.width_px = hull.height_px = 2;
+  hull.depth_mm = {1, 2, 3};
+  scene.hull = std::make_shared<const HullView>(hull);
   EXPECT_THROW((void)renderer.Render(scene), core::PreconditionError);
   scene.hull.reset();
   scene.view.near_mm = 0.0;
