@@ -128,12 +128,16 @@ PointAnswer VisualHull::Probe(const Eigen::Vector3d& x_in_world) const {
 
 bool VisualHull::MayBeDeeper(const Eigen::Vector3d& x_in_world, double radius_mm,
                              core::CameraIndex* likely) const {
-  // Less than what rounding makes of a radius that is asked about.
-  const double enough_mm = radius_mm * (1.0 - 1e-8) - 1e-9;
-  if (is_empty_ || !(enough_mm > 0.0)) return true;
+  if (is_empty_) return true;
   const std::size_t first = std::min(*likely, silhouettes_.size() - 1);
   for (std::size_t k = 0; k < silhouettes_.size(); ++k) {
     const std::size_t i = k == 0 ? first : k <= first ? k - 1 : k;
+    // Less than what AskPlane's slack makes of a radius that is asked about: a millionth of a pixel, and
+    // more.
+    const double px_mm =
+        (x_in_world - rig_->cameras[i].center_in_world()).norm() / silhouettes_[i]->plane().focal_px();
+    const double enough_mm = radius_mm * (1.0 - 1e-8) - 4e-6 * px_mm;
+    if (!(enough_mm > 0.0)) return true;
     const BallLabel label = AskSilhouette(*this, i, x_in_world, enough_mm);
     if (!label.is_object) return true;
     if (label.radius_mm >= enough_mm) continue;

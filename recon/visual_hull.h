@@ -77,8 +77,9 @@ class VisualHull {
   // Contains(), and how far around the point the answer is sure to hold.
   [[nodiscard]] PointAnswer Probe(const Eigen::Vector3d& x_in_world) const;
 
-  // Whether Probe() may answer with a radius of more than `radius_mm`: for whoever looks for the deepest of many
-  // points, at a fraction of its cost. `likely`: the camera to be asked first, that said no last.
+  // Whether Probe() of a point in the hull may answer with a radius of more than `radius_mm`: for whoever
+  // looks for the deepest of many, at a fraction of its cost. `likely`: the camera to be asked first, that
+  // said no last.
   [[nodiscard]] bool MayBeDeeper(const Eigen::Vector3d& x_in_world, double radius_mm,
                                  core::CameraIndex* likely) const;
 

@@ -198,7 +198,7 @@ TEST(FindContacts, HullInTheCavityOfAClosedPartIsClear) {
 
 TEST(FindContacts, KeptCellsOfThePartsInsideChangeNothing) {
   Random random(6009);
-  TriangleMesh shell = BoxAround(Vector3d::Zero(), 150.0), cavity = BoxAround(Vector3d(12, 0, 0), 118.0);
+  TriangleMesh shell = BoxAround(Vector3d::Zero(), 260.0), cavity = BoxAround(Vector3d(12, 0, 0), 220.0);
   for (auto& triangle : cavity.triangles) std::swap(triangle[1], triangle[2]);
   core::Append(shell, cavity);
   const core::TriangleTree part(std::make_shared<const TriangleMesh>(shell));
@@ -207,7 +207,7 @@ TEST(FindContacts, KeptCellsOfThePartsInsideChangeNothing) {
   const VisualHull hull = BoxHull();
   for (int trial = 0; trial < 40; ++trial) {
     const core::RigidTransform world_from_part{random.Rotation(),
-                                               random.Uniform(0.0, 150.0) * random.Direction()};
+                                               random.Uniform(0.0, 60.0) * random.Direction()};
     const core::PartContact kept = FindContacts(hull, part, world_from_part, 0, Fine(), &inside);
     const core::PartContact fresh = FindContacts(hull, part, world_from_part, 0, Fine());
     EXPECT_EQ(kept.verdict, fresh.verdict);
