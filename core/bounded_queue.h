@@ -42,6 +42,17 @@ class BoundedQueue {
     return true;
   }
 
+  // For what is worth doing only while nothing else waits: false if it wasn't taken.
+  bool PushIfEmpty(T value) {
+    {
+      const std::lock_guard lock(mutex_);
+      if (closed_ || !values_.empty()) return false;
+      values_.push_back(std::move(value));
+    }
+    has_value_.notify_one();
+    return true;
+  }
+
   // Waits for a value; nothing once the queue is closed and empty.
   [[nodiscard]] std::optional<T> Pop() {
     std::unique_lock lock(mutex_);

@@ -177,9 +177,11 @@ HullView ViewHull(const VisualHull& hull, const ViewRays& rays, const HullViewOp
   const bool can_keep = kept.width_px == view.width_px && kept.height_px == view.height_px &&
                         kept.surface.empty() != options.surfaces &&
                         kept.normal_in_world.empty() != options.normals;
-  view.depth_mm = std::move(kept.depth_mm), view.depth_mm.resize(pixels);
-  view.surface = std::move(kept.surface), view.surface.resize(options.surfaces ? pixels : 0);
-  view.normal_in_world = std::move(kept.normal_in_world),
+  view.depth_mm = std::move(kept.depth_mm);
+  view.depth_mm.resize(pixels);
+  view.surface = std::move(kept.surface);
+  view.surface.resize(options.surfaces ? pixels : 0);
+  view.normal_in_world = std::move(kept.normal_in_world);
   view.normal_in_world.resize(options.normals ? pixels : 0);
   view.skipped_pixels = static_cast<std::int64_t>(pixels);
   const PixelBox stale = can_keep ? kept.hits : PixelBox{0, 0, view.width_px, view.height_px};

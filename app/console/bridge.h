@@ -16,7 +16,7 @@ class Bridge : public QObject {
   using Delivery = std::function<void()>;  // must not throw
 
   // Each keeps only its latest delivery, so that a slow UI never has a pile of them to work off.
-  enum class Stream { kFrame, kPicture, kProgress };
+  enum class Stream { kHull, kFrame, kPicture, kProgress };
 
   explicit Bridge(QObject* parent = nullptr) : QObject(parent) {}
 
@@ -27,7 +27,7 @@ class Bridge : public QObject {
   void PostLatest(Stream stream, Delivery delivery);
 
  private:
-  static constexpr std::size_t kStreams = 3;
+  static constexpr std::size_t kStreams = 4;
   void DeliverLatest(Stream stream);
 
   std::mutex mutex_;

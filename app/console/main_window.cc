@@ -130,6 +130,7 @@ QWidget* MainWindow::MakeSide() {
 void MainWindow::FollowDesk() {
   connect(desk_, &TrialDesk::StateChanged, this, &MainWindow::ShowState);
   connect(desk_, &TrialDesk::TrialOpened, this, &MainWindow::OpenTrial);
+  connect(desk_, &TrialDesk::HullArrived, view_, &OperatorView::Foresee);
   connect(desk_, &TrialDesk::FrameArrived, this, &MainWindow::ShowFrame);
   connect(desk_, &TrialDesk::Failed, this, &MainWindow::ShowError);
   connect(desk_, &TrialDesk::Progressed, status_, &StatusLine::ShowProgress);

@@ -50,6 +50,10 @@ OperatorView::OperatorView(QWidget* parent)
 
 OperatorView::~OperatorView() = default;
 
+void OperatorView::Foresee(const control::SharedHull& hull) {
+  if (result_ && camera_ && !drawing_.isValid()) worker_.Foresee(hull);
+}
+
 void OperatorView::ShowFrame(control::SharedFrameResult result) {
   result_ = std::move(result);
   if (camera_) {

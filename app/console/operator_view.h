@@ -33,6 +33,7 @@ class OperatorView : public QWidget {
 
   // Asks for a picture of it; the first one since Clear() is fitted to the view.
   void ShowFrame(control::SharedFrameResult result);
+  void Foresee(const control::SharedHull& hull);  // of the frame that comes next
   void Clear();
   void Fit();  // everything in the picture, from the front, above
 

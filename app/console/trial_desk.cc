@@ -52,6 +52,9 @@ void TrialDesk::Run(control::TrialSetup setup) {
     bridge_.PostLatest(Bridge::Stream::kFrame,
                        [this, news = FrameNews{result, tally->Parts()}] { emit FrameArrived(news); });
   };
+  options.on_hull = [this](const control::SharedHull& hull) {
+    bridge_.PostLatest(Bridge::Stream::kHull, [this, hull] { emit HullArrived(hull); });
+  };
   EnterState(DeskState::kRunning);
   trial_ = std::make_unique<control::LiveTrial>(std::move(setup), std::move(options),
                                                 [this](const control::LiveTrial::Ended& ended) {

@@ -63,6 +63,7 @@ class TrialDesk : public QObject {
  signals:
   void StateChanged();
   void TrialOpened(const elbowroom::control::TrialSetup& setup);
+  void HullArrived(const elbowroom::control::SharedHull& hull);  // of a frame that is being judged
   void FrameArrived(const elbowroom::console::FrameNews& news);
   void TrialEnded(const QString& note);
   void ReportWritten(const QString& html_file);

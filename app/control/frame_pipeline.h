@@ -26,7 +26,7 @@ namespace elbowroom::control {
 class FramePipeline {
  public:
   // Is given the frame's hull.
-  using WithHull = std::function<void(const std::shared_ptr<const recon::VisualHull>&)>;
+  using WithHull = std::function<void(const SharedHull&)>;
 
   // Throws: what Rig::Validate, Layout::Validate and PartReviewOptions::Validate throw.
   FramePipeline(core::Rig rig, core::Layout layout,

@@ -37,6 +37,8 @@ struct StageTimes {
   double response_ms = 0.0;
 };
 
+using SharedHull = std::shared_ptr<const recon::VisualHull>;
+
 struct FrameResult {
   core::FrameIndex frame = 0;
   double time_s = 0.0;  // of capture
@@ -44,7 +46,7 @@ struct FrameResult {
   // silhouettes were kept, as in a session.
   std::shared_ptr<const recon::FrameSet> camera_frames;
   core::SharedMasks masks;  // one a camera
-  std::shared_ptr<const recon::VisualHull> hull;
+  SharedHull hull;
   std::shared_ptr<const core::Layout> layout;
   std::vector<double> spacing_mm;  // in the layout's order
   // In the layout's order: where the frames before have pushed parts, from where layout and spacings have

@@ -5,6 +5,7 @@
 #include <mutex>
 #include <string>
 #include <thread>
+#include <variant>
 
 #include "app/control/frame_result.h"
 #include "app/control/scene_composer.h"
@@ -37,6 +38,10 @@ class RenderWorker {
 
   void Submit(RenderRequest request) { requests_.Push(std::move(request)); }
 
+  // The hull of a frame that is still being judged: unless something else waits, it is seen as the last request
+  // saw its own, so that the frame's picture has less to wait for.
+  void Foresee(SharedHull hull) { requests_.PushIfEmpty(std::move(hull)); }
+
   // Vendor, renderer and version in one line; "" until the first picture was drawn.
   [[nodiscard]] std::string driver() const {
     const std::lock_guard lock(driver_mutex_);
@@ -50,7 +55,7 @@ class RenderWorker {
   OnError on_error_;
   mutable std::mutex driver_mutex_;
   std::string driver_;
-  core::BoundedQueue<RenderRequest> requests_{1, core::WhenFull::kDropOldest};
+  core::BoundedQueue<std::variant<RenderRequest, SharedHull>> requests_{1, core::WhenFull::kDropOldest};
   std::jthread thread_;  // last: it starts when all else is there
 };
 

@@ -144,7 +144,9 @@ std::size_t CountHidden(const std::vector<core::ContactPoint>& points, const Vec
 
 recon::gl::Scene SceneComposer::Compose(const FrameResult& result, const recon::SceneView& view,
                                         const SceneLook& look, double hull_scale) {
-  Forget(result);
+  Forget(result.hull);
+  if (camera_frames_ != result.camera_frames) photos_.clear();
+  camera_frames_ = result.camera_frames;
   recon::gl::Scene scene;
   scene.view = view;
   scene.lamp = recon::gl::LampOver(result.hull->rig().workspace_mm);
@@ -183,16 +185,17 @@ recon::gl::Scene SceneComposer::Compose(const FrameResult& result, const recon::
   return scene;
 }
 
-// What isn't of this frame.
-void SceneComposer::Forget(const FrameResult& result) {
-  if (hull_ != result.hull) {
-    hull_ = result.hull;
-    Spare(std::exchange(hull_from_view_, nullptr));
-    hull_from_lamp_.reset();
-  } else if (camera_frames_ == result.camera_frames) {
-    return;
-  }
-  camera_frames_ = result.camera_frames;
+void SceneComposer::Foresee(const SharedHull& hull, const recon::SceneView& view, double hull_scale) {
+  Forget(hull);
+  (void)HullFrom(Scaled(view, hull_scale));
+}
+
+// What isn't of this hull.
+void SceneComposer::Forget(const SharedHull& hull) {
+  if (hull_ == hull) return;
+  hull_ = hull;
+  Spare(std::exchange(hull_from_view_, nullptr));
+  hull_from_lamp_.reset();
   photos_.clear();
 }
 

@@ -38,6 +38,9 @@ class SceneComposer {
   [[nodiscard]] recon::gl::Scene Compose(const FrameResult& result, const recon::SceneView& view,
                                          const SceneLook& look = {}, double hull_scale = 1.0);
 
+  // The hull of a frame that isn't judged yet, as the next Compose() of that frame will ask for it.
+  void Foresee(const SharedHull& hull, const recon::SceneView& view, double hull_scale = 1.0);
+
   // Views of the hull that were worked out since the start: the pictures' own, and those beside.
   [[nodiscard]] std::int64_t hull_views() const { return hull_views_; }
   [[nodiscard]] std::int64_t extra_hull_views() const { return extra_hull_views_; }
@@ -45,7 +48,7 @@ class SceneComposer {
  private:
   using SharedPhoto = std::shared_ptr<const recon::HullPhoto>;
   using SharedView = std::shared_ptr<const recon::HullView>;
-  void Forget(const FrameResult& result);
+  void Forget(const SharedHull& hull);
   void Spare(std::shared_ptr<recon::HullView> view);
   [[nodiscard]] SharedView HullFrom(const recon::SceneView& view);
   [[nodiscard]] SharedView HullFromLamp(const recon::gl::SceneLamp& lamp);
@@ -55,7 +58,7 @@ class SceneComposer {
 
   MakeView make_view_;
   // Of the last frame drawn; what is null hasn't been asked for since.
-  std::shared_ptr<const recon::VisualHull> hull_;
+  SharedHull hull_;
   std::shared_ptr<const recon::FrameSet> camera_frames_;
   std::shared_ptr<recon::HullView> hull_from_view_;
   recon::HullView spare_;

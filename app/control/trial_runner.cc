@@ -97,7 +97,7 @@ class Recording {
       if (options_.at_capture_rate) pace_.WaitFor(frames.time_s, stop);
       ApplyChanges(frame, frames.time_s);
       const Clock::time_point begin = Clock::now();
-      const SharedFrameResult result = pipeline_->Process(std::move(frames), spacing_mm_);
+      const SharedFrameResult result = pipeline_->Process(std::move(frames), spacing_mm_, options_.on_hull);
       outcome_.frame_ms.push_back(std::chrono::duration<double, std::milli>(Clock::now() - begin).count());
       Record(*result);
       if (options_.on_frame) options_.on_frame(result);

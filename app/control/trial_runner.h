@@ -29,6 +29,8 @@ struct TrialOptions {
   bool at_capture_rate = false;  // true: no faster than the frames were taken (console); false: flat out
   // Called for every frame on the trial's thread; must not block.
   std::function<void(const SharedFrameResult&)> on_frame;
+  // Called with every frame's hull while its parts are judged, on any thread; must not block.
+  std::function<void(const SharedHull&)> on_hull;
   core::Progress progress;
 };
 

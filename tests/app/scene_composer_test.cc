@@ -128,6 +128,19 @@ TEST(SceneComposer, KeepingChangesNothingAndSavesTheViewsOfOneFrame) {
   EXPECT_EQ(counted.extra_hull_views(), 5);
 }
 
+TEST(SceneComposer, AHullThatWasForeseenIsNotSeenAgain) {
+  const SharedFrameResult frame = Demo().At(kPipeIsHeldS), other = Demo().At(kTongsAreInS);
+  const recon::SceneView view = TrialView(240, 180, -62.0, 14.0);
+  SceneComposer composer;
+  composer.Foresee(frame->hull, view);
+  EXPECT_EQ(composer.hull_views(), 1);
+  EXPECT_EQ(Draw(composer.Compose(*frame, view)), Draw(SceneComposer().Compose(*frame, view)));
+  EXPECT_EQ(composer.hull_views(), 1);
+  composer.Foresee(other->hull, view);  // whose frame never comes
+  EXPECT_EQ(Draw(composer.Compose(*frame, view, {HullAppearance::kRigCameras})),
+            Draw(SceneComposer().Compose(*frame, view, {HullAppearance::kRigCameras})));
+}
+
 TEST(SceneComposer, OneCameraIsTheViewersIfThereIsOne) {
   FrameResult worn = *Demo().At(kPipeIsHeldS);
   const recon::SceneView view = TrialView(240, 180, -62.0, 14.0);

@@ -26,6 +26,19 @@ TEST(BoundedQueue, DropOldestKeepsTheLatestAndCounts) {
   EXPECT_EQ(queue.Pop(), 4);
 }
 
+TEST(BoundedQueue, WhatIsPushedIfEmptyReplacesNothing) {
+  BoundedQueue<int> queue(1, WhenFull::kDropOldest);
+  EXPECT_TRUE(queue.PushIfEmpty(1));
+  EXPECT_FALSE(queue.PushIfEmpty(2));
+  EXPECT_TRUE(queue.Push(3));
+  EXPECT_EQ(queue.dropped(), 1U);
+  EXPECT_FALSE(queue.PushIfEmpty(4));
+  EXPECT_EQ(queue.Pop(), 3);
+  queue.Close();
+  EXPECT_FALSE(queue.PushIfEmpty(5));
+  EXPECT_EQ(queue.TryPop(), std::nullopt);
+}
+
 TEST(BoundedQueue, ClosedTakesNothingInButGivesWhatIsInside) {
   BoundedQueue<int> queue(2, WhenFull::kBlock);
   EXPECT_TRUE(queue.Push(1));
