@@ -170,8 +170,8 @@ HWY_INLINE std::uint64_t DifferingWord(const std::uint8_t* image, const std::uin
          ~(count == 64 ? Shade(bits, image, mean, *shade) : ShadeAtEnd(bits, image, mean, count, *shade));
 }
 
-// Bit w: of the cell of word w, which has all of its pixels, one that is looked at has a channel outside of its
-// range, or may have.
+// Bit w: of the cell of word w, which has all of its pixels, one that is looked at has a channel outside of
+// its range, or may have.
 void LookAtCells(const RowGroup& rows, std::size_t width, std::uint64_t* bits) {
   const std::uint8_t* shared = rows.shared;
   for (std::size_t word = 0; word < width / 64; ++word, shared += 2 * kWordBytes) {
@@ -232,16 +232,15 @@ class DifferenceSearch {
     return std::move(mask_);
   }
 
-  // Cells of which a pixel that is looked at differs, and from there on all that adjoin one with a pixel that
-  // does.
+  // Cells of which a pixel that is looked at differs, while their rows are at hand; and from there on all
+  // that adjoin one with a pixel that does.
   [[nodiscard]] core::BitMask Large() && {
-    Look();
+    is_known_.assign(static_cast<std::size_t>(down_ * across_), 0);
+    for (int group = 0; group < down_; ++group) Look(group);
     while (!waiting_.empty()) {
       const auto [group, word] = waiting_.back();
       waiting_.pop_back();
-      if (!Differs(RowsOf(group), word)) continue;
-      for (int y = std::max(group - 1, 0); y <= std::min(group + 1, down_ - 1); ++y)
-        for (int x = std::max(word - 1, 0); x <= std::min(word + 1, across_ - 1); ++x) Await(y, x);
+      Visit(RowsOf(group), group, word);
     }
     return std::move(mask_);
   }
@@ -271,24 +270,24 @@ class DifferenceSearch {
                                               static_cast<std::size_t>(image_bgr_.cols), shade_);
   }
 
-  void Look() {
-    is_waited_for_.assign(static_cast<std::size_t>(down_ * across_), 0);
-    std::vector<std::uint64_t> bits(static_cast<std::size_t>(across_ + 63) / 64);
-    const auto look = HWY_DYNAMIC_DISPATCH(LookAtCells);
-    for (int group = 0; group < down_; ++group) {
-      std::ranges::fill(bits, 0);
-      look(RowsOf(group), static_cast<std::size_t>(image_bgr_.cols), bits.data());
-      for (std::size_t i = 0; i < bits.size(); ++i)
-        for (std::uint64_t left = bits[i]; left != 0; left &= left - 1)
-          Await(group, static_cast<int>(64 * i) + std::countr_zero(left));
-      if (image_bgr_.cols % 64 != 0) Await(group, across_ - 1);  // isn't looked at
-    }
+  void Look(int group) {
+    const RowGroup rows = RowsOf(group);
+    hits_.assign(static_cast<std::size_t>(across_ + 63) / 64, 0);
+    HWY_DYNAMIC_DISPATCH(LookAtCells)(rows, static_cast<std::size_t>(image_bgr_.cols), hits_.data());
+    for (std::size_t i = 0; i < hits_.size(); ++i)
+      for (std::uint64_t left = hits_[i]; left != 0; left &= left - 1)
+        Visit(rows, group, static_cast<int>(64 * i) + std::countr_zero(left));
+    if (image_bgr_.cols % 64 != 0) Visit(rows, group, across_ - 1);  // isn't looked at
   }
 
-  void Await(int group, int word) {
-    std::uint8_t& is_waited_for = is_waited_for_[static_cast<std::size_t>(group * across_ + word)];
-    if (is_waited_for == 0) waiting_.push_back({group, word});
-    is_waited_for = 1;
+  void Visit(const RowGroup& rows, int group, int word) {
+    std::uint8_t& is_known = is_known_[static_cast<std::size_t>(group * across_ + word)];
+    if (is_known != 0) return;
+    is_known = 1;
+    if (!Differs(rows, word)) return;
+    for (int y = std::max(group - 1, 0); y <= std::min(group + 1, down_ - 1); ++y)
+      for (int x = std::max(word - 1, 0); x <= std::min(word + 1, across_ - 1); ++x)
+        if (is_known_[static_cast<std::size_t>(y * across_ + x)] == 0) waiting_.push_back({y, x});
   }
 
   const LevelRanges& ranges_;
@@ -297,15 +296,16 @@ class DifferenceSearch {
   const ShadeRule* const shade_;
   core::BitMask mask_;
   const int across_, down_;
-  std::vector<Cell> waiting_;
-  std::vector<std::uint8_t> is_waited_for_;
+  std::vector<Cell> waiting_;  // some more than once
+  std::vector<std::uint8_t> is_known_;
+  std::vector<std::uint64_t> hits_;
 };
 
 core::BitMask Differing(const LevelRanges& ranges, const cv::Mat& image_bgr, const cv::Mat& mean_bgr,
                         const ShadeRule* shade, int least_px) {
-  core::Require(image_bgr.type() == CV_8UC3 &&
-                    image_bgr.size() == cv::Size(ranges.width_px(), ranges.height_px()),
-                "a picture is 8-bit BGR and of its ranges' size");
+  core::Require(
+      image_bgr.type() == CV_8UC3 && image_bgr.size() == cv::Size(ranges.width_px(), ranges.height_px()),
+      "a picture is 8-bit BGR and of its ranges' size");
   DifferenceSearch search(ranges, image_bgr, mean_bgr, shade);
   return least_px > kMostUnseenPx ? std::move(search).Large() : std::move(search).All();
 }
