@@ -89,8 +89,7 @@ void CellDistances::FillBlocks(std::span<const std::uint32_t> holders) {
     }
     NearestBlocksInRow(squares.Row(0), block_width_, kBlock, blocks_.data() + y * block_width_);
   }
-  for (float& block : blocks_)
-    block = std::max(std::sqrt(block) * (1.0F - 1e-6F), static_cast<float>(kNear));
+  for (float& block : blocks_) block = std::max(std::sqrt(block) * (1.0F - 1e-6F), static_cast<float>(kNear));
 }
 
 }  // namespace elbowroom::recon

@@ -43,7 +43,7 @@ class CellDistances {
   std::size_t width_ = 0, height_ = 0;
   std::size_t block_width_ = 0, block_height_ = 0;
   std::unique_ptr<std::uint8_t[]> near_squares_;  // kNearCells * kNearCells: at least as far
-  std::vector<float> blocks_;  // at least kNearCells
+  std::vector<float> blocks_;                     // at least kNearCells
 };
 
 }  // namespace elbowroom::recon

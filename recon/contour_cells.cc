@@ -131,7 +131,8 @@ std::vector<std::uint32_t> ContourCells::ListEdges(const Contour& contour) {
   segments_.resize(touches.size() + LabelRaster::kEdgesBehind);
   // A cell's place is where its next edge goes, until the last one is there.
   for (const auto& [cell, e] : touches) {
-    const Vector2d &from = contour.vertices[contour.edges[e].from], &to = contour.vertices[contour.edges[e].to];
+    const Vector2d &from = contour.vertices[contour.edges[e].from],
+                   &to = contour.vertices[contour.edges[e].to];
     const std::uint32_t place = first_[cell]++;
     segments_[place] = {from.x(), from.y(), to.x(), to.y()};
     listed_[place] = e;

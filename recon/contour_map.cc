@@ -61,8 +61,8 @@ class ContourMap::Grid {
     const bool at_centre = (label & LabelRaster::kObject) != 0;
     if ((label & LabelRaster::kMixed) == 0) return at_centre;
     const Vector2d centre = cells_.Centre(place.cell.x(), place.cell.y());
-    return at_centre != ChangesInCell(cells_.Edges(place.index), {centre.x(), centre.y()},
-                                      {position.x(), position.y()});
+    return at_centre !=
+           ChangesInCell(cells_.Edges(place.index), {centre.x(), centre.y()}, {position.x(), position.y()});
   }
 
   // Lower bound, in px.

@@ -49,10 +49,10 @@ struct ShadeRule {
   float noise_levels = 0.0F;
 };
 
-// Pixels with a channel outside its range; those that are shade are left out if there is a rule. Of 8-connected
-// regions of fewer than `least_px` pixels some or all may be missing: the larger it is, the fewer pixels have
-// to be looked at. `image_bgr` (CV_8UC3, any row stride) and `mean_bgr` (CV_32FC3) are of the ranges' size.
-// AVX-512, AVX2, SSE4, SSSE3 and plain code, chosen at run time, give the same bits
+// Pixels with a channel outside its range; those that are shade are left out if there is a rule. Of
+// 8-connected regions of fewer than `least_px` pixels some or all may be missing: the larger it is, the fewer
+// pixels have to be looked at. `image_bgr` (CV_8UC3, any row stride) and `mean_bgr` (CV_32FC3) are of the
+// ranges' size. AVX-512, AVX2, SSE4, SSSE3 and plain code, chosen at run time, give the same bits
 // (tests/recon/difference_kernel_test.cc).
 [[nodiscard]] core::BitMask DifferingPixels(const LevelRanges& ranges, const cv::Mat& image_bgr,
                                             int least_px = 0);

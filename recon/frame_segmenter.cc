@@ -58,7 +58,8 @@ std::vector<core::SoftMask> FrameSegmenter::Masks(const FrameSet& frames, Edges 
 }
 
 void FrameSegmenter::DropUnconfirmed(const FrameSet& frames, std::vector<core::SoftMask>* masks) const {
-  if (std::ranges::none_of(*masks, [](const core::SoftMask& mask) { return mask.mask.ShowsObject(); })) return;
+  if (std::ranges::none_of(*masks, [](const core::SoftMask& mask) { return mask.mask.ShowsObject(); }))
+    return;
   std::vector<const core::BitMask*> bits;
   for (const core::SoftMask& mask : *masks) bits.push_back(&mask.mask);
   const std::vector<std::vector<bool>> confirmed = support_.ConfirmedBlobs(bits);

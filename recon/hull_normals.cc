@@ -49,8 +49,8 @@ Vector3f HullNormals::Of(const HullSurface& surface, int x, int y, float depth_m
   const Eigen::Vector2d uv = rays_.At(x, y);
   const double z_mm = depth_mm;
   const bool is_perspective = rays_.projection() == Projection::kPerspective;
-  const Vector3d x_in_view = is_perspective ? Vector3d(uv.x() * z_mm, uv.y() * z_mm, z_mm)
-                                            : Vector3d(uv.x(), uv.y(), z_mm);
+  const Vector3d x_in_view =
+      is_perspective ? Vector3d(uv.x() * z_mm, uv.y() * z_mm, z_mm) : Vector3d(uv.x(), uv.y(), z_mm);
   return FaceNormal(hull_.rig().workspace_mm, world_from_view_ * x_in_view);
 }
 
@@ -65,8 +65,8 @@ PictureBuffer<Vector3f> NormalsOf(const VisualHull& hull, const ViewRays& rays, 
       const std::size_t pixel =
           static_cast<std::size_t>(y) * static_cast<std::size_t>(view.width_px) + static_cast<std::size_t>(x);
       const HullSurface& surface = view.surface[pixel];
-      normals[pixel] =
-          surface.is_hit() ? hull_normals.Of(surface, x, y, view.depth_mm[pixel]) : Vector3f(Vector3f::Zero());
+      normals[pixel] = surface.is_hit() ? hull_normals.Of(surface, x, y, view.depth_mm[pixel])
+                                        : Vector3f(Vector3f::Zero());
     }
   });
   return normals;

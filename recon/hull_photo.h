@@ -38,9 +38,9 @@ class HullPhoto {
  private:
   core::CameraModel camera_;
   cv::Mat image_bgr_;
-  double focal_px_;              // the shorter one
+  double focal_px_;                // the shorter one
   PictureBuffer<float> depth_mm_;  // of the hull, a pixel; 0: it isn't there
-  cv::Mat trust_;                // CV_32FC1: 0 at rims and borders, 1 from kFeatherPx away
+  cv::Mat trust_;                  // CV_32FC1: 0 at rims and borders, 1 from kFeatherPx away
 };
 
 }  // namespace elbowroom::recon

@@ -96,9 +96,10 @@ Segmenter::EmptyScene Segmenter::EmptySceneFor(const cv::Mat& image_bgr) const {
 core::BitMask Segmenter::Detect(const cv::Mat& image_bgr, const EmptyScene& scene) const {
   const ShadeRule shade{static_cast<float>(options_.shadow_darkest),
                         static_cast<float>(options_.shadow_chroma), kShadeNoiseLevels};
-  core::BitMask mask = options_.shadows == ShadowRule::kReject
-                           ? DifferingPixels(scene.ranges, image_bgr, scene.mean_bgr, shade, options_.min_blob_px)
-                           : DifferingPixels(scene.ranges, image_bgr, options_.min_blob_px);
+  core::BitMask mask =
+      options_.shadows == ShadowRule::kReject
+          ? DifferingPixels(scene.ranges, image_bgr, scene.mean_bgr, shade, options_.min_blob_px)
+          : DifferingPixels(scene.ranges, image_bgr, options_.min_blob_px);
   if (!mask.ShowsObject()) return mask;
   RemoveSmallBlobs(mask, options_.min_blob_px);
   FillSmallHoles(mask, options_.max_hole_px);

@@ -38,8 +38,8 @@ class RenderWorker {
 
   void Submit(RenderRequest request) { requests_.Push(std::move(request)); }
 
-  // The hull of a frame that is still being judged: unless something else waits, it is seen as the last request
-  // saw its own, so that the frame's picture has less to wait for.
+  // The hull of a frame that is still being judged: unless something else waits, it is seen as the last
+  // request saw its own, so that the frame's picture has less to wait for.
   void Foresee(SharedHull hull) { requests_.PushIfEmpty(std::move(hull)); }
 
   // Vendor, renderer and version in one line; "" until the first picture was drawn.

@@ -137,7 +137,8 @@ TEST_F(EachTarget, FindsAllLargeRegionsWithoutLookingAtEveryPixel) {
         const bool is_line = random() % 2 == 0;
         const cv::Rect box(static_cast<int>(random() % static_cast<unsigned>(width)),
                            static_cast<int>(random() % static_cast<unsigned>(height)),
-                           static_cast<int>(1 + random() % 150), static_cast<int>(1 + random() % (is_line ? 3 : 20)));
+                           static_cast<int>(1 + random() % 150),
+                           static_cast<int>(1 + random() % (is_line ? 3 : 20)));
         const cv::Scalar color = cv::Scalar::all(random() % 3 == 0 ? 80.0 : 130.0);  // shade, or light
         image(box & cv::Rect(0, 0, width, height)).setTo(color);
       }
