@@ -31,6 +31,12 @@ BallLabel AskSilhouette(const VisualHull& hull, std::size_t camera, const Eigen:
                   enough_mm);
 }
 
+// The camera that is asked as the k-th: `first`, then the others as they come.
+std::size_t CameraAskedAs(std::size_t k, std::size_t first) {
+  if (k == 0) return first;
+  return k <= first ? k - 1 : k;
+}
+
 // Under `abstain` a point must be seen by someone: whether it is, and how far around somebody, or nobody,
 // sees everything.
 PointAnswer SightsOf(const VisualHull& hull, const Eigen::Vector3d& x_in_world) {
@@ -131,7 +137,7 @@ bool VisualHull::MayBeDeeper(const Eigen::Vector3d& x_in_world, double radius_mm
   if (is_empty_) return true;
   const std::size_t first = std::min(*likely, silhouettes_.size() - 1);
   for (std::size_t k = 0; k < silhouettes_.size(); ++k) {
-    const std::size_t i = k == 0 ? first : k <= first ? k - 1 : k;
+    const std::size_t i = CameraAskedAs(k, first);
     // Less than what AskPlane's slack makes of a radius that is asked about: a millionth of a pixel, and
     // more.
     const double px_mm =
@@ -165,7 +171,7 @@ BallAnswer VisualHull::Classify(const Eigen::Vector3d& center_in_world, double r
                    LessRounding(DistanceToFace(workspace_mm, center_in_world), center_in_world) >= radius_mm;
   const std::size_t first = std::min(open->likely, silhouettes_.size() - 1);
   for (std::size_t k = 0; k < silhouettes_.size(); ++k) {
-    const std::size_t i = k == 0 ? first : k <= first ? k - 1 : k;
+    const std::size_t i = CameraAskedAs(k, first);
     if (!open->Asks(i)) continue;
     const BallLabel label = AskSilhouette(*this, i, center_in_world, radius_mm);
     if (label.radius_mm < radius_mm) {
@@ -200,7 +206,7 @@ BallAnswer VisualHull::Classify(const WorldShape& shape, OpenCameras* open) cons
   bool is_inside = rig_->workspace_mm.contains(around) && !(ExteriorIsObject(*rig_) && open->asks_sights);
   const std::size_t first = std::min(open->likely, silhouettes_.size() - 1);
   for (std::size_t k = 0; k < silhouettes_.size(); ++k) {
-    const std::size_t i = k == 0 ? first : k <= first ? k - 1 : k;
+    const std::size_t i = CameraAskedAs(k, first);
     if (!open->Asks(i)) continue;
     const std::optional<bool> label =
         LabelOfShape(rig_->cameras[i], silhouettes_[i]->plane().focal_px(), silhouettes_[i]->labels(), shape);
