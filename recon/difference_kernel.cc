@@ -23,7 +23,8 @@ namespace {
 // Rows below one another, and the ranges that their pixels share.
 struct RowGroup {
   std::size_t count = 0;
-  const std::uint8_t* shared = nullptr;
+  const std::uint8_t* shared_lowest = nullptr;
+  const std::int16_t* shared_width = nullptr;
   const std::uint8_t* image[LevelRanges::kSharingRows];
   const std::uint8_t* ranges[LevelRanges::kSharingRows];
   const float* mean[LevelRanges::kSharingRows];
@@ -68,18 +69,20 @@ HWY_INLINE hn::Vec<Bytes> Outside(const std::uint8_t* image, const std::uint8_t*
                 hn::SaturatedSub(level, hn::Load(d, ranges + kWordBytes)));
 }
 
-// Not zero where one of the levels [begin, end) of 64 pixels is outside of its range.
-HWY_INLINE hn::Vec<Bytes> AnyOutside(const std::uint8_t* image, const std::uint8_t* ranges, std::size_t begin,
-                                     std::size_t end) {
+// How far levels [begin, end) of 64 pixels are above the lowest: the farthest of each lane. A level below it
+// wraps around, to more than any width.
+HWY_INLINE hn::Vec<Bytes> FarthestAbove(const std::uint8_t* image, const std::uint8_t* lowest,
+                                        std::size_t begin, std::size_t end) {
   const Bytes d;
-  auto any = Outside(image + begin, ranges + begin);
+  auto farthest = hn::Sub(hn::LoadU(d, image + begin), hn::Load(d, lowest + begin));
   for (std::size_t i = begin + hn::Lanes(d); i < end; i += hn::Lanes(d))
-    any = hn::Or(any, Outside(image + i, ranges + i));
-  return any;
+    farthest = hn::Max(farthest, hn::Sub(hn::LoadU(d, image + i), hn::Load(d, lowest + i)));
+  return farthest;
 }
-HWY_INLINE bool AreNone(hn::Vec<Bytes> any) {
+HWY_INLINE bool AreWithin(hn::Vec<Bytes> above, std::int16_t width) {
   const Bytes d;
-  return hn::AllTrue(d, hn::Eq(any, hn::Zero(d)));
+  const auto too_far = hn::SaturatedSub(above, hn::Set(d, static_cast<std::uint8_t>(width)));
+  return width >= 0 && hn::AllTrue(d, hn::Eq(too_far, hn::Zero(d)));
 }
 
 // Bit i: pixel i of 64 has a channel outside of its range. Channels stay interleaved: only bits are merged.
@@ -97,7 +100,7 @@ HWY_INLINE std::uint64_t Differing(const std::uint8_t* image, const std::uint8_t
       hn::StoreMaskBits(d, hn::Ne(Outside(image + i, ranges + i), zero), bytes + i / 8);
     std::memcpy(channels, bytes, sizeof channels);
   }
-  return PixelsOf64(channels);
+  return (channels[0] | channels[1] | channels[2]) == 0 ? 0 : PixelsOf64(channels);
 }
 
 template <class DF>
@@ -153,9 +156,9 @@ HWY_NOINLINE std::uint64_t ShadeAtEnd(std::uint64_t candidates, const std::uint8
 }
 
 // The 64 pixels (or `count` of them) from `image` on.
-HWY_INLINE std::uint64_t DifferingWord(const std::uint8_t* image, const std::uint8_t* shared,
-                                       const std::uint8_t* ranges, const float* mean, const ShadeRule* shade,
-                                       std::size_t count) {
+HWY_INLINE std::uint64_t DifferingWord(const std::uint8_t* image, const std::uint8_t* shared_lowest,
+                                       std::int16_t shared_width, const std::uint8_t* ranges,
+                                       const float* mean, const ShadeRule* shade, std::size_t count) {
   const std::uint8_t* levels = image;
   HWY_ALIGN std::uint8_t rest[kWordBytes];
   if (count < 64) {
@@ -163,7 +166,7 @@ HWY_INLINE std::uint64_t DifferingWord(const std::uint8_t* image, const std::uin
     std::memcpy(rest, image, count * 3);
     levels = rest;
   }
-  if (AreNone(AnyOutside(levels, shared, 0, kWordBytes))) return 0;
+  if (AreWithin(FarthestAbove(levels, shared_lowest, 0, kWordBytes), shared_width)) return 0;
   const std::uint64_t bits = Differing(levels, ranges);
   if (bits == 0 || shade == nullptr) return bits;
   return bits &
@@ -173,12 +176,13 @@ HWY_INLINE std::uint64_t DifferingWord(const std::uint8_t* image, const std::uin
 // Bit w: of the cell of word w, which has all of its pixels, one that is looked at has a channel outside of
 // its range, or may have.
 void LookAtCells(const RowGroup& rows, std::size_t width, std::uint64_t* bits) {
-  const std::uint8_t* shared = rows.shared;
-  for (std::size_t word = 0; word < width / 64; ++word, shared += 2 * kWordBytes) {
-    auto any = AnyOutside(rows.image[0] + word * kWordBytes, shared, 0, kWordBytes);
+  for (std::size_t word = 0; word < width / 64; ++word) {
+    const std::size_t at = word * kWordBytes;
+    const std::uint8_t* lowest = rows.shared_lowest + at;
+    auto farthest = FarthestAbove(rows.image[0] + at, lowest, 0, kWordBytes);
     for (std::size_t i = 1; i < rows.count; ++i)
-      any = hn::Or(any, AnyOutside(rows.image[i] + word * kWordBytes, shared, kLookFrom, kLookTo));
-    if (!AreNone(any)) bits[word / 64] |= std::uint64_t{1} << (word % 64);
+      farthest = hn::Max(farthest, FarthestAbove(rows.image[i] + at, lowest, kLookFrom, kLookTo));
+    if (!AreWithin(farthest, rows.shared_width[word])) bits[word / 64] |= std::uint64_t{1} << (word % 64);
   }
 }
 
@@ -188,8 +192,9 @@ bool DifferInCell(const RowGroup& rows, std::size_t word, std::size_t width, con
   std::uint64_t any = 0;
   for (std::size_t i = 0; i < rows.count; ++i) {
     const float* mean = shade != nullptr ? rows.mean[i] + 3 * x : nullptr;
-    const std::uint64_t bits = DifferingWord(rows.image[i] + 3 * x, rows.shared + word * 2 * kWordBytes,
-                                             rows.ranges[i] + word * 2 * kWordBytes, mean, shade, count);
+    const std::uint64_t bits =
+        DifferingWord(rows.image[i] + 3 * x, rows.shared_lowest + word * kWordBytes, rows.shared_width[word],
+                      rows.ranges[i] + word * 2 * kWordBytes, mean, shade, count);
     rows.out[i][word] = bits;
     any |= bits;
   }
@@ -209,7 +214,8 @@ HWY_EXPORT(DifferInCell);
 
 constexpr int kBytes = 192;  // of 64 pixels
 // Between the pixels that are looked at: rows 1 to 3 of a cell, from pixel 42 to pixel 21 of the next one.
-constexpr int kMostUnseenPx = (LevelRanges::kSharingRows - 1) * (64 - 20);
+constexpr int kUnseenOfRowPx = 64 - 20;
+constexpr int kMostUnseenPx = (LevelRanges::kSharingRows - 1) * kUnseenOfRowPx;
 
 // A picture in cells of 64 pixels by LevelRanges::kSharingRows rows.
 class DifferenceSearch {
@@ -234,7 +240,7 @@ class DifferenceSearch {
 
   // Cells of which a pixel that is looked at differs, while their rows are at hand; and from there on all
   // that adjoin one with a pixel that does.
-  [[nodiscard]] core::BitMask Large() && {
+  [[nodiscard]] core::BitMask Large(std::int64_t* unseen_px) && {
     is_known_.assign(static_cast<std::size_t>(down_ * across_), 0);
     for (int group = 0; group < down_; ++group) Look(group);
     while (!waiting_.empty()) {
@@ -242,6 +248,7 @@ class DifferenceSearch {
       waiting_.pop_back();
       Visit(RowsOf(group), group, word);
     }
+    *unseen_px = unseen_px_;
     return std::move(mask_);
   }
 
@@ -254,7 +261,8 @@ class DifferenceSearch {
     const int y0 = group * LevelRanges::kSharingRows;
     RowGroup rows;
     rows.count = static_cast<std::size_t>(std::min(LevelRanges::kSharingRows, image_bgr_.rows - y0));
-    rows.shared = ranges_.shared(y0);
+    rows.shared_lowest = ranges_.shared_lowest(y0);
+    rows.shared_width = ranges_.shared_width(y0);
     for (std::size_t i = 0; i < rows.count; ++i) {
       const int y = y0 + static_cast<int>(i);
       rows.image[i] = image_bgr_.ptr<std::uint8_t>(y);
@@ -273,6 +281,7 @@ class DifferenceSearch {
   void Look(int group) {
     const RowGroup rows = RowsOf(group);
     hits_.assign(static_cast<std::size_t>(across_ + 63) / 64, 0);
+    unseen_px_ += UnseenOfCellPx(rows) * (image_bgr_.cols / 64);
     HWY_DYNAMIC_DISPATCH(LookAtCells)(rows, static_cast<std::size_t>(image_bgr_.cols), hits_.data());
     for (std::size_t i = 0; i < hits_.size(); ++i)
       for (std::uint64_t left = hits_[i]; left != 0; left &= left - 1)
@@ -280,10 +289,15 @@ class DifferenceSearch {
     if (image_bgr_.cols % 64 != 0) Visit(rows, group, across_ - 1);  // isn't looked at
   }
 
+  static std::int64_t UnseenOfCellPx(const RowGroup& rows) {
+    return kUnseenOfRowPx * (static_cast<std::int64_t>(rows.count) - 1);
+  }
+
   void Visit(const RowGroup& rows, int group, int word) {
     std::uint8_t& is_known = is_known_[static_cast<std::size_t>(group * across_ + word)];
     if (is_known != 0) return;
     is_known = 1;
+    if (word < image_bgr_.cols / 64) unseen_px_ -= UnseenOfCellPx(rows);
     if (!Differs(rows, word)) return;
     for (int y = std::max(group - 1, 0); y <= std::min(group + 1, down_ - 1); ++y)
       for (int x = std::max(word - 1, 0); x <= std::min(word + 1, across_ - 1); ++x)
@@ -299,15 +313,19 @@ class DifferenceSearch {
   std::vector<Cell> waiting_;  // some more than once
   std::vector<std::uint8_t> is_known_;
   std::vector<std::uint64_t> hits_;
+  std::int64_t unseen_px_ = 0;
 };
 
 core::BitMask Differing(const LevelRanges& ranges, const cv::Mat& image_bgr, const cv::Mat& mean_bgr,
-                        const ShadeRule* shade, int least_px) {
+                        const ShadeRule* shade, int least_px, std::int64_t* unseen_px) {
   core::Require(
       image_bgr.type() == CV_8UC3 && image_bgr.size() == cv::Size(ranges.width_px(), ranges.height_px()),
       "a picture is 8-bit BGR and of its ranges' size");
   DifferenceSearch search(ranges, image_bgr, mean_bgr, shade);
-  return least_px > kMostUnseenPx ? std::move(search).Large() : std::move(search).All();
+  std::int64_t unseen = 0;
+  core::BitMask mask = least_px > kMostUnseenPx ? std::move(search).Large(&unseen) : std::move(search).All();
+  if (unseen_px != nullptr) *unseen_px = unseen;
+  return mask;
 }
 
 }  // namespace
@@ -341,28 +359,45 @@ LevelRanges::LevelRanges(const cv::Mat& mean_bgr, const cv::Mat& threshold_bgr)
 }
 
 void LevelRanges::Share() {
-  shared_.create((height_px_ + kSharingRows - 1) / kSharingRows, levels_.cols, CV_8U);
-  for (int y = 0; y < height_px_; ++y) {
-    const auto* levels = levels_.ptr<std::uint8_t>(y);
-    auto* together = shared_.ptr<std::uint8_t>(y / kSharingRows);
-    if (y % kSharingRows == 0) std::memcpy(together, levels, static_cast<std::size_t>(levels_.cols));
-    for (int first = 0; first < levels_.cols; first += 2 * kBytes) {
-      for (int i = first; i < first + kBytes; ++i) together[i] = std::max(together[i], levels[i]);
-      for (int i = first + kBytes; i < first + 2 * kBytes; ++i)
-        together[i] = std::min(together[i], levels[i]);
+  const int groups = (height_px_ + kSharingRows - 1) / kSharingRows, words = (width_px_ + 63) / 64;
+  shared_lowest_.create(groups, words * kBytes, CV_8U);
+  shared_width_.create(groups, words, CV_16S);
+  for (int group = 0; group < groups; ++group) {
+    const int begin = group * kSharingRows, end = std::min(begin + kSharingRows, height_px_);
+    for (int word = 0; word < words; ++word) {
+      std::uint8_t lowest[kBytes], highest[kBytes];
+      std::fill(lowest, lowest + kBytes, std::uint8_t{0});
+      std::fill(highest, highest + kBytes, std::uint8_t{255});
+      for (int y = begin; y < end; ++y) {
+        const std::uint8_t* levels = row(y) + word * 2 * kBytes;
+        for (int i = 0; i < kBytes; ++i) lowest[i] = std::max(lowest[i], levels[i]);
+        for (int i = 0; i < kBytes; ++i) highest[i] = std::min(highest[i], levels[kBytes + i]);
+      }
+      int width = 255;
+      for (int i = 0; i < kBytes; ++i) width = std::min(width, highest[i] - lowest[i]);
+      shared_width_.at<std::int16_t>(group, word) =
+          width < 0 ? kNoneShared : static_cast<std::int16_t>(width);
+      // In the middle of each range, as the background's levels are; what is past the row's end is zero.
+      auto* shared = shared_lowest_.ptr<std::uint8_t>(group) + word * kBytes;
+      const int count = std::min(kBytes, width_px_ * 3 - word * kBytes);
+      for (int i = 0; i < kBytes; ++i)
+        shared[i] = i < count && width >= 0
+                        ? static_cast<std::uint8_t>(lowest[i] + (highest[i] - lowest[i] - width) / 2)
+                        : std::uint8_t{0};
     }
   }
 }
 
-core::BitMask DifferingPixels(const LevelRanges& ranges, const cv::Mat& image_bgr, int least_px) {
-  return Differing(ranges, image_bgr, {}, nullptr, least_px);
+core::BitMask DifferingPixels(const LevelRanges& ranges, const cv::Mat& image_bgr, int least_px,
+                              std::int64_t* unseen_px) {
+  return Differing(ranges, image_bgr, {}, nullptr, least_px, unseen_px);
 }
 
 core::BitMask DifferingPixels(const LevelRanges& ranges, const cv::Mat& image_bgr, const cv::Mat& mean_bgr,
-                              const ShadeRule& shade, int least_px) {
+                              const ShadeRule& shade, int least_px, std::int64_t* unseen_px) {
   core::Require(mean_bgr.type() == CV_32FC3 && mean_bgr.size() == image_bgr.size(),
                 "a background's mean is CV_32FC3 and of the picture's size");
-  return Differing(ranges, image_bgr, mean_bgr, &shade, least_px);
+  return Differing(ranges, image_bgr, mean_bgr, &shade, least_px, unseen_px);
 }
 
 }  // namespace elbowroom::recon

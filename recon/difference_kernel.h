@@ -1,6 +1,7 @@
 // The inner loop of segmentation: which pixels differ from the empty scene and aren't its shade.
 #pragma once
 
+#include <cstdint>
 #include <opencv2/core/mat.hpp>
 
 #include "core/bit_mask.h"
@@ -27,17 +28,25 @@ class LevelRanges {
   // the row's end may have any level.
   [[nodiscard]] const std::uint8_t* row(int y) const { return levels_.ptr<std::uint8_t>(y); }
 
-  // The levels that are within range in all of the rows that y shares with; none where lowest > highest.
-  [[nodiscard]] const std::uint8_t* shared(int y) const {
-    return shared_.ptr<std::uint8_t>(y / kSharingRows);
+  // The lowest levels of pixels that stand below one another in the rows that y shares with. A level that is
+  // no more than shared_width() above it is within the ranges of all of them.
+  [[nodiscard]] const std::uint8_t* shared_lowest(int y) const {
+    return shared_lowest_.ptr<std::uint8_t>(y / kSharingRows);
   }
+
+  // For each 64 pixels of the rows that y shares with; kNoneShared: one of them has no level in common.
+  [[nodiscard]] const std::int16_t* shared_width(int y) const {
+    return shared_width_.ptr<std::int16_t>(y / kSharingRows);
+  }
+  static constexpr std::int16_t kNoneShared = -1;
 
  private:
   void Share();
 
   int width_px_ = 0;
   int height_px_ = 0;
-  cv::Mat levels_, shared_;  // CV_8U
+  cv::Mat levels_, shared_lowest_;  // CV_8U
+  cv::Mat shared_width_;            // CV_16S
 };
 
 // Shade is the background with less light: with B the background's mean and g = I.B / B.B the share of its
@@ -51,13 +60,13 @@ struct ShadeRule {
 
 // Pixels with a channel outside its range; those that are shade are left out if there is a rule. Of
 // 8-connected regions of fewer than `least_px` pixels some or all may be missing: the larger it is, the fewer
-// pixels have to be looked at. `image_bgr` (CV_8UC3, any row stride) and `mean_bgr` (CV_32FC3) are of the
-// ranges' size. AVX-512, AVX2, SSE4, SSSE3 and plain code, chosen at run time, give the same bits
-// (tests/recon/difference_kernel_test.cc).
+// pixels have to be looked at; `unseen_px` is told how many were not. `image_bgr` (CV_8UC3, any row stride)
+// and `mean_bgr` (CV_32FC3) are of the ranges' size. AVX-512, AVX2, SSE4, SSSE3 and plain code, chosen at run
+// time, give the same bits (tests/recon/difference_kernel_test.cc).
 [[nodiscard]] core::BitMask DifferingPixels(const LevelRanges& ranges, const cv::Mat& image_bgr,
-                                            int least_px = 0);
+                                            int least_px = 0, std::int64_t* unseen_px = nullptr);
 [[nodiscard]] core::BitMask DifferingPixels(const LevelRanges& ranges, const cv::Mat& image_bgr,
-                                            const cv::Mat& mean_bgr, const ShadeRule& shade,
-                                            int least_px = 0);
+                                            const cv::Mat& mean_bgr, const ShadeRule& shade, int least_px = 0,
+                                            std::int64_t* unseen_px = nullptr);
 
 }  // namespace elbowroom::recon

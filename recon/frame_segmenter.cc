@@ -39,21 +39,28 @@ FrameSegmenter::FrameSegmenter(const std::vector<BackgroundReference>& backgroun
   }
 }
 
-std::vector<core::SoftMask> FrameSegmenter::Masks(const FrameSet& frames, Edges edges) const {
+std::vector<core::SoftMask> FrameSegmenter::Masks(const FrameSet& frames, Edges edges,
+                                                  SegmentationStats* stats) const {
   core::Require(frames.cameras.size() == segmenters_.size(), "one frame a camera");
   std::vector<core::SoftMask> masks(frames.cameras.size());
+  std::vector<SegmentationStats> each(frames.cameras.size());
   tbb::parallel_for(std::size_t{0}, masks.size(), [&](std::size_t i) {
     const CameraFrame& camera = frames.cameras[i];
     core::Require(camera.ready_mask || segmenters_[i], "a picture to segment has a background");
     if (camera.ready_mask) {
       masks[i].mask = *camera.ready_mask;
     } else if (edges == Edges::kLocated) {
-      masks[i] = segmenters_[i]->SegmentSoft(camera.image_bgr);
+      masks[i] = segmenters_[i]->SegmentSoft(camera.image_bgr, &each[i]);
     } else {
-      masks[i].mask = segmenters_[i]->Segment(camera.image_bgr);
+      masks[i].mask = segmenters_[i]->Segment(camera.image_bgr, &each[i]);
     }
   });
   DropUnconfirmed(frames, &masks);
+  for (const SegmentationStats& of_camera : each) {
+    if (stats == nullptr) break;
+    stats->pixels += of_camera.pixels;
+    stats->unseen_pixels += of_camera.unseen_pixels;
+  }
   return masks;
 }
 
@@ -73,12 +80,13 @@ void FrameSegmenter::DropUnconfirmed(const FrameSet& frames, std::vector<core::S
 
 std::vector<core::BitMask> FrameSegmenter::Segment(const FrameSet& frames) const {
   std::vector<core::BitMask> masks;
-  for (core::SoftMask& mask : Masks(frames, Edges::kDetected)) masks.push_back(std::move(mask.mask));
+  for (core::SoftMask& mask : Masks(frames, Edges::kDetected, nullptr)) masks.push_back(std::move(mask.mask));
   return masks;
 }
 
-std::vector<core::SoftMask> FrameSegmenter::SegmentSoft(const FrameSet& frames) const {
-  return Masks(frames, Edges::kLocated);
+std::vector<core::SoftMask> FrameSegmenter::SegmentSoft(const FrameSet& frames,
+                                                        SegmentationStats* stats) const {
+  return Masks(frames, Edges::kLocated, stats);
 }
 
 }  // namespace elbowroom::recon

@@ -25,12 +25,15 @@ class FrameSegmenter {
   // PreconditionError for a picture whose camera has no background.
   [[nodiscard]] std::vector<core::BitMask> Segment(const FrameSet& frames) const;
 
-  // The same with boundaries located between pixels; ready masks come without levels. Throws: likewise.
-  [[nodiscard]] std::vector<core::SoftMask> SegmentSoft(const FrameSet& frames) const;
+  // The same with boundaries located between pixels; ready masks come without levels. `stats` is told what it
+  // took over all pictures. Throws: likewise.
+  [[nodiscard]] std::vector<core::SoftMask> SegmentSoft(const FrameSet& frames,
+                                                        SegmentationStats* stats = nullptr) const;
 
  private:
   enum class Edges { kDetected, kLocated };
-  [[nodiscard]] std::vector<core::SoftMask> Masks(const FrameSet& frames, Edges edges) const;
+  [[nodiscard]] std::vector<core::SoftMask> Masks(const FrameSet& frames, Edges edges,
+                                                  SegmentationStats* stats) const;
   void DropUnconfirmed(const FrameSet& frames, std::vector<core::SoftMask>* masks) const;
 
   std::vector<std::optional<Segmenter>> segmenters_;

@@ -93,26 +93,29 @@ Segmenter::EmptyScene Segmenter::EmptySceneFor(const cv::Mat& image_bgr) const {
   return {mean, PackedMean(mean), LevelRanges(mean, threshold_bgr_)};
 }
 
-core::BitMask Segmenter::Detect(const cv::Mat& image_bgr, const EmptyScene& scene) const {
+core::BitMask Segmenter::Detect(const cv::Mat& image_bgr, const EmptyScene& scene,
+                                SegmentationStats* stats) const {
   const ShadeRule shade{static_cast<float>(options_.shadow_darkest),
                         static_cast<float>(options_.shadow_chroma), kShadeNoiseLevels};
+  std::int64_t unseen_px = 0;
   core::BitMask mask =
       options_.shadows == ShadowRule::kReject
-          ? DifferingPixels(scene.ranges, image_bgr, scene.mean_bgr, shade, options_.min_blob_px)
-          : DifferingPixels(scene.ranges, image_bgr, options_.min_blob_px);
+          ? DifferingPixels(scene.ranges, image_bgr, scene.mean_bgr, shade, options_.min_blob_px, &unseen_px)
+          : DifferingPixels(scene.ranges, image_bgr, options_.min_blob_px, &unseen_px);
+  if (stats != nullptr) *stats = {static_cast<std::int64_t>(image_bgr.total()), unseen_px};
   if (!mask.ShowsObject()) return mask;
   RemoveSmallBlobs(mask, options_.min_blob_px);
   FillSmallHoles(mask, options_.max_hole_px);
   return mask;
 }
 
-core::BitMask Segmenter::Segment(const cv::Mat& image_bgr) const {
-  return Detect(image_bgr, EmptySceneFor(image_bgr));
+core::BitMask Segmenter::Segment(const cv::Mat& image_bgr, SegmentationStats* stats) const {
+  return Detect(image_bgr, EmptySceneFor(image_bgr), stats);
 }
 
-core::SoftMask Segmenter::SegmentSoft(const cv::Mat& image_bgr) const {
+core::SoftMask Segmenter::SegmentSoft(const cv::Mat& image_bgr, SegmentationStats* stats) const {
   const EmptyScene scene = EmptySceneFor(image_bgr);
-  core::BitMask detected = Detect(image_bgr, scene);
+  core::BitMask detected = Detect(image_bgr, scene, stats);
   if (!detected.ShowsObject()) return {std::move(detected), {}};
   return LocateBoundary(detected, image_bgr, scene.packed_mean, options_.floor_levels);
 }

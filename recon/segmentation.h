@@ -1,6 +1,7 @@
 // Which pixels of a camera image are object: image subtraction with thresholds, against the empty scene.
 #pragma once
 
+#include <cstdint>
 #include <opencv2/core/mat.hpp>
 #include <optional>
 #include <string_view>
@@ -39,6 +40,11 @@ struct SegmentationOptions {
   void Validate() const;
 };
 
+struct SegmentationStats {
+  std::int64_t pixels = 0;         // of the pictures segmented
+  std::int64_t unseen_pixels = 0;  // of those: not looked at, as no region of min_blob_px can be there
+};
+
 // One camera's background with its thresholds worked out. Immutable.
 //
 // Object where |I - mean| > max(k_sigma * sigma, floor_levels) + edge_slack_px * |gradient of mean| in any
@@ -50,12 +56,13 @@ class Segmenter {
   // Throws: Error{kRange} as Validate(); PreconditionError for an empty background.
   Segmenter(BackgroundReference background, const SegmentationOptions& options);
 
-  // The pixels detected as above. Throws: PreconditionError unless `image_bgr` is CV_8UC3 of the background's
-  // size.
-  [[nodiscard]] core::BitMask Segment(const cv::Mat& image_bgr) const;
+  // The pixels detected as above; `stats` is told what that took. Throws: PreconditionError unless
+  // `image_bgr` is CV_8UC3 of the background's size.
+  [[nodiscard]] core::BitMask Segment(const cv::Mat& image_bgr, SegmentationStats* stats = nullptr) const;
 
   // The same with its boundary located between pixels, as LocateBoundary. Throws: likewise.
-  [[nodiscard]] core::SoftMask SegmentSoft(const cv::Mat& image_bgr) const;
+  [[nodiscard]] core::SoftMask SegmentSoft(const cv::Mat& image_bgr,
+                                           SegmentationStats* stats = nullptr) const;
 
  private:
   // What the camera would show without an object.
@@ -65,7 +72,8 @@ class Segmenter {
     LevelRanges ranges;
   };
   [[nodiscard]] EmptyScene EmptySceneFor(const cv::Mat& image_bgr) const;
-  [[nodiscard]] core::BitMask Detect(const cv::Mat& image_bgr, const EmptyScene& scene) const;
+  [[nodiscard]] core::BitMask Detect(const cv::Mat& image_bgr, const EmptyScene& scene,
+                                     SegmentationStats* stats) const;
 
   SegmentationOptions options_;
   cv::Mat mean_bgr_;       // CV_32FC3

@@ -63,12 +63,14 @@ void StatusLine::ShowFrame(const control::FrameResult& result) {
                       .arg(result.times.contacts_ms, 0, 'f', 0)
                       .arg(response)
                       .arg(picture_ms_, 0, 'f', 0));
-  skipped_->setText(tr("skipped: %1 of %2 silhouettes, %3 of %4 parts, %5 of triangles")
-                        .arg(result.skipped.hull.unchanged_silhouettes)
-                        .arg(result.masks->size())
-                        .arg(result.skipped.unchanged_parts)
-                        .arg(result.contacts.size())
-                        .arg(PercentOf(result.skipped.triangles_skipped, result.skipped.triangles_in_all)));
+  skipped_->setText(
+      tr("skipped: %1 of pixels, %2 of %3 silhouettes, %4 of %5 parts, %6 of triangles")
+          .arg(PercentOf(result.skipped.segmentation.unseen_pixels, result.skipped.segmentation.pixels))
+          .arg(result.skipped.hull.unchanged_silhouettes)
+          .arg(result.masks->size())
+          .arg(result.skipped.unchanged_parts)
+          .arg(result.contacts.size())
+          .arg(PercentOf(result.skipped.triangles_skipped, result.skipped.triangles_in_all)));
   // Text that grows pushes the other fields once, not back and forth with every frame.
   for (QLabel* field : {frame_, times_, skipped_}) {
     field->setMinimumWidth(std::max(field->minimumWidth(), field->sizeHint().width()));

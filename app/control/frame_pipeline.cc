@@ -57,7 +57,7 @@ SharedFrameResult FramePipeline::Process(recon::FrameSet frames, std::span<const
   if (last_ && last_->response) result->rest_from_parts = MotionsOf(*last_->response);
   result->world_from_parts = core::WithMotions(world_from_rests, result->rest_from_parts);
   Stopwatch watch;
-  std::vector<core::SoftMask> masks = segmenter_.SegmentSoft(frames);
+  std::vector<core::SoftMask> masks = segmenter_.SegmentSoft(frames, &result->skipped.segmentation);
   result->times.segmentation_ms = watch.LapMs();
   UpdateHull(std::move(masks), result.get());
   result->times.hull_ms = watch.LapMs();

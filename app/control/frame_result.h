@@ -11,12 +11,14 @@
 #include "core/layout.h"
 #include "core/session.h"
 #include "recon/frame_set.h"
+#include "recon/segmentation.h"
 #include "recon/visual_hull.h"
 
 namespace elbowroom::control {
 
 // What a frame did not need to compute, and why.
 struct SkipCount {
+  recon::SegmentationStats segmentation;
   recon::HullStats hull;
   int unchanged_parts = 0;             // same hull, same pose: the last answer holds
   std::int64_t triangles_in_all = 0;   // of the parts asked

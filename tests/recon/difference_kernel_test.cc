@@ -158,6 +158,27 @@ TEST_F(EachTarget, FindsAllLargeRegionsWithoutLookingAtEveryPixel) {
   }
 }
 
+// Cells of 64 x 4 pixels: of a row of one that is left out 44 pixels aren't looked at, its first row is.
+TEST_F(EachTarget, TellsHowManyPixelsItDidNotLookAt) {
+  const cv::Size size(330, 22);
+  const LevelRanges ranges(cv::Mat(size, CV_32FC3, cv::Scalar::all(100.0)),
+                           cv::Mat(size, CV_32FC3, cv::Scalar::all(10.0)));
+  cv::Mat image(size, CV_8UC3, cv::Scalar::all(100.0));
+  cv::Mat touched = image.clone();
+  touched.at<cv::Vec3b>(8, 64) = {100, 150, 100};
+  for (const std::int64_t target : Targets()) {
+    SCOPED_TRACE(hwy::TargetName(target));
+    Choose(target);
+    std::int64_t unseen_px = -1;
+    EXPECT_EQ(DifferingPixels(ranges, image, 200, &unseen_px).CountObjectPixels(), 0U);
+    EXPECT_EQ(unseen_px, 5 * 44 * (5 * 3 + 1));  // the last of six rows of cells has two rows of pixels
+    EXPECT_EQ(DifferingPixels(ranges, touched, 200, &unseen_px).CountObjectPixels(), 1U);
+    EXPECT_EQ(unseen_px, 5 * 44 * (5 * 3 + 1) - 9 * 44 * 3);
+    EXPECT_EQ(DifferingPixels(ranges, touched, 100, &unseen_px).CountObjectPixels(), 1U);
+    EXPECT_EQ(unseen_px, 0) << "regions of 100 pixels may hide between the pixels that are looked at";
+  }
+}
+
 TEST_F(EachTarget, LocatesTheSameBoundary) {
   std::mt19937 random(4);
   for (const int width : {1, 5, 64, 65, 191}) {
