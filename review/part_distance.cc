@@ -10,6 +10,8 @@ using Eigen::Vector3d;
 
 // Squared sine of a corner: smaller ones are needles.
 constexpr double kNeedle = 1e-6;
+// Of half a box's diagonal: the radius of nodes that aren't looked into for a bound.
+constexpr double kSmallNode = 0.5;
 
 Vector3d NearestOnSegment(const Vector3d& x, const Vector3d& a, const Vector3d& b) {
   const Vector3d ab = b - a;
@@ -109,10 +111,20 @@ class Search {
     }
   }
 
+  // Next to the box that is asked about: what holds for the node's own box is as good as its triangles'.
+  [[nodiscard]] bool IsSmall(const core::TriangleTree::Node& node) const {
+    return node.ball.radius_mm <= kSmallNode * edges_.norm();
+  }
+
   void VisitBound(std::uint32_t index) {
     const core::TriangleTree::Node& node = part_.nodes()[index];
     const Vector3d away = x_ - node.box.min().cwiseMax(x_.cwiseMin(node.box.max()));
-    if (away.norm() - Reach(away) >= nearest_.box_lower_mm) return;
+    const double lower_mm = away.norm() - Reach(away);
+    if (lower_mm >= nearest_.box_lower_mm) return;
+    if (IsSmall(node)) {
+      nearest_.box_lower_mm = lower_mm;
+      return;
+    }
     if (node.left != 0) {
       VisitBound(node.left);
       VisitBound(node.left + 1);
@@ -142,6 +154,11 @@ class Search {
     const Vector3d away = x_ - node.box.min().cwiseMax(x_.cwiseMin(node.box.max()));
     const NearStretch most = NearTo(away, axis, within_mm);
     if (most.is_empty() || (most.from >= stretch->from && most.to <= stretch->to)) return;
+    if (IsSmall(node)) {
+      stretch->from = std::min(stretch->from, most.from);
+      stretch->to = std::max(stretch->to, most.to);
+      return;
+    }
     if (node.left != 0) {
       VisitNear(node.left, axis, within_mm, stretch);
       VisitNear(node.left + 1, axis, within_mm, stretch);

@@ -14,6 +14,7 @@
 #include "recon/visual_hull.h"
 #include "review/contacts.h"
 #include "review/two_triangle_response.h"
+#include "tests/accuracy/curtain_scene.h"
 #include "tests/recon/random_scene.h"
 
 namespace elbowroom::accuracy {
@@ -21,26 +22,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kTruthMm = 0.1;            // resolution of what counts as a contact
 constexpr double kReferenceAwayMm = 200.0;  // RP_obj stands off the curtain, where it comes from
-
-// A scene's masks, and both hulls of them.
-struct Sight {
-  std::shared_ptr<const core::Rig> rig;
-  recon::PicturePlanes planes;
-  std::vector<core::SoftMask> masks;
-  recon::VisualHull hull;
-  recon::CoverageHull textures;
-};
-
-Sight SightOf(const core::Rig& rig, const std::vector<recon::SyntheticObject>& objects) {
-  const auto shared = std::make_shared<const core::Rig>(rig);
-  recon::PicturePlanes planes = recon::MakePicturePlanes(rig);
-  std::vector<core::SoftMask> masks = recon::TrueMasks(rig, objects);
-  recon::VisualHull hull = recon::MakeVisualHull(shared, planes, masks);
-  recon::CoverageHull textures(rig, masks);
-  return {shared, std::move(planes), std::move(masks), std::move(hull), std::move(textures)};
-}
 
 review::ContactOptions OptionsOf(CollisionMethod method) {
   review::ContactOptions options;
@@ -49,50 +31,12 @@ review::ContactOptions OptionsOf(CollisionMethod method) {
   return options;
 }
 
-bool IsTouching(const recon::VisualHull& hull, const core::TriangleTree& part,
-                const core::RigidTransform& world_from_part, double resolution_mm) {
-  review::ContactOptions options;
-  options.resolution_mm = resolution_mm;
-  return !review::FindContacts(hull, part, world_from_part, 0, options).points.empty();
-}
-
-// The curtain in front of `center`, coming along its x axis, `depth_mm` farther than where it first touches.
-core::RigidTransform Pushed(const recon::VisualHull& hull, const core::TriangleTree& part,
-                            const Eigen::Matrix3d& world_from_part, const Vector3d& center, double depth_mm) {
-  const auto at = [&](double x_mm) {
-    return core::RigidTransform{world_from_part, center + x_mm * world_from_part.col(0)};
-  };
-  double clear_mm = -600.0, touching_mm = 0.0;
-  // Roughly the first touch of all, then to a hundredth of a millimetre.
-  constexpr double kRoughMm = 1.0;
-  core::Require(IsTouching(hull, part, at(touching_mm), kRoughMm), "a curtain through the hand touches it");
-  for (double x_mm = clear_mm; x_mm < touching_mm; x_mm += 5.0) {
-    if (IsTouching(hull, part, at(x_mm), kRoughMm)) {
-      touching_mm = x_mm;
-      break;
-    }
-    clear_mm = x_mm;
-  }
-  while (touching_mm - clear_mm > 0.01) {
-    const double middle_mm = 0.5 * (clear_mm + touching_mm);
-    (IsTouching(hull, part, at(middle_mm), kTruthMm) ? touching_mm : clear_mm) = middle_mm;
-  }
-  return at(touching_mm + depth_mm);
-}
-
 std::vector<Vector3d> PositionsOf(const recon::SampledContacts& sampled) {
   std::vector<Vector3d> positions;
   for (const recon::ViewportContact& contact : sampled.contacts)
     positions.push_back(contact.position_in_world_mm);
   return positions;
 }
-
-core::TriangleTree CurtainTree() {
-  return core::TriangleTree(std::make_shared<const core::TriangleMesh>(Curtain()));
-}
-
-// A point of the demo's hand, between palm and fingertips.
-const Vector3d kHandMm(140.0, 10.0, 200.0);
 
 }  // namespace
 
@@ -110,30 +54,13 @@ std::string NameOf(CollisionMethod method) {
   return "exact, contacts to 2 mm";
 }
 
-core::TriangleMesh Curtain() {
-  constexpr int kAcross = 18, kUp = 20;
-  constexpr double kCellMm = 20.0;
-  core::TriangleMesh mesh;
-  for (int j = 0; j <= kUp; ++j)
-    for (int i = 0; i <= kAcross; ++i)
-      mesh.vertices_mm.emplace_back(0.0, kCellMm * (i - 0.5 * kAcross), kCellMm * (j - 0.5 * kUp));
-  for (int j = 0; j < kUp; ++j) {
-    for (int i = 0; i < kAcross; ++i) {
-      const int a = j * (kAcross + 1) + i, b = a + 1, c = a + kAcross + 1, d = c + 1;
-      mesh.triangles.push_back({a, b, c});
-      mesh.triangles.push_back({b, d, c});
-    }
-  }
-  return mesh;
-}
-
 std::vector<CollisionCost> TimeCollisions(recon::ViewSceneRig rig, const TimingEffort& effort) {
   constexpr double kThroughMm = 10.0;
   const recon::ViewScene scene = recon::MakeViewScene(rig);
-  const Sight sight = SightOf(scene.rig, scene.objects);
-  const core::TriangleTree part = CurtainTree();
+  const CurtainSight sight = CurtainSightOf(scene.rig, scene.objects);
+  const core::TriangleTree part(MakeCurtain());
   const core::RigidTransform world_from_part =
-      Pushed(sight.hull, part, Eigen::Matrix3d::Identity(), kHandMm, kThroughMm);
+      PushedIn(sight.hull, part, Eigen::Matrix3d::Identity(), kHandMm, kThroughMm);
   const Vector3d rp_obj = world_from_part * *OptionsOf(CollisionMethod::kExact).recovery.reference_in_part_mm;
   recon::gl::TriangleViewportsGl gl;
   const auto sample = [&](CollisionMethod method, const recon::CoverageHull& textures) {
@@ -181,8 +108,8 @@ std::vector<CollisionCost> TimeCollisions(recon::ViewSceneRig rig, const TimingE
 std::vector<SmallContacts> CountMissed(recon::ViewSceneRig rig, int trials, std::uint64_t seed) {
   constexpr double kMostPushedMm = 1.5, kAsideMm = 60.0;
   const recon::ViewScene scene = recon::MakeViewScene(rig);
-  const Sight sight = SightOf(scene.rig, scene.objects);
-  const core::TriangleTree part = CurtainTree();
+  const CurtainSight sight = CurtainSightOf(scene.rig, scene.objects);
+  const core::TriangleTree part(MakeCurtain());
   recon::gl::TriangleViewportsGl gl;
   recon::Random random(seed);
   std::vector<SmallContacts> sizes;
@@ -190,13 +117,13 @@ std::vector<SmallContacts> CountMissed(recon::ViewSceneRig rig, int trials, std:
     sizes.push_back({from_mm, to_mm, 0, std::vector<int>(std::size(kCollisionMethods), 0)});
   for (int trial = 0; trial < trials; ++trial) {
     const core::RigidTransform world_from_part =
-        Pushed(sight.hull, part, random.Rotation(), kHandMm, random.Uniform(0.0, kMostPushedMm));
+        PushedIn(sight.hull, part, random.Rotation(), kHandMm, random.Uniform(0.0, kMostPushedMm));
     // Not always the same place of the curtain: turned about its axis above, moved along its plane here.
     const Vector3d aside = world_from_part.rotation * Vector3d(0.0, random.Uniform(-kAsideMm, kAsideMm),
                                                                random.Uniform(-kAsideMm, kAsideMm));
     const core::RigidTransform moved{world_from_part.rotation, world_from_part.translation_mm + aside};
     review::ContactOptions fine;
-    fine.resolution_mm = kTruthMm;
+    fine.resolution_mm = kTouchResolutionMm;
     const double area_mm2 = review::FindContacts(sight.hull, part, moved, 0, fine).contact_area_mm2;
     if (!(area_mm2 > 0.0)) continue;
     const double across_mm = 2.0 * std::sqrt(area_mm2 / std::numbers::pi);

@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "core/triangle_mesh.h"
 #include "recon/synthetic/view_scene.h"
 #include "recon/triangle_viewports.h"
 #include "tests/accuracy/interleaved_timing.h"
@@ -24,10 +23,6 @@ inline constexpr CollisionMethod kCollisionMethods[] = {
     CollisionMethod::kViewportsGl, CollisionMethod::kViewportsCpu, CollisionMethod::kExact,
     CollisionMethod::kExactAtTwoMm};
 [[nodiscard]] std::string NameOf(CollisionMethod method);
-
-// The paper's curtain as a part: 720 triangles, 18 x 20 squares of 20 mm, in the plane x = 0 about the
-// origin.
-[[nodiscard]] core::TriangleMesh Curtain();
 
 struct CollisionCost {
   Timing frame;     // masks in memory to response

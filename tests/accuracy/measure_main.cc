@@ -19,6 +19,8 @@ int main(int argc, char** argv) {
   app.add_subcommand("collision", "the paper's collision method beside the exact one")->callback([&] {
     MeasureCollisions(docs);
   });
+  app.add_subcommand("judging", "contacts and clearance: run time against error, and against what is asked")
+      ->callback([&] { MeasureJudging(docs); });
   int frame_count = 10'000;
   CLI::App* frames = app.add_subcommand("frames", "whole frames of the demo");
   frames->add_option("--count", frame_count, "frames a run")

@@ -22,6 +22,9 @@ void MeasureCost(const std::filesystem::path& docs, const std::filesystem::path&
 // one thread and on two; still and empty scenes beside.
 void MeasureFrames(const std::filesystem::path& docs, int count = 10'000);
 
+// performance.md, "judging" and "judging_cost"; docs/pictures/{contact,clearance}_methods.{svg,png}.
+void MeasureJudging(const std::filesystem::path& docs);
+
 // paper_collision.md, all its sections.
 void MeasureCollisions(const std::filesystem::path& docs);
 

@@ -54,9 +54,10 @@ core::RigidTransform PanelAt(const PanelScene& scene, double gap_mm) {
   return world_from_part;
 }
 
-void ClearanceAt30Mm(benchmark::State& state, ViewSceneRig rig, bool is_warm) {
+void ClearanceAt30Mm(benchmark::State& state, ViewSceneRig rig, bool is_warm, int across = 20,
+                     int down = 18) {
   const PanelScene scene = SceneOf(rig);
-  const core::TriangleTree part = Panel(20, 18, {400.0, 360.0});
+  const core::TriangleTree part = Panel(across, down, {400.0, 360.0});
   const core::RigidTransform pose = PanelAt(scene, 30.0);
   Clearance last = FindClearance(scene.hull, part, pose);
   std::optional<ClearanceHint> hint;
@@ -88,6 +89,8 @@ BENCHMARK_CAPTURE(ClearanceAt30Mm, three_cameras_warm, ViewSceneRig::kThree, tru
 BENCHMARK_CAPTURE(ClearanceAt30Mm, eight_cameras_cold, ViewSceneRig::kEight, false)
     ->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(ClearanceAt30Mm, eight_cameras_warm, ViewSceneRig::kEight, true)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(ClearanceAt30Mm, three_cameras_1M, ViewSceneRig::kThree, false, 800, 625)
     ->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(ContactsOfPanel, three_cameras_720, ViewSceneRig::kThree, 20, 18)
     ->Unit(benchmark::kMillisecond);

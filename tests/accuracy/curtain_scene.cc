@@ -1,0 +1,73 @@
+#include "tests/accuracy/curtain_scene.h"
+
+#include <utility>
+
+#include "core/error.h"
+#include "recon/synthetic/view_scene.h"
+#include "review/contacts.h"
+
+namespace elbowroom::accuracy {
+namespace {
+
+using Eigen::Vector3d;
+
+bool IsTouching(const recon::VisualHull& hull, const core::TriangleTree& part,
+                const core::RigidTransform& world_from_part, double resolution_mm) {
+  review::ContactOptions options;
+  options.resolution_mm = resolution_mm;
+  return !review::FindContacts(hull, part, world_from_part, 0, options).points.empty();
+}
+
+}  // namespace
+
+core::SharedMesh MakeCurtain(int across, int up) {
+  constexpr double kAcrossMm = 360.0, kUpMm = 400.0;
+  auto mesh = std::make_shared<core::TriangleMesh>();
+  for (int j = 0; j <= up; ++j)
+    for (int i = 0; i <= across; ++i)
+      mesh->vertices_mm.emplace_back(0.0, kAcrossMm / across * (i - 0.5 * across),
+                                     kUpMm / up * (j - 0.5 * up));
+  for (int j = 0; j < up; ++j) {
+    for (int i = 0; i < across; ++i) {
+      const int a = j * (across + 1) + i, b = a + 1, c = a + across + 1, d = c + 1;
+      mesh->triangles.push_back({a, b, c});
+      mesh->triangles.push_back({b, d, c});
+    }
+  }
+  return mesh;
+}
+
+CurtainSight CurtainSightOf(const core::Rig& rig, const std::vector<recon::SyntheticObject>& objects) {
+  const auto shared = std::make_shared<const core::Rig>(rig);
+  recon::PicturePlanes planes = recon::MakePicturePlanes(rig);
+  std::vector<core::SoftMask> masks = recon::TrueMasks(rig, objects);
+  recon::VisualHull hull = recon::MakeVisualHull(shared, planes, masks);
+  recon::CoverageHull textures(rig, masks);
+  return {shared, std::move(planes), std::move(masks), std::move(hull), std::move(textures)};
+}
+
+core::RigidTransform PushedIn(const recon::VisualHull& hull, const core::TriangleTree& part,
+                              const Eigen::Matrix3d& world_from_part, const Vector3d& center,
+                              double depth_mm) {
+  const auto at = [&](double x_mm) {
+    return core::RigidTransform{world_from_part, center + x_mm * world_from_part.col(0)};
+  };
+  double clear_mm = -600.0, touching_mm = 0.0;
+  // Roughly the first touch of all, then to a hundredth of a millimetre.
+  constexpr double kRoughMm = 1.0;
+  core::Require(IsTouching(hull, part, at(touching_mm), kRoughMm), "a curtain through the hand touches it");
+  for (double x_mm = clear_mm; x_mm < touching_mm; x_mm += 5.0) {
+    if (IsTouching(hull, part, at(x_mm), kRoughMm)) {
+      touching_mm = x_mm;
+      break;
+    }
+    clear_mm = x_mm;
+  }
+  while (touching_mm - clear_mm > 0.01) {
+    const double middle_mm = 0.5 * (clear_mm + touching_mm);
+    (IsTouching(hull, part, at(middle_mm), kTouchResolutionMm) ? touching_mm : clear_mm) = middle_mm;
+  }
+  return at(touching_mm + depth_mm);
+}
+
+}  // namespace elbowroom::accuracy

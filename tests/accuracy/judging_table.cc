@@ -1,0 +1,82 @@
+// docs/performance.md, "judging" and "judging_cost", and the pictures of the former.
+#include <fmt/format.h>
+
+#include "tests/accuracy/judging_comparison.h"
+#include "tests/accuracy/measurements.h"
+#include "tests/reporting/machine_line.h"
+#include "tests/reporting/markdown_table.h"
+#include "tests/reporting/marked_section.h"
+#include "tests/reporting/pareto_picture.h"
+
+namespace elbowroom::accuracy {
+namespace {
+
+using reporting::ThreeDigits;
+
+constexpr int kPoses = 24;
+constexpr double kMeshEdgesMm[] = {8.0, 4.0, 2.0};
+constexpr std::uint64_t kSeed = 7801;
+constexpr TimingEffort kEffort{.repetitions = 11, .slow_repetitions = 3, .slow_ms = 20.0};
+constexpr TimingEffort kCostEffort{.repetitions = 201};
+
+reporting::Table MethodTable(const std::vector<JudgingMethod>& contacts,
+                             const std::vector<JudgingMethod>& clearances) {
+  reporting::Table table{{"method", "setting", "time, ms", "error, RMS", "at most", "promised", "missed"},
+                         {}};
+  const auto add = [&](const std::vector<JudgingMethod>& methods, const std::string& unit, bool may_miss) {
+    for (const JudgingMethod& method : methods) {
+      const auto in_unit = [&](double error) { return ThreeDigits(error) + unit; };
+      table.rows.push_back({method.family, method.setting, ThreeDigits(method.time_ms),
+                            in_unit(method.rms_error), in_unit(method.worst_error),
+                            method.promised > 0.0 ? in_unit(method.promised) : "-",
+                            may_miss ? fmt::format("{} of {}", method.missed, kPoses) : "-"});
+    }
+  };
+  add(contacts, " %", true);
+  add(clearances, " mm", false);
+  return table;
+}
+
+reporting::Table CostTable(const std::vector<JudgingCost>& costs) {
+  reporting::Table table{{"case", "triangles", "cameras", "hull, cm³", "contact area, mm²", "contacts, ms",
+                          "queries", "triangles skipped, %", "clearance, ms", "queries"},
+                         {}};
+  for (const JudgingCost& cost : costs) {
+    table.rows.push_back({cost.what, std::to_string(cost.triangles), std::to_string(cost.cameras),
+                          fmt::format("{:.0f}", cost.hull_cm3), fmt::format("{:.0f}", cost.contact_area_mm2),
+                          ThreeDigits(cost.contacts.median_ms), std::to_string(cost.contact_queries),
+                          fmt::format("{:.1f}", 100.0 * cost.skipped_triangles),
+                          ThreeDigits(cost.clearance.median_ms), std::to_string(cost.clearance_queries)});
+  }
+  return table;
+}
+
+void Draw(const std::string& title, const std::string& error_label, const std::vector<JudgingMethod>& methods,
+          const std::filesystem::path& stem) {
+  reporting::ParetoPanel panel{title, {}};
+  for (const JudgingMethod& method : methods)
+    panel.points.push_back({method.family, method.setting, method.time_ms, method.rms_error});
+  reporting::DrawPareto({"hull in memory to answer, one thread, ms", error_label, {std::move(panel)}}, stem);
+}
+
+}  // namespace
+
+void MeasureJudging(const std::filesystem::path& docs) {
+  fmt::print(stderr, "judging: contacts\n");
+  const std::vector<JudgingMethod> contacts = CompareContactAreas(kPoses, kSeed, kEffort);
+  fmt::print(stderr, "judging: clearance\n");
+  const std::vector<JudgingMethod> clearances = CompareClearances(kPoses, kSeed, kMeshEdgesMm, kEffort);
+  fmt::print(stderr, "judging: costs\n");
+  const std::vector<JudgingCost> costs = MeasureJudgingCosts(kCostEffort);
+  const std::filesystem::path file = docs / "performance.md";
+  const std::string machine = "\n" + reporting::ToLine(reporting::ThisMachine(docs / ".."));
+  reporting::WriteSection(file, "judging",
+                          reporting::ToMarkdown(MethodTable(contacts, clearances)) + machine);
+  reporting::WriteSection(file, "judging_cost", reporting::ToMarkdown(CostTable(costs)) + machine);
+  Draw("Contacts of a curtain of 720 triangles: run time against error", "RMS error of the contact area, %",
+       contacts, docs / "pictures/contact_methods");
+  Draw("Clearance of the curtain, 5 to 60 mm: run time against error", "RMS error, mm", clearances,
+       docs / "pictures/clearance_methods");
+}
+
+}  // namespace elbowroom::accuracy
