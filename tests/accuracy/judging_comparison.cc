@@ -221,7 +221,7 @@ std::vector<JudgingMethod> CompareContactAreas(int poses, std::uint64_t seed, co
   std::vector<double> truth_mm2;
   for (const core::RigidTransform& pose : at) truth_mm2.push_back(SampledAreaMm2(oracle, pose));
   std::vector<Asked> methods;
-  for (const double resolution_mm : {8.0, 4.0, 2.0, 1.0, 0.0, 0.25, 0.125})
+  for (const double resolution_mm : {8.0, 4.0, 2.0, 0.0, 0.25, 0.125})
     methods.push_back(ContactsAt(sight, part, resolution_mm));
   for (const int side_px : {5, 10, 20, 40, 80}) methods.push_back(ViewportsOf(sight, part, side_px));
   return Compare(
