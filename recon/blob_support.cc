@@ -137,9 +137,9 @@ BlobSupport::BlobSupport(const core::Rig& rig) {
   const Eigen::Vector3d cell = size.cwiseQuotient(cells.cast<double>());
   std::vector<TileBox> boxes(rig.cameras.size());
   for (int i = 0; i < cells.prod(); ++i) {
-    const Eigen::Vector3d index(i % cells.x(), i / cells.x() % cells.y(), i / (cells.x() * cells.y()));
+    const Eigen::Vector3i index(i % cells.x(), i / cells.x() % cells.y(), i / (cells.x() * cells.y()));
     const Eigen::Vector3d center =
-        rig.workspace_mm.min() + (index + Eigen::Vector3d::Constant(0.5)).cwiseProduct(cell);
+        rig.workspace_mm.min() + (index.cast<double>() + Eigen::Vector3d::Constant(0.5)).cwiseProduct(cell);
     for (std::size_t c = 0; c < boxes.size(); ++c) {
       boxes[c] = BoxOf(rig.cameras[c], center, 0.5 * cell.norm());
       boxes[c].has_say = unseen_is_outside || (boxes[c].has_say && boxes[c].x0 < boxes[c].x1);

@@ -267,21 +267,22 @@ FrameHull NextHull(const std::shared_ptr<const VisualHull>& last, const std::sha
   return next;
 }
 
-VisualHull MakeVisualHull(std::shared_ptr<const core::Rig> rig, const PicturePlanes& planes,
+VisualHull MakeVisualHull(const std::shared_ptr<const core::Rig>& rig, const PicturePlanes& planes,
                           std::span<const core::SoftMask> masks) {
   return *NextHull(nullptr, rig, planes, masks).hull;
 }
 
-VisualHull MakeVisualHull(std::shared_ptr<const core::Rig> rig, std::span<const core::SoftMask> masks) {
+VisualHull MakeVisualHull(const std::shared_ptr<const core::Rig>& rig,
+                          std::span<const core::SoftMask> masks) {
   core::Require(rig != nullptr, "a rig");
   const PicturePlanes planes = MakePicturePlanes(*rig);
-  return MakeVisualHull(std::move(rig), planes, masks);
+  return MakeVisualHull(rig, planes, masks);
 }
 
-VisualHull MakeVisualHull(std::shared_ptr<const core::Rig> rig, std::span<const core::BitMask> masks) {
+VisualHull MakeVisualHull(const std::shared_ptr<const core::Rig>& rig, std::span<const core::BitMask> masks) {
   std::vector<core::SoftMask> soft(masks.size());
   for (std::size_t i = 0; i < masks.size(); ++i) soft[i].mask = masks[i];
-  return MakeVisualHull(std::move(rig), soft);
+  return MakeVisualHull(rig, soft);
 }
 
 }  // namespace elbowroom::recon

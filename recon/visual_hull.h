@@ -128,11 +128,11 @@ struct FrameHull {
 
 // One silhouette a mask, in parallel. Throws: core::Error{kCamera} naming the camera when a mask's size isn't
 // the camera's. The overloads without planes work them out anew: for a single frame.
-[[nodiscard]] VisualHull MakeVisualHull(std::shared_ptr<const core::Rig> rig, const PicturePlanes& planes,
+[[nodiscard]] VisualHull MakeVisualHull(const std::shared_ptr<const core::Rig>& rig,
+                                        const PicturePlanes& planes, std::span<const core::SoftMask> masks);
+[[nodiscard]] VisualHull MakeVisualHull(const std::shared_ptr<const core::Rig>& rig,
                                         std::span<const core::SoftMask> masks);
-[[nodiscard]] VisualHull MakeVisualHull(std::shared_ptr<const core::Rig> rig,
-                                        std::span<const core::SoftMask> masks);
-[[nodiscard]] VisualHull MakeVisualHull(std::shared_ptr<const core::Rig> rig,
+[[nodiscard]] VisualHull MakeVisualHull(const std::shared_ptr<const core::Rig>& rig,
                                         std::span<const core::BitMask> masks);
 
 }  // namespace elbowroom::recon

@@ -132,13 +132,12 @@ class MeetingSearch {
 
 Meeting FindMeeting(const recon::VisualHull& hull, const core::TriangleTree& part,
                     const core::RigidTransform& world_from_part, double smallest_mm, std::int64_t* queries) {
-  const Meeting apart{kApart};
-  if (hull.IsEmpty()) return apart;
+  if (hull.IsEmpty()) return {kApart};
   MeetingSearch search(hull, part, world_from_part, smallest_mm, queries);
   ++*queries;
   const core::Ball& ball = part.nodes()[0].ball;
-  if (hull.Classify(world_from_part * ball.center, ball.radius_mm) == BallAnswer::kOutside) return apart;
-  const Meeting of_surface = search.OfSurface();
+  if (hull.Classify(world_from_part * ball.center, ball.radius_mm) == BallAnswer::kOutside) return {kApart};
+  Meeting of_surface = search.OfSurface();
   return of_surface.answer == kApart && part.is_closed() ? search.OfInside() : of_surface;
 }
 

@@ -31,7 +31,7 @@ Vector3d NearestOnNeedle(const Vector3d& x, const Vector3d& a, const Vector3d& b
   };
   const double length2 = normal.squaredNorm();
   if (length2 > 0.0 && is_left_of(a, b) && is_left_of(b, c) && is_left_of(c, a)) {
-    const Vector3d foot = x - (normal.dot(x - a) / length2) * normal;
+    Vector3d foot = x - (normal.dot(x - a) / length2) * normal;
     if (foot.allFinite()) return foot;
   }
   return Nearer(x, Nearer(x, NearestOnSegment(x, a, b), NearestOnSegment(x, b, c)),

@@ -130,8 +130,8 @@ class PenetrationSearch {
       if (contact.recovery->n_hull_in_world) directions.push_back(*contact.recovery->n_hull_in_world);
     }
     for (int i = 0; i < 27; ++i) {
-      const Vector3d direction(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
-      if (!direction.isZero()) directions.push_back(direction.normalized());
+      const Eigen::Vector3i direction(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
+      if (!direction.isZero()) directions.push_back(direction.cast<double>().normalized());
     }
     return directions;
   }

@@ -194,19 +194,20 @@ void SceneComposer::Foresee(const SharedHull& hull, const recon::SceneView& view
 void SceneComposer::Forget(const SharedHull& hull) {
   if (hull_ == hull) return;
   hull_ = hull;
-  Spare(std::exchange(hull_from_view_, nullptr));
+  SpareView();
   hull_from_lamp_.reset();
   photos_.clear();
 }
 
-// Keeps a view's memory for the next one, unless a scene still shows it.
-void SceneComposer::Spare(std::shared_ptr<recon::HullView> view) {
-  if (view != nullptr && view.use_count() == 1) spare_ = std::move(*view);
+// Keeps the view's memory for the next one, unless a scene still shows it.
+void SceneComposer::SpareView() {
+  if (hull_from_view_ != nullptr && hull_from_view_.use_count() == 1) spare_ = std::move(*hull_from_view_);
+  hull_from_view_.reset();
 }
 
 SceneComposer::SharedView SceneComposer::HullFrom(const recon::SceneView& view) {
   if (hull_from_view_ == nullptr || !(view_ == view)) {
-    Spare(std::exchange(hull_from_view_, nullptr));
+    SpareView();
     hull_from_view_ = std::make_shared<recon::HullView>(
         make_view_(*hull_, recon::ViewRays(CameraOf(view)), std::exchange(spare_, {})));
     view_ = view;

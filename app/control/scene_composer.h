@@ -49,7 +49,7 @@ class SceneComposer {
   using SharedPhoto = std::shared_ptr<const recon::HullPhoto>;
   using SharedView = std::shared_ptr<const recon::HullView>;
   void Forget(const SharedHull& hull);
-  void Spare(std::shared_ptr<recon::HullView> view);
+  void SpareView();
   [[nodiscard]] SharedView HullFrom(const recon::SceneView& view);
   [[nodiscard]] SharedView HullFromLamp(const recon::gl::SceneLamp& lamp);
   [[nodiscard]] std::vector<SharedPhoto> PhotosFor(const SceneLook& look, const recon::SceneView& view);

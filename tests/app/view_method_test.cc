@@ -176,7 +176,7 @@ TEST(ExactViewMaker, AGraphicsCardThatFailsLaterIsLeft) {
   const LogLines log;
   double now_ms = 0.0;
   bool is_broken = false;
-  const MakeView graphics = [&](const VisualHull& hull, const ViewRays& rays, const HullView& kept) {
+  MakeView graphics = [&](const VisualHull& hull, const ViewRays& rays, const HullView& kept) {
     now_ms -= 1.0;  // a clock that runs back lets the contender win on any machine
     return is_broken ? Broken(hull, rays, kept) : recon::ViewHull(hull, rays);
   };

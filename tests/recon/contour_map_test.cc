@@ -34,6 +34,16 @@ double DistanceByHand(const Contour& contour, const Vector2d& at) {
   return nearest;
 }
 
+// No less than this is the label's distance where the boundary is `truth_px` away.
+double PromisedPx(const ContourMap& map, const Vector2d& at, double truth_px) {
+  if (map.bounds_px().isEmpty()) return kInfinity;
+  const double outside_px = map.bounds_px().exteriorDistance(at);
+  if (outside_px > 0.0) return std::min(outside_px, kNearCells) - kShortCells;
+  if (truth_px < kExactCells) return truth_px - kExactTolerancePx;
+  const double short_by = truth_px <= kNearCells ? kShortCells : kShortFarCells;
+  return std::max(truth_px - short_by, kExactCells) - kExactTolerancePx;
+}
+
 void ExpectPromiseHolds(const ContourMap& map, const Vector2d& at) {
   const PlaneLabel label = map.LabelAt(at);
   const double truth_px = DistanceByHand(map.contour(), at);
@@ -42,21 +52,9 @@ void ExpectPromiseHolds(const ContourMap& map, const Vector2d& at) {
     ASSERT_EQ(label.is_object, IsObjectByParity(map.contour(), map.exterior_is_object(), at))
         << at.transpose();
   }
-  ASSERT_GE(label.distance_px, 0.0);
+  ASSERT_GE(label.distance_px, std::max(PromisedPx(map, at, truth_px), 0.0))
+      << at.transpose() << " true distance " << truth_px;
   ASSERT_LE(label.distance_px, truth_px) << at.transpose();
-  if (map.bounds_px().isEmpty()) {
-    ASSERT_EQ(label.distance_px, kInfinity);
-  } else if (map.bounds_px().exteriorDistance(at) == 0.0) {
-    if (truth_px < kExactCells) {
-      ASSERT_GE(label.distance_px, truth_px - kExactTolerancePx) << at.transpose();
-    } else {
-      const double short_by = truth_px <= kNearCells ? kShortCells : kShortFarCells;
-      ASSERT_GE(label.distance_px, std::max(truth_px - short_by, kExactCells) - kExactTolerancePx)
-          << at.transpose() << " true distance " << truth_px;
-    }
-  } else {
-    ASSERT_GE(label.distance_px, std::min(map.bounds_px().exteriorDistance(at), kNearCells) - kShortCells);
-  }
   const std::optional<std::uint32_t> edge = map.NearestEdge(at);
   if (truth_px < kExactCells - kExactTolerancePx) {
     ASSERT_TRUE(edge.has_value());

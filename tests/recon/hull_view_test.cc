@@ -137,39 +137,45 @@ void ExpectSurfaceIsThere(const VisualHull& hull, const ViewRays& rays, const Hu
   ASSERT_LE(DistanceToEdge(contour, edge, position), tolerance_px) << "camera " << camera << " edge " << edge;
 }
 
+void ExpectPixelIsItsRaysCrossing(const VisualHull& hull, const ViewRays& rays, const HullView& view, int x,
+                                  int y, Comparison* sum) {
+  const auto pixel = static_cast<std::size_t>(y * view.width_px + x);
+  const double depth_mm = view.depth_mm[pixel];
+  const bool is_hit = view.surface[pixel].is_hit();
+  const Vector2d uv = rays.At(x, y);
+  ++sum->pixels;
+  if (!uv.allFinite()) {
+    ASSERT_FALSE(is_hit);
+    return;
+  }
+  const double pitch = std::max((rays.At(std::min(x + 1, view.width_px - 1), y) - uv).norm(),
+                                (rays.At(std::max(x - 1, 0), y) - uv).norm());
+  const DepthRange truth = DepthsAround(hull, rays, uv, kFloatPx * pitch);
+  if (!truth.is_clear) {
+    ++sum->grazing;
+    return;
+  }
+  ASSERT_EQ(is_hit, truth.is_hit) << x << ' ' << y << " depth " << depth_mm << " or " << truth.nearest_mm;
+  if (!is_hit) return;
+  ++sum->hits;
+  // Surfaces that turn along the ray: as far as they reach a hundred-thousandth of a pixel aside.
+  const double slack_mm = truth.farthest_mm - truth.nearest_mm;
+  const double rounding_mm = kFloatDepth * std::abs(depth_mm) + 1e-9;
+  ASSERT_GE(depth_mm, truth.nearest_mm - slack_mm - rounding_mm) << x << ' ' << y;
+  ASSERT_LE(depth_mm, truth.farthest_mm + slack_mm + rounding_mm) << x << ' ' << y;
+  ExpectSurfaceIsThere(hull, rays, view, pixel, uv, 2.0 * (slack_mm + rounding_mm));
+  ASSERT_NEAR(view.normal_in_world[pixel].norm(), 1.0F, 1e-5F);
+}
+
 // Every pixel against its own ray's crossings.
 void ExpectEqualsCrossings(const VisualHull& hull, const ViewRays& rays, Comparison* sum) {
   const HullView view = ViewHull(hull, rays);
   std::int64_t hits = 0;
   for (int y = 0; y < view.height_px; ++y) {
     for (int x = 0; x < view.width_px; ++x) {
-      const auto pixel = static_cast<std::size_t>(y * view.width_px + x);
-      const double depth_mm = view.depth_mm[pixel];
-      const bool is_hit = view.surface[pixel].is_hit();
-      hits += is_hit ? 1 : 0;
-      const Vector2d uv = rays.At(x, y);
-      ++sum->pixels;
-      if (!uv.allFinite()) {
-        ASSERT_FALSE(is_hit);
-        continue;
-      }
-      const double pitch = std::max((rays.At(std::min(x + 1, view.width_px - 1), y) - uv).norm(),
-                                    (rays.At(std::max(x - 1, 0), y) - uv).norm());
-      const DepthRange truth = DepthsAround(hull, rays, uv, kFloatPx * pitch);
-      if (!truth.is_clear) {
-        ++sum->grazing;
-        continue;
-      }
-      ASSERT_EQ(is_hit, truth.is_hit) << x << ' ' << y << " depth " << depth_mm << " or " << truth.nearest_mm;
-      if (!is_hit) continue;
-      ++sum->hits;
-      // Surfaces that turn along the ray: as far as they reach a hundred-thousandth of a pixel aside.
-      const double slack_mm = truth.farthest_mm - truth.nearest_mm;
-      const double rounding_mm = kFloatDepth * std::abs(depth_mm) + 1e-9;
-      ASSERT_GE(depth_mm, truth.nearest_mm - slack_mm - rounding_mm) << x << ' ' << y;
-      ASSERT_LE(depth_mm, truth.farthest_mm + slack_mm + rounding_mm) << x << ' ' << y;
-      ExpectSurfaceIsThere(hull, rays, view, pixel, uv, 2.0 * (slack_mm + rounding_mm));
-      ASSERT_NEAR(view.normal_in_world[pixel].norm(), 1.0F, 1e-5F);
+      hits += view.surface[static_cast<std::size_t>(y * view.width_px + x)].is_hit() ? 1 : 0;
+      ExpectPixelIsItsRaysCrossing(hull, rays, view, x, y, sum);
+      if (testing::Test::HasFatalFailure()) return;
     }
   }
   ASSERT_EQ(hits, view.hit_pixels);
