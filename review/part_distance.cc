@@ -111,7 +111,8 @@ class Search {
     }
   }
 
-  // Next to the box that is asked about: what holds for the node's own box is as good as its triangles'.
+  // Next to the box that is asked about: then the bound that its own box gives is taken, which holds for its
+  // triangles and costs nothing more.
   [[nodiscard]] bool IsSmall(const core::TriangleTree::Node& node) const {
     return node.ball.radius_mm <= kSmallNode * edges_.norm();
   }
