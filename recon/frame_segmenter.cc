@@ -56,11 +56,8 @@ std::vector<core::SoftMask> FrameSegmenter::Masks(const FrameSet& frames, Edges 
     }
   });
   DropUnconfirmed(frames, &masks);
-  for (const SegmentationStats& of_camera : each) {
-    if (stats == nullptr) break;
-    stats->pixels += of_camera.pixels;
-    stats->unseen_pixels += of_camera.unseen_pixels;
-  }
+  if (stats != nullptr)
+    for (const SegmentationStats& of_camera : each) *stats += of_camera;
   return masks;
 }
 

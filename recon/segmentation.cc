@@ -73,6 +73,12 @@ void SegmentationOptions::Validate() const {
   RequireInRange(shadow_chroma >= 0.0 && shadow_chroma <= 1.0, "shadow_chroma", shadow_chroma, "in 0..1");
 }
 
+SegmentationStats& SegmentationStats::operator+=(const SegmentationStats& other) {
+  pixels += other.pixels;
+  unseen_pixels += other.unseen_pixels;
+  return *this;
+}
+
 Segmenter::Segmenter(BackgroundReference background, const SegmentationOptions& options)
     : options_(options), mean_bgr_(std::move(background.mean_bgr)) {
   options.Validate();

@@ -31,7 +31,8 @@ struct BoxInPart {
                                                 const Eigen::Vector3d& b, const Eigen::Vector3d& c);
 
 // Of the box's centre: exact but for double's rounding (part_distance_test). Of the box: a bound, by the
-// plane through each triangle's nearest point that keeps the triangle, which is convex, on its far side.
+// plane through each triangle's nearest point that keeps the triangle, which is convex, on its far side;
+// triangles that are small together next to the box, by the plane that keeps their own box so.
 // `likely`: a triangle that is probably near, which saves work and changes nothing. The part has triangles.
 // Thread: any.
 [[nodiscard]] NearestOnPart FindNearest(const core::TriangleTree& part, const BoxInPart& box,

@@ -3,8 +3,7 @@
 namespace elbowroom::control {
 
 SkipCount& SkipCount::operator+=(const SkipCount& other) {
-  segmentation.pixels += other.segmentation.pixels;
-  segmentation.unseen_pixels += other.segmentation.unseen_pixels;
+  segmentation += other.segmentation;
   hull.unchanged_silhouettes += other.hull.unchanged_silhouettes;
   hull.empty_silhouettes += other.hull.empty_silhouettes;
   hull.untraced_silhouettes += other.hull.untraced_silhouettes;

@@ -5,6 +5,7 @@
 #include "core/error.h"
 #include "recon/synthetic/view_scene.h"
 #include "review/contacts.h"
+#include "tests/support/panel_mesh.h"
 
 namespace elbowroom::accuracy {
 namespace {
@@ -21,20 +22,8 @@ bool IsTouching(const recon::VisualHull& hull, const core::TriangleTree& part,
 }  // namespace
 
 core::SharedMesh MakeCurtain(int across, int up) {
-  constexpr double kAcrossMm = 360.0, kUpMm = 400.0;
-  auto mesh = std::make_shared<core::TriangleMesh>();
-  for (int j = 0; j <= up; ++j)
-    for (int i = 0; i <= across; ++i)
-      mesh->vertices_mm.emplace_back(0.0, kAcrossMm / across * (i - 0.5 * across),
-                                     kUpMm / up * (j - 0.5 * up));
-  for (int j = 0; j < up; ++j) {
-    for (int i = 0; i < across; ++i) {
-      const int a = j * (across + 1) + i, b = a + 1, c = a + across + 1, d = c + 1;
-      mesh->triangles.push_back({a, b, c});
-      mesh->triangles.push_back({b, d, c});
-    }
-  }
-  return mesh;
+  return std::make_shared<const core::TriangleMesh>(
+      test_support::PanelMesh(across, up, {0.0, -180.0, -200.0}, {0.0, 360.0, 0.0}, {0.0, 0.0, 400.0}));
 }
 
 CurtainSight CurtainSightOf(const core::Rig& rig, const std::vector<recon::SyntheticObject>& objects) {

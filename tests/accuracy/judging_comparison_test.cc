@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "core/error.h"
+
 namespace elbowroom::accuracy {
 namespace {
 
@@ -15,7 +17,7 @@ const JudgingMethod& Find(const std::vector<JudgingMethod>& methods, const std::
   const auto found = std::ranges::find_if(methods, [&](const JudgingMethod& method) {
     return method.family.starts_with(family) && method.setting == setting;
   });
-  EXPECT_NE(found, methods.end()) << family << ' ' << setting;
+  core::Require(found != methods.end(), family + " has a setting " + setting);
   return *found;
 }
 

@@ -10,27 +10,17 @@
 #include "recon/visual_hull.h"
 #include "review/clearance.h"
 #include "review/contacts.h"
+#include "tests/support/panel_mesh.h"
 
 namespace elbowroom::review {
 namespace {
 
 using recon::ViewSceneRig;
 
-// A level panel of 2 * across * down triangles over `size_mm`, its middle at the origin.
-core::TriangleTree Panel(int across, int down, const Eigen::Vector2d& size_mm) {
-  auto mesh = std::make_shared<core::TriangleMesh>();
-  for (int y = 0; y <= down; ++y)
-    for (int x = 0; x <= across; ++x)
-      mesh->vertices_mm.emplace_back((static_cast<double>(x) / across - 0.5) * size_mm.x(),
-                                     (static_cast<double>(y) / down - 0.5) * size_mm.y(), 0.0);
-  const auto at = [&](int x, int y) { return y * (across + 1) + x; };
-  for (int y = 0; y < down; ++y) {
-    for (int x = 0; x < across; ++x) {
-      mesh->triangles.push_back({at(x, y), at(x + 1, y), at(x, y + 1)});
-      mesh->triangles.push_back({at(x + 1, y), at(x + 1, y + 1), at(x, y + 1)});
-    }
-  }
-  return core::TriangleTree(std::move(mesh));
+// A level panel of 2 * across * down triangles, its middle at the origin.
+core::TriangleTree Panel(int across, int down) {
+  return core::TriangleTree(std::make_shared<const core::TriangleMesh>(
+      test_support::PanelMesh(across, down, {-200.0, -180.0, 0.0}, {400.0, 0.0, 0.0}, {0.0, 360.0, 0.0})));
 }
 
 struct PanelScene {
@@ -57,7 +47,7 @@ core::RigidTransform PanelAt(const PanelScene& scene, double gap_mm) {
 void ClearanceAt30Mm(benchmark::State& state, ViewSceneRig rig, bool is_warm, int across = 20,
                      int down = 18) {
   const PanelScene scene = SceneOf(rig);
-  const core::TriangleTree part = Panel(across, down, {400.0, 360.0});
+  const core::TriangleTree part = Panel(across, down);
   const core::RigidTransform pose = PanelAt(scene, 30.0);
   Clearance last = FindClearance(scene.hull, part, pose);
   std::optional<ClearanceHint> hint;
@@ -73,7 +63,7 @@ void ClearanceAt30Mm(benchmark::State& state, ViewSceneRig rig, bool is_warm, in
 
 void ContactsOfPanel(benchmark::State& state, ViewSceneRig rig, int across, int down) {
   const PanelScene scene = SceneOf(rig);
-  const core::TriangleTree part = Panel(across, down, {400.0, 360.0});
+  const core::TriangleTree part = Panel(across, down);
   const core::RigidTransform pose = PanelAt(scene, -10.0);
   core::PartContact contact;
   for (auto _ : state) benchmark::DoNotOptimize(contact = FindContacts(scene.hull, part, pose, 0));

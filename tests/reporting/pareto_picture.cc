@@ -48,9 +48,11 @@ std::string DataBlocks(const ParetoPanel& panel, std::size_t number,
 }
 
 // Settings that cost more are more exact: lines fall to the right, so that above on the right and below on
-// the left of a point there is room for its label; a flat line has it above. One a family, in turns.
-constexpr std::array kLabelPlaces = {"center offset 0,0.9", "left offset 0.9,0.5", "center offset 0,1.6",
-                                     "left offset 0.9,0.5", "right offset -0.9,-0.5"};
+// the left of a point there is room for its label; a flat line has it above. Slanting labels beside a line
+// leave each other room where points are close. One a family, in turns.
+constexpr std::array kLabelPlaces = {"center offset 0,0.9", "left rotate by 25 offset 0.7,0.5",
+                                     "center offset 0,1.6", "left rotate by 25 offset 0.7,0.5",
+                                     "right offset -0.9,-0.5"};
 
 // As gnuplot takes text in single quotes.
 std::string Quoted(const std::string& text) {
