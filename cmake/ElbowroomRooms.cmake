@@ -20,7 +20,7 @@ function(elbowroom_test name)
     ELBOWROOM_SHARED_DATA_DIR="${PROJECT_SOURCE_DIR}/../shared/data"
     ELBOWROOM_PROGRAM="${PROJECT_BINARY_DIR}/elbowroom")
   include(GoogleTest)
-  gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST PROPERTIES TIMEOUT 900 LABELS "${TEST_LABELS}")
+  gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST PROPERTIES LABELS "${TEST_LABELS}")
 endfunction()
 
 add_library(elbowroom_warnings INTERFACE)
