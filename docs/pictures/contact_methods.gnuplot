@@ -1,27 +1,29 @@
 $all0_0 << EOD
-0.5305507916666666 19.671616849797037 "5 x 5"
-1.6473527499999998 11.202784554230366 "10 x 10"
-5.783602583333333 5.451918790730465 "20 x 20"
-21.7497345 2.5545462177167626 "40 x 40"
-85.85571041666668 1.3114822881632187 "80 x 80"
+0.5249961249999999 20.004309506313373 "5 x 5"
+1.6522167916666666 11.276664608546648 "10 x 10"
+5.960254541666667 5.480532899463306 "20 x 20"
+22.771009916666664 2.5564135927115945 "40 x 40"
+90.09577483333332 1.3124601155147575 "80 x 80"
 EOD
 $grey0_0 << EOD
-0.5305507916666666 19.671616849797037 "5 x 5"
-1.6473527499999998 11.202784554230366 "10 x 10"
-5.783602583333333 5.451918790730465 "20 x 20"
-21.7497345 2.5545462177167626 "40 x 40"
-85.85571041666668 1.3114822881632187 "80 x 80"
+0.5249961249999999 20.004309506313373 "5 x 5"
+1.6522167916666666 11.276664608546648 "10 x 10"
+5.960254541666667 5.480532899463306 "20 x 20"
+22.771009916666664 2.5564135927115945 "40 x 40"
+90.09577483333332 1.3124601155147575 "80 x 80"
 EOD
 $all0_1 << EOD
-0.273781875 10.7037268342827 "8 mm"
-0.30141687500000003 2.8885373493495754 "4 mm"
-0.3096063333333333 0.924829365022511 "2 mm"
-0.4023435833333333 0.8237977570772514 "half a pixel"
-1.3181865416666667 0.10068950055280398 "0.25 mm"
-2.47989625 0.1491691564338407 "0.125 mm"
+0.276982375 10.7037268342827 "8 mm"
+0.24655966666666668 2.888537349349571 "4 mm"
+0.24015091666666666 0.9248293650225103 "2 mm"
+0.3095320833333333 0.8237977570772529 "half a pixel"
+1.037195375 0.10068950055280533 "0.25 mm"
+1.9581060000000003 0.14916915643384235 "0.125 mm"
 EOD
 $grey0_1 << EOD
-2.47989625 0.1491691564338407 "0.125 mm"
+0.276982375 10.7037268342827 "8 mm"
+0.24655966666666668 2.888537349349571 "4 mm"
+1.9581060000000003 0.14916915643384235 "0.125 mm"
 EOD
 set logscale xy
 set grid lc rgb '#cccccc'
@@ -36,11 +38,11 @@ set terminal svg size 900,560 font 'Sans,15' background rgb 'white'
 set output 'contact_methods.svg'
 set multiplot layout 1,1
 set title 'Contacts of a curtain of 720 triangles: run time against error'
-plot $all0_0 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#0072B2' title 'the paper''s viewports, CPU', $grey0_0 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all0_0 using 1:2:3 with labels center offset 0,0.9 tc rgb '#0072B2' notitle, $all0_1 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#D55E00' title 'exact contacts', $grey0_1 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all0_1 using 1:2:3 with labels left offset 0.9,0.5 tc rgb '#D55E00' notitle, NaN with points pt 7 ps 1.4 lc rgb '#b8b8b8' title 'dominated by another setting or method'
+plot $all0_0 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#0072B2' title 'the paper''s viewports, CPU', $grey0_0 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all0_0 using 1:2:3 with labels center offset 0,0.9 tc rgb '#0072B2' notitle, $all0_1 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#D55E00' title 'exact contacts', $grey0_1 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all0_1 using 1:2:3 with labels left rotate by 25 offset 0.7,0.5 tc rgb '#D55E00' notitle, NaN with points pt 7 ps 1.4 lc rgb '#b8b8b8' title 'dominated by another setting or method'
 unset multiplot
 set terminal pngcairo size 1350,840 font 'Sans,17'
 set output 'contact_methods.png'
 set multiplot layout 1,1
 set title 'Contacts of a curtain of 720 triangles: run time against error'
-plot $all0_0 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#0072B2' title 'the paper''s viewports, CPU', $grey0_0 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all0_0 using 1:2:3 with labels center offset 0,0.9 tc rgb '#0072B2' notitle, $all0_1 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#D55E00' title 'exact contacts', $grey0_1 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all0_1 using 1:2:3 with labels left offset 0.9,0.5 tc rgb '#D55E00' notitle, NaN with points pt 7 ps 1.4 lc rgb '#b8b8b8' title 'dominated by another setting or method'
+plot $all0_0 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#0072B2' title 'the paper''s viewports, CPU', $grey0_0 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all0_0 using 1:2:3 with labels center offset 0,0.9 tc rgb '#0072B2' notitle, $all0_1 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#D55E00' title 'exact contacts', $grey0_1 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all0_1 using 1:2:3 with labels left rotate by 25 offset 0.7,0.5 tc rgb '#D55E00' notitle, NaN with points pt 7 ps 1.4 lc rgb '#b8b8b8' title 'dominated by another setting or method'
 unset multiplot
