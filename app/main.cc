@@ -3,11 +3,13 @@
 #include <spdlog/spdlog.h>
 
 #include "app/cli/command_line.h"
+#include "cad_import/import_worker.h"
 #ifdef ELBOWROOM_WITH_CONSOLE
 #include "app/console/console_main.h"
 #endif
 
 int main(int argc, char** argv) {
+  elbowroom::cad_import::ServeImport(argc, argv);  // returns unless this is a child that imports
   spdlog::set_default_logger(spdlog::stderr_color_mt("elbowroom"));  // stdout is for results
 #ifdef ELBOWROOM_WITH_CONSOLE
   return elbowroom::cli::RunCommandLine(argc, argv, [&](const elbowroom::cli::ConsoleRequest& request) {

@@ -30,10 +30,7 @@ class MeshShelf {
     const auto found = items_.find(key);
     if (found != items_.end()) return found->second;
     ImportedMesh imported = ImportMeshFile(path, options);
-    return items_
-        .emplace(key, Item{std::make_shared<const core::TriangleMesh>(std::move(imported.mesh)),
-                           std::move(imported.report)})
-        .first->second;
+    return items_.emplace(key, Item{std::move(imported.mesh), std::move(imported.report)}).first->second;
   }
 
  private:
@@ -72,7 +69,7 @@ core::Part ReadPart(const TomlEntry& entry, const std::filesystem::path& folder,
   try {
     const MeshShelf::Item& item = shelf.Get(folder / part.file, options);
     part.mesh = item.mesh;
-    part.unit = item.report.unit;
+    part.unit = core::ParseLengthUnit(item.report.unit).value_or(core::LengthUnit::kMillimetre);
     for (const std::string& warning : item.report.warnings) {
       warnings.push_back(fmt::format("part '{}' ({}): {}", part.name, part.file, warning));
     }

@@ -8,8 +8,8 @@
 #include <memory>
 #include <optional>
 
+#include "cad_import/file_format.h"
 #include "cad_import/mesh_file.h"
-#include "cad_import/mesh_format.h"
 #include "core/error.h"
 #include "core/whole_file.h"
 
@@ -25,10 +25,10 @@ struct Target {
   double mm_per_unit;
 };
 Target TargetOf(const std::filesystem::path& path) {
-  const std::optional<MeshFormat> format = FindFormat(path);
-  if (format == MeshFormat::kPly) return {"plyb", 1.0};
-  if (format == MeshFormat::kStl) return {"stlb", 1.0};
-  if (format == MeshFormat::kGlb) return {"glb2", 1000.0};
+  const std::optional<FileFormat> format = FindFormat(path);
+  if (format == FileFormat::kPly) return {"plyb", 1.0};
+  if (format == FileFormat::kStl) return {"stlb", 1.0};
+  if (format == FileFormat::kGlb) return {"glb2", 1000.0};
   throw Error(ErrorKind::kFormat,
               fmt::format("{}: meshes are written as .ply, .stl or .glb; choose one of these extensions",
                           path.string()));

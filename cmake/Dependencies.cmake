@@ -10,13 +10,23 @@ find_package(CLI11 REQUIRED)
 find_package(tomlplusplus REQUIRED)
 find_package(SQLiteCpp REQUIRED)
 find_package(assimp REQUIRED)
+find_package(OpenCASCADE REQUIRED)   # its version file knows no "or newer"
+find_package(meshoptimizer REQUIRED)
 find_package(fcl 0.7 REQUIRED)
 find_package(GTest REQUIRED)
 pkg_check_modules(EPOXY REQUIRED IMPORTED_TARGET epoxy)
 pkg_check_modules(HIGHWAY REQUIRED IMPORTED_TARGET libhwy libhwy-contrib)
 pkg_check_modules(ZSTD REQUIRED IMPORTED_TARGET libzstd)
 pkg_check_modules(XXHASH REQUIRED IMPORTED_TARGET libxxhash)
+find_package(Lib3mf REQUIRED)        # its pkg-config file asks for the static libraries of others
 find_package(OpenCVParts REQUIRED)   # only the modules in use; Debian ships no CMake config for single modules
 if(ELBOWROOM_CONSOLE)
   find_package(Qt6 REQUIRED COMPONENTS Widgets Test)
 endif()
+
+# The readers of STEP, IGES and BREP, and what they need to mesh; OpenCASCADE's targets carry no include folder of their own.
+add_library(elbowroom_opencascade INTERFACE)
+target_include_directories(elbowroom_opencascade SYSTEM INTERFACE ${OpenCASCADE_INCLUDE_DIR})
+target_link_libraries(elbowroom_opencascade INTERFACE
+  TKXDESTEP TKXDEIGES TKSTEP TKSTEP209 TKSTEPAttr TKSTEPBase TKIGES TKXSBase TKXCAF TKVCAF TKLCAF TKCAF TKCDF TKMesh TKShHealing
+  TKTopAlgo TKGeomAlgo TKBRep TKGeomBase TKG3d TKG2d TKMath TKernel)

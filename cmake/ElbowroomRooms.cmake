@@ -9,11 +9,16 @@ function(elbowroom_room name)
   target_link_libraries(elbowroom_${name} PUBLIC ${ROOM_USES} PRIVATE ${ROOM_HIDES} elbowroom_warnings)
 endfunction()
 
-# elbowroom_test(NAME SOURCES a_test.cc ... USES target ... [LABELS gl ...])
+# elbowroom_test(NAME SOURCES a_test.cc ... USES target ... [LABELS gl ...] [IMPORTS])
+# IMPORTS: it reads CAD files, so its main serves as the child that does.
 function(elbowroom_test name)
-  cmake_parse_arguments(TEST "" "" "SOURCES;USES;LABELS" ${ARGN})
+  cmake_parse_arguments(TEST "IMPORTS" "" "SOURCES;USES;LABELS" ${ARGN})
   add_executable(${name} ${TEST_SOURCES})
   target_link_libraries(${name} PRIVATE ${TEST_USES} GTest::gtest GTest::gtest_main elbowroom_warnings)
+  if(TEST_IMPORTS)
+    target_sources(${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests/support/importing_main.cc)
+    target_link_libraries(${name} PRIVATE elbowroom_cad_import)
+  endif()
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR})
   target_compile_definitions(${name} PRIVATE
     ELBOWROOM_SOURCE_DIR="${PROJECT_SOURCE_DIR}"

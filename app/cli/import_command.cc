@@ -14,29 +14,30 @@ namespace {
 
 struct ImportCommandOptions {
   std::filesystem::path file;
-  std::optional<core::LengthUnit> unit;
+  cad_import::ImportOptions import;
   std::filesystem::path out;
 };
 
-CommandResult Run(const ImportCommandOptions& options) {
+CommandResult Run(const ImportCommandOptions& options, const CommandContext& context) {
   const cad_import::ImportedMesh imported =
-      cad_import::ImportMeshFile(options.file, {.unit = options.unit, .unit_if_file_has_none = std::nullopt});
+      cad_import::ImportMeshFile(options.file, options.import, context.progress, context.stop);
   const cad_import::ImportReport& report = imported.report;
-  if (!options.out.empty()) cad_import::WriteMeshFile(imported.mesh, options.out);
+  if (!options.out.empty()) cad_import::WriteMeshFile(*imported.mesh, options.out);
   const Eigen::Vector3d low = report.bounds_mm.min(), high = report.bounds_mm.max();
   CommandResult result;
   result.json = {{"parts", report.parts},
                  {"triangles", report.triangles},
-                 {"unit", ToString(report.unit)},
+                 {"unit", report.unit},
                  {"bounds_mm", {{low.x(), low.y(), low.z()}, {high.x(), high.y(), high.z()}}},
                  {"watertight", report.watertight},
                  {"repaired", report.repaired},
                  {"dropped_triangles", report.dropped_triangles},
+                 {"deviation_mm", report.deviation_mm},
                  {"warnings", report.warnings}};
   const Eigen::Vector3d size = high - low;
   result.text = fmt::format("{}: {} parts, {} triangles, {:.6g} x {:.6g} x {:.6g} mm (read in {}), {}",
                             options.file.string(), report.parts, report.triangles, size.x(), size.y(),
-                            size.z(), ToString(report.unit), report.watertight ? "watertight" : "open");
+                            size.z(), report.unit, report.watertight ? "watertight" : "open");
   for (const std::string& warning : report.warnings) result.text += "\nwarning: " + warning;
   return result;
 }
@@ -44,12 +45,20 @@ CommandResult Run(const ImportCommandOptions& options) {
 }  // namespace
 
 void AddImportCommand(CLI::App& app, Choice* choice) {
-  CLI::App* command = app.add_subcommand("import", "check a mesh file and report its size, unit and defects");
+  CLI::App* command = app.add_subcommand("import", "check a CAD file and report its size, unit and defects");
   auto options = std::make_shared<ImportCommandOptions>();
-  command->add_option("FILE", options->file, "STL, OBJ, PLY, glTF or GLB")->required();
-  AddUnitOption(*command, &options->unit);
+  command
+      ->add_option("FILE", options->file,
+                   "STEP, IGES, BREP, STL, OBJ, PLY, OFF, glTF, GLB, 3MF, COLLADA, FBX or 3DS")
+      ->required();
+  AddUnitOption(*command, &options->import.unit);
+  command
+      ->add_option("--tolerance", options->import.tolerance_mm,
+                   "STEP, IGES, BREP: how far triangles may be from the faces (default: 0.2)")
+      ->check(PositiveLength());
   command->add_option("--out", options->out, "write the mesh (.glb, .ply, .stl)");
-  command->callback([=] { choice->action = [=](const CommandContext&) { return Run(*options); }; });
+  command->callback(
+      [=] { choice->action = [=](const CommandContext& context) { return Run(*options, context); }; });
 }
 
 }  // namespace elbowroom::cli

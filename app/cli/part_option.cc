@@ -15,9 +15,7 @@ void AddPartOptions(CLI::App& command, PartOptions* options) {
 
 PosedPart LoadPart(const PartOptions& options) {
   PosedPart part;
-  part.mesh = std::make_shared<const core::TriangleMesh>(
-      cad_import::ImportMeshFile(options.mesh, {.unit = options.unit, .unit_if_file_has_none = std::nullopt})
-          .mesh);
+  part.mesh = cad_import::ImportMeshFile(options.mesh, {.unit = options.unit}).mesh;
   if (!options.world_from_part.empty()) part.world_from_part = recon::ReadPoseFile(options.world_from_part);
   return part;
 }

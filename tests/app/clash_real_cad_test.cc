@@ -81,9 +81,9 @@ constexpr const char* kFiles[] = {"nasa42/ARC_ChaserBody.obj",
 // The unit that makes the file's longest side nearest to kSizeMm; nothing for a file with too many triangles.
 std::optional<LengthUnit> FittingUnit(const std::filesystem::path& file) {
   const cad_import::ImportedMesh imported =
-      cad_import::ImportMeshFile(file, {.unit = LengthUnit::kMillimetre, .unit_if_file_has_none = {}});
+      cad_import::ImportMeshFile(file, {.unit = LengthUnit::kMillimetre});
   const std::size_t most = kMostTriangles * static_cast<std::size_t>(test_support::SoakScale());
-  if (imported.mesh.triangles.size() > most) return std::nullopt;
+  if (imported.mesh->triangles.size() > most) return std::nullopt;
   const double side_mm = imported.report.bounds_mm.sizes().maxCoeff();
   const auto misfit = [&](LengthUnit unit) {
     return std::abs(std::log(side_mm * core::MillimetresPer(unit) / kSizeMm));

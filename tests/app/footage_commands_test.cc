@@ -115,8 +115,8 @@ TEST_F(FootageCommands, ViewSeesTheLocatedBoundaries) {
 TEST_F(FootageCommands, ContactsTouchTheLocatedBoundaries) {
   const std::filesystem::path box = folder_ / "box.stl";
   test_support::WriteBoxStl(box, 380.0);  // its top face cuts the ball
-  const core::TriangleTree part(std::make_shared<const core::TriangleMesh>(
-      cad_import::ImportMeshFile(box, {.unit = core::LengthUnit::kMillimetre}).mesh));
+  const core::TriangleTree part(
+      cad_import::ImportMeshFile(box, {.unit = core::LengthUnit::kMillimetre}).mesh);
   const auto area_mm2 = [&](const auto& masks) {
     return review::FindContacts(recon::MakeVisualHull(rig_, masks), part, {}, 0, {}).contact_area_mm2;
   };

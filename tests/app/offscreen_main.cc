@@ -1,9 +1,13 @@
-// Tests of windows: one QApplication on Qt's offscreen platform, whatever display there is.
+// Tests of windows: one QApplication on Qt's offscreen platform, whatever display there is; such a program is
+// its own child that imports.
 #include <gtest/gtest.h>
 
 #include <QApplication>
 
+#include "cad_import/import_worker.h"
+
 int main(int argc, char** argv) {
+  elbowroom::cad_import::ServeImport(argc, argv);
   qputenv("QT_QPA_PLATFORM", "offscreen");
   testing::InitGoogleTest(&argc, argv);
   const QApplication application(argc, argv);

@@ -147,7 +147,8 @@ TEST_F(LayoutFile, WarningsNameTheirPart) {
   test_support::WriteText(folder_ / "parts/box.stl", testing::StlText(open));
   const auto warnings = ImportLayoutFile(folder_ / "LAYOUT.toml").warnings;
   ASSERT_EQ(warnings.size(), 2U);
-  EXPECT_TRUE(Mentions(warnings[0], "part 'pmt box' (parts/box.stl): the surface is open")) << warnings[0];
+  EXPECT_TRUE(Mentions(warnings[0], "part 'pmt box' (parts/box.stl): the surface isn't closed"))
+      << warnings[0];
 }
 
 TEST_F(LayoutFile, UnknownKeysAreNamedWithTheirLineAndWhatWasMeant) {

@@ -66,14 +66,14 @@ TEST_P(MeshWriter, ComesBackWithSizeTrianglesAndClosedness) {
   WriteMeshFile(ball, path);
   const ImportedMesh back = ImportMeshFile(path, {.unit_if_file_has_none = LengthUnit::kMillimetre});
   EXPECT_EQ(back.report.triangles, static_cast<std::int64_t>(ball.triangles.size()));
-  EXPECT_EQ(back.mesh.vertices_mm.size(), ball.vertices_mm.size());
+  EXPECT_EQ(back.mesh->vertices_mm.size(), ball.vertices_mm.size());
   EXPECT_TRUE(back.report.watertight);
   EXPECT_FALSE(back.report.repaired);
   EXPECT_TRUE(back.report.warnings.empty()) << back.report.warnings.front();
   const double tolerance_mm = kSinglePrecision * core::BoundsOf(ball).max().cwiseAbs().maxCoeff();
-  EXPECT_LT((core::BoundsOf(back.mesh).min() - core::BoundsOf(ball).min()).norm(), tolerance_mm);
-  EXPECT_LT((core::BoundsOf(back.mesh).max() - core::BoundsOf(ball).max()).norm(), tolerance_mm);
-  EXPECT_NEAR(core::VolumeMm3(back.mesh) / core::VolumeMm3(ball), 1.0,
+  EXPECT_LT((core::BoundsOf(*back.mesh).min() - core::BoundsOf(ball).min()).norm(), tolerance_mm);
+  EXPECT_LT((core::BoundsOf(*back.mesh).max() - core::BoundsOf(ball).max()).norm(), tolerance_mm);
+  EXPECT_NEAR(core::VolumeMm3(*back.mesh) / core::VolumeMm3(ball), 1.0,
               1e-5);  // area times rounding over volume
 }
 

@@ -1,4 +1,4 @@
-#include "cad_import/mesh_format.h"
+#include "cad_import/file_format.h"
 
 #include <fmt/format.h>
 
@@ -9,6 +9,7 @@
 #include <cstring>
 #include <fstream>
 #include <utility>
+#include <vector>
 
 #include "cad_import/gltf_check.h"
 #include "cad_import/ply_check.h"
@@ -25,15 +26,28 @@ constexpr std::size_t kStlHeaderBytes = 84;
 constexpr std::size_t kStlTriangleBytes = 50;
 
 struct FormatRow {
-  MeshFormat format;
+  FileFormat format;
   std::string_view extension;
   std::string_view text;
 };
-constexpr std::array<FormatRow, 5> kFormats = {{{MeshFormat::kStl, ".stl", "STL"},
-                                                {MeshFormat::kObj, ".obj", "OBJ"},
-                                                {MeshFormat::kPly, ".ply", "PLY"},
-                                                {MeshFormat::kGltf, ".gltf", "glTF"},
-                                                {MeshFormat::kGlb, ".glb", "GLB"}}};
+constexpr std::array<FormatRow, 16> kFormats = {{{FileFormat::kStl, ".stl", "STL"},
+                                                 {FileFormat::kObj, ".obj", "OBJ"},
+                                                 {FileFormat::kPly, ".ply", "PLY"},
+                                                 {FileFormat::kOff, ".off", "OFF"},
+                                                 {FileFormat::kGltf, ".gltf", "glTF"},
+                                                 {FileFormat::kGlb, ".glb", "GLB"},
+                                                 {FileFormat::k3mf, ".3mf", "3MF"},
+                                                 {FileFormat::kCollada, ".dae", "COLLADA"},
+                                                 {FileFormat::kFbx, ".fbx", "FBX"},
+                                                 {FileFormat::k3ds, ".3ds", "3DS"},
+                                                 {FileFormat::kStep, ".step", "STEP"},
+                                                 {FileFormat::kStep, ".stp", "STEP"},
+                                                 {FileFormat::kStep, ".p21", "STEP"},
+                                                 {FileFormat::kIges, ".iges", "IGES"},
+                                                 {FileFormat::kIges, ".igs", "IGES"},
+                                                 {FileFormat::kBrep, ".brep", "BREP"}}};
+
+const FormatRow& RowOf(FileFormat format) { return *std::ranges::find(kFormats, format, &FormatRow::format); }
 
 std::string ReadWhole(const std::filesystem::path& path) {
   std::error_code error;
@@ -92,13 +106,57 @@ void CheckStl(std::string_view bytes, const std::string& where) {
   }
 }
 
+// What a file of the format begins with; nothing: that isn't told by its beginning.
+std::vector<std::string_view> BeginningsOf(FileFormat format) {
+  switch (format) {
+    case FileFormat::k3mf:
+      return {"PK"};
+    case FileFormat::k3ds:
+      return {"MM"};
+    case FileFormat::kStep:
+      return {"ISO-10303-21"};
+    case FileFormat::kBrep:
+      return {"DBRep_DrawableShape", "CASCADE Topology", "Open CASCADE Topology"};
+    default:
+      return {};
+  }
+}
+
+void CheckBeginning(FileFormat format, std::string_view bytes, const std::string& where) {
+  const std::vector<std::string_view> beginnings = BeginningsOf(format);
+  bytes.remove_prefix(std::min(bytes.find_first_not_of(" \t\r\n"), bytes.size()));
+  if (beginnings.empty() ||
+      std::ranges::any_of(beginnings, [&](auto text) { return bytes.starts_with(text); }))
+    return;
+  FailFormat(where, fmt::format("not {} (it doesn't begin like it); export it again", ToString(format)));
+}
+
+void CheckContent(FileFormat format, std::string_view bytes, const std::string& where) {
+  switch (format) {
+    case FileFormat::kStl:
+      return CheckStl(bytes, where);
+    case FileFormat::kPly:
+      return CheckPly(bytes, where);
+    case FileFormat::kGltf:
+      return CheckGltf(bytes, where);
+    case FileFormat::kGlb:
+      return CheckGlb(bytes, where);
+    default:
+      return CheckBeginning(format, bytes, where);
+  }
+}
+
 }  // namespace
 
-std::string_view ToString(MeshFormat format) { return kFormats[static_cast<std::size_t>(format)].text; }
+std::string_view ToString(FileFormat format) { return RowOf(format).text; }
 
-bool CarriesUnit(MeshFormat format) { return format == MeshFormat::kGltf || format == MeshFormat::kGlb; }
+std::string_view ExtensionOf(FileFormat format) { return RowOf(format).extension; }
 
-std::optional<MeshFormat> FindFormat(const std::filesystem::path& path) {
+bool IsBoundaryRepresentation(FileFormat format) {
+  return format == FileFormat::kStep || format == FileFormat::kIges || format == FileFormat::kBrep;
+}
+
+std::optional<FileFormat> FindFormat(const std::filesystem::path& path) {
   std::string extension = path.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -108,35 +166,20 @@ std::optional<MeshFormat> FindFormat(const std::filesystem::path& path) {
   return std::nullopt;
 }
 
-MeshFormat FormatOfExtension(const std::filesystem::path& path) {
-  if (const std::optional<MeshFormat> format = FindFormat(path)) return *format;
+FileFormat FormatOfExtension(const std::filesystem::path& path) {
+  if (const std::optional<FileFormat> format = FindFormat(path)) return *format;
   const std::string extension = path.extension().string();
   FailFormat(path.string(),
-             fmt::format("'{}' files can't be read; export the part as .stl, .obj, .ply, .gltf or .glb",
+             fmt::format("'{}' files can't be read; export the part as .step, .stl, .obj, .ply, .glb or .3mf",
                          extension.empty() ? "extensionless" : extension));
 }
 
 CheckedFile ReadCheckedFile(const std::filesystem::path& path) {
   const std::string where = path.string();
   std::string bytes = ReadWhole(path);  // first, so that a missing file is called missing
-  const MeshFormat format = FormatOfExtension(path);
+  const FileFormat format = FormatOfExtension(path);
   if (bytes.empty()) FailFormat(where, "the file is empty; export it again");
-  switch (format) {
-    case MeshFormat::kStl:
-      CheckStl(bytes, where);
-      break;
-    case MeshFormat::kObj:
-      break;
-    case MeshFormat::kPly:
-      CheckPly(bytes, where);
-      break;
-    case MeshFormat::kGltf:
-      CheckGltf(bytes, where);
-      break;
-    case MeshFormat::kGlb:
-      CheckGlb(bytes, where);
-      break;
-  }
+  CheckContent(format, bytes, where);
   return {format, std::move(bytes)};
 }
 

@@ -1,4 +1,4 @@
-// Which mesh formats can be read, and a look at a file before a parser is trusted with it.
+// Which formats can be read, and a look at a file before a parser is trusted with it.
 #pragma once
 
 #include <filesystem>
@@ -8,22 +8,39 @@
 
 namespace elbowroom::cad_import {
 
-enum class MeshFormat { kStl, kObj, kPly, kGltf, kGlb };
+enum class FileFormat {
+  kStl,
+  kObj,
+  kPly,
+  kOff,
+  kGltf,
+  kGlb,
+  k3mf,
+  kCollada,
+  kFbx,
+  k3ds,
+  kStep,
+  kIges,
+  kBrep
+};
 
-[[nodiscard]] std::string_view ToString(MeshFormat format);  // "STL", "OBJ", "PLY", "glTF", "GLB"
+[[nodiscard]] std::string_view ToString(FileFormat format);  // "STL", "glTF"
 
-// True for glTF and GLB, which are in metres by their specification; the others don't say.
-[[nodiscard]] bool CarriesUnit(MeshFormat format);
+// True for STEP, IGES and BREP: faces and edges, not triangles.
+[[nodiscard]] bool IsBoundaryRepresentation(FileFormat format);
+
+// ".stl": the first of those that it goes by.
+[[nodiscard]] std::string_view ExtensionOf(FileFormat format);
 
 // The format that the path's extension names (any case); nothing for another one.
-[[nodiscard]] std::optional<MeshFormat> FindFormat(const std::filesystem::path& path);
+[[nodiscard]] std::optional<FileFormat> FindFormat(const std::filesystem::path& path);
 
 // The format that the file's extension names (any case).
 // Throws: Error{kFormat} naming what is supported.
-[[nodiscard]] MeshFormat FormatOfExtension(const std::filesystem::path& path);
+[[nodiscard]] FileFormat FormatOfExtension(const std::filesystem::path& path);
 
 struct CheckedFile {
-  MeshFormat format = MeshFormat::kStl;
+  FileFormat format = FileFormat::kStl;
   std::string bytes;  // the whole file
 };
 

@@ -1,0 +1,109 @@
+#include "cad_import/bodies.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <numeric>
+#include <utility>
+
+#include "cad_import/surface_topology.h"
+
+namespace elbowroom::cad_import {
+namespace {
+
+// Appends b, brought into a's frame, as further pieces.
+void Join(Body& a, const Body& b) {
+  const auto owner = static_cast<std::uint32_t>(a.piece_names.size());
+  core::Append(a.owned.mesh, b.owned.mesh);
+  for (const std::uint32_t of_b : b.owned.owner_of_triangle)
+    a.owned.owner_of_triangle.push_back(owner + of_b);
+  a.piece_names.insert(a.piece_names.end(), b.piece_names.begin(), b.piece_names.end());
+  a.deviation = std::max(a.deviation, b.deviation);
+}
+
+// For each body the first of those that it shares vertices with, over any number of others.
+std::vector<std::size_t> GroupsOf(const std::vector<const core::TriangleMesh*>& meshes) {
+  std::vector<std::size_t> group(meshes.size());
+  std::iota(group.begin(), group.end(), std::size_t{0});
+  const auto root_of = [&](std::size_t i) {
+    while (group[i] != i) i = group[i] = group[group[i]];
+    return i;
+  };
+  std::map<std::array<double, 3>, std::size_t> user;
+  for (std::size_t i = 0; i < meshes.size(); ++i) {
+    for (const Eigen::Vector3d& vertex : meshes[i]->vertices_mm) {
+      const auto [found, is_new] = user.try_emplace({vertex.x(), vertex.y(), vertex.z()}, i);
+      if (is_new) continue;
+      const std::size_t a = root_of(found->second), b = root_of(i);
+      group[std::max(a, b)] = std::min(a, b);
+    }
+  }
+  for (std::size_t i = 0; i < group.size(); ++i) group[i] = root_of(i);
+  return group;
+}
+
+}  // namespace
+
+Body BodyOf(RawShape shape) {
+  Body body{{std::move(shape.mesh), {}}, {shape.name}, shape.deviation, shape.name};
+  body.owned.owner_of_triangle.assign(body.owned.mesh.triangles.size(), 0);
+  Weld(body.owned);
+  return body;
+}
+
+void JoinOpenBodies(BodyScene& scene) {
+  std::vector<int> uses(scene.bodies.size(), 0);
+  for (const CadInstance& instance : scene.instances) ++uses[instance.shape];
+  std::vector<std::size_t> open;  // instances
+  for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+    const std::size_t shape = scene.instances[i].shape;
+    if (uses[shape] == 1 && !core::IsWatertight(scene.bodies[shape].owned.mesh)) open.push_back(i);
+  }
+  if (open.size() < 2) return;
+  std::vector<const core::TriangleMesh*> meshes;
+  for (const std::size_t i : open) {
+    CadInstance& instance = scene.instances[i];
+    core::TriangleMesh& mesh = scene.bodies[instance.shape].owned.mesh;
+    mesh = core::Transformed(mesh, instance.model_from_shape);
+    instance.model_from_shape = {};
+    meshes.push_back(&mesh);
+  }
+  const std::vector<std::size_t> group = GroupsOf(meshes);
+  std::vector<std::uint8_t> is_joined(scene.instances.size(), 0);
+  for (std::size_t i = 0; i < open.size(); ++i) {
+    if (group[i] == i) continue;
+    Body& first = scene.bodies[scene.instances[open[group[i]]].shape];
+    Join(first, scene.bodies[scene.instances[open[i]].shape]);
+    is_joined[open[i]] = 1;
+  }
+  BodyScene result;
+  std::map<std::size_t, std::size_t> new_shape;
+  for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+    if (is_joined[i] != 0) continue;
+    CadInstance instance = scene.instances[i];
+    const auto [found, is_new] = new_shape.try_emplace(instance.shape, result.bodies.size());
+    if (is_new) {
+      result.bodies.push_back(std::move(scene.bodies[instance.shape]));
+      if (result.bodies.back().piece_names.size() > 1) Weld(result.bodies.back().owned);
+    }
+    instance.shape = found->second;
+    result.instances.push_back(std::move(instance));
+  }
+  scene = std::move(result);
+}
+
+void SplitIntoPieces(Body& body) {
+  core::TriangleMesh& mesh = body.owned.mesh;
+  const std::vector<std::size_t> pieces = PieceOfTriangle(mesh);
+  std::vector<std::size_t> order(pieces.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return pieces[i]; });
+  const auto triangles = mesh.triangles;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    mesh.triangles[i] = triangles[order[i]];
+    body.owned.owner_of_triangle[i] = static_cast<std::uint32_t>(pieces[order[i]]);
+  }
+  if (!order.empty()) body.piece_names.assign(pieces[order.back()] + 1, body.piece_names.front());
+}
+
+}  // namespace elbowroom::cad_import

@@ -1,0 +1,51 @@
+#include "cad_import/cad_model.h"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <memory>
+#include <utility>
+
+namespace elbowroom::cad_import {
+namespace {
+
+bool IsAtHome(const core::RigidTransform& b_from_a) {
+  return b_from_a.rotation == Eigen::Matrix3d::Identity() &&
+         b_from_a.translation_mm == Eigen::Vector3d::Zero();
+}
+
+// The last of its path.
+std::string NameOf(const CadInstance& instance) { return instance.path.substr(instance.path.rfind('/') + 1); }
+
+// Every part gets a name of its own, numbered where it recurs.
+void NumberTwins(std::vector<ImportedPart>& parts) {
+  std::map<std::string, int> uses;
+  for (ImportedPart& part : parts)
+    if (const int use = ++uses[part.name]; use > 1) part.name += fmt::format(" {}", use);
+}
+
+}  // namespace
+
+FlatModel Flatten(const CadModel& model) {
+  FlatModel flat;
+  core::TriangleMesh all;
+  for (const CadInstance& instance : model.instances) {
+    const CadShape& shape = model.shapes[instance.shape];
+    const auto first = static_cast<std::int64_t>(all.triangles.size());
+    for (const ImportedPart& piece : shape.pieces) {
+      const std::string& name = shape.pieces.size() == 1 ? NameOf(instance) : piece.name;
+      flat.parts.push_back({name, first + piece.first_triangle, piece.triangles});
+    }
+    const bool is_all = model.instances.size() == 1 && IsAtHome(instance.model_from_shape);
+    if (is_all) {
+      flat.mesh = shape.mesh;
+    } else {
+      core::Append(all, core::Transformed(*shape.mesh, instance.model_from_shape));
+    }
+  }
+  if (flat.mesh == nullptr) flat.mesh = std::make_shared<const core::TriangleMesh>(std::move(all));
+  NumberTwins(flat.parts);
+  return flat;
+}
+
+}  // namespace elbowroom::cad_import

@@ -1,0 +1,84 @@
+// What a CAD file holds, in millimetres: bodies, each stored once, and where they stand.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/rigid_transform.h"
+#include "core/triangle_mesh.h"
+
+namespace elbowroom::cad_import {
+
+// A named piece of a mesh: consecutive triangles.
+struct ImportedPart {
+  std::string name;
+  std::int64_t first_triangle = 0;
+  std::int64_t triangles = 0;
+
+  [[nodiscard]] bool operator==(const ImportedPart&) const = default;
+};
+
+// What was found in a body's surface, and done to it.
+struct SurfaceReport {
+  bool watertight = false;
+  double deviation_mm = 0.0;  // of the triangles from the surface that the file describes
+  std::int64_t dropped_flat = 0;
+  std::int64_t kept_flat = 0;  // without area, but a closed surface hangs together by them
+  std::int64_t dropped_duplicates = 0;
+  std::int64_t turned = 0;              // triangles whose corners were put into the other order
+  std::int64_t open_edges = 0;          // of one triangle
+  std::int64_t non_manifold_edges = 0;  // of three or more
+  std::int64_t inconsistent_edges = 0;  // of two triangles that run along it the same way
+  std::int64_t self_intersections = 0;  // pairs of triangles that pierce each other
+
+  [[nodiscard]] bool operator==(const SurfaceReport&) const = default;
+};
+
+// A body in its own frame.
+struct CadShape {
+  std::string name;
+  core::SharedMesh mesh;
+  std::vector<ImportedPart> pieces;  // cover all triangles, in order; at least one
+  SurfaceReport surface;
+};
+
+using ColorRgb = std::array<float, 3>;  // 0..1, sRGB
+
+struct CadInstance {
+  std::string path;  // names from the root down, with '/' between
+  std::size_t shape = 0;
+  core::RigidTransform model_from_shape;
+  std::optional<ColorRgb> color;
+};
+
+struct ImportReport {
+  std::int64_t parts = 0;      // pieces of all instances
+  std::int64_t triangles = 0;  // of all instances
+  std::string unit;            // that the file's numbers were read in: "mm", "in", "ft", "0.1 m"
+  Eigen::AlignedBox3d bounds_mm;
+  bool watertight = false;  // every body is
+  bool repaired = false;    // triangles were dropped or turned
+  std::int64_t dropped_triangles = 0;
+  double deviation_mm = 0.0;          // the largest of any body
+  std::vector<std::string> warnings;  // one line each
+};
+
+struct CadModel {
+  std::vector<CadShape> shapes;
+  std::vector<CadInstance> instances;
+  ImportReport report;
+};
+
+// All instances as one mesh in the model's frame, the pieces of each in the order of the instances, every
+// name unique.
+struct FlatModel {
+  core::SharedMesh mesh;
+  std::vector<ImportedPart> parts;
+};
+[[nodiscard]] FlatModel Flatten(const CadModel& model);
+
+}  // namespace elbowroom::cad_import

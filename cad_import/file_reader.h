@@ -1,0 +1,18 @@
+// A CAD file, read in this process. For a child that may crash: see import_process.h.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "cad_import/import_options.h"
+#include "cad_import/packed_model.h"
+#include "core/progress.h"
+
+namespace elbowroom::cad_import {
+
+// Throws: Error{kFile} (missing, unreadable, over 1 GiB), Error{kFormat} (another format, cut off, damaged,
+// refers outside its folder), what Settle throws. Or crashes, hangs and eats memory, as parsers do.
+[[nodiscard]] PackedModel ReadCadFile(const std::filesystem::path& file, const ImportOptions& options,
+                                      const core::Progress& progress = {});
+
+}  // namespace elbowroom::cad_import

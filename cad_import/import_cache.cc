@@ -1,0 +1,131 @@
+#include "cad_import/import_cache.h"
+
+#include <assimp/version.h>
+#include <fmt/format.h>
+#include <Standard_Version.hxx>
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <string_view>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "cad_import/file_format.h"
+#include "core/error.h"
+#include "core/whole_file.h"
+
+namespace elbowroom::cad_import {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kExtension = ".cad";
+
+std::string Variable(const char* name) {
+  const char* value = std::getenv(name);
+  return value == nullptr ? "" : value;
+}
+
+std::string TextOf(const std::optional<core::LengthUnit>& unit) {
+  return unit ? std::string(core::ToString(*unit)) : "-";
+}
+
+std::vector<std::byte> ReadAll(const fs::path& path) {
+  std::ifstream stream(path, std::ios::binary | std::ios::ate);
+  if (!stream) return {};
+  std::vector<std::byte> bytes(static_cast<std::size_t>(std::max<std::streamoff>(stream.tellg(), 0)));
+  stream.seekg(0);
+  if (!stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size())))
+    return {};
+  return bytes;
+}
+
+bool AreUnchanged(std::span<const ReferredFile> referred, const fs::path& folder) {
+  return std::ranges::all_of(referred, [&](const ReferredFile& file) {
+    std::error_code error;
+    return fs::is_regular_file(folder / file.path, error) && HashOfFile(folder / file.path) == file.hash;
+  });
+}
+
+}  // namespace
+
+ImportCache::ImportCache(fs::path folder, std::int64_t most_bytes)
+    : folder_(std::move(folder)), most_bytes_(most_bytes) {}
+
+std::optional<ImportCache> ImportCache::OfUser() {
+  if (const std::string folder = Variable("ELBOWROOM_CACHE"); !folder.empty()) {
+    if (folder == "off") return std::nullopt;
+    return ImportCache(folder);
+  }
+  for (const auto& [base, below] : {std::pair("XDG_CACHE_HOME", ""), std::pair("HOME", ".cache")})
+    if (const std::string folder = Variable(base); !folder.empty())
+      return ImportCache(fs::path(folder) / below / "elbowroom/import");
+  return std::nullopt;
+}
+
+std::string ImportCache::KeyOf(const fs::path& file, const ImportOptions& options) {
+  const std::string text =
+      fmt::format("{} {} {} {} {:a} {} {} {}.{}.{}", kPackedModelVersion, HashOfFile(file),
+                  file.filename().string(), TextOf(options.unit) + TextOf(options.unit_if_file_has_none),
+                  options.tolerance_mm, OCC_VERSION_COMPLETE, aiGetVersionMajor(), aiGetVersionMinor(),
+                  aiGetVersionPatch(), aiGetVersionRevision());
+  return HashOf(std::as_bytes(std::span(text)));
+}
+
+std::optional<CadModel> ImportCache::Find(const std::string& key, const fs::path& file) const {
+  try {
+    const std::vector<std::byte> bytes = ReadAll(PathOf(key));
+    if (bytes.empty()) return std::nullopt;
+    PackedModel packed = Unpack(bytes, PathOf(key).string());
+    if (!AreUnchanged(packed.referred, fs::weakly_canonical(file).parent_path())) return std::nullopt;
+    std::error_code ignored;
+    fs::last_write_time(PathOf(key), fs::file_time_type::clock::now(), ignored);  // for who is dropped first
+    return std::move(packed.model);
+  } catch (const core::Error&) {
+    return std::nullopt;  // damaged: it is made again
+  }
+}
+
+void ImportCache::Keep(const std::string& key, std::span<const std::byte> packed) const {
+  if (static_cast<std::int64_t>(packed.size()) > most_bytes_ / 4) return;
+  std::error_code error;
+  fs::create_directories(folder_, error);
+  if (error) return;
+  try {
+    core::WriteWholeFile(PathOf(key), {reinterpret_cast<const char*>(packed.data()), packed.size()});
+    DropOldest();
+  } catch (const core::Error&) {
+    // A full disk, or no leave to write: the next import takes as long as this one.
+  }
+}
+
+fs::path ImportCache::PathOf(const std::string& key) const { return folder_ / (key + kExtension); }
+
+void ImportCache::DropOldest() const {
+  struct Entry {
+    fs::file_time_type used;
+    std::int64_t bytes;
+    fs::path path;
+  };
+  std::vector<Entry> entries;
+  std::int64_t sum = 0;
+  std::error_code error;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder_, error)) {
+    if (entry.path().extension() != kExtension) continue;
+    const auto bytes = entry.file_size(error);
+    const auto used = error ? fs::file_time_type{} : entry.last_write_time(error);
+    if (error) continue;  // another program has dropped it
+    entries.push_back({used, static_cast<std::int64_t>(bytes), entry.path()});
+    sum += entries.back().bytes;
+  }
+  std::ranges::sort(entries, {}, &Entry::used);
+  for (const Entry& entry : entries) {
+    if (sum <= most_bytes_) return;
+    fs::remove(entry.path, error);
+    sum -= entry.bytes;
+  }
+}
+
+}  // namespace elbowroom::cad_import

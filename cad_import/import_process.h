@@ -1,0 +1,21 @@
+// A child process that reads a file, so that no file can take this program down.
+#pragma once
+
+#include <filesystem>
+#include <stop_token>
+
+#include "cad_import/import_options.h"
+#include "cad_import/packed_model.h"
+#include "core/progress.h"
+
+namespace elbowroom::cad_import {
+
+// The file as a child of this program reads it. Throws: Error{kCad} naming the file when the child crashed,
+// took more memory or time than the limits, or handed over what isn't a model; Error{kCancelled}; else what
+// the child threw. PreconditionError unless the program's main called ServeImport. Thread: any.
+[[nodiscard]] std::vector<std::byte> ImportInChild(const std::filesystem::path& file,
+                                                   const ImportOptions& options,
+                                                   const core::Progress& progress = {},
+                                                   const std::stop_token& stop = {});
+
+}  // namespace elbowroom::cad_import

@@ -1,0 +1,46 @@
+// What a child that imports and its parent say to each other.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <variant>
+
+#include "core/error.h"
+
+namespace elbowroom::cad_import {
+
+// The first argument of a child, and where it finds its ends.
+inline constexpr std::string_view kImportWorkerArgument = "--import-worker";
+inline constexpr int kMessageDescriptor = 3;  // a pipe: lines
+inline constexpr int kResultDescriptor = 4;   // a file in memory: the packed model
+
+// Of a line; a longer one is no message.
+inline constexpr std::size_t kLongestMessageBytes = std::size_t{64} << 10U;
+
+struct ProgressMessage {
+  std::int64_t done = 0;
+  std::int64_t total = 0;
+  std::string what;
+};
+struct FailureMessage {
+  core::ErrorKind kind = core::ErrorKind::kCad;
+  std::string what;
+};
+struct OutOfMemoryMessage {};  // the limit was met
+struct DoneMessage {};
+struct NoMessage {};  // a line of something else: libraries print
+using ImportMessage =
+    std::variant<NoMessage, ProgressMessage, FailureMessage, OutOfMemoryMessage, DoneMessage>;
+
+// To be said without allocating.
+inline constexpr std::string_view kOutOfMemoryLine = "M\n";
+
+// One line, its end included; line breaks in texts become spaces.
+[[nodiscard]] std::string ToLine(const ProgressMessage& message);
+[[nodiscard]] std::string ToLine(const FailureMessage& message);
+[[nodiscard]] std::string ToLine(const DoneMessage& message);
+// `line` without its end.
+[[nodiscard]] ImportMessage ParseMessage(std::string_view line);
+
+}  // namespace elbowroom::cad_import

@@ -1,0 +1,140 @@
+#include "cad_import/import_worker.h"
+
+#include <fmt/format.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <charconv>
+#include <csignal>
+#include <cstdlib>
+#include <exception>
+#include <filesystem>
+#include <new>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "cad_import/file_reader.h"
+#include "cad_import/import_options.h"
+#include "cad_import/import_protocol.h"
+#include "cad_import/packed_model.h"
+#include "core/error.h"
+#include "core/progress.h"
+
+namespace elbowroom::cad_import {
+namespace {
+
+using core::Error;
+using core::ErrorKind;
+
+// A model is handed over in memory that its parent reads whole.
+constexpr std::int64_t kResultShare = 4;
+// Beyond the time that its parent watches, on as many threads as there may be.
+constexpr double kCpuSlack = 64.0;
+
+std::atomic<bool> serves_imports{false};
+
+// False: nobody listens any more.
+bool WriteAll(int descriptor, std::span<const std::byte> bytes) {
+  while (!bytes.empty()) {
+    const ssize_t size = ::write(descriptor, bytes.data(), bytes.size());
+    if (size < 0 && errno == EINTR) continue;
+    if (size <= 0) return false;
+    bytes = bytes.subspan(static_cast<std::size_t>(size));
+  }
+  return true;
+}
+
+void Say(const auto& message) {
+  const std::string line = ToLine(message);
+  if (!WriteAll(kMessageDescriptor, std::as_bytes(std::span(line)))) std::_Exit(EXIT_FAILURE);
+}
+
+[[noreturn]] void FailForMemory() {
+  (void)!::write(kMessageDescriptor, kOutOfMemoryLine.data(), kOutOfMemoryLine.size());
+  std::_Exit(EXIT_FAILURE);
+}
+
+void Limit(__rlimit_resource resource, double most) {
+  const auto value = static_cast<rlim_t>(most);
+  const rlimit limit{value, value};
+  ::setrlimit(resource, &limit);
+}
+
+void LimitMyself(const ImportLimits& limits) {
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
+  Limit(RLIMIT_CORE, 0);
+  Limit(RLIMIT_CPU, limits.time_s * kCpuSlack + 1.0);
+  Limit(RLIMIT_FSIZE, static_cast<double>(limits.memory_bytes / kResultShare));
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // they reserve all addresses there are
+  Limit(RLIMIT_AS, static_cast<double>(limits.memory_bytes));
+#endif
+  std::set_new_handler(FailForMemory);
+}
+
+struct Request {
+  std::filesystem::path file;
+  ImportOptions options;
+};
+
+template <typename Number>
+Number ParseNumber(std::string_view text) {
+  Number number{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  core::Require(error == std::errc{} && end == text.data() + text.size(), "a parent's request has numbers");
+  return number;
+}
+
+Request ParseRequest(std::span<char* const> arguments) {
+  core::Require(arguments.size() == 6, "a parent's request has six words");
+  Request request{arguments[0], {}};
+  request.options.unit = core::ParseLengthUnit(arguments[1]);
+  request.options.unit_if_file_has_none = core::ParseLengthUnit(arguments[2]);
+  request.options.tolerance_mm = ParseNumber<double>(arguments[3]);
+  request.options.limits.memory_bytes = ParseNumber<std::int64_t>(arguments[4]);
+  request.options.limits.time_s = ParseNumber<double>(arguments[5]);
+  return request;
+}
+
+[[noreturn]] void Work(const Request& request) {
+  LimitMyself(request.options.limits);
+  const core::Progress progress([](std::int64_t done, std::int64_t total, const std::string& what) {
+    Say(ProgressMessage{done, total, what});
+  });
+  try {
+    const PackedModel content = ReadCadFile(request.file, request.options, progress);
+    if (WriteAll(kResultDescriptor, Pack(content.model, content.referred))) {
+      Say(DoneMessage{});
+      std::_Exit(EXIT_SUCCESS);
+    }
+    Say(FailureMessage{
+        ErrorKind::kCad,
+        fmt::format("{}: its model can't be handed over; export a coarser one", request.file.string())});
+  } catch (const Error& error) {
+    Say(FailureMessage{error.kind(), error.what()});
+  } catch (const std::bad_alloc&) {
+    FailForMemory();
+  } catch (const std::exception& exception) {
+    Say(FailureMessage{ErrorKind::kCad, fmt::format("{}: can't be read ({}); export it again",
+                                                    request.file.string(), exception.what())});
+  }
+  std::_Exit(EXIT_FAILURE);  // without the libraries' last words
+}
+
+}  // namespace
+
+void ServeImport(int argc, char** argv) {
+  serves_imports = true;
+  const std::span<char* const> arguments(argv, static_cast<std::size_t>(argc));
+  if (arguments.size() >= 2 && arguments[1] == kImportWorkerArgument)
+    Work(ParseRequest(arguments.subspan(2)));
+}
+
+bool ServesImports() { return serves_imports; }
+
+}  // namespace elbowroom::cad_import

@@ -1,0 +1,255 @@
+#include "cad_import/scene_reader.h"
+
+#include <assimp/DefaultIOSystem.h>
+#include <assimp/config.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <assimp/Importer.hpp>
+#include <exception>
+#include <map>
+#include <memory>
+#include <numbers>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "cad_import/obj_text.h"
+#include "core/error.h"
+
+namespace elbowroom::cad_import {
+namespace {
+
+namespace fs = std::filesystem;
+
+using core::Error;
+using core::ErrorKind;
+
+// Instances may be nested: a small file can ask for more than memory holds.
+constexpr std::int64_t kMostTriangles = 100'000'000;
+constexpr std::size_t kMostInstances = 1'000'000;
+
+// Opens for reading what lies in the file's folder or below, links resolved; refuses all else.
+class ConfinedFiles : public Assimp::DefaultIOSystem {
+ public:
+  // What it is asked to refuse and to open outlives the importer that owns it.
+  struct Log {
+    std::vector<fs::path> opened;  // beside the file itself
+    std::vector<std::string> refused;
+  };
+  ConfinedFiles(const fs::path& file, Log& log)
+      : file_(fs::weakly_canonical(file)), folder_(file_.parent_path()), log_(log) {}
+
+  bool Exists(const char* file) const override { return IsInside(file) && DefaultIOSystem::Exists(file); }
+
+  Assimp::IOStream* Open(const char* file, const char* mode) override {
+    if (!std::string_view(mode).starts_with('r') || !IsInside(file)) {
+      log_.refused.emplace_back(file);
+      return nullptr;
+    }
+    Assimp::IOStream* stream = DefaultIOSystem::Open(file, mode);
+    const fs::path whole = fs::weakly_canonical(file);
+    if (stream != nullptr && whole != file_ && std::ranges::find(log_.opened, whole) == log_.opened.end())
+      log_.opened.push_back(whole);
+    return stream;
+  }
+
+ private:
+  [[nodiscard]] bool IsInside(const fs::path& path) const {
+    std::error_code error;
+    const fs::path whole = fs::weakly_canonical(path, error);
+    return !error &&
+           std::mismatch(folder_.begin(), folder_.end(), whole.begin(), whole.end()).first == folder_.end();
+  }
+
+  fs::path file_;    // canonical
+  fs::path folder_;  // canonical
+  Log& log_;
+};
+
+// A parser's message as part of one line.
+std::string OneLine(std::string text) {
+  std::ranges::replace_if(
+      text, [](unsigned char c) { return c < 0x20; }, ' ');
+  return text;
+}
+
+Eigen::Affine3d ToEigen(const aiMatrix4x4& m) {
+  Eigen::Affine3d result = Eigen::Affine3d::Identity();
+  result.affine() << double{m.a1}, double{m.a2}, double{m.a3}, double{m.a4},  //
+      double{m.b1}, double{m.b2}, double{m.b3}, double{m.b4},                 //
+      double{m.c1}, double{m.c2}, double{m.c3}, double{m.c4};
+  return result;
+}
+
+std::optional<ColorRgb> ColorOf(const aiScene& scene, const aiMesh& mesh) {
+  aiColor3D color;
+  if (mesh.mMaterialIndex >= scene.mNumMaterials ||
+      scene.mMaterials[mesh.mMaterialIndex]->Get(AI_MATKEY_COLOR_DIFFUSE, color) != aiReturn_SUCCESS) {
+    return std::nullopt;
+  }
+  ColorRgb rgb{color.r, color.g, color.b};
+  // Not a number stays none.
+  for (float& channel : rgb) channel = channel >= 0.0F ? std::min(channel, 1.0F) : 0.0F;
+  return rgb;
+}
+
+// Walks assimp's tree of nodes; nodes that show the same meshes share a shape.
+class SceneWalk {
+ public:
+  SceneWalk(const aiScene& scene, std::string where) : scene_(scene), where_(std::move(where)) {}
+
+  void Visit(const aiNode& node, const Eigen::Affine3d& model_from_parent, const std::string& parent) {
+    const Eigen::Affine3d model_from_node = model_from_parent * ToEigen(node.mTransformation);
+    const std::string name = node.mName.C_Str();
+    const std::string path = parent.empty() ? name : parent + '/' + name;
+    const std::span<const unsigned> meshes(node.mMeshes, node.mNumMeshes);
+    if (const std::optional<std::size_t> shape = ShapeOf(meshes, name)) {
+      triangles_ += static_cast<std::int64_t>(result_.shapes[*shape].mesh.triangles.size());
+      result_.instances.push_back(
+          {path, *shape, model_from_node, ColorOf(scene_, *scene_.mMeshes[meshes.front()])});
+      CheckSize();
+    }
+    for (const aiNode* child : std::span(node.mChildren, node.mNumChildren))
+      Visit(*child, model_from_node, path);
+  }
+
+  [[nodiscard]] RawScene& result() { return result_; }
+
+ private:
+  // Nothing: no triangles.
+  std::optional<std::size_t> ShapeOf(std::span<const unsigned> meshes, const std::string& name) {
+    const auto [found, is_new] =
+        shapes_.try_emplace(std::vector<unsigned>(meshes.begin(), meshes.end()), std::nullopt);
+    if (!is_new) return found->second;
+    RawShape shape{name, {}};
+    for (const unsigned mesh : meshes) Append(*scene_.mMeshes[mesh], shape.mesh);
+    if (shape.mesh.triangles.empty()) return std::nullopt;
+    found->second = result_.shapes.size();
+    result_.shapes.push_back(std::move(shape));
+    return found->second;
+  }
+
+  void Append(const aiMesh& source, core::TriangleMesh& target) {
+    const auto offset = static_cast<std::int32_t>(target.vertices_mm.size());
+    target.vertices_mm.reserve(target.vertices_mm.size() + source.mNumVertices);
+    for (const aiVector3D& v : std::span(source.mVertices, source.mNumVertices))
+      target.vertices_mm.emplace_back(double{v.x}, double{v.y}, double{v.z});
+    target.triangles.reserve(target.triangles.size() + source.mNumFaces);
+    for (const aiFace& face : std::span(source.mFaces, source.mNumFaces)) {
+      if (face.mNumIndices != 3) {
+        ++result_.left_out;
+        continue;
+      }
+      const auto corner = [&](unsigned k) { return static_cast<std::int32_t>(face.mIndices[k]) + offset; };
+      target.triangles.push_back({corner(0), corner(1), corner(2)});
+    }
+  }
+
+  void CheckSize() const {
+    if (triangles_ <= kMostTriangles && result_.instances.size() <= kMostInstances) return;
+    throw Error(ErrorKind::kGeometry,
+                fmt::format("{}: more than {} triangles in {} places; export a coarser mesh", where_,
+                            kMostTriangles, result_.instances.size()));
+  }
+
+  const aiScene& scene_;
+  std::string where_;
+  std::map<std::vector<unsigned>, std::optional<std::size_t>> shapes_;
+  std::int64_t triangles_ = 0;
+  RawScene result_;
+};
+
+// What the file says, and what assimp has made of it undone: its axes and its unit.
+std::optional<FileUnit> TakeUnit(const aiScene& scene, FileFormat format, Eigen::Affine3d& model_from_scene) {
+  switch (format) {
+    case FileFormat::kGltf:
+    case FileFormat::kGlb:
+      return UnitOf(core::LengthUnit::kMetre);
+    case FileFormat::kCollada: {
+      // The unit is a scale on the root.
+      const double metres = ToEigen(scene.mRootNode->mTransformation).linear().col(0).norm();
+      if (!(metres > 0.0)) return std::nullopt;
+      model_from_scene.linear() /= metres;
+      model_from_scene.translation() /= metres;
+      return UnitOf(1000.0 * metres);
+    }
+    case FileFormat::kFbx: {
+      float centimetres = 1.0F;
+      if (scene.mMetaData != nullptr) scene.mMetaData->Get("UnitScaleFactor", centimetres);
+      if (!(centimetres > 0.0F)) return std::nullopt;
+      return UnitOf(10.0 * double{centimetres});
+    }
+    case FileFormat::k3ds:
+      // Turned to y up on the root.
+      model_from_scene = Eigen::Affine3d(Eigen::AngleAxisd(0.5 * std::numbers::pi, Eigen::Vector3d::UnitX()));
+      return std::nullopt;
+    default:
+      return std::nullopt;
+  }
+}
+
+// STL, OBJ and PLY from memory, so that what was checked is what is read.
+const aiScene* Parse(Assimp::Importer& importer, const fs::path& file, FileFormat format,
+                     const std::string& bytes) {
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
+  const unsigned steps = aiProcess_Triangulate;
+  if (format == FileFormat::kStl || format == FileFormat::kObj || format == FileFormat::kPly)
+    return importer.ReadFileFromMemory(bytes.data(), bytes.size(), steps,
+                                       std::string(ExtensionOf(format)).c_str());
+  return importer.ReadFile(file.string(), steps);
+}
+
+RawScene Load(const fs::path& file, FileFormat format, const std::string& bytes) {
+  ConfinedFiles::Log log;
+  Assimp::Importer importer;
+  importer.SetIOHandler(new ConfinedFiles(file, log));  // the importer deletes it
+  const aiScene* scene = nullptr;
+  std::string why;
+  try {
+    scene = Parse(importer, file, format, bytes);
+    if (scene == nullptr) why = importer.GetErrorString();
+  } catch (const std::exception& exception) {
+    why = exception.what();
+  }
+  if (!log.refused.empty()) {
+    throw Error(ErrorKind::kFormat,
+                fmt::format("{}: it refers to '{}', which is outside its own folder; put the file "
+                            "beside it",
+                            file.string(), OneLine(log.refused.front())));
+  }
+  if (scene == nullptr || scene->mRootNode == nullptr) {
+    throw Error(ErrorKind::kFormat, fmt::format("{}: can't be read as {} ({}); export it again",
+                                                file.string(), ToString(format), OneLine(why)));
+  }
+  SceneWalk walk(*scene, file.string());
+  Eigen::Affine3d model_from_scene = Eigen::Affine3d::Identity();
+  const std::optional<FileUnit> unit = TakeUnit(*scene, format, model_from_scene);
+  walk.Visit(*scene->mRootNode, model_from_scene, "");
+  walk.result().unit = unit;
+  walk.result().referred = std::move(log.opened);
+  return std::move(walk.result());
+}
+
+}  // namespace
+
+RawScene ReadScene(const fs::path& file, FileFormat format, const std::string& bytes) {
+  if (format != FileFormat::kObj) return Load(file, format, bytes);
+  // The shape alone; faces that the parser lost are told.
+  const PlainObj plain = PlainObjOf(bytes, file.string());
+  RawScene scene = Load(file, format, plain.text);
+  std::int64_t triangles = 0;
+  for (const RawInstance& instance : scene.instances)
+    triangles += static_cast<std::int64_t>(scene.shapes[instance.shape].mesh.triangles.size());
+  if (plain.triangles > triangles)
+    scene.warnings.push_back(
+        fmt::format("{} triangles of its polygons could not be formed", plain.triangles - triangles));
+  return scene;
+}
+
+}  // namespace elbowroom::cad_import

@@ -1,0 +1,19 @@
+// Mesh formats through assimp.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "cad_import/file_format.h"
+#include "cad_import/raw_scene.h"
+
+namespace elbowroom::cad_import {
+
+// The scene of a file whose `bytes` were checked; the unit where format and file say one. Vertices pass
+// through single precision. Axes are the file's own. Other files are opened only in its folder or below,
+// links resolved. Throws: Error{kFormat} naming the file when assimp can't read it or it refers elsewhere,
+// Error{kGeometry} when it unrolls to more triangles than can be meant.
+[[nodiscard]] RawScene ReadScene(const std::filesystem::path& file, FileFormat format,
+                                 const std::string& bytes);
+
+}  // namespace elbowroom::cad_import

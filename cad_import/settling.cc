@@ -1,0 +1,134 @@
+#include "cad_import/settling.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "cad_import/bodies.h"
+#include "cad_import/healing.h"
+#include "cad_import/placing.h"
+#include "cad_import/unit_choice.h"
+
+namespace elbowroom::cad_import {
+namespace {
+
+void Scale(RawScene& scene, double factor) {
+  if (factor == 1.0) return;
+  for (RawShape& shape : scene.shapes) {
+    for (Eigen::Vector3d& vertex : shape.mesh.vertices_mm) vertex *= factor;
+    shape.deviation *= factor;
+  }
+  for (RawInstance& instance : scene.instances) instance.model_from_shape.translation() *= factor;
+}
+
+CadShape ShapeOf(Body body) {
+  CadShape shape{body.name, nullptr, {}, Heal(body.owned)};
+  shape.surface.deviation_mm = body.deviation;
+  const std::vector<std::uint32_t>& owners = body.owned.owner_of_triangle;
+  for (auto begin = owners.begin(); begin != owners.end();) {
+    const auto end = std::upper_bound(begin, owners.end(), *begin);
+    shape.pieces.push_back({body.piece_names[*begin], begin - owners.begin(), end - begin});
+    begin = end;
+  }
+  shape.mesh = std::make_shared<const core::TriangleMesh>(std::move(body.owned.mesh));
+  return shape;
+}
+
+std::int64_t TriangleCount(const CadModel& model) {
+  std::int64_t count = 0;
+  for (const CadInstance& instance : model.instances)
+    count += static_cast<std::int64_t>(model.shapes[instance.shape].mesh->triangles.size());
+  return count;
+}
+
+void Report(CadModel& model, std::int64_t before) {
+  ImportReport& report = model.report;
+  report.triangles = TriangleCount(model);
+  report.dropped_triangles = before - report.triangles;
+  report.watertight = true;
+  SurfaceReport sum;
+  for (const CadInstance& instance : model.instances) {
+    const CadShape& shape = model.shapes[instance.shape];
+    report.parts += static_cast<std::int64_t>(shape.pieces.size());
+    for (const Eigen::Vector3d& vertex : shape.mesh->vertices_mm)
+      report.bounds_mm.extend(instance.model_from_shape * vertex);
+    report.watertight = report.watertight && shape.surface.watertight;
+    report.deviation_mm = std::max(report.deviation_mm, shape.surface.deviation_mm);
+    sum.dropped_duplicates += shape.surface.dropped_duplicates;
+    sum.turned += shape.surface.turned;
+    sum.kept_flat += shape.surface.kept_flat;
+    sum.open_edges += shape.surface.open_edges;
+    sum.non_manifold_edges += shape.surface.non_manifold_edges;
+    sum.inconsistent_edges += shape.surface.inconsistent_edges;
+  }
+  report.repaired = report.dropped_triangles > 0 || sum.turned > 0;
+  const auto warn = [&](std::int64_t count, const char* text) {
+    if (count > 0) report.warnings.push_back(fmt::format(fmt::runtime(text), count));
+  };
+  warn(report.dropped_triangles - sum.dropped_duplicates, "{} triangles without area were dropped");
+  warn(sum.kept_flat, "{} triangles have no area but hold a closed surface together; they were kept");
+  warn(sum.dropped_duplicates, "{} triangles that are there twice were dropped");
+  warn(sum.turned, "{} triangles that faced inwards or against their neighbours were turned");
+  if (!report.watertight) {
+    report.warnings.push_back(
+        fmt::format("the surface isn't closed: {} open edges, {} edges of three or more triangles, {} "
+                    "between triangles that face "
+                    "different ways; it has no inside, so only touch of it is judged, not containment",
+                    sum.open_edges, sum.non_manifold_edges, sum.inconsistent_edges));
+  }
+}
+
+std::string NameOr(std::string name, const std::string& otherwise) {
+  const bool has_name = !name.empty() && !name.starts_with('<');  // assimp's own: "<STL_BINARY>"
+  return has_name ? std::move(name) : otherwise;
+}
+
+}  // namespace
+
+CadModel Settle(RawScene scene, FileFormat format, const ImportOptions& options,
+                const std::filesystem::path& file, const core::Progress& progress) {
+  const std::string where = file.string();
+  for (const RawShape& shape : scene.shapes) core::ValidateMesh(shape.mesh, where);
+  if (scene.instances.empty()) core::ValidateMesh({}, where);
+  CadModel model;
+  std::vector<std::string>& warnings = model.report.warnings;
+  warnings = scene.warnings;
+  const FileUnit unit = ChooseUnit(scene, format, options, where, warnings);
+  model.report.unit = unit.name;
+  Scale(scene, unit.mm_per_unit / (scene.are_mm ? scene.unit->mm_per_unit : 1.0));
+
+  RigidScene rigid = MakeRigid(scene, where);
+  BodyScene bodies{{}, std::move(rigid.instances)};
+  std::int64_t before = 0;
+  for (const CadInstance& instance : bodies.instances)
+    before += static_cast<std::int64_t>(rigid.shapes[instance.shape].mesh.triangles.size());
+  const std::string stem = file.stem().string();
+  for (RawShape& shape : rigid.shapes) {
+    progress.Report(static_cast<std::int64_t>(bodies.bodies.size()),
+                    static_cast<std::int64_t>(rigid.shapes.size()), "healing part");
+    shape.name = NameOr(std::move(shape.name), stem);
+    bodies.bodies.push_back(BodyOf(std::move(shape)));
+  }
+  const bool is_single = bodies.instances.size() == 1;
+  JoinOpenBodies(bodies);
+  if (is_single) SplitIntoPieces(bodies.bodies.front());
+  for (Body& body : bodies.bodies) model.shapes.push_back(ShapeOf(std::move(body)));
+  model.instances = std::move(bodies.instances);
+  std::erase_if(model.instances, [&](const CadInstance& instance) {
+    return model.shapes[instance.shape].mesh->triangles.empty();
+  });
+  for (CadInstance& instance : model.instances) instance.path = NameOr(std::move(instance.path), stem);
+  if (model.instances.empty()) core::ValidateMesh({}, where);
+  Report(model, before);
+  if (scene.left_out > 0)
+    warnings.push_back(
+        fmt::format("{} lines, points and bodies without faces were left out", scene.left_out));
+  WarnOfSize(model.report.bounds_mm, unit, warnings);
+  return model;
+}
+
+}  // namespace elbowroom::cad_import

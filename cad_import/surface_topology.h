@@ -1,0 +1,45 @@
+// How the triangles of a mesh hang together along their edges.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/triangle_mesh.h"
+
+namespace elbowroom::cad_import {
+
+// One side of a triangle.
+struct EdgeUse {
+  std::int32_t low = 0;  // vertices, low < high
+  std::int32_t high = 0;
+  std::uint32_t triangle = 0;
+  bool is_upward = false;  // the triangle runs along it from low to high
+};
+
+// All sides, those of one edge consecutive. No triangle may have two equal corners.
+[[nodiscard]] std::vector<EdgeUse> SortedEdgeUses(const core::TriangleMesh& mesh);
+
+struct EdgeCounts {
+  std::int64_t open = 0;          // of one triangle
+  std::int64_t non_manifold = 0;  // of three or more
+  std::int64_t inconsistent = 0;  // of two that run along it the same way
+  [[nodiscard]] bool are_closed() const { return open == 0 && non_manifold == 0 && inconsistent == 0; }
+};
+[[nodiscard]] EdgeCounts CountEdges(std::span<const EdgeUse> sorted);
+
+// Triangles that hang together over edges of exactly two.
+struct Patch {
+  std::vector<std::uint32_t> triangles;  // ascending
+  std::vector<std::uint32_t> odd;        // of them: those to turn for all to run alike, at most half
+  bool is_orientable = true;             // else nothing is odd
+  bool is_closed = true;                 // all their edges are of exactly two
+};
+// By their first triangles.
+[[nodiscard]] std::vector<Patch> FindPatches(const core::TriangleMesh& mesh, std::span<const EdgeUse> sorted);
+
+// For each triangle the number of the piece it belongs to, connected over shared vertices, in order of
+// appearance.
+[[nodiscard]] std::vector<std::size_t> PieceOfTriangle(const core::TriangleMesh& mesh);
+
+}  // namespace elbowroom::cad_import

@@ -1,0 +1,92 @@
+#include "cad_import/unit_choice.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/error.h"
+#include "core/units.h"
+
+namespace elbowroom::cad_import {
+namespace {
+
+using core::Error;
+using core::ErrorKind;
+using core::LengthUnit;
+
+constexpr std::array kUnits = {LengthUnit::kMillimetre, LengthUnit::kCentimetre, LengthUnit::kMetre,
+                               LengthUnit::kInch};
+
+// What is checked at a table.
+constexpr double kUsuallySmallestMm = 30.0, kUsuallyLargestMm = 2000.0;
+constexpr double kImplausiblySmallMm = 1.0, kImplausiblyLargeMm = 3000.0;
+
+std::string SizeText(const Eigen::AlignedBox3d& bounds, double mm_per_unit) {
+  const Eigen::Vector3d size_mm = bounds.sizes() * mm_per_unit;
+  return fmt::format("{:.4g} x {:.4g} x {:.4g} mm", size_mm.x(), size_mm.y(), size_mm.z());
+}
+
+Eigen::AlignedBox3d BoundsOf(const RawScene& scene) {
+  Eigen::AlignedBox3d bounds;
+  for (const RawInstance& instance : scene.instances)
+    for (const Eigen::Vector3d& vertex : scene.shapes[instance.shape].mesh.vertices_mm)
+      bounds.extend(instance.model_from_shape * vertex);
+  return bounds;
+}
+
+// The unit that makes the longest edge likest to what is checked at a table, by ratio.
+LengthUnit LikelyUnit(double longest) {
+  const double usual_mm = std::sqrt(kUsuallySmallestMm * kUsuallyLargestMm);
+  return *std::ranges::min_element(kUnits, {}, [&](LengthUnit unit) {
+    return std::abs(std::log(longest * core::MillimetresPer(unit) / usual_mm));
+  });
+}
+
+[[noreturn]] void FailWithoutUnit(const RawScene& scene, FileFormat format, const std::string& where) {
+  const Eigen::AlignedBox3d bounds = BoundsOf(scene);
+  std::string sizes;
+  for (const LengthUnit unit : kUnits) {
+    sizes += fmt::format("{}{} if in {}", sizes.empty() ? "" : ", ",
+                         SizeText(bounds, core::MillimetresPer(unit)), core::ToString(unit));
+  }
+  throw Error(
+      ErrorKind::kCad,
+      fmt::format("{}: {} carries no unit and none was given: its size is {}; most likely it is "
+                  "in {}: pass --unit mm|cm|m|in, or `unit` in the layout",
+                  where, ToString(format), sizes, core::ToString(LikelyUnit(bounds.sizes().maxCoeff()))));
+}
+
+}  // namespace
+
+FileUnit ChooseUnit(const RawScene& scene, FileFormat format, const ImportOptions& options,
+                    const std::string& where, std::vector<std::string>& warnings) {
+  if (options.unit) {
+    const FileUnit asked = UnitOf(*options.unit);
+    if (scene.unit && scene.unit->name != asked.name) {
+      warnings.push_back(fmt::format("the {} file is in {} by its own word but was read in {}, as asked",
+                                     ToString(format), scene.unit->name, asked.name));
+    }
+    return asked;
+  }
+  if (scene.unit) return *scene.unit;
+  if (!options.unit_if_file_has_none) FailWithoutUnit(scene, format, where);
+  return UnitOf(*options.unit_if_file_has_none);
+}
+
+void WarnOfSize(const Eigen::AlignedBox3d& bounds_mm, const FileUnit& unit,
+                std::vector<std::string>& warnings) {
+  const double longest_mm = bounds_mm.sizes().maxCoeff();
+  if (longest_mm >= kImplausiblySmallMm && longest_mm <= kImplausiblyLargeMm) return;
+  const LengthUnit likely = LikelyUnit(longest_mm / unit.mm_per_unit);
+  const double mm_per_likely = core::MillimetresPer(likely);
+  std::string other;
+  if (mm_per_likely != unit.mm_per_unit)
+    other = fmt::format(" In {} it would be {}.", core::ToString(likely),
+                        SizeText(bounds_mm, mm_per_likely / unit.mm_per_unit));
+  warnings.push_back(fmt::format("its size, {}, is implausible for a payload; is its unit really {}?{}",
+                                 SizeText(bounds_mm, 1.0), unit.name, other));
+}
+
+}  // namespace elbowroom::cad_import
