@@ -84,7 +84,8 @@ TEST_F(ImportProcess, ACrashIsOneLine) {
 TEST_F(ImportProcess, MemoryBeyondTheLimitIsOneLine) {
   const auto file = Write("large.obj", LargeObj(1'000'000));
   ImportOptions options = kMillimetres;
-  options.limits.memory_bytes = std::int64_t{320} << 20;  // a small file takes half of it, for libraries and stacks
+  options.limits.memory_bytes = std::int64_t{320}
+                                << 20;  // a small file takes half of it, for libraries and stacks
   EXPECT_NO_THROW((void)ImportInChild(Write("small.obj", LargeObj(10)), options));
   const std::string message = ErrorOf(ErrorKind::kCad, [&] { (void)ImportInChild(file, options); });
   EXPECT_TRUE(Mentions(message, "large.obj: reading it takes more than 0.312 GiB of memory")) << message;
