@@ -52,6 +52,7 @@ Body BodyOf(RawShape shape) {
 }
 
 void JoinOpenBodies(BodyScene& scene) {
+  if (scene.instances.size() < 2) return;
   std::vector<int> uses(scene.bodies.size(), 0);
   for (const CadInstance& instance : scene.instances) ++uses[instance.shape];
   std::vector<std::size_t> open;  // instances

@@ -50,10 +50,6 @@ std::int64_t DropWhere(OwnedMesh& body, auto goes) {
   return dropped;
 }
 
-bool IsClosed(const TriangleMesh& mesh) {
-  return !mesh.triangles.empty() && CountEdges(SortedEdgeUses(mesh)).are_closed();
-}
-
 // Its corners in ascending order, and whether it turns through them upwards.
 struct Footprint {
   Triangle corners;
@@ -137,8 +133,8 @@ std::int64_t TurnInverted(TriangleMesh& mesh, const std::vector<Patch>& patches)
   return turned;
 }
 
-std::int64_t Orient(TriangleMesh& mesh) {
-  const std::vector<Patch> patches = FindPatches(mesh, SortedEdgeUses(mesh));
+std::int64_t Orient(TriangleMesh& mesh, std::span<const EdgeUse> edges) {
+  const std::vector<Patch> patches = FindPatches(mesh, edges);
   std::int64_t turned = 0;
   for (const Patch& patch : patches) {
     for (const std::uint32_t i : patch.odd) Turn(mesh.triangles[i]);
@@ -183,23 +179,37 @@ void Weld(OwnedMesh& body) {
 }
 
 SurfaceReport Heal(OwnedMesh& body) {
+  TriangleMesh& mesh = body.mesh;
   SurfaceReport report;
-  const auto is_flat = [&](std::size_t i) { return IsFlat(body.mesh, body.mesh.triangles[i]); };
-  if (!IsClosed(body.mesh)) {
-    report.dropped_flat = DropWhere(body, is_flat);
-  } else {
-    for (std::size_t i = 0; i < body.mesh.triangles.size(); ++i) report.kept_flat += is_flat(i) ? 1 : 0;
+  if (mesh.triangles.empty()) return report;
+  std::vector<EdgeUse> edges = SortedEdgeUses(mesh);
+  EdgeCounts counts = CountEdges(edges);
+  // A copy has three edges that more triangles run along that way.
+  if (counts.non_manifold + counts.inconsistent > 0) {
+    const std::vector<std::uint8_t> is_copy = FindCopies(mesh);
+    report.dropped_duplicates = DropWhere(body, [&](std::size_t i) { return is_copy[i] != 0; });
   }
-  const std::vector<std::uint8_t> is_copy = FindCopies(body.mesh);
-  report.dropped_duplicates = DropWhere(body, [&](std::size_t i) { return is_copy[i] != 0; });
-  if (report.dropped_flat + report.dropped_duplicates > 0)
+  if (report.dropped_duplicates > 0) {
+    edges = SortedEdgeUses(mesh);
+    counts = CountEdges(edges);
+  }
+  const auto is_flat = [&](std::size_t i) { return IsFlat(mesh, mesh.triangles[i]); };
+  if (counts.are_closed()) {
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) report.kept_flat += is_flat(i) ? 1 : 0;
+  } else {
+    report.dropped_flat = DropWhere(body, is_flat);
+  }
+  if (report.dropped_flat + report.dropped_duplicates > 0) {
     Weld(body);  // for the vertices that nobody uses now
-  report.turned = Orient(body.mesh);
-  const EdgeCounts edges = CountEdges(SortedEdgeUses(body.mesh));
-  report.open_edges = edges.open;
-  report.non_manifold_edges = edges.non_manifold;
-  report.inconsistent_edges = edges.inconsistent;
-  report.watertight = edges.are_closed() && !body.mesh.triangles.empty();
+    edges = SortedEdgeUses(mesh);
+  }
+  report.turned = Orient(mesh, edges);
+  if (report.turned > 0) edges = SortedEdgeUses(mesh);
+  counts = CountEdges(edges);
+  report.open_edges = counts.open;
+  report.non_manifold_edges = counts.non_manifold;
+  report.inconsistent_edges = counts.inconsistent;
+  report.watertight = counts.are_closed() && !mesh.triangles.empty();
   return report;
 }
 

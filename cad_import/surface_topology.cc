@@ -68,16 +68,26 @@ void ForEachEdge(std::span<const EdgeUse> sorted, auto visit) {
 }  // namespace
 
 std::vector<EdgeUse> SortedEdgeUses(const core::TriangleMesh& mesh) {
-  std::vector<EdgeUse> uses;
-  uses.reserve(3 * mesh.triangles.size());
-  for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
-    const auto& corners = mesh.triangles[i];
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::int32_t from = corners[k], to = corners[(k + 1) % 3];
-      uses.push_back({std::min(from, to), std::max(from, to), i, from < to});
+  const auto for_each_use = [&](auto visit) {
+    for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
+      const auto& corners = mesh.triangles[i];
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::int32_t from = corners[k], to = corners[(k + 1) % 3];
+        visit(EdgeUse{std::min(from, to), std::max(from, to), i, from < to});
+      }
     }
+  };
+  // By counting for the lower vertex, of which few edges come; those are sorted one by one.
+  std::vector<std::size_t> begin(mesh.vertices_mm.size() + 1, 0);
+  for_each_use([&](const EdgeUse& use) { ++begin[static_cast<std::size_t>(use.low) + 1]; });
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  std::vector<std::size_t> next(begin.begin(), begin.end() - 1);
+  std::vector<EdgeUse> uses(3 * mesh.triangles.size());
+  for_each_use([&](const EdgeUse& use) { uses[next[static_cast<std::size_t>(use.low)]++] = use; });
+  for (std::size_t low = 0; low + 1 < begin.size(); ++low) {
+    const auto of_low = std::span(uses).subspan(begin[low], begin[low + 1] - begin[low]);
+    std::ranges::sort(of_low, {}, [](const EdgeUse& use) { return std::pair(use.high, use.triangle); });
   }
-  std::ranges::sort(uses, {}, [](const EdgeUse& use) { return std::tuple(use.low, use.high, use.triangle); });
   return uses;
 }
 

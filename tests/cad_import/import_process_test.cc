@@ -76,7 +76,12 @@ TEST_F(ImportProcess, HandsOverWhatTheChildThrew) {
 TEST_F(ImportProcess, ACrashIsOneLine) {
   const auto file = Write("deep.dae", NestedCollada(200'000));
   const std::string message = ErrorOf(ErrorKind::kCad, [&] { (void)ImportInChild(file, kMillimetres); });
+#if defined(__SANITIZE_ADDRESS__) || \
+    defined(__SANITIZE_THREAD__)  // they end a program that crashes in their own way
+  EXPECT_TRUE(Mentions(message, "deep.dae: its reader ended without an answer")) << message;
+#else
   EXPECT_TRUE(Mentions(message, "deep.dae: its reader crashed (SEGV)")) << message;
+#endif
   EXPECT_EQ(message.find('\n'), std::string::npos);
 }
 

@@ -6,6 +6,7 @@
 #include <cctype>
 
 #include <filesystem>
+#include <ostream>
 #include <string>
 
 #include "cad_import/cad_file.h"
@@ -23,6 +24,9 @@ struct Expected {
   Eigen::Vector3d size_mm;
   double volume_mm3;  // 0: not told
 };
+
+// In the names of tests.
+void PrintTo(const Expected& expected, std::ostream* out) { *out << expected.file; }
 
 class SharedStep : public ::testing::TestWithParam<Expected> {};
 
