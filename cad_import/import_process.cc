@@ -119,13 +119,26 @@ pid_t Spawn(const std::vector<std::string>& arguments, const Descriptor& message
   posix_spawn_file_actions_adddup2(&actions, spare_messages.number(), kMessageDescriptor);
   posix_spawn_file_actions_adddup2(&actions, spare_result.number(), kResultDescriptor);
   posix_spawn_file_actions_addclosefrom_np(&actions, kResultDescriptor + 1);
+  // A group of its own: Ctrl-C is for the parent to hear. And its signals as they are at the start of a
+  // program.
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  sigset_t none, all;
+  sigemptyset(&none);
+  sigfillset(&all);
+  posix_spawnattr_setsigmask(&attributes, &none);
+  posix_spawnattr_setsigdefault(&attributes, &all);
+  posix_spawnattr_setpgroup(&attributes, 0);
+  posix_spawnattr_setflags(&attributes,
+                           POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
   std::vector<char*> argv;
   argv.reserve(arguments.size() + 1);
   for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
   argv.push_back(nullptr);
   pid_t pid = 0;
-  const int error = ::posix_spawn(&pid, "/proc/self/exe", &actions, nullptr, argv.data(), environ);
+  const int error = ::posix_spawn(&pid, "/proc/self/exe", &actions, &attributes, argv.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
+  posix_spawnattr_destroy(&attributes);
   if (error != 0) {
     errno = error;
     FailToStart("this program");
@@ -238,7 +251,8 @@ std::vector<std::byte> ImportInChild(const std::filesystem::path& file, const Im
     } else if (std::holds_alternative<OutOfMemoryMessage>(message)) {
       failure.emplace(
           ErrorKind::kCad,
-          fmt::format("{}: reading it takes more than {} of memory; export a simpler model, or allow more",
+          fmt::format("{}: reading it takes more than {} of memory; export a simpler model, or run "
+                      "`elbowroom import` on it with a larger --memory-gib",
                       where, MemoryText(options.limits.memory_bytes)));
     } else if (std::holds_alternative<DoneMessage>(message)) {
       is_done = true;
@@ -248,9 +262,11 @@ std::vector<std::byte> ImportInChild(const std::filesystem::path& file, const Im
   const auto check = [&] {
     core::ThrowIfStopped(stop, "import of " + where);
     if (Clock::now() < deadline) return;
-    throw Error(ErrorKind::kCad,
-                fmt::format("{}: reading it takes more than {} s; export a simpler model, or allow more time",
-                            where, options.limits.time_s));
+    throw Error(
+        ErrorKind::kCad,
+        fmt::format("{}: reading it takes more than {} s; export a simpler model, or run `elbowroom import` "
+                    "on it with a larger --time-s",
+                    where, options.limits.time_s));
   };
   MessageReader reader(pipe.from.number());
   while (reader.Read(hear)) check();

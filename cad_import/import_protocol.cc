@@ -27,6 +27,14 @@ std::optional<std::int64_t> TakeNumber(std::string_view& text) {
   return number;
 }
 
+// What a child says of a damaged file may hold anything.
+std::string Printable(std::string_view text) {
+  std::string printable(text);
+  std::ranges::replace_if(
+      printable, [](unsigned char c) { return c < 0x20 || c == 0x7f; }, ' ');
+  return printable;
+}
+
 }  // namespace
 
 std::string ToLine(const ProgressMessage& message) {
@@ -50,11 +58,11 @@ ImportMessage ParseMessage(std::string_view line) {
   if (!first) return NoMessage{};
   if (kind == kFailure) {
     if (*first < 0 || *first > static_cast<int>(core::ErrorKind::kCancelled)) return NoMessage{};
-    return FailureMessage{static_cast<core::ErrorKind>(*first), std::string(line)};
+    return FailureMessage{static_cast<core::ErrorKind>(*first), Printable(line)};
   }
   const auto second = TakeNumber(line);
   if (!second) return NoMessage{};
-  return ProgressMessage{*first, *second, std::string(line)};
+  return ProgressMessage{*first, *second, Printable(line)};
 }
 
 }  // namespace elbowroom::cad_import

@@ -1,6 +1,7 @@
 // elbowroom import FILE: what a mesh file holds, and the same mesh in another format.
 #include <fmt/format.h>
 
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -56,6 +57,18 @@ void AddImportCommand(CLI::App& app, Choice* choice) {
       ->add_option("--tolerance", options->import.tolerance_mm,
                    "STEP, IGES, BREP: how far triangles may be from the faces (default: 0.2)")
       ->check(PositiveLength());
+  command
+      ->add_option_function<double>(
+          "--memory-gib",
+          [options](double gib) {
+            options->import.limits.memory_bytes = std::llround(gib * 1024.0 * 1024.0 * 1024.0);
+          },
+          "memory that reading the file may take (default: 4)")
+      ->check(CLI::Range(0.1, 1024.0));
+  command
+      ->add_option("--time-s", options->import.limits.time_s,
+                   "time that reading the file may take (default: 120)")
+      ->check(CLI::Range(0.1, 86'400.0));
   command->add_option("--out", options->out, "write the mesh (.glb, .ply, .stl)");
   command->callback(
       [=] { choice->action = [=](const CommandContext& context) { return Run(*options, context); }; });
