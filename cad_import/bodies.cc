@@ -42,6 +42,37 @@ std::vector<std::size_t> GroupsOf(const std::vector<const core::TriangleMesh*>& 
   return group;
 }
 
+// Those whose bodies are open and stand nowhere else.
+std::vector<std::size_t> OpenInstances(const BodyScene& scene) {
+  std::vector<std::size_t> open;
+  if (scene.instances.size() < 2) return open;
+  std::vector<int> uses(scene.bodies.size(), 0);
+  for (const CadInstance& instance : scene.instances) ++uses[instance.shape];
+  for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+    const std::size_t shape = scene.instances[i].shape;
+    if (uses[shape] == 1 && !core::IsWatertight(scene.bodies[shape].owned.mesh)) open.push_back(i);
+  }
+  return open;
+}
+
+// The scene without some instances and the bodies that nobody needs then; what was joined is welded.
+BodyScene Without(BodyScene scene, const std::vector<std::uint8_t>& goes) {
+  BodyScene result;
+  std::map<std::size_t, std::size_t> new_shape;
+  for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+    if (goes[i] != 0) continue;
+    CadInstance instance = std::move(scene.instances[i]);
+    const auto [found, is_new] = new_shape.try_emplace(instance.shape, result.bodies.size());
+    if (is_new) {
+      result.bodies.push_back(std::move(scene.bodies[instance.shape]));
+      if (result.bodies.back().piece_names.size() > 1) Weld(result.bodies.back().owned);
+    }
+    instance.shape = found->second;
+    result.instances.push_back(std::move(instance));
+  }
+  return result;
+}
+
 }  // namespace
 
 Body BodyOf(RawShape shape) {
@@ -52,14 +83,7 @@ Body BodyOf(RawShape shape) {
 }
 
 void JoinOpenBodies(BodyScene& scene) {
-  if (scene.instances.size() < 2) return;
-  std::vector<int> uses(scene.bodies.size(), 0);
-  for (const CadInstance& instance : scene.instances) ++uses[instance.shape];
-  std::vector<std::size_t> open;  // instances
-  for (std::size_t i = 0; i < scene.instances.size(); ++i) {
-    const std::size_t shape = scene.instances[i].shape;
-    if (uses[shape] == 1 && !core::IsWatertight(scene.bodies[shape].owned.mesh)) open.push_back(i);
-  }
+  const std::vector<std::size_t> open = OpenInstances(scene);
   if (open.size() < 2) return;
   std::vector<const core::TriangleMesh*> meshes;
   for (const std::size_t i : open) {
@@ -77,20 +101,7 @@ void JoinOpenBodies(BodyScene& scene) {
     Join(first, scene.bodies[scene.instances[open[i]].shape]);
     is_joined[open[i]] = 1;
   }
-  BodyScene result;
-  std::map<std::size_t, std::size_t> new_shape;
-  for (std::size_t i = 0; i < scene.instances.size(); ++i) {
-    if (is_joined[i] != 0) continue;
-    CadInstance instance = scene.instances[i];
-    const auto [found, is_new] = new_shape.try_emplace(instance.shape, result.bodies.size());
-    if (is_new) {
-      result.bodies.push_back(std::move(scene.bodies[instance.shape]));
-      if (result.bodies.back().piece_names.size() > 1) Weld(result.bodies.back().owned);
-    }
-    instance.shape = found->second;
-    result.instances.push_back(std::move(instance));
-  }
-  scene = std::move(result);
+  scene = Without(std::move(scene), is_joined);
 }
 
 void SplitIntoPieces(Body& body) {

@@ -96,7 +96,7 @@ Error NotRead(const fs::path& file, FileFormat format) {
 // What an entity says of its units; null: nothing. Each combination of contexts is a type of its own, none
 // derived from this one.
 Handle(StepRepr_GlobalUnitAssignedContext) UnitContextOf(const Handle(Standard_Transient) & entity) {
-  if (const auto units = Handle(StepRepr_GlobalUnitAssignedContext)::DownCast(entity); !units.IsNull())
+  if (auto units = Handle(StepRepr_GlobalUnitAssignedContext)::DownCast(entity); !units.IsNull())
     return units;
   if (const auto both =
           Handle(StepGeom_GeometricRepresentationContextAndGlobalUnitAssignedContext)::DownCast(entity);

@@ -276,7 +276,7 @@ std::vector<std::byte> ImportInChild(const std::filesystem::path& file, const Im
     ::poll(nullptr, 0, 1);
   }
   const int status = child.Wait();
-  if (failure) throw *failure;
+  if (failure) throw Error(*failure);
   if (!is_done || !WIFEXITED(status) || WEXITSTATUS(status) != 0)
     throw ErrorOfEnd(where, status, options.limits);
   return ReadResult(result, where);

@@ -32,7 +32,7 @@ using core::Error;
 using core::ErrorKind;
 
 // A model is handed over in memory that its parent reads whole.
-constexpr std::int64_t kResultShare = 4;
+constexpr double kResultShare = 4.0;
 // Beyond the time that its parent watches, on as many threads as there may be.
 constexpr double kCpuSlack = 64.0;
 
@@ -70,7 +70,7 @@ void LimitMyself(const ImportLimits& limits) {
   ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
   Limit(RLIMIT_CORE, 0);
   Limit(RLIMIT_CPU, limits.time_s * kCpuSlack + 1.0);
-  Limit(RLIMIT_FSIZE, static_cast<double>(limits.memory_bytes / kResultShare));
+  Limit(RLIMIT_FSIZE, static_cast<double>(limits.memory_bytes) / kResultShare);
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // they reserve all addresses there are
   Limit(RLIMIT_AS, static_cast<double>(limits.memory_bytes));
 #endif

@@ -38,7 +38,7 @@ class Mutator {
         bytes_[Below(bytes_.size())] ^= static_cast<char>(1U << Below(8));
         break;
       case 1:
-        std::fill_n(bytes_.begin() + Place(), Length(8), kExtremeBytes[Below(kExtremeBytes.size())]);
+        FillPiece();
         break;
       case 2:
         bytes_.erase(Below(bytes_.size()), Below(64) + 1);
@@ -63,16 +63,17 @@ class Mutator {
 
  private:
   std::uint64_t Below(std::uint64_t end) { return random_() % end; }
-  std::ptrdiff_t Place() {
-    at_ = Below(bytes_.size());
-    return static_cast<std::ptrdiff_t>(at_);
+  void FillPiece() {
+    const std::uint64_t begin = Below(bytes_.size());
+    const std::uint64_t size = std::min(Below(8) + 1, bytes_.size() - begin);
+    std::fill_n(bytes_.begin() + static_cast<std::ptrdiff_t>(begin), size,
+                kExtremeBytes[Below(kExtremeBytes.size())]);
   }
-  // From the last place on.
-  std::uint64_t Length(std::uint64_t most) { return std::min(Below(most) + 1, bytes_.size() - at_); }
 
   void ReplaceNumber() {
     const auto is_digit = [](unsigned char c) { return std::isdigit(c) != 0; };
-    const auto begin = std::find_if(bytes_.begin() + Place(), bytes_.end(), is_digit);
+    const auto begin = std::find_if(bytes_.begin() + static_cast<std::ptrdiff_t>(Below(bytes_.size())),
+                                    bytes_.end(), is_digit);
     const auto end = std::find_if_not(begin, bytes_.end(), is_digit);
     bytes_.replace(begin, end, kExtremeNumbers[Below(kExtremeNumbers.size())]);
   }
@@ -80,7 +81,6 @@ class Mutator {
   std::string& bytes_;
   const std::string& other_;
   std::mt19937_64& random_;
-  std::uint64_t at_ = 0;
 };
 
 }  // namespace
