@@ -82,10 +82,8 @@ void Report(CadModel& model, std::int64_t before) {
   }
 }
 
-std::string NameOr(std::string name, const std::string& otherwise) {
-  const bool has_name = !name.empty() && !name.starts_with('<');  // assimp's own: "<STL_BINARY>"
-  return has_name ? std::move(name) : otherwise;
-}
+// assimp has names of its own: "<STL_BINARY>".
+bool HasName(const std::string& name) { return !name.empty() && !name.starts_with('<'); }
 
 }  // namespace
 
@@ -110,7 +108,7 @@ CadModel Settle(RawScene scene, FileFormat format, const ImportOptions& options,
   for (RawShape& shape : rigid.shapes) {
     progress.Report(static_cast<std::int64_t>(bodies.bodies.size()),
                     static_cast<std::int64_t>(rigid.shapes.size()), "healing part");
-    shape.name = NameOr(std::move(shape.name), stem);
+    if (!HasName(shape.name)) shape.name = stem;
     bodies.bodies.push_back(BodyOf(std::move(shape)));
   }
   const bool is_single = bodies.instances.size() == 1;
@@ -121,7 +119,8 @@ CadModel Settle(RawScene scene, FileFormat format, const ImportOptions& options,
   std::erase_if(model.instances, [&](const CadInstance& instance) {
     return model.shapes[instance.shape].mesh->triangles.empty();
   });
-  for (CadInstance& instance : model.instances) instance.path = NameOr(std::move(instance.path), stem);
+  for (CadInstance& instance : model.instances)
+    if (!HasName(instance.path)) instance.path = stem;
   if (model.instances.empty()) core::ValidateMesh({}, where);
   Report(model, before);
   if (scene.left_out > 0)

@@ -63,7 +63,7 @@ LengthUnit LikelyUnit(double longest) {
 FileUnit ChooseUnit(const RawScene& scene, FileFormat format, const ImportOptions& options,
                     const std::string& where, std::vector<std::string>& warnings) {
   if (options.unit) {
-    const FileUnit asked = UnitOf(*options.unit);
+    FileUnit asked = UnitOf(*options.unit);
     if (scene.unit && scene.unit->name != asked.name) {
       warnings.push_back(fmt::format("the {} file is in {} by its own word but was read in {}, as asked",
                                      ToString(format), scene.unit->name, asked.name));
