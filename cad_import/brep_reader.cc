@@ -41,6 +41,7 @@
 #include <system_error>
 #include <utility>
 
+#include "cad_import/own_folder.h"
 #include "cad_import/tessellation.h"
 #include "core/error.h"
 
@@ -93,6 +94,13 @@ Error NotRead(const fs::path& file, FileFormat format) {
           fmt::format("{}: can't be read as {}; export it again", file.string(), ToString(format))};
 }
 
+// What the reader has read into the document.
+void Translate(auto& reader, Handle(TDocStd_Document) & document, const core::Progress& progress,
+               const Error& otherwise) {
+  const Handle(Indicator) indicator = new Indicator(progress, "translating, per cent");
+  if (!reader.Transfer(document, indicator->Start())) throw Error(otherwise);
+}
+
 // What an entity says of its units; null: nothing. Each combination of contexts is a type of its own, none
 // derived from this one.
 Handle(StepRepr_GlobalUnitAssignedContext) UnitContextOf(const Handle(Standard_Transient) & entity) {
@@ -128,20 +136,14 @@ std::vector<fs::path> ReferredFiles(STEPCAFControl_Reader& reader, const fs::pat
   STEPConstruct_ExternRefs references(reader.Reader().WS());
   std::vector<fs::path> files;
   if (!references.LoadExternRefs()) return files;
-  const fs::path folder = fs::weakly_canonical(file).parent_path();
+  const OwnFolder folder(file);
   for (int i = 1; i <= references.NbExternRefs(); ++i) {
     const char* name = references.FileName(i);
     if (name == nullptr || *name == '\0') continue;
+    const fs::path other = folder.path() / name;
+    if (!folder.Holds(other)) throw RefersElsewhere(file, name);
     std::error_code error;
-    const fs::path whole = fs::weakly_canonical(folder / name, error);
-    if (error ||
-        std::mismatch(folder.begin(), folder.end(), whole.begin(), whole.end()).first != folder.end()) {
-      throw Error(
-          ErrorKind::kFormat,
-          fmt::format("{}: it refers to '{}', which is outside its own folder; put the file beside it",
-                      file.string(), name));
-    }
-    if (fs::exists(whole, error)) files.push_back(whole);
+    if (fs::exists(other, error)) files.push_back(fs::weakly_canonical(other));
   }
   return files;
 }
@@ -159,8 +161,7 @@ Document ReadStep(const fs::path& file, const core::Progress& progress) {
         fmt::format("it declares {} units of length, from {} to {}; each part was read in its own",
                     units.size(), UnitOf(*units.begin()).name, UnitOf(*units.rbegin()).name));
   }
-  const Handle(Indicator) indicator = new Indicator(progress, "translating, per cent");
-  if (!reader.Transfer(result.document, indicator->Start())) throw NotRead(file, FileFormat::kStep);
+  Translate(reader, result.document, progress, NotRead(file, FileFormat::kStep));
   return result;
 }
 
@@ -172,8 +173,7 @@ Document ReadIges(const fs::path& file, const core::Progress& progress) {
   const auto model = Handle(IGESData_IGESModel)::DownCast(reader.Model());
   const double mm = model.IsNull() ? 0.0 : model->GlobalSection().UnitValue();
   if (mm > 0.0) result.unit = UnitOf(mm);
-  const Handle(Indicator) indicator = new Indicator(progress, "translating, per cent");
-  if (!reader.Transfer(result.document, indicator->Start())) throw NotRead(file, FileFormat::kIges);
+  Translate(reader, result.document, progress, NotRead(file, FileFormat::kIges));
   return result;
 }
 

@@ -21,4 +21,8 @@ FileUnit UnitOf(core::LengthUnit unit) {
   return {core::MillimetresPer(unit), std::string(core::ToString(unit))};
 }
 
+std::string NameOrDash(const std::optional<core::LengthUnit>& unit) {
+  return unit ? std::string(core::ToString(*unit)) : "-";
+}
+
 }  // namespace elbowroom::cad_import

@@ -1,6 +1,7 @@
 // The unit that a file's numbers are in.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "core/units.h"
@@ -14,5 +15,8 @@ struct FileUnit {
 
 [[nodiscard]] FileUnit UnitOf(double mm_per_unit);
 [[nodiscard]] FileUnit UnitOf(core::LengthUnit unit);
+
+// Its name, or "-" for none, which names no unit.
+[[nodiscard]] std::string NameOrDash(const std::optional<core::LengthUnit>& unit);
 
 }  // namespace elbowroom::cad_import

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "cad_import/file_format.h"
+#include "cad_import/file_unit.h"
 #include "core/error.h"
 #include "core/whole_file.h"
 
@@ -26,10 +26,6 @@ constexpr const char* kExtension = ".cad";
 std::string Variable(const char* name) {
   const char* value = std::getenv(name);
   return value == nullptr ? "" : value;
-}
-
-std::string TextOf(const std::optional<core::LengthUnit>& unit) {
-  return unit ? std::string(core::ToString(*unit)) : "-";
 }
 
 std::vector<std::byte> ReadAll(const fs::path& path) {
@@ -66,11 +62,11 @@ std::optional<ImportCache> ImportCache::OfUser() {
 }
 
 std::string ImportCache::KeyOf(const fs::path& file, const ImportOptions& options) {
-  const std::string text =
-      fmt::format("{} {} {} {} {:a} {} {} {}.{}.{}", kPackedModelVersion, HashOfFile(file),
-                  file.filename().string(), TextOf(options.unit) + TextOf(options.unit_if_file_has_none),
-                  options.tolerance_mm, OCC_VERSION_COMPLETE, aiGetVersionMajor(), aiGetVersionMinor(),
-                  aiGetVersionPatch(), aiGetVersionRevision());
+  const std::string text = fmt::format("{} {} {} {} {:a} {} {} {}.{}.{}", kPackedModelVersion,
+                                       HashOfFile(file), file.filename().string(),
+                                       NameOrDash(options.unit) + NameOrDash(options.unit_if_file_has_none),
+                                       options.tolerance_mm, OCC_VERSION_COMPLETE, aiGetVersionMajor(),
+                                       aiGetVersionMinor(), aiGetVersionPatch(), aiGetVersionRevision());
   return HashOf(std::as_bytes(std::span(text)));
 }
 

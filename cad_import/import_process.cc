@@ -20,6 +20,7 @@
 #include <utility>
 #include <vector>
 
+#include "cad_import/file_unit.h"
 #include "cad_import/import_protocol.h"
 #include "cad_import/import_worker.h"
 #include "core/error.h"
@@ -222,10 +223,6 @@ std::vector<std::byte> ReadResult(const Descriptor& file, const std::string& whe
   return bytes;
 }
 
-std::string UnitArgument(const std::optional<core::LengthUnit>& unit) {
-  return unit ? std::string(core::ToString(*unit)) : "-";
-}
-
 }  // namespace
 
 std::vector<std::byte> ImportInChild(const std::filesystem::path& file, const ImportOptions& options,
@@ -235,8 +232,8 @@ std::vector<std::byte> ImportInChild(const std::filesystem::path& file, const Im
   Pipe pipe = MakePipe();
   const Descriptor result = MakeMemoryFile();
   Child child(
-      Spawn({"elbowroom", std::string(kImportWorkerArgument), where, UnitArgument(options.unit),
-             UnitArgument(options.unit_if_file_has_none), fmt::format("{}", options.tolerance_mm),
+      Spawn({"elbowroom", std::string(kImportWorkerArgument), where, NameOrDash(options.unit),
+             NameOrDash(options.unit_if_file_has_none), fmt::format("{}", options.tolerance_mm),
              fmt::format("{}", options.limits.memory_bytes), fmt::format("{}", options.limits.time_s)},
             pipe.to, result));
   pipe.to.Close();

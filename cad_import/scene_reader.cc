@@ -15,11 +15,11 @@
 #include <optional>
 #include <span>
 #include <string_view>
-#include <system_error>
 #include <utility>
 #include <vector>
 
 #include "cad_import/obj_text.h"
+#include "cad_import/own_folder.h"
 #include "core/error.h"
 
 namespace elbowroom::cad_import {
@@ -43,12 +43,14 @@ class ConfinedFiles : public Assimp::DefaultIOSystem {
     std::vector<std::string> refused;
   };
   ConfinedFiles(const fs::path& file, Log& log)
-      : file_(fs::weakly_canonical(file)), folder_(file_.parent_path()), log_(log) {}
+      : file_(fs::weakly_canonical(file)), folder_(file), log_(log) {}
 
-  bool Exists(const char* file) const override { return IsInside(file) && DefaultIOSystem::Exists(file); }
+  bool Exists(const char* file) const override {
+    return folder_.Holds(file) && DefaultIOSystem::Exists(file);
+  }
 
   Assimp::IOStream* Open(const char* file, const char* mode) override {
-    if (!std::string_view(mode).starts_with('r') || !IsInside(file)) {
+    if (!std::string_view(mode).starts_with('r') || !folder_.Holds(file)) {
       log_.refused.emplace_back(file);
       return nullptr;
     }
@@ -60,15 +62,8 @@ class ConfinedFiles : public Assimp::DefaultIOSystem {
   }
 
  private:
-  [[nodiscard]] bool IsInside(const fs::path& path) const {
-    std::error_code error;
-    const fs::path whole = fs::weakly_canonical(path, error);
-    return !error &&
-           std::mismatch(folder_.begin(), folder_.end(), whole.begin(), whole.end()).first == folder_.end();
-  }
-
-  fs::path file_;    // canonical
-  fs::path folder_;  // canonical
+  fs::path file_;  // canonical
+  OwnFolder folder_;
   Log& log_;
 };
 
@@ -217,12 +212,7 @@ RawScene Load(const fs::path& file, FileFormat format, const std::string& bytes)
   } catch (const std::exception& exception) {
     why = exception.what();
   }
-  if (!log.refused.empty()) {
-    throw Error(ErrorKind::kFormat,
-                fmt::format("{}: it refers to '{}', which is outside its own folder; put the file "
-                            "beside it",
-                            file.string(), OneLine(log.refused.front())));
-  }
+  if (!log.refused.empty()) throw RefersElsewhere(file, OneLine(log.refused.front()));
   if (scene == nullptr || scene->mRootNode == nullptr) {
     throw Error(ErrorKind::kFormat, fmt::format("{}: can't be read as {} ({}); export it again",
                                                 file.string(), ToString(format), OneLine(why)));
