@@ -1,5 +1,8 @@
 #include "recon/difference_kernel.h"
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <bit>
 #include <cstdint>
@@ -83,6 +86,16 @@ HWY_INLINE bool AreWithin(hn::Vec<Bytes> above, std::int16_t width) {
   const Bytes d;
   const auto too_far = hn::SaturatedSub(above, hn::Set(d, static_cast<std::uint8_t>(width)));
   return width >= 0 && hn::AllTrue(d, hn::Eq(too_far, hn::Zero(d)));
+}
+
+// Whether one of levels [begin, end) of 64 pixels is outside of its range.
+HWY_INLINE bool IsOutside(const std::uint8_t* image, const std::uint8_t* ranges, std::size_t begin,
+                          std::size_t end) {
+  const Bytes d;
+  auto outside = Outside(image + begin, ranges + begin);
+  for (std::size_t i = begin + hn::Lanes(d); i < end; i += hn::Lanes(d))
+    outside = hn::Or(outside, Outside(image + i, ranges + i));
+  return !hn::AllTrue(d, hn::Eq(outside, hn::Zero(d)));
 }
 
 // Bit i: pixel i of 64 has a channel outside of its range. Channels stay interleaved: only bits are merged.
@@ -174,16 +187,19 @@ HWY_INLINE std::uint64_t DifferingWord(const std::uint8_t* image, const std::uin
 }
 
 // Bit w: of the cell of word w, which has all of its pixels, one that is looked at has a channel outside of
-// its range, or may have.
+// its range. Row after row: what is read in order is read ahead.
 void LookAtCells(const RowGroup& rows, std::size_t width, std::uint64_t* bits) {
-  for (std::size_t word = 0; word < width / 64; ++word) {
-    const std::size_t at = word * kWordBytes;
-    const std::uint8_t* lowest = rows.shared_lowest + at;
-    auto farthest = FarthestAbove(rows.image[0] + at, lowest, 0, kWordBytes);
-    for (std::size_t i = 1; i < rows.count; ++i)
-      farthest = hn::Max(farthest, FarthestAbove(rows.image[i] + at, lowest, kLookFrom, kLookTo));
-    if (!AreWithin(farthest, rows.shared_width[word])) bits[word / 64] |= std::uint64_t{1} << (word % 64);
-  }
+  const auto look = [&](std::size_t row, std::size_t begin, std::size_t end) HWY_ATTR {
+    for (std::size_t word = 0; word < width / 64; ++word) {
+      const std::size_t at = word * kWordBytes;
+      const auto farthest = FarthestAbove(rows.image[row] + at, rows.shared_lowest + at, begin, end);
+      if (AreWithin(farthest, rows.shared_width[word])) continue;
+      if (IsOutside(rows.image[row] + at, rows.ranges[row] + 2 * at, begin, end))
+        bits[word / 64] |= std::uint64_t{1} << (word % 64);
+    }
+  };
+  look(0, 0, kWordBytes);
+  for (std::size_t row = 1; row < rows.count; ++row) look(row, kLookFrom, kLookTo);
 }
 
 // Writes a cell's pixels; whether there are any.
@@ -212,10 +228,11 @@ namespace {
 HWY_EXPORT(LookAtCells);
 HWY_EXPORT(DifferInCell);
 
-constexpr int kBytes = 192;  // of 64 pixels
 // Between the pixels that are looked at: rows 1 to 3 of a cell, from pixel 42 to pixel 21 of the next one.
 constexpr int kUnseenOfRowPx = 64 - 20;
 constexpr int kMostUnseenPx = (LevelRanges::kSharingRows - 1) * kUnseenOfRowPx;
+
+constexpr int kStripCells = 30;  // rows of cells
 
 // A picture in cells of 64 pixels by LevelRanges::kSharingRows rows.
 class DifferenceSearch {
@@ -238,11 +255,12 @@ class DifferenceSearch {
     return std::move(mask_);
   }
 
-  // Cells of which a pixel that is looked at differs, while their rows are at hand; and from there on all
-  // that adjoin one with a pixel that does.
+  // Cells of which a pixel that is looked at differs, and from there on all that adjoin one with a pixel that
+  // does.
   [[nodiscard]] core::BitMask Large(std::int64_t* unseen_px) && {
     is_known_.assign(static_cast<std::size_t>(down_ * across_), 0);
-    for (int group = 0; group < down_; ++group) Look(group);
+    const std::vector<std::uint64_t> hits = Look();
+    for (int group = 0; group < down_; ++group) VisitHits(group, hits);
     while (!waiting_.empty()) {
       const auto [group, word] = waiting_.back();
       waiting_.pop_back();
@@ -278,13 +296,29 @@ class DifferenceSearch {
                                               static_cast<std::size_t>(image_bgr_.cols), shade_);
   }
 
-  void Look(int group) {
+  [[nodiscard]] std::size_t HitWords() const { return static_cast<std::size_t>(across_ + 63) / 64; }
+
+  // A row of bits for each row of cells. Strips beside each other, as reading is all that an empty table
+  // costs, and another thread may be late.
+  [[nodiscard]] std::vector<std::uint64_t> Look() {
+    std::vector<std::uint64_t> hits(static_cast<std::size_t>(down_) * HitWords());
+    tbb::parallel_for(
+        tbb::blocked_range<int>(0, down_, kStripCells),
+        [&](const tbb::blocked_range<int>& strip) {
+          for (int group = strip.begin(); group < strip.end(); ++group) HWY_DYNAMIC_DISPATCH(LookAtCells)
+          (RowsOf(group), static_cast<std::size_t>(image_bgr_.cols),
+           hits.data() + static_cast<std::size_t>(group) * HitWords());
+        },
+        tbb::simple_partitioner());
+    return hits;
+  }
+
+  void VisitHits(int group, const std::vector<std::uint64_t>& hits) {
     const RowGroup rows = RowsOf(group);
-    hits_.assign(static_cast<std::size_t>(across_ + 63) / 64, 0);
     unseen_px_ += UnseenOfCellPx(rows) * (image_bgr_.cols / 64);
-    HWY_DYNAMIC_DISPATCH(LookAtCells)(rows, static_cast<std::size_t>(image_bgr_.cols), hits_.data());
-    for (std::size_t i = 0; i < hits_.size(); ++i)
-      for (std::uint64_t left = hits_[i]; left != 0; left &= left - 1)
+    for (std::size_t i = 0; i < HitWords(); ++i)
+      for (std::uint64_t left = hits[static_cast<std::size_t>(group) * HitWords() + i]; left != 0;
+           left &= left - 1)
         Visit(rows, group, static_cast<int>(64 * i) + std::countr_zero(left));
     if (image_bgr_.cols % 64 != 0) Visit(rows, group, across_ - 1);  // isn't looked at
   }
@@ -312,7 +346,6 @@ class DifferenceSearch {
   const int across_, down_;
   std::vector<Cell> waiting_;  // some more than once
   std::vector<std::uint8_t> is_known_;
-  std::vector<std::uint64_t> hits_;
   std::int64_t unseen_px_ = 0;
 };
 
@@ -329,64 +362,6 @@ core::BitMask Differing(const LevelRanges& ranges, const cv::Mat& image_bgr, con
 }
 
 }  // namespace
-
-LevelRanges::LevelRanges(const cv::Mat& mean_bgr, const cv::Mat& threshold_bgr)
-    : width_px_(mean_bgr.cols), height_px_(mean_bgr.rows) {
-  levels_.create(height_px_, (width_px_ + 63) / 64 * 2 * kBytes, CV_8U);
-  for (int y = 0; y < height_px_; ++y) {
-    const auto* mean = mean_bgr.ptr<float>(y);
-    const auto* threshold = threshold_bgr.ptr<float>(y);
-    auto* lowest = levels_.ptr<std::uint8_t>(y);
-    for (int first = 0; first < width_px_ * 3; first += kBytes, lowest += 2 * kBytes) {
-      std::uint8_t* highest = lowest + kBytes;
-      const int count = std::min(kBytes, width_px_ * 3 - first);
-      for (int i = 0; i < count; ++i) {
-        // Sums of two floats are exact in double. Rounded by hand: std::ceil and std::floor are calls on
-        // plain x86-64.
-        const double low =
-            std::clamp(static_cast<double>(mean[first + i]) - threshold[first + i], 0.0, 255.0);
-        const double high =
-            std::clamp(static_cast<double>(mean[first + i]) + threshold[first + i], 0.0, 255.0);
-        const int below_low = static_cast<int>(low);
-        lowest[i] = static_cast<std::uint8_t>(below_low + (below_low < low ? 1 : 0));
-        highest[i] = static_cast<std::uint8_t>(static_cast<int>(high));
-      }
-      std::fill(lowest + count, lowest + kBytes, std::uint8_t{0});
-      std::fill(highest + count, highest + kBytes, std::uint8_t{255});
-    }
-  }
-  Share();
-}
-
-void LevelRanges::Share() {
-  const int groups = (height_px_ + kSharingRows - 1) / kSharingRows, words = (width_px_ + 63) / 64;
-  shared_lowest_.create(groups, words * kBytes, CV_8U);
-  shared_width_.create(groups, words, CV_16S);
-  for (int group = 0; group < groups; ++group) {
-    const int begin = group * kSharingRows, end = std::min(begin + kSharingRows, height_px_);
-    for (int word = 0; word < words; ++word) {
-      std::uint8_t lowest[kBytes], highest[kBytes];
-      std::fill(lowest, lowest + kBytes, std::uint8_t{0});
-      std::fill(highest, highest + kBytes, std::uint8_t{255});
-      for (int y = begin; y < end; ++y) {
-        const std::uint8_t* levels = row(y) + word * 2 * kBytes;
-        for (int i = 0; i < kBytes; ++i) lowest[i] = std::max(lowest[i], levels[i]);
-        for (int i = 0; i < kBytes; ++i) highest[i] = std::min(highest[i], levels[kBytes + i]);
-      }
-      int width = 255;
-      for (int i = 0; i < kBytes; ++i) width = std::min(width, highest[i] - lowest[i]);
-      shared_width_.at<std::int16_t>(group, word) =
-          width < 0 ? kNoneShared : static_cast<std::int16_t>(width);
-      // In the middle of each range, as the background's levels are; what is past the row's end is zero.
-      auto* shared = shared_lowest_.ptr<std::uint8_t>(group) + word * kBytes;
-      const int count = std::min(kBytes, width_px_ * 3 - word * kBytes);
-      for (int i = 0; i < kBytes; ++i)
-        shared[i] = i < count && width >= 0
-                        ? static_cast<std::uint8_t>(lowest[i] + (highest[i] - lowest[i] - width) / 2)
-                        : std::uint8_t{0};
-    }
-  }
-}
 
 core::BitMask DifferingPixels(const LevelRanges& ranges, const cv::Mat& image_bgr, int least_px,
                               std::int64_t* unseen_px) {

@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <utility>
 
@@ -44,6 +45,7 @@ std::vector<core::SoftMask> FrameSegmenter::Masks(const FrameSet& frames, Edges 
   core::Require(frames.cameras.size() == segmenters_.size(), "one frame a camera");
   std::vector<core::SoftMask> masks(frames.cameras.size());
   std::vector<SegmentationStats> each(frames.cameras.size());
+  std::atomic<bool> shows_object{false};
   tbb::parallel_for(std::size_t{0}, masks.size(), [&](std::size_t i) {
     const CameraFrame& camera = frames.cameras[i];
     core::Require(camera.ready_mask || segmenters_[i], "a picture to segment has a background");
@@ -54,16 +56,15 @@ std::vector<core::SoftMask> FrameSegmenter::Masks(const FrameSet& frames, Edges 
     } else {
       masks[i].mask = segmenters_[i]->Segment(camera.image_bgr, &each[i]);
     }
+    if (masks[i].mask.ShowsObject()) shows_object.store(true, std::memory_order_relaxed);
   });
-  DropUnconfirmed(frames, &masks);
+  if (shows_object) DropUnconfirmed(frames, &masks);
   if (stats != nullptr)
     for (const SegmentationStats& of_camera : each) *stats += of_camera;
   return masks;
 }
 
 void FrameSegmenter::DropUnconfirmed(const FrameSet& frames, std::vector<core::SoftMask>* masks) const {
-  if (std::ranges::none_of(*masks, [](const core::SoftMask& mask) { return mask.mask.ShowsObject(); }))
-    return;
   std::vector<const core::BitMask*> bits;
   for (const core::SoftMask& mask : *masks) bits.push_back(&mask.mask);
   const std::vector<std::vector<bool>> confirmed = support_.ConfirmedBlobs(bits);

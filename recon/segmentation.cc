@@ -13,6 +13,7 @@
 #include "core/error.h"
 #include "recon/boundary.h"
 #include "recon/coverage.h"
+#include "recon/difference_kernel.h"
 #include "recon/exposure.h"
 #include "recon/mask_regions.h"
 

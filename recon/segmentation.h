@@ -8,8 +8,8 @@
 
 #include "core/bit_mask.h"
 #include "core/soft_mask.h"
-#include "recon/difference_kernel.h"
 #include "recon/frame_set.h"
+#include "recon/level_ranges.h"
 
 namespace elbowroom::recon {
 
