@@ -25,7 +25,6 @@ struct ImportedPart {
 // What was found in a body's surface, and done to it.
 struct SurfaceReport {
   bool watertight = false;
-  double deviation_mm = 0.0;  // of the triangles from the surface that the file describes
   std::int64_t dropped_flat = 0;
   std::int64_t kept_flat = 0;  // without area, but a closed surface hangs together by them
   std::int64_t dropped_duplicates = 0;
@@ -33,7 +32,7 @@ struct SurfaceReport {
   std::int64_t open_edges = 0;          // of one triangle
   std::int64_t non_manifold_edges = 0;  // of three or more
   std::int64_t inconsistent_edges = 0;  // of two triangles that run along it the same way
-  std::int64_t self_intersections = 0;  // pairs of triangles that pierce each other
+  std::optional<std::int64_t> self_intersections = 0;  // pairs of triangles; nothing: not looked for
 
   [[nodiscard]] bool operator==(const SurfaceReport&) const = default;
 };
@@ -63,7 +62,7 @@ struct ImportReport {
   bool watertight = false;  // every body is
   bool repaired = false;    // triangles were dropped or turned
   std::int64_t dropped_triangles = 0;
-  double deviation_mm = 0.0;          // the largest of any body
+  double deviation_mm = 0.0;          // the largest of any shape's mesh
   std::vector<std::string> warnings;  // one line each
 };
 

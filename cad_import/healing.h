@@ -24,7 +24,7 @@ void Weld(OwnedMesh& body);
 // In this order: drops triangles without area (but those of three different corners that a closed surface
 // hangs together by) and copies of others that face the same way; makes neighbours run alike, turning the
 // fewer; turns closed surfaces that face inwards, unless they are cavities of others. Counts what it did and
-// what is left (`surface.deviation_mm` is its caller's). The body is welded; owners stay ascending.
+// what is left. The body is welded; owners stay ascending.
 [[nodiscard]] SurfaceReport Heal(OwnedMesh& body);
 
 }  // namespace elbowroom::cad_import

@@ -69,7 +69,7 @@ core::Part ReadPart(const TomlEntry& entry, const std::filesystem::path& folder,
   try {
     const MeshShelf::Item& item = shelf.Get(folder / part.file, options);
     part.mesh = item.mesh;
-    part.unit = core::ParseLengthUnit(item.report.unit).value_or(core::LengthUnit::kMillimetre);
+    part.unit = options.unit;
     for (const std::string& warning : item.report.warnings) {
       warnings.push_back(fmt::format("part '{}' ({}): {}", part.name, part.file, warning));
     }

@@ -36,7 +36,7 @@ toml::table ToToml(const core::Part& part) {
   toml::table table = GivesWayToToml(part.gives_way);
   table.insert("name", part.name);
   table.insert("file", part.file);
-  table.insert("unit", core::ToString(part.unit));
+  if (part.unit) table.insert("unit", core::ToString(*part.unit));
   table.insert("position_mm", ToToml(part.world_from_part.translation_mm));
   table.insert("rotation_rpy_deg", ToToml(RollPitchYawDeg(part.world_from_part.rotation)));
   const core::RecoveryRule& recovery = part.recovery;

@@ -30,4 +30,8 @@ struct ImportedMesh {
 // Error{kFile} if it can't be written.
 void WriteMeshFile(const core::TriangleMesh& mesh, const std::filesystem::path& path);
 
+// Likewise a model: .glb keeps its instances, their names, paths and colours, a shape stored once for each
+// colour that it has; .ply and .stl hold it flattened. Axes stay as they are. Throws: likewise.
+void WriteModelFile(const CadModel& model, const std::filesystem::path& path);
+
 }  // namespace elbowroom::cad_import

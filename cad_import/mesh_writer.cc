@@ -5,11 +5,16 @@
 #include <algorithm>
 #include <assimp/Exporter.hpp>
 #include <exception>
+#include <map>
 #include <memory>
 #include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "cad_import/file_format.h"
 #include "cad_import/mesh_file.h"
+#include "cad_import/srgb.h"
 #include "core/error.h"
 #include "core/whole_file.h"
 
@@ -23,12 +28,13 @@ using core::ErrorKind;
 struct Target {
   const char* exporter_id;
   double mm_per_unit;
+  bool keeps_instances;
 };
 Target TargetOf(const std::filesystem::path& path) {
   const std::optional<FileFormat> format = FindFormat(path);
-  if (format == FileFormat::kPly) return {"plyb", 1.0};
-  if (format == FileFormat::kStl) return {"stlb", 1.0};
-  if (format == FileFormat::kGlb) return {"glb2", 1000.0};
+  if (format == FileFormat::kPly) return {"plyb", 1.0, false};
+  if (format == FileFormat::kStl) return {"stlb", 1.0, false};
+  if (format == FileFormat::kGlb) return {"glb2", 1000.0, true};
   throw Error(ErrorKind::kFormat,
               fmt::format("{}: meshes are written as .ply, .stl or .glb; choose one of these extensions",
                           path.string()));
@@ -55,29 +61,94 @@ std::unique_ptr<aiMesh> ToAssimp(const core::TriangleMesh& source, double mm_per
   return mesh;
 }
 
-std::unique_ptr<aiScene> SceneOf(const core::TriangleMesh& mesh, double mm_per_unit,
-                                 const std::string& name) {
+// One shape in one colour: glTF gives a mesh its material, not a node.
+using Look = std::pair<std::size_t, std::optional<ColorRgb>>;
+
+std::unique_ptr<aiMaterial> MaterialOf(const std::optional<ColorRgb>& color) {
+  auto material = std::make_unique<aiMaterial>();
+  if (!color) return material;
+  const auto& [red, green, blue] = *color;
+  const aiColor4D linear(LinearFromSrgb(red), LinearFromSrgb(green), LinearFromSrgb(blue), 1.0F);
+  material->AddProperty(&linear, 1, AI_MATKEY_BASE_COLOR);
+  return material;
+}
+
+template <typename T>
+void HandOver(std::vector<std::unique_ptr<T>> from, T*** to, unsigned* count) {
+  *count = static_cast<unsigned>(from.size());
+  *to = new T*[from.size()];
+  std::ranges::transform(from, *to, [](std::unique_ptr<T>& item) { return item.release(); });
+}
+
+aiMatrix4x4 ToAssimp(const core::RigidTransform& b_from_a, double mm_per_unit) {
+  const Eigen::Matrix3f r = b_from_a.rotation.cast<float>();
+  const Eigen::Vector3f t = (b_from_a.translation_mm / mm_per_unit).cast<float>();
+  return {r(0, 0), r(0, 1), r(0, 2), t.x(), r(1, 0), r(1, 1), r(1, 2), t.y(),
+          r(2, 0), r(2, 1), r(2, 2), t.z(), 0.0F,    0.0F,    0.0F,    1.0F};
+}
+
+// The node at a path of names, made with those above it; `nodes` has all that there are.
+aiNode* NodeAt(const std::string& path, std::map<std::string, aiNode*>& nodes) {
+  if (const auto found = nodes.find(path); found != nodes.end()) return found->second;
+  const std::size_t slash = path.rfind('/');
+  aiNode* parent = NodeAt(slash == std::string::npos ? "" : path.substr(0, slash), nodes);
+  auto* node = new aiNode(path.substr(slash == std::string::npos ? 0 : slash + 1));
+  parent->addChildren(1, &node);
+  return nodes[path] = node;
+}
+
+// The first name of all paths, if they have one in common and go on after it.
+std::optional<std::string> CommonRoot(const CadModel& model) {
+  const std::string& first = model.instances.front().path;
+  const std::string root = first.substr(0, first.find('/'));
+  const bool is_common = std::ranges::all_of(
+      model.instances, [&](const CadInstance& instance) { return instance.path.starts_with(root + '/'); });
+  return is_common ? std::optional(root) : std::nullopt;
+}
+
+std::unique_ptr<aiScene> SceneOf(const CadModel& model, double mm_per_unit, const std::string& name) {
   auto scene = std::make_unique<aiScene>();
-  scene->mMaterials = new aiMaterial* [1] { new aiMaterial };
-  scene->mNumMaterials = 1;
-  scene->mMeshes = new aiMesh* [1] { ToAssimp(mesh, mm_per_unit).release() };
-  scene->mNumMeshes = 1;
-  scene->mRootNode = new aiNode(name);
-  scene->mRootNode->mMeshes = new unsigned[1]{0};
-  scene->mRootNode->mNumMeshes = 1;
+  const std::optional<std::string> root = CommonRoot(model);
+  scene->mRootNode = new aiNode(root.value_or(name));
+  std::map<std::string, aiNode*> groups{{root.value_or(""), scene->mRootNode}};
+  std::map<Look, unsigned> looks;
+  std::vector<std::unique_ptr<aiMesh>> meshes;
+  std::vector<std::unique_ptr<aiMaterial>> materials;
+  for (const CadInstance& instance : model.instances) {
+    const auto [look, is_new] = looks.try_emplace({instance.shape, instance.color}, looks.size());
+    if (is_new) {
+      const CadShape& shape = model.shapes[instance.shape];
+      meshes.push_back(ToAssimp(*shape.mesh, mm_per_unit));
+      meshes.back()->mName = shape.name;
+      meshes.back()->mMaterialIndex = look->second;
+      materials.push_back(MaterialOf(instance.color));
+    }
+    const std::size_t slash = instance.path.rfind('/');
+    const bool is_top = slash == std::string::npos;
+    auto* node = new aiNode(is_top ? instance.path : instance.path.substr(slash + 1));
+    node->mTransformation = ToAssimp(instance.model_from_shape, mm_per_unit);
+    node->mMeshes = new unsigned[1]{look->second};
+    node->mNumMeshes = 1;
+    NodeAt(is_top ? "" : instance.path.substr(0, slash), groups)->addChildren(1, &node);
+  }
+  HandOver(std::move(meshes), &scene->mMeshes, &scene->mNumMeshes);
+  HandOver(std::move(materials), &scene->mMaterials, &scene->mNumMaterials);
   return scene;
 }
 
-}  // namespace
+CadModel ModelOf(const core::TriangleMesh& mesh, const std::string& name) {
+  CadModel model;
+  model.shapes.push_back({name, std::make_shared<const core::TriangleMesh>(mesh), {}, {}});
+  model.instances.push_back({name, 0, {}, std::nullopt});
+  return model;
+}
 
-void WriteMeshFile(const core::TriangleMesh& mesh, const std::filesystem::path& path) {
+void Write(const CadModel& model, const Target& target, const std::filesystem::path& path) {
   const std::string where = path.string();
-  core::ValidateMesh(mesh, where);
-  const Target target = TargetOf(path);
   Assimp::Exporter exporter;
   const aiExportDataBlob* blob = nullptr;
   try {
-    blob = exporter.ExportToBlob(SceneOf(mesh, target.mm_per_unit, path.stem().string()).get(),
+    blob = exporter.ExportToBlob(SceneOf(model, target.mm_per_unit, path.stem().string()).get(),
                                  target.exporter_id);
   } catch (const std::exception& exception) {
     throw Error(ErrorKind::kFile, fmt::format("{}: can't be written ({})", where, exception.what()));
@@ -86,6 +157,21 @@ void WriteMeshFile(const core::TriangleMesh& mesh, const std::filesystem::path& 
     throw Error(ErrorKind::kFile, fmt::format("{}: can't be written ({})", where, exporter.GetErrorString()));
   }
   core::WriteWholeFile(path, {static_cast<const char*>(blob->data), blob->size});
+}
+
+}  // namespace
+
+void WriteMeshFile(const core::TriangleMesh& mesh, const std::filesystem::path& path) {
+  core::ValidateMesh(mesh, path.string());
+  Write(ModelOf(mesh, path.stem().string()), TargetOf(path), path);
+}
+
+void WriteModelFile(const CadModel& model, const std::filesystem::path& path) {
+  const Target target = TargetOf(path);
+  if (!target.keeps_instances) return WriteMeshFile(*Flatten(model).mesh, path);
+  for (const CadShape& shape : model.shapes) core::ValidateMesh(*shape.mesh, path.string());
+  if (model.instances.empty()) core::ValidateMesh({}, path.string());
+  Write(model, target, path);
 }
 
 }  // namespace elbowroom::cad_import

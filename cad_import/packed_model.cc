@@ -122,24 +122,24 @@ class Reader {
 
 void Add(Writer& writer, const SurfaceReport& surface) {
   writer.Add(static_cast<std::uint8_t>(surface.watertight));
-  writer.Add(surface.deviation_mm);
   for (const std::int64_t count : {surface.dropped_flat, surface.kept_flat, surface.dropped_duplicates,
                                    surface.turned, surface.open_edges, surface.non_manifold_edges,
-                                   surface.inconsistent_edges, surface.self_intersections}) {
+                                   surface.inconsistent_edges, surface.self_intersections.value_or(0)}) {
     writer.Add(count);
   }
+  writer.Add(static_cast<std::uint8_t>(surface.self_intersections.has_value()));
 }
 
 SurfaceReport TakeSurface(Reader& reader) {
   SurfaceReport surface;
   surface.watertight = reader.TakeFlag();
-  surface.deviation_mm = reader.TakeFinite();
-  reader.Check(surface.deviation_mm >= 0.0, "a deviation is negative");
-  for (std::int64_t* count : {&surface.dropped_flat, &surface.kept_flat, &surface.dropped_duplicates,
-                              &surface.turned, &surface.open_edges, &surface.non_manifold_edges,
-                              &surface.inconsistent_edges, &surface.self_intersections}) {
+  for (std::int64_t* count :
+       {&surface.dropped_flat, &surface.kept_flat, &surface.dropped_duplicates, &surface.turned,
+        &surface.open_edges, &surface.non_manifold_edges, &surface.inconsistent_edges}) {
     *count = reader.TakeCount();
   }
+  const std::int64_t self_intersections = reader.TakeCount();
+  surface.self_intersections = reader.TakeFlag() ? std::optional(self_intersections) : std::nullopt;
   return surface;
 }
 
@@ -147,6 +147,7 @@ void Add(Writer& writer, const CadShape& shape) {
   writer.Add(shape.name);
   writer.AddArray(std::span(shape.mesh->vertices_mm));
   writer.AddArray(std::span(shape.mesh->triangles));
+  writer.Add(shape.mesh->deviation_mm);
   writer.AddAll(shape.pieces, [&](const ImportedPart& piece) {
     writer.Add(piece.name);
     writer.Add(piece.first_triangle);
@@ -176,6 +177,7 @@ CadShape TakeShape(Reader& reader) {
   core::TriangleMesh mesh;
   mesh.vertices_mm = reader.TakeArray<Eigen::Vector3d>();
   mesh.triangles = reader.TakeArray<std::array<std::int32_t, 3>>();
+  mesh.deviation_mm = reader.TakeFinite();
   core::ValidateMesh(mesh, reader.where());
   shape.mesh = std::make_shared<const core::TriangleMesh>(std::move(mesh));
   shape.pieces = TakePieces(reader, static_cast<std::int64_t>(shape.mesh->triangles.size()));

@@ -20,6 +20,7 @@
 
 #include "cad_import/obj_text.h"
 #include "cad_import/own_folder.h"
+#include "cad_import/srgb.h"
 #include "core/error.h"
 
 namespace elbowroom::cad_import {
@@ -221,6 +222,9 @@ RawScene Load(const fs::path& file, FileFormat format, const std::string& bytes)
   Eigen::Affine3d model_from_scene = Eigen::Affine3d::Identity();
   const std::optional<FileUnit> unit = TakeUnit(*scene, format, model_from_scene);
   walk.Visit(*scene->mRootNode, model_from_scene, "");
+  if (format == FileFormat::kGltf || format == FileFormat::kGlb)
+    for (RawInstance& instance : walk.result().instances)
+      if (instance.color) std::ranges::transform(*instance.color, instance.color->begin(), SrgbFromLinear);
   walk.result().unit = unit;
   walk.result().referred = std::move(log.opened);
   return std::move(walk.result());

@@ -1,6 +1,7 @@
 #include "cad_import/settling.h"
 
 #include <fmt/format.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <memory>
@@ -11,10 +12,14 @@
 #include "cad_import/bodies.h"
 #include "cad_import/healing.h"
 #include "cad_import/placing.h"
+#include "cad_import/self_intersections.h"
 #include "cad_import/unit_choice.h"
 
 namespace elbowroom::cad_import {
 namespace {
+
+// Triangles of a file; some 3 us each.
+constexpr std::int64_t kMostLookedThrough = 250'000;
 
 void Scale(RawScene& scene, double factor) {
   if (factor == 1.0) return;
@@ -27,7 +32,7 @@ void Scale(RawScene& scene, double factor) {
 
 CadShape ShapeOf(Body body) {
   CadShape shape{body.name, nullptr, {}, Heal(body.owned)};
-  shape.surface.deviation_mm = body.deviation;
+  body.owned.mesh.deviation_mm = body.deviation;
   const std::vector<std::uint32_t>& owners = body.owned.owner_of_triangle;
   for (auto begin = owners.begin(); begin != owners.end();) {
     const auto end = std::upper_bound(begin, owners.end(), *begin);
@@ -45,6 +50,23 @@ std::int64_t TriangleCount(const CadModel& model) {
   return count;
 }
 
+// Looked for in each shape once, unless there is too much to look through.
+void LookForSelfIntersections(CadModel& model) {
+  std::int64_t triangles = 0;
+  for (const CadShape& shape : model.shapes)
+    triangles += static_cast<std::int64_t>(shape.mesh->triangles.size());
+  const bool is_much = triangles > kMostLookedThrough;
+  tbb::parallel_for(std::size_t{0}, model.shapes.size(), [&](std::size_t i) {
+    CadShape& shape = model.shapes[i];
+    shape.surface.self_intersections =
+        is_much ? std::nullopt : std::optional(FindSelfIntersections(*shape.mesh).pairs);
+  });
+  if (is_much)
+    model.report.warnings.push_back(
+        fmt::format("{} triangles, more than {}: whether the surface runs through itself wasn't looked for",
+                    triangles, kMostLookedThrough));
+}
+
 void Report(CadModel& model, std::int64_t before) {
   ImportReport& report = model.report;
   report.triangles = TriangleCount(model);
@@ -57,13 +79,14 @@ void Report(CadModel& model, std::int64_t before) {
     for (const Eigen::Vector3d& vertex : shape.mesh->vertices_mm)
       report.bounds_mm.extend(instance.model_from_shape * vertex);
     report.watertight = report.watertight && shape.surface.watertight;
-    report.deviation_mm = std::max(report.deviation_mm, shape.surface.deviation_mm);
+    report.deviation_mm = std::max(report.deviation_mm, shape.mesh->deviation_mm);
     sum.dropped_duplicates += shape.surface.dropped_duplicates;
     sum.turned += shape.surface.turned;
     sum.kept_flat += shape.surface.kept_flat;
     sum.open_edges += shape.surface.open_edges;
     sum.non_manifold_edges += shape.surface.non_manifold_edges;
     sum.inconsistent_edges += shape.surface.inconsistent_edges;
+    if (shape.surface.self_intersections) *sum.self_intersections += *shape.surface.self_intersections;
   }
   report.repaired = report.dropped_triangles > 0 || sum.turned > 0;
   const auto warn = [&](std::int64_t count, const char* text) {
@@ -73,6 +96,10 @@ void Report(CadModel& model, std::int64_t before) {
   warn(sum.kept_flat, "{} triangles have no area but hold a closed surface together; they were kept");
   warn(sum.dropped_duplicates, "{} triangles that are there twice were dropped");
   warn(sum.turned, "{} triangles that faced inwards or against their neighbours were turned");
+  warn(*sum.self_intersections,
+       "the surface runs through itself: {} pairs of triangles cross or lie on each other; where bodies "
+       "overlap, "
+       "inside is told by counting surfaces, so containment there may be wrong");
   if (!report.watertight) {
     report.warnings.push_back(
         fmt::format("the surface isn't closed: {} open edges, {} edges of three or more triangles, {} "
@@ -122,6 +149,7 @@ CadModel Settle(RawScene scene, FileFormat format, const ImportOptions& options,
   for (CadInstance& instance : model.instances)
     if (!HasName(instance.path)) instance.path = stem;
   if (model.instances.empty()) core::ValidateMesh({}, where);
+  LookForSelfIntersections(model);
   Report(model, before);
   if (scene.left_out > 0)
     warnings.push_back(

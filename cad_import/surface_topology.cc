@@ -53,18 +53,6 @@ class ParityForest {
   std::vector<std::uint8_t> is_odd_;
 };
 
-bool IsSameEdge(const EdgeUse& a, const EdgeUse& b) { return a.low == b.low && a.high == b.high; }
-
-// Calls `visit` with the uses of each edge.
-void ForEachEdge(std::span<const EdgeUse> sorted, auto visit) {
-  for (std::size_t begin = 0; begin < sorted.size();) {
-    std::size_t end = begin + 1;
-    while (end < sorted.size() && IsSameEdge(sorted[begin], sorted[end])) ++end;
-    visit(sorted.subspan(begin, end - begin));
-    begin = end;
-  }
-}
-
 }  // namespace
 
 std::vector<EdgeUse> SortedEdgeUses(const core::TriangleMesh& mesh) {
@@ -91,12 +79,28 @@ std::vector<EdgeUse> SortedEdgeUses(const core::TriangleMesh& mesh) {
   return uses;
 }
 
+EdgeKind KindOf(std::span<const EdgeUse> edge) {
+  if (edge.size() == 1) return EdgeKind::kOpen;
+  if (edge.size() > 2) return EdgeKind::kNonManifold;
+  return edge[0].is_upward == edge[1].is_upward ? EdgeKind::kInconsistent : EdgeKind::kSound;
+}
+
 EdgeCounts CountEdges(std::span<const EdgeUse> sorted) {
   EdgeCounts counts;
   ForEachEdge(sorted, [&](std::span<const EdgeUse> edge) {
-    if (edge.size() == 1) ++counts.open;
-    if (edge.size() > 2) ++counts.non_manifold;
-    if (edge.size() == 2 && edge[0].is_upward == edge[1].is_upward) ++counts.inconsistent;
+    switch (KindOf(edge)) {
+      case EdgeKind::kSound:
+        break;
+      case EdgeKind::kOpen:
+        ++counts.open;
+        break;
+      case EdgeKind::kNonManifold:
+        ++counts.non_manifold;
+        break;
+      case EdgeKind::kInconsistent:
+        ++counts.inconsistent;
+        break;
+    }
   });
   return counts;
 }

@@ -20,10 +20,28 @@ struct EdgeUse {
 // All sides, those of one edge consecutive. No triangle may have two equal corners.
 [[nodiscard]] std::vector<EdgeUse> SortedEdgeUses(const core::TriangleMesh& mesh);
 
+// Calls `visit` with the uses of each edge, a span.
+void ForEachEdge(std::span<const EdgeUse> sorted, auto visit) {
+  for (std::size_t begin = 0; begin < sorted.size();) {
+    std::size_t end = begin + 1;
+    while (end < sorted.size() && sorted[begin].low == sorted[end].low &&
+           sorted[begin].high == sorted[end].high)
+      ++end;
+    visit(sorted.subspan(begin, end - begin));
+    begin = end;
+  }
+}
+
+enum class EdgeKind {
+  kSound,         // of two triangles that run along it opposite ways
+  kOpen,          // of one
+  kNonManifold,   // of three or more
+  kInconsistent,  // of two that run along it the same way
+};
+[[nodiscard]] EdgeKind KindOf(std::span<const EdgeUse> edge);
+
 struct EdgeCounts {
-  std::int64_t open = 0;          // of one triangle
-  std::int64_t non_manifold = 0;  // of three or more
-  std::int64_t inconsistent = 0;  // of two that run along it the same way
+  std::int64_t open = 0, non_manifold = 0, inconsistent = 0;
   [[nodiscard]] bool are_closed() const { return open == 0 && non_manifold == 0 && inconsistent == 0; }
 };
 [[nodiscard]] EdgeCounts CountEdges(std::span<const EdgeUse> sorted);

@@ -16,7 +16,8 @@ struct ClearanceInterval {
 
 // Of one part to the hull in one frame.
 struct PartClearance {
-  ClearanceInterval interval;  // both 0: they meet; both infinite: the hull has no points
+  // Where they meet, from 0 to the mesh's deviation; both infinite: the hull has no points.
+  ClearanceInterval interval;
   bool has_witnesses = false;  // the interval's, of its upper bound
   std::int64_t queries = 0;    // of the hull
 };

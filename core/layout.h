@@ -18,10 +18,10 @@
 namespace elbowroom::core {
 
 struct Part {
-  std::string name;  // unique in its layout
-  std::string file;  // as written in LAYOUT.toml; empty for a part made by the program
-  LengthUnit unit = LengthUnit::kMillimetre;  // of the file; the mesh is in millimetres
-  SharedMesh mesh;
+  std::string name;                // unique in its layout
+  std::string file;                // as written in LAYOUT.toml; empty for a part made by the program
+  std::optional<LengthUnit> unit = {};  // that its file is to be read in; nothing: as the file or the layout says
+  SharedMesh mesh;                 // in millimetres
   RigidTransform world_from_part;  // as authored, before spacings
   RecoveryRule recovery = {};      // which way it gives way to the hull
   GivesWay gives_way = {};         // whether and how it does; by default not at all

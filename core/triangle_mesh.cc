@@ -4,6 +4,7 @@
 #include <xxhash.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/error.h"
 
@@ -20,6 +21,10 @@ void ValidateMesh(const TriangleMesh& mesh, const std::string& where) {
           ErrorKind::kGeometry,
           fmt::format("{}: vertex {} is not a finite point; repair the mesh before importing it", where, i));
     }
+  }
+  if (!(mesh.deviation_mm >= 0.0 && std::isfinite(mesh.deviation_mm))) {
+    throw Error(ErrorKind::kGeometry, fmt::format("{}: a deviation of {} mm is no length; import it again",
+                                                  where, mesh.deviation_mm));
   }
   const auto count = static_cast<std::int64_t>(mesh.vertices_mm.size());
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
@@ -94,6 +99,7 @@ void Append(TriangleMesh& mesh, const TriangleMesh& addition) {
   mesh.vertices_mm.insert(mesh.vertices_mm.end(), addition.vertices_mm.begin(), addition.vertices_mm.end());
   for (const auto& [a, b, c] : addition.triangles)
     mesh.triangles.push_back({a + offset, b + offset, c + offset});
+  mesh.deviation_mm = std::max(mesh.deviation_mm, addition.deviation_mm);
 }
 
 std::string ContentHash(const TriangleMesh& mesh) {
@@ -102,6 +108,7 @@ std::string ContentHash(const TriangleMesh& mesh) {
   XXH3_128bits_reset(state);
   XXH3_128bits_update(state, mesh.vertices_mm.data(), mesh.vertices_mm.size() * sizeof(Eigen::Vector3d));
   XXH3_128bits_update(state, mesh.triangles.data(), mesh.triangles.size() * sizeof(mesh.triangles[0]));
+  if (mesh.deviation_mm > 0.0) XXH3_128bits_update(state, &mesh.deviation_mm, sizeof mesh.deviation_mm);
   const XXH128_hash_t hash = XXH3_128bits_digest(state);
   XXH3_freeState(state);
   return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);

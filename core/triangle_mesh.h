@@ -17,13 +17,17 @@ namespace elbowroom::core {
 struct TriangleMesh {
   std::vector<Eigen::Vector3d> vertices_mm;
   std::vector<std::array<std::int32_t, 3>> triangles;
+  // How far a point of the surface that it stands for may be from it, and a point of it from that surface:
+  // what tessellation cost. 0: it is the surface itself.
+  double deviation_mm = 0.0;
 
   [[nodiscard]] bool operator==(const TriangleMesh&) const = default;
 };
 
 using SharedMesh = std::shared_ptr<const TriangleMesh>;
 
-// Throws: Error{kGeometry} naming `where`: no triangles, a vertex that is not finite, an index out of range.
+// Throws: Error{kGeometry} naming `where`: no triangles, a vertex that is not finite, an index out of range,
+// a deviation that is no length.
 void ValidateMesh(const TriangleMesh& mesh, const std::string& where);
 
 [[nodiscard]] Eigen::AlignedBox3d BoundsOf(const TriangleMesh& mesh);
@@ -38,11 +42,11 @@ void ValidateMesh(const TriangleMesh& mesh, const std::string& where);
 
 [[nodiscard]] TriangleMesh Transformed(const TriangleMesh& mesh, const RigidTransform& b_from_a);
 
-// Appends `addition` to `mesh`, indices shifted.
+// Appends `addition` to `mesh`, indices shifted; the larger deviation is that of both.
 void Append(TriangleMesh& mesh, const TriangleMesh& addition);
 
-// 128-bit content hash (XXH3) of vertices and triangles, 32 hex digits: equal meshes share a row in a
-// session.
+// 128-bit content hash (XXH3) of vertices, triangles and a deviation above 0, 32 hex digits: equal meshes
+// share a row in a session.
 [[nodiscard]] std::string ContentHash(const TriangleMesh& mesh);
 
 }  // namespace elbowroom::core

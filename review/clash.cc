@@ -43,8 +43,10 @@ core::Verdict VerdictOf(const PairClash& pair) {
   const double distance_mm = pair.gap->distance_mm, uncertainty_mm = pair.uncertainty_mm;
   if (pair.contained)
     return distance_mm > uncertainty_mm ? core::Verdict::kContact : core::Verdict::kUndecided;
-  const core::Verdict nearest = VerdictAt(distance_mm - uncertainty_mm, pair.demand.required_mm);
-  const core::Verdict farthest = VerdictAt(distance_mm + uncertainty_mm, pair.demand.required_mm);
+  if (distance_mm <= kTouchMm && uncertainty_mm == 0.0) return core::Verdict::kContact;
+  const double off_mm = uncertainty_mm + pair.deviation_mm;
+  const core::Verdict nearest = VerdictAt(distance_mm - off_mm, pair.demand.required_mm);
+  const core::Verdict farthest = VerdictAt(distance_mm + off_mm, pair.demand.required_mm);
   return nearest == farthest ? nearest : core::Verdict::kUndecided;
 }
 
@@ -96,9 +98,11 @@ PairClash ClashChecker::Ask(const PairDemand& demand, const std::vector<Part>& p
   PairClash pair;
   pair.demand = demand;
   pair.uncertainty_mm = a.uncertainty_mm + b.uncertainty_mm;
+  pair.deviation_mm = a.model->tree().mesh().deviation_mm + b.model->tree().mesh().deviation_mm;
   pair.at_least_mm = std::sqrt(a.bounds_in_world.squaredExteriorDistance(b.bounds_in_world));
   const auto is_clear = [&] {
-    return VerdictAt(pair.at_least_mm - pair.uncertainty_mm, demand.required_mm) == core::Verdict::kClear;
+    const double off_mm = pair.uncertainty_mm + pair.deviation_mm;
+    return VerdictAt(pair.at_least_mm - off_mm, demand.required_mm) == core::Verdict::kClear;
   };
   std::optional<SurfacePair> surfaces;
   if (!is_clear()) {

@@ -30,7 +30,8 @@ struct PairClash {
   // that the pair is clear.
   std::optional<SurfaceGap> gap;
   double at_least_mm = 0.0;     // the distance is no less: the gap, or what lies between the bounds
-  double uncertainty_mm = 0.0;  // of both surfaces together
+  double uncertainty_mm = 0.0;  // of both parts together, as given
+  double deviation_mm = 0.0;    // of both meshes together: the true distance is the gap, less or more this
   bool contained = false;       // a piece of one is inside the other, a closed one, without touching it
 };
 
@@ -50,14 +51,15 @@ struct ClashReport {
 
 // `contact` where surfaces are within kTouchMm or a piece of one part is inside the other, `near` below the
 // required clearance, else `clear`; `undecided` where the distance less and plus the uncertainty of both
-// surfaces would be judged differently. Distance and witness points are exact but for rounding. Held to brute
+// parts and the deviation of both meshes would be judged differently; meshes that meet are in contact however
+// well they stand for their surfaces. Distance and witness points are exact but for rounding. Held to brute
 // force in long double by tests/review/clash_test.cc, and on real CAD by shared_clash_test.cc.
 // Limits: an open part contains nothing; how deep surfaces that meet overlap isn't asked (FCL's figure for
 // meshes isn't that depth), so parts with an uncertainty that merely meet are `undecided`.
 // Keeps FCL's models, one a mesh however many parts share it, and the last answers. Thread: one.
 class ClashChecker {
  public:
-  // uncertainty_mm: how far each part's true surface may lie from its mesh; empty: 0 for all. The pairs are
+  // uncertainty_mm: how far each part may be from its CAD surface; empty: 0 for all. The pairs are
   // the layout's. Throws: core::PreconditionError for another number of them or a part without triangles.
   ClashChecker(const core::Layout& layout, std::vector<PairDemand> pairs,
                std::vector<double> uncertainty_mm = {});

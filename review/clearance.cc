@@ -250,6 +250,7 @@ class Search {
     }
     result.interval = {std::min(lower_mm, upper_mm_), upper_mm_, witness_part_in_world_,
                        witness_hull_in_world_};
+    result.meets = upper_mm_ == 0.0;
     result.queries = queries_;
     result.distances = distances_;
     result.cells_left = static_cast<std::int64_t>(cells_.size());
@@ -273,6 +274,14 @@ class Search {
   std::int64_t cut_cells_ = 0;
 };
 
+// Of a mesh's distances to those of the surface that it stands for.
+Clearance WithDeviation(Clearance clearance, double deviation_mm) {
+  core::ClearanceInterval& interval = clearance.interval;
+  interval.lower_mm = std::max(interval.lower_mm - deviation_mm, 0.0);
+  interval.upper_mm += deviation_mm;
+  return clearance;
+}
+
 }  // namespace
 
 void ClearanceOptions::Validate() const {
@@ -292,20 +301,24 @@ Clearance FindClearance(const recon::VisualHull& hull, const core::TriangleTree&
   Clearance nothing;
   nothing.interval.lower_mm = kInfinity;
   if (part.nodes().empty() || hull.IsEmpty()) return nothing;
-  if (std::isfinite(options.enough_mm)) {
+  const double deviation_mm = part.mesh().deviation_mm;
+  ClearanceOptions of_mesh = options;
+  of_mesh.enough_mm += deviation_mm;
+  if (std::isfinite(of_mesh.enough_mm)) {
     const core::Ball& ball = part.nodes()[0].ball;
     nothing.queries = 1;
-    if (hull.Classify(world_from_part * ball.center, ball.radius_mm + options.enough_mm) ==
+    if (hull.Classify(world_from_part * ball.center, ball.radius_mm + of_mesh.enough_mm) ==
         BallAnswer::kOutside) {
       nothing.interval.lower_mm = options.enough_mm;
       return nothing;
     }
   }
-  return Search(hull, part, world_from_part, options).Run(hint);
+  return WithDeviation(Search(hull, part, world_from_part, of_mesh).Run(hint), deviation_mm);
 }
 
-core::Verdict Judge(const core::ClearanceInterval& interval, double required_mm, double uncertainty_mm) {
-  if (interval.upper_mm == 0.0) return core::Verdict::kContact;
+core::Verdict Judge(const Clearance& clearance, double required_mm, double uncertainty_mm) {
+  const core::ClearanceInterval& interval = clearance.interval;
+  if (clearance.meets) return core::Verdict::kContact;
   if (interval.lower_mm - uncertainty_mm >= required_mm) return core::Verdict::kClear;
   if (interval.upper_mm + uncertainty_mm < required_mm) return core::Verdict::kNear;
   return core::Verdict::kUndecided;

@@ -26,8 +26,9 @@ struct ClearanceOptions {
 };
 
 struct Clearance {
-  // Both infinite when the hull has no points; both 0 when hull and part meet.
+  // Both infinite when the hull has no points; when hull and part meet, from 0 to the mesh's deviation.
   core::ClearanceInterval interval;
+  bool meets = false;           // the hull and the part's mesh
   bool has_witnesses = false;   // interval's: of the upper bound
   std::int64_t queries = 0;     // of the hull
   std::int64_t distances = 0;   // of a point to the part
@@ -43,17 +44,17 @@ struct ClearanceHint {
 
 // Distance from the part's surface to the hull's nearest point, by branch and bound over cells of space
 // (docs/clearance.md): lower <= distance <= upper always, upper - lower <= tolerance unless the queries ran
-// out or the hull is thinner there than the smallest cells can tell. A hull that stands inside a closed part
-// is distance 0. The hint changes the work, not the bounds' truth. Held to an oracle by clearance_test.
+// out or the hull is thinner there than the smallest cells can tell. Both are of the surface that the mesh
+// stands for, and so further apart by the mesh's deviation on either side. A hull that stands inside a closed
+// part meets it. The hint changes the work, not the bounds' truth. Held to an oracle by clearance_test.
 // Thread: any.
 [[nodiscard]] Clearance FindClearance(const recon::VisualHull& hull, const core::TriangleTree& part,
                                       const core::RigidTransform& world_from_part,
                                       const ClearanceOptions& options = {},
                                       const std::optional<ClearanceHint>& hint = {});
 
-// The verdict of a required clearance, the bounds being good to `uncertainty_mm` (the rig's, the part's):
-// `near` and `clear` only where that can't change it.
-[[nodiscard]] core::Verdict Judge(const core::ClearanceInterval& interval, double required_mm,
-                                  double uncertainty_mm);
+// The verdict of a required clearance, the bounds being good to `uncertainty_mm` (the rig's): `near` and
+// `clear` only where that can't change it. Where hull and mesh meet: `contact`.
+[[nodiscard]] core::Verdict Judge(const Clearance& clearance, double required_mm, double uncertainty_mm);
 
 }  // namespace elbowroom::review

@@ -10,9 +10,9 @@ namespace elbowroom::review {
 namespace {
 
 // Hull and part meet: at the deepest point, or where the hull stands in the part.
-core::PartClearance Meeting(const core::PartContact& contact) {
+core::PartClearance Meeting(const core::PartContact& contact, double deviation_mm) {
   core::PartClearance clearance;
-  clearance.interval.upper_mm = 0.0;
+  clearance.interval.upper_mm = deviation_mm;
   const auto at =
       contact.deepest ? std::optional(contact.deepest->position_in_world_mm) : contact.contained_in_world_mm;
   clearance.has_witnesses = at.has_value();
@@ -45,7 +45,7 @@ core::PartContact ReviewPart(const recon::VisualHull& hull, const core::Triangle
   core::PartContact contact = FindContacts(hull, part, world_from_part, part_index, options.contacts, inside);
   if (!(options.required_clearance_mm > 0.0)) return contact;
   if (contact.verdict == core::Verdict::kContact) {
-    contact.clearance = Meeting(contact);
+    contact.clearance = Meeting(contact, part.mesh().deviation_mm);
     return contact;
   }
   ClearanceOptions clearance_options;
@@ -53,7 +53,7 @@ core::PartContact ReviewPart(const recon::VisualHull& hull, const core::Triangle
   clearance_options.enough_mm = options.EnoughMm();
   const Clearance found = FindClearance(hull, part, world_from_part, clearance_options, hint);
   contact.clearance = core::PartClearance{found.interval, found.has_witnesses, found.queries};
-  contact.verdict = Judge(found.interval, options.required_clearance_mm, options.uncertainty_mm);
+  contact.verdict = Judge(found, options.required_clearance_mm, options.uncertainty_mm);
   return contact;
 }
 

@@ -16,7 +16,7 @@ namespace elbowroom::review {
 struct PartReviewOptions {
   ContactOptions contacts;
   double required_clearance_mm = 0.0;  // of the part to the hull; 0: only contact is judged
-  double uncertainty_mm = 0.0;         // of rig and part: what `near` and `clear` allow for
+  double uncertainty_mm = 0.0;         // of the rig: what `near` and `clear` allow for
   double tolerance_mm = 1.0;           // between a clearance's bounds
 
   // Throws: core::Error{kRange} naming the option.
@@ -26,11 +26,11 @@ struct PartReviewOptions {
   [[nodiscard]] double EnoughMm() const;
 };
 
-// FindContacts and, where a clearance is required, bounds of it: 0 without a search where there is contact;
-// else FindClearance as far as EnoughMm(). The verdict is Judge's. Meeting in less than the contacts'
-// resolution is `contact` too, without points. The hint changes the work, and where in the tolerance the
-// bounds fall; `inside`: as FindContacts. Held to FindContacts and FindClearance by part_review_test. Thread:
-// any.
+// FindContacts and, where a clearance is required, bounds of it: 0 to the mesh's deviation without a search
+// where there is contact; else FindClearance as far as EnoughMm(). The verdict is Judge's. Meeting in less
+// than the contacts' resolution is `contact` too, without points. The hint changes the work, and where in the
+// tolerance the bounds fall; `inside`: as FindContacts. Held to FindContacts and FindClearance by
+// part_review_test. Thread: any.
 [[nodiscard]] core::PartContact ReviewPart(const recon::VisualHull& hull, const core::TriangleTree& part,
                                            const core::RigidTransform& world_from_part,
                                            core::PartIndex part_index, const PartReviewOptions& options,

@@ -151,8 +151,8 @@ class Study {
         far_mm = std::max(far_mm, EnoughMm(part, step - i) + (steps_mm_[step] - steps_mm_[step - i]));
       if (!std::isfinite(far_mm) || !(far_mm > 0.0)) continue;
       ++answer.queries;
-      if (hull.Classify(world_from_part * ball.center, ball.radius_mm + far_mm) != BallAnswer::kOutside)
-        continue;
+      const double reach_mm = ball.radius_mm + trees_[part].mesh().deviation_mm + far_mm;
+      if (hull.Classify(world_from_part * ball.center, reach_mm) != BallAnswer::kOutside) continue;
       answer.lower_mm = far_mm;
       break;
     }
@@ -170,7 +170,7 @@ class Study {
     answer.verdict = contact.verdict;
     if (contact.verdict == core::Verdict::kContact) {
       answer.depth_mm = contact.deepest ? contact.deepest->depth_mm : 0.0;
-      answer.upper_mm = 0.0;
+      answer.upper_mm = trees_[part].mesh().deviation_mm;
       return answer;
     }
     if (enough_mm <= 0.0) return answer;
@@ -181,8 +181,7 @@ class Study {
     answer.queries += clearance.queries;
     answer.lower_mm = clearance.interval.lower_mm;
     answer.upper_mm = clearance.interval.upper_mm;
-    answer.verdict =
-        Judge(clearance.interval, options_.review.required_clearance_mm, options_.review.uncertainty_mm);
+    answer.verdict = Judge(clearance, options_.review.required_clearance_mm, options_.review.uncertainty_mm);
     if (clearance.has_witnesses)
       *hint = ClearanceHint{world_from_part.Inverse() * clearance.interval.witness_part_in_world_mm,
                             clearance.interval.witness_hull_in_world_mm};
@@ -282,7 +281,7 @@ class Study {
         const Answer answer = Ask(*frame.hull, part, poses[part], tolerance_mm, tolerance_mm, &hint);
         ++result_.count.asked;
         result_.count.queries += answer.queries;
-        if (answer.upper_mm == 0.0) return Freedom::kTouched;
+        if (answer.verdict == core::Verdict::kContact) return Freedom::kTouched;
         if (answer.lower_mm > 0.0) of_part = Freedom::kFree;
       }
       if (of_part == Freedom::kUndecided) freedom = of_part;

@@ -39,21 +39,22 @@ core::RecoveryRule ReadRecoveryRule(const Statement& row, int first_column, cons
 
 void InsertParts(Database& database, const std::vector<core::Part>& parts) {
   Compressor compressor;
-  Statement insert_mesh(database, "INSERT INTO mesh VALUES (?, ?, ?, ?, ?) ON CONFLICT DO NOTHING");
-  Statement insert_part(database, "INSERT INTO part VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+  Statement insert_mesh(database, "INSERT INTO mesh VALUES (?, ?, ?, ?, ?, ?) ON CONFLICT DO NOTHING");
+  Statement insert_part(database, "INSERT INTO part VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
   for (core::PartIndex i = 0; i < parts.size(); ++i) {
     const core::Part& part = parts[i];
     const std::string hash = core::ContentHash(*part.mesh);
     const PackedMesh packed = Pack(*part.mesh, compressor);
     insert_mesh
         .With(hash, part.mesh->vertices_mm.size(), part.mesh->triangles.size(), packed.vertices_mm_zstd,
-              packed.triangles_zstd)
+              packed.triangles_zstd, part.mesh->deviation_mm)
         .Run();
     insert_part
-        .With(i, part.name, part.file, core::ToString(part.unit), hash,
-              JsonFrom(part.world_from_part.rotation), JsonFrom(part.world_from_part.translation_mm),
+        .With(i, part.name, part.file, core::ToString(part.unit.value_or(core::LengthUnit::kMillimetre)),
+              hash, JsonFrom(part.world_from_part.rotation), JsonFrom(part.world_from_part.translation_mm),
               core::ToString(part.recovery.kind), JsonOrNull(part.recovery.reference_in_part_mm),
-              JsonOrNull(part.recovery.axis_in_part), JsonOrNull(part.recovery.at_in_part_mm))
+              JsonOrNull(part.recovery.axis_in_part), JsonOrNull(part.recovery.at_in_part_mm),
+              part.unit ? "part" : "file")
         .Run();
   }
 }
@@ -64,6 +65,7 @@ core::SharedMesh ReadMesh(const Statement& row, const std::string& path) {
   auto mesh = std::make_shared<core::TriangleMesh>(
       UnpackMesh(row.Bytes(3), static_cast<std::size_t>(row.Integer(1)), row.Bytes(4),
                  static_cast<std::size_t>(row.Integer(2)), where));
+  mesh->deviation_mm = row.Real(5);
   if (core::ContentHash(*mesh) != hash) {
     throw Error(ErrorKind::kFormat,
                 where + ": it doesn't match its checksum; the file is damaged, restore it from a copy");
@@ -72,8 +74,9 @@ core::SharedMesh ReadMesh(const Statement& row, const std::string& path) {
 }
 
 std::map<std::string, core::SharedMesh> ReadMeshes(Database& database) {
-  Statement rows(
-      database, "SELECT mesh_hash, vertex_count, triangle_count, vertices_mm_zstd, triangles_zstd FROM mesh");
+  Statement rows(database,
+                 "SELECT mesh_hash, vertex_count, triangle_count, vertices_mm_zstd, triangles_zstd, "
+                 "deviation_mm FROM mesh");
   std::map<std::string, core::SharedMesh> meshes;
   while (rows.Next()) meshes.emplace(rows.Text(0), ReadMesh(rows, database.path().string()));
   return meshes;
@@ -83,14 +86,14 @@ std::vector<core::Part> ReadParts(Database& database) {
   const std::map<std::string, core::SharedMesh> meshes = ReadMeshes(database);
   Statement rows(database,
                  "SELECT name, file, unit, mesh_hash, rotation_world_from_part, position_mm, "
-                 "recovery, reference_mm, recovery_axis, recovery_at_mm FROM part "
+                 "recovery, reference_mm, recovery_axis, recovery_at_mm, unit_of FROM part "
                  "ORDER BY part_index");
   std::vector<core::Part> parts;
   while (rows.Next()) {
     core::Part part;
     part.name = rows.Text(0);
     part.file = rows.Text(1);
-    part.unit = UnitFromText(rows.Text(2), database);
+    if (rows.Text(10) == "part") part.unit = UnitFromText(rows.Text(2), database);
     const std::string where = fmt::format("session '{}', part '{}'", database.path().string(), part.name);
     const auto mesh = meshes.find(rows.Text(3));
     if (mesh == meshes.end())

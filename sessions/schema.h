@@ -9,7 +9,7 @@
 namespace elbowroom::sessions {
 
 inline constexpr std::int64_t kApplicationId = 0x456C6277;  // "Elbw" in the file's header
-inline constexpr std::int64_t kSchemaVersion = 4;
+inline constexpr std::int64_t kSchemaVersion = 5;
 
 // The SQL that leads from schema 0, an empty file, to schema 1.
 [[nodiscard]] std::string Schema1Sql();
@@ -23,6 +23,9 @@ inline constexpr std::int64_t kSchemaVersion = 4;
 
 // From schema 3 to schema 4: what gives way or flows, and where parts were pushed; pairs that are ignored.
 [[nodiscard]] std::string Schema4Sql();
+
+// From schema 4 to schema 5: what tessellation cost a mesh; parts in the unit that their file itself names.
+[[nodiscard]] std::string Schema5Sql();
 
 // Brings the open transaction's database to kSchemaVersion by the migrations that it lacks, in order.
 void Migrate(Database& database);

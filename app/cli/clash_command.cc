@@ -53,6 +53,7 @@ nlohmann::json Json(const PairClash& pair, const core::Layout& layout) {
                          {"at_least_mm", pair.at_least_mm},
                          {"required_mm", pair.demand.required_mm},
                          {"uncertainty_mm", pair.uncertainty_mm},
+                         {"deviation_mm", pair.deviation_mm},
                          {"witness_a_mm", nullptr},
                          {"witness_b_mm", nullptr},
                          {"contained", pair.contained},

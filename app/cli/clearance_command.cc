@@ -37,13 +37,15 @@ nlohmann::json Json(const review::Clearance& clearance) {
           {"upper_mm", OrNull(interval.upper_mm)},
           {"witness_part_mm", witness(interval.witness_part_in_world_mm)},
           {"witness_hull_mm", witness(interval.witness_hull_in_world_mm)},
+          {"meets", clearance.meets},
           {"queries", clearance.queries},
           {"distances", clearance.distances},
           {"cells_left", clearance.cells_left}};
 }
 
-std::string TextOf(const core::ClearanceInterval& interval) {
-  if (interval.upper_mm == 0.0) return "contact: part and hull meet";
+std::string TextOf(const review::Clearance& clearance) {
+  const core::ClearanceInterval& interval = clearance.interval;
+  if (clearance.meets) return "contact: part and hull meet";
   if (std::isinf(interval.lower_mm)) return "clear: the hull has no points in this frame";
   if (std::isinf(interval.upper_mm)) return fmt::format("at least {:.3f} mm", interval.lower_mm);
   return fmt::format("{:.3f} to {:.3f} mm", interval.lower_mm, interval.upper_mm);
@@ -63,11 +65,11 @@ CommandResult Run(const ClearanceCommandOptions& options, const CommandContext& 
   CommandResult result;
   const double time_ms = ComputeAndTimeMs(json, compute);
   result.json = Json(clearance);
+  result.json["deviation_mm"] = posed.mesh->deviation_mm;
   result.json["time_ms"] = time_ms;
-  result.text = TextOf(clearance.interval);
+  result.text = TextOf(clearance);
   if (options.required_mm) {
-    const core::Verdict verdict =
-        review::Judge(clearance.interval, *options.required_mm, options.uncertainty_mm);
+    const core::Verdict verdict = review::Judge(clearance, *options.required_mm, options.uncertainty_mm);
     result.json["verdict"] = ToString(verdict);
     result.json["required_mm"] = *options.required_mm;
     result.text += fmt::format("; {} mm required: {}", *options.required_mm, ToString(verdict));

@@ -80,6 +80,7 @@ CommandResult Run(const ContactsOptions& options, const CommandContext& context,
       FindWayOut(hull, part, posed.world_from_part, options.recovery, contact, options.silhouette_px);
   result.json = Json(contact);
   AddWayOut(contact, way_out, &result.json);
+  result.json["deviation_mm"] = posed.mesh->deviation_mm;
   result.json["time_ms"] = time_ms;
   result.text = contact.verdict == core::Verdict::kContact
                     ? fmt::format("contact: {} points, {:.1f} mm2, at least {:.2f} mm deep",

@@ -1,4 +1,4 @@
-// elbowroom import FILE: what a mesh file holds, and the same mesh in another format.
+// elbowroom import FILE: what a CAD file holds, what is wrong with it, and the same model in another format.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -8,7 +8,12 @@
 
 #include "app/cli/command.h"
 #include "app/cli/unit_option.h"
+#include "app/control/import_picture.h"
+#include "cad_import/cad_file.h"
 #include "cad_import/mesh_file.h"
+#include "cad_import/surface_defects.h"
+#include "recon/gl/scene_renderer.h"
+#include "recon/png_file.h"
 
 namespace elbowroom::cli {
 namespace {
@@ -17,13 +22,20 @@ struct ImportCommandOptions {
   std::filesystem::path file;
   cad_import::ImportOptions import;
   std::filesystem::path out;
+  std::filesystem::path picture;
 };
 
+void WritePicture(const cad_import::CadModel& model, const std::filesystem::path& path) {
+  recon::gl::SceneRenderer renderer;
+  recon::WritePng(control::ImportPicture(renderer, model, cad_import::FindDefects(model)), path);
+}
+
 CommandResult Run(const ImportCommandOptions& options, const CommandContext& context) {
-  const cad_import::ImportedMesh imported =
-      cad_import::ImportMeshFile(options.file, options.import, context.progress, context.stop);
-  const cad_import::ImportReport& report = imported.report;
-  if (!options.out.empty()) cad_import::WriteMeshFile(*imported.mesh, options.out);
+  const cad_import::CadModel model =
+      cad_import::ImportCadFile(options.file, options.import, context.progress, context.stop);
+  const cad_import::ImportReport& report = model.report;
+  if (!options.out.empty()) cad_import::WriteModelFile(model, options.out);
+  if (!options.picture.empty()) WritePicture(model, options.picture);
   const Eigen::Vector3d low = report.bounds_mm.min(), high = report.bounds_mm.max();
   CommandResult result;
   result.json = {{"parts", report.parts},
@@ -69,7 +81,10 @@ void AddImportCommand(CLI::App& app, Choice* choice) {
       ->add_option("--time-s", options->import.limits.time_s,
                    "time that reading the file may take (default: 120)")
       ->check(CLI::Range(0.1, 86'400.0));
-  command->add_option("--out", options->out, "write the mesh (.glb, .ply, .stl)");
+  command->add_option("--out", options->out,
+                      "write the model: .glb with parts, names and colours; .ply, .stl as one mesh");
+  command->add_option("--picture", options->picture,
+                      "write a picture of the parts, with open edges and other defects drawn over it (.png)");
   command->callback(
       [=] { choice->action = [=](const CommandContext& context) { return Run(*options, context); }; });
 }

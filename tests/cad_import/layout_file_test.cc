@@ -126,11 +126,11 @@ TEST_F(LayoutFile, APartsUnitGoesBeforeItsFilesAndThatBeforeTheLayouts) {
   const auto size_mm = [&](std::size_t i) -> Eigen::Vector3d {
     return core::BoundsOf(*layout.parts[i].mesh).sizes();
   };
-  EXPECT_EQ(layout.parts[0].unit, LengthUnit::kCentimetre);
+  EXPECT_EQ(layout.parts[0].unit, std::nullopt) << "the layout's";
   EXPECT_TRUE(size_mm(0).isApprox(Eigen::Vector3d(10, 20, 30)));
   EXPECT_EQ(layout.parts[1].unit, LengthUnit::kInch);
   EXPECT_TRUE(size_mm(1).isApprox(Eigen::Vector3d(25.4, 50.8, 76.2)));
-  EXPECT_EQ(layout.parts[2].unit, LengthUnit::kMetre);
+  EXPECT_EQ(layout.parts[2].unit, std::nullopt) << "its file's";
   EXPECT_TRUE(size_mm(2).isApprox(Eigen::Vector3d(100, 200, 300), 1e-6));  // a file of floats
 }
 

@@ -395,6 +395,17 @@ TEST_F(MeshFile, NodesInACircleAreAnError) {
   EXPECT_TRUE(Mentions(FormatError("shared.glb", testing::Glb(shared)), "two parents"));
 }
 
+TEST_F(MeshFile, ASurfaceThatRunsThroughItselfIsTold) {
+  TriangleMesh boxes = Box({10, 10, 10});
+  core::Append(boxes, core::Transformed(boxes, {Eigen::Matrix3d::Identity(), {5, 5, 5}}));
+  WriteMeshFile(boxes, folder_ / "boxes.stl");
+  const ImportReport report = ImportHere(folder_ / "boxes.stl", {.unit = LengthUnit::kMillimetre}).report;
+  EXPECT_TRUE(report.watertight);
+  ASSERT_EQ(report.warnings.size(), 1U);
+  EXPECT_TRUE(Mentions(report.warnings[0], "pairs of triangles cross or lie on each other"))
+      << report.warnings[0];
+}
+
 TEST_F(MeshFile, GarbageIsAnErrorAndSaysNothingOnTheTerminal) {
   ::testing::internal::CaptureStderr();
   ::testing::internal::CaptureStdout();

@@ -1,11 +1,14 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <iterator>
 #include <limits>
+#include <memory>
 
+#include "cad_import/cad_file.h"
 #include "cad_import/mesh_file.h"
 #include "core/error.h"
 #include "tests/cad_import/error_of.h"
@@ -105,6 +108,77 @@ TEST(WriteMeshFile, OtherExtensionsAreRefused) {
   for (const char* name : {"a.obj", "a.gltf", "a.step", "a"}) {
     EXPECT_THROW(WriteMeshFile(core::testing::Box({1, 1, 1}), folder / name), core::Error);
   }
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
+// Two shapes, one of them in three places and two colours, in groups.
+CadModel Rack() {
+  CadModel model;
+  const auto add_shape = [&](const char* name, const TriangleMesh& mesh) {
+    model.shapes.push_back({name, std::make_shared<const TriangleMesh>(mesh), {}, {}});
+  };
+  add_shape("bolt", core::testing::Box({5, 5, 20}));
+  add_shape("plate", core::testing::Box({200, 100, 3}));
+  const ColorRgb steel{0.5F, 0.5F, 0.6F}, red{1.0F, 0.0F, 0.25F};
+  const Eigen::Matrix3d turn =
+      Eigen::AngleAxisd(0.5, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
+  model.instances = {{"rack/plate", 1, {}, steel},
+                     {"rack/bolts/left", 0, {turn, {10, 20, 30}}, steel},
+                     {"rack/bolts/right", 0, {turn, {150, 20, 30}}, steel},
+                     {"rack/spare", 0, {Eigen::Matrix3d::Identity(), {0, 0, 500}}, red}};
+  return model;
+}
+
+TEST(WriteModelFile, GlbKeepsShapesInstancesPathsAndColours) {
+  const test_support::TemporaryFolder folder;
+  const CadModel model = Rack();
+  WriteModelFile(model, folder / "rack.glb");
+  const CadModel back = ImportCadFile(folder / "rack.glb");
+  ASSERT_EQ(back.instances.size(), 4U);
+  EXPECT_EQ(back.shapes.size(), 3U) << "a shape for each of its colours";
+  EXPECT_EQ(back.instances[1].shape, back.instances[2].shape);
+  for (const CadInstance& want : model.instances) {
+    SCOPED_TRACE(want.path);
+    const auto got = std::ranges::find(back.instances, want.path, &CadInstance::path);
+    ASSERT_NE(got, back.instances.end());
+    const double off_mm =
+        (got->model_from_shape.translation_mm - want.model_from_shape.translation_mm).norm();
+    EXPECT_LT(off_mm, 500.0 * kSinglePrecision);
+    EXPECT_LT((got->model_from_shape.rotation - want.model_from_shape.rotation).norm(), 1e-6);
+    ASSERT_TRUE(got->color);
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR((*got->color)[i], (*want.color)[i], 1e-5);
+    EXPECT_EQ(back.shapes[got->shape].mesh->triangles.size(),
+              model.shapes[want.shape].mesh->triangles.size());
+  }
+  const core::SharedMesh flat = Flatten(model).mesh, flat_back = Flatten(back).mesh;
+  EXPECT_TRUE(core::BoundsOf(*flat_back).isApprox(core::BoundsOf(*flat), 1e-6));
+}
+
+TEST(WriteModelFile, PathsWithoutACommonRootAreBelowTheFilesName) {
+  const test_support::TemporaryFolder folder;
+  CadModel model = Rack();
+  model.instances = {{"left", 0, {}, std::nullopt}, {"group/right", 0, {}, std::nullopt}};
+  WriteModelFile(model, folder / "pair.glb");
+  const CadModel back = ImportCadFile(folder / "pair.glb");
+  ASSERT_EQ(back.instances.size(), 2U);
+  EXPECT_EQ(back.instances[0].path, "pair/left");
+  EXPECT_EQ(back.instances[1].path, "pair/group/right");
+}
+
+TEST(WriteModelFile, OtherFormatsHoldAllInstancesInOneMesh) {
+  const test_support::TemporaryFolder folder;
+  const CadModel model = Rack();
+  WriteModelFile(model, folder / "rack.stl");
+  const ImportedMesh back = ImportMeshFile(folder / "rack.stl", {.unit = LengthUnit::kMillimetre});
+  EXPECT_EQ(back.report.triangles, 48);
+  EXPECT_TRUE(back.report.bounds_mm.isApprox(core::BoundsOf(*Flatten(model).mesh), 1e-6));
+}
+
+TEST(WriteModelFile, NothingLeavesNoFile) {
+  const test_support::TemporaryFolder folder;
+  for (const char* name : {"nothing.glb", "nothing.stl"})
+    EXPECT_TRUE(
+        Mentions(ErrorOf(ErrorKind::kGeometry, [&] { WriteModelFile({}, folder / name); }), "no triangles"));
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 

@@ -21,10 +21,12 @@ using Bytes = std::vector<std::byte>;
 
 CadModel SampleModel() {
   CadModel model;
+  core::TriangleMesh box = core::testing::Box({10, 20, 30});
+  box.deviation_mm = 0.125;
   model.shapes.push_back({"box",
-                          std::make_shared<const core::TriangleMesh>(core::testing::Box({10, 20, 30})),
+                          std::make_shared<const core::TriangleMesh>(std::move(box)),
                           {{"lower", 0, 8}, {"upper", 8, 4}},
-                          {.watertight = true, .deviation_mm = 0.125, .turned = 3}});
+                          {.watertight = true, .turned = 3}});
   model.instances.push_back(
       {"rack/box", 0, {Eigen::Matrix3d::Identity(), {1, 2, 3}}, ColorRgb{0.25F, 0.5F, 1.0F}});
   const Eigen::Matrix3d turned =

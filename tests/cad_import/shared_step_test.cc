@@ -44,8 +44,9 @@ TEST_P(SharedStep, HasItsSizeItsPartsAndItsVolume) {
               2.0 * report.deviation_mm)
       << report.bounds_mm.sizes().transpose();
   EXPECT_LE(report.deviation_mm, ImportOptions{}.tolerance_mm);
-  if (expected.volume_mm3 == 0.0) return;
   const FlatModel flat = Flatten(model);
+  EXPECT_EQ(flat.mesh->deviation_mm, report.deviation_mm);
+  if (expected.volume_mm3 == 0.0) return;
   // No more of the surface can be gained or lost than its area times the tolerance; measured: a hundredth of
   // that.
   const double most_mm3 = core::AreaMm2(*flat.mesh) * report.deviation_mm;

@@ -99,6 +99,12 @@ TEST(ValidateMesh, NamesWhereAndWhat) {
     out_of_range.triangles[3][2] = index;
     EXPECT_NE(message_of(out_of_range).find("triangle 3"), std::string::npos);
   }
+  for (const double deviation_mm :
+       {-1e-9, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    TriangleMesh off = Box({1, 1, 1});
+    off.deviation_mm = deviation_mm;
+    EXPECT_NE(message_of(off).find("bracket.stl: a deviation"), std::string::npos);
+  }
 }
 
 TEST(ContentHash, EqualForEqualMeshesOnly) {
@@ -110,6 +116,19 @@ TEST(ContentHash, EqualForEqualMeshesOnly) {
   moved.vertices_mm[0].x() = 1e-9;
   EXPECT_NE(ContentHash(moved), hash);
   EXPECT_NE(ContentHash(Reversed(box)), hash);
+  TriangleMesh tessellated = box;
+  tessellated.deviation_mm = 1e-9;
+  EXPECT_NE(ContentHash(tessellated), hash);
+}
+
+TEST(Append, KeepsTheLargerDeviation) {
+  TriangleMesh mesh = Box({1, 1, 1}), other = Box({2, 2, 2});
+  other.deviation_mm = 0.2;
+  Append(mesh, other);
+  EXPECT_EQ(mesh.deviation_mm, 0.2);
+  Append(mesh, Box({3, 3, 3}));
+  EXPECT_EQ(mesh.deviation_mm, 0.2);
+  EXPECT_EQ(Transformed(mesh, {}).deviation_mm, 0.2);
 }
 
 }  // namespace

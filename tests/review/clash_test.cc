@@ -224,6 +224,24 @@ TEST(Clash, UncertaintyThatStraddlesAThresholdLeavesItUndecided) {
   EXPECT_EQ(Judge(crate, {}, box, At(20, 30, 40), 0.0, 21.0).verdict, Verdict::kUndecided);
 }
 
+TEST(Clash, WhatTessellationCostLeavesAThresholdUndecidedButNotThatMeshesMeet) {
+  TriangleMesh tessellated = core::testing::Box({10, 10, 10});
+  tessellated.deviation_mm = 0.2;
+  const auto box = SharedBox(10, 10, 10), off = Shared(tessellated);
+  const auto pair = [&](double gap_mm, const core::SharedMesh& other) {
+    return Judge(off, {}, other, At(10 + gap_mm, 0, 0), 5.0);
+  };
+  EXPECT_EQ(pair(4.7, box).verdict, Verdict::kNear);
+  EXPECT_EQ(pair(4.9, box).verdict, Verdict::kUndecided);
+  EXPECT_EQ(pair(5.1, box).verdict, Verdict::kUndecided);
+  EXPECT_EQ(pair(5.3, box).verdict, Verdict::kClear);
+  EXPECT_EQ(pair(5.3, off).verdict, Verdict::kUndecided) << "both are off";
+  EXPECT_EQ(pair(5.3, off).deviation_mm, 0.4);
+  EXPECT_EQ(pair(0.1, box).verdict, Verdict::kUndecided) << "touching, perhaps";
+  EXPECT_EQ(pair(0.0, box).verdict, Verdict::kContact);
+  EXPECT_EQ(pair(-1.0, off).verdict, Verdict::kContact);
+}
+
 // 10 km: what a vehicle's or a building's frame may put between the world's origin and the parts.
 TEST(Clash, FarFromTheOriginNoDigitOfTheGapIsLost) {
   constexpr double kFarMm = 1e7, kRoundingFarMm = 2e-8;  // doubles there are 2e-9 apart, poses are such

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "core/error.h"
 #include "recon/hull_mesh.h"
@@ -162,7 +163,7 @@ TEST(FindClearance, WhatIsFarEnoughCostsOneQuery) {
   EXPECT_EQ(clearance.queries, 1);
   EXPECT_EQ(clearance.distances, 0);
   EXPECT_EQ(clearance.interval.lower_mm, 20.0);
-  EXPECT_EQ(Judge(clearance.interval, 20.0, 0.0), core::Verdict::kClear);
+  EXPECT_EQ(Judge(clearance, 20.0, 0.0), core::Verdict::kClear);
   options.enough_mm = 60.0;
   EXPECT_GT(FindClearance(BoxHull(), part, {}, options).queries, 1);
 }
@@ -180,6 +181,76 @@ TEST(FindClearance, StaysTrueWhenItsQueriesRunOut) {
     EXPECT_LE(interval.upper_mm - interval.lower_mm, last_mm);
     last_mm = interval.upper_mm - interval.lower_mm;
   }
+}
+
+// Eight faces cut in four, corners on the ball; the deviation is that of the plane farthest from it.
+core::TriangleMesh TessellatedBall(double radius_mm) {
+  core::TriangleMesh ball;
+  const auto add = [&](const Vector3d& a, const Vector3d& b, const Vector3d& c) {
+    const auto first = static_cast<std::int32_t>(ball.vertices_mm.size());
+    for (const Vector3d& corner : {a, b, c}) ball.vertices_mm.push_back(radius_mm * corner.normalized());
+    ball.triangles.push_back({first, first + 1, first + 2});
+    const Vector3d* corner = &ball.vertices_mm[static_cast<std::size_t>(first)];
+    const Vector3d normal = (corner[1] - corner[0]).cross(corner[2] - corner[0]).normalized();
+    ball.deviation_mm = std::max(ball.deviation_mm, radius_mm - std::abs(normal.dot(corner[0])));
+  };
+  for (int octant = 0; octant < 8; ++octant) {
+    const Vector3d x((octant & 1) != 0 ? -1.0 : 1.0, 0.0, 0.0), y(0.0, (octant & 2) != 0 ? -1.0 : 1.0, 0.0),
+        z(0.0, 0.0, (octant & 4) != 0 ? -1.0 : 1.0);
+    add(x, x + y, z + x);
+    add(y, y + z, x + y);
+    add(z, z + x, y + z);
+    add(x + y, y + z, z + x);
+  }
+  return ball;
+}
+
+// The truth is a ball's distance: that of its centre, less its radius.
+TEST(FindClearance, BoundsHoldForTheSurfaceThatAMeshStandsFor) {
+  constexpr double kRadiusMm = 30.0;
+  Random random(7202);
+  core::TriangleMesh as_if_exact = TessellatedBall(kRadiusMm);
+  const double deviation_mm = std::exchange(as_if_exact.deviation_mm, 0.0);
+  ASSERT_GT(deviation_mm, 1.0) << "coarse enough to matter";
+  const core::TriangleTree ball = TreeOf(TessellatedBall(kRadiusMm)), mesh = TreeOf(as_if_exact);
+  int missed_by_mesh = 0;
+  for (int trial = 0; trial < 200; ++trial) {
+    const Vector3d center = random.Uniform(75.0, 140.0) * random.Direction();
+    const core::RigidTransform pose{random.Rotation(), center};
+    const double outside_mm = (center.cwiseAbs() - Vector3d::Constant(50.0)).cwiseMax(0.0).norm();
+    const double truth_mm = outside_mm - kRadiusMm;
+    if (truth_mm < 2.0) continue;
+    ClearanceOptions options;
+    options.tolerance_mm = 0.1;
+    const core::ClearanceInterval interval = FindClearance(BoxHull(), ball, pose, options).interval;
+    EXPECT_LE(interval.lower_mm, truth_mm + kBoxHullMm);
+    EXPECT_GE(interval.upper_mm, truth_mm - kBoxHullMm);
+    EXPECT_LE(interval.upper_mm - interval.lower_mm, options.tolerance_mm + 2.0 * deviation_mm + kRoundingMm);
+    if (FindClearance(BoxHull(), mesh, pose, options).interval.lower_mm > truth_mm + kBoxHullMm)
+      ++missed_by_mesh;
+  }
+  EXPECT_GT(missed_by_mesh, 20) << "without the deviation the bounds would be wrong";
+}
+
+TEST(FindClearance, OfATessellatedPartThatMeetsTheHullOrIsFarEnough) {
+  core::TriangleMesh box = BoxAround({52.0, 0.0, 0.0}, {10.0, 10.0, 10.0});
+  box.deviation_mm = 0.25;
+  const Clearance met = FindClearance(BoxHull(), TreeOf(box), {});
+  EXPECT_TRUE(met.meets);
+  EXPECT_EQ(met.interval.lower_mm, 0.0);
+  EXPECT_EQ(met.interval.upper_mm, 0.25);
+  EXPECT_EQ(Judge(met, 0.1, 0.0), core::Verdict::kContact);
+  const core::RigidTransform away{Eigen::Matrix3d::Identity(), {23.0, 0.0, 0.0}};  // 20 mm from the hull
+  const auto verdict = [&](double required_mm) {
+    ClearanceOptions options;
+    options.tolerance_mm = 0.01;
+    options.enough_mm = required_mm;
+    return Judge(FindClearance(BoxHull(), TreeOf(box), away, options), required_mm, 0.0);
+  };
+  EXPECT_EQ(verdict(19.7), core::Verdict::kClear);
+  EXPECT_EQ(verdict(19.9), core::Verdict::kUndecided);
+  EXPECT_EQ(verdict(20.1), core::Verdict::kUndecided);
+  EXPECT_EQ(verdict(20.3), core::Verdict::kNear);
 }
 
 TEST(FindClearance, RefusesWhatMeansNothing) {
@@ -201,7 +272,8 @@ TEST(FindClearance, RefusesWhatMeansNothing) {
 
 TEST(Judge, SaysOnlyWhatTheBoundsAllow) {
   const auto verdict = [](double lower, double upper, double uncertainty) {
-    return Judge({.lower_mm = lower, .upper_mm = upper}, 10.0, uncertainty);
+    return Judge({.interval = {.lower_mm = lower, .upper_mm = upper}, .meets = upper == 0.0}, 10.0,
+                 uncertainty);
   };
   EXPECT_EQ(verdict(0.0, 0.0, 1.0), core::Verdict::kContact);
   EXPECT_EQ(verdict(5.0, 6.0, 1.0), core::Verdict::kNear);

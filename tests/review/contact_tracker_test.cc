@@ -171,7 +171,8 @@ core::PartContact Away(double lower_mm, double upper_mm, double required_mm = 20
   contact.clearance = core::PartClearance{};
   contact.clearance->interval.lower_mm = lower_mm;
   contact.clearance->interval.upper_mm = upper_mm;
-  contact.verdict = Judge(contact.clearance->interval, required_mm, 0.0);
+  contact.verdict =
+      Judge({.interval = contact.clearance->interval, .meets = upper_mm == 0.0}, required_mm, 0.0);
   return contact;
 }
 core::PartContact TouchAndMeet(double depth_mm) {

@@ -86,13 +86,13 @@ SlowAnswer AskAll(const core::Layout& layout, const std::vector<StudyFrame>& fra
     }
     ClearanceOptions clearance_options;
     clearance_options.tolerance_mm = options.tolerance_mm;
-    const core::ClearanceInterval interval =
-        FindClearance(*frame.hull, tree, pose, clearance_options).interval;
+    const Clearance clearance = FindClearance(*frame.hull, tree, pose, clearance_options);
+    const core::ClearanceInterval& interval = clearance.interval;
     answer.touching += interval.lower_mm == 0.0 ? 1 : 0;
     const core::Verdict verdict =
         !(options.required_clearance_mm > 0.0)
             ? core::Verdict::kClear
-            : Judge(interval, options.required_clearance_mm, options.uncertainty_mm);
+            : Judge(clearance, options.required_clearance_mm, options.uncertainty_mm);
     if (verdict == core::Verdict::kNear || verdict == core::Verdict::kContact) ++sum.frames_near;
     if (verdict == core::Verdict::kUndecided) ++sum.frames_undecided;
     if (verdict == core::Verdict::kClear) ++sum.frames_clear;

@@ -37,8 +37,9 @@ core::CameraModel Camera(const std::string& name, core::DistortionModel model,
   return core::CameraModel(std::move(calibration));
 }
 
-core::SharedMesh Tetrahedron(double edge_mm) {
+core::SharedMesh Tetrahedron(double edge_mm, double deviation_mm = 0.0) {
   core::TriangleMesh mesh;
+  mesh.deviation_mm = deviation_mm;
   mesh.vertices_mm = {{0.0, 0.0, 0.0}, {edge_mm, 0.0, 0.0}, {0.0, edge_mm, 0.0}, {0.0, 0.0, edge_mm / 3.0}};
   mesh.triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
   return std::make_shared<const core::TriangleMesh>(std::move(mesh));
@@ -117,7 +118,7 @@ core::SessionHeader SampleHeader() {
   header.layout.unit = core::LengthUnit::kInch;
   header.layout.parts = {{"PMT box", "pmt.stl", core::LengthUnit::kCentimetre, shared_mesh,
                           core::FromPositionAndRollPitchYaw({0.1, -2e-9, 30.0}, {10.0, 20.0, 30.0})},
-                         {"payload A", "", core::LengthUnit::kMillimetre, Tetrahedron(80.0), {}},
+                         {"payload A", "a.step", std::nullopt, Tetrahedron(80.0, 1.0 / 7.0), {}},
                          {"payload B", "b.obj", core::LengthUnit::kMetre, shared_mesh,
                           core::FromPositionAndRollPitchYaw({400.0, 0.0, 5e300}, {0.0, 0.0, 90.0})}};
   header.layout.spacings = {{"PMT to A", "payload A", "PMT box", core::Axis::kZ, 100.0, 300.0, 140.0},
@@ -191,6 +192,11 @@ core::SessionHeader AsOfSchema(int schema, core::SessionHeader header) {
     for (core::Part& part : header.layout.parts) part.gives_way = {};
     header.layout.streams.clear();
     header.layout.pair_rules.pop_back();
+  }
+  if (schema < 5) {
+    header.layout.parts[1].file.clear();
+    header.layout.parts[1].unit = core::LengthUnit::kMillimetre;
+    header.layout.parts[1].mesh = Tetrahedron(80.0);
   }
   return header;
 }

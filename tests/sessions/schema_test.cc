@@ -48,8 +48,13 @@ TEST(Schema, EveryVersionIsTheOneOnRecord) {
   for (const std::string& sql : {sessions::Schema1Sql(), sessions::Schema2Sql(), sessions::Schema3Sql()})
     third.Execute(sql);
   EXPECT_EQ(SchemaOf(folder / "3.db"), Contents(kStored / "schema_3.sql"));
-  WriteSampleSession(folder / "4.db", 1);
+  sessions::Database fourth = sessions::Database::Create(folder / "4.db");
+  for (const std::string& sql :
+       {sessions::Schema1Sql(), sessions::Schema2Sql(), sessions::Schema3Sql(), sessions::Schema4Sql()})
+    fourth.Execute(sql);
   EXPECT_EQ(SchemaOf(folder / "4.db"), Contents(kStored / "schema_4.sql"));
+  WriteSampleSession(folder / "5.db", 1);
+  EXPECT_EQ(SchemaOf(folder / "5.db"), Contents(kStored / "schema_5.sql"));
 }
 
 TEST(Schema, AnEmptyDatabaseBecomesTheNewestSchemaAndMigratingAgainChangesNothing) {
@@ -65,7 +70,7 @@ TEST(Schema, AnEmptyDatabaseBecomesTheNewestSchemaAndMigratingAgainChangesNothin
 }
 
 TEST(Schema, StoredSessionsOfEverySchemaAreRead) {
-  for (const int schema : {1, 2, 3, 4}) {
+  for (const int schema : {1, 2, 3, 4, 5}) {
     SCOPED_TRACE(schema);
     const SessionReader reader(kStored / fmt::format("session_schema_{}.db", schema));
     ExpectEqual(reader.header(), AsOfSchema(schema, SampleHeader()));
@@ -83,15 +88,16 @@ TEST(Schema, StoredSessionsOfEverySchemaAreRead) {
 }
 
 TEST(Schema, ADatabaseOfAnyOlderSchemaBecomesOneOfTheNewest) {
-  for (const int schema : {1, 2, 3}) {
+  for (const int schema : {1, 2, 3, 4}) {
     const TemporaryFolder folder;
     sessions::Database database = sessions::Database::Create(folder / "s.db");
     database.Execute(sessions::Schema1Sql());
     if (schema >= 2) database.Execute(sessions::Schema2Sql());
     if (schema >= 3) database.Execute(sessions::Schema3Sql());
+    if (schema >= 4) database.Execute(sessions::Schema4Sql());
     database.Execute(fmt::format("PRAGMA user_version = {}", schema));
     sessions::Migrate(database);
-    EXPECT_EQ(SchemaOf(folder / "s.db"), Contents(kStored / "schema_4.sql"));
+    EXPECT_EQ(SchemaOf(folder / "s.db"), Contents(kStored / "schema_5.sql"));
   }
 }
 
@@ -109,8 +115,8 @@ TEST(Schema, AnOlderSchemaIsMigratedInMemoryAndTheFileStays) {
 TEST(Schema, ANewerSchemaIsNamed) {
   const TemporaryFolder folder;
   WriteSampleSession(folder / "s.db", 1);
-  SQLite::Database((folder / "s.db").string(), SQLite::OPEN_READWRITE).exec("PRAGMA user_version = 5");
-  ExpectError([&] { SessionReader(folder / "s.db"); }, core::ErrorKind::kFormat, "has schema 5");
+  SQLite::Database((folder / "s.db").string(), SQLite::OPEN_READWRITE).exec("PRAGMA user_version = 6");
+  ExpectError([&] { SessionReader(folder / "s.db"); }, core::ErrorKind::kFormat, "has schema 6");
 }
 
 TEST(Schema, CountsAndFlagsOutOfRangeAreRefusedByTheDatabaseItself) {
@@ -125,7 +131,8 @@ TEST(Schema, CountsAndFlagsOutOfRangeAreRefusedByTheDatabaseItself) {
         "UPDATE event SET to_mm = NULL WHERE kind = 'spacing'", "UPDATE clearance SET lower_mm = -1",
         "UPDATE clearance SET upper_mm = lower_mm - 1", "UPDATE near_miss SET verdict = 'contact'",
         "UPDATE episode SET tools = 'tongs'", "DELETE FROM clearance", "UPDATE pair_rule SET ignored = 2",
-        "UPDATE stream SET direction = '[1]'",
+        "UPDATE stream SET direction = '[1]'", "UPDATE mesh SET deviation_mm = -1",
+        "UPDATE part SET unit_of = 'layout'",
         "INSERT INTO part_motion VALUES (99, 0, '[1,0,0,0,1,0,0,0,1]', '[0,0,0]')",
         "INSERT INTO part_motion VALUES (0, 0, '[1]', '[0,0,0]')"}) {
     EXPECT_THROW(database.exec(sql), SQLite::Exception) << sql;

@@ -1,0 +1,19 @@
+// A CAD file as it was read: its parts in their colours, and what is wrong with their surfaces.
+#pragma once
+
+#include "cad_import/cad_model.h"
+#include "cad_import/surface_defects.h"
+#include "recon/gl/scene_renderer.h"
+#include "recon/image.h"
+
+namespace elbowroom::control {
+
+// The model from above its front right, and over it, also where other surfaces are before them: open edges
+// red, edges of three or more triangles violet, edges between triangles that face different ways blue,
+// triangles that cross others orange; below how many of each there are, and the model's size.
+// Throws: core::Error as SceneRenderer::Render.
+[[nodiscard]] recon::Image ImportPicture(recon::gl::SceneRenderer& renderer,
+                                         const cad_import::CadModel& model,
+                                         const cad_import::SurfaceDefects& defects);
+
+}  // namespace elbowroom::control
