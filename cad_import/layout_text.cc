@@ -97,7 +97,9 @@ class LayoutText::Edit {
   [[nodiscard]] toml::array& MeantEntries(std::string_view kind) {
     if (meant_.get(kind) == nullptr) meant_.insert(kind, toml::array());
     toml::array* entries = meant_[kind].as_array();
-    if (entries == nullptr) Fail(meant_.get(kind)->source().begin.line, fmt::format("must be [[{}]]", kind));
+    if (entries == nullptr)
+      Fail(document_.get(kind)->source().begin.line,
+           fmt::format("'{0}' isn't written as [[{0}]]; write it so, or change it in an editor", kind));
     return *entries;
   }
   [[nodiscard]] toml::table& MeantEntry(std::string_view kind, std::size_t index) {

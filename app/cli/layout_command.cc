@@ -62,6 +62,11 @@ CommandResult New(const LayoutOptions& options) {
                                   "layout add`",
                                   options.layout.string()));
   }
+  const fs::path folder = fs::absolute(options.layout).parent_path();
+  if (!fs::is_directory(folder)) {
+    throw core::Error(core::ErrorKind::kFile,
+                      fmt::format("{}: no such folder; make it first", folder.string()));
+  }
   LayoutText text({}, options.layout);
   if (options.unit) text.SetUnit(*options.unit);
   for (const fs::path& file : options.files) {
@@ -118,6 +123,11 @@ CommandResult Remove(const LayoutOptions& options) {
 }
 
 CommandResult Show(const LayoutOptions& options) {
+  if (!options.picture.empty() && options.picture.extension() != ".png") {
+    throw core::Error(core::ErrorKind::kFile,
+                      fmt::format("--picture '{}': is written as .png alone; choose a name that ends so",
+                                  options.picture.string()));
+  }
   const cad_import::ImportedLayout imported = cad_import::ImportLayoutFile(options.layout);
   CommandResult result = ListingOf(imported, options.layout);
   if (options.picture.empty()) return result;

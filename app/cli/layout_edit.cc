@@ -90,7 +90,7 @@ std::vector<std::string> UsersOf(const LayoutText& text, const std::string& name
 }  // namespace
 
 std::string AddPart(LayoutText& text, const PartEdit& edit) {
-  const std::string name = edit.name.empty() ? FreeName(text, edit.file.stem().string()) : edit.name;
+  std::string name = edit.name.empty() ? FreeName(text, edit.file.stem().string()) : edit.name;
   Fields fields{{"name", name}, {"file", FileBeside(text.file(), edit.file)}};
   if (!edit.node.empty()) fields.push_back({"node", edit.node});
   if (edit.unit) fields.push_back({"unit", std::string(core::ToString(*edit.unit))});

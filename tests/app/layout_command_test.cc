@@ -150,6 +150,8 @@ TEST_F(LayoutCommand, GroupsMoveTogetherAndRulesAreKept) {
 TEST_F(LayoutCommand, MistakesAreOneLineAndChangeNothing) {
   MakeBench();
   ExpectFailure({"new", layout_}, {"layout.toml", "is there already", "layout add"});
+  ExpectFailure({"new", (folder_ / "no/l.toml").string(), Cad("inch.stl"), "--unit", "in"},
+                {"/no: no such folder"});
   ExpectFailure({"show", (folder_ / "none.toml").string()}, {"none.toml", "no such layout file"});
   ExpectFailure({"add", layout_, Cad("none.stl"), "--unit", "mm"}, {"none.stl", "no such file"});
   ExpectFailure({"add", layout_, Cad("inch.stl"), "--unit", "mm", "--name", "box"},
@@ -193,6 +195,7 @@ TEST_F(LayoutCommand, ThePictureShowsThePartsAndTheGap) {
   EXPECT_GT(cv::countNonZero(gap), 100);
   EXPECT_GT(where.height, 60) << "140 mm of some 640";
   ExpectFailure({"show", layout_, "--picture", "/nowhere/bench.png"}, {"/nowhere/bench.png"});
+  ExpectFailure({"show", layout_, "--picture", png + ".jpg"}, {"bench.png.jpg", "ends so"});
 }
 
 TEST_F(LayoutCommand, ATrialSaysThatASessionKeepsNoGroups) {

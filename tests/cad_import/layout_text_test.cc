@@ -175,6 +175,12 @@ TEST_F(LayoutTextTest, WhatCantBeChangedInPlaceSaysWhichLine) {
                                }),
                        "LAYOUT.toml:3: isn't written as [[part]]"));
   EXPECT_EQ(text.text(), before);
+  text = Text("\n[part]\nname = \"a\"\n");
+  EXPECT_TRUE(Mentions(ErrorOf(ErrorKind::kFormat,
+                               [&] {
+                                 text.Append("part", {{"name", std::string("c")}});
+                               }),
+                       "LAYOUT.toml:2: 'part' isn't written as [[part]]"));
   EXPECT_THROW(text.Remove("spacing", 0), core::PreconditionError);
   EXPECT_TRUE(Mentions(ErrorOf(ErrorKind::kFormat, [&] { (void)Text("a = 1\na = = 2\n"); }), ":2: not TOML"));
 }
