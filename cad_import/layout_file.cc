@@ -112,6 +112,10 @@ core::Part ReadPart(const TomlEntry& entry, const fs::path& folder,
   if (!part.node.empty() && std::ranges::find(nodes, part.node) == nodes.end())
     entry.Fail("node",
                fmt::format("'{}' is nothing in {}; {}", part.node, part.file, NodeAdvice(part.node, nodes)));
+  const auto twins = std::ranges::count(model.instances, part.node, &CadInstance::path);
+  if (!part.node.empty() && twins > 1)
+    warnings.push_back(fmt::format("part '{}' ({}): {} instances are '{}'; all of them were taken", part.name,
+                                   part.file, twins, part.node));
   part.mesh = shelf.Mesh(path, options, part.node);
   return part;
 }

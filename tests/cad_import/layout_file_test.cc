@@ -266,6 +266,7 @@ TEST_F(LayoutFile, ANodeIsOneInstanceOfAnAssemblyAndWhatHangsUnderIt) {
   const auto bounds = core::BoundsOf(*layout.parts[1].mesh);
   EXPECT_NEAR(bounds.center().x(), 1050.0, 1e-3) << "where the assembly has it";
   EXPECT_NEAR(bounds.sizes().z(), 300.0, 1e-3) << "with its knob";
+  EXPECT_EQ(ImportLayoutFile(with_node("bench/lid/knob")).warnings.size(), 0U);
   WriteLayoutFile(layout, folder_ / "copy.toml");
   EXPECT_EQ(ImportLayoutFile(folder_ / "copy.toml").layout.parts[1].node, "bench/lid");
   const auto error = [&](const std::string& node) {
@@ -277,6 +278,19 @@ TEST_F(LayoutFile, ANodeIsOneInstanceOfAnAssemblyAndWhatHangsUnderIt) {
       << error("bench/lit");
   EXPECT_TRUE(Mentions(error("knob"), "did you mean 'bench/lid/knob'?")) << error("knob");
   EXPECT_TRUE(Mentions(error("engine"), "it has 'bench', 'bench/lid'")) << error("engine");
+}
+
+TEST_F(LayoutFile, InstancesOfOnePathAreTakenTogetherAndToldOf) {
+  const auto glb = testing::Gltf(core::testing::Box({0.1, 0.1, 0.1}),
+                                 {R"({"name":"bench","children":[1,2]})", R"({"name":"screw","mesh":0})",
+                                  R"({"name":"screw","mesh":0,"translation":[1,0,0]})"},
+                                 {0}, "");
+  test_support::WriteText(folder_ / "parts/bench.glb", testing::Glb(glb));
+  const ImportedLayout imported = ImportLayoutFile(
+      Write("[[part]]\nname = \"one\"\nfile = \"parts/bench.glb\"\nnode = \"bench/screw\"\n"));
+  EXPECT_EQ(imported.layout.parts[0].mesh->triangles.size(), 24U);
+  ASSERT_EQ(imported.warnings.size(), 1U);
+  EXPECT_TRUE(Mentions(imported.warnings[0], "2 instances are 'bench/screw'")) << imported.warnings[0];
 }
 
 TEST_F(LayoutFile, FilesThatAreNoLayoutAreErrors) {
