@@ -4,7 +4,10 @@
 
 #include <map>
 #include <memory>
+#include <set>
 #include <utility>
+
+#include "core/error.h"
 
 namespace elbowroom::cad_import {
 namespace {
@@ -17,6 +20,11 @@ bool IsAtHome(const core::RigidTransform& b_from_a) {
 // The last of its path.
 std::string NameOf(const CadInstance& instance) { return instance.path.substr(instance.path.rfind('/') + 1); }
 
+bool HangsUnder(const CadInstance& instance, std::string_view node) {
+  const std::string_view path = instance.path;
+  return path.starts_with(node) && (path.size() == node.size() || path[node.size()] == '/');
+}
+
 // Every part gets a name of its own, numbered where it recurs.
 void NumberTwins(std::vector<ImportedPart>& parts) {
   std::map<std::string, int> uses;
@@ -26,26 +34,41 @@ void NumberTwins(std::vector<ImportedPart>& parts) {
 
 }  // namespace
 
-FlatModel Flatten(const CadModel& model) {
+FlatModel Flatten(const CadModel& model, std::string_view node) {
+  std::vector<const CadInstance*> taken;
+  for (const CadInstance& instance : model.instances)
+    if (node.empty() || HangsUnder(instance, node)) taken.push_back(&instance);
+  core::Require(!taken.empty(), "a node that the model has");
   FlatModel flat;
   core::TriangleMesh all;
-  for (const CadInstance& instance : model.instances) {
-    const CadShape& shape = model.shapes[instance.shape];
+  for (const CadInstance* instance : taken) {
+    const CadShape& shape = model.shapes[instance->shape];
     const auto first = static_cast<std::int64_t>(all.triangles.size());
     for (const ImportedPart& piece : shape.pieces) {
-      const std::string& name = shape.pieces.size() == 1 ? NameOf(instance) : piece.name;
+      const std::string& name = shape.pieces.size() == 1 ? NameOf(*instance) : piece.name;
       flat.parts.push_back({name, first + piece.first_triangle, piece.triangles});
     }
-    const bool is_all = model.instances.size() == 1 && IsAtHome(instance.model_from_shape);
+    const bool is_all = taken.size() == 1 && IsAtHome(instance->model_from_shape);
     if (is_all) {
       flat.mesh = shape.mesh;
     } else {
-      core::Append(all, core::Transformed(*shape.mesh, instance.model_from_shape));
+      core::Append(all, core::Transformed(*shape.mesh, instance->model_from_shape));
     }
   }
   if (flat.mesh == nullptr) flat.mesh = std::make_shared<const core::TriangleMesh>(std::move(all));
   NumberTwins(flat.parts);
   return flat;
+}
+
+std::vector<std::string> NodesOf(const CadModel& model) {
+  std::set<std::string> nodes;
+  for (const CadInstance& instance : model.instances) {
+    for (std::size_t slash = instance.path.find('/'); slash != std::string::npos;
+         slash = instance.path.find('/', slash + 1))
+      nodes.insert(instance.path.substr(0, slash));
+    nodes.insert(instance.path);
+  }
+  return {nodes.begin(), nodes.end()};
 }
 
 }  // namespace elbowroom::cad_import

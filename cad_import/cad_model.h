@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/rigid_transform.h"
@@ -78,6 +79,11 @@ struct FlatModel {
   core::SharedMesh mesh;
   std::vector<ImportedPart> parts;
 };
-[[nodiscard]] FlatModel Flatten(const CadModel& model);
+// With a node, only those whose path is it or lies below it: "Box/Lid" takes "Box/Lid/Screw" along, but not
+// "Box/Lid 2". Throws: PreconditionError for a node that isn't among NodesOf.
+[[nodiscard]] FlatModel Flatten(const CadModel& model, std::string_view node = {});
+
+// The paths of the instances and of all that they hang under, each once.
+[[nodiscard]] std::vector<std::string> NodesOf(const CadModel& model);
 
 }  // namespace elbowroom::cad_import

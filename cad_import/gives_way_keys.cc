@@ -4,6 +4,7 @@
 
 #include <array>
 #include <string>
+#include <utility>
 #include <variant>
 
 namespace elbowroom::cad_import {
@@ -45,15 +46,16 @@ core::ClothRule ReadCloth(const TomlEntry& entry) {
   return rule;
 }
 
-toml::table ClothToToml(const core::ClothRule& rule) {
-  toml::array pins;
-  for (const core::BoundsSide side : rule.pins) pins.push_back(core::ToString(side));
-  return toml::table{{"pins", std::move(pins)},
-                     {"stretch_stiffness_n_per_m", rule.stretch_stiffness_n_per_m},
-                     {"bending_stiffness_n_per_m", rule.bending_stiffness_n_per_m},
-                     {"mass_per_area_kg_per_m2", rule.mass_per_area_kg_per_m2},
-                     {"damping_per_s", rule.damping_per_s},
-                     {"friction", rule.friction}};
+Fields ClothFields(const core::ClothRule& rule) {
+  std::vector<std::string> pins;
+  for (const core::BoundsSide side : rule.pins) pins.emplace_back(core::ToString(side));
+  return {{"gives_way", std::string("cloth")},
+          {"pins", std::move(pins)},
+          {"stretch_stiffness_n_per_m", rule.stretch_stiffness_n_per_m},
+          {"bending_stiffness_n_per_m", rule.bending_stiffness_n_per_m},
+          {"mass_per_area_kg_per_m2", rule.mass_per_area_kg_per_m2},
+          {"damping_per_s", rule.damping_per_s},
+          {"friction", rule.friction}};
 }
 
 }  // namespace
@@ -71,13 +73,11 @@ core::GivesWay ReadGivesWay(const TomlEntry& entry) {
   return rule;
 }
 
-toml::table GivesWayToToml(const core::GivesWay& gives_way) {
-  toml::table table;
-  if (const auto* cloth = std::get_if<core::ClothRule>(&gives_way)) table = ClothToToml(*cloth);
+Fields GivesWayFields(const core::GivesWay& gives_way) {
+  if (const auto* cloth = std::get_if<core::ClothRule>(&gives_way)) return ClothFields(*cloth);
   if (const auto* push = std::get_if<core::PushRule>(&gives_way))
-    table.insert("max_speed_mm_per_s", push->max_speed_mm_per_s);
-  if (gives_way.index() != 0) table.insert("gives_way", core::ToString(gives_way));
-  return table;
+    return {{"gives_way", std::string("pushed")}, {"max_speed_mm_per_s", push->max_speed_mm_per_s}};
+  return {};
 }
 
 }  // namespace elbowroom::cad_import

@@ -1,6 +1,7 @@
 // The keys of a [[part]] that say how it gives way.
 #pragma once
 
+#include "cad_import/layout_fields.h"
 #include "cad_import/toml_entry.h"
 #include "core/gives_way.h"
 
@@ -12,6 +13,6 @@ namespace elbowroom::cad_import {
 [[nodiscard]] core::GivesWay ReadGivesWay(const TomlEntry& entry);
 
 // The same keys; none for a part that doesn't give way.
-[[nodiscard]] toml::table GivesWayToToml(const core::GivesWay& gives_way);
+[[nodiscard]] Fields GivesWayFields(const core::GivesWay& gives_way);
 
 }  // namespace elbowroom::cad_import

@@ -2,14 +2,18 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
-#include <memory>
+#include <span>
+#include <tuple>
 #include <utility>
 
+#include "cad_import/cad_file.h"
+#include "cad_import/cad_model.h"
 #include "cad_import/gives_way_keys.h"
-#include "cad_import/mesh_file.h"
 #include "cad_import/toml_entry.h"
 #include "core/error.h"
+#include "core/layout_fault.h"
 #include "core/spelling.h"
 
 namespace elbowroom::cad_import {
@@ -17,25 +21,47 @@ namespace {
 
 using core::Error;
 using core::ErrorKind;
+namespace fs = std::filesystem;
 
-// Reads each file once for each unit that it is asked for in.
+// Reads each file once for each unit that it is asked for in, and makes each mesh once.
 class MeshShelf {
  public:
-  struct Item {
-    core::SharedMesh mesh;
-    ImportReport report;
-  };
-  const Item& Get(const std::filesystem::path& path, const ImportOptions& options) {
-    const auto key = std::make_tuple(path.lexically_normal(), options.unit);
-    const auto found = items_.find(key);
-    if (found != items_.end()) return found->second;
-    ImportedMesh imported = ImportMeshFile(path, options);
-    return items_.emplace(key, Item{std::move(imported.mesh), std::move(imported.report)}).first->second;
+  using Unit = std::optional<core::LengthUnit>;
+
+  const CadModel& Model(const fs::path& path, const ImportOptions& options) {
+    const auto [found, is_new] = models_.try_emplace({path.lexically_normal(), options.unit});
+    if (is_new) found->second = ImportCadFile(path, options);
+    return found->second;
+  }
+  const core::SharedMesh& Mesh(const fs::path& path, const ImportOptions& options, const std::string& node) {
+    core::SharedMesh& mesh = meshes_[{path.lexically_normal(), options.unit, node}];
+    if (mesh == nullptr) mesh = Flatten(Model(path, options), node).mesh;
+    return mesh;
   }
 
  private:
-  std::map<std::tuple<std::filesystem::path, std::optional<core::LengthUnit>>, Item> items_;
+  std::map<std::pair<fs::path, Unit>, CadModel> models_;
+  std::map<std::tuple<fs::path, Unit, std::string>, core::SharedMesh> meshes_;
 };
+
+// A word for who wrote `name` and meant one of `known`.
+std::string Advice(const std::string& name, const std::vector<std::string>& known,
+                   const std::string& otherwise) {
+  const std::vector<std::string_view> words(known.begin(), known.end());
+  const auto nearest = core::NearestWord(name, words);
+  return nearest ? fmt::format("did you mean '{}'?", *nearest) : otherwise;
+}
+
+// Those who know a node by its last name are told the whole.
+std::string NodeAdvice(const std::string& name, const std::vector<std::string>& nodes) {
+  constexpr std::size_t kFew = 5;
+  for (const std::string& node : nodes)
+    if (node.ends_with("/" + name)) return fmt::format("did you mean '{}'?", node);
+  const std::span some(nodes.data(), std::min(nodes.size(), kFew));
+  return Advice(name, nodes,
+                fmt::format("it has '{}'{}", fmt::join(some, "', '"),
+                            nodes.size() > kFew ? fmt::format(" and {} more", nodes.size() - kFew) : ""));
+}
 
 // The first key of the part's constraint that is there, for the line of what is wrong with them together.
 std::string_view RecoveryKeyOf(const TomlEntry& entry) {
@@ -55,28 +81,42 @@ core::RecoveryRule ReadRecovery(const TomlEntry& entry) {
   return rule;
 }
 
-core::Part ReadPart(const TomlEntry& entry, const std::filesystem::path& folder,
+const CadModel& ReadModel(const TomlEntry& entry, const core::Part& part, const fs::path& path,
+                          const ImportOptions& options, MeshShelf& shelf) {
+  try {
+    return shelf.Model(path, options);
+  } catch (const Error& error) {
+    entry.FailAt(entry.Find("file")->source(), fmt::format("part '{}': {}", part.name, error.what()),
+                 error.kind());
+  }
+}
+
+core::Part ReadPart(const TomlEntry& entry, const fs::path& folder,
                     std::optional<core::LengthUnit> layout_unit, MeshShelf& shelf,
                     std::vector<std::string>& warnings) {
   core::Part part;
   part.name = entry.Text("name");
   part.file = entry.Text("file");
+  if (entry.Find("node")) part.node = entry.Text("node");
   part.world_from_part = core::FromPositionAndRollPitchYaw(entry.VectorOrZero("position_mm"),
                                                            entry.VectorOrZero("rotation_rpy_deg"));
   part.recovery = ReadRecovery(entry);
   part.gives_way = ReadGivesWay(entry);
+  const fs::path path = folder / part.file;
   const ImportOptions options{.unit = entry.Unit(), .unit_if_file_has_none = layout_unit};
-  try {
-    const MeshShelf::Item& item = shelf.Get(folder / part.file, options);
-    part.mesh = item.mesh;
-    part.unit = options.unit;
-    for (const std::string& warning : item.report.warnings) {
-      warnings.push_back(fmt::format("part '{}' ({}): {}", part.name, part.file, warning));
-    }
-  } catch (const Error& error) {
-    entry.FailAt(entry.Find("file")->source(), fmt::format("part '{}': {}", part.name, error.what()),
-                 error.kind());
-  }
+  const CadModel& model = ReadModel(entry, part, path, options, shelf);
+  part.unit = core::ParseLengthUnit(model.report.unit);
+  for (const std::string& warning : model.report.warnings)
+    warnings.push_back(fmt::format("part '{}' ({}): {}", part.name, part.file, warning));
+  const std::vector<std::string> nodes = NodesOf(model);
+  if (!part.node.empty() && std::ranges::find(nodes, part.node) == nodes.end())
+    entry.Fail("node",
+               fmt::format("'{}' is nothing in {}; {}", part.node, part.file, NodeAdvice(part.node, nodes)));
+  const auto twins = std::ranges::count(model.instances, part.node, &CadInstance::path);
+  if (!part.node.empty() && twins > 1)
+    warnings.push_back(fmt::format("part '{}' ({}): {} instances are '{}'; all of them were taken", part.name,
+                                   part.file, twins, part.node));
+  part.mesh = shelf.Mesh(path, options, part.node);
   return part;
 }
 
@@ -92,14 +132,21 @@ core::Stream ReadStream(const TomlEntry& entry) {
 }
 
 void RequirePart(const core::Layout& layout, const TomlEntry& entry, std::string_view key,
-                 const std::string& name) {
-  if (layout.FindPart(name)) return;
-  std::vector<std::string_view> known;
-  for (const core::Part& part : layout.parts) known.emplace_back(part.name);
-  const auto nearest = core::NearestWord(name, known);
-  entry.Fail(
-      key, fmt::format("names no part: '{}'; {}", name,
-                       nearest ? fmt::format("did you mean '{}'?", *nearest) : "use the name of a [[part]]"));
+                 const std::string& name, bool may_be_group = true) {
+  if (layout.FindPart(name) || (may_be_group && layout.FindGroup(name))) return;
+  std::vector<std::string> known;
+  for (const core::Part& part : layout.parts) known.push_back(part.name);
+  if (may_be_group)
+    for (const core::Group& group : layout.groups) known.push_back(group.name);
+  entry.Fail(key,
+             fmt::format("names no part: '{}'; {}", name, Advice(name, known, "use the name of a [[part]]")));
+}
+
+core::Group ReadGroup(const TomlEntry& entry, const core::Layout& layout) {
+  core::Group group{entry.Text("name"), entry.Texts("parts")};
+  if (entry.Find("parts") == nullptr) entry.Fail("parts", "is missing; add it");
+  for (const std::string& part : group.parts) RequirePart(layout, entry, "parts", part, false);
+  return group;
 }
 
 core::Spacing ReadSpacing(const TomlEntry& entry, const core::Layout& layout) {
@@ -131,43 +178,63 @@ core::PairRule ReadPair(const TomlEntry& entry, const core::Layout& layout) {
   return rule;
 }
 
+// The file's entries and the layout that grows from them.
+class LayoutReader {
+ public:
+  explicit LayoutReader(const TomlEntry& root) : root_(root) {}
+
+  // Reads every entry of that kind by `read`, which may look at what was read before.
+  template <typename Value, typename Read>
+  void ReadAll(core::LayoutEntry entry, std::string_view kind, std::vector<Value>& values, Read read) {
+    entries_[entry] = root_.Entries(kind, KeysOf(kind));
+    for (const TomlEntry& one : entries_[entry]) values.push_back(read(one));
+  }
+
+  void RequireNoFault(const core::Layout& layout) const {
+    const auto fault = core::FindLayoutFault(layout);
+    if (!fault) return;
+    const TomlEntry& entry = entries_.at(fault->entry)[fault->index];
+    const toml::node* node = entry.Find(fault->key);
+    entry.FailAt(node == nullptr ? entry.source() : node->source(), fault->message, ErrorKind::kRange);
+  }
+
+ private:
+  const TomlEntry& root_;
+  std::map<core::LayoutEntry, std::vector<TomlEntry>> entries_;
+};
+
 }  // namespace
 
 ImportedLayout ImportLayoutFile(const std::filesystem::path& path) {
-  const std::string file = path.string();
-  const toml::table table = ParseTomlFile(path, "layout file");
-  const TomlEntry root(table, file, "", {"unit", "part", "spacing", "pair", "stream"});
+  return ImportLayoutText(LayoutText::Read(path));
+}
+
+ImportedLayout ImportLayoutText(const LayoutText& text) {
+  const std::string file = text.file().string();
+  const fs::path folder = text.file().parent_path();
+  const toml::table table = ParseToml(text.text(), file);
+  const TomlEntry root(table, file, "", {"unit", "part", "group", "spacing", "pair", "stream"});
   ImportedLayout result;
   core::Layout& layout = result.layout;
   const auto unit = root.Unit();
   layout.unit = unit.value_or(layout.unit);
   MeshShelf shelf;
-  for (const TomlEntry& entry :
-       root.Entries("part", {"name", "file", "unit", "position_mm", "rotation_rpy_deg", "reference_mm",
-                             "recovery", "recovery_axis", "recovery_at_mm", "gives_way", "pins",
-                             "stretch_stiffness_n_per_m", "bending_stiffness_n_per_m",
-                             "mass_per_area_kg_per_m2", "damping_per_s", "friction", "max_speed_mm_per_s"})) {
-    layout.parts.push_back(ReadPart(entry, path.parent_path(), unit, shelf, result.warnings));
-  }
+  LayoutReader reader(root);
+  using core::LayoutEntry;
+  reader.ReadAll(LayoutEntry::kPart, "part", layout.parts, [&](const TomlEntry& entry) {
+    return ReadPart(entry, folder, unit, shelf, result.warnings);
+  });
   if (layout.parts.empty())
-    throw Error(ErrorKind::kFormat, fmt::format("{}:1: no [[part]]; add at least one", file));
-  for (const TomlEntry& entry :
-       root.Entries("spacing", {"name", "moving", "reference", "axis", "min_mm", "max_mm", "initial_mm"})) {
-    layout.spacings.push_back(ReadSpacing(entry, layout));
-  }
-  for (const TomlEntry& entry :
-       root.Entries("pair", {"a", "b", "required_clearance_mm", "authorised_contact", "ignore"})) {
-    layout.pair_rules.push_back(ReadPair(entry, layout));
-  }
-  for (const TomlEntry& entry : root.Entries(
-           "stream", {"name", "position_mm", "direction", "rate_per_s", "speed_mm_per_s", "radius_mm"})) {
-    layout.streams.push_back(ReadStream(entry));
-  }
-  try {
-    layout.Validate();
-  } catch (const Error& error) {
-    throw Error(error.kind(), fmt::format("{}: {}", file, error.what()));
-  }
+    throw Error(ErrorKind::kFormat,
+                fmt::format("{}:1: no [[part]]; add at least one, as `elbowroom layout add` does", file));
+  reader.ReadAll(LayoutEntry::kGroup, "group", layout.groups,
+                 [&](const TomlEntry& entry) { return ReadGroup(entry, layout); });
+  reader.ReadAll(LayoutEntry::kSpacing, "spacing", layout.spacings,
+                 [&](const TomlEntry& entry) { return ReadSpacing(entry, layout); });
+  reader.ReadAll(LayoutEntry::kPair, "pair", layout.pair_rules,
+                 [&](const TomlEntry& entry) { return ReadPair(entry, layout); });
+  reader.ReadAll(LayoutEntry::kStream, "stream", layout.streams, ReadStream);
+  reader.RequireNoFault(layout);
   return result;
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "cad_import/layout_text.h"
 #include "core/layout.h"
 
 namespace elbowroom::cad_import {
@@ -14,16 +15,20 @@ struct ImportedLayout {
   std::vector<std::string> warnings;  // of the part files, each naming its part
 };
 
-// Part files are found relative to the layout's own folder; a file that several parts name in the same unit
-// is read once and shared. A part's `unit` overrides its file's; the layout's `unit` holds for parts that
-// name none and whose files carry none. Throws: Error{kFile} or Error{kFormat} with file, line and key:
+// Part files are found relative to the layout's own folder; parts that name one file, in the same unit and of
+// the same node, share its mesh. A part's `unit` overrides its file's; the layout's `unit` holds for parts
+// that name none and whose files carry none. Throws: Error{kFile} or Error{kFormat} with file, line and key:
 // missing, not TOML, a key that is unknown, missing or of the wrong type; what ImportMeshFile and
-// Layout::Validate throw, naming file, line and part.
+// core::FindLayoutFault say, with file and line of the entry and naming it.
 [[nodiscard]] ImportedLayout ImportLayoutFile(const std::filesystem::path& path);
 
+// The same of a text as though it stood in its file. Throws: the same.
+[[nodiscard]] ImportedLayout ImportLayoutText(const LayoutText& text);
+
 // Writes the layout whole or not at all; the meshes are the caller's to write, to each part's `file`.
-// Reading it back gives the same names and numbers, rotations to 1e-12.
-// Throws: Error{kFile} if it can't be written, Error{kCad} naming a part without a file.
+// Reading it back gives the same names and numbers, rotations to 1e-12. A file that is there already is
+// changed in place (ChangeInto). Throws: Error{kFile} if it can't be written, Error{kCad} naming a part
+// without a file; for a file that is there, as ImportLayoutFile: what can't be read isn't written over.
 void WriteLayoutFile(const core::Layout& layout, const std::filesystem::path& path);
 
 }  // namespace elbowroom::cad_import

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <iterator>
 #include <utility>
 
 #include "core/spelling.h"
@@ -13,25 +15,37 @@ namespace elbowroom::cad_import {
 using core::Error;
 using core::ErrorKind;
 
-toml::table ParseTomlFile(const std::filesystem::path& path, std::string_view what) {
+std::string ReadTomlText(const std::filesystem::path& path, std::string_view what) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error)) {
     throw Error(ErrorKind::kFile, fmt::format("{}: no such {}; check the path", path.string(), what));
   }
+  std::ifstream file(path, std::ios::binary);
+  std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+  if (!file)
+    throw Error(ErrorKind::kFile, fmt::format("{}: can't be read; check who may read it", path.string()));
+  return text;
+}
+
+toml::table ParseToml(std::string_view text, const std::string& file) {
   try {
-    return toml::parse_file(path.string());
-  } catch (const toml::parse_error& parse_error) {
-    throw Error(ErrorKind::kFormat, fmt::format("{}:{}: not TOML: {}; correct this line", path.string(),
-                                                parse_error.source().begin.line, parse_error.description()));
+    return toml::parse(text, std::string_view(file));
+  } catch (const toml::parse_error& error) {
+    throw Error(ErrorKind::kFormat, fmt::format("{}:{}: not TOML: {}; correct this line", file,
+                                                error.source().begin.line, error.description()));
   }
 }
 
+toml::table ParseTomlFile(const std::filesystem::path& path, std::string_view what) {
+  return ParseToml(ReadTomlText(path, what), path.string());
+}
+
 TomlEntry::TomlEntry(const toml::table& table, std::string file, std::string title,
-                     std::initializer_list<std::string_view> known)
+                     std::span<const std::string_view> known)
     : table_(table), file_(std::move(file)), title_(std::move(title)) {
   for (const auto& [key, value] : table_) {
     if (std::find(known.begin(), known.end(), key.str()) != known.end()) continue;
-    const auto nearest = core::NearestWord(key.str(), {known.begin(), known.size()});
+    const auto nearest = core::NearestWord(key.str(), known);
     FailAt(key.source(), fmt::format("unknown key '{}'; {}", key.str(),
                                      nearest ? fmt::format("did you mean '{}'?", *nearest) : "remove it"));
   }
@@ -122,7 +136,7 @@ std::optional<core::LengthUnit> TomlEntry::Unit() const {
 }
 
 std::vector<TomlEntry> TomlEntry::Entries(std::string_view key,
-                                          std::initializer_list<std::string_view> known) const {
+                                          std::span<const std::string_view> known) const {
   const toml::node* node = Find(key);
   if (node == nullptr) return {};
   const toml::array* tables = node->as_array();

@@ -7,8 +7,10 @@
 #include <filesystem>
 #include <initializer_list>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/error.h"
@@ -16,8 +18,14 @@
 
 namespace elbowroom::cad_import {
 
-// Throws: Error{kFile} when there is no such file (`what` names its kind: "layout file"), Error{kFormat} with
-// the line that isn't TOML.
+// Throws: Error{kFile} when there is no such file (`what` names its kind: "layout file"), or it can't be
+// read.
+[[nodiscard]] std::string ReadTomlText(const std::filesystem::path& path, std::string_view what);
+
+// `file` is for messages. Throws: Error{kFormat} with the line that isn't TOML.
+[[nodiscard]] toml::table ParseToml(std::string_view text, const std::string& file);
+
+// Both, one after the other.
 [[nodiscard]] toml::table ParseTomlFile(const std::filesystem::path& path, std::string_view what);
 
 // One table of a file; must not outlive it. Every reader throws Error{kFormat} that begins with file:line.
@@ -26,7 +34,10 @@ class TomlEntry {
   // `title`: what it is called in messages, "[[part]]"; empty for the file itself.
   // Throws: Error{kFormat} for a key that isn't `known`, with the nearest one that is.
   TomlEntry(const toml::table& table, std::string file, std::string title,
-            std::initializer_list<std::string_view> known);
+            std::span<const std::string_view> known);
+  TomlEntry(const toml::table& table, std::string file, std::string title,
+            std::initializer_list<std::string_view> known)
+      : TomlEntry(table, std::move(file), std::move(title), std::span(known.begin(), known.size())) {}
 
   [[noreturn]] void FailAt(const toml::source_region& at, const std::string& what,
                            core::ErrorKind kind = core::ErrorKind::kFormat) const;
@@ -34,6 +45,7 @@ class TomlEntry {
                          core::ErrorKind kind = core::ErrorKind::kFormat) const;
 
   [[nodiscard]] const toml::node* Find(std::string_view key) const { return table_.get(key); }
+  [[nodiscard]] const toml::source_region& source() const { return table_.source(); }
 
   // The key must be there.
   [[nodiscard]] std::string Text(std::string_view key) const;
@@ -50,7 +62,7 @@ class TomlEntry {
 
   // Of the tables [[key]], in order; none if the key is absent.
   [[nodiscard]] std::vector<TomlEntry> Entries(std::string_view key,
-                                               std::initializer_list<std::string_view> known) const;
+                                               std::span<const std::string_view> known) const;
 
  private:
   [[nodiscard]] double NumberOf(const toml::node& node, std::string_view key) const;

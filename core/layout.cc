@@ -1,23 +1,17 @@
 #include "core/layout.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <cmath>
 #include <limits>
+#include <map>
 #include <set>
+#include <tuple>
+#include <utility>
 
 #include "core/error.h"
+#include "core/layout_fault.h"
 
 namespace elbowroom::core {
 namespace {
-
-[[noreturn]] void Fail(const std::string& message) { throw Error(ErrorKind::kRange, message); }
-
-void RequirePart(const Layout& layout, const std::string& part, const std::string& who) {
-  if (!layout.FindPart(part))
-    Fail(fmt::format("{}: no part is named '{}'; check the spelling of [[part]] names", who, part));
-}
 
 // Where a mesh ends along a world axis when it stands at world_from_part.
 struct Extent {
@@ -36,41 +30,27 @@ Extent ExtentAlong(const Part& part, const RigidTransform& world_from_part, Axis
   return extent;
 }
 
-// Spacings in an order that places every reference before the parts that move against it; fewer than all of
-// them if they are circular.
-std::vector<SpacingIndex> OrderOfPlacement(const Layout& layout) {
-  std::vector<SpacingIndex> order;
-  std::set<SpacingIndex> left;
-  for (SpacingIndex i = 0; i < layout.spacings.size(); ++i) left.insert(i);
-  for (bool progressed = true; progressed && !left.empty();) {
-    progressed = false;
-    for (auto it = left.begin(); it != left.end();) {
-      const std::string& reference = layout.spacings[*it].reference;
-      const bool waits = std::any_of(left.begin(), left.end(), [&](SpacingIndex other) {
-        return other != *it && layout.spacings[other].moving == reference;
-      });
-      if (waits) {
-        ++it;
-        continue;
-      }
-      order.push_back(*it);
-      it = left.erase(it);
-      progressed = true;
-    }
+// The same of all of them together.
+Extent ExtentAlong(const Layout& layout, std::string_view part_or_group,
+                   std::span<const RigidTransform> world_from_parts, Axis axis) {
+  Extent all{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  for (const PartIndex i : layout.PartsNamed(part_or_group)) {
+    const Extent extent = ExtentAlong(layout.parts[i], world_from_parts[i], axis);
+    all.lower_mm = std::min(all.lower_mm, extent.lower_mm);
+    all.upper_mm = std::max(all.upper_mm, extent.upper_mm);
   }
-  return order;
+  return all;
 }
 
-void ValidateSpacing(const Layout& layout, const Spacing& spacing) {
-  const std::string who = fmt::format("spacing '{}'", spacing.name);
-  RequirePart(layout, spacing.moving, who);
-  RequirePart(layout, spacing.reference, who);
-  if (spacing.moving == spacing.reference) Fail(who + ": a part can't move against itself");
-  const bool is_ordered = spacing.min_mm <= spacing.initial_mm && spacing.initial_mm <= spacing.max_mm;
-  if (!is_ordered || !std::isfinite(spacing.min_mm) || !std::isfinite(spacing.max_mm)) {
-    Fail(fmt::format("{}: min_mm <= initial_mm <= max_mm must hold, not {} <= {} <= {}", who, spacing.min_mm,
-                     spacing.initial_mm, spacing.max_mm));
-  }
+// The two ends of a gap.
+struct Facing {
+  double below_mm;
+  double above_mm;
+};
+Facing FacingExtents(const Layout& layout, const Spacing& spacing,
+                     std::span<const RigidTransform> world_from_parts) {
+  return {ExtentAlong(layout, spacing.reference, world_from_parts, spacing.axis).upper_mm,
+          ExtentAlong(layout, spacing.moving, world_from_parts, spacing.axis).lower_mm};
 }
 
 }  // namespace
@@ -88,36 +68,7 @@ std::string_view ToString(Axis axis) {
 }
 
 void Layout::Validate() const {
-  std::set<std::string> names;
-  for (const Part& part : parts) {
-    if (part.name.empty()) Fail("a [[part]] has no name; give each one a name of its own");
-    if (!names.insert(part.name).second)
-      Fail(fmt::format("two parts are named '{}'; names must differ", part.name));
-    if (!part.mesh) Fail(fmt::format("part '{}' has no mesh", part.name));
-    if (const auto broken = part.recovery.BrokenRule())
-      Fail(fmt::format("part '{}': recovery: {}", part.name, *broken));
-    ValidateGivesWay(part.gives_way, fmt::format("part '{}'", part.name));
-  }
-  std::set<std::string> spacing_names;
-  for (const Spacing& spacing : spacings) {
-    if (!spacing_names.insert(spacing.name).second) {
-      Fail(fmt::format("two spacings are named '{}'; names must differ", spacing.name));
-    }
-    ValidateSpacing(*this, spacing);
-  }
-  std::set<std::string> stream_names;
-  for (const Stream& stream : streams) {
-    if (!stream_names.insert(stream.name).second)
-      Fail(fmt::format("two streams are named '{}'; names must differ", stream.name));
-    ValidateStream(stream);
-  }
-  for (const PairRule& rule : pair_rules) {
-    RequirePart(*this, rule.a, "[[pair]]");
-    RequirePart(*this, rule.b, "[[pair]]");
-  }
-  if (OrderOfPlacement(*this).size() != spacings.size()) {
-    Fail("the spacings are circular: each part must hang, through its references, on one that doesn't move");
-  }
+  if (const auto fault = FindLayoutFault(*this)) throw Error(ErrorKind::kRange, fault->message);
 }
 
 std::optional<PartIndex> Layout::FindPart(std::string_view name) const {
@@ -125,6 +76,29 @@ std::optional<PartIndex> Layout::FindPart(std::string_view name) const {
     if (parts[i].name == name) return i;
   }
   return std::nullopt;
+}
+
+std::optional<GroupIndex> Layout::FindGroup(std::string_view name) const {
+  for (GroupIndex i = 0; i < groups.size(); ++i) {
+    if (groups[i].name == name) return i;
+  }
+  return std::nullopt;
+}
+
+std::vector<PartIndex> Layout::PartsNamed(std::string_view name) const {
+  if (const auto part = FindPart(name)) return {*part};
+  std::vector<PartIndex> result;
+  const auto group = FindGroup(name);
+  if (!group) return result;
+  for (const std::string& member : groups[*group].parts) {
+    if (const auto part = FindPart(member)) result.push_back(*part);
+  }
+  return result;
+}
+
+bool Layout::SharePart(std::string_view a, std::string_view b) const {
+  const std::vector<PartIndex> of_a = PartsNamed(a), of_b = PartsNamed(b);
+  return std::find_first_of(of_a.begin(), of_a.end(), of_b.begin(), of_b.end()) != of_a.end();
 }
 
 std::optional<SpacingIndex> Layout::FindSpacing(std::string_view name) const {
@@ -146,14 +120,68 @@ std::vector<RigidTransform> PosesAt(const Layout& layout, std::span<const double
   for (const Part& part : layout.parts) world_from_parts.push_back(part.world_from_part);
   for (const SpacingIndex i : OrderOfPlacement(layout)) {
     const Spacing& spacing = layout.spacings[i];
-    const PartIndex moving = *layout.FindPart(spacing.moving);
-    const PartIndex reference = *layout.FindPart(spacing.reference);
-    const Extent below = ExtentAlong(layout.parts[reference], world_from_parts[reference], spacing.axis);
-    const Extent above = ExtentAlong(layout.parts[moving], world_from_parts[moving], spacing.axis);
-    world_from_parts[moving].translation_mm[static_cast<Eigen::Index>(spacing.axis)] +=
-        below.upper_mm + spacing_mm[i] - above.lower_mm;
+    const Facing facing = FacingExtents(layout, spacing, world_from_parts);
+    const double shift_mm = facing.below_mm + spacing_mm[i] - facing.above_mm;
+    for (const PartIndex moving : layout.PartsNamed(spacing.moving))
+      world_from_parts[moving].translation_mm[static_cast<Eigen::Index>(spacing.axis)] += shift_mm;
   }
   return world_from_parts;
+}
+
+double GapMm(const Layout& layout, const Spacing& spacing, std::span<const RigidTransform> world_from_parts) {
+  Require(world_from_parts.size() == layout.parts.size(), "one pose a part");
+  const Facing facing = FacingExtents(layout, spacing, world_from_parts);
+  return facing.above_mm - facing.below_mm;
+}
+
+std::vector<SpacingIndex> OrderOfPlacement(const Layout& layout) {
+  std::vector<SpacingIndex> order;
+  std::set<SpacingIndex> left;
+  for (SpacingIndex i = 0; i < layout.spacings.size(); ++i) left.insert(i);
+  for (bool progressed = true; progressed && !left.empty();) {
+    progressed = false;
+    for (auto it = left.begin(); it != left.end();) {
+      const Spacing& spacing = layout.spacings[*it];
+      const bool waits = std::any_of(left.begin(), left.end(), [&](SpacingIndex other) {
+        return other != *it && layout.SharePart(layout.spacings[other].moving, spacing.reference);
+      });
+      if (waits) {
+        ++it;
+        continue;
+      }
+      order.push_back(*it);
+      it = left.erase(it);
+      progressed = true;
+    }
+  }
+  return order;
+}
+
+Layout WithPairsOfParts(Layout layout) {
+  using Pair = std::pair<PartIndex, PartIndex>;
+  std::map<Pair, int> most_parts_named;
+  std::vector<std::tuple<Pair, int, PairRule>> rules;
+  for (const PairRule& rule : layout.pair_rules) {
+    const int parts_named = (layout.FindPart(rule.a) ? 1 : 0) + (layout.FindPart(rule.b) ? 1 : 0);
+    std::set<Pair> pairs;
+    for (const PartIndex a : layout.PartsNamed(rule.a)) {
+      for (const PartIndex b : layout.PartsNamed(rule.b))
+        if (a != b || parts_named == 2) pairs.insert(std::minmax(a, b));
+    }
+    for (const Pair& pair : pairs) {
+      most_parts_named[pair] = std::max(most_parts_named[pair], parts_named);
+      PairRule of_parts = rule;
+      if (parts_named < 2) {
+        of_parts.a = layout.parts[pair.first].name;
+        of_parts.b = layout.parts[pair.second].name;
+      }
+      rules.emplace_back(pair, parts_named, std::move(of_parts));
+    }
+  }
+  layout.pair_rules.clear();
+  for (auto& [pair, parts_named, rule] : rules)
+    if (parts_named == most_parts_named[pair]) layout.pair_rules.push_back(std::move(rule));
+  return layout;
 }
 
 std::vector<RigidTransform> WithMotions(std::span<const RigidTransform> world_from_rests,

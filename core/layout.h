@@ -20,11 +20,22 @@ namespace elbowroom::core {
 struct Part {
   std::string name;                // unique in its layout
   std::string file;                // as written in LAYOUT.toml; empty for a part made by the program
-  std::optional<LengthUnit> unit = {};  // that its file is to be read in; nothing: as the file or the layout says
+  std::optional<LengthUnit> unit = {};  // that its file was read in; nothing: one that only the file names
   SharedMesh mesh;                 // in millimetres
   RigidTransform world_from_part;  // as authored, before spacings
   RecoveryRule recovery = {};      // which way it gives way to the hull
   GivesWay gives_way = {};         // whether and how it does; by default not at all
+  std::string node = {};           // the instance of an assembly file that it is; empty: all of the file
+
+  [[nodiscard]] bool operator==(const Part&) const = default;  // meshes: the same one
+};
+
+// Parts that spacings and pairs may name together.
+struct Group {
+  std::string name;                // unlike every part's and group's
+  std::vector<std::string> parts;  // part names
+
+  [[nodiscard]] bool operator==(const Group&) const = default;
 };
 
 enum class Axis { kX, kY, kZ };
@@ -33,23 +44,28 @@ enum class Axis { kX, kY, kZ };
 [[nodiscard]] std::string_view ToString(Axis axis);
 
 // The gap along a world axis from the upper extent of `reference` to the lower extent of `moving`:
-// "top of the PMT box to bottom of payload A". Negative gaps overlap.
+// "top of the PMT box to bottom of payload A". Negative gaps overlap. A group ends where the part of it that
+// reaches farthest does, and moves as one.
 struct Spacing {
   std::string name;       // unique in its layout
-  std::string moving;     // part name
-  std::string reference;  // part name
+  std::string moving;     // part or group name
+  std::string reference;  // part or group name
   Axis axis = Axis::kZ;
   double min_mm = 0.0;
   double max_mm = 0.0;
   double initial_mm = 0.0;
+
+  [[nodiscard]] bool operator==(const Spacing&) const = default;
 };
 
 struct PairRule {
-  std::string a;  // part name
-  std::string b;  // part name
+  std::string a;  // part or group name
+  std::string b;  // part or group name
   double required_clearance_mm = 0.0;
   bool authorised_contact = false;
   bool ignore = false;  // the pair is never asked about
+
+  [[nodiscard]] bool operator==(const PairRule&) const = default;
 };
 
 struct Layout {
@@ -58,13 +74,19 @@ struct Layout {
   std::vector<Spacing> spacings;
   std::vector<PairRule> pair_rules;
   std::vector<Stream> streams;
+  std::vector<Group> groups = {};
 
-  // Throws: Error{kRange} naming the part, spacing, pair or stream: duplicate or unknown names, a part
-  // without a mesh or with a recovery that can't be used, limits not in order, a spacing whose moving part is
-  // its own reference, circular spacings, a figure of what gives way or of a stream out of range.
+  [[nodiscard]] bool operator==(const Layout&) const = default;
+
+  // Throws: Error{kRange} with what FindLayoutFault (core/layout_fault.h) says.
   void Validate() const;
 
   [[nodiscard]] std::optional<PartIndex> FindPart(std::string_view name) const;
+  [[nodiscard]] std::optional<GroupIndex> FindGroup(std::string_view name) const;
+  // The part of that name, or those of the group; none if it names neither. Of a group, names that are no
+  // part's are left out.
+  [[nodiscard]] std::vector<PartIndex> PartsNamed(std::string_view name) const;
+  [[nodiscard]] bool SharePart(std::string_view a, std::string_view b) const;  // parts or groups
   [[nodiscard]] std::optional<SpacingIndex> FindSpacing(std::string_view name) const;
   [[nodiscard]] std::vector<double> InitialSpacings() const;
 };
@@ -73,6 +95,19 @@ struct Layout {
 // moving a gap out and back gives bit-equal poses. References are placed before the parts that move against
 // them. Throws: PreconditionError when the count differs from the layout's spacings.
 [[nodiscard]] std::vector<RigidTransform> PosesAt(const Layout& layout, std::span<const double> spacing_mm);
+
+// The gap that there is with the parts at these poses (one a part), by the exact extents of their meshes.
+// Throws: PreconditionError when the counts differ.
+[[nodiscard]] double GapMm(const Layout& layout, const Spacing& spacing,
+                           std::span<const RigidTransform> world_from_parts);
+
+// The spacings, in an order that places every reference before what moves against it; those that are
+// circular, and what hangs on them, are left out.
+[[nodiscard]] std::vector<SpacingIndex> OrderOfPlacement(const Layout& layout);
+
+// The same layout with every rule that names groups as rules of single parts. Where several are for one pair,
+// only those hold that name most of the two as parts.
+[[nodiscard]] Layout WithPairsOfParts(Layout layout);
 
 // Those poses with parts moved from there, each in its own frame; rest_from_parts empty: none.
 [[nodiscard]] std::vector<RigidTransform> WithMotions(std::span<const RigidTransform> world_from_rests,

@@ -65,6 +65,7 @@ void AddContactsCommand(CLI::App& app, Choice* choice);
 void AddDemoCommand(CLI::App& app, Choice* choice);
 void AddHullCommand(CLI::App& app, Choice* choice);
 void AddImportCommand(CLI::App& app, Choice* choice);
+void AddLayoutCommand(CLI::App& app, Choice* choice);
 void AddReportCommand(CLI::App& app, Choice* choice);
 void AddSegmentCommand(CLI::App& app, Choice* choice);
 void AddSweepCommand(CLI::App& app, Choice* choice);

@@ -88,6 +88,7 @@ int RunCommandLine(int argc, char** argv, const OpenConsole& open_console) {
   AddClearanceCommand(app, &choice);
   AddClashCommand(app, &choice);
   AddImportCommand(app, &choice);
+  AddLayoutCommand(app, &choice);
   AddBenchCommand(app, &choice);
   try {
     app.parse(argc, argv);

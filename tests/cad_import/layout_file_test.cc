@@ -126,11 +126,11 @@ TEST_F(LayoutFile, APartsUnitGoesBeforeItsFilesAndThatBeforeTheLayouts) {
   const auto size_mm = [&](std::size_t i) -> Eigen::Vector3d {
     return core::BoundsOf(*layout.parts[i].mesh).sizes();
   };
-  EXPECT_EQ(layout.parts[0].unit, std::nullopt) << "the layout's";
+  EXPECT_EQ(layout.parts[0].unit, LengthUnit::kCentimetre);
   EXPECT_TRUE(size_mm(0).isApprox(Eigen::Vector3d(10, 20, 30)));
   EXPECT_EQ(layout.parts[1].unit, LengthUnit::kInch);
   EXPECT_TRUE(size_mm(1).isApprox(Eigen::Vector3d(25.4, 50.8, 76.2)));
-  EXPECT_EQ(layout.parts[2].unit, std::nullopt) << "its file's";
+  EXPECT_EQ(layout.parts[2].unit, LengthUnit::kMetre);
   EXPECT_TRUE(size_mm(2).isApprox(Eigen::Vector3d(100, 200, 300), 1e-6));  // a file of floats
 }
 
@@ -190,16 +190,107 @@ TEST_F(LayoutFile, PartFilesThatFailAreNamedWithTheirLineAndPart) {
   EXPECT_TRUE(Mentions(unitless, "carries no unit")) << unitless;
 }
 
-TEST_F(LayoutFile, LayoutsThatContradictThemselvesAreErrors) {
-  const auto message_of = [&](const std::filesystem::path& path) {
-    return ErrorOf(ErrorKind::kRange, [&] { (void)ImportLayoutFile(path); });
+TEST_F(LayoutFile, LayoutsThatCantBeMetSayWhichLineAndWhy) {
+  const auto error = [&](int line, const std::string& from, const std::string& to) {
+    return ErrorAtLine(line, from, to, ErrorKind::kRange);
   };
-  EXPECT_TRUE(
-      Mentions(message_of(WriteWith("[[spacing]]",
-                                    "[[part]]\nname = \"pmt box\"\nfile = \"parts/box.stl\"\n[[spacing]]")),
-               "LAYOUT.toml: two parts are named 'pmt box'"));
-  EXPECT_TRUE(Mentions(message_of(WriteWith("initial_mm = 140", "initial_mm = 99")),
-                       "min_mm <= initial_mm <= max_mm"));
+  const std::string part = "[[part]]\nname = \"pmt box\"\nfile = \"parts/box.stl\"\n";
+  EXPECT_TRUE(Mentions(error(19, "[[spacing]]", part + "[[spacing]]"), "two parts are named 'pmt box'"));
+  EXPECT_TRUE(Mentions(error(25, "initial_mm = 140", "initial_mm = 99"), "min_mm <= initial_mm <= max_mm"));
+  EXPECT_TRUE(Mentions(error(24, "max_mm = 300.5", "max_mm = 30"), "not 100 <= 140 <= 30"));
+  EXPECT_TRUE(Mentions(error(21, "reference = \"pmt box\"", "reference = \"payload A\""),
+                       "a part can't move against itself"));
+  const auto with_spacing = [](const std::string& name, const std::string& moving,
+                               const std::string& reference) {
+    return "[[spacing]]\nname = \"" + name + "\"\nmoving = \"" + moving + "\"\nreference = \"" + reference +
+           "\"\naxis = \"z\"\nmin_mm = 0\nmax_mm = 9\ninitial_mm = 5\n\n[[pair]]";
+  };
+  EXPECT_TRUE(Mentions(error(28, "[[pair]]", with_spacing("gap", "payload B", "pmt box")),
+                       "two spacings are named 'gap'"));
+  EXPECT_TRUE(Mentions(error(29, "[[pair]]", with_spacing("again", "payload A", "payload B")),
+                       "spacing 'again': moves 'payload A' along z, as spacing 'gap' does"));
+  EXPECT_TRUE(Mentions(error(30, "[[pair]]", with_spacing("back", "pmt box", "payload A")),
+                       "the spacings 'gap', 'back' are circular"));
+}
+
+TEST_F(LayoutFile, AGroupMovesAsOneAndComesBack) {
+  const std::string group = "[[group]]\nname = \"upper\"\nparts = [\"payload A\", \"payload B\"]\n";
+  test_support::WriteText(folder_ / "LAYOUT.toml", kLayout);
+  std::string text = kLayout;
+  text.replace(text.find("moving = \"payload A\""), 20, "moving = \"upper\"");
+  text.replace(text.find("a = \"payload A\""), 15, "a = \"upper\"");
+  const core::Layout layout = ImportLayoutFile(Write(text + group)).layout;
+  ASSERT_EQ(layout.groups.size(), 1U);
+  EXPECT_EQ(layout.groups[0].parts, (std::vector<std::string>{"payload A", "payload B"}));
+  const auto poses = core::PosesAt(layout, std::vector<double>{140.0});
+  EXPECT_DOUBLE_EQ(core::GapMm(layout, layout.spacings[0], poses), 140.0);
+  EXPECT_EQ(poses[1].translation_mm, poses[2].translation_mm) << "as they were authored";
+  WriteLayoutFile(layout, folder_ / "copy.toml");
+  const core::Layout back = ImportLayoutFile(folder_ / "copy.toml").layout;
+  EXPECT_EQ(back.groups, layout.groups);
+  EXPECT_EQ(back.spacings, layout.spacings);
+  EXPECT_EQ(back.pair_rules, layout.pair_rules);
+}
+
+TEST_F(LayoutFile, GroupsThatMakeNoSenseAreNamedWithTheirLine) {
+  const auto error = [&](const std::string& group, int line, ErrorKind kind) {
+    return ErrorAtLine(line, "[[spacing]]", "[[group]]\n" + group + "\n[[spacing]]", kind);
+  };
+  EXPECT_TRUE(Mentions(error("name = \"g\"\nparts = [\"payload C\"]", 20, ErrorKind::kFormat),
+                       "key 'parts' names no part: 'payload C'; did you mean 'payload A'?"));
+  EXPECT_TRUE(Mentions(error("name = \"g\"\nparts = []", 20, ErrorKind::kRange), "has no parts"));
+  EXPECT_TRUE(Mentions(error("name = \"g\"\n", 18, ErrorKind::kFormat), "key 'parts' is missing"));
+  EXPECT_TRUE(Mentions(error("name = \"pmt box\"\nparts = [\"pmt box\"]", 19, ErrorKind::kRange),
+                       "is named as the part"));
+  EXPECT_TRUE(Mentions(error("name = \"g\"\nparts = [\"pmt box\", \"pmt box\"]", 20, ErrorKind::kRange),
+                       "names part 'pmt box' twice"));
+}
+
+TEST_F(LayoutFile, ANodeIsOneInstanceOfAnAssemblyAndWhatHangsUnderIt) {
+  const auto glb =
+      testing::Gltf(core::testing::Box({0.1, 0.1, 0.1}),
+                    {R"({"name":"bench","children":[1,2]})",
+                     R"({"name":"lid","mesh":0,"translation":[1,0,0],"children":[3]})",
+                     R"({"name":"lid 2","mesh":0})", R"({"name":"knob","mesh":0,"translation":[0,0,0.2]})"},
+                    {0}, "");
+  test_support::WriteText(folder_ / "parts/bench.glb", testing::Glb(glb));
+  const auto with_node = [&](const std::string& node) {
+    return Write("[[part]]\nname = \"all\"\nfile = \"parts/bench.glb\"\n" +
+                 std::string("[[part]]\nname = \"one\"\nfile = \"parts/bench.glb\"\nnode = \"") + node +
+                 "\"\n[[part]]\nname = \"twin\"\nfile = \"parts/bench.glb\"\nnode = \"" + node + "\"\n");
+  };
+  const core::Layout layout = ImportLayoutFile(with_node("bench/lid")).layout;
+  EXPECT_EQ(layout.parts[0].mesh->triangles.size(), 36U);
+  EXPECT_EQ(layout.parts[1].mesh->triangles.size(), 24U);
+  EXPECT_EQ(layout.parts[1].mesh, layout.parts[2].mesh);
+  const auto bounds = core::BoundsOf(*layout.parts[1].mesh);
+  EXPECT_NEAR(bounds.center().x(), 1050.0, 1e-3) << "where the assembly has it";
+  EXPECT_NEAR(bounds.sizes().z(), 300.0, 1e-3) << "with its knob";
+  EXPECT_EQ(ImportLayoutFile(with_node("bench/lid/knob")).warnings.size(), 0U);
+  WriteLayoutFile(layout, folder_ / "copy.toml");
+  EXPECT_EQ(ImportLayoutFile(folder_ / "copy.toml").layout.parts[1].node, "bench/lid");
+  const auto error = [&](const std::string& node) {
+    return ErrorOf(ErrorKind::kFormat, [&] { (void)ImportLayoutFile(with_node(node)); });
+  };
+  EXPECT_TRUE(Mentions(error("bench/lit"),
+                       "LAYOUT.toml:7: [[part]]: key 'node' 'bench/lit' is nothing in "
+                       "parts/bench.glb; did you mean 'bench/lid'?"))
+      << error("bench/lit");
+  EXPECT_TRUE(Mentions(error("knob"), "did you mean 'bench/lid/knob'?")) << error("knob");
+  EXPECT_TRUE(Mentions(error("engine"), "it has 'bench', 'bench/lid'")) << error("engine");
+}
+
+TEST_F(LayoutFile, InstancesOfOnePathAreTakenTogetherAndToldOf) {
+  const auto glb = testing::Gltf(core::testing::Box({0.1, 0.1, 0.1}),
+                                 {R"({"name":"bench","children":[1,2]})", R"({"name":"screw","mesh":0})",
+                                  R"({"name":"screw","mesh":0,"translation":[1,0,0]})"},
+                                 {0}, "");
+  test_support::WriteText(folder_ / "parts/bench.glb", testing::Glb(glb));
+  const ImportedLayout imported = ImportLayoutFile(
+      Write("[[part]]\nname = \"one\"\nfile = \"parts/bench.glb\"\nnode = \"bench/screw\"\n"));
+  EXPECT_EQ(imported.layout.parts[0].mesh->triangles.size(), 24U);
+  ASSERT_EQ(imported.warnings.size(), 1U);
+  EXPECT_TRUE(Mentions(imported.warnings[0], "2 instances are 'bench/screw'")) << imported.warnings[0];
 }
 
 TEST_F(LayoutFile, FilesThatAreNoLayoutAreErrors) {

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/error.h"
+#include "core/layout_fault.h"
 #include "tests/core/solids.h"
 
 namespace elbowroom::core {
@@ -102,6 +103,60 @@ TEST(PosesAt, TwoAxesOfOnePartAreIndependent) {
   EXPECT_NEAR(gap_mm.x(), 30.0, kRoundingMm);
 }
 
+Layout GroupAboveGroup() {
+  Layout layout;
+  layout.parts = {BoxPart("a", {10, 10, 10}, {0, 0, 100}, {0, 0, 0}),
+                  BoxPart("b", {10, 10, 10}, {50, 0, 130}, {0, 45, 0}),
+                  BoxPart("c", {10, 10, 10}, {0, 0, 0}, {0, 0, 0}),
+                  BoxPart("d", {10, 10, 10}, {50, 0, 25}, {30, 0, 0})};
+  layout.groups = {{"upper", {"a", "b"}}, {"lower", {"c", "d"}}};
+  layout.spacings = {Gap("gap", "upper", "lower")};
+  return layout;
+}
+
+TEST(PosesAt, AGroupEndsWhereItsFarthestPartDoesAndMovesAsOne) {
+  const Layout layout = GroupAboveGroup();
+  EXPECT_NO_THROW(layout.Validate());
+  for (const double spacing_mm : {-50.0, 0.0, 240.0}) {
+    const auto poses = PosesAt(layout, std::vector<double>{spacing_mm});
+    Eigen::AlignedBox3d upper, lower;
+    for (const PartIndex i : {0U, 1U}) upper.extend(WorldBounds(layout.parts[i], poses[i]));
+    for (const PartIndex i : {2U, 3U}) lower.extend(WorldBounds(layout.parts[i], poses[i]));
+    EXPECT_NEAR(upper.min().z() - lower.max().z(), spacing_mm, kRoundingMm);
+    EXPECT_NEAR(GapMm(layout, layout.spacings[0], poses), spacing_mm, kRoundingMm);
+    EXPECT_NEAR(poses[1].translation_mm.z() - poses[0].translation_mm.z(), 30.0, kRoundingMm);
+    EXPECT_EQ(poses[2], layout.parts[2].world_from_part);
+  }
+}
+
+TEST(PosesAt, WhatHangsOnAPartOfAGroupWaitsForTheGroup) {
+  Layout layout = GroupAboveGroup();
+  layout.parts.push_back(BoxPart("e", {10, 10, 10}, {0, 0, 500}, {0, 0, 0}));
+  layout.spacings.insert(layout.spacings.begin(), Gap("on top", "e", "a"));
+  const auto poses = PosesAt(layout, std::vector<double>{7.0, 240.0});
+  EXPECT_NEAR(GapMm(layout, layout.spacings[0], poses), 7.0, kRoundingMm);
+  EXPECT_NEAR(GapMm(layout, layout.spacings[1], poses), 240.0, kRoundingMm);
+  layout.spacings.push_back(Gap("back", "c", "e"));
+  EXPECT_EQ(FindLayoutFault(layout)->message.find("circular") != std::string::npos, true);
+}
+
+TEST(PairsOfParts, TheRuleThatNamesMorePartsHolds) {
+  Layout layout = GroupAboveGroup();
+  layout.pair_rules = {{"upper", "lower", 5.0, false},
+                       {"a", "lower", 7.0, false},
+                       {"c", "a", 9.0, true},
+                       {"lower", "lower", 1.0, false}};
+  const Layout of_parts = WithPairsOfParts(layout);
+  const std::vector<PairRule> expected = {{"b", "c", 5.0, false},
+                                          {"b", "d", 5.0, false},
+                                          {"a", "d", 7.0, false},
+                                          {"c", "a", 9.0, true},
+                                          {"c", "d", 1.0, false}};
+  EXPECT_EQ(of_parts.pair_rules, expected);
+  layout.pair_rules = {{"a", "b", 1.0, false}, {"b", "a", 2.0, false}};
+  EXPECT_EQ(WithPairsOfParts(layout).pair_rules, layout.pair_rules) << "contradictions aren't hidden";
+}
+
 TEST(PosesAt, NeedsOneValueASpacing) { EXPECT_THROW((void)PosesAt(TwoTurnedParts(), {}), PreconditionError); }
 
 struct BadLayout {
@@ -131,6 +186,24 @@ TEST(LayoutValidate, NamesWhatIsWrong) {
        "spacing 'gap'"},
       {"a hinge without an axis", [](Layout& l) { l.parts[1].recovery.kind = RecoveryKind::kHinge; },
        "part 'pmt': recovery: a direction, slider or hinge needs an axis"},
+      {"one part, one axis", [](Layout& l) { l.spacings.push_back(Gap("again", "payload", "pmt")); },
+       "spacing 'again': moves 'payload' along z, as spacing 'gap' does"},
+      {"empty group",
+       [](Layout& l) {
+         l.groups = {{"g", {}}};
+       },
+       "group 'g' has no parts"},
+      {"group of strangers",
+       [](Layout& l) {
+         l.groups = {{"g", {"nobody"}}};
+       },
+       "group 'g': no part is named 'nobody'"},
+      {"group against its own part",
+       [](Layout& l) {
+         l.groups = {{"g", {"payload", "pmt"}}};
+         l.spacings[0].moving = "g";
+       },
+       "a part can't move against itself"},
       {"circular", [](Layout& l) { l.spacings.push_back(Gap("back", "pmt", "payload")); }, "circular"},
       {"unknown in pair",
        [](Layout& l) {

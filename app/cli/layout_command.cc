@@ -1,0 +1,278 @@
+// elbowroom layout: a LAYOUT.toml from CAD, without an editor.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/cli/command.h"
+#include "app/cli/layout_edit.h"
+#include "app/cli/layout_listing.h"
+#include "app/cli/unit_option.h"
+#include "app/control/layout_picture.h"
+#include "cad_import/layout_file.h"
+#include "core/error.h"
+#include "core/whole_file.h"
+#include "recon/png_file.h"
+
+namespace elbowroom::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using cad_import::LayoutText;
+
+// What the words of any of these commands may say.
+struct LayoutOptions {
+  fs::path layout;
+  std::vector<fs::path> files;
+  std::optional<core::LengthUnit> unit;
+  fs::path picture;
+  PartEdit part;
+  SpacingEdit spacing;
+  core::Group group;
+  PairEdit pair;
+  std::vector<std::string> names;
+};
+using SharedOptions = std::shared_ptr<LayoutOptions>;
+using Run = CommandResult (*)(const LayoutOptions&);
+
+// Writes the text if it is a layout; what it then holds is the result, after a line that says what was done.
+CommandResult Save(const LayoutText& text, const std::string& what) {
+  cad_import::ImportedLayout imported;
+  try {
+    imported = cad_import::ImportLayoutText(text);
+  } catch (const core::Error& error) {
+    throw core::Error(error.kind(), fmt::format("nothing was written: {}", error.what()));
+  }
+  core::WriteWholeFile(text.file(), text.text());
+  CommandResult result = ListingOf(imported, text.file());
+  result.text.insert(0, what + "\n");
+  return result;
+}
+
+CommandResult New(const LayoutOptions& options) {
+  if (fs::exists(options.layout)) {
+    throw core::Error(core::ErrorKind::kFile,
+                      fmt::format("{}: is there already; choose another name, or add to it with `elbowroom "
+                                  "layout add`",
+                                  options.layout.string()));
+  }
+  const fs::path folder = fs::absolute(options.layout).parent_path();
+  if (!fs::is_directory(folder)) {
+    throw core::Error(core::ErrorKind::kFile,
+                      fmt::format("{}: no such folder; make it first", folder.string()));
+  }
+  LayoutText text({}, options.layout);
+  if (options.unit) text.SetUnit(*options.unit);
+  for (const fs::path& file : options.files) {
+    PartEdit part;
+    part.file = file;
+    AddPart(text, part);
+  }
+  if (!options.files.empty()) return Save(text, "made " + options.layout.string());
+  core::WriteWholeFile(options.layout, text.text());
+  return {{{"file", options.layout.string()}, {"parts", nlohmann::json::array()}},
+          fmt::format("made {}; it has no parts yet", options.layout.string())};
+}
+
+CommandResult Add(const LayoutOptions& options) {
+  LayoutText text = LayoutText::Read(options.layout);
+  PartEdit part = options.part;
+  part.file = options.files.front();
+  part.unit = options.unit;
+  const std::string name = AddPart(text, part);
+  return Save(text, fmt::format("added part '{}'", name));
+}
+
+CommandResult Space(const LayoutOptions& options) {
+  LayoutText text = LayoutText::Read(options.layout);
+  PutSpacing(text, options.spacing);
+  return Save(text, fmt::format("spacing '{}' is set", options.spacing.name));
+}
+
+CommandResult Group(const LayoutOptions& options) {
+  LayoutText text = LayoutText::Read(options.layout);
+  PutGroup(text, options.group);
+  return Save(text, fmt::format("group '{}' is set", options.group.name));
+}
+
+CommandResult Pair(const LayoutOptions& options) {
+  LayoutText text = LayoutText::Read(options.layout);
+  PutPair(text, options.pair);
+  return Save(text, fmt::format("pair '{}' and '{}' is set", options.pair.a, options.pair.b));
+}
+
+CommandResult Move(const LayoutOptions& options) {
+  LayoutText text = LayoutText::Read(options.layout);
+  MovePart(text, options.part);
+  return Save(text, fmt::format("part '{}' is moved", options.part.name));
+}
+
+CommandResult Remove(const LayoutOptions& options) {
+  LayoutText text = LayoutText::Read(options.layout);
+  for (const std::string& name : options.names) RemoveNamed(text, name);
+  if (!options.pair.a.empty()) RemovePair(text, options.pair);
+  return Save(text, options.names.empty()
+                        ? fmt::format("removed the pair '{}' and '{}'", options.pair.a, options.pair.b)
+                        : fmt::format("removed '{}'", fmt::join(options.names, "', '")));
+}
+
+CommandResult Show(const LayoutOptions& options) {
+  if (!options.picture.empty() && options.picture.extension() != ".png") {
+    throw core::Error(core::ErrorKind::kFile,
+                      fmt::format("--picture '{}': is written as .png alone; choose a name that ends so",
+                                  options.picture.string()));
+  }
+  const cad_import::ImportedLayout imported = cad_import::ImportLayoutFile(options.layout);
+  CommandResult result = ListingOf(imported, options.layout);
+  if (options.picture.empty()) return result;
+  recon::gl::SceneRenderer renderer;
+  const core::Layout& layout = imported.layout;
+  recon::WritePng(control::LayoutPicture(renderer, layout, core::PosesAt(layout, layout.InitialSpacings())),
+                  options.picture);
+  result.json["picture"] = options.picture.string();
+  result.text += "\npicture: " + options.picture.string();
+  return result;
+}
+
+// A number, also a negative one, that isn't infinite.
+CLI::Validator FiniteNumber() {
+  return {[](const std::string& text) -> std::string {
+            return ParseNumber(text) ? "" : "must be a number, not " + text;
+          },
+          "NUMBER"};
+}
+
+void AddNumber(CLI::App& command, const std::string& option, std::optional<double>* value,
+               const std::string& what) {
+  command.add_option(option, *value, what)->check(FiniteNumber());
+}
+
+// --name, and --no-name for the opposite.
+void AddSwitch(CLI::App& command, const std::string& name, std::optional<bool>* value,
+               const std::string& what) {
+  command.add_flag_function(
+      fmt::format("--{0},!--no-{0}", name), [value](std::int64_t count) { *value = count > 0; }, what);
+}
+
+void AddVector(CLI::App& command, const std::string& option, std::optional<Eigen::Vector3d>* value,
+               const std::string& what, const std::string& type) {
+  command
+      .add_option_function<std::vector<double>>(
+          option, [value](const std::vector<double>& v) { *value = Eigen::Vector3d(v[0], v[1], v[2]); }, what)
+      ->expected(3)
+      ->check(FiniteNumber())
+      ->type_name(type);
+}
+
+void RequireOneOf(CLI::App& command, const std::vector<std::string>& options) {
+  command.parse_complete_callback([&command, options] {
+    const auto is_given = [&](const std::string& name) { return command.count(name) > 0; };
+    if (std::ranges::none_of(options, is_given))
+      throw CLI::RequiredError(fmt::format("{}", fmt::join(options, " or ")));
+  });
+}
+
+void AddPlace(CLI::App& command, PartEdit* part) {
+  AddVector(command, "--position", &part->position_mm, "where the part's origin stands, mm in world",
+            "X Y Z");
+  AddVector(command, "--rotation", &part->rotation_rpy_deg,
+            "about the fixed x, then y, then z axis, degrees (roll, pitch, yaw)", "R P Y");
+}
+
+// A command of `layout` with its first word.
+CLI::App* AddCommand(CLI::App& layout, const SharedOptions& options, Choice* choice, const std::string& name,
+                     const std::string& what, Run run) {
+  CLI::App* command = layout.add_subcommand(name, what);
+  command->add_option("LAYOUT", options->layout, "layout (TOML)")->required();
+  command->callback([=] { choice->action = [=](const CommandContext&) { return run(*options); }; });
+  return command;
+}
+
+void AddPartCommands(CLI::App& layout, Choice* choice) {
+  auto made = std::make_shared<LayoutOptions>();
+  CLI::App* make = AddCommand(layout, made, choice, "new", "make a layout of CAD files", New);
+  make->add_option("FILE", made->files, "parts, each where its file has it");
+  AddUnitOption(*make, &made->unit);
+
+  auto added = std::make_shared<LayoutOptions>();
+  CLI::App* add = AddCommand(layout, added, choice, "add", "add a part", Add);
+  add->add_option("FILE", added->files, "CAD file")->required()->expected(1);
+  add->add_option("--name", added->part.name, "the part's name (default: the file's)");
+  add->add_option("--node", added->part.node, "only this instance of an assembly, Path/Of/Node");
+  AddUnitOption(*add, &added->unit);
+  AddPlace(*add, &added->part);
+
+  auto moved = std::make_shared<LayoutOptions>();
+  CLI::App* move = AddCommand(layout, moved, choice, "move", "put a part elsewhere", Move);
+  move->add_option("PART", moved->part.name, "its name")->required();
+  AddPlace(*move, &moved->part);
+  RequireOneOf(*move, {"--position", "--rotation"});
+
+  auto removed = std::make_shared<LayoutOptions>();
+  CLI::App* remove =
+      AddCommand(layout, removed, choice, "remove", "remove a part, group, spacing or pair", Remove);
+  CLI::Option* names = remove->add_option("NAME", removed->names, "of parts, groups, spacings, streams");
+  remove
+      ->add_option_function<std::vector<std::string>>(
+          "--pair",
+          [removed](const std::vector<std::string>& pair) {
+            removed->pair.a = pair[0];
+            removed->pair.b = pair[1];
+          },
+          "the rule of these two")
+      ->expected(2)
+      ->type_name("A B")
+      ->excludes(names);
+  RequireOneOf(*remove, {"NAME", "--pair"});
+}
+
+void AddRuleCommands(CLI::App& layout, Choice* choice) {
+  auto spaced = std::make_shared<LayoutOptions>();
+  CLI::App* space =
+      AddCommand(layout, spaced, choice, "space", "add a spacing, or change what is given of it", Space);
+  SpacingEdit& spacing = spaced->spacing;
+  space->add_option("NAME", spacing.name, "the spacing's name")->required();
+  space->add_option("--moving", spacing.moving, "part or group that it moves");
+  space->add_option("--reference", spacing.reference, "part or group that stays");
+  space->add_option("--axis", spacing.axis, "along which world axis")->check(CLI::IsMember({"x", "y", "z"}));
+  AddNumber(*space, "--min", &spacing.min_mm, "smallest gap, mm");
+  AddNumber(*space, "--max", &spacing.max_mm, "largest gap, mm");
+  AddNumber(*space, "--initial", &spacing.initial_mm, "gap to start with, mm");
+
+  auto grouped = std::make_shared<LayoutOptions>();
+  CLI::App* group = AddCommand(layout, grouped, choice, "group", "name parts that go together", Group);
+  group->add_option("NAME", grouped->group.name, "the group's name")->required();
+  group->add_option("PART", grouped->group.parts, "its parts")->required();
+
+  auto paired = std::make_shared<LayoutOptions>();
+  CLI::App* pair =
+      AddCommand(layout, paired, choice, "pair", "say what holds between two parts or groups", Pair);
+  PairEdit& rule = paired->pair;
+  pair->add_option("A", rule.a, "part or group")->required();
+  pair->add_option("B", rule.b, "part or group")->required();
+  pair->add_option("--required-clearance", rule.required_clearance_mm, "how far apart they must be, mm")
+      ->check(LengthFromZero());
+  AddSwitch(*pair, "authorised-contact", &rule.authorised_contact, "they may touch");
+  AddSwitch(*pair, "ignore", &rule.ignore, "they aren't judged at all");
+  RequireOneOf(*pair, {"--required-clearance", "--authorised-contact", "--ignore"});
+}
+
+}  // namespace
+
+void AddLayoutCommand(CLI::App& app, Choice* choice) {
+  CLI::App* layout = app.add_subcommand("layout", "make, change and show a layout of parts");
+  layout->require_subcommand(1);
+  AddPartCommands(*layout, choice);
+  AddRuleCommands(*layout, choice);
+  auto shown = std::make_shared<LayoutOptions>();
+  CLI::App* show = AddCommand(*layout, shown, choice, "show", "its parts, sizes, gaps and rules", Show);
+  show->add_option("--picture", shown->picture, "picture to write (.png)");
+}
+
+}  // namespace elbowroom::cli

@@ -1,0 +1,56 @@
+// What `elbowroom layout` does to the text of a LAYOUT.toml.
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cad_import/layout_text.h"
+#include "core/layout.h"
+#include "core/units.h"
+
+namespace elbowroom::cli {
+
+// What is nothing isn't written, or, of an entry that is there, stays as it is.
+struct PartEdit {
+  std::filesystem::path file;
+  std::string name;  // empty: the file's, numbered where it is taken
+  std::string node;
+  std::optional<core::LengthUnit> unit;
+  std::optional<Eigen::Vector3d> position_mm;
+  std::optional<Eigen::Vector3d> rotation_rpy_deg;
+};
+struct SpacingEdit {
+  std::string name;
+  std::optional<std::string> moving;
+  std::optional<std::string> reference;
+  std::optional<std::string> axis;
+  std::optional<double> min_mm;
+  std::optional<double> max_mm;
+  std::optional<double> initial_mm;
+};
+struct PairEdit {
+  std::string a;
+  std::string b;
+  std::optional<double> required_clearance_mm;
+  std::optional<bool> authorised_contact;
+  std::optional<bool> ignore;
+};
+
+// Returns the name that the part was given. Its file is written as seen from the layout's folder.
+std::string AddPart(cad_import::LayoutText& text, const PartEdit& edit);
+
+// Changes the entry of that name (a pair: of the two, in either order), or adds it.
+void PutSpacing(cad_import::LayoutText& text, const SpacingEdit& edit);
+void PutGroup(cad_import::LayoutText& text, const core::Group& group);
+void PutPair(cad_import::LayoutText& text, const PairEdit& edit);
+
+// Both throw: core::Error{kRange} with the layout's file for a name that it doesn't have, with the nearest
+// that it has. RemoveNamed also, with their lines, while other entries name the part or group.
+void MovePart(cad_import::LayoutText& text, const PartEdit& edit);
+void RemoveNamed(cad_import::LayoutText& text, const std::string& name);
+void RemovePair(cad_import::LayoutText& text, const PairEdit& edit);
+
+}  // namespace elbowroom::cli

@@ -1,0 +1,13 @@
+// A layout as `elbowroom layout` tells it.
+#pragma once
+
+#include "app/cli/command.h"
+#include "cad_import/layout_file.h"
+
+namespace elbowroom::cli {
+
+// Its parts with size and place, groups, gaps, pairs and warnings, at the initial values of the gaps.
+[[nodiscard]] CommandResult ListingOf(const cad_import::ImportedLayout& imported,
+                                      const std::filesystem::path& file);
+
+}  // namespace elbowroom::cli

@@ -1,0 +1,146 @@
+#include "app/control/layout_picture.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "app/control/line_drawing.h"
+#include "recon/orbit_camera.h"
+
+namespace elbowroom::control {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr int kWidthPx = 1200;
+constexpr int kHeightPx = 800;
+constexpr std::size_t kMostNamed = 24;  // in the legend
+constexpr double kRowPx = 20.0;
+constexpr double kElevationRad = 0.25;  // low, so that gaps along z aren't hidden by what is above
+constexpr const char* kGapColor = "#b4400a";
+
+// Far apart, as light as what is drawn in them has to be; parts beyond take them again.
+constexpr std::array<std::array<int, 3>, 8> kColors = {{{96, 143, 190},
+                                                        {214, 164, 92},
+                                                        {113, 173, 125},
+                                                        {172, 131, 186},
+                                                        {205, 124, 120},
+                                                        {92, 176, 180},
+                                                        {158, 158, 110},
+                                                        {150, 150, 160}}};
+
+Eigen::Vector3f ColorOf(std::size_t part) {
+  const auto& [r, g, b] = kColors[part % kColors.size()];
+  return Eigen::Vector3f(static_cast<float>(r), static_cast<float>(g), static_cast<float>(b)) / 255.0F;
+}
+
+std::string HexOf(std::size_t part) {
+  const auto& [r, g, b] = kColors[part % kColors.size()];
+  return fmt::format("#{:02x}{:02x}{:02x}", r, g, b);
+}
+
+using Boxes = std::vector<Eigen::AlignedBox3d>;  // of each part in world
+
+Eigen::AlignedBox3d BoxOf(const core::Layout& layout, const std::string& part_or_group, const Boxes& boxes) {
+  Eigen::AlignedBox3d box;
+  for (const core::PartIndex i : layout.PartsNamed(part_or_group)) box.extend(boxes[i]);
+  return box;
+}
+
+// Where the gap is drawn: beside its axis in the middle of what both ends have in common, or of the moving
+// end if that is nothing.
+std::array<Vector3d, 2> EndsOf(const core::Layout& layout, const core::Spacing& gap, const Boxes& boxes) {
+  const Eigen::AlignedBox3d below = BoxOf(layout, gap.reference, boxes);
+  const Eigen::AlignedBox3d above = BoxOf(layout, gap.moving, boxes);
+  const auto axis = static_cast<Eigen::Index>(gap.axis);
+  Vector3d from = above.center();
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    const double low = std::max(below.min()[i], above.min()[i]);
+    const double high = std::min(below.max()[i], above.max()[i]);
+    if (low <= high) from[i] = 0.5 * (low + high);
+  }
+  Vector3d to = from;
+  from[axis] = below.max()[axis];
+  to[axis] = above.min()[axis];
+  return {from, to};
+}
+
+// Right of that point, on paper of its own: parts come in any colour.
+void AddLabel(const Eigen::Vector2d& at, const std::string& text, LineDrawing* drawing) {
+  constexpr double kSize = 15.0, kLetterPx = 12.0, kFromLinePx = 12.0, kMarginPx = 4.0;
+  const double left = at.x() + kFromLinePx, base = at.y() + 0.35 * kSize;
+  const double right = left + kLetterPx * static_cast<double>(text.size());
+  drawing->areas.push_back(
+      {{{left - kMarginPx, base - kSize}, {right + kMarginPx, base + 0.4 * kSize}}, "#ffffff"});
+  drawing->texts.push_back(
+      {{0.5 * (left + right), base}, text, LineDrawing::Anchor::kMiddle, kSize, kGapColor});
+}
+
+void AddGap(const core::Layout& layout, const core::Spacing& gap, const Boxes& boxes, double gap_mm,
+            const recon::SceneView& view, LineDrawing* drawing) {
+  constexpr double kTickPx = 6.0;
+  const auto [from, to] = EndsOf(layout, gap, boxes);
+  const auto a = view.Project(from), b = view.Project(to);
+  if (!a || !b) return;
+  drawing->lines.push_back({{{a->x(), a->y()}, {b->x(), b->y()}}, kGapColor, 2.0});
+  const Eigen::Vector2d along = *b - *a;
+  if (along.norm() > 0.0) {
+    const Eigen::Vector2d tick = kTickPx * Eigen::Vector2d(-along.y(), along.x()).normalized();
+    for (const Eigen::Vector2d& end : {*a, *b})
+      drawing->lines.push_back(
+          {{{end.x() - tick.x(), end.y() - tick.y()}, {end.x() + tick.x(), end.y() + tick.y()}},
+           kGapColor,
+           2.0});
+  }
+  AddLabel(0.5 * (*a + *b), fmt::format("{} {:.6g} mm", gap.name, gap_mm), drawing);
+}
+
+void AddLegend(const core::Layout& layout, const Boxes& boxes, LineDrawing* drawing) {
+  constexpr double kLeft = 14.0, kTop = 14.0, kSquare = 12.0;
+  for (std::size_t i = 0; i < layout.parts.size() && i <= kMostNamed; ++i) {
+    const double top = kTop + kRowPx * static_cast<double>(i);
+    const LineDrawing::Point at{kLeft + kSquare + 8.0, top + kSquare - 1.0};
+    if (i == kMostNamed) {
+      drawing->texts.push_back({at, fmt::format("and {} more", layout.parts.size() - i)});
+      return;
+    }
+    const Vector3d size_mm = boxes[i].sizes();
+    drawing->areas.push_back({{{kLeft, top}, {kLeft + kSquare, top + kSquare}}, HexOf(i)});
+    drawing->texts.push_back({at, fmt::format("{}  {:.4g} x {:.4g} x {:.4g} mm", layout.parts[i].name,
+                                              size_mm.x(), size_mm.y(), size_mm.z())});
+  }
+}
+
+}  // namespace
+
+recon::Image LayoutPicture(recon::gl::SceneRenderer& renderer, const core::Layout& layout,
+                           std::span<const core::RigidTransform> world_from_parts) {
+  Boxes boxes;
+  Eigen::AlignedBox3d all;
+  recon::gl::Scene scene;
+  for (core::PartIndex i = 0; i < layout.parts.size(); ++i) {
+    const core::SharedMesh& mesh = layout.parts[i].mesh;
+    boxes.push_back(core::BoundsOf(core::Transformed(*mesh, world_from_parts[i])));
+    all.extend(boxes.back());
+    recon::gl::ScenePart& part = scene.parts.emplace_back();
+    part.mesh = mesh;
+    part.world_from_part = world_from_parts[i];
+    part.color = ColorOf(i);
+  }
+  recon::OrbitCamera camera;
+  camera.elevation_rad = kElevationRad;
+  scene.view = recon::ViewFrom(recon::FittedTo(camera, all, kWidthPx, kHeightPx), kWidthPx, kHeightPx);
+  scene.lamp = recon::gl::LampOver(all);
+  recon::Image picture = renderer.Render(scene);
+  LineDrawing drawing;
+  AddLegend(layout, boxes, &drawing);
+  for (const core::Spacing& gap : layout.spacings)
+    AddGap(layout, gap, boxes, core::GapMm(layout, gap, world_from_parts), scene.view, &drawing);
+  PaintOn(&picture, drawing);
+  return picture;
+}
+
+}  // namespace elbowroom::control

@@ -1,0 +1,55 @@
+// Undo and redo as values.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "core/error.h"
+
+namespace elbowroom::core {
+
+// All that a value has been, and which of it holds. Values are kept whole, so that what is undone comes back
+// bit-equal; a core::Layout shares its meshes and is cheap to keep.
+template <typename Value>
+class History {
+ public:
+  explicit History(Value first) { Push(std::move(first)); }
+
+  [[nodiscard]] const Value& now() const { return *values_[now_]; }
+  [[nodiscard]] bool CanUndo() const { return now_ > 0; }
+  [[nodiscard]] bool CanRedo() const { return now_ + 1 < values_.size(); }
+
+  // What was undone is forgotten. A value that equals the present one is no change.
+  [[nodiscard]] History Changed(Value next) const {
+    if (next == now()) return *this;
+    History history = *this;
+    history.values_.resize(now_ + 1);
+    history.Push(std::move(next));
+    ++history.now_;
+    return history;
+  }
+
+  // Both throw: PreconditionError when there is nothing to undo or redo.
+  [[nodiscard]] History Undone() const {
+    Require(CanUndo(), "something was changed");
+    History history = *this;
+    --history.now_;
+    return history;
+  }
+  [[nodiscard]] History Redone() const {
+    Require(CanRedo(), "something was undone");
+    History history = *this;
+    ++history.now_;
+    return history;
+  }
+
+ private:
+  void Push(Value value) { values_.push_back(std::make_shared<const Value>(std::move(value))); }
+
+  std::vector<std::shared_ptr<const Value>> values_;  // first to last; at least one
+  std::size_t now_ = 0;
+};
+
+}  // namespace elbowroom::core
