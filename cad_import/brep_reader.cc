@@ -14,6 +14,7 @@
 #include <STEPConstruct_ExternRefs.hxx>
 #include <STEPConstruct_UnitContext.hxx>
 #include <Standard_Failure.hxx>
+#include <Standard_OutOfMemory.hxx>
 #include <StepGeom_GeomRepContextAndGlobUnitAssCtxAndGlobUncertaintyAssCtx.hxx>
 #include <StepGeom_GeometricRepresentationContextAndGlobalUnitAssignedContext.hxx>
 #include <StepRepr_GlobalUnitAssignedContext.hxx>
@@ -35,12 +36,14 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <new>
 #include <set>
 #include <string>
 #include <string_view>
 #include <system_error>
 #include <utility>
 
+#include "cad_import/brep_module.h"
 #include "cad_import/own_folder.h"
 #include "cad_import/tessellation.h"
 #include "core/error.h"
@@ -339,6 +342,8 @@ RawScene ReadBrep(const fs::path& file, FileFormat format, const ImportOptions& 
     scene.referred = std::move(document.referred);
     scene.warnings.insert(scene.warnings.begin(), document.warnings.begin(), document.warnings.end());
     return scene;
+  } catch (const Standard_OutOfMemory&) {
+    throw std::bad_alloc();
   } catch (const Standard_Failure& failure) {
     throw Error(ErrorKind::kFormat,
                 fmt::format("{}: can't be read as {} ({}: {}); export it again", file.string(),
@@ -347,3 +352,5 @@ RawScene ReadBrep(const fs::path& file, FileFormat format, const ImportOptions& 
 }
 
 }  // namespace elbowroom::cad_import
+
+elbowroom::cad_import::BrepReader& ElbowroomBrepReader() { return elbowroom::cad_import::ReadBrep; }

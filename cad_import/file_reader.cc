@@ -1,9 +1,10 @@
 #include "cad_import/file_reader.h"
 
+#include <optional>
 #include <string>
 #include <utility>
 
-#include "cad_import/brep_reader.h"
+#include "cad_import/brep_module.h"
 #include "cad_import/file_format.h"
 #include "cad_import/scene_reader.h"
 #include "cad_import/settling.h"
@@ -13,12 +14,17 @@ namespace elbowroom::cad_import {
 
 namespace fs = std::filesystem;
 
+void PrepareToRead(const fs::path& file) {
+  const std::optional<FileFormat> format = FindFormat(file);
+  if (format && IsBoundaryRepresentation(*format)) (void)LoadedBrepReader();
+}
+
 PackedModel ReadCadFile(const fs::path& file, const ImportOptions& options, const core::Progress& progress) {
   progress.Report(0, 0, "reading");
   auto [format, bytes] = ReadCheckedFile(file);
   RawScene scene;
   if (IsBoundaryRepresentation(format)) {
-    scene = ReadBrep(file, format, options, progress);
+    scene = LoadedBrepReader()(file, format, options, progress);
   } else if (format == FileFormat::k3mf) {
     scene = ReadThreeMf(file);
   } else {
