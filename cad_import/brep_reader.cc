@@ -43,7 +43,6 @@
 #include <system_error>
 #include <utility>
 
-#include "cad_import/brep_module.h"
 #include "cad_import/own_folder.h"
 #include "cad_import/tessellation.h"
 #include "core/error.h"
@@ -352,5 +351,3 @@ RawScene ReadBrep(const fs::path& file, FileFormat format, const ImportOptions& 
 }
 
 }  // namespace elbowroom::cad_import
-
-elbowroom::cad_import::BrepReader& ElbowroomBrepReader() { return elbowroom::cad_import::ReadBrep; }

@@ -1,6 +1,5 @@
 #include "cad_import/import_cache.h"
 
-#include <assimp/version.h>
 #include <fmt/format.h>
 #include <Standard_Version.hxx>
 
@@ -52,11 +51,10 @@ std::optional<ImportCache> ImportCache::OfUser() {
 }
 
 std::string ImportCache::KeyOf(const fs::path& file, const ImportOptions& options) {
-  const std::string text = fmt::format("{} {} {} {} {:a} {} {} {}.{}.{}", kPackedModelVersion,
-                                       HashOfFile(file), file.filename().string(),
-                                       NameOrDash(options.unit) + NameOrDash(options.unit_if_file_has_none),
-                                       options.tolerance_mm, OCC_VERSION_COMPLETE, aiGetVersionMajor(),
-                                       aiGetVersionMinor(), aiGetVersionPatch(), aiGetVersionRevision());
+  const std::string text =
+      fmt::format("{} {} {} {} {:a} {} {}", kPackedModelVersion, HashOfFile(file), file.filename().string(),
+                  NameOrDash(options.unit) + NameOrDash(options.unit_if_file_has_none), options.tolerance_mm,
+                  OCC_VERSION_COMPLETE, ASSIMP_VERSION);
   return HashOf(std::as_bytes(std::span(text)));
 }
 

@@ -3,6 +3,8 @@
 #include <utility>
 
 #include "cad_import/cad_file.h"
+#include "cad_import/format_modules.h"
+#include "core/whole_file.h"
 
 namespace elbowroom::cad_import {
 
@@ -11,6 +13,10 @@ ImportedMesh ImportMeshFile(const std::filesystem::path& file, const ImportOptio
   CadModel model = ImportCadFile(file, options, progress, stop);
   FlatModel flat = Flatten(model);
   return {std::move(flat.mesh), std::move(flat.parts), std::move(model.report)};
+}
+
+void WriteMeshFile(const core::TriangleMesh& mesh, const std::filesystem::path& path) {
+  core::WriteWholeFile(path, LoadedMeshFormats().encode(mesh, path));
 }
 
 }  // namespace elbowroom::cad_import

@@ -1,3 +1,5 @@
+#include "cad_import/mesh_writer.h"
+
 #include <assimp/cexport.h>
 #include <assimp/scene.h>
 #include <fmt/format.h>
@@ -9,9 +11,7 @@
 #include <optional>
 
 #include "cad_import/file_format.h"
-#include "cad_import/mesh_file.h"
 #include "core/error.h"
-#include "core/whole_file.h"
 
 namespace elbowroom::cad_import {
 namespace {
@@ -70,7 +70,7 @@ std::unique_ptr<aiScene> SceneOf(const core::TriangleMesh& mesh, double mm_per_u
 
 }  // namespace
 
-void WriteMeshFile(const core::TriangleMesh& mesh, const std::filesystem::path& path) {
+std::string EncodeMesh(const core::TriangleMesh& mesh, const std::filesystem::path& path) {
   const std::string where = path.string();
   core::ValidateMesh(mesh, where);
   const Target target = TargetOf(path);
@@ -85,7 +85,7 @@ void WriteMeshFile(const core::TriangleMesh& mesh, const std::filesystem::path& 
   if (blob == nullptr) {
     throw Error(ErrorKind::kFile, fmt::format("{}: can't be written ({})", where, exporter.GetErrorString()));
   }
-  core::WriteWholeFile(path, {static_cast<const char*>(blob->data), blob->size});
+  return {static_cast<const char*>(blob->data), blob->size};
 }
 
 }  // namespace elbowroom::cad_import

@@ -48,7 +48,7 @@ class CopiedProgram : public testing::Test {
 };
 
 TEST_F(CopiedProgram, WorksWithItsModulesBesideIt) {
-  EXPECT_EQ(CopyModules(), 2);
+  EXPECT_EQ(CopyModules(), 3);
   EXPECT_EQ(Segment().err, "");
   EXPECT_FALSE(fs::is_empty(folder_ / "masks"));
   const ProgramRun import = ImportStep();

@@ -1,4 +1,4 @@
-#include "cad_import/brep_module.h"
+#include "cad_import/format_modules.h"
 
 #include "core/module.h"
 
@@ -8,6 +8,12 @@ BrepReader& LoadedBrepReader() {
   static BrepReader& reader =
       core::FunctionOfModule<decltype(ElbowroomBrepReader)>("brep_reader", "ElbowroomBrepReader")();
   return reader;
+}
+
+const MeshFormats& LoadedMeshFormats() {
+  static const MeshFormats& formats =
+      core::FunctionOfModule<decltype(ElbowroomMeshFormats)>("mesh_formats", "ElbowroomMeshFormats")();
+  return formats;
 }
 
 }  // namespace elbowroom::cad_import
