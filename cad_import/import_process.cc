@@ -259,7 +259,9 @@ MappedFile ImportInChild(const std::filesystem::path& file, const ImportOptions&
   if (failure) throw Error(*failure);
   if (!is_done || !WIFEXITED(status) || WEXITSTATUS(status) != 0)
     throw ErrorOfEnd(where, status, options.limits);
-  std::optional<MappedFile> packed = MappedFile::Of(result.number());
+  // Nothing that the child may have left behind can change it from here on.
+  const bool is_sealed = ::fcntl(result.number(), F_ADD_SEALS, F_SEAL_SHRINK | F_SEAL_WRITE) == 0;
+  std::optional<MappedFile> packed = is_sealed ? MappedFile::Of(result.number()) : std::nullopt;
   if (packed) return *std::move(packed);
   throw Error(ErrorKind::kCad, fmt::format("{}: its model can't be read back; import it again", where));
 }
