@@ -1,7 +1,6 @@
 // The module behind recon/picture_codecs.h.
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/videoio.hpp>
-#include <utility>
 
 #include "recon/picture_codecs.h"
 
@@ -10,7 +9,7 @@ namespace {
 
 class Capture : public VideoStream {
  public:
-  explicit Capture(cv::VideoCapture capture) : capture_(std::move(capture)) {}
+  explicit Capture(const cv::VideoCapture& capture) : capture_(capture) {}
 
   [[nodiscard]] bool Grab() override { return capture_.grab(); }
   [[nodiscard]] cv::Mat Retrieve() override {
@@ -46,7 +45,7 @@ std::vector<std::uint8_t> Encode(const cv::Mat& image, const std::string& extens
 std::unique_ptr<VideoStream> Open(const auto&... arguments) {
   try {
     cv::VideoCapture capture;
-    if (capture.open(arguments...)) return std::make_unique<Capture>(std::move(capture));
+    if (capture.open(arguments...)) return std::make_unique<Capture>(capture);
   } catch (const cv::Exception&) {
     return nullptr;
   }
