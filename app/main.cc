@@ -1,29 +1,46 @@
-// The program: the command line, and the window that it may open.
+// The program: the command line, and the way to the window, which is a program beside it.
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
 #include "app/cli/command_line.h"
 #include "cad_import/import_worker.h"
-#ifdef ELBOWROOM_WITH_CONSOLE
-#include "app/console/console_main.h"
+#ifdef ELBOWROOM_WINDOW_PROGRAM
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+
+#include "core/error.h"
 #endif
+
+namespace elbowroom {
+namespace {
+
+cli::OpenConsole WayToTheWindow([[maybe_unused]] char** argv) {
+#ifdef ELBOWROOM_WINDOW_PROGRAM
+  // It understands the same words; this process becomes it.
+  return [argv](const cli::ConsoleRequest&) -> int {
+    const auto program =
+        std::filesystem::read_symlink("/proc/self/exe").parent_path() / ELBOWROOM_WINDOW_PROGRAM;
+    ::execv(program.c_str(), argv);
+    throw core::Error(
+        core::ErrorKind::kFile,
+        fmt::format("{}: can't be started ({}); it belongs beside the program: build or install them "
+                    "together",
+                    program.string(), std::strerror(errno)));
+  };
+#else
+  return {};
+#endif
+}
+
+}  // namespace
+}  // namespace elbowroom
 
 int main(int argc, char** argv) {
   elbowroom::cad_import::ServeImport(argc, argv);  // returns unless this is a child that imports
   spdlog::set_default_logger(spdlog::stderr_color_mt("elbowroom"));  // stdout is for results
-#ifdef ELBOWROOM_WITH_CONSOLE
-  return elbowroom::cli::RunCommandLine(argc, argv, [&](const elbowroom::cli::ConsoleRequest& request) {
-    elbowroom::console::ConsoleOptions options;
-    options.trial_file = request.trial_file;
-    options.demo = request.demo;
-    options.session = request.session;
-    if (request.picture) {
-      options.picture = elbowroom::console::PictureOrder{request.picture->png, request.picture->after_s,
-                                                         request.picture->gap_mm, !request.picture->gap_mm};
-    }
-    return elbowroom::console::RunConsole(options);
-  });
-#else
-  return elbowroom::cli::RunCommandLine(argc, argv, {});
-#endif
+  return elbowroom::cli::RunCommandLine(argc, argv, elbowroom::WayToTheWindow(argv));
 }

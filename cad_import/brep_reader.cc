@@ -14,6 +14,7 @@
 #include <STEPConstruct_ExternRefs.hxx>
 #include <STEPConstruct_UnitContext.hxx>
 #include <Standard_Failure.hxx>
+#include <Standard_OutOfMemory.hxx>
 #include <StepGeom_GeomRepContextAndGlobUnitAssCtxAndGlobUncertaintyAssCtx.hxx>
 #include <StepGeom_GeometricRepresentationContextAndGlobalUnitAssignedContext.hxx>
 #include <StepRepr_GlobalUnitAssignedContext.hxx>
@@ -35,6 +36,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <new>
 #include <set>
 #include <string>
 #include <string_view>
@@ -339,6 +341,8 @@ RawScene ReadBrep(const fs::path& file, FileFormat format, const ImportOptions& 
     scene.referred = std::move(document.referred);
     scene.warnings.insert(scene.warnings.begin(), document.warnings.begin(), document.warnings.end());
     return scene;
+  } catch (const Standard_OutOfMemory&) {
+    throw std::bad_alloc();
   } catch (const Standard_Failure& failure) {
     throw Error(ErrorKind::kFormat,
                 fmt::format("{}: can't be read as {} ({}: {}); export it again", file.string(),

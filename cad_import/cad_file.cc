@@ -6,10 +6,10 @@
 #include <optional>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "cad_import/import_cache.h"
 #include "cad_import/import_process.h"
+#include "cad_import/mapped_file.h"
 #include "cad_import/packed_model.h"
 #include "core/error.h"
 
@@ -35,9 +35,9 @@ CadModel ImportCadFile(const std::filesystem::path& file, const ImportOptions& o
     key = ImportCache::KeyOf(file, options);
     if (std::optional<CadModel> found = cache->Find(key, file)) return *std::move(found);
   }
-  const std::vector<std::byte> packed = ImportInChild(file, options, progress, stop);
-  PackedModel result = Unpack(packed, file.string());
-  if (!key.empty()) cache->Keep(key, packed);
+  const MappedFile packed = ImportInChild(file, options, progress, stop);
+  PackedModel result = Unpack(packed.bytes(), file.string());
+  if (!key.empty()) cache->Keep(key, packed.bytes());
   return std::move(result.model);
 }
 

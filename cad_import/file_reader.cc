@@ -1,28 +1,37 @@
 #include "cad_import/file_reader.h"
 
+#include <optional>
 #include <string>
 #include <utility>
 
-#include "cad_import/brep_reader.h"
 #include "cad_import/file_format.h"
-#include "cad_import/scene_reader.h"
+#include "cad_import/format_modules.h"
 #include "cad_import/settling.h"
-#include "cad_import/three_mf_reader.h"
 
 namespace elbowroom::cad_import {
 
 namespace fs = std::filesystem;
+
+void PrepareToRead(const fs::path& file) {
+  const std::optional<FileFormat> format = FindFormat(file);
+  if (!format) return;
+  if (IsBoundaryRepresentation(*format)) {
+    (void)LoadedBrepReader();
+  } else {
+    (void)LoadedMeshFormats();
+  }
+}
 
 PackedModel ReadCadFile(const fs::path& file, const ImportOptions& options, const core::Progress& progress) {
   progress.Report(0, 0, "reading");
   auto [format, bytes] = ReadCheckedFile(file);
   RawScene scene;
   if (IsBoundaryRepresentation(format)) {
-    scene = ReadBrep(file, format, options, progress);
+    scene = LoadedBrepReader()(file, format, options, progress);
   } else if (format == FileFormat::k3mf) {
-    scene = ReadThreeMf(file);
+    scene = LoadedMeshFormats().read_three_mf(file);
   } else {
-    scene = ReadScene(file, format, bytes);
+    scene = LoadedMeshFormats().read_scene(file, format, bytes);
   }
   bytes = {};
   const fs::path folder = fs::weakly_canonical(file).parent_path();

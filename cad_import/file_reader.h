@@ -10,6 +10,10 @@
 
 namespace elbowroom::cad_import {
 
+// Loads the libraries that reading a file of this name takes, before there are limits that are meant for the
+// file. Throws: Error{kFile}.
+void PrepareToRead(const std::filesystem::path& file);
+
 // Throws: Error{kFile} (missing, unreadable, over 1 GiB), Error{kFormat} (another format, cut off, damaged,
 // refers outside its folder), what Settle throws. Or crashes, hangs and eats memory, as parsers do.
 [[nodiscard]] PackedModel ReadCadFile(const std::filesystem::path& file, const ImportOptions& options,

@@ -1,18 +1,17 @@
 #include "cad_import/import_cache.h"
 
-#include <assimp/version.h>
 #include <fmt/format.h>
 #include <Standard_Version.hxx>
 
 #include <algorithm>
 #include <cstdlib>
-#include <fstream>
 #include <string_view>
 #include <system_error>
 #include <utility>
 #include <vector>
 
 #include "cad_import/file_unit.h"
+#include "cad_import/mapped_file.h"
 #include "core/error.h"
 #include "core/whole_file.h"
 
@@ -26,16 +25,6 @@ constexpr const char* kExtension = ".cad";
 std::string Variable(const char* name) {
   const char* value = std::getenv(name);
   return value == nullptr ? "" : value;
-}
-
-std::vector<std::byte> ReadAll(const fs::path& path) {
-  std::ifstream stream(path, std::ios::binary | std::ios::ate);
-  if (!stream) return {};
-  std::vector<std::byte> bytes(static_cast<std::size_t>(std::max<std::streamoff>(stream.tellg(), 0)));
-  stream.seekg(0);
-  if (!stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size())))
-    return {};
-  return bytes;
 }
 
 bool AreUnchanged(std::span<const ReferredFile> referred, const fs::path& folder) {
@@ -62,19 +51,19 @@ std::optional<ImportCache> ImportCache::OfUser() {
 }
 
 std::string ImportCache::KeyOf(const fs::path& file, const ImportOptions& options) {
-  const std::string text = fmt::format("{} {} {} {} {:a} {} {} {}.{}.{}", kPackedModelVersion,
-                                       HashOfFile(file), file.filename().string(),
-                                       NameOrDash(options.unit) + NameOrDash(options.unit_if_file_has_none),
-                                       options.tolerance_mm, OCC_VERSION_COMPLETE, aiGetVersionMajor(),
-                                       aiGetVersionMinor(), aiGetVersionPatch(), aiGetVersionRevision());
+  const std::string text =
+      fmt::format("{} {} {} {} {:a} {} {}", kPackedModelVersion, HashOfFile(file), file.filename().string(),
+                  NameOrDash(options.unit) + NameOrDash(options.unit_if_file_has_none), options.tolerance_mm,
+                  OCC_VERSION_COMPLETE, ASSIMP_VERSION);
   return HashOf(std::as_bytes(std::span(text)));
 }
 
 std::optional<CadModel> ImportCache::Find(const std::string& key, const fs::path& file) const {
   try {
-    const std::vector<std::byte> bytes = ReadAll(PathOf(key));
-    if (bytes.empty()) return std::nullopt;
-    PackedModel packed = Unpack(bytes, PathOf(key).string());
+    // Entries are replaced by others, never written to.
+    const std::optional<MappedFile> entry = MappedFile::At(PathOf(key));
+    if (!entry) return std::nullopt;
+    PackedModel packed = Unpack(entry->bytes(), PathOf(key).string());
     if (!AreUnchanged(packed.referred, fs::weakly_canonical(file).parent_path())) return std::nullopt;
     std::error_code ignored;
     fs::last_write_time(PathOf(key), fs::file_time_type::clock::now(), ignored);  // for who is dropped first

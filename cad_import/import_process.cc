@@ -6,7 +6,6 @@
 #include <signal.h>
 #include <spawn.h>
 #include <sys/mman.h>
-#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -207,26 +206,10 @@ Error ErrorOfEnd(const std::string& where, int status, const ImportLimits& limit
                       where, WEXITSTATUS(status))};
 }
 
-std::vector<std::byte> ReadResult(const Descriptor& file, const std::string& where) {
-  struct stat status {};
-  if (::fstat(file.number(), &status) != 0) FailToStart("its result");
-  std::vector<std::byte> bytes(static_cast<std::size_t>(status.st_size));
-  std::size_t done = 0;
-  while (done < bytes.size()) {
-    const ssize_t size =
-        ::pread(file.number(), bytes.data() + done, bytes.size() - done, static_cast<off_t>(done));
-    if (size <= 0) {
-      throw Error(ErrorKind::kCad, fmt::format("{}: its model can't be read back; import it again", where));
-    }
-    done += static_cast<std::size_t>(size);
-  }
-  return bytes;
-}
-
 }  // namespace
 
-std::vector<std::byte> ImportInChild(const std::filesystem::path& file, const ImportOptions& options,
-                                     const core::Progress& progress, const std::stop_token& stop) {
+MappedFile ImportInChild(const std::filesystem::path& file, const ImportOptions& options,
+                         const core::Progress& progress, const std::stop_token& stop) {
   core::Require(ServesImports(), "a program that imports calls ServeImport first");
   const std::string where = file.string();
   Pipe pipe = MakePipe();
@@ -276,7 +259,11 @@ std::vector<std::byte> ImportInChild(const std::filesystem::path& file, const Im
   if (failure) throw Error(*failure);
   if (!is_done || !WIFEXITED(status) || WEXITSTATUS(status) != 0)
     throw ErrorOfEnd(where, status, options.limits);
-  return ReadResult(result, where);
+  // Nothing that the child may have left behind can change it from here on.
+  const bool is_sealed = ::fcntl(result.number(), F_ADD_SEALS, F_SEAL_SHRINK | F_SEAL_WRITE) == 0;
+  std::optional<MappedFile> packed = is_sealed ? MappedFile::Of(result.number()) : std::nullopt;
+  if (packed) return *std::move(packed);
+  throw Error(ErrorKind::kCad, fmt::format("{}: its model can't be read back; import it again", where));
 }
 
 }  // namespace elbowroom::cad_import

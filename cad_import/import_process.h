@@ -5,17 +5,16 @@
 #include <stop_token>
 
 #include "cad_import/import_options.h"
-#include "cad_import/packed_model.h"
+#include "cad_import/mapped_file.h"
 #include "core/progress.h"
 
 namespace elbowroom::cad_import {
 
-// The file as a child of this program reads it. Throws: Error{kCad} naming the file when the child crashed,
-// took more memory or time than the limits, or handed over what isn't a model; Error{kCancelled}; else what
-// the child threw. PreconditionError unless the program's main called ServeImport. Thread: any.
-[[nodiscard]] std::vector<std::byte> ImportInChild(const std::filesystem::path& file,
-                                                   const ImportOptions& options,
-                                                   const core::Progress& progress = {},
-                                                   const std::stop_token& stop = {});
+// The file as a child of this program reads it: a packed model that nobody has checked yet. Throws:
+// Error{kCad} naming the file when the child crashed, took more memory or time than the limits, or handed
+// over what isn't a model; Error{kCancelled}; else what the child threw. PreconditionError unless the
+// program's main called ServeImport. Thread: any.
+[[nodiscard]] MappedFile ImportInChild(const std::filesystem::path& file, const ImportOptions& options,
+                                       const core::Progress& progress = {}, const std::stop_token& stop = {});
 
 }  // namespace elbowroom::cad_import

@@ -102,11 +102,12 @@ Request ParseRequest(std::span<char* const> arguments) {
 }
 
 [[noreturn]] void Work(const Request& request) {
-  LimitMyself(request.options.limits);
   const core::Progress progress([](std::int64_t done, std::int64_t total, const std::string& what) {
     Say(ProgressMessage{done, total, what});
   });
   try {
+    PrepareToRead(request.file);
+    LimitMyself(request.options.limits);
     const PackedModel content = ReadCadFile(request.file, request.options, progress);
     if (WriteAll(kResultDescriptor, Pack(content.model, content.referred))) {
       Say(DoneMessage{});

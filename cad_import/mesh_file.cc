@@ -1,8 +1,12 @@
 #include "cad_import/mesh_file.h"
 
+#include <memory>
+#include <optional>
 #include <utility>
 
 #include "cad_import/cad_file.h"
+#include "cad_import/format_modules.h"
+#include "core/whole_file.h"
 
 namespace elbowroom::cad_import {
 
@@ -11,6 +15,17 @@ ImportedMesh ImportMeshFile(const std::filesystem::path& file, const ImportOptio
   CadModel model = ImportCadFile(file, options, progress, stop);
   FlatModel flat = Flatten(model);
   return {std::move(flat.mesh), std::move(flat.parts), std::move(model.report)};
+}
+
+void WriteMeshFile(const core::TriangleMesh& mesh, const std::filesystem::path& path) {
+  CadModel model;
+  model.shapes.push_back({path.stem().string(), std::make_shared<const core::TriangleMesh>(mesh), {}, {}});
+  model.instances.push_back({model.shapes.front().name, 0, {}, std::nullopt});
+  WriteModelFile(model, path);
+}
+
+void WriteModelFile(const CadModel& model, const std::filesystem::path& path) {
+  core::WriteWholeFile(path, LoadedMeshFormats().encode(model, path));
 }
 
 }  // namespace elbowroom::cad_import

@@ -1,3 +1,5 @@
+#include "cad_import/mesh_writer.h"
+
 #include <assimp/cexport.h>
 #include <assimp/scene.h>
 #include <fmt/format.h>
@@ -13,10 +15,8 @@
 #include <vector>
 
 #include "cad_import/file_format.h"
-#include "cad_import/mesh_file.h"
 #include "cad_import/srgb.h"
 #include "core/error.h"
-#include "core/whole_file.h"
 
 namespace elbowroom::cad_import {
 namespace {
@@ -136,42 +136,34 @@ std::unique_ptr<aiScene> SceneOf(const CadModel& model, double mm_per_unit, cons
   return scene;
 }
 
-CadModel ModelOf(const core::TriangleMesh& mesh, const std::string& name) {
+CadModel ModelOf(core::SharedMesh mesh) {
   CadModel model;
-  model.shapes.push_back({name, std::make_shared<const core::TriangleMesh>(mesh), {}, {}});
-  model.instances.push_back({name, 0, {}, std::nullopt});
+  model.shapes.push_back({"", std::move(mesh), {}, {}});
+  model.instances.push_back({"", 0, {}, std::nullopt});
   return model;
 }
 
-void Write(const CadModel& model, const Target& target, const std::filesystem::path& path) {
+}  // namespace
+
+std::string EncodeModel(const CadModel& model, const std::filesystem::path& path) {
   const std::string where = path.string();
+  const Target target = TargetOf(path);
+  for (const CadShape& shape : model.shapes) core::ValidateMesh(*shape.mesh, where);
+  if (model.instances.empty()) core::ValidateMesh({}, where);
+  std::optional<CadModel> flat;
+  if (!target.keeps_instances) flat = ModelOf(Flatten(model).mesh);
   Assimp::Exporter exporter;
   const aiExportDataBlob* blob = nullptr;
   try {
-    blob = exporter.ExportToBlob(SceneOf(model, target.mm_per_unit, path.stem().string()).get(),
-                                 target.exporter_id);
+    blob = exporter.ExportToBlob(
+        SceneOf(flat ? *flat : model, target.mm_per_unit, path.stem().string()).get(), target.exporter_id);
   } catch (const std::exception& exception) {
     throw Error(ErrorKind::kFile, fmt::format("{}: can't be written ({})", where, exception.what()));
   }
   if (blob == nullptr) {
     throw Error(ErrorKind::kFile, fmt::format("{}: can't be written ({})", where, exporter.GetErrorString()));
   }
-  core::WriteWholeFile(path, {static_cast<const char*>(blob->data), blob->size});
-}
-
-}  // namespace
-
-void WriteMeshFile(const core::TriangleMesh& mesh, const std::filesystem::path& path) {
-  core::ValidateMesh(mesh, path.string());
-  Write(ModelOf(mesh, path.stem().string()), TargetOf(path), path);
-}
-
-void WriteModelFile(const CadModel& model, const std::filesystem::path& path) {
-  const Target target = TargetOf(path);
-  if (!target.keeps_instances) return WriteMeshFile(*Flatten(model).mesh, path);
-  for (const CadShape& shape : model.shapes) core::ValidateMesh(*shape.mesh, path.string());
-  if (model.instances.empty()) core::ValidateMesh({}, path.string());
-  Write(model, target, path);
+  return {static_cast<const char*>(blob->data), blob->size};
 }
 
 }  // namespace elbowroom::cad_import

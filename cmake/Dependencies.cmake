@@ -26,8 +26,9 @@ if(ELBOWROOM_CONSOLE)
 endif()
 
 # The readers of STEP, IGES and BREP, and what they need to mesh; OpenCASCADE's targets carry no include folder of their own.
+add_library(elbowroom_opencascade_headers INTERFACE)
+target_include_directories(elbowroom_opencascade_headers SYSTEM INTERFACE ${OpenCASCADE_INCLUDE_DIR})
 add_library(elbowroom_opencascade INTERFACE)
-target_include_directories(elbowroom_opencascade SYSTEM INTERFACE ${OpenCASCADE_INCLUDE_DIR})
-target_link_libraries(elbowroom_opencascade INTERFACE
+target_link_libraries(elbowroom_opencascade INTERFACE elbowroom_opencascade_headers
   TKXDESTEP TKXDEIGES TKSTEP TKSTEP209 TKSTEPAttr TKSTEPBase TKIGES TKXSBase TKXCAF TKVCAF TKLCAF TKCAF TKCDF TKMesh TKShHealing
   TKTopAlgo TKGeomAlgo TKBRep TKGeomBase TKG3d TKG2d TKMath TKernel)

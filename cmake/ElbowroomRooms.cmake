@@ -1,4 +1,5 @@
-# The two shapes every folder is built from: a room (a static library) and a test program.
+# The shapes every folder is built from: a room (a static library), a module (loaded when it is first needed) and a
+# test program.
 
 # elbowroom_room(NAME SOURCES a.cc ... USES target ... HIDES target ...)
 # USES: libraries that may appear in the room's headers. HIDES: libraries only its .cc files include.
@@ -7,6 +8,28 @@ function(elbowroom_room name)
   add_library(elbowroom_${name} STATIC ${ROOM_SOURCES})
   target_include_directories(elbowroom_${name} PUBLIC ${PROJECT_SOURCE_DIR})
   target_link_libraries(elbowroom_${name} PUBLIC ${ROOM_USES} PRIVATE ${ROOM_HIDES} elbowroom_warnings)
+endfunction()
+
+# elbowroom_module(NAME SOURCES a.cc ... HIDES target ...)
+# What core/module.h finds by NAME. Rooms that go into it are compiled as position-independent code.
+function(elbowroom_module name)
+  cmake_parse_arguments(MODULE "" "" "SOURCES;HIDES" ${ARGN})
+  add_library(elbowroom_${name}_module MODULE ${MODULE_SOURCES})
+  target_include_directories(elbowroom_${name}_module PRIVATE ${PROJECT_SOURCE_DIR})
+  target_link_libraries(elbowroom_${name}_module PRIVATE ${MODULE_HIDES} elbowroom_warnings)
+  target_link_options(elbowroom_${name}_module PRIVATE LINKER:--exclude-libs,ALL)
+  set_target_properties(elbowroom_${name}_module PROPERTIES
+    OUTPUT_NAME "elbowroom_${name}-${PROJECT_VERSION}" LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR})
+  set_property(GLOBAL APPEND PROPERTY ELBOWROOM_MODULES elbowroom_${name}_module)
+endfunction()
+
+# elbowroom_finds_modules(EXECUTABLE FOLDER): built with the modules, which it finds in FOLDER ("$ORIGIN": its own).
+# By DT_RPATH: AddressSanitizer stands between dlopen and a DT_RUNPATH.
+function(elbowroom_finds_modules executable folder)
+  set_target_properties(${executable} PROPERTIES BUILD_RPATH "${folder}" INSTALL_RPATH "${folder}")
+  target_link_options(${executable} PRIVATE LINKER:--disable-new-dtags)
+  get_property(modules GLOBAL PROPERTY ELBOWROOM_MODULES)
+  add_dependencies(${executable} ${modules})
 endfunction()
 
 # elbowroom_test(NAME SOURCES a_test.cc ... USES target ... [LABELS gl ...] [IMPORTS])
@@ -24,6 +47,7 @@ function(elbowroom_test name)
     ELBOWROOM_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
     ELBOWROOM_SHARED_DATA_DIR="${PROJECT_SOURCE_DIR}/../shared/data"
     ELBOWROOM_PROGRAM="${PROJECT_BINARY_DIR}/elbowroom")
+  elbowroom_finds_modules(${name} ${PROJECT_BINARY_DIR})
   include(GoogleTest)
   gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST PROPERTIES LABELS "${TEST_LABELS}")
 endfunction()

@@ -18,14 +18,14 @@
 namespace elbowroom::core {
 
 struct Part {
-  std::string name;                // unique in its layout
-  std::string file;                // as written in LAYOUT.toml; empty for a part made by the program
+  std::string name;                     // unique in its layout
+  std::string file;                     // as written in LAYOUT.toml; empty for a part made by the program
   std::optional<LengthUnit> unit = {};  // that its file was read in; nothing: one that only the file names
-  SharedMesh mesh;                 // in millimetres
-  RigidTransform world_from_part;  // as authored, before spacings
-  RecoveryRule recovery = {};      // which way it gives way to the hull
-  GivesWay gives_way = {};         // whether and how it does; by default not at all
-  std::string node = {};           // the instance of an assembly file that it is; empty: all of the file
+  SharedMesh mesh;                      // in millimetres
+  RigidTransform world_from_part;       // as authored, before spacings
+  RecoveryRule recovery = {};           // which way it gives way to the hull
+  GivesWay gives_way = {};              // whether and how it does; by default not at all
+  std::string node = {};                // the instance of an assembly file that it is; empty: all of the file
 
   [[nodiscard]] bool operator==(const Part&) const = default;  // meshes: the same one
 };

@@ -2,10 +2,10 @@
 
 #include <cstdint>
 #include <opencv2/core/mat.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <vector>
 
 #include "core/error.h"
+#include "recon/picture_codecs.h"
 
 namespace elbowroom::recon {
 
@@ -17,8 +17,7 @@ std::string EncodeDepthTiff(const DepthMap& picture) {
   // OpenCV's header type takes a mutable pointer; the encoder only reads it.
   const cv::Mat depth(picture.height_px, picture.width_px, CV_32FC1,
                       const_cast<float*>(picture.depth_mm.data()));
-  std::vector<std::uint8_t> tiff;
-  cv::imencode(".tiff", depth, tiff);
+  const std::vector<std::uint8_t> tiff = LoadedPictureCodecs().encode(depth, ".tiff");
   return {tiff.begin(), tiff.end()};
 }
 

@@ -7,13 +7,11 @@
 #include <cstdint>
 #include <fstream>
 #include <iterator>
-#include <opencv2/imgcodecs.hpp>
-#include <opencv2/imgproc.hpp>
 #include <optional>
 #include <string_view>
 
 #include "core/error.h"
-#include "recon/quiet_opencv.h"
+#include "recon/picture_codecs.h"
 
 namespace elbowroom::recon {
 namespace {
@@ -97,20 +95,13 @@ std::optional<std::string> DefectOf(std::string_view bytes) {
   return std::nullopt;
 }
 
-cv::Mat Decode(const std::filesystem::path& path, int flags, const std::string& who) {
-  SilenceOpenCv();
-  std::string bytes = ReadBytes(path, who);
+cv::Mat Decode(const std::filesystem::path& path, DecodedAs as, const std::string& who) {
+  const std::string bytes = ReadBytes(path, who);
   const auto fail = [&](std::string_view what) {
     throw Error(ErrorKind::kFile, fmt::format("{}: image '{}' {}", who, path.string(), what));
   };
   if (const auto defect = DefectOf(bytes)) fail(*defect);
-  cv::Mat image;
-  try {
-    const cv::Mat raw(1, static_cast<int>(bytes.size()), CV_8U, bytes.data());
-    image = cv::imdecode(raw, flags);
-  } catch (const cv::Exception&) {
-    image.release();
-  }
+  cv::Mat image = LoadedPictureCodecs().decode(bytes, as);
   if (image.empty()) fail("can't be decoded; it must be an intact PNG, JPEG, TIFF or BMP");
   return image;
 }
@@ -118,11 +109,11 @@ cv::Mat Decode(const std::filesystem::path& path, int flags, const std::string& 
 }  // namespace
 
 cv::Mat ReadImageAsStored(const std::filesystem::path& path, const std::string& who) {
-  return Decode(path, cv::IMREAD_UNCHANGED, who);
+  return Decode(path, DecodedAs::kStored, who);
 }
 
 cv::Mat ReadImageBgr(const std::filesystem::path& path, const std::string& who) {
-  return Decode(path, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION, who);
+  return Decode(path, DecodedAs::kBgr, who);
 }
 
 bool IsJpeg(const std::filesystem::path& path) {

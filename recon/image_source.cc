@@ -4,7 +4,6 @@
 
 #include <charconv>
 #include <filesystem>
-#include <opencv2/videoio.hpp>
 #include <utility>
 #include <vector>
 
@@ -13,7 +12,7 @@
 #include "recon/container_check.h"
 #include "recon/image_file.h"
 #include "recon/image_sequence.h"
-#include "recon/quiet_opencv.h"
+#include "recon/picture_codecs.h"
 #include "recon/source_location.h"
 
 namespace elbowroom::recon {
@@ -69,16 +68,10 @@ class ImageFiles : public ImageSource {
   std::vector<std::filesystem::path> files_;
 };
 
-cv::VideoCapture OpenCapture(const Subject& subject, const std::string& what_to_do) {
-  cv::VideoCapture capture;
-  try {
-    capture.open(subject.location, cv::CAP_FFMPEG);
-  } catch (const cv::Exception&) {
-    capture.release();
-  }
-  if (!capture.isOpened())
-    subject.Fail(fmt::format("'{}' can't be opened; {}", subject.location, what_to_do));
-  return capture;
+std::unique_ptr<VideoStream> OpenStream(const Subject& subject, const std::string& what_to_do) {
+  auto stream = LoadedPictureCodecs().open_video(subject.location);
+  if (stream == nullptr) subject.Fail(fmt::format("'{}' can't be opened; {}", subject.location, what_to_do));
+  return stream;
 }
 
 class VideoFile : public ImageSource {
@@ -90,7 +83,7 @@ class VideoFile : public ImageSource {
     }
     const auto damage = FindContainerDamage(subject_.location);
     if (!damage) {
-      capture_ = OpenCapture(subject_, kWhatToDo);
+      stream_ = OpenStream(subject_, kWhatToDo);
       CountFrames(stop);
       if (count_ == 0)
         subject_.Fail(fmt::format("no frame of '{}' can be decoded; {}", subject_.location, kWhatToDo));
@@ -110,10 +103,10 @@ class VideoFile : public ImageSource {
     subject_.RequireInRange(index, count_);
     if (index < next_) Rewind();
     for (; next_ < index; ++next_) {
-      if (!capture_.grab()) FailAt(next_);
+      if (!stream_->Grab()) FailAt(next_);
     }
-    cv::Mat image;
-    if (!capture_.grab() || !capture_.retrieve(image)) FailAt(index);
+    const cv::Mat image = stream_->Grab() ? stream_->Retrieve() : cv::Mat();
+    if (image.empty()) FailAt(index);
     ++next_;
     subject_.RequireSize(image, index);
     return image.clone();  // what OpenCV gave may be the decoder's own memory
@@ -123,9 +116,9 @@ class VideoFile : public ImageSource {
   static constexpr const char* kWhatToDo = "it must be a video that FFmpeg reads; record or copy it again";
 
   void CountFrames(const std::stop_token& stop) {
-    const double rate_hz = capture_.get(cv::CAP_PROP_FPS);
+    const double rate_hz = stream_->frame_rate_hz();
     if (rate_hz > 0.0 && rate_hz < 10'000.0) frame_rate_hz_ = rate_hz;
-    while (capture_.grab()) {
+    while (stream_->Grab()) {
       ++count_;
       core::ThrowIfStopped(stop, fmt::format("reading '{}'", subject_.location));
     }
@@ -135,7 +128,7 @@ class VideoFile : public ImageSource {
   bool GoesOn() {
     constexpr int kTries = 256;  // packets in a row; at the end of a file they cost nothing
     for (int i = 0; i < kTries; ++i)
-      if (capture_.grab()) return true;
+      if (stream_->Grab()) return true;
     return false;
   }
 
@@ -146,8 +139,9 @@ class VideoFile : public ImageSource {
 
   [[noreturn]] void FailAsCutShort(const ContainerDamage& damage, const std::stop_token& stop) {
     std::string frames = "none of its frames can be read";
-    if (capture_.open(subject_.location, cv::CAP_FFMPEG)) {
-      const double promised = capture_.get(cv::CAP_PROP_FRAME_COUNT);
+    stream_ = LoadedPictureCodecs().open_video(subject_.location);
+    if (stream_ != nullptr) {
+      const double promised = stream_->promised_frames();
       CountFrames(stop);
       frames = promised > 0.0 ? fmt::format("it breaks off at frame {} of {} promised", count_, promised)
                               : fmt::format("it breaks off at frame {}", count_);
@@ -160,7 +154,7 @@ class VideoFile : public ImageSource {
   }
 
   void Rewind() {
-    capture_ = OpenCapture(subject_, kWhatToDo);
+    stream_ = OpenStream(subject_, kWhatToDo);
     next_ = 0;
   }
 
@@ -171,7 +165,7 @@ class VideoFile : public ImageSource {
   }
 
   Subject subject_;
-  cv::VideoCapture capture_;
+  std::unique_ptr<VideoStream> stream_;
   FrameIndex next_ = 0;
   FrameIndex count_ = 0;
   std::optional<double> frame_rate_hz_;
@@ -181,7 +175,7 @@ class LiveCamera : public ImageSource {
  public:
   explicit LiveCamera(Subject subject) : subject_(std::move(subject)) {
     if (KindOf(subject_.location) == SourceKind::kUrl) {
-      capture_ = OpenCapture(subject_, "check the address and that the camera is on the network");
+      stream_ = OpenStream(subject_, "check the address and that the camera is on the network");
       return;
     }
     const std::string number = subject_.location.substr(std::string_view("device:").size());
@@ -191,7 +185,8 @@ class LiveCamera : public ImageSource {
       subject_.Fail(fmt::format("'{}' names no device; say \"device:0\"", subject_.location),
                     ErrorKind::kFormat);
     }
-    if (!capture_.open(device)) {
+    stream_ = LoadedPictureCodecs().open_device(device);
+    if (stream_ == nullptr) {
       subject_.Fail(fmt::format("'{}' can't be opened; check that the camera is plugged in and not in use",
                                 subject_.location),
                     ErrorKind::kCamera);
@@ -202,8 +197,8 @@ class LiveCamera : public ImageSource {
   [[nodiscard]] std::optional<double> frame_rate_hz() const override { return std::nullopt; }
 
   [[nodiscard]] cv::Mat Read(FrameIndex index) override {
-    cv::Mat image;
-    if (!capture_.read(image)) {
+    const cv::Mat image = stream_->Grab() ? stream_->Retrieve() : cv::Mat();
+    if (image.empty()) {
       subject_.Fail(fmt::format("the live picture of '{}' ended at frame {}; check the camera",
                                 subject_.location, index),
                     ErrorKind::kCamera);
@@ -214,14 +209,13 @@ class LiveCamera : public ImageSource {
 
  private:
   Subject subject_;
-  cv::VideoCapture capture_;
+  std::unique_ptr<VideoStream> stream_;
 };
 
 }  // namespace
 
 std::unique_ptr<ImageSource> OpenImageSource(const std::string& location, const core::CameraModel& camera,
                                              std::stop_token stop) {
-  SilenceOpenCv();
   Subject subject{fmt::format("camera '{}'", camera.name()), location, camera.width_px(), camera.height_px()};
   switch (KindOf(location)) {
     case SourceKind::kDevice:

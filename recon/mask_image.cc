@@ -4,13 +4,13 @@
 
 #include <cstdint>
 #include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <string>
 #include <vector>
 
 #include "core/error.h"
 #include "core/whole_file.h"
 #include "recon/image_file.h"
+#include "recon/picture_codecs.h"
 
 namespace elbowroom::recon {
 namespace {
@@ -70,8 +70,7 @@ core::BitMask ReadMaskImage(const std::filesystem::path& path, const std::string
 
 void WriteMaskPng(const core::BitMask& mask, const std::filesystem::path& path) {
   core::Require(mask.width_px() > 0 && mask.height_px() > 0, "a mask that is written has pixels");
-  std::vector<std::uint8_t> png;
-  cv::imencode(".png", ImageFromMask(mask), png);
+  const std::vector<std::uint8_t> png = LoadedPictureCodecs().encode(ImageFromMask(mask), ".png");
   core::WriteWholeFile(path, {reinterpret_cast<const char*>(png.data()), png.size()});
 }
 

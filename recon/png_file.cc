@@ -1,11 +1,11 @@
 #include "recon/png_file.h"
 
 #include <opencv2/core/mat.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "core/error.h"
 #include "core/whole_file.h"
+#include "recon/picture_codecs.h"
 
 namespace elbowroom::recon {
 std::vector<std::uint8_t> EncodePng(const Image& image) {
@@ -17,9 +17,7 @@ std::vector<std::uint8_t> EncodePng(const Image& image) {
   const cv::Mat rgb(image.height_px, image.width_px, CV_8UC3, const_cast<std::uint8_t*>(image.rgb.data()));
   cv::Mat bgr;
   cv::cvtColor(rgb, bgr, cv::COLOR_RGB2BGR);
-  std::vector<std::uint8_t> png;
-  cv::imencode(".png", bgr, png);
-  return png;
+  return LoadedPictureCodecs().encode(bgr, ".png");
 }
 
 void WritePng(const Image& image, const std::filesystem::path& path) {

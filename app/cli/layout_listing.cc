@@ -60,7 +60,8 @@ std::string LineOf(const core::Part& part, const core::RigidTransform& world_fro
   return fmt::format("\n  {:<{}}  {:<24}  {:<24}  {:>9}  {:<4}  {}{}", part.name, width,
                      TextOf(core::BoundsOf(*part.mesh).sizes(), " x "),
                      TextOf(world_from_part.translation_mm, " "), part.mesh->triangles.size(),
-                     part.unit ? core::ToString(*part.unit) : "own", part.file, part.node.empty() ? "" : ", " + part.node);
+                     part.unit ? core::ToString(*part.unit) : "own", part.file,
+                     part.node.empty() ? "" : ", " + part.node);
 }
 
 std::string LineOf(const core::Layout& layout, const core::Spacing& gap, const Poses& poses) {

@@ -22,6 +22,9 @@ void MeasureCost(const std::filesystem::path& docs, const std::filesystem::path&
 // one thread and on two; still and empty scenes beside.
 void MeasureFrames(const std::filesystem::path& docs, int count = 10'000);
 
+// cad_import.md, "import": whole commands of `program` (elbowroom) on a mesh file of a million triangles.
+void MeasureImport(const std::filesystem::path& docs, const std::filesystem::path& program);
+
 // performance.md, "judging" and "judging_cost"; docs/pictures/{contact,clearance}_methods.{svg,png}.
 void MeasureJudging(const std::filesystem::path& docs);
 

@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "tests/accuracy/callgrind.h"
+#include "tests/accuracy/peak_memory.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text_file.h"
 
@@ -127,6 +128,16 @@ TEST(CountInstructions, SaysInOneLineWhatToInstall) {
         error.what(),
         "'valgrind-that-is-not-there' isn't installed, so nothing is counted; install the package valgrind");
   }
+}
+
+TEST(PeakMemoryOf, TellsAProgramFromItsChild) {
+  constexpr std::int64_t kHeldBytes = 50'000'000;
+  const PeakMemory peak =
+      PeakMemoryOf("/bin/sh", {"-c", "head -c 50000000 /dev/zero | tail -c 50000000 > /dev/null; true"});
+  EXPECT_GT(peak.child_bytes, kHeldBytes);
+  EXPECT_GT(peak.program_bytes, 0);
+  EXPECT_LT(peak.program_bytes, kHeldBytes);
+  EXPECT_THROW((void)PeakMemoryOf("/bin/false", {}), core::Error);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <QThread>
 #include <QTimer>
 #include <algorithm>
+#include <filesystem>
 #include <map>
 #include <random>
 #include <semaphore>
@@ -23,6 +24,7 @@
 #include "core/error.h"
 #include "tests/app/stall_watch.h"
 #include "tests/support/run_program.h"
+#include "tests/support/temporary_folder.h"
 
 namespace elbowroom::console {
 namespace {
@@ -239,6 +241,17 @@ void ExpectOneLineWithoutDisplay(const std::map<std::string, std::string>& envir
 
 TEST(ConsoleStart, WithoutADisplayIsOneLine) {
   ExpectOneLineWithoutDisplay({{"DISPLAY", ""}, {"WAYLAND_DISPLAY", ""}, {"QT_QPA_PLATFORM", ""}});
+}
+
+TEST(ConsoleStart, WithoutTheProgramOfTheWindowIsOneLine) {
+  const test_support::TemporaryFolder folder;
+  std::filesystem::copy_file(ELBOWROOM_PROGRAM, folder / "elbowroom");
+  const test_support::ProgramRun run = test_support::RunProgram(folder / "elbowroom", {});
+  EXPECT_EQ(run.exit_status, 1);
+  EXPECT_NE(run.err.find("elbowroom_window-"), std::string::npos) << run.err;
+  EXPECT_TRUE(run.err.ends_with("it belongs beside the program: build or install them together\n"))
+      << run.err;
+  EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
 }
 
 TEST(ConsoleStart, WithADisplayThatDoesNotAnswerIsOneLine) {

@@ -3,8 +3,9 @@
 #include <filesystem>
 #include <fstream>
 #include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
+
+#include "recon/mask_image.h"
 
 namespace elbowroom::recon {
 namespace {
@@ -35,16 +36,6 @@ core::CameraModel ReadCamera(const cv::FileNode& node) {
   return core::CameraModel(std::move(c));
 }
 
-core::BitMask ReadMask(const fs::path& file) {
-  const cv::Mat image = cv::imread(file.string(), cv::IMREAD_GRAYSCALE);
-  if (image.empty()) throw std::runtime_error("can't read " + file.string());
-  core::BitMask mask(image.cols, image.rows);
-  for (int y = 0; y < image.rows; ++y) {
-    for (int x = 0; x < image.cols; ++x) mask.Set(x, y, image.at<std::uint8_t>(y, x) != 0);
-  }
-  return mask;
-}
-
 }  // namespace
 
 std::optional<RandomScene> ReadSharedScene(const std::string& set) {
@@ -65,7 +56,7 @@ std::optional<RandomScene> ReadSharedScene(const std::string& set) {
     rig.cameras.push_back(ReadCamera(node));
     std::string name = static_cast<std::string>(node["masks"]);
     if (const auto number = name.find("%04d"); number != std::string::npos) name.replace(number, 4, "0000");
-    scene.masks.push_back(ReadMask(folder / name));
+    scene.masks.push_back(ReadMaskImage(folder / name, set));
   }
   scene.rig = std::make_shared<const core::Rig>(std::move(rig));
   return scene;

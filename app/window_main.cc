@@ -1,0 +1,23 @@
+// What the program becomes when the command line asks for the window: Qt is loaded for that alone.
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include "app/cli/command_line.h"
+#include "app/console/console_main.h"
+#include "cad_import/import_worker.h"
+
+int main(int argc, char** argv) {
+  elbowroom::cad_import::ServeImport(argc, argv);  // returns unless this is a child that imports
+  spdlog::set_default_logger(spdlog::stderr_color_mt("elbowroom"));  // stdout is for results
+  return elbowroom::cli::RunCommandLine(argc, argv, [](const elbowroom::cli::ConsoleRequest& request) {
+    elbowroom::console::ConsoleOptions options;
+    options.trial_file = request.trial_file;
+    options.demo = request.demo;
+    options.session = request.session;
+    if (request.picture) {
+      options.picture = elbowroom::console::PictureOrder{request.picture->png, request.picture->after_s,
+                                                         request.picture->gap_mm, !request.picture->gap_mm};
+    }
+    return elbowroom::console::RunConsole(options);
+  });
+}

@@ -1,0 +1,31 @@
+// The bytes of a file, without a copy of them.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <span>
+
+namespace elbowroom::cad_import {
+
+// For files that nobody shortens while this lives: reading on beyond a new end is a crash.
+class MappedFile {
+ public:
+  // Nothing: it can't be opened or holds nothing.
+  [[nodiscard]] static std::optional<MappedFile> At(const std::filesystem::path& path);
+  // Of an open file, which may be closed after.
+  [[nodiscard]] static std::optional<MappedFile> Of(int descriptor);
+
+  ~MappedFile();
+  MappedFile(MappedFile&& other) noexcept;
+  MappedFile& operator=(MappedFile&& other) noexcept;
+
+  [[nodiscard]] std::span<const std::byte> bytes() const { return bytes_; }
+
+ private:
+  explicit MappedFile(std::span<const std::byte> bytes) : bytes_(bytes) {}
+
+  std::span<const std::byte> bytes_;
+};
+
+}  // namespace elbowroom::cad_import
