@@ -22,9 +22,8 @@ PackedModel ReadCadFile(const fs::path& file, const ImportOptions& options, cons
   } else if (format == FileFormat::k3mf) {
     scene = ReadThreeMf(file);
   } else {
-    scene = ReadScene(file, format, bytes);
+    scene = ReadScene(file, format, std::move(bytes));
   }
-  bytes = {};
   const fs::path folder = fs::weakly_canonical(file).parent_path();
   std::vector<ReferredFile> referred;
   for (const fs::path& other : scene.referred)
