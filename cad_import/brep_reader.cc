@@ -25,6 +25,8 @@
 #include <TDF_Tool.hxx>
 #include <TDataStd_Name.hxx>
 #include <TDocStd_Document.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopoDS_Compound.hxx>
 #include <TopoDS_Shape.hxx>
 #include <XCAFApp_Application.hxx>
 #include <XCAFDoc_ColorTool.hxx>
@@ -223,6 +225,7 @@ class DocumentWalk {
         progress_(progress) {}
 
   RawScene Walk() {
+    result_.are_bodies = true;
     TDF_LabelSequence roots;
     shapes_->GetFreeShapes(roots);
     for (const TDF_Label& root : roots) Visit(root, "", Eigen::Affine3d::Identity(), std::nullopt);
@@ -255,22 +258,51 @@ class DocumentWalk {
       for (const TDF_Label& component : components) Visit(component, path, model_from_product, color);
       return;
     }
-    if (const std::optional<std::size_t> shape = ShapeOf(product, path)) {
-      result_.instances.push_back({path, *shape, model_from_product, color});
-    } else {
-      ++result_.left_out;
+    VisitBodies(product, path, model_from_product, color);
+  }
+
+  // A product's solids, each a body for itself: welded, those that touch would have no inside. Then what
+  // faces are of no solid.
+  void VisitBodies(const TDF_Label& product, const std::string& path,
+                   const Eigen::Affine3d& model_from_product, std::optional<ColorRgb> color) {
+    // Without the place that it stands at, which its instances give.
+    const TopoDS_Shape whole = shapes_->GetShape(product).Located(TopLoc_Location());
+    std::vector<TopoDS_Shape> bodies;
+    for (TopExp_Explorer solid(whole, TopAbs_SOLID); solid.More(); solid.Next())
+      bodies.push_back(solid.Current());
+    const bool has_solids = !bodies.empty();
+    TopoDS_Compound loose;
+    BRep_Builder builder;
+    builder.MakeCompound(loose);
+    TopExp_Explorer face(whole, TopAbs_FACE, TopAbs_SOLID);
+    if (!has_solids || face.More()) {
+      for (; face.More(); face.Next()) builder.Add(loose, face.Current());
+      bodies.emplace_back(loose);
+      result_.are_bodies = false;
+    }
+    TCollection_AsciiString entry;
+    TDF_Tool::Entry(product, entry);
+    const std::string own_name = NameOf(product);
+    const std::string name = own_name.empty() ? path : own_name;
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+      const std::string number = bodies.size() > 1 ? ' ' + std::to_string(i + 1) : "";
+      const std::optional<std::size_t> shape =
+          ShapeOf(entry.ToCString() + number, bodies[i].Located(TopLoc_Location()), name + number);
+      if (!shape) {
+        ++result_.left_out;
+        continue;
+      }
+      const Eigen::Affine3d product_from_body = ToEigen(bodies[i].Location().Transformation());
+      result_.instances.push_back({path + number, *shape, model_from_product * product_from_body, color});
     }
   }
 
-  // Nothing: it has no faces.
-  std::optional<std::size_t> ShapeOf(const TDF_Label& product, const std::string& path) {
-    TCollection_AsciiString entry;
-    TDF_Tool::Entry(product, entry);
-    const auto [found, is_new] = shape_of_entry_.try_emplace(entry.ToCString(), std::nullopt);
+  // `key`: of the body. Nothing: it has no faces.
+  std::optional<std::size_t> ShapeOf(const std::string& key, const TopoDS_Shape& shape,
+                                     const std::string& name) {
+    const auto [found, is_new] = shape_of_key_.try_emplace(key, std::nullopt);
     if (!is_new) return found->second;
     progress_.Report(static_cast<std::int64_t>(result_.shapes.size()), 0, "meshing part");
-    // Without the place that it stands at, which its instances give.
-    const TopoDS_Shape shape = shapes_->GetShape(product).Located(TopLoc_Location());
     const double diagonal = DiagonalOf(shape);
     if (!(diagonal > 0.0)) return std::nullopt;
     const double tolerance = std::max(std::min(tolerance_, kShareOfDiagonal * diagonal), kLeastTolerance);
@@ -279,10 +311,8 @@ class DocumentWalk {
     faces_without_triangles_ += made.faces_without_triangles;
     worst_excess_ = std::max(worst_excess_, made.deviation / tolerance);
     if (made.mesh.triangles.empty()) return std::nullopt;
-    const std::string name = NameOf(product);
     found->second = result_.shapes.size();
-    result_.shapes.push_back(
-        {name.empty() ? path : name, std::move(made.mesh), std::max(tolerance, made.deviation)});
+    result_.shapes.push_back({name, std::move(made.mesh), std::max(tolerance, made.deviation)});
     return found->second;
   }
 
@@ -305,7 +335,7 @@ class DocumentWalk {
   Handle(XCAFDoc_ColorTool) colors_;
   double tolerance_;
   const core::Progress& progress_;
-  std::map<std::string, std::optional<std::size_t>> shape_of_entry_;
+  std::map<std::string, std::optional<std::size_t>> shape_of_key_;
   int faces_ = 0;
   int faces_without_triangles_ = 0;
   double worst_excess_ = 0.0;

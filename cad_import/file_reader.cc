@@ -31,9 +31,8 @@ PackedModel ReadCadFile(const fs::path& file, const ImportOptions& options, cons
   } else if (format == FileFormat::k3mf) {
     scene = LoadedMeshFormats().read_three_mf(file);
   } else {
-    scene = LoadedMeshFormats().read_scene(file, format, bytes);
+    scene = LoadedMeshFormats().read_scene(file, format, std::move(bytes));
   }
-  bytes = {};
   const fs::path folder = fs::weakly_canonical(file).parent_path();
   std::vector<ReferredFile> referred;
   for (const fs::path& other : scene.referred)

@@ -33,6 +33,7 @@ struct RawScene {
   std::vector<RawInstance> instances;
   std::optional<FileUnit> unit;                 // nothing: the file doesn't say
   bool are_mm = false;                          // its lengths were converted already, from that unit
+  bool are_bodies = false;                      // each shape is one, even where its mesh falls into pieces
   std::int64_t left_out = 0;                    // lines, points, bodies without a face
   std::vector<std::string> warnings;            // one line each
   std::vector<std::filesystem::path> referred;  // other files that were opened

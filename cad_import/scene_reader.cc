@@ -7,7 +7,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <assimp/DefaultLogger.hpp>
 #include <assimp/Importer.hpp>
+#include <assimp/LogStream.hpp>
 #include <exception>
 #include <map>
 #include <memory>
@@ -21,6 +23,7 @@
 #include "cad_import/obj_text.h"
 #include "cad_import/own_folder.h"
 #include "cad_import/srgb.h"
+#include "cad_import/text_encoding.h"
 #include "core/error.h"
 
 namespace elbowroom::cad_import {
@@ -66,6 +69,35 @@ class ConfinedFiles : public Assimp::DefaultIOSystem {
   fs::path file_;  // canonical
   OwnFolder folder_;
   Log& log_;
+};
+
+// Keeps what the parser says of faces that it leaves out; assimp's log belongs to the process.
+class LeftOutLog {
+ public:
+  LeftOutLog() {
+    Assimp::DefaultLogger::create("", Assimp::Logger::NORMAL, 0);
+    Assimp::DefaultLogger::get()->attachStream(new Stream(has_left_out_faces_),
+                                               Assimp::Logger::Warn);  // the log deletes it
+  }
+  ~LeftOutLog() { Assimp::DefaultLogger::kill(); }
+  LeftOutLog(const LeftOutLog&) = delete;
+  LeftOutLog& operator=(const LeftOutLog&) = delete;
+  [[nodiscard]] bool HasLeftOutFaces() const { return has_left_out_faces_; }
+
+ private:
+  class Stream : public Assimp::LogStream {
+   public:
+    explicit Stream(bool& has_left_out_faces) : has_left_out_faces_(has_left_out_faces) {}
+    void write(const char* message) override {
+      if (std::string_view(message).find("faces were dropped") != std::string_view::npos)
+        has_left_out_faces_ = true;
+    }
+
+   private:
+    bool& has_left_out_faces_;
+  };
+
+  bool has_left_out_faces_ = false;
 };
 
 // A parser's message as part of one line.
@@ -190,12 +222,15 @@ std::optional<FileUnit> TakeUnit(const aiScene& scene, FileFormat format, Eigen:
   }
 }
 
-// STL, OBJ and PLY from memory, so that what was checked is what is read.
+// STL, OBJ, PLY and COLLADA from memory, so that what was checked is what is read.
 const aiScene* Parse(Assimp::Importer& importer, const fs::path& file, FileFormat format,
                      const std::string& bytes) {
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
+  // It makes up a shape for cameras, lights and bones in a file that has none.
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
   const unsigned steps = aiProcess_Triangulate;
-  if (format == FileFormat::kStl || format == FileFormat::kObj || format == FileFormat::kPly)
+  if (format == FileFormat::kStl || format == FileFormat::kObj || format == FileFormat::kPly ||
+      format == FileFormat::kCollada)
     return importer.ReadFileFromMemory(bytes.data(), bytes.size(), steps,
                                        std::string(ExtensionOf(format)).c_str());
   return importer.ReadFile(file.string(), steps);
@@ -203,6 +238,7 @@ const aiScene* Parse(Assimp::Importer& importer, const fs::path& file, FileForma
 
 RawScene Load(const fs::path& file, FileFormat format, const std::string& bytes) {
   ConfinedFiles::Log log;
+  const LeftOutLog left_out;
   Assimp::Importer importer;
   importer.SetIOHandler(new ConfinedFiles(file, log));  // the importer deletes it
   const aiScene* scene = nullptr;
@@ -227,12 +263,15 @@ RawScene Load(const fs::path& file, FileFormat format, const std::string& bytes)
       if (instance.color) std::ranges::transform(*instance.color, instance.color->begin(), SrgbFromLinear);
   walk.result().unit = unit;
   walk.result().referred = std::move(log.opened);
+  if (left_out.HasLeftOutFaces())
+    walk.result().warnings.emplace_back("faces that name vertices that don't exist were left out");
   return std::move(walk.result());
 }
 
 }  // namespace
 
-RawScene ReadScene(const fs::path& file, FileFormat format, const std::string& bytes) {
+RawScene ReadScene(const fs::path& file, FileFormat format, std::string bytes) {
+  if (format == FileFormat::kCollada || format == FileFormat::kObj) bytes = ToUtf8(std::move(bytes));
   if (format != FileFormat::kObj) return Load(file, format, bytes);
   // The shape alone; faces that the parser lost are told.
   const PlainObj plain = PlainObjOf(bytes, file.string());

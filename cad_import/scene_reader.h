@@ -12,8 +12,8 @@ namespace elbowroom::cad_import {
 // The scene of a file whose `bytes` were checked; the unit where format and file say one. Vertices pass
 // through single precision. Axes are the file's own. Other files are opened only in its folder or below,
 // links resolved. Throws: Error{kFormat} naming the file when assimp can't read it or it refers elsewhere,
-// Error{kGeometry} when it unrolls to more triangles than can be meant.
-[[nodiscard]] RawScene ReadScene(const std::filesystem::path& file, FileFormat format,
-                                 const std::string& bytes);
+// Error{kGeometry} when it unrolls to more triangles than can be meant. Thread: one at a time, as assimp has
+// one log.
+[[nodiscard]] RawScene ReadScene(const std::filesystem::path& file, FileFormat format, std::string bytes);
 
 }  // namespace elbowroom::cad_import

@@ -138,7 +138,7 @@ CadModel Settle(RawScene scene, FileFormat format, const ImportOptions& options,
     if (!HasName(shape.name)) shape.name = stem;
     bodies.bodies.push_back(BodyOf(std::move(shape)));
   }
-  const bool is_single = bodies.instances.size() == 1;
+  const bool is_single = bodies.instances.size() == 1 && !scene.are_bodies;
   JoinOpenBodies(bodies);
   if (is_single) SplitIntoPieces(bodies.bodies.front());
   for (Body& body : bodies.bodies) model.shapes.push_back(ShapeOf(std::move(body)));

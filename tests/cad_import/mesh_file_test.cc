@@ -304,6 +304,62 @@ TEST_F(MeshFile, ClosedPartsThatTouchStayApart) {
   EXPECT_EQ(imported.mesh->vertices_mm.size(), 16U);
 }
 
+// As UTF-16 with its mark.
+std::string Utf16(std::string_view text, bool is_big_endian) {
+  std::string bytes = is_big_endian ? "\xFE\xFF" : "\xFF\xFE";
+  for (const char letter : text) {
+    if (is_big_endian) bytes += '\0';
+    bytes += letter;
+    if (!is_big_endian) bytes += '\0';
+  }
+  return bytes;
+}
+
+// A triangle of 1 x 2 in the file's metres, in its scene only where that `shows` it.
+std::string Collada(bool shows) {
+  const std::string node = shows ? R"(<instance_geometry url="#g"/>)" : R"(<instance_camera url="#c"/>)";
+  return R"(<?xml version="1.0"?>
+<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1"><asset><unit meter="1"/></asset>
+<library_cameras><camera id="c"><optics><technique_common><perspective><yfov>50</yfov></perspective>
+</technique_common></optics></camera></library_cameras>
+<library_geometries><geometry id="g"><mesh><source id="p"><float_array id="a" count="9">0 0 0 1 0 0 0 2 0</float_array>
+<technique_common><accessor source="#a" count="3" stride="3"><param name="X" type="float"/>
+<param name="Y" type="float"/><param name="Z" type="float"/></accessor></technique_common></source>
+<vertices id="v"><input semantic="POSITION" source="#p"/></vertices><triangles count="1">
+<input semantic="VERTEX" source="#v" offset="0"/><p>0 1 2</p></triangles></mesh></geometry></library_geometries>
+<library_visual_scenes><visual_scene id="s"><node id="n">)" +
+         node + R"(</node><node id="m"><translate>1 1 1</translate>)" + node + R"(</node></visual_scene>
+</library_visual_scenes><scene><instance_visual_scene url="#s"/></scene></COLLADA>)";
+}
+
+TEST_F(MeshFile, TextInUtf16IsReadAsText) {
+  const std::string obj = testing::ObjText(Box({10, 20, 30}));
+  for (const bool is_big_endian : {false, true}) {
+    ExpectIsTheBox(Import("wide.obj", Utf16(obj, is_big_endian)), {10, 20, 30});
+    const auto collada = ImportHere(Write("wide.dae", Utf16(Collada(true), is_big_endian)));
+    EXPECT_TRUE(collada.report.bounds_mm.sizes().isApprox(Eigen::Vector3d(2000, 3000, 1000)));
+    EXPECT_EQ(collada.report.triangles, 2);
+  }
+}
+
+// assimp makes up pyramids for the nodes of a file that holds nothing else.
+TEST_F(MeshFile, CamerasAndLightsAreNoParts) {
+  EXPECT_TRUE(
+      Mentions(ErrorOf(ErrorKind::kGeometry, [&] { (void)ImportHere(Write("cameras.dae", Collada(false))); }),
+               "no triangles"));
+}
+
+TEST_F(MeshFile, FacesOfVerticesThatDontExistAreTold) {
+  TriangleMesh box = Box({1, 2, 3});
+  box.triangles[5][1] = 77;
+  const auto imported =
+      ImportHere(Write("box.glb", testing::Glb(testing::Gltf(box, {R"({"mesh":0})"}, {0}, ""))));
+  EXPECT_EQ(imported.report.triangles, 11);
+  ASSERT_FALSE(imported.report.warnings.empty());
+  EXPECT_TRUE(Mentions(imported.report.warnings[0], "vertices that don't exist were left out"))
+      << imported.report.warnings[0];
+}
+
 TEST_F(MeshFile, MissingUnreadableAndForeignFilesAreNamed) {
   const auto import = [](const std::filesystem::path& path) { return [path] { (void)ImportHere(path); }; };
   EXPECT_TRUE(Mentions(ErrorOf(ErrorKind::kFile, import(folder_ / "none.stl")), "none.stl: no such file"));
