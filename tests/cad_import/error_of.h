@@ -15,7 +15,7 @@ template <typename Call>
   try {
     call();
   } catch (const core::Error& error) {
-    const std::string message = error.what();
+    std::string message = error.what();
     EXPECT_EQ(static_cast<int>(error.kind()), static_cast<int>(kind)) << message;
     EXPECT_EQ(message.find('\n'), std::string::npos) << message;
     return message;
