@@ -17,7 +17,7 @@ struct Known {
   std::string_view ending;  // of the name
   std::string_view reason;
 };
-constexpr std::array<Known, 23> kKnown = {{
+constexpr std::array<Known, 24> kKnown = {{
     {"3DS/CameraRollAnimWithChildObject.3ds",
      "it moves; ours stands where its animation begins, VTK's where the corners were saved"},
     {"3DS/RotatingCube.3DS",
@@ -50,6 +50,7 @@ constexpr std::array<Known, 23> kKnown = {{
     {"wrongTypes/badNumber.gltf", "a number that is none, on a material; assimp refuses the whole"},
     {"wrongTypes/badObject.gltf", "an object that is none, on a material; assimp refuses the whole"},
     {"wrongTypes/badString.gltf", "a text that is none, on a material; assimp refuses the whole"},
+    {"wrongTypes/badUint.gltf", "an index that is none, on a material; assimp refuses the whole"},
 }};
 
 bool AreSizesEqual(const OurAnswer& ours, const TheirAnswer& theirs) {
