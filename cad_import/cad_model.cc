@@ -34,6 +34,13 @@ void NumberTwins(std::vector<ImportedPart>& parts) {
 
 }  // namespace
 
+CadModel ModelOf(core::SharedMesh mesh, const std::string& name) {
+  CadModel model;
+  model.shapes.push_back({name, std::move(mesh), {}, {}});
+  model.instances.push_back({name, 0, {}, std::nullopt});
+  return model;
+}
+
 FlatModel Flatten(const CadModel& model, std::string_view node) {
   std::vector<const CadInstance*> taken;
   for (const CadInstance& instance : model.instances)

@@ -73,6 +73,9 @@ struct CadModel {
   ImportReport report;
 };
 
+// One mesh in one place, of that name; nothing is known of its surface.
+[[nodiscard]] CadModel ModelOf(core::SharedMesh mesh, const std::string& name);
+
 // All instances as one mesh in the model's frame, the pieces of each in the order of the instances, every
 // name unique.
 struct FlatModel {

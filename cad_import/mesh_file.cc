@@ -1,7 +1,6 @@
 #include "cad_import/mesh_file.h"
 
 #include <memory>
-#include <optional>
 #include <utility>
 
 #include "cad_import/cad_file.h"
@@ -18,10 +17,7 @@ ImportedMesh ImportMeshFile(const std::filesystem::path& file, const ImportOptio
 }
 
 void WriteMeshFile(const core::TriangleMesh& mesh, const std::filesystem::path& path) {
-  CadModel model;
-  model.shapes.push_back({path.stem().string(), std::make_shared<const core::TriangleMesh>(mesh), {}, {}});
-  model.instances.push_back({model.shapes.front().name, 0, {}, std::nullopt});
-  WriteModelFile(model, path);
+  WriteModelFile(ModelOf(std::make_shared<const core::TriangleMesh>(mesh), path.stem().string()), path);
 }
 
 void WriteModelFile(const CadModel& model, const std::filesystem::path& path) {

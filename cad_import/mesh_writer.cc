@@ -136,13 +136,6 @@ std::unique_ptr<aiScene> SceneOf(const CadModel& model, double mm_per_unit, cons
   return scene;
 }
 
-CadModel ModelOf(core::SharedMesh mesh) {
-  CadModel model;
-  model.shapes.push_back({"", std::move(mesh), {}, {}});
-  model.instances.push_back({"", 0, {}, std::nullopt});
-  return model;
-}
-
 }  // namespace
 
 std::string EncodeModel(const CadModel& model, const std::filesystem::path& path) {
@@ -151,7 +144,7 @@ std::string EncodeModel(const CadModel& model, const std::filesystem::path& path
   for (const CadShape& shape : model.shapes) core::ValidateMesh(*shape.mesh, where);
   if (model.instances.empty()) core::ValidateMesh({}, where);
   std::optional<CadModel> flat;
-  if (!target.keeps_instances) flat = ModelOf(Flatten(model).mesh);
+  if (!target.keeps_instances) flat = ModelOf(Flatten(model).mesh, path.stem().string());
   Assimp::Exporter exporter;
   const aiExportDataBlob* blob = nullptr;
   try {

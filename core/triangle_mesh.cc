@@ -44,6 +44,12 @@ Eigen::AlignedBox3d BoundsOf(const TriangleMesh& mesh) {
   return bounds;
 }
 
+Eigen::AlignedBox3d BoundsOf(const TriangleMesh& mesh, const RigidTransform& b_from_a) {
+  Eigen::AlignedBox3d bounds;
+  for (const Eigen::Vector3d& vertex : mesh.vertices_mm) bounds.extend(b_from_a * vertex);
+  return bounds;
+}
+
 double VolumeMm3(const TriangleMesh& mesh) {
   // Relative to a vertex of the mesh, so that a mesh far from its origin loses no digits.
   if (mesh.vertices_mm.empty()) return 0.0;

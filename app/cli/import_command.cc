@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "app/cli/command.h"
+#include "app/cli/file_ending.h"
 #include "app/cli/unit_option.h"
 #include "app/control/import_picture.h"
 #include "cad_import/cad_file.h"
@@ -31,6 +32,7 @@ void WritePicture(const cad_import::CadModel& model, const std::filesystem::path
 }
 
 CommandResult Run(const ImportCommandOptions& options, const CommandContext& context) {
+  CheckEnding("--picture", options.picture, {".png"});
   const cad_import::CadModel model =
       cad_import::ImportCadFile(options.file, options.import, context.progress, context.stop);
   const cad_import::ImportReport& report = model.report;

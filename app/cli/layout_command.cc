@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "app/cli/command.h"
+#include "app/cli/file_ending.h"
 #include "app/cli/layout_edit.h"
 #include "app/cli/layout_listing.h"
 #include "app/cli/unit_option.h"
@@ -123,11 +124,7 @@ CommandResult Remove(const LayoutOptions& options) {
 }
 
 CommandResult Show(const LayoutOptions& options) {
-  if (!options.picture.empty() && options.picture.extension() != ".png") {
-    throw core::Error(core::ErrorKind::kFile,
-                      fmt::format("--picture '{}': is written as .png alone; choose a name that ends so",
-                                  options.picture.string()));
-  }
+  CheckEnding("--picture", options.picture, {".png"});
   const cad_import::ImportedLayout imported = cad_import::ImportLayoutFile(options.layout);
   CommandResult result = ListingOf(imported, options.layout);
   if (options.picture.empty()) return result;

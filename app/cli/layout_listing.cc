@@ -19,7 +19,7 @@ std::string TextOf(const Eigen::Vector3d& v, const char* between) {
 }
 
 Eigen::AlignedBox3d BoundsAt(const core::Part& part, const core::RigidTransform& world_from_part) {
-  return core::BoundsOf(core::Transformed(*part.mesh, world_from_part));
+  return core::BoundsOf(*part.mesh, world_from_part);
 }
 
 nlohmann::json JsonOf(const core::Part& part, const core::RigidTransform& world_from_part) {

@@ -2,14 +2,13 @@
 // it.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
-#include <initializer_list>
 #include <memory>
 #include <optional>
 #include <vector>
 
 #include "app/cli/command.h"
+#include "app/cli/file_ending.h"
 #include "app/cli/repeated_timing.h"
 #include "app/cli/rig_frame.h"
 #include "app/cli/unit_option.h"
@@ -108,14 +107,6 @@ recon::ViewFile ReadView(const ViewOptions& options) {
   return view;
 }
 
-void CheckEnding(const char* option, const std::filesystem::path& file,
-                 std::initializer_list<const char*> endings) {
-  if (std::ranges::any_of(endings, [&](const char* ending) { return file.extension() == ending; })) return;
-  throw core::Error(core::ErrorKind::kFile,
-                    fmt::format("{} '{}': is written as {} alone; choose a name that ends so", option,
-                                file.string(), fmt::join(endings, " or ")));
-}
-
 // Before anything is computed: what is written must be what its name says.
 void CheckFiles(const ViewOptions& options) {
   if (options.depth == options.image) {
@@ -124,7 +115,7 @@ void CheckFiles(const ViewOptions& options) {
         fmt::format("--depth and --image are both '{}'; choose two names", options.depth.string()));
   }
   CheckEnding("--depth", options.depth, {".tiff", ".tif"});
-  if (!options.image.empty()) CheckEnding("--image", options.image, {".png"});
+  CheckEnding("--image", options.image, {".png"});
 }
 
 // An exact view from within the hull shows nothing, as its surface lies behind every ray's start.

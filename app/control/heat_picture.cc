@@ -53,7 +53,7 @@ HeatView BestView(const core::TriangleMesh& mesh, const core::SurfacePatches& pa
   camera.azimuth_rad = core::RadiansFromDegrees(-60.0);
   if (to_heat.head<2>().norm() > kSideways * to_heat.norm())
     camera.azimuth_rad = std::atan2(to_heat.y(), to_heat.x());
-  const Eigen::AlignedBox3d bounds = core::BoundsOf(core::Transformed(mesh, best.world_from_part));
+  const Eigen::AlignedBox3d bounds = core::BoundsOf(mesh, best.world_from_part);
   best.view = recon::ViewFrom(recon::FittedTo(camera, bounds, kViewPx, kViewPx), kViewPx, kViewPx);
   return best;
 }
@@ -61,7 +61,7 @@ HeatView BestView(const core::TriangleMesh& mesh, const core::SurfacePatches& pa
 recon::gl::Scene SceneOf(const core::SharedMesh& mesh, const HeatView& view) {
   recon::gl::Scene scene;
   scene.view = view.view;
-  scene.lamp = recon::gl::LampOver(core::BoundsOf(core::Transformed(*mesh, view.world_from_part)));
+  scene.lamp = recon::gl::LampOver(core::BoundsOf(*mesh, view.world_from_part));
   scene.background_top = scene.background_bottom = Eigen::Vector3f::Ones();
   recon::gl::ScenePart part;
   part.mesh = mesh;

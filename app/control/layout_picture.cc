@@ -123,7 +123,7 @@ recon::Image LayoutPicture(recon::gl::SceneRenderer& renderer, const core::Layou
   recon::gl::Scene scene;
   for (core::PartIndex i = 0; i < layout.parts.size(); ++i) {
     const core::SharedMesh& mesh = layout.parts[i].mesh;
-    boxes.push_back(core::BoundsOf(core::Transformed(*mesh, world_from_parts[i])));
+    boxes.push_back(core::BoundsOf(*mesh, world_from_parts[i]));
     all.extend(boxes.back());
     recon::gl::ScenePart& part = scene.parts.emplace_back();
     part.mesh = mesh;

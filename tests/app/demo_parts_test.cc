@@ -51,7 +51,7 @@ TEST(DemoParts, TheLayoutStandsOnTheTableWithTheGapThatItNames) {
     const auto poses = core::PosesAt(layout, std::vector<double>{gap_mm});
     std::vector<Eigen::AlignedBox3d> bounds;
     for (std::size_t i = 0; i < poses.size(); ++i) {
-      bounds.push_back(core::BoundsOf(core::Transformed(*layout.parts[i].mesh, poses[i])));
+      bounds.push_back(core::BoundsOf(*layout.parts[i].mesh, poses[i]));
     }
     EXPECT_NEAR(bounds[*layout.FindPart("payload_a")].min().z() - bounds[*layout.FindPart("pmt")].max().z(),
                 gap_mm, 1e-9);

@@ -44,7 +44,7 @@ Layout TwoTurnedParts() {
 
 // Independent of ExtentAlong in the code: moves the whole mesh.
 Eigen::AlignedBox3d WorldBounds(const Part& part, const RigidTransform& world_from_part) {
-  return BoundsOf(Transformed(*part.mesh, world_from_part));
+  return BoundsOf(*part.mesh, world_from_part);
 }
 
 TEST(PosesAt, GapBetweenTurnedPartsIsTheSpacingAlongEveryAxis) {
