@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "cad_import/glb_container.h"
 #include "cad_import/gltf_check.h"
 #include "cad_import/ply_check.h"
 #include "core/error.h"

@@ -3,9 +3,10 @@
 #include <fmt/format.h>
 
 #include <cstdint>
-#include <cstring>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "core/error.h"
@@ -71,11 +72,14 @@ void CheckAccessors(const json& document, const std::string& where) {
     const std::uint64_t view = CountAt(accessors[i], "bufferView", 0, where);
     if (view >= views.size()) Fail(where, fmt::format("glTF accessor {} names no buffer view", i));
     const std::uint64_t element_bytes = ElementBytes(accessors[i], where);
-    const std::uint64_t stride = CountAt(views[view], "byteStride", element_bytes, where);
+    // Version 1.0 keeps it in the accessor, where 0 means that elements follow each other.
+    const std::uint64_t own_stride = CountAt(accessors[i], "byteStride", 0, where);
+    const std::uint64_t view_stride = CountAt(views[view], "byteStride", own_stride, where);
+    const std::uint64_t stride = view_stride == 0 ? element_bytes : view_stride;
     const std::uint64_t length = CountAt(views[view], "byteLength", 0, where);
     const std::uint64_t offset = CountAt(accessors[i], "byteOffset", 0, where);
     const bool fits = offset <= length && element_bytes <= length - offset &&
-                      (stride == 0 || count - 1 <= (length - offset - element_bytes) / stride);
+                      count - 1 <= (length - offset - element_bytes) / stride;
     if (!fits)
       Fail(where,
            fmt::format("glTF accessor {} claims {} elements, more than its buffer view holds", i, count));
@@ -108,56 +112,82 @@ void CheckNodes(const json& document, const std::string& where) {
   }
 }
 
-std::uint32_t WordAt(std::string_view bytes, std::size_t at) {
-  std::uint32_t value = 0;
-  std::memcpy(&value, bytes.data() + at, sizeof value);
-  return value;
+// Where version 2.0 would list what version 1.0 keeps under names. One that nothing has is past the list's
+// end.
+class Numbers {
+ public:
+  explicit Numbers(const json& named) {
+    for (const auto& item : named.items()) numbers_.emplace(item.key(), numbers_.size());
+  }
+  [[nodiscard]] json Of(const json& name) const {
+    const auto found = name.is_string() ? numbers_.find(name.get<std::string>()) : numbers_.end();
+    return found == numbers_.end() ? numbers_.size() : found->second;
+  }
+
+ private:
+  std::map<std::string, std::size_t> numbers_;
+};
+
+json NamedIn(const json& document, const char* key) {
+  json named = document.value(key, json::object());
+  return named.is_object() ? named : json::object();
+}
+
+// What the document has under names at `key`, as a list; `reference` names something of `target`, or several.
+json ListOf(const json& document, const char* key, const char* reference, const char* target) {
+  const Numbers numbers(NamedIn(document, target));
+  json list = json::array();
+  for (json entry : NamedIn(document, key)) {
+    if (entry.is_object() && entry.contains(reference)) {
+      json& names = entry.at(reference);
+      if (names.is_array()) {
+        for (json& name : names) name = numbers.Of(name);
+      } else {
+        names = numbers.Of(names);
+      }
+    }
+    list.push_back(std::move(entry));
+  }
+  return list;
+}
+
+// Buffers, views, accessors and nodes of version 1.0.
+json AsVersion2(const json& document) {
+  return {{"buffers", ListOf(document, "buffers", "", "")},
+          {"bufferViews", ListOf(document, "bufferViews", "buffer", "buffers")},
+          {"accessors", ListOf(document, "accessors", "bufferView", "bufferViews")},
+          {"nodes", ListOf(document, "nodes", "children", "nodes")}};
+}
+
+// "1.0", "2.0", and in some of version 1 the number.
+std::string VersionOf(const json& document) {
+  const json asset = document.value("asset", json::object());
+  if (!asset.is_object() || !asset.contains("version")) return "";
+  const json& version = asset.at("version");
+  return version.is_string() ? version.get<std::string>() : version.dump();
+}
+
+bool IsVersion(int major, const std::string& version) {
+  const std::string text = fmt::format("{}", major);
+  return version == text || version.starts_with(text + ".");
 }
 
 }  // namespace
 
 void CheckGltf(std::string_view json_text, const std::string& where) try {
-  const json document = json::parse(json_text, nullptr, /*allow_exceptions=*/false);
+  json document = json::parse(json_text, nullptr, /*allow_exceptions=*/false);
   if (!document.is_object()) Fail(where, "not a glTF file, or cut off (its JSON doesn't parse)");
-  const json asset = document.value("asset", json::object());
-  const std::string version = asset.is_object() && asset.contains("version") && asset["version"].is_string()
-                                  ? asset["version"].get<std::string>()
-                                  : "";
-  if (!version.starts_with("2."))
-    Fail(where, fmt::format("glTF version '{}' can't be read, only 2.0", version));
+  const std::string version = VersionOf(document);
+  if (IsVersion(1, version)) {
+    document = AsVersion2(document);
+  } else if (!IsVersion(2, version)) {
+    Fail(where, fmt::format("glTF version '{}' can't be read, only 1.0 and 2.0", version));
+  }
   CheckViews(document, where);
   CheckAccessors(document, where);
   CheckNodes(document, where);
 } catch (const json::exception&) {  // a value of another type than the specification says
   Fail(where, "the glTF document has a value of the wrong type");
-}
-
-void CheckGlb(std::string_view bytes, const std::string& where) {
-  constexpr std::size_t kHeaderBytes = 12, kChunkHeaderBytes = 8;
-  constexpr std::uint32_t kJsonChunk = 0x4E4F534A;
-  if (bytes.size() < kHeaderBytes + kChunkHeaderBytes || !bytes.starts_with("glTF")) {
-    Fail(where, "not a GLB file (it doesn't start with \"glTF\"), or cut off");
-  }
-  if (WordAt(bytes, 4) != 2)
-    Fail(where, fmt::format("GLB version {} can't be read, only 2", WordAt(bytes, 4)));
-  if (WordAt(bytes, 8) > bytes.size()) {
-    Fail(where, fmt::format("the GLB header claims {} bytes but the file holds {}: it is cut off",
-                            WordAt(bytes, 8), bytes.size()));
-  }
-  const std::size_t json_bytes = WordAt(bytes, kHeaderBytes);
-  const std::size_t json_at = kHeaderBytes + kChunkHeaderBytes;
-  if (WordAt(bytes, kHeaderBytes + 4) != kJsonChunk || json_bytes > bytes.size() - json_at) {
-    Fail(where, "the GLB file's first chunk is not whole JSON");
-  }
-  if (json_bytes % 4 != 0) {
-    Fail(where, "the GLB file's chunks don't end on multiples of 4 bytes, as its specification demands");
-  }
-  const std::size_t next_at = json_at + json_bytes;
-  if (next_at + kChunkHeaderBytes <= bytes.size() &&
-      WordAt(bytes, next_at) > bytes.size() - next_at - kChunkHeaderBytes) {
-    Fail(where, "the GLB file's second chunk runs past its end: it is cut off");
-  }
-  CheckGltf(bytes.substr(json_at, json_bytes), where);
 }
 
 }  // namespace elbowroom::cad_import

@@ -1,4 +1,4 @@
-// Whether a glTF 2.0 document stays inside its own buffers and its nodes form trees.
+// Whether a glTF document stays inside its own buffers and its nodes form trees.
 #pragma once
 
 #include <string>
@@ -6,11 +6,8 @@
 
 namespace elbowroom::cad_import {
 
-// Throws: Error{kFormat} naming `where`: not JSON, not glTF 2.0, an accessor or view outside its buffer, a
-// node that is its own ancestor or nested deeper than 256.
+// Throws: Error{kFormat} naming `where`: not JSON, not glTF 1.0 or 2.0, an accessor or view outside its
+// buffer, a node that is its own ancestor or nested deeper than 256.
 void CheckGltf(std::string_view json_text, const std::string& where);
-
-// The same for the binary container, whose chunks must also lie inside the file.
-void CheckGlb(std::string_view bytes, const std::string& where);
 
 }  // namespace elbowroom::cad_import

@@ -19,6 +19,7 @@
 #include <utility>
 #include <vector>
 
+#include "cad_import/file_format.h"
 #include "cad_import/file_unit.h"
 #include "cad_import/import_protocol.h"
 #include "cad_import/import_worker.h"
@@ -221,6 +222,8 @@ MappedFile ImportInChild(const std::filesystem::path& file, const ImportOptions&
             pipe.to, result));
   pipe.to.Close();
 
+  const std::optional<FileFormat> format = FindFormat(file);
+  const char* coarser = format && IsBoundaryRepresentation(*format) ? "--tolerance or " : "";
   bool is_done = false;
   std::optional<Error> failure;
   const auto hear = [&](const ImportMessage& message) {
@@ -232,8 +235,8 @@ MappedFile ImportInChild(const std::filesystem::path& file, const ImportOptions&
       failure.emplace(
           ErrorKind::kCad,
           fmt::format("{}: reading it takes more than {} of memory; export a simpler model, or run "
-                      "`elbowroom import` on it with a larger --memory-gib",
-                      where, MemoryText(options.limits.memory_bytes)));
+                      "`elbowroom import` on it with a larger {}--memory-gib",
+                      where, MemoryText(options.limits.memory_bytes), coarser));
     } else if (std::holds_alternative<DoneMessage>(message)) {
       is_done = true;
     }
@@ -245,8 +248,8 @@ MappedFile ImportInChild(const std::filesystem::path& file, const ImportOptions&
     throw Error(
         ErrorKind::kCad,
         fmt::format("{}: reading it takes more than {} s; export a simpler model, or run `elbowroom import` "
-                    "on it with a larger --time-s",
-                    where, options.limits.time_s));
+                    "on it with a larger {}--time-s",
+                    where, options.limits.time_s, coarser));
   };
   MessageReader reader(pipe.from.number());
   while (reader.Read(hear)) check();

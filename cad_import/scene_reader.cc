@@ -20,6 +20,7 @@
 #include <utility>
 #include <vector>
 
+#include "cad_import/glb_container.h"
 #include "cad_import/obj_text.h"
 #include "cad_import/own_folder.h"
 #include "cad_import/srgb.h"
@@ -37,6 +38,13 @@ using core::ErrorKind;
 // Instances may be nested: a small file can ask for more than memory holds.
 constexpr std::int64_t kMostTriangles = 100'000'000;
 constexpr std::size_t kMostInstances = 1'000'000;
+
+struct Source {
+  const fs::path& file;
+  FileFormat format;
+  const std::string& bytes;  // of the file, but for what was mended
+  bool is_mended = false;
+};
 
 // Opens for reading what lies in the file's folder or below, links resolved; refuses all else.
 class ConfinedFiles : public Assimp::DefaultIOSystem {
@@ -222,21 +230,27 @@ std::optional<FileUnit> TakeUnit(const aiScene& scene, FileFormat format, Eigen:
   }
 }
 
-// STL, OBJ, PLY and COLLADA from memory, so that what was checked is what is read.
-const aiScene* Parse(Assimp::Importer& importer, const fs::path& file, FileFormat format,
-                     const std::string& bytes) {
+// STL, OBJ, PLY and COLLADA come whole from memory, so that what was checked is what is read; so does what
+// was mended. The others may have files beside them.
+bool IsReadFromMemory(FileFormat format, bool is_mended) {
+  return is_mended || format == FileFormat::kStl || format == FileFormat::kObj ||
+         format == FileFormat::kPly || format == FileFormat::kCollada;
+}
+
+const aiScene* Parse(Assimp::Importer& importer, const Source& source) {
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
   // It makes up a shape for cameras, lights and bones in a file that has none.
   importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
   const unsigned steps = aiProcess_Triangulate;
-  if (format == FileFormat::kStl || format == FileFormat::kObj || format == FileFormat::kPly ||
-      format == FileFormat::kCollada)
-    return importer.ReadFileFromMemory(bytes.data(), bytes.size(), steps,
-                                       std::string(ExtensionOf(format)).c_str());
-  return importer.ReadFile(file.string(), steps);
+  if (IsReadFromMemory(source.format, source.is_mended))
+    return importer.ReadFileFromMemory(source.bytes.data(), source.bytes.size(), steps,
+                                       std::string(ExtensionOf(source.format)).c_str());
+  return importer.ReadFile(source.file.string(), steps);
 }
 
-RawScene Load(const fs::path& file, FileFormat format, const std::string& bytes) {
+RawScene Load(const Source& source) {
+  const fs::path& file = source.file;
+  const FileFormat format = source.format;
   ConfinedFiles::Log log;
   const LeftOutLog left_out;
   Assimp::Importer importer;
@@ -244,7 +258,7 @@ RawScene Load(const fs::path& file, FileFormat format, const std::string& bytes)
   const aiScene* scene = nullptr;
   std::string why;
   try {
-    scene = Parse(importer, file, format, bytes);
+    scene = Parse(importer, source);
     if (scene == nullptr) why = importer.GetErrorString();
   } catch (const std::exception& exception) {
     why = exception.what();
@@ -268,20 +282,30 @@ RawScene Load(const fs::path& file, FileFormat format, const std::string& bytes)
   return std::move(walk.result());
 }
 
-}  // namespace
-
-RawScene ReadScene(const fs::path& file, FileFormat format, std::string bytes) {
-  if (format == FileFormat::kCollada || format == FileFormat::kObj) bytes = ToUtf8(std::move(bytes));
-  if (format != FileFormat::kObj) return Load(file, format, bytes);
-  // The shape alone; faces that the parser lost are told.
-  const PlainObj plain = PlainObjOf(bytes, file.string());
-  RawScene scene = Load(file, format, plain.text);
+// The shape alone; faces that the parser lost are told.
+RawScene ReadObj(const fs::path& file, const std::string& text) {
+  const PlainObj plain = PlainObjOf(text, file.string());
+  RawScene scene = Load({file, FileFormat::kObj, plain.text});
   std::int64_t triangles = 0;
   for (const RawInstance& instance : scene.instances)
     triangles += static_cast<std::int64_t>(scene.shapes[instance.shape].mesh.triangles.size());
   if (plain.triangles > triangles)
     scene.warnings.push_back(
         fmt::format("{} triangles of its polygons could not be formed", plain.triangles - triangles));
+  return scene;
+}
+
+}  // namespace
+
+RawScene ReadScene(const fs::path& file, FileFormat format, std::string bytes) {
+  if (format == FileFormat::kCollada || format == FileFormat::kObj) bytes = ToUtf8(std::move(bytes));
+  if (format == FileFormat::kObj) return ReadObj(file, bytes);
+  const bool is_mended = format == FileFormat::kGlb && LacksPadding(bytes);
+  if (is_mended) bytes = Padded(std::move(bytes));
+  RawScene scene = Load({file, format, bytes, is_mended});
+  if (is_mended)
+    scene.warnings.emplace_back(
+        "its chunks don't end on multiples of 4 bytes, as GLB demands; they were read all the same");
   return scene;
 }
 

@@ -114,8 +114,8 @@ SelfIntersections FindSelfIntersections(const core::TriangleMesh& mesh) {
     result.triangles.insert(result.triangles.end(), {a.info(), b.info()});
   });
   std::ranges::sort(result.triangles);
-  const auto twins = std::ranges::unique(result.triangles);
-  result.triangles.erase(twins.begin(), twins.end());
+  result.triangles.erase(std::unique(result.triangles.begin(), result.triangles.end()),
+                         result.triangles.end());
   return result;
 }
 

@@ -10,13 +10,16 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/part_distance.h"
 #include "recon/ray_crossings.h"
 #include "review/inside_cells.h"
-#include "review/part_distance.h"
 
 namespace elbowroom::review {
 namespace {
 
+using core::BoxInPart;
+using core::NearestOnPart;
+using core::NearStretch;
 using Eigen::Vector3d;
 using recon::BallAnswer;
 

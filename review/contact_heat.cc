@@ -4,7 +4,7 @@
 #include <map>
 
 #include "core/error.h"
-#include "review/part_distance.h"
+#include "core/part_distance.h"
 
 namespace elbowroom::review {
 namespace {

@@ -2,11 +2,12 @@
 
 #include <cmath>
 
-#include "review/part_distance.h"
+#include "core/part_distance.h"
 
 namespace elbowroom::review {
 namespace {
 
+using core::NearestOnPart;
 using Eigen::Vector3d;
 
 // Along no edge of anything that was drawn with a ruler.

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <deque>
 
+#include "core/part_distance.h"
 #include "review/inside_cells.h"
 #include "review/longest_side.h"
-#include "review/part_distance.h"
 
 namespace elbowroom::review {
 namespace {

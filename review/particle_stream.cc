@@ -10,13 +10,14 @@
 #include <optional>
 
 #include "core/error.h"
+#include "core/part_distance.h"
 #include "review/hull_march.h"
 #include "review/inside_cells.h"
-#include "review/part_distance.h"
 
 namespace elbowroom::review {
 namespace {
 
+using core::NearestOnPart;
 using Eigen::Vector3d;
 
 constexpr double kGravityMmPerS2 = 9806.65;

@@ -9,15 +9,16 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/part_distance.h"
 #include "core/units.h"
 #include "recon/hull_depth.h"
 #include "review/freeing.h"
 #include "review/inside_cells.h"
-#include "review/part_distance.h"
 
 namespace elbowroom::review {
 namespace {
 
+using core::NearestOnPart;
 using Eigen::Vector3d;
 
 // Points from which the deepest is looked for, and rays that a direction begins with.

@@ -107,21 +107,49 @@ std::vector<core::Part> ReadParts(Database& database) {
   return parts;
 }
 
+void InsertGroups(Database& database, const core::Layout& layout) {
+  Statement insert_group(database, "INSERT INTO part_group VALUES (?, ?)");
+  Statement insert_member(database, "INSERT INTO part_group_member VALUES (?, ?, ?)");
+  for (core::GroupIndex i = 0; i < layout.groups.size(); ++i) {
+    insert_group.With(i, layout.groups[i].name).Run();
+    const std::vector<core::PartIndex> members = layout.PartsNamed(layout.groups[i].name);
+    for (std::size_t k = 0; k < members.size(); ++k) insert_member.With(i, k, members[k]).Run();
+  }
+}
+
+std::vector<core::Group> ReadGroups(Database& database) {
+  Statement groups(database, "SELECT group_index, name FROM part_group ORDER BY group_index");
+  Statement members(database,
+                    "SELECT name FROM part_group_member JOIN part USING (part_index) "
+                    "WHERE group_index = ? ORDER BY member_index");
+  std::vector<core::Group> result;
+  while (groups.Next()) {
+    core::Group& group = result.emplace_back(core::Group{groups.Text(1), {}});
+    for (members.With(groups.Integer(0)); members.Next();) group.parts.push_back(members.Text(0));
+  }
+  return result;
+}
+
 void InsertSpacings(Database& database, const core::Layout& layout) {
-  Statement insert(database, "INSERT INTO spacing VALUES (?, ?, ?, ?, ?, ?, ?, ?)");
+  Statement insert(database, "INSERT INTO spacing VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+  const auto first_part = [&](const std::string& name) { return layout.PartsNamed(name).front(); };
   for (core::SpacingIndex i = 0; i < layout.spacings.size(); ++i) {
     const core::Spacing& spacing = layout.spacings[i];
     insert
-        .With(i, spacing.name, layout.FindPart(spacing.moving), layout.FindPart(spacing.reference),
-              core::ToString(spacing.axis), spacing.min_mm, spacing.max_mm, spacing.initial_mm)
+        .With(i, spacing.name, first_part(spacing.moving), first_part(spacing.reference),
+              core::ToString(spacing.axis), spacing.min_mm, spacing.max_mm, spacing.initial_mm,
+              layout.FindGroup(spacing.moving), layout.FindGroup(spacing.reference))
         .Run();
   }
 }
 
 std::vector<core::Spacing> ReadSpacings(Database& database) {
   Statement rows(database,
-                 "SELECT s.name, m.name, r.name, axis, min_mm, max_mm, initial_mm FROM spacing s "
+                 "SELECT s.name, coalesce(mg.name, m.name), coalesce(rg.name, r.name), axis, min_mm, max_mm, "
+                 "initial_mm FROM spacing s "
                  "JOIN part m ON m.part_index = moving_part JOIN part r ON r.part_index = reference_part "
+                 "LEFT JOIN part_group mg ON mg.group_index = moving_group "
+                 "LEFT JOIN part_group rg ON rg.group_index = reference_group "
                  "ORDER BY spacing_index");
   std::vector<core::Spacing> spacings;
   while (rows.Next()) {
@@ -172,6 +200,7 @@ core::LengthUnit UnitFromText(const std::string& text, const Database& database)
 
 void InsertLayout(Database& database, const core::Layout& layout) {
   InsertParts(database, layout.parts);
+  InsertGroups(database, layout);
   InsertSpacings(database, layout);
   InsertPairRules(database, layout);
   InsertGivesWay(database, layout);
@@ -180,6 +209,7 @@ void InsertLayout(Database& database, const core::Layout& layout) {
 core::Layout ReadLayout(Database& database) {
   core::Layout layout;
   layout.parts = ReadParts(database);
+  layout.groups = ReadGroups(database);
   layout.spacings = ReadSpacings(database);
   layout.pair_rules = ReadPairRules(database);
   ReadGivesWay(database, &layout);

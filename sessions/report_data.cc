@@ -1,6 +1,7 @@
 #include "sessions/report_data.h"
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <set>
 
@@ -102,8 +103,10 @@ std::optional<core::SpacingIndex> SpacingToJudge(const std::vector<SpacingStudy>
 
 bool IsBoundedBy(const ReportData& data, core::PartIndex part, core::SpacingIndex spacing) {
   const core::Spacing& gap = data.header.layout.spacings[spacing];
-  const std::string& name = data.header.layout.parts[part].name;
-  return name == gap.moving || name == gap.reference;
+  const core::Layout& layout = data.header.layout;
+  return std::ranges::any_of(std::array{&gap.moving, &gap.reference}, [&](const std::string* name) {
+    return std::ranges::count(layout.PartsNamed(*name), part) > 0;
+  });
 }
 
 ReportData CollectReportData(const SessionReader& session) {

@@ -9,7 +9,7 @@
 namespace elbowroom::sessions {
 
 inline constexpr std::int64_t kApplicationId = 0x456C6277;  // "Elbw" in the file's header
-inline constexpr std::int64_t kSchemaVersion = 5;
+inline constexpr std::int64_t kSchemaVersion = 6;
 
 // The SQL that leads from schema 0, an empty file, to schema 1.
 [[nodiscard]] std::string Schema1Sql();
@@ -26,6 +26,9 @@ inline constexpr std::int64_t kSchemaVersion = 5;
 
 // From schema 4 to schema 5: what tessellation cost a mesh; parts in the unit that their file itself names.
 [[nodiscard]] std::string Schema5Sql();
+
+// From schema 5 to schema 6: groups of parts, and spacings of them.
+[[nodiscard]] std::string Schema6Sql();
 
 // Brings the open transaction's database to kSchemaVersion by the migrations that it lacks, in order.
 void Migrate(Database& database);

@@ -41,6 +41,7 @@ CommandResult Run(const ImportCommandOptions& options, const CommandContext& con
   const Eigen::Vector3d low = report.bounds_mm.min(), high = report.bounds_mm.max();
   CommandResult result;
   result.json = {{"parts", report.parts},
+                 {"meshes", model.shapes.size()},
                  {"triangles", report.triangles},
                  {"unit", report.unit},
                  {"bounds_mm", {{low.x(), low.y(), low.z()}, {high.x(), high.y(), high.z()}}},
@@ -50,8 +51,10 @@ CommandResult Run(const ImportCommandOptions& options, const CommandContext& con
                  {"deviation_mm", report.deviation_mm},
                  {"warnings", report.warnings}};
   const Eigen::Vector3d size = high - low;
-  result.text = fmt::format("{}: {} parts, {} triangles, {:.6g} x {:.6g} x {:.6g} mm (read in {}), {}",
-                            options.file.string(), report.parts, report.triangles, size.x(), size.y(),
+  const std::string shared =
+      model.shapes.size() < model.instances.size() ? fmt::format(" of {} meshes", model.shapes.size()) : "";
+  result.text = fmt::format("{}: {} parts{}, {} triangles, {:.6g} x {:.6g} x {:.6g} mm (read in {}), {}",
+                            options.file.string(), report.parts, shared, report.triangles, size.x(), size.y(),
                             size.z(), report.unit, report.watertight ? "watertight" : "open");
   for (const std::string& warning : report.warnings) result.text += "\nwarning: " + warning;
   return result;

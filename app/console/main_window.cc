@@ -50,6 +50,7 @@ MainWindow::MainWindow(std::filesystem::path session)
     : desk_(new TrialDesk(this)), choice_(std::move(session)) {
   status_ = new StatusLine(this);
   setStatusBar(status_);
+  spacings_ = new SpacingPanel;
   AddActions();
   auto* splitter = new QSplitter(Qt::Horizontal);
   splitter->setChildrenCollapsible(false);
@@ -77,6 +78,10 @@ void MainWindow::AddActions() {
   stop->setObjectName("stop");
   auto* report = new ReportAction(*desk_, this);
   report->setObjectName("report");
+  auto* undo = new UndoGapAction(*spacings_, this);
+  undo->setObjectName("undo_gap");
+  auto* redo = new RedoGapAction(*spacings_, this);
+  redo->setObjectName("redo_gap");
   hull_look_ = new HullLookButton;
   hull_look_->setObjectName("hull_look");
   bar->addActions({demo, open});
@@ -84,6 +89,8 @@ void MainWindow::AddActions() {
   bar->addAction(stop);
   bar->addSeparator();
   bar->addAction(report);
+  bar->addSeparator();
+  bar->addActions({undo, redo});
   bar->addSeparator();
   bar->addWidget(hull_look_);
 }
@@ -106,7 +113,6 @@ QWidget* MainWindow::MakeCentre() {
 }
 
 QWidget* MainWindow::MakeSide() {
-  spacings_ = new SpacingPanel;
   tools_ = new ToolPanel;
   contacts_ = new ContactModel(this);
   touches_ = new TouchModel(this);

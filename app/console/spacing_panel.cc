@@ -1,6 +1,7 @@
 #include "app/console/spacing_panel.h"
 
 #include <QGridLayout>
+#include <QKeyEvent>
 #include <QSignalBlocker>
 #include <QToolButton>
 #include <QVBoxLayout>
@@ -21,7 +22,7 @@ int SliderFrom(double value_mm) { return static_cast<int>(std::lround(value_mm *
 }  // namespace
 
 SpacingControl::SpacingControl(const core::Spacing& spacing, QWidget* parent)
-    : QWidget(parent), name_(spacing.name) {
+    : QWidget(parent), name_(spacing.name), min_mm_(spacing.min_mm), max_mm_(spacing.max_mm) {
   AddRows(spacing);
   box_->setRange(spacing.min_mm, spacing.max_mm);
   slider_->setRange(SliderFrom(spacing.min_mm), SliderFrom(spacing.max_mm));
@@ -49,6 +50,7 @@ void SpacingControl::AddRows(const core::Spacing& spacing) {
   box_->setDecimals(1);
   box_->setSuffix(" mm");
   box_->setKeyboardTracking(false);  // a number that is half typed is no wish
+  box_->installEventFilter(this);
   grid->addWidget(title_, 0, 0, 1, 3);
   grid->addWidget(applied_, 0, 3, Qt::AlignRight);
   int column = 0;
@@ -76,13 +78,26 @@ void SpacingControl::SetIsActive(bool is_active) {
 }
 
 void SpacingControl::Wish(double to_mm) {
-  const double allowed_mm = std::clamp(to_mm, box_->minimum(), box_->maximum());
+  const double allowed_mm = std::clamp(to_mm, min_mm_, max_mm_);
   ShowValue(allowed_mm);
   awaited_mm_ = allowed_mm;
   emit Wished(name_, allowed_mm);
 }
 
+// Undo is the layout's, not that of the typed digits.
+bool SpacingControl::eventFilter(QObject* watched, QEvent* event) {
+  if (event->type() == QEvent::ShortcutOverride) {
+    const auto* key = static_cast<QKeyEvent*>(event);
+    if (key->matches(QKeySequence::Undo) || key->matches(QKeySequence::Redo)) {
+      event->ignore();
+      return true;
+    }
+  }
+  return QWidget::eventFilter(watched, event);
+}
+
 void SpacingControl::ShowValue(double value_mm) {
+  value_mm_ = value_mm;
   const QSignalBlocker slider_is_quiet(slider_);
   const QSignalBlocker box_is_quiet(box_);
   slider_->setValue(SliderFrom(value_mm));
@@ -100,20 +115,26 @@ void SpacingControl::ShowApplied(double applied_mm) {
 SpacingPanel::SpacingPanel(QWidget* parent) : QGroupBox(tr("Layout"), parent) {
   auto* column = new QVBoxLayout(this);
   column->setSpacing(10);
+  history_ = new GapHistory(this);
+  connect(history_, &GapHistory::Changed, this, &SpacingPanel::HistoryChanged);
 }
 
 void SpacingPanel::Open(const core::Layout& layout) {
   qDeleteAll(controls_);
   controls_.clear();
   active_ = nullptr;
+  history_->Open(layout.InitialSpacings());
   for (const core::Spacing& spacing : layout.spacings) {
     auto* control = new SpacingControl(spacing, this);
+    const std::size_t index = controls_.size();
     controls_.push_back(control);
     this->layout()->addWidget(control);
-    connect(control, &SpacingControl::Wished, this, [this, control](const std::string& name, double to_mm) {
-      Activate(control);
-      emit Wished(name, to_mm);
-    });
+    connect(control, &SpacingControl::Wished, this,
+            [this, control, index](const std::string& name, double to_mm) {
+              Activate(control);
+              history_->Change(index, to_mm);
+              emit Wished(name, to_mm);
+            });
   }
   if (!controls_.empty()) Activate(controls_.front());
 }
@@ -131,6 +152,25 @@ void SpacingPanel::ShowApplied(std::span<const double> spacing_mm) {
 
 void SpacingPanel::StepActive(double by_mm) {
   if (active_ != nullptr && isEnabled()) active_->Step(by_mm);
+}
+
+void SpacingPanel::changeEvent(QEvent* event) {
+  QGroupBox::changeEvent(event);
+  if (event->type() == QEvent::EnabledChange) emit HistoryChanged();
+}
+
+void SpacingPanel::Undo() {
+  if (isEnabled() && history_->CanUndo()) Restore(history_->Undo());
+}
+
+void SpacingPanel::Redo() {
+  if (isEnabled() && history_->CanRedo()) Restore(history_->Redo());
+}
+
+void SpacingPanel::Restore(const GapHistory::Gaps& gap_mm) {
+  for (std::size_t i = 0; i < controls_.size(); ++i) {
+    if (!controls_[i]->Is(gap_mm[i])) controls_[i]->Wish(gap_mm[i]);
+  }
 }
 
 }  // namespace elbowroom::console

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "app/console/gap_history.h"
 #include "core/layout.h"
 
 namespace elbowroom::console {
@@ -23,18 +24,25 @@ class SpacingControl : public QWidget {
 
   // Follows a change that nobody here asked for; one that was asked for is awaited.
   void ShowApplied(double applied_mm);
-  void Step(double by_mm);           // stays within the limits
+  void Step(double by_mm);  // stays within the limits
+  void Wish(double to_mm);  // likewise
+  [[nodiscard]] bool Is(double gap_mm) const { return value_mm_ == gap_mm; }
   void SetIsActive(bool is_active);  // the one that the keys move
 
  signals:
   void Wished(const std::string& spacing, double to_mm);
 
+ protected:
+  bool eventFilter(QObject* watched, QEvent* event) override;
+
  private:
   void AddRows(const core::Spacing& spacing);
-  void Wish(double to_mm);
   void ShowValue(double value_mm);
 
   std::string name_;
+  double min_mm_;
+  double max_mm_;
+  double value_mm_ = 0.0;  // what is shown, but for its rounding
   QLabel* title_ = nullptr;
   QLabel* applied_ = nullptr;
   QSlider* slider_ = nullptr;
@@ -54,16 +62,27 @@ class SpacingPanel : public QGroupBox {
   void ShowApplied(std::span<const double> spacing_mm);  // in the layout's order
   void StepActive(double by_mm);  // the spacing that was moved last, at first the layout's first
 
+  // Back to the gaps before the last change, and forth again; nothing where there is none.
+  void Undo();
+  void Redo();
+  [[nodiscard]] const GapHistory& history() const { return *history_; }
+
   [[nodiscard]] const std::vector<SpacingControl*>& controls() const { return controls_; }
 
  signals:
   void Wished(const std::string& spacing, double to_mm);
+  void HistoryChanged();
+
+ protected:
+  void changeEvent(QEvent* event) override;
 
  private:
   void Activate(SpacingControl* control);
+  void Restore(const GapHistory::Gaps& gap_mm);
 
   std::vector<SpacingControl*> controls_;  // owned by Qt as children
   SpacingControl* active_ = nullptr;
+  GapHistory* history_ = nullptr;  // owned by Qt as a child
 };
 
 }  // namespace elbowroom::console

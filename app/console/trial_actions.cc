@@ -91,4 +91,25 @@ ReportAction::ReportAction(TrialDesk& desk, QWidget* window)
   EnableWhile(this, desk, [](const TrialDesk& at) { return at.can_report(); });
 }
 
+UndoGapAction::UndoGapAction(SpacingPanel& spacings, QWidget* window)
+    : QAction(window->style()->standardIcon(QStyle::SP_ArrowBack), tr("&Undo gap"), window) {
+  setShortcut(QKeySequence::Undo);
+  setToolTip(tr("Back to the gap before the last change (%1); the session records it as one more change")
+                 .arg(shortcut().toString(QKeySequence::NativeText)));
+  connect(this, &QAction::triggered, &spacings, &SpacingPanel::Undo);
+  const auto follow = [this, &spacings] { setEnabled(spacings.isEnabled() && spacings.history().CanUndo()); };
+  connect(&spacings, &SpacingPanel::HistoryChanged, this, follow);
+  follow();
+}
+
+RedoGapAction::RedoGapAction(SpacingPanel& spacings, QWidget* window)
+    : QAction(window->style()->standardIcon(QStyle::SP_ArrowForward), tr("&Redo gap"), window) {
+  setShortcut(QKeySequence::Redo);
+  setToolTip(tr("The gap that was undone (%1)").arg(shortcut().toString(QKeySequence::NativeText)));
+  connect(this, &QAction::triggered, &spacings, &SpacingPanel::Redo);
+  const auto follow = [this, &spacings] { setEnabled(spacings.isEnabled() && spacings.history().CanRedo()); };
+  connect(&spacings, &SpacingPanel::HistoryChanged, this, follow);
+  follow();
+}
+
 }  // namespace elbowroom::console

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "app/console/spacing_panel.h"
 #include "app/console/trial_desk.h"
 
 namespace elbowroom::console {
@@ -44,6 +45,17 @@ class StopAction : public QAction {
 class ReportAction : public QAction {
  public:
   ReportAction(TrialDesk& desk, QWidget* window);
+};
+
+// Back to the gap before the last change, and forth again.
+class UndoGapAction : public QAction {
+ public:
+  UndoGapAction(SpacingPanel& spacings, QWidget* window);
+};
+
+class RedoGapAction : public QAction {
+ public:
+  RedoGapAction(SpacingPanel& spacings, QWidget* window);
 };
 
 // What these do once the session's path is known.

@@ -11,10 +11,10 @@
 
 #include "app/control/line_drawing.h"
 #include "core/bvh.h"
+#include "core/part_distance.h"
 #include "core/surface_patches.h"
 #include "core/units.h"
 #include "recon/orbit_camera.h"
-#include "review/part_distance.h"
 #include "sessions/chart.h"
 
 namespace elbowroom::control {
@@ -86,7 +86,7 @@ std::vector<std::optional<std::size_t>> PatchesSeen(const recon::gl::DepthImage&
     const Eigen::Vector2d pixel(static_cast<double>(i % width), static_cast<double>(row));
     const Vector3d x_in_part =
         part_from_cam * (view.view.RayInCam(pixel) * static_cast<double>(depth.depth_mm[i]));
-    likely = review::FindNearest(tree, {.center = x_in_part}, likely).triangle;
+    likely = core::FindNearest(tree, {.center = x_in_part}, likely).triangle;
     seen[i] = patches.PatchAt(likely, x_in_part);
   }
   return seen;

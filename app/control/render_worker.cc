@@ -34,7 +34,7 @@ void RenderWorker::Run() {
       }
       const auto* request = &std::get<RenderRequest>(*next);
       if (!renderer) {
-        renderer.emplace();
+        renderer.emplace(recon::gl::PartDetail::kOnDemand);
         views.emplace(GraphicsCard(renderer->driver(), renderer->is_software()));
         const std::lock_guard lock(driver_mutex_);
         driver_ = renderer->driver();

@@ -80,19 +80,6 @@ double LengthFromZero(const TomlEntry& entry, std::string_view key) {
   return length_mm;
 }
 
-// Session files keep which part a spacing moves, not which group.
-void RequireNoMovingGroups(const TomlEntry& root, const core::Layout& layout) {
-  for (const core::Spacing& spacing : layout.spacings) {
-    for (const std::string& name : {spacing.moving, spacing.reference}) {
-      if (layout.FindGroup(name))
-        root.Fail("layout",
-                  fmt::format("has the spacing '{}' of the group '{}', which a session can't record yet; "
-                              "name a single part there",
-                              spacing.name, name));
-    }
-  }
-}
-
 // What the footage's length depends on, for the session's record.
 std::string EndNote(const recon::RecordedRig& source) {
   const std::optional<recon::ShortestSource>& shortest = source.shortest_source();
@@ -119,7 +106,6 @@ TrialSetup ReadTrialFile(const std::filesystem::path& path, std::stop_token stop
   const std::filesystem::path folder = path.parent_path();
   cad_import::ImportedLayout imported = cad_import::ImportLayoutFile(folder / root.Text("layout"));
   setup.layout = core::WithPairsOfParts(std::move(imported.layout));
-  RequireNoMovingGroups(root, setup.layout);
   setup.warnings = std::move(imported.warnings);
   auto source = std::make_shared<recon::RecordedRig>(recon::ReadRigFile(folder / root.Text("rig")), stop);
   setup.end_note = EndNote(*source);

@@ -138,16 +138,17 @@ void Lighting::Update(const Scene& scene, PartPainter& parts) {
 }
 
 bool Lighting::CastersAre(const std::vector<Caster>& now) const {
-  return std::equal(now.begin(), now.end(), casters_.begin(), casters_.end(),
-                    [](const Caster& a, const Caster& b) {
-                      return a.mesh.lock() == b.mesh.lock() && a.world_from_part == b.world_from_part;
-                    });
+  return std::equal(
+      now.begin(), now.end(), casters_.begin(), casters_.end(), [](const Caster& a, const Caster& b) {
+        return a.mesh.lock() == b.mesh.lock() && a.world_from_part == b.world_from_part && a.level == b.level;
+      });
 }
 
 void Lighting::UpdatePartShadow(const Scene& scene, PartPainter& parts) {
   std::vector<Caster> casters;
-  for (const ScenePart& part : scene.parts) {
-    if (part.opacity > 0.0F) casters.push_back({part.mesh, part.world_from_part});
+  for (std::size_t i = 0; i < scene.parts.size(); ++i) {
+    const ScenePart& part = scene.parts[i];
+    if (part.opacity > 0.0F) casters.push_back({part.mesh, part.world_from_part, parts.levels().at(i)});
   }
   if (has_part_shadow_ && CastersAre(casters)) {
     ++count_.kept_part_passes;

@@ -34,6 +34,7 @@ class Lighting {
   struct Caster {
     std::weak_ptr<const core::TriangleMesh> mesh;
     core::RigidTransform world_from_part;
+    std::size_t level = 0;
   };
   void UpdatePartShadow(const Scene& scene, PartPainter& parts);
   void UpdateHullShadow(const Scene& scene);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,8 @@ constexpr float kContactTintShare = 0.72F;
 constexpr float kContactGlow = 0.35F;
 constexpr float kHiddenEdgeAlpha = 0.30F;  // of edges seen through their own transparent part
 constexpr float kEdgeAlpha = 0.85F;
+
+constexpr double kMostErrorPx = 0.25;  // how far a coarser level may be from the whole mesh, in the picture
 
 constexpr const char* kFaceVertexSource = R"(
 layout(location = 0) in vec3 position;
@@ -57,7 +60,8 @@ void main() {
 }
 )";
 
-// Edges stand a thousandth of their distance before the faces that they bound.
+// Edges stand a thousandth of their distance before the faces that they bound: more than a coarser level's
+// faces are from the whole mesh, at any focal length above 250 pixels.
 constexpr const char* kEdgeVertexSource = R"(
 layout(location = 0) in vec3 position;
 uniform mat4 cam_from_part;
@@ -97,6 +101,21 @@ Eigen::AlignedBox2f PictureBounds(const Eigen::AlignedBox3d& box_in_part,
   return bounds.intersection(picture);
 }
 
+// Pixels that a millimetre may become anywhere in the box's picture; infinite where some of the box is before
+// the near plane.
+double MostPxPerMm(const Eigen::AlignedBox3d& box_in_part, const core::RigidTransform& cam_from_part,
+                   const SceneView& view) {
+  double nearest_mm = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < 8; ++i)
+    nearest_mm =
+        std::min(nearest_mm,
+                 (cam_from_part * box_in_part.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i))).z());
+  if (nearest_mm <= view.near_mm) return std::numeric_limits<double>::infinity();
+  // Along the ray through the picture's corner a millimetre sideways or in depth is that much longer there.
+  const double slant = view.RayInCam({-0.5, -0.5}).norm();
+  return slant * view.focal_px / nearest_mm;
+}
+
 Eigen::Matrix4f CamFromPart(const ScenePart& part, const ViewMatrices& matrices) {
   return ToMatrix4f(matrices.view.cam_from_world * part.world_from_part);
 }
@@ -109,56 +128,105 @@ bool PartPainter::MeshKey::operator<(const MeshKey& other) const {
   return std::less<>()(address, other.address);
 }
 
-PartPainter::PartPainter()
+PartPainter::PartPainter(PartDetail detail)
     : face_program_("part", kFaceVertexSource, std::string(kLightingSource) + kFaceFragmentSource),
       edge_program_("part edge", kEdgeVertexSource, kEdgeFragmentSource),
-      depth_program_("part depth", kFaceVertexSource, kDepthFragmentSource) {}
+      depth_program_("part depth", kFaceVertexSource, kDepthFragmentSource) {
+  if (detail == PartDetail::kOnDemand) level_maker_.emplace(kCreaseRad);
+}
 
-void PartPainter::Update(std::span<const ScenePart> parts) {
+void PartPainter::Update(std::span<const ScenePart> parts, const SceneView& view) {
   std::erase_if(meshes_, [](const auto& entry) { return entry.first.owner.expired(); });
+  if (level_maker_)
+    while (const auto made = level_maker_->Take()) UploadLevels(*made);
   for (const ScenePart& part : parts) {
     const MeshKey key{part.mesh, part.mesh.get()};
     if (meshes_.contains(key)) continue;
     core::ValidateMesh(*part.mesh, "a part of the scene");
     const SurfaceMesh surface = PrepareSurface(*part.mesh, kCreaseRad);
     UploadedMesh& uploaded = meshes_[key];
-    uploaded.faces.Upload(surface.corners, Refill::kOnce);
+    AddLevel(uploaded.levels,
+             {surface.corners, static_cast<std::int64_t>(part.mesh->triangles.size()), /*error_mm=*/0.0});
     uploaded.edges.Upload(surface.feature_edges, Refill::kOnce);
     uploaded.bounds_in_part = core::BoundsOf(*part.mesh);
     ++mesh_uploads_;
+    if (level_maker_ && part.mesh->triangles.size() >= kTrianglesWorthLevels) level_maker_->Ask(part.mesh);
   }
+  levels_.clear();
+  for (const ScenePart& part : parts) levels_.push_back(LevelFor(part, view));
+}
+
+void PartPainter::AddLevel(std::vector<UploadedSurface>& levels, const DetailLevel& level) {
+  UploadedSurface& uploaded = levels.emplace_back();
+  uploaded.faces.Upload(level.corners, Refill::kOnce);
+  uploaded.triangles = level.triangles;
+  uploaded.error_mm = level.error_mm;
+}
+
+void PartPainter::UploadLevels(const MadeLevels& made) {
+  const auto uploaded = meshes_.find({made.mesh, made.mesh.get()});
+  if (uploaded == meshes_.end()) return;
+  for (const DetailLevel& level : made.levels) AddLevel(uploaded->second.levels, level);
+}
+
+void PartPainter::AwaitLevels() {
+  if (!level_maker_) return;
+  while (const auto made = level_maker_->Await()) UploadLevels(*made);
 }
 
 const PartPainter::UploadedMesh& PartPainter::Uploaded(const core::SharedMesh& mesh) const {
   return meshes_.at({mesh, mesh.get()});
 }
 
-void PartPainter::DrawFaces(const ScenePart& part, const ViewMatrices& matrices) {
+std::size_t PartPainter::LevelFor(const ScenePart& part, const SceneView& view) const {
+  const UploadedMesh& mesh = Uploaded(part.mesh);
+  const double most_mm =
+      kMostErrorPx / MostPxPerMm(mesh.bounds_in_part, view.cam_from_world * part.world_from_part, view);
+  std::size_t chosen = 0;
+  for (std::size_t i = 1; i < mesh.levels.size(); ++i)
+    if (mesh.levels[i].error_mm <= most_mm) chosen = i;
+  return chosen;
+}
+
+PartPainter::DrawnPart PartPainter::Drawn(std::span<const ScenePart> parts, std::size_t i) const {
+  const UploadedMesh& mesh = Uploaded(parts[i].mesh);
+  const std::vector<UploadedSurface>& levels = mesh.levels;
+  const UploadedSurface& surface = levels[levels_.at(i)];
+  return {parts[i], surface, mesh.edges, levels.front().triangles - surface.triangles};
+}
+
+void PartPainter::DrawTriangles(const DrawnPart& drawn) {
+  triangle_count_.drawn += drawn.surface.triangles;
+  triangle_count_.left_out += drawn.left_out;
+  drawn.surface.faces.Draw(GL_TRIANGLES);
+}
+
+void PartPainter::DrawFaces(const DrawnPart& drawn, const ViewMatrices& matrices) {
   face_program_.Use();
   face_program_.Set("clip_from_cam", matrices.clip_from_cam);
-  face_program_.Set("cam_from_part", CamFromPart(part, matrices));
-  face_program_.Set("color", ShownColour(part));
-  face_program_.Set("opacity", part.opacity);
-  face_program_.Set("glow", part.in_contact ? kContactGlow : 0.0F);
-  Uploaded(part.mesh).faces.Draw(GL_TRIANGLES);
+  face_program_.Set("cam_from_part", CamFromPart(drawn.part, matrices));
+  face_program_.Set("color", ShownColour(drawn.part));
+  face_program_.Set("opacity", drawn.part.opacity);
+  face_program_.Set("glow", drawn.part.in_contact ? kContactGlow : 0.0F);
+  DrawTriangles(drawn);
 }
 
-void PartPainter::DrawFaceDepth(const ScenePart& part, const ViewMatrices& matrices) {
+void PartPainter::DrawFaceDepth(const DrawnPart& drawn, const ViewMatrices& matrices) {
   depth_program_.Use();
   depth_program_.Set("clip_from_cam", matrices.clip_from_cam);
-  depth_program_.Set("cam_from_part", CamFromPart(part, matrices));
-  Uploaded(part.mesh).faces.Draw(GL_TRIANGLES);
+  depth_program_.Set("cam_from_part", CamFromPart(drawn.part, matrices));
+  DrawTriangles(drawn);
 }
 
-void PartPainter::DrawEdges(const ScenePart& part, const ViewMatrices& matrices, float alpha) {
-  const Eigen::Vector3f dark = 0.22F * ShownColour(part);
+void PartPainter::DrawEdges(const DrawnPart& drawn, const ViewMatrices& matrices, float alpha) {
+  const Eigen::Vector3f dark = 0.22F * ShownColour(drawn.part);
   edge_program_.Use();
   edge_program_.Set("clip_from_cam", matrices.clip_from_cam);
-  edge_program_.Set("cam_from_part", CamFromPart(part, matrices));
+  edge_program_.Set("cam_from_part", CamFromPart(drawn.part, matrices));
   edge_program_.Set("color", Eigen::Vector4f(dark.x(), dark.y(), dark.z(), alpha));
   glEnable(GL_BLEND);
   glDepthMask(GL_FALSE);
-  Uploaded(part.mesh).edges.Draw(GL_LINES);
+  drawn.edges.Draw(GL_LINES);
   glDepthMask(GL_TRUE);
   glDisable(GL_BLEND);
 }
@@ -167,47 +235,49 @@ void PartPainter::DrawOpaque(std::span<const ScenePart> parts, const ViewMatrice
                              const Lighting& light) {
   face_program_.Use();
   light.Apply(face_program_, matrices);
+  const auto draw_opaque = [&](auto draw) {
+    for (std::size_t i = 0; i < parts.size(); ++i)
+      if (parts[i].opacity >= 1.0F) draw(Drawn(parts, i));
+  };
   glEnable(GL_POLYGON_OFFSET_FILL);
-  for (const ScenePart& part : parts) {
-    if (part.opacity >= 1.0F) DrawFaces(part, matrices);
-  }
+  draw_opaque([&](const DrawnPart& drawn) { DrawFaces(drawn, matrices); });
   glDisable(GL_POLYGON_OFFSET_FILL);
-  for (const ScenePart& part : parts) {
-    if (part.opacity >= 1.0F) DrawEdges(part, matrices, kEdgeAlpha);
-  }
+  draw_opaque([&](const DrawnPart& drawn) { DrawEdges(drawn, matrices, kEdgeAlpha); });
 }
 
 void PartPainter::DrawTransparent(std::span<const ScenePart> parts, const ViewMatrices& matrices,
                                   const Lighting& light) {
   face_program_.Use();
   light.Apply(face_program_, matrices);
-  std::vector<std::pair<double, const ScenePart*>> by_depth;
-  for (const ScenePart& part : parts) {
-    if (part.opacity <= 0.0F || part.opacity >= 1.0F) continue;
-    const Eigen::Vector3d center = Uploaded(part.mesh).bounds_in_part.center();
-    by_depth.emplace_back((matrices.view.cam_from_world * part.world_from_part * center).z(), &part);
+  std::vector<std::pair<double, std::size_t>> by_depth;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    if (parts[i].opacity <= 0.0F || parts[i].opacity >= 1.0F) continue;
+    const Eigen::Vector3d center = Uploaded(parts[i].mesh).bounds_in_part.center();
+    by_depth.emplace_back((matrices.view.cam_from_world * parts[i].world_from_part * center).z(), i);
   }
   std::stable_sort(by_depth.begin(), by_depth.end(),
                    [](const auto& a, const auto& b) { return a.first > b.first; });
-  for (const auto& [depth_mm, part] : by_depth) {
-    DrawEdges(*part, matrices, kHiddenEdgeAlpha);
+  for (const auto& [depth_mm, i] : by_depth) {
+    const DrawnPart drawn = Drawn(parts, i);
+    DrawEdges(drawn, matrices, kHiddenEdgeAlpha);
     // Depth first, so that only the nearest surface of a part is blended, whatever its triangles' order.
     glEnable(GL_POLYGON_OFFSET_FILL);
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-    DrawFaceDepth(*part, matrices);
+    DrawFaceDepth(drawn, matrices);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     glEnable(GL_BLEND);
-    DrawFaces(*part, matrices);
+    DrawFaces(drawn, matrices);
     glDisable(GL_BLEND);
     glDisable(GL_POLYGON_OFFSET_FILL);
-    DrawEdges(*part, matrices, kEdgeAlpha);
+    DrawEdges(drawn, matrices, kEdgeAlpha);
   }
 }
 
 CasterPass PartPainter::DrawCasters(std::span<const ScenePart> parts, const ViewMatrices& lamp) {
   CasterPass pass;
   glEnable(GL_DEPTH_CLAMP);
-  for (const ScenePart& part : parts) {
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const ScenePart& part = parts[i];
     if (part.opacity <= 0.0F) continue;
     const Eigen::AlignedBox2f bounds = PictureBounds(
         Uploaded(part.mesh).bounds_in_part, lamp.view.cam_from_world * part.world_from_part, lamp.view);
@@ -215,7 +285,7 @@ CasterPass PartPainter::DrawCasters(std::span<const ScenePart> parts, const View
       ++pass.parts_outside;
       continue;
     }
-    DrawFaceDepth(part, lamp);
+    DrawFaceDepth(Drawn(parts, i), lamp);
     pass.bounds.extend(bounds);
   }
   glDisable(GL_DEPTH_CLAMP);
@@ -223,8 +293,8 @@ CasterPass PartPainter::DrawCasters(std::span<const ScenePart> parts, const View
 }
 
 void PartPainter::DrawDepth(std::span<const ScenePart> parts, const ViewMatrices& matrices) {
-  for (const ScenePart& part : parts) {
-    if (part.opacity > 0.0F) DrawFaceDepth(part, matrices);
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    if (parts[i].opacity > 0.0F) DrawFaceDepth(Drawn(parts, i), matrices);
   }
 }
 

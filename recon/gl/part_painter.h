@@ -5,8 +5,12 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
+#include <vector>
 
+#include "recon/gl/level_maker.h"
+#include "recon/gl/part_detail.h"
 #include "recon/gl/scene.h"
 #include "recon/gl/shader_program.h"
 #include "recon/gl/vertex_array.h"
@@ -25,11 +29,15 @@ struct CasterPass {
 // Keeps each mesh on the graphics card for as long as somebody else keeps the mesh.
 class PartPainter {
  public:
-  PartPainter();
+  explicit PartPainter(PartDetail detail);
 
-  // Brings what isn't there yet to the graphics card and drops what nobody else keeps; before any drawing.
+  // Brings what isn't there yet to the graphics card, drops what nobody else keeps, and chooses the level at
+  // which each part is drawn, from wherever, until the next call. Before any drawing, of these parts alone.
   // Throws: Error{kGeometry} for a mesh that can't be drawn (see core::ValidateMesh).
-  void Update(std::span<const ScenePart> parts);
+  void Update(std::span<const ScenePart> parts, const SceneView& view);
+
+  // Until all levels of what was drawn so far are there; nothing with PartDetail::kWhole.
+  void AwaitLevels();
 
   void DrawOpaque(std::span<const ScenePart> parts, const ViewMatrices& matrices, const Lighting& light);
 
@@ -43,13 +51,22 @@ class PartPainter {
   // Faces alone, of every part that isn't invisible.
   void DrawDepth(std::span<const ScenePart> parts, const ViewMatrices& matrices);
 
+  // Of each part, in the order of the last Update: 0 the whole mesh.
+  [[nodiscard]] const std::vector<std::size_t>& levels() const { return levels_; }
+
   [[nodiscard]] std::size_t cached_meshes() const { return meshes_.size(); }
   [[nodiscard]] std::int64_t mesh_uploads() const { return mesh_uploads_; }
+  [[nodiscard]] const TriangleCount& triangle_count() const { return triangle_count_; }
 
  private:
-  struct UploadedMesh {
+  struct UploadedSurface {
     VertexArray faces{3, 3};
-    VertexArray edges{3};
+    std::int64_t triangles = 0;
+    double error_mm = 0.0;
+  };
+  struct UploadedMesh {
+    std::vector<UploadedSurface> levels;  // the whole mesh, then coarser and coarser
+    VertexArray edges{3};                 // of the whole, whatever its faces
     Eigen::AlignedBox3d bounds_in_part;
   };
   // The address too: shared pointers to different members of one object have one owner.
@@ -60,15 +77,30 @@ class PartPainter {
   };
 
   [[nodiscard]] const UploadedMesh& Uploaded(const core::SharedMesh& mesh) const;
-  void DrawFaces(const ScenePart& part, const ViewMatrices& matrices);
-  void DrawFaceDepth(const ScenePart& part, const ViewMatrices& matrices);
-  void DrawEdges(const ScenePart& part, const ViewMatrices& matrices, float alpha);
+  [[nodiscard]] std::size_t LevelFor(const ScenePart& part, const SceneView& view) const;
+  // A part and what of it is drawn.
+  struct DrawnPart {
+    const ScenePart& part;
+    const UploadedSurface& surface;
+    const VertexArray& edges;
+    std::int64_t left_out = 0;  // triangles
+  };
+  [[nodiscard]] DrawnPart Drawn(std::span<const ScenePart> parts, std::size_t i) const;
+  static void AddLevel(std::vector<UploadedSurface>& levels, const DetailLevel& level);
+  void UploadLevels(const MadeLevels& made);
+  void DrawFaces(const DrawnPart& drawn, const ViewMatrices& matrices);
+  void DrawFaceDepth(const DrawnPart& drawn, const ViewMatrices& matrices);
+  void DrawTriangles(const DrawnPart& drawn);
+  void DrawEdges(const DrawnPart& drawn, const ViewMatrices& matrices, float alpha);
 
   ShaderProgram face_program_;
   ShaderProgram edge_program_;
   ShaderProgram depth_program_;
   std::map<MeshKey, UploadedMesh> meshes_;
+  std::vector<std::size_t> levels_;
+  std::optional<LevelMaker> level_maker_;
   std::int64_t mesh_uploads_ = 0;
+  TriangleCount triangle_count_;
 };
 
 }  // namespace elbowroom::recon::gl

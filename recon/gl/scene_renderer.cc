@@ -34,12 +34,15 @@ struct Targets {
 // The context comes first and so goes last.
 class SceneRenderer::Impl {
  public:
+  explicit Impl(PartDetail detail) : parts_(detail) {}
+
   [[nodiscard]] Image Render(const Scene& scene);
   [[nodiscard]] DepthImage RenderDepth(const Scene& scene);
   void MakeCurrent() const { context_.MakeCurrent(); }
 
   [[nodiscard]] const EglContext& context() const { return context_; }
   [[nodiscard]] const PartPainter& parts() const { return parts_; }
+  void AwaitLevels() { parts_.AwaitLevels(); }
   [[nodiscard]] const Lighting& lighting() const { return lighting_; }
   [[nodiscard]] std::thread::id thread() const { return thread_; }
 
@@ -68,7 +71,7 @@ const Targets& SceneRenderer::Impl::TargetsFor(const SceneView& view) {
 Image SceneRenderer::Impl::Render(const Scene& scene) {
   const ViewMatrices matrices = MatricesOf(scene.view);
   const Targets& targets = TargetsFor(scene.view);
-  parts_.Update(scene.parts);
+  parts_.Update(scene.parts, scene.view);
   lighting_.Update(scene, parts_);
   targets.sampled.Bind();
   glClear(GL_DEPTH_BUFFER_BIT);
@@ -91,7 +94,7 @@ Image SceneRenderer::Impl::Render(const Scene& scene) {
 DepthImage SceneRenderer::Impl::RenderDepth(const Scene& scene) {
   const ViewMatrices matrices = MatricesOf(scene.view);
   const Targets& targets = TargetsFor(scene.view);
-  parts_.Update(scene.parts);
+  parts_.Update(scene.parts, scene.view);
   targets.single.Bind();
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   parts_.DrawDepth(scene.parts, matrices);
@@ -105,7 +108,7 @@ DepthImage SceneRenderer::Impl::RenderDepth(const Scene& scene) {
   return image;
 }
 
-SceneRenderer::SceneRenderer() : impl_(std::make_unique<Impl>()) {
+SceneRenderer::SceneRenderer(PartDetail detail) : impl_(std::make_unique<Impl>(detail)) {
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LEQUAL);
   glEnable(GL_MULTISAMPLE);
@@ -147,5 +150,7 @@ bool SceneRenderer::is_software() const { return OnOwnThread().context().is_soft
 std::size_t SceneRenderer::cached_meshes() const { return OnOwnThread().parts().cached_meshes(); }
 std::int64_t SceneRenderer::mesh_uploads() const { return OnOwnThread().parts().mesh_uploads(); }
 ShadowCount SceneRenderer::shadow_count() const { return OnOwnThread().lighting().count(); }
+TriangleCount SceneRenderer::triangle_count() const { return OnOwnThread().parts().triangle_count(); }
+void SceneRenderer::AwaitLevels() { OnOwnThread().AwaitLevels(); }
 
 }  // namespace elbowroom::recon::gl

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "recon/gl/part_detail.h"
 #include "recon/gl/scene.h"
 #include "recon/image.h"
 
@@ -33,12 +34,13 @@ struct ShadowCount {
 class SceneRenderer {
  public:
   // Throws: Error{kGraphics} as EglContext, or when the driver refuses a shader.
-  SceneRenderer();
+  explicit SceneRenderer(PartDetail detail = PartDetail::kWhole);
   ~SceneRenderer();
   SceneRenderer(SceneRenderer&&) noexcept;
   SceneRenderer& operator=(SceneRenderer&&) noexcept;
 
-  // The picture with four samples a pixel. The same scene gives the same bytes on the same driver.
+  // The picture with four samples a pixel. The same scene gives the same bytes on the same driver, but for
+  // levels of detail that have come in between.
   // Throws: PreconditionError as Scene::Validate; Error{kGeometry} for a mesh that can't be drawn;
   // Error{kGraphics} when the driver fails, for one out of memory.
   [[nodiscard]] Image Render(const Scene& scene);
@@ -53,8 +55,12 @@ class SceneRenderer {
   [[nodiscard]] bool is_software() const;
 
   [[nodiscard]] std::size_t cached_meshes() const;
-  [[nodiscard]] std::int64_t mesh_uploads() const;  // since the start
-  [[nodiscard]] ShadowCount shadow_count() const;   // since the start
+  [[nodiscard]] std::int64_t mesh_uploads() const;     // since the start
+  [[nodiscard]] ShadowCount shadow_count() const;      // since the start
+  [[nodiscard]] TriangleCount triangle_count() const;  // since the start
+
+  // Waits until the levels of all meshes that were drawn are there.
+  void AwaitLevels();
 
  private:
   class Impl;

@@ -5,9 +5,11 @@
 #include <exception>
 #include <filesystem>
 
+#include "cad_import/import_worker.h"
 #include "tests/accuracy/measurements.h"
 
 int main(int argc, char** argv) {
+  elbowroom::cad_import::ServeImport(argc, argv);  // returns unless this is a child that imports
   using namespace elbowroom::accuracy;
   CLI::App app{"Measures accuracy and speed, and writes the tables and pictures in docs/."};
   std::filesystem::path docs, view_cost, program, json;
@@ -27,26 +29,26 @@ int main(int argc, char** argv) {
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   frames->callback([&] { MeasureFrames(docs, frame_count); });
-  CLI::App* import = app.add_subcommand("import", "what an import costs");
-  import->add_option("PROGRAM", program, "elbowroom")->required();
-  import->callback([&] { MeasureImport(docs, program);
-});
-CLI::App* cost = app.add_subcommand("cost", "instructions by callgrind");
-cost->add_option("PROGRAM", view_cost, "view_cost")->required();
-cost->callback([&] { MeasureCost(docs, view_cost); });
-app.add_subcommand("aims", "the tables of methods and steps against the aims")->callback([&] {
-  WriteAimsTable(docs);
-});
-CLI::App* micro = app.add_subcommand("micro", "Google Benchmark's results as a table");
-micro->add_option("JSON", json, "what --benchmark_out wrote")->required();
-micro->callback([&] { WriteMicroTable(docs, json); });
-try {
-  app.parse(argc, argv);
-} catch (const CLI::ParseError& error) {
-  return app.exit(error) == 0 ? 0 : 2;
-} catch (const std::exception& error) {
-  fmt::print(stderr, "elbowroom_measure: {}\n", error.what());
-  return 1;
-}
-return 0;
+  CLI::App* imports = app.add_subcommand("import", "what an import costs");
+  imports->add_option("PROGRAM", program, "elbowroom")->required();
+  imports->callback([&] { MeasureImport(docs, program); });
+  app.add_subcommand("detail", "parts drawn whole and by levels")->callback([&] { MeasureDetail(docs); });
+  CLI::App* cost = app.add_subcommand("cost", "instructions by callgrind");
+  cost->add_option("PROGRAM", view_cost, "view_cost")->required();
+  cost->callback([&] { MeasureCost(docs, view_cost); });
+  app.add_subcommand("aims", "the tables of methods and steps against the aims")->callback([&] {
+    WriteAimsTable(docs);
+  });
+  CLI::App* micro = app.add_subcommand("micro", "Google Benchmark's results as a table");
+  micro->add_option("JSON", json, "what --benchmark_out wrote")->required();
+  micro->callback([&] { WriteMicroTable(docs, json); });
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "elbowroom_measure: {}\n", error.what());
+    return 1;
+  }
+  return 0;
 }

@@ -25,6 +25,9 @@ void MeasureFrames(const std::filesystem::path& docs, int count = 10'000);
 // cad_import.md, "import": whole commands of `program` (elbowroom) on a mesh file of a million triangles.
 void MeasureImport(const std::filesystem::path& docs, const std::filesystem::path& program);
 
+// performance.md, "detail": large parts drawn whole and by levels of detail, and how the pictures differ.
+void MeasureDetail(const std::filesystem::path& docs);
+
 // performance.md, "judging" and "judging_cost"; docs/pictures/{contact,clearance}_methods.{svg,png}.
 void MeasureJudging(const std::filesystem::path& docs);
 

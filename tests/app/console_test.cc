@@ -181,6 +181,31 @@ TEST_F(ConsoleTest, KeysAndCheckBoxesReachTheRunningTrial) {
   EXPECT_TRUE(std::get<core::ToolMarked>(marked->what).in_use);
 }
 
+TEST_F(ConsoleTest, UndoBringsTheGapBackAndTheSessionRecordsBothChanges) {
+  EXPECT_FALSE(Action("undo_gap").isEnabled());
+  StartDemoAndWaitForFrames();
+  EXPECT_FALSE(Action("undo_gap").isEnabled());
+  auto* gap = Find<QDoubleSpinBox>("spacing_box:payload_a_gap");
+  gap->setValue(kNeededGapMm);
+  ASSERT_TRUE(WaitUntil([&] { return GapIs(kNeededGapMm); }));
+  ASSERT_TRUE(Action("undo_gap").isEnabled());
+  EXPECT_FALSE(Action("redo_gap").isEnabled());
+  window_.activateWindow();
+  ASSERT_TRUE(QTest::qWaitForWindowActive(&window_));
+  gap->setFocus();  // its own undo would be that of the typed digits
+  QTest::keyClick(gap, Qt::Key_Z, Qt::ControlModifier);
+  ASSERT_TRUE(WaitUntil([&] { return GapIs(kGuessedGapMm); }));
+  EXPECT_EQ(gap->value(), kGuessedGapMm);
+  Action("redo_gap").trigger();
+  ASSERT_TRUE(WaitUntil([&] { return GapIs(kNeededGapMm); }));
+  StopAndWait();
+  EXPECT_FALSE(Action("undo_gap").isEnabled());
+  std::vector<double> to_mm;
+  for (const core::SessionEvent& event : sessions::SessionReader(session_).events())
+    if (const auto* change = std::get_if<core::SpacingChanged>(&event.what)) to_mm.push_back(change->to_mm);
+  EXPECT_EQ(to_mm, std::vector<double>({kNeededGapMm, kGuessedGapMm, kNeededGapMm}));
+}
+
 TEST_F(ConsoleTest, TheHullsLookIsChosenFromAMenu) {
   auto* button = Find<HullLookButton>("hull_look");
   EXPECT_EQ(button->text(), "Hull: shaded");

@@ -7,6 +7,8 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "core/layout.h"
+#include "sessions/session_reader.h"
 #include "tests/app/mask_rig.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
@@ -198,19 +200,27 @@ TEST_F(LayoutCommand, ThePictureShowsThePartsAndTheGap) {
   ExpectFailure({"show", layout_, "--picture", png + ".jpg"}, {"bench.png.jpg", "ends so"});
 }
 
-TEST_F(LayoutCommand, ATrialSaysThatASessionKeepsNoGroups) {
+TEST_F(LayoutCommand, ATrialRecordsGroupsAndASweepMovesThemAsOne) {
   MakeBench();
-  const auto rig = test_support::WriteBallRig(folder_ / "bench");
+  (void)test_support::WriteBallRig(folder_ / "bench");
   test_support::WriteText(folder_ / "bench/trial.toml", "rig = \"rig.yml\"\nlayout = \"layout.toml\"\n");
-  Json({"group", layout_, "upper", "metre"});
+  Json({"add", layout_, Cad("metre.stl"), "--unit", "m", "--name", "lid", "--position", "10", "0", "1300"});
+  Json({"group", layout_, "upper", "metre", "lid"});
   Json({"space", layout_, "gap", "--moving", "upper"});
-  const ProgramRun run =
-      test_support::RunProgram(ELBOWROOM_PROGRAM, {"trial", "run", (folder_ / "bench/trial.toml").string(),
-                                                   "--session", (folder_ / "s.db").string(), "--headless"});
-  EXPECT_EQ(run.exit_status, 1);
-  EXPECT_NE(run.err.find("trial.toml:2: key 'layout' has the spacing 'gap' of the group 'upper'"),
-            std::string::npos)
-      << run.err;
+  const std::string recorded = (folder_ / "s.db").string();
+  const ProgramRun run = test_support::RunProgram(
+      ELBOWROOM_PROGRAM,
+      {"trial", "run", (folder_ / "bench/trial.toml").string(), "--session", recorded, "--headless"});
+  ASSERT_EQ(run.exit_status, 0) << run.err;
+  const core::Layout layout = sessions::SessionReader(recorded).header().layout;
+  ASSERT_EQ(layout.groups.size(), 1U);
+  EXPECT_EQ(layout.groups[0].parts, std::vector<std::string>({"metre", "lid"}));
+  EXPECT_EQ(layout.spacings[0].moving, "upper");
+  const ProgramRun sweep = test_support::RunProgram(
+      ELBOWROOM_PROGRAM,
+      {"sweep", recorded, "--spacing", "gap=140:240:50", "--out", (folder_ / "sweep").string(), "--json"});
+  ASSERT_EQ(sweep.exit_status, 0) << sweep.err;
+  EXPECT_EQ(nlohmann::json::parse(sweep.out).at("moved"), nlohmann::json({"metre", "lid"})) << sweep.out;
 }
 
 }  // namespace

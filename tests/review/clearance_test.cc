@@ -11,9 +11,9 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/part_distance.h"
 #include "recon/hull_mesh.h"
 #include "review/contacts.h"
-#include "review/part_distance.h"
 #include "tests/core/solids.h"
 #include "tests/recon/random_scene.h"
 #include "tests/review/box_hull.h"

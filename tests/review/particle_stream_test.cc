@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/part_distance.h"
 #include "review/inside_cells.h"
-#include "review/part_distance.h"
 #include "tests/core/solids.h"
 #include "tests/recon/random_scene.h"
 #include "tests/review/sweeping_hand.h"

@@ -11,11 +11,11 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/part_distance.h"
 #include "review/contacts.h"
 #include "review/freeing.h"
 #include "review/inside_cells.h"
 #include "review/meeting.h"
-#include "review/part_distance.h"
 #include "tests/core/solids.h"
 #include "tests/recon/random_scene.h"
 #include "tests/review/box_hull.h"

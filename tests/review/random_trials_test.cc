@@ -13,10 +13,10 @@
 #include <utility>
 #include <vector>
 
+#include "core/part_distance.h"
 #include "review/clearance.h"
 #include "review/contacts.h"
 #include "review/inside_cells.h"
-#include "review/part_distance.h"
 #include "tests/oracles/mask_hull_oracle.h"
 #include "tests/recon/random_scene.h"
 #include "tests/review/random_parts.h"

@@ -73,6 +73,7 @@ void ExpectEqual(const core::Layout& actual, const core::Layout& expected) {
               std::tie(e.a, e.b, e.required_clearance_mm, e.authorised_contact, e.ignore));
   }
   EXPECT_EQ(actual.streams, expected.streams);
+  EXPECT_EQ(actual.groups, expected.groups);
 }
 
 template <typename Value>

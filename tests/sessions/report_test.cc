@@ -139,7 +139,8 @@ TEST(Report, EscapesEveryTextFromOutside) {
   const std::string hostile = "<script>alert('x')</script>\"&";
   core::SessionHeader header = SampleHeader();
   header.trial.participant = header.trial.task = header.rig.name = hostile;
-  header.layout.parts[1].name = header.layout.spacings[0].moving = hostile;
+  header.layout.parts[1].name = header.layout.spacings[0].moving = header.layout.groups[0].parts[1] = hostile;
+  header.layout.groups[1].name = hostile + "2";
   header.layout.pair_rules[0].a = header.layout.pair_rules[2].a = hostile;
   header.layout.spacings[0].name = hostile;
   header.settings[hostile] = header.versions[hostile] = hostile;
@@ -215,7 +216,7 @@ TEST(Report, ContactsCsvQuotesNames) {
   core::SessionHeader header = SampleHeader();
   header.layout.parts[0].name = header.layout.spacings[0].reference = "box, \"big\"";
   header.layout.spacings[1].reference = header.layout.pair_rules[0].b = header.layout.pair_rules[1].b =
-      "box, \"big\"";
+      header.layout.groups[1].parts[0] = "box, \"big\"";
   {
     sessions::SessionWriter writer(folder / "s.db", header);
     writer.Append(SampleFrame(header, 0, 1));

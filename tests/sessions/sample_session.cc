@@ -122,7 +122,8 @@ core::SessionHeader SampleHeader() {
                          {"payload B", "b.obj", core::LengthUnit::kMetre, shared_mesh,
                           core::FromPositionAndRollPitchYaw({400.0, 0.0, 5e300}, {0.0, 0.0, 90.0})}};
   header.layout.spacings = {{"PMT to A", "payload A", "PMT box", core::Axis::kZ, 100.0, 300.0, 140.0},
-                            {"side gap", "payload B", "PMT box", core::Axis::kX, -10.0, 50.0, 0.1}};
+                            {"side gap", "payloads; DROP", "PMT box", core::Axis::kX, -10.0, 50.0, 0.1}};
+  header.layout.groups = {{"payloads; DROP", {"payload B", "payload A"}}, {"box", {"PMT box"}}};
   header.layout.pair_rules = {{"payload A", "PMT box", 12.5, false},
                               {"payload B", "PMT box", 0.0, true},
                               {"payload A", "payload B", 0.0, false, true}};
@@ -197,6 +198,10 @@ core::SessionHeader AsOfSchema(int schema, core::SessionHeader header) {
     header.layout.parts[1].file.clear();
     header.layout.parts[1].unit = core::LengthUnit::kMillimetre;
     header.layout.parts[1].mesh = Tetrahedron(80.0);
+  }
+  if (schema < 6) {
+    header.layout.groups.clear();
+    header.layout.spacings[1].moving = "payload B";
   }
   return header;
 }

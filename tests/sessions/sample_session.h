@@ -9,8 +9,8 @@
 
 namespace elbowroom::tests {
 
-// Two cameras of different lenses, three parts (two share a mesh), two spacings, a pair rule, odd doubles,
-// and texts that need escaping in SQL and HTML.
+// Two cameras of different lenses, three parts (two share a mesh), two spacings (one of a group), pair rules,
+// odd doubles, and texts that need escaping in SQL and HTML.
 [[nodiscard]] core::SessionHeader SampleHeader();
 
 // What the header's rig and layout would give: blobs for silhouettes, the first with levels, contacts with

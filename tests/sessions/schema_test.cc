@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <fstream>
 #include <sstream>
 
@@ -34,27 +35,32 @@ std::string SchemaOf(const std::filesystem::path& path) {
   return text;
 }
 
+// In the order in which they were released.
+constexpr std::array<std::string (*)(), sessions::kSchemaVersion> kSchemas = {
+    &sessions::Schema1Sql, &sessions::Schema2Sql, &sessions::Schema3Sql,
+    &sessions::Schema4Sql, &sessions::Schema5Sql, &sessions::Schema6Sql};
+
+sessions::Database CreateOfSchema(std::size_t schema, const std::filesystem::path& path) {
+  sessions::Database database = sessions::Database::Create(path);
+  for (std::size_t i = 0; i < schema; ++i) database.Execute(kSchemas[i]());
+  return database;
+}
+
+std::string SchemaOnRecord(std::size_t schema) {
+  return Contents(kStored / fmt::format("schema_{}.sql", schema));
+}
+
 // A released schema never changes: whoever needs another writes the next migration, and stores a session of
 // the old schema beside this text.
 TEST(Schema, EveryVersionIsTheOneOnRecord) {
   const TemporaryFolder folder;
-  sessions::Database::Create(folder / "1.db").Execute(sessions::Schema1Sql());
-  EXPECT_EQ(SchemaOf(folder / "1.db"), Contents(kStored / "schema_1.sql"));
-  sessions::Database second = sessions::Database::Create(folder / "2.db");
-  second.Execute(sessions::Schema1Sql());
-  second.Execute(sessions::Schema2Sql());
-  EXPECT_EQ(SchemaOf(folder / "2.db"), Contents(kStored / "schema_2.sql"));
-  sessions::Database third = sessions::Database::Create(folder / "3.db");
-  for (const std::string& sql : {sessions::Schema1Sql(), sessions::Schema2Sql(), sessions::Schema3Sql()})
-    third.Execute(sql);
-  EXPECT_EQ(SchemaOf(folder / "3.db"), Contents(kStored / "schema_3.sql"));
-  sessions::Database fourth = sessions::Database::Create(folder / "4.db");
-  for (const std::string& sql :
-       {sessions::Schema1Sql(), sessions::Schema2Sql(), sessions::Schema3Sql(), sessions::Schema4Sql()})
-    fourth.Execute(sql);
-  EXPECT_EQ(SchemaOf(folder / "4.db"), Contents(kStored / "schema_4.sql"));
-  WriteSampleSession(folder / "5.db", 1);
-  EXPECT_EQ(SchemaOf(folder / "5.db"), Contents(kStored / "schema_5.sql"));
+  for (std::size_t schema = 1; schema <= kSchemas.size(); ++schema) {
+    const std::filesystem::path path = folder / fmt::format("{}.db", schema);
+    (void)CreateOfSchema(schema, path);
+    EXPECT_EQ(SchemaOf(path), SchemaOnRecord(schema)) << schema;
+  }
+  WriteSampleSession(folder / "newest.db", 1);
+  EXPECT_EQ(SchemaOf(folder / "newest.db"), SchemaOnRecord(kSchemas.size()));
 }
 
 TEST(Schema, AnEmptyDatabaseBecomesTheNewestSchemaAndMigratingAgainChangesNothing) {
@@ -70,7 +76,7 @@ TEST(Schema, AnEmptyDatabaseBecomesTheNewestSchemaAndMigratingAgainChangesNothin
 }
 
 TEST(Schema, StoredSessionsOfEverySchemaAreRead) {
-  for (const int schema : {1, 2, 3, 4, 5}) {
+  for (const int schema : {1, 2, 3, 4, 5, 6}) {
     SCOPED_TRACE(schema);
     const SessionReader reader(kStored / fmt::format("session_schema_{}.db", schema));
     ExpectEqual(reader.header(), AsOfSchema(schema, SampleHeader()));
@@ -88,16 +94,12 @@ TEST(Schema, StoredSessionsOfEverySchemaAreRead) {
 }
 
 TEST(Schema, ADatabaseOfAnyOlderSchemaBecomesOneOfTheNewest) {
-  for (const int schema : {1, 2, 3, 4}) {
+  for (std::size_t schema = 1; schema < kSchemas.size(); ++schema) {
     const TemporaryFolder folder;
-    sessions::Database database = sessions::Database::Create(folder / "s.db");
-    database.Execute(sessions::Schema1Sql());
-    if (schema >= 2) database.Execute(sessions::Schema2Sql());
-    if (schema >= 3) database.Execute(sessions::Schema3Sql());
-    if (schema >= 4) database.Execute(sessions::Schema4Sql());
+    sessions::Database database = CreateOfSchema(schema, folder / "s.db");
     database.Execute(fmt::format("PRAGMA user_version = {}", schema));
     sessions::Migrate(database);
-    EXPECT_EQ(SchemaOf(folder / "s.db"), Contents(kStored / "schema_5.sql"));
+    EXPECT_EQ(SchemaOf(folder / "s.db"), SchemaOnRecord(kSchemas.size()));
   }
 }
 
@@ -115,8 +117,8 @@ TEST(Schema, AnOlderSchemaIsMigratedInMemoryAndTheFileStays) {
 TEST(Schema, ANewerSchemaIsNamed) {
   const TemporaryFolder folder;
   WriteSampleSession(folder / "s.db", 1);
-  SQLite::Database((folder / "s.db").string(), SQLite::OPEN_READWRITE).exec("PRAGMA user_version = 6");
-  ExpectError([&] { SessionReader(folder / "s.db"); }, core::ErrorKind::kFormat, "has schema 6");
+  SQLite::Database((folder / "s.db").string(), SQLite::OPEN_READWRITE).exec("PRAGMA user_version = 7");
+  ExpectError([&] { SessionReader(folder / "s.db"); }, core::ErrorKind::kFormat, "has schema 7");
 }
 
 TEST(Schema, CountsAndFlagsOutOfRangeAreRefusedByTheDatabaseItself) {
@@ -124,17 +126,28 @@ TEST(Schema, CountsAndFlagsOutOfRangeAreRefusedByTheDatabaseItself) {
   WriteSampleSession(folder / "s.db", 2);
   SQLite::Database database((folder / "s.db").string(), SQLite::OPEN_READWRITE);
   database.exec("PRAGMA foreign_keys = ON");
-  for (const char* sql :
-       {"UPDATE part_frame SET verdict = 'perhaps'", "UPDATE session SET status = 'done'",
-        "INSERT INTO frame VALUES (9, 'soon')", "DELETE FROM frame", "DELETE FROM mask",
-        "UPDATE camera SET camera_matrix = '[1]'", "INSERT INTO session SELECT * FROM session",
-        "UPDATE event SET to_mm = NULL WHERE kind = 'spacing'", "UPDATE clearance SET lower_mm = -1",
-        "UPDATE clearance SET upper_mm = lower_mm - 1", "UPDATE near_miss SET verdict = 'contact'",
-        "UPDATE episode SET tools = 'tongs'", "DELETE FROM clearance", "UPDATE pair_rule SET ignored = 2",
-        "UPDATE stream SET direction = '[1]'", "UPDATE mesh SET deviation_mm = -1",
-        "UPDATE part SET unit_of = 'layout'",
-        "INSERT INTO part_motion VALUES (99, 0, '[1,0,0,0,1,0,0,0,1]', '[0,0,0]')",
-        "INSERT INTO part_motion VALUES (0, 0, '[1]', '[0,0,0]')"}) {
+  for (const char* sql : {"UPDATE part_frame SET verdict = 'perhaps'",
+                          "UPDATE session SET status = 'done'",
+                          "INSERT INTO frame VALUES (9, 'soon')",
+                          "DELETE FROM frame",
+                          "DELETE FROM mask",
+                          "UPDATE camera SET camera_matrix = '[1]'",
+                          "INSERT INTO session SELECT * FROM session",
+                          "UPDATE event SET to_mm = NULL WHERE kind = 'spacing'",
+                          "UPDATE clearance SET lower_mm = -1",
+                          "UPDATE clearance SET upper_mm = lower_mm - 1",
+                          "UPDATE near_miss SET verdict = 'contact'",
+                          "UPDATE episode SET tools = 'tongs'",
+                          "DELETE FROM clearance",
+                          "UPDATE pair_rule SET ignored = 2",
+                          "UPDATE stream SET direction = '[1]'",
+                          "UPDATE mesh SET deviation_mm = -1",
+                          "UPDATE part SET unit_of = 'layout'",
+                          "DELETE FROM part_group",
+                          "UPDATE spacing SET moving_group = 9",
+                          "INSERT INTO part_group_member VALUES (0, 9, 9)",
+                          "INSERT INTO part_motion VALUES (99, 0, '[1,0,0,0,1,0,0,0,1]', '[0,0,0]')",
+                          "INSERT INTO part_motion VALUES (0, 0, '[1]', '[0,0,0]')"}) {
     EXPECT_THROW(database.exec(sql), SQLite::Exception) << sql;
   }
 }

@@ -7,7 +7,7 @@
 
 #include "core/bvh.h"
 
-namespace elbowroom::review {
+namespace elbowroom::core {
 
 struct NearestOnPart {
   double distance_mm = std::numeric_limits<double>::infinity();
@@ -35,7 +35,7 @@ struct BoxInPart {
 // triangles that are small together next to the box, by the plane that keeps their own box so.
 // `likely`: a triangle that is probably near, which saves work and changes nothing. The part has triangles.
 // Thread: any.
-[[nodiscard]] NearestOnPart FindNearest(const core::TriangleTree& part, const BoxInPart& box,
+[[nodiscard]] NearestOnPart FindNearest(const TriangleTree& part, const BoxInPart& box,
                                         std::uint32_t likely = 0);
 
 // Of a box along one of its half edges, -1 to 1: where it may be near.
@@ -47,7 +47,7 @@ struct NearStretch {
 
 // All points of the box that are nearer to the part than `within_mm` are in the stretch along half edge
 // `axis`, by the same planes. Rounding is the caller's. Thread: any.
-[[nodiscard]] NearStretch FindNearStretch(const core::TriangleTree& part, const BoxInPart& box,
-                                          Eigen::Index axis, double within_mm);
+[[nodiscard]] NearStretch FindNearStretch(const TriangleTree& part, const BoxInPart& box, Eigen::Index axis,
+                                          double within_mm);
 
-}  // namespace elbowroom::review
+}  // namespace elbowroom::core

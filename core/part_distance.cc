@@ -1,9 +1,9 @@
-#include "review/part_distance.h"
+#include "core/part_distance.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace elbowroom::review {
+namespace elbowroom::core {
 namespace {
 
 using Eigen::Vector3d;
@@ -41,7 +41,7 @@ Vector3d NearestOnNeedle(const Vector3d& x, const Vector3d& a, const Vector3d& b
 // Goes down the tree, nearer child first; whole branches are passed over whose box is too far.
 class Search {
  public:
-  Search(const core::TriangleTree& part, const BoxInPart& box)
+  Search(const TriangleTree& part, const BoxInPart& box)
       : part_(part), x_(box.center), edges_(box.half_edges.transpose()) {}
 
   void FindNearest(std::uint32_t likely) {
@@ -96,7 +96,7 @@ class Search {
 
   void VisitNearest(std::uint32_t index, double squared_bound) {
     if (squared_bound >= squared_) return;
-    const core::TriangleTree::Node& node = part_.nodes()[index];
+    const TriangleTree::Node& node = part_.nodes()[index];
     if (node.left == 0) {
       for (std::uint32_t i = node.begin; i < node.end; ++i) TryNearest(part_.order()[i]);
       return;
@@ -113,12 +113,12 @@ class Search {
 
   // Next to the box that is asked about: then the bound that its own box gives is taken, which holds for its
   // triangles and costs nothing more.
-  [[nodiscard]] bool IsSmall(const core::TriangleTree::Node& node) const {
+  [[nodiscard]] bool IsSmall(const TriangleTree::Node& node) const {
     return node.ball.radius_mm <= kSmallNode * edges_.norm();
   }
 
   void VisitBound(std::uint32_t index) {
-    const core::TriangleTree::Node& node = part_.nodes()[index];
+    const TriangleTree::Node& node = part_.nodes()[index];
     const Vector3d away = x_ - node.box.min().cwiseMax(x_.cwiseMin(node.box.max()));
     const double lower_mm = away.norm() - Reach(away);
     if (lower_mm >= nearest_.box_lower_mm) return;
@@ -151,7 +151,7 @@ class Search {
   }
 
   void VisitNear(std::uint32_t index, Eigen::Index axis, double within_mm, NearStretch* stretch) {
-    const core::TriangleTree::Node& node = part_.nodes()[index];
+    const TriangleTree::Node& node = part_.nodes()[index];
     const Vector3d away = x_ - node.box.min().cwiseMax(x_.cwiseMin(node.box.max()));
     const NearStretch most = NearTo(away, axis, within_mm);
     if (most.is_empty() || (most.from >= stretch->from && most.to <= stretch->to)) return;
@@ -173,7 +173,7 @@ class Search {
     }
   }
 
-  const core::TriangleTree& part_;
+  const TriangleTree& part_;
   const Vector3d x_;
   const Eigen::Matrix3d edges_;  // rows: the box's half edges
   NearestOnPart nearest_;
@@ -201,7 +201,7 @@ Vector3d NearestOnTriangle(const Vector3d& x, const Vector3d& a, const Vector3d&
   return a + (vb / sum) * ab + (vc / sum) * ac;
 }
 
-NearestOnPart FindNearest(const core::TriangleTree& part, const BoxInPart& box, std::uint32_t likely) {
+NearestOnPart FindNearest(const TriangleTree& part, const BoxInPart& box, std::uint32_t likely) {
   Search search(part, box);
   search.FindNearest(likely);
   NearestOnPart nearest = search.nearest();
@@ -211,9 +211,9 @@ NearestOnPart FindNearest(const core::TriangleTree& part, const BoxInPart& box, 
   return search.nearest();
 }
 
-NearStretch FindNearStretch(const core::TriangleTree& part, const BoxInPart& box, Eigen::Index axis,
+NearStretch FindNearStretch(const TriangleTree& part, const BoxInPart& box, Eigen::Index axis,
                             double within_mm) {
   return Search(part, box).FindNearStretch(axis, within_mm);
 }
 
-}  // namespace elbowroom::review
+}  // namespace elbowroom::core

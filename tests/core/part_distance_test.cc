@@ -1,5 +1,5 @@
 // Distances to parts against every triangle, one by one, in long double.
-#include "review/part_distance.h"
+#include "core/part_distance.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 
 #include "tests/recon/random_scene.h"
 
-namespace elbowroom::review {
+namespace elbowroom::core {
 namespace {
 
 using Eigen::Vector3d;
@@ -37,8 +37,8 @@ long double DistanceTo(const Wide& x, const Wide& a, const Wide& b, const Wide& 
 }
 
 // Plain triangles, needles, slivers, triangles without area.
-core::TriangleMesh RandomSoup(Random* random, int triangles) {
-  core::TriangleMesh mesh;
+TriangleMesh RandomSoup(Random* random, int triangles) {
+  TriangleMesh mesh;
   for (std::int32_t i = 0; i < triangles; ++i) {
     const Vector3d a = random->Uniform(0.0, 100.0) * random->Direction();
     const double size = random->LogUniform(1e-3, 60.0), thin = random->LogUniform(1e-9, 1.0);
@@ -50,7 +50,7 @@ core::TriangleMesh RandomSoup(Random* random, int triangles) {
   return mesh;
 }
 
-double SlowDistance(const core::TriangleMesh& mesh, const Vector3d& x) {
+double SlowDistance(const TriangleMesh& mesh, const Vector3d& x) {
   long double nearest = HUGE_VALL;
   for (const auto& [a, b, c] : mesh.triangles) {
     const auto vertex = [&](std::int32_t i) -> Wide {
@@ -64,8 +64,8 @@ double SlowDistance(const core::TriangleMesh& mesh, const Vector3d& x) {
 TEST(FindNearest, IsTheNearestOfAllTriangles) {
   Random random(7101);
   for (int trial = 0; trial < 150; ++trial) {
-    const auto mesh = std::make_shared<const core::TriangleMesh>(RandomSoup(&random, random.Whole(1, 60)));
-    const core::TriangleTree part(mesh);
+    const auto mesh = std::make_shared<const TriangleMesh>(RandomSoup(&random, random.Whole(1, 60)));
+    const TriangleTree part(mesh);
     for (int i = 0; i < 20; ++i) {
       const Vector3d x = random.Uniform(0.0, 150.0) * random.Direction();
       const auto likely =
@@ -83,8 +83,8 @@ TEST(FindNearest, BoxesAreNoNearerThanTheirBound) {
   Random random(7102);
   std::int64_t better = 0, boxes = 0;
   for (int trial = 0; trial < 100; ++trial) {
-    const auto mesh = std::make_shared<const core::TriangleMesh>(RandomSoup(&random, random.Whole(1, 30)));
-    const core::TriangleTree part(mesh);
+    const auto mesh = std::make_shared<const TriangleMesh>(RandomSoup(&random, random.Whole(1, 30)));
+    const TriangleTree part(mesh);
     for (int i = 0; i < 10; ++i) {
       BoxInPart box;
       box.center = random.Uniform(0.0, 150.0) * random.Direction();
@@ -108,4 +108,4 @@ TEST(FindNearest, BoxesAreNoNearerThanTheirBound) {
 }
 
 }  // namespace
-}  // namespace elbowroom::review
+}  // namespace elbowroom::core

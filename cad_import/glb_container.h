@@ -1,0 +1,20 @@
+// GLB, glTF's binary container: a header, then chunks of JSON and of bytes.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace elbowroom::cad_import {
+
+// Throws: Error{kFormat} naming `where`: as CheckGltf for the document within; not GLB 2, or chunks that
+// don't lie inside the file.
+void CheckGlb(std::string_view bytes, const std::string& where);
+
+// Some writers leave out the padding that the specification demands. True: the second chunk begins right
+// where the JSON ends, and that isn't on a multiple of 4 bytes.
+[[nodiscard]] bool LacksPadding(std::string_view glb);
+
+// One that CheckGlb took and that lacks padding, with it.
+[[nodiscard]] std::string Padded(std::string glb);
+
+}  // namespace elbowroom::cad_import
