@@ -1,6 +1,7 @@
 #include "cad_import/scene_reader.h"
 
 #include <assimp/DefaultIOSystem.h>
+#include <assimp/MemoryIOWrapper.h>
 #include <assimp/config.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
@@ -21,6 +22,7 @@
 #include <vector>
 
 #include "cad_import/glb_container.h"
+#include "cad_import/gltf_1.h"
 #include "cad_import/obj_text.h"
 #include "cad_import/own_folder.h"
 #include "cad_import/srgb.h"
@@ -42,11 +44,12 @@ constexpr std::size_t kMostInstances = 1'000'000;
 struct Source {
   const fs::path& file;
   FileFormat format;
-  const std::string& bytes;  // of the file, but for what was mended
-  bool is_mended = false;
+  const std::string& bytes;  // as they were checked, and mended where they had to be
+  bool is_from_bytes = false;
 };
 
-// Opens for reading what lies in the file's folder or below, links resolved; refuses all else.
+// Opens for reading what lies in the file's folder or below, links resolved; refuses all else. Of the file
+// itself it gives the source's bytes if that says so.
 class ConfinedFiles : public Assimp::DefaultIOSystem {
  public:
   // What it is asked to refuse and to open outlives the importer that owns it.
@@ -54,8 +57,8 @@ class ConfinedFiles : public Assimp::DefaultIOSystem {
     std::vector<fs::path> opened;  // beside the file itself
     std::vector<std::string> refused;
   };
-  ConfinedFiles(const fs::path& file, Log& log)
-      : file_(fs::weakly_canonical(file)), folder_(file), log_(log) {}
+  ConfinedFiles(const Source& source, Log& log)
+      : source_(source), file_(fs::weakly_canonical(source.file)), folder_(source.file), log_(log) {}
 
   bool Exists(const char* file) const override {
     return folder_.Holds(file) && DefaultIOSystem::Exists(file);
@@ -66,14 +69,18 @@ class ConfinedFiles : public Assimp::DefaultIOSystem {
       log_.refused.emplace_back(file);
       return nullptr;
     }
-    Assimp::IOStream* stream = DefaultIOSystem::Open(file, mode);
     const fs::path whole = fs::weakly_canonical(file);
+    if (whole == file_ && source_.is_from_bytes)
+      return new Assimp::MemoryIOStream(reinterpret_cast<const std::uint8_t*>(source_.bytes.data()),
+                                        source_.bytes.size());
+    Assimp::IOStream* stream = DefaultIOSystem::Open(file, mode);
     if (stream != nullptr && whole != file_ && std::ranges::find(log_.opened, whole) == log_.opened.end())
       log_.opened.push_back(whole);
     return stream;
   }
 
  private:
+  const Source& source_;
   fs::path file_;  // canonical
   OwnFolder folder_;
   Log& log_;
@@ -230,21 +237,18 @@ std::optional<FileUnit> TakeUnit(const aiScene& scene, FileFormat format, Eigen:
   }
 }
 
-// STL, OBJ, PLY and COLLADA come whole from memory, so that what was checked is what is read; so does what
-// was mended. The others may have files beside them.
-bool IsReadFromMemory(FileFormat format, bool is_mended) {
-  return is_mended || format == FileFormat::kStl || format == FileFormat::kObj ||
-         format == FileFormat::kPly || format == FileFormat::kCollada;
-}
-
+// STL, OBJ, PLY and COLLADA from memory, so that what was checked is what is read. The others may have files
+// beside them.
 const aiScene* Parse(Assimp::Importer& importer, const Source& source) {
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
   // It makes up a shape for cameras, lights and bones in a file that has none.
   importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
   const unsigned steps = aiProcess_Triangulate;
-  if (IsReadFromMemory(source.format, source.is_mended))
+  const FileFormat format = source.format;
+  if (format == FileFormat::kStl || format == FileFormat::kObj || format == FileFormat::kPly ||
+      format == FileFormat::kCollada)
     return importer.ReadFileFromMemory(source.bytes.data(), source.bytes.size(), steps,
-                                       std::string(ExtensionOf(source.format)).c_str());
+                                       std::string(ExtensionOf(format)).c_str());
   return importer.ReadFile(source.file.string(), steps);
 }
 
@@ -254,7 +258,7 @@ RawScene Load(const Source& source) {
   ConfinedFiles::Log log;
   const LeftOutLog left_out;
   Assimp::Importer importer;
-  importer.SetIOHandler(new ConfinedFiles(file, log));  // the importer deletes it
+  importer.SetIOHandler(new ConfinedFiles(source, log));  // the importer deletes it
   const aiScene* scene = nullptr;
   std::string why;
   try {
@@ -300,10 +304,11 @@ RawScene ReadObj(const fs::path& file, const std::string& text) {
 RawScene ReadScene(const fs::path& file, FileFormat format, std::string bytes) {
   if (format == FileFormat::kCollada || format == FileFormat::kObj) bytes = ToUtf8(std::move(bytes));
   if (format == FileFormat::kObj) return ReadObj(file, bytes);
-  const bool is_mended = format == FileFormat::kGlb && LacksPadding(bytes);
-  if (is_mended) bytes = Padded(std::move(bytes));
-  RawScene scene = Load({file, format, bytes, is_mended});
-  if (is_mended)
+  const bool lacks_padding = format == FileFormat::kGlb && LacksPadding(bytes);
+  if (lacks_padding) bytes = Padded(std::move(bytes));
+  if (format == FileFormat::kGltf) bytes = WithMatricesIfGltf1(std::move(bytes), file.string());
+  RawScene scene = Load({file, format, bytes, lacks_padding || format == FileFormat::kGltf});
+  if (lacks_padding)
     scene.warnings.emplace_back(
         "its chunks don't end on multiples of 4 bytes, as GLB demands; they were read all the same");
   return scene;

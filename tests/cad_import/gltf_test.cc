@@ -70,7 +70,8 @@ TEST_F(GltfFile, Gltf1IsRead) {
   const std::string before = R"({"asset":{"version":)";
   const std::string after = R"(},"scene":"s","scenes":{"s":{"nodes":["top"]}},
     "nodes":{"top":{"children":["low","high"]},
-             "low":{"meshes":["m"]},"high":{"meshes":["m"],"matrix":[1,0,0,0,0,1,0,0,0,0,1,0,0,0,5,1]}},
+             "low":{"meshes":["m"]},"high":{"meshes":["m"],
+                    "rotation":[0,0,0.70710678,0.70710678],"translation":[10,0,5],"scale":[1,1,2]}},
     "meshes":{"m":{"primitives":[{"attributes":{"POSITION":"points"},"indices":"corners","mode":4}]}},
     "accessors":{"points":{"bufferView":"v","byteOffset":0,"byteStride":12,"componentType":5126,"count":8,
                            "type":"VEC3"},
@@ -82,8 +83,9 @@ TEST_F(GltfFile, Gltf1IsRead) {
   for (const char* version : {"\"1.0\"", "1"}) {
     const ImportedMesh imported = ImportHere(Write("box.gltf", before + version + after));
     EXPECT_EQ(imported.report.parts, 2);
-    EXPECT_TRUE(
-        core::BoundsOf(*imported.mesh).sizes().isApprox(Eigen::Vector3d(1000, 2000, 8000), kSinglePrecision));
+    EXPECT_TRUE(core::BoundsOf(*imported.mesh)
+                    .sizes()
+                    .isApprox(Eigen::Vector3d(10000, 2000, 11000), kSinglePrecision));
   }
   EXPECT_TRUE(Mentions(FormatError("box.gltf", before + "\"0.8\"" + after), "only 1.0 and 2.0"));
   const auto with = [&](const std::string& from, const std::string& to) {
@@ -96,6 +98,7 @@ TEST_F(GltfFile, Gltf1IsRead) {
       Mentions(FormatError("a.gltf", with("\"buffer\":\"b\"", "\"buffer\":\"x\"")), "names no buffer"));
   EXPECT_TRUE(Mentions(FormatError("a.gltf", with("\"meshes\":[\"m\"]}", "\"children\":[\"top\"]}")),
                        "its own ancestor"));
+  EXPECT_TRUE(Mentions(FormatError("a.gltf", with("[10,0,5]", "[10,0]")), "isn't numbers"));
   EXPECT_TRUE(Mentions(FormatError("a.gltf", with("\"low\",", "\"nobody\",")), "doesn't exist"));
 }
 

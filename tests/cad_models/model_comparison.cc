@@ -32,8 +32,6 @@ constexpr std::array<Known, 24> kKnown = {{
     {"occ/hammer.brep", "38 m across at a tolerance of 0.2 mm; with --tolerance 20 it takes seconds"},
     {"occ/terrain.brep",
      "8 m across at a tolerance of 0.2 mm: 3.3 GB and more than two minutes on a busy machine"},
-    {"trimesh_models/cube.glb", "the specification demands the padding that it lacks"},
-    {"trimesh_models/pins.glb", "the specification demands the padding that it lacks"},
     {"trimesh_models/metadata.ply",
      "a property after the list of a face's corners; VTK crashes, Blender gives up"},
     {"glTF2/BoxWithInfinites-glTF-Binary/BoxWithInfinites.glb",

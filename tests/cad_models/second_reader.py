@@ -9,8 +9,9 @@ STEP, IGES, BREP; polygons count as fans); volume_mm3 (STEP, IGES, BREP). Number
 millimetres. Or: reader, error.
 
 STEP, IGES, BREP: OpenCASCADE's DRAW. STL, OBJ, PLY, glTF, 3DS: VTK, or Blender for what that can't take. COLLADA:
-pycollada. FBX: Blender. OFF, 3MF: read here. Packages: ./dev packages names them.
+pycollada. FBX: Blender. OFF, 3MF, glTF 1.0: read here. Packages: ./dev packages names them.
 """
+import base64
 import importlib.metadata
 import io
 import json
@@ -328,6 +329,63 @@ def read_3mf(path, _kind):
     return answer("its XML", bodies, MM_PER_UNIT[model.get("unit", "millimeter")])
 
 
+def read_gltf1(path, _kind):
+    """glTF 1.0, which keeps under names what 2.0 lists."""
+    with open(path, encoding="utf-8") as file:
+        document = json.load(file)
+    if not str(document.get("asset", {}).get("version", "")).startswith("1"):
+        raise Refused("not glTF 1.0")
+
+    def bytes_of(name):
+        uri = document["buffers"][name]["uri"]
+        if uri.startswith("data:"):
+            return base64.b64decode(uri.partition(",")[2])
+        with open(os.path.join(os.path.dirname(path), uri), "rb") as file:
+            return file.read()
+
+    def numbers(name):
+        accessor = document["accessors"][name]
+        view = document["bufferViews"][accessor["bufferView"]]
+        count, width = accessor["count"], {"SCALAR": 1, "VEC3": 3}[accessor["type"]]
+        kind = numpy.dtype({5121: "u1", 5123: "<u2", 5125: "<u4", 5126: "<f4"}[accessor["componentType"]])
+        return numpy.ndarray((count, width), kind, bytes_of(view["buffer"]),
+                             view.get("byteOffset", 0) + accessor.get("byteOffset", 0),
+                             (accessor.get("byteStride") or width * kind.itemsize, kind.itemsize))
+
+    def placement(node):
+        if "matrix" in node:
+            return numpy.array(node["matrix"], dtype=float).reshape(4, 4).T
+        x, y, z, w = node.get("rotation", [0, 0, 0, 1])
+        matrix = numpy.eye(4)
+        matrix[:3, :3] = [[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+                          [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+                          [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]]
+        matrix[:3, :3] *= numpy.array(node.get("scale", [1, 1, 1]))
+        matrix[:3, 3] = node.get("translation", [0, 0, 0])
+        return matrix
+
+    bodies = []
+
+    def visit(name, parent):
+        node = document["nodes"][name]
+        matrix = parent @ placement(node)
+        primitives = []
+        for mesh in node.get("meshes", []):
+            for primitive in document["meshes"][mesh]["primitives"]:
+                if primitive.get("mode", 4) == 4:
+                    points = numbers(primitive["attributes"]["POSITION"])
+                    corners = numbers(primitive["indices"]) if "indices" in primitive else numpy.arange(len(points))
+                    primitives.append(Body(moved(points, matrix), corners))
+        if primitives:
+            bodies.append(joined(primitives))
+        for child in node.get("children", []):
+            visit(child, matrix)
+
+    for root in document["scenes"][document["scene"]]["nodes"]:
+        visit(root, numpy.eye(4))
+    return answer("its JSON", bodies, 1000.0)
+
+
 # --- Blender: this script again, inside it ------------------------------------------------------------------------
 def read_blender(path, _kind):
     run = subprocess.run(["blender", "-b", "--factory-startup", "--python", __file__, "--", path], timeout=LONGEST_S,
@@ -394,7 +452,7 @@ def extension(path):
 READERS = {
     "step": [read_brep], "iges": [read_brep], "brep": [read_brep], "stl": [read_vtk],
     "obj": [read_vtk, read_blender], "ply": [read_vtk, read_blender], "off": [read_off],
-    "gltf": [read_vtk, read_blender], "3mf": [read_3mf], "dae": [read_collada], "fbx": [read_blender],
+    "gltf": [read_vtk, read_blender, read_gltf1], "3mf": [read_3mf], "dae": [read_collada], "fbx": [read_blender],
     "3ds": [read_vtk],
 }
 KIND = {"stp": "step", "p21": "step", "igs": "iges", "glb": "gltf"}
