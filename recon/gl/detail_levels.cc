@@ -18,8 +18,12 @@ namespace {
 using Eigen::Vector3f;
 using Indices = std::vector<unsigned>;  // three a triangle
 
-constexpr std::size_t kFewer = 4;  // times, from level to level
+constexpr std::size_t kFewer = 2;  // times, from level to level
 constexpr std::size_t kFewTriangles = 500;
+// meshoptimizer's quadrics are of single precision: over a whole mesh they can't tell distances of less than
+// about a thousandth of its size, over pieces of it those of theirs.
+constexpr std::size_t kTrianglesAPiece = 8'000;
+constexpr std::size_t kFewestPieces = 8;
 // A level that keeps more of the one before isn't worth its memory.
 constexpr double kMostKept = 0.7;
 constexpr std::size_t kFloatsPerTriangle = 18;
@@ -70,21 +74,76 @@ Indices WeldedIndices(const core::TriangleMesh& mesh) {
   return welded;
 }
 
-// From the mesh's middle, so that a mesh far from its origin loses no digits.
-std::vector<float> PlacesFromMiddle(const core::TriangleMesh& mesh) {
-  const Eigen::Vector3d middle = core::BoundsOf(mesh).center();
-  std::vector<float> places;
-  places.reserve(3 * mesh.vertices_mm.size());
-  for (const Eigen::Vector3d& vertex : mesh.vertices_mm)
-    for (int axis = 0; axis < 3; ++axis) places.push_back(static_cast<float>(vertex[axis] - middle[axis]));
-  return places;
+// A piece of a level: its triangles by numbers of their own for its vertices.
+struct Piece {
+  Indices indices;
+  std::vector<std::int32_t> vertices;  // of the mesh, by own number
+  std::vector<float> places;           // from the first, so that no digits are lost
+};
+
+// Cuts pieces out of a tree's mesh.
+class Cutter {
+ public:
+  explicit Cutter(const core::TriangleTree& tree) : tree_(tree), own_(tree.mesh().vertices_mm.size(), -1) {}
+
+  [[nodiscard]] Piece Cut(const core::TriangleTree::Node& node) {
+    const core::TriangleMesh& mesh = tree_.mesh();
+    Piece piece;
+    for (const std::uint32_t triangle : tree_.order().subspan(node.begin, node.end - node.begin)) {
+      for (const std::int32_t vertex : mesh.triangles[triangle]) {
+        std::int32_t& own = own_[static_cast<std::size_t>(vertex)];
+        if (own < 0) {
+          own = static_cast<std::int32_t>(piece.vertices.size());
+          piece.vertices.push_back(vertex);
+        }
+        piece.indices.push_back(static_cast<unsigned>(own));
+      }
+    }
+    const auto at = [&](std::int32_t vertex) { return mesh.vertices_mm[static_cast<std::size_t>(vertex)]; };
+    for (const std::int32_t vertex : piece.vertices) {
+      const Vector3f place = (at(vertex) - at(piece.vertices.front())).cast<float>();
+      piece.places.insert(piece.places.end(), {place.x(), place.y(), place.z()});
+      own_[static_cast<std::size_t>(vertex)] = -1;
+    }
+    return piece;
+  }
+
+ private:
+  const core::TriangleTree& tree_;
+  std::vector<std::int32_t> own_;  // by the mesh's number; -1: not of this piece
+};
+
+// The topmost nodes of so few triangles.
+std::vector<core::TriangleTree::Node> NodesOf(const core::TriangleTree& tree, std::size_t most_triangles) {
+  std::vector<core::TriangleTree::Node> nodes;
+  std::vector<std::uint32_t> open{0};
+  while (!open.empty()) {
+    const core::TriangleTree::Node& node = tree.nodes()[open.back()];
+    open.pop_back();
+    if (node.end - node.begin <= most_triangles || node.left == 0) {
+      nodes.push_back(node);
+    } else {
+      open.insert(open.end(), {node.left, node.left + 1});
+    }
+  }
+  return nodes;
 }
 
-Indices Simplified(const Indices& indices, const std::vector<float>& places) {
-  const std::size_t aim = indices.size() / 3 / kFewer * 3;
-  Indices fewer(indices.size());
-  fewer.resize(meshopt_simplify(fewer.data(), indices.data(), indices.size(), places.data(),
-                                places.size() / 3, 3 * sizeof(float), aim, kAnyError, 0, nullptr));
+// By pieces, as long as there are several, whose common borders stay what they are.
+Indices Simplified(const core::TriangleTree& tree) {
+  const std::size_t triangles = tree.mesh().triangles.size();
+  const bool is_in_pieces = triangles >= kFewestPieces * kTrianglesAPiece;
+  Cutter cutter(tree);
+  Indices fewer;
+  for (const core::TriangleTree::Node& node : NodesOf(tree, is_in_pieces ? kTrianglesAPiece : triangles)) {
+    const Piece piece = cutter.Cut(node);
+    const std::size_t aim = piece.indices.size() / 3 / kFewer * 3;
+    Indices kept(piece.indices.size());
+    kept.resize(meshopt_simplify(kept.data(), piece.indices.data(), piece.indices.size(), piece.places.data(),
+                                 piece.vertices.size(), 3 * sizeof(float), aim, kAnyError,
+                                 is_in_pieces ? meshopt_SimplifyLockBorder : 0, nullptr));
+    for (const unsigned own : kept) fewer.push_back(static_cast<unsigned>(piece.vertices[own]));
+  }
   return fewer;
 }
 
@@ -142,18 +201,16 @@ std::vector<DetailLevel> MakeDetailLevels(const core::TriangleMesh& mesh, const 
                                           const std::stop_token& stop) {
   std::vector<DetailLevel> levels;
   const Indices all = WeldedIndices(mesh);
-  const std::vector<float> places = PlacesFromMiddle(mesh);
   const NormalsAtPlaces normals(whole.corners);
-  Indices indices = all;
-  while (indices.size() > 3 * kFewTriangles && !stop.stop_requested()) {
-    Indices fewer = Simplified(indices, places);
-    if (fewer.empty() || static_cast<double>(fewer.size()) > kMostKept * static_cast<double>(indices.size()))
-      break;
-    indices = std::move(fewer);
-    std::vector<float> corners = DrawnCorners(indices, mesh, normals);
+  core::TriangleTree last(MeshOf(all, mesh));
+  while (last.mesh().triangles.size() > kFewTriangles && !stop.stop_requested()) {
+    const Indices fewer = Simplified(last);
+    const auto most = kMostKept * static_cast<double>(3 * last.mesh().triangles.size());
+    if (fewer.empty() || static_cast<double>(fewer.size()) > most) break;
+    last = core::TriangleTree(MeshOf(fewer, mesh));
+    std::vector<float> corners = DrawnCorners(fewer, mesh, normals);
     const auto triangles = static_cast<std::int64_t>(corners.size() / kFloatsPerTriangle);
-    levels.push_back(
-        {std::move(corners), triangles, FarthestMm(mesh, all, core::TriangleTree(MeshOf(indices, mesh)))});
+    levels.push_back({std::move(corners), triangles, FarthestMm(mesh, all, last)});
   }
   return levels;
 }
