@@ -224,11 +224,18 @@ class DocumentWalk {
         tolerance_(tolerance),
         progress_(progress) {}
 
-  RawScene Walk() {
+  RawScene Walk(const std::string& where) {
     result_.are_bodies = true;
     TDF_LabelSequence roots;
     shapes_->GetFreeShapes(roots);
     for (const TDF_Label& root : roots) Visit(root, "", Eigen::Affine3d::Identity(), std::nullopt);
+    if (result_.instances.empty() && faces_without_triangles_ > 0) {
+      throw Error(ErrorKind::kCad,
+                  fmt::format("{}: none of its {} faces could be meshed, perhaps for want of "
+                              "memory; run `elbowroom import` on it with a larger --tolerance "
+                              "or --memory-gib, or repair it",
+                              where, faces_));
+    }
     if (faces_without_triangles_ > 0) {
       result_.warnings.push_back(fmt::format("{} of its {} faces could not be meshed and are missing",
                                              faces_without_triangles_, faces_));
@@ -365,7 +372,8 @@ RawScene ReadBrep(const fs::path& file, FileFormat format, const ImportOptions& 
                        : document.unit ? std::nullopt
                                        : options.unit_if_file_has_none;
     const double mm_per_document_mm = asked ? core::MillimetresPer(*asked) / mm_per_unit : 1.0;
-    RawScene scene = DocumentWalk(document, options.tolerance_mm / mm_per_document_mm, progress).Walk();
+    RawScene scene =
+        DocumentWalk(document, options.tolerance_mm / mm_per_document_mm, progress).Walk(file.string());
     scene.are_mm = document.unit.has_value();
     scene.unit = document.unit;
     scene.referred = std::move(document.referred);

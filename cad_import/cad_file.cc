@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "cad_import/file_format.h"
 #include "cad_import/import_cache.h"
 #include "cad_import/import_process.h"
 #include "cad_import/mapped_file.h"
@@ -28,10 +29,10 @@ void ImportOptions::Validate() const {
 CadModel ImportCadFile(const std::filesystem::path& file, const ImportOptions& options,
                        const core::Progress& progress, const std::stop_token& stop) {
   options.Validate();
+  (void)ReadableBytes(file);  // before all of it is read for its hash
   const std::optional<ImportCache> cache = ImportCache::OfUser();
-  std::error_code ignored;
   std::string key;
-  if (cache && std::filesystem::is_regular_file(file, ignored)) {
+  if (cache) {
     key = ImportCache::KeyOf(file, options);
     if (std::optional<CadModel> found = cache->Find(key, file)) return *std::move(found);
   }

@@ -51,20 +51,9 @@ constexpr std::array<FormatRow, 16> kFormats = {{{FileFormat::kStl, ".stl", "STL
 const FormatRow& RowOf(FileFormat format) { return *std::ranges::find(kFormats, format, &FormatRow::format); }
 
 std::string ReadWhole(const std::filesystem::path& path) {
-  std::error_code error;
-  const auto status = std::filesystem::status(path, error);
-  if (status.type() == std::filesystem::file_type::not_found) {
-    throw Error(ErrorKind::kFile, fmt::format("{}: no such file; check the path", path.string()));
-  }
-  if (status.type() != std::filesystem::file_type::regular) {
-    throw Error(ErrorKind::kFile, fmt::format("{}: not a readable file; name a mesh file", path.string()));
-  }
-  const std::uintmax_t size_bytes = std::filesystem::file_size(path, error);
-  if (error || size_bytes > kLargestFileBytes) {
-    throw Error(ErrorKind::kFile, fmt::format("{}: larger than 1 GiB; export a coarser mesh", path.string()));
-  }
+  const auto size_bytes = static_cast<std::size_t>(ReadableBytes(path));
   std::ifstream file(path, std::ios::binary);
-  std::string bytes(static_cast<std::size_t>(size_bytes), '\0');
+  std::string bytes(size_bytes, '\0');
   if (!file || (size_bytes > 0 && !file.read(bytes.data(), static_cast<std::streamsize>(size_bytes)))) {
     throw Error(ErrorKind::kFile, fmt::format("{}: can't be read; check its permissions", path.string()));
   }
@@ -173,6 +162,22 @@ FileFormat FormatOfExtension(const std::filesystem::path& path) {
   FailFormat(path.string(),
              fmt::format("'{}' files can't be read; export the part as .step, .stl, .obj, .ply, .glb or .3mf",
                          extension.empty() ? "extensionless" : extension));
+}
+
+std::int64_t ReadableBytes(const std::filesystem::path& path) {
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (status.type() == std::filesystem::file_type::not_found) {
+    throw Error(ErrorKind::kFile, fmt::format("{}: no such file; check the path", path.string()));
+  }
+  if (status.type() != std::filesystem::file_type::regular) {
+    throw Error(ErrorKind::kFile, fmt::format("{}: not a readable file; name a CAD file", path.string()));
+  }
+  const std::uintmax_t size_bytes = std::filesystem::file_size(path, error);
+  if (error || size_bytes > kLargestFileBytes) {
+    throw Error(ErrorKind::kFile, fmt::format("{}: larger than 1 GiB; export a coarser mesh", path.string()));
+  }
+  return static_cast<std::int64_t>(size_bytes);
 }
 
 CheckedFile ReadCheckedFile(const std::filesystem::path& path) {

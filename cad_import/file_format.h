@@ -39,6 +39,9 @@ enum class FileFormat {
 // Throws: Error{kFormat} naming what is supported.
 [[nodiscard]] FileFormat FormatOfExtension(const std::filesystem::path& path);
 
+// Throws: Error{kFile} naming the file: there is none, it is no file, or it is larger than 1 GiB.
+[[nodiscard]] std::int64_t ReadableBytes(const std::filesystem::path& path);
+
 struct CheckedFile {
   FileFormat format = FileFormat::kStl;
   std::string bytes;  // the whole file

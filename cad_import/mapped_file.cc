@@ -10,7 +10,7 @@
 namespace elbowroom::cad_import {
 
 std::optional<MappedFile> MappedFile::At(const std::filesystem::path& path) {
-  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);  // a pipe isn't waited for
   if (descriptor < 0) return std::nullopt;
   std::optional<MappedFile> file = Of(descriptor);
   ::close(descriptor);
@@ -19,7 +19,8 @@ std::optional<MappedFile> MappedFile::At(const std::filesystem::path& path) {
 
 std::optional<MappedFile> MappedFile::Of(int descriptor) {
   struct stat status {};
-  if (::fstat(descriptor, &status) != 0 || status.st_size <= 0) return std::nullopt;
+  if (::fstat(descriptor, &status) != 0 || !S_ISREG(status.st_mode) || status.st_size <= 0)
+    return std::nullopt;
   const auto size = static_cast<std::size_t>(status.st_size);
   void* address = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE | MAP_POPULATE, descriptor, 0);
   if (address == MAP_FAILED) return std::nullopt;

@@ -11,6 +11,7 @@
 #include <assimp/DefaultLogger.hpp>
 #include <assimp/Importer.hpp>
 #include <assimp/LogStream.hpp>
+#include <charconv>
 #include <exception>
 #include <map>
 #include <memory>
@@ -41,6 +42,20 @@ using core::ErrorKind;
 constexpr std::int64_t kMostTriangles = 100'000'000;
 constexpr std::size_t kMostInstances = 1'000'000;
 
+// "%20" as the byte that it stands for.
+std::string WithoutEscapes(std::string_view text) {
+  std::string plain;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    unsigned byte = 0;
+    const char* digits = text.data() + i + 1;
+    const bool is_escape = text[i] == '%' && i + 2 < text.size() &&
+                           std::from_chars(digits, digits + 2, byte, 16).ptr == digits + 2;
+    plain += is_escape ? static_cast<char>(byte) : text[i];
+    if (is_escape) i += 2;
+  }
+  return plain;
+}
+
 struct Source {
   const fs::path& file;
   FileFormat format;
@@ -56,30 +71,42 @@ class ConfinedFiles : public Assimp::DefaultIOSystem {
   struct Log {
     std::vector<fs::path> opened;  // beside the file itself
     std::vector<std::string> refused;
+    std::vector<std::string> missing;
   };
   ConfinedFiles(const Source& source, Log& log)
       : source_(source), file_(fs::weakly_canonical(source.file)), folder_(source.file), log_(log) {}
 
-  bool Exists(const char* file) const override {
-    return folder_.Holds(file) && DefaultIOSystem::Exists(file);
+  bool Exists(const char* named) const override {
+    const fs::path file = FileOf(named);
+    return folder_.Holds(file) && DefaultIOSystem::Exists(file.c_str());
   }
 
-  Assimp::IOStream* Open(const char* file, const char* mode) override {
+  Assimp::IOStream* Open(const char* named, const char* mode) override {
+    const fs::path file = FileOf(named);
     if (!std::string_view(mode).starts_with('r') || !folder_.Holds(file)) {
-      log_.refused.emplace_back(file);
+      log_.refused.emplace_back(named);
       return nullptr;
     }
     const fs::path whole = fs::weakly_canonical(file);
     if (whole == file_ && source_.is_from_bytes)
       return new Assimp::MemoryIOStream(reinterpret_cast<const std::uint8_t*>(source_.bytes.data()),
                                         source_.bytes.size());
-    Assimp::IOStream* stream = DefaultIOSystem::Open(file, mode);
+    Assimp::IOStream* stream = DefaultIOSystem::Open(file.c_str(), mode);
+    if (stream == nullptr)
+      log_.missing.push_back(file.lexically_proximate(source_.file.parent_path()).string());
     if (stream != nullptr && whole != file_ && std::ranges::find(log_.opened, whole) == log_.opened.end())
       log_.opened.push_back(whole);
     return stream;
   }
 
  private:
+  // glTF names files by URIs: "a%20b.bin" is the file "a b.bin", unless there is one of that very name.
+  [[nodiscard]] fs::path FileOf(const char* named) const {
+    std::error_code error;
+    const bool is_uri = source_.format == FileFormat::kGltf || source_.format == FileFormat::kGlb;
+    return is_uri && !fs::exists(named, error) ? fs::path(WithoutEscapes(named)) : fs::path(named);
+  }
+
   const Source& source_;
   fs::path file_;  // canonical
   OwnFolder folder_;
@@ -268,6 +295,11 @@ RawScene Load(const Source& source) {
     why = exception.what();
   }
   if (!log.refused.empty()) throw RefersElsewhere(file, OneLine(log.refused.front()));
+  if (scene == nullptr && !log.missing.empty()) {
+    throw Error(ErrorKind::kFormat,
+                fmt::format("{}: it refers to '{}', which can't be opened; put that file there",
+                            file.string(), OneLine(log.missing.front())));
+  }
   if (scene == nullptr || scene->mRootNode == nullptr) {
     throw Error(ErrorKind::kFormat, fmt::format("{}: can't be read as {} ({}); export it again",
                                                 file.string(), ToString(format), OneLine(why)));

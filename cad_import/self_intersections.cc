@@ -9,6 +9,8 @@
 #include <array>
 #include <cstddef>
 
+#include "core/progress.h"
+
 namespace elbowroom::cad_import {
 namespace {
 
@@ -104,11 +106,12 @@ std::vector<Box> BoxesOf(const core::TriangleMesh& mesh) {
 
 }  // namespace
 
-SelfIntersections FindSelfIntersections(const core::TriangleMesh& mesh) {
+SelfIntersections FindSelfIntersections(const core::TriangleMesh& mesh, const std::stop_token& stop) {
   SelfIntersections result;
   std::vector<Box> boxes = BoxesOf(mesh);
   const PairTest test(mesh);
   CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const Box& a, const Box& b) {
+    core::ThrowIfStopped(stop, "the search for self-intersections");
     if (!test.Meet(a.info(), b.info())) return;
     ++result.pairs;
     result.triangles.insert(result.triangles.end(), {a.info(), b.info()});

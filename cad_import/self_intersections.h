@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <stop_token>
 #include <vector>
 
 #include "core/triangle_mesh.h"
@@ -16,7 +17,8 @@ struct SelfIntersections {
 // Pairs of triangles that cross, lie on each other or touch, beside the corner or edge that both have. Two
 // with the same three corners, the sides of a sheet, aren't counted, nor are triangles without area. The mesh
 // is welded. Exact: candidates by their boxes, each decided by CGAL's exact predicates. Held to a test of all
-// pairs in rational numbers by self_intersections_test. Thread: any.
-[[nodiscard]] SelfIntersections FindSelfIntersections(const core::TriangleMesh& mesh);
+// pairs in rational numbers by self_intersections_test. Throws: Error{kCancelled}. Thread: any.
+[[nodiscard]] SelfIntersections FindSelfIntersections(const core::TriangleMesh& mesh,
+                                                      const std::stop_token& stop = {});
 
 }  // namespace elbowroom::cad_import

@@ -14,12 +14,27 @@
 #include "cad_import/placing.h"
 #include "cad_import/self_intersections.h"
 #include "cad_import/unit_choice.h"
+#include "core/error.h"
 
 namespace elbowroom::cad_import {
 namespace {
 
 // Triangles of a file; some 3 us each.
 constexpr std::int64_t kMostLookedThrough = 250'000;
+
+// Where the instances stand, counted one by one: what all of a model as one mesh would be.
+constexpr std::int64_t kMostPlaced = 20'000'000;
+
+std::int64_t PlacedTriangles(const RigidScene& scene, const std::string& where) {
+  std::int64_t count = 0;
+  for (const CadInstance& instance : scene.instances)
+    count += static_cast<std::int64_t>(scene.shapes[instance.shape].mesh.triangles.size());
+  if (count <= kMostPlaced) return count;
+  throw core::Error(
+      core::ErrorKind::kCad,
+      fmt::format("{}: {} triangles in {} places, more than {}; export a coarser or a smaller model", where,
+                  count, scene.instances.size(), kMostPlaced));
+}
 
 void Scale(RawScene& scene, double factor) {
   if (factor == 1.0) return;
@@ -127,10 +142,8 @@ CadModel Settle(RawScene scene, FileFormat format, const ImportOptions& options,
   Scale(scene, unit.mm_per_unit / (scene.are_mm ? scene.unit->mm_per_unit : 1.0));
 
   RigidScene rigid = MakeRigid(scene, where);
+  const std::int64_t before = PlacedTriangles(rigid, where);
   BodyScene bodies{{}, std::move(rigid.instances)};
-  std::int64_t before = 0;
-  for (const CadInstance& instance : bodies.instances)
-    before += static_cast<std::int64_t>(rigid.shapes[instance.shape].mesh.triangles.size());
   const std::string stem = file.stem().string();
   for (RawShape& shape : rigid.shapes) {
     progress.Report(static_cast<std::int64_t>(bodies.bodies.size()),

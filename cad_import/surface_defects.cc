@@ -6,7 +6,7 @@
 namespace elbowroom::cad_import {
 namespace {
 
-SurfaceDefects DefectsOf(const CadShape& shape) {
+SurfaceDefects DefectsOf(const CadShape& shape, const std::stop_token& stop) {
   const core::TriangleMesh& mesh = *shape.mesh;
   const auto at = [&](std::int32_t i) { return mesh.vertices_mm[static_cast<std::size_t>(i)]; };
   SurfaceDefects defects;
@@ -27,7 +27,7 @@ SurfaceDefects DefectsOf(const CadShape& shape) {
     }
   });
   if (shape.surface.self_intersections.value_or(1) == 0) return defects;
-  for (const std::uint32_t i : FindSelfIntersections(mesh).triangles) {
+  for (const std::uint32_t i : FindSelfIntersections(mesh, stop).triangles) {
     const auto& [a, b, c] = mesh.triangles[i];
     defects.crossing.push_back({at(a), at(b), at(c)});
   }
@@ -36,9 +36,15 @@ SurfaceDefects DefectsOf(const CadShape& shape) {
 
 }  // namespace
 
-SurfaceDefects FindDefects(const CadModel& model) {
+SurfaceDefects FindDefects(const CadModel& model, const core::Progress& progress,
+                           const std::stop_token& stop) {
   std::vector<SurfaceDefects> of_shapes;
-  for (const CadShape& shape : model.shapes) of_shapes.push_back(DefectsOf(shape));
+  for (const CadShape& shape : model.shapes) {
+    progress.Report(static_cast<std::int64_t>(of_shapes.size()),
+                    static_cast<std::int64_t>(model.shapes.size()), "looking for defects in mesh");
+    core::ThrowIfStopped(stop, "the search for defects");
+    of_shapes.push_back(DefectsOf(shape, stop));
+  }
   SurfaceDefects all;
   for (const CadInstance& instance : model.instances) {
     const SurfaceDefects& of_shape = of_shapes[instance.shape];

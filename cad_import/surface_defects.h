@@ -3,10 +3,12 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <stop_token>
 #include <utility>
 #include <vector>
 
 #include "cad_import/cad_model.h"
+#include "core/progress.h"
 
 namespace elbowroom::cad_import {
 
@@ -20,7 +22,8 @@ struct SurfaceDefects {
 };
 
 // Of every instance. Crossing triangles of shapes that are known to have some, or that weren't looked
-// through.
-[[nodiscard]] SurfaceDefects FindDefects(const CadModel& model);
+// through. Throws: Error{kCancelled}.
+[[nodiscard]] SurfaceDefects FindDefects(const CadModel& model, const core::Progress& progress = {},
+                                         const std::stop_token& stop = {});
 
 }  // namespace elbowroom::cad_import

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/size_text.h"
 #include "core/units.h"
 
 namespace elbowroom::cad_import {
@@ -20,12 +21,11 @@ constexpr std::array kUnits = {LengthUnit::kMillimetre, LengthUnit::kCentimetre,
                                LengthUnit::kInch};
 
 // What is checked at a table.
-constexpr double kUsuallySmallestMm = 30.0, kUsuallyLargestMm = 2000.0;
+constexpr double kUsuallySmallestMm = 20.0, kUsuallyLargestMm = 1000.0;
 constexpr double kImplausiblySmallMm = 1.0, kImplausiblyLargeMm = 3000.0;
 
 std::string SizeText(const Eigen::AlignedBox3d& bounds, double mm_per_unit) {
-  const Eigen::Vector3d size_mm = bounds.sizes() * mm_per_unit;
-  return fmt::format("{:.4g} x {:.4g} x {:.4g} mm", size_mm.x(), size_mm.y(), size_mm.z());
+  return core::SizeText(bounds.sizes() * mm_per_unit) + " mm";
 }
 
 Eigen::AlignedBox3d BoundsOf(const RawScene& scene) {
@@ -36,11 +36,20 @@ Eigen::AlignedBox3d BoundsOf(const RawScene& scene) {
   return bounds;
 }
 
-// The unit that makes the longest edge likest to what is checked at a table, by ratio.
+// How much CAD is drawn in other units than millimetres.
+double RarityOf(LengthUnit unit) {
+  if (unit == LengthUnit::kMillimetre) return 0.0;
+  return unit == LengthUnit::kCentimetre ? 2.0 : 0.5;
+}
+
+// The unit that makes the longest edge what is checked at a table, or brings it nearest to that by ratio; of
+// several the one that is less rare.
 LengthUnit LikelyUnit(double longest) {
-  const double usual_mm = std::sqrt(kUsuallySmallestMm * kUsuallyLargestMm);
   return *std::ranges::min_element(kUnits, {}, [&](LengthUnit unit) {
-    return std::abs(std::log(longest * core::MillimetresPer(unit) / usual_mm));
+    const double longest_mm = longest * core::MillimetresPer(unit);
+    const double beyond =
+        std::max({std::log(kUsuallySmallestMm / longest_mm), std::log(longest_mm / kUsuallyLargestMm), 0.0});
+    return beyond + RarityOf(unit);
   });
 }
 
@@ -53,8 +62,8 @@ LengthUnit LikelyUnit(double longest) {
   }
   throw Error(
       ErrorKind::kCad,
-      fmt::format("{}: {} carries no unit and none was given: its size is {}; most likely it is "
-                  "in {}: pass --unit mm|cm|m|in, or `unit` in the layout",
+      fmt::format("{}: {} carries no unit and none was given: its size is {}; most likely its "
+                  "unit is {}: pass --unit mm|cm|m|in, or `unit` in the layout",
                   where, ToString(format), sizes, core::ToString(LikelyUnit(bounds.sizes().maxCoeff()))));
 }
 
@@ -83,7 +92,7 @@ void WarnOfSize(const Eigen::AlignedBox3d& bounds_mm, const FileUnit& unit,
   const double mm_per_likely = core::MillimetresPer(likely);
   std::string other;
   if (mm_per_likely != unit.mm_per_unit)
-    other = fmt::format(" In {} it would be {}.", core::ToString(likely),
+    other = fmt::format(" If it is {}, that would be {}.", core::ToString(likely),
                         SizeText(bounds_mm, mm_per_likely / unit.mm_per_unit));
   warnings.push_back(fmt::format("its size, {}, is implausible for a payload; is its unit really {}?{}",
                                  SizeText(bounds_mm, 1.0), unit.name, other));

@@ -11,9 +11,9 @@ namespace elbowroom::core {
 namespace {
 
 [[noreturn]] void FailToWrite(const std::filesystem::path& path) {
-  throw Error(ErrorKind::kFile,
-              fmt::format("{}: can't be written; check that the folder exists, is writable and has room",
-                          path.string()));
+  throw Error(ErrorKind::kFile, fmt::format("{}: can't be written; check that the folder exists, is writable "
+                                            "and has room, and that the file is no folder and not protected",
+                                            path.string()));
 }
 
 }  // namespace
@@ -24,12 +24,20 @@ PendingFiles::~PendingFiles() {
 }
 
 void PendingFiles::Write(const std::filesystem::path& path, std::string_view bytes) {
-  const std::filesystem::path temporary = fmt::format("{}.{}.part", path.string(), getpid());
-  files_.push_back({temporary, path});
+  namespace fs = std::filesystem;
+  std::error_code error;
+  // What a link points to, not the link.
+  const fs::path target = fs::is_symlink(path, error) ? fs::weakly_canonical(path, error) : path;
+  const fs::file_status status = fs::status(target, error);
+  const bool is_there = fs::exists(status);
+  if (fs::is_directory(status) || (is_there && ::access(target.c_str(), W_OK) != 0)) FailToWrite(path);
+  const fs::path temporary = fmt::format("{}.{}.part", target.string(), getpid());
+  files_.push_back({temporary, target});
   std::ofstream file(temporary, std::ios::binary | std::ios::trunc);
   file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   file.close();
-  if (!file || std::filesystem::is_directory(path)) FailToWrite(path);
+  if (!file) FailToWrite(path);
+  if (is_there) fs::permissions(temporary, status.permissions(), error);
 }
 
 void PendingFiles::RenameAll() {

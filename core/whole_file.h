@@ -7,8 +7,9 @@
 
 namespace elbowroom::core {
 
-// Writes a temporary beside `path` and renames it over `path`; nothing is left behind on failure.
-// Throws: Error{kFile} naming the path.
+// Writes a temporary beside `path` and renames it over `path`; nothing is left behind on failure. Of a
+// symbolic link, over what it points to; a file that was there keeps its permissions, and one that may not be
+// written stays what it is. Throws: Error{kFile} naming the path.
 void WriteWholeFile(const std::filesystem::path& path, std::string_view bytes);
 
 // Several files that appear together: all are written as temporaries before the first is renamed, and those

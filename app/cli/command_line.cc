@@ -23,15 +23,21 @@ core::Progress TerminalProgress() {
   return core::Progress([](std::int64_t done, std::int64_t total, const std::string& what) {
     if (total > 0) {
       fmt::print(stderr, "\r\033[K{} {} of {}", what, done, total);
-    } else {
+    } else if (done > 0) {
       fmt::print(stderr, "\r\033[K{} {}", what, done);
+    } else {
+      fmt::print(stderr, "\r\033[K{} …", what);
     }
-    if (done == total) fmt::print(stderr, "\r\033[K");
+    if (total > 0 && done == total) fmt::print(stderr, "\r\033[K");
   });
 }
 
-void PrintToStderr(const std::string& line) {
+void ClearProgress() {
   if (isatty(STDERR_FILENO)) fmt::print(stderr, "\r\033[K");
+}
+
+void PrintToStderr(const std::string& line) {
+  ClearProgress();
   fmt::print(stderr, "elbowroom: {}\n", line);
 }
 
@@ -56,6 +62,7 @@ int Guarded(const std::function<int()>& work) {
 int RunAction(const CommandAction& action, bool json) {
   const InterruptWatch interrupt;
   const CommandResult result = action({TerminalProgress(), interrupt.stop()});
+  ClearProgress();
   fmt::print("{}\n", json ? result.json.dump() : result.text);
   if (std::fflush(stdout) != 0) {
     throw core::Error(core::ErrorKind::kFile,

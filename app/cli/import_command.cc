@@ -11,8 +11,11 @@
 #include "app/cli/unit_option.h"
 #include "app/control/import_picture.h"
 #include "cad_import/cad_file.h"
+#include "cad_import/file_format.h"
 #include "cad_import/mesh_file.h"
 #include "cad_import/surface_defects.h"
+#include "core/error.h"
+#include "core/size_text.h"
 #include "recon/gl/scene_renderer.h"
 #include "recon/png_file.h"
 
@@ -26,18 +29,32 @@ struct ImportCommandOptions {
   std::filesystem::path picture;
 };
 
-void WritePicture(const cad_import::CadModel& model, const std::filesystem::path& path) {
+void WritePicture(const cad_import::CadModel& model, const std::filesystem::path& path,
+                  const CommandContext& context) {
+  const cad_import::SurfaceDefects defects = cad_import::FindDefects(model, context.progress, context.stop);
+  context.progress.Report(0, 0, "drawing");
   recon::gl::SceneRenderer renderer;
-  recon::WritePng(control::ImportPicture(renderer, model, cad_import::FindDefects(model)), path);
+  recon::WritePng(control::ImportPicture(renderer, model, defects), path);
+}
+
+// What a command writes never takes the place of what it reads.
+void CheckOutput(const char* option, const std::filesystem::path& output,
+                 const std::filesystem::path& input) {
+  std::error_code ignored;
+  if (output.empty() || !std::filesystem::equivalent(output, input, ignored)) return;
+  throw core::Error(
+      core::ErrorKind::kFile,
+      fmt::format("{} '{}': is the file that is read; choose another name", option, output.string()));
 }
 
 CommandResult Run(const ImportCommandOptions& options, const CommandContext& context) {
   CheckEnding("--picture", options.picture, {".png"});
+  CheckOutput("--out", options.out, options.file);
   const cad_import::CadModel model =
       cad_import::ImportCadFile(options.file, options.import, context.progress, context.stop);
   const cad_import::ImportReport& report = model.report;
   if (!options.out.empty()) cad_import::WriteModelFile(model, options.out);
-  if (!options.picture.empty()) WritePicture(model, options.picture);
+  if (!options.picture.empty()) WritePicture(model, options.picture, context);
   const Eigen::Vector3d low = report.bounds_mm.min(), high = report.bounds_mm.max();
   CommandResult result;
   result.json = {{"parts", report.parts},
@@ -50,13 +67,24 @@ CommandResult Run(const ImportCommandOptions& options, const CommandContext& con
                  {"dropped_triangles", report.dropped_triangles},
                  {"deviation_mm", report.deviation_mm},
                  {"warnings", report.warnings}};
-  const Eigen::Vector3d size = high - low;
   const std::string shared =
       model.shapes.size() < model.instances.size() ? fmt::format(" of {} meshes", model.shapes.size()) : "";
-  result.text = fmt::format("{}: {} parts{}, {} triangles, {:.6g} x {:.6g} x {:.6g} mm (read in {}), {}",
-                            options.file.string(), report.parts, shared, report.triangles, size.x(), size.y(),
-                            size.z(), report.unit, report.watertight ? "watertight" : "open");
+  result.text =
+      fmt::format("{}: {} part{}{}, {} triangles, {} mm (its unit: {}), {}", options.file.string(),
+                  report.parts, report.parts == 1 ? "" : "s", shared, report.triangles,
+                  core::SizeText(high - low), report.unit, report.watertight ? "watertight" : "open");
+  if (report.deviation_mm > 0.0)
+    result.text += fmt::format(", triangles within {:.2g} mm of its faces", report.deviation_mm);
   for (const std::string& warning : report.warnings) result.text += "\nwarning: " + warning;
+  if (!options.out.empty()) {
+    const bool is_glb = cad_import::FindFormat(options.out) == cad_import::FileFormat::kGlb;
+    result.text += fmt::format("\nwritten: {}, in {}", options.out.string(), is_glb ? "m, as GLB is" : "mm");
+    result.json["out"] = options.out.string();
+  }
+  if (!options.picture.empty()) {
+    result.text += "\npicture: " + options.picture.string();
+    result.json["picture"] = options.picture.string();
+  }
   return result;
 }
 

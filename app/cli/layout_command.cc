@@ -12,6 +12,7 @@
 
 #include "app/cli/command.h"
 #include "app/cli/file_ending.h"
+#include "app/cli/folder_lock.h"
 #include "app/cli/layout_edit.h"
 #include "app/cli/layout_listing.h"
 #include "app/cli/unit_option.h"
@@ -43,7 +44,7 @@ using SharedOptions = std::shared_ptr<LayoutOptions>;
 using Run = CommandResult (*)(const LayoutOptions&);
 
 // Writes the text if it is a layout; what it then holds is the result, after a line that says what was done.
-CommandResult Save(const LayoutText& text, const std::string& what) {
+CommandResult Save(const LayoutText& text, const std::string& what, core::Layout* saved = nullptr) {
   cad_import::ImportedLayout imported;
   try {
     imported = cad_import::ImportLayoutText(text);
@@ -53,6 +54,7 @@ CommandResult Save(const LayoutText& text, const std::string& what) {
   core::WriteWholeFile(text.file(), text.text());
   CommandResult result = ListingOf(imported, text.file());
   result.text.insert(0, what + "\n");
+  if (saved != nullptr) *saved = std::move(imported.layout);
   return result;
 }
 
@@ -111,7 +113,18 @@ CommandResult Pair(const LayoutOptions& options) {
 CommandResult Move(const LayoutOptions& options) {
   LayoutText text = LayoutText::Read(options.layout);
   MovePart(text, options.part);
-  return Save(text, fmt::format("part '{}' is moved", options.part.name));
+  core::Layout layout;
+  CommandResult result = Save(text, fmt::format("part '{}' is moved", options.part.name), &layout);
+  // What a gap sets isn't where the part is put.
+  for (const core::Spacing& spacing : layout.spacings) {
+    const std::vector<core::PartIndex> moving = layout.PartsNamed(spacing.moving);
+    if (!options.part.position_mm ||
+        std::ranges::count(moving, layout.FindPart(options.part.name).value_or(layout.parts.size())) == 0)
+      continue;
+    result.text += fmt::format("\nits {} is set by the spacing '{}', whatever its position says",
+                               core::ToString(spacing.axis), spacing.name);
+  }
+  return result;
 }
 
 CommandResult Remove(const LayoutOptions& options) {
@@ -187,7 +200,12 @@ CLI::App* AddCommand(CLI::App& layout, const SharedOptions& options, Choice* cho
                      const std::string& what, Run run) {
   CLI::App* command = layout.add_subcommand(name, what);
   command->add_option("LAYOUT", options->layout, "layout (TOML)")->required();
-  command->callback([=] { choice->action = [=](const CommandContext&) { return run(*options); }; });
+  command->callback([=] {
+    choice->action = [=](const CommandContext&) {
+      const FolderLock lock(options->layout);  // from before the layout is read until it is written
+      return run(*options);
+    };
+  });
   return command;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/control/line_drawing.h"
+#include "core/size_text.h"
 #include "core/units.h"
 #include "recon/orbit_camera.h"
 
@@ -70,12 +71,11 @@ class Overlay {
 void AddLegend(const cad_import::CadModel& model, const cad_import::SurfaceDefects& defects,
                LineDrawing* drawing) {
   constexpr double kLeft = 20.0, kFirstLine = kViewPx + 24.0, kSecondLine = kViewPx + 46.0, kColumn = 230.0;
-  const Vector3d size = model.report.bounds_mm.sizes();
   drawing->texts.push_back(
       {{kLeft, kFirstLine},
-       fmt::format("{:.4g} x {:.4g} x {:.4g} mm, read in {}; {} parts, {} triangles, {}", size.x(), size.y(),
-                   size.z(), model.report.unit, model.report.parts, model.report.triangles,
-                   model.report.watertight ? "watertight" : "open")});
+       fmt::format("{} mm, its unit: {}; {} parts, {} triangles, {}",
+                   core::SizeText(model.report.bounds_mm.sizes()), model.report.unit, model.report.parts,
+                   model.report.triangles, model.report.watertight ? "watertight" : "open")});
   double left = kLeft;
   const auto add = [&](std::size_t count, const char* what, const char* color) {
     if (count == 0) return;

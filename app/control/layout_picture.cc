@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/control/line_drawing.h"
+#include "core/size_text.h"
 #include "recon/orbit_camera.h"
 
 namespace elbowroom::control {
@@ -109,8 +110,7 @@ void AddLegend(const core::Layout& layout, const Boxes& boxes, LineDrawing* draw
     }
     const Vector3d size_mm = boxes[i].sizes();
     drawing->areas.push_back({{{kLeft, top}, {kLeft + kSquare, top + kSquare}}, HexOf(i)});
-    drawing->texts.push_back({at, fmt::format("{}  {:.4g} x {:.4g} x {:.4g} mm", layout.parts[i].name,
-                                              size_mm.x(), size_mm.y(), size_mm.z())});
+    drawing->texts.push_back({at, fmt::format("{}  {} mm", layout.parts[i].name, core::SizeText(size_mm))});
   }
 }
 

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
+#include <thread>
 
 #include "core/layout.h"
 #include "sessions/session_reader.h"
@@ -198,6 +199,45 @@ TEST_F(LayoutCommand, ThePictureShowsThePartsAndTheGap) {
   EXPECT_GT(where.height, 60) << "140 mm of some 640";
   ExpectFailure({"show", layout_, "--picture", "/nowhere/bench.png"}, {"/nowhere/bench.png"});
   ExpectFailure({"show", layout_, "--picture", png + ".jpg"}, {"bench.png.jpg", "ends so"});
+}
+
+TEST_F(LayoutCommand, ChangesAtOnceAreAllKept) {
+  Json({"new", layout_});
+  std::vector<std::jthread> others;
+  for (int i = 0; i < 6; ++i)
+    others.emplace_back([&, i] {
+      EXPECT_EQ(Run({"add", layout_, Cad("inch.stl"), "--unit", "in", "--name", "part " + std::to_string(i)})
+                    .exit_status,
+                0);
+    });
+  others.clear();
+  EXPECT_EQ(Json({"show", layout_}).at("parts").size(), 6U);
+}
+
+TEST_F(LayoutCommand, AMoveSaysWhatAGapSets) {
+  MakeBench();
+  const ProgramRun run = Run({"move", layout_, "metre", "--position", "0", "0", "900"});
+  EXPECT_NE(run.out.find("its z is set by the spacing 'gap'"), std::string::npos) << run.out;
+  EXPECT_EQ(Run({"move", layout_, "box", "--position", "0", "0", "900"}).out.find("is set by the spacing"),
+            std::string::npos);
+}
+
+TEST_F(LayoutCommand, AnImportDoesNotWriteOverItsInput) {
+  const std::string file = Cad("inch.stl"), before = ReadText(file);
+  const ProgramRun run =
+      test_support::RunProgram(ELBOWROOM_PROGRAM, {"import", file, "--unit", "in", "--out", file});
+  EXPECT_EQ(run.exit_status, 1);
+  EXPECT_NE(run.err.find("is the file that is read"), std::string::npos) << run.err;
+  EXPECT_EQ(ReadText(file), before);
+}
+
+TEST_F(LayoutCommand, AFileThatIsTooLargeIsRefusedUnread) {
+  const std::string file = (folder_ / "sparse.stl").string();
+  test_support::WriteText(file, "");
+  std::filesystem::resize_file(file, std::uintmax_t{200} << 30U);
+  const ProgramRun run = test_support::RunProgram(ELBOWROOM_PROGRAM, {"import", file, "--unit", "mm"});
+  EXPECT_EQ(run.exit_status, 1);
+  EXPECT_NE(run.err.find("larger than 1 GiB"), std::string::npos) << run.err;
 }
 
 TEST_F(LayoutCommand, ATrialRecordsGroupsAndASweepMovesThemAsOne) {

@@ -2,9 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <numeric>
 #include <string>
+#include <vector>
 
 #include "tests/cad_import/mesh_file_fixture.h"
 #include "tests/cad_import/sample_files.h"
@@ -14,6 +17,7 @@ namespace elbowroom::cad_import {
 namespace {
 
 using core::LengthUnit;
+using core::TriangleMesh;
 using core::testing::Box;
 using test_support::WriteText;
 using testing::ImportHere;
@@ -35,6 +39,7 @@ TEST_F(GltfFile, GltfIsInMetresUnlessToldOtherwiseWithAWarning) {
   EXPECT_TRUE(Mentions(overridden.report.warnings[0], "in m by its own word but was read in mm"));
 }
 
+// As some writers leave it, against the specification.
 TEST_F(GltfFile, GlbWithoutPaddingIsReadWithAWarning) {
   auto sample = testing::Gltf(Box({1, 2, 3}), {R"({"mesh":0})"}, {0}, "");
   for (int spaces = 0; spaces < 4; ++spaces) {
@@ -64,6 +69,43 @@ TEST_F(GltfFile, GlbWhoseChunksAreOutOfStepIsAnError) {
   (void)FormatError("out_of_step.glb", bytes);
 }
 
+// Files are named by URIs, which write a space as "%20".
+TEST_F(GltfFile, EscapedNamesOfBuffersAreFoundAndHeldToTheFolder) {
+  const auto sample = testing::Gltf(Box({1, 2, 3}), {R"({"mesh":0})"}, {0}, "a%20b%C3%BC.bin");
+  WriteText(folder_ / "a b\u00fc.bin", sample.buffer);
+  EXPECT_EQ(ImportHere(Write("box.gltf", sample.json)).report.triangles, 12);
+  std::filesystem::create_directory(folder_ / "inner");
+  WriteText(folder_ / "outside.bin", sample.buffer);
+  const auto outside = testing::Gltf(Box({1, 2, 3}), {R"({"mesh":0})"}, {0}, "%2e%2e/outside.bin");
+  EXPECT_TRUE(Mentions(FormatError("inner/box.gltf", outside.json), "outside its own folder"));
+  const auto literal = testing::Gltf(Box({1, 2, 3}), {R"({"mesh":0})"}, {0}, "100%.bin");
+  WriteText(folder_ / "100%.bin", literal.buffer);
+  EXPECT_EQ(ImportHere(Write("percent.gltf", literal.json)).report.triangles, 12);
+}
+
+// Ten thousand places for two thousand triangles: small as a file, not as one mesh.
+TEST_F(GltfFile, MoreTrianglesThanAMeshMayHaveAreRefusedByWhereTheyStand) {
+  TriangleMesh fan;
+  fan.vertices_mm.emplace_back(0, 0, 0);
+  for (int i = 0; i <= 2000; ++i) {
+    fan.vertices_mm.emplace_back(std::cos(0.003 * i), std::sin(0.003 * i), 0.0);
+    if (i > 0) fan.triangles.push_back({0, i, i + 1});
+  }
+  std::vector<int> roots(10'001);
+  std::iota(roots.begin(), roots.end(), 0);
+  const std::vector<std::string> nodes(roots.size(), R"({"mesh":0})");
+  const auto path = Write("many.glb", testing::Glb(testing::Gltf(fan, nodes, roots, "")));
+  const std::string message = testing::ErrorOf(core::ErrorKind::kCad, [&] { (void)ImportHere(path); });
+  EXPECT_TRUE(Mentions(message, "20002000 triangles in 10001 places")) << message;
+}
+
+TEST_F(GltfFile, AMissingBufferIsNamed) {
+  const auto sample = testing::Gltf(Box({1, 1, 1}), {R"({"mesh":0})"}, {0}, "gone.bin");
+  EXPECT_TRUE(
+      Mentions(FormatError("box.gltf", sample.json), "it refers to 'gone.bin', which can't be opened"));
+}
+
+// Which keeps under names what version 2.0 lists.
 TEST_F(GltfFile, Gltf1IsRead) {
   const auto sample = testing::Gltf(Box({1, 2, 3}), {R"({"mesh":0})"}, {0}, "box.bin");
   WriteText(folder_ / "box.bin", sample.buffer);

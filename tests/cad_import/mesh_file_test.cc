@@ -90,6 +90,16 @@ TEST_F(MeshFile, WithoutAUnitTheErrorShowsTheSizeInEach) {
   }
 }
 
+TEST_F(MeshFile, TheLikelyUnitIsOneThatCadIsDrawnIn) {
+  const std::vector<std::pair<double, std::string>> cases = {{20.0, "mm"}, {70.0, "mm"}, {500.0, "mm"},
+                                                             {8.0, "in"},  {0.3, "m"},   {0.02, "m"}};
+  for (const auto& [longest, unit] : cases) {
+    const auto file = Write("a.stl", testing::StlBinary(Box({longest, 0.9 * longest, 0.8 * longest})));
+    const std::string message = ErrorOf(ErrorKind::kCad, [&] { (void)ImportHere(file); });
+    EXPECT_TRUE(Mentions(message, "most likely its unit is " + unit + ":")) << message;
+  }
+}
+
 TEST_F(MeshFile, ImplausibleSizesAreWarnedOf) {
   const auto tiny = Import("tiny.stl", testing::StlText(Box({0.1, 0.2, 0.3})));
   ASSERT_EQ(tiny.report.warnings.size(), 1U);
@@ -393,8 +403,6 @@ TEST_F(MeshFile, HeadersThatClaimMoreThanTheFileHoldsAreErrors) {
   EXPECT_TRUE(Mentions(FormatError("claims.glb", testing::Glb(gltf)), "more than its buffer view holds"));
 }
 
-// As some writers do, against the specification.
-// Which keeps under names what version 2.0 lists.
 TEST_F(MeshFile, ASurfaceThatRunsThroughItselfIsTold) {
   TriangleMesh boxes = Box({10, 10, 10});
   core::Append(boxes, core::Transformed(boxes, {Eigen::Matrix3d::Identity(), {5, 5, 5}}));

@@ -87,7 +87,7 @@ TEST(SharedStep, AnImplausibleSizeIsWarnedOfWithTheLikelyUnit) {
   const CadModel model = ImportCadFile(kStep / "ap203_ap214/as1_pe_203.stp");
   EXPECT_EQ(model.report.parts, 18);
   EXPECT_NE(model.report.warnings.back().find(
-                "is implausible for a payload; is its unit really in? In mm it would be "
+                "is implausible for a payload; is its unit really in? If it is mm, that would be "
                 "200 x 87 x 150 mm."),
             std::string::npos)
       << model.report.warnings.back();

@@ -1,0 +1,31 @@
+#include "app/cli/folder_lock.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <cerrno>
+
+#include "core/error.h"
+
+namespace elbowroom::cli {
+
+FolderLock::FolderLock(const std::filesystem::path& file) {
+  std::error_code error;
+  const std::filesystem::path folder = std::filesystem::weakly_canonical(file, error).parent_path();
+  folder_ = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (folder_ < 0) return;
+  if (::flock(folder_, LOCK_EX) != 0 && errno == EINTR) {
+    ::close(folder_);
+    throw core::Error(
+        core::ErrorKind::kCancelled,
+        fmt::format("{}: the change was cancelled while another program changed it", file.string()));
+  }
+}
+
+FolderLock::~FolderLock() {
+  if (folder_ >= 0) ::close(folder_);
+}
+
+}  // namespace elbowroom::cli
