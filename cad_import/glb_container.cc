@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <cstring>
+#include <utility>
 
 #include "cad_import/gltf_check.h"
 #include "core/error.h"
@@ -25,8 +26,8 @@ std::uint32_t WordAt(std::string_view bytes, std::size_t at) {
   return value;
 }
 
-void AddAt(std::string& bytes, std::size_t at, std::size_t addend) {
-  const std::uint32_t value = WordAt(bytes, at) + static_cast<std::uint32_t>(addend);
+void SetAt(std::string& bytes, std::size_t at, std::size_t number) {
+  const auto value = static_cast<std::uint32_t>(number);
   std::memcpy(bytes.data() + at, &value, sizeof value);
 }
 
@@ -70,12 +71,19 @@ bool LacksPadding(std::string_view glb) {
          WordAt(glb, json_end + 4) == kBinaryChunk;
 }
 
+std::string_view JsonOf(std::string_view glb) { return glb.substr(kJsonAt, WordAt(glb, kJsonBytesAt)); }
+
 std::string Padded(std::string glb) {
-  const std::size_t json_bytes = WordAt(glb, kJsonBytesAt);
-  const std::size_t missing = MissingBytes(kJsonAt + json_bytes);
-  glb.insert(kJsonAt + json_bytes, missing, ' ');
-  AddAt(glb, kJsonBytesAt, missing);
-  AddAt(glb, kTotalAt, missing);
+  const std::string json(JsonOf(glb));
+  return WithJson(std::move(glb), json);
+}
+
+std::string WithJson(std::string glb, const std::string& json) {
+  const std::size_t before = WordAt(glb, kJsonBytesAt);
+  const std::string padded = json + std::string(MissingBytes(kJsonAt + json.size()), ' ');
+  SetAt(glb, kTotalAt, WordAt(glb, kTotalAt) - before + padded.size());
+  SetAt(glb, kJsonBytesAt, padded.size());
+  glb.replace(kJsonAt, before, padded);
   return glb;
 }
 

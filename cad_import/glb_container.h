@@ -17,4 +17,8 @@ void CheckGlb(std::string_view bytes, const std::string& where);
 // One that CheckGlb took and that lacks padding, with it.
 [[nodiscard]] std::string Padded(std::string glb);
 
+// The document within one that CheckGlb took, and one with another document, padded.
+[[nodiscard]] std::string_view JsonOf(std::string_view glb);
+[[nodiscard]] std::string WithJson(std::string glb, const std::string& json);
+
 }  // namespace elbowroom::cad_import

@@ -15,6 +15,8 @@
 #include <vector>
 
 #include "cad_import/file_format.h"
+#include "cad_import/glb_container.h"
+#include "cad_import/gltf_document.h"
 #include "cad_import/srgb.h"
 #include "core/error.h"
 
@@ -156,7 +158,12 @@ std::string EncodeModel(const CadModel& model, const std::filesystem::path& path
   if (blob == nullptr) {
     throw Error(ErrorKind::kFile, fmt::format("{}: can't be written ({})", where, exporter.GetErrorString()));
   }
-  return {static_cast<const char*>(blob->data), blob->size};
+  std::string bytes(static_cast<const char*>(blob->data), blob->size);
+  double deviation_mm = 0.0;
+  for (const CadShape& shape : model.shapes) deviation_mm = std::max(deviation_mm, shape.mesh->deviation_mm);
+  if (!target.keeps_instances || deviation_mm == 0.0) return bytes;
+  const std::string document = WithDeviation(JsonOf(bytes), deviation_mm);
+  return WithJson(std::move(bytes), document);
 }
 
 }  // namespace elbowroom::cad_import

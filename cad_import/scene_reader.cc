@@ -23,12 +23,13 @@
 #include <vector>
 
 #include "cad_import/glb_container.h"
-#include "cad_import/gltf_1.h"
+#include "cad_import/gltf_document.h"
 #include "cad_import/obj_text.h"
 #include "cad_import/own_folder.h"
 #include "cad_import/srgb.h"
 #include "cad_import/text_encoding.h"
 #include "core/error.h"
+#include "core/units.h"
 
 namespace elbowroom::cad_import {
 namespace {
@@ -340,6 +341,11 @@ RawScene ReadScene(const fs::path& file, FileFormat format, std::string bytes) {
   if (lacks_padding) bytes = Padded(std::move(bytes));
   if (format == FileFormat::kGltf) bytes = WithMatricesIfGltf1(std::move(bytes), file.string());
   RawScene scene = Load({file, format, bytes, lacks_padding || format == FileFormat::kGltf});
+  if (format == FileFormat::kGltf || format == FileFormat::kGlb) {
+    const double deviation_mm = DeviationMmIn(format == FileFormat::kGlb ? JsonOf(bytes) : bytes);
+    for (RawShape& shape : scene.shapes)
+      shape.deviation = deviation_mm / core::MillimetresPer(core::LengthUnit::kMetre);
+  }
   if (lacks_padding)
     scene.warnings.emplace_back(
         "its chunks don't end on multiples of 4 bytes, as GLB demands; they were read all the same");

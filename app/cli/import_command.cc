@@ -34,7 +34,9 @@ void WritePicture(const cad_import::CadModel& model, const std::filesystem::path
   const cad_import::SurfaceDefects defects = cad_import::FindDefects(model, context.progress, context.stop);
   context.progress.Report(0, 0, "drawing");
   recon::gl::SceneRenderer renderer;
-  recon::WritePng(control::ImportPicture(renderer, model, defects), path);
+  const recon::Image picture = control::ImportPicture(renderer, model, defects);
+  core::ThrowIfStopped(context.stop, "the picture of the import");
+  recon::WritePng(picture, path);
 }
 
 // What a command writes never takes the place of what it reads.

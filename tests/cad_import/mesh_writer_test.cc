@@ -154,6 +154,22 @@ TEST(WriteModelFile, GlbKeepsShapesInstancesPathsAndColours) {
   EXPECT_TRUE(core::BoundsOf(*flat_back).isApprox(core::BoundsOf(*flat), 1e-6));
 }
 
+// Its bounds are widened by it wherever it is judged.
+TEST(WriteModelFile, GlbKeepsWhatTessellationCost) {
+  const test_support::TemporaryFolder folder;
+  CadModel model = Rack();
+  TriangleMesh bolt = *model.shapes[0].mesh;
+  bolt.deviation_mm = 1.0 / 3.0;
+  model.shapes[0].mesh = std::make_shared<const TriangleMesh>(std::move(bolt));
+  WriteModelFile(model, folder / "rack.glb");
+  const CadModel back = ImportCadFile(folder / "rack.glb");
+  EXPECT_DOUBLE_EQ(back.report.deviation_mm, 1.0 / 3.0);
+  EXPECT_EQ(back.report.parts, 4);
+  for (const CadShape& shape : back.shapes) EXPECT_DOUBLE_EQ(shape.mesh->deviation_mm, 1.0 / 3.0);
+  WriteModelFile(Rack(), folder / "exact.glb");
+  EXPECT_EQ(ImportCadFile(folder / "exact.glb").report.deviation_mm, 0.0);
+}
+
 TEST(WriteModelFile, PathsWithoutACommonRootAreBelowTheFilesName) {
   const test_support::TemporaryFolder folder;
   CadModel model = Rack();

@@ -1,7 +1,8 @@
-#include "cad_import/gltf_1.h"
+#include "cad_import/gltf_document.h"
 
 #include <Eigen/Geometry>
 #include <array>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <vector>
 
@@ -29,14 +30,18 @@ json MatrixOf(const json& node) {
   return std::vector<double>(matrix.matrix().data(), matrix.matrix().data() + 16);  // column by column
 }
 
-// Of the document's own, everything else passed over.
-bool IsGltf1(const std::string& document) {
+// Everything else is passed over; what isn't there is null.
+json AssetOf(std::string_view document) {
   const auto keep = [](int depth, json::parse_event_t event, const json& value) {
     return event != json::parse_event_t::key || depth != 1 || value == "asset";
   };
-  const json asset = json::parse(document, keep, /*allow_exceptions=*/false);
-  if (!asset.is_object() || !asset.contains("asset") || !asset["asset"].is_object()) return false;
-  const json version = asset["asset"].value("version", json());
+  const json whole = json::parse(document, keep, /*allow_exceptions=*/false);
+  return whole.is_object() && whole.contains("asset") && whole["asset"].is_object() ? whole["asset"] : json();
+}
+
+bool IsGltf1(std::string_view document) {
+  const json asset = AssetOf(document);
+  const json version = asset.is_object() ? asset.value("version", json()) : json();
   return version == 1 || (version.is_string() && version.get<std::string>().starts_with('1'));
 }
 
@@ -54,6 +59,20 @@ std::string WithMatricesIfGltf1(std::string document, const std::string& where) 
 } catch (const json::exception&) {
   throw core::Error(core::ErrorKind::kFormat,
                     where + ": a glTF node's translation, rotation or scale isn't numbers; export it again");
+}
+
+double DeviationMmIn(std::string_view document) {
+  const json asset = AssetOf(document);
+  if (!asset.is_object() || !asset.contains("extras") || !asset["extras"].is_object()) return 0.0;
+  const json deviation = asset["extras"].value("deviation_mm", json());
+  const double deviation_mm = deviation.is_number() ? deviation.get<double>() : 0.0;
+  return std::isfinite(deviation_mm) && deviation_mm > 0.0 ? deviation_mm : 0.0;
+}
+
+std::string WithDeviation(std::string_view document, double deviation_mm) {
+  json whole = json::parse(document);
+  whole["asset"]["extras"]["deviation_mm"] = deviation_mm;
+  return whole.dump();
 }
 
 }  // namespace elbowroom::cad_import

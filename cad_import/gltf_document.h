@@ -1,7 +1,8 @@
-// glTF 1.0, as parsers take it.
+// The JSON of a glTF file: what parsers can't take of it, and what they don't.
 #pragma once
 
 #include <string>
+#include <string_view>
 
 namespace elbowroom::cad_import {
 
@@ -10,5 +11,10 @@ namespace elbowroom::cad_import {
 // is no document: as they are. The document is one that CheckGltf took. Throws: Error{kFormat} naming
 // `where`: one of the three isn't as many numbers as it should be.
 [[nodiscard]] std::string WithMatricesIfGltf1(std::string document, const std::string& where);
+
+// How far its triangles may be from the surface that they stand for: `asset.extras.deviation_mm`, which this
+// program writes. 0: it isn't there, or is no length.
+[[nodiscard]] double DeviationMmIn(std::string_view document);
+[[nodiscard]] std::string WithDeviation(std::string_view document, double deviation_mm);
 
 }  // namespace elbowroom::cad_import
