@@ -80,9 +80,11 @@ std::vector<std::string> UsersOf(const LayoutText& text, const std::string& name
       {{"group", "parts"}, {"spacing", "moving"}, {"spacing", "reference"}, {"pair", "a"}, {"pair", "b"}}};
   std::vector<std::string> users;
   for (const auto& [kind, key] : kNaming) {
-    for (std::size_t i = 0; i < text.Count(kind); ++i)
-      if (std::ranges::count(text.TextsOf(kind, i, key), name) > 0)
-        users.push_back(fmt::format("the [[{}]] in line {}", kind, text.LineOf(kind, i)));
+    for (std::size_t i = 0; i < text.Count(kind); ++i) {
+      if (std::ranges::count(text.TextsOf(kind, i, key), name) == 0) continue;
+      std::string user = fmt::format("the [[{}]] in line {}", kind, text.LineOf(kind, i));
+      if (std::ranges::count(users, user) == 0) users.push_back(std::move(user));
+    }
   }
   return users;
 }
