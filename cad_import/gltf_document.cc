@@ -30,25 +30,31 @@ json MatrixOf(const json& node) {
   return std::vector<double>(matrix.matrix().data(), matrix.matrix().data() + 16);  // column by column
 }
 
-// Everything else is passed over; what isn't there is null.
-json AssetOf(std::string_view document) {
-  const auto keep = [](int depth, json::parse_event_t event, const json& value) {
-    return event != json::parse_event_t::key || depth != 1 || value == "asset";
-  };
-  const json whole = json::parse(document, keep, /*allow_exceptions=*/false);
-  return whole.is_object() && whole.contains("asset") && whole["asset"].is_object() ? whole["asset"] : json();
+bool IsVersion1(const json& asset) {
+  const json version = asset.value("version", json());
+  return version == 1 || (version.is_string() && version.get<std::string>().starts_with('1'));
 }
 
-bool IsGltf1(std::string_view document) {
-  const json asset = AssetOf(document);
-  const json version = asset.is_object() ? asset.value("version", json()) : json();
-  return version == 1 || (version.is_string() && version.get<std::string>().starts_with('1'));
+double DeviationMmOf(const json& asset) {
+  if (!asset.contains("extras") || !asset["extras"].is_object()) return 0.0;
+  const json deviation = asset["extras"].value("deviation_mm", json());
+  const double deviation_mm = deviation.is_number() ? deviation.get<double>() : 0.0;
+  return std::isfinite(deviation_mm) && deviation_mm > 0.0 ? deviation_mm : 0.0;
 }
 
 }  // namespace
 
-std::string WithMatricesIfGltf1(std::string document, const std::string& where) try {
-  if (!IsGltf1(document)) return document;
+GltfAsset AssetOf(std::string_view document) {
+  // Everything else is passed over.
+  const auto keep = [](int depth, json::parse_event_t event, const json& value) {
+    return event != json::parse_event_t::key || depth != 1 || value == "asset";
+  };
+  const json whole = json::parse(document, keep, /*allow_exceptions=*/false);
+  if (!whole.is_object() || !whole.contains("asset") || !whole["asset"].is_object()) return {};
+  return {IsVersion1(whole["asset"]), DeviationMmOf(whole["asset"])};
+}
+
+std::string WithMatrices(std::string_view document, const std::string& where) try {
   json whole = json::parse(document);
   for (json& node : whole["nodes"]) {
     if (node.contains("matrix")) continue;
@@ -59,14 +65,6 @@ std::string WithMatricesIfGltf1(std::string document, const std::string& where) 
 } catch (const json::exception&) {
   throw core::Error(core::ErrorKind::kFormat,
                     where + ": a glTF node's translation, rotation or scale isn't numbers; export it again");
-}
-
-double DeviationMmIn(std::string_view document) {
-  const json asset = AssetOf(document);
-  if (!asset.is_object() || !asset.contains("extras") || !asset["extras"].is_object()) return 0.0;
-  const json deviation = asset["extras"].value("deviation_mm", json());
-  const double deviation_mm = deviation.is_number() ? deviation.get<double>() : 0.0;
-  return std::isfinite(deviation_mm) && deviation_mm > 0.0 ? deviation_mm : 0.0;
 }
 
 std::string WithDeviation(std::string_view document, double deviation_mm) {

@@ -6,15 +6,23 @@
 
 namespace elbowroom::cad_import {
 
-// The document with a matrix in the place of each node's translation, rotation and scale, which assimp's
-// reader of version 1.0 applies in the wrong order (it turns the translation, too). Other versions, and what
-// is no document: as they are. The document is one that CheckGltf took. Throws: Error{kFormat} naming
-// `where`: one of the three isn't as many numbers as it should be.
-[[nodiscard]] std::string WithMatricesIfGltf1(std::string document, const std::string& where);
+// What a document says of itself.
+struct GltfAsset {
+  bool is_version_1 = false;
+  // How far its triangles may be from the surface that they stand for: `asset.extras.deviation_mm`, which
+  // this program writes. 0: it isn't there, or is no length.
+  double deviation_mm = 0.0;
+};
 
-// How far its triangles may be from the surface that they stand for: `asset.extras.deviation_mm`, which this
-// program writes. 0: it isn't there, or is no length.
-[[nodiscard]] double DeviationMmIn(std::string_view document);
+// Of what is no document: nothing.
+[[nodiscard]] GltfAsset AssetOf(std::string_view document);
+
+// The document with a matrix in the place of each node's translation, rotation and scale, which assimp's
+// reader of version 1.0 applies in the wrong order (it turns the translation, too). The document is one that
+// CheckGltf took. Throws: Error{kFormat} naming `where`: one of the three isn't as many numbers as it should
+// be.
+[[nodiscard]] std::string WithMatrices(std::string_view document, const std::string& where);
+
 [[nodiscard]] std::string WithDeviation(std::string_view document, double deviation_mm);
 
 }  // namespace elbowroom::cad_import

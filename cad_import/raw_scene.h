@@ -39,4 +39,15 @@ struct RawScene {
   std::vector<std::filesystem::path> referred;  // other files that were opened
 };
 
+// More aren't a model: each may be a few bytes of a file.
+inline constexpr std::size_t kMostInstances = 1'000'000;
+
+// Each counted wherever an instance shows it.
+[[nodiscard]] inline std::int64_t PlacedTriangles(const RawScene& scene) {
+  std::int64_t count = 0;
+  for (const RawInstance& instance : scene.instances)
+    count += static_cast<std::int64_t>(scene.shapes[instance.shape].mesh.triangles.size());
+  return count;
+}
+
 }  // namespace elbowroom::cad_import

@@ -39,10 +39,6 @@ namespace fs = std::filesystem;
 using core::Error;
 using core::ErrorKind;
 
-// Instances may be nested: a small file can ask for more than memory holds.
-constexpr std::int64_t kMostTriangles = 100'000'000;
-constexpr std::size_t kMostInstances = 1'000'000;
-
 // "%20" as the byte that it stands for.
 std::string WithoutEscapes(std::string_view text) {
   std::string plain;
@@ -181,10 +177,9 @@ class SceneWalk {
     const std::string path = parent.empty() ? name : parent + '/' + name;
     const std::span<const unsigned> meshes(node.mMeshes, node.mNumMeshes);
     if (const std::optional<std::size_t> shape = ShapeOf(meshes, name)) {
-      triangles_ += static_cast<std::int64_t>(result_.shapes[*shape].mesh.triangles.size());
       result_.instances.push_back(
           {path, *shape, model_from_node, ColorOf(scene_, *scene_.mMeshes[meshes.front()])});
-      CheckSize();
+      CheckCount();
     }
     for (const aiNode* child : std::span(node.mChildren, node.mNumChildren))
       Visit(*child, model_from_node, path);
@@ -222,17 +217,16 @@ class SceneWalk {
     }
   }
 
-  void CheckSize() const {
-    if (triangles_ <= kMostTriangles && result_.instances.size() <= kMostInstances) return;
-    throw Error(ErrorKind::kGeometry,
-                fmt::format("{}: more than {} triangles in {} places; export a coarser mesh", where_,
-                            kMostTriangles, result_.instances.size()));
+  void CheckCount() const {
+    if (result_.instances.size() <= kMostInstances) return;
+    throw Error(
+        ErrorKind::kGeometry,
+        fmt::format("{}: its nodes make more than {} parts; export a simpler model", where_, kMostInstances));
   }
 
   const aiScene& scene_;
   std::string where_;
   std::map<std::vector<unsigned>, std::optional<std::size_t>> shapes_;
-  std::int64_t triangles_ = 0;
   RawScene result_;
 };
 
@@ -323,9 +317,7 @@ RawScene Load(const Source& source) {
 RawScene ReadObj(const fs::path& file, const std::string& text) {
   const PlainObj plain = PlainObjOf(text, file.string());
   RawScene scene = Load({file, FileFormat::kObj, plain.text});
-  std::int64_t triangles = 0;
-  for (const RawInstance& instance : scene.instances)
-    triangles += static_cast<std::int64_t>(scene.shapes[instance.shape].mesh.triangles.size());
+  const std::int64_t triangles = PlacedTriangles(scene);
   if (plain.triangles > triangles)
     scene.warnings.push_back(
         fmt::format("{} triangles of its polygons could not be formed", plain.triangles - triangles));
@@ -339,13 +331,13 @@ RawScene ReadScene(const fs::path& file, FileFormat format, std::string bytes) {
   if (format == FileFormat::kObj) return ReadObj(file, bytes);
   const bool lacks_padding = format == FileFormat::kGlb && LacksPadding(bytes);
   if (lacks_padding) bytes = Padded(std::move(bytes));
-  if (format == FileFormat::kGltf) bytes = WithMatricesIfGltf1(std::move(bytes), file.string());
+  GltfAsset asset;  // of other formats: none
+  if (format == FileFormat::kGltf || format == FileFormat::kGlb)
+    asset = AssetOf(format == FileFormat::kGlb ? JsonOf(bytes) : bytes);
+  if (format == FileFormat::kGltf && asset.is_version_1) bytes = WithMatrices(bytes, file.string());
   RawScene scene = Load({file, format, bytes, lacks_padding || format == FileFormat::kGltf});
-  if (format == FileFormat::kGltf || format == FileFormat::kGlb) {
-    const double deviation_mm = DeviationMmIn(format == FileFormat::kGlb ? JsonOf(bytes) : bytes);
-    for (RawShape& shape : scene.shapes)
-      shape.deviation = deviation_mm / core::MillimetresPer(core::LengthUnit::kMetre);
-  }
+  for (RawShape& shape : scene.shapes)
+    shape.deviation = asset.deviation_mm / core::MillimetresPer(core::LengthUnit::kMetre);
   if (lacks_padding)
     scene.warnings.emplace_back(
         "its chunks don't end on multiples of 4 bytes, as GLB demands; they were read all the same");

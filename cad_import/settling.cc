@@ -25,10 +25,8 @@ constexpr std::int64_t kMostLookedThrough = 250'000;
 // Where the instances stand, counted one by one: what all of a model as one mesh would be.
 constexpr std::int64_t kMostPlaced = 20'000'000;
 
-std::int64_t PlacedTriangles(const RigidScene& scene, const std::string& where) {
-  std::int64_t count = 0;
-  for (const CadInstance& instance : scene.instances)
-    count += static_cast<std::int64_t>(scene.shapes[instance.shape].mesh.triangles.size());
+std::int64_t CheckedPlacedTriangles(const RawScene& scene, const std::string& where) {
+  const std::int64_t count = PlacedTriangles(scene);
   if (count <= kMostPlaced) return count;
   throw core::Error(
       core::ErrorKind::kCad,
@@ -141,8 +139,8 @@ CadModel Settle(RawScene scene, FileFormat format, const ImportOptions& options,
   model.report.unit = unit.name;
   Scale(scene, unit.mm_per_unit / (scene.are_mm ? scene.unit->mm_per_unit : 1.0));
 
+  const std::int64_t before = CheckedPlacedTriangles(scene, where);
   RigidScene rigid = MakeRigid(scene, where);
-  const std::int64_t before = PlacedTriangles(rigid, where);
   BodyScene bodies{{}, std::move(rigid.instances)};
   const std::string stem = file.stem().string();
   for (RawShape& shape : rigid.shapes) {

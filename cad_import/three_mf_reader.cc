@@ -20,7 +20,6 @@ using core::Error;
 using core::ErrorKind;
 
 constexpr int kDeepestNesting = 64;
-constexpr std::size_t kMostInstances = 1'000'000;
 
 // Handles of the library, released at the end of their lives.
 struct Release {

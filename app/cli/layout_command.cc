@@ -200,23 +200,25 @@ CLI::App* AddCommand(CLI::App& layout, const SharedOptions& options, Choice* cho
                      const std::string& what, Run run) {
   CLI::App* command = layout.add_subcommand(name, what);
   command->add_option("LAYOUT", options->layout, "layout (TOML)")->required();
-  command->callback([=] {
-    choice->action = [=](const CommandContext&) {
-      const FolderLock lock(options->layout);  // from before the layout is read until it is written
-      return run(*options);
-    };
-  });
+  command->callback([=] { choice->action = [=](const CommandContext&) { return run(*options); }; });
   return command;
+}
+
+// One that changes the layout: nobody else does from before it is read until it is written.
+template <CommandResult (*kChange)(const LayoutOptions&)>
+CommandResult Alone(const LayoutOptions& options) {
+  const FolderLock lock(options.layout);
+  return kChange(options);
 }
 
 void AddPartCommands(CLI::App& layout, Choice* choice) {
   auto made = std::make_shared<LayoutOptions>();
-  CLI::App* make = AddCommand(layout, made, choice, "new", "make a layout of CAD files", New);
+  CLI::App* make = AddCommand(layout, made, choice, "new", "make a layout of CAD files", Alone<New>);
   make->add_option("FILE", made->files, "parts, each where its file has it");
   AddUnitOption(*make, &made->unit);
 
   auto added = std::make_shared<LayoutOptions>();
-  CLI::App* add = AddCommand(layout, added, choice, "add", "add a part", Add);
+  CLI::App* add = AddCommand(layout, added, choice, "add", "add a part", Alone<Add>);
   add->add_option("FILE", added->files, "CAD file")->required()->expected(1);
   add->add_option("--name", added->part.name, "the part's name (default: the file's)");
   add->add_option("--node", added->part.node, "only this instance of an assembly, Path/Of/Node");
@@ -224,14 +226,14 @@ void AddPartCommands(CLI::App& layout, Choice* choice) {
   AddPlace(*add, &added->part);
 
   auto moved = std::make_shared<LayoutOptions>();
-  CLI::App* move = AddCommand(layout, moved, choice, "move", "put a part elsewhere", Move);
+  CLI::App* move = AddCommand(layout, moved, choice, "move", "put a part elsewhere", Alone<Move>);
   move->add_option("PART", moved->part.name, "its name")->required();
   AddPlace(*move, &moved->part);
   RequireOneOf(*move, {"--position", "--rotation"});
 
   auto removed = std::make_shared<LayoutOptions>();
   CLI::App* remove =
-      AddCommand(layout, removed, choice, "remove", "remove a part, group, spacing or pair", Remove);
+      AddCommand(layout, removed, choice, "remove", "remove a part, group, spacing or pair", Alone<Remove>);
   CLI::Option* names = remove->add_option("NAME", removed->names, "of parts, groups, spacings, streams");
   remove
       ->add_option_function<std::vector<std::string>>(
@@ -249,8 +251,8 @@ void AddPartCommands(CLI::App& layout, Choice* choice) {
 
 void AddRuleCommands(CLI::App& layout, Choice* choice) {
   auto spaced = std::make_shared<LayoutOptions>();
-  CLI::App* space =
-      AddCommand(layout, spaced, choice, "space", "add a spacing, or change what is given of it", Space);
+  CLI::App* space = AddCommand(layout, spaced, choice, "space",
+                               "add a spacing, or change what is given of it", Alone<Space>);
   SpacingEdit& spacing = spaced->spacing;
   space->add_option("NAME", spacing.name, "the spacing's name")->required();
   space->add_option("--moving", spacing.moving, "part or group that it moves");
@@ -261,13 +263,13 @@ void AddRuleCommands(CLI::App& layout, Choice* choice) {
   AddNumber(*space, "--initial", &spacing.initial_mm, "gap to start with, mm");
 
   auto grouped = std::make_shared<LayoutOptions>();
-  CLI::App* group = AddCommand(layout, grouped, choice, "group", "name parts that go together", Group);
+  CLI::App* group = AddCommand(layout, grouped, choice, "group", "name parts that go together", Alone<Group>);
   group->add_option("NAME", grouped->group.name, "the group's name")->required();
   group->add_option("PART", grouped->group.parts, "its parts")->required();
 
   auto paired = std::make_shared<LayoutOptions>();
   CLI::App* pair =
-      AddCommand(layout, paired, choice, "pair", "say what holds between two parts or groups", Pair);
+      AddCommand(layout, paired, choice, "pair", "say what holds between two parts or groups", Alone<Pair>);
   PairEdit& rule = paired->pair;
   pair->add_option("A", rule.a, "part or group")->required();
   pair->add_option("B", rule.b, "part or group")->required();

@@ -23,6 +23,15 @@ void EnableWhile(QAction* action, TrialDesk& desk, IsPossible is_possible) {
   follow();
 }
 
+// Enabled while gaps can be set and their history allows it.
+void EnableWhileGapsCan(QAction* action, SpacingPanel& spacings, bool (GapHistory::*is_possible)() const) {
+  const auto follow = [action, &spacings, is_possible] {
+    action->setEnabled(spacings.isEnabled() && (spacings.history().*is_possible)());
+  };
+  QObject::connect(&spacings, &SpacingPanel::HistoryChanged, action, follow);
+  follow();
+}
+
 bool IsIdle(const TrialDesk& desk) { return desk.state() == DeskState::kIdle; }
 
 }  // namespace
@@ -97,9 +106,7 @@ UndoGapAction::UndoGapAction(SpacingPanel& spacings, QWidget* window)
   setToolTip(tr("Back to the gap before the last change (%1); the session records it as one more change")
                  .arg(shortcut().toString(QKeySequence::NativeText)));
   connect(this, &QAction::triggered, &spacings, &SpacingPanel::Undo);
-  const auto follow = [this, &spacings] { setEnabled(spacings.isEnabled() && spacings.history().CanUndo()); };
-  connect(&spacings, &SpacingPanel::HistoryChanged, this, follow);
-  follow();
+  EnableWhileGapsCan(this, spacings, &GapHistory::CanUndo);
 }
 
 RedoGapAction::RedoGapAction(SpacingPanel& spacings, QWidget* window)
@@ -107,9 +114,7 @@ RedoGapAction::RedoGapAction(SpacingPanel& spacings, QWidget* window)
   setShortcut(QKeySequence::Redo);
   setToolTip(tr("The gap that was undone (%1)").arg(shortcut().toString(QKeySequence::NativeText)));
   connect(this, &QAction::triggered, &spacings, &SpacingPanel::Redo);
-  const auto follow = [this, &spacings] { setEnabled(spacings.isEnabled() && spacings.history().CanRedo()); };
-  connect(&spacings, &SpacingPanel::HistoryChanged, this, follow);
-  follow();
+  EnableWhileGapsCan(this, spacings, &GapHistory::CanRedo);
 }
 
 }  // namespace elbowroom::console
