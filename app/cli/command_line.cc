@@ -4,9 +4,12 @@
 #include <tbb/global_control.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "app/cli/interrupt.h"
 #include "app/control/versions.h"
@@ -59,6 +62,16 @@ int Guarded(const std::function<int()>& work) {
   }
 }
 
+// As CLI11 wants them, the last one first. It takes "-.5" for an option, though not "-0.5".
+std::vector<std::string> ArgumentsOf(int argc, char** argv) {
+  std::vector<std::string> arguments(argv + std::min(argc, 1), argv + argc);
+  for (std::string& argument : arguments)
+    if (argument.size() > 2 && argument.starts_with("-.") && argument[2] >= '0' && argument[2] <= '9')
+      argument.insert(1, "0");
+  std::ranges::reverse(arguments);
+  return arguments;
+}
+
 int RunAction(const CommandAction& action, bool json) {
   const InterruptWatch interrupt;
   const CommandResult result = action({TerminalProgress(), interrupt.stop()});
@@ -75,7 +88,8 @@ int RunAction(const CommandAction& action, bool json) {
 }  // namespace
 
 int RunCommandLine(int argc, char** argv, const OpenConsole& open_console) {
-  CLI::App app{"Will a human fit? Real hands and tools against virtual CAD, before any hardware is built."};
+  CLI::App app{"Will a human fit? Real hands and tools against virtual CAD, before any hardware is built.",
+               argc > 0 ? argv[0] : "elbowroom"};
   app.set_version_flag("--version", "elbowroom " + control::ProgramVersion());
   CommonOptions common;
   app.add_flag("--json", common.json, "print one JSON object on stdout");
@@ -98,7 +112,7 @@ int RunCommandLine(int argc, char** argv, const OpenConsole& open_console) {
   AddLayoutCommand(app, &choice);
   AddBenchCommand(app, &choice);
   try {
-    app.parse(argc, argv);
+    app.parse(ArgumentsOf(argc, argv));
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : kUsageError;
   }

@@ -126,6 +126,9 @@ TEST_F(LayoutCommand, WhatTheAuthorWroteStays) {
   EXPECT_NE(ReadText(layout_).find("inch.stl\"\n  position_mm = [1.0, 2.0, -3.0]\n# remember the lid"),
             std::string::npos)
       << ReadText(layout_);
+  Json({"move", layout_, "box", "--position", "-.5", "-.25", "3"});
+  EXPECT_NE(ReadText(layout_).find("position_mm = [-0.5, -0.25, 3.0]"), std::string::npos)
+      << ReadText(layout_);
 }
 
 TEST_F(LayoutCommand, GroupsMoveTogetherAndRulesAreKept) {
