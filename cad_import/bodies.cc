@@ -11,10 +11,10 @@
 namespace elbowroom::cad_import {
 namespace {
 
-// Appends b, brought into a's frame, as further pieces.
-void Join(Body& a, const Body& b) {
+// Appends b, whose mesh in a's frame is given, as further pieces.
+void Join(Body& a, const Body& b, const core::TriangleMesh& b_in_a) {
   const auto owner = static_cast<std::uint32_t>(a.piece_names.size());
-  core::Append(a.owned.mesh, b.owned.mesh);
+  core::Append(a.owned.mesh, b_in_a);
   for (const std::uint32_t of_b : b.owned.owner_of_triangle)
     a.owned.owner_of_triangle.push_back(owner + of_b);
   a.piece_names.insert(a.piece_names.end(), b.piece_names.begin(), b.piece_names.end());
@@ -22,7 +22,7 @@ void Join(Body& a, const Body& b) {
 }
 
 // For each body the first of those that it shares vertices with, over any number of others.
-std::vector<std::size_t> GroupsOf(const std::vector<const core::TriangleMesh*>& meshes) {
+std::vector<std::size_t> GroupsOf(const std::vector<core::TriangleMesh>& meshes) {
   std::vector<std::size_t> group(meshes.size());
   std::iota(group.begin(), group.end(), std::size_t{0});
   const auto root_of = [&](std::size_t i) {
@@ -31,7 +31,7 @@ std::vector<std::size_t> GroupsOf(const std::vector<const core::TriangleMesh*>& 
   };
   std::map<std::array<double, 3>, std::size_t> user;
   for (std::size_t i = 0; i < meshes.size(); ++i) {
-    for (const Eigen::Vector3d& vertex : meshes[i]->vertices_mm) {
+    for (const Eigen::Vector3d& vertex : meshes[i].vertices_mm) {
       const auto [found, is_new] = user.try_emplace({vertex.x(), vertex.y(), vertex.z()}, i);
       if (is_new) continue;
       const std::size_t a = root_of(found->second), b = root_of(i);
@@ -40,6 +40,12 @@ std::vector<std::size_t> GroupsOf(const std::vector<const core::TriangleMesh*>& 
   }
   for (std::size_t i = 0; i < group.size(); ++i) group[i] = root_of(i);
   return group;
+}
+
+// Each edge is of two triangles; which way they face is healed later.
+bool HasNoOpenEdge(const core::TriangleMesh& mesh) {
+  const EdgeCounts edges = CountEdges(SortedEdgeUses(mesh));
+  return !mesh.triangles.empty() && edges.open == 0 && edges.non_manifold == 0;
 }
 
 // Those whose bodies are open and stand nowhere else.
@@ -55,7 +61,7 @@ std::vector<std::size_t> OpenInstances(const BodyScene& scene) {
   return open;
 }
 
-// The scene without some instances and the bodies that nobody needs then; what was joined is welded.
+// The scene without some instances and the bodies that nobody needs then.
 BodyScene Without(BodyScene scene, const std::vector<std::uint8_t>& goes) {
   BodyScene result;
   std::map<std::size_t, std::size_t> new_shape;
@@ -65,7 +71,6 @@ BodyScene Without(BodyScene scene, const std::vector<std::uint8_t>& goes) {
     const auto [found, is_new] = new_shape.try_emplace(instance.shape, result.bodies.size());
     if (is_new) {
       result.bodies.push_back(std::move(scene.bodies[instance.shape]));
-      if (result.bodies.back().piece_names.size() > 1) Weld(result.bodies.back().owned);
     }
     instance.shape = found->second;
     result.instances.push_back(std::move(instance));
@@ -82,26 +87,34 @@ Body BodyOf(RawShape shape) {
   return body;
 }
 
-void JoinOpenBodies(BodyScene& scene) {
+int JoinOpenBodies(BodyScene& scene) {
   const std::vector<std::size_t> open = OpenInstances(scene);
-  if (open.size() < 2) return;
-  std::vector<const core::TriangleMesh*> meshes;
+  if (open.size() < 2) return 0;
+  std::vector<core::TriangleMesh> in_model;
   for (const std::size_t i : open) {
-    CadInstance& instance = scene.instances[i];
-    core::TriangleMesh& mesh = scene.bodies[instance.shape].owned.mesh;
-    mesh = core::Transformed(mesh, instance.model_from_shape);
-    instance.model_from_shape = {};
-    meshes.push_back(&mesh);
+    const CadInstance& instance = scene.instances[i];
+    in_model.push_back(core::Transformed(scene.bodies[instance.shape].owned.mesh, instance.model_from_shape));
   }
-  const std::vector<std::size_t> group = GroupsOf(meshes);
+  std::map<std::size_t, std::vector<std::size_t>> groups;
+  const std::vector<std::size_t> group_of = GroupsOf(in_model);
+  for (std::size_t i = 0; i < open.size(); ++i) groups[group_of[i]].push_back(i);
   std::vector<std::uint8_t> is_joined(scene.instances.size(), 0);
-  for (std::size_t i = 0; i < open.size(); ++i) {
-    if (group[i] == i) continue;
-    Body& first = scene.bodies[scene.instances[open[group[i]]].shape];
-    Join(first, scene.bodies[scene.instances[open[i]].shape]);
-    is_joined[open[i]] = 1;
+  int joined = 0;
+  for (const auto& [first, members] : groups) {
+    if (members.size() < 2) continue;
+    Body all;
+    for (const std::size_t i : members) Join(all, scene.bodies[scene.instances[open[i]].shape], in_model[i]);
+    Weld(all.owned);
+    if (!HasNoOpenEdge(all.owned.mesh)) continue;
+    CadInstance& instance = scene.instances[open[first]];
+    all.name = scene.bodies[instance.shape].name;
+    scene.bodies[instance.shape] = std::move(all);
+    instance.model_from_shape = {};
+    for (const std::size_t i : members) is_joined[open[i]] = i == first ? 0 : 1;
+    joined += static_cast<int>(members.size());
   }
-  scene = Without(std::move(scene), is_joined);
+  if (joined > 0) scene = Without(std::move(scene), is_joined);
+  return joined;
 }
 
 void SplitIntoPieces(Body& body) {

@@ -26,9 +26,9 @@ struct BodyScene {
   std::vector<CadInstance> instances;
 };
 
-// Joins open bodies of one place each that share vertices, as exporters cut one surface up by material or
-// group; their instances become the first's.
-void JoinOpenBodies(BodyScene& scene);
+// Joins open bodies of one place each that share vertices and are one closed surface together, as exporters
+// cut one up by material or group; their instances become the first's. Returns how many were joined.
+int JoinOpenBodies(BodyScene& scene);
 
 // Sorts the triangles by connected piece, each of which is then a piece by that name.
 void SplitIntoPieces(Body& body);

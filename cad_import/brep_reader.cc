@@ -217,12 +217,15 @@ Eigen::Affine3d ToEigen(const gp_Trsf& b_from_a) {
 // Walks the document's tree of products.
 class DocumentWalk {
  public:
-  // `tolerance`: in the document's millimetres.
-  DocumentWalk(const Document& document, double tolerance, const core::Progress& progress)
+  // `tolerance_mm`: as ImportOptions has it.
+  DocumentWalk(const Document& document, std::optional<double> tolerance_mm, double mm_per_document_mm,
+               const core::Progress& progress)
       : shapes_(XCAFDoc_DocumentTool::ShapeTool(document.document->Main())),
         colors_(XCAFDoc_DocumentTool::ColorTool(document.document->Main())),
-        tolerance_(tolerance),
-        progress_(progress) {}
+        usual_tolerance_(kUsualToleranceMm / mm_per_document_mm),
+        progress_(progress) {
+    if (tolerance_mm) tolerance_ = *tolerance_mm / mm_per_document_mm;
+  }
 
   RawScene Walk(const std::string& where) {
     result_.are_bodies = true;
@@ -312,7 +315,8 @@ class DocumentWalk {
     progress_.Report(static_cast<std::int64_t>(result_.shapes.size()), 0, "meshing part");
     const double diagonal = DiagonalOf(shape);
     if (!(diagonal > 0.0)) return std::nullopt;
-    const double tolerance = std::max(std::min(tolerance_, kShareOfDiagonal * diagonal), kLeastTolerance);
+    const double tolerance = std::max(
+        tolerance_.value_or(std::min(usual_tolerance_, kShareOfDiagonal * diagonal)), kLeastTolerance);
     Tessellation made = Tessellate(shape, tolerance);
     faces_ += made.faces;
     faces_without_triangles_ += made.faces_without_triangles;
@@ -340,7 +344,8 @@ class DocumentWalk {
 
   Handle(XCAFDoc_ShapeTool) shapes_;
   Handle(XCAFDoc_ColorTool) colors_;
-  double tolerance_;
+  std::optional<double> tolerance_;  // in the document's unit, as the next
+  double usual_tolerance_;
   const core::Progress& progress_;
   std::map<std::string, std::optional<std::size_t>> shape_of_key_;
   int faces_ = 0;
@@ -373,7 +378,7 @@ RawScene ReadBrep(const fs::path& file, FileFormat format, const ImportOptions& 
                                        : options.unit_if_file_has_none;
     const double mm_per_document_mm = asked ? core::MillimetresPer(*asked) / mm_per_unit : 1.0;
     RawScene scene =
-        DocumentWalk(document, options.tolerance_mm / mm_per_document_mm, progress).Walk(file.string());
+        DocumentWalk(document, options.tolerance_mm, mm_per_document_mm, progress).Walk(file.string());
     scene.are_mm = document.unit.has_value();
     scene.unit = document.unit;
     scene.referred = std::move(document.referred);

@@ -21,7 +21,8 @@ void ImportOptions::Validate() const {
     if (!holds)
       throw core::Error(core::ErrorKind::kRange, fmt::format("{} is {}; it must be positive", name, value));
   };
-  check(tolerance_mm > 0.0 && std::isfinite(tolerance_mm), "the tolerance in mm", tolerance_mm);
+  const double tolerance = tolerance_mm.value_or(kUsualToleranceMm);
+  check(tolerance > 0.0 && std::isfinite(tolerance), "the tolerance in mm", tolerance);
   check(limits.time_s > 0.0 && std::isfinite(limits.time_s), "the time limit in s", limits.time_s);
   check(limits.memory_bytes > 0, "the memory limit in bytes", static_cast<double>(limits.memory_bytes));
 }

@@ -6,7 +6,6 @@
 #include <array>
 #include <cctype>
 #include <cstdint>
-#include <cstring>
 #include <fstream>
 #include <utility>
 #include <vector>
@@ -14,6 +13,7 @@
 #include "cad_import/glb_container.h"
 #include "cad_import/gltf_check.h"
 #include "cad_import/ply_check.h"
+#include "cad_import/stl_check.h"
 #include "core/error.h"
 
 namespace elbowroom::cad_import {
@@ -23,8 +23,6 @@ using core::Error;
 using core::ErrorKind;
 
 constexpr std::uintmax_t kLargestFileBytes = std::uintmax_t{1} << 30U;
-constexpr std::size_t kStlHeaderBytes = 84;
-constexpr std::size_t kStlTriangleBytes = 50;
 
 struct FormatRow {
   FileFormat format;
@@ -62,38 +60,6 @@ std::string ReadWhole(const std::filesystem::path& path) {
 
 [[noreturn]] void FailFormat(const std::string& where, const std::string& what) {
   throw Error(ErrorKind::kFormat, fmt::format("{}: {}", where, what));
-}
-
-bool IsText(std::string_view bytes) { return bytes.find('\0') == std::string_view::npos; }
-
-void CheckTextStl(std::string_view bytes, const std::string& where) {
-  if (bytes.find("facet") == std::string_view::npos) {
-    FailFormat(where, "the STL file holds no facets; export it again as a surface mesh");
-  }
-  const std::size_t last_facet = bytes.rfind("endfacet");
-  if (last_facet == std::string_view::npos || bytes.find("endsolid", last_facet) == std::string_view::npos) {
-    FailFormat(where, "the STL file is cut off (it doesn't end with \"endsolid\"); export or copy it again");
-  }
-}
-
-// Binary if its size is what its count says, or if it can't be text.
-void CheckStl(std::string_view bytes, const std::string& where) {
-  std::uint32_t claimed = 0;
-  if (bytes.size() >= kStlHeaderBytes) std::memcpy(&claimed, bytes.data() + 80, sizeof claimed);
-  const std::uint64_t needed_bytes = kStlHeaderBytes + kStlTriangleBytes * std::uint64_t{claimed};
-  if (bytes.size() >= kStlHeaderBytes && bytes.size() == needed_bytes) return;
-  const std::size_t first = bytes.find_first_not_of(" \t\r\n");
-  const bool says_solid = first != std::string_view::npos && bytes.substr(first, 5) == "solid";
-  if (says_solid && IsText(bytes)) return CheckTextStl(bytes, where);
-  if (bytes.size() < kStlHeaderBytes)
-    FailFormat(where, "not an STL file (too short, and not text); export it again");
-  if (bytes.size() < needed_bytes) {
-    FailFormat(
-        where,
-        fmt::format("the STL header claims {} triangles but the file holds {}; it is cut off or not STL, "
-                    "export or copy it again",
-                    claimed, (bytes.size() - kStlHeaderBytes) / kStlTriangleBytes));
-  }
 }
 
 // What a file of the format begins with; nothing: that isn't told by its beginning.
@@ -185,6 +151,7 @@ CheckedFile ReadCheckedFile(const std::filesystem::path& path) {
   std::string bytes = ReadWhole(path);  // first, so that a missing file is called missing
   const FileFormat format = FormatOfExtension(path);
   if (bytes.empty()) FailFormat(where, "the file is empty; export it again");
+  if (format == FileFormat::kStl) bytes = PlainStl(std::move(bytes));
   CheckContent(format, bytes, where);
   return {format, std::move(bytes)};
 }

@@ -53,8 +53,8 @@ std::optional<ImportCache> ImportCache::OfUser() {
 std::string ImportCache::KeyOf(const fs::path& file, const ImportOptions& options) {
   const std::string text =
       fmt::format("{} {} {} {} {:a} {} {}", kPackedModelVersion, HashOfFile(file), file.filename().string(),
-                  NameOrDash(options.unit) + NameOrDash(options.unit_if_file_has_none), options.tolerance_mm,
-                  OCC_VERSION_COMPLETE, ASSIMP_VERSION);
+                  NameOrDash(options.unit) + NameOrDash(options.unit_if_file_has_none),
+                  options.tolerance_mm.value_or(0.0), OCC_VERSION_COMPLETE, ASSIMP_VERSION);
   return HashOf(std::as_bytes(std::span(text)));
 }
 

@@ -185,11 +185,16 @@ std::string MemoryText(std::int64_t bytes) {
 Error ErrorOfEnd(const std::string& where, int status, const ImportLimits& limits) {
   if (WIFSIGNALED(status)) {
     const int signal = WTERMSIG(status);
-    if (signal == SIGXCPU || signal == SIGKILL) {
+    if (signal == SIGXCPU) {
+      return {ErrorKind::kCad, fmt::format("{}: reading it took more than {} s of the processor; export a "
+                                           "simpler model",
+                                           where, limits.time_s)};
+    }
+    if (signal == SIGKILL) {
       return {ErrorKind::kCad,
-              fmt::format(
-                  "{}: reading it was stopped from outside or took more than {} s; export a simpler model",
-                  where, limits.time_s)};
+              fmt::format("{}: reading it was stopped from outside, perhaps as the system was "
+                          "short of memory; try it again, or with a smaller --memory-gib",
+                          where)};
     }
     if (signal == SIGXFSZ) {
       return {ErrorKind::kCad,
@@ -217,7 +222,7 @@ MappedFile ImportInChild(const std::filesystem::path& file, const ImportOptions&
   const Descriptor result = MakeMemoryFile();
   Child child(
       Spawn({"elbowroom", std::string(kImportWorkerArgument), where, NameOrDash(options.unit),
-             NameOrDash(options.unit_if_file_has_none), fmt::format("{}", options.tolerance_mm),
+             NameOrDash(options.unit_if_file_has_none), fmt::format("{}", options.tolerance_mm.value_or(0.0)),
              fmt::format("{}", options.limits.memory_bytes), fmt::format("{}", options.limits.time_s)},
             pipe.to, result));
   pipe.to.Close();

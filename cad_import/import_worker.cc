@@ -95,7 +95,8 @@ Request ParseRequest(std::span<char* const> arguments) {
   Request request{arguments[0], {}};
   request.options.unit = core::ParseLengthUnit(arguments[1]);
   request.options.unit_if_file_has_none = core::ParseLengthUnit(arguments[2]);
-  request.options.tolerance_mm = ParseNumber<double>(arguments[3]);
+  if (const auto tolerance_mm = ParseNumber<double>(arguments[3]); tolerance_mm > 0.0)
+    request.options.tolerance_mm = tolerance_mm;
   request.options.limits.memory_bytes = ParseNumber<std::int64_t>(arguments[4]);
   request.options.limits.time_s = ParseNumber<double>(arguments[5]);
   return request;

@@ -28,9 +28,12 @@ class MeshShelf {
  public:
   using Unit = std::optional<core::LengthUnit>;
 
+  // Both outlive it.
+  MeshShelf(const core::Progress& progress, const std::stop_token& stop) : progress_(progress), stop_(stop) {}
+
   const CadModel& Model(const fs::path& path, const ImportOptions& options) {
     const auto [found, is_new] = models_.try_emplace({path.lexically_normal(), options.unit});
-    if (is_new) found->second = ImportCadFile(path, options);
+    if (is_new) found->second = ImportCadFile(path, options, progress_, stop_);
     return found->second;
   }
   const core::SharedMesh& Mesh(const fs::path& path, const ImportOptions& options, const std::string& node) {
@@ -40,6 +43,8 @@ class MeshShelf {
   }
 
  private:
+  const core::Progress& progress_;
+  const std::stop_token& stop_;
   std::map<std::pair<fs::path, Unit>, CadModel> models_;
   std::map<std::tuple<fs::path, Unit, std::string>, core::SharedMesh> meshes_;
 };
@@ -205,11 +210,13 @@ class LayoutReader {
 
 }  // namespace
 
-ImportedLayout ImportLayoutFile(const std::filesystem::path& path) {
-  return ImportLayoutText(LayoutText::Read(path));
+ImportedLayout ImportLayoutFile(const std::filesystem::path& path, const core::Progress& progress,
+                                const std::stop_token& stop) {
+  return ImportLayoutText(LayoutText::Read(path), progress, stop);
 }
 
-ImportedLayout ImportLayoutText(const LayoutText& text) {
+ImportedLayout ImportLayoutText(const LayoutText& text, const core::Progress& progress,
+                                const std::stop_token& stop) {
   const std::string file = text.file().string();
   const fs::path folder = text.file().parent_path();
   const toml::table table = ParseToml(text.text(), file);
@@ -218,7 +225,7 @@ ImportedLayout ImportLayoutText(const LayoutText& text) {
   core::Layout& layout = result.layout;
   const auto unit = root.Unit();
   layout.unit = unit.value_or(layout.unit);
-  MeshShelf shelf;
+  MeshShelf shelf(progress, stop);
   LayoutReader reader(root);
   using core::LayoutEntry;
   reader.ReadAll(LayoutEntry::kPart, "part", layout.parts, [&](const TomlEntry& entry) {

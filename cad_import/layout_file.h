@@ -2,11 +2,13 @@
 #pragma once
 
 #include <filesystem>
+#include <stop_token>
 #include <string>
 #include <vector>
 
 #include "cad_import/layout_text.h"
 #include "core/layout.h"
+#include "core/progress.h"
 
 namespace elbowroom::cad_import {
 
@@ -19,11 +21,14 @@ struct ImportedLayout {
 // the same node, share its mesh. A part's `unit` overrides its file's; the layout's `unit` holds for parts
 // that name none and whose files carry none. Throws: Error{kFile} or Error{kFormat} with file, line and key:
 // missing, not TOML, a key that is unknown, missing or of the wrong type; what ImportMeshFile and
-// core::FindLayoutFault say, with file and line of the entry and naming it.
-[[nodiscard]] ImportedLayout ImportLayoutFile(const std::filesystem::path& path);
+// core::FindLayoutFault say, with file and line of the entry and naming it; Error{kCancelled}.
+[[nodiscard]] ImportedLayout ImportLayoutFile(const std::filesystem::path& path,
+                                              const core::Progress& progress = {},
+                                              const std::stop_token& stop = {});
 
 // The same of a text as though it stood in its file. Throws: the same.
-[[nodiscard]] ImportedLayout ImportLayoutText(const LayoutText& text);
+[[nodiscard]] ImportedLayout ImportLayoutText(const LayoutText& text, const core::Progress& progress = {},
+                                              const std::stop_token& stop = {});
 
 // Writes the layout whole or not at all; the meshes are the caller's to write, to each part's `file`.
 // Reading it back gives the same names and numbers, rotations to 1e-12. A file that is there already is

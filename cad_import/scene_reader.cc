@@ -22,11 +22,13 @@
 #include <utility>
 #include <vector>
 
+#include "cad_import/collada_unit.h"
 #include "cad_import/glb_container.h"
 #include "cad_import/gltf_document.h"
 #include "cad_import/obj_text.h"
 #include "cad_import/own_folder.h"
 #include "cad_import/srgb.h"
+#include "cad_import/stl_check.h"
 #include "cad_import/text_encoding.h"
 #include "core/error.h"
 #include "core/units.h"
@@ -166,6 +168,12 @@ std::optional<ColorRgb> ColorOf(const aiScene& scene, const aiMesh& mesh) {
   return rgb;
 }
 
+// assimp's own name for what it read from memory is none.
+std::string NameOf(const aiNode& node) {
+  const std::string name = node.mName.C_Str();
+  return name.starts_with(AI_MEMORYIO_MAGIC_FILENAME) ? "" : name;
+}
+
 // Walks assimp's tree of nodes; nodes that show the same meshes share a shape.
 class SceneWalk {
  public:
@@ -173,7 +181,7 @@ class SceneWalk {
 
   void Visit(const aiNode& node, const Eigen::Affine3d& model_from_parent, const std::string& parent) {
     const Eigen::Affine3d model_from_node = model_from_parent * ToEigen(node.mTransformation);
-    const std::string name = node.mName.C_Str();
+    const std::string name = NameOf(node);
     const std::string path = parent.empty() ? name : parent + '/' + name;
     const std::span<const unsigned> meshes(node.mMeshes, node.mNumMeshes);
     if (const std::optional<std::size_t> shape = ShapeOf(meshes, name)) {
@@ -239,7 +247,7 @@ std::optional<FileUnit> TakeUnit(const aiScene& scene, FileFormat format, Eigen:
     case FileFormat::kCollada: {
       // The unit is a scale on the root.
       const double metres = ToEigen(scene.mRootNode->mTransformation).linear().col(0).norm();
-      if (!(metres > 0.0)) return std::nullopt;
+      if (!(metres > 0.0) || !std::isfinite(metres)) return std::nullopt;
       model_from_scene.linear() /= metres;
       model_from_scene.translation() /= metres;
       return UnitOf(1000.0 * metres);
@@ -247,7 +255,7 @@ std::optional<FileUnit> TakeUnit(const aiScene& scene, FileFormat format, Eigen:
     case FileFormat::kFbx: {
       float centimetres = 1.0F;
       if (scene.mMetaData != nullptr) scene.mMetaData->Get("UnitScaleFactor", centimetres);
-      if (!(centimetres > 0.0F)) return std::nullopt;
+      if (!(centimetres > 0.0F) || !std::isfinite(centimetres)) return std::nullopt;
       return UnitOf(10.0 * double{centimetres});
     }
     case FileFormat::k3ds:
@@ -329,6 +337,9 @@ RawScene ReadObj(const fs::path& file, const std::string& text) {
 RawScene ReadScene(const fs::path& file, FileFormat format, std::string bytes) {
   if (format == FileFormat::kCollada || format == FileFormat::kObj) bytes = ToUtf8(std::move(bytes));
   if (format == FileFormat::kObj) return ReadObj(file, bytes);
+  const bool has_bad_unit = format == FileFormat::kCollada && MendUnit(&bytes);
+  const std::size_t surplus = format == FileFormat::kStl ? BytesAfterTriangles(bytes) : 0;
+  bytes.resize(bytes.size() - surplus);
   const bool lacks_padding = format == FileFormat::kGlb && LacksPadding(bytes);
   if (lacks_padding) bytes = Padded(std::move(bytes));
   GltfAsset asset;  // of other formats: none
@@ -338,6 +349,12 @@ RawScene ReadScene(const fs::path& file, FileFormat format, std::string bytes) {
   RawScene scene = Load({file, format, bytes, lacks_padding || format == FileFormat::kGltf});
   for (RawShape& shape : scene.shapes)
     shape.deviation = asset.deviation_mm / core::MillimetresPer(core::LengthUnit::kMetre);
+  if (surplus > 0)
+    scene.warnings.push_back(fmt::format("{} bytes after its last triangle were passed over", surplus));
+  if (has_bad_unit) {
+    scene.unit.reset();
+    scene.warnings.emplace_back("its unit isn't a length and was passed over");
+  }
   if (lacks_padding)
     scene.warnings.emplace_back(
         "its chunks don't end on multiples of 4 bytes, as GLB demands; they were read all the same");

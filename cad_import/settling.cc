@@ -111,8 +111,7 @@ void Report(CadModel& model, std::int64_t before) {
   warn(sum.turned, "{} triangles that faced inwards or against their neighbours were turned");
   warn(*sum.self_intersections,
        "the surface runs through itself: {} pairs of triangles cross or lie on each other; where bodies "
-       "overlap, "
-       "inside is told by counting surfaces, so containment there may be wrong");
+       "overlap, how deep a hand is in them is measured to faces inside, too, and may be told too small");
   if (!report.watertight) {
     report.warnings.push_back(
         fmt::format("the surface isn't closed: {} open edges, {} edges of three or more triangles, {} "
@@ -120,6 +119,12 @@ void Report(CadModel& model, std::int64_t before) {
                     "different ways; it has no inside, so only touch of it is judged, not containment",
                     sum.open_edges, sum.non_manifold_edges, sum.inconsistent_edges));
   }
+}
+
+// On one line.
+void MakePlain(std::string& name) {
+  std::ranges::replace_if(
+      name, [](unsigned char letter) { return letter < 0x20 || letter == 0x7f; }, ' ');
 }
 
 // assimp has names of its own: "<STL_BINARY>".
@@ -132,6 +137,8 @@ CadModel Settle(RawScene scene, FileFormat format, const ImportOptions& options,
   const std::string where = file.string();
   for (const RawShape& shape : scene.shapes) core::ValidateMesh(shape.mesh, where);
   if (scene.instances.empty()) core::ValidateMesh({}, where);
+  for (RawShape& shape : scene.shapes) MakePlain(shape.name);
+  for (RawInstance& instance : scene.instances) MakePlain(instance.path);
   CadModel model;
   std::vector<std::string>& warnings = model.report.warnings;
   warnings = scene.warnings;
@@ -150,7 +157,11 @@ CadModel Settle(RawScene scene, FileFormat format, const ImportOptions& options,
     bodies.bodies.push_back(BodyOf(std::move(shape)));
   }
   const bool is_single = bodies.instances.size() == 1 && !scene.are_bodies;
-  JoinOpenBodies(bodies);
+  if (const int joined = JoinOpenBodies(bodies); joined > 0)
+    warnings.push_back(fmt::format(
+        "{} open parts are closed surfaces together; they were joined, each under its first one's "
+        "name",
+        joined));
   if (is_single) SplitIntoPieces(bodies.bodies.front());
   for (Body& body : bodies.bodies) model.shapes.push_back(ShapeOf(std::move(body)));
   model.instances = std::move(bodies.instances);

@@ -1,5 +1,6 @@
 #include "cad_import/three_mf_reader.h"
 
+#include <Common/NMR_ErrorConst.h>
 #include <Model/COM/NMR_DLLInterfaces.h>
 #include <fmt/format.h>
 
@@ -38,6 +39,7 @@ class Reading {
     if (NMR::lib3mf_reader_readfromfileutf8(reader.get(), where_.c_str()) != LIB3MF_OK)
       Fail(ReasonOf(reader.get()));
     result_.unit = UnitOfModel(*model);
+    TakeWarnings(*reader);
     const auto items = Make([&](auto** made) { return NMR::lib3mf_model_getbuilditems(model.get(), made); });
     for (BOOL has_next = 0;
          Check(NMR::lib3mf_builditemiterator_movenext(items.get(), &has_next)), has_next != 0;) {
@@ -79,6 +81,27 @@ class Reading {
     if (NMR::lib3mf_getlasterror(handle, &code, &text) != LIB3MF_OK || text == nullptr)
       return "no reason given";
     return fmt::format("error {:#x}: {}", code, text);
+  }
+
+  // What the library passed over.
+  void TakeWarnings(NMR::PLib3MFModelReader& reader) {
+    constexpr DWORD kMostWarnings = 5;
+    DWORD count = 0;
+    Check(NMR::lib3mf_reader_getwarningcount(&reader, &count));
+    for (DWORD i = 0; i < count; ++i) {
+      DWORD code = 0;
+      ULONG size = 0;
+      Check(NMR::lib3mf_reader_getwarningutf8(&reader, i, &code, nullptr, 0, &size));
+      std::string text(size + 1, '\0');
+      Check(NMR::lib3mf_reader_getwarningutf8(&reader, i, &code, text.data(), size + 1, &size));
+      text.resize(std::min<std::size_t>(text.find('\0'), text.size()));
+      if (code == NMR_ERROR_INVALIDMODELUNIT) {
+        result_.unit.reset();
+        result_.warnings.emplace_back("its unit isn't one of 3MF's and was passed over");
+      } else if (result_.warnings.size() < kMostWarnings) {
+        result_.warnings.push_back(fmt::format("lib3mf: {}", text));
+      }
+    }
   }
 
   FileUnit UnitOfModel(NMR::PLib3MFModel& model) const {

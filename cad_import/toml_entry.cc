@@ -17,9 +17,10 @@ using core::ErrorKind;
 
 std::string ReadTomlText(const std::filesystem::path& path, std::string_view what) {
   std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error)) {
+  if (!std::filesystem::exists(path, error))
     throw Error(ErrorKind::kFile, fmt::format("{}: no such {}; check the path", path.string(), what));
-  }
+  if (!std::filesystem::is_regular_file(path, error))
+    throw Error(ErrorKind::kFile, fmt::format("{}: isn't a file; name a {}", path.string(), what));
   std::ifstream file(path, std::ios::binary);
   std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
   if (!file)
@@ -65,7 +66,8 @@ std::string TomlEntry::Text(std::string_view key) const {
   const toml::node* node = Find(key);
   if (node == nullptr) Fail(key, "is missing; add it");
   const auto text = node->value_exact<std::string>();
-  if (!text || text->empty()) Fail(key, "must be a text in quotes");
+  if (!text) Fail(key, "must be a text in quotes");
+  if (text->empty()) Fail(key, "must not be empty");
   return *text;
 }
 

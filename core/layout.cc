@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "core/layout_fault.h"
+#include "core/pairs_of_rule.h"
 
 namespace elbowroom::core {
 namespace {
@@ -157,17 +158,22 @@ std::vector<SpacingIndex> OrderOfPlacement(const Layout& layout) {
   return order;
 }
 
+PairsOfRule PairsOf(const Layout& layout, const PairRule& rule) {
+  PairsOfRule result;
+  result.parts_named = (layout.FindPart(rule.a) ? 1 : 0) + (layout.FindPart(rule.b) ? 1 : 0);
+  for (const PartIndex a : layout.PartsNamed(rule.a)) {
+    for (const PartIndex b : layout.PartsNamed(rule.b))
+      if (a != b || result.parts_named == 2) result.pairs.insert(std::minmax(a, b));
+  }
+  return result;
+}
+
 Layout WithPairsOfParts(Layout layout) {
   using Pair = std::pair<PartIndex, PartIndex>;
   std::map<Pair, int> most_parts_named;
   std::vector<std::tuple<Pair, int, PairRule>> rules;
   for (const PairRule& rule : layout.pair_rules) {
-    const int parts_named = (layout.FindPart(rule.a) ? 1 : 0) + (layout.FindPart(rule.b) ? 1 : 0);
-    std::set<Pair> pairs;
-    for (const PartIndex a : layout.PartsNamed(rule.a)) {
-      for (const PartIndex b : layout.PartsNamed(rule.b))
-        if (a != b || parts_named == 2) pairs.insert(std::minmax(a, b));
-    }
+    const auto [pairs, parts_named] = PairsOf(layout, rule);
     for (const Pair& pair : pairs) {
       most_parts_named[pair] = std::max(most_parts_named[pair], parts_named);
       PairRule of_parts = rule;

@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 #include <utility>
 #include <vector>
 
 #include "core/error.h"
+#include "core/pairs_of_rule.h"
 
 namespace elbowroom::core {
 namespace {
@@ -26,12 +28,20 @@ Fault Caught(LayoutEntry entry, std::size_t index, Validate validate) {
   return std::nullopt;
 }
 
+bool HasControlCharacter(const std::string& name) {
+  return std::ranges::any_of(name, [](unsigned char letter) { return letter < 0x20 || letter == 0x7f; });
+}
+
 Fault FaultOfPart(const Layout& layout, PartIndex i) {
   const Part& part = layout.parts[i];
   const auto fault = [&](const char* key, std::string message) {
     return LayoutFault{LayoutEntry::kPart, i, key, std::move(message)};
   };
   if (part.name.empty()) return fault("name", "a [[part]] has no name; give each one a name of its own");
+  if (HasControlCharacter(part.name))
+    return fault("name", fmt::format("the name of part {} has a line break or another control character; "
+                                     "leave it out",
+                                     i + 1));
   if (layout.FindPart(part.name) != i)
     return fault("name", fmt::format("two parts are named '{}'; names must differ", part.name));
   if (!part.mesh) return fault("file", fmt::format("part '{}' has no mesh", part.name));
@@ -133,11 +143,39 @@ Fault FaultOfCircle(const Layout& layout) {
 
 Fault FaultOfPair(const Layout& layout, std::size_t i) {
   const PairRule& rule = layout.pair_rules[i];
+  if (rule.a == rule.b && layout.FindPart(rule.a))
+    return LayoutFault{
+        LayoutEntry::kPair, i, "b",
+        fmt::format("[[pair]] '{0}' and '{0}': a part has no clearance to itself; name two parts", rule.a)};
   if (auto unknown = UnknownName(layout, rule.a, "[[pair]]"))
     return LayoutFault{LayoutEntry::kPair, i, "a", *std::move(unknown)};
   if (auto unknown = UnknownName(layout, rule.b, "[[pair]]"))
     return LayoutFault{LayoutEntry::kPair, i, "b", *std::move(unknown)};
   return std::nullopt;
+}
+
+// The first rule for a pair of parts that an earlier one, which names as many parts, is for, too; but for
+// pairs that a third rule names more closely.
+Fault FaultOfTwoRules(const Layout& layout) {
+  std::map<std::pair<PartIndex, PartIndex>, std::vector<std::pair<int, std::size_t>>> rules_of_pair;
+  for (std::size_t i = 0; i < layout.pair_rules.size(); ++i) {
+    const PairsOfRule rule = PairsOf(layout, layout.pair_rules[i]);
+    for (const auto& pair : rule.pairs) rules_of_pair[pair].emplace_back(-rule.parts_named, i);
+  }
+  Fault fault;
+  for (auto& [pair, rules] : rules_of_pair) {
+    std::ranges::sort(rules);
+    if (rules.size() < 2 || rules[0].first != rules[1].first) continue;
+    const std::size_t i = rules[1].second;
+    if (fault && fault->index <= i) continue;
+    const PairRule &rule = layout.pair_rules[i], &earlier = layout.pair_rules[rules[0].second];
+    fault = LayoutFault{LayoutEntry::kPair, i, "",
+                        fmt::format("'{}' and '{}': '{}' and '{}' have a rule already, by the [[pair]] "
+                                    "'{}' and '{}'; keep one of them",
+                                    rule.a, rule.b, layout.parts[pair.first].name,
+                                    layout.parts[pair.second].name, earlier.a, earlier.b)};
+  }
+  return fault;
 }
 
 Fault FaultOfStream(const Layout& layout, std::size_t i) {
@@ -166,6 +204,7 @@ std::optional<LayoutFault> FindLayoutFault(const Layout& layout) {
   if (auto fault = FirstOf(layout, layout.spacings.size(), FaultOfSpacing)) return fault;
   if (auto fault = FirstOf(layout, layout.streams.size(), FaultOfStream)) return fault;
   if (auto fault = FirstOf(layout, layout.pair_rules.size(), FaultOfPair)) return fault;
+  if (auto fault = FaultOfTwoRules(layout)) return fault;
   return FaultOfCircle(layout);
 }
 

@@ -20,7 +20,8 @@ struct LayoutFault {
 
 // The first fault, or nothing: duplicate or unknown names, a part without a mesh or with a recovery that
 // can't be used, an empty group, limits not in order, a spacing whose moving parts are also its reference,
-// two spacings that move one part along one axis, circular spacings, a figure of what gives way or of a
+// two spacings that move one part along one axis, circular spacings, a pair of a part and itself, two rules
+// for one pair, a figure of what gives way or of a
 // stream out of range.
 [[nodiscard]] std::optional<LayoutFault> FindLayoutFault(const Layout& layout);
 

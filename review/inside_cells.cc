@@ -21,38 +21,42 @@ bool RayMeets(const core::Ball& ball, const Vector3d& origin) {
   return to_center.squaredNorm() - along * along <= square * (1.0 + 1e-9);
 }
 
-// Moeller and Trumbore's test.
-bool RayCrosses(const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vector3d& origin) {
+// Moeller and Trumbore's test. 1 where the ray leaves through the triangle's front, -1 where it enters, 0
+// where it misses.
+int CrossingOf(const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vector3d& origin) {
   const Vector3d ab = b - a, ac = c - a, normal_part = kDirection.cross(ac);
   const double determinant = ab.dot(normal_part);
-  if (determinant == 0.0) return false;
+  if (determinant == 0.0) return 0;
   const Vector3d from_a = origin - a;
   const double u = from_a.dot(normal_part) / determinant;
   const Vector3d q = from_a.cross(ab);
   const double v = kDirection.dot(q) / determinant;
-  return u >= 0.0 && v >= 0.0 && u + v <= 1.0 && ac.dot(q) / determinant > 0.0;
+  const bool crosses = u >= 0.0 && v >= 0.0 && u + v <= 1.0 && ac.dot(q) / determinant > 0.0;
+  if (!crosses) return 0;
+  return determinant < 0.0 ? 1 : -1;
 }
 
-int CountCrossings(const core::TriangleTree& part, std::uint32_t index, const Vector3d& origin) {
+// How many times the surface winds around the point: out of it counts one up, into it one down.
+int WindingAround(const core::TriangleTree& part, std::uint32_t index, const Vector3d& origin) {
   const core::TriangleTree::Node& node = part.nodes()[index];
   if (!RayMeets(node.ball, origin)) return 0;
   if (node.left != 0)
-    return CountCrossings(part, node.left, origin) + CountCrossings(part, node.left + 1, origin);
-  int crossings = 0;
+    return WindingAround(part, node.left, origin) + WindingAround(part, node.left + 1, origin);
+  int winding = 0;
   for (std::uint32_t i = node.begin; i < node.end; ++i) {
     const auto& [a, b, c] = part.mesh().triangles[part.order()[i]];
     const auto vertex = [&](std::int32_t v) -> const Vector3d& {
       return part.mesh().vertices_mm[static_cast<std::size_t>(v)];
     };
-    crossings += RayCrosses(vertex(a), vertex(b), vertex(c), origin) ? 1 : 0;
+    winding += CrossingOf(vertex(a), vertex(b), vertex(c), origin);
   }
-  return crossings;
+  return winding;
 }
 
 }  // namespace
 
 bool IsInsideClosedMesh(const core::TriangleTree& part, const Vector3d& x_in_part) {
-  return !part.nodes().empty() && CountCrossings(part, 0, x_in_part) % 2 == 1;
+  return !part.nodes().empty() && WindingAround(part, 0, x_in_part) != 0;
 }
 
 InsideCells::Cell InsideCells::Child(const Cell& cell, int which) {

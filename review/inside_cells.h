@@ -10,8 +10,9 @@
 
 namespace elbowroom::review {
 
-// True if the point is inside a closed mesh: a ray from it crosses the surface an odd number of times.
-// Cavities of the mesh are outside. x_in_part in the mesh's frame.
+// True if the point is inside a closed mesh: its winding number, by a ray's crossings with their signs, isn't
+// 0. Bodies of one mesh may overlap, lie in each other or be there twice: inside is what is inside any of
+// them. Cavities, whose faces face into them, are outside. x_in_part in the mesh's frame.
 [[nodiscard]] bool IsInsideClosedMesh(const core::TriangleTree& part, const Eigen::Vector3d& x_in_part);
 
 // An octree over a part's bounds, worked out where it is asked and kept: a part is asked in the same cells

@@ -128,7 +128,8 @@ CommandResult ResultOf(const review::ClashReport& report, const core::Layout& la
 }
 
 CommandResult Run(const ClashCommandOptions& options, const CommandContext& context, bool json) {
-  const cad_import::ImportedLayout imported = cad_import::ImportLayoutFile(options.layout_file);
+  const cad_import::ImportedLayout imported =
+      cad_import::ImportLayoutFile(options.layout_file, context.progress, context.stop);
   const core::Layout layout = core::WithPairsOfParts(imported.layout);
   const review::PairMatrix matrix = review::PairsOf(layout, options.selection, options.required_mm);
   const std::vector<core::RigidTransform> world_from_parts =

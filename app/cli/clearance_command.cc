@@ -54,7 +54,7 @@ std::string TextOf(const review::Clearance& clearance) {
 CommandResult Run(const ClearanceCommandOptions& options, const CommandContext& context, bool json) {
   options.clearance.Validate();
   // The mesh and its pose first: they are cheaper to find wrong than a frame.
-  const PosedPart posed = LoadPart(options.part);
+  const PosedPart posed = LoadPart(options.part, context);
   const RigFrame frame = LoadRigFrame(options.frame, context);
   const core::TriangleTree part(posed.mesh);
   const recon::VisualHull hull = recon::MakeVisualHull(frame.rig, frame.planes, frame.masks);

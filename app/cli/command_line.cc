@@ -39,9 +39,19 @@ void ClearProgress() {
   if (isatty(STDERR_FILENO)) fmt::print(stderr, "\r\033[K");
 }
 
+// One line, whatever names from files and the command line are in it.
 void PrintToStderr(const std::string& line) {
+  std::string plain;
+  for (const char letter : line) {
+    const auto code = static_cast<unsigned char>(letter);
+    if (code < 0x20 || code == 0x7f) {
+      plain += fmt::format("\\x{:02x}", code);
+    } else {
+      plain += letter;
+    }
+  }
   ClearProgress();
-  fmt::print(stderr, "elbowroom: {}\n", line);
+  fmt::print(stderr, "elbowroom: {}\n", plain);
 }
 
 int Fail(const std::string& line) {

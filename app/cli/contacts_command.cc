@@ -62,7 +62,7 @@ nlohmann::json Json(const core::PartContact& contact) {
 
 CommandResult Run(const ContactsOptions& options, const CommandContext& context, bool json) {
   // The mesh and its pose first: they are cheaper to find wrong than a frame.
-  const PosedPart posed = LoadPart(options.part);
+  const PosedPart posed = LoadPart(options.part, context);
   review::ContactOptions contact_options;
   contact_options.resolution_mm = options.resolution_mm;
   contact_options.recovery = options.recovery;

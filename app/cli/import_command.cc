@@ -102,7 +102,8 @@ void AddImportCommand(CLI::App& app, Choice* choice) {
   AddUnitOption(*command, &options->import.unit);
   command
       ->add_option("--tolerance", options->import.tolerance_mm,
-                   "STEP, IGES, BREP: how far triangles may be from the faces (default: 0.2)")
+                   "STEP, IGES, BREP: how far triangles may be from the faces, mm (default: 0.2, or a "
+                   "thousandth of a body's diagonal if that is less)")
       ->check(PositiveLength());
   command
       ->add_option_function<double>(

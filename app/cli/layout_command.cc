@@ -41,13 +41,14 @@ struct LayoutOptions {
   std::vector<std::string> names;
 };
 using SharedOptions = std::shared_ptr<LayoutOptions>;
-using Run = CommandResult (*)(const LayoutOptions&);
+using Run = CommandResult (*)(const LayoutOptions&, const CommandContext&);
 
 // Writes the text if it is a layout; what it then holds is the result, after a line that says what was done.
-CommandResult Save(const LayoutText& text, const std::string& what, core::Layout* saved = nullptr) {
+CommandResult Save(const LayoutText& text, const std::string& what, const CommandContext& context,
+                   core::Layout* saved = nullptr) {
   cad_import::ImportedLayout imported;
   try {
-    imported = cad_import::ImportLayoutText(text);
+    imported = cad_import::ImportLayoutText(text, context.progress, context.stop);
   } catch (const core::Error& error) {
     throw core::Error(error.kind(), fmt::format("nothing was written: {}", error.what()));
   }
@@ -58,7 +59,7 @@ CommandResult Save(const LayoutText& text, const std::string& what, core::Layout
   return result;
 }
 
-CommandResult New(const LayoutOptions& options) {
+CommandResult New(const LayoutOptions& options, const CommandContext& context) {
   if (fs::exists(options.layout)) {
     throw core::Error(core::ErrorKind::kFile,
                       fmt::format("{}: is there already; choose another name, or add to it with `elbowroom "
@@ -77,44 +78,44 @@ CommandResult New(const LayoutOptions& options) {
     part.file = file;
     AddPart(text, part);
   }
-  if (!options.files.empty()) return Save(text, "made " + options.layout.string());
+  if (!options.files.empty()) return Save(text, "made " + options.layout.string(), context);
   core::WriteWholeFile(options.layout, text.text());
   return {{{"file", options.layout.string()}, {"parts", nlohmann::json::array()}},
           fmt::format("made {}; it has no parts yet", options.layout.string())};
 }
 
-CommandResult Add(const LayoutOptions& options) {
+CommandResult Add(const LayoutOptions& options, const CommandContext& context) {
   LayoutText text = LayoutText::Read(options.layout);
   PartEdit part = options.part;
   part.file = options.files.front();
   part.unit = options.unit;
   const std::string name = AddPart(text, part);
-  return Save(text, fmt::format("added part '{}'", name));
+  return Save(text, fmt::format("added part '{}'", name), context);
 }
 
-CommandResult Space(const LayoutOptions& options) {
+CommandResult Space(const LayoutOptions& options, const CommandContext& context) {
   LayoutText text = LayoutText::Read(options.layout);
   PutSpacing(text, options.spacing);
-  return Save(text, fmt::format("spacing '{}' is set", options.spacing.name));
+  return Save(text, fmt::format("spacing '{}' is set", options.spacing.name), context);
 }
 
-CommandResult Group(const LayoutOptions& options) {
+CommandResult Group(const LayoutOptions& options, const CommandContext& context) {
   LayoutText text = LayoutText::Read(options.layout);
   PutGroup(text, options.group);
-  return Save(text, fmt::format("group '{}' is set", options.group.name));
+  return Save(text, fmt::format("group '{}' is set", options.group.name), context);
 }
 
-CommandResult Pair(const LayoutOptions& options) {
+CommandResult Pair(const LayoutOptions& options, const CommandContext& context) {
   LayoutText text = LayoutText::Read(options.layout);
   PutPair(text, options.pair);
-  return Save(text, fmt::format("pair '{}' and '{}' is set", options.pair.a, options.pair.b));
+  return Save(text, fmt::format("pair '{}' and '{}' is set", options.pair.a, options.pair.b), context);
 }
 
-CommandResult Move(const LayoutOptions& options) {
+CommandResult Move(const LayoutOptions& options, const CommandContext& context) {
   LayoutText text = LayoutText::Read(options.layout);
   MovePart(text, options.part);
   core::Layout layout;
-  CommandResult result = Save(text, fmt::format("part '{}' is moved", options.part.name), &layout);
+  CommandResult result = Save(text, fmt::format("part '{}' is moved", options.part.name), context, &layout);
   // What a gap sets isn't where the part is put.
   for (const core::Spacing& spacing : layout.spacings) {
     const std::vector<core::PartIndex> moving = layout.PartsNamed(spacing.moving);
@@ -127,18 +128,21 @@ CommandResult Move(const LayoutOptions& options) {
   return result;
 }
 
-CommandResult Remove(const LayoutOptions& options) {
+CommandResult Remove(const LayoutOptions& options, const CommandContext& context) {
   LayoutText text = LayoutText::Read(options.layout);
   for (const std::string& name : options.names) RemoveNamed(text, name);
   if (!options.pair.a.empty()) RemovePair(text, options.pair);
-  return Save(text, options.names.empty()
-                        ? fmt::format("removed the pair '{}' and '{}'", options.pair.a, options.pair.b)
-                        : fmt::format("removed '{}'", fmt::join(options.names, "', '")));
+  return Save(text,
+              options.names.empty()
+                  ? fmt::format("removed the pair '{}' and '{}'", options.pair.a, options.pair.b)
+                  : fmt::format("removed '{}'", fmt::join(options.names, "', '")),
+              context);
 }
 
-CommandResult Show(const LayoutOptions& options) {
+CommandResult Show(const LayoutOptions& options, const CommandContext& context) {
   CheckEnding("--picture", options.picture, {".png"});
-  const cad_import::ImportedLayout imported = cad_import::ImportLayoutFile(options.layout);
+  const cad_import::ImportedLayout imported =
+      cad_import::ImportLayoutFile(options.layout, context.progress, context.stop);
   CommandResult result = ListingOf(imported, options.layout);
   if (options.picture.empty()) return result;
   recon::gl::SceneRenderer renderer;
@@ -200,15 +204,16 @@ CLI::App* AddCommand(CLI::App& layout, const SharedOptions& options, Choice* cho
                      const std::string& what, Run run) {
   CLI::App* command = layout.add_subcommand(name, what);
   command->add_option("LAYOUT", options->layout, "layout (TOML)")->required();
-  command->callback([=] { choice->action = [=](const CommandContext&) { return run(*options); }; });
+  command->callback(
+      [=] { choice->action = [=](const CommandContext& context) { return run(*options, context); }; });
   return command;
 }
 
 // One that changes the layout: nobody else does from before it is read until it is written.
-template <CommandResult (*kChange)(const LayoutOptions&)>
-CommandResult Alone(const LayoutOptions& options) {
+template <Run kChange>
+CommandResult Alone(const LayoutOptions& options, const CommandContext& context) {
   const FolderLock lock(options.layout);
-  return kChange(options);
+  return kChange(options, context);
 }
 
 void AddPartCommands(CLI::App& layout, Choice* choice) {

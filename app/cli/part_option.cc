@@ -13,9 +13,10 @@ void AddPartOptions(CLI::App& command, PartOptions* options) {
                      "the part's pose (YAML); default: where its file has it");
 }
 
-PosedPart LoadPart(const PartOptions& options) {
+PosedPart LoadPart(const PartOptions& options, const CommandContext& context) {
   PosedPart part;
-  part.mesh = cad_import::ImportMeshFile(options.mesh, {.unit = options.unit}).mesh;
+  part.mesh =
+      cad_import::ImportMeshFile(options.mesh, {.unit = options.unit}, context.progress, context.stop).mesh;
   if (!options.world_from_part.empty()) part.world_from_part = recon::ReadPoseFile(options.world_from_part);
   return part;
 }

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 
+#include "app/cli/command.h"
 #include "core/bvh.h"
 #include "core/rigid_transform.h"
 #include "core/units.h"
@@ -26,6 +27,6 @@ struct PosedPart {
 void AddPartOptions(CLI::App& command, PartOptions* options);
 
 // Throws: core::Error naming the file.
-[[nodiscard]] PosedPart LoadPart(const PartOptions& options);
+[[nodiscard]] PosedPart LoadPart(const PartOptions& options, const CommandContext& context);
 
 }  // namespace elbowroom::cli

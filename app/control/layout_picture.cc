@@ -99,7 +99,8 @@ void AddGap(const core::Layout& layout, const core::Spacing& gap, const Boxes& b
   AddLabel(0.5 * (*a + *b), fmt::format("{} {:.6g} mm", gap.name, gap_mm), drawing);
 }
 
-void AddLegend(const core::Layout& layout, const Boxes& boxes, LineDrawing* drawing) {
+// Each part's own size, along its own axes.
+void AddLegend(const core::Layout& layout, LineDrawing* drawing) {
   constexpr double kLeft = 14.0, kTop = 14.0, kSquare = 12.0;
   for (std::size_t i = 0; i < layout.parts.size() && i <= kMostNamed; ++i) {
     const double top = kTop + kRowPx * static_cast<double>(i);
@@ -108,7 +109,7 @@ void AddLegend(const core::Layout& layout, const Boxes& boxes, LineDrawing* draw
       drawing->texts.push_back({at, fmt::format("and {} more", layout.parts.size() - i)});
       return;
     }
-    const Vector3d size_mm = boxes[i].sizes();
+    const Vector3d size_mm = core::BoundsOf(*layout.parts[i].mesh).sizes();
     drawing->areas.push_back({{{kLeft, top}, {kLeft + kSquare, top + kSquare}}, HexOf(i)});
     drawing->texts.push_back({at, fmt::format("{}  {} mm", layout.parts[i].name, core::SizeText(size_mm))});
   }
@@ -136,7 +137,7 @@ recon::Image LayoutPicture(recon::gl::SceneRenderer& renderer, const core::Layou
   scene.lamp = recon::gl::LampOver(all);
   recon::Image picture = renderer.Render(scene);
   LineDrawing drawing;
-  AddLegend(layout, boxes, &drawing);
+  AddLegend(layout, &drawing);
   for (const core::Spacing& gap : layout.spacings)
     AddGap(layout, gap, boxes, core::GapMm(layout, gap, world_from_parts), scene.view, &drawing);
   PaintOn(&picture, drawing);

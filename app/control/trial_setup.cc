@@ -104,7 +104,7 @@ TrialSetup ReadTrialFile(const std::filesystem::path& path, std::stop_token stop
   setup.info.tools = root.Texts("tools");
   setup.segmentation = ReadSegmentation(root, path.string());
   const std::filesystem::path folder = path.parent_path();
-  cad_import::ImportedLayout imported = cad_import::ImportLayoutFile(folder / root.Text("layout"));
+  cad_import::ImportedLayout imported = cad_import::ImportLayoutFile(folder / root.Text("layout"), {}, stop);
   setup.layout = core::WithPairsOfParts(std::move(imported.layout));
   setup.warnings = std::move(imported.warnings);
   auto source = std::make_shared<recon::RecordedRig>(recon::ReadRigFile(folder / root.Text("rig")), stop);

@@ -298,7 +298,7 @@ TEST_F(LayoutFile, FilesThatAreNoLayoutAreErrors) {
     return ErrorOf(kind, [&] { (void)ImportLayoutFile(path); });
   };
   EXPECT_TRUE(Mentions(message_of(ErrorKind::kFile, folder_ / "none.toml"), "no such layout file"));
-  EXPECT_TRUE(Mentions(message_of(ErrorKind::kFile, folder_.path()), "no such layout file"));
+  EXPECT_TRUE(Mentions(message_of(ErrorKind::kFile, folder_.path()), "isn't a file; name a layout file"));
   EXPECT_TRUE(
       Mentions(message_of(ErrorKind::kFormat, Write("unit = \"mm\"\n[[part]\n")), "LAYOUT.toml:2: not TOML"));
   EXPECT_TRUE(Mentions(message_of(ErrorKind::kFormat, Write("unit = \"mm\"\n")), "no [[part]]"));

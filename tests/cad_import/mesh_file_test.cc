@@ -239,6 +239,7 @@ TEST_F(MeshFile, ASurfaceCutUpByGroupsIsClosedAgain) {
   EXPECT_EQ(imported.report.parts, 2);
   EXPECT_TRUE(imported.report.watertight);
   EXPECT_EQ(imported.mesh->vertices_mm.size(), 8U);
+  EXPECT_TRUE(Mentions(imported.report.warnings.at(0), "2 open parts are closed surfaces together"));
 }
 
 TEST_F(MeshFile, NoiseAroundZeroDoesntTearTheSurface) {

@@ -43,7 +43,7 @@ TEST_P(SharedStep, HasItsSizeItsPartsAndItsVolume) {
   EXPECT_TRUE((report.bounds_mm.sizes() - expected.size_mm).cwiseAbs().maxCoeff() <=
               2.0 * report.deviation_mm)
       << report.bounds_mm.sizes().transpose();
-  EXPECT_LE(report.deviation_mm, ImportOptions{}.tolerance_mm);
+  EXPECT_LE(report.deviation_mm, kUsualToleranceMm);
   const FlatModel flat = Flatten(model);
   EXPECT_EQ(flat.mesh->deviation_mm, report.deviation_mm);
   if (expected.volume_mm3 == 0.0) return;

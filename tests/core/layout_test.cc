@@ -205,6 +205,23 @@ TEST(LayoutValidate, NamesWhatIsWrong) {
        },
        "a part can't move against itself"},
       {"circular", [](Layout& l) { l.spacings.push_back(Gap("back", "pmt", "payload")); }, "circular"},
+      {"a line break in a name", [](Layout& l) { l.parts[1].name = "pm\nt"; }, "the name of part 2"},
+      {"a pair of one",
+       [](Layout& l) {
+         l.pair_rules.push_back({"pmt", "pmt", 5.0, false});
+       },
+       "a part has no clearance to itself"},
+      {"two rules",
+       [](Layout& l) {
+         l.pair_rules = {{"pmt", "payload", 5.0, false}, {"payload", "pmt", 5.0, false}};
+       },
+       "'payload' and 'pmt' have a rule already"},
+      {"two rules by groups",
+       [](Layout& l) {
+         l.groups = {{"g", {"payload"}}, {"h", {"pmt"}}};
+         l.pair_rules = {{"g", "pmt", 5.0, false}, {"payload", "h", 5.0, false}};
+       },
+       "by the [[pair]] 'g' and 'pmt'"},
       {"unknown in pair",
        [](Layout& l) {
          l.pair_rules.push_back({"pmt", "nobody", 5.0, false});
@@ -212,6 +229,11 @@ TEST(LayoutValidate, NamesWhatIsWrong) {
        "'nobody'"},
   };
   EXPECT_NO_THROW(TwoTurnedParts().Validate());
+  Layout closer = TwoTurnedParts();  // the rule of parts holds, whatever groups say
+  closer.groups = {{"g", {"payload"}}, {"h", {"pmt"}}};
+  closer.pair_rules = {
+      {"g", "pmt", 5.0, false}, {"payload", "h", 5.0, false}, {"pmt", "payload", 1.0, false}};
+  EXPECT_NO_THROW(closer.Validate());
   for (const BadLayout& bad : kCases) {
     Layout layout = TwoTurnedParts();
     bad.spoil(layout);

@@ -198,6 +198,26 @@ TEST(Clash, APartInsideAClosedOneIsAContactOutsideItsSurfaceToo) {
   EXPECT_EQ(Judge(Shared(open), {}, box, At(20, 30, 40)).verdict, Verdict::kClear);
 }
 
+// As CAD systems export them: a body twice, an insert in its block, blocks that overlap.
+TEST(Clash, BodiesOfAPartThatOverlapDontHollowIt) {
+  const TriangleMesh crate = core::testing::Box({100, 100, 100});
+  const auto box = SharedBox(2, 2, 2);
+  const auto is_inside = [&](const RigidTransform& crate_from_second, const TriangleMesh& second,
+                             const Eigen::Vector3d& place_mm) {
+    TriangleMesh both = crate;
+    core::Append(both, core::Transformed(second, crate_from_second));
+    return Judge(Shared(both), {}, box, At(place_mm.x(), place_mm.y(), place_mm.z())).contained;
+  };
+  EXPECT_TRUE(is_inside({}, crate, {50, 50, 50})) << "there twice";
+  EXPECT_TRUE(is_inside(At(50, 0, 0), crate, {75, 50, 50})) << "in both";
+  EXPECT_TRUE(is_inside(At(50, 0, 0), crate, {125, 50, 50})) << "in the second alone";
+  TriangleMesh insert = core::testing::Box({50, 50, 50});
+  EXPECT_TRUE(is_inside(At(25, 25, 25), insert, {50, 50, 50})) << "in an insert";
+  for (auto& [a, b, c] : insert.triangles) std::swap(b, c);
+  EXPECT_FALSE(is_inside(At(25, 25, 25), insert, {50, 50, 50})) << "in a cavity";
+  EXPECT_TRUE(is_inside(At(25, 25, 25), insert, {10, 50, 50})) << "beside the cavity";
+}
+
 TEST(Clash, OnePieceInsideIsEnough) {
   TriangleMesh two = core::testing::Box({10, 10, 10});
   core::Append(two, core::Transformed(two, At(500, 0, 0)));
