@@ -130,6 +130,18 @@ void MakePlain(std::string& name) {
 // assimp has names of its own: "<STL_BINARY>".
 bool HasName(const std::string& name) { return !name.empty() && !name.starts_with('<'); }
 
+// Those without a name are called `otherwise`.
+BodyScene BodiesOf(RigidScene rigid, const std::string& otherwise, const core::Progress& progress) {
+  BodyScene bodies{{}, std::move(rigid.instances)};
+  for (RawShape& shape : rigid.shapes) {
+    progress.Report(static_cast<std::int64_t>(bodies.bodies.size()),
+                    static_cast<std::int64_t>(rigid.shapes.size()), "healing part");
+    if (!HasName(shape.name)) shape.name = otherwise;
+    bodies.bodies.push_back(BodyOf(std::move(shape)));
+  }
+  return bodies;
+}
+
 }  // namespace
 
 CadModel Settle(RawScene scene, FileFormat format, const ImportOptions& options,
@@ -148,14 +160,8 @@ CadModel Settle(RawScene scene, FileFormat format, const ImportOptions& options,
 
   const std::int64_t before = CheckedPlacedTriangles(scene, where);
   RigidScene rigid = MakeRigid(scene, where);
-  BodyScene bodies{{}, std::move(rigid.instances)};
   const std::string stem = file.stem().string();
-  for (RawShape& shape : rigid.shapes) {
-    progress.Report(static_cast<std::int64_t>(bodies.bodies.size()),
-                    static_cast<std::int64_t>(rigid.shapes.size()), "healing part");
-    if (!HasName(shape.name)) shape.name = stem;
-    bodies.bodies.push_back(BodyOf(std::move(shape)));
-  }
+  BodyScene bodies = BodiesOf(std::move(rigid), stem, progress);
   const bool is_single = bodies.instances.size() == 1 && !scene.are_bodies;
   if (const int joined = JoinOpenBodies(bodies); joined > 0)
     warnings.push_back(fmt::format(

@@ -73,9 +73,10 @@ void AddLegend(const cad_import::CadModel& model, const cad_import::SurfaceDefec
   constexpr double kLeft = 20.0, kFirstLine = kViewPx + 24.0, kSecondLine = kViewPx + 46.0, kColumn = 230.0;
   drawing->texts.push_back(
       {{kLeft, kFirstLine},
-       fmt::format("{} mm, its unit: {}; {} parts, {} triangles, {}",
+       fmt::format("{} mm, its unit: {}; {} part{}, {} triangles, {}",
                    core::SizeText(model.report.bounds_mm.sizes()), model.report.unit, model.report.parts,
-                   model.report.triangles, model.report.watertight ? "watertight" : "open")});
+                   model.report.parts == 1 ? "" : "s", model.report.triangles,
+                   model.report.watertight ? "watertight" : "open")});
   double left = kLeft;
   const auto add = [&](std::size_t count, const char* what, const char* color) {
     if (count == 0) return;

@@ -20,7 +20,6 @@ namespace {
 
 using core::ErrorKind;
 using core::LengthUnit;
-using core::TriangleMesh;
 using core::testing::Box;
 using testing::ErrorOf;
 using testing::ImportHere;
