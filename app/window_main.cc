@@ -3,6 +3,7 @@
 #include <spdlog/spdlog.h>
 
 #include "app/cli/command_line.h"
+#include "app/cli/interrupt.h"
 #include "app/console/console_main.h"
 #include "cad_import/import_worker.h"
 
@@ -10,7 +11,9 @@ int main(int argc, char** argv) {
   elbowroom::cad_import::ServeImport(argc, argv);  // returns unless this is a child that imports
   spdlog::set_default_logger(spdlog::stderr_color_mt("elbowroom"));  // stdout is for results
   return elbowroom::cli::RunCommandLine(argc, argv, [](const elbowroom::cli::ConsoleRequest& request) {
+    const elbowroom::cli::InterruptWatch interrupt;  // before Qt's threads
     elbowroom::console::ConsoleOptions options;
+    options.stop = interrupt.stop();
     options.trial_file = request.trial_file;
     options.demo = request.demo;
     options.session = request.session;

@@ -1,6 +1,7 @@
 // Values between threads, at most `capacity` of them.
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <cstddef>
 #include <deque>
@@ -60,6 +61,13 @@ class BoundedQueue {
     return TakeFront(lock);
   }
 
+  // Waits no longer than until `deadline`; nothing then, or once the queue is closed and empty.
+  [[nodiscard]] std::optional<T> PopUntil(std::chrono::steady_clock::time_point deadline) {
+    std::unique_lock lock(mutex_);
+    has_value_.wait_until(lock, deadline, [&] { return closed_ || !values_.empty(); });
+    return TakeFront(lock);
+  }
+
   [[nodiscard]] std::optional<T> TryPop() {
     std::unique_lock lock(mutex_);
     return TakeFront(lock);
@@ -73,6 +81,11 @@ class BoundedQueue {
     }
     has_value_.notify_all();
     has_room_.notify_all();
+  }
+
+  [[nodiscard]] bool is_closed() const {
+    const std::lock_guard lock(mutex_);
+    return closed_;
   }
 
   [[nodiscard]] std::size_t dropped() const {

@@ -7,9 +7,10 @@
 
 namespace elbowroom::core {
 
-// Writes a temporary beside `path` and renames it over `path`; nothing is left behind on failure. Of a
-// symbolic link, over what it points to; a file that was there keeps its permissions, and one that may not be
-// written stays what it is. Throws: Error{kFile} naming the path.
+// Writes a temporary beside `path`, brings it to the disk and renames it over `path`; nothing is left behind
+// on failure, and a power failure leaves the old file or the new one. Of a symbolic link, over what it points
+// to; a file that was there keeps its permissions, and one that may not be written stays what it is. Throws:
+// Error{kFile} naming the path.
 void WriteWholeFile(const std::filesystem::path& path, std::string_view bytes);
 
 // Several files that appear together: all are written as temporaries before the first is renamed, and those

@@ -4,15 +4,19 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <fmt/format.h>
 #include <sqlite3.h>
+#include <sys/stat.h>
 
 #include <array>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <fstream>
 #include <string_view>
 #include <utility>
 
-#include "core/error.h"
+#include "core/file_sync.h"
+#include "sessions/private_copy.h"
+#include "sessions/session_files.h"
 
 namespace elbowroom::sessions {
 namespace {
@@ -21,14 +25,10 @@ using core::Error;
 using core::ErrorKind;
 namespace fs = std::filesystem;
 
-// How long a statement waits for another program's lock before it fails.
-constexpr int kBusyTimeoutMs = 3000;
-constexpr std::array<std::string_view, 3> kJournalSuffixes = {"-wal", "-shm", "-journal"};
-
-fs::path WithSuffix(fs::path path, std::string_view suffix) {
-  path += suffix;
-  return path;
-}
+// How long a statement waits for another program's lock before it fails: a reader; a writer, which goes on
+// in memory meanwhile.
+constexpr int kReaderWaitsMs = 3000, kWriterWaitsMs = 100;
+constexpr std::array kJournalSuffixes = {kLogSuffix, kLogIndexSuffix, kRollbackSuffix};
 
 std::string_view AdviceFor(int sqlite_code) {
   switch (sqlite_code & 0xFF) {
@@ -64,6 +64,7 @@ void CreateFileExclusively(const fs::path& path) {
   }
   if (std::FILE* file = std::fopen(path.c_str(), "wbx")) {
     std::fclose(file);
+    core::SyncFolder(core::FolderOf(path));
     return;
   }
   const int reason = errno;
@@ -79,14 +80,58 @@ void CreateFileExclusively(const fs::path& path) {
                           path.string(), std::strerror(reason)));
 }
 
+// SQLite has names of its own, such as ":memory:" and "file:...": an absolute path is none of them.
+std::unique_ptr<SQLite::Database> Connect(const fs::path& path, int flags, int wait_ms) {
+  return std::make_unique<SQLite::Database>(fs::absolute(path).string(), flags, wait_ms);
+}
+
+// Reads for the first time, at which SQLite puts right what a crash left.
+std::unique_ptr<SQLite::Database> ConnectToRead(const fs::path& path, int flags) {
+  auto connection = Connect(path, flags, kReaderWaitsMs);
+  (void)connection->execAndGet("SELECT count(*) FROM sqlite_schema").getInt64();
+  connection->exec("PRAGMA query_only = ON");
+  return connection;
+}
+
+// The log is synced with each commit and each checkpoint.
+void MakeDurable(SQLite::Database& connection) {
+  connection.exec("PRAGMA synchronous = FULL; PRAGMA journal_mode = WAL; PRAGMA foreign_keys = ON");
+}
+
+// Whether SQLite wanted to write: a rollback, or the index of the log.
+bool WantsToWrite(const SQLite::Exception& exception) {
+  const int code = exception.getErrorCode() & 0xFF;
+  return code == SQLITE_READONLY || code == SQLITE_CANTOPEN || code == SQLITE_IOERR || code == SQLITE_PERM;
+}
+
 }  // namespace
+
+bool DatabaseError::MayPass() const {
+  switch (sqlite_code_ & 0xFF) {
+    case SQLITE_BUSY:
+    case SQLITE_LOCKED:
+    case SQLITE_FULL:
+    case SQLITE_IOERR:
+    case SQLITE_READONLY:
+    case SQLITE_PERM:
+    case SQLITE_CANTOPEN:
+    case SQLITE_PROTOCOL:
+    case SQLITE_NOMEM:
+    case SQLITE_CORRUPT:
+    case SQLITE_NOTADB:
+      return true;
+    default:
+      return false;
+  }
+}
 
 void RethrowAsError(const fs::path& path) {
   try {
     throw;
   } catch (const SQLite::Exception& exception) {
-    throw Error(ErrorKind::kDatabase, fmt::format("session '{}': {}; {}", path.string(), exception.what(),
-                                                  AdviceFor(exception.getErrorCode())));
+    throw DatabaseError(fmt::format("session '{}': {}; {}", path.string(), exception.what(),
+                                    AdviceFor(exception.getErrorCode())),
+                        exception.getErrorCode());
   }
 }
 
@@ -104,18 +149,34 @@ bool RemoveDatabaseFiles(const fs::path& path) noexcept {
 Database::Database(fs::path path, std::unique_ptr<SQLite::Database> connection)
     : path_(std::move(path)), connection_(std::move(connection)) {}
 Database::Database(Database&&) noexcept = default;
-Database& Database::operator=(Database&&) noexcept = default;
+Database& Database::operator=(Database&& other) noexcept {
+  connection_ = std::move(other.connection_);  // before the copy that it may be of
+  copy_ = std::move(other.copy_);
+  path_ = std::move(other.path_);
+  file_ = other.file_;
+  log_ = other.log_;
+  index_ = other.index_;
+  return *this;
+}
 Database::~Database() = default;
 
 Database Database::Create(const fs::path& path) {
   CreateFileExclusively(path);
   try {
-    Database database(
-        path, std::make_unique<SQLite::Database>(path.string(), SQLite::OPEN_READWRITE, kBusyTimeoutMs));
-    database.Execute("PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL; PRAGMA foreign_keys = ON");
-    return database;
+    return OpenToWrite(path);
   } catch (...) {
     RemoveDatabaseFiles(path);
+    throw;
+  }
+}
+
+Database Database::OpenToWrite(const fs::path& path) {
+  try {
+    Database database(path, Connect(path, SQLite::OPEN_READWRITE, kWriterWaitsMs));
+    MakeDurable(*database.connection_);
+    database.RememberPlace();
+    return database;
+  } catch (...) {
     RethrowAsError(path);
   }
 }
@@ -126,8 +187,43 @@ Database Database::OpenReadOnly(const fs::path& path) {
                 fmt::format("there is no session file '{}'; check the path", path.string()));
   }
   try {
-    return {path, std::make_unique<SQLite::Database>(path.string(), SQLite::OPEN_READONLY, kBusyTimeoutMs)};
+    try {
+      return {path, ConnectToRead(path, SQLite::OPEN_READONLY)};
+    } catch (const SQLite::Exception& exception) {
+      if (!WantsToWrite(exception)) throw;
+    }
+    try {
+      return {path, ConnectToRead(path, SQLite::OPEN_READWRITE)};
+    } catch (const SQLite::Exception& exception) {
+      if (!WantsToWrite(exception)) throw;
+    }
   } catch (...) {
+    RethrowAsError(path);
+  }
+  return OpenReadOnly(std::make_shared<const PrivateCopy>(path));
+}
+
+Database Database::OpenReadOnly(std::shared_ptr<const PrivateCopy> copy) {
+  try {
+    Database database(copy->original(), ConnectToRead(copy->path(), SQLite::OPEN_READWRITE));
+    database.copy_ = std::move(copy);
+    return database;
+  } catch (...) {
+    RethrowAsError(copy->original());
+  }
+}
+
+Database Database::CopyTo(const fs::path& path, Database& database) {
+  CreateFileExclusively(path);
+  try {
+    {
+      auto copy = Connect(path, SQLite::OPEN_READWRITE, kWriterWaitsMs);
+      copy->exec("PRAGMA synchronous = FULL");
+      SQLite::Backup(*copy, *database.connection_).executeStep();
+    }
+    return OpenToWrite(path);
+  } catch (...) {
+    RemoveDatabaseFiles(path);
     RethrowAsError(path);
   }
 }
@@ -160,12 +256,32 @@ Database Database::CopyInMemory() {
 }
 
 void Database::FoldLogIntoFile() {
-  Execute("PRAGMA wal_checkpoint(TRUNCATE)");
+  Checkpoint();
   try {
-    connection_->exec("PRAGMA journal_mode = DELETE");
+    connection_->exec("PRAGMA synchronous = EXTRA; PRAGMA journal_mode = DELETE");
   } catch (const SQLite::Exception& exception) {
     if (exception.getErrorCode() != SQLITE_BUSY) RethrowAsError(path_);
   }
+  core::SyncFolder(core::FolderOf(path_));
+}
+
+void Database::Checkpoint() { Execute("PRAGMA wal_checkpoint(TRUNCATE)"); }
+
+Database::FileId Database::IdOf(const fs::path& path) {
+  struct stat status {};
+  if (::stat(path.c_str(), &status) != 0) return {};
+  return {status.st_dev, status.st_ino};
+}
+
+void Database::RememberPlace() {
+  file_ = IdOf(path_);
+  log_ = IdOf(WithSuffix(path_, kLogSuffix));
+  index_ = IdOf(WithSuffix(path_, kLogIndexSuffix));
+}
+
+bool Database::IsInPlace() const {
+  return IdOf(path_) == file_ && IdOf(WithSuffix(path_, kLogSuffix)) == log_ &&
+         IdOf(WithSuffix(path_, kLogIndexSuffix)) == index_;
 }
 
 Transaction::Transaction(Database& database) : database_(database) { database_.Execute("BEGIN IMMEDIATE"); }
@@ -177,6 +293,20 @@ Transaction::~Transaction() {
 void Transaction::Commit() {
   database_.Execute("COMMIT");
   is_open_ = false;
+}
+
+bool IsInUse(const fs::path& path) {
+  // Each connection that follows a log holds this byte of the log's index (SQLite's UNIX_SHM_DMS).
+  constexpr std::string_view kByte = " 128 128";
+  struct stat index {};
+  if (::stat(WithSuffix(path, kLogIndexSuffix).c_str(), &index) != 0) return false;
+  // Opening the index to ask for its locks would drop those of this program.
+  const std::string inode = fmt::format(":{} ", index.st_ino);
+  std::ifstream locks("/proc/locks");
+  for (std::string line; std::getline(locks, line);) {
+    if (line.find(inode) != std::string::npos && line.ends_with(kByte)) return true;
+  }
+  return false;
 }
 
 }  // namespace elbowroom::sessions

@@ -114,6 +114,7 @@ ReportData CollectReportData(const SessionReader& session) {
   data.session_name = session.path().filename().string();
   data.header = session.header();
   data.status = session.status();
+  data.has_outcome = session.has_outcome();
   data.ended_at_utc = session.ended_at_utc();
   data.frames = session.frames();
   data.events = session.events();

@@ -49,6 +49,7 @@ struct ReportData {
   std::string session_name;  // the file's
   core::SessionHeader header;
   SessionStatus status = SessionStatus::kRecording;
+  bool has_outcome = false;  // touches are known, not only contacts
   std::optional<std::string> ended_at_utc;
   std::vector<FrameSummary> frames;
   std::vector<core::SessionEvent> events;

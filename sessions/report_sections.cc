@@ -30,7 +30,7 @@ std::string Tiles(const ReportData& data) {
   const double duration_s = data.end_s - data.begin_s;
   const core::TrialInfo& trial = data.header.trial;
   std::string tiles;
-  if (data.status != SessionStatus::kRecording) {
+  if (data.has_outcome) {
     tiles += Tile("Touches", std::to_string(data.episodes.size()), Escaped(TouchesByPart(data)));
   }
   tiles += Tile(
@@ -121,20 +121,37 @@ std::string Figure(std::span<const unsigned char> png, const std::string& captio
                      PngAsDataUrl(png), Escaped(caption));
 }
 
+// What a reader must know of a session that has no end.
+std::string StatusRemark(const ReportData& data) {
+  const char* touches = data.has_outcome ? "touches are put together from these frames"
+                                         : "contacts are not merged into touches";
+  switch (data.status) {
+    case SessionStatus::kComplete:
+      return "";
+    case SessionStatus::kRecording:
+      return fmt::format(
+          "<p>This session is still being recorded: what follows covers the frames on disk when "
+          "the report was written; {}.</p>",
+          touches);
+    case SessionStatus::kCutOff:
+    case SessionStatus::kAbandoned:
+      return fmt::format(
+          "<p>This session was not ended properly: what follows covers the frames up to the last "
+          "one on disk; {}.</p>",
+          touches);
+  }
+  return "";
+}
+
 }  // namespace
 
 std::string SummarySection(const ReportData& data) {
-  const char* outcome = data.status == SessionStatus::kRecording ? " broken"
-                        : data.contacts.empty()                  ? ""
-                                                                 : " touched";
+  const char* outcome = data.status != SessionStatus::kComplete ? " broken"
+                        : data.contacts.empty()                 ? ""
+                                                                : " touched";
   std::string section = fmt::format("<section><div class='verdict{}'><p>{}</p>", outcome,
                                     WithUnitsHeld(Escaped(VerdictSentence(data))));
-  if (data.status == SessionStatus::kRecording) {
-    section +=
-        "<p>This session was not ended properly: what follows covers the frames up to the last one on disk, "
-        "and "
-        "contacts are not merged into touches.</p>";
-  }
+  section += StatusRemark(data);
   return section + "</div>\n" + Tiles(data) + "</section>\n";
 }
 

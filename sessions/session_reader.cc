@@ -7,20 +7,22 @@
 #include "sessions/header_rows.h"
 #include "sessions/outcome_rows.h"
 #include "sessions/schema.h"
+#include "sessions/session_opening.h"
 #include "sessions/statement.h"
 
 namespace elbowroom::sessions {
 namespace {
 
-constexpr std::string_view kStatusNames[] = {"recording", "complete", "abandoned"};
+constexpr std::string_view kStatusNames[] = {"recording", "cut off", "complete", "abandoned"};
 
-Database OpenSession(const std::filesystem::path& path) {
-  Database database = Database::OpenReadOnly(path);
-  RequireReadableSession(database);
-  if (database.ReadInteger("PRAGMA user_version") == kSchemaVersion) return database;
-  Database copy = database.CopyInMemory();
+// Brought up to date in memory.
+OpenedSession OpenUpToDate(const std::filesystem::path& path) {
+  OpenedSession opened = OpenSession(path);
+  RequireReadableSession(opened.database);
+  if (opened.database.ReadInteger("PRAGMA user_version") == kSchemaVersion) return opened;
+  Database copy = opened.database.CopyInMemory();
   Migrate(copy);
-  return copy;
+  return {std::move(copy), opened.is_in_use};
 }
 
 }  // namespace
@@ -29,10 +31,12 @@ std::string_view ToString(SessionStatus status) { return kStatusNames[static_cas
 
 struct SessionReader::Impl {
   explicit Impl(const std::filesystem::path& path)
-      : database(OpenSession(path)), header(ReadHeader(database)) {}
+      : opened(OpenUpToDate(path)), header(ReadHeader(database)) {}
 
-  Database database;
+  OpenedSession opened;
+  Database& database = opened.database;
   core::SessionHeader header;
+  std::optional<core::SessionOutcome> adopted;
 };
 
 SessionReader::SessionReader(const std::filesystem::path& path) : impl_(std::make_unique<Impl>(path)) {}
@@ -46,9 +50,10 @@ const core::SessionHeader& SessionReader::header() const { return impl_->header;
 SessionStatus SessionReader::status() const {
   Statement row(impl_->database, "SELECT status FROM session");
   const std::string text = row.Next() ? row.Text(0) : "";
-  return text == "complete"    ? SessionStatus::kComplete
-         : text == "abandoned" ? SessionStatus::kAbandoned
-                               : SessionStatus::kRecording;
+  return text == "complete"        ? SessionStatus::kComplete
+         : text == "abandoned"     ? SessionStatus::kAbandoned
+         : impl_->opened.is_in_use ? SessionStatus::kRecording
+                                   : SessionStatus::kCutOff;
 }
 
 std::optional<std::string> SessionReader::ended_at_utc() const {
@@ -79,11 +84,19 @@ core::FrameRecord SessionReader::ReadFrame(core::FrameIndex frame) const {
   return sessions::ReadFrame(impl_->database, impl_->header, frame);
 }
 
+bool SessionReader::has_outcome() const { return impl_->adopted || status() == SessionStatus::kComplete; }
+
+void SessionReader::AdoptOutcome(core::SessionOutcome outcome) { impl_->adopted = std::move(outcome); }
+
 std::vector<core::SessionEvent> SessionReader::events() const { return ReadEvents(impl_->database); }
-std::vector<core::ContactEpisode> SessionReader::episodes() const { return ReadEpisodes(impl_->database); }
-std::vector<core::NearMiss> SessionReader::near_misses() const { return ReadNearMisses(impl_->database); }
+std::vector<core::ContactEpisode> SessionReader::episodes() const {
+  return impl_->adopted ? impl_->adopted->episodes : ReadEpisodes(impl_->database);
+}
+std::vector<core::NearMiss> SessionReader::near_misses() const {
+  return impl_->adopted ? impl_->adopted->near_misses : ReadNearMisses(impl_->database);
+}
 std::vector<core::HeatMap> SessionReader::heat_maps() const {
-  return ReadHeatMaps(impl_->database, impl_->header.layout);
+  return impl_->adopted ? impl_->adopted->heat_maps : ReadHeatMaps(impl_->database, impl_->header.layout);
 }
 std::vector<ContactRow> SessionReader::contacts() const { return ReadContactRows(impl_->database); }
 std::vector<ContactRow> SessionReader::clearances() const { return ReadClearanceRows(impl_->database); }

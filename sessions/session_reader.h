@@ -15,7 +15,8 @@
 namespace elbowroom::sessions {
 
 enum class SessionStatus {
-  kRecording,  // under way, or its program ended without finishing it: frames and events, no episodes
+  kRecording,  // under way when it was opened: frames and events, no episodes
+  kCutOff,     // its program ended without finishing it: likewise
   kComplete,
   kAbandoned,  // its writer is removing it
 };
@@ -53,10 +54,15 @@ class SessionReader {
   // With bit-equal silhouettes and every contact. Throws: Error{kRange} for a frame that wasn't recorded.
   [[nodiscard]] core::FrameRecord ReadFrame(core::FrameIndex frame) const;
 
+  // Whether the session has its outcome: one that was ended, or was given it.
+  [[nodiscard]] bool has_outcome() const;
+  // From here on episodes, near misses and heat maps are these; the file stays as it is.
+  void AdoptOutcome(core::SessionOutcome outcome);
+
   [[nodiscard]] std::vector<core::SessionEvent> events() const;      // by frame, then as they came
-  [[nodiscard]] std::vector<core::ContactEpisode> episodes() const;  // by id; none while recording
+  [[nodiscard]] std::vector<core::ContactEpisode> episodes() const;  // by id; none without an outcome
   [[nodiscard]] std::vector<core::NearMiss> near_misses() const;     // likewise
-  [[nodiscard]] std::vector<core::HeatMap> heat_maps() const;        // by part; none while recording
+  [[nodiscard]] std::vector<core::HeatMap> heat_maps() const;        // by part; likewise
   [[nodiscard]] std::vector<ContactRow> contacts() const;            // every part in contact, frame by frame
   [[nodiscard]] std::vector<ContactRow> clearances() const;          // every part with a clearance, likewise
   [[nodiscard]] std::vector<PartTotals> part_totals() const;         // one a part

@@ -1,24 +1,11 @@
 #include "sessions/session_writer.h"
 
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 
-#include <atomic>
-#include <chrono>
-#include <exception>
-#include <mutex>
-#include <optional>
-#include <thread>
 #include <utility>
-#include <variant>
 
-#include "core/bounded_queue.h"
 #include "core/error.h"
-#include "sessions/database.h"
-#include "sessions/frame_rows.h"
-#include "sessions/header_rows.h"
-#include "sessions/outcome_rows.h"
-#include "sessions/schema.h"
+#include "sessions/recording_thread.h"
 
 namespace elbowroom::sessions {
 namespace {
@@ -26,31 +13,6 @@ namespace {
 using core::Error;
 using core::ErrorKind;
 using core::Require;
-using Entry = std::variant<core::FrameRecord, core::SessionEvent>;
-
-constexpr std::size_t kQueueCapacity = 64;  // frames: two seconds at 30 Hz
-constexpr int kEntriesPerTransaction = 64;  // at most; an idle writer commits each frame as it comes
-
-Database CreateSession(const std::filesystem::path& path, const core::SessionHeader& header) {
-  header.rig.Validate();
-  header.layout.Validate();
-  Database database = Database::Create(path);
-  try {
-    Transaction transaction(database);
-    Migrate(database);
-    InsertHeader(database, header);
-    transaction.Commit();
-  } catch (...) {
-    RemoveDatabaseFiles(path);
-    throw;
-  }
-  return database;
-}
-
-std::string NowUtc() {
-  const auto now = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
-  return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::chrono::system_clock::to_time_t(now)));
-}
 
 void RequireFits(const core::FrameRecord& record, const core::SessionHeader& header) {
   Require(record.silhouettes && record.silhouettes->size() == header.rig.cameras.size(),
@@ -75,82 +37,35 @@ void RequireFits(const core::FrameRecord& record, const core::SessionHeader& hea
 }  // namespace
 
 struct SessionWriter::Impl {
-  Impl(const std::filesystem::path& path, core::SessionHeader set_up)
-      : header(std::move(set_up)), database(CreateSession(path, header)), frames(std::in_place, database) {
-    thread = std::thread([this] { WriteUntilClosed(); });
-  }
-
-  void Append(Entry entry) {
-    Require(thread.joinable(), "nothing is appended after Finish() or Abandon()");
-    if (!queue.Push(std::move(entry))) RethrowFailure();
-  }
-
-  void WriteUntilClosed() noexcept {
-    try {
-      while (auto entry = queue.Pop()) WriteBatch(*std::move(entry));
-    } catch (...) {
-      const std::lock_guard lock(failure_mutex);
-      failure = std::current_exception();
-      queue.Close();
-    }
-  }
-
-  void WriteBatch(Entry first) {
-    Transaction transaction(database);
-    std::int64_t frames_written = 0;
-    std::optional<Entry> entry(std::move(first));
-    for (int i = 1; entry; ++i) {
-      if (const auto* record = std::get_if<core::FrameRecord>(&*entry)) {
-        frames->Insert(*record);
-        ++frames_written;
-      } else {
-        InsertEvent(database, header.layout, std::get<core::SessionEvent>(*entry));
-      }
-      entry = i < kEntriesPerTransaction ? queue.TryPop() : std::nullopt;
-    }
-    transaction.Commit();
-    frames_committed += frames_written;
-  }
-
-  // Afterwards this thread owns the connection.
-  void DrainAndStop() {
-    queue.Close();
-    if (thread.joinable()) thread.join();
-    frames.reset();
-  }
-
-  void RethrowFailure() {
-    const std::lock_guard lock(failure_mutex);
-    if (failure) std::rethrow_exception(failure);
-  }
+  Impl(const std::filesystem::path& path, core::SessionHeader set_up, SessionWriterOptions options)
+      : header(std::move(set_up)), thread(RecordingStore(path, header), std::move(options)) {}
 
   const core::SessionHeader header;
-  Database database;
-  std::optional<FrameInserter> frames;
-  core::BoundedQueue<Entry> queue{kQueueCapacity, core::WhenFull::kBlock};
-  std::atomic<std::int64_t> frames_committed{0};
-  std::mutex failure_mutex;
-  std::exception_ptr failure;
-  std::thread thread;
+  // What was recorded stays; where nothing could be, nothing is left.
+  void Close() {
+    thread.Stop();
+    if (thread.has_failed() && thread.frames_committed() == 0) {
+      thread.store().Remove();
+    } else {
+      thread.store().Close();
+    }
+  }
+
+  RecordingThread thread;
+  bool is_over = false;  // finished or abandoned
 };
 
-SessionWriter::SessionWriter(const std::filesystem::path& path, core::SessionHeader header)
-    : impl_(std::make_unique<Impl>(path, std::move(header))) {}
+SessionWriter::SessionWriter(const std::filesystem::path& path, core::SessionHeader header,
+                             SessionWriterOptions options)
+    : impl_(std::make_unique<Impl>(path, std::move(header), std::move(options))) {}
 
 SessionWriter::~SessionWriter() {
-  if (!impl_->thread.joinable()) return;
-  impl_->DrainAndStop();
-  try {
-    impl_->database.FoldLogIntoFile();
-  } catch (const Error&) {
-    // The log stays beside the file: a reader finds every committed frame in the two.
-    return;
-  }
+  if (!impl_->is_over) impl_->Close();
 }
 
 void SessionWriter::Append(core::FrameRecord record) {
   RequireFits(record, impl_->header);
-  impl_->Append(std::move(record));
+  impl_->thread.Push(std::move(record));
 }
 
 void SessionWriter::Append(core::SessionEvent event) {
@@ -158,38 +73,36 @@ void SessionWriter::Append(core::SessionEvent event) {
     Require(impl_->header.layout.FindSpacing(change->spacing).has_value(),
             "a changed spacing is one of the layout's");
   }
-  impl_->Append(std::move(event));
+  impl_->thread.Push(std::move(event));
 }
 
-void SessionWriter::Finish(const core::SessionOutcome& outcome) {
-  Require(impl_->thread.joinable(), "a session is finished or abandoned once");
-  impl_->DrainAndStop();
-  impl_->RethrowFailure();
-  Transaction transaction(impl_->database);
-  InsertOutcome(impl_->database, outcome);
-  impl_->database.Execute(
-      fmt::format("UPDATE session SET status = 'complete', ended_at_utc = '{}'", NowUtc()));
-  transaction.Commit();
-  impl_->database.FoldLogIntoFile();
+void SessionWriter::Finish(core::SessionOutcome outcome) {
+  Require(!std::exchange(impl_->is_over, true), "a session is finished or abandoned once");
+  try {
+    impl_->thread.Push(std::move(outcome));
+    impl_->thread.Stop();
+    impl_->thread.ThrowIfFailed();
+  } catch (...) {
+    impl_->Close();
+    throw;
+  }
+  impl_->Close();
 }
 
 void SessionWriter::Abandon() {
-  Require(impl_->thread.joinable(), "a session is finished or abandoned once");
-  impl_->DrainAndStop();
-  try {
-    // For a program that is reading along.
-    impl_->database.Execute(
-        fmt::format("UPDATE session SET status = 'abandoned', ended_at_utc = '{}'", NowUtc()));
-  } catch (const Error&) {
-    impl_->failure = nullptr;  // whatever is wrong with the file, it goes now
-  }
-  const std::filesystem::path path = impl_->database.path();
-  if (!RemoveDatabaseFiles(path)) {
-    throw Error(ErrorKind::kFile,
-                fmt::format("can't remove the unfinished session '{}'; remove it by hand", path.string()));
+  Require(!std::exchange(impl_->is_over, true), "a session is finished or abandoned once");
+  impl_->thread.Stop();
+  Require(frames_committed() == 0, "only a session without a frame is abandoned");
+  const std::filesystem::path path = impl_->thread.store().path();
+  if (!impl_->thread.store().Remove()) {
+    throw Error(ErrorKind::kFile, fmt::format("session '{}': no frame was recorded, and the empty file can't "
+                                              "be removed; it may be deleted",
+                                              path.string()));
   }
 }
 
-std::int64_t SessionWriter::frames_committed() const { return impl_->frames_committed; }
+std::int64_t SessionWriter::frames_committed() const { return impl_->thread.frames_committed(); }
+RecordingState SessionWriter::state() const { return impl_->thread.state(); }
+std::filesystem::path SessionWriter::path() const { return impl_->thread.path(); }
 
 }  // namespace elbowroom::sessions

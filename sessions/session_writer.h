@@ -3,23 +3,57 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
+#include <string>
 
 #include "core/session.h"
 
 namespace elbowroom::sessions {
 
-// A thread of its own owns the database connection and commits what has come in. A program that dies leaves a
-// session of status 'recording' with every committed frame; so does a writer destroyed without Finish().
+// Where what is recorded goes at the moment.
+enum class RecordingState {
+  kInFile,    // into the session file
+  kInMemory,  // kept until the file can be written again
+  kInSpill,   // into S.db.spill beside it, which joins the session as soon as that can be written, or is
+              // opened
+};
+
+struct RecordingNews {
+  RecordingState state = RecordingState::kInFile;
+  // One line for the experimenter: what is wrong, or that it is well again. Empty at the beginning.
+  std::string line;
+};
+
+struct SessionWriterOptions {
+  // Called on the writer's thread whenever the state changes; must not block.
+  std::function<void(const RecordingNews&)> on_news;
+  // How long Append() and Finish() wait for a file that can't be written, once no more is kept in memory or
+  // the trial has ended, s.
+  double patience_s = 10.0;
+  // Frames kept in memory at most while the file can't be written; also at most 256 MB.
+  std::int64_t most_held_frames = 1800;
+  // After how long trouble begins to go into a spill, s.
+  double spill_after_s = 1.0;
+};
+
+// A thread of its own owns the database connection. A committed frame is on the disk, whatever happens to the
+// program or the machine; that is the first one at once and each later one within 0.1 s while the file can be
+// written. A program that dies leaves a session of status 'recording' with every committed frame; so does a
+// writer destroyed without Finish().
 //
-// Append() and Finish() throw what went wrong on that thread (Error{kDatabase}: disk full, file locked) at
-// the next call after it; from then on nothing more is recorded. Thread: any number may append; Finish(),
-// Abandon() and the destructor come when no other call is under way.
+// While the file can't be written (another program holds it locked, the disk is full, the file or its folder
+// was removed) frames stay in memory, or go into a spill, and the writer tries again. Only when that takes
+// longer than the options allow do Append() and Finish() throw what is wrong (Error{kDatabase},
+// Error{kFile}); from then on nothing more is recorded, and what was committed stays. Thread: any number may
+// append; Finish(), Abandon() and the destructor come when no other call is under way.
 class SessionWriter {
  public:
-  // Creates the file. Throws: Error{kFile} when `path` exists or its folder doesn't or can't be written;
-  // Error{kCamera} or Error{kRange} for a rig or layout that isn't valid. No file is left then.
-  SessionWriter(const std::filesystem::path& path, core::SessionHeader header);
+  // Creates the file with its set-up, on the disk. Throws: Error{kFile} when `path` exists or its folder
+  // doesn't or can't be written; Error{kCamera} or Error{kRange} for a rig or layout that isn't valid. No
+  // file is left then.
+  SessionWriter(const std::filesystem::path& path, core::SessionHeader header,
+                SessionWriterOptions options = {});
   ~SessionWriter();
   SessionWriter(const SessionWriter&) = delete;
   SessionWriter& operator=(const SessionWriter&) = delete;
@@ -32,14 +66,20 @@ class SessionWriter {
   void Append(core::SessionEvent event);
 
   // Writes what is still queued and the outcome, marks the session 'complete' and folds it into a single
-  // file.
-  void Finish(const core::SessionOutcome& outcome);
+  // file; beside a spill, where the session file still can't be written. If it throws, what was committed
+  // stays, and a session without a frame is removed.
+  void Finish(core::SessionOutcome outcome);
 
-  // Removes the file: for a trial that failed, so that nothing half-written stays.
+  // Removes a session that has no frame. Throws: Error{kFile} when the file can't be removed.
   void Abandon();
 
-  // That a crash of this program can't take away any more.
+  // That nothing can take away any more, neither a crash of this program nor a power failure.
   [[nodiscard]] std::int64_t frames_committed() const;
+
+  [[nodiscard]] RecordingState state() const;
+
+  // The session file: as given, or what it is called after it was removed and another one took its name.
+  [[nodiscard]] std::filesystem::path path() const;
 
  private:
   struct Impl;

@@ -90,13 +90,20 @@ std::string WhatWasTouched(const ReportData& data) {
   const double duration_s = data.end_s - data.begin_s;
   if (data.frames.empty()) return "No frame was recorded";
   if (data.contacts.empty()) return fmt::format("Nothing was touched in {:.1f} s", duration_s);
-  if (data.status == SessionStatus::kRecording) {
-    return fmt::format("The recording broke off after {:.1f} s with contact in {} of {}", duration_s,
-                       data.frames_in_contact,
-                       HowMany(static_cast<std::int64_t>(data.frames.size()), "frame"));
+  const std::string contacts =
+      data.has_outcome ? HowMany(static_cast<std::int64_t>(data.episodes.size()), "touch")
+                       : fmt::format("contact in {} of {}", data.frames_in_contact,
+                                     HowMany(static_cast<std::int64_t>(data.frames.size()), "frame"));
+  switch (data.status) {
+    case SessionStatus::kRecording:
+      return fmt::format("The recording is under way: {:.1f} s so far with {}", duration_s, contacts);
+    case SessionStatus::kCutOff:
+    case SessionStatus::kAbandoned:
+      return fmt::format("The recording broke off after {:.1f} s with {}", duration_s, contacts);
+    case SessionStatus::kComplete:
+      break;
   }
-  return fmt::format("{} in {:.1f} s", HowMany(static_cast<std::int64_t>(data.episodes.size()), "touch"),
-                     duration_s);
+  return fmt::format("{} in {:.1f} s", contacts, duration_s);
 }
 
 }  // namespace

@@ -23,6 +23,8 @@ struct CommonOptions {
 struct CommandContext {
   core::Progress progress;  // a line on a terminal, else nothing
   std::stop_token stop;     // asked for by Ctrl-C
+  // A line at once for who watches a terminal, else nothing. Thread: any.
+  std::function<void(const std::string&)> tell;
 };
 
 // A command's result: the JSON that --json prints, and the text that is printed otherwise; beside either, on

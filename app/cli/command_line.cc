@@ -54,6 +54,11 @@ void PrintToStderr(const std::string& line) {
   fmt::print(stderr, "elbowroom: {}\n", plain);
 }
 
+// While a command runs: what goes wrong in the end is the one line of a log.
+void TellTerminal(const std::string& line) {
+  if (isatty(STDERR_FILENO)) PrintToStderr(line);
+}
+
 int Fail(const std::string& line) {
   PrintToStderr(line);
   return kFailure;
@@ -84,7 +89,7 @@ std::vector<std::string> ArgumentsOf(int argc, char** argv) {
 
 int RunAction(const CommandAction& action, bool json) {
   const InterruptWatch interrupt;
-  const CommandResult result = action({TerminalProgress(), interrupt.stop()});
+  const CommandResult result = action({TerminalProgress(), interrupt.stop(), TellTerminal});
   ClearProgress();
   fmt::print("{}\n", json ? result.json.dump() : result.text);
   if (std::fflush(stdout) != 0) {

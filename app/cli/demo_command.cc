@@ -8,7 +8,7 @@
 #include "app/cli/trial_summary.h"
 #include "app/control/demo_trial.h"
 #include "app/control/session_report.h"
-#include "core/error.h"
+#include "core/file_sync.h"
 
 namespace elbowroom::cli {
 namespace {
@@ -19,17 +19,8 @@ struct DemoOptions {
   WindowPictureRequest picture;  // without a file: none
 };
 
-void MakeFolder(const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) {
-    throw core::Error(core::ErrorKind::kFile, fmt::format("{}: can't be made: {}; choose another --out",
-                                                          folder.string(), error.message()));
-  }
-}
-
 CommandResult RunHeadless(const DemoOptions& options, const CommandContext& context) {
-  MakeFolder(options.out);
+  core::MakeFolder(options.out);
   const control::TrialSetup setup = control::MakeDemoTrial(control::DemoPlay::kOnce);
   control::TrialOptions trial;
   trial.session = options.out / "session.db";
@@ -37,22 +28,25 @@ CommandResult RunHeadless(const DemoOptions& options, const CommandContext& cont
   // view.png shows the trial at its most crowded: most contact points.
   control::SharedFrameResult shown;
   std::int64_t most_points = -1;
-  trial.on_frame = [&](const control::SharedFrameResult& result) {
+  trial.on_frame = [&](const control::SharedFrameResult& result, const control::RecordedFrames&) {
     std::int64_t points = 0;
     for (const core::PartContact& contact : result->contacts) points += contact.contact_point_count;
     if (points <= most_points) return;
     most_points = points;
     shown = result;
   };
+  RecordingLog log(context);
+  trial.on_recording = [&](const sessions::RecordingNews& news) { log.Hear(news); };
   control::TrialControls controls;
   const control::TrialOutcome outcome = control::RunTrial(setup, trial, controls, context.stop);
   if (shown) control::WriteFramePicture(*shown, options.out / "view.png", 1200, 800);
-  control::WriteSessionReport(trial.session, options.out, context.progress, context.stop);
-  CommandResult result = SummaryOf(outcome, setup.layout, trial.session);
+  control::WriteSessionReport(outcome.session, options.out, context.progress, context.stop);
+  CommandResult result = SummaryOf(outcome, setup.layout);
   result.text += fmt::format("\nreport: {}\npicture: {}", (options.out / "report.html").string(),
                              (options.out / "view.png").string());
   result.json["report"] = (options.out / "report.html").string();
   result.json["view"] = (options.out / "view.png").string();
+  log.AddTo(&result);
   return result;
 }
 

@@ -6,7 +6,7 @@
 
 #include "app/cli/command.h"
 #include "app/cli/rig_frame.h"
-#include "core/error.h"
+#include "core/file_sync.h"
 #include "recon/mask_image.h"
 
 namespace elbowroom::cli {
@@ -19,12 +19,7 @@ struct SegmentOptions {
 
 CommandResult Run(const SegmentOptions& options, const CommandContext& context) {
   const RigFrame frame = LoadRigFrame(options.frame, context);
-  std::error_code error;
-  std::filesystem::create_directories(options.out, error);
-  if (error) {
-    throw core::Error(core::ErrorKind::kFile, fmt::format("{}: can't be made: {}; choose another --out",
-                                                          options.out.string(), error.message()));
-  }
+  core::MakeFolder(options.out);
   CommandResult result;
   result.json["masks"] = nlohmann::json::array();
   for (std::size_t i = 0; i < frame.masks.size(); ++i) {

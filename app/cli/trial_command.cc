@@ -43,11 +43,13 @@ CommandResult RunHeadless(const TrialRunOptions& options, const CommandContext& 
   trial.session = options.session;
   trial.frames = options.frames;
   trial.progress = context.progress;
+  RecordingLog log(context);
+  trial.on_recording = [&](const sessions::RecordingNews& news) { log.Hear(news); };
   control::TrialControls controls;
-  CommandResult result =
-      SummaryOf(control::RunTrial(setup, trial, controls, context.stop), setup.layout, options.session);
+  CommandResult result = SummaryOf(control::RunTrial(setup, trial, controls, context.stop), setup.layout);
   result.json["warnings"] = setup.warnings;
   for (const std::string& warning : setup.warnings) result.text += "\nwarning: " + warning;
+  log.AddTo(&result);
   return result;
 }
 

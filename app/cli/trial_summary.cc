@@ -6,11 +6,43 @@
 
 namespace elbowroom::cli {
 
-CommandResult SummaryOf(const control::TrialOutcome& outcome, const core::Layout& layout,
-                        const std::filesystem::path& session) {
+namespace {
+
+const char* ToString(sessions::RecordingState state) {
+  switch (state) {
+    case sessions::RecordingState::kInFile:
+      return "file";
+    case sessions::RecordingState::kInMemory:
+      return "memory";
+    case sessions::RecordingState::kInSpill:
+      return "spill";
+  }
+  return "";
+}
+
+}  // namespace
+
+void RecordingLog::Hear(const sessions::RecordingNews& news) {
+  if (context_.tell) context_.tell(news.line);
+  const std::lock_guard lock(mutex_);
+  lines_.push_back(news.line);
+}
+
+void RecordingLog::AddTo(CommandResult* result) const {
+  const std::lock_guard lock(mutex_);
+  for (const std::string& line : lines_) {
+    result->json["warnings"].push_back(line);
+    result->text += "\nwarning: " + line;
+  }
+}
+
+CommandResult SummaryOf(const control::TrialOutcome& outcome, const core::Layout& layout) {
   CommandResult result;
-  result.json = {{"session", session.string()},
+  result.json = {{"session", outcome.session.string()},
                  {"frames", outcome.frames},
+                 {"frames_committed", outcome.frames_committed},
+                 {"recorded_in", ToString(outcome.recording)},
+                 {"warnings", nlohmann::json::array()},
                  {"ended", outcome.end_note},
                  {"parts", nlohmann::json::array()},
                  {"episodes", nlohmann::json::array()},
@@ -28,7 +60,8 @@ CommandResult SummaryOf(const control::TrialOutcome& outcome, const core::Layout
                    {"clearances_by_ball", outcome.skipped.clearances_by_ball},
                    {"clearance_queries", outcome.skipped.clearance_queries}}},
                  {"near_misses", nlohmann::json::array()}};
-  result.text = fmt::format("{}: {} frames, {}", session.string(), outcome.frames, outcome.end_note);
+  result.text = fmt::format("{}: {} frames, all on disk, {}", outcome.session.string(), outcome.frames,
+                            outcome.end_note);
   if (!outcome.frame_ms.empty()) {
     std::vector<double> times_ms = outcome.frame_ms;
     const auto middle = times_ms.begin() + static_cast<std::ptrdiff_t>(times_ms.size() / 2);

@@ -1,12 +1,31 @@
 // How a trial went, for people and for programs.
 #pragma once
 
+#include <mutex>
+#include <string>
+#include <vector>
+
 #include "app/cli/command.h"
 #include "app/control/trial_runner.h"
 
 namespace elbowroom::cli {
 
-[[nodiscard]] CommandResult SummaryOf(const control::TrialOutcome& outcome, const core::Layout& layout,
-                                      const std::filesystem::path& session);
+[[nodiscard]] CommandResult SummaryOf(const control::TrialOutcome& outcome, const core::Layout& layout);
+
+// What the session writer says while a trial runs: on a terminal at once, and in the summary. Thread: any.
+class RecordingLog {
+ public:
+  explicit RecordingLog(const CommandContext& context) : context_(context) {}
+
+  void Hear(const sessions::RecordingNews& news);
+
+  // As warnings of the result.
+  void AddTo(CommandResult* result) const;
+
+ private:
+  const CommandContext& context_;
+  mutable std::mutex mutex_;
+  std::vector<std::string> lines_;
+};
 
 }  // namespace elbowroom::cli

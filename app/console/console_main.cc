@@ -7,10 +7,12 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <stop_token>
 #include <string>
 
 #include "app/console/main_window.h"
 #include "core/error.h"
+#include "core/file_sync.h"
 
 namespace elbowroom::console {
 namespace {
@@ -79,20 +81,16 @@ void StartWhatWasAsked(MainWindow& window, const ConsoleOptions& options) {
   }
 }
 
-void MakeFolderOf(const std::filesystem::path& session) {
-  if (!session.has_parent_path()) return;
-  std::error_code error;
-  std::filesystem::create_directories(session.parent_path(), error);
-  if (!error) return;
-  throw core::Error(core::ErrorKind::kFile, session.parent_path().string() + ": can't be made: " +
-                                                error.message() + "; choose another folder");
+void CloseInOrder(MainWindow& window) {
+  if (QWidget* dialog = QApplication::activeModalWidget()) dialog->close();
+  window.close();
 }
 
 }  // namespace
 
 int RunConsole(const ConsoleOptions& options) {
   RequireDisplay();
-  if (options.demo) MakeFolderOf(options.session);
+  if (options.demo) core::MakeFolder(core::FolderOf(options.session));
   std::string program = "elbowroom";
   char* default_argv[] = {program.data(), nullptr};
   int argc = options.argv != nullptr ? options.argc : 1;
@@ -115,6 +113,11 @@ int RunConsole(const ConsoleOptions& options) {
   }
   window.show();
   QTimer::singleShot(0, &window, [&] { StartWhatWasAsked(window, options); });
+  // Ctrl-C, or the end of the user's login, closes the window as its button does: the trial ends in order.
+  const std::stop_callback close_on_stop(options.stop, [&window] {
+    QMetaObject::invokeMethod(
+        &window, [&window] { CloseInOrder(window); }, Qt::QueuedConnection);
+  });
   const int status = QApplication::exec();
   application.ShowErrorsIn(nullptr);
   if (!picture_error.empty()) throw core::Error(core::ErrorKind::kFile, picture_error);

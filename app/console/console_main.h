@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <stop_token>
 
 #include "app/console/window_picture.h"
 
@@ -15,6 +16,7 @@ struct ConsoleOptions {
   std::optional<PictureOrder> picture{};  // take one picture of the window, then close
   int argc = 0;                           // for Qt's own options
   char** argv = nullptr;
+  std::stop_token stop{};  // closes the window in order: what it records is complete up to there
 };
 
 // Opens the window and returns its exit status once it is closed. Throws: core::Error{kGraphics} when there

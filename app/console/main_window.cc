@@ -141,6 +141,13 @@ void MainWindow::FollowDesk() {
   connect(desk_, &TrialDesk::Failed, this, &MainWindow::ShowError);
   connect(desk_, &TrialDesk::Progressed, status_, &StatusLine::ShowProgress);
   connect(desk_, &TrialDesk::TrialEnded, messages_, &MessageBar::ShowNote);
+  connect(desk_, &TrialDesk::RecordingChanged, this, [this](bool is_well, const QString& line) {
+    if (is_well) {
+      messages_->ShowNote(line);
+    } else {
+      messages_->ShowError(line);
+    }
+  });
   connect(desk_, &TrialDesk::ReportWritten, this, [this](const QString& html_file) {
     messages_->ShowNote(tr("The report is in %1").arg(html_file));
   });
@@ -168,7 +175,7 @@ void MainWindow::ShowFrame(const FrameNews& news) {
   spacings_->ShowApplied(news.result->spacing_mm);
   contacts_->ShowFrame(*news.result);
   touches_->ShowFrame(*news.result, news.tallies);
-  status_->ShowFrame(*news.result);
+  status_->ShowFrame(*news.result, news.recorded);
 }
 
 void MainWindow::ShowState() {

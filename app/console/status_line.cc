@@ -20,6 +20,7 @@ QString ShortDriver(const QString& driver) {
 StatusLine::StatusLine(QWidget* parent) : QStatusBar(parent) {
   setSizeGripEnabled(false);
   frame_ = AddField("status_frame", 0);
+  recorded_ = AddField("status_recorded", 0);
   times_ = AddField("status_times", 0);
   skipped_ = AddField("status_skipped", 0);
   session_ = AddField("status_session", 1);
@@ -48,13 +49,14 @@ void StatusLine::Open(const std::filesystem::path& session) {
   session_->setToolTip(QString::fromStdString(session.string()));
 }
 
-void StatusLine::ShowFrame(const control::FrameResult& result) {
+void StatusLine::ShowFrame(const control::FrameResult& result, const control::RecordedFrames& recorded) {
   rate_.Add(result.frame, FrameRate::Clock::now());
   const std::optional<double> frames_per_s = rate_.frames_per_s();
   frame_->setText(tr("frame %1   %2 s   %3 frames/s")
                       .arg(result.frame)
                       .arg(result.time_s, 0, 'f', 1)
                       .arg(frames_per_s ? QString::number(*frames_per_s, 'f', 1) : QString("–")));
+  recorded_->setText(tr("on disk: %1 of %2 frames").arg(recorded.committed).arg(recorded.seen));
   const QString response =
       result.response ? tr("   response %1").arg(result.times.response_ms, 0, 'f', 0) : QString();
   times_->setText(tr("segmentation %1   hull %2   contacts %3%4   picture %5 ms")
@@ -72,7 +74,7 @@ void StatusLine::ShowFrame(const control::FrameResult& result) {
           .arg(result.contacts.size())
           .arg(PercentOf(result.skipped.triangles_skipped, result.skipped.triangles_in_all)));
   // Text that grows pushes the other fields once, not back and forth with every frame.
-  for (QLabel* field : {frame_, times_, skipped_}) {
+  for (QLabel* field : {frame_, recorded_, times_, skipped_}) {
     field->setMinimumWidth(std::max(field->minimumWidth(), field->sizeHint().width()));
   }
 }

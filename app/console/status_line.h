@@ -8,6 +8,7 @@
 
 #include "app/console/frame_rate.h"
 #include "app/control/frame_result.h"
+#include "app/control/trial_runner.h"
 
 namespace elbowroom::console {
 
@@ -17,7 +18,7 @@ class StatusLine : public QStatusBar {
   explicit StatusLine(QWidget* parent = nullptr);
 
   void Open(const std::filesystem::path& session);
-  void ShowFrame(const control::FrameResult& result);
+  void ShowFrame(const control::FrameResult& result, const control::RecordedFrames& recorded);
   void ShowPicture(double drawing_ms, const QString& driver);
   void ShowProgress(qint64 done, qint64 total, const QString& what);  // total <= 0: not known, not shown
   void HideProgress() { progress_->hide(); }
@@ -26,6 +27,7 @@ class StatusLine : public QStatusBar {
   QLabel* AddField(const QString& name, int stretch);
 
   QLabel* frame_ = nullptr;
+  QLabel* recorded_ = nullptr;
   QLabel* times_ = nullptr;
   QLabel* skipped_ = nullptr;
   QLabel* session_ = nullptr;

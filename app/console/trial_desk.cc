@@ -13,8 +13,9 @@ std::filesystem::path ReportFolderFor(const std::filesystem::path& session) {
   return session.parent_path() / (session.stem().string() + "-report");
 }
 
-QString EndNote(const control::TrialOutcome& outcome, const std::filesystem::path& session) {
-  QString note = QString("%1 frames recorded in %2").arg(outcome.frames).arg(session.filename().c_str());
+QString EndNote(const control::TrialOutcome& outcome) {
+  QString note =
+      QString("%1 frames recorded in %2").arg(outcome.frames).arg(outcome.session.filename().c_str());
   if (!outcome.end_note.empty()) note += ": " + QString::fromStdString(outcome.end_note);
   return note;
 }
@@ -27,6 +28,7 @@ void TrialDesk::Start(SetupReader read_setup, const std::filesystem::path& sessi
   core::Require(state_ == DeskState::kIdle, "a trial starts on an idle desk");
   session_ = session;
   recorded_.reset();
+  has_frames_ = false;
   EnterState(DeskState::kReading);
   auto setup = std::make_shared<control::TrialSetup>();
   job_ = std::make_unique<BackgroundJob>(
@@ -47,10 +49,17 @@ void TrialDesk::Run(control::TrialSetup setup) {
   options.at_capture_rate = true;
   options.progress = ProgressToHere();
   auto tally = std::make_shared<control::EpisodeTally>(setup.layout.parts.size());
-  options.on_frame = [this, tally](const control::SharedFrameResult& result) {
+  options.on_frame = [this, tally](const control::SharedFrameResult& result,
+                                   const control::RecordedFrames& recorded) {
     tally->Add(*result);
-    bridge_.PostLatest(Bridge::Stream::kFrame,
-                       [this, news = FrameNews{result, tally->Parts()}] { emit FrameArrived(news); });
+    has_frames_ = true;
+    bridge_.PostLatest(Bridge::Stream::kFrame, [this, news = FrameNews{result, tally->Parts(), recorded}] {
+      emit FrameArrived(news);
+    });
+  };
+  options.on_recording = [this](const sessions::RecordingNews& news) {
+    bridge_.Post([this, is_well = news.state == sessions::RecordingState::kInFile,
+                  line = QString::fromStdString(news.line)] { emit RecordingChanged(is_well, line); });
   };
   options.on_hull = [this](const control::SharedHull& hull) {
     bridge_.PostLatest(Bridge::Stream::kHull, [this, hull] { emit HullArrived(hull); });
@@ -64,10 +73,11 @@ void TrialDesk::Run(control::TrialSetup setup) {
 
 void TrialDesk::FinishTrial(const control::LiveTrial::Ended& ended) {
   trial_.reset();  // its thread has nothing left to do
-  if (ended.outcome) recorded_ = session_;
+  if (ended.outcome) session_ = ended.outcome->session;
+  if (has_frames_) recorded_ = session_;  // a trial that failed keeps what it recorded
   EnterState(DeskState::kIdle);
   if (ended.outcome) {
-    emit TrialEnded(EndNote(*ended.outcome, session_));
+    emit TrialEnded(EndNote(*ended.outcome));
   } else {
     emit Failed(QString::fromStdString(ended.error));
   }

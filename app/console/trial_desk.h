@@ -3,6 +3,7 @@
 
 #include <QObject>
 #include <QString>
+#include <atomic>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -25,6 +26,7 @@ enum class DeskState { kIdle, kReading, kRunning, kReporting };
 struct FrameNews {
   control::SharedFrameResult result;
   std::vector<control::PartTally> tallies;  // over every frame so far, shown or not
+  control::RecordedFrames recorded;         // so far
 };
 
 // One trial at a time. Nothing here waits: long work runs on threads of its own, whose news arrive as
@@ -43,7 +45,7 @@ class TrialDesk : public QObject {
   [[nodiscard]] bool is_stopping() const { return is_stopping_; }
   [[nodiscard]] bool can_report() const { return state_ == DeskState::kIdle && recorded_.has_value(); }
 
-  // Of the trial under way or else the last one that was recorded to its end.
+  // Of the trial under way or else the last one that recorded a frame.
   [[nodiscard]] const std::filesystem::path& session() const { return session_; }
 
   // Reads a trial, then runs it at the pace at which its frames were taken, recording into `session`.
@@ -65,6 +67,8 @@ class TrialDesk : public QObject {
   void TrialOpened(const elbowroom::control::TrialSetup& setup);
   void HullArrived(const elbowroom::control::SharedHull& hull);  // of a frame that is being judged
   void FrameArrived(const elbowroom::console::FrameNews& news);
+  // Where frames go has changed: is_well: into the session file.
+  void RecordingChanged(bool is_well, const QString& line);
   void TrialEnded(const QString& note);
   void ReportWritten(const QString& html_file);
   void Progressed(qint64 done, qint64 total, const QString& what);  // total <= 0: not known
@@ -80,6 +84,7 @@ class TrialDesk : public QObject {
   DeskState state_ = DeskState::kIdle;
   bool is_stopping_ = false;
   std::filesystem::path session_;
+  std::atomic<bool> has_frames_ = false;           // of the trial under way, or the last one
   std::optional<std::filesystem::path> recorded_;  // can be reported on
   Bridge bridge_;                                  // before the threads that post to it
   std::unique_ptr<BackgroundJob> job_;

@@ -5,6 +5,8 @@
 #include <optional>
 
 #include "app/control/heat_picture.h"
+#include "app/control/outcome_tracker.h"
+#include "app/control/recorded_frame.h"
 #include "app/control/scene_composer.h"
 #include "core/error.h"
 #include "core/progress.h"
@@ -24,7 +26,7 @@ recon::Image Draw(recon::gl::SceneRenderer& renderer, SceneComposer& composer, c
       composer.Compose(result, recon::ViewFrom(camera, kPictureWidthPx, kPictureHeightPx)));
 }
 
-// The deepest touch; of a session that was cut short, which has no episodes, the deepest contact recorded.
+// The deepest touch; where no contact was long or deep enough for one, the deepest contact recorded.
 struct WorstMoment {
   core::FrameIndex frame = 0;
   core::PartIndex part = 0;
@@ -66,26 +68,9 @@ void AddHeat(const sessions::SessionReader& session, sessions::ReportPictures* p
 
 }  // namespace
 
-SharedFrameResult RebuildFrame(const sessions::SessionReader& session, core::FrameIndex frame) {
-  const core::FrameRecord record = session.ReadFrame(frame);
-  auto result = std::make_shared<FrameResult>();
-  result->frame = record.frame;
-  result->time_s = record.time_s;
-  result->masks = record.silhouettes;
-  result->hull = std::make_shared<const recon::VisualHull>(
-      recon::MakeVisualHull(std::make_shared<const core::Rig>(session.header().rig), *record.silhouettes));
-  result->layout = std::make_shared<const core::Layout>(session.header().layout);
-  result->spacing_mm = record.spacing_mm;
-  result->rest_from_parts = record.rest_from_parts;
-  result->world_from_parts =
-      core::WithMotions(core::PosesAt(*result->layout, record.spacing_mm), record.rest_from_parts);
-  result->contacts = record.contacts;
-  return result;
-}
-
 ReportFiles WriteSessionReport(const std::filesystem::path& session_path, const std::filesystem::path& folder,
                                const core::Progress& progress, std::stop_token stop) {
-  const sessions::SessionReader session(session_path);
+  const sessions::SessionReader session = OpenWithOutcome(session_path, progress, stop);
   const std::vector<sessions::FrameSummary> frames = session.frames();
   sessions::ReportPictures pictures;
   if (!frames.empty()) {

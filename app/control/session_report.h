@@ -7,13 +7,8 @@
 
 #include "app/control/frame_result.h"
 #include "core/progress.h"
-#include "sessions/session_reader.h"
 
 namespace elbowroom::control {
-
-// The frame as it was judged, rebuilt from its recorded silhouettes and layout; contacts are those recorded.
-// Throws: core::Error as SessionReader does.
-[[nodiscard]] SharedFrameResult RebuildFrame(const sessions::SessionReader& session, core::FrameIndex frame);
 
 struct ReportFiles {
   std::vector<std::filesystem::path> written;

@@ -12,11 +12,10 @@
 #include <variant>
 
 #include "app/control/frame_pipeline.h"
+#include "app/control/outcome_tracker.h"
 #include "app/control/trial_rules.h"
 #include "app/control/versions.h"
 #include "core/error.h"
-#include "review/contact_heat.h"
-#include "review/contact_tracker.h"
 #include "sessions/session_writer.h"
 
 namespace elbowroom::control {
@@ -33,6 +32,12 @@ core::SessionHeader HeaderOf(const TrialSetup& setup) {
   header.settings = SettingsOf(setup.segmentation);
   header.versions = SoftwareVersions();
   return header;
+}
+
+sessions::SessionWriterOptions WriterOptionsOf(const TrialOptions& options) {
+  sessions::SessionWriterOptions writer;
+  writer.on_news = options.on_recording;
+  return writer;
 }
 
 core::FrameIndex EndOf(const TrialSetup& setup, const FrameRange& range) {
@@ -80,8 +85,7 @@ class Recording {
       : setup_(setup),
         options_(options),
         controls_(controls),
-        writer_(options.session, HeaderOf(setup)),
-        tracker_(TrackerOptionsOf(setup.info)) {
+        writer_(options.session, HeaderOf(setup), WriterOptionsOf(options)) {
     spacing_mm_ = setup.layout.InitialSpacings();
     outcome_.frames_in_contact.assign(setup.layout.parts.size(), 0);
   }
@@ -90,7 +94,7 @@ class Recording {
     pipeline_.emplace(setup_.source->rig(), setup_.layout,
                       setup_.source->ReadBackgrounds(options_.progress, stop), setup_.segmentation,
                       ReviewOptionsOf(setup_.info));
-    heat_.emplace(pipeline_->part_trees());
+    tracker_.emplace(setup_.info, pipeline_->part_trees());
     const core::FrameIndex first = options_.frames.first;
     for (core::FrameIndex frame = first; frame < end && !stop.stop_requested(); ++frame) {
       recon::FrameSet frames = setup_.source->Read(frame);
@@ -100,8 +104,10 @@ class Recording {
       const SharedFrameResult result = pipeline_->Process(std::move(frames), spacing_mm_, options_.on_hull);
       outcome_.frame_ms.push_back(std::chrono::duration<double, std::milli>(Clock::now() - begin).count());
       Record(*result);
-      if (options_.on_frame) options_.on_frame(result);
-      options_.progress.Report(frame + 1 - first, setup_.source->frame_count() ? end - first : 0, "frames");
+      const RecordedFrames recorded{outcome_.frames, writer_.frames_committed()};
+      if (options_.on_frame) options_.on_frame(result, recorded);
+      options_.progress.Report(frame + 1 - first, setup_.source->frame_count() ? end - first : 0,
+                               fmt::format("{} on disk, frame", recorded.committed));
     }
   }
 
@@ -109,11 +115,36 @@ class Recording {
     outcome_.end_note = end_note;
     if (!end_note.empty())
       writer_.Append(core::SessionEvent{last_frame_, last_time_s_, core::Note{end_note}});
-    outcome_.episodes = tracker_.Episodes();
-    outcome_.near_misses = tracker_.NearMisses();
-    writer_.Finish(
-        {outcome_.episodes, outcome_.near_misses, heat_ ? heat_->Maps() : std::vector<core::HeatMap>()});
-    return std::move(outcome_);
+    core::SessionOutcome outcome = tracker_ ? tracker_->Outcome() : core::SessionOutcome();
+    outcome_.episodes = outcome.episodes;
+    outcome_.near_misses = outcome.near_misses;
+    writer_.Finish(std::move(outcome));
+    outcome_.session = writer_.path();
+    outcome_.frames_committed = writer_.frames_committed();
+    outcome_.recording = writer_.state();
+    return outcome_;
+  }
+
+  // Ends the session because of `failure`, and throws it with what is kept.
+  [[noreturn]] void EndAfter(const core::Error& failure) {
+    if (!HasFrames()) {
+      writer_.Abandon();
+      throw core::Error(failure.kind(), failure.what());
+    }
+    try {
+      (void)Finish(fmt::format("ended by a failure: {}", failure.what()));
+    } catch (const core::Error&) {
+      // The session file is the failure: what is in it is counted here.
+    }
+    ThrowWithWhatIsKept(failure);
+  }
+
+  [[noreturn]] void ThrowWithWhatIsKept(const core::Error& failure) const {
+    const std::int64_t kept = writer_.frames_committed();
+    const std::string what_is_kept = kept == 0 ? "no frame was recorded"
+                                               : fmt::format("{} of {} frames are kept in '{}'", kept,
+                                                             outcome_.frames, writer_.path().string());
+    throw core::Error(failure.kind(), fmt::format("{}; {}", failure.what(), what_is_kept));
   }
 
   void Abandon() { writer_.Abandon(); }
@@ -158,10 +189,7 @@ class Recording {
   void Record(const FrameResult& result) {
     last_frame_ = result.frame;
     last_time_s_ = result.time_s;
-    heat_->Add(result.time_s, result.hull, result.world_from_parts, result.contacts);
-    const std::vector<std::string> tools(tools_in_use_.begin(), tools_in_use_.end());
-    tracker_.Add(
-        {result.frame, result.time_s, result.contacts, result.world_from_parts, result.spacing_mm, tools});
+    tracker_->Add(result, std::vector<std::string>(tools_in_use_.begin(), tools_in_use_.end()));
     writer_.Append(core::FrameRecord{result.frame, result.time_s, result.masks, result.spacing_mm,
                                      result.contacts, result.rest_from_parts});
     ++outcome_.frames;
@@ -175,9 +203,8 @@ class Recording {
   const TrialOptions& options_;
   TrialControls& controls_;
   sessions::SessionWriter writer_;
-  review::ContactTracker tracker_;
   std::optional<FramePipeline> pipeline_;
-  std::optional<review::ContactHeat> heat_;  // over the pipeline's parts
+  std::optional<OutcomeTracker> tracker_;  // over the pipeline's parts
   std::set<std::string> tools_in_use_;
   Pace pace_;
   std::vector<double> spacing_mm_;
@@ -200,19 +227,10 @@ TrialOutcome RunTrial(const TrialSetup& setup, const TrialOptions& options, Tria
   try {
     recording.Run(end, stop);
   } catch (const core::Error& error) {
-    // A stop while the backgrounds were measured ends the trial in order. Footage can be read again, so a
-    // trial on bad footage leaves nothing; what a live camera has shown can't, so that is kept.
-    const bool is_stop = error.kind() == core::ErrorKind::kCancelled;
-    if (!is_stop && setup.source->frame_count()) {
-      recording.Abandon();
-      throw;
-    }
-    if (!is_stop) {
-      recording.Finish(fmt::format("ended by a failure: {}", error.what()));
-      throw;
-    }
+    // A stop while the backgrounds were measured ends the trial in order.
+    if (error.kind() != core::ErrorKind::kCancelled) recording.EndAfter(error);
   } catch (...) {
-    recording.Abandon();
+    if (!recording.HasFrames()) recording.Abandon();
     throw;
   }
   if (!recording.HasFrames()) {
@@ -220,7 +238,11 @@ TrialOutcome RunTrial(const TrialSetup& setup, const TrialOptions& options, Tria
     throw core::Error(core::ErrorKind::kCancelled,
                       "the trial was stopped before its first frame; nothing was recorded");
   }
-  return recording.Finish(EndNote(setup, end, stop));
+  try {
+    return recording.Finish(EndNote(setup, end, stop));
+  } catch (const core::Error& error) {
+    recording.ThrowWithWhatIsKept(error);
+  }
 }
 
 }  // namespace elbowroom::control

@@ -3,7 +3,7 @@
 
 #include "app/control/demo_parts.h"
 #include "app/control/frame_pipeline.h"
-#include "app/control/session_report.h"
+#include "app/control/recorded_frame.h"
 #include "recon/synthetic/demo_motion.h"
 #include "recon/synthetic/rig_presets.h"
 #include "recon/synthetic/synthetic_rig.h"

@@ -63,7 +63,7 @@ TEST_P(KilledWriter, LeavesEveryCommittedFrame) {
   const std::int64_t committed = RecordAndKill(path, seed, std::uniform_int_distribution(1, 400)(random));
   {
     const sessions::SessionReader reader(path);
-    EXPECT_EQ(reader.status(), sessions::SessionStatus::kRecording);
+    EXPECT_EQ(reader.status(), sessions::SessionStatus::kCutOff);
     EXPECT_GE(reader.frame_count(), committed);
     ExpectEqual(reader.header(), SampleHeader());
     const std::vector<sessions::FrameSummary> frames = reader.frames();

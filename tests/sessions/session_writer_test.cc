@@ -10,6 +10,8 @@
 #include <csignal>
 #include <ctime>
 #include <fstream>
+#include <functional>
+#include <thread>
 
 #include "core/error.h"
 #include "sessions/session_reader.h"
@@ -124,7 +126,7 @@ TEST(SessionWriter, DestroyedWithoutFinishLeavesAReadableRecording) {
   }
   EXPECT_EQ(FilesIn(folder.path()), 1U);
   const SessionReader reader(folder / "s.db");
-  EXPECT_EQ(reader.status(), sessions::SessionStatus::kRecording);
+  EXPECT_EQ(reader.status(), sessions::SessionStatus::kCutOff);
   EXPECT_FALSE(reader.ended_at_utc().has_value());
   EXPECT_EQ(reader.frame_count(), 100);
 }
@@ -133,10 +135,41 @@ TEST(SessionWriter, AbandonLeavesNothing) {
   const TemporaryFolder folder;
   const core::SessionHeader header = SampleHeader();
   SessionWriter writer(folder / "s.db", header);
-  writer.Append(SampleFrame(header, 0, kSeed));
+  writer.Append(core::SessionEvent{0, 0.0, core::Note{"no camera answers"}});
   writer.Abandon();
   EXPECT_EQ(FilesIn(folder.path()), 0U);
   EXPECT_THROW(writer.Append(SampleFrame(header, 1, kSeed)), core::PreconditionError);
+}
+
+TEST(SessionWriter, AbandonNeverTakesAFrame) {
+  const TemporaryFolder folder;
+  const core::SessionHeader header = SampleHeader();
+  SessionWriter writer(folder / "s.db", header);
+  writer.Append(SampleFrame(header, 0, kSeed));
+  EXPECT_THROW(writer.Abandon(), core::PreconditionError);
+  EXPECT_EQ(SessionReader(folder / "s.db").frame_count(), 1);
+}
+
+// A reader's clock, not a wait: nothing but the first frame is appended, so nothing else can push it out.
+TEST(SessionWriter, TheFirstFrameWaitsForNoOther) {
+  const TemporaryFolder folder;
+  const core::SessionHeader header = SampleHeader();
+  SessionWriter writer(folder / "s.db", header);
+  writer.Append(SampleFrame(header, 0, kSeed));
+  while (writer.frames_committed() == 0) std::this_thread::yield();
+  EXPECT_EQ(SessionReader(folder / "s.db").frame_count(), 1);
+}
+
+TEST(SessionWriter, NamesThatAreSqlitesOwnAreFilesLikeOthers) {
+  const TemporaryFolder folder;
+  const fs::path before = fs::current_path();
+  fs::current_path(folder.path());
+  for (const char* name : {":memory:", "file:s.db?mode=memory", "file::memory:", "file:s.db?vfs=none"}) {
+    WriteSampleSession(name, 3);
+    EXPECT_TRUE(fs::is_regular_file(folder / name)) << name;
+    EXPECT_EQ(SessionReader(name).frame_count(), 3) << name;
+  }
+  fs::current_path(before);
 }
 
 TEST(SessionWriter, AReaderFollowsARecordingUnderWayAndSeesItsEnd) {
@@ -164,17 +197,116 @@ TEST(SessionWriter, AFrameThatCameTwiceFailsTheNextCallAndTheSessionStaysReadabl
     writer.Append(SampleFrame(header, 7, kSeed));
     ExpectError([&] { writer.Finish({}); }, ErrorKind::kDatabase, "frame.frame_index");
   }
-  EXPECT_EQ(SessionReader(folder / "s.db").status(), sessions::SessionStatus::kRecording);
+  EXPECT_EQ(SessionReader(folder / "s.db").status(), sessions::SessionStatus::kCutOff);
 }
 
-TEST(SessionWriter, SaysThatAnotherProgramHoldsTheFile) {
+TEST(SessionWriter, WhileAnotherProgramHoldsTheFileFramesGoIntoASpillAndComeBack) {
   const TemporaryFolder folder;
   const core::SessionHeader header = SampleHeader();
-  SessionWriter writer(folder / "s.db", header);
-  SQLite::Database other((folder / "s.db").string(), SQLite::OPEN_READWRITE);
-  other.exec("BEGIN IMMEDIATE");
-  writer.Append(SampleFrame(header, 0, kSeed));
-  ExpectError([&] { writer.Finish({}); }, ErrorKind::kDatabase, "another program");
+  sessions::SessionWriterOptions options;
+  options.spill_after_s = 0.0;
+  std::vector<sessions::RecordingState> states;
+  options.on_news = [&](const sessions::RecordingNews& news) { states.push_back(news.state); };
+  core::FrameIndex frame = 0;
+  SessionWriter writer(folder / "s.db", header, options);
+  {
+    SQLite::Database other((folder / "s.db").string(), SQLite::OPEN_READWRITE);
+    other.exec("BEGIN IMMEDIATE");
+    while (writer.frames_committed() < 10) writer.Append(SampleFrame(header, frame++, kSeed));
+    EXPECT_EQ(writer.state(), sessions::RecordingState::kInSpill);
+    EXPECT_TRUE(fs::exists(folder / "s.db.spill"));
+  }
+  while (writer.state() != sessions::RecordingState::kInFile)
+    writer.Append(SampleFrame(header, frame++, kSeed));
+  writer.Finish(SampleOutcome(0, frame - 1));
+  using State = sessions::RecordingState;
+  EXPECT_EQ(states, (std::vector{State::kInMemory, State::kInSpill, State::kInFile}));
+  EXPECT_EQ(FilesIn(folder.path()), 1U);
+  const SessionReader reader(folder / "s.db");
+  EXPECT_EQ(reader.frame_count(), frame);
+  for (core::FrameIndex i = 0; i < frame; ++i)
+    ExpectEqual(reader.ReadFrame(i), SampleFrame(header, i, kSeed));
+}
+
+TEST(SessionWriter, ASessionThatStaysLockedIsWholeInItsSpillAndJoinsWhenOpened) {
+  const TemporaryFolder folder;
+  const core::SessionHeader header = SampleHeader();
+  sessions::SessionWriterOptions options;
+  options.spill_after_s = 0.0;
+  {
+    SessionWriter writer(folder / "s.db", header, options);
+    writer.Append(SampleFrame(header, 0, kSeed));
+    while (writer.frames_committed() == 0) std::this_thread::yield();
+    SQLite::Database other((folder / "s.db").string(), SQLite::OPEN_READWRITE);
+    other.exec("BEGIN IMMEDIATE");
+    for (core::FrameIndex i = 1; i < 30; ++i) writer.Append(SampleFrame(header, i, kSeed));
+    for (const core::SessionEvent& event : SampleEvents()) writer.Append(event);
+    writer.Finish(SampleOutcome(0, 29));
+    EXPECT_EQ(writer.state(), sessions::RecordingState::kInSpill);
+    EXPECT_EQ(writer.frames_committed(), 30);
+    // Nothing is in use any more but by who holds the lock: a copy in which both are one.
+    const SessionReader reader(folder / "s.db");
+    EXPECT_LE(reader.frame_count(), 30);
+  }
+  const SessionReader reader(folder / "s.db");
+  EXPECT_EQ(reader.frame_count(), 30);
+  EXPECT_EQ(reader.status(), sessions::SessionStatus::kComplete);
+  EXPECT_EQ(reader.events().size(), SampleEvents().size());
+  EXPECT_EQ(reader.episodes().size(), 2U);
+  ExpectEqual(reader.ReadFrame(29), SampleFrame(header, 29, kSeed));
+  EXPECT_EQ(FilesIn(folder.path()), 1U);
+}
+
+// What `remove` takes from beside or below a session while it is recorded.
+void RecordWhile(const TemporaryFolder& folder, const std::function<void(const fs::path&)>& remove,
+                 const char* expected_name) {
+  const core::SessionHeader header = SampleHeader();
+  const fs::path path = folder / "trials" / "s.db";
+  fs::create_directories(path.parent_path());
+  std::vector<std::string> lines;
+  sessions::SessionWriterOptions options;
+  options.on_news = [&](const sessions::RecordingNews& news) { lines.push_back(news.line); };
+  SessionWriter writer(path, header, options);
+  for (core::FrameIndex i = 0; i < 20; ++i) writer.Append(SampleFrame(header, i, kSeed));
+  while (writer.frames_committed() < 20) std::this_thread::yield();
+  remove(path);
+  for (core::FrameIndex i = 20; i < 40; ++i) writer.Append(SampleFrame(header, i, kSeed));
+  writer.Finish(SampleOutcome(0, 39));
+  ASSERT_FALSE(lines.empty());
+  EXPECT_NE(lines.front().find("removed or replaced"), std::string::npos) << lines.front();
+  EXPECT_EQ(writer.path().filename(), expected_name);
+  const SessionReader reader(writer.path());
+  EXPECT_EQ(reader.status(), sessions::SessionStatus::kComplete);
+  ASSERT_EQ(reader.frame_count(), 40);
+  for (core::FrameIndex i = 0; i < 40; ++i) ExpectEqual(reader.ReadFrame(i), SampleFrame(header, i, kSeed));
+}
+
+TEST(SessionWriter, MakesASessionAgainWhoseFileWasRemoved) {
+  RecordWhile(
+      TemporaryFolder(), [](const fs::path& path) { fs::remove(path); }, "s.db");
+}
+TEST(SessionWriter, MakesASessionAgainWhoseLogWasRemoved) {
+  RecordWhile(
+      TemporaryFolder(), [](const fs::path& path) { fs::remove(path.string() + "-wal"); }, "s.db");
+}
+TEST(SessionWriter, MakesASessionAgainWhoseLogsIndexWasRemoved) {
+  RecordWhile(
+      TemporaryFolder(), [](const fs::path& path) { fs::remove(path.string() + "-shm"); }, "s.db");
+}
+TEST(SessionWriter, MakesASessionAgainWhoseFolderWasRemoved) {
+  RecordWhile(
+      TemporaryFolder(), [](const fs::path& path) { fs::remove_all(path.parent_path()); }, "s.db");
+}
+TEST(SessionWriter, GivesASessionAnotherNameWhereItsOwnWasTaken) {
+  const auto replace = [](const fs::path& path) {
+    fs::remove(path);
+    std::ofstream(path) << "precious";
+  };
+  const TemporaryFolder folder;
+  RecordWhile(folder, replace, "s.db.rescued");
+  std::string content;
+  std::getline(std::ifstream(folder / "trials" / "s.db"), content);
+  EXPECT_EQ(content, "precious");
 }
 
 // In a process of its own: a limit on the size of its files makes every later write fail, as a full disk
@@ -183,8 +315,11 @@ int RecordUntilTheDiskIsFull(const fs::path& path) {
   std::signal(SIGXFSZ, SIG_IGN);
   const rlimit limit{400'000, 400'000};
   const core::SessionHeader header = SampleHeader();
+  sessions::SessionWriterOptions options;
+  options.patience_s = options.spill_after_s = 0.1;
+  options.most_held_frames = 50;
   try {
-    SessionWriter writer(path, header);
+    SessionWriter writer(path, header, options);
     if (setrlimit(RLIMIT_FSIZE, &limit) != 0) return 2;
     for (core::FrameIndex i = 0; i < 5000; ++i) writer.Append(SampleFrame(header, i, kSeed));
     writer.Finish({});

@@ -11,6 +11,7 @@
 #include <chrono>
 #include <stdexcept>
 #include <system_error>
+#include <thread>
 #include <utility>
 
 namespace elbowroom::test_support {
@@ -142,8 +143,11 @@ ProgramRun RunProgram(const std::filesystem::path& program, const std::vector<st
   ProgramRun run;
   const auto timeout =
       std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(options.timeout_s));
+  std::jthread beside;
+  if (options.while_running) beside = std::jthread([&] { options.while_running(child); });
   const bool ended = ReadBoth(out, err, Clock::now() + timeout, run);
   if (!ended) kill(-child, SIGKILL);
+  if (beside.joinable()) beside.join();
   run.exit_status = WaitFor(child);
   if (!ended)
     throw std::runtime_error(program.string() + ": took longer than its timeout; it said: " + run.err);

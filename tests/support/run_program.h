@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -18,6 +19,8 @@ struct RunOptions {
   std::filesystem::path working_folder{};            // empty: the test's own
   std::map<std::string, std::string> environment{};  // set beside the test's own
   double timeout_s = 300.0;
+  // Called on a thread of its own with the program's process id once it runs; waited for before it is reaped.
+  std::function<void(int process)> while_running{};
 };
 
 // Waits for it to end; its standard input is empty. `arguments` don't include the program's name.

@@ -1,0 +1,62 @@
+#include "app/control/outcome_tracker.h"
+
+#include <set>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "app/control/recorded_frame.h"
+#include "app/control/trial_rules.h"
+#include "core/progress.h"
+
+namespace elbowroom::control {
+
+OutcomeTracker::OutcomeTracker(const core::TrialInfo& trial, std::span<const core::TriangleTree> part_trees)
+    : tracker_(TrackerOptionsOf(trial)), heat_(part_trees) {}
+
+void OutcomeTracker::Add(const FrameResult& frame, std::span<const std::string> tools_in_use) {
+  heat_.Add(frame.time_s, frame.hull, frame.world_from_parts, frame.contacts);
+  tracker_.Add(
+      {frame.frame, frame.time_s, frame.contacts, frame.world_from_parts, frame.spacing_mm, tools_in_use});
+}
+
+core::SessionOutcome OutcomeTracker::Outcome() const {
+  return {tracker_.Episodes(), tracker_.NearMisses(), heat_.Maps()};
+}
+
+core::SessionOutcome OutcomeFromFrames(const sessions::SessionReader& session, const core::Progress& progress,
+                                       const std::stop_token& stop) {
+  std::vector<core::TriangleTree> part_trees;
+  for (const core::Part& part : session.header().layout.parts) part_trees.emplace_back(part.mesh);
+  OutcomeTracker tracker(session.header().trial, part_trees);
+  const std::vector<sessions::FrameSummary> frames = session.frames();
+  const std::vector<core::SessionEvent> events = session.events();
+  auto event = events.begin();
+  std::set<std::string> tools_in_use;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    core::ThrowIfStopped(stop, "putting the session's touches together");
+    for (; event != events.end() && event->frame <= frames[i].frame; ++event) {
+      const auto* mark = std::get_if<core::ToolMarked>(&event->what);
+      if (mark == nullptr) continue;
+      if (mark->in_use) {
+        tools_in_use.insert(mark->tool);
+      } else {
+        tools_in_use.erase(mark->tool);
+      }
+    }
+    tracker.Add(*RebuildFrame(session, frames[i].frame),
+                std::vector<std::string>(tools_in_use.begin(), tools_in_use.end()));
+    progress.Report(static_cast<std::int64_t>(i + 1), static_cast<std::int64_t>(frames.size()),
+                    "touches of a session that wasn't ended, frame");
+  }
+  return tracker.Outcome();
+}
+
+sessions::SessionReader OpenWithOutcome(const std::filesystem::path& session, const core::Progress& progress,
+                                        const std::stop_token& stop) {
+  sessions::SessionReader reader(session);
+  if (!reader.has_outcome()) reader.AdoptOutcome(OutcomeFromFrames(reader, progress, stop));
+  return reader;
+}
+
+}  // namespace elbowroom::control

@@ -1,0 +1,47 @@
+// A session's touches, near misses and heat maps, put together frame by frame.
+#pragma once
+
+#include <span>
+#include <stop_token>
+#include <string>
+
+#include "app/control/frame_result.h"
+#include "core/bvh.h"
+#include "core/progress.h"
+#include "core/session.h"
+#include "review/contact_heat.h"
+#include "review/contact_tracker.h"
+#include "sessions/session_reader.h"
+
+namespace elbowroom::control {
+
+// Fed every frame in order of time. Thread: one.
+class OutcomeTracker {
+ public:
+  // One tree a part, which must outlive this.
+  OutcomeTracker(const core::TrialInfo& trial, std::span<const core::TriangleTree> part_trees);
+
+  // tools_in_use: in order of name.
+  void Add(const FrameResult& frame, std::span<const std::string> tools_in_use);
+
+  [[nodiscard]] core::SessionOutcome Outcome() const;
+
+ private:
+  review::ContactTracker tracker_;
+  review::ContactHeat heat_;
+};
+
+// What a session that was cut off would have had as its outcome: the same, row for row, as if its trial had
+// been stopped after the last frame on the disk (outcome_tracker_test). Throws: what SessionReader throws;
+// Error{kCancelled}.
+[[nodiscard]] core::SessionOutcome OutcomeFromFrames(const sessions::SessionReader& session,
+                                                     const core::Progress& progress,
+                                                     const std::stop_token& stop);
+
+// A session to be reported: one that was cut off, or is still being recorded, gets the outcome of its frames
+// so far, in memory. Throws: what SessionReader and OutcomeFromFrames throw.
+[[nodiscard]] sessions::SessionReader OpenWithOutcome(const std::filesystem::path& session,
+                                                      const core::Progress& progress,
+                                                      const std::stop_token& stop);
+
+}  // namespace elbowroom::control

@@ -1,0 +1,166 @@
+#include "sessions/recording_store.h"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <utility>
+
+#include "core/file_sync.h"
+#include "sessions/header_rows.h"
+#include "sessions/outcome_rows.h"
+#include "sessions/schema.h"
+#include "sessions/session_files.h"
+#include "sessions/spill.h"
+
+namespace elbowroom::sessions {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kRescuedSuffix = ".rescued";
+
+Database CreateSession(const fs::path& path, const core::SessionHeader& header) {
+  header.rig.Validate();
+  header.layout.Validate();
+  if (HasSpill(path)) {
+    throw core::Error(core::ErrorKind::kFile,
+                      fmt::format("'{}{}' is left from another session; move it away or choose another "
+                                  "session path",
+                                  path.string(), kSpillSuffix));
+  }
+  Database database = Database::Create(path);
+  try {
+    Transaction transaction(database);
+    Migrate(database);
+    InsertHeader(database, header);
+    transaction.Commit();
+    database.RememberPlace();
+  } catch (...) {
+    RemoveDatabaseFiles(path);
+    throw;
+  }
+  return database;
+}
+
+std::string NowUtc() {
+  const auto now = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
+  return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::chrono::system_clock::to_time_t(now)));
+}
+
+// Gives the whole database `part` the name `target`; false where a file that isn't `open`'s bears it.
+bool PutInPlace(const fs::path& part, const fs::path& target, const Database& open) {
+  const bool is_own = open.IsTheFile(target);
+  std::error_code failure;
+  if (!is_own && fs::exists(fs::symlink_status(target, failure))) return false;
+  // The log of a database that is gone would be taken for the new one's.
+  for (const std::string_view suffix : {kLogSuffix, kLogIndexSuffix, kRollbackSuffix})
+    fs::remove(WithSuffix(target, suffix), failure);
+  if (is_own || ::link(part.c_str(), target.c_str()) != 0) {
+    if (!is_own && errno == EEXIST) return false;
+    fs::rename(part, target, failure);
+    if (failure) {
+      throw core::Error(core::ErrorKind::kFile,
+                        fmt::format("session '{}': it was removed and can't be made again: {}; make its "
+                                    "folder writable",
+                                    target.string(), failure.message()));
+    }
+  }
+  fs::remove(part, failure);
+  core::SyncFolder(core::FolderOf(target));
+  return true;
+}
+
+}  // namespace
+
+RecordingStore::RecordingStore(const fs::path& path, const core::SessionHeader& header)
+    : header_(header), path_(path) {
+  session_.emplace(CreateSession(path, header));
+}
+
+void RecordingStore::Write(std::span<const RecordingEntry> entries) {
+  Place& place = spill_ ? *spill_ : *session_;
+  Transaction transaction(place.database);
+  for (const RecordingEntry& entry : entries) WriteInto(place, entry);
+  transaction.Commit();
+}
+
+void RecordingStore::WriteInto(Place& place, const RecordingEntry& entry) const {
+  if (const auto* record = std::get_if<core::FrameRecord>(&entry)) {
+    place.frames->Insert(*record);
+  } else if (const auto* event = std::get_if<core::SessionEvent>(&entry)) {
+    InsertEvent(place.database, header_.layout, *event);
+  } else if (const auto* outcome = std::get_if<core::SessionOutcome>(&entry)) {
+    InsertOutcome(place.database, *outcome);
+    place.database.Execute(
+        fmt::format("UPDATE session SET status = 'complete', ended_at_utc = '{}'", NowUtc()));
+  }
+}
+
+bool RecordingStore::RestoreIfGone() {
+  std::optional<Place>& place = spill_ ? spill_ : session_;
+  if (place->database.IsInPlace()) return false;
+  place->frames.reset();
+  Database again = MadeAgain();
+  place.reset();
+  place.emplace(std::move(again));
+  if (!spill_) path_ = place->database.path();
+  return true;
+}
+
+Database RecordingStore::MadeAgain() {
+  Database& open = (spill_ ? spill_ : session_)->database;
+  const fs::path name = open.path();
+  core::MakeFolder(core::FolderOf(name));
+  // Written whole under a name of its own first: half a session must not bear the session's name.
+  const fs::path part = WithSuffix(name, ".part");
+  RemoveDatabaseFiles(part);
+  {
+    Database copy = Database::CopyTo(part, open);
+    copy.FoldLogIntoFile();
+  }
+  fs::path target = name;
+  for (int number = 1; !PutInPlace(part, target, open); ++number) {
+    const std::string which = number == 1 ? "" : std::to_string(number);
+    target = WithSuffix(name, fmt::format("{}{}", kRescuedSuffix, which));
+  }
+  return Database::OpenToWrite(target);
+}
+
+void RecordingStore::SpillBeside() { spill_.emplace(CreateSpill(path_, header_)); }
+
+void RecordingStore::ReturnFromSpill() {
+  { const Transaction free_to_write(session_->database); }
+  spill_.reset();  // its log is folded with its last connection
+  try {
+    MergeSpill(session_->database);
+  } catch (...) {
+    spill_.emplace(Database::OpenToWrite(WithSuffix(path_, kSpillSuffix)));
+    spill_->database.Execute("PRAGMA foreign_keys = OFF");
+    throw;
+  }
+}
+
+void RecordingStore::Close() {
+  for (std::optional<Place>* place : {&spill_, &session_}) {
+    if (!*place) continue;
+    (*place)->frames.reset();
+    try {
+      (*place)->database.FoldLogIntoFile();
+    } catch (const core::Error&) {
+      // The log stays beside the file: a reader finds everything in the two.
+    }
+    place->reset();
+  }
+}
+
+bool RecordingStore::Remove() {
+  spill_.reset();
+  session_.reset();
+  const bool is_spill_gone = RemoveDatabaseFiles(WithSuffix(path_, kSpillSuffix));
+  return RemoveDatabaseFiles(path_) && is_spill_gone;
+}
+
+}  // namespace elbowroom::sessions

@@ -1,0 +1,81 @@
+#include "sessions/spill.h"
+
+#include <SQLiteCpp/SQLiteCpp.h>
+
+#include "sessions/header_rows.h"
+#include "sessions/schema.h"
+#include "sessions/session_files.h"
+#include "sessions/statement.h"
+
+namespace elbowroom::sessions {
+namespace {
+
+// Rows that are there already are those of a merge that was broken off. Masks have other numbers in the two
+// files, so they are told apart by their hashes.
+constexpr const char* kMergeSql = R"sql(
+INSERT OR IGNORE INTO main.frame SELECT * FROM spill.frame;
+INSERT OR IGNORE INTO main.frame_spacing SELECT * FROM spill.frame_spacing;
+INSERT OR IGNORE INTO main.mask (content_hash, width_px, height_px, object_px, words_zstd, levels_zstd)
+  SELECT content_hash, width_px, height_px, object_px, words_zstd, levels_zstd FROM spill.mask;
+INSERT OR IGNORE INTO main.silhouette
+  SELECT s.frame_index, s.camera_index, ours.mask_id FROM spill.silhouette s
+  JOIN spill.mask theirs USING (mask_id) JOIN main.mask ours ON ours.content_hash = theirs.content_hash;
+INSERT OR IGNORE INTO main.part_frame SELECT * FROM spill.part_frame;
+INSERT OR IGNORE INTO main.contact SELECT * FROM spill.contact;
+INSERT OR IGNORE INTO main.contact_point SELECT * FROM spill.contact_point;
+INSERT OR IGNORE INTO main.clearance SELECT * FROM spill.clearance;
+INSERT OR IGNORE INTO main.part_motion SELECT * FROM spill.part_motion;
+INSERT OR IGNORE INTO main.episode SELECT * FROM spill.episode;
+INSERT OR IGNORE INTO main.episode_spacing SELECT * FROM spill.episode_spacing;
+INSERT OR IGNORE INTO main.near_miss SELECT * FROM spill.near_miss;
+INSERT OR IGNORE INTO main.heat_map SELECT * FROM spill.heat_map;
+INSERT INTO main.event (frame_index, time_s, kind, spacing_index, from_mm, to_mm, tool, in_use, note)
+  SELECT frame_index, time_s, kind, spacing_index, from_mm, to_mm, tool, in_use, note FROM spill.event AS new
+  WHERE NOT EXISTS (
+    SELECT 1 FROM main.event AS old WHERE old.frame_index = new.frame_index AND old.time_s = new.time_s
+      AND old.kind = new.kind AND old.spacing_index IS new.spacing_index AND old.from_mm IS new.from_mm
+      AND old.to_mm IS new.to_mm AND old.tool IS new.tool AND old.in_use IS new.in_use AND old.note IS new.note)
+  ORDER BY event_id;
+UPDATE main.session SET status = spill.session.status, ended_at_utc = spill.session.ended_at_utc
+  FROM spill.session WHERE main.session.status = 'recording';
+)sql";
+
+}  // namespace
+
+Database CreateSpill(const std::filesystem::path& session, const core::SessionHeader& header) {
+  Database spill = Database::Create(WithSuffix(session, kSpillSuffix));
+  try {
+    spill.Execute("PRAGMA foreign_keys = OFF");
+    Transaction transaction(spill);
+    Migrate(spill);
+    InsertHeader(spill, header);
+    transaction.Commit();
+    spill.RememberPlace();
+    return spill;
+  } catch (...) {
+    RemoveDatabaseFiles(spill.path());
+    throw;
+  }
+}
+
+bool HasSpill(const std::filesystem::path& session) {
+  std::error_code ignored;
+  return std::filesystem::is_regular_file(WithSuffix(session, kSpillSuffix), ignored);
+}
+
+void MergeSpill(Database& session) {
+  const std::filesystem::path spill = WithSuffix(session.path(), kSpillSuffix);
+  Statement(session, "ATTACH ? AS spill").With(std::filesystem::absolute(spill).string()).Run();
+  try {
+    Transaction transaction(session);
+    session.Execute(kMergeSql);
+    transaction.Commit();
+  } catch (...) {
+    session.connection().tryExec("DETACH spill");
+    throw;
+  }
+  session.Execute("DETACH spill");
+  RemoveDatabaseFiles(spill);
+}
+
+}  // namespace elbowroom::sessions

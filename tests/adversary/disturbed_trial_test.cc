@@ -1,0 +1,184 @@
+// Trials whose session file can't be written for a while, or no longer: full disks, locks, files and folders
+// that go, disks that turn read-only or lose their power.
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <chrono>
+#include <functional>
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "sessions/session_reader.h"
+#include "tests/adversary/disk_mount.h"
+#include "tests/adversary/recorded_session.h"
+#include "tests/adversary/sample_trial_files.h"
+#include "tests/support/soak.h"
+#include "tests/support/temporary_folder.h"
+
+namespace elbowroom::adversary {
+namespace {
+
+namespace fs = std::filesystem;
+using std::chrono::milliseconds;
+using test_support::ProgramRun;
+using test_support::TemporaryFolder;
+
+// What records into `session`; the files that it takes are in `files`.
+struct Trial {
+  const char* name;
+  std::function<std::vector<std::string>(const fs::path& files, const fs::path& session)> words;
+};
+
+const Trial kDemo = {"demo", [](const fs::path& /*files*/, const fs::path& session) {
+                       return std::vector<std::string>{"--json", "demo", "--headless", "--out",
+                                                       session.parent_path().string()};
+                     }};
+const Trial kRecorded = {"recorded", [](const fs::path& files, const fs::path& session) {
+                           const fs::path trial = WriteMaskTrial(files, 3000);
+                           return std::vector<std::string>{"--json",        "trial",      "run",
+                                                           trial.string(),  "--headless", "--session",
+                                                           session.string()};
+                         }};
+
+// What becomes of the session's place once some frames are on the disk.
+struct Disturbance {
+  std::string name;
+  std::function<void(const fs::path& session, int process)> act;
+  bool ends_well = true;  // the program exits with 0, every frame on the disk
+};
+
+Disturbance LockedFor(milliseconds time) {
+  return {"locked for " + std::to_string(time.count() / 1000) + " s",
+          [=](const fs::path& session, int /*process*/) {
+            SQLite::Database other(session.string(), SQLite::OPEN_READWRITE, 3000);
+            other.exec("BEGIN IMMEDIATE");
+            std::this_thread::sleep_for(time);
+          }};
+}
+
+const Disturbance kFileRemoved = {"file removed", [](const fs::path& session, int) { fs::remove(session); }};
+const Disturbance kLogRemoved = {"-wal removed",
+                                 [](const fs::path& session, int) { fs::remove(session.string() + "-wal"); }};
+const Disturbance kFolderRemoved = {
+    "folder removed", [](const fs::path& session, int) { fs::remove_all(session.parent_path()); }};
+
+// Runs the trial, disturbs it, and says in a line what came of it.
+ProgramRun RunDisturbed(const Trial& trial, const Disturbance& disturbance, const fs::path& files,
+                        const fs::path& session, std::int64_t* frames_before) {
+  constexpr std::int64_t kFramesBefore = 40;
+  test_support::RunOptions options = AsInATest();
+  options.while_running = [&](int process) {
+    *frames_before = WaitForFrames(session, kFramesBefore, process);
+    disturbance.act(session, process);
+  };
+  const ProgramRun run = test_support::RunProgram(ELBOWROOM_PROGRAM, trial.words(files, session), options);
+  std::string told = run.exit_status == 0 ? "" : run.err.substr(0, run.err.find('\n'));
+  const nlohmann::json summary = nlohmann::json::parse(run.out, nullptr, false);
+  if (!summary.is_discarded()) {
+    told = std::to_string(summary["frames_committed"].get<int>()) + " of " +
+           std::to_string(summary["frames"].get<int>()) + " frames in " +
+           summary["recorded_in"].get<std::string>();
+    for (const auto& warning : summary["warnings"]) told += "; " + warning.get<std::string>();
+  }
+  std::cout << "| " << trial.name << " | " << disturbance.name << " | " << run.exit_status << " | " << told
+            << " |\n";
+  return run;
+}
+
+void ExpectTheTrialGoesOn(const Trial& trial, const Disturbance& disturbance) {
+  SCOPED_TRACE(std::string(trial.name) + ", " + disturbance.name);
+  const TemporaryFolder folder;
+  const fs::path session = folder / "out" / "session.db";
+  fs::create_directories(session.parent_path());
+  std::int64_t frames_before = 0;
+  const ProgramRun run = RunDisturbed(trial, disturbance, folder / "files", session, &frames_before);
+  ASSERT_EQ(run.exit_status, 0) << run.err;
+  const nlohmann::json summary = nlohmann::json::parse(run.out);
+  EXPECT_EQ(summary["frames"], summary["frames_committed"]);
+  EXPECT_FALSE(summary["warnings"].empty()) << "nobody was told";
+  ExpectSound(session, summary["frames"].get<std::int64_t>());
+  EXPECT_EQ(sessions::SessionReader(session).status(), sessions::SessionStatus::kComplete);
+}
+
+TEST(DisturbedTrial, GoesOnWhereAnotherProgramLocksItsSession) {
+  ExpectTheTrialGoesOn(kRecorded, LockedFor(milliseconds(2000)));
+  if (test_support::SoakScale() == 1) return;
+  for (const int seconds : {2, 7, 30}) {
+    ExpectTheTrialGoesOn(kDemo, LockedFor(milliseconds(1000 * seconds)));
+    ExpectTheTrialGoesOn(kRecorded, LockedFor(milliseconds(1000 * seconds)));
+  }
+}
+
+TEST(DisturbedTrial, GoesOnWhereItsFilesAreRemoved) {
+  for (const Disturbance& disturbance : {kFileRemoved, kLogRemoved, kFolderRemoved}) {
+    ExpectTheTrialGoesOn(kRecorded, disturbance);
+    if (test_support::SoakScale() > 1) ExpectTheTrialGoesOn(kDemo, disturbance);
+  }
+}
+
+// The program ends with one line, or with all frames; what was on the disk is there.
+void ExpectAnOrderlyEnd(const Trial& trial, const Disturbance& disturbance, const fs::path& files,
+                        const fs::path& session) {
+  SCOPED_TRACE(std::string(trial.name) + ", " + disturbance.name);
+  std::int64_t frames_before = 0;
+  const ProgramRun run = RunDisturbed(trial, disturbance, files, session, &frames_before);
+  ExpectOrderlyEnd(run);
+  if (frames_before > 0 || fs::exists(session)) ExpectSound(session, frames_before);
+}
+
+TEST(DisturbedTrial, EndsInOrderOnAFullDisk) {
+  const std::vector<int> sizes_mb =
+      test_support::SoakScale() == 1 ? std::vector{3} : std::vector{3, 5, 8, 12};
+  for (const Trial& trial : {kDemo, kRecorded}) {
+    for (const int size_mb : sizes_mb) {
+      const TemporaryFolder folder;
+      const auto disk = DiskMount::InMemory(folder / "disk", size_mb);
+      if (!disk) GTEST_SKIP() << "NOT TESTED: no file system may be mounted here";
+      const Disturbance full = {"disk of " + std::to_string(size_mb) + " MB", [](const fs::path&, int) {}};
+      ExpectAnOrderlyEnd(trial, full, folder / "files", folder / "disk" / "session.db");
+    }
+  }
+}
+
+TEST(DisturbedTrial, EndsInOrderOnADiskThatTurnsReadOnly) {
+  for (const Trial& trial : {kDemo, kRecorded}) {
+    const TemporaryFolder folder;
+    const auto disk = DiskMount::Ext4(folder / "image", folder / "disk");
+    if (!disk) GTEST_SKIP() << "NOT TESTED: no file system may be mounted here";
+    const Disturbance read_only = {"disk turns read-only",
+                                   [&](const fs::path&, int) { EXPECT_TRUE(disk->MakeReadOnly()); }};
+    ExpectAnOrderlyEnd(trial, read_only, folder / "files", folder / "disk" / "session.db");
+  }
+}
+
+TEST(DisturbedTrial, LosesNothingOnTheDiskWhenThePowerFails) {
+  const int failures = test_support::SoakScale();  // 20 by ./dev soak
+  for (int i = 0; i < failures && !HasFailure(); ++i) {
+    const TemporaryFolder folder;
+    const Trial& trial = i % 2 == 0 ? kRecorded : kDemo;
+    const fs::path session = folder / "disk" / "out" / "session.db";
+    std::int64_t frames = 0;
+    {
+      const auto disk = DiskMount::Ext4(folder / "image", folder / "disk");
+      if (!disk) GTEST_SKIP() << "NOT TESTED: no file system may be mounted here";
+      fs::create_directories(session.parent_path());
+      test_support::RunOptions options = AsInATest();
+      options.while_running = [&](int process) {
+        frames = WaitForFrames(session, 1 + 23 * i, process);
+        EXPECT_TRUE(disk->CutPower());
+        kill(process, SIGKILL);
+      };
+      (void)test_support::RunProgram(ELBOWROOM_PROGRAM, trial.words(folder / "files", session), options);
+    }
+    const auto disk = DiskMount::Ext4(folder / "image", folder / "disk");
+    ASSERT_TRUE(disk.has_value());
+    ExpectSound(session, frames);
+  }
+}
+
+}  // namespace
+}  // namespace elbowroom::adversary
