@@ -93,9 +93,10 @@ std::unique_ptr<SQLite::Database> ConnectToRead(const fs::path& path, int flags)
   return connection;
 }
 
-// The log is synced with each commit and each checkpoint.
+// The log is synced with each commit and each checkpoint, and the folder when a rollback journal goes: one
+// that came back after a power failure would undo the change to a log, and take the log's frames with it.
 void MakeDurable(SQLite::Database& connection) {
-  connection.exec("PRAGMA synchronous = FULL; PRAGMA journal_mode = WAL; PRAGMA foreign_keys = ON");
+  connection.exec("PRAGMA synchronous = EXTRA; PRAGMA journal_mode = WAL; PRAGMA foreign_keys = ON");
 }
 
 // Whether SQLite wanted to write: a rollback, or the index of the log.
@@ -218,7 +219,7 @@ Database Database::CopyTo(const fs::path& path, Database& database) {
   try {
     {
       auto copy = Connect(path, SQLite::OPEN_READWRITE, kWriterWaitsMs);
-      copy->exec("PRAGMA synchronous = FULL");
+      copy->exec("PRAGMA synchronous = EXTRA");
       SQLite::Backup(*copy, *database.connection_).executeStep();
     }
     return OpenToWrite(path);
@@ -258,7 +259,7 @@ Database Database::CopyInMemory() {
 void Database::FoldLogIntoFile() {
   Checkpoint();
   try {
-    connection_->exec("PRAGMA synchronous = EXTRA; PRAGMA journal_mode = DELETE");
+    connection_->exec("PRAGMA journal_mode = DELETE");
   } catch (const SQLite::Exception& exception) {
     if (exception.getErrorCode() != SQLITE_BUSY) RethrowAsError(path_);
   }
@@ -274,14 +275,20 @@ Database::FileId Database::IdOf(const fs::path& path) {
 }
 
 void Database::RememberPlace() {
-  file_ = IdOf(path_);
-  log_ = IdOf(WithSuffix(path_, kLogSuffix));
-  index_ = IdOf(WithSuffix(path_, kLogIndexSuffix));
+  const auto remember = [](FileId& id, const fs::path& path) {
+    if (id == FileId{}) id = IdOf(path);
+  };
+  remember(file_, path_);
+  remember(log_, WithSuffix(path_, kLogSuffix));
+  remember(index_, WithSuffix(path_, kLogIndexSuffix));
 }
 
 bool Database::IsInPlace() const {
-  return IdOf(path_) == file_ && IdOf(WithSuffix(path_, kLogSuffix)) == log_ &&
-         IdOf(WithSuffix(path_, kLogIndexSuffix)) == index_;
+  const auto is_there = [](const FileId& id, const fs::path& path) {
+    return id == FileId{} || id == IdOf(path);
+  };
+  return is_there(file_, path_) && is_there(log_, WithSuffix(path_, kLogSuffix)) &&
+         is_there(index_, WithSuffix(path_, kLogIndexSuffix));
 }
 
 Transaction::Transaction(Database& database) : database_(database) { database_.Execute("BEGIN IMMEDIATE"); }

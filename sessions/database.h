@@ -77,7 +77,7 @@ class Database {
   // Whether `path` names the file that is open here.
   [[nodiscard]] bool IsTheFile(const std::filesystem::path& path) const { return IdOf(path) == file_; }
 
-  // What bears these names now is taken for the files of this connection from here on.
+  // Of the files of this connection those that SQLite has made since are known from here on.
   void RememberPlace();
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }

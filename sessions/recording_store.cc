@@ -85,6 +85,7 @@ void RecordingStore::Write(std::span<const RecordingEntry> entries) {
   Transaction transaction(place.database);
   for (const RecordingEntry& entry : entries) WriteInto(place, entry);
   transaction.Commit();
+  place.database.RememberPlace();
 }
 
 void RecordingStore::WriteInto(Place& place, const RecordingEntry& entry) const {

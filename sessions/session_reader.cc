@@ -84,6 +84,11 @@ core::FrameRecord SessionReader::ReadFrame(core::FrameIndex frame) const {
   return sessions::ReadFrame(impl_->database, impl_->header, frame);
 }
 
+void SessionReader::Freeze() {
+  impl_->database.Execute("BEGIN");
+  (void)frame_count();  // the transaction's view is that of its first statement
+}
+
 bool SessionReader::has_outcome() const { return impl_->adopted || status() == SessionStatus::kComplete; }
 
 void SessionReader::AdoptOutcome(core::SessionOutcome outcome) { impl_->adopted = std::move(outcome); }

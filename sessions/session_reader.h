@@ -54,6 +54,9 @@ class SessionReader {
   // With bit-equal silhouettes and every contact. Throws: Error{kRange} for a frame that wasn't recorded.
   [[nodiscard]] core::FrameRecord ReadFrame(core::FrameIndex frame) const;
 
+  // From here on every call sees the session as it is now, whatever is recorded meanwhile.
+  void Freeze();
+
   // Whether the session has its outcome: one that was ended, or was given it.
   [[nodiscard]] bool has_outcome() const;
   // From here on episodes, near misses and heat maps are these; the file stays as it is.

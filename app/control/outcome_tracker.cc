@@ -55,6 +55,7 @@ core::SessionOutcome OutcomeFromFrames(const sessions::SessionReader& session, c
 sessions::SessionReader OpenWithOutcome(const std::filesystem::path& session, const core::Progress& progress,
                                         const std::stop_token& stop) {
   sessions::SessionReader reader(session);
+  reader.Freeze();
   if (!reader.has_outcome()) reader.AdoptOutcome(OutcomeFromFrames(reader, progress, stop));
   return reader;
 }

@@ -38,8 +38,8 @@ class OutcomeTracker {
                                                      const core::Progress& progress,
                                                      const std::stop_token& stop);
 
-// A session to be reported: one that was cut off, or is still being recorded, gets the outcome of its frames
-// so far, in memory. Throws: what SessionReader and OutcomeFromFrames throw.
+// A session to be reported, as it is now: one that was cut off, or is still being recorded, gets the outcome
+// of its frames so far, in memory. Throws: what SessionReader and OutcomeFromFrames throw.
 [[nodiscard]] sessions::SessionReader OpenWithOutcome(const std::filesystem::path& session,
                                                       const core::Progress& progress,
                                                       const std::stop_token& stop);

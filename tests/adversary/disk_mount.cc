@@ -68,6 +68,10 @@ bool DiskMount::CutPower() const {
   return is_off;
 }
 
+bool DiskMount::RemountReadOnly() const {
+  return ::mount(nullptr, at_.c_str(), nullptr, MS_REMOUNT | MS_RDONLY, nullptr) == 0;
+}
+
 bool DiskMount::MakeReadOnly() const {
   const fs::path trigger = fs::path("/sys/fs/ext4") / device_ / "trigger_fs_error";
   std::FILE* file = device_.empty() ? nullptr : std::fopen(trigger.c_str(), "w");

@@ -23,6 +23,8 @@ class DiskMount {
 
   // The file system stops at once, as when its power fails: what isn't on the disk is lost. Ext4 alone.
   [[nodiscard]] bool CutPower() const;
+  // As a medium that can't be written. Nobody has a file open there to write.
+  [[nodiscard]] bool RemountReadOnly() const;
   // It can't be written any more, as after an error of its disk. Ext4 alone.
   [[nodiscard]] bool MakeReadOnly() const;
 

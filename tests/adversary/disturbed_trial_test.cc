@@ -27,6 +27,32 @@ using std::chrono::milliseconds;
 using test_support::ProgramRun;
 using test_support::TemporaryFolder;
 
+// A session on a medium that can't be written, as a crash left it: with a log and without the log's index.
+TEST(CutOffSession, OpensOnAReadOnlyMedium) {
+  const TemporaryFolder folder;
+  const fs::path session = folder / "disk" / "session.db";
+  const auto disk = DiskMount::InMemory(folder / "disk", 64);
+  if (!disk) GTEST_SKIP() << "NOT TESTED: no file system may be mounted here";
+  std::int64_t frames_before = 0;
+  test_support::RunOptions options = AsInATest();
+  options.while_running = [&](int process) {
+    frames_before = WaitForFrames(session, 100, process);
+    kill(process, SIGKILL);
+  };
+  (void)test_support::RunProgram(ELBOWROOM_PROGRAM,
+                                 {"trial", "run", WriteMaskTrial(folder / "files", 1000).string(),
+                                  "--headless", "--session", session.string()},
+                                 options);
+  ASSERT_TRUE(fs::exists(session.string() + "-wal"));
+  fs::remove(session.string() + "-shm");
+  ASSERT_TRUE(disk->RemountReadOnly());
+  const ProgramRun report = test_support::RunProgram(
+      ELBOWROOM_PROGRAM, {"report", session.string(), "--out", (folder / "report").string()}, AsInATest());
+  EXPECT_EQ(report.exit_status, 0) << report.err;
+  EXPECT_GE(sessions::SessionReader(session).frame_count(), frames_before);
+  EXPECT_EQ(sessions::SessionReader(session).status(), sessions::SessionStatus::kCutOff);
+}
+
 // What records into `session`; the files that it takes are in `files`.
 struct Trial {
   const char* name;
@@ -37,8 +63,9 @@ const Trial kDemo = {"demo", [](const fs::path& /*files*/, const fs::path& sessi
                        return std::vector<std::string>{"--json", "demo", "--headless", "--out",
                                                        session.parent_path().string()};
                      }};
+constexpr int kRecordedFrames = 3000;
 const Trial kRecorded = {"recorded", [](const fs::path& files, const fs::path& session) {
-                           const fs::path trial = WriteMaskTrial(files, 3000);
+                           const fs::path trial = WriteMaskTrial(files, kRecordedFrames);
                            return std::vector<std::string>{"--json",        "trial",      "run",
                                                            trial.string(),  "--headless", "--session",
                                                            session.string()};

@@ -6,6 +6,7 @@
 #include <functional>
 #include <iostream>
 #include <string>
+#include <thread>
 
 #include "core/error.h"
 #include "sessions/session_reader.h"
@@ -70,7 +71,9 @@ void ExpectNothingLost(const DiskImage& image, const fs::path& folder, std::mt19
       const core::FrameIndex frame = frames[random() % frames.size()].frame;
       tests::ExpectEqual(reader.ReadFrame(frame), tests::SampleFrame(reader.header(), frame, kFrameSeed));
     }
-    if (reader.status() == sessions::SessionStatus::kComplete) EXPECT_EQ(reader.episodes().size(), 2U);
+    if (reader.status() == sessions::SessionStatus::kComplete) {
+      EXPECT_EQ(reader.episodes().size(), 2U);
+    }
   }
   ExpectComplaintFree(folder / "s.db");
 }
@@ -130,7 +133,11 @@ TEST(PowerFailure, IsNoticedWhereNothingIsSynced) {
     const DiskImage image = AfterPowerFailure(operations, operations.size(), "s.db", random);
     const fs::path place = folder / std::to_string(i);
     WriteImage(image, place);
-    lost += sessions::SessionReader(place / "s.db").frame_count() < image.acknowledged_frames ? 1 : 0;
+    try {
+      lost += sessions::SessionReader(place / "s.db").frame_count() < image.acknowledged_frames ? 1 : 0;
+    } catch (const core::Error&) {
+      ++lost;  // not even a session any more
+    }
   }
   EXPECT_GT(lost, 0);
 }
@@ -162,6 +169,7 @@ TEST_P(DiskFault, ThatPassesLosesNoFrame) {
       while (writer.state() == sessions::RecordingState::kInFile)
         writer.Append(tests::SampleFrame(header, frame++, kFrameSeed));
       GetParam().end(disk);
+      while (writer.state() != sessions::RecordingState::kInFile) std::this_thread::yield();
     }
     writer.Finish(tests::SampleOutcome(0, frame - 1));
     EXPECT_EQ(writer.frames_committed(), frame);

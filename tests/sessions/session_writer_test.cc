@@ -270,9 +270,11 @@ void RecordWhile(const TemporaryFolder& folder, const std::function<void(const f
   for (core::FrameIndex i = 0; i < 20; ++i) writer.Append(SampleFrame(header, i, kSeed));
   while (writer.frames_committed() < 20) std::this_thread::yield();
   remove(path);
-  for (core::FrameIndex i = 20; i < 40; ++i) writer.Append(SampleFrame(header, i, kSeed));
+  for (core::FrameIndex i = 20; i < 30; ++i) writer.Append(SampleFrame(header, i, kSeed));
+  while (writer.frames_committed() < 30) std::this_thread::yield();
+  for (core::FrameIndex i = 30; i < 40; ++i) writer.Append(SampleFrame(header, i, kSeed));
   writer.Finish(SampleOutcome(0, 39));
-  ASSERT_FALSE(lines.empty());
+  ASSERT_EQ(lines.size(), 1U);
   EXPECT_NE(lines.front().find("removed or replaced"), std::string::npos) << lines.front();
   EXPECT_EQ(writer.path().filename(), expected_name);
   const SessionReader reader(writer.path());
