@@ -33,6 +33,7 @@ int main(int argc, char** argv) {
   imports->add_option("PROGRAM", program, "elbowroom")->required();
   imports->callback([&] { MeasureImport(docs, program); });
   app.add_subcommand("detail", "parts drawn whole and by levels")->callback([&] { MeasureDetail(docs); });
+  app.add_subcommand("logging", "what recording costs a frame")->callback([&] { MeasureLogging(docs); });
   CLI::App* cost = app.add_subcommand("cost", "instructions by callgrind");
   cost->add_option("PROGRAM", view_cost, "view_cost")->required();
   cost->callback([&] { MeasureCost(docs, view_cost); });

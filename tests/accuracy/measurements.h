@@ -28,6 +28,9 @@ void MeasureImport(const std::filesystem::path& docs, const std::filesystem::pat
 // performance.md, "detail": large parts drawn whole and by levels of detail, and how the pictures differ.
 void MeasureDetail(const std::filesystem::path& docs);
 
+// durability.md, "logging": frames with and without a session writer, and how soon they are on the disk.
+void MeasureLogging(const std::filesystem::path& docs);
+
 // performance.md, "judging" and "judging_cost"; docs/pictures/{contact,clearance}_methods.{svg,png}.
 void MeasureJudging(const std::filesystem::path& docs);
 
