@@ -36,7 +36,7 @@ std::string_view AdviceFor(int sqlite_code) {
       return "free some space on this disk or choose another";
     case SQLITE_BUSY:
     case SQLITE_LOCKED:
-      return "another program holds the session locked; close it and try again";
+      return "another program holds the session locked; close that program";
     case SQLITE_CORRUPT:
       return "the file is damaged; restore it from a copy";
     case SQLITE_NOTADB:

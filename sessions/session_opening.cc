@@ -28,7 +28,8 @@ OpenedSession OpenSession(const std::filesystem::path& path) {
     // Locked, or not to be written: the copy is neither.
   }
   auto copy = std::make_shared<const PrivateCopy>(path);
-  MergeSpillOf(copy->path());
+  // Another reader may have joined the two meanwhile.
+  if (HasSpill(copy->path())) MergeSpillOf(copy->path());
   return {Database::OpenReadOnly(std::move(copy)), false};
 }
 
