@@ -11,6 +11,7 @@
 
 #include "core/error.h"
 #include "core/pairs_of_rule.h"
+#include "core/plain_text.h"
 
 namespace elbowroom::core {
 namespace {
@@ -28,17 +29,13 @@ Fault Caught(LayoutEntry entry, std::size_t index, Validate validate) {
   return std::nullopt;
 }
 
-bool HasControlCharacter(const std::string& name) {
-  return std::ranges::any_of(name, [](unsigned char letter) { return letter < 0x20 || letter == 0x7f; });
-}
-
 Fault FaultOfPart(const Layout& layout, PartIndex i) {
   const Part& part = layout.parts[i];
   const auto fault = [&](const char* key, std::string message) {
     return LayoutFault{LayoutEntry::kPart, i, key, std::move(message)};
   };
   if (part.name.empty()) return fault("name", "a [[part]] has no name; give each one a name of its own");
-  if (HasControlCharacter(part.name))
+  if (!IsPlain(part.name))
     return fault("name", fmt::format("the name of part {} has a line break or another control character; "
                                      "leave it out",
                                      i + 1));
