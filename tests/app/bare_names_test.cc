@@ -106,7 +106,7 @@ TEST_F(InItsFolder, ARigsFrame) {
 TEST_F(InItsFolder, ALayoutAndItsParts) {
   ExpectSuccess({"import", "box.stl", "--unit", "mm"}, {"cache"});
   ExpectSuccess({"layout", "show", "layout.toml"}, {});
-  ExpectSuccess({"layout", "make", "new.toml", "box.stl", "--unit", "mm"}, {"new.toml"});
+  ExpectSuccess({"layout", "new", "new.toml", "box.stl", "--unit", "mm"}, {"new.toml"});
   ExpectSuccess({"clash", "layout.toml"}, {});
 }
 

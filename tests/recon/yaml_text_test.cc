@@ -66,6 +66,12 @@ TEST(YamlText, ListsAndMapsNestInBlocksAndInFlow) {
   EXPECT_EQ(cameras.items[1].Find("name")->text, "two");
   EXPECT_EQ(map.Find("matrix")->Find("data")->items.size(), 2U);
   EXPECT_EQ(map.Find("same")->items.size(), 2U);
+  const YamlNode tagged =
+      Parse("cameras:\n  - { k: !!opencv-matrix { rows: 1, data: [ 5 ] },\n      name: 'a, b', url: rtsp://h/a }\n");
+  const YamlNode& camera = tagged.Find("cameras")->items.front();
+  EXPECT_EQ(camera.Find("k")->Find("data")->items.front().number, 5.0);
+  EXPECT_EQ(camera.Find("name")->text, "a, b");
+  EXPECT_EQ(camera.Find("url")->text, "rtsp://h/a");
 }
 
 TEST(YamlText, WhatIsWrongIsToldWithItsLine) {
