@@ -17,6 +17,9 @@ std::vector<double> FiniteNumbers(const YamlSection& section, const char* key, i
   const std::string shape = fmt::format("an !!opencv-matrix of {} x {} numbers", rows, columns);
   std::vector<double> numbers = section.Numbers(
       key, rows, static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns), shape.c_str());
+  const YamlNode* declared = section.Get(key, shape.c_str()).Find("rows");
+  if (declared != nullptr && declared->number != rows)
+    section.Fail(fmt::format("key '{}' must be {}, not lying on its side", key, shape));
   for (const double number : numbers)
     if (!std::isfinite(number)) section.Fail(fmt::format("key '{}' holds a number that is not finite", key));
   return numbers;

@@ -115,7 +115,7 @@ class LineDamage {
   void Once() {
     if (lines_.empty()) return;
     std::string& line = lines_[Below(lines_.size())];
-    switch (Below(7)) {
+    switch (Below(10)) {
       case 0:
         lines_.erase(lines_.begin() + (&line - lines_.data()));
         break;
@@ -131,6 +131,11 @@ class LineDamage {
       case 4:
         line = line.substr(0, KeyEnd(line));
         break;
+      case 5:
+      case 6:
+      case 7:
+        ReplaceDigit(line);
+        break;
       default:
         line = line.substr(0, KeyEnd(line)) + (Below(2) == 0 ? ' ' + OtherValue() : OtherValue());
     }
@@ -143,6 +148,12 @@ class LineDamage {
   static std::size_t KeyEnd(const std::string& line) {
     const std::size_t end = line.find_first_of(":=");
     return end == std::string::npos ? line.size() : end + 1;
+  }
+
+  // A number that is still one, mostly.
+  void ReplaceDigit(std::string& line) {
+    const std::size_t digit = line.find_first_of("0123456789", Below(line.size() + 1));
+    if (digit != std::string::npos) line[digit] = "0123456789.-e"[Below(13)];
   }
 
   std::string OtherValue() {
@@ -216,10 +227,16 @@ void WriteSoundTrial(const std::filesystem::path& folder) {
   test_support::WriteText(folder / "trial.toml", kTrial);
 }
 
+std::map<ConfigurationKind, std::string> SoundTexts(const std::filesystem::path& folder) {
+  std::map<ConfigurationKind, std::string> texts;
+  for (const ConfigurationKind kind : kKinds) texts[kind] = test_support::ReadText(folder / NameOf(kind));
+  return texts;
+}
+
 std::string Damaged(const std::string& text, const std::string& other, std::mt19937_64& random) {
-  if (random() % 2 == 0) return fuzz::Mutated(text, other, random);
+  if (random() % 3 == 0) return fuzz::Mutated(text, other, random);
   std::vector<std::string> lines = LinesOf(text);
-  for (std::uint64_t i = random() % 3 + 1; i > 0; --i) LineDamage(lines, random).Once();
+  for (std::uint64_t i = random() % 2 + 1; i > 0; --i) LineDamage(lines, random).Once();
   std::string damaged;
   for (const std::string& line : lines) damaged += line + '\n';
   return damaged;

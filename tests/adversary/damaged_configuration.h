@@ -3,6 +3,7 @@
 
 #include <array>
 #include <filesystem>
+#include <map>
 #include <random>
 #include <string>
 
@@ -19,6 +20,9 @@ inline constexpr std::array kKinds = {ConfigurationKind::kRig, ConfigurationKind
 
 // Writes a rig of four cameras with ready masks of one frame, a part, and one sound file of each kind.
 void WriteSoundTrial(const std::filesystem::path& folder);
+
+// The text of each kind, as WriteSoundTrial wrote it there.
+[[nodiscard]] std::map<ConfigurationKind, std::string> SoundTexts(const std::filesystem::path& folder);
 
 // `text` with its bytes damaged (tests/fuzz/mutation.h), or its lines: dropped, doubled, moved, indented, a
 // value replaced by one that is too large, of another kind, nested deep or no text at all.

@@ -27,7 +27,7 @@ std::string ErrorOf(const std::string& text) {
 
 TEST(TomlNesting, WhatIsDeepIsRefusedBeforeItIsParsed) {
   constexpr int kDeep = 40'000;
-  for (const std::string text :
+  for (const std::string& text :
        {"a = " + Repeated("[", kDeep), "a = " + Repeated("{a=", kDeep), Repeated("a.", kDeep) + "a = 1",
         "[" + Repeated("a.", kDeep) + "a]", "a = " + Repeated("[", kDeep) + Repeated("]", kDeep),
         "a = [ [\n] " + Repeated(",{ b = [\n", kDeep)})

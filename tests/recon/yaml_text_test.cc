@@ -66,8 +66,9 @@ TEST(YamlText, ListsAndMapsNestInBlocksAndInFlow) {
   EXPECT_EQ(cameras.items[1].Find("name")->text, "two");
   EXPECT_EQ(map.Find("matrix")->Find("data")->items.size(), 2U);
   EXPECT_EQ(map.Find("same")->items.size(), 2U);
-  const YamlNode tagged =
-      Parse("cameras:\n  - { k: !!opencv-matrix { rows: 1, data: [ 5 ] },\n      name: 'a, b', url: rtsp://h/a }\n");
+  const YamlNode tagged = Parse(
+      "cameras:\n  - { k: !!opencv-matrix { rows: 1, data: [ 5 ] },\n      name: 'a, b', url: rtsp://h/a "
+      "}\n");
   const YamlNode& camera = tagged.Find("cameras")->items.front();
   EXPECT_EQ(camera.Find("k")->Find("data")->items.front().number, 5.0);
   EXPECT_EQ(camera.Find("name")->text, "a, b");
@@ -93,7 +94,7 @@ TEST(YamlText, WhatIsWrongIsToldWithItsLine) {
 
 TEST(YamlText, DepthAndNumberAreBounded) {
   constexpr int kDeep = 40'000;
-  for (const std::string nested : {"[", "{ a: ", "- ", "a: "}) {
+  for (const std::string& nested : {std::string("["), "{ a: ", "- ", "a: "}) {
     std::string body = "a: ";
     for (int i = 0; i < kDeep; ++i) body += nested;
     EXPECT_THAT(WrongWith(body), HasSubstr("nested more than 64 deep"));
