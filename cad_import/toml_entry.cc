@@ -18,8 +18,8 @@ using core::ErrorKind;
 
 namespace {
 
-// Entries are held against each other, and every one costs time at every frame.
-constexpr std::size_t kMostEntries = 4'000;
+// Entries are held against each other, spacings each against each, and every one costs time at every frame.
+constexpr std::size_t kMostEntries = 4'000, kMostSpacings = 200;
 
 // By what the key's name says of its unit.
 double LargestOf(std::string_view key) {
@@ -164,8 +164,9 @@ std::vector<TomlEntry> TomlEntry::Entries(std::string_view key,
   if (node == nullptr) return {};
   const toml::array* tables = node->as_array();
   if (tables == nullptr) Fail(key, fmt::format("must be written as [[{}]]", key));
-  if (tables->size() > kMostEntries)
-    Fail(key, fmt::format("has {} entries; at most {} can be used", tables->size(), kMostEntries));
+  const std::size_t most = key == "spacing" ? kMostSpacings : kMostEntries;
+  if (tables->size() > most)
+    Fail(key, fmt::format("has {} entries; at most {} can be used", tables->size(), most));
   std::vector<TomlEntry> entries;
   for (const toml::node& element : *tables) {
     if (!element.is_table()) Fail(key, fmt::format("must be written as [[{}]]", key));

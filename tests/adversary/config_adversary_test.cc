@@ -249,6 +249,24 @@ TEST_F(KnownDamage, NumbersBeyondSense) {
   ExpectRefused(kTrial, with(kTrial, "20", "1e18"), "min_blob_px");
 }
 
+TEST_F(KnownDamage, MoreEntriesThanCanBeHeldAgainstEachOther) {
+  std::string parts = "unit = \"mm\"\n", names, spacings;
+  for (int i = 0; i < 3'900; ++i) {
+    parts += fmt::format("[[part]]\nname = \"p{}\"\nfile = \"box.stl\"\n", i);
+    names += fmt::format("\"p{}\",", i);
+    spacings += fmt::format(
+        "[[spacing]]\nname = \"s{0}\"\nmoving = \"p{0}\"\nreference = \"p0\"\naxis = \"z\"\nmin_mm = "
+        "0\nmax_mm = "
+        "1\ninitial_mm = 0\n",
+        i);
+  }
+  using enum ConfigurationKind;
+  ExpectRefused(kLayout, parts + spacings, "3900 entries");
+  ExpectRefused(kLayout,
+                parts + "[[group]]\nname = \"g\"\nparts = [" + names + "]\n[[pair]]\na = \"g\"\nb = \"g\"\n",
+                "more than 500000 pairs");
+}
+
 TEST_F(KnownDamage, NamesThatBreakLines) {
   using enum ConfigurationKind;
   const std::string name = std::string(2000, 'n') + "\\u001b[2J\\n\\u2028";
