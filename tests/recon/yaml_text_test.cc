@@ -62,7 +62,8 @@ TEST(YamlText, ListsAndMapsNestInBlocksAndInFlow) {
   EXPECT_EQ(map.Find("rows")->items[1].items[0].number, 3.0);
   const YamlNode& cameras = *map.Find("cameras");
   ASSERT_EQ(cameras.items.size(), 4U);
-  for (const std::size_t i : {0U, 1U, 2U}) EXPECT_EQ(cameras.items[i].Find("n")->number, i + 1.0);
+  for (const std::size_t i : {0U, 1U, 2U})
+    EXPECT_EQ(cameras.items[i].Find("n")->number, static_cast<double>(i + 1));
   EXPECT_EQ(cameras.items[1].Find("name")->text, "two");
   EXPECT_EQ(map.Find("matrix")->Find("data")->items.size(), 2U);
   EXPECT_EQ(map.Find("same")->items.size(), 2U);
@@ -94,7 +95,7 @@ TEST(YamlText, WhatIsWrongIsToldWithItsLine) {
 
 TEST(YamlText, DepthAndNumberAreBounded) {
   constexpr int kDeep = 40'000;
-  for (const std::string& nested : {std::string("["), "{ a: ", "- ", "a: "}) {
+  for (const std::string nested : {"[", "{ a: ", "- ", "a: "}) {
     std::string body = "a: ";
     for (int i = 0; i < kDeep; ++i) body += nested;
     EXPECT_THAT(WrongWith(body), HasSubstr("nested more than 64 deep"));
