@@ -110,7 +110,7 @@ std::string Blanked(std::string_view text) {
 }
 
 std::string OneLine(std::string_view text, std::size_t most_bytes) {
-  constexpr std::size_t kLeast = 20, kMostLookedAt = 65'536, kShortWord = 80;
+  constexpr std::size_t kLeast = 20, kMostLookedAt = 65'536, kShortWord = 24;
   Require(most_bytes >= kLeast, "a line of at least 20 bytes");
   std::string line = MadeVisible(WithoutMiddle(text, kMostLookedAt));
   while (line.size() > most_bytes) {
