@@ -3,6 +3,7 @@
 #include <spdlog/spdlog.h>
 
 #include "app/cli/command_line.h"
+#include "app/cli/standard_streams.h"
 #include "cad_import/import_worker.h"
 #ifdef ELBOWROOM_WINDOW_PROGRAM
 #include <fmt/format.h>
@@ -40,6 +41,7 @@ cli::OpenConsole WayToTheWindow([[maybe_unused]] char** argv) {
 }  // namespace elbowroom
 
 int main(int argc, char** argv) {
+  elbowroom::cli::GuardStandardStreams();          // before a file can be opened
   elbowroom::cad_import::ServeImport(argc, argv);  // returns unless this is a child that imports
   spdlog::set_default_logger(spdlog::stderr_color_mt("elbowroom"));  // stdout is for results
   return elbowroom::cli::RunCommandLine(argc, argv, elbowroom::WayToTheWindow(argv));

@@ -31,6 +31,7 @@
 #include "cad_import/stl_check.h"
 #include "cad_import/text_encoding.h"
 #include "core/error.h"
+#include "core/plain_text.h"
 #include "core/units.h"
 
 namespace elbowroom::cad_import {
@@ -140,13 +141,6 @@ class LeftOutLog {
 
   bool has_left_out_faces_ = false;
 };
-
-// A parser's message as part of one line.
-std::string OneLine(std::string text) {
-  std::ranges::replace_if(
-      text, [](unsigned char c) { return c < 0x20; }, ' ');
-  return text;
-}
 
 Eigen::Affine3d ToEigen(const aiMatrix4x4& m) {
   Eigen::Affine3d result = Eigen::Affine3d::Identity();
@@ -297,15 +291,15 @@ RawScene Load(const Source& source) {
   } catch (const std::exception& exception) {
     why = exception.what();
   }
-  if (!log.refused.empty()) throw RefersElsewhere(file, OneLine(log.refused.front()));
+  if (!log.refused.empty()) throw RefersElsewhere(file, core::Blanked(log.refused.front()));
   if (scene == nullptr && !log.missing.empty()) {
     throw Error(ErrorKind::kFormat,
                 fmt::format("{}: it refers to '{}', which can't be opened; put that file there",
-                            file.string(), OneLine(log.missing.front())));
+                            file.string(), core::Blanked(log.missing.front())));
   }
   if (scene == nullptr || scene->mRootNode == nullptr) {
     throw Error(ErrorKind::kFormat, fmt::format("{}: can't be read as {} ({}); export it again",
-                                                file.string(), ToString(format), OneLine(why)));
+                                                file.string(), ToString(format), core::Blanked(why)));
   }
   SceneWalk walk(*scene, file.string());
   Eigen::Affine3d model_from_scene = Eigen::Affine3d::Identity();

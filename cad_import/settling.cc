@@ -15,6 +15,7 @@
 #include "cad_import/self_intersections.h"
 #include "cad_import/unit_choice.h"
 #include "core/error.h"
+#include "core/plain_text.h"
 
 namespace elbowroom::cad_import {
 namespace {
@@ -121,12 +122,6 @@ void Report(CadModel& model, std::int64_t before) {
   }
 }
 
-// On one line.
-void MakePlain(std::string& name) {
-  std::ranges::replace_if(
-      name, [](unsigned char letter) { return letter < 0x20 || letter == 0x7f; }, ' ');
-}
-
 // assimp has names of its own: "<STL_BINARY>".
 bool HasName(const std::string& name) { return !name.empty() && !name.starts_with('<'); }
 
@@ -149,8 +144,8 @@ CadModel Settle(RawScene scene, FileFormat format, const ImportOptions& options,
   const std::string where = file.string();
   for (const RawShape& shape : scene.shapes) core::ValidateMesh(shape.mesh, where);
   if (scene.instances.empty()) core::ValidateMesh({}, where);
-  for (RawShape& shape : scene.shapes) MakePlain(shape.name);
-  for (RawInstance& instance : scene.instances) MakePlain(instance.path);
+  for (RawShape& shape : scene.shapes) shape.name = core::Blanked(shape.name);
+  for (RawInstance& instance : scene.instances) instance.path = core::Blanked(instance.path);
   CadModel model;
   std::vector<std::string>& warnings = model.report.warnings;
   warnings = scene.warnings;

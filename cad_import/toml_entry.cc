@@ -4,10 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <utility>
 
+#include "cad_import/toml_nesting.h"
+#include "core/configuration_file.h"
+#include "core/file_limits.h"
 #include "core/spelling.h"
 
 namespace elbowroom::cad_import {
@@ -15,20 +16,33 @@ namespace elbowroom::cad_import {
 using core::Error;
 using core::ErrorKind;
 
+namespace {
+
+// Entries are held against each other, spacings each against each, and every one costs time at every frame.
+constexpr std::size_t kMostEntries = 4'000, kMostSpacings = 200;
+
+// By what the key's name says of its unit.
+double LargestOf(std::string_view key) {
+  constexpr double kMostTurnsDeg = 36'000.0, kLargestFigure = 1e12;
+  if (key.ends_with("_mm")) return core::kLongestLengthMm;
+  return key.ends_with("_deg") ? kMostTurnsDeg : kLargestFigure;
+}
+
+void RequireShort(const TomlEntry& entry, std::string_view key, const std::string& text) {
+  constexpr std::size_t kLongestBytes = 4096;  // as long as a path can be
+  if (text.size() > kLongestBytes)
+    entry.Fail(key, fmt::format("is longer than {} bytes; shorten it", kLongestBytes));
+  if (text.find('\0') != std::string::npos) entry.Fail(key, "has a null character in it; leave it out");
+}
+
+}  // namespace
+
 std::string ReadTomlText(const std::filesystem::path& path, std::string_view what) {
-  std::error_code error;
-  if (!std::filesystem::exists(path, error))
-    throw Error(ErrorKind::kFile, fmt::format("{}: no such {}; check the path", path.string(), what));
-  if (!std::filesystem::is_regular_file(path, error))
-    throw Error(ErrorKind::kFile, fmt::format("{}: isn't a file; name a {}", path.string(), what));
-  std::ifstream file(path, std::ios::binary);
-  std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
-  if (!file)
-    throw Error(ErrorKind::kFile, fmt::format("{}: can't be read; check who may read it", path.string()));
-  return text;
+  return core::ReadConfiguration(path, path.string(), what);
 }
 
 toml::table ParseToml(std::string_view text, const std::string& file) {
+  RefuseDeepToml(text, file);
   try {
     return toml::parse(text, std::string_view(file));
   } catch (const toml::parse_error& error) {
@@ -68,6 +82,7 @@ std::string TomlEntry::Text(std::string_view key) const {
   const auto text = node->value_exact<std::string>();
   if (!text) Fail(key, "must be a text in quotes");
   if (text->empty()) Fail(key, "must not be empty");
+  RequireShort(*this, key, *text);
   return *text;
 }
 
@@ -76,12 +91,15 @@ std::string TomlEntry::TextOr(std::string_view key, const std::string& otherwise
   if (node == nullptr) return otherwise;
   const auto text = node->value_exact<std::string>();
   if (!text) Fail(key, "must be a text in quotes");
+  RequireShort(*this, key, *text);
   return *text;
 }
 
 double TomlEntry::NumberOf(const toml::node& node, std::string_view key) const {
   const auto number = node.is_number() ? node.value<double>() : std::nullopt;
   if (!number || !std::isfinite(*number)) Fail(key, "must be a finite number");
+  const double most = LargestOf(key);
+  if (std::abs(*number) > most) Fail(key, fmt::format("must lie between {} and {}", -most, most));
   return *number;
 }
 
@@ -121,10 +139,13 @@ std::vector<std::string> TomlEntry::Texts(std::string_view key) const {
   if (node == nullptr) return {};
   const toml::array* array = node->as_array();
   if (array == nullptr) Fail(key, "must be a list of texts, [\"tongs\", \"screwdriver\"]");
+  if (array->size() > kMostEntries)
+    Fail(key, fmt::format("has {} entries; at most {} can be used", array->size(), kMostEntries));
   std::vector<std::string> texts;
   for (const toml::node& element : *array) {
     const auto text = element.value_exact<std::string>();
     if (!text || text->empty()) Fail(key, "must hold nothing but texts in quotes");
+    RequireShort(*this, key, *text);
     texts.push_back(*text);
   }
   return texts;
@@ -143,6 +164,9 @@ std::vector<TomlEntry> TomlEntry::Entries(std::string_view key,
   if (node == nullptr) return {};
   const toml::array* tables = node->as_array();
   if (tables == nullptr) Fail(key, fmt::format("must be written as [[{}]]", key));
+  const std::size_t most = key == "spacing" ? kMostSpacings : kMostEntries;
+  if (tables->size() > most)
+    Fail(key, fmt::format("has {} entries; at most {} can be used", tables->size(), most));
   std::vector<TomlEntry> entries;
   for (const toml::node& element : *tables) {
     if (!element.is_table()) Fail(key, fmt::format("must be written as [[{}]]", key));

@@ -62,9 +62,8 @@ LengthUnit LikelyUnit(double longest) {
   }
   throw Error(
       ErrorKind::kCad,
-      fmt::format("{}: {} carries no unit and none was given: its size is {}; most likely its "
-                  "unit is {}: pass --unit mm|cm|m|in, or `unit` in the layout",
-                  where, ToString(format), sizes, core::ToString(LikelyUnit(bounds.sizes().maxCoeff()))));
+      fmt::format("{}: {} carries no unit: {}; most likely its unit is {}: pass --unit, or set `unit`", where,
+                  ToString(format), sizes, core::ToString(LikelyUnit(bounds.sizes().maxCoeff()))));
 }
 
 }  // namespace

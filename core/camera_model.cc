@@ -6,14 +6,21 @@
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "core/error.h"
+#include "core/file_limits.h"
 #include "core/lens.h"
 
 namespace elbowroom::core {
 namespace {
 
 constexpr int kStretchBins = 256;
+
+// Beyond these a figure is a slip or damage.
+constexpr int kLongestSidePx = 32'768;
+constexpr std::int64_t kMostPixels = 200'000'000;
+constexpr double kLargestFigure = 1e9;
 
 void ValidateCalibration(const CameraCalibration& c) {
   const auto fail = [&](const std::string& what) {
@@ -22,6 +29,12 @@ void ValidateCalibration(const CameraCalibration& c) {
   if (c.image_width_px <= 0 || c.image_height_px <= 0) {
     fail(fmt::format("image size {} x {} is not positive; say how many pixels wide and high its pictures are",
                      c.image_width_px, c.image_height_px));
+  }
+  if (c.image_width_px > kLongestSidePx || c.image_height_px > kLongestSidePx ||
+      std::int64_t{c.image_width_px} * c.image_height_px > kMostPixels) {
+    fail(fmt::format(
+        "image size {} x {} is more than a picture can have ({} px a side, {} in all); correct it",
+        c.image_width_px, c.image_height_px, kLongestSidePx, kMostPixels));
   }
   const Eigen::Matrix3d& k = c.camera_matrix;
   if (!k.allFinite()) fail("camera_matrix has an entry that is not a finite number");
@@ -32,12 +45,19 @@ void ValidateCalibration(const CameraCalibration& c) {
     fail(fmt::format("camera_matrix is singular or mirrored: fx = {}, fy = {}; both must be positive",
                      k(0, 0), k(1, 1)));
   }
+  if (std::min(k(0, 0), k(1, 1)) < 1.0 / kLargestFigure || k.cwiseAbs().maxCoeff() > kLargestFigure)
+    fail(fmt::format("camera_matrix has an entry beyond {}, or a focal length below {}; calibrate it again",
+                     kLargestFigure, 1.0 / kLargestFigure));
+  if (std::ranges::any_of(c.distortion_coefficients, [](double d) { return std::abs(d) > kLargestFigure; }))
+    fail(fmt::format("a distortion coefficient is beyond {}; calibrate this camera again", kLargestFigure));
   if (!IsRotation(c.cam_from_world.rotation)) {
     fail(
         "rotation_cam_from_world is not a rotation (its rows must be orthonormal, determinant +1); calibrate "
         "the pose again");
   }
   if (!c.cam_from_world.translation_mm.allFinite()) fail("translation_cam_from_world_mm is not finite");
+  if (c.cam_from_world.translation_mm.cwiseAbs().maxCoeff() > kLongestLengthMm)
+    fail(fmt::format("translation_cam_from_world_mm is beyond {} mm; check its unit", kLongestLengthMm));
 }
 
 // Itself where rounding alone keeps it from being one.

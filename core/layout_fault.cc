@@ -11,6 +11,7 @@
 
 #include "core/error.h"
 #include "core/pairs_of_rule.h"
+#include "core/plain_text.h"
 
 namespace elbowroom::core {
 namespace {
@@ -28,17 +29,13 @@ Fault Caught(LayoutEntry entry, std::size_t index, Validate validate) {
   return std::nullopt;
 }
 
-bool HasControlCharacter(const std::string& name) {
-  return std::ranges::any_of(name, [](unsigned char letter) { return letter < 0x20 || letter == 0x7f; });
-}
-
 Fault FaultOfPart(const Layout& layout, PartIndex i) {
   const Part& part = layout.parts[i];
   const auto fault = [&](const char* key, std::string message) {
     return LayoutFault{LayoutEntry::kPart, i, key, std::move(message)};
   };
   if (part.name.empty()) return fault("name", "a [[part]] has no name; give each one a name of its own");
-  if (HasControlCharacter(part.name))
+  if (!IsPlain(part.name))
     return fault("name", fmt::format("the name of part {} has a line break or another control character; "
                                      "leave it out",
                                      i + 1));
@@ -154,6 +151,23 @@ Fault FaultOfPair(const Layout& layout, std::size_t i) {
   return std::nullopt;
 }
 
+// Each pair of parts that a rule names is kept and asked about by itself.
+Fault FaultOfManyPairs(const Layout& layout) {
+  constexpr std::size_t kMostPairs = 500'000;
+  std::size_t pairs = 0;
+  for (std::size_t i = 0; i < layout.pair_rules.size(); ++i) {
+    const PairRule& rule = layout.pair_rules[i];
+    pairs += layout.PartsNamed(rule.a).size() * layout.PartsNamed(rule.b).size();
+    if (pairs > kMostPairs)
+      return LayoutFault{
+          LayoutEntry::kPair, i, "",
+          fmt::format("'{}' and '{}': with this [[pair]] more than {} pairs of parts have a rule; "
+                      "name smaller groups",
+                      rule.a, rule.b, kMostPairs)};
+  }
+  return std::nullopt;
+}
+
 // The first rule for a pair of parts that an earlier one, which names as many parts, is for, too; but for
 // pairs that a third rule names more closely.
 Fault FaultOfTwoRules(const Layout& layout) {
@@ -204,6 +218,7 @@ std::optional<LayoutFault> FindLayoutFault(const Layout& layout) {
   if (auto fault = FirstOf(layout, layout.spacings.size(), FaultOfSpacing)) return fault;
   if (auto fault = FirstOf(layout, layout.streams.size(), FaultOfStream)) return fault;
   if (auto fault = FirstOf(layout, layout.pair_rules.size(), FaultOfPair)) return fault;
+  if (auto fault = FaultOfManyPairs(layout)) return fault;
   if (auto fault = FaultOfTwoRules(layout)) return fault;
   return FaultOfCircle(layout);
 }

@@ -2,75 +2,49 @@
 
 #include <fmt/format.h>
 
-#include <opencv2/core.hpp>
+#include <Eigen/Core>
+#include <cmath>
 #include <string>
+#include <vector>
 
-#include "core/error.h"
-#include "recon/quiet_opencv.h"
+#include "core/file_limits.h"
+#include "recon/yaml_section.h"
 
 namespace elbowroom::recon {
 namespace {
 
-using core::Error;
-using core::ErrorKind;
-
-cv::FileStorage Open(const std::filesystem::path& path) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error)) {
-    throw Error(ErrorKind::kFile, fmt::format("{}: no such pose file; check the path", path.string()));
-  }
-  SilenceOpenCv();
-  std::string why = "it doesn't open";
-  try {
-    cv::FileStorage storage(path.string(), cv::FileStorage::READ | cv::FileStorage::FORMAT_YAML);
-    if (storage.isOpened()) return storage;
-  } catch (const cv::Exception& exception) {
-    why = exception.err;
-  }
-  throw Error(ErrorKind::kFile, fmt::format("{}: not a readable pose file ({}); it must begin with %YAML:1.0",
-                                            path.string(), why));
-}
-
-cv::Mat_<double> ReadMatrix(const cv::FileStorage& storage, const char* key, int rows, int columns,
-                            const std::string& where) {
-  const cv::FileNode node = storage[key];
-  if (node.empty())
-    throw Error(ErrorKind::kFormat, fmt::format("{}: key '{}' is missing; add it", where, key));
-  cv::Mat matrix;
-  try {
-    node >> matrix;
-  } catch (const cv::Exception&) {
-    matrix.release();
-  }
-  if (matrix.rows != rows || matrix.cols != columns || matrix.channels() != 1) {
-    throw Error(ErrorKind::kFormat, fmt::format("{}: key '{}' must be an !!opencv-matrix of {} x {} numbers",
-                                                where, key, rows, columns));
-  }
-  cv::Mat_<double> numbers = matrix;
-  if (!cv::checkRange(numbers)) {
-    throw Error(ErrorKind::kFormat,
-                fmt::format("{}: key '{}' holds a number that is not finite", where, key));
-  }
+std::vector<double> FiniteNumbers(const YamlSection& section, const char* key, int rows, int columns) {
+  const std::string shape = fmt::format("an !!opencv-matrix of {} x {} numbers", rows, columns);
+  std::vector<double> numbers = section.Numbers(
+      key, rows, static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns), shape.c_str());
+  const YamlNode* declared = section.Get(key, shape.c_str()).Find("rows");
+  if (declared != nullptr && declared->number != rows)
+    section.Fail(fmt::format("key '{}' must be {}, not lying on its side", key, shape));
+  for (const double number : numbers)
+    if (!std::isfinite(number)) section.Fail(fmt::format("key '{}' holds a number that is not finite", key));
   return numbers;
 }
 
 }  // namespace
 
 core::RigidTransform ReadPoseFile(const std::filesystem::path& path) {
-  const std::string where = path.string();
-  const cv::FileStorage storage = Open(path);
-  const cv::Mat_<double> rotation = ReadMatrix(storage, "rotation_world_from_part", 3, 3, where);
-  const cv::Mat_<double> translation = ReadMatrix(storage, "translation_world_from_part_mm", 3, 1, where);
+  const std::string file = path.string();
+  const YamlNode document = ReadYamlFile(path, file, "pose file");
+  const YamlSection section{&document, file};
+  const std::vector<double> rotation = FiniteNumbers(section, "rotation_world_from_part", 3, 3);
+  const std::vector<double> translation = FiniteNumbers(section, "translation_world_from_part_mm", 3, 1);
   core::RigidTransform world_from_part;
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) world_from_part.rotation(i, j) = rotation(i, j);
-    world_from_part.translation_mm[i] = translation(i, 0);
-  }
+  world_from_part.rotation = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(rotation.data());
+  world_from_part.translation_mm = Eigen::Map<const Eigen::Vector3d>(translation.data());
   if (!core::IsRotation(world_from_part.rotation)) {
-    throw Error(ErrorKind::kFormat,
-                fmt::format("{}: rotation_world_from_part is not a rotation (its rows must be "
-                            "orthonormal, determinant +1); correct it",
-                            where));
+    section.Fail(
+        "rotation_world_from_part is not a rotation (its rows must be orthonormal, determinant +1); correct "
+        "it");
+  }
+  if (world_from_part.translation_mm.cwiseAbs().maxCoeff() > core::kLongestLengthMm) {
+    section.Fail(
+        fmt::format("translation_world_from_part_mm is more than {} mm from the origin; check its unit",
+                    core::kLongestLengthMm));
   }
   return world_from_part;
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/cli/command.h"
+#include "app/cli/standard_streams.h"
 #include "app/control/benchmarks.h"
 #include "app/control/self_test.h"
 #include "core/error.h"
@@ -36,7 +37,7 @@ CommandResult RunTheSelfTest() {
                                line.differing_pixels, line.unexplained_pixels);
   }
   if (!report.Passed()) {
-    fmt::print(stderr, "{}\n", result.text);
+    WriteToStderr(result.text + '\n');
     throw core::Error(core::ErrorKind::kGraphics,
                       fmt::format("{}: OpenGL's pictures differ from the processor's by more than rounding; "
                                   "update the graphics driver, or use methods exact and sweep",

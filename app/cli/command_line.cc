@@ -5,15 +5,19 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <optional>
+#include <sstream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "app/cli/interrupt.h"
+#include "app/cli/standard_streams.h"
 #include "app/control/versions.h"
 #include "core/error.h"
+#include "core/plain_text.h"
 
 namespace elbowroom::cli {
 namespace {
@@ -21,37 +25,33 @@ namespace {
 constexpr int kUsageError = 2;
 constexpr int kFailure = 1;
 
+constexpr std::string_view kClearLine = "\r\033[K";
+
 core::Progress TerminalProgress() {
   if (!isatty(STDERR_FILENO)) return {};
   return core::Progress([](std::int64_t done, std::int64_t total, const std::string& what) {
+    std::string line(kClearLine);
+    line += core::OneLine(what);
     if (total > 0) {
-      fmt::print(stderr, "\r\033[K{} {} of {}", what, done, total);
-    } else if (done > 0) {
-      fmt::print(stderr, "\r\033[K{} {}", what, done);
+      line += fmt::format(" {} of {}", done, total);
     } else {
-      fmt::print(stderr, "\r\033[K{} …", what);
+      line += done > 0 ? fmt::format(" {}", done) : " …";
     }
-    if (total > 0 && done == total) fmt::print(stderr, "\r\033[K");
+    if (total > 0 && done == total) line += kClearLine;
+    WriteToStderr(line);
   });
 }
 
 void ClearProgress() {
-  if (isatty(STDERR_FILENO)) fmt::print(stderr, "\r\033[K");
+  if (isatty(STDERR_FILENO)) WriteToStderr(kClearLine);
 }
 
 // One line, whatever names from files and the command line are in it.
-void PrintToStderr(const std::string& line) {
-  std::string plain;
-  for (const char letter : line) {
-    const auto code = static_cast<unsigned char>(letter);
-    if (code < 0x20 || code == 0x7f) {
-      plain += fmt::format("\\x{:02x}", code);
-    } else {
-      plain += letter;
-    }
-  }
+void PrintToStderr(const std::string& message) {
+  constexpr std::string_view kWho = "elbowroom: ";
   ClearProgress();
-  fmt::print(stderr, "elbowroom: {}\n", plain);
+  const std::size_t room = core::kLongestMessageBytes - kWho.size() - 1;
+  WriteToStderr(fmt::format("{}{}\n", kWho, core::OneLine(message, room)));
 }
 
 // While a command runs: what goes wrong in the end is the one line of a log.
@@ -71,6 +71,9 @@ int Guarded(const std::function<int()>& work) {
     return Fail(error.what());
   } catch (const std::bad_alloc&) {
     return Fail("out of memory; choose a coarser resolution or a smaller workspace");
+  } catch (const std::filesystem::filesystem_error& error) {
+    return Fail(fmt::format("{}: {}; check the path and the folder that you are in", error.path1().string(),
+                            error.code().message()));
   } catch (const std::exception& error) {
     return Fail(
         fmt::format("internal error: {}; please report it with the command that you ran", error.what()));
@@ -91,13 +94,24 @@ int RunAction(const CommandAction& action, bool json) {
   const InterruptWatch interrupt;
   const CommandResult result = action({TerminalProgress(), interrupt.stop(), TellTerminal});
   ClearProgress();
-  fmt::print("{}\n", json ? result.json.dump() : result.text);
-  if (std::fflush(stdout) != 0) {
-    throw core::Error(core::ErrorKind::kFile,
-                      "the result can't be written to the standard output; check where it goes");
-  }
+  // A path is bytes, and JSON is UTF-8: what isn't is shown as U+FFFD.
+  WriteToStdout(
+      (json ? result.json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) : result.text) +
+      '\n');
   if (!result.hint.empty()) PrintToStderr(result.hint);
   return 0;
+}
+
+// Help and version are results; wrong usage is told in one line.
+int EndOfParsing(const CLI::App& app, const CLI::ParseError& error) {
+  std::ostringstream out, told;
+  if (app.exit(error, out, told) == 0)
+    return Guarded([&] {
+      WriteToStdout(out.str());
+      return 0;
+    });
+  PrintToStderr(fmt::format("{}; run it with --help for what there is", error.what()));
+  return kUsageError;
 }
 
 }  // namespace
@@ -129,7 +143,7 @@ int RunCommandLine(int argc, char** argv, const OpenConsole& open_console) {
   try {
     app.parse(ArgumentsOf(argc, argv));
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : kUsageError;
+    return EndOfParsing(app, error);
   }
   std::optional<tbb::global_control> limit;
   if (common.threads > 0) {

@@ -12,8 +12,10 @@
 namespace elbowroom::cli {
 
 FolderLock::FolderLock(const std::filesystem::path& file) {
+  namespace fs = std::filesystem;
   std::error_code error;
-  const std::filesystem::path folder = std::filesystem::weakly_canonical(file, error).parent_path();
+  // Absolute first: of a name alone that isn't there yet, the canonical form has no folder.
+  const fs::path folder = fs::weakly_canonical(fs::absolute(file, error), error).parent_path();
   folder_ = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (folder_ < 0) return;
   if (::flock(folder_, LOCK_EX) != 0 && errno == EINTR) {

@@ -58,12 +58,12 @@ std::shared_ptr<recon::FrameSetSource> WithViewer(std::shared_ptr<recon::Recorde
   if (node == nullptr) return rig;
   if (!node->is_table()) root.Fail("viewer", "must be written as [viewer]");
   const TomlEntry entry(*node->as_table(), file.string(), "[viewer]", {"camera", "frames"});
-  const std::filesystem::path folder = file.parent_path();
+  const std::filesystem::path folder = std::filesystem::absolute(file).parent_path();
   const recon::ViewFile view = recon::ReadViewFile(folder / entry.Text("camera"));
   if (view.is_orthographic) entry.Fail("camera", "must name a perspective camera; this one is orthographic");
   const std::string frames = entry.Text("frames");
-  auto footage = std::make_shared<recon::ViewerFootage>(
-      std::move(rig), view.camera, recon::ResolvedLocation(frames, std::filesystem::absolute(folder)), stop);
+  auto footage = std::make_shared<recon::ViewerFootage>(std::move(rig), view.camera,
+                                                        recon::ResolvedLocation(frames, folder), stop);
   const auto viewer_frames = footage->viewer_frame_count(), rig_frames = footage->frame_count();
   if (viewer_frames && (!rig_frames || *viewer_frames < *rig_frames)) {
     warnings->push_back(

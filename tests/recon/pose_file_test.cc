@@ -72,6 +72,14 @@ TEST_F(PoseFile, MissingAndMisshapenKeysAreNamed) {
   names(ErrorOf(ErrorKind::kFormat,
                 head + kRotation + Matrix("translation_world_from_part_mm", 3, 1, "1., .Nan, 3.")),
         "not finite");
+  names(ErrorOf(ErrorKind::kFormat,
+                head + kRotation + Matrix("translation_world_from_part_mm", 3, 1, "1., 1e300, 3.")),
+        "check its unit");
+  names(ErrorOf(ErrorKind::kFormat,
+                head + kRotation +
+                    "translation_world_from_part_mm: !!opencv-matrix\n   rows: 1000000000\n   cols: "
+                    "1000000000\n   dt: d\n   data: [ 1. ]\n"),
+        "1000000000 x 1000000000");
 }
 
 TEST_F(PoseFile, WhatIsNoRotationIsRefused) {
@@ -88,9 +96,9 @@ TEST_F(PoseFile, FilesThatAreNoYamlAreErrorsAndSayNothingElse) {
   ::testing::internal::CaptureStderr();
   EXPECT_THROW((void)ReadPoseFile(folder_ / "none.yml"), core::Error);
   EXPECT_THROW((void)ReadPoseFile(folder_.path()), core::Error);
-  (void)ErrorOf(ErrorKind::kFile, "not yaml: [");
-  (void)ErrorOf(ErrorKind::kFile, "");
-  (void)ErrorOf(ErrorKind::kFile,
+  (void)ErrorOf(ErrorKind::kFormat, "not yaml: [");
+  (void)ErrorOf(ErrorKind::kFormat, "");
+  (void)ErrorOf(ErrorKind::kFormat,
                 "%YAML:1.0\n---\nrotation_world_from_part: !!opencv-matrix\n   rows: 3\n   cols: [");
   EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
 }

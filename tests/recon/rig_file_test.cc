@@ -75,7 +75,7 @@ TEST(RigFile, WritesWhatItReadsBackBitForBit) {
   odd.camera_matrix(0, 0) = 1.0 / 3.0 * 1e3;
   odd.distortion_model = core::DistortionModel::kRationalPolynomial;
   odd.distortion_coefficients = {0.1, 1e-300, -1.0 / 7.0, 1e-5, 0.0, -0.0, 0.30000000000000004, 1e-17};
-  odd.cam_from_world = core::FromPositionAndRollPitchYaw({5e9, -1.0 / 3.0, 1e22}, {10.0, 20.0, 30.0});
+  odd.cam_from_world = core::FromPositionAndRollPitchYaw({5e6, -1.0 / 3.0, 1e-22}, {10.0, 20.0, 30.0});
   written.rig.cameras[1] = core::CameraModel(odd);
   written.rig.workspace_mm.min().x() = -1e-7;
   WriteRigFile(written, folder.path() / "rig.yml");
@@ -102,13 +102,14 @@ TEST(RigFile, WritesNothingWhereItCannotWriteAll) {
 TEST(RigFile, NamesWhatIsWrongWithTheFile) {
   const TestFolder folder;
   EXPECT_THAT(ErrorOf(ErrorKind::kFile, [&] { (void)ReadRigFile(folder.path() / "none.yml"); }),
-              AllOf(HasSubstr("none.yml"), HasSubstr("does not exist")));
-  EXPECT_THAT(ErrorOf(ErrorKind::kFile, [&] { (void)ReadRigFile(folder.path()); }), HasSubstr("not a file"));
+              AllOf(HasSubstr("none.yml"), HasSubstr("no such rig file")));
+  EXPECT_THAT(ErrorOf(ErrorKind::kFile, [&] { (void)ReadRigFile(folder.path()); }),
+              HasSubstr("isn't a file"));
   EXPECT_THAT(RigError(ErrorKind::kFormat, ""), HasSubstr("not an OpenCV YAML file"));
   EXPECT_THAT(RigError(ErrorKind::kFormat, "\x01\x02 nothing of the kind"),
               HasSubstr("not an OpenCV YAML file"));
   EXPECT_THAT(RigError(ErrorKind::kFormat, "%YAML:1.0\n---\nworkspace_mm: [1, 2\n  cameras: }{"),
-              HasSubstr("not an OpenCV YAML file"));
+              HasSubstr("line 4: ',' or ']' must stand here"));
   EXPECT_THAT(RigError(ErrorKind::kFormat, kFlowRig.substr(0, kFlowRig.size() / 2)), HasSubstr("rig.yml"));
 }
 
@@ -133,6 +134,13 @@ TEST(RigFile, NamesCameraAndKeyOfEveryDefect) {
       {"image_width: 644, ", "", ErrorKind::kFormat, {"'cam1'", "image_width", "missing"}},
       {"image_width: 644", "image_width: 64.4", ErrorKind::kFormat, {"'cam1'", "image_width", "whole"}},
       {"image_width: 644", "image_width: 0", ErrorKind::kCamera, {"'cam1'", "image size"}},
+      {"image_width: 644", "image_width: 100000", ErrorKind::kCamera, {"'cam1'", "more than a picture"}},
+      {"image_width: 644", "image_width: 4294967295", ErrorKind::kFormat, {"line 7", "image_width", "whole"}},
+      {"[ 500, 0, 320,", "[ 1e308, 0, 320,", ErrorKind::kCamera, {"'cam1'", "camera_matrix"}},
+      {"[ 500, 0, 320,", "[ 1e-320, 0, 320,", ErrorKind::kCamera, {"'cam1'", "focal length"}},
+      {"[ -0.1, 0.01, 0, 0, 0 ]", "[ 1e300, 0, 0, 0, 0 ]", ErrorKind::kCamera, {"'cam1'", "coefficient"}},
+      {"_mm: [ 1, 2, 3 ]", "_mm: [ 1, 2, 1e300 ]", ErrorKind::kCamera, {"'cam1'", "translation", "unit"}},
+      {"[-1,-2,-3,1.5,2,3]", "[-1,-2,-3,1.5,2,1e300]", ErrorKind::kRange, {"workspace_mm", "unit"}},
       {matrix + ", ", "", ErrorKind::kFormat, {"'cam1'", "camera_matrix", "missing"}},
       {matrix,
        "camera_matrix: [ 500, 0, 320, 0 ]",
@@ -182,6 +190,12 @@ TEST(RigFile, RefusesARigWithoutCameras) {
   EXPECT_THAT(RigError(ErrorKind::kFormat, start + "cameras: [ 1 ]\n"), HasSubstr("camera number 1"));
 }
 
+TEST(RigFile, RefusesMoreCamerasThanAHullTakes) {
+  std::string text = "%YAML:1.0\n---\nworkspace_mm: [-1,-2,-3,1.5,2,3]\ncameras:\n";
+  for (int i = 0; i < 10'000; ++i) text += "  - { name: \"cam\" }\n";
+  EXPECT_THAT(RigError(ErrorKind::kFormat, text), HasSubstr("at most 255"));
+}
+
 TEST(RigFile, ChecksTheShapeOfAnOpenCvMatrix) {
   const TestFolder folder;
   WriteRigFile(testing::PlainRig({{"a.avi", "", ""}}), folder.path() / "rig.yml");
@@ -222,6 +236,17 @@ TEST(ViewFile, TakesTheKeysAtTheTopOrInAListOfOne) {
   WriteText(folder.path() / "bare.yml", "%YAML:1.0\n---\nimage_width: 5\n");
   EXPECT_THAT(ErrorOf(ErrorKind::kFormat, [&] { (void)ReadViewFile(folder.path() / "bare.yml"); }),
               AllOf(HasSubstr("bare.yml"), HasSubstr("image_height")));
+}
+
+TEST(ViewFile, OfMorePixelsThanCanBeDrawnIsRefused) {
+  const TestFolder folder;
+  std::string keys =
+      kFlowRig.substr(kFlowRig.find("{ name"), kFlowRig.find("}\n") + 1 - kFlowRig.find("{ name"));
+  keys = Replaced(Replaced(keys, "image_width: 644", "image_width: 10000"), "image_height: 486",
+                  "image_height: 9000");
+  WriteText(folder.path() / "view.yml", "%YAML:1.0\n---\ncamera: " + keys + "\n");
+  EXPECT_THAT(ErrorOf(ErrorKind::kFormat, [&] { (void)ReadViewFile(folder.path() / "view.yml"); }),
+              AllOf(HasSubstr("line 3"), HasSubstr("10000 x 9000")));
 }
 
 TEST(ViewFile, MayBeOrthographicWithoutALens) {
