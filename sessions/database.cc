@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "sessions/damage.h"
 
 namespace elbowroom::sessions {
 namespace {
@@ -38,7 +39,7 @@ std::string_view AdviceFor(int sqlite_code) {
     case SQLITE_LOCKED:
       return "another program holds the session locked; close it and try again";
     case SQLITE_CORRUPT:
-      return "the file is damaged; restore it from a copy";
+      return "the file is damaged: restore it from a copy, or salvage it (docs/session_database.md)";
     case SQLITE_NOTADB:
       return "this is not a session file; check the path";
     case SQLITE_READONLY:
@@ -85,8 +86,9 @@ void RethrowAsError(const fs::path& path) {
   try {
     throw;
   } catch (const SQLite::Exception& exception) {
-    throw Error(ErrorKind::kDatabase, fmt::format("session '{}': {}; {}", path.string(), exception.what(),
-                                                  AdviceFor(exception.getErrorCode())));
+    throw Error(ErrorKind::kDatabase,
+                fmt::format("session '{}': {}; {}", path.string(), Quotable(exception.what()),
+                            AdviceFor(exception.getErrorCode())));
   }
 }
 
@@ -156,6 +158,15 @@ Database Database::CopyInMemory() {
     return {path_, std::move(copy)};
   } catch (...) {
     RethrowAsError(path_);
+  }
+}
+
+Database Database::InMemory(const fs::path& name) {
+  try {
+    return {name,
+            std::make_unique<SQLite::Database>(":memory:", SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE)};
+  } catch (...) {
+    RethrowAsError(name);
   }
 }
 

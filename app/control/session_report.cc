@@ -85,7 +85,7 @@ SharedFrameResult RebuildFrame(const sessions::SessionReader& session, core::Fra
 
 ReportFiles WriteSessionReport(const std::filesystem::path& session_path, const std::filesystem::path& folder,
                                const core::Progress& progress, std::stop_token stop) {
-  const sessions::SessionReader session(session_path);
+  const sessions::SessionReader session(session_path, stop);
   const std::vector<sessions::FrameSummary> frames = session.frames();
   sessions::ReportPictures pictures;
   if (!frames.empty()) {
