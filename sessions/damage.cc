@@ -54,7 +54,7 @@ std::string Quotable(std::string_view text, std::size_t most) {
   std::string line;
   while (!text.empty()) {
     const std::size_t length = LengthOfCharacter(text);
-    if (line.size() + std::max<std::size_t>(length, kReplacement.size()) > most)
+    if (line.size() + (length == 0 ? kReplacement.size() : length) > most)
       return line + std::string(kEllipsis);
     const auto first = static_cast<std::uint8_t>(text.front());
     if (length == 0) {

@@ -16,7 +16,7 @@ namespace {
 
 // A value can't be longer than its file; of small files this much, which the schema's own SQL needs.
 constexpr std::int64_t kLongestValueOfSmallFile = 1 << 20;
-constexpr std::int64_t kLongestValue = 1 << 29;
+constexpr std::int64_t kLongestValue = 1'000'000'000;  // SQLite's own limit
 
 void Set(sqlite3* connection, int setting, int value) {
   sqlite3_db_config(connection, setting, value, nullptr);

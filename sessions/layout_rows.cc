@@ -4,6 +4,7 @@
 
 #include <map>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "core/error.h"
@@ -15,9 +16,6 @@
 
 namespace elbowroom::sessions {
 namespace {
-
-// Of all parts together, unpacked.
-constexpr std::size_t kLargestMeshes = std::size_t{384} << 20U;
 
 std::optional<std::string> JsonOrNull(const std::optional<Eigen::Vector3d>& vector) {
   if (!vector) return std::nullopt;
@@ -77,14 +75,15 @@ std::map<std::string, core::SharedMesh> ReadMeshes(Database& database) {
                  "SELECT mesh_hash, vertex_count, triangle_count, vertices_mm_zstd, triangles_zstd, "
                  "deviation_mm FROM mesh");
   std::map<std::string, core::SharedMesh> meshes;
-  std::size_t bytes = 0;
+  std::size_t packed_bytes = 0, unpacked_bytes = 0;
   while (rows.Next()) {
     const core::SharedMesh mesh = ReadMesh(rows, database.path().string());
-    bytes += mesh->vertices_mm.size() * sizeof(mesh->vertices_mm[0]) +
-             mesh->triangles.size() * sizeof(mesh->triangles[0]);
-    if (bytes > kLargestMeshes)
+    packed_bytes += rows.Bytes(3).size() + rows.Bytes(4).size();
+    unpacked_bytes +=
+        std::as_bytes(std::span(mesh->vertices_mm)).size() + std::as_bytes(std::span(mesh->triangles)).size();
+    if (!IsPlausible(packed_bytes, unpacked_bytes))
       FailAsDamaged(fmt::format("session '{}'", database.path().string()),
-                    fmt::format("its meshes unpack to more than {} MB", kLargestMeshes >> 20U));
+                    fmt::format("its meshes claim {} bytes", unpacked_bytes));
     meshes.emplace(rows.Text(0), mesh);
   }
   return meshes;

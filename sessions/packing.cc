@@ -23,16 +23,14 @@ static_assert(sizeof(Eigen::Vector3d) == 3 * sizeof(double), "vertices are packe
 // Fast enough for the writer thread; silhouettes pack about 30 : 1 at any level.
 constexpr int kCompressionLevel = 1;
 
-// Of one blob: 11 million vertices, 22 million triangles, a mask of 2,000 million pixels.
-constexpr std::size_t kLargestUnpacked = std::size_t{1} << 28U;
-constexpr std::size_t kMostUnpackedPerByte = 1 << 16;
+// Beyond any mesh that can be imported.
+constexpr std::size_t kLargestUnpacked = std::size_t{1} << 32U;
 
 // Asked before anything is allocated: a damaged size must not take all memory.
 void RequireUnpacksTo(std::span<const std::byte> packed, std::size_t size, const std::string& where) {
   if (ZSTD_getFrameContentSize(packed.data(), packed.size()) != size)
     FailAsDamaged(where, "the packed data has another size than belongs there");
-  // What constant bytes come to is the most that the format can do; a frame that claims more is none.
-  if (size > kLargestUnpacked || size / kMostUnpackedPerByte > packed.size())
+  if (size > kLargestUnpacked || !IsPlausible(packed.size(), size))
     FailAsDamaged(where, fmt::format("the packed data claims {} bytes", size));
 }
 
@@ -78,6 +76,11 @@ std::vector<Value> ArrayFromJson(const std::string& json, const std::string& whe
 }
 
 }  // namespace
+
+bool IsPlausible(std::size_t packed_bytes, std::size_t unpacked_bytes) {
+  constexpr std::size_t kAlways = std::size_t{64} << 20U, kMostPerByte = 1024;
+  return unpacked_bytes <= kAlways || unpacked_bytes / kMostPerByte <= packed_bytes;
+}
 
 Compressor::Compressor() : context_(ZSTD_createCCtx(), ZSTD_freeCCtx) {}
 

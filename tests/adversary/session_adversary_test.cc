@@ -86,7 +86,9 @@ std::optional<std::string> ReadHere(const fs::path& path, const TemporaryFolder&
   }
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
   EXPECT_LT(took.count(), kLongest_s) << damage;
-  if (!refused) EXPECT_EQ(IntegrityOf(path), "ok") << damage << ": reported without a word";
+  if (!refused) {
+    EXPECT_EQ(IntegrityOf(path), "ok") << damage << ": reported without a word";
+  }
   return refused;
 }
 
@@ -105,8 +107,12 @@ void ReadByProgram(const fs::path& path, const TemporaryFolder& folder, const st
         << damage << ": " << command[0] << " ended with " << run.exit_status << "\n"
         << run.err;
     if (run.exit_status == 1) ExpectOneLine(run.err, damage);
-    if (command[0] == "report" && is_sound) EXPECT_EQ(run.exit_status, 0) << damage << "\n" << run.err;
-    if (run.exit_status == 0) EXPECT_EQ(IntegrityOf(path), "ok") << damage << ": done without a word";
+    if (command[0] == "report" && is_sound) {
+      EXPECT_EQ(run.exit_status, 0) << damage << "\n" << run.err;
+    }
+    if (run.exit_status == 0) {
+      EXPECT_EQ(IntegrityOf(path), "ok") << damage << ": done without a word";
+    }
   }
 }
 
