@@ -38,8 +38,8 @@ std::string FrameOf(const Database& database, core::FrameIndex frame) {
 core::Recovery ReadRecovery(const Statement& row, const std::string& where) {
   core::Recovery recovery;
   recovery.d_rec_mm = Magnitude(row.Real(14), where, "a recovery's length");
-  recovery.cp_obj_in_world_mm = row.Vector(15);
-  recovery.cp_hull_in_world_mm = row.Vector(18);
+  recovery.cp_obj_in_world_mm = Position(row.Vector(15), where, "CP_obj");
+  recovery.cp_hull_in_world_mm = Position(row.Vector(18), where, "CP_hull");
   recovery.v_rec_in_world = row.Vector(21);
   if (!row.IsNull(24)) recovery.n_hull_in_world = row.Vector(24);
   if (!row.IsNull(27)) recovery.angle_rad = row.Real(27);
@@ -57,8 +57,8 @@ core::PartClearance ReadClearance(const Statement& row, const std::string& where
   clearance.interval.upper_mm = bound_mm(30);
   clearance.has_witnesses = !row.IsNull(31);
   if (clearance.has_witnesses) {
-    clearance.interval.witness_part_in_world_mm = row.Vector(31);
-    clearance.interval.witness_hull_in_world_mm = row.Vector(34);
+    clearance.interval.witness_part_in_world_mm = Position(row.Vector(31), where, "a witness point");
+    clearance.interval.witness_hull_in_world_mm = Position(row.Vector(34), where, "a witness point");
   }
   return clearance;
 }
@@ -83,7 +83,8 @@ core::PartContact ReadContact(const Statement& row, const std::string& where) {
   contact.contact_area_mm2 = Magnitude(row.Real(7), where, "a contact's area");
   contact.contact_point_count = CountFrom(0, row.Integer(8), where, "a number of points");
   if (!row.IsNull(9)) {
-    contact.deepest = core::ContactPoint{row.Vector(11), Magnitude(row.Real(9), where, "a contact's depth"),
+    contact.deepest = core::ContactPoint{Position(row.Vector(11), where, "a contact"),
+                                         Magnitude(row.Real(9), where, "a contact's depth"),
                                          Magnitude(row.Real(10), where, "a contact's area")};
   }
   if (!row.IsNull(14)) contact.recovery = ReadRecovery(row, where);
@@ -96,7 +97,8 @@ void ReadPoints(Database& database, core::FrameIndex frame, const std::string& w
                  "SELECT depth_mm, area_mm2, x_mm, y_mm, z_mm FROM contact_point "
                  "WHERE frame_index = ? AND part_index = ? ORDER BY point_index");
   for (rows.With(frame, contact.part); rows.Next();) {
-    contact.points.push_back({rows.Vector(2), Magnitude(rows.Real(0), where, "a contact's depth"),
+    contact.points.push_back({Position(rows.Vector(2), where, "a contact"),
+                              Magnitude(rows.Real(0), where, "a contact's depth"),
                               Magnitude(rows.Real(1), where, "a contact's area")});
   }
 }

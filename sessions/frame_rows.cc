@@ -77,7 +77,7 @@ std::vector<core::RigidTransform> ReadMotions(Database& database, std::size_t pa
     const std::string motion = fmt::format("{}, motion of part {}", where, part);
     rest_from_parts.resize(parts);
     rest_from_parts[part] = {Rotation(MatrixFromJson(rows.Text(1), motion), motion, "its rotation"),
-                             VectorFromJson(rows.Text(2), motion)};
+                             Position(VectorFromJson(rows.Text(2), motion), motion, "its way")};
   }
   return rest_from_parts;
 }

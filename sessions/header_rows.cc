@@ -51,9 +51,9 @@ void ReadSessionRow(Database& database, core::SessionHeader& header) {
   header.layout.unit = UnitFromText(row.Text(7), database);
   header.trial.uncertainty_mm = Magnitude(row.Real(14), where, "the uncertainty");
   header.rig.workspace_mm = Eigen::AlignedBox3d(row.Vector(8), row.Vector(11));
-  for (const double side_mm : header.rig.workspace_mm.sizes()) {
-    if (!(side_mm > 0.0 && side_mm <= kLongestLengthMm)) FailAsDamaged(where, "its workspace is none");
-  }
+  (void)Position(header.rig.workspace_mm.min(), where, "its workspace");
+  (void)Position(header.rig.workspace_mm.max(), where, "its workspace");
+  if (!(header.rig.workspace_mm.sizes().minCoeff() > 0.0)) FailAsDamaged(where, "its workspace is empty");
 }
 
 void InsertTexts(Database& database, const std::string& table,

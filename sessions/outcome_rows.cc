@@ -62,7 +62,7 @@ core::ContactEpisode ReadEpisode(const Statement& row, const core::Layout& layou
   episode.frames_in_contact = CountFrom(1, row.Integer(8), where, "its number of frames");
   episode.peak_depth_mm = Magnitude(row.Real(9), where, "its depth");
   episode.peak_area_mm2 = Magnitude(row.Real(10), where, "its area");
-  episode.peak_position_in_world_mm = row.Vector(11);
+  episode.peak_position_in_world_mm = Position(row.Vector(11), where, "its place");
   if (!row.IsNull(14)) episode.peak_position_in_part_mm = row.Vector(14);
   episode.tools = TextsFromJson(row.Text(17), where);
   return episode;

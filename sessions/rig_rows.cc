@@ -13,6 +13,7 @@
 namespace elbowroom::sessions {
 namespace {
 
+constexpr double kShortestFocalPx = 1e-3, kLongestFocalPx = 1e9;
 // No camera of a trial has as many; a mask of them is 32 MB.
 constexpr std::int64_t kMostPixels = std::int64_t{1} << 28U;
 
@@ -40,7 +41,13 @@ core::CameraModel ReadCamera(const Statement& row, const std::string& path) {
   calibration.distortion_model = *distortion_model;
   calibration.distortion_coefficients = NumbersFromJson(row.Text(5), where);
   calibration.cam_from_world.rotation = MatrixFromJson(row.Text(6), where);
-  calibration.cam_from_world.translation_mm = VectorFromJson(row.Text(7), where);
+  calibration.cam_from_world.translation_mm =
+      Position(VectorFromJson(row.Text(7), where), where, "its position");
+  const Eigen::Matrix3d& k = calibration.camera_matrix;
+  if (!(k.cwiseAbs().maxCoeff() <= kLongestFocalPx && k(0, 0) >= kShortestFocalPx &&
+        k(1, 1) >= kShortestFocalPx)) {
+    FailAsDamaged(where, "its camera_matrix is no lens's");
+  }
   const std::string name = std::exchange(calibration.name, "of the rig");
   try {
     (void)core::CameraModel(calibration);

@@ -47,6 +47,12 @@ double Time_s(double time_s, const std::string& where, std::string_view what) {
   return time_s;
 }
 
+Eigen::Vector3d Position(const Eigen::Vector3d& x_mm, const std::string& where, std::string_view what) {
+  if (!(x_mm.cwiseAbs().maxCoeff() <= kLongestLengthMm))
+    FailAsDamaged(where, fmt::format("{} is nowhere near a trial", what));
+  return x_mm;
+}
+
 Eigen::Matrix3d Rotation(const Eigen::Matrix3d& matrix, const std::string& where, std::string_view what) {
   if (!matrix.allFinite() || !core::IsRotation(matrix))
     FailAsDamaged(where, fmt::format("{} is no rotation", what));

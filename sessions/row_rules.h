@@ -31,6 +31,9 @@ void RequireInTurn(std::int64_t index, std::size_t position, const std::string& 
 // A length, an area, a depth: not negative.
 [[nodiscard]] double Magnitude(double value, const std::string& where, std::string_view what);
 [[nodiscard]] double Time_s(double time_s, const std::string& where, std::string_view what);
+// In world, or how far something was moved there.
+[[nodiscard]] Eigen::Vector3d Position(const Eigen::Vector3d& x_mm, const std::string& where,
+                                       std::string_view what);
 [[nodiscard]] Eigen::Matrix3d Rotation(const Eigen::Matrix3d& matrix, const std::string& where,
                                        std::string_view what);
 

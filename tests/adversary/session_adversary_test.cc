@@ -15,6 +15,7 @@
 #include "core/error.h"
 #include "sessions/report.h"
 #include "sessions/session_reader.h"
+#include "sessions/session_writer.h"
 #include "tests/adversary/session_damage.h"
 #include "tests/sessions/sample_session.h"
 #include "tests/sessions/sample_trial.h"
@@ -34,9 +35,19 @@ constexpr double kLongest_s = 20.0;   // of any one reading: what a user waits f
 constexpr long kMostGrowthKb = 500'000;
 constexpr std::size_t kLongestLine = 300;
 
+// The sample session, but for a part beyond all stars, which no picture can show.
+void WriteDrawableSession(const fs::path& path, core::FrameIndex frames) {
+  core::SessionHeader header = SampleHeader();
+  header.layout.parts[2].world_from_part.translation_mm.z() = 5e2;
+  sessions::SessionWriter writer(path, header);
+  for (core::FrameIndex i = 0; i < frames; ++i) writer.Append(SampleFrame(header, i, 1));
+  for (const core::SessionEvent& event : SampleEvents()) writer.Append(event);
+  writer.Finish(SampleOutcome(0, frames - 1));
+}
+
 // Sessions of every make: with all there can be, of many frames, of an older schema, one cut off.
 std::vector<fs::path> MakeSessions(const TemporaryFolder& folder) {
-  WriteSampleSession(folder / "sample.db", 12);
+  WriteDrawableSession(folder / "sample.db", 12);
   TrialPlan plan = UsualTrial();
   plan.duration_s = 20.0;
   plan.touches.resize(4);
@@ -145,7 +156,7 @@ TEST(DamagedSession, IsRefusedInOneLineOrReadSoundly) {
 // Each changes what is shown, so each is refused; through the program too.
 TEST(DamagedSession, KnownReproducersAreRefusedInOneLine) {
   const TemporaryFolder folder;
-  WriteSampleSession(folder / "sample.db", 12);
+  WriteDrawableSession(folder / "sample.db", 12);
   ReadByProgram(folder / "sample.db", folder, "undamaged", true);
   const long here_kb = PeakKb(RUSAGE_SELF), children_kb = PeakKb(RUSAGE_CHILDREN);
   for (const Reproducer& reproducer : KnownReproducers()) {
@@ -157,6 +168,16 @@ TEST(DamagedSession, KnownReproducersAreRefusedInOneLine) {
   }
   EXPECT_LT(PeakKb(RUSAGE_SELF) - here_kb, kMostGrowthKb);
   EXPECT_LT(PeakKb(RUSAGE_CHILDREN) - children_kb, kMostGrowthKb);
+}
+
+TEST(DamagedSession, APartThatNoPictureCanShowEndsInOneLine) {
+  const TemporaryFolder folder;
+  WriteSampleSession(folder / "far.db", 12);
+  const test_support::ProgramRun run = test_support::RunProgram(
+      ELBOWROOM_PROGRAM, {"report", (folder / "far.db").string(), "--out", (folder / "out").string()});
+  EXPECT_EQ(run.exit_status, 1);
+  ExpectOneLine(run.err, "a part at 5e300 mm");
+  EXPECT_NE(run.err.find("part 'payload B': it is nowhere near a trial"), std::string::npos) << run.err;
 }
 
 // What a user of the sqlite3 shell adds is no damage.
