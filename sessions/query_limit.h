@@ -10,7 +10,7 @@
 namespace elbowroom::sessions {
 
 // Steps of SQLite's machine that one statement may take on a file of that many bytes. Of a sound session the
-// dearest, its integrity check, takes less than 1 step a byte (session_reader_test).
+// dearest, its integrity check, takes less than 1 step a byte (damaged_session_test).
 [[nodiscard]] std::int64_t MostStepsFor(std::int64_t file_bytes);
 
 // While it lives, a statement of the connection that takes more steps than its file has reason for fails with

@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 
+#include "core/error.h"
 #include "sessions/damage.h"
 #include "sessions/schema.h"
 #include "sessions/statement.h"
@@ -61,6 +62,12 @@ std::string Essence(const std::string& sql) {
   return essence;
 }
 
+// Of columns alone: whoever checks an index works out what it holds.
+bool IsPlainIndex(const Entry& entry) {
+  const std::string essence = Essence(entry.sql.value_or(""));
+  return std::ranges::count(essence, '(') == 1 && essence.ends_with(')');
+}
+
 std::string Quoted(const std::string& name) {
   std::string quoted = "\"";
   for (const char c : name) quoted += c == '"' ? "\"\"" : std::string(1, c);
@@ -94,6 +101,12 @@ void RequireTablesOfSchema(Database& database, std::int64_t schema) {
     }
   }
   for (const auto& [name, entry] : found) {
+    if (entry.type == "index" && !IsOfSqlite(entry) && !IsPlainIndex(entry))
+      throw core::Error(
+          core::ErrorKind::kFormat,
+          fmt::format("{}: its index '{}' is one of expressions, which may take for ever to check; "
+                      "drop it with DROP INDEX in the sqlite3 shell",
+                      where, Quotable(entry.name)));
     if (entry.type == "trigger" && tables.contains(LowerCase(entry.table)))
       FailAsDamaged(where, fmt::format("it has a trigger, '{}', which no schema has", Quotable(entry.name)));
   }

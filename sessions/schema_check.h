@@ -14,7 +14,7 @@ namespace elbowroom::sessions {
 [[nodiscard]] std::vector<std::string> TablesOfSchema(std::int64_t schema);
 
 // Tables, indices and views are to be there, each by the SQL that the schema gave it; what has another name
-// may be there as well, but no trigger on a table of the schema.
+// may be there as well, but no trigger on a table of the schema, and no index of expressions.
 // Throws: Error{kFormat} naming the first that isn't so.
 void RequireTablesOfSchema(Database& database, std::int64_t schema);
 

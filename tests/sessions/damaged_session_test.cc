@@ -62,7 +62,7 @@ TEST(DamagedSession, NamesTheTableAndTheRowThatIsMissing) {
                 "a row of 'silhouette' refers to one of 'mask' that isn't there");
   refused_after(
       "UPDATE camera SET camera_index = camera_index + 10; UPDATE silhouette SET camera_index = camera_index "
-      "+ 1",
+      "+ 10",
       "camera 10 comes where 0 belongs");
   refused_after("UPDATE frame SET time_s = NULL", "NOT NULL");
   refused_after("UPDATE part_frame SET verdict = 'perhaps'", "CHECK constraint failed");
@@ -82,6 +82,9 @@ TEST(DamagedSession, TablesAndViewsMustBeThoseOfTheSchema) {
   refused_after("ALTER TABLE frame RENAME COLUMN time_s TO when_s", "its table 'frame' isn't the table");
   refused_after("DROP INDEX contact_by_part", "its index 'contact_by_part' is missing");
   refused_after("CREATE TRIGGER mine AFTER INSERT ON frame BEGIN SELECT 1; END", "it has a trigger, 'mine'");
+  refused_after("CREATE INDEX mine ON frame (('aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa' LIKE '%a%a%a%a%a%a%a%a%b'))",
+                "its index 'mine' is one of expressions");
+  refused_after("CREATE INDEX mine ON frame (time_s) WHERE time_s > 1", "is one of expressions");
   refused_after("PRAGMA user_version = 4", "isn't the table that schema 4 has");
   refused_after("PRAGMA user_version = 0", "it has tables, but of schema 0");
   refused_after("PRAGMA user_version = -1", "it has schema -1");
