@@ -299,6 +299,82 @@ std::string SpoilPackedData(const fs::path& path, Random& random) {
   return sql;
 }
 
+// --- what is known
+// ------------------------------------------------------------------------------------------
+
+constexpr std::array kKnownReproducers = {
+    Reproducer{"a frame without its spacings", "DELETE FROM frame_spacing WHERE frame_index = 5"},
+    Reproducer{"a frame without one spacing",
+               "DELETE FROM frame_spacing WHERE frame_index = 2 AND spacing_index = 0"},
+    Reproducer{"spacings numbered otherwise", "UPDATE frame_spacing SET spacing_index = spacing_index + 10"},
+    Reproducer{"a touch of a part beyond the layout", "UPDATE episode SET part_index = 1000000"},
+    Reproducer{"a touch of part -1", "UPDATE episode SET part_index = -1"},
+    Reproducer{"a touch without its spacings", "DELETE FROM episode_spacing"},
+    Reproducer{"a verdict on a part beyond the layout",
+               "UPDATE part_frame SET part_index = 4000000000 WHERE part_index = 1"},
+    Reproducer{"a part that was clear and isn't said to be",
+               "DELETE FROM part_frame WHERE frame_index = 1 AND part_index = 0"},
+    Reproducer{"a contact without its evidence", "DELETE FROM contact"},
+    Reproducer{"a silhouette gone", "DELETE FROM silhouette WHERE frame_index = 0 AND camera_index = 0"},
+    Reproducer{"a camera gone", "DELETE FROM camera WHERE camera_index = 0"},
+    Reproducer{"a part gone", "DELETE FROM part WHERE part_index = 0"},
+    Reproducer{"a spacing gone", "DELETE FROM spacing WHERE spacing_index = 0"},
+    Reproducer{"a mesh gone", "DELETE FROM mesh"},
+    Reproducer{"time that goes backwards", "UPDATE frame SET time_s = -time_s"},
+    Reproducer{"time without end", "UPDATE frame SET time_s = 9e999 WHERE frame_index = 3"},
+    Reproducer{"time beyond a trial's", "UPDATE frame SET time_s = time_s + 1e300"},
+    Reproducer{"a spacing that no axis can show", "UPDATE frame_spacing SET spacing_mm = 1e17"},
+    Reproducer{"a spacing without end", "UPDATE frame_spacing SET spacing_mm = 9e999"},
+    Reproducer{"frames of negative number",
+               "UPDATE frame SET frame_index = -9223372036854775807 WHERE frame_index = 0"},
+    Reproducer{"an event before all", "UPDATE event SET frame_index = -9223372036854775807 - 1"},
+    Reproducer{"an event of a spacing beyond the layout",
+               "UPDATE event SET spacing_index = 99 WHERE spacing_index IS NOT NULL"},
+    Reproducer{"a near miss without spacings", "UPDATE near_miss SET spacing_at_closest_mm = '[]'"},
+    Reproducer{"a near miss of a part beyond the layout", "UPDATE near_miss SET part_index = 77"},
+    Reproducer{"patches without size", "UPDATE heat_map SET patch_mm = 1e-300"},
+    Reproducer{"patches beyond count", "UPDATE heat_map SET patch_count = -1"},
+    Reproducer{"pictures of 65536 x 65536",
+               "UPDATE camera SET image_width_px = 65536, image_height_px = 65536; "
+               "UPDATE mask SET width_px = 65536, height_px = 65536"},
+    Reproducer{"pictures of negative size",
+               "UPDATE camera SET image_width_px = -5; UPDATE mask SET width_px = -5"},
+    Reproducer{"2^31 triangles", "UPDATE mesh SET triangle_count = 2147483648"},
+    Reproducer{"2^61 vertices", "UPDATE mesh SET vertex_count = 2305843009213693953"},
+    Reproducer{"no workspace", "UPDATE session SET workspace_max_x_mm = workspace_min_x_mm"},
+    Reproducer{"two statuses", "UPDATE session SET status = 'broken'"},
+    Reproducer{"no session", "DELETE FROM session"},
+    Reproducer{"a negative schema", "PRAGMA user_version = -5"},
+    Reproducer{"no schema", "PRAGMA user_version = 0"},
+    Reproducer{"an older schema than it has", "PRAGMA user_version = 3"},
+    Reproducer{"a view that never ends",
+               "DROP VIEW v_part; CREATE VIEW v_part AS WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT "
+               "i + 1 FROM n) "
+               "SELECT i AS part_index, i AS frames_in_contact, i AS frames_near, i AS frames_undecided, "
+               "i AS frames_clear FROM n"},
+    Reproducer{
+        "a view that never ends as table event",
+        "DROP VIEW v_event; DROP TABLE event; CREATE VIEW event AS WITH RECURSIVE n(i) AS "
+        "(SELECT 1 UNION ALL SELECT i + 1 FROM n) SELECT i AS event_id, 1 AS frame_index, 0.5 AS time_s, "
+        "'note' AS kind, NULL AS spacing_index, NULL AS from_mm, NULL AS to_mm, NULL AS tool, NULL AS "
+        "in_use, "
+        "'x' AS note FROM n WHERE i < 0"},
+    Reproducer{"billions of frames as table frame",
+               "ALTER TABLE frame RENAME TO kept; CREATE VIEW frame AS WITH RECURSIVE n(i) AS "
+               "(SELECT 0 UNION ALL SELECT i + 1 FROM n LIMIT 4000000000) SELECT i AS frame_index, i * 0.1 "
+               "AS time_s "
+               "FROM n"},
+    Reproducer{"an index that isn't that of its table",
+               "UPDATE sqlite_schema SET sql = 'CREATE INDEX event_by_frame ON event (time_s)' "
+               "WHERE name = 'event_by_frame'"},
+    Reproducer{"a text of 30 MB",
+               "INSERT INTO event (frame_index, time_s, kind, note) "
+               "VALUES (1, 0.1, 'note', printf('%.*c', 30000000, 'n'))"},
+    Reproducer{"no camera that is one", "UPDATE camera SET camera_matrix = '[1e300,0,0,0,1e-300,0,0,0,1]'"},
+    Reproducer{"parts turned by no rotation",
+               "UPDATE part SET rotation_world_from_part = '[9,0,0,0,9,0,0,0,9]'"},
+};
+
 }  // namespace
 
 std::string Spoil(const fs::path& path, Random& random) {
@@ -327,82 +403,7 @@ void SpoilBySql(const fs::path& path, const std::string& sql) {
   database.exec(sql);
 }
 
-std::span<const Reproducer> KnownReproducers() {
-  static constexpr std::array kAll = {
-      Reproducer{"a frame without its spacings", "DELETE FROM frame_spacing WHERE frame_index = 5"},
-      Reproducer{"a frame without one spacing",
-                 "DELETE FROM frame_spacing WHERE frame_index = 2 AND spacing_index = 0"},
-      Reproducer{"spacings numbered otherwise",
-                 "UPDATE frame_spacing SET spacing_index = spacing_index + 10"},
-      Reproducer{"a touch of a part beyond the layout", "UPDATE episode SET part_index = 1000000"},
-      Reproducer{"a touch of part -1", "UPDATE episode SET part_index = -1"},
-      Reproducer{"a touch without its spacings", "DELETE FROM episode_spacing"},
-      Reproducer{"a verdict on a part beyond the layout",
-                 "UPDATE part_frame SET part_index = 4000000000 WHERE part_index = 1"},
-      Reproducer{"a part that was clear and isn't said to be",
-                 "DELETE FROM part_frame WHERE frame_index = 1 AND part_index = 0"},
-      Reproducer{"a contact without its evidence", "DELETE FROM contact"},
-      Reproducer{"a silhouette gone", "DELETE FROM silhouette WHERE frame_index = 0 AND camera_index = 0"},
-      Reproducer{"a camera gone", "DELETE FROM camera WHERE camera_index = 0"},
-      Reproducer{"a part gone", "DELETE FROM part WHERE part_index = 0"},
-      Reproducer{"a spacing gone", "DELETE FROM spacing WHERE spacing_index = 0"},
-      Reproducer{"a mesh gone", "DELETE FROM mesh"},
-      Reproducer{"time that goes backwards", "UPDATE frame SET time_s = -time_s"},
-      Reproducer{"time without end", "UPDATE frame SET time_s = 9e999 WHERE frame_index = 3"},
-      Reproducer{"time beyond a trial's", "UPDATE frame SET time_s = time_s + 1e300"},
-      Reproducer{"a spacing that no axis can show", "UPDATE frame_spacing SET spacing_mm = 1e17"},
-      Reproducer{"a spacing without end", "UPDATE frame_spacing SET spacing_mm = 9e999"},
-      Reproducer{"frames of negative number",
-                 "UPDATE frame SET frame_index = -9223372036854775807 WHERE frame_index = 0"},
-      Reproducer{"an event before all", "UPDATE event SET frame_index = -9223372036854775807 - 1"},
-      Reproducer{"an event of a spacing beyond the layout",
-                 "UPDATE event SET spacing_index = 99 WHERE spacing_index IS NOT NULL"},
-      Reproducer{"a near miss without spacings", "UPDATE near_miss SET spacing_at_closest_mm = '[]'"},
-      Reproducer{"a near miss of a part beyond the layout", "UPDATE near_miss SET part_index = 77"},
-      Reproducer{"patches without size", "UPDATE heat_map SET patch_mm = 1e-300"},
-      Reproducer{"patches beyond count", "UPDATE heat_map SET patch_count = -1"},
-      Reproducer{"pictures of 65536 x 65536",
-                 "UPDATE camera SET image_width_px = 65536, image_height_px = 65536; "
-                 "UPDATE mask SET width_px = 65536, height_px = 65536"},
-      Reproducer{"pictures of negative size",
-                 "UPDATE camera SET image_width_px = -5; UPDATE mask SET width_px = -5"},
-      Reproducer{"2^31 triangles", "UPDATE mesh SET triangle_count = 2147483648"},
-      Reproducer{"2^61 vertices", "UPDATE mesh SET vertex_count = 2305843009213693953"},
-      Reproducer{"no workspace", "UPDATE session SET workspace_max_x_mm = workspace_min_x_mm"},
-      Reproducer{"two statuses", "UPDATE session SET status = 'broken'"},
-      Reproducer{"no session", "DELETE FROM session"},
-      Reproducer{"a negative schema", "PRAGMA user_version = -5"},
-      Reproducer{"no schema", "PRAGMA user_version = 0"},
-      Reproducer{"an older schema than it has", "PRAGMA user_version = 3"},
-      Reproducer{"a view that never ends",
-                 "DROP VIEW v_part; CREATE VIEW v_part AS WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT "
-                 "i + 1 FROM n) "
-                 "SELECT i AS part_index, i AS frames_in_contact, i AS frames_near, i AS frames_undecided, "
-                 "i AS frames_clear FROM n"},
-      Reproducer{
-          "a view that never ends as table event",
-          "DROP VIEW v_event; DROP TABLE event; CREATE VIEW event AS WITH RECURSIVE n(i) AS "
-          "(SELECT 1 UNION ALL SELECT i + 1 FROM n) SELECT i AS event_id, 1 AS frame_index, 0.5 AS time_s, "
-          "'note' AS kind, NULL AS spacing_index, NULL AS from_mm, NULL AS to_mm, NULL AS tool, NULL AS "
-          "in_use, "
-          "'x' AS note FROM n WHERE i < 0"},
-      Reproducer{"billions of frames as table frame",
-                 "ALTER TABLE frame RENAME TO kept; CREATE VIEW frame AS WITH RECURSIVE n(i) AS "
-                 "(SELECT 0 UNION ALL SELECT i + 1 FROM n LIMIT 4000000000) SELECT i AS frame_index, i * 0.1 "
-                 "AS time_s "
-                 "FROM n"},
-      Reproducer{"an index that isn't that of its table",
-                 "UPDATE sqlite_schema SET sql = 'CREATE INDEX event_by_frame ON event (time_s)' "
-                 "WHERE name = 'event_by_frame'"},
-      Reproducer{"a text of 30 MB",
-                 "INSERT INTO event (frame_index, time_s, kind, note) "
-                 "VALUES (1, 0.1, 'note', printf('%.*c', 30000000, 'n'))"},
-      Reproducer{"no camera that is one", "UPDATE camera SET camera_matrix = '[1e300,0,0,0,1e-300,0,0,0,1]'"},
-      Reproducer{"parts turned by no rotation",
-                 "UPDATE part SET rotation_world_from_part = '[9,0,0,0,9,0,0,0,9]'"},
-  };
-  return kAll;
-}
+std::span<const Reproducer> KnownReproducers() { return kKnownReproducers; }
 
 std::string IntegrityOf(const fs::path& path) {
   try {
