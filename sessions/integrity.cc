@@ -47,16 +47,6 @@ void RequireOk(Database& database, const std::string& pragma) {
                             Quotable(line == std::string::npos ? verdict : verdict.substr(line + 1))));
 }
 
-// Every page of the file, and the rules that the schema's own tables have for their values; the rules of
-// other tables are their owner's, and could be anything.
-void RequireSoundPages(Database& database, std::int64_t schema) {
-  database.Execute("PRAGMA ignore_check_constraints = ON");
-  RequireOk(database, "PRAGMA integrity_check(1)");
-  database.Execute("PRAGMA ignore_check_constraints = OFF");
-  for (const std::string& table : TablesOfSchema(schema))
-    RequireOk(database, fmt::format("PRAGMA integrity_check({})", table));
-}
-
 void RequireReferences(Database& database, std::int64_t schema) {
   for (const std::string& table : TablesOfSchema(schema)) {
     Statement check(database, fmt::format("PRAGMA foreign_key_check({})", table));
@@ -85,7 +75,6 @@ void RequireWholeFrames(Database& database) {
 void DistrustFile(Database& database) {
   sqlite3* connection = database.connection().getHandle();
   Set(connection, SQLITE_DBCONFIG_DEFENSIVE, 1);
-  Set(connection, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0);
   Set(connection, SQLITE_DBCONFIG_ENABLE_TRIGGER, 0);
   Set(connection, SQLITE_DBCONFIG_ENABLE_FTS3_TOKENIZER, 0);
   Set(connection, SQLITE_DBCONFIG_ENABLE_LOAD_EXTENSION, 0);
@@ -102,7 +91,7 @@ void DistrustFile(Database& database) {
 
 void RequireIntegrity(Database& database, std::int64_t schema) {
   const ReadSnapshot snapshot(database);
-  RequireSoundPages(database, schema);
+  RequireOk(database, "PRAGMA integrity_check(1)");
   RequireReferences(database, schema);
   RequireWholeFrames(database);
 }
