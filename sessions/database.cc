@@ -161,6 +161,17 @@ Database Database::CopyInMemory() {
   }
 }
 
+Database Database::CopyAside() {
+  try {
+    auto copy = std::make_unique<SQLite::Database>("", SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+    SQLite::Backup backup(*copy, *connection_);
+    backup.executeStep();
+    return {path_, std::move(copy)};
+  } catch (...) {
+    RethrowAsError(path_);
+  }
+}
+
 Database Database::InMemory(const fs::path& name) {
   try {
     return {name,

@@ -34,6 +34,9 @@ class Database {
   // A private copy in memory, which can be migrated without touching the file.
   [[nodiscard]] Database CopyInMemory();
 
+  // The same in a temporary file, which SQLite removes: of a file that may be larger than memory.
+  [[nodiscard]] Database CopyAside();
+
   // An empty one, which errors call by that name.
   [[nodiscard]] static Database InMemory(const std::filesystem::path& name);
 

@@ -92,6 +92,10 @@ void DistrustFile(Database& database) {
 void RequireIntegrity(Database& database, std::int64_t schema) {
   const ReadSnapshot snapshot(database);
   RequireOk(database, "PRAGMA integrity_check(1)");
+  // A connection that can't write has no CHECKs (SQLite's sqlite3AddCheckConstraint): a private copy has
+  // them.
+  Database copy = database.CopyAside();
+  RequireOk(copy, "PRAGMA quick_check(1)");
   RequireReferences(database, schema);
   RequireWholeFrames(database);
 }
