@@ -5,14 +5,12 @@
 #include <array>
 #include <limits>
 
-#include "core/error.h"
+#include "sessions/damage.h"
+#include "sessions/row_rules.h"
 #include "sessions/statement.h"
 
 namespace elbowroom::sessions {
 namespace {
-
-using core::Error;
-using core::ErrorKind;
 
 // The columns that ReadContact reads, in its order; `contact` and `clearance` may be missing (outer joins).
 constexpr const char* kContactColumns =
@@ -29,80 +27,110 @@ constexpr const char* kContactTables =
     "part_frame pf LEFT JOIN contact c USING (frame_index, part_index) "
     "LEFT JOIN clearance cl USING (frame_index, part_index)";
 
-[[noreturn]] void FailAsUnknown(const Database& database, const std::string& what, const std::string& text) {
-  throw Error(ErrorKind::kFormat,
-              fmt::format("session '{}': no {} is called '{}'; restore the file from a copy",
-                          database.path().string(), what, text));
+std::string FrameOf(const Database& database, core::FrameIndex frame) {
+  return fmt::format("session '{}', frame {}", database.path().string(), frame);
 }
 
-core::Recovery ReadRecovery(const Statement& row) {
+[[noreturn]] void FailAsUnknown(const std::string& where, const char* what, const std::string& text) {
+  FailAsDamaged(where, fmt::format("no {} is called '{}'", what, Quotable(text)));
+}
+
+core::Recovery ReadRecovery(const Statement& row, const std::string& where) {
   core::Recovery recovery;
-  recovery.d_rec_mm = row.Real(14);
-  recovery.cp_obj_in_world_mm = row.Vector(15);
-  recovery.cp_hull_in_world_mm = row.Vector(18);
+  recovery.d_rec_mm = Magnitude(row.Real(14), where, "a recovery's length");
+  recovery.cp_obj_in_world_mm = Position(row.Vector(15), where, "CP_obj");
+  recovery.cp_hull_in_world_mm = Position(row.Vector(18), where, "CP_hull");
   recovery.v_rec_in_world = row.Vector(21);
   if (!row.IsNull(24)) recovery.n_hull_in_world = row.Vector(24);
   if (!row.IsNull(27)) recovery.angle_rad = row.Real(27);
   return recovery;
 }
 
-core::PartClearance ReadClearance(const Statement& row) {
+core::PartClearance ReadClearance(const Statement& row, const std::string& where) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   core::PartClearance clearance;
   clearance.queries = row.Integer(28);
-  clearance.interval.lower_mm = row.IsNull(29) ? kInfinity : row.Real(29);
-  clearance.interval.upper_mm = row.IsNull(30) ? kInfinity : row.Real(30);
+  const auto bound_mm = [&](int column) {
+    return row.IsNull(column) ? kInfinity : Magnitude(row.Real(column), where, "a clearance");
+  };
+  clearance.interval.lower_mm = bound_mm(29);
+  clearance.interval.upper_mm = bound_mm(30);
   clearance.has_witnesses = !row.IsNull(31);
   if (clearance.has_witnesses) {
-    clearance.interval.witness_part_in_world_mm = row.Vector(31);
-    clearance.interval.witness_hull_in_world_mm = row.Vector(34);
+    clearance.interval.witness_part_in_world_mm = Position(row.Vector(31), where, "a witness point");
+    clearance.interval.witness_hull_in_world_mm = Position(row.Vector(34), where, "a witness point");
   }
   return clearance;
 }
 
-core::PartContact ReadContact(const Statement& row, const Database& database) {
+// All but the part.
+core::PartContact ReadContact(const Statement& row, const std::string& where) {
   core::PartContact contact;
-  contact.part = static_cast<core::PartIndex>(row.Integer(0));
   const auto verdict = core::ParseVerdict(row.Text(1));
-  if (!verdict) FailAsUnknown(database, "verdict", row.Text(1));
+  if (!verdict) FailAsUnknown(where, "verdict", row.Text(1));
   contact.verdict = *verdict;
   contact.resolution_mm = row.Real(2);
   contact.count = {row.Integer(3), row.Integer(4), row.Integer(5)};
-  if (!row.IsNull(28)) contact.clearance = ReadClearance(row);
-  if (row.IsNull(6)) return contact;
+  if (!row.IsNull(28)) contact.clearance = ReadClearance(row, where);
+  if (row.IsNull(6)) {
+    if (contact.verdict == core::Verdict::kContact)
+      FailAsDamaged(where, "the evidence of a contact is missing");
+    return contact;
+  }
   const auto recovery_status = core::ParseRecoveryStatus(row.Text(6));
-  if (!recovery_status) FailAsUnknown(database, "recovery status", row.Text(6));
+  if (!recovery_status) FailAsUnknown(where, "recovery status", row.Text(6));
   contact.recovery_status = *recovery_status;
-  contact.contact_area_mm2 = row.Real(7);
-  contact.contact_point_count = row.Integer(8);
-  if (!row.IsNull(9)) contact.deepest = core::ContactPoint{row.Vector(11), row.Real(9), row.Real(10)};
-  if (!row.IsNull(14)) contact.recovery = ReadRecovery(row);
+  contact.contact_area_mm2 = Magnitude(row.Real(7), where, "a contact's area");
+  contact.contact_point_count = CountFrom(0, row.Integer(8), where, "a number of points");
+  if (!row.IsNull(9)) {
+    contact.deepest = core::ContactPoint{Position(row.Vector(11), where, "a contact"),
+                                         Magnitude(row.Real(9), where, "a contact's depth"),
+                                         Magnitude(row.Real(10), where, "a contact's area")};
+  }
+  if (!row.IsNull(14)) contact.recovery = ReadRecovery(row, where);
   return contact;
 }
 
-void ReadPoints(Database& database, core::FrameIndex frame, core::PartContact& contact) {
+void ReadPoints(Database& database, core::FrameIndex frame, const std::string& where,
+                core::PartContact& contact) {
   Statement rows(database,
                  "SELECT depth_mm, area_mm2, x_mm, y_mm, z_mm FROM contact_point "
                  "WHERE frame_index = ? AND part_index = ? ORDER BY point_index");
   for (rows.With(frame, contact.part); rows.Next();) {
-    contact.points.push_back({rows.Vector(2), rows.Real(0), rows.Real(1)});
+    contact.points.push_back({Position(rows.Vector(2), where, "a contact"),
+                              Magnitude(rows.Real(0), where, "a contact's depth"),
+                              Magnitude(rows.Real(1), where, "a contact's area")});
   }
 }
 
-std::vector<ContactRow> ReadRowsWhere(Database& database, const char* condition) {
+std::vector<double> ReadSpacings(Statement& rows, const core::Layout& layout, core::FrameIndex frame,
+                                 const std::string& where) {
+  std::vector<double> spacing_mm;
+  for (rows.With(frame); rows.Next();) {
+    RequireInTurn(rows.Integer(0), spacing_mm.size(), where, "spacing");
+    spacing_mm.push_back(GapMm(rows.Real(1), where, "a spacing"));
+  }
+  if (spacing_mm.size() != layout.spacings.size()) FailAsDamaged(where, "rows of spacings are missing");
+  return spacing_mm;
+}
+
+std::vector<ContactRow> ReadRowsWhere(Database& database, const core::Layout& layout, const char* condition) {
   Statement rows(database,
                  fmt::format("SELECT {}, f.frame_index, f.time_s FROM {} JOIN frame f USING (frame_index) "
                              "WHERE {} ORDER BY f.frame_index, pf.part_index",
                              kContactColumns, kContactTables, condition));
-  Statement spacings(database,
-                     "SELECT spacing_mm FROM frame_spacing WHERE frame_index = ? ORDER BY spacing_index");
+  Statement spacings(
+      database,
+      "SELECT spacing_index, spacing_mm FROM frame_spacing WHERE frame_index = ? ORDER BY spacing_index");
   std::vector<ContactRow> result;
   while (rows.Next()) {
     ContactRow row;
     row.frame = rows.Integer(kContactColumnCount);
-    row.time_s = rows.Real(kContactColumnCount + 1);
-    for (spacings.With(row.frame); spacings.Next();) row.spacing_mm.push_back(spacings.Real(0));
-    row.contact = ReadContact(rows, database);
+    const std::string where = FrameOf(database, row.frame);
+    row.time_s = Time_s(rows.Real(kContactColumnCount + 1), where, "its time");
+    row.spacing_mm = ReadSpacings(spacings, layout, row.frame, where);
+    row.contact = ReadContact(rows, where);
+    row.contact.part = IndexBelow(rows.Integer(0), layout.parts.size(), where, "part");
     result.push_back(std::move(row));
   }
   return result;
@@ -110,31 +138,39 @@ std::vector<ContactRow> ReadRowsWhere(Database& database, const char* condition)
 
 }  // namespace
 
-std::vector<core::PartContact> ReadContacts(Database& database, core::FrameIndex frame) {
+std::vector<core::PartContact> ReadContacts(Database& database, std::size_t parts, core::FrameIndex frame) {
+  const std::string where = FrameOf(database, frame);
   Statement rows(database, fmt::format("SELECT {} FROM {} WHERE pf.frame_index = ? ORDER BY pf.part_index",
                                        kContactColumns, kContactTables));
   std::vector<core::PartContact> contacts;
-  for (rows.With(frame); rows.Next();) contacts.push_back(ReadContact(rows, database));
-  for (core::PartContact& contact : contacts) ReadPoints(database, frame, contact);
+  for (rows.With(frame); rows.Next();) {
+    RequireInTurn(rows.Integer(0), contacts.size(), where, "part");
+    contacts.push_back(ReadContact(rows, where));
+    contacts.back().part = IndexBelow(rows.Integer(0), parts, where, "part");
+  }
+  for (core::PartContact& contact : contacts) ReadPoints(database, frame, where, contact);
   return contacts;
 }
 
-std::vector<ContactRow> ReadContactRows(Database& database) {
-  return ReadRowsWhere(database, "pf.verdict = 'contact'");
+std::vector<ContactRow> ReadContactRows(Database& database, const core::Layout& layout) {
+  return ReadRowsWhere(database, layout, "pf.verdict = 'contact'");
 }
-std::vector<ContactRow> ReadClearanceRows(Database& database) {
-  return ReadRowsWhere(database, "cl.queries IS NOT NULL");
+std::vector<ContactRow> ReadClearanceRows(Database& database, const core::Layout& layout) {
+  return ReadRowsWhere(database, layout, "cl.queries IS NOT NULL");
 }
 
-std::vector<PartTotals> ReadPartTotals(Database& database) {
-  Statement rows(
-      database,
-      "SELECT part_index, frames_in_contact, frames_near, frames_undecided, frames_clear FROM v_part "
-      "ORDER BY part_index");
-  std::vector<PartTotals> totals;
+std::vector<PartTotals> ReadPartTotals(Database& database, const core::Layout& layout) {
+  // As v_part counts; a table can't be anything but what the file's pages hold.
+  Statement rows(database,
+                 "SELECT part_index, count(*) FILTER (WHERE verdict = 'contact'), "
+                 "count(*) FILTER (WHERE verdict = 'near'), count(*) FILTER (WHERE verdict = 'undecided'), "
+                 "count(*) FILTER (WHERE verdict = 'clear') FROM part_frame GROUP BY part_index");
+  std::vector<PartTotals> totals(layout.parts.size());
+  for (core::PartIndex i = 0; i < totals.size(); ++i) totals[i].part = i;
   while (rows.Next()) {
-    totals.push_back({static_cast<core::PartIndex>(rows.Integer(0)), rows.Integer(1), rows.Integer(2),
-                      rows.Integer(3), rows.Integer(4)});
+    const core::PartIndex part = IndexBelow(rows.Integer(0), totals.size(),
+                                            fmt::format("session '{}'", database.path().string()), "part");
+    totals[part] = {part, rows.Integer(1), rows.Integer(2), rows.Integer(3), rows.Integer(4)};
   }
   return totals;
 }

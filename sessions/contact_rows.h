@@ -6,6 +6,7 @@
 
 #include "core/contact.h"
 #include "core/ids.h"
+#include "core/layout.h"
 #include "sessions/database.h"
 
 namespace elbowroom::sessions {
@@ -28,11 +29,14 @@ struct PartTotals {
 };
 
 // All throw Error{kDatabase}, or Error{kFormat} where a row is damaged.
-[[nodiscard]] std::vector<core::PartContact> ReadContacts(Database& database, core::FrameIndex frame);
-[[nodiscard]] std::vector<ContactRow> ReadContactRows(
-    Database& database);  // verdict 'contact', by frame and part
-[[nodiscard]] std::vector<ContactRow> ReadClearanceRows(
-    Database& database);  // with a clearance, by frame and part
-[[nodiscard]] std::vector<PartTotals> ReadPartTotals(Database& database);  // one a part
+// Each part of the layout once, in its order, as far as the frame has rows.
+[[nodiscard]] std::vector<core::PartContact> ReadContacts(Database& database, std::size_t parts,
+                                                          core::FrameIndex frame);
+// Those with the verdict 'contact', by frame and part.
+[[nodiscard]] std::vector<ContactRow> ReadContactRows(Database& database, const core::Layout& layout);
+// Those with a clearance, by frame and part.
+[[nodiscard]] std::vector<ContactRow> ReadClearanceRows(Database& database, const core::Layout& layout);
+// One a part.
+[[nodiscard]] std::vector<PartTotals> ReadPartTotals(Database& database, const core::Layout& layout);
 
 }  // namespace elbowroom::sessions

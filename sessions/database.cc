@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "core/file_sync.h"
+#include "sessions/damage.h"
 #include "sessions/private_copy.h"
 #include "sessions/session_files.h"
 
@@ -38,7 +39,7 @@ std::string_view AdviceFor(int sqlite_code) {
     case SQLITE_LOCKED:
       return "another program holds the session locked; close that program";
     case SQLITE_CORRUPT:
-      return "the file is damaged; restore it from a copy";
+      return "the file is damaged: restore it from a copy, or salvage it (docs/session_database.md)";
     case SQLITE_NOTADB:
       return "this is not a session file; check the path";
     case SQLITE_READONLY:
@@ -130,7 +131,7 @@ void RethrowAsError(const fs::path& path) {
   try {
     throw;
   } catch (const SQLite::Exception& exception) {
-    throw DatabaseError(fmt::format("session '{}': {}; {}", path.string(), exception.what(),
+    throw DatabaseError(fmt::format("session '{}': {}; {}", path.string(), Quotable(exception.what()),
                                     AdviceFor(exception.getErrorCode())),
                         exception.getErrorCode());
   }
@@ -253,6 +254,26 @@ Database Database::CopyInMemory() {
     return {path_, std::move(copy)};
   } catch (...) {
     RethrowAsError(path_);
+  }
+}
+
+Database Database::CopyAside() {
+  try {
+    auto copy = std::make_unique<SQLite::Database>("", SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+    SQLite::Backup backup(*copy, *connection_);
+    backup.executeStep();
+    return {path_, std::move(copy)};
+  } catch (...) {
+    RethrowAsError(path_);
+  }
+}
+
+Database Database::InMemory(const fs::path& name) {
+  try {
+    return {name,
+            std::make_unique<SQLite::Database>(":memory:", SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE)};
+  } catch (...) {
+    RethrowAsError(name);
   }
 }
 

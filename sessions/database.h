@@ -64,6 +64,12 @@ class Database {
   // A private copy in memory, which can be migrated without touching the file.
   [[nodiscard]] Database CopyInMemory();
 
+  // The same in a temporary file, which SQLite removes: of a file that may be larger than memory.
+  [[nodiscard]] Database CopyAside();
+
+  // An empty one, which errors call by that name.
+  [[nodiscard]] static Database InMemory(const std::filesystem::path& name);
+
   // Moves the log into the file and takes it away, so that the session is a single file. Where another
   // program is reading, the log stays until that program closes; nothing is lost either way.
   void FoldLogIntoFile();

@@ -8,6 +8,8 @@
 
 #include "core/error.h"
 #include "sessions/contact_rows.h"
+#include "sessions/damage.h"
+#include "sessions/row_rules.h"
 
 namespace elbowroom::sessions {
 namespace {
@@ -29,11 +31,15 @@ std::int64_t LastRowsId(Statement& statement) {
   return id;
 }
 
-std::vector<double> ReadSpacings(Database& database, core::FrameIndex frame) {
-  Statement rows(database,
-                 "SELECT spacing_mm FROM frame_spacing WHERE frame_index = ? ORDER BY spacing_index");
+std::vector<double> ReadSpacings(Database& database, core::FrameIndex frame, const std::string& where) {
+  Statement rows(
+      database,
+      "SELECT spacing_index, spacing_mm FROM frame_spacing WHERE frame_index = ? ORDER BY spacing_index");
   std::vector<double> spacing_mm;
-  for (rows.With(frame); rows.Next();) spacing_mm.push_back(rows.Real(0));
+  for (rows.With(frame); rows.Next();) {
+    RequireInTurn(rows.Integer(0), spacing_mm.size(), where, "spacing");
+    spacing_mm.push_back(GapMm(rows.Real(1), where, "a spacing"));
+  }
   return spacing_mm;
 }
 
@@ -47,10 +53,10 @@ core::SharedMasks ReadSilhouettes(Database& database, const core::Rig& rig, core
   for (rows.With(frame); rows.Next();) {
     const std::string silhouette = fmt::format("{}, silhouette of camera {}", where, rows.Integer(0));
     const core::CameraIndex camera = masks->size();
+    RequireInTurn(rows.Integer(0), camera, where, "the silhouette of camera");
     if (camera >= rig.cameras.size() || rows.Integer(1) != rig.cameras[camera].width_px() ||
         rows.Integer(2) != rig.cameras[camera].height_px()) {
-      throw Error(ErrorKind::kFormat,
-                  silhouette + " doesn't belong to the rig; restore the file from a copy");
+      FailAsDamaged(silhouette, "it doesn't belong to the rig");
     }
     const auto levels_zstd =
         rows.IsNull(5) ? std::nullopt : std::optional<std::span<const std::byte>>(rows.Bytes(5));
@@ -67,14 +73,11 @@ std::vector<core::RigidTransform> ReadMotions(Database& database, std::size_t pa
                  "WHERE frame_index = ?");
   std::vector<core::RigidTransform> rest_from_parts;
   for (rows.With(frame); rows.Next();) {
-    const auto part = static_cast<core::PartIndex>(rows.Integer(0));
+    const core::PartIndex part = IndexBelow(rows.Integer(0), parts, where, "part");
     const std::string motion = fmt::format("{}, motion of part {}", where, part);
-    if (part >= parts) {
-      throw Error(ErrorKind::kFormat,
-                  motion + ": it doesn't belong to the layout; restore the file from a copy");
-    }
     rest_from_parts.resize(parts);
-    rest_from_parts[part] = {MatrixFromJson(rows.Text(1), motion), VectorFromJson(rows.Text(2), motion)};
+    rest_from_parts[part] = {Rotation(MatrixFromJson(rows.Text(1), motion), motion, "its rotation"),
+                             Position(VectorFromJson(rows.Text(2), motion), motion, "its way")};
   }
   return rest_from_parts;
 }
@@ -188,16 +191,15 @@ core::FrameRecord ReadFrame(Database& database, const core::SessionHeader& heade
     throw Error(ErrorKind::kRange, where + ": there is no such frame; choose a recorded one");
   core::FrameRecord record;
   record.frame = frame;
-  record.time_s = row.Real(0);
-  record.spacing_mm = ReadSpacings(database, frame);
+  record.time_s = Time_s(row.Real(0), where, "its time");
+  record.spacing_mm = ReadSpacings(database, frame, where);
   record.silhouettes = ReadSilhouettes(database, header.rig, frame, where);
-  record.contacts = ReadContacts(database, frame);
+  record.contacts = ReadContacts(database, header.layout.parts.size(), frame);
   record.rest_from_parts = ReadMotions(database, header.layout.parts.size(), frame, where);
   if (record.spacing_mm.size() != header.layout.spacings.size() ||
       record.silhouettes->size() != header.rig.cameras.size() ||
       record.contacts.size() != header.layout.parts.size()) {
-    throw Error(ErrorKind::kFormat,
-                where + ": rows are missing; the file is damaged, restore it from a copy");
+    FailAsDamaged(where, "rows are missing");
   }
   return record;
 }

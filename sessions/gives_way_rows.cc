@@ -5,31 +5,23 @@
 #include <string>
 #include <variant>
 
-#include "core/error.h"
+#include "sessions/damage.h"
 #include "sessions/packing.h"
+#include "sessions/row_rules.h"
 #include "sessions/statement.h"
 
 namespace elbowroom::sessions {
 namespace {
 
-using core::Error;
-using core::ErrorKind;
-
 core::GivesWay& GivesWayOf(core::Layout* layout, std::int64_t part, const std::string& where) {
-  if (part >= 0 && static_cast<core::PartIndex>(part) < layout->parts.size())
-    return layout->parts[static_cast<core::PartIndex>(part)].gives_way;
-  throw Error(ErrorKind::kFormat,
-              fmt::format("{}: there is no part {}; restore the file from a copy", where, part));
+  return layout->parts[IndexBelow(part, layout->parts.size(), where, "part")].gives_way;
 }
 
 std::vector<core::BoundsSide> PinsFromJson(const std::string& json, const std::string& where) {
   std::vector<core::BoundsSide> pins;
   for (const std::string& text : TextsFromJson(json, where)) {
     const auto side = core::ParseBoundsSide(text);
-    if (!side) {
-      throw Error(ErrorKind::kFormat,
-                  fmt::format("{}: no side is called '{}'; restore the file from a copy", where, text));
-    }
+    if (!side) FailAsDamaged(where, fmt::format("no side is called '{}'", Quotable(text)));
     pins.push_back(*side);
   }
   return pins;
@@ -83,11 +75,13 @@ void ReadGivesWay(Database& database, core::Layout* layout) {
   Statement pushed(database, "SELECT part_index, max_speed_mm_per_s FROM pushed");
   while (pushed.Next())
     GivesWayOf(layout, pushed.Integer(0), where) = core::PushRule{.max_speed_mm_per_s = pushed.Real(1)};
-  Statement streams(database,
-                    "SELECT name, position_mm, direction, rate_per_s, speed_mm_per_s, radius_mm FROM stream "
-                    "ORDER BY stream_index");
+  Statement streams(
+      database,
+      "SELECT name, position_mm, direction, rate_per_s, speed_mm_per_s, radius_mm, stream_index FROM stream "
+      "ORDER BY stream_index");
   while (streams.Next()) {
-    const std::string of_stream = fmt::format("{}, stream '{}'", where, streams.Text(0));
+    const std::string of_stream = fmt::format("{}, stream '{}'", where, Quotable(streams.Text(0)));
+    RequireInTurn(streams.Integer(6), layout->streams.size(), where, "stream");
     layout->streams.push_back({streams.Text(0), VectorFromJson(streams.Text(1), of_stream),
                                VectorFromJson(streams.Text(2), of_stream), streams.Real(3), streams.Real(4),
                                streams.Real(5)});

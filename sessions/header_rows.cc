@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "sessions/damage.h"
 #include "sessions/layout_rows.h"
 #include "sessions/rig_rows.h"
+#include "sessions/row_rules.h"
 #include "sessions/statement.h"
 
 namespace elbowroom::sessions {
@@ -41,13 +43,17 @@ void ReadSessionRow(Database& database, core::SessionHeader& header) {
   header.started_at_utc = row.Text(0);
   header.trial.participant = row.Text(1);
   header.trial.task = row.Text(2);
-  header.trial.estimate_mm = row.Real(3);
-  header.trial.required_clearance_mm = row.Real(4);
+  const std::string where = fmt::format("session '{}'", database.path().string());
+  header.trial.estimate_mm = GapMm(row.Real(3), where, "the estimate");
+  header.trial.required_clearance_mm = GapMm(row.Real(4), where, "the required clearance");
   header.rig.name = row.Text(5);
   header.rig.unseen = row.Text(6) == "abstain" ? core::UnseenPolicy::kAbstain : core::UnseenPolicy::kOutside;
   header.layout.unit = UnitFromText(row.Text(7), database);
-  header.trial.uncertainty_mm = row.Real(14);
+  header.trial.uncertainty_mm = Magnitude(row.Real(14), where, "the uncertainty");
   header.rig.workspace_mm = Eigen::AlignedBox3d(row.Vector(8), row.Vector(11));
+  (void)Position(header.rig.workspace_mm.min(), where, "its workspace");
+  (void)Position(header.rig.workspace_mm.max(), where, "its workspace");
+  if (!(header.rig.workspace_mm.sizes().minCoeff() > 0.0)) FailAsDamaged(where, "its workspace is empty");
 }
 
 void InsertTexts(Database& database, const std::string& table,
@@ -85,6 +91,8 @@ core::SessionHeader ReadHeader(Database& database) {
   Statement tools(database, "SELECT name FROM tool ORDER BY tool_index");
   while (tools.Next()) header.trial.tools.push_back(tools.Text(0));
   header.rig.cameras = ReadCameras(database);
+  if (header.rig.cameras.empty())
+    FailAsDamaged(fmt::format("session '{}'", database.path().string()), "it has no camera");
   return header;
 }
 

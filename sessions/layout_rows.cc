@@ -4,18 +4,18 @@
 
 #include <map>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "core/error.h"
+#include "sessions/damage.h"
 #include "sessions/gives_way_rows.h"
 #include "sessions/packing.h"
+#include "sessions/row_rules.h"
 #include "sessions/statement.h"
 
 namespace elbowroom::sessions {
 namespace {
-
-using core::Error;
-using core::ErrorKind;
 
 std::optional<std::string> JsonOrNull(const std::optional<Eigen::Vector3d>& vector) {
   if (!vector) return std::nullopt;
@@ -29,12 +29,12 @@ core::RecoveryRule ReadRecoveryRule(const Statement& row, int first_column, cons
     if (row.IsNull(column)) return std::nullopt;
     return VectorFromJson(row.Text(column), where);
   };
-  if (!kind) {
-    throw Error(ErrorKind::kFormat,
-                fmt::format("{}: no recovery is called '{}'; restore the file from a copy", where,
-                            row.Text(first_column)));
-  }
-  return {*kind, vector(first_column + 1), vector(first_column + 2), vector(first_column + 3)};
+  if (!kind)
+    FailAsDamaged(where, fmt::format("no recovery is called '{}'", Quotable(row.Text(first_column))));
+  const core::RecoveryRule rule{*kind, vector(first_column + 1), vector(first_column + 2),
+                                vector(first_column + 3)};
+  if (const auto broken = rule.BrokenRule()) FailAsDamaged(where, fmt::format("its recovery: {}", *broken));
+  return rule;
 }
 
 void InsertParts(Database& database, const std::vector<core::Part>& parts) {
@@ -61,15 +61,12 @@ void InsertParts(Database& database, const std::vector<core::Part>& parts) {
 
 core::SharedMesh ReadMesh(const Statement& row, const std::string& path) {
   const std::string hash = row.Text(0);
-  const std::string where = fmt::format("session '{}', mesh {}", path, hash);
+  const std::string where = fmt::format("session '{}', mesh {}", path, Quotable(hash));
   auto mesh = std::make_shared<core::TriangleMesh>(
       UnpackMesh(row.Bytes(3), static_cast<std::size_t>(row.Integer(1)), row.Bytes(4),
                  static_cast<std::size_t>(row.Integer(2)), where));
-  mesh->deviation_mm = row.Real(5);
-  if (core::ContentHash(*mesh) != hash) {
-    throw Error(ErrorKind::kFormat,
-                where + ": it doesn't match its checksum; the file is damaged, restore it from a copy");
-  }
+  mesh->deviation_mm = Magnitude(row.Real(5), where, "its deviation");
+  if (core::ContentHash(*mesh) != hash) FailAsDamaged(where, "it doesn't match its checksum");
   return mesh;
 }
 
@@ -78,7 +75,17 @@ std::map<std::string, core::SharedMesh> ReadMeshes(Database& database) {
                  "SELECT mesh_hash, vertex_count, triangle_count, vertices_mm_zstd, triangles_zstd, "
                  "deviation_mm FROM mesh");
   std::map<std::string, core::SharedMesh> meshes;
-  while (rows.Next()) meshes.emplace(rows.Text(0), ReadMesh(rows, database.path().string()));
+  std::size_t packed_bytes = 0, unpacked_bytes = 0;
+  while (rows.Next()) {
+    const core::SharedMesh mesh = ReadMesh(rows, database.path().string());
+    packed_bytes += rows.Bytes(3).size() + rows.Bytes(4).size();
+    unpacked_bytes +=
+        std::as_bytes(std::span(mesh->vertices_mm)).size() + std::as_bytes(std::span(mesh->triangles)).size();
+    if (!IsPlausible(packed_bytes, unpacked_bytes))
+      FailAsDamaged(fmt::format("session '{}'", database.path().string()),
+                    fmt::format("its meshes claim {} bytes", unpacked_bytes));
+    meshes.emplace(rows.Text(0), mesh);
+  }
   return meshes;
 }
 
@@ -86,7 +93,7 @@ std::vector<core::Part> ReadParts(Database& database) {
   const std::map<std::string, core::SharedMesh> meshes = ReadMeshes(database);
   Statement rows(database,
                  "SELECT name, file, unit, mesh_hash, rotation_world_from_part, position_mm, "
-                 "recovery, reference_mm, recovery_axis, recovery_at_mm, unit_of FROM part "
+                 "recovery, reference_mm, recovery_axis, recovery_at_mm, unit_of, part_index FROM part "
                  "ORDER BY part_index");
   std::vector<core::Part> parts;
   while (rows.Next()) {
@@ -94,12 +101,13 @@ std::vector<core::Part> ReadParts(Database& database) {
     part.name = rows.Text(0);
     part.file = rows.Text(1);
     if (rows.Text(10) == "part") part.unit = UnitFromText(rows.Text(2), database);
-    const std::string where = fmt::format("session '{}', part '{}'", database.path().string(), part.name);
+    const std::string where =
+        fmt::format("session '{}', part '{}'", database.path().string(), Quotable(part.name));
+    RequireInTurn(rows.Integer(11), parts.size(), where, "part");
     const auto mesh = meshes.find(rows.Text(3));
-    if (mesh == meshes.end())
-      throw Error(ErrorKind::kFormat, where + ": its mesh is missing; restore the file from a copy");
+    if (mesh == meshes.end()) FailAsDamaged(where, "its mesh is missing");
     part.mesh = mesh->second;
-    part.world_from_part.rotation = MatrixFromJson(rows.Text(4), where);
+    part.world_from_part.rotation = Rotation(MatrixFromJson(rows.Text(4), where), where, "its rotation");
     part.world_from_part.translation_mm = VectorFromJson(rows.Text(5), where);
     part.recovery = ReadRecoveryRule(rows, 6, where);
     parts.push_back(std::move(part));
@@ -120,12 +128,18 @@ void InsertGroups(Database& database, const core::Layout& layout) {
 std::vector<core::Group> ReadGroups(Database& database) {
   Statement groups(database, "SELECT group_index, name FROM part_group ORDER BY group_index");
   Statement members(database,
-                    "SELECT name FROM part_group_member JOIN part USING (part_index) "
+                    "SELECT name, member_index FROM part_group_member JOIN part USING (part_index) "
                     "WHERE group_index = ? ORDER BY member_index");
+  const std::string where = fmt::format("session '{}'", database.path().string());
   std::vector<core::Group> result;
   while (groups.Next()) {
+    RequireInTurn(groups.Integer(0), result.size(), where, "group");
     core::Group& group = result.emplace_back(core::Group{groups.Text(1), {}});
-    for (members.With(groups.Integer(0)); members.Next();) group.parts.push_back(members.Text(0));
+    for (members.With(groups.Integer(0)); members.Next();) {
+      RequireInTurn(members.Integer(1), group.parts.size(), where, "member of a group");
+      group.parts.push_back(members.Text(0));
+    }
+    if (group.parts.empty()) FailAsDamaged(where, "a group has no parts");
   }
   return result;
 }
@@ -146,7 +160,7 @@ void InsertSpacings(Database& database, const core::Layout& layout) {
 std::vector<core::Spacing> ReadSpacings(Database& database) {
   Statement rows(database,
                  "SELECT s.name, coalesce(mg.name, m.name), coalesce(rg.name, r.name), axis, min_mm, max_mm, "
-                 "initial_mm FROM spacing s "
+                 "initial_mm, spacing_index FROM spacing s "
                  "JOIN part m ON m.part_index = moving_part JOIN part r ON r.part_index = reference_part "
                  "LEFT JOIN part_group mg ON mg.group_index = moving_group "
                  "LEFT JOIN part_group rg ON rg.group_index = reference_group "
@@ -154,14 +168,12 @@ std::vector<core::Spacing> ReadSpacings(Database& database) {
   std::vector<core::Spacing> spacings;
   while (rows.Next()) {
     const auto axis = core::ParseAxis(rows.Text(3));
-    if (!axis) {
-      throw Error(ErrorKind::kFormat,
-                  fmt::format("session '{}', spacing '{}': no axis is called '{}'; restore the file "
-                              "from a copy",
-                              database.path().string(), rows.Text(0), rows.Text(3)));
-    }
-    spacings.push_back(
-        {rows.Text(0), rows.Text(1), rows.Text(2), *axis, rows.Real(4), rows.Real(5), rows.Real(6)});
+    const std::string where =
+        fmt::format("session '{}', spacing '{}'", database.path().string(), Quotable(rows.Text(0)));
+    if (!axis) FailAsDamaged(where, fmt::format("no axis is called '{}'", Quotable(rows.Text(3))));
+    RequireInTurn(rows.Integer(7), spacings.size(), where, "spacing");
+    spacings.push_back({rows.Text(0), rows.Text(1), rows.Text(2), *axis, GapMm(rows.Real(4), where, "min_mm"),
+                        GapMm(rows.Real(5), where, "max_mm"), GapMm(rows.Real(6), where, "initial_mm")});
   }
   return spacings;
 }
@@ -180,22 +192,41 @@ void InsertPairRules(Database& database, const core::Layout& layout) {
 std::vector<core::PairRule> ReadPairRules(Database& database) {
   Statement rows(
       database,
-      "SELECT a.name, b.name, required_clearance_mm, authorised_contact, ignored FROM pair_rule "
+      "SELECT a.name, b.name, required_clearance_mm, authorised_contact, ignored, pair_index FROM pair_rule "
       "JOIN part a ON a.part_index = part_a JOIN part b ON b.part_index = part_b ORDER BY pair_index");
   std::vector<core::PairRule> rules;
+  const std::string where = fmt::format("session '{}'", database.path().string());
   while (rows.Next()) {
+    RequireInTurn(rows.Integer(5), rules.size(), where, "pair");
     rules.push_back({rows.Text(0), rows.Text(1), rows.Real(2), rows.Integer(3) != 0, rows.Integer(4) != 0});
   }
   return rules;
+}
+
+// Rules on names may have become stricter since an old file was written; those that figures are worked out by
+// hold in every file.
+void RequireUsable(const core::Layout& layout, const std::string& where) {
+  try {
+    for (const core::Part& part : layout.parts) core::ValidateGivesWay(part.gives_way, "a part");
+    for (core::Stream stream : layout.streams) {
+      stream.name = "of the layout";
+      core::ValidateStream(stream);
+    }
+  } catch (const core::Error& error) {
+    FailAsDamaged(where, Quotable(error.what()));
+  }
+  for (const core::Spacing& spacing : layout.spacings) {
+    if (!(spacing.min_mm <= spacing.initial_mm && spacing.initial_mm <= spacing.max_mm))
+      FailAsDamaged(where, fmt::format("spacing '{}' has limits out of order", Quotable(spacing.name)));
+  }
 }
 
 }  // namespace
 
 core::LengthUnit UnitFromText(const std::string& text, const Database& database) {
   if (const auto unit = core::ParseLengthUnit(text)) return *unit;
-  throw Error(ErrorKind::kFormat,
-              fmt::format("session '{}': no length unit is called '{}'; restore the file from a copy",
-                          database.path().string(), text));
+  FailAsDamaged(fmt::format("session '{}'", database.path().string()),
+                fmt::format("no length unit is called '{}'", Quotable(text)));
 }
 
 void InsertLayout(Database& database, const core::Layout& layout) {
@@ -213,6 +244,7 @@ core::Layout ReadLayout(Database& database) {
   layout.spacings = ReadSpacings(database);
   layout.pair_rules = ReadPairRules(database);
   ReadGivesWay(database, &layout);
+  RequireUsable(layout, fmt::format("session '{}'", database.path().string()));
   return layout;
 }
 

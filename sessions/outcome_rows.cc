@@ -2,62 +2,89 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
+#include <algorithm>
+#include <cmath>
+
 #include "core/surface_patches.h"
 #include "sessions/contact_rows.h"
+#include "sessions/damage.h"
 #include "sessions/packing.h"
+#include "sessions/row_rules.h"
 #include "sessions/statement.h"
 
 namespace elbowroom::sessions {
 namespace {
 
-core::SessionEvent ReadEvent(const Statement& row) {
+// Far below any that is written; smaller ones would cut a mesh into more patches than memory holds.
+constexpr double kLeastPatchMm = 0.1;
+
+// The frames of what lasted: begin, middle and end in their order, and the times as well.
+template <typename Lasting>
+void RequireInOrder(const Lasting& it, core::FrameIndex middle_frame, double middle_s,
+                    const std::string& where) {
+  if (it.begin_frame < 0 || it.begin_frame > middle_frame || middle_frame > it.end_frame)
+    FailAsDamaged(where, "its frames aren't in order");
+  for (const double time_s : {it.begin_time_s, middle_s, it.end_time_s})
+    (void)Time_s(time_s, where, "a time");
+  if (it.begin_time_s > middle_s || middle_s > it.end_time_s)
+    FailAsDamaged(where, "its times aren't in order");
+}
+
+core::SessionEvent ReadEvent(const Statement& row, const std::string& where) {
   core::SessionEvent event;
-  event.frame = row.Integer(0);
-  event.time_s = row.Real(1);
+  event.frame = CountFrom(0, row.Integer(0), where, "an event's frame");
+  event.time_s = Time_s(row.Real(1), where, "an event's time");
   const std::string kind = row.Text(2);
   if (kind == "spacing") {
-    event.what = core::SpacingChanged{row.Text(3), row.Real(4), row.Real(5)};
+    event.what = core::SpacingChanged{row.Text(3), GapMm(row.Real(4), where, "a spacing"),
+                                      GapMm(row.Real(5), where, "a spacing")};
   } else if (kind == "tool") {
     event.what = core::ToolMarked{row.Text(6), row.Integer(7) != 0};
-  } else {
+  } else if (kind == "note") {
     event.what = core::Note{row.Text(8)};
+  } else {
+    FailAsDamaged(where, fmt::format("no event is called '{}'", Quotable(kind)));
   }
   return event;
 }
 
-core::ContactEpisode ReadEpisode(const Statement& row, const std::string& where) {
+core::ContactEpisode ReadEpisode(const Statement& row, const core::Layout& layout, const std::string& where) {
   core::ContactEpisode episode;
   episode.id = row.Integer(0);
-  episode.part = static_cast<core::PartIndex>(row.Integer(1));
+  episode.part = IndexBelow(row.Integer(1), layout.parts.size(), where, "part");
   episode.begin_frame = row.Integer(2);
   episode.peak_frame = row.Integer(3);
   episode.end_frame = row.Integer(4);
   episode.begin_time_s = row.Real(5);
   episode.peak_time_s = row.Real(6);
   episode.end_time_s = row.Real(7);
-  episode.frames_in_contact = row.Integer(8);
-  episode.peak_depth_mm = row.Real(9);
-  episode.peak_area_mm2 = row.Real(10);
-  episode.peak_position_in_world_mm = row.Vector(11);
+  RequireInOrder(episode, episode.peak_frame, episode.peak_time_s, where);
+  episode.frames_in_contact = CountFrom(1, row.Integer(8), where, "its number of frames");
+  episode.peak_depth_mm = Magnitude(row.Real(9), where, "its depth");
+  episode.peak_area_mm2 = Magnitude(row.Real(10), where, "its area");
+  episode.peak_position_in_world_mm = Position(row.Vector(11), where, "its place");
   if (!row.IsNull(14)) episode.peak_position_in_part_mm = row.Vector(14);
   episode.tools = TextsFromJson(row.Text(17), where);
   return episode;
 }
 
-core::NearMiss ReadNearMiss(const Statement& row, const std::string& where) {
+core::NearMiss ReadNearMiss(const Statement& row, const core::Layout& layout, const std::string& where) {
   core::NearMiss miss;
   miss.id = row.Integer(0);
-  miss.part = static_cast<core::PartIndex>(row.Integer(1));
+  miss.part = IndexBelow(row.Integer(1), layout.parts.size(), where, "part");
   miss.begin_frame = row.Integer(2);
   miss.closest_frame = row.Integer(3);
   miss.end_frame = row.Integer(4);
   miss.begin_time_s = row.Real(5);
   miss.closest_time_s = row.Real(6);
   miss.end_time_s = row.Real(7);
-  miss.frames_below = row.Integer(8);
+  RequireInOrder(miss, miss.closest_frame, miss.closest_time_s, where);
+  miss.frames_below = CountFrom(1, row.Integer(8), where, "its number of frames");
   miss.verdict = row.Text(9) == "near" ? core::Verdict::kNear : core::Verdict::kUndecided;
   miss.spacing_at_closest_mm = NumbersFromJson(row.Text(10), where);
+  if (miss.spacing_at_closest_mm.size() != layout.spacings.size())
+    FailAsDamaged(where, "its spacings aren't those of the layout");
+  for (const double spacing_mm : miss.spacing_at_closest_mm) (void)GapMm(spacing_mm, where, "a spacing");
   miss.tools = TextsFromJson(row.Text(11), where);
   return miss;
 }
@@ -130,38 +157,44 @@ std::vector<core::SessionEvent> ReadEvents(Database& database) {
   Statement rows(database,
                  "SELECT frame_index, time_s, kind, name, from_mm, to_mm, tool, in_use, note "
                  "FROM event LEFT JOIN spacing USING (spacing_index) ORDER BY frame_index, event_id");
+  const std::string where = fmt::format("session '{}', an event", database.path().string());
   std::vector<core::SessionEvent> events;
-  while (rows.Next()) events.push_back(ReadEvent(rows));
+  while (rows.Next()) events.push_back(ReadEvent(rows, where));
   return events;
 }
 
-std::vector<core::ContactEpisode> ReadEpisodes(Database& database) {
+std::vector<core::ContactEpisode> ReadEpisodes(Database& database, const core::Layout& layout) {
   Statement rows(database, "SELECT * FROM episode ORDER BY episode_id");
-  Statement spacings(
-      database, "SELECT spacing_at_peak_mm FROM episode_spacing WHERE episode_id = ? ORDER BY spacing_index");
+  Statement spacings(database,
+                     "SELECT spacing_index, spacing_at_peak_mm FROM episode_spacing WHERE episode_id = ? "
+                     "ORDER BY spacing_index");
   std::vector<core::ContactEpisode> episodes;
   while (rows.Next()) {
-    episodes.push_back(ReadEpisode(
-        rows, fmt::format("session '{}', episode {}", database.path().string(), rows.Integer(0))));
-    for (spacings.With(episodes.back().id); spacings.Next();) {
-      episodes.back().spacing_at_peak_mm.push_back(spacings.Real(0));
+    const std::string where =
+        fmt::format("session '{}', episode {}", database.path().string(), rows.Integer(0));
+    core::ContactEpisode episode = ReadEpisode(rows, layout, where);
+    for (spacings.With(episode.id); spacings.Next();) {
+      RequireInTurn(spacings.Integer(0), episode.spacing_at_peak_mm.size(), where, "spacing");
+      episode.spacing_at_peak_mm.push_back(GapMm(spacings.Real(1), where, "a spacing"));
     }
+    if (episode.spacing_at_peak_mm.size() != layout.spacings.size())
+      FailAsDamaged(where, "rows of spacings are missing");
+    episodes.push_back(std::move(episode));
   }
   return episodes;
 }
 
-std::vector<core::NearMiss> ReadNearMisses(Database& database) {
+std::vector<core::NearMiss> ReadNearMisses(Database& database, const core::Layout& layout) {
   Statement rows(database, "SELECT * FROM near_miss ORDER BY near_miss_id");
   std::vector<core::NearMiss> misses;
   while (rows.Next()) {
     const std::string where =
         fmt::format("session '{}', near miss {}", database.path().string(), rows.Integer(0));
-    core::NearMiss miss = ReadNearMiss(rows, where);
-    const std::vector<core::PartContact> contacts = ReadContacts(database, miss.closest_frame);
-    if (miss.part >= contacts.size() || !contacts[miss.part].clearance) {
-      throw core::Error(core::ErrorKind::kFormat,
-                        where + ": its closest frame has no clearance; restore the file from a copy");
-    }
+    core::NearMiss miss = ReadNearMiss(rows, layout, where);
+    const std::vector<core::PartContact> contacts =
+        ReadContacts(database, layout.parts.size(), miss.closest_frame);
+    if (miss.part >= contacts.size() || !contacts[miss.part].clearance)
+      FailAsDamaged(where, "its closest frame has no clearance");
     miss.closest = *contacts[miss.part].clearance;
     misses.push_back(std::move(miss));
   }
@@ -175,16 +208,18 @@ std::vector<core::HeatMap> ReadHeatMaps(Database& database, const core::Layout& 
     const std::string where =
         fmt::format("session '{}', heat map of part {}", database.path().string(), rows.Integer(0));
     core::HeatMap map;
-    map.part = static_cast<core::PartIndex>(rows.Integer(0));
+    map.part = IndexBelow(rows.Integer(0), layout.parts.size(), where, "part");
     map.patch_mm = rows.Real(1);
-    const auto count = static_cast<std::size_t>(rows.Integer(2));
-    if (map.part >= layout.parts.size() ||
-        core::SurfacePatches(layout.parts[map.part].mesh, map.patch_mm).size() != count) {
-      throw core::Error(core::ErrorKind::kFormat,
-                        where + ": it isn't one of its part's mesh; restore the file from a copy");
-    }
+    if (!(map.patch_mm >= kLeastPatchMm)) FailAsDamaged(where, "its patches have no size");
+    const auto count =
+        static_cast<std::size_t>(CountFrom(1, rows.Integer(2), where, "its number of patches"));
     map.dwell_s = UnpackFloats(rows.Bytes(3), count, where);
     map.peak_depth_mm = UnpackFloats(rows.Bytes(4), count, where);
+    const auto is_none = [](float value) { return !(value >= 0.0F && std::isfinite(value)); };
+    if (std::ranges::any_of(map.dwell_s, is_none) || std::ranges::any_of(map.peak_depth_mm, is_none))
+      FailAsDamaged(where, "it holds what is no time or depth");
+    if (core::SurfacePatches(layout.parts[map.part].mesh, map.patch_mm).size() != count)
+      FailAsDamaged(where, "it isn't one of its part's mesh");
     maps.push_back(std::move(map));
   }
   return maps;

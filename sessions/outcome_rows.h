@@ -12,11 +12,13 @@ namespace elbowroom::sessions {
 void InsertEvent(Database& database, const core::Layout& layout, const core::SessionEvent& event);
 void InsertOutcome(Database& database, const core::SessionOutcome& outcome);
 
+// All throw Error{kFormat} where a row is damaged or isn't of the layout.
 // In the order of their frames; equal frames in the order in which they came.
 [[nodiscard]] std::vector<core::SessionEvent> ReadEvents(Database& database);
-[[nodiscard]] std::vector<core::ContactEpisode> ReadEpisodes(Database& database);  // by id
-[[nodiscard]] std::vector<core::NearMiss> ReadNearMisses(Database& database);      // by id
-// By part. Throws: Error{kFormat} where one is damaged or isn't of its mesh's patches.
+// By id.
+[[nodiscard]] std::vector<core::ContactEpisode> ReadEpisodes(Database& database, const core::Layout& layout);
+[[nodiscard]] std::vector<core::NearMiss> ReadNearMisses(Database& database, const core::Layout& layout);
+// By part; of its mesh's patches.
 [[nodiscard]] std::vector<core::HeatMap> ReadHeatMaps(Database& database, const core::Layout& layout);
 
 }  // namespace elbowroom::sessions

@@ -6,16 +6,15 @@
 
 #include <algorithm>
 #include <bit>
-#include <cstring>
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
+#include "sessions/damage.h"
 
 namespace elbowroom::sessions {
 namespace {
 
 using core::Error;
-using core::ErrorKind;
 
 static_assert(std::endian::native == std::endian::little,
               "session files are little-endian, as is every machine in use");
@@ -24,18 +23,40 @@ static_assert(sizeof(Eigen::Vector3d) == 3 * sizeof(double), "vertices are packe
 // Fast enough for the writer thread; silhouettes pack about 30 : 1 at any level.
 constexpr int kCompressionLevel = 1;
 
-[[noreturn]] void FailAsDamaged(const std::string& where, const std::string& what) {
-  throw Error(ErrorKind::kFormat,
-              fmt::format("{}: {}; the file is damaged, restore it from a copy", where, what));
+// Beyond any mesh that can be imported.
+constexpr std::size_t kLargestUnpacked = std::size_t{1} << 32U;
+
+// Asked before anything is allocated: a damaged size must not take all memory.
+void RequireUnpacksTo(std::span<const std::byte> packed, std::size_t size, const std::string& where) {
+  if (ZSTD_getFrameContentSize(packed.data(), packed.size()) != size)
+    FailAsDamaged(where, "the packed data has another size than belongs there");
+  if (size > kLargestUnpacked || !IsPlausible(packed.size(), size))
+    FailAsDamaged(where, fmt::format("the packed data claims {} bytes", size));
+}
+
+void DecompressInto(std::span<const std::byte> packed, std::span<std::byte> bytes, const std::string& where) {
+  RequireUnpacksTo(packed, bytes.size(), where);
+  const std::size_t unpacked = ZSTD_decompress(bytes.data(), bytes.size(), packed.data(), packed.size());
+  if (ZSTD_isError(unpacked) != 0U) FailAsDamaged(where, ZSTD_getErrorName(unpacked));
+  if (unpacked != bytes.size()) FailAsDamaged(where, "the packed data is shorter than it claims");
 }
 
 template <typename Value>
 std::vector<Value> DecompressAs(std::span<const std::byte> packed, std::size_t count,
                                 const std::string& where) {
-  const Bytes bytes = Decompress(packed, count * sizeof(Value), where);
+  if (count > kLargestUnpacked / sizeof(Value))
+    FailAsDamaged(where, fmt::format("it claims {} values", count));
+  RequireUnpacksTo(packed, count * sizeof(Value), where);
   std::vector<Value> values(count);
-  if (count > 0) std::memcpy(static_cast<void*>(values.data()), bytes.data(), bytes.size());
+  DecompressInto(packed, std::as_writable_bytes(std::span(values)), where);
   return values;
+}
+
+void RequireEmptyPadding(const core::BitMask& mask, const std::string& where) {
+  const unsigned used = static_cast<unsigned>(mask.width_px()) % 64U;
+  if (used == 0) return;
+  for (std::size_t i = mask.words_per_row() - 1; i < mask.words().size(); i += mask.words_per_row())
+    if (mask.words()[i] >> used != 0) FailAsDamaged(where, "it has pixels beyond its picture");
 }
 
 std::vector<double> NumbersFromJson(const std::string& json, std::size_t count, const std::string& where) {
@@ -50,11 +71,16 @@ std::vector<Value> ArrayFromJson(const std::string& json, const std::string& whe
   try {
     return nlohmann::json::parse(json).get<std::vector<Value>>();
   } catch (const nlohmann::json::exception& exception) {
-    FailAsDamaged(where, exception.what());
+    FailAsDamaged(where, Quotable(exception.what()));
   }
 }
 
 }  // namespace
+
+bool IsPlausible(std::size_t packed_bytes, std::size_t unpacked_bytes) {
+  constexpr std::size_t kAlways = std::size_t{64} << 20U, kMostPerByte = 1024;
+  return unpacked_bytes <= kAlways || unpacked_bytes / kMostPerByte <= packed_bytes;
+}
 
 Compressor::Compressor() : context_(ZSTD_createCCtx(), ZSTD_freeCCtx) {}
 
@@ -68,13 +94,9 @@ Bytes Compressor::Compress(std::span<const std::byte> bytes) {
 }
 
 Bytes Decompress(std::span<const std::byte> packed, std::size_t size, const std::string& where) {
-  // Asked before allocating: a damaged size must not take all memory.
-  if (ZSTD_getFrameContentSize(packed.data(), packed.size()) != size) {
-    FailAsDamaged(where, "the packed data has another size than belongs there");
-  }
+  RequireUnpacksTo(packed, size, where);
   Bytes bytes(size);
-  const std::size_t unpacked = ZSTD_decompress(bytes.data(), bytes.size(), packed.data(), packed.size());
-  if (ZSTD_isError(unpacked) != 0U) FailAsDamaged(where, ZSTD_getErrorName(unpacked));
+  DecompressInto(packed, bytes, where);
   return bytes;
 }
 
@@ -89,7 +111,11 @@ core::TriangleMesh UnpackMesh(std::span<const std::byte> vertices_mm_zstd, std::
   core::TriangleMesh mesh;
   mesh.vertices_mm = DecompressAs<Eigen::Vector3d>(vertices_mm_zstd, vertex_count, where);
   mesh.triangles = DecompressAs<std::array<std::int32_t, 3>>(triangles_zstd, triangle_count, where);
-  core::ValidateMesh(mesh, where);
+  try {
+    core::ValidateMesh(mesh, where);
+  } catch (const Error& error) {
+    FailAsDamaged(where, "its mesh is none: an index or a vertex is out of range");
+  }
   return mesh;
 }
 
@@ -115,9 +141,11 @@ PackedMask Pack(const core::SoftMask& mask, Compressor& compressor) {
 core::SoftMask UnpackMask(std::span<const std::byte> words_zstd,
                           std::optional<std::span<const std::byte>> levels_zstd, int width_px, int height_px,
                           std::span<const std::byte> content_hash, const std::string& where) {
+  const auto words_per_row = (static_cast<std::size_t>(width_px) + 63U) / 64U;
+  RequireUnpacksTo(words_zstd, words_per_row * static_cast<std::size_t>(height_px) * 8U, where);
   core::SoftMask soft{core::BitMask(width_px, height_px), {}};
-  const Bytes bytes = Decompress(words_zstd, soft.mask.words().size_bytes(), where);
-  if (!bytes.empty()) std::memcpy(soft.mask.words().data(), bytes.data(), bytes.size());
+  DecompressInto(words_zstd, std::as_writable_bytes(soft.mask.words()), where);
+  RequireEmptyPadding(soft.mask, where);
   if (levels_zstd) {
     const std::size_t boundary_px = core::BoundaryPixels(soft.mask).CountObjectPixels();
     soft.levels = DecompressAs<std::uint8_t>(*levels_zstd, boundary_px, where + ", levels of its boundary");

@@ -29,7 +29,10 @@ class Compressor {
   std::shared_ptr<ZSTD_CCtx_s> context_;
 };
 
-// Throws: Error{kFormat} naming `where` unless `packed` unpacks to just `size` bytes.
+// Whether so few bytes may stand for so many: large meshes pack 2 : 1, large masks 30 : 1, a bomb 30,000 : 1.
+[[nodiscard]] bool IsPlausible(std::size_t packed_bytes, std::size_t unpacked_bytes);
+
+// Throws: Error{kFormat} naming `where` unless `packed` unpacks to just `size` bytes, and plausibly.
 [[nodiscard]] Bytes Decompress(std::span<const std::byte> packed, std::size_t size, const std::string& where);
 
 struct PackedMesh {

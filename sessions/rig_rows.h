@@ -11,7 +11,7 @@ namespace elbowroom::sessions {
 
 void InsertCameras(Database& database, const std::vector<core::CameraModel>& cameras);
 
-// Throws: Error{kFormat} naming file and camera where a row is damaged; Error{kCamera} where it is no camera.
+// Throws: Error{kFormat} naming file and camera where a row is damaged or is no camera.
 [[nodiscard]] std::vector<core::CameraModel> ReadCameras(Database& database);
 
 }  // namespace elbowroom::sessions

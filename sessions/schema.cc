@@ -5,6 +5,7 @@
 #include <array>
 
 #include "core/error.h"
+#include "sessions/damage.h"
 
 namespace elbowroom::sessions {
 namespace {
@@ -19,14 +20,16 @@ constexpr std::array<Migration, kSchemaVersion> kMigrations = {&Schema1Sql, &Sch
 
 }  // namespace
 
-void Migrate(Database& database) {
+void Migrate(Database& database) { MigrateTo(database, kSchemaVersion); }
+
+void MigrateTo(Database& database, std::int64_t schema) {
   const std::int64_t found = database.ReadInteger("PRAGMA user_version");
-  core::Require(found >= 0 && found <= kSchemaVersion,
+  core::Require(found >= 0 && found <= schema && schema <= kSchemaVersion,
                 "the database's schema is one that this program knows");
-  for (auto i = static_cast<std::size_t>(found); i < kMigrations.size(); ++i)
+  for (auto i = static_cast<std::size_t>(found); i < static_cast<std::size_t>(schema); ++i)
     database.Execute(kMigrations[i]());
   database.Execute(
-      fmt::format("PRAGMA application_id = {}; PRAGMA user_version = {}", kApplicationId, kSchemaVersion));
+      fmt::format("PRAGMA application_id = {}; PRAGMA user_version = {}", kApplicationId, schema));
 }
 
 void RequireReadableSession(Database& database) {
@@ -35,6 +38,7 @@ void RequireReadableSession(Database& database) {
     throw Error(ErrorKind::kFormat, fmt::format("'{}' is not an elbowroom session; check the path", path));
   }
   const std::int64_t found = database.ReadInteger("PRAGMA user_version");
+  if (found < 0) FailAsDamaged(fmt::format("session '{}'", path), fmt::format("it has schema {}", found));
   if (found > kSchemaVersion) {
     throw Error(ErrorKind::kFormat,
                 fmt::format("session '{}' has schema {}, this program knows schemas up to {}; open it "

@@ -33,6 +33,9 @@ inline constexpr std::int64_t kSchemaVersion = 6;
 // Brings the open transaction's database to kSchemaVersion by the migrations that it lacks, in order.
 void Migrate(Database& database);
 
+// The same to an earlier schema, for whoever wants to know how it was.
+void MigrateTo(Database& database, std::int64_t schema);
+
 // Throws: Error{kFormat} when the file is no session, or one of a newer schema than this program knows.
 void RequireReadableSession(Database& database);
 

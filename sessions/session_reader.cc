@@ -1,12 +1,21 @@
 #include "sessions/session_reader.h"
 
+#include <fmt/format.h>
+
+#include <iterator>
 #include <utility>
 
+#include "core/error.h"
+#include "sessions/damage.h"
 #include "sessions/database.h"
 #include "sessions/frame_rows.h"
 #include "sessions/header_rows.h"
+#include "sessions/integrity.h"
 #include "sessions/outcome_rows.h"
+#include "sessions/query_limit.h"
+#include "sessions/row_rules.h"
 #include "sessions/schema.h"
+#include "sessions/schema_check.h"
 #include "sessions/session_opening.h"
 #include "sessions/statement.h"
 
@@ -15,14 +24,57 @@ namespace {
 
 constexpr std::string_view kStatusNames[] = {"recording", "cut off", "complete", "abandoned"};
 
-// Brought up to date in memory.
-OpenedSession OpenUpToDate(const std::filesystem::path& path) {
-  OpenedSession opened = OpenSession(path);
-  RequireReadableSession(opened.database);
-  if (opened.database.ReadInteger("PRAGMA user_version") == kSchemaVersion) return opened;
-  Database copy = opened.database.CopyInMemory();
+// Nothing of the file is believed before it was looked at: first what its tables are, then what holds them
+// together; rows are looked at as they are read.
+void RequireSound(Database& database) {
+  RequireReadableSession(database);
+  const std::int64_t schema = database.ReadInteger("PRAGMA user_version");
+  if (schema == 0) {  // of no tables; whoever reads the set-up says that there is none
+    if (database.ReadInteger("SELECT count(*) FROM sqlite_schema") > 0)
+      FailAsDamaged(fmt::format("session '{}'", database.path().string()), "it has tables, but of schema 0");
+    return;
+  }
+  RequireTablesOfSchema(database, schema);
+  RequireIntegrity(database, schema);
+}
+
+Database CopyOfNewestSchema(Database& database) {
+  const std::int64_t schema = database.ReadInteger("PRAGMA user_version");
+  Database copy = database.CopyInMemory();
+  DropAllButTablesOfSchema(copy, schema);
   Migrate(copy);
-  return {std::move(copy), opened.is_in_use};
+  return copy;
+}
+
+std::vector<FrameSummary> ReadFrameSummaries(Database& database, const core::SessionHeader& header) {
+  Statement rows(
+      database,
+      "SELECT frame_index, time_s, spacing_index, spacing_mm "
+      "FROM frame LEFT JOIN frame_spacing USING (frame_index) ORDER BY frame_index, spacing_index");
+  std::vector<FrameSummary> frames;
+  const auto where = [&](core::FrameIndex frame) {
+    return fmt::format("session '{}', frame {}", database.path().string(), frame);
+  };
+  const auto require_whole = [&] {
+    if (!frames.empty() && frames.back().spacing_mm.size() != header.layout.spacings.size())
+      FailAsDamaged(where(frames.back().frame), "rows of spacings are missing");
+  };
+  while (rows.Next()) {
+    const core::FrameIndex frame = rows.Integer(0);
+    if (frames.empty() || frames.back().frame != frame) {
+      require_whole();
+      const double time_s = Time_s(rows.Real(1), where(frame), "its time");
+      if (frame < 0) FailAsDamaged(where(frame), "no frame has that number");
+      if (!frames.empty() && time_s < frames.back().time_s)
+        FailAsDamaged(where(frame), "its time is before that of the frame before it");
+      frames.push_back({frame, time_s, {}});
+    }
+    if (rows.IsNull(2)) continue;
+    RequireInTurn(rows.Integer(2), frames.back().spacing_mm.size(), where(frame), "spacing");
+    frames.back().spacing_mm.push_back(GapMm(rows.Real(3), where(frame), "a spacing"));
+  }
+  require_whole();
+  return frames;
 }
 
 }  // namespace
@@ -30,16 +82,43 @@ OpenedSession OpenUpToDate(const std::filesystem::path& path) {
 std::string_view ToString(SessionStatus status) { return kStatusNames[static_cast<std::size_t>(status)]; }
 
 struct SessionReader::Impl {
-  explicit Impl(const std::filesystem::path& path)
-      : opened(OpenUpToDate(path)), header(ReadHeader(database)) {}
+  // What `work` reads; a statement that was ended says why.
+  template <typename Work>
+  auto Guarded(Work&& work) {
+    try {
+      return work();
+    } catch (const core::Error& error) {
+      if (error.kind() == core::ErrorKind::kDatabase) limit.RethrowIfEnded();
+      throw;
+    }
+  }
+
+  Impl(const std::filesystem::path& path, const std::stop_token& stop)
+      : opened(OpenSession(path)), limit(database, stop) {
+    Guarded([&] { Open(stop); });
+  }
+
+  void Open(const std::stop_token& stop) {
+    DistrustFile(database);
+    RequireSound(database);
+    if (database.ReadInteger("PRAGMA user_version") != kSchemaVersion) {
+      Database copy = CopyOfNewestSchema(database);
+      limit = QueryLimit(copy, stop);
+      database = std::move(copy);
+      DistrustFile(database);
+    }
+    header = ReadHeader(database);
+  }
 
   OpenedSession opened;
   Database& database = opened.database;
+  QueryLimit limit;
   core::SessionHeader header;
   std::optional<core::SessionOutcome> adopted;
 };
 
-SessionReader::SessionReader(const std::filesystem::path& path) : impl_(std::make_unique<Impl>(path)) {}
+SessionReader::SessionReader(const std::filesystem::path& path, const std::stop_token& stop)
+    : impl_(std::make_unique<Impl>(path, stop)) {}
 SessionReader::~SessionReader() = default;
 SessionReader::SessionReader(SessionReader&&) noexcept = default;
 SessionReader& SessionReader::operator=(SessionReader&&) noexcept = default;
@@ -48,44 +127,40 @@ const std::filesystem::path& SessionReader::path() const { return impl_->databas
 const core::SessionHeader& SessionReader::header() const { return impl_->header; }
 
 SessionStatus SessionReader::status() const {
-  Statement row(impl_->database, "SELECT status FROM session");
-  const std::string text = row.Next() ? row.Text(0) : "";
-  return text == "complete"        ? SessionStatus::kComplete
-         : text == "abandoned"     ? SessionStatus::kAbandoned
-         : impl_->opened.is_in_use ? SessionStatus::kRecording
-                                   : SessionStatus::kCutOff;
+  const std::string text = impl_->Guarded([&] {
+    Statement row(impl_->database, "SELECT status FROM session");
+    return row.Next() ? row.Text(0) : "";
+  });
+  if (text == "complete") return SessionStatus::kComplete;
+  if (text == "abandoned") return SessionStatus::kAbandoned;
+  if (text == "recording")
+    return impl_->opened.is_in_use ? SessionStatus::kRecording : SessionStatus::kCutOff;
+  FailAsDamaged(fmt::format("session '{}'", path().string()),
+                fmt::format("no status is called '{}'", Quotable(text)));
 }
 
 std::optional<std::string> SessionReader::ended_at_utc() const {
-  Statement row(impl_->database, "SELECT ended_at_utc FROM session WHERE ended_at_utc IS NOT NULL");
-  if (!row.Next()) return std::nullopt;
-  return row.Text(0);
+  return impl_->Guarded([&]() -> std::optional<std::string> {
+    Statement row(impl_->database, "SELECT ended_at_utc FROM session WHERE ended_at_utc IS NOT NULL");
+    if (!row.Next()) return std::nullopt;
+    return row.Text(0);
+  });
 }
 
 std::int64_t SessionReader::frame_count() const {
-  return impl_->database.ReadInteger("SELECT count(*) FROM frame");
+  return impl_->Guarded([&] { return impl_->database.ReadInteger("SELECT count(*) FROM frame"); });
 }
 
 std::vector<FrameSummary> SessionReader::frames() const {
-  Statement rows(
-      impl_->database,
-      "SELECT frame_index, time_s, spacing_mm FROM frame LEFT JOIN frame_spacing USING (frame_index) "
-      "ORDER BY frame_index, spacing_index");
-  std::vector<FrameSummary> frames;
-  while (rows.Next()) {
-    if (frames.empty() || frames.back().frame != rows.Integer(0))
-      frames.push_back({rows.Integer(0), rows.Real(1), {}});
-    if (!rows.IsNull(2)) frames.back().spacing_mm.push_back(rows.Real(2));
-  }
-  return frames;
+  return impl_->Guarded([&] { return ReadFrameSummaries(impl_->database, impl_->header); });
 }
 
 core::FrameRecord SessionReader::ReadFrame(core::FrameIndex frame) const {
-  return sessions::ReadFrame(impl_->database, impl_->header, frame);
+  return impl_->Guarded([&] { return sessions::ReadFrame(impl_->database, impl_->header, frame); });
 }
 
 void SessionReader::Freeze() {
-  impl_->database.Execute("BEGIN");
+  impl_->Guarded([&] { impl_->database.Execute("BEGIN"); });
   (void)frame_count();  // the transaction's view is that of its first statement
 }
 
@@ -93,18 +168,30 @@ bool SessionReader::has_outcome() const { return impl_->adopted || status() == S
 
 void SessionReader::AdoptOutcome(core::SessionOutcome outcome) { impl_->adopted = std::move(outcome); }
 
-std::vector<core::SessionEvent> SessionReader::events() const { return ReadEvents(impl_->database); }
+std::vector<core::SessionEvent> SessionReader::events() const {
+  return impl_->Guarded([&] { return ReadEvents(impl_->database); });
+}
 std::vector<core::ContactEpisode> SessionReader::episodes() const {
-  return impl_->adopted ? impl_->adopted->episodes : ReadEpisodes(impl_->database);
+  if (impl_->adopted) return impl_->adopted->episodes;
+  return impl_->Guarded([&] { return ReadEpisodes(impl_->database, impl_->header.layout); });
 }
 std::vector<core::NearMiss> SessionReader::near_misses() const {
-  return impl_->adopted ? impl_->adopted->near_misses : ReadNearMisses(impl_->database);
+  if (impl_->adopted) return impl_->adopted->near_misses;
+  return impl_->Guarded([&] { return ReadNearMisses(impl_->database, impl_->header.layout); });
 }
 std::vector<core::HeatMap> SessionReader::heat_maps() const {
-  return impl_->adopted ? impl_->adopted->heat_maps : ReadHeatMaps(impl_->database, impl_->header.layout);
+  if (impl_->adopted) return impl_->adopted->heat_maps;
+  return impl_->Guarded([&] { return ReadHeatMaps(impl_->database, impl_->header.layout); });
 }
-std::vector<ContactRow> SessionReader::contacts() const { return ReadContactRows(impl_->database); }
-std::vector<ContactRow> SessionReader::clearances() const { return ReadClearanceRows(impl_->database); }
-std::vector<PartTotals> SessionReader::part_totals() const { return ReadPartTotals(impl_->database); }
+std::vector<ContactRow> SessionReader::contacts() const {
+  return impl_->Guarded([&] { return ReadContactRows(impl_->database, impl_->header.layout); });
+}
+std::vector<ContactRow> SessionReader::clearances() const {
+  return impl_->Guarded([&] { return ReadClearanceRows(impl_->database, impl_->header.layout); });
+}
+std::vector<PartTotals> SessionReader::part_totals() const {
+  return impl_->Guarded([&] { return ReadPartTotals(impl_->database, impl_->header.layout); });
+}
+std::int64_t SessionReader::most_steps_taken() const { return impl_->limit.most_steps_taken(); }
 
 }  // namespace elbowroom::sessions

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -31,13 +32,16 @@ struct FrameSummary {
 };
 
 // Never changes the file; a file of an older schema is migrated in memory. Each call sees what is committed
-// by then. Every call throws Error{kDatabase} or Error{kFormat} naming the file where it is damaged.
-// Thread: one at a time.
+// by then. Every call throws Error{kDatabase} or Error{kFormat} naming the file where it is damaged: what it
+// hands on are finite numbers, indices of the header's things, masks and meshes that match their checksums.
+// A text is valid UTF-8. Thread: one at a time.
 class SessionReader {
  public:
-  // Throws: Error{kFile} when there is no such file, Error{kFormat} when it is no session or one of a newer
-  // schema, Error{kDatabase} when it can't be read.
-  explicit SessionReader(const std::filesystem::path& path);
+  // Looks through all of the file first (docs/session_database.md, "Damaged files").
+  // Throws: Error{kFile} when there is no such file, Error{kFormat} when it is no session, one of a newer
+  // schema or a damaged one, Error{kDatabase} when it can't be read; here and in every call Error{kCancelled}
+  // when a stop is asked for in the middle of a long query.
+  explicit SessionReader(const std::filesystem::path& path, const std::stop_token& stop = {});
   ~SessionReader();
   SessionReader(SessionReader&&) noexcept;
   SessionReader& operator=(SessionReader&&) noexcept;
@@ -49,7 +53,7 @@ class SessionReader {
 
   [[nodiscard]] std::int64_t frame_count() const;
   [[nodiscard]] std::vector<FrameSummary> frames()
-      const;  // in order; numbers need not start at 0 nor be dense
+      const;  // in order, times as well; numbers need not start at 0 nor be dense
 
   // With bit-equal silhouettes and every contact. Throws: Error{kRange} for a frame that wasn't recorded.
   [[nodiscard]] core::FrameRecord ReadFrame(core::FrameIndex frame) const;
@@ -69,6 +73,9 @@ class SessionReader {
   [[nodiscard]] std::vector<ContactRow> contacts() const;            // every part in contact, frame by frame
   [[nodiscard]] std::vector<ContactRow> clearances() const;          // every part with a clearance, likewise
   [[nodiscard]] std::vector<PartTotals> part_totals() const;         // one a part
+
+  // Of SQLite's machine, by the dearest query so far (QueryLimit).
+  [[nodiscard]] std::int64_t most_steps_taken() const;
 
  private:
   struct Impl;

@@ -1,6 +1,11 @@
 #include "sessions/statement.h"
 
 #include <SQLiteCpp/SQLiteCpp.h>
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "sessions/damage.h"
 
 namespace elbowroom::sessions {
 namespace {
@@ -58,21 +63,38 @@ bool Statement::Next() {
   return Translated(path_, [&] { return statement_->executeStep(); });
 }
 
+SQLite::Column Statement::Value(int column) const {
+  const SQLite::Column value = statement_->getColumn(column);
+  if (value.isNull()) FailAtColumn(column, "nothing");
+  return value;
+}
+void Statement::FailAtColumn(int column, std::string_view what) const {
+  FailAsDamaged(fmt::format("session '{}'", path_.string()),
+                fmt::format("column {} holds {}", Quotable(statement_->getColumnName(column)), what));
+}
+
 bool Statement::IsNull(int column) const {
   return Translated(path_, [&] { return statement_->isColumnNull(column); });
 }
 std::int64_t Statement::Integer(int column) const {
-  return Translated(path_, [&] { return statement_->getColumn(column).getInt64(); });
+  return Translated(path_, [&] { return Value(column).getInt64(); });
 }
 double Statement::Real(int column) const {
-  return Translated(path_, [&] { return statement_->getColumn(column).getDouble(); });
+  const double number = Translated(path_, [&] { return Value(column).getDouble(); });
+  if (!std::isfinite(number)) FailAtColumn(column, "no finite number");
+  return number;
 }
 std::string Statement::Text(int column) const {
-  return Translated(path_, [&] { return statement_->getColumn(column).getString(); });
+  return Translated(path_, [&] {
+    const SQLite::Column value = Value(column);
+    if (value.getBytes() < 0 || static_cast<std::size_t>(value.getBytes()) > kLongestText)
+      FailAtColumn(column, fmt::format("a text of {} bytes", value.getBytes()));
+    return AsUtf8(value.getString());
+  });
 }
 std::span<const std::byte> Statement::Bytes(int column) const {
   return Translated(path_, [&] {
-    const SQLite::Column value = statement_->getColumn(column);
+    const SQLite::Column value = Value(column);
     const auto* first = static_cast<const std::byte*>(value.getBlob());
     return std::span<const std::byte>(first, static_cast<std::size_t>(value.getBytes()));
   });

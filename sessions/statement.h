@@ -13,12 +13,17 @@
 #include "sessions/database.h"
 
 namespace SQLite {
+class Column;
 class Statement;
-}
+}  // namespace SQLite
 
 namespace elbowroom::sessions {
 
 // Every member throws core::Error{kDatabase} naming the file. The database must outlive it.
+// A value that is read is one: whoever expects NULL asks IsNull() first. Error{kFormat} names the column that
+// is NULL all the same, holds a number that isn't finite, or a text beyond kLongestText.
+inline constexpr std::size_t kLongestText = 1 << 20;  // bytes; all that a program writes stays far below
+
 class Statement {
  public:
   Statement(Database& database, const std::string& sql);
@@ -41,12 +46,14 @@ class Statement {
   [[nodiscard]] bool IsNull(int column) const;
   [[nodiscard]] std::int64_t Integer(int column) const;
   [[nodiscard]] double Real(int column) const;
-  [[nodiscard]] std::string Text(int column) const;
+  [[nodiscard]] std::string Text(int column) const;  // valid UTF-8, with U+FFFD for what isn't
   [[nodiscard]] std::span<const std::byte> Bytes(int column) const;  // valid until Next() or With()
   [[nodiscard]] Eigen::Vector3d Vector(int first_column) const;      // three columns
 
  private:
   void Restart();
+  [[nodiscard]] SQLite::Column Value(int column) const;
+  [[noreturn]] void FailAtColumn(int column, std::string_view what) const;
   void BindInteger(std::int64_t value);
   void Bind(double value);
   void Bind(std::string_view text);

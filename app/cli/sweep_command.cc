@@ -82,7 +82,7 @@ std::string TextOf(const std::string& spacing, const review::SpacingStudy& study
 }
 
 CommandResult Run(const SweepOptions& options, const CommandContext& context) {
-  const sessions::SessionReader session(options.session);
+  const sessions::SessionReader session(options.session, context.stop);
   const review::SpacingStudy study =
       control::SweepSession(session, options.range, context.progress, context.stop);
   CommandResult result;

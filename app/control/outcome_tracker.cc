@@ -54,7 +54,7 @@ core::SessionOutcome OutcomeFromFrames(const sessions::SessionReader& session, c
 
 sessions::SessionReader OpenWithOutcome(const std::filesystem::path& session, const core::Progress& progress,
                                         const std::stop_token& stop) {
-  sessions::SessionReader reader(session);
+  sessions::SessionReader reader(session, stop);
   reader.Freeze();
   if (!reader.has_outcome()) reader.AdoptOutcome(OutcomeFromFrames(reader, progress, stop));
   return reader;

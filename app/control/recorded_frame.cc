@@ -1,8 +1,30 @@
 #include "app/control/recorded_frame.h"
 
+#include <fmt/format.h>
+
 #include <memory>
 
+#include "sessions/damage.h"
+#include "sessions/row_rules.h"
+
 namespace elbowroom::control {
+namespace {
+
+// A picture of the whole scene has all of it.
+void RequireInSight(const FrameResult& result, const std::filesystem::path& session) {
+  for (core::PartIndex i = 0; i < result.layout->parts.size(); ++i) {
+    const core::Part& part = result.layout->parts[i];
+    const Eigen::AlignedBox3d bounds = core::BoundsOf(*part.mesh, result.world_from_parts[i]);
+    if (bounds.min().cwiseAbs().maxCoeff() <= sessions::kLongestLengthMm &&
+        bounds.max().cwiseAbs().maxCoeff() <= sessions::kLongestLengthMm)
+      continue;
+    sessions::FailAsDamaged(
+        fmt::format("session '{}', part '{}'", session.string(), sessions::Quotable(part.name)),
+        "it is nowhere near a trial");
+  }
+}
+
+}  // namespace
 
 SharedFrameResult RebuildFrame(const sessions::SessionReader& session, core::FrameIndex frame) {
   const core::FrameRecord record = session.ReadFrame(frame);
@@ -18,6 +40,7 @@ SharedFrameResult RebuildFrame(const sessions::SessionReader& session, core::Fra
   result->world_from_parts =
       core::WithMotions(core::PosesAt(*result->layout, record.spacing_mm), record.rest_from_parts);
   result->contacts = record.contacts;
+  RequireInSight(*result, session.path());
   return result;
 }
 

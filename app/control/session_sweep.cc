@@ -67,6 +67,8 @@ review::SpacingStudy SweepSession(const sessions::SessionReader& session, const 
     throw core::Error(core::ErrorKind::kRange, fmt::format("session '{}' has no frames; record a trial first",
                                                            session.path().string()));
   }
+  // Its silhouettes vouch for the pictures' sizes, before planes of that size are made.
+  (void)session.ReadFrame(frames.front().frame);
   const auto rig = std::make_shared<const core::Rig>(header.rig);
   const recon::PicturePlanes planes = recon::MakePicturePlanes(*rig);
   const auto load = [&](std::size_t i) -> review::StudyFrame {

@@ -1,0 +1,103 @@
+#include "sessions/integrity.h"
+
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <fmt/format.h>
+#include <sqlite3.h>
+
+#include <algorithm>
+#include <string>
+
+#include "sessions/damage.h"
+#include "sessions/schema_check.h"
+#include "sessions/statement.h"
+
+namespace elbowroom::sessions {
+namespace {
+
+// A value can't be longer than its file; of small files this much, which the schema's own SQL needs.
+constexpr std::int64_t kLongestValueOfSmallFile = 1 << 20;
+constexpr std::int64_t kLongestValue = 1'000'000'000;  // SQLite's own limit
+
+void Set(sqlite3* connection, int setting, int value) {
+  sqlite3_db_config(connection, setting, value, nullptr);
+}
+
+std::string NameOf(const Database& database) { return fmt::format("session '{}'", database.path().string()); }
+
+// Reads of one state of the file.
+class ReadSnapshot {
+ public:
+  explicit ReadSnapshot(Database& database) : database_(database) { database_.Execute("BEGIN"); }
+  ~ReadSnapshot() { database_.connection().tryExec("COMMIT"); }
+  ReadSnapshot(const ReadSnapshot&) = delete;
+  ReadSnapshot& operator=(const ReadSnapshot&) = delete;
+
+ private:
+  Database& database_;
+};
+
+void RequireOk(Database& database, const std::string& pragma) {
+  Statement check(database, pragma);
+  const std::string verdict = check.Next() ? check.Text(0) : "no answer";
+  if (verdict == "ok") return;
+  // "*** in database main ***" and a line break come before what is wrong with pages.
+  const std::size_t line = verdict.find('\n');
+  FailAsDamaged(NameOf(database),
+                fmt::format("the integrity check says '{}'",
+                            Quotable(line == std::string::npos ? verdict : verdict.substr(line + 1))));
+}
+
+void RequireReferences(Database& database, std::int64_t schema) {
+  for (const std::string& table : TablesOfSchema(schema)) {
+    Statement check(database, fmt::format("PRAGMA foreign_key_check({})", table));
+    if (check.Next())
+      FailAsDamaged(NameOf(database), fmt::format("a row of '{}' refers to one of '{}' that isn't there",
+                                                  table, Quotable(check.Text(2))));
+  }
+}
+
+// References and primary keys are sound: rows of each frame are complete if their number is.
+void RequireWholeFrames(Database& database) {
+  const std::int64_t frames = database.ReadInteger("SELECT count(*) FROM frame");
+  for (const auto& [table, of_each] : {std::pair{"frame_spacing", "spacing"},
+                                       std::pair{"silhouette", "camera"}, std::pair{"part_frame", "part"}}) {
+    const std::int64_t rows = database.ReadInteger(fmt::format("SELECT count(*) FROM {}", table));
+    const std::int64_t things = database.ReadInteger(fmt::format("SELECT count(*) FROM {}", of_each));
+    if (rows == frames * things) continue;
+    FailAsDamaged(NameOf(database),
+                  fmt::format("rows are missing: table '{}' has {}, where {} frames of {} belong", table,
+                              rows, frames, things));
+  }
+}
+
+}  // namespace
+
+void DistrustFile(Database& database) {
+  sqlite3* connection = database.connection().getHandle();
+  Set(connection, SQLITE_DBCONFIG_DEFENSIVE, 1);
+  Set(connection, SQLITE_DBCONFIG_ENABLE_TRIGGER, 0);
+  Set(connection, SQLITE_DBCONFIG_ENABLE_FTS3_TOKENIZER, 0);
+  Set(connection, SQLITE_DBCONFIG_ENABLE_LOAD_EXTENSION, 0);
+  database.Execute("PRAGMA mmap_size = 0; PRAGMA cell_size_check = ON; PRAGMA query_only = ON");
+  const std::int64_t file_bytes =
+      database.ReadInteger("PRAGMA page_count") * database.ReadInteger("PRAGMA page_size");
+  sqlite3_limit(connection, SQLITE_LIMIT_LENGTH,
+                static_cast<int>(std::clamp(file_bytes, kLongestValueOfSmallFile, kLongestValue)));
+  sqlite3_limit(connection, SQLITE_LIMIT_ATTACHED, 0);
+  // No schema of ours has a LIKE, and one pattern can take for ever within a single step.
+  sqlite3_limit(connection, SQLITE_LIMIT_LIKE_PATTERN_LENGTH, 1);
+  sqlite3_limit(connection, SQLITE_LIMIT_WORKER_THREADS, 0);
+}
+
+void RequireIntegrity(Database& database, std::int64_t schema) {
+  const ReadSnapshot snapshot(database);
+  RequireOk(database, "PRAGMA integrity_check(1)");
+  // A connection that can't write has no CHECKs (SQLite's sqlite3AddCheckConstraint): a private copy has
+  // them.
+  Database copy = database.CopyAside();
+  RequireOk(copy, "PRAGMA quick_check(1)");
+  RequireReferences(database, schema);
+  RequireWholeFrames(database);
+}
+
+}  // namespace elbowroom::sessions

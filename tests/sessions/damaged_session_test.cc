@@ -1,0 +1,232 @@
+// A damaged session file is told from a sound one, and what it still holds can be salvaged.
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <stop_token>
+
+#include "sessions/damage.h"
+#include "sessions/packing.h"
+#include "sessions/query_limit.h"
+#include "sessions/schema.h"
+#include "sessions/schema_check.h"
+#include "sessions/session_reader.h"
+#include "sessions/statement.h"
+#include "tests/sessions/expect_error.h"
+#include "tests/sessions/sample_session.h"
+#include "tests/support/run_program.h"
+#include "tests/support/temporary_folder.h"
+
+namespace elbowroom::tests {
+namespace {
+
+namespace fs = std::filesystem;
+using core::ErrorKind;
+using sessions::SessionReader;
+using test_support::TemporaryFolder;
+
+constexpr const char* kEndless =
+    "WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n) SELECT count(*) FROM n";
+
+fs::path SampleIn(const TemporaryFolder& folder, core::FrameIndex frames = 6) {
+  fs::remove(folder / "s.db");
+  WriteSampleSession(folder / "s.db", frames);
+  return folder / "s.db";
+}
+
+void Execute(const fs::path& path, const std::string& sql) {
+  SQLite::Database(path.string(), SQLite::OPEN_READWRITE)
+      .exec("PRAGMA foreign_keys = OFF; PRAGMA ignore_check_constraints = ON; PRAGMA writable_schema = ON; " +
+            sql);
+}
+
+void ExpectRefused(const fs::path& path, const std::string& says) {
+  ExpectError([&] { SessionReader{path}; }, ErrorKind::kFormat, says);
+  ExpectError([&] { SessionReader{path}; }, ErrorKind::kFormat, path.string());
+}
+
+TEST(DamagedSession, NamesTheTableAndTheRowThatIsMissing) {
+  const TemporaryFolder folder;
+  const auto refused_after = [&](const char* sql, const char* says) {
+    const fs::path path = SampleIn(folder);
+    Execute(path, sql);
+    ExpectRefused(path, says);
+  };
+  refused_after("DELETE FROM frame_spacing WHERE frame_index = 5",
+                "rows are missing: table 'frame_spacing' has 10, where 6 frames of 2 belong");
+  refused_after("DELETE FROM part_frame WHERE frame_index = 1 AND part_index = 2",
+                "a row of 'clearance' refers to one of 'part_frame' that isn't there");
+  refused_after("UPDATE silhouette SET mask_id = 999 WHERE frame_index = 0",
+                "a row of 'silhouette' refers to one of 'mask' that isn't there");
+  refused_after(
+      "UPDATE camera SET camera_index = camera_index + 10; UPDATE silhouette SET camera_index = camera_index "
+      "+ 10",
+      "camera 10 comes where 0 belongs");
+  refused_after("UPDATE part_frame SET verdict = 'perhaps'", "CHECK constraint failed");
+}
+
+TEST(DamagedSession, TablesAndViewsMustBeThoseOfTheSchema) {
+  const TemporaryFolder folder;
+  const auto refused_after = [&](const char* sql, const char* says) {
+    const fs::path path = SampleIn(folder);
+    Execute(path, sql);
+    ExpectRefused(path, says);
+  };
+  refused_after("DROP VIEW v_part; CREATE VIEW v_part AS SELECT 1 AS part_index",
+                "its view 'v_part' isn't the view");
+  refused_after("DROP VIEW v_event; DROP TABLE event; CREATE VIEW event AS SELECT 1 AS event_id",
+                "its view 'event' isn't the table");
+  refused_after("ALTER TABLE frame RENAME COLUMN time_s TO when_s", "its table 'frame' isn't the table");
+  refused_after("DROP INDEX contact_by_part", "its index 'contact_by_part' is missing");
+  refused_after("CREATE TRIGGER mine AFTER INSERT ON frame BEGIN SELECT 1; END", "it has a trigger, 'mine'");
+  refused_after("CREATE INDEX mine ON frame (('aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa' LIKE '%a%a%a%a%a%a%a%a%b'))",
+                "its index 'mine' is one of expressions");
+  refused_after("CREATE INDEX mine ON frame (time_s) WHERE time_s > 1", "is one of expressions");
+  refused_after("PRAGMA user_version = 4", "isn't the table that schema 4 has");
+  refused_after("PRAGMA user_version = 0", "it has tables, but of schema 0");
+  refused_after("PRAGMA user_version = -1", "it has schema -1");
+}
+
+TEST(DamagedSession, EverySchemaOnRecordIsItself) {
+  for (std::int64_t schema = 1; schema <= sessions::kSchemaVersion; ++schema) {
+    const fs::path stored =
+        fs::path(ELBOWROOM_SOURCE_DIR) / fmt::format("tests/sessions/stored/session_schema_{}.db", schema);
+    sessions::Database database = sessions::Database::OpenReadOnly(stored);
+    EXPECT_NO_THROW(sessions::RequireTablesOfSchema(database, schema));
+    for (std::int64_t other = 1; other <= sessions::kSchemaVersion; ++other) {
+      // A later schema has all of an earlier one's tables and more.
+      if (other <= schema) continue;
+      EXPECT_THROW(sessions::RequireTablesOfSchema(database, other), core::Error) << other;
+    }
+  }
+}
+
+TEST(DamagedSession, ATextMustBeOneThatWasWritten) {
+  const TemporaryFolder folder;
+  const fs::path path = SampleIn(folder);
+  Execute(path,
+          "UPDATE part SET name = CAST(x'41ff42' AS TEXT) WHERE part_index = 0; "
+          "UPDATE session SET task = 'two' || char(10) || 'lines'");
+  const SessionReader reader(path);
+  EXPECT_EQ(reader.header().layout.parts[0].name,
+            "A\xEF\xBF\xBD"
+            "B");
+  EXPECT_EQ(reader.header().trial.task, "two\nlines");
+  Execute(path, "UPDATE session SET participant = printf('%.*c', 2000000, 'x')");
+  ExpectRefused(path, "column participant holds a text of 2000000 bytes");
+}
+
+TEST(QueryLimit, EndsWhatNeverEnds) {
+  const TemporaryFolder folder;
+  sessions::Database database = sessions::Database::OpenReadOnly(SampleIn(folder));
+  const sessions::QueryLimit limit(database, {});
+  sessions::Statement endless(database, kEndless);
+  ExpectError([&] { endless.Run(); }, ErrorKind::kDatabase, "interrupted");
+  ExpectError([&] { limit.RethrowIfEnded(); }, ErrorKind::kFormat, "million steps");
+}
+
+TEST(QueryLimit, AStatementWithinAnothersRowsCountsAsPartOfIt) {
+  const TemporaryFolder folder;
+  sessions::Database database = sessions::Database::OpenReadOnly(SampleIn(folder));
+  const sessions::QueryLimit limit(database, {});
+  sessions::Statement endless(
+      database, "WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n) SELECT i FROM n");
+  sessions::Statement within(database, "SELECT count(*) FROM frame");
+  EXPECT_THROW(
+      while (endless.Next()) { within.With().Run(); }, core::Error);
+  EXPECT_THROW(limit.RethrowIfEnded(), core::Error);
+}
+
+TEST(QueryLimit, EndsWhatNobodyWaitsFor) {
+  const TemporaryFolder folder;
+  const fs::path path = SampleIn(folder, 60);
+  sessions::Database database = sessions::Database::OpenReadOnly(path);
+  std::stop_source stop;
+  const sessions::QueryLimit limit(database, stop.get_token());
+  stop.request_stop();
+  sessions::Statement endless(database, kEndless);
+  EXPECT_THROW(endless.Run(), core::Error);
+  ExpectError([&] { limit.RethrowIfEnded(); }, ErrorKind::kCancelled, path.string());
+  ExpectError([&] { SessionReader(path, stop.get_token()); }, ErrorKind::kCancelled, path.string());
+}
+
+// The limit must be far from what a sound session takes.
+TEST(QueryLimit, ASoundSessionTakesNoTenthOfIt) {
+  const TemporaryFolder folder;
+  const fs::path path = SampleIn(folder, 150);
+  const SessionReader reader(path);
+  (void)reader.frames();
+  (void)reader.contacts();
+  (void)reader.clearances();
+  (void)reader.part_totals();
+  (void)reader.near_misses();
+  const auto bytes = static_cast<std::int64_t>(fs::file_size(path));
+  const std::int64_t per_byte_alone = sessions::MostStepsFor(bytes) - sessions::MostStepsFor(0);
+  EXPECT_GT(reader.most_steps_taken(), 0);
+  EXPECT_LT(reader.most_steps_taken() * 10, per_byte_alone) << bytes;
+}
+
+TEST(Damage, AMessageQuotesOneLineOfUtf8) {
+  EXPECT_EQ(sessions::Quotable("a\nb\x01"
+                               "c\x7F"),
+            "a b c ");
+  EXPECT_EQ(sessions::Quotable("\xC3\xA4\xFF"), "\xC3\xA4\xEF\xBF\xBD");
+  EXPECT_EQ(sessions::Quotable(std::string(500, 'x'), 10), std::string(10, 'x') + "\xE2\x80\xA6");
+  for (const char* bad : {"\xC0\x80", "\xED\xA0\x80", "\xF4\x90\x80\x80", "\xE2\x82", "\x80", "\xF8"})
+    EXPECT_EQ(sessions::AsUtf8(bad).find("\xEF\xBF\xBD"), 0U);
+  for (const char* good : {"plain", "\xE2\x82\xAC", "\xF0\x9F\x94\xA7", "\xED\x9F\xBF"})
+    EXPECT_EQ(sessions::AsUtf8(good), good);
+}
+
+TEST(Packing, AClaimBeyondAllBoundsTakesNoMemory) {
+  // Two frames that claim 16 GB and a mask of 2 GB: refused before anything of that size is made.
+  const auto frame_claiming = [](std::uint64_t size) {
+    sessions::Bytes frame = {std::byte{0x28}, std::byte{0xB5}, std::byte{0x2F}, std::byte{0xFD},
+                             std::byte{0xE0}};
+    for (unsigned i = 0; i < 8; ++i) frame.push_back(static_cast<std::byte>(size >> (8 * i)));
+    return frame;
+  };
+  constexpr std::size_t kMany = std::size_t{1} << 31U;
+  const sessions::Bytes vertices = frame_claiming(24 * kMany), triangles = frame_claiming(12 * kMany);
+  ExpectError([&] { (void)sessions::UnpackMesh(vertices, kMany, triangles, kMany, "mesh"); },
+              ErrorKind::kFormat, "it claims 2147483648 values");
+  ExpectError([&] { (void)sessions::UnpackMesh(vertices, std::size_t{0} - 1, triangles, 1, "mesh"); },
+              ErrorKind::kFormat, "mesh");
+  const sessions::Bytes words = frame_claiming(std::uint64_t{65536} * 65536 / 8);
+  ExpectError([&] { (void)sessions::UnpackMask(words, std::nullopt, 65536, 65536, {}, "mask"); },
+              ErrorKind::kFormat, "the packed data claims 536870912 bytes");
+}
+
+// As docs/session_database.md says.
+TEST(DamagedSession, WhatItHoldsCanBeSalvaged) {
+  const TemporaryFolder folder;
+  const fs::path path = SampleIn(folder);
+  Execute(path,
+          "DELETE FROM frame_spacing WHERE frame_index = 5; "
+          "UPDATE sqlite_schema SET rootpage = (SELECT rootpage FROM sqlite_schema WHERE name = "
+          "'contact_by_part') "
+          "WHERE name = 'event_by_frame'");
+  ExpectRefused(path, "the integrity check says");
+  const std::string salvage =
+      "(sqlite3 s.db .dump | sed 's/^ROLLBACK;.*/COMMIT;/'; "
+      "echo 'PRAGMA application_id = 1164730999; PRAGMA user_version = 6;') | sqlite3 saved.db";
+  ASSERT_EQ(
+      test_support::RunProgram("/bin/bash", {"-c", salvage}, {.working_folder = folder.path()}).exit_status,
+      0);
+  ExpectRefused(folder / "saved.db", "rows are missing: table 'frame_spacing'");
+  Execute(folder / "saved.db",
+          "DELETE FROM contact_point WHERE frame_index = 5; DELETE FROM contact WHERE frame_index = 5; "
+          "DELETE FROM clearance WHERE frame_index = 5; DELETE FROM part_motion WHERE frame_index = 5; "
+          "DELETE FROM part_frame WHERE frame_index = 5; DELETE FROM silhouette WHERE frame_index = 5; "
+          "DELETE FROM frame_spacing WHERE frame_index = 5; DELETE FROM frame WHERE frame_index = 5; "
+          "UPDATE episode SET end_frame = 4 WHERE end_frame = 5; UPDATE near_miss SET end_frame = 4 WHERE "
+          "end_frame = 5");
+  const SessionReader saved(folder / "saved.db");
+  EXPECT_EQ(saved.frame_count(), 5);
+  EXPECT_EQ(saved.episodes().size(), 2U);
+}
+
+}  // namespace
+}  // namespace elbowroom::tests
