@@ -57,15 +57,18 @@ cv::Mat ImageFromMask(const core::BitMask& mask) {
   return image;
 }
 
+void RequireExactMask(const PictureHeader& header, const std::filesystem::path& path, const std::string& who) {
+  if (header.format != PictureFormat::kJpeg) return;
+  throw core::Error(core::ErrorKind::kFormat,
+                    fmt::format("{}: mask '{}' is a JPEG, whose rounding turns background into object; "
+                                "save masks as PNG",
+                                who, path.string()));
+}
+
 core::BitMask ReadMaskImage(const std::filesystem::path& path, const std::string& who) {
-  const cv::Mat image = ReadImageAsStored(path, who);
-  if (IsJpeg(path)) {
-    throw core::Error(core::ErrorKind::kFormat,
-                      fmt::format("{}: mask '{}' is a JPEG, whose rounding turns background into object; "
-                                  "save masks as PNG",
-                                  who, path.string()));
-  }
-  return MaskFromImage(image);
+  ImageReader reader(who);
+  RequireExactMask(reader.Open(path), path, who);
+  return MaskFromImage(reader.Decode(DecodedAs::kStored, {}));
 }
 
 void WriteMaskPng(const core::BitMask& mask, const std::filesystem::path& path) {

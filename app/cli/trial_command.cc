@@ -1,9 +1,13 @@
 // elbowroom trial run TRIAL.toml --session S.db: a trial on recorded footage.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <filesystem>
+#include <iterator>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "app/cli/command.h"
 #include "app/cli/trial_summary.h"
@@ -46,8 +50,10 @@ CommandResult RunHeadless(const TrialRunOptions& options, const CommandContext& 
   control::TrialControls controls;
   CommandResult result =
       SummaryOf(control::RunTrial(setup, trial, controls, context.stop), setup.layout, options.session);
-  result.json["warnings"] = setup.warnings;
-  for (const std::string& warning : setup.warnings) result.text += "\nwarning: " + warning;
+  std::vector<std::string> warnings = setup.warnings;
+  std::ranges::copy(setup.source->Warnings(), std::back_inserter(warnings));
+  result.json["warnings"] = warnings;
+  for (const std::string& warning : warnings) result.text += "\nwarning: " + warning;
   return result;
 }
 

@@ -93,7 +93,7 @@ class Recording {
     heat_.emplace(pipeline_->part_trees());
     const core::FrameIndex first = options_.frames.first;
     for (core::FrameIndex frame = first; frame < end && !stop.stop_requested(); ++frame) {
-      recon::FrameSet frames = setup_.source->Read(frame);
+      recon::FrameSet frames = setup_.source->Read(frame, stop);
       if (options_.at_capture_rate) pace_.WaitFor(frames.time_s, stop);
       ApplyChanges(frame, frames.time_s);
       const Clock::time_point begin = Clock::now();
