@@ -100,12 +100,12 @@ MappedFile ImportInChild(const std::filesystem::path& file, const ImportOptions&
   const std::string where = file.string();
   core::Pipe pipe = core::MakePipe();
   const core::Descriptor result = core::MakeMemoryFile("import");
-  core::Child child(
-      {.arguments = {"elbowroom", std::string(kImportWorkerArgument), where, NameOrDash(options.unit),
-                     NameOrDash(options.unit_if_file_has_none),
-                     fmt::format("{}", options.tolerance_mm.value_or(0.0)),
-                     fmt::format("{}", options.limits.memory_bytes), fmt::format("{}", options.limits.time_s)},
-       .gives = {&pipe.to, &result}});
+  core::Child child({.arguments = {"elbowroom", std::string(kImportWorkerArgument), where,
+                                   NameOrDash(options.unit), NameOrDash(options.unit_if_file_has_none),
+                                   fmt::format("{}", options.tolerance_mm.value_or(0.0)),
+                                   fmt::format("{}", options.limits.memory_bytes),
+                                   fmt::format("{}", options.limits.time_s)},
+                     .gives = {&pipe.to, &result}});
   pipe.to.Close();
 
   const std::optional<FileFormat> format = FindFormat(file);

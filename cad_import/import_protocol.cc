@@ -52,7 +52,8 @@ ImportMessage ParseMessage(std::string_view line) {
   if (!first) return NoMessage{};
   if (kind == kFailure) {
     if (*first < 0 || *first > static_cast<int>(core::ErrorKind::kCancelled)) return NoMessage{};
-    return FailureMessage{static_cast<core::ErrorKind>(*first), core::PrintableLine(line, kLongestMessageBytes)};
+    return FailureMessage{static_cast<core::ErrorKind>(*first),
+                          core::PrintableLine(line, kLongestMessageBytes)};
   }
   const auto second = TakeNumber(line);
   if (!second) return NoMessage{};

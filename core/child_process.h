@@ -50,8 +50,8 @@ struct ChildProgram {
 enum class Woken { kReady, kStopped, kTooLate };
 using Deadline = std::optional<std::chrono::steady_clock::time_point>;  // nothing: for ever
 
-// A child of this program: its input is empty, what it prints is thrown away, Ctrl-C doesn't reach it. Killed,
-// if it still runs, and waited for at the end of its life. Thread: one at a time.
+// A child of this program: its input is empty, what it prints is thrown away, Ctrl-C doesn't reach it.
+// Killed, if it still runs, and waited for at the end of its life. Thread: one at a time.
 class Child {
  public:
   // Throws: Error{kFile} saying why it can't be started.

@@ -17,8 +17,8 @@ template <typename Function>
   return reinterpret_cast<Function*>(FindInModule(name, entry));
 }
 
-// The program `elbowroom_NAME-VERSION` that lies among the modules. Throws: Error{kFile} naming it if it isn't
-// there. Thread: any.
+// The program `elbowroom_NAME-VERSION` that lies among the modules. Throws: Error{kFile} naming it if it
+// isn't there. Thread: any.
 [[nodiscard]] std::filesystem::path FindProgramBeside(const std::string& name);
 
 }  // namespace elbowroom::core

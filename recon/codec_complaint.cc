@@ -23,8 +23,8 @@ bool IsLog(std::string_view line) {
 // About the file's other contents: the pixels are as they were stored.
 bool IsHarmless(std::string_view line) {
   constexpr std::array<std::string_view, 3> kHarmless{
-      "Unknown field with tag",            // libtiff: a camera's own notes
-      "does not end in null byte",         // libtiff: of a text
+      "Unknown field with tag",        // libtiff: a camera's own notes
+      "does not end in null byte",     // libtiff: of a text
       "deprecated pixel format used",  // swscale
   };
   return ContainsAny(line, kHarmless);

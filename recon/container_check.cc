@@ -25,7 +25,8 @@ class ByteReader {
     if (at > size_ || n > size_ - at) return {};
     if (at < window_at_ || at + n > window_at_ + window_.size()) {
       window_at_ = at;
-      window_.assign(std::max(n, static_cast<std::size_t>(std::min<std::uint64_t>(kWindowBytes, size_ - at))), '\0');
+      window_.assign(std::max(n, static_cast<std::size_t>(std::min<std::uint64_t>(kWindowBytes, size_ - at))),
+                     '\0');
       file_.seekg(static_cast<std::streamoff>(at));
       file_.read(window_.data(), static_cast<std::streamsize>(window_.size()));
       if (!file_) window_.clear();

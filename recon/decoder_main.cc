@@ -4,7 +4,8 @@
 #include "recon/picture_server.h"
 
 int main() {
-  // FFmpeg's own level, 16 = errors, with a mark before each line; OpenCV reads it when the first video opens.
+  // FFmpeg's own level, 16 = errors, with a mark before each line; OpenCV reads it when the first video
+  // opens.
   ::setenv("OPENCV_FFMPEG_LOGLEVEL", "16", 1);
   elbowroom::recon::ServePictures();
 }

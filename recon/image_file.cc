@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <cstring>
@@ -27,6 +28,13 @@ constexpr std::chrono::seconds kLongestDecode{10};
 std::int64_t MostFileBytes(const std::optional<cv::Size>& size_px) {
   constexpr std::int64_t kBytesAPixel = 8, kBeside = std::int64_t{16} << 20U;
   return (size_px ? std::int64_t{size_px->width} * size_px->height : kMostPixels) * kBytesAPixel + kBeside;
+}
+
+// Whether pixels of that type (OpenCV's) are what was asked for.
+bool IsTypeOf(DecodedAs as, int type) {
+  if (as == DecodedAs::kBgr) return type == CV_8UC3;
+  constexpr int kLast = CV_16UC4;  // of those with up to four channels
+  return type >= 0 && type <= kLast && (CV_MAT_DEPTH(type) == CV_8U || CV_MAT_DEPTH(type) == CV_16U);
 }
 
 }  // namespace
@@ -70,7 +78,9 @@ const PictureHeader& ImageReader::Open(const std::filesystem::path& path) {
   if (!header) Fail("can't be decoded; it must be an intact PNG, JPEG, TIFF, BMP, PGM or PPM");
   header_ = *header;
   const bool has_pixels = header_.width_px > 0 && header_.height_px > 0;
-  if (!has_pixels || header_.width_px > kMostPixels || header_.height_px > kMostPixels / header_.width_px) {
+  const bool is_sane =
+      has_pixels && header_.width_px <= kMostPixels && header_.height_px <= kMostPixels / header_.width_px;
+  if (!has_pixels || (!size_px_ && !is_sane)) {
     Fail(fmt::format("says that it is {} x {} px, which no camera's is; write or copy it again",
                      header_.width_px, header_.height_px));
   }
@@ -87,14 +97,15 @@ void ImageReader::RequireBits(DecodedAs as) const {
 
 cv::Mat ImageReader::Decode(DecodedAs as, const std::stop_token& stop) {
   RequireBits(as);
-  const std::string bytes = DecodableBytes(bytes_, header_.format);
   const cv::Size size(static_cast<int>(header_.width_px), static_cast<int>(header_.height_px));
-  if (worker_ == nullptr || size != size_px_ || bytes.size() > worker_->file_bytes().size()) {
-    // One for all files of a size; a picture of another size, or with an odd file, gets its own.
-    const std::int64_t most = size == size_px_ ? MostFileBytes(size_px_) : 0;
+  core::Require(!size_px_ || size == *size_px_, "a picture that is decoded has the camera's size");
+  const std::string bytes = DecodableBytes(bytes_, header_.format);
+  // One worker for all files of a size; where none is known, one a picture.
+  if (worker_ == nullptr || !size_px_ || bytes.size() > worker_->file_bytes().size()) {
+    const auto own = static_cast<std::int64_t>(bytes.size());
+    const std::int64_t file_bytes = size_px_ ? std::max(own, MostFileBytes(size_px_)) : own;
     worker_ = std::make_unique<PictureWorker>(
-        WorkerNeeds{size.width, size.height, std::max(most, static_cast<std::int64_t>(bytes.size())),
-                    SourceMemory::kPicture});
+        WorkerNeeds{size.width, size.height, file_bytes, SourceMemory::kPicture});
   }
   std::memcpy(worker_->file_bytes().data(), bytes.data(), bytes.size());
   const PictureAnswer answer = worker_->Ask(
@@ -103,11 +114,9 @@ cv::Mat ImageReader::Decode(DecodedAs as, const std::stop_token& stop) {
   const PictureReply& reply = answer.reply;
   if (reply.outcome == PictureOutcome::kDone && !answer.complaint.empty())
     Fail(fmt::format("is damaged: {}; write or copy it again", answer.complaint));
-  const bool is_right = reply.outcome == PictureOutcome::kDone && size == cv::Size(reply.width_px, reply.height_px);
-  constexpr int kAllTypes = CV_16UC4;
-  const bool is_known = (reply.type & ~CV_MAT_TYPE_MASK) == 0 && reply.type <= kAllTypes &&
-                        (CV_MAT_DEPTH(reply.type) == CV_8U || CV_MAT_DEPTH(reply.type) == CV_16U);
-  if (!is_right || !is_known) {
+  const bool is_right =
+      reply.outcome == PictureOutcome::kDone && size == cv::Size(reply.width_px, reply.height_px);
+  if (!is_right || !IsTypeOf(as, reply.type)) {
     const std::string why = answer.complaint.empty() ? "" : fmt::format(" ({})", answer.complaint);
     Fail(fmt::format("can't be decoded{}; it must be an intact PNG, JPEG, TIFF, BMP, PGM or PPM", why));
   }

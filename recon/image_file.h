@@ -24,14 +24,16 @@ class ImageReader {
   // `who` opens messages, as in "camera 'cam01'". Without a size: up to kMostPixels.
   explicit ImageReader(std::string who, std::optional<cv::Size> size_px = std::nullopt);
 
-  // Reads the file's bytes and its header. Throws: Error{kFile} naming `who` and the file: missing, no regular
-  // file, larger than a picture of that size is, empty, cut short (a PNG without its end, a JPEG without its end
-  // marker), or no PNG, JPEG, TIFF, BMP, PGM or PPM. Nothing is decoded yet: the caller looks at the size.
+  // Reads the file's bytes and its header. Throws: Error{kFile} naming `who` and the file: missing, no
+  // regular file, larger than a picture of that size is, empty, cut short (a PNG without its end, a JPEG
+  // without its end marker), or no PNG, JPEG, TIFF, BMP, PGM or PPM. Nothing is decoded yet: the caller looks
+  // at the size.
   [[nodiscard]] const PictureHeader& Open(const std::filesystem::path& path);
 
-  // The opened picture: as stored (8 or 16 bit, 1, 3 or 4 channels), or as 8-bit BGR, which must be stored with
-  // at most 8 bits a channel. Throws: Error{kFile} naming `who` and the file when the decoder finds damage,
-  // warns of some, crashes or takes too long, and for bits or numbers that aren't taken; Error{kCancelled}.
+  // The opened picture: as stored (8 or 16 bit, 1, 3 or 4 channels), or as 8-bit BGR, which must be stored
+  // with at most 8 bits a channel. Throws: Error{kFile} naming `who` and the file when the decoder finds
+  // damage, warns of some, crashes or takes too long, and for bits or numbers that aren't taken;
+  // Error{kCancelled}.
   [[nodiscard]] cv::Mat Decode(DecodedAs as, const std::stop_token& stop);
 
  private:

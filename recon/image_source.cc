@@ -47,7 +47,8 @@ class ImageFiles : public ImageSource {
 
 std::unique_ptr<ImageSource> OpenImageSource(const std::string& location, const core::CameraModel& camera,
                                              std::stop_token stop) {
-  SourceSubject subject{fmt::format("camera '{}'", camera.name()), location, camera.width_px(), camera.height_px()};
+  SourceSubject subject{fmt::format("camera '{}'", camera.name()), location, camera.width_px(),
+                        camera.height_px()};
   switch (KindOf(location)) {
     case SourceKind::kDevice:
     case SourceKind::kUrl:

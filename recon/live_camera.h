@@ -9,8 +9,8 @@
 
 namespace elbowroom::recon {
 
-// Throws: as OpenImageSource; Error{kFormat} for "device:" without a number, Error{kCamera} for one that can't be
-// opened.
+// Throws: as OpenImageSource; Error{kFormat} for "device:" without a number, Error{kCamera} for one that
+// can't be opened.
 [[nodiscard]] std::unique_ptr<ImageSource> OpenLiveCamera(SourceSubject subject, const std::stop_token& stop);
 
 }  // namespace elbowroom::recon

@@ -57,7 +57,8 @@ cv::Mat ImageFromMask(const core::BitMask& mask) {
   return image;
 }
 
-void RequireExactMask(const PictureHeader& header, const std::filesystem::path& path, const std::string& who) {
+void RequireExactMask(const PictureHeader& header, const std::filesystem::path& path,
+                      const std::string& who) {
   if (header.format != PictureFormat::kJpeg) return;
   throw core::Error(core::ErrorKind::kFormat,
                     fmt::format("{}: mask '{}' is a JPEG, whose rounding turns background into object; "

@@ -171,7 +171,8 @@ std::optional<PictureHeader> PnmHeader(std::string_view bytes) {
   std::array<std::int64_t, 3> numbers{0, 0, 1};
   std::size_t at = 2;
   for (std::size_t i = 0; i < (is_bits ? 2U : 3U); ++i) {
-    while (at < bytes.size() && (std::isspace(static_cast<unsigned char>(bytes[at])) != 0 || bytes[at] == '#')) {
+    while (at < bytes.size() &&
+           (std::isspace(static_cast<unsigned char>(bytes[at])) != 0 || bytes[at] == '#')) {
       at = bytes[at] == '#' ? std::min(bytes.find('\n', at), bytes.size()) : at + 1;
     }
     const std::size_t begin = at;
@@ -209,7 +210,8 @@ std::optional<PictureHeader> ReadPictureHeader(std::string_view bytes) {
   if (bytes.starts_with(kPngSignature)) return PngHeader(bytes);
   if (bytes.starts_with(kJpegSignature)) return JpegHeader(bytes);
   if (bytes.starts_with("BM")) return BmpHeader(bytes);
-  if (bytes.starts_with(std::string_view("II\x2a\0", 4)) || bytes.starts_with(std::string_view("MM\0\x2a", 4)))
+  if (bytes.starts_with(std::string_view("II\x2a\0", 4)) ||
+      bytes.starts_with(std::string_view("MM\0\x2a", 4)))
     return TiffHeader(bytes);
   if (bytes.size() > 2 && bytes[0] == 'P' && bytes[1] >= '1' && bytes[1] <= '6') return PnmHeader(bytes);
   return std::nullopt;

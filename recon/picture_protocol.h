@@ -12,9 +12,9 @@ namespace elbowroom::recon {
 inline constexpr const char* kDecoderProgram = "decoder";
 inline constexpr int kOrderSocket = core::kFirstGivenDescriptor;
 
-// To the server: a worker for one source. With three files, in this order: the worker's socket, its leash (when
-// this program closes the other end, the worker is killed; when the worker ends, its status comes through),
-// the memory that they share.
+// To the server: a worker for one source. With three files, in this order: the worker's socket, its leash
+// (when this program closes the other end, the worker is killed; when the worker ends, its status comes
+// through), the memory that they share.
 struct WorkerOrder {
   std::int64_t pixel_bytes = 0;  // of the shared memory, which begins with a picture's pixels ...
   std::int64_t file_bytes = 0;   // ... and then has the bytes of a picture's file
@@ -32,7 +32,7 @@ enum class PictureTask : std::int32_t {
 struct PictureRequest {
   PictureTask task = PictureTask::kDecode;
   DecodedAs as = DecodedAs::kStored;
-  std::int64_t number = 0;  // bytes, device or pictures
+  std::int64_t number = 0;    // bytes, device or pictures
   std::int32_t width_px = 0;  // that the picture ought to have
   std::int32_t height_px = 0;
 };

@@ -69,7 +69,8 @@ class Server {
     const auto order = packet.Head<WorkerOrder>();
     if (!order || packet.files.size() != kOrderFiles) return;
     if (codecs_ == nullptr) {
-      (void)SendPacket(packet.files[kWorkerSocket], PictureReply{.outcome = PictureOutcome::kNoCodecs}, trouble_);
+      (void)SendPacket(packet.files[kWorkerSocket], PictureReply{.outcome = PictureOutcome::kNoCodecs},
+                       trouble_);
       return;
     }
     const pid_t pid = ::fork();

@@ -42,10 +42,12 @@ class CaughtPrint {
     std::setvbuf(stdout, nullptr, _IONBF, 0);
   }
 
+  [[nodiscard]] bool has_any() const { return ::lseek(file_.number(), 0, SEEK_CUR) > 0; }
+
   // The first line since the last call that tells of damage; "" if none does.
   std::string TakeComplaint() {
     constexpr std::size_t kMostRead = 8192;
-    if (::lseek(file_.number(), 0, SEEK_CUR) == 0) return {};
+    if (!has_any()) return {};
     std::string text(kMostRead, '\0');
     const ssize_t size = ::pread(file_.number(), text.data(), text.size(), 0);
     text.resize(size > 0 ? static_cast<std::size_t>(size) : 0);
@@ -144,14 +146,15 @@ class Worker {
   PictureReply Opened() {
     if (video_ == nullptr) return {};
     const cv::Size size = video_->size_px();
-    return {PictureOutcome::kDone,  size.width, size.height, 0, 0, video_->frame_rate_hz(),
+    return {PictureOutcome::kDone,    size.width, size.height, 0, 0, video_->frame_rate_hz(),
             video_->promised_frames()};
   }
 
   PictureReply Grab(std::int64_t most) {
     PictureReply reply{PictureOutcome::kDone};
     const auto begin = Clock::now();
-    while (reply.frames < most && Clock::now() - begin < kLongestGrab) {
+    // Up to what is printed: it belongs to this picture, or to one soon after that a thread decodes.
+    while (reply.frames < most && !print_.has_any() && Clock::now() - begin < kLongestGrab) {
       if (video_ == nullptr || !video_->Grab()) {
         reply.outcome = PictureOutcome::kNothing;
         break;

@@ -7,8 +7,8 @@
 
 namespace elbowroom::recon {
 
-// Answers requests until the other end is closed; limits its own memory first. What codecs print is caught and
-// goes into the answers.
+// Answers requests until the other end is closed; limits its own memory first. What codecs print is caught
+// and goes into the answers.
 [[noreturn]] void WorkForOneSource(const PictureCodecs& codecs, const WorkerOrder& order,
                                    const core::Descriptor& socket, const core::Descriptor& memory);
 

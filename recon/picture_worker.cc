@@ -66,8 +66,8 @@ Decoder& DecoderOfThisProgram() {
   return decoder;
 }
 
-// What a source's worker takes at most beside the codecs, generously: a picture's pixels and coefficients; the
-// pictures that a video refers to, and those that its threads hold.
+// What a source's worker takes at most beside the codecs, generously: a picture's pixels and coefficients;
+// the pictures that a video refers to, and those that its threads hold.
 std::int64_t OwnBytes(const WorkerNeeds& needs) {
   const std::int64_t pixels = needs.width_px * needs.height_px;
   if (needs.memory == SourceMemory::kPicture) return 96 * kMib + 32 * pixels;

@@ -18,9 +18,9 @@ void SourceSubject::RequireSize(std::int64_t found_width_px, std::int64_t found_
 
 void SourceSubject::RequireInRange(core::FrameIndex index, core::FrameIndex count) const {
   if (index >= 0 && index < count) return;
-  Fail(
-      fmt::format("frame {} is out of range: '{}' has {} frames (0 to {})", index, location, count, count - 1),
-      core::ErrorKind::kRange);
+  Fail(fmt::format("frame {} is out of range: '{}' has {} frames (0 to {})", index, location, count,
+                   count - 1),
+       core::ErrorKind::kRange);
 }
 
 }  // namespace elbowroom::recon

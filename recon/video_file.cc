@@ -80,9 +80,9 @@ class VideoFile : public ImageSource {
       const std::string why = opened.complaint.empty() ? "" : fmt::format(" ({})", opened.complaint);
       subject_.Fail(fmt::format("'{}' can't be opened{}; {}", subject_.location, why, kWhatToDo));
     }
-    if (!opened.complaint.empty()) FailAsDamaged(0, opened.complaint);
     if (const cv::Size size = opened.value->size_px; !size.empty())
       subject_.RequireSize(size.width, size.height, 0);
+    if (!opened.complaint.empty()) FailAsDamaged(0, opened.complaint);
     next_ = 0;
     return *opened.value;
   }
@@ -116,7 +116,8 @@ class VideoFile : public ImageSource {
     std::string frames = "none of its frames can be read";
     if (const auto opened = decoder_.OpenVideo(subject_.location, stop, kMostTime); opened.value) {
       FrameIndex count = 0;
-      for (auto more = decoder_.Skip(1, stop, kMostTime); more.value; more = decoder_.Skip(1, stop, kMostTime))
+      for (auto more = decoder_.Skip(1, stop, kMostTime); more.value;
+           more = decoder_.Skip(1, stop, kMostTime))
         count += *more.value;
       const double promised = opened.value->promised_frames;
       frames = promised > 0.0 ? fmt::format("it breaks off at frame {} of {} promised", count, promised)

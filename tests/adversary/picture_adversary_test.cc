@@ -177,7 +177,8 @@ class Bombs : public ::testing::Test {
  protected:
   // `elbowroom segment` on a rig whose one camera has that as its frames.
   [[nodiscard]] test_support::ProgramRun Segment(const std::string& frames) const {
-    recon::RigFile rig = recon::testing::PlainRig({{(folder_ / frames).string(), (folder_ / "background.png").string(), ""}});
+    recon::RigFile rig =
+        recon::testing::PlainRig({{(folder_ / frames).string(), (folder_ / "background.png").string(), ""}});
     recon::WriteRigFile(rig, folder_ / "rig.yml");
     return test_support::RunProgram(
         ELBOWROOM_PROGRAM,

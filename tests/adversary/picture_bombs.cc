@@ -48,8 +48,9 @@ std::string Chunk(const std::string& type, const std::string& content) {
 }
 
 std::string Png(std::uint32_t width_px, std::uint32_t height_px, const std::string& chunks) {
-  return "\x89PNG\r\n\x1a\n" + Chunk("IHDR", Big(width_px) + Big(height_px) + std::string("\x08\x02\0\0\0", 5)) +
-         chunks + Chunk("IEND", "");
+  return "\x89PNG\r\n\x1a\n" +
+         Chunk("IHDR", Big(width_px) + Big(height_px) + std::string("\x08\x02\0\0\0", 5)) + chunks +
+         Chunk("IEND", "");
 }
 
 // 36 MB of zeros as zlib packs them.
@@ -110,32 +111,40 @@ void AddJpegs(const cv::Mat& picture, std::vector<Bomb>* bombs) {
 }
 
 void AddPngs(const cv::Mat& picture, std::vector<Bomb>* bombs) {
-  const auto width = static_cast<std::uint32_t>(picture.cols), height = static_cast<std::uint32_t>(picture.rows);
+  const auto width = static_cast<std::uint32_t>(picture.cols),
+             height = static_cast<std::uint32_t>(picture.rows);
   const std::string zeros = PackedZeros(), pixels = Chunk("IDAT", zeros);
   bombs->push_back({"claims.png", Png(kHuge, kHuge, pixels)});
   bombs->push_back({"claims_all.png", Png(0x7FFFFFFFU, 0x7FFFFFFFU, pixels)});
   bombs->push_back({"pixels.png", Png(width, height, pixels)});
+  bombs->push_back({"text.png", Png(width, height,
+                                    Repeated(Chunk("zTXt", std::string("a\0\0", 3) + zeros), 30) + pixels)});
   bombs->push_back(
-      {"text.png", Png(width, height, Repeated(Chunk("zTXt", std::string("a\0\0", 3) + zeros), 30) + pixels)});
-  bombs->push_back({"profile.png", Png(width, height, Chunk("iCCP", std::string("a\0\0", 3) + zeros) + pixels)});
-  bombs->push_back({"chunks.png", Png(width, height, Repeated(Chunk("tEXt", std::string("a\0b", 3)), 200'000))});
+      {"profile.png", Png(width, height, Chunk("iCCP", std::string("a\0\0", 3) + zeros) + pixels)});
+  bombs->push_back(
+      {"chunks.png", Png(width, height, Repeated(Chunk("tEXt", std::string("a\0b", 3)), 200'000))});
 }
 
 void AddTiffs(const cv::Mat& picture, std::vector<Bomb>* bombs) {
-  const auto width = static_cast<std::uint32_t>(picture.cols), height = static_cast<std::uint32_t>(picture.rows);
+  const auto width = static_cast<std::uint32_t>(picture.cols),
+             height = static_cast<std::uint32_t>(picture.rows);
   const std::vector<Entry> strips{{273, 4, 400}, {277, 3, 1}, {278, 4, height}, {279, 4, 0xFFFFFFF0U}};
   bombs->push_back({"claims.tiff", Tiff(TiffOf(kHuge, kHuge, strips))});
   bombs->push_back({"strips.tiff", Tiff(TiffOf(width, height, strips))});
-  bombs->push_back({"rows.tiff", Tiff(TiffOf(width, height, {{273, 4, 400}, {278, 4, 0x7FFFFFFFU}, {279, 4, 9}}))});
-  const std::vector<Entry> tiles{{277, 3, 1}, {322, 4, 1U << 20U}, {323, 4, 1U << 20U}, {324, 4, 400}, {325, 4, 900}};
+  bombs->push_back(
+      {"rows.tiff", Tiff(TiffOf(width, height, {{273, 4, 400}, {278, 4, 0x7FFFFFFFU}, {279, 4, 9}}))});
+  const std::vector<Entry> tiles{
+      {277, 3, 1}, {322, 4, 1U << 20U}, {323, 4, 1U << 20U}, {324, 4, 400}, {325, 4, 900}};
   bombs->push_back({"tiles.tiff", Tiff(TiffOf(width, height, tiles))});
-  bombs->push_back({"samples.tiff", Tiff(TiffOf(width, height, {{273, 4, 400}, {277, 3, 65'535}, {279, 4, 9}}))});
+  bombs->push_back(
+      {"samples.tiff", Tiff(TiffOf(width, height, {{273, 4, 400}, {277, 3, 65'535}, {279, 4, 9}}))});
   bombs->push_back({"loop.tiff", Tiff(TiffOf(width, height, strips), 8)});
 }
 
 void AddPlain(const cv::Mat& picture, std::vector<Bomb>* bombs) {
   std::string bmp = Encoded(picture, ".bmp");
-  bombs->push_back({"claims.bmp", std::string(bmp).replace(18, 8, Little(0x7FFFFFFFU) + Little(0x7FFFFFFFU))});
+  bombs->push_back(
+      {"claims.bmp", std::string(bmp).replace(18, 8, Little(0x7FFFFFFFU) + Little(0x7FFFFFFFU))});
   bombs->push_back({"least.bmp", std::string(bmp).replace(18, 8, Little(0x80000000U) + Little(0x80000000U))});
   bombs->push_back({"place.bmp", std::string(bmp).replace(10, 4, Little(0x7FFFFFF0U))});
   bombs->push_back({"claims.ppm", "P6 32000 32000 255\n" + std::string(1000, '\x20')});
@@ -157,8 +166,10 @@ void AddVideos(const cv::Mat& picture, std::vector<Bomb>* bombs) {
       changed.replace(at, what.size(), by);
     return changed;
   };
-  const std::string size = Little(static_cast<std::uint32_t>(picture.cols)) + Little(static_cast<std::uint32_t>(picture.rows));
-  const std::string size_in_frame = Big(static_cast<std::uint32_t>(picture.rows), 2) + Big(static_cast<std::uint32_t>(picture.cols), 2);
+  const std::string size =
+      Little(static_cast<std::uint32_t>(picture.cols)) + Little(static_cast<std::uint32_t>(picture.rows));
+  const std::string size_in_frame =
+      Big(static_cast<std::uint32_t>(picture.rows), 2) + Big(static_cast<std::uint32_t>(picture.cols), 2);
   bombs->push_back({"claims.avi", replaced(size, Little(kHuge) + Little(kHuge))});
   bombs->push_back({"frames.avi", replaced(size_in_frame, Big(kHuge, 2) + Big(kHuge, 2))});
   bombs->push_back({"all.avi", [&] {
@@ -166,8 +177,13 @@ void AddVideos(const cv::Mat& picture, std::vector<Bomb>* bombs) {
                       const std::size_t at = both.find(size_in_frame);
                       return both.replace(at, 4, Big(kHuge, 2) + Big(kHuge, 2));
                     }()});
-  bombs->push_back({"zeros.avi", std::string("RIFF\xf0\xff\xff\x7f" "AVI ", 12) + std::string(4'000'000, '\0')});
-  bombs->push_back({"list.avi", "#EXTM3U\n#EXTINF:10,\n/dev/zero\n#EXTINF:10,\nhttp://127.0.0.1:1/x.ts\n#EXT-X-ENDLIST\n"});
+  bombs->push_back({"zeros.avi", std::string("RIFF\xf0\xff\xff\x7f"
+                                             "AVI ",
+                                             12) +
+                                     std::string(4'000'000, '\0')});
+  bombs->push_back(
+      {"list.avi",
+       "#EXTM3U\n#EXTINF:10,\n/dev/zero\n#EXTINF:10,\nhttp://127.0.0.1:1/x.ts\n#EXT-X-ENDLIST\n"});
 }
 
 }  // namespace

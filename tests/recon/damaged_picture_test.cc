@@ -9,7 +9,6 @@
 #include <fstream>
 #include <iterator>
 #include <opencv2/imgcodecs.hpp>
-#include <opencv2/videoio.hpp>
 #include <random>
 #include <string>
 #include <vector>
@@ -25,10 +24,8 @@ namespace {
 
 using core::ErrorKind;
 using ::testing::AllOf;
-using ::testing::AnyOf;
 using testing::ErrorOf;
 using ::testing::HasSubstr;
-using ::testing::Not;
 using testing::NumberedPicture;
 using testing::NumberIn;
 using testing::PlainCamera;
@@ -87,7 +84,8 @@ TEST_F(DamagedPicture, AJpegThatEndsTooEarlyIsNeverTaken) {
   for (const double share : {0.2, 0.5, 0.8, 0.97}) {
     std::string cut = jpeg.substr(0, static_cast<std::size_t>(share * static_cast<double>(jpeg.size())));
     EXPECT_THAT(ErrorOfFrame("cut.jpg", cut + "\xff\xd9"), HasSubstr("cut.jpg")) << share;
-    EXPECT_THAT(ErrorOfFrame("hidden.jpg", cut + std::string("\xff\xe1\x40\x00", 4) + "\xff\xd9"), HasSubstr("hidden.jpg"))
+    EXPECT_THAT(ErrorOfFrame("hidden.jpg", cut + std::string("\xff\xe1\x40\x00", 4) + "\xff\xd9"),
+                HasSubstr("hidden.jpg"))
         << share;
   }
 }
@@ -125,8 +123,9 @@ TEST_F(DamagedPicture, OnlyWholeNumbersOfFewBitsArePictures) {
   EXPECT_THAT(ErrorOfFrame("float.tiff", Encoded(levels, ".tiff")), HasSubstr("save it as an 8-bit PNG"));
   const cv::Mat deep(testing::kHeightPx, testing::kWidthPx, CV_16UC1, cv::Scalar(3000));
   EXPECT_THAT(ErrorOfFrame("deep.png", Encoded(deep, ".png")), HasSubstr("16 bits a channel"));
-  EXPECT_THAT(ErrorOf(ErrorKind::kFile, [&] { (void)ReadMaskImage(folder_.path() / "float.tiff", "camera 'a'"); }),
-              HasSubstr("doesn't hold whole numbers"));
+  EXPECT_THAT(
+      ErrorOf(ErrorKind::kFile, [&] { (void)ReadMaskImage(folder_.path() / "float.tiff", "camera 'a'"); }),
+      HasSubstr("doesn't hold whole numbers"));
   EXPECT_EQ(ReadMaskImage(folder_.path() / "deep.png", "camera 'a'").CountObjectPixels(), 96U * 64U);
 }
 
@@ -141,23 +140,20 @@ TEST_F(DamagedPicture, WhatIsNoFileIsNotRead) {
   EXPECT_THAT(ErrorOfFrame("zero.png"), HasSubstr("can't be opened"));
   EXPECT_THAT(ErrorOfFrame("sparse.png"), HasSubstr("10000000000 bytes"));
   for (const char* video : {"pipe.avi", "zero.avi"}) {
-    EXPECT_THAT(ErrorOf(ErrorKind::kFile, [&] { (void)OpenImageSource(folder_.File(video), PlainCamera("cam3")); }),
-                AllOf(HasSubstr(video), HasSubstr("is not a file")));
+    EXPECT_THAT(
+        ErrorOf(ErrorKind::kFile, [&] { (void)OpenImageSource(folder_.File(video), PlainCamera("cam3")); }),
+        AllOf(HasSubstr(video), HasSubstr("is not a file")));
   }
 }
 
 TEST_F(DamagedPicture, ZerosAfterAVideosHeaderAreNoHang) {
-  test_support::WriteText(folder_.path() / "zeros.avi", std::string("RIFF\xf0\xff\xff\x7f" "AVI ", 12));
+  test_support::WriteText(folder_.path() / "zeros.avi", std::string("RIFF\xf0\xff\xff\x7f"
+                                                                    "AVI ",
+                                                                    12));
   std::filesystem::resize_file(folder_.path() / "zeros.avi", 2'000'000'000);
-  EXPECT_THAT(ErrorOf(ErrorKind::kFile, [&] { (void)OpenImageSource(folder_.File("zeros.avi"), PlainCamera("cam3")); }),
-              HasSubstr("zeros.avi"));
-}
-
-TEST_F(DamagedPicture, AVideoOfAnotherSizeIsRefusedWhenItIsOpened) {
-  testing::WriteVideo(folder_.File("v.avi"), 5);
   EXPECT_THAT(ErrorOf(ErrorKind::kFile,
-                      [&] { (void)OpenImageSource(folder_.File("v.avi"), PlainCamera("cam3", 98, 64)); }),
-              AllOf(HasSubstr("frame 0"), HasSubstr("96 x 64"), HasSubstr("98 x 64")));
+                      [&] { (void)OpenImageSource(folder_.File("zeros.avi"), PlainCamera("cam3")); }),
+              HasSubstr("zeros.avi"));
 }
 
 TEST_F(DamagedPicture, WithinAVideoIsNamedByItsFrame) {
@@ -192,12 +188,21 @@ TEST_F(DamagedPicture, ADecoderThatCrashesIsOneLineAndTheOthersGoOn) {
   ASSERT_EQ(workers.size(), 2U);
   ::kill(workers[0], SIGABRT);
   EXPECT_THAT(ErrorOf(ErrorKind::kFile, [&] { (void)source->Read(4); }),
-              AllOf(HasSubstr("cam3"), HasSubstr("v.avi"), HasSubstr("frame 4"), HasSubstr("its decoder crashed (ABRT)")));
+              AllOf(HasSubstr("cam3"), HasSubstr("v.avi"), HasSubstr("frame 4"),
+                    HasSubstr("its decoder crashed (ABRT)")));
   EXPECT_EQ(NumberIn(other->Read(7)), 7);
   EXPECT_EQ(NumberIn(source->Read(5)), 5);  // with another worker
 
-  ::kill(decoders[0], SIGKILL);  // takes its workers with it
-  EXPECT_THAT(ErrorOf(ErrorKind::kFile, [&] { (void)source->Read(6); }), HasSubstr("its decoder is gone"));
+  ::kill(decoders[0], SIGKILL);  // takes its workers with it, a moment later
+  std::string message;
+  while (message.empty()) {
+    try {
+      EXPECT_EQ(NumberIn(source->Read(6)), 6);
+    } catch (const core::Error& error) {
+      message = error.what();
+    }
+  }
+  EXPECT_THAT(message, AllOf(HasSubstr("cam3"), HasSubstr("its decoder is gone")));
   EXPECT_EQ(NumberIn(source->Read(6)), 6);  // of another decoder
 }
 

@@ -31,11 +31,11 @@ using testing::PlainRig;
 constexpr std::chrono::seconds kPatience{2};
 
 // How long `action` takes to throw Error{kCancelled} after `stop`, once the server stalls.
-std::chrono::duration<double> TimeToStop(MjpegServer& server, const std::function<void(std::stop_token)>& action) {
+std::chrono::duration<double> TimeToStop(MjpegServer& server,
+                                         const std::function<void(std::stop_token)>& action) {
   std::stop_source stop;
-  std::future<void> cancelled = std::async(std::launch::async, [&] {
-    (void)ErrorOf(ErrorKind::kCancelled, [&] { action(stop.get_token()); });
-  });
+  std::future<void> cancelled = std::async(
+      std::launch::async, [&] { (void)ErrorOf(ErrorKind::kCancelled, [&] { action(stop.get_token()); }); });
   server.WaitUntilItStalls();
   const auto begin = std::chrono::steady_clock::now();
   stop.request_stop();
@@ -53,8 +53,9 @@ TEST(LiveStream, BringsItsPicturesInOrder) {
 
 TEST(LiveStream, LeavesDamagedPicturesOutAndCountsThem) {
   const auto part = [](int i) {
-    if (i % 20 == 13) return std::string(700, 'g');              // none at all
-    if (i % 20 == 17) return Jpeg(i % 256).substr(0, 620) + std::string(80, '\x55') + "\xff\xd9";  // half of one
+    if (i % 20 == 13) return std::string(700, 'g');  // none at all
+    if (i % 20 == 17)
+      return Jpeg(i % 256).substr(0, 620) + std::string(80, '\x55') + "\xff\xd9";  // half of one
     return Jpeg(i % 256);
   };
   MjpegServer server(part);
@@ -82,7 +83,8 @@ TEST(LiveStream, EndsWhenNothingButDamageComes) {
   const std::string message = ErrorOf(ErrorKind::kCamera, [&] {
     for (int i = 0;; ++i) (void)source->Read(i);
   });
-  EXPECT_THAT(message, AllOf(HasSubstr("cam3"), HasSubstr("frame 40"), HasSubstr("damaged pictures were left out")));
+  EXPECT_THAT(message,
+              AllOf(HasSubstr("cam3"), HasSubstr("frame 40"), HasSubstr("damaged pictures were left out")));
   EXPECT_GE(source->left_out(), 8);
 }
 

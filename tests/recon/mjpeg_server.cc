@@ -74,8 +74,8 @@ void MjpegServer::Run(const std::stop_token& stop) {
   if (!WaitFor(listening_, POLLIN, stop)) return;
   caller_ = core::Descriptor(::accept4(listening_.number(), nullptr, nullptr, SOCK_CLOEXEC));
   if (!part_) return Stall();
-  if (!Send(caller_,
-            "HTTP/1.0 200 OK\r\nContent-Type: multipart/x-mixed-replace; boundary=frame\r\n\r\n", stop))
+  if (!Send(caller_, "HTTP/1.0 200 OK\r\nContent-Type: multipart/x-mixed-replace; boundary=frame\r\n\r\n",
+            stop))
     return;
   for (int i = 0;; ++i) {
     const std::optional<std::string> part = part_(i);

@@ -25,14 +25,14 @@ struct Written {
 };
 
 const std::vector<Written> kWritten{
-    {".png", CV_8UC1, PictureFormat::kPng, 8},    {".png", CV_8UC3, PictureFormat::kPng, 8},
-    {".png", CV_16UC1, PictureFormat::kPng, 16},  {".png", CV_8UC4, PictureFormat::kPng, 8},
-    {".jpg", CV_8UC1, PictureFormat::kJpeg, 8},   {".jpg", CV_8UC3, PictureFormat::kJpeg, 8},
-    {".bmp", CV_8UC1, PictureFormat::kBmp, 8},    {".bmp", CV_8UC3, PictureFormat::kBmp, 8},
-    {".tiff", CV_8UC1, PictureFormat::kTiff, 8},  {".tiff", CV_8UC3, PictureFormat::kTiff, 8},
+    {".png", CV_8UC1, PictureFormat::kPng, 8},     {".png", CV_8UC3, PictureFormat::kPng, 8},
+    {".png", CV_16UC1, PictureFormat::kPng, 16},   {".png", CV_8UC4, PictureFormat::kPng, 8},
+    {".jpg", CV_8UC1, PictureFormat::kJpeg, 8},    {".jpg", CV_8UC3, PictureFormat::kJpeg, 8},
+    {".bmp", CV_8UC1, PictureFormat::kBmp, 8},     {".bmp", CV_8UC3, PictureFormat::kBmp, 8},
+    {".tiff", CV_8UC1, PictureFormat::kTiff, 8},   {".tiff", CV_8UC3, PictureFormat::kTiff, 8},
     {".tiff", CV_16UC3, PictureFormat::kTiff, 16}, {".tiff", CV_32FC1, PictureFormat::kTiff, 32, false},
-    {".pgm", CV_8UC1, PictureFormat::kPnm, 8},    {".ppm", CV_8UC3, PictureFormat::kPnm, 8},
-    {".pgm", CV_16UC1, PictureFormat::kPnm, 16},  {".pbm", CV_8UC1, PictureFormat::kPnm, 1},
+    {".pgm", CV_8UC1, PictureFormat::kPnm, 8},     {".ppm", CV_8UC3, PictureFormat::kPnm, 8},
+    {".pgm", CV_16UC1, PictureFormat::kPnm, 16},   {".pbm", CV_8UC1, PictureFormat::kPnm, 1},
 };
 
 TEST(PictureHeader, SaysWhatOpenCvWrote) {
@@ -70,9 +70,9 @@ TEST(PictureHeader, KnowsATopDownAndAnOldBitmap) {
 }
 
 TEST(PictureHeader, IsNoneOfOtherFiles) {
-  for (const std::string& bytes : {std::string("RIFF....WEBPVP8 "), std::string("v/1\x01......"), std::string("Pf\n"),
-                                   std::string("\xff\xd8\xff\xda\0\x08\0\0\0\0\0\0", 12), std::string("P5"),
-                                   std::string("P5 # no more"), std::string()}) {
+  for (const std::string& bytes : {std::string("RIFF....WEBPVP8 "), std::string("v/1\x01......"),
+                                   std::string("Pf\n"), std::string("\xff\xd8\xff\xda\0\x08\0\0\0\0\0\0", 12),
+                                   std::string("P5"), std::string("P5 # no more"), std::string()}) {
     EXPECT_FALSE(ReadPictureHeader(bytes).has_value()) << bytes;
   }
 }
