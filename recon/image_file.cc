@@ -121,7 +121,7 @@ cv::Mat ImageReader::Decode(DecodedAs as, const std::stop_token& stop) {
     Fail(fmt::format("can't be decoded{}; it must be an intact PNG, JPEG, TIFF, BMP, PGM or PPM", why));
   }
   // The worker writes over its memory with the next picture.
-  auto* pixels = const_cast<std::byte*>(worker_->pixel_bytes().data());
+  std::byte* pixels = worker_->pixel_bytes().data();
   return cv::Mat(size, reply.type, pixels).clone();
 }
 

@@ -10,7 +10,7 @@
 #include "core/error.h"
 #include "core/whole_file.h"
 #include "recon/image_file.h"
-#include "recon/picture_codecs.h"
+#include "recon/picture_encoder.h"
 
 namespace elbowroom::recon {
 namespace {
@@ -74,7 +74,7 @@ core::BitMask ReadMaskImage(const std::filesystem::path& path, const std::string
 
 void WriteMaskPng(const core::BitMask& mask, const std::filesystem::path& path) {
   core::Require(mask.width_px() > 0 && mask.height_px() > 0, "a mask that is written has pixels");
-  const std::vector<std::uint8_t> png = LoadedPictureCodecs().encode(ImageFromMask(mask), ".png");
+  const std::vector<std::uint8_t> png = EncodePicture(ImageFromMask(mask), ".png");
   core::WriteWholeFile(path, {reinterpret_cast<const char*>(png.data()), png.size()});
 }
 

@@ -1,6 +1,5 @@
 // OpenCV's readers and writers of pictures and videos, as a module: they bring 240 libraries, which take
-// longer to load than most commands run. Files of others are read by the decoder alone, a program of its own
-// (recon/picture_worker.h).
+// longer to load than most commands run. The decoder has them, a program of its own (recon/picture_worker.h).
 #pragma once
 
 #include <cstdint>

@@ -27,6 +27,7 @@ enum class PictureTask : std::int32_t {
   kOpenDevice,  // by its number
   kGrab,        // up to so many pictures of the video, without showing them
   kNext,        // the video's next picture
+  kEncode,      // the pixels in the shared memory, into a file of the kind that the text names: ".png"
 };
 
 struct PictureRequest {
@@ -35,6 +36,7 @@ struct PictureRequest {
   std::int64_t number = 0;    // bytes, device or pictures
   std::int32_t width_px = 0;  // that the picture ought to have
   std::int32_t height_px = 0;
+  std::int32_t type = 0;  // OpenCV's, of pixels to encode
 };
 
 enum class PictureOutcome : std::int32_t {
@@ -49,8 +51,9 @@ struct PictureReply {
   PictureOutcome outcome = PictureOutcome::kNothing;
   std::int32_t width_px = 0;  // of the picture, which lies in the shared memory if it fits; of an open video
   std::int32_t height_px = 0;
-  std::int32_t type = 0;    // OpenCV's
-  std::int64_t frames = 0;  // grabbed
+  std::int32_t type = 0;        // OpenCV's
+  std::int64_t frames = 0;      // grabbed
+  std::int64_t file_bytes = 0;  // encoded, in the shared memory
   double frame_rate_hz = 0.0;
   double promised_frames = 0.0;
 };

@@ -17,6 +17,7 @@
 #include <opencv2/core/utils/logger.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/error.h"
 #include "recon/codec_complaint.h"
@@ -95,6 +96,8 @@ class Worker {
         return Grab(request.number);
       case PictureTask::kNext:
         return Next(request);
+      case PictureTask::kEncode:
+        return Encode(request, text);
     }
     return {};
   }
@@ -143,11 +146,23 @@ class Worker {
     return Shown(image);
   }
 
+  PictureReply Encode(const PictureRequest& request, const std::string& extension) const {
+    const cv::Mat image(request.height_px, request.width_px, request.type, pixels_);
+    if (static_cast<std::int64_t>(image.total() * image.elemSize()) > order_.pixel_bytes) return {};
+    const std::vector<std::uint8_t> file = codecs_.encode(image, extension);
+    if (file.empty() || static_cast<std::int64_t>(file.size()) > order_.file_bytes) return {};
+    std::memcpy(pixels_ + order_.pixel_bytes, file.data(), file.size());
+    return {.outcome = PictureOutcome::kDone, .file_bytes = static_cast<std::int64_t>(file.size())};
+  }
+
   PictureReply Opened() {
     if (video_ == nullptr) return {};
     const cv::Size size = video_->size_px();
-    return {PictureOutcome::kDone,    size.width, size.height, 0, 0, video_->frame_rate_hz(),
-            video_->promised_frames()};
+    return {.outcome = PictureOutcome::kDone,
+            .width_px = size.width,
+            .height_px = size.height,
+            .frame_rate_hz = video_->frame_rate_hz(),
+            .promised_frames = video_->promised_frames()};
   }
 
   PictureReply Grab(std::int64_t most) {

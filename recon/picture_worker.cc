@@ -107,7 +107,7 @@ std::span<std::byte> PictureWorker::file_bytes() const {
   return {memory_ + order_.pixel_bytes, static_cast<std::size_t>(order_.file_bytes)};
 }
 
-std::span<const std::byte> PictureWorker::pixel_bytes() const {
+std::span<std::byte> PictureWorker::pixel_bytes() const {
   return {memory_, static_cast<std::size_t>(order_.pixel_bytes)};
 }
 

@@ -50,7 +50,7 @@ class PictureWorker {
 
   // The memory for a picture's file and for its pixels.
   [[nodiscard]] std::span<std::byte> file_bytes() const;
-  [[nodiscard]] std::span<const std::byte> pixel_bytes() const;
+  [[nodiscard]] std::span<std::byte> pixel_bytes() const;
 
  private:
   [[nodiscard]] bool is_running() const { return socket_.is_open(); }

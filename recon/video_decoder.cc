@@ -46,7 +46,7 @@ Decoded<VideoPicture> VideoDecoder::Next(const std::stop_token& stop, const Most
   next.value = VideoPicture{{reply.width_px, reply.height_px}, {}};
   if (next.value->size_px != size_px_) return next;
   // The worker writes over its memory with the next picture.
-  auto* pixels = const_cast<std::byte*>(worker_.pixel_bytes().data());
+  std::byte* pixels = worker_.pixel_bytes().data();
   next.value->image_bgr = cv::Mat(size_px_, CV_8UC3, pixels).clone();
   return next;
 }
