@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <exception>
 #include <map>
+#include <opencv2/core/mat.hpp>
 #include <string>
 #include <utility>
 #include <vector>
@@ -26,11 +27,22 @@ enum OrderFile : std::size_t { kWorkerSocket, kLeash, kMemory, kOrderFiles };
 
 void Ignore(int) {}  // of SIGCHLD: it is there to end a wait
 
+// What a codec looks up at its first picture, every worker would else look up again.
+void WarmUp(const PictureCodecs& codecs) {
+  const cv::Mat picture(8, 8, CV_8UC3, cv::Scalar::all(0));
+  for (const char* extension : {".png", ".jpg"}) {
+    const std::vector<std::uint8_t> file = codecs.encode(picture, extension);
+    cv::Mat decoded;
+    codecs.decode({reinterpret_cast<const char*>(file.data()), file.size()}, DecodedAs::kBgr, decoded);
+  }
+}
+
 class Server {
  public:
   Server() {
     try {
       codecs_ = &LoadedPictureCodecs();
+      WarmUp(*codecs_);
     } catch (const std::exception& exception) {
       trouble_ = exception.what();
     }
