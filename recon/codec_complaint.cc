@@ -20,6 +20,9 @@ bool IsLog(std::string_view line) {
   return std::ranges::any_of(kLevels, [&](std::string_view level) { return line.starts_with(level); });
 }
 
+// Where in OpenCV's source a picture turned out to be none: no word for users.
+bool IsPlaceInOpenCv(std::string_view line) { return line.starts_with("imdecode_("); }
+
 // About the file's other contents: the pixels are as they were stored.
 bool IsHarmless(std::string_view line) {
   constexpr std::array<std::string_view, 3> kHarmless{
@@ -46,7 +49,7 @@ std::string ComplaintIn(std::string_view printed) {
     const std::string_view line = printed.substr(0, end);
     printed.remove_prefix(std::min(end + 1, printed.size()));
     const bool is_blank = std::ranges::all_of(line, [](char c) { return c == ' ' || c == '\0'; });
-    if (is_blank || IsLog(line) || IsHarmless(line)) continue;
+    if (is_blank || IsLog(line) || IsPlaceInOpenCv(line) || IsHarmless(line)) continue;
     return core::PrintableLine(WithoutPrefix(line), kMostBytes);
   }
   return {};

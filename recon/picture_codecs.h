@@ -28,8 +28,8 @@ class VideoStream {
 enum class DecodedAs : std::int32_t { kStored, kBgr };
 
 struct PictureCodecs {
-  // Empty: these bytes are no picture. Into the memory of `image` if it has the right size and type.
-  void (*decode)(std::string_view bytes, DecodedAs as, cv::Mat& image);
+  // Empty: these bytes are no picture.
+  cv::Mat (*decode)(std::string_view bytes, DecodedAs as);
   // `extension` names the format: ".png".
   std::vector<std::uint8_t> (*encode)(const cv::Mat& image, const std::string& extension);
   // A file or an address through FFmpeg, a camera by its number. Null: can't be opened.

@@ -26,15 +26,15 @@ class Capture : public VideoStream {
   cv::VideoCapture capture_;
 };
 
-void Decode(std::string_view bytes, DecodedAs as, cv::Mat& image) {
+cv::Mat Decode(std::string_view bytes, DecodedAs as) {
   // OpenCV's header type takes a mutable pointer; the decoder only reads it.
   const cv::Mat raw(1, static_cast<int>(bytes.size()), CV_8U, const_cast<char*>(bytes.data()));
   const int flags =
       as == DecodedAs::kBgr ? cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION : cv::IMREAD_UNCHANGED;
   try {
-    if (cv::imdecode(raw, flags, &image).empty()) image.release();
+    return cv::imdecode(raw, flags);  // not into a picture that is there: some failures leave that as it was
   } catch (const cv::Exception&) {
-    image.release();
+    return {};
   }
 }
 

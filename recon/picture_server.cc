@@ -32,8 +32,7 @@ void WarmUp(const PictureCodecs& codecs) {
   const cv::Mat picture(8, 8, CV_8UC3, cv::Scalar::all(0));
   for (const char* extension : {".png", ".jpg"}) {
     const std::vector<std::uint8_t> file = codecs.encode(picture, extension);
-    cv::Mat decoded;
-    codecs.decode({reinterpret_cast<const char*>(file.data()), file.size()}, DecodedAs::kBgr, decoded);
+    (void)codecs.decode({reinterpret_cast<const char*>(file.data()), file.size()}, DecodedAs::kBgr);
   }
 }
 

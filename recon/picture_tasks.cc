@@ -141,9 +141,7 @@ class Worker {
     if (request.number <= 0 || request.number > order_.file_bytes) return {};
     const std::string_view bytes(reinterpret_cast<const char*>(pixels_) + order_.pixel_bytes,
                                  static_cast<std::size_t>(request.number));
-    cv::Mat image = request.as == DecodedAs::kBgr ? Place(request) : cv::Mat();
-    codecs_.decode(bytes, request.as, image);
-    return Shown(image);
+    return Shown(codecs_.decode(bytes, request.as));
   }
 
   PictureReply Encode(const PictureRequest& request, const std::string& extension) const {

@@ -90,6 +90,19 @@ TEST_F(DamagedPicture, AJpegThatEndsTooEarlyIsNeverTaken) {
   }
 }
 
+TEST_F(DamagedPicture, NeverShowsThePictureBefore) {
+  const std::string jpeg = Encoded(NumberedPicture(5), ".jpg");
+  std::string bogus = jpeg;
+  bogus[bogus.find("\xff\xc0") + 11] = '\0';  // sampling factors that libjpeg refuses without a word
+  test_support::WriteText(folder_.path() / "f_0.jpg", jpeg);
+  test_support::WriteText(folder_.path() / "f_1.jpg", bogus);
+  const auto source = OpenImageSource(folder_.File("f_%d.jpg"), PlainCamera("cam3"));
+  EXPECT_EQ(NumberIn(source->Read(0)), 5);
+  EXPECT_THAT(ErrorOf(ErrorKind::kFile, [&] { (void)source->Read(1); }),
+              AllOf(HasSubstr("f_1.jpg"), HasSubstr("can't be decoded;")));
+  EXPECT_EQ(NumberIn(source->Read(0)), 5);
+}
+
 TEST_F(DamagedPicture, SoundPicturesOfEveryKindAreTaken) {
   const cv::Mat picture = NumberedPicture(77);
   const std::string jpeg = Encoded(picture, ".jpg");
@@ -97,6 +110,7 @@ TEST_F(DamagedPicture, SoundPicturesOfEveryKindAreTaken) {
            {"a.png", Encoded(picture, ".png")},
            {"a.jpg", jpeg},
            {"padded.jpg", jpeg + std::string(600, '\0')},
+           {"film.jpg", jpeg + std::string(50'000, 'f')},
            {"progressive.jpg", Encoded(picture, ".jpg", {cv::IMWRITE_JPEG_PROGRESSIVE, 1})},
            {"restarts.jpg", Encoded(picture, ".jpg", {cv::IMWRITE_JPEG_RST_INTERVAL, 2})},
            {"a.bmp", Encoded(picture, ".bmp")},
