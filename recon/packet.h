@@ -1,6 +1,8 @@
 // Packets between this program and its decoder: a value, some text, and open files.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstring>
 #include <optional>
 #include <span>

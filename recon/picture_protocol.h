@@ -36,7 +36,8 @@ struct PictureRequest {
   std::int64_t number = 0;    // bytes, device or pictures
   std::int32_t width_px = 0;  // that the picture ought to have
   std::int32_t height_px = 0;
-  std::int32_t type = 0;  // OpenCV's, of pixels to encode
+  std::int32_t type = 0;   // OpenCV's, of pixels to encode
+  std::int32_t tries = 1;  // of each picture to grab, before it is said that there is none
 };
 
 enum class PictureOutcome : std::int32_t {

@@ -93,7 +93,7 @@ class Worker {
         video_ = codecs_.open_device(static_cast<int>(request.number));
         return Opened();
       case PictureTask::kGrab:
-        return Grab(request.number);
+        return Grab(request.number, request.tries);
       case PictureTask::kNext:
         return Next(request);
       case PictureTask::kEncode:
@@ -163,12 +163,14 @@ class Worker {
             .promised_frames = video_->promised_frames()};
   }
 
-  PictureReply Grab(std::int64_t most) {
+  PictureReply Grab(std::int64_t most, int tries) {
     PictureReply reply{PictureOutcome::kDone};
     const auto begin = Clock::now();
     // Up to what is printed: it belongs to this picture, or to one soon after that a thread decodes.
     while (reply.frames < most && !print_.has_any() && Clock::now() - begin < kLongestGrab) {
-      if (video_ == nullptr || !video_->Grab()) {
+      bool has_next = false;
+      for (int i = 0; i < tries && video_ != nullptr && !has_next; ++i) has_next = video_->Grab();
+      if (!has_next) {
         reply.outcome = PictureOutcome::kNothing;
         break;
       }

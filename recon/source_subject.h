@@ -1,6 +1,7 @@
 // Whom and what the messages about a camera's source are about.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "core/error.h"

@@ -27,8 +27,9 @@ Decoded<OpenedVideo> VideoDecoder::OpenDevice(int number, const std::stop_token&
 }
 
 Decoded<core::FrameIndex> VideoDecoder::Skip(core::FrameIndex most, const std::stop_token& stop,
-                                             const MostTime& most_time) {
-  const PictureAnswer answer = worker_.Ask({.task = PictureTask::kGrab, .number = most}, {}, stop, most_time);
+                                             const MostTime& most_time, int tries) {
+  const PictureRequest request{.task = PictureTask::kGrab, .number = most, .tries = tries};
+  const PictureAnswer answer = worker_.Ask(request, {}, stop, most_time);
   Decoded<core::FrameIndex> skipped{{}, answer.complaint, answer.worker_ended};
   if (answer.reply.outcome == PictureOutcome::kDone || answer.reply.frames > 0)
     skipped.value = answer.reply.frames;

@@ -44,9 +44,10 @@ class VideoDecoder {
                                                const MostTime& most_time);
   [[nodiscard]] Decoded<OpenedVideo> OpenDevice(int number, const std::stop_token& stop,
                                                 const MostTime& most_time);
-  // Up to `most` pictures are passed over; fewer, but not none, doesn't mean that there are no more.
+  // Up to `most` pictures are passed over, each tried so often; fewer, but not none, doesn't mean that there
+  // are no more.
   [[nodiscard]] Decoded<core::FrameIndex> Skip(core::FrameIndex most, const std::stop_token& stop,
-                                               const MostTime& most_time);
+                                               const MostTime& most_time, int tries = 1);
   [[nodiscard]] Decoded<VideoPicture> Next(const std::stop_token& stop, const MostTime& most_time);
 
  private:

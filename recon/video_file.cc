@@ -100,11 +100,8 @@ class VideoFile : public ImageSource {
   // Whether what OpenCV gave as the end is none: it stops at every packet that can't be decoded at all.
   bool GoesOn(const std::stop_token& stop) {
     constexpr int kTries = 256;  // packets in a row; at the end of a file they cost nothing
-    for (int i = 0; i < kTries; ++i) {
-      const auto skipped = decoder_.Skip(1, stop, kMostTime);
-      if (skipped.value || skipped.decoder_ended) return true;
-    }
-    return false;
+    const auto skipped = decoder_.Skip(1, stop, kMostTime, kTries);
+    return skipped.value || skipped.decoder_ended;
   }
 
   [[noreturn]] void FailAsDamaged(FrameIndex frame, const std::string& how) const {
