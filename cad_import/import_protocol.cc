@@ -6,6 +6,8 @@
 #include <charconv>
 #include <optional>
 
+#include "core/child_process.h"
+
 namespace elbowroom::cad_import {
 namespace {
 
@@ -25,14 +27,6 @@ std::optional<std::int64_t> TakeNumber(std::string_view& text) {
   if (error != std::errc{} || end == text.data() + text.size() || *end != ' ') return std::nullopt;
   text.remove_prefix(static_cast<std::size_t>(end - text.data()) + 1);
   return number;
-}
-
-// What a child says of a damaged file may hold anything.
-std::string Printable(std::string_view text) {
-  std::string printable(text);
-  std::ranges::replace_if(
-      printable, [](unsigned char c) { return c < 0x20 || c == 0x7f; }, ' ');
-  return printable;
 }
 
 }  // namespace
@@ -58,11 +52,12 @@ ImportMessage ParseMessage(std::string_view line) {
   if (!first) return NoMessage{};
   if (kind == kFailure) {
     if (*first < 0 || *first > static_cast<int>(core::ErrorKind::kCancelled)) return NoMessage{};
-    return FailureMessage{static_cast<core::ErrorKind>(*first), Printable(line)};
+    return FailureMessage{static_cast<core::ErrorKind>(*first),
+                          core::PrintableLine(line, kLongestMessageBytes)};
   }
   const auto second = TakeNumber(line);
   if (!second) return NoMessage{};
-  return ProgressMessage{*first, *second, Printable(line)};
+  return ProgressMessage{*first, *second, core::PrintableLine(line, kLongestMessageBytes)};
 }
 
 }  // namespace elbowroom::cad_import

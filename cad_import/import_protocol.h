@@ -6,14 +6,15 @@
 #include <string_view>
 #include <variant>
 
+#include "core/child_process.h"
 #include "core/error.h"
 
 namespace elbowroom::cad_import {
 
 // The first argument of a child, and where it finds its ends.
 inline constexpr std::string_view kImportWorkerArgument = "--import-worker";
-inline constexpr int kMessageDescriptor = 3;  // a pipe: lines
-inline constexpr int kResultDescriptor = 4;   // a file in memory: the packed model
+inline constexpr int kMessageDescriptor = core::kFirstGivenDescriptor;     // a pipe: lines
+inline constexpr int kResultDescriptor = core::kFirstGivenDescriptor + 1;  // a file in memory: the model
 
 // Of a line; a longer one is no message.
 inline constexpr std::size_t kLongestMessageBytes = std::size_t{64} << 10U;

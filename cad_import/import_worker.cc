@@ -1,14 +1,10 @@
 #include "cad_import/import_worker.h"
 
 #include <fmt/format.h>
-#include <sys/prctl.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include <atomic>
-#include <cerrno>
 #include <charconv>
-#include <csignal>
 #include <cstdlib>
 #include <exception>
 #include <filesystem>
@@ -22,6 +18,7 @@
 #include "cad_import/import_options.h"
 #include "cad_import/import_protocol.h"
 #include "cad_import/packed_model.h"
+#include "core/child_process.h"
 #include "core/error.h"
 #include "core/progress.h"
 
@@ -38,20 +35,9 @@ constexpr double kCpuSlack = 64.0;
 
 std::atomic<bool> serves_imports{false};
 
-// False: nobody listens any more.
-bool WriteAll(int descriptor, std::span<const std::byte> bytes) {
-  while (!bytes.empty()) {
-    const ssize_t size = ::write(descriptor, bytes.data(), bytes.size());
-    if (size < 0 && errno == EINTR) continue;
-    if (size <= 0) return false;
-    bytes = bytes.subspan(static_cast<std::size_t>(size));
-  }
-  return true;
-}
-
 void Say(const auto& message) {
   const std::string line = ToLine(message);
-  if (!WriteAll(kMessageDescriptor, std::as_bytes(std::span(line)))) std::_Exit(EXIT_FAILURE);
+  if (!core::WriteAll(kMessageDescriptor, std::as_bytes(std::span(line)))) std::_Exit(EXIT_FAILURE);
 }
 
 [[noreturn]] void FailForMemory() {
@@ -59,21 +45,11 @@ void Say(const auto& message) {
   std::_Exit(EXIT_FAILURE);
 }
 
-void Limit(__rlimit_resource resource, double most) {
-  const auto value = static_cast<rlim_t>(most);
-  const rlimit limit{value, value};
-  ::setrlimit(resource, &limit);
-}
-
-void LimitMyself(const ImportLimits& limits) {
-  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
-  Limit(RLIMIT_CORE, 0);
-  Limit(RLIMIT_CPU, limits.time_s * kCpuSlack + 1.0);
-  Limit(RLIMIT_FSIZE, static_cast<double>(limits.memory_bytes) / kResultShare);
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // they reserve all addresses there are
-  Limit(RLIMIT_AS, static_cast<double>(limits.memory_bytes));
-#endif
+void LimitTo(const ImportLimits& limits) {
+  const auto memory_bytes = static_cast<double>(limits.memory_bytes);
+  core::LimitMyself({.memory_bytes = memory_bytes,
+                     .file_bytes = memory_bytes / kResultShare,
+                     .cpu_s = limits.time_s * kCpuSlack + 1.0});
   std::set_new_handler(FailForMemory);
 }
 
@@ -108,9 +84,9 @@ Request ParseRequest(std::span<char* const> arguments) {
   });
   try {
     PrepareToRead(request.file);
-    LimitMyself(request.options.limits);
+    LimitTo(request.options.limits);
     const PackedModel content = ReadCadFile(request.file, request.options, progress);
-    if (WriteAll(kResultDescriptor, Pack(content.model, content.referred))) {
+    if (core::WriteAll(kResultDescriptor, Pack(content.model, content.referred))) {
       Say(DoneMessage{});
       std::_Exit(EXIT_SUCCESS);
     }

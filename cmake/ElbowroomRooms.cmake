@@ -32,6 +32,18 @@ function(elbowroom_finds_modules executable folder)
   add_dependencies(${executable} ${modules})
 endfunction()
 
+# elbowroom_child_program(NAME SOURCE USES target ...)
+# A program that core/module.h finds by NAME among the modules: it is built with them, and finds them beside it.
+function(elbowroom_child_program name source)
+  cmake_parse_arguments(PROGRAM "" "" "USES" ${ARGN})
+  add_executable(elbowroom_${name} ${source})
+  target_link_libraries(elbowroom_${name} PRIVATE ${PROGRAM_USES} elbowroom_warnings)
+  set_target_properties(elbowroom_${name} PROPERTIES
+    OUTPUT_NAME "elbowroom_${name}-${PROJECT_VERSION}" RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR})
+  elbowroom_finds_modules(elbowroom_${name} "$ORIGIN")
+  set_property(GLOBAL APPEND PROPERTY ELBOWROOM_MODULES elbowroom_${name})
+endfunction()
+
 # elbowroom_test(NAME SOURCES a_test.cc ... USES target ... [LABELS gl ...] [IMPORTS])
 # IMPORTS: it reads CAD files, so its main serves as the child that does.
 function(elbowroom_test name)

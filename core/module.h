@@ -1,6 +1,7 @@
 // Parts of the program that are libraries of their own, loaded when they are first needed.
 #pragma once
 
+#include <filesystem>
 #include <string>
 
 namespace elbowroom::core {
@@ -15,5 +16,9 @@ template <typename Function>
 [[nodiscard]] Function* FunctionOfModule(const std::string& name, const char* entry) {
   return reinterpret_cast<Function*>(FindInModule(name, entry));
 }
+
+// The program `elbowroom_NAME-VERSION` that lies among the modules. Throws: Error{kFile} naming it if it
+// isn't there. Thread: any.
+[[nodiscard]] std::filesystem::path FindProgramBeside(const std::string& name);
 
 }  // namespace elbowroom::core

@@ -22,16 +22,26 @@ class ByteReader {
 
   // The `n` bytes at `at`; empty if the file ends before.
   [[nodiscard]] std::string At(std::uint64_t at, std::size_t n) {
-    std::string bytes(n, '\0');
-    if (at + n > size_) return {};
-    file_.seekg(static_cast<std::streamoff>(at));
-    file_.read(bytes.data(), static_cast<std::streamsize>(n));
-    return file_ ? bytes : std::string();
+    if (at > size_ || n > size_ - at) return {};
+    if (at < window_at_ || at + n > window_at_ + window_.size()) {
+      window_at_ = at;
+      window_.assign(std::max(n, static_cast<std::size_t>(std::min<std::uint64_t>(kWindowBytes, size_ - at))),
+                     '\0');
+      file_.seekg(static_cast<std::streamoff>(at));
+      file_.read(window_.data(), static_cast<std::streamsize>(window_.size()));
+      if (!file_) window_.clear();
+    }
+    return window_.empty() ? std::string() : window_.substr(static_cast<std::size_t>(at - window_at_), n);
   }
 
  private:
+  // Read at once: a file may be nothing but chunks of no length.
+  static constexpr std::uint64_t kWindowBytes = 4096;
+
   std::ifstream file_;
   std::uint64_t size_ = 0;
+  std::uint64_t window_at_ = 0;
+  std::string window_;
 };
 
 std::uint64_t LittleEndian(std::string_view bytes) {
@@ -65,16 +75,20 @@ bool IsText(std::string_view type) {
                      [](char c) { return IsDigit(c) || IsLetter(c) || c == ' ' || c == '_'; });
 }
 
-// Among the frames: a hole of zeros, space that was reserved and never written; or bytes that are no chunk.
-std::optional<ContainerDamage> FindBreak(ByteReader& reader, std::uint64_t begin, std::uint64_t end) {
+// A hole of zeros: space that was reserved and never written.
+bool IsHole(ByteReader& reader, std::uint64_t at) {
   constexpr std::size_t kHoleBytes = 64;
+  return reader.At(at, kHoleBytes) == std::string(kHoleBytes, '\0');
+}
+
+// Among the frames: a hole; or bytes that are no chunk.
+std::optional<ContainerDamage> FindBreak(ByteReader& reader, std::uint64_t begin, std::uint64_t end) {
   std::int64_t pictures = 0;
   for (std::uint64_t at = begin; at + kHeaderBytes <= end;) {
     const std::string header = reader.At(at, kHeaderBytes);
     if (header.empty()) break;
     const bool is_zero = header == std::string(kHeaderBytes, '\0');
-    if (is_zero && reader.At(at, kHoleBytes) == std::string(kHoleBytes, '\0'))
-      return ContainerDamage{at, at, std::nullopt};
+    if (is_zero && IsHole(reader, at)) return ContainerDamage{at, at, std::nullopt};
     const std::string_view type = std::string_view(header).substr(0, 4);
     const std::uint64_t size = LittleEndian(std::string_view(header).substr(4));
     const std::uint64_t next = at + kHeaderBytes + size;
@@ -93,6 +107,7 @@ std::optional<ContainerDamage> CheckRiff(ByteReader& reader, std::uint64_t begin
   while (at + kHeaderBytes <= end && at + kHeaderBytes <= reader.size()) {
     const std::string header = reader.At(at, kHeaderBytes + kFormTypeBytes);
     if (header.empty()) break;
+    if (IsHole(reader, at)) return ContainerDamage{at, at, std::nullopt};
     const std::uint64_t size = LittleEndian(std::string_view(header).substr(4, 4));
     const std::uint64_t next = at + kHeaderBytes + size;
     if (next > reader.size()) return ContainerDamage{reader.size(), std::max(next, end), std::nullopt};

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/error.h"
-#include "recon/picture_codecs.h"
+#include "recon/picture_encoder.h"
 
 namespace elbowroom::recon {
 
@@ -17,7 +17,7 @@ std::string EncodeDepthTiff(const DepthMap& picture) {
   // OpenCV's header type takes a mutable pointer; the encoder only reads it.
   const cv::Mat depth(picture.height_px, picture.width_px, CV_32FC1,
                       const_cast<float*>(picture.depth_mm.data()));
-  const std::vector<std::uint8_t> tiff = LoadedPictureCodecs().encode(depth, ".tiff");
+  const std::vector<std::uint8_t> tiff = EncodePicture(depth, ".tiff");
   return {tiff.begin(), tiff.end()};
 }
 

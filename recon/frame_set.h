@@ -5,6 +5,7 @@
 #include <opencv2/core/mat.hpp>
 #include <optional>
 #include <stop_token>
+#include <string>
 #include <vector>
 
 #include "core/bit_mask.h"
@@ -50,8 +51,12 @@ class FrameSetSource {
   // Of the shortest source; nothing for one without an end.
   [[nodiscard]] virtual std::optional<core::FrameIndex> frame_count() const = 0;
 
-  // Throws: Error{kRange} past the end, Error{kFile} naming camera, file and frame if it can't be read whole.
-  [[nodiscard]] virtual FrameSet Read(core::FrameIndex index) = 0;
+  // Throws: Error{kRange} past the end, Error{kFile} naming camera, file and frame if it can't be read whole,
+  // Error{kCamera} when a live camera ended; Error{kCancelled} on a stop, heard at once.
+  [[nodiscard]] virtual FrameSet Read(core::FrameIndex index, std::stop_token stop = {}) = 0;
+
+  // What was amiss with the frames read so far, a line each, and didn't keep them from being read.
+  [[nodiscard]] virtual std::vector<std::string> Warnings() const { return {}; }
 
   // One a camera. Throws: Error{kFile}; Error{kCancelled} on a stop.
   [[nodiscard]] virtual std::vector<BackgroundReference> ReadBackgrounds(const core::Progress& progress,

@@ -1,17 +1,19 @@
 #include "recon/image_file.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
-#include <array>
-#include <cstdint>
-#include <fstream>
-#include <iterator>
-#include <optional>
+#include <cerrno>
+#include <chrono>
+#include <cstring>
 #include <string_view>
+#include <utility>
 
+#include "core/child_process.h"
 #include "core/error.h"
-#include "recon/picture_codecs.h"
 
 namespace elbowroom::recon {
 namespace {
@@ -19,108 +21,108 @@ namespace {
 using core::Error;
 using core::ErrorKind;
 
-constexpr std::string_view kPngSignature{"\x89PNG\r\n\x1a\n", 8};
-constexpr std::string_view kJpegSignature{"\xff\xd8\xff", 3};
-// Cameras pad a JPEG's end; the marker is looked for in the last bytes only.
-constexpr std::size_t kJpegTailBytes = 4096;
+// A picture that takes longer is none that a camera made.
+constexpr std::chrono::seconds kLongestDecode{10};
 
-std::string ReadBytes(const std::filesystem::path& path, const std::string& who) {
-  std::error_code ignored;
-  if (!std::filesystem::exists(path, ignored)) {
-    throw Error(ErrorKind::kFile,
-                fmt::format("{}: image '{}' does not exist; check the path", who, path.string()));
-  }
-  std::ifstream file(path, std::ios::binary);
-  if (!file || std::filesystem::is_directory(path, ignored)) {
-    throw Error(ErrorKind::kFile,
-                fmt::format("{}: image '{}' can't be opened; check that it is a file and may be read", who,
-                            path.string()));
-  }
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+// As stored without any compression, and what cameras write beside the pixels.
+std::int64_t MostFileBytes(const std::optional<cv::Size>& size_px) {
+  constexpr std::int64_t kBytesAPixel = 8, kBeside = std::int64_t{16} << 20U;
+  return (size_px ? std::int64_t{size_px->width} * size_px->height : kMostPixels) * kBytesAPixel + kBeside;
 }
 
-// CRC-32 as PNG has it (ISO 3309), of `bytes`.
-std::uint32_t Crc32(std::string_view bytes) {
-  static const std::array<std::uint32_t, 256> kTable = [] {
-    std::array<std::uint32_t, 256> table{};
-    for (std::uint32_t i = 0; i < 256; ++i) {
-      std::uint32_t value = i;
-      for (int bit = 0; bit < 8; ++bit) value = (value & 1U) != 0 ? 0xEDB88320U ^ (value >> 1U) : value >> 1U;
-      table[i] = value;
-    }
-    return table;
-  }();
-  std::uint32_t crc = 0xFFFFFFFFU;
-  for (const char byte : bytes) crc = kTable[(crc ^ static_cast<unsigned char>(byte)) & 0xFFU] ^ (crc >> 8U);
-  return ~crc;
-}
-
-std::uint32_t BigEndian32(std::string_view bytes) {
-  std::uint32_t value = 0;
-  for (std::size_t i = 0; i < 4; ++i) value = value << 8U | static_cast<unsigned char>(bytes[i]);
-  return value;
-}
-
-enum class PngState { kWhole, kCutShort, kDamaged };
-
-// By its chunks and their check sums: libpng would find the same, but tells stderr.
-PngState StateOfPng(std::string_view bytes) {
-  constexpr std::size_t kAroundContent = 12;  // 4 bytes length, 4 type, 4 check sum
-  std::size_t at = kPngSignature.size();
-  while (at + kAroundContent <= bytes.size()) {
-    const std::size_t length = BigEndian32(bytes.substr(at));
-    if (at + kAroundContent + length > bytes.size()) return PngState::kCutShort;
-    const std::string_view type_and_content = bytes.substr(at + 4, 4 + length);
-    if (Crc32(type_and_content) != BigEndian32(bytes.substr(at + 8 + length))) return PngState::kDamaged;
-    if (type_and_content.starts_with("IEND")) return PngState::kWhole;
-    at += kAroundContent + length;
-  }
-  return PngState::kCutShort;
-}
-
-bool IsJpegCutShort(std::string_view bytes) {
-  const std::string_view tail = bytes.substr(bytes.size() - std::min(bytes.size(), kJpegTailBytes));
-  return tail.find("\xff\xd9") == std::string_view::npos;
-}
-
-// What is wrong with an image file, if that shows before it is decoded.
-std::optional<std::string> DefectOf(std::string_view bytes) {
-  if (bytes.empty()) return "is empty (0 bytes); write it again";
-  const bool is_png = bytes.starts_with(kPngSignature);
-  const PngState png = is_png ? StateOfPng(bytes) : PngState::kWhole;
-  if (png == PngState::kDamaged) return "is damaged (a check sum fails); write or copy it again";
-  if (png == PngState::kCutShort || (bytes.starts_with(kJpegSignature) && IsJpegCutShort(bytes))) {
-    return fmt::format("is cut short ({} bytes, its end is missing); write or copy it again", bytes.size());
-  }
-  return std::nullopt;
-}
-
-cv::Mat Decode(const std::filesystem::path& path, DecodedAs as, const std::string& who) {
-  const std::string bytes = ReadBytes(path, who);
-  const auto fail = [&](std::string_view what) {
-    throw Error(ErrorKind::kFile, fmt::format("{}: image '{}' {}", who, path.string(), what));
-  };
-  if (const auto defect = DefectOf(bytes)) fail(*defect);
-  cv::Mat image = LoadedPictureCodecs().decode(bytes, as);
-  if (image.empty()) fail("can't be decoded; it must be an intact PNG, JPEG, TIFF or BMP");
-  return image;
+// Whether pixels of that type (OpenCV's) are what was asked for.
+bool IsTypeOf(DecodedAs as, int type) {
+  if (as == DecodedAs::kBgr) return type == CV_8UC3;
+  constexpr int kLast = CV_16UC4;  // of those with up to four channels
+  return type >= 0 && type <= kLast && (CV_MAT_DEPTH(type) == CV_8U || CV_MAT_DEPTH(type) == CV_16U);
 }
 
 }  // namespace
 
-cv::Mat ReadImageAsStored(const std::filesystem::path& path, const std::string& who) {
-  return Decode(path, DecodedAs::kStored, who);
+ImageReader::ImageReader(std::string who, std::optional<cv::Size> size_px)
+    : who_(std::move(who)), size_px_(size_px) {}
+
+void ImageReader::Fail(const std::string& what) const {
+  throw Error(ErrorKind::kFile, fmt::format("{}: image '{}' {}", who_, path_.string(), what));
 }
 
-cv::Mat ReadImageBgr(const std::filesystem::path& path, const std::string& who) {
-  return Decode(path, DecodedAs::kBgr, who);
+std::string ImageReader::ReadBytes() const {
+  // Without waiting for whoever may write into a pipe.
+  const core::Descriptor file(::open(path_.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
+  struct stat status {};
+  if (!file.is_open() && errno == ENOENT) Fail("does not exist; check the path");
+  if (!file.is_open() || ::fstat(file.number(), &status) != 0 || !S_ISREG(status.st_mode))
+    Fail("can't be opened; check that it is a file and may be read");
+  if (status.st_size > MostFileBytes(size_px_)) {
+    Fail(fmt::format("has {} bytes, more than a picture of that size needs; check that it is one",
+                     status.st_size));
+  }
+  std::string bytes(static_cast<std::size_t>(status.st_size), '\0');
+  std::size_t have = 0;
+  while (have < bytes.size()) {
+    const ssize_t size = ::read(file.number(), bytes.data() + have, bytes.size() - have);
+    if (size < 0 && errno == EINTR) continue;
+    if (size < 0) Fail(fmt::format("can't be read ({}); check the disk", std::strerror(errno)));
+    if (size == 0) break;
+    have += static_cast<std::size_t>(size);
+  }
+  bytes.resize(have);
+  return bytes;
 }
 
-bool IsJpeg(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::string start(kJpegSignature.size(), '\0');
-  file.read(start.data(), static_cast<std::streamsize>(start.size()));
-  return file && start == kJpegSignature;
+const PictureHeader& ImageReader::Open(const std::filesystem::path& path) {
+  path_ = path;
+  bytes_ = ReadBytes();
+  if (const auto defect = DefectOfPicture(bytes_)) Fail(*defect);
+  const auto header = ReadPictureHeader(bytes_);
+  if (!header) Fail("can't be decoded; it must be an intact PNG, JPEG, TIFF, BMP, PGM or PPM");
+  header_ = *header;
+  const bool has_pixels = header_.width_px > 0 && header_.height_px > 0;
+  const bool is_sane =
+      has_pixels && header_.width_px <= kMostPixels && header_.height_px <= kMostPixels / header_.width_px;
+  if (!has_pixels || (!size_px_ && !is_sane)) {
+    Fail(fmt::format("says that it is {} x {} px, which no camera's is; write or copy it again",
+                     header_.width_px, header_.height_px));
+  }
+  return header_;
+}
+
+void ImageReader::RequireBits(DecodedAs as) const {
+  constexpr int kMostForMasks = 16, kMostForPictures = 8;
+  if (!header_.is_whole_numbers || header_.bits > kMostForMasks)
+    Fail("doesn't hold whole numbers of 8 or 16 bits; save it as an 8-bit PNG");
+  if (as == DecodedAs::kBgr && header_.bits > kMostForPictures)
+    Fail(fmt::format("has {} bits a channel, where pictures have 8; save it as an 8-bit PNG", header_.bits));
+}
+
+cv::Mat ImageReader::Decode(DecodedAs as, const std::stop_token& stop) {
+  RequireBits(as);
+  const cv::Size size(static_cast<int>(header_.width_px), static_cast<int>(header_.height_px));
+  core::Require(!size_px_ || size == *size_px_, "a picture that is decoded has the camera's size");
+  const std::string bytes = DecodableBytes(bytes_, header_.format);
+  // One worker for all files of a size; where none is known, one a picture.
+  if (worker_ == nullptr || !size_px_ || bytes.size() > worker_->file_bytes().size()) {
+    const auto own = static_cast<std::int64_t>(bytes.size());
+    const std::int64_t file_bytes = size_px_ ? std::max(own, MostFileBytes(size_px_)) : own;
+    worker_ = std::make_unique<PictureWorker>(
+        WorkerNeeds{size.width, size.height, file_bytes, SourceMemory::kPicture});
+  }
+  std::memcpy(worker_->file_bytes().data(), bytes.data(), bytes.size());
+  const PictureAnswer answer = worker_->Ask(
+      {PictureTask::kDecode, as, static_cast<std::int64_t>(bytes.size()), size.width, size.height}, {}, stop,
+      kLongestDecode);
+  const PictureReply& reply = answer.reply;
+  if (reply.outcome == PictureOutcome::kDone && !answer.complaint.empty())
+    Fail(fmt::format("is damaged: {}; write or copy it again", answer.complaint));
+  const bool is_right =
+      reply.outcome == PictureOutcome::kDone && size == cv::Size(reply.width_px, reply.height_px);
+  if (!is_right || !IsTypeOf(as, reply.type)) {
+    const std::string why = answer.complaint.empty() ? "" : fmt::format(" ({})", answer.complaint);
+    Fail(fmt::format("can't be decoded{}; it must be an intact PNG, JPEG, TIFF, BMP, PGM or PPM", why));
+  }
+  // The worker writes over its memory with the next picture.
+  std::byte* pixels = worker_->pixel_bytes().data();
+  return cv::Mat(size, reply.type, pixels).clone();
 }
 
 }  // namespace elbowroom::recon

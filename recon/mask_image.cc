@@ -10,7 +10,7 @@
 #include "core/error.h"
 #include "core/whole_file.h"
 #include "recon/image_file.h"
-#include "recon/picture_codecs.h"
+#include "recon/picture_encoder.h"
 
 namespace elbowroom::recon {
 namespace {
@@ -57,20 +57,24 @@ cv::Mat ImageFromMask(const core::BitMask& mask) {
   return image;
 }
 
+void RequireExactMask(const PictureHeader& header, const std::filesystem::path& path,
+                      const std::string& who) {
+  if (header.format != PictureFormat::kJpeg) return;
+  throw core::Error(core::ErrorKind::kFormat,
+                    fmt::format("{}: mask '{}' is a JPEG, whose rounding turns background into object; "
+                                "save masks as PNG",
+                                who, path.string()));
+}
+
 core::BitMask ReadMaskImage(const std::filesystem::path& path, const std::string& who) {
-  const cv::Mat image = ReadImageAsStored(path, who);
-  if (IsJpeg(path)) {
-    throw core::Error(core::ErrorKind::kFormat,
-                      fmt::format("{}: mask '{}' is a JPEG, whose rounding turns background into object; "
-                                  "save masks as PNG",
-                                  who, path.string()));
-  }
-  return MaskFromImage(image);
+  ImageReader reader(who);
+  RequireExactMask(reader.Open(path), path, who);
+  return MaskFromImage(reader.Decode(DecodedAs::kStored, {}));
 }
 
 void WriteMaskPng(const core::BitMask& mask, const std::filesystem::path& path) {
   core::Require(mask.width_px() > 0 && mask.height_px() > 0, "a mask that is written has pixels");
-  const std::vector<std::uint8_t> png = LoadedPictureCodecs().encode(ImageFromMask(mask), ".png");
+  const std::vector<std::uint8_t> png = EncodePicture(ImageFromMask(mask), ".png");
   core::WriteWholeFile(path, {reinterpret_cast<const char*>(png.data()), png.size()});
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/bit_mask.h"
+#include "recon/picture_header.h"
 
 namespace elbowroom::recon {
 
@@ -15,8 +16,10 @@ namespace elbowroom::recon {
 // 8-bit, one channel: object 255, background 0.
 [[nodiscard]] cv::Mat ImageFromMask(const core::BitMask& mask);
 
-// Throws: Error{kFile} naming `who` and the file if it can't be read whole, Error{kFormat} for a JPEG (its
-// rounding makes background pixels non-zero).
+// Throws: Error{kFormat} naming `who` and the file for a JPEG: its rounding makes background pixels non-zero.
+void RequireExactMask(const PictureHeader& header, const std::filesystem::path& path, const std::string& who);
+
+// Throws: as that, and Error{kFile} naming `who` and the file if it can't be read whole.
 [[nodiscard]] core::BitMask ReadMaskImage(const std::filesystem::path& path, const std::string& who);
 
 // Writes the whole file or nothing. Throws: Error{kFile}.

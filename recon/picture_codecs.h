@@ -1,5 +1,5 @@
 // OpenCV's readers and writers of pictures and videos, as a module: they bring 240 libraries, which take
-// longer to load than most commands run.
+// longer to load than most commands run. The decoder has them, a program of its own (recon/picture_worker.h).
 #pragma once
 
 #include <cstdint>
@@ -17,13 +17,15 @@ class VideoStream {
   virtual ~VideoStream() = default;
 
   [[nodiscard]] virtual bool Grab() = 0;  // false: there is no next picture, or it can't be decoded
-  [[nodiscard]] virtual cv::Mat
-  Retrieve() = 0;  // the one grabbed, 8-bit BGR, perhaps in the decoder's memory; or empty
-  [[nodiscard]] virtual double frame_rate_hz() const = 0;    // as the container says; 0: it doesn't
+  // The one grabbed, 8-bit BGR: into the memory of `image` if it has that size and type, else into memory of
+  // its own, or empty.
+  virtual void Retrieve(cv::Mat& image) = 0;
+  [[nodiscard]] virtual cv::Size size_px() const = 0;        // as the container says
+  [[nodiscard]] virtual double frame_rate_hz() const = 0;    // likewise; 0: it doesn't
   [[nodiscard]] virtual double promised_frames() const = 0;  // likewise
 };
 
-enum class DecodedAs { kStored, kBgr };
+enum class DecodedAs : std::int32_t { kStored, kBgr };
 
 struct PictureCodecs {
   // Empty: these bytes are no picture.

@@ -12,10 +12,12 @@ class Capture : public VideoStream {
   explicit Capture(const cv::VideoCapture& capture) : capture_(capture) {}
 
   [[nodiscard]] bool Grab() override { return capture_.grab(); }
-  [[nodiscard]] cv::Mat Retrieve() override {
-    cv::Mat image;
+  void Retrieve(cv::Mat& image) override {
     if (!capture_.retrieve(image)) image.release();
-    return image;
+  }
+  [[nodiscard]] cv::Size size_px() const override {
+    return {static_cast<int>(capture_.get(cv::CAP_PROP_FRAME_WIDTH)),
+            static_cast<int>(capture_.get(cv::CAP_PROP_FRAME_HEIGHT))};
   }
   [[nodiscard]] double frame_rate_hz() const override { return capture_.get(cv::CAP_PROP_FPS); }
   [[nodiscard]] double promised_frames() const override { return capture_.get(cv::CAP_PROP_FRAME_COUNT); }
@@ -27,9 +29,10 @@ class Capture : public VideoStream {
 cv::Mat Decode(std::string_view bytes, DecodedAs as) {
   // OpenCV's header type takes a mutable pointer; the decoder only reads it.
   const cv::Mat raw(1, static_cast<int>(bytes.size()), CV_8U, const_cast<char*>(bytes.data()));
+  const int flags =
+      as == DecodedAs::kBgr ? cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION : cv::IMREAD_UNCHANGED;
   try {
-    return cv::imdecode(
-        raw, as == DecodedAs::kBgr ? cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION : cv::IMREAD_UNCHANGED);
+    return cv::imdecode(raw, flags);  // not into a picture that is there: some failures leave that as it was
   } catch (const cv::Exception&) {
     return {};
   }

@@ -5,7 +5,7 @@
 
 #include "core/error.h"
 #include "core/whole_file.h"
-#include "recon/picture_codecs.h"
+#include "recon/picture_encoder.h"
 
 namespace elbowroom::recon {
 std::vector<std::uint8_t> EncodePng(const Image& image) {
@@ -17,7 +17,7 @@ std::vector<std::uint8_t> EncodePng(const Image& image) {
   const cv::Mat rgb(image.height_px, image.width_px, CV_8UC3, const_cast<std::uint8_t*>(image.rgb.data()));
   cv::Mat bgr;
   cv::cvtColor(rgb, bgr, cv::COLOR_RGB2BGR);
-  return LoadedPictureCodecs().encode(bgr, ".png");
+  return EncodePicture(bgr, ".png");
 }
 
 void WritePng(const Image& image, const std::filesystem::path& path) {

@@ -16,7 +16,10 @@ constexpr std::size_t kLiveFrames = 2;
 ReadAhead::ReadAhead(ReadFrame read, std::optional<core::FrameIndex> end)
     : read_(std::move(read)), end_(end) {}
 
-ReadAhead::~ReadAhead() { Stop(); }
+ReadAhead::~ReadAhead() {
+  thread_.request_stop();
+  Stop();
+}
 
 void ReadAhead::Stop() {
   if (queue_) queue_->Close();  // a thread that waits for room gives up
@@ -26,18 +29,20 @@ void ReadAhead::Stop() {
 
 void ReadAhead::Expect(core::FrameIndex index) {
   if (next_ == index) return;
+  if (!end_) thread_.request_stop();  // a recorded frame is waited for: the next ones come after it
   Stop();
   queue_ = end_ ? std::make_unique<Queue>(kFramesAhead, core::WhenFull::kBlock)
                 : std::make_unique<Queue>(kLiveFrames, core::WhenFull::kDropOldest);
   next_ = index;
-  thread_ = std::jthread([this, queue = queue_.get(), index] { Run(*queue, index); });
+  thread_ = std::jthread(
+      [this, queue = queue_.get(), index](const std::stop_token& stop) { Run(*queue, index, stop); });
 }
 
-void ReadAhead::Run(Queue& queue, core::FrameIndex begin) const {
+void ReadAhead::Run(Queue& queue, core::FrameIndex begin, const std::stop_token& stop) const {
   for (core::FrameIndex index = begin; !end_ || index < *end_; ++index) {
     CapturedFrame captured;
     try {
-      captured.frame = read_(index);
+      captured.frame = read_(index, stop);
     } catch (...) {
       captured.error = std::current_exception();
     }
@@ -47,8 +52,9 @@ void ReadAhead::Run(Queue& queue, core::FrameIndex begin) const {
   }
 }
 
-CapturedFrame ReadAhead::Take() {
+CapturedFrame ReadAhead::Take(const std::stop_token& stop) {
   core::Require(next_.has_value(), "a frame is expected before it is taken");
+  const std::stop_callback stop_reading(stop, [this] { thread_.request_stop(); });
   std::optional<CapturedFrame> captured = queue_->Pop();
   core::Require(captured.has_value(), "a frame that is taken lies below the end");
   if (captured->error) {

@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <stop_token>
 #include <thread>
 
 #include "core/bounded_queue.h"
@@ -23,7 +24,8 @@ struct CapturedFrame {
 // Thread: one reader; `read` runs on this object's own thread only.
 class ReadAhead {
  public:
-  using ReadFrame = std::function<CameraFrame(core::FrameIndex)>;
+  // A stop is for it to hear at once: a camera may have no next picture.
+  using ReadFrame = std::function<CameraFrame(core::FrameIndex, const std::stop_token&)>;
 
   // Recorded frames (with `end`) wait until they are taken; of a live camera's only the latest are kept.
   ReadAhead(ReadFrame read, std::optional<core::FrameIndex> end);
@@ -34,14 +36,14 @@ class ReadAhead {
   // Makes `index` (below the end) the next frame to take; begins reading there unless it already is.
   void Expect(core::FrameIndex index);
 
-  // The frame expected, once it is read. Throws: what reading it threw.
-  [[nodiscard]] CapturedFrame Take();
+  // The frame expected, once it is read; a stop ends the reading. Throws: what reading it threw.
+  [[nodiscard]] CapturedFrame Take(const std::stop_token& stop);
 
  private:
   using Queue = core::BoundedQueue<CapturedFrame>;
 
   void Stop();
-  void Run(Queue& queue, core::FrameIndex begin) const;
+  void Run(Queue& queue, core::FrameIndex begin, const std::stop_token& stop) const;
 
   ReadFrame read_;
   std::optional<core::FrameIndex> end_;

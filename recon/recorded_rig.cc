@@ -8,8 +8,8 @@
 
 #include "core/error.h"
 #include "recon/background_reader.h"
+#include "recon/image_file.h"
 #include "recon/image_sequence.h"
-#include "recon/image_source.h"
 #include "recon/mask_image.h"
 #include "recon/per_camera.h"
 
@@ -25,19 +25,22 @@ struct OpenedCamera {
   std::optional<FrameIndex> frames;
   std::optional<double> frame_rate_hz;
   ReadAhead::ReadFrame read;
+  std::shared_ptr<const ImageSource> source = nullptr;
 };
 
-core::BitMask ReadSizedMask(const std::filesystem::path& file, const core::CameraModel& camera) {
+core::BitMask ReadSizedMask(ImageReader& reader, const std::filesystem::path& file,
+                            const core::CameraModel& camera, const std::stop_token& stop) {
   const std::string who = fmt::format("camera '{}'", camera.name());
-  core::BitMask mask = ReadMaskImage(file, who);
-  if (mask.width_px() != camera.width_px() || mask.height_px() != camera.height_px()) {
+  const PictureHeader header = reader.Open(file);
+  if (header.width_px != camera.width_px() || header.height_px != camera.height_px()) {
     throw Error(ErrorKind::kFile,
                 fmt::format("{}: mask '{}' is {} x {} px, but the rig says {} x {}; use masks of the "
                             "calibrated size",
-                            who, file.string(), mask.width_px(), mask.height_px(), camera.width_px(),
+                            who, file.string(), header.width_px, header.height_px, camera.width_px(),
                             camera.height_px()));
   }
-  return mask;
+  RequireExactMask(header, file, who);
+  return MaskFromImage(reader.Decode(DecodedAs::kStored, stop));
 }
 
 OpenedCamera OpenMasks(const std::string& location, const core::CameraModel& camera) {
@@ -51,8 +54,10 @@ OpenedCamera OpenMasks(const std::string& location, const core::CameraModel& cam
   }
   std::vector<std::filesystem::path> files = FindImageFiles(location, who);
   const auto count = static_cast<FrameIndex>(files.size());
-  const auto read = [files = std::move(files), camera](FrameIndex index) {
-    return CameraFrame{{}, ReadSizedMask(files[static_cast<std::size_t>(index)], camera)};
+  const auto reader = std::make_shared<ImageReader>(who, cv::Size(camera.width_px(), camera.height_px()));
+  const auto read = [files = std::move(files), reader, camera](FrameIndex index,
+                                                               const std::stop_token& stop) {
+    return CameraFrame{{}, ReadSizedMask(*reader, files[static_cast<std::size_t>(index)], camera, stop)};
   };
   return {location, count, std::nullopt, read};
 }
@@ -65,8 +70,10 @@ OpenedCamera OpenCamera(const CameraSources& sources, const core::CameraModel& c
                 fmt::format("camera '{}': the rig names neither frames nor masks; add one", camera.name()));
   }
   const std::shared_ptr<ImageSource> source = OpenImageSource(sources.frames, camera, stop);
-  const auto read = [source](FrameIndex index) { return CameraFrame{source->Read(index), std::nullopt}; };
-  return {sources.frames, source->frame_count(), source->frame_rate_hz(), read};
+  const auto read = [source](FrameIndex index, const std::stop_token& reading) {
+    return CameraFrame{source->Read(index, reading), std::nullopt};
+  };
+  return {sources.frames, source->frame_count(), source->frame_rate_hz(), read, source};
 }
 
 std::vector<OpenedCamera> OpenAll(const RigFile& rig_file, const std::stop_token& stop) {
@@ -112,6 +119,13 @@ void RequireOneRate(const CameraRate& one, const CameraRate& other) {
                           one.camera, one.frames_hz, other.camera, other.frames_hz));
 }
 
+void AddWarningOf(const ImageSource& source, const std::string& camera, std::vector<std::string>* warnings) {
+  if (const FrameIndex left_out = source.left_out(); left_out > 0) {
+    warnings->push_back(fmt::format("camera '{}': {} damaged live {} left out", camera, left_out,
+                                    left_out == 1 ? "picture was" : "pictures were"));
+  }
+}
+
 RecordedRig::RecordedRig(RigFile rig_file, std::stop_token stop) : rig_file_(std::move(rig_file)) {
   core::Require(rig_file_.sources.size() == rig_file_.rig.cameras.size(),
                 "a rig file has sources for every camera");
@@ -121,6 +135,7 @@ RecordedRig::RecordedRig(RigFile rig_file, std::stop_token stop) : rig_file_(std
   frame_rate_hz_ = CommonFrameRateHz(opened, rig_file_.rig);
   for (OpenedCamera& camera : opened) {
     const auto end = camera.frames ? frame_count() : std::nullopt;
+    sources_.push_back(std::move(camera.source));
     cameras_.push_back(std::make_unique<ReadAhead>(std::move(camera.read), end));
   }
 }
@@ -130,7 +145,7 @@ std::optional<FrameIndex> RecordedRig::frame_count() const {
   return shortest_source_->frames;
 }
 
-FrameSet RecordedRig::Read(FrameIndex index) {
+FrameSet RecordedRig::Read(FrameIndex index, std::stop_token stop) {
   if (index < 0 || (shortest_source_ && index >= shortest_source_->frames)) {
     const std::string why =
         shortest_source_
@@ -143,7 +158,7 @@ FrameSet RecordedRig::Read(FrameIndex index) {
   for (const auto& camera : cameras_) camera->Expect(index);
   FrameSet set{index, static_cast<double>(index) / frame_rate_hz_, {}};
   for (const auto& camera : cameras_) {
-    CapturedFrame captured = camera->Take();
+    CapturedFrame captured = camera->Take(stop);
     if (!shortest_source_ && set.cameras.empty()) {
       if (!first_capture_) first_capture_ = captured.captured_at;
       set.time_s = std::chrono::duration<double>(captured.captured_at - *first_capture_).count();
@@ -151,6 +166,13 @@ FrameSet RecordedRig::Read(FrameIndex index) {
     set.cameras.push_back(std::move(captured.frame));
   }
   return set;
+}
+
+std::vector<std::string> RecordedRig::Warnings() const {
+  std::vector<std::string> warnings;
+  for (std::size_t i = 0; i < sources_.size(); ++i)
+    if (sources_[i] != nullptr) AddWarningOf(*sources_[i], rig_file_.rig.cameras[i].name(), &warnings);
+  return warnings;
 }
 
 std::vector<BackgroundReference> RecordedRig::ReadBackgrounds(const core::Progress& progress,

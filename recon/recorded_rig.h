@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "recon/frame_set.h"
+#include "recon/image_source.h"
 #include "recon/read_ahead.h"
 #include "recon/rig_file.h"
 
@@ -29,6 +30,9 @@ struct CameraRate {
 // Throws: Error{kFormat} naming both cameras when their rates differ by more than containers round.
 void RequireOneRate(const CameraRate& one, const CameraRate& other);
 
+// Adds how many damaged pictures of a live camera were left out, if any were.
+void AddWarningOf(const ImageSource& source, const std::string& camera, std::vector<std::string>* warnings);
+
 // Frame i of a set is frame i of every camera's source. Times come from the videos' frame rate, 25 Hz if none
 // says; from the clock for live cameras, of which the latest pictures make up a set. A camera with ready
 // masks brings those and no picture. Thread: one reader; a capture thread a camera reads a few frames ahead.
@@ -44,7 +48,8 @@ class RecordedRig : public FrameSetSource {
   [[nodiscard]] const std::optional<ShortestSource>& shortest_source() const { return shortest_source_; }
   [[nodiscard]] double frame_rate_hz() const { return frame_rate_hz_; }
 
-  [[nodiscard]] FrameSet Read(core::FrameIndex index) override;
+  [[nodiscard]] FrameSet Read(core::FrameIndex index, std::stop_token stop = {}) override;
+  [[nodiscard]] std::vector<std::string> Warnings() const override;
   [[nodiscard]] std::vector<BackgroundReference> ReadBackgrounds(const core::Progress& progress,
                                                                  std::stop_token stop) override;
 
@@ -53,6 +58,7 @@ class RecordedRig : public FrameSetSource {
   std::optional<ShortestSource> shortest_source_;
   double frame_rate_hz_ = 25.0;
   std::optional<std::chrono::steady_clock::time_point> first_capture_;  // of live cameras
+  std::vector<std::shared_ptr<const ImageSource>> sources_;  // one a camera; null for one with ready masks
   std::vector<std::unique_ptr<ReadAhead>> cameras_;
 };
 

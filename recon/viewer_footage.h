@@ -5,9 +5,11 @@
 #include <optional>
 #include <stop_token>
 #include <string>
+#include <vector>
 
 #include "core/camera_model.h"
 #include "recon/frame_set.h"
+#include "recon/image_source.h"
 #include "recon/read_ahead.h"
 #include "recon/recorded_rig.h"
 
@@ -27,7 +29,8 @@ class ViewerFootage : public FrameSetSource {
   // Of the viewer camera; nothing for a live one.
   [[nodiscard]] std::optional<core::FrameIndex> viewer_frame_count() const { return frames_; }
 
-  [[nodiscard]] FrameSet Read(core::FrameIndex index) override;
+  [[nodiscard]] FrameSet Read(core::FrameIndex index, std::stop_token stop = {}) override;
+  [[nodiscard]] std::vector<std::string> Warnings() const override;
   [[nodiscard]] std::vector<BackgroundReference> ReadBackgrounds(const core::Progress& progress,
                                                                  std::stop_token stop) override;
 
@@ -35,6 +38,7 @@ class ViewerFootage : public FrameSetSource {
   std::shared_ptr<RecordedRig> rig_;
   std::shared_ptr<const core::CameraModel> camera_;
   std::optional<core::FrameIndex> frames_;
+  std::shared_ptr<ImageSource> source_;
   std::unique_ptr<ReadAhead> pictures_;
 };
 

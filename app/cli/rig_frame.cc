@@ -19,7 +19,7 @@ RigFrame LoadRigFrame(const RigFrameOptions& options, const CommandContext& cont
   recon::RecordedRig source(recon::ReadRigFile(options.rig_file), context.stop);
   RigFrame result{std::make_shared<const core::Rig>(source.rig()), {}, {}};
   // The frame first: it is the cheaper one to find missing.
-  const recon::FrameSet frames = source.Read(options.frame);
+  const recon::FrameSet frames = source.Read(options.frame, context.stop);
   result.masks =
       recon::FrameSegmenter(source.ReadBackgrounds(context.progress, context.stop), {}, source.rig())
           .SegmentSoft(frames);

@@ -1,9 +1,13 @@
 // elbowroom trial run TRIAL.toml --session S.db: a trial on recorded footage.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <filesystem>
+#include <iterator>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "app/cli/command.h"
 #include "app/cli/trial_summary.h"
@@ -47,8 +51,10 @@ CommandResult RunHeadless(const TrialRunOptions& options, const CommandContext& 
   trial.on_recording = [&](const sessions::RecordingNews& news) { log.Hear(news); };
   control::TrialControls controls;
   CommandResult result = SummaryOf(control::RunTrial(setup, trial, controls, context.stop), setup.layout);
-  result.json["warnings"] = setup.warnings;
-  for (const std::string& warning : setup.warnings) result.text += "\nwarning: " + warning;
+  std::vector<std::string> warnings = setup.warnings;
+  std::ranges::copy(setup.source->Warnings(), std::back_inserter(warnings));
+  result.json["warnings"] = warnings;
+  for (const std::string& warning : warnings) result.text += "\nwarning: " + warning;
   log.AddTo(&result);
   return result;
 }

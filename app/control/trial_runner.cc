@@ -97,7 +97,7 @@ class Recording {
     tracker_.emplace(setup_.info, pipeline_->part_trees());
     const core::FrameIndex first = options_.frames.first;
     for (core::FrameIndex frame = first; frame < end && !stop.stop_requested(); ++frame) {
-      recon::FrameSet frames = setup_.source->Read(frame);
+      recon::FrameSet frames = setup_.source->Read(frame, stop);
       if (options_.at_capture_rate) pace_.WaitFor(frames.time_s, stop);
       ApplyChanges(frame, frames.time_s);
       const Clock::time_point begin = Clock::now();
@@ -113,8 +113,10 @@ class Recording {
 
   TrialOutcome Finish(const std::string& end_note) {
     outcome_.end_note = end_note;
-    if (!end_note.empty())
-      writer_.Append(core::SessionEvent{last_frame_, last_time_s_, core::Note{end_note}});
+    std::vector<std::string> notes = setup_.source->Warnings();
+    if (!end_note.empty()) notes.push_back(end_note);
+    for (const std::string& note : notes)
+      writer_.Append(core::SessionEvent{last_frame_, last_time_s_, core::Note{note}});
     core::SessionOutcome outcome = tracker_ ? tracker_->Outcome() : core::SessionOutcome();
     outcome_.episodes = outcome.episodes;
     outcome_.near_misses = outcome.near_misses;

@@ -84,7 +84,7 @@ cv::Mat SyntheticRig::Capture(core::CameraIndex camera, core::FrameIndex noise_f
   return views_[camera].Render(solids, exposure);
 }
 
-FrameSet SyntheticRig::Read(core::FrameIndex index) {
+FrameSet SyntheticRig::Read(core::FrameIndex index, std::stop_token /*stop*/) {
   if (index < 0 || (options_.frame_count && index >= *options_.frame_count)) {
     throw core::Error(
         core::ErrorKind::kRange,

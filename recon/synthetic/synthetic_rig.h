@@ -44,7 +44,7 @@ class SyntheticRig : public FrameSetSource {
 
   [[nodiscard]] const core::Rig& rig() const override { return rig_; }
   [[nodiscard]] std::optional<core::FrameIndex> frame_count() const override { return options_.frame_count; }
-  [[nodiscard]] FrameSet Read(core::FrameIndex index) override;
+  [[nodiscard]] FrameSet Read(core::FrameIndex index, std::stop_token stop = {}) override;
   [[nodiscard]] std::vector<BackgroundReference> ReadBackgrounds(const core::Progress& progress,
                                                                  std::stop_token stop) override;
 

@@ -20,12 +20,12 @@ class CopiedProgram : public testing::Test {
  protected:
   void SetUp() override { fs::copy_file(ELBOWROOM_PROGRAM, program_); }
 
-  // Returns how many there are.
-  int CopyModules() const {
+  // The files whose names begin so. Returns how many there are.
+  int CopyThose(const std::string& beginning) const {
     int modules = 0;
     for (const fs::directory_entry& entry :
          fs::directory_iterator(fs::path(ELBOWROOM_PROGRAM).parent_path())) {
-      if (!entry.path().filename().string().starts_with("libelbowroom_")) continue;
+      if (!entry.path().filename().string().starts_with(beginning)) continue;
       fs::copy_file(entry.path(), folder_ / entry.path().filename());
       ++modules;
     }
@@ -48,7 +48,8 @@ class CopiedProgram : public testing::Test {
 };
 
 TEST_F(CopiedProgram, WorksWithItsModulesBesideIt) {
-  EXPECT_EQ(CopyModules(), 3);
+  EXPECT_EQ(CopyThose("libelbowroom_"), 3);
+  EXPECT_EQ(CopyThose("elbowroom_decoder-"), 1);
   EXPECT_EQ(Segment().err, "");
   EXPECT_FALSE(fs::is_empty(folder_ / "masks"));
   const ProgramRun import = ImportStep();
@@ -63,7 +64,10 @@ TEST_F(CopiedProgram, NeedsNoModuleToStart) {
 }
 
 TEST_F(CopiedProgram, NamesAModuleThatIsMissing) {
-  for (const auto& [run, module] : {std::pair(Segment(), "libelbowroom_picture_codecs-"),
+  const ProgramRun without_decoder = Segment();
+  EXPECT_EQ(CopyThose("elbowroom_decoder-"), 1);
+  for (const auto& [run, module] : {std::pair(without_decoder, "elbowroom_decoder-"),
+                                    std::pair(Segment(), "libelbowroom_picture_codecs-"),
                                     std::pair(ImportStep(), "libelbowroom_brep_reader-")}) {
     EXPECT_EQ(run.exit_status, 1);
     EXPECT_NE(run.err.find(module), std::string::npos) << run.err;

@@ -1,0 +1,23 @@
+// Whom and what the messages about a camera's source are about.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "core/error.h"
+#include "core/ids.h"
+
+namespace elbowroom::recon {
+
+struct SourceSubject {
+  std::string who;  // "camera 'cam01'"
+  std::string location;
+  int width_px = 0;  // as the rig says
+  int height_px = 0;
+
+  [[noreturn]] void Fail(const std::string& what, core::ErrorKind kind = core::ErrorKind::kFile) const;
+  void RequireSize(std::int64_t found_width_px, std::int64_t found_height_px, core::FrameIndex index) const;
+  void RequireInRange(core::FrameIndex index, core::FrameIndex count) const;
+};
+
+}  // namespace elbowroom::recon
