@@ -56,20 +56,29 @@ TEST(CutOffSession, OpensOnAReadOnlyMedium) {
 // What records into `session`; the files that it takes are in `files`.
 struct Trial {
   const char* name;
+  bool is_live = false;  // it goes on until it is stopped
   std::function<std::vector<std::string>(const fs::path& files, const fs::path& session)> words;
 };
 
-const Trial kDemo = {"demo", [](const fs::path& /*files*/, const fs::path& session) {
+const Trial kDemo = {"demo", false, [](const fs::path& /*files*/, const fs::path& session) {
                        return std::vector<std::string>{"--json", "demo", "--headless", "--out",
                                                        session.parent_path().string()};
                      }};
 constexpr int kRecordedFrames = 3000;
-const Trial kRecorded = {"recorded", [](const fs::path& files, const fs::path& session) {
+const Trial kRecorded = {"recorded", false, [](const fs::path& files, const fs::path& session) {
                            const fs::path trial = WriteMaskTrial(files, kRecordedFrames);
                            return std::vector<std::string>{"--json",        "trial",      "run",
                                                            trial.string(),  "--headless", "--session",
                                                            session.string()};
                          }};
+
+Trial LiveFrom(const LiveTrialFiles& files) {
+  return {"live", true, [&](const fs::path& /*files*/, const fs::path& session) {
+            return std::vector<std::string>{
+                "--json",     "trial",     "run",           files.trial().string(),
+                "--headless", "--session", session.string()};
+          }};
+}
 
 // What becomes of the session's place once some frames are on the disk.
 struct Disturbance {
@@ -87,11 +96,19 @@ Disturbance LockedFor(milliseconds time) {
           }};
 }
 
-const Disturbance kFileRemoved = {"file removed", [](const fs::path& session, int) { fs::remove(session); }};
-const Disturbance kLogRemoved = {"-wal removed",
-                                 [](const fs::path& session, int) { fs::remove(session.string() + "-wal"); }};
-const Disturbance kFolderRemoved = {
-    "folder removed", [](const fs::path& session, int) { fs::remove_all(session.parent_path()); }};
+// What is removed is back before anything else is asked for.
+Disturbance Removed(const char* name, const std::function<void(const fs::path& session)>& remove) {
+  return {name, [remove](const fs::path& session, int process) {
+            remove(session);
+            (void)WaitForFrames(session, 60, process);
+          }};
+}
+const Disturbance kFileRemoved =
+    Removed("file removed", [](const fs::path& session) { fs::remove(session); });
+const Disturbance kLogRemoved =
+    Removed("-wal removed", [](const fs::path& session) { fs::remove(session.string() + "-wal"); });
+const Disturbance kFolderRemoved =
+    Removed("folder removed", [](const fs::path& session) { fs::remove_all(session.parent_path()); });
 
 // Runs the trial, disturbs it, and says in a line what came of it.
 ProgramRun RunDisturbed(const Trial& trial, const Disturbance& disturbance, const fs::path& files,
@@ -101,6 +118,7 @@ ProgramRun RunDisturbed(const Trial& trial, const Disturbance& disturbance, cons
   options.while_running = [&](int process) {
     *frames_before = WaitForFrames(session, kFramesBefore, process);
     disturbance.act(session, process);
+    if (trial.is_live) kill(process, SIGINT);
   };
   const ProgramRun run = test_support::RunProgram(ELBOWROOM_PROGRAM, trial.words(files, session), options);
   std::string told = run.exit_status == 0 ? "" : run.err.substr(0, run.err.find('\n'));
@@ -137,6 +155,19 @@ TEST(DisturbedTrial, GoesOnWhereAnotherProgramLocksItsSession) {
   for (const int seconds : {2, 7, 30}) {
     ExpectTheTrialGoesOn(kDemo, LockedFor(milliseconds(1000 * seconds)));
     ExpectTheTrialGoesOn(kRecorded, LockedFor(milliseconds(1000 * seconds)));
+  }
+}
+
+TEST(DisturbedTrial, GoesOnWhileItsCamerasAreLive) {
+  std::vector<Disturbance> disturbances = {LockedFor(milliseconds(4000))};
+  if (test_support::SoakScale() > 1) {
+    disturbances.insert(disturbances.end(), {LockedFor(milliseconds(7000)), LockedFor(milliseconds(30'000)),
+                                             kFileRemoved, kLogRemoved, kFolderRemoved});
+  }
+  for (const Disturbance& disturbance : disturbances) {
+    const TemporaryFolder folder;
+    const LiveTrialFiles files(folder.path());
+    ExpectTheTrialGoesOn(LiveFrom(files), disturbance);
   }
 }
 

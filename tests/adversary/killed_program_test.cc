@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
+#include <array>
 #include <chrono>
 #include <functional>
 #include <iostream>
@@ -25,7 +26,7 @@ using test_support::ProgramRun;
 using test_support::TemporaryFolder;
 
 // ./dev soak's scale of 20 makes 200 in all.
-constexpr int kKillsAScale = 10, kKillsInASmokeTest = 3;
+constexpr int kKillsAScale = 10, kKillsInASmokeTest = 4;
 
 struct Victim {
   const char* name;
@@ -79,7 +80,9 @@ TEST(KilledProgram, LeavesEveryFrameThatWasOnTheDisk) {
   for (int i = 0; i < kills && !HasFailure(); ++i) {
     const TemporaryFolder folder;
     const fs::path session = folder / "session.db";
-    const Victim& victim = Victims()[static_cast<std::size_t>(i) % Victims().size()];
+    // Trials are quick, and as good as the others: three of five.
+    constexpr std::array<std::size_t, 5> kTurns = {0, 1, 0, 2, 0};
+    const Victim& victim = Victims()[kTurns[static_cast<std::size_t>(i) % kTurns.size()]];
     std::int64_t frames_before = 0;
     SCOPED_TRACE(std::string(victim.name) + ", kill " + std::to_string(i));
     (void)RunAndKill(victim, session, SIGKILL, random, &frames_before);
