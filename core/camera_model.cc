@@ -9,7 +9,6 @@
 #include <cstdint>
 
 #include "core/error.h"
-#include "core/file_limits.h"
 #include "core/lens.h"
 
 namespace elbowroom::core {
@@ -56,8 +55,6 @@ void ValidateCalibration(const CameraCalibration& c) {
         "the pose again");
   }
   if (!c.cam_from_world.translation_mm.allFinite()) fail("translation_cam_from_world_mm is not finite");
-  if (c.cam_from_world.translation_mm.cwiseAbs().maxCoeff() > kLongestLengthMm)
-    fail(fmt::format("translation_cam_from_world_mm is beyond {} mm; check its unit", kLongestLengthMm));
 }
 
 // Itself where rounding alone keeps it from being one.

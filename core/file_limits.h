@@ -5,9 +5,8 @@
 
 namespace elbowroom::core {
 
-// Ten kilometres: a longer length means nothing on a table, and the sums that follow from it lose their
-// digits.
-inline constexpr double kLongestLengthMm = 1e7;
+// A thousand kilometres: nothing on a table is longer.
+inline constexpr double kLongestLengthMm = 1e9;
 
 // A camera's number in a hull is a byte.
 inline constexpr std::size_t kMostCameras = 255;

@@ -21,11 +21,6 @@ void Rig::Validate() const {
         ErrorKind::kRange,
         who + ": workspace_mm must be [x0,y0,z0,x1,y1,z1] with x0 < x1, y0 < y1, z0 < z1, all finite");
   }
-  if (low.minCoeff() < -kLongestLengthMm || high.maxCoeff() > kLongestLengthMm) {
-    throw Error(ErrorKind::kRange, fmt::format("{}: workspace_mm reaches more than {} mm from the origin; "
-                                               "check its unit",
-                                               who, kLongestLengthMm));
-  }
 }
 
 }  // namespace elbowroom::core

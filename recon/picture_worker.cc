@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <mutex>
 #include <thread>
 
@@ -94,8 +95,13 @@ PictureWorker::PictureWorker(const WorkerNeeds& needs)
   void* memory = has_memory ? ::mmap(nullptr, static_cast<std::size_t>(bytes), PROT_READ | PROT_WRITE,
                                      MAP_SHARED, memory_file_.number(), 0)
                             : MAP_FAILED;
-  if (memory == MAP_FAILED)
-    throw Error(ErrorKind::kFile, "there is no memory to read pictures into; close other programs");
+  if (memory == MAP_FAILED) {
+    // The limit on files holds for those in memory, too.
+    throw Error(ErrorKind::kFile,
+                errno == EFBIG
+                    ? "the limit on the size of files (ulimit -f) is too small to read pictures; raise it"
+                    : "there is no memory to read pictures into; close other programs");
+  }
   memory_ = static_cast<std::byte*>(memory);
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string_view>
@@ -63,6 +64,19 @@ void ReadLens(const YamlSection& section, core::CameraCalibration* calibration) 
   calibration->distortion_coefficients = section.Numbers("distortion_coefficients", 1, 0, "a 1 x N matrix");
 }
 
+// `count` lengths, each within what a file may say.
+std::vector<double> Lengths(const YamlSection& section, const char* key, int rows, std::size_t count,
+                            const char* shape, ErrorKind kind) {
+  std::vector<double> lengths_mm = section.Numbers(key, rows, count, shape);
+  for (const double length_mm : lengths_mm) {
+    if (std::abs(length_mm) > core::kLongestLengthMm)
+      section.Fail(fmt::format("{} holds {}, which is beyond {} mm; check its unit", key, length_mm,
+                               core::kLongestLengthMm),
+                   kind);
+  }
+  return lengths_mm;
+}
+
 // A camera without a lens needs no keys that describe one.
 core::CameraModel ReadCamera(const YamlSection& section, const std::string& name, bool has_lens) {
   core::CameraCalibration calibration;
@@ -72,8 +86,8 @@ core::CameraModel ReadCamera(const YamlSection& section, const std::string& name
   calibration.camera_matrix = Matrix3(section, "camera_matrix");
   if (has_lens) ReadLens(section, &calibration);
   calibration.cam_from_world.rotation = Matrix3(section, "rotation_cam_from_world");
-  const std::vector<double> t =
-      section.Numbers("translation_cam_from_world_mm", 3, 3, "a 3 x 1 matrix in millimetres");
+  const std::vector<double> t = Lengths(section, "translation_cam_from_world_mm", 3, 3,
+                                        "a 3 x 1 matrix in millimetres", ErrorKind::kCamera);
   calibration.cam_from_world.translation_mm = {t[0], t[1], t[2]};
   try {
     return core::CameraModel(std::move(calibration));
@@ -84,7 +98,7 @@ core::CameraModel ReadCamera(const YamlSection& section, const std::string& name
 
 Eigen::AlignedBox3d ReadWorkspace(const YamlSection& section) {
   constexpr const char* kShape = "[x0,y0,z0,x1,y1,z1] in millimetres";
-  const std::vector<double> n = section.Numbers("workspace_mm", 0, 6, kShape);
+  const std::vector<double> n = Lengths(section, "workspace_mm", 0, 6, kShape, ErrorKind::kRange);
   return {Eigen::Vector3d(n[0], n[1], n[2]), Eigen::Vector3d(n[3], n[4], n[5])};
 }
 

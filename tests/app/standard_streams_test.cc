@@ -85,9 +85,11 @@ TEST_F(StandardStreams, AllClosedIsStillAnEndInOrder) {
 TEST_F(StandardStreams, AFileBeyondTheLimitIsOneLineAndLeavesNothing) {
   const fs::path out = folder_ / "out";
   fs::create_directory(out);
+  ExpectOneLine(InShell("ulimit -f 0; exec \"$@\"", {"layout", "new", (out / "new.toml").string()}),
+                "new.toml");
   ExpectOneLine(InShell("ulimit -f 8; exec \"$@\"", {"hull", (folder_ / "rig.yml").string(), "--frame", "0",
                                                      "--edge", "5", "--out", (out / "hull.ply").string()}),
-                "hull.ply");
+                "ulimit -f");
   EXPECT_TRUE(fs::is_empty(out));
   const ProgramRun trial = InShell("ulimit -f 8; exec \"$@\"", TrialInto(folder_ / "limited.db"));
   EXPECT_EQ(trial.exit_status, 1);
