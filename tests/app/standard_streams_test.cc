@@ -85,8 +85,9 @@ TEST_F(StandardStreams, AllClosedIsStillAnEndInOrder) {
 TEST_F(StandardStreams, AFileBeyondTheLimitIsOneLineAndLeavesNothing) {
   const fs::path out = folder_ / "out";
   fs::create_directory(out);
-  ExpectOneLine(InShell("ulimit -f 0; exec \"$@\"", {"layout", "new", (out / "new.toml").string()}),
-                "new.toml");
+  ExpectOneLine(
+      InShell("ulimit -f 0; exec \"$@\"", {"layout", "new", (out / "new.toml").string(), "--unit", "in"}),
+      "new.toml");
   ExpectOneLine(InShell("ulimit -f 8; exec \"$@\"", {"hull", (folder_ / "rig.yml").string(), "--frame", "0",
                                                      "--edge", "5", "--out", (out / "hull.ply").string()}),
                 "ulimit -f");
