@@ -8,8 +8,8 @@
 namespace elbowroom::sessions {
 
 // Makes the connection one that only reads, in defensive mode, without memory-mapped pages, and with no value
-// longer than the file. The schema stays trusted: its own CHECKs call JSON functions, which SQLite would leave
-// out of its integrity check otherwise; RequireTablesOfSchema() has seen to it before.
+// longer than the file. The schema stays trusted: its own CHECKs call JSON functions, which SQLite would
+// leave out of its integrity check otherwise; RequireTablesOfSchema() has seen to it before.
 void DistrustFile(Database& database);
 
 // All of the file is looked at once: SQLite's own integrity check, references between rows, and that each

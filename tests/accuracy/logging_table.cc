@@ -84,7 +84,8 @@ struct Cost {
 };
 
 // The demo's pictures, again and again; paced: at the cameras' rate, else as fast as it goes.
-Cost MeasureCost(const control::TrialSetup& setup, const std::vector<recon::FrameSet>& pictures, bool is_paced) {
+Cost MeasureCost(const control::TrialSetup& setup, const std::vector<recon::FrameSet>& pictures,
+                 bool is_paced) {
   const test_support::TemporaryFolder folder;
   control::FramePipeline pipeline(setup.source->rig(), setup.layout, setup.source->ReadBackgrounds({}, {}),
                                   setup.segmentation, control::ReviewOptionsOf(setup.info));
@@ -107,7 +108,8 @@ Cost MeasureCost(const control::TrialSetup& setup, const std::vector<recon::Fram
       due += std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1.0 / kFrameRateHz));
       if (is_paced) std::this_thread::sleep_until(due);
       const Clock::time_point begin = Clock::now();
-      const control::SharedFrameResult result = pipeline.Process(std::move(next), setup.layout.InitialSpacings());
+      const control::SharedFrameResult result =
+          pipeline.Process(std::move(next), setup.layout.InitialSpacings());
       if (is_logged) {
         writer.Append(core::FrameRecord{result->frame, result->time_s, result->masks, result->spacing_mm,
                                         result->contacts, result->rest_from_parts});
@@ -152,9 +154,9 @@ void MeasureLogging(const std::filesystem::path& docs) {
     fmt::print(stderr, "logging: {}\n", what);
     table.rows.push_back(RowOf(what, MeasureCost(setup, pictures, is_paced)));
   }
-  reporting::WriteSection(docs / "durability.md", "logging",
-                          reporting::ToMarkdown(table) + "\n" +
-                              reporting::ToLine(reporting::ThisMachine(docs / "..")));
+  reporting::WriteSection(
+      docs / "durability.md", "logging",
+      reporting::ToMarkdown(table) + "\n" + reporting::ToLine(reporting::ThisMachine(docs / "..")));
 }
 
 }  // namespace elbowroom::accuracy
