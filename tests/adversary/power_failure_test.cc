@@ -40,6 +40,9 @@ std::vector<DiskOperation> RecordOnSimulatedDisk(const fs::path& path, const Tri
     disk.Acknowledge(0);
     for (core::FrameIndex i = 0; i < trial.frames; ++i) {
       writer.Append(tests::SampleFrame(header, i, kFrameSeed));
+      // A trial that waits for the disk now and then, so that there are many commits to lose.
+      constexpr core::FrameIndex kWaitAfter = 7;
+      while (i % kWaitAfter == 0 && writer.frames_committed() <= i) std::this_thread::yield();
       disk.Acknowledge(writer.frames_committed());
     }
     if (trial.is_finished) {
@@ -103,12 +106,13 @@ TEST(PowerFailure, LosesNothingThatWasAcknowledged) {
   std::mt19937_64 random(77);
   const int failures = kFailuresAScale * test_support::SoakScale();
   constexpr int kFailuresATrial = 25;
-  for (int done = 0; done < failures && !HasFailure(); done += kFailuresATrial) {
+  int done = 0;
+  for (; done < failures && !HasFailure(); done += kFailuresATrial) {
     const Trial trial{.frames = 1 + static_cast<core::FrameIndex>(random() % 200),
                       .is_finished = random() % 2 == 0};
     PlayPowerFailures(trial, kFailuresATrial, random);
   }
-  std::cout << failures << " power failures played\n";
+  std::cout << done << " power failures played\n";
 }
 
 // Long enough for several checkpoints.
