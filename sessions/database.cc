@@ -81,8 +81,22 @@ void CreateFileExclusively(const fs::path& path) {
                           path.string(), std::strerror(reason)));
 }
 
+// SQLite opens what bears these names, and would wait for whoever feeds a pipe.
+void RequireFilesBeside(const fs::path& path) {
+  for (const std::string_view suffix : kJournalSuffixes) {
+    const fs::path beside = WithSuffix(path, suffix);
+    std::error_code ignored;
+    if (!fs::is_other(beside, ignored)) continue;
+    throw Error(ErrorKind::kFile,
+                fmt::format("'{}' is a pipe or a device, but lies where a session keeps its "
+                            "log; move it away",
+                            beside.string()));
+  }
+}
+
 // SQLite has names of its own, such as ":memory:" and "file:...": an absolute path is none of them.
 std::unique_ptr<SQLite::Database> Connect(const fs::path& path, int flags, int wait_ms) {
+  RequireFilesBeside(path);
   return std::make_unique<SQLite::Database>(fs::absolute(path).string(), flags, wait_ms);
 }
 

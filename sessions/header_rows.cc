@@ -12,6 +12,8 @@
 namespace elbowroom::sessions {
 namespace {
 
+constexpr const char* kRecordingIdKey = "recording.id";
+
 void InsertSessionRow(Database& database, const core::SessionHeader& header) {
   Statement insert(
       database,
@@ -87,6 +89,7 @@ core::SessionHeader ReadHeader(Database& database) {
   header.layout = ReadLayout(database);
   ReadSessionRow(database, header);
   header.settings = ReadTexts(database, "setting");
+  header.settings.erase(kRecordingIdKey);
   header.versions = ReadTexts(database, "version");
   Statement tools(database, "SELECT name FROM tool ORDER BY tool_index");
   while (tools.Next()) header.trial.tools.push_back(tools.Text(0));
@@ -94,6 +97,22 @@ core::SessionHeader ReadHeader(Database& database) {
   if (header.rig.cameras.empty())
     FailAsDamaged(fmt::format("session '{}'", database.path().string()), "it has no camera");
   return header;
+}
+
+std::string MakeRecordingId(Database& database) {
+  Statement row(database, "SELECT lower(hex(randomblob(16)))");
+  core::Require(row.Next(), "SQLite gives a random number");
+  return row.Text(0);
+}
+
+void InsertRecordingId(Database& database, const std::string& id) {
+  Statement(database, "INSERT INTO setting VALUES (?, ?)").With(std::string_view(kRecordingIdKey), id).Run();
+}
+
+std::optional<std::string> ReadRecordingId(Database& database) {
+  Statement row(database, "SELECT value FROM setting WHERE key = ?");
+  if (!row.With(std::string_view(kRecordingIdKey)).Next()) return std::nullopt;
+  return row.Text(0);
 }
 
 }  // namespace elbowroom::sessions

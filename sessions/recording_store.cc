@@ -36,6 +36,7 @@ Database CreateSession(const fs::path& path, const core::SessionHeader& header) 
     Transaction transaction(database);
     Migrate(database);
     InsertHeader(database, header);
+    InsertRecordingId(database, MakeRecordingId(database));
     transaction.Commit();
     database.RememberPlace();
   } catch (...) {
@@ -78,6 +79,7 @@ bool PutInPlace(const fs::path& part, const fs::path& target, const Database& op
 RecordingStore::RecordingStore(const fs::path& path, const core::SessionHeader& header)
     : header_(header), path_(path) {
   session_.emplace(CreateSession(path, header));
+  recording_id_ = ReadRecordingId(session_->database).value();
 }
 
 void RecordingStore::Write(std::span<const RecordingEntry> entries) {
@@ -130,7 +132,7 @@ Database RecordingStore::MadeAgain() {
   return Database::OpenToWrite(target);
 }
 
-void RecordingStore::SpillBeside() { spill_.emplace(CreateSpill(path_, header_)); }
+void RecordingStore::SpillBeside() { spill_.emplace(CreateSpill(path_, header_, recording_id_)); }
 
 void RecordingStore::ReturnFromSpill() {
   { const Transaction free_to_write(session_->database); }

@@ -57,6 +57,7 @@ class RecordingStore {
 
   const core::SessionHeader& header_;
   std::filesystem::path path_;
+  std::string recording_id_;
   std::optional<Place> session_, spill_;
 };
 

@@ -11,23 +11,16 @@
 namespace elbowroom::sessions {
 namespace {
 
-// A file that isn't what this program writes must not change one that is.
-void RequireTablesOfASession(const std::filesystem::path& path) {
-  Database database = Database::OpenReadOnly(path);
-  RequireReadableSession(database);
-  RequireTablesOfSchema(database, database.ReadInteger("PRAGMA user_version"));
-}
-
-// A program that was killed while it made the spill leaves one without tables.
-bool HasTables(const std::filesystem::path& spill) {
-  return Database::OpenReadOnly(spill).ReadInteger("SELECT count(*) FROM sqlite_schema") > 0;
+// Whether frames of this session may lie in a spill: one that is complete has all of them.
+bool MayHaveSpilled(Database& session) {
+  if (session.ReadInteger("PRAGMA user_version") == 0) return false;
+  RequireReadableSession(session);
+  RequireTablesOfSchema(session, session.ReadInteger("PRAGMA user_version"));
+  return session.ReadInteger("SELECT count(*) FROM session WHERE status = 'recording'") > 0 &&
+         IsOwnSpill(session);
 }
 
 void MergeSpillOf(const std::filesystem::path& path) {
-  const std::filesystem::path spill = WithSuffix(path, kSpillSuffix);
-  if (!HasTables(spill)) return;
-  RequireTablesOfASession(path);
-  RequireTablesOfASession(spill);
   Database session = Database::OpenToWrite(path);
   MergeSpill(session);
   session.FoldLogIntoFile();
@@ -37,8 +30,10 @@ void MergeSpillOf(const std::filesystem::path& path) {
 
 OpenedSession OpenSession(const std::filesystem::path& path) {
   const bool is_in_use = IsInUse(path);
-  if (is_in_use || !HasSpill(path) || !std::filesystem::is_regular_file(path))
-    return {Database::OpenReadOnly(path), is_in_use};
+  {
+    Database session = Database::OpenReadOnly(path);
+    if (is_in_use || !HasSpill(path) || !MayHaveSpilled(session)) return {std::move(session), is_in_use};
+  }
   try {
     MergeSpillOf(path);
     return {Database::OpenReadOnly(path), false};

@@ -14,7 +14,9 @@ struct OpenedSession {
 
 // What a crash left half done is put right, and a spill joins the session: in the files where nobody uses
 // them and they may be written, else in a private copy. While the session is in use its spill is left alone:
-// the writer merges it. Throws: Error{kFile} when there is no such file; DatabaseError.
+// the writer merges it. Beside a complete session a spill is nobody's business. Throws: Error{kFile} when
+// there is no such file, or what lies at the spill's place isn't this session's; Error{kFormat} where the
+// session is damaged; DatabaseError.
 [[nodiscard]] OpenedSession OpenSession(const std::filesystem::path& path);
 
 }  // namespace elbowroom::sessions

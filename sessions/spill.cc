@@ -1,9 +1,16 @@
 #include "sessions/spill.h"
 
 #include <SQLiteCpp/SQLiteCpp.h>
+#include <fmt/format.h>
 
+#include <fstream>
+#include <string>
+#include <string_view>
+
+#include "core/error.h"
 #include "sessions/header_rows.h"
 #include "sessions/schema.h"
+#include "sessions/schema_check.h"
 #include "sessions/session_files.h"
 #include "sessions/statement.h"
 
@@ -42,13 +49,15 @@ UPDATE main.session SET status = spill.session.status, ended_at_utc = spill.sess
 
 }  // namespace
 
-Database CreateSpill(const std::filesystem::path& session, const core::SessionHeader& header) {
+Database CreateSpill(const std::filesystem::path& session, const core::SessionHeader& header,
+                     const std::string& recording_id) {
   Database spill = Database::Create(WithSuffix(session, kSpillSuffix));
   try {
     spill.Execute("PRAGMA foreign_keys = OFF");
     Transaction transaction(spill);
     Migrate(spill);
     InsertHeader(spill, header);
+    InsertRecordingId(spill, recording_id);
     transaction.Commit();
     spill.RememberPlace();
     return spill;
@@ -60,7 +69,37 @@ Database CreateSpill(const std::filesystem::path& session, const core::SessionHe
 
 bool HasSpill(const std::filesystem::path& session) {
   std::error_code ignored;
-  return std::filesystem::is_regular_file(WithSuffix(session, kSpillSuffix), ignored);
+  return std::filesystem::is_regular_file(
+      std::filesystem::symlink_status(WithSuffix(session, kSpillSuffix), ignored));
+}
+
+bool IsOwnSpill(Database& session) {
+  const std::filesystem::path path = WithSuffix(session.path(), kSpillSuffix);
+  const auto fail = [&](const char* what) {
+    throw core::Error(
+        core::ErrorKind::kFile,
+        fmt::format("'{}' {}, but lies beside a session that was cut off; move it away, then try "
+                    "again",
+                    path.string(), what));
+  };
+  constexpr std::string_view kSqlite("SQLite format 3\0", 16);
+  std::string start(kSqlite.size(), '\0');
+  std::ifstream file(path, std::ios::binary);
+  file.read(start.data(), static_cast<std::streamsize>(start.size()));
+  if (file.gcount() == 0) return false;
+  if (start != kSqlite) fail("is no session");
+  try {
+    Database spill = Database::OpenReadOnly(path);
+    if (spill.ReadInteger("SELECT count(*) FROM sqlite_schema") == 0) return false;
+    RequireReadableSession(spill);
+    RequireTablesOfSchema(spill, spill.ReadInteger("PRAGMA user_version"));
+    const auto id = ReadRecordingId(session), id_of_spill = ReadRecordingId(spill);
+    if (!id || id != id_of_spill) fail("is another session's");
+  } catch (const core::Error& error) {
+    if (error.kind() == core::ErrorKind::kFile) throw;
+    fail("is no whole session");
+  }
+  return true;
 }
 
 void MergeSpill(Database& session) {

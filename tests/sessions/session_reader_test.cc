@@ -2,11 +2,13 @@
 
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <fstream>
 #include <random>
 
 #include "sessions/packing.h"
+#include "sessions/session_writer.h"
 #include "tests/sessions/expect_error.h"
 #include "tests/sessions/sample_session.h"
 #include "tests/support/temporary_folder.h"
@@ -139,6 +141,54 @@ TEST(SessionReader, NamesFrameAndCameraOfLevelsThatDontFitTheirMask) {
     ExpectError([&] { ReadEverything(path); }, ErrorKind::kFormat, path.string());
     ExpectError([&] { ReadEverything(path); }, ErrorKind::kFormat, "frame 0, silhouette of camera 0");
     ExpectError([&] { ReadEverything(path); }, ErrorKind::kFormat, says);
+  }
+}
+
+// --- what may lie beside a session ---
+
+// As a program leaves it that dies after so many frames.
+void WriteCutOff(const std::filesystem::path& path, core::FrameIndex frames) {
+  const core::SessionHeader header = SampleHeader();
+  sessions::SessionWriter writer(path, header);
+  for (core::FrameIndex i = 0; i < frames; ++i) writer.Append(SampleFrame(header, i, 1));
+}
+
+TEST(SessionReader, NeverJoinsASpillOfAnotherSession) {
+  const TemporaryFolder folder;
+  WriteCutOff(folder / "mine.db", 5);
+  WriteCutOff(folder / "mine.db.spill", 9);
+  ExpectError([&] { SessionReader(folder / "mine.db"); }, core::ErrorKind::kFile,
+              "mine.db.spill' is another session's");
+  EXPECT_EQ(SessionReader(folder / "mine.db.spill").frame_count(), 9);
+  std::filesystem::rename(folder / "mine.db.spill", folder / "other.db");
+  EXPECT_EQ(SessionReader(folder / "mine.db").frame_count(), 5);
+}
+
+TEST(SessionReader, ACompleteSessionTakesNothingFromASpill) {
+  const TemporaryFolder folder;
+  WriteSampleSession(folder / "s.db", 5);
+  WriteCutOff(folder / "s.db.spill", 9);
+  EXPECT_EQ(SessionReader(folder / "s.db").frame_count(), 5);
+  EXPECT_TRUE(std::filesystem::exists(folder / "s.db.spill"));
+}
+
+TEST(SessionReader, SaysWhatIsNoSpill) {
+  const TemporaryFolder folder;
+  WriteCutOff(folder / "s.db", 5);
+  std::ofstream(folder / "s.db.spill") << std::string(4096, 'x');
+  ExpectError([&] { SessionReader(folder / "s.db"); }, core::ErrorKind::kFile, "s.db.spill' is no session");
+  std::filesystem::resize_file(folder / "s.db.spill", 0);  // a program was killed while it made it
+  EXPECT_EQ(SessionReader(folder / "s.db").frame_count(), 5);
+}
+
+TEST(SessionReader, DoesntWaitForAPipeInTheJournalsPlace) {
+  const TemporaryFolder folder;
+  for (const char* suffix : {"-journal", "-wal", "-shm"}) {
+    WriteSampleSession(folder / "s.db", 2);
+    ASSERT_EQ(mkfifo((folder / ("s.db" + std::string(suffix))).c_str(), 0600), 0);
+    ExpectError([&] { SessionReader(folder / "s.db"); }, core::ErrorKind::kFile, "is a pipe or a device");
+    for (const auto& entry : std::filesystem::directory_iterator(folder.path()))
+      std::filesystem::remove(entry.path());
   }
 }
 
