@@ -260,20 +260,12 @@ std::int64_t Database::ReadInteger(const std::string& sql) {
   }
 }
 
-Database Database::CopyInMemory() {
-  try {
-    auto copy = std::make_unique<SQLite::Database>(":memory:", SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
-    SQLite::Backup backup(*copy, *connection_);
-    backup.executeStep();
-    return {path_, std::move(copy)};
-  } catch (...) {
-    RethrowAsError(path_);
-  }
-}
+Database Database::CopyInMemory() { return CopyUnder(":memory:"); }
+Database Database::CopyAside() { return CopyUnder(""); }
 
-Database Database::CopyAside() {
+Database Database::CopyUnder(const char* sqlite_name) {
   try {
-    auto copy = std::make_unique<SQLite::Database>("", SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+    auto copy = std::make_unique<SQLite::Database>(sqlite_name, SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
     SQLite::Backup backup(*copy, *connection_);
     backup.executeStep();
     return {path_, std::move(copy)};
@@ -292,7 +284,7 @@ Database Database::InMemory(const fs::path& name) {
 }
 
 void Database::FoldLogIntoFile() {
-  Checkpoint();
+  Execute("PRAGMA wal_checkpoint(TRUNCATE)");
   try {
     connection_->exec("PRAGMA journal_mode = DELETE");
   } catch (const SQLite::Exception& exception) {
@@ -300,8 +292,6 @@ void Database::FoldLogIntoFile() {
   }
   core::SyncFolder(core::FolderOf(path_));
 }
-
-void Database::Checkpoint() { Execute("PRAGMA wal_checkpoint(TRUNCATE)"); }
 
 Database::FileId Database::IdOf(const fs::path& path) {
   struct stat status {};

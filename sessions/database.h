@@ -74,9 +74,6 @@ class Database {
   // program is reading, the log stays until that program closes; nothing is lost either way.
   void FoldLogIntoFile();
 
-  // Moves the log into the file, whose log then begins afresh.
-  void Checkpoint();
-
   // Whether the database, and its log if it has one, are still the files of these names.
   [[nodiscard]] bool IsInPlace() const;
 
@@ -97,6 +94,8 @@ class Database {
     bool operator==(const FileId&) const = default;
   };
   Database(std::filesystem::path path, std::unique_ptr<SQLite::Database> connection);
+  // A name that SQLite knows for a database that is nobody else's.
+  [[nodiscard]] Database CopyUnder(const char* sqlite_name);
   [[nodiscard]] static FileId IdOf(const std::filesystem::path& path);
 
   std::filesystem::path path_;

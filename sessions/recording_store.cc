@@ -105,8 +105,7 @@ void RecordingStore::WriteInto(Place& place, const RecordingEntry& entry) const 
 bool RecordingStore::RestoreIfGone() {
   std::optional<Place>& place = spill_ ? spill_ : session_;
   if (place->database.IsInPlace()) return false;
-  place->frames.reset();
-  Database again = MadeAgain();
+  Database again = MadeAgain();  // until then the old place stays as it is
   place.reset();
   place.emplace(std::move(again));
   if (!spill_) path_ = place->database.path();
