@@ -15,7 +15,10 @@ BitMask::BitMask(int width_px, int height_px) : width_px_(width_px), height_px_(
 
 std::size_t BitMask::CountObjectPixels() const {
   std::size_t count = 0;
-  for (const std::uint64_t word : words_) count += static_cast<std::size_t>(std::popcount(word));
+  // Most words are empty, and not every processor that this is compiled for counts bits.
+  for (const std::uint64_t word : words_) {
+    if (word != 0) count += static_cast<std::size_t>(std::popcount(word));
+  }
   return count;
 }
 

@@ -7,12 +7,16 @@
 
 namespace elbowroom::core {
 
-BitMask BoundaryPixels(const BitMask& mask) {
-  BitMask boundary(mask.width_px(), mask.height_px());
+namespace {
+
+// Calls visit(index of the word, its boundary pixels) for every word that has some, in their order, while it
+// returns true.
+template <typename Visit>
+void VisitBoundary(const BitMask& mask, Visit visit) {
   const std::size_t words = mask.words_per_row();
   const auto height = static_cast<std::size_t>(mask.height_px());
   const std::uint64_t* in = mask.words().data();
-  if (words == 0) return boundary;
+  if (words == 0) return;
   const unsigned top = (static_cast<unsigned>(mask.width_px()) - 1) & 63U;  // of the last word's bits
   const auto shows_object = [&](std::size_t y) {
     std::uint64_t any = 0;
@@ -26,32 +30,48 @@ BitMask BoundaryPixels(const BitMask& mask) {
     const std::uint64_t* row = in + y * words;
     const std::uint64_t* above = y > 0 ? row - words : row;
     const std::uint64_t* below = y + 1 < height ? row + words : row;
-    std::uint64_t* out = boundary.words().data() + y * words;
     for (std::size_t i = 0; i < words; ++i) {
       // The first and the last column are their own neighbours.
       const std::uint64_t before = i > 0 ? row[i - 1] >> 63U : row[0] & 1U;
       const std::uint64_t after = i + 1 < words ? row[i + 1] << 63U : row[i] & (std::uint64_t{1} << top);
       if ((row[i] | above[i] | below[i] | before | after) == 0) continue;  // most words
       const std::uint64_t left = (row[i] << 1U) | before, right = (row[i] >> 1U) | after;
-      out[i] = (row[i] ^ left) | (row[i] ^ right) | (row[i] ^ above[i]) | (row[i] ^ below[i]);
+      std::uint64_t boundary = (row[i] ^ left) | (row[i] ^ right) | (row[i] ^ above[i]) | (row[i] ^ below[i]);
+      // Padding differs from its neighbour where the last pixel is object.
+      if (i + 1 == words) boundary &= (std::uint64_t{2} << top) - 1;
+      if (boundary != 0 && !visit(y * words + i, boundary)) return;
     }
-    // Padding differs from its neighbour where the last pixel is object.
-    if (top < 63U) out[words - 1] &= (std::uint64_t{2} << top) - 1;
   }
+}
+
+}  // namespace
+
+BitMask BoundaryPixels(const BitMask& mask) {
+  BitMask boundary(mask.width_px(), mask.height_px());
+  std::uint64_t* const out = boundary.words().data();
+  VisitBoundary(mask, [&](std::size_t i, std::uint64_t bits) {
+    out[i] = bits;
+    return true;
+  });
   return boundary;
 }
 
 std::optional<std::string_view> SoftMask::BrokenRule() const {
   if (levels.empty()) return std::nullopt;
-  const BitMask boundary = BoundaryPixels(mask);
-  if (levels.size() != boundary.CountObjectPixels()) return "a soft mask has one level a boundary pixel";
-  std::size_t next = 0;
-  for (std::size_t i = 0; i < boundary.words().size(); ++i) {
-    for (std::uint64_t bits = boundary.words()[i]; bits != 0; bits &= bits - 1) {
-      const bool is_object = ((mask.words()[i] >> static_cast<unsigned>(std::countr_zero(bits))) & 1U) != 0;
-      if ((levels[next++] >= 128) != is_object) return "a soft mask's levels agree with its bits";
+  auto level = levels.begin();
+  bool is_short = false;
+  unsigned disagrees = 0;
+  VisitBoundary(mask, [&](std::size_t i, std::uint64_t bits) {
+    const std::uint64_t object = mask.words()[i];
+    for (; bits != 0 && level != levels.end(); bits &= bits - 1, ++level) {
+      // 128 and more is object.
+      disagrees |= (*level >> 7U) ^ static_cast<unsigned>((object >> std::countr_zero(bits)) & 1U);
     }
-  }
+    is_short = bits != 0;
+    return !is_short;
+  });
+  if (is_short || level != levels.end()) return "a soft mask has one level a boundary pixel";
+  if (disagrees != 0) return "a soft mask's levels agree with its bits";
   return std::nullopt;
 }
 

@@ -11,10 +11,12 @@
 #include <cstdio>
 #include <cstring>
 #include <fstream>
+#include <functional>
 #include <string_view>
 #include <utility>
 
 #include "core/file_sync.h"
+#include "core/progress.h"
 #include "sessions/damage.h"
 #include "sessions/private_copy.h"
 #include "sessions/session_files.h"
@@ -112,6 +114,16 @@ std::unique_ptr<SQLite::Database> ConnectToRead(const fs::path& path, int flags)
 // that came back after a power failure would undo the change to a log, and take the log's frames with it.
 void MakeDurable(SQLite::Database& connection) {
   connection.exec("PRAGMA synchronous = EXTRA; PRAGMA journal_mode = WAL; PRAGMA foreign_keys = ON");
+}
+
+// Calls ask() now and then, which may throw.
+void CopyPages(SQLite::Database& from, SQLite::Database& to, const std::function<void()>& ask) {
+  constexpr int kPagesBetweenQuestions = 1000;
+  SQLite::Backup backup(to, from);
+  for (int code = SQLITE_OK; code != SQLITE_DONE; ask()) {
+    code = backup.executeStep(kPagesBetweenQuestions);
+    if (code != SQLITE_OK && code != SQLITE_DONE) throw SQLite::Exception(sqlite3_errstr(code), code);
+  }
 }
 
 // Whether SQLite wanted to write: a rollback, or the index of the log.
@@ -235,7 +247,7 @@ Database Database::CopyTo(const fs::path& path, Database& database) {
     {
       auto copy = Connect(path, SQLite::OPEN_READWRITE, kWriterWaitsMs);
       copy->exec("PRAGMA synchronous = EXTRA");
-      SQLite::Backup(*copy, *database.connection_).executeStep();
+      CopyPages(*database.connection_, *copy, [] {});
     }
     return OpenToWrite(path);
   } catch (...) {
@@ -260,15 +272,25 @@ std::int64_t Database::ReadInteger(const std::string& sql) {
   }
 }
 
-Database Database::CopyInMemory() { return CopyUnder(":memory:"); }
-Database Database::CopyAside() { return CopyUnder(""); }
+Database Database::CopyInMemory(const std::stop_token& stop) { return CopyUnder(":memory:", stop); }
+Database Database::CopyAside(const std::stop_token& stop) { return CopyUnder("", stop); }
 
-Database Database::CopyUnder(const char* sqlite_name) {
+Database Database::CopyUnder(const char* sqlite_name, const std::stop_token& stop) {
   try {
     auto copy = std::make_unique<SQLite::Database>(sqlite_name, SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
-    SQLite::Backup backup(*copy, *connection_);
-    backup.executeStep();
+    CopyPages(*connection_, *copy,
+              [&] { core::ThrowIfStopped(stop, fmt::format("reading session '{}'", path_.string())); });
     return {path_, std::move(copy)};
+  } catch (const SQLite::Exception& exception) {
+    // Only a copy grows.
+    const int code = exception.getErrorCode();
+    if ((code & 0xFF) == SQLITE_FULL || code == SQLITE_IOERR_WRITE) {
+      throw Error(ErrorKind::kFile,
+                  fmt::format("session '{}': the temporary copy that it is checked in can't be "
+                              "written; free some space for temporary files, or set TMPDIR",
+                              path_.string()));
+    }
+    RethrowAsError(path_);
   } catch (...) {
     RethrowAsError(path_);
   }

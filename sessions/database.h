@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <stop_token>
 #include <string>
 
 #include "core/error.h"
@@ -61,11 +62,12 @@ class Database {
   void Execute(const std::string& sql);
   [[nodiscard]] std::int64_t ReadInteger(const std::string& sql);  // first column of the first row
 
-  // A private copy in memory, which can be migrated without touching the file.
-  [[nodiscard]] Database CopyInMemory();
+  // A private copy in memory, which can be migrated without touching the file. Throws: Error{kCancelled},
+  // too.
+  [[nodiscard]] Database CopyInMemory(const std::stop_token& stop = {});
 
   // The same in a temporary file, which SQLite removes: of a file that may be larger than memory.
-  [[nodiscard]] Database CopyAside();
+  [[nodiscard]] Database CopyAside(const std::stop_token& stop = {});
 
   // An empty one, which errors call by that name.
   [[nodiscard]] static Database InMemory(const std::filesystem::path& name);
@@ -95,7 +97,7 @@ class Database {
   };
   Database(std::filesystem::path path, std::unique_ptr<SQLite::Database> connection);
   // A name that SQLite knows for a database that is nobody else's.
-  [[nodiscard]] Database CopyUnder(const char* sqlite_name);
+  [[nodiscard]] Database CopyUnder(const char* sqlite_name, const std::stop_token& stop);
   [[nodiscard]] static FileId IdOf(const std::filesystem::path& path);
 
   std::filesystem::path path_;

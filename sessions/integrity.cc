@@ -8,6 +8,7 @@
 #include <string>
 
 #include "sessions/damage.h"
+#include "sessions/query_limit.h"
 #include "sessions/schema_check.h"
 #include "sessions/statement.h"
 
@@ -89,13 +90,14 @@ void DistrustFile(Database& database) {
   sqlite3_limit(connection, SQLITE_LIMIT_WORKER_THREADS, 0);
 }
 
-void RequireIntegrity(Database& database, std::int64_t schema) {
+void RequireIntegrity(Database& database, std::int64_t schema, const std::stop_token& stop) {
   const ReadSnapshot snapshot(database);
   RequireOk(database, "PRAGMA integrity_check(1)");
   // A connection that can't write has no CHECKs (SQLite's sqlite3AddCheckConstraint): a private copy has
   // them.
-  Database copy = database.CopyAside();
-  RequireOk(copy, "PRAGMA quick_check(1)");
+  Database copy = database.CopyAside(stop);
+  const QueryLimit limit(copy, stop);
+  limit.Guarded([&] { RequireOk(copy, "PRAGMA quick_check(1)"); });
   RequireReferences(database, schema);
   RequireWholeFrames(database);
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <stop_token>
 
 #include "sessions/database.h"
 
@@ -15,7 +16,8 @@ void DistrustFile(Database& database);
 // All of the file is looked at once: SQLite's own integrity check, references between rows, and that each
 // frame has its spacings, silhouettes and parts. In one snapshot, so that a recording may go on meanwhile.
 // The tables are those of `schema` (RequireTablesOfSchema).
-// Throws: Error{kFormat} naming the first damage.
-void RequireIntegrity(Database& database, std::int64_t schema);
+// Throws: Error{kFormat} naming the first damage; Error{kFile} where there is no room for the temporary copy
+// that this takes; Error{kCancelled}.
+void RequireIntegrity(Database& database, std::int64_t schema, const std::stop_token& stop);
 
 }  // namespace elbowroom::sessions

@@ -70,7 +70,7 @@ QueryLimit::~QueryLimit() = default;
 QueryLimit::QueryLimit(QueryLimit&&) noexcept = default;
 QueryLimit& QueryLimit::operator=(QueryLimit&&) noexcept = default;
 
-void QueryLimit::RethrowIfEnded() const {
+void QueryLimit::ThrowIfEnded() const {
   if (count_->is_exceeded) {
     FailAsDamaged(fmt::format("session '{}'", count_->path),
                   fmt::format("a question to it took more than {} million steps, which no sound file of its "

@@ -22,14 +22,24 @@ class QueryLimit {
   QueryLimit(QueryLimit&&) noexcept;
   QueryLimit& operator=(QueryLimit&& other) noexcept;
 
-  // To be called in the catch block of a statement that failed: throws Error{kFormat} if it was ended for its
-  // length, Error{kCancelled} if for the stop; returns if it failed for another reason.
-  void RethrowIfEnded() const;
+  // What `work` returns. Where a statement in it was ended, throws Error{kFormat} if for its length,
+  // Error{kCancelled} if for the stop.
+  template <typename Work>
+  auto Guarded(Work&& work) const {
+    try {
+      return work();
+    } catch (const core::Error& error) {
+      if (error.kind() == core::ErrorKind::kDatabase) ThrowIfEnded();
+      throw;
+    }
+  }
 
   // By the dearest statement so far, to some thousands.
   [[nodiscard]] std::int64_t most_steps_taken() const;
 
  private:
+  void ThrowIfEnded() const;
+
   struct Count;
   std::unique_ptr<Count> count_;
 };

@@ -1,14 +1,13 @@
 #include "sessions/recording_store.h"
 
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include <cerrno>
-#include <chrono>
 #include <utility>
 
 #include "core/file_sync.h"
+#include "core/utc_time.h"
 #include "sessions/header_rows.h"
 #include "sessions/outcome_rows.h"
 #include "sessions/schema.h"
@@ -46,9 +45,25 @@ Database CreateSession(const fs::path& path, const core::SessionHeader& header) 
   return database;
 }
 
-std::string NowUtc() {
-  const auto now = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
-  return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::chrono::system_clock::to_time_t(now)));
+fs::path RescuedName(const fs::path& name, int number) {
+  const std::string which = number == 1 ? "" : std::to_string(number);
+  return WithSuffix(name, fmt::format("{}{}", kRescuedSuffix, which));
+}
+
+// The path; where something else has taken the name of one of its folders, a path below a folder with
+// ".rescued" appended.
+fs::path BelowFolders(const fs::path& path) {
+  const auto is_taken = [](const fs::path& folder) {
+    std::error_code failure;
+    return fs::exists(fs::symlink_status(folder, failure)) && !fs::is_directory(folder, failure);
+  };
+  fs::path below;
+  for (const fs::path& name : path.parent_path()) {
+    const fs::path folder = below / name;
+    below = folder;
+    for (int number = 1; is_taken(below); ++number) below = RescuedName(folder, number);
+  }
+  return below / path.filename();
 }
 
 // Gives the whole database `part` the name `target`; false where a file that isn't `open`'s bears it.
@@ -98,7 +113,7 @@ void RecordingStore::WriteInto(Place& place, const RecordingEntry& entry) const 
   } else if (const auto* outcome = std::get_if<core::SessionOutcome>(&entry)) {
     InsertOutcome(place.database, *outcome);
     place.database.Execute(
-        fmt::format("UPDATE session SET status = 'complete', ended_at_utc = '{}'", NowUtc()));
+        fmt::format("UPDATE session SET status = 'complete', ended_at_utc = '{}'", core::NowUtc()));
   }
 }
 
@@ -114,7 +129,7 @@ bool RecordingStore::RestoreIfGone() {
 
 Database RecordingStore::MadeAgain() {
   Database& open = (spill_ ? spill_ : session_)->database;
-  const fs::path name = open.path();
+  const fs::path name = BelowFolders(open.path());
   core::MakeFolder(core::FolderOf(name));
   // Written whole under a name of its own first: half a session must not bear the session's name.
   const fs::path part = WithSuffix(name, ".part");
@@ -124,10 +139,7 @@ Database RecordingStore::MadeAgain() {
     copy.FoldLogIntoFile();
   }
   fs::path target = name;
-  for (int number = 1; !PutInPlace(part, target, open); ++number) {
-    const std::string which = number == 1 ? "" : std::to_string(number);
-    target = WithSuffix(name, fmt::format("{}{}", kRescuedSuffix, which));
-  }
+  for (int number = 1; !PutInPlace(part, target, open); ++number) target = RescuedName(name, number);
   return Database::OpenToWrite(target);
 }
 

@@ -27,8 +27,8 @@ class RecordingStore {
   void Write(std::span<const RecordingEntry> entries);
 
   // Where the session file, its log or their folder have been removed or replaced: makes them again from what
-  // this program still has open, under the same name, or, if another file bears that, with ".rescued"
-  // appended. True if so. Throws: core::Error while that can't be done; nothing is lost then.
+  // this program still has open, under the same name, or, if another file bears that or its folder's, with
+  // ".rescued" appended. True if so. Throws: core::Error while that can't be done; nothing is lost then.
   bool RestoreIfGone();
 
   // From here on entries go to a spill. Throws: core::Error.

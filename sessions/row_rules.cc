@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "core/file_limits.h"
 #include "core/rigid_transform.h"
 #include "sessions/damage.h"
 
@@ -30,13 +31,13 @@ std::int64_t CountFrom(std::int64_t least, std::int64_t number, const std::strin
 }
 
 double GapMm(double length_mm, const std::string& where, std::string_view what) {
-  if (!(std::abs(length_mm) <= kLongestLengthMm))
+  if (!(std::abs(length_mm) <= core::kLongestLengthMm))
     FailAsDamaged(where, fmt::format("{} is {:.6g} mm, which no gap is", what, length_mm));
   return length_mm;
 }
 
 double Magnitude(double value, const std::string& where, std::string_view what) {
-  if (!(value >= 0.0 && value <= kLongestLengthMm * kLongestLengthMm))
+  if (!(value >= 0.0 && value <= core::kLongestLengthMm * core::kLongestLengthMm))
     FailAsDamaged(where, fmt::format("{} is {:.6g}", what, value));
   return value;
 }
@@ -48,7 +49,7 @@ double Time_s(double time_s, const std::string& where, std::string_view what) {
 }
 
 Eigen::Vector3d Position(const Eigen::Vector3d& x_mm, const std::string& where, std::string_view what) {
-  if (!(x_mm.cwiseAbs().maxCoeff() <= kLongestLengthMm))
+  if (!(x_mm.cwiseAbs().maxCoeff() <= core::kLongestLengthMm))
     FailAsDamaged(where, fmt::format("{} is nowhere near a trial", what));
   return x_mm;
 }

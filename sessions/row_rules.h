@@ -9,8 +9,8 @@
 
 namespace elbowroom::sessions {
 
-// No gap, depth or time of a trial comes near these; what is drawn over an axis must stay within them.
-inline constexpr double kLongestLengthMm = 1e9;
+// No time of a trial comes near this, as no length comes near core::kLongestLengthMm; what is drawn over an
+// axis must stay within them.
 inline constexpr double kLongestTime_s = 1e9;
 
 // All throw Error{kFormat} that names `where` (file and row) and `what` (the column, in words).

@@ -26,7 +26,7 @@ constexpr std::string_view kStatusNames[] = {"recording", "cut off", "complete",
 
 // Nothing of the file is believed before it was looked at: first what its tables are, then what holds them
 // together; rows are looked at as they are read.
-void RequireSound(Database& database) {
+void RequireSound(Database& database, const std::stop_token& stop) {
   RequireReadableSession(database);
   const std::int64_t schema = database.ReadInteger("PRAGMA user_version");
   if (schema == 0) {  // of no tables; whoever reads the set-up says that there is none
@@ -35,12 +35,12 @@ void RequireSound(Database& database) {
     return;
   }
   RequireTablesOfSchema(database, schema);
-  RequireIntegrity(database, schema);
+  RequireIntegrity(database, schema, stop);
 }
 
-Database CopyOfNewestSchema(Database& database) {
+Database CopyOfNewestSchema(Database& database, const std::stop_token& stop) {
   const std::int64_t schema = database.ReadInteger("PRAGMA user_version");
-  Database copy = database.CopyInMemory();
+  Database copy = database.CopyInMemory(stop);
   DropAllButTablesOfSchema(copy, schema);
   Migrate(copy);
   return copy;
@@ -85,12 +85,7 @@ struct SessionReader::Impl {
   // What `work` reads; a statement that was ended says why.
   template <typename Work>
   auto Guarded(Work&& work) {
-    try {
-      return work();
-    } catch (const core::Error& error) {
-      if (error.kind() == core::ErrorKind::kDatabase) limit.RethrowIfEnded();
-      throw;
-    }
+    return limit.Guarded(std::forward<Work>(work));
   }
 
   Impl(const std::filesystem::path& path, const std::stop_token& stop)
@@ -100,9 +95,9 @@ struct SessionReader::Impl {
 
   void Open(const std::stop_token& stop) {
     DistrustFile(database);
-    RequireSound(database);
+    RequireSound(database, stop);
     if (database.ReadInteger("PRAGMA user_version") != kSchemaVersion) {
-      Database copy = CopyOfNewestSchema(database);
+      Database copy = CopyOfNewestSchema(database, stop);
       limit = QueryLimit(copy, stop);
       database = std::move(copy);
       DistrustFile(database);

@@ -8,6 +8,7 @@
 #include "app/cli/trial_summary.h"
 #include "app/control/demo_trial.h"
 #include "app/control/session_report.h"
+#include "core/error.h"
 #include "core/file_sync.h"
 
 namespace elbowroom::cli {
@@ -39,8 +40,13 @@ CommandResult RunHeadless(const DemoOptions& options, const CommandContext& cont
   trial.on_recording = [&](const sessions::RecordingNews& news) { log.Hear(news); };
   control::TrialControls controls;
   const control::TrialOutcome outcome = control::RunTrial(setup, trial, controls, context.stop);
-  if (shown) control::WriteFramePicture(*shown, options.out / "view.png", 1200, 800);
-  control::WriteSessionReport(outcome.session, options.out, context.progress, context.stop);
+  try {
+    if (shown) control::WriteFramePicture(*shown, options.out / "view.png", 1200, 800);
+    control::WriteSessionReport(outcome.session, options.out, context.progress, context.stop);
+  } catch (const core::Error& error) {
+    throw core::Error(error.kind(), fmt::format("{}; all {} frames are in '{}', for `elbowroom report`",
+                                                error.what(), outcome.frames, outcome.session.string()));
+  }
   CommandResult result = SummaryOf(outcome, setup.layout);
   result.text += fmt::format("\nreport: {}\npicture: {}", (options.out / "report.html").string(),
                              (options.out / "view.png").string());

@@ -4,8 +4,8 @@
 
 #include <memory>
 
+#include "core/file_limits.h"
 #include "sessions/damage.h"
-#include "sessions/row_rules.h"
 
 namespace elbowroom::control {
 namespace {
@@ -15,8 +15,8 @@ void RequireInSight(const FrameResult& result, const std::filesystem::path& sess
   for (core::PartIndex i = 0; i < result.layout->parts.size(); ++i) {
     const core::Part& part = result.layout->parts[i];
     const Eigen::AlignedBox3d bounds = core::BoundsOf(*part.mesh, result.world_from_parts[i]);
-    if (bounds.min().cwiseAbs().maxCoeff() <= sessions::kLongestLengthMm &&
-        bounds.max().cwiseAbs().maxCoeff() <= sessions::kLongestLengthMm)
+    if (bounds.min().cwiseAbs().maxCoeff() <= core::kLongestLengthMm &&
+        bounds.max().cwiseAbs().maxCoeff() <= core::kLongestLengthMm)
       continue;
     sessions::FailAsDamaged(
         fmt::format("session '{}', part '{}'", session.string(), sessions::Quotable(part.name)),

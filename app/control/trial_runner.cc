@@ -16,6 +16,7 @@
 #include "app/control/trial_rules.h"
 #include "app/control/versions.h"
 #include "core/error.h"
+#include "core/utc_time.h"
 #include "sessions/session_writer.h"
 
 namespace elbowroom::control {
@@ -28,7 +29,7 @@ core::SessionHeader HeaderOf(const TrialSetup& setup) {
   header.trial = setup.info;
   header.rig = setup.source->rig();
   header.layout = setup.layout;
-  header.started_at_utc = NowUtc();
+  header.started_at_utc = core::NowUtc();
   header.settings = SettingsOf(setup.segmentation);
   header.versions = SoftwareVersions();
   return header;

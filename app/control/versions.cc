@@ -1,11 +1,9 @@
 #include "app/control/versions.h"
 
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <sys/utsname.h>
 
 #include <Eigen/Core>
-#include <chrono>
 
 namespace elbowroom::control {
 
@@ -20,11 +18,6 @@ std::map<std::string, std::string> SoftwareVersions() {
   if (uname(&system) == 0)
     versions["system"] = fmt::format("{} {} {}", system.sysname, system.release, system.machine);
   return versions;
-}
-
-std::string NowUtc() {
-  const auto now = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
-  return fmt::format("{:%Y-%m-%dT%H:%M:%S}Z", fmt::gmtime(std::chrono::system_clock::to_time_t(now)));
 }
 
 }  // namespace elbowroom::control

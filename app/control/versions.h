@@ -8,6 +8,5 @@ namespace elbowroom::control {
 
 [[nodiscard]] std::string ProgramVersion();                           // "0.1.0"
 [[nodiscard]] std::map<std::string, std::string> SoftwareVersions();  // component to version
-[[nodiscard]] std::string NowUtc();                                   // ISO 8601, whole seconds, "Z"
 
 }  // namespace elbowroom::control

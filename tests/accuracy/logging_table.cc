@@ -29,7 +29,7 @@ using Clock = std::chrono::steady_clock;
 
 // Frames with and without logging take turns, so that what else the machine does meets both alike. An odd
 // number of turns shows all pictures once, so that each picture is met with and without.
-constexpr int kFramesATurn = 40, kTurns = 20;
+constexpr int kFramesATurn = 40, kTurns = 40;
 constexpr core::FrameIndex kFramesKept = 5 * kFramesATurn;
 constexpr double kFrameRateHz = 30.0;
 

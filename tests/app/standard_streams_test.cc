@@ -95,6 +95,10 @@ TEST_F(StandardStreams, AFileBeyondTheLimitIsOneLineAndLeavesNothing) {
   const ProgramRun trial = InShell("ulimit -f 8; exec \"$@\"", TrialInto(folder_ / "limited.db"));
   EXPECT_EQ(trial.exit_status, 1);
   EXPECT_EQ(std::ranges::count(trial.err, '\n'), 1) << trial.err;
+  const fs::path session = folder_ / "whole.db";
+  ASSERT_EQ(InShell("exec \"$@\"", TrialInto(session)).exit_status, 0);
+  ExpectOneLine(InShell("ulimit -f 8; exec \"$@\"", {"report", session.string(), "--out", out.string()}),
+                "free some space for temporary files");
 }
 
 TEST_F(StandardStreams, AMessageIsOneLineOfAtMost300Characters) {

@@ -123,8 +123,7 @@ TEST(QueryLimit, EndsWhatNeverEnds) {
   sessions::Database database = sessions::Database::OpenReadOnly(SampleIn(folder));
   const sessions::QueryLimit limit(database, {});
   sessions::Statement endless(database, kEndless);
-  ExpectError([&] { endless.Run(); }, ErrorKind::kDatabase, "interrupted");
-  ExpectError([&] { limit.RethrowIfEnded(); }, ErrorKind::kFormat, "million steps");
+  ExpectError([&] { limit.Guarded([&] { endless.Run(); }); }, ErrorKind::kFormat, "million steps");
 }
 
 TEST(QueryLimit, AStatementWithinAnothersRowsCountsAsPartOfIt) {
@@ -134,9 +133,10 @@ TEST(QueryLimit, AStatementWithinAnothersRowsCountsAsPartOfIt) {
   sessions::Statement endless(
       database, "WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n) SELECT i FROM n");
   sessions::Statement within(database, "SELECT count(*) FROM frame");
-  EXPECT_THROW(
-      while (endless.Next()) { within.With().Run(); }, core::Error);
-  EXPECT_THROW(limit.RethrowIfEnded(), core::Error);
+  const auto run = [&] {
+    while (endless.Next()) within.With().Run();
+  };
+  ExpectError([&] { limit.Guarded(run); }, ErrorKind::kFormat, "million steps");
 }
 
 TEST(QueryLimit, EndsWhatNobodyWaitsFor) {
@@ -147,8 +147,7 @@ TEST(QueryLimit, EndsWhatNobodyWaitsFor) {
   const sessions::QueryLimit limit(database, stop.get_token());
   stop.request_stop();
   sessions::Statement endless(database, kEndless);
-  EXPECT_THROW(endless.Run(), core::Error);
-  ExpectError([&] { limit.RethrowIfEnded(); }, ErrorKind::kCancelled, path.string());
+  ExpectError([&] { limit.Guarded([&] { endless.Run(); }); }, ErrorKind::kCancelled, path.string());
   ExpectError([&] { SessionReader(path, stop.get_token()); }, ErrorKind::kCancelled, path.string());
 }
 

@@ -311,6 +311,19 @@ TEST(SessionWriter, GivesASessionAnotherNameWhereItsOwnWasTaken) {
   EXPECT_EQ(content, "precious");
 }
 
+TEST(SessionWriter, PutsASessionIntoAnotherFolderWhereTheNameOfItsOwnWasTaken) {
+  const auto replace = [](const fs::path& path) {
+    fs::remove_all(path.parent_path());
+    std::ofstream(path.parent_path()) << "precious";
+    std::ofstream(path.parent_path().string() + ".rescued") << "precious, too";
+  };
+  const TemporaryFolder folder;
+  RecordWhile(folder, replace, "s.db");
+  EXPECT_TRUE(fs::exists(folder / "trials.rescued2" / "s.db"));
+  EXPECT_TRUE(fs::is_regular_file(folder / "trials"));
+  EXPECT_TRUE(fs::is_regular_file(folder / "trials.rescued"));
+}
+
 // In a process of its own: a limit on the size of its files makes every later write fail, as a full disk
 // does.
 int RecordUntilTheDiskIsFull(const fs::path& path) {
