@@ -99,8 +99,8 @@ PictureWorker::PictureWorker(const WorkerNeeds& needs)
     // The limit on files holds for those in memory, too.
     throw Error(ErrorKind::kFile,
                 errno == EFBIG
-                    ? "the limit on the size of files (ulimit -f) is too small to read pictures; raise it"
-                    : "there is no memory to read pictures into; close other programs");
+                    ? "the limit on the size of files (ulimit -f) is too small for pictures; raise it"
+                    : "there is no memory for pictures; close other programs");
   }
   memory_ = static_cast<std::byte*>(memory);
 }

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 [[noreturn]] void FailToCopy(const fs::path& session, const fs::path& folder, const std::string& why) {
   throw core::Error(core::ErrorKind::kFile,
-                    fmt::format("session '{}': it was cut off and may not be written, so it is read from a "
+                    fmt::format("session '{}': it can't be put right in its place, so it is read from a "
                                 "copy, which can't be made in '{}': {}; free some space there, or set TMPDIR",
                                 session.string(), folder.string(), why));
 }

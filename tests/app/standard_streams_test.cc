@@ -98,7 +98,7 @@ TEST_F(StandardStreams, AFileBeyondTheLimitIsOneLineAndLeavesNothing) {
   const fs::path session = folder_ / "whole.db";
   ASSERT_EQ(InShell("exec \"$@\"", TrialInto(session)).exit_status, 0);
   ExpectOneLine(InShell("ulimit -f 8; exec \"$@\"", {"report", session.string(), "--out", out.string()}),
-                "free some space for temporary files");
+                "ulimit -f");
 }
 
 TEST_F(StandardStreams, AMessageIsOneLineOfAtMost300Characters) {

@@ -2,7 +2,11 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <stop_token>
@@ -149,6 +153,34 @@ TEST(QueryLimit, EndsWhatNobodyWaitsFor) {
   sessions::Statement endless(database, kEndless);
   ExpectError([&] { limit.Guarded([&] { endless.Run(); }); }, ErrorKind::kCancelled, path.string());
   ExpectError([&] { SessionReader(path, stop.get_token()); }, ErrorKind::kCancelled, path.string());
+}
+
+// In a process of its own, whose files may not grow beyond this.
+[[noreturn]] void ReadWithoutRoom(const fs::path& path) {
+  std::signal(SIGXFSZ, SIG_IGN);
+  const rlimit limit{8192, 8192};
+  int status = 1;
+  try {
+    if (setrlimit(RLIMIT_FSIZE, &limit) == 0) SessionReader reader(path);
+  } catch (const core::Error& error) {
+    const bool names_copy = std::string(error.what()).find("temporary copy") != std::string::npos;
+    status = error.kind() == ErrorKind::kFile && names_copy ? 0 : 2;
+  }
+  _exit(status);
+}
+
+TEST(DamagedSession, ACheckWithoutRoomForItsCopySaysSo) {
+  const TemporaryFolder folder;
+  const fs::path path = SampleIn(folder);
+  Execute(path,
+          "CREATE TABLE more (bytes BLOB); INSERT INTO more VALUES (zeroblob(8000000)); DROP TABLE more");
+  const pid_t child = fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) ReadWithoutRoom(path);
+  int status = 0;
+  ASSERT_EQ(waitpid(child, &status, 0), child);
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 0);
 }
 
 // The limit must be far from what a sound session takes.
