@@ -35,6 +35,14 @@ void MigrateTo(Database& database, std::int64_t schema) {
 void RequireReadableSession(Database& database) {
   const std::string path = database.path().string();
   if (database.ReadInteger("PRAGMA application_id") != kApplicationId) {
+    // What a recording's file holds before its log is folded in for the first time.
+    if (database.ReadInteger("PRAGMA page_count") == 1 &&
+        database.ReadInteger("SELECT count(*) FROM sqlite_schema") == 0) {
+      throw Error(ErrorKind::kFormat,
+                  fmt::format("'{}' is an empty database; of a session that was cut off, its '-wal' file is "
+                              "needed, too: copy both",
+                              path));
+    }
     throw Error(ErrorKind::kFormat, fmt::format("'{}' is not an elbowroom session; check the path", path));
   }
   const std::int64_t found = database.ReadInteger("PRAGMA user_version");

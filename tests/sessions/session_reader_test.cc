@@ -36,6 +36,9 @@ TEST(SessionReader, TellsFilesThatAreNoSession) {
   SQLite::Database((folder / "other.db").string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE)
       .exec("CREATE TABLE session (id INTEGER)");
   ExpectError([&] { SessionReader(folder / "other.db"); }, ErrorKind::kFormat, "not an elbowroom session");
+  SQLite::Database((folder / "without_log.db").string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE)
+      .exec("PRAGMA journal_mode = WAL");
+  ExpectError([&] { SessionReader(folder / "without_log.db"); }, ErrorKind::kFormat, "copy both");
 }
 
 TEST(SessionReader, SaysWhichFramesThereAre) {
