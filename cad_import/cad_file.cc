@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "cad_import/file_format.h"
+#include "cad_import/formats/file_format.h"
 #include "cad_import/import_cache.h"
 #include "cad_import/import_process.h"
 #include "cad_import/mapped_file.h"

@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <stop_token>
 
-#include "cad_import/cad_model.h"
-#include "cad_import/import_options.h"
+#include "cad_import/model/cad_model.h"
+#include "cad_import/model/import_options.h"
 #include "core/progress.h"
 
 namespace elbowroom::cad_import {

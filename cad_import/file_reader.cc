@@ -4,9 +4,9 @@
 #include <string>
 #include <utility>
 
-#include "cad_import/file_format.h"
-#include "cad_import/format_modules.h"
-#include "cad_import/settling.h"
+#include "cad_import/formats/file_format.h"
+#include "cad_import/formats/format_modules.h"
+#include "cad_import/normalisation/settling.h"
 
 namespace elbowroom::cad_import {
 

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "cad_import/import_options.h"
+#include "cad_import/model/import_options.h"
 #include "cad_import/packed_model.h"
 #include "core/progress.h"
 

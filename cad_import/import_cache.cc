@@ -10,10 +10,10 @@
 #include <utility>
 #include <vector>
 
-#include "cad_import/file_unit.h"
+#include "cad_import/model/file_unit.h"
 #include "cad_import/mapped_file.h"
 #include "core/error.h"
-#include "core/whole_file.h"
+#include "core/system/whole_file.h"
 
 namespace elbowroom::cad_import {
 namespace {

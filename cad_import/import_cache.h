@@ -7,7 +7,7 @@
 #include <span>
 #include <string>
 
-#include "cad_import/import_options.h"
+#include "cad_import/model/import_options.h"
 #include "cad_import/packed_model.h"
 
 namespace elbowroom::cad_import {

@@ -15,11 +15,11 @@
 #include <string_view>
 #include <utility>
 
-#include "cad_import/file_format.h"
-#include "cad_import/file_unit.h"
+#include "cad_import/formats/file_format.h"
+#include "cad_import/model/file_unit.h"
 #include "cad_import/import_protocol.h"
 #include "cad_import/import_worker.h"
-#include "core/child_process.h"
+#include "core/system/child_process.h"
 #include "core/error.h"
 
 namespace elbowroom::cad_import {

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <stop_token>
 
-#include "cad_import/import_options.h"
+#include "cad_import/model/import_options.h"
 #include "cad_import/mapped_file.h"
 #include "core/progress.h"
 

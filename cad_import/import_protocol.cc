@@ -6,7 +6,7 @@
 #include <charconv>
 #include <optional>
 
-#include "core/child_process.h"
+#include "core/system/child_process.h"
 
 namespace elbowroom::cad_import {
 namespace {

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <variant>
 
-#include "core/child_process.h"
+#include "core/system/child_process.h"
 #include "core/error.h"
 
 namespace elbowroom::cad_import {

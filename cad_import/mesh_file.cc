@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "cad_import/cad_file.h"
-#include "cad_import/format_modules.h"
-#include "core/whole_file.h"
+#include "cad_import/formats/format_modules.h"
+#include "core/system/whole_file.h"
 
 namespace elbowroom::cad_import {
 

@@ -5,8 +5,8 @@
 #include <stop_token>
 #include <vector>
 
-#include "cad_import/cad_model.h"
-#include "cad_import/import_options.h"
+#include "cad_import/model/cad_model.h"
+#include "cad_import/model/import_options.h"
 #include "core/progress.h"
 #include "core/triangle_mesh.h"
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "cad_import/cad_model.h"
+#include "cad_import/model/cad_model.h"
 
 namespace elbowroom::cad_import {
 

@@ -10,8 +10,15 @@ function(elbowroom_room name)
   target_link_libraries(elbowroom_${name} PUBLIC ${ROOM_USES} PRIVATE ${ROOM_HIDES} elbowroom_warnings)
 endfunction()
 
+# elbowroom_rooms(NAME room ...): several rooms by one name.
+function(elbowroom_rooms name)
+  list(TRANSFORM ARGN PREPEND elbowroom_)
+  add_library(elbowroom_${name} INTERFACE)
+  target_link_libraries(elbowroom_${name} INTERFACE ${ARGN})
+endfunction()
+
 # elbowroom_module(NAME SOURCES a.cc ... HIDES target ...)
-# What core/module.h finds by NAME. Rooms that go into it are compiled as position-independent code.
+# What core/system/module.h finds by NAME. Rooms that go into it are compiled as position-independent code.
 function(elbowroom_module name)
   cmake_parse_arguments(MODULE "" "" "SOURCES;HIDES" ${ARGN})
   add_library(elbowroom_${name}_module MODULE ${MODULE_SOURCES})
@@ -33,7 +40,7 @@ function(elbowroom_finds_modules executable folder)
 endfunction()
 
 # elbowroom_child_program(NAME SOURCE USES target ...)
-# A program that core/module.h finds by NAME among the modules: it is built with them, and finds them beside it.
+# A program that core/system/module.h finds by NAME among the modules: it is built with them, and finds them beside it.
 function(elbowroom_child_program name source)
   cmake_parse_arguments(PROGRAM "" "" "USES" ${ARGN})
   add_executable(elbowroom_${name} ${source})

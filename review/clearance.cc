@@ -11,7 +11,7 @@
 
 #include "core/error.h"
 #include "core/part_distance.h"
-#include "recon/ray_crossings.h"
+#include "recon/hull/ray_crossings.h"
 #include "review/inside_cells.h"
 
 namespace elbowroom::review {

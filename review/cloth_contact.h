@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "recon/visual_hull.h"
+#include "recon/hull/visual_hull.h"
 #include "review/cloth.h"
 #include "review/cloth_panel.h"
 

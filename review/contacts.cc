@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "recon/triangle_pieces.h"
+#include "recon/hull/triangle_pieces.h"
 #include "review/containment.h"
 #include "review/longest_side.h"
 #include "review/point_spread.h"

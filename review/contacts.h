@@ -9,7 +9,7 @@
 #include "core/ids.h"
 #include "core/recovery_rule.h"
 #include "core/rigid_transform.h"
-#include "recon/visual_hull.h"
+#include "recon/hull/visual_hull.h"
 #include "review/inside_cells.h"
 
 namespace elbowroom::review {

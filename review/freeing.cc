@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "recon/ray_crossings.h"
+#include "recon/hull/ray_crossings.h"
 #include "review/meeting.h"
 
 namespace elbowroom::review {

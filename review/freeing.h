@@ -8,7 +8,7 @@
 
 #include "core/bvh.h"
 #include "core/rigid_transform.h"
-#include "recon/visual_hull.h"
+#include "recon/hull/visual_hull.h"
 
 namespace elbowroom::review {
 

@@ -3,8 +3,8 @@
 
 #include <optional>
 
-#include "recon/ray.h"
-#include "recon/visual_hull.h"
+#include "recon/hull/ray.h"
+#include "recon/hull/visual_hull.h"
 
 namespace elbowroom::review {
 

@@ -11,7 +11,7 @@
 #include "core/error.h"
 #include "core/part_distance.h"
 #include "core/units.h"
-#include "recon/hull_depth.h"
+#include "recon/hull/hull_depth.h"
 #include "review/freeing.h"
 #include "review/inside_cells.h"
 

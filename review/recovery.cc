@@ -3,8 +3,8 @@
 #include <Eigen/Geometry>
 
 #include "core/error.h"
-#include "recon/arc_crossings.h"
-#include "recon/ray_crossings.h"
+#include "recon/hull/arc_crossings.h"
+#include "recon/hull/ray_crossings.h"
 
 namespace elbowroom::review {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/error.h"
-#include "recon/hull_edges.h"
+#include "recon/hull/hull_edges.h"
 
 namespace elbowroom::review {
 namespace {

@@ -15,7 +15,7 @@
 #include <string_view>
 #include <utility>
 
-#include "core/file_sync.h"
+#include "core/system/file_sync.h"
 #include "core/progress.h"
 #include "sessions/damage.h"
 #include "sessions/private_copy.h"

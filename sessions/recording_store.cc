@@ -6,8 +6,8 @@
 #include <cerrno>
 #include <utility>
 
-#include "core/file_sync.h"
-#include "core/utc_time.h"
+#include "core/system/file_sync.h"
+#include "core/system/utc_time.h"
 #include "sessions/header_rows.h"
 #include "sessions/outcome_rows.h"
 #include "sessions/schema.h"

@@ -11,7 +11,7 @@
 #include "app/cli/spacing_option.h"
 #include "app/cli/unit_option.h"
 #include "app/cli/vector_json.h"
-#include "cad_import/layout_file.h"
+#include "cad_import/layout/layout_file.h"
 #include "review/clash.h"
 
 namespace elbowroom::cli {

@@ -9,7 +9,7 @@
 #include "app/control/demo_trial.h"
 #include "app/control/session_report.h"
 #include "core/error.h"
-#include "core/file_sync.h"
+#include "core/system/file_sync.h"
 
 namespace elbowroom::cli {
 namespace {

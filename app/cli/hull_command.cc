@@ -10,7 +10,7 @@
 #include "app/cli/unit_option.h"
 #include "cad_import/mesh_file.h"
 #include "core/error.h"
-#include "recon/hull_mesh.h"
+#include "recon/hull_mesh/hull_mesh.h"
 
 namespace elbowroom::cli {
 namespace {

@@ -11,13 +11,13 @@
 #include "app/cli/unit_option.h"
 #include "app/control/import_picture.h"
 #include "cad_import/cad_file.h"
-#include "cad_import/file_format.h"
+#include "cad_import/formats/file_format.h"
 #include "cad_import/mesh_file.h"
-#include "cad_import/surface_defects.h"
+#include "cad_import/normalisation/surface_defects.h"
 #include "core/error.h"
 #include "core/size_text.h"
-#include "recon/gl/scene_renderer.h"
-#include "recon/png_file.h"
+#include "recon/gl/scene/scene_renderer.h"
+#include "recon/images/png_file.h"
 
 namespace elbowroom::cli {
 namespace {

@@ -17,10 +17,10 @@
 #include "app/cli/layout_listing.h"
 #include "app/cli/unit_option.h"
 #include "app/control/layout_picture.h"
-#include "cad_import/layout_file.h"
+#include "cad_import/layout/layout_file.h"
 #include "core/error.h"
-#include "core/whole_file.h"
-#include "recon/png_file.h"
+#include "core/system/whole_file.h"
+#include "recon/images/png_file.h"
 
 namespace elbowroom::cli {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "cad_import/layout_text.h"
+#include "cad_import/layout/layout_text.h"
 #include "core/layout.h"
 #include "core/units.h"
 

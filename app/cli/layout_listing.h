@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/cli/command.h"
-#include "cad_import/layout_file.h"
+#include "cad_import/layout/layout_file.h"
 
 namespace elbowroom::cli {
 

@@ -2,7 +2,7 @@
 
 #include "app/cli/unit_option.h"
 #include "cad_import/mesh_file.h"
-#include "recon/pose_file.h"
+#include "recon/rig_files/pose_file.h"
 
 namespace elbowroom::cli {
 

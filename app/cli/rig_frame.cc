@@ -2,11 +2,11 @@
 
 #include <tbb/parallel_for.h>
 
-#include "recon/contour_map.h"
-#include "recon/frame_segmenter.h"
-#include "recon/recorded_rig.h"
-#include "recon/rig_file.h"
-#include "recon/visual_hull.h"
+#include "recon/contours/contour_map.h"
+#include "recon/segmentation/frame_segmenter.h"
+#include "recon/footage/recorded_rig.h"
+#include "recon/rig_files/rig_file.h"
+#include "recon/hull/visual_hull.h"
 
 namespace elbowroom::cli {
 

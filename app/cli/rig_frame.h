@@ -10,7 +10,7 @@
 #include "core/ids.h"
 #include "core/rig.h"
 #include "core/soft_mask.h"
-#include "recon/picture_plane.h"
+#include "recon/contours/picture_plane.h"
 
 namespace elbowroom::cli {
 

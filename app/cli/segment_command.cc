@@ -6,8 +6,8 @@
 
 #include "app/cli/command.h"
 #include "app/cli/rig_frame.h"
-#include "core/file_sync.h"
-#include "recon/mask_image.h"
+#include "core/system/file_sync.h"
+#include "recon/images/mask_image.h"
 
 namespace elbowroom::cli {
 namespace {

@@ -12,7 +12,7 @@
 
 #include "app/console/main_window.h"
 #include "core/error.h"
-#include "core/file_sync.h"
+#include "core/system/file_sync.h"
 
 namespace elbowroom::console {
 namespace {

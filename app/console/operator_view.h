@@ -16,7 +16,7 @@
 #include "app/control/frame_result.h"
 #include "app/control/render_worker.h"
 #include "app/control/scene_composer.h"
-#include "recon/orbit_camera.h"
+#include "recon/appearance/orbit_camera.h"
 
 namespace elbowroom::console {
 

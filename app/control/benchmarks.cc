@@ -9,12 +9,12 @@
 #include <memory>
 
 #include "core/error.h"
-#include "recon/frame_segmenter.h"
-#include "recon/hull_mesh.h"
-#include "recon/hull_view.h"
+#include "recon/segmentation/frame_segmenter.h"
+#include "recon/hull_mesh/hull_mesh.h"
+#include "recon/exact_view/hull_view.h"
 #include "recon/synthetic/synthetic_rig.h"
 #include "recon/synthetic/view_scene.h"
-#include "recon/visual_hull.h"
+#include "recon/hull/visual_hull.h"
 
 namespace elbowroom::control {
 namespace {

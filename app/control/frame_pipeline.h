@@ -12,9 +12,9 @@
 #include "core/layout.h"
 #include "core/rig.h"
 #include "core/soft_mask.h"
-#include "recon/frame_segmenter.h"
-#include "recon/frame_set.h"
-#include "recon/picture_plane.h"
+#include "recon/segmentation/frame_segmenter.h"
+#include "recon/footage/frame_set.h"
+#include "recon/contours/picture_plane.h"
 #include "review/part_review.h"
 
 namespace elbowroom::control {

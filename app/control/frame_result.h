@@ -10,9 +10,9 @@
 #include "core/ids.h"
 #include "core/layout.h"
 #include "core/session.h"
-#include "recon/frame_set.h"
-#include "recon/segmentation.h"
-#include "recon/visual_hull.h"
+#include "recon/footage/frame_set.h"
+#include "recon/segmentation/segmentation.h"
+#include "recon/hull/visual_hull.h"
 
 namespace elbowroom::control {
 

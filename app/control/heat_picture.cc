@@ -14,8 +14,8 @@
 #include "core/part_distance.h"
 #include "core/surface_patches.h"
 #include "core/units.h"
-#include "recon/orbit_camera.h"
-#include "sessions/chart.h"
+#include "recon/appearance/orbit_camera.h"
+#include "sessions/report/chart.h"
 
 namespace elbowroom::control {
 namespace {

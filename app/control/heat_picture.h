@@ -3,8 +3,8 @@
 
 #include "core/heat_map.h"
 #include "core/triangle_mesh.h"
-#include "recon/gl/scene_renderer.h"
-#include "recon/image.h"
+#include "recon/gl/scene/scene_renderer.h"
+#include "recon/images/image.h"
 
 namespace elbowroom::control {
 

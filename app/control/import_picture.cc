@@ -10,7 +10,7 @@
 #include "app/control/line_drawing.h"
 #include "core/size_text.h"
 #include "core/units.h"
-#include "recon/orbit_camera.h"
+#include "recon/appearance/orbit_camera.h"
 
 namespace elbowroom::control {
 namespace {

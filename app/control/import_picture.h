@@ -1,10 +1,10 @@
 // A CAD file as it was read: its parts in their colours, and what is wrong with their surfaces.
 #pragma once
 
-#include "cad_import/cad_model.h"
-#include "cad_import/surface_defects.h"
-#include "recon/gl/scene_renderer.h"
-#include "recon/image.h"
+#include "cad_import/model/cad_model.h"
+#include "cad_import/normalisation/surface_defects.h"
+#include "recon/gl/scene/scene_renderer.h"
+#include "recon/images/image.h"
 
 namespace elbowroom::control {
 

@@ -9,7 +9,7 @@
 
 #include "app/control/line_drawing.h"
 #include "core/size_text.h"
-#include "recon/orbit_camera.h"
+#include "recon/appearance/orbit_camera.h"
 
 namespace elbowroom::control {
 namespace {

@@ -5,8 +5,8 @@
 
 #include "core/layout.h"
 #include "core/rigid_transform.h"
-#include "recon/gl/scene_renderer.h"
-#include "recon/image.h"
+#include "recon/gl/scene/scene_renderer.h"
+#include "recon/images/image.h"
 
 namespace elbowroom::control {
 

@@ -7,7 +7,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/error.h"
-#include "sessions/markup.h"
+#include "sessions/report/markup.h"
 
 namespace elbowroom::control {
 namespace {

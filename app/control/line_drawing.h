@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "recon/image.h"
+#include "recon/images/image.h"
 
 namespace elbowroom::control {
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <utility>
 
-#include "recon/gl/scene_renderer.h"
+#include "recon/gl/scene/scene_renderer.h"
 
 namespace elbowroom::control {
 namespace {

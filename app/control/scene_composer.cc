@@ -8,9 +8,9 @@
 
 #include "core/error.h"
 #include "core/units.h"
-#include "recon/hull_mesh.h"
-#include "recon/hull_photo.h"
-#include "recon/hull_view.h"
+#include "recon/hull_mesh/hull_mesh.h"
+#include "recon/appearance/hull_photo.h"
+#include "recon/exact_view/hull_view.h"
 
 namespace elbowroom::control {
 namespace {

@@ -8,9 +8,9 @@
 
 #include "app/control/frame_result.h"
 #include "app/control/view_method.h"
-#include "recon/gl/scene.h"
-#include "recon/hull_appearance.h"
-#include "recon/orbit_camera.h"
+#include "recon/gl/scene/scene.h"
+#include "recon/appearance/hull_appearance.h"
+#include "recon/appearance/orbit_camera.h"
 
 namespace elbowroom::control {
 

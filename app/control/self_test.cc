@@ -8,16 +8,16 @@
 #include <utility>
 
 #include "app/control/demo_parts.h"
-#include "recon/gl/exact_view_gl.h"
-#include "recon/gl/plane_sweep_gl.h"
-#include "recon/gl/triangle_viewports_gl.h"
-#include "recon/hull_view.h"
-#include "recon/straightened_mask.h"
-#include "recon/sweep_comparison.h"
+#include "recon/gl/exact_view/exact_view_gl.h"
+#include "recon/gl/paper_methods/plane_sweep_gl.h"
+#include "recon/gl/paper_methods/triangle_viewports_gl.h"
+#include "recon/exact_view/hull_view.h"
+#include "recon/paper_methods/straightened_mask.h"
+#include "recon/paper_methods/sweep_comparison.h"
 #include "recon/synthetic/demo_motion.h"
 #include "recon/synthetic/rig_presets.h"
 #include "recon/synthetic/view_scene.h"
-#include "recon/view_comparison.h"
+#include "recon/exact_view/view_comparison.h"
 
 namespace elbowroom::control {
 namespace {

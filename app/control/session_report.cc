@@ -10,9 +10,9 @@
 #include "app/control/scene_composer.h"
 #include "core/error.h"
 #include "core/progress.h"
-#include "recon/gl/scene_renderer.h"
-#include "recon/png_file.h"
-#include "sessions/report.h"
+#include "recon/gl/scene/scene_renderer.h"
+#include "recon/images/png_file.h"
+#include "sessions/report/report.h"
 
 namespace elbowroom::control {
 namespace {

@@ -11,10 +11,10 @@
 #include "app/control/trial_rules.h"
 #include "core/error.h"
 #include "core/spelling.h"
-#include "recon/picture_plane.h"
-#include "recon/png_file.h"
-#include "sessions/csv_text.h"
-#include "sessions/whole_files.h"
+#include "recon/contours/picture_plane.h"
+#include "recon/images/png_file.h"
+#include "sessions/report/csv_text.h"
+#include "sessions/report/whole_files.h"
 
 namespace elbowroom::control {
 namespace {

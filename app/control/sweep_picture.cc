@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "sessions/chart.h"
+#include "sessions/report/chart.h"
 
 namespace elbowroom::control {
 namespace {

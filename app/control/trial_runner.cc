@@ -16,7 +16,7 @@
 #include "app/control/trial_rules.h"
 #include "app/control/versions.h"
 #include "core/error.h"
-#include "core/utc_time.h"
+#include "core/system/utc_time.h"
 #include "sessions/session_writer.h"
 
 namespace elbowroom::control {

@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 
-#include "cad_import/layout_file.h"
-#include "cad_import/toml_entry.h"
+#include "cad_import/layout/layout_file.h"
+#include "cad_import/layout/toml_entry.h"
 #include "core/error.h"
-#include "recon/recorded_rig.h"
-#include "recon/rig_file.h"
-#include "recon/source_location.h"
-#include "recon/viewer_footage.h"
+#include "recon/footage/recorded_rig.h"
+#include "recon/rig_files/rig_file.h"
+#include "recon/rig_files/source_location.h"
+#include "recon/footage/viewer_footage.h"
 
 namespace elbowroom::control {
 namespace {

@@ -12,8 +12,8 @@
 #include "app/control/trial_controls.h"
 #include "core/layout.h"
 #include "core/session.h"
-#include "recon/frame_set.h"
-#include "recon/segmentation.h"
+#include "recon/footage/frame_set.h"
+#include "recon/segmentation/segmentation.h"
 
 namespace elbowroom::control {
 

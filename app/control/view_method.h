@@ -4,9 +4,9 @@
 #include <functional>
 #include <string>
 
-#include "recon/hull_view.h"
-#include "recon/view_rays.h"
-#include "recon/visual_hull.h"
+#include "recon/exact_view/hull_view.h"
+#include "recon/exact_view/view_rays.h"
+#include "recon/hull/visual_hull.h"
 
 namespace elbowroom::control {
 

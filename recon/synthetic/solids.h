@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/rigid_transform.h"
-#include "recon/ray.h"
+#include "recon/hull/ray.h"
 
 namespace elbowroom::recon {
 

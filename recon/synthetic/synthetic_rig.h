@@ -8,7 +8,7 @@
 #include <stop_token>
 #include <vector>
 
-#include "recon/frame_set.h"
+#include "recon/footage/frame_set.h"
 #include "recon/synthetic/camera_view.h"
 #include "recon/synthetic/solids.h"
 

@@ -7,7 +7,7 @@
 #include "core/camera_model.h"
 #include "core/rig.h"
 #include "core/soft_mask.h"
-#include "recon/plane_sweep.h"
+#include "recon/paper_methods/plane_sweep.h"
 #include "recon/synthetic/solids.h"
 
 namespace elbowroom::recon {

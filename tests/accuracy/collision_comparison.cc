@@ -9,13 +9,13 @@
 
 #include "core/bvh.h"
 #include "core/error.h"
-#include "recon/coverage_hull.h"
-#include "recon/gl/triangle_viewports_gl.h"
-#include "recon/visual_hull.h"
+#include "recon/paper_methods/coverage_hull.h"
+#include "recon/gl/paper_methods/triangle_viewports_gl.h"
+#include "recon/hull/visual_hull.h"
 #include "review/contacts.h"
-#include "review/two_triangle_response.h"
+#include "review/paper_methods/two_triangle_response.h"
 #include "tests/accuracy/curtain_scene.h"
-#include "tests/recon/random_scene.h"
+#include "tests/recon/scenes/random_scene.h"
 
 namespace elbowroom::accuracy {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "recon/synthetic/view_scene.h"
-#include "recon/triangle_viewports.h"
+#include "recon/paper_methods/triangle_viewports.h"
 #include "tests/accuracy/interleaved_timing.h"
 
 namespace elbowroom::accuracy {

@@ -10,9 +10,9 @@
 #include "core/rigid_transform.h"
 #include "core/soft_mask.h"
 #include "core/triangle_mesh.h"
-#include "recon/coverage_hull.h"
+#include "recon/paper_methods/coverage_hull.h"
 #include "recon/synthetic/solids.h"
-#include "recon/visual_hull.h"
+#include "recon/hull/visual_hull.h"
 
 namespace elbowroom::accuracy {
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "recon/depth_map.h"
+#include "recon/images/depth_map.h"
 #include "tests/accuracy/surface_picture.h"
 
 namespace elbowroom::accuracy {

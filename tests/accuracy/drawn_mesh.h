@@ -3,7 +3,7 @@
 
 #include "core/camera_model.h"
 #include "core/triangle_mesh.h"
-#include "recon/depth_map.h"
+#include "recon/images/depth_map.h"
 
 namespace elbowroom::accuracy {
 

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "recon/visual_hull.h"
+#include "recon/hull/visual_hull.h"
 #include "tests/accuracy/disturbed_rig.h"
 #include "tests/accuracy/synthetic_segmentation.h"
 #include "tests/accuracy/view_methods.h"

@@ -16,7 +16,7 @@
 #include "app/control/scene_composer.h"
 #include "app/control/trial_rules.h"
 #include "core/error.h"
-#include "recon/hull_view.h"
+#include "recon/exact_view/hull_view.h"
 #include "recon/synthetic/rig_presets.h"
 #include "recon/synthetic/synthetic_rig.h"
 #include "tests/accuracy/measurements.h"

@@ -13,13 +13,13 @@
 #include <variant>
 
 #include "core/error.h"
-#include "recon/hull_mesh.h"
-#include "recon/triangle_viewports.h"
+#include "recon/hull_mesh/hull_mesh.h"
+#include "recon/paper_methods/triangle_viewports.h"
 #include "review/clearance.h"
 #include "review/contacts.h"
 #include "tests/accuracy/curtain_scene.h"
 #include "tests/oracles/mask_hull_oracle.h"
-#include "tests/recon/random_scene.h"
+#include "tests/recon/scenes/random_scene.h"
 
 namespace elbowroom::accuracy {
 namespace {

@@ -5,15 +5,15 @@
 
 #include "core/bvh.h"
 #include "core/units.h"
-#include "recon/coverage_hull.h"
-#include "recon/visual_hull.h"
+#include "recon/paper_methods/coverage_hull.h"
+#include "recon/hull/visual_hull.h"
 #include "review/contacts.h"
-#include "review/two_triangle_response.h"
+#include "review/paper_methods/two_triangle_response.h"
 #include "tests/accuracy/collision_comparison.h"
 #include "tests/oracles/analytic_hull.h"
 #include "tests/oracles/coverage_mask.h"
 #include "tests/oracles/mask_hull_oracle.h"
-#include "tests/recon/random_scene.h"
+#include "tests/recon/scenes/random_scene.h"
 
 namespace elbowroom::accuracy {
 namespace {

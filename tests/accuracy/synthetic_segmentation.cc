@@ -1,8 +1,8 @@
 #include "tests/accuracy/synthetic_segmentation.h"
 
 #include "core/error.h"
-#include "recon/background.h"
-#include "recon/segmentation.h"
+#include "recon/footage/background.h"
+#include "recon/segmentation/segmentation.h"
 #include "recon/synthetic/camera_view.h"
 #include "recon/synthetic/sensor_noise.h"
 

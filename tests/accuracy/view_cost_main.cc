@@ -5,9 +5,9 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
-#include "recon/hull_view.h"
+#include "recon/exact_view/hull_view.h"
 #include "recon/synthetic/view_scene.h"
-#include "recon/visual_hull.h"
+#include "recon/hull/visual_hull.h"
 
 namespace elbowroom::accuracy {
 namespace {

@@ -4,11 +4,11 @@
 
 #include <utility>
 
-#include "recon/gl/exact_view_gl.h"
-#include "recon/gl/plane_sweep_gl.h"
-#include "recon/hull_mesh.h"
-#include "recon/hull_view.h"
-#include "recon/plane_sweep.h"
+#include "recon/gl/exact_view/exact_view_gl.h"
+#include "recon/gl/paper_methods/plane_sweep_gl.h"
+#include "recon/hull_mesh/hull_mesh.h"
+#include "recon/exact_view/hull_view.h"
+#include "recon/paper_methods/plane_sweep.h"
 #include "recon/synthetic/view_scene.h"
 #include "tests/accuracy/drawn_mesh.h"
 

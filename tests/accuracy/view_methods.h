@@ -9,11 +9,11 @@
 #include "core/camera_model.h"
 #include "core/rig.h"
 #include "core/soft_mask.h"
-#include "recon/depth_map.h"
-#include "recon/picture_plane.h"
-#include "recon/sweep_rays.h"
-#include "recon/view_rays.h"
-#include "recon/visual_hull.h"
+#include "recon/images/depth_map.h"
+#include "recon/contours/picture_plane.h"
+#include "recon/paper_methods/sweep_rays.h"
+#include "recon/exact_view/view_rays.h"
+#include "recon/hull/visual_hull.h"
 
 namespace elbowroom::accuracy {
 

@@ -6,10 +6,10 @@
 #include <filesystem>
 #include <string>
 
-#include "cad_import/toml_entry.h"
+#include "cad_import/layout/toml_entry.h"
 #include "core/error.h"
-#include "recon/pose_file.h"
-#include "recon/rig_file.h"
+#include "recon/rig_files/pose_file.h"
+#include "recon/rig_files/rig_file.h"
 #include "tests/adversary/damaged_configuration.h"
 #include "tests/support/soak.h"
 #include "tests/support/temporary_folder.h"

@@ -15,11 +15,11 @@
 #include <vector>
 
 #include "core/error.h"
-#include "recon/image_source.h"
-#include "recon/rig_file.h"
+#include "recon/footage/image_source.h"
+#include "recon/rig_files/rig_file.h"
 #include "tests/adversary/picture_bombs.h"
 #include "tests/fuzz/mutation.h"
-#include "tests/recon/made_footage.h"
+#include "tests/recon/footage/made_footage.h"
 #include "tests/support/run_program.h"
 #include "tests/support/soak.h"
 #include "tests/support/temporary_folder.h"

@@ -10,8 +10,8 @@
 #include <thread>
 
 #include "core/bit_mask.h"
-#include "recon/mask_image.h"
-#include "recon/rig_file.h"
+#include "recon/images/mask_image.h"
+#include "recon/rig_files/rig_file.h"
 #include "tests/app/mask_rig.h"
 #include "tests/support/text_file.h"
 

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "tests/recon/mjpeg_server.h"
+#include "tests/recon/footage/mjpeg_server.h"
 
 namespace elbowroom::adversary {
 

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "core/error.h"
-#include "sessions/report.h"
+#include "sessions/report/report.h"
 #include "sessions/session_reader.h"
 #include "sessions/session_writer.h"
 #include "tests/adversary/session_damage.h"

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "cad_import/layout_file.h"
+#include "cad_import/layout/layout_file.h"
 #include "cad_import/mesh_file.h"
 #include "tests/oracles/mesh_gap.h"
 #include "tests/support/run_program.h"

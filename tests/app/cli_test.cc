@@ -8,7 +8,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "core/triangle_mesh.h"
-#include "recon/rig_file.h"
+#include "recon/rig_files/rig_file.h"
 #include "tests/app/mask_rig.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"

@@ -7,8 +7,8 @@
 #include "cad_import/mesh_file.h"
 #include "core/error.h"
 #include "core/rigid_transform.h"
-#include "recon/mask_image.h"
-#include "recon/rig_file.h"
+#include "recon/images/mask_image.h"
+#include "recon/rig_files/rig_file.h"
 #include "recon/synthetic/synthetic_rig.h"
 
 namespace elbowroom::test_support {

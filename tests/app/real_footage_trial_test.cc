@@ -5,7 +5,7 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
-#include "recon/rig_file.h"
+#include "recon/rig_files/rig_file.h"
 #include "sessions/session_reader.h"
 #include "tests/app/mask_rig.h"
 #include "tests/support/run_program.h"

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "recon/view_band.h"
+#include "recon/exact_view/view_band.h"
 
 namespace elbowroom::control {
 namespace {

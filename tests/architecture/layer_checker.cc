@@ -27,10 +27,11 @@ bool IsLeftOut(const fs::path& folder) {
 bool IsStandard(const std::string& header) { return header.find_first_of("/.") == std::string::npos; }
 
 std::optional<std::string> WhyRoomIsWrong(const Room& from, const Room& to, const std::string& header) {
-  const bool allowed = from.folder == to.folder || from.may_include_every_room ||
-                       Contains(from.places, to.folder) || Contains(from.places, header);
-  if (allowed) return std::nullopt;
-  return fmt::format("{} must not include {} (\"{}\")", from.folder, to.folder, header);
+  if (from.folder == to.folder || from.may_include_every_room) return std::nullopt;
+  if (!Contains(from.places, to.folder) && !Contains(from.places, header))
+    return fmt::format("{} must not include {} (\"{}\")", from.folder, to.folder, header);
+  if (Contains(to.doors, header)) return std::nullopt;
+  return fmt::format("\"{}\" is inner to {}: include one of its doors (layers.txt)", header, to.folder);
 }
 
 std::optional<std::string> WhyLibraryIsWrong(const Room& from, const Library& library,
@@ -98,6 +99,18 @@ std::vector<std::string> SourceFilesOf(const fs::path& root) {
   }
   std::ranges::sort(files);
   return files;
+}
+
+std::vector<Violation> CheckDoors(const fs::path& root, const Layers& layers) {
+  std::vector<Violation> found;
+  for (const Room& room : layers.rooms) {
+    for (const std::string& door : room.doors) {
+      if (fs::is_regular_file(root / door)) continue;
+      found.push_back({layers.file.lexically_relative(root).generic_string(), room.line,
+                       fmt::format("door '{}' is no header of the tree", door)});
+    }
+  }
+  return found;
 }
 
 std::vector<Violation> CheckTree(const fs::path& root, const Layers& layers) {

@@ -26,4 +26,7 @@ struct Violation {
 // Throws: core::Error{kFile} when a source can't be read.
 [[nodiscard]] std::vector<Violation> CheckTree(const std::filesystem::path& root, const Layers& layers);
 
+// Doors that are no headers.
+[[nodiscard]] std::vector<Violation> CheckDoors(const std::filesystem::path& root, const Layers& layers);
+
 }  // namespace elbowroom::architecture

@@ -31,16 +31,18 @@ class Parser {
     line.erase(std::min(line.find('#'), line.size()));
     const Words all = SplitWords(line);
     if (all.empty()) return;
-    if (all.size() < 3 || all[2] != ":") Fail("expected 'room|library|use NAME : ...'");
+    if (all.size() < 3 || all[2] != ":") Fail("expected 'room|doors|library|use NAME : ...'");
     const Words values(all.begin() + 3, all.end());
     if (all[0] == "room") {
       AddRoom(all[1], values);
+    } else if (all[0] == "doors") {
+      AddDoors(all[1], values);
     } else if (all[0] == "library") {
       AddLibrary(all[1], values);
     } else if (all[0] == "use") {
       AddUse(all[1], values);
     } else {
-      Fail(fmt::format("'{}' is none of room, library, use", all[0]));
+      Fail(fmt::format("'{}' is none of room, doors, library, use", all[0]));
     }
   }
 
@@ -69,6 +71,15 @@ class Parser {
       }
     }
     layers_.rooms.push_back(std::move(room));
+  }
+
+  void AddDoors(const std::string& folder, const Words& headers) {
+    const auto room = std::ranges::find(layers_.rooms, folder, &Room::folder);
+    if (room == layers_.rooms.end()) Fail(fmt::format("room '{}' is not declared above", folder));
+    for (const std::string& header : headers) {
+      if (!IsHeader(header)) Fail(fmt::format("'{}' is no header", header));
+      room->doors.push_back(folder + "/" + header);
+    }
   }
 
   void AddLibrary(const std::string& name, const Words& patterns) {

@@ -1,4 +1,4 @@
-// The rules of layers.txt: rooms, what each may include, and which libraries' headers.
+// The rules of layers.txt: rooms, what each may include, which of its headers others may, and libraries.
 #pragma once
 
 #include <filesystem>
@@ -15,6 +15,7 @@ struct Room {
   bool may_include_every_room = false;
   bool may_use_every_library = false;
   std::vector<std::string> places;            // folders and single headers
+  std::vector<std::string> doors;             // headers that others may include, "recon/hull/visual_hull.h"
   std::vector<std::string> header_libraries;  // in any file
   std::vector<std::string> source_libraries;  // in .cc files, beside the above
 };

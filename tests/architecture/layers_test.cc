@@ -65,8 +65,8 @@ TEST_F(PlantedTree, IsCleanBeforeAnythingIsPlanted) {
 }
 
 TEST_F(PlantedTree, CoreMayNotIncludeARoomAboveIt) {
-  Plant("core/a.h", "#pragma once\n\n#include <vector>\n#include \"recon/frame_set.h\"\n");
-  ExpectOne("core/a.h", 4, "core must not include recon (\"recon/frame_set.h\")");
+  Plant("core/a.h", "#pragma once\n\n#include <vector>\n#include \"recon/footage/frame_set.h\"\n");
+  ExpectOne("core/a.h", 4, "core must not include recon (\"recon/footage/frame_set.h\")");
 }
 
 TEST_F(PlantedTree, RoomsSideBySideMayNotIncludeEachOther) {
@@ -75,22 +75,22 @@ TEST_F(PlantedTree, RoomsSideBySideMayNotIncludeEachOther) {
 }
 
 TEST_F(PlantedTree, AFolderInsideARoomIsARoomOfItsOwn) {
-  Plant("recon/a.cc", "#include \"recon/gl/egl_context.h\"\n");
-  Plant("review/b.cc", "#include \"recon/gl/egl_context.h\"\n");
+  Plant("recon/a.cc", "#include \"recon/gl/objects/egl_context.h\"\n");
+  Plant("review/b.cc", "#include \"recon/gl/objects/egl_context.h\"\n");
   const std::vector<Violation> expected{
-      {"recon/a.cc", 1, "recon must not include recon/gl (\"recon/gl/egl_context.h\")"},
-      {"review/b.cc", 1, "review must not include recon/gl (\"recon/gl/egl_context.h\")"}};
+      {"recon/a.cc", 1, "recon must not include recon/gl (\"recon/gl/objects/egl_context.h\")"},
+      {"review/b.cc", 1, "review must not include recon/gl (\"recon/gl/objects/egl_context.h\")"}};
   EXPECT_EQ(Lines(Check()), Lines(expected));
 }
 
 TEST_F(PlantedTree, TheConsoleSeesOnlyThePictureValuesOfRecon) {
-  Plant("app/console/a.cc", "#include \"recon/image.h\"\n#include \"recon/visual_hull.h\"\n");
-  ExpectOne("app/console/a.cc", 2, "app/console must not include recon (\"recon/visual_hull.h\")");
+  Plant("app/console/a.cc", "#include \"recon/images/image.h\"\n#include \"recon/hull/visual_hull.h\"\n");
+  ExpectOne("app/console/a.cc", 2, "app/console must not include recon (\"recon/hull/visual_hull.h\")");
 }
 
 TEST_F(PlantedTree, OnlyTheDoorsOfTheDrawingRoomAreOpen) {
-  Plant("app/control/a.cc", "#include \"recon/gl/scene_renderer.h\"\n#include \"recon/gl/texture.h\"\n");
-  ExpectOne("app/control/a.cc", 2, "app/control must not include recon/gl (\"recon/gl/texture.h\")");
+  Plant("app/control/a.cc", "#include \"recon/gl/scene/scene_renderer.h\"\n#include \"recon/gl/objects/texture.h\"\n");
+  ExpectOne("app/control/a.cc", 2, "app/control must not include recon/gl (\"recon/gl/objects/texture.h\")");
 }
 
 TEST_F(PlantedTree, QtStaysInTheConsole) {

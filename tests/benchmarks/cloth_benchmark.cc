@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "recon/hull_mesh.h"
+#include "recon/hull_mesh/hull_mesh.h"
 #include "review/cloth.h"
 #include "tests/review/curtain.h"
 #include "tests/review/sweeping_hand.h"

@@ -3,8 +3,8 @@
 #include <benchmark/benchmark.h>
 #include <tbb/global_control.h>
 
-#include "recon/gl/plane_sweep_gl.h"
-#include "recon/plane_sweep.h"
+#include "recon/gl/paper_methods/plane_sweep_gl.h"
+#include "recon/paper_methods/plane_sweep.h"
 #include "recon/synthetic/view_scene.h"
 
 namespace elbowroom::benchmarks {

@@ -11,18 +11,18 @@
 #include <string>
 #include <vector>
 
-#include "recon/boundary.h"
-#include "recon/coverage.h"
-#include "recon/difference_kernel.h"
-#include "recon/frame_segmenter.h"
-#include "recon/mask_image.h"
-#include "recon/mask_regions.h"
-#include "recon/recorded_rig.h"
-#include "recon/segmentation.h"
+#include "recon/segmentation/boundary.h"
+#include "recon/segmentation/coverage.h"
+#include "recon/segmentation/difference_kernel.h"
+#include "recon/segmentation/frame_segmenter.h"
+#include "recon/images/mask_image.h"
+#include "recon/segmentation/mask_regions.h"
+#include "recon/footage/recorded_rig.h"
+#include "recon/segmentation/segmentation.h"
 #include "recon/synthetic/demo_motion.h"
 #include "recon/synthetic/rig_presets.h"
 #include "recon/synthetic/synthetic_rig.h"
-#include "tests/recon/boundary_error.h"
+#include "tests/recon/segmentation/boundary_error.h"
 
 namespace elbowroom::recon {
 namespace {

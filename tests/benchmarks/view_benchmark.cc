@@ -5,10 +5,10 @@
 #include <map>
 #include <memory>
 
-#include "recon/hull_mesh.h"
-#include "recon/hull_view.h"
+#include "recon/hull_mesh/hull_mesh.h"
+#include "recon/exact_view/hull_view.h"
 #include "recon/synthetic/view_scene.h"
-#include "recon/visual_hull.h"
+#include "recon/hull/visual_hull.h"
 
 namespace elbowroom::recon {
 namespace {

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "cad_import/layout_file.h"
+#include "cad_import/layout/layout_file.h"
 #include "tests/cad_import/mesh_file_fixture.h"
 #include "tests/cad_import/sample_files.h"
 #include "tests/core/solids.h"

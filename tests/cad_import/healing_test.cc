@@ -1,4 +1,4 @@
-#include "cad_import/healing.h"
+#include "cad_import/normalisation/healing.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <numbers>
 #include <random>
 
-#include "cad_import/surface_topology.h"
+#include "cad_import/normalisation/surface_topology.h"
 #include "tests/core/solids.h"
 
 namespace elbowroom::cad_import {

@@ -1,4 +1,4 @@
-#include "cad_import/layout_file.h"
+#include "cad_import/layout/layout_file.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // LAYOUT.toml changed in place: what is meant arrives, what isn't meant stays.
-#include "cad_import/layout_text.h"
+#include "cad_import/layout/layout_text.h"
 
 #include <gtest/gtest.h>
 
@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "cad_import/layout_change.h"
-#include "cad_import/layout_file.h"
+#include "cad_import/layout/layout_change.h"
+#include "cad_import/layout/layout_file.h"
 #include "core/error.h"
 #include "core/layout_fault.h"
 #include "tests/cad_import/error_of.h"

@@ -1,5 +1,5 @@
 // Against all common points of two triangles, found in rational numbers.
-#include "cad_import/self_intersections.h"
+#include "cad_import/normalisation/self_intersections.h"
 
 #include <gtest/gtest.h>
 

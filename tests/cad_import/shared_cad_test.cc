@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "cad_import/file_format.h"
+#include "cad_import/formats/file_format.h"
 #include "cad_import/mesh_file.h"
 #include "core/error.h"
 

@@ -1,4 +1,4 @@
-#include "cad_import/text_encoding.h"
+#include "cad_import/formats/text_encoding.h"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
-#include "cad_import/toml_nesting.h"
+#include "cad_import/layout/toml_nesting.h"
 
 #include <gtest/gtest.h>
 
 #include <string>
 
-#include "cad_import/toml_entry.h"
+#include "cad_import/layout/toml_entry.h"
 #include "core/error.h"
 
 namespace elbowroom::cad_import {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "cad_import/file_format.h"
+#include "cad_import/formats/file_format.h"
 #include "tests/cad_models/model_answers.h"
 
 namespace elbowroom::cad_models {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <sstream>
 
-#include "cad_import/file_format.h"
+#include "cad_import/formats/file_format.h"
 #include "tests/support/run_program.h"
 
 namespace elbowroom::cad_models {

@@ -13,7 +13,7 @@
 #include <optional>
 #include <vector>
 
-#include "cad_import/file_format.h"
+#include "cad_import/formats/file_format.h"
 #include "core/error.h"
 #include "tests/cad_models/model_answers.h"
 #include "tests/cad_models/model_comparison.h"

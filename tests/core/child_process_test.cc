@@ -1,4 +1,4 @@
-#include "core/child_process.h"
+#include "core/system/child_process.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -11,7 +11,7 @@
 #include <string>
 
 #include "core/error.h"
-#include "core/module.h"
+#include "core/system/module.h"
 
 namespace elbowroom::core {
 namespace {

@@ -1,4 +1,4 @@
-#include "core/configuration_file.h"
+#include "core/system/configuration_file.h"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <memory>
 
-#include "tests/recon/random_scene.h"
+#include "tests/recon/scenes/random_scene.h"
 
 namespace elbowroom::core {
 namespace {

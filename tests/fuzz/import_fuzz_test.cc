@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "cad_import/cad_file.h"
-#include "cad_import/file_format.h"
+#include "cad_import/formats/file_format.h"
 #include "core/error.h"
 #include "tests/cad_import/sample_files.h"
 #include "tests/core/solids.h"

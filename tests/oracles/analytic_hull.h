@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/rig.h"
-#include "recon/ray.h"
+#include "recon/hull/ray.h"
 #include "recon/synthetic/solids.h"
 #include "tests/oracles/first_along.h"
 

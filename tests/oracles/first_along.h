@@ -10,7 +10,7 @@
 #include <optional>
 #include <utility>
 
-#include "recon/ray.h"
+#include "recon/hull/ray.h"
 #include "tests/oracles/picture_labels.h"
 
 namespace elbowroom::oracles {

@@ -9,7 +9,7 @@
 
 #include "core/rig.h"
 #include "core/soft_mask.h"
-#include "recon/ray.h"
+#include "recon/hull/ray.h"
 #include "tests/oracles/first_along.h"
 #include "tests/oracles/picture_labels.h"
 

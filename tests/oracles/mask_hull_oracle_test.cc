@@ -9,11 +9,11 @@
 
 #include "recon/synthetic/demo_motion.h"
 #include "recon/synthetic/rig_presets.h"
-#include "recon/visual_hull.h"
+#include "recon/hull/visual_hull.h"
 #include "tests/oracles/analytic_hull.h"
 #include "tests/oracles/camera_projection.h"
 #include "tests/oracles/coverage_mask.h"
-#include "tests/recon/random_scene.h"
+#include "tests/recon/scenes/random_scene.h"
 #include "tests/support/soak.h"
 
 namespace elbowroom::oracles {

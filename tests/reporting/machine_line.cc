@@ -8,7 +8,7 @@
 #include <thread>
 
 #include "core/error.h"
-#include "recon/gl/egl_context.h"
+#include "recon/gl/objects/egl_context.h"
 #include "tests/support/run_program.h"
 
 namespace elbowroom::reporting {

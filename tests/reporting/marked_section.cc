@@ -6,7 +6,7 @@
 #include <iterator>
 
 #include "core/error.h"
-#include "core/whole_file.h"
+#include "core/system/whole_file.h"
 
 namespace elbowroom::reporting {
 namespace {

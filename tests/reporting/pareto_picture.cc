@@ -6,7 +6,7 @@
 #include <array>
 
 #include "core/error.h"
-#include "core/whole_file.h"
+#include "core/system/whole_file.h"
 #include "tests/reporting/gnuplot.h"
 
 namespace elbowroom::reporting {

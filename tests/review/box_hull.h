@@ -1,7 +1,7 @@
 // A hull whose faces are known.
 #pragma once
 
-#include "recon/visual_hull.h"
+#include "recon/hull/visual_hull.h"
 
 namespace elbowroom::review {
 

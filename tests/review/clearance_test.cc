@@ -12,10 +12,10 @@
 
 #include "core/error.h"
 #include "core/part_distance.h"
-#include "recon/hull_mesh.h"
+#include "recon/hull_mesh/hull_mesh.h"
 #include "review/contacts.h"
 #include "tests/core/solids.h"
-#include "tests/recon/random_scene.h"
+#include "tests/recon/scenes/random_scene.h"
 #include "tests/review/box_hull.h"
 #include "tests/support/soak.h"
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/error.h"
-#include "tests/recon/random_scene.h"
+#include "tests/recon/scenes/random_scene.h"
 #include "tests/review/curtain.h"
 #include "tests/review/sweeping_hand.h"
 #include "tests/support/soak.h"

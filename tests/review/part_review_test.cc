@@ -8,7 +8,7 @@
 
 #include "core/error.h"
 #include "tests/core/solids.h"
-#include "tests/recon/random_scene.h"
+#include "tests/recon/scenes/random_scene.h"
 #include "tests/review/box_hull.h"
 #include "tests/support/soak.h"
 

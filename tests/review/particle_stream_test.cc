@@ -12,7 +12,7 @@
 #include "core/part_distance.h"
 #include "review/inside_cells.h"
 #include "tests/core/solids.h"
-#include "tests/recon/random_scene.h"
+#include "tests/recon/scenes/random_scene.h"
 #include "tests/review/sweeping_hand.h"
 #include "tests/support/soak.h"
 

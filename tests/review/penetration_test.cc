@@ -17,7 +17,7 @@
 #include "review/inside_cells.h"
 #include "review/meeting.h"
 #include "tests/core/solids.h"
-#include "tests/recon/random_scene.h"
+#include "tests/recon/scenes/random_scene.h"
 #include "tests/review/box_hull.h"
 #include "tests/support/soak.h"
 

@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "core/error.h"
-#include "tests/recon/random_scene.h"
+#include "tests/recon/scenes/random_scene.h"
 
 namespace elbowroom::review {
 namespace {

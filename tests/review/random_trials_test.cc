@@ -18,7 +18,7 @@
 #include "review/contacts.h"
 #include "review/inside_cells.h"
 #include "tests/oracles/mask_hull_oracle.h"
-#include "tests/recon/random_scene.h"
+#include "tests/recon/scenes/random_scene.h"
 #include "tests/review/random_parts.h"
 #include "tests/support/soak.h"
 

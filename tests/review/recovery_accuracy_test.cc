@@ -13,7 +13,7 @@
 #include "review/recovery_uncertainty.h"
 #include "tests/oracles/coverage_mask.h"
 #include "tests/oracles/mask_hull_oracle.h"
-#include "tests/recon/random_scene.h"
+#include "tests/recon/scenes/random_scene.h"
 
 namespace elbowroom::review {
 namespace {

@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "core/error.h"
-#include "recon/coverage_hull.h"
+#include "recon/paper_methods/coverage_hull.h"
 #include "review/contacts.h"
-#include "review/two_triangle_response.h"
+#include "review/paper_methods/two_triangle_response.h"
 #include "tests/core/solids.h"
-#include "tests/recon/random_scene.h"
+#include "tests/recon/scenes/random_scene.h"
 #include "tests/review/box_hull.h"
 
 namespace elbowroom::review {

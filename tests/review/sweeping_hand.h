@@ -6,7 +6,7 @@
 
 #include "core/rigid_transform.h"
 #include "recon/synthetic/solids.h"
-#include "recon/visual_hull.h"
+#include "recon/hull/visual_hull.h"
 
 namespace elbowroom::review {
 

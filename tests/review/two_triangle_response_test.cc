@@ -1,4 +1,4 @@
-#include "review/two_triangle_response.h"
+#include "review/paper_methods/two_triangle_response.h"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "core/error.h"
-#include "recon/triangle_viewports.h"
+#include "recon/paper_methods/triangle_viewports.h"
 #include "tests/core/solids.h"
-#include "tests/recon/random_scene.h"
+#include "tests/recon/scenes/random_scene.h"
 
 namespace elbowroom::review {
 namespace {

@@ -1,4 +1,4 @@
-#include "sessions/report.h"
+#include "sessions/report/report.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <regex>
 #include <sstream>
 
-#include "sessions/markup.h"
+#include "sessions/report/markup.h"
 #include "sessions/session_writer.h"
 #include "tests/sessions/expect_error.h"
 #include "tests/sessions/sample_session.h"

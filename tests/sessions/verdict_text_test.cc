@@ -1,8 +1,8 @@
-#include "sessions/verdict_text.h"
+#include "sessions/report/verdict_text.h"
 
 #include <gtest/gtest.h>
 
-#include "sessions/chart.h"
+#include "sessions/report/chart.h"
 #include "tests/sessions/sample_session.h"
 #include "tests/sessions/sample_trial.h"
 #include "tests/support/temporary_folder.h"

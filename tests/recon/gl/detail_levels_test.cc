@@ -1,5 +1,5 @@
 // Coarser levels of meshes: how far they are from the whole, held to every triangle, and what pictures show.
-#include "recon/gl/detail_levels.h"
+#include "recon/gl/scene/detail_levels.h"
 
 #include <gtest/gtest.h>
 
@@ -13,8 +13,8 @@
 
 #include "core/part_distance.h"
 #include "core/units.h"
-#include "recon/gl/scene_renderer.h"
-#include "recon/orbit_camera.h"
+#include "recon/gl/scene/scene_renderer.h"
+#include "recon/appearance/orbit_camera.h"
 
 namespace elbowroom::recon::gl {
 namespace {

@@ -1,4 +1,4 @@
-#include "recon/gl/egl_context.h"
+#include "recon/gl/objects/egl_context.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "recon/gl/exact_view_gl.h"
+#include "recon/gl/exact_view/exact_view_gl.h"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,8 @@
 #include <optional>
 #include <utility>
 
-#include "recon/view_comparison.h"
-#include "tests/recon/random_scene.h"
+#include "recon/exact_view/view_comparison.h"
+#include "tests/recon/scenes/random_scene.h"
 #include "tests/support/soak.h"
 
 namespace elbowroom::recon::gl {

@@ -1,4 +1,4 @@
-#include "recon/gl/plane_sweep_gl.h"
+#include "recon/gl/paper_methods/plane_sweep_gl.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "core/error.h"
-#include "tests/recon/random_scene.h"
-#include "tests/recon/sweep_oracle.h"
+#include "tests/recon/scenes/random_scene.h"
+#include "tests/recon/scenes/sweep_oracle.h"
 #include "tests/support/soak.h"
 
 namespace elbowroom::recon::gl {

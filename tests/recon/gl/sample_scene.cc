@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-#include "recon/orbit_camera.h"
+#include "recon/appearance/orbit_camera.h"
 
 namespace elbowroom::recon::gl {
 namespace {

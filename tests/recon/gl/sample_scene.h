@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/triangle_mesh.h"
-#include "recon/gl/scene.h"
+#include "recon/gl/scene/scene.h"
 
 namespace elbowroom::recon::gl {
 

@@ -1,4 +1,4 @@
-#include "recon/gl/scene_renderer.h"
+#include "recon/gl/scene/scene_renderer.h"
 
 #include <epoxy/gl.h>
 #include <gtest/gtest.h>
@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "core/error.h"
-#include "recon/orbit_camera.h"
-#include "recon/png_file.h"
+#include "recon/appearance/orbit_camera.h"
+#include "recon/images/png_file.h"
 #include "tests/recon/gl/sample_scene.h"
 
 namespace elbowroom::recon::gl {

@@ -1,4 +1,4 @@
-#include "recon/gl/scene.h"
+#include "recon/gl/scene/scene.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "recon/gl/surface_mesh.h"
+#include "recon/gl/scene/surface_mesh.h"
 
 #include <gtest/gtest.h>
 

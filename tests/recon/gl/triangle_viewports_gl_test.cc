@@ -1,4 +1,4 @@
-#include "recon/gl/triangle_viewports_gl.h"
+#include "recon/gl/paper_methods/triangle_viewports_gl.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/error.h"
-#include "tests/recon/part_samples.h"
+#include "tests/recon/scenes/part_samples.h"
 #include "tests/support/soak.h"
 
 namespace elbowroom::recon::gl {

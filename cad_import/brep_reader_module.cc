@@ -1,4 +1,0 @@
-// The module of the reader of boundary representations.
-#include "cad_import/format_modules.h"
-
-elbowroom::cad_import::BrepReader& ElbowroomBrepReader() { return elbowroom::cad_import::ReadBrep; }

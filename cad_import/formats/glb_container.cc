@@ -1,0 +1,90 @@
+#include "cad_import/formats/glb_container.h"
+
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <cstring>
+#include <utility>
+
+#include "cad_import/formats/gltf_check.h"
+#include "core/error.h"
+
+namespace elbowroom::cad_import {
+namespace {
+
+constexpr std::size_t kHeaderBytes = 12, kChunkHeaderBytes = 8, kAlignment = 4;
+constexpr std::size_t kTotalAt = 8, kJsonBytesAt = kHeaderBytes, kJsonAt = kHeaderBytes + kChunkHeaderBytes;
+constexpr std::uint32_t kJsonChunk = 0x4E4F534A, kBinaryChunk = 0x004E4942;
+
+[[noreturn]] void Fail(const std::string& where, const std::string& what) {
+  throw core::Error(core::ErrorKind::kFormat, fmt::format("{}: {}; export it again", where, what));
+}
+
+std::uint32_t WordAt(std::string_view bytes, std::size_t at) {
+  std::uint32_t value = 0;
+  std::memcpy(&value, bytes.data() + at, sizeof value);
+  return value;
+}
+
+void SetAt(std::string& bytes, std::size_t at, std::size_t number) {
+  const auto value = static_cast<std::uint32_t>(number);
+  std::memcpy(bytes.data() + at, &value, sizeof value);
+}
+
+std::size_t MissingBytes(std::size_t chunk_bytes) {
+  return (kAlignment - chunk_bytes % kAlignment) % kAlignment;
+}
+
+// Where the second chunk begins, if there is one.
+std::size_t SecondAt(std::string_view glb) {
+  const std::size_t json_end = kJsonAt + WordAt(glb, kJsonBytesAt);
+  return LacksPadding(glb) ? json_end : json_end + MissingBytes(json_end);
+}
+
+}  // namespace
+
+void CheckGlb(std::string_view bytes, const std::string& where) {
+  if (bytes.size() < kJsonAt || !bytes.starts_with("glTF")) {
+    Fail(where, "not a GLB file (it doesn't start with \"glTF\"), or cut off");
+  }
+  if (WordAt(bytes, 4) != 2)
+    Fail(where, fmt::format("GLB version {} can't be read, only 2", WordAt(bytes, 4)));
+  if (WordAt(bytes, kTotalAt) > bytes.size()) {
+    Fail(where, fmt::format("the GLB header claims {} bytes but the file holds {}: it is cut off",
+                            WordAt(bytes, kTotalAt), bytes.size()));
+  }
+  const std::size_t json_bytes = WordAt(bytes, kJsonBytesAt);
+  if (WordAt(bytes, kJsonBytesAt + 4) != kJsonChunk || json_bytes > bytes.size() - kJsonAt) {
+    Fail(where, "the GLB file's first chunk is not whole JSON");
+  }
+  const std::size_t second_at = SecondAt(bytes);
+  if (second_at + kChunkHeaderBytes <= bytes.size() &&
+      WordAt(bytes, second_at) > bytes.size() - second_at - kChunkHeaderBytes) {
+    Fail(where, "the GLB file's second chunk runs past its end: it is cut off");
+  }
+  CheckGltf(bytes.substr(kJsonAt, json_bytes), where);
+}
+
+bool LacksPadding(std::string_view glb) {
+  const std::size_t json_end = kJsonAt + WordAt(glb, kJsonBytesAt);
+  return MissingBytes(json_end) > 0 && json_end + kChunkHeaderBytes <= glb.size() &&
+         WordAt(glb, json_end + 4) == kBinaryChunk;
+}
+
+std::string_view JsonOf(std::string_view glb) { return glb.substr(kJsonAt, WordAt(glb, kJsonBytesAt)); }
+
+std::string Padded(std::string glb) {
+  const std::string json(JsonOf(glb));
+  return WithJson(std::move(glb), json);
+}
+
+std::string WithJson(std::string glb, const std::string& json) {
+  const std::size_t before = WordAt(glb, kJsonBytesAt);
+  const std::string padded = json + std::string(MissingBytes(kJsonAt + json.size()), ' ');
+  SetAt(glb, kTotalAt, WordAt(glb, kTotalAt) - before + padded.size());
+  SetAt(glb, kJsonBytesAt, padded.size());
+  glb.replace(kJsonAt, before, padded);
+  return glb;
+}
+
+}  // namespace elbowroom::cad_import

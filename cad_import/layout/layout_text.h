@@ -1,0 +1,54 @@
+// A LAYOUT.toml as its author wrote it, changed in place.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "cad_import/layout/layout_fields.h"
+#include "core/units.h"
+
+namespace elbowroom::cad_import {
+
+// Comments, the order of keys and the way in which things are written stay, but for what a change is about:
+// an entry that is removed takes its own lines along, and the comments right above and below it. Every change
+// is read back; what doesn't say what was meant isn't kept. Entries [[kind]] count from 0. Every change
+// throws: Error{kFormat} with file and line where the text can't be changed so (an entry that isn't written
+// as [[kind]]); PreconditionError for an entry that there isn't.
+class LayoutText {
+ public:
+  // `file` is for messages. Throws: Error{kFormat} with the line that isn't TOML.
+  explicit LayoutText(std::string text = {}, std::filesystem::path file = {});
+  // Throws: Error{kFile} when there is no such file; the same.
+  [[nodiscard]] static LayoutText Read(const std::filesystem::path& file);
+
+  [[nodiscard]] const std::string& text() const { return text_; }
+  [[nodiscard]] const std::filesystem::path& file() const { return file_; }
+
+  [[nodiscard]] std::size_t Count(std::string_view kind) const;
+  [[nodiscard]] std::int64_t LineOf(std::string_view kind, std::size_t index) const;  // from 1
+  // A key's text, or the texts of its list; none where it is absent or something else.
+  [[nodiscard]] std::vector<std::string> TextsOf(std::string_view kind, std::size_t index,
+                                                 std::string_view key) const;
+  [[nodiscard]] bool Has(std::string_view kind, std::size_t index, std::string_view key) const;
+
+  void SetUnit(core::LengthUnit unit);
+  void Insert(std::string_view kind, std::size_t index, const Fields& fields);  // before that one
+  void Append(std::string_view kind, const Fields& fields) { Insert(kind, Count(kind), fields); }
+  void Remove(std::string_view kind, std::size_t index);
+  void Move(std::string_view kind, std::size_t from, std::size_t to);
+  void Set(std::string_view kind, std::size_t index, const Field& field);
+  void Unset(std::string_view kind, std::size_t index, std::string_view key);
+
+ private:
+  class Edit;
+  static void InsertBlock(Edit& edit, std::string_view kind, std::size_t index, std::string block);
+
+  std::string text_;
+  std::filesystem::path file_;
+};
+
+}  // namespace elbowroom::cad_import

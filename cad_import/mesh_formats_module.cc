@@ -1,8 +1,0 @@
-// The module of the formats that hold meshes.
-#include "cad_import/format_modules.h"
-
-const elbowroom::cad_import::MeshFormats& ElbowroomMeshFormats() {
-  using namespace elbowroom::cad_import;
-  static constexpr MeshFormats kFormats = {&ReadScene, &ReadThreeMf, &EncodeModel};
-  return kFormats;
-}

@@ -1,0 +1,35 @@
+// How the hull's surface is coloured, and its colours from pictures of the real objects.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "recon/appearance/hull_photo.h"
+#include "recon/exact_view/hull_view.h"
+#include "recon/appearance/scene_view.h"
+
+namespace elbowroom::recon {
+
+enum class HullAppearance {
+  kFlat,        // one colour, the paper's glove
+  kByNormal,    // one colour, shaded by the surface's direction
+  kOneCamera,   // from the picture of one camera, worn on the head or near the viewer (the paper's way)
+  kRigCameras,  // from the pictures of all the rig's cameras that see the point
+};
+
+// Red, green, blue, and how far they are to be trusted: 0 where no camera sees the point, 255 where one sees
+// it well, smooth between.
+using CameraColor = std::array<std::uint8_t, 4>;
+
+// One a pixel of `picture`, the hull as `view` sees it, row-major. The photos that see a point are blended by
+// how well they see it and by the angle between their line of sight and the viewer's; the blend is continuous
+// along the surface as long as depth and normal are (docs/appearance.md). Where the layer's normal is unknown
+// there is no colour. Parallel over rows; the result doesn't depend on the number of threads. Throws:
+// PreconditionError when the picture's size isn't the view's.
+[[nodiscard]] std::vector<CameraColor> ColorHull(const HullView& picture, const SceneView& view,
+                                                 std::span<const std::shared_ptr<const HullPhoto>> photos);
+
+}  // namespace elbowroom::recon

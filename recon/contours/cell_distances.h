@@ -1,0 +1,49 @@
+// How far each cell of a grid is from the nearest one that holds something.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "recon/contours/label_raster.h"
+
+namespace elbowroom::recon {
+
+// Euclidean distances between cells' centres, in cells: lower bounds, exact up to kNearCells; farther away
+// short by at most 6 along each axis, from blocks of 4 x 4 cells (contour_map_test).
+class CellDistances {
+ public:
+  static constexpr int kNearCells = 11;
+
+  CellDistances() = default;
+  // Cell (x, y) is item y * width + x; `holders`: those that hold something, ascending.
+  CellDistances(int width, int height, std::span<const std::uint32_t> holders);
+
+  [[nodiscard]] double LowerBound(int x, int y) const {
+    const std::uint8_t square =
+        near_squares_[static_cast<std::size_t>(y) * width_ + static_cast<std::size_t>(x)];
+    if (square < kNearCells * kNearCells) return std::sqrt(static_cast<double>(square));
+    return blocks_[static_cast<std::size_t>(y / kBlock) * block_width_ +
+                   static_cast<std::size_t>(x / kBlock)];
+  }
+
+  // Item by item the square, capped at that of kNearCells; LabelRaster::kBytesBehind more behind them.
+  [[nodiscard]] std::span<const std::uint8_t> near_squares() const {
+    return {near_squares_.get(), width_ * height_ + LabelRaster::kBytesBehind};
+  }
+
+ private:
+  static constexpr int kBlock = 4;
+  void FillNear(std::span<const std::uint32_t> holders);
+  void FillBlocks(std::span<const std::uint32_t> holders);
+
+  std::size_t width_ = 0, height_ = 0;
+  std::size_t block_width_ = 0, block_height_ = 0;
+  std::unique_ptr<std::uint8_t[]> near_squares_;  // kNearCells * kNearCells: at least as far
+  std::vector<float> blocks_;                     // at least kNearCells
+};
+
+}  // namespace elbowroom::recon

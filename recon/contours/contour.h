@@ -1,0 +1,50 @@
+// A silhouette's boundary as straight edges in its camera's picture plane.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "core/soft_mask.h"
+#include "recon/contours/picture_plane.h"
+
+namespace elbowroom::recon {
+
+// From one vertex to another, object on the side where cross(to - from, p - from) > 0.
+struct ContourEdge {
+  std::uint32_t from = 0;
+  std::uint32_t to = 0;
+};
+
+// Closed loops: each vertex is the end of exactly one edge and the start of exactly one.
+struct Contour {
+  std::vector<Eigen::Vector2d> vertices;  // PicturePlane units
+  std::vector<ContourEdge> edges;
+  std::vector<std::uint32_t> edge_from;  // by vertex: the edge that starts there
+  std::vector<std::uint32_t> edge_to;    // ... that ends there
+};
+
+// Marching squares over the lattice of pixel centres, whose outside carries the exterior label: a vertex
+// where the boundary crosses the line between two neighbouring centres (core::SoftMask says where; on the
+// picture's border exactly there), straight edges between. Where two object pixels touch across a corner they
+// are joined. Pixels that the lens's domain doesn't reach are exterior.
+[[nodiscard]] Contour TraceContour(const core::SoftMask& silhouette, bool exterior_is_object,
+                                   const PicturePlane& plane);
+
+// The label of one position by the parity of the edges to its left: slow, needs nothing prepared.
+[[nodiscard]] bool IsObjectByParity(const Contour& contour, bool exterior_is_object,
+                                    const Eigen::Vector2d& position);
+
+// Direction of the boundary at an edge: of the edges up to `kTangentReach` before and after it together, so
+// that a ready mask's staircase gives the line it stands for. Zero for a loop that closes on itself sooner.
+inline constexpr int kTangentReach = 3;
+[[nodiscard]] Eigen::Vector2d SmoothTangent(const Contour& contour, std::uint32_t edge);
+
+// Of the plane through the camera's centre along SmoothTangent, unit, away from the object. Of the edge
+// itself where the tangent is zero.
+[[nodiscard]] Eigen::Vector3d OutwardNormalInCam(const Contour& contour, std::uint32_t edge, double focal_px);
+
+[[nodiscard]] double DistanceToEdge(const Contour& contour, std::uint32_t edge,
+                                    const Eigen::Vector2d& position);
+
+}  // namespace elbowroom::recon

@@ -1,0 +1,41 @@
+// One camera's picture of what is object.
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <mutex>
+#include <optional>
+
+#include "core/soft_mask.h"
+#include "recon/contours/contour_map.h"
+#include "recon/contours/picture_plane.h"
+
+namespace elbowroom::recon {
+
+// A mask and its contour. Convention, of every length and label below: pixel centres at integers, marching
+// squares between them (TraceContour). The contour is traced with the first question for it. Immutable.
+// Thread: any.
+class Silhouette {
+ public:
+  // Throws: PreconditionError when the mask's size isn't the camera's.
+  Silhouette(std::shared_ptr<const PicturePlane> plane, core::SoftMask soft_mask, bool exterior_is_object);
+
+  [[nodiscard]] const core::BitMask& mask() const { return soft_mask_.mask; }
+  [[nodiscard]] const core::SoftMask& soft_mask() const { return soft_mask_; }
+  [[nodiscard]] const PicturePlane& plane() const { return *plane_; }
+  [[nodiscard]] bool exterior_is_object() const { return exterior_is_object_; }
+  [[nodiscard]] bool shows_object() const { return shows_object_; }  // some pixel is
+  [[nodiscard]] const ContourMap& labels() const;
+  [[nodiscard]] bool is_traced() const { return ready_.load(std::memory_order_acquire) != nullptr; }
+
+ private:
+  std::shared_ptr<const PicturePlane> plane_;
+  core::SoftMask soft_mask_;
+  bool exterior_is_object_;
+  bool shows_object_;
+  mutable std::once_flag once_;
+  mutable std::optional<ContourMap> labels_;
+  mutable std::atomic<const ContourMap*> ready_ = nullptr;  // labels_, once it is there
+};
+
+}  // namespace elbowroom::recon

@@ -1,0 +1,46 @@
+// OpenCV's readers and writers of pictures and videos, as a module: they bring 240 libraries, which take
+// longer to load than most commands run. The decoder has them, a program of its own (recon/decoding/picture_worker.h).
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <opencv2/core/mat.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace elbowroom::recon {
+
+// An open video or camera. Thread: one at a time.
+class VideoStream {
+ public:
+  virtual ~VideoStream() = default;
+
+  [[nodiscard]] virtual bool Grab() = 0;  // false: there is no next picture, or it can't be decoded
+  // The one grabbed, 8-bit BGR: into the memory of `image` if it has that size and type, else into memory of
+  // its own, or empty.
+  virtual void Retrieve(cv::Mat& image) = 0;
+  [[nodiscard]] virtual cv::Size size_px() const = 0;        // as the container says
+  [[nodiscard]] virtual double frame_rate_hz() const = 0;    // likewise; 0: it doesn't
+  [[nodiscard]] virtual double promised_frames() const = 0;  // likewise
+};
+
+enum class DecodedAs : std::int32_t { kStored, kBgr };
+
+struct PictureCodecs {
+  // Empty: these bytes are no picture.
+  cv::Mat (*decode)(std::string_view bytes, DecodedAs as);
+  // `extension` names the format: ".png".
+  std::vector<std::uint8_t> (*encode)(const cv::Mat& image, const std::string& extension);
+  // A file or an address through FFmpeg, a camera by its number. Null: can't be opened.
+  std::unique_ptr<VideoStream> (*open_video)(const std::string& location);
+  std::unique_ptr<VideoStream> (*open_device)(int number);
+};
+
+// Loads them at first. Throws: Error{kFile} if that fails. Thread: any.
+[[nodiscard]] const PictureCodecs& LoadedPictureCodecs();
+
+}  // namespace elbowroom::recon
+
+// The module's entry.
+extern "C" const elbowroom::recon::PictureCodecs& ElbowroomPictureCodecs();

@@ -1,0 +1,15 @@
+// A decoder's worker: what it does for one source.
+#pragma once
+
+#include "core/system/child_process.h"
+#include "recon/decoding/picture_codecs.h"
+#include "recon/decoding/picture_protocol.h"
+
+namespace elbowroom::recon {
+
+// Answers requests until the other end is closed; limits its own memory first. What codecs print is caught
+// and goes into the answers.
+[[noreturn]] void WorkForOneSource(const PictureCodecs& codecs, const WorkerOrder& order,
+                                   const core::Descriptor& socket, const core::Descriptor& memory);
+
+}  // namespace elbowroom::recon

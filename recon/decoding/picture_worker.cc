@@ -1,0 +1,179 @@
+#include "recon/decoding/picture_worker.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <mutex>
+#include <thread>
+
+#include "core/error.h"
+#include "core/system/module.h"
+#include "core/progress.h"
+#include "recon/decoding/packet.h"
+
+namespace elbowroom::recon {
+namespace {
+
+using core::Error;
+using core::ErrorKind;
+using core::Woken;
+using Clock = std::chrono::steady_clock;
+
+constexpr std::int64_t kMib = std::int64_t{1} << 20U;
+// A worker starts as soon as the decoder has its libraries, which may have to come from a slow disk.
+constexpr std::chrono::seconds kLongestStart{60};
+// What the system takes to tell of a process that is gone.
+constexpr std::chrono::seconds kLongestEnd{2};
+
+// The decoder of this program: a server that makes workers.
+class Decoder {
+ public:
+  ~Decoder() {
+    orders_.Close();  // it hears that, and ends its workers and itself
+    if (child_) (void)child_->WaitForEnd({}, Clock::now() + kLongestEnd);
+  }
+
+  void Order(const WorkerOrder& order, std::span<const int> files) {
+    const std::lock_guard lock(mutex_);
+    for (const bool is_again : {false, true}) {
+      if (!child_ || is_again) Start();
+      if (SendPacket(orders_, order, {}, files)) return;
+    }
+    throw Error(ErrorKind::kFile, "the program that reads pictures ends at once; build or install it again");
+  }
+
+ private:
+  void Start() {
+    child_.reset();
+    core::Pipe ends = core::MakeSocketPair();
+    child_.emplace(core::ChildProgram{.program = core::FindProgramBeside(kDecoderProgram),
+                                      .arguments = {"elbowroom_decoder"},
+                                      .gives = {&ends.to}});
+    orders_ = std::move(ends.from);
+  }
+
+  std::mutex mutex_;
+  core::Descriptor orders_;
+  std::optional<core::Child> child_;
+};
+
+Decoder& DecoderOfThisProgram() {
+  static Decoder decoder;
+  return decoder;
+}
+
+// What a source's worker takes at most beside the codecs, generously: a picture's pixels and coefficients;
+// the pictures that a video refers to, and those that its threads hold.
+std::int64_t OwnBytes(const WorkerNeeds& needs) {
+  const std::int64_t pixels = needs.width_px * needs.height_px;
+  if (needs.memory == SourceMemory::kPicture) return 96 * kMib + 32 * pixels;
+  const auto threads = static_cast<std::int64_t>(std::max(1U, std::thread::hardware_concurrency()));
+  return (160 + 3 * threads) * kMib + 3 * (40 + 2 * threads) * pixels;
+}
+
+WorkerOrder OrderFor(const WorkerNeeds& needs) {
+  core::Require(needs.width_px > 0 && needs.height_px > 0 && needs.file_bytes >= 0, "a picture has pixels");
+  constexpr std::int64_t kLargestPixelBytes = 8;  // four channels of 16 bits
+  constexpr std::int64_t kPixelBytes = 3;
+  const std::int64_t each = needs.memory == SourceMemory::kPicture ? kLargestPixelBytes : kPixelBytes;
+  return {needs.width_px * needs.height_px * each, needs.file_bytes, OwnBytes(needs)};
+}
+
+}  // namespace
+
+PictureWorker::PictureWorker(const WorkerNeeds& needs)
+    : order_(OrderFor(needs)), memory_file_(core::MakeMemoryFile("pictures")) {
+  const std::int64_t bytes = order_.pixel_bytes + order_.file_bytes;
+  // Sealed: a worker can't make it smaller under this program's feet.
+  const bool has_memory = ::ftruncate(memory_file_.number(), bytes) == 0 &&
+                          ::fcntl(memory_file_.number(), F_ADD_SEALS, F_SEAL_SHRINK | F_SEAL_GROW) == 0;
+  void* memory = has_memory ? ::mmap(nullptr, static_cast<std::size_t>(bytes), PROT_READ | PROT_WRITE,
+                                     MAP_SHARED, memory_file_.number(), 0)
+                            : MAP_FAILED;
+  if (memory == MAP_FAILED) {
+    // The limit on files holds for those in memory, too.
+    throw Error(ErrorKind::kFile,
+                errno == EFBIG
+                    ? "the limit on the size of files (ulimit -f) is too small for pictures; raise it"
+                    : "there is no memory for pictures; close other programs");
+  }
+  memory_ = static_cast<std::byte*>(memory);
+}
+
+PictureWorker::~PictureWorker() {
+  ::munmap(memory_, static_cast<std::size_t>(order_.pixel_bytes + order_.file_bytes));
+}
+
+std::span<std::byte> PictureWorker::file_bytes() const {
+  return {memory_ + order_.pixel_bytes, static_cast<std::size_t>(order_.file_bytes)};
+}
+
+std::span<std::byte> PictureWorker::pixel_bytes() const {
+  return {memory_, static_cast<std::size_t>(order_.pixel_bytes)};
+}
+
+void PictureWorker::Start(const std::stop_token& stop) {
+  core::Pipe socket = core::MakeSocketPair(), leash = core::MakeSocketPair();
+  const std::array files{socket.to.number(), leash.to.number(), memory_file_.number()};
+  DecoderOfThisProgram().Order(order_, files);
+  socket.to.Close();
+  leash.to.Close();
+  const Woken woken = core::WaitToRead(socket.from, stop, Clock::now() + kLongestStart);
+  core::ThrowIfStopped(stop, "reading pictures");
+  const auto packet = woken == Woken::kReady ? ReceivePacket(socket.from) : std::nullopt;
+  const auto reply = packet ? packet->Head<PictureReply>() : std::nullopt;
+  if (reply && reply->outcome == PictureOutcome::kNoCodecs)
+    throw Error(ErrorKind::kFile, std::string(packet->Text<PictureReply>()));
+  if (!reply) {
+    throw Error(ErrorKind::kFile,
+                "the program that reads pictures doesn't start; close other programs, or install it again");
+  }
+  socket_ = std::move(socket.from);
+  leash_ = std::move(leash.from);
+}
+
+void PictureWorker::End() {
+  socket_.Close();
+  leash_.Close();
+}
+
+PictureAnswer PictureWorker::AnswerOfEnd() {
+  PictureAnswer answer{{}, "its decoder is gone", true};
+  if (core::WaitToRead(leash_, {}, Clock::now() + kLongestEnd) == Woken::kReady) {
+    const auto packet = ReceivePacket(leash_);
+    if (const auto end = packet ? packet->Head<WorkerEnd>() : std::nullopt)
+      answer.complaint = "its decoder " + core::TextOfEnd(end->status);
+  }
+  End();
+  return answer;
+}
+
+PictureAnswer PictureWorker::Ask(const PictureRequest& request, std::string_view text,
+                                 const std::stop_token& stop,
+                                 const std::optional<std::chrono::seconds>& most_time) {
+  if (!is_running()) Start(stop);
+  const core::Deadline deadline = most_time ? core::Deadline(Clock::now() + *most_time) : std::nullopt;
+  if (!SendPacket(socket_, request, text)) return AnswerOfEnd();
+  switch (core::WaitToRead(socket_, stop, deadline)) {
+    case Woken::kReady:
+      break;
+    case Woken::kStopped:
+      End();
+      core::ThrowIfStopped(stop, "reading pictures");
+      break;
+    case Woken::kTooLate:
+      End();
+      return {{}, fmt::format("decoding it takes more than {} s", most_time->count()), true};
+  }
+  const auto packet = ReceivePacket(socket_);
+  const auto reply = packet ? packet->Head<PictureReply>() : std::nullopt;
+  if (!reply) return AnswerOfEnd();
+  return {*reply, core::PrintableLine(packet->Text<PictureReply>(), kLongestPacketBytes), false};
+}
+
+}  // namespace elbowroom::recon

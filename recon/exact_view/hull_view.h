@@ -1,0 +1,79 @@
+// The hull as a camera sees it, exactly: no planes, no steps.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <optional>
+
+#include "core/camera_model.h"
+#include "core/ids.h"
+#include "recon/images/picture_buffer.h"
+#include "recon/exact_view/view_rays.h"
+#include "recon/hull/visual_hull.h"
+
+namespace elbowroom::recon {
+
+// The surface at a pixel: an edge of a camera's contour, seen from that camera, or a face of the workspace.
+class HullSurface {
+ public:
+  HullSurface() = default;  // none: the ray misses
+  [[nodiscard]] static HullSurface Workspace() { return HullSurface(1U); }
+  // Cameras up to 253, edges up to 2^24 - 1; under `abstain` the edges of the outline follow the contour's.
+  HullSurface(core::CameraIndex camera, std::uint32_t edge)
+      : packed_(static_cast<std::uint32_t>((camera + 2) << 24U) | edge) {}
+
+  [[nodiscard]] bool is_hit() const { return packed_ != 0; }
+  // Nothing: a face of the workspace.
+  [[nodiscard]] std::optional<core::CameraIndex> camera() const {
+    if (packed_ >> 24U < 2) return std::nullopt;
+    return (packed_ >> 24U) - 2;
+  }
+  [[nodiscard]] std::uint32_t edge() const { return packed_ & 0xFFFFFFU; }
+  [[nodiscard]] bool operator==(const HullSurface&) const = default;
+
+ private:
+  explicit HullSurface(std::uint32_t packed) : packed_(packed) {}
+  std::uint32_t packed_ = 0;
+};
+
+// Pixels [x, right) by [y, bottom).
+struct PixelBox {
+  int x = 0;
+  int y = 0;
+  int right = 0;
+  int bottom = 0;
+};
+
+struct HullView {
+  int width_px = 0;
+  int height_px = 0;
+  // Along the view's z axis; 0 where the ray misses, and where a perspective view's centre is in the hull.
+  PictureBuffer<float> depth_mm;
+  PictureBuffer<HullSurface> surface;
+  PictureBuffer<Eigen::Vector3f> normal_in_world;  // unit, out of the hull; zero where the ray misses
+  std::int64_t hit_pixels = 0;
+  PixelBox hits;                    // around them
+  std::int64_t cast_pixels = 0;     // whose rays were cast
+  std::int64_t skipped_pixels = 0;  // settled with a larger square of them
+  std::int64_t edges = 0;           // of all contours
+  std::int64_t crossings_met = 0;   // of rays with edges, as far as they were worked out
+};
+
+struct HullViewOptions {
+  bool surfaces = true;  // fill `surface`; otherwise it stays empty
+  bool normals = true;   // fill `normal_in_world`; otherwise it stays empty
+};
+
+// First hull surface along each ray, where the ray's picture in each camera crosses the contours: exact but
+// for float32, 1e-6 of the depth (hull_view_test). Squares of pixels whose rays can't meet the contours of
+// some camera are settled together. Parallel; the result doesn't depend on the number of threads, nor on the
+// processor's vector width. `kept`: a view that nobody needs any more; where it was made with the same
+// options at the same size its memory is taken, and only what it hit is cleared.
+[[nodiscard]] HullView ViewHull(const VisualHull& hull, const ViewRays& rays,
+                                const HullViewOptions& options = {}, HullView kept = {});
+
+// The same, for a view that is used once.
+[[nodiscard]] HullView ViewHull(const VisualHull& hull, const core::CameraModel& view,
+                                const HullViewOptions& options = {});
+
+}  // namespace elbowroom::recon

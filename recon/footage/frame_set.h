@@ -1,0 +1,66 @@
+// What the cameras of a rig saw at one instant, and where such sets come from.
+#pragma once
+
+#include <memory>
+#include <opencv2/core/mat.hpp>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "core/bit_mask.h"
+#include "core/camera_model.h"
+#include "core/ids.h"
+#include "core/progress.h"
+#include "core/rig.h"
+
+namespace elbowroom::recon {
+
+struct CameraFrame {
+  cv::Mat image_bgr;                        // 8-bit, 3 channels; empty where the camera brings ready masks
+  std::optional<core::BitMask> ready_mask;  // then there is nothing to segment
+};
+
+// Of a camera that isn't the rig's (recon/footage/viewer_footage.h).
+struct ViewerPicture {
+  std::shared_ptr<const core::CameraModel> camera;
+  cv::Mat image_bgr;  // 8-bit, 3 channels, of the camera's size
+};
+
+struct FrameSet {
+  core::FrameIndex index = 0;
+  double time_s = 0.0;               // of capture, from frame 0
+  std::vector<CameraFrame> cameras;  // in the rig's order
+  std::optional<ViewerPicture> viewer = std::nullopt;
+};
+
+// The empty scene as one camera sees it: mean and noise of every pixel and channel.
+struct BackgroundReference {
+  cv::Mat mean_bgr;   // CV_32FC3, grey levels; empty for a camera with ready masks
+  cv::Mat sigma_bgr;  // CV_32FC3, standard deviation over the background's frames, grey levels
+  int frames = 0;     // that it was measured from; with one frame sigma is zero everywhere
+};
+
+// Recorded footage, a simulation, a replay: anything that yields frame sets in order.
+// Thread: one reader.
+class FrameSetSource {
+ public:
+  virtual ~FrameSetSource() = default;
+  [[nodiscard]] virtual const core::Rig& rig() const = 0;
+
+  // Of the shortest source; nothing for one without an end.
+  [[nodiscard]] virtual std::optional<core::FrameIndex> frame_count() const = 0;
+
+  // Throws: Error{kRange} past the end, Error{kFile} naming camera, file and frame if it can't be read whole,
+  // Error{kCamera} when a live camera ended; Error{kCancelled} on a stop, heard at once.
+  [[nodiscard]] virtual FrameSet Read(core::FrameIndex index, std::stop_token stop = {}) = 0;
+
+  // What was amiss with the frames read so far, a line each, and didn't keep them from being read.
+  [[nodiscard]] virtual std::vector<std::string> Warnings() const { return {}; }
+
+  // One a camera. Throws: Error{kFile}; Error{kCancelled} on a stop.
+  [[nodiscard]] virtual std::vector<BackgroundReference> ReadBackgrounds(const core::Progress& progress,
+                                                                         std::stop_token stop) = 0;
+};
+
+}  // namespace elbowroom::recon

@@ -1,0 +1,65 @@
+// A rig's frame sets from what RIG.yml names: videos, image sequences, ready masks, live cameras.
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "recon/footage/frame_set.h"
+#include "recon/footage/image_source.h"
+#include "recon/footage/read_ahead.h"
+#include "recon/rig_files/rig_file.h"
+
+namespace elbowroom::recon {
+
+// Which source ends the footage.
+struct ShortestSource {
+  core::CameraIndex camera = 0;  // the first of those equally short
+  std::string location;
+  core::FrameIndex frames = 0;
+};
+
+struct CameraRate {
+  std::string camera;
+  double frames_hz = 0.0;
+};
+
+// Throws: Error{kFormat} naming both cameras when their rates differ by more than containers round.
+void RequireOneRate(const CameraRate& one, const CameraRate& other);
+
+// Adds how many damaged pictures of a live camera were left out, if any were.
+void AddWarningOf(const ImageSource& source, const std::string& camera, std::vector<std::string>* warnings);
+
+// Frame i of a set is frame i of every camera's source. Times come from the videos' frame rate, 25 Hz if none
+// says; from the clock for live cameras, of which the latest pictures make up a set. A camera with ready
+// masks brings those and no picture. Thread: one reader; a capture thread a camera reads a few frames ahead.
+class RecordedRig : public FrameSetSource {
+ public:
+  // Opens every source, in parallel; videos are decoded once to know their length.
+  // Throws: Error naming camera and file for a source that is missing, unreadable or cut short, a camera with
+  // neither frames nor masks, frame rates that disagree; Error{kCancelled} on a stop.
+  explicit RecordedRig(RigFile rig_file, std::stop_token stop = {});
+
+  [[nodiscard]] const core::Rig& rig() const override { return rig_file_.rig; }
+  [[nodiscard]] std::optional<core::FrameIndex> frame_count() const override;
+  [[nodiscard]] const std::optional<ShortestSource>& shortest_source() const { return shortest_source_; }
+  [[nodiscard]] double frame_rate_hz() const { return frame_rate_hz_; }
+
+  [[nodiscard]] FrameSet Read(core::FrameIndex index, std::stop_token stop = {}) override;
+  [[nodiscard]] std::vector<std::string> Warnings() const override;
+  [[nodiscard]] std::vector<BackgroundReference> ReadBackgrounds(const core::Progress& progress,
+                                                                 std::stop_token stop) override;
+
+ private:
+  RigFile rig_file_;
+  std::optional<ShortestSource> shortest_source_;
+  double frame_rate_hz_ = 25.0;
+  std::optional<std::chrono::steady_clock::time_point> first_capture_;  // of live cameras
+  std::vector<std::shared_ptr<const ImageSource>> sources_;  // one a camera; null for one with ready masks
+  std::vector<std::unique_ptr<ReadAhead>> cameras_;
+};
+
+}  // namespace elbowroom::recon

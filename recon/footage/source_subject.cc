@@ -1,0 +1,26 @@
+#include "recon/footage/source_subject.h"
+
+#include <fmt/format.h>
+
+namespace elbowroom::recon {
+
+void SourceSubject::Fail(const std::string& what, core::ErrorKind kind) const {
+  throw core::Error(kind, fmt::format("{}: {}", who, what));
+}
+
+void SourceSubject::RequireSize(std::int64_t found_width_px, std::int64_t found_height_px,
+                                core::FrameIndex index) const {
+  if (found_width_px == width_px && found_height_px == height_px) return;
+  Fail(fmt::format(
+      "frame {} of '{}' is {} x {} px, but the rig says {} x {}; use footage of the calibrated size", index,
+      location, found_width_px, found_height_px, width_px, height_px));
+}
+
+void SourceSubject::RequireInRange(core::FrameIndex index, core::FrameIndex count) const {
+  if (index >= 0 && index < count) return;
+  Fail(fmt::format("frame {} is out of range: '{}' has {} frames (0 to {})", index, location, count,
+                   count - 1),
+       core::ErrorKind::kRange);
+}
+
+}  // namespace elbowroom::recon

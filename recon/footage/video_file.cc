@@ -1,0 +1,149 @@
+#include "recon/footage/video_file.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "recon/footage/container_check.h"
+#include "recon/footage/video_decoder.h"
+
+namespace elbowroom::recon {
+namespace {
+
+using core::FrameIndex;
+
+// To open a video, and for each of its pictures: what takes longer is made to.
+constexpr std::chrono::seconds kMostTime{8};
+constexpr const char* kWhatToDo = "it must be a video that FFmpeg reads; record or copy it again";
+
+class VideoFile : public ImageSource {
+ public:
+  VideoFile(SourceSubject subject, const std::stop_token& stop)
+      : subject_(std::move(subject)), decoder_({subject_.width_px, subject_.height_px}) {
+    RequireFile();
+    if (const auto damage = FindContainerDamage(subject_.location)) {
+      if (damage->frame) {
+        FailAsDamaged(*damage->frame, fmt::format("byte {} isn't where a picture begins", damage->at_byte));
+      }
+      FailAsCutShort(*damage, stop);
+    }
+    const OpenedVideo opened = Open(stop);
+    if (opened.frame_rate_hz > 0.0 && opened.frame_rate_hz < 10'000.0) frame_rate_hz_ = opened.frame_rate_hz;
+    CountFrames(stop);
+    if (count_ == 0)
+      subject_.Fail(fmt::format("no frame of '{}' can be decoded; {}", subject_.location, kWhatToDo));
+    if (GoesOn(stop)) FailAsDamaged(count_, "it can't be decoded, though later ones can");
+    (void)Open(stop);
+  }
+
+  [[nodiscard]] std::optional<FrameIndex> frame_count() const override { return count_; }
+  [[nodiscard]] std::optional<double> frame_rate_hz() const override { return frame_rate_hz_; }
+
+  [[nodiscard]] cv::Mat Read(FrameIndex index, const std::stop_token& stop) override {
+    subject_.RequireInRange(index, count_);
+    if (!next_ || index < *next_) (void)Open(stop);
+    FrameIndex at = *std::exchange(next_, std::nullopt);  // unknown again if what follows is stopped
+    while (at < index) {
+      const auto skipped = decoder_.Skip(index - at, stop, kMostTime);
+      if (!skipped.complaint.empty()) FailAsDamaged(at, skipped.complaint);
+      if (!skipped.value || *skipped.value == 0) FailAt(at);
+      at += *skipped.value;
+    }
+    auto picture = decoder_.Next(stop, kMostTime);
+    if (!picture.complaint.empty()) FailAsDamaged(index, picture.complaint);
+    if (!picture.value) FailAt(index);
+    subject_.RequireSize(picture.value->size_px.width, picture.value->size_px.height, index);
+    next_ = index + 1;
+    return std::move(picture.value->image_bgr);
+  }
+
+ private:
+  void RequireFile() const {
+    std::error_code ignored;
+    const auto status = std::filesystem::status(subject_.location, ignored);
+    if (!std::filesystem::exists(status))
+      subject_.Fail(fmt::format("video '{}' does not exist; check the path", subject_.location));
+    if (!std::filesystem::is_regular_file(status)) {
+      subject_.Fail(fmt::format("video '{}' is not a file; name a file, a folder of pictures, or a camera",
+                                subject_.location));
+    }
+  }
+
+  // At its first frame, which isn't decoded unless the container says the right size.
+  OpenedVideo Open(const std::stop_token& stop) {
+    const auto opened = decoder_.OpenVideo(subject_.location, stop, kMostTime);
+    if (!opened.value) {
+      const std::string why = opened.complaint.empty() ? "" : fmt::format(" ({})", opened.complaint);
+      subject_.Fail(fmt::format("'{}' can't be opened{}; {}", subject_.location, why, kWhatToDo));
+    }
+    if (const cv::Size size = opened.value->size_px; !size.empty())
+      subject_.RequireSize(size.width, size.height, 0);
+    if (!opened.complaint.empty()) FailAsDamaged(0, opened.complaint);
+    next_ = 0;
+    return *opened.value;
+  }
+
+  void CountFrames(const std::stop_token& stop) {
+    constexpr FrameIndex kAtOnce = 32;
+    for (;;) {
+      const auto skipped = decoder_.Skip(kAtOnce, stop, kMostTime);
+      count_ += skipped.value.value_or(0);
+      if (!skipped.complaint.empty()) FailAsDamaged(count_, skipped.complaint);
+      if (!skipped.value) return;
+    }
+  }
+
+  // Whether what OpenCV gave as the end is none: it stops at every packet that can't be decoded at all.
+  bool GoesOn(const std::stop_token& stop) {
+    constexpr int kTries = 256;  // packets in a row; at the end of a file they cost nothing
+    const auto skipped = decoder_.Skip(1, stop, kMostTime, kTries);
+    return skipped.value || skipped.decoder_ended;
+  }
+
+  [[noreturn]] void FailAsDamaged(FrameIndex frame, const std::string& how) const {
+    subject_.Fail(fmt::format("video '{}' is damaged at about frame {}: {}; record or copy it again",
+                              subject_.location, frame, how));
+  }
+
+  [[noreturn]] void FailAsCutShort(const ContainerDamage& damage, const std::stop_token& stop) {
+    std::string frames = "none of its frames can be read";
+    if (const auto opened = decoder_.OpenVideo(subject_.location, stop, kMostTime); opened.value) {
+      FrameIndex count = 0;
+      for (auto more = decoder_.Skip(1, stop, kMostTime); more.value;
+           more = decoder_.Skip(1, stop, kMostTime))
+        count += *more.value;
+      const double promised = opened.value->promised_frames;
+      frames = promised > 0.0 ? fmt::format("it breaks off at frame {} of {} promised", count, promised)
+                              : fmt::format("it breaks off at frame {}", count);
+    }
+    const std::string bytes = damage.promised_bytes > damage.at_byte
+                                  ? fmt::format("{} of {} bytes", damage.at_byte, damage.promised_bytes)
+                                  : fmt::format("nothing is written from byte {} on", damage.at_byte);
+    subject_.Fail(fmt::format("video '{}' is cut short ({}): {}; record or copy it again", subject_.location,
+                              bytes, frames));
+  }
+
+  [[noreturn]] void FailAt(FrameIndex index) const {
+    subject_.Fail(
+        fmt::format("frame {} of '{}' can't be decoded, though {} frames could be before; check the disk",
+                    index, subject_.location, count_));
+  }
+
+  SourceSubject subject_;
+  VideoDecoder decoder_;
+  std::optional<FrameIndex> next_;  // that the decoder yields; nothing: it must be opened again
+  FrameIndex count_ = 0;
+  std::optional<double> frame_rate_hz_;
+};
+
+}  // namespace
+
+std::unique_ptr<ImageSource> OpenVideoFile(SourceSubject subject, const std::stop_token& stop) {
+  return std::make_unique<VideoFile>(std::move(subject), stop);
+}
+
+}  // namespace elbowroom::recon

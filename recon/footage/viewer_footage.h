@@ -1,0 +1,45 @@
+// A camera worn on the head, or standing near the operator: its pictures colour the hull and carve nothing.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "core/camera_model.h"
+#include "recon/footage/frame_set.h"
+#include "recon/footage/image_source.h"
+#include "recon/footage/read_ahead.h"
+#include "recon/footage/recorded_rig.h"
+
+namespace elbowroom::recon {
+
+// The rig's frame sets, each with the viewer camera's picture of the same number. Footage that ends before
+// the rig's leaves the sets after its end without one. Thread: one reader.
+class ViewerFootage : public FrameSetSource {
+ public:
+  // `location`: a resolved one (recon/rig_files/source_location.h). Throws: core::Error as OpenImageSource;
+  // Error{kFormat} naming the camera when its frame rate isn't the rig's.
+  ViewerFootage(std::shared_ptr<RecordedRig> rig, core::CameraModel camera, const std::string& location,
+                std::stop_token stop = {});
+
+  [[nodiscard]] const core::Rig& rig() const override { return rig_->rig(); }
+  [[nodiscard]] std::optional<core::FrameIndex> frame_count() const override { return rig_->frame_count(); }
+  // Of the viewer camera; nothing for a live one.
+  [[nodiscard]] std::optional<core::FrameIndex> viewer_frame_count() const { return frames_; }
+
+  [[nodiscard]] FrameSet Read(core::FrameIndex index, std::stop_token stop = {}) override;
+  [[nodiscard]] std::vector<std::string> Warnings() const override;
+  [[nodiscard]] std::vector<BackgroundReference> ReadBackgrounds(const core::Progress& progress,
+                                                                 std::stop_token stop) override;
+
+ private:
+  std::shared_ptr<RecordedRig> rig_;
+  std::shared_ptr<const core::CameraModel> camera_;
+  std::optional<core::FrameIndex> frames_;
+  std::shared_ptr<ImageSource> source_;
+  std::unique_ptr<ReadAhead> pictures_;
+};
+
+}  // namespace elbowroom::recon

@@ -1,0 +1,36 @@
+// A view's pencils as tables that a shader reads. Values only: no OpenGL.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "recon/exact_view/view_pencils.h"
+
+namespace elbowroom::recon::gl {
+
+// What a pencil says of rays that meet none of its edges.
+enum class RayLabel { kBackground = 0, kObject = 1, kByPixel = 2 };
+
+// Casters: the cameras' pencils, then the sights'. Every table fits a buffer texture; row by row:
+struct PencilTables {
+  // A caster's three rows: x (du, dv, at_origin, least_angle); y (du, dv, at_origin, bins_per_angle); first
+  // run of entries, of exits, bins, RayLabel. After the casters the faces of the workspace, (du, dv,
+  // at_origin, 0): not before, not after, beside.
+  std::vector<Eigen::Vector4f> forms;
+  // A run of crossings a bin, first and past the last: all that rays of the bin can meet.
+  std::vector<std::array<std::uint32_t, 2>> runs;
+  std::vector<Eigen::Vector2f> angles;  // from, to, of the interval
+  std::vector<Eigen::Vector4f> keys;    // du, dv, at_origin, edge: exact, below 2^24
+};
+
+[[nodiscard]] PencilTables Tabulate(const ViewPencils& pencils);
+
+// Of pixels that some camera sees from the rays' own origin, one float a pixel of the picture, those outside
+// of `squares` 0: 1 if all such cameras see object there, and 2 more if one of such sights sees it. Empty
+// when no camera is there.
+[[nodiscard]] std::vector<float> LabelsByPixel(const ViewPencils& pencils,
+                                               const std::vector<PixelSquare>& squares);
+
+}  // namespace elbowroom::recon::gl

@@ -1,0 +1,33 @@
+// Where pictures are drawn. For the .cc files of this folder: it includes OpenGL.
+#pragma once
+
+#include "recon/gl/objects/gl_name.h"
+#include "recon/gl/objects/object_kinds.h"
+
+namespace elbowroom::recon::gl {
+
+// 8-bit RGBA and 24-bit depth, `samples` a pixel (1: none but the pixel's centre).
+class Framebuffer {
+ public:
+  // Throws: Error{kGraphics} when the driver can't hold it.
+  Framebuffer(int width_px, int height_px, int samples);
+
+  [[nodiscard]] int width_px() const { return width_px_; }
+  [[nodiscard]] int height_px() const { return height_px_; }
+
+  // For drawing, with the viewport over all of it.
+  void Bind() const;
+  void BindForReading() const;
+
+  // Averages the samples of `source`, which has the same size, into this one's colour.
+  void ResolveColourFrom(const Framebuffer& source) const;
+
+ private:
+  int width_px_;
+  int height_px_;
+  GlName<RenderbufferKind> colour_;
+  GlName<RenderbufferKind> depth_;
+  GlName<FramebufferKind> framebuffer_;
+};
+
+}  // namespace elbowroom::recon::gl

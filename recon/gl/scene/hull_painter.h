@@ -1,0 +1,40 @@
+// Draws the hull's layer into the picture's depth. For the .cc files of this folder: it includes OpenGL.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "recon/gl/scene/lighting.h"
+#include "recon/gl/scene/scene.h"
+#include "recon/gl/objects/shader_program.h"
+#include "recon/gl/objects/texture.h"
+#include "recon/gl/objects/vertex_array.h"
+#include "recon/gl/scene/view_matrices.h"
+
+namespace elbowroom::recon::gl {
+
+// Parts and hull hide each other pixel by pixel. In a picture with several samples a pixel the hull's rim is
+// smoothed by a 3 x 3 quadratic B-spline over the layer's hits.
+class HullPainter {
+ public:
+  HullPainter();
+
+  // The layer's camera colours show where the appearance asks for them.
+  void Draw(const Scene& scene, const ViewMatrices& matrices, const Lighting& light);
+
+  // The depth of the layer's nearest texel as it is.
+  void DrawDepth(const HullView& layer, const ViewMatrices& matrices);
+
+ private:
+  void UploadSurface(const Scene& scene);
+  void DrawWith(const ShaderProgram& program, const HullView& layer, const SceneView& view);
+
+  ShaderProgram picture_program_;
+  ShaderProgram depth_program_;
+  FloatTexture depth_{1};
+  FloatTexture normal_{3};
+  ColorTexture camera_color_;
+  VertexArray corners_{};
+};
+
+}  // namespace elbowroom::recon::gl

@@ -1,0 +1,45 @@
+// Makes detail levels beside the drawing, one mesh after the other.
+#pragma once
+
+#include <cstddef>
+#include <deque>
+#include <future>
+#include <memory>
+#include <optional>
+#include <stop_token>
+#include <vector>
+
+#include "recon/gl/scene/detail_levels.h"
+
+namespace elbowroom::recon::gl {
+
+struct MadeLevels {
+  core::SharedMesh mesh;
+  std::vector<DetailLevel> levels;
+};
+
+// Meshes that nobody keeps any more by the time their turn comes are passed over. The destructor waits for
+// the level that is being made. Thread: one calls; the work is done on another.
+class LevelMaker {
+ public:
+  explicit LevelMaker(double crease_rad) : crease_rad_(crease_rad) {}  // as PrepareSurface
+  ~LevelMaker() { stop_.request_stop(); }
+  LevelMaker(const LevelMaker&) = delete;
+  LevelMaker& operator=(const LevelMaker&) = delete;
+
+  void Ask(const core::SharedMesh& mesh);
+  // What was finished since the last call, if anything was; never waits.
+  [[nodiscard]] std::optional<MadeLevels> Take();
+  // The next of what was asked for, when it is finished; nothing: all was taken.
+  [[nodiscard]] std::optional<MadeLevels> Await();
+
+ private:
+  void BeginNext();
+
+  double crease_rad_;
+  std::deque<std::weak_ptr<const core::TriangleMesh>> waiting_;
+  std::stop_source stop_;
+  std::future<MadeLevels> making_;  // last: its destructor waits
+};
+
+}  // namespace elbowroom::recon::gl

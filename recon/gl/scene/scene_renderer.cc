@@ -1,0 +1,156 @@
+#include "recon/gl/scene/scene_renderer.h"
+
+#include <epoxy/gl.h>
+
+#include <optional>
+#include <thread>
+
+#include "core/error.h"
+#include "recon/gl/scene/contact_painter.h"
+#include "recon/gl/objects/egl_context.h"
+#include "recon/gl/objects/framebuffer.h"
+#include "recon/gl/objects/gl_error.h"
+#include "recon/gl/scene/hull_painter.h"
+#include "recon/gl/scene/lighting.h"
+#include "recon/gl/scene/part_painter.h"
+#include "recon/gl/scene/surroundings_painter.h"
+#include "recon/gl/scene/view_matrices.h"
+
+namespace elbowroom::recon::gl {
+namespace {
+
+constexpr int kSamples = 4;  // OpenGL 3.3 promises as many
+
+struct Targets {
+  Framebuffer sampled;
+  Framebuffer single;
+
+  Targets(int width_px, int height_px)
+      : sampled(width_px, height_px, kSamples), single(width_px, height_px, 1) {}
+};
+
+}  // namespace
+
+// The context comes first and so goes last.
+class SceneRenderer::Impl {
+ public:
+  explicit Impl(PartDetail detail) : parts_(detail) {}
+
+  [[nodiscard]] Image Render(const Scene& scene);
+  [[nodiscard]] DepthImage RenderDepth(const Scene& scene);
+  void MakeCurrent() const { context_.MakeCurrent(); }
+
+  [[nodiscard]] const EglContext& context() const { return context_; }
+  [[nodiscard]] const PartPainter& parts() const { return parts_; }
+  void AwaitLevels() { parts_.AwaitLevels(); }
+  [[nodiscard]] const Lighting& lighting() const { return lighting_; }
+  [[nodiscard]] std::thread::id thread() const { return thread_; }
+
+ private:
+  [[nodiscard]] const Targets& TargetsFor(const SceneView& view);
+
+  EglContext context_;
+  std::thread::id thread_ = std::this_thread::get_id();
+  PartPainter parts_;
+  Lighting lighting_;
+  HullPainter hull_;
+  SurroundingsPainter surroundings_;
+  ContactPainter contacts_;
+  std::optional<Targets> targets_;
+};
+
+const Targets& SceneRenderer::Impl::TargetsFor(const SceneView& view) {
+  if (!targets_ || targets_->single.width_px() != view.width_px ||
+      targets_->single.height_px() != view.height_px) {
+    targets_.reset();
+    targets_.emplace(view.width_px, view.height_px);
+  }
+  return *targets_;
+}
+
+Image SceneRenderer::Impl::Render(const Scene& scene) {
+  const ViewMatrices matrices = MatricesOf(scene.view);
+  const Targets& targets = TargetsFor(scene.view);
+  parts_.Update(scene.parts, scene.view);
+  lighting_.Update(scene, parts_);
+  targets.sampled.Bind();
+  glClear(GL_DEPTH_BUFFER_BIT);
+  surroundings_.DrawBackground(scene);
+  parts_.DrawOpaque(scene.parts, matrices, lighting_);
+  if (scene.hull != nullptr) hull_.Draw(scene, matrices, lighting_);
+  surroundings_.DrawTable(scene, matrices, lighting_);
+  surroundings_.DrawLines(scene, matrices);
+  parts_.DrawTransparent(scene.parts, matrices, lighting_);
+  contacts_.Draw(scene.contact_points_in_world, matrices);
+  targets.single.ResolveColourFrom(targets.sampled);
+  targets.single.BindForReading();
+  Image image{scene.view.width_px, scene.view.height_px, {}};
+  image.rgb.resize(3 * static_cast<std::size_t>(image.width_px) * static_cast<std::size_t>(image.height_px));
+  glReadPixels(0, 0, image.width_px, image.height_px, GL_RGB, GL_UNSIGNED_BYTE, image.rgb.data());
+  ThrowOnGlError(context_.renderer());
+  return image;
+}
+
+DepthImage SceneRenderer::Impl::RenderDepth(const Scene& scene) {
+  const ViewMatrices matrices = MatricesOf(scene.view);
+  const Targets& targets = TargetsFor(scene.view);
+  parts_.Update(scene.parts, scene.view);
+  targets.single.Bind();
+  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  parts_.DrawDepth(scene.parts, matrices);
+  if (scene.hull != nullptr) hull_.DrawDepth(*scene.hull, matrices);
+  targets.single.BindForReading();
+  DepthImage image{scene.view.width_px, scene.view.height_px, {}};
+  image.depth_mm.resize(static_cast<std::size_t>(image.width_px) * static_cast<std::size_t>(image.height_px));
+  glReadPixels(0, 0, image.width_px, image.height_px, GL_DEPTH_COMPONENT, GL_FLOAT, image.depth_mm.data());
+  ThrowOnGlError(context_.renderer());
+  for (float& value : image.depth_mm) value = value < 1.0F ? DepthMmOf(value, scene.view) : 0.0F;
+  return image;
+}
+
+SceneRenderer::SceneRenderer(PartDetail detail) : impl_(std::make_unique<Impl>(detail)) {
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_LEQUAL);
+  glEnable(GL_MULTISAMPLE);
+  glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+  glPolygonOffset(1.0F, 1.0F);
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+}
+
+SceneRenderer::~SceneRenderer() {
+  if (impl_ != nullptr) impl_->MakeCurrent();  // what the destructors delete is in its context
+}
+
+SceneRenderer::SceneRenderer(SceneRenderer&&) noexcept = default;
+SceneRenderer& SceneRenderer::operator=(SceneRenderer&& other) noexcept {
+  std::swap(impl_, other.impl_);
+  return *this;
+}
+
+SceneRenderer::Impl& SceneRenderer::OnOwnThread() const {
+  core::Require(impl_ != nullptr, "a renderer that was moved from isn't used");
+  core::Require(impl_->thread() == std::this_thread::get_id(),
+                "a renderer is used on the thread that made it");
+  impl_->MakeCurrent();
+  return *impl_;
+}
+
+Image SceneRenderer::Render(const Scene& scene) {
+  scene.Validate();
+  return OnOwnThread().Render(scene);
+}
+
+DepthImage SceneRenderer::RenderDepth(const Scene& scene) {
+  scene.Validate();
+  return OnOwnThread().RenderDepth(scene);
+}
+
+const std::string& SceneRenderer::driver() const { return OnOwnThread().context().driver(); }
+bool SceneRenderer::is_software() const { return OnOwnThread().context().is_software(); }
+std::size_t SceneRenderer::cached_meshes() const { return OnOwnThread().parts().cached_meshes(); }
+std::int64_t SceneRenderer::mesh_uploads() const { return OnOwnThread().parts().mesh_uploads(); }
+ShadowCount SceneRenderer::shadow_count() const { return OnOwnThread().lighting().count(); }
+TriangleCount SceneRenderer::triangle_count() const { return OnOwnThread().parts().triangle_count(); }
+void SceneRenderer::AwaitLevels() { OnOwnThread().AwaitLevels(); }
+
+}  // namespace elbowroom::recon::gl

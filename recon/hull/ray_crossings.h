@@ -1,0 +1,52 @@
+// Where a ray is in the hull: exactly, by its crossings with the silhouettes' edges.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "core/ids.h"
+#include "recon/hull/ray.h"
+#include "recon/hull/visual_hull.h"
+
+namespace elbowroom::recon {
+
+// What bounds the hull at one end of an interval: an edge of a camera's contour, or else a face of the
+// workspace or the end of the search.
+struct HullBoundary {
+  std::optional<core::CameraIndex> camera;
+  std::uint32_t edge = 0;  // of that camera's contour, or of its picture's outline
+  bool is_outline = false;
+};
+
+// A stretch of a ray inside the hull, from_mm < to_mm along it.
+struct HullInterval {
+  double from_mm = 0.0;
+  double to_mm = 0.0;
+  HullBoundary entry;
+  HullBoundary exit;
+};
+
+struct RaySpan {
+  double from_mm = 0.0;  // >= 0
+  double to_mm = std::numeric_limits<double>::infinity();
+};
+
+// All of them within the span, from the near end. A ray crosses a silhouette where its picture, a straight
+// line from the epipole on, crosses the contour; so there is no step to choose and nothing that is too thin
+// to be found (ray_crossings_test). Cost follows the number of the contours' edges. Throws: PreconditionError
+// for a direction that isn't unit, a span that isn't 0 <= from <= to.
+[[nodiscard]] std::vector<HullInterval> IntervalsInHull(const VisualHull& hull, const Ray& ray,
+                                                        const RaySpan& span = {});
+
+// Distance along the ray of the first point of the hull; from_mm itself if the span starts inside.
+[[nodiscard]] std::optional<double> FirstInside(const VisualHull& hull, const Ray& ray,
+                                                const RaySpan& span = {});
+
+// Distance along the ray of the first point that isn't in the hull; from_mm itself if the span starts
+// outside. Nothing if the ray stays inside up to to_mm.
+[[nodiscard]] std::optional<double> FirstOutside(const VisualHull& hull, const Ray& ray,
+                                                 const RaySpan& span = {});
+
+}  // namespace elbowroom::recon

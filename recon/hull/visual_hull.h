@@ -1,0 +1,138 @@
+// The hull of one frame's silhouettes, asked of points and of balls.
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/ids.h"
+#include "core/rig.h"
+#include "recon/contours/silhouette.h"
+#include "recon/hull/world_shape.h"
+
+namespace elbowroom::recon {
+
+// Of a ball, a box or a triangle.
+enum class BallAnswer {
+  kOutside,  // no point of it is in the hull
+  kInside,   // every point of it is
+  kMixed,    // neither is certain
+};
+
+// Whether a point is in the hull, and the radius of a ball around it all of which agrees.
+struct PointAnswer {
+  bool is_inside = false;
+  double radius_mm = 0.0;  // certified, not largest; may be infinite
+};
+
+// The camera whose silhouette bounds the hull nearest to a point, and the direction out of the hull there.
+struct BoundingEdge {
+  std::optional<core::CameraIndex> camera;         // nothing: a face of the workspace
+  std::optional<Eigen::Vector3d> normal_in_world;  // unit; nothing where the silhouette gives none
+};
+
+// Who may still have something to say of a set of points: a camera to which all of a larger set is object
+// needn't be asked of a smaller one.
+struct OpenCameras {
+  static constexpr std::size_t kMost = 64;  // cameras beyond are always asked
+
+  std::uint64_t bits = ~std::uint64_t{0};
+  bool asks_sights = true;       // `abstain`: no camera is known to see all of the set
+  core::CameraIndex likely = 0;  // to be asked first: it excluded a set near by
+
+  [[nodiscard]] bool Asks(core::CameraIndex camera) const {
+    return camera >= kMost || ((bits >> camera) & 1U) != 0;
+  }
+  void Close(core::CameraIndex camera) {
+    if (camera < kMost) bits &= ~(std::uint64_t{1} << camera);
+  }
+};
+
+// The visual hull: the points of the workspace that project into every camera's silhouette, where rig.unseen
+// decides for cameras that can't see the point. An immutable snapshot; copies share silhouettes.
+// The certificate of the ball answers is derived in docs/algorithms.md and held to account by
+// tests/recon/hull/ball_query_test.cc. Thread: any.
+class VisualHull {
+ public:
+  // Throws: PreconditionError when there isn't one silhouette a camera, with the exterior label that the rig
+  // asks for.
+  VisualHull(std::shared_ptr<const core::Rig> rig,
+             std::vector<std::shared_ptr<const Silhouette>> silhouettes);
+
+  [[nodiscard]] const core::Rig& rig() const { return *rig_; }
+  [[nodiscard]] const std::shared_ptr<const core::Rig>& shared_rig() const { return rig_; }
+  [[nodiscard]] std::span<const std::shared_ptr<const Silhouette>> silhouettes() const {
+    return silhouettes_;
+  }
+
+  // True when no point can be inside: under `outside`, some camera sees no object at all.
+  [[nodiscard]] bool IsEmpty() const { return is_empty_; }
+
+  // The paper's volume query.
+  [[nodiscard]] bool Contains(const Eigen::Vector3d& x_in_world) const;
+  [[nodiscard]] bool Contains(const Eigen::Vector3d& x_in_world, const OpenCameras& open) const;
+
+  // Contains(), and how far around the point the answer is sure to hold.
+  [[nodiscard]] PointAnswer Probe(const Eigen::Vector3d& x_in_world) const;
+
+  // Whether Probe() of a point in the hull may answer with a radius of more than `radius_mm`: for whoever
+  // looks for the deepest of many, at a fraction of its cost. `likely`: the camera to be asked first, that
+  // said no last.
+  [[nodiscard]] bool MayBeDeeper(const Eigen::Vector3d& x_in_world, double radius_mm,
+                                 core::CameraIndex* likely) const;
+
+  // The volume query of a closed ball. A radius of 0 is the point's own query.
+  [[nodiscard]] BallAnswer Classify(const Eigen::Vector3d& center_in_world, double radius_mm) const;
+
+  // The same of a set of points in the ball, of which only the open cameras need to be asked; closes those to
+  // which all of the ball is object, for the set's own parts.
+  [[nodiscard]] BallAnswer Classify(const Eigen::Vector3d& center_in_world, double radius_mm,
+                                    OpenCameras* open) const;
+
+  // The same of a box or a triangle, by what it covers in each picture: certain where a ball around it is
+  // mixed, and a few times as dear. Held to account by ball_query_test. Under `abstain` it is seen by a
+  // camera only if `open` knows that already.
+  [[nodiscard]] BallAnswer Classify(const WorldShape& shape, OpenCameras* open) const;
+
+  // Which silhouette ends the hull at a point on its surface; the normal is that of the plane
+  // through the camera's centre and the contour's tangent there (FitTangent).
+  [[nodiscard]] BoundingEdge EdgeAt(const Eigen::Vector3d& surface_point_in_world) const;
+
+ private:
+  std::shared_ptr<const core::Rig> rig_;
+  std::vector<std::shared_ptr<const Silhouette>> silhouettes_;
+  bool is_empty_ = false;
+};
+
+// What a rig's unseen policy says of positions outside a picture.
+[[nodiscard]] bool ExteriorIsObject(const core::Rig& rig);
+
+// What a frame's hull could do without.
+struct HullStats {
+  int unchanged_silhouettes = 0;  // the last frame's, with all that is known about them
+  int empty_silhouettes = 0;      // without object
+  int untraced_silhouettes = 0;   // whose contour nobody needs: under `outside` an empty one empties the hull
+};
+
+struct FrameHull {
+  std::shared_ptr<const VisualHull> hull;  // the last one itself if no silhouette has changed
+  HullStats stats;
+};
+
+// The hull of a frame's masks; `last`: the one of the frame before, or null. Throws: as MakeVisualHull.
+[[nodiscard]] FrameHull NextHull(const std::shared_ptr<const VisualHull>& last,
+                                 const std::shared_ptr<const core::Rig>& rig, const PicturePlanes& planes,
+                                 std::span<const core::SoftMask> masks);
+
+// One silhouette a mask, in parallel. Throws: core::Error{kCamera} naming the camera when a mask's size isn't
+// the camera's. The overloads without planes work them out anew: for a single frame.
+[[nodiscard]] VisualHull MakeVisualHull(const std::shared_ptr<const core::Rig>& rig,
+                                        const PicturePlanes& planes, std::span<const core::SoftMask> masks);
+[[nodiscard]] VisualHull MakeVisualHull(const std::shared_ptr<const core::Rig>& rig,
+                                        std::span<const core::SoftMask> masks);
+[[nodiscard]] VisualHull MakeVisualHull(const std::shared_ptr<const core::Rig>& rig,
+                                        std::span<const core::BitMask> masks);
+
+}  // namespace elbowroom::recon

@@ -1,0 +1,163 @@
+#include "recon/hull_mesh/block_surface.h"
+
+#include <bit>
+#include <cstddef>
+#include <cstring>
+#include <utility>
+
+#include "core/error.h"
+#include "recon/hull_mesh/cube_table.h"
+
+namespace elbowroom::recon {
+namespace {
+
+constexpr auto kSide = static_cast<std::size_t>(kBlockPoints);
+using Layer = std::uint64_t;  // 8 x 8 labels: bit x + 8 y
+static_assert(kBlockCells == 8 && std::endian::native == std::endian::little);
+constexpr Layer kFirstOfRows = 0x0101010101010101U, kFirstRow = 0xFFU;
+
+// The labels of one z of a block: of its 8 x 8 near points, and a step on along x, along y, along both.
+struct LayerLabels {
+  Layer at, at_x, at_y, at_xy;
+};
+
+// Bit i to bit 8 i.
+Layer SpreadToRows(unsigned byte) {
+  // Seven bits don't overlap.
+  return ((byte & 0x7FU) * Layer{0x0002040810204081U} & kFirstOfRows) | Layer{byte >> 7U & 1U} << 56U;
+}
+
+LayerLabels LabelsOf(const BlockBits& bits, std::size_t z) {
+  LayerLabels labels;
+  std::memcpy(&labels.at, &bits.groups[kSide * z], sizeof(Layer));
+  std::memcpy(&labels.at_y, &bits.groups[kSide * z + 1], sizeof(Layer));
+  // Nine bits of the far face's.
+  const std::size_t bit = kSide * z, group = BlockBits::kRows + bit / 8;
+  const unsigned next = group + 1 < BlockBits::kGroups ? bits.groups[group + 1] : 0U;
+  const unsigned far = (bits.groups[group] | next << 8U) >> (bit % 8);
+  const auto step = [](Layer layer, unsigned beyond) {
+    return (layer >> 1U & ~(kFirstOfRows << 7U)) | SpreadToRows(beyond & 0xFFU) << 7U;
+  };
+  labels.at_x = step(labels.at, far);
+  labels.at_xy = step(labels.at_y, far >> 1U);
+  return labels;
+}
+
+// Calls visit(x, y, z, corners inside) for the cells that the surface cuts.
+template <typename Visit>
+void VisitCutCells(const BlockBits& bits, const Visit& visit) {
+  LayerLabels high = LabelsOf(bits, 0);
+  for (std::size_t z = 0; z + 1 < kSide; ++z) {
+    const LayerLabels low = std::exchange(high, LabelsOf(bits, z + 1));
+    const Layer any = low.at | low.at_x | low.at_y | low.at_xy | high.at | high.at_x | high.at_y | high.at_xy;
+    const Layer all = low.at & low.at_x & low.at_y & low.at_xy & high.at & high.at_x & high.at_y & high.at_xy;
+    for (Layer cut = any & ~all; cut != 0; cut &= cut - 1) {
+      const auto i = static_cast<unsigned>(std::countr_zero(cut));
+      const auto four = [i](const LayerLabels& labels) {
+        return (labels.at >> i & 1U) | (labels.at_x >> i & 1U) << 1U | (labels.at_y >> i & 1U) << 2U |
+               (labels.at_xy >> i & 1U) << 3U;
+      };
+      visit(i % kBlockCells, i / kBlockCells, z, four(low) | four(high) << 4U);
+    }
+  }
+}
+
+// Appends the block's own edges that change: those on near faces, or all others.
+void AppendChanges(const BlockBits& bits, bool on_near_faces, std::vector<BlockEdge>* edges) {
+  LayerLabels high = LabelsOf(bits, 0);
+  for (std::size_t z = 0; z + 1 < kSide; ++z) {
+    const LayerLabels low = std::exchange(high, LabelsOf(bits, z + 1));
+    const Layer on_faces = z == 0 ? ~Layer{0} : kFirstOfRows | kFirstRow;
+    const std::array<Layer, 3> next = {low.at_x, low.at_y, high.at};
+    for (std::uint8_t axis = 0; axis < 3; ++axis) {
+      Layer changes = (low.at ^ next[axis]) & (on_near_faces ? on_faces : ~on_faces);
+      for (; changes != 0; changes &= changes - 1) {
+        const auto i = static_cast<unsigned>(std::countr_zero(changes));
+        const unsigned x = i % kBlockCells, y = i / kBlockCells;
+        const unsigned faces = unsigned{x == 0} | unsigned{y == 0} << 1U | unsigned{z == 0} << 2U;
+        const auto byte = [](std::size_t number) { return static_cast<std::uint8_t>(number); };
+        edges->push_back({axis, {byte(x), byte(y), byte(z)}, (low.at >> i & 1U) != 0, byte(faces)});
+      }
+    }
+  }
+}
+
+constexpr std::size_t Index(std::size_t axis, std::size_t x, std::size_t y, std::size_t z) {
+  return ((axis * kSide + z) * kSide + y) * kSide + x;
+}
+
+// By edge of a cube: how far from the index of the cell's corner, along axis 0.
+constexpr std::array<std::size_t, kCubeEdges.size()> EdgeOffsets() {
+  std::array<std::size_t, kCubeEdges.size()> offsets{};
+  for (std::size_t edge = 0; edge < offsets.size(); ++edge) {
+    const auto low = static_cast<std::size_t>(kCubeEdges[edge].low);
+    offsets[edge] = Index(edge / 4, low & 1U, low >> 1U & 1U, low >> 2U);
+  }
+  return offsets;
+}
+constexpr auto kEdgeOffsets = EdgeOffsets();
+
+// By Index(): a grid edge's vertex in the mesh, or -1. At the end one more, for edges that aren't asked for.
+constexpr std::size_t kNoEdge = Index(3, 0, 0, 0);
+using VertexNumbers = std::array<std::int32_t, kNoEdge + 1>;
+
+VertexNumbers NumberEdges(std::span<const BlockNeighbour> blocks) {
+  VertexNumbers numbers;
+  numbers.fill(-1);
+  for (const BlockNeighbour& block : blocks) {
+    const unsigned steps = block.steps;
+    const std::size_t shift =
+        Index(0, (steps & 1U) * kBlockCells, (steps >> 1U & 1U) * kBlockCells, (steps >> 2U) * kBlockCells);
+    const std::span<const BlockEdge> edges = block.surface->edges;
+    std::int32_t number = block.first_vertex;
+    for (const BlockEdge& edge : steps == 0 ? edges : edges.first(block.surface->near_edges)) {
+      const auto [x, y, z] = edge.low;
+      const bool is_shared = (steps & ~unsigned{edge.near_faces}) == 0;
+      numbers[is_shared ? shift + Index(edge.axis, x, y, z) : kNoEdge] = number++;
+    }
+  }
+  return numbers;
+}
+
+}  // namespace
+
+BlockSurface CutBlock(const HullLattice& lattice, const HullBlock& block) {
+  BlockSurface surface;
+  surface.labels = lattice.LabelsOf(block, &surface.queries);
+  const std::array<CubeTriangles, 256>& table = CubeTable();
+  VisitCutCells(surface.labels, [&](std::size_t, std::size_t, std::size_t, std::size_t inside) {
+    surface.triangles += table[inside].count;
+  });
+  if (surface.triangles == 0) return surface;
+  surface.edges.reserve(surface.triangles);  // about half of them, and those that cells before don't have
+  AppendChanges(surface.labels, true, &surface.edges);
+  surface.near_edges = surface.edges.size();
+  AppendChanges(surface.labels, false, &surface.edges);
+  surface.vertices_in_world.resize(surface.edges.size());
+  lattice.FindExits(block, surface.edges, surface.vertices_in_world);
+  surface.queries += static_cast<std::int64_t>(surface.edges.size());
+  return surface;
+}
+
+void WriteTriangles(std::span<const BlockNeighbour> blocks,
+                    std::span<std::array<std::int32_t, 3>> triangles) {
+  const VertexNumbers numbers = NumberEdges(blocks);
+  const std::array<CubeTriangles, 256>& table = CubeTable();
+  std::size_t next = 0;
+  std::int64_t all = 0;  // their bits
+  VisitCutCells(blocks.front().surface->labels,
+                [&](std::size_t x, std::size_t y, std::size_t z, std::size_t inside) {
+                  const std::int32_t* const cell = numbers.data() + Index(0, x, y, z);
+                  const CubeTriangles& cut = table[inside];
+                  for (std::size_t i = 0; i < cut.count; ++i) {
+                    std::array<std::int32_t, 3>& triangle = triangles[next++];
+                    for (std::size_t corner = 0; corner < 3; ++corner) {
+                      triangle[corner] = cell[kEdgeOffsets[cut.all[i][corner]]];
+                      all |= triangle[corner];
+                    }
+                  }
+                });
+  core::Require(all >= 0, "the surface goes on in the next blocks");
+}
+
+}  // namespace elbowroom::recon

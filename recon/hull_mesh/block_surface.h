@@ -1,0 +1,40 @@
+// The hull's surface in one block of an octree.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "recon/hull_mesh/hull_lattice.h"
+
+namespace elbowroom::recon {
+
+// The part of the surface that belongs to a block: the vertices on grid edges that start within it or on its
+// near faces, and the triangles in its cells, whose corners may be vertices of the next blocks.
+struct BlockSurface {
+  BlockBits labels;
+  std::vector<BlockEdge> edges;                    // that the surface crosses; first those on near faces
+  std::size_t near_edges = 0;                      // so many
+  std::vector<Eigen::Vector3d> vertices_in_world;  // one an edge
+  std::size_t triangles = 0;
+  std::int64_t queries = 0;  // labels and crossings asked
+};
+
+// Marching cubes over the block's cells. A vertex stands where its grid edge first leaves the hull, counted
+// from the end that is inside: on the exact surface, but at least edge / 2048 from the ends.
+[[nodiscard]] BlockSurface CutBlock(const HullLattice& lattice, const HullBlock& block);
+
+// What a block's triangles are made of.
+struct BlockNeighbour {
+  unsigned steps = 0;  // bit a: the next one along axis a
+  const BlockSurface* surface = nullptr;
+  std::int32_t first_vertex = 0;  // of its vertices, in the whole mesh
+};
+
+// Writes the triangles of a block, counter-clockwise seen from outside, from its own surface and those of the
+// blocks behind it. Throws: PreconditionError when one is missing.
+void WriteTriangles(std::span<const BlockNeighbour> blocks, std::span<std::array<std::int32_t, 3>> triangles);
+
+}  // namespace elbowroom::recon

@@ -1,0 +1,54 @@
+// A hull as the points of a grid see it.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "recon/hull_mesh/hull_blocks.h"
+#include "recon/hull_mesh/point_labels.h"
+#include "recon/hull/visual_hull.h"
+
+namespace elbowroom::recon {
+
+// An edge of the grid: within a block, or on its near faces.
+struct BlockEdge {
+  std::uint8_t axis = 0;
+  std::array<std::uint8_t, 3> low{};  // its lower end, in the block
+  bool low_is_inside = false;
+  std::uint8_t near_faces = 0;  // bit a: coordinate a of the lower end is 0
+};
+
+class HullLattice {
+ public:
+  // Builds what the hull's contours build when first asked, camera by camera in parallel. `hull` and `grid`
+  // must outlive the lattice.
+  HullLattice(const VisualHull& hull, const HullGrid& grid);
+
+  // Which of a block's grid points the hull contains; of a point the same in each of its blocks. `queries`
+  // grows by the labels asked, of one camera each.
+  [[nodiscard]] BlockBits LabelsOf(const HullBlock& block, std::int64_t* queries) const;
+
+  // Where each of some edges of a block, its ends of different labels, first leaves the hull, from the end
+  // that is inside; at least edge / 2048 from its ends. One an edge.
+  void FindExits(const HullBlock& block, std::span<const BlockEdge> edges,
+                 std::span<Eigen::Vector3d> exits_in_world) const;
+
+ private:
+  [[nodiscard]] BlockBits InWorkspace(const GridPoint& corner) const;
+  std::int64_t KeepSeen(const GridPoint& corner, BlockBits* bits) const;
+  void OfferFaces(const HullBlock& block, std::span<const BlockEdge> edges, std::span<double> shares) const;
+  [[nodiscard]] double BisectedExit(const Eigen::Vector3d& inside, const Eigen::Vector3d& outside) const;
+
+  const VisualHull& hull_;
+  const HullGrid& grid_;
+  std::vector<GridView> views_;  // by camera, as these
+  std::vector<LabelRaster> rasters_;
+  std::vector<LabelRaster> outlines_;  // empty where the rig doesn't ask for sight
+  // The grid points in the workspace: along each axis from `first` to `last`.
+  GridPoint first_, last_;
+};
+
+}  // namespace elbowroom::recon

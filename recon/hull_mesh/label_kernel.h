@@ -1,0 +1,52 @@
+// Labels of a block's grid points by the cells that they fall in, eight points at a time.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "recon/contours/contour_kernel.h"
+#include "recon/hull_mesh/hull_blocks.h"
+#include "recon/contours/label_raster.h"
+
+namespace elbowroom::recon {
+
+inline constexpr int kBlockPoints = kBlockCells + 1;  // grid points on a side of a block
+
+// A bit for each of a block's kBlockPoints^3 grid points, in groups of eight.
+struct BlockBits {
+  static constexpr std::size_t kRows = kBlockPoints * kBlockPoints;
+  static constexpr std::size_t kFarGroups = (kRows + 7) / 8;
+  static constexpr std::size_t kGroups = kRows + kFarGroups;
+  // First the rows: group y + kBlockPoints * z, bit x, of x up to 7. Then the points of x = 8: bit
+  // y + kBlockPoints * z, counted on from group to group.
+  std::array<std::uint8_t, kGroups> groups{};
+
+  // The grid points of the bits, 8 to a group.
+  static constexpr std::array<std::array<std::uint8_t, 3>, 8 * kGroups> kPoints = [] {
+    std::array<std::array<std::uint8_t, 3>, 8 * kGroups> points{};
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const std::size_t row = i < 8 * kRows ? i / 8 : i - 8 * kRows, x = i < 8 * kRows ? i % 8 : kBlockCells;
+      points[i] = {static_cast<std::uint8_t>(x), static_cast<std::uint8_t>(row % kBlockPoints),
+                   static_cast<std::uint8_t>(row / kBlockPoints)};
+    }
+    return points;
+  }();
+
+  [[nodiscard]] bool At(int x, int y, int z) const {
+    const auto row = static_cast<std::size_t>(y + kBlockPoints * z);
+    if (x < kBlockCells) return (groups[row] >> x & 1) != 0;
+    return (groups[kRows + row / 8] >> (row % 8) & 1) != 0;
+  }
+};
+static_assert(kBlockCells == 8, "a row of cells is a group of points");
+
+// Clears the bits of points of the block at `corner` that are in cells of background; those in mixed cells
+// stay, and are set in `mixed`. In float32, whose error stays below LabelRaster::kTouchCells: a cell that
+// isn't mixed answers for the points near it as well. Where that can't be said (a block that reaches behind
+// the camera, or far beside its axis) all points are mixed. Groups without a bit aren't asked; returns how
+// many were.
+std::size_t LabelByCells(const GridView& grid, const GridPoint& corner, const LabelRaster& raster,
+                         BlockBits* bits, BlockBits* mixed);
+
+}  // namespace elbowroom::recon

@@ -1,0 +1,20 @@
+// Pictures to PNG.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+#include "recon/images/image.h"
+
+namespace elbowroom::recon {
+
+// Throws: PreconditionError when the image is empty or its bytes don't match its size.
+[[nodiscard]] std::vector<std::uint8_t> EncodePng(const Image& image);
+
+// Whole or not at all: written beside `path`, then renamed over it.
+// Throws: Error{kFile} naming the path when its folder is missing or can't be written; PreconditionError as
+// EncodePng.
+void WritePng(const Image& image, const std::filesystem::path& path);
+
+}  // namespace elbowroom::recon

@@ -1,0 +1,241 @@
+#include "recon/paper_methods/plane_sweep.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <bit>
+#include <vector>
+
+#include "recon/paper_methods/plane_sweep_kernel.h"
+#include "recon/paper_methods/sweep_space.h"
+
+namespace elbowroom::recon {
+namespace {
+
+constexpr int kRootPx = 2 * kSweepTilePx;
+
+template <typename Affine>
+void SetPoints(const core::RigidTransform& b_from_view, const Eigen::Vector3d& center_in_view,
+               Affine* affine) {
+  const Eigen::Vector3d origin = b_from_view * center_in_view;
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    const auto axis = static_cast<std::size_t>(i);
+    affine->origin[axis] = static_cast<float>(origin[i]);
+    affine->along_x[axis] = static_cast<float>(center_in_view.z() * b_from_view.rotation(i, 0));
+    affine->along_y[axis] = static_cast<float>(center_in_view.z() * b_from_view.rotation(i, 1));
+  }
+}
+
+// All but the points, which change from tile to tile and plane to plane.
+SweepAsker AskerOf(const SweepCamera& camera, bool exterior_is_object) {
+  const core::CameraCalibration& c = camera.model.calibration();
+  SweepAsker asker;
+  asker.max_radius_squared = static_cast<float>(camera.model.max_radius() * camera.model.max_radius());
+  asker.coefficients = LensCoefficientsOf(camera.model);
+  asker.lens = asker.coefficients.is_fisheye
+                   ? SweepLens::kFisheye
+                   : (camera.model.is_ideal() ? SweepLens::kIdeal : SweepLens::kPolynomial);
+  const CoverageTexture& coverage = camera.coverage;
+  const Eigen::Vector2d first(coverage.left_px, coverage.top_px);
+  asker.fx = static_cast<float>(c.camera_matrix(0, 0));
+  asker.skew = static_cast<float>(c.camera_matrix(0, 1));
+  asker.cx = static_cast<float>(c.camera_matrix(0, 2) - first.x());
+  asker.fy = static_cast<float>(c.camera_matrix(1, 1));
+  asker.cy = static_cast<float>(c.camera_matrix(1, 2) - first.y());
+  const auto relative = [&](const Eigen::Vector2d& position_px) {
+    const Eigen::Vector2f p = (position_px - first).cast<float>();
+    return std::array<float, 2>{p.x(), p.y()};
+  };
+  asker.valid_min = relative(coverage.valid_px.min());
+  asker.valid_max = relative(coverage.valid_px.max());
+  asker.picture_min = relative(Eigen::Vector2d::Constant(-0.5));
+  asker.picture_max = relative({c.image_width_px - 0.5, c.image_height_px - 0.5});
+  asker.exterior_is_object = exterior_is_object;
+  asker.texels = coverage.texels.data();
+  asker.stride = coverage.width_texels;
+  return asker;
+}
+
+// One tile's part of the picture while it is swept.
+struct TilePicture {
+  bool is_ready = false;
+  SweepTile rays;
+  std::array<float, kSweepTilePixels> depth_mm{};  // 0: not hit yet; negative: no pixel of the view
+  int open_pixels = 0;
+};
+
+// Sweeps a square of pixels front to back, whole regions at a time.
+class RootSweep {
+ public:
+  RootSweep(const SweepSpace& space, const std::vector<SweepAsker>& askers, int x0, int y0)
+      : space_(space), askers_(askers), x0_(x0), y0_(y0) {}
+
+  [[nodiscard]] std::int64_t tested_points() const { return tested_points_; }
+
+  void Run() {
+    Visit({x0_, y0_, x0_ + kRootPx, y0_ + kRootPx, 0, space_.plane_count()}, space_.AllQuestions());
+  }
+
+  // Without settling anything but whole tiles.
+  void RunPlain() {
+    ForEachTile([this](int x0, int y0) {
+      const SweepRegion tile{x0, y0, x0 + kSweepTilePx, y0 + kSweepTilePx, 0, space_.plane_count()};
+      const std::optional<OpenQuestions> open = space_.Narrow(tile, space_.AllQuestions());
+      if (!open) return;
+      for (int plane = 0; plane < tile.end_plane && TileAt(x0, y0).open_pixels > 0; ++plane)
+        Test({tile.x0, tile.y0, tile.x1, tile.y1, plane, plane + 1}, *open);
+    });
+  }
+
+  void CopyTo(DepthMap* picture) const {
+    for (const TilePicture& tile : tiles_) {
+      if (!tile.is_ready) continue;
+      const auto index = static_cast<int>(&tile - tiles_.data());
+      const int x0 = x0_ + index % 2 * kSweepTilePx, y0 = y0_ + index / 2 * kSweepTilePx;
+      const int width = std::min(kSweepTilePx, picture->width_px - x0),
+                height = std::min(kSweepTilePx, picture->height_px - y0);
+      for (int y = 0; y < height; ++y) {
+        std::copy_n(tile.depth_mm.data() + y * kSweepTilePx, width,
+                    picture->depth_mm.data() + std::ptrdiff_t{y0 + y} * picture->width_px + x0);
+      }
+    }
+  }
+
+ private:
+  TilePicture& TileAt(int x0, int y0) {
+    TilePicture& tile =
+        tiles_[static_cast<std::size_t>((y0 - y0_) / kSweepTilePx * 2 + (x0 - x0_) / kSweepTilePx)];
+    if (tile.is_ready) return tile;
+    tile.is_ready = true;
+    tile.rays = space_.rays().TileAt(x0, y0);
+    for (std::size_t i = 0; i < kSweepTilePixels; ++i) {
+      const bool has_ray = tile.rays.dx[i] == tile.rays.dx[i];
+      const bool is_pixel = x0 + static_cast<int>(i) % kSweepTilePx < space_.rays().width_px() &&
+                            y0 + static_cast<int>(i) / kSweepTilePx < space_.rays().height_px();
+      tile.depth_mm[i] = is_pixel ? 0.0F : -1.0F;
+      tile.open_pixels += is_pixel && has_ray ? 1 : 0;
+    }
+    return tile;
+  }
+
+  void Visit(const SweepRegion& region, const OpenQuestions& asked) {
+    const bool is_tile = region.x1 - region.x0 == kSweepTilePx;
+    if (is_tile && TileAt(region.x0, region.y0).open_pixels == 0) return;
+    const std::optional<OpenQuestions> open = space_.Narrow(region, asked);
+    if (!open) return;
+    const int planes = region.end_plane - region.first_plane;
+    if (is_tile && (planes == 1 || open->IsSettled())) {
+      Test(region, *open);
+    } else if (planes > 1 && (is_tile || space_.IsDeep(region))) {
+      SweepRegion half = region;
+      half.end_plane = region.first_plane + planes / 2;
+      Visit(half, *open);
+      half.first_plane = half.end_plane;
+      half.end_plane = region.end_plane;
+      Visit(half, *open);
+    } else {
+      ForEachTile([&](int x0, int y0) {
+        Visit({x0, y0, x0 + kSweepTilePx, y0 + kSweepTilePx, region.first_plane, region.end_plane}, *open);
+      });
+    }
+  }
+
+  // Calls visit(x0, y0) with the root's tiles in the picture.
+  template <typename OnTile>
+  void ForEachTile(const OnTile& visit) {
+    for (int i = 0; i < 4; ++i) {
+      const int x0 = x0_ + i % 2 * kSweepTilePx, y0 = y0_ + i / 2 * kSweepTilePx;
+      if (x0 < space_.rays().width_px() && y0 < space_.rays().height_px()) visit(x0, y0);
+    }
+  }
+
+  // The region's first plane, all of its open pixels.
+  void Test(const SweepRegion& region, const OpenQuestions& open) {
+    TilePicture& tile = TileAt(region.x0, region.y0);
+    const double depth_mm = space_.DepthMmOf(region.first_plane);
+    const Eigen::Vector3d center_in_view = depth_mm * tile.rays.center.homogeneous();
+    SweepMarks marks;
+    for (std::size_t i = 0; i < kSweepTilePixels; ++i) {
+      const bool has_ray = tile.rays.dx[i] == tile.rays.dx[i];
+      marks.open[i] = tile.depth_mm[i] == 0.0F && has_ray ? 1.0F : 0.0F;
+      marks.seen[i] = open.is_seen ? 1.0F : 0.0F;
+    }
+    if (!open.IsSettled()) tested_points_ += tile.open_pixels;
+    if (!AskAll(tile.rays, center_in_view, open, &marks)) return;
+    for (std::size_t i = 0; i < kSweepTilePixels; ++i) {
+      if (marks.open[i] * marks.seen[i] == 0.0F) continue;
+      tile.depth_mm[i] = static_cast<float>(depth_mm);
+      --tile.open_pixels;
+    }
+  }
+
+  bool AskAll(const SweepTile& rays, const Eigen::Vector3d& center_in_view, const OpenQuestions& open,
+              SweepMarks* marks) const {
+    if (!open.in_workspace) {
+      SweepBox box;
+      SetPoints(space_.world_from_view(), center_in_view, &box);
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        box.min[axis] = static_cast<float>(space_.workspace_mm().min()[static_cast<Eigen::Index>(axis)]);
+        box.max[axis] = static_cast<float>(space_.workspace_mm().max()[static_cast<Eigen::Index>(axis)]);
+      }
+      if (!AskSweepBox(rays, box, marks)) return false;
+    }
+    for (std::uint64_t bits = open.cameras; bits != 0; bits &= bits - 1) {
+      const auto index = static_cast<std::size_t>(std::countr_zero(bits));
+      SweepAsker asker = askers_[index];
+      SetPoints(space_.cameras()[index].cam_from_view, center_in_view, &asker);
+      if (!AskSweepCamera(rays, asker, marks)) return false;
+    }
+    return true;
+  }
+
+  const SweepSpace& space_;
+  const std::vector<SweepAsker>& askers_;
+  int x0_, y0_;
+  std::array<TilePicture, 4> tiles_;
+  std::int64_t tested_points_ = 0;
+};
+
+}  // namespace
+
+SweptView SweepPlanes(const core::Rig& rig, std::span<const core::SoftMask> masks,
+                      const core::CameraModel& view, const SweepRays& rays,
+                      const PlaneSweepOptions& options) {
+  const SweepSpace space(rig, masks, view, rays, options);
+  SweptView swept;
+  DepthMap& picture = swept.picture;
+  picture.width_px = view.width_px();
+  picture.height_px = view.height_px();
+  const auto pixels =
+      static_cast<std::size_t>(picture.width_px) * static_cast<std::size_t>(picture.height_px);
+  picture.depth_mm.assign(pixels, 0.0F);
+  std::vector<SweepAsker> askers;
+  for (const SweepCamera& camera : space.cameras())
+    askers.push_back(AskerOf(camera, space.exterior_is_object()));
+  const int roots_x = (picture.width_px + kRootPx - 1) / kRootPx,
+            roots_y = (picture.height_px + kRootPx - 1) / kRootPx;
+  std::atomic<std::int64_t> tested = 0;
+  if (space.plane_count() > 0) {
+    tbb::parallel_for(0, roots_x * roots_y, [&](int root) {
+      RootSweep sweep(space, askers, root % roots_x * kRootPx, root / roots_x * kRootPx);
+      options.settles_regions ? sweep.Run() : sweep.RunPlain();
+      sweep.CopyTo(&picture);
+      tested += sweep.tested_points();
+    });
+  }
+  picture.hit_pixels = std::count_if(picture.depth_mm.begin(), picture.depth_mm.end(),
+                                     [](float depth_mm) { return depth_mm > 0.0F; });
+  swept.stats.planes = space.plane_count();
+  swept.stats.tested_points = tested;
+  swept.stats.skipped_points = swept.stats.planes * static_cast<std::int64_t>(pixels) - tested;
+  return swept;
+}
+
+SweptView SweepPlanes(const core::Rig& rig, std::span<const core::SoftMask> masks,
+                      const core::CameraModel& view, const PlaneSweepOptions& options) {
+  return SweepPlanes(rig, masks, view, SweepRays(view), options);
+}
+
+}  // namespace elbowroom::recon

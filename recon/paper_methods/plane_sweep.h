@@ -1,0 +1,59 @@
+// The paper's plane sweep: the first of a stack of planes on which every camera sees object, for every pixel.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "core/rig.h"
+#include "core/soft_mask.h"
+#include "recon/images/depth_map.h"
+#include "recon/paper_methods/sweep_rays.h"
+
+namespace elbowroom::recon {
+
+// Planes stand at the whole multiples of `spacing_mm` along the view's z axis, as far as workspace, `near_mm`
+// and `far_mm` (both included) let them.
+struct PlaneSweepOptions {
+  double spacing_mm = 15.0;  // > 0; the paper's
+  double near_mm = 0.0;
+  double far_mm = 1e9;
+  // 0: every point goes through the cameras' lenses. n >= 2: each silhouette is first straightened by a grid
+  // of n x n positions (the paper: 5), bilinear between them: faster for each point, and off by the grid's
+  // error.
+  int undistortion_grid = 0;
+  // CPU alone. False: the plain sweep, bounded to tiles of pixels that may show hull and ended where all of a
+  // tile's are hit, but with every plane asked point by point. The same picture, as yardstick.
+  bool settles_regions = true;
+
+  // Throws: PreconditionError naming the field out of range.
+  void Validate() const;
+};
+
+struct PlaneSweepStats {
+  std::int64_t planes = 0;         // in the stack
+  std::int64_t tested_points = 0;  // places on planes whose projections were looked up
+  std::int64_t skipped_points =
+      0;  // the rest of planes * pixels: hit already, or settled with their neighbours
+};
+
+struct SweptView {
+  DepthMap picture;
+  PlaneSweepStats stats;
+};
+
+// The sweep on the CPU (docs/plane_sweep.md; paper, "Volume-Querying"): for every pixel the depth of the
+// first plane on which the ray's point is object in every camera, by the rig's `unseen` policy, and in the
+// workspace; 0 where there is none. Labels are the soft masks' (recon/paper_methods/coverage_texture.h); where rounding
+// decides, within docs/plane_sweep.md's band, either answer may come (plane_sweep_test holds it to an
+// oracle). Planes and pixels that no answer can come from are skipped; the result doesn't depend on that nor
+// on the number of threads. A hull thinner than the spacing can be missed. `rays` are those of `view`'s lens;
+// make them once for a lens that moves. Throws: core::Error{kCamera} naming the camera when a mask's size
+// isn't the camera's; Error{kRange} for more than 64 cameras or 100,000 planes; PreconditionError for options
+// out of range or not one mask a camera.
+[[nodiscard]] SweptView SweepPlanes(const core::Rig& rig, std::span<const core::SoftMask> masks,
+                                    const core::CameraModel& view, const SweepRays& rays,
+                                    const PlaneSweepOptions& options = {});
+[[nodiscard]] SweptView SweepPlanes(const core::Rig& rig, std::span<const core::SoftMask> masks,
+                                    const core::CameraModel& view, const PlaneSweepOptions& options = {});
+
+}  // namespace elbowroom::recon

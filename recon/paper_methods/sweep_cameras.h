@@ -1,0 +1,46 @@
+// A rig's cameras with their silhouettes as textures: what the paper's volume query is asked of.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "core/rig.h"
+#include "core/rigid_transform.h"
+#include "core/soft_mask.h"
+#include "recon/paper_methods/coverage_texture.h"
+
+namespace elbowroom::recon {
+
+inline constexpr std::size_t kMostSweepCameras = 64;
+
+struct SweepCamera {
+  core::CameraModel model;
+  core::RigidTransform cam_from_view;  // view: the frame that points are given in
+  CoverageTexture coverage;
+  BlockOccupancy occupancy;
+};
+
+// The lens in single precision, by name; zero where the model has none.
+struct SweepLensCoefficients {
+  bool is_fisheye = false;
+  std::array<float, 6> radial{};      // k1..k6, or fisheye's k1..k4
+  std::array<float, 2> tangential{};  // p1, p2
+  std::array<float, 4> prism{};       // s1..s4
+};
+
+[[nodiscard]] SweepLensCoefficients LensCoefficientsOf(const core::CameraModel& camera);
+
+// Throws: PreconditionError unless it is 0 or 2 to 1024.
+void RequireUndistortionGrid(int undistortion_grid);
+
+// One a camera of the rig, the emptiest silhouette first. `undistortion_grid` as PlaneSweepOptions'. Throws:
+// core::Error{kCamera} naming the camera when a mask's size isn't the camera's; Error{kRange} for more than
+// 64 cameras; PreconditionError unless there is one mask a camera, or for the grid.
+[[nodiscard]] std::vector<SweepCamera> MakeSweepCameras(const core::Rig& rig,
+                                                        std::span<const core::SoftMask> masks,
+                                                        const core::RigidTransform& world_from_view,
+                                                        int undistortion_grid);
+
+}  // namespace elbowroom::recon

@@ -1,0 +1,26 @@
+// Whether two sweeps of the same masks differ by more than rounding.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "core/rig.h"
+#include "core/soft_mask.h"
+#include "recon/images/depth_map.h"
+
+namespace elbowroom::recon {
+
+struct SweepComparison {
+  std::int64_t differing_pixels = 0;
+  std::int64_t unexplained_pixels = 0;  // of those: no camera's label there is a matter of rounding
+};
+
+// Where one sweep sees a surface and the other none, or a farther one, some camera's coverage at that point
+// must be within 4/256 and a few roundings of one half (docs/plane_sweep.md, "Rounding"), or the point at the
+// border of its picture or of the workspace. For rigs at ordinary distances: positions are taken to be good
+// to 0.01 px. Throws: PreconditionError when sizes differ.
+[[nodiscard]] SweepComparison CompareSweeps(const core::Rig& rig, std::span<const core::SoftMask> masks,
+                                            const core::CameraModel& view, const DepthMap& a,
+                                            const DepthMap& b);
+
+}  // namespace elbowroom::recon

@@ -1,0 +1,86 @@
+#include <fmt/format.h>
+
+#include <Eigen/Core>
+#include <span>
+#include <string>
+
+#include "core/error.h"
+#include "core/system/whole_file.h"
+#include "recon/rig_files/rig_file.h"
+#include "recon/rig_files/source_location.h"
+
+namespace elbowroom::recon {
+namespace {
+
+// The shortest text that reads back as the same double, with a point: a bare 5000000000 would be read as an
+// int.
+std::string Number(double value) {
+  std::string text = fmt::format("{}", value);
+  if (text.find_first_of(".en") == std::string::npos) text += ".0";
+  return text;
+}
+
+std::string NumberList(std::span<const double> values) {
+  std::string text;
+  for (const double value : values) text += (text.empty() ? "" : ", ") + Number(value);
+  return "[ " + text + " ]";
+}
+
+std::string Quoted(const std::string& text) {
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') quoted += '\\';
+    quoted += c;
+  }
+  return quoted + '"';
+}
+
+std::string MatrixText(const char* key, int rows, int cols, std::span<const double> values) {
+  return fmt::format(
+      "      {}: !!opencv-matrix\n         rows: {}\n         cols: {}\n         dt: d\n         data: {}\n",
+      key, rows, cols, NumberList(values));
+}
+
+std::string Matrix3Text(const char* key, const Eigen::Matrix3d& matrix) {
+  const Eigen::Matrix<double, 3, 3, Eigen::RowMajor> by_rows = matrix;
+  return MatrixText(key, 3, 3, {by_rows.data(), 9});
+}
+
+std::string CameraText(const core::CameraCalibration& c) {
+  const std::vector<double>& d = c.distortion_coefficients;
+  // An empty !!opencv-matrix can't be read back; no distortion is a list of zeros.
+  const std::vector<double> coefficients = d.empty() ? std::vector<double>(4, 0.0) : d;
+  return fmt::format("   -\n      name: {}\n      image_width: {}\n      image_height: {}\n", Quoted(c.name),
+                     c.image_width_px, c.image_height_px) +
+         Matrix3Text("camera_matrix", c.camera_matrix) +
+         fmt::format("      distortion_model: \"{}\"\n", core::ToString(c.distortion_model)) +
+         MatrixText("distortion_coefficients", 1, static_cast<int>(coefficients.size()), coefficients) +
+         Matrix3Text("rotation_cam_from_world", c.cam_from_world.rotation) +
+         MatrixText("translation_cam_from_world_mm", 3, 1, {c.cam_from_world.translation_mm.data(), 3});
+}
+
+}  // namespace
+
+void WriteRigFile(const RigFile& rig_file, const std::filesystem::path& path) {
+  const core::Rig& rig = rig_file.rig;
+  core::Require(rig_file.sources.size() == rig.cameras.size(), "a rig file has sources for every camera");
+  const std::filesystem::path folder = std::filesystem::absolute(path).parent_path();
+  const Eigen::Vector3d low = rig.workspace_mm.min(), high = rig.workspace_mm.max();
+  const double workspace[] = {low.x(), low.y(), low.z(), high.x(), high.y(), high.z()};
+  std::string text = fmt::format("%YAML:1.0\n---\nrig_name: {}\nworkspace_mm: {}\nunseen: \"{}\"\ncameras:\n",
+                                 Quoted(rig.name), NumberList(workspace),
+                                 rig.unseen == core::UnseenPolicy::kAbstain ? "abstain" : "outside");
+  for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
+    text += CameraText(rig.cameras[i].calibration());
+    const auto add = [&](const char* key, const std::string& location) {
+      if (!location.empty())
+        text += fmt::format("      {}: {}\n", key, Quoted(LocationSeenFrom(location, folder)));
+    };
+    add("frames", rig_file.sources[i].frames);
+    add("background", rig_file.sources[i].background);
+    add("masks", rig_file.sources[i].masks);
+  }
+  core::WriteWholeFile(path, text);
+}
+
+}  // namespace elbowroom::recon

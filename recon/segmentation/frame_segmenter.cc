@@ -1,0 +1,90 @@
+#include "recon/segmentation/frame_segmenter.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <atomic>
+#include <bit>
+#include <utility>
+
+#include "core/error.h"
+#include "recon/segmentation/mask_regions.h"
+
+namespace elbowroom::recon {
+namespace {
+
+// A soft mask less some blobs. What stays on the boundary was on it before, with the same level.
+core::SoftMask WithoutBlobs(const core::SoftMask& soft, const Regions& regions,
+                            const std::vector<bool>& keep) {
+  core::SoftMask left{soft.mask, {}};
+  ClearRegions(left.mask, regions, keep);
+  const core::BitMask before = core::BoundaryPixels(soft.mask), after = core::BoundaryPixels(left.mask);
+  auto level = soft.levels.begin();
+  for (std::size_t i = 0; i < before.words().size() && !soft.levels.empty(); ++i) {
+    for (std::uint64_t bits = before.words()[i]; bits != 0; bits &= bits - 1, ++level) {
+      if ((after.words()[i] & bits & (~bits + 1)) != 0) left.levels.push_back(*level);
+    }
+  }
+  return left;
+}
+
+}  // namespace
+
+FrameSegmenter::FrameSegmenter(const std::vector<BackgroundReference>& backgrounds,
+                               const SegmentationOptions& options, const core::Rig& rig)
+    : support_(rig) {
+  options.Validate();
+  for (const BackgroundReference& background : backgrounds) {
+    segmenters_.emplace_back();
+    if (!background.mean_bgr.empty()) segmenters_.back().emplace(background, options);
+  }
+}
+
+std::vector<core::SoftMask> FrameSegmenter::Masks(const FrameSet& frames, Edges edges,
+                                                  SegmentationStats* stats) const {
+  core::Require(frames.cameras.size() == segmenters_.size(), "one frame a camera");
+  std::vector<core::SoftMask> masks(frames.cameras.size());
+  std::vector<SegmentationStats> each(frames.cameras.size());
+  std::atomic<bool> shows_object{false};
+  tbb::parallel_for(std::size_t{0}, masks.size(), [&](std::size_t i) {
+    const CameraFrame& camera = frames.cameras[i];
+    core::Require(camera.ready_mask || segmenters_[i], "a picture to segment has a background");
+    if (camera.ready_mask) {
+      masks[i].mask = *camera.ready_mask;
+    } else if (edges == Edges::kLocated) {
+      masks[i] = segmenters_[i]->SegmentSoft(camera.image_bgr, &each[i]);
+    } else {
+      masks[i].mask = segmenters_[i]->Segment(camera.image_bgr, &each[i]);
+    }
+    if (masks[i].mask.ShowsObject()) shows_object.store(true, std::memory_order_relaxed);
+  });
+  if (shows_object) DropUnconfirmed(frames, &masks);
+  if (stats != nullptr)
+    for (const SegmentationStats& of_camera : each) *stats += of_camera;
+  return masks;
+}
+
+void FrameSegmenter::DropUnconfirmed(const FrameSet& frames, std::vector<core::SoftMask>* masks) const {
+  std::vector<const core::BitMask*> bits;
+  for (const core::SoftMask& mask : *masks) bits.push_back(&mask.mask);
+  const std::vector<std::vector<bool>> confirmed = support_.ConfirmedBlobs(bits);
+  for (std::size_t i = 0; i < masks->size(); ++i) {
+    if (frames.cameras[i].ready_mask || std::ranges::find(confirmed[i], false) == confirmed[i].end())
+      continue;
+    core::SoftMask& mask = (*masks)[i];
+    mask = WithoutBlobs(mask, ObjectRegions(mask.mask), confirmed[i]);
+  }
+}
+
+std::vector<core::BitMask> FrameSegmenter::Segment(const FrameSet& frames) const {
+  std::vector<core::BitMask> masks;
+  for (core::SoftMask& mask : Masks(frames, Edges::kDetected, nullptr)) masks.push_back(std::move(mask.mask));
+  return masks;
+}
+
+std::vector<core::SoftMask> FrameSegmenter::SegmentSoft(const FrameSet& frames,
+                                                        SegmentationStats* stats) const {
+  return Masks(frames, Edges::kLocated, stats);
+}
+
+}  // namespace elbowroom::recon

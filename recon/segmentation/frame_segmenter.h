@@ -1,0 +1,43 @@
+// A frame set's silhouettes: ready masks as they are, pictures segmented.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/bit_mask.h"
+#include "core/rig.h"
+#include "core/soft_mask.h"
+#include "recon/segmentation/blob_support.h"
+#include "recon/footage/frame_set.h"
+#include "recon/segmentation/segmentation.h"
+
+namespace elbowroom::recon {
+
+// One segmenter a camera that has a background, and the rig, whose cameras confirm each other: blobs that
+// can't be part of the hull are dropped from segmented pictures (BlobSupport). Immutable. Thread: any.
+class FrameSegmenter {
+ public:
+  // Throws: core::Error{kRange} as SegmentationOptions::Validate(); core::Error as core::Rig::Validate().
+  FrameSegmenter(const std::vector<BackgroundReference>& backgrounds, const SegmentationOptions& options,
+                 const core::Rig& rig);
+
+  // One mask a camera, in parallel: the pixels detected, boundaries as the thresholds have them. Throws:
+  // PreconditionError for a picture whose camera has no background.
+  [[nodiscard]] std::vector<core::BitMask> Segment(const FrameSet& frames) const;
+
+  // The same with boundaries located between pixels; ready masks come without levels. `stats` is told what it
+  // took over all pictures. Throws: likewise.
+  [[nodiscard]] std::vector<core::SoftMask> SegmentSoft(const FrameSet& frames,
+                                                        SegmentationStats* stats = nullptr) const;
+
+ private:
+  enum class Edges { kDetected, kLocated };
+  [[nodiscard]] std::vector<core::SoftMask> Masks(const FrameSet& frames, Edges edges,
+                                                  SegmentationStats* stats) const;
+  void DropUnconfirmed(const FrameSet& frames, std::vector<core::SoftMask>* masks) const;
+
+  std::vector<std::optional<Segmenter>> segmenters_;
+  BlobSupport support_;
+};
+
+}  // namespace elbowroom::recon

@@ -1,0 +1,130 @@
+#include "recon/segmentation/segmentation.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+#include <utility>
+#include <vector>
+
+#include "core/error.h"
+#include "recon/segmentation/boundary.h"
+#include "recon/segmentation/coverage.h"
+#include "recon/segmentation/difference_kernel.h"
+#include "recon/segmentation/exposure.h"
+#include "recon/segmentation/mask_regions.h"
+
+namespace elbowroom::recon {
+namespace {
+
+constexpr float kShadeNoiseLevels = 0.0F;
+
+void RequireInRange(bool holds, std::string_view option, double value, std::string_view range) {
+  if (holds) return;
+  throw core::Error(core::ErrorKind::kRange,
+                    fmt::format("segmentation: {} is {}, but must be {}", option, value, range));
+}
+
+// Grey levels by which a pixel may differ before it is object.
+cv::Mat ThresholdOf(const BackgroundReference& background, const SegmentationOptions& options) {
+  cv::Mat along_x, along_y, gradient;
+  // Normalised Sobel: grey levels a pixel.
+  cv::Sobel(background.mean_bgr, along_x, CV_32F, 1, 0, 3, 1.0 / 8.0, 0.0, cv::BORDER_REPLICATE);
+  cv::Sobel(background.mean_bgr, along_y, CV_32F, 0, 1, 3, 1.0 / 8.0, 0.0, cv::BORDER_REPLICATE);
+  cv::magnitude(along_x.reshape(1), along_y.reshape(1), gradient);
+  cv::Mat threshold = background.sigma_bgr.reshape(1) * options.k_sigma;
+  cv::max(threshold, options.floor_levels, threshold);
+  threshold += gradient * options.edge_slack_px;
+  return threshold.reshape(3);
+}
+
+}  // namespace
+
+std::optional<SegmentationMethod> ParseSegmentationMethod(std::string_view text) {
+  if (text == "threshold") return SegmentationMethod::kThreshold;
+  if (text == "adaptive") return SegmentationMethod::kAdaptive;
+  return std::nullopt;
+}
+
+std::optional<ShadowRule> ParseShadowRule(std::string_view text) {
+  if (text == "keep") return ShadowRule::kKeep;
+  if (text == "reject") return ShadowRule::kReject;
+  return std::nullopt;
+}
+
+std::string_view ToString(SegmentationMethod method) {
+  return method == SegmentationMethod::kThreshold ? "threshold" : "adaptive";
+}
+
+std::string_view ToString(ShadowRule rule) { return rule == ShadowRule::kKeep ? "keep" : "reject"; }
+
+void SegmentationOptions::Validate() const {
+  // Written so that a NaN fails.
+  RequireInRange(k_sigma > 0.0 && std::isfinite(k_sigma), "k_sigma", k_sigma, "a positive number");
+  RequireInRange(floor_levels >= 0.0 && floor_levels <= 255.0, "floor_levels", floor_levels,
+                 "in 0..255 grey levels");
+  RequireInRange(edge_slack_px >= 0.0 && edge_slack_px <= 5.0, "edge_slack_px", edge_slack_px,
+                 "in 0..5 pixels");
+  RequireInRange(min_blob_px >= 0, "min_blob_px", min_blob_px, "at least 0 pixels");
+  RequireInRange(max_hole_px >= 0, "max_hole_px", max_hole_px, "at least 0 pixels");
+  RequireInRange(shadow_darkest >= 0.0 && shadow_darkest <= 1.0, "shadow_darkest", shadow_darkest, "in 0..1");
+  RequireInRange(shadow_chroma >= 0.0 && shadow_chroma <= 1.0, "shadow_chroma", shadow_chroma, "in 0..1");
+}
+
+SegmentationStats& SegmentationStats::operator+=(const SegmentationStats& other) {
+  pixels += other.pixels;
+  unseen_pixels += other.unseen_pixels;
+  return *this;
+}
+
+Segmenter::Segmenter(BackgroundReference background, const SegmentationOptions& options)
+    : options_(options), mean_bgr_(std::move(background.mean_bgr)) {
+  options.Validate();
+  core::Require(mean_bgr_.type() == CV_32FC3 && !mean_bgr_.empty() &&
+                    background.sigma_bgr.type() == CV_32FC3 &&
+                    background.sigma_bgr.size() == mean_bgr_.size(),
+                "a background reference has mean and sigma, CV_32FC3 of one size");
+  background.mean_bgr = mean_bgr_;
+  threshold_bgr_ = ThresholdOf(background, options);
+  as_measured_ = {mean_bgr_, PackedMean(mean_bgr_), LevelRanges(mean_bgr_, threshold_bgr_)};
+}
+
+Segmenter::EmptyScene Segmenter::EmptySceneFor(const cv::Mat& image_bgr) const {
+  core::Require(image_bgr.type() == CV_8UC3 && image_bgr.size() == mean_bgr_.size(),
+                "a picture to segment is 8-bit BGR of its background's size");
+  if (options_.method == SegmentationMethod::kThreshold) return as_measured_;
+  const cv::Mat mean = WithExposure(mean_bgr_, EstimateExposure(image_bgr, mean_bgr_));
+  return {mean, PackedMean(mean), LevelRanges(mean, threshold_bgr_)};
+}
+
+core::BitMask Segmenter::Detect(const cv::Mat& image_bgr, const EmptyScene& scene,
+                                SegmentationStats* stats) const {
+  const ShadeRule shade{static_cast<float>(options_.shadow_darkest),
+                        static_cast<float>(options_.shadow_chroma), kShadeNoiseLevels};
+  std::int64_t unseen_px = 0;
+  core::BitMask mask =
+      options_.shadows == ShadowRule::kReject
+          ? DifferingPixels(scene.ranges, image_bgr, scene.mean_bgr, shade, options_.min_blob_px, &unseen_px)
+          : DifferingPixels(scene.ranges, image_bgr, options_.min_blob_px, &unseen_px);
+  if (stats != nullptr) *stats = {static_cast<std::int64_t>(image_bgr.total()), unseen_px};
+  if (!mask.ShowsObject()) return mask;
+  RemoveSmallBlobs(mask, options_.min_blob_px);
+  FillSmallHoles(mask, options_.max_hole_px);
+  return mask;
+}
+
+core::BitMask Segmenter::Segment(const cv::Mat& image_bgr, SegmentationStats* stats) const {
+  return Detect(image_bgr, EmptySceneFor(image_bgr), stats);
+}
+
+core::SoftMask Segmenter::SegmentSoft(const cv::Mat& image_bgr, SegmentationStats* stats) const {
+  const EmptyScene scene = EmptySceneFor(image_bgr);
+  core::BitMask detected = Detect(image_bgr, scene, stats);
+  if (!detected.ShowsObject()) return {std::move(detected), {}};
+  return LocateBoundary(detected, image_bgr, scene.packed_mean, options_.floor_levels);
+}
+
+}  // namespace elbowroom::recon

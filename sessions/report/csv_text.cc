@@ -1,0 +1,52 @@
+#include "sessions/report/csv_text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+
+namespace elbowroom::sessions {
+
+namespace {
+
+// What a spreadsheet takes for the beginning of a formula, the full-width forms of a Japanese one among them.
+bool BeginsFormula(std::string_view text) {
+  constexpr std::string_view kBeginnings[] = {
+      "=", "+", "-", "@", "\xEF\xBC\x9D", "\xEF\xBC\x8B", "\xEF\xBC\x8D", "\xEF\xBC\xA0"};
+  return std::ranges::any_of(kBeginnings, [&](std::string_view begin) { return text.starts_with(begin); });
+}
+
+// After these a spreadsheet that splits lines in another way than at commas begins a cell.
+bool MayEndCell(char c) { return c == ';' || c == '\t' || c == '\r' || c == '\n' || c == '"' || c == '\''; }
+
+// An apostrophe before each place where a spreadsheet may see a formula: it shows the text as it is.
+std::string Neutralised(std::string_view text) {
+  std::string plain;
+  if (text.starts_with('\t') || text.starts_with('\r') || text.starts_with('\n')) plain += '\'';
+  bool begins_cell = true;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (begins_cell && BeginsFormula(text.substr(i))) plain += '\'';
+    plain += text[i];
+    begins_cell = MayEndCell(text[i]) || (begins_cell && text[i] == ' ');
+  }
+  return plain;
+}
+
+}  // namespace
+
+std::string Quoted(std::string_view text) {
+  const std::string plain = Neutralised(text);
+  if (plain == text && text.find_first_of(",;\t\"\r\n") == std::string_view::npos) return plain;
+  std::string quoted = "\"";
+  for (const char c : plain) {
+    if (c == '"') quoted += '"';
+    quoted += c;
+  }
+  return quoted + '"';
+}
+
+void AppendVector(std::string& line, const std::optional<Eigen::Vector3d>& vector) {
+  line += vector ? fmt::format(",{},{},{}", vector->x(), vector->y(), vector->z()) : ",,,";
+}
+
+}  // namespace elbowroom::sessions

@@ -1,0 +1,46 @@
+#include "sessions/report/report.h"
+
+#include <algorithm>
+#include <array>
+#include <tuple>
+
+#include "core/error.h"
+#include "sessions/report/clearance_csv.h"
+#include "sessions/report/contacts_csv.h"
+#include "sessions/report/report_data.h"
+#include "sessions/report/report_page.h"
+#include "sessions/report/whole_files.h"
+
+namespace elbowroom::sessions {
+namespace {
+
+void RequirePng(std::span<const unsigned char> bytes) {
+  constexpr std::array<unsigned char, 8> kSignature = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'};
+  core::Require(
+      bytes.size() > kSignature.size() && std::ranges::equal(bytes.first(kSignature.size()), kSignature),
+      "a report's picture is a PNG file's bytes");
+}
+
+}  // namespace
+
+std::optional<core::ContactEpisode> WorstEpisode(std::span<const core::ContactEpisode> episodes) {
+  const auto badness = [](const core::ContactEpisode& e) {
+    return std::tuple(e.peak_depth_mm, e.peak_area_mm2, -e.peak_frame);
+  };
+  const auto worst = std::ranges::max_element(episodes, {}, badness);
+  if (worst == episodes.end()) return std::nullopt;
+  return *worst;
+}
+
+void WriteReport(const SessionReader& session, const ReportPictures& pictures,
+                 const std::filesystem::path& out_dir) {
+  if (!pictures.worst_moment_png.empty()) RequirePng(pictures.worst_moment_png);
+  if (pictures.overview_png) RequirePng(*pictures.overview_png);
+  for (const ReportPictures::Heat& heat : pictures.heat) RequirePng(heat.png);
+  const ReportData data = CollectReportData(session);
+  WriteWholeFiles(out_dir, {{"report.html", ReportPage(data, pictures)},
+                            {"contacts.csv", ContactsCsv(data.header.layout, data.contacts)},
+                            {"clearance.csv", ClearanceCsv(data.header, session.clearances())}});
+}
+
+}  // namespace elbowroom::sessions

@@ -1,0 +1,49 @@
+#include "sessions/report/report_page.h"
+
+#include <fmt/format.h>
+
+#include "sessions/report/markup.h"
+
+namespace elbowroom::sessions {
+namespace {
+
+std::string TitleOf(const ReportData& data) {
+  return data.header.trial.task.empty() ? "Trial" : Escaped(data.header.trial.task);
+}
+
+std::string PageHeader(const ReportData& data) {
+  std::string facts;
+  const auto add = [&](const std::string& fact) { facts += (facts.empty() ? "" : " &middot; ") + fact; };
+  if (!data.header.trial.participant.empty()) add("participant " + Escaped(data.header.trial.participant));
+  add("started " + Escaped(data.header.started_at_utc));
+  add(fmt::format("{} frames over {:.1f} s", data.frames.size(), data.end_s - data.begin_s));
+  add(fmt::format("rig {}, {} camera{}", Escaped(data.header.rig.name), data.header.rig.cameras.size(),
+                  data.header.rig.cameras.size() == 1 ? "" : "s"));
+  return fmt::format(
+      "<header><p class='kicker'>Elbowroom trial report</p><h1>{}</h1><p class='facts'>{}</p></header>\n",
+      TitleOf(data), facts);
+}
+
+std::string PageFooter(const ReportData& data) {
+  return fmt::format(
+      "<footer>Made from <b>{}</b>, which holds every frame behind these figures; contacts.csv beside this "
+      "page lists each part in contact in each frame, clearance.csv how far each part was.</footer>\n",
+      Escaped(data.session_name));
+}
+
+}  // namespace
+
+std::string ReportPage(const ReportData& data, const ReportPictures& pictures) {
+  return fmt::format(
+             "<!DOCTYPE html>\n<html lang='en'><head><meta charset='utf-8'>"
+             "<meta name='viewport' content='width=device-width, "
+             "initial-scale=1'>\n<title>{}</title>\n<style>{}</style>"
+             "</head>\n<body><main>\n",
+             TitleOf(data), ReportStyle()) +
+         PageHeader(data) + SummarySection(data) + TimelineSection(data) + PictureSection(pictures) +
+         SpacingSection(data) + EpisodeSection(data) + NearMissSection(data) + PartSection(data) +
+         HeatSection(data, pictures) + EventSection(data) + ReadingSection(data) + RigSection(data) +
+         PageFooter(data) + "</main></body></html>\n";
+}
+
+}  // namespace elbowroom::sessions

@@ -1,0 +1,30 @@
+// The report's page.
+#pragma once
+
+#include <string>
+
+#include "sessions/report/report.h"
+#include "sessions/report/report_data.h"
+
+namespace elbowroom::sessions {
+
+// A whole HTML document that needs nothing but itself.
+[[nodiscard]] std::string ReportPage(const ReportData& data, const ReportPictures& pictures);
+
+// Its style sheet.
+[[nodiscard]] std::string ReportStyle();
+
+// Sections, each a whole <section>, or empty where the session has nothing for it.
+[[nodiscard]] std::string SummarySection(const ReportData& data);
+[[nodiscard]] std::string SpacingSection(const ReportData& data);
+[[nodiscard]] std::string TimelineSection(const ReportData& data);
+[[nodiscard]] std::string EpisodeSection(const ReportData& data);
+[[nodiscard]] std::string NearMissSection(const ReportData& data);
+[[nodiscard]] std::string PartSection(const ReportData& data);
+[[nodiscard]] std::string HeatSection(const ReportData& data, const ReportPictures& pictures);
+[[nodiscard]] std::string EventSection(const ReportData& data);
+[[nodiscard]] std::string PictureSection(const ReportPictures& pictures);
+[[nodiscard]] std::string ReadingSection(const ReportData& data);
+[[nodiscard]] std::string RigSection(const ReportData& data);
+
+}  // namespace elbowroom::sessions

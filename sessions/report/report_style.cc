@@ -1,0 +1,77 @@
+#include "sessions/report/report_page.h"
+
+namespace elbowroom::sessions {
+
+std::string ReportStyle() {
+  return R"css(
+:root { --ink: #1d2733; --quiet: #5c6b7a; --line: #dde3e9; --paper: #ffffff; --wash: #f4f6f8;
+  --spacing: #1c5d99; --tool: #2a7f78; --touched: #c2311f; --free: #2e7d4f; --caution: #b7791f; }
+* { box-sizing: border-box; }
+body { margin: 0; background: var(--wash); color: var(--ink);
+  font: 15px/1.5 "Segoe UI", "Helvetica Neue", Arial, "Liberation Sans", sans-serif; }
+main { max-width: 1120px; margin: 0 auto; padding: 36px 40px 56px; background: var(--paper); }
+header { margin-bottom: 22px; }
+.kicker { color: var(--quiet); font-size: 12px; letter-spacing: .09em; text-transform: uppercase; margin: 0 0 4px; }
+h1 { font-size: 27px; line-height: 1.25; margin: 0 0 6px; font-weight: 600; overflow-wrap: anywhere; }
+h2 { font-size: 18px; font-weight: 600; margin: 40px 0 4px; padding-top: 14px; border-top: 1px solid var(--line); }
+h3 { font-size: 14px; font-weight: 600; margin: 20px 0 4px; }
+p { margin: 6px 0; max-width: 76ch; }
+.facts, .lead { color: var(--quiet); }
+.verdict { border-left: 6px solid var(--free); background: var(--wash); padding: 14px 20px; margin: 18px 0; }
+.verdict.touched { border-color: var(--touched); }
+.verdict.broken { border-color: var(--caution); }
+.verdict p { max-width: none; margin: 0; }
+.verdict p:first-child { font-size: 19px; line-height: 1.4; font-weight: 600; }
+.verdict p + p { margin-top: 6px; color: var(--quiet); }
+dl.tiles { display: grid; grid-template-columns: repeat(auto-fit, minmax(150px, 1fr)); gap: 12px; margin: 0; }
+dl.tiles div { border: 1px solid var(--line); border-radius: 4px; padding: 10px 14px; }
+dl.tiles dt { color: var(--quiet); font-size: 12.5px; }
+dl.tiles dd { margin: 2px 0 0; font-size: 20px; font-weight: 600; font-variant-numeric: tabular-nums; }
+dl.tiles dd small { display: block; font-size: 12.5px; font-weight: 400; color: var(--quiet); }
+.scroll { overflow-x: auto; }
+table { border-collapse: collapse; min-width: 66%; margin: 10px 0 4px; font-size: 13.5px; font-variant-numeric: tabular-nums; }
+th { text-align: left; vertical-align: bottom; font-weight: 600; color: var(--quiet); font-size: 12.5px; line-height: 1.3;
+  border-bottom: 2px solid var(--line); padding: 6px 11px; }
+td { border-bottom: 1px solid var(--line); padding: 5px 11px; vertical-align: top; overflow-wrap: anywhere; }
+th:first-child, td:first-child { padding-left: 4px; }
+th:first-child:not(.n) { min-width: 150px; }
+th.n, td.n { text-align: right; white-space: nowrap; overflow-wrap: normal; }
+th small { display: block; }
+th small, td small { font-weight: 400; color: var(--quiet); font-size: 12px; }
+tr.worst td { background: #fdf1e8; }
+.dot { display: inline-block; width: 10px; height: 10px; border-radius: 2px; margin-right: 7px; }
+figure { margin: 12px 0; }
+figure img { display: block; max-width: 100%; border: 1px solid var(--line); border-radius: 4px; }
+figcaption { color: var(--quiet); font-size: 13.5px; margin-top: 6px; max-width: 90ch; }
+ul { padding-left: 20px; max-width: 80ch; margin: 8px 0; }
+li { margin: 5px 0; }
+svg { display: block; width: 100%; height: auto; margin: 10px 0 0; font-family: inherit; }
+svg text { fill: var(--ink); font-size: 12.5px; }
+svg .tick, svg .remark, svg .quiet { fill: var(--quiet); }
+svg .tick, svg .remark { font-size: 11.5px; }
+svg .number { font-size: 11px; font-weight: 600; }
+svg .value { fill: var(--spacing); font-weight: 600; }
+svg .grid { stroke: #e6eaee; stroke-width: 1; }
+svg .axis { stroke: #94a1ad; stroke-width: 1; }
+svg .lane { fill: #f0f3f5; }
+svg .touch { fill: transparent; stroke: #4a1208; stroke-width: 1; }
+svg .tool { fill: var(--tool); }
+svg .spacing { fill: none; stroke: var(--spacing); stroke-width: 2.2; stroke-linejoin: round; }
+svg .estimate { stroke: var(--caution); stroke-width: 1.4; stroke-dasharray: 6 4; }
+svg .estimate-text { fill: var(--caution); font-size: 11.5px; }
+svg .contact-band { fill: #f6cdbd; }
+footer { margin-top: 40px; padding-top: 12px; border-top: 1px solid var(--line); color: var(--quiet); font-size: 12.5px; }
+@media print {
+  body { background: none; font-size: 10.5pt; }
+  main { max-width: none; padding: 0; }
+  * { -webkit-print-color-adjust: exact; print-color-adjust: exact; }
+  h2, h3 { break-after: avoid; }
+  svg, figure, tr, .verdict, dl.tiles { break-inside: avoid; }
+  thead { display: table-header-group; }
+  .scroll { overflow: visible; }
+}
+@page { margin: 16mm 14mm; }
+)css";
+}
+
+}  // namespace elbowroom::sessions

@@ -1,0 +1,210 @@
+#include "recon/segmentation/difference_kernel.h"
+
+#include <gtest/gtest.h>
+
+#include <hwy/targets.h>
+#include <cstdint>
+#include <opencv2/core.hpp>
+#include <random>
+#include <vector>
+
+#include "core/error.h"
+#include "recon/segmentation/boundary.h"
+#include "recon/segmentation/coverage.h"
+#include "recon/segmentation/mask_regions.h"
+
+namespace elbowroom::recon {
+namespace {
+
+constexpr ShadeRule kRule{0.55F, 0.10F, 3.0F};
+
+struct Case {
+  cv::Mat image_bgr, mean_bgr, threshold_bgr;
+};
+
+// Rows that end anywhere within a word, and a picture that is a window of a wider one; where `busy`, most
+// pixels differ and many are shade, else only a few, on a ground of which rows have levels in common.
+Case RandomCase(int width, int height, bool busy, std::mt19937& random) {
+  Case made{cv::Mat(height, width + 5, CV_8UC3), cv::Mat(height, width, CV_32FC3),
+            cv::Mat(height, width, CV_32FC3)};
+  made.image_bgr = made.image_bgr(cv::Rect(2, 0, width, height));
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const double light =
+          busy && random() % 2 == 0 ? 0.4 + static_cast<double>(random() % 700U) / 1000.0 : 1.0;
+      const bool differs = busy ? random() % 3 == 0 : random() % 200 == 0;
+      for (int c = 0; c < 3; ++c) {
+        const float mean = static_cast<float>(busy ? random() % 25500U : 12000U + random() % 600U) / 100.0F;
+        made.mean_bgr.at<cv::Vec3f>(y, x)[c] = mean;
+        made.threshold_bgr.at<cv::Vec3f>(y, x)[c] =
+            static_cast<float>((busy ? 0U : 1000U) + random() % 3000U) / 100.0F;
+        made.image_bgr.at<cv::Vec3b>(y, x)[c] = cv::saturate_cast<std::uint8_t>(
+            differs ? static_cast<double>(random() % 256U) : light * static_cast<double>(mean));
+      }
+    }
+  }
+  return made;
+}
+
+bool Differs(const Case& made, int y, int x) {
+  for (int c = 0; c < 3; ++c) {
+    const double mean = made.mean_bgr.at<cv::Vec3f>(y, x)[c];
+    if (std::abs(made.image_bgr.at<cv::Vec3b>(y, x)[c] - mean) > made.threshold_bgr.at<cv::Vec3f>(y, x)[c])
+      return true;
+  }
+  return false;
+}
+
+// The rule as its comment has it, in double; nothing where single precision may decide otherwise.
+std::optional<bool> IsShade(const Case& made, int y, int x) {
+  constexpr double kUnsure = 1e-4;  // relative; single precision keeps 1e-6 of the products' sum
+  const cv::Vec3d i(made.image_bgr.at<cv::Vec3b>(y, x)), b(made.mean_bgr.at<cv::Vec3f>(y, x));
+  const double g = i.dot(b) / b.dot(b), left = g * cv::norm(b);
+  const double rest = std::sqrt(std::max(0.0, i.dot(i) - left * left));
+  const double allowed =
+      std::max(static_cast<double>(kRule.chroma) * left, static_cast<double>(kRule.noise_levels));
+  const double darkest = kRule.darkest;
+  if (std::abs(g - 1.0) < kUnsure || std::abs(g - darkest) < kUnsure) return std::nullopt;
+  if (std::abs(rest * rest - allowed * allowed) < kUnsure * i.dot(i)) return std::nullopt;
+  return g >= darkest && g < 1.0 && rest < allowed;
+}
+
+class EachTarget : public ::testing::Test {
+ protected:
+  void TearDown() override {
+    hwy::SetSupportedTargetsForTest(0);
+    hwy::GetChosenTarget().DeInit();
+  }
+  static std::vector<std::int64_t> Targets() {
+    std::vector<std::int64_t> targets;
+    for (std::int64_t left = hwy::SupportedTargets(); left != 0; left &= left - 1)
+      targets.push_back(left & -left);
+    return targets;
+  }
+  static void Choose(std::int64_t target) {
+    hwy::SetSupportedTargetsForTest(target);
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+  }
+};
+
+TEST_F(EachTarget, GivesTheSameBits) {
+  std::mt19937 random(3);
+  const std::vector<std::int64_t> targets = Targets();
+  for (const int width : {1, 5, 21, 63, 64, 65, 128, 191, 320, 333}) {
+    for (const bool busy : {false, true}) {
+      const Case made = RandomCase(width, 17, busy, random);
+      const LevelRanges ranges(made.mean_bgr, made.threshold_bgr);
+      std::optional<core::BitMask> first, first_without_shade;
+      for (const std::int64_t target : targets) {
+        SCOPED_TRACE(hwy::TargetName(target));
+        Choose(target);
+        const core::BitMask plain = DifferingPixels(ranges, made.image_bgr);
+        const core::BitMask lit = DifferingPixels(ranges, made.image_bgr, made.mean_bgr, kRule);
+        if (!first) first = plain, first_without_shade = lit;
+        EXPECT_EQ(plain, *first);
+        EXPECT_EQ(lit, *first_without_shade);
+      }
+      for (int y = 0; y < 17; ++y) {
+        for (int x = 0; x < width; ++x) {
+          ASSERT_EQ(first->At(x, y), Differs(made, y, x)) << width << ": " << x << ' ' << y;
+          if (const auto shade = IsShade(made, y, x)) {
+            ASSERT_EQ(first_without_shade->At(x, y), first->At(x, y) && !*shade)
+                << width << ": " << x << ' ' << y;
+          }
+        }
+      }
+      std::size_t counted = 0;
+      for (int y = 0; y < 17; ++y)
+        for (int x = 0; x < width; ++x) counted += first->At(x, y) ? 1 : 0;
+      EXPECT_EQ(first->CountObjectPixels(), counted) << "padding is zero";
+    }
+  }
+  RecordProperty("targets", static_cast<int>(targets.size()));
+  EXPECT_GE(targets.size(), 2U) << "only one instruction set to compare";
+}
+
+// Noise of few pixels, thin lines and frames all over the picture, between the pixels that are looked at too:
+// what is left of it without small regions is the same.
+TEST_F(EachTarget, FindsAllLargeRegionsWithoutLookingAtEveryPixel) {
+  std::mt19937 random(5);
+  for (const int width : {63, 64, 200, 320, 333}) {
+    for (int trial = 0; trial < 12; ++trial) {
+      const int height = 40 + trial;
+      const cv::Mat mean(height, width, CV_32FC3, cv::Scalar::all(100.0));
+      const cv::Mat threshold(height, width, CV_32FC3, cv::Scalar::all(10.0));
+      cv::Mat image(height, width, CV_8UC3, cv::Scalar::all(100.0));
+      for (int n = 0; n < 8; ++n) {
+        const bool is_line = random() % 2 == 0;
+        const cv::Rect box(static_cast<int>(random() % static_cast<unsigned>(width)),
+                           static_cast<int>(random() % static_cast<unsigned>(height)),
+                           static_cast<int>(1 + random() % 150),
+                           static_cast<int>(1 + random() % (is_line ? 3 : 20)));
+        const cv::Scalar color = cv::Scalar::all(random() % 3 == 0 ? 80.0 : 130.0);  // shade, or light
+        image(box & cv::Rect(0, 0, width, height)).setTo(color);
+      }
+      const LevelRanges ranges(mean, threshold);
+      for (const int least_px : {50, 133, 200}) {
+        core::BitMask all = DifferingPixels(ranges, image, mean, kRule);
+        RemoveSmallBlobs(all, least_px);
+        for (const std::int64_t target : Targets()) {
+          SCOPED_TRACE(hwy::TargetName(target));
+          Choose(target);
+          core::BitMask large = DifferingPixels(ranges, image, mean, kRule, least_px);
+          RemoveSmallBlobs(large, least_px);
+          ASSERT_EQ(large, all) << width << ' ' << trial << ' ' << least_px;
+        }
+      }
+    }
+  }
+}
+
+// Cells of 64 x 4 pixels: of a row of one that is left out 44 pixels aren't looked at, its first row is.
+TEST_F(EachTarget, TellsHowManyPixelsItDidNotLookAt) {
+  const cv::Size size(330, 22);
+  const LevelRanges ranges(cv::Mat(size, CV_32FC3, cv::Scalar::all(100.0)),
+                           cv::Mat(size, CV_32FC3, cv::Scalar::all(10.0)));
+  cv::Mat image(size, CV_8UC3, cv::Scalar::all(100.0));
+  cv::Mat touched = image.clone();
+  touched.at<cv::Vec3b>(8, 64) = {100, 150, 100};
+  for (const std::int64_t target : Targets()) {
+    SCOPED_TRACE(hwy::TargetName(target));
+    Choose(target);
+    std::int64_t unseen_px = -1;
+    EXPECT_EQ(DifferingPixels(ranges, image, 200, &unseen_px).CountObjectPixels(), 0U);
+    EXPECT_EQ(unseen_px, 5 * 44 * (5 * 3 + 1));  // the last of six rows of cells has two rows of pixels
+    EXPECT_EQ(DifferingPixels(ranges, touched, 200, &unseen_px).CountObjectPixels(), 1U);
+    EXPECT_EQ(unseen_px, 5 * 44 * (5 * 3 + 1) - 9 * 44 * 3);
+    EXPECT_EQ(DifferingPixels(ranges, touched, 100, &unseen_px).CountObjectPixels(), 1U);
+    EXPECT_EQ(unseen_px, 0) << "regions of 100 pixels may hide between the pixels that are looked at";
+  }
+}
+
+TEST_F(EachTarget, LocatesTheSameBoundary) {
+  std::mt19937 random(4);
+  for (const int width : {1, 5, 64, 65, 191}) {
+    const Case made = RandomCase(width, 33, true, random);
+    const cv::Mat mean = PackedMean(made.mean_bgr);
+    core::BitMask detected(width, 33);
+    for (int y = 0; y < 33; ++y)
+      for (int x = 0; x < width; ++x) detected.Set(x, y, (x / 9 + y / 7) % 2 == 0 && random() % 20 != 0);
+    std::optional<core::SoftMask> first;
+    for (const std::int64_t target : Targets()) {
+      SCOPED_TRACE(hwy::TargetName(target));
+      Choose(target);
+      const core::SoftMask located = LocateBoundary(detected, made.image_bgr, mean, 20.0);
+      located.Validate();
+      if (!first) first = located;
+      EXPECT_EQ(located, *first) << width;
+    }
+  }
+}
+
+TEST(DifferenceKernel, RefusesAPictureOfAnotherSize) {
+  const LevelRanges ranges(cv::Mat(4, 4, CV_32FC3, cv::Scalar::all(9)),
+                           cv::Mat(4, 4, CV_32FC3, cv::Scalar::all(1)));
+  EXPECT_THROW((void)DifferingPixels(ranges, cv::Mat(4, 5, CV_8UC3)), core::PreconditionError);
+  EXPECT_THROW((void)DifferingPixels(ranges, cv::Mat(4, 4, CV_8U)), core::PreconditionError);
+}
+
+}  // namespace
+}  // namespace elbowroom::recon
