@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <regex>
 #include <set>
 #include <sstream>
@@ -23,6 +24,7 @@ const fs::path kRoot = ELBOWROOM_SOURCE_DIR;
 // CONTRIBUTING.md, "Sizes": beyond these a file holds more than one thing.
 constexpr long kLongestSource = 600;
 constexpr long kLongestHeader = 250;
+constexpr int kMostFilesInAFolder = 60;  // thirty units
 
 // First column of the table under "## Rooms".
 std::set<std::string> RoomsInDocument(const fs::path& file) {
@@ -44,6 +46,13 @@ TEST(HouseRules, NoFileIsTooLong) {
     const long lines = std::ranges::count(text, '\n');
     EXPECT_LE(lines, file.ends_with(".h") ? kLongestHeader : kLongestSource) << file << ": split it";
   }
+}
+
+TEST(HouseRules, NoFolderHoldsTooManyFiles) {
+  std::map<std::string, int> files_in;
+  for (const std::string& file : SourceFilesOf(kRoot)) ++files_in[fs::path(file).parent_path().string()];
+  for (const auto& [folder, files] : files_in)
+    EXPECT_LE(files, kMostFilesInAFolder) << folder << ": make rooms inside it";
 }
 
 TEST(HouseRules, ArchitectureDocumentListsTheRooms) {

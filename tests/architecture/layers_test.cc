@@ -53,44 +53,64 @@ class PlantedTree : public testing::Test {
 TEST(Layers, TheTreeKeepsToThem) {
   const std::vector<std::string> files = SourceFilesOf(kRoot);
   ASSERT_GT(files.size(), 20U) << "the checker looked in the wrong place";
-  EXPECT_EQ(Lines(CheckTree(kRoot, ReadLayers(kRoot / kLayersInTree))), "");
+  const Layers layers = ReadLayers(kRoot / kLayersInTree);
+  EXPECT_EQ(Lines(CheckTree(kRoot, layers)), "");
+  EXPECT_EQ(Lines(CheckDoors(kRoot, layers)), "");
 }
 
 TEST_F(PlantedTree, IsCleanBeforeAnythingIsPlanted) {
   Plant("core/a.h", "#pragma once\n#include <Eigen/Core>\n#include <vector>\n#include \"core/error.h\"\n");
   Plant("sessions/a.cc", "#include <sqlite3.h>\n#include <unistd.h>\n#include \"core/session.h\"\n");
   Plant("app/console/a.h",
-        "#include <QWidget>\n#include \"app/control/live.h\"\n#include \"core/contact.h\"\n");
+        "#include <QWidget>\n#include \"app/control/live_trial.h\"\n#include \"core/contact.h\"\n");
   EXPECT_EQ(Lines(Check()), "");
 }
 
 TEST_F(PlantedTree, CoreMayNotIncludeARoomAboveIt) {
   Plant("core/a.h", "#pragma once\n\n#include <vector>\n#include \"recon/footage/frame_set.h\"\n");
-  ExpectOne("core/a.h", 4, "core must not include recon (\"recon/footage/frame_set.h\")");
+  ExpectOne("core/a.h", 4, "core must not include recon/footage (\"recon/footage/frame_set.h\")");
 }
 
 TEST_F(PlantedTree, RoomsSideBySideMayNotIncludeEachOther) {
-  Plant("sessions/a.cc", "#include \"review/part_contact.h\"\n");
-  ExpectOne("sessions/a.cc", 1, "sessions must not include review (\"review/part_contact.h\")");
+  Plant("sessions/a.cc", "#include \"review/part_review.h\"\n");
+  ExpectOne("sessions/a.cc", 1, "sessions must not include review (\"review/part_review.h\")");
 }
 
 TEST_F(PlantedTree, AFolderInsideARoomIsARoomOfItsOwn) {
-  Plant("recon/a.cc", "#include \"recon/gl/objects/egl_context.h\"\n");
-  Plant("review/b.cc", "#include \"recon/gl/objects/egl_context.h\"\n");
+  Plant("sessions/a.cc", "#include \"sessions/report/report.h\"\n");
+  Plant("review/b.cc", "#include \"recon/gl/scene/scene.h\"\n");
   const std::vector<Violation> expected{
-      {"recon/a.cc", 1, "recon must not include recon/gl (\"recon/gl/objects/egl_context.h\")"},
-      {"review/b.cc", 1, "review must not include recon/gl (\"recon/gl/objects/egl_context.h\")"}};
+      {"review/b.cc", 1, "review must not include recon/gl/scene (\"recon/gl/scene/scene.h\")"},
+      {"sessions/a.cc", 1, "sessions must not include sessions/report (\"sessions/report/report.h\")"}};
   EXPECT_EQ(Lines(Check()), Lines(expected));
 }
 
-TEST_F(PlantedTree, TheConsoleSeesOnlyThePictureValuesOfRecon) {
-  Plant("app/console/a.cc", "#include \"recon/images/image.h\"\n#include \"recon/hull/visual_hull.h\"\n");
-  ExpectOne("app/console/a.cc", 2, "app/console must not include recon (\"recon/hull/visual_hull.h\")");
+TEST_F(PlantedTree, TheConsoleSeesOnlyTheOperatorsCameraOfRecon) {
+  Plant("app/console/a.cc",
+        "#include \"recon/appearance/orbit_camera.h\"\n#include \"recon/hull/visual_hull.h\"\n");
+  ExpectOne("app/console/a.cc", 2, "app/console must not include recon/hull (\"recon/hull/visual_hull.h\")");
 }
 
-TEST_F(PlantedTree, OnlyTheDoorsOfTheDrawingRoomAreOpen) {
-  Plant("app/control/a.cc", "#include \"recon/gl/scene/scene_renderer.h\"\n#include \"recon/gl/objects/texture.h\"\n");
-  ExpectOne("app/control/a.cc", 2, "app/control must not include recon/gl (\"recon/gl/objects/texture.h\")");
+TEST_F(PlantedTree, OnlyTheDoorsOfARoomAreOpen) {
+  Plant("app/control/a.cc", "#include \"recon/gl/scene/scene.h\"\n#include \"recon/gl/scene/lighting.h\"\n");
+  Plant("recon/hull/b.h",
+        "#include \"recon/contours/contour_map.h\"\n#include \"recon/contours/contour_cells.h\"\n");
+  Plant("recon/hull_mesh/c.cc", "#include \"recon/hull_mesh/cube_table.h\"\n");
+  Plant("tests/d_test.cc", "#include \"recon/hull_mesh/cube_table.h\"\n");
+  const auto inner = [](const std::string& header, const std::string& room) {
+    return "\"" + header + "\" is inner to " + room + ": include one of its doors (layers.txt)";
+  };
+  const std::vector<Violation> expected{
+      {"app/control/a.cc", 2, inner("recon/gl/scene/lighting.h", "recon/gl/scene")},
+      {"recon/hull/b.h", 2, inner("recon/contours/contour_cells.h", "recon/contours")}};
+  EXPECT_EQ(Lines(Check()), Lines(expected));
+}
+
+TEST_F(PlantedTree, ADoorThatIsNoHeaderIsFound) {
+  const Layers layers = ReadLayers(root_ / kLayersInTree);
+  std::size_t doors = 0;
+  for (const Room& room : layers.rooms) doors += room.doors.size();
+  EXPECT_EQ(CheckDoors(root_.path(), layers).size(), doors) << "none is planted";
 }
 
 TEST_F(PlantedTree, QtStaysInTheConsole) {
@@ -105,8 +125,8 @@ TEST_F(PlantedTree, SqliteStaysOutOfHeaders) {
 }
 
 TEST_F(PlantedTree, OpenGlStaysInItsFolder) {
-  Plant("recon/a.cc", "#include <epoxy/gl.h>\n");
-  ExpectOne("recon/a.cc", 1, "recon must not include OpenGL (<epoxy/gl.h>)");
+  Plant("recon/hull/a.cc", "#include <epoxy/gl.h>\n");
+  ExpectOne("recon/hull/a.cc", 1, "recon/hull must not include OpenGL (<epoxy/gl.h>)");
 }
 
 TEST_F(PlantedTree, OpenCvStaysOutOfCore) {
@@ -131,12 +151,17 @@ TEST_F(PlantedTree, AFolderThatIsNoRoomIsFound) {
   ExpectOne("utils/a.h", 1, "lies in no room of layers.txt");
 }
 
+TEST_F(PlantedTree, AFileBesideTheRoomsInsideIsFound) {
+  Plant("recon/a.h", "#pragma once\n");
+  ExpectOne("recon/a.h", 1, "lies in no room of layers.txt");
+}
+
 TEST_F(PlantedTree, ARoomWithoutAFolderIsFound) {
-  fs::remove(root_ / "sessions");
+  fs::remove(root_ / "app/console");
   const std::vector<Violation> found = Check();
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found[0].file, kLayersInTree.generic_string());
-  EXPECT_EQ(found[0].message, "room 'sessions' is no folder of the tree");
+  EXPECT_EQ(found[0].message, "room 'app/console' is no folder of the tree");
 }
 
 TEST_F(PlantedTree, BuildsAndHiddenFoldersAreNotPartOfTheTree) {
@@ -170,15 +195,17 @@ TEST_P(BadLayersFile, IsAnErrorThatNamesTheLine) {
 
 INSTANTIATE_TEST_SUITE_P(
     Layers, BadLayersFile,
-    testing::Values(BadLine{"UnknownRoomToLeanOn", "room recon : core cellar",
-                            "room 'cellar' is not declared above; a room leans only on rooms above it"},
-                    BadLine{"UnknownRoomThatUses", "use cellar : Eigen",
-                            "room 'cellar' is not declared above"},
-                    BadLine{"UnknownLibrary", "use core : Egien", "library 'Egien' is not declared above"},
-                    BadLine{"RoomTwice", "room core :", "room 'core' is declared twice"},
-                    BadLine{"LibraryTwice", "library Eigen : e", "library 'Eigen' is declared twice"},
-                    BadLine{"UnknownKind", "hall core :", "'hall' is none of room, library, use"},
-                    BadLine{"NoColon", "room recon core", "expected 'room|library|use NAME : ...'"}),
+    testing::Values(
+        BadLine{"UnknownRoomToLeanOn", "room recon : core cellar",
+                "room 'cellar' is not declared above; a room leans only on rooms above it"},
+        BadLine{"UnknownRoomThatUses", "use cellar : Eigen", "room 'cellar' is not declared above"},
+        BadLine{"UnknownLibrary", "use core : Egien", "library 'Egien' is not declared above"},
+        BadLine{"RoomTwice", "room core :", "room 'core' is declared twice"},
+        BadLine{"LibraryTwice", "library Eigen : e", "library 'Eigen' is declared twice"},
+        BadLine{"UnknownKind", "hall core :", "'hall' is none of room, doors, library, use"},
+        BadLine{"DoorsOfAnUnknownRoom", "doors cellar : a.h", "room 'cellar' is not declared above"},
+        BadLine{"ADoorThatIsNoHeader", "doors core : a.cc", "'a.cc' is no header"},
+        BadLine{"NoColon", "room recon core", "expected 'room|doors|library|use NAME : ...'"}),
     [](const auto& param_info) { return param_info.param.name; });
 
 TEST(Layers, AMissingFileIsAnError) { EXPECT_THROW((void)ReadLayers("/nowhere/layers.txt"), core::Error); }
