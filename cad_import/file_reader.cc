@@ -6,7 +6,7 @@
 
 #include "cad_import/formats/file_format.h"
 #include "cad_import/formats/format_modules.h"
-#include "cad_import/normalisation/settling.h"
+#include "cad_import/normalisation/model_normalisation.h"
 
 namespace elbowroom::cad_import {
 
@@ -37,7 +37,7 @@ PackedModel ReadCadFile(const fs::path& file, const ImportOptions& options, cons
   std::vector<ReferredFile> referred;
   for (const fs::path& other : scene.referred)
     referred.push_back({other.lexically_relative(folder).string(), HashOfFile(other)});
-  return {Settle(std::move(scene), format, options, file, progress), std::move(referred)};
+  return {NormaliseModel(std::move(scene), format, options, file, progress), std::move(referred)};
 }
 
 }  // namespace elbowroom::cad_import

@@ -15,7 +15,7 @@ namespace elbowroom::cad_import {
 void PrepareToRead(const std::filesystem::path& file);
 
 // Throws: Error{kFile} (missing, unreadable, over 1 GiB), Error{kFormat} (another format, cut off, damaged,
-// refers outside its folder), what Settle throws. Or crashes, hangs and eats memory, as parsers do.
+// refers outside its folder), what NormaliseModel throws. Or crashes, hangs and eats memory, as parsers do.
 [[nodiscard]] PackedModel ReadCadFile(const std::filesystem::path& file, const ImportOptions& options,
                                       const core::Progress& progress = {});
 

@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "cad_import/model/file_unit.h"
 #include "cad_import/mapped_file.h"
+#include "cad_import/model/file_unit.h"
 #include "core/error.h"
 #include "core/system/whole_file.h"
 

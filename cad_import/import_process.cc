@@ -16,11 +16,11 @@
 #include <utility>
 
 #include "cad_import/formats/file_format.h"
-#include "cad_import/model/file_unit.h"
 #include "cad_import/import_protocol.h"
 #include "cad_import/import_worker.h"
-#include "core/system/child_process.h"
+#include "cad_import/model/file_unit.h"
 #include "core/error.h"
+#include "core/system/child_process.h"
 
 namespace elbowroom::cad_import {
 namespace {

@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <stop_token>
 
-#include "cad_import/model/import_options.h"
 #include "cad_import/mapped_file.h"
+#include "cad_import/model/import_options.h"
 #include "core/progress.h"
 
 namespace elbowroom::cad_import {

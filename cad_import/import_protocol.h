@@ -6,8 +6,8 @@
 #include <string_view>
 #include <variant>
 
-#include "core/system/child_process.h"
 #include "core/error.h"
+#include "core/system/child_process.h"
 
 namespace elbowroom::cad_import {
 

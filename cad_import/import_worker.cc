@@ -15,12 +15,12 @@
 #include <string_view>
 
 #include "cad_import/file_reader.h"
-#include "cad_import/model/import_options.h"
 #include "cad_import/import_protocol.h"
+#include "cad_import/model/import_options.h"
 #include "cad_import/packed_model.h"
-#include "core/system/child_process.h"
 #include "core/error.h"
 #include "core/progress.h"
+#include "core/system/child_process.h"
 
 namespace elbowroom::cad_import {
 namespace {

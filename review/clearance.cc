@@ -43,7 +43,7 @@ struct Cell {
   Vector3d center;
   Vector3d half;
   std::uint32_t triangle = 0;  // the nearest to the centre
-  recon::OpenCameras open;
+  recon::UndecidedCameras open;
 
   [[nodiscard]] bool operator<(const Cell& other) const { return lower_mm > other.lower_mm; }
 };
@@ -68,7 +68,7 @@ class Search {
   Clearance Run(const std::optional<ClearanceHint>& hint) {
     if (hint) TryHint(*hint);
     const Eigen::AlignedBox3d& box = hull_.rig().workspace_mm;
-    recon::OpenCameras all;
+    recon::UndecidedCameras all;
     Push(box.center(), 0.5 * box.sizes(), 0, &all);
     double lower_mm = kInfinity;
     while (!cells_.empty()) {
@@ -103,7 +103,7 @@ class Search {
     return {part_from_world_ * center, part_from_world_.rotation * half.asDiagonal(),
             FarEnoughMm() + slack_mm_};
   }
-  [[nodiscard]] bool Contains(const Vector3d& x_in_world, const recon::OpenCameras& open = {}) {
+  [[nodiscard]] bool Contains(const Vector3d& x_in_world, const recon::UndecidedCameras& open = {}) {
     ++queries_;
     return hull_.Contains(x_in_world, open);
   }
@@ -111,9 +111,9 @@ class Search {
   // Keeps the cell if the hull may be in it nearer than what is known. Where hull and part don't meet, no
   // point inside the hull is its nearest: of a cell wholly inside only the way to the part matters.
   void Push(const Vector3d& center, const Vector3d& half, std::uint32_t likely,
-            recon::OpenCameras* of_parent) {
+            recon::UndecidedCameras* of_parent) {
     ++queries_;
-    recon::OpenCameras open = *of_parent;
+    recon::UndecidedCameras open = *of_parent;
     const BallAnswer answer = hull_.Classify(center, half.norm(), &open);
     of_parent->likely = open.likely;
     if (answer == BallAnswer::kOutside) return;
@@ -177,7 +177,7 @@ class Search {
       if (is_cut) half[i] *= 0.5;
     }
     const Vector3d first = cell.center - cell.half + half;
-    recon::OpenCameras open = cell.open;
+    recon::UndecidedCameras open = cell.open;
     for (int z = 0; z < parts[2]; ++z)
       for (int y = 0; y < parts[1]; ++y)
         for (int x = 0; x < parts[0]; ++x)

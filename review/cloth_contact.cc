@@ -193,7 +193,7 @@ void ClothContact::CarryAlong(const recon::VisualHull& last, double dt_s) {
         box.extend(state_->x_in_world[vertex] + reach_mm * v_rec_);
         box.extend(state_->x_in_world[vertex] - reach_mm * v_rec_);
       }
-    recon::OpenCameras open;
+    recon::UndecidedCameras open;
     ++state_->count.queries;
     const auto shape = recon::WorldShape::Box(box.center(), (0.5 * box.sizes()).asDiagonal());
     if (hull_.Classify(shape, &open) == recon::BallAnswer::kOutside) continue;

@@ -19,7 +19,7 @@ class PatchSearch {
               const core::RigidTransform& world_from_part, const core::SurfacePatches& patches)
       : hull_(hull), part_(part), world_from_part_(world_from_part), patches_(patches) {}
 
-  void VisitNode(std::uint32_t index, recon::OpenCameras open) {
+  void VisitNode(std::uint32_t index, recon::UndecidedCameras open) {
     const core::TriangleTree::Node& node = part_.nodes()[index];
     if (hull_.Classify(world_from_part_ * node.ball.center, node.ball.radius_mm, &open) ==
         BallAnswer::kOutside)
@@ -32,7 +32,7 @@ class PatchSearch {
     for (std::uint32_t i = node.begin; i < node.end; ++i) VisitTriangle(part_.order()[i], open);
   }
 
-  void Touch(std::size_t patch, const Vector3d& x_in_world, const recon::OpenCameras& open = {}) {
+  void Touch(std::size_t patch, const Vector3d& x_in_world, const recon::UndecidedCameras& open = {}) {
     if (!hull_.Contains(x_in_world, open)) return;
     double& depth_mm = depth_mm_.try_emplace(patch, 0.0).first->second;
     depth_mm = std::max(depth_mm, hull_.Probe(x_in_world).radius_mm);
@@ -45,7 +45,7 @@ class PatchSearch {
   }
 
  private:
-  void VisitTriangle(std::size_t triangle, const recon::OpenCameras& open) {
+  void VisitTriangle(std::size_t triangle, const recon::UndecidedCameras& open) {
     std::size_t patch = patches_.FirstOf(triangle);
     for (const core::SurfacePatches::Corners& corners : patches_.CornersOf(triangle))
       Touch(patch++, world_from_part_ * corners.Centre(), open);

@@ -10,9 +10,9 @@
 #include "core/error.h"
 #include "recon/hull/triangle_pieces.h"
 #include "review/containment.h"
-#include "review/longest_side.h"
 #include "review/point_spread.h"
 #include "review/recovery.h"
+#include "review/triangle_bisection.h"
 
 namespace elbowroom::review {
 namespace {
@@ -73,7 +73,7 @@ class ContactSearch {
     return {vertex(a), vertex(b), vertex(c)};
   }
 
-  BallAnswer Ask(const core::Ball& ball, recon::OpenCameras* open) {
+  BallAnswer Ask(const core::Ball& ball, recon::UndecidedCameras* open) {
     ++count_.queries;
     return hull_.Classify(ball.center, ball.radius_mm, open);
   }
@@ -107,7 +107,7 @@ class ContactSearch {
     if (patch.largest_mm2 >= 0.0) points_.push_back({patch.position, 0.0, patch.area_mm2});
   }
 
-  void VisitNode(std::uint32_t index, recon::OpenCameras open, Patch* given) {
+  void VisitNode(std::uint32_t index, recon::UndecidedCameras open, Patch* given) {
     const core::TriangleTree::Node& node = part_.nodes()[index];
     const BallAnswer answer = Ask({world_from_part_ * node.ball.center, node.ball.radius_mm}, &open);
     if (answer != BallAnswer::kMixed) count_.skipped += node.end - node.begin;
@@ -125,7 +125,7 @@ class ContactSearch {
     });
   }
 
-  void VisitTriangle(const Corners& triangle, recon::OpenCameras open, Patch* given) {
+  void VisitTriangle(const Corners& triangle, recon::UndecidedCameras open, Patch* given) {
     const core::Ball ball = core::BallOf(triangle.a, triangle.b, triangle.c);
     const double size_mm = 2.0 * ball.radius_mm;
     InPatch(size_mm, given, [&](Patch* patch) {
@@ -134,7 +134,7 @@ class ContactSearch {
       if (sides == 1.0 || (patch != nullptr && sides <= recon::CutTriangle::kMostSides))
         return Cut({triangle.a, triangle.b, triangle.c, static_cast<int>(sides)}, AreaMm2(triangle), open,
                    patch);
-      const auto halves = Halve(triangle);
+      const auto halves = Bisect(triangle);
       VisitBoth(
           size_mm, [&](ContactSearch* search) { search->VisitTriangle(halves.first, open, patch); },
           [&](ContactSearch* search) { search->VisitTriangle(halves.second, open, patch); });
@@ -142,7 +142,8 @@ class ContactSearch {
   }
 
   // True if the triangle's ball, or what it covers in the pictures, settles it.
-  bool AskTriangle(const Corners& triangle, const core::Ball& ball, recon::OpenCameras* open, Patch* patch) {
+  bool AskTriangle(const Corners& triangle, const core::Ball& ball, recon::UndecidedCameras* open,
+                   Patch* patch) {
     BallAnswer answer = Ask(ball, open);
     if (answer == BallAnswer::kMixed &&
         2.0 * ball.radius_mm > recon::CutTriangle::kMostSides * resolution_mm_) {
@@ -154,7 +155,7 @@ class ContactSearch {
   }
 
   // Pieces of the resolution's size, decided by their centres.
-  void Cut(const recon::CutTriangle& triangle, double area_mm2, const recon::OpenCameras& open,
+  void Cut(const recon::CutTriangle& triangle, double area_mm2, const recon::UndecidedCameras& open,
            Patch* patch) {
     count_.queries += triangle.pieces();
     const std::uint64_t inside = triangle.sides > 1 ? recon::PiecesInHull(hull_, triangle, open)
@@ -198,7 +199,7 @@ class ContactSearch {
   void AddInside(const Corners& triangle, Patch* given) {
     InPatch(2.0 * core::BallOf(triangle.a, triangle.b, triangle.c).radius_mm, given, [&](Patch* patch) {
       if (patch != nullptr) return patch->Add(AreaMm2(triangle), Centroid(triangle));
-      const auto [first, second] = Halve(triangle);
+      const auto [first, second] = Bisect(triangle);
       AddInside(first, nullptr);
       AddInside(second, nullptr);
     });

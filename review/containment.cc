@@ -19,7 +19,7 @@ class InsideSearch {
   [[nodiscard]] std::optional<Vector3d> Run() { return Visit(cells_.Root(), {}); }
 
  private:
-  [[nodiscard]] std::optional<Vector3d> Visit(const InsideCells::Cell& cell, recon::OpenCameras open) {
+  [[nodiscard]] std::optional<Vector3d> Visit(const InsideCells::Cell& cell, recon::UndecidedCameras open) {
     const bool is_inside = cells_.IsInside(cell), is_last = cell.box.sizes().maxCoeff() <= cell_mm_;
     // A cell without surface is on one side of it; of the smallest only the centre is asked.
     if (!is_inside && (is_last || !cells_.MayHoldSurface(cell))) return std::nullopt;
@@ -36,7 +36,8 @@ class InsideSearch {
   }
 
   // Of the cell's ball, and where that is mixed, of the cell.
-  BallAnswer Ask(const InsideCells::Cell& cell, const Vector3d& center_in_world, recon::OpenCameras* open) {
+  BallAnswer Ask(const InsideCells::Cell& cell, const Vector3d& center_in_world,
+                 recon::UndecidedCameras* open) {
     ++queries_;
     const BallAnswer answer = hull_.Classify(center_in_world, cell.radius_mm(), open);
     if (answer != BallAnswer::kMixed) return answer;

@@ -10,7 +10,7 @@ namespace elbowroom::review {
 namespace {
 
 // Hull and part meet: at the deepest point, or where the hull stands in the part.
-core::PartClearance Meeting(const core::PartContact& contact, double deviation_mm) {
+core::PartClearance HullPartIntersection(const core::PartContact& contact, double deviation_mm) {
   core::PartClearance clearance;
   clearance.interval.upper_mm = deviation_mm;
   const auto at =
@@ -45,7 +45,7 @@ core::PartContact ReviewPart(const recon::VisualHull& hull, const core::Triangle
   core::PartContact contact = FindContacts(hull, part, world_from_part, part_index, options.contacts, inside);
   if (!(options.required_clearance_mm > 0.0)) return contact;
   if (contact.verdict == core::Verdict::kContact) {
-    contact.clearance = Meeting(contact, part.mesh().deviation_mm);
+    contact.clearance = HullPartIntersection(contact, part.mesh().deviation_mm);
     return contact;
   }
   ClearanceOptions clearance_options;

@@ -27,10 +27,10 @@ struct PartReviewOptions {
 };
 
 // FindContacts and, where a clearance is required, bounds of it: 0 to the mesh's deviation without a search
-// where there is contact; else FindClearance as far as EnoughMm(). The verdict is Judge's. Meeting in less
-// than the contacts' resolution is `contact` too, without points. The hint changes the work, and where in the
-// tolerance the bounds fall; `inside`: as FindContacts. Held to FindContacts and FindClearance by
-// part_review_test. Thread: any.
+// where there is contact; else FindClearance as far as EnoughMm(). The verdict is Judge's.
+// HullPartIntersection in less than the contacts' resolution is `contact` too, without points. The hint
+// changes the work, and where in the tolerance the bounds fall; `inside`: as FindContacts. Held to
+// FindContacts and FindClearance by part_review_test. Thread: any.
 [[nodiscard]] core::PartContact ReviewPart(const recon::VisualHull& hull, const core::TriangleTree& part,
                                            const core::RigidTransform& world_from_part,
                                            core::PartIndex part_index, const PartReviewOptions& options,

@@ -12,7 +12,7 @@
 #include "core/part_distance.h"
 #include "core/units.h"
 #include "recon/hull/hull_depth.h"
-#include "review/freeing.h"
+#include "review/escape_distance.h"
 #include "review/inside_cells.h"
 
 namespace elbowroom::review {
@@ -140,14 +140,15 @@ class PenetrationSearch {
   // True if it is shorter than what was known.
   bool Try(const Vector3d& direction) {
     ++result_.directions;
-    const FreeingOptions options{tolerance_mm_, result_.upper_mm};
-    const Freeing freeing = FindFreeing(hull_, part_, world_from_part_, direction, &witnesses_, options);
-    result_.queries += freeing.queries;
-    result_.rays += freeing.rays;
-    if (!(freeing.upper_mm < result_.upper_mm)) return false;
-    result_.upper_mm = freeing.upper_mm;
+    const EscapeOptions options{tolerance_mm_, result_.upper_mm};
+    const EscapeDistance escape =
+        FindEscapeDistance(hull_, part_, world_from_part_, direction, &witnesses_, options);
+    result_.queries += escape.queries;
+    result_.rays += escape.rays;
+    if (!(escape.upper_mm < result_.upper_mm)) return false;
+    result_.upper_mm = escape.upper_mm;
     result_.direction_in_world = direction;
-    result_.leaves_workspace = freeing.leaves_workspace;
+    result_.leaves_workspace = escape.leaves_workspace;
     return true;
   }
 

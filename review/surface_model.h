@@ -51,7 +51,7 @@ class SurfacePair {
 
   // Two triangles that FCL says meet, measured; nothing if it finds none. The distance needn't be 0: FCL says
   // so of some needles that are apart.
-  [[nodiscard]] std::optional<SurfaceGap> FindMeeting() const;
+  [[nodiscard]] std::optional<SurfaceGap> FindHullPartIntersection() const;
 
   // The least distance over all triangles.
   [[nodiscard]] SurfaceGap Measure() const;

@@ -15,8 +15,8 @@
 #include <string_view>
 #include <utility>
 
-#include "core/system/file_sync.h"
 #include "core/progress.h"
+#include "core/system/file_sync.h"
 #include "sessions/damage.h"
 #include "sessions/private_copy.h"
 #include "sessions/session_files.h"

@@ -3,10 +3,10 @@
 #include <tbb/parallel_for.h>
 
 #include "recon/contours/contour_map.h"
-#include "recon/segmentation/frame_segmenter.h"
 #include "recon/footage/recorded_rig.h"
-#include "recon/rig_files/rig_file.h"
 #include "recon/hull/visual_hull.h"
+#include "recon/rig_files/rig_file.h"
+#include "recon/segmentation/frame_segmenter.h"
 
 namespace elbowroom::cli {
 
@@ -23,7 +23,7 @@ RigFrame LoadRigFrame(const RigFrameOptions& options, const CommandContext& cont
   result.masks =
       recon::FrameSegmenter(source.ReadBackgrounds(context.progress, context.stop), {}, source.rig())
           .SegmentSoft(frames);
-  result.planes = recon::MakePicturePlanes(*result.rig);
+  result.planes = recon::MakeUndistortedPlanes(*result.rig);
   // Outlines, which `abstain` alone asks for, are made with the first question.
   if (recon::ExteriorIsObject(*result.rig)) {
     tbb::parallel_for(std::size_t{0}, result.planes.size(), [&](std::size_t i) {

@@ -10,7 +10,7 @@
 #include "core/ids.h"
 #include "core/rig.h"
 #include "core/soft_mask.h"
-#include "recon/contours/picture_plane.h"
+#include "recon/contours/undistorted_plane.h"
 
 namespace elbowroom::cli {
 
@@ -26,7 +26,7 @@ struct RigFrame {
   std::shared_ptr<const core::Rig> rig;
   // One a camera: ready ones, or segmented with the default options, boundaries located between pixels.
   std::vector<core::SoftMask> masks;
-  recon::PicturePlanes planes;  // with all that lasts as long as the rig: no part of a frame's time
+  recon::UndistortedPlanes planes;  // with all that lasts as long as the rig: no part of a frame's time
 };
 
 // Throws: core::Error for the rig's files and for a frame out of range.

@@ -14,14 +14,14 @@
 #include "app/cli/unit_option.h"
 #include "core/error.h"
 #include "core/system/whole_file.h"
-#include "recon/images/depth_file.h"
-#include "recon/gl/paper_methods/plane_sweep_gl.h"
-#include "recon/appearance/hull_picture.h"
+#include "recon/appearance/shaded_depth.h"
 #include "recon/exact_view/hull_view.h"
-#include "recon/paper_methods/plane_sweep.h"
-#include "recon/images/png_file.h"
-#include "recon/rig_files/rig_file.h"
 #include "recon/exact_view/view_rays.h"
+#include "recon/gl/paper_methods/plane_sweep_gl.h"
+#include "recon/images/depth_file.h"
+#include "recon/images/png_file.h"
+#include "recon/paper_methods/plane_sweep.h"
+#include "recon/rig_files/rig_file.h"
 
 namespace elbowroom::cli {
 namespace {
@@ -147,7 +147,7 @@ CommandResult Run(const ViewOptions& options, const CommandContext& context, boo
   files.Write(options.depth, recon::EncodeDepthTiff(seen.picture));
   if (!options.image.empty()) {
     const std::vector<std::uint8_t> png =
-        recon::EncodePng(recon::DrawHull(rays, seen.picture, seen.normal_in_world));
+        recon::EncodePng(recon::ShadeDepth(rays, seen.picture, seen.normal_in_world));
     files.Write(options.image, {reinterpret_cast<const char*>(png.data()), png.size()});
   }
   files.RenameAll();

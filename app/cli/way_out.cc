@@ -32,13 +32,13 @@ std::vector<Vector3d> DirectionsOf(const review::RecoveryWay& way, const core::R
 void FreePart(const recon::VisualHull& hull, const core::TriangleTree& part,
               const core::RigidTransform& world_from_part, const core::Recovery& recovery, WayOut* way_out) {
   for (const Vector3d& direction : DirectionsOf(way_out->way, recovery)) {
-    review::FreeingOptions options;
+    review::EscapeOptions options;
     if (way_out->part_free) options.give_up_mm = way_out->part_free->upper_mm;
     std::vector<Vector3d> witnesses;
-    const review::Freeing freeing =
-        review::FindFreeing(hull, part, world_from_part, direction, &witnesses, options);
-    if (way_out->part_free && !(freeing.upper_mm < way_out->part_free->upper_mm)) continue;
-    way_out->part_free = freeing;
+    const review::EscapeDistance escape =
+        review::FindEscapeDistance(hull, part, world_from_part, direction, &witnesses, options);
+    if (way_out->part_free && !(escape.upper_mm < way_out->part_free->upper_mm)) continue;
+    way_out->part_free = escape;
     way_out->part_free_direction_in_world = direction;
   }
 }

@@ -10,7 +10,7 @@
 #include "core/recovery_rule.h"
 #include "core/rigid_transform.h"
 #include "recon/hull/visual_hull.h"
-#include "review/freeing.h"
+#include "review/escape_distance.h"
 #include "review/penetration.h"
 #include "review/recovery_uncertainty.h"
 
@@ -20,7 +20,7 @@ namespace elbowroom::cli {
 struct WayOut {
   review::RecoveryWay way;
   std::optional<review::RecoveryUncertainty> uncertainty;
-  std::optional<review::Freeing> part_free;  // of a straight way
+  std::optional<review::EscapeDistance> part_free;  // of a straight way
   std::optional<Eigen::Vector3d> part_free_direction_in_world;
   std::optional<review::Penetration> penetration;
 };

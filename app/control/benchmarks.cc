@@ -9,12 +9,12 @@
 #include <memory>
 
 #include "core/error.h"
-#include "recon/segmentation/frame_segmenter.h"
-#include "recon/hull_mesh/hull_mesh.h"
 #include "recon/exact_view/hull_view.h"
+#include "recon/hull/visual_hull.h"
+#include "recon/hull_mesh/hull_mesh.h"
+#include "recon/segmentation/frame_segmenter.h"
 #include "recon/synthetic/synthetic_rig.h"
 #include "recon/synthetic/view_scene.h"
-#include "recon/hull/visual_hull.h"
 
 namespace elbowroom::control {
 namespace {
@@ -37,14 +37,14 @@ struct Job {
 struct MaskedScene {
   explicit MaskedScene(const recon::ViewScene& scene)
       : rig(std::make_shared<const core::Rig>(scene.rig)),
-        planes(recon::MakePicturePlanes(*rig)),
+        planes(recon::MakeUndistortedPlanes(*rig)),
         view(scene.view),
         masks(recon::TrueMasks(*rig, scene.objects)) {}
 
   [[nodiscard]] recon::VisualHull Hull() const { return recon::MakeVisualHull(rig, planes, masks); }
 
   std::shared_ptr<const core::Rig> rig;
-  recon::PicturePlanes planes;
+  recon::UndistortedPlanes planes;
   recon::ViewRays view;
   std::vector<core::SoftMask> masks;
 };

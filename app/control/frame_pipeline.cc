@@ -32,7 +32,7 @@ FramePipeline::FramePipeline(core::Rig rig, core::Layout layout,
                              const recon::SegmentationOptions& segmentation,
                              const review::PartReviewOptions& review)
     : rig_(std::make_shared<const core::Rig>(std::move(rig))),
-      planes_(recon::MakePicturePlanes(*rig_)),
+      planes_(recon::MakeUndistortedPlanes(*rig_)),
       layout_(std::make_shared<const core::Layout>(std::move(layout))),
       responders_(*layout_),
       segmenter_(backgrounds, segmentation, *rig_),
@@ -94,7 +94,7 @@ void FramePipeline::UpdateResponse(std::span<const core::RigidTransform> world_f
   // Of the first frame, and at most after a pause.
   constexpr double kFirstS = 1.0 / 30.0, kLongestS = 0.25;
   const double since_s = last_ ? result->time_s - last_->time_s : kFirstS;
-  const SharedResponse last = last_ ? last_->response : nullptr;
+  const SharedReactions last = last_ ? last_->response : nullptr;
   result->response = since_s > 0.0 ? responders_.Step(last, world_from_rests, result->contacts, result->hull,
                                                       std::min(since_s, kLongestS))
                                    : last;
@@ -110,7 +110,7 @@ void FramePipeline::UpdateContacts(FrameResult* result) {
   // What the first question would build, camera by camera, while the others wait.
   if (!result->hull->IsEmpty() && std::ranges::count(is_unchanged, 0) > 0)
     tbb::parallel_for(std::size_t{0}, rig_->cameras.size(),
-                      [&](std::size_t i) { (void)result->hull->silhouettes()[i]->labels().Raster(); });
+                      [&](std::size_t i) { (void)result->hull->silhouettes()[i]->labels().CellsView(); });
   tbb::parallel_for(std::size_t{0}, parts, [&](std::size_t i) {
     result->contacts[i] = is_unchanged[i] ? last_->contacts[i] : Review(*result, i);
   });

@@ -7,14 +7,14 @@
 #include <vector>
 
 #include "app/control/frame_result.h"
-#include "app/control/response.h"
+#include "app/control/part_reactions.h"
 #include "core/bvh.h"
 #include "core/layout.h"
 #include "core/rig.h"
 #include "core/soft_mask.h"
-#include "recon/segmentation/frame_segmenter.h"
+#include "recon/contours/undistorted_plane.h"
 #include "recon/footage/frame_set.h"
-#include "recon/contours/picture_plane.h"
+#include "recon/segmentation/frame_segmenter.h"
 #include "review/part_review.h"
 
 namespace elbowroom::control {
@@ -52,11 +52,11 @@ class FramePipeline {
   void UpdateResponse(std::span<const core::RigidTransform> world_from_rests, FrameResult* result);
 
   std::shared_ptr<const core::Rig> rig_;
-  recon::PicturePlanes planes_;
+  recon::UndistortedPlanes planes_;
   std::shared_ptr<const core::Layout> layout_;
   std::vector<core::TriangleTree> part_trees_;
   std::vector<review::InsideCells> inside_parts_;
-  Responders responders_;
+  PartReactions responders_;
   recon::FrameSegmenter segmenter_;
   review::PartReviewOptions review_;
   SharedFrameResult last_;

@@ -5,14 +5,14 @@
 #include <memory>
 #include <vector>
 
-#include "app/control/response.h"
+#include "app/control/part_reactions.h"
 #include "core/contact.h"
 #include "core/ids.h"
 #include "core/layout.h"
 #include "core/session.h"
 #include "recon/footage/frame_set.h"
-#include "recon/segmentation/segmentation.h"
 #include "recon/hull/visual_hull.h"
+#include "recon/segmentation/segmentation.h"
 
 namespace elbowroom::control {
 
@@ -56,7 +56,7 @@ struct FrameResult {
   std::vector<core::RigidTransform> rest_from_parts;
   std::vector<core::RigidTransform> world_from_parts;
   std::vector<core::PartContact> contacts;  // in the layout's order
-  SharedResponse response;                  // to this frame; null: nothing gives way or flows
+  SharedReactions response;                 // to this frame; null: nothing gives way or flows
   SkipCount skipped;
   StageTimes times;
 };

@@ -10,8 +10,8 @@
 #include "app/control/frame_result.h"
 #include "app/control/scene_composer.h"
 #include "core/bounded_queue.h"
-#include "recon/images/image.h"
 #include "recon/appearance/orbit_camera.h"
+#include "recon/images/image.h"
 
 namespace elbowroom::control {
 

@@ -8,9 +8,9 @@
 
 #include "core/error.h"
 #include "core/units.h"
-#include "recon/hull_mesh/hull_mesh.h"
-#include "recon/appearance/hull_photo.h"
+#include "recon/appearance/camera_texture.h"
 #include "recon/exact_view/hull_view.h"
+#include "recon/hull_mesh/hull_mesh.h"
 
 namespace elbowroom::control {
 namespace {
@@ -248,7 +248,7 @@ std::vector<SceneComposer::SharedPhoto> SceneComposer::PhotosFor(const SceneLook
 const SceneComposer::SharedPhoto& SceneComposer::PhotoOf(std::size_t place, const core::CameraModel& camera,
                                                          const cv::Mat& image_bgr) {
   if (photos_[place] == nullptr) {
-    photos_[place] = std::make_shared<const recon::HullPhoto>(*hull_, camera, image_bgr);
+    photos_[place] = std::make_shared<const recon::CameraTexture>(*hull_, camera, image_bgr);
     ++extra_hull_views_;
   }
   return photos_[place];

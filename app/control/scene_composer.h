@@ -8,9 +8,9 @@
 
 #include "app/control/frame_result.h"
 #include "app/control/view_method.h"
-#include "recon/gl/scene/scene.h"
 #include "recon/appearance/hull_appearance.h"
 #include "recon/appearance/orbit_camera.h"
+#include "recon/gl/scene/scene.h"
 
 namespace elbowroom::control {
 
@@ -46,7 +46,7 @@ class SceneComposer {
   [[nodiscard]] std::int64_t extra_hull_views() const { return extra_hull_views_; }
 
  private:
-  using SharedPhoto = std::shared_ptr<const recon::HullPhoto>;
+  using SharedPhoto = std::shared_ptr<const recon::CameraTexture>;
   using SharedView = std::shared_ptr<const recon::HullView>;
   void Forget(const SharedHull& hull);
   void SpareView();

@@ -8,16 +8,16 @@
 #include <utility>
 
 #include "app/control/demo_parts.h"
+#include "recon/exact_view/hull_view.h"
+#include "recon/exact_view/view_comparison.h"
 #include "recon/gl/exact_view/exact_view_gl.h"
 #include "recon/gl/paper_methods/plane_sweep_gl.h"
 #include "recon/gl/paper_methods/triangle_viewports_gl.h"
-#include "recon/exact_view/hull_view.h"
-#include "recon/paper_methods/straightened_mask.h"
 #include "recon/paper_methods/sweep_comparison.h"
+#include "recon/paper_methods/undistorted_mask.h"
 #include "recon/synthetic/demo_motion.h"
 #include "recon/synthetic/rig_presets.h"
 #include "recon/synthetic/view_scene.h"
-#include "recon/exact_view/view_comparison.h"
 
 namespace elbowroom::control {
 namespace {
@@ -76,7 +76,7 @@ Scene Straightened(const Scene& scene) {
   Scene straight{scene.rig, {}, scene.view};
   straight.rig.cameras.clear();
   for (std::size_t i = 0; i < scene.masks.size(); ++i) {
-    recon::StraightenedMask mask = recon::Straighten(scene.rig.cameras[i], scene.masks[i], kGrid, false);
+    recon::UndistortedMask mask = recon::Undistort(scene.rig.cameras[i], scene.masks[i], kGrid, false);
     straight.rig.cameras.push_back(std::move(mask.camera));
     straight.masks.push_back(std::move(mask.mask));
   }
@@ -151,7 +151,7 @@ std::vector<SelfTestLine> TestExactViews(const MakeView& graphics) {
        {"from a camera's place", recon::ViewRays(scene.rig.cameras.front())},
        {"orthographic", OrthographicView()}}};
   std::vector<SelfTestLine> lines;
-  const recon::PicturePlanes planes = recon::MakePicturePlanes(scene.rig);
+  const recon::UndistortedPlanes planes = recon::MakeUndistortedPlanes(scene.rig);
   for (const auto& [unseen, policy] : {std::pair{core::UnseenPolicy::kOutside, "outside"},
                                        std::pair{core::UnseenPolicy::kAbstain, "abstain"}}) {
     scene.rig.unseen = unseen;

@@ -11,7 +11,7 @@
 #include "app/control/trial_rules.h"
 #include "core/error.h"
 #include "core/spelling.h"
-#include "recon/contours/picture_plane.h"
+#include "recon/contours/undistorted_plane.h"
 #include "recon/images/png_file.h"
 #include "sessions/report/csv_text.h"
 #include "sessions/report/whole_files.h"
@@ -70,7 +70,7 @@ review::SpacingStudy SweepSession(const sessions::SessionReader& session, const 
   // Its silhouettes vouch for the pictures' sizes, before planes of that size are made.
   (void)session.ReadFrame(frames.front().frame);
   const auto rig = std::make_shared<const core::Rig>(header.rig);
-  const recon::PicturePlanes planes = recon::MakePicturePlanes(*rig);
+  const recon::UndistortedPlanes planes = recon::MakeUndistortedPlanes(*rig);
   const auto load = [&](std::size_t i) -> review::StudyFrame {
     const core::FrameRecord record = session.ReadFrame(frames[i].frame);
     return {

@@ -6,9 +6,9 @@
 #include "cad_import/layout/toml_entry.h"
 #include "core/error.h"
 #include "recon/footage/recorded_rig.h"
+#include "recon/footage/viewer_footage.h"
 #include "recon/rig_files/rig_file.h"
 #include "recon/rig_files/source_location.h"
-#include "recon/footage/viewer_footage.h"
 
 namespace elbowroom::control {
 namespace {

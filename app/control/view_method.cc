@@ -10,8 +10,8 @@
 #include <utility>
 
 #include "core/error.h"
-#include "recon/gl/exact_view/exact_view_gl.h"
 #include "recon/exact_view/view_comparison.h"
+#include "recon/gl/exact_view/exact_view_gl.h"
 
 namespace elbowroom::control {
 namespace {

@@ -45,7 +45,7 @@
 #include <system_error>
 #include <utility>
 
-#include "cad_import/formats/own_folder.h"
+#include "cad_import/formats/referenced_files.h"
 #include "cad_import/formats/tessellation.h"
 #include "core/error.h"
 
@@ -140,7 +140,7 @@ std::vector<fs::path> ReferredFiles(STEPCAFControl_Reader& reader, const fs::pat
   STEPConstruct_ExternRefs references(reader.Reader().WS());
   std::vector<fs::path> files;
   if (!references.LoadExternRefs()) return files;
-  const OwnFolder folder(file);
+  const ReferencedFiles folder(file);
   for (int i = 1; i <= references.NbExternRefs(); ++i) {
     const char* name = references.FileName(i);
     if (name == nullptr || *name == '\0') continue;

@@ -26,7 +26,7 @@
 #include "cad_import/formats/glb_container.h"
 #include "cad_import/formats/gltf_document.h"
 #include "cad_import/formats/obj_text.h"
-#include "cad_import/formats/own_folder.h"
+#include "cad_import/formats/referenced_files.h"
 #include "cad_import/formats/srgb.h"
 #include "cad_import/formats/stl_check.h"
 #include "cad_import/formats/text_encoding.h"
@@ -109,7 +109,7 @@ class ConfinedFiles : public Assimp::DefaultIOSystem {
 
   const Source& source_;
   fs::path file_;  // canonical
-  OwnFolder folder_;
+  ReferencedFiles folder_;
   Log& log_;
 };
 

@@ -9,9 +9,9 @@
 #include <utility>
 
 #include "cad_import/cad_file.h"
-#include "cad_import/model/cad_model.h"
 #include "cad_import/layout/gives_way_keys.h"
 #include "cad_import/layout/toml_entry.h"
+#include "cad_import/model/cad_model.h"
 #include "core/error.h"
 #include "core/layout_fault.h"
 #include "core/spelling.h"

@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "cad_import/layout/toml_nesting.h"
-#include "core/system/configuration_file.h"
 #include "core/file_limits.h"
 #include "core/spelling.h"
+#include "core/system/configuration_file.h"
 
 namespace elbowroom::cad_import {
 

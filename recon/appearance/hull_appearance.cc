@@ -39,11 +39,11 @@ Eigen::Vector3d SmoothNormal(const HullView& picture, int x, int y) {
 
 CameraColor ColorAt(const Eigen::Vector3d& x_in_world, const Eigen::Vector3d& normal_in_world,
                     const Eigen::Vector3f& to_eye_in_world,
-                    std::span<const std::shared_ptr<const HullPhoto>> photos) {
+                    std::span<const std::shared_ptr<const CameraTexture>> photos) {
   Eigen::Vector3f sum_bgr = Eigen::Vector3f::Zero();
   float sum = 0.0F, best = 0.0F;
   for (const auto& photo : photos) {
-    const std::optional<PhotoLook> look = photo->LookAt(x_in_world, normal_in_world);
+    const std::optional<TextureSample> look = photo->Sample(x_in_world, normal_in_world);
     if (!look) continue;
     const float beside = 0.5F + 0.5F * look->to_camera_in_world.dot(to_eye_in_world);
     const float weight = look->weight * (std::pow(beside, kViewerPower) + 1e-4F);
@@ -59,7 +59,7 @@ CameraColor ColorAt(const Eigen::Vector3d& x_in_world, const Eigen::Vector3d& no
 }  // namespace
 
 std::vector<CameraColor> ColorHull(const HullView& picture, const SceneView& view,
-                                   std::span<const std::shared_ptr<const HullPhoto>> photos) {
+                                   std::span<const std::shared_ptr<const CameraTexture>> photos) {
   core::Require(picture.width_px == view.width_px && picture.height_px == view.height_px,
                 "a hull's picture has its view's size");
   std::vector<CameraColor> colors(picture.depth_mm.size());

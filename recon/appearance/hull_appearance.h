@@ -7,9 +7,9 @@
 #include <span>
 #include <vector>
 
-#include "recon/appearance/hull_photo.h"
-#include "recon/exact_view/hull_view.h"
+#include "recon/appearance/camera_texture.h"
 #include "recon/appearance/scene_view.h"
+#include "recon/exact_view/hull_view.h"
 
 namespace elbowroom::recon {
 
@@ -29,7 +29,8 @@ using CameraColor = std::array<std::uint8_t, 4>;
 // along the surface as long as depth and normal are (docs/appearance.md). Where the layer's normal is unknown
 // there is no colour. Parallel over rows; the result doesn't depend on the number of threads. Throws:
 // PreconditionError when the picture's size isn't the view's.
-[[nodiscard]] std::vector<CameraColor> ColorHull(const HullView& picture, const SceneView& view,
-                                                 std::span<const std::shared_ptr<const HullPhoto>> photos);
+[[nodiscard]] std::vector<CameraColor> ColorHull(
+    const HullView& picture, const SceneView& view,
+    std::span<const std::shared_ptr<const CameraTexture>> photos);
 
 }  // namespace elbowroom::recon

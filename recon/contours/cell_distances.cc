@@ -60,7 +60,7 @@ void CellDistances::FillNear(std::span<const std::uint32_t> holders) {
   for (std::size_t y = 1; y < height_; ++y) take_nearer(down.Whole(y - 1), down.Whole(y));
   for (std::size_t y = height_ - 1; y-- > 0;) take_nearer(down.Whole(y + 1), down.Whole(y));
   constexpr std::size_t kWrittenBehind = 64;
-  static_assert(kWrittenBehind >= LabelRaster::kBytesBehind);
+  static_assert(kWrittenBehind >= ContourCellsView::kBytesBehind);
   near_squares_ = std::make_unique_for_overwrite<std::uint8_t[]>(width_ * height_ + kWrittenBehind);
   for (std::size_t y = 0; y < height_; ++y) {
     for (std::uint8_t& cells : down.Whole(y)) cells = static_cast<std::uint8_t>(cells * cells);

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "recon/contours/label_raster.h"
+#include "recon/contours/contour_cells_view.h"
 
 namespace elbowroom::recon {
 
@@ -30,9 +30,9 @@ class CellDistances {
                    static_cast<std::size_t>(x / kBlock)];
   }
 
-  // Item by item the square, capped at that of kNearCells; LabelRaster::kBytesBehind more behind them.
+  // Item by item the square, capped at that of kNearCells; ContourCellsView::kBytesBehind more behind them.
   [[nodiscard]] std::span<const std::uint8_t> near_squares() const {
-    return {near_squares_.get(), width_ * height_ + LabelRaster::kBytesBehind};
+    return {near_squares_.get(), width_ * height_ + ContourCellsView::kBytesBehind};
   }
 
  private:

@@ -26,7 +26,7 @@ class Tracer {
   static constexpr std::size_t kUsualVertices = 2048;  // room for them, before it grows
 
  public:
-  Tracer(const core::SoftMask& silhouette, bool exterior_is_object, const PicturePlane& plane)
+  Tracer(const core::SoftMask& silhouette, bool exterior_is_object, const UndistortedPlane& plane)
       : soft_(silhouette),
         plane_(plane),
         exterior_(exterior_is_object ? ~std::uint64_t{0} : 0),
@@ -265,7 +265,7 @@ class Tracer {
   void Add(std::uint32_t from, std::uint32_t to) { contour_.edges.push_back({from, to}); }
 
   const core::SoftMask& soft_;
-  const PicturePlane& plane_;
+  const UndistortedPlane& plane_;
   const std::uint64_t exterior_;
   const core::BitMask boundary_;
   const std::size_t bits_;      // of a lattice row
@@ -288,7 +288,8 @@ core::SoftMask WithoutUnseen(const core::SoftMask& silhouette, bool exterior_is_
 
 }  // namespace
 
-Contour TraceContour(const core::SoftMask& silhouette, bool exterior_is_object, const PicturePlane& plane) {
+Contour TraceContour(const core::SoftMask& silhouette, bool exterior_is_object,
+                     const UndistortedPlane& plane) {
   core::Require(silhouette.mask.width_px() == plane.camera().width_px() &&
                     silhouette.mask.height_px() == plane.camera().height_px(),
                 "a silhouette has its camera's size");

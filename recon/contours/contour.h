@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/soft_mask.h"
-#include "recon/contours/picture_plane.h"
+#include "recon/contours/undistorted_plane.h"
 
 namespace elbowroom::recon {
 
@@ -18,7 +18,7 @@ struct ContourEdge {
 
 // Closed loops: each vertex is the end of exactly one edge and the start of exactly one.
 struct Contour {
-  std::vector<Eigen::Vector2d> vertices;  // PicturePlane units
+  std::vector<Eigen::Vector2d> vertices;  // UndistortedPlane units
   std::vector<ContourEdge> edges;
   std::vector<std::uint32_t> edge_from;  // by vertex: the edge that starts there
   std::vector<std::uint32_t> edge_to;    // ... that ends there
@@ -29,7 +29,7 @@ struct Contour {
 // picture's border exactly there), straight edges between. Where two object pixels touch across a corner they
 // are joined. Pixels that the lens's domain doesn't reach are exterior.
 [[nodiscard]] Contour TraceContour(const core::SoftMask& silhouette, bool exterior_is_object,
-                                   const PicturePlane& plane);
+                                   const UndistortedPlane& plane);
 
 // The label of one position by the parity of the edges to its left: slow, needs nothing prepared.
 [[nodiscard]] bool IsObjectByParity(const Contour& contour, bool exterior_is_object,

@@ -14,7 +14,7 @@ using Eigen::Vector2d;
 // Cells around the bounds, so that near positions outside are answered as well as those within.
 constexpr int kMarginCells = 16;
 constexpr double kMostCells = 4e6;
-constexpr double kTouch = LabelRaster::kTouchCells;
+constexpr double kTouch = ContourCellsView::kTouchCells;
 
 // A set of cells, to be walked in order.
 class CellSet {
@@ -59,14 +59,14 @@ ContourCells::ContourCells(const Contour& contour, bool exterior_is_object,
   distances_ = CellDistances(size_.x(), size_.y(), mixed_cells);
 }
 
-LabelRaster ContourCells::Raster() const {
+ContourCellsView ContourCells::CellsView() const {
   return {origin_px_.x(),
           origin_px_.y(),
           cell_px_,
           cells_per_px_,
           size_.x(),
           size_.y(),
-          {labels_.get(), count_ + LabelRaster::kBytesBehind},
+          {labels_.get(), count_ + ContourCellsView::kBytesBehind},
           distances_.near_squares(),
           {first_.get(), count_ + 1},
           segments_};
@@ -128,7 +128,7 @@ std::vector<std::uint32_t> ContourCells::ListEdges(const Contour& contour) {
   });
   std::fill(first_.get() + filled, first_.get() + count_ + 1, begin);
   listed_.resize(touches.size());
-  segments_.resize(touches.size() + LabelRaster::kEdgesBehind);
+  segments_.resize(touches.size() + ContourCellsView::kEdgesBehind);
   // A cell's place is where its next edge goes, until the last one is there.
   for (const auto& [cell, e] : touches) {
     const Vector2d &from = contour.vertices[contour.edges[e].from],
@@ -161,8 +161,8 @@ void ContourCells::LabelCentres(const Contour& contour, bool exterior_is_object,
       flips.Flip(Index(x, y));
     }
   }
-  labels_ = std::make_unique_for_overwrite<std::uint8_t[]>(count_ + LabelRaster::kBytesBehind);
-  std::uint8_t label = exterior_is_object ? LabelRaster::kObject : 0;
+  labels_ = std::make_unique_for_overwrite<std::uint8_t[]>(count_ + ContourCellsView::kBytesBehind);
+  std::uint8_t label = exterior_is_object ? ContourCellsView::kObject : 0;
   std::size_t labelled = 0;
   const auto label_to = [&](std::size_t end) {
     std::memset(labels_.get() + labelled, label, end - labelled);
@@ -170,10 +170,10 @@ void ContourCells::LabelCentres(const Contour& contour, bool exterior_is_object,
   };
   flips.ForEach([&](std::size_t cell) {
     label_to(cell);
-    label ^= LabelRaster::kObject;
+    label ^= ContourCellsView::kObject;
   });
-  label_to(count_ + LabelRaster::kBytesBehind);
-  for (const std::uint32_t cell : mixed_cells) labels_[cell] |= LabelRaster::kMixed;
+  label_to(count_ + ContourCellsView::kBytesBehind);
+  for (const std::uint32_t cell : mixed_cells) labels_[cell] |= ContourCellsView::kMixed;
 }
 
 }  // namespace elbowroom::recon

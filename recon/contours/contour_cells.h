@@ -11,7 +11,7 @@
 
 #include "recon/contours/cell_distances.h"
 #include "recon/contours/contour.h"
-#include "recon/contours/label_raster.h"
+#include "recon/contours/contour_cells_view.h"
 
 namespace elbowroom::recon {
 
@@ -34,19 +34,19 @@ class ContourCells {
     return origin_px_ + cell_px_ * Eigen::Vector2d(x + 0.5, y + 0.5);
   }
 
-  // LabelRaster's; of a mixed cell kObject is its centre's.
+  // ContourCellsView's; of a mixed cell kObject is its centre's.
   [[nodiscard]] std::uint8_t Label(std::size_t cell) const { return labels_[cell]; }
   // Where a cell's edges begin; those of the next one begin where they end.
   [[nodiscard]] std::uint32_t First(std::size_t cell) const { return first_[cell]; }
-  [[nodiscard]] std::span<const LabelRaster::Edge> Edges(std::size_t cell) const {
+  [[nodiscard]] std::span<const ContourCellsView::Edge> Edges(std::size_t cell) const {
     return std::span(segments_).subspan(first_[cell], first_[cell + 1] - first_[cell]);
   }
-  [[nodiscard]] const LabelRaster::Edge& Edge(std::uint32_t i) const { return segments_[i]; }
+  [[nodiscard]] const ContourCellsView::Edge& Edge(std::uint32_t i) const { return segments_[i]; }
   [[nodiscard]] std::uint32_t ContourEdge(std::uint32_t i) const { return listed_[i]; }
   [[nodiscard]] const CellDistances& distances() const { return distances_; }
 
   // As long-lived as the cells.
-  [[nodiscard]] LabelRaster Raster() const;
+  [[nodiscard]] ContourCellsView CellsView() const;
 
  private:
   // That an edge touches a cell.
@@ -67,8 +67,8 @@ class ContourCells {
   std::size_t count_ = 0;
   std::unique_ptr<std::uint32_t[]> first_;  // of each cell's edges, in listed_; one more at the end
   std::vector<std::uint32_t> listed_;
-  std::vector<LabelRaster::Edge> segments_;  // as listed_, and kEdgesBehind more
-  std::unique_ptr<std::uint8_t[]> labels_;   // and kBytesBehind more
+  std::vector<ContourCellsView::Edge> segments_;  // as listed_, and kEdgesBehind more
+  std::unique_ptr<std::uint8_t[]> labels_;        // and kBytesBehind more
   CellDistances distances_;
 };
 

@@ -21,25 +21,25 @@ namespace hn = hwy::HWY_NAMESPACE;
 // Points side by side; no fused operation anywhere: it would round differently on processors without one.
 using Doubles = hn::CappedTag<double, 8>;
 using Ints = hn::Rebind<std::int32_t, Doubles>;
-using VD = hn::Vec<Doubles>;
-using VI = hn::Vec<Ints>;
+using DoubleVec = hn::Vec<Doubles>;
+using IntVec = hn::Vec<Ints>;
 // Edges side by side: a cell has two or three.
-using Edges = hn::CappedTag<double, LabelRaster::kEdgesBehind>;
-using VE = hn::Vec<Edges>;
-using ME = hn::Mask<Edges>;
+using Edges = hn::CappedTag<double, ContourCellsView::kEdgesBehind>;
+using EdgeVec = hn::Vec<Edges>;
+using EdgeMask = hn::Mask<Edges>;
 
 constexpr std::size_t kMost = GridPoints::kMost;
 constexpr double kCellDiagonal = 1.4142135623730951;
 // Rounding of a position and of a distance.
 constexpr double kRoundingPx = 1e-7;
 
-HWY_INLINE VD Set(double number) { return hn::Set(Doubles(), number); }
-HWY_INLINE VE SetE(double number) { return hn::Set(Edges(), number); }
+HWY_INLINE DoubleVec Set(double number) { return hn::Set(Doubles(), number); }
+HWY_INLINE EdgeVec SetE(double number) { return hn::Set(Edges(), number); }
 
 struct EdgeLanes {
-  VE ax, ay, bx, by;
+  EdgeVec ax, ay, bx, by;
 };
-HWY_INLINE EdgeLanes Load(const LabelRaster::Edge* edges) {
+HWY_INLINE EdgeLanes Load(const ContourCellsView::Edge* edges) {
   EdgeLanes lanes;
   hn::LoadInterleaved4(Edges(), &edges->from_x, lanes.ax, lanes.ay, lanes.bx, lanes.by);
   return lanes;
@@ -48,58 +48,59 @@ HWY_INLINE EdgeLanes Load(const LabelRaster::Edge* edges) {
 // From the centre c along the row to the position's x, then along the column to the position p: both legs
 // stay in the cell, so its edges are all that matter. Each edge decides once on which side of it the legs
 // meet, or an edge through that very corner would count for one leg and not for the other.
-HWY_INLINE ME Changes(const EdgeLanes& e, VE cx, VE cy, VE px, VE py) {
-  const VE zero = hn::Zero(Edges());
-  const VE along_x = hn::Sub(e.bx, e.ax), along_y = hn::Sub(e.by, e.ay);
-  const ME rises = hn::Gt(hn::Mul(along_x, along_y), zero);
-  const ME in_row = hn::Xor(hn::Gt(e.ay, cy), hn::Gt(e.by, cy));
-  const VE x = hn::Add(e.ax, hn::Mul(hn::Div(hn::Sub(cy, e.ay), along_y), along_x));
-  const ME corner_is_right = hn::Le(x, px);
-  const ME changes = hn::And(in_row, hn::Xor(corner_is_right, hn::Le(x, cx)));
-  const ME corner_is_below =
+HWY_INLINE EdgeMask ParityFlips(const EdgeLanes& e, EdgeVec cx, EdgeVec cy, EdgeVec px, EdgeVec py) {
+  const EdgeVec zero = hn::Zero(Edges());
+  const EdgeVec along_x = hn::Sub(e.bx, e.ax), along_y = hn::Sub(e.by, e.ay);
+  const EdgeMask rises = hn::Gt(hn::Mul(along_x, along_y), zero);
+  const EdgeMask in_row = hn::Xor(hn::Gt(e.ay, cy), hn::Gt(e.by, cy));
+  const EdgeVec x = hn::Add(e.ax, hn::Mul(hn::Div(hn::Sub(cy, e.ay), along_y), along_x));
+  const EdgeMask corner_is_right = hn::Le(x, px);
+  const EdgeMask changes = hn::And(in_row, hn::Xor(corner_is_right, hn::Le(x, cx)));
+  const EdgeMask corner_is_below =
       hn::Or(hn::And(in_row, hn::Xor(corner_is_right, rises)), hn::AndNot(in_row, hn::Le(e.ay, cy)));
-  const ME in_column = hn::Xor(hn::Gt(e.ax, px), hn::Gt(e.bx, px));
-  const VE y = hn::Add(e.ay, hn::Mul(hn::Div(hn::Sub(px, e.ax), along_x), along_y));
-  const ME p_is_below = hn::Or(hn::Lt(y, py), hn::AndNot(rises, hn::Eq(y, py)));
+  const EdgeMask in_column = hn::Xor(hn::Gt(e.ax, px), hn::Gt(e.bx, px));
+  const EdgeVec y = hn::Add(e.ay, hn::Mul(hn::Div(hn::Sub(px, e.ax), along_x), along_y));
+  const EdgeMask p_is_below = hn::Or(hn::Lt(y, py), hn::AndNot(rises, hn::Eq(y, py)));
   return hn::Xor(changes, hn::And(in_column, hn::Xor(corner_is_below, p_is_below)));
 }
 
-bool Change(const LabelRaster::Edge* edges, std::size_t count, const double* centre, const double* position) {
-  const VE cx = SetE(centre[0]), cy = SetE(centre[1]), px = SetE(position[0]), py = SetE(position[1]);
+bool LabelDiffers(const ContourCellsView::Edge* edges, std::size_t count, const double* centre,
+                  const double* position) {
+  const EdgeVec cx = SetE(centre[0]), cy = SetE(centre[1]), px = SetE(position[0]), py = SetE(position[1]);
   const Edges d;
   std::size_t changes = 0;
   for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
-    const ME is_there = hn::FirstN(d, count - i);
-    changes += hn::CountTrue(d, hn::And(is_there, Changes(Load(edges + i), cx, cy, px, py)));
+    const EdgeMask is_there = hn::FirstN(d, count - i);
+    changes += hn::CountTrue(d, hn::And(is_there, ParityFlips(Load(edges + i), cx, cy, px, py)));
   }
   return changes % 2 != 0;
 }
 
 // As many points as a vector holds, in a picture plane.
 struct Points {
-  VD x, y, z;
+  DoubleVec x, y, z;
 };
 
 HWY_INLINE Points Project(const GridView& grid, const GridPoints& points, std::size_t i) {
   const Doubles d;
-  const VD x = hn::Load(d, &points.at[0][i]), y = hn::Load(d, &points.at[1][i]),
-           z = hn::Load(d, &points.at[2][i]);
+  const DoubleVec x = hn::Load(d, &points.at[0][i]), y = hn::Load(d, &points.at[1][i]),
+                  z = hn::Load(d, &points.at[2][i]);
   const auto coordinate = [&](std::size_t k) HWY_ATTR {
-    const VD in_layer = hn::Add(hn::Mul(x, Set(grid.steps[0][k])), hn::Mul(y, Set(grid.steps[1][k])));
+    const DoubleVec in_layer = hn::Add(hn::Mul(x, Set(grid.steps[0][k])), hn::Mul(y, Set(grid.steps[1][k])));
     return hn::Add(in_layer, hn::Add(Set(grid.origin[k]), hn::Mul(z, Set(grid.steps[2][k]))));
   };
-  const VD z_mm = coordinate(2), per_z = hn::Div(Set(1.0), z_mm);
+  const DoubleVec z_mm = coordinate(2), per_z = hn::Div(Set(1.0), z_mm);
   return {hn::Mul(coordinate(0), per_z), hn::Mul(coordinate(1), per_z), z_mm};
 }
 
-HWY_INLINE VD InCells(const LabelRaster& raster, VD px, double origin_px) {
+HWY_INLINE DoubleVec InCells(const ContourCellsView& raster, DoubleVec px, double origin_px) {
   return hn::Mul(hn::Sub(px, Set(origin_px)), Set(raster.cells_per_px));
 }
-HWY_INLINE VI Index(const LabelRaster& raster, VI column, VI row) {
+HWY_INLINE IntVec Index(const ContourCellsView& raster, IntVec column, IntVec row) {
   return hn::Add(hn::Mul(row, hn::Set(Ints(), raster.width)), column);
 }
-HWY_INLINE VI Bytes(std::span<const std::uint8_t> bytes, VI index) {
-  const VI words = hn::GatherOffset(Ints(), reinterpret_cast<const std::int32_t*>(bytes.data()), index);
+HWY_INLINE IntVec Bytes(std::span<const std::uint8_t> bytes, IntVec index) {
+  const IntVec words = hn::GatherOffset(Ints(), reinterpret_cast<const std::int32_t*>(bytes.data()), index);
   return hn::And(words, hn::Set(Ints(), 0xFF));
 }
 template <typename D, typename M>
@@ -110,44 +111,44 @@ HWY_INLINE std::uint64_t BitsOf(D d, M mask) {
 }
 
 // Bits of the points that are there.
-std::uint64_t There(const GridPoints& points) {
+std::uint64_t PointsInUse(const GridPoints& points) {
   return points.count == 0 ? 0 : ~std::uint64_t{0} >> (kMost - points.count);
 }
 
-std::uint64_t LabelSome(const GridView& grid, const LabelRaster& raster, const GridPoints& points) {
+std::uint64_t LabelSome(const GridView& grid, const ContourCellsView& raster, const GridPoints& points) {
   const Doubles d;
   const Ints n;
-  const VD zero = hn::Zero(d);
+  const DoubleVec zero = hn::Zero(d);
   std::uint64_t object = 0, mixed = 0;
   alignas(64) double x[kMost], y[kMost];
   alignas(32) std::int32_t columns[kMost], rows[kMost], cells[kMost];
   for (std::size_t begin = 0; begin < points.count; begin += hn::Lanes(d)) {
     const Points p = Project(grid, points, begin);
-    const VD across = InCells(raster, p.x, raster.origin_x_px),
-             down = InCells(raster, p.y, raster.origin_y_px);
+    const DoubleVec across = InCells(raster, p.x, raster.origin_x_px),
+                    down = InCells(raster, p.y, raster.origin_y_px);
     // Written so that a NaN is in no cell.
     const auto is_across = hn::And(hn::Ge(across, zero), hn::Lt(across, Set(raster.width)));
     const auto is_down = hn::And(hn::Ge(down, zero), hn::Lt(down, Set(raster.height)));
     const auto is_in_cell = hn::And(hn::And(is_across, is_down), hn::Gt(p.z, zero));
-    const VI column = hn::DemoteTo(n, hn::IfThenElseZero(is_in_cell, across));
-    const VI row = hn::DemoteTo(n, hn::IfThenElseZero(is_in_cell, down));
-    const VI index = Index(raster, column, row), label = Bytes(raster.labels, index);
-    object |= BitsOf(n, hn::TestBit(label, hn::Set(n, LabelRaster::kObject))) << begin;
-    mixed |= BitsOf(n, hn::TestBit(label, hn::Set(n, LabelRaster::kMixed))) << begin;
+    const IntVec column = hn::DemoteTo(n, hn::IfThenElseZero(is_in_cell, across));
+    const IntVec row = hn::DemoteTo(n, hn::IfThenElseZero(is_in_cell, down));
+    const IntVec index = Index(raster, column, row), label = Bytes(raster.labels, index);
+    object |= BitsOf(n, hn::TestBit(label, hn::Set(n, ContourCellsView::kObject))) << begin;
+    mixed |= BitsOf(n, hn::TestBit(label, hn::Set(n, ContourCellsView::kMixed))) << begin;
     hn::Store(p.x, d, x + begin), hn::Store(p.y, d, y + begin);
     hn::Store(column, n, columns + begin), hn::Store(row, n, rows + begin),
         hn::Store(index, n, cells + begin);
   }
-  for (mixed &= There(points); mixed != 0; mixed &= mixed - 1) {
+  for (mixed &= PointsInUse(points); mixed != 0; mixed &= mixed - 1) {
     const auto i = static_cast<std::size_t>(std::countr_zero(mixed));
     const double centre[2] = {raster.origin_x_px + raster.cell_px * (columns[i] + 0.5),
                               raster.origin_y_px + raster.cell_px * (rows[i] + 0.5)};
     const double position[2] = {x[i], y[i]};
     const std::uint32_t* const first = raster.first.data() + cells[i];
-    const bool changes = Change(raster.edges.data() + first[0], first[1] - first[0], centre, position);
+    const bool changes = LabelDiffers(raster.edges.data() + first[0], first[1] - first[0], centre, position);
     object ^= std::uint64_t{changes} << i;
   }
-  return object & There(points);
+  return object & PointsInUse(points);
 }
 
 // Ways in the picture, and the cells that their boxes reach to.
@@ -167,34 +168,37 @@ class Way {
         side_of_way_(Cross(way_x_, way_y_, from_x_, from_y_)) {}
 
   // The lesser of each lane's share and that at which the way meets the lane's edge, of `count` edges.
-  [[nodiscard]] HWY_INLINE VE Meet(const LabelRaster::Edge* edges, std::size_t count, VE nearest) const {
+  [[nodiscard]] HWY_INLINE EdgeVec Meet(const ContourCellsView::Edge* edges, std::size_t count,
+                                        EdgeVec nearest) const {
     const Edges d;
-    const VE zero = hn::Zero(d);
+    const EdgeVec zero = hn::Zero(d);
     const EdgeLanes e = Load(edges);
     // The ends of the edge on different sides of the way, and those of the way of the edge.
-    const VE side_a = hn::Sub(Cross(way_x_, way_y_, e.ax, e.ay), side_of_way_);
-    const VE side_b = hn::Sub(Cross(way_x_, way_y_, e.bx, e.by), side_of_way_);
-    const VE apart =
+    const EdgeVec side_a = hn::Sub(Cross(way_x_, way_y_, e.ax, e.ay), side_of_way_);
+    const EdgeVec side_b = hn::Sub(Cross(way_x_, way_y_, e.bx, e.by), side_of_way_);
+    const EdgeVec apart =
         Cross(hn::Sub(e.ax, from_x_), hn::Sub(e.ay, from_y_), hn::Sub(e.bx, e.ax), hn::Sub(e.by, e.ay));
-    const VE share = hn::Div(apart, hn::Sub(side_b, side_a));
-    const ME is_there = hn::Lt(hn::Iota(d, 0.0), SetE(static_cast<double>(count)));
-    const ME differs = hn::And(is_there, hn::Xor(hn::Gt(side_a, zero), hn::Gt(side_b, zero)));
-    const ME meets = hn::And(hn::And(differs, hn::Ge(share, zero)), hn::Le(share, nearest));
+    const EdgeVec share = hn::Div(apart, hn::Sub(side_b, side_a));
+    const EdgeMask is_there = hn::Lt(hn::Iota(d, 0.0), SetE(static_cast<double>(count)));
+    const EdgeMask differs = hn::And(is_there, hn::Xor(hn::Gt(side_a, zero), hn::Gt(side_b, zero)));
+    const EdgeMask meets = hn::And(hn::And(differs, hn::Ge(share, zero)), hn::Le(share, nearest));
     return hn::IfThenElse(meets, share, nearest);
   }
 
  private:
-  static HWY_INLINE VE Cross(VE ax, VE ay, VE bx, VE by) { return hn::Sub(hn::Mul(ax, by), hn::Mul(ay, bx)); }
+  static HWY_INLINE EdgeVec Cross(EdgeVec ax, EdgeVec ay, EdgeVec bx, EdgeVec by) {
+    return hn::Sub(hn::Mul(ax, by), hn::Mul(ay, bx));
+  }
 
-  const VE from_x_, from_y_, way_x_, way_y_, side_of_way_;
+  const EdgeVec from_x_, from_y_, way_x_, way_y_, side_of_way_;
 };
 
 // The least share at which way i meets an edge of the cells in its box; more than 1 if there is none. Most
 // boxes have one row or two of up to four edges: so many are looked at without asking.
-HWY_INLINE double FirstCrossing(const LabelRaster& raster, const Ways& ways, std::size_t i) {
+HWY_INLINE double FirstCrossing(const ContourCellsView& raster, const Ways& ways, std::size_t i) {
   const Edges d;
   const Way way(ways, i);
-  VE nearest = SetE(kNoCrossing);
+  EdgeVec nearest = SetE(kNoCrossing);
   const auto meet_row = [&](std::int32_t row) HWY_ATTR {
     const std::uint32_t* const first = raster.first.data() + row * raster.width;
     std::size_t at = first[ways.left[i]];
@@ -211,63 +215,64 @@ HWY_INLINE double FirstCrossing(const LabelRaster& raster, const Ways& ways, std
 
 // The ways from i on, as many as a vector holds: a bit each of those that may meet an edge. Shares of those
 // that can't be worked out become kUnknownCrossing.
-HWY_INLINE std::uint64_t Sift(const LabelRaster& raster, const Points& from, const Points& to, std::size_t i,
-                              Ways* ways, double* shares) {
+HWY_INLINE std::uint64_t WaysNearEdges(const ContourCellsView& raster, const Points& from, const Points& to,
+                                       std::size_t i, Ways* ways, double* shares) {
   const Doubles d;
   const Ints n;
-  const VD zero = hn::Zero(d), largest = Set(std::numeric_limits<double>::max());
-  const auto is_finite = [&](VD a, VD b) HWY_ATTR {
+  const DoubleVec zero = hn::Zero(d), largest = Set(std::numeric_limits<double>::max());
+  const auto is_finite = [&](DoubleVec a, DoubleVec b) HWY_ATTR {
     return hn::And(hn::Le(hn::Abs(a), largest), hn::Le(hn::Abs(b), largest));
   };
   const auto is_in_front = hn::And(hn::Gt(from.z, zero), hn::Gt(to.z, zero));
   const auto is_known = hn::And(is_in_front, hn::And(is_finite(from.x, from.y), is_finite(to.x, to.y)));
   hn::Store(hn::IfThenElse(is_known, hn::Load(d, shares + i), Set(kUnknownCrossing)), d, shares + i);
-  const auto nearest_cell = [&](VD px, double origin_px, std::int32_t cells) HWY_ATTR {
-    const VD at = hn::IfThenElseZero(is_known, InCells(raster, px, origin_px));
+  const auto nearest_cell = [&](DoubleVec px, double origin_px, std::int32_t cells) HWY_ATTR {
+    const DoubleVec at = hn::IfThenElseZero(is_known, InCells(raster, px, origin_px));
     return hn::DemoteTo(n, hn::Min(hn::Max(at, zero), Set(cells - 1)));
   };
-  const VD half = Set(0.5);
-  const VD x = hn::Mul(half, hn::Add(from.x, to.x)), y = hn::Mul(half, hn::Add(from.y, to.y));
-  const VI middle = Index(raster, nearest_cell(x, raster.origin_x_px, raster.width),
-                          nearest_cell(y, raster.origin_y_px, raster.height));
-  const VD squares = hn::PromoteTo(d, Bytes(raster.clear_squares, middle));
-  const VD clear_cells = hn::Sub(hn::Sqrt(squares), Set(kCellDiagonal));
-  const VD clear_px = hn::Sub(hn::Mul(clear_cells, Set(raster.cell_px)), Set(kRoundingPx));
-  const VD half_x = hn::Sub(to.x, x), half_y = hn::Sub(to.y, y);
-  const VD reach2 = hn::Add(hn::Mul(half_x, half_x), hn::Mul(half_y, half_y));
+  const DoubleVec half = Set(0.5);
+  const DoubleVec x = hn::Mul(half, hn::Add(from.x, to.x)), y = hn::Mul(half, hn::Add(from.y, to.y));
+  const IntVec middle = Index(raster, nearest_cell(x, raster.origin_x_px, raster.width),
+                              nearest_cell(y, raster.origin_y_px, raster.height));
+  const DoubleVec squares = hn::PromoteTo(d, Bytes(raster.clear_squares, middle));
+  const DoubleVec clear_cells = hn::Sub(hn::Sqrt(squares), Set(kCellDiagonal));
+  const DoubleVec clear_px = hn::Sub(hn::Mul(clear_cells, Set(raster.cell_px)), Set(kRoundingPx));
+  const DoubleVec half_x = hn::Sub(to.x, x), half_y = hn::Sub(to.y, y);
+  const DoubleVec reach2 = hn::Add(hn::Mul(half_x, half_x), hn::Mul(half_y, half_y));
   const auto is_far = hn::And(hn::Gt(clear_px, zero), hn::Gt(hn::Mul(clear_px, clear_px), reach2));
   const std::uint64_t near = BitsOf(d, hn::AndNot(is_far, is_known));
   if (near == 0) return 0;
   hn::Store(from.x, d, ways->from_x + i), hn::Store(from.y, d, ways->from_y + i);
   hn::Store(to.x, d, ways->to_x + i), hn::Store(to.y, d, ways->to_y + i);
   hn::Store(from.z, d, ways->from_z + i), hn::Store(to.z, d, ways->to_z + i);
-  const VI x0 = nearest_cell(from.x, raster.origin_x_px, raster.width),
-           x1 = nearest_cell(to.x, raster.origin_x_px, raster.width),
-           y0 = nearest_cell(from.y, raster.origin_y_px, raster.height),
-           y1 = nearest_cell(to.y, raster.origin_y_px, raster.height);
+  const IntVec x0 = nearest_cell(from.x, raster.origin_x_px, raster.width),
+               x1 = nearest_cell(to.x, raster.origin_x_px, raster.width),
+               y0 = nearest_cell(from.y, raster.origin_y_px, raster.height),
+               y1 = nearest_cell(to.y, raster.origin_y_px, raster.height);
   hn::Store(hn::Min(x0, x1), n, ways->left + i), hn::Store(hn::Max(x0, x1), n, ways->right + i);
   hn::Store(hn::Min(y0, y1), n, ways->top + i), hn::Store(hn::Max(y0, y1), n, ways->bottom + i);
   return near << i;
 }
 
-void Offer(const GridView& grid, const LabelRaster& raster, const GridPoints& from, const GridPoints& to,
-           double* shares) {
+void LowerShares(const GridView& grid, const ContourCellsView& raster, const GridPoints& from,
+                 const GridPoints& to, double* shares) {
   const Doubles d;
   Ways ways;
   std::uint64_t near = 0;
   for (std::size_t i = 0; i < from.count; i += hn::Lanes(d))
-    near |= Sift(raster, Project(grid, from, i), Project(grid, to, i), i, &ways, shares);
+    near |= WaysNearEdges(raster, Project(grid, from, i), Project(grid, to, i), i, &ways, shares);
   alignas(64) double in_picture[kMost];
   for (std::size_t i = 0; i < from.count; i += hn::Lanes(d)) hn::Store(Set(kNoCrossing), d, in_picture + i);
-  for (near &= There(from); near != 0; near &= near - 1) {
+  for (near &= PointsInUse(from); near != 0; near &= near - 1) {
     const auto i = static_cast<std::size_t>(std::countr_zero(near));
     in_picture[i] = FirstCrossing(raster, ways, i);
   }
   // From a share of the way in the picture to one of the way in space.
   for (std::size_t i = 0; i < from.count; i += hn::Lanes(d)) {
-    const VD share = hn::Load(d, in_picture + i), so_far = hn::Load(d, shares + i);
-    const VD from_z = hn::Load(d, ways.from_z + i), to_z = hn::Load(d, ways.to_z + i);
-    const VD in_space = hn::Div(hn::Mul(share, from_z), hn::Add(to_z, hn::Mul(share, hn::Sub(from_z, to_z))));
+    const DoubleVec share = hn::Load(d, in_picture + i), so_far = hn::Load(d, shares + i);
+    const DoubleVec from_z = hn::Load(d, ways.from_z + i), to_z = hn::Load(d, ways.to_z + i);
+    const DoubleVec in_space =
+        hn::Div(hn::Mul(share, from_z), hn::Add(to_z, hn::Mul(share, hn::Sub(from_z, to_z))));
     const auto is_nearer = hn::And(hn::Le(share, Set(1.0)), hn::Lt(in_space, so_far));
     hn::Store(hn::IfThenElse(is_nearer, in_space, so_far), d, shares + i);
   }
@@ -290,7 +295,7 @@ struct SeenCorners {
 SeenCorners ProjectCorners(const GridView& grid, const ConvexCorners& corners) {
   const Doubles d;
   SeenCorners seen;
-  VD least_z = Set(std::numeric_limits<double>::max());
+  DoubleVec least_z = Set(std::numeric_limits<double>::max());
   for (std::size_t i = 0; i < kCorners; i += hn::Lanes(d)) {
     const Points p = Project(grid, corners.points, i);
     hn::Store(p.x, d, seen.x + i), hn::Store(p.y, d, seen.y + i);
@@ -303,9 +308,9 @@ SeenCorners ProjectCorners(const GridView& grid, const ConvexCorners& corners) {
 // Grown by `slack_px` to both sides.
 HWY_INLINE Slab SlabAlong(const SeenCorners& corners, double x, double y, double slack_px) {
   const Doubles d;
-  VD low = Set(std::numeric_limits<double>::max()), high = hn::Neg(low);
+  DoubleVec low = Set(std::numeric_limits<double>::max()), high = hn::Neg(low);
   for (std::size_t i = 0; i < kCorners; i += hn::Lanes(d)) {
-    const VD at =
+    const DoubleVec at =
         hn::Add(hn::Mul(hn::Load(d, corners.x + i), Set(x)), hn::Mul(hn::Load(d, corners.y + i), Set(y)));
     low = hn::Min(low, at), high = hn::Max(high, at);
   }
@@ -314,28 +319,31 @@ HWY_INLINE Slab SlabAlong(const SeenCorners& corners, double x, double y, double
 }
 
 // Lanes: edges that a slab, or their own line, keeps from all corners.
-HWY_INLINE ME AreBeside(const EdgeLanes& e, const Slab* slabs, const SeenCorners& corners, double slack_px) {
+HWY_INLINE EdgeMask AreBeside(const EdgeLanes& e, const Slab* slabs, const SeenCorners& corners,
+                              double slack_px) {
   const Edges d;
-  ME beside = hn::FirstN(d, 0);
+  EdgeMask beside = hn::FirstN(d, 0);
   for (std::size_t i = 0; i < kSlabs; ++i) {
-    const VE x = SetE(slabs[i].x), y = SetE(slabs[i].y);
-    const VE a = hn::Add(hn::Mul(e.ax, x), hn::Mul(e.ay, y)), b = hn::Add(hn::Mul(e.bx, x), hn::Mul(e.by, y));
+    const EdgeVec x = SetE(slabs[i].x), y = SetE(slabs[i].y);
+    const EdgeVec a = hn::Add(hn::Mul(e.ax, x), hn::Mul(e.ay, y)),
+                  b = hn::Add(hn::Mul(e.bx, x), hn::Mul(e.by, y));
     beside = hn::Or(beside, hn::Or(hn::Lt(hn::Max(a, b), SetE(slabs[i].low)),
                                    hn::Gt(hn::Min(a, b), SetE(slabs[i].high))));
   }
   if (hn::AllTrue(d, beside)) return beside;
-  const VE along_x = hn::Sub(e.bx, e.ax), along_y = hn::Sub(e.by, e.ay);
-  VE low = SetE(std::numeric_limits<double>::max()), high = hn::Neg(low);
+  const EdgeVec along_x = hn::Sub(e.bx, e.ax), along_y = hn::Sub(e.by, e.ay);
+  EdgeVec low = SetE(std::numeric_limits<double>::max()), high = hn::Neg(low);
   for (std::size_t i = 0; i < kCorners; ++i) {
-    const VE side = hn::Sub(hn::Mul(along_x, hn::Sub(SetE(corners.y[i]), e.ay)),
-                            hn::Mul(along_y, hn::Sub(SetE(corners.x[i]), e.ax)));
+    const EdgeVec side = hn::Sub(hn::Mul(along_x, hn::Sub(SetE(corners.y[i]), e.ay)),
+                                 hn::Mul(along_y, hn::Sub(SetE(corners.x[i]), e.ax)));
     low = hn::Min(low, side), high = hn::Max(high, side);
   }
-  const VE slack = hn::Mul(SetE(slack_px), hn::Add(hn::Abs(along_x), hn::Abs(along_y)));
+  const EdgeVec slack = hn::Mul(SetE(slack_px), hn::Add(hn::Abs(along_x), hn::Abs(along_y)));
   return hn::Or(beside, hn::Or(hn::Gt(low, slack), hn::Lt(high, hn::Neg(slack))));
 }
 
-bool IsClear(const GridView& grid, const ConvexCorners& shape, const LabelRaster& raster, double slack_px) {
+bool IsClear(const GridView& grid, const ConvexCorners& shape, const ContourCellsView& raster,
+             double slack_px) {
   const SeenCorners corners = ProjectCorners(grid, shape);
   if (!corners.are_in_front) return false;
   Slab slabs[kSlabs] = {SlabAlong(corners, 1.0, 0.0, slack_px), SlabAlong(corners, 0.0, 1.0, slack_px)};
@@ -359,8 +367,8 @@ bool IsClear(const GridView& grid, const ConvexCorners& shape, const LabelRaster
     const std::uint32_t* const first = raster.first.data() + row * raster.width;
     const std::size_t end = first[std::min(right, raster.width - 1) + 1];
     for (std::size_t i = first[std::max(left, 0)]; i < end; i += hn::Lanes(d)) {
-      const ME is_there = hn::FirstN(d, end - i);
-      const ME beside = AreBeside(Load(raster.edges.data() + i), slabs, corners, slack_px);
+      const EdgeMask is_there = hn::FirstN(d, end - i);
+      const EdgeMask beside = AreBeside(Load(raster.edges.data() + i), slabs, corners, slack_px);
       if (!hn::AllFalse(d, hn::AndNot(beside, is_there))) return false;
     }
   }
@@ -374,24 +382,24 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace elbowroom::recon {
 
-HWY_EXPORT(Change);
+HWY_EXPORT(LabelDiffers);
 HWY_EXPORT(LabelSome);
-HWY_EXPORT(Offer);
+HWY_EXPORT(LowerShares);
 HWY_EXPORT(IsClear);
 
-bool ChangesInCell(std::span<const LabelRaster::Edge> edges, const std::array<double, 2>& centre_px,
-                   const std::array<double, 2>& position_px) {
-  return HWY_DYNAMIC_DISPATCH(Change)(edges.data(), edges.size(), centre_px.data(), position_px.data());
+bool LabelDiffersInCell(std::span<const ContourCellsView::Edge> edges, const std::array<double, 2>& centre_px,
+                        const std::array<double, 2>& position_px) {
+  return HWY_DYNAMIC_DISPATCH(LabelDiffers)(edges.data(), edges.size(), centre_px.data(), position_px.data());
 }
 
-std::uint64_t LabelPoints(const GridView& grid, const LabelRaster& raster, const GridPoints& points) {
+std::uint64_t LabelPoints(const GridView& grid, const ContourCellsView& raster, const GridPoints& points) {
   return HWY_DYNAMIC_DISPATCH(LabelSome)(grid, raster, points);
 }
 
-void OfferCrossings(const GridView& grid, const LabelRaster& raster, const GridPoints& from,
-                    const GridPoints& to, WayShares* shares) {
+void LowerToCrossings(const GridView& grid, const ContourCellsView& raster, const GridPoints& from,
+                      const GridPoints& to, WayShares* shares) {
   if (raster.width == 0) return;  // no edges: everywhere the exterior's label
-  HWY_DYNAMIC_DISPATCH(Offer)(grid, raster, from, to, shares->at.data());
+  HWY_DYNAMIC_DISPATCH(LowerShares)(grid, raster, from, to, shares->at.data());
 }
 
 const ConvexCorners& ConvexCorners::OfBox() {
@@ -416,7 +424,7 @@ const ConvexCorners& ConvexCorners::OfTriangle() {
   return triangle;
 }
 
-bool IsClearOfEdges(const GridView& grid, const ConvexCorners& corners, const LabelRaster& raster,
+bool IsClearOfEdges(const GridView& grid, const ConvexCorners& corners, const ContourCellsView& raster,
                     double slack_px) {
   return HWY_DYNAMIC_DISPATCH(IsClear)(grid, corners, raster, slack_px);
 }

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <span>
 
-#include "recon/contours/label_raster.h"
+#include "recon/contours/contour_cells_view.h"
 
 namespace elbowroom::recon {
 
@@ -30,13 +30,13 @@ inline constexpr double kUnknownCrossing = -1.0;
 
 // Whether the label changes between a cell's centre and a position in the cell, by the cell's edges; behind
 // them kEdgesBehind more may be read.
-[[nodiscard]] bool ChangesInCell(std::span<const LabelRaster::Edge> edges,
-                                 const std::array<double, 2>& centre_px,
-                                 const std::array<double, 2>& position_px);
+[[nodiscard]] bool LabelDiffersInCell(std::span<const ContourCellsView::Edge> edges,
+                                      const std::array<double, 2>& centre_px,
+                                      const std::array<double, 2>& position_px);
 
 // Bit i: the contour labels point i object, as ContourMap::IsObject does its position. Points that aren't in
 // front of the camera are exterior.
-[[nodiscard]] std::uint64_t LabelPoints(const GridView& grid, const LabelRaster& raster,
+[[nodiscard]] std::uint64_t LabelPoints(const GridView& grid, const ContourCellsView& raster,
                                         const GridPoints& points);
 
 // Shares of some ways between grid points; what is behind the last of them means nothing.
@@ -47,8 +47,8 @@ struct WayShares {
 // Lowers share i to that of the straight way between two points at which the contour is first crossed in
 // the picture, if it is; to kUnknownCrossing where an end isn't in front of the camera. For ways of a few
 // cells: cost follows their box.
-void OfferCrossings(const GridView& grid, const LabelRaster& raster, const GridPoints& from,
-                    const GridPoints& to, WayShares* shares);
+void LowerToCrossings(const GridView& grid, const ContourCellsView& raster, const GridPoints& from,
+                      const GridPoints& to, WayShares* shares);
 
 // Points of a grid that span something convex.
 struct ConvexCorners {
@@ -67,6 +67,6 @@ struct ConvexCorners {
 // kMostConvexRows rows of cells.
 inline constexpr std::int32_t kMostConvexRows = 64;
 [[nodiscard]] bool IsClearOfEdges(const GridView& grid, const ConvexCorners& corners,
-                                  const LabelRaster& raster, double slack_px);
+                                  const ContourCellsView& raster, double slack_px);
 
 }  // namespace elbowroom::recon

@@ -23,7 +23,7 @@ constexpr int kWindowCells = 2;
 // Rounding of a position and of a distance.
 constexpr double kRoundingPx = 1e-7;
 
-double SquaredDistance(const Vector2d& p, const LabelRaster::Edge& edge) {
+double SquaredDistance(const Vector2d& p, const ContourCellsView::Edge& edge) {
   const Vector2d a(edge.from_x, edge.from_y), b(edge.to_x, edge.to_y), ab = b - a, ap = p - a;
   const double along = ab.dot(ap), length2 = ab.squaredNorm();
   if (!(along > 0.0)) return ap.squaredNorm();
@@ -39,7 +39,7 @@ class ContourMap::Grid {
   Grid(const Contour& contour, bool exterior_is_object, const Eigen::AlignedBox2d& bounds_px)
       : cells_(contour, exterior_is_object, bounds_px) {}
 
-  [[nodiscard]] LabelRaster Raster() const { return cells_.Raster(); }
+  [[nodiscard]] ContourCellsView CellsView() const { return cells_.CellsView(); }
 
   struct Place {
     Eigen::Vector2i cell;
@@ -58,11 +58,11 @@ class ContourMap::Grid {
 
   [[nodiscard]] bool LabelOf(const Place& place, const Vector2d& position) const {
     const std::uint8_t label = cells_.Label(place.index);
-    const bool at_centre = (label & LabelRaster::kObject) != 0;
-    if ((label & LabelRaster::kMixed) == 0) return at_centre;
+    const bool at_centre = (label & ContourCellsView::kObject) != 0;
+    if ((label & ContourCellsView::kMixed) == 0) return at_centre;
     const Vector2d centre = cells_.Centre(place.cell.x(), place.cell.y());
-    return at_centre !=
-           ChangesInCell(cells_.Edges(place.index), {centre.x(), centre.y()}, {position.x(), position.y()});
+    return at_centre != LabelDiffersInCell(cells_.Edges(place.index), {centre.x(), centre.y()},
+                                           {position.x(), position.y()});
   }
 
   // Lower bound, in px.
@@ -147,11 +147,11 @@ PlaneLabel ContourMap::LabelAt(const Vector2d& position, double enough_px) const
   return label;
 }
 
-LabelRaster ContourMap::Raster() const {
-  if (!bounds_px_.isEmpty()) return grid().Raster();
-  static constexpr std::array<std::uint8_t, 1 + LabelRaster::kBytesBehind> kBackground{0},
-      kObject{LabelRaster::kObject};
-  LabelRaster nothing;
+ContourCellsView ContourMap::CellsView() const {
+  if (!bounds_px_.isEmpty()) return grid().CellsView();
+  static constexpr std::array<std::uint8_t, 1 + ContourCellsView::kBytesBehind> kBackground{0},
+      kObject{ContourCellsView::kObject};
+  ContourCellsView nothing;
   nothing.labels = exterior_is_object_ ? kObject : kBackground;
   return nothing;
 }

@@ -11,7 +11,7 @@
 #include <optional>
 
 #include "recon/contours/contour.h"
-#include "recon/contours/label_raster.h"
+#include "recon/contours/contour_cells_view.h"
 
 namespace elbowroom::recon {
 
@@ -50,7 +50,7 @@ class ContourMap {
                                    double enough_px = std::numeric_limits<double>::infinity()) const;
 
   // The grid's cells, for questions in bulk; of no cells where there are no edges. As long-lived as the map.
-  [[nodiscard]] LabelRaster Raster() const;
+  [[nodiscard]] ContourCellsView CellsView() const;
 
   // The nearest edge, if one is within 2 cells.
   [[nodiscard]] std::optional<std::uint32_t> NearestEdge(const Eigen::Vector2d& position) const;

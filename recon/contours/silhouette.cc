@@ -7,7 +7,7 @@
 
 namespace elbowroom::recon {
 
-Silhouette::Silhouette(std::shared_ptr<const PicturePlane> plane, core::SoftMask soft_mask,
+Silhouette::Silhouette(std::shared_ptr<const UndistortedPlane> plane, core::SoftMask soft_mask,
                        bool exterior_is_object)
     : plane_(std::move(plane)), soft_mask_(std::move(soft_mask)), exterior_is_object_(exterior_is_object) {
   const core::BitMask& mask = soft_mask_.mask;

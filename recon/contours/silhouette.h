@@ -8,7 +8,7 @@
 
 #include "core/soft_mask.h"
 #include "recon/contours/contour_map.h"
-#include "recon/contours/picture_plane.h"
+#include "recon/contours/undistorted_plane.h"
 
 namespace elbowroom::recon {
 
@@ -18,18 +18,19 @@ namespace elbowroom::recon {
 class Silhouette {
  public:
   // Throws: PreconditionError when the mask's size isn't the camera's.
-  Silhouette(std::shared_ptr<const PicturePlane> plane, core::SoftMask soft_mask, bool exterior_is_object);
+  Silhouette(std::shared_ptr<const UndistortedPlane> plane, core::SoftMask soft_mask,
+             bool exterior_is_object);
 
   [[nodiscard]] const core::BitMask& mask() const { return soft_mask_.mask; }
   [[nodiscard]] const core::SoftMask& soft_mask() const { return soft_mask_; }
-  [[nodiscard]] const PicturePlane& plane() const { return *plane_; }
+  [[nodiscard]] const UndistortedPlane& plane() const { return *plane_; }
   [[nodiscard]] bool exterior_is_object() const { return exterior_is_object_; }
   [[nodiscard]] bool shows_object() const { return shows_object_; }  // some pixel is
   [[nodiscard]] const ContourMap& labels() const;
   [[nodiscard]] bool is_traced() const { return ready_.load(std::memory_order_acquire) != nullptr; }
 
  private:
-  std::shared_ptr<const PicturePlane> plane_;
+  std::shared_ptr<const UndistortedPlane> plane_;
   core::SoftMask soft_mask_;
   bool exterior_is_object_;
   bool shows_object_;

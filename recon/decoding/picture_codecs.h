@@ -1,5 +1,6 @@
 // OpenCV's readers and writers of pictures and videos, as a module: they bring 240 libraries, which take
-// longer to load than most commands run. The decoder has them, a program of its own (recon/decoding/picture_worker.h).
+// longer to load than most commands run. The decoder has them, a program of its own
+// (recon/decoding/picture_worker.h).
 #pragma once
 
 #include <cstdint>

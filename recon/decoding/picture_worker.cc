@@ -12,8 +12,8 @@
 #include <thread>
 
 #include "core/error.h"
-#include "core/system/module.h"
 #include "core/progress.h"
+#include "core/system/module.h"
 #include "recon/decoding/packet.h"
 
 namespace elbowroom::recon {

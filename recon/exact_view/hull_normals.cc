@@ -14,7 +14,7 @@ using Eigen::Vector3f;
 // Of all edges of a camera's contour, and under `abstain` of its outline after them.
 std::vector<Vector3f> EdgeNormals(const VisualHull& hull, std::size_t camera) {
   const Eigen::Matrix3d world_from_cam = hull.rig().cameras[camera].cam_from_world().rotation.transpose();
-  const PicturePlane& plane = hull.silhouettes()[camera]->plane();
+  const UndistortedPlane& plane = hull.silhouettes()[camera]->plane();
   std::vector<Vector3f> normals;
   const auto add = [&](const Contour& contour) {
     for (std::uint32_t i = 0; i < contour.edges.size(); ++i)

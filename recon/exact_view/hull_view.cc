@@ -118,7 +118,7 @@ class Caster {
     for (std::size_t i = 0; i < pencils.size(); ++i)
       if (pencils[i]->is_concentric()) (*cameras)[i].starts_inside = LabelsAlong(*pencils[i], x, y);
   }
-  [[nodiscard]] std::uint32_t LabelsAlong(const EdgePencil& pencil, int x, int y) const {
+  [[nodiscard]] std::uint32_t LabelsAlong(const EpipolarEdges& pencil, int x, int y) const {
     std::uint32_t labels = 0;
     for (int i = 0; i < kTileRays; ++i) {
       const int ray_x = x + i % kTilePx, ray_y = y + i / kTilePx;
@@ -155,7 +155,7 @@ class Caster {
 
   [[nodiscard]] std::uint32_t ContourEdge(std::int32_t caster, std::int32_t edge) const {
     if (caster == TileHits::kNoCamera) return 0;
-    const EdgePencil& pencil = pencils_.Caster(static_cast<std::size_t>(caster));
+    const EpipolarEdges& pencil = pencils_.Caster(static_cast<std::size_t>(caster));
     return pencil.cast().edges[static_cast<std::size_t>(edge)].edge;
   }
 

@@ -196,7 +196,7 @@ class Course {
     }
   }
 
-  void Add(const EdgePencil& pencil) {
+  void Add(const EpipolarEdges& pencil) {
     const std::size_t caster = words_.size();
     const bool is_object = pencil.is_concentric() ? pencil.IsObjectAlong(uv_) : pencil.starts_inside();
     words_.push_back(is_object ? Word::kInside : Word::kOutside);

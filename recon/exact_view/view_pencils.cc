@@ -73,9 +73,10 @@ ViewPencils::ViewPencils(const VisualHull& hull, const ViewRays& rays)
     const Silhouette& silhouette = *hull.silhouettes()[i];
     const double focal_px = silhouette.plane().focal_px();
     const core::CameraModel& camera = hull.rig().cameras[i];
-    cameras_[i] = std::make_unique<const EdgePencil>(silhouette.labels(), focal_px, camera, rays);
+    cameras_[i] = std::make_unique<const EpipolarEdges>(silhouette.labels(), focal_px, camera, rays);
     if (!sights_.empty())
-      sights_[i] = std::make_unique<const EdgePencil>(silhouette.plane().outline(), focal_px, camera, rays);
+      sights_[i] =
+          std::make_unique<const EpipolarEdges>(silhouette.plane().outline(), focal_px, camera, rays);
   });
 }
 
@@ -109,11 +110,11 @@ void ViewPencils::Divide(int x, int y, int size, std::vector<PixelSquare>* squar
       if (part_x < right && part_y < bottom) Divide(part_x, part_y, half, squares);
 }
 
-EdgePencil::KeyRange ViewPencils::KeysInWorkspace(const Eigen::AlignedBox2d& box) const {
-  EdgePencil::KeyRange keys;
+EpipolarEdges::KeyRange ViewPencils::KeysInWorkspace(const Eigen::AlignedBox2d& box) const {
+  EpipolarEdges::KeyRange keys;
   keys.most = key_end();
   for (const Face& face : faces_) {
-    if (face.kind == Face::Kind::kBeside && HighestOf(face.bound, box) < 0.0) return EdgePencil::kNoKeys;
+    if (face.kind == Face::Kind::kBeside && HighestOf(face.bound, box) < 0.0) return EpipolarEdges::kNoKeys;
     if (face.kind == Face::Kind::kNotBefore) keys.least = std::max(keys.least, LowestOf(face.bound, box));
     if (face.kind == Face::Kind::kNotAfter) keys.most = std::min(keys.most, HighestOf(face.bound, box));
   }
@@ -125,10 +126,10 @@ EdgePencil::KeyRange ViewPencils::KeysInWorkspace(const Eigen::AlignedBox2d& box
 
 // True if no ray of the box is in the workspace and in all cameras' objects at one place.
 bool ViewPencils::MissesHull(const Eigen::AlignedBox2d& box) const {
-  EdgePencil::KeyRange keys = KeysInWorkspace(box);
+  EpipolarEdges::KeyRange keys = KeysInWorkspace(box);
   for (const auto& pencil : cameras_) {
     if (keys.is_empty()) return true;
-    const EdgePencil::KeyRange object = pencil->ObjectKeys(box);
+    const EpipolarEdges::KeyRange object = pencil->ObjectKeys(box);
     keys = {std::max(keys.least, object.least), std::min(keys.most, object.most)};
   }
   return keys.is_empty();

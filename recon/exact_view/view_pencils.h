@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-#include "recon/exact_view/edge_pencil.h"
+#include "recon/exact_view/epipolar_edges.h"
 #include "recon/exact_view/hull_view.h"
 #include "recon/exact_view/tile_cast.h"
 #include "recon/exact_view/view_rays.h"
@@ -31,7 +31,7 @@ struct PixelSquare {
 // hull and rays. Immutable. Thread: any.
 class ViewPencils {
  public:
-  using Pencils = std::vector<std::unique_ptr<const EdgePencil>>;
+  using Pencils = std::vector<std::unique_ptr<const EpipolarEdges>>;
   static constexpr int kSquarePx = 8;
   static constexpr int kLargestSquarePx = 64;
 
@@ -54,7 +54,7 @@ class ViewPencils {
   [[nodiscard]] std::int64_t edges() const;
 
   // Cameras count first, sights after them.
-  [[nodiscard]] const EdgePencil& Caster(std::size_t number) const {
+  [[nodiscard]] const EpipolarEdges& Caster(std::size_t number) const {
     return number < cameras_.size() ? *cameras_[number] : *sights_[number - cameras_.size()];
   }
 
@@ -75,7 +75,7 @@ class ViewPencils {
 
   [[nodiscard]] static std::array<Face, 6> FacesOf(const Eigen::AlignedBox3d& box, const ViewRays& rays);
   void Divide(int x, int y, int size, std::vector<PixelSquare>* squares) const;
-  [[nodiscard]] EdgePencil::KeyRange KeysInWorkspace(const Eigen::AlignedBox2d& box) const;
+  [[nodiscard]] EpipolarEdges::KeyRange KeysInWorkspace(const Eigen::AlignedBox2d& box) const;
   [[nodiscard]] bool MissesHull(const Eigen::AlignedBox2d& box) const;
 
   const VisualHull& hull_;

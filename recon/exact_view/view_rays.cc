@@ -10,7 +10,7 @@
 #include <optional>
 
 #include "core/error.h"
-#include "recon/contours/picture_plane.h"
+#include "recon/contours/undistorted_plane.h"
 #include "recon/exact_view/tile_cast.h"
 
 namespace elbowroom::recon {
@@ -75,7 +75,7 @@ void ViewRays::FillTile(int x, int y, float* u, float* v) const {
 }
 
 std::shared_ptr<const ViewRays::Lens> ViewRays::LensOf(const core::CameraModel& view) {
-  const PicturePlane plane(view);
+  const UndistortedPlane plane(view);
   const auto width = static_cast<std::size_t>(view.width_px());
   const int tiles_across = (view.width_px() + kBoxPx - 1) / kBoxPx;
   const int tiles_down = (view.height_px() + kBoxPx - 1) / kBoxPx;

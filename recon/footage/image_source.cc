@@ -6,12 +6,12 @@
 #include <utility>
 #include <vector>
 
-#include "recon/images/image_file.h"
 #include "recon/footage/image_sequence.h"
 #include "recon/footage/live_camera.h"
-#include "recon/rig_files/source_location.h"
 #include "recon/footage/source_subject.h"
 #include "recon/footage/video_file.h"
+#include "recon/images/image_file.h"
+#include "recon/rig_files/source_location.h"
 
 namespace elbowroom::recon {
 namespace {

@@ -10,8 +10,8 @@
 #include <string>
 #include <utility>
 
-#include "recon/rig_files/source_location.h"
 #include "recon/footage/video_decoder.h"
+#include "recon/rig_files/source_location.h"
 
 namespace elbowroom::recon {
 namespace {

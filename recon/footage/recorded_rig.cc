@@ -8,10 +8,10 @@
 
 #include "core/error.h"
 #include "recon/footage/background_reader.h"
-#include "recon/images/image_file.h"
 #include "recon/footage/image_sequence.h"
-#include "recon/images/mask_image.h"
 #include "recon/footage/per_camera.h"
+#include "recon/images/image_file.h"
+#include "recon/images/mask_image.h"
 
 namespace elbowroom::recon {
 namespace {

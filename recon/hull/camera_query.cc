@@ -99,7 +99,7 @@ std::optional<bool> LabelOfShape(const core::CameraModel& camera, double focal_p
   const double slack_px = kPositionSlackPx + focal_px * rounding_mm * farthest_mm / (least_z * least_z);
   const ConvexCorners& corners =
       shape.kind == WorldShape::Kind::kBox ? ConvexCorners::OfBox() : ConvexCorners::OfTriangle();
-  if (!IsClearOfEdges(view, corners, labels.Raster(), slack_px)) return std::nullopt;
+  if (!IsClearOfEdges(view, corners, labels.CellsView(), slack_px)) return std::nullopt;
   return labels.IsObject(origin.head<2>() * (focal_px / origin.z()));
 }
 

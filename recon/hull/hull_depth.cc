@@ -80,7 +80,7 @@ std::optional<HullDepth> DepthAt(const VisualHull& hull, const Vector3d& x_in_wo
   HullDepth sight{-1.0, x_in_world, {}};
   for (std::size_t i = 0; i < hull.silhouettes().size(); ++i) {
     const core::CameraModel& camera = hull.rig().cameras[i];
-    const PicturePlane& plane = hull.silhouettes()[i]->plane();
+    const UndistortedPlane& plane = hull.silhouettes()[i]->plane();
     const Vector3d x_in_cam = camera.cam_from_world() * x_in_world;
     const auto depth_in = [&](const Contour& contour) {
       return DepthIn(camera, i, NearestSurface(contour, plane.focal_px(), x_in_cam), x_in_world);

@@ -137,7 +137,7 @@ std::vector<Event> EventsAlong(const VisualHull& hull, const Ray& ray, Votes* vo
     const core::RigidTransform& cam_from_world = hull.rig().cameras[i].cam_from_world();
     const RayInCam in_cam{cam_from_world * ray.origin_in_world,
                           cam_from_world.rotation * ray.direction_in_world};
-    const PicturePlane& plane = hull.silhouettes()[i]->plane();
+    const UndistortedPlane& plane = hull.silhouettes()[i]->plane();
     const auto add = [&](const ContourMap& labels, bool is_outline) {
       if (PassesThroughCentre(in_cam)) {
         votes->Set(i, is_outline, AddCentreEvent(labels, plane.focal_px(), in_cam, i, is_outline, &events));

@@ -69,7 +69,8 @@ Vector3d CutTriangle::CentreOf(int piece) const {
   return a + centres.at[0][i] / sides * (b - a) + centres.at[1][i] / sides * (c - a);
 }
 
-std::uint64_t PiecesInHull(const VisualHull& hull, const CutTriangle& triangle, const OpenCameras& open) {
+std::uint64_t PiecesInHull(const VisualHull& hull, const CutTriangle& triangle,
+                           const UndecidedCameras& open) {
   core::Require(triangle.sides >= 1 && triangle.sides <= CutTriangle::kMostSides, "1 to 8 pieces a side");
   if (hull.IsEmpty()) return 0;
   const GridPoints& centres = Centres(triangle.sides);
@@ -79,14 +80,14 @@ std::uint64_t PiecesInHull(const VisualHull& hull, const CutTriangle& triangle, 
   for (std::size_t i = 0; i < silhouettes.size() && inside != 0; ++i) {
     if (!open.Asks(i)) continue;
     const GridView view = ViewOf(hull.rig().cameras[i], silhouettes[i]->plane().focal_px(), triangle);
-    inside &= LabelPoints(view, silhouettes[i]->labels().Raster(), centres);
+    inside &= LabelPoints(view, silhouettes[i]->labels().CellsView(), centres);
   }
   if (!ExteriorIsObject(hull.rig()) || !open.asks_sights) return inside;
   std::uint64_t seen = 0;
   for (std::size_t i = 0; i < silhouettes.size() && (inside & ~seen) != 0; ++i) {
-    const PicturePlane& plane = silhouettes[i]->plane();
-    seen |= LabelPoints(ViewOf(hull.rig().cameras[i], plane.focal_px(), triangle), plane.outline().Raster(),
-                        centres);
+    const UndistortedPlane& plane = silhouettes[i]->plane();
+    seen |= LabelPoints(ViewOf(hull.rig().cameras[i], plane.focal_px(), triangle),
+                        plane.outline().CellsView(), centres);
   }
   return inside & seen;
 }

@@ -22,6 +22,6 @@ struct CutTriangle {
 // Bit i: the hull contains the centre of piece i, as VisualHull::Contains has it but for the rounding of the
 // centre's coordinates; only open cameras are asked. Thread: any.
 [[nodiscard]] std::uint64_t PiecesInHull(const VisualHull& hull, const CutTriangle& triangle,
-                                         const OpenCameras& open);
+                                         const UndecidedCameras& open);
 
 }  // namespace elbowroom::recon

@@ -43,7 +43,7 @@ PointAnswer SightsOf(const VisualHull& hull, const Eigen::Vector3d& x_in_world) 
   double seen_mm = 0.0, unseen_mm = kInfinity;
   bool is_seen = false;
   for (std::size_t i = 0; i < hull.silhouettes().size(); ++i) {
-    const PicturePlane& plane = hull.silhouettes()[i]->plane();
+    const UndistortedPlane& plane = hull.silhouettes()[i]->plane();
     const BallLabel sight = AskPlane(hull.rig().cameras[i], plane.focal_px(), plane.outline(), x_in_world);
     is_seen = is_seen || sight.is_object;
     if (sight.is_object) {
@@ -89,12 +89,12 @@ VisualHull::VisualHull(std::shared_ptr<const core::Rig> rig,
 
 bool VisualHull::Contains(const Eigen::Vector3d& x_in_world) const { return Contains(x_in_world, {}); }
 
-bool VisualHull::Contains(const Eigen::Vector3d& x_in_world, const OpenCameras& open) const {
+bool VisualHull::Contains(const Eigen::Vector3d& x_in_world, const UndecidedCameras& open) const {
   if (is_empty_ || !rig_->workspace_mm.contains(x_in_world)) return false;
   // Under `outside` an object pixel is a seen one.
   bool any_sees = !ExteriorIsObject(*rig_) || !open.asks_sights;
   for (std::size_t i = 0; i < silhouettes_.size(); ++i) {
-    const PicturePlane& plane = silhouettes_[i]->plane();
+    const UndistortedPlane& plane = silhouettes_[i]->plane();
     const core::CameraModel& camera = rig_->cameras[i];
     if (open.Asks(i) && !IsObjectTo(camera, plane.focal_px(), silhouettes_[i]->labels(), x_in_world))
       return false;
@@ -154,12 +154,12 @@ bool VisualHull::MayBeDeeper(const Eigen::Vector3d& x_in_world, double radius_mm
 }
 
 BallAnswer VisualHull::Classify(const Eigen::Vector3d& center_in_world, double radius_mm) const {
-  OpenCameras open;
+  UndecidedCameras open;
   return Classify(center_in_world, radius_mm, &open);
 }
 
 BallAnswer VisualHull::Classify(const Eigen::Vector3d& center_in_world, double radius_mm,
-                                OpenCameras* open) const {
+                                UndecidedCameras* open) const {
   if (is_empty_) return BallAnswer::kOutside;
   const Eigen::AlignedBox3d& workspace_mm = rig_->workspace_mm;
   const bool is_in_workspace = workspace_mm.contains(center_in_world);
@@ -196,7 +196,7 @@ BallAnswer VisualHull::Classify(const Eigen::Vector3d& center_in_world, double r
   return is_inside ? BallAnswer::kInside : BallAnswer::kMixed;
 }
 
-BallAnswer VisualHull::Classify(const WorldShape& shape, OpenCameras* open) const {
+BallAnswer VisualHull::Classify(const WorldShape& shape, UndecidedCameras* open) const {
   if (is_empty_) return BallAnswer::kOutside;
   const Eigen::AlignedBox3d bounds = shape.Bounds();
   const Eigen::Vector3d rounding =
@@ -244,7 +244,7 @@ BoundingEdge VisualHull::EdgeAt(const Eigen::Vector3d& surface_point_in_world) c
 }
 
 FrameHull NextHull(const std::shared_ptr<const VisualHull>& last, const std::shared_ptr<const core::Rig>& rig,
-                   const PicturePlanes& planes, std::span<const core::SoftMask> masks) {
+                   const UndistortedPlanes& planes, std::span<const core::SoftMask> masks) {
   core::Require(rig != nullptr && masks.size() == rig->cameras.size() && planes.size() == masks.size(),
                 "one mask and one plane a camera");
   core::Require(!last || last->shared_rig() == rig, "frames of one rig");
@@ -267,7 +267,7 @@ FrameHull NextHull(const std::shared_ptr<const VisualHull>& last, const std::sha
   return next;
 }
 
-VisualHull MakeVisualHull(const std::shared_ptr<const core::Rig>& rig, const PicturePlanes& planes,
+VisualHull MakeVisualHull(const std::shared_ptr<const core::Rig>& rig, const UndistortedPlanes& planes,
                           std::span<const core::SoftMask> masks) {
   return *NextHull(nullptr, rig, planes, masks).hull;
 }
@@ -275,7 +275,7 @@ VisualHull MakeVisualHull(const std::shared_ptr<const core::Rig>& rig, const Pic
 VisualHull MakeVisualHull(const std::shared_ptr<const core::Rig>& rig,
                           std::span<const core::SoftMask> masks) {
   core::Require(rig != nullptr, "a rig");
-  const PicturePlanes planes = MakePicturePlanes(*rig);
+  const UndistortedPlanes planes = MakeUndistortedPlanes(*rig);
   return MakeVisualHull(rig, planes, masks);
 }
 

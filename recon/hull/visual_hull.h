@@ -35,7 +35,7 @@ struct BoundingEdge {
 
 // Who may still have something to say of a set of points: a camera to which all of a larger set is object
 // needn't be asked of a smaller one.
-struct OpenCameras {
+struct UndecidedCameras {
   static constexpr std::size_t kMost = 64;  // cameras beyond are always asked
 
   std::uint64_t bits = ~std::uint64_t{0};
@@ -72,7 +72,7 @@ class VisualHull {
 
   // The paper's volume query.
   [[nodiscard]] bool Contains(const Eigen::Vector3d& x_in_world) const;
-  [[nodiscard]] bool Contains(const Eigen::Vector3d& x_in_world, const OpenCameras& open) const;
+  [[nodiscard]] bool Contains(const Eigen::Vector3d& x_in_world, const UndecidedCameras& open) const;
 
   // Contains(), and how far around the point the answer is sure to hold.
   [[nodiscard]] PointAnswer Probe(const Eigen::Vector3d& x_in_world) const;
@@ -89,12 +89,12 @@ class VisualHull {
   // The same of a set of points in the ball, of which only the open cameras need to be asked; closes those to
   // which all of the ball is object, for the set's own parts.
   [[nodiscard]] BallAnswer Classify(const Eigen::Vector3d& center_in_world, double radius_mm,
-                                    OpenCameras* open) const;
+                                    UndecidedCameras* open) const;
 
   // The same of a box or a triangle, by what it covers in each picture: certain where a ball around it is
   // mixed, and a few times as dear. Held to account by ball_query_test. Under `abstain` it is seen by a
   // camera only if `open` knows that already.
-  [[nodiscard]] BallAnswer Classify(const WorldShape& shape, OpenCameras* open) const;
+  [[nodiscard]] BallAnswer Classify(const WorldShape& shape, UndecidedCameras* open) const;
 
   // Which silhouette ends the hull at a point on its surface; the normal is that of the plane
   // through the camera's centre and the contour's tangent there (FitTangent).
@@ -123,13 +123,14 @@ struct FrameHull {
 
 // The hull of a frame's masks; `last`: the one of the frame before, or null. Throws: as MakeVisualHull.
 [[nodiscard]] FrameHull NextHull(const std::shared_ptr<const VisualHull>& last,
-                                 const std::shared_ptr<const core::Rig>& rig, const PicturePlanes& planes,
+                                 const std::shared_ptr<const core::Rig>& rig, const UndistortedPlanes& planes,
                                  std::span<const core::SoftMask> masks);
 
 // One silhouette a mask, in parallel. Throws: core::Error{kCamera} naming the camera when a mask's size isn't
 // the camera's. The overloads without planes work them out anew: for a single frame.
 [[nodiscard]] VisualHull MakeVisualHull(const std::shared_ptr<const core::Rig>& rig,
-                                        const PicturePlanes& planes, std::span<const core::SoftMask> masks);
+                                        const UndistortedPlanes& planes,
+                                        std::span<const core::SoftMask> masks);
 [[nodiscard]] VisualHull MakeVisualHull(const std::shared_ptr<const core::Rig>& rig,
                                         std::span<const core::SoftMask> masks);
 [[nodiscard]] VisualHull MakeVisualHull(const std::shared_ptr<const core::Rig>& rig,

@@ -80,7 +80,7 @@ class Search {
   // By one camera, all of the ball.
   bool IsSeen(const Eigen::Vector3d& center, double radius_mm) {
     for (std::size_t i = 0; i < hull_.silhouettes().size(); ++i) {
-      const PicturePlane& plane = hull_.silhouettes()[i]->plane();
+      const UndistortedPlane& plane = hull_.silhouettes()[i]->plane();
       const BallLabel seen =
           AskPlane(hull_.rig().cameras[i], plane.focal_px(), plane.outline(), center, radius_mm);
       ++queries_;

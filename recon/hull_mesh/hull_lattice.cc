@@ -53,8 +53,8 @@ HullLattice::HullLattice(const VisualHull& hull, const HullGrid& grid) : hull_(h
   if (ExteriorIsObject(hull.rig())) outlines_.resize(cameras);
   tbb::parallel_for(std::size_t{0}, cameras, [&](std::size_t i) {
     const Silhouette& silhouette = *hull.silhouettes()[i];
-    rasters_[i] = silhouette.labels().Raster();
-    if (!outlines_.empty()) outlines_[i] = silhouette.plane().outline().Raster();
+    rasters_[i] = silhouette.labels().CellsView();
+    if (!outlines_.empty()) outlines_[i] = silhouette.plane().outline().CellsView();
   });
   for (std::size_t i = 0; i < cameras; ++i)
     views_.push_back(ViewGrid(hull.rig().cameras[i], hull.silhouettes()[i]->plane().focal_px(), grid));
@@ -125,7 +125,8 @@ void HullLattice::FindExits(const HullBlock& block, std::span<const BlockEdge> e
     const std::span shares(all_shares.at.data(), from.count);
     std::ranges::fill(shares, block.is_seen ? kNoCrossing : kUnknownCrossing);
     if (!block.is_in_workspace) OfferFaces(block, edges.first(from.count), shares);
-    for (const std::uint8_t i : block.cameras) OfferCrossings(views_[i], rasters_[i], from, to, &all_shares);
+    for (const std::uint8_t i : block.cameras)
+      LowerToCrossings(views_[i], rasters_[i], from, to, &all_shares);
     for (std::size_t i = 0; i < from.count; ++i) {
       const Vector3d inside = grid_.AtSteps(PointOf(from, i)), outside = grid_.AtSteps(PointOf(to, i));
       const bool is_exact = shares[i] >= 0.0 && shares[i] <= 1.0;

@@ -7,9 +7,9 @@
 #include <span>
 #include <vector>
 
+#include "recon/hull/visual_hull.h"
 #include "recon/hull_mesh/hull_blocks.h"
 #include "recon/hull_mesh/point_labels.h"
-#include "recon/hull/visual_hull.h"
 
 namespace elbowroom::recon {
 
@@ -45,8 +45,8 @@ class HullLattice {
   const VisualHull& hull_;
   const HullGrid& grid_;
   std::vector<GridView> views_;  // by camera, as these
-  std::vector<LabelRaster> rasters_;
-  std::vector<LabelRaster> outlines_;  // empty where the rig doesn't ask for sight
+  std::vector<ContourCellsView> rasters_;
+  std::vector<ContourCellsView> outlines_;  // empty where the rig doesn't ask for sight
   // The grid points in the workspace: along each axis from `first` to `last`.
   GridPoint first_, last_;
 };

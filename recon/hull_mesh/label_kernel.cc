@@ -55,7 +55,7 @@ HWY_INLINE unsigned BitsOf(VI label, std::int32_t bit) {
 
 class Cells {
  public:
-  explicit Cells(const LabelRaster& raster)
+  explicit Cells(const ContourCellsView& raster)
       : labels_(reinterpret_cast<const std::int32_t*>(raster.labels.data())),
         origin_x_(Set(raster.origin_x_px * raster.cells_per_px)),
         origin_y_(Set(raster.origin_y_px * raster.cells_per_px)),
@@ -90,7 +90,7 @@ class Cells {
 
 class Labeller {
  public:
-  Labeller(const LabelRaster& raster, BlockBits* bits, BlockBits* mixed)
+  Labeller(const ContourCellsView& raster, BlockBits* bits, BlockBits* mixed)
       : cells_(raster), bits_(*bits), mixed_(*mixed) {}
 
   // A group whose points are those of `points_from(i)`, i points on. One without a bit isn't asked.
@@ -101,8 +101,8 @@ class Labeller {
     if (bits != 0) {
       for (std::size_t i = 0; i < 8; i += hn::Lanes(Floats())) {
         const VI label = cells_.LabelsOf(points_from(i));
-        object |= BitsOf(label, LabelRaster::kObject) << i;
-        unsure |= BitsOf(label, LabelRaster::kMixed) << i;
+        object |= BitsOf(label, ContourCellsView::kObject) << i;
+        unsure |= BitsOf(label, ContourCellsView::kMixed) << i;
       }
       ++asked_;
     }
@@ -133,7 +133,7 @@ constexpr FarPoints MakeFarPoints() {
 constexpr FarPoints kFarPoints = MakeFarPoints();
 
 // `block`: x and y in cells times z; from its own corner.
-std::size_t Label(const GridView& block, const LabelRaster& raster, BlockBits* bits, BlockBits* mixed) {
+std::size_t Label(const GridView& block, const ContourCellsView& raster, BlockBits* bits, BlockBits* mixed) {
   const Floats f;
   const GridView view = block;  // no byte that is written may be part of it
   Labeller labeller(raster, bits, mixed);
@@ -178,7 +178,7 @@ namespace {
 // Whether the kernel's float32 puts all points of a block in front of the camera, each less than kTouchCells
 // from where it is. A coordinate is rounded to 2^-24 of itself some six times on the way: its terms, their
 // sums; so is what the division leaves, and the place among the cells.
-bool FloatsWillDo(const GridView& block, const LabelRaster& raster) {
+bool FloatsWillDo(const GridView& block, const ContourCellsView& raster) {
   constexpr double kRounding = 8.0 / (1 << 24);
   std::array<double, 3> error{};  // of a coordinate's terms together
   double least_z = block.origin[2];
@@ -197,12 +197,12 @@ bool FloatsWillDo(const GridView& block, const LabelRaster& raster) {
       std::max({std::abs(left), std::abs(top), std::abs(left + raster.width), std::abs(top + raster.height)});
   const double error_cells =
       (std::max(error[0], error[1]) + 2.0 * reach * error[2]) / least_z + kRounding * reach;
-  return error_cells < LabelRaster::kTouchCells;
+  return error_cells < ContourCellsView::kTouchCells;
 }
 
 }  // namespace
 
-std::size_t LabelByCells(const GridView& grid, const GridPoint& corner, const LabelRaster& raster,
+std::size_t LabelByCells(const GridView& grid, const GridPoint& corner, const ContourCellsView& raster,
                          BlockBits* bits, BlockBits* mixed) {
   GridView block;
   for (std::size_t k = 0; k < 3; ++k) {

@@ -5,9 +5,9 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "recon/contours/contour_cells_view.h"
 #include "recon/contours/contour_kernel.h"
 #include "recon/hull_mesh/hull_blocks.h"
-#include "recon/contours/label_raster.h"
 
 namespace elbowroom::recon {
 
@@ -42,11 +42,11 @@ struct BlockBits {
 static_assert(kBlockCells == 8, "a row of cells is a group of points");
 
 // Clears the bits of points of the block at `corner` that are in cells of background; those in mixed cells
-// stay, and are set in `mixed`. In float32, whose error stays below LabelRaster::kTouchCells: a cell that
-// isn't mixed answers for the points near it as well. Where that can't be said (a block that reaches behind
-// the camera, or far beside its axis) all points are mixed. Groups without a bit aren't asked; returns how
-// many were.
-std::size_t LabelByCells(const GridView& grid, const GridPoint& corner, const LabelRaster& raster,
+// stay, and are set in `mixed`. In float32, whose error stays below ContourCellsView::kTouchCells: a cell
+// that isn't mixed answers for the points near it as well. Where that can't be said (a block that reaches
+// behind the camera, or far beside its axis) all points are mixed. Groups without a bit aren't asked; returns
+// how many were.
+std::size_t LabelByCells(const GridView& grid, const GridPoint& corner, const ContourCellsView& raster,
                          BlockBits* bits, BlockBits* mixed);
 
 }  // namespace elbowroom::recon

@@ -14,7 +14,7 @@ static_assert(std::endian::native == std::endian::little, "bit i of a group's by
 // Points that wait for their labels, and whose bits they are.
 class Waiting {
  public:
-  Waiting(const GridView& grid, const LabelRaster& raster, const GridPoint& corner, BlockBits* bits)
+  Waiting(const GridView& grid, const ContourCellsView& raster, const GridPoint& corner, BlockBits* bits)
       : grid_(grid),
         raster_(raster),
         corner_{double(corner.x()), double(corner.y()), double(corner.z())},
@@ -39,7 +39,7 @@ class Waiting {
 
  private:
   const GridView& grid_;
-  const LabelRaster& raster_;
+  const ContourCellsView& raster_;
   const std::array<double, 3> corner_;
   BlockBits& bits_;
   GridPoints points_;
@@ -77,7 +77,7 @@ GridView ViewGrid(const core::CameraModel& camera, double focal_px, const HullGr
   return view;
 }
 
-void SettleMixed(const GridView& grid, const LabelRaster& raster, const GridPoint& corner,
+void SettleMixed(const GridView& grid, const ContourCellsView& raster, const GridPoint& corner,
                  const BlockBits& mixed, BlockBits* bits) {
   Waiting waiting(grid, raster, corner, bits);
   VisitCommon(mixed, BlockBits(*bits), [&](std::size_t bit) { waiting.Add(bit); });

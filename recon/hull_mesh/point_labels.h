@@ -4,10 +4,10 @@
 #include <cstdint>
 
 #include "core/camera_model.h"
+#include "recon/contours/contour_cells_view.h"
 #include "recon/contours/contour_kernel.h"
 #include "recon/hull_mesh/hull_blocks.h"
 #include "recon/hull_mesh/label_kernel.h"
-#include "recon/contours/label_raster.h"
 
 namespace elbowroom::recon {
 
@@ -16,7 +16,7 @@ namespace elbowroom::recon {
 
 // Clears the bits of those points in `mixed`, of the block at `corner`, that the raster's contour doesn't
 // call object, exactly.
-void SettleMixed(const GridView& grid, const LabelRaster& raster, const GridPoint& corner,
+void SettleMixed(const GridView& grid, const ContourCellsView& raster, const GridPoint& corner,
                  const BlockBits& mixed, BlockBits* bits);
 
 }  // namespace elbowroom::recon

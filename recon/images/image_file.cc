@@ -12,8 +12,8 @@
 #include <string_view>
 #include <utility>
 
-#include "core/system/child_process.h"
 #include "core/error.h"
+#include "core/system/child_process.h"
 
 namespace elbowroom::recon {
 namespace {

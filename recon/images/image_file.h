@@ -10,8 +10,8 @@
 #include <string>
 
 #include "recon/decoding/picture_codecs.h"
-#include "recon/images/picture_header.h"
 #include "recon/decoding/picture_worker.h"
+#include "recon/images/picture_header.h"
 
 namespace elbowroom::recon {
 

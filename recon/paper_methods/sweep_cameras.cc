@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "core/error.h"
-#include "recon/paper_methods/straightened_mask.h"
+#include "recon/paper_methods/undistorted_mask.h"
 
 namespace elbowroom::recon {
 namespace {
@@ -68,7 +68,7 @@ std::vector<SweepCamera> MakeSweepCameras(const core::Rig& rig, std::span<const 
       cameras[i] = {camera, cam_from_view, MakeCoverageTexture(masks[i]), BlockOccupancy(masks[i].mask)};
       return;
     }
-    StraightenedMask straight = Straighten(camera, masks[i], undistortion_grid, exterior_is_object);
+    UndistortedMask straight = Undistort(camera, masks[i], undistortion_grid, exterior_is_object);
     cameras[i] = {std::move(straight.camera), cam_from_view, MakeCoverageTexture(straight.mask),
                   BlockOccupancy(straight.mask.mask)};
   });

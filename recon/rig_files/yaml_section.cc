@@ -6,8 +6,8 @@
 #include <cmath>
 #include <cstdint>
 
-#include "core/system/configuration_file.h"
 #include "core/spelling.h"
+#include "core/system/configuration_file.h"
 
 namespace elbowroom::recon {
 namespace {

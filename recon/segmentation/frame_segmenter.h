@@ -7,14 +7,14 @@
 #include "core/bit_mask.h"
 #include "core/rig.h"
 #include "core/soft_mask.h"
-#include "recon/segmentation/blob_support.h"
 #include "recon/footage/frame_set.h"
+#include "recon/segmentation/cross_camera_blobs.h"
 #include "recon/segmentation/segmentation.h"
 
 namespace elbowroom::recon {
 
 // One segmenter a camera that has a background, and the rig, whose cameras confirm each other: blobs that
-// can't be part of the hull are dropped from segmented pictures (BlobSupport). Immutable. Thread: any.
+// can't be part of the hull are dropped from segmented pictures (CrossCameraBlobs). Immutable. Thread: any.
 class FrameSegmenter {
  public:
   // Throws: core::Error{kRange} as SegmentationOptions::Validate(); core::Error as core::Rig::Validate().
@@ -37,7 +37,7 @@ class FrameSegmenter {
   void DropUnconfirmed(const FrameSet& frames, std::vector<core::SoftMask>* masks) const;
 
   std::vector<std::optional<Segmenter>> segmenters_;
-  BlobSupport support_;
+  CrossCameraBlobs support_;
 };
 
 }  // namespace elbowroom::recon

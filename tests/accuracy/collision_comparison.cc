@@ -9,9 +9,9 @@
 
 #include "core/bvh.h"
 #include "core/error.h"
-#include "recon/paper_methods/coverage_hull.h"
 #include "recon/gl/paper_methods/triangle_viewports_gl.h"
 #include "recon/hull/visual_hull.h"
+#include "recon/paper_methods/coverage_hull.h"
 #include "review/contacts.h"
 #include "review/paper_methods/two_triangle_response.h"
 #include "tests/accuracy/curtain_scene.h"

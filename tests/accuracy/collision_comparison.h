@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "recon/synthetic/view_scene.h"
 #include "recon/paper_methods/triangle_viewports.h"
+#include "recon/synthetic/view_scene.h"
 #include "tests/accuracy/interleaved_timing.h"
 
 namespace elbowroom::accuracy {

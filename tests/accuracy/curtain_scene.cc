@@ -28,7 +28,7 @@ core::SharedMesh MakeCurtain(int across, int up) {
 
 CurtainSight CurtainSightOf(const core::Rig& rig, const std::vector<recon::SyntheticObject>& objects) {
   const auto shared = std::make_shared<const core::Rig>(rig);
-  recon::PicturePlanes planes = recon::MakePicturePlanes(rig);
+  recon::UndistortedPlanes planes = recon::MakeUndistortedPlanes(rig);
   std::vector<core::SoftMask> masks = recon::TrueMasks(rig, objects);
   recon::VisualHull hull = recon::MakeVisualHull(shared, planes, masks);
   recon::CoverageHull textures(rig, masks);

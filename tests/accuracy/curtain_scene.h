@@ -10,9 +10,9 @@
 #include "core/rigid_transform.h"
 #include "core/soft_mask.h"
 #include "core/triangle_mesh.h"
+#include "recon/hull/visual_hull.h"
 #include "recon/paper_methods/coverage_hull.h"
 #include "recon/synthetic/solids.h"
-#include "recon/hull/visual_hull.h"
 
 namespace elbowroom::accuracy {
 
@@ -23,7 +23,7 @@ namespace elbowroom::accuracy {
 // A scene's masks, and both hulls of them.
 struct CurtainSight {
   std::shared_ptr<const core::Rig> rig;
-  recon::PicturePlanes planes;
+  recon::UndistortedPlanes planes;
   std::vector<core::SoftMask> masks;
   recon::VisualHull hull;
   recon::CoverageHull textures;

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "cad_import/mesh_file.h"
-#include "recon/gl/scene/scene_renderer.h"
 #include "recon/appearance/orbit_camera.h"
+#include "recon/gl/scene/scene_renderer.h"
 #include "tests/accuracy/bumpy_ball.h"
 #include "tests/accuracy/interleaved_timing.h"
 #include "tests/accuracy/measurements.h"

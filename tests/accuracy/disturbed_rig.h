@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "core/rig.h"
-#include "recon/images/depth_map.h"
 #include "recon/hull/ray.h"
+#include "recon/images/depth_map.h"
 #include "recon/synthetic/solids.h"
 #include "tests/oracles/analytic_hull.h"
 

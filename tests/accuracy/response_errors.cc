@@ -5,8 +5,8 @@
 
 #include "core/bvh.h"
 #include "core/units.h"
-#include "recon/paper_methods/coverage_hull.h"
 #include "recon/hull/visual_hull.h"
+#include "recon/paper_methods/coverage_hull.h"
 #include "review/contacts.h"
 #include "review/paper_methods/two_triangle_response.h"
 #include "tests/accuracy/collision_comparison.h"

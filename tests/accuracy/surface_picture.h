@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "core/camera_model.h"
-#include "recon/images/depth_map.h"
 #include "recon/hull/ray.h"
+#include "recon/images/depth_map.h"
 
 namespace elbowroom::accuracy {
 

@@ -6,8 +6,8 @@
 #include <memory>
 
 #include "recon/exact_view/hull_view.h"
-#include "recon/synthetic/view_scene.h"
 #include "recon/hull/visual_hull.h"
+#include "recon/synthetic/view_scene.h"
 
 namespace elbowroom::accuracy {
 namespace {
@@ -49,7 +49,7 @@ core::CameraModel ViewOf(const core::CameraModel& standard, const CostOptions& o
 // What is counted: masks in memory to depth, after the hull of the frame before, if any.
 [[gnu::noinline]] recon::HullView CountedView(const std::shared_ptr<const recon::VisualHull>& last,
                                               const std::shared_ptr<const core::Rig>& rig,
-                                              const recon::PicturePlanes& planes,
+                                              const recon::UndistortedPlanes& planes,
                                               const std::vector<core::SoftMask>& masks,
                                               const recon::ViewRays& view) {
   return recon::ViewHull(*recon::NextHull(last, rig, planes, masks).hull, view,
@@ -67,7 +67,7 @@ void Run(const CostOptions& options) {
   const Eigen::Vector3d half = 0.5 * options.workspace_size * scene.rig.workspace_mm.sizes();
   scene.rig.workspace_mm = {center - half, center + half};
   const auto rig = std::make_shared<const core::Rig>(scene.rig);
-  const recon::PicturePlanes planes = recon::MakePicturePlanes(*rig);
+  const recon::UndistortedPlanes planes = recon::MakeUndistortedPlanes(*rig);
   std::shared_ptr<const recon::VisualHull> last;
   if (options.unchanged) {
     last = recon::NextHull(nullptr, rig, planes, masks).hull;

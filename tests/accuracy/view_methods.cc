@@ -4,10 +4,10 @@
 
 #include <utility>
 
+#include "recon/exact_view/hull_view.h"
 #include "recon/gl/exact_view/exact_view_gl.h"
 #include "recon/gl/paper_methods/plane_sweep_gl.h"
 #include "recon/hull_mesh/hull_mesh.h"
-#include "recon/exact_view/hull_view.h"
 #include "recon/paper_methods/plane_sweep.h"
 #include "recon/synthetic/view_scene.h"
 #include "tests/accuracy/drawn_mesh.h"
@@ -62,7 +62,7 @@ ViewTask::ViewTask(std::shared_ptr<const core::Rig> of_rig, std::vector<core::So
     : rig(std::move(of_rig)),
       masks(std::move(of_masks)),
       view(std::move(of_view)),
-      planes(recon::MakePicturePlanes(*rig)),
+      planes(recon::MakeUndistortedPlanes(*rig)),
       rays(view),
       sweep_rays(view) {}
 

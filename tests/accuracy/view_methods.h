@@ -9,11 +9,11 @@
 #include "core/camera_model.h"
 #include "core/rig.h"
 #include "core/soft_mask.h"
-#include "recon/images/depth_map.h"
-#include "recon/contours/picture_plane.h"
-#include "recon/paper_methods/sweep_rays.h"
+#include "recon/contours/undistorted_plane.h"
 #include "recon/exact_view/view_rays.h"
 #include "recon/hull/visual_hull.h"
+#include "recon/images/depth_map.h"
+#include "recon/paper_methods/sweep_rays.h"
 
 namespace elbowroom::accuracy {
 
@@ -27,7 +27,7 @@ struct ViewTask {
   std::shared_ptr<const core::Rig> rig;
   std::vector<core::SoftMask> masks;
   core::CameraModel view;
-  recon::PicturePlanes planes;
+  recon::UndistortedPlanes planes;
   recon::ViewRays rays;
   recon::SweepRays sweep_rays;
 };

@@ -15,9 +15,9 @@
 #include "app/control/demo_trial.h"
 #include "app/control/frame_pipeline.h"
 #include "core/units.h"
+#include "recon/exact_view/view_comparison.h"
 #include "recon/gl/scene/scene_renderer.h"
 #include "recon/images/png_file.h"
-#include "recon/exact_view/view_comparison.h"
 #include "tests/review/curtain.h"
 
 namespace elbowroom::control {

@@ -10,8 +10,8 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "recon/footage/recorded_rig.h"
-#include "recon/rig_files/rig_file.h"
 #include "recon/hull/visual_hull.h"
+#include "recon/rig_files/rig_file.h"
 #include "tests/app/mask_rig.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"

@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "core/error.h"
+#include "recon/exact_view/view_comparison.h"
 #include "recon/gl/exact_view/exact_view_gl.h"
 #include "recon/synthetic/view_scene.h"
-#include "recon/exact_view/view_comparison.h"
 
 namespace elbowroom::control {
 namespace {

@@ -5,9 +5,9 @@
 #include <memory>
 
 #include "core/bvh.h"
+#include "recon/hull/visual_hull.h"
 #include "recon/hull_mesh/hull_mesh.h"
 #include "recon/synthetic/view_scene.h"
-#include "recon/hull/visual_hull.h"
 #include "review/clearance.h"
 #include "review/contacts.h"
 #include "tests/support/panel_mesh.h"

@@ -5,9 +5,9 @@
 
 #include <memory>
 
+#include "recon/exact_view/view_comparison.h"
 #include "recon/gl/exact_view/exact_view_gl.h"
 #include "recon/synthetic/view_scene.h"
-#include "recon/exact_view/view_comparison.h"
 
 namespace elbowroom::recon {
 namespace {
@@ -20,7 +20,7 @@ void ExactViewGl(benchmark::State& state, ViewSceneRig of_rig, Fresh fresh) {
   const auto rig = std::make_shared<const core::Rig>(scene.rig);
   const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
                                     static_cast<std::size_t>(state.range(0)));
-  const PicturePlanes planes = MakePicturePlanes(*rig);
+  const UndistortedPlanes planes = MakeUndistortedPlanes(*rig);
   const std::vector<core::SoftMask> masks = TrueMasks(*rig, scene.objects);
   const ViewRays rays(scene.view);
   core::RigidTransform moved = scene.view.cam_from_world();

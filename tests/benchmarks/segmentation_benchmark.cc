@@ -11,13 +11,13 @@
 #include <string>
 #include <vector>
 
+#include "recon/footage/recorded_rig.h"
+#include "recon/images/mask_image.h"
 #include "recon/segmentation/boundary.h"
 #include "recon/segmentation/coverage.h"
 #include "recon/segmentation/difference_kernel.h"
 #include "recon/segmentation/frame_segmenter.h"
-#include "recon/images/mask_image.h"
 #include "recon/segmentation/mask_regions.h"
-#include "recon/footage/recorded_rig.h"
 #include "recon/segmentation/segmentation.h"
 #include "recon/synthetic/demo_motion.h"
 #include "recon/synthetic/rig_presets.h"
@@ -151,7 +151,7 @@ void SegmentAdaptive(benchmark::State& state) {
 }
 
 void ConfirmBlobs(benchmark::State& state) {
-  const BlobSupport support(Simulated().rig);
+  const CrossCameraBlobs support(Simulated().rig);
   std::vector<const core::BitMask*> masks;
   for (const core::BitMask& mask : Simulated().detected) masks.push_back(&mask);
   for (auto _ : state) benchmark::DoNotOptimize(support.ConfirmedBlobs(masks));
@@ -291,7 +291,7 @@ std::vector<cv::Mat> Cleaned(const std::vector<cv::Mat>& raw) {
     FillSmallHoles(masks.back(), options.max_hole_px);
   }
   for (const core::BitMask& mask : masks) pointers.push_back(&mask);
-  const auto confirmed = BlobSupport(Real()->rig).ConfirmedBlobs(pointers);
+  const auto confirmed = CrossCameraBlobs(Real()->rig).ConfirmedBlobs(pointers);
   std::vector<cv::Mat> cleaned;
   for (std::size_t i = 0; i < kCameras; ++i) {
     ClearRegions(masks[i], ObjectRegions(masks[i]), confirmed[i]);

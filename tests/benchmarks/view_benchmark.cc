@@ -5,17 +5,17 @@
 #include <map>
 #include <memory>
 
-#include "recon/hull_mesh/hull_mesh.h"
 #include "recon/exact_view/hull_view.h"
-#include "recon/synthetic/view_scene.h"
 #include "recon/hull/visual_hull.h"
+#include "recon/hull_mesh/hull_mesh.h"
+#include "recon/synthetic/view_scene.h"
 
 namespace elbowroom::recon {
 namespace {
 
 struct MaskScene {
   std::shared_ptr<const core::Rig> rig;
-  PicturePlanes planes;
+  UndistortedPlanes planes;
   std::vector<core::SoftMask> masks;
   ViewRays view;
 
@@ -27,7 +27,7 @@ const MaskScene& SceneOf(ViewSceneRig rig) {
   const auto found = scenes.find(rig);
   if (found != scenes.end()) return found->second;
   const ViewScene scene = MakeViewScene(rig);
-  MaskScene made{std::make_shared<const core::Rig>(scene.rig), MakePicturePlanes(scene.rig),
+  MaskScene made{std::make_shared<const core::Rig>(scene.rig), MakeUndistortedPlanes(scene.rig),
                  TrueMasks(scene.rig, scene.objects), ViewRays(scene.view)};
   return scenes.emplace(rig, std::move(made)).first->second;
 }

@@ -7,9 +7,9 @@
 #include <memory>
 #include <numbers>
 
+#include "recon/hull/visual_hull.h"
 #include "recon/synthetic/demo_motion.h"
 #include "recon/synthetic/rig_presets.h"
-#include "recon/hull/visual_hull.h"
 #include "tests/oracles/analytic_hull.h"
 #include "tests/oracles/camera_projection.h"
 #include "tests/oracles/coverage_mask.h"

@@ -13,9 +13,9 @@
 #include "core/error.h"
 #include "core/part_distance.h"
 #include "review/contacts.h"
-#include "review/freeing.h"
+#include "review/escape_distance.h"
+#include "review/hull_part_intersection.h"
 #include "review/inside_cells.h"
-#include "review/meeting.h"
 #include "tests/core/solids.h"
 #include "tests/recon/scenes/random_scene.h"
 #include "tests/review/box_hull.h"
@@ -178,7 +178,7 @@ bool IsOfPart(const Trial& trial, const Vector3d& x_in_world) {
          FindNearest(trial.part, {.center = x_in_part}).distance_mm <= kRoundingMm;
 }
 
-TEST(Freeing, IsNeverContradictedBySamples) {
+TEST(EscapeDistance, IsNeverContradictedBySamples) {
   constexpr double kWayStepMm = 0.25;
   Random random(7501);
   int ways = 0, tight = 0;
@@ -188,8 +188,8 @@ TEST(Freeing, IsNeverContradictedBySamples) {
     ++ways;
     const Vector3d direction = random.Direction();
     std::vector<Vector3d> witnesses;
-    const Freeing found = FindFreeing(trial.hull, trial.part, trial.world_from_part, direction, &witnesses,
-                                      {.tolerance_mm = kToleranceMm});
+    const EscapeDistance found = FindEscapeDistance(trial.hull, trial.part, trial.world_from_part, direction,
+                                                    &witnesses, {.tolerance_mm = kToleranceMm});
     ASSERT_LE(found.lower_mm, found.upper_mm);
     ASSERT_TRUE(std::isfinite(found.upper_mm));
     EXPECT_FALSE(AnyInHull(trial.hull, trial.samples, found.upper_mm * direction)) << number;
@@ -230,18 +230,19 @@ TEST(Penetration, IsNeverContradictedBySamples) {
   EXPECT_LT(upper_mm, kApart * lower_mm);
 }
 
-TEST(Meeting, AgreesWithSamples) {
+TEST(HullPartIntersection, AgreesWithSamples) {
   Random random(7503);
   int apart = 0, meets = 0, open = 0;
   for (int number = 0; number < 250; ++number) {
     const Trial trial = RandomTrial(&random, number);
     std::int64_t queries = 0;
-    const Meeting meeting = FindMeeting(trial.hull, trial.part, trial.world_from_part, 0.25, &queries);
+    const HullPartIntersection meeting =
+        FindHullPartIntersection(trial.hull, trial.part, trial.world_from_part, 0.25, &queries);
     EXPECT_GT(queries, 0);
-    if (meeting.answer == Meeting::Answer::kApart) {
+    if (meeting.answer == HullPartIntersection::Answer::kApart) {
       ++apart;
       EXPECT_FALSE(AnyInHull(trial.hull, trial.samples, Vector3d::Zero()));
-    } else if (meeting.answer == Meeting::Answer::kMeets) {
+    } else if (meeting.answer == HullPartIntersection::Answer::kIntersects) {
       ++meets;
       EXPECT_TRUE(trial.hull.Contains(meeting.common_in_world));
     } else {
@@ -253,29 +254,32 @@ TEST(Meeting, AgreesWithSamples) {
   EXPECT_LT(open, 10);
 }
 
-TEST(Freeing, GivesUpWhereTheWayIsSureToBeLonger) {
+TEST(EscapeDistance, GivesUpWhereTheWayIsSureToBeLonger) {
   const core::TriangleTree part = TreeOf(CubeAround({0, 0, 0}, 20.0));
   std::vector<Vector3d> witnesses = {{0, 0, 10}};
-  const Freeing found = FindFreeing(BoxHull(), part, {}, Vector3d::UnitX(), &witnesses, {kToleranceMm, 30.0});
+  const EscapeDistance found =
+      FindEscapeDistance(BoxHull(), part, {}, Vector3d::UnitX(), &witnesses, {kToleranceMm, 30.0});
   EXPECT_GE(found.lower_mm, 30.0);
   EXPECT_TRUE(std::isinf(found.upper_mm));
   EXPECT_EQ(found.queries, 0) << "one ray says so";
 }
 
-TEST(Freeing, OfAPartThatIsFreeIsNothing) {
+TEST(EscapeDistance, OfAPartThatIsFreeIsNothing) {
   std::vector<Vector3d> witnesses;
-  const Freeing found =
-      FindFreeing(BoxHull(), TreeOf(CubeAround({80, 0, 0}, 20.0)), {}, Vector3d::UnitX(), &witnesses);
+  const EscapeDistance found =
+      FindEscapeDistance(BoxHull(), TreeOf(CubeAround({80, 0, 0}, 20.0)), {}, Vector3d::UnitX(), &witnesses);
   EXPECT_EQ(found.lower_mm, 0.0);
   EXPECT_EQ(found.upper_mm, 0.0);
 }
 
-TEST(Freeing, RefusesOptionsOutOfRange) {
+TEST(EscapeDistance, RefusesOptionsOutOfRange) {
   const core::TriangleTree part = TreeOf(CubeAround({0, 0, 0}, 20.0));
   std::vector<Vector3d> none;
-  for (const FreeingOptions& options : {FreeingOptions{0.0}, {std::nan("")}, {0.5, -1.0}})
-    EXPECT_THROW((void)FindFreeing(BoxHull(), part, {}, Vector3d::UnitX(), &none, options), core::Error);
-  EXPECT_THROW((void)FindFreeing(BoxHull(), part, {}, Vector3d(1, 1, 0), &none), core::PreconditionError);
+  for (const EscapeOptions& options : {EscapeOptions{0.0}, {std::nan("")}, {0.5, -1.0}})
+    EXPECT_THROW((void)FindEscapeDistance(BoxHull(), part, {}, Vector3d::UnitX(), &none, options),
+                 core::Error);
+  EXPECT_THROW((void)FindEscapeDistance(BoxHull(), part, {}, Vector3d(1, 1, 0), &none),
+               core::PreconditionError);
 }
 
 }  // namespace

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "core/rigid_transform.h"
-#include "recon/synthetic/solids.h"
 #include "recon/hull/visual_hull.h"
+#include "recon/synthetic/solids.h"
 
 namespace elbowroom::review {
 

@@ -12,16 +12,16 @@
 #include <vector>
 
 #include "core/error.h"
-#include "recon/gl/objects/buffer_texture.h"
-#include "recon/gl/objects/egl_context.h"
+#include "recon/exact_view/hull_normals.h"
 #include "recon/gl/exact_view/exact_view_shader.h"
-#include "recon/gl/objects/gl_error.h"
 #include "recon/gl/exact_view/hull_target.h"
 #include "recon/gl/exact_view/pencil_tables.h"
+#include "recon/gl/objects/buffer_texture.h"
+#include "recon/gl/objects/egl_context.h"
+#include "recon/gl/objects/gl_error.h"
 #include "recon/gl/objects/shader_program.h"
 #include "recon/gl/objects/texture.h"
 #include "recon/gl/objects/vertex_array.h"
-#include "recon/exact_view/hull_normals.h"
 
 namespace elbowroom::recon::gl {
 namespace {

@@ -40,12 +40,12 @@ std::size_t AddRuns(const CastPencil& pencil, bool entries, PencilTables* tables
   return first_run;
 }
 
-RayLabel LabelOf(const EdgePencil& pencil) {
+RayLabel LabelOf(const EpipolarEdges& pencil) {
   if (pencil.is_concentric()) return RayLabel::kByPixel;
   return pencil.starts_inside() ? RayLabel::kObject : RayLabel::kBackground;
 }
 
-void AddCaster(const EdgePencil& pencil, PencilTables* tables) {
+void AddCaster(const EpipolarEdges& pencil, PencilTables* tables) {
   const CastPencil& cast = pencil.cast();
   const std::size_t entries = AddRuns(cast, true, tables);
   const std::size_t exits = AddRuns(cast, false, tables);
@@ -55,8 +55,8 @@ void AddCaster(const EdgePencil& pencil, PencilTables* tables) {
                              static_cast<float>(cast.bins()), static_cast<float>(LabelOf(pencil)));
 }
 
-std::vector<const EdgePencil*> ConcentricOf(const ViewPencils::Pencils& pencils) {
-  std::vector<const EdgePencil*> concentric;
+std::vector<const EpipolarEdges*> ConcentricOf(const ViewPencils::Pencils& pencils) {
+  std::vector<const EpipolarEdges*> concentric;
   for (const auto& pencil : pencils)
     if (pencil->is_concentric()) concentric.push_back(pencil.get());
   return concentric;
@@ -74,8 +74,8 @@ PencilTables Tabulate(const ViewPencils& pencils) {
 }
 
 std::vector<float> LabelsByPixel(const ViewPencils& pencils, const std::vector<PixelSquare>& squares) {
-  const std::vector<const EdgePencil*> cameras = ConcentricOf(pencils.cameras());
-  const std::vector<const EdgePencil*> sights = ConcentricOf(pencils.sights());
+  const std::vector<const EpipolarEdges*> cameras = ConcentricOf(pencils.cameras());
+  const std::vector<const EpipolarEdges*> sights = ConcentricOf(pencils.sights());
   std::vector<float> labels;
   if (cameras.empty()) return labels;
   const auto width = static_cast<std::size_t>(pencils.rays().width_px());
@@ -86,7 +86,7 @@ std::vector<float> LabelsByPixel(const ViewPencils& pencils, const std::vector<P
       for (int x = square.x; x < square.right; ++x) {
         const Eigen::Vector2d uv = pencils.rays().At(x, y);
         if (std::isnan(uv.x())) continue;
-        const auto sees = [&](const EdgePencil* pencil) { return pencil->IsObjectAlong(uv); };
+        const auto sees = [&](const EpipolarEdges* pencil) { return pencil->IsObjectAlong(uv); };
         labels[static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)] =
             (std::all_of(cameras.begin(), cameras.end(), sees) ? 1.0F : 0.0F) +
             (std::any_of(sights.begin(), sights.end(), sees) ? 2.0F : 0.0F);

@@ -14,11 +14,11 @@
 #include "recon/gl/objects/byte_texture.h"
 #include "recon/gl/objects/egl_context.h"
 #include "recon/gl/objects/gl_error.h"
-#include "recon/gl/paper_methods/plane_sweep_shader.h"
-#include "recon/gl/paper_methods/plane_target.h"
 #include "recon/gl/objects/shader_program.h"
 #include "recon/gl/objects/texture.h"
 #include "recon/gl/objects/vertex_array.h"
+#include "recon/gl/paper_methods/plane_sweep_shader.h"
+#include "recon/gl/paper_methods/plane_target.h"
 #include "recon/paper_methods/sweep_space.h"
 
 namespace elbowroom::recon::gl {

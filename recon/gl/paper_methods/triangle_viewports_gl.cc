@@ -16,10 +16,10 @@
 #include "recon/gl/objects/byte_texture.h"
 #include "recon/gl/objects/egl_context.h"
 #include "recon/gl/objects/gl_error.h"
-#include "recon/gl/paper_methods/plane_sweep_shader.h"
-#include "recon/gl/paper_methods/plane_target.h"
 #include "recon/gl/objects/shader_program.h"
 #include "recon/gl/objects/vertex_array.h"
+#include "recon/gl/paper_methods/plane_sweep_shader.h"
+#include "recon/gl/paper_methods/plane_target.h"
 
 namespace elbowroom::recon::gl {
 namespace {

@@ -4,11 +4,11 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "recon/gl/scene/lighting.h"
-#include "recon/gl/scene/scene.h"
 #include "recon/gl/objects/shader_program.h"
 #include "recon/gl/objects/texture.h"
 #include "recon/gl/objects/vertex_array.h"
+#include "recon/gl/scene/lighting.h"
+#include "recon/gl/scene/scene.h"
 #include "recon/gl/scene/view_matrices.h"
 
 namespace elbowroom::recon::gl {

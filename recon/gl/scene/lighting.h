@@ -6,10 +6,10 @@
 #include <memory>
 #include <vector>
 
+#include "recon/gl/objects/shader_program.h"
 #include "recon/gl/scene/part_painter.h"
 #include "recon/gl/scene/scene.h"
 #include "recon/gl/scene/scene_renderer.h"
-#include "recon/gl/objects/shader_program.h"
 #include "recon/gl/scene/shadow_map.h"
 #include "recon/gl/scene/view_matrices.h"
 

@@ -9,11 +9,11 @@
 #include <span>
 #include <vector>
 
+#include "recon/gl/objects/shader_program.h"
+#include "recon/gl/objects/vertex_array.h"
 #include "recon/gl/scene/level_maker.h"
 #include "recon/gl/scene/part_detail.h"
 #include "recon/gl/scene/scene.h"
-#include "recon/gl/objects/shader_program.h"
-#include "recon/gl/objects/vertex_array.h"
 #include "recon/gl/scene/view_matrices.h"
 
 namespace elbowroom::recon::gl {

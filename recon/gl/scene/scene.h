@@ -11,10 +11,10 @@
 #include "core/camera_model.h"
 #include "core/rigid_transform.h"
 #include "core/triangle_mesh.h"
-#include "recon/gl/scene/scene_lamp.h"
 #include "recon/appearance/hull_appearance.h"
-#include "recon/exact_view/hull_view.h"
 #include "recon/appearance/scene_view.h"
+#include "recon/exact_view/hull_view.h"
+#include "recon/gl/scene/scene_lamp.h"
 
 namespace elbowroom::recon::gl {
 

@@ -6,10 +6,10 @@
 #include <thread>
 
 #include "core/error.h"
-#include "recon/gl/scene/contact_painter.h"
 #include "recon/gl/objects/egl_context.h"
 #include "recon/gl/objects/framebuffer.h"
 #include "recon/gl/objects/gl_error.h"
+#include "recon/gl/scene/contact_painter.h"
 #include "recon/gl/scene/hull_painter.h"
 #include "recon/gl/scene/lighting.h"
 #include "recon/gl/scene/part_painter.h"

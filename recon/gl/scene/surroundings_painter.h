@@ -2,10 +2,10 @@
 // folder: it includes OpenGL.
 #pragma once
 
-#include "recon/gl/scene/lighting.h"
-#include "recon/gl/scene/scene.h"
 #include "recon/gl/objects/shader_program.h"
 #include "recon/gl/objects/vertex_array.h"
+#include "recon/gl/scene/lighting.h"
+#include "recon/gl/scene/scene.h"
 #include "recon/gl/scene/view_matrices.h"
 
 namespace elbowroom::recon::gl {

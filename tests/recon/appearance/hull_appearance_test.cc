@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "core/error.h"
-#include "recon/exact_view/hull_view.h"
 #include "recon/appearance/orbit_camera.h"
+#include "recon/exact_view/hull_view.h"
 #include "recon/hull/ray_crossings.h"
 #include "recon/synthetic/rig_presets.h"
 #include "recon/synthetic/synthetic_rig.h"
@@ -24,7 +24,7 @@ namespace {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
-using SharedPhoto = std::shared_ptr<const HullPhoto>;
+using SharedPhoto = std::shared_ptr<const CameraTexture>;
 
 Solid Ball(const Vector3d& center, double radius_mm, const Vector3d& color_bgr) {
   Solid solid{Sphere{radius_mm}, {}, color_bgr};
@@ -101,7 +101,7 @@ TEST(HullAppearance, AHeadCamerasPictureLandsOnTheRightPixels) {
   });
   const SceneView view = ViewAt({60, 0, 200}, -0.5, 0.6);
   const HullView picture = ViewHull(trial.hull, CameraOf(view));
-  const std::vector<SharedPhoto> photos{std::make_shared<const HullPhoto>(trial.hull, head, ramps)};
+  const std::vector<SharedPhoto> photos{std::make_shared<const CameraTexture>(trial.hull, head, ramps)};
   const std::vector<CameraColor> colors = ColorHull(picture, view, photos);
   int checked = 0;
   for (std::size_t i = 0; i < colors.size(); ++i) {
@@ -119,7 +119,7 @@ TEST(HullAppearance, WhatHidesFromACameraIsNotColouredByIt) {
   const Trial trial({near, far});
   const Vector3d eye(900, 0, 200);  // the near ball stands before half of the far one
   const core::CameraModel head = Camera(eye, {0, 0, 200}, 400, 300, 600);
-  const std::vector<SharedPhoto> photos{std::make_shared<const HullPhoto>(
+  const std::vector<SharedPhoto> photos{std::make_shared<const CameraTexture>(
       trial.hull, head, cv::Mat(300, 400, CV_8UC3, cv::Scalar(10, 20, 30)))};
   const SceneView view = ViewAt({50, 0, 200}, -0.6, 0.5);
   const HullView picture = ViewHull(trial.hull, CameraOf(view));
@@ -162,8 +162,8 @@ TEST(HullAppearance, TheRigsCamerasGiveTheSolidsTheirColours) {
   const FrameSet frames = trial.rig.Read(0);
   std::vector<SharedPhoto> photos;
   for (std::size_t i = 0; i < frames.cameras.size(); ++i) {
-    photos.push_back(std::make_shared<const HullPhoto>(trial.hull, trial.rig.rig().cameras[i],
-                                                       frames.cameras[i].image_bgr));
+    photos.push_back(std::make_shared<const CameraTexture>(trial.hull, trial.rig.rig().cameras[i],
+                                                           frames.cameras[i].image_bgr));
   }
   int of_solids = 0, trusted = 0, right = 0;
   for (const double azimuth_rad : {-2.0, -0.6, 1.0, 2.6}) {
@@ -196,7 +196,7 @@ TEST(HullAppearance, TheRigsCamerasGiveTheSolidsTheirColours) {
 TEST(HullAppearance, WeightsFallToNothingWithoutAJump) {
   const Trial trial({Ball({250, 45, 200}, 40, {0, 0, 250}), Ball({-50, 0, 200}, 60, {0, 250, 0})});
   const core::CameraModel head = Camera({900, 0, 200}, {-50, 60, 200}, 300, 200, 600);  // cuts the balls off
-  const HullPhoto photo(trial.hull, head, cv::Mat(200, 300, CV_8UC3, cv::Scalar(10, 20, 30)));
+  const CameraTexture photo(trial.hull, head, cv::Mat(200, 300, CV_8UC3, cv::Scalar(10, 20, 30)));
   // Along circles on the far ball's hull, in small steps; its normals are the ball's, so that only sight
   // counts.
   const Vector3d center(-50, 0, 200);
@@ -210,7 +210,7 @@ TEST(HullAppearance, WeightsFallToNothingWithoutAJump) {
       const Vector3d out(across * std::cos(angle_rad), across * std::sin(angle_rad), height);
       const Ray inwards{center + kOutsideMm * out, -out};
       const Vector3d at = inwards.origin_in_world - FirstInside(trial.hull, inwards).value() * out;
-      const auto look = photo.LookAt(at, out);
+      const auto look = photo.Sample(at, out);
       const float weight = look ? look->weight : 0.0F;
       constexpr double kSamePlaceMm = 0.5;  // the hull's creases may lead inwards
       if (last && (at - last_at).norm() < kSamePlaceMm)
@@ -232,10 +232,10 @@ TEST(HullAppearance, IsTheSameOnOneThreadAndTwice) {
   const HullView picture = ViewHull(trial.hull, CameraOf(view));
   const auto colors = [&] {
     const std::vector<SharedPhoto> photos{
-        std::make_shared<const HullPhoto>(trial.hull, trial.rig.rig().cameras[3],
-                                          frames.cameras[3].image_bgr),
-        std::make_shared<const HullPhoto>(trial.hull, trial.rig.rig().cameras[2],
-                                          frames.cameras[2].image_bgr)};
+        std::make_shared<const CameraTexture>(trial.hull, trial.rig.rig().cameras[3],
+                                              frames.cameras[3].image_bgr),
+        std::make_shared<const CameraTexture>(trial.hull, trial.rig.rig().cameras[2],
+                                              frames.cameras[2].image_bgr)};
     return ColorHull(picture, view, photos);
   };
   const std::vector<CameraColor> first = colors();
@@ -252,15 +252,15 @@ TEST(HullAppearance, AbsentPhotosAndEmptyHullsGiveNoColour) {
   std::vector<core::BitMask> empty(4, core::BitMask(640, 480));
   const VisualHull nothing = MakeVisualHull(trial.hull.shared_rig(), empty);
   const core::CameraModel head = Camera({900, 0, 200}, {0, 0, 200}, 300, 200, 600);
-  const HullPhoto photo(nothing, head, cv::Mat(200, 300, CV_8UC3, cv::Scalar(10, 20, 30)));
-  EXPECT_FALSE(photo.LookAt({60, 0, 200}, {1, 0, 0}).has_value());
+  const CameraTexture photo(nothing, head, cv::Mat(200, 300, CV_8UC3, cv::Scalar(10, 20, 30)));
+  EXPECT_FALSE(photo.Sample({60, 0, 200}, {1, 0, 0}).has_value());
 }
 
 TEST(HullAppearance, WrongSizesAreBugs) {
   const Trial trial({Ball({60, 0, 200}, 70, {40, 120, 220})});
   const core::CameraModel head = Camera({900, 0, 200}, {0, 0, 200}, 300, 200, 600);
-  EXPECT_THROW(HullPhoto(trial.hull, head, cv::Mat(200, 299, CV_8UC3)), core::PreconditionError);
-  EXPECT_THROW(HullPhoto(trial.hull, head, cv::Mat(200, 300, CV_8UC1)), core::PreconditionError);
+  EXPECT_THROW(CameraTexture(trial.hull, head, cv::Mat(200, 299, CV_8UC3)), core::PreconditionError);
+  EXPECT_THROW(CameraTexture(trial.hull, head, cv::Mat(200, 300, CV_8UC1)), core::PreconditionError);
   SceneView view = ViewAt({60, 0, 200}, -0.5, 0.6);
   const HullView picture = ViewHull(trial.hull, CameraOf(view));
   view.width_px = 100;

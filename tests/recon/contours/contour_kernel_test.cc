@@ -127,7 +127,7 @@ TEST(ContourKernel, OffersTheFirstCrossingOfAllEdges) {
       const RandomWays ways(random);
       WayShares shares;
       shares.at.fill(kNoCrossing);
-      OfferCrossings(view, map.Raster(), ways.from, ways.to, &shares);
+      LowerToCrossings(view, map.CellsView(), ways.from, ways.to, &shares);
       for (std::size_t i = 0; i < ways.from.count; ++i) {
         CompareWay(map, InCam(view, ways.from, i), InCam(view, ways.to, i), shares.at[i], &count);
         if (testing::Test::HasFatalFailure()) return;
@@ -136,7 +136,7 @@ TEST(ContourKernel, OffersTheFirstCrossingOfAllEdges) {
       WayShares lower = shares;
       for (double& share : lower.at) share -= 1e-3;
       const WayShares before = lower;
-      OfferCrossings(view, map.Raster(), ways.from, ways.to, &lower);
+      LowerToCrossings(view, map.CellsView(), ways.from, ways.to, &lower);
       for (std::size_t i = 0; i < ways.from.count; ++i)
         ASSERT_EQ(lower.at[i], shares.at[i] == kUnknownCrossing ? kUnknownCrossing : before.at[i]);
     }
@@ -152,7 +152,7 @@ TEST(ContourKernel, LabelsPointsAsTheContourDoes) {
   ForRandomContours(6102, 40, [&](Random* random, const ContourMap& map) {
     const GridView view = RandomView(random, map, random->Chance(0.2));
     const GridPoints points = RandomWays(random).from;
-    const std::uint64_t labels = LabelPoints(view, map.Raster(), points);
+    const std::uint64_t labels = LabelPoints(view, map.CellsView(), points);
     for (std::size_t i = 0; i < points.count; ++i) {
       const Vector3d in_cam = InCam(view, points, i);
       bool expected = map.exterior_is_object();
@@ -188,8 +188,8 @@ GridPoints OneGroup(std::size_t group, const GridPoint& corner) {
 TEST(ContourKernel, CellsAreMixedIfAnEdgeIsNearlyInThem) {
   int looked_at = 0;
   ForRandomContours(6105, 20, [&](Random* random, const ContourMap& map) {
-    const LabelRaster raster = map.Raster();
-    constexpr double kOff = 0.999 * LabelRaster::kTouchCells;  // less the rounding of the position here
+    const ContourCellsView raster = map.CellsView();
+    constexpr double kOff = 0.999 * ContourCellsView::kTouchCells;  // less the rounding of the position here
     for (const ContourEdge& edge : map.contour().edges) {
       const Vector2d &a = map.contour().vertices[edge.from], &b = map.contour().vertices[edge.to];
       const Vector2d off(random->Uniform(-kOff, kOff), random->Uniform(-kOff, kOff));
@@ -197,7 +197,7 @@ TEST(ContourKernel, CellsAreMixedIfAnEdgeIsNearlyInThem) {
       const Vector2d at = (a + random->Uniform(0.0, 1.0) * (b - a) - origin_px) * raster.cells_per_px + off;
       const auto cell = static_cast<std::size_t>(at.y()) * static_cast<std::size_t>(raster.width) +
                         static_cast<std::size_t>(at.x());
-      ASSERT_NE(raster.labels[cell] & LabelRaster::kMixed, 0) << at.transpose();
+      ASSERT_NE(raster.labels[cell] & ContourCellsView::kMixed, 0) << at.transpose();
       ASSERT_EQ(raster.clear_squares[cell], 0);
       ++looked_at;
     }
@@ -217,10 +217,11 @@ TEST(ContourKernel, CellsThatAreSureAreRight) {
         view.origin[k] -= corner[static_cast<Eigen::Index>(axis)] * view.steps[axis][k];
     BlockBits bits, mixed;
     bits.groups.fill(0xFF);
-    EXPECT_EQ(LabelByCells(view, corner, map.Raster(), &bits, &mixed), BlockBits::kGroups);
+    EXPECT_EQ(LabelByCells(view, corner, map.CellsView(), &bits, &mixed), BlockBits::kGroups);
     blocks_left += mixed.groups == bits.groups ? 1 : 0;
     for (std::size_t group = 0; group < BlockBits::kGroups; ++group) {
-      const auto exact = static_cast<std::uint8_t>(LabelPoints(view, map.Raster(), OneGroup(group, corner)));
+      const auto exact =
+          static_cast<std::uint8_t>(LabelPoints(view, map.CellsView(), OneGroup(group, corner)));
       const unsigned unsure = mixed.groups[group];
       ASSERT_EQ(bits.groups[group] & ~unsure, exact & ~unsure) << "group " << group;
       ASSERT_EQ(bits.groups[group] & unsure, unsure);
@@ -240,16 +241,16 @@ TEST(ContourKernel, GivesTheSameBitsOnEveryTarget) {
     const RandomWays ways(random);
     WayShares best;
     best.at.fill(kNoCrossing);
-    OfferCrossings(view, map.Raster(), ways.from, ways.to, &best);
-    const std::uint64_t labels = LabelPoints(view, map.Raster(), ways.from);
+    LowerToCrossings(view, map.CellsView(), ways.from, ways.to, &best);
+    const std::uint64_t labels = LabelPoints(view, map.CellsView(), ways.from);
     targets = 0;
     for (std::int64_t left = hwy::SupportedTargets(); left != 0; left &= left - 1) {
       hwy::SetSupportedTargetsForTest(left & -left);
       WayShares shares;
       shares.at.fill(kNoCrossing);
-      OfferCrossings(view, map.Raster(), ways.from, ways.to, &shares);
+      LowerToCrossings(view, map.CellsView(), ways.from, ways.to, &shares);
       EXPECT_TRUE(std::equal(best.at.begin(), best.at.begin() + ways.from.count, shares.at.begin()));
-      EXPECT_EQ(LabelPoints(view, map.Raster(), ways.from), labels);
+      EXPECT_EQ(LabelPoints(view, map.CellsView(), ways.from), labels);
       ++targets;
     }
     hwy::SetSupportedTargetsForTest(0);

@@ -64,18 +64,18 @@ void ExpectPromiseHolds(const ContourMap& map, const Vector2d& at) {
   }
 }
 
-PicturePlane PlaneOf(int width_px, int height_px) {
+UndistortedPlane PlaneOf(int width_px, int height_px) {
   core::CameraCalibration c;
   c.image_width_px = width_px, c.image_height_px = height_px;
   c.camera_matrix << 128.0, 0.0, 0.5 * width_px, 0.0, 128.0, 0.5 * height_px, 0.0, 0.0, 1.0;
-  return PicturePlane(core::CameraModel(c));
+  return UndistortedPlane(core::CameraModel(c));
 }
 
 TEST(ContourMap, LabelsAndDistancesKeepTheirPromiseAgainstAllEdges) {
   Random random(5201);
   for (int trial = 0; trial < 120; ++trial) {
     const core::CameraModel camera = RandomCamera(&random, static_cast<LensKind>(trial % kLensKinds));
-    const PicturePlane plane(camera);
+    const UndistortedPlane plane(camera);
     core::SoftMask silhouette{RandomMask(&random, camera.width_px(), camera.height_px()), {}};
     if (random.Chance(0.5)) silhouette = RandomLevels(&random, std::move(silhouette.mask));
     const bool exterior = random.Chance(0.5);
@@ -101,7 +101,7 @@ TEST(ContourMap, LabelsAndDistancesKeepTheirPromiseAgainstAllEdges) {
 TEST(ContourMap, LabelsOfRoundPositionsAgreeWithParity) {
   Random random(5202);
   for (int trial = 0; trial < 60; ++trial) {
-    const PicturePlane plane = PlaneOf(random.Whole(3, 12), random.Whole(3, 12));
+    const UndistortedPlane plane = PlaneOf(random.Whole(3, 12), random.Whole(3, 12));
     const core::SoftMask silhouette{
         RandomMask(&random, plane.camera().width_px(), plane.camera().height_px()), {}};
     const bool exterior = random.Chance(0.5);
@@ -168,7 +168,7 @@ TEST(ContourMap, LargeBoundsTakeLargerCells) {
 }
 
 TEST(ContourMap, FarAndHugePositionsAreExterior) {
-  const PicturePlane plane = PlaneOf(8, 8);
+  const UndistortedPlane plane = PlaneOf(8, 8);
   core::SoftMask silhouette{core::BitMask(8, 8), {}};
   silhouette.mask.Set(0, 0, true);
   const ContourMap map(TraceContour(silhouette, false, plane), false);
@@ -182,7 +182,7 @@ TEST(ContourMap, FarAndHugePositionsAreExterior) {
 }
 
 TEST(ContourMap, IsBuiltOnceByManyThreads) {
-  const PicturePlane plane = PlaneOf(100, 100);
+  const UndistortedPlane plane = PlaneOf(100, 100);
   Random random(5204);
   const core::SoftMask silhouette{BlobMask(&random, 100, 100), {}};
   const ContourMap asked_by_many(TraceContour(silhouette, false, plane), false);

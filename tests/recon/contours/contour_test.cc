@@ -27,7 +27,7 @@ core::CameraModel CameraOf(int width_px, int height_px, std::vector<double> coef
   return core::CameraModel(c);
 }
 
-Vector2d InPlane(const PicturePlane& plane, double x, double y) { return *plane.FromPixel({x, y}); }
+Vector2d InPlane(const UndistortedPlane& plane, double x, double y) { return *plane.FromPixel({x, y}); }
 
 double Cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
@@ -58,7 +58,7 @@ void ExpectObjectOnTheLeft(const Contour& contour, bool exterior) {
 
 // Labels by the contour's parity against the definition, cell by cell.
 void ExpectLabelsOfThePicture(Random* random, const Contour& contour, const PictureLabels& labels,
-                              bool exterior, const PicturePlane& plane, double band_px) {
+                              bool exterior, const UndistortedPlane& plane, double band_px) {
   const core::CameraModel& camera = plane.camera();
   for (int i = 0; i < 150; ++i) {
     const Vector2d pixel(random->Uniform(-2.0, camera.width_px() + 1.0),
@@ -88,7 +88,7 @@ TEST(Contour, IsClosedAndHasTheObjectOnOneSideForEveryWidthAndExterior) {
   for (const int width_px : widths) {
     for (int trial = 0; trial < 16; ++trial) {
       const int height_px = random.Whole(1, 20);
-      const PicturePlane plane(CameraOf(width_px, height_px));
+      const UndistortedPlane plane(CameraOf(width_px, height_px));
       const core::SoftMask silhouette = RandomSilhouette(&random, width_px, height_px);
       const bool exterior = trial % 2 == 1;
       const Contour contour = TraceContour(silhouette, exterior, plane);
@@ -106,7 +106,7 @@ TEST(Contour, LabelsAreThoseOfThePictureThroughEveryLens) {
   Random random(5102);
   for (int trial = 0; trial < 150; ++trial) {
     const core::CameraModel camera = RandomCamera(&random, static_cast<LensKind>(trial % kLensKinds));
-    const PicturePlane plane(camera);
+    const UndistortedPlane plane(camera);
     if (plane.unseen_pixels()) continue;  // below
     const core::SoftMask silhouette = RandomSilhouette(&random, camera.width_px(), camera.height_px());
     const bool exterior = random.Chance(0.5);
@@ -126,7 +126,7 @@ TEST(Contour, StraightEdgesAreWithinAThousandthOfAPixelOfTheLens) {
   c.image_width_px = 640, c.image_height_px = 480;
   c.camera_matrix << 620.0, 0.0, 320.0, 0.0, 620.0, 240.0, 0.0, 0.0, 1.0;
   c.distortion_coefficients = {-0.37, 0.17, 1e-3, -1e-3, -0.04};
-  const PicturePlane plane{core::CameraModel(c)};
+  const UndistortedPlane plane{core::CameraModel(c)};
   double worst_px = 0.0;
   for (int y = 0; y < 479; y += 3) {
     for (int x = 0; x < 639; x += 3) {
@@ -144,7 +144,7 @@ TEST(Contour, StraightEdgesAreWithinAThousandthOfAPixelOfTheLens) {
 
 TEST(Contour, CrossesBetweenCentresWhereTheLevelsSay) {
   Random random(5103);
-  const PicturePlane plane(CameraOf(70, 9));
+  const UndistortedPlane plane(CameraOf(70, 9));
   for (int trial = 0; trial < 40; ++trial) {
     const core::SoftMask silhouette = RandomSilhouette(&random, 70, 9);
     const bool exterior = trial % 2 == 0;
@@ -178,7 +178,7 @@ TEST(Contour, CrossesBetweenCentresWhereTheLevelsSay) {
 }
 
 TEST(Contour, JoinsObjectPixelsThatTouchAcrossACorner) {
-  const PicturePlane plane(CameraOf(4, 4));
+  const UndistortedPlane plane(CameraOf(4, 4));
   for (const bool falls : {true, false}) {
     core::SoftMask silhouette{core::BitMask(4, 4), {}};
     silhouette.mask.Set(1, falls ? 1 : 2, true);
@@ -196,7 +196,7 @@ TEST(Contour, JoinsObjectPixelsThatTouchAcrossACorner) {
 }
 
 TEST(Contour, UniformPicturesAndTheirExteriors) {
-  const PicturePlane plane(CameraOf(65, 3));
+  const UndistortedPlane plane(CameraOf(65, 3));
   core::SoftMask all{core::BitMask(65, 3), {}};
   const core::SoftMask none = all;
   for (int i = 0; i < 195; ++i) all.mask.Set(i % 65, i / 65, true);
@@ -218,7 +218,7 @@ TEST(Contour, UniformPicturesAndTheirExteriors) {
 TEST(Contour, PixelsThatAFoldingLensDoesNotSeeAreExterior) {
   Random random(5104);
   const core::CameraModel camera = CameraOf(120, 100, {-2.2, 0.0, 0.0, 0.0});
-  const PicturePlane plane(camera);
+  const UndistortedPlane plane(camera);
   ASSERT_TRUE(plane.unseen_pixels().has_value());
   for (int trial = 0; trial < 20; ++trial) {
     const core::SoftMask silhouette = RandomSilhouette(&random, 120, 100);
@@ -251,7 +251,7 @@ TEST(Contour, PixelsThatAFoldingLensDoesNotSeeAreExterior) {
 }
 
 TEST(Contour, TangentsFollowTheLoopAndNeverTurnBack) {
-  const PicturePlane plane(CameraOf(40, 40));
+  const UndistortedPlane plane(CameraOf(40, 40));
   // A single pixel's loop has four edges, two pixels' six: shorter than the smoothing reaches.
   for (const int pixels : {1, 2, 3, 4}) {
     core::SoftMask silhouette{core::BitMask(40, 40), {}};
@@ -274,7 +274,7 @@ TEST(Contour, TangentsFollowTheLoopAndNeverTurnBack) {
 }
 
 TEST(Contour, NormalsOfAReadyDiscAreRadial) {
-  const PicturePlane plane(CameraOf(101, 101));
+  const UndistortedPlane plane(CameraOf(101, 101));
   core::SoftMask silhouette{core::BitMask(101, 101), {}};
   for (int y = 0; y < 101; ++y)
     for (int x = 0; x < 101; ++x) silhouette.mask.Set(x, y, std::hypot(x - 50, y - 50) <= 30.0);
@@ -291,7 +291,7 @@ TEST(Contour, NormalsOfAReadyDiscAreRadial) {
 }
 
 TEST(Contour, RefusesMasksThatDontFit) {
-  const PicturePlane plane(CameraOf(5, 4));
+  const UndistortedPlane plane(CameraOf(5, 4));
   EXPECT_THROW((void)TraceContour({core::BitMask(4, 5), {}}, false, plane), core::PreconditionError);
   core::SoftMask few{core::BitMask(5, 4), {200}};
   few.mask.Set(2, 2, true);

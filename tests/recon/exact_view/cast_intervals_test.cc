@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-#include "recon/exact_view/edge_pencil.h"
+#include "recon/exact_view/epipolar_edges.h"
 #include "tests/recon/scenes/random_scene.h"
 
 namespace elbowroom::recon {
@@ -86,8 +86,8 @@ void ForPencils(std::uint64_t seed, int scenes, const Check& check) {
     const ViewRays rays = RandomRays(&random);
     for (core::CameraIndex camera = 0; camera < scene.rig->cameras.size(); ++camera) {
       const Silhouette& silhouette = *hull.silhouettes()[camera];
-      const EdgePencil pencil(silhouette.labels(), silhouette.plane().focal_px(), scene.rig->cameras[camera],
-                              rays);
+      const EpipolarEdges pencil(silhouette.labels(), silhouette.plane().focal_px(),
+                                 scene.rig->cameras[camera], rays);
       if (!pencil.is_concentric()) check(pencil, rays, &random);
     }
     if (testing::Test::HasFatalFailure()) return;
@@ -96,7 +96,7 @@ void ForPencils(std::uint64_t seed, int scenes, const Check& check) {
 
 TEST(CastIntervals, ListTheEdgesOfEveryAngleInOrder) {
   std::int64_t crossings = 0;
-  ForPencils(8101, 60, [&](const EdgePencil& pencil, const ViewRays& rays, Random* random) {
+  ForPencils(8101, 60, [&](const EpipolarEdges& pencil, const ViewRays& rays, Random* random) {
     for (int i = 0; i < 60; ++i) {
       const Vector2d uv = rays.At(random->Whole(0, 63), random->Whole(0, 47));
       const std::optional<float> angle = AngleOf(pencil.cast(), uv);
@@ -115,14 +115,14 @@ TEST(CastIntervals, ListTheEdgesOfEveryAngleInOrder) {
   EXPECT_GT(crossings, 5000);
 }
 
-TEST(EdgePencil, ObjectsLieBetweenTheKeysThatItBounds) {
+TEST(EpipolarEdges, ObjectsLieBetweenTheKeysThatItBounds) {
   std::int64_t bounded = 0, in_all = 0;
-  ForPencils(8102, 60, [&](const EdgePencil& pencil, const ViewRays& rays, Random* random) {
+  ForPencils(8102, 60, [&](const EpipolarEdges& pencil, const ViewRays& rays, Random* random) {
     for (int i = 0; i < 40; ++i) {
       const int size = 1 << random->Whole(2, 5);
       const int x = 8 * random->Whole(0, 7), y = 8 * random->Whole(0, 5);
       const int right = std::min(x + size, 64), bottom = std::min(y + size, 48);
-      const EdgePencil::KeyRange keys = pencil.ObjectKeys(rays.BoundsOf(x, y, right, bottom));
+      const EpipolarEdges::KeyRange keys = pencil.ObjectKeys(rays.BoundsOf(x, y, right, bottom));
       ++in_all;
       bounded += std::isfinite(keys.least) || std::isfinite(keys.most) || keys.least > keys.most ? 1 : 0;
       for (int ray = 0; ray < 20; ++ray) {

@@ -7,10 +7,10 @@
 #include <opencv2/core.hpp>
 
 #include "recon/footage/container_check.h"
-#include "recon/segmentation/frame_segmenter.h"
 #include "recon/footage/image_source.h"
-#include "recon/images/mask_image.h"
 #include "recon/footage/recorded_rig.h"
+#include "recon/images/mask_image.h"
+#include "recon/segmentation/frame_segmenter.h"
 #include "recon/segmentation/segmentation.h"
 #include "tests/recon/footage/made_footage.h"
 

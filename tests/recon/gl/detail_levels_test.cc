@@ -13,8 +13,8 @@
 
 #include "core/part_distance.h"
 #include "core/units.h"
-#include "recon/gl/scene/scene_renderer.h"
 #include "recon/appearance/orbit_camera.h"
+#include "recon/gl/scene/scene_renderer.h"
 
 namespace elbowroom::recon::gl {
 namespace {

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "core/units.h"
-#include "recon/gl/scene/scene_renderer.h"
 #include "recon/appearance/orbit_camera.h"
+#include "recon/gl/scene/scene_renderer.h"
 #include "tests/recon/gl/sample_scene.h"
 
 namespace elbowroom::recon::gl {

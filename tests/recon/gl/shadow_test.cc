@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "core/error.h"
-#include "recon/gl/scene/scene_renderer.h"
 #include "recon/appearance/orbit_camera.h"
+#include "recon/gl/scene/scene_renderer.h"
 #include "tests/recon/gl/sample_scene.h"
 
 namespace elbowroom::recon::gl {

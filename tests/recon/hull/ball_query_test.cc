@@ -234,7 +234,7 @@ TEST(ShapeQuery, NoSampledPointContradictsACertifiedAnswer) {
     for (int i = 0; i < kBallsPerScene / 2; ++i) {
       const WorldShape shape = RandomShape(&random, RandomCenter(&random, scene));
       const std::vector<Vector3d> samples = SampleShape(&random, shape);
-      OpenCameras open;
+      UndecidedCameras open;
       const BallAnswer answer = hull.Classify(shape, &open);
       ++census.balls;
       if (answer == BallAnswer::kMixed) continue;
@@ -262,10 +262,10 @@ TEST(ShapeQuery, ClosedCamerasCallAllOfItObject) {
     const VisualHull hull = MakeVisualHull(scene.rig, scene.masks);
     for (int i = 0; i < 100; ++i) {
       const WorldShape shape = RandomShape(&random, RandomCenter(&random, scene));
-      OpenCameras open;
+      UndecidedCameras open;
       if (hull.Classify(shape, &open) == BallAnswer::kOutside) continue;
       for (const Vector3d& x : SampleShape(&random, shape)) {
-        OpenCameras all;
+        UndecidedCameras all;
         all.asks_sights = open.asks_sights;
         ASSERT_EQ(hull.Contains(x, open), hull.Contains(x, all));
       }

@@ -11,7 +11,7 @@ namespace {
 class NextHullTest : public testing::Test {
  protected:
   explicit NextHullTest(core::UnseenPolicy unseen = core::UnseenPolicy::kOutside)
-      : scene_(MakeRingScene(&random_, 4, unseen)), planes_(MakePicturePlanes(*scene_.rig)) {
+      : scene_(MakeRingScene(&random_, 4, unseen)), planes_(MakeUndistortedPlanes(*scene_.rig)) {
     for (const core::BitMask& mask : scene_.masks) masks_.push_back({mask, {}});
   }
 
@@ -24,7 +24,7 @@ class NextHullTest : public testing::Test {
 
   Random random_{8801};
   RandomScene scene_;
-  PicturePlanes planes_;
+  UndistortedPlanes planes_;
   std::vector<core::SoftMask> masks_;
 };
 

@@ -12,10 +12,10 @@
 #include <vector>
 
 #include "core/triangle_mesh.h"
-#include "recon/hull_mesh/hull_mesh.h"
 #include "recon/exact_view/hull_view.h"
 #include "recon/hull/ray_crossings.h"
 #include "recon/hull/visual_hull.h"
+#include "recon/hull_mesh/hull_mesh.h"
 #include "tests/recon/hull/stress_scene.h"
 #include "tests/recon/hull/sure_hull.h"
 #include "tests/recon/scenes/sweep_oracle.h"

@@ -13,8 +13,8 @@
 #include <string>
 #include <vector>
 
-#include "recon/images/image_file.h"
 #include "recon/footage/image_source.h"
+#include "recon/images/image_file.h"
 #include "recon/images/mask_image.h"
 #include "tests/recon/footage/made_footage.h"
 #include "tests/support/text_file.h"

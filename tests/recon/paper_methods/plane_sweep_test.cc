@@ -11,8 +11,8 @@
 
 #include "core/error.h"
 #include "recon/exact_view/hull_view.h"
-#include "recon/paper_methods/straightened_mask.h"
 #include "recon/paper_methods/sweep_comparison.h"
+#include "recon/paper_methods/undistorted_mask.h"
 #include "tests/recon/scenes/random_scene.h"
 #include "tests/recon/scenes/sweep_oracle.h"
 #include "tests/support/soak.h"
@@ -330,7 +330,7 @@ TEST(PlaneSweep, AGridsSweepIsTheOraclesOfTheStraightCameras) {
     straight_rig.cameras.clear();
     std::vector<core::SoftMask> straight_masks;
     for (std::size_t c = 0; c < masks.size(); ++c) {
-      StraightenedMask straight = Straighten(scene.rig->cameras[c], masks[c], 5, false);
+      UndistortedMask straight = Undistort(scene.rig->cameras[c], masks[c], 5, false);
       straight.mask.Validate();
       straight_rig.cameras.push_back(straight.camera);
       straight_masks.push_back(std::move(straight.mask));

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/error.h"
-#include "recon/paper_methods/straightened_mask.h"
+#include "recon/paper_methods/undistorted_mask.h"
 #include "tests/recon/scenes/part_samples.h"
 #include "tests/support/soak.h"
 
@@ -135,7 +135,7 @@ TEST(SampleTriangles, AGridsLabelsAreTheOraclesOfTheStraightCameras) {
     straight_rig.cameras.clear();
     std::vector<core::SoftMask> straight_masks;
     for (std::size_t c = 0; c < masks.size(); ++c) {
-      StraightenedMask straight = Straighten(scene.rig->cameras[c], masks[c], kGrid, false);
+      UndistortedMask straight = Undistort(scene.rig->cameras[c], masks[c], kGrid, false);
       straight_rig.cameras.push_back(straight.camera);
       straight_masks.push_back(std::move(straight.mask));
     }

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "recon/paper_methods/plane_sweep.h"
-#include "tests/recon/scenes/random_scene.h"
 #include "tests/recon/hull/sure.h"
+#include "tests/recon/scenes/random_scene.h"
 
 namespace elbowroom::recon {
 

@@ -11,8 +11,8 @@
 #include <random>
 
 #include "core/error.h"
-#include "recon/segmentation/exposure.h"
 #include "recon/images/mask_image.h"
+#include "recon/segmentation/exposure.h"
 #include "tests/recon/footage/made_footage.h"
 
 namespace elbowroom::recon {

@@ -1,0 +1,23 @@
+// From what a reader gives to a model in millimetres whose bodies can be judged.
+#pragma once
+
+#include <filesystem>
+
+#include "cad_import/formats/file_format.h"
+#include "cad_import/model/cad_model.h"
+#include "cad_import/model/import_options.h"
+#include "cad_import/model/raw_scene.h"
+#include "core/progress.h"
+
+namespace elbowroom::cad_import {
+
+// In millimetres by the caller's unit, the file's, or the caller's second choice. Instances become rigid:
+// scales and mirrors go into shapes. Each shape is welded and healed; shapes that are open and stand in one
+// place only are joined where they share vertices, as exporters cut one surface up by material or group. A
+// file of a single body is listed by its connected pieces. Throws: Error{kCad} naming the file and its size
+// in each unit when nobody gave one, Error{kGeometry} naming the file: no triangle is left, a vertex isn't
+// finite.
+[[nodiscard]] CadModel NormaliseModel(RawScene scene, FileFormat format, const ImportOptions& options,
+                                      const std::filesystem::path& file, const core::Progress& progress);
+
+}  // namespace elbowroom::cad_import

@@ -1,0 +1,45 @@
+// Blobs that no other camera confirms: something that moved outside of the workspace, a reflection.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/bit_mask.h"
+#include "core/rig.h"
+
+namespace elbowroom::recon {
+
+// Which blobs of a rig's silhouettes can't be part of the hull. The workspace is cut into cells, and each
+// cell knows the rectangle of 16 x 16 pixel tiles that it can project into in every camera (certified, from
+// the ball around it). A cell is confirmed when every camera that has a say shows object in its rectangle; a
+// blob that lies in no confirmed cell's rectangle has no point in the hull, so the hull is the same without
+// it (tests/recon/segmentation/cross_camera_blobs_test.cc). Immutable. Thread: any.
+class CrossCameraBlobs {
+ public:
+  explicit CrossCameraBlobs(const core::Rig& rig);
+
+  // One flag a camera and blob (of ObjectRegions(masks[camera])): whether the hull may need it. All true
+  // where no cell is confirmed: then nothing can be told apart. Throws: PreconditionError unless there is one
+  // mask a camera, of its size.
+  [[nodiscard]] std::vector<std::vector<bool>> ConfirmedBlobs(
+      std::span<const core::BitMask* const> masks) const;
+
+ private:
+  // Tiles [x0, x1) x [y0, y1); empty where the camera sees nothing of the cell.
+  struct TileBox {
+    std::int16_t x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+    bool has_say = true;  // showing nothing in these tiles, the camera rules the cell out
+  };
+  struct Picture {
+    int width_px = 0, height_px = 0;
+  };
+  [[nodiscard]] static TileBox BoxOf(const core::CameraModel& camera, const Eigen::Vector3d& center_in_world,
+                                     double radius_mm);
+
+  std::vector<Picture> pictures_;
+  std::vector<TileBox> boxes_;  // cell by cell, one a camera
+};
+
+}  // namespace elbowroom::recon

@@ -1,0 +1,29 @@
+// Triangles cut where they are longest: needles shorten, nothing stays long.
+#pragma once
+
+#include <Eigen/Core>
+#include <utility>
+
+namespace elbowroom::review {
+
+// Of a triangle; in whatever frame.
+struct Corners {
+  Eigen::Vector3d a, b, c;
+};
+
+// Two halves, cut at the middle of the longest side.
+[[nodiscard]] inline std::pair<Corners, Corners> Bisect(const Corners& t) {
+  const double ab = (t.b - t.a).squaredNorm(), bc = (t.c - t.b).squaredNorm(), ca = (t.a - t.c).squaredNorm();
+  if (ab >= bc && ab >= ca) {
+    const Eigen::Vector3d m = 0.5 * (t.a + t.b);
+    return {{t.a, m, t.c}, {m, t.b, t.c}};
+  }
+  if (bc >= ca) {
+    const Eigen::Vector3d m = 0.5 * (t.b + t.c);
+    return {{t.a, t.b, m}, {t.a, m, t.c}};
+  }
+  const Eigen::Vector3d m = 0.5 * (t.c + t.a);
+  return {{t.a, t.b, m}, {m, t.b, t.c}};
+}
+
+}  // namespace elbowroom::review
