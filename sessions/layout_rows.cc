@@ -31,8 +31,8 @@ core::RecoveryRule ReadRecoveryRule(const Statement& row, int first_column, cons
   };
   if (!kind)
     FailAsDamaged(where, fmt::format("no recovery is called '{}'", Quotable(row.Text(first_column))));
-  const core::RecoveryRule rule{*kind, vector(first_column + 1), vector(first_column + 2),
-                                vector(first_column + 3)};
+  core::RecoveryRule rule{*kind, vector(first_column + 1), vector(first_column + 2),
+                          vector(first_column + 3)};
   if (const auto broken = rule.BrokenRule()) FailAsDamaged(where, fmt::format("its recovery: {}", *broken));
   return rule;
 }

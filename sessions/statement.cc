@@ -64,7 +64,7 @@ bool Statement::Next() {
 }
 
 SQLite::Column Statement::Value(int column) const {
-  const SQLite::Column value = statement_->getColumn(column);
+  SQLite::Column value = statement_->getColumn(column);
   if (value.isNull()) FailAtColumn(column, "nothing");
   return value;
 }

@@ -11,7 +11,8 @@ namespace {
 constexpr std::size_t kMostBytes = 100;
 
 bool ContainsAny(std::string_view line, const auto& words) {
-  return std::ranges::any_of(words, [&](std::string_view word) { return line.find(word) != line.npos; });
+  return std::ranges::any_of(
+      words, [&](std::string_view word) { return line.find(word) != std::string_view::npos; });
 }
 
 // OpenCV's log: "[ INFO:0@0.008] global ./modules/...". FFmpeg's is "[OPENCV:FFMPEG:16] ...".

@@ -137,7 +137,7 @@ YamlSection ViewSection(const YamlSection& root) {
   if (camera != nullptr && cameras != nullptr) root.Fail("has both 'camera' and 'cameras'; keep one");
   if (camera == nullptr && (cameras->kind != YamlKind::kList || cameras->items.size() != 1))
     root.Fail("'cameras' must list exactly one camera");
-  const YamlSection section{camera == nullptr ? &cameras->items.front() : camera, root.file};
+  YamlSection section{camera == nullptr ? &cameras->items.front() : camera, root.file};
   if (section.node->kind != YamlKind::kMap)
     section.Fail("the camera must be a map of keys such as camera_matrix");
   if (root.Find("projection") != nullptr) root.Fail("'projection' must stand among the camera's keys");
@@ -196,7 +196,7 @@ ViewFile ReadViewFile(const std::filesystem::path& path) {
   const bool is_orthographic = ReadIsOrthographic(section);
   const bool has_lens = !is_orthographic || section.Find("distortion_model") != nullptr ||
                         section.Find("distortion_coefficients") != nullptr;
-  const ViewFile view{ReadCamera(section, name, has_lens), is_orthographic};
+  ViewFile view{ReadCamera(section, name, has_lens), is_orthographic};
   RequireModestPicture(section, view.camera);
   if (view.is_orthographic && !view.camera.is_ideal()) {
     section.Fail(

@@ -35,7 +35,7 @@ std::string Neutralised(std::string_view text) {
 }  // namespace
 
 std::string Quoted(std::string_view text) {
-  const std::string plain = Neutralised(text);
+  std::string plain = Neutralised(text);
   if (plain == text && text.find_first_of(",;\t\"\r\n") == std::string_view::npos) return plain;
   std::string quoted = "\"";
   for (const char c : plain) {

@@ -51,7 +51,7 @@ std::vector<std::string> UseOf(ConfigurationKind kind, std::mt19937_64& random) 
   const std::vector<std::string> contacts = {
       "contacts", "rig.yml", "--frame",           "0",       "--mesh", "box.stl",
       "--unit",   "mm",      "--world-from-part", "pose.yml"};
-  const std::vector<std::string> trial = {"trial", "run", "trial.toml", "--session", "s.db", "--headless"};
+  std::vector<std::string> trial = {"trial", "run", "trial.toml", "--session", "s.db", "--headless"};
   const std::vector<std::string> view = {"view",     "rig.yml",  "--frame", "0",
                                          "--camera", "view.yml", "--depth", "d.tiff"};
   const auto one_of = [&](const std::vector<std::vector<std::string>>& uses) {

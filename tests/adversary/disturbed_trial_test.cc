@@ -120,7 +120,7 @@ ProgramRun RunDisturbed(const Trial& trial, const Disturbance& disturbance, cons
     disturbance.act(session, process);
     if (trial.is_live) kill(process, SIGINT);
   };
-  const ProgramRun run = test_support::RunProgram(ELBOWROOM_PROGRAM, trial.words(files, session), options);
+  ProgramRun run = test_support::RunProgram(ELBOWROOM_PROGRAM, trial.words(files, session), options);
   std::string told = run.exit_status == 0 ? "" : run.err.substr(0, run.err.find('\n'));
   const nlohmann::json summary = nlohmann::json::parse(run.out, nullptr, false);
   if (!summary.is_discarded()) {

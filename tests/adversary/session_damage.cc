@@ -289,8 +289,7 @@ std::string SpoilPackedData(const fs::path& path, Random& random) {
   const std::string frame = FrameClaiming(claimed * (column[0] == 'v' ? 24 : column[0] == 't' ? 12 : 8));
   std::string hex;
   for (const char c : frame) hex += fmt::format("{:02x}", static_cast<unsigned char>(c));
-  const std::string sql =
-      fmt::format("UPDATE {} SET {} = x'{}', {} = {}", table, column, hex, count, claimed);
+  std::string sql = fmt::format("UPDATE {} SET {} = x'{}', {} = {}", table, column, hex, count, claimed);
   try {
     SpoilBySql(path, sql);
   } catch (const SQLite::Exception& refused) {

@@ -29,15 +29,19 @@ using testing::kSinglePrecision;
 using testing::Mentions;
 using MeshFile = testing::MeshFileTest;
 
+void ExpectNothingToMend(const ImportReport& report) {
+  EXPECT_TRUE(report.watertight);
+  EXPECT_FALSE(report.repaired);
+  EXPECT_EQ(report.dropped_triangles, 0);
+  EXPECT_TRUE(report.warnings.empty()) << report.warnings.front();
+}
+
 void ExpectIsTheBox(const ImportedMesh& imported, const Eigen::Vector3d& size_mm) {
   const double volume_mm3 = size_mm.prod();
   EXPECT_EQ(imported.mesh->vertices_mm.size(), 8U);
   EXPECT_EQ(imported.report.triangles, 12);
   EXPECT_EQ(imported.report.parts, 1);
-  EXPECT_TRUE(imported.report.watertight);
-  EXPECT_FALSE(imported.report.repaired);
-  EXPECT_EQ(imported.report.dropped_triangles, 0);
-  EXPECT_TRUE(imported.report.warnings.empty()) << imported.report.warnings.front();
+  ExpectNothingToMend(imported.report);
   EXPECT_NEAR(core::VolumeMm3(*imported.mesh), volume_mm3, volume_mm3 * kSinglePrecision);
   EXPECT_TRUE(imported.report.bounds_mm.sizes().isApprox(size_mm, kSinglePrecision));
 }

@@ -56,7 +56,9 @@ TEST(PlainText, ACutNeverSplitsACharacter) {
     EXPECT_TRUE(IsPlain(OneLine(text, 77))) << length;
     EXPECT_LE(OneLine(text, 77).size(), 77U);
   }
-  EXPECT_LE(OneLine(std::string(20'000'000, '\n')).size(), kLongestMessageBytes);
+  std::string longest;
+  longest.resize(20'000'000, '\n');
+  EXPECT_LE(OneLine(longest).size(), kLongestMessageBytes);
 }
 
 }  // namespace

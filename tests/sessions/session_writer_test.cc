@@ -257,6 +257,13 @@ TEST(SessionWriter, ASessionThatStaysLockedIsWholeInItsSpillAndJoinsWhenOpened) 
   EXPECT_EQ(FilesIn(folder.path()), 1U);
 }
 
+void ExpectFortyFrames(const fs::path& session, const core::SessionHeader& header) {
+  const SessionReader reader(session);
+  EXPECT_EQ(reader.status(), sessions::SessionStatus::kComplete);
+  ASSERT_EQ(reader.frame_count(), 40);
+  for (core::FrameIndex i = 0; i < 40; ++i) ExpectEqual(reader.ReadFrame(i), SampleFrame(header, i, kSeed));
+}
+
 // What `remove` takes from beside or below a session while it is recorded.
 void RecordWhile(const TemporaryFolder& folder, const std::function<void(const fs::path&)>& remove,
                  const char* expected_name) {
@@ -277,10 +284,7 @@ void RecordWhile(const TemporaryFolder& folder, const std::function<void(const f
   ASSERT_EQ(lines.size(), 1U);
   EXPECT_NE(lines.front().find("removed or replaced"), std::string::npos) << lines.front();
   EXPECT_EQ(writer.path().filename(), expected_name);
-  const SessionReader reader(writer.path());
-  EXPECT_EQ(reader.status(), sessions::SessionStatus::kComplete);
-  ASSERT_EQ(reader.frame_count(), 40);
-  for (core::FrameIndex i = 0; i < 40; ++i) ExpectEqual(reader.ReadFrame(i), SampleFrame(header, i, kSeed));
+  ExpectFortyFrames(writer.path(), header);
 }
 
 TEST(SessionWriter, MakesASessionAgainWhoseFileWasRemoved) {

@@ -24,7 +24,7 @@ using testing::PlainCamera;
 using testing::TestFolder;
 
 std::string OpenError(const std::string& location, ErrorKind kind = ErrorKind::kFile) {
-  const std::string message = ErrorOf(kind, [&] { (void)OpenImageSource(location, PlainCamera("cam3")); });
+  std::string message = ErrorOf(kind, [&] { (void)OpenImageSource(location, PlainCamera("cam3")); });
   EXPECT_THAT(message, HasSubstr("camera 'cam3'"));
   return message;
 }

@@ -31,7 +31,7 @@ class PoseFile : public ::testing::Test {
     try {
       (void)Read(text);
     } catch (const core::Error& error) {
-      const std::string message = error.what();
+      std::string message = error.what();
       EXPECT_EQ(static_cast<int>(error.kind()), static_cast<int>(kind)) << message;
       EXPECT_NE(message.find("pose.yml"), std::string::npos) << message;
       EXPECT_EQ(message.find('\n'), std::string::npos) << message;

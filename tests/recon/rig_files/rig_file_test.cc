@@ -40,7 +40,7 @@ std::string Replaced(std::string text, const std::string& from, const std::strin
 std::string RigError(ErrorKind kind, const std::string& text) {
   const TestFolder folder;
   WriteText(folder.path() / "rig.yml", text);
-  const std::string message = ErrorOf(kind, [&] { (void)ReadRigFile(folder.path() / "rig.yml"); });
+  std::string message = ErrorOf(kind, [&] { (void)ReadRigFile(folder.path() / "rig.yml"); });
   EXPECT_THAT(message, HasSubstr("rig.yml"));
   return message;
 }

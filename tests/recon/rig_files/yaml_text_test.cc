@@ -109,6 +109,17 @@ TEST(YamlText, DepthAndNumberAreBounded) {
   EXPECT_THAT(WrongWith(many + " ]\n"), HasSubstr("more than 200000 values"));
 }
 
+void ExpectSameValue(const YamlNode& ours, const cv::FileNode& theirs) {
+  if (theirs.isInt()) {
+    EXPECT_EQ(ours.kind, YamlKind::kInteger);
+    EXPECT_EQ(ours.number, static_cast<int>(theirs));
+  } else if (theirs.isReal()) {
+    EXPECT_EQ(ours.number, static_cast<double>(theirs));
+  } else if (theirs.isString()) {
+    EXPECT_EQ(ours.text, static_cast<std::string>(theirs));
+  }
+}
+
 // Bit by bit what OpenCV reads, as far as both have names for it.
 void ExpectSame(const YamlNode& ours, const cv::FileNode& theirs, const std::string& where) {
   SCOPED_TRACE(where);
@@ -122,13 +133,8 @@ void ExpectSame(const YamlNode& ours, const cv::FileNode& theirs, const std::str
     ASSERT_EQ(ours.items.size(), theirs.size());
     for (int i = 0; i < static_cast<int>(theirs.size()); ++i)
       ExpectSame(ours.items[static_cast<std::size_t>(i)], theirs[i], where + "/" + std::to_string(i));
-  } else if (theirs.isInt()) {
-    EXPECT_EQ(ours.kind, YamlKind::kInteger);
-    EXPECT_EQ(ours.number, static_cast<int>(theirs));
-  } else if (theirs.isReal()) {
-    EXPECT_EQ(ours.number, static_cast<double>(theirs));
-  } else if (theirs.isString()) {
-    EXPECT_EQ(ours.text, static_cast<std::string>(theirs));
+  } else {
+    ExpectSameValue(ours, theirs);
   }
 }
 
