@@ -62,7 +62,7 @@ using SharedMasks = std::shared_ptr<const std::vector<SoftMask>>;
 struct FrameRecord {
   FrameIndex frame = 0;
   double time_s = 0.0;                // of capture, from the first frame
-  SharedMasks silhouettes;            // one a camera
+  SharedMasks masks;                  // one a camera
   std::vector<double> spacing_mm;     // in the layout's order
   std::vector<PartContact> contacts;  // one a part, in the layout's order
   // Where pushed parts were, from where layout and spacings have them; likewise, or nothing if none was

@@ -106,7 +106,7 @@ void FrameInserter::Insert(const core::FrameRecord& record) {
   for (core::SpacingIndex i = 0; i < record.spacing_mm.size(); ++i) {
     insert_spacing_.With(record.frame, i, record.spacing_mm[i]).Run();
   }
-  InsertSilhouettes(record.frame, *record.silhouettes);
+  InsertSilhouettes(record.frame, *record.masks);
   for (const core::PartContact& contact : record.contacts) InsertPart(record.frame, contact);
   InsertMotions(record);
 }
@@ -193,11 +193,11 @@ core::FrameRecord ReadFrame(Database& database, const core::SessionHeader& heade
   record.frame = frame;
   record.time_s = Time_s(row.Real(0), where, "its time");
   record.spacing_mm = ReadSpacings(database, frame, where);
-  record.silhouettes = ReadSilhouettes(database, header.rig, frame, where);
+  record.masks = ReadSilhouettes(database, header.rig, frame, where);
   record.contacts = ReadContacts(database, header.layout.parts.size(), frame);
   record.rest_from_parts = ReadMotions(database, header.layout.parts.size(), frame, where);
   if (record.spacing_mm.size() != header.layout.spacings.size() ||
-      record.silhouettes->size() != header.rig.cameras.size() ||
+      record.masks->size() != header.rig.cameras.size() ||
       record.contacts.size() != header.layout.parts.size()) {
     FailAsDamaged(where, "rows are missing");
   }

@@ -26,7 +26,7 @@ std::int64_t BytesOf(const RecordingEntry& entry) {
   const auto* record = std::get_if<core::FrameRecord>(&entry);
   if (record == nullptr) return 0;
   std::size_t bytes = 0;
-  for (const core::SoftMask& mask : *record->silhouettes)
+  for (const core::SoftMask& mask : *record->masks)
     bytes += mask.mask.words().size_bytes() + mask.levels.size();
   for (const core::PartContact& contact : record->contacts)
     bytes += sizeof contact + contact.points.size() * sizeof(core::ContactPoint);

@@ -15,10 +15,9 @@ using core::ErrorKind;
 using core::Require;
 
 void RequireFits(const core::FrameRecord& record, const core::SessionHeader& header) {
-  Require(record.silhouettes && record.silhouettes->size() == header.rig.cameras.size(),
-          "one silhouette a camera");
+  Require(record.masks && record.masks->size() == header.rig.cameras.size(), "one silhouette a camera");
   for (core::CameraIndex i = 0; i < header.rig.cameras.size(); ++i) {
-    const core::SoftMask& silhouette = (*record.silhouettes)[i];
+    const core::SoftMask& silhouette = (*record.masks)[i];
     const core::CameraModel& camera = header.rig.cameras[i];
     Require(
         silhouette.mask.width_px() == camera.width_px() && silhouette.mask.height_px() == camera.height_px(),

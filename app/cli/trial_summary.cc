@@ -47,7 +47,7 @@ CommandResult SummaryOf(const control::TrialOutcome& outcome, const core::Layout
                  {"parts", nlohmann::json::array()},
                  {"episodes", nlohmann::json::array()},
                  {"skipped",
-                  {{"pixels", outcome.skipped.segmentation.unseen_pixels},
+                  {{"pixels", outcome.skipped.segmentation.skipped_pixels},
                    {"of_pixels", outcome.skipped.segmentation.pixels},
                    {"unchanged_silhouettes", outcome.skipped.hull.unchanged_silhouettes},
                    {"empty_silhouettes", outcome.skipped.hull.empty_silhouettes},

@@ -67,7 +67,7 @@ void StatusLine::ShowFrame(const control::FrameResult& result, const control::Re
                       .arg(picture_ms_, 0, 'f', 0));
   skipped_->setText(
       tr("skipped: %1 of pixels, %2 of %3 silhouettes, %4 of %5 parts, %6 of triangles")
-          .arg(PercentOf(result.skipped.segmentation.unseen_pixels, result.skipped.segmentation.pixels))
+          .arg(PercentOf(result.skipped.segmentation.skipped_pixels, result.skipped.segmentation.pixels))
           .arg(result.skipped.hull.unchanged_silhouettes)
           .arg(result.masks->size())
           .arg(result.skipped.unchanged_parts)

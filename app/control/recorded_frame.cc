@@ -31,9 +31,9 @@ SharedFrameResult RebuildFrame(const sessions::SessionReader& session, core::Fra
   auto result = std::make_shared<FrameResult>();
   result->frame = record.frame;
   result->time_s = record.time_s;
-  result->masks = record.silhouettes;
+  result->masks = record.masks;
   result->hull = std::make_shared<const recon::VisualHull>(
-      recon::MakeVisualHull(std::make_shared<const core::Rig>(session.header().rig), *record.silhouettes));
+      recon::MakeVisualHull(std::make_shared<const core::Rig>(session.header().rig), *record.masks));
   result->layout = std::make_shared<const core::Layout>(session.header().layout);
   result->spacing_mm = record.spacing_mm;
   result->rest_from_parts = record.rest_from_parts;

@@ -73,10 +73,9 @@ review::SpacingStudy SweepSession(const sessions::SessionReader& session, const 
   const recon::UndistortedPlanes planes = recon::MakeUndistortedPlanes(*rig);
   const auto load = [&](std::size_t i) -> review::StudyFrame {
     const core::FrameRecord record = session.ReadFrame(frames[i].frame);
-    return {
-        record.frame,
-        std::make_shared<const recon::VisualHull>(recon::MakeVisualHull(rig, planes, *record.silhouettes)),
-        record.spacing_mm};
+    return {record.frame,
+            std::make_shared<const recon::VisualHull>(recon::MakeVisualHull(rig, planes, *record.masks)),
+            record.spacing_mm};
   };
   return review::StudySpacing(header.layout, {frames.size(), load}, options, progress, stop);
 }

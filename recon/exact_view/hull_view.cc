@@ -58,8 +58,8 @@ class Caster {
       worker.rays.is_perspective = rays_.projection() == Projection::kPerspective;
       for (const auto& pencil : pencils_.cameras())
         worker.cameras.push_back({&pencil->cast(), pencil->starts_inside() ? ~0U : 0U});
-      for (const auto& pencil : pencils_.sights())
-        worker.sights.push_back({&pencil->cast(), pencil->starts_inside() ? ~0U : 0U});
+      for (const auto& pencil : pencils_.visibility_outlines())
+        worker.visibility_outlines.push_back({&pencil->cast(), pencil->starts_inside() ? ~0U : 0U});
       return worker;
     });
     constexpr int kSizePx = ViewPencils::kLargestSquarePx;
@@ -89,7 +89,7 @@ class Caster {
     TileScratch scratch;
     std::vector<PixelSquare> squares;
     std::vector<TileCamera> cameras;
-    std::vector<TileCamera> sights;
+    std::vector<TileCamera> visibility_outlines;
     std::int64_t hit_pixels = 0;
     PixelBox hit_box;
     std::int64_t cast_pixels = 0;
@@ -103,8 +103,8 @@ class Caster {
   void CastTileAt(int x, int y, Worker* worker) {
     rays_.FillTile(x, y, worker->rays.u, worker->rays.v);
     LabelConcentric(pencils_.cameras(), x, y, &worker->cameras);
-    LabelConcentric(pencils_.sights(), x, y, &worker->sights);
-    CastTile(worker->rays, pencils_.box(), worker->cameras, worker->sights,
+    LabelConcentric(pencils_.visibility_outlines(), x, y, &worker->visibility_outlines);
+    CastTile(worker->rays, pencils_.box(), worker->cameras, worker->visibility_outlines,
              normals_ || !view_.surface.empty(), &worker->scratch, &worker->hits);
     worker->cast_pixels += std::min(kTilePx, rays_.width_px() - x) * std::min(kTilePx, rays_.height_px() - y);
     if (worker->hits.count > 0) Record(x, y, worker);

@@ -106,9 +106,13 @@ struct Course {
 // The walk of some rays, from camera to camera, until all agree.
 class Walk {
  public:
-  Walk(const Rays& rays, std::span<const TileCamera> cameras, std::span<const TileCamera> sights,
+  Walk(const Rays& rays, std::span<const TileCamera> cameras, std::span<const TileCamera> visibility_outlines,
        std::size_t first, TileScratch* scratch)
-      : rays_(rays), cameras_(cameras), sights_(sights), first_(first), scratch_(*scratch) {}
+      : rays_(rays),
+        cameras_(cameras),
+        visibility_outlines_(visibility_outlines),
+        first_(first),
+        scratch_(*scratch) {}
 
   Front Run(VF key_from, VF key_to) {
     const Floats f;
@@ -129,7 +133,7 @@ class Walk {
         if (hn::AllFalse(f, alive)) break;
         agreed = 1;
       }
-      if (agreed == cameras && !sights_.empty() && MoveIntoSight(alive, &front)) {
+      if (agreed == cameras && !visibility_outlines_.empty() && MoveIntoView(alive, &front)) {
         alive = hn::And(alive, hn::Le(front.key, key_to));
         if (hn::AllFalse(f, alive)) break;
         agreed = 0;
@@ -143,9 +147,10 @@ class Walk {
   [[nodiscard]] VI EdgesOf(const Front& front) const {
     const Ints n;
     VI found = hn::Zero(n);
-    for (std::size_t i = 0; i < cameras_.size() + sights_.size(); ++i) {
+    for (std::size_t i = 0; i < cameras_.size() + visibility_outlines_.size(); ++i) {
       const auto is_by = hn::Eq(front.camera, hn::Set(n, static_cast<std::int32_t>(i)));
-      const TileCamera& camera = i < cameras_.size() ? cameras_[i] : sights_[i - cameras_.size()];
+      const TileCamera& camera =
+          i < cameras_.size() ? cameras_[i] : visibility_outlines_[i - cameras_.size()];
       if (hn::AllFalse(n, is_by) || camera.pencil->bins() == 0) continue;
       const std::uint64_t* words = CastCrossing::Words(camera.pencil->intervals.crossings.data());
       const VI place = hn::IfThenElseZero(is_by, front.place);
@@ -228,17 +233,18 @@ class Walk {
   }
 
   // Rays that no camera sees go on to where one does.
-  bool MoveIntoSight(MF alive, Front* front) {
+  bool MoveIntoView(MF alive, Front* front) {
     const Floats f;
     MF unseen = alive;
     Front nearest{hn::Set(f, kInfinity), front->camera, front->place};
-    for (std::size_t i = 0; i < sights_.size(); ++i) {
+    for (std::size_t i = 0; i < visibility_outlines_.size(); ++i) {
       const std::size_t number = cameras_.size() + i;
-      const Course course = CourseTo(sights_[i], !has_sights_, alive, front->key, &scratch_.courses[number]);
+      const Course course =
+          CourseTo(visibility_outlines_[i], !has_visibility_, alive, front->key, &scratch_.courses[number]);
       unseen = hn::AndNot(course.is_inside, unseen);
       MoveOn(hn::Lt(course.key, nearest.key), course.key, number, course.place, &nearest);
     }
-    has_sights_ = true;
+    has_visibility_ = true;
     if (hn::AllFalse(f, unseen)) return false;
     const auto unseen_n = hn::RebindMask(Ints(), unseen);
     front->key = hn::IfThenElse(unseen, nearest.key, front->key);
@@ -249,10 +255,10 @@ class Walk {
 
   const Rays& rays_;
   std::span<const TileCamera> cameras_;
-  std::span<const TileCamera> sights_;
+  std::span<const TileCamera> visibility_outlines_;
   std::size_t first_;
   TileScratch& scratch_;
-  bool has_sights_ = false;  // their courses have begun
+  bool has_visibility_ = false;  // their courses have begun
 };
 
 HWY_INLINE void Clip(const CastBox& box, const Rays& rays, VF* key_from, VF* key_to) {
@@ -267,9 +273,10 @@ HWY_INLINE void Clip(const CastBox& box, const Rays& rays, VF* key_from, VF* key
 }
 
 void Cast(const TileRays& tile, const CastBox& box, std::span<const TileCamera> cameras,
-          std::span<const TileCamera> sights, bool wants_edges, TileScratch* scratch, TileHits* hits) {
+          std::span<const TileCamera> visibility_outlines, bool wants_edges, TileScratch* scratch,
+          TileHits* hits) {
   const Floats f;
-  scratch->courses.resize(cameras.size() + sights.size());
+  scratch->courses.resize(cameras.size() + visibility_outlines.size());
   hits->count = 0;
   using Limits = std::numeric_limits<float>;
   const float last_key = tile.is_perspective ? -Limits::denorm_min() : Limits::max();
@@ -277,7 +284,7 @@ void Cast(const TileRays& tile, const CastBox& box, std::span<const TileCamera> 
     const Rays rays{hn::Load(f, tile.u + first), hn::Load(f, tile.v + first)};
     VF key_from = hn::Set(f, -kInfinity), key_to = hn::Set(f, last_key);
     Clip(box, rays, &key_from, &key_to);
-    Walk walk(rays, cameras, sights, first, scratch);
+    Walk walk(rays, cameras, visibility_outlines, first, scratch);
     const Front front = walk.Run(key_from, key_to);
     const MF is_hit = hn::Lt(hn::Abs(front.key), hn::Set(f, kInfinity));
     const VF depth_mm = tile.is_perspective ? hn::Div(hn::Set(f, -1.0F), front.key) : front.key;
@@ -301,8 +308,9 @@ namespace elbowroom::recon {
 HWY_EXPORT(Cast);
 
 void CastTile(const TileRays& rays, const CastBox& box, std::span<const TileCamera> cameras,
-              std::span<const TileCamera> sights, bool wants_edges, TileScratch* scratch, TileHits* hits) {
-  HWY_DYNAMIC_DISPATCH(Cast)(rays, box, cameras, sights, wants_edges, scratch, hits);
+              std::span<const TileCamera> visibility_outlines, bool wants_edges, TileScratch* scratch,
+              TileHits* hits) {
+  HWY_DYNAMIC_DISPATCH(Cast)(rays, box, cameras, visibility_outlines, wants_edges, scratch, hits);
 }
 
 }  // namespace elbowroom::recon

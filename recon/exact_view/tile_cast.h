@@ -138,7 +138,7 @@ struct TileHits {
   static constexpr std::int32_t kNoCamera = -1;
   static constexpr std::int32_t kMiss = -2;
   alignas(64) float depth_mm[kTileRays];
-  alignas(64) std::int32_t camera[kTileRays];  // sights count on after the cameras
+  alignas(64) std::int32_t camera[kTileRays];  // visibility_outlines count on after the cameras
   alignas(64) std::int32_t edge[kTileRays];    // if wanted: number in CastPencil::edges, of hits on edges
   int count = 0;
 };
@@ -151,13 +151,15 @@ struct TileScratch {
     alignas(64) std::int32_t place[kTileRays];      // in CastIntervals
     alignas(64) std::int32_t is_inside[kTileRays];  // all bits, or none
   };
-  std::vector<Course> courses;     // cameras', then sights'
+  std::vector<Course> courses;     // cameras', then visibility_outlines'
   std::int64_t crossings_met = 0;  // of rays with edges, worked out so far
 };
 
-// `cameras` must all agree that a point is in the hull, and one of `sights` if there are any. The processor's
-// widest vectors decide how many rays go at once, never the result: the same bits for all (hull_view_test).
+// `cameras` must all agree that a point is in the hull, and one of `visibility_outlines` if there are any.
+// The processor's widest vectors decide how many rays go at once, never the result: the same bits for all
+// (hull_view_test).
 void CastTile(const TileRays& rays, const CastBox& box, std::span<const TileCamera> cameras,
-              std::span<const TileCamera> sights, bool wants_edges, TileScratch* scratch, TileHits* hits);
+              std::span<const TileCamera> visibility_outlines, bool wants_edges, TileScratch* scratch,
+              TileHits* hits);
 
 }  // namespace elbowroom::recon

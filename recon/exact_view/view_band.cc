@@ -166,7 +166,7 @@ class Course {
     Clip();
     if (is_beside_ == Word::kInside || from_.low > to_.high) return false;
     for (const auto& pencil : pencils_.cameras()) Add(*pencil);
-    for (const auto& pencil : pencils_.sights()) Add(*pencil);
+    for (const auto& pencil : pencils_.visibility_outlines()) Add(*pencil);
     std::stable_sort(changes_.begin(), changes_.end(),
                      [](const Change& a, const Change& b) { return a.key < b.key; });
     // The hull begins, in whatever rounding, between where it first may and where it first must.
@@ -240,7 +240,7 @@ class Course {
   Range from_;
   Range to_;
   Word is_beside_ = Word::kOutside;  // kInside: for sure
-  std::vector<Word> words_;          // before all changes; cameras, then sights
+  std::vector<Word> words_;          // before all changes; cameras, then visibility_outlines
   std::vector<Change> changes_;
 };
 

@@ -68,14 +68,14 @@ ViewPencils::ViewPencils(const VisualHull& hull, const ViewRays& rays)
   if (KeysInWorkspace(rays.BoundsOf(0, 0, rays.width_px(), rays.height_px())).is_empty()) return;
   const std::size_t cameras = hull.silhouettes().size();
   cameras_.resize(cameras);
-  if (ExteriorIsObject(hull.rig())) sights_.resize(cameras);
+  if (ExteriorIsObject(hull.rig())) visibility_outlines_.resize(cameras);
   tbb::parallel_for(std::size_t{0}, cameras, [&](std::size_t i) {
     const Silhouette& silhouette = *hull.silhouettes()[i];
     const double focal_px = silhouette.plane().focal_px();
     const core::CameraModel& camera = hull.rig().cameras[i];
     cameras_[i] = std::make_unique<const EpipolarEdges>(silhouette.labels(), focal_px, camera, rays);
-    if (!sights_.empty())
-      sights_[i] =
+    if (!visibility_outlines_.empty())
+      visibility_outlines_[i] =
           std::make_unique<const EpipolarEdges>(silhouette.plane().outline(), focal_px, camera, rays);
   });
 }

@@ -43,7 +43,7 @@ class ViewPencils {
   // One a camera: all must agree that a point is in the hull. None at all where no ray meets the workspace.
   [[nodiscard]] const Pencils& cameras() const { return cameras_; }
   // Under `abstain` one a camera, of its picture's outline: one must see the point.
-  [[nodiscard]] const Pencils& sights() const { return sights_; }
+  [[nodiscard]] const Pencils& visibility_outlines() const { return visibility_outlines_; }
 
   [[nodiscard]] const CastBox& box() const { return box_; }
 
@@ -53,9 +53,9 @@ class ViewPencils {
   // Of all contours.
   [[nodiscard]] std::int64_t edges() const;
 
-  // Cameras count first, sights after them.
+  // Cameras count first, visibility_outlines after them.
   [[nodiscard]] const EpipolarEdges& Caster(std::size_t number) const {
-    return number < cameras_.size() ? *cameras_[number] : *sights_[number - cameras_.size()];
+    return number < cameras_.size() ? *cameras_[number] : *visibility_outlines_[number - cameras_.size()];
   }
 
   // The squares, aligned to kSquarePx, whose rays might meet the hull; of the picture, or of the square of
@@ -82,12 +82,12 @@ class ViewPencils {
   const ViewRays& rays_;
   std::array<Face, 6> faces_;
   Pencils cameras_;
-  Pencils sights_;
+  Pencils visibility_outlines_;
   CastBox box_;
 };
 
-// Edge `edge` of the contour of caster `caster`: cameras count first, sights after them; TileHits::kNoCamera
-// is a face.
+// Edge `edge` of the contour of caster `caster`: cameras count first, visibility_outlines after them;
+// TileHits::kNoCamera is a face.
 [[nodiscard]] HullSurface SurfaceOf(const VisualHull& hull, std::int32_t caster, std::uint32_t edge);
 
 }  // namespace elbowroom::recon

@@ -110,10 +110,10 @@ class Votes {
   explicit Votes(const VisualHull& hull)
       : asks_for_sight_(ExteriorIsObject(hull.rig())),
         objects_(hull.silhouettes().size(), 0),
-        sights_(asks_for_sight_ ? hull.silhouettes().size() : 0, 0) {}
+        visibility_outlines_(asks_for_sight_ ? hull.silhouettes().size() : 0, 0) {}
 
   void Set(std::size_t camera, bool is_outline, bool value) {
-    std::uint8_t& vote = is_outline ? sights_[camera] : objects_[camera];
+    std::uint8_t& vote = is_outline ? visibility_outlines_[camera] : objects_[camera];
     (is_outline ? seen_ : inside_) += static_cast<int>(value) - static_cast<int>(vote);
     vote = value ? 1 : 0;
   }
@@ -127,7 +127,7 @@ class Votes {
   int inside_ = 0;
   int seen_ = 0;
   std::vector<std::uint8_t> objects_;
-  std::vector<std::uint8_t> sights_;
+  std::vector<std::uint8_t> visibility_outlines_;
 };
 
 // The votes where the ray starts, and every event beyond in order.

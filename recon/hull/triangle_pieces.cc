@@ -82,7 +82,7 @@ std::uint64_t PiecesInHull(const VisualHull& hull, const CutTriangle& triangle,
     const GridView view = ViewOf(hull.rig().cameras[i], silhouettes[i]->plane().focal_px(), triangle);
     inside &= LabelPoints(view, silhouettes[i]->labels().CellsView(), centres);
   }
-  if (!ExteriorIsObject(hull.rig()) || !open.asks_sights) return inside;
+  if (!ExteriorIsObject(hull.rig()) || !open.asks_visibility) return inside;
   std::uint64_t seen = 0;
   for (std::size_t i = 0; i < silhouettes.size() && (inside & ~seen) != 0; ++i) {
     const UndistortedPlane& plane = silhouettes[i]->plane();

@@ -92,7 +92,7 @@ bool VisualHull::Contains(const Eigen::Vector3d& x_in_world) const { return Cont
 bool VisualHull::Contains(const Eigen::Vector3d& x_in_world, const UndecidedCameras& open) const {
   if (is_empty_ || !rig_->workspace_mm.contains(x_in_world)) return false;
   // Under `outside` an object pixel is a seen one.
-  bool any_sees = !ExteriorIsObject(*rig_) || !open.asks_sights;
+  bool any_sees = !ExteriorIsObject(*rig_) || !open.asks_visibility;
   for (std::size_t i = 0; i < silhouettes_.size(); ++i) {
     const UndistortedPlane& plane = silhouettes_[i]->plane();
     const core::CameraModel& camera = rig_->cameras[i];
@@ -183,12 +183,12 @@ BallAnswer VisualHull::Classify(const Eigen::Vector3d& center_in_world, double r
       return BallAnswer::kOutside;
     }
   }
-  if (ExteriorIsObject(*rig_) && open->asks_sights) {
+  if (ExteriorIsObject(*rig_) && open->asks_visibility) {
     const PointAnswer seen = SightsOf(*this, center_in_world);
     if (seen.radius_mm < radius_mm) {
       is_inside = false;
     } else if (seen.is_inside) {
-      open->asks_sights = false;
+      open->asks_visibility = false;
     } else {
       return BallAnswer::kOutside;
     }
@@ -203,7 +203,7 @@ BallAnswer VisualHull::Classify(const WorldShape& shape, UndecidedCameras* open)
       Eigen::Vector3d::Constant(4e-15 * (shape.origin.lpNorm<1>() + shape.edges.lpNorm<1>()));
   const Eigen::AlignedBox3d around(bounds.min() - rounding, bounds.max() + rounding);
   if (!rig_->workspace_mm.intersects(around)) return BallAnswer::kOutside;
-  bool is_inside = rig_->workspace_mm.contains(around) && !(ExteriorIsObject(*rig_) && open->asks_sights);
+  bool is_inside = rig_->workspace_mm.contains(around) && !(ExteriorIsObject(*rig_) && open->asks_visibility);
   const std::size_t first = std::min(open->likely, silhouettes_.size() - 1);
   for (std::size_t k = 0; k < silhouettes_.size(); ++k) {
     const std::size_t i = CameraAskedAs(k, first);

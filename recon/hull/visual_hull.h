@@ -39,7 +39,7 @@ struct UndecidedCameras {
   static constexpr std::size_t kMost = 64;  // cameras beyond are always asked
 
   std::uint64_t bits = ~std::uint64_t{0};
-  bool asks_sights = true;       // `abstain`: no camera is known to see all of the set
+  bool asks_visibility = true;   // `abstain`: no camera is known to see all of the set
   core::CameraIndex likely = 0;  // to be asked first: it excluded a set near by
 
   [[nodiscard]] bool Asks(core::CameraIndex camera) const {

@@ -76,7 +76,7 @@ void SegmentationOptions::Validate() const {
 
 SegmentationStats& SegmentationStats::operator+=(const SegmentationStats& other) {
   pixels += other.pixels;
-  unseen_pixels += other.unseen_pixels;
+  skipped_pixels += other.skipped_pixels;
   return *this;
 }
 

@@ -41,8 +41,8 @@ struct SegmentationOptions {
 };
 
 struct SegmentationStats {
-  std::int64_t pixels = 0;         // of the pictures segmented
-  std::int64_t unseen_pixels = 0;  // of those: not looked at, as no region of min_blob_px can be there
+  std::int64_t pixels = 0;          // of the pictures segmented
+  std::int64_t skipped_pixels = 0;  // of those: not looked at, as no region of min_blob_px can be there
 
   // The counts of other pictures on top.
   SegmentationStats& operator+=(const SegmentationStats& other);

@@ -118,7 +118,7 @@ TEST_F(RecordedFrameTest, ABoundaryThatMovesBetweenTwoPixelsIsAChange) {
   ASSERT_NE((*second->masks)[2].levels, before.levels);
   EXPECT_EQ(second->skipped.hull.unchanged_silhouettes, 3);
   EXPECT_EQ(second->skipped.segmentation.pixels, 4 * 640 * 480);
-  EXPECT_GT(second->skipped.segmentation.unseen_pixels, 4 * 640 * 480 / 4) << "most of the table is empty";
+  EXPECT_GT(second->skipped.segmentation.skipped_pixels, 4 * 640 * 480 / 4) << "most of the table is empty";
   EXPECT_NE(second->hull, first->hull);
   EXPECT_NE(second->hull->silhouettes()[2]->labels().contour().vertices,
             first->hull->silhouettes()[2]->labels().contour().vertices);

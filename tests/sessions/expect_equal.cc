@@ -104,7 +104,7 @@ void ExpectEqual(const core::PartContact& actual, const core::PartContact& expec
 void ExpectEqual(const core::FrameRecord& actual, const core::FrameRecord& expected) {
   EXPECT_EQ(actual.frame, expected.frame);
   EXPECT_EQ(actual.time_s, expected.time_s);
-  EXPECT_EQ(*actual.silhouettes, *expected.silhouettes) << "silhouettes of frame " << expected.frame;
+  EXPECT_EQ(*actual.masks, *expected.masks) << "silhouettes of frame " << expected.frame;
   EXPECT_EQ(actual.spacing_mm, expected.spacing_mm);
   ASSERT_EQ(actual.contacts.size(), expected.contacts.size());
   for (std::size_t i = 0; i < expected.contacts.size(); ++i)

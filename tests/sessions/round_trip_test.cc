@@ -120,11 +120,11 @@ TEST(SessionRoundTrip, EqualPixelsWithOtherLevelsOrNoneStayApart) {
   const TemporaryFolder folder;
   const core::SessionHeader header = SampleHeader();
   core::FrameRecord soft = SampleFrame(header, 0, kSeed);
-  ASSERT_GT((*soft.silhouettes)[0].levels.size(), 20U);
+  ASSERT_GT((*soft.masks)[0].levels.size(), 20U);
   core::FrameRecord ready = AsOfSchema(1, soft), other = soft;
-  std::vector<core::SoftMask> masks = *soft.silhouettes;
+  std::vector<core::SoftMask> masks = *soft.masks;
   masks[0].levels.back() ^= 1U;
-  other.silhouettes = std::make_shared<const std::vector<core::SoftMask>>(std::move(masks));
+  other.masks = std::make_shared<const std::vector<core::SoftMask>>(std::move(masks));
   soft.frame = 0, other.frame = 1, ready.frame = 2;
   {
     SessionWriter writer(folder / "s.db", header);
@@ -145,7 +145,7 @@ TEST(SessionRoundTrip, MasksOfEqualWordsAndDifferentSizesStayApart) {
   wider.image_width_px = 129;  // as many words a row as 130
   header.rig.cameras[1] = core::CameraModel(wider);
   core::FrameRecord record = SampleFrame(header, 0, kSeed);
-  record.silhouettes = std::make_shared<const std::vector<core::SoftMask>>(
+  record.masks = std::make_shared<const std::vector<core::SoftMask>>(
       std::vector<core::SoftMask>{{core::BitMask(130, 97), {}}, {core::BitMask(129, 97), {}}});
   {
     SessionWriter writer(folder / "s.db", header);

@@ -149,7 +149,7 @@ core::FrameRecord SampleFrame(const core::SessionHeader& header, core::FrameInde
   // From a source of their own: without them all else is as in the stored sessions of schema 1.
   Random of_levels(seed + static_cast<std::uint32_t>(frame));
   masks[0] = WithLevels(std::move(masks[0].mask), of_levels);
-  record.silhouettes = std::make_shared<const std::vector<core::SoftMask>>(std::move(masks));
+  record.masks = std::make_shared<const std::vector<core::SoftMask>>(std::move(masks));
   record.spacing_mm = {frame < 4 ? 140.0 : 240.0, 0.1};
   core::PartContact first = Touch(random);
   AddRecovery(first, frame % 2 == 0, random);
@@ -176,9 +176,9 @@ core::FrameRecord SampleFrame(const core::SessionHeader& header, core::FrameInde
 
 core::FrameRecord AsOfSchema(int schema, core::FrameRecord record) {
   if (schema < 2) {
-    std::vector<core::SoftMask> masks = *record.silhouettes;
+    std::vector<core::SoftMask> masks = *record.masks;
     for (core::SoftMask& soft : masks) soft.levels.clear();
-    record.silhouettes = std::make_shared<const std::vector<core::SoftMask>>(std::move(masks));
+    record.masks = std::make_shared<const std::vector<core::SoftMask>>(std::move(masks));
   }
   if (schema < 3) {
     for (core::PartContact& contact : record.contacts) contact.clearance.reset();

@@ -38,7 +38,7 @@ core::FrameRecord FrameAt(const core::SessionHeader& header, const TrialPlan& pl
   core::FrameRecord record;
   record.frame = frame;
   record.time_s = static_cast<double>(frame) / kFramesPerSecond;
-  record.silhouettes =
+  record.masks =
       std::make_shared<const std::vector<core::SoftMask>>(2, core::SoftMask{core::BitMask(130, 97), {}});
   record.spacing_mm = {SpacingAt(plan, record.time_s)};
   record.contacts.resize(header.layout.parts.size());

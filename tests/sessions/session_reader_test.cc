@@ -120,7 +120,7 @@ TEST(SessionReader, NoticesSilhouettesAndMeshesThatDontMatchTheirChecksums) {
 TEST(SessionReader, NamesFrameAndCameraOfLevelsThatDontFitTheirMask) {
   const TemporaryFolder folder;
   const core::SessionHeader header = SampleHeader();
-  const core::SoftMask good = (*SampleFrame(header, 0, 1).silhouettes)[0];
+  const core::SoftMask good = (*SampleFrame(header, 0, 1).masks)[0];
   core::SoftMask short_by_one = good, contradicting = good;
   short_by_one.levels.pop_back();
   contradicting.levels.back() ^= 128U;

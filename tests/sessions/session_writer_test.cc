@@ -85,16 +85,16 @@ TEST(SessionWriter, RejectsRecordsThatDontFitTheHeader) {
     spoil(record);
     writer.Append(record);
   };
-  EXPECT_THROW(append([](auto& r) { r.silhouettes = nullptr; }), core::PreconditionError);
+  EXPECT_THROW(append([](auto& r) { r.masks = nullptr; }), core::PreconditionError);
   EXPECT_THROW(append([](auto& r) {
-                 r.silhouettes = std::make_shared<const std::vector<core::SoftMask>>(
+                 r.masks = std::make_shared<const std::vector<core::SoftMask>>(
                      2, core::SoftMask{core::BitMask(64, 64), {}});
                }),
                core::PreconditionError);
   EXPECT_THROW(append([](auto& r) {
-                 std::vector<core::SoftMask> masks = *r.silhouettes;
+                 std::vector<core::SoftMask> masks = *r.masks;
                  masks[0].levels.pop_back();
-                 r.silhouettes = std::make_shared<const std::vector<core::SoftMask>>(std::move(masks));
+                 r.masks = std::make_shared<const std::vector<core::SoftMask>>(std::move(masks));
                }),
                core::PreconditionError);
   EXPECT_THROW(append([](auto& r) { r.spacing_mm.pop_back(); }), core::PreconditionError);

@@ -178,7 +178,7 @@ void ExactViewGl::Impl::UploadPencils(const ViewPencils& pencils, const std::vec
   program_.Use();
   program_.Set("has_labels", labels.empty() ? 0 : 1);
   program_.Set("cameras", static_cast<int>(pencils.cameras().size()));
-  program_.Set("sights", static_cast<int>(pencils.sights().size()));
+  program_.Set("visibility_outlines", static_cast<int>(pencils.visibility_outlines().size()));
   const CastBox& box = pencils.box();
   program_.Set("faces",
                Eigen::Vector3i(static_cast<int>(box.not_before.size()),

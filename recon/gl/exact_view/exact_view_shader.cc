@@ -15,7 +15,7 @@ uniform usamplerBuffer runs;
 uniform samplerBuffer angles;
 uniform samplerBuffer keys;
 uniform int cameras;
-uniform int sights;
+uniform int visibility_outlines;
 uniform ivec3 faces;  // not before, not after, beside
 uniform float key_end;
 uniform bool is_perspective;
@@ -87,9 +87,9 @@ struct Front {
 };
 
 // True if no sight sees the front; then it moves on to where one does.
-bool MoveIntoSight(vec2 uv, int label, inout Front front) {
+bool MoveIntoView(vec2 uv, int label, inout Front front) {
   Front nearest = Front(kFar, kNoCaster, 0.0);
-  for (int i = 0; i < sights; ++i) {
+  for (int i = 0; i < visibility_outlines; ++i) {
     About about = AboutKey(cameras + i, uv, front.key, label);
     if (about.is_inside) return false;
     if (about.next_entry < nearest.key) nearest = Front(about.next_entry, cameras + i, about.edge);
@@ -109,7 +109,7 @@ Front Walk(vec2 uv, float from, float to, int label) {
       front = Front(about.next_entry, camera, about.edge);
       agreed = 1;
     }
-    if (agreed == cameras && sights > 0 && front.key <= to && MoveIntoSight(uv, label & 2, front)) agreed = 0;
+    if (agreed == cameras && visibility_outlines > 0 && front.key <= to && MoveIntoView(uv, label & 2, front)) agreed = 0;
   }
   return front;
 }
@@ -121,7 +121,7 @@ void main() {
   int label = has_labels ? int(texelFetch(labels, pixel, 0).x) : 0;
   float from = -kFar, to = key_end;
   bool is_beside = ray.z == 0.0;
-  int face = 3 * (cameras + sights);
+  int face = 3 * (cameras + visibility_outlines);
   for (int i = 0; i < faces.x; ++i) from = max(from, At(texelFetch(forms, face++), uv));
   for (int i = 0; i < faces.y; ++i) to = min(to, At(texelFetch(forms, face++), uv));
   for (int i = 0; i < faces.z; ++i) is_beside = is_beside || At(texelFetch(forms, face++), uv) < 0.0;

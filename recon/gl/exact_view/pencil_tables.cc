@@ -67,7 +67,7 @@ std::vector<const EpipolarEdges*> ConcentricOf(const ViewPencils::Pencils& penci
 PencilTables Tabulate(const ViewPencils& pencils) {
   PencilTables tables;
   for (const auto& pencil : pencils.cameras()) AddCaster(*pencil, &tables);
-  for (const auto& pencil : pencils.sights()) AddCaster(*pencil, &tables);
+  for (const auto& pencil : pencils.visibility_outlines()) AddCaster(*pencil, &tables);
   for (const auto* faces : {&pencils.box().not_before, &pencils.box().not_after, &pencils.box().beside})
     for (const CastForm& face : *faces) tables.forms.emplace_back(face.du, face.dv, face.at_origin, 0.0F);
   return tables;
@@ -75,7 +75,7 @@ PencilTables Tabulate(const ViewPencils& pencils) {
 
 std::vector<float> LabelsByPixel(const ViewPencils& pencils, const std::vector<PixelSquare>& squares) {
   const std::vector<const EpipolarEdges*> cameras = ConcentricOf(pencils.cameras());
-  const std::vector<const EpipolarEdges*> sights = ConcentricOf(pencils.sights());
+  const std::vector<const EpipolarEdges*> visibility_outlines = ConcentricOf(pencils.visibility_outlines());
   std::vector<float> labels;
   if (cameras.empty()) return labels;
   const auto width = static_cast<std::size_t>(pencils.rays().width_px());
@@ -89,7 +89,7 @@ std::vector<float> LabelsByPixel(const ViewPencils& pencils, const std::vector<P
         const auto sees = [&](const EpipolarEdges* pencil) { return pencil->IsObjectAlong(uv); };
         labels[static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)] =
             (std::all_of(cameras.begin(), cameras.end(), sees) ? 1.0F : 0.0F) +
-            (std::any_of(sights.begin(), sights.end(), sees) ? 2.0F : 0.0F);
+            (std::any_of(visibility_outlines.begin(), visibility_outlines.end(), sees) ? 2.0F : 0.0F);
       }
     }
   });

@@ -13,7 +13,8 @@ namespace elbowroom::recon::gl {
 // What a pencil says of rays that meet none of its edges.
 enum class RayLabel { kBackground = 0, kObject = 1, kByPixel = 2 };
 
-// Casters: the cameras' pencils, then the sights'. Every table fits a buffer texture; row by row:
+// Casters: the cameras' pencils, then the visibility_outlines'. Every table fits a buffer texture; row by
+// row:
 struct PencilTables {
   // A caster's three rows: x (du, dv, at_origin, least_angle); y (du, dv, at_origin, bins_per_angle); first
   // run of entries, of exits, bins, RayLabel. After the casters the faces of the workspace, (du, dv,
@@ -28,8 +29,8 @@ struct PencilTables {
 [[nodiscard]] PencilTables Tabulate(const ViewPencils& pencils);
 
 // Of pixels that some camera sees from the rays' own origin, one float a pixel of the picture, those outside
-// of `squares` 0: 1 if all such cameras see object there, and 2 more if one of such sights sees it. Empty
-// when no camera is there.
+// of `squares` 0: 1 if all such cameras see object there, and 2 more if one of such visibility_outlines sees
+// it. Empty when no camera is there.
 [[nodiscard]] std::vector<float> LabelsByPixel(const ViewPencils& pencils,
                                                const std::vector<PixelSquare>& squares);
 

@@ -266,7 +266,7 @@ TEST(ShapeQuery, ClosedCamerasCallAllOfItObject) {
       if (hull.Classify(shape, &open) == BallAnswer::kOutside) continue;
       for (const Vector3d& x : SampleShape(&random, shape)) {
         UndecidedCameras all;
-        all.asks_sights = open.asks_sights;
+        all.asks_visibility = open.asks_visibility;
         ASSERT_EQ(hull.Contains(x, open), hull.Contains(x, all));
       }
       closed += open.bits != ~std::uint64_t{0} ? 1 : 0;
