@@ -67,9 +67,18 @@ std::string AgainstEstimate(const ReportData& data, const SpacingStudy& study) {
   return "; " + estimate + " was not tried";
 }
 
+// What was touched needs more space, however the task went on; that nothing was touched says nothing of a
+// task that wasn't done to its end.
+bool IsAllOfTheTask(const ReportData& data) { return data.status == SessionStatus::kComplete; }
+
 std::string SpaceClause(const ReportData& data) {
   const SpacingStudy* study = Judged(data);
   if (study == nullptr) return "";
+  if (!IsAllOfTheTask(data)) {
+    return study->largest_touched_mm
+               ? fmt::format("; the task needs more than {}", Millimetres(*study->largest_touched_mm))
+               : "; what space the whole task needs isn't known";
+  }
   const auto& touched_mm = study->largest_touched_mm;
   const auto& free_mm = study->smallest_free_mm;
   if (!touched_mm && !free_mm) return "";
@@ -89,11 +98,13 @@ std::string SpaceClause(const ReportData& data) {
 std::string WhatWasTouched(const ReportData& data) {
   const double duration_s = data.end_s - data.begin_s;
   if (data.frames.empty()) return "No frame was recorded";
-  if (data.contacts.empty()) return fmt::format("Nothing was touched in {:.1f} s", duration_s);
+  if (data.contacts.empty() && IsAllOfTheTask(data))
+    return fmt::format("Nothing was touched in {:.1f} s", duration_s);
   const std::string contacts =
-      data.has_outcome ? HowMany(static_cast<std::int64_t>(data.episodes.size()), "touch")
-                       : fmt::format("contact in {} of {}", data.frames_in_contact,
-                                     HowMany(static_cast<std::int64_t>(data.frames.size()), "frame"));
+      data.contacts.empty() ? "nothing touched"
+      : data.has_outcome    ? HowMany(static_cast<std::int64_t>(data.episodes.size()), "touch")
+                            : fmt::format("contact in {} of {}", data.frames_in_contact,
+                                          HowMany(static_cast<std::int64_t>(data.frames.size()), "frame"));
   switch (data.status) {
     case SessionStatus::kRecording:
       return fmt::format("The recording is under way: {:.1f} s so far with {}", duration_s, contacts);
@@ -127,8 +138,11 @@ std::string TouchesByPart(const ReportData& data) {
 std::string SpaceNeeded(const ReportData& data) {
   const SpacingStudy* study = Judged(data);
   if (study == nullptr || (!study->largest_touched_mm && !study->smallest_free_mm)) return "unknown";
-  if (!study->largest_touched_mm) return "at most " + Millimetres(*study->smallest_free_mm);
-  if (!study->smallest_free_mm) return "more than " + Millimetres(*study->largest_touched_mm);
+  if (!study->largest_touched_mm) {
+    return IsAllOfTheTask(data) ? "at most " + Millimetres(*study->smallest_free_mm) : "unknown";
+  }
+  if (!study->smallest_free_mm || !IsAllOfTheTask(data))
+    return "more than " + Millimetres(*study->largest_touched_mm);
   return fmt::format("{}\u2013{}", Number(*study->largest_touched_mm), Millimetres(*study->smallest_free_mm));
 }
 

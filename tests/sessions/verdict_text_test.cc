@@ -80,6 +80,27 @@ TEST(VerdictText, NothingTouched) {
             "140 mm is enough.");
 }
 
+// That nothing was touched up to there says nothing of the rest of the task.
+TEST(VerdictText, ASessionThatWasCutOffConcludesOnlyFromItsTouches) {
+  TrialPlan plan = UsualTrial();
+  sessions::ReportData data = DataOf(plan);
+  data.status = sessions::SessionStatus::kCutOff;
+  EXPECT_TRUE(
+      sessions::VerdictSentence(data).starts_with("The recording broke off after 62.0 s with 7 touches"))
+      << sessions::VerdictSentence(data);
+  EXPECT_TRUE(sessions::VerdictSentence(data).ends_with("; the task needs more than 140 mm."))
+      << sessions::VerdictSentence(data);
+  EXPECT_EQ(sessions::SpaceNeeded(data), "more than 140 mm");
+  plan.touches.clear();
+  data = DataOf(plan);
+  data.status = sessions::SessionStatus::kCutOff;
+  EXPECT_EQ(
+      sessions::VerdictSentence(data),
+      "The recording broke off after 62.0 s with nothing touched; what space the whole task needs isn't "
+      "known.");
+  EXPECT_EQ(sessions::SpaceNeeded(data), "unknown");
+}
+
 TEST(VerdictText, SeveralTouchedSpacingsAreListed) {
   TrialPlan plan = UsualTrial();
   plan.touches = {{1, 3.0, 4.0, 3.0}, {1, 34.7, 34.8, 2.0}};  // the second while passing 180 and 200 mm
