@@ -52,12 +52,25 @@ void Extend(const TrackedFrame& frame, const core::PartContact& contact, core::C
     SetPeak(frame, contact, depth_mm, episode);
 }
 
+// Of a frame that isn't clear.
+bool IsSurelyBelow(core::Verdict verdict) {
+  switch (verdict) {
+    case core::Verdict::kContact:
+    case core::Verdict::kNear:
+      return true;
+    case core::Verdict::kClear:
+    case core::Verdict::kUndecided:
+      break;
+  }
+  return false;
+}
+
 void Extend(const TrackedFrame& frame, const core::PartContact& contact, core::NearMiss* miss) {
   miss->end_frame = frame.frame;
   miss->end_time_s = frame.time_s;
   miss->tools = UnionOf(miss->tools, frame.tools_in_use);
   const bool is_first = miss->frames_below++ == 0;
-  if (contact.verdict != core::Verdict::kUndecided) miss->verdict = core::Verdict::kNear;
+  if (IsSurelyBelow(contact.verdict)) miss->verdict = core::Verdict::kNear;
   const auto bounds = [](const core::PartClearance& clearance) {
     return std::pair(clearance.interval.upper_mm, clearance.interval.lower_mm);
   };

@@ -203,10 +203,20 @@ class Study {
   }
 
   static void Add(const Answer& answer, core::FrameIndex frame, PartAtSpacing* sum) {
-    ++(answer.verdict == core::Verdict::kContact     ? sum->frames_in_contact
-       : answer.verdict == core::Verdict::kNear      ? sum->frames_near
-       : answer.verdict == core::Verdict::kUndecided ? sum->frames_undecided
-                                                     : sum->frames_clear);
+    switch (answer.verdict) {
+      case core::Verdict::kContact:
+        ++sum->frames_in_contact;
+        break;
+      case core::Verdict::kNear:
+        ++sum->frames_near;
+        break;
+      case core::Verdict::kClear:
+        ++sum->frames_clear;
+        break;
+      case core::Verdict::kUndecided:
+        ++sum->frames_undecided;
+        break;
+    }
     if (answer.upper_mm < sum->upper_mm || answer.depth_mm > sum->deepest_mm) sum->closest_frame = frame;
     sum->deepest_mm = std::max(sum->deepest_mm, answer.depth_mm);
     sum->upper_mm = std::min(sum->upper_mm, answer.upper_mm);

@@ -80,7 +80,10 @@ core::NearMiss ReadNearMiss(const Statement& row, const core::Layout& layout, co
   miss.end_time_s = row.Real(7);
   RequireInOrder(miss, miss.closest_frame, miss.closest_time_s, where);
   miss.frames_below = CountFrom(1, row.Integer(8), where, "its number of frames");
-  miss.verdict = row.Text(9) == "near" ? core::Verdict::kNear : core::Verdict::kUndecided;
+  const std::optional<core::Verdict> verdict = core::ParseVerdict(row.Text(9));
+  if (verdict != core::Verdict::kNear && verdict != core::Verdict::kUndecided)
+    FailAsDamaged(where, fmt::format("its verdict is '{}'", Quotable(row.Text(9))));
+  miss.verdict = *verdict;
   miss.spacing_at_closest_mm = NumbersFromJson(row.Text(10), where);
   if (miss.spacing_at_closest_mm.size() != layout.spacings.size())
     FailAsDamaged(where, "its spacings aren't those of the layout");

@@ -30,10 +30,18 @@ struct ClashCommandOptions {
 
 // Small first: what has to be looked at; contacts that are authorised only before what is clear.
 int Urgency(const PairClash& pair) {
-  if (pair.verdict == Verdict::kClear) return 4;
-  if (pair.demand.authorised_contact) return 3;
-  if (pair.verdict == Verdict::kUndecided) return 2;
-  return pair.verdict == Verdict::kNear ? 1 : 0;
+  if (pair.demand.authorised_contact && pair.verdict != Verdict::kClear) return 3;
+  switch (pair.verdict) {
+    case Verdict::kContact:
+      return 0;
+    case Verdict::kNear:
+      return 1;
+    case Verdict::kUndecided:
+      return 2;
+    case Verdict::kClear:
+      break;
+  }
+  return 4;
 }
 
 std::vector<PairClash> WorstFirst(std::vector<PairClash> pairs) {

@@ -18,8 +18,17 @@ Qt::Alignment AlignmentOf(int column) {
 }
 
 QColor ColorOf(std::optional<core::Verdict> verdict) {
-  if (verdict == core::Verdict::kContact) return kContactRed;
-  return verdict == core::Verdict::kClear ? kClearGreen : kQuietText;
+  if (!verdict) return kQuietText;
+  switch (*verdict) {
+    case core::Verdict::kContact:
+      return kContactRed;
+    case core::Verdict::kClear:
+      return kClearGreen;
+    case core::Verdict::kNear:
+    case core::Verdict::kUndecided:
+      break;
+  }
+  return kQuietText;
 }
 
 }  // namespace
