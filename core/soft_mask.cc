@@ -6,7 +6,6 @@
 #include "core/error.h"
 
 namespace elbowroom::core {
-
 namespace {
 
 // Calls visit(index of the word, its boundary pixels) for every word that has some, in their order, while it

@@ -11,7 +11,6 @@
 #include <cstdio>
 #include <cstring>
 #include <fstream>
-#include <functional>
 #include <string_view>
 #include <utility>
 
@@ -116,12 +115,14 @@ void MakeDurable(SQLite::Database& connection) {
   connection.exec("PRAGMA synchronous = EXTRA; PRAGMA journal_mode = WAL; PRAGMA foreign_keys = ON");
 }
 
-// Calls ask() now and then, which may throw.
-void CopyPages(SQLite::Database& from, SQLite::Database& to, const std::function<void()>& ask) {
-  constexpr int kPagesBetweenQuestions = 1000;
+// Of the session of that path.
+void CopyPages(SQLite::Database& from, SQLite::Database& to, const fs::path& session,
+               const std::stop_token& stop) {
+  constexpr int kPagesAStep = 1000;
   SQLite::Backup backup(to, from);
-  for (int code = SQLITE_OK; code != SQLITE_DONE; ask()) {
-    code = backup.executeStep(kPagesBetweenQuestions);
+  for (int code = SQLITE_OK; code != SQLITE_DONE;) {
+    core::ThrowIfStopped(stop, fmt::format("reading session '{}'", session.string()));
+    code = backup.executeStep(kPagesAStep);
     if (code != SQLITE_OK && code != SQLITE_DONE) throw SQLite::Exception(sqlite3_errstr(code), code);
   }
 }
@@ -247,7 +248,7 @@ Database Database::CopyTo(const fs::path& path, Database& database) {
     {
       auto copy = Connect(path, SQLite::OPEN_READWRITE, kWriterWaitsMs);
       copy->exec("PRAGMA synchronous = EXTRA");
-      CopyPages(*database.connection_, *copy, [] {});
+      CopyPages(*database.connection_, *copy, database.path_, {});
     }
     return OpenToWrite(path);
   } catch (...) {
@@ -278,8 +279,7 @@ Database Database::CopyAside(const std::stop_token& stop) { return CopyUnder("",
 Database Database::CopyUnder(const char* sqlite_name, const std::stop_token& stop) {
   try {
     auto copy = std::make_unique<SQLite::Database>(sqlite_name, SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
-    CopyPages(*connection_, *copy,
-              [&] { core::ThrowIfStopped(stop, fmt::format("reading session '{}'", path_.string())); });
+    CopyPages(*connection_, *copy, path_, stop);
     return {path_, std::move(copy)};
   } catch (const SQLite::Exception& exception) {
     // Only a copy grows.

@@ -82,15 +82,9 @@ std::vector<FrameSummary> ReadFrameSummaries(Database& database, const core::Ses
 std::string_view ToString(SessionStatus status) { return kStatusNames[static_cast<std::size_t>(status)]; }
 
 struct SessionReader::Impl {
-  // What `work` reads; a statement that was ended says why.
-  template <typename Work>
-  auto Guarded(Work&& work) {
-    return limit.Guarded(std::forward<Work>(work));
-  }
-
   Impl(const std::filesystem::path& path, const std::stop_token& stop)
       : opened(OpenSession(path)), limit(database, stop) {
-    Guarded([&] { Open(stop); });
+    limit.Guarded([&] { Open(stop); });
   }
 
   void Open(const std::stop_token& stop) {
@@ -122,7 +116,7 @@ const std::filesystem::path& SessionReader::path() const { return impl_->databas
 const core::SessionHeader& SessionReader::header() const { return impl_->header; }
 
 SessionStatus SessionReader::status() const {
-  const std::string text = impl_->Guarded([&] {
+  const std::string text = impl_->limit.Guarded([&] {
     Statement row(impl_->database, "SELECT status FROM session");
     return row.Next() ? row.Text(0) : "";
   });
@@ -135,7 +129,7 @@ SessionStatus SessionReader::status() const {
 }
 
 std::optional<std::string> SessionReader::ended_at_utc() const {
-  return impl_->Guarded([&]() -> std::optional<std::string> {
+  return impl_->limit.Guarded([&]() -> std::optional<std::string> {
     Statement row(impl_->database, "SELECT ended_at_utc FROM session WHERE ended_at_utc IS NOT NULL");
     if (!row.Next()) return std::nullopt;
     return row.Text(0);
@@ -143,19 +137,19 @@ std::optional<std::string> SessionReader::ended_at_utc() const {
 }
 
 std::int64_t SessionReader::frame_count() const {
-  return impl_->Guarded([&] { return impl_->database.ReadInteger("SELECT count(*) FROM frame"); });
+  return impl_->limit.Guarded([&] { return impl_->database.ReadInteger("SELECT count(*) FROM frame"); });
 }
 
 std::vector<FrameSummary> SessionReader::frames() const {
-  return impl_->Guarded([&] { return ReadFrameSummaries(impl_->database, impl_->header); });
+  return impl_->limit.Guarded([&] { return ReadFrameSummaries(impl_->database, impl_->header); });
 }
 
 core::FrameRecord SessionReader::ReadFrame(core::FrameIndex frame) const {
-  return impl_->Guarded([&] { return sessions::ReadFrame(impl_->database, impl_->header, frame); });
+  return impl_->limit.Guarded([&] { return sessions::ReadFrame(impl_->database, impl_->header, frame); });
 }
 
 void SessionReader::Freeze() {
-  impl_->Guarded([&] { impl_->database.Execute("BEGIN"); });
+  impl_->limit.Guarded([&] { impl_->database.Execute("BEGIN"); });
   (void)frame_count();  // the transaction's view is that of its first statement
 }
 
@@ -164,28 +158,28 @@ bool SessionReader::has_outcome() const { return impl_->adopted || status() == S
 void SessionReader::AdoptOutcome(core::SessionOutcome outcome) { impl_->adopted = std::move(outcome); }
 
 std::vector<core::SessionEvent> SessionReader::events() const {
-  return impl_->Guarded([&] { return ReadEvents(impl_->database); });
+  return impl_->limit.Guarded([&] { return ReadEvents(impl_->database); });
 }
 std::vector<core::ContactEpisode> SessionReader::episodes() const {
   if (impl_->adopted) return impl_->adopted->episodes;
-  return impl_->Guarded([&] { return ReadEpisodes(impl_->database, impl_->header.layout); });
+  return impl_->limit.Guarded([&] { return ReadEpisodes(impl_->database, impl_->header.layout); });
 }
 std::vector<core::NearMiss> SessionReader::near_misses() const {
   if (impl_->adopted) return impl_->adopted->near_misses;
-  return impl_->Guarded([&] { return ReadNearMisses(impl_->database, impl_->header.layout); });
+  return impl_->limit.Guarded([&] { return ReadNearMisses(impl_->database, impl_->header.layout); });
 }
 std::vector<core::HeatMap> SessionReader::heat_maps() const {
   if (impl_->adopted) return impl_->adopted->heat_maps;
-  return impl_->Guarded([&] { return ReadHeatMaps(impl_->database, impl_->header.layout); });
+  return impl_->limit.Guarded([&] { return ReadHeatMaps(impl_->database, impl_->header.layout); });
 }
 std::vector<ContactRow> SessionReader::contacts() const {
-  return impl_->Guarded([&] { return ReadContactRows(impl_->database, impl_->header.layout); });
+  return impl_->limit.Guarded([&] { return ReadContactRows(impl_->database, impl_->header.layout); });
 }
 std::vector<ContactRow> SessionReader::clearances() const {
-  return impl_->Guarded([&] { return ReadClearanceRows(impl_->database, impl_->header.layout); });
+  return impl_->limit.Guarded([&] { return ReadClearanceRows(impl_->database, impl_->header.layout); });
 }
 std::vector<PartTotals> SessionReader::part_totals() const {
-  return impl_->Guarded([&] { return ReadPartTotals(impl_->database, impl_->header.layout); });
+  return impl_->limit.Guarded([&] { return ReadPartTotals(impl_->database, impl_->header.layout); });
 }
 std::int64_t SessionReader::most_steps_taken() const { return impl_->limit.most_steps_taken(); }
 

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <optional>
 #include <vector>
 
 namespace elbowroom::sessions {
@@ -67,9 +68,13 @@ std::string AgainstEstimate(const ReportData& data, const SpacingStudy& study) {
   return "; " + estimate + " was not tried";
 }
 
+bool IsAllOfTheTask(const ReportData& data) { return data.status == SessionStatus::kComplete; }
+
 // What was touched needs more space, however the task went on; that nothing was touched says nothing of a
 // task that wasn't done to its end.
-bool IsAllOfTheTask(const ReportData& data) { return data.status == SessionStatus::kComplete; }
+std::optional<double> EnoughMm(const ReportData& data, const SpacingStudy& study) {
+  return IsAllOfTheTask(data) ? study.smallest_free_mm : std::nullopt;
+}
 
 std::string SpaceClause(const ReportData& data) {
   const SpacingStudy* study = Judged(data);
@@ -137,13 +142,13 @@ std::string TouchesByPart(const ReportData& data) {
 
 std::string SpaceNeeded(const ReportData& data) {
   const SpacingStudy* study = Judged(data);
-  if (study == nullptr || (!study->largest_touched_mm && !study->smallest_free_mm)) return "unknown";
-  if (!study->largest_touched_mm) {
-    return IsAllOfTheTask(data) ? "at most " + Millimetres(*study->smallest_free_mm) : "unknown";
-  }
-  if (!study->smallest_free_mm || !IsAllOfTheTask(data))
-    return "more than " + Millimetres(*study->largest_touched_mm);
-  return fmt::format("{}\u2013{}", Number(*study->largest_touched_mm), Millimetres(*study->smallest_free_mm));
+  if (study == nullptr) return "unknown";
+  const auto& touched_mm = study->largest_touched_mm;
+  const std::optional<double> enough_mm = EnoughMm(data, *study);
+  if (!touched_mm && !enough_mm) return "unknown";
+  if (!touched_mm) return "at most " + Millimetres(*enough_mm);
+  if (!enough_mm) return "more than " + Millimetres(*touched_mm);
+  return fmt::format("{}\u2013{}", Number(*touched_mm), Millimetres(*enough_mm));
 }
 
 }  // namespace elbowroom::sessions

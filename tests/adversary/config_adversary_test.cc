@@ -48,7 +48,7 @@ ProgramRun Elbowroom(const std::vector<std::string>& words, const fs::path& fold
 
 // What uses a file of that kind, and ends soon.
 std::vector<std::string> UseOf(ConfigurationKind kind, std::mt19937_64& random) {
-  const std::vector<std::string> contacts = {
+  std::vector<std::string> contacts = {
       "contacts", "rig.yml", "--frame",           "0",       "--mesh", "box.stl",
       "--unit",   "mm",      "--world-from-part", "pose.yml"};
   std::vector<std::string> trial = {"trial", "run", "trial.toml", "--session", "s.db", "--headless"};
