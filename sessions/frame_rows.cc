@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "core/error.h"
-#include "sessions/contact_rows.h"
+#include "sessions/recorded_contacts.h"
 #include "sessions/damage.h"
 #include "sessions/row_rules.h"
 

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/surface_patches.h"
-#include "sessions/contact_rows.h"
+#include "sessions/recorded_contacts.h"
 #include "sessions/damage.h"
 #include "sessions/packing.h"
 #include "sessions/row_rules.h"

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/session.h"
-#include "sessions/contact_rows.h"
+#include "sessions/recorded_contacts.h"
 
 namespace elbowroom::sessions {
 

@@ -8,7 +8,7 @@
 
 #include "app/cli/command.h"
 #include "app/cli/unit_option.h"
-#include "app/control/session_sweep.h"
+#include "app/control/spacing_sweep.h"
 
 namespace elbowroom::cli {
 namespace {
@@ -16,11 +16,11 @@ namespace {
 struct SweepOptions {
   std::filesystem::path session;
   std::filesystem::path out;
-  control::SweepRange range;
+  control::SpacingRange range;
 };
 
 // NAME=FROM:TO:STEP
-std::optional<control::SweepRange> Parse(const std::string& text) {
+std::optional<control::SpacingRange> Parse(const std::string& text) {
   const std::size_t equals = text.rfind('='),
                     first = text.find(':', equals == std::string::npos ? 0 : equals),
                     second = first == std::string::npos ? first : text.find(':', first + 1);
@@ -29,7 +29,7 @@ std::optional<control::SweepRange> Parse(const std::string& text) {
              to_mm = ParseNumber(text.substr(first + 1, second - first - 1)),
              step_mm = ParseNumber(text.substr(second + 1));
   if (!from_mm || !to_mm || !step_mm || !(*step_mm > 0.0) || *to_mm < *from_mm) return std::nullopt;
-  return control::SweepRange{text.substr(0, equals), *from_mm, *to_mm, *step_mm};
+  return control::SpacingRange{text.substr(0, equals), *from_mm, *to_mm, *step_mm};
 }
 
 nlohmann::json OrNull(std::optional<double> length_mm) {
@@ -84,12 +84,12 @@ std::string TextOf(const std::string& spacing, const review::SpacingStudy& study
 CommandResult Run(const SweepOptions& options, const CommandContext& context) {
   const sessions::SessionReader session(options.session, context.stop);
   const review::SpacingStudy study =
-      control::SweepSession(session, options.range, context.progress, context.stop);
+      control::SweepSpacing(session, options.range, context.progress, context.stop);
   CommandResult result;
   result.json = JsonOf(session.header().layout, options.range.spacing, study);
   result.text = TextOf(options.range.spacing, study);
   result.json["files"] = nlohmann::json::array();
-  for (const auto& file : control::WriteSweep(session.header(), options.range, study, options.out)) {
+  for (const auto& file : control::WriteSpacingSweep(session.header(), options.range, study, options.out)) {
     result.json["files"].push_back(file.string());
     result.text += "\n" + file.string();
   }

@@ -65,13 +65,13 @@ void TrialDesk::Run(control::TrialSetup setup) {
     bridge_.PostLatest(Bridge::Stream::kHull, [this, hull] { emit HullArrived(hull); });
   };
   EnterState(DeskState::kRunning);
-  trial_ = std::make_unique<control::LiveTrial>(std::move(setup), std::move(options),
-                                                [this](const control::LiveTrial::Ended& ended) {
+  trial_ = std::make_unique<control::TrialThread>(std::move(setup), std::move(options),
+                                                [this](const control::TrialThread::Ended& ended) {
                                                   bridge_.Post([this, ended] { FinishTrial(ended); });
                                                 });
 }
 
-void TrialDesk::FinishTrial(const control::LiveTrial::Ended& ended) {
+void TrialDesk::FinishTrial(const control::TrialThread::Ended& ended) {
   trial_.reset();  // its thread has nothing left to do
   if (ended.outcome) session_ = ended.outcome->session;
   if (has_frames_) recorded_ = session_;  // a trial that failed keeps what it recorded

@@ -16,7 +16,7 @@
 #include "app/console/bridge.h"
 #include "app/control/episode_tally.h"
 #include "app/control/frame_result.h"
-#include "app/control/live_trial.h"
+#include "app/control/trial_thread.h"
 #include "app/control/trial_setup.h"
 
 namespace elbowroom::console {
@@ -76,7 +76,7 @@ class TrialDesk : public QObject {
 
  private:
   void Run(control::TrialSetup setup);
-  void FinishTrial(const control::LiveTrial::Ended& ended);
+  void FinishTrial(const control::TrialThread::Ended& ended);
   void FinishReport(const std::string& error, const QString& html_file);
   void EnterState(DeskState state);
   [[nodiscard]] core::Progress ProgressToHere();
@@ -88,7 +88,7 @@ class TrialDesk : public QObject {
   std::optional<std::filesystem::path> recorded_;  // can be reported on
   Bridge bridge_;                                  // before the threads that post to it
   std::unique_ptr<BackgroundJob> job_;
-  std::unique_ptr<control::LiveTrial> trial_;
+  std::unique_ptr<control::TrialThread> trial_;
 };
 
 }  // namespace elbowroom::console

@@ -45,7 +45,7 @@ BackgroundReference ReadOne(const CameraSources& sources, const core::CameraMode
   BackgroundAccumulator accumulator;
   for (FrameIndex i = 0; i < used; ++i) {
     core::ThrowIfStopped(stop, "reading the background");
-    accumulator.Add(source->Read(i, stop));
+    accumulator.Add(source->Read(i, stop).image_bgr);
     ticks.Push({0, 1});
   }
   return accumulator.Reference();

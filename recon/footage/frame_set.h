@@ -1,6 +1,7 @@
 // What the cameras of a rig saw at one instant, and where such sets come from.
 #pragma once
 
+#include <chrono>
 #include <memory>
 #include <opencv2/core/mat.hpp>
 #include <optional>
@@ -19,6 +20,8 @@ namespace elbowroom::recon {
 struct CameraFrame {
   cv::Mat image_bgr;                        // 8-bit, 3 channels; empty where the camera brings ready masks
   std::optional<core::BitMask> ready_mask;  // then there is nothing to segment
+  // When a live camera's picture came; nothing for a recorded frame.
+  std::optional<std::chrono::steady_clock::time_point> captured_at;
 };
 
 // Of a camera that isn't the rig's (recon/footage/viewer_footage.h).

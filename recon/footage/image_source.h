@@ -1,6 +1,7 @@
 // One camera's pictures by number, wherever they are kept.
 #pragma once
 
+#include <chrono>
 #include <memory>
 #include <opencv2/core/mat.hpp>
 #include <optional>
@@ -12,6 +13,12 @@
 
 namespace elbowroom::recon {
 
+struct SourcePicture {
+  cv::Mat image_bgr;  // 8-bit BGR of the camera's size, in memory of its own
+  // When the picture of a live camera came. Nothing for a recorded one: its number and the rate give its time.
+  std::optional<std::chrono::steady_clock::time_point> captured_at = std::nullopt;
+};
+
 // Thread: one reader.
 class ImageSource {
  public:
@@ -21,12 +28,12 @@ class ImageSource {
   [[nodiscard]] virtual std::optional<core::FrameIndex> frame_count() const = 0;
   [[nodiscard]] virtual std::optional<double> frame_rate_hz() const = 0;  // if the file says
 
-  // 8-bit BGR of the camera's size, in memory of its own. Reading on is fast; going back in a video decodes
-  // it again from its beginning, since only that is right for every codec. A live camera gives its next
-  // picture that isn't damaged, whatever the index; it waits for one as long as the camera is there. Throws:
-  // Error{kRange} past the end, Error{kFile} naming camera, file and frame, Error{kCamera} when a live
-  // picture ended, or nothing but damaged ones came for seconds; Error{kCancelled} on a stop, heard at once.
-  [[nodiscard]] virtual cv::Mat Read(core::FrameIndex index, const std::stop_token& stop = {}) = 0;
+  // Reading on is fast; going back in a video decodes it again from its beginning, since only that is right
+  // for every codec. A live camera gives its next picture that isn't damaged, whatever the index; it waits for
+  // one as long as the camera is there. Throws: Error{kRange} past the end, Error{kFile} naming camera, file
+  // and frame, Error{kCamera} when a live picture ended, or nothing but damaged ones came for seconds;
+  // Error{kCancelled} on a stop, heard at once.
+  [[nodiscard]] virtual SourcePicture Read(core::FrameIndex index, const std::stop_token& stop = {}) = 0;
 
   // Damaged pictures of a live camera that were passed over. Thread: any.
   [[nodiscard]] virtual core::FrameIndex left_out() const { return 0; }

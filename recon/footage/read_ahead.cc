@@ -46,7 +46,6 @@ void ReadAhead::Run(Queue& queue, core::FrameIndex begin, const std::stop_token&
     } catch (...) {
       captured.error = std::current_exception();
     }
-    captured.captured_at = std::chrono::steady_clock::now();
     const bool is_last = captured.error != nullptr;
     if (!queue.Push(std::move(captured)) || is_last) return;
   }

@@ -1,7 +1,6 @@
 // A camera's capture thread: reads on while the frames before are still being worked on.
 #pragma once
 
-#include <chrono>
 #include <exception>
 #include <functional>
 #include <memory>
@@ -17,7 +16,6 @@ namespace elbowroom::recon {
 
 struct CapturedFrame {
   CameraFrame frame;
-  std::chrono::steady_clock::time_point captured_at;
   std::exception_ptr error;  // set: `frame` could not be read
 };
 

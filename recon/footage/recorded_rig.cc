@@ -57,7 +57,7 @@ OpenedCamera OpenMasks(const std::string& location, const core::CameraModel& cam
   const auto reader = std::make_shared<ImageReader>(who, cv::Size(camera.width_px(), camera.height_px()));
   const auto read = [files = std::move(files), reader, camera](FrameIndex index,
                                                                const std::stop_token& stop) {
-    return CameraFrame{{}, ReadSizedMask(*reader, files[static_cast<std::size_t>(index)], camera, stop)};
+    return CameraFrame{{}, ReadSizedMask(*reader, files[static_cast<std::size_t>(index)], camera, stop), {}};
   };
   return {location, count, std::nullopt, read};
 }
@@ -71,7 +71,8 @@ OpenedCamera OpenCamera(const CameraSources& sources, const core::CameraModel& c
   }
   const std::shared_ptr<ImageSource> source = OpenImageSource(sources.frames, camera, stop);
   const auto read = [source](FrameIndex index, const std::stop_token& reading) {
-    return CameraFrame{source->Read(index, reading), std::nullopt};
+    SourcePicture picture = source->Read(index, reading);
+    return CameraFrame{std::move(picture.image_bgr), std::nullopt, picture.captured_at};
   };
   return {sources.frames, source->frame_count(), source->frame_rate_hz(), read, source};
 }
@@ -158,12 +159,11 @@ FrameSet RecordedRig::Read(FrameIndex index, std::stop_token stop) {
   for (const auto& camera : cameras_) camera->Expect(index);
   FrameSet set{index, static_cast<double>(index) / frame_rate_hz_, {}};
   for (const auto& camera : cameras_) {
-    CapturedFrame captured = camera->Take(stop);
-    if (!shortest_source_ && set.cameras.empty()) {
-      if (!first_capture_) first_capture_ = captured.captured_at;
-      set.time_s = std::chrono::duration<double>(captured.captured_at - *first_capture_).count();
-    }
-    set.cameras.push_back(std::move(captured.frame));
+    set.cameras.push_back(camera->Take(stop).frame);
+  }
+  if (const auto captured_at = set.cameras.front().captured_at; captured_at && !shortest_source_) {
+    if (!first_capture_) first_capture_ = captured_at;
+    set.time_s = std::chrono::duration<double>(*captured_at - *first_capture_).count();
   }
   return set;
 }

@@ -43,7 +43,7 @@ class VideoFile : public ImageSource {
   [[nodiscard]] std::optional<FrameIndex> frame_count() const override { return count_; }
   [[nodiscard]] std::optional<double> frame_rate_hz() const override { return frame_rate_hz_; }
 
-  [[nodiscard]] cv::Mat Read(FrameIndex index, const std::stop_token& stop) override {
+  [[nodiscard]] SourcePicture Read(FrameIndex index, const std::stop_token& stop) override {
     subject_.RequireInRange(index, count_);
     if (!next_ || index < *next_) (void)Open(stop);
     FrameIndex at = *std::exchange(next_, std::nullopt);  // unknown again if what follows is stopped
@@ -58,7 +58,7 @@ class VideoFile : public ImageSource {
     if (!picture.value) FailAt(index);
     subject_.RequireSize(picture.value->size_px.width, picture.value->size_px.height, index);
     next_ = index + 1;
-    return std::move(picture.value->image_bgr);
+    return {std::move(picture.value->image_bgr)};
   }
 
  private:

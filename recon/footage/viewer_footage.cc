@@ -17,7 +17,8 @@ ViewerFootage::ViewerFootage(std::shared_ptr<RecordedRig> rig, core::CameraModel
   frames_ = source_->frame_count();
   pictures_ = std::make_unique<ReadAhead>(
       [source = source_](core::FrameIndex index, const std::stop_token& reading) {
-        return CameraFrame{source->Read(index, reading), std::nullopt};
+        SourcePicture picture = source->Read(index, reading);
+        return CameraFrame{std::move(picture.image_bgr), std::nullopt, picture.captured_at};
       },
       frames_);
   camera_ = std::make_shared<const core::CameraModel>(std::move(camera));

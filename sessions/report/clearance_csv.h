@@ -5,7 +5,7 @@
 #include <string>
 
 #include "core/session.h"
-#include "sessions/contact_rows.h"
+#include "sessions/recorded_contacts.h"
 
 namespace elbowroom::sessions {
 

@@ -120,7 +120,7 @@ void ReadAll(const fs::path& file, Tally& tally) {
   try {
     const auto source = recon::OpenImageSource(file.string(), recon::testing::PlainCamera("cam1"));
     for (core::FrameIndex i = 0; i < source->frame_count().value_or(0); ++i) {
-      const cv::Mat picture = source->Read(i);
+      const cv::Mat picture = source->Read(i).image_bgr;
       EXPECT_EQ(picture.size(), cv::Size(kWidthPx, kHeightPx));
     }
     ++tally.taken;

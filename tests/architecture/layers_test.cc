@@ -62,7 +62,7 @@ TEST_F(PlantedTree, IsCleanBeforeAnythingIsPlanted) {
   Plant("core/a.h", "#pragma once\n#include <Eigen/Core>\n#include <vector>\n#include \"core/error.h\"\n");
   Plant("sessions/a.cc", "#include <sqlite3.h>\n#include <unistd.h>\n#include \"core/session.h\"\n");
   Plant("app/console/a.h",
-        "#include <QWidget>\n#include \"app/control/live_trial.h\"\n#include \"core/contact.h\"\n");
+        "#include <QWidget>\n#include \"app/control/trial_thread.h\"\n#include \"core/contact.h\"\n");
   EXPECT_EQ(Lines(Check()), "");
 }
 

@@ -42,7 +42,7 @@ TEST(ImageSequence, BeginsAtZeroOrOne) {
     const auto source = OpenImageSource(folder.File("f_%03d.png"), PlainCamera("cam3"));
     ASSERT_EQ(source->frame_count(), 12);
     EXPECT_FALSE(source->frame_rate_hz().has_value());
-    for (const int i : {0, 11, 5}) EXPECT_EQ(NumberIn(source->Read(i)), i);
+    for (const int i : {0, 11, 5}) EXPECT_EQ(NumberIn(source->Read(i).image_bgr), i);
     EXPECT_THAT(ErrorOf(ErrorKind::kRange, [&] { (void)source->Read(12); }),
                 AllOf(HasSubstr("frame 12"), HasSubstr("12 frames")));
     EXPECT_THAT(ErrorOf(ErrorKind::kRange, [&] { (void)source->Read(-1); }), HasSubstr("frame -1"));
@@ -54,7 +54,7 @@ TEST(ImageSequence, CountsUnpaddedNumbersAsNumbers) {
   for (int i = 0; i < 12; ++i) cv::imwrite(folder.File("f" + std::to_string(i) + ".png"), NumberedPicture(i));
   const auto source = OpenImageSource(folder.File("f%d.png"), PlainCamera("cam3"));
   ASSERT_EQ(source->frame_count(), 12);
-  EXPECT_EQ(NumberIn(source->Read(10)), 10);  // by name it would come after f1
+  EXPECT_EQ(NumberIn(source->Read(10).image_bgr), 10);  // by name it would come after f1
 }
 
 TEST(ImageSequence, SaysWhereItHasAGapOrNoBeginning) {
@@ -88,10 +88,10 @@ TEST(ImageSource, TakesOneImageAndAFolder) {
   WriteSequence(folder, 7, 3);
   const auto all = OpenImageSource(folder.path().string(), PlainCamera("cam3"));
   EXPECT_EQ(all->frame_count(), 3);
-  EXPECT_EQ(NumberIn(all->Read(2)), 2);
+  EXPECT_EQ(NumberIn(all->Read(2).image_bgr), 2);
   const auto one = OpenImageSource(folder.File("f_008.png"), PlainCamera("cam3"));
   EXPECT_EQ(one->frame_count(), 1);
-  EXPECT_EQ(NumberIn(one->Read(0)), 1);
+  EXPECT_EQ(NumberIn(one->Read(0).image_bgr), 1);
 }
 
 TEST(VideoFile, GivesTheRightFrameInAnyOrder) {
@@ -100,12 +100,12 @@ TEST(VideoFile, GivesTheRightFrameInAnyOrder) {
   const auto source = OpenImageSource(folder.File("v.avi"), PlainCamera("cam3"));
   ASSERT_EQ(source->frame_count(), 40);
   EXPECT_NEAR(source->frame_rate_hz().value_or(0.0), 30.0, 1e-3);  // the container keeps it as a ratio
-  for (int i = 0; i < 40; ++i) EXPECT_EQ(NumberIn(source->Read(i)), i);
+  for (int i = 0; i < 40; ++i) EXPECT_EQ(NumberIn(source->Read(i).image_bgr), i);
   std::mt19937 random(11);
   for (int k = 0; k < 30; ++k) {
     const int i = static_cast<int>(random() % 40U);
-    EXPECT_EQ(NumberIn(source->Read(i)), i);
-    EXPECT_EQ(NumberIn(source->Read(i)), i);
+    EXPECT_EQ(NumberIn(source->Read(i).image_bgr), i);
+    EXPECT_EQ(NumberIn(source->Read(i).image_bgr), i);
   }
   EXPECT_THAT(ErrorOf(ErrorKind::kRange, [&] { (void)source->Read(40); }), HasSubstr("40 frames"));
 }
@@ -114,8 +114,8 @@ TEST(VideoFile, PicturesStayAsTheyWereWhenMoreAreRead) {
   const TestFolder folder;
   testing::WriteVideo(folder.File("v.avi"), 3);
   const auto source = OpenImageSource(folder.File("v.avi"), PlainCamera("cam3"));
-  const cv::Mat first = source->Read(0);
-  (void)source->Read(1);
+  const cv::Mat first = source->Read(0).image_bgr;
+  EXPECT_FALSE(source->Read(1).captured_at.has_value());
   (void)source->Read(2);
   EXPECT_EQ(NumberIn(first), 0);
 }
@@ -199,7 +199,7 @@ TEST(LiveCamera, HasNoEndAndSaysWhenItBreaksOff) {
   testing::WriteVideo(folder.File("v.avi"), 5);
   const auto source = OpenImageSource("file://" + folder.File("v.avi"), PlainCamera("cam3"));
   EXPECT_FALSE(source->frame_count().has_value());
-  for (int i = 0; i < 5; ++i) EXPECT_EQ(NumberIn(source->Read(i)), i);
+  for (int i = 0; i < 5; ++i) EXPECT_EQ(NumberIn(source->Read(i).image_bgr), i);
   EXPECT_THAT(ErrorOf(ErrorKind::kCamera, [&] { (void)source->Read(5); }),
               AllOf(HasSubstr("cam3"), HasSubstr("frame 5")));
   EXPECT_THAT(OpenError("device:front", ErrorKind::kFormat), HasSubstr("device:0"));

@@ -47,8 +47,27 @@ TEST(LiveStream, BringsItsPicturesInOrder) {
   MjpegServer server([](int i) { return Jpeg(i % 256); });
   const auto source = OpenImageSource(server.url(), PlainCamera("cam3"));
   EXPECT_FALSE(source->frame_count().has_value());
-  for (int i = 0; i < 60; ++i) EXPECT_EQ(NumberIn(source->Read(i)), i);
+  for (int i = 0; i < 60; ++i) EXPECT_EQ(NumberIn(source->Read(i).image_bgr), i);
   EXPECT_EQ(source->left_out(), 0);
+}
+
+TEST(LiveStream, SaysOfEveryCameraWhenItsPictureCame) {
+  MjpegServer one([](int i) { return Jpeg(i % 256); });
+  MjpegServer other([](int i) { return Jpeg(i % 256); });
+  const auto begin = std::chrono::steady_clock::now();
+  RecordedRig rig(PlainRig({{one.url(), "", ""}, {other.url(), "", ""}}));
+  std::vector<std::chrono::steady_clock::time_point> last(2, begin);
+  std::optional<std::chrono::steady_clock::time_point> first;
+  for (core::FrameIndex i = 0; i < 5; ++i) {
+    const FrameSet set = rig.Read(i);
+    for (std::size_t camera = 0; camera < 2; ++camera) {
+      ASSERT_TRUE(set.cameras[camera].captured_at.has_value());
+      EXPECT_GT(*set.cameras[camera].captured_at, last[camera]);
+      last[camera] = *set.cameras[camera].captured_at;
+    }
+    if (!first) first = last[0];
+    EXPECT_DOUBLE_EQ(set.time_s, std::chrono::duration<double>(last[0] - *first).count());
+  }
 }
 
 TEST(LiveStream, LeavesDamagedPicturesOutAndCountsThem) {
@@ -63,7 +82,7 @@ TEST(LiveStream, LeavesDamagedPicturesOutAndCountsThem) {
   core::FrameIndex index = 0;
   for (int i = 0; i < 100; ++i) {
     if (i % 20 == 13 || i % 20 == 17) continue;
-    EXPECT_EQ(NumberIn(source->Read(index++)), i);
+    EXPECT_EQ(NumberIn(source->Read(index++).image_bgr), i);
   }
   EXPECT_EQ(source->left_out(), 10);
 }

@@ -40,7 +40,7 @@ TEST_F(RealFootage, AWholeVideoIsNeverCalledCutShort) {
     EXPECT_THAT(background->frame_count().value_or(0), AllOf(::testing::Ge(132), ::testing::Le(133))) << i;
     const auto video = OpenImageSource(rig_file.sources[i].frames, camera);
     EXPECT_EQ(video->frame_count(), 426) << i;  // the container promises 428
-    EXPECT_EQ(video->Read(425).cols, 644) << i;
+    EXPECT_EQ(video->Read(425).image_bgr.cols, 644) << i;
   }
 }
 
@@ -68,9 +68,9 @@ TEST_F(RealFootage, RandomAccessGivesTheSamePictureAsReadingOn) {
   const auto source = OpenImageSource(rig_file.sources[2].frames, rig_file.rig.cameras[2]);
   const auto other = OpenImageSource(rig_file.sources[2].frames, rig_file.rig.cameras[2]);
   std::vector<cv::Mat> in_order;
-  for (int i = 0; i < 120; ++i) in_order.push_back(source->Read(i));
+  for (int i = 0; i < 120; ++i) in_order.push_back(source->Read(i).image_bgr);
   for (const int i : {117, 3, 0, 64, 65, 12}) {
-    EXPECT_EQ(cv::norm(other->Read(i), in_order[static_cast<std::size_t>(i)], cv::NORM_INF), 0.0) << i;
+    EXPECT_EQ(cv::norm(other->Read(i).image_bgr, in_order[static_cast<std::size_t>(i)], cv::NORM_INF), 0.0) << i;
   }
 }
 

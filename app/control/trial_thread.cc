@@ -1,4 +1,4 @@
-#include "app/control/live_trial.h"
+#include "app/control/trial_thread.h"
 
 #include <memory>
 
@@ -6,7 +6,7 @@
 
 namespace elbowroom::control {
 
-LiveTrial::LiveTrial(TrialSetup setup, TrialOptions options, std::function<void(const Ended&)> on_ended)
+TrialThread::TrialThread(TrialSetup setup, TrialOptions options, std::function<void(const Ended&)> on_ended)
     : thread_([this, setup = std::move(setup), options = std::move(options),
                on_ended = std::move(on_ended)](const std::stop_token& stop) {
         Ended ended;
@@ -18,8 +18,8 @@ LiveTrial::LiveTrial(TrialSetup setup, TrialOptions options, std::function<void(
         on_ended(ended);
       }) {}
 
-LiveTrial::~LiveTrial() = default;  // the thread is asked to stop, and waited for
+TrialThread::~TrialThread() = default;  // the thread is asked to stop, and waited for
 
-void LiveTrial::Stop() { thread_.request_stop(); }
+void TrialThread::Stop() { thread_.request_stop(); }
 
 }  // namespace elbowroom::control

@@ -1,4 +1,4 @@
-#include "app/control/session_sweep.h"
+#include "app/control/spacing_sweep.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <memory>
 #include <string_view>
 
-#include "app/control/sweep_picture.h"
+#include "app/control/spacing_sweep_picture.h"
 #include "app/control/trial_rules.h"
 #include "core/error.h"
 #include "core/spelling.h"
@@ -53,7 +53,7 @@ std::string SweepCsv(const core::Layout& layout, const review::SpacingStudy& stu
 
 }  // namespace
 
-review::SpacingStudy SweepSession(const sessions::SessionReader& session, const SweepRange& range,
+review::SpacingStudy SweepSpacing(const sessions::SessionReader& session, const SpacingRange& range,
                                   const core::Progress& progress, std::stop_token stop) {
   const core::SessionHeader& header = session.header();
   review::SpacingStudyOptions options;
@@ -80,10 +80,10 @@ review::SpacingStudy SweepSession(const sessions::SessionReader& session, const 
   return review::StudySpacing(header.layout, {frames.size(), load}, options, progress, stop);
 }
 
-std::vector<std::filesystem::path> WriteSweep(const core::SessionHeader& header, const SweepRange& range,
+std::vector<std::filesystem::path> WriteSpacingSweep(const core::SessionHeader& header, const SpacingRange& range,
                                               const review::SpacingStudy& study,
                                               const std::filesystem::path& folder) {
-  const LineDrawing picture = SweepPicture(header, range.spacing, study);
+  const LineDrawing picture = SpacingSweepPicture(header, range.spacing, study);
   const std::vector<std::uint8_t> png = recon::EncodePng(ImageOf(picture));
   sessions::WriteWholeFiles(folder, {{"sweep.csv", SweepCsv(header.layout, study)},
                                      {"sweep.svg", SvgOf(picture)},

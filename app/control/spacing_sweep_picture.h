@@ -11,7 +11,7 @@ namespace elbowroom::control {
 
 // Of the parts that the spacing moves: above, in how many frames each is in contact; below, the bounds of its
 // least clearance, as a band. The smallest spacing without contact and the trial's estimate are marked.
-[[nodiscard]] LineDrawing SweepPicture(const core::SessionHeader& header, const std::string& spacing,
+[[nodiscard]] LineDrawing SpacingSweepPicture(const core::SessionHeader& header, const std::string& spacing,
                                        const review::SpacingStudy& study);
 
 }  // namespace elbowroom::control

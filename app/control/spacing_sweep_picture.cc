@@ -1,4 +1,4 @@
-#include "app/control/sweep_picture.h"
+#include "app/control/spacing_sweep_picture.h"
 
 #include <fmt/format.h>
 
@@ -118,7 +118,7 @@ void AddPart(const review::SpacingStudy& study, core::PartIndex part, std::size_
 
 }  // namespace
 
-LineDrawing SweepPicture(const core::SessionHeader& header, const std::string& spacing,
+LineDrawing SpacingSweepPicture(const core::SessionHeader& header, const std::string& spacing,
                          const review::SpacingStudy& study) {
   LineDrawing drawing;
   drawing.width_px = kWidthPx;

@@ -15,17 +15,17 @@ namespace elbowroom::control {
 
 // Starts in the constructor; ends by itself, by Stop(), or with the object.
 // Thread: any; the callbacks come on the trial's own thread and must not block.
-class LiveTrial {
+class TrialThread {
  public:
   struct Ended {
     std::optional<TrialOutcome> outcome;  // nothing if it failed
     std::string error;                    // the one line of what went wrong, else empty
   };
 
-  LiveTrial(TrialSetup setup, TrialOptions options, std::function<void(const Ended&)> on_ended);
-  ~LiveTrial();
-  LiveTrial(const LiveTrial&) = delete;
-  LiveTrial& operator=(const LiveTrial&) = delete;
+  TrialThread(TrialSetup setup, TrialOptions options, std::function<void(const Ended&)> on_ended);
+  ~TrialThread();
+  TrialThread(const TrialThread&) = delete;
+  TrialThread& operator=(const TrialThread&) = delete;
 
   [[nodiscard]] TrialControls& controls() { return controls_; }
   void Stop();  // asks; doesn't wait

@@ -1,4 +1,4 @@
-#include "sessions/contact_rows.h"
+#include "sessions/recorded_contacts.h"
 
 #include <fmt/format.h>
 

@@ -13,7 +13,7 @@
 
 namespace elbowroom::control {
 
-struct SweepRange {
+struct SpacingRange {
   std::string spacing;  // its name
   double from_mm = 0.0;
   double to_mm = 0.0;
@@ -23,14 +23,14 @@ struct SweepRange {
 // Every recorded frame of the session at every step; what the trial required is judged.
 // Throws: core::Error{kRange}: no such spacing, a range beyond its limits, a session without frames; what
 // SessionReader throws; Error{kCancelled}.
-[[nodiscard]] review::SpacingStudy SweepSession(const sessions::SessionReader& session,
-                                                const SweepRange& range, const core::Progress& progress,
+[[nodiscard]] review::SpacingStudy SweepSpacing(const sessions::SessionReader& session,
+                                                const SpacingRange& range, const core::Progress& progress,
                                                 std::stop_token stop);
 
 // sweep.csv (a line for each part at each step), sweep.svg and sweep.png in `folder`, which is made if it
 // isn't there; all or none. Throws: core::Error{kFile}.
-[[nodiscard]] std::vector<std::filesystem::path> WriteSweep(const core::SessionHeader& header,
-                                                            const SweepRange& range,
+[[nodiscard]] std::vector<std::filesystem::path> WriteSpacingSweep(const core::SessionHeader& header,
+                                                            const SpacingRange& range,
                                                             const review::SpacingStudy& study,
                                                             const std::filesystem::path& folder);
 
