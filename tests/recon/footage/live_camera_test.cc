@@ -7,6 +7,7 @@
 #include <optional>
 #include <stop_token>
 #include <string>
+#include <vector>
 
 #include "recon/footage/image_source.h"
 #include "recon/footage/recorded_rig.h"
