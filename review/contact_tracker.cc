@@ -29,8 +29,8 @@ std::optional<Eigen::Vector3d> PlaceOf(const core::PartContact& contact) {
 
 void SetPeak(const TrackedFrame& frame, const core::PartContact& contact, double depth_mm,
              core::ContactEpisode* episode) {
-  episode->peak_frame = frame.frame;
-  episode->peak_time_s = frame.time_s;
+  episode->peak_frame = frame.record.frame;
+  episode->peak_time_s = frame.record.time_s;
   episode->peak_depth_mm = depth_mm;
   episode->peak_area_mm2 = contact.contact_area_mm2;
   if (const auto place = PlaceOf(contact)) {
@@ -38,12 +38,12 @@ void SetPeak(const TrackedFrame& frame, const core::PartContact& contact, double
     if (contact.part < frame.world_from_parts.size())
       episode->peak_position_in_part_mm = frame.world_from_parts[contact.part].Inverse() * *place;
   }
-  episode->spacing_at_peak_mm.assign(frame.spacing_mm.begin(), frame.spacing_mm.end());
+  episode->spacing_at_peak_mm = frame.record.spacing_mm;
 }
 
 void Extend(const TrackedFrame& frame, const core::PartContact& contact, core::ContactEpisode* episode) {
-  episode->end_frame = frame.frame;
-  episode->end_time_s = frame.time_s;
+  episode->end_frame = frame.record.frame;
+  episode->end_time_s = frame.record.time_s;
   episode->tools = UnionOf(episode->tools, frame.tools_in_use);
   const bool is_first = episode->frames_in_contact++ == 0;
   const double depth_mm = contact.deepest ? contact.deepest->depth_mm : 0.0;
@@ -66,8 +66,8 @@ bool IsSurelyBelow(core::Verdict verdict) {
 }
 
 void Extend(const TrackedFrame& frame, const core::PartContact& contact, core::NearMiss* miss) {
-  miss->end_frame = frame.frame;
-  miss->end_time_s = frame.time_s;
+  miss->end_frame = frame.record.frame;
+  miss->end_time_s = frame.record.time_s;
   miss->tools = UnionOf(miss->tools, frame.tools_in_use);
   const bool is_first = miss->frames_below++ == 0;
   if (IsSurelyBelow(contact.verdict)) miss->verdict = core::Verdict::kNear;
@@ -76,9 +76,9 @@ void Extend(const TrackedFrame& frame, const core::PartContact& contact, core::N
   };
   if (!is_first && bounds(*contact.clearance) >= bounds(miss->closest)) return;
   miss->closest = *contact.clearance;
-  miss->closest_frame = frame.frame;
-  miss->closest_time_s = frame.time_s;
-  miss->spacing_at_closest_mm.assign(frame.spacing_mm.begin(), frame.spacing_mm.end());
+  miss->closest_frame = frame.record.frame;
+  miss->closest_time_s = frame.record.time_s;
+  miss->spacing_at_closest_mm = frame.record.spacing_mm;
 }
 
 template <typename Episode>
@@ -108,8 +108,8 @@ void TrackerOptions::Validate() const {
 ContactTracker::ContactTracker(const TrackerOptions& options) : options_(options) { options_.Validate(); }
 
 void ContactTracker::Add(const TrackedFrame& frame) {
-  CloseWhatIsOver(frame.time_s);
-  for (const core::PartContact& contact : frame.contacts) {
+  CloseWhatIsOver(frame.record.time_s);
+  for (const core::PartContact& contact : frame.record.contacts) {
     PartState& state = parts_[contact.part];
     FollowTouch(frame, contact, &state);
     FollowApproach(frame, contact, &state);
@@ -139,15 +139,15 @@ void ContactTracker::FollowTouch(const TrackedFrame& frame, const core::PartCont
     if (!state->touch && begins) {
       state->touch.emplace();
       state->touch->episode.part = contact.part;
-      state->touch->episode.begin_frame = frame.frame;
-      state->touch->episode.begin_time_s = frame.time_s;
+      state->touch->episode.begin_frame = frame.record.frame;
+      state->touch->episode.begin_time_s = frame.record.time_s;
     }
     if (!state->touch) return;
     Extend(frame, contact, &state->touch->episode);
-    state->touch->held_until_s = frame.time_s;
+    state->touch->held_until_s = frame.record.time_s;
   } else if (state->touch && contact.clearance &&
              contact.clearance->interval.upper_mm <= options_.leave_resolutions * contact.resolution_mm) {
-    state->touch->held_until_s = frame.time_s;
+    state->touch->held_until_s = frame.record.time_s;
   }
 }
 
@@ -159,14 +159,14 @@ void ContactTracker::FollowApproach(const TrackedFrame& frame, const core::PartC
   if (is_below && !state->approach) {
     state->approach.emplace();
     state->approach->miss.part = contact.part;
-    state->approach->miss.begin_frame = frame.frame;
-    state->approach->miss.begin_time_s = frame.time_s;
+    state->approach->miss.begin_frame = frame.record.frame;
+    state->approach->miss.begin_time_s = frame.record.time_s;
   }
   if (!state->approach) return;
   if (sure_mm < options_.required_clearance_mm + options_.leave_margin_mm)
-    state->approach->held_until_s = frame.time_s;
+    state->approach->held_until_s = frame.record.time_s;
   if (is_below) Extend(frame, contact, &state->approach->miss);
-  if (state->touch && state->touch->held_until_s == frame.time_s) state->approach->has_touched = true;
+  if (state->touch && state->touch->held_until_s == frame.record.time_s) state->approach->has_touched = true;
 }
 
 std::vector<core::ContactEpisode> ContactTracker::Episodes() const {

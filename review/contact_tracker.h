@@ -10,6 +10,7 @@
 #include "core/contact.h"
 #include "core/ids.h"
 #include "core/rigid_transform.h"
+#include "core/session.h"
 
 namespace elbowroom::review {
 
@@ -31,12 +32,9 @@ struct TrackerOptions {
 };
 
 struct TrackedFrame {
-  core::FrameIndex frame = 0;
-  double time_s = 0.0;
-  std::span<const core::PartContact> contacts;             // one a part, at most
+  const core::FrameRecord& record;                         // at most one contact a part; no masks needed
   std::span<const core::RigidTransform> world_from_parts;  // of every part, by its index
-  std::span<const double> spacing_mm;
-  std::span<const std::string> tools_in_use;  // in order of name
+  std::span<const std::string> tools_in_use;               // in order of name
 };
 
 // The rules are those of docs/contact_tracking.md. Fed frame by frame, in order of time; episodes of one part

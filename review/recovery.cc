@@ -30,8 +30,8 @@ struct Exit {
 
 bool IsSeen(const recon::HullBoundary& boundary) { return boundary.camera && !boundary.is_outline; }
 
-// The end of the stretch that a ray starts in.
-Exit ExitAlong(const recon::VisualHull& hull, const Vector3d& x, const Vector3d& direction) {
+// The end of the stretch that a ray starts in, exactly: by its crossings.
+Exit ExactExit(const recon::VisualHull& hull, const Vector3d& x, const Vector3d& direction) {
   Exit exit{0.0, x, direction};
   for (const recon::HullInterval& interval : recon::IntervalsInHull(hull, {x, direction})) {
     if (interval.from_mm > exit.d_rec_mm + kOnSurfaceMm) break;
@@ -86,14 +86,14 @@ RecoveryAnswer TowardsReference(const recon::VisualHull& hull, const Vector3d& c
   if (!(distance_mm > kNoLengthMm)) return {RecoveryStatus::kNoDirection, {}};
   const Vector3d v_rec = (rp_obj - cp_obj) / distance_mm;
   if (hull.Contains(rp_obj))
-    return Answer(hull, cp_obj, ExitAlong(hull, cp_obj, v_rec), RecoveryStatus::kReferenceInsideHull);
+    return Answer(hull, cp_obj, ExactExit(hull, cp_obj, v_rec), RecoveryStatus::kReferenceInsideHull);
   return Answer(hull, cp_obj, ExitFromReference(hull, cp_obj, rp_obj, v_rec, distance_mm));
 }
 
 RecoveryAnswer AlongSlider(const recon::VisualHull& hull, const Vector3d& cp_obj, const RecoveryWay& way) {
   std::optional<Exit> best;
   for (const int sense : {1, -1})
-    if (way.sense != -sense) best = Better(best, ExitAlong(hull, cp_obj, sense * way.axis));
+    if (way.sense != -sense) best = Better(best, ExactExit(hull, cp_obj, sense * way.axis));
   return Answer(hull, cp_obj, *best);
 }
 
@@ -127,7 +127,7 @@ RecoveryAnswer Recover(const recon::VisualHull& hull, const Vector3d& cp_obj, co
     case RecoveryKind::kReference:
       return TowardsReference(hull, cp_obj, way.rp_obj);
     case RecoveryKind::kDirection:
-      return Answer(hull, cp_obj, ExitAlong(hull, cp_obj, way.axis));
+      return Answer(hull, cp_obj, ExactExit(hull, cp_obj, way.axis));
     case RecoveryKind::kSlider:
       return AlongSlider(hull, cp_obj, way);
     case RecoveryKind::kHinge:

@@ -22,17 +22,6 @@ constexpr double kGrazing = 0.17;
 // Surfaces meet at CP_hull where its picture is so near to another camera's contour.
 constexpr double kFootprintPx = 1.0;
 
-// The largest width of a pixel at a point, over the cameras that look towards it.
-double LargestPixelMm(const recon::VisualHull& hull, const Vector3d& x_in_world) {
-  const core::Rig& rig = hull.rig();
-  double largest_mm = 0.0;
-  for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
-    const double depth_mm = (rig.cameras[i].cam_from_world() * x_in_world).z();
-    largest_mm = std::max(largest_mm, depth_mm / hull.silhouettes()[i]->plane().focal_px());
-  }
-  return largest_mm;
-}
-
 // The silhouettes' edges that end the hull at CP_hull, the nearest first.
 std::vector<recon::NearEdge> EdgesAt(const recon::VisualHull& hull, const Vector3d& cp_hull,
                                      double silhouette_px) {
@@ -79,7 +68,7 @@ RecoveryUncertainty UncertaintyOf(const recon::VisualHull& hull, const core::Par
   const Recovery& recovery = *contact.recovery;
   RecoveryUncertainty result;
   result.cp_obj_mm =
-      contact.resolution_mm + silhouette_px * LargestPixelMm(hull, recovery.cp_obj_in_world_mm);
+      contact.resolution_mm + silhouette_px * recon::LargestPixelMm(hull, recovery.cp_obj_in_world_mm);
   result.v_rec_rad = AngleOfWay(recovery, way, result.cp_obj_mm);
   if (contact.recovery_status == core::RecoveryStatus::kNoExit) return result;
   const auto edges = EdgesAt(hull, recovery.cp_hull_in_world_mm, silhouette_px);

@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include "recon/contours/contour_map.h"
+#include "recon/contours/undistorted_plane.h"
 #include "recon/footage/recorded_rig.h"
 #include "recon/hull/visual_hull.h"
 #include "recon/rig_files/rig_file.h"

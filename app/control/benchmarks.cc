@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "core/error.h"
+#include "recon/contours/undistorted_plane.h"
 #include "recon/exact_view/hull_view.h"
 #include "recon/hull/visual_hull.h"
 #include "recon/hull_mesh/hull_mesh.h"

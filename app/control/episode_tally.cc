@@ -5,8 +5,7 @@
 namespace elbowroom::control {
 
 void EpisodeTally::Add(const FrameResult& result) {
-  tracker_.Add(
-      {result.frame, result.time_s, result.contacts, result.world_from_parts, result.spacing_mm, {}});
+  tracker_.Add({result, result.world_from_parts, {}});
 }
 
 std::vector<PartTally> EpisodeTally::Parts() const {

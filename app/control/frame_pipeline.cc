@@ -7,6 +7,7 @@
 #include <chrono>
 
 #include "core/error.h"
+#include "recon/contours/undistorted_plane.h"
 
 namespace elbowroom::control {
 namespace {
@@ -107,10 +108,7 @@ void FramePipeline::UpdateContacts(FrameResult* result) {
   for (std::size_t i = 0; i < parts; ++i)
     is_unchanged[i] =
         last_ && last_->hull == result->hull && last_->world_from_parts[i] == result->world_from_parts[i];
-  // What the first question would build, camera by camera, while the others wait.
-  if (!result->hull->IsEmpty() && std::ranges::count(is_unchanged, 0) > 0)
-    tbb::parallel_for(std::size_t{0}, rig_->cameras.size(),
-                      [&](std::size_t i) { (void)result->hull->silhouettes()[i]->labels().CellsView(); });
+  if (std::ranges::count(is_unchanged, 0) > 0) result->hull->Prepare();
   tbb::parallel_for(std::size_t{0}, parts, [&](std::size_t i) {
     result->contacts[i] = is_unchanged[i] ? last_->contacts[i] : Review(*result, i);
   });

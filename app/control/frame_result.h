@@ -1,4 +1,4 @@
-// Everything that one frame yielded, as a value that every room may keep.
+// What one frame yielded: what is recorded of it, and what only the running program has of it.
 #pragma once
 
 #include <cstdint>
@@ -20,15 +20,15 @@ namespace elbowroom::control {
 struct SkipCount {
   recon::SegmentationStats segmentation;
   recon::HullStats hull;
-  int unchanged_parts = 0;             // same hull, same pose: the last answer holds
-  std::int64_t triangles_in_all = 0;   // of the parts asked
-  std::int64_t triangles_skipped = 0;  // of those: settled with their whole branch of the part's tree
-  std::int64_t queries = 0;            // ball queries asked for contacts
-  int clearances_by_contact = 0;       // parts asked whose clearance is 0 because they are in contact
-  int clearances_by_ball = 0;          // parts asked that one ball showed to be far enough away
-  std::int64_t clearance_queries = 0;  // queries of the hull asked for clearances
+  int unchanged_parts = 0;             // hull and pose are the last frame's, and so is the answer
+  std::int64_t triangles_in_all = 0;   // those of the parts that were asked
+  std::int64_t triangles_skipped = 0;  // how many of them were settled with a whole branch of the part's tree
+  std::int64_t queries = 0;            // ball queries for contacts
+  int clearances_by_contact = 0;       // parts in contact: their clearance is 0 without a search
+  int clearances_by_ball = 0;          // parts that one ball query showed to be far enough away
+  std::int64_t clearance_queries = 0;  // queries of the hull for clearances
 
-  // The counts of another frame on top.
+  // Adds the counts of another frame.
   SkipCount& operator+=(const SkipCount& other);
 };
 
@@ -41,22 +41,15 @@ struct StageTimes {
 
 using SharedHull = std::shared_ptr<const recon::VisualHull>;
 
-struct FrameResult {
-  core::FrameIndex frame = 0;
-  double time_s = 0.0;  // of capture
-  // What the cameras took, with the pictures that hull and silhouettes come from; null where only the
-  // silhouettes were kept, as in a session.
+// The session keeps the record; the rest can be worked out again from it and from the session's header, but
+// for the pictures, the counts and the times.
+struct FrameResult : core::FrameRecord {
+  // The pictures that the masks come from. Null for a frame that was read from a session.
   std::shared_ptr<const recon::FrameSet> camera_frames;
-  core::SharedMasks masks;  // one a camera
   SharedHull hull;
   std::shared_ptr<const core::Layout> layout;
-  std::vector<double> spacing_mm;  // in the layout's order
-  // In the layout's order: where the frames before have pushed parts, from where layout and spacings have
-  // them, or nothing if none was pushed; and so where they are.
-  std::vector<core::RigidTransform> rest_from_parts;
-  std::vector<core::RigidTransform> world_from_parts;
-  std::vector<core::PartContact> contacts;  // in the layout's order
-  SharedReactions response;                 // to this frame; null: nothing gives way or flows
+  std::vector<core::RigidTransform> world_from_parts;  // in the layout's order, where parts are
+  SharedReactions response;                            // to this frame; null: nothing gives way or flows
   SkipCount skipped;
   StageTimes times;
 };

@@ -16,8 +16,7 @@ OutcomeTracker::OutcomeTracker(const core::TrialInfo& trial, std::span<const cor
 
 void OutcomeTracker::Add(const FrameResult& frame, std::span<const std::string> tools_in_use) {
   heat_.Add(frame.time_s, frame.hull, frame.world_from_parts, frame.contacts);
-  tracker_.Add(
-      {frame.frame, frame.time_s, frame.contacts, frame.world_from_parts, frame.spacing_mm, tools_in_use});
+  tracker_.Add({frame, frame.world_from_parts, tools_in_use});
 }
 
 core::SessionOutcome OutcomeTracker::Outcome() const {

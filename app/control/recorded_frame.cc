@@ -27,19 +27,12 @@ void RequireInSight(const FrameResult& result, const std::filesystem::path& sess
 }  // namespace
 
 SharedFrameResult RebuildFrame(const sessions::SessionReader& session, core::FrameIndex frame) {
-  const core::FrameRecord record = session.ReadFrame(frame);
-  auto result = std::make_shared<FrameResult>();
-  result->frame = record.frame;
-  result->time_s = record.time_s;
-  result->masks = record.masks;
+  auto result = std::make_shared<FrameResult>(FrameResult{session.ReadFrame(frame)});
   result->hull = std::make_shared<const recon::VisualHull>(
-      recon::MakeVisualHull(std::make_shared<const core::Rig>(session.header().rig), *record.masks));
+      recon::MakeVisualHull(std::make_shared<const core::Rig>(session.header().rig), *result->masks));
   result->layout = std::make_shared<const core::Layout>(session.header().layout);
-  result->spacing_mm = record.spacing_mm;
-  result->rest_from_parts = record.rest_from_parts;
   result->world_from_parts =
-      core::WithMotions(core::PosesAt(*result->layout, record.spacing_mm), record.rest_from_parts);
-  result->contacts = record.contacts;
+      core::WithMotions(core::PosesAt(*result->layout, result->spacing_mm), result->rest_from_parts);
   RequireInSight(*result, session.path());
   return result;
 }

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "app/control/demo_parts.h"
+#include "recon/contours/undistorted_plane.h"
 #include "recon/exact_view/hull_view.h"
 #include "recon/exact_view/view_comparison.h"
 #include "recon/gl/exact_view/exact_view_gl.h"

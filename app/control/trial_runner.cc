@@ -193,8 +193,7 @@ class Recording {
     last_frame_ = result.frame;
     last_time_s_ = result.time_s;
     tracker_->Add(result, std::vector<std::string>(tools_in_use_.begin(), tools_in_use_.end()));
-    writer_.Append(core::FrameRecord{result.frame, result.time_s, result.masks, result.spacing_mm,
-                                     result.contacts, result.rest_from_parts});
+    writer_.Append(result);
     ++outcome_.frames;
     for (const core::PartContact& contact : result.contacts) {
       outcome_.frames_in_contact[contact.part] += contact.verdict == core::Verdict::kContact ? 1 : 0;

@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "recon/contours/silhouette.h"
+
 namespace elbowroom::recon {
 namespace {
 

@@ -71,7 +71,7 @@ class Caster {
       Clear(Common(stale_, {x, y, x + kSizePx, y + kSizePx}), &view_);
       worker.squares.clear();
       pencils_.AddSquaresIn(x, y, &worker.squares);
-      for (const PixelSquare& square : worker.squares) Work(square, &worker);
+      for (const PixelBox& square : worker.squares) Work(square, &worker);
     });
     for (const Worker& worker : workers) {
       view_.hit_pixels += worker.hit_pixels;
@@ -87,7 +87,7 @@ class Caster {
     TileRays rays;
     TileHits hits;
     TileScratch scratch;
-    std::vector<PixelSquare> squares;
+    std::vector<PixelBox> squares;
     std::vector<TileCamera> cameras;
     std::vector<TileCamera> visibility_outlines;
     std::int64_t hit_pixels = 0;
@@ -95,7 +95,7 @@ class Caster {
     std::int64_t cast_pixels = 0;
   };
 
-  void Work(const PixelSquare& square, Worker* worker) {
+  void Work(const PixelBox& square, Worker* worker) {
     for (int y = square.y; y < square.bottom; y += kTilePx)
       for (int x = square.x; x < square.right; x += kTilePx) CastTileAt(x, y, worker);
   }

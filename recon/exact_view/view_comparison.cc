@@ -57,7 +57,7 @@ ViewComparison CompareViews(const VisualHull& hull, const ViewRays& rays, const 
   // Pixels of no square are settled in float64.
   std::vector<std::uint8_t> is_open(pixels, 0);
   const auto width = static_cast<std::size_t>(rays.width_px());
-  for (const PixelSquare& square : pencils ? pencils->Squares() : std::vector<PixelSquare>()) {
+  for (const PixelBox& square : pencils ? pencils->Squares() : std::vector<PixelBox>()) {
     for (int y = square.y; y < square.bottom; ++y) {
       std::uint8_t* row = is_open.data() + width * static_cast<std::size_t>(y);
       std::fill(row + square.x, row + square.right, std::uint8_t{1});

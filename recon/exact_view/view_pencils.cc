@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "recon/contours/silhouette.h"
+
 namespace elbowroom::recon {
 namespace {
 
@@ -92,14 +94,14 @@ std::int64_t ViewPencils::edges() const {
   return edges;
 }
 
-std::vector<PixelSquare> ViewPencils::Squares() const {
-  std::vector<PixelSquare> squares;
+std::vector<PixelBox> ViewPencils::Squares() const {
+  std::vector<PixelBox> squares;
   for (int y = 0; y < rays_.height_px(); y += kLargestSquarePx)
     for (int x = 0; x < rays_.width_px(); x += kLargestSquarePx) Divide(x, y, kLargestSquarePx, &squares);
   return squares;
 }
 
-void ViewPencils::Divide(int x, int y, int size, std::vector<PixelSquare>* squares) const {
+void ViewPencils::Divide(int x, int y, int size, std::vector<PixelBox>* squares) const {
   const int right = std::min(x + size, rays_.width_px()), bottom = std::min(y + size, rays_.height_px());
   const Eigen::AlignedBox2d box = rays_.BoundsOf(x, y, right, bottom);
   if (box.isEmpty() || MissesHull(box)) return;

@@ -19,14 +19,6 @@
 
 namespace elbowroom::recon {
 
-// Pixels [x, right) x [y, bottom), cut off at the picture's border.
-struct PixelSquare {
-  int x = 0;
-  int y = 0;
-  int right = 0;
-  int bottom = 0;
-};
-
 // The edges of all cameras as the view's rays meet them, and the workspace. Worked out in parallel. Borrows
 // hull and rays. Immutable. Thread: any.
 class ViewPencils {
@@ -60,8 +52,8 @@ class ViewPencils {
 
   // The squares, aligned to kSquarePx, whose rays might meet the hull; of the picture, or of the square of
   // kLargestSquarePx at (x, y).
-  [[nodiscard]] std::vector<PixelSquare> Squares() const;
-  void AddSquaresIn(int x, int y, std::vector<PixelSquare>* squares) const {
+  [[nodiscard]] std::vector<PixelBox> Squares() const;
+  void AddSquaresIn(int x, int y, std::vector<PixelBox>* squares) const {
     Divide(x, y, kLargestSquarePx, squares);
   }
 
@@ -74,7 +66,7 @@ class ViewPencils {
   };
 
   [[nodiscard]] static std::array<Face, 6> FacesOf(const Eigen::AlignedBox3d& box, const ViewRays& rays);
-  void Divide(int x, int y, int size, std::vector<PixelSquare>* squares) const;
+  void Divide(int x, int y, int size, std::vector<PixelBox>* squares) const;
   [[nodiscard]] EpipolarEdges::KeyRange KeysInWorkspace(const Eigen::AlignedBox2d& box) const;
   [[nodiscard]] bool MissesHull(const Eigen::AlignedBox2d& box) const;
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "recon/contours/silhouette.h"
 
 namespace elbowroom::recon {
 namespace {

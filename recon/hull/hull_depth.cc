@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "recon/contours/silhouette.h"
 #include "recon/hull/camera_query.h"
 
 namespace elbowroom::recon {

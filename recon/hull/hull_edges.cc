@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "recon/contours/silhouette.h"
+
 namespace elbowroom::recon {
 namespace {
 
@@ -82,6 +84,16 @@ std::vector<NearEdge> NearEdges(const VisualHull& hull, const Vector3d& x_in_wor
           {i, *edge, position, DistanceToEdge(labels.contour(), *edge, position), x_in_cam.z() / focal_px});
   }
   return near;
+}
+
+double LargestPixelMm(const VisualHull& hull, const Vector3d& x_in_world) {
+  const core::Rig& rig = hull.rig();
+  double largest_mm = 0.0;
+  for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
+    const double depth_mm = (rig.cameras[i].cam_from_world() * x_in_world).z();
+    largest_mm = std::max(largest_mm, depth_mm / hull.silhouettes()[i]->plane().focal_px());
+  }
+  return largest_mm;
 }
 
 EdgeNormal NormalOf(const VisualHull& hull, const NearEdge& edge) {

@@ -39,6 +39,9 @@ struct NearEdge {
 // One a camera at most.
 [[nodiscard]] std::vector<NearEdge> NearEdges(const VisualHull& hull, const Eigen::Vector3d& x_in_world);
 
+// The width of a pixel at a point, mm; the largest over the cameras that look towards it, 0 if none does.
+[[nodiscard]] double LargestPixelMm(const VisualHull& hull, const Eigen::Vector3d& x_in_world);
+
 struct EdgeNormal {
   Eigen::Vector3d in_world = Eigen::Vector3d::UnitZ();  // unit, away from the object
   double gain_per_px = 0.0;                             // this and the next two: FittedTangent's

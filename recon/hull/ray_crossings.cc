@@ -6,6 +6,7 @@
 #include <cstddef>
 
 #include "core/error.h"
+#include "recon/contours/silhouette.h"
 #include "recon/hull/camera_query.h"
 
 namespace elbowroom::recon {

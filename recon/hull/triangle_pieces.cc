@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "recon/contours/contour_kernel.h"
+#include "recon/contours/silhouette.h"
 
 namespace elbowroom::recon {
 namespace {

@@ -7,6 +7,8 @@
 #include <limits>
 
 #include "core/error.h"
+#include "recon/contours/silhouette.h"
+#include "recon/contours/undistorted_plane.h"
 #include "recon/hull/camera_query.h"
 #include "recon/hull/hull_edges.h"
 
@@ -85,6 +87,14 @@ VisualHull::VisualHull(std::shared_ptr<const core::Rig> rig,
   // What a camera shows, its lens may not see.
   const auto sees_nothing = [](const auto& silhouette) { return silhouette->labels().bounds_px().isEmpty(); };
   is_empty_ = !exterior_is_object && std::ranges::any_of(silhouettes_, sees_nothing);
+}
+
+void VisualHull::Prepare() const {
+  if (is_empty_) return;
+  tbb::parallel_for(std::size_t{0}, silhouettes_.size(), [&](std::size_t i) {
+    (void)silhouettes_[i]->labels().CellsView();
+    if (ExteriorIsObject(*rig_)) (void)silhouettes_[i]->plane().outline().CellsView();
+  });
 }
 
 bool VisualHull::Contains(const Eigen::Vector3d& x_in_world) const { return Contains(x_in_world, {}); }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
@@ -9,10 +10,14 @@
 
 #include "core/ids.h"
 #include "core/rig.h"
-#include "recon/contours/silhouette.h"
+#include "core/soft_mask.h"
 #include "recon/hull/world_shape.h"
 
 namespace elbowroom::recon {
+
+class Silhouette;        // recon/contours/silhouette.h: for those who ask one camera
+class UndistortedPlane;  // recon/contours/undistorted_plane.h
+using UndistortedPlanes = std::vector<std::shared_ptr<const UndistortedPlane>>;
 
 // Of a ball, a box or a triangle.
 enum class BallAnswer {
@@ -69,6 +74,10 @@ class VisualHull {
 
   // True when no point can be inside: under `outside`, some camera sees no object at all.
   [[nodiscard]] bool IsEmpty() const { return is_empty_; }
+
+  // Builds now, all cameras at once, what the first question to each of them would build while the others
+  // wait. Changes no answer.
+  void Prepare() const;
 
   // The paper's volume query.
   [[nodiscard]] bool Contains(const Eigen::Vector3d& x_in_world) const;

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "recon/contours/silhouette.h"
 #include "recon/hull/camera_query.h"
 
 namespace elbowroom::recon {

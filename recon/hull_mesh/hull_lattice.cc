@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "recon/contours/silhouette.h"
+
 namespace elbowroom::recon {
 namespace {
 
@@ -48,16 +50,13 @@ void Clear(const BlockBits& others, BlockBits* bits) {
 }  // namespace
 
 HullLattice::HullLattice(const VisualHull& hull, const HullGrid& grid) : hull_(hull), grid_(grid) {
-  const std::size_t cameras = hull.silhouettes().size();
-  rasters_.resize(cameras);
-  if (ExteriorIsObject(hull.rig())) outlines_.resize(cameras);
-  tbb::parallel_for(std::size_t{0}, cameras, [&](std::size_t i) {
+  hull.Prepare();
+  for (std::size_t i = 0; i < hull.silhouettes().size(); ++i) {
     const Silhouette& silhouette = *hull.silhouettes()[i];
-    rasters_[i] = silhouette.labels().CellsView();
-    if (!outlines_.empty()) outlines_[i] = silhouette.plane().outline().CellsView();
-  });
-  for (std::size_t i = 0; i < cameras; ++i)
-    views_.push_back(ViewGrid(hull.rig().cameras[i], hull.silhouettes()[i]->plane().focal_px(), grid));
+    views_.push_back(ViewGrid(hull.rig().cameras[i], silhouette.plane().focal_px(), grid));
+    cells_.push_back(silhouette.labels().CellsView());
+    if (ExteriorIsObject(hull.rig())) outlines_.push_back(silhouette.plane().outline().CellsView());
+  }
   first_.setZero(), last_ = grid.cells;
   const Eigen::AlignedBox3d& box = hull.rig().workspace_mm;
   for (int axis = 0; axis < 3; ++axis) {
@@ -72,12 +71,12 @@ BlockBits HullLattice::LabelsOf(const HullBlock& block, std::int64_t* queries) c
   std::vector<BlockBits> mixed(block.cameras.size());
   for (std::size_t i = 0; i < mixed.size(); ++i) {
     const std::uint8_t camera = block.cameras[i];
-    const std::size_t groups = LabelByCells(views_[camera], block.corner, rasters_[camera], &bits, &mixed[i]);
+    const std::size_t groups = LabelByCells(views_[camera], block.corner, cells_[camera], &bits, &mixed[i]);
     *queries += static_cast<std::int64_t>(8 * groups);
   }
   for (std::size_t i = 0; i < mixed.size(); ++i) {
     const std::uint8_t camera = block.cameras[i];
-    SettleMixed(views_[camera], rasters_[camera], block.corner, mixed[i], &bits);
+    SettleMixed(views_[camera], cells_[camera], block.corner, mixed[i], &bits);
   }
   if (!block.is_seen) *queries += KeepSeen(block.corner, &bits);
   return bits;
@@ -126,7 +125,7 @@ void HullLattice::FindExits(const HullBlock& block, std::span<const BlockEdge> e
     std::ranges::fill(shares, block.is_seen ? kNoCrossing : kUnknownCrossing);
     if (!block.is_in_workspace) OfferFaces(block, edges.first(from.count), shares);
     for (const std::uint8_t i : block.cameras)
-      LowerToCrossings(views_[i], rasters_[i], from, to, &all_shares);
+      LowerToCrossings(views_[i], cells_[i], from, to, &all_shares);
     for (std::size_t i = 0; i < from.count; ++i) {
       const Vector3d inside = grid_.AtSteps(PointOf(from, i)), outside = grid_.AtSteps(PointOf(to, i));
       const bool is_exact = shares[i] >= 0.0 && shares[i] <= 1.0;

@@ -23,8 +23,7 @@ struct BlockEdge {
 
 class HullLattice {
  public:
-  // Builds what the hull's contours build when first asked, camera by camera in parallel. `hull` and `grid`
-  // must outlive the lattice.
+  // Prepares the hull. `hull` and `grid` must outlive the lattice.
   HullLattice(const VisualHull& hull, const HullGrid& grid);
 
   // Which of a block's grid points the hull contains; of a point the same in each of its blocks. `queries`
@@ -44,9 +43,10 @@ class HullLattice {
 
   const VisualHull& hull_;
   const HullGrid& grid_;
-  std::vector<GridView> views_;  // by camera, as these
-  std::vector<ContourCellsView> rasters_;
-  std::vector<ContourCellsView> outlines_;  // empty where the rig doesn't ask for sight
+  // By camera.
+  std::vector<GridView> views_;
+  std::vector<ContourCellsView> cells_;
+  std::vector<ContourCellsView> outlines_;  // what each camera can see; empty unless the rig says `abstain`
   // The grid points in the workspace: along each axis from `first` to `last`.
   GridPoint first_, last_;
 };

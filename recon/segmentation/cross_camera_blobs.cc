@@ -7,7 +7,6 @@
 #include <numeric>
 
 #include "core/error.h"
-#include "recon/segmentation/mask_regions.h"
 
 namespace elbowroom::recon {
 namespace {
@@ -151,8 +150,7 @@ CrossCameraBlobs::CrossCameraBlobs(const core::Rig& rig) {
   }
 }
 
-std::vector<std::vector<bool>> CrossCameraBlobs::ConfirmedBlobs(
-    std::span<const core::BitMask* const> masks) const {
+std::vector<ConfirmedBlobs> CrossCameraBlobs::Confirm(std::span<const core::BitMask* const> masks) const {
   const std::size_t cameras = pictures_.size();
   core::Require(masks.size() == cameras, "one mask a camera");
   for (std::size_t c = 0; c < cameras; ++c) {
@@ -161,10 +159,10 @@ std::vector<std::vector<bool>> CrossCameraBlobs::ConfirmedBlobs(
         "a mask is of its camera's size");
   }
   std::vector<TileSums> sums(cameras);
-  std::vector<Regions> regions(cameras);
+  std::vector<ConfirmedBlobs> result(cameras);
   tbb::parallel_for(std::size_t{0}, cameras, [&](std::size_t c) {
     sums[c] = TileSums(*masks[c]);
-    regions[c] = ObjectRegions(*masks[c]);
+    result[c].blobs = ObjectRegions(*masks[c]);
   });
   // The camera that shows the least object rules out the most cells.
   std::vector<std::size_t> order(cameras);
@@ -185,18 +183,18 @@ std::vector<std::vector<bool>> CrossCameraBlobs::ConfirmedBlobs(
       confirmed[c].Add(box.x0, box.y0, box.x1, box.y1);
     }
   }
-  std::vector<std::vector<bool>> blobs(cameras);
   for (std::size_t c = 0; c < cameras; ++c) {
-    blobs[c].assign(regions[c].area_px.size(), !any);
+    std::vector<bool>& is_confirmed = result[c].is_confirmed;
+    is_confirmed.assign(result[c].blobs.area_px.size(), !any);
     if (!any) continue;
     confirmed[c].Sum();
-    for (const Run& run : regions[c].runs) {
-      if (!blobs[c][run.region] &&
+    for (const Run& run : result[c].blobs.runs) {
+      if (!is_confirmed[run.region] &&
           confirmed[c].AnyIn(run.y / kTilePx, run.x0 / kTilePx, (run.x1 - 1) / kTilePx + 1))
-        blobs[c][run.region] = true;
+        is_confirmed[run.region] = true;
     }
   }
-  return blobs;
+  return result;
 }
 
 }  // namespace elbowroom::recon

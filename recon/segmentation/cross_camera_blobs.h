@@ -8,10 +8,17 @@
 
 #include "core/bit_mask.h"
 #include "core/rig.h"
+#include "recon/segmentation/mask_regions.h"
 
 namespace elbowroom::recon {
 
-// Which blobs of a rig's silhouettes can't be part of the hull. The workspace is cut into cells, and each
+// The blobs of one camera's mask, and which of them the hull may need.
+struct ConfirmedBlobs {
+  Regions blobs;                   // ObjectRegions of the mask
+  std::vector<bool> is_confirmed;  // one a region
+};
+
+// Which blobs of a rig's masks can't be part of the hull. The workspace is cut into cells, and each
 // cell knows the rectangle of 16 x 16 pixel tiles that it can project into in every camera (certified, from
 // the ball around it). A cell is confirmed when every camera that has a say shows object in its rectangle; a
 // blob that lies in no confirmed cell's rectangle has no point in the hull, so the hull is the same without
@@ -20,11 +27,9 @@ class CrossCameraBlobs {
  public:
   explicit CrossCameraBlobs(const core::Rig& rig);
 
-  // One flag a camera and blob (of ObjectRegions(masks[camera])): whether the hull may need it. All true
-  // where no cell is confirmed: then nothing can be told apart. Throws: PreconditionError unless there is one
-  // mask a camera, of its size.
-  [[nodiscard]] std::vector<std::vector<bool>> ConfirmedBlobs(
-      std::span<const core::BitMask* const> masks) const;
+  // One a camera. All are confirmed where no cell is: then nothing can be told apart. Throws:
+  // PreconditionError unless there is one mask a camera, of its size.
+  [[nodiscard]] std::vector<ConfirmedBlobs> Confirm(std::span<const core::BitMask* const> masks) const;
 
  private:
   // Tiles [x0, x1) x [y0, y1); empty where the camera sees nothing of the cell.

@@ -32,7 +32,7 @@ core::SoftMask WithoutBlobs(const core::SoftMask& soft, const Regions& regions,
 
 FrameSegmenter::FrameSegmenter(const std::vector<BackgroundReference>& backgrounds,
                                const SegmentationOptions& options, const core::Rig& rig)
-    : support_(rig) {
+    : cross_camera_blobs_(rig) {
   options.Validate();
   for (const BackgroundReference& background : backgrounds) {
     segmenters_.emplace_back();
@@ -64,15 +64,16 @@ std::vector<core::SoftMask> FrameSegmenter::Masks(const FrameSet& frames, Edges 
   return masks;
 }
 
+// After the boundaries are located, which may move them outwards: what is dropped must have no point in the
+// hull of the masks as they are handed on.
 void FrameSegmenter::DropUnconfirmed(const FrameSet& frames, std::vector<core::SoftMask>* masks) const {
   std::vector<const core::BitMask*> bits;
   for (const core::SoftMask& mask : *masks) bits.push_back(&mask.mask);
-  const std::vector<std::vector<bool>> confirmed = support_.ConfirmedBlobs(bits);
+  const std::vector<ConfirmedBlobs> confirmed = cross_camera_blobs_.Confirm(bits);
   for (std::size_t i = 0; i < masks->size(); ++i) {
-    if (frames.cameras[i].ready_mask || std::ranges::find(confirmed[i], false) == confirmed[i].end())
-      continue;
-    core::SoftMask& mask = (*masks)[i];
-    mask = WithoutBlobs(mask, ObjectRegions(mask.mask), confirmed[i]);
+    const std::vector<bool>& keep = confirmed[i].is_confirmed;
+    if (frames.cameras[i].ready_mask || std::ranges::find(keep, false) == keep.end()) continue;
+    (*masks)[i] = WithoutBlobs((*masks)[i], confirmed[i].blobs, keep);
   }
 }
 

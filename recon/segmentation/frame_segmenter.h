@@ -37,7 +37,7 @@ class FrameSegmenter {
   void DropUnconfirmed(const FrameSet& frames, std::vector<core::SoftMask>* masks) const;
 
   std::vector<std::optional<Segmenter>> segmenters_;
-  CrossCameraBlobs support_;
+  CrossCameraBlobs cross_camera_blobs_;
 };
 
 }  // namespace elbowroom::recon

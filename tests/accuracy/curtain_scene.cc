@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "recon/contours/undistorted_plane.h"
 #include "recon/synthetic/view_scene.h"
 #include "review/contacts.h"
 #include "tests/support/panel_mesh.h"

@@ -114,8 +114,7 @@ Cost MeasureCost(const control::TrialSetup& setup, const std::vector<recon::Fram
           pipeline.Process(std::move(next), setup.layout.InitialSpacings());
       if (is_logged) {
         const Clock::time_point hand_over = Clock::now();
-        writer.Append(core::FrameRecord{result->frame, result->time_s, result->masks, result->spacing_mm,
-                                        result->contacts, result->rest_from_parts});
+        writer.Append(*result);
         cost.hand_over_ms.push_back(MsSince(hand_over));
       }
       (is_logged ? cost.with_ms : cost.without_ms).push_back(MsSince(begin));

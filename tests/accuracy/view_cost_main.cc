@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "recon/contours/undistorted_plane.h"
 #include "recon/exact_view/hull_view.h"
 #include "recon/hull/visual_hull.h"
 #include "recon/synthetic/view_scene.h"

@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "recon/contours/undistorted_plane.h"
 #include "recon/exact_view/hull_view.h"
 #include "recon/gl/exact_view/exact_view_gl.h"
 #include "recon/gl/paper_methods/plane_sweep_gl.h"

@@ -4,6 +4,7 @@
 #include "app/control/demo_parts.h"
 #include "app/control/frame_pipeline.h"
 #include "app/control/recorded_frame.h"
+#include "recon/contours/silhouette.h"
 #include "recon/synthetic/demo_motion.h"
 #include "recon/synthetic/rig_presets.h"
 #include "recon/synthetic/synthetic_rig.h"
@@ -51,8 +52,7 @@ TEST_F(RecordedFrameTest, ComesBackWithTheSameHullToTheLastBit) {
     header.rig = source_.rig();
     header.layout = DemoLayout();
     sessions::SessionWriter writer(folder / "s.db", header);
-    writer.Append(core::FrameRecord{judged->frame, judged->time_s, judged->masks, judged->spacing_mm,
-                                    judged->contacts, judged->rest_from_parts});
+    writer.Append(*judged);
     writer.Finish({});
   }
   const SharedFrameResult rebuilt = RebuildFrame(sessions::SessionReader(folder / "s.db"), kTouching);
@@ -84,8 +84,7 @@ TEST_F(RecordedFrameTest, APushedPartComesBackWhereItWas) {
   SharedFrameResult judged;
   for (core::FrameIndex frame = kTouching - 2; frame <= kTouching; ++frame) {
     judged = pipeline.Process(source_.Read(frame), gap_);
-    writer.Append(core::FrameRecord{judged->frame, judged->time_s, judged->masks, judged->spacing_mm,
-                                    judged->contacts, judged->rest_from_parts});
+    writer.Append(*judged);
   }
   writer.Finish({});
   ASSERT_EQ(judged->rest_from_parts.size(), layout.parts.size());

@@ -47,8 +47,7 @@ int RecordFrames(const std::filesystem::path& path) {
       frames.cameras.push_back({{}, std::move(mask)});
     const auto result = pipeline.Process(std::move(frames), std::vector{140.0});
     touched += result->contacts[1].verdict == core::Verdict::kContact ? 1 : 0;
-    writer.Append(
-        core::FrameRecord{frame, result->time_s, result->masks, result->spacing_mm, result->contacts, {}});
+    writer.Append(*result);
   }
   writer.Finish({});
   return touched;

@@ -5,6 +5,7 @@
 
 #include <memory>
 
+#include "recon/contours/undistorted_plane.h"
 #include "recon/exact_view/view_comparison.h"
 #include "recon/gl/exact_view/exact_view_gl.h"
 #include "recon/synthetic/view_scene.h"

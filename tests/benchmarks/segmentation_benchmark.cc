@@ -151,10 +151,10 @@ void SegmentAdaptive(benchmark::State& state) {
 }
 
 void ConfirmBlobs(benchmark::State& state) {
-  const CrossCameraBlobs support(Simulated().rig);
+  const CrossCameraBlobs cross_camera_blobs(Simulated().rig);
   std::vector<const core::BitMask*> masks;
   for (const core::BitMask& mask : Simulated().detected) masks.push_back(&mask);
-  for (auto _ : state) benchmark::DoNotOptimize(support.ConfirmedBlobs(masks));
+  for (auto _ : state) benchmark::DoNotOptimize(cross_camera_blobs.Confirm(masks));
 }
 
 // OpenCV's plain way: |I - B|, the largest channel, one threshold.
@@ -291,10 +291,10 @@ std::vector<cv::Mat> Cleaned(const std::vector<cv::Mat>& raw) {
     FillSmallHoles(masks.back(), options.max_hole_px);
   }
   for (const core::BitMask& mask : masks) pointers.push_back(&mask);
-  const auto confirmed = CrossCameraBlobs(Real()->rig).ConfirmedBlobs(pointers);
+  const auto confirmed = CrossCameraBlobs(Real()->rig).Confirm(pointers);
   std::vector<cv::Mat> cleaned;
   for (std::size_t i = 0; i < kCameras; ++i) {
-    ClearRegions(masks[i], ObjectRegions(masks[i]), confirmed[i]);
+    ClearRegions(masks[i], confirmed[i].blobs, confirmed[i].is_confirmed);
     cleaned.push_back(ImageFromMask(masks[i]));
   }
   return cleaned;

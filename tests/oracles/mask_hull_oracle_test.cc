@@ -1,3 +1,4 @@
+#include "recon/contours/silhouette.h"
 #include "tests/oracles/mask_hull_oracle.h"
 
 #include <gtest/gtest.h>

@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "core/error.h"
 #include "review/clearance.h"
@@ -29,14 +31,15 @@ core::PartContact Clear(core::PartIndex part) {
   return contact;
 }
 
+core::FrameRecord RecordOf(core::FrameIndex frame, double time_s, std::vector<core::PartContact> contacts,
+                           std::vector<double> spacing_mm = {}) {
+  return {frame, time_s, nullptr, std::move(spacing_mm), std::move(contacts), {}};
+}
+
 void AddFrame(ContactTracker* tracker, core::FrameIndex frame, const core::PartContact& contact,
               double spacing_mm = 140.0) {
-  tracker->Add({.frame = frame,
-                .time_s = static_cast<double>(frame) / kFramesPerSecond,
-                .contacts = {&contact, 1},
-                .world_from_parts = {},
-                .spacing_mm = {&spacing_mm, 1},
-                .tools_in_use = {}});
+  tracker->Add(
+      {RecordOf(frame, static_cast<double>(frame) / kFramesPerSecond, {contact}, {spacing_mm}), {}, {}});
 }
 
 TEST(ContactTracker, LongFlickeringTouchIsOneEpisode) {
@@ -57,9 +60,9 @@ TEST(ContactTracker, GapAsLongAsTheRuleStillJoins) {
     options.max_gap_s = 0.5;
     ContactTracker tracker(options);
     // Times that doubles hold exactly: sixteenths of a second.
-    const std::array touch{Touch(0, 1.0)};
-    tracker.Add({0, 0.0, touch, {}, {}, {}});
-    tracker.Add({gap_frames, gap_frames / 16.0, touch, {}, {}, {}});
+    const std::vector touch{Touch(0, 1.0)};
+    tracker.Add({RecordOf(0, 0.0, touch), {}, {}});
+    tracker.Add({RecordOf(gap_frames, gap_frames / 16.0, touch), {}, {}});
     EXPECT_EQ(tracker.Episodes().size(), expected) << gap_frames;
   }
 }
@@ -94,11 +97,11 @@ TEST(ContactTracker, TouchWithoutDepthIsAnEpisodeToo) {
 
 TEST(ContactTracker, PartsAreIndependentAndOrderedByBegin) {
   ContactTracker tracker;
-  const std::array one{Clear(0), Touch(1, 1.0), Clear(2)}, all{Touch(0, 1.0), Touch(1, 1.0), Touch(2, 4.0)},
+  const std::vector one{Clear(0), Touch(1, 1.0), Clear(2)}, all{Touch(0, 1.0), Touch(1, 1.0), Touch(2, 4.0)},
       later{Touch(0, 1.0), Clear(1), Clear(2)};
-  tracker.Add({0, 0.0, one, {}, {}, {}});
-  tracker.Add({1, 0.1, all, {}, {}, {}});
-  tracker.Add({20, 2.0, later, {}, {}, {}});
+  tracker.Add({RecordOf(0, 0.0, one), {}, {}});
+  tracker.Add({RecordOf(1, 0.1, all), {}, {}});
+  tracker.Add({RecordOf(20, 2.0, later), {}, {}});
   const auto episodes = tracker.Episodes();
   ASSERT_EQ(episodes.size(), 4U);
   const std::array<core::PartIndex, 4> parts = {1, 0, 2, 0};
@@ -132,16 +135,16 @@ TEST(ContactTracker, NothingButContactCounts) {
 
 TEST(ContactTracker, SaysWhereOnThePartAndWithWhichTools) {
   ContactTracker tracker;
-  const std::array touch{Touch(0, 3.0)};  // at (3, 0, 0)
+  const std::vector touch{Touch(0, 3.0)};  // at (3, 0, 0)
   const std::array pose{core::RigidTransform{Eigen::Matrix3d::Identity(), {1.0, 2.0, 3.0}}};
   const std::array<std::string, 1> tongs{"tongs"};
   const std::array<std::string, 1> driver{"driver"};
-  tracker.Add({0, 0.0, touch, pose, {}, {}});
-  tracker.Add({1, 0.1, touch, pose, {}, tongs});
-  tracker.Add({2, 0.2, touch, pose, {}, driver});
-  const std::array clear{Clear(0)};
+  tracker.Add({RecordOf(0, 0.0, touch), pose, {}});
+  tracker.Add({RecordOf(1, 0.1, touch), pose, tongs});
+  tracker.Add({RecordOf(2, 0.2, touch), pose, driver});
+  const std::vector clear{Clear(0)};
   const std::array<std::string, 1> saw{"saw"};
-  tracker.Add({3, 0.3, clear, pose, {}, saw});
+  tracker.Add({RecordOf(3, 0.3, clear), pose, saw});
   const core::ContactEpisode episode = tracker.Episodes().at(0);
   EXPECT_EQ(episode.peak_position_in_part_mm, Eigen::Vector3d(2.0, -2.0, -3.0));
   EXPECT_EQ(episode.tools, (std::vector<std::string>{"driver", "tongs"})) << "not the one taken afterwards";

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "recon/contours/silhouette.h"
 #include "recon/paper_methods/coverage_hull.h"
 #include "review/contacts.h"
 #include "review/paper_methods/two_triangle_response.h"

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "recon/contours/silhouette.h"
 #include "recon/exact_view/hull_normals.h"
 #include "recon/gl/exact_view/exact_view_shader.h"
 #include "recon/gl/exact_view/hull_target.h"
@@ -36,7 +37,7 @@ struct Drawn {
   VisualHull hull;
   ViewRays rays;
   bool with_surfaces = false;
-  PixelSquare bounds;  // of what was drawn
+  PixelBox bounds;  // of what was drawn
   std::int64_t cast_pixels = 0;
   std::int64_t edges = 0;
 };
@@ -45,10 +46,10 @@ bool IsSameHull(const VisualHull& a, const VisualHull& b) {
   return a.shared_rig() == b.shared_rig() && std::ranges::equal(a.silhouettes(), b.silhouettes());
 }
 
-PixelSquare BoundsOf(const std::vector<PixelSquare>& squares) {
+PixelBox BoundsOf(const std::vector<PixelBox>& squares) {
   if (squares.empty()) return {};
-  PixelSquare bounds = squares.front();
-  for (const PixelSquare& square : squares) {
+  PixelBox bounds = squares.front();
+  for (const PixelBox& square : squares) {
     bounds = {std::min(bounds.x, square.x), std::min(bounds.y, square.y),
               std::max(bounds.right, square.right), std::max(bounds.bottom, square.bottom)};
   }
@@ -56,11 +57,11 @@ PixelSquare BoundsOf(const std::vector<PixelSquare>& squares) {
 }
 
 // Two triangles a square, in clip coordinates.
-std::vector<float> CornersOf(const std::vector<PixelSquare>& squares, const ViewRays& rays) {
+std::vector<float> CornersOf(const std::vector<PixelBox>& squares, const ViewRays& rays) {
   const double across = 2.0 / rays.width_px(), down = 2.0 / rays.height_px();
   std::vector<float> corners;
   corners.reserve(12 * squares.size());
-  for (const PixelSquare& square : squares) {
+  for (const PixelBox& square : squares) {
     const auto left = static_cast<float>(square.x * across - 1.0);
     const auto right = static_cast<float>(square.right * across - 1.0);
     const auto top = static_cast<float>(square.y * down - 1.0);
@@ -90,7 +91,7 @@ class ExactViewGl::Impl {
   [[nodiscard]] bool IsDrawn(const VisualHull& hull, const ViewRays& rays, bool with_surfaces) const;
   void Draw(const VisualHull& hull, const ViewRays& rays, bool with_surfaces);
   void UploadRays(const ViewRays& rays);
-  void UploadPencils(const ViewPencils& pencils, const std::vector<PixelSquare>& squares);
+  void UploadPencils(const ViewPencils& pencils, const std::vector<PixelBox>& squares);
   void Read(bool with_surfaces, HullView* view);
 
   EglContext context_;
@@ -166,7 +167,7 @@ void ExactViewGl::Impl::UploadRays(const ViewRays& rays) {
   ++ray_uploads_;
 }
 
-void ExactViewGl::Impl::UploadPencils(const ViewPencils& pencils, const std::vector<PixelSquare>& squares) {
+void ExactViewGl::Impl::UploadPencils(const ViewPencils& pencils, const std::vector<PixelBox>& squares) {
   const PencilTables tables = Tabulate(pencils);
   forms_.Upload(std::span(tables.forms));
   runs_.Upload(std::span(tables.runs));
@@ -194,9 +195,9 @@ void ExactViewGl::Impl::Draw(const VisualHull& hull, const ViewRays& rays, bool 
     target_.emplace(rays.width_px(), rays.height_px());
   }
   const ViewPencils pencils(hull, rays);
-  const std::vector<PixelSquare> squares = pencils.Squares();
+  const std::vector<PixelBox> squares = pencils.Squares();
   Drawn drawn{hull, rays, with_surfaces, BoundsOf(squares), 0, pencils.edges()};
-  for (const PixelSquare& square : squares)
+  for (const PixelBox& square : squares)
     drawn.cast_pixels += std::int64_t{square.right - square.x} * (square.bottom - square.y);
   if (!squares.empty()) {
     UploadRays(rays);
@@ -219,7 +220,7 @@ void ExactViewGl::Impl::Draw(const VisualHull& hull, const ViewRays& rays, bool 
 void ExactViewGl::Impl::Read(bool with_surfaces, HullView* view) {
   view->edges = drawn_->edges;
   view->cast_pixels = drawn_->cast_pixels;
-  const PixelSquare& b = drawn_->bounds;
+  const PixelBox& b = drawn_->bounds;
   if (b.right == b.x) return;
   target_->ReadDepth(b.x, b.y, b.right, b.bottom, view->depth_mm.data());
   const auto width = static_cast<std::size_t>(view->width_px);

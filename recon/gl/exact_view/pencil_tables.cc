@@ -73,7 +73,7 @@ PencilTables Tabulate(const ViewPencils& pencils) {
   return tables;
 }
 
-std::vector<float> LabelsByPixel(const ViewPencils& pencils, const std::vector<PixelSquare>& squares) {
+std::vector<float> LabelsByPixel(const ViewPencils& pencils, const std::vector<PixelBox>& squares) {
   const std::vector<const EpipolarEdges*> cameras = ConcentricOf(pencils.cameras());
   const std::vector<const EpipolarEdges*> visibility_outlines = ConcentricOf(pencils.visibility_outlines());
   std::vector<float> labels;
@@ -81,7 +81,7 @@ std::vector<float> LabelsByPixel(const ViewPencils& pencils, const std::vector<P
   const auto width = static_cast<std::size_t>(pencils.rays().width_px());
   labels.assign(width * static_cast<std::size_t>(pencils.rays().height_px()), 0.0F);
   tbb::parallel_for(std::size_t{0}, squares.size(), [&](std::size_t i) {
-    const PixelSquare& square = squares[i];
+    const PixelBox& square = squares[i];
     for (int y = square.y; y < square.bottom; ++y) {
       for (int x = square.x; x < square.right; ++x) {
         const Eigen::Vector2d uv = pencils.rays().At(x, y);

@@ -32,6 +32,6 @@ struct PencilTables {
 // of `squares` 0: 1 if all such cameras see object there, and 2 more if one of such visibility_outlines sees
 // it. Empty when no camera is there.
 [[nodiscard]] std::vector<float> LabelsByPixel(const ViewPencils& pencils,
-                                               const std::vector<PixelSquare>& squares);
+                                               const std::vector<PixelBox>& squares);
 
 }  // namespace elbowroom::recon::gl

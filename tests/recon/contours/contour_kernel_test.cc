@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "recon/contours/contour_map.h"
+#include "recon/contours/silhouette.h"
 #include "recon/hull_mesh/label_kernel.h"
 #include "tests/recon/scenes/random_scene.h"
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "recon/contours/silhouette.h"
 #include "tests/oracles/picture_labels.h"
 #include "tests/recon/scenes/random_scene.h"
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "recon/contours/silhouette.h"
 #include "recon/hull/ray_crossings.h"
 #include "tests/recon/scenes/random_scene.h"
 

@@ -1,6 +1,8 @@
 // What a frame's hull takes over from the frame before, and what it never makes.
 #include <gtest/gtest.h>
 
+#include "recon/contours/silhouette.h"
+#include "recon/contours/undistorted_plane.h"
 #include "recon/exact_view/hull_view.h"
 #include "recon/hull/visual_hull.h"
 #include "tests/recon/scenes/random_scene.h"

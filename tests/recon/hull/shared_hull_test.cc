@@ -4,6 +4,7 @@
 #include <optional>
 #include <ostream>
 
+#include "recon/contours/silhouette.h"
 #include "recon/hull_mesh/hull_mesh.h"
 #include "tests/recon/scenes/carve.h"
 #include "tests/recon/scenes/shared_data.h"

@@ -1,3 +1,4 @@
+#include "recon/contours/silhouette.h"
 #include "recon/hull_mesh/hull_lattice.h"
 
 #include <gtest/gtest.h>

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "recon/contours/silhouette.h"
 #include "recon/exact_view/hull_view.h"
 #include "recon/paper_methods/sweep_comparison.h"
 #include "recon/paper_methods/undistorted_mask.h"

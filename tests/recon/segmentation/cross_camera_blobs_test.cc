@@ -36,22 +36,22 @@ std::vector<core::BitMask> HandMasks(const core::Rig& rig) {
 TEST(CrossCameraBlobs, DropsWhatOneCameraAloneSees) {
   const core::Rig rig = FourCameraRig();
   std::vector<core::BitMask> masks = HandMasks(rig);
-  const CrossCameraBlobs support(rig);
-  for (const auto& blobs : support.ConfirmedBlobs(Pointers(masks)))
-    EXPECT_EQ(std::ranges::count(blobs, false), 0) << "all cameras see the hand";
+  const CrossCameraBlobs cross_camera_blobs(rig);
+  for (const ConfirmedBlobs& camera : cross_camera_blobs.Confirm(Pointers(masks)))
+    EXPECT_EQ(std::ranges::count(camera.is_confirmed, false), 0) << "all cameras see the hand";
   Draw(masks[1], 2, 2, 25, 25);  // in the picture's corner, far from the hand
-  const auto blobs = support.ConfirmedBlobs(Pointers(masks));
-  EXPECT_EQ(std::ranges::count(blobs[1], false), 1);
-  EXPECT_FALSE(blobs[1].front()) << "regions are in the order of their first rows";
-  EXPECT_EQ(std::ranges::count(blobs[0], false), 0);
+  const auto blobs = cross_camera_blobs.Confirm(Pointers(masks));
+  EXPECT_EQ(std::ranges::count(blobs[1].is_confirmed, false), 1);
+  EXPECT_FALSE(blobs[1].is_confirmed.front()) << "regions are in the order of their first rows";
+  EXPECT_EQ(std::ranges::count(blobs[0].is_confirmed, false), 0);
 }
 
 TEST(CrossCameraBlobs, KeepsEverythingWhereNothingIsConfirmed) {
   const core::Rig rig = FourCameraRig();
   std::vector<core::BitMask> masks(4, core::BitMask(640, 480));
   Draw(masks[0], 300, 200, 50, 50);
-  EXPECT_EQ(CrossCameraBlobs(rig).ConfirmedBlobs(Pointers(masks))[0], std::vector<bool>{true});
-  EXPECT_THROW((void)CrossCameraBlobs(rig).ConfirmedBlobs({}), core::PreconditionError);
+  EXPECT_EQ(CrossCameraBlobs(rig).Confirm(Pointers(masks))[0].is_confirmed, std::vector<bool>{true});
+  EXPECT_THROW((void)CrossCameraBlobs(rig).Confirm({}), core::PreconditionError);
 }
 
 // The certificate: points of the hull stay in it, whatever blobs there are and whoever can't see them.
@@ -69,12 +69,12 @@ TEST(CrossCameraBlobs, NeverTakesAPointFromTheHull) {
              5 + static_cast<int>(random() % 90U), 5 + static_cast<int>(random() % 90U));
       }
     }
-    const auto blobs = CrossCameraBlobs(rig).ConfirmedBlobs(Pointers(masks));
+    const auto blobs = CrossCameraBlobs(rig).Confirm(Pointers(masks));
     const auto shared_rig = std::make_shared<const core::Rig>(rig);
     const VisualHull before = MakeVisualHull(shared_rig, masks);
     for (std::size_t c = 0; c < masks.size(); ++c) {
-      dropped += static_cast<std::size_t>(std::ranges::count(blobs[c], false));
-      ClearRegions(masks[c], ObjectRegions(masks[c]), blobs[c]);
+      dropped += static_cast<std::size_t>(std::ranges::count(blobs[c].is_confirmed, false));
+      ClearRegions(masks[c], blobs[c].blobs, blobs[c].is_confirmed);
     }
     const VisualHull after = MakeVisualHull(shared_rig, masks);
     std::uniform_real_distribution<double> share(0.0, 1.0);
