@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "core/error.h"
-#include "sessions/recorded_contacts.h"
 #include "sessions/damage.h"
+#include "sessions/recorded_contacts.h"
 #include "sessions/row_rules.h"
 
 namespace elbowroom::sessions {

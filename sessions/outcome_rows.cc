@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "core/surface_patches.h"
-#include "sessions/recorded_contacts.h"
 #include "sessions/damage.h"
 #include "sessions/packing.h"
+#include "sessions/recorded_contacts.h"
 #include "sessions/row_rules.h"
 #include "sessions/statement.h"
 

@@ -66,9 +66,9 @@ void TrialDesk::Run(control::TrialSetup setup) {
   };
   EnterState(DeskState::kRunning);
   trial_ = std::make_unique<control::TrialThread>(std::move(setup), std::move(options),
-                                                [this](const control::TrialThread::Ended& ended) {
-                                                  bridge_.Post([this, ended] { FinishTrial(ended); });
-                                                });
+                                                  [this](const control::TrialThread::Ended& ended) {
+                                                    bridge_.Post([this, ended] { FinishTrial(ended); });
+                                                  });
 }
 
 void TrialDesk::FinishTrial(const control::TrialThread::Ended& ended) {

@@ -16,8 +16,8 @@
 #include "app/console/bridge.h"
 #include "app/control/episode_tally.h"
 #include "app/control/frame_result.h"
-#include "app/control/trial_thread.h"
 #include "app/control/trial_setup.h"
+#include "app/control/trial_thread.h"
 
 namespace elbowroom::console {
 

@@ -80,9 +80,10 @@ review::SpacingStudy SweepSpacing(const sessions::SessionReader& session, const 
   return review::StudySpacing(header.layout, {frames.size(), load}, options, progress, stop);
 }
 
-std::vector<std::filesystem::path> WriteSpacingSweep(const core::SessionHeader& header, const SpacingRange& range,
-                                              const review::SpacingStudy& study,
-                                              const std::filesystem::path& folder) {
+std::vector<std::filesystem::path> WriteSpacingSweep(const core::SessionHeader& header,
+                                                     const SpacingRange& range,
+                                                     const review::SpacingStudy& study,
+                                                     const std::filesystem::path& folder) {
   const LineDrawing picture = SpacingSweepPicture(header, range.spacing, study);
   const std::vector<std::uint8_t> png = recon::EncodePng(ImageOf(picture));
   sessions::WriteWholeFiles(folder, {{"sweep.csv", SweepCsv(header.layout, study)},

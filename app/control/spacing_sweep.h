@@ -30,8 +30,8 @@ struct SpacingRange {
 // sweep.csv (a line for each part at each step), sweep.svg and sweep.png in `folder`, which is made if it
 // isn't there; all or none. Throws: core::Error{kFile}.
 [[nodiscard]] std::vector<std::filesystem::path> WriteSpacingSweep(const core::SessionHeader& header,
-                                                            const SpacingRange& range,
-                                                            const review::SpacingStudy& study,
-                                                            const std::filesystem::path& folder);
+                                                                   const SpacingRange& range,
+                                                                   const review::SpacingStudy& study,
+                                                                   const std::filesystem::path& folder);
 
 }  // namespace elbowroom::control

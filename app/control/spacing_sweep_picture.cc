@@ -119,7 +119,7 @@ void AddPart(const review::SpacingStudy& study, core::PartIndex part, std::size_
 }  // namespace
 
 LineDrawing SpacingSweepPicture(const core::SessionHeader& header, const std::string& spacing,
-                         const review::SpacingStudy& study) {
+                                const review::SpacingStudy& study) {
   LineDrawing drawing;
   drawing.width_px = kWidthPx;
   drawing.height_px = kHeightPx;

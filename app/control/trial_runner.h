@@ -24,7 +24,7 @@ struct FrameRange {
   std::optional<core::FrameIndex> end;
 };
 
-// What a crash or a power failure would leave of the frames seen so far.
+// How many frames the trial has seen, and how many of them a crash or a power failure can't take any more.
 struct RecordedFrames {
   std::int64_t seen = 0;
   std::int64_t committed = 0;  // on the disk
@@ -45,10 +45,10 @@ struct TrialOptions {
 };
 
 struct TrialOutcome {
-  std::filesystem::path session;  // as asked; another name where that was taken while the trial ran
+  std::filesystem::path session;  // the one asked for; another one if that name was taken while the trial ran
   std::int64_t frames = 0;
   std::int64_t frames_committed = 0;
-  sessions::RecordingState recording = sessions::RecordingState::kInFile;  // where the last frame went
+  sessions::RecordingState recording = sessions::RecordingState::kInFile;  // where the last frame was written
   std::vector<std::int64_t> frames_in_contact;                             // one a part
   std::vector<core::ContactEpisode> episodes;
   std::vector<core::NearMiss> near_misses;
@@ -57,13 +57,13 @@ struct TrialOutcome {
   std::vector<double> frame_ms;  // segmentation to contacts, frame by frame
 };
 
-// Backgrounds are measured, the session is created, then each frame goes through the pipeline to the session,
-// whose writer never drops one. A stop ends the trial in order: the session is complete up to there. So does
-// footage or a camera that fails, and a session file that can't be written for long; then the failure is
-// thrown, with the number of frames that are kept. Only a session without a frame is removed. Throws:
-// core::Error: footage, session file, frame range beyond the footage; Error{kCancelled} when it was stopped
-// before the first frame. An unknown spacing in a wish is ignored with a note in the session. Thread: the
-// caller's; `controls` from any.
+// Measures the backgrounds, creates the session, then sends each frame through the pipeline and into the
+// session; no frame is dropped. The trial ends with its footage, or with a stop: the session is then complete
+// up to that frame. It also ends when footage or a camera fails, and when the session file can't be written
+// for long: all frames so far are kept, and the failure is thrown with their number. Only a session without a
+// frame is removed. A wish for a spacing that the layout doesn't have is ignored, with a note in the session.
+// Throws: core::Error for footage, session file, or a frame range beyond the footage; Error{kCancelled} when
+// it was stopped before the first frame. Thread: the caller's; `controls` may be used from any.
 TrialOutcome RunTrial(const TrialSetup& setup, const TrialOptions& options, TrialControls& controls,
                       std::stop_token stop);
 

@@ -305,7 +305,8 @@ SeenCorners ProjectCorners(const GridView& grid, const ConvexCorners& corners) {
   return seen;
 }
 
-// Grown by `slack_px` to both sides.
+// Between which values of (x, y) . corner all corners are, grown by `slack_px` to both sides: by at least
+// that distance, since |x| + |y| is no less than the length of (x, y).
 HWY_INLINE Slab SlabAlong(const SeenCorners& corners, double x, double y, double slack_px) {
   const Doubles d;
   DoubleVec low = Set(std::numeric_limits<double>::max()), high = hn::Neg(low);
@@ -318,7 +319,12 @@ HWY_INLINE Slab SlabAlong(const SeenCorners& corners, double x, double y, double
   return {x, y, hn::GetLane(hn::MinOfLanes(d, low)) - slack, hn::GetLane(hn::MaxOfLanes(d, high)) + slack};
 }
 
-// Lanes: edges that a slab, or their own line, keeps from all corners.
+// Lanes: the contour's edges that a line separates from the body. Two convex things that have a separating
+// line don't meet, so `true` is certain; not every separating line is tried, so `false` is not. First the
+// slabs: the body is between their two lines, an edge with both ends beyond one of them is clear. Then the
+// edge's own line: `side` is twice the area of the triangle of edge and corner, so it has one sign for all
+// corners that are on one side of the line, and its size is the corner's distance times the edge's length.
+// The length is bounded by |x| + |y|, which only makes the slack larger.
 HWY_INLINE EdgeMask AreBeside(const EdgeLanes& e, const Slab* slabs, const SeenCorners& corners,
                               double slack_px) {
   const Edges d;

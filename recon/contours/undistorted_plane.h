@@ -1,4 +1,5 @@
-// One camera's picture without its lens: where silhouettes become straight-edged and projection a division.
+// One camera's picture plane without the distortion of its lens. Straight edges in space are straight in it,
+// and projection is one division.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,9 +16,10 @@ namespace elbowroom::recon {
 
 class ContourMap;
 
-// The plane of a camera at z = focal_px(): a point X, Y, Z in cam falls on focal_px() * (X, Y) / Z, the
-// principal axis on (0, 0). Isotropic and free of distortion; a pixel is about one unit wide (its finer side,
-// if they differ). The lens is applied once, to the silhouette's vertices. Immutable. Thread: any.
+// The plane z = focal_px() in the camera's frame. A point (X, Y, Z) of that frame falls on
+// focal_px() * (X, Y) / Z; the principal axis falls on (0, 0). One unit is about one pixel; where pixels
+// aren't square, it is their shorter side. Only the vertices of a contour go through the lens, once.
+// Immutable. Thread: any.
 class UndistortedPlane {
  public:
   explicit UndistortedPlane(const core::CameraModel& camera);
@@ -26,14 +28,15 @@ class UndistortedPlane {
   [[nodiscard]] const core::CameraModel& camera() const { return camera_; }
   [[nodiscard]] double focal_px() const { return focal_px_; }
 
-  // Where a position of the picture, its border included, falls in the plane, to 1e-5 units
-  // (undistorted_plane_test); nothing where the lens's domain doesn't reach.
+  // From a position in the picture, its border included, to one in the plane, to 1e-5 units
+  // (undistorted_plane_test). Nothing where the lens model has no ray for that position.
   [[nodiscard]] std::optional<Eigen::Vector2d> FromPixel(const Eigen::Vector2d& pixel) const;
 
-  // The pixels whose centres the lens's domain doesn't reach; nothing if there are none, as is usual.
+  // The pixels for whose centres the lens model has no ray. Nothing if there are none, as is usual.
   [[nodiscard]] const std::optional<core::BitMask>& unseen_pixels() const { return unseen_pixels_; }
 
-  // What the camera sees, as object, for whom that matters: made when first asked for.
+  // A contour around all that the camera sees: inside of it is `object`. Made with the first call; only the
+  // policy `abstain` needs it.
   [[nodiscard]] const ContourMap& outline() const;
 
  private:
@@ -52,12 +55,13 @@ class UndistortedPlane {
   bool is_ideal_ = false;                                           // no lens to speak of
   Eigen::Matrix2d plane_from_pixel_ = Eigen::Matrix2d::Identity();  // of an ideal lens, about
   Eigen::Vector2d principal_px_ = Eigen::Vector2d::Zero();          // this pixel
-  // Nodes over the picture, each on its place in the plane, NaN where there is none; between them cubic.
+  // A grid of nodes over the picture. For each its position in the plane, or NaN where the lens has no ray;
+  // positions between nodes are interpolated by a cubic.
   Eigen::Vector2i nodes_{0, 0};
   Eigen::Vector2d pixels_per_node_{0.0, 0.0};
   Eigen::Vector2d nodes_per_pixel_{0.0, 0.0};
   std::vector<Eigen::Vector2d> table_;
-  core::BitMask bent_cells_;  // between nodes: the cubic doesn't follow the lens there
+  core::BitMask bent_cells_;  // cells between nodes in which the cubic isn't exact enough
   std::optional<core::BitMask> unseen_pixels_;
   mutable std::once_flag once_;
   mutable std::unique_ptr<const ContourMap> outline_;

@@ -1,4 +1,4 @@
-// A contour's edges as a view's rays meet them.
+// A contour's edges, ordered so that the rays of a view find those that they can meet.
 #pragma once
 
 #include <Eigen/Core>
@@ -28,9 +28,12 @@ struct AffineForm {
   }
 };
 
-// All rays of a view and all edges of one camera, ordered by the angle of the epipolar plane they are in, so
-// that a bundle of rays finds the edges it can meet at once. Key: grows along the ray; perspective
-// -1 / depth_mm, orthographic depth_mm. Edges that no ray of the view can meet are left out.
+// A ray of the view and an edge of the camera's contour can meet only if one epipolar plane (through the
+// view's centre and the camera's) holds the ray and cuts the edge. Both are therefore ordered by the angle of
+// that plane, and rays of a range of angles look at the edges of that range alone. Edges that no ray of the
+// view can meet are left out. A crossing's place on its ray is given as a key, which grows along the ray:
+// -1 / depth_mm in a perspective view, depth_mm in an orthographic one. A key is linear in (u, v) over the
+// rays that cross one edge. Derived in docs/exact_view.md.
 class EpipolarEdges {
  public:
   EpipolarEdges(const ContourMap& labels, double focal_px, const core::CameraModel& camera,
@@ -38,15 +41,15 @@ class EpipolarEdges {
 
   [[nodiscard]] const CastPencil& cast() const { return cast_; }
 
-  // The rays all start at, or come from, a point that the camera labels so.
+  // The label that the camera gives to where the rays start: the view's centre, or infinitely far behind.
   [[nodiscard]] bool starts_inside() const { return cast_.starts_inside; }
 
-  // The view's centre is the camera's: no ray crosses an edge, each keeps the label of its direction.
+  // The view's centre is the camera's centre: then no ray crosses an edge, and a ray has one label all along.
   [[nodiscard]] bool is_concentric() const { return is_concentric_; }
-  // Then: that label.
+  // That label. Only for a concentric view.
   [[nodiscard]] bool IsObjectAlong(const Eigen::Vector2d& uv) const;
 
-  // Rays of the box can be in the camera's object between these keys only; nowhere: least > most.
+  // Between which keys the rays of a box can be object to the camera. Empty: nowhere.
   struct KeyRange {
     double least = -std::numeric_limits<double>::infinity();
     double most = std::numeric_limits<double>::infinity();
@@ -77,9 +80,10 @@ class EpipolarEdges {
   Projection projection_;
   Eigen::Matrix3d cam_from_view_;
   Eigen::Vector3d centre_in_view_;
-  double reach_ = 1.0;  // its distance, perspective
+  double reach_ = 1.0;  // its distance from the view's centre; 1 for an orthographic view
   bool is_concentric_ = false;
-  // Of the plane across the pencil's axis, the view's middle along the first: angles there are near 0.
+  // Axes of a plane at right angles to the axis of the pencil. The first points to the middle of the view, so
+  // that the angles of the view's rays are near 0 and far from the jump at pi.
   Eigen::Vector3d across_axes_[2];
   AffineForm across_[2];
   Eigen::Vector2d axis_uv_{0.0, 0.0};  // the ray that is the axis; not finite if there is none

@@ -1,5 +1,5 @@
-// All that one view's rays can meet of one hull: what the exact view is made from, here or on a graphics
-// card.
+// A hull prepared for one view: the edges that the view's rays can meet, camera by camera. The exact view is
+// made from it, on the processor or on a graphics card.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,8 +19,8 @@
 
 namespace elbowroom::recon {
 
-// The edges of all cameras as the view's rays meet them, and the workspace. Worked out in parallel. Borrows
-// hull and rays. Immutable. Thread: any.
+// Every camera's contour, with its edges ordered by epipolar plane (EpipolarEdges), and the workspace as the
+// rays meet it. Built in parallel. Keeps references to hull and rays. Immutable. Thread: any.
 class ViewPencils {
  public:
   using Pencils = std::vector<std::unique_ptr<const EpipolarEdges>>;
@@ -32,34 +32,38 @@ class ViewPencils {
   [[nodiscard]] const VisualHull& hull() const { return hull_; }
   [[nodiscard]] const ViewRays& rays() const { return rays_; }
 
-  // One a camera: all must agree that a point is in the hull. None at all where no ray meets the workspace.
+  // One a camera: a point is in the hull if it is object to all of them. Empty where no ray meets the
+  // workspace.
   [[nodiscard]] const Pencils& cameras() const { return cameras_; }
-  // Under `abstain` one a camera, of its picture's outline: one must see the point.
+  // Under `abstain` one a camera, made from the outline of what that camera sees: a point of the hull must be
+  // seen by at least one camera. Else empty.
   [[nodiscard]] const Pencils& visibility_outlines() const { return visibility_outlines_; }
 
   [[nodiscard]] const CastBox& box() const { return box_; }
 
-  // Of the rays themselves: no crossing has this key or a later one.
+  // Every crossing's key is less than this: a ray ends here.
   [[nodiscard]] float key_end() const;
 
-  // Of all contours.
+  // The number of edges of all contours.
   [[nodiscard]] std::int64_t edges() const;
 
-  // Cameras count first, visibility_outlines after them.
+  // cameras() have the first numbers, visibility_outlines() the ones after them.
   [[nodiscard]] const EpipolarEdges& Caster(std::size_t number) const {
     return number < cameras_.size() ? *cameras_[number] : *visibility_outlines_[number - cameras_.size()];
   }
 
-  // The squares, aligned to kSquarePx, whose rays might meet the hull; of the picture, or of the square of
-  // kLargestSquarePx at (x, y).
+  // The squares of kSquarePx pixels whose rays might meet the hull. They lie on a grid from the picture's
+  // corner and are cut off at its border.
   [[nodiscard]] std::vector<PixelBox> Squares() const;
+  // The same for the part of the picture from (x, y) that is kLargestSquarePx wide and high.
   void AddSquaresIn(int x, int y, std::vector<PixelBox>* squares) const {
     Divide(x, y, kLargestSquarePx, squares);
   }
 
  private:
-  // One face of the workspace as rays (u, v) meet it: they are on its inner side from, or up to, the key
-  // `bound`; rays along the face, all the way where `bound` isn't negative.
+  // One face of the workspace, as the ray (u, v) meets it. kNotBefore: the ray is on the face's inner side
+  // from the key bound(u, v) on; kNotAfter: up to that key. kBeside: the rays run along the face, and a ray
+  // is on the inner side everywhere if bound(u, v) >= 0, else nowhere.
   struct Face {
     enum class Kind { kNotBefore, kNotAfter, kBeside } kind = Kind::kBeside;
     AffineForm bound;
@@ -78,8 +82,8 @@ class ViewPencils {
   CastBox box_;
 };
 
-// Edge `edge` of the contour of caster `caster`: cameras count first, visibility_outlines after them;
-// TileHits::kNoCamera is a face.
+// The surface that a crossing is on: edge `edge` of the contour with number `caster` (as
+// ViewPencils::Caster), or a face of the workspace if `caster` is TileHits::kNoCamera.
 [[nodiscard]] HullSurface SurfaceOf(const VisualHull& hull, std::int32_t caster, std::uint32_t edge);
 
 }  // namespace elbowroom::recon

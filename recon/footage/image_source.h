@@ -15,7 +15,8 @@ namespace elbowroom::recon {
 
 struct SourcePicture {
   cv::Mat image_bgr;  // 8-bit BGR of the camera's size, in memory of its own
-  // When the picture of a live camera came. Nothing for a recorded one: its number and the rate give its time.
+  // When the picture of a live camera came. Nothing for a recorded one: its number and the rate give its
+  // time.
   std::optional<std::chrono::steady_clock::time_point> captured_at = std::nullopt;
 };
 
@@ -29,9 +30,9 @@ class ImageSource {
   [[nodiscard]] virtual std::optional<double> frame_rate_hz() const = 0;  // if the file says
 
   // Reading on is fast; going back in a video decodes it again from its beginning, since only that is right
-  // for every codec. A live camera gives its next picture that isn't damaged, whatever the index; it waits for
-  // one as long as the camera is there. Throws: Error{kRange} past the end, Error{kFile} naming camera, file
-  // and frame, Error{kCamera} when a live picture ended, or nothing but damaged ones came for seconds;
+  // for every codec. A live camera gives its next picture that isn't damaged, whatever the index; it waits
+  // for one as long as the camera is there. Throws: Error{kRange} past the end, Error{kFile} naming camera,
+  // file and frame, Error{kCamera} when a live picture ended, or nothing but damaged ones came for seconds;
   // Error{kCancelled} on a stop, heard at once.
   [[nodiscard]] virtual SourcePicture Read(core::FrameIndex index, const std::stop_token& stop = {}) = 0;
 

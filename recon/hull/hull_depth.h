@@ -10,17 +10,19 @@
 namespace elbowroom::recon {
 
 struct HullDepth {
-  double depth_mm = 0.0;                                       // every nearer point is in the hull
-  Eigen::Vector3d nearest_in_world = Eigen::Vector3d::Zero();  // on the hull's surface, that far away
-  std::optional<core::CameraIndex> camera;                     // whose silhouette ends it; nothing: a face
+  double depth_mm = 0.0;                                       // all points nearer than this are in the hull
+  Eigen::Vector3d nearest_in_world = Eigen::Vector3d::Zero();  // the point of the hull's surface at depth_mm
+  // The camera whose silhouette the nearest point is on; nothing: it is on a face of the workspace.
+  std::optional<core::CameraIndex> camera;
 };
 
-// Nothing for a point that isn't in the hull. Where Probe() looks no farther than it is sure to, this goes
-// through all edges: each spans a sector of a plane with its camera's centre, whose distance from a point has
-// a closed form (docs/recovery.md), so the depth is the largest there is, but for rounding, by which it is
-// short: 1e-9 of itself. Under `abstain` the border of what the camera that sees farthest around sees bounds
-// it too: then it is a lower bound. Held to rays in all directions by hull_depth_test. Cost: the contours'
-// edges. Thread: any.
+// Nothing for a point that isn't in the hull. VisualHull::Probe gives a radius that is certain but may be
+// short; this gives the depth itself. It goes through all edges of all contours: an edge and its camera's
+// centre span a sector of a plane, and the distance from a point to such a sector has a closed form
+// (docs/recovery.md). The least of these distances is the depth; it is made shorter by 1e-9 of itself to stay
+// below it under rounding. Under `abstain` the result is a lower bound: the border of what a camera sees
+// counts as surface, for the camera whose border is farthest away. Held to rays in all directions by
+// hull_depth_test. Cost: linear in the number of edges. Thread: any.
 [[nodiscard]] std::optional<HullDepth> DepthAt(const VisualHull& hull, const Eigen::Vector3d& x_in_world);
 
 }  // namespace elbowroom::recon

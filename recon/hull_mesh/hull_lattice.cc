@@ -124,8 +124,7 @@ void HullLattice::FindExits(const HullBlock& block, std::span<const BlockEdge> e
     const std::span shares(all_shares.at.data(), from.count);
     std::ranges::fill(shares, block.is_seen ? kNoCrossing : kUnknownCrossing);
     if (!block.is_in_workspace) OfferFaces(block, edges.first(from.count), shares);
-    for (const std::uint8_t i : block.cameras)
-      LowerToCrossings(views_[i], cells_[i], from, to, &all_shares);
+    for (const std::uint8_t i : block.cameras) LowerToCrossings(views_[i], cells_[i], from, to, &all_shares);
     for (std::size_t i = 0; i < from.count; ++i) {
       const Vector3d inside = grid_.AtSteps(PointOf(from, i)), outside = grid_.AtSteps(PointOf(to, i));
       const bool is_exact = shares[i] >= 0.0 && shares[i] <= 1.0;

@@ -6,17 +6,19 @@
 
 namespace elbowroom::recon {
 
-// The levels that every pixel and channel may have and still be background, laid out for the kernel. Most
-// pixels are also within the levels that they share with those above and below: reading these first leaves
-// out two thirds of what reading is about, and the result is the same.
+// For every pixel and channel the lowest and the highest level that still counts as background, laid out for
+// the kernel. The kernel's time goes into reading these ranges, so there is a second, smaller table: the
+// range that four pixels below one another have in common. A picture's level inside the common range is
+// inside the pixel's own, so only pixels outside of it need their own range. Most are inside, and two thirds
+// of the reading is saved. The result is the same.
 class LevelRanges {
  public:
   static constexpr int kSharingRows = 4;  // rows 4 i to 4 i + 3
 
   LevelRanges() = default;
 
-  // The whole levels within `threshold_bgr` of `mean_bgr` (both CV_32FC3): a picture's levels are whole, so
-  // asking lowest <= I <= highest is the same as asking |I - mean| <= threshold. Exact.
+  // The whole numbers within `threshold_bgr` of `mean_bgr` (both CV_32FC3). A picture's levels I are whole
+  // numbers, so lowest <= I <= highest is exactly the same as |I - mean| <= threshold.
   LevelRanges(const cv::Mat& mean_bgr, const cv::Mat& threshold_bgr);
 
   [[nodiscard]] int width_px() const { return width_px_; }
@@ -26,13 +28,14 @@ class LevelRanges {
   // the row's end may have any level.
   [[nodiscard]] const std::uint8_t* row(int y) const { return levels_.ptr<std::uint8_t>(y); }
 
-  // The lowest levels of pixels that stand below one another in the rows that y shares with. A level that is
-  // no more than shared_width() above it is within the ranges of all of them.
+  // For each pixel and channel across: the lowest of the shared_width() + 1 levels that are background in all
+  // kSharingRows rows that y is one of.
   [[nodiscard]] const std::uint8_t* shared_lowest(int y) const {
     return shared_lowest_.ptr<std::uint8_t>(y / kSharingRows);
   }
 
-  // For each 64 pixels of the rows that y shares with; kNoneShared: one of them has no level in common.
+  // One number for each 64 pixels across, so that one comparison serves them all. kNoneShared: the rows of
+  // one of these pixels have no level in common.
   [[nodiscard]] const std::int16_t* shared_width(int y) const {
     return shared_width_.ptr<std::int16_t>(y / kSharingRows);
   }

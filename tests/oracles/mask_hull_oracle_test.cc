@@ -1,5 +1,5 @@
-#include "recon/contours/silhouette.h"
 #include "tests/oracles/mask_hull_oracle.h"
+#include "recon/contours/silhouette.h"
 
 #include <gtest/gtest.h>
 

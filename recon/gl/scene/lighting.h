@@ -9,7 +9,7 @@
 #include "recon/gl/objects/shader_program.h"
 #include "recon/gl/scene/part_painter.h"
 #include "recon/gl/scene/scene.h"
-#include "recon/gl/scene/scene_renderer.h"
+#include "recon/gl/scene/shadow_count.h"
 #include "recon/gl/scene/shadow_map.h"
 #include "recon/gl/scene/view_matrices.h"
 

@@ -9,6 +9,7 @@
 
 #include "recon/gl/scene/part_detail.h"
 #include "recon/gl/scene/scene.h"
+#include "recon/gl/scene/shadow_count.h"
 #include "recon/images/image.h"
 
 namespace elbowroom::recon::gl {
@@ -17,15 +18,6 @@ struct DepthImage {
   int width_px = 0;
   int height_px = 0;
   std::vector<float> depth_mm;  // row-major, along the camera's z axis; 0: nothing there
-};
-
-// What of the shadows was drawn anew, and what the last picture's still held for.
-struct ShadowCount {
-  std::int64_t part_passes = 0;         // the parts were drawn from the lamp
-  std::int64_t kept_part_passes = 0;    // same lamp, same parts at the same poses
-  std::int64_t hull_uploads = 0;        // the hull's layer from the lamp went to the graphics card
-  std::int64_t kept_hull_uploads = 0;   // same lamp, same layer
-  std::int64_t parts_outside_lamp = 0;  // left out of a pass: nowhere in the lamp's cone
 };
 
 // Owns an OpenGL context and all that lives in it; a mesh stays on the graphics card until the last owner of

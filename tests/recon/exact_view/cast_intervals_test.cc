@@ -1,6 +1,6 @@
 // A pencil's lists against a search of all edges, and its bounds against the rays that they are for.
-#include "recon/contours/silhouette.h"
 #include "recon/exact_view/cast_intervals.h"
+#include "recon/contours/silhouette.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
-#include "recon/contours/silhouette.h"
 #include "recon/hull_mesh/hull_lattice.h"
+#include "recon/contours/silhouette.h"
 
 #include <gtest/gtest.h>
 
