@@ -47,7 +47,7 @@ struct Rays {
   VF v;
 };
 
-// Where rays are now, and whose entry brought them there.
+// How far the rays have come, and the entry that each of them stands at.
 struct Front {
   VF key;
   VI camera;
@@ -96,14 +96,18 @@ HWY_INLINE void MoveOn(MF which, VF key, std::size_t camera, VI place, Front* fr
   front->place = hn::IfThenElse(which_n, place, front->place);
 }
 
-// One camera's next crossing with each ray, and what it says before: entries and exits come in turn.
+// One camera's next crossing with each ray, and the camera's label up to there. Entries and exits come in
+// turn, so each crossing passed flips the label: no crossing says which of the two it is.
 struct Course {
   VF key;
   VI place;
   MF is_inside;
 };
 
-// The walk of some rays, from camera to camera, until all agree.
+// Takes some rays to their first points in the hull. Invariant: before `front` no point of the ray is in the
+// hull, because every move of the front skips a stretch that one camera calls background. The front rests
+// when all cameras in a row say object there, which makes it the first point of the hull. Keys only grow, and
+// each ray has finitely many crossings, so the walk ends.
 class Walk {
  public:
   Walk(const Rays& rays, std::span<const TileCamera> cameras, std::span<const TileCamera> visibility_outlines,
@@ -120,7 +124,8 @@ class Walk {
     Front front{key_from, hn::Set(n, TileHits::kNoCamera), hn::Zero(n)};
     MF alive = hn::Le(key_from, key_to);
     if (hn::AllFalse(f, alive)) return {hn::Set(f, kInfinity), front.camera, front.place};
-    // Until as many in a row agree as there are cameras.
+    // `agreed`: how many cameras in a row have said object at the front, for all rays that are still alive. A
+    // camera that moves some rays agrees with where it moved them to, hence 1 and not 0.
     const std::size_t cameras = cameras_.size();
     for (std::size_t asked = 0, agreed = 0; agreed < cameras; ++asked) {
       const std::size_t i = asked % cameras;
@@ -160,7 +165,7 @@ class Walk {
   }
 
  private:
-  // The crossings of the rays' angles, none of them passed.
+  // Each ray's list of crossings, with none of them passed yet.
   [[nodiscard]] HWY_INLINE Course Start(const TileCamera& camera) const {
     const Floats f;
     const Ints n;
@@ -179,6 +184,9 @@ class Walk {
     return course;
   }
 
+  // The bin gives the first interval that an angle can be in; an angle beyond where the next one begins is
+  // moved on. Masks are -1 where true, so subtracting one counts up. The loop runs only where a bin has more
+  // than two intervals.
   [[nodiscard]] static HWY_INLINE VI IntervalsAt(const CastIntervals& intervals, VI bin, VF angle) {
     const Floats f;
     const Ints n;
@@ -205,7 +213,8 @@ class Walk {
     course->key = hn::Add(hn::Add(hn::Mul(rays_.u, du), hn::Mul(rays_.v, dv)), hn::BitCast(f, rest.lower));
   }
 
-  // Passes all crossings up to `at`.
+  // Passes all crossings up to `at`. Then the course's label is the camera's label at `at`, and its key is
+  // the camera's next entry wherever that label is background.
   Course CourseTo(const TileCamera& camera, bool is_first, MF alive, VF at, TileScratch::Course* kept) {
     const Floats f;
     const Ints n;
@@ -232,7 +241,7 @@ class Walk {
     return {hn::Load(f, kept.key), hn::Load(n, kept.place), MaskOf(hn::Load(n, kept.is_inside))};
   }
 
-  // Rays that no camera sees go on to where one does.
+  // Rays whose front is outside of every outline move on to the nearest entry of one. False: none had to.
   bool MoveIntoView(MF alive, Front* front) {
     const Floats f;
     MF unseen = alive;
@@ -261,6 +270,7 @@ class Walk {
   bool has_visibility_ = false;  // their courses have begun
 };
 
+// The workspace's share of each ray: the intersection of half-spaces, each a bound that is affine in (u, v).
 HWY_INLINE void Clip(const CastBox& box, const Rays& rays, VF* key_from, VF* key_to) {
   const Floats f;
   MF is_beside = hn::Ne(rays.u, rays.u);  // no ray

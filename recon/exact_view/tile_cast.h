@@ -46,17 +46,18 @@ class CastCrossing {
   std::uint64_t words_[2];
 };
 
-// Angles in which rays meet the same edges, in the same order: [begins[i], begins[i + 1]) is interval i.
-// begins[0] is -infinity, the last one infinity.
+// Intervals of a ray's angle. All rays whose angle is in one interval meet the same edges in the same order.
+// Interval i is [begins[i], begins[i + 1]); begins[0] is -infinity, the last one infinity.
 struct CastIntervals {
   std::vector<float> begins;
-  // By interval and once more: the place of its first crossing. Its last is two places before the next
-  // interval's first.
+  // The place in `crossings` of each interval's first crossing, and one more at the end. The last crossing of
+  // an interval is two places before the first of the next.
   std::vector<std::int32_t> firsts;
-  // By place, in their order along the rays, entries and exits in turn: keys and numbers in
-  // CastPencil::edges. Behind each interval's last there is a key that is infinite, and one in place 0.
+  // The crossings of one interval after another, each in its order along the rays: entries and exits in turn.
+  // The edge is a number in CastPencil::edges. After each interval's last crossing, and in place 0, stands
+  // one with an infinite key, so that a list needs no length: no ray passes it.
   std::vector<CastCrossing> crossings;
-  // By bin: CastBin, packed into words, which rays gather.
+  // Bins of equal width over the angles, each a packed CastBin: where a ray begins to look for its interval.
   std::vector<std::uint64_t> bins;
 
   struct Run {
@@ -70,11 +71,11 @@ struct CastIntervals {
   void Add(const CastForm& key, std::int32_t edge) { crossings.push_back(CastCrossing(key, edge)); }
 };
 
-// No later than the interval of any ray whose angle is in the bin, and where the next one begins.
+// Which intervals a bin of angles reaches into.
 struct CastBin {
-  std::uint32_t interval = 0;
-  bool has_more = false;  // intervals behind the next one
-  float next = 0.0F;
+  std::uint32_t interval = 0;  // the first of them
+  bool has_more = false;       // there are more than two
+  float next = 0.0F;           // the angle at which the second begins
 
   [[nodiscard]] std::uint64_t Pack() const {
     return interval | (has_more ? 1U << 31U : 0U) | std::uint64_t{std::bit_cast<std::uint32_t>(next)} << 32U;
@@ -82,12 +83,12 @@ struct CastBin {
   [[nodiscard]] static std::size_t IntervalOf(std::uint64_t bin) { return bin & 0x7FFFFFFFU; }
 };
 
-// All that one camera can tell a view's rays.
+// One camera's contour, prepared for the rays of one view.
 struct CastPencil {
   // A ray's angle is that of (x(u, v), y(u, v)), as PencilAngle takes it.
   CastForm x;
   CastForm y;
-  // Of bin i: from least_angle + i / bins_per_angle on.
+  // Bin i begins at least_angle + i / bins_per_angle.
   float least_angle = -2.0F;
   float bins_per_angle = 1.0F;
   std::vector<CastEdge> edges;
@@ -102,8 +103,8 @@ struct CastPencil {
   [[nodiscard]] std::uint32_t bins() const { return static_cast<std::uint32_t>(intervals.bins.size()); }
 };
 
-// -2 to 2 for a turn from the negative x axis on, 0 along the positive one, where it is exact to the last
-// bit.
+// Grows with the angle of (x, y), from -2 at the negative x axis over 0 at the positive one to 2. It takes
+// one division and no arc tangent. Near 0 it is exact to the last bit.
 template <typename Real>
 [[nodiscard]] Real PencilAngle(Real x, Real y) {
   const Real size = (x < 0 ? -x : x) + (y < 0 ? -y : y);
@@ -111,8 +112,8 @@ template <typename Real>
   return x < 0 ? (y < 0 ? -2 - share : 2 - share) : share;
 }
 
-// Where rays (u, v) are in the workspace: not before the largest of some keys, not after the smallest of
-// others, and only where none of `beside` is negative.
+// The part of the ray (u, v) that is in the workspace: from the largest of the keys `not_before` to the
+// smallest of the keys `not_after`; nothing if one of `beside` is negative.
 struct CastBox {
   std::vector<CastForm> not_before;
   std::vector<CastForm> not_after;
@@ -122,18 +123,20 @@ struct CastBox {
 struct TileRays {
   alignas(64) float u[kTileRays];  // NaN: no ray
   alignas(64) float v[kTileRays];
-  // Perspective: keys are -1 / depth_mm and end at 0; otherwise they are depths, and don't end.
+  // Perspective: keys are -1 / depth_mm, and a ray ends at key 0. Orthographic: keys are depths without an
+  // end.
   bool is_perspective = true;
 };
 
-// One camera's pencil, and the labels that the tile's rays come with, a bit a ray.
+// One camera's pencil. Bit i of starts_inside: ray i of the tile starts where the camera says object.
 struct TileCamera {
   const CastPencil* pencil = nullptr;
   std::uint32_t starts_inside = 0;
 };
 
-// Of each ray: the depth of its first point in the hull, and whose edge it is on (kNoCamera: a face of the
-// workspace). 0 and kMiss if there is none or if that is where perspective rays start.
+// For each ray the depth of its first point in the hull, and the camera whose edge that point is on
+// (kNoCamera: a face of the workspace). 0 and kMiss if the ray has no such point, or if a perspective ray
+// starts in it.
 struct TileHits {
   static constexpr std::int32_t kNoCamera = -1;
   static constexpr std::int32_t kMiss = -2;
@@ -145,7 +148,7 @@ struct TileHits {
 
 // Room to work in, kept from tile to tile.
 struct TileScratch {
-  // One camera's next crossing with each ray, and what the one before said.
+  // One camera's next crossing with each ray, and the label before it.
   struct Course {
     alignas(64) float key[kTileRays];
     alignas(64) std::int32_t place[kTileRays];      // in CastIntervals
@@ -155,9 +158,10 @@ struct TileScratch {
   std::int64_t crossings_met = 0;  // of rays with edges, worked out so far
 };
 
-// `cameras` must all agree that a point is in the hull, and one of `visibility_outlines` if there are any.
+// A point is in the hull if all `cameras` say object and, where there are `visibility_outlines`, one of them
+// does, too.
 // The processor's widest vectors decide how many rays go at once, never the result: the same bits for all
-// (hull_view_test).
+// (tile_cast_test).
 void CastTile(const TileRays& rays, const CastBox& box, std::span<const TileCamera> cameras,
               std::span<const TileCamera> visibility_outlines, bool wants_edges, TileScratch* scratch,
               TileHits* hits);

@@ -23,7 +23,8 @@ using VI = hn::Vec<Ints>;
 
 constexpr std::size_t kSide = kBlockPoints;
 
-// As many points as a vector holds, across and down in cells times z.
+// As many points as a vector holds. x and y are positions among the cells times z, so that one division by z
+// gives the cell.
 struct Points {
   VF x;
   VF y;
@@ -67,7 +68,7 @@ class Cells {
     const VI column = CellOf(hn::Sub(hn::Mul(points.x, per_z), origin_x_));
     const VI row = CellOf(hn::Sub(hn::Mul(points.y, per_z), origin_y_));
     const VI index = hn::Add(hn::Mul(row, width_), column);
-    // Negative numbers are the largest of all.
+    // One comparison for 0 <= number < end: read as unsigned, negative numbers are the largest of all.
     const auto is_below = [](VI number, VI end) HWY_ATTR {
       return hn::Lt(hn::BitCast(Unsigned(), number), hn::BitCast(Unsigned(), end));
     };
@@ -76,8 +77,10 @@ class Cells {
   }
 
  private:
-  // The number's floor by its last bits beside 2^23; of one on the border between two cells, either.
-  // Negative, or at least 2^23, if it isn't from 0 to 2^23.
+  // Floor without a conversion: beside 2^23 a float32 has no bits for fractions, so adding 2^23 rounds to a
+  // whole number and leaves it in the last bits. Half is taken away first, which makes rounding to the
+  // nearest a floor; on the border between two cells it may be either cell, and kTouchCells allows for that.
+  // A number that isn't from 0 to 2^23 gives one that is negative or at least 2^23: in no cell.
   static HWY_INLINE VI CellOf(VF number) {
     constexpr double kLastBitIsOne = 1 << 23;
     const VF beside = hn::Add(hn::Sub(number, Set(0.5)), Set(kLastBitIsOne));
@@ -93,7 +96,9 @@ class Labeller {
   Labeller(const ContourCellsView& raster, BlockBits* bits, BlockBits* mixed)
       : cells_(raster), bits_(*bits), mixed_(*mixed) {}
 
-  // A group whose points are those of `points_from(i)`, i points on. One without a bit isn't asked.
+  // Labels a group of eight points; points_from(i) are those from point i on. A group without a bit is
+  // skipped: an earlier camera has excluded all of it. Bits of mixed cells stay set, and another pass decides
+  // them.
   template <typename PointsFrom>
   HWY_INLINE void Ask(std::size_t group, const PointsFrom& points_from) {
     const unsigned bits = bits_.groups[group];
@@ -118,7 +123,7 @@ class Labeller {
   std::size_t asked_ = 0;
 };
 
-// y and z of the far face's points, in the order of their bits.
+// y and z of the points of the far face (x = kBlockCells), in the order of their bits.
 struct FarPoints {
   alignas(32) std::array<float, 8 * BlockBits::kFarGroups> y{}, z{};
 };
@@ -132,7 +137,9 @@ constexpr FarPoints MakeFarPoints() {
 }
 constexpr FarPoints kFarPoints = MakeFarPoints();
 
-// `block`: x and y in cells times z; from its own corner.
+// `block`: the grid from the block's own corner, x and y in cells times z. A point's place is linear in its
+// three numbers, so rows and layers are reached by adding steps: in double precision from row to row, in
+// float32 within a row only.
 std::size_t Label(const GridView& block, const ContourCellsView& raster, BlockBits* bits, BlockBits* mixed) {
   const Floats f;
   const GridView view = block;  // no byte that is written may be part of it
@@ -175,9 +182,9 @@ HWY_EXPORT(Label);
 
 namespace {
 
-// Whether the kernel's float32 puts all points of a block in front of the camera, each less than kTouchCells
-// from where it is. A coordinate is rounded to 2^-24 of itself some six times on the way: its terms, their
-// sums; so is what the division leaves, and the place among the cells.
+// Whether the kernel's float32 is good enough for a block: all of its points come out in front of the camera,
+// and each less than kTouchCells from where it is. Six roundings to 2^-24 lie on a coordinate's way (its
+// terms and their sums), then those of the division and of the place among the cells; eight are allowed for.
 bool FloatsWillDo(const GridView& block, const ContourCellsView& raster) {
   constexpr double kRounding = 8.0 / (1 << 24);
   std::array<double, 3> error{};  // of a coordinate's terms together

@@ -13,7 +13,7 @@ namespace elbowroom::recon {
 
 inline constexpr int kBlockPoints = kBlockCells + 1;  // grid points on a side of a block
 
-// A bit for each of a block's kBlockPoints^3 grid points, in groups of eight.
+// A bit for each of a block's kBlockPoints^3 grid points, in groups of eight that the kernel labels together.
 struct BlockBits {
   static constexpr std::size_t kRows = kBlockPoints * kBlockPoints;
   static constexpr std::size_t kFarGroups = (kRows + 7) / 8;
@@ -41,11 +41,11 @@ struct BlockBits {
 };
 static_assert(kBlockCells == 8, "a row of cells is a group of points");
 
-// Clears the bits of points of the block at `corner` that are in cells of background; those in mixed cells
-// stay, and are set in `mixed`. In float32, whose error stays below ContourCellsView::kTouchCells: a cell
-// that isn't mixed answers for the points near it as well. Where that can't be said (a block that reaches
-// behind the camera, or far beside its axis) all points are mixed. Groups without a bit aren't asked; returns
-// how many were.
+// Clears the bits of those points of the block at `corner` that fall into cells of background. Points in
+// mixed cells keep their bits and are set in `mixed`: SettleMixed decides them. Works in float32. That is
+// right, since a cell that isn't mixed also answers for points up to kTouchCells beside it, and float32's
+// error is less; where it might be more (a block that reaches behind the camera, or far from its axis) all
+// points are mixed. Groups without a bit are skipped. Returns how many groups were labelled.
 std::size_t LabelByCells(const GridView& grid, const GridPoint& corner, const ContourCellsView& raster,
                          BlockBits* bits, BlockBits* mixed);
 

@@ -11,11 +11,11 @@
 
 namespace elbowroom::recon {
 
-// A grid's points in cam, x and y times the focal length.
+// The grid as the camera sees it: its points in cam, x and y times the focal length (GridView).
 [[nodiscard]] GridView ViewGrid(const core::CameraModel& camera, double focal_px, const HullGrid& grid);
 
-// Clears the bits of those points in `mixed`, of the block at `corner`, that the raster's contour doesn't
-// call object, exactly.
+// Decides the points of the block at `corner` that are set in `mixed`, exactly: clears the bits of those that
+// the contour doesn't label object.
 void SettleMixed(const GridView& grid, const ContourCellsView& raster, const GridPoint& corner,
                  const BlockBits& mixed, BlockBits* bits);
 

@@ -47,7 +47,9 @@ HWY_INLINE Bgr Unpacked(const CoverageSamples::Colors& colors, std::size_t i) {
 HWY_INLINE Bgr Image(const CoverageSamples::Colors& colors, std::size_t i) { return Unpacked<8>(colors, i); }
 HWY_INLINE Bgr Mean(const CoverageSamples::Colors& colors, std::size_t i) { return Unpacked<10>(colors, i); }
 
-// The share of the background's light outwards: shade, or a change of exposure. 1 where there is none.
+// How bright the background is outside the boundary, as a share of its mean: shade of the object, or a change
+// of exposure. It is the g that minimises |I - g * mean|^2 over two pixels outwards: sum(I . mean) / sum(mean
+// . mean). 1 where no background pixel is at hand.
 HWY_INLINE V Light(const CoverageSamples& samples, std::size_t i) {
   constexpr float kDarkest = 0.3F, kBrightest = 1.5F;
   const V one = hn::Set(Floats(), 1.0F), zero = hn::Zero(Floats());
@@ -61,8 +63,10 @@ HWY_INLINE V Light(const CoverageSamples& samples, std::size_t i) {
   return hn::IfThenElse(is_lit, Clamped(share, kDarkest, kBrightest), one);
 }
 
-// As near to the boundary as pixels are wholly object, since shading changes towards an object's rim: a pixel
-// that is much weaker than the next one inwards is taken for a mixture. Less the background.
+// The object's colour less the background's. It is taken as near to the boundary as possible, since shading
+// changes towards an object's rim: from the pixel at the rim if that is wholly object, else from the next one
+// inwards. A rim pixel that is much weaker than the next one along its direction is a mixture with
+// background.
 HWY_INLINE Bgr Whole(const CoverageSamples& samples, const Bgr& background, std::size_t i) {
   constexpr float kLeastShare = 0.85F;
   const Bgr near = Minus(Image(samples.near, i), background), far = Minus(Image(samples.far, i), background);
@@ -71,7 +75,8 @@ HWY_INLINE Bgr Whole(const CoverageSamples& samples, const Bgr& background, std:
           hn::IfThenElse(is_whole, near.r, far.r)};
 }
 
-// 127.5 at the boundary, 127.5 more or less a pixel away; on the side that `is_object` says.
+// From a distance to a level: 127.5 at the boundary, 0 and 255 a pixel outside and inside of it. Kept to the
+// side that `is_object` says, so that rounding can't move a pixel over the boundary.
 template <class Mask>
 HWY_INLINE hn::Vec<Ints> LevelOf(V inside_px, Mask is_object) {
   const V middle = hn::Set(Floats(), 128.0F), scale = hn::Set(Floats(), 127.5F);
@@ -89,12 +94,16 @@ void Reckon(const CoverageSamples& samples, float least_contrast2, std::size_t c
     const V contrast2 = Dot(whole, whole);
     const auto is_positive = hn::Gt(contrast2, zero);
     const V per_contrast2 = hn::Div(one, hn::IfThenElse(is_positive, contrast2, one));
+    // The share of object in a pixel: its difference from the background, projected on that of the whole
+    // object.
     const auto alpha_of = [&](const CoverageSamples::Pair& pair) HWY_ATTR {
       const Bgr difference = Minus(Image(pair.image, i), Times(light, Mean(pair.mean, i)));
       return Clamped(hn::Mul(Dot(difference, whole), per_contrast2), 0.0F, 1.0F);
     };
     const V alpha = alpha_of(samples.here);
     const V sum = hn::Add(hn::Add(alpha, alpha_of(samples.before)), alpha_of(samples.after));
+    // Across an edge alpha falls from 1 to 0 over three pixels at most, so the sum over pixel and neighbours
+    // says where the edge is, however the lens spreads it: 1.5 if it goes through the pixel's centre.
     const V sum_px = hn::Sub(sum, hn::Set(d, 1.5F));
     const auto is_object = hn::Ge(alpha, half);
     // Both sides fall off (or rise): a line a pixel wide, half of it on either side of the centre.

@@ -7,8 +7,8 @@
 
 namespace elbowroom::recon {
 
-// Colours of up to kBatch boundary pixels and of those that each is compared with. Of the picture: blue in
-// the lowest eight bits, then green, then red. Of the mean: as PackedMean.
+// The colours of up to kBatch boundary pixels and of the pixels that each is compared with. A picture's
+// colour has blue in the lowest eight bits, then green, then red; a mean's is packed as by PackedMean.
 struct CoverageSamples {
   static constexpr std::size_t kBatch = 64;
   using Colors = std::array<std::uint32_t, kBatch>;
@@ -22,9 +22,10 @@ struct CoverageSamples {
   alignas(64) Colors far{};   // and a pixel further in
 };
 
-// For each of the first `count` samples a level as core::SoftMask has them, at least 128 where at least half
-// of the pixel is object; plus kCoverageKnown where object and background differ enough. The same for every
-// instruction set (tests/recon/segmentation/difference_kernel_test.cc).
+// A level for each of the first `count` samples, as core::SoftMask has them: at least 128 where half of the
+// pixel or more is object. kCoverageKnown is added where object and background differ enough for the level to
+// mean something. The same bits for every instruction set
+// (tests/recon/segmentation/difference_kernel_test.cc).
 inline constexpr std::uint32_t kCoverageKnown = 256;
 void ReckonCoverage(const CoverageSamples& samples, float least_contrast2, std::size_t count,
                     std::array<std::uint32_t, CoverageSamples::kBatch>* levels);
