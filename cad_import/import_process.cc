@@ -34,7 +34,7 @@ class MessageReader {
  public:
   explicit MessageReader(const core::Descriptor& pipe) : pipe_(pipe) {}
 
-  // Of what is there to be read; false: there is no more to come.
+  // Reads what is there. False: nothing more will come.
   bool Read(const std::function<void(const ImportMessage&)>& hear) {
     std::array<char, 4096> chunk{};
     const ssize_t size = ::read(pipe_.number(), chunk.data(), chunk.size());

@@ -16,7 +16,7 @@ inline constexpr std::string_view kImportWorkerArgument = "--import-worker";
 inline constexpr int kMessageDescriptor = core::kFirstGivenDescriptor;     // a pipe: lines
 inline constexpr int kResultDescriptor = core::kFirstGivenDescriptor + 1;  // a file in memory: the model
 
-// Of a line; a longer one is no message.
+// The longest line that is a message.
 inline constexpr std::size_t kLongestMessageBytes = std::size_t{64} << 10U;
 
 struct ProgressMessage {

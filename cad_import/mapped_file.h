@@ -13,7 +13,7 @@ class MappedFile {
  public:
   // Nothing: it can't be opened or holds nothing.
   [[nodiscard]] static std::optional<MappedFile> At(const std::filesystem::path& path);
-  // Of an open file, which may be closed after.
+  // Maps an open file. The descriptor may be closed afterwards.
   [[nodiscard]] static std::optional<MappedFile> Of(int descriptor);
 
   ~MappedFile();

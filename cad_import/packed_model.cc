@@ -23,7 +23,7 @@ static_assert(sizeof(Eigen::Vector3d) == 3 * sizeof(double), "vertices are packe
 
 constexpr std::array<char, 8> kMagic = {'E', 'L', 'B', 'O', 'W', 'C', 'A', 'D'};
 constexpr std::size_t kHeaderBytes = kMagic.size() + sizeof(std::uint32_t) + sizeof(std::uint64_t);
-// Of those with every list and text empty.
+// The sizes of entries in which every list and text is empty.
 constexpr std::size_t kLeastShapeBytes = 105, kLeastInstanceBytes = 125, kLeastPieceBytes = 24;
 constexpr double kRigidTolerance = 1e-9;
 
@@ -86,7 +86,7 @@ class Reader {
     Check(value <= 1, "a flag is neither set nor clear");
     return value == 1;
   }
-  // Of things of at least that many bytes each, so that a false count can't ask for memory.
+  // A count of things that take at least so many bytes each: a false count can't ask for memory.
   [[nodiscard]] std::size_t TakeSize(std::size_t bytes_each) {
     const auto size = Take<std::uint64_t>();
     Check(size <= rest_.size() / bytes_each, "it is cut off");

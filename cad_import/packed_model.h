@@ -28,10 +28,10 @@ inline constexpr std::uint32_t kPackedModelVersion = 7;
 
 // 128-bit XXH3, 32 hex digits.
 [[nodiscard]] std::string HashOf(std::span<const std::byte> bytes);
-// Of a file's content. Throws: Error{kFile} naming it if it can't be read.
+// A hash of a file's content. Throws: Error{kFile} naming it if it can't be read.
 [[nodiscard]] std::string HashOfFile(const std::filesystem::path& file);
 
-// Of all that follows it: 64-bit XXH3.
+// The checksum of all that follows it in the file: 64-bit XXH3.
 [[nodiscard]] std::uint64_t ChecksumOf(std::span<const std::byte> payload);
 
 [[nodiscard]] std::vector<std::byte> Pack(const CadModel& model, std::span<const ReferredFile> referred);

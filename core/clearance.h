@@ -14,7 +14,7 @@ struct ClearanceInterval {
   Eigen::Vector3d witness_hull_in_world_mm = Eigen::Vector3d::Zero();
 };
 
-// Of one part to the hull in one frame.
+// The clearance of one part to the hull in one frame.
 struct PartClearance {
   // Where they meet, from 0 to the mesh's deviation; both infinite: the hull has no points.
   ClearanceInterval interval;

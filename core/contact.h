@@ -64,7 +64,7 @@ struct PartContact {
   std::int64_t contact_point_count = 0;  // before the bound
   double contact_area_mm2 = 0.0;
   std::optional<ContactPoint> deepest;
-  // Of a contact without points: a point of the hull inside the part, no face of which it touches.
+  // Only for a contact without points: a point of the hull inside the part, none of whose faces is touched.
   std::optional<Eigen::Vector3d> contained_in_world_mm;
   RecoveryStatus recovery_status = RecoveryStatus::kNoContact;
   std::optional<Recovery> recovery;

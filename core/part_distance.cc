@@ -10,7 +10,7 @@ using Eigen::Vector3d;
 
 // Squared sine of a corner: smaller ones are needles.
 constexpr double kNeedle = 1e-6;
-// Of half a box's diagonal: the radius of nodes that aren't looked into for a bound.
+// Nodes of a smaller radius, as a share of half the box's diagonal, aren't looked into for a bound.
 constexpr double kSmallNode = 0.5;
 
 Vector3d NearestOnSegment(const Vector3d& x, const Vector3d& a, const Vector3d& b) {
@@ -137,8 +137,8 @@ class Search {
     }
   }
 
-  // Of the box's points center + sum a_i e_i those that the plane across `away` doesn't keep at `within_mm`
-  // from what is beyond it: |away| - sum_(i != axis) |n . e_i| + a_axis n . e_axis < within_mm.
+  // Which of the box's points center + sum a_i e_i may be nearer than `within_mm` to what is beyond the plane
+  // across `away`: |away| - sum_(i != axis) |n . e_i| + a_axis n . e_axis < within_mm.
   [[nodiscard]] NearStretch NearTo(const Vector3d& away, Eigen::Index axis, double within_mm) const {
     const double length = away.norm();
     if (!(length > 0.0)) return {-1.0, 1.0};

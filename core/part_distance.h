@@ -30,15 +30,15 @@ struct BoxInPart {
 [[nodiscard]] Eigen::Vector3d NearestOnTriangle(const Eigen::Vector3d& x, const Eigen::Vector3d& a,
                                                 const Eigen::Vector3d& b, const Eigen::Vector3d& c);
 
-// Of the box's centre: exact but for double's rounding (part_distance_test). Of the box: a bound, by the
-// plane through each triangle's nearest point that keeps the triangle, which is convex, on its far side;
-// triangles that are small together next to the box, by the plane that keeps their own box so.
-// `likely`: a triangle that is probably near, which saves work and changes nothing. The part has triangles.
-// Thread: any.
+// The distance of the box's centre is exact but for double's rounding (part_distance_test). That of the box
+// is a lower bound: a triangle is convex, so the plane through its nearest point keeps all of it on the far
+// side, and the box is compared with that plane. Triangles that together are small next to the box are kept
+// by one plane, that of their own box. `likely`: a triangle that is probably near, which saves work and
+// changes nothing. The part has triangles. Thread: any.
 [[nodiscard]] NearestOnPart FindNearest(const TriangleTree& part, const BoxInPart& box,
                                         std::uint32_t likely = 0);
 
-// Of a box along one of its half edges, -1 to 1: where it may be near.
+// The stretch of a box, along one of its half edges from -1 to 1, in which its points may be near.
 struct NearStretch {
   double from = 1.0;
   double to = -1.0;

@@ -31,7 +31,7 @@ using SharedMesh = std::shared_ptr<const TriangleMesh>;
 void ValidateMesh(const TriangleMesh& mesh, const std::string& where);
 
 [[nodiscard]] Eigen::AlignedBox3d BoundsOf(const TriangleMesh& mesh);
-// Of the mesh where it stands in frame b, in b's axes.
+// The bounds, in frame b, of the mesh as it stands there.
 [[nodiscard]] Eigen::AlignedBox3d BoundsOf(const TriangleMesh& mesh, const RigidTransform& b_from_a);
 
 // Signed volume by the divergence theorem; meaningful for a closed mesh, positive if oriented outwards.

@@ -24,7 +24,7 @@ using Eigen::Vector3d;
 using recon::BallAnswer;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-// Of the coordinates: what distances are off by.
+// What distances are off by, as a share of the coordinates.
 constexpr double kRounding = 1e-12;
 // Smaller cells than this share of the tolerance tell nothing more.
 constexpr double kSmallestCell = 1.0 / 64.0;
@@ -277,7 +277,7 @@ class Search {
   std::int64_t cut_cells_ = 0;
 };
 
-// Of a mesh's distances to those of the surface that it stands for.
+// From distances to the mesh to distances to the surface that it stands for.
 Clearance WithDeviation(Clearance clearance, double deviation_mm) {
   core::ClearanceInterval& interval = clearance.interval;
   interval.lower_mm = std::max(interval.lower_mm - deviation_mm, 0.0);

@@ -60,7 +60,7 @@ struct ClothState {
 // The panel's triangles where the state has them, in world.
 [[nodiscard]] core::TriangleMesh MeshInWorld(const ClothPanel& panel, const ClothState& state);
 
-// Of motion and of height over z = 0, without the springs'; uJ (mN mm).
+// The energy of motion and of height over z = 0, without that of the springs; uJ (mN mm).
 [[nodiscard]] double EnergyUj(const ClothPanel& panel, const ClothState& state);
 
 }  // namespace elbowroom::review

@@ -214,8 +214,9 @@ void ClothContact::CarryAlong(const recon::VisualHull& last, double dt_s) {
   }
 }
 
-// Of a point in the hull: away from where that was; 0: it was there already, or isn't known to have come, or
-// (beside a hull that slopes) to leave that way is farther than it may have come.
+// The side on which a point leaves the hull: away from where the hull was before. 0: the hull was there
+// already, or isn't known to have come, or (beside a hull that slopes) the way out on that side is longer
+// than the hull may have come.
 int ClothContact::SideAwayFromLast(const Vector3d& from) const {
   if (last_ == nullptr || last_->Contains(from)) return 0;
   const auto ahead_mm = EntryAlong(*last_, {from, v_rec_}, reach_mm_);

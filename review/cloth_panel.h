@@ -29,7 +29,7 @@ class ClothPanel {
 
   [[nodiscard]] const core::ClothRule& rule() const { return rule_; }
   [[nodiscard]] const core::TriangleMesh& rest() const { return *rest_; }
-  // Of `rest`: to look at many triangles at once.
+  // The tree of the mesh at rest: to look at many triangles at once.
   [[nodiscard]] const core::TriangleTree& tree() const { return tree_; }
   // Reciprocal of a vertex's mass, 1/kg; 0: pinned.
   [[nodiscard]] const std::vector<double>& inverse_mass_per_kg() const { return inverse_mass_; }

@@ -39,7 +39,7 @@ class ContactHeat {
            std::span<const core::RigidTransform> world_from_parts,
            std::span<const core::PartContact> contacts);
 
-  // Of the parts that were touched, in their order.
+  // The maps of the parts that were touched, in the layout's order.
   [[nodiscard]] std::vector<core::HeatMap> Maps() const;
 
  private:

@@ -52,7 +52,7 @@ void Extend(const TrackedFrame& frame, const core::PartContact& contact, core::C
     SetPeak(frame, contact, depth_mm, episode);
 }
 
-// Of a frame that isn't clear.
+// Whether the part is sure to be nearer than required.
 bool IsSurelyBelow(core::Verdict verdict) {
   switch (verdict) {
     case core::Verdict::kContact:

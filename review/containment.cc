@@ -35,7 +35,7 @@ class InsideSearch {
     return std::nullopt;
   }
 
-  // Of the cell's ball, and where that is mixed, of the cell.
+  // The answer for the cell's ball; where that is mixed, for the cell itself.
   BallAnswer Ask(const InsideCells::Cell& cell, const Vector3d& center_in_world,
                  recon::UndecidedCameras* open) {
     ++queries_;

@@ -33,7 +33,7 @@ class InsideCells {
   [[nodiscard]] Cell Root() const { return {part_.bounds(), 0}; }
   [[nodiscard]] Cell Child(const Cell& cell, int which);
 
-  // Of the cell's centre.
+  // Whether the cell's centre is inside the part.
   [[nodiscard]] bool IsInside(const Cell& cell);
   // Whether the ball around the cell may hold surface.
   [[nodiscard]] bool MayHoldSurface(const Cell& cell);

@@ -307,7 +307,7 @@ class Study {
   const std::vector<double> steps_mm_;
   std::vector<core::TriangleTree> trees_;
   std::vector<bool> moves_;
-  // Of each frame: moved parts x steps.
+  // One list a frame: moved parts x steps.
   std::vector<std::vector<double>> lower_mm_;
   SpacingStudy result_;
 };

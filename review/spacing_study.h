@@ -49,7 +49,7 @@ struct PartAtSpacing {
   std::int64_t frames_undecided = 0;
   std::int64_t frames_clear = 0;
   double deepest_mm = 0.0;  // certified lower bound
-  // Of the least distance over all frames: never above, never below it.
+  // Bounds of the least distance over all frames: the one is never above it, the other never below.
   double lower_mm = std::numeric_limits<double>::infinity();
   double upper_mm = std::numeric_limits<double>::infinity();
   std::optional<core::FrameIndex> closest_frame;  // that upper_mm is of; in contact, the deepest
@@ -60,7 +60,7 @@ struct StudyStep {
   std::vector<PartAtSpacing> parts;  // in the layout's order
 };
 
-// Of parts in frames at steps.
+// Counts of questions: one is about a part in a frame at a step.
 struct StudyCount {
   std::int64_t asked = 0;              // contacts, and clearance where it was of interest
   std::int64_t settled_by_motion = 0;  // too far at another step to matter at this one

@@ -6,7 +6,7 @@
 
 namespace elbowroom::review {
 
-// Of a triangle; in whatever frame.
+// The corners of a triangle, in any frame.
 struct Corners {
   Eigen::Vector3d a, b, c;
 };

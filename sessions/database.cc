@@ -115,7 +115,7 @@ void MakeDurable(SQLite::Database& connection) {
   connection.exec("PRAGMA synchronous = EXTRA; PRAGMA journal_mode = WAL; PRAGMA foreign_keys = ON");
 }
 
-// Of the session of that path.
+// `session`: its path, for messages.
 void CopyPages(SQLite::Database& from, SQLite::Database& to, const fs::path& session,
                const std::stop_token& stop) {
   constexpr int kPagesAStep = 1000;

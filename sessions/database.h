@@ -82,7 +82,7 @@ class Database {
   // Whether `path` names the file that is open here.
   [[nodiscard]] bool IsTheFile(const std::filesystem::path& path) const { return IdOf(path) == file_; }
 
-  // Of the files of this connection those that SQLite has made since are known from here on.
+  // Notes which files are this connection's, with those that SQLite has made since the last call.
   void RememberPlace();
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }

@@ -22,7 +22,7 @@ std::optional<std::string> JsonOrNull(const std::optional<Eigen::Vector3d>& vect
   return JsonFrom(*vector);
 }
 
-// Of four columns.
+// From four columns of the row.
 core::RecoveryRule ReadRecoveryRule(const Statement& row, int first_column, const std::string& where) {
   const auto kind = core::ParseRecoveryKind(row.Text(first_column));
   const auto vector = [&](int column) -> std::optional<Eigen::Vector3d> {

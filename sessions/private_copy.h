@@ -8,8 +8,8 @@ namespace elbowroom::sessions {
 // In a temporary folder of its own, which goes with this object.
 class PrivateCopy {
  public:
-  // Of the database, its log, its rollback journal and its spill, as far as they exist. Throws: Error{kFile}
-  // naming the session and the folder when there is no room.
+  // Copies the database, its log, its rollback journal and its spill, as far as they exist. Throws:
+  // Error{kFile} naming the session and the folder when there is no room.
   explicit PrivateCopy(std::filesystem::path original);
   ~PrivateCopy();
   PrivateCopy(const PrivateCopy&) = delete;

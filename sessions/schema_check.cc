@@ -62,7 +62,7 @@ std::string Essence(const std::string& sql) {
   return essence;
 }
 
-// Of columns alone: whoever checks an index works out what it holds.
+// An index of columns alone, without expressions: checking an index evaluates what it holds.
 bool IsPlainIndex(const Entry& entry) {
   const std::string essence = Essence(entry.sql.value_or(""));
   return std::ranges::count(essence, '(') == 1 && essence.ends_with(')');

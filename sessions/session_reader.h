@@ -74,7 +74,7 @@ class SessionReader {
   [[nodiscard]] std::vector<ContactRow> clearances() const;          // every part with a clearance, likewise
   [[nodiscard]] std::vector<PartTotals> part_totals() const;         // one a part
 
-  // Of SQLite's machine, by the dearest query so far (QueryLimit).
+  // The steps of SQLite's virtual machine that the dearest query so far took (QueryLimit).
   [[nodiscard]] std::int64_t most_steps_taken() const;
 
  private:

@@ -42,7 +42,7 @@ class Statement {
   void Run();                 // to its end
   [[nodiscard]] bool Next();  // true while there is a row
 
-  // Of the current row; columns count from 0.
+  // Columns of the current row, counted from 0.
   [[nodiscard]] bool IsNull(int column) const;
   [[nodiscard]] std::int64_t Integer(int column) const;
   [[nodiscard]] double Real(int column) const;

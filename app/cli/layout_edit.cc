@@ -43,7 +43,7 @@ std::optional<std::size_t> FindPair(const LayoutText& text, const PairEdit& edit
   return std::nullopt;
 }
 
-// Of the entries of these kinds.
+// Names the entries of these kinds that come nearest.
 [[noreturn]] void FailUnknown(const LayoutText& text, const std::vector<std::string_view>& kinds,
                               const std::string& name) {
   std::vector<std::string> names;

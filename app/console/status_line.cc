@@ -9,7 +9,7 @@ QString PercentOf(std::int64_t share, std::int64_t whole) {
   return whole == 0 ? QString("–") : QString::number(100 * share / whole) + " %";
 }
 
-// Of "vendor | renderer | version" the renderer, without its remarks: "llvmpipe".
+// The renderer of "vendor | renderer | version" without its remarks: "llvmpipe".
 QString ShortDriver(const QString& driver) {
   const QString renderer = driver.section('|', 1, 1).section('(', 0, 0).trimmed();
   return renderer.isEmpty() ? driver : renderer;

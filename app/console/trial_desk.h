@@ -45,7 +45,7 @@ class TrialDesk : public QObject {
   [[nodiscard]] bool is_stopping() const { return is_stopping_; }
   [[nodiscard]] bool can_report() const { return state_ == DeskState::kIdle && recorded_.has_value(); }
 
-  // Of the trial under way or else the last one that recorded a frame.
+  // The session of the running trial, or else of the last one that recorded a frame.
   [[nodiscard]] const std::filesystem::path& session() const { return session_; }
 
   // Reads a trial, then runs it at the pace at which its frames were taken, recording into `session`.

@@ -10,7 +10,7 @@
 namespace elbowroom::control {
 namespace {
 
-// Of parts to hand and tools.
+// Between parts on one side, hand and tools on the other.
 constexpr double kRequiredClearanceMm = 15.0;
 
 // When the simulated hand takes up the tongs and lays them down.

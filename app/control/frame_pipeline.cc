@@ -92,7 +92,7 @@ void FramePipeline::UpdateHull(std::vector<core::SoftMask> masks, FrameResult* r
 void FramePipeline::UpdateResponse(std::span<const core::RigidTransform> world_from_rests,
                                    FrameResult* result) {
   if (responders_.is_empty()) return;
-  // Of the first frame, and at most after a pause.
+  // The time step of the first frame, and the longest one, for a frame after a pause.
   constexpr double kFirstS = 1.0 / 30.0, kLongestS = 0.25;
   const double since_s = last_ ? result->time_s - last_->time_s : kFirstS;
   const SharedReactions last = last_ ? last_->response : nullptr;

@@ -57,7 +57,7 @@ class SceneComposer {
                                            const cv::Mat& image_bgr);
 
   MakeView make_view_;
-  // Of the last frame drawn; what is null hasn't been asked for since.
+  // What was made for the last frame drawn. Null: nobody has asked for it since.
   SharedHull hull_;
   std::shared_ptr<const recon::FrameSet> camera_frames_;
   std::shared_ptr<recon::HullView> hull_from_view_;

@@ -30,9 +30,9 @@ struct SelfTestReport {
 // drawn at all.
 [[nodiscard]] SelfTestReport RunSelfTest();
 
-// Of exact views by `graphics` against recon::ViewHull's, perspective without and with a lens, from where a
-// camera of the rig is, and orthographic, each under both `unseen` policies. Unexplained: outside of
-// recon::ViewBand.
+// Compares exact views made by `graphics` with those of recon::ViewHull: perspective without and with a lens,
+// from the place of a camera of the rig, and orthographic, each under both `unseen` policies. A difference
+// outside of recon::ViewBand is unexplained.
 [[nodiscard]] std::vector<SelfTestLine> TestExactViews(const MakeView& graphics);
 
 }  // namespace elbowroom::control

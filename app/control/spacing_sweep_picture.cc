@@ -21,7 +21,7 @@ constexpr const char* kGrid = "#dddddd";
 constexpr const char* kAxis = "#555555";
 constexpr const char* kFree = "#2a7f3b";
 constexpr const char* kEstimate = "#8a6d00";
-// Of parts: lines, and the bands between a clearance's bounds.
+// The parts' colours: of lines, and of the bands between a clearance's bounds.
 constexpr std::array<const char*, 5> kColors = {"#b2182b", "#2166ac", "#7b3294", "#01665e", "#b35806"};
 constexpr std::array<const char*, 5> kPaleColors = {"#f4c5bd", "#c3d9ec", "#dcc9e4", "#bfe0dc", "#f3d7b6"};
 

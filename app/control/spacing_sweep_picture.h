@@ -9,8 +9,8 @@
 
 namespace elbowroom::control {
 
-// Of the parts that the spacing moves: above, in how many frames each is in contact; below, the bounds of its
-// least clearance, as a band. The smallest spacing without contact and the trial's estimate are marked.
+// Shows the parts that the spacing moves: above, in how many frames each is in contact; below, the bounds of
+// its least clearance, as a band. Marks the smallest spacing without contact and the trial's estimate.
 [[nodiscard]] LineDrawing SpacingSweepPicture(const core::SessionHeader& header, const std::string& spacing,
                                               const review::SpacingStudy& study);
 

@@ -14,7 +14,7 @@ struct GltfAsset {
   double deviation_mm = 0.0;
 };
 
-// Of what is no document: nothing.
+// Empty for text that is no glTF document.
 [[nodiscard]] GltfAsset AssetOf(std::string_view document);
 
 // The document with a matrix in the place of each node's translation, rotation and scale, which assimp's

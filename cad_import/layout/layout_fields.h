@@ -30,7 +30,7 @@ inline constexpr std::array<std::string_view, 5> kEntryKinds{"part", "group", "s
 // for a kind that isn't among kEntryKinds.
 [[nodiscard]] std::span<const std::string_view> KeysOf(std::string_view kind);
 
-// Of each entry [[kind]], in the layout's order. Throws: Error{kCad} naming a part without a file;
+// The fields of each entry [[kind]], in the layout's order. Throws: Error{kCad} naming a part without a file;
 // PreconditionError for a kind that isn't among kEntryKinds.
 [[nodiscard]] std::vector<Fields> FieldsOf(const core::Layout& layout, std::string_view kind);
 

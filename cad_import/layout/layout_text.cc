@@ -106,7 +106,8 @@ class LayoutText::Edit {
     return *MeantEntries(kind)[index].as_table();
   }
 
-  // Of the text as it was. Several replacements go from its end to its beginning.
+  // `region` counts in the text as it was read, so several replacements must go from the end to the
+  // beginning.
   void Replace(const toml::source_region& region, std::string_view by) {
     const std::size_t from = lines_.Offset(region.begin);
     text_.replace(from, lines_.Offset(region.end) - from, by);

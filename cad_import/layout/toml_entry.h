@@ -60,7 +60,7 @@ class TomlEntry {
   [[nodiscard]] std::vector<std::string> Texts(std::string_view key) const;
   [[nodiscard]] std::optional<core::LengthUnit> Unit() const;  // of the key `unit`
 
-  // Of the tables [[key]], in order; none if the key is absent.
+  // One entry for each table [[key]], in order; none if the key is absent.
   [[nodiscard]] std::vector<TomlEntry> Entries(std::string_view key,
                                                std::span<const std::string_view> known) const;
 

@@ -16,7 +16,7 @@ struct LineRange {
   std::size_t last = 0;  // included
 };
 
-// Of one text as it stands; must not outlive it.
+// The lines of one text. The text must not change, and must outlive this.
 class TomlLines {
  public:
   TomlLines(std::string_view text, const toml::table& document);

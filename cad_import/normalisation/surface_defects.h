@@ -21,8 +21,8 @@ struct SurfaceDefects {
   std::vector<std::array<Eigen::Vector3d, 3>> crossing;  // triangles that meet others beside their corners
 };
 
-// Of every instance. Crossing triangles of shapes that are known to have some, or that weren't looked
-// through. Throws: Error{kCancelled}.
+// Counts over every instance. Crossing triangles are looked for in shapes that are known to have some, or
+// that weren't looked through yet. Throws: Error{kCancelled}.
 [[nodiscard]] SurfaceDefects FindDefects(const CadModel& model, const core::Progress& progress = {},
                                          const std::stop_token& stop = {});
 

@@ -45,7 +45,7 @@ cv::Mat InsideOfSurfaces(const HullView& sight, double focal_px) {
   return inside;
 }
 
-// Of the four pixels around a place that is at least one pixel inside of the picture.
+// The four pixels around a position that is at least one pixel inside of the picture.
 struct Corners {
   int x, y;
   float u, v;  // share of the right, of the lower ones

@@ -76,7 +76,7 @@ class Tracer {
     const std::size_t words = soft_.mask.words_per_row();
     return {soft_.mask.words().data() + static_cast<std::size_t>(y) * words, words};
   }
-  // Of a row's last word, behind the picture.
+  // The bits of a row's last word that are behind the picture.
   [[nodiscard]] std::size_t SpareBits() const {
     return soft_.mask.words_per_row() * 64 - static_cast<std::size_t>(soft_.mask.width_px());
   }

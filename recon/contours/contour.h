@@ -40,8 +40,8 @@ struct Contour {
 inline constexpr int kTangentReach = 3;
 [[nodiscard]] Eigen::Vector2d SmoothTangent(const Contour& contour, std::uint32_t edge);
 
-// Of the plane through the camera's centre along SmoothTangent, unit, away from the object. Of the edge
-// itself where the tangent is zero.
+// The normal of the plane through the camera's centre along SmoothTangent: unit, away from the object. Where
+// that tangent is zero, the edge's own direction is taken.
 [[nodiscard]] Eigen::Vector3d OutwardNormalInCam(const Contour& contour, std::uint32_t edge, double focal_px);
 
 [[nodiscard]] double DistanceToEdge(const Contour& contour, std::uint32_t edge,

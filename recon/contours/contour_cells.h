@@ -20,7 +20,7 @@ namespace elbowroom::recon {
 // the number of cells. Immutable. Thread: any.
 class ContourCells {
  public:
-  // Of a contour with edges, whose bounds these are.
+  // The contour has edges, and `bounds_px` holds them.
   ContourCells(const Contour& contour, bool exterior_is_object, const Eigen::AlignedBox2d& bounds_px);
 
   [[nodiscard]] const Eigen::Vector2d& origin_px() const { return origin_px_; }

@@ -32,13 +32,13 @@ class ContourMap {
   [[nodiscard]] const Contour& contour() const { return contour_; }
   [[nodiscard]] bool exterior_is_object() const { return exterior_is_object_; }
 
-  // Of all edges; empty if there are none: then every position is exterior.
+  // The box of all edges. Empty if there are none: then every position is exterior.
   [[nodiscard]] const Eigen::AlignedBox2d& bounds_px() const { return bounds_px_; }
 
   // All edges lie within this distance of the principal axis.
   [[nodiscard]] double max_radius_px() const { return max_radius_px_; }
 
-  // Of any finite position.
+  // The label of any finite position.
   [[nodiscard]] bool IsObject(const Eigen::Vector2d& position) const;
 
   // Within the bounds the distance is exact to 1e-6 up to 2 cells from an edge, at most 3 cells short up to

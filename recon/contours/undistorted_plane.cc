@@ -21,7 +21,7 @@ constexpr int kWidestStepPx = 16;
 constexpr int kNarrowestStepPx = 4;
 constexpr double kTableErrorPx = 5e-6;
 
-// Of the nodes -1, 0, 1, 2 about a place t past node 0 (Lagrange).
+// The weights of nodes -1, 0, 1, 2 for a place t past node 0 (Lagrange).
 std::array<double, 4> CubicWeights(double t) {
   const double a = t + 1.0, b = t - 1.0, c = t - 2.0;
   return {(-1.0 / 6.0) * (t * b * c), 0.5 * (a * b * c), -0.5 * (a * t * c), (1.0 / 6.0) * (a * t * b)};

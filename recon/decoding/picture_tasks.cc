@@ -61,7 +61,7 @@ class CaughtPrint {
   core::Descriptor file_;  // 1 and 2 are the same open file: they share its place
 };
 
-// Of addresses, at this moment.
+// How much address space this process has, now.
 double OwnBytes() {
   std::ifstream file("/proc/self/statm");
   double pages = 0.0;

@@ -13,7 +13,7 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 
-// Of all edges of a camera's contour, and under `abstain` of its outline after them.
+// The normals at all edges of a camera's contour, and under `abstain` those of its outline after them.
 std::vector<Vector3f> EdgeNormals(const VisualHull& hull, std::size_t camera) {
   const Eigen::Matrix3d world_from_cam = hull.rig().cameras[camera].cam_from_world().rotation.transpose();
   const UndistortedPlane& plane = hull.silhouettes()[camera]->plane();
@@ -27,7 +27,7 @@ std::vector<Vector3f> EdgeNormals(const VisualHull& hull, std::size_t camera) {
   return normals;
 }
 
-// Of the face of the workspace that a point of its surface is on.
+// The normal of the face of the workspace that a point of its surface is on.
 Vector3f FaceNormal(const Eigen::AlignedBox3d& box, const Vector3d& x_in_world) {
   Eigen::Index low = 0, high = 0;
   const double below = (x_in_world - box.min()).cwiseAbs().minCoeff(&low);

@@ -26,7 +26,7 @@ class HullNormals {
   std::vector<std::vector<Eigen::Vector3f>> edge_normals_;  // by camera
 };
 
-// Of a whole view with surfaces: one a pixel, zero where the ray misses.
+// The normals of a whole view with surfaces: one a pixel, zero where the ray misses.
 [[nodiscard]] PictureBuffer<Eigen::Vector3f> NormalsOf(const VisualHull& hull, const ViewRays& rays,
                                                        const HullView& view);
 

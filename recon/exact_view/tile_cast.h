@@ -36,7 +36,7 @@ class CastCrossing {
       : words_{Pack(std::bit_cast<std::uint32_t>(key.du), std::bit_cast<std::uint32_t>(key.dv)),
                Pack(std::bit_cast<std::uint32_t>(key.at_origin), static_cast<std::uint32_t>(edge))} {}
   [[nodiscard]] std::int32_t edge() const { return static_cast<std::int32_t>(words_[1] >> 32U); }
-  // Of some crossings in a row, two each.
+  // The words of some crossings in a row, two each.
   [[nodiscard]] static const std::uint64_t* Words(const CastCrossing* crossings) { return crossings->words_; }
 
  private:

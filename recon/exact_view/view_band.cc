@@ -13,9 +13,10 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kHalfUlp = 1.0 / (1 << 24);  // of float32, relative: one rounding
-// Of u * du + v * dv + at_origin: three roundings of a term at most, and room for their products.
+// Roundings in u * du + v * dv + at_origin: three of a term at most, and room for their products.
 constexpr double kFormRoundings = 4.0;
-// Of an angle beside those of its x and y: a sum, a quotient to 2.5 ulp as OpenGL has it, a difference.
+// Roundings of an angle beside those of its x and y: a sum, a quotient to 2.5 ulp as OpenGL has it, a
+// difference.
 constexpr double kAngleRoundings = 8.0;
 // x and y of a ray nearer to the pencil's axis than this have no direction to speak of.
 constexpr double kMostRelativeError = 0.01;

@@ -16,7 +16,7 @@ struct ViewComparison {
   // Hit here and missed there, or depths more than kViewTolerance of themselves apart.
   std::int64_t differing_in_band = 0;
   std::int64_t differing_pixels = 0;  // outside the band: 0 where all is well
-  // Of depths that both have, outside the band.
+  // Over the pixels outside the band where both views have a depth.
   double largest_difference_mm = 0.0;
   double largest_relative_difference = 0.0;
 

@@ -45,7 +45,8 @@ class ViewRays {
   // Narrowed to float32, of a tile (kTilePx) from (x, y) on, row by row; NaN outside the picture too.
   void FillTile(int x, int y, float* u, float* v) const;
 
-  // Of the rays of pixels [x0, x1) x [y0, y1), whose corners are multiples of 8 or the picture's: their box.
+  // The box around the rays (u, v) of pixels [x0, x1) x [y0, y1). Corners are multiples of 8 or the
+  // picture's.
   [[nodiscard]] Eigen::AlignedBox2d BoundsOf(int x0, int y0, int x1, int y1) const;
 
  private:

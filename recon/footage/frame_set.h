@@ -24,7 +24,7 @@ struct CameraFrame {
   std::optional<std::chrono::steady_clock::time_point> captured_at;
 };
 
-// Of a camera that isn't the rig's (recon/footage/viewer_footage.h).
+// What a camera outside of the rig saw (recon/footage/viewer_footage.h).
 struct ViewerPicture {
   std::shared_ptr<const core::CameraModel> camera;
   cv::Mat image_bgr;  // 8-bit, 3 channels, of the camera's size
@@ -51,7 +51,7 @@ class FrameSetSource {
   virtual ~FrameSetSource() = default;
   [[nodiscard]] virtual const core::Rig& rig() const = 0;
 
-  // Of the shortest source; nothing for one without an end.
+  // The number of frames of the shortest source; nothing if none has an end.
   [[nodiscard]] virtual std::optional<core::FrameIndex> frame_count() const = 0;
 
   // Throws: Error{kRange} past the end, Error{kFile} naming camera, file and frame if it can't be read whole,

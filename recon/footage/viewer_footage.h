@@ -26,7 +26,7 @@ class ViewerFootage : public FrameSetSource {
 
   [[nodiscard]] const core::Rig& rig() const override { return rig_->rig(); }
   [[nodiscard]] std::optional<core::FrameIndex> frame_count() const override { return rig_->frame_count(); }
-  // Of the viewer camera; nothing for a live one.
+  // The number of the viewer camera's frames; nothing for a live one.
   [[nodiscard]] std::optional<core::FrameIndex> viewer_frame_count() const { return frames_; }
 
   [[nodiscard]] FrameSet Read(core::FrameIndex index, std::stop_token stop = {}) override;

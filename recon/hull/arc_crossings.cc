@@ -41,7 +41,8 @@ void VisitMeetings(const Arc& arc, const Vector3d& normal, double offset, const 
   }
 }
 
-// Of the sectors of a plane between the sight rays through an edge's ends.
+// Adds where the circle meets the sectors that the edges span: the plane between the rays through an edge's
+// ends.
 void AddMeetings(const Arc& in_cam, const UndistortedPlane& plane, const Contour& contour,
                  const HullBoundary& of_camera, std::vector<Meeting>* meetings) {
   const auto direction = [&](std::uint32_t vertex) {

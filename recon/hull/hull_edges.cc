@@ -33,8 +33,8 @@ std::optional<std::array<std::uint32_t, kFitVertices>> VerticesAround(const Cont
   return vertices;
 }
 
-// Of the plane through the camera's centre and a line of the picture, unit, away from the object: that is
-// where cross(tangent, p - position) > 0, or (position, f) x (tangent, 0) . x > 0.
+// The normal of the plane through the camera's centre and a line of the picture: unit, away from the object.
+// The object is where cross(tangent, p - position) > 0, or (position, f) x (tangent, 0) . x > 0.
 Vector3d OutwardInCam(const Vector2d& position, const Vector2d& tangent, double focal_px) {
   const Vector3d inward =
       Vector3d(position.x(), position.y(), focal_px).cross(Vector3d(tangent.x(), tangent.y(), 0.0));

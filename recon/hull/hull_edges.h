@@ -21,8 +21,9 @@ struct FittedTangent {
   double curvature_per_px = 0.0;  // turned in a pixel along it, rad
 };
 
-// Of kFitReach vertices before and after the edge; nothing for a loop with fewer. A chord between vertices
-// isn't centred on the position, and a curve's tangent is off by as much as that turns (hull_edges_test).
+// Fitted to kFitReach vertices before and after the edge; nothing for a loop with fewer. A chord between
+// vertices isn't centred on the position, and a curve's tangent is off by as much as that turns
+// (hull_edges_test).
 inline constexpr int kFitReach = 4;
 [[nodiscard]] std::optional<FittedTangent> FitTangent(const Contour& contour, std::uint32_t edge,
                                                       const Eigen::Vector2d& position);

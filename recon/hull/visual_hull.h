@@ -19,7 +19,7 @@ class Silhouette;        // recon/contours/silhouette.h: for those who ask one c
 class UndistortedPlane;  // recon/contours/undistorted_plane.h
 using UndistortedPlanes = std::vector<std::shared_ptr<const UndistortedPlane>>;
 
-// Of a ball, a box or a triangle.
+// The answer for a ball, a box or a triangle.
 enum class BallAnswer {
   kOutside,  // no point of it is in the hull
   kInside,   // every point of it is

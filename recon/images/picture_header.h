@@ -18,7 +18,7 @@ struct PictureHeader {
   bool is_whole_numbers = true;  // false: floating-point or signed
 };
 
-// Of the first picture in `bytes`, a whole file. Nothing for another format, and where the size isn't to be
+// The header of the first picture in `bytes`, a whole file. Nothing for another format, and where no size is
 // found. Reads no more than it needs, whatever the bytes are. Thread: any.
 [[nodiscard]] std::optional<PictureHeader> ReadPictureHeader(std::string_view bytes);
 

@@ -58,7 +58,7 @@ class TriangleViewport {
   int apex_sixteenths_ = 1;
 };
 
-// Of all triangles of a part, in order, placed in the world.
+// One viewport for each triangle of a part, in order, placed in the world.
 [[nodiscard]] std::vector<TriangleViewport> MakeViewports(const core::TriangleMesh& part,
                                                           const core::RigidTransform& world_from_part,
                                                           const TriangleViewportOptions& options);

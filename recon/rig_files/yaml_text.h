@@ -19,7 +19,7 @@ struct YamlNode {
   std::vector<YamlNode> items;    // of a list or a map
 
   [[nodiscard]] bool IsNumber() const { return kind == YamlKind::kInteger || kind == YamlKind::kReal; }
-  // Of a map; null where it has no such key.
+  // The value of a map's key; null where it has no such key.
   [[nodiscard]] const YamlNode* Find(std::string_view key) const;
 };
 

@@ -144,7 +144,7 @@ CoverageEstimator::CoverageEstimator(const core::BitMask& detected, const cv::Ma
                 "coverage is estimated in an 8-bit BGR picture of its mask's and packed mean's size");
 }
 
-// Of the object pixels among 3 x 3 the one that differs most: for objects without an interior.
+// The object pixel among 3 x 3 that differs most from the background: for objects without an interior.
 std::uint32_t CoverageEstimator::StrongestAround(PixelPlace place) const {
   std::uint32_t strongest = Image(place);
   int most = -1;

@@ -8,7 +8,7 @@ namespace elbowroom::recon {
 namespace {
 
 constexpr double kSceneTimeS = 5.0;
-// Of the view's height: the hull then fills about 6 % of the picture.
+// Focal length over the view's height: the hull then fills about 6 % of the picture.
 constexpr double kFocalShare = 1.02;
 
 core::Rig RigOf(ViewSceneRig rig) {

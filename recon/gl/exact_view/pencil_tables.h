@@ -28,9 +28,9 @@ struct PencilTables {
 
 [[nodiscard]] PencilTables Tabulate(const ViewPencils& pencils);
 
-// Of pixels that some camera sees from the rays' own origin, one float a pixel of the picture, those outside
-// of `squares` 0: 1 if all such cameras see object there, and 2 more if one of such visibility_outlines sees
-// it. Empty when no camera is there.
+// One float a pixel of the picture, for the cameras whose centre is the origin of the rays: 1 if all of them
+// see object in that direction, plus 2 if one of their visibility_outlines does. 0 outside of `squares`.
+// Empty when no camera is there.
 [[nodiscard]] std::vector<float> LabelsByPixel(const ViewPencils& pencils,
                                                const std::vector<PixelBox>& squares);
 

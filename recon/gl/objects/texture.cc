@@ -7,7 +7,7 @@
 namespace elbowroom::recon::gl {
 namespace {
 
-// Of the texture that is bound.
+// For the texture that is bound: each texel is read as it is.
 void ReadTexelsAlone() {
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);

@@ -157,7 +157,7 @@ core::SharedMesh MeshOf(const Indices& indices, const core::TriangleMesh& mesh) 
   return level;
 }
 
-// Of the vertices that the triangles use.
+// How far the farthest of the vertices in use is from the level's surface.
 double FarthestMm(const core::TriangleMesh& mesh, const Indices& used, const core::TriangleTree& level) {
   std::vector<bool> is_used(mesh.vertices_mm.size(), false);
   for (const unsigned i : used) is_used[i] = true;

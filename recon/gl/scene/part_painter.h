@@ -51,7 +51,7 @@ class PartPainter {
   // Faces alone, of every part that isn't invisible.
   void DrawDepth(std::span<const ScenePart> parts, const ViewMatrices& matrices);
 
-  // Of each part, in the order of the last Update: 0 the whole mesh.
+  // The level of each part, in the order of the last Update; 0 is the whole mesh.
   [[nodiscard]] const std::vector<std::size_t>& levels() const { return levels_; }
 
   [[nodiscard]] std::size_t cached_meshes() const { return meshes_.size(); }
