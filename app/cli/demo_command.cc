@@ -31,7 +31,7 @@ CommandResult RunHeadless(const DemoOptions& options, const CommandContext& cont
   std::int64_t most_points = -1;
   trial.on_frame = [&](const control::SharedFrameResult& result, const control::RecordedFrames&) {
     std::int64_t points = 0;
-    for (const core::PartContact& contact : result->contacts) points += contact.contact_point_count;
+    for (const core::PartContact& contact : result->record.contacts) points += contact.contact_point_count;
     if (points <= most_points) return;
     most_points = points;
     shown = result;

@@ -21,7 +21,7 @@ RigFrame LoadRigFrame(const RigFrameOptions& options, const CommandContext& cont
   RigFrame result{std::make_shared<const core::Rig>(source.rig()), {}, {}};
   // The frame first: it is the cheaper one to find missing.
   const recon::FrameSet frames = source.Read(options.frame, context.stop);
-  result.masks =
+  result.record.masks =
       recon::FrameSegmenter(source.ReadBackgrounds(context.progress, context.stop), {}, source.rig())
           .SegmentSoft(frames);
   result.planes = recon::MakeUndistortedPlanes(*result.rig);

@@ -50,7 +50,7 @@ QString CellText(const core::PartContact& contact, int column) {
 
 void ContactModel::ShowFrame(const control::FrameResult& result) {
   std::vector<Row> rows;
-  for (const core::PartContact& contact : result.contacts) {
+  for (const core::PartContact& contact : result.record.contacts) {
     if (contact.verdict != core::Verdict::kContact) continue;
     Row row{QString::fromStdString(result.layout->parts[contact.part].name), contact};
     row.contact.points.clear();

@@ -171,8 +171,8 @@ void MainWindow::OpenTrial(const control::TrialSetup& setup) {
 
 void MainWindow::ShowFrame(const FrameNews& news) {
   view_->ShowFrame(news.result);
-  strip_->ShowMasks(news.result->masks);
-  spacings_->ShowApplied(news.result->spacing_mm);
+  strip_->ShowMasks(news.result->record.masks);
+  spacings_->ShowApplied(news.result->record.spacing_mm);
   contacts_->ShowFrame(*news.result);
   touches_->ShowFrame(*news.result, news.tallies);
   status_->ShowFrame(*news.result, news.recorded);

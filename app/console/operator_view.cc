@@ -131,7 +131,7 @@ void OperatorView::ShowPicture(const QImage& picture, const control::RenderReque
   last_error_.clear();
   if (drawn_with_ == pace_.fineness()) pace_.Add(drawing_ms);
   picture_ = picture;
-  picture_frame_ = request.result->frame;
+  picture_frame_ = request.result->record.frame;
   update();
   if (is_outdated_) {
     Submit(pace_.fineness());

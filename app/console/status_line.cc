@@ -50,11 +50,11 @@ void StatusLine::Open(const std::filesystem::path& session) {
 }
 
 void StatusLine::ShowFrame(const control::FrameResult& result, const control::RecordedFrames& recorded) {
-  rate_.Add(result.frame, FrameRate::Clock::now());
+  rate_.Add(result.record.frame, FrameRate::Clock::now());
   const std::optional<double> frames_per_s = rate_.frames_per_s();
   frame_->setText(tr("frame %1   %2 s   %3 frames/s")
-                      .arg(result.frame)
-                      .arg(result.time_s, 0, 'f', 1)
+                      .arg(result.record.frame)
+                      .arg(result.record.time_s, 0, 'f', 1)
                       .arg(frames_per_s ? QString::number(*frames_per_s, 'f', 1) : QString("–")));
   recorded_->setText(tr("on disk: %1 of %2 frames").arg(recorded.committed).arg(recorded.seen));
   const QString response =
@@ -69,9 +69,9 @@ void StatusLine::ShowFrame(const control::FrameResult& result, const control::Re
       tr("skipped: %1 of pixels, %2 of %3 silhouettes, %4 of %5 parts, %6 of triangles")
           .arg(PercentOf(result.skipped.segmentation.skipped_pixels, result.skipped.segmentation.pixels))
           .arg(result.skipped.hull.unchanged_silhouettes)
-          .arg(result.masks->size())
+          .arg(result.record.masks->size())
           .arg(result.skipped.unchanged_parts)
-          .arg(result.contacts.size())
+          .arg(result.record.contacts.size())
           .arg(PercentOf(result.skipped.triangles_skipped, result.skipped.triangles_in_all)));
   // Text that grows pushes the other fields once, not back and forth with every frame.
   for (QLabel* field : {frame_, recorded_, times_, skipped_}) {

@@ -43,7 +43,7 @@ void TouchModel::Open(const core::Layout& layout) {
 void TouchModel::ShowFrame(const control::FrameResult& result,
                            const std::vector<control::PartTally>& tallies) {
   for (std::size_t i = 0; i < rows_.size() && i < tallies.size(); ++i) {
-    rows_[i].verdict = result.contacts[i].verdict;
+    rows_[i].verdict = result.record.contacts[i].verdict;
     rows_[i].tally = tallies[i];
   }
   if (!rows_.empty()) emit dataChanged(index(0, 0), index(rowCount() - 1, kColumns - 1));

@@ -8,9 +8,9 @@ namespace elbowroom::console {
 namespace {
 
 bool HasContact(const control::FrameResult& result) {
-  return std::any_of(result.contacts.begin(), result.contacts.end(), [](const core::PartContact& contact) {
-    return contact.verdict == core::Verdict::kContact;
-  });
+  return std::any_of(
+      result.record.contacts.begin(), result.record.contacts.end(),
+      [](const core::PartContact& contact) { return contact.verdict == core::Verdict::kContact; });
 }
 
 }  // namespace
@@ -28,11 +28,12 @@ void WindowPicture::Look(const control::FrameResult& result) {
     window_.desk().SetSpacing(spacings.front().name, *std::exchange(order_.spacing_mm, std::nullopt));
     return;  // this frame was judged before
   }
-  const bool is_as_ordered = result.time_s >= order_.after_s && (!order_.wants_contact || HasContact(result));
+  const bool is_as_ordered =
+      result.record.time_s >= order_.after_s && (!order_.wants_contact || HasContact(result));
   if (!is_as_ordered) {
     due_frame_.reset();
   } else if (!due_frame_) {
-    due_frame_ = result.frame;
+    due_frame_ = result.record.frame;
   }
 }
 

@@ -4,7 +4,9 @@
 
 namespace elbowroom::control {
 
-void EpisodeTally::Add(const FrameResult& result) { tracker_.Add({result, result.world_from_parts, {}}); }
+void EpisodeTally::Add(const FrameResult& result) {
+  tracker_.Add({result.record, result.world_from_parts, {}});
+}
 
 std::vector<PartTally> EpisodeTally::Parts() const {
   std::vector<PartTally> tallies(parts_);

@@ -50,13 +50,13 @@ SharedFrameResult FramePipeline::Process(recon::FrameSet frames, std::span<const
                                          const WithHull& beside) {
   core::Require(frames.cameras.size() == rig_->cameras.size(), "one frame a camera");
   auto result = std::make_shared<FrameResult>();
-  result->frame = frames.index;
-  result->time_s = frames.time_s;
+  result->record.frame = frames.index;
+  result->record.time_s = frames.time_s;
   result->layout = layout_;
-  result->spacing_mm.assign(spacing_mm.begin(), spacing_mm.end());
+  result->record.spacing_mm.assign(spacing_mm.begin(), spacing_mm.end());
   const std::vector<core::RigidTransform> world_from_rests = core::PosesAt(*layout_, spacing_mm);
-  if (last_ && last_->response) result->rest_from_parts = MotionsOf(*last_->response);
-  result->world_from_parts = core::WithMotions(world_from_rests, result->rest_from_parts);
+  if (last_ && last_->response) result->record.rest_from_parts = MotionsOf(*last_->response);
+  result->world_from_parts = core::WithMotions(world_from_rests, result->record.rest_from_parts);
   Stopwatch watch;
   std::vector<core::SoftMask> masks = segmenter_.SegmentSoft(frames, &result->skipped.segmentation);
   result->times.segmentation_ms = watch.LapMs();
@@ -85,8 +85,8 @@ void FramePipeline::UpdateHull(std::vector<core::SoftMask> masks, FrameResult* r
   result->hull = std::move(next.hull);
   result->skipped.hull = next.stats;
   const bool is_unchanged = last_ && result->hull == last_->hull;
-  result->masks =
-      is_unchanged ? last_->masks : std::make_shared<const std::vector<core::SoftMask>>(std::move(masks));
+  result->record.masks = is_unchanged ? last_->record.masks
+                                      : std::make_shared<const std::vector<core::SoftMask>>(std::move(masks));
 }
 
 void FramePipeline::UpdateResponse(std::span<const core::RigidTransform> world_from_rests,
@@ -94,36 +94,37 @@ void FramePipeline::UpdateResponse(std::span<const core::RigidTransform> world_f
   if (responders_.is_empty()) return;
   // The time step of the first frame, and the longest one, for a frame after a pause.
   constexpr double kFirstS = 1.0 / 30.0, kLongestS = 0.25;
-  const double since_s = last_ ? result->time_s - last_->time_s : kFirstS;
+  const double since_s = last_ ? result->record.time_s - last_->record.time_s : kFirstS;
   const SharedReactions last = last_ ? last_->response : nullptr;
-  result->response = since_s > 0.0 ? responders_.Step(last, world_from_rests, result->contacts, result->hull,
-                                                      std::min(since_s, kLongestS))
+  result->response = since_s > 0.0 ? responders_.Step(last, world_from_rests, result->record.contacts,
+                                                      result->hull, std::min(since_s, kLongestS))
                                    : last;
 }
 
 void FramePipeline::UpdateContacts(FrameResult* result) {
   const std::size_t parts = part_trees_.size();
-  result->contacts.resize(parts);
+  result->record.contacts.resize(parts);
   std::vector<std::uint8_t> is_unchanged(parts, 0);
   for (std::size_t i = 0; i < parts; ++i)
     is_unchanged[i] =
         last_ && last_->hull == result->hull && last_->world_from_parts[i] == result->world_from_parts[i];
   if (std::ranges::count(is_unchanged, 0) > 0) result->hull->Prepare();
   tbb::parallel_for(std::size_t{0}, parts, [&](std::size_t i) {
-    result->contacts[i] = is_unchanged[i] ? last_->contacts[i] : Review(*result, i);
+    result->record.contacts[i] = is_unchanged[i] ? last_->record.contacts[i] : Review(*result, i);
   });
   for (std::size_t i = 0; i < parts; ++i) {
     if (is_unchanged[i]) {
       ++result->skipped.unchanged_parts;
       continue;
     }
-    result->skipped.triangles_in_all += result->contacts[i].count.triangles;
-    result->skipped.triangles_skipped += result->contacts[i].count.skipped;
-    result->skipped.queries += result->contacts[i].count.queries;
-    if (!result->contacts[i].clearance) continue;
-    const core::PartClearance& clearance = *result->contacts[i].clearance;
+    result->skipped.triangles_in_all += result->record.contacts[i].count.triangles;
+    result->skipped.triangles_skipped += result->record.contacts[i].count.skipped;
+    result->skipped.queries += result->record.contacts[i].count.queries;
+    if (!result->record.contacts[i].clearance) continue;
+    const core::PartClearance& clearance = *result->record.contacts[i].clearance;
     result->skipped.clearance_queries += clearance.queries;
-    if (result->contacts[i].contact_point_count > 0 || result->contacts[i].contained_in_world_mm) {
+    if (result->record.contacts[i].contact_point_count > 0 ||
+        result->record.contacts[i].contained_in_world_mm) {
       ++result->skipped.clearances_by_contact;
     } else if (clearance.queries == 1) {
       ++result->skipped.clearances_by_ball;
@@ -132,7 +133,7 @@ void FramePipeline::UpdateContacts(FrameResult* result) {
 }
 
 core::PartContact FramePipeline::Review(const FrameResult& result, core::PartIndex part) {
-  const auto hint = last_ ? review::HintFrom(last_->contacts[part], last_->world_from_parts[part])
+  const auto hint = last_ ? review::HintFrom(last_->record.contacts[part], last_->world_from_parts[part])
                           : std::optional<review::ClearanceHint>();
   review::PartReviewOptions options = review_;
   options.contacts.recovery = layout_->parts[part].recovery;

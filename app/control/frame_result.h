@@ -43,7 +43,8 @@ using SharedHull = std::shared_ptr<const recon::VisualHull>;
 
 // The session keeps the record; the rest can be worked out again from it and from the session's header, but
 // for the pictures, the counts and the times.
-struct FrameResult : core::FrameRecord {
+struct FrameResult {
+  core::FrameRecord record;
   // The pictures that the masks come from. Null for a frame that was read from a session.
   std::shared_ptr<const recon::FrameSet> camera_frames;
   SharedHull hull;

@@ -15,8 +15,8 @@ OutcomeTracker::OutcomeTracker(const core::TrialInfo& trial, std::span<const cor
     : tracker_(TrackerOptionsOf(trial)), heat_(part_trees) {}
 
 void OutcomeTracker::Add(const FrameResult& frame, std::span<const std::string> tools_in_use) {
-  heat_.Add(frame.time_s, frame.hull, frame.world_from_parts, frame.contacts);
-  tracker_.Add({frame, frame.world_from_parts, tools_in_use});
+  heat_.Add(frame.record.time_s, frame.hull, frame.world_from_parts, frame.record.contacts);
+  tracker_.Add({frame.record, frame.world_from_parts, tools_in_use});
 }
 
 core::SessionOutcome OutcomeTracker::Outcome() const {

@@ -27,12 +27,13 @@ void RequireInSight(const FrameResult& result, const std::filesystem::path& sess
 }  // namespace
 
 SharedFrameResult RebuildFrame(const sessions::SessionReader& session, core::FrameIndex frame) {
-  auto result = std::make_shared<FrameResult>(FrameResult{session.ReadFrame(frame)});
+  auto result = std::make_shared<FrameResult>();
+  result->record = session.ReadFrame(frame);
   result->hull = std::make_shared<const recon::VisualHull>(
-      recon::MakeVisualHull(std::make_shared<const core::Rig>(session.header().rig), *result->masks));
+      recon::MakeVisualHull(std::make_shared<const core::Rig>(session.header().rig), *result->record.masks));
   result->layout = std::make_shared<const core::Layout>(session.header().layout);
-  result->world_from_parts =
-      core::WithMotions(core::PosesAt(*result->layout, result->spacing_mm), result->rest_from_parts);
+  result->world_from_parts = core::WithMotions(core::PosesAt(*result->layout, result->record.spacing_mm),
+                                               result->record.rest_from_parts);
   RequireInSight(*result, session.path());
   return result;
 }

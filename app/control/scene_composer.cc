@@ -162,12 +162,12 @@ recon::gl::Scene SceneComposer::Compose(const FrameResult& result, const recon::
       part.world_from_part = result.world_from_parts[i];
     }
     part.color = Eigen::Vector3f(kPartColors[i % kPartColors.size()].data());
-    part.in_contact = result.contacts[i].verdict == core::Verdict::kContact;
+    part.in_contact = result.record.contacts[i].verdict == core::Verdict::kContact;
     if (HiddenShare(*scene.hull, hull_view, BoundsInWorld(result, i)) > kHidesShare)
       part.opacity = kSeeThrough;
     scene.parts.push_back(std::move(part));
     if (MeshInWorld(result, i)) continue;  // its contacts are on its shape at rest
-    for (const core::ContactPoint& point : result.contacts[i].points) {
+    for (const core::ContactPoint& point : result.record.contacts[i].points) {
       scene.contact_points_in_world.push_back(point.position_in_world_mm);
     }
   }
@@ -266,7 +266,7 @@ recon::OrbitCamera OverviewCamera(const FrameResult& result, int width_px, int h
 
 recon::OrbitCamera ContactCamera(const FrameResult& result, core::PartIndex part, int width_px,
                                  int height_px) {
-  const std::vector<core::ContactPoint>& points = result.contacts[part].points;
+  const std::vector<core::ContactPoint>& points = result.record.contacts[part].points;
   if (points.empty()) return OverviewCamera(result, width_px, height_px);
   Eigen::AlignedBox3d box;
   for (const core::ContactPoint& point : points) box.extend(point.position_in_world_mm);

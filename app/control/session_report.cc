@@ -47,12 +47,12 @@ std::optional<WorstMoment> WorstMomentOf(const sessions::SessionReader& session)
 }
 
 std::string CaptionOf(const FrameResult& result, core::PartIndex part, const std::string& driver) {
-  const core::PartContact& contact = result.contacts[part];
+  const core::PartContact& contact = result.record.contacts[part];
   return fmt::format(
       "Frame {} ({:.2f} s): the hull of the real objects reaches at least {:.1f} mm into '{}', over {:.0f} "
       "mm\u00b2. "
       "Red points: contact. Drawn with {}.",
-      result.frame, result.time_s, contact.deepest ? contact.deepest->depth_mm : 0.0,
+      result.record.frame, result.record.time_s, contact.deepest ? contact.deepest->depth_mm : 0.0,
       result.layout->parts[part].name, contact.contact_area_mm2, driver);
 }
 

@@ -190,12 +190,12 @@ class Recording {
   }
 
   void Record(const FrameResult& result) {
-    last_frame_ = result.frame;
-    last_time_s_ = result.time_s;
+    last_frame_ = result.record.frame;
+    last_time_s_ = result.record.time_s;
     tracker_->Add(result, std::vector<std::string>(tools_in_use_.begin(), tools_in_use_.end()));
-    writer_.Append(result);
+    writer_.Append(result.record);
     ++outcome_.frames;
-    for (const core::PartContact& contact : result.contacts) {
+    for (const core::PartContact& contact : result.record.contacts) {
       outcome_.frames_in_contact[contact.part] += contact.verdict == core::Verdict::kContact ? 1 : 0;
     }
     outcome_.skipped += result.skipped;

@@ -106,7 +106,7 @@ Cost MeasureCost(const control::TrialSetup& setup, const std::vector<recon::Fram
     for (int i = 0; i < kFramesATurn; ++i, ++frame) {
       recon::FrameSet next = pictures[static_cast<std::size_t>(frame % kFramesKept)];
       next.index = frame;
-      next.time_s = static_cast<double>(frame) / kFrameRateHz;
+      next.record.time_s = static_cast<double>(frame) / kFrameRateHz;
       due += std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1.0 / kFrameRateHz));
       if (is_paced) std::this_thread::sleep_until(due);
       const Clock::time_point begin = Clock::now();
@@ -114,7 +114,7 @@ Cost MeasureCost(const control::TrialSetup& setup, const std::vector<recon::Fram
           pipeline.Process(std::move(next), setup.layout.InitialSpacings());
       if (is_logged) {
         const Clock::time_point hand_over = Clock::now();
-        writer.Append(*result);
+        writer.Append(result->record);
         cost.hand_over_ms.push_back(MsSince(hand_over));
       }
       (is_logged ? cost.with_ms : cost.without_ms).push_back(MsSince(begin));

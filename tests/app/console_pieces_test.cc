@@ -154,19 +154,19 @@ control::FrameResult TwoPartsWith(core::Verdict first, core::Verdict second) {
   layout->parts[1].name = "lid";
   control::FrameResult result;
   result.layout = layout;
-  result.contacts.resize(2);
-  result.contacts[0].verdict = first;
-  result.contacts[1].part = 1;
-  result.contacts[1].verdict = second;
+  result.record.contacts.resize(2);
+  result.record.contacts[0].verdict = first;
+  result.record.contacts[1].part = 1;
+  result.record.contacts[1].verdict = second;
   return result;
 }
 
 TEST(ContactModel, ListsOnlyPartsInContact) {
   ContactModel model;
   control::FrameResult result = TwoPartsWith(core::Verdict::kNear, core::Verdict::kContact);
-  result.contacts[1].deepest = core::ContactPoint{{10.4, -20.0, -0.2}, 4.29, 1.0};
-  result.contacts[1].contact_area_mm2 = 12.4;
-  result.contacts[1].contact_point_count = 7;
+  result.record.contacts[1].deepest = core::ContactPoint{{10.4, -20.0, -0.2}, 4.29, 1.0};
+  result.record.contacts[1].contact_area_mm2 = 12.4;
+  result.record.contacts[1].contact_point_count = 7;
   model.ShowFrame(result);
   ASSERT_EQ(model.rowCount(), 1);
   const auto cell = [&](int column) {

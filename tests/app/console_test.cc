@@ -75,7 +75,9 @@ class ConsoleTest : public testing::Test {
     }
     return parts;
   }
-  [[nodiscard]] bool GapIs(double gap_mm) { return last_frame_ && last_frame_->spacing_mm.at(0) == gap_mm; }
+  [[nodiscard]] bool GapIs(double gap_mm) {
+    return last_frame_ && last_frame_->record.spacing_mm.at(0) == gap_mm;
+  }
 
   void StartDemoAndWaitForFrames() {
     Action("start_demo").trigger();
@@ -108,16 +110,17 @@ TEST_F(ConsoleTest, ContactsVanishFromTheListAsTheGapIsOpenedLive) {
   EXPECT_EQ(ListedParts(), QStringList());
 
   // A whole task at the opened gap, every frame that the window was told of.
-  const double task_ends_s = last_frame_->time_s + recon::kTaskSeconds;
+  const double task_ends_s = last_frame_->record.time_s + recon::kTaskSeconds;
   std::vector<std::string> listed_again;
   const QMetaObject::Connection watch =
       QObject::connect(&window_.desk(), &TrialDesk::FrameArrived, &window_, [&](const FrameNews& news) {
         for (const QString& part : ListedParts()) {
-          listed_again.push_back(part.toStdString() + " at frame " + std::to_string(news.result->frame));
+          listed_again.push_back(part.toStdString() + " at frame " +
+                                 std::to_string(news.result->record.frame));
         }
       });
   const int frames_before = frames_;
-  ASSERT_TRUE(WaitUntil([&] { return last_frame_->time_s >= task_ends_s; }));
+  ASSERT_TRUE(WaitUntil([&] { return last_frame_->record.time_s >= task_ends_s; }));
   QObject::disconnect(watch);
   EXPECT_EQ(listed_again, std::vector<std::string>());
   constexpr int kFewestFrames = 40;  // of 240: enough to have seen every phase of the task

@@ -100,8 +100,8 @@ TEST_F(FramePipelineTest, PartsGiveWayAsTheirLayoutSays) {
   int recovered = 0;
   for (core::FrameIndex frame = 0; frame < 3 * kTouching; frame += 20) {
     const SharedFrameResult result = pipeline.Process(MasksOf(frame), gap);
-    for (std::size_t i = 0; i < result->contacts.size(); ++i) {
-      const auto& recovery = result->contacts[i].recovery;
+    for (std::size_t i = 0; i < result->record.contacts.size(); ++i) {
+      const auto& recovery = result->record.contacts[i].recovery;
       if (!recovery) continue;
       ++recovered;
       const Eigen::Vector3d axis = result->world_from_parts[i].rotation.col(1);
@@ -116,7 +116,8 @@ TEST_F(FramePipelineTest, AnEmptySceneTouchesNothingAndAsksNothing) {
   recon::FrameSet frames;
   for (int i = 0; i < 4; ++i) frames.cameras.push_back({{}, core::BitMask(640, 480)});
   const SharedFrameResult result = pipeline.Process(frames, std::vector<double>{kGapInitialMm});
-  for (const core::PartContact& contact : result->contacts) EXPECT_EQ(contact.verdict, core::Verdict::kClear);
+  for (const core::PartContact& contact : result->record.contacts)
+    EXPECT_EQ(contact.verdict, core::Verdict::kClear);
   EXPECT_EQ(result->skipped.queries, 0);
   EXPECT_EQ(result->skipped.hull.empty_silhouettes, 4);
   EXPECT_EQ(result->skipped.hull.untraced_silhouettes, 4);

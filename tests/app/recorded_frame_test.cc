@@ -52,20 +52,20 @@ TEST_F(RecordedFrameTest, ComesBackWithTheSameHullToTheLastBit) {
     header.rig = source_.rig();
     header.layout = DemoLayout();
     sessions::SessionWriter writer(folder / "s.db", header);
-    writer.Append(*judged);
+    writer.Append(judged->record);
     writer.Finish({});
   }
   const SharedFrameResult rebuilt = RebuildFrame(sessions::SessionReader(folder / "s.db"), kTouching);
   for (std::size_t i = 0; i < source_.rig().cameras.size(); ++i) {
-    EXPECT_FALSE((*judged->masks)[i].levels.empty());
-    EXPECT_EQ((*judged->masks)[i], (*rebuilt->masks)[i]);
+    EXPECT_FALSE((*judged->record.masks)[i].levels.empty());
+    EXPECT_EQ((*judged->record.masks)[i], (*rebuilt->record.masks)[i]);
     EXPECT_EQ(judged->hull->silhouettes()[i]->labels().contour().vertices,
               rebuilt->hull->silhouettes()[i]->labels().contour().vertices);
   }
-  ASSERT_EQ(judged->contacts[1].verdict, core::Verdict::kContact);
-  for (core::PartIndex i = 0; i < judged->contacts.size(); ++i) {
+  ASSERT_EQ(judged->record.contacts[1].verdict, core::Verdict::kContact);
+  for (core::PartIndex i = 0; i < judged->record.contacts.size(); ++i) {
     const core::TriangleTree part(judged->layout->parts[i].mesh);
-    ExpectSameContact(judged->contacts[i],
+    ExpectSameContact(judged->record.contacts[i],
                       review::FindContacts(*rebuilt->hull, part, rebuilt->world_from_parts[i], i));
   }
 }
@@ -84,11 +84,11 @@ TEST_F(RecordedFrameTest, APushedPartComesBackWhereItWas) {
   SharedFrameResult judged;
   for (core::FrameIndex frame = kTouching - 2; frame <= kTouching; ++frame) {
     judged = pipeline.Process(source_.Read(frame), gap_);
-    writer.Append(*judged);
+    writer.Append(judged->record);
   }
   writer.Finish({});
-  ASSERT_EQ(judged->rest_from_parts.size(), layout.parts.size());
-  EXPECT_GT(judged->rest_from_parts[1].translation_mm.norm(), 1.0);
+  ASSERT_EQ(judged->record.rest_from_parts.size(), layout.parts.size());
+  EXPECT_GT(judged->record.rest_from_parts[1].translation_mm.norm(), 1.0);
   const SharedFrameResult rebuilt = RebuildFrame(sessions::SessionReader(folder / "s.db"), kTouching);
   EXPECT_EQ(rebuilt->world_from_parts, judged->world_from_parts);
   EXPECT_EQ(rebuilt->layout->parts[1].gives_way, layout.parts[1].gives_way);

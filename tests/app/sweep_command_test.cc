@@ -46,8 +46,8 @@ int RecordFrames(const std::filesystem::path& path) {
     for (core::BitMask& mask : source.TrueMasks(source.ObjectsAt(frame)))
       frames.cameras.push_back({{}, std::move(mask)});
     const auto result = pipeline.Process(std::move(frames), std::vector{140.0});
-    touched += result->contacts[1].verdict == core::Verdict::kContact ? 1 : 0;
-    writer.Append(*result);
+    touched += result->record.contacts[1].verdict == core::Verdict::kContact ? 1 : 0;
+    writer.Append(result->record);
   }
   writer.Finish({});
   return touched;
