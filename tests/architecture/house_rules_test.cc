@@ -55,6 +55,25 @@ TEST(HouseRules, NoFolderHoldsTooManyFiles) {
     EXPECT_LE(files, kMostFilesInAFolder) << folder << ": make rooms inside it";
 }
 
+// Paths and, after a path and a colon, the names that the file is said to have.
+TEST(HouseRules, WhereDoINamesWhatIsThere) {
+  const std::string page = ReadText(kRoot / "docs/where_do_i.md");
+  const std::regex place(R"(`([a-z_0-9]+(?:/[A-Za-z_0-9.]+)+)`(: `\w+`(?:, `\w+`)*)?)"), name(R"(`(\w+)`)");
+  int names = 0;
+  for (std::sregex_iterator at(page.begin(), page.end(), place), end; at != end; ++at) {
+    const fs::path path = kRoot / (*at)[1].str();
+    const bool is_kept_for_later = (*at)[1] == "recon/capture";
+    EXPECT_TRUE(fs::exists(path) || is_kept_for_later) << (*at)[1] << " isn't there";
+    if (!fs::is_regular_file(path)) continue;
+    const std::string text = ReadText(path), said = (*at)[2];
+    for (std::sregex_iterator word(said.begin(), said.end(), name); word != end; ++word, ++names) {
+      EXPECT_TRUE(std::regex_search(text, std::regex("\\b" + (*word)[1].str() + "\\b")))
+          << (*at)[1] << " has no " << (*word)[1];
+    }
+  }
+  EXPECT_GT(names, 80) << "or the page is read wrongly";
+}
+
 TEST(HouseRules, ArchitectureDocumentListsTheRooms) {
   std::set<std::string> rooms;
   for (const Room& room : ReadLayers(kRoot / "tests/architecture/layers.txt").rooms)
