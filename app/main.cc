@@ -1,4 +1,4 @@
-// The program: the command line, and the way to the window, which is a program beside it.
+// The program: it runs the command line. The window is another program beside it.
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
@@ -21,7 +21,7 @@ namespace {
 
 cli::OpenConsole WayToTheWindow([[maybe_unused]] char** argv) {
 #ifdef ELBOWROOM_WINDOW_PROGRAM
-  // It understands the same words; this process becomes it.
+  // The window's program takes the same arguments; execv() puts it in the place of this process.
   return [argv](const cli::ConsoleRequest&) -> int {
     const auto program =
         std::filesystem::read_symlink("/proc/self/exe").parent_path() / ELBOWROOM_WINDOW_PROGRAM;

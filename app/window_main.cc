@@ -1,4 +1,5 @@
-// What the program becomes when the command line asks for the window: Qt is loaded for that alone.
+// The program that takes the place of elbowroom when the command line asks for the window, so that only the
+// window loads Qt.
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 

@@ -10,12 +10,13 @@
 
 namespace elbowroom::cad_import {
 
-// Loads the libraries that reading a file of this name takes, before there are limits that are meant for the
-// file. Throws: Error{kFile}.
+// Loads the libraries that a file of this name needs. To be called before the limits are set, because they
+// are meant for the file alone. Throws: Error{kFile}.
 void PrepareToRead(const std::filesystem::path& file);
 
 // Throws: Error{kFile} (missing, unreadable, over 1 GiB), Error{kFormat} (another format, cut off, damaged,
-// refers outside its folder), what NormaliseModel throws. Or crashes, hangs and eats memory, as parsers do.
+// refers outside its folder), what NormaliseModel throws. A damaged file may also make a parser crash, hang
+// or use up the memory.
 [[nodiscard]] PackedModel ReadCadFile(const std::filesystem::path& file, const ImportOptions& options,
                                       const core::Progress& progress = {});
 

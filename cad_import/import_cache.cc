@@ -66,7 +66,7 @@ std::optional<CadModel> ImportCache::Find(const std::string& key, const fs::path
     PackedModel packed = Unpack(entry->bytes(), PathOf(key).string());
     if (!AreUnchanged(packed.referred, fs::weakly_canonical(file).parent_path())) return std::nullopt;
     std::error_code ignored;
-    fs::last_write_time(PathOf(key), fs::file_time_type::clock::now(), ignored);  // for who is dropped first
+    fs::last_write_time(PathOf(key), fs::file_time_type::clock::now(), ignored);  // as the oldest go first
     return std::move(packed.model);
   } catch (const core::Error&) {
     return std::nullopt;  // damaged: it is made again
@@ -82,7 +82,7 @@ void ImportCache::Keep(const std::string& key, std::span<const std::byte> packed
     core::WriteWholeFile(PathOf(key), {reinterpret_cast<const char*>(packed.data()), packed.size()});
     DropOldest();
   } catch (const core::Error&) {
-    // A full disk, or no leave to write: the next import takes as long as this one.
+    // A full disk, or no permission to write: the next import takes as long as this one.
   }
 }
 

@@ -12,24 +12,24 @@
 
 namespace elbowroom::cad_import {
 
-// A folder of packed models by what they were made from. Nothing it does fails an import: what can't be read,
-// is damaged or is of other files is a miss, what can't be written is not kept. Several programs may use one
-// folder at once. Thread: any.
+// A folder of packed models, each under a key of what it was made from. The cache never makes an import fail:
+// an entry that can't be read, is damaged or is of other files is a miss, and what can't be written isn't
+// kept. Several programs may use one folder at once. Thread: any.
 class ImportCache {
  public:
-  // `most_bytes`: the least recently used go when there is more.
+  // `most_bytes`: if there is more, the least recently used entries are removed. An entry above a quarter of
+  // it isn't kept.
   explicit ImportCache(std::filesystem::path folder, std::int64_t most_bytes = std::int64_t{2} << 30);
 
-  // That of the user: $ELBOWROOM_CACHE, or elbowroom/import in $XDG_CACHE_HOME or ~/.cache. Nothing: it is
-  // "off", or there is no home.
+  // The user's cache: $ELBOWROOM_CACHE, or elbowroom/import in $XDG_CACHE_HOME or ~/.cache. Nothing if it is
+  // "off", or if there is no home.
   [[nodiscard]] static std::optional<ImportCache> OfUser();
 
-  // By the content of the file and all that changes what is made of it. Throws: Error{kFile} if the file
-  // can't be read.
+  // A hash of the file's name and content and of all that changes what is made of it. Throws: Error{kFile} if
+  // the file can't be read.
   [[nodiscard]] static std::string KeyOf(const std::filesystem::path& file, const ImportOptions& options);
 
-  // The model, if the files that it referred to are still what they were. `file`: whose folder they are found
-  // from.
+  // The model, if the files that it referred to are unchanged. `file`: they are found relative to its folder.
   [[nodiscard]] std::optional<CadModel> Find(const std::string& key, const std::filesystem::path& file) const;
   void Keep(const std::string& key, std::span<const std::byte> packed) const;
 

@@ -61,7 +61,7 @@ std::string MemoryText(std::int64_t bytes) {
   return fmt::format("{:.3g} GiB", static_cast<double>(bytes) / kGib);
 }
 
-// What an end without a word means.
+// The error for a child that ended without a last message.
 Error ErrorOfEnd(const std::string& where, int status, const ImportLimits& limits) {
   if (WIFSIGNALED(status)) {
     const int signal = WTERMSIG(status);

@@ -10,7 +10,7 @@
 
 namespace elbowroom::cad_import {
 
-// The file as a child of this program reads it: a packed model that nobody has checked yet. Throws:
+// Reads the file in a child of this program. Returns a packed model that hasn't been checked yet. Throws:
 // Error{kCad} naming the file when the child crashed, took more memory or time than the limits, or handed
 // over what isn't a model; Error{kCancelled}; else what the child threw. PreconditionError unless the
 // program's main called ServeImport. Thread: any.

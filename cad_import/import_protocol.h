@@ -1,4 +1,4 @@
-// What a child that imports and its parent say to each other.
+// The messages between a child that imports and its parent.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace elbowroom::cad_import {
 
-// The first argument of a child, and where it finds its ends.
+// The first argument of a child, and the descriptors that it writes to.
 inline constexpr std::string_view kImportWorkerArgument = "--import-worker";
 inline constexpr int kMessageDescriptor = core::kFirstGivenDescriptor;     // a pipe: lines
 inline constexpr int kResultDescriptor = core::kFirstGivenDescriptor + 1;  // a file in memory: the model
@@ -28,13 +28,13 @@ struct FailureMessage {
   core::ErrorKind kind = core::ErrorKind::kCad;
   std::string what;
 };
-struct OutOfMemoryMessage {};  // the limit was met
+struct OutOfMemoryMessage {};  // the child met its memory limit
 struct DoneMessage {};
-struct NoMessage {};  // a line of something else: libraries print
+struct NoMessage {};  // a line that is no message: libraries print, too
 using ImportMessage =
     std::variant<NoMessage, ProgressMessage, FailureMessage, OutOfMemoryMessage, DoneMessage>;
 
-// To be said without allocating.
+// The line of OutOfMemoryMessage, for writing without allocating.
 inline constexpr std::string_view kOutOfMemoryLine = "M\n";
 
 // One line, its end included; line breaks in texts become spaces.

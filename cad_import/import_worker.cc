@@ -28,9 +28,11 @@ namespace {
 using core::Error;
 using core::ErrorKind;
 
-// A model is handed over in memory that its parent reads whole.
+// The model may take this fraction (1 / 4) of the memory limit: it is handed over in memory, and the parent
+// reads it whole.
 constexpr double kResultShare = 4.0;
-// Beyond the time that its parent watches, on as many threads as there may be.
+// The limit of processor time, in multiples of the time limit, which the parent watches: the child may run
+// many threads.
 constexpr double kCpuSlack = 64.0;
 
 std::atomic<bool> serves_imports{false};
@@ -101,7 +103,7 @@ Request ParseRequest(std::span<char* const> arguments) {
     Say(FailureMessage{ErrorKind::kCad, fmt::format("{}: can't be read ({}); export it again",
                                                     request.file.string(), exception.what())});
   }
-  std::_Exit(EXIT_FAILURE);  // without the libraries' last words
+  std::_Exit(EXIT_FAILURE);  // without the libraries' destructors
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 
 namespace elbowroom::cad_import {
 
-// For files that nobody shortens while this lives: reading on beyond a new end is a crash.
+// The file must not be shortened while this lives: reading beyond its new end is a crash.
 class MappedFile {
  public:
   // Nothing: it can't be opened or holds nothing.

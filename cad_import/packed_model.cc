@@ -38,7 +38,7 @@ class Writer {
     Add(static_cast<std::uint64_t>(values.size()));
     AddBytes(values.data(), values.size_bytes());
   }
-  // How many, and each.
+  // Writes how many there are, then each.
   template <typename Values>
   void AddAll(const Values& values, auto add) {
     Add(static_cast<std::uint64_t>(values.size()));
@@ -244,7 +244,7 @@ ImportReport TakeReport(Reader& reader) {
   return report;
 }
 
-// Against what the report counts.
+// Compares the model with the counts of its report.
 void CheckCounts(const Reader& reader, const CadModel& model) {
   std::int64_t parts = 0, triangles = 0;
   for (const CadInstance& instance : model.instances) {

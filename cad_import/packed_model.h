@@ -1,4 +1,5 @@
-// A CadModel as bytes that are believed only after every check: what a child hands over, and the cache keeps.
+// A CadModel as bytes, which the child hands over and the cache keeps. Unpack checks them before they are
+// used.
 #pragma once
 
 #include <cstddef>

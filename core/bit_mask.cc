@@ -23,7 +23,7 @@ std::size_t BitMask::CountObjectPixels() const {
 }
 
 bool BitMask::ShowsObject() const {
-  // By blocks whose words are ORed without a branch, which compilers make vectors of.
+  // Words are ORed block by block without a branch, which compilers turn into vector instructions.
   constexpr std::size_t kBlock = 64;
   std::size_t first = 0;
   for (; first + kBlock <= words_.size(); first += kBlock) {

@@ -33,7 +33,7 @@ class BitMask {
   [[nodiscard]] std::span<std::uint64_t> words() { return words_; }
 
   [[nodiscard]] std::size_t CountObjectPixels() const;
-  [[nodiscard]] bool ShowsObject() const;  // some pixel is
+  [[nodiscard]] bool ShowsObject() const;  // true if a pixel is object
   [[nodiscard]] bool operator==(const BitMask&) const = default;
 
  private:

@@ -43,7 +43,7 @@ class BoundedQueue {
     return true;
   }
 
-  // For what is worth doing only while nothing else waits: false if it wasn't taken.
+  // Adds the value only if no other value waits. False: it was not added.
   bool PushIfEmpty(T value) {
     {
       const std::lock_guard lock(mutex_);
@@ -54,14 +54,15 @@ class BoundedQueue {
     return true;
   }
 
-  // Waits for a value; nothing once the queue is closed and empty.
+  // Waits for a value. Nothing: the queue is closed and empty.
   [[nodiscard]] std::optional<T> Pop() {
     std::unique_lock lock(mutex_);
     has_value_.wait(lock, [&] { return closed_ || !values_.empty(); });
     return TakeFront(lock);
   }
 
-  // Waits no longer than until `deadline`; nothing then, or once the queue is closed and empty.
+  // The same, but waits no longer than until `deadline`. Nothing: no value came in time, or the queue is
+  // closed and empty.
   [[nodiscard]] std::optional<T> PopUntil(std::chrono::steady_clock::time_point deadline) {
     std::unique_lock lock(mutex_);
     has_value_.wait_until(lock, deadline, [&] { return closed_ || !values_.empty(); });

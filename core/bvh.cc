@@ -20,7 +20,8 @@ Eigen::Vector3d Centroid(const TriangleMesh& mesh, std::uint32_t triangle) {
          3.0;
 }
 
-// Around the centre of the bounding box: at most sqrt(3) larger than the smallest, usually a few percent.
+// The smallest ball around the centre of the bounding box. Its radius is at most sqrt(3) times that of the
+// smallest ball of all; usually it is a few percent larger.
 Ball BallAround(const TriangleMesh& mesh, std::span<const std::uint32_t> triangles) {
   Eigen::AlignedBox3d box;
   for (const std::uint32_t triangle : triangles) {
@@ -60,7 +61,8 @@ double AreaOf(const TriangleMesh& mesh, std::span<const std::uint32_t> triangles
 }  // namespace
 
 Ball BallOf(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
-  // Around the longest side if the opposite angle is obtuse, else the circumscribed circle's.
+  // If an angle is obtuse or right, the longest side is the smallest ball's diameter. Otherwise its centre is
+  // that of the circumscribed circle, by barycentric coordinates.
   const double ab = (b - a).squaredNorm(), bc = (c - b).squaredNorm(), ca = (a - c).squaredNorm();
   Ball ball;
   if (ab >= bc + ca) {

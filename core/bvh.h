@@ -16,29 +16,30 @@ struct Ball {
   double radius_mm = 0.0;
 };
 
-// A ball that encloses the triangle: its smallest one, but for rounding outwards.
+// The smallest ball that encloses the triangle, made larger by what rounding may leave out.
 [[nodiscard]] Ball BallOf(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c);
 
 // Node 0 is the root; children are `left` and `left + 1`, leaves have left == 0. Each node covers the
-// triangles order()[begin .. end); its ball and its box, the tightest, enclose them, in the mesh's frame.
-// Immutable. Thread: any.
+// triangles order()[begin .. end). Its box is the smallest around them; its ball encloses them, but isn't the
+// smallest. Both are in the mesh's frame. Immutable. Thread: any.
 class TriangleTree {
  public:
   struct Node {
     Ball ball;
     Eigen::AlignedBox3d box;
-    double area_mm2 = 0.0;  // of its triangles
+    double area_mm2 = 0.0;  // sum over its triangles
     std::uint32_t begin = 0;
     std::uint32_t end = 0;
     std::uint32_t left = 0;
   };
 
-  // Median split of the longest side; leaves of at most 4 triangles. An empty mesh has no node.
+  // Nodes are split at the median along the longest side of the box of their triangles' centroids. A leaf has
+  // at most 4 triangles. An empty mesh has no node.
   explicit TriangleTree(SharedMesh mesh);
 
   [[nodiscard]] const TriangleMesh& mesh() const { return *mesh_; }
   [[nodiscard]] const SharedMesh& shared_mesh() const { return mesh_; }
-  [[nodiscard]] bool is_closed() const { return is_closed_; }  // as IsWatertight
+  [[nodiscard]] bool is_closed() const { return is_closed_; }  // IsWatertight of the mesh
   [[nodiscard]] const Eigen::AlignedBox3d& bounds() const { return bounds_; }
   [[nodiscard]] std::span<const Node> nodes() const { return nodes_; }
   [[nodiscard]] std::span<const std::uint32_t> order() const { return order_; }

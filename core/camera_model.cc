@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kStretchBins = 256;
 
-// Beyond these a figure is a slip or damage.
+// Values beyond these are a mistake or damage.
 constexpr int kLongestSidePx = 32'768;
 constexpr std::int64_t kMostPixels = 200'000'000;
 constexpr double kLargestFigure = 1e9;
@@ -57,7 +57,8 @@ void ValidateCalibration(const CameraCalibration& c) {
   if (!c.cam_from_world.translation_mm.allFinite()) fail("translation_cam_from_world_mm is not finite");
 }
 
-// Itself where rounding alone keeps it from being one.
+// The rotation nearest to a matrix that is almost one (Frobenius norm). A matrix that is a rotation to
+// rounding is returned unchanged.
 Eigen::Matrix3d NearestRotation(const Eigen::Matrix3d& matrix) {
   constexpr double kRounding = 1e-15;
   if (IsRotation(matrix, kRounding)) return matrix;
@@ -69,7 +70,7 @@ Lens LensOf(const CameraCalibration& c) {
   return {c.distortion_model, c.distortion_coefficients, fmt::format("camera '{}'", c.name)};
 }
 
-// Distorted radius of the farthest corner of the picture.
+// The farthest corner of the picture from the principal point, as a radius in the distorted plane.
 double FarthestCornerRadius(const CameraCalibration& c) {
   const Eigen::Matrix2d inverse = c.camera_matrix.topLeftCorner<2, 2>().inverse();
   double farthest = 0.0;
@@ -82,8 +83,9 @@ double FarthestCornerRadius(const CameraCalibration& c) {
   return farthest;
 }
 
-// The smallest radius (to the step) beyond which nothing falls in the picture, or, if that comes first, the
-// largest up to which the lens is certainly one-to-one in radius. Steps shrink where their bounds can't tell.
+// The smallest radius (to the step) whose image is certainly outside of the picture, or, if that comes first,
+// the largest up to which the lens is certainly one-to-one in radius: R' exceeds what the off-axis terms can
+// take from it. Steps shrink where their bounds can't tell.
 double DomainRadius(const Lens& lens, double corner_radius) {
   double radius = 0.0;
   while (radius < Lens::kLargestRadius) {
@@ -128,6 +130,8 @@ CameraModel::CameraModel(CameraCalibration calibration) : calibration_(std::move
                             "folds at its centre); calibrate this camera again",
                             name()));
   }
+  // The radial part stretches by R' along the radius and by R/r across it, the off-axis terms add no more
+  // than their own slope, and the camera matrix stretches by no more than its largest singular value.
   const Eigen::Matrix2d scale = calibration_.camera_matrix.topLeftCorner<2, 2>();
   const double focal_px = Eigen::JacobiSVD<Eigen::Matrix2d>(scale).singularValues()(0);
   double running_maximum = 0.0;

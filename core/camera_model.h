@@ -19,7 +19,7 @@ enum class DistortionModel { kPlumbBob, kRationalPolynomial, kFisheye };
 [[nodiscard]] std::optional<DistortionModel> ParseDistortionModel(std::string_view text);
 [[nodiscard]] std::string_view ToString(DistortionModel model);
 
-// What RIG.yml says of one camera. OpenCV's conventions: x right, y down, z forward, pixel centres at
+// One camera as RIG.yml gives it. OpenCV's conventions: x right, y down, z forward, pixel centres at
 // integers; distortion k1 k2 p1 p2 [k3 [k4 k5 k6 [s1 s2 s3 s4]]], fisheye k1..k4.
 struct CameraCalibration {
   std::string name;
@@ -38,24 +38,26 @@ struct CameraCalibration {
 // picture, so a point outside it is not seen, whatever the polynomial says.
 class CameraModel {
  public:
-  // Throws: Error{kCamera} naming the camera: image size not positive, camera matrix singular or not upper
-  // triangular, rotation not orthonormal, a value not finite, an unsupported number of coefficients.
+  // Throws: Error{kCamera} naming the camera: image size not positive or too large, camera matrix singular or
+  // not upper triangular, rotation not orthonormal, a value not finite or beyond 1e9, an unsupported number
+  // of coefficients, a lens that folds at its centre.
   explicit CameraModel(CameraCalibration calibration);
 
   [[nodiscard]] const CameraCalibration& calibration() const { return calibration_; }
   [[nodiscard]] const std::string& name() const { return calibration_.name; }
   [[nodiscard]] int width_px() const { return calibration_.image_width_px; }
   [[nodiscard]] int height_px() const { return calibration_.image_height_px; }
-  // The calibration's, with the exact rotation nearest to its rounded one: so that its transpose is its
-  // inverse, and a point means the same to those who project it and to those who cast rays.
+  // The calibration's transform, its rounded rotation replaced by the nearest exact one. The transpose is
+  // then the inverse, so that projecting a point and casting a ray through its pixel agree.
   [[nodiscard]] const RigidTransform& cam_from_world() const { return cam_from_world_; }
   [[nodiscard]] const Eigen::Vector3d& center_in_world() const { return center_in_world_; }
   [[nodiscard]] double max_radius() const { return max_radius_; }
 
-  // No distortion (Lens::kLeastCoefficient): a pinhole.
+  // The camera is a pinhole: no fisheye, and no distortion coefficient reaches Lens::kLeastCoefficient.
   [[nodiscard]] bool is_ideal() const;
 
-  // Pixel position (may lie outside the image), or nothing: behind the camera plane or outside the domain.
+  // Pixel position, which may lie outside the image. Nothing: the point is behind the camera plane or outside
+  // the domain.
   [[nodiscard]] std::optional<Eigen::Vector2d> Project(const Eigen::Vector3d& x_in_world) const {
     return ProjectInCam(cam_from_world_ * x_in_world);
   }
@@ -66,7 +68,7 @@ class CameraModel {
 
   // Normalised image point that falls on `pixel`, to 1e-12; nothing where the lens's domain has none.
   [[nodiscard]] std::optional<Eigen::Vector2d> NormalisedFromPixel(const Eigen::Vector2d& pixel) const;
-  // The same, sooner, for who knows a normalised point nearby.
+  // The same, faster, when a normalised point near the result is known.
   [[nodiscard]] std::optional<Eigen::Vector2d> NormalisedFromPixel(const Eigen::Vector2d& pixel,
                                                                    const Eigen::Vector2d& nearby) const;
 

@@ -16,10 +16,11 @@ struct ClearanceInterval {
 
 // The clearance of one part to the hull in one frame.
 struct PartClearance {
-  // Where they meet, from 0 to the mesh's deviation; both infinite: the hull has no points.
+  // From 0 to the mesh's deviation where part and hull meet. Both bounds are infinite if the hull has no
+  // points.
   ClearanceInterval interval;
-  bool has_witnesses = false;  // the interval's, of its upper bound
-  std::int64_t queries = 0;    // of the hull
+  bool has_witnesses = false;  // the interval's witness points are set; they show its upper bound
+  std::int64_t queries = 0;    // asked of the hull
 };
 
 }  // namespace elbowroom::core

@@ -1,4 +1,4 @@
-// What is known of one part against the hull in one frame, and of a touch over time.
+// The answers about one part and the hull: in one frame, and for a touch over time.
 #pragma once
 
 #include <Eigen/Core>
@@ -22,27 +22,27 @@ enum class Verdict { kContact, kNear, kClear, kUndecided };
 struct ContactPoint {
   Eigen::Vector3d position_in_world_mm = Eigen::Vector3d::Zero();
   double depth_mm = 0.0;  // certified lower bound of its distance to the hull's surface
-  double area_mm2 = 0.0;  // of the surface piece that it stands for
+  double area_mm2 = 0.0;  // area of the surface piece that the point represents
 };
 
-// The paper's response: how to back the part out of the hull, the way its constraint lets it go
-// (core::RecoveryRule). Of a hinge the way is an arc, and V_rec its tangent at CP_obj.
+// The paper's response: how to move the part out of the hull along the way that its constraint allows
+// (core::RecoveryRule). A hinge's way is an arc, and its V_rec is the arc's tangent at CP_obj.
 struct Recovery {
   Eigen::Vector3d cp_obj_in_world_mm = Eigen::Vector3d::Zero();   // contact point farthest from RP_obj
   Eigen::Vector3d cp_hull_in_world_mm = Eigen::Vector3d::Zero();  // where CP_obj's way leaves the hull
-  Eigen::Vector3d v_rec_in_world = Eigen::Vector3d::Zero();       // unit, the way CP_obj sets out
-  double d_rec_mm = 0.0;                                          // of CP_obj's way; along the arc
+  Eigen::Vector3d v_rec_in_world = Eigen::Vector3d::Zero();  // unit, the direction in which CP_obj starts
+  double d_rec_mm = 0.0;                           // length of CP_obj's way; for a hinge along the arc
   std::optional<Eigen::Vector3d> n_hull_in_world;  // unit, out of the hull; nothing on a workspace face
-  std::optional<double> angle_rad = {};            // of a hinge: signed about its axis
+  std::optional<double> angle_rad = {};            // for a hinge: signed about its axis
 };
 
-// docs/recovery.md says what is known with each.
+// docs/recovery.md says which outputs each status has.
 enum class RecoveryStatus {
   kFound,
   kNoContact,
-  kReferenceInsideHull,  // RP_obj is no way out: V_rec is followed on, past it where need be
+  kReferenceInsideHull,  // the hull holds RP_obj: V_rec is followed to the hull's end, past RP_obj if needed
   kNoDirection,          // CP_obj and RP_obj coincide, or CP_obj is on the hinge's axis: no recovery
-  kNoExit,               // nothing but the end of what the cameras see ends the way: D_rec is a lower bound
+  kNoExit,               // only the end of what the cameras see ends the way: D_rec is a lower bound
   kHullInsidePart,       // no face of the part is in the hull, so there is no CP_obj: no recovery
   kOnSurface,            // CP_obj is on the hull's surface: D_rec is 0
 };
@@ -50,7 +50,7 @@ enum class RecoveryStatus {
 [[nodiscard]] std::string_view ToString(RecoveryStatus status);
 [[nodiscard]] std::optional<RecoveryStatus> ParseRecoveryStatus(std::string_view text);
 
-// How much work one answer took and how much it was spared.
+// How much work one answer took, and how much was skipped.
 struct QueryCount {
   std::int64_t triangles = 0;  // of the part
   std::int64_t queries = 0;    // ball queries asked
@@ -68,7 +68,7 @@ struct PartContact {
   std::optional<Eigen::Vector3d> contained_in_world_mm;
   RecoveryStatus recovery_status = RecoveryStatus::kNoContact;
   std::optional<Recovery> recovery;
-  double resolution_mm = 0.0;  // pieces of surface below this size were decided by their centre
+  double resolution_mm = 0.0;  // pieces of surface of this size were decided by their centres
   QueryCount count;
   std::optional<PartClearance> clearance;  // nothing: no clearance is required
 };
@@ -87,12 +87,12 @@ struct ContactEpisode {
   double peak_depth_mm = 0.0;
   double peak_area_mm2 = 0.0;  // of the peak frame
   Eigen::Vector3d peak_position_in_world_mm = Eigen::Vector3d::Zero();
-  std::optional<Eigen::Vector3d> peak_position_in_part_mm;  // nothing: recorded before it was kept
+  std::optional<Eigen::Vector3d> peak_position_in_part_mm;  // nothing in sessions from before it was recorded
   std::vector<double> spacing_at_peak_mm;                   // in the layout's order
-  std::vector<std::string> tools;  // marked in use in any of its frames in contact, in order of name
+  std::vector<std::string> tools;  // marked in use in a frame in contact, in order of name
 };
 
-// A part came below its required clearance and went again, untouched.
+// A part came nearer to the hull than its required clearance, and moved away again without a touch.
 struct NearMiss {
   EpisodeId id = 0;
   PartIndex part = 0;
@@ -103,8 +103,8 @@ struct NearMiss {
   double closest_time_s = 0.0;
   double end_time_s = 0.0;
   std::int64_t frames_below = 0;              // those that weren't clear
-  Verdict verdict = Verdict::kUndecided;      // near: some frame was surely below
-  PartClearance closest;                      // of the closest frame
+  Verdict verdict = Verdict::kUndecided;      // kNear: some frame was surely below
+  PartClearance closest;                      // that of the closest frame
   std::vector<double> spacing_at_closest_mm;  // in the layout's order
   std::vector<std::string> tools;             // marked in use meanwhile, in order of name
 };

@@ -10,8 +10,8 @@
 
 namespace elbowroom::core {
 
-// All that a value has been, and which of it holds. Values are kept whole, so that what is undone comes back
-// bit-equal; a core::Layout shares its meshes and is cheap to keep.
+// All states of a value, and which one is the present. States are kept whole, so that undo gives them back
+// bit-equal. A core::Layout shares its meshes and is cheap to keep.
 template <typename Value>
 class History {
  public:
@@ -21,7 +21,7 @@ class History {
   [[nodiscard]] bool CanUndo() const { return now_ > 0; }
   [[nodiscard]] bool CanRedo() const { return now_ + 1 < values_.size(); }
 
-  // What was undone is forgotten. A value that equals the present one is no change.
+  // Forgets the states that were undone. A value that equals the present one is no change.
   [[nodiscard]] History Changed(Value next) const {
     if (next == now()) return *this;
     History history = *this;

@@ -1,4 +1,4 @@
-// What the rooms call the same thing by.
+// The numbers by which all rooms name parts, spacings, groups, cameras, frames and episodes.
 #pragma once
 
 #include <cstddef>

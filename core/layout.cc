@@ -31,7 +31,7 @@ Extent ExtentAlong(const Part& part, const RigidTransform& world_from_part, Axis
   return extent;
 }
 
-// The same of all of them together.
+// Where the part, or all parts of the group together, end along the axis.
 Extent ExtentAlong(const Layout& layout, std::string_view part_or_group,
                    std::span<const RigidTransform> world_from_parts, Axis axis) {
   Extent all{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};

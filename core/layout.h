@@ -20,19 +20,19 @@ namespace elbowroom::core {
 struct Part {
   std::string name;                     // unique in its layout
   std::string file;                     // as written in LAYOUT.toml; empty for a part made by the program
-  std::optional<LengthUnit> unit = {};  // that its file was read in; nothing: one that only the file names
+  std::optional<LengthUnit> unit = {};  // of its file; nothing: as the file itself says
   SharedMesh mesh;                      // in millimetres
   RigidTransform world_from_part;       // as authored, before spacings
-  RecoveryRule recovery = {};           // which way it gives way to the hull
-  GivesWay gives_way = {};              // whether and how it does; by default not at all
-  std::string node = {};                // the instance of an assembly file that it is; empty: all of the file
+  RecoveryRule recovery = {};           // along which way it may leave the hull
+  GivesWay gives_way = {};              // whether and how it moves when it is touched; by default it doesn't
+  std::string node = {};                // instance in the assembly file; empty: all of the file
 
-  [[nodiscard]] bool operator==(const Part&) const = default;  // meshes: the same one
+  [[nodiscard]] bool operator==(const Part&) const = default;  // meshes: the same object
 };
 
 // Parts that spacings and pairs may name together.
 struct Group {
-  std::string name;                // unlike every part's and group's
+  std::string name;                // no part and no other group has it
   std::vector<std::string> parts;  // part names
 
   [[nodiscard]] bool operator==(const Group&) const = default;
@@ -44,8 +44,8 @@ enum class Axis { kX, kY, kZ };
 [[nodiscard]] std::string_view ToString(Axis axis);
 
 // The gap along a world axis from the upper extent of `reference` to the lower extent of `moving`:
-// "top of the PMT box to bottom of payload A". Negative gaps overlap. A group ends where the part of it that
-// reaches farthest does, and moves as one.
+// "top of the PMT box to bottom of payload A". Negative gaps overlap. A group's extent is that of all its
+// parts together, and it moves as one.
 struct Spacing {
   std::string name;       // unique in its layout
   std::string moving;     // part or group name
@@ -83,10 +83,10 @@ struct Layout {
 
   [[nodiscard]] std::optional<PartIndex> FindPart(std::string_view name) const;
   [[nodiscard]] std::optional<GroupIndex> FindGroup(std::string_view name) const;
-  // The part of that name, or those of the group; none if it names neither. Of a group, names that are no
-  // part's are left out.
+  // The part of that name, or the parts of the group of that name; none if it is neither. Names in a group
+  // that no part has are left out.
   [[nodiscard]] std::vector<PartIndex> PartsNamed(std::string_view name) const;
-  [[nodiscard]] bool SharePart(std::string_view a, std::string_view b) const;  // parts or groups
+  [[nodiscard]] bool SharePart(std::string_view a, std::string_view b) const;  // part or group names
   [[nodiscard]] std::optional<SpacingIndex> FindSpacing(std::string_view name) const;
   [[nodiscard]] std::vector<double> InitialSpacings() const;
 };
@@ -96,20 +96,21 @@ struct Layout {
 // them. Throws: PreconditionError when the count differs from the layout's spacings.
 [[nodiscard]] std::vector<RigidTransform> PosesAt(const Layout& layout, std::span<const double> spacing_mm);
 
-// The gap that there is with the parts at these poses (one a part), by the exact extents of their meshes.
-// Throws: PreconditionError when the counts differ.
+// The gap of a spacing when the parts stand at these poses (one a part), by the exact extents of their
+// meshes. Throws: PreconditionError when the number of poses isn't that of the parts.
 [[nodiscard]] double GapMm(const Layout& layout, const Spacing& spacing,
                            std::span<const RigidTransform> world_from_parts);
 
-// The spacings, in an order that places every reference before what moves against it; those that are
-// circular, and what hangs on them, are left out.
+// The spacings in an order that places every reference before the parts that move against it. Circular
+// spacings, and those that depend on them, are left out.
 [[nodiscard]] std::vector<SpacingIndex> OrderOfPlacement(const Layout& layout);
 
-// The same layout with every rule that names groups as rules of single parts. Where several are for one pair,
-// only those hold that name most of the two as parts.
+// The same layout, with each rule that names groups replaced by rules for pairs of parts. If several rules
+// are for one pair, those stay that name the most of its two parts themselves instead of by a group.
 [[nodiscard]] Layout WithPairsOfParts(Layout layout);
 
-// Those poses with parts moved from there, each in its own frame; rest_from_parts empty: none.
+// The poses world_from_rest * rest_from_part, one a part. `rest_from_parts` is empty if no part was moved.
+// Throws: PreconditionError when the counts differ.
 [[nodiscard]] std::vector<RigidTransform> WithMotions(std::span<const RigidTransform> world_from_rests,
                                                       std::span<const RigidTransform> rest_from_parts);
 

@@ -18,7 +18,7 @@ namespace {
 
 using Fault = std::optional<LayoutFault>;
 
-// What `validate` throws, as a fault of that entry.
+// The Error that `validate` throws, as a fault of that entry.
 template <typename Validate>
 Fault Caught(LayoutEntry entry, std::size_t index, Validate validate) {
   try {
@@ -114,7 +114,7 @@ Fault FaultOfSpacing(const Layout& layout, SpacingIndex i) {
   return std::nullopt;
 }
 
-// The one that closes a circle, when the spacings are read from first to last.
+// The fault of the spacing that closes a circle: the last in the layout of those that are in the circle.
 Fault FaultOfCircle(const Layout& layout) {
   const std::vector<SpacingIndex> order = OrderOfPlacement(layout);
   if (order.size() == layout.spacings.size()) return std::nullopt;
@@ -151,7 +151,7 @@ Fault FaultOfPair(const Layout& layout, std::size_t i) {
   return std::nullopt;
 }
 
-// Each pair of parts that a rule names is kept and asked about by itself.
+// A rule for groups becomes one rule for each pair of their parts, so the number of these is limited.
 Fault FaultOfManyPairs(const Layout& layout) {
   constexpr std::size_t kMostPairs = 500'000;
   std::size_t pairs = 0;
@@ -168,8 +168,8 @@ Fault FaultOfManyPairs(const Layout& layout) {
   return std::nullopt;
 }
 
-// The first rule for a pair of parts that an earlier one, which names as many parts, is for, too; but for
-// pairs that a third rule names more closely.
+// The first rule for a pair of parts that has an earlier rule already, if both name equally many of the two
+// as parts and no third rule names more.
 Fault FaultOfTwoRules(const Layout& layout) {
   std::map<std::pair<PartIndex, PartIndex>, std::vector<std::pair<int, std::size_t>>> rules_of_pair;
   for (std::size_t i = 0; i < layout.pair_rules.size(); ++i) {

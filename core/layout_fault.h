@@ -1,4 +1,4 @@
-// Why a layout can't be met, and which of its entries says so.
+// Why a layout can't be used, and which of its entries is at fault.
 #pragma once
 
 #include <cstddef>
@@ -14,15 +14,15 @@ enum class LayoutEntry { kPart, kGroup, kSpacing, kPair, kStream };
 struct LayoutFault {
   LayoutEntry entry = LayoutEntry::kPart;
   std::size_t index = 0;  // of the entry, among its kind
-  std::string key;        // as LAYOUT.toml has it; empty: the entry as a whole
-  std::string message;    // names the entry, and says what to do
+  std::string key;        // as in LAYOUT.toml; empty: the entry as a whole
+  std::string message;    // names the entry and, where that isn't obvious, what to do
 };
 
-// The first fault, or nothing: duplicate or unknown names, a part without a mesh or with a recovery that
-// can't be used, an empty group, limits not in order, a spacing whose moving parts are also its reference,
-// two spacings that move one part along one axis, circular spacings, a pair of a part and itself, two rules
-// for one pair, a figure of what gives way or of a
-// stream out of range.
+// The first fault, or nothing. Faults are: empty, duplicate or unknown names; control characters in a part's
+// name; a part without a mesh or with a recovery that can't be used; an empty group; limits not in order; a
+// spacing whose moving parts are also its reference; two spacings that move one part along one axis; circular
+// spacings; a pair of a part and itself; two rules for one pair; rules for more than 500,000 pairs; a number
+// of a part that gives way or of a stream out of range.
 [[nodiscard]] std::optional<LayoutFault> FindLayoutFault(const Layout& layout);
 
 }  // namespace elbowroom::core

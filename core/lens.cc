@@ -18,7 +18,7 @@ Interval operator*(Interval a, Interval b) {
       std::minmax({a.lower * b.lower, a.lower * b.upper, a.upper * b.lower, a.upper * b.upper});
   return {low, high};
 }
-// A divisor that reaches zero yields an interval that no caller can take for a valid lens.
+// A divisor that reaches zero yields an infinite interval, by which no caller finds a lens valid.
 Interval operator/(Interval a, Interval b) {
   if (b.lower <= 0.0) return {-HUGE_VAL, HUGE_VAL};
   return a * Interval{1.0 / b.upper, 1.0 / b.lower};
@@ -53,8 +53,9 @@ double SeriesSlopeAt(const double* c, int n, double t) {
   return sum;
 }
 
-// Interval arithmetic forgets that numerator and denominator move together, which matters for lenses whose
-// coefficients nearly cancel: such a stretch is enclosed piece by piece.
+// Interval arithmetic treats numerator and denominator as independent, so its intervals are too wide for
+// lenses whose coefficients nearly cancel. A stretch whose interval is wide is therefore cut into pieces, and
+// the result is the interval that holds those of all pieces.
 template <typename Enclosure>
 Interval EncloseTightly(const Enclosure& enclose, double r0, double r1) {
   constexpr double kWidth = 0.01;  // of the slope and the scale, which are about 1
@@ -133,7 +134,7 @@ Interval Lens::RadialSlope(double r0, double r1) const {
 Interval Lens::RadialScaleOf(double r0, double r1) const {
   if (model_ == DistortionModel::kFisheye) {
     const double a = std::atan(r0), b = std::atan(r1);
-    // theta / tan(theta) falls from 1.
+    // theta / tan(theta) falls from 1 as theta grows, so its values at the ends are its bounds.
     const Interval ratio{r1 > 0.0 ? b / r1 : 1.0, r0 > 0.0 ? a / r0 : 1.0};
     return ratio * Series(k_, 4, {a * a, b * b});
   }
@@ -155,6 +156,9 @@ Interval Lens::RadialSlopeOf(double r0, double r1) const {
 }
 
 double Lens::OffAxisSlope(double radius) const {
+  // Each entry of the tangential terms' Jacobian is bounded by |x|, |y| <= radius; the Frobenius norm of
+  // these bounds is no less than the Jacobian's norm. The prism terms' Jacobian is an outer product with x,
+  // whose norm is the product of the two lengths.
   const double p1 = std::abs(p1_), p2 = std::abs(p2_), r3 = radius * radius * radius;
   const double tangential =
       radius * std::sqrt(std::pow(2 * p1 + 6 * p2, 2) + 2 * std::pow(2 * p1 + 2 * p2, 2) +
@@ -186,7 +190,7 @@ Eigen::Vector2d Lens::Distort(const Eigen::Vector2d& normalised) const {
 }
 
 Eigen::Matrix2d Lens::Slope(const Eigen::Vector2d& x) const {
-  // x R(r)/r: R' along x, R/r across.
+  // The Jacobian of x R(r)/r stretches by R' along x and by R/r across it.
   const double r2 = x.squaredNorm(), radius = std::sqrt(r2);
   Eigen::Matrix2d slope = Eigen::Matrix2d::Identity();
   if (radius > 1e-12) {
@@ -204,8 +208,8 @@ Eigen::Matrix2d Lens::Slope(const Eigen::Vector2d& x) const {
 std::optional<Eigen::Vector2d> Lens::UndistortNear(const Eigen::Vector2d& distorted,
                                                    const Eigen::Vector2d& start, double max_radius) const {
   constexpr int kSteps = 6;
-  constexpr double kLastStep = 1e-10;  // what it leaves is of the order of its square
-  constexpr double kRim = 1e-6;        // of the radius: nearer to it, the domain's end is to be heeded
+  constexpr double kLastStep = 1e-10;  // the error after such a step is of the order of its square
+  constexpr double kRim = 1e-6;        // share of the radius; nearer to the rim than this, Undistort decides
   Eigen::Vector2d x = start;
   for (int i = 0; i < kSteps; ++i) {
     const Eigen::Vector2d step = Slope(x).inverse() * (distorted - Distort(x));
@@ -217,10 +221,11 @@ std::optional<Eigen::Vector2d> Lens::UndistortNear(const Eigen::Vector2d& distor
 }
 
 double Lens::RadiusFromImage(double image_radius, double start, double max_radius) const {
-  // Newton's steps, kept within the bracket that the monotone radial part allows.
+  // Newton's method within a bracket, which is valid because R grows throughout the domain. A step that
+  // leaves the bracket is replaced by halving it.
   if (RadialImage(max_radius) <= image_radius) return max_radius;
   double low = 0.0, high = max_radius, radius = std::min(start, max_radius);
-  constexpr double kSettled = 4e-15;  // relative; the image radius itself is known no better
+  constexpr double kSettled = 4e-15;  // relative: rounding of the image radius is no smaller
   for (int i = 0; i < 100; ++i) {
     const double excess = RadialImage(radius) - image_radius;
     (excess < 0.0 ? low : high) = radius;
@@ -235,7 +240,8 @@ double Lens::RadiusFromImage(double image_radius, double start, double max_radiu
 
 std::optional<Eigen::Vector2d> Lens::Undistort(const Eigen::Vector2d& distorted, double max_radius) const {
   if (is_ideal_) return distorted.norm() <= max_radius ? std::optional(distorted) : std::nullopt;
-  // The radial part inverts directly; the small off-axis terms follow by fixed-point iteration.
+  // The radial part is inverted by RadiusFromImage; the small off-axis terms by fixed-point iteration around
+  // it.
   Eigen::Vector2d x = Eigen::Vector2d::Zero();
   double radius = distorted.norm();
   for (int i = 0; i < 50; ++i) {

@@ -20,12 +20,13 @@ struct Interval {
 // x_distorted = x * R(r) / r + tangential(x) + prism(x), r = |x|, all in the normalised plane (X/Z, Y/Z).
 class Lens {
  public:
-  // tan(89.5 degrees): a pinhole can't look sideways, and no lens's domain reaches farther.
+  // tan(89.5 degrees). In the normalised plane, directions at 90 degrees to the axis are infinitely far away;
+  // no lens's domain reaches beyond this radius.
   static constexpr double kLargestRadius = 114.6;
 
-  // Coefficients smaller than this are taken for 0: a lens of nothing else moves no position within
-  // kLargestRadius by 2^-54 of its radius, which is below rounding (camera_model_test). Left in, products of
-  // denormals would make Undistort up to thirteen times slower.
+  // Coefficients smaller than this are set to 0. A lens that has only such coefficients moves each position
+  // within kLargestRadius by less than 2^-54 of its radius, which is below rounding (camera_model_test). If
+  // they stayed, products of denormals would make Undistort up to thirteen times slower.
   static constexpr double kLeastCoefficient = 1e-30;
 
   // Throws: Error{kCamera} naming `who`: a coefficient count that the model doesn't have, a value not finite,
@@ -41,18 +42,19 @@ class Lens {
   [[nodiscard]] std::optional<Eigen::Vector2d> Undistort(const Eigen::Vector2d& distorted,
                                                          double max_radius) const;
 
-  // The same from a point nearby, to 1e-12, by Newton's steps; nothing also where they don't settle well
-  // within the domain: then Undistort decides.
+  // The same, to 1e-12, by Newton's method from a point near the result. Nothing also if it doesn't converge
+  // well within the domain; the caller then asks Undistort.
   [[nodiscard]] std::optional<Eigen::Vector2d> UndistortNear(const Eigen::Vector2d& distorted,
                                                              const Eigen::Vector2d& start,
                                                              double max_radius) const;
 
-  // R(r), and enclosures of R'(r) and R(r)/r over [r0, r1].
+  // R(r) at a radius, and intervals that enclose R'(r) and R(r)/r over [r0, r1].
   [[nodiscard]] double RadialImage(double radius) const;
   [[nodiscard]] Interval RadialSlope(double r0, double r1) const;
   [[nodiscard]] Interval RadialScale(double r0, double r1) const;
 
-  // Bound on |J| of tangential + prism terms over the disc of radius r; and of their length.
+  // Upper bounds, over the disc of that radius, on the norm of the Jacobian of tangential + prism, and on the
+  // length of tangential + prism.
   [[nodiscard]] double OffAxisSlope(double radius) const;
   [[nodiscard]] double OffAxisLength(double radius) const;
 
@@ -62,7 +64,7 @@ class Lens {
   [[nodiscard]] double RadialSlopeAt(double radius) const;
   [[nodiscard]] double RadiusFromImage(double image_radius, double start, double max_radius) const;
   [[nodiscard]] Eigen::Vector2d OffAxis(const Eigen::Vector2d& x) const;
-  [[nodiscard]] Eigen::Matrix2d Slope(const Eigen::Vector2d& x) const;  // of Distort
+  [[nodiscard]] Eigen::Matrix2d Slope(const Eigen::Vector2d& x) const;  // Jacobian of Distort
 
   DistortionModel model_;
   double k_[6] = {0, 0, 0, 0, 0, 0};  // fisheye: the first four

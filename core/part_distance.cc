@@ -8,9 +8,9 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Squared sine of a corner: smaller ones are needles.
+// Triangles with a smaller squared sine at corner a are treated as needles.
 constexpr double kNeedle = 1e-6;
-// Nodes of a smaller radius, as a share of half the box's diagonal, aren't looked into for a bound.
+// A node whose radius is no larger than this share of half the box's diagonal isn't opened for a bound.
 constexpr double kSmallNode = 0.5;
 
 Vector3d NearestOnSegment(const Vector3d& x, const Vector3d& a, const Vector3d& b) {
@@ -38,7 +38,7 @@ Vector3d NearestOnNeedle(const Vector3d& x, const Vector3d& a, const Vector3d& b
                 NearestOnSegment(x, c, a));
 }
 
-// Goes down the tree, nearer child first; whole branches are passed over whose box is too far.
+// Goes down the tree, nearer child first, and skips branches whose box is too far.
 class Search {
  public:
   Search(const TriangleTree& part, const BoxInPart& box)
@@ -49,7 +49,8 @@ class Search {
     VisitNearest(0, SquaredFromBox(0));
   }
 
-  // After FindNearest: what the nearest triangle alone leaves of the box's bound.
+  // After FindNearest: the box's bound by the nearest triangle alone. The bound over all triangles is no
+  // larger.
   [[nodiscard]] double MostOfBox() const {
     return nearest_.distance_mm - Reach(x_ - nearest_.position_in_part);
   }
@@ -80,7 +81,8 @@ class Search {
     return part_.nodes()[index].box.squaredExteriorDistance(x_);
   }
 
-  // How much nearer some point of the box is than its centre to what lies beyond a plane across `away`.
+  // How much nearer a point of the box can be than its centre to a plane across `away`: with n = away /
+  // |away|, the sum of |n . e_i| over the half edges e_i. If `away` is 0, half of the diagonal.
   [[nodiscard]] double Reach(const Vector3d& away) const {
     const double length = away.norm();
     return length > 0.0 ? (edges_ * away).lpNorm<1>() / length : edges_.norm();
@@ -111,8 +113,8 @@ class Search {
     }
   }
 
-  // Next to the box that is asked about: then the bound that its own box gives is taken, which holds for its
-  // triangles and costs nothing more.
+  // The node is small compared with the box: then the bound by the node's own box is taken. It holds for all
+  // triangles in the node, and costs no more work.
   [[nodiscard]] bool IsSmall(const TriangleTree::Node& node) const {
     return node.ball.radius_mm <= kSmallNode * edges_.norm();
   }
@@ -137,8 +139,9 @@ class Search {
     }
   }
 
-  // Which of the box's points center + sum a_i e_i may be nearer than `within_mm` to what is beyond the plane
-  // across `away`: |away| - sum_(i != axis) |n . e_i| + a_axis n . e_axis < within_mm.
+  // The stretch of a_axis for which points center + sum a_i e_i of the box may be nearer than `within_mm` to
+  // what lies beyond the plane across `away`. The least distance to the plane at a given a_axis, over the
+  // other a_i, is |away| - sum_(i != axis) |n . e_i| + a_axis n . e_axis, which must be below within_mm.
   [[nodiscard]] NearStretch NearTo(const Vector3d& away, Eigen::Index axis, double within_mm) const {
     const double length = away.norm();
     if (!(length > 0.0)) return {-1.0, 1.0};
@@ -182,9 +185,9 @@ class Search {
 
 }  // namespace
 
-// By the regions of the plane that are nearest to a corner, to a side or to the inside (Ericson, Real-Time
-// Collision Detection, 5.1.5). Of needles, where regions drown in rounding, the nearest of the sides and of
-// the foot point on the plane.
+// Finds the region (of a corner, a side or the face) in which the point lies: Ericson, Real-Time Collision
+// Detection, 5.1.5. Rounding makes the regions of needles unreliable. For them the result is the foot point
+// on the plane if that is inside, else the nearest point of the three sides.
 Vector3d NearestOnTriangle(const Vector3d& x, const Vector3d& a, const Vector3d& b, const Vector3d& c) {
   const Vector3d ab = b - a, ac = c - a, ax = x - a, bx = x - b, cx = x - c;
   const double d1 = ab.dot(ax), d2 = ac.dot(ax), d3 = ab.dot(bx), d4 = ac.dot(bx), d5 = ab.dot(cx),

@@ -31,7 +31,7 @@ std::optional<Character> FirstCharacter(std::string_view text) {
     if (!IsContinuation(text[i])) return std::nullopt;
     code = code << 6U | (static_cast<unsigned char>(text[i]) & 0x3FU);
   }
-  constexpr std::uint32_t kFirstOf[] = {0, 0, 0x80, 0x800, 0x10000};  // those of fewer bytes are written so
+  constexpr std::uint32_t kFirstOf[] = {0, 0, 0x80, 0x800, 0x10000};  // smaller codes take fewer bytes
   const bool is_surrogate = code >= 0xD800 && code <= 0xDFFF;
   if (code < kFirstOf[bytes] || is_surrogate || code > 0x10FFFF) return std::nullopt;
   return Character{code, bytes};
@@ -43,7 +43,7 @@ bool SteersTheReader(std::uint32_t code) {
   return (code >= 0x202A && code <= 0x202E) || (code >= 0x2066 && code <= 0x2069);  // turns of direction
 }
 
-// The text's beginning that is plain, in bytes, and how many bytes after it aren't.
+// How many bytes at the text's beginning are plain, and how many belong to the next thing that isn't.
 struct Stretch {
   std::size_t plain = 0;
   std::size_t other = 0;
@@ -73,7 +73,7 @@ std::string Replaced(std::string_view text, Append append) {
   return plain;
 }
 
-// Without its middle, cut between characters.
+// The text without its middle, cut between characters, with an ellipsis in its place.
 std::string WithoutMiddle(std::string_view text, std::size_t most_bytes) {
   if (text.size() <= most_bytes) return std::string(text);
   const std::size_t kept = most_bytes - kEllipsis.size();

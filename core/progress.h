@@ -1,4 +1,4 @@
-// How long work reports where it is. Cancelling is std::stop_token's job.
+// Lets long work report how far it has come. std::stop_token cancels it.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace elbowroom::core {
 
-// Thread: the callback runs on the thread that reports; give it nothing that blocks.
+// Thread: the callback runs on the thread that reports. It must not block.
 class Progress {
  public:
   using Callback = std::function<void(std::int64_t done, std::int64_t total, const std::string& what)>;
@@ -26,7 +26,7 @@ class Progress {
   Callback callback_;
 };
 
-// Throws: Error{kCancelled} naming `what` when a stop was asked for.
+// Throws: Error{kCancelled} naming `what` if a stop was requested.
 void ThrowIfStopped(const std::stop_token& stop, const std::string& what);
 
 }  // namespace elbowroom::core

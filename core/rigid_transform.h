@@ -30,7 +30,8 @@ struct RigidTransform {
                                                          const Eigen::Vector3d& rotation_rpy_deg);
 
 // Camera at `eye` with its z axis through `target` and its y axis (image down) away from `up`; x right,
-// y down, z forward. A view direction parallel to `up` takes another up direction.
+// y down, z forward. If the view direction is parallel to `up`, the world's y axis, or else its x axis, takes
+// its place. Throws: PreconditionError if `eye` is `target`.
 [[nodiscard]] RigidTransform CamFromWorldLookingAt(
     const Eigen::Vector3d& eye_in_world, const Eigen::Vector3d& target_in_world,
     const Eigen::Vector3d& up_in_world = Eigen::Vector3d::UnitZ());

@@ -1,4 +1,4 @@
-// The values that a session is made of: what was set up, what happened, frame by frame.
+// The values of a session: what was set up, and what happened frame by frame.
 #pragma once
 
 #include <cstdint>
@@ -23,9 +23,9 @@ struct TrialInfo {
   std::string participant;
   std::string task;
   double estimate_mm = 0.0;            // the participant's guess of the space needed; 0: none given
-  double required_clearance_mm = 0.0;  // of parts to the hull; 0: how near it comes isn't judged
+  double required_clearance_mm = 0.0;  // of parts to the hull; 0: only contact is judged
   std::vector<std::string> tools;
-  double uncertainty_mm = 0.0;  // of rig and parts: what a verdict on clearance allows for
+  double uncertainty_mm = 0.0;  // of rig and parts; verdicts on clearance allow for it
 };
 
 struct SpacingChanged {
@@ -38,10 +38,10 @@ struct ToolMarked {
   bool in_use = false;
 };
 struct Note {
-  std::string text;  // the program's own remarks too: "ended at the shortest source: cam03"
+  std::string text;  // of people, or of the program: "ended at the shortest source: cam03"
 };
 
-// Holds from frame `frame` on: a change that arrives between two frames carries the later one's number.
+// The change holds from frame `frame` on: one that arrives between two frames has the number of the later.
 struct SessionEvent {
   FrameIndex frame = 0;
   double time_s = 0.0;
@@ -65,12 +65,12 @@ struct FrameRecord {
   SharedMasks masks;                  // one a camera
   std::vector<double> spacing_mm;     // in the layout's order
   std::vector<PartContact> contacts;  // one a part, in the layout's order
-  // Where pushed parts were, from where layout and spacings have them; likewise, or nothing if none was
-  // pushed.
+  // How pushed parts were moved from the poses that layout and spacings give them: one a part, in the
+  // layout's order. Empty if none was pushed.
   std::vector<RigidTransform> rest_from_parts;
 };
 
-// What is put together at a session's end.
+// The results that are written at a session's end.
 struct SessionOutcome {
   std::vector<ContactEpisode> episodes;
   std::vector<NearMiss> near_misses;

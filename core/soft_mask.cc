@@ -8,15 +8,15 @@
 namespace elbowroom::core {
 namespace {
 
-// Calls visit(index of the word, its boundary pixels) for every word that has some, in their order, while it
-// returns true.
+// Calls visit(index of the word, its boundary pixels) for each word with boundary pixels, in order, until it
+// returns false.
 template <typename Visit>
 void VisitBoundary(const BitMask& mask, Visit visit) {
   const std::size_t words = mask.words_per_row();
   const auto height = static_cast<std::size_t>(mask.height_px());
   const std::uint64_t* in = mask.words().data();
   if (words == 0) return;
-  const unsigned top = (static_cast<unsigned>(mask.width_px()) - 1) & 63U;  // of the last word's bits
+  const unsigned top = (static_cast<unsigned>(mask.width_px()) - 1) & 63U;  // the last word's highest bit
   const auto shows_object = [&](std::size_t y) {
     std::uint64_t any = 0;
     for (std::size_t i = 0; y < height && i < words; ++i) any |= in[y * words + i];
@@ -25,18 +25,18 @@ void VisitBoundary(const BitMask& mask, Visit visit) {
   bool is_above = false, is_here = false, is_below = shows_object(0);
   for (std::size_t y = 0; y < height; ++y) {
     is_above = is_here, is_here = is_below, is_below = shows_object(y + 1);
-    if (!is_above && !is_here && !is_below) continue;  // most rows
+    if (!is_above && !is_here && !is_below) continue;  // true of most rows
     const std::uint64_t* row = in + y * words;
     const std::uint64_t* above = y > 0 ? row - words : row;
     const std::uint64_t* below = y + 1 < height ? row + words : row;
     for (std::size_t i = 0; i < words; ++i) {
-      // The first and the last column are their own neighbours.
+      // The first and the last column are their own neighbours: the picture's border is no boundary.
       const std::uint64_t before = i > 0 ? row[i - 1] >> 63U : row[0] & 1U;
       const std::uint64_t after = i + 1 < words ? row[i + 1] << 63U : row[i] & (std::uint64_t{1} << top);
-      if ((row[i] | above[i] | below[i] | before | after) == 0) continue;  // most words
+      if ((row[i] | above[i] | below[i] | before | after) == 0) continue;  // true of most words
       const std::uint64_t left = (row[i] << 1U) | before, right = (row[i] >> 1U) | after;
       std::uint64_t boundary = (row[i] ^ left) | (row[i] ^ right) | (row[i] ^ above[i]) | (row[i] ^ below[i]);
-      // Padding differs from its neighbour where the last pixel is object.
+      // Clears the padding, which differs from its neighbour where the last pixel is object.
       if (i + 1 == words) boundary &= (std::uint64_t{2} << top) - 1;
       if (boundary != 0 && !visit(y * words + i, boundary)) return;
     }
@@ -63,7 +63,7 @@ std::optional<std::string_view> SoftMask::BrokenRule() const {
   VisitBoundary(mask, [&](std::size_t i, std::uint64_t bits) {
     const std::uint64_t object = mask.words()[i];
     for (; bits != 0 && level != levels.end(); bits &= bits - 1, ++level) {
-      // 128 and more is object.
+      // A level of 128 or more, whose highest bit is set, is object.
       disagrees |= (*level >> 7U) ^ static_cast<unsigned>((object >> std::countr_zero(bits)) & 1U);
     }
     is_short = bits != 0;

@@ -21,7 +21,7 @@ struct SoftMask {
   BitMask mask;
   std::vector<std::uint8_t> levels;
 
-  // Which of these rules the levels break; nothing: they are as said.
+  // Which of these rules the levels break. Nothing: none.
   [[nodiscard]] std::optional<std::string_view> BrokenRule() const;
 
   // Throws: PreconditionError when `levels` is neither empty nor one a boundary pixel, or contradicts the

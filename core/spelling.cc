@@ -8,7 +8,7 @@
 namespace elbowroom::core {
 namespace {
 
-// Levenshtein: letters to insert, delete or replace.
+// The Levenshtein distance: how many letters must be inserted, deleted or replaced.
 std::size_t EditDistance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});

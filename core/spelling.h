@@ -1,4 +1,4 @@
-// What a misspelt key was probably meant to be.
+// The word that a misspelt key was probably meant to be.
 #pragma once
 
 #include <optional>
@@ -7,7 +7,8 @@
 
 namespace elbowroom::core {
 
-// The known word that `word` is fewest edits away from, if those are few (a third of its letters).
+// The known word with the fewest edits to `word`. Nothing if these are more than a third of its letters and
+// more than one.
 [[nodiscard]] std::optional<std::string_view> NearestWord(std::string_view word,
                                                           std::span<const std::string_view> known);
 

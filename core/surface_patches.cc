@@ -14,8 +14,8 @@ namespace {
 using Eigen::Vector3d;
 using Corners = SurfacePatches::Corners;
 
-// The halves on either side of the longest side's middle; the first holds its beginning. Nothing: small
-// enough.
+// The two halves of a piece, cut at the middle of its longest side; the first holds that side's beginning.
+// Nothing: no side is longer than patch_mm.
 std::optional<std::array<Corners, 2>> HalvesOf(const Corners& p, double patch_mm) {
   const std::array<Corners, 3> turned{{{p.a, p.b, p.c}, {p.b, p.c, p.a}, {p.c, p.a, p.b}}};
   const auto side_mm2 = [](const Corners& t) { return (t.b - t.a).squaredNorm(); };
@@ -69,7 +69,7 @@ std::size_t SurfacePatches::PatchAt(std::size_t triangle, const Vector3d& x) con
     const auto halves = HalvesOf(corners, patch_mm_);
     if (!halves) break;
     const auto& [first, second] = *halves;
-    // Across the cut, within the triangle's plane, towards the second half.
+    // normal x cut lies in the triangle's plane, across the cut, and points to the first half.
     const Vector3d cut = first.c - first.b, normal = (first.b - first.a).cross(first.c - first.a);
     const bool is_in_second = normal.cross(cut).dot(x - first.b) < 0.0;
     if (is_in_second) patch += CountPatches(first, patch_mm_, halvings + 1);

@@ -1,4 +1,4 @@
-// A mesh's surface in patches of about one size, numbered.
+// A mesh's surface, cut into numbered patches of bounded size.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,14 +9,15 @@
 
 namespace elbowroom::core {
 
-// Each triangle is halved across its longest side, and the halves again, until no side is longer than
-// patch_mm, at most kMostHalvings deep; what is left are the patches. Numbered triangle by triangle: a
-// function of mesh and patch_mm alone (surface_patches_test). In the mesh's frame. Thread: any.
+// Each triangle is halved at the middle of its longest side, and so are the halves, until no side is longer
+// than patch_mm or kMostHalvings is reached: these pieces are the patches. They are numbered triangle by
+// triangle, so that the numbers depend only on mesh and patch_mm (surface_patches_test). Frame: the mesh's.
+// Thread: any.
 class SurfacePatches {
  public:
   static constexpr int kMostHalvings = 12;
   struct Corners {
-    Eigen::Vector3d a, b, c;  // turning as the triangle does
+    Eigen::Vector3d a, b, c;  // in the triangle's orientation
     [[nodiscard]] Eigen::Vector3d Centre() const { return (a + b + c) / 3.0; }
   };
 
@@ -29,8 +30,8 @@ class SurfacePatches {
   // A triangle's patches, FirstOf() first.
   [[nodiscard]] std::vector<Corners> CornersOf(std::size_t triangle) const;
 
-  // The patch that a point of the triangle lies on; of a point off it, or of a triangle without area, some
-  // patch of it.
+  // The patch of the triangle on which the point lies. If the point is off the triangle, or the triangle has
+  // no area, any of its patches.
   [[nodiscard]] std::size_t PatchAt(std::size_t triangle, const Eigen::Vector3d& x) const;
 
  private:
@@ -38,7 +39,7 @@ class SurfacePatches {
 
   SharedMesh mesh_;
   double patch_mm_;
-  std::vector<std::size_t> first_;  // one a triangle, and the number of patches
+  std::vector<std::size_t> first_;  // first patch of each triangle; at the end, the number of patches
 };
 
 }  // namespace elbowroom::core

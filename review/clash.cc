@@ -16,10 +16,11 @@ namespace {
 using Eigen::AlignedBox3d;
 using Eigen::Vector3d;
 
-// Progress and a wish to stop are looked at between blocks of this many pairs.
+// After each block of this many pairs, progress is reported and a stop is checked.
 constexpr std::size_t kBlock = 64;
 
-// Rounding of a vertex on its way into the world, of the sum of the sizes that are added up.
+// Bound of the rounding when a vertex is transformed to the world, as a share of the sum of all sizes that
+// enter.
 constexpr double kOutwards = 4e-15;
 
 AlignedBox3d BoundsInWorld(const core::TriangleTree& tree, const core::RigidTransform& world_from_part) {
@@ -50,7 +51,8 @@ core::Verdict VerdictOf(const PairClash& pair) {
   return nearest == farthest ? nearest : core::Verdict::kUndecided;
 }
 
-// Surfaces don't meet: each piece of `piece` is inside or outside as a whole.
+// Whether a connected piece of `piece` is inside of `whole`. The surfaces don't meet, so each piece is inside
+// or outside as a whole, and one of its points decides.
 bool HoldsAPiece(const SurfaceModel& whole, const core::RigidTransform& world_from_whole,
                  const SurfaceModel& piece, const core::RigidTransform& world_from_piece) {
   if (!whole.tree().is_closed()) return false;

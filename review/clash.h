@@ -1,4 +1,4 @@
-// Virtual against virtual: which parts of a layout meet, how far apart the others are.
+// Virtual parts against each other: which parts of a layout meet, and how far apart the others are.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -19,27 +19,28 @@
 
 namespace elbowroom::review {
 
-// Surfaces this near touch: parts placed face to face by decimal numbers and rotations end up some 1e-13 mm
-// apart. A required clearance counts as kept when no more than this is missing.
+// Surfaces that are no farther apart than this touch: parts that decimal numbers and rotations place face to
+// face end up some 1e-13 mm apart. A required clearance counts as kept if no more than this is missing.
 inline constexpr double kTouchMm = 1e-6;
 
 struct PairClash {
   PairDemand demand;
   core::Verdict verdict = core::Verdict::kClear;
-  // Between the surfaces, with a point of each, in world; 0 where they meet. Nothing: the bounds already say
+  // Between the surfaces, with a point of each, in world; 0 where they meet. Nothing: the bounds already show
   // that the pair is clear.
   std::optional<SurfaceGap> gap;
-  double at_least_mm = 0.0;     // the distance is no less: the gap, or what lies between the bounds
+  double at_least_mm = 0.0;     // lower bound of the distance: the gap, or the distance of the bounds
   double uncertainty_mm = 0.0;  // of both parts together, as given
-  double deviation_mm = 0.0;    // of both meshes together: the true distance is the gap, less or more this
+  double deviation_mm = 0.0;    // of both meshes together: the true distance is within this of the gap
   bool contained = false;       // a piece of one is inside the other, a closed one, without touching it
 };
 
-// What was asked and what was spared. pairs = unchanged + settled_by_bounds + those asked of FCL.
+// How many pairs were asked about and how many skipped. pairs = unchanged + settled_by_bounds + those asked
+// of FCL.
 struct ClashCount {
   std::int64_t pairs = 0;
   std::int64_t unchanged = 0;          // neither part moved since the last check
-  std::int64_t settled_by_bounds = 0;  // of those that changed
+  std::int64_t settled_by_bounds = 0;  // pairs with a moved part that their bounds showed to be clear
   std::int64_t collision_calls = 0;    // of FCL: do two surfaces meet?
   std::int64_t distance_calls = 0;     // of FCL: how far apart are they?
 };
@@ -49,24 +50,26 @@ struct ClashReport {
   ClashCount count;
 };
 
-// `contact` where surfaces are within kTouchMm or a piece of one part is inside the other, `near` below the
-// required clearance, else `clear`; `undecided` where the distance less and plus the uncertainty of both
-// parts and the deviation of both meshes would be judged differently; meshes that meet are in contact however
-// well they stand for their surfaces. Distance and witness points are exact but for rounding. Held to brute
-// force in long double by tests/review/clash_test.cc, and on real CAD by shared_clash_test.cc.
-// Limits: an open part contains nothing; how deep surfaces that meet overlap isn't asked (FCL's figure for
-// meshes isn't that depth), so parts with an uncertainty that merely meet are `undecided`.
-// Keeps FCL's models, one a mesh however many parts share it, and the last answers. Thread: one.
+// A pair is in `contact` where its surfaces are within kTouchMm or a piece of one part is inside the other,
+// `near` below the required clearance, else `clear`. It is `undecided` where the uncertainty of both parts
+// and the deviation of both meshes, subtracted from the distance or added to it, would change that; but
+// meshes without uncertainty that meet are in contact, whatever their deviation. Distance and witness points
+// are exact but for rounding. Held to brute force in long double by tests/review/clash_test.cc, and on real
+// CAD by shared_clash_test.cc. Limits: an open part contains nothing; how deep surfaces overlap isn't asked
+// (FCL's depth for meshes isn't that), so parts with an uncertainty that meet are `undecided`. Keeps FCL's
+// models, one a mesh even if several parts share it, and the last answers. Thread: one.
 class ClashChecker {
  public:
-  // uncertainty_mm: how far each part may be from its CAD surface; empty: 0 for all. The pairs are
-  // the layout's. Throws: core::PreconditionError for another number of them or a part without triangles.
+  // uncertainty_mm: one value a part, how far it may be from its CAD surface; empty: 0 for all. Throws:
+  // core::PreconditionError for another number of values, a negative one, a pair that isn't of the layout's
+  // parts, or a part without triangles.
   ClashChecker(const core::Layout& layout, std::vector<PairDemand> pairs,
                std::vector<double> uncertainty_mm = {});
 
-  // Every pair with the parts at these poses, one a part. Asks only about pairs of which a part moved since
-  // the last check, and FCL only about those whose bounds are nearer than the required clearance. The result
-  // doesn't depend on the number of threads. Throws: core::Error{kCancelled}; the last answers stay.
+  // Judges every pair with the parts at these poses (one a part). Only pairs with a part that moved since the
+  // last check are worked out anew, and FCL is asked only about those that their bounds don't show to be
+  // clear. The result doesn't depend on the number of threads. Throws: core::Error{kCancelled}; the last
+  // answers stay.
   [[nodiscard]] ClashReport Check(std::span<const core::RigidTransform> world_from_parts,
                                   const core::Progress& progress = {}, const std::stop_token& stop = {});
 
@@ -78,7 +81,7 @@ class ClashChecker {
     Eigen::AlignedBox3d bounds_in_world;  // rounded outwards
   };
 
-  // Moves those of `parts` whose pose differs; which did.
+  // Moves those of `parts` whose pose differs, and says which.
   [[nodiscard]] std::vector<bool> Place(std::span<const core::RigidTransform> world_from_parts,
                                         std::vector<Part>& parts) const;
   [[nodiscard]] static PairClash Ask(const PairDemand& demand, const std::vector<Part>& parts,

@@ -1,4 +1,4 @@
-// Which pairs of a layout's parts are judged, and by what rule.
+// Which pairs of a layout's parts are judged, and by which rule.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,8 @@
 
 namespace elbowroom::review {
 
-// Part names. All empty: every pair. `within`: both parts among these. `between` and `and_these`: one part
-// among the first, the other among the second.
+// A selection by part names. All three lists empty: every pair is selected. `within`: both parts of a pair
+// are in it. `between` and `and_these`: one part is in the first, the other in the second.
 struct PairSelection {
   std::vector<std::string> within;
   std::vector<std::string> between;
@@ -27,13 +27,13 @@ struct PairDemand {
 
 struct PairMatrix {
   std::vector<PairDemand> pairs;  // by a, then b
-  std::int64_t ignored = 0;       // selected, but a rule says to ignore them
+  std::int64_t ignored = 0;       // selected pairs whose rule says to ignore them
 };
 
 // The selected pairs with the layout's rules; a pair without one must keep `required_mm` apart.
-// Throws: core::Error{kRange}: a name that no part has, only one side of between and and_these, within beside
-// them, two rules for one pair, a rule of a part against itself, a required clearance that is negative or not
-// finite.
+// Rules must name parts, not groups (core::WithPairsOfParts). Throws: core::Error{kRange}: a name that no
+// part has, only one of `between` and `and_these`, `within` together with them, two rules for one pair, a
+// rule of a part against itself, a required clearance that is negative or not finite.
 [[nodiscard]] PairMatrix PairsOf(const core::Layout& layout, const PairSelection& selection = {},
                                  double required_mm = 0.0);
 

@@ -24,31 +24,31 @@ using Eigen::Vector3d;
 using recon::BallAnswer;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-// What distances are off by, as a share of the coordinates.
+// Rounding of distances, as a share of the coordinates' size.
 constexpr double kRounding = 1e-12;
-// Smaller cells than this share of the tolerance tell nothing more.
+// Cells smaller than this share of the tolerance aren't divided.
 constexpr double kSmallestCell = 1.0 / 64.0;
 constexpr int kHalvings = 24;
 constexpr int kMostSlides = 8;
-// A hull point is slid along for as long as that brings this share of the tolerance.
+// A hull point is slid along the hull while each slide lowers the upper bound by this share of the tolerance.
 constexpr double kWorthwhile = 0.05;
-// A cell is cut off where no more than this share of it is left.
+// A cell is only cut if no more than this share of it is left.
 constexpr double kMostLeft = 0.8;
 // Edges shorter than this share of the longest aren't divided.
 constexpr double kFlat = 0.7;
 
-// A box of space around `center`, its half diagonal the radius.
+// A box of space around `center`.
 struct Cell {
   double lower_mm = 0.0;  // no point of the cell is nearer to the part
   Vector3d center;
   Vector3d half;
-  std::uint32_t triangle = 0;  // the nearest to the centre
+  std::uint32_t triangle = 0;  // nearest to the centre, or probably near
   recon::UndecidedCameras open;
 
   [[nodiscard]] bool operator<(const Cell& other) const { return lower_mm > other.lower_mm; }
 };
 
-// Cells by their lower bounds, nearest first; those that the hull isn't in are dropped.
+// Branch and bound: takes cells in order of their lower bounds, nearest first, and drops those without hull.
 class Search {
  public:
   Search(const recon::VisualHull& hull, const core::TriangleTree& part,
@@ -90,7 +90,7 @@ class Search {
     return lower_mm >= upper_mm_ - options_.tolerance_mm || lower_mm >= options_.enough_mm;
   }
 
-  // What lies at least so far from the part can't change the answer.
+  // Hull points at least this far from the part can't change the answer.
   [[nodiscard]] double FarEnoughMm() const {
     return std::min(upper_mm_ - options_.tolerance_mm + slack_mm_, options_.enough_mm);
   }
@@ -108,8 +108,9 @@ class Search {
     return hull_.Contains(x_in_world, open);
   }
 
-  // Keeps the cell if the hull may be in it nearer than what is known. Where hull and part don't meet, no
-  // point inside the hull is its nearest: of a cell wholly inside only the way to the part matters.
+  // Keeps the cell if it may hold a hull point that is nearer than the upper bound. A cell wholly inside the
+  // hull is dropped after a slide from its centre to the part: if hull and part don't meet, the nearest hull
+  // point is on the hull's surface, and if the part reaches into the cell, the slide finds that they meet.
   void Push(const Vector3d& center, const Vector3d& half, std::uint32_t likely,
             recon::UndecidedCameras* of_parent) {
     ++queries_;
@@ -140,8 +141,8 @@ class Search {
 
   enum class Cut { kNothing, kSome, kAll };
 
-  // Cuts off what of the cell is far enough from the part, across the edges that lead away from it most,
-  // unless that is little.
+  // Cuts off the share of the cell that is far enough from the part, along the axis that leads away from the
+  // part most, unless that share is small.
   Cut CutOff(const NearestOnPart& nearest, Cell* cell) {
     const double within_mm = FarEnoughMm();
     if (!(within_mm > 0.0 && within_mm < kInfinity && nearest.distance_mm > 0.0)) return Cut::kNothing;
@@ -161,13 +162,13 @@ class Search {
     return Cut::kSome;
   }
 
-  // False if the cell is too small to tell any more.
+  // False if the cell is too small to be divided and the answer isn't settled.
   bool Divide(const Cell& cell) {
     if (cell.half.norm() < kSmallestCell * options_.tolerance_mm) {
       LookAcross(cell);
       return IsSettled(cell.lower_mm);
     }
-    // Flat cells aren't cut into flatter ones.
+    // Edges that are already short aren't halved, so that flat cells don't get flatter.
     Vector3d half = cell.half;
     const double longest_mm = half.maxCoeff();
     std::array<int, 3> parts{};
@@ -185,7 +186,8 @@ class Search {
     return true;
   }
 
-  // From a hull point towards the part, along the hull, for as long as it comes nearer.
+  // Lowers the upper bound: goes from a hull point straight towards the part's nearest point, to the last
+  // point found in the hull, and again from there, for as long as that helps.
   void Slide(Vector3d x_in_world, NearestOnPart nearest) {
     for (int slide = 0; slide < kMostSlides; ++slide) {
       const double before_mm = upper_mm_;
@@ -197,7 +199,8 @@ class Search {
     }
   }
 
-  // A hull point between `inside` and `end`, next to one that isn't; the end itself if that is inside.
+  // A hull point between `inside` and `end` that is next to a point outside, by bisection; `end` itself if
+  // that is in the hull.
   Vector3d LastInside(Vector3d inside, const Vector3d& end) {
     if (Contains(end)) return end;
     Vector3d outside = end;
@@ -215,7 +218,8 @@ class Search {
     witness_part_in_world_ = world_from_part_ * nearest.position_in_part;
   }
 
-  // What cells don't find: hull too thin for their centres.
+  // Asks the contours themselves along a ray from the part through the cell: that finds hull which is too
+  // thin to hold a cell's centre.
   void LookAcross(const Cell& cell) {
     const NearestOnPart nearest = Nearest(cell.center, cell.triangle);
     const Vector3d p_in_world = world_from_part_ * nearest.position_in_part;
@@ -277,7 +281,7 @@ class Search {
   std::int64_t cut_cells_ = 0;
 };
 
-// From distances to the mesh to distances to the surface that it stands for.
+// Turns bounds of the distance to the mesh into bounds of the distance to the surface that it approximates.
 Clearance WithDeviation(Clearance clearance, double deviation_mm) {
   core::ClearanceInterval& interval = clearance.interval;
   interval.lower_mm = std::max(interval.lower_mm - deviation_mm, 0.0);

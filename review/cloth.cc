@@ -14,20 +14,22 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kGravityMmPerS2 = 9806.65;
-// No vertex is let go faster: a hull that jumps must not throw the cloth.
+// The speed of vertices is limited to this, so that a hull that jumps doesn't throw the cloth.
 constexpr double kFastestVertexMmPerS = 4000.0;
-// Steps between two looks at the hull; looks at a frame's end at most, and when sides are given up there.
+// Steps between two tests against the hull; and how many tests there are at most at a frame's end.
 constexpr int kStepsPerLook = 8;
 constexpr int kLastLooks = 100;
-// A cloth whose vertices are slower in a frame, and touch nothing, rests until something happens.
+// A cloth whose vertices are slower than this in a frame, and touch nothing, is not stepped until something
+// moves.
 constexpr double kStillMmPerS = 0.5;
+// Tests at a frame's end before pieces give their sides to their corners, and before all leave to one side.
 constexpr int kLooksBeforeAgreeing = 10;
 constexpr int kLooksBeforeOneSide = 40;
-// An edge so much longer is caught behind something real that moves on: a real curtain would slip off or
-// tear.
+// An edge that is longer by more than this share of its rest length is caught behind an object that moves on.
+// A real curtain would slip off or tear.
 constexpr double kCaughtStretch = 2.0;
 
-// Where a vertex that the part holds is at a share of the frame's way.
+// Moves the pinned vertices by a share of the way that is left to their places on the part.
 void MovePins(const ClothPanel& panel, const core::RigidTransform& world_from_part, double share,
               std::vector<Vector3d>* x) {
   for (std::size_t i = 0; i < x->size(); ++i) {
@@ -37,7 +39,8 @@ void MovePins(const ClothPanel& panel, const core::RigidTransform& world_from_pa
   }
 }
 
-// One pass over some springs, each from nothing.
+// One Gauss-Seidel pass of extended position-based dynamics. Each spring starts with a multiplier of 0, so
+// its impulse is (rest - length) / (w_a + w_b + compliance / step^2), with w = 1 / mass.
 void PullSprings(std::span<const ClothSpring> springs, const std::vector<double>& inverse_mass, double step_s,
                  std::vector<Vector3d>* positions) {
   constexpr double kLeastLengthMm = 1e-9;
@@ -73,7 +76,7 @@ void StepSprings(const ClothPanel& panel, double step_s, ClothState* state) {
   }
 }
 
-// Pinned vertices are where the part has them.
+// True if the pinned vertices are at their places on the part.
 bool HasPins(const ClothPanel& panel, const core::RigidTransform& world_from_part,
              const std::vector<Vector3d>& x) {
   for (std::size_t i = 0; i < x.size(); ++i) {
@@ -103,7 +106,7 @@ void MeasureStretch(const ClothPanel& panel, ClothState* state) {
   state->count.mean_stretch = sum / static_cast<double>(panel.edge_springs());
 }
 
-// From where it was before the frame, all of it out of the hull to one side, at rest.
+// Puts the cloth to where it was before the frame, at rest, and moves all of it out of the hull to one side.
 void LetGo(const ClothPanel& panel, const core::RigidTransform& world_from_part,
            const recon::VisualHull& hull, const std::vector<Vector3d>& from, ClothState* state) {
   state->x_in_world = from;

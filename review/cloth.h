@@ -1,4 +1,4 @@
-// A panel that hangs, swings, and gives way to the hull.
+// A panel that hangs, swings, and is pushed aside by the hull.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,54 +13,57 @@
 
 namespace elbowroom::review {
 
-// The solver's fixed step; a frame is cut into as many of these as fit, and one that fits the rest.
+// The solver's longest step. A frame is cut into the fewest equal steps that are no longer.
 inline constexpr double kClothStepS = 1.0 / 960.0;
-// The surface is looked at in pieces with no longer side; each is decided at its centre.
+// The surface is tested against the hull in pieces with no longer side, each at its centre.
 inline constexpr double kClothPieceMm = 8.0;
-// So no point of the cloth is deeper in the hull than this: the farthest that a piece's corner can be from
-// its centre (docs/deformables.md). Depth is the radius of a ball around the point all of which is in the
-// hull.
+// No point of the cloth stays deeper in the hull than this: a piece's centre is out of the hull, and no point
+// of the piece is farther from it than two thirds of the longest side (docs/deformables.md). The depth of a
+// point is the radius of the largest ball around it that is wholly in the hull.
 inline constexpr double kClothDepthMm = kClothPieceMm * 2.0 / 3.0;
-// No real thing moves through the cloth that is slower than this along V_rec.
+// An object that is no faster than this along V_rec pushes the cloth along and doesn't pass through it
+// (limits: docs/deformables.md).
 inline constexpr double kFastestHandMmPerS = 2000.0;
 
-// What a frame's step cost and left over.
+// The work and the outcome of a frame's step.
 struct ClothCount {
-  std::int64_t queries = 0;    // of the hull
-  std::int64_t contacts = 0;   // pieces and vertices moved out
-  std::int64_t carried = 0;    // vertices and triangles that the hull had stepped over between two frames
-  std::int64_t blocked = 0;    // pieces in the hull that pins hold there
-  bool was_caught = false;     // it was about to tear, and let go: all of it left to one side, at rest
-  double worst_stretch = 0.0;  // of an edge: |length / rest - 1|
+  std::int64_t queries = 0;   // of the hull
+  std::int64_t contacts = 0;  // moves of pieces out of the hull
+  std::int64_t carried = 0;   // vertices and triangles' centres that the hull had passed between two frames
+  std::int64_t blocked = 0;   // pieces that couldn't be moved out: pins hold them, or no way out was found
+  bool was_caught = false;  // an edge became too long: the cloth was put at rest, all on one side of the hull
+  double worst_stretch = 0.0;  // largest |length / rest - 1| of an edge
   double mean_stretch = 0.0;
 };
 
-// Everything that the next step depends on: a value. Vectors have one entry a vertex unless said.
+// Everything that the next step depends on, as a value. Vectors have one entry a vertex.
 struct ClothState {
   std::vector<Eigen::Vector3d> x_in_world;
   std::vector<Eigen::Vector3d> velocity_in_world;  // mm/s
   std::vector<std::int8_t>
-      sides;  // of those in touch: along (+1) or against V_rec they leave; 0: not in touch
+      sides;  // whether a vertex in touch leaves along (+1) or against (-1) V_rec; 0: not in touch
   std::shared_ptr<const recon::VisualHull> hull;  // of the last step; null: none yet
-  bool is_still = false;  // nothing moved in the last step, or touched: the next is skipped if nothing does
+  bool is_still = false;  // in the last step the cloth hardly moved and touched nothing: the next is skipped
+                          // unless pins or hull move it
   ClothCount count;       // of the last step
 };
 
 [[nodiscard]] ClothState ClothAtRest(const ClothPanel& panel, const core::RigidTransform& world_from_part);
 
-// The state `dt_s` later, the hull being the new frame's from the start: extended position-based dynamics,
-// springs and contacts in turn (docs/deformables.md). Afterwards no point of the cloth is deeper in the hull
-// than kClothDepthMm, but where pins hold it (count.blocked), and what moved slower than kFastestHandMmPerS
-// has not passed through (cloth_test). Runs on the calling thread. Throws: PreconditionError for a state of
-// another panel, a dt_s that isn't positive or is above 1 s. Thread: any.
+// The state `dt_s` later, by extended position-based dynamics: springs and contacts in turn
+// (docs/deformables.md). The hull is the new frame's during the whole step. Afterwards no point of the cloth
+// is deeper in the hull than kClothDepthMm, except where pins hold it (count.blocked), and an object slower
+// than kFastestHandMmPerS has not passed through (cloth_test). Runs on the calling thread. Throws:
+// PreconditionError for a state of another panel, no hull, or a dt_s that isn't within (0, 1] s. Thread: any.
 [[nodiscard]] ClothState StepCloth(const ClothPanel& panel, ClothState state,
                                    const core::RigidTransform& world_from_part,
                                    const std::shared_ptr<const recon::VisualHull>& hull, double dt_s);
 
-// The panel's triangles where the state has them, in world.
+// The panel's mesh with the state's vertices, in world.
 [[nodiscard]] core::TriangleMesh MeshInWorld(const ClothPanel& panel, const ClothState& state);
 
-// The energy of motion and of height over z = 0, without that of the springs; uJ (mN mm).
+// Kinetic and gravitational energy (height over z = 0) of the free vertices, without that of the springs; in
+// uJ (1 uJ = 1 mN mm).
 [[nodiscard]] double EnergyUj(const ClothPanel& panel, const ClothState& state);
 
 }  // namespace elbowroom::review

@@ -14,11 +14,12 @@ using Eigen::Vector3d;
 
 // Pieces are moved this far beyond the hull's end, so that what lies on the hull isn't in it by rounding.
 constexpr double kMarginMm = 1.0;
-// Nothing real is thicker along V_rec.
+// Assumed: no object is thicker than this along V_rec.
 constexpr double kThickestMm = 3000.0;
-// Nothing real comes this far through the side that a vertex left it to within a frame: another came.
+// Assumed: within a frame no object comes this far through the side to which a vertex left it. Where the way
+// out is longer, another object has come, and the side is chosen anew.
 constexpr double kDeepestMm = 200.0;
-// A point that free vertices have less say of than this is held by pins.
+// Pins hold a point if the squared weights of its free vertices sum to less than this.
 constexpr double kLeastSay = 0.05;
 
 double LongestSide(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
@@ -71,7 +72,7 @@ std::int64_t ClothContact::MoveOut() {
   return state_->count.contacts - before;
 }
 
-// How far its corners may move while it stays out; negative if some of it had to be moved.
+// How far the triangle's corners may move while it certainly stays out; negative if a piece had to be moved.
 double ClothContact::MoveTriangleOut(std::size_t triangle) {
   const Corners corners = CornersOf(triangle);
   return MovePieceOut(corners, {{Vector3d::UnitX(), Vector3d::UnitY(), Vector3d::UnitZ()}});
@@ -83,6 +84,8 @@ double ClothContact::MovePieceOut(const Corners& corners, const Piece& piece) {
   const Vector3d middle_weights = (piece.weights[0] + piece.weights[1] + piece.weights[2]) / 3.0;
   const Vector3d middle = (a + b + c) / 3.0;
   const recon::PointAnswer answer = Ask(middle);
+  // A ball outside of the hull that holds the three corners holds the whole piece. The piece stays in it
+  // while no corner moves by more than the radius exceeds the distance to the farthest corner.
   if (!answer.is_inside) {
     const double to_corner_mm = std::sqrt(
         std::max({(a - middle).squaredNorm(), (b - middle).squaredNorm(), (c - middle).squaredNorm()}));
@@ -104,7 +107,7 @@ double ClothContact::MovePieceOut(const Corners& corners, const Piece& piece) {
   return free_mm;
 }
 
-// A point in the hull, and with it its triangle's corners, to the hull's end.
+// Moves a point that is in the hull, by its triangle's corners, to the hull's end.
 void ClothContact::Leave(const Corners& corners, const Vector3d& weights) {
   const Vector3d from = At(corners, weights);
   int side = SideOf(corners, weights);
@@ -132,7 +135,8 @@ int ClothContact::SideOf(const Corners& corners, const Vector3d& weights) const 
   return sum > 0.0 ? 1 : sum < 0.0 ? -1 : 0;
 }
 
-// Moves a point of a triangle by moving its corners as little as that takes. False: pins hold it.
+// Moves a point of a triangle by `by_mm` to a side, with the least change of its free corners (least
+// squares): corner i, of weight u_i, moves by u_i by_mm / sum u^2. False: pins hold it.
 bool ClothContact::Push(const Corners& corners, const Vector3d& weights, int side, double by_mm) {
   double say = 0.0;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -174,7 +178,8 @@ void ClothContact::ForgetSides() {
     if (!touched_[i]) state_->sides[i] = 0;
 }
 
-// Looks along V_rec from every vertex and every triangle's middle, where the hull is near.
+// Looks along V_rec from each vertex and each triangle's middle that the hull may reach. Triangles are
+// skipped node by node if the box that they sweep within reach is outside of the hull.
 void ClothContact::CarryAlong(const recon::VisualHull& last, double dt_s) {
   const double reach_mm = kFastestHandMmPerS * dt_s;
   last_ = &last;
@@ -214,9 +219,9 @@ void ClothContact::CarryAlong(const recon::VisualHull& last, double dt_s) {
   }
 }
 
-// The side on which a point leaves the hull: away from where the hull was before. 0: the hull was there
-// already, or isn't known to have come, or (beside a hull that slopes) the way out on that side is longer
-// than the hull may have come.
+// The side on which a point leaves the hull: away from where the last frame's hull was. 0: that hull held the
+// point already, or wasn't within reach, or (beside a hull that slopes) the way out on that side is longer
+// than the hull can have moved.
 int ClothContact::SideAwayFromLast(const Vector3d& from) const {
   if (last_ == nullptr || last_->Contains(from)) return 0;
   const auto ahead_mm = EntryAlong(*last_, {from, v_rec_}, reach_mm_);
@@ -226,14 +231,15 @@ int ClothContact::SideAwayFromLast(const Vector3d& from) const {
   return ExitAlong(hull_, {from, side * v_rec_}, reach_mm_) ? side : 0;
 }
 
-// The hull has come over a point: it leaves away from where the hull was.
+// The hull has come over a point: corners without a side get the one away from where the hull was.
 void ClothContact::NoteSide(const Corners& corners, const Vector3d& from) {
   const int side = SideAwayFromLast(from);
   for (const std::uint32_t vertex : corners)
     if (state_->sides[vertex] == 0) state_->sides[vertex] = static_cast<std::int8_t>(side);
 }
 
-// What was on one side of the point and is on the other now has passed it: the point goes to its far end.
+// A hull that was on one side of the point, and is now on the other and wasn't there before, has passed the
+// point. The point is moved to that hull's far end.
 void ClothContact::CarryPoint(const Corners& corners, const Vector3d& weights) {
   const recon::VisualHull& last = *last_;
   const double reach_mm = reach_mm_;

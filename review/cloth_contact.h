@@ -12,33 +12,33 @@
 
 namespace elbowroom::review {
 
-// One frame's contacts of one cloth with one hull. Remembers where the hull certainly isn't, so that what
-// hardly moves isn't asked about again. Thread: one.
+// One frame's contacts of one cloth with one hull. It keeps, for each triangle, how far its corners may move
+// before the hull has to be asked about it again. Thread: one.
 class ClothContact {
  public:
-  // All must outlive it. v_rec: unit, in world.
+  // Panel, hull and state must outlive it. v_rec: unit.
   ClothContact(const ClothPanel& panel, const recon::VisualHull& hull, const Eigen::Vector3d& v_rec_in_world,
                ClothState* state);
 
-  // Takes along what the hull has stepped over since `last`, moving no faster than kFastestHandMmPerS; `last`
-  // must outlive this.
+  // Moves vertices and triangles' centres that the hull has passed since `last` to its far side. The hull is
+  // looked for as far as an object at kFastestHandMmPerS moves in dt_s. `last` must outlive this.
   void CarryAlong(const recon::VisualHull& last, double dt_s);
 
-  // Moves what is in the hull out of it along V_rec, once, each piece to its side; how many pieces were
-  // moved. What hasn't moved since the last call isn't asked about again.
+  // Moves each piece whose centre is in the hull out of it along V_rec, once, to its side. Returns how many
+  // pieces were moved. Triangles that certainly stayed out since the last call aren't asked about again.
   std::int64_t MoveOut();
 
-  // From now on a piece's corners leave to its side, whatever theirs was.
+  // From now on a piece that is moved gives its side to its corners, whatever theirs was.
   void AgreeOnSides() { sides_agree_ = true; }
-  // From now on every piece leaves to one and the same side: the one to which the triangles in the hull have
-  // less far to go in all. Then nothing is moved to and fro, and MoveOut() ends up with nothing to move.
+  // From now on every piece leaves to the same side: the one to which the triangles in the hull have the
+  // shorter way in all. Then nothing is moved to and fro, and repeated MoveOut() ends with nothing to move.
   void ChooseOneSide();
 
-  // Vertices that were in touch since this was made; the others' sides are forgotten.
+  // Forgets the sides of vertices that weren't in touch since this was made.
   void ForgetSides();
 
  private:
-  // A piece of a triangle, its corners as weights of the triangle's.
+  // A piece of a triangle: its corners in barycentric coordinates of the triangle.
   struct Piece {
     std::array<Eigen::Vector3d, 3> weights;
   };
@@ -61,12 +61,12 @@ class ClothContact {
   Eigen::Vector3d v_rec_;  // in world
   ClothState* state_;
   bool sides_agree_;
-  int one_side_;                             // 0: to each its own
-  const recon::VisualHull* last_ = nullptr;  // of the frame before; null: none, or the same
-  double reach_mm_ = 0.0;                    // how far anything may have come since
+  int one_side_;                             // 1 or -1: all leave to this side; 0: each to its own
+  const recon::VisualHull* last_ = nullptr;  // the last frame's hull; null: none, or the same as hull_
+  double reach_mm_ = 0.0;                    // how far an object may have moved since
   struct Known {
     std::array<Eigen::Vector3d, 3> corners;  // where they were when the hull was asked
-    double free_mm = -1.0;                   // while none has moved farther, the triangle is out of the hull
+    double free_mm = -1.0;  // while no corner has moved farther, the triangle is out of the hull
   };
   std::vector<Known> known_;           // one a triangle
   std::vector<std::uint8_t> touched_;  // one a vertex

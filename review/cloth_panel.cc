@@ -16,7 +16,7 @@ using Eigen::Vector3d;
 
 constexpr double kKgPerM2InMm2 = 1e-6;  // kg/mm^2
 
-// Twice the area, along the normal.
+// The triangle's normal, with twice its area as its length.
 Vector3d DoubleArea(const core::TriangleMesh& mesh, const std::array<std::int32_t, 3>& triangle) {
   const auto at = [&](std::size_t i) { return mesh.vertices_mm[static_cast<std::size_t>(triangle[i])]; };
   return (at(1) - at(0)).cross(at(2) - at(0));
@@ -30,7 +30,7 @@ bool IsOn(core::BoundsSide side, const Eigen::AlignedBox3d& bounds, const Vector
   return std::abs(x[axis] - place) <= 1e-3 * bounds.sizes().maxCoeff();
 }
 
-// The mesh's edges, and the far corners and areas of the triangles on either side.
+// For each edge of the mesh: the far corners of its triangles, and their area together.
 struct Hinge {
   std::vector<std::uint32_t> far_corners;
   double area_mm2 = 0.0;
@@ -101,7 +101,7 @@ void ClothPanel::Weigh() {
     mass_kg_ += kg;
     for (const std::int32_t vertex : triangle) mass_kg[static_cast<std::size_t>(vertex)] += kg / 3.0;
   }
-  // A vertex of no triangle weighs nothing, and stays where the part is.
+  // A vertex that belongs to no triangle has no mass. It counts as pinned.
   for (const double kg : mass_kg) inverse_mass_.push_back(kg > 0.0 ? 1.0 / kg : 0.0);
 }
 

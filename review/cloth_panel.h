@@ -1,4 +1,4 @@
-// A panel that gives way, at rest: its vertices' masses, its springs, what holds it.
+// A cloth panel at rest: its vertices' masses, its springs, and what holds it.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,7 +12,7 @@
 
 namespace elbowroom::review {
 
-// Keeps two vertices `rest_mm` apart: |x_a - x_b| - rest = -compliance * force.
+// A spring between two vertices: |x_a - x_b| - rest = -compliance * force.
 struct ClothSpring {
   std::uint32_t a = 0;
   std::uint32_t b = 0;
@@ -20,25 +20,26 @@ struct ClothSpring {
   double compliance_mm_per_mn = 0.0;  // > 0; 1 mN = 1 kg mm/s^2
 };
 
-// What the solver needs to know of a part whose layout says `gives_way = "cloth"`. Immutable. Frame: part.
+// The solver's data for a part whose layout says `gives_way = "cloth"`. Immutable. Frame: part.
 class ClothPanel {
  public:
-  // Throws: core::Error{kGeometry} naming the part: a triangle without area, pins that hold every vertex, a
-  // closed surface (it faces no way) without an axis of recovery, a hinge.
+  // Throws: core::Error{kGeometry} naming the part: a triangle without area, pins that hold every vertex, no
+  // axis of recovery and no mean normal (as for a closed surface), a hinge as its recovery.
   explicit ClothPanel(const core::Part& part);
 
   [[nodiscard]] const core::ClothRule& rule() const { return rule_; }
   [[nodiscard]] const core::TriangleMesh& rest() const { return *rest_; }
-  // The tree of the mesh at rest: to look at many triangles at once.
+  // The tree of the mesh at rest: for questions about many triangles at once.
   [[nodiscard]] const core::TriangleTree& tree() const { return tree_; }
   // Reciprocal of a vertex's mass, 1/kg; 0: pinned.
   [[nodiscard]] const std::vector<double>& inverse_mass_per_kg() const { return inverse_mass_; }
   [[nodiscard]] double mass_kg() const { return mass_kg_; }
-  // Along the triangles' edges, then across them, between the far corners of two triangles.
+  // First the springs along the triangles' edges, then those between the far corners of two triangles that
+  // share an edge, which resist bending.
   [[nodiscard]] const std::vector<ClothSpring>& springs() const { return springs_; }
   [[nodiscard]] std::size_t edge_springs() const { return edge_springs_; }
-  // Unit: the line along which vertices leave the hull (the paper's constrained V_rec); whether in its sense
-  // alone.
+  // The line along which vertices leave the hull (the paper's constrained V_rec), unit; and whether they
+  // leave only in its sense.
   [[nodiscard]] const Eigen::Vector3d& v_rec_in_part() const { return v_rec_; }
   [[nodiscard]] bool leaves_one_way() const { return leaves_one_way_; }
 

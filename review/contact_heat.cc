@@ -12,7 +12,7 @@ namespace {
 using Eigen::Vector3d;
 using recon::BallAnswer;
 
-// The part's tree down to the patches that the hull may be at.
+// Goes down the part's tree to the patches that the hull may reach.
 class PatchSearch {
  public:
   PatchSearch(const recon::VisualHull& hull, const core::TriangleTree& part,

@@ -1,4 +1,4 @@
-// Where on a part contacts dwelt and how deep they went, over all frames.
+// For how long and how deep each patch of a part was touched, over all frames.
 #pragma once
 
 #include <cstdint>
@@ -20,21 +20,22 @@ struct TouchedPatch {
   double depth_mm = 0.0;  // certified lower bound
 };
 
-// Patches whose middle is in the hull, and those of the contact's points, each once, by number. Thread: any.
+// The patches whose middle is in the hull, and those of the contact's points, each once, in order of number.
+// Thread: any.
 [[nodiscard]] std::vector<TouchedPatch> FindTouchedPatches(const recon::VisualHull& hull,
                                                            const core::TriangleTree& part,
                                                            const core::RigidTransform& world_from_part,
                                                            const core::SurfacePatches& patches,
                                                            const core::PartContact& contact);
 
-// Fed every frame in order of time; the rules are those of docs/contact_tracking.md. A patch touched in a
-// frame dwells until the next one; the last frame lasts as long as the mean one. Thread: one.
+// Heat maps from all frames, added in order of time, by the rules of docs/contact_tracking.md. A patch that
+// is touched in a frame dwells until the next one; the last frame lasts as long as the mean one. Thread: one.
 class ContactHeat {
  public:
   // One tree a part, which must outlive this.
   explicit ContactHeat(std::span<const core::TriangleTree> parts);
 
-  // An unmoved part under the hull of the frame before isn't looked at again.
+  // If neither a part nor the hull has changed since the frame before, that frame's patches are used again.
   void Add(double time_s, const std::shared_ptr<const recon::VisualHull>& hull,
            std::span<const core::RigidTransform> world_from_parts,
            std::span<const core::PartContact> contacts);

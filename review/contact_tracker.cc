@@ -18,7 +18,8 @@ std::vector<std::string> UnionOf(const std::vector<std::string>& a, std::span<co
   return both;
 }
 
-// Where the contact is; without points, where matter was found in the part, or where the two meet.
+// Where the contact is: at its deepest point. If it has no points, where the hull was found inside the part,
+// or where the two meet.
 std::optional<Eigen::Vector3d> PlaceOf(const core::PartContact& contact) {
   if (contact.deepest) return contact.deepest->position_in_world_mm;
   if (contact.contained_in_world_mm) return contact.contained_in_world_mm;

@@ -1,4 +1,4 @@
-// Frames to episodes: one touch is one episode, however the contact flickers; near misses beside them.
+// Turns frames into touches and near misses. A touch stays one episode when the contact flickers.
 #pragma once
 
 #include <map>
@@ -19,9 +19,9 @@ struct TrackerOptions {
   double max_gap_s = 0.5;
   // A touch begins with a contact at least this deep, mm. 0: any.
   double enter_depth_mm = 0.0;
-  // A part that is sure to be no farther than so many times its contact's resolution is still touching.
+  // A touch goes on while the part is sure to be within this many times its contact's resolution of the hull.
   double leave_resolutions = 2.0;
-  // What the trial requires, as PartReviewOptions has it, mm. 0: no near misses.
+  // As in PartReviewOptions, mm. A required clearance of 0: no near misses.
   double required_clearance_mm = 0.0;
   double uncertainty_mm = 0.0;
   // An approach is over when the part is sure to be farther than required by this, mm.
@@ -37,24 +37,24 @@ struct TrackedFrame {
   std::span<const std::string> tools_in_use;               // in order of name
 };
 
-// The rules are those of docs/contact_tracking.md. Fed frame by frame, in order of time; episodes of one part
-// never overlap. A change of spacing between two frames doesn't end a touch by itself. Thread: one.
+// Frames are added one by one, in order of time. The rules are those of docs/contact_tracking.md. Episodes of
+// one part never overlap. A change of spacing between two frames doesn't by itself end a touch. Thread: one.
 class ContactTracker {
  public:
   explicit ContactTracker(const TrackerOptions& options = {});
 
   void Add(const TrackedFrame& frame);
 
-  // All so far, those still open with what is known of them, by begin and then part; ids from 1.
+  // All so far, including those that are still open, in order of begin and then of part; ids from 1.
   [[nodiscard]] std::vector<core::ContactEpisode> Episodes() const;
   [[nodiscard]] std::vector<core::NearMiss> NearMisses() const;
 
  private:
   struct Touch {
     core::ContactEpisode episode;
-    double held_until_s = 0.0;  // in contact or as good as
+    double held_until_s = 0.0;  // time of the last frame in contact or near enough to continue it
   };
-  // The part is nearer than required, or may be.
+  // A run of frames in which the part is, or may be, nearer than required.
   struct Approach {
     core::NearMiss miss;
     double held_until_s = 0.0;

@@ -20,15 +20,16 @@ namespace {
 using Eigen::Vector3d;
 using recon::BallAnswer;
 
-// Triangles of no more pieces a side are cut at once: a ball query costs as much as a few centres.
+// Triangles that are cut into no more pieces a side are cut without a ball query first: it costs as much as
+// the queries of a few centres.
 constexpr double kSidesWithoutBall = 2.0;
-// Halves of what is larger are searched beside each other.
+// The halves of what is larger than this many point spacings are searched in parallel.
 constexpr double kSpacingsAlone = 8.0;
 
 double AreaMm2(const Corners& t) { return 0.5 * (t.b - t.a).cross(t.c - t.a).norm(); }
 Vector3d Centroid(const Corners& t) { return (t.a + t.b + t.c) / 3.0; }
 
-// What of a small stretch of surface is inside: one contact point.
+// The part of a small stretch of surface that is in the hull. It becomes one contact point.
 struct Patch {
   double area_mm2 = 0.0;
   double largest_mm2 = -1.0;
@@ -42,7 +43,7 @@ struct Patch {
   }
 };
 
-// One part against one hull.
+// The search for the contacts of one part with one hull.
 class ContactSearch {
  public:
   ContactSearch(const recon::VisualHull& hull, const core::TriangleTree& part,
@@ -59,8 +60,8 @@ class ContactSearch {
   void Run() { VisitNode(0, {}, nullptr); }
 
   [[nodiscard]] std::vector<core::ContactPoint> TakePoints() { return std::move(points_); }
-  // CP_obj: the point of the part in the hull that is farthest from RP_obj. A piece wholly inside is farthest
-  // at a vertex; one decided by its centre, at its centre.
+  // CP_obj: the point of the part in the hull that is farthest from RP_obj. A piece wholly inside offers its
+  // vertices, one of which is its farthest point. A piece that its centre decides offers its centre.
   [[nodiscard]] const Vector3d& farthest() const { return farthest_; }
   [[nodiscard]] const core::QueryCount& count() const { return count_; }
 
@@ -78,8 +79,8 @@ class ContactSearch {
     return hull_.Classify(ball.center, ball.radius_mm, open);
   }
 
-  // Calls visit(patch) with the patch that a stretch of this size belongs to: the one given, or its own;
-  // null for one too large to be one contact point.
+  // Calls visit(patch) with the patch to which a stretch of this size belongs: the given one, or a new one;
+  // null for a stretch that is too large to be one contact point.
   template <typename Visit>
   void InPatch(double size_mm, Patch* given, const Visit& visit) {
     if (given != nullptr || size_mm > options_.point_spacing_mm) return visit(given);
@@ -88,7 +89,8 @@ class ContactSearch {
     AddPoint(own);
   }
 
-  // Searches both halves of something of this size; the same as one after the other.
+  // Searches both halves of a node or triangle of this size, large ones in parallel. The result is the same
+  // as if one were searched after the other.
   template <typename First, typename Second>
   void VisitBoth(double size_mm, const First& first, const Second& second) {
     if (size_mm <= kSpacingsAlone * options_.point_spacing_mm) {
@@ -141,7 +143,7 @@ class ContactSearch {
     });
   }
 
-  // True if the triangle's ball, or what it covers in the pictures, settles it.
+  // True if the query of the triangle's ball, or of the triangle itself, settles it.
   bool AskTriangle(const Corners& triangle, const core::Ball& ball, recon::UndecidedCameras* open,
                    Patch* patch) {
     BallAnswer answer = Ask(ball, open);
@@ -154,7 +156,8 @@ class ContactSearch {
     return answer != BallAnswer::kMixed;
   }
 
-  // Pieces of the resolution's size, decided by their centres.
+  // Cuts a triangle into pieces of the resolution's size, which their centres decide. The middle one of those
+  // in the hull stands for their place.
   void Cut(const recon::CutTriangle& triangle, double area_mm2, const recon::UndecidedCameras& open,
            Patch* patch) {
     count_.queries += triangle.pieces();
@@ -205,7 +208,7 @@ class ContactSearch {
     });
   }
 
-  // Farther from RP_obj than all before.
+  // Whether x is farther from RP_obj than all points before it.
   [[nodiscard]] bool Reaches(const Vector3d& x) const {
     return (x - rp_obj_).squaredNorm() > (farthest_ - rp_obj_).squaredNorm();
   }
@@ -213,7 +216,7 @@ class ContactSearch {
     if (Reaches(x)) farthest_ = x;
   }
 
-  // All vertices of a node wholly inside.
+  // Offers all vertices of a node wholly inside as CP_obj, unless its ball shows that none is farther.
   void ReachNode(std::uint32_t index) {
     const core::TriangleTree::Node& node = part_.nodes()[index];
     const double most_mm = (world_from_part_ * node.ball.center - rp_obj_).norm() + node.ball.radius_mm;
@@ -240,7 +243,7 @@ class ContactSearch {
   core::QueryCount count_;
 };
 
-// The first of the deepest.
+// The deepest point; the first of several.
 core::ContactPoint Deepest(const recon::VisualHull& hull, const std::vector<core::ContactPoint>& points) {
   core::ContactPoint deepest;
   core::CameraIndex likely = 0;
@@ -291,7 +294,7 @@ core::PartContact FindContacts(const recon::VisualHull& hull, const core::Triang
   if (part.nodes().empty() || hull.IsEmpty()) return contact;
 
   const Vector3d center_in_world = world_from_part * part.nodes()[0].ball.center;
-  constexpr double kFallbackResolutionMm = 1.0;  // no camera looks at the part: nothing will be mixed there
+  constexpr double kFallbackResolutionMm = 1.0;  // if no camera has the part in front of it
   contact.resolution_mm =
       options.resolution_mm > 0.0
           ? options.resolution_mm

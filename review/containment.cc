@@ -21,21 +21,23 @@ class InsideSearch {
  private:
   [[nodiscard]] std::optional<Vector3d> Visit(const InsideCells::Cell& cell, recon::UndecidedCameras open) {
     const bool is_inside = cells_.IsInside(cell), is_last = cell.box.sizes().maxCoeff() <= cell_mm_;
-    // A cell without surface is on one side of it; of the smallest only the centre is asked.
+    // A cell without surface is inside or outside as a whole, as its centre is. For the smallest cells only
+    // the centre is asked about.
     if (!is_inside && (is_last || !cells_.MayHoldSurface(cell))) return std::nullopt;
     const Vector3d center_in_world = world_from_part_ * Vector3d(cell.box.center());
     const BallAnswer answer = is_last ? BallAnswer::kMixed : Ask(cell, center_in_world, &open);
     if (answer == BallAnswer::kOutside) return std::nullopt;
     ++queries_;
     if (is_inside && hull_.Contains(center_in_world, open)) return center_in_world;
-    // No face is in a cell that is wholly in the hull.
+    // The hull reaches no face, so a cell that is wholly in the hull holds none: it is outside as its centre
+    // is.
     if (is_last || (answer == BallAnswer::kInside && !is_inside)) return std::nullopt;
     for (int child = 0; child < 8; ++child)
       if (std::optional<Vector3d> found = Visit(cells_.Child(cell, child), open)) return found;
     return std::nullopt;
   }
 
-  // The answer for the cell's ball; where that is mixed, for the cell itself.
+  // The answer for the cell's ball or, where that is mixed, for the cell itself.
   BallAnswer Ask(const InsideCells::Cell& cell, const Vector3d& center_in_world,
                  recon::UndecidedCameras* open) {
     ++queries_;

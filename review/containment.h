@@ -1,4 +1,4 @@
-// Real matter that stands inside a closed part without touching any of its faces.
+// A hull that stands inside a closed part without touching any of its faces.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,9 +11,9 @@
 
 namespace elbowroom::review {
 
-// A point of the hull inside a closed part no face of which the hull reaches; nothing if there is none, or
-// the part isn't closed. The part's cells are refined by the ball query down to `cell_mm`: a hull thinner
-// than that may be missed. Counts its queries in `*queries`.
+// A point of the hull inside a closed part. The caller knows that the hull reaches no face of the part.
+// Nothing if there is no such point or the part isn't closed. The part's cells are divided down to `cell_mm`:
+// a hull thinner than that may be missed. Adds its queries of the hull to `*queries`.
 [[nodiscard]] std::optional<Eigen::Vector3d> FindHullInside(const recon::VisualHull& hull,
                                                             const core::RigidTransform& world_from_part,
                                                             double cell_mm, InsideCells* cells,

@@ -15,12 +15,13 @@ namespace {
 using Eigen::Vector3d;
 using recon::HullInterval;
 
-// What crossings may be off by; lower bounds are less by it.
+// Rounding of crossings, by which lower bounds are lowered.
 constexpr double kRoundingMm = 1e-6;
-// First a place half the tolerance past all known contact is tried, by pieces of a share of that.
+// The first place tried is this share of the tolerance past all known contact. There the part is tested in
+// pieces down to kSmallestPiece of that step.
 constexpr double kFirstStep = 0.5;
 constexpr double kSmallestPiece = 0.25;
-// Narrower gaps in what is known to be in contact, as a share of the tolerance, aren't looked into.
+// Gaps in the known contact that are narrower than this share of the tolerance aren't tried.
 constexpr double kNarrowGap = 1.0 / 16.0;
 
 // One part on its way in one direction.
@@ -35,7 +36,8 @@ class Way {
         options_(options),
         step_mm_(kFirstStep * options.tolerance_mm) {}
 
-  // In contact while this point is.
+  // Adds the intervals in which this point, moved along, is in the hull. The part is in contact throughout
+  // them.
   void Follow(const Vector3d& x_in_world) {
     ++result_.rays;
     const auto intervals = recon::IntervalsInHull(hull_, {x_in_world, direction_});
@@ -66,7 +68,8 @@ class Way {
   }
 
  private:
-  // Certain; a common point of a place that isn't becomes a witness.
+  // True if the part is certainly free at this place. Otherwise a common point, if there is one, becomes a
+  // witness.
   [[nodiscard]] bool IsFree(double at_mm, std::vector<Vector3d>* witnesses) {
     const core::RigidTransform moved{world_from_part_.rotation,
                                      world_from_part_.translation_mm + at_mm * direction_};
@@ -81,9 +84,10 @@ class Way {
     return false;
   }
 
-  // Between the last place that isn't free and the first that is, which long steps may have left far apart.
+  // Bisects between the last place that isn't free and the first that is: long steps may have left them far
+  // apart.
   void StepBack(std::vector<Vector3d>* witnesses) {
-    // Farther places were tried if it is one in a gap.
+    // If the free place is in a gap, places beyond it were tried before: they don't count.
     double taken_mm = taken_mm_ < result_.upper_mm ? std::max(taken_mm_, known_mm_) : known_mm_;
     while (result_.upper_mm - taken_mm > options_.tolerance_mm) {
       const double middle_mm = 0.5 * (taken_mm + result_.upper_mm);
@@ -91,8 +95,8 @@ class Way {
     }
   }
 
-  // After a place that isn't free: past what is known by now; into the first gap of it, if that is wide
-  // enough and wasn't looked into; else ever farther on.
+  // The place to try after one that isn't free: just past the known contact if that has grown; else the
+  // middle of its first gap, if that is wide enough and wasn't tried; else farther on, by steps that double.
   [[nodiscard]] double NextPlace(double at_mm, double before_mm) {
     if (known_mm_ > before_mm) {
       step_mm_ = kFirstStep * options_.tolerance_mm;

@@ -17,11 +17,11 @@ using enum HullPartIntersection::Answer;
 
 // A box's ball is this much larger than its half diagonal, for rounding.
 constexpr double kOutwards = 1.0 + 1e-12;
-// After so many undecided pieces it won't become certain that the part is apart; it may still meet.
+// The search ends after this many undecided pieces, with the answer kOpen.
 constexpr int kMostOpen = 64;
 
-// From coarse to fine, all of a size before their parts: what is common shows at a coarse size, while next to
-// the hull's surface pieces get as small as they may.
+// Breadth first, from coarse to fine: a common point mostly shows in coarse pieces, while next to the hull's
+// surface pieces are divided down to the smallest size.
 class MeetingSearch {
  public:
   MeetingSearch(const recon::VisualHull& hull, const core::TriangleTree& part,
@@ -39,7 +39,7 @@ class MeetingSearch {
     return {open_ > 0 ? kOpen : kApart};
   }
 
-  // What of the hull is inside the closed part, whose surface is apart from it.
+  // Looks for hull inside the closed part. The part's surface is known to be apart from the hull.
   [[nodiscard]] HullPartIntersection OfInside() {
     cells_.push_back({part_.bounds(), {}});
     for (; !cells_.empty(); cells_.pop_front())
@@ -70,7 +70,7 @@ class MeetingSearch {
     return {vertex(a), vertex(b), vertex(c)};
   }
 
-  // These are true where the search has come to its end, with meeting_.
+  // These return true if the search ends, with meeting_ as its result.
   bool End(const Vector3d& common_in_world) {
     meeting_ = {kIntersects, common_in_world};
     return true;
@@ -125,7 +125,7 @@ class MeetingSearch {
   std::deque<Piece> triangles_;
   std::deque<Cell> cells_;
   int open_ = 0;
-  HullPartIntersection meeting_;  // open, until it is known to be common
+  HullPartIntersection meeting_;  // kOpen, until a common point is found
 };
 
 }  // namespace

@@ -14,15 +14,15 @@ struct HullPartIntersection {
   enum class Answer {
     kApart,       // certain: no point of the part is in the hull
     kIntersects,  // certain: `common_in_world` is in both
-    kOpen,        // neither, by pieces of `smallest_mm`
+    kOpen,        // neither is certain, with pieces of `smallest_mm`
   };
   Answer answer = Answer::kOpen;
-  Eigen::Vector3d common_in_world = Eigen::Vector3d::Zero();  // of kIntersects
+  Eigen::Vector3d common_in_world = Eigen::Vector3d::Zero();  // only for kIntersects
 };
 
-// The part is its surface, and if it is closed what that encloses (cavities are outside). Ends with the first
-// common point, or when too many pieces stay undecided. Counts its ball queries in `*queries`. The part has
-// triangles. Held to dense samples by penetration_test. Thread: any.
+// The part is its surface and, if that is closed, what it encloses (cavities are outside). The search ends
+// with the first common point, or when too many pieces stay undecided. Adds its ball queries to `*queries`.
+// The part must have triangles. Held to dense samples by penetration_test. Thread: any.
 [[nodiscard]] HullPartIntersection FindHullPartIntersection(const recon::VisualHull& hull,
                                                             const core::TriangleTree& part,
                                                             const core::RigidTransform& world_from_part,

@@ -10,7 +10,7 @@ namespace {
 using core::NearestOnPart;
 using Eigen::Vector3d;
 
-// Along no edge of anything that was drawn with a ruler.
+// An arbitrary direction, along which edges and faces of CAD parts are unlikely to run.
 const Vector3d kDirection = Vector3d(0.5773, 0.3911, 0.7173).normalized();
 
 bool RayMeets(const core::Ball& ball, const Vector3d& origin) {
@@ -36,7 +36,8 @@ int CrossingOf(const Vector3d& a, const Vector3d& b, const Vector3d& c, const Ve
   return determinant < 0.0 ? 1 : -1;
 }
 
-// How many times the surface winds around the point: out of it counts one up, into it one down.
+// How many times the surface winds around the point: the ray counts +1 where it leaves and -1 where it
+// enters.
 int WindingAround(const core::TriangleTree& part, std::uint32_t index, const Vector3d& origin) {
   const core::TriangleTree::Node& node = part.nodes()[index];
   if (!RayMeets(node.ball, origin)) return 0;

@@ -10,13 +10,13 @@
 
 namespace elbowroom::review {
 
-// True if the point is inside a closed mesh: its winding number, by a ray's crossings with their signs, isn't
-// 0. Bodies of one mesh may overlap, lie in each other or be there twice: inside is what is inside any of
-// them. Cavities, whose faces face into them, are outside. x_in_part in the mesh's frame.
+// True if the point is inside a closed mesh: its winding number, the sum of a ray's signed crossings, isn't
+// 0. Bodies of one mesh may overlap, lie in each other or occur twice; a point in any of them is inside.
+// Cavities, whose faces point into them, are outside. x_in_part is in the mesh's frame.
 [[nodiscard]] bool IsInsideClosedMesh(const core::TriangleTree& part, const Eigen::Vector3d& x_in_part);
 
-// An octree over a part's bounds, worked out where it is asked and kept: a part is asked in the same cells
-// frame after frame, wherever it is moved. Frame: the part's. Thread: one at a time.
+// An octree over a part's bounds. A cell is worked out when it is first asked about, and kept: the same cells
+// are asked about frame after frame, wherever the part stands. Frame: the part's. Thread: one at a time.
 class InsideCells {
  public:
   struct Cell {

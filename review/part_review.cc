@@ -9,7 +9,8 @@
 namespace elbowroom::review {
 namespace {
 
-// Hull and part meet: at the deepest point, or where the hull stands in the part.
+// The clearance of a part that meets the hull: 0 to the mesh's deviation. Its witness is the deepest point,
+// or the point of the hull inside the part.
 core::PartClearance HullPartIntersection(const core::PartContact& contact, double deviation_mm) {
   core::PartClearance clearance;
   clearance.interval.upper_mm = deviation_mm;

@@ -22,13 +22,13 @@ using Eigen::Vector3d;
 
 constexpr double kGravityMmPerS2 = 9806.65;
 constexpr double kStepS = 1.0 / 240.0;
-constexpr double kKeptAlong = 0.9;    // of the speed along a surface, a touch
-constexpr double kSpread = 0.06;      // of the jet: a half angle, rad
+constexpr double kKeptAlong = 0.9;    // share of the speed along a surface that a touch in a step keeps
+constexpr double kSpread = 0.06;      // half angle of the jet, rad
 constexpr double kTouchMm = 0.2;      // free room that counts as none
-constexpr double kNearExitMm = 80.0;  // out of a hull that came over it a particle moves no farther
-constexpr int kMostMoves = 64;        // pieces of one step's way
+constexpr double kNearExitMm = 80.0;  // a particle moves no farther than this out of a hull that came over it
+constexpr int kMostMoves = 64;        // at most, in one step
 
-// Two numbers in [0, 1) that follow the particle's number alone (SplitMix64).
+// Two numbers in [0, 1) that depend only on the particle's number (SplitMix64).
 std::array<double, 2> Jitter(std::int64_t number) {
   const auto mix = [](std::uint64_t z) {
     z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ULL;
@@ -55,10 +55,11 @@ class Surroundings {
   Surroundings(const recon::VisualHull& hull, std::span<const StreamObstacle> obstacles)
       : hull_(hull), obstacles_(obstacles) {}
 
-  // How far around a point nothing is; the surface's outward direction where that is next to nothing.
+  // The radius around a point that is free of hull and parts, and the outward direction of what limits it.
+  // The hull's direction is only found where it is touched.
   struct Room {
     double free_mm = 0.0;
-    Vector3d away = Vector3d::Zero();  // zero: nobody can tell
+    Vector3d away = Vector3d::Zero();  // unit; zero: not known
   };
   [[nodiscard]] Room RoomAt(const Vector3d& x_in_world) const {
     Room room{std::numeric_limits<double>::infinity(), Vector3d::Zero()};
@@ -111,7 +112,7 @@ class Surroundings {
   std::span<const StreamObstacle> obstacles_;
 };
 
-// Moves as far as is free, in pieces; slides where it touches.
+// Moves a particle through free room, piece by piece, and lets it slide where it touches.
 void Move(const Surroundings& around, double step_s, Particle* particle) {
   particle->velocity_in_world.z() -= kGravityMmPerS2 * step_s;
   double left_s = step_s;
@@ -126,7 +127,8 @@ void Move(const Surroundings& around, double step_s, Particle* particle) {
       left_s -= move_s;
       continue;
     }
-    // Against the surface: what goes into it is lost; a hair away from it, so that it may slide on.
+    // In touch: the speed into the surface is lost. The particle is put a little away from the surface, so
+    // that it can slide on.
     Vector3d& velocity = particle->velocity_in_world;
     const Vector3d away = room.away.isZero() ? Vector3d(-velocity.normalized()) : room.away;
     velocity -= std::min(velocity.dot(away), 0.0) * away;

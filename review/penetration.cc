@@ -21,24 +21,25 @@ namespace {
 using core::NearestOnPart;
 using Eigen::Vector3d;
 
-// Points from which the deepest is looked for, and rays that a direction begins with.
+// From how many points the deepest is searched for, and how many points each direction's rays start with.
 constexpr std::size_t kStarts = 3;
 constexpr std::size_t kFirstWitnesses = 12;
-// The best direction is turned by so much to four sides, for as long as that helps, then by half as much.
+// The best direction is turned by this angle to four sides, for as long as that helps, then by half of it,
+// and so on.
 constexpr double kFirstTurnRad = core::RadiansFromDegrees(16.0);
 constexpr double kLastTurnRad = core::RadiansFromDegrees(2.0);
 constexpr int kMostTurns = 16;
-// Steps towards the deepest point, as shares of the part's size at first.
+// The first step towards the deepest point, as a share of the part's size.
 constexpr double kFirstStep = 0.25;
 constexpr int kMostSteps = 200;
-// Distances to the part are known to this, of the coordinates.
+// Rounding of distances to the part, as a share of the coordinates' size.
 constexpr double kRounding = 1e-12;
 
-// A point of part and hull, and how far around it both go on.
+// A point of part and hull, with the sum of its depths in both.
 struct Deep {
   double sum_mm = -1.0;
   Vector3d x_in_world = Vector3d::Zero();
-  std::array<std::optional<Vector3d>, 2> ways_out;  // of the hull, of the part
+  std::array<std::optional<Vector3d>, 2> ways_out;  // out of the hull, out of the part
 };
 
 class PenetrationSearch {
@@ -82,7 +83,7 @@ class PenetrationSearch {
     return points;
   }
 
-  // At the point itself if it is inside the closed part, else at the part's nearest.
+  // The depths at the point itself if it is inside the closed part, else at the part's nearest point.
   Deep DeepAt(const Vector3d& near_in_world) {
     const Vector3d near = part_from_world_ * near_in_world;
     const NearestOnPart nearest = FindNearest(part_, {near});
@@ -105,7 +106,7 @@ class PenetrationSearch {
     if (way.norm() > 0.0) *direction = way.normalized();
   }
 
-  // Along the axes, by ever smaller steps, for as long as it gets deeper.
+  // Steps along the axes while that gets deeper, then halves the step.
   Deep Climb(Deep from) {
     double step_mm = kFirstStep * part_.bounds().diagonal().norm();
     for (int i = 0; i < kMostSteps && step_mm > 0.25 * tolerance_mm_; ++i) {
@@ -137,7 +138,7 @@ class PenetrationSearch {
     return directions;
   }
 
-  // True if it is shorter than what was known.
+  // True if the way in this direction is shorter than the best so far.
   bool Try(const Vector3d& direction) {
     ++result_.directions;
     const EscapeOptions options{tolerance_mm_, result_.upper_mm};

@@ -11,7 +11,7 @@ namespace elbowroom::review {
 std::vector<core::ContactPoint> SpreadEvenly(std::span<const core::ContactPoint> points, std::size_t count) {
   core::Require(count > 0, "at least one point is kept");
   if (points.size() <= count) return {points.begin(), points.end()};
-  // Float32 about the first point: nobody minds which of two is farther by a millionth.
+  // Single precision relative to the first point is enough: it only decides which of two points is farther.
   using Row = Eigen::Array<float, 1, Eigen::Dynamic>;
   const auto size = static_cast<Eigen::Index>(points.size());
   Eigen::Array<float, 3, Eigen::Dynamic, Eigen::RowMajor> at(3, size);

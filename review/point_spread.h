@@ -1,4 +1,4 @@
-// A few points that stand for many.
+// A few contact points that represent many.
 #pragma once
 
 #include <cstddef>
@@ -9,9 +9,9 @@
 
 namespace elbowroom::review {
 
-// At most `count` of the points, spread by farthest-point sampling from the first; each keeps its depth and
-// takes over the area of the dropped points nearest to it, so that the total area stays. Fewer points than
-// that come back as they are.
+// At most `count` of the points, chosen by farthest-point sampling from the first. Each keeps its depth and
+// takes over the area of the dropped points that are nearest to it, so that the total area stays. If there
+// are no more than `count` points, they are returned unchanged.
 [[nodiscard]] std::vector<core::ContactPoint> SpreadEvenly(std::span<const core::ContactPoint> points,
                                                            std::size_t count);
 

@@ -17,7 +17,7 @@ using core::RecoveryKind;
 using core::RigidTransform;
 using Eigen::Vector3d;
 
-// Beyond the hull's end, so that the part is out and not at the end.
+// A part is moved this far beyond the hull's end, so that it doesn't stay on the surface.
 constexpr double kMarginMm = 0.5;
 constexpr int kMostAdvances = 200;
 
@@ -26,8 +26,8 @@ struct WayOut {
   bool turns = false;
   Vector3d axis = Vector3d::UnitX();  // unit
   Vector3d at_mm = Vector3d::Zero();  // on the axis it turns about
-  double arm_mm = 1.0;                // how far from that axis the part's farthest point is
-  double wanted_mm = 0.0;             // of that point
+  double arm_mm = 1.0;                // distance of the part's farthest point from that axis
+  double wanted_mm = 0.0;             // the way of the part's fastest point
 
   [[nodiscard]] RigidTransform By(double mm) const {
     if (!turns) return {Eigen::Matrix3d::Identity(), mm * axis};
@@ -48,7 +48,7 @@ double LongestArm(const RecoveryWay& way, const SurfaceModel& surface,
   return longest_mm;
 }
 
-// What brings every contact point out of the hull in one sense; nothing if some has no way out.
+// The motion that brings every contact point out of the hull in one sense. Nothing if one has no way out.
 std::optional<WayOut> InOneSense(const recon::VisualHull& hull, const core::PartContact& contact,
                                  const RecoveryWay& way, const StandingPart& part) {
   const double sense = way.sense < 0 ? -1.0 : 1.0;
@@ -94,14 +94,15 @@ double GapMm(const StandingPart& part, const RigidTransform& moved, std::span<co
   return gap_mm;
 }
 
-// How far there is room: no point of the part moves farther at a time than the gap is wide.
+// How far the part can move: in steps that take no point farther than the gap is wide, so that it can't pass
+// through another part.
 double Advance(const StandingPart& part, const WayOut& way, double wanted_mm,
                std::span<const StandingPart> others) {
   double gone_mm = 0.0, gap_mm = GapMm(part, {}, others);
   for (int i = 0; i < kMostAdvances && gone_mm < wanted_mm; ++i) {
     const double step_mm = std::min(std::max(gap_mm - 2.0 * kPushGapMm, kPushGapMm), wanted_mm - gone_mm);
     const double next_gap_mm = GapMm(part, way.By(gone_mm + step_mm), others);
-    // A step into the last of the gap must lead away from what is there.
+    // A step that ends with less than the smallest gap must have widened it.
     if (next_gap_mm < kPushGapMm && next_gap_mm <= gap_mm) break;
     gone_mm += step_mm;
     gap_mm = next_gap_mm;

@@ -16,10 +16,10 @@ using Eigen::Vector3d;
 
 // Shorter ways have no direction.
 constexpr double kNoLengthMm = 1e-9;
-// What crossings and labels may be off by: a way so short starts on the surface.
+// Rounding of crossings and labels. A way that is no longer starts on the surface.
 constexpr double kOnSurfaceMm = 1e-6;
 
-// One sense of a way.
+// The end of a way in one sense.
 struct Exit {
   double d_rec_mm = 0.0;
   Vector3d cp_hull;
@@ -30,7 +30,7 @@ struct Exit {
 
 bool IsSeen(const recon::HullBoundary& boundary) { return boundary.camera && !boundary.is_outline; }
 
-// The end of the stretch that a ray starts in, exactly: by its crossings.
+// The end of the stretch of hull in which a ray starts, by the ray's crossings with the contours.
 Exit ExactExit(const recon::VisualHull& hull, const Vector3d& x, const Vector3d& direction) {
   Exit exit{0.0, x, direction};
   for (const recon::HullInterval& interval : recon::IntervalsInHull(hull, {x, direction})) {
@@ -42,7 +42,7 @@ Exit ExactExit(const recon::VisualHull& hull, const Vector3d& x, const Vector3d&
   return exit;
 }
 
-// The first hull point from RP_obj, which isn't in the hull.
+// The first hull point on the way from RP_obj to CP_obj. RP_obj isn't in the hull.
 Exit ExitFromReference(const recon::VisualHull& hull, const Vector3d& cp_obj, const Vector3d& rp_obj,
                        const Vector3d& v_rec, double distance_mm) {
   const auto intervals = recon::IntervalsInHull(hull, {rp_obj, -v_rec}, {0.0, distance_mm});
@@ -64,7 +64,8 @@ std::optional<Exit> ExitAround(const recon::VisualHull& hull, const Vector3d& ce
               found->angle_rad == 0.0 || IsSeen(found->boundary), sense * found->angle_rad};
 }
 
-// A way out is better than none that is known, then the shorter one.
+// A way that a silhouette ends is better than one that only the cameras' sight ends; of two alike, the
+// shorter.
 std::optional<Exit> Better(const std::optional<Exit>& a, const std::optional<Exit>& b) {
   if (!a || !b) return a ? a : b;
   if (a->is_seen != b->is_seen) return a->is_seen ? a : b;

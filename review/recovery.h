@@ -1,4 +1,4 @@
-// How far a contact point must go, the way its part may, to leave the hull.
+// How far a contact point must move, along the way that its part allows, to leave the hull.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,16 +12,16 @@
 
 namespace elbowroom::review {
 
-// core::RecoveryRule where the part stands. Frames: world.
+// core::RecoveryRule at the part's present pose. Frame: world.
 struct RecoveryWay {
   core::RecoveryKind kind = core::RecoveryKind::kReference;
   Eigen::Vector3d rp_obj = Eigen::Vector3d::Zero();
-  Eigen::Vector3d axis = Eigen::Vector3d::Zero();   // unit; none towards RP_obj
+  Eigen::Vector3d axis = Eigen::Vector3d::Zero();   // unit; 0 for kReference
   Eigen::Vector3d at_mm = Eigen::Vector3d::Zero();  // on the hinge's axis
-  int sense = 0;  // of a slider or hinge: 1 or -1, that one alone; 0: the shorter
+  int sense = 0;  // for a slider or hinge: 1 or -1: only that sense; 0: the sense with the shorter way
 };
 
-// The part has triangles. Throws: PreconditionError for a rule that can't be used.
+// The part must have triangles. Throws: PreconditionError for a rule that can't be used.
 [[nodiscard]] RecoveryWay WayOf(const core::RecoveryRule& rule, const core::TriangleTree& part,
                                 const core::RigidTransform& world_from_part);
 
@@ -30,10 +30,11 @@ struct RecoveryAnswer {
   std::optional<core::Recovery> recovery;
 };
 
-// CP_hull, D_rec and N_hull of a point of the hull (docs/recovery.md). Towards RP_obj, CP_hull is the
-// paper's: the first hull point from RP_obj; every other way ends where the stretch of hull that CP_obj is in
-// does. Exact but for rounding, some 1e-6 px. A way that only the workspace's faces or the pictures' borders
-// end is `no exit`. Held to a marching oracle and to closed forms by recovery_test. Thread: any.
+// CP_hull, D_rec and N_hull of a point of the hull (docs/recovery.md). Towards an RP_obj that is outside of
+// the hull, CP_hull is the paper's: the first hull point from RP_obj. Any other way ends where the stretch of
+// hull that holds CP_obj ends. Exact but for rounding, some 1e-6 px. A way that only a face of the workspace
+// or the border of a picture ends has the status `no exit`. Held to a marching oracle and to closed forms by
+// recovery_test. Thread: any.
 [[nodiscard]] RecoveryAnswer Recover(const recon::VisualHull& hull, const Eigen::Vector3d& cp_obj_in_world,
                                      const RecoveryWay& way);
 

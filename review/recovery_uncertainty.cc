@@ -15,11 +15,11 @@ using core::Recovery;
 using core::RecoveryKind;
 using Eigen::Vector3d;
 
-// Crossings and labels: docs/exact_view.md.
+// Rounding of crossings and labels (docs/exact_view.md).
 constexpr double kRoundingMm = 1e-6;
-// Nearer to the surface's own direction a first order says nothing: the sine of 10 degrees.
+// Where V_rec is within 10 degrees of the surface (this is the sine), the first order gives no bound.
 constexpr double kGrazing = 0.17;
-// Surfaces meet at CP_hull where its picture is so near to another camera's contour.
+// Another camera's surface counts as at CP_hull if its contour is this near (plus the silhouettes' error).
 constexpr double kFootprintPx = 1.0;
 
 // The silhouettes' edges that end the hull at CP_hull, the nearest first.
@@ -32,7 +32,7 @@ std::vector<recon::NearEdge> EdgesAt(const recon::VisualHull& hull, const Vector
   return edges;
 }
 
-// How much of a shift of CP_obj across V_rec arrives at CP_hull.
+// The factor by which a shift of CP_obj across V_rec appears at CP_hull.
 double Leverage(const Recovery& recovery, const RecoveryWay& way) {
   if (way.kind != RecoveryKind::kReference) return 1.0;
   return (recovery.cp_hull_in_world_mm - way.rp_obj).norm() /
@@ -51,7 +51,7 @@ double AngleOfWay(const Recovery& recovery, const RecoveryWay& way, double cp_ob
   }
 }
 
-// The way on which CP_obj arrives at CP_hull.
+// The direction in which CP_obj arrives at CP_hull.
 Vector3d Arriving(const Recovery& recovery, const RecoveryWay& way) {
   if (!recovery.angle_rad) return recovery.v_rec_in_world;
   return Eigen::AngleAxisd(*recovery.angle_rad, way.axis) * recovery.v_rec_in_world;

@@ -9,26 +9,28 @@
 
 namespace elbowroom::review {
 
-// A ready mask's boundary is somewhere between two pixels' centres, halfway in all it says.
+// How far the boundary of a ready mask may be off: it lies between two pixel centres and is taken to be
+// halfway.
 inline constexpr double kReadyMaskPx = 0.5;
 
-// Nothing where an output has no meaning or its bound none: V_rec that grazes the hull's surface.
+// An output is nothing where it has no meaning, or has no bound because V_rec grazes the hull's surface.
 struct RecoveryUncertainty {
-  // No point of the part that is deeper than this in the hull is farther from RP_obj than CP_obj by more.
+  // A point of the part that is deeper than this in the hull is at most this much farther from RP_obj than
+  // CP_obj.
   double cp_obj_mm = 0.0;
   std::optional<double> v_rec_rad;
   std::optional<double> d_rec_mm;
   std::optional<double> cp_hull_mm;
   std::optional<double> n_hull_rad;
-  // Surfaces of two cameras meet within a pixel of CP_hull: N_hull is one's, its uncertainty reaches the
-  // other's.
+  // Another camera's surface meets the hull within a pixel (and the silhouettes' error) of CP_hull. N_hull is
+  // the normal of one of them; its uncertainty includes the others'.
   bool is_at_edge = false;
 };
 
-// Derived in docs/recovery.md, to first order in the silhouettes' error: from the contact search's
-// resolution, silhouettes that are off by up to `silhouette_px` wherever it is worst (in finer pixels), the
-// crossings' rounding. Held to shifted silhouettes by recovery_accuracy_test. Throws: PreconditionError
-// for a contact without a recovery, a negative or infinite `silhouette_px`. Thread: any.
+// Derived in docs/recovery.md, to first order in the silhouettes' error. The sources of error are the contact
+// search's resolution, silhouettes whose boundaries are off by up to `silhouette_px` in any way, and the
+// rounding of crossings. Held to shifted silhouettes by recovery_accuracy_test. Throws: PreconditionError for
+// a contact without a recovery, or a `silhouette_px` that is negative or not finite. Thread: any.
 [[nodiscard]] RecoveryUncertainty UncertaintyOf(const recon::VisualHull& hull,
                                                 const core::PartContact& contact, const RecoveryWay& way,
                                                 double silhouette_px = kReadyMaskPx);

@@ -16,15 +16,15 @@ namespace {
 using recon::BallAnswer;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-// Frames that are asked side by side, knowing what is known of those before: one, one, two, four, ... and at
-// most so many.
+// How many frames are judged in parallel at most. Batches grow as one, one, two, four, ..., because each
+// batch uses what the batches before it found.
 constexpr std::size_t kLargestBatch = 16;
 constexpr double kMostSteps = 10'000.0;
-// Clearances that are to tell touching from free are by so much finer than the spacing looked for, one after
-// the other until they can tell.
+// Touching is told from free by clearances whose bounds are as close as the spacing's tolerance divided by
+// these, one after the other until the bounds tell.
 constexpr std::array kFiner = {4.0, 32.0, 256.0};
 
-// What was found of a part in a frame at one place.
+// The answer for one part in one frame at one step.
 struct Answer {
   core::Verdict verdict = core::Verdict::kClear;
   double depth_mm = 0.0;
@@ -54,7 +54,7 @@ class Study {
         steps_mm_(options.Steps()) {
     for (const core::Part& part : layout.parts) trees_.emplace_back(part.mesh);
     const std::vector<double> initial = layout.InitialSpacings();
-    // Any two values tell which parts the spacing moves.
+    // The parts that the spacing moves are those whose poses differ between any two values.
     const auto here = PosesAt(initial, 0.0), there = PosesAt(initial, 1.0);
     for (core::PartIndex i = 0; i < trees_.size(); ++i) {
       moves_.push_back(!(here[i] == there[i]));
@@ -81,7 +81,7 @@ class Study {
     return core::PosesAt(layout_, spacing_mm);
   }
 
-  // The frame after the last one asked.
+  // Judges a batch of frames. Returns the index of the frame after it.
   std::size_t AskBatch(std::size_t begin, std::size_t most) {
     core::ThrowIfStopped(stop_, "the spacing study");
     progress_.Report(static_cast<std::int64_t>(begin), static_cast<std::int64_t>(frames_.count), "frames");
@@ -94,7 +94,8 @@ class Study {
     return begin + batch.size();
   }
 
-  // Steps go down from the largest, where parts are farthest from what they are hung over.
+  // Steps go down from the largest, at which parts are farthest from their references: there a lower bound is
+  // large enough to settle steps below.
   [[nodiscard]] FrameAnswers AskFrame(const StudyFrame& frame) const {
     FrameAnswers answers;
     answers.frame = frame.frame;
@@ -131,14 +132,14 @@ class Study {
     return answers;
   }
 
-  // What could change a verdict, or the least distance so far.
+  // Distances from here on can change neither a verdict nor the least distance so far.
   [[nodiscard]] double EnoughMm(core::PartIndex part, std::size_t step) const {
     return std::max(options_.review.required_clearance_mm + options_.review.uncertainty_mm,
                     result_.steps[step].parts[part].upper_mm);
   }
 
-  // One ball around the part shows it far enough for this step and, by the motion in between, for those
-  // below: all of them, or else half as many, and so on.
+  // Tries to settle this step, and all steps below, by one query of a ball around the part: large enough to
+  // allow for the part's motion in between. If that fails, half as many steps, and so on.
   [[nodiscard]] Answer AskBalls(const recon::VisualHull& hull, core::PartIndex part,
                                 const core::RigidTransform& world_from_part, std::size_t step) const {
     Answer answer;
@@ -228,7 +229,8 @@ class Study {
         result_.moved, [&](core::PartIndex i) { return result_.steps[step].parts[i].frames_in_contact > 0; });
   }
 
-  // From the largest step down to the first touched one; then between that and the one above.
+  // Goes from the largest step down to the first that isn't free, then bisects between that and the one
+  // above.
   void Conclude() {
     std::size_t free = steps_mm_.size();
     Freedom below = Freedom::kFree;
@@ -254,7 +256,8 @@ class Study {
     result_.smallest_free_mm = free_mm;
   }
 
-  // Whether any frame touches any moved part at this value; only frames that can are loaded again.
+  // Whether a moved part is in the hull in some frame at this value. Only frames in which that is possible
+  // are loaded again.
   Freedom FreedomAt(double spacing_mm) {
     Freedom freedom = Freedom::kFree;
     for (std::size_t i = 0; i < frames_.count; ++i) {
@@ -267,7 +270,8 @@ class Study {
     return freedom;
   }
 
-  // No moved part is nearer in this frame: the nearest of all, by the motion from each step.
+  // A lower bound of all moved parts' distances in this frame: a part's distance changes by no more than the
+  // spacing does, so each step's lower bound gives one here.
   [[nodiscard]] double SureMm(std::size_t frame, double spacing_mm) const {
     double sure_mm = kInfinity;
     for (std::size_t part = 0; part < result_.moved.size(); ++part) {

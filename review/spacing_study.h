@@ -1,4 +1,4 @@
-// Recorded motion against a layout at other values of one spacing: how much space does the task need?
+// Judges recorded motion against a layout at other values of one spacing: how much space does the task need?
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@ struct StudyFrame {
   std::vector<double> spacing_mm;  // as recorded, in the layout's order; the studied one's is not used
 };
 
-// Frames 0 ... count - 1, loaded one at a time, each possibly more than once.
+// Frames 0 ... count - 1. They are loaded one at a time; a frame may be loaded more than once.
 struct StudyFrames {
   std::size_t count = 0;
   std::function<StudyFrame(std::size_t)> load;
@@ -31,7 +31,7 @@ struct StudyFrames {
 
 struct SpacingStudyOptions {
   core::SpacingIndex spacing = 0;
-  double from_mm = 0.0;  // from, from + step, ... and to
+  double from_mm = 0.0;  // the steps are from, from + step, ... and to
   double to_mm = 0.0;
   double step_mm = 10.0;
   double tolerance_mm = 0.5;  // between largest_touched_mm and smallest_free_mm
@@ -49,10 +49,10 @@ struct PartAtSpacing {
   std::int64_t frames_undecided = 0;
   std::int64_t frames_clear = 0;
   double deepest_mm = 0.0;  // certified lower bound
-  // Bounds of the least distance over all frames: the one is never above it, the other never below.
+  // Bounds of the least distance over all frames: lower_mm is never above it, upper_mm never below.
   double lower_mm = std::numeric_limits<double>::infinity();
   double upper_mm = std::numeric_limits<double>::infinity();
-  std::optional<core::FrameIndex> closest_frame;  // that upper_mm is of; in contact, the deepest
+  std::optional<core::FrameIndex> closest_frame;  // the frame of upper_mm; in contact, the deepest one
 };
 
 struct StudyStep {
@@ -60,26 +60,28 @@ struct StudyStep {
   std::vector<PartAtSpacing> parts;  // in the layout's order
 };
 
-// Counts of questions: one is about a part in a frame at a step.
+// Counts of questions. A question is about one part in one frame at one step.
 struct StudyCount {
-  std::int64_t asked = 0;              // contacts, and clearance where it was of interest
-  std::int64_t settled_by_motion = 0;  // too far at another step to matter at this one
-  std::int64_t unmoved = 0;            // by the spacing: the frame's one answer holds at every step
-  std::int64_t queries = 0;            // of the hull
+  std::int64_t asked = 0;  // of the hull: one ball, or contacts and, where it could matter, clearance
+  std::int64_t settled_by_motion = 0;  // at another step so far away that it can't matter at this one
+  std::int64_t unmoved = 0;  // the spacing doesn't move the part: the frame's one answer holds at every step
+  std::int64_t queries = 0;  // of the hull
 };
 
 struct SpacingStudy {
   std::vector<StudyStep> steps;              // ascending
-  std::vector<core::PartIndex> moved;        // by the spacing
-  std::optional<double> largest_touched_mm;  // a moved part is in the hull here, in some frame
-  // The smallest found at which every frame is sure to be free of every moved part, as at all steps above.
+  std::vector<core::PartIndex> moved;        // the parts that the spacing moves
+  std::optional<double> largest_touched_mm;  // a value at which a moved part is in the hull in some frame
+  // The smallest value found at which surely no moved part is in the hull in any frame, as at all steps
+  // above.
   std::optional<double> smallest_free_mm;
   StudyCount count;
 };
 
-// Rules and what is skipped: docs/contact_tracking.md. The answers are those of asking every frame at every
-// step, clearances to their tolerance (spacing_study_test), whatever the number of threads.
-// Throws: core::Error as Validate, and what `frames` throws; Error{kCancelled}. Thread: the caller's loads.
+// The rules, and what is skipped, are in docs/contact_tracking.md. The answers are those of asking every
+// frame at every step, clearances to their tolerance (spacing_study_test), whatever the number of threads.
+// Throws: core::Error as Validate, and what `frames` throws; Error{kCancelled}. Thread: any; `frames.load` is
+// called on the calling thread.
 [[nodiscard]] SpacingStudy StudySpacing(const core::Layout& layout, const StudyFrames& frames,
                                         const SpacingStudyOptions& options,
                                         const core::Progress& progress = {}, std::stop_token stop = {});

@@ -19,10 +19,11 @@ namespace {
 using Eigen::Vector3d;
 using FclMesh = fcl::BVHModel<fcl::OBBRSSd>;
 
-// Two sides of boxes with a smaller sine between them are one axis, which is tried anyway.
+// Sides of two boxes with a smaller sine between them count as parallel. Their cross product isn't tried as
+// an axis, only the sides themselves.
 constexpr double kParallel = 1e-3;
 
-// Rounding of a gap between boxes, of the sum of the sizes that went into it.
+// Bound of the rounding of a gap between boxes, as a share of the sum of all sizes that enter.
 constexpr double kInwards = 1e-14;
 
 std::vector<Vector3d> PointOfEachPiece(const core::TriangleMesh& mesh) {
@@ -59,7 +60,7 @@ std::vector<Triangle> TrianglesAbout(const core::TriangleMesh& mesh, const Vecto
   return triangles;
 }
 
-// In place: assigning FCL's models leaves two with one set of arrays.
+// Builds FCL's model in place: its assignment leaves two models that share one set of arrays.
 void Build(const std::vector<Triangle>& triangles, FclMesh& mesh) {
   std::vector<fcl::Vector3d> vertices;
   std::vector<fcl::Triangle> corners;
@@ -79,8 +80,8 @@ Triangle Moved(const core::RigidTransform& b_from_a, const Triangle& in_a) {
   return {b_from_a * in_a[0], b_from_a * in_a[1], b_from_a * in_a[2]};
 }
 
-// FCL's walk down two trees with its lower bounds between their boxes, but with our distance of two
-// triangles: FCL's own is too large for some that have nearly parallel edges (docs/clash.md).
+// FCL's traversal of two trees, with its lower bounds between their boxes but with GapBetween for two
+// triangles: FCL's own distance is too large for some that have nearly parallel edges (docs/clash.md).
 class LeastGapWalk final : public fcl::detail::MeshDistanceTraversalNodeOBBRSSd {
  public:
   LeastGapWalk(const std::vector<Triangle>& of_a, const std::vector<Triangle>& of_b,
@@ -118,7 +119,7 @@ fcl::Transform3d ToFcl(const core::RigidTransform& b_from_a) {
 
 }  // namespace
 
-// In the mesh's frame moved to its middle.
+// Frame: the mesh's, with its origin at the middle of the mesh's bounds.
 struct SurfaceModel::FclModel {
   Vector3d middle_in_part;
   std::vector<Triangle> triangles;

@@ -1,4 +1,4 @@
-// A part's surface as FCL searches it.
+// A part's surface, prepared for FCL, and the distance of two such surfaces.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,10 +13,10 @@
 
 namespace elbowroom::review {
 
-// Immutable; one for all instances of a mesh. Thread: any.
+// Immutable. All instances of a mesh share one. Thread: any.
 class SurfaceModel {
  public:
-  // The mesh has triangles; they may be open, crossing, without area.
+  // The mesh must have triangles. It may be open or cross itself, and triangles may have no area.
   explicit SurfaceModel(core::SharedMesh mesh);
   ~SurfaceModel();
   SurfaceModel(SurfaceModel&&) noexcept;
@@ -35,22 +35,22 @@ class SurfaceModel {
   std::unique_ptr<const FclModel> fcl_;
 };
 
-// Two surfaces where they stand. FCL only chooses which triangles to look at: it says that two meet, and
-// those are measured here; or its trees rule out the far ones, and the rest are measured here. Frames are
-// joined relative to a, about the middles of both meshes, in long double: parts that stand 10 km from the
-// world's origin, or whose files have them there, lose no digits of the gap between them.
-// The models must outlive it. Points are in world.
+// Two surfaces at their poses. FCL only chooses which triangles are measured: a pair that it says meets, or
+// those that its trees don't rule out as too far. The measuring is done here. a_from_b is worked out in long
+// double, between frames whose origins are the middles of the meshes: parts that stand 10 km from the world's
+// origin, or whose files place them there, lose no digits of the gap between them. The models must outlive
+// it. Points are in world.
 class SurfacePair {
  public:
   SurfacePair(const SurfaceModel& a, const core::RigidTransform& world_from_a, const SurfaceModel& b,
               const core::RigidTransform& world_from_b);
 
-  // The surfaces are no nearer than this: how far apart the meshes' own boxes are, turned as the parts are,
-  // along the best of the fifteen axes that can separate two boxes. 0 where none does.
+  // Lower bound of the surfaces' distance: how far the meshes' oriented boxes are apart along the best of the
+  // fifteen axes that can separate two boxes. 0 where none separates them.
   [[nodiscard]] double BoundsGapMm() const;
 
-  // Two triangles that FCL says meet, measured; nothing if it finds none. The distance needn't be 0: FCL says
-  // so of some needles that are apart.
+  // The measured gap of two triangles that FCL says meet. Nothing if FCL finds none. The distance needn't be
+  // 0: FCL also says it of some needles that are apart.
   [[nodiscard]] std::optional<SurfaceGap> FindHullPartIntersection() const;
 
   // The least distance over all triangles.

@@ -1,4 +1,4 @@
-// Triangles cut where they are longest: needles shorten, nothing stays long.
+// Cuts triangles across their longest sides, so that repeated cuts make needles short too.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,7 +11,7 @@ struct Corners {
   Eigen::Vector3d a, b, c;
 };
 
-// Two halves, cut at the middle of the longest side.
+// The two halves, cut at the middle of the longest side.
 [[nodiscard]] inline std::pair<Corners, Corners> Bisect(const Corners& t) {
   const double ab = (t.b - t.a).squaredNorm(), bc = (t.c - t.b).squaredNorm(), ca = (t.a - t.c).squaredNorm();
   if (ab >= bc && ab >= ca) {

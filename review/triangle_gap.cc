@@ -11,11 +11,11 @@ namespace {
 
 using Eigen::Vector3d;
 
-// A triangle thinner than this part of its longest side has no normal worth the name; its edges show its face
-// to that part of its size.
+// The normal of a triangle that is thinner than this share of its longest side is too inexact to use. Its
+// edges alone give its distances to that share of its size.
 constexpr double kThinnest = 1e-11;
 
-// A triangle and what every question needs of it.
+// A triangle with its edges and its normal.
 struct Face {
   explicit Face(const Triangle& triangle) : corners(triangle) {
     double square = 0.0;
@@ -27,7 +27,7 @@ struct Face {
     has_face = normal.norm() > kThinnest * square;
   }
 
-  // x lies in the triangle's plane.
+  // Whether a point of the triangle's plane is inside the triangle.
   [[nodiscard]] bool Covers(const Vector3d& x) const {
     for (std::size_t i = 0; i < 3; ++i) {
       if (normal.dot(edges[i].cross(x - corners[i])) < 0.0) return false;
@@ -66,8 +66,9 @@ Vector3d NearestOnSegment(const Vector3d& from, const Vector3d& edge, const Vect
   return from + std::clamp((x - from).dot(edge) / square, 0.0, 1.0) * edge;
 }
 
-// Where two edges pass each other between their ends. The cross product tells angles of 1e-15 from none,
-// which a determinant of dot products does only to 1e-8; beside truly parallel edges the ends tell.
+// Offers the nearest points of the two edges' lines if both lie between the edges' ends. The cross product
+// tells angles of 1e-15 from none, which a determinant of dot products does only to 1e-8. For parallel edges,
+// an end of one is among the nearest points, and OfferCorners offers those.
 void OfferPassing(const Vector3d& p, const Vector3d& u, const Vector3d& q, const Vector3d& v,
                   NearestPair& nearest) {
   const Vector3d across = u.cross(v), between = q - p;
@@ -77,8 +78,8 @@ void OfferPassing(const Vector3d& p, const Vector3d& u, const Vector3d& q, const
   if (s >= 0.0 && s <= 1.0 && t >= 0.0 && t <= 1.0) nearest.Offer(p + s * u, q + t * v);
 }
 
-// Corners of `one` against edges and face of `other`, and its edges through that face. `offer(x, y)`: x of
-// `one`, y of `other`.
+// Offers each corner of `one` with its nearest points on the edges and the face of `other`, and the points
+// where edges of `one` cross that face. `offer(x, y)`: x of `one`, y of `other`.
 template <typename Offer>
 void OfferCorners(const Face& one, const Face& other, const Offer& offer) {
   std::array<double, 3> heights{};
@@ -102,6 +103,8 @@ void OfferCorners(const Face& one, const Face& other, const Offer& offer) {
 
 }  // namespace
 
+// The least distance is attained between two edges, at a corner of one triangle, or where an edge of one
+// crosses the face of the other. All these pairs of points are offered.
 SurfaceGap GapBetween(const Triangle& a, const Triangle& b) {
   const Face face_a(a), face_b(b);
   NearestPair nearest;

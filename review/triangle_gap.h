@@ -1,4 +1,4 @@
-// How far apart two triangles are, and where.
+// The distance of two triangles, and where it is attained.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,9 +15,9 @@ struct SurfaceGap {
   Eigen::Vector3d on_b = Eigen::Vector3d::Zero();
 };
 
-// Both in one frame; so are the points. A triangle without area is the segment or point that it is. Exact but
-// for rounding: some 1e-15 of the coordinates' size, held to long double, parallel edges and needles
-// included, by tests/review/triangle_gap_test.cc. Thread: any.
+// Both triangles and the points are in one frame. A triangle without area counts as the segment or point that
+// it is. Exact but for rounding, some 1e-15 of the coordinates' size: held to long double, parallel edges and
+// needles included, by tests/review/triangle_gap_test.cc. Thread: any.
 [[nodiscard]] SurfaceGap GapBetween(const Triangle& a, const Triangle& b);
 
 }  // namespace elbowroom::review

@@ -1,4 +1,4 @@
-// What is said of a session file that can't be trusted.
+// The error for a damaged session file, and text from such a file made fit for a message.
 #pragma once
 
 #include <string>
@@ -9,7 +9,8 @@ namespace elbowroom::sessions {
 // Throws: Error{kFormat} in one line that says where, what is wrong there, and how to salvage the rest.
 [[noreturn]] void FailAsDamaged(const std::string& where, std::string_view what);
 
-// Text from a file, for a message: one line, valid UTF-8, of about that many bytes at most.
+// Text from a file, for a message: one line of valid UTF-8. Text that would take more than `most` bytes is
+// cut and ends in an ellipsis.
 [[nodiscard]] std::string Quotable(std::string_view text, std::size_t most = 80);
 
 // The text with U+FFFD for every byte that belongs to no character.

@@ -27,8 +27,8 @@ using core::Error;
 using core::ErrorKind;
 namespace fs = std::filesystem;
 
-// How long a statement waits for another program's lock before it fails: a reader; a writer, which goes on
-// in memory meanwhile.
+// How long a statement waits for another program's lock before it fails. A writer waits less, because its
+// frames are kept in memory meanwhile.
 constexpr int kReaderWaitsMs = 3000, kWriterWaitsMs = 100;
 constexpr std::array kJournalSuffixes = {kLogSuffix, kLogIndexSuffix, kRollbackSuffix};
 
@@ -82,7 +82,7 @@ void CreateFileExclusively(const fs::path& path) {
                           path.string(), std::strerror(reason)));
 }
 
-// SQLite opens what bears these names, and would wait for whoever feeds a pipe.
+// SQLite opens the files of these names. Opening a pipe would wait until another program opens its other end.
 void RequireFilesBeside(const fs::path& path) {
   for (const std::string_view suffix : kJournalSuffixes) {
     const fs::path beside = WithSuffix(path, suffix);
@@ -95,13 +95,13 @@ void RequireFilesBeside(const fs::path& path) {
   }
 }
 
-// SQLite has names of its own, such as ":memory:" and "file:...": an absolute path is none of them.
+// SQLite gives some names a meaning of its own (":memory:", "file:..."). An absolute path is none of them.
 std::unique_ptr<SQLite::Database> Connect(const fs::path& path, int flags, int wait_ms) {
   RequireFilesBeside(path);
   return std::make_unique<SQLite::Database>(fs::absolute(path).string(), flags, wait_ms);
 }
 
-// Reads for the first time, at which SQLite puts right what a crash left.
+// Reads once: SQLite recovers the database after a crash only at the first read.
 std::unique_ptr<SQLite::Database> ConnectToRead(const fs::path& path, int flags) {
   auto connection = Connect(path, flags, kReaderWaitsMs);
   (void)connection->execAndGet("SELECT count(*) FROM sqlite_schema").getInt64();
@@ -109,8 +109,9 @@ std::unique_ptr<SQLite::Database> ConnectToRead(const fs::path& path, int flags)
   return connection;
 }
 
-// The log is synced with each commit and each checkpoint, and the folder when a rollback journal goes: one
-// that came back after a power failure would undo the change to a log, and take the log's frames with it.
+// EXTRA syncs the log with each commit and each checkpoint, and the folder when a rollback journal is
+// removed. If such a journal came back after a power failure, it would undo the change to a log, and the
+// frames in the log would be lost.
 void MakeDurable(SQLite::Database& connection) {
   connection.exec("PRAGMA synchronous = EXTRA; PRAGMA journal_mode = WAL; PRAGMA foreign_keys = ON");
 }
@@ -127,7 +128,7 @@ void CopyPages(SQLite::Database& from, SQLite::Database& to, const fs::path& ses
   }
 }
 
-// Whether SQLite wanted to write: a rollback, or the index of the log.
+// Whether SQLite failed because it had to write: to roll back, or to make the index of the log.
 bool WantsToWrite(const SQLite::Exception& exception) {
   const int code = exception.getErrorCode() & 0xFF;
   return code == SQLITE_READONLY || code == SQLITE_CANTOPEN || code == SQLITE_IOERR || code == SQLITE_PERM;
@@ -179,7 +180,7 @@ Database::Database(fs::path path, std::unique_ptr<SQLite::Database> connection)
     : path_(std::move(path)), connection_(std::move(connection)) {}
 Database::Database(Database&&) noexcept = default;
 Database& Database::operator=(Database&& other) noexcept {
-  connection_ = std::move(other.connection_);  // before the copy that it may be of
+  connection_ = std::move(other.connection_);  // before copy_, which it may read
   copy_ = std::move(other.copy_);
   path_ = std::move(other.path_);
   file_ = other.file_;
@@ -282,7 +283,7 @@ Database Database::CopyUnder(const char* sqlite_name, const std::stop_token& sto
     CopyPages(*connection_, *copy, path_, stop);
     return {path_, std::move(copy)};
   } catch (const SQLite::Exception& exception) {
-    // Only a copy grows.
+    // Only the copy grows, so it is the copy that has no room.
     const int code = exception.getErrorCode();
     if ((code & 0xFF) == SQLITE_FULL || code == SQLITE_IOERR_WRITE) {
       throw Error(ErrorKind::kFile,
@@ -354,7 +355,8 @@ bool IsInUse(const fs::path& path) {
   constexpr std::string_view kByte = " 128 128";
   struct stat index {};
   if (::stat(WithSuffix(path, kLogIndexSuffix).c_str(), &index) != 0) return false;
-  // Opening the index to ask for its locks would drop those of this program.
+  // Asking for the locks of the index needs a descriptor, and closing that would drop this program's own
+  // locks (POSIX). Hence /proc/locks.
   const std::string inode = fmt::format(":{} ", index.st_ino);
   std::ifstream locks("/proc/locks");
   for (std::string line; std::getline(locks, line);) {

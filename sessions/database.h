@@ -1,4 +1,4 @@
-// The SQLite connection of one session file, and what its failures say.
+// The SQLite connection of one session file, and its errors.
 #pragma once
 
 #include <cstdint>
@@ -23,15 +23,15 @@ class DatabaseError : public core::Error {
   DatabaseError(const std::string& message, int sqlite_code)
       : core::Error(core::ErrorKind::kDatabase, message), sqlite_code_(sqlite_code) {}
 
-  // True for what the world around the file may mend (a lock, a full disk, a file that is gone); false for
-  // what this program did wrong.
+  // True where the statement may succeed later, because the cause lies outside of this program (a lock, a
+  // full disk, a file that is gone or damaged). False where this program did something wrong.
   [[nodiscard]] bool MayPass() const;
 
  private:
   int sqlite_code_;
 };
 
-// Every member throws DatabaseError that names the file, what SQLite said and what to do.
+// A member that fails throws DatabaseError, which names the file, what SQLite said and what to do.
 // Thread: one at a time; may be handed over between threads.
 class Database {
  public:
@@ -41,18 +41,20 @@ class Database {
   // folder doesn't exist or can't be written.
   [[nodiscard]] static Database Create(const std::filesystem::path& path);
 
-  // The same for one that is there: what a crash left half done is put right as SQLite does it.
+  // Opens an existing database in the same way. After a crash SQLite recovers it first.
   [[nodiscard]] static Database OpenToWrite(const std::filesystem::path& path);
 
-  // Sees what other connections commit. What a crash left half done is first put right (a hot journal, a log
-  // without its index): in the file where it may be written, else in a copy for the time of the connection.
+  // Sees what other connections commit. After a crash SQLite recovers the database first (a hot journal, a
+  // log without its index): in the file where it may be written, else in a copy for the time of the
+  // connection.
   // Throws: Error{kFile} when there is no such file.
   [[nodiscard]] static Database OpenReadOnly(const std::filesystem::path& path);
 
-  // Reads the copy; messages name what it is a copy of.
+  // Reads the copy; messages name the original.
   [[nodiscard]] static Database OpenReadOnly(std::shared_ptr<const PrivateCopy> copy);
 
-  // A copy of the open `database` at `path`, which must not exist, also where its file has lost its name.
+  // A copy of the open `database` at `path`, which must not exist. Works also after the file of `database`
+  // was removed or renamed.
   [[nodiscard]] static Database CopyTo(const std::filesystem::path& path, Database& database);
 
   Database(Database&&) noexcept;
@@ -62,47 +64,48 @@ class Database {
   void Execute(const std::string& sql);
   [[nodiscard]] std::int64_t ReadInteger(const std::string& sql);  // first column of the first row
 
-  // A private copy in memory, which can be migrated without touching the file. Throws: Error{kCancelled},
-  // too.
+  // A private copy in memory, which can be migrated without touching the file. Throws also Error{kCancelled},
+  // and Error{kFile} where there is no room for it.
   [[nodiscard]] Database CopyInMemory(const std::stop_token& stop = {});
 
-  // The same in a temporary file, which SQLite removes: of a file that may be larger than memory.
+  // The same in a temporary file, which SQLite removes: for a file that may be larger than memory.
   [[nodiscard]] Database CopyAside(const std::stop_token& stop = {});
 
-  // An empty one, which errors call by that name.
+  // An empty database in memory; errors call it `name`.
   [[nodiscard]] static Database InMemory(const std::filesystem::path& name);
 
-  // Moves the log into the file and takes it away, so that the session is a single file. Where another
-  // program is reading, the log stays until that program closes; nothing is lost either way.
+  // Moves the content of the log into the file and removes the log, so that the session is a single file.
+  // While another program is reading, the log stays until that program closes; nothing is lost either way.
   void FoldLogIntoFile();
 
-  // Whether the database, and its log if it has one, are still the files of these names.
+  // Whether the database, its log and the log's index, as far as they exist, are still the files at their
+  // paths.
   [[nodiscard]] bool IsInPlace() const;
 
   // Whether `path` names the file that is open here.
   [[nodiscard]] bool IsTheFile(const std::filesystem::path& path) const { return IdOf(path) == file_; }
 
-  // Notes which files are this connection's, with those that SQLite has made since the last call.
+  // Notes the identity of the database, its log and the log's index, as far as it isn't known yet: SQLite
+  // makes the latter two later.
   void RememberPlace();
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
   [[nodiscard]] SQLite::Database& connection() { return *connection_; }
 
  private:
-  // A file by what doesn't change when it is renamed; all 0: there is none.
+  // Identifies a file independently of its name. All 0: there is no file.
   struct FileId {
     std::uint64_t device = 0;
     std::uint64_t inode = 0;
     bool operator==(const FileId&) const = default;
   };
   Database(std::filesystem::path path, std::unique_ptr<SQLite::Database> connection);
-  // A name that SQLite knows for a database that is nobody else's.
+  // sqlite_name: SQLite's name for a private database, ":memory:" or "" (a temporary file).
   [[nodiscard]] Database CopyUnder(const char* sqlite_name, const std::stop_token& stop);
   [[nodiscard]] static FileId IdOf(const std::filesystem::path& path);
 
   std::filesystem::path path_;
-  std::shared_ptr<const PrivateCopy>
-      copy_;  // of which this is the connection, and which outlives it; or null
+  std::shared_ptr<const PrivateCopy> copy_;  // read by the connection, which it outlives; null: none
   std::unique_ptr<SQLite::Database> connection_;
   FileId file_, log_, index_;
 };
@@ -122,15 +125,15 @@ class Transaction {
   bool is_open_ = true;
 };
 
-// The file that is being handled by SQLite in this catch block failed: throws DatabaseError in its words;
-// anything that didn't come from SQLite passes through.
+// For a catch block: throws an exception of SQLite again as a DatabaseError about `path`. Any other exception
+// passes through.
 [[noreturn]] void RethrowAsError(const std::filesystem::path& path);
 
 // Removes the database and the journals beside it, as far as they exist; true if nothing is left of them.
 bool RemoveDatabaseFiles(const std::filesystem::path& path) noexcept;
 
-// Whether a connection to this database, of any program, is open that follows its log: its writer's, or a
-// reader's. Asked before this program opens one. False where the system doesn't tell.
+// Whether any program has a connection to this database open that uses its log: the writer, or a reader. To
+// be called before this program opens one. False where /proc/locks can't be read.
 [[nodiscard]] bool IsInUse(const std::filesystem::path& path);
 
 }  // namespace elbowroom::sessions

@@ -17,14 +17,15 @@ namespace {
 using core::Error;
 using core::ErrorKind;
 
-// Where a part has nothing to show, its row in part_frame says all.
+// Without evidence, the row in part_frame holds all that there is of the part.
 bool HasEvidence(const core::PartContact& contact) {
   return contact.verdict == core::Verdict::kContact || contact.contact_point_count != 0 ||
          !contact.points.empty() || contact.contact_area_mm2 != 0.0 || contact.deepest || contact.recovery ||
          contact.recovery_status != core::RecoveryStatus::kNoContact;
 }
 
-// To the statement's end: one left open would hold its snapshot, and the log could never be folded back.
+// Runs the statement to its end: a statement left open would hold its snapshot, and the log could never be
+// folded back.
 std::int64_t LastRowsId(Statement& statement) {
   const std::int64_t id = statement.Integer(0);
   statement.Run();

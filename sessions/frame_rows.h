@@ -1,4 +1,4 @@
-// One frame as rows: time, spacings, silhouettes, and what is known of every part.
+// One frame as rows: time, spacings, silhouettes, and the results of every part.
 #pragma once
 
 #include <span>
@@ -15,7 +15,7 @@ class FrameInserter {
  public:
   explicit FrameInserter(Database& database);
 
-  // Into the open transaction. Throws: Error{kDatabase}; also when the frame is there already.
+  // Inserts into the open transaction. Throws: Error{kDatabase}, also when the frame is there already.
   void Insert(const core::FrameRecord& record);
 
  private:
@@ -40,7 +40,7 @@ class FrameInserter {
 };
 
 // Throws: Error{kRange} when there is no such frame; Error{kFormat} naming it where its rows are damaged or
-// are not those of `header`'s rig and layout.
+// don't fit the rig and layout of `header`.
 [[nodiscard]] core::FrameRecord ReadFrame(Database& database, const core::SessionHeader& header,
                                           core::FrameIndex frame);
 

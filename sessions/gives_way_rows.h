@@ -1,4 +1,4 @@
-// What of a layout gives way or flows, as rows.
+// The cloths, pushed parts and streams of a layout, as rows.
 #pragma once
 
 #include "core/layout.h"
@@ -6,10 +6,11 @@
 
 namespace elbowroom::sessions {
 
-// The layout is valid and its parts are rows already.
+// The layout is valid, and its parts have been inserted already.
 void InsertGivesWay(Database& database, const core::Layout& layout);
 
-// Into a layout whose parts have been read. Throws: Error{kFormat} naming the file where a row is damaged.
+// Reads into a layout whose parts have been read. Throws: Error{kFormat} naming the file where a row is
+// damaged.
 void ReadGivesWay(Database& database, core::Layout* layout);
 
 }  // namespace elbowroom::sessions

@@ -15,7 +15,7 @@
 namespace elbowroom::sessions {
 namespace {
 
-// A value can't be longer than its file; of small files this much, which the schema's own SQL needs.
+// A value can't be longer than its file. A small file gets this limit, which the schema's own SQL needs.
 constexpr std::int64_t kLongestValueOfSmallFile = 1 << 20;
 constexpr std::int64_t kLongestValue = 1'000'000'000;  // SQLite's own limit
 
@@ -25,7 +25,7 @@ void Set(sqlite3* connection, int setting, int value) {
 
 std::string NameOf(const Database& database) { return fmt::format("session '{}'", database.path().string()); }
 
-// Reads of one state of the file.
+// While it lives, all reads see one state of the file.
 class ReadSnapshot {
  public:
   explicit ReadSnapshot(Database& database) : database_(database) { database_.Execute("BEGIN"); }
@@ -57,7 +57,8 @@ void RequireReferences(Database& database, std::int64_t schema) {
   }
 }
 
-// References and primary keys are sound: rows of each frame are complete if their number is.
+// References and primary keys have been checked: the rows of the frames are complete if their number is
+// right.
 void RequireWholeFrames(Database& database) {
   const std::int64_t frames = database.ReadInteger("SELECT count(*) FROM frame");
   for (const auto& [table, of_each] : {std::pair{"frame_spacing", "spacing"},
@@ -93,8 +94,8 @@ void DistrustFile(Database& database) {
 void RequireIntegrity(Database& database, std::int64_t schema, const std::stop_token& stop) {
   const ReadSnapshot snapshot(database);
   RequireOk(database, "PRAGMA integrity_check(1)");
-  // A connection that can't write has no CHECKs (SQLite's sqlite3AddCheckConstraint): a private copy has
-  // them.
+  // A connection that can't write has no CHECKs (SQLite's sqlite3AddCheckConstraint). A copy that can be
+  // written has them.
   Database copy = database.CopyAside(stop);
   const QueryLimit limit(copy, stop);
   limit.Guarded([&] { RequireOk(copy, "PRAGMA quick_check(1)"); });

@@ -8,14 +8,15 @@
 
 namespace elbowroom::sessions {
 
-// Makes the connection one that only reads, in defensive mode, without memory-mapped pages, and with no value
-// longer than the file. The schema stays trusted: its own CHECKs call JSON functions, which SQLite would
-// leave out of its integrity check otherwise; RequireTablesOfSchema() has seen to it before.
+// Makes the connection read-only, in defensive mode and without memory-mapped pages. A value may be as long
+// as the file, or 1 MiB in a smaller file. The schema stays trusted: its CHECKs call JSON functions, and
+// SQLite would leave such CHECKs of an untrusted schema out of its integrity check. RequireTablesOfSchema()
+// checks the schema before that.
 void DistrustFile(Database& database);
 
-// All of the file is looked at once: SQLite's own integrity check, references between rows, and that each
-// frame has its spacings, silhouettes and parts. In one snapshot, so that a recording may go on meanwhile.
-// The tables are those of `schema` (RequireTablesOfSchema).
+// Checks the whole file at once: SQLite's own integrity check, references between rows, and that each frame
+// has its spacings, silhouettes and parts. Reads one snapshot, so that a recording may go on meanwhile. The
+// tables are those of `schema` (RequireTablesOfSchema).
 // Throws: Error{kFormat} naming the first damage; Error{kFile} where there is no room for the temporary copy
 // that this takes; Error{kCancelled}.
 void RequireIntegrity(Database& database, std::int64_t schema, const std::stop_token& stop);

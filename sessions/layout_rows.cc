@@ -22,7 +22,7 @@ std::optional<std::string> JsonOrNull(const std::optional<Eigen::Vector3d>& vect
   return JsonFrom(*vector);
 }
 
-// From four columns of the row.
+// Reads four columns of the row, from `first_column` on.
 core::RecoveryRule ReadRecoveryRule(const Statement& row, int first_column, const std::string& where) {
   const auto kind = core::ParseRecoveryKind(row.Text(first_column));
   const auto vector = [&](int column) -> std::optional<Eigen::Vector3d> {
@@ -203,8 +203,8 @@ std::vector<core::PairRule> ReadPairRules(Database& database) {
   return rules;
 }
 
-// Rules on names may have become stricter since an old file was written; those that figures are worked out by
-// hold in every file.
+// Checks only the rules that calculations rely on, which hold in every file. Rules on names may have become
+// stricter since an old file was written.
 void RequireUsable(const core::Layout& layout, const std::string& where) {
   try {
     for (const core::Part& part : layout.parts) core::ValidateGivesWay(part.gives_way, "a part");

@@ -15,10 +15,10 @@
 namespace elbowroom::sessions {
 namespace {
 
-// Far below any that is written; smaller ones would cut a mesh into more patches than memory holds.
+// Far below any size that is written. Patches of a smaller size would be more than memory holds.
 constexpr double kLeastPatchMm = 0.1;
 
-// The frames of what lasted: begin, middle and end in their order, and the times as well.
+// Throws unless begin, middle and end of an episode or near miss are in order, as frames and as times.
 template <typename Lasting>
 void RequireInOrder(const Lasting& it, core::FrameIndex middle_frame, double middle_s,
                     const std::string& where) {

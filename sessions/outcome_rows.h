@@ -8,17 +8,17 @@
 
 namespace elbowroom::sessions {
 
-// Into the open transaction. A changed spacing is one of `layout`'s. Throws: Error{kDatabase}.
+// Both insert into the open transaction. A changed spacing is one of the layout's. Throws: Error{kDatabase}.
 void InsertEvent(Database& database, const core::Layout& layout, const core::SessionEvent& event);
 void InsertOutcome(Database& database, const core::SessionOutcome& outcome);
 
-// All throw Error{kFormat} where a row is damaged or isn't of the layout.
+// All throw Error{kFormat} where a row is damaged or doesn't fit the layout.
 // In the order of their frames; equal frames in the order in which they came.
 [[nodiscard]] std::vector<core::SessionEvent> ReadEvents(Database& database);
 // By id.
 [[nodiscard]] std::vector<core::ContactEpisode> ReadEpisodes(Database& database, const core::Layout& layout);
 [[nodiscard]] std::vector<core::NearMiss> ReadNearMisses(Database& database, const core::Layout& layout);
-// By part; of its mesh's patches.
+// By part; a value for each patch of its mesh.
 [[nodiscard]] std::vector<core::HeatMap> ReadHeatMaps(Database& database, const core::Layout& layout);
 
 }  // namespace elbowroom::sessions

@@ -26,7 +26,7 @@ constexpr int kCompressionLevel = 1;
 // Beyond any mesh that can be imported.
 constexpr std::size_t kLargestUnpacked = std::size_t{1} << 32U;
 
-// Asked before anything is allocated: a damaged size must not take all memory.
+// Called before anything is allocated: a damaged size must not take all memory.
 void RequireUnpacksTo(std::span<const std::byte> packed, std::size_t size, const std::string& where) {
   if (ZSTD_getFrameContentSize(packed.data(), packed.size()) != size)
     FailAsDamaged(where, "the packed data has another size than belongs there");

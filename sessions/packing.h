@@ -29,10 +29,11 @@ class Compressor {
   std::shared_ptr<ZSTD_CCtx_s> context_;
 };
 
-// Whether so few bytes may stand for so many: large meshes pack 2 : 1, large masks 30 : 1, a bomb 30,000 : 1.
+// Whether packed bytes may unpack to so many: always up to 64 MiB, above that at 1024 : 1 at most. Large
+// meshes pack 2 : 1, large masks 30 : 1, a decompression bomb 30,000 : 1.
 [[nodiscard]] bool IsPlausible(std::size_t packed_bytes, std::size_t unpacked_bytes);
 
-// Throws: Error{kFormat} naming `where` unless `packed` unpacks to just `size` bytes, and plausibly.
+// Throws: Error{kFormat} naming `where` unless `packed` unpacks to exactly `size` bytes, and IsPlausible().
 [[nodiscard]] Bytes Decompress(std::span<const std::byte> packed, std::size_t size, const std::string& where);
 
 struct PackedMesh {
@@ -50,7 +51,7 @@ using MaskHash = std::array<std::byte, 16>;
 [[nodiscard]] MaskHash HashOf(const core::SoftMask& mask);  // 128-bit XXH3 of size, pixels, levels if any
 struct PackedMask {
   Bytes words_zstd;
-  std::optional<Bytes> levels_zstd;  // nothing: none
+  std::optional<Bytes> levels_zstd;  // nothing: the mask has none
 };
 [[nodiscard]] PackedMask Pack(const core::SoftMask& mask, Compressor& compressor);
 // Throws: Error{kFormat} naming `where` unless it unpacks to that size and hash, and its levels fit its
@@ -65,8 +66,8 @@ struct PackedMask {
 [[nodiscard]] std::vector<float> UnpackFloats(std::span<const std::byte> packed, std::size_t count,
                                               const std::string& where);
 
-// JSON arrays of texts; of doubles, each in the fewest digits that read back as the same double; matrices row
-// by row.
+// JSON arrays. A double is written in the fewest digits that read back as the same double; a matrix is
+// written row by row.
 [[nodiscard]] std::string JsonFrom(std::span<const std::string> texts);
 [[nodiscard]] std::string JsonFrom(std::span<const double> numbers);
 [[nodiscard]] std::string JsonFrom(const Eigen::Vector3d& vector);

@@ -1,15 +1,16 @@
-// A session's files copied to where they may be written, for what a crash left that needs writing to be read.
+// A session's files, copied to where they may be written: recovery after a crash may have to write before the
+// session can be read.
 #pragma once
 
 #include <filesystem>
 
 namespace elbowroom::sessions {
 
-// In a temporary folder of its own, which goes with this object.
+// A copy in a temporary folder of its own, which is removed with this object.
 class PrivateCopy {
  public:
   // Copies the database, its log, its rollback journal and its spill, as far as they exist. Throws:
-  // Error{kFile} naming the session and the folder when there is no room.
+  // Error{kFile} naming the session and the folder when they can't be copied.
   explicit PrivateCopy(std::filesystem::path original);
   ~PrivateCopy();
   PrivateCopy(const PrivateCopy&) = delete;

@@ -15,7 +15,8 @@ namespace elbowroom::sessions {
 namespace {
 
 constexpr int kStepsBetweenQuestions = 4096;
-// A second or so on any machine in use, and ten times what the dearest statement of a sound session takes.
+// kFreeSteps take about a second on any machine in use. kStepsPerByte is ten times what the most expensive
+// statement of a sound session takes.
 constexpr std::int64_t kFreeSteps = 20'000'000;
 constexpr std::int64_t kStepsPerByte = 10;
 

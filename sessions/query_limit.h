@@ -1,4 +1,4 @@
-// Ends what would never end: a query of a hostile or damaged file, or one that nobody waits for any more.
+// Ends queries that take too long: those of a hostile or damaged file, and those that were cancelled.
 #pragma once
 
 #include <cstdint>
@@ -9,12 +9,13 @@
 
 namespace elbowroom::sessions {
 
-// Steps of SQLite's machine that one statement may take on a file of that many bytes. Of a sound session the
-// dearest, its integrity check, takes less than 1 step a byte (damaged_session_test).
+// How many steps of SQLite's virtual machine one statement may take on a file of that many bytes. The most
+// expensive statement on a sound session, its integrity check, takes less than 1 step a byte
+// (damaged_session_test).
 [[nodiscard]] std::int64_t MostStepsFor(std::int64_t file_bytes);
 
-// While it lives, a statement of the connection that takes more steps than its file has reason for fails with
-// SQLITE_INTERRUPT, and so does one that is under way when `stop` is asked for.
+// While it lives, a statement of the connection fails with SQLITE_INTERRUPT when it takes more steps than
+// MostStepsFor() allows for the file, or when `stop` is requested while it runs.
 class QueryLimit {
  public:
   QueryLimit(Database& database, std::stop_token stop);
@@ -22,8 +23,8 @@ class QueryLimit {
   QueryLimit(QueryLimit&&) noexcept;
   QueryLimit& operator=(QueryLimit&& other) noexcept;
 
-  // What `work` returns. Where a statement in it was ended, throws Error{kFormat} if for its length,
-  // Error{kCancelled} if for the stop.
+  // Returns what `work` returns. Where a statement in it was ended, throws Error{kFormat} if it took too many
+  // steps, Error{kCancelled} if a stop was requested.
   template <typename Work>
   auto Guarded(Work&& work) const {
     try {
@@ -34,7 +35,7 @@ class QueryLimit {
     }
   }
 
-  // By the dearest statement so far, to some thousands.
+  // Taken by the most expensive statement so far, to within some thousands.
   [[nodiscard]] std::int64_t most_steps_taken() const;
 
  private:

@@ -63,7 +63,7 @@ core::PartClearance ReadClearance(const Statement& row, const std::string& where
   return clearance;
 }
 
-// All but the part.
+// Reads everything but the index of the part.
 core::PartContact ReadContact(const Statement& row, const std::string& where) {
   core::PartContact contact;
   const auto verdict = core::ParseVerdict(row.Text(1));
@@ -160,7 +160,7 @@ std::vector<ContactRow> ReadClearanceRows(Database& database, const core::Layout
 }
 
 std::vector<PartTotals> ReadPartTotals(Database& database, const core::Layout& layout) {
-  // As v_part counts; a table can't be anything but what the file's pages hold.
+  // Counts as the view v_part does, but reads the table: a table holds only what the file's pages hold.
   Statement rows(database,
                  "SELECT part_index, count(*) FILTER (WHERE verdict = 'contact'), "
                  "count(*) FILTER (WHERE verdict = 'near'), count(*) FILTER (WHERE verdict = 'undecided'), "

@@ -1,4 +1,4 @@
-// What is known of the parts, read back from rows.
+// The contacts and clearances of the parts, read back from rows.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@
 
 namespace elbowroom::sessions {
 
-// A part's contact in a frame, with what a report says beside it.
+// A part's contact in a frame, with the frame's time and spacings.
 struct ContactRow {
   core::FrameIndex frame = 0;
   double time_s = 0.0;
@@ -19,7 +19,7 @@ struct ContactRow {
   core::PartContact contact;       // without its points
 };
 
-// How many frames found a part so.
+// In how many frames a part had each verdict.
 struct PartTotals {
   core::PartIndex part = 0;
   std::int64_t frames_in_contact = 0;

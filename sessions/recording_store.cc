@@ -50,8 +50,8 @@ fs::path RescuedName(const fs::path& name, int number) {
   return WithSuffix(name, fmt::format("{}{}", kRescuedSuffix, which));
 }
 
-// The path; where something else has taken the name of one of its folders, a path below a folder with
-// ".rescued" appended.
+// The path itself. Where something that is no folder has taken the name of one of its folders, a path below a
+// folder with ".rescued" appended.
 fs::path BelowFolders(const fs::path& path) {
   const auto is_taken = [](const fs::path& folder) {
     std::error_code failure;
@@ -66,12 +66,13 @@ fs::path BelowFolders(const fs::path& path) {
   return below / path.filename();
 }
 
-// Gives the whole database `part` the name `target`; false where a file that isn't `open`'s bears it.
+// Renames the complete database `part` to `target`. False where another file than that of `open` has that
+// name.
 bool PutInPlace(const fs::path& part, const fs::path& target, const Database& open) {
   const bool is_own = open.IsTheFile(target);
   std::error_code failure;
   if (!is_own && fs::exists(fs::symlink_status(target, failure))) return false;
-  // The log of a database that is gone would be taken for the new one's.
+  // SQLite would take the log of the database that is gone for the new one's.
   for (const std::string_view suffix : {kLogSuffix, kLogIndexSuffix, kRollbackSuffix})
     fs::remove(WithSuffix(target, suffix), failure);
   if (is_own || ::link(part.c_str(), target.c_str()) != 0) {
@@ -131,7 +132,7 @@ Database RecordingStore::MadeAgain() {
   Database& open = (spill_ ? spill_ : session_)->database;
   const fs::path name = BelowFolders(open.path());
   core::MakeFolder(core::FolderOf(name));
-  // Written whole under a name of its own first: half a session must not bear the session's name.
+  // The copy is completed under a name of its own first: half a session must not have the session's name.
   const fs::path part = WithSuffix(name, ".part");
   RemoveDatabaseFiles(part);
   {
@@ -147,7 +148,7 @@ void RecordingStore::SpillBeside() { spill_.emplace(CreateSpill(path_, header_, 
 
 void RecordingStore::ReturnFromSpill() {
   { const Transaction free_to_write(session_->database); }
-  spill_.reset();  // its log is folded with its last connection
+  spill_.reset();  // closing its last connection folds its log
   try {
     MergeSpill(session_->database);
   } catch (...) {

@@ -13,31 +13,32 @@
 
 namespace elbowroom::sessions {
 
-// What a recording consists of, in the order in which it comes. An outcome is the last.
+// An entry of a recording. Entries come in order; an outcome is the last.
 using RecordingEntry = std::variant<core::FrameRecord, core::SessionEvent, core::SessionOutcome>;
 
 // Thread: one.
 class RecordingStore {
  public:
-  // Creates the session with its set-up, which is on the disk then. Throws: what Database::Create throws;
+  // Creates the session; its set-up is on the disk afterwards. Throws: what Database::Create throws;
   // Error{kCamera} or Error{kRange} for a rig or layout that isn't valid. No file is left then.
   RecordingStore(const std::filesystem::path& path, const core::SessionHeader& header);
 
-  // All or none; on the disk afterwards. Throws: DatabaseError.
+  // Writes all entries or none; they are on the disk afterwards. Throws: DatabaseError.
   void Write(std::span<const RecordingEntry> entries);
 
-  // Where the session file, its log or their folder have been removed or replaced: makes them again from what
-  // this program still has open, under the same name, or, if another file bears that or its folder's, with
-  // ".rescued" appended. True if so. Throws: core::Error while that can't be done; nothing is lost then.
+  // If the file that entries go to (session or spill), its log or their folder was removed or replaced: makes
+  // it again from what this program still has open, and returns true. The name stays, but ".rescued" is
+  // appended to the name of the file or of a folder that something else has taken. Throws: core::Error while
+  // that can't be done; nothing is lost then.
   bool RestoreIfGone();
 
   // From here on entries go to a spill. Throws: core::Error.
   void SpillBeside();
-  // Moves the spill into the session file, which takes the entries again. Throws: DatabaseError.
+  // Moves the spill into the session file, to which entries go again. Throws: DatabaseError.
   void ReturnFromSpill();
   [[nodiscard]] bool is_spilling() const { return spill_.has_value(); }
 
-  // One file, as far as others who read it let that be. Nothing is written afterwards.
+  // Folds the log into the file, unless other programs are reading it. Nothing is written afterwards.
   void Close();
 
   // Closes the connection and removes the files; true if nothing is left.

@@ -13,12 +13,12 @@ namespace {
 using std::chrono::milliseconds;
 
 constexpr std::size_t kQueueCapacity = 64;  // frames: two seconds at 30 Hz
-// A commit waits so long for further entries, so that a sync of the disk serves several frames.
+// A commit waits this long for further entries, so that one sync of the disk serves several frames.
 constexpr milliseconds kGatherFor(50);
 constexpr std::size_t kMostGathered = 64;
 constexpr milliseconds kRetryAfter(100);
-// How often a recording without frames looks whether its file is still there, and a spill whether the session
-// can be written.
+// How often a recording without frames checks that its file is still there, and how often a recording in a
+// spill tries to return to the session file.
 constexpr milliseconds kLookAfter(500);
 constexpr std::int64_t kMostHeldBytes = 256'000'000;
 
@@ -104,7 +104,7 @@ bool RecordingThread::IsFull() const {
 bool RecordingThread::Gather() {
   const Clock::time_point begin = Clock::now();
   if (trouble_) {
-    // What comes meanwhile is kept, so that the trial goes on.
+    // Entries that come meanwhile are kept, so that the trial goes on.
     const Clock::time_point retry = begin + kRetryAfter;
     while (!IsFull() && Clock::now() < retry) {
       auto entry = queue_.PopUntil(retry);
@@ -182,7 +182,7 @@ void RecordingThread::TrySpill() {
   try {
     store_.SpillBeside();
   } catch (const core::Error&) {
-    return;  // the same disk, most likely: what is held stays in memory
+    return;  // most likely the same disk: the entries stay in memory
   }
   next_return_ = Clock::now() + kLookAfter;
   Say(RecordingState::kInSpill, fmt::format("{}; frames go into '{}.spill' meanwhile", trouble_->why,
@@ -196,7 +196,7 @@ void RecordingThread::TryToReturn() {
   try {
     store_.ReturnFromSpill();
   } catch (const DatabaseError&) {
-    return;  // still locked, or worse: the spill holds everything
+    return;  // the session file still can't be written: the spill holds everything
   }
   Say(RecordingState::kInFile, "the session file is written again; no frame was lost");
 }

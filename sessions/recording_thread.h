@@ -1,4 +1,4 @@
-// The thread that brings a recording to the disk, whatever the disk does meanwhile.
+// The thread that writes a recording to the disk, and goes on while the disk fails for a time.
 #pragma once
 
 #include <chrono>
@@ -17,8 +17,8 @@
 
 namespace elbowroom::sessions {
 
-// Takes entries from a queue, gathers them for a moment, and commits them together. Thread: one pushes or
-// many; Stop() and what follows it come when no other call is under way.
+// Takes entries from a queue, gathers them for a moment, and commits them together. Thread: any number may
+// push; Stop() and store() are called when no other call is under way.
 class RecordingThread {
  public:
   RecordingThread(RecordingStore store, SessionWriterOptions options);
@@ -29,13 +29,13 @@ class RecordingThread {
   // Waits for room. Throws: what ended the recording.
   void Push(RecordingEntry entry);
 
-  // Everything pushed is written, or what prevented it is kept for ThrowIfFailed().
+  // Waits until everything pushed is written. What prevented it is kept for ThrowIfFailed().
   void Stop();
   [[nodiscard]] bool is_stopped() const { return !thread_.joinable(); }
   void ThrowIfFailed();
   [[nodiscard]] bool has_failed() const;
 
-  // After Stop().
+  // Only after Stop().
   [[nodiscard]] RecordingStore& store() { return store_; }
 
   [[nodiscard]] std::int64_t frames_committed() const;
@@ -68,10 +68,10 @@ class RecordingThread {
   std::int64_t held_frames_ = 0;
   std::int64_t held_bytes_ = 0;
   std::optional<Trouble> trouble_;
-  std::optional<Clock::time_point> out_of_room_since_;  // nothing more is taken, or nothing more comes
-  Clock::time_point next_return_;                       // when a spill is tried to be left
+  std::optional<Clock::time_point> out_of_room_since_;  // memory is full, or the queue is closed
+  Clock::time_point next_return_;                       // when ReturnFromSpill() is tried next
 
-  mutable std::mutex mutex_;  // of what follows
+  mutable std::mutex mutex_;  // guards the next four members
   std::int64_t frames_committed_ = 0;
   RecordingState state_ = RecordingState::kInFile;
   std::filesystem::path path_;

@@ -14,7 +14,7 @@ namespace elbowroom::sessions {
 namespace {
 
 constexpr double kShortestFocalPx = 1e-3, kLongestFocalPx = 1e9;
-// No camera of a trial has as many; a mask of them is 32 MB.
+// No camera of a trial has so many; a mask of so many pixels is 32 MB.
 constexpr std::int64_t kMostPixels = std::int64_t{1} << 28U;
 
 int ReadSide(const Statement& row, int column, const std::string& where) {

@@ -17,23 +17,24 @@ inline constexpr std::int64_t kSchemaVersion = 6;
 // From schema 1 to schema 2: where a silhouette's boundary lies between pixel centres.
 [[nodiscard]] std::string Schema2Sql();
 
-// From schema 2 to schema 3: the parts' constraints, and what else a recovery may come to; clearance, near
-// misses, where on a part, with which tools, heat maps.
+// From schema 2 to schema 3: the parts' recovery rules, more outcomes of a recovery; clearance and near
+// misses; where on a part a touch was, and with which tools; heat maps; the uncertainty.
 [[nodiscard]] std::string Schema3Sql();
 
-// From schema 3 to schema 4: what gives way or flows, and where parts were pushed; pairs that are ignored.
+// From schema 3 to schema 4: cloths, pushed parts, streams, and how parts were moved; pairs that are ignored.
 [[nodiscard]] std::string Schema4Sql();
 
-// From schema 4 to schema 5: what tessellation cost a mesh; parts in the unit that their file itself names.
+// From schema 4 to schema 5: how far a mesh may deviate through tessellation; parts whose unit is that of
+// their file.
 [[nodiscard]] std::string Schema5Sql();
 
-// From schema 5 to schema 6: groups of parts, and spacings of them.
+// From schema 5 to schema 6: groups of parts, and spacings between groups.
 [[nodiscard]] std::string Schema6Sql();
 
 // Brings the open transaction's database to kSchemaVersion by the migrations that it lacks, in order.
 void Migrate(Database& database);
 
-// The same to an earlier schema, for whoever wants to know how it was.
+// The same up to an earlier schema, with which a file of that schema is compared.
 void MigrateTo(Database& database, std::int64_t schema);
 
 // Throws: Error{kFormat} when the file is no session, or one of a newer schema than this program knows.

@@ -41,14 +41,14 @@ std::vector<Entry> EntriesOfSchema(std::int64_t schema) {
   return EntriesOf(fresh);
 }
 
-// Names in SQLite have no case.
+// SQLite doesn't distinguish upper and lower case in names.
 std::string LowerCase(std::string name) {
   std::ranges::transform(name, name.begin(),
                          [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
   return name;
 }
 
-// The SQL without what other versions of SQLite, or a dump that was read back, may write in another way.
+// The SQL in a form that is the same for all versions of SQLite, and after a dump was read back.
 std::string Essence(const std::string& sql) {
   std::string essence;
   for (const char c : sql) {
@@ -62,7 +62,8 @@ std::string Essence(const std::string& sql) {
   return essence;
 }
 
-// An index of columns alone, without expressions: checking an index evaluates what it holds.
+// Whether it is an index of columns alone. Checking an index evaluates its expressions, which may take for
+// ever.
 bool IsPlainIndex(const Entry& entry) {
   const std::string essence = Essence(entry.sql.value_or(""));
   return std::ranges::count(essence, '(') == 1 && essence.ends_with(')');
@@ -115,7 +116,7 @@ void RequireTablesOfSchema(Database& database, std::int64_t schema) {
 void DropAllButTablesOfSchema(Database& copy, std::int64_t schema) {
   std::set<std::string> wanted;
   for (const Entry& entry : EntriesOfSchema(schema)) wanted.insert(LowerCase(entry.name));
-  // Views and indices first: they may lean on tables.
+  // Views and indices first: they may refer to tables.
   for (const char* type : {"trigger", "view", "index", "table"}) {
     for (const Entry& entry : EntriesOf(copy)) {
       if (entry.type != type || IsOfSqlite(entry) || wanted.contains(LowerCase(entry.name))) continue;

@@ -13,12 +13,12 @@ namespace elbowroom::sessions {
 // this program doesn't know.
 [[nodiscard]] std::vector<std::string> TablesOfSchema(std::int64_t schema);
 
-// Tables, indices and views are to be there, each by the SQL that the schema gave it; what has another name
-// may be there as well, but no trigger on a table of the schema, and no index of expressions.
-// Throws: Error{kFormat} naming the first that isn't so.
+// Every table, index and view of the schema must be there, with the SQL that the schema gave it. Entries of
+// other names may be there as well, except a trigger on a table of the schema, and an index of expressions.
+// Throws: Error{kFormat} naming the first entry for which this doesn't hold.
 void RequireTablesOfSchema(Database& database, std::int64_t schema);
 
-// Takes away what isn't the schema's, so that a migration meets nothing that it doesn't know.
+// Drops every entry that isn't the schema's, so that none can be in the way of a migration.
 void DropAllButTablesOfSchema(Database& copy, std::int64_t schema);
 
 }  // namespace elbowroom::sessions

@@ -7,7 +7,7 @@
 namespace elbowroom::sessions {
 
 inline constexpr std::string_view kLogSuffix = "-wal";           // what was committed last
-inline constexpr std::string_view kLogIndexSuffix = "-shm";      // of the log; made anew where it is missing
+inline constexpr std::string_view kLogIndexSuffix = "-shm";      // the log's; made anew where it is missing
 inline constexpr std::string_view kRollbackSuffix = "-journal";  // how to undo a change that was broken off
 inline constexpr std::string_view kSpillSuffix = ".spill";       // frames that the session file couldn't take
 

@@ -11,7 +11,7 @@
 namespace elbowroom::sessions {
 namespace {
 
-// Whether frames of this session may lie in a spill: one that is complete has all of them.
+// Whether frames of this session may lie in a spill. A complete session has all of its frames itself.
 bool MayHaveSpilled(Database& session) {
   if (session.ReadInteger("PRAGMA user_version") == 0) return false;
   RequireReadableSession(session);
@@ -38,10 +38,10 @@ OpenedSession OpenSession(const std::filesystem::path& path) {
     MergeSpillOf(path);
     return {Database::OpenReadOnly(path), false};
   } catch (const DatabaseError&) {
-    // Locked, or not to be written: the copy is neither.
+    // The files are locked or can't be written. Neither holds for the copy below.
   }
   auto copy = std::make_shared<const PrivateCopy>(path);
-  // Another reader may have joined the two meanwhile.
+  // Another reader may have merged the spill meanwhile.
   if (HasSpill(copy->path())) MergeSpillOf(copy->path());
   return {Database::OpenReadOnly(std::move(copy)), false};
 }

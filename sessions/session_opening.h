@@ -12,11 +12,11 @@ struct OpenedSession {
   bool is_in_use = false;  // by its writer, or another reader, when it was opened
 };
 
-// What a crash left half done is put right, and a spill joins the session: in the files where nobody uses
-// them and they may be written, else in a private copy. While the session is in use its spill is left alone:
-// the writer merges it. Beside a complete session a spill is nobody's business. Throws: Error{kFile} when
-// there is no such file, or what lies at the spill's place isn't this session's; Error{kFormat} where the
-// session is damaged; DatabaseError.
+// Opens a session to be read. After a crash it is recovered and its spill is merged into it: in the files
+// themselves where nobody uses them and they may be written, else in a private copy. While the session is in
+// use its spill is left alone, because the writer merges it. A spill beside a complete session is ignored.
+// Throws: Error{kFile} when there is no such file, or when the file at the spill's place isn't this
+// session's; Error{kFormat} where the session is damaged; DatabaseError.
 [[nodiscard]] OpenedSession OpenSession(const std::filesystem::path& path);
 
 }  // namespace elbowroom::sessions

@@ -24,12 +24,12 @@ namespace {
 
 constexpr std::string_view kStatusNames[] = {"recording", "cut off", "complete", "abandoned"};
 
-// Nothing of the file is believed before it was looked at: first what its tables are, then what holds them
-// together; rows are looked at as they are read.
+// Checks the file before anything is read from it: first its tables, then its integrity. Rows are checked as
+// they are read.
 void RequireSound(Database& database, const std::stop_token& stop) {
   RequireReadableSession(database);
   const std::int64_t schema = database.ReadInteger("PRAGMA user_version");
-  if (schema == 0) {  // of no tables; whoever reads the set-up says that there is none
+  if (schema == 0) {  // without tables; reading the header then fails, as there is no set-up
     if (database.ReadInteger("SELECT count(*) FROM sqlite_schema") > 0)
       FailAsDamaged(fmt::format("session '{}'", database.path().string()), "it has tables, but of schema 0");
     return;
@@ -150,7 +150,7 @@ core::FrameRecord SessionReader::ReadFrame(core::FrameIndex frame) const {
 
 void SessionReader::Freeze() {
   impl_->limit.Guarded([&] { impl_->database.Execute("BEGIN"); });
-  (void)frame_count();  // the transaction's view is that of its first statement
+  (void)frame_count();  // the first statement of a transaction takes its snapshot
 }
 
 bool SessionReader::has_outcome() const { return impl_->adopted || status() == SessionStatus::kComplete; }

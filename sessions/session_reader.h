@@ -31,16 +31,17 @@ struct FrameSummary {
   std::vector<double> spacing_mm;  // in the layout's order
 };
 
-// Never changes the file; a file of an older schema is migrated in memory. Each call sees what is committed
-// by then. Every call throws Error{kDatabase} or Error{kFormat} naming the file where it is damaged: what it
-// hands on are finite numbers, indices of the header's things, masks and meshes that match their checksums.
-// A text is valid UTF-8. Thread: one at a time.
+// Only reads, except that opening puts right what a crash left (OpenSession). A file of an older schema is
+// migrated in memory. Each call sees what is committed by then. Every call throws Error{kDatabase} or
+// Error{kFormat} naming the file where it is damaged: the numbers that it returns are finite, indices are
+// within the header's lists, and masks and meshes match their checksums. A text is valid UTF-8. Thread: one
+// at a time.
 class SessionReader {
  public:
-  // Looks through all of the file first (docs/session_database.md, "Damaged files").
+  // Checks the whole file first (docs/session_database.md, "Damaged files").
   // Throws: Error{kFile} when there is no such file, Error{kFormat} when it is no session, one of a newer
   // schema or a damaged one, Error{kDatabase} when it can't be read; here and in every call Error{kCancelled}
-  // when a stop is asked for in the middle of a long query.
+  // when a stop is requested in the middle of a long query.
   explicit SessionReader(const std::filesystem::path& path, const std::stop_token& stop = {});
   ~SessionReader();
   SessionReader(SessionReader&&) noexcept;
@@ -53,7 +54,7 @@ class SessionReader {
 
   [[nodiscard]] std::int64_t frame_count() const;
   [[nodiscard]] std::vector<FrameSummary> frames()
-      const;  // in order, times as well; numbers need not start at 0 nor be dense
+      const;  // by number; times never decrease; numbers may start above 0 and have gaps
 
   // With bit-equal silhouettes and every contact. Throws: Error{kRange} for a frame that wasn't recorded.
   [[nodiscard]] core::FrameRecord ReadFrame(core::FrameIndex frame) const;
@@ -61,7 +62,7 @@ class SessionReader {
   // From here on every call sees the session as it is now, whatever is recorded meanwhile.
   void Freeze();
 
-  // Whether the session has its outcome: one that was ended, or was given it.
+  // Whether the session has its outcome: it is complete, or AdoptOutcome() was called.
   [[nodiscard]] bool has_outcome() const;
   // From here on episodes, near misses and heat maps are these; the file stays as it is.
   void AdoptOutcome(core::SessionOutcome outcome);
@@ -74,7 +75,7 @@ class SessionReader {
   [[nodiscard]] std::vector<ContactRow> clearances() const;          // every part with a clearance, likewise
   [[nodiscard]] std::vector<PartTotals> part_totals() const;         // one a part
 
-  // The steps of SQLite's virtual machine that the dearest query so far took (QueryLimit).
+  // The steps of SQLite's virtual machine that the most expensive query so far took (QueryLimit).
   [[nodiscard]] std::int64_t most_steps_taken() const;
 
  private:

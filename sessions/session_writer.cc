@@ -40,7 +40,7 @@ struct SessionWriter::Impl {
       : header(std::move(set_up)), thread(RecordingStore(path, header), std::move(options)) {}
 
   const core::SessionHeader header;
-  // What was recorded stays; where nothing could be, nothing is left.
+  // What was recorded stays. If nothing could be recorded, the files are removed.
   void Close() {
     thread.Stop();
     if (thread.has_failed() && thread.frames_committed() == 0) {

@@ -11,11 +11,11 @@
 
 namespace elbowroom::sessions {
 
-// Where what is recorded goes at the moment.
+// Where recorded frames go at the moment.
 enum class RecordingState {
   kInFile,    // into the session file
   kInMemory,  // kept until the file can be written again
-  kInSpill,   // into S.db.spill beside it, which joins the session as soon as that can be written, or is
+  kInSpill,   // into S.db.spill beside it, which is merged as soon as the session file can be written, or is
               // opened
 };
 
@@ -33,14 +33,14 @@ struct SessionWriterOptions {
   double patience_s = 10.0;
   // Frames kept in memory at most while the file can't be written; also at most 256 MB.
   std::int64_t most_held_frames = 1800;
-  // After how long trouble begins to go into a spill, s.
+  // How long the file can't be written before frames go into a spill, s.
   double spill_after_s = 1.0;
 };
 
-// A thread of its own owns the database connection. A committed frame is on the disk, whatever happens to the
-// program or the machine; that is the first one at once and each later one within 0.1 s while the file can be
-// written. A program that dies leaves a session of status 'recording' with every committed frame; so does a
-// writer destroyed without Finish().
+// A thread of its own owns the database connection. While the file can be written, the first frame is
+// committed at once and each later one within 0.1 s. A committed frame is on the disk, whatever happens to
+// the program or the machine. A program that dies leaves a session of status 'recording' with every committed
+// frame; so does a writer destroyed without Finish().
 //
 // While the file can't be written (another program holds it locked, the disk is full, the file or its folder
 // was removed) frames stay in memory, or go into a spill, and the writer tries again. Only when that takes
@@ -58,22 +58,22 @@ class SessionWriter {
   SessionWriter(const SessionWriter&) = delete;
   SessionWriter& operator=(const SessionWriter&) = delete;
 
-  // Waits where the disk is behind by a queue's length. The record fits the header: one silhouette of the
-  // right size a camera (core::SoftMask::Validate), one value a spacing, one contact a part in the layout's
-  // order; a frame comes once.
+  // Waits while the queue to the disk is full. The record fits the header: one silhouette of the right size a
+  // camera (core::SoftMask::Validate), one value a spacing, one contact a part in the layout's order; a frame
+  // comes once.
   void Append(core::FrameRecord record);
   // A changed spacing is one of the layout's.
   void Append(core::SessionEvent event);
 
   // Writes what is still queued and the outcome, marks the session 'complete' and folds it into a single
-  // file; beside a spill, where the session file still can't be written. If it throws, what was committed
-  // stays, and a session without a frame is removed.
+  // file. Where the session file still can't be written, a spill with the rest stays beside it. If it throws,
+  // what was committed stays, and a session without a frame is removed.
   void Finish(core::SessionOutcome outcome);
 
   // Removes a session that has no frame. Throws: Error{kFile} when the file can't be removed.
   void Abandon();
 
-  // That nothing can take away any more, neither a crash of this program nor a power failure.
+  // Frames that neither a crash of this program nor a power failure can take away any more.
   [[nodiscard]] std::int64_t frames_committed() const;
 
   [[nodiscard]] RecordingState state() const;

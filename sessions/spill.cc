@@ -17,8 +17,8 @@
 namespace elbowroom::sessions {
 namespace {
 
-// Rows that are there already are those of a merge that was broken off. Masks have other numbers in the two
-// files, so they are told apart by their hashes.
+// OR IGNORE: rows that are there already come from a merge that was broken off before it removed the spill. A
+// mask has different numbers in the two files, so that masks are matched by their hashes.
 constexpr const char* kMergeSql = R"sql(
 INSERT OR IGNORE INTO main.frame SELECT * FROM spill.frame;
 INSERT OR IGNORE INTO main.frame_spacing SELECT * FROM spill.frame_spacing;

@@ -18,12 +18,13 @@ namespace elbowroom::sessions {
 // Whether a spill lies beside the session: a file, not a link to one.
 [[nodiscard]] bool HasSpill(const std::filesystem::path& session);
 
-// Whether what lies there holds frames of this session. False where a program was killed while it made it.
+// Whether the spill holds frames of this session. False for a spill whose program was killed while making it.
 // Throws: Error{kFile} naming it when it is another session's, or no session.
 [[nodiscard]] bool IsOwnSpill(Database& session);
 
-// Everything of its spill that the session, open to be written, doesn't have yet; then the spill is removed.
-// May be broken off at any time and done again. Throws: DatabaseError; the spill stays then.
+// Copies everything of the spill that the session doesn't have yet into the session, which is open to be
+// written, and then removes the spill. A merge that was broken off can be repeated. Throws: DatabaseError;
+// the spill stays then.
 void MergeSpill(Database& session);
 
 }  // namespace elbowroom::sessions

@@ -29,7 +29,7 @@ Statement::~Statement() = default;
 
 void Statement::Restart() {
   bound_ = 0;
-  statement_->tryReset();  // a failure that this would repeat was thrown when it happened
+  statement_->tryReset();  // returns an earlier failure again, which was thrown when it happened
 }
 
 void Statement::BindInteger(std::int64_t value) {

@@ -19,10 +19,10 @@ class Statement;
 
 namespace elbowroom::sessions {
 
-// Every member throws core::Error{kDatabase} naming the file. The database must outlive it.
-// A value that is read is one: whoever expects NULL asks IsNull() first. Error{kFormat} names the column that
-// is NULL all the same, holds a number that isn't finite, or a text beyond kLongestText.
-inline constexpr std::size_t kLongestText = 1 << 20;  // bytes; all that a program writes stays far below
+// A member that fails throws core::Error{kDatabase} naming the file. The database must outlive the statement.
+// A column that may be NULL is tested with IsNull() before it is read. Reading throws Error{kFormat} naming
+// the column where it is NULL, or holds a number that isn't finite or a text longer than kLongestText.
+inline constexpr std::size_t kLongestText = 1 << 20;  // bytes; the program writes far shorter ones
 
 class Statement {
  public:

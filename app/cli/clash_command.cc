@@ -28,7 +28,8 @@ struct ClashCommandOptions {
   double uncertainty_mm = 0.0;
 };
 
-// Small first: what has to be looked at; contacts that are authorised only before what is clear.
+// The order in which pairs are listed, small numbers first. Authorised contacts come just before pairs that
+// are clear.
 int Urgency(const PairClash& pair) {
   if (pair.demand.authorised_contact && pair.verdict != Verdict::kClear) return 3;
   switch (pair.verdict) {

@@ -53,7 +53,7 @@ std::string TextOf(const review::Clearance& clearance) {
 
 CommandResult Run(const ClearanceCommandOptions& options, const CommandContext& context, bool json) {
   options.clearance.Validate();
-  // The mesh and its pose first: they are cheaper to find wrong than a frame.
+  // The mesh and its pose are read before the frame: an error in them is found sooner.
   const PosedPart posed = LoadPart(options.part, context);
   const RigFrame frame = LoadRigFrame(options.frame, context);
   const core::TriangleTree part(posed.mesh);

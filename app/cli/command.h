@@ -19,23 +19,23 @@ struct CommonOptions {
   int threads = 0;    // 0: all cores
 };
 
-// What a running command has to hand.
+// What a running command can use.
 struct CommandContext {
   core::Progress progress;  // a line on a terminal, else nothing
   std::stop_token stop;     // asked for by Ctrl-C
-  // A line at once for who watches a terminal, else nothing. Thread: any.
+  // Prints a line at once on a terminal; elsewhere it does nothing. Thread: any.
   std::function<void(const std::string&)> tell;
 };
 
-// A command's result: the JSON that --json prints, and the text that is printed otherwise; beside either, on
-// stderr, a line for who may not have expected this result, if any.
+// A command's result: the JSON that --json prints, and the text that is printed otherwise. `hint` goes to
+// stderr in either case: a line on a result that the user may not have expected; empty: none.
 struct CommandResult {
   nlohmann::json json;
   std::string text;
   std::string hint = {};
 };
 
-// What a subcommand does once its words have been understood.
+// What a subcommand does once its arguments have been read.
 using CommandAction = std::function<CommandResult(const CommandContext&)>;
 
 // A picture of the window at work, after which it closes.
@@ -53,9 +53,9 @@ struct ConsoleRequest {
   std::optional<WindowPictureRequest> picture;
 };
 
-// What the words on the command line chose.
+// What the command line chose.
 struct Choice {
-  CommandAction action;  // else
+  CommandAction action;  // empty: the window opens, with `console` if it is set
   std::optional<ConsoleRequest> console;
 };
 

@@ -46,7 +46,7 @@ void ClearProgress() {
   if (isatty(STDERR_FILENO)) WriteToStderr(kClearLine);
 }
 
-// One line, whatever names from files and the command line are in it.
+// Prints one line, whatever characters names from files and the command line contain.
 void PrintToStderr(const std::string& message) {
   constexpr std::string_view kWho = "elbowroom: ";
   ClearProgress();
@@ -54,7 +54,7 @@ void PrintToStderr(const std::string& message) {
   WriteToStderr(fmt::format("{}{}\n", kWho, core::OneLine(message, room)));
 }
 
-// While a command runs: what goes wrong in the end is the one line of a log.
+// For lines while a command runs. They go to a terminal only: stderr in a log has just the line of a failure.
 void TellTerminal(const std::string& line) {
   if (isatty(STDERR_FILENO)) PrintToStderr(line);
 }
@@ -80,7 +80,7 @@ int Guarded(const std::function<int()>& work) {
   }
 }
 
-// As CLI11 wants them, the last one first. It takes "-.5" for an option, though not "-0.5".
+// In the order that CLI11 wants, the last one first. CLI11 takes "-.5" for an option, but not "-0.5".
 std::vector<std::string> ArgumentsOf(int argc, char** argv) {
   std::vector<std::string> arguments(argv + std::min(argc, 1), argv + argc);
   for (std::string& argument : arguments)
@@ -94,7 +94,7 @@ int RunAction(const CommandAction& action, bool json) {
   const InterruptWatch interrupt;
   const CommandResult result = action({TerminalProgress(), interrupt.stop(), TellTerminal});
   ClearProgress();
-  // A path is bytes, and JSON is UTF-8: what isn't is shown as U+FFFD.
+  // A path may hold bytes that aren't UTF-8, which JSON must be: they are shown as U+FFFD.
   WriteToStdout(
       (json ? result.json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) : result.text) +
       '\n');
@@ -102,7 +102,7 @@ int RunAction(const CommandAction& action, bool json) {
   return 0;
 }
 
-// Help and version are results; wrong usage is told in one line.
+// Help and version are results and go to stdout; wrong usage gives one line on stderr.
 int EndOfParsing(const CLI::App& app, const CLI::ParseError& error) {
   std::ostringstream out, told;
   if (app.exit(error, out, told) == 0)

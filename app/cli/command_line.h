@@ -1,4 +1,4 @@
-// The command line: words to commands, failures to one line and an exit status.
+// The command line: arguments become commands, and failures become one line and an exit status.
 #pragma once
 
 #include <functional>

@@ -61,7 +61,7 @@ nlohmann::json Json(const core::PartContact& contact) {
 }
 
 CommandResult Run(const ContactsOptions& options, const CommandContext& context, bool json) {
-  // The mesh and its pose first: they are cheaper to find wrong than a frame.
+  // The mesh and its pose are read before the frame: an error in them is found sooner.
   const PosedPart posed = LoadPart(options.part, context);
   review::ContactOptions contact_options;
   contact_options.resolution_mm = options.resolution_mm;

@@ -26,7 +26,7 @@ CommandResult RunHeadless(const DemoOptions& options, const CommandContext& cont
   control::TrialOptions trial;
   trial.session = options.out / "session.db";
   trial.progress = context.progress;
-  // view.png shows the trial at its most crowded: most contact points.
+  // view.png shows the frame with the most contact points.
   control::SharedFrameResult shown;
   std::int64_t most_points = -1;
   trial.on_frame = [&](const control::SharedFrameResult& result, const control::RecordedFrames&) {

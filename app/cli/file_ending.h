@@ -1,4 +1,4 @@
-// Files that a command writes: what is written must be what its name says, asked before anything is computed.
+// Checks that the name of a file to be written ends as its format does, before anything is computed.
 #pragma once
 
 #include <filesystem>
@@ -6,8 +6,8 @@
 
 namespace elbowroom::cli {
 
-// Throws: Error{kFile} naming the option, the file and the endings, unless the file has one of them. No file:
-// nothing is asked.
+// Throws: Error{kFile} naming the option, the file and the endings, unless the file has one of them. An empty
+// path is fine.
 void CheckEnding(const char* option, const std::filesystem::path& file,
                  std::initializer_list<const char*> endings);
 

@@ -14,7 +14,7 @@ namespace elbowroom::cli {
 FolderLock::FolderLock(const std::filesystem::path& file) {
   namespace fs = std::filesystem;
   std::error_code error;
-  // Absolute first: of a name alone that isn't there yet, the canonical form has no folder.
+  // Absolute first: the canonical form of a bare name that isn't there yet has no folder.
   const fs::path folder = fs::weakly_canonical(fs::absolute(file, error), error).parent_path();
   folder_ = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (folder_ < 0) return;

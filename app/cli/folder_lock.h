@@ -5,8 +5,9 @@
 
 namespace elbowroom::cli {
 
-// Waits for others that hold the lock of the file's folder; they and this are programs that ask for it. Where
-// the folder can't be opened nothing is held: whatever is done there next says why.
+// Holds the lock of the file's folder, and waits for other programs that hold it. A program that doesn't ask
+// for the lock isn't held off. Where the folder can't be opened nothing is held: the next operation there
+// says why.
 // Throws: Error{kCancelled} when the wait is interrupted.
 class FolderLock {
  public:

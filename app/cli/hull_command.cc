@@ -28,7 +28,7 @@ CommandResult Run(const HullOptions& options, const CommandContext& context, boo
     hull = recon::MeshHull(recon::MakeVisualHull(frame.rig, frame.planes, frame.masks), options.edge_mm,
                            context.progress, context.stop);
   };
-  // The five timed runs are for those who read the figure.
+  // Only --json prints the time, so only then the five timed runs are made.
   CommandResult result;
   if (json) {
     result.json["time_ms"] = MedianTimeMs(compute);

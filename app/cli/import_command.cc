@@ -39,7 +39,7 @@ void WritePicture(const cad_import::CadModel& model, const std::filesystem::path
   recon::WritePng(picture, path);
 }
 
-// What a command writes never takes the place of what it reads.
+// Throws where the command would write over the file that it reads.
 void CheckOutput(const char* option, const std::filesystem::path& output,
                  const std::filesystem::path& input) {
   std::error_code ignored;

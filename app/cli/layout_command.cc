@@ -28,7 +28,7 @@ namespace {
 namespace fs = std::filesystem;
 using cad_import::LayoutText;
 
-// What the words of any of these commands may say.
+// The options of all these commands.
 struct LayoutOptions {
   fs::path layout;
   std::vector<fs::path> files;
@@ -43,7 +43,7 @@ struct LayoutOptions {
 using SharedOptions = std::shared_ptr<LayoutOptions>;
 using Run = CommandResult (*)(const LayoutOptions&, const CommandContext&);
 
-// Writes the text if it is a layout; what it then holds is the result, after a line that says what was done.
+// Writes the text if it is a valid layout. The result lists the layout, after a line that says what was done.
 CommandResult Save(const LayoutText& text, const std::string& what, const CommandContext& context,
                    core::Layout* saved = nullptr) {
   cad_import::ImportedLayout imported;
@@ -116,7 +116,7 @@ CommandResult Move(const LayoutOptions& options, const CommandContext& context) 
   MovePart(text, options.part);
   core::Layout layout;
   CommandResult result = Save(text, fmt::format("part '{}' is moved", options.part.name), context, &layout);
-  // What a gap sets isn't where the part is put.
+  // Along the axis of a spacing that moves the part, the gap decides where the part is, not its position.
   for (const core::Spacing& spacing : layout.spacings) {
     const std::vector<core::PartIndex> moving = layout.PartsNamed(spacing.moving);
     if (!options.part.position_mm ||
@@ -154,7 +154,7 @@ CommandResult Show(const LayoutOptions& options, const CommandContext& context) 
   return result;
 }
 
-// A number, also a negative one, that isn't infinite.
+// Accepts finite numbers, also negative ones.
 CLI::Validator FiniteNumber() {
   return {[](const std::string& text) -> std::string {
             return ParseNumber(text) ? "" : "must be a number, not " + text;
@@ -199,7 +199,7 @@ void AddPlace(CLI::App& command, PartEdit* part) {
             "about the fixed x, then y, then z axis, degrees (roll, pitch, yaw)", "R P Y");
 }
 
-// A command of `layout` with its first word.
+// Adds a command of `layout` with its first argument.
 CLI::App* AddCommand(CLI::App& layout, const SharedOptions& options, Choice* choice, const std::string& name,
                      const std::string& what, Run run) {
   CLI::App* command = layout.add_subcommand(name, what);
@@ -209,7 +209,8 @@ CLI::App* AddCommand(CLI::App& layout, const SharedOptions& options, Choice* cho
   return command;
 }
 
-// One that changes the layout: nobody else does from before it is read until it is written.
+// Runs a command that changes the layout, and keeps other programs from changing it between reading and
+// writing.
 template <Run kChange>
 CommandResult Alone(const LayoutOptions& options, const CommandContext& context) {
   const FolderLock lock(options.layout);

@@ -43,7 +43,7 @@ std::optional<std::size_t> FindPair(const LayoutText& text, const PairEdit& edit
   return std::nullopt;
 }
 
-// Names the entries of these kinds that come nearest.
+// Throws, and names the entry of these kinds whose name is nearest.
 [[noreturn]] void FailUnknown(const LayoutText& text, const std::vector<std::string_view>& kinds,
                               const std::string& name) {
   std::vector<std::string> names;
@@ -57,7 +57,7 @@ std::optional<std::size_t> FindPair(const LayoutText& text, const PairEdit& edit
                                         : "`elbowroom layout show` lists the names"));
 }
 
-// As it is written in the layout.
+// The path of the file relative to the layout's folder.
 std::string FileBeside(const fs::path& layout, const fs::path& file) {
   const fs::path folder = fs::absolute(layout).parent_path();
   return fs::proximate(fs::absolute(file), folder).generic_string();
@@ -74,7 +74,7 @@ void SetAll(LayoutText& text, std::string_view kind, std::size_t index, const Fi
   for (const Field& field : fields) text.Set(kind, index, field);
 }
 
-// "layout.toml:12 (spacing 'gap')"
+// The entries that name it: "the [[spacing]] in line 12", ...
 std::vector<std::string> UsersOf(const LayoutText& text, const std::string& name) {
   constexpr std::array<std::pair<std::string_view, std::string_view>, 5> kNaming = {
       {{"group", "parts"}, {"spacing", "moving"}, {"spacing", "reference"}, {"pair", "a"}, {"pair", "b"}}};

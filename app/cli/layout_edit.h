@@ -13,10 +13,10 @@
 
 namespace elbowroom::cli {
 
-// What is nothing isn't written, or, of an entry that is there, stays as it is.
+// A member that is nothing or empty isn't written; an entry that is there already keeps its value.
 struct PartEdit {
   std::filesystem::path file;
-  std::string name;  // empty: the file's, numbered where it is taken
+  std::string name;  // empty: the file's, with a number where that is taken
   std::string node;
   std::optional<core::LengthUnit> unit;
   std::optional<Eigen::Vector3d> position_mm;
@@ -39,16 +39,18 @@ struct PairEdit {
   std::optional<bool> ignore;
 };
 
-// Returns the name that the part was given. Its file is written as seen from the layout's folder.
+// Adds a part and returns its name. Its file is written relative to the layout's folder.
 std::string AddPart(cad_import::LayoutText& text, const PartEdit& edit);
 
-// Changes the entry of that name (a pair: of the two, in either order), or adds it.
+// Change the entry of that name (a pair: of the two, in either order), or add it. PutSpacing throws
+// core::Error{kRange} for a new spacing that lacks a value.
 void PutSpacing(cad_import::LayoutText& text, const SpacingEdit& edit);
 void PutGroup(cad_import::LayoutText& text, const core::Group& group);
 void PutPair(cad_import::LayoutText& text, const PairEdit& edit);
 
-// Both throw: core::Error{kRange} with the layout's file for a name that it doesn't have, with the nearest
-// that it has. RemoveNamed also, with their lines, while other entries name the part or group.
+// All throw core::Error{kRange}, which names the layout's file, for a name or pair that it doesn't have;
+// MovePart and RemoveNamed also name the nearest that it has. RemoveNamed throws too while other entries name
+// the part or group, with the lines of these.
 void MovePart(cad_import::LayoutText& text, const PartEdit& edit);
 void RemoveNamed(cad_import::LayoutText& text, const std::string& name);
 void RemovePair(cad_import::LayoutText& text, const PairEdit& edit);

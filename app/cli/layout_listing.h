@@ -1,4 +1,4 @@
-// A layout as `elbowroom layout` tells it.
+// A layout as `elbowroom layout` prints it.
 #pragma once
 
 #include "app/cli/command.h"

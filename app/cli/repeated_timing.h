@@ -21,7 +21,8 @@ template <typename Compute>
   return times_ms[2];
 }
 
-// Computes: `is_timed`, as often as MedianTimeMs does, whose time it returns; otherwise once.
+// If `is_timed`, computes as often as MedianTimeMs does and returns its time; otherwise computes once and
+// returns 0.
 template <typename Compute>
 double ComputeAndTimeMs(bool is_timed, const Compute& compute) {
   if (is_timed) return MedianTimeMs(compute);

@@ -19,13 +19,13 @@ void AddRigFrameOptions(CLI::App& command, RigFrameOptions* options) {
 RigFrame LoadRigFrame(const RigFrameOptions& options, const CommandContext& context) {
   recon::RecordedRig source(recon::ReadRigFile(options.rig_file), context.stop);
   RigFrame result{std::make_shared<const core::Rig>(source.rig()), {}, {}};
-  // The frame first: it is the cheaper one to find missing.
+  // The frame is read before the backgrounds: a missing frame is found sooner.
   const recon::FrameSet frames = source.Read(options.frame, context.stop);
   result.record.masks =
       recon::FrameSegmenter(source.ReadBackgrounds(context.progress, context.stop), {}, source.rig())
           .SegmentSoft(frames);
   result.planes = recon::MakeUndistortedPlanes(*result.rig);
-  // Outlines, which `abstain` alone asks for, are made with the first question.
+  // A plane makes its outline, which `abstain` alone needs, at the first query: it is made here.
   if (recon::ExteriorIsObject(*result.rig)) {
     tbb::parallel_for(std::size_t{0}, result.planes.size(), [&](std::size_t i) {
       (void)result.planes[i]->outline().LabelAt(Eigen::Vector2d::Zero());

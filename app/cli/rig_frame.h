@@ -24,9 +24,9 @@ void AddRigFrameOptions(CLI::App& command, RigFrameOptions* options);
 
 struct RigFrame {
   std::shared_ptr<const core::Rig> rig;
-  // One a camera: ready ones, or segmented with the default options, boundaries located between pixels.
+  // One a camera: ready masks, or segmented with the default options, with boundaries between pixels.
   std::vector<core::SoftMask> masks;
-  recon::UndistortedPlanes planes;  // with all that lasts as long as the rig: no part of a frame's time
+  recon::UndistortedPlanes planes;  // with all that depends on the rig alone, which no frame's time includes
 };
 
 // Throws: core::Error for the rig's files and for a frame out of range.

@@ -13,7 +13,7 @@
 namespace elbowroom::cli {
 namespace {
 
-// 0, or what kept it from being written whole.
+// Writes all of the text. Returns 0, or the errno of what prevented it.
 int WriteAll(int descriptor, std::string_view text) {
   while (!text.empty()) {
     const ssize_t size = ::write(descriptor, text.data(), text.size());
@@ -27,7 +27,7 @@ int WriteAll(int descriptor, std::string_view text) {
 }  // namespace
 
 void GuardStandardStreams() {
-  // The lowest free number is given, so those below are open by then.
+  // open() gives the lowest free number, which is `stream`: those below it are open by then.
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     if (::fcntl(stream, F_GETFD) < 0 && errno == EBADF)
       (void)::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);

@@ -12,7 +12,8 @@ namespace elbowroom::cli {
 
 [[nodiscard]] CommandResult SummaryOf(const control::TrialOutcome& outcome, const core::Layout& layout);
 
-// What the session writer says while a trial runs: on a terminal at once, and in the summary. Thread: any.
+// Passes the news of the session writer on while a trial runs: to a terminal at once, and into the summary.
+// Thread: any.
 class RecordingLog {
  public:
   explicit RecordingLog(const CommandContext& context) : context_(context) {}

@@ -1,4 +1,4 @@
-// Options whose words mean a quantity.
+// Options and validators for quantities.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -20,7 +20,7 @@ inline void AddUnitOption(CLI::App& command, std::optional<core::LengthUnit>* un
       ->check(CLI::IsMember({"mm", "cm", "m", "in"}));
 }
 
-// The whole text as a finite number.
+// The whole text as a finite number; nothing if it isn't one.
 inline std::optional<double> ParseNumber(const std::string& text) {
   double value = 0.0;
   const char* end = text.data() + text.size();

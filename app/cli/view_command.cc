@@ -39,7 +39,7 @@ struct ViewOptions {
   std::filesystem::path image;
 };
 
-// What a method saw, and what it says of its work.
+// What a method saw, and its counts.
 struct HullSeen {
   recon::DepthMap picture;
   recon::PictureBuffer<Eigen::Vector3f> normal_in_world;  // none from a sweep
@@ -61,7 +61,7 @@ HullSeen Seen(recon::HullView view) {
           {{"skipped_pixels", view.skipped_pixels}}};
 }
 
-// Sees the frame once, or often for the time's sake.
+// Sees the frame by the chosen method. See() may be called again, to time it.
 class Viewer {
  public:
   Viewer(const ViewOptions& options, const RigFrame& frame, const core::CameraModel& view,
@@ -107,7 +107,7 @@ recon::ViewFile ReadView(const ViewOptions& options) {
   return view;
 }
 
-// Before anything is computed: what is written must be what its name says.
+// Checks the names of the files to be written, before anything is computed.
 void CheckFiles(const ViewOptions& options) {
   if (options.depth == options.image) {
     throw core::Error(
@@ -136,7 +136,7 @@ CommandResult Run(const ViewOptions& options, const CommandContext& context, boo
   Viewer viewer(options, frame, view.camera, rays);
   HullSeen seen;
   const auto compute = [&] { seen = viewer.See(); };
-  // The five timed runs are for those who read the figure.
+  // Only --json prints the time, so only then the five timed runs are made.
   CommandResult result;
   if (json) {
     result.json["time_ms"] = MedianTimeMs(compute);

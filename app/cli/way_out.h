@@ -1,4 +1,4 @@
-// What a contact's recovery comes to, and how to print it.
+// How a contact can be undone, and how that is printed.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -16,11 +16,11 @@
 
 namespace elbowroom::cli {
 
-// All that is known of the way out of one contact; empty where there is none.
+// How one contact can be undone; empty without a contact.
 struct WayOut {
   review::RecoveryWay way;
   std::optional<review::RecoveryUncertainty> uncertainty;
-  std::optional<review::EscapeDistance> part_free;  // of a straight way
+  std::optional<review::EscapeDistance> part_free;  // only for a straight way
   std::optional<Eigen::Vector3d> part_free_direction_in_world;
   std::optional<review::Penetration> penetration;
 };

@@ -16,8 +16,7 @@ class BackgroundJob {
   using Work = std::function<void(const std::stop_token& stop)>;
   using OnDone = std::function<void(const std::string& error)>;  // "" when all went well; else the one line
 
-  // `work` runs on a thread of its own and says what went wrong by throwing; `on_done` then runs on the
-  // bridge's thread.
+  // `work` runs on a thread of its own and throws when it fails; `on_done` then runs on the bridge's thread.
   BackgroundJob(Bridge& bridge, Work work, OnDone on_done);
 
   void Cancel() { thread_.request_stop(); }  // asks; doesn't wait

@@ -9,7 +9,7 @@ void Bridge::Post(Delivery delivery) {
 }
 
 void Bridge::PostLatest(Stream stream, Delivery delivery) {
-  Delivery replaced;  // dies after the lock: what it holds may take time to free
+  Delivery replaced;  // destroyed after the lock is released: freeing its content may take time
   {
     const std::lock_guard lock(mutex_);
     replaced = std::exchange(latest_[static_cast<std::size_t>(stream)], std::move(delivery));

@@ -10,12 +10,12 @@
 namespace elbowroom::console {
 
 // What is posted runs later on the thread that the bridge lives on, and not at all once the bridge is gone.
-// Whoever owns a bridge ends the threads that post to it first. Thread: any may post; nothing ever waits.
+// The owner of a bridge ends the threads that post to it first. Thread: any may post; nothing ever waits.
 class Bridge : public QObject {
  public:
   using Delivery = std::function<void()>;  // must not throw
 
-  // Each keeps only its latest delivery, so that a slow UI never has a pile of them to work off.
+  // A stream keeps only its latest delivery, so that they don't pile up when the UI is slow.
   enum class Stream { kHull, kFrame, kPicture, kProgress };
 
   explicit Bridge(QObject* parent = nullptr) : QObject(parent) {}

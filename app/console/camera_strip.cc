@@ -40,7 +40,7 @@ void CameraThumbnail::paintEvent(QPaintEvent* /*event*/) {
   painter.fillRect(target, kSilhouetteBackground);
   if (!picture_.isNull()) painter.drawImage(target, picture_);
 
-  // Under its picture, and beyond it where that is too narrow for name and count.
+  // The caption is under its picture, and wider than a picture that is too narrow for name and count.
   const int caption_width_px = std::min(width(), std::max(target.width(), kCaptionWidthPx));
   QRect caption(0, height() - text_height_px, caption_width_px, text_height_px);
   caption.moveLeft((width() - caption_width_px) / 2);

@@ -25,14 +25,14 @@ bool IsSet(const char* variable) {
   return value != nullptr && *value != '\0';
 }
 
-// Qt ends the program with a core dump where it finds no display; here that is one line.
+// Without a display Qt would end the program with a core dump; this gives one line instead.
 void RequireDisplay() {
   if (IsSet("DISPLAY") || IsSet("WAYLAND_DISPLAY") || IsSet("QT_QPA_PLATFORM")) return;
   throw core::Error(core::ErrorKind::kGraphics,
                     std::string("no display to open the window on: ") + kWhatToDo);
 }
 
-// While Qt connects to the display: what it can't survive becomes one line and exit 1.
+// Handles messages while Qt connects to the display: a fatal one becomes one line and exit status 1.
 void ReportFatal(QtMsgType type, const QMessageLogContext& /*context*/, const QString& message) {
   if (type != QtFatalMsg) return;  // its warnings say what the fatal message repeats
   std::fprintf(stderr, "elbowroom: no display to open the window on: %s; %s\n",
@@ -40,7 +40,7 @@ void ReportFatal(QtMsgType type, const QMessageLogContext& /*context*/, const QS
   std::_Exit(EXIT_FAILURE);
 }
 
-// Nothing may be thrown through Qt's event loop: what a slot throws is shown, and the console lives on.
+// Nothing may be thrown through Qt's event loop: an exception of a slot is shown, and the console goes on.
 class ConsoleApplication : public QApplication {
  public:
   using QApplication::QApplication;

@@ -11,8 +11,8 @@
 
 namespace elbowroom::console {
 
-// Changes of one gap that follow each other quickly (a slider on its way, a key held down) are one step. The
-// session's log isn't touched: going back is one more change in it. Thread: UI.
+// Changes of one gap that follow each other quickly (a slider on its way, a key held down) are one step.
+// Undoing one removes nothing from the session: it is recorded as one more change. Thread: UI.
 class GapHistory : public QObject {
   Q_OBJECT
 
@@ -26,7 +26,8 @@ class GapHistory : public QObject {
 
   [[nodiscard]] bool CanUndo() const;
   [[nodiscard]] bool CanRedo() const;
-  // The gaps as they then are, bit-equal to what they were. Throw: PreconditionError if that can't be.
+  // The gaps afterwards, bit-equal to what they were. Throw: PreconditionError if there is nothing to undo or
+  // redo.
   [[nodiscard]] Gaps Undo();
   [[nodiscard]] Gaps Redo();
 
@@ -38,7 +39,7 @@ class GapHistory : public QObject {
 
   std::optional<core::History<Gaps>> settled_;  // nothing: no trial yet
   Gaps now_mm_;
-  std::size_t moving_ = 0;  // the gap that makes `now_mm_` unlike what is settled
+  std::size_t moving_ = 0;  // the gap in which now_mm_ may differ from settled_
   QTimer pause_;
 };
 

@@ -18,7 +18,8 @@
 
 namespace elbowroom::console {
 
-// Shows what the desk tells and passes on what the user does; closing it ends a running trial in order first.
+// Shows the desk's news and passes on what the user does; closing the window ends a running trial in order
+// first.
 // Thread: UI.
 class MainWindow : public QMainWindow {
   Q_OBJECT

@@ -13,7 +13,7 @@ namespace {
 
 // Beyond this a picture costs software OpenGL more time than it gains in sharpness.
 constexpr QSize kLargestPicture(800, 600);
-// After which a scene without news is drawn in full.
+// A scene that hasn't changed for this long is drawn in full.
 constexpr std::chrono::milliseconds kRests(400);
 constexpr double kWheelStepEighths = 120.0;  // one notch of a wheel, in Qt's eighths of a degree
 

@@ -21,8 +21,9 @@
 namespace elbowroom::console {
 
 // Left drag orbits, right or middle drag pans, the wheel zooms, a double click fits. Never waits for a
-// picture: until the next one comes the last one is shown, scaled to the widget. One is asked for at a time,
-// of the latest frame and camera, as fine as keeps it fluid; a scene that rests is drawn once more in full.
+// picture: until the next one comes the last one is shown, scaled to the widget. One picture is asked for at
+// a time, of the latest frame and camera, as fine as PicturePace allows; when nothing changes for a while,
+// the scene is drawn once more in full.
 // Thread: UI.
 class OperatorView : public QWidget {
   Q_OBJECT
@@ -70,7 +71,7 @@ class OperatorView : public QWidget {
   PicturePace pace_;
   PictureFineness drawn_with_;  // the picture asked for last
   QElapsedTimer drawing_;       // valid while a picture is asked for
-  bool is_outdated_ = false;    // what is being drawn
+  bool is_outdated_ = false;    // whether the picture that is being drawn is
   QTimer rest_;
   QString last_error_;  // told once, until a picture succeeds
   QPointF last_mouse_px_;

@@ -28,7 +28,7 @@ QRgb Mixed(int share, int whole) {
               mix(kSilhouetteBackground.blue(), kSilhouetteObject.blue()));
 }
 
-// Adds the object pixels of mask row `y` to the blocks above which it lies.
+// Adds the object pixels of mask row `y` to the counts of the blocks that the row crosses.
 void CountRow(const core::BitMask& mask, int y, int edge, std::vector<int>* counts) {
   const std::uint64_t block_bits = edge == kWordBits ? ~std::uint64_t{0} : (std::uint64_t{1} << edge) - 1U;
   const auto row = mask.words().subspan(static_cast<std::size_t>(y) * mask.words_per_row());

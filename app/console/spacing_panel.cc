@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kSliderStepsPerMm = 10.0;  // the tenth of a millimetre that the number shows
 constexpr double kButtonStepMm = 10.0;
-constexpr double kSameMm = 1e-6;  // closer values are the same wish
+constexpr double kSameMm = 1e-6;  // closer values are the same gap
 
 int SliderFrom(double value_mm) { return static_cast<int>(std::lround(value_mm * kSliderStepsPerMm)); }
 
@@ -49,7 +49,7 @@ void SpacingControl::AddRows(const core::Spacing& spacing) {
   box_->setObjectName("spacing_box:" + name);
   box_->setDecimals(1);
   box_->setSuffix(" mm");
-  box_->setKeyboardTracking(false);  // a number that is half typed is no wish
+  box_->setKeyboardTracking(false);  // a number that is half typed isn't asked for
   box_->installEventFilter(this);
   grid->addWidget(title_, 0, 0, 1, 3);
   grid->addWidget(applied_, 0, 3, Qt::AlignRight);
@@ -84,7 +84,7 @@ void SpacingControl::Wish(double to_mm) {
   emit Wished(name_, allowed_mm);
 }
 
-// Undo is the layout's, not that of the typed digits.
+// The keys for undo and redo change the gaps, not the digits typed in the box.
 bool SpacingControl::eventFilter(QObject* watched, QEvent* event) {
   if (event->type() == QEvent::ShortcutOverride) {
     const auto* key = static_cast<QKeyEvent*>(event);

@@ -1,4 +1,4 @@
-// The gaps of the layout, for the experimenter's hand: slider, number, buttons, keys.
+// The controls of the layout's gaps: slider, number, buttons, keys.
 #pragma once
 
 #include <QDoubleSpinBox>
@@ -15,14 +15,16 @@
 
 namespace elbowroom::console {
 
-// One spacing. What the experimenter wishes is shown at once; what the frames were judged with stands beside.
+// The control of one spacing. The gap that the experimenter asks for is shown at once; beside it stands the
+// gap with which the latest frame was judged.
 class SpacingControl : public QWidget {
   Q_OBJECT
 
  public:
   explicit SpacingControl(const core::Spacing& spacing, QWidget* parent = nullptr);
 
-  // Follows a change that nobody here asked for; one that was asked for is awaited.
+  // Shows the gap with which a frame was judged. The control follows it where it changed without being asked
+  // for here; a gap that was asked for stays until a frame comes with it.
   void ShowApplied(double applied_mm);
   void Step(double by_mm);  // stays within the limits
   void Wish(double to_mm);  // likewise
@@ -42,12 +44,12 @@ class SpacingControl : public QWidget {
   std::string name_;
   double min_mm_;
   double max_mm_;
-  double value_mm_ = 0.0;  // what is shown, but for its rounding
+  double value_mm_ = 0.0;  // what is shown, before it is rounded
   QLabel* title_ = nullptr;
   QLabel* applied_ = nullptr;
   QSlider* slider_ = nullptr;
   QDoubleSpinBox* box_ = nullptr;
-  std::optional<double> awaited_mm_;  // wished, but no frame has come with it yet
+  std::optional<double> awaited_mm_;  // asked for, but no frame has come with it yet
   std::optional<double> applied_mm_;
 };
 
@@ -62,7 +64,7 @@ class SpacingPanel : public QGroupBox {
   void ShowApplied(std::span<const double> spacing_mm);  // in the layout's order
   void StepActive(double by_mm);  // the spacing that was moved last, at first the layout's first
 
-  // Back to the gaps before the last change, and forth again; nothing where there is none.
+  // Back to the gaps before the last change, and forth again; do nothing where there is no such change.
   void Undo();
   void Redo();
   [[nodiscard]] const GapHistory& history() const { return *history_; }

@@ -73,7 +73,7 @@ void StatusLine::ShowFrame(const control::FrameResult& result, const control::Re
           .arg(result.skipped.unchanged_parts)
           .arg(result.record.contacts.size())
           .arg(PercentOf(result.skipped.triangles_skipped, result.skipped.triangles_in_all)));
-  // Text that grows pushes the other fields once, not back and forth with every frame.
+  // A field never shrinks: texts of changing length would move the other fields with every frame.
   for (QLabel* field : {frame_, recorded_, times_, skipped_}) {
     field->setMinimumWidth(std::max(field->minimumWidth(), field->sizeHint().width()));
   }
@@ -89,7 +89,7 @@ void StatusLine::ShowPicture(double drawing_ms, const QString& driver) {
 void StatusLine::ShowProgress(qint64 done, qint64 total, const QString& what) {
   progress_->setVisible(total > 0);
   if (total <= 0) return;
-  progress_->setRange(0, 1000);  // a share: totals may exceed what a progress bar counts in
+  progress_->setRange(0, 1000);  // in thousandths: totals may exceed the range of a progress bar
   progress_->setValue(static_cast<int>(1000 * std::clamp<qint64>(done, 0, total) / total));
   progress_->setFormat(what + "  %p %");
 }

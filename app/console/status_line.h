@@ -1,4 +1,4 @@
-// The window's lower edge: where the trial is, what each frame cost, what it was spared.
+// The window's lower edge: where the trial is, how long each frame took, and what was skipped.
 #pragma once
 
 #include <QLabel>

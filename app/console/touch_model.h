@@ -1,4 +1,4 @@
-// How every part fared so far, as rows.
+// The state and the touches so far of every part, as rows.
 #pragma once
 
 #include <QAbstractTableModel>

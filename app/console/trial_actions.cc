@@ -42,7 +42,7 @@ QString DefaultSessionName(const QDateTime& at) {
 
 std::optional<std::filesystem::path> SessionChoice::Choose(QWidget* window) {
   if (!given_.empty()) return std::exchange(given_, {});
-  // No question about overwriting: a session never takes another one's place, and says so.
+  // The dialog doesn't ask about overwriting: a session never replaces a file, and starting it says so.
   const QString path = QFileDialog::getSaveFileName(
       window, QObject::tr("Record the session into"),
       QDir::home().filePath(DefaultSessionName(QDateTime::currentDateTime())), QObject::tr("Sessions (*.db)"),

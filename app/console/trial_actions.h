@@ -16,7 +16,7 @@ class SessionChoice {
  public:
   explicit SessionChoice(std::filesystem::path given) : given_(std::move(given)) {}
 
-  // Nothing if the user thinks better of it.
+  // Nothing if the user cancels.
   [[nodiscard]] std::optional<std::filesystem::path> Choose(QWidget* window);
 
  private:
@@ -58,7 +58,7 @@ class RedoGapAction : public QAction {
   RedoGapAction(SpacingPanel& spacings, QWidget* window);
 };
 
-// What these do once the session's path is known.
+// What the actions do once the session's path is known.
 void StartDemo(TrialDesk& desk, const std::filesystem::path& session);
 void StartTrialFile(TrialDesk& desk, const std::filesystem::path& trial_file,
                     const std::filesystem::path& session);

@@ -58,7 +58,7 @@ class TrialDesk : public QObject {
   // Ends what is under way in order: a trial's session is complete up to there, a report is given up.
   void Stop();
 
-  // Take effect with the trial's next frame; without a trial, nothing.
+  // Take effect with the trial's next frame; without a trial, they do nothing.
   void SetSpacing(const std::string& spacing, double to_mm);
   void MarkTool(const std::string& tool, bool in_use);
 
@@ -67,7 +67,7 @@ class TrialDesk : public QObject {
   void TrialOpened(const elbowroom::control::TrialSetup& setup);
   void HullArrived(const elbowroom::control::SharedHull& hull);  // of a frame that is being judged
   void FrameArrived(const elbowroom::console::FrameNews& news);
-  // Where frames go has changed: is_well: into the session file.
+  // The place where frames are recorded has changed; is_well: they go into the session file.
   void RecordingChanged(bool is_well, const QString& line);
   void TrialEnded(const QString& note);
   void ReportWritten(const QString& html_file);

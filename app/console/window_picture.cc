@@ -26,7 +26,7 @@ void WindowPicture::Look(const control::FrameResult& result) {
   const auto& spacings = result.layout->spacings;
   if (order_.spacing_mm && !spacings.empty()) {
     window_.desk().SetSpacing(spacings.front().name, *std::exchange(order_.spacing_mm, std::nullopt));
-    return;  // this frame was judged before
+    return;  // this frame was judged before the gap is set
   }
   const bool is_as_ordered =
       result.record.time_s >= order_.after_s && (!order_.wants_contact || HasContact(result));

@@ -14,10 +14,10 @@ struct PictureOrder {
   std::filesystem::path png;
   double after_s = 0.0;              // the trial's time
   std::optional<double> spacing_mm;  // set the layout's first spacing to this when the trial begins
-  bool wants_contact = false;        // wait on for a frame in which something is touched
+  bool wants_contact = false;        // wait for a frame with a contact
 };
 
-// Takes the picture as soon as the trial, and the operator's view of it, have come to what was ordered.
+// Takes the picture as soon as the operator's view shows a frame that is as ordered.
 // Thread: UI.
 class WindowPicture : public QObject {
   Q_OBJECT
@@ -34,7 +34,7 @@ class WindowPicture : public QObject {
 
   PictureOrder order_;
   MainWindow& window_;
-  std::optional<qint64> due_frame_;  // the first frame that is as ordered, while frames stay so
+  std::optional<qint64> due_frame_;  // the first frame of the present run of frames that are as ordered
 };
 
 }  // namespace elbowroom::console

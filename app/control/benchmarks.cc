@@ -34,7 +34,7 @@ struct Job {
   std::function<void()> run;
 };
 
-// What a frame starts from: masks in memory, and what belongs to the calibration alone.
+// The input of a frame: masks in memory, and what depends on the calibration alone.
 struct MaskedScene {
   explicit MaskedScene(const recon::ViewScene& scene)
       : rig(std::make_shared<const core::Rig>(scene.rig)),
@@ -102,7 +102,7 @@ struct NamedJobs {
   BenchmarkKind kind;
   std::vector<Job> (*make)();
 };
-// A new one is one line here, and one in kKinds.
+// A new benchmark takes one line here, and one in kKinds.
 constexpr std::array<NamedJobs, 3> kJobs = {{{{"view", "masks to the depth of a 640 x 480 view"}, ViewJobs},
                                              {{"segmentation", "frames to masks"}, SegmentationJobs},
                                              {{"hull", "masks to a closed mesh"}, HullJobs}}};

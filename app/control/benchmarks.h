@@ -24,12 +24,12 @@ struct BenchmarkKind {
   std::string_view what;  // one line
 };
 
-// All there are, in the order in which they run. Beside them, docs/performance.md has the whole comparison.
+// All benchmarks, in the order in which they run. docs/performance.md has the whole comparison.
 [[nodiscard]] std::span<const BenchmarkKind> Benchmarks();
 
-// On simulated hands, inputs in memory: medians of kBenchmarkRepetitions runs after a warm-up, with as many
-// threads as the caller lets TBB use. Throws: core::Error{kRange} naming what there is for an unknown name;
-// core::Error{kCancelled}.
+// Times one benchmark on simulated hands, with inputs in memory: medians of kBenchmarkRepetitions runs after
+// a warm-up, with as many threads as the caller lets TBB use. Throws: core::Error{kRange} for an unknown
+// name, with the names that there are; core::Error{kCancelled}.
 inline constexpr int kBenchmarkRepetitions = 31;
 [[nodiscard]] std::vector<BenchmarkTiming> RunBenchmark(std::string_view name, const core::Progress& progress,
                                                         std::stop_token stop);

@@ -20,10 +20,10 @@ constexpr std::int32_t kPointsPerRing = 64;
 
 enum class Outline { kRectangle, kCircle };
 
-// One level of a part's profile, all of it about the z axis.
+// One level of a part's profile, centred on the z axis.
 struct Ring {
   Outline outline = Outline::kRectangle;
-  double half_x_mm = 0.0;  // of a circle: the radius, as half_y_mm
+  double half_x_mm = 0.0;  // of a circle: the radius, like half_y_mm
   double half_y_mm = 0.0;
   double z_mm = 0.0;
 };
@@ -41,8 +41,8 @@ Vector3d PointOn(const Ring& ring, std::int32_t i) {
   return {reach * x * ring.half_x_mm, reach * y * ring.half_y_mm, ring.z_mm};
 }
 
-// The surface through the rings in order, closed by a fan at either end. Outwards if the profile goes from
-// the middle of the underside out, up and back in.
+// The surface through the rings in order, closed by a fan of triangles at either end. Triangles face outwards
+// if the profile goes from the middle of the underside out, up and back in.
 core::TriangleMesh Through(std::span<const Ring> rings) {
   core::TriangleMesh mesh;
   mesh.vertices_mm.emplace_back(0.0, 0.0, rings.front().z_mm);

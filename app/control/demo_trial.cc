@@ -10,7 +10,7 @@
 namespace elbowroom::control {
 namespace {
 
-// Between parts on one side, hand and tools on the other.
+// Between the parts on one side and the hand and its tools on the other.
 constexpr double kRequiredClearanceMm = 15.0;
 
 // When the simulated hand takes up the tongs and lays them down.

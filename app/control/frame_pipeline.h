@@ -19,13 +19,13 @@
 
 namespace elbowroom::control {
 
-// Keeps what the next frame may not have to compute again: silhouettes that didn't change, parts that
-// neither moved nor saw the hull change. Skipping never changes a result; a clearance begun at the last
-// frame's witness points has bounds as true, which may differ within the tolerance (frame_pipeline_test).
-// Thread: one frame at a time.
+// Keeps what needn't be computed again for the next frame: silhouettes that didn't change, and parts that
+// didn't move while the hull didn't change. Skipping never changes a result, with one exception: the search
+// for a clearance begins at the last frame's witness points, so that its bounds, certain all the same, may
+// differ within the tolerance (frame_pipeline_test). Thread: one frame at a time.
 class FramePipeline {
  public:
-  // Is given the frame's hull.
+  // Called with the frame's hull.
   using WithHull = std::function<void(const SharedHull&)>;
 
   // Throws: what Rig::Validate, Layout::Validate and PartReviewOptions::Validate throw.
@@ -37,10 +37,10 @@ class FramePipeline {
   [[nodiscard]] const std::shared_ptr<const core::Layout>& layout() const { return layout_; }
   [[nodiscard]] std::span<const core::TriangleTree> part_trees() const { return part_trees_; }
 
-  // spacing_mm: in the layout's order. The result shares the frames' pictures. Contacts are those of the
-  // parts before they give way, cloths as they are at rest; then they respond to the time since the last
-  // frame. `beside`: what needs no more than the hull, on any thread, while the parts are judged; Process
-  // waits for it.
+  // spacing_mm: in the layout's order. The result shares the frames' pictures. The parts are judged before
+  // they give way in this frame, and cloths in their shape at rest; then those that give way react to the
+  // hull, over the time since the last frame. `beside`: work that needs only the hull; it runs on any thread
+  // while the parts are judged, and Process waits for it.
   [[nodiscard]] SharedFrameResult Process(recon::FrameSet frames, std::span<const double> spacing_mm,
                                           const WithHull& beside = {});
 

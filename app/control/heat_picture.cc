@@ -24,22 +24,26 @@ using Eigen::Vector3d;
 
 constexpr int kViewPx = 600;  // of one view, square
 constexpr int kBarPx = 64;    // below it
-// Heat that points sideways by less than this share says nothing of the side to look from.
+// The mean direction of the touched patches decides from which side to look only if its horizontal share is
+// above this.
 constexpr double kSideways = 0.1;
-constexpr int kShades = 24;  // of the bar
-// The part is drawn in it; what light makes of it, it makes of the patches' colours.
+constexpr int kShades = 24;  // in the bar
+// The part is drawn in this colour. The drawn colour divided by this one is the light on a pixel, by which
+// the colour of its patch is multiplied.
 const Eigen::Vector3f kPartColor(0.86F, 0.87F, 0.88F);
 
-// The lamp hangs above: a part that was touched from below is turned over, about x.
+// The view and the part in it. As the lamp hangs above, a part that was touched from below is turned over
+// about x.
 struct HeatView {
   recon::SceneView view;
   core::RigidTransform world_from_part;
 };
 
-// From above or below, all round: where the most dwelling faces the eye.
+// The view that faces the sum of the touched patches' normals: from above, or from below by turning the part
+// over, and from any side.
 HeatView BestView(const core::TriangleMesh& mesh, const core::SurfacePatches& patches,
                   const core::HeatMap& map) {
-  Vector3d heat = Vector3d::Zero();  // of all patches' outward areas, by their dwelling
+  Vector3d heat = Vector3d::Zero();  // sum of the outward area normals, each times its patch's dwell time
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     std::size_t patch = patches.FirstOf(t);
     for (const core::SurfacePatches::Corners& p : patches.CornersOf(t))
@@ -71,7 +75,7 @@ recon::gl::Scene SceneOf(const core::SharedMesh& mesh, const HeatView& view) {
   return scene;
 }
 
-// Which patch each pixel shows; nothing: none.
+// Which patch each pixel shows; nothing where it shows no part.
 std::vector<std::optional<std::size_t>> PatchesSeen(const recon::gl::DepthImage& depth, const HeatView& view,
                                                     const core::TriangleTree& tree,
                                                     const core::SurfacePatches& patches) {

@@ -8,9 +8,10 @@
 
 namespace elbowroom::control {
 
-// The part twice, side by side: how long each patch was touched, and how deep at most, each in the report's
-// depth colours from pale (little) to dark (the map's most; said on its bar), as light as the part is there;
-// grey: never touched. Seen from above, or, where it was touched more from below, turned over about its x.
+// The part twice, side by side: coloured by how long each patch was touched, and by how deep it was at most.
+// The colours are the report's depth colours, from pale (little) to dark (the map's largest value, written on
+// its bar), shaded like the part; grey patches were never touched. The part is seen from above; where it was
+// touched more from below, it is turned over about its x axis.
 // Throws: core::Error as SceneRenderer::Render.
 [[nodiscard]] recon::Image HeatPicture(recon::gl::SceneRenderer& renderer, const core::SharedMesh& mesh,
                                        const core::HeatMap& map);

@@ -8,9 +8,9 @@
 
 namespace elbowroom::control {
 
-// The model from above its front right, and over it, also where other surfaces are before them: open edges
+// The model seen from above its front right. Drawn over it, also where other surfaces hide them: open edges
 // red, edges of three or more triangles violet, edges between triangles that face different ways blue,
-// triangles that cross others orange; below how many of each there are, and the model's size.
+// triangles that cross others orange. Below the picture: how many of each there are, and the model's size.
 // Throws: core::Error as SceneRenderer::Render.
 [[nodiscard]] recon::Image ImportPicture(recon::gl::SceneRenderer& renderer,
                                          const cad_import::CadModel& model,

@@ -23,7 +23,7 @@ constexpr double kRowPx = 20.0;
 constexpr double kElevationRad = 0.25;  // low, so that gaps along z aren't hidden by what is above
 constexpr const char* kGapColor = "#b4400a";
 
-// Far apart, as light as what is drawn in them has to be; parts beyond take them again.
+// Colours that differ clearly, and are light enough to show shading. Further parts take them again.
 constexpr std::array<std::array<int, 3>, 8> kColors = {{{96, 143, 190},
                                                         {214, 164, 92},
                                                         {113, 173, 125},
@@ -51,8 +51,8 @@ Eigen::AlignedBox3d BoxOf(const core::Layout& layout, const std::string& part_or
   return box;
 }
 
-// Where the gap is drawn: beside its axis in the middle of what both ends have in common, or of the moving
-// end if that is nothing.
+// The ends of the line that shows the gap. Across its axis the line is in the middle of what the boxes of
+// both ends have in common, or in the middle of the moving end if they have nothing in common.
 std::array<Vector3d, 2> EndsOf(const core::Layout& layout, const core::Spacing& gap, const Boxes& boxes) {
   const Eigen::AlignedBox3d below = BoxOf(layout, gap.reference, boxes);
   const Eigen::AlignedBox3d above = BoxOf(layout, gap.moving, boxes);
@@ -69,7 +69,7 @@ std::array<Vector3d, 2> EndsOf(const core::Layout& layout, const core::Spacing& 
   return {from, to};
 }
 
-// Right of that point, on paper of its own: parts come in any colour.
+// Puts the text to the right of the point, on a white ground, because parts may have any colour.
 void AddLabel(const Eigen::Vector2d& at, const std::string& text, LineDrawing* drawing) {
   constexpr double kSize = 15.0, kLetterPx = 12.0, kFromLinePx = 12.0, kMarginPx = 4.0;
   const double left = at.x() + kFromLinePx, base = at.y() + 0.35 * kSize;

@@ -14,7 +14,7 @@ namespace {
 
 // OpenCV's polygons take positions in 1/16 px.
 constexpr int kFractionBits = 4;
-// Height of Hershey's plain letters at scale 1, of what a text's size is to a browser.
+// The text size, as a browser counts it, that Hershey's plain letters have at scale 1.
 constexpr double kHersheySize = 26.0;
 
 std::vector<LineDrawing::Point> CornersOf(const LineDrawing::Area& area) {

@@ -42,7 +42,7 @@ struct LineDrawing {
 
 [[nodiscard]] std::string SvgOf(const LineDrawing& drawing);  // on white
 
-// On top of a picture; what reaches out of it is cut off. offset_px: of the drawing's left edge.
+// Paints the drawing on a picture; what reaches out of it is cut off. offset_px: of the drawing's left edge.
 void PaintOn(recon::Image* image, const LineDrawing& drawing, int offset_px = 0);
 
 [[nodiscard]] recon::Image ImageOf(const LineDrawing& drawing);  // on white

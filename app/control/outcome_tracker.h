@@ -31,15 +31,14 @@ class OutcomeTracker {
   review::ContactHeat heat_;
 };
 
-// What a session that was cut off would have had as its outcome: the same, row for row, as if its trial had
-// been stopped after the last frame on the disk (outcome_tracker_test). Throws: what SessionReader throws;
-// Error{kCancelled}.
+// The outcome of a session that was cut off: the same, row for row, as if its trial had been stopped after
+// the last frame on the disk (outcome_tracker_test). Throws: what SessionReader throws; Error{kCancelled}.
 [[nodiscard]] core::SessionOutcome OutcomeFromFrames(const sessions::SessionReader& session,
                                                      const core::Progress& progress,
                                                      const std::stop_token& stop);
 
-// A session to be reported, as it is now: one that was cut off, or is still being recorded, gets the outcome
-// of its frames so far, in memory. Throws: what SessionReader and OutcomeFromFrames throw.
+// Opens a session for a report, as it is now. One that was cut off, or is still being recorded, gets the
+// outcome of its frames so far, in memory only. Throws: what SessionReader and OutcomeFromFrames throw.
 [[nodiscard]] sessions::SessionReader OpenWithOutcome(const std::filesystem::path& session,
                                                       const core::Progress& progress,
                                                       const std::stop_token& stop);

@@ -1,4 +1,4 @@
-// What of a layout gives way or flows, from frame to frame.
+// The parts of a layout that give way, and its streams, from frame to frame.
 #pragma once
 
 #include <memory>
@@ -28,7 +28,7 @@ struct ReactionState {
 
 using SharedReactions = std::shared_ptr<const ReactionState>;
 
-// Where parts were pushed, from where they rest; nothing if none was.
+// How far parts were pushed from where they rest, one a part; empty if none was.
 [[nodiscard]] std::vector<core::RigidTransform> MotionsOf(const ReactionState& state);
 
 // Immutable. Thread: any.
@@ -40,10 +40,10 @@ class PartReactions {
   // No part gives way and nothing flows.
   [[nodiscard]] bool is_empty() const { return is_empty_; }
 
-  // `dt_s` later; `last` null: from rest. Cloths in parallel, then pushed parts one after the other, each
-  // against the others where they are by then (cloth is in nobody's way), then the streams. The same for any
-  // number of threads. world_from_rests: before any pushing; contacts: of the parts where `last` has pushed
-  // them.
+  // The state `dt_s` after `last`; null: after rest. Cloths move in parallel, then pushed parts one after the
+  // other, each against the others where they are by then, then the streams. Cloth stops neither parts nor
+  // streams. The result is the same for any number of threads. world_from_rests: before any pushing;
+  // contacts: of the parts where `last` has pushed them.
   [[nodiscard]] SharedReactions Step(const SharedReactions& last,
                                      std::span<const core::RigidTransform> world_from_rests,
                                      std::span<const core::PartContact> contacts,

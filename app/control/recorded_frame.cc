@@ -10,7 +10,7 @@
 namespace elbowroom::control {
 namespace {
 
-// A picture of the whole scene has all of it.
+// Throws where a part is too far away: a picture of the whole scene must show all parts.
 void RequireInSight(const FrameResult& result, const std::filesystem::path& session) {
   for (core::PartIndex i = 0; i < result.layout->parts.size(); ++i) {
     const core::Part& part = result.layout->parts[i];

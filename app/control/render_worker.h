@@ -38,8 +38,8 @@ class RenderWorker {
 
   void Submit(RenderRequest request) { requests_.Push(std::move(request)); }
 
-  // The hull of a frame that is still being judged: unless something else waits, it is seen as the last
-  // request saw its own, so that the frame's picture has less to wait for.
+  // Prepares the picture of a frame that is still being judged: unless something else waits, the worker
+  // computes the view of its hull as in the last request, so that the frame's picture is ready sooner.
   void Foresee(SharedHull hull) { requests_.PushIfEmpty(std::move(hull)); }
 
   // Vendor, renderer and version in one line; "" until the first picture was drawn.
@@ -56,7 +56,7 @@ class RenderWorker {
   mutable std::mutex driver_mutex_;
   std::string driver_;
   core::BoundedQueue<std::variant<RenderRequest, SharedHull>> requests_{1, core::WhenFull::kDropOldest};
-  std::jthread thread_;  // last: it starts when all else is there
+  std::jthread thread_;  // last: it starts when all other members exist
 };
 
 }  // namespace elbowroom::control

@@ -190,7 +190,7 @@ void SceneComposer::Foresee(const SharedHull& hull, const recon::SceneView& view
   (void)HullFrom(Scaled(view, hull_scale));
 }
 
-// What isn't of this hull.
+// Forgets what was made for another hull.
 void SceneComposer::Forget(const SharedHull& hull) {
   if (hull_ == hull) return;
   hull_ = hull;

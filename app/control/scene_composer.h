@@ -17,31 +17,33 @@ namespace elbowroom::control {
 // How a picture is meant to look.
 struct SceneLook {
   // Camera colours need the frame's pictures: without them the hull is shaded by its normals. kOneCamera
-  // takes the viewer camera's, or, without one, those of the rig's camera that looks along with the operator
-  // most.
+  // takes the colours of the viewer camera, or, without one, those of the rig's camera whose direction is
+  // closest to the operator's.
   recon::HullAppearance hull = recon::HullAppearance::kByNormal;
 
   [[nodiscard]] bool operator==(const SceneLook&) const = default;
 };
 
-// Keeps what the next picture can show again: the hull as operator and lamp see it until hull or view change,
-// what of it the rig's cameras see until the frame does. Keeping never changes a picture
-// (scene_composer_test). Thread: one.
+// Keeps what the next picture can use again: the views of the hull from operator and lamp, until the hull
+// changes (the operator's also until the view changes), and the hull as the rig's cameras see it, until the
+// frame changes. Keeping never changes a picture (scene_composer_test). Thread: one.
 class SceneComposer {
  public:
-  // How the hull is seen from `view`; it may look different in recon::ViewBand.
+  // make_view: makes the operator's view of the hull; its result may differ from the processor's in
+  // recon::ViewBand.
   explicit SceneComposer(MakeView make_view = ProcessorsViews()) : make_view_(std::move(make_view)) {}
 
-  // Parts at their poses (those in contact tinted), the hull as it is seen from `view` exactly, contact
-  // points, the table, a lamp over the workspace. A part between the operator and the hull can be seen
-  // through. hull_scale: of the picture's side, (0, 1]; a hull of fewer pixels is drawn sooner and scaled up.
+  // Parts at their poses (those in contact tinted), the exact view of the hull, contact points, the table, a
+  // lamp over the workspace. A part that hides much of the hull is drawn see-through. hull_scale: of the
+  // picture's side, (0, 1]; a hull of fewer pixels is drawn sooner and scaled up.
   [[nodiscard]] recon::gl::Scene Compose(const FrameResult& result, const recon::SceneView& view,
                                          const SceneLook& look = {}, double hull_scale = 1.0);
 
-  // The hull of a frame that isn't judged yet, as the next Compose() of that frame will ask for it.
+  // Computes the view of the hull of a frame that isn't judged yet, as the next Compose() of that frame needs
+  // it.
   void Foresee(const SharedHull& hull, const recon::SceneView& view, double hull_scale = 1.0);
 
-  // Views of the hull that were worked out since the start: the pictures' own, and those beside.
+  // Views of the hull that were computed since the start: the operator's, and those from lamp and cameras.
   [[nodiscard]] std::int64_t hull_views() const { return hull_views_; }
   [[nodiscard]] std::int64_t extra_hull_views() const { return extra_hull_views_; }
 
@@ -62,14 +64,14 @@ class SceneComposer {
   std::shared_ptr<const recon::FrameSet> camera_frames_;
   std::shared_ptr<recon::HullView> hull_from_view_;
   recon::HullView spare_;
-  recon::SceneView view_;  // that one's
+  recon::SceneView view_;  // of hull_from_view_
   SharedView hull_from_lamp_;
   std::vector<SharedPhoto> photos_;  // one a camera, and the viewer camera's
   std::int64_t hull_views_ = 0;
   std::int64_t extra_hull_views_ = 0;
 };
 
-// A first view of a layout and the hull's whereabouts: everything in the picture, from the front, above.
+// A first view that has all parts and the hull in the picture, from the front, above.
 [[nodiscard]] recon::OrbitCamera OverviewCamera(const FrameResult& result, int width_px, int height_px);
 
 // Closer to one part's contact.

@@ -58,7 +58,7 @@ recon::ViewRays OrthographicView() {
   return recon::ViewRays(core::CameraModel(std::move(view)), recon::Projection::kOrthographic);
 }
 
-// A camera whose picture the hand leaves: there the policies for the unseen part.
+// A camera whose picture doesn't hold the whole hand, so that the unseen policy matters.
 core::CameraModel CloseUp(const core::CameraModel& camera) {
   core::CameraCalibration close = camera.calibration();
   close.name = "close-up";
@@ -72,7 +72,7 @@ Scene HandScene(core::Rig rig) {
   return {std::move(rig), std::move(masks), OperatorsView()};
 }
 
-// The rig of ideal cameras that a sweep with a grid is a sweep of.
+// The rig without lenses, and its masks, that a sweep with an undistortion grid works on.
 Scene Straightened(const Scene& scene) {
   Scene straight{scene.rig, {}, scene.view};
   straight.rig.cameras.clear();

@@ -24,10 +24,10 @@ struct SelfTestReport {
   [[nodiscard]] bool Passed() const;
 };
 
-// The demo's hand before a built-in rig: swept with planes, both ways in OpenGL, with and without
-// undistortion grid; seen exactly, as TestExactViews; and in collision with the demo's PMT box, by the
-// paper's viewports, whose samples count as pixels. Throws: core::Error{kGraphics} when nothing can be
-// drawn at all.
+// The demo's hand before a built-in rig, by OpenGL and by the processor: the plane sweep in both ways of
+// OpenGL, with and without undistortion grid; the exact views (TestExactViews); the collision with the demo's
+// PMT box by the paper's viewports, whose samples count as pixels. Throws: core::Error{kGraphics} when
+// nothing can be drawn at all.
 [[nodiscard]] SelfTestReport RunSelfTest();
 
 // Compares exact views made by `graphics` with those of recon::ViewHull: perspective without and with a lens,

@@ -67,7 +67,8 @@ review::SpacingStudy SweepSpacing(const sessions::SessionReader& session, const 
     throw core::Error(core::ErrorKind::kRange, fmt::format("session '{}' has no frames; record a trial first",
                                                            session.path().string()));
   }
-  // Its silhouettes vouch for the pictures' sizes, before planes of that size are made.
+  // Reading a frame checks that its silhouettes have the sizes of the cameras' pictures, before planes of
+  // these sizes are made.
   (void)session.ReadFrame(frames.front().frame);
   const auto rig = std::make_shared<const core::Rig>(header.rig);
   const recon::UndistortedPlanes planes = recon::MakeUndistortedPlanes(*rig);

@@ -20,7 +20,7 @@ struct SpacingRange {
   double step_mm = 10.0;
 };
 
-// Every recorded frame of the session at every step; what the trial required is judged.
+// Judges every recorded frame of the session at every step, against the clearance that the trial required.
 // Throws: core::Error{kRange}: no such spacing, a range beyond its limits, a session without frames; what
 // SessionReader throws; Error{kCancelled}.
 [[nodiscard]] review::SpacingStudy SweepSpacing(const sessions::SessionReader& session,

@@ -21,11 +21,11 @@ constexpr const char* kGrid = "#dddddd";
 constexpr const char* kAxis = "#555555";
 constexpr const char* kFree = "#2a7f3b";
 constexpr const char* kEstimate = "#8a6d00";
-// The parts' colours: of lines, and of the bands between a clearance's bounds.
+// The parts' colours: for lines, and for the bands between a clearance's bounds.
 constexpr std::array<const char*, 5> kColors = {"#b2182b", "#2166ac", "#7b3294", "#01665e", "#b35806"};
 constexpr std::array<const char*, 5> kPaleColors = {"#f4c5bd", "#c3d9ec", "#dcc9e4", "#bfe0dc", "#f3d7b6"};
 
-// Spacing to the right; sessions::Plot's time is any quantity.
+// The spacing runs to the right, in the members of sessions::Plot that are named after time.
 sessions::Plot PlotAt(double top, double height, const review::SpacingStudy& study, double high) {
   sessions::Plot plot;
   plot.left = kLeft;
@@ -78,7 +78,7 @@ void AddMarks(const core::SessionHeader& header, const review::SpacingStudy& stu
   }
 }
 
-// The largest finite one of the moved parts, for the axis.
+// The upper end of the clearance axis: a little above the largest finite upper bound of the moved parts.
 double HighestMm(const review::SpacingStudy& study) {
   double highest_mm = 1.0;
   for (const review::StudyStep& step : study.steps) {
@@ -90,7 +90,7 @@ double HighestMm(const review::SpacingStudy& study) {
   return 1.05 * highest_mm;
 }
 
-// Where a step was asked; in between, lines only join.
+// A dot where a step was judged; the lines between dots only join them.
 LineDrawing::Area DotAt(const LineDrawing::Point& at, const char* color) {
   constexpr double kHalf = 3.5;
   return {{{at.x - kHalf, at.y - kHalf}, {at.x + kHalf, at.y + kHalf}}, color};

@@ -17,7 +17,7 @@ struct ToolWish {
   bool in_use = false;
 };
 
-// A mailbox: any thread puts wishes in, the trial takes them out between two frames.
+// A mailbox: any thread puts requests in, and the trial takes them out between two frames.
 // Thread: any.
 class TrialControls {
  public:

@@ -1,4 +1,4 @@
-// What a trial file's figures mean to the review of its frames.
+// The options of the review that follow from a trial's values.
 #pragma once
 
 #include "core/session.h"

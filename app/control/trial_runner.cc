@@ -137,7 +137,7 @@ class Recording {
     try {
       (void)Finish(fmt::format("ended by a failure: {}", failure.what()));
     } catch (const core::Error&) {
-      // The session file is the failure: what is in it is counted here.
+      // The session file itself fails: the frames that are in it are counted below.
     }
     ThrowWithWhatIsKept(failure);
   }
@@ -206,7 +206,7 @@ class Recording {
   TrialControls& controls_;
   sessions::SessionWriter writer_;
   std::optional<FramePipeline> pipeline_;
-  std::optional<OutcomeTracker> tracker_;  // over the pipeline's parts
+  std::optional<OutcomeTracker> tracker_;  // refers to the pipeline's part trees
   std::set<std::string> tools_in_use_;
   Pace pace_;
   std::vector<double> spacing_mm_;

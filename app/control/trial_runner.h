@@ -24,7 +24,7 @@ struct FrameRange {
   std::optional<core::FrameIndex> end;
 };
 
-// How many frames the trial has seen, and how many of them a crash or a power failure can't take any more.
+// How many frames the trial has seen, and how many of them neither a crash nor a power failure can take away.
 struct RecordedFrames {
   std::int64_t seen = 0;
   std::int64_t committed = 0;  // on the disk
@@ -33,7 +33,7 @@ struct RecordedFrames {
 struct TrialOptions {
   std::filesystem::path session;  // must not exist yet
   FrameRange frames;
-  bool at_capture_rate = false;  // true: no faster than the frames were taken (console); false: flat out
+  bool at_capture_rate = false;  // true: no faster than the frames were taken (console); false: full speed
   // Called for every frame on the trial's thread; must not block.
   std::function<void(const SharedFrameResult&, const RecordedFrames&)> on_frame;
   // Called on the session writer's thread when the session file can't be written, and when it can again; must
@@ -61,7 +61,8 @@ struct TrialOutcome {
 // session; no frame is dropped. The trial ends with its footage, or with a stop: the session is then complete
 // up to that frame. It also ends when footage or a camera fails, and when the session file can't be written
 // for long: all frames so far are kept, and the failure is thrown with their number. Only a session without a
-// frame is removed. A wish for a spacing that the layout doesn't have is ignored, with a note in the session.
+// frame is removed. A request for a spacing that the layout doesn't have is ignored, with a note in the
+// session.
 // Throws: core::Error for footage, session file, or a frame range beyond the footage; Error{kCancelled} when
 // it was stopped before the first frame. Thread: the caller's; `controls` may be used from any.
 TrialOutcome RunTrial(const TrialSetup& setup, const TrialOptions& options, TrialControls& controls,

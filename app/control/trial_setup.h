@@ -17,7 +17,7 @@
 
 namespace elbowroom::control {
 
-// Something the experimenter is known to do at a frame: the demo's script.
+// A change that the experimenter makes at a known frame; the demo's script consists of them.
 struct ScriptedChange {
   core::FrameIndex frame = 0;
   std::variant<SpacingWish, ToolWish> what;
@@ -33,7 +33,7 @@ struct TrialSetup {
   std::vector<std::string> warnings;   // of the files that were read
 };
 
-// TRIAL.toml (docs/user_guide.md) with its rig and layout; the footage is opened and its length measured.
+// Reads TRIAL.toml (docs/user_guide.md) with its rig and layout; opens the footage and measures its length.
 // Throws: core::Error with file, line and key for what the trial file has wrong; what the rig's and the
 // layout's readers throw; Error{kCancelled}.
 [[nodiscard]] TrialSetup ReadTrialFile(const std::filesystem::path& path, std::stop_token stop = {});

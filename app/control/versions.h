@@ -1,4 +1,4 @@
-// What a session and `--version` say of the program that made them.
+// The versions that a session and `--version` give.
 #pragma once
 
 #include <map>

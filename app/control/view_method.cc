@@ -16,10 +16,10 @@
 namespace elbowroom::control {
 namespace {
 
-// The operator sees depths and normals.
+// The operator's picture needs depths and normals, but no surfaces.
 constexpr recon::HullViewOptions kNoSurfaces{.surfaces = false};
 
-constexpr double kStepMm = 1e-3;  // a picture that looks the same, and must be made anew
+constexpr double kStepMm = 1e-3;  // the picture looks the same, but must be computed anew
 
 using Times = std::array<double, kViewRounds>;
 
@@ -117,7 +117,7 @@ ViewChoice ChooseViewMethod(const MakeView& processor, const MakeView& graphics,
     }
     return {contest.IsWon() ? ViewMethod::kGraphics : ViewMethod::kProcessor,
             fmt::format("exact view: by {}: {}", contest.IsWon() ? "OpenGL" : "the processor", times), false};
-  } catch (const core::Error& error) {  // not being able to is an answer here
+  } catch (const core::Error& error) {  // a card that can't draw isn't an error here
     return Failed(driver, error.what());
   }
 }
@@ -135,7 +135,7 @@ recon::HullView ExactViewMaker::Make(const recon::VisualHull& hull, const recon:
   if (graphics_ != nullptr) {
     try {
       return graphics_(hull, rays, {});
-    } catch (const core::Error& error) {  // the picture needn't go without the hull
+    } catch (const core::Error& error) {  // the processor makes the view instead
       graphics_ = nullptr;
       Log(Failed(contender_.driver, error.what()));
     }

@@ -1,4 +1,4 @@
-// Exact views, made in whichever of two ways this machine is faster at.
+// Exact views by the processor or the graphics card, whichever is faster on this machine.
 #pragma once
 
 #include <functional>
@@ -10,8 +10,8 @@
 
 namespace elbowroom::control {
 
-// As recon::ViewHull without surfaces, and equal to it outside of recon::ViewBand; the last is one of its
-// views that nobody needs any more, whose memory may be taken.
+// Makes the view of recon::ViewHull without surfaces, and equal to it outside of recon::ViewBand. The last
+// argument is one of its views that isn't needed any more, whose memory may be taken.
 using MakeView =
     std::function<recon::HullView(const recon::VisualHull&, const recon::ViewRays&, recon::HullView)>;
 
@@ -26,32 +26,34 @@ struct ViewChoice {
   bool is_warning = false;  // the graphics card failed, or drew something else
 };
 
-// What asks for the processor's place.
+// The graphics card, which is compared with the processor.
 struct GraphicsContender {
   std::string driver;
-  bool is_software = false;        // the processor again, with a detour: it isn't opened
-  std::function<MakeView()> open;  // the view's owner lives and dies with the MakeView
+  bool is_software = false;        // OpenGL by the processor, which gains nothing: it isn't opened
+  std::function<MakeView()> open;  // the MakeView owns what it draws with
 };
 
-// The graphics card as recon::gl::ExactViewGl draws on it. Thread: views are made and ended where it is
-// opened.
+// The graphics card with recon::gl::ExactViewGl. Thread: views are made, and the MakeView is destroyed, where
+// it was opened.
 [[nodiscard]] GraphicsContender GraphicsCard(std::string driver, bool is_software);
 
 using NowMs = std::function<double()>;
 [[nodiscard]] double SteadyNowMs();
 
-// Both make the view once for practice and kViewRounds times against the clock, each time from a place a
-// micrometre away, so that nothing of the last one can be kept; a first round that is lost by
-// kLostBy ends it. The lesser median wins, if the two pictures agree (recon::CompareViews); if not, or if
-// `graphics` throws core::Error, the processor does, with a warning.
+// Both make the view once as a warm-up, and then kViewRounds times, which are timed. Each view is from a
+// place a micrometre beside the last, so that nothing of that can be used again. If `graphics` takes more
+// than kLostBy times as long in the first round, the rest is left out. The smaller median wins, if the two
+// pictures agree (recon::CompareViews). If they don't, or if `graphics` throws core::Error, the processor
+// wins, with a warning.
 inline constexpr int kViewRounds = 5;
 inline constexpr double kLostBy = 2.0;
 [[nodiscard]] ViewChoice ChooseViewMethod(const MakeView& processor, const MakeView& graphics,
                                           const std::string& driver, const recon::VisualHull& hull,
                                           const recon::ViewRays& rays, const NowMs& now_ms = SteadyNowMs);
 
-// Makes views on the processor up to the first that shows some hull, chooses there, logs the choice and keeps
-// to it; a graphics card that fails later is left for the processor, with a warning. Thread: one.
+// Makes views on the processor up to the first that shows some hull. With that hull it chooses, logs the
+// choice and keeps to it. When the graphics card fails later, the processor takes its place, with a warning.
+// Thread: one.
 class ExactViewMaker {
  public:
   explicit ExactViewMaker(GraphicsContender contender, NowMs now_ms = SteadyNowMs);
@@ -60,7 +62,7 @@ class ExactViewMaker {
   [[nodiscard]] recon::HullView Make(const recon::VisualHull& hull, const recon::ViewRays& rays,
                                      recon::HullView kept = {});
 
-  // So far.
+  // The method in use at present.
   [[nodiscard]] ViewMethod method() const {
     return graphics_ == nullptr ? ViewMethod::kProcessor : ViewMethod::kGraphics;
   }

@@ -105,7 +105,7 @@ void Translate(auto& reader, Handle(TDocStd_Document) & document, const core::Pr
   if (!reader.Transfer(document, indicator->Start())) throw Error(otherwise);
 }
 
-// What an entity says of its units; null: nothing. Each combination of contexts is a type of its own, none
+// The unit context of an entity; null if it has none. Each combination of contexts is a type of its own, none
 // derived from this one.
 Handle(StepRepr_GlobalUnitAssignedContext) UnitContextOf(const Handle(Standard_Transient) & entity) {
   if (auto units = Handle(StepRepr_GlobalUnitAssignedContext)::DownCast(entity); !units.IsNull())
@@ -196,7 +196,7 @@ std::string NameOf(const TDF_Label& label) {
   Handle(TDataStd_Name) name;
   if (!label.FindAttribute(TDataStd_Name::GetID(), name)) return "";
   std::string text = TCollection_AsciiString(name->Get()).ToCString();
-  return text.starts_with("=>[") ? "" : text;  // OpenCASCADE's own, for what has none
+  return text.starts_with("=>[") ? "" : text;  // OpenCASCADE's name for what has none
 }
 
 // An occurrence's name, unless it is only a number: "NAUO12".
@@ -271,8 +271,8 @@ class DocumentWalk {
     VisitBodies(product, path, model_from_product, color);
   }
 
-  // A product's solids, each a body for itself: welded, those that touch would have no inside. Then what
-  // faces are of no solid.
+  // Adds each solid of a product as a body of its own: if solids that touch were welded together, they would
+  // have no inside. Then adds the faces that belong to no solid, as one body.
   void VisitBodies(const TDF_Label& product, const std::string& path,
                    const Eigen::Affine3d& model_from_product, std::optional<ColorRgb> color) {
     // Without the place that it stands at, which its instances give.
@@ -371,7 +371,7 @@ RawScene ReadBrep(const fs::path& file, FileFormat format, const ImportOptions& 
                   const core::Progress& progress) {
   try {
     Document document = ReadDocument(file, format, progress);
-    // What a millimetre of the document will be in the end.
+    // What a millimetre of the document is in the result, in mm.
     const double mm_per_unit = document.unit ? document.unit->mm_per_unit : 1.0;
     const auto asked = options.unit    ? options.unit
                        : document.unit ? std::nullopt

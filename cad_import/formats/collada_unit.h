@@ -5,9 +5,9 @@
 
 namespace elbowroom::cad_import {
 
-// True if <unit meter="..."> is there but no positive number; it is then put to 1 in the text, as a file's
-// numbers can't be had back once a reader has multiplied them by it. A decimal comma becomes a point, and
-// blanks go.
+// Mends the number in <unit meter="...">: a decimal comma becomes a point, blanks go, and what isn't a
+// positive number becomes 1. True in this last case. Readers multiply all lengths by the number, and they
+// couldn't be recovered afterwards.
 bool MendUnit(std::string* document);
 
 }  // namespace elbowroom::cad_import

@@ -29,7 +29,7 @@ enum class FileFormat {
 // True for STEP, IGES and BREP: faces and edges, not triangles.
 [[nodiscard]] bool IsBoundaryRepresentation(FileFormat format);
 
-// ".stl": the first of those that it goes by.
+// The first of the extensions that the format has, such as ".stl".
 [[nodiscard]] std::string_view ExtensionOf(FileFormat format);
 
 // The format that the path's extension names (any case); nothing for another one.

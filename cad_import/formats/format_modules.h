@@ -1,4 +1,4 @@
-// What reads and writes the formats of other programs, as modules: their libraries take longer to load than a
+// The readers and writers of other programs' formats, as modules: their libraries take longer to load than a
 // model takes to come from the cache, and no file needs all of them.
 #pragma once
 
@@ -16,7 +16,7 @@ struct MeshFormats {
   decltype(&EncodeModel) encode;
 };
 
-// Both load at first. Throw: Error{kFile} if that fails. Thread: any.
+// Both load their module at the first call. Throw: Error{kFile} if that fails. Thread: any.
 [[nodiscard]] BrepReader& LoadedBrepReader();
 [[nodiscard]] const MeshFormats& LoadedMeshFormats();
 

@@ -14,10 +14,10 @@ void CheckGlb(std::string_view bytes, const std::string& where);
 // where the JSON ends, and that isn't on a multiple of 4 bytes.
 [[nodiscard]] bool LacksPadding(std::string_view glb);
 
-// One that CheckGlb took and that lacks padding, with it.
+// The same file with padding. CheckGlb must have accepted it, and it must lack padding.
 [[nodiscard]] std::string Padded(std::string glb);
 
-// The document within one that CheckGlb took, and one with another document, padded.
+// The JSON document of a file that CheckGlb accepted; and that file with another document, padded.
 [[nodiscard]] std::string_view JsonOf(std::string_view glb);
 [[nodiscard]] std::string WithJson(std::string glb, const std::string& json);
 

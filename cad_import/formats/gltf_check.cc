@@ -72,7 +72,7 @@ void CheckAccessors(const json& document, const std::string& where) {
     const std::uint64_t view = CountAt(accessors[i], "bufferView", 0, where);
     if (view >= views.size()) Fail(where, fmt::format("glTF accessor {} names no buffer view", i));
     const std::uint64_t element_bytes = ElementBytes(accessors[i], where);
-    // Version 1.0 keeps it in the accessor, where 0 means that elements follow each other.
+    // Version 1.0 keeps the stride in the accessor, where 0 means that elements follow each other.
     const std::uint64_t own_stride = CountAt(accessors[i], "byteStride", 0, where);
     const std::uint64_t view_stride = CountAt(views[view], "byteStride", own_stride, where);
     const std::uint64_t stride = view_stride == 0 ? element_bytes : view_stride;
@@ -112,8 +112,8 @@ void CheckNodes(const json& document, const std::string& where) {
   }
 }
 
-// Where version 2.0 would list what version 1.0 keeps under names. One that nothing has is past the list's
-// end.
+// The numbers that version 2.0 would give to what version 1.0 keeps under names. An unknown name gets a
+// number past the list's end.
 class Numbers {
  public:
   explicit Numbers(const json& named) {
@@ -133,7 +133,8 @@ json NamedIn(const json& document, const char* key) {
   return named.is_object() ? named : json::object();
 }
 
-// What the document has under names at `key`, as a list; `reference` names something of `target`, or several.
+// The named entries at `key` as a list. In each entry the member `reference`, one name or several in
+// `target`, is replaced by numbers.
 json ListOf(const json& document, const char* key, const char* reference, const char* target) {
   const Numbers numbers(NamedIn(document, target));
   json list = json::array();

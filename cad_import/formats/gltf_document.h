@@ -1,4 +1,4 @@
-// The JSON of a glTF file: what parsers can't take of it, and what they don't.
+// The JSON of a glTF file: what parsers don't read of it, and changes that they need.
 #pragma once
 
 #include <string>

@@ -26,7 +26,7 @@ namespace {
 using core::Error;
 using core::ErrorKind;
 
-// How assimp calls what we write, and the length of one of the file's units.
+// assimp's name for the format that is written, and the length of one of the file's units.
 struct Target {
   const char* exporter_id;
   double mm_per_unit;
@@ -89,7 +89,8 @@ aiMatrix4x4 ToAssimp(const core::RigidTransform& b_from_a, double mm_per_unit) {
           r(2, 0), r(2, 1), r(2, 2), t.z(), 0.0F,    0.0F,    0.0F,    1.0F};
 }
 
-// The node at a path of names, made with those above it; `nodes` has all that there are.
+// The node at a path of names. It is made if it isn't in `nodes`, which holds all that there are, and so are
+// those above it.
 aiNode* NodeAt(const std::string& path, std::map<std::string, aiNode*>& nodes) {
   if (const auto found = nodes.find(path); found != nodes.end()) return found->second;
   const std::size_t slash = path.rfind('/');

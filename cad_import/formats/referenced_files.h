@@ -20,7 +20,7 @@ class ReferencedFiles {
   std::filesystem::path path_;  // canonical
 };
 
-// What is said of a file that refers to `name`, which its folder doesn't hold.
+// The error for a file that refers to `name`, which its folder doesn't hold.
 [[nodiscard]] core::Error RefersElsewhere(const std::filesystem::path& file, const std::string& name);
 
 }  // namespace elbowroom::cad_import

@@ -63,11 +63,11 @@ struct Source {
   bool is_from_bytes = false;
 };
 
-// Opens for reading what lies in the file's folder or below, links resolved; refuses all else. Of the file
-// itself it gives the source's bytes if that says so.
+// Opens for reading what lies in the file's folder or below, links resolved; refuses all else. For the file
+// itself it gives the source's bytes, if `is_from_bytes`.
 class ConfinedFiles : public Assimp::DefaultIOSystem {
  public:
-  // What it is asked to refuse and to open outlives the importer that owns it.
+  // What was opened and what was refused. It outlives the importer, which owns the ConfinedFiles.
   struct Log {
     std::vector<fs::path> opened;  // beside the file itself
     std::vector<std::string> refused;
@@ -157,12 +157,12 @@ std::optional<ColorRgb> ColorOf(const aiScene& scene, const aiMesh& mesh) {
     return std::nullopt;
   }
   ColorRgb rgb{color.r, color.g, color.b};
-  // Not a number stays none.
+  // A channel that is not a number becomes 0.
   for (float& channel : rgb) channel = channel >= 0.0F ? std::min(channel, 1.0F) : 0.0F;
   return rgb;
 }
 
-// assimp's own name for what it read from memory is none.
+// The name that assimp gives to what it read from memory counts as none.
 std::string NameOf(const aiNode& node) {
   const std::string name = node.mName.C_Str();
   return name.starts_with(AI_MEMORYIO_MAGIC_FILENAME) ? "" : name;
@@ -232,14 +232,14 @@ class SceneWalk {
   RawScene result_;
 };
 
-// What the file says, and what assimp has made of it undone: its axes and its unit.
+// The unit that the file states. What assimp made of its axes and its unit is undone in `model_from_scene`.
 std::optional<FileUnit> TakeUnit(const aiScene& scene, FileFormat format, Eigen::Affine3d& model_from_scene) {
   switch (format) {
     case FileFormat::kGltf:
     case FileFormat::kGlb:
       return UnitOf(core::LengthUnit::kMetre);
     case FileFormat::kCollada: {
-      // The unit is a scale on the root.
+      // assimp made the unit a scale on the root.
       const double metres = ToEigen(scene.mRootNode->mTransformation).linear().col(0).norm();
       if (!(metres > 0.0) || !std::isfinite(metres)) return std::nullopt;
       model_from_scene.linear() /= metres;
@@ -253,7 +253,7 @@ std::optional<FileUnit> TakeUnit(const aiScene& scene, FileFormat format, Eigen:
       return UnitOf(10.0 * double{centimetres});
     }
     case FileFormat::k3ds:
-      // Turned to y up on the root.
+      // assimp turned the root to y up.
       model_from_scene = Eigen::Affine3d(Eigen::AngleAxisd(0.5 * std::numbers::pi, Eigen::Vector3d::UnitX()));
       return std::nullopt;
     default:
@@ -265,7 +265,7 @@ std::optional<FileUnit> TakeUnit(const aiScene& scene, FileFormat format, Eigen:
 // beside them.
 const aiScene* Parse(Assimp::Importer& importer, const Source& source) {
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
-  // It makes up a shape for cameras, lights and bones in a file that has none.
+  // assimp would make up a shape for cameras, lights and bones in a file that has none.
   importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
   const unsigned steps = aiProcess_Triangulate;
   const FileFormat format = source.format;
@@ -315,7 +315,7 @@ RawScene Load(const Source& source) {
   return std::move(walk.result());
 }
 
-// The shape alone; faces that the parser lost are told.
+// Reads the shape alone, and warns of faces that the parser lost.
 RawScene ReadObj(const fs::path& file, const std::string& text) {
   const PlainObj plain = PlainObjOf(text, file.string());
   RawScene scene = Load({file, FileFormat::kObj, plain.text});

@@ -1,4 +1,4 @@
-// Between the colours that people name and those that light adds up.
+// Conversion between sRGB and linear light.
 #pragma once
 
 #include <cmath>

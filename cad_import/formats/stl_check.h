@@ -1,4 +1,4 @@
-// STL files: whether they are whole, and as parsers take them.
+// Checks STL files, and brings text into the form that parsers take.
 #pragma once
 
 #include <cstddef>
@@ -7,15 +7,15 @@
 
 namespace elbowroom::cad_import {
 
-// Text without a byte order mark and blank lines before its "solid", its words in lower case, without letters
-// beyond ASCII in its first line; all else as it is.
+// Text STL as parsers take it: without a byte order mark and blank lines before its "solid", in lower case if
+// it has no "facet", and with '_' for letters beyond ASCII in its first line. Binary STL stays as it is.
 [[nodiscard]] std::string PlainStl(std::string bytes);
 
 // Throws: Error{kFormat} naming `where`: neither text nor binary STL, cut off, another count of triangles
 // than there are.
 void CheckStl(std::string_view bytes, const std::string& where);
 
-// After the last triangle of a binary file that CheckStl took; 0 for text.
+// The number of bytes after the last triangle of a binary file that CheckStl accepted; 0 for text.
 [[nodiscard]] std::size_t BytesAfterTriangles(std::string_view bytes);
 
 }  // namespace elbowroom::cad_import

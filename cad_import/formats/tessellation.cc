@@ -28,7 +28,7 @@ constexpr double kAngleRad = 0.5;
 // How far a face is from its triangles.
 class FaceDeviation {
  public:
-  // `tolerance`: below which an upper bound will do.
+  // `tolerance`: below it an upper bound of the distance is enough.
   FaceDeviation(const TopoDS_Face& face, const Poly_Triangulation& triangles, double tolerance)
       : surface_(face, false),
         geometry_(BRep_Tool::Surface(face)),
@@ -47,8 +47,9 @@ class FaceDeviation {
   }
 
  private:
-  // At the middle of some nodes: the distance to the face at the middle of their parameters, which is no less
-  // than the nearest; that is looked for where it matters, as parameters mean little at poles and seams.
+  // The distance of the middle of some nodes from the face. The face's point at the middle of their
+  // parameters gives an upper bound. Where that exceeds the tolerance, the nearest point is looked for,
+  // because parameters mean little at poles and seams.
   double At(std::initializer_list<int> nodes) {
     gp_XYZ middle(0.0, 0.0, 0.0);
     gp_XY parameters(0.0, 0.0);

@@ -15,8 +15,8 @@ struct Tessellation {
   int faces_without_triangles = 0;  // that could not be meshed
 };
 
-// Triangles by BRepMesh, whose chordal tolerance is aimed at but not kept everywhere: the distance from the
-// face is measured at the middle of each triangle and each of its edges, and the shape is meshed again,
+// Triangles by BRepMesh. It aims at a chordal tolerance but doesn't keep it everywhere: so the distance from
+// the face is measured at the middle of each triangle and each of its edges, and the shape is meshed again,
 // finer, up to three times while it exceeds `tolerance` (> 0). Thread: any; the shape must not be in use by
 // another.
 [[nodiscard]] Tessellation Tessellate(const TopoDS_Shape& shape, double tolerance);

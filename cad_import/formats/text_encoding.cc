@@ -26,7 +26,7 @@ std::optional<Encoding> EncodingOf(std::string_view bytes) {
   return std::nullopt;
 }
 
-// The next unit, taken off; of a piece of one, no character.
+// Takes the next unit off; kNoCharacter for an incomplete one.
 std::uint32_t TakeUnit(std::string_view& bytes, const Encoding& encoding) {
   std::uint32_t unit = 0;
   const std::string_view taken = bytes.substr(0, encoding.unit_bytes);

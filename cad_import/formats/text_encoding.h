@@ -1,12 +1,12 @@
-// Text in whatever Unicode encoding, as parsers take it.
+// Text of any Unicode encoding as UTF-8.
 #pragma once
 
 #include <string>
 
 namespace elbowroom::cad_import {
 
-// UTF-16 or UTF-32, as its byte order mark says, as UTF-8 without a mark; all else as it is. What is no
-// character (half a pair, an odd byte at the end) becomes U+FFFD.
+// Converts text with the byte order mark of UTF-16 or UTF-32 into UTF-8 without a mark. All other text stays
+// as it is. What is no character (half a pair, an odd byte at the end) becomes U+FFFD.
 [[nodiscard]] std::string ToUtf8(std::string bytes);
 
 }  // namespace elbowroom::cad_import

@@ -10,7 +10,7 @@
 namespace elbowroom::cad_import {
 namespace {
 
-// Keys that aren't of every way.
+// Keys that only one way of giving way has.
 constexpr std::array<std::string_view, 6> kClothKeys{"pins",
                                                      "stretch_stiffness_n_per_m",
                                                      "bending_stiffness_n_per_m",

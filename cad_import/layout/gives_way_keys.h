@@ -8,8 +8,8 @@
 namespace elbowroom::cad_import {
 
 // Reads `gives_way = "cloth" | "pushed" | "none"` (absent: none) and the keys that go with it. Throws:
-// core::Error{kFormat} with file, line and key: another word, a side of the bounds that there isn't, a key
-// that this way of giving way doesn't have.
+// core::Error{kFormat} with file, line and key: another word, a side that the bounds don't have, a key that
+// this way of giving way doesn't have.
 [[nodiscard]] core::GivesWay ReadGivesWay(const TomlEntry& entry);
 
 // The same keys; none for a part that doesn't give way.

@@ -8,7 +8,7 @@
 namespace elbowroom::cad_import {
 namespace {
 
-// What an entry is known by, and the how manieth of those it is.
+// The names that an entry is matched by, and how many earlier entries have the same.
 using Identity = std::pair<std::vector<FieldValue>, int>;
 
 std::vector<Identity> IdentitiesOf(const std::vector<Fields>& entries) {
@@ -31,7 +31,7 @@ void ChangeEntry(LayoutText& text, std::string_view kind, std::size_t index, con
     const FieldValue* was = FindField(before, field.key);
     if (was != nullptr && *was == field.value) continue;
     text.Set(kind, index, field);
-    // Another file may be in another unit by its own word.
+    // A new file may state a unit of its own; the text then needs the part's unit.
     if (field.key != "file") continue;
     if (const FieldValue* unit = FindField(after, "unit")) text.Set(kind, index, {"unit", *unit});
   }
@@ -69,7 +69,7 @@ void ChangeEntries(LayoutText& text, std::string_view kind, std::vector<Fields> 
 
 void ChangeInto(LayoutText& text, const core::Layout& before, const core::Layout& after) {
   if (before.unit != after.unit) {
-    // Parts that went by the old one have to say it now.
+    // Parts that relied on the layout's old unit must state it now.
     for (std::size_t i = 0; i < before.parts.size(); ++i) {
       const std::optional<core::LengthUnit> unit = before.parts[i].unit;
       if (unit && !text.Has("part", i, "unit"))

@@ -1,4 +1,4 @@
-// From what a layout file says to what it shall say.
+// Changes the text of a layout file from one layout to another.
 #pragma once
 
 #include "cad_import/layout/layout_text.h"
@@ -6,9 +6,9 @@
 
 namespace elbowroom::cad_import {
 
-// Changes `text` from `before`, which it says, to `after`. Entries are known by their names, pairs by both of
-// theirs; what the two layouts have alike isn't touched, and keys that only say what holds anyway aren't
-// added. Throws: as LayoutText and FieldsOf.
+// Changes `text`, which says `before`, so that it says `after`. Entries are matched by their names, pairs by
+// both of theirs. What the two layouts have alike isn't touched, so an entry doesn't get keys that would only
+// state a default. Throws: as LayoutText and FieldsOf.
 void ChangeInto(LayoutText& text, const core::Layout& before, const core::Layout& after);
 
 }  // namespace elbowroom::cad_import

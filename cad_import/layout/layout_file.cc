@@ -28,7 +28,7 @@ class MeshShelf {
  public:
   using Unit = std::optional<core::LengthUnit>;
 
-  // Both outlive it.
+  // Both must outlive it.
   MeshShelf(const core::Progress& progress, const std::stop_token& stop) : progress_(progress), stop_(stop) {}
 
   const CadModel& Model(const fs::path& path, const ImportOptions& options) {
@@ -49,7 +49,7 @@ class MeshShelf {
   std::map<std::tuple<fs::path, Unit, std::string>, core::SharedMesh> meshes_;
 };
 
-// A word for who wrote `name` and meant one of `known`.
+// Advice to an author who wrote `name` and meant one of `known`.
 std::string Advice(const std::string& name, const std::vector<std::string>& known,
                    const std::string& otherwise) {
   const std::vector<std::string_view> words(known.begin(), known.end());
@@ -57,7 +57,7 @@ std::string Advice(const std::string& name, const std::vector<std::string>& know
   return nearest ? fmt::format("did you mean '{}'?", *nearest) : otherwise;
 }
 
-// Those who know a node by its last name are told the whole.
+// If `name` is the last name of a node, the advice is its whole path.
 std::string NodeAdvice(const std::string& name, const std::vector<std::string>& nodes) {
   constexpr std::size_t kFew = 5;
   for (const std::string& node : nodes)
@@ -68,7 +68,8 @@ std::string NodeAdvice(const std::string& name, const std::vector<std::string>& 
                             nodes.size() > kFew ? fmt::format(" and {} more", nodes.size() - kFew) : ""));
 }
 
-// The first key of the part's constraint that is there, for the line of what is wrong with them together.
+// The first key of the part's recovery rule that is there: its line is named where the keys don't fit
+// together.
 std::string_view RecoveryKeyOf(const TomlEntry& entry) {
   for (const std::string_view key : {"recovery", "recovery_axis", "recovery_at_mm"}) {
     if (entry.Find(key) != nullptr) return key;

@@ -21,19 +21,19 @@ struct ImportedLayout {
 // the same node, share its mesh. A part's `unit` overrides its file's; the layout's `unit` holds for parts
 // that name none and whose files carry none. Throws: Error{kFile} or Error{kFormat} with file, line and key:
 // missing, not TOML, a key that is unknown, missing or of the wrong type; what ImportMeshFile and
-// core::FindLayoutFault say, with file and line of the entry and naming it; Error{kCancelled}.
+// core::FindLayoutFault report, with file, line and name of the entry; Error{kCancelled}.
 [[nodiscard]] ImportedLayout ImportLayoutFile(const std::filesystem::path& path,
                                               const core::Progress& progress = {},
                                               const std::stop_token& stop = {});
 
-// The same of a text as though it stood in its file. Throws: the same.
+// The same for a text, as if it stood in its file. Throws: the same.
 [[nodiscard]] ImportedLayout ImportLayoutText(const LayoutText& text, const core::Progress& progress = {},
                                               const std::stop_token& stop = {});
 
-// Writes the layout whole or not at all; the meshes are the caller's to write, to each part's `file`.
-// Reading it back gives the same names and numbers, rotations to 1e-12. A file that is there already is
-// changed in place (ChangeInto). Throws: Error{kFile} if it can't be written, Error{kCad} naming a part
-// without a file; for a file that is there, as ImportLayoutFile: what can't be read isn't written over.
+// Writes the layout whole or not at all; the caller writes the meshes, to each part's `file`. Reading it back
+// gives the same names and numbers, rotations to 1e-12. A file that is there already is changed in place
+// (ChangeInto). Throws: Error{kFile} if it can't be written, Error{kCad} naming a part without a file; for a
+// file that is there, as ImportLayoutFile: a file that can't be read isn't overwritten.
 void WriteLayoutFile(const core::Layout& layout, const std::filesystem::path& path);
 
 }  // namespace elbowroom::cad_import

@@ -50,7 +50,7 @@ std::string TomlLike(const toml::node& node, const FieldValue& value) {
   return TomlOf(value);
 }
 
-// The values of a list that goes into the place of one of as many elements; nothing otherwise.
+// The elements of a list, if it replaces one with as many elements; otherwise none.
 std::vector<FieldValue> ElementsFor(const toml::node& node, const FieldValue& value) {
   std::vector<FieldValue> elements;
   if (const auto* v = std::get_if<Eigen::Vector3d>(&value)) elements = {v->x(), v->y(), v->z()};
@@ -129,7 +129,7 @@ class LayoutText::Edit {
     try {
       is_meant = SaysTheSame(ParseToml(text_, owner_.file_.string()), meant_);
     } catch (const Error&) {
-      // Said below: its line is of a text that the author never sees.
+      // Reported below: the line of this error is in a text that the author never sees.
     }
     if (!is_meant) Fail(1, "can't be changed in place; change it in an editor");
     owner_.text_ = std::move(text_);

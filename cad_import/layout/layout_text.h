@@ -13,11 +13,11 @@
 
 namespace elbowroom::cad_import {
 
-// Comments, the order of keys and the way in which things are written stay, but for what a change is about:
-// an entry that is removed takes its own lines along, and the comments right above and below it. Every change
-// is read back; what doesn't say what was meant isn't kept. Entries [[kind]] count from 0. Every change
+// A change keeps comments, the order of keys and the way in which other things are written. An entry that is
+// removed takes its own lines along, and the comments right above and below it. The changed text is parsed
+// again, and a change that doesn't say what was meant isn't kept. Entries [[kind]] count from 0. Every change
 // throws: Error{kFormat} with file and line where the text can't be changed so (an entry that isn't written
-// as [[kind]]); PreconditionError for an entry that there isn't.
+// as [[kind]]); PreconditionError for an entry that doesn't exist.
 class LayoutText {
  public:
   // `file` is for messages. Throws: Error{kFormat} with the line that isn't TOML.

@@ -18,10 +18,11 @@ using core::ErrorKind;
 
 namespace {
 
-// Entries are held against each other, spacings each against each, and every one costs time at every frame.
+// Entries are compared with each other, every spacing with every other, and each one costs time at every
+// frame.
 constexpr std::size_t kMostEntries = 4'000, kMostSpacings = 200;
 
-// By what the key's name says of its unit.
+// The largest number that a key may have, by the unit in its name.
 double LargestOf(std::string_view key) {
   constexpr double kMostTurnsDeg = 36'000.0, kLargestFigure = 1e12;
   if (key.ends_with("_mm")) return core::kLongestLengthMm;

@@ -1,4 +1,4 @@
-// A TOML file's tables, with everything needed to complain about them: file, line, key, what to do.
+// A TOML file's tables, with what error messages need: file, line, key, what to do.
 #pragma once
 
 #include <toml++/toml.h>
@@ -25,7 +25,7 @@ namespace elbowroom::cad_import {
 // `file` is for messages. Throws: Error{kFormat} with the line that isn't TOML.
 [[nodiscard]] toml::table ParseToml(std::string_view text, const std::string& file);
 
-// Both, one after the other.
+// ReadTomlText, then ParseToml.
 [[nodiscard]] toml::table ParseTomlFile(const std::filesystem::path& path, std::string_view what);
 
 // One table of a file; must not outlive it. Every reader throws Error{kFormat} that begins with file:line.

@@ -26,7 +26,7 @@ class TomlLines {
   [[nodiscard]] std::string_view Text(const LineRange& range) const;
 
   [[nodiscard]] bool IsBlank(std::size_t line) const;
-  [[nodiscard]] bool IsComment(std::size_t line) const;  // not: within a text of many lines
+  [[nodiscard]] bool IsComment(std::size_t line) const;  // false within a text of many lines
   [[nodiscard]] bool IsHeader(std::size_t line) const;   // begins with '[', and isn't within a value
   [[nodiscard]] std::string_view Indent(std::size_t line) const;
 
@@ -45,13 +45,13 @@ class TomlLines {
 
   std::string_view text_;
   std::vector<std::string_view> lines_;  // each with its end
-  std::vector<bool> goes_on_;            // a value that began above reaches into it
+  std::vector<bool> goes_on_;            // a value that began on an earlier line reaches into it
 };
 
 // The line that a node ends on, in toml++'s count; for a table that of the last of its values.
 [[nodiscard]] toml::source_index LastLineOf(const toml::node& node);
 
-// The same, whether whole numbers are written as 12 or as 12.0.
+// Whether both have the same values. Whole numbers may be written as 12 or as 12.0.
 [[nodiscard]] bool SaysTheSame(const toml::node& a, const toml::node& b);
 
 }  // namespace elbowroom::cad_import

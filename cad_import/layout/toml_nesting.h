@@ -6,8 +6,8 @@
 
 namespace elbowroom::cad_import {
 
-// A parser, and what walks over its tables, goes a call deeper with each list, table and dotted key. Strings
-// and comments don't count. `file` is for messages.
+// A parser, and code that walks over its tables, goes one call deeper with each list, table and dotted key.
+// Strings and comments don't count. `file` is for messages.
 // Throws: Error{kFormat} with the line of the first value more than 64 deep or key of more than 16 parts.
 void RefuseDeepToml(std::string_view text, const std::string& file);
 

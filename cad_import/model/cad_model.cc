@@ -17,7 +17,7 @@ bool IsAtHome(const core::RigidTransform& b_from_a) {
          b_from_a.translation_mm == Eigen::Vector3d::Zero();
 }
 
-// The last of its path.
+// The last name of its path.
 std::string NameOf(const CadInstance& instance) { return instance.path.substr(instance.path.rfind('/') + 1); }
 
 bool HangsUnder(const CadInstance& instance, std::string_view node) {
@@ -25,7 +25,7 @@ bool HangsUnder(const CadInstance& instance, std::string_view node) {
   return path.starts_with(node) && (path.size() == node.size() || path[node.size()] == '/');
 }
 
-// Every part gets a name of its own, numbered where it recurs.
+// Numbers names that recur: the second "a" becomes "a 2".
 void NumberTwins(std::vector<ImportedPart>& parts) {
   std::map<std::string, int> uses;
   for (ImportedPart& part : parts)

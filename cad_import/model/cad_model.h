@@ -23,7 +23,7 @@ struct ImportedPart {
   [[nodiscard]] bool operator==(const ImportedPart&) const = default;
 };
 
-// What was found in a body's surface, and done to it.
+// What was found in a body's surface, and what was done to it.
 struct SurfaceReport {
   bool watertight = false;
   std::int64_t dropped_flat = 0;
@@ -42,7 +42,7 @@ struct SurfaceReport {
 struct CadShape {
   std::string name;
   core::SharedMesh mesh;
-  std::vector<ImportedPart> pieces;  // cover all triangles, in order; at least one
+  std::vector<ImportedPart> pieces;  // cover all triangles, in order; ModelOf's shape has none
   SurfaceReport surface;
 };
 
@@ -73,11 +73,11 @@ struct CadModel {
   ImportReport report;
 };
 
-// One mesh in one place, of that name; nothing is known of its surface.
+// A model of one mesh in one place; its surface isn't looked at, and its shape has no pieces.
 [[nodiscard]] CadModel ModelOf(core::SharedMesh mesh, const std::string& name);
 
-// All instances as one mesh in the model's frame, the pieces of each in the order of the instances, every
-// name unique.
+// All instances as one mesh in the model's frame, the pieces of each in the order of the instances. A name
+// that recurs gets a number.
 struct FlatModel {
   core::SharedMesh mesh;
   std::vector<ImportedPart> parts;

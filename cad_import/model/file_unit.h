@@ -16,7 +16,7 @@ struct FileUnit {
 [[nodiscard]] FileUnit UnitOf(double mm_per_unit);
 [[nodiscard]] FileUnit UnitOf(core::LengthUnit unit);
 
-// Its name, or "-" for none, which names no unit.
+// The unit's name; "-", which names no unit, if there is none.
 [[nodiscard]] std::string NameOrDash(const std::optional<core::LengthUnit>& unit);
 
 }  // namespace elbowroom::cad_import

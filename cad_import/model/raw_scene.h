@@ -17,7 +17,7 @@ namespace elbowroom::cad_import {
 
 struct RawShape {
   std::string name;
-  core::TriangleMesh mesh;  // in the file's unit until scaled, whatever its names say
+  core::TriangleMesh mesh;  // in the file's unit until it is scaled, in spite of `vertices_mm`
   double deviation = 0.0;   // in the same unit, of the triangles from the surface that the file describes
 };
 
@@ -32,17 +32,17 @@ struct RawScene {
   std::vector<RawShape> shapes;
   std::vector<RawInstance> instances;
   std::optional<FileUnit> unit;                 // nothing: the file doesn't say
-  bool are_mm = false;                          // its lengths were converted already, from that unit
-  bool are_bodies = false;                      // each shape is one, even where its mesh falls into pieces
+  bool are_mm = false;                          // its lengths are in mm already, converted from `unit`
+  bool are_bodies = false;                      // each shape is one body, even if its mesh falls into pieces
   std::int64_t left_out = 0;                    // lines, points, bodies without a face
   std::vector<std::string> warnings;            // one line each
   std::vector<std::filesystem::path> referred;  // other files that were opened
 };
 
-// More aren't a model: each may be a few bytes of a file.
+// A file with more is refused: an instance may take only a few bytes of a file.
 inline constexpr std::size_t kMostInstances = 1'000'000;
 
-// Each counted wherever an instance shows it.
+// The triangles of all instances.
 [[nodiscard]] inline std::int64_t PlacedTriangles(const RawScene& scene) {
   std::int64_t count = 0;
   for (const RawInstance& instance : scene.instances)

@@ -21,7 +21,7 @@ void Join(Body& a, const Body& b, const core::TriangleMesh& b_in_a) {
   a.deviation = std::max(a.deviation, b.deviation);
 }
 
-// For each body the first of those that it shares vertices with, over any number of others.
+// For each body the first one that it is connected with by shared vertices, directly or through others.
 std::vector<std::size_t> GroupsOf(const std::vector<core::TriangleMesh>& meshes) {
   std::vector<std::size_t> group(meshes.size());
   std::iota(group.begin(), group.end(), std::size_t{0});
@@ -61,7 +61,7 @@ std::vector<std::size_t> OpenInstances(const BodyScene& scene) {
   return open;
 }
 
-// The scene without some instances and the bodies that nobody needs then.
+// The scene without the instances that go, and without bodies that no instance needs any more.
 BodyScene Without(BodyScene scene, const std::vector<std::uint8_t>& goes) {
   BodyScene result;
   std::map<std::size_t, std::size_t> new_shape;

@@ -1,4 +1,4 @@
-// Bodies on their way from soup to surfaces: what is welded, what belongs together.
+// Bodies between triangle soup and healed surfaces: how they are welded, joined and cut into pieces.
 #pragma once
 
 #include <string>
@@ -10,7 +10,8 @@
 
 namespace elbowroom::cad_import {
 
-// A body on its way: whose pieces it is made of, and how far it may be from what it stands for.
+// A body that isn't healed yet. `owned` numbers `piece_names`; `deviation` is how far the triangles may be
+// from the surface that they stand for.
 struct Body {
   OwnedMesh owned;
   std::vector<std::string> piece_names;
@@ -18,7 +19,7 @@ struct Body {
   std::string name;
 };
 
-// Welded; of one piece, its own.
+// The shape, welded, as a body of one piece.
 [[nodiscard]] Body BodyOf(RawShape shape);
 
 struct BodyScene {
@@ -26,11 +27,12 @@ struct BodyScene {
   std::vector<CadInstance> instances;
 };
 
-// Joins open bodies of one place each that share vertices and are one closed surface together, as exporters
-// cut one up by material or group; their instances become the first's. Returns how many were joined.
+// Joins open bodies that stand in one place each, share vertices and together have no open edge: exporters
+// cut one surface up by material or group. The first body's instance remains for all of them. Returns how
+// many were joined.
 int JoinOpenBodies(BodyScene& scene);
 
-// Sorts the triangles by connected piece, each of which is then a piece by that name.
+// Sorts the triangles by connected piece. Each becomes a piece with the name of the body's first one.
 void SplitIntoPieces(Body& body);
 
 }  // namespace elbowroom::cad_import

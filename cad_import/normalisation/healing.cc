@@ -36,7 +36,7 @@ bool IsFlat(const TriangleMesh& mesh, const Triangle& t) {
 
 void Turn(Triangle& triangle) { std::swap(triangle[1], triangle[2]); }
 
-// Drops the triangles whose place `goes` says; how many.
+// Drops the triangles for whose index `goes` is true. Returns how many.
 std::int64_t DropWhere(OwnedMesh& body, auto goes) {
   std::size_t kept = 0;
   for (std::size_t i = 0; i < body.mesh.triangles.size(); ++i) {
@@ -63,8 +63,8 @@ Footprint FootprintOf(const Triangle& triangle, std::uint32_t index) {
   return {{a, std::min(b, c), std::max(b, c)}, b < c, index};
 }
 
-// Those that a triangle before them has the corners of and turns like. One that turns the other way is the
-// back of a sheet, or where two bodies meet: that stays.
+// Marks triangles that have the corners of an earlier one in the same cyclic order. A triangle with the
+// opposite order stays: it is the back of a sheet, or a place where two bodies meet.
 std::vector<std::uint8_t> FindCopies(const TriangleMesh& mesh) {
   std::vector<Footprint> footprints;
   footprints.reserve(mesh.triangles.size());
@@ -184,7 +184,8 @@ SurfaceReport Heal(OwnedMesh& body) {
   if (mesh.triangles.empty()) return report;
   std::vector<EdgeUse> edges = SortedEdgeUses(mesh);
   EdgeCounts counts = CountEdges(edges);
-  // A copy has three edges that more triangles run along that way.
+  // Two triangles run the same way along each edge of a copy. So there is no copy where all edges are sound
+  // or open.
   if (counts.non_manifold + counts.inconsistent > 0) {
     const std::vector<std::uint8_t> is_copy = FindCopies(mesh);
     report.dropped_duplicates = DropWhere(body, [&](std::size_t i) { return is_copy[i] != 0; });
@@ -200,7 +201,7 @@ SurfaceReport Heal(OwnedMesh& body) {
     report.dropped_flat = DropWhere(body, is_flat);
   }
   if (report.dropped_flat + report.dropped_duplicates > 0) {
-    Weld(body);  // for the vertices that nobody uses now
+    Weld(body);  // drops the vertices that no triangle uses now
     edges = SortedEdgeUses(mesh);
   }
   report.turned = Orient(mesh, edges);

@@ -20,10 +20,10 @@
 namespace elbowroom::cad_import {
 namespace {
 
-// Triangles of a file; some 3 us each.
+// Files with more triangles aren't searched for self-intersections: each triangle takes about 3 us.
 constexpr std::int64_t kMostLookedThrough = 250'000;
 
-// Where the instances stand, counted one by one: what all of a model as one mesh would be.
+// The most triangles of all instances together, as in one mesh of the whole model.
 constexpr std::int64_t kMostPlaced = 20'000'000;
 
 std::int64_t CheckedPlacedTriangles(const RawScene& scene, const std::string& where) {
@@ -64,7 +64,7 @@ std::int64_t TriangleCount(const CadModel& model) {
   return count;
 }
 
-// Looked for in each shape once, unless there is too much to look through.
+// Looks for self-intersections in each shape once, unless there is too much to look through.
 void LookForSelfIntersections(CadModel& model) {
   std::int64_t triangles = 0;
   for (const CadShape& shape : model.shapes)

@@ -12,11 +12,11 @@
 namespace elbowroom::cad_import {
 
 // In millimetres by the caller's unit, the file's, or the caller's second choice. Instances become rigid:
-// scales and mirrors go into shapes. Each shape is welded and healed; shapes that are open and stand in one
-// place only are joined where they share vertices, as exporters cut one surface up by material or group. A
-// file of a single body is listed by its connected pieces. Throws: Error{kCad} naming the file and its size
-// in each unit when nobody gave one, Error{kGeometry} naming the file: no triangle is left, a vertex isn't
-// finite.
+// scales and mirrors go into shapes. Each shape is welded. Open shapes that stand in one place only are
+// joined where they share vertices and together have no open edge: exporters cut one surface up by material
+// or group. Then each body is healed. The shape of a file with one instance is listed by its connected
+// pieces, unless the reader gave bodies. Throws: Error{kCad} naming the file and its size in each unit when
+// nobody gave one, Error{kGeometry} naming the file: no triangle is left, a vertex isn't finite.
 [[nodiscard]] CadModel NormaliseModel(RawScene scene, FileFormat format, const ImportOptions& options,
                                       const std::filesystem::path& file, const core::Progress& progress);
 

@@ -38,7 +38,8 @@ Parted PartOf(const Eigen::Matrix3d& linear) {
   return {rotation, stretch};
 }
 
-// Its entries in units of a hundred thousandth of the largest, about, and what that unit is.
+// The entries as multiples of about a hundred thousandth of the largest, and last the exponent of that unit:
+// stretches that differ by rounding are mostly equal in it.
 std::array<std::int64_t, 10> RoundedStretch(const Eigen::Matrix3d& stretch) {
   constexpr int kBits = 17;
   const double largest = stretch.lpNorm<Eigen::Infinity>();

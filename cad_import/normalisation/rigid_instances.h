@@ -14,8 +14,9 @@ struct RigidInstances {
   std::vector<CadInstance> instances;
 };
 
-// Scales and mirrors go into shapes, one made for each different stretch; shapes that no instance shows go.
-// Throws: Error{kGeometry} naming `where` when an instance isn't placed at a finite point.
+// Splits each placement into a rigid motion and a stretch (scales and mirrors). The stretch goes into the
+// shape: one shape is made for each different stretch. Shapes that no instance shows are dropped. Throws:
+// Error{kGeometry} naming `where` when an instance isn't placed at a finite point.
 [[nodiscard]] RigidInstances MakeRigid(const RawScene& scene, const std::string& where);
 
 }  // namespace elbowroom::cad_import

@@ -19,7 +19,7 @@ using Point = Kernel::Point_3;
 using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, std::uint32_t>;
 using Corners = std::array<std::int32_t, 3>;
 
-// The corners of two triangles: those that both have first, in the same order.
+// The corners of two triangles. Those that both have come first, in the same order.
 struct Pair {
   Corners a, b;
   int shared = 0;
@@ -64,8 +64,9 @@ class PairTest {
     const Point &from, &to;
   };
 
-  // What two triangles share besides a corner reaches the side across from it in one of them. Nothing does
-  // where a triangle is wholly on one side of the other's plane, as it mostly is.
+  // If two triangles with a common corner have more points in common, these reach the opposite side of one of
+  // the triangles. That is impossible if a triangle is wholly on one side of the other's plane, as most are:
+  // this is tested first.
   static bool MeetBesideCorner(const Point& corner, const Side& a, const Side& b) {
     const auto is_apart = [&](const Side& plane, const Side& side) {
       const CGAL::Orientation from = CGAL::orientation(corner, plane.from, plane.to, side.from);

@@ -14,10 +14,11 @@ struct SelfIntersections {
   std::vector<std::uint32_t> triangles;  // of these pairs, ascending, each once
 };
 
-// Pairs of triangles that cross, lie on each other or touch, beside the corner or edge that both have. Two
-// with the same three corners, the sides of a sheet, aren't counted, nor are triangles without area. The mesh
-// is welded. Exact: candidates by their boxes, each decided by CGAL's exact predicates. Held to a test of all
-// pairs in rational numbers by self_intersections_test. Throws: Error{kCancelled}. Thread: any.
+// Pairs of triangles that cross, lie on each other or touch elsewhere than in a corner or edge that both
+// have. Two with the same three corners, the sides of a sheet, aren't counted, nor are triangles without
+// area. The mesh must be welded. Exact: candidates are found by their boxes, and each is decided by CGAL's
+// exact predicates. Held to a test of all pairs in rational numbers by self_intersections_test. Throws:
+// Error{kCancelled}. Thread: any.
 [[nodiscard]] SelfIntersections FindSelfIntersections(const core::TriangleMesh& mesh,
                                                       const std::stop_token& stop = {});
 

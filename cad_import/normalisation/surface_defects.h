@@ -1,4 +1,5 @@
-// Where a model's surfaces are open, ambiguous or run through themselves: what an import's counts are of.
+// Where a model's surfaces are open, ambiguous or run through themselves: the places behind the counts of an
+// import.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,11 +19,11 @@ struct SurfaceDefects {
   std::vector<Segment> open_edges;                       // of one triangle
   std::vector<Segment> non_manifold_edges;               // of three or more
   std::vector<Segment> inconsistent_edges;               // of two triangles that face different ways
-  std::vector<std::array<Eigen::Vector3d, 3>> crossing;  // triangles that meet others beside their corners
+  std::vector<std::array<Eigen::Vector3d, 3>> crossing;  // they meet others elsewhere than in shared corners
 };
 
-// Counts over every instance. Crossing triangles are looked for in shapes that are known to have some, or
-// that weren't looked through yet. Throws: Error{kCancelled}.
+// Holds the defects of every instance. Crossing triangles are looked for in shapes that are known to have
+// some, or that weren't looked through yet. Throws: Error{kCancelled}.
 [[nodiscard]] SurfaceDefects FindDefects(const CadModel& model, const core::Progress& progress = {},
                                          const std::stop_token& stop = {});
 

@@ -37,7 +37,7 @@ class ParityForest {
     return place;
   }
 
-  // False: that is against what is known.
+  // False: this contradicts what is known.
   bool Unite(std::uint32_t a, std::uint32_t b, bool are_unlike) {
     const Place at = Find(a), to = Find(b);
     const bool is_odd = at.is_odd ^ to.is_odd ^ are_unlike;
@@ -65,7 +65,7 @@ std::vector<EdgeUse> SortedEdgeUses(const core::TriangleMesh& mesh) {
       }
     }
   };
-  // By counting for the lower vertex, of which few edges come; those are sorted one by one.
+  // A counting sort by the lower vertex. The few edges of each vertex are then sorted by the higher one.
   std::vector<std::size_t> begin(mesh.vertices_mm.size() + 1, 0);
   for_each_use([&](const EdgeUse& use) { ++begin[static_cast<std::size_t>(use.low) + 1]; });
   std::partial_sum(begin.begin(), begin.end(), begin.begin());

@@ -49,11 +49,11 @@ struct EdgeCounts {
 // Triangles that hang together over edges of exactly two.
 struct Patch {
   std::vector<std::uint32_t> triangles;  // ascending
-  std::vector<std::uint32_t> odd;        // of them: those to turn for all to run alike, at most half
+  std::vector<std::uint32_t> odd;        // those of them to turn so that all run alike; at most half
   bool is_orientable = true;             // else nothing is odd
   bool is_closed = true;                 // all their edges are of exactly two
 };
-// By their first triangles.
+// Sorted by their first triangles.
 [[nodiscard]] std::vector<Patch> FindPatches(const core::TriangleMesh& mesh, std::span<const EdgeUse> sorted);
 
 // For each triangle the number of the piece it belongs to, connected over shared vertices, in order of

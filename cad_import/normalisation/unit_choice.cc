@@ -20,7 +20,7 @@ using core::LengthUnit;
 constexpr std::array kUnits = {LengthUnit::kMillimetre, LengthUnit::kCentimetre, LengthUnit::kMetre,
                                LengthUnit::kInch};
 
-// What is checked at a table.
+// Sizes of what is usually checked at a table, and sizes that nothing there has.
 constexpr double kUsuallySmallestMm = 20.0, kUsuallyLargestMm = 1000.0;
 constexpr double kImplausiblySmallMm = 1.0, kImplausiblyLargeMm = 3000.0;
 
@@ -36,14 +36,14 @@ Eigen::AlignedBox3d BoundsOf(const RawScene& scene) {
   return bounds;
 }
 
-// How much CAD is drawn in other units than millimetres.
+// A penalty for units in which CAD models are rarely drawn.
 double RarityOf(LengthUnit unit) {
   if (unit == LengthUnit::kMillimetre) return 0.0;
   return unit == LengthUnit::kCentimetre ? 2.0 : 0.5;
 }
 
-// The unit that makes the longest edge what is checked at a table, or brings it nearest to that by ratio; of
-// several the one that is less rare.
+// The unit that brings the longest edge into the usual sizes, or nearest to them by ratio; a rare unit must
+// be nearer by its penalty.
 LengthUnit LikelyUnit(double longest) {
   return *std::ranges::min_element(kUnits, {}, [&](LengthUnit unit) {
     const double longest_mm = longest * core::MillimetresPer(unit);

@@ -13,7 +13,8 @@
 namespace elbowroom::cad_import {
 
 // The caller's unit, with a warning where the file says another; else the file's; else the caller's second
-// choice. Throws: Error{kCad} naming `where` when there is none, with the size in each and the likely one.
+// choice. Throws: Error{kCad} naming `where` when there is none, with the size in each unit and the likely
+// unit.
 [[nodiscard]] FileUnit ChooseUnit(const RawScene& scene, FileFormat format, const ImportOptions& options,
                                   const std::string& where, std::vector<std::string>& warnings);
 

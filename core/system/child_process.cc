@@ -22,7 +22,7 @@
 namespace elbowroom::core {
 namespace {
 
-constexpr int kPollMs = 50;  // how soon a stop is heard
+constexpr int kPollMs = 50;  // how soon a stop is noticed
 
 [[noreturn]] void FailToStart(const char* what, int error) {
   throw Error(ErrorKind::kFile, fmt::format("can't start a process to read files with ({}: {}); close other "
@@ -49,7 +49,8 @@ class SpawnPlan {
   SpawnPlan(const SpawnPlan&) = delete;
   SpawnPlan& operator=(const SpawnPlan&) = delete;
 
-  // `given` lie beyond the places that the child finds them in, so that none is overwritten before its turn.
+  // `given` have numbers beyond those under which the child finds them, so that none is overwritten before it
+  // is copied.
   void Give(const std::vector<Descriptor>& given) {
     posix_spawn_file_actions_addopen(&actions_, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
     posix_spawn_file_actions_addopen(&actions_, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
@@ -60,8 +61,8 @@ class SpawnPlan {
     posix_spawn_file_actions_addclosefrom_np(&actions_, place);
   }
 
-  // A group of its own: Ctrl-C is for the parent to hear. And its signals as they are at the start of a
-  // program.
+  // The child gets a process group of its own, so that Ctrl-C reaches only the parent, and default signal
+  // handling.
   void SetApart() {
     sigset_t none, all;
     sigemptyset(&none);
@@ -85,7 +86,7 @@ class SpawnPlan {
   posix_spawnattr_t attributes_{};
 };
 
-// posix_spawn, as forking a process that has threads leaves locks that nobody opens.
+// Uses posix_spawn, because in a fork of a process with threads the locks of the other threads stay locked.
 pid_t Spawn(const ChildProgram& program) {
   const int beyond = kFirstGivenDescriptor + static_cast<int>(program.gives.size());
   std::vector<Descriptor> given;

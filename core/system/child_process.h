@@ -1,5 +1,5 @@
-// Programs that run as children of this one, so that no file can take this one down: how they are started,
-// what they may take, how they are waited for and ended.
+// Child processes of this program, which read files that could make a process crash: how they are started,
+// limited, waited for and ended.
 #pragma once
 
 #include <chrono>
@@ -30,29 +30,30 @@ class Descriptor {
   int number_;
 };
 
-// All of these are closed in what this program starts. Throw: Error{kFile} when the system has none left.
+// A child doesn't inherit any of these (close-on-exec), unless ChildProgram::gives names it. All three
+// functions throw: Error{kFile} when the system can't make one.
 struct Pipe {
   Descriptor from, to;
 };
 [[nodiscard]] Pipe MakePipe();
-[[nodiscard]] Pipe MakeSocketPair();  // of packets: what is sent at once is received at once
+[[nodiscard]] Pipe MakeSocketPair();  // of packets: one send is one receive
 [[nodiscard]] Descriptor MakeMemoryFile(const char* name);
 
-// Where a child finds the first descriptor that it is given; the others follow.
+// The number under which a child finds the first descriptor that it is given; the others follow in order.
 inline constexpr int kFirstGivenDescriptor = 3;
 
 struct ChildProgram {
   std::filesystem::path program = "/proc/self/exe";
-  std::vector<std::string> arguments;      // the first is its name
-  std::vector<const Descriptor*> gives{};  // beside these it has none of this program's
+  std::vector<std::string> arguments;      // the first is the program's name (argv[0])
+  std::vector<const Descriptor*> gives{};  // it inherits no other descriptors of this program
 };
 
-// What ended a wait.
+// Why a wait ended.
 enum class Woken { kReady, kStopped, kTooLate };
-using Deadline = std::optional<std::chrono::steady_clock::time_point>;  // nothing: for ever
+using Deadline = std::optional<std::chrono::steady_clock::time_point>;  // nothing: no limit
 
-// A child of this program: its input is empty, what it prints is thrown away, Ctrl-C doesn't reach it.
-// Killed, if it still runs, and waited for at the end of its life. Thread: one at a time.
+// A child of this program. Its input is empty, its output is thrown away, and Ctrl-C doesn't reach it. The
+// destructor kills it if it still runs, and waits for it. Thread: one at a time.
 class Child {
  public:
   // Throws: Error{kFile} saying why it can't be started.
@@ -62,7 +63,7 @@ class Child {
   Child& operator=(const Child&) = delete;
 
   void Kill() const;
-  int Wait();                   // the status, as waitpid gives it
+  int Wait();                   // until it has ended; the status is waitpid's
   std::optional<int> Status();  // nothing while it runs
   [[nodiscard]] Woken WaitForEnd(const std::stop_token& stop, const Deadline& deadline);
 
@@ -73,26 +74,27 @@ class Child {
   std::optional<int> status_;
 };
 
-// "crashed (SEGV)", "was stopped from outside", "ended (status 1)": of a status that waitpid gave.
+// Describes a status that waitpid gave: "crashed (SEGV)", "was stopped from outside", "ended (status 1)".
 [[nodiscard]] std::string TextOfEnd(int status);
 
-// Waits until there is something to read, or its other end is closed. A stop is heard within 50 ms.
+// Waits until there is something to read, or the other end is closed. A stop is noticed within 50 ms.
 [[nodiscard]] Woken WaitToRead(const Descriptor& descriptor, const std::stop_token& stop,
                                const Deadline& deadline);
 
-// False: nobody listens any more.
+// False: not all bytes can be written, as when the other end is closed.
 [[nodiscard]] bool WriteAll(int descriptor, std::span<const std::byte> bytes);
 
-// What a child says, made one printable line of at most `most_bytes`.
+// The first `most_bytes` of a child's message, with a space for each control character.
 [[nodiscard]] std::string PrintableLine(std::string_view text, std::size_t most_bytes);
 
-// For a child, of itself.
+// The limits that a child sets for itself.
 struct OwnLimits {
-  std::optional<double> memory_bytes;  // of addresses; not under sanitizers, which reserve all there are
-  std::optional<double> file_bytes;    // of what it writes
-  std::optional<double> cpu_s;         // on all threads together
+  std::optional<double> memory_bytes;  // address space; not set under sanitizers, which reserve it all
+  std::optional<double> file_bytes;    // size of a file that it writes
+  std::optional<double> cpu_s;         // of all threads together
 };
-// It dies with the thread that started it, gains no rights, leaves no core file, and takes no more than this.
+// Called by a child: it then dies with the thread that started it, can gain no rights, leaves no core file,
+// and is held to `limits`.
 void LimitMyself(const OwnLimits& limits);
 
 }  // namespace elbowroom::core

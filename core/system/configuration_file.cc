@@ -39,7 +39,7 @@ struct Subject {
 
 class OpenedFile {
  public:
-  // A pipe that nobody writes to opens at once, so that its kind can be told.
+  // O_NONBLOCK: a pipe to which nobody writes opens at once, so that its kind can be checked.
   explicit OpenedFile(const std::filesystem::path& path)
       : number_(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC)) {}
   ~OpenedFile() {
@@ -59,7 +59,8 @@ std::string ReadConfiguration(const std::filesystem::path& path, const std::stri
                               std::string_view what) {
   const Subject subject{who, what};
   struct stat status {};
-  // Asked twice: opening a device may do something, and between the two the name may come to mean another.
+  // The kind is checked before opening, because opening a device may have effects, and again after it,
+  // because the name may by then be that of another file.
   if (::stat(path.c_str(), &status) != 0) subject.FailToRead(errno);
   subject.RequireSmallFile(status);
   const OpenedFile file(path);

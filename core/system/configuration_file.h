@@ -1,5 +1,4 @@
-// Files that say how a trial is set up: small texts, read whole, and never something else that opens as a
-// file.
+// Reads configuration files: small texts, read whole. Anything that isn't a regular file is refused.
 #pragma once
 
 #include <cstddef>

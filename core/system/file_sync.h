@@ -1,12 +1,12 @@
-// What is written stays written when the power fails: files and folders brought to the disk.
+// Brings folders to the disk, so that their entries survive a power failure.
 #pragma once
 
 #include <filesystem>
 
 namespace elbowroom::core {
 
-// The folder's entries are on the disk: files that were made, renamed or removed in it. A file system that
-// can't do this for folders is left as it is. Thread: any.
+// Brings the folder's entries (files that were made, renamed or removed in it) to the disk. Nothing is
+// reported if the file system can't sync folders. Thread: any.
 void SyncFolder(const std::filesystem::path& folder) noexcept;
 
 // The folder that holds `path`: "." for a bare name.

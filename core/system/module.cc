@@ -22,7 +22,7 @@ namespace {
                           why));
 }
 
-// Where this program's own libraries are looked for, as the loader has it.
+// The folders in which the loader looks for this program's own libraries.
 std::vector<std::filesystem::path> ModuleFolders() {
   void* program = ::dlopen(nullptr, RTLD_NOW);
   Dl_serinfo size{};

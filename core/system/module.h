@@ -1,4 +1,4 @@
-// Parts of the program that are libraries of their own, loaded when they are first needed.
+// Modules: parts of the program that are shared libraries of their own and are loaded on first use.
 #pragma once
 
 #include <filesystem>
@@ -6,12 +6,12 @@
 
 namespace elbowroom::core {
 
-// The address of `entry` in the module `name`, which is loaded then and stays. It is looked for where the
-// program says that its own libraries are: beside it; its file's name carries the program's version. Throws:
-// Error{kFile} saying what is missing. Thread: any.
+// The address of `entry` in the module `name`. The first call loads the module, which is never unloaded. The
+// loader looks for it where it looks for the program's own libraries, beside the program; its file's name
+// carries the program's version. Throws: Error{kFile} saying what is missing. Thread: any.
 [[nodiscard]] void* FindInModule(const std::string& name, const char* entry);
 
-// As the function that it is: a module's header declares it.
+// The same address as a function pointer. The module's header declares the function's type.
 template <typename Function>
 [[nodiscard]] Function* FunctionOfModule(const std::string& name, const char* entry) {
   return reinterpret_cast<Function*>(FindInModule(name, entry));

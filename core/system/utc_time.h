@@ -1,4 +1,4 @@
-// The clock that people and other programs share.
+// The present time in UTC, as text.
 #pragma once
 
 #include <string>

@@ -21,8 +21,8 @@ namespace fs = std::filesystem;
                                             path.string()));
 }
 
-// All of `bytes`, from the program to the disk: renamed before that, a file could come back empty after a
-// power failure.
+// Writes all of `bytes` and waits until they are on the disk. If a file were renamed before that, it could be
+// empty after a power failure.
 bool WriteToDisk(int file, std::string_view bytes) {
   while (!bytes.empty()) {
     const ssize_t size = ::write(file, bytes.data(), bytes.size());
@@ -30,7 +30,7 @@ bool WriteToDisk(int file, std::string_view bytes) {
     if (size <= 0) return false;
     bytes.remove_prefix(static_cast<std::size_t>(size));
   }
-  // What is no file of a disk, such as a pipe, can't be synced and needn't be.
+  // A file that isn't on a disk, such as a pipe, can't be synced and needn't be.
   return ::fsync(file) == 0 || errno == EINVAL || errno == EROFS;
 }
 
@@ -43,7 +43,7 @@ PendingFiles::~PendingFiles() {
 
 void PendingFiles::Write(const fs::path& path, std::string_view bytes) {
   std::error_code error;
-  // What a link points to, not the link.
+  // A symbolic link stays; the file that it points to is replaced.
   const fs::path target = fs::is_symlink(path, error) ? fs::weakly_canonical(path, error) : path;
   const fs::file_status status = fs::status(target, error);
   const bool is_there = fs::exists(status);

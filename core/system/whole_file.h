@@ -7,14 +7,14 @@
 
 namespace elbowroom::core {
 
-// Writes a temporary beside `path`, brings it to the disk and renames it over `path`; nothing is left behind
-// on failure, and a power failure leaves the old file or the new one. Of a symbolic link, over what it points
-// to; a file that was there keeps its permissions, and one that may not be written stays what it is. Throws:
-// Error{kFile} naming the path.
+// Writes a temporary beside `path`, brings it to the disk and renames it to `path`. A failure leaves no
+// temporary behind; a power failure leaves the old file or the new one. If `path` is a symbolic link, the
+// file that it points to is replaced. The new file has the permissions of the old one; a file without write
+// permission is not replaced. Throws: Error{kFile} naming the path.
 void WriteWholeFile(const std::filesystem::path& path, std::string_view bytes);
 
-// Several files that appear together: all are written as temporaries before the first is renamed, and those
-// that weren't go with this object.
+// Several files, all of them written as temporaries before the first is renamed. The destructor removes the
+// temporaries that weren't renamed.
 class PendingFiles {
  public:
   PendingFiles() = default;

@@ -13,19 +13,19 @@
 namespace elbowroom::recon {
 namespace {
 
-// A photo's say grows from 0 to all over this distance from a rim in its picture.
+// A photo's weight grows from 0 to full over this distance from a rim in its picture.
 constexpr float kFeatherPx = 6.0F;
 // A depth that changes by more footprints than this from pixel to pixel is a rim: surfaces as steep as that
 // (76 degrees) are hardly seen.
 constexpr double kSteepest = 4.0;
-// In footprints: up to here behind the surface that its camera sees a point counts as on it, which the relief
-// of the silhouettes' pixels asks for; from kSteepest on as hidden.
+// In footprints of a pixel: a point up to this far behind the surface that its camera sees counts as on it,
+// because the pixels of the silhouettes leave a relief on the hull. From kSteepest on it counts as hidden.
 constexpr double kOnSurface = 1.0;
-// Cosine between normal and line of sight below which a camera has no say.
+// Cosine between normal and line of sight below which a camera has no weight.
 constexpr double kGrazing = 0.1;
 
-// 255 where all eight neighbours are in the picture, on the hull and on the same surface; else 0. Of four
-// pixels around a place that a rim passes between, none is inside.
+// 255 where all eight neighbours are in the picture, on the hull and on the same surface; else 0. If a rim
+// passes between the four pixels around a place, none of them is inside.
 cv::Mat InsideOfSurfaces(const HullView& sight, double focal_px) {
   cv::Mat inside(sight.height_px, sight.width_px, CV_8UC1, cv::Scalar(0));
   const int width_px = sight.width_px;
@@ -48,7 +48,7 @@ cv::Mat InsideOfSurfaces(const HullView& sight, double focal_px) {
 // The four pixels around a position that is at least one pixel inside of the picture.
 struct Corners {
   int x, y;
-  float u, v;  // share of the right, of the lower ones
+  float u, v;  // weights of the right and of the lower ones
 
   explicit Corners(const Eigen::Vector2d& place_px)
       : x(static_cast<int>(std::floor(place_px.x()))),

@@ -29,9 +29,9 @@ class CameraTexture {
   [[nodiscard]] const core::CameraModel& camera() const { return camera_; }
 
   // Nothing where the camera doesn't see the point: outside of its picture, turned away, or more than four
-  // pixels' footprints behind what it sees of the hull there. The weight is continuous along the surface and
-  // falls to 0 there, at the picture's borders, at the rims of what hides something, and where the camera
-  // grazes the surface. `normal_in_world`: unit, out of the hull.
+  // pixels' footprints behind what it sees of the hull there. The weight is continuous along the surface. It
+  // falls to 0 where the point ceases to be seen, at the picture's borders, at the rims of what hides
+  // something, and where the camera grazes the surface. `normal_in_world`: unit, out of the hull.
   [[nodiscard]] std::optional<TextureSample> Sample(const Eigen::Vector3d& x_in_world,
                                                     const Eigen::Vector3d& normal_in_world) const;
 

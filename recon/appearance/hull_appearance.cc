@@ -13,7 +13,8 @@ namespace {
 
 // A weight from which on a photo is trusted fully.
 constexpr float kEnough = 0.08F;
-// How much less a camera says that looks from elsewhere than the viewer: a tenth at 60 degrees.
+// A camera's weight falls with this power of (1 + cosine) / 2, for the angle between its line of sight and
+// the viewer's: to a tenth at 60 degrees.
 constexpr float kViewerPower = 8.0F;
 
 std::uint8_t Level(float value) {

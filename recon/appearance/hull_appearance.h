@@ -24,11 +24,11 @@ enum class HullAppearance {
 // it well, smooth between.
 using CameraColor = std::array<std::uint8_t, 4>;
 
-// One a pixel of `picture`, the hull as `view` sees it, row-major. The photos that see a point are blended by
-// how well they see it and by the angle between their line of sight and the viewer's; the blend is continuous
-// along the surface as long as depth and normal are (docs/appearance.md). Where the layer's normal is unknown
-// there is no colour. Parallel over rows; the result doesn't depend on the number of threads. Throws:
-// PreconditionError when the picture's size isn't the view's.
+// A colour for each pixel of `picture`, which is the hull as `view` sees it; row-major. The photos that see a
+// point are blended by how well they see it and by the angle between their line of sight and the viewer's;
+// the blend is continuous along the surface as long as depth and normal are (docs/appearance.md). There is no
+// colour where no normal is known. Parallel over rows; the result doesn't depend on the number of threads.
+// Throws: PreconditionError when the picture's size isn't the view's.
 [[nodiscard]] std::vector<CameraColor> ColorHull(
     const HullView& picture, const SceneView& view,
     std::span<const std::shared_ptr<const CameraTexture>> photos);

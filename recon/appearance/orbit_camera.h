@@ -32,7 +32,8 @@ struct OrbitCamera {
 // Things at the target's depth stay under the pointer.
 [[nodiscard]] OrbitCamera Panned(const OrbitCamera& camera, const Eigen::Vector2d& drag_px, int height_px);
 
-// Same direction, targeted at the box's centre, as near as shows all of it with a margin of 5 % a side.
+// The same direction, aimed at the box's centre, and as near as possible with all of the box in the picture
+// and a margin of 5 % a side.
 // Throws: PreconditionError when the box is empty.
 [[nodiscard]] OrbitCamera FittedTo(const OrbitCamera& camera, const Eigen::AlignedBox3d& box_in_world,
                                    int width_px, int height_px);

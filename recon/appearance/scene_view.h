@@ -39,7 +39,7 @@ struct SceneView {
   [[nodiscard]] bool operator==(const SceneView&) const = default;
 };
 
-// The view as a camera, for those who look at the hull: the same picture but for what near and far cut off.
+// The view as a camera model. It makes the same picture, but near and far cut nothing off.
 [[nodiscard]] core::CameraModel CameraOf(const SceneView& view);
 
 }  // namespace elbowroom::recon

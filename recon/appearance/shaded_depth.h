@@ -11,9 +11,9 @@
 namespace elbowroom::recon {
 
 // The surface in one colour, lit from over the viewer's left shoulder, before a plain background.
-// `normal_in_world`: unit, one a pixel, zero where unknown; empty: normals follow from the depths, smoothed
-// over a few pixels and a sweep's planes show as contour lines. `rays`: those of the depths, of either
-// projection. Throws: PreconditionError when the sizes differ.
+// `normal_in_world`: unit, one a pixel, zero where unknown. If it is empty, normals follow from the depths,
+// smoothed over a few pixels; the planes of a sweep then show as contour lines. `rays`: those of the depths,
+// of either projection. Throws: PreconditionError when the sizes differ.
 [[nodiscard]] Image ShadeDepth(const ViewRays& rays, const DepthMap& picture,
                                std::span<const Eigen::Vector3f> normal_in_world);
 

@@ -19,7 +19,7 @@ class Rows {
       : stride_(width + 2 * margin), margin_(margin), numbers_(stride_ * height, value) {}
 
   [[nodiscard]] Number* Row(std::size_t y) { return numbers_.data() + y * stride_ + margin_; }
-  // Its margins too.
+  // The row and its margins.
   [[nodiscard]] std::span<Number> Whole(std::size_t y) {
     return std::span(numbers_).subspan(y * stride_, stride_);
   }
@@ -29,7 +29,7 @@ class Rows {
   std::vector<Number> numbers_;
 };
 
-// Calls visit(x, y) for all of them, row by row.
+// Calls visit(x, y) for all holders, row by row.
 template <typename Visit>
 void ForEach(std::span<const std::uint32_t> holders, std::size_t width, const Visit& visit) {
   std::size_t y = 0, row_end = width;
@@ -70,7 +70,9 @@ void CellDistances::FillNear(std::span<const std::uint32_t> holders) {
 
 void CellDistances::FillBlocks(std::span<const std::uint32_t> holders) {
   block_width_ = (width_ + kBlock - 1) / kBlock, block_height_ = (height_ + kBlock - 1) / kBlock;
-  // Down the columns of blocks, then along the rows: few blocks, no cap.
+  // First down the columns of blocks, then along the rows. Blocks are few, so their distances need no cap.
+  // Two cells whose blocks are n > 0 blocks apart along an axis are at least kBlock (n - 1) + 1 cells apart
+  // along it.
   const auto far = static_cast<int>(block_width_ + block_height_);
   std::vector<int> down(block_width_ * block_height_, far);
   ForEach(holders, width_,
@@ -89,6 +91,8 @@ void CellDistances::FillBlocks(std::span<const std::uint32_t> holders) {
     }
     NearestBlocksInRow(squares.Row(0), block_width_, kBlock, blocks_.data() + y * block_width_);
   }
+  // LowerBound() reads these for cells that are at least kNear away. A little is taken off for the rounding
+  // of the root.
   for (float& block : blocks_) block = std::max(std::sqrt(block) * (1.0F - 1e-6F), static_cast<float>(kNear));
 }
 

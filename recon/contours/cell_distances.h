@@ -12,8 +12,9 @@
 
 namespace elbowroom::recon {
 
-// Euclidean distances between cells' centres, in cells: lower bounds, exact up to kNearCells; farther away
-// short by at most 6 along each axis, from blocks of 4 x 4 cells (contour_map_test).
+// Lower bounds of the Euclidean distances between cells' centres, in cells. They are exact up to kNearCells;
+// farther away they come from blocks of 4 x 4 cells, and are short by at most 6 along each axis
+// (contour_map_test).
 class CellDistances {
  public:
   static constexpr int kNearCells = 11;
@@ -30,7 +31,8 @@ class CellDistances {
                    static_cast<std::size_t>(x / kBlock)];
   }
 
-  // Item by item the square, capped at that of kNearCells; ContourCellsView::kBytesBehind more behind them.
+  // The squared distance of each cell, capped at kNearCells^2; ContourCellsView::kBytesBehind more bytes
+  // follow.
   [[nodiscard]] std::span<const std::uint8_t> near_squares() const {
     return {near_squares_.get(), width_ * height_ + ContourCellsView::kBytesBehind};
   }
@@ -42,7 +44,7 @@ class CellDistances {
 
   std::size_t width_ = 0, height_ = 0;
   std::size_t block_width_ = 0, block_height_ = 0;
-  std::unique_ptr<std::uint8_t[]> near_squares_;  // kNearCells * kNearCells: at least as far
+  std::unique_ptr<std::uint8_t[]> near_squares_;  // kNearCells^2 means at least kNearCells away
   std::vector<float> blocks_;                     // at least kNearCells
 };
 

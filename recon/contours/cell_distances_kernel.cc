@@ -21,7 +21,7 @@ void NearSquares(const std::uint8_t* squares, std::size_t width, std::uint8_t ne
   for (std::size_t x = 0; x < width; x += hn::Lanes(d)) {
     const std::uint8_t* const here = squares + x;
     auto least = hn::LoadU(d, here);
-    // All that these cells look at: vectors that overlap.
+    // All cells that these depend on. The three vectors overlap if they are longer than `near`.
     const auto all = hn::Min(least, hn::Min(hn::LoadU(d, here - near), hn::LoadU(d, here + near)));
     if (hn::Lanes(d) > near && hn::AllTrue(d, hn::Eq(all, far))) {
       hn::StoreU(far, d, nearest + x);
@@ -38,10 +38,12 @@ void NearSquares(const std::uint8_t* squares, std::size_t width, std::uint8_t ne
 void NearestBlocks(const float* squares, std::size_t width, int block, float* nearest) {
   const Floats d;
   for (std::size_t x = 0; x < width; x += hn::Lanes(d)) {
+    // Lanes past the end count as 0, so that they don't keep the loop going.
     auto least = hn::IfThenElseZero(hn::FirstN(d, width - x), hn::LoadU(d, squares + x));
     float gap = 1.0F;
     for (std::size_t dx = 1; dx < width; ++dx, gap += static_cast<float>(block)) {
       const auto across = hn::Set(d, gap * gap);
+      // The gap alone is as far already, and gaps only grow.
       if (hn::AllTrue(d, hn::Le(least, across))) break;
       const auto beside = hn::Min(hn::LoadU(d, squares + x - dx), hn::LoadU(d, squares + x + dx));
       least = hn::Min(least, hn::Add(beside, across));

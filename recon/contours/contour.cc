@@ -58,8 +58,9 @@ class Tracer {
   }
 
  private:
-  // First and past the last of the rows that aren't the exterior's all along; one that is if there are none.
-  // Beyond the rows next to them there are no boundary pixels, and so no levels.
+  // The first row that differs from the exterior somewhere, and the one after the last such row; both are the
+  // picture's height if there is none. Beyond the rows next to them there are no boundary pixels, and so no
+  // levels.
   [[nodiscard]] std::pair<int, int> Rows() const {
     int first = 0, end = soft_.mask.height_px();
     while (first < end && IsExterior(first)) ++first;
@@ -81,7 +82,8 @@ class Tracer {
     return soft_.mask.words_per_row() * 64 - static_cast<std::size_t>(soft_.mask.width_px());
   }
 
-  // The words of the lattice's rows that labels change in, those next to pixels that aren't the exterior's.
+  // Finds the words of the lattice's rows in which labels may change: those of pixels that differ from the
+  // exterior, and one more.
   void FindWords(int first, int end) {
     Words differs(soft_.mask.words_per_row(), 0);
     for (int y = first; y < end; ++y) {
@@ -93,7 +95,8 @@ class Tracer {
     const auto found = std::ranges::find_if(differs, is_any);
     if (found == differs.end()) return;
     const auto last = std::find_if(differs.rbegin(), differs.rend(), is_any).base() - 1;
-    // Pixel i is bit i + 1: labels change from bit i to the next, or from there on.
+    // Pixel i is bit i + 1. If it differs from its neighbours, labels change from bit i to i + 1, and from
+    // there to i + 2.
     first_word_ = static_cast<std::size_t>(found - differs.begin());
     end_word_ = std::min(static_cast<std::size_t>(last - differs.begin()) + 2, LatticeWords());
   }
@@ -134,13 +137,14 @@ class Tracer {
     }
   }
 
-  // How far from a (of a's label) to b the boundary is.
+  // At what share of the way from centre a to centre b the boundary is, by their levels.
   static double Share(std::uint8_t a, std::uint8_t b) {
     return (static_cast<double>(a) - 127.5) / (static_cast<double>(a) - static_cast<double>(b));
   }
 
   std::uint32_t AddVertex(Eigen::Vector2d pixel, const Eigen::Vector2d& seen_end) {
-    // A lens that folds: the last position on the way that it still sees.
+    // If the lens has no ray for the position (it folds there), the position is moved towards `seen_end` by
+    // halves until it has one.
     std::optional<Eigen::Vector2d> at = plane_.FromPixel(pixel);
     for (int halving = 0; !at && halving < 20; ++halving) {
       pixel = 0.5 * (pixel + seen_end);
@@ -152,7 +156,7 @@ class Tracer {
     return static_cast<std::uint32_t>(contour_.vertices.size() - 1);
   }
 
-  // Between bits i and i + 1 of a row.
+  // Adds a vertex between bits i and i + 1 of a row where they differ.
   void AddVerticesAcross(int y, LatticeRow* row) {
     for (std::size_t word = first_word_; word < end_word_; ++word) {
       row->changes[word] = ChangesAlong(row->bits, word);
@@ -168,7 +172,7 @@ class Tracer {
     }
   }
 
-  // A pixel of the picture that the lens brings there.
+  // Whether this is a pixel of the picture, and the lens has a ray for it.
   [[nodiscard]] bool IsSeen(int x, int y) const {
     return x >= 0 && y >= 0 && !(plane_.unseen_pixels() && plane_.unseen_pixels()->At(x, y));
   }
@@ -224,7 +228,8 @@ class Tracer {
     std::uint32_t top = 0, bottom = 0, left = 0, right = 0;
   };
 
-  // Corners: 1 top left, 2 top right, 4 bottom left, 8 bottom right.
+  // Corners: 1 top left, 2 top right, 4 bottom left, 8 bottom right. In the two saddles, 6 and 9, each
+  // background corner is cut off by itself, so the object joins.
   void AddEdges(unsigned corners, const Cell& c) {
     switch (corners) {
       case 1:
@@ -275,7 +280,8 @@ class Tracer {
   Contour contour_;
 };
 
-// Pixels that the lens doesn't see take the exterior's label; where the boundary then is, nobody measured.
+// Pixels that the lens doesn't see take the exterior's label. If that changes the mask, the levels are
+// dropped, since the new boundary wasn't measured.
 core::SoftMask WithoutUnseen(const core::SoftMask& silhouette, bool exterior_is_object,
                              const core::BitMask& unseen) {
   core::SoftMask result{silhouette.mask, {}};

@@ -24,10 +24,10 @@ struct Contour {
   std::vector<std::uint32_t> edge_to;    // ... that ends there
 };
 
-// Marching squares over the lattice of pixel centres, whose outside carries the exterior label: a vertex
-// where the boundary crosses the line between two neighbouring centres (core::SoftMask says where; on the
-// picture's border exactly there), straight edges between. Where two object pixels touch across a corner they
-// are joined. Pixels that the lens's domain doesn't reach are exterior.
+// Marching squares over the lattice of pixel centres, with the exterior label around the picture. A vertex is
+// where the boundary crosses the line between two neighbouring centres: at the place that core::SoftMask
+// gives, or on the picture's border against the exterior. Straight edges join the vertices. Where two object
+// pixels touch across a corner they are joined. Pixels that the lens's domain doesn't reach are exterior.
 [[nodiscard]] Contour TraceContour(const core::SoftMask& silhouette, bool exterior_is_object,
                                    const UndistortedPlane& plane);
 
@@ -35,8 +35,9 @@ struct Contour {
 [[nodiscard]] bool IsObjectByParity(const Contour& contour, bool exterior_is_object,
                                     const Eigen::Vector2d& position);
 
-// Direction of the boundary at an edge: of the edges up to `kTangentReach` before and after it together, so
-// that a ready mask's staircase gives the line it stands for. Zero for a loop that closes on itself sooner.
+// Direction of the boundary at an edge, taken over this edge and the `kTangentReach` edges before and after
+// it, so that a ready mask's staircase gives the direction of the line that it stands for. Zero for a loop of
+// no more edges than these.
 inline constexpr int kTangentReach = 3;
 [[nodiscard]] Eigen::Vector2d SmoothTangent(const Contour& contour, std::uint32_t edge);
 

@@ -115,7 +115,7 @@ std::vector<std::uint32_t> ContourCells::ListEdges(const Contour& contour) {
     first_[touch.cell] = 0;
   }
   for (const Touch& touch : touches) ++first_[touch.cell];
-  // From each cell with edges to the next one, all begin where its edges end.
+  // Cells without edges begin where the edges of the last cell before them end.
   std::vector<std::uint32_t> mixed_cells;
   std::uint32_t begin = 0;
   std::size_t filled = 0;
@@ -129,7 +129,7 @@ std::vector<std::uint32_t> ContourCells::ListEdges(const Contour& contour) {
   std::fill(first_.get() + filled, first_.get() + count_ + 1, begin);
   listed_.resize(touches.size());
   segments_.resize(touches.size() + ContourCellsView::kEdgesBehind);
-  // A cell's place is where its next edge goes, until the last one is there.
+  // Meanwhile first_ says where a cell's next edge goes; in the end, that is where the cell's edges end.
   for (const auto& [cell, e] : touches) {
     const Vector2d &from = contour.vertices[contour.edges[e].from],
                    &to = contour.vertices[contour.edges[e].to];
@@ -137,14 +137,16 @@ std::vector<std::uint32_t> ContourCells::ListEdges(const Contour& contour) {
     segments_[place] = {from.x(), from.y(), to.x(), to.y()};
     listed_[place] = e;
   }
-  // Backwards: the cell before still ends where this one begins.
+  // Restores the beginnings, from the last cell to the first: first_ of the cell before is where its edges
+  // end, which is where this one's begin.
   for (std::size_t i = mixed_cells.size(); i-- > 0;)
     first_[mixed_cells[i]] = mixed_cells[i] == 0 ? 0 : first_[mixed_cells[i] - 1];
   return mixed_cells;
 }
 
-// Along each row of centres, from the left; an edge flips every centre at or right of where it crosses. The
-// contour is closed: each row ends as it began, and all rows are one.
+// Goes along each row of centres, from the left. An edge flips the label of each centre at or to the right of
+// where it crosses the row. The contour is closed, so each row ends with the exterior label, with which the
+// next one begins; all rows can be walked as one.
 void ContourCells::LabelCentres(const Contour& contour, bool exterior_is_object,
                                 std::span<const std::uint32_t> mixed_cells) {
   CellSet flips(count_);

@@ -15,12 +15,12 @@
 
 namespace elbowroom::recon {
 
-// Cells over the contour's bounds and a margin: in each the edges that touch it, the label of its centre, how
-// far the nearest cell with an edge is at least. Cell (x, y) is item y * width + x. Time and memory follow
-// the number of cells. Immutable. Thread: any.
+// Cells over the contour's bounds and a margin. Each has the edges that touch it, the label of its centre,
+// and a lower bound of the distance to the nearest cell with an edge. Cell (x, y) is item y * width + x. Time
+// and memory follow the number of cells. Immutable. Thread: any.
 class ContourCells {
  public:
-  // The contour has edges, and `bounds_px` holds them.
+  // The contour must have edges, all within `bounds_px`.
   ContourCells(const Contour& contour, bool exterior_is_object, const Eigen::AlignedBox2d& bounds_px);
 
   [[nodiscard]] const Eigen::Vector2d& origin_px() const { return origin_px_; }
@@ -34,7 +34,7 @@ class ContourCells {
     return origin_px_ + cell_px_ * Eigen::Vector2d(x + 0.5, y + 0.5);
   }
 
-  // ContourCellsView's; of a mixed cell kObject is its centre's.
+  // The bits of ContourCellsView. In a mixed cell kObject is the label of its centre.
   [[nodiscard]] std::uint8_t Label(std::size_t cell) const { return labels_[cell]; }
   // Where a cell's edges begin; those of the next one begin where they end.
   [[nodiscard]] std::uint32_t First(std::size_t cell) const { return first_[cell]; }
@@ -45,11 +45,11 @@ class ContourCells {
   [[nodiscard]] std::uint32_t ContourEdge(std::uint32_t i) const { return listed_[i]; }
   [[nodiscard]] const CellDistances& distances() const { return distances_; }
 
-  // As long-lived as the cells.
+  // Valid as long as these cells live.
   [[nodiscard]] ContourCellsView CellsView() const;
 
  private:
-  // That an edge touches a cell.
+  // An edge touches a cell.
   struct Touch {
     std::uint32_t cell, edge;
   };

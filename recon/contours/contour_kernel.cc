@@ -167,13 +167,15 @@ class Way {
         way_y_(hn::Sub(SetE(ways.to_y[i]), from_y_)),
         side_of_way_(Cross(way_x_, way_y_, from_x_, from_y_)) {}
 
-  // The lesser of each lane's share and that at which the way meets the lane's edge, of `count` edges.
+  // For each lane the lesser of `nearest` and the share at which the way meets that lane's edge. Only the
+  // first `count` edges are there.
   [[nodiscard]] HWY_INLINE EdgeVec Meet(const ContourCellsView::Edge* edges, std::size_t count,
                                         EdgeVec nearest) const {
     const Edges d;
     const EdgeVec zero = hn::Zero(d);
     const EdgeLanes e = Load(edges);
-    // The ends of the edge on different sides of the way, and those of the way of the edge.
+    // The way meets the edge if the edge's ends are on different sides of the way's line and the share at
+    // which that line meets the edge's line is on the way: from 0 to `nearest`.
     const EdgeVec side_a = hn::Sub(Cross(way_x_, way_y_, e.ax, e.ay), side_of_way_);
     const EdgeVec side_b = hn::Sub(Cross(way_x_, way_y_, e.bx, e.by), side_of_way_);
     const EdgeVec apart =
@@ -194,7 +196,8 @@ class Way {
 };
 
 // The least share at which way i meets an edge of the cells in its box; more than 1 if there is none. Most
-// boxes have one row or two of up to four edges: so many are looked at without asking.
+// boxes have one or two rows of up to four edges, so these are looked at without a test. A box of one row is
+// looked at twice, which changes nothing.
 HWY_INLINE double FirstCrossing(const ContourCellsView& raster, const Ways& ways, std::size_t i) {
   const Edges d;
   const Way way(ways, i);
@@ -213,8 +216,10 @@ HWY_INLINE double FirstCrossing(const ContourCellsView& raster, const Ways& ways
   return hn::GetLane(hn::MinOfLanes(d, nearest));
 }
 
-// The ways from i on, as many as a vector holds: a bit each of those that may meet an edge. Shares of those
-// that can't be worked out become kUnknownCrossing.
+// A bit for each way from i on, as many as a vector holds, that may meet an edge. A way can't if half its
+// length is less than the clearance around its middle. Where the middle is outside of the cells, the nearest
+// cell's clearance serves: from there the edges are no farther. Shares that can't be worked out become
+// kUnknownCrossing.
 HWY_INLINE std::uint64_t WaysNearEdges(const ContourCellsView& raster, const Points& from, const Points& to,
                                        std::size_t i, Ways* ways, double* shares) {
   const Doubles d;
@@ -267,7 +272,8 @@ void LowerShares(const GridView& grid, const ContourCellsView& raster, const Gri
     const auto i = static_cast<std::size_t>(std::countr_zero(near));
     in_picture[i] = FirstCrossing(raster, ways, i);
   }
-  // From a share of the way in the picture to one of the way in space.
+  // From a share s of the way in the picture to one in space. In the picture 1 / z is linear, so the share in
+  // space is s from_z / (to_z + s (from_z - to_z)).
   for (std::size_t i = 0; i < from.count; i += hn::Lanes(d)) {
     const DoubleVec share = hn::Load(d, in_picture + i), so_far = hn::Load(d, shares + i);
     const DoubleVec from_z = hn::Load(d, ways.from_z + i), to_z = hn::Load(d, ways.to_z + i);
@@ -278,8 +284,8 @@ void LowerShares(const GridView& grid, const ContourCellsView& raster, const Gri
   }
 }
 
-// Directions in which something convex is told from edges beside it: it lies between `low` and `high` along
-// (x, y).
+// A strip between two parallel lines that holds something convex: (x, y) . p is from `low` to `high` for all
+// of its points p.
 struct Slab {
   double x, y, low, high;
 };
@@ -361,6 +367,7 @@ bool IsClear(const GridView& grid, const ConvexCorners& shape, const ContourCell
                      right = cell(slabs[0].high, raster.origin_x_px, raster.width),
                      top = cell(slabs[1].low, raster.origin_y_px, raster.height),
                      bottom = cell(slabs[1].high, raster.origin_y_px, raster.height);
+  // All edges are within the cells.
   if (right < 0 || bottom < 0 || left == raster.width || top == raster.height) return true;
   if (bottom - top >= kMostConvexRows) return false;
   for (std::size_t i = 0; i < shape.sides.size(); ++i) {
@@ -423,7 +430,7 @@ const ConvexCorners& ConvexCorners::OfBox() {
 const ConvexCorners& ConvexCorners::OfTriangle() {
   static const ConvexCorners triangle = [] {
     ConvexCorners made{{}, {{{0, 1}, {0, 2}, {1, 2}}}};
-    made.points.count = kCount;  // the first corner again, instead of those that there aren't
+    made.points.count = kCount;  // the missing corners are the first one again
     made.points.at[0][1] = made.points.at[1][2] = 1.0;
     return made;
   }();

@@ -18,7 +18,7 @@ using Eigen::Vector2d;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Half a cell's diagonal.
 constexpr double kHalfDiagonal = 0.70710678118654757;
-// Cells looked at edge by edge, to each side; whatever lies beyond them is at least as many cells away.
+// Cells to each side whose edges are looked at one by one. Edges beyond them are at least as many cells away.
 constexpr int kWindowCells = 2;
 // Rounding of a position and of a distance.
 constexpr double kRoundingPx = 1e-7;
@@ -33,7 +33,7 @@ double SquaredDistance(const Vector2d& p, const ContourCellsView::Edge& edge) {
 
 }  // namespace
 
-// The contour's cells, asked.
+// Queries of the contour's cells.
 class ContourMap::Grid {
  public:
   Grid(const Contour& contour, bool exterior_is_object, const Eigen::AlignedBox2d& bounds_px)
@@ -72,11 +72,13 @@ class ContourMap::Grid {
     const double off_centre = place.from_centre.norm();
     const double bound_px = (cells - kHalfDiagonal - off_centre) * cell_px;
     if (bound_px >= enough_px) return bound_px;
+    // Near edges `cells` is exact: the nearest edge touches that cell, or passes within kTouchCells of it, so
+    // it is no farther than the cell's far corner and kShortBy. Then the window isn't searched.
     constexpr double kShortBy = 0.125;
     const bool is_sure_to_be_less =
         !std::isinf(enough_px) && (cells + kShortBy + kHalfDiagonal + off_centre) * cell_px < enough_px;
     if (is_sure_to_be_less) return bound_px;
-    double within_px = kInfinity;  // cells as far as that aren't in the window
+    double within_px = kInfinity;  // no edge is in the window if the nearest mixed cell is farther
     if (cells < kWindowCells + 1) within_px = NearestInWindow(place, position).second;
     return std::max(bound_px, std::min(within_px, kWindowCells * cell_px));
   }

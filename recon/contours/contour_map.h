@@ -1,4 +1,5 @@
-// What a contour says of any position of its plane: the label, and how far it is sure to hold.
+// The label that a contour gives to any position of its plane, and how far around it the label is sure to
+// hold.
 #pragma once
 
 #include <Eigen/Core>
@@ -21,9 +22,8 @@ struct PlaneLabel {
   double distance_px = 0.0;
 };
 
-// A contour that can be asked. Its grid of cells is built with the first question about a position, in time
-// and memory that follow the contour's bounds; nothing is built for a contour that isn't asked. Immutable.
-// Thread: any.
+// A contour with queries. Its grid of cells is built at the first query of a position; time and memory grow
+// with the contour's bounds. Without a query nothing is built. Immutable. Thread: any.
 class ContourMap {
  public:
   ContourMap(Contour contour, bool exterior_is_object);
@@ -43,13 +43,13 @@ class ContourMap {
 
   // Within the bounds the distance is exact to 1e-6 up to 2 cells from an edge, at most 3 cells short up to
   // 11, farther away at most 11.5; outside it is at least as good as the distance to the bounds, less 3
-  // cells. A cell is 1 px, or larger where that would make more than 4e6 of them (contour_map_test). Content
-  // with `enough_px`: a distance that is sure to be at least that, or sure to be less, isn't worked out any
-  // closer.
+  // cells. A cell is 1 px, or larger where that would make more than 4e6 of them (contour_map_test). A
+  // distance that is sure to be at least `enough_px`, or sure to be less, isn't worked out any closer.
   [[nodiscard]] PlaneLabel LabelAt(const Eigen::Vector2d& position,
                                    double enough_px = std::numeric_limits<double>::infinity()) const;
 
-  // The grid's cells, for questions in bulk; of no cells where there are no edges. As long-lived as the map.
+  // The grid's cells, for queries of many positions. There are no cells if there are no edges. Valid as long
+  // as the map lives.
   [[nodiscard]] ContourCellsView CellsView() const;
 
   // The nearest edge, if one is within 2 cells.

@@ -1,4 +1,4 @@
-// One camera's picture of what is object.
+// One camera's object region.
 #pragma once
 
 #include <atomic>
@@ -12,9 +12,9 @@
 
 namespace elbowroom::recon {
 
-// A mask and its contour. Convention, of every length and label below: pixel centres at integers, marching
-// squares between them (TraceContour). The contour is traced with the first question for it. Immutable.
-// Thread: any.
+// A mask and its contour. All lengths and labels below follow one convention: pixel centres are at integers,
+// with marching squares between them (TraceContour). The contour is traced at the first call of labels().
+// Immutable. Thread: any.
 class Silhouette {
  public:
   // Throws: PreconditionError when the mask's size isn't the camera's.

@@ -15,8 +15,8 @@ namespace elbowroom::recon {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-// Cubic interpolation between nodes this far apart follows ordinary lenses; it is halved until it follows
-// this one, or, where the lens bends too much even so, isn't used.
+// Cubic interpolation between nodes this far apart is exact enough for ordinary lenses. The step is halved
+// until it is so for this one. In cells where even the narrowest step isn't, the table isn't used.
 constexpr int kWidestStepPx = 16;
 constexpr int kNarrowestStepPx = 4;
 constexpr double kTableErrorPx = 5e-6;
@@ -82,7 +82,7 @@ void UndistortedPlane::FillTable(int step_px) {
     for (int x = 0; x < nodes.x(); ++x) {
       const Eigen::Vector2d pixel =
           Eigen::Vector2d(x, y).cwiseProduct(pixels_per_node) - Eigen::Vector2d::Constant(0.5);
-      // The coarser table is hardly off; without one the last node is a start.
+      // The solver starts from the coarser table, which is hardly off, or without one from the last node.
       Eigen::Vector2d nearby = table_.empty() ? last : FromTable(NodesAt(pixel));
       if (std::isnan(nearby.x())) nearby = last;
       const std::optional<Eigen::Vector2d> exact = Exactly(pixel, nearby);
@@ -135,7 +135,7 @@ void UndistortedPlane::FindBentCells() {
 }
 
 core::BitMask UndistortedPlane::FindUnseenPixels() const {
-  // Where cubics are asked, all is seen; each pixel of the other cells is looked at.
+  // In cells where the cubic is used, all pixels are seen; each pixel of the other cells is looked at.
   core::BitMask doubtful(nodes_.x() - 1, nodes_.y() - 1);
   for (int y = 0; y + 1 < nodes_.y(); ++y) {
     for (int x = 0; x + 1 < nodes_.x(); ++x)

@@ -35,7 +35,7 @@ class UndistortedPlane {
   // The pixels for whose centres the lens model has no ray. Nothing if there are none, as is usual.
   [[nodiscard]] const std::optional<core::BitMask>& unseen_pixels() const { return unseen_pixels_; }
 
-  // A contour around all that the camera sees: inside of it is `object`. Made with the first call; only the
+  // A contour around all that the camera sees, which is labelled object. Made at the first call; only the
   // policy `abstain` needs it.
   [[nodiscard]] const ContourMap& outline() const;
 
@@ -43,7 +43,7 @@ class UndistortedPlane {
   void FillTable(int step_px);
   [[nodiscard]] Eigen::Vector2d NodesAt(const Eigen::Vector2d& pixel) const;
   [[nodiscard]] Eigen::Vector2d FromTable(const Eigen::Vector2d& at_nodes) const;
-  // `nearby`: a place in the plane that isn't far off; NaN: none is known.
+  // `nearby`: a position in the plane near the result; NaN if none is known.
   [[nodiscard]] std::optional<Eigen::Vector2d> Exactly(const Eigen::Vector2d& pixel,
                                                        const Eigen::Vector2d& nearby) const;
   void FindBentCells();
@@ -52,9 +52,9 @@ class UndistortedPlane {
 
   core::CameraModel camera_;
   double focal_px_ = 1.0;
-  bool is_ideal_ = false;                                           // no lens to speak of
-  Eigen::Matrix2d plane_from_pixel_ = Eigen::Matrix2d::Identity();  // of an ideal lens, about
-  Eigen::Vector2d principal_px_ = Eigen::Vector2d::Zero();          // this pixel
+  bool is_ideal_ = false;                                           // the camera has no distortion
+  Eigen::Matrix2d plane_from_pixel_ = Eigen::Matrix2d::Identity();  // used if it is ideal
+  Eigen::Vector2d principal_px_ = Eigen::Vector2d::Zero();          // where the principal axis falls
   // A grid of nodes over the picture. For each its position in the plane, or NaN where the lens has no ray;
   // positions between nodes are interpolated by a cubic.
   Eigen::Vector2i nodes_{0, 0};

@@ -21,10 +21,10 @@ bool IsLog(std::string_view line) {
   return std::ranges::any_of(kLevels, [&](std::string_view level) { return line.starts_with(level); });
 }
 
-// Where in OpenCV's source a picture turned out to be none: no word for users.
+// The place in OpenCV's source where decoding failed: of no use to users.
 bool IsPlaceInOpenCv(std::string_view line) { return line.starts_with("imdecode_("); }
 
-// About the file's other contents: the pixels are as they were stored.
+// Lines about other contents of the file, which don't concern its pixels.
 bool IsHarmless(std::string_view line) {
   constexpr std::array<std::string_view, 3> kHarmless{
       "Unknown field with tag",        // libtiff: a camera's own notes

@@ -1,4 +1,4 @@
-// What codecs print when a file is damaged, told from what else they print.
+// Finds complaints about damaged files in the text that codecs print.
 #pragma once
 
 #include <string>
@@ -6,8 +6,9 @@
 
 namespace elbowroom::recon {
 
-// The first line of `printed` that tells of damage to pixels, without its prefix, short enough for a message;
-// "" if there is none. Known harmless: OpenCV's own log, TIFF tags that nobody knows.
+// The first line of `printed` that may tell of damage to pixels, without its prefix, of at most 100 bytes; ""
+// if there is none. Any line counts but OpenCV's own log and those known to be harmless, such as unknown TIFF
+// tags.
 [[nodiscard]] std::string ComplaintIn(std::string_view printed);
 
 }  // namespace elbowroom::recon

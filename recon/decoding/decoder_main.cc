@@ -1,4 +1,4 @@
-// The program that reads the pictures and videos of others, beside the one that people start.
+// The decoder: a program beside the one that people start, which reads pictures and videos for it.
 #include <cstdlib>
 
 #include "recon/decoding/picture_server.h"

@@ -19,7 +19,7 @@ struct Packet {
   std::string bytes;
   std::vector<core::Descriptor> files;
 
-  // The value that it begins with; nothing if it is shorter.
+  // The value at the beginning; nothing if the packet is shorter than that.
   template <typename Value>
   [[nodiscard]] std::optional<Value> Head() const {
     static_assert(std::is_trivially_copyable_v<Value>);
@@ -28,7 +28,7 @@ struct Packet {
     std::memcpy(&value, bytes.data(), sizeof value);
     return value;
   }
-  // What follows that value.
+  // The bytes after that value.
   template <typename Value>
   [[nodiscard]] std::string_view Text() const {
     return std::string_view(bytes).substr(std::min(sizeof(Value), bytes.size()));
@@ -38,7 +38,8 @@ struct Packet {
 inline constexpr std::size_t kLongestPacketBytes = std::size_t{16} << 10U;
 inline constexpr std::size_t kMostFiles = 4;
 
-// False: nobody listens any more, or it is too long.
+// False if it can't be sent: its other end is closed, or it is longer than kLongestPacketBytes. Throws:
+// PreconditionError for more than kMostFiles files.
 [[nodiscard]] bool SendPacket(const core::Descriptor& socket, std::string_view bytes,
                               std::span<const int> files = {});
 
@@ -51,7 +52,7 @@ template <typename Value>
   return SendPacket(socket, std::string_view(bytes), files);
 }
 
-// Waits for one. Nothing: its other end is closed.
+// Waits for a packet. Nothing if the other end is closed.
 [[nodiscard]] std::optional<Packet> ReceivePacket(const core::Descriptor& socket);
 
 }  // namespace elbowroom::recon

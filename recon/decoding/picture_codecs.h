@@ -1,6 +1,6 @@
-// OpenCV's readers and writers of pictures and videos, as a module: they bring 240 libraries, which take
-// longer to load than most commands run. The decoder has them, a program of its own
-// (recon/decoding/picture_worker.h).
+// OpenCV's readers and writers of pictures and videos, as a module that is loaded on first use. They need 240
+// libraries, which take longer to load than most commands run. Only the decoder loads them, a program of its
+// own (recon/decoding/picture_worker.h).
 #pragma once
 
 #include <cstdint>
@@ -18,8 +18,8 @@ class VideoStream {
   virtual ~VideoStream() = default;
 
   [[nodiscard]] virtual bool Grab() = 0;  // false: there is no next picture, or it can't be decoded
-  // The one grabbed, 8-bit BGR: into the memory of `image` if it has that size and type, else into memory of
-  // its own, or empty.
+  // The grabbed picture, 8-bit BGR. It is written into the memory of `image` if that has its size and type;
+  // otherwise `image` gets memory of its own. `image` becomes empty if there is no picture.
   virtual void Retrieve(cv::Mat& image) = 0;
   [[nodiscard]] virtual cv::Size size_px() const = 0;        // as the container says
   [[nodiscard]] virtual double frame_rate_hz() const = 0;    // likewise; 0: it doesn't
@@ -29,16 +29,16 @@ class VideoStream {
 enum class DecodedAs : std::int32_t { kStored, kBgr };
 
 struct PictureCodecs {
-  // Empty: these bytes are no picture.
+  // The result is empty if these bytes are no picture.
   cv::Mat (*decode)(std::string_view bytes, DecodedAs as);
   // `extension` names the format: ".png".
   std::vector<std::uint8_t> (*encode)(const cv::Mat& image, const std::string& extension);
-  // A file or an address through FFmpeg, a camera by its number. Null: can't be opened.
+  // Open a file or an address through FFmpeg, or a camera by its number. Null if it can't be opened.
   std::unique_ptr<VideoStream> (*open_video)(const std::string& location);
   std::unique_ptr<VideoStream> (*open_device)(int number);
 };
 
-// Loads them at first. Throws: Error{kFile} if that fails. Thread: any.
+// Loads them at the first call. Throws: Error{kFile} if that fails. Thread: any.
 [[nodiscard]] const PictureCodecs& LoadedPictureCodecs();
 
 }  // namespace elbowroom::recon

@@ -32,7 +32,7 @@ cv::Mat Decode(std::string_view bytes, DecodedAs as) {
   const int flags =
       as == DecodedAs::kBgr ? cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION : cv::IMREAD_UNCHANGED;
   try {
-    return cv::imdecode(raw, flags);  // not into a picture that is there: some failures leave that as it was
+    return cv::imdecode(raw, flags);  // a new picture: some failures leave one that is there as it was
   } catch (const cv::Exception&) {
     return {};
   }
@@ -44,7 +44,7 @@ std::vector<std::uint8_t> Encode(const cv::Mat& image, const std::string& extens
   return bytes;
 }
 
-// Opened by `arguments`; what throws is not open.
+// Null if it can't be opened, or if OpenCV throws.
 std::unique_ptr<VideoStream> Open(const auto&... arguments) {
   try {
     cv::VideoCapture capture;

@@ -1,4 +1,4 @@
-// What this program and its decoder say to each other (docs/decisions/0008-pictures-in-a-child.md).
+// The messages between this program and its decoder (docs/decisions/0008-pictures-in-a-child.md).
 #pragma once
 
 #include <cstdint>
@@ -8,46 +8,47 @@
 
 namespace elbowroom::recon {
 
-// The program beside this one (core/system/module.h), and where it finds the socket that orders come through.
+// The decoder lies beside this program (core/system/module.h). It receives its orders through the socket with
+// this descriptor.
 inline constexpr const char* kDecoderProgram = "decoder";
 inline constexpr int kOrderSocket = core::kFirstGivenDescriptor;
 
-// To the server: a worker for one source. With three files, in this order: the worker's socket, its leash
-// (when this program closes the other end, the worker is killed; when the worker ends, its status comes
-// through), the memory that they share.
+// Asks the server for a worker for one source. Three files come with it, in this order: the worker's socket,
+// its leash, and the memory that this program and the worker share. When this program closes its end of the
+// leash, the worker is killed; when the worker ends, its status comes through the leash.
 struct WorkerOrder {
-  std::int64_t pixel_bytes = 0;  // of the shared memory, which begins with a picture's pixels ...
-  std::int64_t file_bytes = 0;   // ... and then has the bytes of a picture's file
-  std::int64_t own_bytes = 0;    // that the worker may take beside what the codecs need to be there
+  std::int64_t pixel_bytes = 0;  // of a picture's pixels, with which the shared memory begins
+  std::int64_t file_bytes = 0;   // of a picture's file, which comes after the pixels
+  std::int64_t own_bytes = 0;    // of addresses that the worker may take beyond those that it starts with
 };
 
 enum class PictureTask : std::int32_t {
-  kDecode,      // the file in the shared memory
-  kOpenVideo,   // that the request's text names
-  kOpenDevice,  // by its number
-  kGrab,        // up to so many pictures of the video, without showing them
-  kNext,        // the video's next picture
-  kEncode,      // the pixels in the shared memory, into a file of the kind that the text names: ".png"
+  kDecode,      // decode the file in the shared memory
+  kOpenVideo,   // open the video that the request's text names
+  kOpenDevice,  // open the camera with this number
+  kGrab,        // pass over up to so many pictures of the video
+  kNext,        // decode the video's next picture
+  kEncode,      // encode the pixels in the shared memory; the text names the kind of file: ".png"
 };
 
 struct PictureRequest {
   PictureTask task = PictureTask::kDecode;
   DecodedAs as = DecodedAs::kStored;
-  std::int64_t number = 0;    // bytes, device or pictures
-  std::int32_t width_px = 0;  // that the picture ought to have
+  std::int64_t number = 0;    // of the file's bytes, of the device, or of pictures to grab
+  std::int32_t width_px = 0;  // of the picture that is expected, or of the pixels to encode
   std::int32_t height_px = 0;
   std::int32_t type = 0;   // OpenCV's, of pixels to encode
-  std::int32_t tries = 1;  // of each picture to grab, before it is said that there is none
+  std::int32_t tries = 1;  // at most, to grab each picture, before the answer is kNothing
 };
 
 enum class PictureOutcome : std::int32_t {
-  kReady,     // said once, at first: the worker is there
-  kNoCodecs,  // instead of that: they can't be loaded, as the text says
+  kReady,     // the first message: the worker has started
+  kNoCodecs,  // the first message instead: the codecs can't be loaded; the text says why
   kDone,
-  kNothing,  // no picture: can't be decoded, can't be opened, or there is no more
+  kNothing,  // there is no picture: it can't be decoded or opened, or there are no more
 };
 
-// The text is what the codecs said meanwhile that tells of damage.
+// The packet's text is what the codecs printed meanwhile about damage (ComplaintIn).
 struct PictureReply {
   PictureOutcome outcome = PictureOutcome::kNothing;
   std::int32_t width_px = 0;  // of the picture, which lies in the shared memory if it fits; of an open video
@@ -59,7 +60,7 @@ struct PictureReply {
   double promised_frames = 0.0;
 };
 
-// How a worker ended, through its leash.
+// How a worker ended. The server sends it through the worker's leash.
 struct WorkerEnd {
   std::int32_t status = 0;  // as waitpid gives it
 };

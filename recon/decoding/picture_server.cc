@@ -25,9 +25,10 @@ namespace {
 
 enum OrderFile : std::size_t { kWorkerSocket, kLeash, kMemory, kOrderFiles };
 
-void Ignore(int) {}  // of SIGCHLD: it is there to end a wait
+void Ignore(int) {}  // handles SIGCHLD, which only has to end a wait
 
-// What a codec looks up at its first picture, every worker would else look up again.
+// Uses codecs once, before any fork. What they look up at their first picture needn't be looked up again by
+// every worker.
 void WarmUp(const PictureCodecs& codecs) {
   const cv::Mat picture(8, 8, CV_8UC3, cv::Scalar::all(0));
   for (const char* extension : {".png", ".jpg"}) {
@@ -45,7 +46,7 @@ class Server {
     } catch (const std::exception& exception) {
       trouble_ = exception.what();
     }
-    // A worker's end is heard while waiting, and nowhere else.
+    // SIGCHLD is blocked except in ppoll, so that a worker's end interrupts nothing else.
     sigset_t child_ended;
     sigemptyset(&child_ended);
     sigaddset(&child_ended, SIGCHLD);
@@ -115,7 +116,7 @@ class Server {
   core::Descriptor orders_{kOrderSocket};
   std::map<pid_t, core::Descriptor> leashes_;
   const PictureCodecs* codecs_ = nullptr;
-  std::string trouble_;  // why there are none
+  std::string trouble_;  // why there are no codecs
   sigset_t unblocked_{};
 };
 

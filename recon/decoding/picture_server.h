@@ -3,9 +3,9 @@
 
 namespace elbowroom::recon {
 
-// Takes orders (recon/decoding/picture_protocol.h) until the program that started this one is gone, and ends
-// then, its workers with it. A worker is a fork: it has the codecs at once, and no thread of this process is
-// lost to it, since there is only one.
+// Takes orders (recon/decoding/picture_protocol.h) until the program that started this one is gone. Then it
+// kills its workers and exits. A worker is a fork of this process, so it has the codecs at once. A fork
+// copies the calling thread only; this process has no other.
 [[noreturn]] void ServePictures();
 
 }  // namespace elbowroom::recon

@@ -28,9 +28,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// The codecs' threads need no more; each takes its addresses whole.
+// The codecs' threads need no larger stack, and a stack counts as a whole against the limit on addresses.
 constexpr std::size_t kThreadStackBytes = std::size_t{1} << 20U;
-// A program that waits for pictures to be counted hears of them this often.
+// A program that has pictures counted gets an answer about this often.
 constexpr auto kLongestGrab = std::chrono::milliseconds(100);
 
 // Everything that this process prints.
@@ -58,7 +58,7 @@ class CaughtPrint {
   }
 
  private:
-  core::Descriptor file_;  // 1 and 2 are the same open file: they share its place
+  core::Descriptor file_;  // descriptors 1 and 2 are this open file, and share its position
 };
 
 // How much address space this process has, now.
@@ -106,18 +106,19 @@ class Worker {
 
  private:
   void LimitOwnMemory() const {
-    ::mallopt(M_ARENA_MAX, 1);  // each of them takes 64 MiB of addresses
+    ::mallopt(M_ARENA_MAX, 1);  // each arena takes 64 MiB of addresses
     pthread_attr_t attributes;
     pthread_attr_init(&attributes);
     pthread_attr_setstacksize(&attributes, kThreadStackBytes);
     pthread_setattr_default_np(&attributes);
     pthread_attr_destroy(&attributes);
     core::LimitMyself({.memory_bytes = OwnBytes() + static_cast<double>(order_.own_bytes),
-                       .file_bytes = 1e6,  // of print
+                       .file_bytes = 1e6,  // of what it prints
                        .cpu_s = std::nullopt});
   }
 
-  // Where a picture of that size goes if it can; else one that gets memory of its own.
+  // A picture in the shared memory, if one of that size fits there; otherwise an empty one, which will get
+  // memory of its own.
   [[nodiscard]] cv::Mat Place(const PictureRequest& request) const {
     if (request.width_px <= 0 || request.height_px <= 0 ||
         3 * std::int64_t{request.width_px} * request.height_px > order_.pixel_bytes) {
@@ -166,7 +167,8 @@ class Worker {
   PictureReply Grab(std::int64_t most, int tries) {
     PictureReply reply{PictureOutcome::kDone};
     const auto begin = Clock::now();
-    // Up to what is printed: it belongs to this picture, or to one soon after that a thread decodes.
+    // Ends when something is printed: that is about this picture, or about one soon after it that a thread
+    // decodes already.
     while (reply.frames < most && !print_.has_any() && Clock::now() - begin < kLongestGrab) {
       bool has_next = false;
       for (int i = 0; i < tries && video_ != nullptr && !has_next; ++i) has_next = video_->Grab();
@@ -198,7 +200,7 @@ class Worker {
 void WorkForOneSource(const PictureCodecs& codecs, const WorkerOrder& order, const core::Descriptor& socket,
                       const core::Descriptor& memory) {
   try {
-    // libtiff's words come through OpenCV's log.
+    // libtiff's messages come through OpenCV's log.
     cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_DEBUG);
     Worker worker(codecs, order, memory);
     if (!SendPacket(socket, PictureReply{.outcome = PictureOutcome::kReady})) std::_Exit(EXIT_SUCCESS);
@@ -209,9 +211,9 @@ void WorkForOneSource(const PictureCodecs& codecs, const WorkerOrder& order, con
       if (!SendPacket(socket, reply, worker.TakeComplaint())) break;
     }
   } catch (const std::exception&) {
-    std::_Exit(EXIT_FAILURE);  // its parent says so
+    std::_Exit(EXIT_FAILURE);  // its parent reports it
   }
-  std::_Exit(EXIT_SUCCESS);  // without the libraries' last words
+  std::_Exit(EXIT_SUCCESS);  // no exit handlers of the libraries run
 }
 
 }  // namespace elbowroom::recon

@@ -7,8 +7,8 @@
 
 namespace elbowroom::recon {
 
-// Answers requests until the other end is closed; limits its own memory first. What codecs print is caught
-// and goes into the answers.
+// Answers requests until the other end is closed. It limits its own memory first. What the codecs print is
+// caught; a line that tells of damage goes into the answer.
 [[noreturn]] void WorkForOneSource(const PictureCodecs& codecs, const WorkerOrder& order,
                                    const core::Descriptor& socket, const core::Descriptor& memory);
 

@@ -27,14 +27,14 @@ using Clock = std::chrono::steady_clock;
 constexpr std::int64_t kMib = std::int64_t{1} << 20U;
 // A worker starts as soon as the decoder has its libraries, which may have to come from a slow disk.
 constexpr std::chrono::seconds kLongestStart{60};
-// What the system takes to tell of a process that is gone.
+// The system may take so long to report that a process has ended.
 constexpr std::chrono::seconds kLongestEnd{2};
 
 // The decoder of this program: a server that makes workers.
 class Decoder {
  public:
   ~Decoder() {
-    orders_.Close();  // it hears that, and ends its workers and itself
+    orders_.Close();  // the decoder notices that, kills its workers and exits
     if (child_) (void)child_->WaitForEnd({}, Clock::now() + kLongestEnd);
   }
 
@@ -67,8 +67,8 @@ Decoder& DecoderOfThisProgram() {
   return decoder;
 }
 
-// What a source's worker takes at most beside the codecs, generously: a picture's pixels and coefficients;
-// the pictures that a video refers to, and those that its threads hold.
+// A generous bound on what a source's worker takes beside the codecs: for a picture its pixels and
+// coefficients; for a video the pictures that it refers to, and those that its threads hold.
 std::int64_t OwnBytes(const WorkerNeeds& needs) {
   const std::int64_t pixels = needs.width_px * needs.height_px;
   if (needs.memory == SourceMemory::kPicture) return 96 * kMib + 32 * pixels;
@@ -89,7 +89,7 @@ WorkerOrder OrderFor(const WorkerNeeds& needs) {
 PictureWorker::PictureWorker(const WorkerNeeds& needs)
     : order_(OrderFor(needs)), memory_file_(core::MakeMemoryFile("pictures")) {
   const std::int64_t bytes = order_.pixel_bytes + order_.file_bytes;
-  // Sealed: a worker can't make it smaller under this program's feet.
+  // Sealed, so that a worker can't shrink it while this program uses it.
   const bool has_memory = ::ftruncate(memory_file_.number(), bytes) == 0 &&
                           ::fcntl(memory_file_.number(), F_ADD_SEALS, F_SEAL_SHRINK | F_SEAL_GROW) == 0;
   void* memory = has_memory ? ::mmap(nullptr, static_cast<std::size_t>(bytes), PROT_READ | PROT_WRITE,

@@ -26,14 +26,14 @@ struct WorkerNeeds {
 
 struct PictureAnswer {
   PictureReply reply;
-  // What the codecs said that tells of damage, or how the worker ended; one short line.
+  // What the codecs printed about damage, or how the worker ended; one short line.
   std::string complaint;
   bool worker_ended = false;
 };
 
-// Started with the first question; after an end, again with the next. The codecs that it has were loaded once
-// for all workers of this program, by the decoder, a program beside this one; that starts with the first
-// worker and ends with this program. Thread: one at a time; workers are independent.
+// The process starts with the first request; if it has ended, the next request starts another. It needn't
+// load the codecs: the decoder, a program beside this one, has loaded them once for all workers. The decoder
+// starts with the first worker and ends with this program. Thread: one at a time; workers are independent.
 class PictureWorker {
  public:
   explicit PictureWorker(const WorkerNeeds& needs);
@@ -41,9 +41,9 @@ class PictureWorker {
   PictureWorker(const PictureWorker&) = delete;
   PictureWorker& operator=(const PictureWorker&) = delete;
 
-  // Waits for the answer, no longer than `most_time` if there is one. A crash, and a worker that takes
-  // longer, is an answer, too. Throws: Error{kCancelled} on a stop, heard within 50 ms; Error{kFile} when the
-  // decoder can't be started.
+  // Waits for the answer, no longer than `most_time` if that is given. If the worker crashes or takes longer,
+  // the answer says so. Throws: Error{kCancelled} within 50 ms of a stop; Error{kFile} when the decoder can't
+  // be started.
   [[nodiscard]] PictureAnswer Ask(const PictureRequest& request, std::string_view text,
                                   const std::stop_token& stop,
                                   const std::optional<std::chrono::seconds>& most_time);

@@ -1,10 +1,10 @@
-// OpenCV writes to stderr on its own; the user gets one line, and it is ours.
+// Keeps OpenCV from writing to stderr: the user gets one line of this program instead.
 #pragma once
 
 namespace elbowroom::recon {
 
 // Turns off OpenCV's log, its error print-out and FFmpeg's messages, for the whole process. Idempotent;
-// called before every use of OpenCV's readers.
+// LoadedPictureCodecs calls it.
 void SilenceOpenCv();
 
 }  // namespace elbowroom::recon

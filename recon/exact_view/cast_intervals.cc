@@ -30,7 +30,8 @@ Direction DirectionAt(double angle) {
   return {1.0 - std::abs(angle), angle};
 }
 
-// The edges' numbers by `from`.
+// The edges' numbers, sorted by `from`. The bits of a float are changed so that they ascend as an integer;
+// they are sorted together with the number in one word.
 std::vector<std::uint32_t> ByFrom(std::span<const CastEdge> edges) {
   std::vector<std::uint64_t> keys(edges.size());
   for (std::size_t i = 0; i < edges.size(); ++i) {
@@ -75,7 +76,7 @@ class Sweep {
   }
 
  private:
-  // Rays of a compact object's view meet about as many.
+  // About how many crossings are listed for an edge of a compact object: a guess for the memory to reserve.
   static constexpr std::size_t kCrossingsPerEdge = 8;
 
   // An edge that rays meet now.
@@ -104,7 +105,8 @@ class Sweep {
     return {orders_[number], edges_[number].to, static_cast<std::int32_t>(number)};
   }
 
-  // Edges that end at an angle go, edges that begin there come: where the contour goes on, in their place.
+  // Removes the edges that end at `at` and adds those that begin there. Where only one ends and one begins,
+  // the contour goes on: the new edge takes the place of the old one, which is right or nearly so.
   void Pass(float at) {
     const std::size_t first = next_;
     while (next_ < edges_.size() && NextBegin() <= at) ++next_;
@@ -128,14 +130,16 @@ class Sweep {
     return DirectionAt(0.5 * (std::max(begin, -2.0) + std::min(end, 2.0)));
   }
 
-  // Edge i to its place among the first `count`, which are in order but for itself.
+  // Moves edge i to its place among the first `count`, which are in order but for itself. Contours don't
+  // cross themselves, so the order in the middle of an interval is that of the whole interval.
   void Settle(std::size_t i, std::size_t count, const Direction& middle) {
     const double order = met_[i].OrderAt(middle);
     for (; i > 0 && met_[i - 1].OrderAt(middle) > order; --i) std::swap(met_[i - 1], met_[i]);
     for (; i + 1 < count && met_[i + 1].OrderAt(middle) < order; ++i) std::swap(met_[i], met_[i + 1]);
   }
 
-  // Orders are linear in an angle but for its whole numbers.
+  // The orders between which rays of the interval can be in the object. An order is linear in the angle
+  // between whole numbers, so its extremes are at the ends of the interval and at the whole numbers in it.
   [[nodiscard]] OrderRange RangeOf(double begin, double end) const {
     if (met_.empty() && !starts_inside_) return {kInfinity, -kInfinity};
     const bool has_first = !starts_inside_;
@@ -171,7 +175,7 @@ class Sweep {
   CastIntervals& out_;
   std::vector<OrderRange> ranges_;
   std::size_t next_ = 0;   // in by_from_
-  float end_ = kInfinity;  // of the edges met: where the next one comes or the first of them goes
+  float end_ = kInfinity;  // of the present interval: the next edge begins or one of `met_` ends
   std::vector<Met> met_;
 };
 
@@ -179,8 +183,8 @@ double BeginOf(const CastPencil& pencil, std::uint32_t bin) {
   return pencil.least_angle + bin * (1.0 / pencil.bins_per_angle);
 }
 
-// Bins over the angles where intervals begin. None begins in the first bin or the last one, which take what
-// lies beyond.
+// Spreads bins over the angles at which intervals begin. None begins in the first bin or the last one: these
+// take all angles beyond.
 std::size_t ChooseBins(CastPencil* pencil) {
   const std::vector<float>& begins = pencil->intervals.begins;
   if (pencil->intervals.size() == 1) return 1;

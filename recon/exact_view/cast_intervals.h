@@ -12,14 +12,15 @@
 
 namespace elbowroom::recon {
 
-// Where on the way along the rays at angle of direction (x, y) an edge is: order(x, y) = x * dx + y * dy.
+// An edge's place along the rays of an angle whose direction is (x, y): order(x, y) = x * dx + y * dy. Each
+// ray meets its edges in ascending order.
 struct EdgeOrder {
   double dx = 0.0;
   double dy = 0.0;
 };
 
-// Between which orders rays of an interval can be in the object, their directions (x, y) of |x| + |y| = 1.
-// Nowhere: first > last.
+// The orders between which rays of an interval can be in the object, for directions (x, y) with |x| + |y| =
+// 1. Empty if first > last.
 struct OrderRange {
   double first = -std::numeric_limits<double>::infinity();
   double last = std::numeric_limits<double>::infinity();
@@ -33,7 +34,7 @@ struct OrderRange {
 // Room for the rounding of rays' angles to float32.
 inline constexpr double kAngleSlack = 1e-6;
 
-// The nearest bin for angles that the view doesn't have.
+// The bin of an angle; the nearest one for an angle that the view doesn't have.
 [[nodiscard]] std::uint32_t BinOf(const CastPencil& pencil, double angle);
 
 // The first and the last interval that rays of these bins can be in.

@@ -11,11 +11,11 @@ namespace {
 
 using Eigen::Vector3d;
 
-// A view centre in the plane of an edge meets it at the start of its rays: nearer than this share of the
-// distances it is taken to be beside it.
+// A key is divided by the height of the view's centre over the plane of an edge. If the centre is in that
+// plane, it is taken to be this share of the distances beside it.
 constexpr double kLeastHeight = 1e-14;
-// An epipole within this angle of the contour is on it: rounding would decide, edge by edge, on which side
-// the rays start. The camera is turned then, by an angle that is nothing to a pixel.
+// An epipole within this angle of the contour counts as on it: rounding would decide, edge by edge, on which
+// side the rays start. The camera is then turned by kTurnRad, which is far less than a pixel.
 constexpr double kOnContourRad = 1e-11;
 constexpr double kTurnRad = 1e-10;
 constexpr int kMostTurns = 8;
@@ -107,8 +107,8 @@ EpipolarEdges::AngleRange EpipolarEdges::AnglesOf(const Eigen::AlignedBox2d& uv_
   return {range.least - kAngleSlack, range.most + kAngleSlack};
 }
 
-// Where rays meet the plane of an edge from `from` along `along`, and in which order: the crossing's
-// direction from the camera is order * axis + (x, y) across it.
+// The key at which rays meet the plane of the camera's centre and the edge from `from` along `along`, and the
+// edge's order: the crossing's direction from the camera is order * axis + (x, y) across it.
 EpipolarEdges::EdgePlane EpipolarEdges::PlaneAlong(const Vector3d& from, const Vector3d& along,
                                                    bool enters) const {
   const Vector3d normal = from.cross(along);
@@ -145,7 +145,7 @@ void EpipolarEdges::AddEdges(const Contour& contour, const Eigen::Matrix3d& view
     const Vertex &from = vertices[ends.from], &to = vertices[ends.to];
     const double turn = Turn(from.angle, to.angle);
     if (turn == 0.0) continue;
-    // About the axis the object is on the left of an edge: with the turn rays come in from outside.
+    // The object is on the left of an edge. So rays enter it through an edge that runs with growing angle.
     const bool enters = turn > 0.0;
     const auto least = static_cast<float>(enters ? from.angle : to.angle);
     const auto most = static_cast<float>(enters ? to.angle : from.angle);
@@ -177,8 +177,9 @@ bool EpipolarEdges::IsObjectAlong(const Eigen::Vector2d& uv) const {
   return labels_.IsObject(position);
 }
 
-// A ray at (x, y) across the axis meets order t at the key t * (|x| + |y|) - along, where perspective `along`
-// is the ray's (u, v, 1) along the axis in units of the centre's distance.
+// A ray whose direction across the axis is (x, y) is at order t at the key t * (|x| + |y|) - along. In a
+// perspective view `along` is the component of (u, v, 1) along the axis, divided by the centre's distance.
+// The box bounds both terms, and so the keys.
 EpipolarEdges::KeyRange EpipolarEdges::ObjectKeys(const Eigen::AlignedBox2d& uv_box) const {
   constexpr double kRounding = 1e-9;
   if (is_concentric_) return {};

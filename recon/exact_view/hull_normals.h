@@ -12,7 +12,7 @@ namespace elbowroom::recon {
 // Normals of a hull's surface for the pixels of a view; both must outlive it. Thread: any.
 class HullNormals {
  public:
-  // Works out all contours' edges, in parallel.
+  // Computes the normals of all contours' edges, in parallel.
   HullNormals(const VisualHull& hull, const ViewRays& rays);
 
   // Unit, out of the hull: that of the contour's edge (OutwardNormalInCam), or of the workspace's face, at

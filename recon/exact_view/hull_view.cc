@@ -18,7 +18,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-// Writes that the rays of a box's pixels miss.
+// Marks the pixels of a box as misses.
 void Clear(const PixelBox& box, HullView* view) {
   if (box.right <= box.x) return;
   const auto columns = static_cast<std::size_t>(box.right - box.x);
@@ -42,10 +42,10 @@ PixelBox Around(const PixelBox& a, const PixelBox& b) {
   return {std::min(a.x, b.x), std::min(a.y, b.y), std::max(a.right, b.right), std::max(a.bottom, b.bottom)};
 }
 
-// All that doesn't depend on the pixel.
+// Casts a view's rays. Holds all that doesn't depend on the pixel.
 class Caster {
  public:
-  // `stale`: what of the view is to be cleared.
+  // `stale`: the pixels of the view that are to be cleared.
   Caster(const VisualHull& hull, const ViewRays& rays, const PixelBox& stale, HullView* view)
       : hull_(hull), pencils_(hull, rays), rays_(rays), stale_(stale), view_(*view) {
     view_.edges = pencils_.edges();
@@ -112,7 +112,7 @@ class Caster {
 
   [[nodiscard]] bool IsPixel(int x, int y) const { return x < rays_.width_px() && y < rays_.height_px(); }
 
-  // What cameras at the rays' origin say of them, of each in its own direction.
+  // Sets the labels of cameras at the rays' origin: there each ray has one label all along.
   void LabelConcentric(const ViewPencils::Pencils& pencils, int x, int y,
                        std::vector<TileCamera>* cameras) const {
     for (std::size_t i = 0; i < pencils.size(); ++i)

@@ -23,7 +23,7 @@ class HullSurface {
       : packed_(static_cast<std::uint32_t>((camera + 2) << 24U) | edge) {}
 
   [[nodiscard]] bool is_hit() const { return packed_ != 0; }
-  // Nothing: a face of the workspace.
+  // Nothing for a face of the workspace, and for a miss.
   [[nodiscard]] std::optional<core::CameraIndex> camera() const {
     if (packed_ >> 24U < 2) return std::nullopt;
     return (packed_ >> 24U) - 2;
@@ -52,11 +52,11 @@ struct HullView {
   PictureBuffer<HullSurface> surface;
   PictureBuffer<Eigen::Vector3f> normal_in_world;  // unit, out of the hull; zero where the ray misses
   std::int64_t hit_pixels = 0;
-  PixelBox hits;                    // around them
+  PixelBox hits;                    // a box that holds them
   std::int64_t cast_pixels = 0;     // whose rays were cast
-  std::int64_t skipped_pixels = 0;  // settled with a larger square of them
+  std::int64_t skipped_pixels = 0;  // their rays weren't cast: a whole square misses the hull
   std::int64_t edges = 0;           // of all contours
-  std::int64_t crossings_met = 0;   // of rays with edges, as far as they were worked out
+  std::int64_t crossings_met = 0;   // crossings of rays with edges that were worked out
 };
 
 struct HullViewOptions {
@@ -64,11 +64,11 @@ struct HullViewOptions {
   bool normals = true;   // fill `normal_in_world`; otherwise it stays empty
 };
 
-// First hull surface along each ray, where the ray's picture in each camera crosses the contours: exact but
-// for float32, 1e-6 of the depth (hull_view_test). Squares of pixels whose rays can't meet the contours of
-// some camera are settled together. Parallel; the result doesn't depend on the number of threads, nor on the
-// processor's vector width. `kept`: a view that nobody needs any more; where it was made with the same
-// options at the same size its memory is taken, and only what it hit is cleared.
+// The first point of the hull along each ray, found where the ray's picture in each camera crosses the
+// contours. Exact but for float32: 1e-6 of the depth (hull_view_test). Squares of pixels whose rays certainly
+// miss the hull are skipped. Parallel; the result depends neither on the number of threads nor on the
+// processor's vector width. `kept`: a view that isn't needed any more. Its memory is used again, and if it
+// has the same size and options only its box of hits is cleared.
 [[nodiscard]] HullView ViewHull(const VisualHull& hull, const ViewRays& rays,
                                 const HullViewOptions& options = {}, HullView kept = {});
 

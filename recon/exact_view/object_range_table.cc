@@ -42,7 +42,7 @@ ObjectRangeTable::ObjectRangeTable(std::span<const float> begins, std::span<cons
   }
 }
 
-// Grows with the angle, or stays.
+// Never falls as the angle grows, so the bins of a range of angles are consecutive.
 std::size_t ObjectRangeTable::BinOf(double angle) const {
   const double bin = (angle - first_angle_) * bins_per_angle_ + 1.0;
   return static_cast<std::size_t>(std::clamp(bin, 0.0, static_cast<double>(bins_ - 1)));

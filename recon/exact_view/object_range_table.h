@@ -1,4 +1,4 @@
-// Where along the rays a camera's object can be, over any range of angles at once.
+// The orders between which a camera's object can be, for any range of angles.
 #pragma once
 
 #include <cstddef>
@@ -9,9 +9,9 @@
 
 namespace elbowroom::recon {
 
-// The union of the ranges of all intervals that angles from one to another touch, for bins of angles: a
-// sparse table, two items a question whatever its width. Never less than the union over the angles
-// themselves. Immutable.
+// Gives the union of the object ranges of all intervals that a range of angles touches. It is a sparse table
+// over bins of angles: an answer joins two items, however wide the range is. Angles are rounded outwards to
+// whole bins, so that an answer is never less than the union over the angles themselves. Immutable.
 class ObjectRangeTable {
  public:
   ObjectRangeTable() = default;
@@ -23,8 +23,7 @@ class ObjectRangeTable {
  private:
   [[nodiscard]] std::size_t BinOf(double angle) const;
 
-  double first_angle_ =
-      0.0;  // bin 1 begins here: bin 0 takes what lies before, the last one what lies behind
+  double first_angle_ = 0.0;  // bin 1 begins here; bin 0 takes all angles before, the last bin all behind
   double bins_per_angle_ = 1.0;
   std::size_t bins_ = 0;
   // Item level * bins_ + i spans 2^level bins from i on.

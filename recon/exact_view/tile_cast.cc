@@ -80,7 +80,7 @@ HWY_INLINE Halves GatherWords(const std::uint64_t* words, VI at) {
 #endif
 }
 
-// The bits of the vector's rays.
+// A mask of the lowest bits, one for each ray of the vector.
 HWY_INLINE MF MaskOfBits(std::uint32_t bits) {
   const Ints n;
   const VI one = hn::Set(n, 1);
@@ -97,7 +97,7 @@ HWY_INLINE void MoveOn(MF which, VF key, std::size_t camera, VI place, Front* fr
 }
 
 // One camera's next crossing with each ray, and the camera's label up to there. Entries and exits come in
-// turn, so each crossing passed flips the label: no crossing says which of the two it is.
+// turn, so passing a crossing flips the label: a crossing needn't hold which of the two it is.
 struct Course {
   VF key;
   VI place;
@@ -148,7 +148,8 @@ class Walk {
     return front;
   }
 
-  // The edges that the rays of a front are on, of the cameras that brought them there.
+  // For each ray of a front the edge that it is on: a number in CastPencil::edges of the camera that moved it
+  // there.
   [[nodiscard]] VI EdgesOf(const Front& front) const {
     const Ints n;
     VI found = hn::Zero(n);
@@ -267,7 +268,7 @@ class Walk {
   std::span<const TileCamera> visibility_outlines_;
   std::size_t first_;
   TileScratch& scratch_;
-  bool has_visibility_ = false;  // their courses have begun
+  bool has_visibility_ = false;  // the outlines' courses have begun
 };
 
 // The workspace's share of each ray: the intersection of half-spaces, each a bound that is affine in (u, v).

@@ -25,18 +25,19 @@ struct CastEdge {
   float from = 0.0F;
   float to = 0.0F;
   CastForm key;
-  std::uint32_t edge = 0;  // of the contour
-  bool is_entry = false;   // rays enter the object by it
+  std::uint32_t edge = 0;  // its number in the contour
+  bool is_entry = false;   // rays enter the object through it
 };
 
-// A key and the number of its edge, packed into two words, which rays gather: du and dv; at_origin and edge.
+// A key and the number of its edge, packed into two 64-bit words that are gathered for many rays at once: du
+// and dv in the first, at_origin and edge in the second.
 class CastCrossing {
  public:
   CastCrossing(const CastForm& key, std::int32_t edge)
       : words_{Pack(std::bit_cast<std::uint32_t>(key.du), std::bit_cast<std::uint32_t>(key.dv)),
                Pack(std::bit_cast<std::uint32_t>(key.at_origin), static_cast<std::uint32_t>(edge))} {}
   [[nodiscard]] std::int32_t edge() const { return static_cast<std::int32_t>(words_[1] >> 32U); }
-  // The words of some crossings in a row, two each.
+  // The words of consecutive crossings, two for each.
   [[nodiscard]] static const std::uint64_t* Words(const CastCrossing* crossings) { return crossings->words_; }
 
  private:
@@ -51,13 +52,14 @@ class CastCrossing {
 struct CastIntervals {
   std::vector<float> begins;
   // The place in `crossings` of each interval's first crossing, and one more at the end. The last crossing of
-  // an interval is two places before the first of the next.
+  // an interval is two places before the first of the next: between them stands the end of the list.
   std::vector<std::int32_t> firsts;
-  // The crossings of one interval after another, each in its order along the rays: entries and exits in turn.
-  // The edge is a number in CastPencil::edges. After each interval's last crossing, and in place 0, stands
-  // one with an infinite key, so that a list needs no length: no ray passes it.
+  // The crossings of one interval after another, each in its order along the rays: entries and exits
+  // alternate. The edge is a number in CastPencil::edges. After each interval's last crossing, and in place
+  // 0, stands a crossing with an infinite key. No ray passes it, so that a list needs no length.
   std::vector<CastCrossing> crossings;
-  // Bins of equal width over the angles, each a packed CastBin: where a ray begins to look for its interval.
+  // Bins of equal width over the angles, each a packed CastBin. A ray begins to look for its interval in its
+  // bin.
   std::vector<std::uint64_t> bins;
 
   struct Run {
@@ -85,7 +87,7 @@ struct CastBin {
 
 // One camera's contour, prepared for the rays of one view.
 struct CastPencil {
-  // A ray's angle is that of (x(u, v), y(u, v)), as PencilAngle takes it.
+  // The angle of the ray (u, v) is PencilAngle(x(u, v), y(u, v)).
   CastForm x;
   CastForm y;
   // Bin i begins at least_angle + i / bins_per_angle.
@@ -93,18 +95,18 @@ struct CastPencil {
   float bins_per_angle = 1.0F;
   std::vector<CastEdge> edges;
   CastIntervals intervals;
-  bool starts_inside = false;  // rays do: their first crossing is an exit
+  bool starts_inside = false;  // rays start in the object: their first crossing is an exit
 
   [[nodiscard]] bool IsEntry(const CastIntervals::Run& run, std::size_t place) const {
     return ((place - run.begin) % 2 != 0) == starts_inside;
   }
 
-  // None: the pencil tells no ray anything.
+  // 0: no ray meets an edge, and a ray has one label all along.
   [[nodiscard]] std::uint32_t bins() const { return static_cast<std::uint32_t>(intervals.bins.size()); }
 };
 
 // Grows with the angle of (x, y), from -2 at the negative x axis over 0 at the positive one to 2. It takes
-// one division and no arc tangent. Near 0 it is exact to the last bit.
+// one division and no arc tangent. Near 0 its error is two roundings of its own size.
 template <typename Real>
 [[nodiscard]] Real PencilAngle(Real x, Real y) {
   const Real size = (x < 0 ? -x : x) + (y < 0 ? -y : y);
@@ -123,8 +125,8 @@ struct CastBox {
 struct TileRays {
   alignas(64) float u[kTileRays];  // NaN: no ray
   alignas(64) float v[kTileRays];
-  // Perspective: keys are -1 / depth_mm, and a ray ends at key 0. Orthographic: keys are depths without an
-  // end.
+  // Perspective: keys are -1 / depth_mm, and a ray ends at key 0. Orthographic: keys are depths, and a ray
+  // has no end.
   bool is_perspective = true;
 };
 
@@ -141,12 +143,12 @@ struct TileHits {
   static constexpr std::int32_t kNoCamera = -1;
   static constexpr std::int32_t kMiss = -2;
   alignas(64) float depth_mm[kTileRays];
-  alignas(64) std::int32_t camera[kTileRays];  // visibility_outlines count on after the cameras
-  alignas(64) std::int32_t edge[kTileRays];    // if wanted: number in CastPencil::edges, of hits on edges
+  alignas(64) std::int32_t camera[kTileRays];  // visibility_outlines are numbered after the cameras
+  alignas(64) std::int32_t edge[kTileRays];    // if wanted: number in CastPencil::edges, for hits on edges
   int count = 0;
 };
 
-// Room to work in, kept from tile to tile.
+// Working memory, kept from tile to tile.
 struct TileScratch {
   // One camera's next crossing with each ray, and the label before it.
   struct Course {
@@ -155,13 +157,12 @@ struct TileScratch {
     alignas(64) std::int32_t is_inside[kTileRays];  // all bits, or none
   };
   std::vector<Course> courses;     // cameras', then visibility_outlines'
-  std::int64_t crossings_met = 0;  // of rays with edges, worked out so far
+  std::int64_t crossings_met = 0;  // crossings of rays with edges that were worked out so far
 };
 
 // A point is in the hull if all `cameras` say object and, where there are `visibility_outlines`, one of them
-// does, too.
-// The processor's widest vectors decide how many rays go at once, never the result: the same bits for all
-// (tile_cast_test).
+// does, too. The width of the processor's vectors decides how many rays are cast at once. It doesn't change a
+// bit of the result (tile_cast_test).
 void CastTile(const TileRays& rays, const CastBox& box, std::span<const TileCamera> cameras,
               std::span<const TileCamera> visibility_outlines, bool wants_edges, TileScratch* scratch,
               TileHits* hits);

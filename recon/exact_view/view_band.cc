@@ -18,12 +18,13 @@ constexpr double kFormRoundings = 4.0;
 // Roundings of an angle beside those of its x and y: a sum, a quotient to 2.5 ulp as OpenGL has it, a
 // difference.
 constexpr double kAngleRoundings = 8.0;
-// x and y of a ray nearer to the pencil's axis than this have no direction to speak of.
+// If the errors of x and y are more than this share of their size, the ray is so near to the pencil's axis
+// that float32 may give it any angle.
 constexpr double kMostRelativeError = 0.01;
-// Leaves room for the division that makes a depth of a key.
+// Leaves room for the division that turns a key into a depth.
 constexpr double kMostShareOfTolerance = 0.9;
 
-// What float32 makes of a number: something from low to high.
+// The values that float32 may give for a number.
 struct Range {
   double low = -kInfinity;
   double high = -kInfinity;
@@ -52,7 +53,7 @@ Range KeyOf(const CastForm& form, const Ray& ray) {
   return Around(key.value, key.error);
 }
 
-// Nothing: too near to the axis to tell.
+// Nothing if float32 may give any angle: near the pencil's axis, and across the negative x axis.
 std::optional<Range> AngleOf(const CastPencil& pencil, const Ray& ray) {
   const Rounded x = ValueOf(pencil.x, ray), y = ValueOf(pencil.y, ray);
   const double size = std::abs(x.value) + std::abs(y.value);
@@ -121,18 +122,18 @@ void AddEvents(const CastPencil& pencil, bool is_entry, const Range& angle, cons
   for (const CastEdge& edge : loose) events->push_back({KeyOf(edge.key, ray), is_entry, false});
 }
 
-// What float32 makes of a caster's word: for sure, or either.
+// A caster's label at a key: certain, or either of the two, depending on the rounding.
 enum class Word { kOutside, kEither, kInside };
 
-// From `key` on, `caster` says so.
+// From `key` on, `caster` has this label.
 struct Change {
   double key = 0.0;
   std::size_t caster = 0;
   Word word = Word::kEither;
 };
 
-// What a caster says after some events at once, of which any may come last: their own word if they are of one
-// kind, and sure or no news.
+// A caster's label after some events whose order isn't certain. It is certain only if all of them are
+// entries, or all exits, and if one of them is sure to happen or the label was the same before.
 Word WordAfter(std::span<const Event> events, Word before) {
   const bool is_entry = events.front().is_entry;
   const Word word = is_entry ? Word::kInside : Word::kOutside;
@@ -143,7 +144,8 @@ Word WordAfter(std::span<const Event> events, Word before) {
   return are_alike && (are_sure || before == word) ? word : Word::kEither;
 }
 
-// Events, in groups that may change places.
+// Adds the changes of label that the events make. Events whose ranges of keys overlap form a group, as they
+// may come in any order: the label is uncertain from the group's lowest key to its highest.
 void AddChanges(std::vector<Event> events, std::size_t caster, Word word, std::vector<Change>* changes) {
   std::sort(events.begin(), events.end(),
             [](const Event& a, const Event& b) { return a.key.low < b.key.low; });
@@ -157,7 +159,7 @@ void AddChanges(std::vector<Event> events, std::size_t caster, Word word, std::v
   }
 }
 
-// A ray's way through the workspace: where all agree for sure, and where they may.
+// One ray in the workspace: finds where the hull may begin, and where it must have begun.
 class Course {
  public:
   Course(const ViewPencils& pencils, const Eigen::Vector2d& uv)
@@ -170,7 +172,8 @@ class Course {
     for (const auto& pencil : pencils_.visibility_outlines()) Add(*pencil);
     std::stable_sort(changes_.begin(), changes_.end(),
                      [](const Change& a, const Change& b) { return a.key < b.key; });
-    // The hull begins, in whatever rounding, between where it first may and where it first must.
+    // Whatever the rounding, the hull begins between the key where it first may and the one where it first
+    // must.
     const double may = FirstKey(Word::kEither, from_.low), must = FirstKey(Word::kInside, from_.high);
     if (may > to_.high) return false;
     if (is_beside_ == Word::kEither || must > to_.low) return true;
@@ -214,7 +217,7 @@ class Course {
     AddChanges(std::move(events), caster, words_.back(), &changes_);
   }
 
-  // All cameras say at least so, and one sight does.
+  // Whether all cameras have at least this label, and one of the visibility outlines, too, if there are any.
   [[nodiscard]] bool Agree(const std::vector<Word>& words, Word least) const {
     const auto cameras_end = words.begin() + std::ssize(pencils_.cameras());
     const auto says = [&](Word word) { return word >= least; };
@@ -222,7 +225,7 @@ class Course {
            (cameras_end == words.end() || std::any_of(cameras_end, words.end(), says));
   }
 
-  // Where all agree first, from `from` on; infinite if nowhere.
+  // The first key from `from` on at which they agree; infinite if there is none.
   [[nodiscard]] double FirstKey(Word least, double from) const {
     std::vector<Word> words = words_;
     double at = from;
@@ -240,7 +243,7 @@ class Course {
   Ray ray_;
   Range from_;
   Range to_;
-  Word is_beside_ = Word::kOutside;  // kInside: for sure
+  Word is_beside_ = Word::kOutside;  // kInside: it certainly is
   std::vector<Word> words_;          // before all changes; cameras, then visibility_outlines
   std::vector<Change> changes_;
 };

@@ -9,10 +9,11 @@
 
 namespace elbowroom::recon {
 
-// Whoever walks a ray over the pencils in float32, in whatever order of operations, finds the same hit or
-// miss, and depths that differ by less than kViewTolerance of themselves, unless the pixel is in the band:
-// the ray passes a turn of a contour, or two surfaces at once, within the rounding of angles and keys.
-// Derived in docs/exact_view_gl.md; exact_view_gl_test holds two implementations to it.
+// Two computations of the exact view in float32, with operations in whatever order, agree on hit or miss, and
+// their depths differ by less than kViewTolerance of themselves, unless the pixel is in the band. A pixel is
+// in it if its ray passes, within the rounding of angles and keys, a vertex where a contour's entries turn
+// into exits, or two surfaces at once. Derived in docs/exact_view_gl.md; exact_view_gl_test holds two
+// implementations to it.
 inline constexpr double kViewTolerance = 1e-5;
 
 // Borrows the pencils. Thread: any.

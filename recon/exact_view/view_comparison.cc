@@ -54,7 +54,7 @@ ViewComparison CompareViews(const VisualHull& hull, const ViewRays& rays, const 
                 "views to compare have the rays' size");
   std::optional<ViewPencils> pencils;
   if (!hull.IsEmpty()) pencils.emplace(hull, rays);
-  // Pixels of no square are settled in float64.
+  // Pixels outside of all squares are settled in float64, so they aren't in the band.
   std::vector<std::uint8_t> is_open(pixels, 0);
   const auto width = static_cast<std::size_t>(rays.width_px());
   for (const PixelBox& square : pencils ? pencils->Squares() : std::vector<PixelBox>()) {

@@ -1,4 +1,4 @@
-// Two makes of one exact view, held against each other.
+// Compares two results for one exact view.
 #pragma once
 
 #include <cstdint>
@@ -13,9 +13,10 @@ struct ViewComparison {
   std::int64_t pixels = 0;
   std::int64_t hit_pixels = 0;   // of the first view
   std::int64_t band_pixels = 0;  // where float32 can't decide (ViewBand)
-  // Hit here and missed there, or depths more than kViewTolerance of themselves apart.
+  // Pixels that one view hits and the other misses, or whose depths differ by more than kViewTolerance of
+  // themselves.
   std::int64_t differing_in_band = 0;
-  std::int64_t differing_pixels = 0;  // outside the band: 0 where all is well
+  std::int64_t differing_pixels = 0;  // outside of the band: 0 if the views agree
   // Over the pixels outside the band where both views have a depth.
   double largest_difference_mm = 0.0;
   double largest_relative_difference = 0.0;

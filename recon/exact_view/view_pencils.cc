@@ -13,8 +13,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-// A view's centre nearer to a face than this many mm is on it, rays that climb less in a mm run along it:
-// what is divided by less has no room in float32.
+// A view's centre nearer to a face than this many mm counts as on it, and orthographic rays that climb less
+// than this in a mm count as parallel to it. Quotients by a smaller number wouldn't fit in float32.
 constexpr double kLeastDivisor = 1e-20;
 
 constexpr double kFaceRounding = 1e-5;
@@ -66,7 +66,7 @@ ViewPencils::ViewPencils(const VisualHull& hull, const ViewRays& rays)
                                           : box_.beside)
         .push_back(face.bound.Narrow());
   }
-  // A view that turns its back on the workspace asks the cameras nothing.
+  // If no ray meets the workspace, the cameras aren't needed.
   if (KeysInWorkspace(rays.BoundsOf(0, 0, rays.width_px(), rays.height_px())).is_empty()) return;
   const std::size_t cameras = hull.silhouettes().size();
   cameras_.resize(cameras);

@@ -26,8 +26,8 @@ class ViewRays {
   // The same rays from elsewhere.
   [[nodiscard]] ViewRays From(const core::RigidTransform& view_from_world) const;
 
-  // Whether the two are the same rays, if from different places. Of lenses: whether one is a copy of the
-  // other.
+  // Whether both have the same rays, whatever their places. Rays through a lens count as the same only if one
+  // object is a copy of the other.
   [[nodiscard]] bool HasSameRays(const ViewRays& other) const;
 
   [[nodiscard]] Projection projection() const { return projection_; }
@@ -42,11 +42,12 @@ class ViewRays {
                            static_cast<std::size_t>(x)];
   }
 
-  // Narrowed to float32, of a tile (kTilePx) from (x, y) on, row by row; NaN outside the picture too.
+  // Writes the rays of the tile (kTilePx) whose first pixel is (x, y), row by row, as float32. NaN where
+  // there is no ray, also outside of the picture.
   void FillTile(int x, int y, float* u, float* v) const;
 
-  // The box around the rays (u, v) of pixels [x0, x1) x [y0, y1). Corners are multiples of 8 or the
-  // picture's.
+  // The box around the rays (u, v) of pixels [x0, x1) x [y0, y1). All four are multiples of 8, or at the
+  // picture's border.
   [[nodiscard]] Eigen::AlignedBox2d BoundsOf(int x0, int y0, int x1, int y1) const;
 
  private:

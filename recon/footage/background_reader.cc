@@ -18,7 +18,7 @@ using core::Error;
 using core::ErrorKind;
 using core::FrameIndex;
 
-// What the capture threads tell the calling one: frames that were added to the work, and frames done.
+// A report of a reading thread to the calling one: frames that were added to the work, and frames done.
 struct Tick {
   FrameIndex more = 0;
   FrameIndex done = 0;
@@ -51,7 +51,7 @@ BackgroundReference ReadOne(const CameraSources& sources, const core::CameraMode
   return accumulator.Reference();
 }
 
-// Until the last thread closes the queue.
+// Reports until the last thread closes the queue.
 void ReportTicks(Ticks& ticks, const core::Progress& progress) {
   FrameIndex total = 0, done = 0;
   while (const auto tick = ticks.Pop()) {
@@ -61,7 +61,8 @@ void ReportTicks(Ticks& ticks, const core::Progress& progress) {
   }
 }
 
-// Closes the queue when the last of them goes, or at once when reporting fails: nobody waits for room then.
+// Closes the queue when the last reader ends, or at once when reporting fails, so that no reader waits for
+// room then.
 class Closer {
  public:
   Closer(Ticks& ticks, std::atomic<std::size_t>& still_needed) : ticks_(ticks), still_needed_(still_needed) {}

@@ -9,7 +9,7 @@
 namespace elbowroom::recon {
 namespace {
 
-// A chunk (AVI) or box (MP4) ends here at the latest: 4 bytes type, 4 bytes size.
+// The header of a chunk (AVI) or box (MP4): 4 bytes each for its type and its size.
 constexpr std::uint64_t kHeaderBytes = 8;
 
 class ByteReader {
@@ -35,7 +35,7 @@ class ByteReader {
   }
 
  private:
-  // Read at once: a file may be nothing but chunks of no length.
+  // Read at once, since a file may consist of a great many empty chunks.
   static constexpr std::uint64_t kWindowBytes = 4096;
 
   std::ifstream file_;
@@ -69,7 +69,7 @@ bool IsPicture(std::string_view type) {
   return IsStreamChunk(type) && (type.ends_with("dc") || type.ends_with("db"));
 }
 
-// Whether chunks may be called so.
+// Whether a chunk's type may have these characters.
 bool IsText(std::string_view type) {
   return std::all_of(type.begin(), type.end(),
                      [](char c) { return IsDigit(c) || IsLetter(c) || c == ' ' || c == '_'; });
@@ -81,7 +81,7 @@ bool IsHole(ByteReader& reader, std::uint64_t at) {
   return reader.At(at, kHoleBytes) == std::string(kHoleBytes, '\0');
 }
 
-// Among the frames: a hole; or bytes that are no chunk.
+// Looks among the frames for a hole, or for bytes that are no chunk.
 std::optional<ContainerDamage> FindBreak(ByteReader& reader, std::uint64_t begin, std::uint64_t end) {
   std::int64_t pictures = 0;
   for (std::uint64_t at = begin; at + kHeaderBytes <= end;) {
@@ -100,7 +100,7 @@ std::optional<ContainerDamage> FindBreak(ByteReader& reader, std::uint64_t begin
   return std::nullopt;
 }
 
-// One RIFF chunk from `begin`; its end in `end`.
+// Checks one RIFF chunk, from `begin` to `end`.
 std::optional<ContainerDamage> CheckRiff(ByteReader& reader, std::uint64_t begin, std::uint64_t end) {
   constexpr std::uint64_t kFormTypeBytes = 4;
   std::uint64_t at = begin + kHeaderBytes + kFormTypeBytes;
@@ -128,7 +128,7 @@ std::optional<ContainerDamage> CheckAvi(ByteReader& reader) {
     if (const std::string form = reader.At(at + kHeaderBytes, 4); form != "AVI " && form != "AVIX") {
       return std::nullopt;  // a recorder's notes after the footage, in a form of its own
     }
-    if (size == 0 || size == 0xFFFFFFFFU) return std::nullopt;  // a stream: the writer never knew
+    if (size == 0 || size == 0xFFFFFFFFU) return std::nullopt;  // a stream: its writer left the size open
     if (const auto damage = CheckRiff(reader, at, at + kHeaderBytes + size)) return damage;
     at += kHeaderBytes + size + size % 2;
   }
@@ -140,7 +140,7 @@ std::optional<ContainerDamage> CheckMp4(ByteReader& reader) {
     const std::string header = reader.At(at, kHeaderBytes);
     if (header.empty()) return ContainerDamage{reader.size(), at + kHeaderBytes, std::nullopt};
     std::uint64_t size = BigEndian(std::string_view(header).substr(0, 4));
-    if (size == 0) return std::nullopt;  // to the end of the file, wherever that is
+    if (size == 0) return std::nullopt;  // this box goes on to the end of the file, wherever that is
     if (size == 1) size = BigEndian(reader.At(at + kHeaderBytes, 8));
     if (size < kHeaderBytes) return ContainerDamage{at, at, std::nullopt};
     if (at + size > reader.size()) return ContainerDamage{reader.size(), at + size, std::nullopt};

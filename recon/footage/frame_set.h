@@ -58,7 +58,7 @@ class FrameSetSource {
   // Error{kCamera} when a live camera ended; Error{kCancelled} on a stop, heard at once.
   [[nodiscard]] virtual FrameSet Read(core::FrameIndex index, std::stop_token stop = {}) = 0;
 
-  // What was amiss with the frames read so far, a line each, and didn't keep them from being read.
+  // Problems of the frames read so far that didn't keep them from being read, a line each.
   [[nodiscard]] virtual std::vector<std::string> Warnings() const { return {}; }
 
   // One a camera. Throws: Error{kFile}; Error{kCancelled} on a stop.

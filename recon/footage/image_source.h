@@ -29,23 +29,24 @@ class ImageSource {
   [[nodiscard]] virtual std::optional<core::FrameIndex> frame_count() const = 0;
   [[nodiscard]] virtual std::optional<double> frame_rate_hz() const = 0;  // if the file says
 
-  // Reading on is fast; going back in a video decodes it again from its beginning, since only that is right
-  // for every codec. A live camera gives its next picture that isn't damaged, whatever the index; it waits
-  // for one as long as the camera is there. Throws: Error{kRange} past the end, Error{kFile} naming camera,
-  // file and frame, Error{kCamera} when a live picture ended, or nothing but damaged ones came for seconds;
-  // Error{kCancelled} on a stop, heard at once.
+  // Reading in order is fast. Going back in a video decodes it again from its beginning, since only that is
+  // right for every codec. A live camera ignores the index: it gives its next picture that isn't damaged, and
+  // waits for it as long as the camera is there. Throws: Error{kRange} past the end, Error{kFile} naming
+  // camera, file and frame, Error{kCamera} when a live camera's pictures ended, or all of them were damaged
+  // for more than 3 s; Error{kCancelled} at once on a stop.
   [[nodiscard]] virtual SourcePicture Read(core::FrameIndex index, const std::stop_token& stop = {}) = 0;
 
-  // Damaged pictures of a live camera that were passed over. Thread: any.
+  // The number of damaged pictures of a live camera that were passed over. Thread: any.
   [[nodiscard]] virtual core::FrameIndex left_out() const { return 0; }
 };
 
-// Opens what `location` (a resolved one of CameraSources) names. A video is decoded once to its end here:
-// what its container promises is not what can be read, and a broken file is found before anything is done
-// with it. Throws: Error{kFile} naming camera and file: missing, unreadable, no pictures in it, cut short,
-// with the frame where it breaks off and how many it promised, of another size than the camera's, or damaged
-// so that a decoder says so, with about its frame; Error{kCancelled} on a stop. Everything is decoded in a
-// child process (recon/decoding/picture_worker.h): a codec that crashes is an error, too.
+// Opens the source that `location` (a resolved one of CameraSources) names. A video is decoded once to its
+// end here, since its container may promise more frames than can be read, and so that a broken file is found
+// before it is used. Throws: Error{kFile} naming camera and file if it is missing, unreadable, without
+// pictures, cut short (with the frame where it breaks off and how many it promised), of another size than the
+// camera's, or damaged so that a decoder reports it (with about its frame); Error{kCancelled} on a stop.
+// Everything is decoded in a child process (recon/decoding/picture_worker.h): a codec that crashes is an
+// error, too.
 [[nodiscard]] std::unique_ptr<ImageSource> OpenImageSource(const std::string& location,
                                                            const core::CameraModel& camera,
                                                            std::stop_token stop = {});

@@ -20,7 +20,7 @@ using core::ErrorKind;
 using core::FrameIndex;
 using Clock = std::chrono::steady_clock;
 
-// An address that takes the call and says nothing.
+// An address may accept the connection and then send nothing.
 constexpr std::chrono::seconds kMostTimeToOpen{15};
 // A camera whose pictures are all damaged for so long, and at least so many of them, is broken.
 constexpr std::chrono::seconds kMostTimeBroken{3};

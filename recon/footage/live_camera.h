@@ -9,7 +9,7 @@
 
 namespace elbowroom::recon {
 
-// Throws: as OpenImageSource; Error{kFormat} for "device:" without a number, Error{kCamera} for one that
+// Throws: as OpenImageSource; Error{kFormat} for "device:" without a number, Error{kCamera} for a device that
 // can't be opened.
 [[nodiscard]] std::unique_ptr<ImageSource> OpenLiveCamera(SourceSubject subject, const std::stop_token& stop);
 

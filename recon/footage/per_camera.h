@@ -9,8 +9,8 @@
 namespace elbowroom::recon {
 
 // Runs work(0) .. work(cameras - 1), each in its thread, and meanwhile() on the calling one; returns when all
-// are done. Throws: what `meanwhile` threw, else what the first camera in order threw, whichever came first
-// in time.
+// are done. Throws: what `meanwhile` threw; else what the camera of the lowest index threw, even if another
+// threw earlier.
 void RunPerCamera(
     std::size_t cameras, const std::function<void(core::CameraIndex)>& work,
     const std::function<void()>& meanwhile = [] {});

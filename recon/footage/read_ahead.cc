@@ -29,7 +29,7 @@ void ReadAhead::Stop() {
 
 void ReadAhead::Expect(core::FrameIndex index) {
   if (next_ == index) return;
-  if (!end_) thread_.request_stop();  // a recorded frame is waited for: the next ones come after it
+  if (!end_) thread_.request_stop();  // not within a recorded frame: its video would be opened again
   Stop();
   queue_ = end_ ? std::make_unique<Queue>(kFramesAhead, core::WhenFull::kBlock)
                 : std::make_unique<Queue>(kLiveFrames, core::WhenFull::kDropOldest);

@@ -1,4 +1,4 @@
-// A camera's capture thread: reads on while the frames before are still being worked on.
+// A camera's capture thread: it reads the next frames while earlier ones are still being processed.
 #pragma once
 
 #include <exception>
@@ -16,22 +16,23 @@ namespace elbowroom::recon {
 
 struct CapturedFrame {
   CameraFrame frame;
-  std::exception_ptr error;  // set: `frame` could not be read
+  std::exception_ptr error;  // if set, `frame` could not be read
 };
 
 // Thread: one reader; `read` runs on this object's own thread only.
 class ReadAhead {
  public:
-  // A stop is for it to hear at once: a camera may have no next picture.
+  // It must end at once on a stop, since a camera may have no next picture.
   using ReadFrame = std::function<CameraFrame(core::FrameIndex, const std::stop_token&)>;
 
-  // Recorded frames (with `end`) wait until they are taken; of a live camera's only the latest are kept.
+  // Recorded frames (with `end`) wait until they are taken; of a live camera's frames only the latest are
+  // kept.
   ReadAhead(ReadFrame read, std::optional<core::FrameIndex> end);
   ~ReadAhead();
   ReadAhead(const ReadAhead&) = delete;
   ReadAhead& operator=(const ReadAhead&) = delete;
 
-  // Makes `index` (below the end) the next frame to take; begins reading there unless it already is.
+  // Makes `index` (below the end) the next frame to take; begins to read there unless it is that already.
   void Expect(core::FrameIndex index);
 
   // The frame expected, once it is read; a stop ends the reading. Throws: what reading it threw.
@@ -45,7 +46,7 @@ class ReadAhead {
 
   ReadFrame read_;
   std::optional<core::FrameIndex> end_;
-  std::optional<core::FrameIndex> next_;  // that the queue yields
+  std::optional<core::FrameIndex> next_;  // the frame that the queue yields next
   std::unique_ptr<Queue> queue_;
   std::jthread thread_;
 };

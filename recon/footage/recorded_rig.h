@@ -33,9 +33,10 @@ void RequireOneRate(const CameraRate& one, const CameraRate& other);
 // Adds how many damaged pictures of a live camera were left out, if any were.
 void AddWarningOf(const ImageSource& source, const std::string& camera, std::vector<std::string>* warnings);
 
-// Frame i of a set is frame i of every camera's source. Times come from the videos' frame rate, 25 Hz if none
-// says; from the clock for live cameras, of which the latest pictures make up a set. A camera with ready
-// masks brings those and no picture. Thread: one reader; a capture thread a camera reads a few frames ahead.
+// Frame i of a set is frame i of every camera's source. Times come from the videos' frame rate (25 Hz if none
+// gives one), or from the clock if all sources are live. A live camera brings its latest picture. A camera
+// with ready masks brings those and no picture. Thread: one reader; a capture thread a camera reads a few
+// frames ahead.
 class RecordedRig : public FrameSetSource {
  public:
   // Opens every source, in parallel; videos are decoded once to know their length.

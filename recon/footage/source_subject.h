@@ -1,4 +1,4 @@
-// Whom and what the messages about a camera's source are about.
+// The camera and its source, as error messages name them.
 #pragma once
 
 #include <cstdint>

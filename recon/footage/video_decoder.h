@@ -23,11 +23,11 @@ struct VideoPicture {
   cv::Mat image_bgr;  // 8-bit, in memory of its own; empty if it isn't of the decoder's size
 };
 
-// What came of a question to the decoder.
+// The decoder's answer to a request.
 template <typename Value>
 struct Decoded {
   std::optional<Value> value;  // nothing: can't be opened, can't be decoded, or there is no more
-  std::string complaint;       // of the codecs, that tells of damage; or how the decoder ended
+  std::string complaint;       // what the codecs printed about damage, or how the decoder ended
   bool decoder_ended = false;  // the video must be opened again
 };
 
@@ -36,16 +36,18 @@ class VideoDecoder {
  public:
   using MostTime = std::optional<std::chrono::seconds>;  // nothing: as long as it needs
 
-  // For pictures of that size. `most_time` without an answer; then the decoder is ended.
+  // For pictures of that size. In all calls below, a decoder that gives no answer within `most_time` is
+  // ended.
   explicit VideoDecoder(const cv::Size& size_px);
 
-  // All throw: Error{kCancelled} on a stop, heard at once; Error{kFile} when no decoder can be started.
+  // All throw: Error{kCancelled} at once on a stop; Error{kFile} when no decoder can be started.
   [[nodiscard]] Decoded<OpenedVideo> OpenVideo(const std::string& location, const std::stop_token& stop,
                                                const MostTime& most_time);
   [[nodiscard]] Decoded<OpenedVideo> OpenDevice(int number, const std::stop_token& stop,
                                                 const MostTime& most_time);
-  // Up to `most` pictures are passed over, each tried so often; fewer, but not none, doesn't mean that there
-  // are no more.
+  // Passes over up to `most` pictures, trying each up to `tries` times, and returns their number. If it is
+  // less than `most`, there may still be more pictures. Nothing means that the next one can't be decoded, or
+  // that there is none.
   [[nodiscard]] Decoded<core::FrameIndex> Skip(core::FrameIndex most, const std::stop_token& stop,
                                                const MostTime& most_time, int tries = 1);
   [[nodiscard]] Decoded<VideoPicture> Next(const std::stop_token& stop, const MostTime& most_time);

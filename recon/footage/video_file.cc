@@ -16,7 +16,8 @@ namespace {
 
 using core::FrameIndex;
 
-// To open a video, and for each of its pictures: what takes longer is made to.
+// The longest time to open a video and to answer each request for pictures. A file that takes longer was made
+// to do so.
 constexpr std::chrono::seconds kMostTime{8};
 constexpr const char* kWhatToDo = "it must be a video that FFmpeg reads; record or copy it again";
 
@@ -46,7 +47,7 @@ class VideoFile : public ImageSource {
   [[nodiscard]] SourcePicture Read(FrameIndex index, const std::stop_token& stop) override {
     subject_.RequireInRange(index, count_);
     if (!next_ || index < *next_) (void)Open(stop);
-    FrameIndex at = *std::exchange(next_, std::nullopt);  // unknown again if what follows is stopped
+    FrameIndex at = *std::exchange(next_, std::nullopt);  // stays unknown if what follows throws
     while (at < index) {
       const auto skipped = decoder_.Skip(index - at, stop, kMostTime);
       if (!skipped.complaint.empty()) FailAsDamaged(at, skipped.complaint);
@@ -73,7 +74,7 @@ class VideoFile : public ImageSource {
     }
   }
 
-  // At its first frame, which isn't decoded unless the container says the right size.
+  // Opens the video at its first frame. If the container gives a wrong size, no frame is decoded.
   OpenedVideo Open(const std::stop_token& stop) {
     const auto opened = decoder_.OpenVideo(subject_.location, stop, kMostTime);
     if (!opened.value) {
@@ -97,7 +98,8 @@ class VideoFile : public ImageSource {
     }
   }
 
-  // Whether what OpenCV gave as the end is none: it stops at every packet that can't be decoded at all.
+  // Whether the video goes on after the end that OpenCV reported: it also stops at a packet that can't be
+  // decoded at all.
   bool GoesOn(const std::stop_token& stop) {
     constexpr int kTries = 256;  // packets in a row; at the end of a file they cost nothing
     const auto skipped = decoder_.Skip(1, stop, kMostTime, kTries);
@@ -135,7 +137,7 @@ class VideoFile : public ImageSource {
 
   SourceSubject subject_;
   VideoDecoder decoder_;
-  std::optional<FrameIndex> next_;  // that the decoder yields; nothing: it must be opened again
+  std::optional<FrameIndex> next_;  // the decoder's next frame; nothing: the video must be opened again
   FrameIndex count_ = 0;
   std::optional<double> frame_rate_hz_;
 };

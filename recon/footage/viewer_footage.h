@@ -15,8 +15,8 @@
 
 namespace elbowroom::recon {
 
-// The rig's frame sets, each with the viewer camera's picture of the same number. Footage that ends before
-// the rig's leaves the sets after its end without one. Thread: one reader.
+// The rig's frame sets, each with the viewer camera's picture of the same number. If its footage ends before
+// the rig's, the sets after its end have none. Thread: one reader.
 class ViewerFootage : public FrameSetSource {
  public:
   // `location`: a resolved one (recon/rig_files/source_location.h). Throws: core::Error as OpenImageSource;

@@ -16,8 +16,9 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kTurnRad = 2.0 * std::numbers::pi;
-constexpr double kSkew = 1e-9;  // of the radius: how far from a circle is one still
-// A meeting this far beside an edge, as a share of all lengths, still counts: one too many does no harm.
+constexpr double kSkew = 1e-9;  // a share of the radius: so far off, an arc still counts as a circle
+// A meeting this far beside an edge, as a share of all lengths, still counts. One too many does no harm,
+// since the label between two meetings is asked.
 constexpr double kBeside = 1e-9;
 // Two meetings so close are one: nothing can be asked in between.
 constexpr double kSameRad = 1e-13;
@@ -27,7 +28,8 @@ struct Meeting {
   HullBoundary boundary;
 };
 
-// The angles at which normal . x(angle) = offset, in [0, 2 pi).
+// The angles at which normal . x(angle) = offset, in [0, 2 pi). With a = along_start and b = along_quarter, a
+// cos(angle) + b sin(angle) = reach cos(angle - middle), so these are middle +- acos(rise / reach).
 template <typename Visit>
 void VisitMeetings(const Arc& arc, const Vector3d& normal, double offset, const Visit& visit) {
   const double rise = offset - normal.dot(arc.center_in_world);

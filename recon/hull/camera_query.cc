@@ -15,7 +15,7 @@ constexpr double kRelativeSlack = 1e-9;
 // ... and by this share of the coordinates' size for theirs: of the centre, of the ball's points, on the way
 // into the camera.
 constexpr double kCoordinateRounding = 4e-15;
-// What a label's distance loses to rounding, and more.
+// More than a label's distance loses to rounding.
 constexpr double kPositionSlackPx = 1e-6;
 
 // Largest r such that every point within r of x projects, in the normalised plane, within `reach` of x's own
@@ -47,7 +47,7 @@ double DistanceToEdges(const Eigen::Vector3d& x_in_cam, double focal_px, const C
   return DistanceToCone(x_in_cam, labels.max_radius_px() / focal_px) * (1.0 - kRelativeSlack);
 }
 
-// Nothing behind the camera, or so far aside that numbers end.
+// Nothing behind the camera, or so far aside that the position isn't finite.
 std::optional<Eigen::Vector2d> PositionOf(const Eigen::Vector3d& x_in_cam, double focal_px) {
   if (!(x_in_cam.z() > 0.0)) return std::nullopt;
   const Eigen::Vector2d position = x_in_cam.head<2>() * (focal_px / x_in_cam.z());
@@ -70,7 +70,8 @@ BallLabel AskPlane(const core::CameraModel& camera, double focal_px, const Conto
         labels.LabelAt(*position, enough * focal_px * (1.0 + kRelativeSlack) + kPositionSlackPx);
     answer = {label.is_object, RadiusOfReach(x_in_cam, label.distance_px / focal_px)};
   }
-  // A ball that isn't in front of the camera, or reaches behind it.
+  // For a ball that isn't in front of the camera, or reaches behind it: the exterior label also holds up to
+  // the cone that holds all edges.
   if (answer.is_object == labels.exterior_is_object() && answer.radius_mm < enough_mm)
     answer.radius_mm = std::max(answer.radius_mm, DistanceToEdges(x_in_cam, focal_px, labels));
   answer.radius_mm = std::max(answer.radius_mm - rounding_mm, 0.0);
@@ -92,7 +93,7 @@ std::optional<bool> LabelOfShape(const core::CameraModel& camera, double focal_p
     for (Eigen::Index axis = 0; axis < 3; ++axis)
       view.steps[static_cast<std::size_t>(axis)][static_cast<std::size_t>(k)] = scale * edges(k, axis);
   }
-  // As for a ball: what rounding moves a point by, in the picture.
+  // As for a ball: how far rounding moves a point in the picture.
   const double rounding_mm = kCoordinateRounding * (shape.origin.lpNorm<1>() + shape.edges.lpNorm<1>() +
                                                     cam_from_world.translation_mm.lpNorm<1>());
   const double farthest_mm = origin.norm() + edges.norm();

@@ -1,4 +1,4 @@
-// What one camera says of a ball: the inner step of every hull query.
+// One camera's answer for a point, a ball or a shape: the inner step of the hull's queries.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,10 +11,11 @@
 
 namespace elbowroom::recon {
 
-// What a labelled plane says of a point and of the ball around it. Points behind the camera are exterior.
+// The label that a plane gives to a point, and a ball around it in which the label holds. Points behind the
+// camera are exterior.
 struct BallLabel {
   bool is_object = false;
-  double radius_mm = 0.0;  // certified: the label holds this far around
+  double radius_mm = 0.0;  // certified: the label holds this far around the point
 };
 
 // Frames: x_in_world. `focal_px` is the plane's. Derivation in docs/algorithms.md. A radius that is sure to
@@ -23,8 +24,9 @@ struct BallLabel {
                                  const Eigen::Vector3d& x_in_world,
                                  double enough_mm = std::numeric_limits<double>::infinity());
 
-// The label that a plane gives to every point of a shape; nothing where it gives both, or that isn't certain:
-// one that reaches behind the camera, or covers much of the picture (contour_kernel.h).
+// The label that a plane gives to all points of a shape. Nothing if it gives both labels, or if that isn't
+// certain: for a shape that reaches behind the camera, covers too many rows of cells, or isn't separated from
+// an edge by the lines that are tried (IsClearOfEdges).
 [[nodiscard]] std::optional<bool> LabelOfShape(const core::CameraModel& camera, double focal_px,
                                                const ContourMap& labels, const WorldShape& shape);
 
@@ -32,7 +34,8 @@ struct BallLabel {
 [[nodiscard]] bool IsObjectTo(const core::CameraModel& camera, double focal_px, const ContourMap& labels,
                               const Eigen::Vector3d& x_in_world);
 
-// The label of a point in the camera's frame, by parity: builds nothing. For one point in a frame.
+// The label of a point in the camera's frame, by parity. It builds no grid of cells, so it suits a few points
+// a frame.
 [[nodiscard]] bool LabelInCam(const ContourMap& labels, double focal_px, const Eigen::Vector3d& x_in_cam);
 
 }  // namespace elbowroom::recon

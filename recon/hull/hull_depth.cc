@@ -29,8 +29,9 @@ struct Nearest {
   }
 };
 
-// The surfaces at which a contour's label changes: between the sight rays of each edge's ends, on from the
-// camera's centre.
+// The nearest point of the surfaces at which a contour's label changes. An edge's surface is a sector of a
+// plane: from the camera's centre on, between the sight rays of the edge's ends. Its nearest point is the
+// foot of the perpendicular, if that is in the sector, or else on one of the two rays.
 Nearest NearestSurface(const Contour& contour, double focal_px, const Vector3d& x_in_cam) {
   Nearest nearest;
   const auto direction = [&](std::uint32_t vertex) {
@@ -45,7 +46,8 @@ Nearest NearestSurface(const Contour& contour, double focal_px, const Vector3d& 
     const Vector3d a = direction(edge.from), b = direction(edge.to), normal = a.cross(b);
     const double height = normal.dot(x_in_cam), square = normal.squaredNorm();
     if (!(height * height < nearest.square * square)) continue;
-    // The foot is x less a multiple of the normal, which these don't see.
+    // Whether the foot is between the two rays. The test may take x itself: the foot is x less a multiple of
+    // the normal, which changes neither product.
     if (a.cross(x_in_cam).dot(normal) < 0.0 || x_in_cam.cross(b).dot(normal) < 0.0) continue;
     nearest.Offer(height * height / square, x_in_cam - height / square * normal);
   }

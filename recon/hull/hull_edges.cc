@@ -110,7 +110,7 @@ EdgeNormal NormalOf(const VisualHull& hull, const NearEdge& edge) {
     normal.curvature_per_px = fitted->curvature_per_px;
   } else {
     in_cam = OutwardNormalInCam(contour, edge.edge, focal_px);
-    normal.curvature_per_px = std::numbers::pi;  // a loop of a few edges: any normal will do
+    normal.curvature_per_px = std::numbers::pi;  // a loop of a few edges: its normal may be anything
   }
   normal.in_world = hull.rig().cameras[edge.camera].cam_from_world().rotation.transpose() * in_cam;
   return normal;

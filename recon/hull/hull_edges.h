@@ -12,18 +12,18 @@
 
 namespace elbowroom::recon {
 
-// A contour's direction at a position on it: that of the parabola that fits its vertices around best.
+// A contour's direction at a position on it: that of the parabola that fits the vertices around it best.
 struct FittedTangent {
   Eigen::Vector2d tangent = Eigen::Vector2d::UnitX();  // unit, the object to the left as of ContourEdge
-  // Were each vertex moved by up to 1 px, the tangent would turn by no more than atan of this many radians.
+  // If each vertex moves by up to d px, the tangent turns by no more than atan(d * gain_per_px).
   double gain_per_px = 0.0;
   double residual_px = 0.0;       // of the vertex that fits worst
-  double curvature_per_px = 0.0;  // turned in a pixel along it, rad
+  double curvature_per_px = 0.0;  // rad by which it turns in a pixel along it
 };
 
-// Fitted to kFitReach vertices before and after the edge; nothing for a loop with fewer. A chord between
-// vertices isn't centred on the position, and a curve's tangent is off by as much as that turns
-// (hull_edges_test).
+// Fitted to kFitReach vertices before and after the edge; nothing for a loop with fewer, or for vertices that
+// define no parabola. A chord between two vertices has the direction of the contour at its middle, which
+// isn't the position; on a curve it is off by what the curve turns in between (hull_edges_test).
 inline constexpr int kFitReach = 4;
 [[nodiscard]] std::optional<FittedTangent> FitTangent(const Contour& contour, std::uint32_t edge,
                                                       const Eigen::Vector2d& position);
@@ -34,7 +34,7 @@ struct NearEdge {
   std::uint32_t edge = 0;
   Eigen::Vector2d position = Eigen::Vector2d::Zero();  // of the point in the picture plane
   double distance_px = 0.0;                            // from the edge
-  double px_mm = 0.0;                                  // what a pixel is there, across the sight ray
+  double px_mm = 0.0;  // the width of a pixel there, parallel to the picture plane
 };
 
 // One a camera at most.
@@ -48,10 +48,10 @@ struct EdgeNormal {
   double gain_per_px = 0.0;                             // this and the next two: FittedTangent's
   double residual_px = 0.0;
   double curvature_per_px = 0.0;
-  double stretch = 1.0;  // of angles on their way from the picture into space, at most
+  double stretch = 1.0;  // the factor by which an angle in the picture grows in space, at most
 
-  // How far it may be turned, for vertices off by up to `silhouette_px` and a position off by up to
-  // `along_px` (docs/recovery.md).
+  // The most by which the normal may be turned, for vertices off by up to `silhouette_px` and a position off
+  // by up to `along_px` (docs/recovery.md).
   [[nodiscard]] double UncertaintyRad(double silhouette_px, double along_px) const;
 };
 

@@ -15,8 +15,8 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kUnitSlack = 1e-9;
-// A ray that passes a camera's centre this near, as a share of how far away it starts, passes through it:
-// rounding would decide the order in which it crosses the edges, which all meet there.
+// A ray that passes a camera's centre this near, as a share of how far away it starts, counts as passing
+// through it: rounding would decide the order in which it crosses the edges' surfaces, which all meet there.
 constexpr double kThroughCentre = 1e-11;
 
 // A ray in a camera's frame.
@@ -25,7 +25,7 @@ struct RayInCam {
   Vector3d direction;
 };
 
-// One change of one camera's mind along the ray.
+// A change of one camera's label along the ray.
 struct Event {
   double t_mm = 0.0;
   std::size_t camera = 0;
@@ -38,15 +38,15 @@ bool PassesThroughCentre(const RayInCam& ray) {
   return ray.direction.cross(ray.origin).norm() <= kThroughCentre * ray.origin.norm();
 }
 
-// A ray through the camera's centre has the label of one direction up to it and of the other from there on.
-// Returns the label at the ray's origin.
+// A ray through the camera's centre has one label up to the centre and one from there on: those of the two
+// directions in which the camera sees the ray. Returns the label at the ray's origin.
 bool AddCentreEvent(const ContourMap& labels, double focal_px, const RayInCam& ray, std::size_t camera,
                     bool is_outline, std::vector<Event>* events) {
   const bool before = LabelInCam(labels, focal_px, -ray.direction);
   const bool after = LabelInCam(labels, focal_px, ray.direction);
   const double t_mm = -ray.origin.dot(ray.direction);
   if (t_mm <= 0.0) return after;
-  if (before != after) events->push_back({t_mm, camera, 0, after, is_outline});  // as good as any edge
+  if (before != after) events->push_back({t_mm, camera, 0, after, is_outline});  // edge 0 stands for all
   return before;
 }
 
@@ -74,7 +74,7 @@ bool AddEvents(const ContourMap& labels, double focal_px, const RayInCam& ray, s
         Vector3d(a.x(), a.y(), focal_px).cross(Vector3d(b.x() - a.x(), b.y() - a.y(), 0.0));
     const double rise = normal.dot(ray.direction), height = normal.dot(centre);
     const bool is_entry = is_positive[edge.from] != 0;
-    if (is_entry != (rise > 0.0)) continue;  // of the mirror image
+    if (is_entry != (rise > 0.0)) continue;  // a crossing of the mirror image
     const double t_mm = height / rise;
     if (!(t_mm > 0.0)) continue;
     events->push_back({t_mm, camera, e, is_entry, is_outline});
@@ -83,9 +83,10 @@ bool AddEvents(const ContourMap& labels, double focal_px, const RayInCam& ray, s
     first_mm = t_mm;
     first_is_entry = is_entry;
   }
-  // What is entered was background before.
+  // If the first event is an entry, the label before it is background; if it is an exit, object.
   if (std::isfinite(first_mm) && !is_tied) return !first_is_entry;
-  // Not at the origin, which may be on the hull's surface: halfway to the first event, or anywhere.
+  // Otherwise the label is asked halfway to the first event, or anywhere if there is none. It isn't asked at
+  // the origin, which may be on the hull's surface.
   const double between_mm = std::isinf(first_mm) ? centre.norm() : 0.5 * first_mm;
   return LabelInCam(labels, focal_px, ray.origin + between_mm * ray.direction);
 }
@@ -105,7 +106,7 @@ RaySpan Clip(const Eigen::AlignedBox3d& box, const Ray& ray, RaySpan span) {
   return span;
 }
 
-// Who agrees that the ray is in the hull, as it goes along.
+// Which cameras label the ray's present place object, and which of them see it.
 class Votes {
  public:
   explicit Votes(const VisualHull& hull)
@@ -131,7 +132,7 @@ class Votes {
   std::vector<std::uint8_t> visibility_outlines_;
 };
 
-// The votes where the ray starts, and every event beyond in order.
+// Sets the votes to those where the ray starts. Returns all events beyond, in order.
 std::vector<Event> EventsAlong(const VisualHull& hull, const Ray& ray, Votes* votes) {
   std::vector<Event> events;
   for (std::size_t i = 0; i < hull.silhouettes().size(); ++i) {

@@ -12,7 +12,7 @@
 
 namespace elbowroom::recon {
 
-// What bounds the hull at one end of an interval: an edge of a camera's contour, or else a face of the
+// The bound of the hull at one end of an interval: an edge of a camera's contour, or else a face of the
 // workspace or the end of the search.
 struct HullBoundary {
   std::optional<core::CameraIndex> camera;
@@ -33,10 +33,11 @@ struct RaySpan {
   double to_mm = std::numeric_limits<double>::infinity();
 };
 
-// All of them within the span, from the near end. A ray crosses a silhouette where its picture, a straight
-// line from the epipole on, crosses the contour; so there is no step to choose and nothing that is too thin
-// to be found (ray_crossings_test). Cost follows the number of the contours' edges. Throws: PreconditionError
-// for a direction that isn't unit, a span that isn't 0 <= from <= to.
+// All intervals within the span, from the near end. A ray's picture is a straight line that begins at the
+// epipole; the ray crosses a silhouette where this line crosses the contour. So there is no step to choose,
+// and no part of the hull is too thin to be found (ray_crossings_test). Cost follows the number of the
+// contours' edges. Throws: PreconditionError for a direction that isn't unit, a span that isn't 0 <= from <=
+// to.
 [[nodiscard]] std::vector<HullInterval> IntervalsInHull(const VisualHull& hull, const Ray& ray,
                                                         const RaySpan& span = {});
 

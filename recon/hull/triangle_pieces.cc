@@ -15,7 +15,8 @@ using Eigen::Vector3d;
 
 static_assert(CutTriangle::kMostSides * CutTriangle::kMostSides == GridPoints::kMost, "a word of pieces");
 
-// Centres of the pieces by steps along two sides: of those that point like the triangle, then of the others.
+// Centres of the pieces, in steps along two sides. In each row first those that point like the triangle, then
+// the others.
 GridPoints CentresOf(int sides) {
   GridPoints points{};
   const auto add = [&](double x, double y) {

@@ -19,8 +19,8 @@ struct CutTriangle {
   [[nodiscard]] Eigen::Vector3d CentreOf(int piece) const;  // in world
 };
 
-// Bit i: the hull contains the centre of piece i, as VisualHull::Contains has it but for the rounding of the
-// centre's coordinates; only open cameras are asked. Thread: any.
+// Bit i: the hull contains the centre of piece i, as VisualHull::Contains decides, but for the rounding of
+// the centre's coordinates. Only open cameras are asked. Thread: any.
 [[nodiscard]] std::uint64_t PiecesInHull(const VisualHull& hull, const CutTriangle& triangle,
                                          const UndecidedCameras& open);
 

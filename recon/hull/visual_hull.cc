@@ -39,8 +39,8 @@ std::size_t CameraAskedAs(std::size_t k, std::size_t first) {
   return k <= first ? k - 1 : k;
 }
 
-// Under `abstain` a point must be seen by someone: whether it is, and how far around somebody, or nobody,
-// sees everything.
+// Under `abstain` some camera must see a point. Whether one does, and the radius of a ball around the point
+// that one camera sees wholly, or that no camera sees any of.
 PointAnswer SightsOf(const VisualHull& hull, const Eigen::Vector3d& x_in_world) {
   double seen_mm = 0.0, unseen_mm = kInfinity;
   bool is_seen = false;
@@ -84,7 +84,7 @@ VisualHull::VisualHull(std::shared_ptr<const core::Rig> rig,
   if (is_empty_) return;  // no contour is needed any more
   tbb::parallel_for(std::size_t{0}, silhouettes_.size(),
                     [&](std::size_t i) { (void)silhouettes_[i]->labels(); });
-  // What a camera shows, its lens may not see.
+  // A mask may show object only where the lens has no ray; its contour is empty then.
   const auto sees_nothing = [](const auto& silhouette) { return silhouette->labels().bounds_px().isEmpty(); };
   is_empty_ = !exterior_is_object && std::ranges::any_of(silhouettes_, sees_nothing);
 }
@@ -101,7 +101,7 @@ bool VisualHull::Contains(const Eigen::Vector3d& x_in_world) const { return Cont
 
 bool VisualHull::Contains(const Eigen::Vector3d& x_in_world, const UndecidedCameras& open) const {
   if (is_empty_ || !rig_->workspace_mm.contains(x_in_world)) return false;
-  // Under `outside` an object pixel is a seen one.
+  // Under `outside` a point that is object to a camera is seen by it.
   bool any_sees = !ExteriorIsObject(*rig_) || !open.asks_visibility;
   for (std::size_t i = 0; i < silhouettes_.size(); ++i) {
     const UndistortedPlane& plane = silhouettes_[i]->plane();
@@ -115,7 +115,8 @@ bool VisualHull::Contains(const Eigen::Vector3d& x_in_world, const UndecidedCame
 
 PointAnswer VisualHull::Probe(const Eigen::Vector3d& x_in_world) const {
   if (is_empty_) return {false, kInfinity};
-  // The inside needs all cameras, the outside one.
+  // A point is inside if all cameras agree, so the least radius holds. It is outside if one excludes it, so
+  // the largest radius holds.
   PointAnswer answer{true, kInfinity};
   const auto add = [&answer](const PointAnswer& word) {
     if (answer.is_inside == word.is_inside) {
@@ -148,8 +149,8 @@ bool VisualHull::MayBeDeeper(const Eigen::Vector3d& x_in_world, double radius_mm
   const std::size_t first = std::min(*likely, silhouettes_.size() - 1);
   for (std::size_t k = 0; k < silhouettes_.size(); ++k) {
     const std::size_t i = CameraAskedAs(k, first);
-    // Less than what AskPlane's slack makes of a radius that is asked about: a millionth of a pixel, and
-    // more.
+    // Less than `radius_mm` by more than AskPlane's slack, which is a millionth of a pixel, so that the slack
+    // never leads to a no.
     const double px_mm =
         (x_in_world - rig_->cameras[i].center_in_world()).norm() / silhouettes_[i]->plane().focal_px();
     const double enough_mm = radius_mm * (1.0 - 1e-8) - 4e-6 * px_mm;

@@ -1,4 +1,4 @@
-// The hull of one frame's silhouettes, asked of points and of balls.
+// The hull of one frame's silhouettes, with queries of points, balls, boxes and triangles.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,7 +15,7 @@
 
 namespace elbowroom::recon {
 
-class Silhouette;        // recon/contours/silhouette.h: for those who ask one camera
+class Silhouette;        // recon/contours/silhouette.h: for queries of one camera
 class UndistortedPlane;  // recon/contours/undistorted_plane.h
 using UndistortedPlanes = std::vector<std::shared_ptr<const UndistortedPlane>>;
 
@@ -26,10 +26,10 @@ enum class BallAnswer {
   kMixed,    // neither is certain
 };
 
-// Whether a point is in the hull, and the radius of a ball around it all of which agrees.
+// Whether a point is in the hull, and the radius of a ball around it for all of which the answer is the same.
 struct PointAnswer {
   bool is_inside = false;
-  double radius_mm = 0.0;  // certified, not largest; may be infinite
+  double radius_mm = 0.0;  // certified, but not the largest; may be infinite
 };
 
 // The camera whose silhouette bounds the hull nearest to a point, and the direction out of the hull there.
@@ -38,14 +38,14 @@ struct BoundingEdge {
   std::optional<Eigen::Vector3d> normal_in_world;  // unit; nothing where the silhouette gives none
 };
 
-// Who may still have something to say of a set of points: a camera to which all of a larger set is object
-// needn't be asked of a smaller one.
+// The cameras that may still exclude points of a set. A camera to which all of a set is object needn't be
+// asked about parts of it.
 struct UndecidedCameras {
   static constexpr std::size_t kMost = 64;  // cameras beyond are always asked
 
   std::uint64_t bits = ~std::uint64_t{0};
   bool asks_visibility = true;   // `abstain`: no camera is known to see all of the set
-  core::CameraIndex likely = 0;  // to be asked first: it excluded a set near by
+  core::CameraIndex likely = 0;  // is asked first, since it excluded a set near by
 
   [[nodiscard]] bool Asks(core::CameraIndex camera) const {
     return camera >= kMost || ((bits >> camera) & 1U) != 0;
@@ -56,9 +56,9 @@ struct UndecidedCameras {
 };
 
 // The visual hull: the points of the workspace that project into every camera's silhouette, where rig.unseen
-// decides for cameras that can't see the point. An immutable snapshot; copies share silhouettes.
-// The certificate of the ball answers is derived in docs/algorithms.md and held to account by
-// tests/recon/hull/ball_query_test.cc. Thread: any.
+// decides for cameras that can't see the point. An immutable snapshot; copies share silhouettes. The answers
+// for balls are certain: docs/algorithms.md derives that, and tests/recon/hull/ball_query_test.cc tests it.
+// Thread: any.
 class VisualHull {
  public:
   // Throws: PreconditionError when there isn't one silhouette a camera, with the exterior label that the rig
@@ -75,8 +75,8 @@ class VisualHull {
   // True when no point can be inside: under `outside`, some camera sees no object at all.
   [[nodiscard]] bool IsEmpty() const { return is_empty_; }
 
-  // Builds now, all cameras at once, what the first question to each of them would build while the others
-  // wait. Changes no answer.
+  // Builds now, for all cameras in parallel, what the first query of each would build otherwise. Changes no
+  // answer.
   void Prepare() const;
 
   // The paper's volume query.
@@ -86,23 +86,23 @@ class VisualHull {
   // Contains(), and how far around the point the answer is sure to hold.
   [[nodiscard]] PointAnswer Probe(const Eigen::Vector3d& x_in_world) const;
 
-  // Whether Probe() of a point in the hull may answer with a radius of more than `radius_mm`: for whoever
-  // looks for the deepest of many, at a fraction of its cost. `likely`: the camera to be asked first, that
-  // said no last.
+  // Whether Probe() of a point in the hull may answer with a radius of more than `radius_mm`. It costs a
+  // fraction of Probe(), in a search for the deepest of many points. `likely` is the camera to ask first;
+  // after a no, it is the camera that decided.
   [[nodiscard]] bool MayBeDeeper(const Eigen::Vector3d& x_in_world, double radius_mm,
                                  core::CameraIndex* likely) const;
 
   // The volume query of a closed ball. A radius of 0 is the point's own query.
   [[nodiscard]] BallAnswer Classify(const Eigen::Vector3d& center_in_world, double radius_mm) const;
 
-  // The same of a set of points in the ball, of which only the open cameras need to be asked; closes those to
-  // which all of the ball is object, for the set's own parts.
+  // The same for a set of points in the ball, about which only the open cameras are asked. Closes those to
+  // which all of the ball is object: they needn't be asked about parts of the set.
   [[nodiscard]] BallAnswer Classify(const Eigen::Vector3d& center_in_world, double radius_mm,
                                     UndecidedCameras* open) const;
 
-  // The same of a box or a triangle, by what it covers in each picture: certain where a ball around it is
-  // mixed, and a few times as dear. Held to account by ball_query_test. Under `abstain` it is seen by a
-  // camera only if `open` knows that already.
+  // The same for a box or a triangle, by what it covers in each picture. It is often certain where a ball
+  // around the shape is mixed, and costs a few times as much (ball_query_test). Under `abstain` it answers
+  // kInside only if `open` knows already that a camera sees all of the shape.
   [[nodiscard]] BallAnswer Classify(const WorldShape& shape, UndecidedCameras* open) const;
 
   // Which silhouette ends the hull at a point on its surface; the normal is that of the plane
@@ -115,14 +115,14 @@ class VisualHull {
   bool is_empty_ = false;
 };
 
-// What a rig's unseen policy says of positions outside a picture.
+// Whether positions outside of a picture are labelled object: under `abstain` they are.
 [[nodiscard]] bool ExteriorIsObject(const core::Rig& rig);
 
-// What a frame's hull could do without.
+// The work that a frame's hull could do without.
 struct HullStats {
-  int unchanged_silhouettes = 0;  // the last frame's, with all that is known about them
+  int unchanged_silhouettes = 0;  // taken over from the last frame, with all that was built for them
   int empty_silhouettes = 0;      // without object
-  int untraced_silhouettes = 0;   // whose contour nobody needs: under `outside` an empty one empties the hull
+  int untraced_silhouettes = 0;   // contour not needed: under `outside` an empty one empties the hull
 };
 
 struct FrameHull {

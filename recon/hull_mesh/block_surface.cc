@@ -23,7 +23,7 @@ struct LayerLabels {
 
 // Bit i to bit 8 i.
 Layer SpreadToRows(unsigned byte) {
-  // Seven bits don't overlap.
+  // The multiples of seven bits don't overlap; the eighth bit is placed apart.
   return ((byte & 0x7FU) * Layer{0x0002040810204081U} & kFirstOfRows) | Layer{byte >> 7U & 1U} << 56U;
 }
 
@@ -31,7 +31,7 @@ LayerLabels LabelsOf(const BlockBits& bits, std::size_t z) {
   LayerLabels labels;
   std::memcpy(&labels.at, &bits.groups[kSide * z], sizeof(Layer));
   std::memcpy(&labels.at_y, &bits.groups[kSide * z + 1], sizeof(Layer));
-  // Nine bits of the far face's.
+  // The nine bits of this z in the far face (x = 8).
   const std::size_t bit = kSide * z, group = BlockBits::kRows + bit / 8;
   const unsigned next = group + 1 < BlockBits::kGroups ? bits.groups[group + 1] : 0U;
   const unsigned far = (bits.groups[group] | next << 8U) >> (bit % 8);
@@ -86,7 +86,7 @@ constexpr std::size_t Index(std::size_t axis, std::size_t x, std::size_t y, std:
   return ((axis * kSide + z) * kSide + y) * kSide + x;
 }
 
-// By edge of a cube: how far from the index of the cell's corner, along axis 0.
+// For each edge of a cube: how far its Index() is from that of the edge along axis 0 at the cell's corner.
 constexpr std::array<std::size_t, kCubeEdges.size()> EdgeOffsets() {
   std::array<std::size_t, kCubeEdges.size()> offsets{};
   for (std::size_t edge = 0; edge < offsets.size(); ++edge) {
@@ -97,7 +97,8 @@ constexpr std::array<std::size_t, kCubeEdges.size()> EdgeOffsets() {
 }
 constexpr auto kEdgeOffsets = EdgeOffsets();
 
-// By Index(): a grid edge's vertex in the mesh, or -1. At the end one more, for edges that aren't asked for.
+// For each Index() the number of a grid edge's vertex in the mesh, or -1. One more item at the end takes
+// those of edges that aren't needed.
 constexpr std::size_t kNoEdge = Index(3, 0, 0, 0);
 using VertexNumbers = std::array<std::int32_t, kNoEdge + 1>;
 
@@ -129,7 +130,7 @@ BlockSurface CutBlock(const HullLattice& lattice, const HullBlock& block) {
     surface.triangles += table[inside].count;
   });
   if (surface.triangles == 0) return surface;
-  surface.edges.reserve(surface.triangles);  // about half of them, and those that cells before don't have
+  surface.edges.reserve(surface.triangles);  // enough: about half as many vertices, plus the rim's
   AppendChanges(surface.labels, true, &surface.edges);
   surface.near_edges = surface.edges.size();
   AppendChanges(surface.labels, false, &surface.edges);
@@ -144,7 +145,7 @@ void WriteTriangles(std::span<const BlockNeighbour> blocks,
   const VertexNumbers numbers = NumberEdges(blocks);
   const std::array<CubeTriangles, 256>& table = CubeTable();
   std::size_t next = 0;
-  std::int64_t all = 0;  // their bits
+  std::int64_t all = 0;  // the bits of all numbers: negative if one is -1
   VisitCutCells(blocks.front().surface->labels,
                 [&](std::size_t x, std::size_t y, std::size_t z, std::size_t inside) {
                   const std::int32_t* const cell = numbers.data() + Index(0, x, y, z);

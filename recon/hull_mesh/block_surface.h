@@ -16,7 +16,7 @@ namespace elbowroom::recon {
 struct BlockSurface {
   BlockBits labels;
   std::vector<BlockEdge> edges;                    // that the surface crosses; first those on near faces
-  std::size_t near_edges = 0;                      // so many
+  std::size_t near_edges = 0;                      // the number of those
   std::vector<Eigen::Vector3d> vertices_in_world;  // one an edge
   std::size_t triangles = 0;
   std::int64_t queries = 0;  // labels and crossings asked
@@ -26,15 +26,15 @@ struct BlockSurface {
 // from the end that is inside: on the exact surface, but at least edge / 2048 from the ends.
 [[nodiscard]] BlockSurface CutBlock(const HullLattice& lattice, const HullBlock& block);
 
-// What a block's triangles are made of.
+// A block that a block's triangles have vertices of: itself, or one of those next to it.
 struct BlockNeighbour {
-  unsigned steps = 0;  // bit a: the next one along axis a
+  unsigned steps = 0;  // bit a: it is the next one along axis a; 0: the block itself
   const BlockSurface* surface = nullptr;
-  std::int32_t first_vertex = 0;  // of its vertices, in the whole mesh
+  std::int32_t first_vertex = 0;  // the number of its first vertex in the whole mesh
 };
 
-// Writes the triangles of a block, counter-clockwise seen from outside, from its own surface and those of the
-// blocks behind it. Throws: PreconditionError when one is missing.
+// Writes the triangles of a block, counter-clockwise seen from outside, from its own surface, which comes
+// first, and those of the blocks behind it along the axes. Throws: PreconditionError when one is missing.
 void WriteTriangles(std::span<const BlockNeighbour> blocks, std::span<std::array<std::int32_t, 3>> triangles);
 
 }  // namespace elbowroom::recon

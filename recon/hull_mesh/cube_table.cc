@@ -36,8 +36,9 @@ bool ShareFace(int a, int b) {
                      [&](const auto& face) { return IsOnFace(a, face) && IsOnFace(b, face); });
 }
 
-// By edge, the edge that the surface's outline goes on to. Round each face, a run of inside corners is cut
-// off by a segment from where the run begins to where it ends; alone if it is across from another.
+// For each edge of the cube, the edge to which the surface's outline goes on; -1 if it doesn't cross this
+// one. Round each face, each run of inside corners is cut off by one segment, from where the run begins to
+// where it ends. Two inside corners across from each other are two runs, so each is cut off alone.
 std::array<int, 12> OutlineOf(unsigned inside) {
   std::array<int, 12> next;
   next.fill(-1);

@@ -22,9 +22,9 @@ struct CubeTriangles {
   std::array<std::array<std::uint8_t, 3>, kMost> all{};
 };
 
-// By the corners inside, a bit each. On a face with two inside corners across from each other these are kept
-// apart, in both of its cubes; no triangle's inner side joins two points of one face. So the surface of a
-// grid of cubes is a closed 2-manifold (cube_table_test).
+// The index has a bit for each corner that is inside. On a face with two inside corners across from each
+// other these are kept apart, in both cubes that share the face. No triangle's inner side joins two points of
+// one face. So the surface of a grid of cubes is a closed 2-manifold (cube_table_test).
 [[nodiscard]] const std::array<CubeTriangles, 256>& CubeTable();
 
 }  // namespace elbowroom::recon

@@ -18,11 +18,11 @@ namespace {
 
 // Coordinates of grid points fit 20 bits.
 constexpr int kLargestSide = (1 << 20) - 1;
-// Cubes of this many cells are pieces of work.
+// Cubes of this many cells a side are the pieces of work for threads.
 constexpr int kTaskCells = 32;
 constexpr std::size_t kMostCameras = 255;
 
-// What is still open about a cube.
+// The questions that are still open about a cube.
 struct Doubts {
   std::array<std::uint8_t, kMostCameras> cameras;
   std::size_t camera_count = 0;
@@ -78,7 +78,7 @@ class Search {
     return doubts->camera_count > 0 || !doubts->is_in_workspace || !doubts->is_seen;
   }
 
-  // By one camera, all of the ball.
+  // Whether one camera sees all of the ball.
   bool IsSeen(const Eigen::Vector3d& center, double radius_mm) {
     for (std::size_t i = 0; i < hull_.silhouettes().size(); ++i) {
       const UndistortedPlane& plane = hull_.silhouettes()[i]->plane();
@@ -153,7 +153,7 @@ HullBlocks FindHullBlocks(const VisualHull& hull, const HullGrid& grid, const co
                    cubes.push_back({corner, doubts});
                  });
   found.queries += coarse.queries();
-  // A few cubes at a time: between them progress is told and a stop is heeded, on the caller's thread.
+  // A few cubes at a time: in between, the calling thread reports progress and obeys a stop.
   constexpr std::size_t kAtOnce = 256;
   for (std::size_t begin = 0; begin < cubes.size(); begin += kAtOnce) {
     core::ThrowIfStopped(stop, "meshing the hull");

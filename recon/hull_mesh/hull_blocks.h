@@ -27,14 +27,14 @@ struct HullGrid {
 };
 
 // Over the workspace with a cell's margin. Throws: core::Error{kRange} when edge_mm isn't positive or the
-// grid would exceed 2^20 cells a side.
+// grid would have 2^20 cells a side or more.
 [[nodiscard]] HullGrid MakeHullGrid(const Eigen::AlignedBox3d& workspace_mm, double edge_mm);
 
 // A cube of kBlockCells^3 cells that the surface may cross.
 inline constexpr int kBlockCells = 8;
 struct HullBlock {
   GridPoint corner = GridPoint::Zero();
-  std::vector<std::uint8_t> cameras;  // that may see a change in it; all others see object all over it
+  std::vector<std::uint8_t> cameras;  // that may see a change in it; to all others it is wholly object
   bool is_in_workspace = false;       // all of it
   bool is_seen = true;                // all of it by some camera, where the rig asks for that
 };
@@ -47,9 +47,9 @@ struct HullBlocks {
   std::int64_t queries = 0;       // balls asked, of one camera each
 };
 
-// An octree, refined where some camera's ball query says mixed; what one camera is sure to see as object in a
-// cube isn't asked of it again in the cube's parts. Rigs of up to 255 cameras. Throws:
-// core::Error{kCancelled}.
+// An octree, refined where some camera's ball query says mixed; a camera to which a cube is wholly object
+// isn't asked about the cube's parts. Throws: core::Error{kCancelled}; PreconditionError for a rig of more
+// than 255 cameras.
 [[nodiscard]] HullBlocks FindHullBlocks(const VisualHull& hull, const HullGrid& grid,
                                         const core::Progress& progress, const std::stop_token& stop);
 

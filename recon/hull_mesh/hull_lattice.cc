@@ -13,15 +13,15 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr int kBisections = 40;
-// Vertices keep this share of an edge away from its ends, so that no two of them fall together: in float32
-// too, while the workspace is less than some 8000 edges long.
+// Vertices keep this share of an edge away from its ends, so that no two of them fall together. That holds in
+// float32, too, while the workspace is less than some 8000 edges long.
 constexpr double kEndShare = 1.0 / 2048;
 
 GridPoint LowEnd(const HullBlock& block, const BlockEdge& edge) {
   return block.corner + GridPoint(edge.low[0], edge.low[1], edge.low[2]);
 }
 
-// Point i of both, from inside to outside.
+// Sets point i of `from` to the edge's end inside, and point i of `to` to its end outside.
 void SetEnds(const HullBlock& block, const BlockEdge& edge, std::size_t i, GridPoints* from, GridPoints* to) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double low = block.corner[static_cast<Eigen::Index>(axis)] + edge.low[axis];
@@ -67,7 +67,7 @@ HullLattice::HullLattice(const VisualHull& hull, const HullGrid& grid) : hull_(h
 
 BlockBits HullLattice::LabelsOf(const HullBlock& block, std::int64_t* queries) const {
   BlockBits bits = block.is_in_workspace ? AllPoints() : InWorkspace(block.corner);
-  // Cells first, of all cameras: most points in one's mixed cells are outside to another.
+  // First by cells, for all cameras: most points in mixed cells of one camera are outside to another.
   std::vector<BlockBits> mixed(block.cameras.size());
   for (std::size_t i = 0; i < mixed.size(); ++i) {
     const std::uint8_t camera = block.cameras[i];
@@ -98,7 +98,7 @@ BlockBits HullLattice::InWorkspace(const GridPoint& corner) const {
   return bits;
 }
 
-// Under `abstain`: somebody must see a point.
+// Under `abstain`: clears the points that no camera sees. Returns the number of labels asked.
 std::int64_t HullLattice::KeepSeen(const GridPoint& corner, BlockBits* bits) const {
   std::int64_t queries = 0;
   BlockBits unseen = *bits;

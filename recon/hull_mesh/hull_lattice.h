@@ -1,4 +1,4 @@
-// A hull as the points of a grid see it.
+// Which points of a grid are in the hull, and where the grid's edges leave it.
 #pragma once
 
 #include <Eigen/Core>
@@ -26,12 +26,12 @@ class HullLattice {
   // Prepares the hull. `hull` and `grid` must outlive the lattice.
   HullLattice(const VisualHull& hull, const HullGrid& grid);
 
-  // Which of a block's grid points the hull contains; of a point the same in each of its blocks. `queries`
-  // grows by the labels asked, of one camera each.
+  // Which of a block's grid points the hull contains. A point has the same label in all blocks that share it.
+  // `queries` grows by the labels asked, of one camera each.
   [[nodiscard]] BlockBits LabelsOf(const HullBlock& block, std::int64_t* queries) const;
 
-  // Where each of some edges of a block, its ends of different labels, first leaves the hull, from the end
-  // that is inside; at least edge / 2048 from its ends. One an edge.
+  // For each of some edges of a block whose ends have different labels: the point where it first leaves the
+  // hull, counted from the end that is inside, but at least edge / 2048 from its ends.
   void FindExits(const HullBlock& block, std::span<const BlockEdge> edges,
                  std::span<Eigen::Vector3d> exits_in_world) const;
 

@@ -142,7 +142,7 @@ constexpr FarPoints kFarPoints = MakeFarPoints();
 // float32 within a row only.
 std::size_t Label(const GridView& block, const ContourCellsView& raster, BlockBits* bits, BlockBits* mixed) {
   const Floats f;
-  const GridView view = block;  // no byte that is written may be part of it
+  const GridView view = block;  // a copy, so that the bytes written can't be part of it
   Labeller labeller(raster, bits, mixed);
   const Points step_x = Spread(view.steps[0]);
   const Points near = Times(hn::Iota(f, 0.0F), step_x);
@@ -197,7 +197,7 @@ bool FloatsWillDo(const GridView& block, const ContourCellsView& raster) {
   for (const std::array<double, 3>& step : block.steps) least_z += kBlockCells * std::min(step[2], 0.0);
   least_z -= error[2];
   if (!(least_z > 0.0)) return false;
-  // Positions farther out than twice the cells don't come near them by an error that passes below.
+  // A position farther out than twice `reach` isn't moved into the cells by an error that passes below.
   const double left = raster.origin_x_px * raster.cells_per_px,
                top = raster.origin_y_px * raster.cells_per_px;
   const double reach =

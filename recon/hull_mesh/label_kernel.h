@@ -43,9 +43,9 @@ static_assert(kBlockCells == 8, "a row of cells is a group of points");
 
 // Clears the bits of those points of the block at `corner` that fall into cells of background. Points in
 // mixed cells keep their bits and are set in `mixed`: SettleMixed decides them. Works in float32. That is
-// right, since a cell that isn't mixed also answers for points up to kTouchCells beside it, and float32's
-// error is less; where it might be more (a block that reaches behind the camera, or far from its axis) all
-// points are mixed. Groups without a bit are skipped. Returns how many groups were labelled.
+// right, since the label of a cell that isn't mixed also holds for points up to kTouchCells beside it, and
+// float32's error is less; where it might be more (a block that reaches behind the camera, or far from its
+// axis) all points are mixed. Groups without a bit are skipped. Returns how many groups were labelled.
 std::size_t LabelByCells(const GridView& grid, const GridPoint& corner, const ContourCellsView& raster,
                          BlockBits* bits, BlockBits* mixed);
 

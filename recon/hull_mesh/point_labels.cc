@@ -11,7 +11,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "bit i of a group's byte is bit i of its word");
 
-// Points that wait for their labels, and whose bits they are.
+// Points that wait for their labels, and their bits. Once there are enough, they are labelled together.
 class Waiting {
  public:
   Waiting(const GridView& grid, const ContourCellsView& raster, const GridPoint& corner, BlockBits* bits)

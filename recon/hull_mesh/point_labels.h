@@ -11,7 +11,7 @@
 
 namespace elbowroom::recon {
 
-// The grid as the camera sees it: its points in cam, x and y times the focal length (GridView).
+// The grid in the camera's frame, with x and y times the focal length (GridView).
 [[nodiscard]] GridView ViewGrid(const core::CameraModel& camera, double focal_px, const HullGrid& grid);
 
 // Decides the points of the block at `corner` that are set in `mixed`, exactly: clears the bits of those that

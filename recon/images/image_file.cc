@@ -21,10 +21,10 @@ namespace {
 using core::Error;
 using core::ErrorKind;
 
-// A picture that takes longer is none that a camera made.
+// A picture that takes longer doesn't come from a camera.
 constexpr std::chrono::seconds kLongestDecode{10};
 
-// As stored without any compression, and what cameras write beside the pixels.
+// Room for pixels without any compression, and for what cameras write beside them.
 std::int64_t MostFileBytes(const std::optional<cv::Size>& size_px) {
   constexpr std::int64_t kBytesAPixel = 8, kBeside = std::int64_t{16} << 20U;
   return (size_px ? std::int64_t{size_px->width} * size_px->height : kMostPixels) * kBytesAPixel + kBeside;
@@ -47,7 +47,7 @@ void ImageReader::Fail(const std::string& what) const {
 }
 
 std::string ImageReader::ReadBytes() const {
-  // Without waiting for whoever may write into a pipe.
+  // O_NONBLOCK: opening a pipe would otherwise wait until another process writes into it.
   const core::Descriptor file(::open(path_.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
   struct stat status {};
   if (!file.is_open() && errno == ENOENT) Fail("does not exist; check the path");

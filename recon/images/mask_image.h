@@ -1,4 +1,4 @@
-// Silhouettes as pictures: what `segment` writes and what ready masks are read from.
+// Masks as pictures: `segment` writes them, and ready masks are read from them.
 #pragma once
 
 #include <filesystem>
@@ -19,7 +19,7 @@ namespace elbowroom::recon {
 // Throws: Error{kFormat} naming `who` and the file for a JPEG: its rounding makes background pixels non-zero.
 void RequireExactMask(const PictureHeader& header, const std::filesystem::path& path, const std::string& who);
 
-// Throws: as that, and Error{kFile} naming `who` and the file if it can't be read whole.
+// Throws: as RequireExactMask; Error{kFile} naming `who` and the file if it can't be read whole.
 [[nodiscard]] core::BitMask ReadMaskImage(const std::filesystem::path& path, const std::string& who);
 
 // Writes the whole file or nothing. Throws: Error{kFile}.

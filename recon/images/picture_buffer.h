@@ -1,4 +1,4 @@
-// Pixels that whoever makes a picture writes first.
+// Memory for pixels that isn't cleared before they are written.
 #pragma once
 
 #include <memory>
@@ -8,8 +8,8 @@
 
 namespace elbowroom::recon {
 
-// Leaves items without a value as memory has them: of 640 x 480 depths and normals clearing what is written
-// again at once costs as much as a fifth of the view.
+// An allocator that leaves items without a value as the memory has them. Clearing 640 x 480 depths and
+// normals, which are written right afterwards, would cost up to a fifth of the time of a view.
 template <typename Item>
 struct LeavesUnset : std::allocator<Item> {
   template <typename Other>

@@ -19,7 +19,7 @@ namespace {
 using core::Error;
 using core::ErrorKind;
 
-// Keeps its worker for the next picture: a new one would cost as much as a small picture does.
+// Keeps its worker for the next picture, since starting one costs as much as encoding a small picture.
 class Encoder {
  public:
   std::vector<std::uint8_t> Encode(const cv::Mat& image, const std::string& extension) {
@@ -46,7 +46,7 @@ class Encoder {
  private:
   PictureWorker& WorkerFor(const cv::Mat& image) {
     const std::size_t pixel_bytes = image.total() * image.elemSize();
-    // What doesn't pack at all gets a little larger.
+    // Pixels that can't be compressed make a file a little larger than themselves.
     const std::size_t file_bytes = pixel_bytes / 4 * 5 + (std::size_t{1} << 16U);
     if (worker_ == nullptr || worker_->pixel_bytes().size() < pixel_bytes ||
         worker_->file_bytes().size() < file_bytes) {

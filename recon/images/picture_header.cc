@@ -16,7 +16,7 @@ constexpr std::string_view kJpegEnd{"\xff\xd9", 2};
 // Longer than any segment of a JPEG, which a reader may skip at its end.
 constexpr std::size_t kJpegPaddingBytes = std::size_t{68} << 10U;
 
-// Numbers at places of a file; nothing beyond its end.
+// Reads numbers at given places of a file; nothing beyond its end.
 class Numbers {
  public:
   Numbers(std::string_view bytes, bool is_big_endian) : bytes_(bytes), is_big_endian_(is_big_endian) {}
@@ -66,7 +66,7 @@ std::optional<std::string_view> FirstChunk(std::string_view bytes) {
 
 enum class PngState { kWhole, kCutShort, kDamaged };
 
-// By its chunks and their check sums: libpng would find the same, but with fewer words.
+// Decided by its chunks and their check sums. libpng finds the same damage, but says less about it.
 PngState StateOfPng(std::string_view bytes) {
   bytes.remove_prefix(kPngSignature.size());
   while (const auto chunk = FirstChunk(bytes)) {
@@ -147,7 +147,7 @@ std::optional<PictureHeader> TiffHeader(std::string_view bytes) {
   const auto entries = directory ? numbers.At(*directory, 2) : std::nullopt;
   if (!entries) return std::nullopt;
   PictureHeader header{PictureFormat::kTiff};
-  header.bits = 1;  // unless it says more
+  header.bits = 1;  // unless the directory gives another number
   for (std::size_t i = 0; i < *entries; ++i) {
     const std::size_t entry = *directory + 2 + i * kEntryBytes;
     const auto tag = numbers.At(entry, 2);
@@ -215,7 +215,8 @@ std::optional<std::string> DefectOfPicture(std::string_view bytes) {
   const bool is_png = bytes.starts_with(kPngSignature);
   const PngState png = is_png ? StateOfPng(bytes) : PngState::kWhole;
   if (png == PngState::kDamaged) return "is damaged (a check sum fails); write or copy it again";
-  // Anywhere: cameras and telephones write more behind it. The decoder finds an end that comes too early.
+  // The end marker may be anywhere, since cameras and telephones write more data after it. If it comes too
+  // early, the decoder finds that.
   const bool has_end = !bytes.starts_with(kJpegSignature) || bytes.find(kJpegEnd) != std::string_view::npos;
   if (png == PngState::kCutShort || !has_end) {
     return fmt::format("is cut short ({} bytes, its end is missing); write or copy it again", bytes.size());

@@ -1,4 +1,4 @@
-// Pictures to PNG.
+// Encodes and writes pictures as PNG.
 #pragma once
 
 #include <cstdint>
@@ -9,12 +9,12 @@
 
 namespace elbowroom::recon {
 
-// Throws: PreconditionError when the image is empty or its bytes don't match its size.
+// Throws: PreconditionError when the image is empty or its bytes don't match its size; Error{kFile} as
+// EncodePicture.
 [[nodiscard]] std::vector<std::uint8_t> EncodePng(const Image& image);
 
-// Whole or not at all: written beside `path`, then renamed over it.
-// Throws: Error{kFile} naming the path when its folder is missing or can't be written; PreconditionError as
-// EncodePng.
+// Writes the whole file or nothing: it is written beside `path`, then renamed over it. Throws: Error{kFile}
+// naming the path when its folder is missing or can't be written; others as EncodePng.
 void WritePng(const Image& image, const std::filesystem::path& path);
 
 }  // namespace elbowroom::recon

@@ -1,4 +1,4 @@
-// The hull as the paper's volume query asks it: a point's label is read from the silhouettes as textures.
+// The hull of the paper's volume query: a point's label is read from the silhouettes as textures.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,7 +17,7 @@ class CoverageHull {
   // `undistortion_grid` as PlaneSweepOptions'. Throws: as MakeSweepCameras.
   CoverageHull(const core::Rig& rig, std::span<const core::SoftMask> masks, int undistortion_grid = 0);
 
-  // The emptiest first; their view is the world.
+  // In the order of MakeSweepCameras; their view frame is the world.
   [[nodiscard]] std::span<const SweepCamera> cameras() const { return cameras_; }
   [[nodiscard]] bool exterior_is_object() const { return exterior_is_object_; }
   [[nodiscard]] const Eigen::AlignedBox3d& workspace_mm() const { return workspace_mm_; }
@@ -26,7 +26,7 @@ class CoverageHull {
   [[nodiscard]] bool Contains(const Eigen::Vector3d& x_in_world) const;
 
   // True if rounding in OpenGL may give the point either label: some camera's coverage is within 4/256 and a
-  // few roundings of one half there (docs/plane_sweep.md, "Rounding"), or the point at the border of its
+  // few roundings of one half there (docs/plane_sweep.md, "Rounding"), or the point is at the border of its
   // picture or of the workspace. For rigs at ordinary distances: positions are taken to be good to 0.01 px.
   [[nodiscard]] bool IsMatterOfRounding(const Eigen::Vector3d& x_in_world) const;
 

@@ -10,12 +10,12 @@
 
 namespace elbowroom::recon {
 
-// One byte a pixel, 0 background to 255 object, between them along the boundary where the mask knows it, cut
-// to the object's rectangle and a pixel around it. A position inside `valid_px` (lower end included) is
-// object where the bilinear interpolation of the four texels around it is at least 127.5; any other position
-// of the picture is background. The label's edges cross the lines between pixel centres where marching
-// squares would. Beyond the picture's border, half a pixel outside its last centres, texels repeat the
-// border's.
+// One byte a pixel, from 0 (background) to 255 (object); the levels between are along the boundary, where the
+// mask has them. Cut to the object's rectangle and a pixel around it. A position inside `valid_px` (lower end
+// included) is object where the bilinear interpolation of the four texels around it is at least 127.5; any
+// other position of the picture is background. The label's edges cross the lines between pixel centres where
+// marching squares would. Beyond the picture's border, half a pixel outside its last centres, texels repeat
+// the border's.
 struct CoverageTexture {
   int left_px = 0, top_px = 0;              // picture position of the first texel
   int width_texels = 0, height_texels = 0;  // 0: nothing is object
@@ -28,7 +28,8 @@ struct CoverageTexture {
 // The coverage at a position of the picture, 0 to 255.
 [[nodiscard]] double CoverageAt(const CoverageTexture& texture, const Eigen::Vector2d& position_px);
 
-// What blocks of 8 x 8 pixels hold, summed so that any rectangle is answered at once.
+// Which blocks of 8 x 8 pixels hold object, and which background. Sums over the blocks answer for any
+// rectangle in constant time.
 class BlockOccupancy {
  public:
   explicit BlockOccupancy(const core::BitMask& mask);

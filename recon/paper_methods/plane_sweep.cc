@@ -78,7 +78,7 @@ class RootSweep {
     Visit({x0_, y0_, x0_ + kRootPx, y0_ + kRootPx, 0, space_.plane_count()}, space_.AllQuestions());
   }
 
-  // Without settling anything but whole tiles.
+  // The plain sweep: settles nothing but whole tiles.
   void RunPlain() {
     ForEachTile([this](int x0, int y0) {
       const SweepRegion tile{x0, y0, x0 + kSweepTilePx, y0 + kSweepTilePx, 0, space_.plane_count()};
@@ -151,7 +151,8 @@ class RootSweep {
     }
   }
 
-  // The region's first plane, all of its open pixels.
+  // Asks all open pixels of a tile on the region's first plane. If the region has more planes it is settled:
+  // all open pixels are hit on the first one.
   void Test(const SweepRegion& region, const OpenQuestions& open) {
     TilePicture& tile = TileAt(region.x0, region.y0);
     const double depth_mm = space_.DepthMmOf(region.first_plane);

@@ -21,8 +21,8 @@ struct PlaneSweepOptions {
   // of n x n positions (the paper: 5), bilinear between them: faster for each point, and off by the grid's
   // error.
   int undistortion_grid = 0;
-  // CPU alone. False: the plain sweep, bounded to tiles of pixels that may show hull and ended where all of a
-  // tile's are hit, but with every plane asked point by point. The same picture, as yardstick.
+  // CPU only. False: the plain sweep, for comparison. It leaves out tiles that show no hull and ends a tile
+  // when all its pixels are hit, but asks every plane point by point. The picture is the same.
   bool settles_regions = true;
 
   // Throws: PreconditionError naming the field out of range.
@@ -44,12 +44,12 @@ struct SweptView {
 // The sweep on the CPU (docs/plane_sweep.md; paper, "Volume-Querying"): for every pixel the depth of the
 // first plane on which the ray's point is object in every camera, by the rig's `unseen` policy, and in the
 // workspace; 0 where there is none. Labels are the soft masks' (recon/paper_methods/coverage_texture.h);
-// where rounding decides, within docs/plane_sweep.md's band, either answer may come (plane_sweep_test holds
-// it to an oracle). Planes and pixels that no answer can come from are skipped; the result doesn't depend on
-// that nor on the number of threads. A hull thinner than the spacing can be missed. `rays` are those of
-// `view`'s lens; make them once for a lens that moves. Throws: core::Error{kCamera} naming the camera when a
-// mask's size isn't the camera's; Error{kRange} for more than 64 cameras or 100,000 planes; PreconditionError
-// for options out of range or not one mask a camera.
+// where rounding decides, within docs/plane_sweep.md's band, either answer is possible (plane_sweep_test
+// holds it to an oracle). Planes and pixels that can't change the answer are skipped; the result doesn't
+// depend on that nor on the number of threads. A hull thinner than the spacing can be missed. `rays` are
+// those of `view`'s lens; make them once for a lens whose pose changes. Throws: core::Error{kCamera} naming
+// the camera when a mask's size isn't the camera's; Error{kRange} for more than 64 cameras or 100,000 planes;
+// PreconditionError for options out of range or not one mask a camera.
 [[nodiscard]] SweptView SweepPlanes(const core::Rig& rig, std::span<const core::SoftMask> masks,
                                     const core::CameraModel& view, const SweepRays& rays,
                                     const PlaneSweepOptions& options = {});

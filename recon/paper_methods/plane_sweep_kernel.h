@@ -20,7 +20,7 @@ struct SweepAsker {
   SweepLensCoefficients coefficients;
   float fx = 0.0F, skew = 0.0F, cx = 0.0F, fy = 0.0F, cy = 0.0F;
   std::array<float, 2> valid_min{}, valid_max{};      // CoverageTexture::valid_px
-  std::array<float, 2> picture_min{}, picture_max{};  // where it sees
+  std::array<float, 2> picture_min{}, picture_max{};  // where the camera sees
   bool exterior_is_object = false;
   const std::uint8_t* texels = nullptr;
   std::int32_t stride = 0;
@@ -32,7 +32,8 @@ struct SweepBox {
   std::array<float, 3> min{}, max{};
 };
 
-// One float a pixel, 1 or 0: not hit yet and object to all asked so far; seen by one of them.
+// 1 or 0 for each pixel. open: it isn't hit yet, and its point is object to all cameras asked so far. seen:
+// one of these cameras sees the point.
 struct SweepMarks {
   alignas(64) std::array<float, kSweepTilePixels> open{};
   alignas(64) std::array<float, kSweepTilePixels> seen{};

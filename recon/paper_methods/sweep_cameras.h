@@ -1,4 +1,4 @@
-// A rig's cameras with their silhouettes as textures: what the paper's volume query is asked of.
+// A rig's cameras with their silhouettes as textures, for the paper's volume query.
 #pragma once
 
 #include <array>
@@ -35,9 +35,10 @@ struct SweepLensCoefficients {
 // Throws: PreconditionError unless it is 0 or 2 to 1024.
 void RequireUndistortionGrid(int undistortion_grid);
 
-// One a camera of the rig, the emptiest silhouette first. `undistortion_grid` as PlaneSweepOptions'. Throws:
-// core::Error{kCamera} naming the camera when a mask's size isn't the camera's; Error{kRange} for more than
-// 64 cameras; PreconditionError unless there is one mask a camera, or for the grid.
+// One for each camera of the rig, sorted by the size of the coverage texture, the smallest first.
+// `undistortion_grid` as PlaneSweepOptions'. Throws: core::Error{kCamera} naming the camera when a mask's
+// size isn't the camera's; Error{kRange} for more than 64 cameras; PreconditionError unless there is one mask
+// a camera, or for the grid.
 [[nodiscard]] std::vector<SweepCamera> MakeSweepCameras(const core::Rig& rig,
                                                         std::span<const core::SoftMask> masks,
                                                         const core::RigidTransform& world_from_view,

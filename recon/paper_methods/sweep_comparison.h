@@ -12,13 +12,13 @@ namespace elbowroom::recon {
 
 struct SweepComparison {
   std::int64_t differing_pixels = 0;
-  std::int64_t unexplained_pixels = 0;  // of those: no camera's label there is a matter of rounding
+  std::int64_t unexplained_pixels = 0;  // of those: no label there is a matter of rounding
 };
 
-// Where one sweep sees a surface and the other none, or a farther one, some camera's coverage at that point
-// must be within 4/256 and a few roundings of one half (docs/plane_sweep.md, "Rounding"), or the point at the
-// border of its picture or of the workspace. For rigs at ordinary distances: positions are taken to be good
-// to 0.01 px. Throws: PreconditionError when sizes differ.
+// A difference is explained if rounding decides the label of the nearer surface's point: some camera's
+// coverage there is within 4/256 and a few roundings of one half (docs/plane_sweep.md, "Rounding"), or the
+// point is at the border of its picture or of the workspace. For rigs at ordinary distances: positions are
+// taken to be good to 0.01 px. Throws: PreconditionError when sizes differ.
 [[nodiscard]] SweepComparison CompareSweeps(const core::Rig& rig, std::span<const core::SoftMask> masks,
                                             const core::CameraModel& view, const DepthMap& a,
                                             const DepthMap& b);

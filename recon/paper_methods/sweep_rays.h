@@ -31,8 +31,9 @@ class SweepRays {
   [[nodiscard]] int height_px() const { return height_px_; }
   [[nodiscard]] bool is_ideal() const { return normalised_.empty(); }
 
-  // Encloses the rays of all pixels [x0, x1) x [y0, y1); empty when there are none. Multiples of kSweepTilePx
-  // (the upper ends may lie beyond the picture).
+  // Encloses the rays of all pixels [x0, x1) x [y0, y1); empty when there are none. x0 and y0 are multiples
+  // of kSweepTilePx, and so are x1 and y1, which may lie beyond the picture, unless they are the picture's
+  // size.
   [[nodiscard]] Eigen::AlignedBox2d BoundsOf(int x0, int y0, int x1, int y1) const;
 
   // The tile whose first pixel is (x0, y0), multiples of kSweepTilePx.

@@ -1,4 +1,5 @@
-// What CPU and OpenGL plane sweep share: cameras, planes, and which regions can't hold any hull.
+// What the plane sweeps on the CPU and in OpenGL share: cameras, planes, and which regions can't hold any
+// hull.
 #pragma once
 
 #include <Eigen/Core>
@@ -36,7 +37,7 @@ class SweepSpace {
              const SweepRays& rays, const PlaneSweepOptions& options);
 
   [[nodiscard]] const SweepRays& rays() const { return rays_; }
-  // The emptiest first.
+  // In the order of MakeSweepCameras.
   [[nodiscard]] std::span<const SweepCamera> cameras() const { return cameras_; }
   [[nodiscard]] bool exterior_is_object() const { return exterior_is_object_; }
   [[nodiscard]] const core::RigidTransform& world_from_view() const { return world_from_view_; }
@@ -49,7 +50,8 @@ class SweepSpace {
 
   [[nodiscard]] OpenQuestions AllQuestions() const;
 
-  // Less is open in a smaller region; nothing where no point of it is in the hull.
+  // What is still to be asked of a region, given what is `open` of a region around it. Nothing if no point of
+  // the region is in the hull.
   [[nodiscard]] std::optional<OpenQuestions> Narrow(const SweepRegion& region,
                                                     const OpenQuestions& open) const;
 

@@ -24,12 +24,11 @@ struct TriangleViewportOptions {
 
 // A triangle seen along its normal, stretched until it fills a viewport: its base lies on the lower border
 // from corner to corner, its apex on the upper border. Viewport positions: x to the right, y up, from the
-// lower left corner; a pixel's centre is half a pixel from its lower left.
-//
-// Base is the side that makes the coarser step finest, of those above which the apex stands. The apex' column
-// is rounded to an odd sixteenth of a pixel: every OpenGL rasterises from such a place exactly and no pixel's
-// centre is on an edge, so that all implementations cover the same pixels (docs/paper_collision.md). Corners
-// keep their places in space, whatever is rounded in the viewport.
+// lower left corner; a pixel's centre is half a pixel from its lower left. The base is the side for which the
+// larger of a pixel's width and height on the triangle is smallest, among the sides above which the apex
+// stands. The apex' column is rounded to an odd sixteenth of a pixel: every OpenGL rasterises from such a
+// place exactly and no pixel's centre is on an edge, so that all implementations cover the same pixels
+// (docs/paper_collision.md). Corners keep their places in space, whatever is rounded in the viewport.
 class TriangleViewport {
  public:
   // Corners in any one frame; triangles without area are sampled all the same.
@@ -86,15 +85,15 @@ struct SampledContacts {
   ViewportWork work;
 };
 
-// All but the contacts and what is read back.
+// Counts samples and work: all but the contacts and what is read back.
 [[nodiscard]] SampledContacts CountSamples(std::span<const TriangleViewport> viewports, std::size_t cameras,
                                            const TriangleViewportOptions& options);
 
 // Which samples of the part are in the hull, on the CPU, in double precision; the same samples as
-// gl::TriangleViewportsGl's (triangle_viewports_test holds it to an oracle). No sample is skipped, but a
-// camera is asked only of what the others didn't refuse; nothing is read back. Doesn't depend on the number
-// of threads. A contact between samples is missed, and so is a part in or around which the hull touches no
-// face. Throws: PreconditionError for options out of range.
+// gl::TriangleViewportsGl's (triangle_viewports_test holds it to an oracle). Every sample is asked of one
+// camera after the other, until one says background; nothing is read back. The result doesn't depend on the
+// number of threads. A contact between samples is missed, and so is a hull inside a part that touches none of
+// its faces. Throws: PreconditionError for options out of range.
 [[nodiscard]] SampledContacts SampleTriangles(const CoverageHull& hull, const core::TriangleMesh& part,
                                               const core::RigidTransform& world_from_part,
                                               const TriangleViewportOptions& options = {});

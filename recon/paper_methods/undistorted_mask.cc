@@ -103,7 +103,7 @@ core::SoftMask SoftMaskOf(const Coverage& coverage) {
   return soft;
 }
 
-// Half a level up is object, as the threshold has it.
+// A rounded value is at least 128 exactly if the value reaches the threshold of object.
 std::uint8_t ByteOf(double value) {
   return static_cast<std::uint8_t>(value >= kThreshold ? std::max(128.0, std::round(value))
                                                        : std::min(127.0, std::round(value)));

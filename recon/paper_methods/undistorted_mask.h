@@ -8,15 +8,15 @@ namespace elbowroom::recon {
 
 // What an ideal camera at the same place would have seen.
 struct UndistortedMask {
-  core::CameraModel camera;  // no distortion; as wide as the real one's view, its focal length (see below)
+  core::CameraModel camera;  // no distortion; the real one's view and focal length, but see below
   core::SoftMask mask;
 };
 
-// The positions where `grid` x `grid` places of the straight picture fall in the real one are computed with
-// the lens; between them they are interpolated bilinearly, and the mask there too. Off by the grid's error
+// `grid` x `grid` places of the undistorted picture are projected into the real one with the lens. Positions
+// between them are interpolated bilinearly, and so is the mask at these positions. Off by the grid's error
 // and by the resampling (about a tenth of a pixel at corners of the boundary). Places that the real picture
-// doesn't show are object if `exterior_is_object`. A picture that would be more than twice as large is made
-// coarser. Throws: PreconditionError for grid < 2.
+// doesn't show are object if `exterior_is_object`. A picture that would be more than twice as wide or high is
+// made coarser. Throws: PreconditionError for grid < 2.
 [[nodiscard]] UndistortedMask Undistort(const core::CameraModel& camera, const core::SoftMask& mask, int grid,
                                         bool exterior_is_object);
 

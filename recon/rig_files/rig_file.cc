@@ -64,7 +64,7 @@ void ReadLens(const YamlSection& section, core::CameraCalibration* calibration) 
   calibration->distortion_coefficients = section.Numbers("distortion_coefficients", 1, 0, "a 1 x N matrix");
 }
 
-// `count` lengths, each within what a file may say.
+// `count` lengths, each of at most core::kLongestLengthMm.
 std::vector<double> Lengths(const YamlSection& section, const char* key, int rows, std::size_t count,
                             const char* shape, ErrorKind kind) {
   std::vector<double> lengths_mm = section.Numbers(key, rows, count, shape);
@@ -92,7 +92,7 @@ core::CameraModel ReadCamera(const YamlSection& section, const std::string& name
   try {
     return core::CameraModel(std::move(calibration));
   } catch (const Error& error) {
-    YamlSection{section.node, section.file}.Fail(error.what(), error.kind());  // it names the camera
+    YamlSection{section.node, section.file}.Fail(error.what(), error.kind());  // the message names the camera
   }
 }
 
@@ -151,7 +151,7 @@ bool ReadIsOrthographic(const YamlSection& section) {
   return text == "orthographic";
 }
 
-// A picture that the program makes, and so holds whole, with a ray a pixel.
+// The program draws this picture with one ray a pixel and holds all of it in memory.
 void RequireModestPicture(const YamlSection& section, const core::CameraModel& camera) {
   constexpr std::int64_t kMostPixels = 40'000'000;  // 8K has 33 million
   if (std::int64_t{camera.width_px()} * camera.height_px() <= kMostPixels) return;

@@ -24,10 +24,10 @@ struct RigFile {
   std::vector<CameraSources> sources;  // one a camera
 };
 
-// Matrices may be !!opencv-matrix, a flat list, or a list of rows.
-// Throws: Error{kFile} if it can't be read, Error{kFormat} for a missing or wrong key, Error{kCamera} for a
-// camera that can't be (singular matrix, no rotation, wrong number of coefficients); all name the file, the
-// camera and the key.
+// Matrices may be !!opencv-matrix, a flat list, or a list of rows. Throws: Error{kFile} if it can't be read,
+// Error{kFormat} for a missing or wrong key, Error{kRange} for a workspace that is empty or too large,
+// Error{kCamera} for a camera that can't exist (singular matrix, no rotation, wrong number of coefficients).
+// All name the file, and the camera and the key where there is one.
 [[nodiscard]] RigFile ReadRigFile(const std::filesystem::path& path);
 
 // What VIEW.yml says.
@@ -37,13 +37,14 @@ struct ViewFile {
   bool is_orthographic = false;
 };
 
-// One camera: its keys at the top level, below `camera`, or the only element of `cameras`; beside them
-// `projection`: "perspective" (default) or "orthographic", which takes no distortion and may do without its
-// keys. Throws: as above.
+// Reads one camera. Its keys stand at the top level, below `camera`, or in the only element of `cameras`.
+// Beside them may stand `projection`: "perspective" (default) or "orthographic". An orthographic camera has
+// no distortion, and the keys for it may be absent. Throws: as ReadRigFile; Error{kFormat} also for a picture
+// of more than 40 million pixels.
 [[nodiscard]] ViewFile ReadViewFile(const std::filesystem::path& path);
 
-// Whole or not at all; every number reads back exactly. Sources below the file's folder become relative to
-// it. Throws: Error{kFile}; PreconditionError unless there is one entry in `sources` a camera.
+// Writes the whole file or nothing; every number reads back exactly. Sources below the file's folder become
+// relative to it. Throws: Error{kFile}; PreconditionError unless `sources` has one entry a camera.
 void WriteRigFile(const RigFile& rig_file, const std::filesystem::path& path);
 
 }  // namespace elbowroom::recon

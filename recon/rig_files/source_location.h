@@ -17,7 +17,7 @@ enum class SourceKind {
 
 [[nodiscard]] SourceKind KindOf(const std::string& location);
 
-// Files become absolute, relative to `folder`; devices, URLs and "" stay as they are.
+// Paths that are relative are taken from `folder`; absolute paths, devices, URLs and "" stay.
 [[nodiscard]] std::string ResolvedLocation(const std::string& location, const std::filesystem::path& folder);
 
 // The reverse: files below `folder` become relative to it.

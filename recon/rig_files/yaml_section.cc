@@ -22,7 +22,7 @@ bool AppendNumbers(const YamlNode& node, std::vector<double>& numbers) {
          std::ranges::all_of(node.items, [&](const YamlNode& item) { return AppendNumbers(item, numbers); });
 }
 
-// What an !!opencv-matrix says of its size; -1: nothing.
+// The size that an !!opencv-matrix declares; -1 if it declares none.
 std::int64_t Declared(const YamlNode& matrix, std::string_view size) {
   const YamlNode* node = matrix.Find(size);
   return node != nullptr && node->kind == YamlKind::kInteger ? static_cast<std::int64_t>(node->number) : -1;

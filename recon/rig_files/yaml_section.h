@@ -1,4 +1,4 @@
-// A map of a YAML file, with everything needed to complain about it: file, line, key, what to do.
+// A map of a YAML file, with what its error messages need: file, line and title.
 #pragma once
 
 #include <cstddef>
@@ -28,20 +28,21 @@ struct YamlSection {
   [[nodiscard]] std::string TextOr(const char* key, const std::string& otherwise) const;
   [[nodiscard]] int Integer(const char* key, const char* shape) const;
 
-  // `count` numbers, or any count for 0, of a list, a list of lists, or an !!opencv-matrix; the last must
-  // have `rows` rows or columns where rows > 0.
+  // `count` numbers (0: any count) of a list, a list of lists, or an !!opencv-matrix. If rows > 0, a matrix
+  // must have `rows` rows or `rows` columns.
   [[nodiscard]] std::vector<double> Numbers(const char* key, int rows, std::size_t count,
                                             const char* shape) const;
 
-  // An unknown key is nobody's business unless it looks like a slip: `unsen` would change the hull unseen.
+  // Throws for an unknown key that resembles a known one: with `unsen` the hull would follow another policy
+  // than the file's author meant. Other unknown keys are ignored.
   void RefuseMisspelt(std::span<const std::string_view> known) const;
 
  private:
   [[noreturn]] void FailAt(int line, const std::string& what, core::ErrorKind kind) const;
 };
 
-// The file's text as a map. `who` begins the messages, `what` names its kind in them.
-// Throws: Error{kFile} if it can't be read, Error{kFormat} if it isn't such YAML.
+// The file's text as a map. `who` begins the messages, `what` names the kind of file in them. Throws:
+// Error{kFile} if it can't be read, Error{kFormat} if it isn't such YAML.
 [[nodiscard]] YamlNode ReadYamlFile(const std::filesystem::path& path, const std::string& who,
                                     std::string_view what);
 

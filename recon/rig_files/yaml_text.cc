@@ -109,7 +109,7 @@ class YamlParser {
     }
   }
 
-  // A value that begins here, in a block: what belongs to it stands at `column` or farther right.
+  // Reads a value that begins here, in a block: all of it stands at `column` or farther right.
   YamlNode Value(int column, int depth) {
     YamlNode node = Begin(depth);
     const bool is_text = SkipTag();
@@ -137,7 +137,7 @@ class YamlParser {
     return node;
   }
 
-  // "!!opencv-matrix" and the space after it; whether it says that a text follows.
+  // Skips a tag such as "!!opencv-matrix" and the space after it. True if the tag says that a text follows.
   bool SkipTag() {
     if (Peek() != '!') return false;
     const std::size_t begin = at_;
@@ -209,7 +209,7 @@ class YamlParser {
       Fail("indented more than its neighbours; indent keys of one map alike");
   }
 
-  // Up to the colon.
+  // Reads a key, up to its colon.
   void AddKey(YamlNode& node, std::unordered_set<std::string>& seen, std::size_t end) {
     std::string key(text_.substr(at_, end - at_));
     key.erase(key.find_last_not_of(' ') + 1);
@@ -222,7 +222,7 @@ class YamlParser {
     at_ = end;
   }
 
-  // "[ 1, 2 ]" and "{ a: 1 }", over as many lines as they like.
+  // Reads "[ 1, 2 ]" or "{ a: 1 }", over any number of lines.
   void Flow(YamlNode& node, int depth) {
     const bool is_map = Peek() == '{';
     const char close = is_map ? '}' : ']';
@@ -290,7 +290,7 @@ class YamlParser {
     if (!core::IsPlain(text)) Fail("characters that are no text; the file is damaged, or not UTF-8");
   }
 
-  // The byte here, which a quoted text can't be without.
+  // The next byte of a quoted text. If the line ends here, the quote isn't closed.
   char TakeQuoted() {
     if (AtEnd() || IsBreak(Peek())) Fail("a quote isn't closed; close it in the same line");
     return text_[at_++];

@@ -1,4 +1,5 @@
-// The YAML of RIG.yml, VIEW.yml and pose files: what OpenCV's FileStorage writes, and people after it.
+// The YAML of RIG.yml, VIEW.yml and pose files: what OpenCV's FileStorage writes, and what people write in
+// the same form.
 #pragma once
 
 #include <string>
@@ -23,10 +24,10 @@ struct YamlNode {
   [[nodiscard]] const YamlNode* Find(std::string_view key) const;
 };
 
-// The map that a document is: %YAML:1.0, block and flow lists and maps, quoted and plain scalars, comments;
-// tags such as !!opencv-matrix are passed over. Not: anchors, texts of several lines, complex keys, base64.
-// `who` begins the messages. Nested at most 64 deep, of at most 200,000 values: what is beyond is damage.
-// Throws: Error{kFormat} with the line.
+// Reads a document, which must be a map. It may hold %YAML:1.0, block and flow lists and maps, quoted and
+// plain scalars, and comments; tags such as !!opencv-matrix are passed over. Not supported are anchors, texts
+// of several lines, complex keys and base64. `who` begins the messages. Throws: Error{kFormat}, with the line
+// if the file is YAML at all; also for a document nested more than 64 deep or of more than 200,000 values.
 [[nodiscard]] YamlNode ParseYaml(std::string_view text, const std::string& who);
 
 }  // namespace elbowroom::recon

@@ -63,7 +63,8 @@ class Locating {
         // Not cleared, since only those of known pixels are read.
         levels_(std::make_unique_for_overwrite<std::uint8_t[]>(detected.words().size() * 64)) {}
 
-  // Measures those of `boundary` that aren't known yet; may_move: and labels them by it.
+  // Measures the pixels of `boundary` that aren't known yet. With may_move it also labels them by their
+  // coverage.
   void Measure(const core::BitMask& boundary, bool may_move);
 
   [[nodiscard]] const core::BitMask& mask() const { return mask_; }
@@ -84,7 +85,7 @@ class Locating {
 };
 
 void Locating::Measure(const core::BitMask& boundary, bool may_move) {
-  constexpr std::uint8_t kHalfwayInside = 191, kHalfwayOutside = 64;  // where coverage can't be had
+  constexpr std::uint8_t kHalfwayInside = 191, kHalfwayOutside = 64;  // where coverage isn't known
   places_.clear();
   ForEachPixel(boundary, &known_, rows_, [&](int x, int y) { places_.push_back({x, y}); });
   coverages_.resize(places_.size());
@@ -119,7 +120,8 @@ core::SoftMask LocateBoundary(const core::BitMask& detected, const cv::Mat& imag
                               const cv::Mat& packed_mean, double least_contrast_levels) {
   const CoverageEstimator estimator(detected, image_bgr, packed_mean, least_contrast_levels);
   Locating locating(detected, estimator);
-  // First what was detected along the boundary: thresholds err outwards. Then both sides of where that leads.
+  // The first round measures only object pixels along the boundary, since thresholds err outwards. The next
+  // one measures both sides of the boundary that results.
   core::BitMask boundary = core::BoundaryPixels(detected);
   for (std::size_t i = 0; i < boundary.words().size(); ++i) boundary.words()[i] &= detected.words()[i];
   for (int round = 0; round < kRounds; ++round) {

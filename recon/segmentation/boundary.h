@@ -8,13 +8,13 @@
 
 namespace elbowroom::recon {
 
-// `detected` with its boundary moved to where half of a pixel is object (by two pixels at most), and how far
-// inside or outside of it the pixels along it are. A pixel's share of object is
-// alpha = (I - gB).(O - gB) / |O - gB|^2, its colour O and the background's light g taken a few pixels
-// inwards and outwards; the boundary is placed by the sum of alpha across it, which doesn't depend on how the
-// lens blurs (docs/segmentation.md, tests/recon/segmentation/boundary_test.cc). Where object and background
-// differ by less than `least_contrast_levels` the detected boundary stays, halfway between the pixels. Thin
-// objects stay at least a pixel wide. `packed_mean`: the background, as PackedMean
+// Moves the boundary of `detected` to where half of a pixel is object (by two pixels at most), and gives each
+// pixel along it a level: how far inside or outside of the boundary it is. A pixel's share of object is alpha
+// = (I - gB).(O - gB) / |O - gB|^2; the object's colour O is taken a few pixels inwards, the background's
+// light g a few pixels outwards. The boundary is placed by the sum of alpha across it, which doesn't depend
+// on how the lens blurs (docs/segmentation.md, tests/recon/segmentation/boundary_test.cc). Where object and
+// background differ by less than `least_contrast_levels` the detected boundary stays, halfway between the
+// pixels. Thin objects stay at least a pixel wide. `packed_mean`: the background, as PackedMean
 // (recon/segmentation/coverage.h). Throws: PreconditionError unless CV_8UC3 and CV_32SC1 of the mask's size.
 [[nodiscard]] core::SoftMask LocateBoundary(const core::BitMask& detected, const cv::Mat& image_bgr,
                                             const cv::Mat& packed_mean, double least_contrast_levels);

@@ -11,7 +11,7 @@
 namespace elbowroom::recon {
 namespace {
 
-// In bytes, so that a table of all stays near.
+// In bytes, so that the table of all steps stays small.
 struct Offset {
   std::int8_t x = 0, y = 0;
   bool operator==(const Offset&) const = default;
@@ -94,7 +94,7 @@ Direction Inwards(const core::BitMask& mask, int x, int y) {
   const auto first = static_cast<unsigned>(x - 2), last = first + 4;
   const unsigned shift = first & 63U;
   const std::uint64_t* low = row_at(y - 2) + (first >> 6U);
-  const std::uint64_t* high = row_at(y - 2) + (last >> 6U);  // the same word but at its end
+  const std::uint64_t* high = row_at(y - 2) + (last >> 6U);  // the same word, or the next one
   for (int dy = -2; dy <= 2; ++dy, low += per_row, high += per_row)
     add(static_cast<unsigned>((*low >> shift) | (*high << 1U << (63U - shift))) & 31U, dy);
   return gradient;
@@ -174,11 +174,14 @@ void CoverageEstimator::Read(PixelPlace place, std::size_t i, CoverageSamples* s
     pair->image[i] = Image(at), pair->mean[i] = Mean(at);
   };
   read(place, &samples->here);
-  // Across the boundary: along the axis that it is steeper to. Past the picture's edge it goes on as here.
+  // The neighbours across the boundary, along the row or column that crosses it more steeply. Past the
+  // picture's edge the pixel itself is taken.
   const PixelPlace before = MovedBack(place, steps.axis), after = Moved(place, steps.axis);
   read(IsPixel(before) ? before : place, &samples->before);
   read(IsPixel(after) ? after : place, &samples->after);
-  // Bits of what is kept, since a branch would often be mispredicted.
+  // The light is measured at two background pixels outwards. `kept` is all ones as long as they are
+  // background pixels of the picture, and zero, which makes them black, from the first that isn't; without a
+  // direction it is zero from the start. It is a mask, since a branch would often be mispredicted.
   std::uint32_t kept = steps.to[1] == Offset{} ? 0 : ~std::uint32_t{0};
   for (std::size_t k = 0; k < 2; ++k) {
     const PixelPlace outwards = MovedBack(place, steps.to[k + 1]);

@@ -32,7 +32,7 @@ class CoverageEstimator {
   CoverageEstimator(const core::BitMask& detected, const cv::Mat& image_bgr, const cv::Mat& packed_mean,
                     double least_contrast_levels);
 
-  // One coverage a place, in batches: first all that is read, then all that is reckoned.
+  // One coverage a place. Works in batches: first a batch's pixels are read, then its levels are reckoned.
   void Estimate(std::span<const PixelPlace> places, std::span<Coverage> coverages) const;
 
  private:

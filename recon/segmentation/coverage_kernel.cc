@@ -106,7 +106,9 @@ void Reckon(const CoverageSamples& samples, float least_contrast2, std::size_t c
     // says where the edge is, however the lens spreads it: 1.5 if it goes through the pixel's centre.
     const V sum_px = hn::Sub(sum, hn::Set(d, 1.5F));
     const auto is_object = hn::Ge(alpha, half);
-    // Both sides fall off (or rise): a line a pixel wide, half of it on either side of the centre.
+    // If the pixel says object and the sum doesn't (or the reverse), alpha falls off (or rises) to both
+    // sides: a line a pixel wide, half of it on either side of the centre. Its edge follows from the pixel's
+    // own share.
     const auto is_line = hn::Xor(is_object, hn::Gt(sum_px, zero));
     const V inside_px = hn::IfThenElse(is_line, hn::Sub(alpha, half), sum_px);
     const auto is_known = hn::And(is_positive, hn::Ge(contrast2, hn::Set(d, least_contrast2)));

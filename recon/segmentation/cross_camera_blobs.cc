@@ -56,7 +56,8 @@ class TileSums {
   std::vector<std::uint32_t> sums_;
 };
 
-// Which of a picture's tiles some of many rectangles cover: their corners first, then sums.
+// Which of a picture's tiles are covered by some of many rectangles. Add() marks a rectangle's corners; Sum()
+// turns the marks into counts a tile.
 class TileCover {
  public:
   TileCover(int width_px, int height_px)
@@ -69,7 +70,7 @@ class TileCover {
     --counts_[Index(x0, y1)], ++counts_[Index(x1, y1)];
   }
 
-  // Once, after all of them.
+  // Called once, after all rectangles are added.
   void Sum() {
     const auto across = static_cast<std::size_t>(across_);
     for (std::size_t row = 0; row < counts_.size(); row += across)
@@ -99,14 +100,16 @@ CrossCameraBlobs::TileBox CrossCameraBlobs::BoxOf(const core::CameraModel& camer
   const Eigen::Vector3d x_in_cam = camera.cam_from_world() * center_in_world;
   const double z = x_in_cam.z(), rho = camera.max_radius();
   if (z <= -radius_mm) return {};
-  // Out of the cone that the lens sees.
+  // The ball lies outside of the cone that the lens sees.
   const double beside = x_in_cam.head<2>().norm() - rho * z;
   if (beside > radius_mm * std::sqrt(1.0 + rho * rho)) return {};
   const auto pixel = camera.ProjectInCam(x_in_cam);
   if (!pixel || z <= radius_mm) return everywhere;
+  // In the normalised plane every point of the ball falls within `spread` of its centre (derived for
+  // RadiusOfReach in recon/hull/camera_query.cc), and the lens stretches that by PixelStretch at most.
   const double spread = radius_mm * x_in_cam.norm() / (z * (z - radius_mm));
   const double spread_px = camera.PixelStretch(x_in_cam.head<2>().norm() / z + spread) * spread + kRoundingPx;
-  // Where pixel (x, y) covers [x - 1/2, x + 1/2), the cell's pixels are [low, high].
+  // Pixel x covers [x - 1/2, x + 1/2). The cell's pixels are x0 to x1 and y0 to y1.
   const auto pixel_of = [](double position_px, int length_px) {
     return static_cast<int>(std::clamp(std::floor(position_px + 0.5), -1.0, static_cast<double>(length_px)));
   };

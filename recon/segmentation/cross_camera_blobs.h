@@ -18,24 +18,24 @@ struct ConfirmedBlobs {
   std::vector<bool> is_confirmed;  // one a region
 };
 
-// Which blobs of a rig's masks can't be part of the hull. The workspace is cut into cells, and each
-// cell knows the rectangle of 16 x 16 pixel tiles that it can project into in every camera (certified, from
-// the ball around it). A cell is confirmed when every camera that has a say shows object in its rectangle; a
-// blob that lies in no confirmed cell's rectangle has no point in the hull, so the hull is the same without
+// Which blobs of a rig's masks can't be part of the hull. The workspace is cut into cells, and each cell
+// knows the rectangle of 16 x 16 pixel tiles that it can project into in every camera (certified, from the
+// ball around it). A cell is confirmed when every camera that can rule it out shows object in its rectangle;
+// a blob that lies in no confirmed cell's rectangle has no point in the hull, so the hull is the same without
 // it (tests/recon/segmentation/cross_camera_blobs_test.cc). Immutable. Thread: any.
 class CrossCameraBlobs {
  public:
   explicit CrossCameraBlobs(const core::Rig& rig);
 
-  // One a camera. All are confirmed where no cell is: then nothing can be told apart. Throws:
-  // PreconditionError unless there is one mask a camera, of its size.
+  // One a camera. If no cell is confirmed, all blobs count as confirmed, since they can't be told apart.
+  // Throws: PreconditionError unless there is one mask a camera, of its size.
   [[nodiscard]] std::vector<ConfirmedBlobs> Confirm(std::span<const core::BitMask* const> masks) const;
 
  private:
   // Tiles [x0, x1) x [y0, y1); empty where the camera sees nothing of the cell.
   struct TileBox {
     std::int16_t x0 = 0, y0 = 0, x1 = 0, y1 = 0;
-    bool has_say = true;  // showing nothing in these tiles, the camera rules the cell out
+    bool has_say = true;  // if it shows no object in these tiles, the camera rules the cell out
   };
   struct Picture {
     int width_px = 0, height_px = 0;

@@ -44,7 +44,8 @@ namespace HWY_NAMESPACE {  // NOLINT(google-build-namespaces)
 namespace hn = hwy::HWY_NAMESPACE;
 
 constexpr std::size_t kWordBytes = 192;  // of 64 pixels
-// What of a cell's rows but the first is looked at: whole pixels 22 to 41, which one vector holds.
+// The bytes that are looked at in all rows of a cell but the first. They hold pixels 22 to 41 wholly, and fit
+// one vector of 64 bytes.
 constexpr std::size_t kLookFrom = 64, kLookTo = 128;
 
 // ORs the three bits of each of 16 pixels and closes the gaps.
@@ -121,8 +122,8 @@ HWY_INLINE hn::Vec<DF> FloatsOf(DF df, hn::Vec<hn::Rebind<std::uint8_t, DF>> lev
   return hn::ConvertTo(df, hn::PromoteTo(hn::Rebind<std::int32_t, DF>(), levels));
 }
 
-// Bit i: pixel i of 64 is shade. Sums of products of whole levels; no contraction to fused multiply-add, so
-// that every target rounds alike.
+// Bit i: pixel i of 64 is shade; pixels that aren't candidates needn't be decided. No contraction to fused
+// multiply-add, so that every target rounds alike.
 HWY_INLINE std::uint64_t Shade(std::uint64_t candidates, const std::uint8_t* image, const float* mean,
                                const ShadeRule& rule) {
   const hn::CappedTag<float, 64> df;
@@ -168,7 +169,7 @@ HWY_NOINLINE std::uint64_t ShadeAtEnd(std::uint64_t candidates, const std::uint8
   return Shade(candidates, levels, means, rule);
 }
 
-// The 64 pixels (or `count` of them) from `image` on.
+// Bit i: pixel i of the 64 (or `count`) from `image` on differs, and isn't shade.
 HWY_INLINE std::uint64_t DifferingWord(const std::uint8_t* image, const std::uint8_t* shared_lowest,
                                        std::int16_t shared_width, const std::uint8_t* ranges,
                                        const float* mean, const ShadeRule* shade, std::size_t count) {
@@ -186,8 +187,9 @@ HWY_INLINE std::uint64_t DifferingWord(const std::uint8_t* image, const std::uin
          ~(count == 64 ? Shade(bits, image, mean, *shade) : ShadeAtEnd(bits, image, mean, count, *shade));
 }
 
-// Bit w: of the cell of word w, which has all of its pixels, one that is looked at has a channel outside of
-// its range. Row after row: what is read in order is read ahead.
+// Sets bit w if a pixel that is looked at in the cell of word w has a channel outside of its range. Cells at
+// the end of a row that have fewer than 64 columns are left out. Goes row after row, since the processor
+// prefetches what is read in order.
 void LookAtCells(const RowGroup& rows, std::size_t width, std::uint64_t* bits) {
   const auto look = [&](std::size_t row, std::size_t begin, std::size_t end) HWY_ATTR {
     for (std::size_t word = 0; word < width / 64; ++word) {
@@ -202,7 +204,7 @@ void LookAtCells(const RowGroup& rows, std::size_t width, std::uint64_t* bits) {
   for (std::size_t row = 1; row < rows.count; ++row) look(row, kLookFrom, kLookTo);
 }
 
-// Writes a cell's pixels; whether there are any.
+// Writes a cell's differing pixels; true if there are any.
 bool DifferInCell(const RowGroup& rows, std::size_t word, std::size_t width, const ShadeRule* shade) {
   const std::size_t x = word * 64, count = std::min<std::size_t>(64, width - x);
   std::uint64_t any = 0;
@@ -228,7 +230,9 @@ namespace {
 HWY_EXPORT(LookAtCells);
 HWY_EXPORT(DifferInCell);
 
-// Between the pixels that are looked at: rows 1 to 3 of a cell, from pixel 42 to pixel 21 of the next one.
+// The pixels between those that are looked at: rows 1 to 3 of a cell, from pixel 42 to pixel 21 of the next
+// one. A region that holds no pixel that is looked at lies within such a gap, so it has at most kMostUnseenPx
+// pixels.
 constexpr int kUnseenOfRowPx = 64 - 20;
 constexpr int kMostUnseenPx = (LevelRanges::kSharingRows - 1) * kUnseenOfRowPx;
 
@@ -255,8 +259,8 @@ class DifferenceSearch {
     return std::move(mask_);
   }
 
-  // Cells of which a pixel that is looked at differs, and from there on all that adjoin one with a pixel that
-  // does.
+  // Visits the cells in which a pixel that is looked at differs, and from there on all cells that adjoin one
+  // with a differing pixel. So a region that has a pixel that is looked at is found as a whole.
   [[nodiscard]] core::BitMask Large(std::int64_t* unseen_px) && {
     is_known_.assign(static_cast<std::size_t>(down_ * across_), 0);
     const std::vector<std::uint64_t> hits = Look();
@@ -298,8 +302,8 @@ class DifferenceSearch {
 
   [[nodiscard]] std::size_t HitWords() const { return static_cast<std::size_t>(across_ + 63) / 64; }
 
-  // A row of bits for each row of cells. Strips beside each other, as reading is all that an empty table
-  // costs, and another thread may be late.
+  // A row of bits for each row of cells. Strips are looked at in parallel, since reading is all that an empty
+  // table costs. They are small, since a thread may start late.
   [[nodiscard]] std::vector<std::uint64_t> Look() {
     std::vector<std::uint64_t> hits(static_cast<std::size_t>(down_) * HitWords());
     tbb::parallel_for(
@@ -320,7 +324,7 @@ class DifferenceSearch {
       for (std::uint64_t left = hits[static_cast<std::size_t>(group) * HitWords() + i]; left != 0;
            left &= left - 1)
         Visit(rows, group, static_cast<int>(64 * i) + std::countr_zero(left));
-    if (image_bgr_.cols % 64 != 0) Visit(rows, group, across_ - 1);  // isn't looked at
+    if (image_bgr_.cols % 64 != 0) Visit(rows, group, across_ - 1);  // LookAtCells leaves it out
   }
 
   static std::int64_t UnseenOfCellPx(const RowGroup& rows) {

@@ -9,20 +9,20 @@
 
 namespace elbowroom::recon {
 
-// Shade is the background with less light: with B the background's mean and g = I.B / B.B the share of its
-// light that is left, darkest <= g < 1, and the rest I - g B, a change of colour, is shorter than
-// chroma |g B| or than noise_levels.
+// Shade is the background with less light. B is the background's mean, and g = I.B / B.B is the share of its
+// light that is left. A pixel is shade if darkest <= g < 1 and if the rest I - g B, a change of colour, is
+// shorter than chroma |g B| or than noise_levels.
 struct ShadeRule {
   float darkest = 0.0F;
   float chroma = 0.0F;
   float noise_levels = 0.0F;
 };
 
-// Pixels with a channel outside its range; those that are shade are left out if there is a rule. Of
-// 8-connected regions of fewer than `least_px` pixels some or all may be missing: the larger it is, the fewer
-// pixels have to be looked at; `unseen_px` is told how many were not. `image_bgr` (CV_8UC3, any row stride)
-// and `mean_bgr` (CV_32FC3) are of the ranges' size. AVX-512, AVX2, SSE4, SSSE3 and plain code, chosen at run
-// time, give the same bits (tests/recon/segmentation/difference_kernel_test.cc).
+// Pixels with a channel outside its range; those that are shade are left out if there is a rule. 8-connected
+// regions of fewer than `least_px` pixels may be missing, as a whole or in part: if `least_px` is above 132,
+// not all pixels have to be looked at, and `unseen_px` receives how many weren't. `image_bgr` (CV_8UC3, any
+// row stride) and `mean_bgr` (CV_32FC3) are of the ranges' size. AVX-512, AVX2, SSE4, SSSE3 and plain code,
+// chosen at run time, give the same bits (tests/recon/segmentation/difference_kernel_test.cc).
 [[nodiscard]] core::BitMask DifferingPixels(const LevelRanges& ranges, const cv::Mat& image_bgr,
                                             int least_px = 0, std::int64_t* unseen_px = nullptr);
 [[nodiscard]] core::BitMask DifferingPixels(const LevelRanges& ranges, const cv::Mat& image_bgr,

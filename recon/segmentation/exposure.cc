@@ -16,7 +16,7 @@ constexpr int kLevels = 256;
 // Levels near the ends of the range are clipped by the sensor and say nothing of the exposure.
 constexpr int kDarkestLevel = 3;
 constexpr int kBrightestLevel = 250;
-// Histograms over every pixel of (background level, picture level), one channel.
+// Counts of pixels by (background level, picture level), one channel.
 using JointHistogram = std::vector<std::uint32_t>;
 
 // One row of the joint histogram: the picture's median where the background has this level.
@@ -27,7 +27,7 @@ struct LevelPair {
 };
 
 JointHistogram JointHistogramOf(const cv::Mat& image_bgr, const cv::Mat& mean_bgr, int channel) {
-  constexpr int kPixelsEnough = 40'000;  // more make the estimate no better than its use
+  constexpr int kPixelsEnough = 40'000;  // more make the estimate better than its use needs
   const int every = std::max(1, image_bgr.rows * image_bgr.cols / kPixelsEnough);
   JointHistogram joint(static_cast<std::size_t>(kLevels * kLevels), 0);
   for (int y = 0; y < image_bgr.rows; y += every) {
@@ -102,7 +102,8 @@ Line FitMedians(const std::vector<LevelPair>& pairs) {
   return line;
 }
 
-// Refits to the pixels themselves, fewer and fewer levels around the line: what an object covers drops out.
+// Refits to the pixels themselves, within fewer and fewer levels around the line, so that pixels of an object
+// drop out.
 Line Refined(const JointHistogram& joint, Line line) {
   for (const double window_levels : {24.0, 16.0, 11.0, 8.0, 8.0, 8.0}) {
     std::vector<LevelPair> near;

@@ -13,7 +13,7 @@
 namespace elbowroom::recon {
 namespace {
 
-// A soft mask less some blobs. What stays on the boundary was on it before, with the same level.
+// A soft mask less some blobs. Pixels that stay on the boundary were on it before, with the same level.
 core::SoftMask WithoutBlobs(const core::SoftMask& soft, const Regions& regions,
                             const std::vector<bool>& keep) {
   core::SoftMask left{soft.mask, {}};
@@ -64,8 +64,8 @@ std::vector<core::SoftMask> FrameSegmenter::Masks(const FrameSet& frames, Edges 
   return masks;
 }
 
-// After the boundaries are located, which may move them outwards: what is dropped must have no point in the
-// hull of the masks as they are handed on.
+// Runs after the boundaries are located, since that may move them outwards: a dropped blob must have no point
+// in the hull of the masks that are handed on.
 void FrameSegmenter::DropUnconfirmed(const FrameSet& frames, std::vector<core::SoftMask>* masks) const {
   std::vector<const core::BitMask*> bits;
   for (const core::SoftMask& mask : *masks) bits.push_back(&mask.mask);

@@ -1,4 +1,4 @@
-// A frame set's silhouettes: ready masks as they are, pictures segmented.
+// A frame set's masks: ready ones as they are, others by segmenting the pictures.
 #pragma once
 
 #include <optional>
@@ -21,12 +21,12 @@ class FrameSegmenter {
   FrameSegmenter(const std::vector<BackgroundReference>& backgrounds, const SegmentationOptions& options,
                  const core::Rig& rig);
 
-  // One mask a camera, in parallel: the pixels detected, boundaries as the thresholds have them. Throws:
-  // PreconditionError for a picture whose camera has no background.
+  // One mask a camera: the pixels detected, with boundaries where the thresholds put them. Cameras are
+  // processed in parallel. Throws: PreconditionError for a picture whose camera has no background.
   [[nodiscard]] std::vector<core::BitMask> Segment(const FrameSet& frames) const;
 
-  // The same with boundaries located between pixels; ready masks come without levels. `stats` is told what it
-  // took over all pictures. Throws: likewise.
+  // The same with boundaries located between pixels; ready masks come without levels. `stats` grows by the
+  // counts of all pictures. Throws: likewise.
   [[nodiscard]] std::vector<core::SoftMask> SegmentSoft(const FrameSet& frames,
                                                         SegmentationStats* stats = nullptr) const;
 

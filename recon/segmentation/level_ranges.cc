@@ -56,7 +56,8 @@ void LevelRanges::Share() {
       for (int i = 0; i < kBytes; ++i) width = std::min(width, highest[i] - lowest[i]);
       shared_width_.at<std::int16_t>(group, word) =
           width < 0 ? kNoneShared : static_cast<std::int16_t>(width);
-      // In the middle of each range, as the background's levels are; what is past the row's end is zero.
+      // The shared range is placed in the middle of each range, where the background's levels are. Bytes past
+      // the row's end are zero.
       auto* shared = shared_lowest_.ptr<std::uint8_t>(group) + word * kBytes;
       const int count = std::min(kBytes, width_px_ * 3 - word * kBytes);
       for (int i = 0; i < kBytes; ++i)

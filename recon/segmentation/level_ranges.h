@@ -29,7 +29,7 @@ class LevelRanges {
   [[nodiscard]] const std::uint8_t* row(int y) const { return levels_.ptr<std::uint8_t>(y); }
 
   // For each pixel and channel across: the lowest of the shared_width() + 1 levels that are background in all
-  // kSharingRows rows that y is one of.
+  // rows of y's group of kSharingRows.
   [[nodiscard]] const std::uint8_t* shared_lowest(int y) const {
     return shared_lowest_.ptr<std::uint8_t>(y / kSharingRows);
   }

@@ -114,7 +114,7 @@ class RunForest {
   [[nodiscard]] Regions Take() && {
     Regions regions;
     for (std::uint32_t i = 0; i < runs_.size(); ++i) {
-      // Links point backwards, where regions have their numbers already.
+      // A link points to an earlier run, which has its region's number already.
       Run& run = runs_[i];
       if (run.region == i) {
         run.region = static_cast<std::uint32_t>(regions.area_px.size());
@@ -174,7 +174,7 @@ void FillSmallHoles(core::BitMask& mask, int least_px) {
   if (least_px <= 1) return;
   ObjectWords object = ObjectWordsOf(mask);
   if (object.top == object.bottom) return;
-  // One row of background above and below stands for all that there are.
+  // One row of background above and one below stand for all such rows.
   object.top = std::max(object.top - 1, 0);
   object.bottom = std::min(object.bottom + 1, mask.height_px());
   RunForest forest(mask, false, object);

@@ -27,8 +27,8 @@ struct Regions {
 // 8-connected object regions of fewer than `least_px` pixels become background.
 void RemoveSmallBlobs(core::BitMask& mask, int least_px);
 
-// 4-connected background regions of fewer than `least_px` pixels become object. The picture's edge closes no
-// region: one that reaches it counts with the pixels it has.
+// 4-connected background regions of fewer than `least_px` pixels become object. A region that reaches the
+// picture's edge counts with the pixels that it has in the picture.
 void FillSmallHoles(core::BitMask& mask, int least_px);
 
 // All runs of a region that `keep` (one a region) is false for become background.

@@ -44,23 +44,23 @@ struct SegmentationStats {
   std::int64_t pixels = 0;          // of the pictures segmented
   std::int64_t skipped_pixels = 0;  // of those: not looked at, as no region of min_blob_px can be there
 
-  // The counts of other pictures on top.
+  // Adds the counts of other pictures.
   SegmentationStats& operator+=(const SegmentationStats& other);
 };
 
 // One camera's background with its thresholds worked out. Immutable.
 //
 // Object where |I - mean| > max(k_sigma * sigma, floor_levels) + edge_slack_px * |gradient of mean| in any
-// channel: the paper's image subtraction with thresholds, in units of each pixel's noise. Less shadows:
-// darker than the background in the same colour. Then small regions are removed and small holes filled. A
-// picture without any difference gives an empty mask. The same result for any number of threads.
+// channel: the paper's image subtraction with thresholds, in units of each pixel's noise. Shadows are left
+// out: pixels darker than the background in the same colour. Then small regions are removed and small holes
+// filled. A picture without any difference gives an empty mask. The same result for any number of threads.
 class Segmenter {
  public:
   // Throws: Error{kRange} as Validate(); PreconditionError for an empty background.
   Segmenter(BackgroundReference background, const SegmentationOptions& options);
 
-  // The pixels detected as above; `stats` is told what that took. Throws: PreconditionError unless
-  // `image_bgr` is CV_8UC3 of the background's size.
+  // The pixels detected as above; `stats` receives the counts. Throws: PreconditionError unless `image_bgr`
+  // is CV_8UC3 of the background's size.
   [[nodiscard]] core::BitMask Segment(const cv::Mat& image_bgr, SegmentationStats* stats = nullptr) const;
 
   // The same with its boundary located between pixels, as LocateBoundary. Throws: likewise.
@@ -68,7 +68,7 @@ class Segmenter {
                                            SegmentationStats* stats = nullptr) const;
 
  private:
-  // What the camera would show without an object.
+  // The camera's picture without an object, as it is expected.
   struct EmptyScene {
     cv::Mat mean_bgr;  // CV_32FC3
     cv::Mat packed_mean;

@@ -14,7 +14,7 @@
 
 namespace elbowroom::recon {
 
-// How one exposure of one camera came out.
+// The settings of one exposure of one camera.
 struct Exposure {
   double gain = 1.0;
   double noise_sigma_levels = 0.0;

@@ -71,7 +71,7 @@ RigidTransform WorldFromPipe(double time_s) {
   const double tilt_rad = RadiansFromDegrees(50.0) * (1.0 - stand_up);
   const double z_mm = kPipeOverReceptacleZMm + kPipeRadiusMm * std::sin(tilt_rad) -
                       lower * (kPipeOverReceptacleZMm - kPipeStandsAtZMm);
-  // Leans towards the hand, so that the forearm comes from below.
+  // The pipe leans towards the hand, so that the forearm comes from below.
   return {AngleAxisd(tilt_rad, Vector3d::UnitY()).toRotationMatrix(),
           {(1.0 - arrive) * 520.0, (1.0 - arrive) * -60.0, z_mm}};
 }
@@ -82,7 +82,7 @@ SyntheticObject HandAtPipe(double time_s) {
   const Vector3d wrist_in_pipe = Vector3d(0.0, 0.0, kPipeLengthMm) -
                                  pipe_from_wrist * Vector3d(kPipeInWristXMm, 0.0, kPipeTopInWristZMm);
   RigidTransform world_from_wrist = world_from_pipe * RigidTransform{pipe_from_wrist, wrist_in_pipe};
-  // Up and off the pipe before it goes.
+  // The hand first moves up off the pipe, then away.
   world_from_wrist.translation_mm += Ease(time_s, kReleaseBeginsS + 0.2, 7.1) * Vector3d(0.0, 0.0, 52.0) +
                                      Ease(time_s, 6.9, kHandGoneS) * Vector3d(680.0, 0.0, -60.0);
   const double open = Ease(time_s, kReleaseBeginsS, kReleaseEndsS);

@@ -26,7 +26,7 @@ struct DemoScene {
 // PreconditionError for a negative time.
 [[nodiscard]] DemoScene DemoSceneAt(double time_s);
 
-// Where things end, for those who place parts around the motion.
+// Where pipe and plug come to rest, for placing parts around the motion.
 inline constexpr double kPipeStandsAtZMm = 65.0;  // lower end of the pipe when it is in
 inline constexpr double kPlugEndsAtZMm = 49.0;    // front face of the plug when the cable is in
 

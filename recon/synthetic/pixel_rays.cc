@@ -53,7 +53,7 @@ PixelRays::PixelRays(const core::CameraModel& camera)
   normalised_.resize(static_cast<std::size_t>(width_px_) * static_cast<std::size_t>(height_px_));
   tbb::parallel_for(0, height_px_, [&](int y) {
     Eigen::Vector2d guess = RayThrough(camera, {0.0, y});
-    Eigen::Vector2d step = Eigen::Vector2d::Zero();  // from pixel to pixel: the next guess
+    Eigen::Vector2d step = Eigen::Vector2d::Zero();  // from pixel to pixel; added to `guess` for the next one
     for (int x = 0; x < width_px_; ++x) {
       const auto refined = Refined(camera, {x, y}, guess + step);
       const Eigen::Vector2d normalised = refined ? *refined : RayThrough(camera, {x, y});

@@ -1,4 +1,5 @@
-// The viewing ray of every pixel of a camera, and small tiles of pixels with the cone that holds their rays.
+// The viewing ray of every pixel of a camera, and small tiles of pixels with the cone that holds the rays of
+// their centres.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,7 +11,8 @@
 
 namespace elbowroom::recon {
 
-// A square of pixels [x0, x1) x [y0, y1) and the cone from the camera centre around all their rays.
+// A square of pixels [x0, x1) x [y0, y1), and the cone from the camera centre around the rays through their
+// centres.
 struct PixelTile {
   int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
   Eigen::Vector3d axis_in_world = Eigen::Vector3d::UnitZ();
@@ -33,7 +35,7 @@ class PixelRays {
   // The ray through a point within the pixel, at most half a pixel from its centre: linear between centres.
   [[nodiscard]] Ray At(int x, int y, const Eigen::Vector2d& from_center_px) const;
 
-  // False only if no ray of the tile meets the sphere.
+  // False only if no ray through a pixel's centre in the tile meets the sphere.
   [[nodiscard]] bool MayMeet(const PixelTile& tile, const BoundingSphere& sphere) const;
 
  private:

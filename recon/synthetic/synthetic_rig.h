@@ -1,4 +1,4 @@
-// Cameras that see analytic solids: images as a real rig would bring them, with the truth beside.
+// Cameras that see analytic solids: images as from a real rig, with the ground truth.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ struct SyntheticRigOptions {
   std::optional<core::FrameIndex> frame_count;  // > 0; nothing: no end
   double noise_sigma_levels = 1.5;              // Gaussian, each pixel and channel on its own; >= 0
   double flicker_share = 0.01;  // exposure gain of each camera and frame within 1 +- this; [0, 0.5]
-  int background_frames = 30;   // that a reference is measured from; > 0
+  int background_frames = 30;   // number that a reference is measured from; > 0
   bool table_shadow = false;    // the objects' soft shadow on the table (about ten times slower)
   // Rays of a pixel that may see an object, each way; 1: through its centre alone. More give a pixel on an
   // edge the mixture of what it covers, as a sensor does. [1, 16]

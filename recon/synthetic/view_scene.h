@@ -1,5 +1,4 @@
-// A hand at work before a rig, and from where it is looked at: the scene that speed and accuracy are measured
-// on.
+// A hand at work before a rig, and a view of it: the scene with which speed and accuracy are measured.
 #pragma once
 
 #include <vector>
@@ -28,7 +27,8 @@ struct ViewScene {
 // The hull fills about 6 % of the view's pixels, whatever its size (synthetic_view_scene_test).
 [[nodiscard]] ViewScene MakeViewScene(ViewSceneRig rig, int view_width_px = 640, int view_height_px = 480);
 
-// 50 planes of the view at the paper's 15 mm (or `times` as many, as much closer), the hand amid them.
+// 50 planes of the view with the paper's 15 mm between them, around the hand. `times`: this many times closer
+// together, over the same depths.
 [[nodiscard]] PlaneSweepOptions FiftyPlanes(int times = 1);
 
 // The view's camera, looking at the scene's hand from the same place with another focal length, px.

@@ -13,15 +13,15 @@ using Eigen::Vector3d;
 
 constexpr double kNoLengthMm = 1e-9;
 
-// A point of the triangle's axis or of one of its sides, `share` of the height away from the apex.
+// The triangle's axis or one of its sides. At(share) is the point at that share of the height from the apex.
 struct Line {
   Vector3d apex, to_base;
   [[nodiscard]] Vector3d At(double share) const { return apex + share * to_base; }
 };
 
-// The centre of the first of `window_px` pixels, from the base (or, nearer, from `reach_px`) to the apex,
-// that is in the hull; the apex itself where none is: it is a contact point. Nothing where the base's own
-// pixel is: the hull's boundary lies farther out.
+// Walks `window_px` pixels along the line, from the base (or from `reach_px`, if that is nearer to the apex)
+// to the apex, and returns the centre of the first in the hull. If none is, the apex, which is a contact
+// point. Nothing if the pixel at the base is in the hull: the hull's boundary lies beyond the base.
 std::optional<Vector3d> FirstInHull(const recon::CoverageHull& hull, const Line& line, int window_px,
                                     double reach_px = HUGE_VAL) {
   for (int pixel = window_px - 1; pixel >= 0; --pixel) {
@@ -34,14 +34,14 @@ std::optional<Vector3d> FirstInHull(const recon::CoverageHull& hull, const Line&
   return line.apex;
 }
 
-// A unit vector across `unit`, and across the axis that it is least along.
+// A unit vector perpendicular to `unit` and to the axis along which `unit` is least.
 Vector3d Across(const Vector3d& unit) {
   Eigen::Index axis = 0;
   unit.cwiseAbs().minCoeff(&axis);
   return unit.cross(Vector3d::Unit(axis)).normalized();
 }
 
-// Where the two sides of a triangle meet the hull, one minus the other.
+// The difference of the points where the two sides of a triangle meet the hull.
 std::optional<Vector3d> Chord(const recon::CoverageHull& hull, const Vector3d& apex, const Vector3d& axis_mm,
                               const Vector3d& half_base_mm, int window_px) {
   const auto i = FirstInHull(hull, {apex, axis_mm + half_base_mm}, window_px);
@@ -102,7 +102,7 @@ TwoTriangleResponse RespondByTwoTriangles(const recon::CoverageHull& hull,
     response.status = TwoTriangleStatus::kNoDirection;
     return response;
   }
-  // A V_rec of the caller's doesn't lead to RP_obj.
+  // A given V_rec doesn't lead to RP_obj, so RP_obj needn't be outside of the hull for it.
   const Vector3d v_rec = options.v_rec_in_world.value_or((rp_obj - cp_obj) / to_reference_mm);
   if (!options.v_rec_in_world && hull.Contains(rp_obj)) {
     response.status = TwoTriangleStatus::kReferenceInsideHull;

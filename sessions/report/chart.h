@@ -1,4 +1,4 @@
-// The parts that every chart of a report is drawn with: scales, axes, the depth colours.
+// What the charts of a report share: scales, axes, the depth colours.
 #pragma once
 
 #include <string>
@@ -28,7 +28,7 @@ struct Plot {
 // Round numbers (1, 2 or 5 times a power of ten apart) from `low` to `high`, at most `most` of them (>= 2).
 [[nodiscard]] std::vector<double> RoundTicks(double low, double high, int most);
 
-// "#rrggbb" from pale (0) to dark red (1): even in lightness, so that it survives a grey printer.
+// "#rrggbb" from pale (0) to dark red (1). The lightness changes evenly, so that a grey print shows it too.
 [[nodiscard]] std::string DepthColour(double fraction);
 
 // SVG: vertical grid lines through the plot, and the seconds under it.

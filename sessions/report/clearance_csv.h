@@ -9,11 +9,11 @@
 
 namespace elbowroom::sessions {
 
-// A header line, then a line for each row, as ContactsCsv writes them; what isn't bounded is empty. Beside
-// the verdict stands which way it errs.
+// A header line, then a line for each row, as ContactsCsv writes them; an infinite bound is empty. The column
+// after the verdict says how the verdict may err.
 [[nodiscard]] std::string ClearanceCsv(const core::SessionHeader& header, std::span<const ContactRow> rows);
 
-// "may be the hull's alone", ...: plain text.
+// How the verdict may err, as plain text: "may be the hull's alone", ...
 [[nodiscard]] std::string_view HowItErrs(core::Verdict verdict);
 
 }  // namespace elbowroom::sessions

@@ -9,17 +9,19 @@ namespace elbowroom::sessions {
 
 namespace {
 
-// What a spreadsheet takes for the beginning of a formula, the full-width forms of a Japanese one among them.
+// Whether a spreadsheet may take the text for a formula. Japanese spreadsheets know the full-width signs as
+// well.
 bool BeginsFormula(std::string_view text) {
   constexpr std::string_view kBeginnings[] = {
       "=", "+", "-", "@", "\xEF\xBC\x9D", "\xEF\xBC\x8B", "\xEF\xBC\x8D", "\xEF\xBC\xA0"};
   return std::ranges::any_of(kBeginnings, [&](std::string_view begin) { return text.starts_with(begin); });
 }
 
-// After these a spreadsheet that splits lines in another way than at commas begins a cell.
+// Whether a spreadsheet that doesn't split lines at commas alone may begin a cell after the character.
 bool MayEndCell(char c) { return c == ';' || c == '\t' || c == '\r' || c == '\n' || c == '"' || c == '\''; }
 
-// An apostrophe before each place where a spreadsheet may see a formula: it shows the text as it is.
+// Puts an apostrophe before each place where a spreadsheet may see a formula: it then shows the text
+// unchanged.
 std::string Neutralised(std::string_view text) {
   std::string plain;
   if (text.starts_with('\t') || text.starts_with('\r') || text.starts_with('\n')) plain += '\'';

@@ -1,4 +1,4 @@
-// What the lines of a report's tables are made of.
+// Fields of the lines of CSV tables.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,9 +8,10 @@
 
 namespace elbowroom::sessions {
 
-// RFC 4180: in quotes where the text needs them. What a spreadsheet would take for a formula (a text, or what
-// follows a separator or quote in it, that begins with = + - @, tab or a line's end) gets an apostrophe
-// before it, as OWASP's "CSV Injection" has it: for texts, not for numbers.
+// The text as a CSV field (RFC 4180), in quotes where it needs them. An apostrophe is put before whatever a
+// spreadsheet would take for a formula (a text, or what follows a separator or quote in it, that begins with
+// = + - @; a text that begins with a tab or a line's end), as OWASP's "CSV Injection" recommends. For texts,
+// not for numbers.
 [[nodiscard]] std::string Quoted(std::string_view text);
 
 // ",x,y,z"; nothing: ",,,".

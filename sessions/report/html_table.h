@@ -8,7 +8,7 @@ namespace elbowroom::sessions {
 
 struct TableColumn {
   std::string title;       // HTML
-  bool is_number = false;  // set to the right
+  bool is_number = false;  // aligned to the right
 };
 
 class HtmlTable {

@@ -15,8 +15,8 @@ struct SpacingLevel {
   double spacing_mm = 0.0;
   double held_s = 0.0;  // in all
   std::int64_t frames = 0;
-  std::int64_t frames_in_contact = 0;  // of one of the two parts that the spacing lies between
-  std::int64_t touches = 0;            // of those, whose deepest moment was at this value
+  std::int64_t frames_in_contact = 0;  // of a part at either end of the spacing
+  std::int64_t touches = 0;            // of such parts, deepest at this value
   double deepest_mm = 0.0;
 };
 
@@ -25,7 +25,7 @@ struct SpacingStep {
   double spacing_mm = 0.0;
 };
 
-// How one spacing went, and what that says of the space needed.
+// The course of one spacing over the trial, and how much space is needed according to it.
 struct SpacingStudy {
   core::SpacingIndex spacing = 0;
   std::vector<SpacingStep> steps;
@@ -35,7 +35,7 @@ struct SpacingStudy {
   std::optional<double> smallest_free_mm;
 };
 
-// A spacing that was only passed on the way to another proves nothing.
+// A value that a spacing only passed on its way to another doesn't count as free of touches.
 inline constexpr double kTriedFor_s = 2.0;
 
 struct PartSummary {
@@ -59,7 +59,7 @@ struct ReportData {
   std::vector<PartSummary> parts;      // the layout's order
   std::vector<SpacingStudy> spacings;  // the layout's order
   std::optional<core::SpacingIndex>
-      judged_spacing;  // that the estimate is about: the first that moved, or else the first
+      judged_spacing;  // that the estimate is compared with: the first that moved, or else the first
   double begin_s = 0.0;
   double end_s = 0.0;           // the end of the last frame
   double frame_period_s = 0.0;  // mean
@@ -68,7 +68,8 @@ struct ReportData {
   double deepest_mm = 0.0;
 };
 
-// Whether the part is one of the two that the spacing lies between: a touch of another says nothing of it.
+// Whether the part is at either end of the spacing, as a part or in a group. A touch of any other part
+// doesn't show how large the spacing must be.
 [[nodiscard]] bool IsBoundedBy(const ReportData& data, core::PartIndex part, core::SpacingIndex spacing);
 
 [[nodiscard]] ReportData CollectReportData(const SessionReader& session);

@@ -8,7 +8,7 @@
 
 namespace elbowroom::sessions {
 
-// A whole HTML document that needs nothing but itself.
+// A complete HTML document that loads nothing.
 [[nodiscard]] std::string ReportPage(const ReportData& data, const ReportPictures& pictures);
 
 // Its style sheet.

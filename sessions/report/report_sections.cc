@@ -13,7 +13,7 @@
 namespace elbowroom::sessions {
 namespace {
 
-// More values of a spacing than this are those of a slider on its way: the ones held longest are listed.
+// A spacing with more values than this was moved by a slider: only the values held longest are listed.
 constexpr std::size_t kMostLevels = 16;
 
 // Keeps "240 mm" on one line.
@@ -121,7 +121,7 @@ std::string Figure(std::span<const unsigned char> png, const std::string& captio
                      PngAsDataUrl(png), Escaped(caption));
 }
 
-// What a reader must know of a session that has no end.
+// The remark on a session that isn't complete.
 std::string StatusRemark(const ReportData& data) {
   const char* touches = data.has_outcome ? "touches are put together from these frames"
                                          : "contacts are not merged into touches";

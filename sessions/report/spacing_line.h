@@ -8,8 +8,8 @@
 
 namespace elbowroom::sessions {
 
-// `plot` with a value range that shows every step of the spacing, and the estimate where that is judged by
-// it.
+// `plot` with a value range that shows every step of the spacing, and the participant's estimate where this
+// is the judged spacing.
 [[nodiscard]] Plot FittedTo(Plot plot, const ReportData& data, const SpacingStudy& study);
 
 // SVG: the line, its values where there is room, and the estimate.

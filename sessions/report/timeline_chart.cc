@@ -87,7 +87,7 @@ std::string ContactBars(const ReportData& data, const Plot& plot, core::PartInde
   return svg;
 }
 
-// The outline of one touch, its number, and what a pointer resting on it is told.
+// The outline of one touch, with a tooltip.
 std::string EpisodeOutline(const ReportData& data, const Plot& plot, const core::ContactEpisode& episode,
                            double y) {
   const double x0 = plot.X(episode.begin_time_s);
@@ -102,7 +102,7 @@ std::string EpisodeOutline(const ReportData& data, const Plot& plot, const core:
       x0, y, x1 - x0, kBarHeight, Escaped(told));
 }
 
-// Numbers over the bars, left out where they would run into the one before.
+// The numbers of the touches, over the bars; a number that would overlap the one before it is left out.
 std::string EpisodeNumbers(const ReportData& data, const Plot& plot, core::PartIndex part, double y) {
   constexpr double kNumberWidth = 16.0;
   std::string svg;

@@ -70,8 +70,8 @@ std::string AgainstEstimate(const ReportData& data, const SpacingStudy& study) {
 
 bool IsAllOfTheTask(const ReportData& data) { return data.status == SessionStatus::kComplete; }
 
-// What was touched needs more space, however the task went on; that nothing was touched says nothing of a
-// task that wasn't done to its end.
+// The spacing that was enough for the task; nothing for a task that wasn't done to its end, as its rest might
+// have touched something. (A touch shows that more space is needed, however the task goes on.)
 std::optional<double> EnoughMm(const ReportData& data, const SpacingStudy& study) {
   return IsAllOfTheTask(data) ? study.smallest_free_mm : std::nullopt;
 }

@@ -30,9 +30,9 @@ namespace {
 // Texture units.
 enum Unit { kRays, kLabels, kForms, kRuns, kAngles, kKeys };
 
-constexpr float kLargest = 3.0e38F;  // stands for infinity, there too
+constexpr float kLargest = 3.0e38F;  // stands for infinity, as in the shader
 
-// What a picture on the card shows: silhouettes don't change, so the same ones are the same hull.
+// The picture that is on the card. Silhouettes don't change, so hulls with the same ones are the same hull.
 struct Drawn {
   VisualHull hull;
   ViewRays rays;
@@ -74,7 +74,7 @@ std::vector<float> CornersOf(const std::vector<PixelBox>& squares, const ViewRay
 
 }  // namespace
 
-// The context comes first and so goes last.
+// The context is the first member, so that it is destroyed last.
 class ExactViewGl::Impl {
  public:
   Impl();

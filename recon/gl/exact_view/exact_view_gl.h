@@ -20,9 +20,9 @@ class ExactViewGl {
   ExactViewGl& operator=(ExactViewGl&&) noexcept;
 
   // As recon::ViewHull, and equal to it outside ViewBand: hit or miss, and the depth to 1e-5 of itself
-  // (exact_view_gl_test, docs/exact_view_gl.md). `crossings_met` isn't counted. The view that was drawn last
-  // is only read again; rays that were drawn last aren't uploaded again. Throws: core::Error{kGraphics} when
-  // the driver fails or can't hold that many edges.
+  // (exact_view_gl_test, docs/exact_view_gl.md). `crossings_met` isn't counted. If the same view was drawn
+  // last it is only read again; if the rays are the same they aren't uploaded again. Throws:
+  // core::Error{kGraphics} when the driver fails or can't hold that many edges.
   [[nodiscard]] HullView ViewHull(const VisualHull& hull, const ViewRays& rays,
                                   const HullViewOptions& options = {});
 

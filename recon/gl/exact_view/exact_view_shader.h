@@ -7,7 +7,8 @@ namespace elbowroom::recon::gl {
 extern const char* const kExactViewVertexSource;
 
 // Reads PencilTables and the view's rays; writes depth (target 0) and caster, edge (target 1). The same steps
-// as tile_cast.cc, a ray at a time; docs/exact_view_gl.md says how far float32 may part them.
+// as tile_cast.cc, a ray at a time; docs/exact_view_gl.md says by how much float32 may make the results
+// differ.
 extern const char* const kExactViewFragmentSource;
 
 }  // namespace elbowroom::recon::gl

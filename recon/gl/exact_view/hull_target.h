@@ -15,7 +15,7 @@ class HullTarget {
   [[nodiscard]] int width_px() const { return width_px_; }
   [[nodiscard]] int height_px() const { return height_px_; }
 
-  // For drawing, with the viewport over all of it; without surfaces what is drawn of them is dropped.
+  // For drawing, with the viewport over all of it; without surfaces, what a shader writes of them is dropped.
   void Bind(bool with_surfaces) const;
 
   // Pixels [x, right) x [y, bottom) into their places in a picture of the same size: one float, or two

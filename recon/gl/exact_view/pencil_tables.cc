@@ -14,7 +14,7 @@ namespace {
 // Stands for an infinite angle: shaders needn't know infinities, and angles end at 2.
 constexpr float kBeyondAngles = 4.0F;
 
-// What rays of one interval meet by entries, or by exits.
+// Adds the crossings of one interval that are entries, or those that are exits.
 void AddCrossings(const CastPencil& pencil, std::size_t interval, bool entries, PencilTables* tables) {
   const CastIntervals& intervals = pencil.intervals;
   const Eigen::Vector2f angles(std::max(intervals.begins[interval], -kBeyondAngles),
@@ -28,7 +28,7 @@ void AddCrossings(const CastPencil& pencil, std::size_t interval, bool entries, 
   }
 }
 
-// Each bin's crossings side by side. Returns the first run.
+// Adds a run of crossings for each bin. Returns the number of the first run.
 std::size_t AddRuns(const CastPencil& pencil, bool entries, PencilTables* tables) {
   const std::size_t first_run = tables->runs.size();
   for (std::uint32_t bin = 0; bin < pencil.bins(); ++bin) {

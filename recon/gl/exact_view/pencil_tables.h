@@ -10,11 +10,12 @@
 
 namespace elbowroom::recon::gl {
 
-// What a pencil says of rays that meet none of its edges.
+// The label that a caster gives to the start of a ray. kByPixel: it depends on the ray, and LabelsByPixel has
+// it.
 enum class RayLabel { kBackground = 0, kObject = 1, kByPixel = 2 };
 
-// Casters: the cameras' pencils, then the visibility_outlines'. Every table fits a buffer texture; row by
-// row:
+// Casters are the cameras' pencils, then the visibility_outlines'. Every table becomes a buffer texture with
+// these rows:
 struct PencilTables {
   // A caster's three rows: x (du, dv, at_origin, least_angle); y (du, dv, at_origin, bins_per_angle); first
   // run of entries, of exits, bins, RayLabel. After the casters the faces of the workspace, (du, dv,

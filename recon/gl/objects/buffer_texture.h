@@ -12,15 +12,15 @@ namespace elbowroom::recon::gl {
 // Texels in a row, read with texelFetch from a samplerBuffer or usamplerBuffer.
 class BufferTexture {
  public:
-  // Such as GL_RGBA32F, of texels `texel_bytes` wide.
+  // `format`: such as GL_RGBA32F; one of its texels takes `texel_bytes`.
   BufferTexture(GLenum format, std::size_t texel_bytes);
 
   template <typename Texel>
   void Upload(std::span<const Texel> texels) {
     Upload(std::as_bytes(texels));
   }
-  // Throws: PreconditionError when it isn't whole texels; core::Error{kGraphics} when the driver's buffers
-  // don't hold as many.
+  // Throws: PreconditionError when `bytes` isn't whole texels; core::Error{kGraphics} when the driver's
+  // buffers don't hold that many.
   void Upload(std::span<const std::byte> bytes);
 
   void BindTo(int unit) const;

@@ -9,7 +9,8 @@
 
 namespace elbowroom::recon::gl {
 
-// One byte a texel, 255 read as 1, interpolated bilinearly; beyond the edge the edge's texels.
+// One byte a texel, 255 read as 1, interpolated bilinearly; beyond the edge it repeats the texels at the
+// edge.
 class ByteTexture {
  public:
   // Row-major. Throws: PreconditionError when there are fewer bytes than texels.

@@ -21,7 +21,8 @@ using core::ErrorKind;
 constexpr std::string_view kRemedy =
     "install libegl1, libgl1 and libegl-mesa0 (software) or the GPU's driver";
 
-// As Mesa, X servers and ANGLE call those that draw with the processor; Zink names the one below it.
+// Parts of the names that Mesa, X servers and ANGLE give to renderers that draw with the processor. Zink's
+// name holds that of the renderer below it.
 constexpr std::array<std::string_view, 5> kSoftwareRenderers = {"llvmpipe", "softpipe", "swrast",
                                                                 "Software Rasterizer", "SwiftShader"};
 

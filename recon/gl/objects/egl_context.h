@@ -17,7 +17,7 @@ class EglContext {
   EglContext(EglContext&&) noexcept;
   EglContext& operator=(EglContext&&) noexcept;
 
-  // Throws: Error{kGraphics} when the driver refuses, for one because another thread holds the context.
+  // Throws: Error{kGraphics} when the driver refuses, for example because another thread holds the context.
   void MakeCurrent() const;
 
   [[nodiscard]] const std::string& platform() const { return platform_; }  // "EGL device 0", "surfaceless"...

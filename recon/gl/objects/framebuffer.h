@@ -1,4 +1,4 @@
-// Where pictures are drawn. For the .cc files of this folder: it includes OpenGL.
+// A framebuffer that pictures are drawn to. For the .cc files of this folder: it includes OpenGL.
 #pragma once
 
 #include "recon/gl/objects/gl_name.h"

@@ -1,4 +1,4 @@
-// What OpenGL has to say after a piece of work.
+// OpenGL's errors as exceptions.
 #pragma once
 
 #include <string>

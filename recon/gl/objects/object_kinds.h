@@ -1,4 +1,5 @@
-// What GlName can own of several files. For the .cc files of this folder: it includes OpenGL.
+// The kinds of object that GlName owns in several files. For the .cc files of this folder: it includes
+// OpenGL.
 #pragma once
 
 #include "recon/gl/objects/gl_name.h"

@@ -85,7 +85,7 @@ class Survey {
 
 }  // namespace
 
-// The context comes first and so goes last.
+// The context is the first member, so that it is destroyed last.
 class PlaneSweepGl::Impl {
  public:
   [[nodiscard]] SweptView Sweep(const SweepSpace& space, const core::CameraModel& view, SweepPasses passes);
@@ -114,7 +114,7 @@ class PlaneSweepGl::Impl {
   EglContext context_;
   std::thread::id thread_ = std::this_thread::get_id();
   VertexArray corners_ = VertexArray({});
-  // By fragment source and first camera: what holds for all planes is set once a sweep.
+  // By fragment source and first camera, so that the uniforms that hold for all planes are set once a sweep.
   std::map<std::pair<std::string, std::size_t>, ShaderProgram> programs_;
   std::vector<ByteTexture> masks_;
   FloatTexture rays_{3};

@@ -10,10 +10,10 @@
 namespace elbowroom::recon::gl {
 
 enum class SweepPasses {
-  // All cameras' textures in one draw a plane, cut to where the hull can be (groups of 16 cameras).
+  // All cameras' textures in one draw a plane, cut to where the hull can be (groups of at most 15 cameras).
   kOneAPlane,
-  // The paper's: every camera draws every plane over the whole picture, what it labels object counts in the
-  // stencil buffer, and a last pass keeps the depth where all have counted.
+  // The paper's way: every camera draws every plane over the whole picture. Points that it labels object are
+  // counted in the stencil buffer, and a last pass keeps the depth where all cameras have counted.
   kOneAPlaneAndCamera,
 };
 
@@ -27,7 +27,7 @@ class PlaneSweepGl {
   PlaneSweepGl(PlaneSweepGl&&) noexcept;
   PlaneSweepGl& operator=(PlaneSweepGl&&) noexcept;
 
-  // As recon::SweepPlanes, and equal to it pixel by pixel but where rounding decides: textures are
+  // As recon::SweepPlanes, and equal to it pixel by pixel, except where rounding decides: textures are
   // interpolated with 8-bit fractions, so that labels may differ where the coverage is within 4/256 of one
   // half (docs/plane_sweep.md; plane_sweep_gl_test). Throws: as SweepPlanes, and core::Error{kGraphics} when
   // the driver fails.

@@ -1,5 +1,5 @@
-// The volume query's shaders, written for the cameras at hand, and the counting of cameras. For the .cc files
-// of this folder: it includes OpenGL.
+// The source of the volume query's shaders for given cameras, and the stencil buffer's settings for counting
+// cameras. For the .cc files of this folder: it includes OpenGL.
 #pragma once
 
 #include <epoxy/gl.h>
@@ -18,12 +18,12 @@ namespace elbowroom::recon::gl {
 // What a pass over a plane, or over triangles, keeps; the rest is discarded.
 enum class SweepPass {
   kHull,    // points in the hull: all cameras in one pass
-  kObject,  // points that every camera of the group says (or doesn't deny) are object
+  kObject,  // points that are object to all cameras of the group, by the unseen policy
   kSeen,    // points that some camera of the group sees
   kPlane,   // everything
 };
 
-// Where a fragment's ray and what maps it come from.
+// Where a fragment's ray comes from.
 enum class SweepRaySource {
   kIdealView,   // the pixel, by a uniform matrix
   kRayTexture,  // a texel for each pixel: the view's lens isn't ideal
@@ -45,18 +45,19 @@ struct SweepShader {
 
 // Triangles in viewports of a page of `page_px`. Attributes: position on the page and its viewport's lower
 // left corner, px; then origin, along x, along y of recon::TriangleViewport in the world. The camera of the
-// pass is `rotation` and `translation`, to picture positions for an ideal one, else to cam.
+// pass is in the uniforms `rotation` and `translation`: they lead to picture positions for an ideal camera,
+// else to cam.
 [[nodiscard]] std::string ViewportVertexSource();
 
 // From the normalised plane to positions that count from the coverage's first texel.
 [[nodiscard]] Eigen::Matrix3d PictureFromNormalised(const SweepCamera& camera);
 
-// The uniforms of camera `index` of the program's group, less what maps rays to it.
+// Sets the uniforms of camera `index` of the program's group, except those that map rays to it.
 void SetCamera(const ShaderProgram& program, const SweepCamera& camera, std::size_t index);
 void SetWorkspace(const ShaderProgram& program, const Eigen::AlignedBox3d& workspace_mm);
 
-// The stencil counts the groups of cameras that have said object in its lower bits; kSeenBit: one of them
-// sees the point.
+// The lower bits of the stencil count the groups of cameras that label the point object. kSeenBit is set if
+// one of the cameras sees it.
 inline constexpr GLuint kSeenBit = 0x80;
 void SetStencil(SweepPass kind, GLuint wanted_count);
 

@@ -41,7 +41,7 @@ struct Page {
   }
 };
 
-// As square as may be, for that many triangles or as many as it can hold.
+// As square as possible, for that many triangles or as many as a page can hold.
 Page PageFor(std::size_t triangles, const TriangleViewportOptions& options) {
   const int most_columns = kPagePx / options.width_px, most_rows = kPagePx / options.height_px;
   Page page{1, 1, options.width_px, options.height_px};
@@ -74,7 +74,7 @@ std::vector<float> VerticesOf(std::span<const TriangleViewport> viewports, const
 
 }  // namespace
 
-// The context comes first and so goes last.
+// The context is the first member, so that it is destroyed last.
 class TriangleViewportsGl::Impl {
  public:
   [[nodiscard]] SampledContacts Sample(const CoverageHull& hull, std::span<const TriangleViewport> viewports,

@@ -18,11 +18,11 @@ class TriangleViewportsGl {
   TriangleViewportsGl(TriangleViewportsGl&&) noexcept;
   TriangleViewportsGl& operator=(TriangleViewportsGl&&) noexcept;
 
-  // As recon::SampleTriangles: the same samples with the same labels but where rounding decides, as in
-  // PlaneSweepGl (docs/paper_collision.md; triangle_viewports_gl_test). All triangles lie in their viewports
-  // on one page, are drawn once for each camera with its silhouette projected on them, and counted in the
-  // stencil buffer, which is then read back. Throws: as SampleTriangles, and core::Error{kGraphics} when the
-  // driver fails.
+  // As recon::SampleTriangles: the same samples with the same labels, except where rounding decides, as in
+  // PlaneSweepGl (docs/paper_collision.md; triangle_viewports_gl_test). The viewports lie side by side on a
+  // page, or on several if one is too small. The triangles are drawn once for each camera, with its
+  // silhouette projected on them. The stencil buffer counts the cameras that label a sample object and is
+  // then read back. Throws: as SampleTriangles, and core::Error{kGraphics} when the driver fails.
   [[nodiscard]] SampledContacts Sample(const CoverageHull& hull, const core::TriangleMesh& part,
                                        const core::RigidTransform& world_from_part,
                                        const TriangleViewportOptions& options = {});

@@ -16,7 +16,7 @@ class ContactPainter {
  public:
   ContactPainter();
 
-  // Last of all.
+  // To be called last of all.
   void Draw(std::span<const Eigen::Vector3d> points_in_world, const ViewMatrices& matrices);
 
  private:

@@ -18,13 +18,13 @@ namespace {
 using Eigen::Vector3f;
 using Indices = std::vector<unsigned>;  // three a triangle
 
-constexpr std::size_t kFewer = 2;  // times, from level to level
+constexpr std::size_t kFewer = 2;  // a level has this many times fewer triangles than the last
 constexpr std::size_t kFewTriangles = 500;
-// meshoptimizer's quadrics are of single precision: over a whole mesh they can't tell distances of less than
-// about a thousandth of its size, over pieces of it those of theirs.
+// meshoptimizer's quadrics have single precision: they can't tell distances below about a thousandth of the
+// size of what they simplify. So large meshes are simplified in pieces.
 constexpr std::size_t kTrianglesAPiece = 8'000;
 constexpr std::size_t kFewestPieces = 8;
-// A level that keeps more of the one before isn't worth its memory.
+// A level that keeps a larger share of the one before isn't worth its memory.
 constexpr double kMostKept = 0.7;
 constexpr std::size_t kFloatsPerTriangle = 18;
 constexpr float kAnyError = 1.0F;  // of the mesh's extent: the number of triangles is the aim
@@ -113,7 +113,7 @@ class Cutter {
   std::vector<std::int32_t> own_;  // by the mesh's number; -1: not of this piece
 };
 
-// The topmost nodes of so few triangles.
+// The topmost nodes with at most `most_triangles` triangles.
 std::vector<core::TriangleTree::Node> NodesOf(const core::TriangleTree& tree, std::size_t most_triangles) {
   std::vector<core::TriangleTree::Node> nodes;
   std::vector<std::uint32_t> open{0};
@@ -129,7 +129,8 @@ std::vector<core::TriangleTree::Node> NodesOf(const core::TriangleTree& tree, st
   return nodes;
 }
 
-// By pieces, as long as there are several, whose common borders stay what they are.
+// Simplifies a large mesh piece by piece. The borders of pieces stay as they are, so that the pieces still
+// fit together.
 Indices Simplified(const core::TriangleTree& tree) {
   const std::size_t triangles = tree.mesh().triangles.size();
   const bool is_in_pieces = triangles >= kFewestPieces * kTrianglesAPiece;

@@ -1,4 +1,4 @@
-// Coarser surfaces of a mesh, for drawing alone: whatever is judged is judged by the whole mesh.
+// Coarser surfaces of a mesh, for drawing only. Contacts and clearances are judged by the whole mesh.
 #pragma once
 
 #include <cstdint>
@@ -19,11 +19,11 @@ struct DetailLevel {
   double error_mm = 0.0;  // the farthest that any vertex of the whole mesh is from this surface
 };
 
-// Each of about half of the triangles of the one before, by quadric error metrics (Garland and Heckbert 1997)
-// as meshoptimizer has them: a level's vertices are the mesh's own, and are shaded by the whole mesh's
-// normals (`whole`, of PrepareSurface), so that coarse curves stay smooth. Ends when few triangles are left,
-// when hardly any more come off, or between two levels when `stop` is asked. The errors are measured
-// (core::FindNearest), not the metric's own, which is one of single precision and of averages.
+// Each level has about half of the triangles of the one before, by quadric error metrics (Garland and
+// Heckbert 1997) as in meshoptimizer. A level's vertices are the mesh's own and are shaded by the whole
+// mesh's normals (`whole`, of PrepareSurface), so that coarse curves stay smooth. Ends when few triangles are
+// left, when hardly any more come off, or between two levels when `stop` is asked. The errors are measured
+// (core::FindNearest): the metric's own error is a single-precision average.
 // `mesh`: valid by core::ValidateMesh. Thread: any.
 [[nodiscard]] std::vector<DetailLevel> MakeDetailLevels(const core::TriangleMesh& mesh,
                                                         const SurfaceMesh& whole,

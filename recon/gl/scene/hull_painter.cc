@@ -21,7 +21,7 @@ void main() {
 }
 )";
 
-// What both ways of drawing know of the layer.
+// Access to the layer's depth, for both ways of drawing.
 constexpr const char* kLayerSource = R"(
 uniform sampler2D layer_depth;
 uniform vec2 view_size;
@@ -46,7 +46,8 @@ void main() {
 }
 )";
 
-// Loops run over no turn where there is nothing to do: software drivers step through both sides of an if.
+// Where there is nothing to do, a loop has no turn: it stands in for an if, of which software drivers step
+// through both sides.
 constexpr const char* kPictureFragmentSource = R"(
 uniform sampler2D layer_normal;
 uniform sampler2D layer_camera_color;

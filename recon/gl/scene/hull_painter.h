@@ -22,7 +22,7 @@ class HullPainter {
   // The layer's camera colours show where the appearance asks for them.
   void Draw(const Scene& scene, const ViewMatrices& matrices, const Lighting& light);
 
-  // The depth of the layer's nearest texel as it is.
+  // Draws the depth of the layer's nearest texel, without smoothing.
   void DrawDepth(const HullView& layer, const ViewMatrices& matrices);
 
  private:

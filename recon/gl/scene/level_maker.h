@@ -18,8 +18,8 @@ struct MadeLevels {
   std::vector<DetailLevel> levels;
 };
 
-// Meshes that nobody keeps any more by the time their turn comes are passed over. The destructor waits for
-// the level that is being made. Thread: one calls; the work is done on another.
+// A mesh that nobody else keeps any more when its turn comes is passed over. The destructor waits for the
+// level that is being made. Thread: one calls; the work is done on another.
 class LevelMaker {
  public:
   explicit LevelMaker(double crease_rad) : crease_rad_(crease_rad) {}  // as PrepareSurface
@@ -30,7 +30,7 @@ class LevelMaker {
   void Ask(const core::SharedMesh& mesh);
   // What was finished since the last call, if anything was; never waits.
   [[nodiscard]] std::optional<MadeLevels> Take();
-  // The next of what was asked for, when it is finished; nothing: all was taken.
+  // Waits for the next levels that were asked for; nothing if all were taken.
   [[nodiscard]] std::optional<MadeLevels> Await();
 
  private:

@@ -15,13 +15,14 @@
 
 namespace elbowroom::recon::gl {
 
-// Keeps the shadows of parts and of the hull apart: each is renewed only when it changed, and a hull with the
-// colours of camera pictures, which show its own shadows already, takes those of the parts alone.
+// Keeps the shadows of parts and of the hull apart. Each is renewed only when it changed. A hull with the
+// colours of camera pictures takes only the shadows of the parts: the pictures already show its own.
 class Lighting {
  public:
   Lighting();
 
-  // Before the picture's target is bound: leaves another one behind. The parts' meshes must be uploaded.
+  // To be called before the picture's target is bound, as it binds another one. The parts' meshes must be
+  // uploaded.
   // Throws: Error{kGraphics} when the driver can't hold a shadow's texture.
   void Update(const Scene& scene, PartPainter& parts);
 

@@ -7,15 +7,16 @@ namespace elbowroom::recon::gl {
 
 enum class PartDetail {
   kWhole,  // each mesh as it is: for pictures that are drawn once
-  // Large meshes, once they were drawn whole and coarser levels of them have been made beside the drawing, by
-  // the coarsest that stays within a quarter of a pixel of the whole: for moving pictures.
+  // A large mesh is drawn whole at first, while coarser levels of it are made on another thread. Then it is
+  // drawn at the coarsest level that stays within a quarter of a pixel of the whole mesh. For moving
+  // pictures.
   kOnDemand,
 };
 
 // Triangles of parts, in every pass of every picture.
 struct TriangleCount {
   std::int64_t drawn = 0;
-  std::int64_t left_out = 0;  // what whole meshes would have had beside them
+  std::int64_t left_out = 0;  // how many more whole meshes would have had
 };
 
 }  // namespace elbowroom::recon::gl

@@ -23,7 +23,7 @@ class Lighting;
 // What a lamp saw of the parts.
 struct CasterPass {
   Eigen::AlignedBox2f bounds;      // around all of them, in shares of the lamp's picture; empty: none
-  std::int64_t parts_outside = 0;  // left out: nowhere in the picture
+  std::int64_t parts_outside = 0;  // left out: not in the picture
 };
 
 // Keeps each mesh on the graphics card for as long as somebody else keeps the mesh.
@@ -31,12 +31,14 @@ class PartPainter {
  public:
   explicit PartPainter(PartDetail detail);
 
-  // Brings what isn't there yet to the graphics card, drops what nobody else keeps, and chooses the level at
-  // which each part is drawn, from wherever, until the next call. Before any drawing, of these parts alone.
+  // Uploads meshes that aren't on the graphics card yet, and drops those that nobody else keeps. Chooses the
+  // level at which each part is drawn, in every pass until the next call. To be called before any drawing,
+  // which may then be of these parts only.
   // Throws: Error{kGeometry} for a mesh that can't be drawn (see core::ValidateMesh).
   void Update(std::span<const ScenePart> parts, const SceneView& view);
 
-  // Until all levels of what was drawn so far are there; nothing with PartDetail::kWhole.
+  // Waits until all levels of the meshes that Update was given are there. Does nothing with
+  // PartDetail::kWhole.
   void AwaitLevels();
 
   void DrawOpaque(std::span<const ScenePart> parts, const ViewMatrices& matrices, const Lighting& light);
@@ -44,11 +46,11 @@ class PartPainter {
   // Back to front. What is drawn later and stands behind a part is hidden.
   void DrawTransparent(std::span<const ScenePart> parts, const ViewMatrices& matrices, const Lighting& light);
 
-  // Depths alone, as a lamp sees them, of every part that isn't invisible; what stands before its near plane
-  // is drawn on it.
+  // Draws depths only, as a lamp sees them, of every part that isn't invisible. What stands before the lamp's
+  // near plane is drawn on that plane.
   [[nodiscard]] CasterPass DrawCasters(std::span<const ScenePart> parts, const ViewMatrices& lamp);
 
-  // Faces alone, of every part that isn't invisible.
+  // Draws the depths of faces only, of every part that isn't invisible.
   void DrawDepth(std::span<const ScenePart> parts, const ViewMatrices& matrices);
 
   // The level of each part, in the order of the last Update; 0 is the whole mesh.
@@ -66,10 +68,10 @@ class PartPainter {
   };
   struct UploadedMesh {
     std::vector<UploadedSurface> levels;  // the whole mesh, then coarser and coarser
-    VertexArray edges{3};                 // of the whole, whatever its faces
+    VertexArray edges{3};                 // of the whole mesh, whatever level its faces are of
     Eigen::AlignedBox3d bounds_in_part;
   };
-  // The address too: shared pointers to different members of one object have one owner.
+  // The address is needed, too: shared pointers to different members of one object have one owner.
   struct MeshKey {
     std::weak_ptr<const core::TriangleMesh> owner;
     const core::TriangleMesh* address = nullptr;

@@ -43,7 +43,8 @@ struct Scene {
   // a smaller one covers the same picture and is scaled up. Normals that are zero, or not there, are taken
   // from the depths.
   std::shared_ptr<const HullView> hull;
-  // As ColorHull gives them; the shaded colour shows as far as they aren't to be trusted. Empty: no camera.
+  // As ColorHull gives them; where they aren't trusted fully, the shaded colour shows through. Empty: no
+  // camera.
   std::vector<CameraColor> hull_camera_color;
   HullAppearance hull_appearance = HullAppearance::kByNormal;
   Eigen::Vector3f hull_color = {0.87F, 0.67F, 0.55F};

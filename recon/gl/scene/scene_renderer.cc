@@ -31,7 +31,7 @@ struct Targets {
 
 }  // namespace
 
-// The context comes first and so goes last.
+// The context is the first member, so that it is destroyed last.
 class SceneRenderer::Impl {
  public:
   explicit Impl(PartDetail detail) : parts_(detail) {}

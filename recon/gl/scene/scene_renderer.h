@@ -34,7 +34,7 @@ class SceneRenderer {
   // The picture with four samples a pixel. The same scene gives the same bytes on the same driver, but for
   // levels of detail that have come in between.
   // Throws: PreconditionError as Scene::Validate; Error{kGeometry} for a mesh that can't be drawn;
-  // Error{kGraphics} when the driver fails, for one out of memory.
+  // Error{kGraphics} when the driver fails, for example when it is out of memory.
   [[nodiscard]] Image Render(const Scene& scene);
 
   // Depth of parts (unless invisible) and hull at the pixels' centres; nothing else is drawn. To about

@@ -14,8 +14,8 @@ namespace {
 
 using Triangle = std::array<std::int32_t, 3>;
 
-// Beyond this many triangles around one vertex (fans of caps and cones) each keeps its own normal: averaging
-// is quadratic in their number.
+// With more triangles than this around one vertex (fans of caps and cones) each keeps its own normal:
+// averaging is quadratic in their number.
 constexpr std::size_t kMaxAveragedFan = 512;
 
 struct WeldedMesh {

@@ -14,10 +14,11 @@ class SurroundingsPainter {
  public:
   SurroundingsPainter();
 
-  // Over everything; leaves the depth as it is.
+  // Covers the whole picture; leaves the depth as it is.
   void DrawBackground(const Scene& scene) const;
 
-  // The grid on z = 0 with the shadows on it, seen through faintly from below. After all that is opaque.
+  // The grid on z = 0 with the shadows on it, faint when it is seen from below. To be called after all that
+  // is opaque.
   void DrawTable(const Scene& scene, const ViewMatrices& matrices, const Lighting& light) const;
 
   // The workspace's edges and the cameras' pyramids.
