@@ -117,7 +117,7 @@ PairClash ClashChecker::Ask(const PairDemand& demand, const std::vector<Part>& p
   }
   if (pair.at_least_mm <= kTouchMm) {
     ++count.collision_calls;
-    pair.gap = surfaces->FindHullPartIntersection();
+    pair.gap = surfaces->FindIntersection();
     if (pair.gap && pair.gap->distance_mm > kTouchMm) pair.gap.reset();
   }
   if (!pair.gap) {

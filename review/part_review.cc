@@ -11,7 +11,7 @@ namespace {
 
 // The clearance of a part that meets the hull: 0 to the mesh's deviation. Its witness is the deepest point,
 // or the point of the hull inside the part.
-core::PartClearance HullPartIntersection(const core::PartContact& contact, double deviation_mm) {
+core::PartClearance ClearanceInContact(const core::PartContact& contact, double deviation_mm) {
   core::PartClearance clearance;
   clearance.interval.upper_mm = deviation_mm;
   const auto at =
@@ -46,7 +46,7 @@ core::PartContact ReviewPart(const recon::VisualHull& hull, const core::Triangle
   core::PartContact contact = FindContacts(hull, part, world_from_part, part_index, options.contacts, inside);
   if (!(options.required_clearance_mm > 0.0)) return contact;
   if (contact.verdict == core::Verdict::kContact) {
-    contact.clearance = HullPartIntersection(contact, part.mesh().deviation_mm);
+    contact.clearance = ClearanceInContact(contact, part.mesh().deviation_mm);
     return contact;
   }
   ClearanceOptions clearance_options;

@@ -175,7 +175,7 @@ double SurfacePair::BoundsGapMm() const {
   return std::max(0.0, gap_mm - kInwards * size_mm);
 }
 
-std::optional<SurfaceGap> SurfacePair::FindHullPartIntersection() const {
+std::optional<SurfaceGap> SurfacePair::FindIntersection() const {
   const fcl::CollisionRequestd request(1, false);
   fcl::CollisionResultd result;
   fcl::collide(&a_.fcl_->mesh, fcl::Transform3d::Identity(), &b_.fcl_->mesh, ToFcl(a_from_b_), request,

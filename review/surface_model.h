@@ -51,7 +51,7 @@ class SurfacePair {
 
   // The measured gap of two triangles that FCL says meet. Nothing if FCL finds none. The distance needn't be
   // 0: FCL also says it of some needles that are apart.
-  [[nodiscard]] std::optional<SurfaceGap> FindHullPartIntersection() const;
+  [[nodiscard]] std::optional<SurfaceGap> FindIntersection() const;
 
   // The least distance over all triangles.
   [[nodiscard]] SurfaceGap Measure() const;

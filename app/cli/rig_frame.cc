@@ -21,7 +21,7 @@ RigFrame LoadRigFrame(const RigFrameOptions& options, const CommandContext& cont
   RigFrame result{std::make_shared<const core::Rig>(source.rig()), {}, {}};
   // The frame is read before the backgrounds: a missing frame is found sooner.
   const recon::FrameSet frames = source.Read(options.frame, context.stop);
-  result.record.masks =
+  result.masks =
       recon::FrameSegmenter(source.ReadBackgrounds(context.progress, context.stop), {}, source.rig())
           .SegmentSoft(frames);
   result.planes = recon::MakeUndistortedPlanes(*result.rig);

@@ -74,15 +74,15 @@ class Viewer {
 
   [[nodiscard]] HullSeen See() {
     if (options_.method == kSweep)
-      return Seen(recon::SweepPlanes(*frame_.rig, frame_.record.masks, view_, *sweep_rays_, sweep_),
+      return Seen(recon::SweepPlanes(*frame_.rig, frame_.masks, view_, *sweep_rays_, sweep_),
                   sweep_.spacing_mm);
     if (options_.method == kSweepGl) {
       HullSeen seen =
-          Seen(gl_->Sweep(*frame_.rig, frame_.record.masks, view_, *sweep_rays_, sweep_), sweep_.spacing_mm);
+          Seen(gl_->Sweep(*frame_.rig, frame_.masks, view_, *sweep_rays_, sweep_), sweep_.spacing_mm);
       seen.counts["driver"] = gl_->driver();
       return seen;
     }
-    return Seen(recon::ViewHull(recon::MakeVisualHull(frame_.rig, frame_.planes, frame_.record.masks), rays_,
+    return Seen(recon::ViewHull(recon::MakeVisualHull(frame_.rig, frame_.planes, frame_.masks), rays_,
                                 {.surfaces = false}));
   }
 
