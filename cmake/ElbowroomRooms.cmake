@@ -1,11 +1,21 @@
 # The shapes every folder is built from: a room (a static library), a module (loaded when it is first needed) and a
 # test program.
 
-# elbowroom_room(NAME SOURCES a.cc ... USES target ... HIDES target ...)
-# USES: libraries that may appear in the room's headers. HIDES: libraries only its .cc files include.
+# elbowroom_room(NAME [IN_MODULES] [PRECOMPILED header] SOURCES a.cc ... USES target ... HIDES target ...)
+# USES: libraries that may appear in the room's headers. HIDES: libraries only its .cc files include. IN_MODULES: modules
+# are linked from it, so it is compiled as position-independent code. PRECOMPILED: another precompiled header than the
+# one that rooms share (PrecompiledHeaders.cmake).
 function(elbowroom_room name)
-  cmake_parse_arguments(ROOM "" "" "SOURCES;USES;HIDES" ${ARGN})
+  cmake_parse_arguments(ROOM "IN_MODULES" "PRECOMPILED" "SOURCES;USES;HIDES" ${ARGN})
   add_library(elbowroom_${name} STATIC ${ROOM_SOURCES})
+  if(ROOM_IN_MODULES)
+    set_target_properties(elbowroom_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+    elbowroom_use_precompiled(elbowroom_${name} precompiled_pic)
+  elseif(ROOM_PRECOMPILED)
+    elbowroom_use_precompiled(elbowroom_${name} ${ROOM_PRECOMPILED})
+  else()
+    elbowroom_use_precompiled(elbowroom_${name} precompiled)
+  endif()
   target_include_directories(elbowroom_${name} PUBLIC ${PROJECT_SOURCE_DIR})
   target_link_libraries(elbowroom_${name} PUBLIC ${ROOM_USES} PRIVATE ${ROOM_HIDES} elbowroom_warnings)
 endfunction()
@@ -18,12 +28,13 @@ function(elbowroom_rooms name)
 endfunction()
 
 # elbowroom_module(NAME SOURCES a.cc ... HIDES target ...)
-# What core/system/module.h finds by NAME. Rooms that go into it are compiled as position-independent code.
+# What core/system/module.h finds by NAME. Rooms that go into it are IN_MODULES.
 function(elbowroom_module name)
   cmake_parse_arguments(MODULE "" "" "SOURCES;HIDES" ${ARGN})
   add_library(elbowroom_${name}_module MODULE ${MODULE_SOURCES})
   target_include_directories(elbowroom_${name}_module PRIVATE ${PROJECT_SOURCE_DIR})
   target_link_libraries(elbowroom_${name}_module PRIVATE ${MODULE_HIDES} elbowroom_warnings)
+  elbowroom_use_precompiled(elbowroom_${name}_module precompiled_pic)
   target_link_options(elbowroom_${name}_module PRIVATE LINKER:--exclude-libs,ALL)
   set_target_properties(elbowroom_${name}_module PROPERTIES
     OUTPUT_NAME "elbowroom_${name}-${PROJECT_VERSION}" LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR})
@@ -51,11 +62,16 @@ function(elbowroom_child_program name source)
   set_property(GLOBAL APPEND PROPERTY ELBOWROOM_MODULES elbowroom_${name})
 endfunction()
 
-# elbowroom_test(NAME SOURCES a_test.cc ... USES target ... [LABELS gl ...] [IMPORTS])
+# elbowroom_test(NAME SOURCES a_test.cc ... USES target ... [LABELS gl ...] [IMPORTS] [PRECOMPILED header])
 # IMPORTS: it reads CAD files, so its main serves as the child that does.
 function(elbowroom_test name)
-  cmake_parse_arguments(TEST "IMPORTS" "" "SOURCES;USES;LABELS" ${ARGN})
+  cmake_parse_arguments(TEST "IMPORTS" "PRECOMPILED" "SOURCES;USES;LABELS" ${ARGN})
   add_executable(${name} ${TEST_SOURCES})
+  if(TEST_PRECOMPILED)
+    elbowroom_use_precompiled(${name} ${TEST_PRECOMPILED})
+  else()
+    elbowroom_use_precompiled(${name} precompiled_tests)
+  endif()
   target_link_libraries(${name} PRIVATE ${TEST_USES} GTest::gtest GTest::gtest_main elbowroom_warnings)
   if(TEST_IMPORTS)
     target_sources(${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests/support/importing_main.cc)
