@@ -5,12 +5,13 @@ set(_everywhere
   <Eigen/Core> <Eigen/Geometry> <algorithm> <array> <atomic> <bit> <chrono> <cmath> <cstddef> <cstdint> <cstring> <exception>
   <filesystem> <functional> <iterator> <limits> <map> <memory> <mutex> <numbers> <numeric> <optional> <random> <set> <span>
   <sstream> <stop_token> <string> <string_view> <thread> <tuple> <type_traits> <utility> <variant> <vector> <fmt/format.h>)
+set(_needed_everywhere Eigen3::Eigen fmt::fmt)
 
 # elbowroom_precompiled(NAME header ...): a target that owns a precompiled header.
 function(elbowroom_precompiled name)
   file(CONFIGURE OUTPUT ${name}.cc CONTENT "// Compiled for its precompiled header.\n")
   add_library(elbowroom_${name} OBJECT ${CMAKE_CURRENT_BINARY_DIR}/${name}.cc)
-  target_link_libraries(elbowroom_${name} PRIVATE Eigen3::Eigen fmt::fmt Threads::Threads)
+  target_link_libraries(elbowroom_${name} PRIVATE ${_needed_everywhere})
   target_precompile_headers(elbowroom_${name} PRIVATE ${ARGN})
 endfunction()
 
@@ -30,9 +31,10 @@ if(ELBOWROOM_PRECOMPILED_HEADERS)
   endif()
 endif()
 
-# elbowroom_use_precompiled(TARGET NAME)
+# elbowroom_use_precompiled(TARGET NAME): with what the headers in it need to be parsed alike.
 function(elbowroom_use_precompiled target name)
   if(ELBOWROOM_PRECOMPILED_HEADERS)
+    target_link_libraries(${target} PRIVATE ${_needed_everywhere})
     target_precompile_headers(${target} REUSE_FROM elbowroom_${name})
   endif()
 endfunction()

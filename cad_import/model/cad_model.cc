@@ -25,11 +25,18 @@ bool HangsUnder(const CadInstance& instance, std::string_view node) {
   return path.starts_with(node) && (path.size() == node.size() || path[node.size()] == '/');
 }
 
-// Numbers names that recur: the second "a" becomes "a 2".
+// Numbers names that recur: the second "a" becomes "a 2", or "a 3" where some part is called "a 2" already.
 void NumberTwins(std::vector<ImportedPart>& parts) {
+  std::set<std::string> given;
+  for (const ImportedPart& part : parts) given.insert(part.name);
   std::map<std::string, int> uses;
-  for (ImportedPart& part : parts)
-    if (const int use = ++uses[part.name]; use > 1) part.name += fmt::format(" {}", use);
+  for (ImportedPart& part : parts) {
+    int& use = uses[part.name];
+    if (++use == 1) continue;
+    std::string numbered = fmt::format("{} {}", part.name, use);
+    while (!given.insert(numbered).second) numbered = fmt::format("{} {}", part.name, ++use);
+    part.name = numbered;
+  }
 }
 
 }  // namespace

@@ -86,10 +86,17 @@ PixelTile PixelRays::Tile(int x0, int y0) const {
   PixelTile tile{x0,  y0, std::min(x0 + kTileSidePx, width_px_), std::min(y0 + kTileSidePx, height_px_), {},
                  1.0, 0.0};
   tile.axis_in_world = At((tile.x0 + tile.x1) / 2, (tile.y0 + tile.y1) / 2).direction_in_world;
+  const auto include = [&](const Ray& ray) {
+    tile.cos_half_angle = std::min(tile.cos_half_angle, tile.axis_in_world.dot(ray.direction_in_world));
+  };
   for (int y = tile.y0; y < tile.y1; ++y) {
     for (int x = tile.x0; x < tile.x1; ++x) {
-      tile.cos_half_angle =
-          std::min(tile.cos_half_angle, tile.axis_in_world.dot(At(x, y).direction_in_world));
+      include(At(x, y));
+      const bool is_inner = x > tile.x0 && x + 1 < tile.x1 && y > tile.y0 && y + 1 < tile.y1;
+      if (is_inner) continue;
+      // Rays within a pixel are linear between its corners, so the corners are the farthest from the axis.
+      for (const double across : {-0.5, 0.5})
+        for (const double down : {-0.5, 0.5}) include(At(x, y, {across, down}));
     }
   }
   tile.sin_half_angle = std::sqrt(std::max(0.0, 1.0 - tile.cos_half_angle * tile.cos_half_angle));

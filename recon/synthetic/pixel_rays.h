@@ -1,5 +1,4 @@
-// The viewing ray of every pixel of a camera, and small tiles of pixels with the cone that holds the rays of
-// their centres.
+// The viewing ray of every pixel of a camera, and small tiles of pixels with the cone that holds their rays.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,8 +10,7 @@
 
 namespace elbowroom::recon {
 
-// A square of pixels [x0, x1) x [y0, y1), and the cone from the camera centre around the rays through their
-// centres.
+// A square of pixels [x0, x1) x [y0, y1), and the cone from the camera's centre around all rays through them.
 struct PixelTile {
   int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
   Eigen::Vector3d axis_in_world = Eigen::Vector3d::UnitZ();
@@ -35,7 +33,7 @@ class PixelRays {
   // The ray through a point within the pixel, at most half a pixel from its centre: linear between centres.
   [[nodiscard]] Ray At(int x, int y, const Eigen::Vector2d& from_center_px) const;
 
-  // False only if no ray through a pixel's centre in the tile meets the sphere.
+  // False only if no ray through a point of the tile's pixels meets the sphere.
   [[nodiscard]] bool MayMeet(const PixelTile& tile, const BoundingSphere& sphere) const;
 
  private:

@@ -1,5 +1,7 @@
 #include "recon/gl/scene/hull_painter.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -190,8 +192,8 @@ Window ReachOf(const HullView& layer, const SceneView& view) {
 
 HullPainter::HullPainter()
     : picture_program_("hull", kVertexSource,
-                       std::string(kLightingSource) + kLayerSource + kPictureFragmentSource),
-      depth_program_("hull depth", kVertexSource, std::string(kLayerSource) + kDepthFragmentSource) {}
+                       fmt::format("{}{}{}", kLightingSource, kLayerSource, kPictureFragmentSource)),
+      depth_program_("hull depth", kVertexSource, fmt::format("{}{}", kLayerSource, kDepthFragmentSource)) {}
 
 void HullPainter::UploadSurface(const Scene& scene) {
   const HullView& layer = *scene.hull;
