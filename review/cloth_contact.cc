@@ -20,7 +20,7 @@ constexpr double kThickestMm = 3000.0;
 // out is longer, another object has come, and the side is chosen anew.
 constexpr double kDeepestMm = 200.0;
 // Pins hold a point if the squared weights of its free vertices sum to less than this.
-constexpr double kLeastSay = 0.05;
+constexpr double kLeastFreeWeight = 0.05;
 
 double LongestSide(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
   return std::sqrt(std::max({(a - b).squaredNorm(), (b - c).squaredNorm(), (c - a).squaredNorm()}));
@@ -138,18 +138,18 @@ int ClothContact::SideOf(const Corners& corners, const Vector3d& weights) const 
 // Moves a point of a triangle by `by_mm` to a side, with the least change of its free corners (least
 // squares): corner i, of weight u_i, moves by u_i by_mm / sum u^2. False: pins hold it.
 bool ClothContact::Push(const Corners& corners, const Vector3d& weights, int side, double by_mm) {
-  double say = 0.0;
+  double free_weight = 0.0;
   for (std::size_t k = 0; k < 3; ++k) {
     const double weight = weights[static_cast<Eigen::Index>(k)];
-    if (panel_.inverse_mass_per_kg()[corners[k]] > 0.0) say += weight * weight;
+    if (panel_.inverse_mass_per_kg()[corners[k]] > 0.0) free_weight += weight * weight;
   }
-  if (say < kLeastSay) return false;
+  if (free_weight < kLeastFreeWeight) return false;
   const Vector3d out = side * v_rec_;
   for (std::size_t k = 0; k < 3; ++k) {
     const std::uint32_t vertex = corners[k];
     const double weight = weights[static_cast<Eigen::Index>(k)];
     if (panel_.inverse_mass_per_kg()[vertex] <= 0.0 || weight <= 0.0) continue;
-    state_->x_in_world[vertex] += weight / say * by_mm * out;
+    state_->x_in_world[vertex] += weight / free_weight * by_mm * out;
     Vector3d& velocity = state_->velocity_in_world[vertex];
     const double leaving = std::max(velocity.dot(out), 0.0);
     const Vector3d along = velocity - velocity.dot(out) * out;

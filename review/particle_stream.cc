@@ -24,7 +24,7 @@ constexpr double kGravityMmPerS2 = 9806.65;
 constexpr double kStepS = 1.0 / 240.0;
 constexpr double kKeptAlong = 0.9;    // share of the speed along a surface that a touch in a step keeps
 constexpr double kSpread = 0.06;      // half angle of the jet, rad
-constexpr double kTouchMm = 0.2;      // free room that counts as none
+constexpr double kTouchingMm = 0.2;   // free room that counts as none
 constexpr double kNearExitMm = 80.0;  // a particle moves no farther than this out of a hull that came over it
 constexpr int kMostMoves = 64;        // at most, in one step
 
@@ -75,7 +75,8 @@ class Surroundings {
     const double hull_mm = answer.is_inside ? 0.0 : answer.radius_mm;
     if (hull_mm >= room.free_mm) return room;
     room = {hull_mm, Vector3d::Zero()};
-    if (hull_mm <= kTouchMm) room.away = hull_.EdgeAt(x_in_world).normal_in_world.value_or(Vector3d::Zero());
+    if (hull_mm <= kTouchingMm)
+      room.away = hull_.EdgeAt(x_in_world).normal_in_world.value_or(Vector3d::Zero());
     return room;
   }
 
@@ -121,7 +122,7 @@ void Move(const Surroundings& around, double step_s, Particle* particle) {
     const double speed = particle->velocity_in_world.norm();
     if (speed <= 0.0) return;
     const Surroundings::Room room = around.RoomAt(particle->x_in_world);
-    if (room.free_mm > kTouchMm) {
+    if (room.free_mm > kTouchingMm) {
       const double move_s = std::min(left_s, 0.999 * room.free_mm / speed);
       particle->x_in_world += move_s * particle->velocity_in_world;
       left_s -= move_s;
@@ -134,7 +135,7 @@ void Move(const Surroundings& around, double step_s, Particle* particle) {
     velocity -= std::min(velocity.dot(away), 0.0) * away;
     if (!has_touched) velocity *= kKeptAlong;
     has_touched = true;
-    const Vector3d aside = particle->x_in_world + 2.0 * kTouchMm * away;
+    const Vector3d aside = particle->x_in_world + 2.0 * kTouchingMm * away;
     const Surroundings::Room there = around.RoomAt(aside);
     if (there.free_mm <= room.free_mm) return;
     particle->x_in_world = aside;

@@ -15,14 +15,14 @@ namespace elbowroom::sessions {
 namespace {
 
 constexpr int kStepsBetweenQuestions = 4096;
-// kFreeSteps take about a second on any machine in use. kStepsPerByte is ten times what the most expensive
-// statement of a sound session takes.
-constexpr std::int64_t kFreeSteps = 20'000'000;
+// kStepsOfAnyFile take about a second on any machine in use. kStepsPerByte is ten times what the most
+// expensive statement of a sound session takes.
+constexpr std::int64_t kStepsOfAnyFile = 20'000'000;
 constexpr std::int64_t kStepsPerByte = 10;
 
 }  // namespace
 
-std::int64_t MostStepsFor(std::int64_t file_bytes) { return kFreeSteps + kStepsPerByte * file_bytes; }
+std::int64_t MostStepsFor(std::int64_t file_bytes) { return kStepsOfAnyFile + kStepsPerByte * file_bytes; }
 
 struct QueryLimit::Count {
   sqlite3* connection = nullptr;

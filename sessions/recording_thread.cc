@@ -140,16 +140,16 @@ void RecordingThread::WriteHeld() {
         const std::lock_guard lock(mutex_);
         path_ = store_.path();
       }
-      Say(state(), fmt::format("the session file was removed or replaced while it was recorded; '{}' is "
-                               "written again, with every frame so far",
-                               store_.path().string()));
+      Report(state(), fmt::format("the session file was removed or replaced while it was recorded; '{}' is "
+                                  "written again, with every frame so far",
+                                  store_.path().string()));
     }
     if (!held_.empty()) store_.Write(held_);
   } catch (const DatabaseError& error) {
     if (!error.MayPass()) throw;
-    return BearWith(error);
+    return WaitOrThrow(error);
   } catch (const core::Error& error) {
-    return BearWith(error);
+    return WaitOrThrow(error);
   }
   {
     const std::lock_guard lock(mutex_);
@@ -159,14 +159,14 @@ void RecordingThread::WriteHeld() {
   held_frames_ = held_bytes_ = 0;
   out_of_room_since_.reset();
   if (std::exchange(trouble_, std::nullopt) && !store_.is_spilling())
-    Say(RecordingState::kInFile, "the session file is written again; no frame was lost");
+    Report(RecordingState::kInFile, "the session file is written again; no frame was lost");
   if (store_.is_spilling()) TryToReturn();
 }
 
-void RecordingThread::BearWith(const core::Error& error) {
+void RecordingThread::WaitOrThrow(const core::Error& error) {
   if (!trouble_) {
     trouble_ = Trouble{Clock::now(), error.what()};
-    Say(RecordingState::kInMemory, fmt::format("{}; frames are kept in memory meanwhile", error.what()));
+    Report(RecordingState::kInMemory, fmt::format("{}; frames are kept in memory meanwhile", error.what()));
   }
   const bool is_time =
       Clock::now() - trouble_->since >= std::chrono::duration<double>(options_.spill_after_s);
@@ -175,7 +175,7 @@ void RecordingThread::BearWith(const core::Error& error) {
   } else if (is_time || queue_.is_closed()) {
     TrySpill();
   }
-  RequirePatience(error);
+  ThrowIfTooLong(error);
 }
 
 void RecordingThread::TrySpill() {
@@ -185,8 +185,8 @@ void RecordingThread::TrySpill() {
     return;  // most likely the same disk: the entries stay in memory
   }
   next_return_ = Clock::now() + kLookAfter;
-  Say(RecordingState::kInSpill, fmt::format("{}; frames go into '{}.spill' meanwhile", trouble_->why,
-                                            store_.path().filename().string()));
+  Report(RecordingState::kInSpill, fmt::format("{}; frames go into '{}.spill' meanwhile", trouble_->why,
+                                               store_.path().filename().string()));
 }
 
 void RecordingThread::TryToReturn() {
@@ -198,16 +198,16 @@ void RecordingThread::TryToReturn() {
   } catch (const DatabaseError&) {
     return;  // the session file still can't be written: the spill holds everything
   }
-  Say(RecordingState::kInFile, "the session file is written again; no frame was lost");
+  Report(RecordingState::kInFile, "the session file is written again; no frame was lost");
 }
 
-void RecordingThread::RequirePatience(const core::Error& error) {
+void RecordingThread::ThrowIfTooLong(const core::Error& error) {
   if (!out_of_room_since_) return;
   if (Clock::now() - *out_of_room_since_ < std::chrono::duration<double>(options_.patience_s)) return;
   throw core::Error(error.kind(), error.what());
 }
 
-void RecordingThread::Say(RecordingState state, const std::string& line) {
+void RecordingThread::Report(RecordingState state, const std::string& line) {
   {
     const std::lock_guard lock(mutex_);
     state_ = state;

@@ -55,11 +55,11 @@ class RecordingThread {
   void Hold(RecordingEntry entry);
   [[nodiscard]] bool IsFull() const;
   void WriteHeld();
-  void BearWith(const core::Error& error);
+  void WaitOrThrow(const core::Error& error);
   void TrySpill();
   void TryToReturn();
-  void RequirePatience(const core::Error& error);
-  void Say(RecordingState state, const std::string& line);
+  void ThrowIfTooLong(const core::Error& error);
+  void Report(RecordingState state, const std::string& line);
 
   RecordingStore store_;
   const SessionWriterOptions options_;

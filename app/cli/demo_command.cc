@@ -37,7 +37,7 @@ CommandResult RunHeadless(const DemoOptions& options, const CommandContext& cont
     shown = result;
   };
   RecordingLog log(context);
-  trial.on_recording = [&](const sessions::RecordingNews& news) { log.Hear(news); };
+  trial.on_recording = [&](const sessions::RecordingNews& news) { log.Print(news); };
   control::TrialControls controls;
   const control::TrialOutcome outcome = control::RunTrial(setup, trial, controls, context.stop);
   try {

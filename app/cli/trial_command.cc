@@ -48,7 +48,7 @@ CommandResult RunHeadless(const TrialRunOptions& options, const CommandContext& 
   trial.frames = options.frames;
   trial.progress = context.progress;
   RecordingLog log(context);
-  trial.on_recording = [&](const sessions::RecordingNews& news) { log.Hear(news); };
+  trial.on_recording = [&](const sessions::RecordingNews& news) { log.Print(news); };
   control::TrialControls controls;
   CommandResult result = SummaryOf(control::RunTrial(setup, trial, controls, context.stop), setup.layout);
   std::vector<std::string> warnings = setup.warnings;

@@ -22,7 +22,7 @@ const char* ToString(sessions::RecordingState state) {
 
 }  // namespace
 
-void RecordingLog::Hear(const sessions::RecordingNews& news) {
+void RecordingLog::Print(const sessions::RecordingNews& news) {
   if (context_.tell) context_.tell(news.line);
   const std::lock_guard lock(mutex_);
   lines_.push_back(news.line);

@@ -18,7 +18,7 @@ class RecordingLog {
  public:
   explicit RecordingLog(const CommandContext& context) : context_(context) {}
 
-  void Hear(const sessions::RecordingNews& news);
+  void Print(const sessions::RecordingNews& news);
 
   // As warnings of the result.
   void AddTo(CommandResult* result) const;

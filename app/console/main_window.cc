@@ -128,7 +128,7 @@ QWidget* MainWindow::MakeSide() {
   column->addWidget(tools_);
   column->addWidget(Boxed(tr("Contacts now"), contact_list), 1);
   column->addWidget(Boxed(tr("Touches so far"), touch_list), 1);
-  connect(spacings_, &SpacingPanel::Wished, desk_, &TrialDesk::SetSpacing);
+  connect(spacings_, &SpacingPanel::Requested, desk_, &TrialDesk::SetSpacing);
   connect(tools_, &ToolPanel::Marked, desk_, &TrialDesk::MarkTool);
   return side;
 }

@@ -27,8 +27,8 @@ SpacingControl::SpacingControl(const core::Spacing& spacing, QWidget* parent)
   box_->setRange(spacing.min_mm, spacing.max_mm);
   slider_->setRange(SliderFrom(spacing.min_mm), SliderFrom(spacing.max_mm));
   ShowValue(spacing.initial_mm);
-  connect(slider_, &QSlider::valueChanged, this, [this](int value) { Wish(value / kSliderStepsPerMm); });
-  connect(box_, &QDoubleSpinBox::valueChanged, this, &SpacingControl::Wish);
+  connect(slider_, &QSlider::valueChanged, this, [this](int value) { Request(value / kSliderStepsPerMm); });
+  connect(box_, &QDoubleSpinBox::valueChanged, this, &SpacingControl::Request);
 }
 
 void SpacingControl::AddRows(const core::Spacing& spacing) {
@@ -77,11 +77,11 @@ void SpacingControl::SetIsActive(bool is_active) {
   title_->setFont(font);
 }
 
-void SpacingControl::Wish(double to_mm) {
+void SpacingControl::Request(double to_mm) {
   const double allowed_mm = std::clamp(to_mm, min_mm_, max_mm_);
   ShowValue(allowed_mm);
   awaited_mm_ = allowed_mm;
-  emit Wished(name_, allowed_mm);
+  emit Requested(name_, allowed_mm);
 }
 
 // The keys for undo and redo change the gaps, not the digits typed in the box.
@@ -129,11 +129,11 @@ void SpacingPanel::Open(const core::Layout& layout) {
     const std::size_t index = controls_.size();
     controls_.push_back(control);
     this->layout()->addWidget(control);
-    connect(control, &SpacingControl::Wished, this,
+    connect(control, &SpacingControl::Requested, this,
             [this, control, index](const std::string& name, double to_mm) {
               Activate(control);
               history_->Change(index, to_mm);
-              emit Wished(name, to_mm);
+              emit Requested(name, to_mm);
             });
   }
   if (!controls_.empty()) Activate(controls_.front());
@@ -169,7 +169,7 @@ void SpacingPanel::Redo() {
 
 void SpacingPanel::Restore(const GapHistory::Gaps& gap_mm) {
   for (std::size_t i = 0; i < controls_.size(); ++i) {
-    if (!controls_[i]->Is(gap_mm[i])) controls_[i]->Wish(gap_mm[i]);
+    if (!controls_[i]->Is(gap_mm[i])) controls_[i]->Request(gap_mm[i]);
   }
 }
 

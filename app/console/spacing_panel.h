@@ -26,13 +26,13 @@ class SpacingControl : public QWidget {
   // Shows the gap with which a frame was judged. The control follows it where it changed without being asked
   // for here; a gap that was asked for stays until a frame comes with it.
   void ShowApplied(double applied_mm);
-  void Step(double by_mm);  // stays within the limits
-  void Wish(double to_mm);  // likewise
+  void Step(double by_mm);     // stays within the limits
+  void Request(double to_mm);  // likewise
   [[nodiscard]] bool Is(double gap_mm) const { return value_mm_ == gap_mm; }
   void SetIsActive(bool is_active);  // the one that the keys move
 
  signals:
-  void Wished(const std::string& spacing, double to_mm);
+  void Requested(const std::string& spacing, double to_mm);
 
  protected:
   bool eventFilter(QObject* watched, QEvent* event) override;
@@ -72,7 +72,7 @@ class SpacingPanel : public QGroupBox {
   [[nodiscard]] const std::vector<SpacingControl*>& controls() const { return controls_; }
 
  signals:
-  void Wished(const std::string& spacing, double to_mm);
+  void Requested(const std::string& spacing, double to_mm);
   void HistoryChanged();
 
  protected:

@@ -19,7 +19,7 @@ std::vector<ScriptedChange> ToolChanges(core::FrameIndex frames, double frame_ra
   bool in_use = false;
   for (core::FrameIndex frame = 0; frame < frames; ++frame) {
     const bool now = recon::DemoSceneAt(static_cast<double>(frame) / frame_rate_hz).tongs_in_use;
-    if (now != in_use) changes.push_back({frame, ToolWish{"tongs", now}});
+    if (now != in_use) changes.push_back({frame, ToolRequest{"tongs", now}});
     in_use = now;
   }
   return changes;
@@ -42,7 +42,7 @@ TrialSetup MakeDemoTrial(DemoPlay play) {
   if (play == DemoPlay::kOnce) {
     options.frame_count = 2 * frames_a_task;
     setup.script = ToolChanges(*options.frame_count, options.frame_rate_hz);
-    setup.script.push_back({frames_a_task, SpacingWish{"payload_a_gap", kGapNeededMm}});
+    setup.script.push_back({frames_a_task, SpacingRequest{"payload_a_gap", kGapNeededMm}});
     setup.end_note = "ended with the simulated task, played twice";
   }
   setup.source = std::make_shared<recon::SyntheticRig>(

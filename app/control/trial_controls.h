@@ -8,11 +8,11 @@
 
 namespace elbowroom::control {
 
-struct SpacingWish {
+struct SpacingRequest {
   std::string spacing;
   double to_mm = 0.0;  // kept within the spacing's limits
 };
-struct ToolWish {
+struct ToolRequest {
   std::string tool;
   bool in_use = false;
 };
@@ -21,27 +21,27 @@ struct ToolWish {
 // Thread: any.
 class TrialControls {
  public:
-  struct Wishes {
-    std::vector<SpacingWish> spacings;  // in order: the last one for a spacing holds
-    std::vector<ToolWish> tools;
+  struct Requests {
+    std::vector<SpacingRequest> spacings;  // in order: the last one for a spacing holds
+    std::vector<ToolRequest> tools;
   };
 
   void SetSpacing(const std::string& spacing, double to_mm) {
     const std::lock_guard lock(mutex_);
-    wishes_.spacings.push_back({spacing, to_mm});
+    requests_.spacings.push_back({spacing, to_mm});
   }
   void MarkTool(const std::string& tool, bool in_use) {
     const std::lock_guard lock(mutex_);
-    wishes_.tools.push_back({tool, in_use});
+    requests_.tools.push_back({tool, in_use});
   }
-  [[nodiscard]] Wishes Take() {
+  [[nodiscard]] Requests Take() {
     const std::lock_guard lock(mutex_);
-    return std::exchange(wishes_, {});
+    return std::exchange(requests_, {});
   }
 
  private:
   std::mutex mutex_;
-  Wishes wishes_;
+  Requests requests_;
 };
 
 }  // namespace elbowroom::control

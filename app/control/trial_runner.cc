@@ -158,35 +158,35 @@ class Recording {
   void ApplyChanges(core::FrameIndex frame, double time_s) {
     for (const ScriptedChange& change : setup_.script) {
       if (change.frame != frame) continue;
-      std::visit([&](const auto& wish) { Apply(frame, time_s, wish); }, change.what);
+      std::visit([&](const auto& request) { Apply(frame, time_s, request); }, change.what);
     }
-    const TrialControls::Wishes wishes = controls_.Take();
-    for (const SpacingWish& wish : wishes.spacings) Apply(frame, time_s, wish);
-    for (const ToolWish& wish : wishes.tools) Apply(frame, time_s, wish);
+    const TrialControls::Requests requests = controls_.Take();
+    for (const SpacingRequest& request : requests.spacings) Apply(frame, time_s, request);
+    for (const ToolRequest& request : requests.tools) Apply(frame, time_s, request);
   }
 
-  void Apply(core::FrameIndex frame, double time_s, const ToolWish& wish) {
-    if (wish.in_use) {
-      tools_in_use_.insert(wish.tool);
+  void Apply(core::FrameIndex frame, double time_s, const ToolRequest& request) {
+    if (request.in_use) {
+      tools_in_use_.insert(request.tool);
     } else {
-      tools_in_use_.erase(wish.tool);
+      tools_in_use_.erase(request.tool);
     }
-    writer_.Append(core::SessionEvent{frame, time_s, core::ToolMarked{wish.tool, wish.in_use}});
+    writer_.Append(core::SessionEvent{frame, time_s, core::ToolMarked{request.tool, request.in_use}});
   }
 
-  void Apply(core::FrameIndex frame, double time_s, const SpacingWish& wish) {
-    const std::optional<core::SpacingIndex> index = setup_.layout.FindSpacing(wish.spacing);
+  void Apply(core::FrameIndex frame, double time_s, const SpacingRequest& request) {
+    const std::optional<core::SpacingIndex> index = setup_.layout.FindSpacing(request.spacing);
     if (!index) {
-      const std::string note = fmt::format("no spacing is named '{}'", wish.spacing);
+      const std::string note = fmt::format("no spacing is named '{}'", request.spacing);
       writer_.Append(core::SessionEvent{frame, time_s, core::Note{note}});
       return;
     }
     const core::Spacing& spacing = setup_.layout.spacings[*index];
-    const double allowed_mm = std::clamp(wish.to_mm, spacing.min_mm, spacing.max_mm);
+    const double allowed_mm = std::clamp(request.to_mm, spacing.min_mm, spacing.max_mm);
     const double from_mm = std::exchange(spacing_mm_[*index], allowed_mm);
     if (from_mm == allowed_mm) return;
     writer_.Append(
-        core::SessionEvent{frame, time_s, core::SpacingChanged{wish.spacing, from_mm, allowed_mm}});
+        core::SessionEvent{frame, time_s, core::SpacingChanged{request.spacing, from_mm, allowed_mm}});
   }
 
   void Record(const FrameResult& result) {

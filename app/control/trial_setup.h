@@ -20,7 +20,7 @@ namespace elbowroom::control {
 // A change that the experimenter makes at a known frame; the demo's script consists of them.
 struct ScriptedChange {
   core::FrameIndex frame = 0;
-  std::variant<SpacingWish, ToolWish> what;
+  std::variant<SpacingRequest, ToolRequest> what;
 };
 
 struct TrialSetup {

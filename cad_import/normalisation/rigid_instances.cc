@@ -22,11 +22,11 @@ using core::ErrorKind;
 constexpr double kRigidTolerance = 1e-5;
 
 // A placement as a rigid motion after a symmetric stretch, L = R S; a mirror is in S.
-struct Parted {
+struct RotationAndStretch {
   Eigen::Matrix3d rotation;
   Eigen::Matrix3d stretch;  // identity where the motion is rigid but for rounding
 };
-Parted PartOf(const Eigen::Matrix3d& linear) {
+RotationAndStretch PolarDecomposition(const Eigen::Matrix3d& linear) {
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(linear, Eigen::ComputeFullU | Eigen::ComputeFullV);
   Eigen::Matrix3d rotation = svd.matrixU() * svd.matrixV().transpose();
   Eigen::Matrix3d stretch = svd.matrixV() * svd.singularValues().asDiagonal() * svd.matrixV().transpose();
@@ -75,7 +75,7 @@ RigidInstances MakeRigid(const RawScene& scene, const std::string& where) {
                   fmt::format("{}: '{}' isn't placed at a finite point; repair the file before importing it",
                               where, instance.path));
     }
-    const auto [rotation, stretch] = PartOf(linear);
+    const auto [rotation, stretch] = PolarDecomposition(linear);
     const Key key{instance.shape, RoundedStretch(stretch)};
     const auto [found, is_new] = made.try_emplace(key, result.shapes.size());
     if (is_new) {

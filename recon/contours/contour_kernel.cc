@@ -93,11 +93,11 @@ HWY_INLINE Points Project(const GridView& grid, const GridPoints& points, std::s
   return {hn::Mul(coordinate(0), per_z), hn::Mul(coordinate(1), per_z), z_mm};
 }
 
-HWY_INLINE DoubleVec InCells(const ContourCellsView& raster, DoubleVec px, double origin_px) {
-  return hn::Mul(hn::Sub(px, Set(origin_px)), Set(raster.cells_per_px));
+HWY_INLINE DoubleVec InCells(const ContourCellsView& cells, DoubleVec px, double origin_px) {
+  return hn::Mul(hn::Sub(px, Set(origin_px)), Set(cells.cells_per_px));
 }
-HWY_INLINE IntVec Index(const ContourCellsView& raster, IntVec column, IntVec row) {
-  return hn::Add(hn::Mul(row, hn::Set(Ints(), raster.width)), column);
+HWY_INLINE IntVec Index(const ContourCellsView& cells, IntVec column, IntVec row) {
+  return hn::Add(hn::Mul(row, hn::Set(Ints(), cells.width)), column);
 }
 HWY_INLINE IntVec Bytes(std::span<const std::uint8_t> bytes, IntVec index) {
   const IntVec words = hn::GatherOffset(Ints(), reinterpret_cast<const std::int32_t*>(bytes.data()), index);
@@ -115,37 +115,37 @@ std::uint64_t PointsInUse(const GridPoints& points) {
   return points.count == 0 ? 0 : ~std::uint64_t{0} >> (kMost - points.count);
 }
 
-std::uint64_t LabelSome(const GridView& grid, const ContourCellsView& raster, const GridPoints& points) {
+std::uint64_t LabelSome(const GridView& grid, const ContourCellsView& cells, const GridPoints& points) {
   const Doubles d;
   const Ints n;
   const DoubleVec zero = hn::Zero(d);
   std::uint64_t object = 0, mixed = 0;
   alignas(64) double x[kMost], y[kMost];
-  alignas(32) std::int32_t columns[kMost], rows[kMost], cells[kMost];
+  alignas(32) std::int32_t columns[kMost], rows[kMost], indices[kMost];
   for (std::size_t begin = 0; begin < points.count; begin += hn::Lanes(d)) {
     const Points p = Project(grid, points, begin);
-    const DoubleVec across = InCells(raster, p.x, raster.origin_x_px),
-                    down = InCells(raster, p.y, raster.origin_y_px);
+    const DoubleVec across = InCells(cells, p.x, cells.origin_x_px),
+                    down = InCells(cells, p.y, cells.origin_y_px);
     // Written so that a NaN is in no cell.
-    const auto is_across = hn::And(hn::Ge(across, zero), hn::Lt(across, Set(raster.width)));
-    const auto is_down = hn::And(hn::Ge(down, zero), hn::Lt(down, Set(raster.height)));
+    const auto is_across = hn::And(hn::Ge(across, zero), hn::Lt(across, Set(cells.width)));
+    const auto is_down = hn::And(hn::Ge(down, zero), hn::Lt(down, Set(cells.height)));
     const auto is_in_cell = hn::And(hn::And(is_across, is_down), hn::Gt(p.z, zero));
     const IntVec column = hn::DemoteTo(n, hn::IfThenElseZero(is_in_cell, across));
     const IntVec row = hn::DemoteTo(n, hn::IfThenElseZero(is_in_cell, down));
-    const IntVec index = Index(raster, column, row), label = Bytes(raster.labels, index);
+    const IntVec index = Index(cells, column, row), label = Bytes(cells.labels, index);
     object |= BitsOf(n, hn::TestBit(label, hn::Set(n, ContourCellsView::kObject))) << begin;
     mixed |= BitsOf(n, hn::TestBit(label, hn::Set(n, ContourCellsView::kMixed))) << begin;
     hn::Store(p.x, d, x + begin), hn::Store(p.y, d, y + begin);
     hn::Store(column, n, columns + begin), hn::Store(row, n, rows + begin),
-        hn::Store(index, n, cells + begin);
+        hn::Store(index, n, indices + begin);
   }
   for (mixed &= PointsInUse(points); mixed != 0; mixed &= mixed - 1) {
     const auto i = static_cast<std::size_t>(std::countr_zero(mixed));
-    const double centre[2] = {raster.origin_x_px + raster.cell_px * (columns[i] + 0.5),
-                              raster.origin_y_px + raster.cell_px * (rows[i] + 0.5)};
+    const double centre[2] = {cells.origin_x_px + cells.cell_px * (columns[i] + 0.5),
+                              cells.origin_y_px + cells.cell_px * (rows[i] + 0.5)};
     const double position[2] = {x[i], y[i]};
-    const std::uint32_t* const first = raster.first.data() + cells[i];
-    const bool changes = LabelDiffers(raster.edges.data() + first[0], first[1] - first[0], centre, position);
+    const std::uint32_t* const first = cells.first.data() + indices[i];
+    const bool changes = LabelDiffers(cells.edges.data() + first[0], first[1] - first[0], centre, position);
     object ^= std::uint64_t{changes} << i;
   }
   return object & PointsInUse(points);
@@ -198,17 +198,17 @@ class Way {
 // The least share at which way i meets an edge of the cells in its box; more than 1 if there is none. Most
 // boxes have one or two rows of up to four edges, so these are looked at without a test. A box of one row is
 // looked at twice, which changes nothing.
-HWY_INLINE double FirstCrossing(const ContourCellsView& raster, const Ways& ways, std::size_t i) {
+HWY_INLINE double FirstCrossing(const ContourCellsView& cells, const Ways& ways, std::size_t i) {
   const Edges d;
   const Way way(ways, i);
   EdgeVec nearest = SetE(kNoCrossing);
   const auto meet_row = [&](std::int32_t row) HWY_ATTR {
-    const std::uint32_t* const first = raster.first.data() + row * raster.width;
+    const std::uint32_t* const first = cells.first.data() + row * cells.width;
     std::size_t at = first[ways.left[i]];
     const std::size_t end = first[ways.right[i] + 1];
-    nearest = way.Meet(raster.edges.data() + at, end - at, nearest);
+    nearest = way.Meet(cells.edges.data() + at, end - at, nearest);
     for (at += hn::Lanes(d); at < end; at += hn::Lanes(d))
-      nearest = way.Meet(raster.edges.data() + at, end - at, nearest);
+      nearest = way.Meet(cells.edges.data() + at, end - at, nearest);
   };
   meet_row(ways.top[i]);
   for (std::int32_t row = ways.top[i] + 1; row < ways.bottom[i]; ++row) meet_row(row);
@@ -220,7 +220,7 @@ HWY_INLINE double FirstCrossing(const ContourCellsView& raster, const Ways& ways
 // length is less than the clearance around its middle. Where the middle is outside of the cells, the nearest
 // cell's clearance serves: from there the edges are no farther. Shares that can't be worked out become
 // kUnknownCrossing.
-HWY_INLINE std::uint64_t WaysNearEdges(const ContourCellsView& raster, const Points& from, const Points& to,
+HWY_INLINE std::uint64_t WaysNearEdges(const ContourCellsView& cells, const Points& from, const Points& to,
                                        std::size_t i, Ways* ways, double* shares) {
   const Doubles d;
   const Ints n;
@@ -231,17 +231,17 @@ HWY_INLINE std::uint64_t WaysNearEdges(const ContourCellsView& raster, const Poi
   const auto is_in_front = hn::And(hn::Gt(from.z, zero), hn::Gt(to.z, zero));
   const auto is_known = hn::And(is_in_front, hn::And(is_finite(from.x, from.y), is_finite(to.x, to.y)));
   hn::Store(hn::IfThenElse(is_known, hn::Load(d, shares + i), Set(kUnknownCrossing)), d, shares + i);
-  const auto nearest_cell = [&](DoubleVec px, double origin_px, std::int32_t cells) HWY_ATTR {
-    const DoubleVec at = hn::IfThenElseZero(is_known, InCells(raster, px, origin_px));
-    return hn::DemoteTo(n, hn::Min(hn::Max(at, zero), Set(cells - 1)));
+  const auto nearest_cell = [&](DoubleVec px, double origin_px, std::int32_t count) HWY_ATTR {
+    const DoubleVec at = hn::IfThenElseZero(is_known, InCells(cells, px, origin_px));
+    return hn::DemoteTo(n, hn::Min(hn::Max(at, zero), Set(count - 1)));
   };
   const DoubleVec half = Set(0.5);
   const DoubleVec x = hn::Mul(half, hn::Add(from.x, to.x)), y = hn::Mul(half, hn::Add(from.y, to.y));
-  const IntVec middle = Index(raster, nearest_cell(x, raster.origin_x_px, raster.width),
-                              nearest_cell(y, raster.origin_y_px, raster.height));
-  const DoubleVec squares = hn::PromoteTo(d, Bytes(raster.clear_squares, middle));
+  const IntVec middle = Index(cells, nearest_cell(x, cells.origin_x_px, cells.width),
+                              nearest_cell(y, cells.origin_y_px, cells.height));
+  const DoubleVec squares = hn::PromoteTo(d, Bytes(cells.clear_squares, middle));
   const DoubleVec clear_cells = hn::Sub(hn::Sqrt(squares), Set(kCellDiagonal));
-  const DoubleVec clear_px = hn::Sub(hn::Mul(clear_cells, Set(raster.cell_px)), Set(kRoundingPx));
+  const DoubleVec clear_px = hn::Sub(hn::Mul(clear_cells, Set(cells.cell_px)), Set(kRoundingPx));
   const DoubleVec half_x = hn::Sub(to.x, x), half_y = hn::Sub(to.y, y);
   const DoubleVec reach2 = hn::Add(hn::Mul(half_x, half_x), hn::Mul(half_y, half_y));
   const auto is_far = hn::And(hn::Gt(clear_px, zero), hn::Gt(hn::Mul(clear_px, clear_px), reach2));
@@ -250,27 +250,27 @@ HWY_INLINE std::uint64_t WaysNearEdges(const ContourCellsView& raster, const Poi
   hn::Store(from.x, d, ways->from_x + i), hn::Store(from.y, d, ways->from_y + i);
   hn::Store(to.x, d, ways->to_x + i), hn::Store(to.y, d, ways->to_y + i);
   hn::Store(from.z, d, ways->from_z + i), hn::Store(to.z, d, ways->to_z + i);
-  const IntVec x0 = nearest_cell(from.x, raster.origin_x_px, raster.width),
-               x1 = nearest_cell(to.x, raster.origin_x_px, raster.width),
-               y0 = nearest_cell(from.y, raster.origin_y_px, raster.height),
-               y1 = nearest_cell(to.y, raster.origin_y_px, raster.height);
+  const IntVec x0 = nearest_cell(from.x, cells.origin_x_px, cells.width),
+               x1 = nearest_cell(to.x, cells.origin_x_px, cells.width),
+               y0 = nearest_cell(from.y, cells.origin_y_px, cells.height),
+               y1 = nearest_cell(to.y, cells.origin_y_px, cells.height);
   hn::Store(hn::Min(x0, x1), n, ways->left + i), hn::Store(hn::Max(x0, x1), n, ways->right + i);
   hn::Store(hn::Min(y0, y1), n, ways->top + i), hn::Store(hn::Max(y0, y1), n, ways->bottom + i);
   return near << i;
 }
 
-void LowerShares(const GridView& grid, const ContourCellsView& raster, const GridPoints& from,
+void LowerShares(const GridView& grid, const ContourCellsView& cells, const GridPoints& from,
                  const GridPoints& to, double* shares) {
   const Doubles d;
   Ways ways;
   std::uint64_t near = 0;
   for (std::size_t i = 0; i < from.count; i += hn::Lanes(d))
-    near |= WaysNearEdges(raster, Project(grid, from, i), Project(grid, to, i), i, &ways, shares);
+    near |= WaysNearEdges(cells, Project(grid, from, i), Project(grid, to, i), i, &ways, shares);
   alignas(64) double in_picture[kMost];
   for (std::size_t i = 0; i < from.count; i += hn::Lanes(d)) hn::Store(Set(kNoCrossing), d, in_picture + i);
   for (near &= PointsInUse(from); near != 0; near &= near - 1) {
     const auto i = static_cast<std::size_t>(std::countr_zero(near));
-    in_picture[i] = FirstCrossing(raster, ways, i);
+    in_picture[i] = FirstCrossing(cells, ways, i);
   }
   // From a share s of the way in the picture to one in space. In the picture 1 / z is linear, so the share in
   // space is s from_z / (to_z + s (from_z - to_z)).
@@ -354,21 +354,21 @@ HWY_INLINE EdgeMask AreBeside(const EdgeLanes& e, const Slab* slabs, const SeenC
   return hn::Or(beside, hn::Or(hn::Gt(low, slack), hn::Lt(high, hn::Neg(slack))));
 }
 
-bool IsClear(const GridView& grid, const ConvexCorners& shape, const ContourCellsView& raster,
+bool IsClear(const GridView& grid, const ConvexCorners& shape, const ContourCellsView& cells,
              double slack_px) {
   const SeenCorners corners = ProjectCorners(grid, shape);
   if (!corners.are_in_front) return false;
   Slab slabs[kSlabs] = {SlabAlong(corners, 1.0, 0.0, slack_px), SlabAlong(corners, 0.0, 1.0, slack_px)};
-  const auto cell = [&](double px, double origin_px, std::int32_t cells) {
+  const auto cell = [&](double px, double origin_px, std::int32_t count) {
     return static_cast<std::int32_t>(
-        std::clamp(std::floor((px - origin_px) * raster.cells_per_px), -1.0, static_cast<double>(cells)));
+        std::clamp(std::floor((px - origin_px) * cells.cells_per_px), -1.0, static_cast<double>(count)));
   };
-  const std::int32_t left = cell(slabs[0].low, raster.origin_x_px, raster.width),
-                     right = cell(slabs[0].high, raster.origin_x_px, raster.width),
-                     top = cell(slabs[1].low, raster.origin_y_px, raster.height),
-                     bottom = cell(slabs[1].high, raster.origin_y_px, raster.height);
+  const std::int32_t left = cell(slabs[0].low, cells.origin_x_px, cells.width),
+                     right = cell(slabs[0].high, cells.origin_x_px, cells.width),
+                     top = cell(slabs[1].low, cells.origin_y_px, cells.height),
+                     bottom = cell(slabs[1].high, cells.origin_y_px, cells.height);
   // All edges are within the cells.
-  if (right < 0 || bottom < 0 || left == raster.width || top == raster.height) return true;
+  if (right < 0 || bottom < 0 || left == cells.width || top == cells.height) return true;
   if (bottom - top >= kMostConvexRows) return false;
   for (std::size_t i = 0; i < shape.sides.size(); ++i) {
     const auto [from, to] = shape.sides[i];
@@ -376,12 +376,12 @@ bool IsClear(const GridView& grid, const ConvexCorners& shape, const ContourCell
         SlabAlong(corners, corners.y[from] - corners.y[to], corners.x[to] - corners.x[from], slack_px);
   }
   const Edges d;
-  for (std::int32_t row = std::max(top, 0); row <= std::min(bottom, raster.height - 1); ++row) {
-    const std::uint32_t* const first = raster.first.data() + row * raster.width;
-    const std::size_t end = first[std::min(right, raster.width - 1) + 1];
+  for (std::int32_t row = std::max(top, 0); row <= std::min(bottom, cells.height - 1); ++row) {
+    const std::uint32_t* const first = cells.first.data() + row * cells.width;
+    const std::size_t end = first[std::min(right, cells.width - 1) + 1];
     for (std::size_t i = first[std::max(left, 0)]; i < end; i += hn::Lanes(d)) {
       const EdgeMask is_there = hn::FirstN(d, end - i);
-      const EdgeMask beside = AreBeside(Load(raster.edges.data() + i), slabs, corners, slack_px);
+      const EdgeMask beside = AreBeside(Load(cells.edges.data() + i), slabs, corners, slack_px);
       if (!hn::AllFalse(d, hn::AndNot(beside, is_there))) return false;
     }
   }
@@ -405,14 +405,14 @@ bool LabelDiffersInCell(std::span<const ContourCellsView::Edge> edges, const std
   return HWY_DYNAMIC_DISPATCH(LabelDiffers)(edges.data(), edges.size(), centre_px.data(), position_px.data());
 }
 
-std::uint64_t LabelPoints(const GridView& grid, const ContourCellsView& raster, const GridPoints& points) {
-  return HWY_DYNAMIC_DISPATCH(LabelSome)(grid, raster, points);
+std::uint64_t LabelPoints(const GridView& grid, const ContourCellsView& cells, const GridPoints& points) {
+  return HWY_DYNAMIC_DISPATCH(LabelSome)(grid, cells, points);
 }
 
-void LowerToCrossings(const GridView& grid, const ContourCellsView& raster, const GridPoints& from,
+void LowerToCrossings(const GridView& grid, const ContourCellsView& cells, const GridPoints& from,
                       const GridPoints& to, WayShares* shares) {
-  if (raster.width == 0) return;  // no edges: everywhere the exterior's label
-  HWY_DYNAMIC_DISPATCH(LowerShares)(grid, raster, from, to, shares->at.data());
+  if (cells.width == 0) return;  // no edges: everywhere the exterior's label
+  HWY_DYNAMIC_DISPATCH(LowerShares)(grid, cells, from, to, shares->at.data());
 }
 
 const ConvexCorners& ConvexCorners::OfBox() {
@@ -437,9 +437,9 @@ const ConvexCorners& ConvexCorners::OfTriangle() {
   return triangle;
 }
 
-bool IsClearOfEdges(const GridView& grid, const ConvexCorners& corners, const ContourCellsView& raster,
+bool IsClearOfEdges(const GridView& grid, const ConvexCorners& corners, const ContourCellsView& cells,
                     double slack_px) {
-  return HWY_DYNAMIC_DISPATCH(IsClear)(grid, corners, raster, slack_px);
+  return HWY_DYNAMIC_DISPATCH(IsClear)(grid, corners, cells, slack_px);
 }
 
 }  // namespace elbowroom::recon

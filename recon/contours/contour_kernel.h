@@ -40,7 +40,7 @@ inline constexpr double kUnknownCrossing = -1.0;
 
 // Bit i: point i is object, by ContourMap::IsObject of its position in the plane. Points that aren't in front
 // of the camera are exterior.
-[[nodiscard]] std::uint64_t LabelPoints(const GridView& grid, const ContourCellsView& raster,
+[[nodiscard]] std::uint64_t LabelPoints(const GridView& grid, const ContourCellsView& cells,
                                         const GridPoints& points);
 
 // A share for each of some ways between grid points. Elements after the last way mean nothing.
@@ -51,7 +51,7 @@ struct WayShares {
 // Lowers share i to the one at which the straight way from from[i] to to[i] first crosses the contour in the
 // picture, if it crosses it and if that is less; to kUnknownCrossing if an end isn't in front of the camera.
 // Meant for ways of a few cells: all cells of a way's bounding box are looked at.
-void LowerToCrossings(const GridView& grid, const ContourCellsView& raster, const GridPoints& from,
+void LowerToCrossings(const GridView& grid, const ContourCellsView& cells, const GridPoints& from,
                       const GridPoints& to, WayShares* shares);
 
 // The corners of a convex body, as points of a grid.
@@ -73,6 +73,6 @@ struct ConvexCorners {
 // rows of cells.
 inline constexpr std::int32_t kMostConvexRows = 64;
 [[nodiscard]] bool IsClearOfEdges(const GridView& grid, const ConvexCorners& corners,
-                                  const ContourCellsView& raster, double slack_px);
+                                  const ContourCellsView& cells, double slack_px);
 
 }  // namespace elbowroom::recon

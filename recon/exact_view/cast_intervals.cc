@@ -46,9 +46,9 @@ std::vector<std::uint32_t> ByFrom(std::span<const CastEdge> edges) {
 }
 
 // Goes through the angles and keeps the edges that rays meet, in order.
-class Sweep {
+class AngleSweep {
  public:
-  Sweep(std::span<const EdgeOrder> orders, CastPencil* pencil)
+  AngleSweep(std::span<const EdgeOrder> orders, CastPencil* pencil)
       : edges_(pencil->edges),
         orders_(orders),
         by_from_(ByFrom(edges_)),
@@ -214,7 +214,7 @@ void FillBins(CastPencil* pencil) {
 }  // namespace
 
 std::vector<OrderRange> FillIntervals(std::span<const EdgeOrder> orders, CastPencil* pencil) {
-  std::vector<OrderRange> ranges = Sweep(orders, pencil).Run();
+  std::vector<OrderRange> ranges = AngleSweep(orders, pencil).Run();
   FillBins(pencil);
   return ranges;
 }

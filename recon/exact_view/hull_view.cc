@@ -145,7 +145,7 @@ class Caster {
         if (hits.camera[i] == TileHits::kMiss) continue;
         const std::size_t pixel = first + static_cast<std::size_t>(column);
         const HullSurface surface =
-            SurfaceOf(hull_, hits.camera[i], ContourEdge(hits.camera[i], hits.edge[i]));
+            SurfaceOf(hull_, hits.camera[i], ContourEdgeOf(hits.camera[i], hits.edge[i]));
         if (!view_.surface.empty()) view_.surface[pixel] = surface;
         if (normals_)
           view_.normal_in_world[pixel] = normals_->Of(surface, x + column, y + row, hits.depth_mm[i]);
@@ -153,7 +153,7 @@ class Caster {
     }
   }
 
-  [[nodiscard]] std::uint32_t ContourEdge(std::int32_t caster, std::int32_t edge) const {
+  [[nodiscard]] std::uint32_t ContourEdgeOf(std::int32_t caster, std::int32_t edge) const {
     if (caster == TileHits::kNoCamera) return 0;
     const EpipolarEdges& pencil = pencils_.Caster(static_cast<std::size_t>(caster));
     return pencil.cast().edges[static_cast<std::size_t>(edge)].edge;

@@ -123,39 +123,39 @@ void AddEvents(const CastPencil& pencil, bool is_entry, const Range& angle, cons
 }
 
 // A caster's label at a key: certain, or either of the two, depending on the rounding.
-enum class Word { kOutside, kEither, kInside };
+enum class RayLabel { kOutside, kEither, kInside };
 
 // From `key` on, `caster` has this label.
 struct Change {
   double key = 0.0;
   std::size_t caster = 0;
-  Word word = Word::kEither;
+  RayLabel label = RayLabel::kEither;
 };
 
 // A caster's label after some events whose order isn't certain. It is certain only if all of them are
 // entries, or all exits, and if one of them is sure to happen or the label was the same before.
-Word WordAfter(std::span<const Event> events, Word before) {
+RayLabel LabelAfter(std::span<const Event> events, RayLabel before) {
   const bool is_entry = events.front().is_entry;
-  const Word word = is_entry ? Word::kInside : Word::kOutside;
+  const RayLabel label = is_entry ? RayLabel::kInside : RayLabel::kOutside;
   const bool are_alike = std::all_of(events.begin(), events.end(),
                                      [&](const Event& event) { return event.is_entry == is_entry; });
   const bool are_sure =
       std::any_of(events.begin(), events.end(), [](const Event& event) { return event.is_sure; });
-  return are_alike && (are_sure || before == word) ? word : Word::kEither;
+  return are_alike && (are_sure || before == label) ? label : RayLabel::kEither;
 }
 
 // Adds the changes of label that the events make. Events whose ranges of keys overlap form a group, as they
 // may come in any order: the label is uncertain from the group's lowest key to its highest.
-void AddChanges(std::vector<Event> events, std::size_t caster, Word word, std::vector<Change>* changes) {
+void AddChanges(std::vector<Event> events, std::size_t caster, RayLabel label, std::vector<Change>* changes) {
   std::sort(events.begin(), events.end(),
             [](const Event& a, const Event& b) { return a.key.low < b.key.low; });
   for (std::size_t begin = 0, end = 0; begin < events.size(); begin = end) {
     double high = events[begin].key.high;
     for (end = begin + 1; end < events.size() && events[end].key.low <= high; ++end)
       high = std::max(high, events[end].key.high);
-    changes->push_back({events[begin].key.low, caster, Word::kEither});
-    word = WordAfter(std::span(events).subspan(begin, end - begin), word);
-    changes->push_back({high, caster, word});
+    changes->push_back({events[begin].key.low, caster, RayLabel::kEither});
+    label = LabelAfter(std::span(events).subspan(begin, end - begin), label);
+    changes->push_back({high, caster, label});
   }
 }
 
@@ -167,16 +167,16 @@ class Course {
 
   [[nodiscard]] bool IsUndecided() {
     Clip();
-    if (is_beside_ == Word::kInside || from_.low > to_.high) return false;
+    if (is_beside_ == RayLabel::kInside || from_.low > to_.high) return false;
     for (const auto& pencil : pencils_.cameras()) Add(*pencil);
     for (const auto& pencil : pencils_.visibility_outlines()) Add(*pencil);
     std::stable_sort(changes_.begin(), changes_.end(),
                      [](const Change& a, const Change& b) { return a.key < b.key; });
     // Whatever the rounding, the hull begins between the key where it first may and the one where it first
     // must.
-    const double may = FirstKey(Word::kEither, from_.low), must = FirstKey(Word::kInside, from_.high);
+    const double may = FirstKey(RayLabel::kEither, from_.low), must = FirstKey(RayLabel::kInside, from_.high);
     if (may > to_.high) return false;
-    if (is_beside_ == Word::kEither || must > to_.low) return true;
+    if (is_beside_ == RayLabel::kEither || must > to_.low) return true;
     return !(may == must ||
              must - may < kMostShareOfTolerance * kViewTolerance * std::min(std::abs(may), std::abs(must)));
   }
@@ -194,21 +194,21 @@ class Course {
     }
     for (const CastForm& form : pencils_.box().beside) {
       const Range side = KeyOf(form, ray_);
-      is_beside_ = std::max(is_beside_, side.high < 0.0   ? Word::kInside
-                                        : side.low <= 0.0 ? Word::kEither
-                                                          : Word::kOutside);
+      is_beside_ = std::max(is_beside_, side.high < 0.0   ? RayLabel::kInside
+                                        : side.low <= 0.0 ? RayLabel::kEither
+                                                          : RayLabel::kOutside);
     }
   }
 
   void Add(const EpipolarEdges& pencil) {
     const std::size_t caster = words_.size();
     const bool is_object = pencil.is_concentric() ? pencil.IsObjectAlong(uv_) : pencil.starts_inside();
-    words_.push_back(is_object ? Word::kInside : Word::kOutside);
+    words_.push_back(is_object ? RayLabel::kInside : RayLabel::kOutside);
     const CastPencil& cast = pencil.cast();
     if (cast.edges.empty()) return;
     const std::optional<Range> angle = AngleOf(cast, ray_);
     if (!angle) {
-      words_.back() = Word::kEither;
+      words_.back() = RayLabel::kEither;
       return;
     }
     std::vector<Event> events;
@@ -218,20 +218,20 @@ class Course {
   }
 
   // Whether all cameras have at least this label, and one of the visibility outlines, too, if there are any.
-  [[nodiscard]] bool Agree(const std::vector<Word>& words, Word least) const {
+  [[nodiscard]] bool Agree(const std::vector<RayLabel>& words, RayLabel least) const {
     const auto cameras_end = words.begin() + std::ssize(pencils_.cameras());
-    const auto says = [&](Word word) { return word >= least; };
+    const auto says = [&](RayLabel label) { return label >= least; };
     return std::all_of(words.begin(), cameras_end, says) &&
            (cameras_end == words.end() || std::any_of(cameras_end, words.end(), says));
   }
 
   // The first key from `from` on at which they agree; infinite if there is none.
-  [[nodiscard]] double FirstKey(Word least, double from) const {
-    std::vector<Word> words = words_;
+  [[nodiscard]] double FirstKey(RayLabel least, double from) const {
+    std::vector<RayLabel> words = words_;
     double at = from;
     for (std::size_t next = 0;;) {
       for (; next < changes_.size() && changes_[next].key <= at; ++next)
-        words[changes_[next].caster] = changes_[next].word;
+        words[changes_[next].caster] = changes_[next].label;
       if (Agree(words, least)) return at;
       if (next == changes_.size()) return kInfinity;
       at = changes_[next].key;
@@ -243,8 +243,8 @@ class Course {
   Ray ray_;
   Range from_;
   Range to_;
-  Word is_beside_ = Word::kOutside;  // kInside: it certainly is
-  std::vector<Word> words_;          // before all changes; cameras, then visibility_outlines
+  RayLabel is_beside_ = RayLabel::kOutside;  // kInside: it certainly is
+  std::vector<RayLabel> words_;              // before all changes; cameras, then visibility_outlines
   std::vector<Change> changes_;
 };
 

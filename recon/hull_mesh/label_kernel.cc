@@ -56,12 +56,12 @@ HWY_INLINE unsigned BitsOf(VI label, std::int32_t bit) {
 
 class Cells {
  public:
-  explicit Cells(const ContourCellsView& raster)
-      : labels_(reinterpret_cast<const std::int32_t*>(raster.labels.data())),
-        origin_x_(Set(raster.origin_x_px * raster.cells_per_px)),
-        origin_y_(Set(raster.origin_y_px * raster.cells_per_px)),
-        width_(hn::Set(Ints(), raster.width)),
-        height_(hn::Set(Ints(), raster.height)) {}
+  explicit Cells(const ContourCellsView& cells)
+      : labels_(reinterpret_cast<const std::int32_t*>(cells.labels.data())),
+        origin_x_(Set(cells.origin_x_px * cells.cells_per_px)),
+        origin_y_(Set(cells.origin_y_px * cells.cells_per_px)),
+        width_(hn::Set(Ints(), cells.width)),
+        height_(hn::Set(Ints(), cells.height)) {}
 
   [[nodiscard]] HWY_INLINE VI LabelsOf(const Points& points) const {
     const VF per_z = hn::Div(Set(1.0), points.z);
@@ -93,8 +93,8 @@ class Cells {
 
 class Labeller {
  public:
-  Labeller(const ContourCellsView& raster, BlockBits* bits, BlockBits* mixed)
-      : cells_(raster), bits_(*bits), mixed_(*mixed) {}
+  Labeller(const ContourCellsView& cells, BlockBits* bits, BlockBits* mixed)
+      : cells_(cells), bits_(*bits), mixed_(*mixed) {}
 
   // Labels a group of eight points; points_from(i) are those from point i on. A group without a bit is
   // skipped: an earlier camera has excluded all of it. Bits of mixed cells stay set, and another pass decides
@@ -140,10 +140,10 @@ constexpr FarPoints kFarPoints = MakeFarPoints();
 // `block`: the grid from the block's own corner, x and y in cells times z. A point's place is linear in its
 // three numbers, so rows and layers are reached by adding steps: in double precision from row to row, in
 // float32 within a row only.
-std::size_t Label(const GridView& block, const ContourCellsView& raster, BlockBits* bits, BlockBits* mixed) {
+std::size_t Label(const GridView& block, const ContourCellsView& cells, BlockBits* bits, BlockBits* mixed) {
   const Floats f;
   const GridView view = block;  // a copy, so that the bytes written can't be part of it
-  Labeller labeller(raster, bits, mixed);
+  Labeller labeller(cells, bits, mixed);
   const Points step_x = Spread(view.steps[0]);
   const Points near = Times(hn::Iota(f, 0.0F), step_x);
   std::array<double, 3> layer = view.origin;
@@ -185,7 +185,7 @@ namespace {
 // Whether the kernel's float32 is good enough for a block: all of its points come out in front of the camera,
 // and each less than kTouchCells from where it is. Six roundings to 2^-24 lie on a coordinate's way (its
 // terms and their sums), then those of the division and of the place among the cells; eight are allowed for.
-bool FloatsWillDo(const GridView& block, const ContourCellsView& raster) {
+bool FloatsWillDo(const GridView& block, const ContourCellsView& cells) {
   constexpr double kRounding = 8.0 / (1 << 24);
   std::array<double, 3> error{};  // of a coordinate's terms together
   double least_z = block.origin[2];
@@ -198,10 +198,9 @@ bool FloatsWillDo(const GridView& block, const ContourCellsView& raster) {
   least_z -= error[2];
   if (!(least_z > 0.0)) return false;
   // A position farther out than twice `reach` isn't moved into the cells by an error that passes below.
-  const double left = raster.origin_x_px * raster.cells_per_px,
-               top = raster.origin_y_px * raster.cells_per_px;
+  const double left = cells.origin_x_px * cells.cells_per_px, top = cells.origin_y_px * cells.cells_per_px;
   const double reach =
-      std::max({std::abs(left), std::abs(top), std::abs(left + raster.width), std::abs(top + raster.height)});
+      std::max({std::abs(left), std::abs(top), std::abs(left + cells.width), std::abs(top + cells.height)});
   const double error_cells =
       (std::max(error[0], error[1]) + 2.0 * reach * error[2]) / least_z + kRounding * reach;
   return error_cells < ContourCellsView::kTouchCells;
@@ -209,18 +208,18 @@ bool FloatsWillDo(const GridView& block, const ContourCellsView& raster) {
 
 }  // namespace
 
-std::size_t LabelByCells(const GridView& grid, const GridPoint& corner, const ContourCellsView& raster,
+std::size_t LabelByCells(const GridView& grid, const GridPoint& corner, const ContourCellsView& cells,
                          BlockBits* bits, BlockBits* mixed) {
   GridView block;
   for (std::size_t k = 0; k < 3; ++k) {
-    const double scale = k < 2 ? raster.cells_per_px : 1.0;
+    const double scale = k < 2 ? cells.cells_per_px : 1.0;
     block.origin[k] = scale * grid.origin[k];
     for (std::size_t axis = 0; axis < 3; ++axis) {
       block.steps[axis][k] = scale * grid.steps[axis][k];
       block.origin[k] += corner[static_cast<Eigen::Index>(axis)] * block.steps[axis][k];
     }
   }
-  if (FloatsWillDo(block, raster)) return HWY_DYNAMIC_DISPATCH(Label)(block, raster, bits, mixed);
+  if (FloatsWillDo(block, cells)) return HWY_DYNAMIC_DISPATCH(Label)(block, cells, bits, mixed);
   *mixed = *bits;
   return BlockBits::kGroups - static_cast<std::size_t>(std::ranges::count(bits->groups, 0));
 }

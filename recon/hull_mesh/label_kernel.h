@@ -46,7 +46,7 @@ static_assert(kBlockCells == 8, "a row of cells is a group of points");
 // right, since the label of a cell that isn't mixed also holds for points up to kTouchCells beside it, and
 // float32's error is less; where it might be more (a block that reaches behind the camera, or far from its
 // axis) all points are mixed. Groups without a bit are skipped. Returns how many groups were labelled.
-std::size_t LabelByCells(const GridView& grid, const GridPoint& corner, const ContourCellsView& raster,
+std::size_t LabelByCells(const GridView& grid, const GridPoint& corner, const ContourCellsView& cells,
                          BlockBits* bits, BlockBits* mixed);
 
 }  // namespace elbowroom::recon

@@ -14,9 +14,9 @@ static_assert(std::endian::native == std::endian::little, "bit i of a group's by
 // Points that wait for their labels, and their bits. Once there are enough, they are labelled together.
 class Waiting {
  public:
-  Waiting(const GridView& grid, const ContourCellsView& raster, const GridPoint& corner, BlockBits* bits)
+  Waiting(const GridView& grid, const ContourCellsView& cells, const GridPoint& corner, BlockBits* bits)
       : grid_(grid),
-        raster_(raster),
+        cells_(cells),
         corner_{double(corner.x()), double(corner.y()), double(corner.z())},
         bits_(*bits) {}
 
@@ -29,7 +29,7 @@ class Waiting {
   }
 
   void Settle() {
-    const std::uint64_t object = LabelPoints(grid_, raster_, points_);
+    const std::uint64_t object = LabelPoints(grid_, cells_, points_);
     for (std::size_t i = 0; i < points_.count; ++i) {
       const unsigned bit = bits_of_points_[i], clear = static_cast<unsigned>(~object >> i & 1U) << bit % 8;
       bits_.groups[bit / 8] = static_cast<std::uint8_t>(bits_.groups[bit / 8] & ~clear);
@@ -39,7 +39,7 @@ class Waiting {
 
  private:
   const GridView& grid_;
-  const ContourCellsView& raster_;
+  const ContourCellsView& cells_;
   const std::array<double, 3> corner_;
   BlockBits& bits_;
   GridPoints points_;
@@ -77,9 +77,9 @@ GridView ViewGrid(const core::CameraModel& camera, double focal_px, const HullGr
   return view;
 }
 
-void SettleMixed(const GridView& grid, const ContourCellsView& raster, const GridPoint& corner,
+void SettleMixed(const GridView& grid, const ContourCellsView& cells, const GridPoint& corner,
                  const BlockBits& mixed, BlockBits* bits) {
-  Waiting waiting(grid, raster, corner, bits);
+  Waiting waiting(grid, cells, corner, bits);
   VisitCommon(mixed, BlockBits(*bits), [&](std::size_t bit) { waiting.Add(bit); });
   waiting.Settle();
 }

@@ -16,7 +16,7 @@ namespace elbowroom::recon {
 
 // Decides the points of the block at `corner` that are set in `mixed`, exactly: clears the bits of those that
 // the contour doesn't label object.
-void SettleMixed(const GridView& grid, const ContourCellsView& raster, const GridPoint& corner,
+void SettleMixed(const GridView& grid, const ContourCellsView& cells, const GridPoint& corner,
                  const BlockBits& mixed, BlockBits* bits);
 
 }  // namespace elbowroom::recon

@@ -68,9 +68,9 @@ std::vector<SweepCamera> MakeSweepCameras(const core::Rig& rig, std::span<const 
       cameras[i] = {camera, cam_from_view, MakeCoverageTexture(masks[i]), BlockOccupancy(masks[i].mask)};
       return;
     }
-    UndistortedMask straight = Undistort(camera, masks[i], undistortion_grid, exterior_is_object);
-    cameras[i] = {std::move(straight.camera), cam_from_view, MakeCoverageTexture(straight.mask),
-                  BlockOccupancy(straight.mask.mask)};
+    UndistortedMask undistorted = Undistort(camera, masks[i], undistortion_grid, exterior_is_object);
+    cameras[i] = {std::move(undistorted.camera), cam_from_view, MakeCoverageTexture(undistorted.mask),
+                  BlockOccupancy(undistorted.mask.mask)};
   });
   std::vector<std::size_t> order(cameras.size());
   std::iota(order.begin(), order.end(), 0);

@@ -21,7 +21,7 @@ constexpr double kThreshold = 127.5;
 constexpr double kMostGrowth = 2.0;
 
 // Where the picture's border lies in the normalised plane.
-AlignedBox2d StraightBounds(const core::CameraModel& camera) {
+AlignedBox2d UndistortedBounds(const core::CameraModel& camera) {
   constexpr int kSteps = 64;  // a side
   AlignedBox2d bounds;
   const double width_px = camera.width_px(), height_px = camera.height_px();
@@ -37,8 +37,8 @@ AlignedBox2d StraightBounds(const core::CameraModel& camera) {
   return bounds.isEmpty() ? AlignedBox2d(-reach, reach) : bounds;
 }
 
-core::CameraModel StraightCamera(const core::CameraModel& camera) {
-  const AlignedBox2d bounds = StraightBounds(camera);
+core::CameraModel CameraWithoutLens(const core::CameraModel& camera) {
+  const AlignedBox2d bounds = UndistortedBounds(camera);
   core::CameraCalibration c = camera.calibration();
   const auto growth = [](double extent_px, int size_px) {
     return std::max(1.0, extent_px / (kMostGrowth * size_px));
@@ -56,15 +56,15 @@ core::CameraModel StraightCamera(const core::CameraModel& camera) {
   return core::CameraModel(std::move(c));
 }
 
-// Positions in the real picture of grid x grid places spread over the straight one.
-std::vector<Vector2d> GridPositions(const core::CameraModel& real, const core::CameraModel& straight,
+// Positions in the real picture of grid x grid places spread over the undistorted one.
+std::vector<Vector2d> GridPositions(const core::CameraModel& real, const core::CameraModel& undistorted,
                                     int grid) {
   std::vector<Vector2d> positions;
-  const Vector2d last(straight.width_px() - 1, straight.height_px() - 1);
+  const Vector2d last(undistorted.width_px() - 1, undistorted.height_px() - 1);
   for (int j = 0; j < grid; ++j) {
     for (int i = 0; i < grid; ++i) {
       const Vector2d pixel = Vector2d(i, j).cwiseProduct(last) / (grid - 1);
-      Vector2d normalised = *straight.NormalisedFromPixel(pixel);
+      Vector2d normalised = *undistorted.NormalisedFromPixel(pixel);
       // The lens has no place beyond its domain: such a corner stands where the domain ends.
       const double radius = normalised.norm(), most = 0.999'999 * real.max_radius();
       if (radius > most) normalised *= most / radius;
@@ -74,7 +74,7 @@ std::vector<Vector2d> GridPositions(const core::CameraModel& real, const core::C
   return positions;
 }
 
-// One byte a place of the straight picture.
+// One byte a place of the undistorted picture.
 struct Coverage {
   std::size_t width = 0, height = 0;
   std::vector<std::uint8_t> bytes;
@@ -121,10 +121,10 @@ AlignedBox1d PartWithin(const AlignedBox2d& box, const Vector2d& from, const Vec
   return part;
 }
 
-// Fills the straight picture from the real one, cell by cell of the grid.
-class Straightener {
+// Fills the undistorted picture from the real one, cell by cell of the grid.
+class MaskUndistorter {
  public:
-  Straightener(const core::SoftMask& mask, bool exterior_is_object)
+  MaskUndistorter(const core::SoftMask& mask, bool exterior_is_object)
       : texture_(MakeCoverageTexture(mask)),
         picture_(Vector2d::Constant(-0.5), Vector2d(mask.mask.width_px() - 0.5, mask.mask.height_px() - 0.5)),
         exterior_is_object_(exterior_is_object) {}
@@ -178,11 +178,11 @@ class Straightener {
 UndistortedMask Undistort(const core::CameraModel& camera, const core::SoftMask& mask, int grid,
                           bool exterior_is_object) {
   core::Require(grid >= 2, "an undistortion grid has at least 2 positions a side");
-  core::CameraModel straight = StraightCamera(camera);
-  const Coverage coverage =
-      Straightener(mask, exterior_is_object)
-          .Fill(GridPositions(camera, straight, grid), grid, straight.width_px(), straight.height_px());
-  return {std::move(straight), SoftMaskOf(coverage)};
+  core::CameraModel undistorted = CameraWithoutLens(camera);
+  const Coverage coverage = MaskUndistorter(mask, exterior_is_object)
+                                .Fill(GridPositions(camera, undistorted, grid), grid, undistorted.width_px(),
+                                      undistorted.height_px());
+  return {std::move(undistorted), SoftMaskOf(coverage)};
 }
 
 }  // namespace elbowroom::recon

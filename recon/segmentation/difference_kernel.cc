@@ -231,10 +231,10 @@ HWY_EXPORT(LookAtCells);
 HWY_EXPORT(DifferInCell);
 
 // The pixels between those that are looked at: rows 1 to 3 of a cell, from pixel 42 to pixel 21 of the next
-// one. A region that holds no pixel that is looked at lies within such a gap, so it has at most kMostUnseenPx
-// pixels.
-constexpr int kUnseenOfRowPx = 64 - 20;
-constexpr int kMostUnseenPx = (LevelRanges::kSharingRows - 1) * kUnseenOfRowPx;
+// one. A region that holds no pixel that is looked at lies within such a gap, so it has at most
+// kMostSkippedPx pixels.
+constexpr int kSkippedOfRowPx = 64 - 20;
+constexpr int kMostSkippedPx = (LevelRanges::kSharingRows - 1) * kSkippedOfRowPx;
 
 constexpr int kStripCells = 30;  // rows of cells
 
@@ -261,7 +261,7 @@ class DifferenceSearch {
 
   // Visits the cells in which a pixel that is looked at differs, and from there on all cells that adjoin one
   // with a differing pixel. So a region that has a pixel that is looked at is found as a whole.
-  [[nodiscard]] core::BitMask Large(std::int64_t* unseen_px) && {
+  [[nodiscard]] core::BitMask Large(std::int64_t* skipped_px) && {
     is_known_.assign(static_cast<std::size_t>(down_ * across_), 0);
     const std::vector<std::uint64_t> hits = Look();
     for (int group = 0; group < down_; ++group) VisitHits(group, hits);
@@ -270,7 +270,7 @@ class DifferenceSearch {
       waiting_.pop_back();
       Visit(RowsOf(group), group, word);
     }
-    *unseen_px = unseen_px_;
+    *skipped_px = unseen_px_;
     return std::move(mask_);
   }
 
@@ -328,7 +328,7 @@ class DifferenceSearch {
   }
 
   static std::int64_t UnseenOfCellPx(const RowGroup& rows) {
-    return kUnseenOfRowPx * (static_cast<std::int64_t>(rows.count) - 1);
+    return kSkippedOfRowPx * (static_cast<std::int64_t>(rows.count) - 1);
   }
 
   void Visit(const RowGroup& rows, int group, int word) {
@@ -354,29 +354,29 @@ class DifferenceSearch {
 };
 
 core::BitMask Differing(const LevelRanges& ranges, const cv::Mat& image_bgr, const cv::Mat& mean_bgr,
-                        const ShadeRule* shade, int least_px, std::int64_t* unseen_px) {
+                        const ShadeRule* shade, int least_px, std::int64_t* skipped_px) {
   core::Require(
       image_bgr.type() == CV_8UC3 && image_bgr.size() == cv::Size(ranges.width_px(), ranges.height_px()),
       "a picture is 8-bit BGR and of its ranges' size");
   DifferenceSearch search(ranges, image_bgr, mean_bgr, shade);
   std::int64_t unseen = 0;
-  core::BitMask mask = least_px > kMostUnseenPx ? std::move(search).Large(&unseen) : std::move(search).All();
-  if (unseen_px != nullptr) *unseen_px = unseen;
+  core::BitMask mask = least_px > kMostSkippedPx ? std::move(search).Large(&unseen) : std::move(search).All();
+  if (skipped_px != nullptr) *skipped_px = unseen;
   return mask;
 }
 
 }  // namespace
 
 core::BitMask DifferingPixels(const LevelRanges& ranges, const cv::Mat& image_bgr, int least_px,
-                              std::int64_t* unseen_px) {
-  return Differing(ranges, image_bgr, {}, nullptr, least_px, unseen_px);
+                              std::int64_t* skipped_px) {
+  return Differing(ranges, image_bgr, {}, nullptr, least_px, skipped_px);
 }
 
 core::BitMask DifferingPixels(const LevelRanges& ranges, const cv::Mat& image_bgr, const cv::Mat& mean_bgr,
-                              const ShadeRule& shade, int least_px, std::int64_t* unseen_px) {
+                              const ShadeRule& shade, int least_px, std::int64_t* skipped_px) {
   core::Require(mean_bgr.type() == CV_32FC3 && mean_bgr.size() == image_bgr.size(),
                 "a background's mean is CV_32FC3 and of the picture's size");
-  return Differing(ranges, image_bgr, mean_bgr, &shade, least_px, unseen_px);
+  return Differing(ranges, image_bgr, mean_bgr, &shade, least_px, skipped_px);
 }
 
 }  // namespace elbowroom::recon

@@ -104,12 +104,12 @@ core::BitMask Segmenter::Detect(const cv::Mat& image_bgr, const EmptyScene& scen
                                 SegmentationStats* stats) const {
   const ShadeRule shade{static_cast<float>(options_.shadow_darkest),
                         static_cast<float>(options_.shadow_chroma), kShadeNoiseLevels};
-  std::int64_t unseen_px = 0;
+  std::int64_t skipped_px = 0;
   core::BitMask mask =
       options_.shadows == ShadowRule::kReject
-          ? DifferingPixels(scene.ranges, image_bgr, scene.mean_bgr, shade, options_.min_blob_px, &unseen_px)
-          : DifferingPixels(scene.ranges, image_bgr, options_.min_blob_px, &unseen_px);
-  if (stats != nullptr) *stats = {static_cast<std::int64_t>(image_bgr.total()), unseen_px};
+          ? DifferingPixels(scene.ranges, image_bgr, scene.mean_bgr, shade, options_.min_blob_px, &skipped_px)
+          : DifferingPixels(scene.ranges, image_bgr, options_.min_blob_px, &skipped_px);
+  if (stats != nullptr) *stats = {static_cast<std::int64_t>(image_bgr.total()), skipped_px};
   if (!mask.ShowsObject()) return mask;
   RemoveSmallBlobs(mask, options_.min_blob_px);
   FillSmallHoles(mask, options_.max_hole_px);

@@ -84,7 +84,7 @@ TEST(SpacingPanel, UndoGivesBackTheGapThatWasThereNotTheOneShown) {
   layout.spacings = {{"gap", "a", "b", core::Axis::kZ, 0.0, 300.0, 140.03}};
   panel.Open(layout);
   std::vector<double> wished_mm;
-  QObject::connect(&panel, &SpacingPanel::Wished, &panel,
+  QObject::connect(&panel, &SpacingPanel::Requested, &panel,
                    [&](const std::string&, double to_mm) { wished_mm.push_back(to_mm); });
   panel.findChild<QDoubleSpinBox*>()->setValue(240.0);
   panel.Undo();

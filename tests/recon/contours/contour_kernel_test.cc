@@ -189,17 +189,17 @@ GridPoints OneGroup(std::size_t group, const GridPoint& corner) {
 TEST(ContourKernel, CellsAreMixedIfAnEdgeIsNearlyInThem) {
   int looked_at = 0;
   ForRandomContours(6105, 20, [&](Random* random, const ContourMap& map) {
-    const ContourCellsView raster = map.CellsView();
+    const ContourCellsView cells = map.CellsView();
     constexpr double kOff = 0.999 * ContourCellsView::kTouchCells;  // less the rounding of the position here
     for (const ContourEdge& edge : map.contour().edges) {
       const Vector2d &a = map.contour().vertices[edge.from], &b = map.contour().vertices[edge.to];
       const Vector2d off(random->Uniform(-kOff, kOff), random->Uniform(-kOff, kOff));
-      const Vector2d origin_px(raster.origin_x_px, raster.origin_y_px);
-      const Vector2d at = (a + random->Uniform(0.0, 1.0) * (b - a) - origin_px) * raster.cells_per_px + off;
-      const auto cell = static_cast<std::size_t>(at.y()) * static_cast<std::size_t>(raster.width) +
+      const Vector2d origin_px(cells.origin_x_px, cells.origin_y_px);
+      const Vector2d at = (a + random->Uniform(0.0, 1.0) * (b - a) - origin_px) * cells.cells_per_px + off;
+      const auto cell = static_cast<std::size_t>(at.y()) * static_cast<std::size_t>(cells.width) +
                         static_cast<std::size_t>(at.x());
-      ASSERT_NE(raster.labels[cell] & ContourCellsView::kMixed, 0) << at.transpose();
-      ASSERT_EQ(raster.clear_squares[cell], 0);
+      ASSERT_NE(cells.labels[cell] & ContourCellsView::kMixed, 0) << at.transpose();
+      ASSERT_EQ(cells.clear_squares[cell], 0);
       ++looked_at;
     }
   });
