@@ -226,10 +226,10 @@ std::optional<std::string> DefectOfPicture(std::string_view bytes) {
 
 std::string DecodableBytes(std::string_view bytes, PictureFormat format) {
   if (format == PictureFormat::kPng) return PixelChunks(bytes);
-  if (format != PictureFormat::kJpeg) return std::string(bytes);
-  std::string padded(bytes.size() + kJpegPaddingBytes, '\0');
-  std::ranges::copy(bytes, padded.begin());
-  for (std::size_t i = 0; i < kJpegPaddingBytes; ++i) padded[bytes.size() + i] = kJpegEnd[i % kJpegEnd.size()];
+  std::string padded(bytes);
+  if (format != PictureFormat::kJpeg) return padded;
+  padded.reserve(bytes.size() + kJpegPaddingBytes);
+  while (padded.size() < bytes.size() + kJpegPaddingBytes) padded += kJpegEnd;
   return padded;
 }
 
