@@ -212,7 +212,7 @@ TEST_F(KnownDamage, WhatIsNoFileOrNoConfiguration) {
         "is larger than 4 MiB");
     const bool is_yaml = file.extension() == ".yml";
     const std::string word = is_yaml ? "%YAML:1.0" : "not TOML";
-    ExpectRefused(kind, std::string("RIFF\x10\0\0\0AVI ", 12) + std::string(3'000'000, '\0'), word);
+    ExpectRefused(kind, std::string("RIFF\x10\0\0\0AVI ", 12).append(3'000'000, '\0'), word);
     ExpectRefused(kind, std::string(3'000'000, '\0'), word);
     ExpectRefused(kind, "\x1f\x8b\x08" + std::string(1000, '\xAA'), word);
     ExpectRefused(kind, std::string("\xFF\xFE%\0Y\0", 6), word);
@@ -269,7 +269,7 @@ TEST_F(KnownDamage, MoreEntriesThanCanBeHeldAgainstEachOther) {
 
 TEST_F(KnownDamage, NamesThatBreakLines) {
   using enum ConfigurationKind;
-  const std::string name = std::string(2000, 'n') + "\\u001b[2J\\n\\u2028";
+  const std::string name = fmt::format("{}\\u001b[2J\\n\\u2028", std::string(2000, 'n'));
   ExpectRefused(kTrial, With(folder_.path(), kTrial, "\"rig.yml\"", "\"" + name + "\""),
                 R"(\x1b[2J\x0a\xe2\x80\xa8)");
   ExpectRefused(kRig, With(folder_.path(), kRig, "\"cam1\"", "\"\x1b[2J\""), "characters that are no text");

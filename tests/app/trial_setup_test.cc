@@ -1,5 +1,6 @@
 #include "app/control/trial_setup.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <opencv2/imgcodecs.hpp>
@@ -41,7 +42,7 @@ class ViewerTrial {
     test_support::WriteBoxStl(folder_ / "box.stl", 40.0);
     WriteText(folder_ / "layout.toml", kLayout);
     WriteText(folder_ / "head.yml", kHead);
-    WriteText(folder_ / "flat.yml", std::string(kHead) + "projection: \"orthographic\"\n");
+    WriteText(folder_ / "flat.yml", fmt::format("{}projection: \"orthographic\"\n", kHead));
     cv::imwrite((folder_ / "head_0.png").string(), cv::Mat(48, 64, CV_8UC3, cv::Scalar(0, 200, 0)));
     WriteText(file(), "rig = \"rig.yml\"\nlayout = \"layout.toml\"\n[viewer]\n" + viewer);
   }

@@ -69,9 +69,9 @@ TEST_F(DevScript, InstallsWhatIsMissingByNameAndSaysSo) {
   const ProgramRun run = Dev({"build"});
   EXPECT_EQ(run.exit_status, 0) << run.err;
   EXPECT_NE(run.err.find("installing Debian packages: libzstd-dev libegl1\n"), std::string::npos) << run.err;
-  EXPECT_EQ(Calls(), std::string("apt-get update -qq\n"
-                                 "apt-get install -y -qq --no-install-recommends libzstd-dev libegl1\n") +
-                         kBuildCalls);
+  EXPECT_EQ(Calls(), std::string("apt-get update -qq\n")
+                         .append("apt-get install -y -qq --no-install-recommends libzstd-dev libegl1\n")
+                         .append(kBuildCalls));
 }
 
 TEST_F(DevScript, AReleaseNeedsNoTestPackages) {

@@ -425,7 +425,7 @@ TEST_F(MeshFile, GarbageIsAnErrorAndSaysNothingOnTheTerminal) {
   for (const char* extension : {".stl", ".obj", ".ply", ".gltf", ".glb"}) {
     (void)FormatError(std::string("text") + extension, "This is not a mesh.\n");
     (void)FormatError(std::string("bytes") + extension,
-                      std::string("\x01\x00\xff\x7f", 4) + std::string(200, '\xee'));
+                      std::string("\x01\x00\xff\x7f", 4).append(200, '\xee'));
   }
   (void)FormatError("index.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 99\n");
   (void)FormatError("nobuffer.gltf", testing::Gltf(Box({1, 1, 1}), {R"({"mesh":0})"}, {0}, "gone.bin").json);
