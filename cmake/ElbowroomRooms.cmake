@@ -1,6 +1,15 @@
 # The shapes every folder is built from: a room (a static library), a module (loaded when it is first needed) and a
 # test program.
 
+# Highway compiles a kernel several times, so a kernel can't share a compilation with other files (a unity build).
+function(elbowroom_compile_kernels_alone)
+  foreach(source ${ARGN})
+    if(source MATCHES "(_kernel|tile_cast)[.]cc$")
+      set_source_files_properties(${source} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+    endif()
+  endforeach()
+endfunction()
+
 # elbowroom_room(NAME [IN_MODULES] [PRECOMPILED header] SOURCES a.cc ... USES target ... HIDES target ...)
 # USES: libraries that may appear in the room's headers. HIDES: libraries only its .cc files include. IN_MODULES: modules
 # are linked from it, so it is compiled as position-independent code. PRECOMPILED: another precompiled header than the
@@ -8,6 +17,7 @@
 function(elbowroom_room name)
   cmake_parse_arguments(ROOM "IN_MODULES" "PRECOMPILED" "SOURCES;USES;HIDES" ${ARGN})
   add_library(elbowroom_${name} STATIC ${ROOM_SOURCES})
+  elbowroom_compile_kernels_alone(${ROOM_SOURCES})
   if(ROOM_IN_MODULES)
     set_target_properties(elbowroom_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
     elbowroom_use_precompiled(elbowroom_${name} precompiled_pic)

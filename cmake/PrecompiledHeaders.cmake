@@ -4,14 +4,15 @@
 set(_everywhere
   <Eigen/Core> <Eigen/Geometry> <algorithm> <array> <atomic> <bit> <chrono> <cmath> <cstddef> <cstdint> <cstring> <exception>
   <filesystem> <functional> <iterator> <limits> <map> <memory> <mutex> <numbers> <numeric> <optional> <random> <set> <span>
-  <sstream> <stop_token> <string> <string_view> <thread> <tuple> <type_traits> <utility> <variant> <vector> <fmt/format.h>)
+  <sstream> <stop_token> <string> <string_view> <thread> <tuple> <type_traits> <utility> <variant> <vector> <fmt/format.h>
+  <opencv2/core/mat.hpp> <tbb/blocked_range.h> <tbb/parallel_for.h>)
 set(_needed_everywhere Eigen3::Eigen fmt::fmt)
 
 # elbowroom_precompiled(NAME header ...): a target that owns a precompiled header.
 function(elbowroom_precompiled name)
   file(CONFIGURE OUTPUT ${name}.cc CONTENT "// Compiled for its precompiled header.\n")
   add_library(elbowroom_${name} OBJECT ${CMAKE_CURRENT_BINARY_DIR}/${name}.cc)
-  target_link_libraries(elbowroom_${name} PRIVATE ${_needed_everywhere})
+  target_link_libraries(elbowroom_${name} PRIVATE ${_needed_everywhere} OpenCVParts::core TBB::tbb)
   target_precompile_headers(elbowroom_${name} PRIVATE ${ARGN})
 endfunction()
 

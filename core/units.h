@@ -1,4 +1,4 @@
-// Length units at the edges of the program; inside it there are only millimetres.
+// Length units at the edges of the program (inside it there are only millimetres), angles, gravity.
 #pragma once
 
 #include <optional>
@@ -20,5 +20,7 @@ enum class LengthUnit { kMillimetre, kCentimetre, kMetre, kInch };
 [[nodiscard]] constexpr double DegreesFromRadians(double angle_rad) {
   return angle_rad * 180.0 / 3.14159265358979323846;
 }
+
+inline constexpr double kGravityMmPerS2 = 9806.65;  // standard gravity
 
 }  // namespace elbowroom::core

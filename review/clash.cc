@@ -21,7 +21,7 @@ constexpr std::size_t kBlock = 64;
 
 // Bound of the rounding when a vertex is transformed to the world, as a share of the sum of all sizes that
 // enter.
-constexpr double kOutwards = 4e-15;
+constexpr double kDistanceRounding = 4e-15;
 
 AlignedBox3d BoundsInWorld(const core::TriangleTree& tree, const core::RigidTransform& world_from_part) {
   AlignedBox3d box;
@@ -31,7 +31,7 @@ AlignedBox3d BoundsInWorld(const core::TriangleTree& tree, const core::RigidTran
   }
   const double size_mm = tree.bounds().min().cwiseAbs().sum() + tree.bounds().max().cwiseAbs().sum() +
                          world_from_part.translation_mm.cwiseAbs().sum();
-  const Vector3d margin_mm = Vector3d::Constant(kOutwards * size_mm);
+  const Vector3d margin_mm = Vector3d::Constant(kDistanceRounding * size_mm);
   return {box.min() - margin_mm, box.max() + margin_mm};
 }
 

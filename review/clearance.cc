@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/infinity.h"
 #include "core/part_distance.h"
 #include "recon/hull/ray_crossings.h"
 #include "review/inside_cells.h"
@@ -23,9 +24,9 @@ using core::NearStretch;
 using Eigen::Vector3d;
 using recon::BallAnswer;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+using core::kInfinity;
 // Rounding of distances, as a share of the coordinates' size.
-constexpr double kRounding = 1e-12;
+constexpr double kClearanceRounding = 1e-12;
 // Cells smaller than this share of the tolerance aren't divided.
 constexpr double kSmallestCell = 1.0 / 64.0;
 constexpr int kHalvings = 24;
@@ -62,7 +63,7 @@ class Search {
     const double reach_mm = box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).norm() +
                             part.nodes()[0].ball.radius_mm + part.nodes()[0].ball.center.norm() +
                             world_from_part.translation_mm.norm();
-    slack_mm_ = kRounding * reach_mm;
+    slack_mm_ = kClearanceRounding * reach_mm;
   }
 
   Clearance Run(const std::optional<ClearanceHint>& hint) {

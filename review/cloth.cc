@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/units.h"
 #include "review/cloth_contact.h"
 
 namespace elbowroom::review {
@@ -13,7 +14,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kGravityMmPerS2 = 9806.65;
+using core::kGravityMmPerS2;
 // The speed of vertices is limited to this, so that a hull that jumps doesn't throw the cloth.
 constexpr double kFastestVertexMmPerS = 4000.0;
 // Steps between two tests against the hull; and how many tests there are at most at a frame's end.

@@ -13,7 +13,7 @@ namespace {
 using Eigen::Vector3d;
 
 // Pieces are moved this far beyond the hull's end, so that what lies on the hull isn't in it by rounding.
-constexpr double kMarginMm = 1.0;
+constexpr double kClothMarginMm = 1.0;
 // Assumed: no object is thicker than this along V_rec.
 constexpr double kThickestMm = 3000.0;
 // Assumed: within a frame no object comes this far through the side to which a vertex left it. Where the way
@@ -120,7 +120,7 @@ void ClothContact::Leave(const Corners& corners, const Vector3d& weights) {
     side = other_mm ? -1 : 1;
     if (other_mm) exit_mm = other_mm;
   }
-  if (!exit_mm || !Push(corners, weights, side, *exit_mm + kMarginMm)) {
+  if (!exit_mm || !Push(corners, weights, side, *exit_mm + kClothMarginMm)) {
     ++state_->count.blocked;
     return;
   }
@@ -255,7 +255,8 @@ void ClothContact::CarryPoint(const Corners& corners, const Vector3d& weights) {
     if (!was_behind_mm || EntryAlong(last, {from, ahead}, reach_mm)) continue;
     const double in_mm = *entry_mm + kExitStepMm;
     const auto through_mm = ExitAlong(hull_, {from + in_mm * ahead, ahead}, kThickestMm);
-    if (through_mm && Push(corners, weights, side, in_mm + *through_mm + kMarginMm)) ++state_->count.carried;
+    if (through_mm && Push(corners, weights, side, in_mm + *through_mm + kClothMarginMm))
+      ++state_->count.carried;
     return;
   }
 }

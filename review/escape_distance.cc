@@ -16,10 +16,10 @@ using Eigen::Vector3d;
 using recon::HullInterval;
 
 // Rounding of crossings, by which lower bounds are lowered.
-constexpr double kRoundingMm = 1e-6;
+constexpr double kEscapeRoundingMm = 1e-6;
 // The first place tried is this share of the tolerance past all known contact. There the part is tested in
 // pieces down to kSmallestPiece of that step.
-constexpr double kFirstStep = 0.5;
+constexpr double kFirstEscapeStep = 0.5;
 constexpr double kSmallestPiece = 0.25;
 // Gaps in the known contact that are narrower than this share of the tolerance aren't tried.
 constexpr double kNarrowGap = 1.0 / 16.0;
@@ -34,7 +34,7 @@ class Way {
         world_from_part_(world_from_part),
         direction_(direction),
         options_(options),
-        step_mm_(kFirstStep * options.tolerance_mm) {}
+        step_mm_(kFirstEscapeStep * options.tolerance_mm) {}
 
   // Adds the intervals in which this point, moved along, is in the hull. The part is in contact throughout
   // them.
@@ -63,7 +63,7 @@ class Way {
       at_mm = NextPlace(at_mm, before_mm);
     }
     if (std::isfinite(result_.upper_mm)) StepBack(witnesses);
-    result_.lower_mm = std::clamp(known_mm_ - kRoundingMm, 0.0, result_.upper_mm);
+    result_.lower_mm = std::clamp(known_mm_ - kEscapeRoundingMm, 0.0, result_.upper_mm);
     return result_;
   }
 
@@ -74,7 +74,7 @@ class Way {
     const core::RigidTransform moved{world_from_part_.rotation,
                                      world_from_part_.translation_mm + at_mm * direction_};
     const HullPartIntersection meeting = FindHullPartIntersection(
-        hull_, part_, moved, kSmallestPiece * options_.tolerance_mm * kFirstStep, &result_.queries);
+        hull_, part_, moved, kSmallestPiece * options_.tolerance_mm * kFirstEscapeStep, &result_.queries);
     if (meeting.answer == HullPartIntersection::Answer::kApart) return true;
     taken_mm_ = std::max(taken_mm_, at_mm);
     if (meeting.answer == HullPartIntersection::Answer::kIntersects) {
@@ -99,7 +99,7 @@ class Way {
   // middle of its first gap, if that is wide enough and wasn't tried; else farther on, by steps that double.
   [[nodiscard]] double NextPlace(double at_mm, double before_mm) {
     if (known_mm_ > before_mm) {
-      step_mm_ = kFirstStep * options_.tolerance_mm;
+      step_mm_ = kFirstEscapeStep * options_.tolerance_mm;
       return known_mm_ + step_mm_;
     }
     const auto next = std::ranges::upper_bound(in_contact_, known_mm_, {}, &HullInterval::from_mm);

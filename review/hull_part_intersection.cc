@@ -16,7 +16,7 @@ using recon::BallAnswer;
 using enum HullPartIntersection::Answer;
 
 // A box's ball is this much larger than its half diagonal, for rounding.
-constexpr double kOutwards = 1.0 + 1e-12;
+constexpr double kReachOutwards = 1.0 + 1e-12;
 // The search ends after this many undecided pieces, with the answer kOpen.
 constexpr int kMostOpen = 64;
 
@@ -104,7 +104,7 @@ class MeetingSearch {
 
   bool VisitCell(Cell cell) {
     const Vector3d center = cell.box_in_part.center(), center_in_world = world_from_part_ * center;
-    const double radius_mm = 0.5 * cell.box_in_part.diagonal().norm() * kOutwards;
+    const double radius_mm = 0.5 * cell.box_in_part.diagonal().norm() * kReachOutwards;
     if (Ask({center_in_world, radius_mm}, &cell.open) == BallAnswer::kOutside) return false;
     const bool is_inside = IsInsideClosedMesh(part_, center);
     if (is_inside && hull_.Contains(center_in_world, cell.open)) return End(center_in_world);

@@ -11,6 +11,7 @@
 
 #include "core/error.h"
 #include "core/part_distance.h"
+#include "core/units.h"
 #include "review/hull_march.h"
 #include "review/inside_cells.h"
 
@@ -20,7 +21,7 @@ namespace {
 using core::NearestOnPart;
 using Eigen::Vector3d;
 
-constexpr double kGravityMmPerS2 = 9806.65;
+using core::kGravityMmPerS2;
 constexpr double kStepS = 1.0 / 240.0;
 constexpr double kKeptAlong = 0.9;    // share of the speed along a surface that a touch in a step keeps
 constexpr double kSpread = 0.06;      // half angle of the jet, rad

@@ -30,10 +30,10 @@ constexpr double kFirstTurnRad = core::RadiansFromDegrees(16.0);
 constexpr double kLastTurnRad = core::RadiansFromDegrees(2.0);
 constexpr int kMostTurns = 16;
 // The first step towards the deepest point, as a share of the part's size.
-constexpr double kFirstStep = 0.25;
-constexpr int kMostSteps = 200;
+constexpr double kFirstWayStep = 0.25;
+constexpr int kMostWaySteps = 200;
 // Rounding of distances to the part, as a share of the coordinates' size.
-constexpr double kRounding = 1e-12;
+constexpr double kWayRounding = 1e-12;
 
 // A point of part and hull, with the sum of its depths in both.
 struct Deep {
@@ -96,7 +96,7 @@ class PenetrationSearch {
     deep.sum_mm = depth->depth_mm;
     AddWay(depth->nearest_in_world - deep.x_in_world, &deep.ways_out[0]);
     if (!is_inside) return deep;
-    const double rounding_mm = kRounding * (near.lpNorm<1>() + near_in_world.lpNorm<1>());
+    const double rounding_mm = kWayRounding * (near.lpNorm<1>() + near_in_world.lpNorm<1>());
     deep.sum_mm += std::max(nearest.distance_mm - rounding_mm, 0.0);
     AddWay(near_in_world - world_from_part_ * nearest.position_in_part, &deep.ways_out[1]);
     return deep;
@@ -108,8 +108,8 @@ class PenetrationSearch {
 
   // Steps along the axes while that gets deeper, then halves the step.
   Deep Climb(Deep from) {
-    double step_mm = kFirstStep * part_.bounds().diagonal().norm();
-    for (int i = 0; i < kMostSteps && step_mm > 0.25 * tolerance_mm_; ++i) {
+    double step_mm = kFirstWayStep * part_.bounds().diagonal().norm();
+    for (int i = 0; i < kMostWaySteps && step_mm > 0.25 * tolerance_mm_; ++i) {
       Deep best = from;
       for (int side = 0; side < 6; ++side) {
         const Vector3d step = (side % 2 == 0 ? step_mm : -step_mm) * Vector3d::Unit(side / 2);

@@ -18,7 +18,7 @@ using core::RigidTransform;
 using Eigen::Vector3d;
 
 // A part is moved this far beyond the hull's end, so that it doesn't stay on the surface.
-constexpr double kMarginMm = 0.5;
+constexpr double kPushMarginMm = 0.5;
 constexpr int kMostAdvances = 200;
 
 // A motion that leads out of the hull, in world: along a line, or about an axis.
@@ -57,7 +57,7 @@ std::optional<WayOut> InOneSense(const recon::VisualHull& hull, const core::Part
   for (const core::ContactPoint& point : contact.points) {
     const RecoveryAnswer answer = Recover(hull, point.position_in_world_mm, way);
     if (!answer.recovery || answer.status == core::RecoveryStatus::kNoExit) return std::nullopt;
-    const double way_mm = answer.recovery->d_rec_mm + kMarginMm;
+    const double way_mm = answer.recovery->d_rec_mm + kPushMarginMm;
     const double share = out.turns ? out.arm_mm / DistanceToAxis(way, point.position_in_world_mm) : 1.0;
     out.wanted_mm = std::max(out.wanted_mm, share * way_mm);
   }
@@ -70,7 +70,7 @@ std::optional<WayOut> FindWayOut(const core::RecoveryRule& rule, const recon::Vi
   if (rule.kind == RecoveryKind::kReference) {
     if (!contact.recovery || contact.recovery_status == core::RecoveryStatus::kNoExit) return std::nullopt;
     return WayOut{.axis = contact.recovery->v_rec_in_world,
-                  .wanted_mm = contact.recovery->d_rec_mm + kMarginMm};
+                  .wanted_mm = contact.recovery->d_rec_mm + kPushMarginMm};
   }
   RecoveryWay way = WayOf(rule, part.surface->tree(), part.world_from_part);
   if (rule.kind == RecoveryKind::kDirection) return InOneSense(hull, contact, way, part);

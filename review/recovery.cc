@@ -72,8 +72,8 @@ std::optional<Exit> Better(const std::optional<Exit>& a, const std::optional<Exi
   return b->d_rec_mm < a->d_rec_mm ? b : a;
 }
 
-RecoveryAnswer Answer(const recon::VisualHull& hull, const Vector3d& cp_obj, const Exit& exit,
-                      RecoveryStatus status = RecoveryStatus::kFound) {
+RecoveryAnswer AnswerFor(const recon::VisualHull& hull, const Vector3d& cp_obj, const Exit& exit,
+                         RecoveryStatus status = RecoveryStatus::kFound) {
   Recovery recovery{cp_obj, exit.cp_hull, exit.v_rec, exit.d_rec_mm, {}, exit.angle_rad};
   if (!exit.is_seen) return {RecoveryStatus::kNoExit, recovery};
   recovery.n_hull_in_world = hull.EdgeAt(exit.cp_hull).normal_in_world;
@@ -87,15 +87,15 @@ RecoveryAnswer TowardsReference(const recon::VisualHull& hull, const Vector3d& c
   if (!(distance_mm > kNoLengthMm)) return {RecoveryStatus::kNoDirection, {}};
   const Vector3d v_rec = (rp_obj - cp_obj) / distance_mm;
   if (hull.Contains(rp_obj))
-    return Answer(hull, cp_obj, ExactExit(hull, cp_obj, v_rec), RecoveryStatus::kReferenceInsideHull);
-  return Answer(hull, cp_obj, ExitFromReference(hull, cp_obj, rp_obj, v_rec, distance_mm));
+    return AnswerFor(hull, cp_obj, ExactExit(hull, cp_obj, v_rec), RecoveryStatus::kReferenceInsideHull);
+  return AnswerFor(hull, cp_obj, ExitFromReference(hull, cp_obj, rp_obj, v_rec, distance_mm));
 }
 
 RecoveryAnswer AlongSlider(const recon::VisualHull& hull, const Vector3d& cp_obj, const RecoveryWay& way) {
   std::optional<Exit> best;
   for (const int sense : {1, -1})
     if (way.sense != -sense) best = Better(best, ExactExit(hull, cp_obj, sense * way.axis));
-  return Answer(hull, cp_obj, *best);
+  return AnswerFor(hull, cp_obj, *best);
 }
 
 RecoveryAnswer AboutHinge(const recon::VisualHull& hull, const Vector3d& cp_obj, const RecoveryWay& way) {
@@ -106,7 +106,7 @@ RecoveryAnswer AboutHinge(const recon::VisualHull& hull, const Vector3d& cp_obj,
   for (const int sense : {1, -1})
     if (way.sense != -sense) best = Better(best, ExitAround(hull, center, arm, quarter, sense));
   if (!best) return {RecoveryStatus::kNoExit, {}};
-  return Answer(hull, cp_obj, *best);
+  return AnswerFor(hull, cp_obj, *best);
 }
 
 }  // namespace
@@ -128,7 +128,7 @@ RecoveryAnswer Recover(const recon::VisualHull& hull, const Vector3d& cp_obj, co
     case RecoveryKind::kReference:
       return TowardsReference(hull, cp_obj, way.rp_obj);
     case RecoveryKind::kDirection:
-      return Answer(hull, cp_obj, ExactExit(hull, cp_obj, way.axis));
+      return AnswerFor(hull, cp_obj, ExactExit(hull, cp_obj, way.axis));
     case RecoveryKind::kSlider:
       return AlongSlider(hull, cp_obj, way);
     case RecoveryKind::kHinge:

@@ -16,7 +16,7 @@ using core::RecoveryKind;
 using Eigen::Vector3d;
 
 // Rounding of crossings and labels (docs/exact_view.md).
-constexpr double kRoundingMm = 1e-6;
+constexpr double kUncertaintyRoundingMm = 1e-6;
 // Where V_rec is within 10 degrees of the surface (this is the sine), the first order gives no bound.
 constexpr double kGrazing = 0.17;
 // Another camera's surface counts as at CP_hull if its contour is this near (plus the silhouettes' error).
@@ -85,8 +85,8 @@ RecoveryUncertainty UncertaintyOf(const recon::VisualHull& hull, const core::Par
   if (steepest < kGrazing) return result;
   const double across_mm = Leverage(recovery, way) * result.cp_obj_mm;
   const double slope = std::sqrt(1.0 - steepest * steepest) / steepest;
-  result.cp_hull_mm = (shift_mm + across_mm) / steepest + kRoundingMm;
-  result.d_rec_mm = shift_mm / steepest + result.cp_obj_mm + across_mm * slope + kRoundingMm;
+  result.cp_hull_mm = (shift_mm + across_mm) / steepest + kUncertaintyRoundingMm;
+  result.d_rec_mm = shift_mm / steepest + result.cp_obj_mm + across_mm * slope + kUncertaintyRoundingMm;
   for (std::size_t i = 0; i < edges.size(); ++i) {
     const double own_rad = normals[i].UncertaintyRad(silhouette_px, *result.cp_hull_mm / edges[i].px_mm);
     result.n_hull_rad = std::max(result.n_hull_rad.value_or(0.0),

@@ -9,23 +9,24 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/infinity.h"
 
 namespace elbowroom::review {
 namespace {
 
 using recon::BallAnswer;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+using core::kInfinity;
 // How many frames are judged in parallel at most. Batches grow as one, one, two, four, ..., because each
 // batch uses what the batches before it found.
 constexpr std::size_t kLargestBatch = 16;
-constexpr double kMostSteps = 10'000.0;
+constexpr double kMostSpacings = 10'000.0;
 // Touching is told from free by clearances whose bounds are as close as the spacing's tolerance divided by
 // these, one after the other until the bounds tell.
 constexpr std::array kFiner = {4.0, 32.0, 256.0};
 
 // The answer for one part in one frame at one step.
-struct Answer {
+struct PartAnswer {
   core::Verdict verdict = core::Verdict::kClear;
   double depth_mm = 0.0;
   double lower_mm = 0.0;
@@ -37,7 +38,7 @@ struct Answer {
 // Answers of one frame: parts x steps.
 struct FrameAnswers {
   core::FrameIndex frame = 0;
-  std::vector<std::vector<Answer>> parts;
+  std::vector<std::vector<PartAnswer>> parts;
 };
 
 enum class Freedom { kTouched, kFree, kUndecided };
@@ -99,13 +100,13 @@ class Study {
   [[nodiscard]] FrameAnswers AskFrame(const StudyFrame& frame) const {
     FrameAnswers answers;
     answers.frame = frame.frame;
-    answers.parts.assign(trees_.size(), std::vector<Answer>(steps_mm_.size()));
+    answers.parts.assign(trees_.size(), std::vector<PartAnswer>(steps_mm_.size()));
     std::vector<std::optional<ClearanceHint>> hints(trees_.size());
     std::vector<core::RigidTransform> last_poses;
     for (std::size_t step = steps_mm_.size(); step-- > 0;) {
       const auto poses = PosesAt(frame.spacing_mm, steps_mm_[step]);
       for (core::PartIndex i = 0; i < trees_.size(); ++i) {
-        std::vector<Answer>& of_part = answers.parts[i];
+        std::vector<PartAnswer>& of_part = answers.parts[i];
         const bool is_first = step + 1 == steps_mm_.size();
         if (!is_first && !moves_[i]) {
           of_part[step] = of_part[step + 1];
@@ -140,9 +141,9 @@ class Study {
 
   // Tries to settle this step, and all steps below, by one query of a ball around the part: large enough to
   // allow for the part's motion in between. If that fails, half as many steps, and so on.
-  [[nodiscard]] Answer AskBalls(const recon::VisualHull& hull, core::PartIndex part,
-                                const core::RigidTransform& world_from_part, std::size_t step) const {
-    Answer answer;
+  [[nodiscard]] PartAnswer AskBalls(const recon::VisualHull& hull, core::PartIndex part,
+                                    const core::RigidTransform& world_from_part, std::size_t step) const {
+    PartAnswer answer;
     if (trees_[part].nodes().empty()) return answer;
     answer.was_asked = true;
     const core::Ball& ball = trees_[part].nodes()[0].ball;
@@ -160,10 +161,10 @@ class Study {
     return answer;
   }
 
-  [[nodiscard]] Answer Ask(const recon::VisualHull& hull, core::PartIndex part,
-                           const core::RigidTransform& world_from_part, double enough_mm, double tolerance_mm,
-                           std::optional<ClearanceHint>* hint) const {
-    Answer answer;
+  [[nodiscard]] PartAnswer Ask(const recon::VisualHull& hull, core::PartIndex part,
+                               const core::RigidTransform& world_from_part, double enough_mm,
+                               double tolerance_mm, std::optional<ClearanceHint>* hint) const {
+    PartAnswer answer;
     answer.was_asked = true;
     const core::PartContact contact =
         FindContacts(hull, trees_[part], world_from_part, part, options_.review.contacts);
@@ -192,7 +193,7 @@ class Study {
   void Take(std::size_t index, const FrameAnswers& answers) {
     for (core::PartIndex i = 0; i < trees_.size(); ++i) {
       for (std::size_t step = 0; step < steps_mm_.size(); ++step) {
-        const Answer& answer = answers.parts[i][step];
+        const PartAnswer& answer = answers.parts[i][step];
         Add(answer, answers.frame, &result_.steps[step].parts[i]);
         result_.count.queries += answer.queries;
         ++(answer.was_asked ? result_.count.asked
@@ -203,7 +204,7 @@ class Study {
     }
   }
 
-  static void Add(const Answer& answer, core::FrameIndex frame, PartAtSpacing* sum) {
+  static void Add(const PartAnswer& answer, core::FrameIndex frame, PartAtSpacing* sum) {
     switch (answer.verdict) {
       case core::Verdict::kContact:
         ++sum->frames_in_contact;
@@ -292,7 +293,7 @@ class Study {
       Freedom of_part = Freedom::kUndecided;
       for (std::size_t i = 0; i < kFiner.size() && of_part == Freedom::kUndecided; ++i) {
         const double tolerance_mm = options_.tolerance_mm / kFiner[i];
-        const Answer answer = Ask(*frame.hull, part, poses[part], tolerance_mm, tolerance_mm, &hint);
+        const PartAnswer answer = Ask(*frame.hull, part, poses[part], tolerance_mm, tolerance_mm, &hint);
         ++result_.count.asked;
         result_.count.queries += answer.queries;
         if (answer.verdict == core::Verdict::kContact) return Freedom::kTouched;
@@ -329,8 +330,8 @@ void SpacingStudyOptions::Validate(const core::Layout& layout) const {
                       gap.min_mm, gap.max_mm, from_mm, to_mm));
   require(step_mm > 0.0 && std::isfinite(step_mm),
           fmt::format("a step must be positive, not {} mm", step_mm));
-  require((to_mm - from_mm) / step_mm <= kMostSteps,
-          fmt::format("{} steps at most; choose a longer one than {} mm", kMostSteps, step_mm));
+  require((to_mm - from_mm) / step_mm <= kMostSpacings,
+          fmt::format("{} steps at most; choose a longer one than {} mm", kMostSpacings, step_mm));
   require(tolerance_mm > 0.0 && std::isfinite(tolerance_mm),
           fmt::format("the tolerance must be positive, not {} mm", tolerance_mm));
   review.Validate();

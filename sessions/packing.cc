@@ -59,8 +59,9 @@ void RequireEmptyPadding(const core::BitMask& mask, const std::string& where) {
     if (mask.words()[i] >> used != 0) FailAsDamaged(where, "it has pixels beyond its picture");
 }
 
-std::vector<double> NumbersFromJson(const std::string& json, std::size_t count, const std::string& where) {
-  std::vector<double> numbers = sessions::NumbersFromJson(json, where);
+std::vector<double> CountedNumbersFromJson(const std::string& json, std::size_t count,
+                                           const std::string& where) {
+  std::vector<double> numbers = NumbersFromJson(json, where);
   if (numbers.size() != count)
     FailAsDamaged(where, fmt::format("{} numbers where {} belong", numbers.size(), count));
   return numbers;
@@ -184,10 +185,10 @@ std::vector<double> NumbersFromJson(const std::string& json, const std::string& 
   return ArrayFromJson<double>(json, where);
 }
 Eigen::Vector3d VectorFromJson(const std::string& json, const std::string& where) {
-  return Eigen::Vector3d(NumbersFromJson(json, 3, where).data());
+  return Eigen::Vector3d(CountedNumbersFromJson(json, 3, where).data());
 }
 Eigen::Matrix3d MatrixFromJson(const std::string& json, const std::string& where) {
-  const std::vector<double> by_row = NumbersFromJson(json, 9, where);
+  const std::vector<double> by_row = CountedNumbersFromJson(json, 9, where);
   return Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(by_row.data());
 }
 

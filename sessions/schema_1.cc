@@ -190,7 +190,7 @@ CREATE INDEX event_by_frame ON event (frame_index);
 )sql";
 
 // For people with the sqlite3 shell: names instead of indices.
-constexpr const char* kViews = R"sql(
+constexpr const char* kFirstViews = R"sql(
 CREATE VIEW v_spacing AS
 SELECT frame_index, time_s, name AS spacing, spacing_mm
 FROM frame_spacing JOIN frame USING (frame_index) JOIN spacing USING (spacing_index);
@@ -246,6 +246,6 @@ FROM silhouette JOIN frame USING (frame_index) JOIN camera USING (camera_index) 
 
 }  // namespace
 
-std::string Schema1Sql() { return fmt::format("{}{}{}", kSetUp, kFrames, kViews); }
+std::string Schema1Sql() { return fmt::format("{}{}{}", kSetUp, kFrames, kFirstViews); }
 
 }  // namespace elbowroom::sessions

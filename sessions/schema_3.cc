@@ -126,7 +126,7 @@ CREATE TABLE heat_map (
 ) STRICT;
 )sql";
 
-constexpr const char* kViews = R"sql(
+constexpr const char* kThirdViews = R"sql(
 CREATE VIEW v_clearance AS
 SELECT c.frame_index, f.time_s, p.name AS part, pf.verdict, s.required_clearance_mm, s.uncertainty_mm,
   c.lower_mm, c.upper_mm, c.part_x_mm, c.part_y_mm, c.part_z_mm, c.hull_x_mm, c.hull_y_mm, c.hull_z_mm,
@@ -159,6 +159,6 @@ FROM episode e JOIN part p USING (part_index);
 
 }  // namespace
 
-std::string Schema3Sql() { return fmt::format("{}{}{}", kRecovery, kTables, kViews); }
+std::string Schema3Sql() { return fmt::format("{}{}{}", kRecovery, kTables, kThirdViews); }
 
 }  // namespace elbowroom::sessions

@@ -1,7 +1,6 @@
 // elbowroom clearance RIG.yml --frame N --mesh FILE: how far a part is from the hull of one frame.
 #include <fmt/format.h>
 
-#include <cmath>
 #include <memory>
 #include <optional>
 
@@ -23,10 +22,6 @@ struct ClearanceCommandOptions {
   std::optional<double> required_mm;
   double uncertainty_mm = 0.0;
 };
-
-nlohmann::json OrNull(double length_mm) {
-  return std::isfinite(length_mm) ? nlohmann::json(length_mm) : nlohmann::json();
-}
 
 nlohmann::json Json(const review::Clearance& clearance) {
   const core::ClearanceInterval& interval = clearance.interval;

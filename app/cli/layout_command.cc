@@ -41,7 +41,7 @@ struct LayoutOptions {
   std::vector<std::string> names;
 };
 using SharedOptions = std::shared_ptr<LayoutOptions>;
-using Run = CommandResult (*)(const LayoutOptions&, const CommandContext&);
+using LayoutAction = CommandResult (*)(const LayoutOptions&, const CommandContext&);
 
 // Writes the text if it is a valid layout. The result lists the layout, after a line that says what was done.
 CommandResult Save(const LayoutText& text, const std::string& what, const CommandContext& context,
@@ -201,7 +201,7 @@ void AddPlace(CLI::App& command, PartEdit* part) {
 
 // Adds a command of `layout` with its first argument.
 CLI::App* AddCommand(CLI::App& layout, const SharedOptions& options, Choice* choice, const std::string& name,
-                     const std::string& what, Run run) {
+                     const std::string& what, LayoutAction run) {
   CLI::App* command = layout.add_subcommand(name, what);
   command->add_option("LAYOUT", options->layout, "layout (TOML)")->required();
   command->callback(
@@ -211,7 +211,7 @@ CLI::App* AddCommand(CLI::App& layout, const SharedOptions& options, Choice* cho
 
 // Runs a command that changes the layout, and keeps other programs from changing it between reading and
 // writing.
-template <Run kChange>
+template <LayoutAction kChange>
 CommandResult Alone(const LayoutOptions& options, const CommandContext& context) {
   const FolderLock lock(options.layout);
   return kChange(options, context);

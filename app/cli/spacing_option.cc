@@ -12,7 +12,7 @@
 namespace elbowroom::cli {
 namespace {
 
-std::optional<SpacingSetting> Parse(const std::string& text) {
+std::optional<SpacingSetting> ParseSetting(const std::string& text) {
   const std::size_t equals = text.rfind('=');
   if (equals == std::string::npos || equals == 0) return std::nullopt;
   const std::optional<double> gap_mm = ParseNumber(text.substr(equals + 1));
@@ -27,13 +27,15 @@ void AddSpacingOption(CLI::App& command, std::vector<SpacingSetting>* settings) 
       .add_option_function<std::vector<std::string>>(
           "--spacing",
           [settings](const std::vector<std::string>& texts) {
-            for (const std::string& text : texts) settings->push_back(*Parse(text));
+            for (const std::string& text : texts) settings->push_back(*ParseSetting(text));
           },
           "set a gap of the layout, mm (default: initial_mm); may be repeated")
       ->allow_extra_args(false)
       ->check(CLI::Validator(
           [](const std::string& text) -> std::string {
-            return Parse(text) ? "" : "must be the name of a [[spacing]], =, and a number of mm, not " + text;
+            return ParseSetting(text)
+                       ? ""
+                       : "must be the name of a [[spacing]], =, and a number of mm, not " + text;
           },
           "NAME=MM"));
 }

@@ -1,13 +1,13 @@
 // elbowroom sweep S.db --spacing NAME=FROM:TO:STEP_MM --out DIR: how much space the recorded motion needs.
 #include <fmt/format.h>
 
-#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <optional>
 
 #include "app/cli/command.h"
 #include "app/cli/unit_option.h"
+#include "app/cli/vector_json.h"
 #include "app/control/spacing_sweep.h"
 
 namespace elbowroom::cli {
@@ -20,7 +20,7 @@ struct SweepOptions {
 };
 
 // NAME=FROM:TO:STEP
-std::optional<control::SpacingRange> Parse(const std::string& text) {
+std::optional<control::SpacingRange> ParseRange(const std::string& text) {
   const std::size_t equals = text.rfind('='),
                     first = text.find(':', equals == std::string::npos ? 0 : equals),
                     second = first == std::string::npos ? first : text.find(':', first + 1);
@@ -30,10 +30,6 @@ std::optional<control::SpacingRange> Parse(const std::string& text) {
              step_mm = ParseNumber(text.substr(second + 1));
   if (!from_mm || !to_mm || !step_mm || !(*step_mm > 0.0) || *to_mm < *from_mm) return std::nullopt;
   return control::SpacingRange{text.substr(0, equals), *from_mm, *to_mm, *step_mm};
-}
-
-nlohmann::json OrNull(std::optional<double> length_mm) {
-  return length_mm && std::isfinite(*length_mm) ? nlohmann::json(*length_mm) : nlohmann::json();
 }
 
 nlohmann::json JsonOf(const review::PartAtSpacing& part, const std::string& name) {
@@ -105,12 +101,13 @@ void AddSweepCommand(CLI::App& app, Choice* choice) {
   command->add_option("SESSION", options->session, "the session (S.db)")->required();
   command
       ->add_option_function<std::string>(
-          "--spacing", [options](const std::string& text) { options->range = *Parse(text); },
+          "--spacing", [options](const std::string& text) { options->range = *ParseRange(text); },
           "the gap to sweep, and its values in mm")
       ->required()
       ->check(CLI::Validator(
           [](const std::string& text) -> std::string {
-            return Parse(text) ? "" : "must be NAME=FROM:TO:STEP in mm, FROM no larger than TO, not " + text;
+            return ParseRange(text) ? ""
+                                    : "must be NAME=FROM:TO:STEP in mm, FROM no larger than TO, not " + text;
           },
           "NAME=FROM:TO:STEP_MM"));
   command->add_option("--out", options->out, "folder for sweep.csv, sweep.svg, sweep.png; made if needed")

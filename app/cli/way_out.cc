@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <vector>
 
 #include "app/cli/vector_json.h"
@@ -15,9 +14,6 @@ namespace {
 using core::RecoveryKind;
 using Eigen::Vector3d;
 
-nlohmann::json OrNull(const std::optional<double>& number) {
-  return number && std::isfinite(*number) ? nlohmann::json(*number) : nlohmann::json();
-}
 nlohmann::json DegreesOrNull(const std::optional<double>& angle_rad) {
   return angle_rad ? nlohmann::json(core::DegreesFromRadians(*angle_rad)) : nlohmann::json();
 }

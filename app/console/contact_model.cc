@@ -15,7 +15,7 @@ struct Heading {
   const char* text;
   const char* explanation;
 };
-constexpr std::array<Heading, ContactModel::kColumns> kHeadings = {
+constexpr std::array<Heading, ContactModel::kColumns> kContactHeadings = {
     {{"Part", "Parts of the layout that something real touches in this frame"},
      {"Depth ≥ mm", "Certified lower bound of the deepest point's distance to the hull's surface"},
      {"Area mm²", "Surface of the part that lies in the hull"},
@@ -93,7 +93,7 @@ QVariant ContactModel::data(const QModelIndex& index, int role) const {
 
 QVariant ContactModel::headerData(int section, Qt::Orientation orientation, int role) const {
   if (orientation != Qt::Horizontal || section < 0 || section >= kColumns) return {};
-  const Heading& heading = kHeadings.at(static_cast<std::size_t>(section));
+  const Heading& heading = kContactHeadings.at(static_cast<std::size_t>(section));
   if (role == Qt::DisplayRole) return QString::fromUtf8(heading.text);
   if (role == Qt::ToolTipRole) return QString::fromUtf8(heading.explanation);
   if (role == Qt::TextAlignmentRole) {

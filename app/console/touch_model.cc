@@ -9,8 +9,8 @@
 namespace elbowroom::console {
 namespace {
 
-constexpr std::array<const char*, TouchModel::kColumns> kHeadings = {"Part", "Now", "Touches", "Frames",
-                                                                     "Deepest ≥ mm"};
+constexpr std::array<const char*, TouchModel::kColumns> kTouchHeadings = {"Part", "Now", "Touches", "Frames",
+                                                                          "Deepest ≥ mm"};
 
 Qt::Alignment AlignmentOf(int column) {
   const bool is_text = column == TouchModel::kPart || column == TouchModel::kState;
@@ -82,7 +82,7 @@ QVariant TouchModel::data(const QModelIndex& index, int role) const {
 
 QVariant TouchModel::headerData(int section, Qt::Orientation orientation, int role) const {
   if (orientation != Qt::Horizontal || section < 0 || section >= kColumns) return {};
-  if (role == Qt::DisplayRole) return QString::fromUtf8(kHeadings.at(static_cast<std::size_t>(section)));
+  if (role == Qt::DisplayRole) return QString::fromUtf8(kTouchHeadings.at(static_cast<std::size_t>(section)));
   if (role == Qt::TextAlignmentRole) return QVariant(AlignmentOf(section));
   return {};
 }

@@ -22,8 +22,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr int kViewPx = 600;  // of one view, square
-constexpr int kBarPx = 64;    // below it
+constexpr int kHeatViewPx = 600;  // of one view, square
+constexpr int kBarPx = 64;        // below it
 // The mean direction of the touched patches decides from which side to look only if its horizontal share is
 // above this.
 constexpr double kSideways = 0.1;
@@ -58,7 +58,8 @@ HeatView BestView(const core::TriangleMesh& mesh, const core::SurfacePatches& pa
   if (to_heat.head<2>().norm() > kSideways * to_heat.norm())
     camera.azimuth_rad = std::atan2(to_heat.y(), to_heat.x());
   const Eigen::AlignedBox3d bounds = core::BoundsOf(mesh, best.world_from_part);
-  best.view = recon::ViewFrom(recon::FittedTo(camera, bounds, kViewPx, kViewPx), kViewPx, kViewPx);
+  best.view =
+      recon::ViewFrom(recon::FittedTo(camera, bounds, kHeatViewPx, kHeatViewPx), kHeatViewPx, kHeatViewPx);
   return best;
 }
 
@@ -114,7 +115,7 @@ recon::Image Colored(recon::Image picture, const std::vector<std::optional<std::
 }
 
 LineDrawing ColorBar(const std::string& what, float most, const char* unit) {
-  constexpr double kLeft = 60.0, kWidth = 480.0, kTop = kViewPx + 22.0, kHeight = 14.0;
+  constexpr double kLeft = 60.0, kWidth = 480.0, kTop = kHeatViewPx + 22.0, kHeight = 14.0;
   LineDrawing drawing;
   for (int shade = 0; shade < kShades; ++shade) {
     const double x = kLeft + kWidth * shade / kShades;
@@ -131,7 +132,7 @@ LineDrawing ColorBar(const std::string& what, float most, const char* unit) {
 
 LineDrawing TurnedOverNote() {
   LineDrawing note;
-  note.texts = {{{kViewPx, 22.0}, "seen from below: turned over", LineDrawing::Anchor::kMiddle, 14.0}};
+  note.texts = {{{kHeatViewPx, 22.0}, "seen from below: turned over", LineDrawing::Anchor::kMiddle, 14.0}};
   return note;
 }
 
@@ -150,8 +151,8 @@ void CopyInto(const recon::Image& view, int left_px, recon::Image* picture) {
 recon::Image HeatPicture(recon::gl::SceneRenderer& renderer, const core::SharedMesh& mesh,
                          const core::HeatMap& map) {
   LineDrawing sheet;
-  sheet.width_px = 2 * kViewPx;
-  sheet.height_px = kViewPx + kBarPx;
+  sheet.width_px = 2 * kHeatViewPx;
+  sheet.height_px = kHeatViewPx + kBarPx;
   recon::Image picture = ImageOf(sheet);
   const core::SurfacePatches patches(mesh, map.patch_mm);
   const HeatView view = BestView(*mesh, patches, map);
@@ -165,7 +166,7 @@ recon::Image HeatPicture(recon::gl::SceneRenderer& renderer, const core::SharedM
     PaintOn(&picture, ColorBar(what, most, unit), left_px);
   };
   add(map.dwell_s, "touched for", "s", 0);
-  add(map.peak_depth_mm, "deepest", "mm", kViewPx);
+  add(map.peak_depth_mm, "deepest", "mm", kHeatViewPx);
   if (!view.world_from_part.rotation.isIdentity()) PaintOn(&picture, TurnedOverNote());
   return picture;
 }

@@ -17,7 +17,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr int kWidthPx = 960, kViewPx = 660, kLegendPx = 60;
+constexpr int kImportWidthPx = 960, kImportViewPx = 660, kLegendPx = 60;
 constexpr const char* kOpen = "#d62728";
 constexpr const char* kNonManifold = "#9d2bd6";
 constexpr const char* kInconsistent = "#1f5fd6";
@@ -27,7 +27,8 @@ recon::SceneView ViewOf(const Eigen::AlignedBox3d& bounds_mm) {
   recon::OrbitCamera camera;
   camera.azimuth_rad = core::RadiansFromDegrees(-55.0);
   camera.elevation_rad = core::RadiansFromDegrees(30.0);
-  return recon::ViewFrom(recon::FittedTo(camera, bounds_mm, kWidthPx, kViewPx), kWidthPx, kViewPx);
+  return recon::ViewFrom(recon::FittedTo(camera, bounds_mm, kImportWidthPx, kImportViewPx), kImportWidthPx,
+                         kImportViewPx);
 }
 
 recon::gl::Scene SceneOf(const cad_import::CadModel& model, const recon::SceneView& view) {
@@ -70,7 +71,8 @@ class Overlay {
 
 void AddLegend(const cad_import::CadModel& model, const cad_import::SurfaceDefects& defects,
                LineDrawing* drawing) {
-  constexpr double kLeft = 20.0, kFirstLine = kViewPx + 24.0, kSecondLine = kViewPx + 46.0, kColumn = 230.0;
+  constexpr double kLeft = 20.0, kFirstLine = kImportViewPx + 24.0, kSecondLine = kImportViewPx + 46.0,
+                   kColumn = 230.0;
   drawing->texts.push_back(
       {{kLeft, kFirstLine},
        fmt::format("{} mm, its unit: {}; {} part{}, {} triangles, {}",
@@ -95,8 +97,8 @@ void AddLegend(const cad_import::CadModel& model, const cad_import::SurfaceDefec
 recon::Image ImportPicture(recon::gl::SceneRenderer& renderer, const cad_import::CadModel& model,
                            const cad_import::SurfaceDefects& defects) {
   LineDrawing sheet;
-  sheet.width_px = kWidthPx;
-  sheet.height_px = kViewPx + kLegendPx;
+  sheet.width_px = kImportWidthPx;
+  sheet.height_px = kImportViewPx + kLegendPx;
   recon::Image picture = ImageOf(sheet);
   const recon::SceneView view = ViewOf(model.report.bounds_mm);
   const recon::Image scene = renderer.Render(SceneOf(model, view));

@@ -16,30 +16,30 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr int kWidthPx = 1200;
-constexpr int kHeightPx = 800;
+constexpr int kLayoutWidthPx = 1200;
+constexpr int kLayoutHeightPx = 800;
 constexpr std::size_t kMostNamed = 24;  // in the legend
 constexpr double kRowPx = 20.0;
 constexpr double kElevationRad = 0.25;  // low, so that gaps along z aren't hidden by what is above
 constexpr const char* kGapColor = "#b4400a";
 
 // Colours that differ clearly, and are light enough to show shading. Further parts take them again.
-constexpr std::array<std::array<int, 3>, 8> kColors = {{{96, 143, 190},
-                                                        {214, 164, 92},
-                                                        {113, 173, 125},
-                                                        {172, 131, 186},
-                                                        {205, 124, 120},
-                                                        {92, 176, 180},
-                                                        {158, 158, 110},
-                                                        {150, 150, 160}}};
+constexpr std::array<std::array<int, 3>, 8> kLayoutColors = {{{96, 143, 190},
+                                                              {214, 164, 92},
+                                                              {113, 173, 125},
+                                                              {172, 131, 186},
+                                                              {205, 124, 120},
+                                                              {92, 176, 180},
+                                                              {158, 158, 110},
+                                                              {150, 150, 160}}};
 
 Eigen::Vector3f ColorOf(std::size_t part) {
-  const auto& [r, g, b] = kColors[part % kColors.size()];
+  const auto& [r, g, b] = kLayoutColors[part % kLayoutColors.size()];
   return Eigen::Vector3f(static_cast<float>(r), static_cast<float>(g), static_cast<float>(b)) / 255.0F;
 }
 
 std::string HexOf(std::size_t part) {
-  const auto& [r, g, b] = kColors[part % kColors.size()];
+  const auto& [r, g, b] = kLayoutColors[part % kLayoutColors.size()];
   return fmt::format("#{:02x}{:02x}{:02x}", r, g, b);
 }
 
@@ -133,7 +133,8 @@ recon::Image LayoutPicture(recon::gl::SceneRenderer& renderer, const core::Layou
   }
   recon::OrbitCamera camera;
   camera.elevation_rad = kElevationRad;
-  scene.view = recon::ViewFrom(recon::FittedTo(camera, all, kWidthPx, kHeightPx), kWidthPx, kHeightPx);
+  scene.view = recon::ViewFrom(recon::FittedTo(camera, all, kLayoutWidthPx, kLayoutHeightPx), kLayoutWidthPx,
+                               kLayoutHeightPx);
   scene.lamp = recon::gl::LampOver(all);
   recon::Image picture = renderer.Render(scene);
   LineDrawing drawing;

@@ -13,16 +13,16 @@ namespace {
 
 using Anchor = LineDrawing::Anchor;
 
-constexpr int kWidthPx = 900;
-constexpr int kHeightPx = 620;
+constexpr int kChartWidthPx = 900;
+constexpr int kChartHeightPx = 620;
 constexpr double kLeft = 80.0;
 constexpr double kPlotWidth = 780.0;
-constexpr const char* kGrid = "#dddddd";
+constexpr const char* kGridColor = "#dddddd";
 constexpr const char* kAxis = "#555555";
 constexpr const char* kFree = "#2a7f3b";
 constexpr const char* kEstimate = "#8a6d00";
 // The parts' colours: for lines, and for the bands between a clearance's bounds.
-constexpr std::array<const char*, 5> kColors = {"#b2182b", "#2166ac", "#7b3294", "#01665e", "#b35806"};
+constexpr std::array<const char*, 5> kCurveColors = {"#b2182b", "#2166ac", "#7b3294", "#01665e", "#b35806"};
 constexpr std::array<const char*, 5> kPaleColors = {"#f4c5bd", "#c3d9ec", "#dcc9e4", "#bfe0dc", "#f3d7b6"};
 
 // The spacing runs to the right, in the members of sessions::Plot that are named after time.
@@ -40,12 +40,13 @@ sessions::Plot PlotAt(double top, double height, const review::SpacingStudy& stu
 
 void AddAxes(const sessions::Plot& plot, const std::string& title, LineDrawing* drawing) {
   for (const double value : sessions::RoundTicks(plot.low, plot.high, 6)) {
-    drawing->lines.push_back({{{plot.left, plot.Y(value)}, {plot.right(), plot.Y(value)}}, kGrid});
+    drawing->lines.push_back({{{plot.left, plot.Y(value)}, {plot.right(), plot.Y(value)}}, kGridColor});
     drawing->texts.push_back(
         {{plot.left - 8.0, plot.Y(value) + 4.0}, fmt::format("{:.6g}", value), Anchor::kEnd});
   }
   for (const double spacing_mm : sessions::RoundTicks(plot.begin_s, plot.end_s, 12)) {
-    drawing->lines.push_back({{{plot.X(spacing_mm), plot.top}, {plot.X(spacing_mm), plot.bottom()}}, kGrid});
+    drawing->lines.push_back(
+        {{{plot.X(spacing_mm), plot.top}, {plot.X(spacing_mm), plot.bottom()}}, kGridColor});
     drawing->texts.push_back(
         {{plot.X(spacing_mm), plot.bottom() + 18.0}, fmt::format("{:.6g}", spacing_mm), Anchor::kMiddle});
   }
@@ -98,15 +99,16 @@ LineDrawing::Area DotAt(const LineDrawing::Point& at, const char* color) {
 
 void AddPart(const review::SpacingStudy& study, core::PartIndex part, std::size_t color,
              const sessions::Plot& frames, const sessions::Plot& clearance, LineDrawing* drawing) {
-  LineDrawing::Line contacts{{}, kColors[color], 2.0}, lower{{}, kColors[color], 1.0}, upper = lower;
+  LineDrawing::Line contacts{{}, kCurveColors[color], 2.0}, lower{{}, kCurveColors[color], 1.0},
+      upper = lower;
   LineDrawing::Area band{{}, kPaleColors[color]};
   for (const review::StudyStep& step : study.steps) {
     const review::PartAtSpacing& at = step.parts[part];
     const double x = frames.X(step.spacing_mm), y = frames.Y(static_cast<double>(at.frames_in_contact));
     contacts.points.push_back({x, y});
-    drawing->areas.push_back(DotAt({x, y}, kColors[color]));
+    drawing->areas.push_back(DotAt({x, y}, kCurveColors[color]));
     if (!std::isfinite(at.upper_mm)) continue;
-    drawing->areas.push_back(DotAt({x, clearance.Y(at.upper_mm)}, kColors[color]));
+    drawing->areas.push_back(DotAt({x, clearance.Y(at.upper_mm)}, kCurveColors[color]));
     lower.points.push_back({x, clearance.Y(at.lower_mm)});
     upper.points.push_back({x, clearance.Y(at.upper_mm)});
   }
@@ -121,8 +123,8 @@ void AddPart(const review::SpacingStudy& study, core::PartIndex part, std::size_
 LineDrawing SpacingSweepPicture(const core::SessionHeader& header, const std::string& spacing,
                                 const review::SpacingStudy& study) {
   LineDrawing drawing;
-  drawing.width_px = kWidthPx;
-  drawing.height_px = kHeightPx;
+  drawing.width_px = kChartWidthPx;
+  drawing.height_px = kChartHeightPx;
   double most_frames = 1.0;
   for (const review::StudyStep& step : study.steps) {
     for (const core::PartIndex part : study.moved)
@@ -134,17 +136,19 @@ LineDrawing SpacingSweepPicture(const core::SessionHeader& header, const std::st
   AddAxes(clearance, "least clearance over all frames, mm: between its two bounds", &drawing);
   double legend_x = kLeft;
   for (std::size_t i = 0; i < study.moved.size(); ++i) {
-    const std::size_t color = i % kColors.size();
+    const std::size_t color = i % kCurveColors.size();
     AddPart(study, study.moved[i], color, frames, clearance, &drawing);
     const std::string& name = header.layout.parts[study.moved[i]].name;
-    drawing.areas.push_back({{{legend_x, 24.0}, {legend_x + 14.0, 34.0}}, kColors[color]});
+    drawing.areas.push_back({{{legend_x, 24.0}, {legend_x + 14.0, 34.0}}, kCurveColors[color]});
     drawing.texts.push_back({{legend_x + 20.0, 34.0}, name, Anchor::kStart, 14.0});
     legend_x += 50.0 + 9.0 * static_cast<double>(name.size());
   }
   AddMarks(header, study, frames, true, &drawing);
   AddMarks(header, study, clearance, false, &drawing);
-  drawing.texts.push_back(
-      {{kLeft + 0.5 * kPlotWidth, kHeightPx - 22.0}, fmt::format("{}, mm", spacing), Anchor::kMiddle, 14.0});
+  drawing.texts.push_back({{kLeft + 0.5 * kPlotWidth, kChartHeightPx - 22.0},
+                           fmt::format("{}, mm", spacing),
+                           Anchor::kMiddle,
+                           14.0});
   return drawing;
 }
 

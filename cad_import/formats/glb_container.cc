@@ -7,18 +7,16 @@
 #include <utility>
 
 #include "cad_import/formats/gltf_check.h"
+#include "cad_import/formats/malformed_file.h"
 #include "core/error.h"
 
 namespace elbowroom::cad_import {
 namespace {
 
-constexpr std::size_t kHeaderBytes = 12, kChunkHeaderBytes = 8, kAlignment = 4;
-constexpr std::size_t kTotalAt = 8, kJsonBytesAt = kHeaderBytes, kJsonAt = kHeaderBytes + kChunkHeaderBytes;
+constexpr std::size_t kGlbHeaderBytes = 12, kChunkHeaderBytes = 8, kAlignment = 4;
+constexpr std::size_t kTotalAt = 8, kJsonBytesAt = kGlbHeaderBytes,
+                      kJsonAt = kGlbHeaderBytes + kChunkHeaderBytes;
 constexpr std::uint32_t kJsonChunk = 0x4E4F534A, kBinaryChunk = 0x004E4942;
-
-[[noreturn]] void Fail(const std::string& where, const std::string& what) {
-  throw core::Error(core::ErrorKind::kFormat, fmt::format("{}: {}; export it again", where, what));
-}
 
 std::uint32_t WordAt(std::string_view bytes, std::size_t at) {
   std::uint32_t value = 0;
@@ -45,22 +43,23 @@ std::size_t SecondAt(std::string_view glb) {
 
 void CheckGlb(std::string_view bytes, const std::string& where) {
   if (bytes.size() < kJsonAt || !bytes.starts_with("glTF")) {
-    Fail(where, "not a GLB file (it doesn't start with \"glTF\"), or cut off");
+    FailUntilExportedAgain(where, "not a GLB file (it doesn't start with \"glTF\"), or cut off");
   }
   if (WordAt(bytes, 4) != 2)
-    Fail(where, fmt::format("GLB version {} can't be read, only 2", WordAt(bytes, 4)));
+    FailUntilExportedAgain(where, fmt::format("GLB version {} can't be read, only 2", WordAt(bytes, 4)));
   if (WordAt(bytes, kTotalAt) > bytes.size()) {
-    Fail(where, fmt::format("the GLB header claims {} bytes but the file holds {}: it is cut off",
-                            WordAt(bytes, kTotalAt), bytes.size()));
+    FailUntilExportedAgain(where,
+                           fmt::format("the GLB header claims {} bytes but the file holds {}: it is cut off",
+                                       WordAt(bytes, kTotalAt), bytes.size()));
   }
   const std::size_t json_bytes = WordAt(bytes, kJsonBytesAt);
   if (WordAt(bytes, kJsonBytesAt + 4) != kJsonChunk || json_bytes > bytes.size() - kJsonAt) {
-    Fail(where, "the GLB file's first chunk is not whole JSON");
+    FailUntilExportedAgain(where, "the GLB file's first chunk is not whole JSON");
   }
   const std::size_t second_at = SecondAt(bytes);
   if (second_at + kChunkHeaderBytes <= bytes.size() &&
       WordAt(bytes, second_at) > bytes.size() - second_at - kChunkHeaderBytes) {
-    Fail(where, "the GLB file's second chunk runs past its end: it is cut off");
+    FailUntilExportedAgain(where, "the GLB file's second chunk runs past its end: it is cut off");
   }
   CheckGltf(bytes.substr(kJsonAt, json_bytes), where);
 }

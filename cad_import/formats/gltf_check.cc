@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "cad_import/formats/malformed_file.h"
 #include "core/error.h"
 
 namespace elbowroom::cad_import {
@@ -18,15 +19,12 @@ using nlohmann::json;
 
 constexpr int kDeepestNesting = 256;
 
-[[noreturn]] void Fail(const std::string& where, const std::string& what) {
-  throw core::Error(core::ErrorKind::kFormat, fmt::format("{}: {}; export it again", where, what));
-}
-
 // A member that must be a non-negative integer where it is present.
 std::uint64_t CountAt(const json& object, const char* key, std::uint64_t fallback, const std::string& where) {
   if (!object.is_object() || !object.contains(key)) return fallback;
   const json& value = object.at(key);
-  if (!value.is_number_unsigned()) Fail(where, fmt::format("the glTF key '{}' is not a count", key));
+  if (!value.is_number_unsigned())
+    FailUntilExportedAgain(where, fmt::format("the glTF key '{}' is not a count", key));
   return value.get<std::uint64_t>();
 }
 
@@ -53,12 +51,13 @@ void CheckViews(const json& document, const std::string& where) {
   const json& views = ListAt(document, "bufferViews");
   for (std::size_t i = 0; i < views.size(); ++i) {
     const std::uint64_t buffer = CountAt(views[i], "buffer", 0, where);
-    if (buffer >= buffers.size()) Fail(where, fmt::format("glTF buffer view {} names no buffer", i));
+    if (buffer >= buffers.size())
+      FailUntilExportedAgain(where, fmt::format("glTF buffer view {} names no buffer", i));
     const std::uint64_t buffer_bytes = CountAt(buffers[buffer], "byteLength", 0, where);
     const std::uint64_t offset = CountAt(views[i], "byteOffset", 0, where);
     const std::uint64_t length = CountAt(views[i], "byteLength", 0, where);
     if (offset > buffer_bytes || length > buffer_bytes - offset) {
-      Fail(where, fmt::format("glTF buffer view {} runs past its buffer", i));
+      FailUntilExportedAgain(where, fmt::format("glTF buffer view {} runs past its buffer", i));
     }
   }
 }
@@ -70,7 +69,8 @@ void CheckAccessors(const json& document, const std::string& where) {
     const std::uint64_t count = CountAt(accessors[i], "count", 0, where);
     if (count == 0 || !accessors[i].contains("bufferView")) continue;
     const std::uint64_t view = CountAt(accessors[i], "bufferView", 0, where);
-    if (view >= views.size()) Fail(where, fmt::format("glTF accessor {} names no buffer view", i));
+    if (view >= views.size())
+      FailUntilExportedAgain(where, fmt::format("glTF accessor {} names no buffer view", i));
     const std::uint64_t element_bytes = ElementBytes(accessors[i], where);
     // Version 1.0 keeps the stride in the accessor, where 0 means that elements follow each other.
     const std::uint64_t own_stride = CountAt(accessors[i], "byteStride", 0, where);
@@ -81,8 +81,9 @@ void CheckAccessors(const json& document, const std::string& where) {
     const bool fits = offset <= length && element_bytes <= length - offset &&
                       count - 1 <= (length - offset - element_bytes) / stride;
     if (!fits)
-      Fail(where,
-           fmt::format("glTF accessor {} claims {} elements, more than its buffer view holds", i, count));
+      FailUntilExportedAgain(
+          where,
+          fmt::format("glTF accessor {} claims {} elements, more than its buffer view holds", i, count));
   }
 }
 
@@ -91,13 +92,14 @@ void CheckNodes(const json& document, const std::string& where) {
   const json& nodes = ListAt(document, "nodes");
   std::vector<std::optional<std::size_t>> parent(nodes.size());
   for (std::size_t i = 0; i < nodes.size(); ++i) {
-    if (!nodes[i].is_object()) Fail(where, fmt::format("glTF node {} is not an object", i));
+    if (!nodes[i].is_object()) FailUntilExportedAgain(where, fmt::format("glTF node {} is not an object", i));
     for (const json& child : ListAt(nodes[i], "children")) {
       if (!child.is_number_unsigned() || child.get<std::uint64_t>() >= nodes.size()) {
-        Fail(where, fmt::format("glTF node {} has a child that doesn't exist", i));
+        FailUntilExportedAgain(where, fmt::format("glTF node {} has a child that doesn't exist", i));
       }
       auto& childs_parent = parent[child.get<std::size_t>()];
-      if (childs_parent) Fail(where, fmt::format("glTF node {} has two parents", child.get<std::size_t>()));
+      if (childs_parent)
+        FailUntilExportedAgain(where, fmt::format("glTF node {} has two parents", child.get<std::size_t>()));
       childs_parent = i;
     }
   }
@@ -105,8 +107,8 @@ void CheckNodes(const json& document, const std::string& where) {
     int depth = 0;
     for (auto up = parent[i]; up; up = parent[*up]) {
       if (++depth > kDeepestNesting) {
-        Fail(where,
-             fmt::format("glTF node {} is its own ancestor or nested deeper than {}", i, kDeepestNesting));
+        FailUntilExportedAgain(where, fmt::format("glTF node {} is its own ancestor or nested deeper than {}",
+                                                  i, kDeepestNesting));
       }
     }
   }
@@ -177,18 +179,19 @@ bool IsVersion(int major, const std::string& version) {
 
 void CheckGltf(std::string_view json_text, const std::string& where) try {
   json document = json::parse(json_text, nullptr, /*allow_exceptions=*/false);
-  if (!document.is_object()) Fail(where, "not a glTF file, or cut off (its JSON doesn't parse)");
+  if (!document.is_object())
+    FailUntilExportedAgain(where, "not a glTF file, or cut off (its JSON doesn't parse)");
   const std::string version = VersionOf(document);
   if (IsVersion(1, version)) {
     document = AsVersion2(document);
   } else if (!IsVersion(2, version)) {
-    Fail(where, fmt::format("glTF version '{}' can't be read, only 1.0 and 2.0", version));
+    FailUntilExportedAgain(where, fmt::format("glTF version '{}' can't be read, only 1.0 and 2.0", version));
   }
   CheckViews(document, where);
   CheckAccessors(document, where);
   CheckNodes(document, where);
 } catch (const json::exception&) {  // a value of another type than the specification says
-  Fail(where, "the glTF document has a value of the wrong type");
+  FailUntilExportedAgain(where, "the glTF document has a value of the wrong type");
 }
 
 }  // namespace elbowroom::cad_import

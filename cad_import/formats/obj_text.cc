@@ -9,18 +9,18 @@
 namespace elbowroom::cad_import {
 namespace {
 
-constexpr std::string_view kBlanks = " \t\r\v\f";
+constexpr std::string_view kObjBlanks = " \t\r\v\f";
 
 // Takes the next blank-separated word off `line`; empty at its end.
 std::string_view TakeWord(std::string_view& line) {
-  line.remove_prefix(std::min(line.find_first_not_of(kBlanks), line.size()));
-  const std::string_view word = line.substr(0, line.find_first_of(kBlanks));
+  line.remove_prefix(std::min(line.find_first_not_of(kObjBlanks), line.size()));
+  const std::string_view word = line.substr(0, line.find_first_of(kObjBlanks));
   line.remove_prefix(word.size());
   return word;
 }
 
 // Takes the next line, with those that a backslash at its end joins to it.
-std::string TakeLine(std::string_view& rest) {
+std::string TakeJoinedLine(std::string_view& rest) {
   std::string line;
   while (!rest.empty()) {
     const std::size_t end = rest.find('\n');
@@ -57,7 +57,7 @@ PlainObj PlainObjOf(std::string_view bytes, const std::string& where) {
   PlainObj plain;
   bool has_face = false;
   while (!bytes.empty()) {
-    const std::string line = TakeLine(bytes);
+    const std::string line = TakeJoinedLine(bytes);
     std::string_view words = line;
     const std::string_view key = TakeWord(words);
     if (key == "f" || key == "l") {

@@ -9,12 +9,13 @@
 #include <optional>
 #include <vector>
 
+#include "cad_import/formats/malformed_file.h"
 #include "core/error.h"
 
 namespace elbowroom::cad_import {
 namespace {
 
-enum class Encoding { kAscii, kLittleEndian, kBigEndian };
+enum class BodyEncoding { kAscii, kLittleEndian, kBigEndian };
 
 struct Property {
   std::size_t count_bytes = 0;  // 0: no list
@@ -26,14 +27,10 @@ struct Element {
   std::vector<Property> properties;
 };
 struct Header {
-  Encoding encoding = Encoding::kAscii;
+  BodyEncoding encoding = BodyEncoding::kAscii;
   std::vector<Element> elements;
   std::size_t body_offset = 0;
 };
-
-[[noreturn]] void Fail(const std::string& where, const std::string& what) {
-  throw core::Error(core::ErrorKind::kFormat, fmt::format("{}: {}", where, what));
-}
 
 std::optional<std::size_t> BytesOf(std::string_view type) {
   struct Row {
@@ -95,24 +92,25 @@ Property ParseProperty(const std::vector<std::string_view>& words, const std::st
   const auto value_bytes = BytesOf(words.size() >= 3 ? words[is_list ? 3 : 1] : "");
   const auto count_bytes = is_list ? BytesOf(words[2]) : std::optional<std::size_t>(0);
   if (!value_bytes || !count_bytes)
-    Fail(where, "the PLY header has a property of an unknown type; export it again");
+    FailAsMalformed(where, "the PLY header has a property of an unknown type; export it again");
   if (is_list && (words[2].starts_with("float") || words[2] == "double")) {
-    Fail(where, "the PLY header counts a list in fractions; export it again");
+    FailAsMalformed(where, "the PLY header counts a list in fractions; export it again");
   }
   return {*count_bytes, *value_bytes};
 }
 
-Encoding ParseEncoding(std::string_view word, const std::string& where) {
-  if (word == "ascii") return Encoding::kAscii;
-  if (word == "binary_little_endian") return Encoding::kLittleEndian;
-  if (word == "binary_big_endian") return Encoding::kBigEndian;
-  Fail(where, "the PLY header names an unknown encoding; export it as ascii or binary_little_endian");
+BodyEncoding ParseEncoding(std::string_view word, const std::string& where) {
+  if (word == "ascii") return BodyEncoding::kAscii;
+  if (word == "binary_little_endian") return BodyEncoding::kLittleEndian;
+  if (word == "binary_big_endian") return BodyEncoding::kBigEndian;
+  FailAsMalformed(where,
+                  "the PLY header names an unknown encoding; export it as ascii or binary_little_endian");
 }
 
 Header ParseHeader(std::string_view bytes, const std::string& where) {
   std::string_view rest = bytes;
   if (WordsOf(TakeLine(rest)) != std::vector<std::string_view>{"ply"}) {
-    Fail(where, "not a PLY file (it doesn't start with \"ply\"); check the extension");
+    FailAsMalformed(where, "not a PLY file (it doesn't start with \"ply\"); check the extension");
   }
   Header header;
   while (!rest.empty()) {
@@ -125,29 +123,30 @@ Header ParseHeader(std::string_view bytes, const std::string& where) {
     if (words[0] == "format" && words.size() >= 2) header.encoding = ParseEncoding(words[1], where);
     if (words[0] == "element") {
       const auto count = words.size() >= 3 ? CountOf(words[2]) : std::nullopt;
-      if (!count) Fail(where, "the PLY header has an element without a count; export it again");
+      if (!count) FailAsMalformed(where, "the PLY header has an element without a count; export it again");
       header.elements.push_back({std::string(words[1]), *count, {}});
     }
     if (words[0] == "property") {
       if (header.elements.empty())
-        Fail(where, "the PLY header has a property of no element; export it again");
+        FailAsMalformed(where, "the PLY header has a property of no element; export it again");
       header.elements.back().properties.push_back(ParseProperty(words, where));
     }
   }
-  Fail(where, "the PLY header is cut off (no \"end_header\"); export or copy the file again");
+  FailAsMalformed(where, "the PLY header is cut off (no \"end_header\"); export or copy the file again");
 }
 
 [[noreturn]] void FailCutOff(const std::string& where, const Element& element, std::uint64_t index) {
-  Fail(where,
-       fmt::format("the PLY header claims {} of element '{}' but the file ends in number {}; it is cut off, "
-                   "export or copy it again",
-                   element.count, element.name, index));
+  FailAsMalformed(
+      where,
+      fmt::format("the PLY header claims {} of element '{}' but the file ends in number {}; it is cut off, "
+                  "export or copy it again",
+                  element.count, element.name, index));
 }
 
-std::uint64_t IntegerAt(std::string_view bytes, std::size_t at, std::size_t width, Encoding encoding) {
+std::uint64_t IntegerAt(std::string_view bytes, std::size_t at, std::size_t width, BodyEncoding encoding) {
   std::uint64_t value = 0;
   for (std::size_t i = 0; i < width; ++i) {
-    const std::size_t from = encoding == Encoding::kBigEndian ? i : width - 1 - i;
+    const std::size_t from = encoding == BodyEncoding::kBigEndian ? i : width - 1 - i;
     value = (value << 8U) | static_cast<unsigned char>(bytes[at + from]);
   }
   return value;
@@ -196,11 +195,12 @@ void CheckPly(std::string_view bytes, const std::string& where) {
   const Header header = ParseHeader(bytes, where);
   for (const Element& element : header.elements) {
     if (element.properties.empty() && element.count > 0) {
-      Fail(where, fmt::format("the PLY element '{}' has no properties; export it again", element.name));
+      FailAsMalformed(where,
+                      fmt::format("the PLY element '{}' has no properties; export it again", element.name));
     }
   }
   const std::string_view body = bytes.substr(header.body_offset);
-  if (header.encoding == Encoding::kAscii) {
+  if (header.encoding == BodyEncoding::kAscii) {
     WalkAscii(header, body, where);
   } else {
     WalkBinary(header, body, where);

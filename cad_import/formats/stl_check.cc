@@ -7,17 +7,14 @@
 #include <cstdint>
 #include <cstring>
 
+#include "cad_import/formats/malformed_file.h"
 #include "core/error.h"
 
 namespace elbowroom::cad_import {
 namespace {
 
-constexpr std::uint64_t kHeaderBytes = 84;
+constexpr std::uint64_t kStlHeaderBytes = 84;
 constexpr std::uint64_t kTriangleBytes = 50;
-
-[[noreturn]] void Fail(const std::string& where, const std::string& what) {
-  throw core::Error(core::ErrorKind::kFormat, fmt::format("{}: {}", where, what));
-}
 
 char Lowered(unsigned char letter) { return static_cast<char>(std::tolower(letter)); }
 
@@ -37,23 +34,24 @@ std::size_t FirstLetter(std::string_view bytes) {
 // The triangles that a binary file's header claims.
 std::uint64_t ClaimOf(std::string_view bytes) {
   std::uint32_t claimed = 0;
-  if (bytes.size() >= kHeaderBytes) std::memcpy(&claimed, bytes.data() + 80, sizeof claimed);
+  if (bytes.size() >= kStlHeaderBytes) std::memcpy(&claimed, bytes.data() + 80, sizeof claimed);
   return claimed;
 }
 
 // Binary if its size is what its count says, or if it can't be text.
 bool IsText(std::string_view bytes) {
-  if (bytes.size() >= kHeaderBytes && bytes.size() == kHeaderBytes + kTriangleBytes * ClaimOf(bytes))
+  if (bytes.size() >= kStlHeaderBytes && bytes.size() == kStlHeaderBytes + kTriangleBytes * ClaimOf(bytes))
     return false;
   return BeginsWithSolid(bytes.substr(FirstLetter(bytes))) && bytes.find('\0') == std::string_view::npos;
 }
 
 void CheckText(std::string_view bytes, const std::string& where) {
   if (bytes.find("facet") == std::string_view::npos)
-    Fail(where, "the STL file holds no facets; export it again as a surface mesh");
+    FailAsMalformed(where, "the STL file holds no facets; export it again as a surface mesh");
   const std::size_t last_facet = bytes.rfind("endfacet");
   if (last_facet == std::string_view::npos || bytes.find("endsolid", last_facet) == std::string_view::npos)
-    Fail(where, "the STL file is cut off (it doesn't end with \"endsolid\"); export or copy it again");
+    FailAsMalformed(where,
+                    "the STL file is cut off (it doesn't end with \"endsolid\"); export or copy it again");
 }
 
 }  // namespace
@@ -70,22 +68,25 @@ std::string PlainStl(std::string bytes) {
 
 void CheckStl(std::string_view bytes, const std::string& where) {
   if (IsText(bytes)) return CheckText(bytes, where);
-  if (bytes.size() < kHeaderBytes) Fail(where, "not an STL file (too short, and not text); export it again");
-  const std::uint64_t claimed = ClaimOf(bytes), held = (bytes.size() - kHeaderBytes) / kTriangleBytes;
+  if (bytes.size() < kStlHeaderBytes)
+    FailAsMalformed(where, "not an STL file (too short, and not text); export it again");
+  const std::uint64_t claimed = ClaimOf(bytes), held = (bytes.size() - kStlHeaderBytes) / kTriangleBytes;
   if (claimed > held) {
-    Fail(where, fmt::format("the STL header claims {} triangles but the file holds {}; it is cut off or not "
-                            "STL, export or copy it again",
-                            claimed, held));
+    FailAsMalformed(
+        where, fmt::format("the STL header claims {} triangles but the file holds {}; it is cut off or not "
+                           "STL, export or copy it again",
+                           claimed, held));
   }
   if (claimed < held) {
-    Fail(where, fmt::format("the STL header claims {} triangles but the file has room for {}; which is right "
-                            "can't be told, export or copy it again",
-                            claimed, held));
+    FailAsMalformed(
+        where, fmt::format("the STL header claims {} triangles but the file has room for {}; which is right "
+                           "can't be told, export or copy it again",
+                           claimed, held));
   }
 }
 
 std::size_t BytesAfterTriangles(std::string_view bytes) {
-  return IsText(bytes) ? 0 : bytes.size() - kHeaderBytes - kTriangleBytes * ClaimOf(bytes);
+  return IsText(bytes) ? 0 : bytes.size() - kStlHeaderBytes - kTriangleBytes * ClaimOf(bytes);
 }
 
 }  // namespace elbowroom::cad_import

@@ -11,23 +11,23 @@ namespace {
 constexpr std::uint32_t kNoCharacter = 0xFFFD;
 constexpr std::uint32_t kLargestCharacter = 0x10FFFF;
 
-struct Encoding {
+struct TextEncoding {
   std::size_t unit_bytes = 2;
   bool is_big_endian = false;
 };
 
-std::optional<Encoding> EncodingOf(std::string_view bytes) {
+std::optional<TextEncoding> EncodingOf(std::string_view bytes) {
   using namespace std::string_view_literals;
   // The mark of UTF-16 begins that of UTF-32.
-  if (bytes.starts_with("\xFF\xFE\0\0"sv)) return Encoding{4, false};
-  if (bytes.starts_with("\0\0\xFE\xFF"sv)) return Encoding{4, true};
-  if (bytes.starts_with("\xFF\xFE"sv)) return Encoding{2, false};
-  if (bytes.starts_with("\xFE\xFF"sv)) return Encoding{2, true};
+  if (bytes.starts_with("\xFF\xFE\0\0"sv)) return TextEncoding{4, false};
+  if (bytes.starts_with("\0\0\xFE\xFF"sv)) return TextEncoding{4, true};
+  if (bytes.starts_with("\xFF\xFE"sv)) return TextEncoding{2, false};
+  if (bytes.starts_with("\xFE\xFF"sv)) return TextEncoding{2, true};
   return std::nullopt;
 }
 
 // Takes the next unit off; kNoCharacter for an incomplete one.
-std::uint32_t TakeUnit(std::string_view& bytes, const Encoding& encoding) {
+std::uint32_t TakeUnit(std::string_view& bytes, const TextEncoding& encoding) {
   std::uint32_t unit = 0;
   const std::string_view taken = bytes.substr(0, encoding.unit_bytes);
   bytes.remove_prefix(taken.size());
@@ -42,7 +42,7 @@ std::uint32_t TakeUnit(std::string_view& bytes, const Encoding& encoding) {
 bool IsHigh(std::uint32_t unit) { return unit >= 0xD800 && unit < 0xDC00; }
 bool IsLow(std::uint32_t unit) { return unit >= 0xDC00 && unit < 0xE000; }
 
-std::uint32_t TakeCharacter(std::string_view& bytes, const Encoding& encoding) {
+std::uint32_t TakeCharacter(std::string_view& bytes, const TextEncoding& encoding) {
   const std::uint32_t unit = TakeUnit(bytes, encoding);
   if (encoding.unit_bytes == 2 && IsHigh(unit)) {
     std::string_view after = bytes;
@@ -74,7 +74,7 @@ void AppendUtf8(std::uint32_t character, std::string& text) {
 }  // namespace
 
 std::string ToUtf8(std::string bytes) {
-  const std::optional<Encoding> encoding = EncodingOf(bytes);
+  const std::optional<TextEncoding> encoding = EncodingOf(bytes);
   if (!encoding) return bytes;
   std::string_view rest = bytes;
   rest.remove_prefix(encoding->unit_bytes);

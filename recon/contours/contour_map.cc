@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <utility>
 #include <vector>
 
+#include "core/infinity.h"
 #include "recon/contours/contour_cells.h"
 #include "recon/contours/contour_kernel.h"
 
@@ -15,7 +15,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+using core::kInfinity;
 // Half a cell's diagonal.
 constexpr double kHalfDiagonal = 0.70710678118654757;
 // Cells to each side whose edges are looked at one by one. Edges beyond them are at least as many cells away.

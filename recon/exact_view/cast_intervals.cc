@@ -6,16 +6,17 @@
 #include <bit>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <span>
 #include <utility>
+
+#include "core/infinity.h"
 
 namespace elbowroom::recon {
 namespace {
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
+using core::kFloatInfinity;
 constexpr std::size_t kBinsPerInterval = 2;
-constexpr std::size_t kMostBins = 8192;
+constexpr std::size_t kMostCastBins = 8192;
 constexpr double kLeastBinWidth = 8.0 * kAngleSlack;
 
 struct Direction {
@@ -61,7 +62,7 @@ class AngleSweep {
   }
 
   std::vector<OrderRange> Run() {
-    float at = -kInfinity;
+    float at = -kFloatInfinity;
     AddLast();
     end_ = NextAngle();
     for (;;) {
@@ -70,7 +71,7 @@ class AngleSweep {
       at = end_;
       Pass(at);
     }
-    out_.begins.push_back(kInfinity);
+    out_.begins.push_back(kFloatInfinity);
     out_.firsts.push_back(NextPlace());
     return std::move(ranges_);
   }
@@ -90,7 +91,7 @@ class AngleSweep {
   };
 
   [[nodiscard]] float NextBegin() const {
-    return next_ < edges_.size() ? edges_[by_from_[next_]].from : kInfinity;
+    return next_ < edges_.size() ? edges_[by_from_[next_]].from : kFloatInfinity;
   }
 
   // Where the next edge begins or ends.
@@ -141,10 +142,11 @@ class AngleSweep {
   // The orders between which rays of the interval can be in the object. An order is linear in the angle
   // between whole numbers, so its extremes are at the ends of the interval and at the whole numbers in it.
   [[nodiscard]] OrderRange RangeOf(double begin, double end) const {
-    if (met_.empty() && !starts_inside_) return {kInfinity, -kInfinity};
+    if (met_.empty() && !starts_inside_) return {kFloatInfinity, -kFloatInfinity};
     const bool has_first = !starts_inside_;
     const bool has_last = starts_inside_ == (met_.size() % 2 != 0);
-    OrderRange range{has_first ? kInfinity : -kInfinity, has_last ? -kInfinity : kInfinity};
+    OrderRange range{has_first ? kFloatInfinity : -kFloatInfinity,
+                     has_last ? -kFloatInfinity : kFloatInfinity};
     const auto add = [&](double angle) {
       const Direction direction = DirectionAt(angle);
       if (has_first) range.first = std::min(range.first, met_.front().OrderAt(direction));
@@ -165,7 +167,7 @@ class AngleSweep {
     AddLast();
     ranges_.push_back(RangeOf(std::max(double{at}, -2.0), std::min(double{end_}, 2.0)));
   }
-  void AddLast() { out_.Add({0.0F, 0.0F, kInfinity}, 0); }
+  void AddLast() { out_.Add({0.0F, 0.0F, kFloatInfinity}, 0); }
   [[nodiscard]] std::int32_t NextPlace() const { return static_cast<std::int32_t>(out_.crossings.size()); }
 
   std::span<const CastEdge> edges_;
@@ -174,8 +176,8 @@ class AngleSweep {
   const bool starts_inside_;
   CastIntervals& out_;
   std::vector<OrderRange> ranges_;
-  std::size_t next_ = 0;   // in by_from_
-  float end_ = kInfinity;  // of the present interval: the next edge begins or one of `met_` ends
+  std::size_t next_ = 0;        // in by_from_
+  float end_ = kFloatInfinity;  // of the present interval: the next edge begins or one of `met_` ends
   std::vector<Met> met_;
 };
 
@@ -189,7 +191,7 @@ std::size_t ChooseBins(CastPencil* pencil) {
   const std::vector<float>& begins = pencil->intervals.begins;
   if (pencil->intervals.size() == 1) return 1;
   const double first = std::max(begins[1], -2.0F), last = std::min(begins[begins.size() - 2], 2.0F);
-  const std::size_t bins = std::min(kBinsPerInterval * begins.size(), kMostBins);
+  const std::size_t bins = std::min(kBinsPerInterval * begins.size(), kMostCastBins);
   const double width = std::max((last - first) / static_cast<double>(bins), kLeastBinWidth);
   pencil->least_angle = static_cast<float>(first - 1.25 * width);
   pencil->bins_per_angle = static_cast<float>(1.0 / width);
@@ -201,7 +203,7 @@ void FillBins(CastPencil* pencil) {
   const std::size_t bins = ChooseBins(pencil);
   pencil->intervals.bins.resize(bins);
   std::uint32_t interval = 0;
-  double begin = -kInfinity;  // of the first bin, which takes what lies before
+  double begin = -kFloatInfinity;  // of the first bin, which takes what lies before
   for (std::uint32_t bin = 0; bin < bins; ++bin) {
     const double end = BeginOf(*pencil, bin + 1);
     while (begins[interval + 1] <= begin - kAngleSlack) ++interval;

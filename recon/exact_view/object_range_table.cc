@@ -4,14 +4,16 @@
 #include <bit>
 #include <cmath>
 
+#include "core/infinity.h"
+
 namespace elbowroom::recon {
 namespace {
 
 constexpr std::size_t kIntervalsPerBin = 4;
 constexpr std::size_t kFewestBins = 64;
-constexpr std::size_t kMostBins = 1024;
+constexpr std::size_t kMostTableBins = 1024;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+using core::kInfinity;
 constexpr OrderRange kNowhere{kInfinity, -kInfinity};
 
 OrderRange Union(const OrderRange& a, const OrderRange& b) {
@@ -21,7 +23,7 @@ OrderRange Union(const OrderRange& a, const OrderRange& b) {
 }  // namespace
 
 ObjectRangeTable::ObjectRangeTable(std::span<const float> begins, std::span<const OrderRange> ranges)
-    : bins_(std::clamp(std::bit_ceil(ranges.size() / kIntervalsPerBin), kFewestBins, kMostBins)) {
+    : bins_(std::clamp(std::bit_ceil(ranges.size() / kIntervalsPerBin), kFewestBins, kMostTableBins)) {
   if (ranges.size() > 1) {
     const double last_angle = begins[ranges.size() - 1];
     first_angle_ = begins[1];

@@ -10,6 +10,7 @@
 #include <limits>
 #include <span>
 
+#include "core/infinity.h"
 #include "recon/exact_view/tile_cast.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -23,7 +24,7 @@ using VF = hn::Vec<Floats>;
 using VI = hn::Vec<Ints>;
 using MF = hn::Mask<Floats>;
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
+using core::kFloatInfinity;
 
 // No fused operation: it would round differently on processors without one.
 HWY_INLINE VF At(const CastForm& form, VF u, VF v) {
@@ -123,7 +124,7 @@ class Walk {
     const Ints n;
     Front front{key_from, hn::Set(n, TileHits::kNoCamera), hn::Zero(n)};
     MF alive = hn::Le(key_from, key_to);
-    if (hn::AllFalse(f, alive)) return {hn::Set(f, kInfinity), front.camera, front.place};
+    if (hn::AllFalse(f, alive)) return {hn::Set(f, kFloatInfinity), front.camera, front.place};
     // `agreed`: how many cameras in a row have said object at the front, for all rays that are still alive. A
     // camera that moves some rays agrees with where it moved them to, hence 1 and not 0.
     const std::size_t cameras = cameras_.size();
@@ -144,7 +145,7 @@ class Walk {
         agreed = 0;
       }
     }
-    front.key = hn::IfThenElse(alive, front.key, hn::Set(f, kInfinity));
+    front.key = hn::IfThenElse(alive, front.key, hn::Set(f, kFloatInfinity));
     return front;
   }
 
@@ -172,7 +173,7 @@ class Walk {
     const Ints n;
     const CastPencil& pencil = *camera.pencil;
     const MF is_inside = MaskOfBits(camera.starts_inside >> first_);
-    if (pencil.bins() == 0) return {hn::Set(f, kInfinity), hn::Zero(n), is_inside};
+    if (pencil.bins() == 0) return {hn::Set(f, kFloatInfinity), hn::Zero(n), is_inside};
     const VF angle = Angle(pencil, rays_.u, rays_.v);
     const MF has_angle = hn::Eq(angle, angle);  // a ray along the pencil's axis has none, and meets no edge
     const VF bin = hn::Mul(hn::Sub(angle, hn::Set(f, pencil.least_angle)), hn::Set(f, pencil.bins_per_angle));
@@ -246,7 +247,7 @@ class Walk {
   bool MoveIntoView(MF alive, Front* front) {
     const Floats f;
     MF unseen = alive;
-    Front nearest{hn::Set(f, kInfinity), front->camera, front->place};
+    Front nearest{hn::Set(f, kFloatInfinity), front->camera, front->place};
     for (std::size_t i = 0; i < visibility_outlines_.size(); ++i) {
       const std::size_t number = cameras_.size() + i;
       const Course course =
@@ -279,8 +280,8 @@ HWY_INLINE void Clip(const CastBox& box, const Rays& rays, VF* key_from, VF* key
   for (const CastForm& form : box.not_after) *key_to = hn::Min(*key_to, At(form, rays.u, rays.v));
   for (const CastForm& form : box.beside)
     is_beside = hn::Or(is_beside, hn::Lt(At(form, rays.u, rays.v), hn::Zero(f)));
-  *key_to = hn::IfThenElse(is_beside, hn::Set(f, -kInfinity), *key_to);
-  *key_from = hn::IfThenElse(is_beside, hn::Set(f, kInfinity), *key_from);
+  *key_to = hn::IfThenElse(is_beside, hn::Set(f, -kFloatInfinity), *key_to);
+  *key_from = hn::IfThenElse(is_beside, hn::Set(f, kFloatInfinity), *key_from);
 }
 
 void Cast(const TileRays& tile, const CastBox& box, std::span<const TileCamera> cameras,
@@ -293,11 +294,11 @@ void Cast(const TileRays& tile, const CastBox& box, std::span<const TileCamera> 
   const float last_key = tile.is_perspective ? -Limits::denorm_min() : Limits::max();
   for (std::size_t first = 0; first < kTileRays; first += hn::Lanes(f)) {
     const Rays rays{hn::Load(f, tile.u + first), hn::Load(f, tile.v + first)};
-    VF key_from = hn::Set(f, -kInfinity), key_to = hn::Set(f, last_key);
+    VF key_from = hn::Set(f, -kFloatInfinity), key_to = hn::Set(f, last_key);
     Clip(box, rays, &key_from, &key_to);
     Walk walk(rays, cameras, visibility_outlines, first, scratch);
     const Front front = walk.Run(key_from, key_to);
-    const MF is_hit = hn::Lt(hn::Abs(front.key), hn::Set(f, kInfinity));
+    const MF is_hit = hn::Lt(hn::Abs(front.key), hn::Set(f, kFloatInfinity));
     const VF depth_mm = tile.is_perspective ? hn::Div(hn::Set(f, -1.0F), front.key) : front.key;
     hn::Store(hn::IfThenElseZero(is_hit, depth_mm), f, hits->depth_mm + first);
     const std::size_t count = hn::CountTrue(f, is_hit);

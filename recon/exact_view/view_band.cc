@@ -2,16 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <span>
 
+#include "core/infinity.h"
 #include "recon/exact_view/cast_intervals.h"
 
 namespace elbowroom::recon {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+using core::kInfinity;
 constexpr double kHalfUlp = 1.0 / (1 << 24);  // of float32, relative: one rounding
 // Roundings in u * du + v * dv + at_origin: three of a term at most, and room for their products.
 constexpr double kFormRoundings = 4.0;

@@ -11,19 +11,19 @@ namespace elbowroom::recon {
 namespace {
 
 // Radii shrink by this much for the rounding of their own computation ...
-constexpr double kRelativeSlack = 1e-9;
+constexpr double kRadiusSlack = 1e-9;
 // ... and by this share of the coordinates' size for theirs: of the centre, of the ball's points, on the way
 // into the camera.
-constexpr double kCoordinateRounding = 4e-15;
+constexpr double kBallRounding = 4e-15;
 // More than a label's distance loses to rounding.
 constexpr double kPositionSlackPx = 1e-6;
 
 // Largest r such that every point within r of x projects, in the normalised plane, within `reach` of x's own
 // projection: r |x| / (Z (Z - r)) <= reach, solved for r; always below Z.
 double RadiusOfReach(const Eigen::Vector3d& x_in_cam, double reach) {
-  if (std::isinf(reach)) return x_in_cam.z() * (1.0 - kRelativeSlack);
+  if (std::isinf(reach)) return x_in_cam.z() * (1.0 - kRadiusSlack);
   const double z = x_in_cam.z();
-  return reach * z * z / (x_in_cam.norm() + reach * z) * (1.0 - kRelativeSlack);
+  return reach * z * z / (x_in_cam.norm() + reach * z) * (1.0 - kRadiusSlack);
 }
 
 // The reach that a radius needs; infinite for a ball that reaches the camera's plane.
@@ -44,7 +44,7 @@ double DistanceToCone(const Eigen::Vector3d& x_in_cam, double slope) {
 
 double DistanceToEdges(const Eigen::Vector3d& x_in_cam, double focal_px, const ContourMap& labels) {
   if (labels.bounds_px().isEmpty()) return std::numeric_limits<double>::infinity();
-  return DistanceToCone(x_in_cam, labels.max_radius_px() / focal_px) * (1.0 - kRelativeSlack);
+  return DistanceToCone(x_in_cam, labels.max_radius_px() / focal_px) * (1.0 - kRadiusSlack);
 }
 
 // Nothing behind the camera, or so far aside that the position isn't finite.
@@ -61,13 +61,12 @@ BallLabel AskPlane(const core::CameraModel& camera, double focal_px, const Conto
                    const Eigen::Vector3d& x_in_world, double enough_mm) {
   const Eigen::Vector3d x_in_cam = camera.cam_from_world() * x_in_world;
   const double rounding_mm =
-      kCoordinateRounding * (x_in_world.lpNorm<1>() + camera.cam_from_world().translation_mm.lpNorm<1>());
+      kBallRounding * (x_in_world.lpNorm<1>() + camera.cam_from_world().translation_mm.lpNorm<1>());
   BallLabel answer{labels.exterior_is_object(), 0.0};
   if (const std::optional<Eigen::Vector2d> position = PositionOf(x_in_cam, focal_px)) {
-    const double enough =
-        ReachOfRadius(x_in_cam, enough_mm * (1.0 + 2.0 * kRelativeSlack) + 2.0 * rounding_mm);
+    const double enough = ReachOfRadius(x_in_cam, enough_mm * (1.0 + 2.0 * kRadiusSlack) + 2.0 * rounding_mm);
     const PlaneLabel label =
-        labels.LabelAt(*position, enough * focal_px * (1.0 + kRelativeSlack) + kPositionSlackPx);
+        labels.LabelAt(*position, enough * focal_px * (1.0 + kRadiusSlack) + kPositionSlackPx);
     answer = {label.is_object, RadiusOfReach(x_in_cam, label.distance_px / focal_px)};
   }
   // For a ball that isn't in front of the camera, or reaches behind it: the exterior label also holds up to
@@ -94,8 +93,8 @@ std::optional<bool> LabelOfShape(const core::CameraModel& camera, double focal_p
       view.steps[static_cast<std::size_t>(axis)][static_cast<std::size_t>(k)] = scale * edges(k, axis);
   }
   // As for a ball: how far rounding moves a point in the picture.
-  const double rounding_mm = kCoordinateRounding * (shape.origin.lpNorm<1>() + shape.edges.lpNorm<1>() +
-                                                    cam_from_world.translation_mm.lpNorm<1>());
+  const double rounding_mm = kBallRounding * (shape.origin.lpNorm<1>() + shape.edges.lpNorm<1>() +
+                                              cam_from_world.translation_mm.lpNorm<1>());
   const double farthest_mm = origin.norm() + edges.norm();
   const double slack_px = kPositionSlackPx + focal_px * rounding_mm * farthest_mm / (least_z * least_z);
   const ConvexCorners& corners =

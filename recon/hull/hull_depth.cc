@@ -3,8 +3,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "core/infinity.h"
 #include "recon/contours/silhouette.h"
 #include "recon/hull/camera_query.h"
 
@@ -13,10 +13,10 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+using core::kInfinity;
 // Depths are short by this share of themselves, and of the coordinates' size, for rounding.
-constexpr double kRelativeSlack = 1e-9;
-constexpr double kCoordinateRounding = 1e-14;
+constexpr double kDepthSlack = 1e-9;
+constexpr double kDepthRounding = 1e-14;
 
 struct Nearest {
   double square = kInfinity;
@@ -57,8 +57,8 @@ Nearest NearestSurface(const Contour& contour, double focal_px, const Vector3d& 
 HullDepth DepthIn(const core::CameraModel& camera, core::CameraIndex index, const Nearest& nearest,
                   const Vector3d& x_in_world) {
   const double rounding_mm =
-      kCoordinateRounding * (x_in_world.lpNorm<1>() + camera.cam_from_world().translation_mm.lpNorm<1>());
-  const double depth_mm = std::sqrt(nearest.square) * (1.0 - kRelativeSlack) - rounding_mm;
+      kDepthRounding * (x_in_world.lpNorm<1>() + camera.cam_from_world().translation_mm.lpNorm<1>());
+  const double depth_mm = std::sqrt(nearest.square) * (1.0 - kDepthSlack) - rounding_mm;
   return {std::max(depth_mm, 0.0), camera.cam_from_world().Inverse() * nearest.point, index};
 }
 
@@ -66,7 +66,7 @@ HullDepth ToFaces(const Eigen::AlignedBox3d& box, const Vector3d& x_in_world) {
   HullDepth depth{kInfinity, x_in_world, {}};
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
     for (const double face_mm : {box.min()[axis], box.max()[axis]}) {
-      const double distance_mm = std::abs(face_mm - x_in_world[axis]) * (1.0 - kRelativeSlack);
+      const double distance_mm = std::abs(face_mm - x_in_world[axis]) * (1.0 - kDepthSlack);
       if (distance_mm >= depth.depth_mm) continue;
       depth = {distance_mm, x_in_world, {}};
       depth.nearest_in_world[axis] = face_mm;

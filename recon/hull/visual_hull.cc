@@ -4,9 +4,9 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <limits>
 
 #include "core/error.h"
+#include "core/infinity.h"
 #include "recon/contours/silhouette.h"
 #include "recon/contours/undistorted_plane.h"
 #include "recon/hull/camera_query.h"
@@ -15,7 +15,7 @@
 namespace elbowroom::recon {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+using core::kInfinity;
 // Distance to the nearest face from inside.
 double DistanceToFace(const Eigen::AlignedBox3d& box, const Eigen::Vector3d& x) {
   return std::min((x - box.min()).minCoeff(), (box.max() - x).minCoeff());

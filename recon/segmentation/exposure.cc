@@ -82,10 +82,10 @@ Line Fit(const std::vector<LevelPair>& pairs, const Line& before) {
 // A first line through the medians, refitted without the levels that it misses: there an object hides most of
 // the background.
 Line FitMedians(const std::vector<LevelPair>& pairs) {
-  constexpr int kRounds = 5;
+  constexpr int kFits = 5;
   constexpr double kLeastMissLevels = 1.5;
   Line line = Fit(pairs, {});
-  for (int round = 0; round < kRounds && !pairs.empty(); ++round) {
+  for (int round = 0; round < kFits && !pairs.empty(); ++round) {
     const auto miss = [&](const LevelPair& pair) {
       return std::abs(pair.picture - line.gain * pair.background - line.offset);
     };

@@ -9,7 +9,7 @@
 namespace elbowroom::sessions {
 namespace {
 
-std::string HeaderLine(const core::Layout& layout) {
+std::string ClearanceHeader(const core::Layout& layout) {
   std::string line =
       "frame,time_s,part,verdict,verdict_errs,required_mm,uncertainty_mm,lower_mm,upper_mm,"
       "part_x_mm,part_y_mm,part_z_mm,hull_x_mm,hull_y_mm,hull_z_mm";
@@ -54,7 +54,7 @@ std::string_view HowItErrs(core::Verdict verdict) {
 }
 
 std::string ClearanceCsv(const core::SessionHeader& header, std::span<const ContactRow> rows) {
-  std::string csv = HeaderLine(header.layout);
+  std::string csv = ClearanceHeader(header.layout);
   for (const ContactRow& row : rows) csv += LineOf(header, row);
   return csv;
 }

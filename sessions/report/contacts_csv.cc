@@ -7,7 +7,7 @@
 namespace elbowroom::sessions {
 namespace {
 
-std::string HeaderLine(const core::Layout& layout) {
+std::string ContactHeader(const core::Layout& layout) {
   std::string line =
       "frame,time_s,part,contact_area_mm2,contact_points,depth_mm,deepest_x_mm,deepest_y_mm,deepest_z_mm,"
       "recovery_status,d_rec_mm,v_rec_x,v_rec_y,v_rec_z,cp_obj_x_mm,cp_obj_y_mm,cp_obj_z_mm,"
@@ -38,7 +38,7 @@ std::string LineOf(const core::Layout& layout, const ContactRow& row) {
 }  // namespace
 
 std::string ContactsCsv(const core::Layout& layout, std::span<const ContactRow> rows) {
-  std::string csv = HeaderLine(layout);
+  std::string csv = ContactHeader(layout);
   for (const ContactRow& row : rows) csv += LineOf(layout, row);
   return csv;
 }

@@ -11,7 +11,7 @@
 namespace elbowroom::accuracy {
 namespace {
 
-constexpr BudgetEffort kEffort{.stride = 3, .draws = 4};
+constexpr BudgetEffort kBudgetEffort{.stride = 3, .draws = 4};
 
 std::string ToString(Convention convention) {
   if (convention == Convention::kNone) return "-";
@@ -46,7 +46,7 @@ void MeasureBudget(const std::filesystem::path& docs) {
   std::string beyond;
   for (const BudgetTerm& term : BudgetTerms()) {
     fmt::print(stderr, "budget: {}\n", term.name);
-    const DepthError error = MeasureTerm(term, scene, kEffort);
+    const DepthError error = MeasureTerm(term, scene, kBudgetEffort);
     table.rows.push_back(RowOf(term, error));
     if (!(error.surface_rms_mm < term.ceiling_mm))
       beyond +=

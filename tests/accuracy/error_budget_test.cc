@@ -12,7 +12,7 @@
 namespace elbowroom::accuracy {
 namespace {
 
-const BudgetScene& Scene() {
+const BudgetScene& SmallBudgetScene() {
   static const BudgetScene scene = MakeBudgetScene(320, 240);
   return scene;
 }
@@ -27,7 +27,7 @@ const DepthError& Measured(const std::string& name) {
   const auto found = measured.find(name);
   if (found != measured.end()) return found->second;
   for (const BudgetTerm& term : BudgetTerms()) {
-    if (term.name == name) return measured[name] = MeasureTerm(term, Scene(), QuickShare());
+    if (term.name == name) return measured[name] = MeasureTerm(term, SmallBudgetScene(), QuickShare());
   }
   throw std::invalid_argument("the budget has no term '" + name + "'");
 }

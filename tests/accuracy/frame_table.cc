@@ -91,7 +91,7 @@ class Player {
 };
 
 template <typename Part>
-double Quantile(const std::vector<FrameTimes>& times, double share, const Part& part) {
+double PartQuantile(const std::vector<FrameTimes>& times, double share, const Part& part) {
   std::vector<double> values;
   for (const FrameTimes& frame : times) values.push_back(part(frame));
   const auto place = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
@@ -100,7 +100,7 @@ double Quantile(const std::vector<FrameTimes>& times, double share, const Part& 
 }
 
 std::vector<std::string> RowOf(const std::string& what, const std::vector<FrameTimes>& times) {
-  const auto median = [&](auto part) { return fmt::format("{:.2f}", Quantile(times, 0.5, part)); };
+  const auto median = [&](auto part) { return fmt::format("{:.2f}", PartQuantile(times, 0.5, part)); };
   const auto whole = [](const FrameTimes& t) { return t.whole; };
   return {what,
           fmt::format("{}", times.size()),
@@ -109,8 +109,8 @@ std::vector<std::string> RowOf(const std::string& what, const std::vector<FrameT
           median([](const FrameTimes& t) { return t.contacts; }),
           median([](const FrameTimes& t) { return t.view; }),
           median(whole),
-          fmt::format("{:.2f}", Quantile(times, 0.99, whole)),
-          fmt::format("{:.2f}", Quantile(times, 1.0, whole))};
+          fmt::format("{:.2f}", PartQuantile(times, 0.99, whole)),
+          fmt::format("{:.2f}", PartQuantile(times, 1.0, whole))};
 }
 
 std::vector<FrameTimes> PlayAll(Player* player, const std::vector<recon::FrameSet>& frames, int count) {

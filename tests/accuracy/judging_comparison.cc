@@ -203,7 +203,7 @@ std::vector<recon::SyntheticObject> Scaled(std::vector<recon::SyntheticObject> o
 }
 
 // A case of the table of costs, kept while all of them are timed in turns.
-struct CostCase {
+struct JudgingCase {
   CurtainSight sight;
   core::TriangleTree part;
   core::RigidTransform in_hull, away;
@@ -275,7 +275,7 @@ std::vector<JudgingCost> MeasureJudgingCosts(const TimingEffort& effort) {
                                       {"hull half as large", three, 18, 20, 0.5},
                                       {"hull twice as large", three, 18, 20, 2.0}};
   std::vector<JudgingCost> costs;
-  std::vector<std::unique_ptr<CostCase>> cases;
+  std::vector<std::unique_ptr<JudgingCase>> cases;
   std::vector<std::function<void()>> jobs;  // two a case
   for (const Wanted& one : wanted) {
     const recon::ViewScene scene = recon::MakeViewScene(one.rig);
@@ -286,8 +286,8 @@ std::vector<JudgingCost> MeasureJudgingCosts(const TimingEffort& effort) {
     const auto moved = [&](double depth_mm) {
       return core::RigidTransform{touching.rotation, touching.translation_mm + depth_mm * Vector3d::UnitX()};
     };
-    const CostCase& kept = *cases.emplace_back(std::make_unique<CostCase>(
-        CostCase{std::move(sight), std::move(part), moved(one.depth_mm), moved(-30.0)}));
+    const JudgingCase& kept = *cases.emplace_back(std::make_unique<JudgingCase>(
+        JudgingCase{std::move(sight), std::move(part), moved(one.depth_mm), moved(-30.0)}));
     const core::PartContact contact = review::FindContacts(kept.sight.hull, kept.part, kept.in_hull, 0);
     const review::Clearance clearance = review::FindClearance(kept.sight.hull, kept.part, kept.away);
     JudgingCost& cost = costs.emplace_back();

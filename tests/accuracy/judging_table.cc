@@ -15,8 +15,8 @@ using reporting::ThreeDigits;
 
 constexpr int kPoses = 24;
 constexpr double kMeshEdgesMm[] = {8.0, 4.0, 2.0};
-constexpr std::uint64_t kSeed = 7801;
-constexpr TimingEffort kEffort{.repetitions = 11, .slow_repetitions = 3, .slow_ms = 20.0};
+constexpr std::uint64_t kJudgingSeed = 7801;
+constexpr TimingEffort kJudgingEffort{.repetitions = 11, .slow_repetitions = 3, .slow_ms = 20.0};
 constexpr TimingEffort kCostEffort{.repetitions = 201};
 
 reporting::Table MethodTable(const std::vector<JudgingMethod>& contacts,
@@ -67,9 +67,10 @@ void Draw(const std::string& title, const std::string& error_label, const std::v
 
 void MeasureJudging(const std::filesystem::path& docs) {
   fmt::print(stderr, "judging: contacts\n");
-  const std::vector<JudgingMethod> contacts = CompareContactAreas(kPoses, kSeed, kEffort);
+  const std::vector<JudgingMethod> contacts = CompareContactAreas(kPoses, kJudgingSeed, kJudgingEffort);
   fmt::print(stderr, "judging: clearance\n");
-  const std::vector<JudgingMethod> clearances = CompareClearances(kPoses, kSeed, kMeshEdgesMm, kEffort);
+  const std::vector<JudgingMethod> clearances =
+      CompareClearances(kPoses, kJudgingSeed, kMeshEdgesMm, kJudgingEffort);
   fmt::print(stderr, "judging: costs\n");
   const std::vector<JudgingCost> costs = MeasureJudgingCosts(kCostEffort);
   const std::filesystem::path file = docs / "performance.md";

@@ -17,6 +17,7 @@
 #include "core/layout.h"
 #include "sessions/session_writer.h"
 #include "tests/accuracy/measurements.h"
+#include "tests/accuracy/quantile.h"
 #include "tests/reporting/machine_line.h"
 #include "tests/reporting/markdown_table.h"
 #include "tests/reporting/marked_section.h"
@@ -30,18 +31,11 @@ using Clock = std::chrono::steady_clock;
 // Frames with and without logging take turns, so that what else the machine does meets both alike. An odd
 // number of turns shows all pictures once, so that each picture is met with and without.
 constexpr int kFramesATurn = 40, kTurns = 40;
-constexpr core::FrameIndex kFramesKept = 5 * kFramesATurn;
+constexpr core::FrameIndex kFramesLogged = 5 * kFramesATurn;
 constexpr double kFrameRateHz = 30.0;
 
 double MsSince(Clock::time_point begin) {
   return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
-}
-
-double Quantile(std::vector<double> values, double share) {
-  core::Require(!values.empty(), "a quantile of something");
-  const auto place = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), values.begin() + place, values.end());
-  return values[static_cast<std::size_t>(place)];
 }
 
 // When frames were handed over, and when the writer said that they were on the disk.
@@ -104,7 +98,7 @@ Cost MeasureCost(const control::TrialSetup& setup, const std::vector<recon::Fram
   for (int turn = 0; turn < 2 * kTurns; ++turn) {
     const bool is_logged = turn % 2 == 1;
     for (int i = 0; i < kFramesATurn; ++i, ++frame) {
-      recon::FrameSet next = pictures[static_cast<std::size_t>(frame % kFramesKept)];
+      recon::FrameSet next = pictures[static_cast<std::size_t>(frame % kFramesLogged)];
       next.index = frame;
       next.time_s = static_cast<double>(frame) / kFrameRateHz;
       due += std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1.0 / kFrameRateHz));
@@ -147,9 +141,9 @@ std::vector<std::string> RowOf(const std::string& what, const Cost& cost) {
 
 void MeasureLogging(const std::filesystem::path& docs) {
   const control::TrialSetup setup = control::MakeDemoTrial(control::DemoPlay::kForever);
-  fmt::print(stderr, "logging: drawing {} frames\n", kFramesKept);
+  fmt::print(stderr, "logging: drawing {} frames\n", kFramesLogged);
   std::vector<recon::FrameSet> pictures;
-  for (core::FrameIndex i = 0; i < kFramesKept; ++i) pictures.push_back(setup.source->Read(i));
+  for (core::FrameIndex i = 0; i < kFramesLogged; ++i) pictures.push_back(setup.source->Read(i));
   reporting::Table table{{"frames come", "frames each", "without logging, ms", "with, ms", "difference",
                           "of it handing over, ms", "99 %: without, with, ms", "on the disk after, ms",
                           "99 %, ms", "longest, ms"},

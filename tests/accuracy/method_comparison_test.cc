@@ -8,7 +8,7 @@
 namespace elbowroom::accuracy {
 namespace {
 
-const ComparedScene& Scene() {
+const ComparedScene& SmallComparedScene() {
   static const ComparedScene scene = MakeComparedScene("three", recon::ViewSceneRig::kThree, 160, 120);
   return scene;
 }
@@ -19,7 +19,7 @@ TEST(ViewMethods, SeeTheHullOfTheMasks) {
   for (const ViewMethod& method : ViewMethods()) {
     SCOPED_TRACE(method.Name());
     ErrorTally tally;
-    tally.Add(Scene().mask_hull, method.view(Scene().task));
+    tally.Add(SmallComparedScene().mask_hull, method.view(SmallComparedScene().task));
     const DepthError error = tally.Summary();
     EXPECT_GT(error.compared, 500);
     EXPECT_LT(error.surface_rms_mm, kLargestRmsMm);
@@ -31,7 +31,7 @@ TEST(ExactView, IsTheBruteForceHullOfTheMasks) {
   constexpr double kTypicalMm = 1e-3;  // float32 depths
   constexpr double kGrazing = 0.002;   // of the pixels: slivers shorter than the oracle's step
   ErrorTally tally;
-  tally.Add(Scene().mask_hull, ExactView(Scene().task));
+  tally.Add(SmallComparedScene().mask_hull, ExactView(SmallComparedScene().task));
   const DepthError error = tally.Summary();
   EXPECT_LT(error.surface_p95_mm, kTypicalMm);
   EXPECT_LT(error.missing_share + error.extra_share, kGrazing);

@@ -22,7 +22,7 @@ using Eigen::Vector3d;
 
 constexpr double kBallMm = 40.0, kBarMm = 20.0, kBarLengthMm = 150.0;
 constexpr double kSharpPicturePx = 2.0;  // a lens as sharp as its sensor (tests/oracles/coverage_mask.h)
-constexpr double kReferenceAwayMm = 200.0;
+constexpr double kReferenceOffMm = 200.0;
 constexpr double kEdgeMm = 3.0;  // nearer to another camera's bound the hull has an edge, not a normal
 
 // All points within `radius_mm` of a segment; of no length: a ball.
@@ -157,7 +157,7 @@ struct Sight {
 // Backs a point out of the hull towards a random reference, both ways.
 void RespondOnce(const Sight& sight, recon::Random* random, Depths* depths) {
   const Vector3d on_axis = sight.round.a + random->Uniform(0.0, 1.0) * (sight.round.b - sight.round.a);
-  const Vector3d v_rec = random->Direction(), rp_obj = on_axis + kReferenceAwayMm * v_rec;
+  const Vector3d v_rec = random->Direction(), rp_obj = on_axis + kReferenceOffMm * v_rec;
   const double depth_mm = random->Uniform(depths->from_mm, depths->to_mm);
   const auto to_analytic_mm = sight.analytic.FirstSurface({rp_obj, -v_rec});
   const auto to_masks_mm = sight.brute_force.FirstSurface({rp_obj, -v_rec});

@@ -54,25 +54,25 @@ TEST(CutOffSession, OpensOnAReadOnlyMedium) {
 }
 
 // What records into `session`; the files that it takes are in `files`.
-struct Trial {
+struct TrialKind {
   const char* name;
   bool is_live = false;  // it goes on until it is stopped
   std::function<std::vector<std::string>(const fs::path& files, const fs::path& session)> words;
 };
 
-const Trial kDemo = {"demo", false, [](const fs::path& /*files*/, const fs::path& session) {
-                       return std::vector<std::string>{"--json", "demo", "--headless", "--out",
-                                                       session.parent_path().string()};
-                     }};
-constexpr int kRecordedFrames = 3000;
-const Trial kRecorded = {"recorded", false, [](const fs::path& files, const fs::path& session) {
-                           const fs::path trial = WriteMaskTrial(files, kRecordedFrames);
-                           return std::vector<std::string>{"--json",        "trial",      "run",
-                                                           trial.string(),  "--headless", "--session",
-                                                           session.string()};
+const TrialKind kDemo = {"demo", false, [](const fs::path& /*files*/, const fs::path& session) {
+                           return std::vector<std::string>{"--json", "demo", "--headless", "--out",
+                                                           session.parent_path().string()};
                          }};
+constexpr int kRecordedFrames = 3000;
+const TrialKind kRecorded = {"recorded", false, [](const fs::path& files, const fs::path& session) {
+                               const fs::path trial = WriteMaskTrial(files, kRecordedFrames);
+                               return std::vector<std::string>{"--json",        "trial",      "run",
+                                                               trial.string(),  "--headless", "--session",
+                                                               session.string()};
+                             }};
 
-Trial LiveFrom(const LiveTrialFiles& files) {
+TrialKind LiveFrom(const LiveTrialFiles& files) {
   return {"live", true, [&](const fs::path& /*files*/, const fs::path& session) {
             return std::vector<std::string>{
                 "--json",     "trial",     "run",           files.trial().string(),
@@ -111,7 +111,7 @@ const Disturbance kFolderRemoved =
     Removed("folder removed", [](const fs::path& session) { fs::remove_all(session.parent_path()); });
 
 // Runs the trial, disturbs it, and says in a line what came of it.
-ProgramRun RunDisturbed(const Trial& trial, const Disturbance& disturbance, const fs::path& files,
+ProgramRun RunDisturbed(const TrialKind& trial, const Disturbance& disturbance, const fs::path& files,
                         const fs::path& session, std::int64_t* frames_before) {
   constexpr std::int64_t kFramesBefore = 40;
   test_support::RunOptions options = AsInATest();
@@ -134,7 +134,7 @@ ProgramRun RunDisturbed(const Trial& trial, const Disturbance& disturbance, cons
   return run;
 }
 
-void ExpectTheTrialGoesOn(const Trial& trial, const Disturbance& disturbance) {
+void ExpectTheTrialGoesOn(const TrialKind& trial, const Disturbance& disturbance) {
   SCOPED_TRACE(std::string(trial.name) + ", " + disturbance.name);
   const TemporaryFolder folder;
   const fs::path session = folder / "out" / "session.db";
@@ -179,7 +179,7 @@ TEST(DisturbedTrial, GoesOnWhereItsFilesAreRemoved) {
 }
 
 // The program ends with one line, or with all frames; what was on the disk is there.
-void ExpectAnOrderlyEnd(const Trial& trial, const Disturbance& disturbance, const fs::path& files,
+void ExpectAnOrderlyEnd(const TrialKind& trial, const Disturbance& disturbance, const fs::path& files,
                         const fs::path& session) {
   SCOPED_TRACE(std::string(trial.name) + ", " + disturbance.name);
   std::int64_t frames_before = 0;
@@ -191,7 +191,7 @@ void ExpectAnOrderlyEnd(const Trial& trial, const Disturbance& disturbance, cons
 TEST(DisturbedTrial, EndsInOrderOnAFullDisk) {
   const std::vector<int> sizes_mb =
       test_support::SoakScale() == 1 ? std::vector{3} : std::vector{3, 5, 8, 12};
-  for (const Trial& trial : {kDemo, kRecorded}) {
+  for (const TrialKind& trial : {kDemo, kRecorded}) {
     for (const int size_mb : sizes_mb) {
       const TemporaryFolder folder;
       const auto disk = DiskMount::InMemory(folder / "disk", size_mb);
@@ -203,7 +203,7 @@ TEST(DisturbedTrial, EndsInOrderOnAFullDisk) {
 }
 
 TEST(DisturbedTrial, EndsInOrderOnADiskThatTurnsReadOnly) {
-  for (const Trial& trial : {kDemo, kRecorded}) {
+  for (const TrialKind& trial : {kDemo, kRecorded}) {
     const TemporaryFolder folder;
     const auto disk = DiskMount::Ext4(folder / "image", folder / "disk");
     if (!disk) GTEST_SKIP() << "NOT TESTED: no file system may be mounted here";
@@ -217,7 +217,7 @@ TEST(DisturbedTrial, LosesNothingOnTheDiskWhenThePowerFails) {
   const int failures = test_support::SoakScale();  // 20 by ./dev soak
   for (int i = 0; i < failures && !HasFailure(); ++i) {
     const TemporaryFolder folder;
-    const Trial& trial = i % 2 == 0 ? kRecorded : kDemo;
+    const TrialKind& trial = i % 2 == 0 ? kRecorded : kDemo;
     const fs::path session = folder / "disk" / "out" / "session.db";
     std::int64_t frames = 0;
     {

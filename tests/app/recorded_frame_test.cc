@@ -14,7 +14,7 @@
 namespace elbowroom::control {
 namespace {
 
-constexpr core::FrameIndex kTouching = 60;  // the pipe is being lowered
+constexpr core::FrameIndex kTouchingFrame = 60;  // the pipe is being lowered
 
 // The demo, segmented from pictures with noise whose pixels on edges are mixed.
 class RecordedFrameTest : public testing::Test {
@@ -46,7 +46,7 @@ void ExpectSameContact(const core::PartContact& a, const core::PartContact& b) {
 
 TEST_F(RecordedFrameTest, ComesBackWithTheSameHullToTheLastBit) {
   const test_support::TemporaryFolder folder;
-  const SharedFrameResult judged = pipeline_.Process(source_.Read(kTouching), gap_);
+  const SharedFrameResult judged = pipeline_.Process(source_.Read(kTouchingFrame), gap_);
   {
     core::SessionHeader header;
     header.rig = source_.rig();
@@ -55,7 +55,7 @@ TEST_F(RecordedFrameTest, ComesBackWithTheSameHullToTheLastBit) {
     writer.Append(judged->record);
     writer.Finish({});
   }
-  const SharedFrameResult rebuilt = RebuildFrame(sessions::SessionReader(folder / "s.db"), kTouching);
+  const SharedFrameResult rebuilt = RebuildFrame(sessions::SessionReader(folder / "s.db"), kTouchingFrame);
   for (std::size_t i = 0; i < source_.rig().cameras.size(); ++i) {
     EXPECT_FALSE((*judged->record.masks)[i].levels.empty());
     EXPECT_EQ((*judged->record.masks)[i], (*rebuilt->record.masks)[i]);
@@ -82,20 +82,20 @@ TEST_F(RecordedFrameTest, APushedPartComesBackWhereItWas) {
   header.layout = layout;
   sessions::SessionWriter writer(folder / "s.db", header);
   SharedFrameResult judged;
-  for (core::FrameIndex frame = kTouching - 2; frame <= kTouching; ++frame) {
+  for (core::FrameIndex frame = kTouchingFrame - 2; frame <= kTouchingFrame; ++frame) {
     judged = pipeline.Process(source_.Read(frame), gap_);
     writer.Append(judged->record);
   }
   writer.Finish({});
   ASSERT_EQ(judged->record.rest_from_parts.size(), layout.parts.size());
   EXPECT_GT(judged->record.rest_from_parts[1].translation_mm.norm(), 1.0);
-  const SharedFrameResult rebuilt = RebuildFrame(sessions::SessionReader(folder / "s.db"), kTouching);
+  const SharedFrameResult rebuilt = RebuildFrame(sessions::SessionReader(folder / "s.db"), kTouchingFrame);
   EXPECT_EQ(rebuilt->world_from_parts, judged->world_from_parts);
   EXPECT_EQ(rebuilt->layout->parts[1].gives_way, layout.parts[1].gives_way);
 }
 
 TEST_F(RecordedFrameTest, ABoundaryThatMovesBetweenTwoPixelsIsAChange) {
-  recon::FrameSet frames = source_.Read(kTouching);
+  recon::FrameSet frames = source_.Read(kTouchingFrame);
   const SharedFrameResult first = pipeline_.Process(frames, gap_);
   // Other grey levels in one pixel that is neither all object nor nearly background: no label changes.
   const core::SoftMask& before = (*first->record.masks)[2];

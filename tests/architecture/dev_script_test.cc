@@ -16,13 +16,13 @@ namespace {
 namespace fs = std::filesystem;
 using test_support::ProgramRun;
 
-const fs::path kRoot = ELBOWROOM_SOURCE_DIR;
+const fs::path kSourceRoot = ELBOWROOM_SOURCE_DIR;
 
 class DevScript : public testing::Test {
  protected:
   DevScript() {
     fs::create_directories(folder_ / "tree");
-    fs::copy_file(kRoot / "dev", folder_ / "tree/dev");
+    fs::copy_file(kSourceRoot / "dev", folder_ / "tree/dev");
     for (const std::string name : {"apt-get", "cmake"})
       AddTool(name, "echo " + name + " \"$@\" >> \"$TOOL_LOG\"");
     AddTool("sudo", "exec \"$@\"");

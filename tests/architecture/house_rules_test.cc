@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 using test_support::ReadText;
 
-const fs::path kRoot = ELBOWROOM_SOURCE_DIR;
+const fs::path kHouse = ELBOWROOM_SOURCE_DIR;
 
 // CONTRIBUTING.md, "Sizes": beyond these a file holds more than one thing.
 constexpr long kLongestSource = 600;
@@ -41,8 +41,8 @@ std::set<std::string> RoomsInDocument(const fs::path& file) {
 }
 
 TEST(HouseRules, NoFileIsTooLong) {
-  for (const std::string& file : SourceFilesOf(kRoot)) {
-    const std::string text = ReadText(kRoot / file);
+  for (const std::string& file : SourceFilesOf(kHouse)) {
+    const std::string text = ReadText(kHouse / file);
     const long lines = std::ranges::count(text, '\n');
     EXPECT_LE(lines, file.ends_with(".h") ? kLongestHeader : kLongestSource) << file << ": split it";
   }
@@ -50,18 +50,18 @@ TEST(HouseRules, NoFileIsTooLong) {
 
 TEST(HouseRules, NoFolderHoldsTooManyFiles) {
   std::map<std::string, int> files_in;
-  for (const std::string& file : SourceFilesOf(kRoot)) ++files_in[fs::path(file).parent_path().string()];
+  for (const std::string& file : SourceFilesOf(kHouse)) ++files_in[fs::path(file).parent_path().string()];
   for (const auto& [folder, files] : files_in)
     EXPECT_LE(files, kMostFilesInAFolder) << folder << ": make rooms inside it";
 }
 
 // Paths and, after a path and a colon, the names that the file is said to have.
 TEST(HouseRules, WhereDoINamesWhatIsThere) {
-  const std::string page = ReadText(kRoot / "docs/where_do_i.md");
+  const std::string page = ReadText(kHouse / "docs/where_do_i.md");
   const std::regex place(R"(`([a-z_0-9]+(?:/[A-Za-z_0-9.]+)+)`(: `\w+`(?:, `\w+`)*)?)"), name(R"(`(\w+)`)");
   int names = 0;
   for (std::sregex_iterator at(page.begin(), page.end(), place), end; at != end; ++at) {
-    const fs::path path = kRoot / (*at)[1].str();
+    const fs::path path = kHouse / (*at)[1].str();
     const bool is_kept_for_later = (*at)[1] == "recon/capture";
     EXPECT_TRUE(fs::exists(path) || is_kept_for_later) << (*at)[1] << " isn't there";
     if (!fs::is_regular_file(path)) continue;
@@ -76,15 +76,15 @@ TEST(HouseRules, WhereDoINamesWhatIsThere) {
 
 TEST(HouseRules, ArchitectureDocumentListsTheRooms) {
   std::set<std::string> rooms;
-  for (const Room& room : ReadLayers(kRoot / "tests/architecture/layers.txt").rooms)
+  for (const Room& room : ReadLayers(kHouse / "tests/architecture/layers.txt").rooms)
     rooms.insert(room.folder);
-  EXPECT_EQ(RoomsInDocument(kRoot / "docs/architecture.md"), rooms);
+  EXPECT_EQ(RoomsInDocument(kHouse / "docs/architecture.md"), rooms);
 }
 
 TEST(HouseRules, LocalLinksInDocumentsLeadSomewhere) {
   const std::regex link(R"(\]\(([^)#:\s]+)(#[^)]*)?\))");
   int links = 0;
-  for (auto entry = fs::recursive_directory_iterator(kRoot); entry != fs::recursive_directory_iterator();
+  for (auto entry = fs::recursive_directory_iterator(kHouse); entry != fs::recursive_directory_iterator();
        ++entry) {
     const std::string name = entry->path().filename().string();
     if (entry->is_directory() && (name.starts_with('.') || name == "build" || name == "out")) {
@@ -96,7 +96,7 @@ TEST(HouseRules, LocalLinksInDocumentsLeadSomewhere) {
       ++links;
       const fs::path target = entry->path().parent_path() / (*found)[1].str();
       EXPECT_TRUE(fs::exists(target))
-          << entry->path().lexically_relative(kRoot) << " links to " << (*found)[1];
+          << entry->path().lexically_relative(kHouse) << " links to " << (*found)[1];
     }
   }
   EXPECT_GT(links, 10) << "the test looked in the wrong place";

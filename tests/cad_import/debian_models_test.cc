@@ -22,9 +22,9 @@ namespace {
 using cad_models::ModelFile;
 
 constexpr const char* kPackage = "assimp-testmodels";
-constexpr ImportLimits kTight{.memory_bytes = std::int64_t{1} << 30, .time_s = 60.0};
-constexpr double kSinglePrecision = 1e-5;  // relative: nodes are placed one upon another
-constexpr long kMostGrowthKb = 100'000;    // the models are small
+constexpr ImportLimits kDebianLimits{.memory_bytes = std::int64_t{1} << 30, .time_s = 60.0};
+constexpr double kNodePrecision = 1e-5;  // relative: nodes are placed one upon another
+constexpr long kMostGrowthKb = 100'000;  // the models are small
 
 #define SKIP_WITHOUT(files)                                                                             \
   if (!(files).has_value()) {                                                                           \
@@ -56,7 +56,7 @@ TEST(DebianModels, InvalidOnesEndInOneLineOrAWarning) {
     if (!IsInvalid(file.name)) continue;
     try {
       const CadModel model = ImportCadFile(
-          file.path, {.unit_if_file_has_none = core::LengthUnit::kMillimetre, .limits = kTight});
+          file.path, {.unit_if_file_has_none = core::LengthUnit::kMillimetre, .limits = kDebianLimits});
       EXPECT_FALSE(model.report.warnings.empty()) << file.name;
       ++imported;
     } catch (const core::Error& error) {
@@ -72,7 +72,7 @@ TEST(DebianModels, InvalidOnesEndInOneLineOrAWarning) {
   EXPECT_LE(imported, 2);
 }
 
-struct Expected {
+struct ExpectedModel {
   const char* ending;
   std::int64_t parts;
   std::int64_t triangles;
@@ -81,14 +81,14 @@ struct Expected {
 };
 
 // In the names of tests.
-void PrintTo(const Expected& expected, std::ostream* out) { *out << expected.ending; }
+void PrintTo(const ExpectedModel& expected, std::ostream* out) { *out << expected.ending; }
 
-class DebianModel : public ::testing::TestWithParam<Expected> {};
+class DebianModel : public ::testing::TestWithParam<ExpectedModel> {};
 
 TEST_P(DebianModel, HasItsPartsItsTrianglesAndItsSize) {
   const auto files = cad_models::FilesOfPackage(kPackage);
   SKIP_WITHOUT(files);
-  const Expected& expected = GetParam();
+  const ExpectedModel& expected = GetParam();
   const auto file = std::ranges::find_if(
       *files, [&](const ModelFile& model) { return model.name.ends_with(expected.ending); });
   ASSERT_NE(file, files->end());
@@ -97,24 +97,26 @@ TEST_P(DebianModel, HasItsPartsItsTrianglesAndItsSize) {
   EXPECT_EQ(report.parts, expected.parts);
   EXPECT_EQ(report.triangles + report.dropped_triangles, expected.triangles);
   EXPECT_EQ(report.unit, expected.unit);
-  EXPECT_TRUE(report.bounds_mm.sizes().isApprox(expected.size_mm, kSinglePrecision))
+  EXPECT_TRUE(report.bounds_mm.sizes().isApprox(expected.size_mm, kNodePrecision))
       << report.bounds_mm.sizes().transpose();
 }
 
 INSTANTIATE_TEST_SUITE_P(
     Files, DebianModel,
     ::testing::Values(
-        Expected{"3DS/fels.3ds", 1, 768, "mm", {3.504798, 3.205552, 4.681601}},
-        Expected{"3MF/box.3mf", 1, 12, "mm", {10, 20, 30}},
-        Expected{"Collada/cube_UTF16LE.dae", 1, 12, "cm", {1000, 1000, 1000}},
-        Expected{"Collada/duck.dae", 1, 4212, "cm", {1654.784, 1540.406, 1152.534}},
-        Expected{"Collada/teapots.DAE", 3, 2976, "cm", {1006.5007, 1285.3010, 493.2196}},  // decimal commas
-        Expected{"FBX/cubes_with_mirroring_and_pivot.fbx", 4, 420, "m", {209.32762, 304.96148, 327.71107}},
-        Expected{"FBX/huesitos.fbx", 1, 120, "cm", {5357.72252, 5438.37266, 3215.35042}},
-        Expected{"OBJ/box_UTF16BE.obj", 1, 12, "mm", {1, 1, 1}},
-        Expected{"OFF/Wuson.off", 51, 3732, "mm", {0.919952, 1.515817, 3.244484}},
-        Expected{"PLY/Wuson.ply", 51, 3732, "mm", {0.919952, 1.515817, 3.244484}},
-        Expected{"STL/Wuson.stl", 51, 3732, "mm", {0.919952, 1.515817, 3.244484}}),
+        ExpectedModel{"3DS/fels.3ds", 1, 768, "mm", {3.504798, 3.205552, 4.681601}},
+        ExpectedModel{"3MF/box.3mf", 1, 12, "mm", {10, 20, 30}},
+        ExpectedModel{"Collada/cube_UTF16LE.dae", 1, 12, "cm", {1000, 1000, 1000}},
+        ExpectedModel{"Collada/duck.dae", 1, 4212, "cm", {1654.784, 1540.406, 1152.534}},
+        ExpectedModel{
+            "Collada/teapots.DAE", 3, 2976, "cm", {1006.5007, 1285.3010, 493.2196}},  // decimal commas
+        ExpectedModel{
+            "FBX/cubes_with_mirroring_and_pivot.fbx", 4, 420, "m", {209.32762, 304.96148, 327.71107}},
+        ExpectedModel{"FBX/huesitos.fbx", 1, 120, "cm", {5357.72252, 5438.37266, 3215.35042}},
+        ExpectedModel{"OBJ/box_UTF16BE.obj", 1, 12, "mm", {1, 1, 1}},
+        ExpectedModel{"OFF/Wuson.off", 51, 3732, "mm", {0.919952, 1.515817, 3.244484}},
+        ExpectedModel{"PLY/Wuson.ply", 51, 3732, "mm", {0.919952, 1.515817, 3.244484}},
+        ExpectedModel{"STL/Wuson.stl", 51, 3732, "mm", {0.919952, 1.515817, 3.244484}}),
     [](const auto& test) {
       std::string name = test.param.ending;
       std::ranges::replace_if(

@@ -26,7 +26,7 @@ using test_support::WriteText;
 using testing::ErrorOf;
 using testing::Mentions;
 
-constexpr ImportOptions kMillimetres{.unit = core::LengthUnit::kMillimetre};
+constexpr ImportOptions kInMillimetres{.unit = core::LengthUnit::kMillimetre};
 
 class ImportProcess : public ::testing::Test {
  protected:
@@ -61,7 +61,7 @@ std::string LargeObj(int triangles) {
 
 TEST_F(ImportProcess, HandsOverTheModel) {
   const auto file = Write("box.stl", testing::StlBinary(core::testing::Box({10, 20, 30})));
-  const PackedModel packed = Unpack(ImportInChild(file, kMillimetres).bytes(), "test");
+  const PackedModel packed = Unpack(ImportInChild(file, kInMillimetres).bytes(), "test");
   ASSERT_EQ(packed.model.shapes.size(), 1U);
   EXPECT_NEAR(core::VolumeMm3(*packed.model.shapes[0].mesh), 6000.0, 1e-3);
   EXPECT_TRUE(packed.model.report.watertight);
@@ -76,7 +76,7 @@ TEST_F(ImportProcess, HandsOverWhatTheChildThrew) {
 
 TEST_F(ImportProcess, ACrashIsOneLine) {
   const auto file = Write("deep.dae", NestedCollada(200'000));
-  const std::string message = ErrorOf(ErrorKind::kCad, [&] { (void)ImportInChild(file, kMillimetres); });
+  const std::string message = ErrorOf(ErrorKind::kCad, [&] { (void)ImportInChild(file, kInMillimetres); });
 #if defined(__SANITIZE_ADDRESS__) || \
     defined(__SANITIZE_THREAD__)  // they end a program that crashes in their own way
   EXPECT_TRUE(Mentions(message, "deep.dae: its reader ended without an answer")) << message;
@@ -89,7 +89,7 @@ TEST_F(ImportProcess, ACrashIsOneLine) {
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // there memory isn't limited
 TEST_F(ImportProcess, MemoryBeyondTheLimitIsOneLine) {
   const auto file = Write("large.obj", LargeObj(1'000'000));
-  ImportOptions options = kMillimetres;
+  ImportOptions options = kInMillimetres;
   options.limits.memory_bytes = std::int64_t{320}
                                 << 20;  // a small file takes half of it, for libraries and stacks
   EXPECT_NO_THROW((void)ImportInChild(Write("small.obj", LargeObj(10)), options));
@@ -100,7 +100,7 @@ TEST_F(ImportProcess, MemoryBeyondTheLimitIsOneLine) {
 
 TEST_F(ImportProcess, TimeBeyondTheLimitIsOneLine) {
   const auto file = Write("large.obj", LargeObj(1'000'000));
-  ImportOptions options = kMillimetres;
+  ImportOptions options = kInMillimetres;
   options.limits.time_s = 0.2;
   const std::string message = ErrorOf(ErrorKind::kCad, [&] { (void)ImportInChild(file, options); });
   EXPECT_TRUE(Mentions(message, "large.obj: reading it takes more than 0.2 s")) << message;
@@ -111,7 +111,7 @@ TEST_F(ImportProcess, ACancelEndsIt) {
   std::stop_source stop;
   stop.request_stop();
   (void)ErrorOf(ErrorKind::kCancelled,
-                [&] { (void)ImportInChild(file, kMillimetres, {}, stop.get_token()); });
+                [&] { (void)ImportInChild(file, kInMillimetres, {}, stop.get_token()); });
 }
 
 TEST_F(ImportProcess, TellsHowFarItIs) {
@@ -119,7 +119,7 @@ TEST_F(ImportProcess, TellsHowFarItIs) {
   std::vector<std::string> heard;
   const core::Progress progress(
       [&](std::int64_t /*done*/, std::int64_t /*total*/, const std::string& what) { heard.push_back(what); });
-  (void)ImportInChild(file, kMillimetres, progress);
+  (void)ImportInChild(file, kInMillimetres, progress);
   ASSERT_FALSE(heard.empty());
   EXPECT_EQ(heard.front(), "reading");
 }
@@ -130,7 +130,7 @@ TEST_F(ImportProcess, SeveralThreadsMayImportAtOnce) {
   {
     std::vector<std::jthread> threads;
     for (std::string& result : results)
-      threads.emplace_back([&] { result = HashOf(ImportInChild(file, kMillimetres).bytes()); });
+      threads.emplace_back([&] { result = HashOf(ImportInChild(file, kInMillimetres).bytes()); });
   }
   for (const auto& result : results) EXPECT_EQ(result, results.front());
 }

@@ -25,7 +25,7 @@ using core::TriangleMesh;
 using testing::ErrorOf;
 using testing::Mentions;
 
-constexpr double kSinglePrecision = 2e-7;  // of the largest coordinate: files hold floats
+constexpr double kFloatPrecision = 2e-7;  // of the largest coordinate: files hold floats
 
 // A ball of about 2,000 triangles, off centre: coordinates of no round numbers.
 TriangleMesh Ball() {
@@ -73,7 +73,7 @@ TEST_P(MeshWriter, ComesBackWithSizeTrianglesAndClosedness) {
   EXPECT_TRUE(back.report.watertight);
   EXPECT_FALSE(back.report.repaired);
   EXPECT_TRUE(back.report.warnings.empty()) << back.report.warnings.front();
-  const double tolerance_mm = kSinglePrecision * core::BoundsOf(ball).max().cwiseAbs().maxCoeff();
+  const double tolerance_mm = kFloatPrecision * core::BoundsOf(ball).max().cwiseAbs().maxCoeff();
   EXPECT_LT((core::BoundsOf(*back.mesh).min() - core::BoundsOf(ball).min()).norm(), tolerance_mm);
   EXPECT_LT((core::BoundsOf(*back.mesh).max() - core::BoundsOf(ball).max()).norm(), tolerance_mm);
   EXPECT_NEAR(core::VolumeMm3(*back.mesh) / core::VolumeMm3(ball), 1.0,
@@ -143,7 +143,7 @@ TEST(WriteModelFile, GlbKeepsShapesInstancesPathsAndColours) {
     ASSERT_NE(got, back.instances.end());
     const double off_mm =
         (got->model_from_shape.translation_mm - want.model_from_shape.translation_mm).norm();
-    EXPECT_LT(off_mm, 500.0 * kSinglePrecision);
+    EXPECT_LT(off_mm, 500.0 * kFloatPrecision);
     EXPECT_LT((got->model_from_shape.rotation - want.model_from_shape.rotation).norm(), 1e-6);
     ASSERT_TRUE(got->color);
     for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR((*got->color)[i], (*want.color)[i], 1e-5);

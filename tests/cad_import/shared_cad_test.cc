@@ -84,7 +84,7 @@ TEST(SharedCad, TheBunnysHolesAreSeen) {
 }
 
 // Enough for every sound file.
-constexpr ImportLimits kTight{.memory_bytes = std::int64_t{2} << 30, .time_s = 60.0};
+constexpr ImportLimits kSharedLimits{.memory_bytes = std::int64_t{2} << 30, .time_s = 60.0};
 
 bool IsMeshFile(const std::filesystem::path& path) {
   try {
@@ -103,7 +103,7 @@ TEST(SharedCad, EveryMeshFileIsImportedOrRefusedNeverACrash) {
     for (const auto& entry : std::filesystem::recursive_directory_iterator(kCad / folder)) {
       if (!entry.is_regular_file() || !IsMeshFile(entry.path())) continue;
       try {
-        (void)ImportMeshFile(entry.path(), {.unit = core::LengthUnit::kMillimetre, .limits = kTight});
+        (void)ImportMeshFile(entry.path(), {.unit = core::LengthUnit::kMillimetre, .limits = kSharedLimits});
         ++imported;
       } catch (const core::Error& error) {
         const std::string message = error.what();

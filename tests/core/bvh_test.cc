@@ -14,11 +14,11 @@ namespace {
 using Eigen::Vector3d;
 
 // Balls enclose by construction; what is left is the rounding of this test's own distances.
-constexpr double kRounding = 1e-12;
+constexpr double kBallRounding = 1e-12;
 
-class Random {
+class PointSource {
  public:
-  explicit Random(std::uint64_t seed) : engine_(seed) {}
+  explicit PointSource(std::uint64_t seed) : engine_(seed) {}
   double Uniform(double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(engine_);
   }
@@ -28,7 +28,7 @@ class Random {
   std::mt19937_64 engine_;
 };
 
-SharedMesh Soup(Random* random, int triangles, const Vector3d& offset) {
+SharedMesh Soup(PointSource* random, int triangles, const Vector3d& offset) {
   auto mesh = std::make_shared<TriangleMesh>();
   for (int i = 0; i < triangles; ++i) {
     const Vector3d at = offset + random->Point(100.0);
@@ -40,7 +40,7 @@ SharedMesh Soup(Random* random, int triangles, const Vector3d& offset) {
 }
 
 bool Encloses(const Ball& ball, const Vector3d& x) {
-  return (x - ball.center).norm() <= ball.radius_mm * (1.0 + kRounding);
+  return (x - ball.center).norm() <= ball.radius_mm * (1.0 + kBallRounding);
 }
 
 void ExpectTreeHolds(const TriangleTree& tree) {
@@ -68,7 +68,7 @@ void ExpectTreeHolds(const TriangleTree& tree) {
 }
 
 TEST(TriangleTree, NodesEncloseTheirTriangles) {
-  Random random(1);
+  PointSource random(1);
   for (const int triangles : {1, 2, 4, 5, 8, 9, 100, 1000})
     ExpectTreeHolds(TriangleTree(Soup(&random, triangles, Vector3d::Zero())));
   ExpectTreeHolds(TriangleTree(Soup(&random, 200, Vector3d(1e7, -1e7, 3e6))));  // far from the origin
@@ -86,7 +86,7 @@ TEST(TriangleTree, DuplicateAndPointTrianglesStillSplit) {
 
 TEST(TriangleTree, ChildrenShrink) {
   // A tree that didn't sort by place would have children as large as their parents.
-  Random random(2);
+  PointSource random(2);
   const TriangleTree tree(Soup(&random, 2000, Vector3d::Zero()));
   double parents = 0.0, children = 0.0;
   for (const TriangleTree::Node& node : tree.nodes()) {
@@ -104,7 +104,7 @@ TEST(TriangleTree, EmptyMeshHasNoNode) {
 }
 
 TEST(BallOf, IsTheSmallestBall) {
-  Random random(3);
+  PointSource random(3);
   for (int i = 0; i < 20'000; ++i) {
     const double thin = i % 3 == 0 ? 1e-6 : 1.0;  // needles and slivers
     const Vector3d offset = random.Point(i % 2 == 0 ? 1.0 : 1e5);

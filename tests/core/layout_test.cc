@@ -13,7 +13,7 @@
 namespace elbowroom::core {
 namespace {
 
-constexpr double kRoundingMm = 1e-10;  // a few double roundings on positions of a metre
+constexpr double kPlaceRoundingMm = 1e-10;  // a few double roundings on positions of a metre
 
 Part BoxPart(const std::string& name, const Eigen::Vector3d& size_mm, const Eigen::Vector3d& position_mm,
              const Eigen::Vector3d& rpy_deg) {
@@ -56,7 +56,7 @@ TEST(PosesAt, GapBetweenTurnedPartsIsTheSpacingAlongEveryAxis) {
       const auto poses = PosesAt(layout, std::vector<double>{spacing_mm});
       const double gap_mm =
           WorldBounds(layout.parts[0], poses[0]).min()[i] - WorldBounds(layout.parts[1], poses[1]).max()[i];
-      EXPECT_NEAR(gap_mm, spacing_mm, kRoundingMm) << ToString(axis);
+      EXPECT_NEAR(gap_mm, spacing_mm, kPlaceRoundingMm) << ToString(axis);
       // Only the moving part moves, only along the axis, and it doesn't turn.
       EXPECT_EQ(poses[1], layout.parts[1].world_from_part);
       EXPECT_EQ(poses[0].rotation, layout.parts[0].world_from_part.rotation);
@@ -75,7 +75,7 @@ TEST(PosesAt, OutAndBackIsBitEqual) {
   const auto after = PosesAt(layout, std::vector<double>{140.0});
   EXPECT_EQ(before, after);
   EXPECT_NE(before, opened);
-  EXPECT_NEAR(opened[0].translation_mm.z() - before[0].translation_mm.z(), 100.0, kRoundingMm);
+  EXPECT_NEAR(opened[0].translation_mm.z() - before[0].translation_mm.z(), 100.0, kPlaceRoundingMm);
 }
 
 TEST(PosesAt, ChainsCarryTheUpperPartsAlongInAnyOrderOfWriting) {
@@ -86,8 +86,8 @@ TEST(PosesAt, ChainsCarryTheUpperPartsAlongInAnyOrderOfWriting) {
   layout.spacings = {Gap("upper", "top", "middle"),
                      Gap("lower", "middle", "base")};  // needs the second first
   const auto poses = PosesAt(layout, std::vector<double>{7.0, 5.0});
-  EXPECT_NEAR(poses[1].translation_mm.z(), 35.0, kRoundingMm);
-  EXPECT_NEAR(poses[0].translation_mm.z(), 62.0, kRoundingMm);
+  EXPECT_NEAR(poses[1].translation_mm.z(), 35.0, kPlaceRoundingMm);
+  EXPECT_NEAR(poses[0].translation_mm.z(), 62.0, kPlaceRoundingMm);
   std::swap(layout.spacings[0], layout.spacings[1]);
   EXPECT_EQ(PosesAt(layout, std::vector<double>{5.0, 7.0}), poses);
 }
@@ -99,8 +99,8 @@ TEST(PosesAt, TwoAxesOfOnePartAreIndependent) {
   const auto poses = PosesAt(layout, std::vector<double>{100.0, 30.0});
   const Eigen::Vector3d gap_mm =
       WorldBounds(layout.parts[0], poses[0]).min() - WorldBounds(layout.parts[1], poses[1]).max();
-  EXPECT_NEAR(gap_mm.z(), 100.0, kRoundingMm);
-  EXPECT_NEAR(gap_mm.x(), 30.0, kRoundingMm);
+  EXPECT_NEAR(gap_mm.z(), 100.0, kPlaceRoundingMm);
+  EXPECT_NEAR(gap_mm.x(), 30.0, kPlaceRoundingMm);
 }
 
 Layout GroupAboveGroup() {
@@ -122,9 +122,9 @@ TEST(PosesAt, AGroupEndsWhereItsFarthestPartDoesAndMovesAsOne) {
     Eigen::AlignedBox3d upper, lower;
     for (const PartIndex i : {0U, 1U}) upper.extend(WorldBounds(layout.parts[i], poses[i]));
     for (const PartIndex i : {2U, 3U}) lower.extend(WorldBounds(layout.parts[i], poses[i]));
-    EXPECT_NEAR(upper.min().z() - lower.max().z(), spacing_mm, kRoundingMm);
-    EXPECT_NEAR(GapMm(layout, layout.spacings[0], poses), spacing_mm, kRoundingMm);
-    EXPECT_NEAR(poses[1].translation_mm.z() - poses[0].translation_mm.z(), 30.0, kRoundingMm);
+    EXPECT_NEAR(upper.min().z() - lower.max().z(), spacing_mm, kPlaceRoundingMm);
+    EXPECT_NEAR(GapMm(layout, layout.spacings[0], poses), spacing_mm, kPlaceRoundingMm);
+    EXPECT_NEAR(poses[1].translation_mm.z() - poses[0].translation_mm.z(), 30.0, kPlaceRoundingMm);
     EXPECT_EQ(poses[2], layout.parts[2].world_from_part);
   }
 }
@@ -134,8 +134,8 @@ TEST(PosesAt, WhatHangsOnAPartOfAGroupWaitsForTheGroup) {
   layout.parts.push_back(BoxPart("e", {10, 10, 10}, {0, 0, 500}, {0, 0, 0}));
   layout.spacings.insert(layout.spacings.begin(), Gap("on top", "e", "a"));
   const auto poses = PosesAt(layout, std::vector<double>{7.0, 240.0});
-  EXPECT_NEAR(GapMm(layout, layout.spacings[0], poses), 7.0, kRoundingMm);
-  EXPECT_NEAR(GapMm(layout, layout.spacings[1], poses), 240.0, kRoundingMm);
+  EXPECT_NEAR(GapMm(layout, layout.spacings[0], poses), 7.0, kPlaceRoundingMm);
+  EXPECT_NEAR(GapMm(layout, layout.spacings[1], poses), 240.0, kPlaceRoundingMm);
   layout.spacings.push_back(Gap("back", "c", "e"));
   EXPECT_EQ(FindLayoutFault(layout)->message.find("circular") != std::string::npos, true);
 }

@@ -15,7 +15,7 @@ using Eigen::Vector3d;
 using recon::Random;
 using Wide = Eigen::Matrix<long double, 3, 1>;
 
-constexpr double kRoundingMm = 1e-9;
+constexpr double kDistanceRoundingMm = 1e-9;
 
 Wide NearestOnSide(const Wide& x, const Wide& a, const Wide& b) {
   const Wide ab = b - a;
@@ -71,10 +71,10 @@ TEST(FindNearest, IsTheNearestOfAllTriangles) {
       const auto likely =
           static_cast<std::uint32_t>(random.Whole(0, static_cast<int>(mesh->triangles.size()) - 1));
       const NearestOnPart nearest = FindNearest(part, {.center = x}, likely);
-      ASSERT_NEAR(nearest.distance_mm, SlowDistance(*mesh, x), kRoundingMm);
-      ASSERT_NEAR((nearest.position_in_part - x).norm(), nearest.distance_mm, kRoundingMm);
-      ASSERT_LE(SlowDistance(*mesh, nearest.position_in_part), kRoundingMm) << "it is on the part";
-      ASSERT_NEAR(nearest.box_lower_mm, nearest.distance_mm, kRoundingMm) << "a point is its own box";
+      ASSERT_NEAR(nearest.distance_mm, SlowDistance(*mesh, x), kDistanceRoundingMm);
+      ASSERT_NEAR((nearest.position_in_part - x).norm(), nearest.distance_mm, kDistanceRoundingMm);
+      ASSERT_LE(SlowDistance(*mesh, nearest.position_in_part), kDistanceRoundingMm) << "it is on the part";
+      ASSERT_NEAR(nearest.box_lower_mm, nearest.distance_mm, kDistanceRoundingMm) << "a point is its own box";
     }
   }
 }
@@ -94,13 +94,13 @@ TEST(FindNearest, BoxesAreNoNearerThanTheirBound) {
       box.enough_mm = random.Uniform(0.0, 100.0);
       const NearestOnPart nearest = FindNearest(part, box);
       ++boxes;
-      better += nearest.box_lower_mm > nearest.distance_mm - half.norm() + kRoundingMm ? 1 : 0;
+      better += nearest.box_lower_mm > nearest.distance_mm - half.norm() + kDistanceRoundingMm ? 1 : 0;
       for (int k = 0; k < 30; ++k) {
         const Vector3d at(random.Uniform(-1.0, 1.0), random.Uniform(-1.0, 1.0), random.Uniform(-1.0, 1.0));
         // Corners as well as what lies between.
         const Vector3d in_box = k < 8 ? Vector3d(at.cwiseSign()) : at;
         ASSERT_GE(SlowDistance(*mesh, box.center + box.half_edges * in_box),
-                  nearest.box_lower_mm - kRoundingMm);
+                  nearest.box_lower_mm - kDistanceRoundingMm);
       }
     }
   }

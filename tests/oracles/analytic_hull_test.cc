@@ -15,7 +15,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kRadiusMm = 50.0;
+constexpr double kBallRadiusMm = 50.0;
 // So far away that a sight cone around the ball is a cylinder to 5e-5 of its radius.
 constexpr double kFarMm = 1e6;
 constexpr double kCylinderShare = 1e-4;
@@ -25,7 +25,7 @@ core::CameraModel FarCamera(const Vector3d& direction) {
   core::CameraCalibration c;
   c.name = "far";
   c.image_width_px = c.image_height_px = 400;
-  const double focal_px = 400.0 / (4.0 * kRadiusMm) * kFarMm;
+  const double focal_px = 400.0 / (4.0 * kBallRadiusMm) * kFarMm;
   c.camera_matrix << focal_px, 0.0, 199.5, 0.0, focal_px, 199.5, 0.0, 0.0, 1.0;
   c.distortion_coefficients = {0, 0, 0, 0, 0};
   c.cam_from_world = core::CamFromWorldLookingAt(kFarMm * direction, Vector3d::Zero());
@@ -53,20 +53,20 @@ double VolumeMm3(const AnalyticHull& hull, double half_mm, int side) {
 
 TEST(AnalyticHull, OfABallSeenAlongTheAxesHasTheVolumeOfCrossedCylinders) {
   constexpr double kCountingShare = 3e-3;  // of 90^3 voxels
-  const double r3 = kRadiusMm * kRadiusMm * kRadiusMm;
-  const std::array solids{Ball(kRadiusMm)};
+  const double r3 = kBallRadiusMm * kBallRadiusMm * kBallRadiusMm;
+  const std::array solids{Ball(kBallRadiusMm)};
   EXPECT_NEAR(VolumeMm3({AxisRig(2), solids}, 51.0, 90) / (16.0 / 3.0 * r3), 1.0, kCountingShare);
   const double three = 8.0 * (2.0 - std::numbers::sqrt2) * r3;
   EXPECT_NEAR(VolumeMm3({AxisRig(3), solids}, 51.0, 90) / three, 1.0, kCountingShare);
 }
 
 TEST(AnalyticHull, OfABallSeenAlongTheAxesReachesWhereCrossedCylindersEnd) {
-  const std::array solids{Ball(kRadiusMm)};
+  const std::array solids{Ball(kBallRadiusMm)};
   const AnalyticHull two(AxisRig(2), solids), three(AxisRig(3), solids);
   const auto reach = [](const AnalyticHull& hull, const Vector3d& direction) {
     const Vector3d d = direction.normalized();
     const auto distance = hull.FirstSurface({100.0 * d, -d});
-    return distance ? (100.0 - *distance) / kRadiusMm : 0.0;
+    return distance ? (100.0 - *distance) / kBallRadiusMm : 0.0;
   };
   const double root2 = std::numbers::sqrt2, root3 = std::numbers::sqrt3;
   EXPECT_NEAR(reach(two, {1, 0, 0}), 1.0, kCylinderShare);

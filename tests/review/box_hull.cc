@@ -15,7 +15,7 @@ using Eigen::Vector3d;
 namespace {
 
 // Object in [first, last)^2.
-recon::VisualHull HullOf(int first_px, int last_px) {
+recon::VisualHull HullOfPixels(int first_px, int last_px) {
   core::Rig rig;
   rig.name = "box";
   rig.workspace_mm = {Vector3d::Constant(-95), Vector3d::Constant(95)};
@@ -36,7 +36,7 @@ recon::VisualHull HullOf(int first_px, int last_px) {
 
 }  // namespace
 
-recon::VisualHull BoxHull(bool is_empty) { return HullOf(50, is_empty ? 50 : 150); }
-recon::VisualHull FullHull() { return HullOf(0, 200); }
+recon::VisualHull BoxHull(bool is_empty) { return HullOfPixels(50, is_empty ? 50 : 150); }
+recon::VisualHull FullHull() { return HullOfPixels(0, 200); }
 
 }  // namespace elbowroom::review

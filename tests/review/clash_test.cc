@@ -24,7 +24,7 @@ using core::Verdict;
 using Eigen::Vector3d;
 
 // Parts of 10 to 100 mm near their frame's origin: rounding in double is some 1e-13 mm.
-constexpr double kRoundingMm = 1e-9;
+constexpr double kClashRoundingMm = 1e-9;
 
 core::Layout LayoutOf(const std::vector<core::SharedMesh>& meshes) {
   core::Layout layout;
@@ -129,7 +129,7 @@ TEST(Clash, RandomPairsAreAsByBruteForce) {
     const double required_mm = std::uniform_real_distribution<double>(0.0, 20.0)(random);
     SCOPED_TRACE(::testing::Message() << "pair " << i);
     const PairClash pair = Judge(a, poses.world_from_a, b, poses.world_from_b, required_mm);
-    ExpectAsByBruteForce(pair, *a, poses.world_from_a, *b, poses.world_from_b, kRoundingMm);
+    ExpectAsByBruteForce(pair, *a, poses.world_from_a, *b, poses.world_from_b, kClashRoundingMm);
     contacts += pair.verdict == Verdict::kContact ? 1 : 0;
     contained += pair.contained ? 1 : 0;
     near += pair.verdict == Verdict::kNear ? 1 : 0;
@@ -159,7 +159,7 @@ TEST(Clash, PartsWithParallelEdgesAreAsByBruteForce) {
     const RigidTransform turn = testing::AnyPose(random, 10.0);
     SCOPED_TRACE(::testing::Message() << "pair " << i);
     const PairClash pair = Judge(of_a, turn, of_b, turn, 100.0);
-    ExpectAsByBruteForce(pair, *of_a, turn, *of_b, turn, kRoundingMm);
+    ExpectAsByBruteForce(pair, *of_a, turn, *of_b, turn, kClashRoundingMm);
     // FCL joins equal poses to none, so it is given the turned triangles.
     const TriangleMesh turned_a = core::Transformed(*of_a, turn), turned_b = core::Transformed(*of_b, turn);
     fcl.Add(testing::AskFcl(turned_a, {}, turned_b, {}), pair, turned_a, {}, turned_b, {});
@@ -191,7 +191,7 @@ TEST(Clash, APartInsideAClosedOneIsAContactOutsideItsSurfaceToo) {
   EXPECT_EQ(inside.verdict, Verdict::kContact);
   EXPECT_TRUE(inside.contained);
   ASSERT_TRUE(inside.gap);
-  EXPECT_NEAR(inside.gap->distance_mm, 20.0, kRoundingMm);
+  EXPECT_NEAR(inside.gap->distance_mm, 20.0, kClashRoundingMm);
   EXPECT_TRUE(Judge(box, At(20, 30, 40), crate, {}).contained);
   TriangleMesh open = *crate;
   open.triangles.pop_back();
@@ -319,7 +319,7 @@ TEST_F(BoxesInARow, OnlyPairsWhoseBoundsAreNearAreAskedOfFcl) {
     EXPECT_EQ(pair.verdict, pair.demand.b == pair.demand.a + 1 ? Verdict::kNear : Verdict::kClear);
     EXPECT_EQ(pair.gap.has_value(), pair.verdict == Verdict::kNear);
     EXPECT_NEAR(pair.at_least_mm, 12.0 * static_cast<double>(pair.demand.b - pair.demand.a) - 10.0,
-                kRoundingMm);
+                kClashRoundingMm);
   }
 }
 

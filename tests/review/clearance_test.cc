@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/infinity.h"
 #include "core/part_distance.h"
 #include "recon/hull_mesh/hull_mesh.h"
 #include "review/contacts.h"
@@ -26,8 +27,8 @@ using Eigen::Vector3d;
 using recon::Random;
 using recon::VisualHull;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kRoundingMm = 1e-6;
+using core::kInfinity;
+constexpr double kClearanceRoundingMm = 1e-6;
 
 core::TriangleTree TreeOf(core::TriangleMesh mesh) {
   return core::TriangleTree(std::make_shared<const core::TriangleMesh>(std::move(mesh)));
@@ -47,10 +48,11 @@ void CheckWitnesses(const VisualHull& hull, const core::TriangleTree& part,
   if (!clearance.has_witnesses) return;
   const Vector3d on_hull = interval.witness_hull_in_world_mm, on_part = interval.witness_part_in_world_mm;
   // A crossing found by a ray is on the surface to the last bits, to either side.
-  ASSERT_NE(hull.Classify(on_hull, kRoundingMm), recon::BallAnswer::kOutside);
-  ASSERT_NEAR((on_hull - on_part).norm(), interval.upper_mm, kRoundingMm);
+  ASSERT_NE(hull.Classify(on_hull, kClearanceRoundingMm), recon::BallAnswer::kOutside);
+  ASSERT_NEAR((on_hull - on_part).norm(), interval.upper_mm, kClearanceRoundingMm);
   if (interval.upper_mm > 0.0) {
-    ASSERT_LE(FindNearest(part, {.center = world_from_part.Inverse() * on_part}).distance_mm, kRoundingMm);
+    ASSERT_LE(FindNearest(part, {.center = world_from_part.Inverse() * on_part}).distance_mm,
+              kClearanceRoundingMm);
   }
 }
 
@@ -73,7 +75,7 @@ double NearestFoundMm(const VisualHull& hull, const core::TriangleTree& part,
   return nearest_mm;
 }
 
-core::TriangleMesh RandomPart(Random* random) {
+core::TriangleMesh RandomSlab(Random* random) {
   core::TriangleMesh mesh =
       BoxAround(Vector3d::Zero(),
                 {random->Uniform(5.0, 80.0), random->Uniform(5.0, 80.0), random->LogUniform(0.1, 40.0)});
@@ -96,7 +98,7 @@ TEST(FindClearance, BoundsAreNeverWrong) {
     const auto unseen = trial % 3 == 0 ? core::UnseenPolicy::kAbstain : core::UnseenPolicy::kOutside;
     const recon::RandomScene scene = MakeRingScene(&random, random.Whole(2, 5), unseen);
     const VisualHull hull = recon::MakeVisualHull(scene.rig, scene.masks);
-    const core::TriangleTree part = TreeOf(RandomPart(&random));
+    const core::TriangleTree part = TreeOf(RandomSlab(&random));
     const core::RigidTransform world_from_part{random.Rotation(),
                                                random.Uniform(0.0, 250.0) * random.Direction()};
     ClearanceOptions options;
@@ -108,7 +110,7 @@ TEST(FindClearance, BoundsAreNeverWrong) {
     ASSERT_NO_FATAL_FAILURE(CheckWitnesses(hull, part, world_from_part, clearance));
     const core::ClearanceInterval& interval = clearance.interval;
     const double found_mm = NearestFoundMm(hull, part, world_from_part, clearance, &random);
-    ASSERT_LE(interval.lower_mm, found_mm + kRoundingMm);
+    ASSERT_LE(interval.lower_mm, found_mm + kClearanceRoundingMm);
     const core::PartContact contact = FindContacts(hull, part, world_from_part, 0);
     if (contact.verdict == core::Verdict::kContact) {
       ASSERT_EQ(interval.lower_mm, 0.0);
@@ -116,7 +118,7 @@ TEST(FindClearance, BoundsAreNeverWrong) {
     }
     if (interval.upper_mm > 0.0 && std::isfinite(interval.upper_mm)) ++apart;
     if (std::isfinite(interval.lower_mm) &&
-        interval.upper_mm - interval.lower_mm > options.tolerance_mm + kRoundingMm)
+        interval.upper_mm - interval.lower_mm > options.tolerance_mm + kClearanceRoundingMm)
       ++undecided;
   }
   EXPECT_GT(apart, trials / 4);
@@ -225,7 +227,8 @@ TEST(FindClearance, BoundsHoldForTheSurfaceThatAMeshStandsFor) {
     const core::ClearanceInterval interval = FindClearance(BoxHull(), ball, pose, options).interval;
     EXPECT_LE(interval.lower_mm, truth_mm + kBoxHullMm);
     EXPECT_GE(interval.upper_mm, truth_mm - kBoxHullMm);
-    EXPECT_LE(interval.upper_mm - interval.lower_mm, options.tolerance_mm + 2.0 * deviation_mm + kRoundingMm);
+    EXPECT_LE(interval.upper_mm - interval.lower_mm,
+              options.tolerance_mm + 2.0 * deviation_mm + kClearanceRoundingMm);
     if (FindClearance(BoxHull(), mesh, pose, options).interval.lower_mm > truth_mm + kBoxHullMm)
       ++missed_by_mesh;
   }

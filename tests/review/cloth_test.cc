@@ -21,9 +21,9 @@ namespace {
 using Eigen::Vector3d;
 using SharedHull = std::shared_ptr<const recon::VisualHull>;
 
-constexpr double kFrameS = 1.0 / 30.0;
+constexpr double kClothFrameS = 1.0 / 30.0;
 // A state's own rounding.
-constexpr double kRoundingMm = 1e-6;
+constexpr double kClothRoundingMm = 1e-6;
 
 const SharedHull& NoHull() {
   static const SharedHull hull = HullOf({});
@@ -31,7 +31,7 @@ const SharedHull& NoHull() {
 }
 
 ClothState Settled(const ClothPanel& panel, ClothState state, const core::RigidTransform& pose, int frames) {
-  for (int i = 0; i < frames; ++i) state = StepCloth(panel, std::move(state), pose, NoHull(), kFrameS);
+  for (int i = 0; i < frames; ++i) state = StepCloth(panel, std::move(state), pose, NoHull(), kClothFrameS);
   return state;
 }
 
@@ -141,7 +141,7 @@ TEST(Cloth, EnergyDoesNotGrowWithoutInput) {
   const double allowed_uj = 0.02 * panel.mass_kg() * 9806.65 * 180.0 * (1.0 - std::sqrt(0.5));
   double last_uj = first_uj, fastest = 0.0;
   for (int i = 0; i < 150; ++i) {
-    state = StepCloth(panel, std::move(state), WorldFromCurtain(), NoHull(), kFrameS);
+    state = StepCloth(panel, std::move(state), WorldFromCurtain(), NoHull(), kClothFrameS);
     const double now_uj = EnergyUj(panel, state);
     ASSERT_LE(now_uj, last_uj + allowed_uj) << "frame " << i;
     last_uj = std::min(last_uj, now_uj);
@@ -175,10 +175,10 @@ void Sweep(const ObjectsAt& objects_at, double speed_mm_per_s, double frame_s, s
   EXPECT_GT(contacts, 0);
 }
 
-TEST(Cloth, AHandAtOneMetreASecondNeverPassesThrough) { Sweep(HandAt, 1000.0, kFrameS, 1); }
+TEST(Cloth, AHandAtOneMetreASecondNeverPassesThrough) { Sweep(HandAt, 1000.0, kClothFrameS, 1); }
 TEST(Cloth, NorDoesItAtFifteenFrames) { Sweep(HandAt, 1000.0, 1.0 / 15.0, 2); }
 TEST(Cloth, NorDoesAThinRodBetweenTheVertices) {
-  Sweep([](double y_mm) { return RodAt(9.0, y_mm, 212.0); }, 1000.0, kFrameS, 3);
+  Sweep([](double y_mm) { return RodAt(9.0, y_mm, 212.0); }, 1000.0, kClothFrameS, 3);
 }
 
 // Ten thousand steps of the solver, hulls that come from nowhere.
@@ -215,7 +215,7 @@ TEST(Cloth, WhatIsCaughtLetsGo) {
   std::int64_t contacts = 0;
   for (std::size_t frame = 0; frame < 120 * static_cast<std::size_t>(test_support::SoakScale()); ++frame) {
     const SharedHull& hull = hulls[frame % hulls.size()];
-    state = StepCloth(panel, std::move(state), pose, hull, kFrameS);
+    state = StepCloth(panel, std::move(state), pose, hull, kClothFrameS);
     ASSERT_LT(state.count.worst_stretch, 2.0) << frame;
     CheckOutside(panel, state, *hull, &random, std::to_string(frame));
     if (HasFatalFailure()) return;
@@ -233,7 +233,7 @@ TEST(Cloth, ThreadsChangeNothing) {
     std::vector<ClothState> states(4, ClothAtRest(panel, WorldFromCurtain()));
     tbb::parallel_for(std::size_t{0}, states.size(), [&](std::size_t i) {
       for (const SharedHull& hull : {far, near, far})
-        states[i] = StepCloth(panel, std::move(states[i]), WorldFromCurtain(), hull, kFrameS);
+        states[i] = StepCloth(panel, std::move(states[i]), WorldFromCurtain(), hull, kClothFrameS);
     });
     return states;
   };
@@ -252,7 +252,7 @@ TEST(Cloth, SaysWhatIsWrong) {
   const ClothPanel panel(Curtain());
   const ClothState state = ClothAtRest(panel, {});
   EXPECT_THROW((void)StepCloth(panel, state, {}, NoHull(), 0.0), core::PreconditionError);
-  EXPECT_THROW((void)StepCloth(panel, ClothState{}, {}, NoHull(), kFrameS), core::PreconditionError);
+  EXPECT_THROW((void)StepCloth(panel, ClothState{}, {}, NoHull(), kClothFrameS), core::PreconditionError);
 }
 
 }  // namespace

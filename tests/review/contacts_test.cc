@@ -51,7 +51,7 @@ std::vector<Sample> SampleSurface(const TriangleMesh& mesh, const core::RigidTra
   return samples;
 }
 
-TriangleMesh BoxAround(const Vector3d& center, double side_mm) {
+TriangleMesh CubeAround(const Vector3d& center, double side_mm) {
   return core::Transformed(core::testing::Box(Vector3d::Constant(side_mm)),
                            {Eigen::Matrix3d::Identity(), center - Vector3d::Constant(0.5 * side_mm)});
 }
@@ -62,7 +62,7 @@ core::PartContact Find(const VisualHull& hull, const TriangleMesh& mesh, const C
                       7, options);
 }
 
-ContactOptions Fine() {
+ContactOptions FineContacts() {
   ContactOptions options;
   options.resolution_mm = kResolutionMm;
   options.max_points = kAllPoints;
@@ -71,7 +71,7 @@ ContactOptions Fine() {
 
 // Boxes and a soup of plain triangles, needles, slivers, points, all about the hull.
 TriangleMesh RandomPart(Random* random) {
-  TriangleMesh mesh = BoxAround(40.0 * random->Direction(), random->Uniform(5.0, 60.0));
+  TriangleMesh mesh = CubeAround(40.0 * random->Direction(), random->Uniform(5.0, 60.0));
   for (int i = 0; i < 25; ++i) {
     const Vector3d a = random->Uniform(0.0, 80.0) * random->Direction();
     const double size = random->LogUniform(0.1, 60.0), thin = i % 3 == 0 ? 1e-3 : 1.0;
@@ -102,7 +102,7 @@ TEST(FindContacts, AgreesWithDenseSampling) {
     const VisualHull hull = recon::MakeVisualHull(scene.rig, scene.masks);
     const TriangleMesh part = RandomPart(&random);
     const core::RigidTransform world_from_part{random.Rotation(), 60.0 * random.Direction()};
-    const core::PartContact contact = Find(hull, part, Fine(), world_from_part);
+    const core::PartContact contact = Find(hull, part, FineContacts(), world_from_part);
     (contact.verdict == core::Verdict::kContact ? touching : clear) += 1;
 
     double inside_mm2 = 0.0, band_mm2 = 0.0;
@@ -131,7 +131,7 @@ TEST(FindContacts, AgreesWithDenseSampling) {
 
 TEST(FindContacts, PartWhollyInside) {
   // Its ball's radius is 26 mm: labels are certain for at least 29 px, 45 px from the contour.
-  const TriangleMesh part = BoxAround(Vector3d(5, -3, 2), 30.0);
+  const TriangleMesh part = CubeAround(Vector3d(5, -3, 2), 30.0);
   ContactOptions options;
   options.max_points = kAllPoints;
   const core::PartContact contact = Find(BoxHull(), part, options);
@@ -151,7 +151,7 @@ TEST(FindContacts, PartWhollyInside) {
 
 TEST(FindContacts, FarPartCostsOneQuery) {
   for (const Vector3d& at : {Vector3d(80, 80, 80), Vector3d(5000, 0, 0)}) {
-    const core::PartContact contact = Find(BoxHull(), BoxAround(at, 20.0));
+    const core::PartContact contact = Find(BoxHull(), CubeAround(at, 20.0));
     EXPECT_EQ(contact.verdict, core::Verdict::kClear);
     EXPECT_EQ(contact.count.queries, 1);
     EXPECT_EQ(contact.count.skipped, 12);
@@ -164,9 +164,9 @@ TEST(FindContacts, FarPartCostsOneQuery) {
 
 TEST(FindContacts, GapAndTouchOfATenthOfAMillimetre) {
   // A face 0.1 mm outside the hull's: clear. 0.1 mm inside: all of the face that faces it.
-  const core::PartContact clear = Find(BoxHull(), BoxAround(Vector3d(60.1, 0, 0), 20.0), Fine());
+  const core::PartContact clear = Find(BoxHull(), CubeAround(Vector3d(60.1, 0, 0), 20.0), FineContacts());
   EXPECT_EQ(clear.verdict, core::Verdict::kClear);
-  const core::PartContact touch = Find(BoxHull(), BoxAround(Vector3d(59.9, 0, 0), 20.0), Fine());
+  const core::PartContact touch = Find(BoxHull(), CubeAround(Vector3d(59.9, 0, 0), 20.0), FineContacts());
   EXPECT_EQ(touch.verdict, core::Verdict::kContact);
   // The face, and 0.1 mm of four sides that pieces of the resolution may or may not count.
   EXPECT_NEAR(touch.contact_area_mm2, 400.0, 4 * 20.0 * kResolutionMm);
@@ -174,7 +174,7 @@ TEST(FindContacts, GapAndTouchOfATenthOfAMillimetre) {
 }
 
 TEST(FindContacts, HullWhollyInsideAClosedPartIsAContactWithoutPoints) {
-  const core::PartContact contact = Find(BoxHull(), BoxAround(Vector3d::Zero(), 120.0));
+  const core::PartContact contact = Find(BoxHull(), CubeAround(Vector3d::Zero(), 120.0));
   EXPECT_EQ(contact.verdict, core::Verdict::kContact);
   EXPECT_EQ(contact.contact_point_count, 0);
   EXPECT_EQ(contact.recovery_status, core::RecoveryStatus::kHullInsidePart);
@@ -184,13 +184,14 @@ TEST(FindContacts, HullWhollyInsideAClosedPartIsAContactWithoutPoints) {
 }
 
 TEST(FindContacts, HullWhollyInsideAnOpenPartIsNotLookedFor) {
-  core::TriangleMesh open = BoxAround(Vector3d::Zero(), 120.0);
+  core::TriangleMesh open = CubeAround(Vector3d::Zero(), 120.0);
   open.triangles.pop_back();
   EXPECT_EQ(Find(BoxHull(), open).verdict, core::Verdict::kClear);
 }
 
 TEST(FindContacts, HullInTheCavityOfAClosedPartIsClear) {
-  core::TriangleMesh shell = BoxAround(Vector3d::Zero(), 200.0), cavity = BoxAround(Vector3d::Zero(), 120.0);
+  core::TriangleMesh shell = CubeAround(Vector3d::Zero(), 200.0),
+                     cavity = CubeAround(Vector3d::Zero(), 120.0);
   for (auto& triangle : cavity.triangles) std::swap(triangle[1], triangle[2]);
   core::Append(shell, cavity);
   EXPECT_EQ(Find(BoxHull(), shell).verdict, core::Verdict::kClear);
@@ -198,7 +199,7 @@ TEST(FindContacts, HullInTheCavityOfAClosedPartIsClear) {
 
 TEST(FindContacts, KeptCellsOfThePartsInsideChangeNothing) {
   Random random(6009);
-  TriangleMesh shell = BoxAround(Vector3d::Zero(), 260.0), cavity = BoxAround(Vector3d(12, 0, 0), 220.0);
+  TriangleMesh shell = CubeAround(Vector3d::Zero(), 260.0), cavity = CubeAround(Vector3d(12, 0, 0), 220.0);
   for (auto& triangle : cavity.triangles) std::swap(triangle[1], triangle[2]);
   core::Append(shell, cavity);
   const core::TriangleTree part(std::make_shared<const TriangleMesh>(shell));
@@ -208,22 +209,22 @@ TEST(FindContacts, KeptCellsOfThePartsInsideChangeNothing) {
   for (int trial = 0; trial < 40; ++trial) {
     const core::RigidTransform world_from_part{random.Rotation(),
                                                random.Uniform(0.0, 60.0) * random.Direction()};
-    const core::PartContact kept = FindContacts(hull, part, world_from_part, 0, Fine(), &inside);
-    const core::PartContact fresh = FindContacts(hull, part, world_from_part, 0, Fine());
+    const core::PartContact kept = FindContacts(hull, part, world_from_part, 0, FineContacts(), &inside);
+    const core::PartContact fresh = FindContacts(hull, part, world_from_part, 0, FineContacts());
     EXPECT_EQ(kept.verdict, fresh.verdict);
     EXPECT_EQ(kept.contained_in_world_mm, fresh.contained_in_world_mm);
     EXPECT_EQ(kept.count.queries, fresh.count.queries);
     clear += kept.verdict == core::Verdict::kClear ? 1 : 0;
   }
   EXPECT_GT(clear, 3);
-  const core::TriangleTree box(std::make_shared<const TriangleMesh>(BoxAround(Vector3d::Zero(), 200.0)));
+  const core::TriangleTree box(std::make_shared<const TriangleMesh>(CubeAround(Vector3d::Zero(), 200.0)));
   InsideCells inside_box(box);
   for (int trial = 0; trial < 20; ++trial) {
     const core::RigidTransform world_from_part{random.Rotation(),
                                                random.Uniform(0.0, 20.0) * random.Direction()};
-    const core::PartContact kept = FindContacts(hull, box, world_from_part, 0, Fine(), &inside_box);
+    const core::PartContact kept = FindContacts(hull, box, world_from_part, 0, FineContacts(), &inside_box);
     EXPECT_EQ(kept.contained_in_world_mm,
-              FindContacts(hull, box, world_from_part, 0, Fine()).contained_in_world_mm);
+              FindContacts(hull, box, world_from_part, 0, FineContacts()).contained_in_world_mm);
     contained += kept.contained_in_world_mm ? 1 : 0;
   }
   EXPECT_GT(contained, 10);
@@ -234,7 +235,7 @@ TEST(FindContacts, OneThreadFindsWhatManyFind) {
   Random random(6010);
   for (int trial = 0; trial < 10; ++trial) {
     const core::RigidTransform world_from_part{random.Rotation(), 60.0 * random.Direction()};
-    const TriangleMesh part = BoxAround(Vector3d(200.0, 0.0, 0.0), 400.0);
+    const TriangleMesh part = CubeAround(Vector3d(200.0, 0.0, 0.0), 400.0);
     ContactOptions options;
     options.point_spacing_mm = 4.0;
     const core::PartContact many = Find(BoxHull(), part, options, world_from_part);
@@ -260,7 +261,7 @@ TEST(FindContacts, OneThreadFindsWhatManyFind) {
 TEST(FindContacts, RecoveryBacksOutOfTheNearFace) {
   const VisualHull hull = BoxHull();
   // Reaches 10 mm into the face x = 50; its reference, the centre, is outside.
-  const core::PartContact contact = Find(hull, BoxAround(Vector3d(60, 0, 0), 40.0), Fine());
+  const core::PartContact contact = Find(hull, CubeAround(Vector3d(60, 0, 0), 40.0), FineContacts());
   ASSERT_EQ(contact.recovery_status, core::RecoveryStatus::kFound);
   const core::Recovery& recovery = *contact.recovery;
   const Vector3d rp_obj(60, 0, 0);
@@ -281,12 +282,12 @@ TEST(FindContacts, RecoveryBacksOutOfTheNearFace) {
 }
 
 TEST(FindContacts, ReferenceOfTheCallersChoice) {
-  ContactOptions options = Fine();
+  ContactOptions options = FineContacts();
   options.recovery.reference_in_part_mm =
       Vector3d(20, 0, 0);  // world (80, 0, 0): outside, though the centre is inside
   const core::RigidTransform world_from_part{Eigen::Matrix3d::Identity(), Vector3d(60, 0, 0)};
-  const TriangleMesh part = BoxAround(Vector3d(-20, 0, 0), 60.0);
-  EXPECT_EQ(Find(BoxHull(), part, Fine(), world_from_part).recovery_status,
+  const TriangleMesh part = CubeAround(Vector3d(-20, 0, 0), 60.0);
+  EXPECT_EQ(Find(BoxHull(), part, FineContacts(), world_from_part).recovery_status,
             core::RecoveryStatus::kReferenceInsideHull);
   const core::PartContact contact = Find(BoxHull(), part, options, world_from_part);
   ASSERT_EQ(contact.recovery_status, core::RecoveryStatus::kFound);
@@ -311,9 +312,9 @@ TEST(FindContacts, MovingThePartsFrameChangesNothing) {
   for (int trial = 0; trial < 10; ++trial) {
     const TriangleMesh part = RandomPart(&random);
     const core::RigidTransform other_from_part{random.Rotation(), 500.0 * random.Direction()};
-    const core::PartContact here = Find(hull, part, Fine());
+    const core::PartContact here = Find(hull, part, FineContacts());
     const core::PartContact there =
-        Find(hull, core::Transformed(part, other_from_part), Fine(), other_from_part.Inverse());
+        Find(hull, core::Transformed(part, other_from_part), FineContacts(), other_from_part.Inverse());
     EXPECT_EQ(here.verdict, there.verdict);
     // A tie between two sides may be cut the other way: pieces at the boundary change, their sum hardly.
     constexpr double kShare = 0.01;
@@ -322,9 +323,9 @@ TEST(FindContacts, MovingThePartsFrameChangesNothing) {
 }
 
 TEST(FindContacts, BoundedPointsKeepAreaAndTheDeepest) {
-  const TriangleMesh part = BoxAround(Vector3d(35, 0, 0), 60.0);
-  const core::PartContact all = Find(BoxHull(), part, Fine());
-  ContactOptions options = Fine();
+  const TriangleMesh part = CubeAround(Vector3d(35, 0, 0), 60.0);
+  const core::PartContact all = Find(BoxHull(), part, FineContacts());
+  ContactOptions options = FineContacts();
   options.max_points = 16;
   const core::PartContact few = Find(BoxHull(), part, options);
   EXPECT_EQ(few.points.size(), 16U);
@@ -337,7 +338,7 @@ TEST(FindContacts, BoundedPointsKeepAreaAndTheDeepest) {
 }
 
 TEST(FindContacts, DefaultResolutionIsHalfAPixelAtThePart) {
-  const core::PartContact contact = Find(BoxHull(), BoxAround(Vector3d(60, 0, 0), 40.0));
+  const core::PartContact contact = Find(BoxHull(), CubeAround(Vector3d(60, 0, 0), 40.0));
   // 1 px a millimetre, to the certified stretch's own bound.
   EXPECT_NEAR(contact.resolution_mm, 0.5, 1e-3);
 }
@@ -347,7 +348,7 @@ TEST(FindContacts, EmptyHullAndEmptyMesh) {
   recon::RandomScene scene = MakeRingScene(&random, 2, core::UnseenPolicy::kOutside);
   scene.masks[0] = core::BitMask(160, 120);
   const VisualHull empty = recon::MakeVisualHull(scene.rig, scene.masks);
-  EXPECT_EQ(Find(empty, BoxAround(Vector3d::Zero(), 10.0)).count.queries, 0);
+  EXPECT_EQ(Find(empty, CubeAround(Vector3d::Zero(), 10.0)).count.queries, 0);
   EXPECT_EQ(Find(BoxHull(), {}).verdict, core::Verdict::kClear);
 }
 
@@ -355,7 +356,7 @@ TEST(FindContacts, RefusesOptionsOutOfRange) {
   const auto refused = [](auto change) {
     ContactOptions options;
     change(&options);
-    EXPECT_THROW((void)Find(BoxHull(), BoxAround(Vector3d::Zero(), 10.0), options), core::Error);
+    EXPECT_THROW((void)Find(BoxHull(), CubeAround(Vector3d::Zero(), 10.0), options), core::Error);
   };
   refused([](ContactOptions* o) { o->resolution_mm = -1.0; });
   refused([](ContactOptions* o) { o->resolution_mm = std::nan(""); });

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "core/error.h"
+#include "core/infinity.h"
 #include "tests/core/solids.h"
 #include "tests/recon/scenes/random_scene.h"
 #include "tests/review/box_hull.h"
@@ -17,10 +18,10 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kRoundingMm = 1e-6;
+using core::kInfinity;
+constexpr double kReviewRoundingMm = 1e-6;
 
-core::TriangleTree BoxAround(const Vector3d& center, const Vector3d& size_mm) {
+core::TriangleTree BoxTree(const Vector3d& center, const Vector3d& size_mm) {
   return core::TriangleTree(std::make_shared<const core::TriangleMesh>(
       core::Transformed(core::testing::Box(size_mm), {Eigen::Matrix3d::Identity(), center - 0.5 * size_mm})));
 }
@@ -33,7 +34,7 @@ PartReviewOptions Requiring(double required_mm, double uncertainty_mm = 0.0) {
 }
 
 core::PartContact Review(double gap_mm, const PartReviewOptions& options) {
-  return ReviewPart(BoxHull(), BoxAround({60.0 + gap_mm, 0.0, 0.0}, {20.0, 20.0, 20.0}), {}, 4, options);
+  return ReviewPart(BoxHull(), BoxTree({60.0 + gap_mm, 0.0, 0.0}, {20.0, 20.0, 20.0}), {}, 4, options);
 }
 
 TEST(ReviewPart, OfABoxBesideABox) {
@@ -61,7 +62,7 @@ TEST(ReviewPart, ContactNeedsNoSearch) {
 
 TEST(ReviewPart, HullInsideAPartIsShownByItsPoint) {
   const core::PartContact contact =
-      ReviewPart(BoxHull(), BoxAround(Vector3d::Zero(), {180.0, 180.0, 180.0}), {}, 0, Requiring(20.0));
+      ReviewPart(BoxHull(), BoxTree(Vector3d::Zero(), {180.0, 180.0, 180.0}), {}, 0, Requiring(20.0));
   EXPECT_EQ(contact.verdict, core::Verdict::kContact);
   ASSERT_TRUE(contact.contained_in_world_mm.has_value());
   EXPECT_EQ(contact.clearance->interval.witness_hull_in_world_mm, *contact.contained_in_world_mm);
@@ -69,7 +70,7 @@ TEST(ReviewPart, HullInsideAPartIsShownByItsPoint) {
 
 TEST(ReviewPart, AFarPartIsSettledByOneBall) {
   const core::PartContact contact =
-      ReviewPart(BoxHull(), BoxAround({88.0, 0.0, 0.0}, {2.0, 2.0, 2.0}), {}, 0, Requiring(20.0));
+      ReviewPart(BoxHull(), BoxTree({88.0, 0.0, 0.0}, {2.0, 2.0, 2.0}), {}, 0, Requiring(20.0));
   EXPECT_EQ(contact.clearance->queries, 1);
   EXPECT_EQ(contact.clearance->interval.lower_mm, Requiring(20.0).EnoughMm());
   EXPECT_EQ(contact.clearance->interval.upper_mm, kInfinity);
@@ -78,7 +79,7 @@ TEST(ReviewPart, AFarPartIsSettledByOneBall) {
 
 TEST(ReviewPart, AnEmptyHullIsClear) {
   const core::PartContact contact =
-      ReviewPart(BoxHull(true), BoxAround({70.0, 0.0, 0.0}, {2.0, 2.0, 2.0}), {}, 0, Requiring(20.0));
+      ReviewPart(BoxHull(true), BoxTree({70.0, 0.0, 0.0}, {2.0, 2.0, 2.0}), {}, 0, Requiring(20.0));
   EXPECT_EQ(contact.verdict, core::Verdict::kClear);
   EXPECT_EQ(contact.clearance->interval.lower_mm, kInfinity);
   EXPECT_FALSE(HintFrom(contact, {}).has_value());
@@ -92,7 +93,7 @@ TEST(ReviewPart, WarmBoundsAreAsTrueAsColdOnes) {
   for (int run = 0; run < 6 * test_support::SoakScale(); ++run) {
     const recon::RandomScene scene = MakeRingScene(&random, random.Whole(2, 4), core::UnseenPolicy::kOutside);
     const recon::VisualHull hull = recon::MakeVisualHull(scene.rig, scene.masks);
-    const core::TriangleTree part = BoxAround(Vector3d::Zero(), {40.0, 30.0, 20.0});
+    const core::TriangleTree part = BoxTree(Vector3d::Zero(), {40.0, 30.0, 20.0});
     core::RigidTransform pose{random.Rotation(), random.Uniform(60.0, 160.0) * random.Direction()};
     const Vector3d drift = 2.0 * random.Direction();
     const PartReviewOptions options = Requiring(60.0, 1.0);
@@ -102,8 +103,8 @@ TEST(ReviewPart, WarmBoundsAreAsTrueAsColdOnes) {
       const core::PartContact warm = ReviewPart(hull, part, pose, 0, options, hint);
       const core::PartContact cold = ReviewPart(hull, part, pose, 0, options);
       const core::ClearanceInterval &a = warm.clearance->interval, &b = cold.clearance->interval;
-      ASSERT_LE(a.lower_mm, b.upper_mm + kRoundingMm);
-      ASSERT_LE(b.lower_mm, a.upper_mm + kRoundingMm);
+      ASSERT_LE(a.lower_mm, b.upper_mm + kReviewRoundingMm);
+      ASSERT_LE(b.lower_mm, a.upper_mm + kReviewRoundingMm);
       const bool contradicts =
           (warm.verdict == core::Verdict::kClear && cold.verdict == core::Verdict::kNear) ||
           (warm.verdict == core::Verdict::kNear && cold.verdict == core::Verdict::kClear);

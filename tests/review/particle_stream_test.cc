@@ -21,7 +21,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kFrameS = 1.0 / 30.0;
+constexpr double kStreamFrameS = 1.0 / 30.0;
 
 core::Stream Faucet() {
   core::Stream stream;
@@ -56,11 +56,11 @@ TEST(ParticleStream, FallsFreelyAsGalileoSays) {
   core::Stream stream = Faucet();
   stream.rate_per_s = 60.0;
   StreamState state;
-  for (int i = 0; i < 5; ++i) state = StepStream(stream, std::move(state), *nothing, {}, kFrameS);
+  for (int i = 0; i < 5; ++i) state = StepStream(stream, std::move(state), *nothing, {}, kStreamFrameS);
   ASSERT_EQ(state.emitted, 10);
   // The first has fallen for 5 frames less the time to its emission, 1/60 s; steps of 1/240 s err by one
   // step.
-  const double fell_s = 5.0 * kFrameS - 1.0 / 60.0;
+  const double fell_s = 5.0 * kStreamFrameS - 1.0 / 60.0;
   const double fell_mm = 500.0 * fell_s + 0.5 * 9806.65 * fell_s * fell_s;
   EXPECT_NEAR(420.0 - state.particles.front().x_in_world.z(), fell_mm, 12.0);
 }
@@ -73,8 +73,8 @@ TEST(ParticleStream, IsDeflectedByAHandAndByAPart) {
   const std::vector<StreamObstacle> obstacles{{&box, world_from_box}};
   StreamState free, deflected;
   for (int i = 0; i < 90; ++i) {
-    free = StepStream(Faucet(), std::move(free), *nothing, {}, kFrameS);
-    deflected = StepStream(Faucet(), std::move(deflected), *hand, obstacles, kFrameS);
+    free = StepStream(Faucet(), std::move(free), *nothing, {}, kStreamFrameS);
+    deflected = StepStream(Faucet(), std::move(deflected), *hand, obstacles, kStreamFrameS);
     Check(deflected, *hand, obstacles);
   }
   const auto farthest = [](const StreamState& state) {
@@ -94,7 +94,7 @@ TEST(ParticleStream, AMovingHandSwallowsNoneUnnoticed) {
   StreamState state;
   for (std::size_t i = 0; i < 60; ++i) {
     const recon::VisualHull& hull = *hulls[i % hulls.size()];
-    state = StepStream(Faucet(), std::move(state), hull, {}, kFrameS);
+    state = StepStream(Faucet(), std::move(state), hull, {}, kStreamFrameS);
     Check(state, hull, {});
   }
 }
@@ -113,7 +113,7 @@ TEST(ParticleStream, RandomHullsNeverBreakItAndItsNumberIsBounded) {
     const recon::VisualHull hull = recon::MakeVisualHull(scene.rig, scene.masks);
     core::RigidTransform world_from_box{random.Rotation(), Vector3d(-60.0, -60.0, -40.0)};
     const std::vector<StreamObstacle> obstacles{{&box, world_from_box}};
-    state = StepStream(stream, std::move(state), hull, obstacles, kFrameS);
+    state = StepStream(stream, std::move(state), hull, obstacles, kStreamFrameS);
     Check(state, hull, obstacles);
   }
   EXPECT_GT(state.emitted, 1000);
@@ -124,7 +124,7 @@ TEST(ParticleStream, ThreadsChangeNothing) {
   const auto run = [&](std::size_t threads) {
     const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
     StreamState state;
-    for (int i = 0; i < 30; ++i) state = StepStream(Faucet(), std::move(state), *hand, {}, kFrameS);
+    for (int i = 0; i < 30; ++i) state = StepStream(Faucet(), std::move(state), *hand, {}, kStreamFrameS);
     return state;
   };
   const StreamState one = run(1), two = run(2);

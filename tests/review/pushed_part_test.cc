@@ -18,8 +18,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kFrameS = 1.0 / 30.0;
-constexpr double kRoundingMm = 1e-6;
+constexpr double kPushFrameS = 1.0 / 30.0;
+constexpr double kPushRoundingMm = 1e-6;
 
 SurfaceModel BoxModel(const Vector3d& size_mm) {
   return SurfaceModel(std::make_shared<const core::TriangleMesh>(core::testing::Box(size_mm)));
@@ -56,7 +56,7 @@ struct Table {
   [[nodiscard]] bool Touches(const PushState& state) const {
     return ContactAt(state).verdict == core::Verdict::kContact;
   }
-  [[nodiscard]] PushState Step(const PushState& state, double dt_s = kFrameS) const {
+  [[nodiscard]] PushState Step(const PushState& state, double dt_s = kPushFrameS) const {
     return StepPush(part, ContactAt(state), state, {&model, world_from_rest}, others, hull, dt_s);
   }
 };
@@ -66,7 +66,7 @@ TEST(PushedPart, LeavesTheHullAlongItsSliderNoFasterThanItMay) {
   // 18 mm in: the short way is +x.
   const Table table{model, Pushed(model, kSlider, kSlowMmPerS), At(32.0, -10.0, -10.0)};
   PushState state = table.Step({});
-  EXPECT_NEAR(state.went_mm, 5.0, kRoundingMm);  // 150 mm/s for 1/30 s
+  EXPECT_NEAR(state.went_mm, 5.0, kPushRoundingMm);  // 150 mm/s for 1/30 s
   EXPECT_NEAR(state.wanted_mm, 18.5, 0.5);
   for (int i = 0; i < 5; ++i) state = table.Step(state);
   EXPECT_FALSE(table.Touches(state));
@@ -102,10 +102,10 @@ TEST(PushedPart, ADoorTurnsAboutItsHingeUntilItIsFree) {
   pose.rotation = Eigen::AngleAxisd(std::asin(25.0 / 120.0), Vector3d::UnitZ()).toRotationMatrix();
   const Table table{model, Pushed(model, hinge, kSlowMmPerS), pose};
   PushState state = table.Step({});
-  EXPECT_NEAR(state.went_mm, 5.0, kRoundingMm) << "its farthest point no faster than it may";
+  EXPECT_NEAR(state.went_mm, 5.0, kPushRoundingMm) << "its farthest point no faster than it may";
   for (int i = 0; i < 12; ++i) state = table.Step(state);
   EXPECT_FALSE(table.Touches(state));
-  EXPECT_NEAR((state.rest_from_part * Vector3d::Zero()).norm(), 0.0, kRoundingMm) << "the hinge holds";
+  EXPECT_NEAR((state.rest_from_part * Vector3d::Zero()).norm(), 0.0, kPushRoundingMm) << "the hinge holds";
   const Eigen::AngleAxisd turn(state.rest_from_part.rotation);
   EXPECT_GT(-turn.angle() * turn.axis().z(), 10.0 / 120.0);
   EXPECT_LT(-turn.angle() * turn.axis().z(), 25.0 / 120.0);

@@ -19,7 +19,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kRoundingMm = 1e-6;
+constexpr double kStudyRoundingMm = 1e-6;
 constexpr core::PartIndex kMoving = 1, kRider = 2, kFixed = 3;
 
 core::Part BoxPart(const std::string& name, const Vector3d& size_mm, const Vector3d& center_mm) {
@@ -107,8 +107,8 @@ void ExpectAgree(const PartAtSpacing& fast, const SlowAnswer& answer) {
   EXPECT_GE(fast.frames_in_contact, slow.frames_in_contact);
   EXPECT_LE(fast.frames_in_contact, slow.frames_in_contact + answer.touching);
   EXPECT_EQ(fast.deepest_mm, slow.deepest_mm);
-  EXPECT_LE(fast.lower_mm, slow.upper_mm + kRoundingMm);
-  EXPECT_LE(slow.lower_mm, fast.upper_mm + kRoundingMm);
+  EXPECT_LE(fast.lower_mm, slow.upper_mm + kStudyRoundingMm);
+  EXPECT_LE(slow.lower_mm, fast.upper_mm + kStudyRoundingMm);
   if (slow.frames_in_contact > 0) {
     EXPECT_EQ(fast.upper_mm, 0.0);
   }
@@ -154,7 +154,7 @@ TEST(StudySpacing, AgreesWithAskingEveryFrameAtEveryStep) {
   EXPECT_GT(by_motion, 8);
 }
 
-PartReviewOptions Fine() {
+PartReviewOptions FineReview() {
   PartReviewOptions options;
   options.tolerance_mm = 0.005;
   return options;
@@ -163,7 +163,7 @@ PartReviewOptions Fine() {
 // Contact of any moved part in any frame, or as good as.
 bool Touches(const core::Layout& layout, const std::vector<StudyFrame>& frames, double spacing_mm) {
   return std::ranges::any_of(std::vector{kMoving, kRider}, [&](core::PartIndex part) {
-    return AskAll(layout, frames, spacing_mm, part, Fine()).sum.upper_mm <= Fine().tolerance_mm;
+    return AskAll(layout, frames, spacing_mm, part, FineReview()).sum.upper_mm <= FineReview().tolerance_mm;
   });
 }
 
@@ -184,8 +184,8 @@ TEST(StudySpacing, FindsTheSmallestSpacingWithoutContactBetweenTwoValuesThatShow
       ++left_open;
       double least_mm = 1e9;
       for (const core::PartIndex part : {kMoving, kRider})
-        least_mm = std::min(least_mm, AskAll(layout, frames, between_mm, part, Fine()).sum.upper_mm);
-      EXPECT_LE(least_mm, 2.0 * Fine().tolerance_mm) << "only what grazes may be left open";
+        least_mm = std::min(least_mm, AskAll(layout, frames, between_mm, part, FineReview()).sum.upper_mm);
+      EXPECT_LE(least_mm, 2.0 * FineReview().tolerance_mm) << "only what grazes may be left open";
     }
     EXPECT_TRUE(Touches(layout, frames, *study.largest_touched_mm));
     EXPECT_FALSE(Touches(layout, frames, *study.smallest_free_mm));

@@ -20,7 +20,7 @@ using Eigen::Vector3d;
 
 // Coordinates are below 50 mm, so doubles are some 1e-14 mm apart. A distance of nearly 0 is the root of
 // nothing: its error isn't its square's.
-constexpr double kRoundingMm = 1e-12;
+constexpr double kGapRoundingMm = 1e-12;
 
 enum class Family { kAny, kLattice, kTurnedLattice, kParallelEdges, kParallelPlanes, kThin, kNearlyParallel };
 
@@ -100,7 +100,7 @@ double FclDistance(const Triangle& a, const Triangle& b) {
 
 void PrintTo(Family family, std::ostream* out) { *out << NameOf(family); }
 
-class TriangleGap : public testing::TestWithParam<Family> {};
+class TriangleGap : public ::testing::TestWithParam<Family> {};
 
 // Says how often FCL's distance of the same triangles is wrong, which is why it isn't used.
 TEST_P(TriangleGap, IsThatOfLongDouble) {
@@ -114,7 +114,7 @@ TEST_P(TriangleGap, IsThatOfLongDouble) {
     const double truth_mm =
         static_cast<double>(oracles::GapOfTriangles(Long(pairs.a), Long(pairs.b)).distance_mm);
     worst_mm = std::max(worst_mm, std::abs(gap.distance_mm - truth_mm));
-    ASSERT_NEAR(gap.distance_mm, truth_mm, kRoundingMm) << "pair " << i;
+    ASSERT_NEAR(gap.distance_mm, truth_mm, kGapRoundingMm) << "pair " << i;
     ASSERT_EQ((gap.on_a - gap.on_b).norm(), gap.distance_mm) << "pair " << i;
     const double error_of_fcl_mm = std::abs(FclDistance(pairs.a, pairs.b) - truth_mm);
     wrong_of_fcl += error_of_fcl_mm > 1e-6 ? 1 : 0;
@@ -126,9 +126,9 @@ TEST_P(TriangleGap, IsThatOfLongDouble) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Families, TriangleGap,
-                         testing::Values(Family::kAny, Family::kLattice, Family::kTurnedLattice,
-                                         Family::kParallelEdges, Family::kParallelPlanes, Family::kThin,
-                                         Family::kNearlyParallel));
+                         ::testing::Values(Family::kAny, Family::kLattice, Family::kTurnedLattice,
+                                           Family::kParallelEdges, Family::kParallelPlanes, Family::kThin,
+                                           Family::kNearlyParallel));
 
 }  // namespace
 }  // namespace elbowroom::review

@@ -5,13 +5,13 @@
 namespace elbowroom::tests {
 namespace {
 
-void ExpectEqual(const core::ContactPoint& actual, const core::ContactPoint& expected) {
+void ExpectSame(const core::ContactPoint& actual, const core::ContactPoint& expected) {
   EXPECT_EQ(actual.position_in_world_mm, expected.position_in_world_mm);
   EXPECT_EQ(actual.depth_mm, expected.depth_mm);
   EXPECT_EQ(actual.area_mm2, expected.area_mm2);
 }
 
-void ExpectEqual(const core::Recovery& actual, const core::Recovery& expected) {
+void ExpectSame(const core::Recovery& actual, const core::Recovery& expected) {
   EXPECT_EQ(actual.cp_obj_in_world_mm, expected.cp_obj_in_world_mm);
   EXPECT_EQ(actual.cp_hull_in_world_mm, expected.cp_hull_in_world_mm);
   EXPECT_EQ(actual.v_rec_in_world, expected.v_rec_in_world);
@@ -20,7 +20,7 @@ void ExpectEqual(const core::Recovery& actual, const core::Recovery& expected) {
   EXPECT_EQ(actual.angle_rad, expected.angle_rad);
 }
 
-void ExpectEqual(const core::PartClearance& actual, const core::PartClearance& expected) {
+void ExpectSame(const core::PartClearance& actual, const core::PartClearance& expected) {
   EXPECT_EQ(actual.interval.lower_mm, expected.interval.lower_mm);
   EXPECT_EQ(actual.interval.upper_mm, expected.interval.upper_mm);
   EXPECT_EQ(actual.interval.witness_part_in_world_mm, expected.interval.witness_part_in_world_mm);
@@ -29,7 +29,7 @@ void ExpectEqual(const core::PartClearance& actual, const core::PartClearance& e
   EXPECT_EQ(actual.queries, expected.queries);
 }
 
-void ExpectEqual(const core::Rig& actual, const core::Rig& expected) {
+void ExpectSame(const core::Rig& actual, const core::Rig& expected) {
   EXPECT_EQ(actual.name, expected.name);
   EXPECT_EQ(actual.workspace_mm.min(), expected.workspace_mm.min());
   EXPECT_EQ(actual.workspace_mm.max(), expected.workspace_mm.max());
@@ -48,7 +48,7 @@ void ExpectEqual(const core::Rig& actual, const core::Rig& expected) {
   }
 }
 
-void ExpectEqual(const core::Layout& actual, const core::Layout& expected) {
+void ExpectSame(const core::Layout& actual, const core::Layout& expected) {
   EXPECT_EQ(actual.unit, expected.unit);
   ASSERT_EQ(actual.parts.size(), expected.parts.size());
   for (core::PartIndex i = 0; i < expected.parts.size(); ++i) {
@@ -77,9 +77,9 @@ void ExpectEqual(const core::Layout& actual, const core::Layout& expected) {
 }
 
 template <typename Value>
-void ExpectEqualWherePresent(const std::optional<Value>& actual, const std::optional<Value>& expected) {
+void ExpectSameWherePresent(const std::optional<Value>& actual, const std::optional<Value>& expected) {
   ASSERT_EQ(actual.has_value(), expected.has_value());
-  if (expected) ExpectEqual(*actual, *expected);
+  if (expected) ExpectSame(*actual, *expected);
 }
 
 }  // namespace
@@ -94,11 +94,11 @@ void ExpectEqual(const core::PartContact& actual, const core::PartContact& expec
   EXPECT_EQ(actual.count.triangles, expected.count.triangles);
   EXPECT_EQ(actual.count.queries, expected.count.queries);
   EXPECT_EQ(actual.count.skipped, expected.count.skipped);
-  ExpectEqualWherePresent(actual.deepest, expected.deepest);
-  ExpectEqualWherePresent(actual.recovery, expected.recovery);
-  ExpectEqualWherePresent(actual.clearance, expected.clearance);
+  ExpectSameWherePresent(actual.deepest, expected.deepest);
+  ExpectSameWherePresent(actual.recovery, expected.recovery);
+  ExpectSameWherePresent(actual.clearance, expected.clearance);
   ASSERT_EQ(actual.points.size(), expected.points.size());
-  for (std::size_t i = 0; i < expected.points.size(); ++i) ExpectEqual(actual.points[i], expected.points[i]);
+  for (std::size_t i = 0; i < expected.points.size(); ++i) ExpectSame(actual.points[i], expected.points[i]);
 }
 
 void ExpectEqual(const core::FrameRecord& actual, const core::FrameRecord& expected) {
@@ -131,7 +131,7 @@ void ExpectEqual(const core::NearMiss& actual, const core::NearMiss& expected) {
                     m.tools);
   };
   EXPECT_EQ(fields(actual), fields(expected));
-  ExpectEqual(actual.closest, expected.closest);
+  ExpectSame(actual.closest, expected.closest);
 }
 
 void ExpectEqual(const core::SessionHeader& actual, const core::SessionHeader& expected) {
@@ -144,8 +144,8 @@ void ExpectEqual(const core::SessionHeader& actual, const core::SessionHeader& e
   EXPECT_EQ(actual.started_at_utc, expected.started_at_utc);
   EXPECT_EQ(actual.settings, expected.settings);
   EXPECT_EQ(actual.versions, expected.versions);
-  ExpectEqual(actual.rig, expected.rig);
-  ExpectEqual(actual.layout, expected.layout);
+  ExpectSame(actual.rig, expected.rig);
+  ExpectSame(actual.layout, expected.layout);
 }
 
 }  // namespace elbowroom::tests

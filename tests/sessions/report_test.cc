@@ -24,7 +24,7 @@ using test_support::TemporaryFolder;
 // The start of a PNG file, enough to be taken for one.
 const std::vector<unsigned char> kPng = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n', 0, 1, 2, 3};
 
-std::string Contents(const fs::path& path) {
+std::string ReportText(const fs::path& path) {
   std::ostringstream text;
   text << std::ifstream(path, std::ios::binary).rdbuf();
   return text.str();
@@ -70,7 +70,7 @@ void ExpectNoBrokenNumbers(const std::string& html) {
 
 std::string ReportOf(const fs::path& session, const fs::path& out_dir, const ReportPictures& pictures = {}) {
   sessions::WriteReport(SessionReader(session), pictures, out_dir);
-  const std::string html = Contents(out_dir / "report.html");
+  const std::string html = ReportText(out_dir / "report.html");
   ExpectTagsNest(html);
   ExpectSelfContained(html);
   ExpectNoBrokenNumbers(html);
@@ -102,7 +102,7 @@ TEST(Report, ListsNearMissesClearancesAndHeat) {
   EXPECT_NE(html.find("O&#39;Hara&#39;s &quot;driver&quot;, tongs"), std::string::npos);
   EXPECT_EQ(Count(html, "payload A hangs as cloth: judged in its shape at rest"), 1);
   EXPECT_EQ(Count(html, "payload B moves out of the way: judged where each frame found it"), 1);
-  const std::string csv = Contents(folder / "out" / "clearance.csv");
+  const std::string csv = ReportText(folder / "out" / "clearance.csv");
   EXPECT_EQ(Count(csv, "\n"), 1 + 12) << "two of the parts in each of six frames";
   EXPECT_EQ(Count(csv, ",contact,may be the hull's alone,20.1,"), 6);
   EXPECT_EQ(Count(csv, ",near,may be farther,"), 2);
@@ -177,7 +177,7 @@ TEST(Report, AnEmptySessionHasAReportToo) {
   header.layout = {};
   sessions::SessionWriter(folder / "s.db", header).Finish({});
   EXPECT_NE(ReportOf(folder / "s.db", folder.path()).find("No frame was recorded"), std::string::npos);
-  EXPECT_EQ(Count(Contents(folder / "contacts.csv"), "\n"), 1);
+  EXPECT_EQ(Count(ReportText(folder / "contacts.csv"), "\n"), 1);
 }
 
 TEST(Report, OneFrameHasAReportToo) {
@@ -190,14 +190,14 @@ TEST(Report, IsTheSameEachTime) {
   const TemporaryFolder folder;
   WriteTrial(folder / "s.db", UsualTrial());
   EXPECT_EQ(ReportOf(folder / "s.db", folder / "a"), ReportOf(folder / "s.db", folder / "b"));
-  EXPECT_EQ(Contents(folder / "a" / "contacts.csv"), Contents(folder / "b" / "contacts.csv"));
+  EXPECT_EQ(ReportText(folder / "a" / "contacts.csv"), ReportText(folder / "b" / "contacts.csv"));
 }
 
 TEST(Report, ContactsCsvHasARowForEachPartInContact) {
   const TemporaryFolder folder;
   WriteTrial(folder / "s.db", UsualTrial());
   (void)ReportOf(folder / "s.db", folder.path());
-  std::istringstream csv(Contents(folder / "contacts.csv"));
+  std::istringstream csv(ReportText(folder / "contacts.csv"));
   std::string head, first;
   std::getline(csv, head);
   std::getline(csv, first);
@@ -223,7 +223,7 @@ TEST(Report, ContactsCsvQuotesNames) {
     writer.Finish({});
   }
   (void)ReportOf(folder / "s.db", folder.path());
-  EXPECT_NE(Contents(folder / "contacts.csv").find(",\"box, \"\"big\"\"\","), std::string::npos);
+  EXPECT_NE(ReportText(folder / "contacts.csv").find(",\"box, \"\"big\"\"\","), std::string::npos);
 }
 
 TEST(Report, IsWrittenWholeOrNotAtAll) {
@@ -237,7 +237,7 @@ TEST(Report, IsWrittenWholeOrNotAtAll) {
   std::ofstream(folder / "out" / "contacts.csv") << "older";
   ExpectError([&] { sessions::WriteReport(session, {}, folder / "out"); }, core::ErrorKind::kFile,
               "report.html");
-  EXPECT_EQ(Contents(folder / "out" / "contacts.csv"), "older");
+  EXPECT_EQ(ReportText(folder / "out" / "contacts.csv"), "older");
   EXPECT_EQ(std::distance(fs::directory_iterator(folder / "out"), fs::directory_iterator()), 2);
 }
 

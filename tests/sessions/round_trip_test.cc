@@ -15,7 +15,7 @@ using sessions::SessionReader;
 using sessions::SessionWriter;
 using test_support::TemporaryFolder;
 
-constexpr std::uint32_t kSeed = 11;
+constexpr std::uint32_t kTripSeed = 11;
 
 std::int64_t Count(const std::filesystem::path& path, const std::string& sql) {
   return SQLite::Database(path.string()).execAndGet(sql).getInt64();
@@ -42,7 +42,7 @@ TEST(SessionRoundTrip, EveryWayOutOfTheHullComesBackExactly) {
   std::vector<core::FrameRecord> frames;
   for (const core::RecoveryStatus status :
        {kFound, kReferenceInsideHull, kNoExit, kHullInsidePart, kOnSurface}) {
-    core::FrameRecord record = SampleFrame(header, static_cast<core::FrameIndex>(frames.size()), kSeed);
+    core::FrameRecord record = SampleFrame(header, static_cast<core::FrameIndex>(frames.size()), kTripSeed);
     record.contacts[0].recovery_status = status;
     record.contacts[0].recovery->angle_rad = -1.0 / 3.0;
     frames.push_back(std::move(record));
@@ -71,26 +71,26 @@ TEST(SessionRoundTrip, EveryFrameComesBackExactlyInAnyOrder) {
   constexpr core::FrameIndex kFirst = 100, kFrames = 40;
   {
     SessionWriter writer(folder / "s.db", header);
-    for (core::FrameIndex i = 0; i < kFrames; ++i) writer.Append(SampleFrame(header, kFirst + i, kSeed));
+    for (core::FrameIndex i = 0; i < kFrames; ++i) writer.Append(SampleFrame(header, kFirst + i, kTripSeed));
     writer.Finish({});
     EXPECT_EQ(writer.frames_committed(), kFrames);
   }
   const SessionReader reader(folder / "s.db");
   ASSERT_EQ(reader.frame_count(), kFrames);
   for (core::FrameIndex i = kFrames - 1; i >= 0; --i) {
-    ExpectEqual(reader.ReadFrame(kFirst + i), SampleFrame(header, kFirst + i, kSeed));
+    ExpectEqual(reader.ReadFrame(kFirst + i), SampleFrame(header, kFirst + i, kTripSeed));
   }
   const std::vector<sessions::FrameSummary> frames = reader.frames();
   ASSERT_EQ(frames.size(), static_cast<std::size_t>(kFrames));
   EXPECT_EQ(frames.front().frame, kFirst);
-  EXPECT_EQ(frames.front().time_s, SampleFrame(header, kFirst, kSeed).time_s);
+  EXPECT_EQ(frames.front().time_s, SampleFrame(header, kFirst, kTripSeed).time_s);
   EXPECT_EQ(frames.front().spacing_mm, (std::vector<double>{240.0, 0.1}));
 }
 
 TEST(SessionRoundTrip, EvidenceOfAnUndecidedPartIsKeptButIsNoContact) {
   const TemporaryFolder folder;
   const core::SessionHeader header = SampleHeader();
-  core::FrameRecord record = SampleFrame(header, 0, kSeed);
+  core::FrameRecord record = SampleFrame(header, 0, kTripSeed);
   for (core::PartContact& contact : record.contacts) contact.verdict = core::Verdict::kUndecided;
   {
     SessionWriter writer(folder / "s.db", header);
@@ -108,7 +108,7 @@ TEST(SessionRoundTrip, ARepeatedSilhouetteIsStoredOnce) {
   const core::SessionHeader header = SampleHeader();
   {
     SessionWriter writer(folder / "s.db", header);
-    core::FrameRecord record = SampleFrame(header, 0, kSeed);
+    core::FrameRecord record = SampleFrame(header, 0, kTripSeed);
     for (; record.frame < 20; ++record.frame) writer.Append(record);
     writer.Finish({});
   }
@@ -119,7 +119,7 @@ TEST(SessionRoundTrip, ARepeatedSilhouetteIsStoredOnce) {
 TEST(SessionRoundTrip, EqualPixelsWithOtherLevelsOrNoneStayApart) {
   const TemporaryFolder folder;
   const core::SessionHeader header = SampleHeader();
-  core::FrameRecord soft = SampleFrame(header, 0, kSeed);
+  core::FrameRecord soft = SampleFrame(header, 0, kTripSeed);
   ASSERT_GT((*soft.masks)[0].levels.size(), 20U);
   core::FrameRecord ready = AsOfSchema(1, soft), other = soft;
   std::vector<core::SoftMask> masks = *soft.masks;
@@ -144,7 +144,7 @@ TEST(SessionRoundTrip, MasksOfEqualWordsAndDifferentSizesStayApart) {
   core::CameraCalibration wider = header.rig.cameras[1].calibration();
   wider.image_width_px = 129;  // as many words a row as 130
   header.rig.cameras[1] = core::CameraModel(wider);
-  core::FrameRecord record = SampleFrame(header, 0, kSeed);
+  core::FrameRecord record = SampleFrame(header, 0, kTripSeed);
   record.masks = std::make_shared<const std::vector<core::SoftMask>>(
       std::vector<core::SoftMask>{{core::BitMask(130, 97), {}}, {core::BitMask(129, 97), {}}});
   {
@@ -236,7 +236,7 @@ TEST(SessionRoundTrip, SeveralThreadsAppendAtOnce) {
     for (int t = 0; t < kThreads; ++t) {
       threads.emplace_back([&, t] {
         for (core::FrameIndex i = t; i < kFramesPerThread * kThreads; i += kThreads) {
-          writer.Append(SampleFrame(header, i, kSeed));
+          writer.Append(SampleFrame(header, i, kTripSeed));
           writer.Append(core::SessionEvent{i, 0.0, core::Note{"thread " + std::to_string(t)}});
         }
       });
@@ -248,7 +248,7 @@ TEST(SessionRoundTrip, SeveralThreadsAppendAtOnce) {
   ASSERT_EQ(reader.frame_count(), kFramesPerThread * kThreads);
   EXPECT_EQ(reader.events().size(), static_cast<std::size_t>(kFramesPerThread * kThreads));
   for (core::FrameIndex i = 0; i < reader.frame_count(); i += 7) {
-    ExpectEqual(reader.ReadFrame(i), SampleFrame(header, i, kSeed));
+    ExpectEqual(reader.ReadFrame(i), SampleFrame(header, i, kTripSeed));
   }
 }
 

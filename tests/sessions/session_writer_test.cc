@@ -29,7 +29,7 @@ using sessions::SessionReader;
 using sessions::SessionWriter;
 using test_support::TemporaryFolder;
 
-constexpr std::uint32_t kSeed = 5;
+constexpr std::uint32_t kWriterSeed = 5;
 
 std::size_t FilesIn(const fs::path& folder) {
   return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
@@ -81,7 +81,7 @@ TEST(SessionWriter, RejectsRecordsThatDontFitTheHeader) {
   const core::SessionHeader header = SampleHeader();
   SessionWriter writer(folder / "s.db", header);
   const auto append = [&](auto&& spoil) {
-    core::FrameRecord record = SampleFrame(header, 0, kSeed);
+    core::FrameRecord record = SampleFrame(header, 0, kWriterSeed);
     spoil(record);
     writer.Append(record);
   };
@@ -103,7 +103,7 @@ TEST(SessionWriter, RejectsRecordsThatDontFitTheHeader) {
   EXPECT_THROW(writer.Append(core::SessionEvent{0, 0.0, core::SpacingChanged{"none such", 1.0, 2.0}}),
                core::PreconditionError);
   writer.Finish({});
-  EXPECT_THROW(writer.Append(SampleFrame(header, 0, kSeed)), core::PreconditionError);
+  EXPECT_THROW(writer.Append(SampleFrame(header, 0, kWriterSeed)), core::PreconditionError);
   EXPECT_THROW(writer.Finish({}), core::PreconditionError);
 }
 
@@ -122,7 +122,7 @@ TEST(SessionWriter, DestroyedWithoutFinishLeavesAReadableRecording) {
   const core::SessionHeader header = SampleHeader();
   {
     SessionWriter writer(folder / "s.db", header);
-    for (core::FrameIndex i = 0; i < 100; ++i) writer.Append(SampleFrame(header, i, kSeed));
+    for (core::FrameIndex i = 0; i < 100; ++i) writer.Append(SampleFrame(header, i, kWriterSeed));
   }
   EXPECT_EQ(FilesIn(folder.path()), 1U);
   const SessionReader reader(folder / "s.db");
@@ -138,14 +138,14 @@ TEST(SessionWriter, AbandonLeavesNothing) {
   writer.Append(core::SessionEvent{0, 0.0, core::Note{"no camera answers"}});
   writer.Abandon();
   EXPECT_EQ(FilesIn(folder.path()), 0U);
-  EXPECT_THROW(writer.Append(SampleFrame(header, 1, kSeed)), core::PreconditionError);
+  EXPECT_THROW(writer.Append(SampleFrame(header, 1, kWriterSeed)), core::PreconditionError);
 }
 
 TEST(SessionWriter, AbandonNeverTakesAFrame) {
   const TemporaryFolder folder;
   const core::SessionHeader header = SampleHeader();
   SessionWriter writer(folder / "s.db", header);
-  writer.Append(SampleFrame(header, 0, kSeed));
+  writer.Append(SampleFrame(header, 0, kWriterSeed));
   EXPECT_THROW(writer.Abandon(), core::PreconditionError);
   EXPECT_EQ(SessionReader(folder / "s.db").frame_count(), 1);
 }
@@ -155,7 +155,7 @@ TEST(SessionWriter, TheFirstFrameWaitsForNoOther) {
   const TemporaryFolder folder;
   const core::SessionHeader header = SampleHeader();
   SessionWriter writer(folder / "s.db", header);
-  writer.Append(SampleFrame(header, 0, kSeed));
+  writer.Append(SampleFrame(header, 0, kWriterSeed));
   while (writer.frames_committed() == 0) std::this_thread::yield();
   EXPECT_EQ(SessionReader(folder / "s.db").frame_count(), 1);
 }
@@ -179,9 +179,9 @@ TEST(SessionWriter, AReaderFollowsARecordingUnderWayAndSeesItsEnd) {
   const SessionReader reader(folder / "s.db");
   EXPECT_EQ(reader.frame_count(), 0);
   core::FrameIndex appended = 0;
-  while (writer.frames_committed() < 5) writer.Append(SampleFrame(header, appended++, kSeed));
+  while (writer.frames_committed() < 5) writer.Append(SampleFrame(header, appended++, kWriterSeed));
   EXPECT_GE(reader.frame_count(), 5);
-  ExpectEqual(reader.ReadFrame(4), SampleFrame(header, 4, kSeed));
+  ExpectEqual(reader.ReadFrame(4), SampleFrame(header, 4, kWriterSeed));
   writer.Finish({SampleEpisodes(0, appended - 1), {}, {}});
   EXPECT_EQ(reader.status(), sessions::SessionStatus::kComplete);
   EXPECT_EQ(reader.frame_count(), appended);
@@ -193,8 +193,8 @@ TEST(SessionWriter, AFrameThatCameTwiceFailsTheNextCallAndTheSessionStaysReadabl
   const core::SessionHeader header = SampleHeader();
   {
     SessionWriter writer(folder / "s.db", header);
-    writer.Append(SampleFrame(header, 7, kSeed));
-    writer.Append(SampleFrame(header, 7, kSeed));
+    writer.Append(SampleFrame(header, 7, kWriterSeed));
+    writer.Append(SampleFrame(header, 7, kWriterSeed));
     ExpectError([&] { writer.Finish({}); }, ErrorKind::kDatabase, "frame.frame_index");
   }
   EXPECT_EQ(SessionReader(folder / "s.db").status(), sessions::SessionStatus::kCutOff);
@@ -212,12 +212,12 @@ TEST(SessionWriter, WhileAnotherProgramHoldsTheFileFramesGoIntoASpillAndComeBack
   {
     SQLite::Database other((folder / "s.db").string(), SQLite::OPEN_READWRITE);
     other.exec("BEGIN IMMEDIATE");
-    while (writer.frames_committed() < 10) writer.Append(SampleFrame(header, frame++, kSeed));
+    while (writer.frames_committed() < 10) writer.Append(SampleFrame(header, frame++, kWriterSeed));
     EXPECT_EQ(writer.state(), sessions::RecordingState::kInSpill);
     EXPECT_TRUE(fs::exists(folder / "s.db.spill"));
   }
   while (writer.state() != sessions::RecordingState::kInFile)
-    writer.Append(SampleFrame(header, frame++, kSeed));
+    writer.Append(SampleFrame(header, frame++, kWriterSeed));
   writer.Finish(SampleOutcome(0, frame - 1));
   using State = sessions::RecordingState;
   EXPECT_EQ(states, (std::vector{State::kInMemory, State::kInSpill, State::kInFile}));
@@ -225,7 +225,7 @@ TEST(SessionWriter, WhileAnotherProgramHoldsTheFileFramesGoIntoASpillAndComeBack
   const SessionReader reader(folder / "s.db");
   EXPECT_EQ(reader.frame_count(), frame);
   for (core::FrameIndex i = 0; i < frame; ++i)
-    ExpectEqual(reader.ReadFrame(i), SampleFrame(header, i, kSeed));
+    ExpectEqual(reader.ReadFrame(i), SampleFrame(header, i, kWriterSeed));
 }
 
 TEST(SessionWriter, ASessionThatStaysLockedIsWholeInItsSpillAndJoinsWhenOpened) {
@@ -235,11 +235,11 @@ TEST(SessionWriter, ASessionThatStaysLockedIsWholeInItsSpillAndJoinsWhenOpened) 
   options.spill_after_s = 0.0;
   {
     SessionWriter writer(folder / "s.db", header, options);
-    writer.Append(SampleFrame(header, 0, kSeed));
+    writer.Append(SampleFrame(header, 0, kWriterSeed));
     while (writer.frames_committed() == 0) std::this_thread::yield();
     SQLite::Database other((folder / "s.db").string(), SQLite::OPEN_READWRITE);
     other.exec("BEGIN IMMEDIATE");
-    for (core::FrameIndex i = 1; i < 30; ++i) writer.Append(SampleFrame(header, i, kSeed));
+    for (core::FrameIndex i = 1; i < 30; ++i) writer.Append(SampleFrame(header, i, kWriterSeed));
     for (const core::SessionEvent& event : SampleEvents()) writer.Append(event);
     writer.Finish(SampleOutcome(0, 29));
     EXPECT_EQ(writer.state(), sessions::RecordingState::kInSpill);
@@ -253,7 +253,7 @@ TEST(SessionWriter, ASessionThatStaysLockedIsWholeInItsSpillAndJoinsWhenOpened) 
   EXPECT_EQ(reader.status(), sessions::SessionStatus::kComplete);
   EXPECT_EQ(reader.events().size(), SampleEvents().size());
   EXPECT_EQ(reader.episodes().size(), 2U);
-  ExpectEqual(reader.ReadFrame(29), SampleFrame(header, 29, kSeed));
+  ExpectEqual(reader.ReadFrame(29), SampleFrame(header, 29, kWriterSeed));
   EXPECT_EQ(FilesIn(folder.path()), 1U);
 }
 
@@ -261,7 +261,8 @@ void ExpectFortyFrames(const fs::path& session, const core::SessionHeader& heade
   const SessionReader reader(session);
   EXPECT_EQ(reader.status(), sessions::SessionStatus::kComplete);
   ASSERT_EQ(reader.frame_count(), 40);
-  for (core::FrameIndex i = 0; i < 40; ++i) ExpectEqual(reader.ReadFrame(i), SampleFrame(header, i, kSeed));
+  for (core::FrameIndex i = 0; i < 40; ++i)
+    ExpectEqual(reader.ReadFrame(i), SampleFrame(header, i, kWriterSeed));
 }
 
 // What `remove` takes from beside or below a session while it is recorded.
@@ -274,12 +275,12 @@ void RecordWhile(const TemporaryFolder& folder, const std::function<void(const f
   sessions::SessionWriterOptions options;
   options.on_news = [&](const sessions::RecordingNews& news) { lines.push_back(news.line); };
   SessionWriter writer(path, header, options);
-  for (core::FrameIndex i = 0; i < 20; ++i) writer.Append(SampleFrame(header, i, kSeed));
+  for (core::FrameIndex i = 0; i < 20; ++i) writer.Append(SampleFrame(header, i, kWriterSeed));
   while (writer.frames_committed() < 20) std::this_thread::yield();
   remove(path);
-  for (core::FrameIndex i = 20; i < 30; ++i) writer.Append(SampleFrame(header, i, kSeed));
+  for (core::FrameIndex i = 20; i < 30; ++i) writer.Append(SampleFrame(header, i, kWriterSeed));
   while (writer.frames_committed() < 30) std::this_thread::yield();
-  for (core::FrameIndex i = 30; i < 40; ++i) writer.Append(SampleFrame(header, i, kSeed));
+  for (core::FrameIndex i = 30; i < 40; ++i) writer.Append(SampleFrame(header, i, kWriterSeed));
   writer.Finish(SampleOutcome(0, 39));
   ASSERT_EQ(lines.size(), 1U);
   EXPECT_NE(lines.front().find("removed or replaced"), std::string::npos) << lines.front();
@@ -340,7 +341,7 @@ int RecordUntilTheDiskIsFull(const fs::path& path) {
   try {
     SessionWriter writer(path, header, options);
     if (setrlimit(RLIMIT_FSIZE, &limit) != 0) return 2;
-    for (core::FrameIndex i = 0; i < 5000; ++i) writer.Append(SampleFrame(header, i, kSeed));
+    for (core::FrameIndex i = 0; i < 5000; ++i) writer.Append(SampleFrame(header, i, kWriterSeed));
     writer.Finish({});
   } catch (const Error& error) {
     const bool says_where = std::string(error.what()).find(path.string()) != std::string::npos;
@@ -360,7 +361,7 @@ TEST(SessionWriter, AFullDiskStopsTheRecordingWithAnErrorAndKeepsWhatWasCommitte
   EXPECT_EQ(WEXITSTATUS(status), 0);
   const SessionReader reader(folder / "s.db");
   EXPECT_GT(reader.frame_count(), 0);
-  ExpectEqual(reader.ReadFrame(0), SampleFrame(SampleHeader(), 0, kSeed));
+  ExpectEqual(reader.ReadFrame(0), SampleFrame(SampleHeader(), 0, kWriterSeed));
 }
 
 // Four cameras of 640 x 480, three parts in contact with 64 points each: the work of a busy trial's frame.
@@ -375,7 +376,7 @@ core::SessionHeader BusyHeader() {
 }
 
 core::FrameRecord BusyFrame(const core::SessionHeader& header, core::FrameIndex frame) {
-  core::FrameRecord record = SampleFrame(header, frame, kSeed);
+  core::FrameRecord record = SampleFrame(header, frame, kWriterSeed);
   record.contacts[2] = record.contacts[0];
   record.contacts[2].part = 2;
   for (core::PartContact& contact : record.contacts) contact.points.resize(64, contact.points[0]);

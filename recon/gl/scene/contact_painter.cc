@@ -13,7 +13,7 @@ constexpr float kMinRadiusPx = 4.0F;
 constexpr float kRadiusOfHeight = 1.0F / 110.0F;
 
 // A square of pixels around the point, two triangles; corner is +-1 from its middle.
-constexpr const char* kVertexSource = R"(
+constexpr const char* kMarkVertexSource = R"(
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec2 corner;
 uniform mat4 cam_from_world;
@@ -60,7 +60,7 @@ void AppendMark(std::vector<float>& floats, const Eigen::Vector3d& point_in_worl
 
 }  // namespace
 
-ContactPainter::ContactPainter() : program_("contact", kVertexSource, kFragmentSource) {}
+ContactPainter::ContactPainter() : program_("contact", kMarkVertexSource, kFragmentSource) {}
 
 void ContactPainter::Draw(std::span<const Eigen::Vector3d> points_in_world, const ViewMatrices& matrices) {
   if (points_in_world.empty()) return;

@@ -17,7 +17,7 @@ constexpr int kNormalUnit = 1;
 constexpr int kCameraColorUnit = 2;
 
 // One triangle over the whole picture.
-constexpr const char* kVertexSource = R"(
+constexpr const char* kHullVertexSource = R"(
 void main() {
   gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0, 0.0, 1.0);
 }
@@ -40,7 +40,7 @@ float BufferDepth(float depth) {
 }
 )";
 
-constexpr const char* kDepthFragmentSource = R"(
+constexpr const char* kHullDepthSource = R"(
 void main() {
   float depth = DepthAt(ivec2(PlaceInLayer()));
   if (depth <= 0.0) discard;
@@ -191,9 +191,9 @@ Window ReachOf(const HullView& layer, const SceneView& view) {
 }  // namespace
 
 HullPainter::HullPainter()
-    : picture_program_("hull", kVertexSource,
+    : picture_program_("hull", kHullVertexSource,
                        fmt::format("{}{}{}", kLightingSource, kLayerSource, kPictureFragmentSource)),
-      depth_program_("hull depth", kVertexSource, fmt::format("{}{}", kLayerSource, kDepthFragmentSource)) {}
+      depth_program_("hull depth", kHullVertexSource, fmt::format("{}{}", kLayerSource, kHullDepthSource)) {}
 
 void HullPainter::UploadSurface(const Scene& scene) {
   const HullView& layer = *scene.hull;

@@ -37,7 +37,7 @@ void main() {
 }
 )";
 
-constexpr const char* kDepthFragmentSource = R"(
+constexpr const char* kPartDepthSource = R"(
 void main() {}
 )";
 
@@ -131,7 +131,7 @@ bool PartPainter::MeshKey::operator<(const MeshKey& other) const {
 PartPainter::PartPainter(PartDetail detail)
     : face_program_("part", kFaceVertexSource, std::string(kLightingSource) + kFaceFragmentSource),
       edge_program_("part edge", kEdgeVertexSource, kEdgeFragmentSource),
-      depth_program_("part depth", kFaceVertexSource, kDepthFragmentSource) {
+      depth_program_("part depth", kFaceVertexSource, kPartDepthSource) {
   if (detail == PartDetail::kOnDemand) level_maker_.emplace(kCreaseRad);
 }
 

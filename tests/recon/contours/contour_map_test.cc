@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <set>
 #include <thread>
 #include <vector>
 
+#include "core/infinity.h"
 #include "recon/contours/cell_distances.h"
 #include "tests/recon/scenes/random_scene.h"
 
@@ -17,7 +17,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+using core::kInfinity;
 // What contour_map.h promises, in cells.
 constexpr double kExactCells = 2.0;
 constexpr double kExactTolerancePx = 1e-6;
@@ -25,7 +25,7 @@ constexpr double kShortCells = 3.0;
 constexpr double kNearCells = 11.0;
 constexpr double kShortFarCells = 11.5;
 // Parity is exact but for rounding; nearer to an edge either label is right.
-constexpr double kOnEdgePx = 1e-9;
+constexpr double kOnMapEdgePx = 1e-9;
 
 double DistanceByHand(const Contour& contour, const Vector2d& at) {
   double nearest = kInfinity;
@@ -48,7 +48,7 @@ void ExpectPromiseHolds(const ContourMap& map, const Vector2d& at) {
   const PlaneLabel label = map.LabelAt(at);
   const double truth_px = DistanceByHand(map.contour(), at);
   ASSERT_EQ(label.is_object, map.IsObject(at));
-  if (truth_px > kOnEdgePx) {
+  if (truth_px > kOnMapEdgePx) {
     ASSERT_EQ(label.is_object, IsObjectByParity(map.contour(), map.exterior_is_object(), at))
         << at.transpose();
   }
@@ -109,7 +109,7 @@ TEST(ContourMap, LabelsOfRoundPositionsAgreeWithParity) {
     for (int y = -72; y <= 72; ++y) {
       for (int x = -72; x <= 72; ++x) {
         const Vector2d at(x / 8.0, y / 8.0);
-        if (DistanceByHand(map.contour(), at) <= kOnEdgePx) continue;
+        if (DistanceByHand(map.contour(), at) <= kOnMapEdgePx) continue;
         ASSERT_EQ(map.IsObject(at), IsObjectByParity(map.contour(), exterior, at)) << at.transpose();
       }
     }

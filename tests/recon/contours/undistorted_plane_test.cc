@@ -18,8 +18,8 @@ constexpr double kPromisedError = 1e-5;
 // A domain's rim is known to the inversion's 1e-9; positions this near to it may fall on either side.
 constexpr double kRim = 1e-6;
 
-core::CameraModel CameraOf(int width_px, int height_px, std::vector<double> coefficients,
-                           core::DistortionModel model = core::DistortionModel::kPlumbBob) {
+core::CameraModel LensCamera(int width_px, int height_px, std::vector<double> coefficients,
+                             core::DistortionModel model = core::DistortionModel::kPlumbBob) {
   core::CameraCalibration c;
   c.name = "camera";
   c.image_width_px = width_px, c.image_height_px = height_px;
@@ -65,7 +65,7 @@ TEST(UndistortedPlane, FollowsTheLensOfALargePicture) {
   Random random(5002);
   for (const auto& coefficients : {std::vector<double>{-0.37, 0.17, 1e-3, -1e-3, -0.04},
                                    std::vector<double>{0.1, -0.2, 0.0, 0.0, 0.1}}) {
-    const UndistortedPlane plane(CameraOf(644, 486, coefficients));
+    const UndistortedPlane plane(LensCamera(644, 486, coefficients));
     for (int i = 0; i < 3000; ++i)
       ExpectFollowsTheLens(plane, {random.Uniform(-0.5, 643.5), random.Uniform(-0.5, 485.5)});
   }
@@ -86,7 +86,7 @@ TEST(UndistortedPlane, IsAPinholesOwnPlane) {
 
 TEST(UndistortedPlane, KnowsThePixelsThatAFoldingLensDoesNotSee) {
   // R(r) = r - 0.9 r^3 turns back at r = 0.61, where it is 0.41: the corners, at 0.75, have no ray.
-  const core::CameraModel camera = CameraOf(64, 48, {-0.9, 0.0, 0.0, 0.0});
+  const core::CameraModel camera = LensCamera(64, 48, {-0.9, 0.0, 0.0, 0.0});
   const UndistortedPlane plane(camera);
   ASSERT_TRUE(plane.unseen_pixels().has_value());
   int unseen = 0;
@@ -106,14 +106,14 @@ TEST(UndistortedPlane, KnowsThePixelsThatAFoldingLensDoesNotSee) {
 
 TEST(UndistortedPlane, TakesPicturesOfOnePixel) {
   for (const std::vector<double>& coefficients : {std::vector<double>{}, {-0.2, 0.1, 0.0, 0.0}}) {
-    const UndistortedPlane plane(CameraOf(1, 1, coefficients));
+    const UndistortedPlane plane(LensCamera(1, 1, coefficients));
     for (const double x : {-0.5, 0.0, 0.5})
       for (const double y : {-0.5, 0.0, 0.5}) ExpectFollowsTheLens(plane, {x, y});
   }
 }
 
 TEST(UndistortedPlane, OutlineIsThePictureAndIsMadeOnce) {
-  const UndistortedPlane plane(CameraOf(40, 30, {-0.2, 0.05, 0.0, 0.0}));
+  const UndistortedPlane plane(LensCamera(40, 30, {-0.2, 0.05, 0.0, 0.0}));
   const ContourMap& outline = plane.outline();
   EXPECT_EQ(&outline, &plane.outline());
   EXPECT_FALSE(outline.exterior_is_object());

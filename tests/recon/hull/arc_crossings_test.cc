@@ -14,8 +14,8 @@ namespace {
 using Eigen::Vector3d;
 
 // Labels of the point query and crossings are told apart by rounding alone this near to a crossing.
-constexpr double kRoundingMm = 1e-5;
-constexpr double kMarchMm = 0.05;
+constexpr double kArcRoundingMm = 1e-5;
+constexpr double kArcMarchMm = 0.05;
 
 Arc RandomArc(Random* random, const Vector3d& start_in_world, double radius_mm) {
   const Vector3d arm = random->Direction();
@@ -25,7 +25,7 @@ Arc RandomArc(Random* random, const Vector3d& start_in_world, double radius_mm) 
 
 // The first step that is outside, if one is.
 std::optional<double> MarchedExit(const VisualHull& hull, const Arc& arc) {
-  const double step_rad = kMarchMm / arc.start_in_world.norm();
+  const double step_rad = kArcMarchMm / arc.start_in_world.norm();
   for (double angle_rad = step_rad; angle_rad < 2.0 * std::numbers::pi; angle_rad += step_rad)
     if (!hull.Contains(arc.At(angle_rad))) return angle_rad;
   return std::nullopt;
@@ -36,7 +36,7 @@ void ExpectExit(const VisualHull& hull, const Arc& arc) {
   const std::optional<double> marched_rad = MarchedExit(hull, arc);
   ASSERT_TRUE(exit || !marched_rad) << "a marched exit can't be missed";
   if (!exit) return;
-  const double rounding_rad = kRoundingMm / arc.start_in_world.norm();
+  const double rounding_rad = kArcRoundingMm / arc.start_in_world.norm();
   EXPECT_LE(exit->angle_rad, marched_rad.value_or(HUGE_VAL) + rounding_rad);
   EXPECT_FALSE(hull.Contains(arc.At(exit->angle_rad + rounding_rad)));
   constexpr int kSamples = 200;

@@ -13,10 +13,10 @@ namespace {
 using Eigen::Vector3d;
 
 // Of crossings, labels, and the share by which depths are short, for lengths up to a metre.
-constexpr double kRoundingMm = 1e-5;
+constexpr double kDepthRoundingMm = 1e-5;
 
 double NearestExitMm(const VisualHull& hull, const Vector3d& x, const Vector3d& direction) {
-  return FirstOutside(hull, {x, direction}).value();
+  return FirstOutside(hull, Ray{x, direction}).value();
 }
 
 TEST(HullDepth, IsWhereTheNearestRayLeaves) {
@@ -33,15 +33,15 @@ TEST(HullDepth, IsWhereTheNearestRayLeaves) {
       if (!depth) continue;
       ++points;
       const double probed_mm = hull.Probe(x).radius_mm;
-      EXPECT_GE(depth->depth_mm, probed_mm - kRoundingMm);
+      EXPECT_GE(depth->depth_mm, probed_mm - kDepthRoundingMm);
       farther += depth->depth_mm > 1.1 * probed_mm ? 1 : 0;
-      EXPECT_NEAR((depth->nearest_in_world - x).norm(), depth->depth_mm, kRoundingMm);
+      EXPECT_NEAR((depth->nearest_in_world - x).norm(), depth->depth_mm, kDepthRoundingMm);
       for (int ray = 0; ray < 60; ++ray)
-        ASSERT_LE(depth->depth_mm, NearestExitMm(hull, x, random.Direction()) + kRoundingMm);
+        ASSERT_LE(depth->depth_mm, NearestExitMm(hull, x, random.Direction()) + kDepthRoundingMm);
       // Under `abstain` another camera may see on.
-      if (depth->depth_mm < kRoundingMm || unseen == core::UnseenPolicy::kAbstain) continue;
+      if (depth->depth_mm < kDepthRoundingMm || unseen == core::UnseenPolicy::kAbstain) continue;
       const Vector3d way = (depth->nearest_in_world - x).normalized();
-      EXPECT_NEAR(NearestExitMm(hull, x, way), depth->depth_mm, kRoundingMm) << trial;
+      EXPECT_NEAR(NearestExitMm(hull, x, way), depth->depth_mm, kDepthRoundingMm) << trial;
     }
   }
   EXPECT_GT(points, 200);
@@ -63,7 +63,7 @@ TEST(HullDepth, NamesTheCameraOrAFace) {
     if (depth->camera) {
       EXPECT_LE(depth->depth_mm, to_face_mm);
     } else {
-      EXPECT_NEAR(depth->depth_mm, to_face_mm, kRoundingMm);
+      EXPECT_NEAR(depth->depth_mm, to_face_mm, kDepthRoundingMm);
     }
   }
   EXPECT_GT(cameras, 50);

@@ -18,9 +18,9 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kMarchMm = 0.02;
+constexpr double kRayMarchMm = 0.02;
 // Rounding of points about a metre from the origin, and of crossings of edges met at a slope of 1 : 1000.
-constexpr double kRoundingMm = 1e-7;
+constexpr double kRayRoundingMm = 1e-7;
 constexpr double kFarMm = 700.0;
 
 Vector3d PointOn(const Ray& ray, double t_mm) { return ray.origin_in_world + t_mm * ray.direction_in_world; }
@@ -50,7 +50,7 @@ void ExpectAgreesWithAMarch(const VisualHull& hull, const Ray& ray, double step_
     const bool contains = hull.Contains(PointOn(ray, t_mm));
     *inside += contains ? 1 : 0;
     if (contains != IsIn(intervals, t_mm)) {
-      ASSERT_LE(DistanceToAnEnd(intervals, t_mm), kRoundingMm) << t_mm;
+      ASSERT_LE(DistanceToAnEnd(intervals, t_mm), kRayRoundingMm) << t_mm;
     }
   }
 }
@@ -63,9 +63,9 @@ void ExpectEndsAreCrossings(const VisualHull& hull, const Ray& ray,
     ASSERT_LT(interval.from_mm, interval.to_mm);
     ASSERT_GE(interval.from_mm, last_mm);
     last_mm = interval.to_mm;
-    if (interval.to_mm - interval.from_mm < 4.0 * kRoundingMm) continue;
-    ASSERT_TRUE(hull.Contains(PointOn(ray, interval.from_mm + kRoundingMm)));
-    ASSERT_TRUE(hull.Contains(PointOn(ray, interval.to_mm - kRoundingMm)));
+    if (interval.to_mm - interval.from_mm < 4.0 * kRayRoundingMm) continue;
+    ASSERT_TRUE(hull.Contains(PointOn(ray, interval.from_mm + kRayRoundingMm)));
+    ASSERT_TRUE(hull.Contains(PointOn(ray, interval.to_mm - kRayRoundingMm)));
   }
 }
 
@@ -90,7 +90,7 @@ TEST(IntervalsInHull, AgreeWithAMarchOfContainsUnderBothPolicies) {
       const VisualHull hull = MakeVisualHull(scene.rig, scene.masks);
       for (int i = 0; i < 3; ++i) {
         const Ray ray = RandomRay(&random, *scene.rig);
-        ExpectAgreesWithAMarch(hull, ray, kMarchMm, &inside);
+        ExpectAgreesWithAMarch(hull, ray, kRayMarchMm, &inside);
         const std::vector<HullInterval> intervals = IntervalsInHull(hull, ray);
         intervals_seen += static_cast<int>(intervals.size());
         ExpectEndsAreCrossings(hull, ray, intervals);
@@ -159,10 +159,10 @@ TEST(IntervalsInHull, StartOnTheSurface) {
       const double at_mm = intervals.front().from_mm;
       const Ray onwards{PointOn(ray, at_mm), ray.direction_in_world};
       const Ray back{PointOn(ray, at_mm), -ray.direction_in_world};
-      ASSERT_NEAR(FirstInside(hull, onwards).value_or(-1.0), 0.0, kRoundingMm);
+      ASSERT_NEAR(FirstInside(hull, onwards).value_or(-1.0), 0.0, kRayRoundingMm);
       // Nothing of the hull is between the first ray's start and its first crossing.
       for (const HullInterval& interval : IntervalsInHull(hull, back, {0.0, at_mm}))
-        ASSERT_LE(interval.to_mm, kRoundingMm) << "trial " << trial << " ray " << i;
+        ASSERT_LE(interval.to_mm, kRayRoundingMm) << "trial " << trial << " ray " << i;
     }
   }
   EXPECT_GT(asked, 300);

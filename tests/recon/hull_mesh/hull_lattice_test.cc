@@ -25,7 +25,7 @@ constexpr double kExitShare = 1e-6;
 // What hull_lattice.h promises.
 constexpr double kEndShare = 1.0 / 2048;
 
-bool IsAtAChange(const VisualHull& hull, const Vector3d& x, double edge_mm) {
+bool IsBesideAChange(const VisualHull& hull, const Vector3d& x, double edge_mm) {
   const bool label = hull.Contains(x);
   for (int code = 0; code < 27; ++code) {
     const Vector3d way(code % 3 - 1, code / 3 % 3 - 1, code / 9 - 1);
@@ -51,7 +51,7 @@ void CompareBlock(const VisualHull& hull, const HullGrid& grid, const HullBlock&
         const bool is_inside = labels.At(x, y, z);
         ++count->points;
         count->inside += is_inside ? 1 : 0;
-        if (is_inside != hull.Contains(point) && !IsAtAChange(hull, point, grid.edge_mm)) ++count->wrong;
+        if (is_inside != hull.Contains(point) && !IsBesideAChange(hull, point, grid.edge_mm)) ++count->wrong;
       }
     }
   }

@@ -10,7 +10,7 @@
 namespace elbowroom::recon {
 namespace {
 
-std::string Encoded(const cv::Mat& image, const std::string& extension) {
+std::string EncodedAs(const cv::Mat& image, const std::string& extension) {
   std::vector<unsigned char> bytes;
   cv::imencode(extension, image, bytes);
   return {bytes.begin(), bytes.end()};
@@ -38,7 +38,7 @@ const std::vector<Written> kWritten{
 TEST(PictureHeader, SaysWhatOpenCvWrote) {
   for (const Written& written : kWritten) {
     SCOPED_TRACE(std::string(written.extension) + " " + std::to_string(written.type));
-    const std::string bytes = Encoded(cv::Mat(41, 67, written.type, cv::Scalar::all(1)), written.extension);
+    const std::string bytes = EncodedAs(cv::Mat(41, 67, written.type, cv::Scalar::all(1)), written.extension);
     const auto header = ReadPictureHeader(bytes);
     ASSERT_TRUE(header.has_value());
     EXPECT_EQ(header->format, written.format);
@@ -53,7 +53,7 @@ TEST(PictureHeader, SaysWhatOpenCvWrote) {
 TEST(PictureHeader, OfAFileThatEndsAnywhereIsTheSameOrNone) {
   for (const Written& written : kWritten) {
     SCOPED_TRACE(std::string(written.extension) + " " + std::to_string(written.type));
-    const std::string bytes = Encoded(cv::Mat(7, 9, written.type, cv::Scalar::all(1)), written.extension);
+    const std::string bytes = EncodedAs(cv::Mat(7, 9, written.type, cv::Scalar::all(1)), written.extension);
     for (std::size_t size = 0; size <= bytes.size(); ++size) {
       const auto header = ReadPictureHeader(std::string_view(bytes).substr(0, size));
       if (!header || written.format == PictureFormat::kPnm) continue;  // a cut "12" is 1
@@ -63,7 +63,7 @@ TEST(PictureHeader, OfAFileThatEndsAnywhereIsTheSameOrNone) {
 }
 
 TEST(PictureHeader, KnowsATopDownAndAnOldBitmap) {
-  std::string bytes = Encoded(cv::Mat(7, 9, CV_8UC3, cv::Scalar::all(1)), ".bmp");
+  std::string bytes = EncodedAs(cv::Mat(7, 9, CV_8UC3, cv::Scalar::all(1)), ".bmp");
   bytes.replace(22, 4, "\xf9\xff\xff\xff");  // -7
   EXPECT_EQ(ReadPictureHeader(bytes)->height_px, 7);
   EXPECT_EQ(ReadPictureHeader(std::string("BM............\x0c\0\0\0\x09\0\x07\0", 22))->width_px, 9);
@@ -78,7 +78,7 @@ TEST(PictureHeader, IsNoneOfOtherFiles) {
 }
 
 TEST(DecodableBytes, OfAPngAreThoseThatSayItsPixels) {
-  const std::string png = Encoded(cv::Mat(7, 9, CV_8UC3, cv::Scalar::all(1)), ".png");
+  const std::string png = EncodedAs(cv::Mat(7, 9, CV_8UC3, cv::Scalar::all(1)), ".png");
   const std::size_t after_header = 8 + 25;
   std::string with_text = png;
   with_text.insert(after_header, std::string("\0\0\0\4zTXtabcd....", 16));

@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class WritePngTest : public testing::Test {
+class WritePngTest : public ::testing::Test {
  protected:
   void SetUp() override { fs::create_directories(folder_); }
   void TearDown() override { fs::remove_all(folder_); }
@@ -24,8 +24,8 @@ class WritePngTest : public testing::Test {
   }
 
   const fs::path folder_ =
-      fs::path(testing::TempDir()) / ("elbowroom_png_" + std::to_string(::getpid()) + "_" +
-                                      testing::UnitTest::GetInstance()->current_test_info()->name());
+      fs::path(::testing::TempDir()) / ("elbowroom_png_" + std::to_string(::getpid()) + "_" +
+                                        ::testing::UnitTest::GetInstance()->current_test_info()->name());
   const Image image_{3, 2, {255, 0, 0, 0, 255, 0, 0, 0, 255, 10, 20, 30, 40, 50, 60, 70, 80, 90}};
 };
 
