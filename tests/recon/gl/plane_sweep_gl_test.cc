@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "recon/paper_methods/sweep_comparison.h"
 #include "tests/recon/scenes/random_scene.h"
 #include "tests/recon/scenes/sweep_oracle.h"
 #include "tests/support/soak.h"
@@ -66,7 +67,6 @@ TEST(PlaneSweepGl, BothWaysAgreeWithTheCpu) {
     const auto view = RandomView(&random, static_cast<LensKind>(i % kLensKinds), *scene.rig);
     PlaneSweepOptions options;
     options.spacing_mm = 12.0;
-    options.undistortion_grid = i < 6 ? 0 : 5;
     const SweptView cpu = SweepPlanes(*scene.rig, masks, view, options);
     for (const auto passes : {SweepPasses::kOneAPlane, SweepPasses::kOneAPlaneAndCamera}) {
       const SweptView gl = sweep.Sweep(*scene.rig, masks, view, SweepRays(view), options, passes);
@@ -79,6 +79,35 @@ TEST(PlaneSweepGl, BothWaysAgreeWithTheCpu) {
   }
   EXPECT_GT(hits, 5000);
   EXPECT_LT(static_cast<double>(differing), kMostInTheBand * static_cast<double>(hits));
+}
+
+// The grid's positions are interpolated by the graphics card, from corners that are the CPU's.
+TEST(PlaneSweepGl, AGridIsTheCpusButForRounding) {
+  Random random(7205);
+  PlaneSweepGl sweep;
+  std::int64_t hits = 0, differing = 0;
+  for (int i = 0; i < 8; ++i) {
+    const auto unseen = i % 2 == 0 ? core::UnseenPolicy::kOutside : core::UnseenPolicy::kAbstain;
+    const RandomScene scene = MakeRingScene(&random, 3 + i % 3, unseen);
+    const auto masks = WithLevels(&random, scene.masks);
+    const auto view = RandomView(&random, LensKind::kPinhole, *scene.rig);
+    const PlaneSweepOptions options{.spacing_mm = 12.0, .undistortion_grid = 1 + i};
+    const SweptView cpu = SweepPlanes(*scene.rig, masks, view, options);
+    const SweptView gl =
+        sweep.Sweep(*scene.rig, masks, view, SweepRays(view), options, SweepPasses::kOneAPlaneAndCamera);
+    const SweepComparison comparison =
+        CompareSweeps(*scene.rig, masks, view, cpu.picture, gl.picture, options.undistortion_grid);
+    EXPECT_EQ(comparison.unexplained_pixels, 0) << "scene " << i;
+    hits += cpu.picture.hit_pixels;
+    differing += comparison.differing_pixels;
+  }
+  EXPECT_GT(hits, 5000);
+  EXPECT_LT(differing, hits / 50);
+  const RandomScene scene = MakeRingScene(&random, 3, core::UnseenPolicy::kOutside);
+  const auto view = RandomView(&random, LensKind::kPinhole, *scene.rig);
+  EXPECT_THROW((void)sweep.Sweep(*scene.rig, WithLevels(&random, scene.masks), view, SweepRays(view),
+                                 {.undistortion_grid = 5}, SweepPasses::kOneAPlane),
+               core::PreconditionError);
 }
 
 // More cameras than OpenGL has textures at once are asked in groups.
