@@ -212,8 +212,8 @@ void PlaneSweepGl::Impl::UploadGrid(const SweepSpace& space, const PlaneGrid& gr
   for (std::size_t i = 0; i < positions.size(); ++i) {
     for (const Eigen::Vector2d& corner : grid.CornersOf(i)) {
       const Eigen::Vector2d place = (corner + Eigen::Vector2d::Constant(0.5)).cwiseQuotient(picture_px);
-      const Eigen::Vector2d position =
-          positions[i] ? positions[i]->At(corner.x(), corner.y()) - first_texel : Eigen::Vector2d::Zero();
+      Eigen::Vector2d position = Eigen::Vector2d::Zero();
+      if (positions[i]) position = positions[i]->At(corner.x(), corner.y()) - first_texel;
       for (const double number : {place.x(), place.y(), position.x(), position.y(), positions[i] ? 1.0 : 0.0})
         vertices.push_back(static_cast<float>(number));
     }

@@ -322,12 +322,13 @@ TEST(PlaneSweep, AFinerUndistortionGridIsCloserToTheLens) {
 }
 
 // The grid's positions by the definition, pixel by pixel: corners through the lens, barycentric between.
-std::optional<Vector2d> GridPosition(const core::CameraModel& view, const core::CameraModel& camera,
+std::optional<Eigen::Vector2d> GridPosition(const core::CameraModel& view, const core::CameraModel& camera,
                                      int cells, double x, double y, double depth_mm) {
-  const double width = double{view.width_px()} / cells, height = double{view.height_px()} / cells;
+  const double width = static_cast<double>(view.width_px()) / cells,
+               height = static_cast<double>(view.height_px()) / cells;
   const double left = std::floor((x + 0.5) / width), top = std::floor((y + 0.5) / height);
   const double u = (x + 0.5) / width - left, v = (y + 0.5) / height - top;
-  const auto corner = [&](double column, double row) -> std::optional<Vector2d> {
+  const auto corner = [&](double column, double row) -> std::optional<Eigen::Vector2d> {
     const auto ray = view.NormalisedFromPixel({(left + column) * width - 0.5, (top + row) * height - 0.5});
     if (!ray) return std::nullopt;
     return camera.Project(view.cam_from_world().Inverse() * (depth_mm * ray->homogeneous()));
