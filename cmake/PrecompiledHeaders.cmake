@@ -30,6 +30,7 @@ if(ELBOWROOM_PRECOMPILED_HEADERS)
   endif()
   if(ELBOWROOM_TESTS)
     elbowroom_precompiled(precompiled_tests ${_everywhere} <gmock/gmock.h> <gtest/gtest.h>)
+    target_link_libraries(elbowroom_precompiled_tests PRIVATE GTest::gtest)
   endif()
 endif()
 

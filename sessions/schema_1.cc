@@ -1,5 +1,7 @@
 #include "sessions/schema.h"
 
+#include <fmt/format.h>
+
 namespace elbowroom::sessions {
 namespace {
 
@@ -244,6 +246,6 @@ FROM silhouette JOIN frame USING (frame_index) JOIN camera USING (camera_index) 
 
 }  // namespace
 
-std::string Schema1Sql() { return std::string(kSetUp) + kFrames + kViews; }
+std::string Schema1Sql() { return fmt::format("{}{}{}", kSetUp, kFrames, kViews); }
 
 }  // namespace elbowroom::sessions

@@ -1,5 +1,7 @@
 #include "sessions/schema.h"
 
+#include <fmt/format.h>
+
 namespace elbowroom::sessions {
 namespace {
 
@@ -157,6 +159,6 @@ FROM episode e JOIN part p USING (part_index);
 
 }  // namespace
 
-std::string Schema3Sql() { return std::string(kRecovery) + kTables + kViews; }
+std::string Schema3Sql() { return fmt::format("{}{}{}", kRecovery, kTables, kViews); }
 
 }  // namespace elbowroom::sessions

@@ -21,7 +21,7 @@ struct CameraFrame {
   cv::Mat image_bgr;                        // 8-bit, 3 channels; empty where the camera brings ready masks
   std::optional<core::BitMask> ready_mask;  // then there is nothing to segment
   // When a live camera's picture came; nothing for a recorded frame.
-  std::optional<std::chrono::steady_clock::time_point> captured_at;
+  std::optional<std::chrono::steady_clock::time_point> captured_at = std::nullopt;
 };
 
 // What a camera outside of the rig saw (recon/footage/viewer_footage.h).

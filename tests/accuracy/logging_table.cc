@@ -106,7 +106,7 @@ Cost MeasureCost(const control::TrialSetup& setup, const std::vector<recon::Fram
     for (int i = 0; i < kFramesATurn; ++i, ++frame) {
       recon::FrameSet next = pictures[static_cast<std::size_t>(frame % kFramesKept)];
       next.index = frame;
-      next.record.time_s = static_cast<double>(frame) / kFrameRateHz;
+      next.time_s = static_cast<double>(frame) / kFrameRateHz;
       due += std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1.0 / kFrameRateHz));
       if (is_paced) std::this_thread::sleep_until(due);
       const Clock::time_point begin = Clock::now();

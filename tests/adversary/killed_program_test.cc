@@ -86,11 +86,11 @@ TEST(KilledProgram, LeavesEveryFrameThatWasOnTheDisk) {
     std::int64_t frames_before = 0;
     SCOPED_TRACE(std::string(victim.name) + ", kill " + std::to_string(i));
     (void)RunAndKill(victim, session, SIGKILL, random, &frames_before);
-    if (fs::exists(session) && FramesOnDisk(session)) {
-      ExpectSound(session, frames_before);
-    } else {
-      EXPECT_EQ(frames_before, 0);
+    // What a killed program leaves may be a journal to be rolled back, which SQLite can't do read-only.
+    if (frames_before == 0 && !FramesOnDisk(session)) {
       ++without_session;
+    } else {
+      ExpectSound(session, frames_before);
     }
   }
   std::cout << kills << " kills, " << without_session << " before there was a session\n";

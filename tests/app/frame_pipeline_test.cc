@@ -39,11 +39,11 @@ class FramePipelineTest : public testing::Test {
 constexpr core::FrameIndex kTouching = 60;  // the pipe is being lowered
 
 void ExpectSameContacts(const FrameResult& a, const FrameResult& b) {
-  ASSERT_EQ(a.contacts.size(), b.contacts.size());
-  for (std::size_t i = 0; i < a.contacts.size(); ++i) {
-    EXPECT_EQ(a.contacts[i].verdict, b.contacts[i].verdict);
-    EXPECT_EQ(a.contacts[i].contact_area_mm2, b.contacts[i].contact_area_mm2);
-    EXPECT_EQ(a.contacts[i].contact_point_count, b.contacts[i].contact_point_count);
+  ASSERT_EQ(a.record.contacts.size(), b.record.contacts.size());
+  for (std::size_t i = 0; i < a.record.contacts.size(); ++i) {
+    EXPECT_EQ(a.record.contacts[i].verdict, b.record.contacts[i].verdict);
+    EXPECT_EQ(a.record.contacts[i].contact_area_mm2, b.record.contacts[i].contact_area_mm2);
+    EXPECT_EQ(a.record.contacts[i].contact_point_count, b.record.contacts[i].contact_point_count);
   }
 }
 
@@ -77,8 +77,8 @@ TEST_F(FramePipelineTest, OnlyTheMovedPartIsAskedAgain) {
   FramePipeline pipeline = MakePipeline();
   const SharedFrameResult at_140 = pipeline.Process(MasksOf(kTouching), std::vector<double>{kGapInitialMm});
   const SharedFrameResult at_240 = pipeline.Process(MasksOf(kTouching), std::vector<double>{kGapNeededMm});
-  EXPECT_EQ(at_140->contacts[1].verdict, core::Verdict::kContact);
-  EXPECT_EQ(at_240->contacts[1].verdict, core::Verdict::kClear);
+  EXPECT_EQ(at_140->record.contacts[1].verdict, core::Verdict::kContact);
+  EXPECT_EQ(at_240->record.contacts[1].verdict, core::Verdict::kClear);
   EXPECT_EQ(at_240->skipped.unchanged_parts, 2);
 }
 
@@ -129,8 +129,8 @@ TEST_F(FramePipelineTest, ClearanceIsAskedOnlyWhereItIsNotSettled) {
   FramePipeline pipeline = MakePipeline(20.0, layout);
   const std::vector<double> gap = {kGapInitialMm};
   const SharedFrameResult first = pipeline.Process(MasksOf(kTouching), gap);
-  for (const core::PartContact& contact : first->contacts) ASSERT_TRUE(contact.clearance.has_value());
-  EXPECT_EQ(first->contacts[1].verdict, core::Verdict::kContact);
+  for (const core::PartContact& contact : first->record.contacts) ASSERT_TRUE(contact.clearance.has_value());
+  EXPECT_EQ(first->record.contacts[1].verdict, core::Verdict::kContact);
   EXPECT_EQ(first->skipped.clearances_by_contact, 1);
   EXPECT_EQ(first->skipped.clearances_by_ball, 1);
   EXPECT_GT(first->skipped.clearance_queries, 2) << "the PMT box had to be searched for";
@@ -138,9 +138,9 @@ TEST_F(FramePipelineTest, ClearanceIsAskedOnlyWhereItIsNotSettled) {
   EXPECT_EQ(again->skipped.unchanged_parts, 3);
   EXPECT_EQ(again->skipped.clearance_queries, 0);
   for (std::size_t i = 0; i < 3; ++i) {
-    EXPECT_EQ(again->contacts[i].verdict, first->contacts[i].verdict);
-    EXPECT_EQ(again->contacts[i].clearance->interval.upper_mm,
-              first->contacts[i].clearance->interval.upper_mm);
+    EXPECT_EQ(again->record.contacts[i].verdict, first->record.contacts[i].verdict);
+    EXPECT_EQ(again->record.contacts[i].clearance->interval.upper_mm,
+              first->record.contacts[i].clearance->interval.upper_mm);
   }
 }
 
@@ -152,8 +152,8 @@ TEST_F(FramePipelineTest, ClearanceWarmedByTheLastFrameIsAsTrue) {
     FramePipeline cold = MakePipeline(40.0);
     const SharedFrameResult a = warm.Process(MasksOf(frame), gap), b = cold.Process(MasksOf(frame), gap);
     for (std::size_t i = 0; i < 3; ++i) {
-      EXPECT_LE(a->contacts[i].clearance->interval.lower_mm, b->contacts[i].clearance->interval.upper_mm);
-      EXPECT_LE(b->contacts[i].clearance->interval.lower_mm, a->contacts[i].clearance->interval.upper_mm);
+      EXPECT_LE(a->record.contacts[i].clearance->interval.lower_mm, b->record.contacts[i].clearance->interval.upper_mm);
+      EXPECT_LE(b->record.contacts[i].clearance->interval.lower_mm, a->record.contacts[i].clearance->interval.upper_mm);
     }
     warm_queries += a->skipped.clearance_queries;
     cold_queries += b->skipped.clearance_queries;

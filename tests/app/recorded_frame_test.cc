@@ -98,7 +98,7 @@ TEST_F(RecordedFrameTest, ABoundaryThatMovesBetweenTwoPixelsIsAChange) {
   recon::FrameSet frames = source_.Read(kTouching);
   const SharedFrameResult first = pipeline_.Process(frames, gap_);
   // Other grey levels in one pixel that is neither all object nor nearly background: no label changes.
-  const core::SoftMask& before = (*first->masks)[2];
+  const core::SoftMask& before = (*first->record.masks)[2];
   const core::BitMask boundary = core::BoundaryPixels(before.mask);
   cv::Mat picture = frames.cameras[2].image_bgr.clone();
   std::size_t next = 0;
@@ -113,8 +113,8 @@ TEST_F(RecordedFrameTest, ABoundaryThatMovesBetweenTwoPixelsIsAChange) {
   }
   frames.cameras[2].image_bgr = picture;
   const SharedFrameResult second = pipeline_.Process(frames, gap_);
-  ASSERT_EQ((*second->masks)[2].mask, before.mask);
-  ASSERT_NE((*second->masks)[2].levels, before.levels);
+  ASSERT_EQ((*second->record.masks)[2].mask, before.mask);
+  ASSERT_NE((*second->record.masks)[2].levels, before.levels);
   EXPECT_EQ(second->skipped.hull.unchanged_silhouettes, 3);
   EXPECT_EQ(second->skipped.segmentation.pixels, 4 * 640 * 480);
   EXPECT_GT(second->skipped.segmentation.skipped_pixels, 4 * 640 * 480 / 4) << "most of the table is empty";

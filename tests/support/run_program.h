@@ -15,10 +15,18 @@ struct ProgramRun {
   std::string err;      // on stderr
 };
 
+// How many times as long programs may take in this build: a demo takes six times as long under
+// AddressSanitizer.
+#ifdef __SANITIZE_ADDRESS__
+inline constexpr double kSlowdown = 6.0;
+#else
+inline constexpr double kSlowdown = 1.0;
+#endif
+
 struct RunOptions {
   std::filesystem::path working_folder{};            // empty: the test's own
   std::map<std::string, std::string> environment{};  // set beside the test's own
-  double timeout_s = 300.0;
+  double timeout_s = 300.0 * kSlowdown;
   // Called on a thread of its own with the program's process id once it runs; waited for before it is reaped.
   std::function<void(int process)> while_running{};
 };
