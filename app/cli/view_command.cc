@@ -47,10 +47,11 @@ struct HullSeen {
   nlohmann::json counts = nlohmann::json::object();
 };
 
-HullSeen Seen(recon::SweptView swept, double spacing_mm) {
+HullSeen Seen(recon::SweptView swept, const recon::PlaneSweepOptions& options) {
   return {std::move(swept.picture),
           {},
-          {{"spacing_mm", spacing_mm},
+          {{"spacing_mm", options.spacing_mm},
+           {"undistortion_grid", options.undistortion_grid},
            {"planes", swept.stats.planes},
            {"tested_points", swept.stats.tested_points},
            {"skipped_points", swept.stats.skipped_points}}};
@@ -76,11 +77,10 @@ class Viewer {
 
   [[nodiscard]] HullSeen See() {
     if (options_.method == kSweep)
-      return Seen(recon::SweepPlanes(*frame_.rig, frame_.masks, view_, *sweep_rays_, sweep_),
-                  sweep_.spacing_mm);
+      return Seen(recon::SweepPlanes(*frame_.rig, frame_.masks, view_, *sweep_rays_, sweep_), sweep_);
     if (options_.method == kSweepGl) {
-      HullSeen seen = Seen(gl_->Sweep(*frame_.rig, frame_.masks, view_, *sweep_rays_, sweep_, Passes()),
-                           sweep_.spacing_mm);
+      HullSeen seen =
+          Seen(gl_->Sweep(*frame_.rig, frame_.masks, view_, *sweep_rays_, sweep_, Passes()), sweep_);
       seen.counts["driver"] = gl_->driver();
       return seen;
     }

@@ -7,6 +7,33 @@
 namespace elbowroom::recon {
 
 using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+namespace {
+
+// The place of a point in the camera's picture plane, homogeneous; any point has one, also behind the camera.
+Vector3d PlaceOf(const core::CameraModel& camera, const Vector3d& x_in_cam) {
+  const Vector2d across_mm = x_in_cam.head<2>();
+  const double from_axis_mm = across_mm.norm(), z_mm = x_in_cam.z(), domain = camera.max_radius();
+  if (z_mm > 0.0 && from_axis_mm <= domain * z_mm)
+    return z_mm * camera.PixelFromNormalised(across_mm / z_mm).homogeneous();
+  const Vector2d center_px = camera.PixelFromNormalised(Vector2d::Zero());
+  Vector2d from_center = Vector2d::Zero();  // of the picture, in px times mm
+  if (from_axis_mm > 0.0)
+    from_center =
+        from_axis_mm / domain * (camera.PixelFromNormalised(domain / from_axis_mm * across_mm) - center_px);
+  const Vector2d place = z_mm * center_px + from_center;
+  return {place.x(), place.y(), z_mm};
+}
+
+}  // namespace
+
+GridTriangle GridTriangle::CountedFrom(const Vector2d& place_px) const {
+  const auto counted = [&](const Vector3d& h) {
+    return Vector3d(h.x() - place_px.x() * h.z(), h.y() - place_px.y() * h.z(), h.z());
+  };
+  return {counted(origin), counted(along_x), counted(along_y)};
+}
 
 PlaneGrid::PlaneGrid(const core::CameraModel& view, int cells)
     : cells_(cells), cell_px_(Vector2d(view.width_px(), view.height_px()) / cells) {
@@ -44,14 +71,15 @@ std::array<Vector2d, 3> PlaneGrid::CornersOf(std::size_t triangle) const {
 
 std::vector<std::optional<GridTriangle>> PlaneGrid::PositionsOf(const SweepCamera& camera,
                                                                 double depth_mm) const {
-  std::vector<std::optional<Vector2d>> positions(rays_.size());
-  for (std::size_t i = 0; i < rays_.size(); ++i)
+  std::vector<std::optional<Vector3d>> positions(rays_.size());
+  for (std::size_t i = 0; i < rays_.size(); ++i) {
     if (rays_[i])
-      positions[i] = camera.model.ProjectInCam(camera.cam_from_view * (depth_mm * rays_[i]->homogeneous()));
+      positions[i] = PlaceOf(camera.model, camera.cam_from_view * (depth_mm * rays_[i]->homogeneous()));
+  }
   std::vector<std::optional<GridTriangle>> result(triangles());
   for (std::size_t i = 0; i < result.size(); ++i) {
     const auto nodes = NodesOf(i);
-    const auto at = [&](std::size_t corner) -> const std::optional<Vector2d>& {
+    const auto at = [&](std::size_t corner) -> const std::optional<Vector3d>& {
       return positions[NodeIndex(nodes[corner].x(), nodes[corner].y())];
     };
     if (!at(0) || !at(1) || !at(2)) continue;
@@ -61,7 +89,7 @@ std::vector<std::optional<GridTriangle>> PlaneGrid::PositionsOf(const SweepCamer
     triangle.along_x = sense * (*at(1) - *at(0)) / cell_px_.x();
     triangle.along_y = sense * (*at(2) - *at(0)) / cell_px_.y();
     const Vector2d corner = NodePx(nodes[0].x(), nodes[0].y());
-    triangle.origin_px = *at(0) - corner.x() * triangle.along_x - corner.y() * triangle.along_y;
+    triangle.origin = *at(0) - corner.x() * triangle.along_x - corner.y() * triangle.along_y;
     result[i] = triangle;
   }
   return result;

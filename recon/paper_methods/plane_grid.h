@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <array>
 #include <cstddef>
 #include <optional>
@@ -12,17 +13,27 @@
 
 namespace elbowroom::recon {
 
-// The picture positions of one camera over one triangle of a plane: linear in the view's pixel (x, y).
+// The picture positions of one camera over one triangle of a plane, as a projected texture has them: linear
+// in the view's pixel (x, y) in homogeneous coordinates (position in px times z, z), where z is the depth in
+// the camera. So a camera without lens is exact everywhere.
 struct GridTriangle {
-  Eigen::Vector2d origin_px = Eigen::Vector2d::Zero();
-  Eigen::Vector2d along_x = Eigen::Vector2d::Zero();  // px of the camera for a pixel of the view
-  Eigen::Vector2d along_y = Eigen::Vector2d::Zero();
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();
+  Eigen::Vector3d along_x = Eigen::Vector3d::Zero();  // for a pixel of the view
+  Eigen::Vector3d along_y = Eigen::Vector3d::Zero();
 
-  [[nodiscard]] Eigen::Vector2d At(double x, double y) const { return origin_px + x * along_x + y * along_y; }
+  // Nothing behind the camera.
+  [[nodiscard]] std::optional<Eigen::Vector2d> At(double x, double y) const {
+    const Eigen::Vector3d position = origin + x * along_x + y * along_y;
+    if (!(position.z() > 0.0)) return std::nullopt;
+    return position.hnormalized();
+  }
+
+  // The same, positions counted from a place of the picture.
+  [[nodiscard]] GridTriangle CountedFrom(const Eigen::Vector2d& place_px) const;
 };
 
 // Divides the view's picture, and with it every plane in front of the view, into `cells` x `cells` cells of
-// two triangles each. Paper, "Volume-Querying, Implementation": "Each plane is subdivided into a regular
+// two triangles each. Paper, "Implementation" of the reconstruction: "Each plane is subdivided into a regular
 // grid, and undistorted texture coordinates at the grid points are computed in software". Triangle 2 i is the
 // upper left half of cell i, triangle 2 i + 1 the lower right half; cells count row by row. Immutable.
 // Thread: any.
@@ -40,9 +51,10 @@ class PlaneGrid {
   // the triangle doesn't share with the cell's other half.
   [[nodiscard]] std::array<Eigen::Vector2d, 3> CornersOf(std::size_t triangle) const;
 
-  // One a triangle, for the plane at `depth_mm` along the view's z axis: exact at the corners, linear
-  // between. Nothing where a corner has no ray in the view, or no place in the camera's picture plane: such a
-  // triangle counts as exterior.
+  // One a triangle, for the plane at `depth_mm` along the view's z axis: exact at the corners. Beyond the
+  // lens's domain, which ends just outside of the picture, the lens goes on with the magnification of the
+  // domain's rim, so that triangles across the picture's border keep their positions. Nothing where a corner
+  // has no ray in the view: such a triangle counts as exterior.
   [[nodiscard]] std::vector<std::optional<GridTriangle>> PositionsOf(const SweepCamera& camera,
                                                                      double depth_mm) const;
 

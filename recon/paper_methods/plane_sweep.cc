@@ -204,7 +204,7 @@ class RootSweep {
   std::int64_t tested_points_ = 0;
 };
 
-// The sweep with picture positions from a grid. A position between the grid's corners has no bound that
+// The sweep with picture positions from a grid. A position between the corners of a cell has no bound that
 // follows from the lens, so nothing is settled for many pixels at once: plane by plane, each pixel without a
 // hit is asked.
 class GridSweep {
@@ -297,8 +297,8 @@ class GridSweep {
       if (marks.open[i] * marks.seen[i] != 0.0F) tile->depth_mm[i] = static_cast<float>(depth_mm);
   }
 
-  // A camera whose picture positions are linear over the tile: an ideal one at depth 1. Without positions it
-  // is behind the camera, which is exterior.
+  // A camera without lens, whose points in its frame are the positions in homogeneous coordinates. Without
+  // positions they are behind the camera, which is exterior.
   [[nodiscard]] SweepAsker AskerOn(std::size_t camera, const std::optional<GridTriangle>& positions,
                                    const Tile& tile) const {
     SweepAsker asker = askers_[camera];
@@ -306,18 +306,18 @@ class GridSweep {
     asker.max_radius_squared = std::numeric_limits<float>::infinity();
     asker.fx = asker.fy = 1.0F;
     asker.skew = asker.cx = asker.cy = 0.0F;
-    asker.origin = {0.0F, 0.0F, positions ? 1.0F : -1.0F};
+    asker.origin = {0.0F, 0.0F, -1.0F};
+    asker.along_x = asker.along_y = {0.0F, 0.0F, 0.0F};
     if (!positions) return asker;
     const CoverageTexture& coverage = space_.cameras()[camera].coverage;
-    const Eigen::Vector2d origin =
-        positions->At(tile.x0, tile.y0) - Eigen::Vector2d(coverage.left_px, coverage.top_px);
-    for (std::size_t axis = 0; axis < 2; ++axis) {
+    const GridTriangle counted = positions->CountedFrom({coverage.left_px, coverage.top_px});
+    const Eigen::Vector3d origin = counted.origin + tile.x0 * counted.along_x + tile.y0 * counted.along_y;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
       const auto i = static_cast<Eigen::Index>(axis);
       asker.origin[axis] = static_cast<float>(origin[i]);
-      asker.along_x[axis] = static_cast<float>(positions->along_x[i]);
-      asker.along_y[axis] = static_cast<float>(positions->along_y[i]);
+      asker.along_x[axis] = static_cast<float>(counted.along_x[i]);
+      asker.along_y[axis] = static_cast<float>(counted.along_y[i]);
     }
-    asker.along_x[2] = asker.along_y[2] = 0.0F;
     return asker;
   }
 

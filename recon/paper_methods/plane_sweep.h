@@ -18,8 +18,8 @@ struct PlaneSweepOptions {
   double near_mm = 0.0;
   double far_mm = 1e9;
   // 0: every point goes through the cameras' lenses. n >= 1: every plane is divided into n x n cells (the
-  // paper: 5), whose corners alone go through the lenses; positions are linear between (plane_grid.h). The
-  // picture is off by the grid's error. Every plane is then asked point by point.
+  // paper: 5), whose corners alone go through the lenses; between them the picture is projected without lens
+  // (plane_grid.h). The result is off by the grid's error. Every plane is then asked point by point.
   int undistortion_grid = 0;
   // CPU only. False: the plain sweep, for comparison. It leaves out tiles that show no hull and ends a tile
   // when all its pixels are hit, but asks every plane point by point. The picture is the same.

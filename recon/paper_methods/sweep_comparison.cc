@@ -27,7 +27,8 @@ class GridRounding {
     const std::size_t triangle = grid_.TriangleOf(x, y);
     for (std::size_t i = 0; i < cameras_.size(); ++i) {
       const std::optional<GridTriangle>& of_camera = positions[i][triangle];
-      if (of_camera && IsMatterOfRounding(cameras_[i], of_camera->At(x, y))) return true;
+      const std::optional<Eigen::Vector2d> position = of_camera ? of_camera->At(x, y) : std::nullopt;
+      if (position && IsMatterOfRounding(cameras_[i], *position)) return true;
     }
     return false;
   }

@@ -202,19 +202,22 @@ void PlaneSweepGl::Impl::SetUp(const SweepSpace& space, const core::CameraModel&
     SetCamera(program, space.cameras()[pass.first_camera + i], i);
 }
 
-// The corners of all cells go through the camera's lens here; the graphics card interpolates between.
+// The corners of all cells go through the camera's lens here; the graphics card interpolates between them and
+// divides. Where there are no positions all three numbers are 0.
 void PlaneSweepGl::Impl::UploadGrid(const SweepSpace& space, const PlaneGrid& grid, const SweepCamera& camera,
                                     double depth_mm) {
   const auto positions = grid.PositionsOf(camera, depth_mm);
-  const Eigen::Vector2d picture_px(space.rays().width_px(), space.rays().height_px()),
-      first_texel(camera.coverage.left_px, camera.coverage.top_px);
+  const Eigen::Vector2d picture_px(space.rays().width_px(), space.rays().height_px());
   std::vector<float> vertices;
   for (std::size_t i = 0; i < positions.size(); ++i) {
+    GridTriangle from_texels;
+    if (positions[i])
+      from_texels = positions[i]->CountedFrom({camera.coverage.left_px, camera.coverage.top_px});
     for (const Eigen::Vector2d& corner : grid.CornersOf(i)) {
       const Eigen::Vector2d place = (corner + Eigen::Vector2d::Constant(0.5)).cwiseQuotient(picture_px);
-      Eigen::Vector2d position = Eigen::Vector2d::Zero();
-      if (positions[i]) position = positions[i]->At(corner.x(), corner.y()) - first_texel;
-      for (const double number : {place.x(), place.y(), position.x(), position.y(), positions[i] ? 1.0 : 0.0})
+      const Eigen::Vector3d position =
+          from_texels.origin + corner.x() * from_texels.along_x + corner.y() * from_texels.along_y;
+      for (const double number : {place.x(), place.y(), position.x(), position.y(), position.z()})
         vertices.push_back(static_cast<float>(number));
     }
   }

@@ -78,8 +78,8 @@ vec2 Position_@(vec3 ray, out bool in_domain) {
 constexpr const char* kGridPositionSource = R"(
 in vec3 picture_position;
 vec2 Position_@(vec3 ray, out bool in_domain) {
-  in_domain = picture_position.z > 0.5;
-  return picture_position.xy;
+  in_domain = picture_position.z > 0.0;
+  return in_domain ? picture_position.xy / picture_position.z : vec2(0.0);
 }
 )";
 

@@ -46,8 +46,8 @@ struct SweepShader {
 [[nodiscard]] std::string SweepVertexSource();
 
 // Triangles of recon::PlaneGrid at window depth `plane_depth`. Attributes: position in the view's picture, 0
-// to 1; then position in the camera's, counted from its coverage's first texel, and 1, or 0 where there is
-// none.
+// to 1; then that in the camera's, homogeneous (recon::GridTriangle), counted from its coverage's first
+// texel; zero where there is none.
 [[nodiscard]] std::string GridVertexSource();
 
 // Triangles in viewports of a page of `page_px`. Attributes: position on the page and its viewport's lower

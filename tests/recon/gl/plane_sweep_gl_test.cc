@@ -28,10 +28,11 @@ std::vector<core::SoftMask> WithLevels(Random* random, const std::vector<core::B
 
 // Both pictures against the oracle: where they differ, the oracle is unsure.
 void ExpectOracles(Random* random, const RandomScene& scene, const core::CameraModel& view,
-                   SweepPasses passes, PlaneSweepGl* sweep, const PlaneSweepOptions& options, int* hits) {
+                   SweepPasses passes, PlaneSweepGl* sweep, const PlaneSweepOptions& options, int* hits,
+                   const SweepBand& band = kGlBand) {
   const auto masks = WithLevels(random, scene.masks);
   const SweptView swept = sweep->Sweep(*scene.rig, masks, view, SweepRays(view), options, passes);
-  const SweepCheck check = CheckSweep(*scene.rig, masks, view, options, swept.picture, kGlBand);
+  const SweepCheck check = CheckSweep(*scene.rig, masks, view, options, swept.picture, band);
   ASSERT_EQ(check.wrong_pixels, 0) << check.first_wrong;
   EXPECT_EQ(swept.picture.hit_pixels, check.hit_pixels);
   *hits += check.hit_pixels;
@@ -82,16 +83,35 @@ TEST(PlaneSweepGl, BothWaysAgreeWithTheCpu) {
 }
 
 // The grid's positions are interpolated by the graphics card, from corners that are the CPU's.
-TEST(PlaneSweepGl, AGridIsTheCpusButForRounding) {
+TEST(PlaneSweepGl, AGridIsWhatItsPositionsSay) {
   Random random(7205);
   PlaneSweepGl sweep;
-  std::int64_t hits = 0, differing = 0;
-  for (int i = 0; i < 8; ++i) {
+  // Corners are drawn to 8 bits of a pixel by Mesa, to 4 at least by any driver.
+  SweepBand band = kGlBand;
+  band.corner_px = 1.0 / 256.0;
+  int hits = 0;
+  for (int i = 0; i < 12; ++i) {
     const auto unseen = i % 2 == 0 ? core::UnseenPolicy::kOutside : core::UnseenPolicy::kAbstain;
     const RandomScene scene = MakeRingScene(&random, 3 + i % 3, unseen);
+    const auto view = RandomView(&random, static_cast<LensKind>(i % kLensKinds), *scene.rig);
+    const PlaneSweepOptions options{.spacing_mm = 12.0, .undistortion_grid = 1 + i % 8};
+    ExpectOracles(&random, scene, view, SweepPasses::kOneAPlaneAndCamera, &sweep, options, &hits, band);
+    if (HasFatalFailure()) FAIL() << "scene " << i;
+  }
+  EXPECT_GT(hits, 5000);
+}
+
+// As the self-test compares them.
+TEST(PlaneSweepGl, AGridIsTheCpusButForRounding) {
+  constexpr double kMostInTheBand = 0.02;  // of the hit pixels
+  Random random(7206);
+  PlaneSweepGl sweep;
+  std::int64_t hits = 0, differing = 0;
+  for (int i = 0; i < 6; ++i) {
+    const RandomScene scene = MakeRingScene(&random, 3, core::UnseenPolicy::kOutside);
     const auto masks = WithLevels(&random, scene.masks);
     const auto view = RandomView(&random, LensKind::kPinhole, *scene.rig);
-    const PlaneSweepOptions options{.spacing_mm = 12.0, .undistortion_grid = 1 + i};
+    const PlaneSweepOptions options{.spacing_mm = 12.0, .undistortion_grid = 5};
     const SweptView cpu = SweepPlanes(*scene.rig, masks, view, options);
     const SweptView gl =
         sweep.Sweep(*scene.rig, masks, view, SweepRays(view), options, SweepPasses::kOneAPlaneAndCamera);
@@ -101,8 +121,13 @@ TEST(PlaneSweepGl, AGridIsTheCpusButForRounding) {
     hits += cpu.picture.hit_pixels;
     differing += comparison.differing_pixels;
   }
-  EXPECT_GT(hits, 5000);
-  EXPECT_LT(differing, hits / 50);
+  EXPECT_GT(hits, 3000);
+  EXPECT_LT(static_cast<double>(differing), kMostInTheBand * static_cast<double>(hits));
+}
+
+TEST(PlaneSweepGl, AGridBelongsToThePapersPasses) {
+  Random random(7207);
+  PlaneSweepGl sweep;
   const RandomScene scene = MakeRingScene(&random, 3, core::UnseenPolicy::kOutside);
   const auto view = RandomView(&random, LensKind::kPinhole, *scene.rig);
   EXPECT_THROW((void)sweep.Sweep(*scene.rig, WithLevels(&random, scene.masks), view, SweepRays(view),
