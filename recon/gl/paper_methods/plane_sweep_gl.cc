@@ -112,7 +112,9 @@ class PlaneSweepGl::Impl {
   [[nodiscard]] Pass PassOf(const SweepSpace& space, SweepPass kind, std::size_t first, std::size_t count,
                             bool has_grid);
   void SetUp(const SweepSpace& space, const core::CameraModel& view, const Pass& pass) const;
-  void Draw(const SweepSpace& space, const PlaneGrid* grid, const Pass& pass, int plane, GLuint wanted_count);
+  // Returns the number of triangles drawn, which cover the picture together.
+  std::size_t Draw(const SweepSpace& space, const PlaneGrid* grid, const Pass& pass, int plane,
+                   GLuint wanted_count);
   void UploadGrid(const SweepSpace& space, const PlaneGrid& grid, const SweepCamera& camera, double depth_mm);
   [[nodiscard]] DepthMap ReadPicture(const SweepSpace& space) const;
 
@@ -224,8 +226,8 @@ void PlaneSweepGl::Impl::UploadGrid(const SweepSpace& space, const PlaneGrid& gr
   grid_triangles_.Upload(vertices, Refill::kEachFrame);
 }
 
-void PlaneSweepGl::Impl::Draw(const SweepSpace& space, const PlaneGrid* grid, const Pass& pass, int plane,
-                              GLuint wanted_count) {
+std::size_t PlaneSweepGl::Impl::Draw(const SweepSpace& space, const PlaneGrid* grid, const Pass& pass,
+                                     int plane, GLuint wanted_count) {
   const ShaderProgram& program = *pass.program;
   const double depth_mm = space.DepthMmOf(plane);
   program.Use();
@@ -244,9 +246,10 @@ void PlaneSweepGl::Impl::Draw(const SweepSpace& space, const PlaneGrid* grid, co
   if (grid != nullptr && pass.cameras == 1) {
     UploadGrid(space, *grid, space.cameras()[pass.first_camera], depth_mm);
     grid_triangles_.Draw(GL_TRIANGLES);
-  } else {
-    corners_.Draw(GL_TRIANGLES, 3);
+    return grid->triangles();
   }
+  corners_.Draw(GL_TRIANGLES, 3);
+  return 1;
 }
 
 DepthMap PlaneSweepGl::Impl::ReadPicture(const SweepSpace& space) const {
@@ -300,9 +303,14 @@ SweptView PlaneSweepGl::Impl::Sweep(const SweepSpace& space, const core::CameraM
       if (rect.isEmpty()) continue;
       glScissor(rect.min().x(), rect.min().y(), rect.sizes().x(), rect.sizes().y());
     }
-    swept.stats.tested_points +=
+    const std::int64_t covered =
         is_cut ? std::int64_t{(*survey)[plane].sizes().x()} * (*survey)[plane].sizes().y() : pixels;
-    for (const Pass& pass : order) Draw(space, grid ? &*grid : nullptr, pass, plane, wanted);
+    swept.stats.tested_points += covered;
+    for (const Pass& pass : order) {
+      swept.stats.drawn_triangles +=
+          static_cast<std::int64_t>(Draw(space, grid ? &*grid : nullptr, pass, plane, wanted));
+      swept.stats.filled_pixels += covered;
+    }
   }
   swept.picture = ReadPicture(space);
   ThrowOnGlError(context_.renderer());

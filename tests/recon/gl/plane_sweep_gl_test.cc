@@ -125,6 +125,25 @@ TEST(PlaneSweepGl, AGridIsTheCpusButForRounding) {
   EXPECT_LT(static_cast<double>(differing), kMostInTheBand * static_cast<double>(hits));
 }
 
+// The paper's formulas, but for the last draw of a plane, which takes one triangle here and two there.
+TEST(PlaneSweepGl, CountsItsWorkAsThePaperDoes) {
+  constexpr std::int64_t kCameras = 3, kCells = 5;
+  Random random(7208);
+  PlaneSweepGl sweep;
+  const RandomScene scene = MakeRingScene(&random, kCameras, core::UnseenPolicy::kOutside);
+  const auto masks = WithLevels(&random, scene.masks);
+  const auto view = RandomView(&random, LensKind::kPinhole, *scene.rig);
+  const SweptView paper = sweep.Sweep(*scene.rig, masks, view, SweepRays(view), {.undistortion_grid = kCells},
+                                      SweepPasses::kOneAPlaneAndCamera);
+  const std::int64_t pixels = std::int64_t{view.width_px()} * view.height_px();
+  ASSERT_GT(paper.stats.planes, 5);
+  EXPECT_EQ(paper.stats.drawn_triangles, (2 * kCameras * kCells * kCells + 1) * paper.stats.planes);
+  EXPECT_EQ(paper.stats.filled_pixels, (kCameras + 1) * paper.stats.planes * pixels);
+  const SweptView cut = sweep.Sweep(*scene.rig, masks, view, SweepRays(view));
+  EXPECT_LE(cut.stats.drawn_triangles, paper.stats.planes);
+  EXPECT_EQ(cut.stats.filled_pixels, cut.stats.tested_points);
+}
+
 TEST(PlaneSweepGl, AGridBelongsToThePapersPasses) {
   Random random(7207);
   PlaneSweepGl sweep;
