@@ -35,6 +35,7 @@ struct ViewOptions {
   std::filesystem::path camera;
   std::string method = kExact;
   std::optional<double> spacing_mm;
+  int undistortion_grid = 0;
   std::filesystem::path depth;
   std::filesystem::path image;
 };
@@ -46,10 +47,11 @@ struct HullSeen {
   nlohmann::json counts = nlohmann::json::object();
 };
 
-HullSeen Seen(recon::SweptView swept, double spacing_mm) {
+HullSeen Seen(recon::SweptView swept, const recon::PlaneSweepOptions& options) {
   return {std::move(swept.picture),
           {},
-          {{"spacing_mm", spacing_mm},
+          {{"spacing_mm", options.spacing_mm},
+           {"undistortion_grid", options.undistortion_grid},
            {"planes", swept.stats.planes},
            {"tested_points", swept.stats.tested_points},
            {"skipped_points", swept.stats.skipped_points}}};
@@ -70,15 +72,15 @@ class Viewer {
     if (options.method != kExact) sweep_rays_.emplace(view);
     if (options.method == kSweepGl) gl_.emplace();
     if (options.spacing_mm) sweep_.spacing_mm = *options.spacing_mm;
+    sweep_.undistortion_grid = options.undistortion_grid;
   }
 
   [[nodiscard]] HullSeen See() {
     if (options_.method == kSweep)
-      return Seen(recon::SweepPlanes(*frame_.rig, frame_.masks, view_, *sweep_rays_, sweep_),
-                  sweep_.spacing_mm);
+      return Seen(recon::SweepPlanes(*frame_.rig, frame_.masks, view_, *sweep_rays_, sweep_), sweep_);
     if (options_.method == kSweepGl) {
       HullSeen seen =
-          Seen(gl_->Sweep(*frame_.rig, frame_.masks, view_, *sweep_rays_, sweep_), sweep_.spacing_mm);
+          Seen(gl_->Sweep(*frame_.rig, frame_.masks, view_, *sweep_rays_, sweep_, Passes()), sweep_);
       seen.counts["driver"] = gl_->driver();
       return seen;
     }
@@ -87,6 +89,12 @@ class Viewer {
   }
 
  private:
+  // A grid goes with the paper's passes.
+  [[nodiscard]] recon::gl::SweepPasses Passes() const {
+    return sweep_.undistortion_grid > 0 ? recon::gl::SweepPasses::kOneAPlaneAndCamera
+                                        : recon::gl::SweepPasses::kOneAPlane;
+  }
+
   const ViewOptions& options_;
   const RigFrame& frame_;
   const core::CameraModel& view_;
@@ -176,12 +184,22 @@ void AddViewCommand(CLI::App& app, Choice* choice) {
       ->capture_default_str();
   command->add_option("--spacing", options->spacing_mm, "between a sweep's planes, mm (default: 15)")
       ->check(PositiveLength());
+  command
+      ->add_option(
+          "--undistortion-grid", options->undistortion_grid,
+          "cells a side into which a sweep divides each plane: only their corners go through the lenses "
+          "(the paper: 5; 0: every point does)")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
   command->add_option("--depth", options->depth, "depths to write (.tiff: 32-bit float, mm, 0: nothing)")
       ->required();
   command->add_option("--image", options->image, "picture to write (.png)");
   command->callback([=, &app] {
     if (options->spacing_mm && options->method == kExact)
       throw CLI::ValidationError("--spacing",
+                                 "is for --method sweep and sweep-gl; the exact view has no planes");
+    if (options->undistortion_grid > 0 && options->method == kExact)
+      throw CLI::ValidationError("--undistortion-grid",
                                  "is for --method sweep and sweep-gl; the exact view has no planes");
     const bool json = app.get_option("--json")->as<bool>();
     choice->action = [=](const CommandContext& context) { return Run(*options, context, json); };

@@ -13,7 +13,7 @@ inline constexpr double kWellRadiusMm = 50.0;  // the receptacle, about the box'
 inline constexpr double kWellDepthMm = 100.0;
 inline constexpr double kOutletHeightMm = 8.0;  // boss on the well's floor
 inline constexpr double kGapInitialMm = 140.0;  // the paper: before the tongs came
-inline constexpr double kGapNeededMm = 240.0;   // what the task needs with tongs
+inline constexpr double kGapNeededMm = 240.0;   // the paper: with tongs, on average
 
 // Part frame of each: z up, z = 0 at its lower side, x = y = 0 in its middle. Closed, oriented outwards.
 [[nodiscard]] core::TriangleMesh PmtBox();

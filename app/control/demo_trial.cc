@@ -12,6 +12,8 @@ namespace {
 
 // Between the parts on one side and the hand and its tools on the other.
 constexpr double kRequiredClearanceMm = 15.0;
+// The paper knows of the designers' guesses that they were 5.6 cm too little on average.
+constexpr double kEstimateMm = kGapNeededMm - 56.0;
 
 // When the simulated hand takes up the tongs and lays them down.
 std::vector<ScriptedChange> ToolChanges(core::FrameIndex frames, double frame_rate_hz) {
@@ -34,7 +36,7 @@ TrialSetup MakeDemoTrial(DemoPlay play) {
   TrialSetup setup;
   setup.info = {.participant = "simulated hand",
                 .task = "screw the pipe into the PMT box, then plug the power cable in with tongs",
-                .estimate_mm = kGapInitialMm,
+                .estimate_mm = kEstimateMm,
                 .required_clearance_mm = kRequiredClearanceMm,
                 .tools = {"tongs"},
                 .uncertainty_mm = 0.0};

@@ -25,9 +25,9 @@ struct SelfTestReport {
 };
 
 // The demo's hand before a built-in rig, by OpenGL and by the processor: the plane sweep in both ways of
-// OpenGL, with and without undistortion grid; the exact views (TestExactViews); the collision with the demo's
-// PMT box by the paper's viewports, whose samples count as pixels. Throws: core::Error{kGraphics} when
-// nothing can be drawn at all.
+// OpenGL, in the paper's also with an undistortion grid; the exact views (TestExactViews); the collision with
+// the demo's PMT box by the paper's viewports, whose samples count as pixels. Throws: core::Error{kGraphics}
+// when nothing can be drawn at all.
 [[nodiscard]] SelfTestReport RunSelfTest();
 
 // Compares exact views made by `graphics` with those of recon::ViewHull: perspective without and with a lens,

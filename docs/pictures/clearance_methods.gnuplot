@@ -32,12 +32,12 @@ set offsets graph 0.08, graph 0.28, graph 0.15, graph 0.1
 set terminal svg size 900,560 font 'Sans,15' background rgb 'white'
 set output 'clearance_methods.svg'
 set multiplot layout 1,1
-set title 'Clearance of the curtain, 5 to 60 mm: run time against error'
+set title 'Clearance of the panel, 5 to 60 mm: run time against error'
 plot $all0_0 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#0072B2' title 'hull mesh and FCL', $grey0_0 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all0_0 using 1:2:3 with labels center offset 0,0.9 tc rgb '#0072B2' notitle, $all0_1 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#D55E00' title 'certified clearance', $grey0_1 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all0_1 using 1:2:3 with labels left rotate by 25 offset 0.7,0.5 tc rgb '#D55E00' notitle, NaN with points pt 7 ps 1.4 lc rgb '#b8b8b8' title 'dominated by another setting or method'
 unset multiplot
 set terminal pngcairo size 1350,840 font 'Sans,17'
 set output 'clearance_methods.png'
 set multiplot layout 1,1
-set title 'Clearance of the curtain, 5 to 60 mm: run time against error'
+set title 'Clearance of the panel, 5 to 60 mm: run time against error'
 plot $all0_0 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#0072B2' title 'hull mesh and FCL', $grey0_0 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all0_0 using 1:2:3 with labels center offset 0,0.9 tc rgb '#0072B2' notitle, $all0_1 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#D55E00' title 'certified clearance', $grey0_1 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all0_1 using 1:2:3 with labels left rotate by 25 offset 0.7,0.5 tc rgb '#D55E00' notitle, NaN with points pt 7 ps 1.4 lc rgb '#b8b8b8' title 'dominated by another setting or method'
 unset multiplot

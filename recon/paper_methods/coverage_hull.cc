@@ -8,29 +8,18 @@ namespace elbowroom::recon {
 namespace {
 
 constexpr double kObjectLevel = 127.5;
-constexpr double kPositionPx = 0.01;
-constexpr double kBandLevels = 255.0 * (4.0 / 256.0 + 2.0 * kPositionPx);
 constexpr double kBorderMm = 0.01;
-
-// From the picture's border inwards, px; negative outside.
-double InsideBorderPx(const core::CameraModel& camera, const Eigen::Vector2d& pixel) {
-  const Eigen::Vector2d center(0.5 * (camera.width_px() - 1), 0.5 * (camera.height_px() - 1));
-  const Eigen::Vector2d half(0.5 * camera.width_px(), 0.5 * camera.height_px());
-  return (half - (pixel - center).cwiseAbs()).minCoeff();
-}
 
 // True if the camera's label at a point may come out either way.
 bool IsClose(const SweepCamera& camera, const Eigen::Vector3d& x_in_world) {
   const auto pixel = camera.model.ProjectInCam(camera.cam_from_view * x_in_world);
-  if (!pixel) return false;
-  return std::abs(CoverageAt(camera.coverage, *pixel) - kObjectLevel) <= kBandLevels ||
-         std::abs(InsideBorderPx(camera.model, *pixel)) <= kPositionPx;
+  return pixel && IsMatterOfRounding(camera, *pixel);
 }
 
 }  // namespace
 
-CoverageHull::CoverageHull(const core::Rig& rig, std::span<const core::SoftMask> masks, int undistortion_grid)
-    : cameras_(MakeSweepCameras(rig, masks, {}, undistortion_grid)),
+CoverageHull::CoverageHull(const core::Rig& rig, std::span<const core::SoftMask> masks)
+    : cameras_(MakeSweepCameras(rig, masks, {})),
       workspace_mm_(rig.workspace_mm),
       exterior_is_object_(rig.unseen == core::UnseenPolicy::kAbstain) {}
 
@@ -48,10 +37,14 @@ bool CoverageHull::Contains(const Eigen::Vector3d& x_in_world) const {
   return is_seen;
 }
 
-bool CoverageHull::IsMatterOfRounding(const Eigen::Vector3d& x_in_world) const {
+bool CoverageHull::IsAtFace(const Eigen::Vector3d& x_in_world) const {
   const Eigen::Vector3d to_face =
       (x_in_world - workspace_mm_.min()).cwiseMin(workspace_mm_.max() - x_in_world);
-  return std::abs(to_face.minCoeff()) <= kBorderMm ||
+  return std::abs(to_face.minCoeff()) <= kBorderMm;
+}
+
+bool CoverageHull::IsMatterOfRounding(const Eigen::Vector3d& x_in_world) const {
+  return IsAtFace(x_in_world) ||
          std::any_of(cameras_.begin(), cameras_.end(),
                      [&](const SweepCamera& camera) { return IsClose(camera, x_in_world); });
 }

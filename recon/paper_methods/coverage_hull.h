@@ -14,8 +14,8 @@ namespace elbowroom::recon {
 // the edges between texels (docs/plane_sweep.md, "Labels"). Immutable. Thread: any.
 class CoverageHull {
  public:
-  // `undistortion_grid` as PlaneSweepOptions'. Throws: as MakeSweepCameras.
-  CoverageHull(const core::Rig& rig, std::span<const core::SoftMask> masks, int undistortion_grid = 0);
+  // Throws: as MakeSweepCameras.
+  CoverageHull(const core::Rig& rig, std::span<const core::SoftMask> masks);
 
   // In the order of MakeSweepCameras; their view frame is the world.
   [[nodiscard]] std::span<const SweepCamera> cameras() const { return cameras_; }
@@ -29,6 +29,9 @@ class CoverageHull {
   // few roundings of one half there (docs/plane_sweep.md, "Rounding"), or the point is at the border of its
   // picture or of the workspace. For rigs at ordinary distances: positions are taken to be good to 0.01 px.
   [[nodiscard]] bool IsMatterOfRounding(const Eigen::Vector3d& x_in_world) const;
+
+  // True if the point is within 0.01 mm of a face of the workspace.
+  [[nodiscard]] bool IsAtFace(const Eigen::Vector3d& x_in_world) const;
 
  private:
   std::vector<SweepCamera> cameras_;

@@ -6,8 +6,11 @@
 #include <array>
 #include <atomic>
 #include <bit>
+#include <limits>
+#include <optional>
 #include <vector>
 
+#include "recon/paper_methods/plane_grid.h"
 #include "recon/paper_methods/plane_sweep_kernel.h"
 #include "recon/paper_methods/sweep_space.h"
 
@@ -56,6 +59,16 @@ SweepAsker AskerOf(const SweepCamera& camera, bool exterior_is_object) {
   asker.texels = coverage.texels.data();
   asker.stride = coverage.width_texels;
   return asker;
+}
+
+SweepBox BoxAt(const SweepSpace& space, const Eigen::Vector3d& center_in_view) {
+  SweepBox box;
+  SetPoints(space.world_from_view(), center_in_view, &box);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    box.min[axis] = static_cast<float>(space.workspace_mm().min()[static_cast<Eigen::Index>(axis)]);
+    box.max[axis] = static_cast<float>(space.workspace_mm().max()[static_cast<Eigen::Index>(axis)]);
+  }
+  return box;
 }
 
 // One tile's part of the picture while it is swept.
@@ -174,15 +187,7 @@ class RootSweep {
 
   bool AskAll(const SweepTile& rays, const Eigen::Vector3d& center_in_view, const OpenQuestions& open,
               SweepMarks* marks) const {
-    if (!open.in_workspace) {
-      SweepBox box;
-      SetPoints(space_.world_from_view(), center_in_view, &box);
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        box.min[axis] = static_cast<float>(space_.workspace_mm().min()[static_cast<Eigen::Index>(axis)]);
-        box.max[axis] = static_cast<float>(space_.workspace_mm().max()[static_cast<Eigen::Index>(axis)]);
-      }
-      if (!AskSweepBox(rays, box, marks)) return false;
-    }
+    if (!open.in_workspace && !AskSweepBox(rays, BoxAt(space_, center_in_view), marks)) return false;
     for (std::uint64_t bits = open.cameras; bits != 0; bits &= bits - 1) {
       const auto index = static_cast<std::size_t>(std::countr_zero(bits));
       SweepAsker asker = askers_[index];
@@ -197,6 +202,130 @@ class RootSweep {
   int x0_, y0_;
   std::array<TilePicture, 4> tiles_;
   std::int64_t tested_points_ = 0;
+};
+
+// The sweep with picture positions from a grid. A position between the corners of a cell has no bound that
+// follows from the lens, so nothing is settled for many pixels at once: plane by plane, each pixel without a
+// hit is asked.
+class GridSweep {
+ public:
+  GridSweep(const SweepSpace& space, const std::vector<SweepAsker>& askers, const core::CameraModel& view,
+            int cells)
+      : space_(space), askers_(askers), grid_(view, cells) {
+    for (int y0 = 0; y0 < space.rays().height_px(); y0 += kSweepTilePx)
+      for (int x0 = 0; x0 < space.rays().width_px(); x0 += kSweepTilePx) tiles_.push_back(MakeTile(x0, y0));
+    for (std::size_t i = 0; i < kSweepTilePixels; ++i) {
+      pixels_.dx[i] = static_cast<float>(i % kSweepTilePx);
+      pixels_.dy[i] = static_cast<float>(i / kSweepTilePx);
+    }
+  }
+
+  void Run() {
+    std::vector<std::vector<std::optional<GridTriangle>>> positions(askers_.size());
+    for (int plane = 0; plane < space_.plane_count(); ++plane) {
+      const double depth_mm = space_.DepthMmOf(plane);
+      for (std::size_t i = 0; i < positions.size(); ++i)
+        positions[i] = grid_.PositionsOf(space_.cameras()[i], depth_mm);
+      tbb::parallel_for(std::size_t{0}, tiles_.size(), [&](std::size_t i) {
+        for (std::size_t k = 0; k < tiles_[i].triangles.size(); ++k)
+          Test(depth_mm, positions, tiles_[i].triangles[k], &tiles_[i]);
+      });
+    }
+  }
+
+  void CopyTo(DepthMap* picture) const {
+    for (const Tile& tile : tiles_) {
+      for (std::size_t i = 0; i < kSweepTilePixels; ++i) {
+        const int x = tile.x0 + static_cast<int>(i) % kSweepTilePx,
+                  y = tile.y0 + static_cast<int>(i) / kSweepTilePx;
+        if (x >= picture->width_px || y >= picture->height_px) continue;
+        picture->depth_mm[static_cast<std::size_t>(y) * static_cast<std::size_t>(picture->width_px) +
+                          static_cast<std::size_t>(x)] = tile.depth_mm[i];
+      }
+    }
+  }
+
+  [[nodiscard]] std::int64_t tested_points() const {
+    std::int64_t sum = 0;
+    for (const Tile& tile : tiles_) sum += tile.tested_points;
+    return sum;
+  }
+
+ private:
+  struct Tile {
+    int x0 = 0, y0 = 0;
+    SweepTile rays;
+    std::array<std::size_t, kSweepTilePixels> triangle_of{};
+    std::vector<std::size_t> triangles;  // each once
+    std::array<float, kSweepTilePixels> depth_mm{};
+    std::int64_t tested_points = 0;
+  };
+
+  [[nodiscard]] Tile MakeTile(int x0, int y0) const {
+    Tile tile{x0, y0, space_.rays().TileAt(x0, y0), {}, {}, {}, 0};
+    for (std::size_t i = 0; i < kSweepTilePixels; ++i) {
+      tile.triangle_of[i] =
+          grid_.TriangleOf(x0 + static_cast<int>(i) % kSweepTilePx, y0 + static_cast<int>(i) / kSweepTilePx);
+      if (std::ranges::find(tile.triangles, tile.triangle_of[i]) == tile.triangles.end())
+        tile.triangles.push_back(tile.triangle_of[i]);
+    }
+    return tile;
+  }
+
+  // Asks the tile's pixels in one triangle that aren't hit yet.
+  void Test(double depth_mm, const std::vector<std::vector<std::optional<GridTriangle>>>& positions,
+            std::size_t triangle, Tile* tile) const {
+    SweepMarks marks;
+    std::int64_t open_pixels = 0;
+    for (std::size_t i = 0; i < kSweepTilePixels; ++i) {
+      const bool has_ray = tile->rays.dx[i] == tile->rays.dx[i];
+      const bool is_pixel = tile->x0 + static_cast<int>(i) % kSweepTilePx < space_.rays().width_px() &&
+                            tile->y0 + static_cast<int>(i) / kSweepTilePx < space_.rays().height_px();
+      const bool is_open =
+          tile->triangle_of[i] == triangle && tile->depth_mm[i] == 0.0F && has_ray && is_pixel;
+      marks.open[i] = is_open ? 1.0F : 0.0F;
+      marks.seen[i] = space_.exterior_is_object() ? 0.0F : 1.0F;
+      open_pixels += is_open ? 1 : 0;
+    }
+    if (open_pixels == 0) return;
+    tile->tested_points += open_pixels;
+    SweepBox box = BoxAt(space_, depth_mm * tile->rays.center.homogeneous());
+    if (!AskSweepBox(tile->rays, box, &marks)) return;
+    for (std::size_t c = 0; c < askers_.size(); ++c)
+      if (!AskSweepCamera(pixels_, AskerOn(c, positions[c][triangle], *tile), &marks)) return;
+    for (std::size_t i = 0; i < kSweepTilePixels; ++i)
+      if (marks.open[i] * marks.seen[i] != 0.0F) tile->depth_mm[i] = static_cast<float>(depth_mm);
+  }
+
+  // A camera without lens, whose points in its frame are the positions in homogeneous coordinates. Without
+  // positions they are behind the camera, which is exterior.
+  [[nodiscard]] SweepAsker AskerOn(std::size_t camera, const std::optional<GridTriangle>& positions,
+                                   const Tile& tile) const {
+    SweepAsker asker = askers_[camera];
+    asker.lens = SweepLens::kIdeal;
+    asker.max_radius_squared = std::numeric_limits<float>::infinity();
+    asker.fx = asker.fy = 1.0F;
+    asker.skew = asker.cx = asker.cy = 0.0F;
+    asker.origin = {0.0F, 0.0F, -1.0F};
+    asker.along_x = asker.along_y = {0.0F, 0.0F, 0.0F};
+    if (!positions) return asker;
+    const CoverageTexture& coverage = space_.cameras()[camera].coverage;
+    const GridTriangle counted = positions->CountedFrom({coverage.left_px, coverage.top_px});
+    const Eigen::Vector3d origin = counted.origin + tile.x0 * counted.along_x + tile.y0 * counted.along_y;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto i = static_cast<Eigen::Index>(axis);
+      asker.origin[axis] = static_cast<float>(origin[i]);
+      asker.along_x[axis] = static_cast<float>(counted.along_x[i]);
+      asker.along_y[axis] = static_cast<float>(counted.along_y[i]);
+    }
+    return asker;
+  }
+
+  const SweepSpace& space_;
+  const std::vector<SweepAsker>& askers_;
+  PlaneGrid grid_;
+  SweepTile pixels_;  // a tile's pixels counted from its first
+  std::vector<Tile> tiles_;
 };
 
 }  // namespace
@@ -218,7 +347,12 @@ SweptView SweepPlanes(const core::Rig& rig, std::span<const core::SoftMask> mask
   const int roots_x = (picture.width_px + kRootPx - 1) / kRootPx,
             roots_y = (picture.height_px + kRootPx - 1) / kRootPx;
   std::atomic<std::int64_t> tested = 0;
-  if (space.plane_count() > 0) {
+  if (options.undistortion_grid > 0) {
+    GridSweep sweep(space, askers, view, options.undistortion_grid);
+    sweep.Run();
+    sweep.CopyTo(&picture);
+    tested = sweep.tested_points();
+  } else if (space.plane_count() > 0) {
     tbb::parallel_for(0, roots_x * roots_y, [&](int root) {
       RootSweep sweep(space, askers, root % roots_x * kRootPx, root / roots_x * kRootPx);
       options.settles_regions ? sweep.Run() : sweep.RunPlain();

@@ -17,9 +17,9 @@ struct PlaneSweepOptions {
   double spacing_mm = 15.0;  // > 0; the paper's
   double near_mm = 0.0;
   double far_mm = 1e9;
-  // 0: every point goes through the cameras' lenses. n >= 2: each silhouette is first undistorted by a grid
-  // of n x n positions (the paper: 5), bilinear between them: faster for each point, and off by the grid's
-  // error.
+  // 0: every point goes through the cameras' lenses. n >= 1: every plane is divided into n x n cells (the
+  // paper: 5), whose corners alone go through the lenses; between them the picture is projected without lens
+  // (plane_grid.h). The result is off by the grid's error. Every plane is then asked point by point.
   int undistortion_grid = 0;
   // CPU only. False: the plain sweep, for comparison. It leaves out tiles that show no hull and ends a tile
   // when all its pixels are hit, but asks every plane point by point. The picture is the same.
@@ -34,6 +34,9 @@ struct PlaneSweepStats {
   std::int64_t tested_points = 0;  // places on planes whose projections were looked up
   std::int64_t skipped_points =
       0;  // the rest of planes * pixels: hit already, or settled with their neighbours
+  // The work in the paper's terms ("Analysis, Performance"), counted where it is done, in OpenGL alone.
+  std::int64_t drawn_triangles = 0;
+  std::int64_t filled_pixels = 0;  // by all draws
 };
 
 struct SweptView {

@@ -4,13 +4,13 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <numeric>
 #include <optional>
 #include <utility>
 
 #include "core/error.h"
-#include "recon/paper_methods/undistorted_mask.h"
 
 namespace elbowroom::recon {
 namespace {
@@ -49,28 +49,25 @@ SweepLensCoefficients LensCoefficientsOf(const core::CameraModel& camera) {
   return {false, {at(0), at(1), at(4), at(5), at(6), at(7)}, {at(2), at(3)}, {at(8), at(9), at(10), at(11)}};
 }
 
-void RequireUndistortionGrid(int undistortion_grid) {
-  core::Require(undistortion_grid == 0 || (undistortion_grid >= 2 && undistortion_grid <= 1024),
-                "an undistortion grid has 2 to 1024 positions a side, or there is none (0)");
+bool IsMatterOfRounding(const SweepCamera& camera, const Eigen::Vector2d& position_px) {
+  constexpr double kObjectLevel = 127.5;
+  constexpr double kPositionPx = 0.01;
+  constexpr double kBandLevels = 255.0 * (4.0 / 256.0 + 2.0 * kPositionPx);
+  const Eigen::Vector2d picture_px(camera.model.width_px(), camera.model.height_px());
+  const Eigen::Vector2d center_px = 0.5 * (picture_px - Eigen::Vector2d::Ones());
+  const double inside_border_px = (0.5 * picture_px - (position_px - center_px).cwiseAbs()).minCoeff();
+  return std::abs(CoverageAt(camera.coverage, position_px) - kObjectLevel) <= kBandLevels ||
+         std::abs(inside_border_px) <= kPositionPx;
 }
 
 std::vector<SweepCamera> MakeSweepCameras(const core::Rig& rig, std::span<const core::SoftMask> masks,
-                                          const core::RigidTransform& world_from_view,
-                                          int undistortion_grid) {
-  RequireUndistortionGrid(undistortion_grid);
+                                          const core::RigidTransform& world_from_view) {
   RequireFit(rig, masks);
-  const bool exterior_is_object = rig.unseen == core::UnseenPolicy::kAbstain;
   std::vector<std::optional<SweepCamera>> cameras(rig.cameras.size());
   tbb::parallel_for(std::size_t{0}, cameras.size(), [&](std::size_t i) {
     const core::CameraModel& camera = rig.cameras[i];
-    const core::RigidTransform cam_from_view = camera.cam_from_world() * world_from_view;
-    if (undistortion_grid == 0 || camera.is_ideal()) {
-      cameras[i] = {camera, cam_from_view, MakeCoverageTexture(masks[i]), BlockOccupancy(masks[i].mask)};
-      return;
-    }
-    UndistortedMask undistorted = Undistort(camera, masks[i], undistortion_grid, exterior_is_object);
-    cameras[i] = {std::move(undistorted.camera), cam_from_view, MakeCoverageTexture(undistorted.mask),
-                  BlockOccupancy(undistorted.mask.mask)};
+    cameras[i] = {camera, camera.cam_from_world() * world_from_view, MakeCoverageTexture(masks[i]),
+                  BlockOccupancy(masks[i].mask)};
   });
   std::vector<std::size_t> order(cameras.size());
   std::iota(order.begin(), order.end(), 0);

@@ -32,16 +32,15 @@ struct SweepLensCoefficients {
 
 [[nodiscard]] SweepLensCoefficients LensCoefficientsOf(const core::CameraModel& camera);
 
-// Throws: PreconditionError unless it is 0 or 2 to 1024.
-void RequireUndistortionGrid(int undistortion_grid);
+// Whether rounding decides the camera's label at a position of its picture: the coverage there is within
+// 4/256 and a few roundings of one half, or the position is at the picture's border.
+[[nodiscard]] bool IsMatterOfRounding(const SweepCamera& camera, const Eigen::Vector2d& position_px);
 
-// One for each camera of the rig, sorted by the size of the coverage texture, the smallest first.
-// `undistortion_grid` as PlaneSweepOptions'. Throws: core::Error{kCamera} naming the camera when a mask's
-// size isn't the camera's; Error{kRange} for more than 64 cameras; PreconditionError unless there is one mask
-// a camera, or for the grid.
+// One for each camera of the rig, sorted by the size of the coverage texture, the smallest first. Throws:
+// core::Error{kCamera} naming the camera when a mask's size isn't the camera's; Error{kRange} for more than
+// 64 cameras; PreconditionError unless there is one mask a camera.
 [[nodiscard]] std::vector<SweepCamera> MakeSweepCameras(const core::Rig& rig,
                                                         std::span<const core::SoftMask> masks,
-                                                        const core::RigidTransform& world_from_view,
-                                                        int undistortion_grid);
+                                                        const core::RigidTransform& world_from_view);
 
 }  // namespace elbowroom::recon

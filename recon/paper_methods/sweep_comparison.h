@@ -18,9 +18,10 @@ struct SweepComparison {
 // A difference is explained if rounding decides the label of the nearer surface's point: some camera's
 // coverage there is within 4/256 and a few roundings of one half (docs/plane_sweep.md, "Rounding"), or the
 // point is at the border of its picture or of the workspace. For rigs at ordinary distances: positions are
-// taken to be good to 0.01 px. Throws: PreconditionError when sizes differ.
+// taken to be good to 0.01 px. `undistortion_grid`: as PlaneSweepOptions', of both sweeps. Throws:
+// PreconditionError when sizes differ.
 [[nodiscard]] SweepComparison CompareSweeps(const core::Rig& rig, std::span<const core::SoftMask> masks,
                                             const core::CameraModel& view, const DepthMap& a,
-                                            const DepthMap& b);
+                                            const DepthMap& b, int undistortion_grid = 0);
 
 }  // namespace elbowroom::recon

@@ -94,7 +94,8 @@ CameraAnswer Ask(const SweepCamera& camera, const Corners& corners_in_view, bool
 void PlaneSweepOptions::Validate() const {
   core::Require(spacing_mm > 0.0 && std::isfinite(spacing_mm), "planes have a positive spacing");
   core::Require(near_mm >= 0.0 && far_mm >= near_mm, "planes lie in front of the view, near before far");
-  RequireUndistortionGrid(undistortion_grid);
+  core::Require(undistortion_grid >= 0 && undistortion_grid <= 1024,
+                "an undistortion grid has 1 to 1024 cells a side, or there is none (0)");
 }
 
 SweepSpace::SweepSpace(const core::Rig& rig, std::span<const core::SoftMask> masks,
@@ -107,7 +108,7 @@ SweepSpace::SweepSpace(const core::Rig& rig, std::span<const core::SoftMask> mas
   options.Validate();
   core::Require(rays.width_px() == view.width_px() && rays.height_px() == view.height_px(),
                 "a view's rays are its own");
-  cameras_ = MakeSweepCameras(rig, masks, world_from_view_, options.undistortion_grid);
+  cameras_ = MakeSweepCameras(rig, masks, world_from_view_);
   PlacePlanes(options);
 }
 

@@ -22,7 +22,11 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kReferenceAwayMm = 200.0;  // RP_obj stands off the curtain, where it comes from
+constexpr double kReferenceAwayMm = 200.0;  // RP_obj stands off the part, where it comes from
+
+core::SharedMesh MeshOf(CollisionPart part) {
+  return part == CollisionPart::kCurtain ? MakeCurtain() : MakeTabletopPanel();
+}
 
 review::ContactOptions OptionsOf(CollisionMethod method) {
   review::ContactOptions options;
@@ -54,11 +58,16 @@ std::string NameOf(CollisionMethod method) {
   return "exact, contacts to 2 mm";
 }
 
-std::vector<CollisionCost> TimeCollisions(recon::ViewSceneRig rig, const TimingEffort& effort) {
+std::string NameOf(CollisionPart part) {
+  return part == CollisionPart::kCurtain ? "curtain, 7.5 x 3 mm" : "tabletop, 2 x 2 mm";
+}
+
+std::vector<CollisionCost> TimeCollisions(recon::ViewSceneRig rig, CollisionPart touched,
+                                          const TimingEffort& effort) {
   constexpr double kThroughMm = 10.0;
   const recon::ViewScene scene = recon::MakeViewScene(rig);
-  const CurtainSight sight = CurtainSightOf(scene.rig, scene.objects);
-  const core::TriangleTree part(MakeCurtain());
+  const HandSight sight = HandSightOf(scene.rig, scene.objects);
+  const core::TriangleTree part(MeshOf(touched));
   const core::RigidTransform world_from_part =
       PushedIn(sight.hull, part, Eigen::Matrix3d::Identity(), kHandMm, kThroughMm);
   const Vector3d rp_obj = world_from_part * *OptionsOf(CollisionMethod::kExact).recovery.reference_in_part_mm;
@@ -89,6 +98,7 @@ std::vector<CollisionCost> TimeCollisions(recon::ViewSceneRig rig, const TimingE
     points = PositionsOf(sampled);
     cost.contact_points = static_cast<std::int64_t>(points.size());
     cost.work = sampled.work;
+    cost.coarsest_step_mm = sampled.coarsest_step_mm;
     jobs.emplace_back([&, method] {
       const recon::CoverageHull textures(*sight.rig, sight.masks);
       (void)review::RespondByTwoTriangles(textures, PositionsOf(sample(method, textures)), rp_obj);
@@ -105,20 +115,22 @@ std::vector<CollisionCost> TimeCollisions(recon::ViewSceneRig rig, const TimingE
   return costs;
 }
 
-std::vector<SmallContacts> CountMissed(recon::ViewSceneRig rig, int trials, std::uint64_t seed) {
+std::vector<SmallContacts> CountMissed(recon::ViewSceneRig rig, CollisionPart touched, int trials,
+                                       std::uint64_t seed) {
   constexpr double kMostPushedMm = 1.5, kAsideMm = 60.0;
   const recon::ViewScene scene = recon::MakeViewScene(rig);
-  const CurtainSight sight = CurtainSightOf(scene.rig, scene.objects);
-  const core::TriangleTree part(MakeCurtain());
+  const HandSight sight = HandSightOf(scene.rig, scene.objects);
+  const core::TriangleTree part(MeshOf(touched));
   recon::gl::TriangleViewportsGl gl;
   recon::Random random(seed);
   std::vector<SmallContacts> sizes;
-  for (const auto& [from_mm, to_mm] : {std::pair{0.0, 1.0}, {1.0, 2.0}, {2.0, 3.0}, {3.0, 5.0}, {5.0, 1e9}})
+  for (const auto& [from_mm, to_mm] :
+       {std::pair{0.0, 1.0}, {1.0, 2.0}, {2.0, 3.0}, {3.0, 5.0}, {5.0, 7.5}, {7.5, 15.0}, {15.0, 1e9}})
     sizes.push_back({from_mm, to_mm, 0, std::vector<int>(std::size(kCollisionMethods), 0)});
   for (int trial = 0; trial < trials; ++trial) {
     const core::RigidTransform world_from_part =
         PushedIn(sight.hull, part, random.Rotation(), kHandMm, random.Uniform(0.0, kMostPushedMm));
-    // Not always the same place of the curtain: turned about its axis above, moved along its plane here.
+    // Not always the same place of the part: turned about its axis above, moved along its plane here.
     const Vector3d aside = world_from_part.rotation * Vector3d(0.0, random.Uniform(-kAsideMm, kAsideMm),
                                                                random.Uniform(-kAsideMm, kAsideMm));
     const core::RigidTransform moved{world_from_part.rotation, world_from_part.translation_mm + aside};

@@ -17,23 +17,29 @@ enum class CollisionMethod {
   kViewportsGl,   // viewports in OpenGL, then two triangles
   kViewportsCpu,  // their twin on the CPU, then two triangles
   kExact,         // review::FindContacts as it is by default
-  kExactAtTwoMm,  // the same at the paper's resolution
+  kExactAtTwoMm,  // the same at the paper's resolution of tabletop objects
 };
 inline constexpr CollisionMethod kCollisionMethods[] = {
     CollisionMethod::kViewportsGl, CollisionMethod::kViewportsCpu, CollisionMethod::kExact,
     CollisionMethod::kExactAtTwoMm};
 [[nodiscard]] std::string NameOf(CollisionMethod method);
 
+// What is pushed into the hand, of 720 triangles each (curtain_scene.h).
+enum class CollisionPart { kCurtain, kTabletopPanel };
+inline constexpr CollisionPart kCollisionParts[] = {CollisionPart::kCurtain, CollisionPart::kTabletopPanel};
+[[nodiscard]] std::string NameOf(CollisionPart part);  // with its sampling
+
 struct CollisionCost {
   Timing frame;     // masks in memory to response
   Timing contacts;  // hull or textures at hand to contacts; of the exact methods, to response
   Timing response;  // two triangles alone
   std::int64_t contact_points = 0;
-  recon::ViewportWork work;  // of the viewports
+  recon::ViewportWork work;       // of the viewports
+  double coarsest_step_mm = 0.0;  // likewise
 };
 
-// The curtain with the demo's hand through it by 10 mm, on one thread; OpenGL may take more of its own.
-[[nodiscard]] std::vector<CollisionCost> TimeCollisions(recon::ViewSceneRig rig,
+// The part 10 mm in the hull of the demo's hand, on one thread; OpenGL may take more of its own.
+[[nodiscard]] std::vector<CollisionCost> TimeCollisions(recon::ViewSceneRig rig, CollisionPart part,
                                                         const TimingEffort& effort = {});
 
 // Contacts of one size: of a disc of the same area, mm across.
@@ -43,9 +49,10 @@ struct SmallContacts {
   std::vector<int> missed;  // one a method
 };
 
-// Curtains at random places about the demo's hand, each pushed up to 1.5 mm into its hull. Which are
+// The part at random places about the demo's hand, each time pushed up to 1.5 mm into its hull. Which are
 // contacts, and how large: review::FindContacts at a tenth of a millimetre.
-[[nodiscard]] std::vector<SmallContacts> CountMissed(recon::ViewSceneRig rig, int trials, std::uint64_t seed);
+[[nodiscard]] std::vector<SmallContacts> CountMissed(recon::ViewSceneRig rig, CollisionPart part, int trials,
+                                                     std::uint64_t seed);
 
 struct ErrorShare {
   double median = 0.0, p95 = 0.0;

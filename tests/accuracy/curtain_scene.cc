@@ -1,5 +1,6 @@
 #include "tests/accuracy/curtain_scene.h"
 
+#include <cmath>
 #include <utility>
 
 #include "core/error.h"
@@ -22,12 +23,17 @@ bool IsTouching(const recon::VisualHull& hull, const core::TriangleTree& part,
 
 }  // namespace
 
-core::SharedMesh MakeCurtain(int across, int up) {
+core::SharedMesh MakeCurtain() {
+  return std::make_shared<const core::TriangleMesh>(
+      test_support::PanelMesh(12, 30, {0.0, -450.0, -450.0}, {0.0, 900.0, 0.0}, {0.0, 0.0, 900.0}));
+}
+
+core::SharedMesh MakeTabletopPanel(int across, int up) {
   return std::make_shared<const core::TriangleMesh>(
       test_support::PanelMesh(across, up, {0.0, -180.0, -200.0}, {0.0, 360.0, 0.0}, {0.0, 0.0, 400.0}));
 }
 
-CurtainSight CurtainSightOf(const core::Rig& rig, const std::vector<recon::SyntheticObject>& objects) {
+HandSight HandSightOf(const core::Rig& rig, const std::vector<recon::SyntheticObject>& objects) {
   const auto shared = std::make_shared<const core::Rig>(rig);
   recon::UndistortedPlanes planes = recon::MakeUndistortedPlanes(rig);
   std::vector<core::SoftMask> masks = recon::TrueMasks(rig, objects);
@@ -42,11 +48,13 @@ core::RigidTransform PushedIn(const recon::VisualHull& hull, const core::Triangl
   const auto at = [&](double x_mm) {
     return core::RigidTransform{world_from_part, center + x_mm * world_from_part.col(0)};
   };
-  double clear_mm = -600.0, touching_mm = 0.0;
-  // Roughly the first touch of all, then to a hundredth of a millimetre.
-  constexpr double kRoughMm = 1.0;
-  core::Require(IsTouching(hull, part, at(touching_mm), kRoughMm), "a curtain through the hand touches it");
-  for (double x_mm = clear_mm; x_mm < touching_mm; x_mm += 5.0) {
+  // Roughly the first touch of all, then to a hundredth of a millimetre. Farther away than the workspace is
+  // long there is no hull.
+  constexpr double kRoughMm = 1.0, kStepMm = 5.0;
+  double clear_mm = -kStepMm * std::ceil(hull.rig().workspace_mm.diagonal().norm() / kStepMm),
+         touching_mm = 0.0;
+  core::Require(IsTouching(hull, part, at(touching_mm), kRoughMm), "a part through the hand touches it");
+  for (double x_mm = clear_mm; x_mm < touching_mm; x_mm += kStepMm) {
     if (IsTouching(hull, part, at(x_mm), kRoughMm)) {
       touching_mm = x_mm;
       break;

@@ -64,12 +64,12 @@ std::vector<JudgingMethod> Compare(const std::vector<Asked>& methods,
   return compared;
 }
 
-CurtainSight HandBefore(recon::ViewSceneRig rig) {
+HandSight HandBefore(recon::ViewSceneRig rig) {
   const recon::ViewScene scene = recon::MakeViewScene(rig);
-  return CurtainSightOf(scene.rig, scene.objects);
+  return HandSightOf(scene.rig, scene.objects);
 }
 
-std::vector<core::RigidTransform> RandomPoses(const CurtainSight& sight, const core::TriangleTree& part,
+std::vector<core::RigidTransform> RandomPoses(const HandSight& sight, const core::TriangleTree& part,
                                               int count, double from_mm, double to_mm, std::uint64_t seed) {
   recon::Random random(seed);
   std::vector<core::RigidTransform> poses;
@@ -78,7 +78,7 @@ std::vector<core::RigidTransform> RandomPoses(const CurtainSight& sight, const c
   return poses;
 }
 
-// Of the curtain's points, each standing for a square of kSampleMm a side, those that are in the hull.
+// Of the panel's points, each standing for a square of kSampleMm a side, those that are in the hull.
 double SampledAreaMm2(const oracles::MaskHullOracle& oracle, const core::RigidTransform& world_from_part) {
   constexpr double kSampleMm = 0.1, kHalfAcrossMm = 180.0, kHalfUpMm = 200.0;
   const auto is_inside = [&](double y_mm, double z_mm) {
@@ -115,7 +115,7 @@ double SampledAreaMm2(const oracles::MaskHullOracle& oracle, const core::RigidTr
   return static_cast<double>(inside) * kSampleMm * kSampleMm;
 }
 
-Asked ContactsAt(const CurtainSight& sight, const core::TriangleTree& part, double resolution_mm) {
+Asked ContactsAt(const HandSight& sight, const core::TriangleTree& part, double resolution_mm) {
   review::ContactOptions options;
   options.resolution_mm = resolution_mm;
   return {"exact contacts", resolution_mm > 0.0 ? fmt::format("{} mm", resolution_mm) : "half a pixel",
@@ -125,8 +125,8 @@ Asked ContactsAt(const CurtainSight& sight, const core::TriangleTree& part, doub
           }};
 }
 
-Asked ViewportsOf(const CurtainSight& sight, const core::TriangleTree& part, int side_px) {
-  // A triangle fills half of its viewport, and all of the curtain's are as large.
+Asked ViewportsOf(const HandSight& sight, const core::TriangleTree& part, int side_px) {
+  // A triangle fills half of its viewport, and all of the panel's are as large.
   const double pixel_mm2 = 2.0 * core::AreaMm2(part.mesh()) /
                            (static_cast<double>(part.mesh().triangles.size()) * side_px * side_px);
   return {"the paper's viewports, CPU", fmt::format("{} x {}", side_px, side_px),
@@ -139,7 +139,7 @@ Asked ViewportsOf(const CurtainSight& sight, const core::TriangleTree& part, int
           }};
 }
 
-Asked ClearanceTo(const CurtainSight& sight, const core::TriangleTree& part, double tolerance_mm) {
+Asked ClearanceTo(const HandSight& sight, const core::TriangleTree& part, double tolerance_mm) {
   return {"certified clearance", fmt::format("{} mm", tolerance_mm),
           [&, tolerance_mm](const core::RigidTransform& pose) {
             const core::ClearanceInterval interval =
@@ -162,16 +162,16 @@ std::unique_ptr<FclMesh> ToFcl(const core::TriangleMesh& mesh) {
   return built;
 }
 
-Asked MeshDistance(const CurtainSight& sight, const FclMesh& curtain, double edge_mm) {
+Asked MeshDistance(const HandSight& sight, const FclMesh& panel, double edge_mm) {
   return {"hull mesh and FCL", fmt::format("edges of {} mm", edge_mm),
           [&, edge_mm](const core::RigidTransform& pose) {
             const std::unique_ptr<FclMesh> hull = ToFcl(recon::MeshHull(sight.hull, edge_mm).mesh);
-            fcl::Transform3d world_from_curtain = fcl::Transform3d::Identity();
-            world_from_curtain.linear() = pose.rotation;
-            world_from_curtain.translation() = pose.translation_mm;
+            fcl::Transform3d world_from_panel = fcl::Transform3d::Identity();
+            world_from_panel.linear() = pose.rotation;
+            world_from_panel.translation() = pose.translation_mm;
             fcl::DistanceResultd result;
-            return Answer{fcl::distance(hull.get(), fcl::Transform3d::Identity(), &curtain,
-                                        world_from_curtain, fcl::DistanceRequestd(), result)};
+            return Answer{fcl::distance(hull.get(), fcl::Transform3d::Identity(), &panel, world_from_panel,
+                                        fcl::DistanceRequestd(), result)};
           }};
 }
 
@@ -204,7 +204,7 @@ std::vector<recon::SyntheticObject> Scaled(std::vector<recon::SyntheticObject> o
 
 // A case of the table of costs, kept while all of them are timed in turns.
 struct JudgingCase {
-  CurtainSight sight;
+  HandSight sight;
   core::TriangleTree part;
   core::RigidTransform in_hull, away;
 };
@@ -212,8 +212,8 @@ struct JudgingCase {
 }  // namespace
 
 std::vector<JudgingMethod> CompareContactAreas(int poses, std::uint64_t seed, const TimingEffort& effort) {
-  const CurtainSight sight = HandBefore(recon::ViewSceneRig::kThree);
-  const core::TriangleTree part(MakeCurtain());
+  const HandSight sight = HandBefore(recon::ViewSceneRig::kThree);
+  const core::TriangleTree part(MakeTabletopPanel());
   const std::vector<core::RigidTransform> at = RandomPoses(sight, part, poses, 2.0, 20.0, seed);
   const oracles::MaskHullOracle oracle(*sight.rig, sight.masks,
                                        oracles::BoundaryConvention::kMarchingSquares);
@@ -235,9 +235,9 @@ std::vector<JudgingMethod> CompareClearances(int poses, std::uint64_t seed,
                                              std::span<const double> mesh_edges_mm,
                                              const TimingEffort& effort) {
   constexpr double kTruthMm = 1e-3;
-  const CurtainSight sight = HandBefore(recon::ViewSceneRig::kThree);
-  const core::TriangleTree part(MakeCurtain());
-  const std::unique_ptr<FclMesh> curtain = ToFcl(part.mesh());
+  const HandSight sight = HandBefore(recon::ViewSceneRig::kThree);
+  const core::TriangleTree part(MakeTabletopPanel());
+  const std::unique_ptr<FclMesh> panel = ToFcl(part.mesh());
   const std::vector<core::RigidTransform> at = RandomPoses(sight, part, poses, -60.0, -5.0, seed);
   std::vector<double> truth_mm;
   for (const core::RigidTransform& pose : at) {
@@ -249,7 +249,7 @@ std::vector<JudgingMethod> CompareClearances(int poses, std::uint64_t seed,
   std::vector<Asked> methods;
   for (const double tolerance_mm : {10.0, 3.0, 1.0, 0.3, 0.1, 0.03, 0.01})
     methods.push_back(ClearanceTo(sight, part, tolerance_mm));
-  for (const double edge_mm : mesh_edges_mm) methods.push_back(MeshDistance(sight, *curtain, edge_mm));
+  for (const double edge_mm : mesh_edges_mm) methods.push_back(MeshDistance(sight, *panel, edge_mm));
   return Compare(
       methods, at, [&](const Answer& answer, std::size_t pose) { return answer.value - truth_mm[pose]; },
       effort);
@@ -279,8 +279,8 @@ std::vector<JudgingCost> MeasureJudgingCosts(const TimingEffort& effort) {
   std::vector<std::function<void()>> jobs;  // two a case
   for (const Wanted& one : wanted) {
     const recon::ViewScene scene = recon::MakeViewScene(one.rig);
-    CurtainSight sight = CurtainSightOf(scene.rig, Scaled(scene.objects, one.hull_size));
-    core::TriangleTree part(MakeCurtain(one.across, one.up));
+    HandSight sight = HandSightOf(scene.rig, Scaled(scene.objects, one.hull_size));
+    core::TriangleTree part(MakeTabletopPanel(one.across, one.up));
     const core::RigidTransform touching =
         PushedIn(sight.hull, part, Eigen::Matrix3d::Identity(), kHandMm, 0.0);
     const auto moved = [&](double depth_mm) {

@@ -11,7 +11,7 @@
 
 namespace elbowroom::accuracy {
 
-// A method in one of its settings, over the same poses of the paper's curtain.
+// A method in one of its settings, over the same poses of a panel (MakeTabletopPanel).
 struct JudgingMethod {
   std::string family, setting;
   double time_ms = 0.0;      // a pose: mean over the poses of their medians
@@ -21,15 +21,15 @@ struct JudgingMethod {
   int missed = 0;            // poses of which it reports nothing that should be there
 };
 
-// The area of the curtain that is in the hull, the curtain pushed into the demo's hand by up to 20 mm from
+// The area of the panel that is in the hull, the panel pushed into the demo's hand by up to 20 mm from
 // random sides, against samples 0.1 mm apart that are looked up in the masks (oracles::MaskHullOracle): the
 // exact contacts at several resolutions, and the paper's viewports of several sizes, each sample standing for
 // its pixel's area. Hull or textures at hand; one thread.
 [[nodiscard]] std::vector<JudgingMethod> CompareContactAreas(int poses, std::uint64_t seed,
                                                              const TimingEffort& effort = {});
 
-// How far the curtain is from the hull, 5 to 60 mm away from it: the upper bound at several tolerances, and
-// the least distance between curtain and hull mesh (recon::MeshHull, then FCL) for each of the edges;
+// How far the panel is from the hull, 5 to 60 mm away from it: the upper bound at several tolerances, and
+// the least distance between panel and hull mesh (recon::MeshHull, then FCL) for each of the edges;
 // both against the clearance to a thousandth of a millimetre, which tests/review/clearance_test.cc holds to
 // an oracle. Hull at hand; one thread.
 [[nodiscard]] std::vector<JudgingMethod> CompareClearances(int poses, std::uint64_t seed,
@@ -46,7 +46,7 @@ struct JudgingCost {
   Timing contacts;
   std::int64_t contact_queries = 0;
   double skipped_triangles = 0.0;  // share of those settled with their branch of the tree
-  Timing clearance;                // the curtain 30 mm away
+  Timing clearance;                // the panel 30 mm away
   std::int64_t clearance_queries = 0;
 };
 [[nodiscard]] std::vector<JudgingCost> MeasureJudgingCosts(const TimingEffort& effort = {});

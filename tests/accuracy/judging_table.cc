@@ -78,9 +78,9 @@ void MeasureJudging(const std::filesystem::path& docs) {
   reporting::WriteSection(file, "judging",
                           reporting::ToMarkdown(MethodTable(contacts, clearances)) + machine);
   reporting::WriteSection(file, "judging_cost", reporting::ToMarkdown(CostTable(costs)) + machine);
-  Draw("Contacts of a curtain of 720 triangles: run time against error", "RMS error of the contact area, %",
+  Draw("Contacts of a panel of 720 triangles: run time against error", "RMS error of the contact area, %",
        contacts, docs / "pictures/contact_methods");
-  Draw("Clearance of the curtain, 5 to 60 mm: run time against error", "RMS error, mm", clearances,
+  Draw("Clearance of the panel, 5 to 60 mm: run time against error", "RMS error, mm", clearances,
        docs / "pictures/clearance_methods");
 }
 

@@ -12,6 +12,9 @@ namespace elbowroom::accuracy {
 // accuracy.md, "budget". Throws also: core::Error{kRange} naming a term that exceeds its ceiling.
 void MeasureBudget(const std::filesystem::path& docs);
 
+// plane_sweep.md, "work" and "work_methods": the paper's figures of its plane sweep beside ours.
+void MeasureSweepWork(const std::filesystem::path& docs);
+
 // performance.md, "methods"; docs/pictures/view_methods.{svg,png}.
 void MeasureMethods(const std::filesystem::path& docs);
 

@@ -4,6 +4,7 @@
 #include "sessions/session_reader.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/text_file.h"
 
 namespace elbowroom {
 namespace {
@@ -22,6 +23,10 @@ TEST(Demo, TouchesPayloadAAt140MmAndNothingAt240) {
   const sessions::SessionReader session(out / "session.db");
   EXPECT_EQ(session.status(), sessions::SessionStatus::kComplete);
   ASSERT_EQ(session.header().layout.parts[kPayloadA].name, "payload_a");
+  EXPECT_EQ(session.header().trial.estimate_mm, 184.0);  // 5.6 cm less than what the task needs with tongs
+  const std::string report = test_support::ReadText(out / "report.html");
+  EXPECT_NE(report.find("estimate of 184&nbsp;mm lies above what was touched and was not tried"),
+            std::string::npos);
   int touches_at_140 = 0;
   for (const sessions::ContactRow& row : session.contacts()) {
     EXPECT_EQ(row.contact.part, kPayloadA) << "frame " << row.frame;

@@ -34,7 +34,7 @@ int RecordFrames(const std::filesystem::path& path) {
   core::SessionHeader header;
   header.rig = source.rig();
   header.layout = control::DemoLayout();
-  header.trial.estimate_mm = 140.0;
+  header.trial.estimate_mm = 184.0;
   header.trial.required_clearance_mm = 15.0;
   control::FramePipeline pipeline(source.rig(), control::DemoLayout(),
                                   std::vector<recon::BackgroundReference>(4), {});

@@ -8,6 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
+#include <string>
+#include <vector>
 
 #include "recon/footage/recorded_rig.h"
 #include "recon/hull/visual_hull.h"
@@ -141,6 +143,62 @@ TEST_F(OrthographicView, IsRefusedByTheSweepsInOneLine) {
       EXPECT_NE(run.err.find(word), std::string::npos) << word << " in: " << run.err;
     EXPECT_FALSE(std::filesystem::exists(folder_ / "o.tiff"));
   }
+}
+
+// The ball from the side, by any method.
+class UndistortionGrid : public testing::Test {
+ protected:
+  [[nodiscard]] ProgramRun View(const std::vector<std::string>& more) const {
+    std::vector<std::string> all{"view",     rig_.string(),    "--frame", "0",
+                                 "--camera", camera_.string(), "--depth", (folder_ / "d.tiff").string(),
+                                 "--json"};
+    all.insert(all.end(), more.begin(), more.end());
+    return test_support::RunProgram(ELBOWROOM_PROGRAM, all);
+  }
+
+  [[nodiscard]] nlohmann::json Sweep(const std::string& method, const std::string& cells) const {
+    const ProgramRun run = View({"--method", method, "--undistortion-grid", cells});
+    EXPECT_EQ(run.exit_status, 0) << run.err;
+    return run.exit_status == 0 ? nlohmann::json::parse(run.out) : nlohmann::json();
+  }
+
+  static std::filesystem::path WriteCamera(const std::filesystem::path& file) {
+    core::CameraCalibration c;
+    c.name = "view";
+    c.image_width_px = 160;
+    c.image_height_px = 120;
+    c.camera_matrix << 300.0, 0.0, 79.5, 0.0, 300.0, 59.5, 0.0, 0.0, 1.0;
+    c.cam_from_world = core::CamFromWorldLookingAt({300.0, -350.0, 450.0}, {0.0, 0.0, 200.0});
+    core::Rig rig;
+    rig.workspace_mm = {Eigen::Vector3d::Zero(), Eigen::Vector3d::Ones()};
+    rig.cameras.emplace_back(c);
+    recon::WriteRigFile({rig, {{}}}, file);
+    return file;
+  }
+
+  test_support::TemporaryFolder folder_;
+  std::filesystem::path rig_ = test_support::WriteBallRig(folder_.path() / "rig"),
+                        camera_ = WriteCamera(folder_ / "camera.yml");
+};
+
+TEST_F(UndistortionGrid, IsTakenByTheSweeps) {
+  constexpr double kRim = 0.02;  // of the pixels
+  for (const std::string method : {"sweep", "sweep-gl"}) {
+    const nlohmann::json plain = Sweep(method, "0"), grid = Sweep(method, "5");
+    EXPECT_EQ(plain["undistortion_grid"], 0);
+    EXPECT_EQ(grid["undistortion_grid"], 5);
+    EXPECT_GT(grid["tested_points"], plain["tested_points"]) << "every point is asked with a grid";
+    ASSERT_GT(plain["hit_pixels"], 1000);
+    EXPECT_NEAR(grid["hit_pixels"], plain["hit_pixels"], kRim * plain["hit_pixels"].get<double>());
+  }
+}
+
+TEST_F(UndistortionGrid, IsRefusedWhereThereAreNoPlanes) {
+  EXPECT_EQ(View({"--undistortion-grid", "5"}).exit_status, 2);
+  EXPECT_EQ(View({"--method", "exact", "--undistortion-grid", "5"}).exit_status, 2);
+  EXPECT_EQ(View({"--method", "sweep", "--undistortion-grid", "-1"}).exit_status, 2);
+  EXPECT_EQ(View({"--method", "sweep", "--undistortion-grid", "1025"}).exit_status, 2);
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "d.tiff"));
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// What a frame of the paper's curtain, 720 triangles, costs: nobody near, a hand that rests on it, the demo's
+// What a frame of a curtain of 720 triangles costs: nobody near, a hand that rests on it, the demo's
 // hand that moves through it. Beside the time: what the springs have left over.
 #include <benchmark/benchmark.h>
 

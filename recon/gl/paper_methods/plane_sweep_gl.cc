@@ -19,6 +19,7 @@
 #include "recon/gl/objects/vertex_array.h"
 #include "recon/gl/paper_methods/plane_sweep_shader.h"
 #include "recon/gl/paper_methods/plane_target.h"
+#include "recon/paper_methods/plane_grid.h"
 #include "recon/paper_methods/sweep_space.h"
 
 namespace elbowroom::recon::gl {
@@ -88,7 +89,9 @@ class Survey {
 // The context is the first member, so that it is destroyed last.
 class PlaneSweepGl::Impl {
  public:
-  [[nodiscard]] SweptView Sweep(const SweepSpace& space, const core::CameraModel& view, SweepPasses passes);
+  // `cells`: of the undistortion grid; 0: none.
+  [[nodiscard]] SweptView Sweep(const SweepSpace& space, const core::CameraModel& view, SweepPasses passes,
+                                int cells);
 
   void MakeCurrent() const { context_.MakeCurrent(); }
   [[nodiscard]] const std::string& driver() const { return context_.driver(); }
@@ -105,15 +108,20 @@ class PlaneSweepGl::Impl {
   };
 
   void Upload(const SweepSpace& space);
-  [[nodiscard]] std::vector<Pass> PassesOf(const SweepSpace& space, SweepPasses passes);
-  [[nodiscard]] Pass PassOf(const SweepSpace& space, SweepPass kind, std::size_t first, std::size_t count);
+  [[nodiscard]] std::vector<Pass> PassesOf(const SweepSpace& space, SweepPasses passes, bool has_grid);
+  [[nodiscard]] Pass PassOf(const SweepSpace& space, SweepPass kind, std::size_t first, std::size_t count,
+                            bool has_grid);
   void SetUp(const SweepSpace& space, const core::CameraModel& view, const Pass& pass) const;
-  void Draw(const SweepSpace& space, const Pass& pass, int plane, GLuint wanted_count) const;
+  // Returns the number of triangles drawn, which cover the picture together.
+  std::size_t Draw(const SweepSpace& space, const PlaneGrid* grid, const Pass& pass, int plane,
+                   GLuint wanted_count);
+  void UploadGrid(const SweepSpace& space, const PlaneGrid& grid, const SweepCamera& camera, double depth_mm);
   [[nodiscard]] DepthMap ReadPicture(const SweepSpace& space) const;
 
   EglContext context_;
   std::thread::id thread_ = std::this_thread::get_id();
   VertexArray corners_ = VertexArray({});
+  VertexArray grid_triangles_ = VertexArray({2, 3});
   // By fragment source and first camera, so that the uniforms that hold for all planes are set once a sweep.
   std::map<std::pair<std::string, std::size_t>, ShaderProgram> programs_;
   std::vector<ByteTexture> masks_;
@@ -146,37 +154,41 @@ void PlaneSweepGl::Impl::Upload(const SweepSpace& space) {
 }
 
 PlaneSweepGl::Impl::Pass PlaneSweepGl::Impl::PassOf(const SweepSpace& space, SweepPass kind,
-                                                    std::size_t first, std::size_t count) {
+                                                    std::size_t first, std::size_t count, bool has_grid) {
   SweepShader shader;
   shader.pass = kind;
   shader.group = space.cameras().subspan(first, count);
   shader.exterior_is_object = space.exterior_is_object();
   shader.tests_workspace = first == 0 && (kind == SweepPass::kHull || kind == SweepPass::kObject);
   if (!space.rays().is_ideal()) shader.ray_source = SweepRaySource::kRayTexture;
+  shader.has_grid_positions = has_grid && kind != SweepPass::kPlane;
   const std::string source = shader.FragmentSource();
   auto found = programs_.find({source, first});
   if (found == programs_.end()) {
-    found =
-        programs_.emplace(std::pair(source, first), ShaderProgram("plane sweep", SweepVertexSource(), source))
-            .first;
+    found = programs_
+                .emplace(std::pair(source, first),
+                         ShaderProgram("plane sweep",
+                                       shader.has_grid_positions ? GridVertexSource() : SweepVertexSource(),
+                                       source))
+                .first;
   }
   return {kind, &found->second, first, count, shader.tests_workspace};
 }
 
 std::vector<PlaneSweepGl::Impl::Pass> PlaneSweepGl::Impl::PassesOf(const SweepSpace& space,
-                                                                   SweepPasses passes) {
+                                                                   SweepPasses passes, bool has_grid) {
   const std::size_t cameras = space.cameras().size();
   if (passes == SweepPasses::kOneAPlane && cameras <= kMostTextures) {
-    return {PassOf(space, SweepPass::kHull, 0, cameras)};
+    return {PassOf(space, SweepPass::kHull, 0, cameras, has_grid)};
   }
   const std::size_t most = passes == SweepPasses::kOneAPlane ? kMostTextures : 1;
   std::vector<Pass> result;
   for (std::size_t first = 0; first < cameras; first += most) {
     const std::size_t count = std::min(most, cameras - first);
-    result.push_back(PassOf(space, SweepPass::kObject, first, count));
-    if (space.exterior_is_object()) result.push_back(PassOf(space, SweepPass::kSeen, first, count));
+    result.push_back(PassOf(space, SweepPass::kObject, first, count, has_grid));
+    if (space.exterior_is_object()) result.push_back(PassOf(space, SweepPass::kSeen, first, count, has_grid));
   }
-  result.push_back(PassOf(space, SweepPass::kPlane, 0, 0));
+  result.push_back(PassOf(space, SweepPass::kPlane, 0, 0, has_grid));
   return result;
 }
 
@@ -192,8 +204,30 @@ void PlaneSweepGl::Impl::SetUp(const SweepSpace& space, const core::CameraModel&
     SetCamera(program, space.cameras()[pass.first_camera + i], i);
 }
 
-void PlaneSweepGl::Impl::Draw(const SweepSpace& space, const Pass& pass, int plane,
-                              GLuint wanted_count) const {
+// The corners of all cells go through the camera's lens here; the graphics card interpolates between them and
+// divides. Where there are no positions all three numbers are 0.
+void PlaneSweepGl::Impl::UploadGrid(const SweepSpace& space, const PlaneGrid& grid, const SweepCamera& camera,
+                                    double depth_mm) {
+  const auto positions = grid.PositionsOf(camera, depth_mm);
+  const Eigen::Vector2d picture_px(space.rays().width_px(), space.rays().height_px());
+  std::vector<float> vertices;
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    GridTriangle from_texels;
+    if (positions[i])
+      from_texels = positions[i]->CountedFrom({camera.coverage.left_px, camera.coverage.top_px});
+    for (const Eigen::Vector2d& corner : grid.CornersOf(i)) {
+      const Eigen::Vector2d place = (corner + Eigen::Vector2d::Constant(0.5)).cwiseQuotient(picture_px);
+      const Eigen::Vector3d position =
+          from_texels.origin + corner.x() * from_texels.along_x + corner.y() * from_texels.along_y;
+      for (const double number : {place.x(), place.y(), position.x(), position.y(), position.z()})
+        vertices.push_back(static_cast<float>(number));
+    }
+  }
+  grid_triangles_.Upload(vertices, Refill::kEachFrame);
+}
+
+std::size_t PlaneSweepGl::Impl::Draw(const SweepSpace& space, const PlaneGrid* grid, const Pass& pass,
+                                     int plane, GLuint wanted_count) {
   const ShaderProgram& program = *pass.program;
   const double depth_mm = space.DepthMmOf(plane);
   program.Use();
@@ -209,7 +243,13 @@ void PlaneSweepGl::Impl::Draw(const SweepSpace& space, const Pass& pass, int pla
     masks_[pass.first_camera + i].BindTo(static_cast<int>(i));
   }
   SetStencil(pass.kind, wanted_count);
+  if (grid != nullptr && pass.cameras == 1) {
+    UploadGrid(space, *grid, space.cameras()[pass.first_camera], depth_mm);
+    grid_triangles_.Draw(GL_TRIANGLES);
+    return grid->triangles();
+  }
   corners_.Draw(GL_TRIANGLES, 3);
+  return 1;
 }
 
 DepthMap PlaneSweepGl::Impl::ReadPicture(const SweepSpace& space) const {
@@ -232,7 +272,11 @@ DepthMap PlaneSweepGl::Impl::ReadPicture(const SweepSpace& space) const {
 }
 
 SweptView PlaneSweepGl::Impl::Sweep(const SweepSpace& space, const core::CameraModel& view,
-                                    SweepPasses passes) {
+                                    SweepPasses passes, int cells) {
+  core::Require(cells == 0 || passes == SweepPasses::kOneAPlaneAndCamera,
+                "an undistortion grid belongs to a draw a plane and camera");
+  const std::optional<PlaneGrid> grid =
+      cells > 0 ? std::optional<PlaneGrid>(std::in_place, view, cells) : std::nullopt;
   Upload(space);
   target_->Bind();
   glDisable(GL_SCISSOR_TEST);
@@ -243,7 +287,7 @@ SweptView PlaneSweepGl::Impl::Sweep(const SweepSpace& space, const core::CameraM
   glDepthFunc(GL_LESS);
   glEnable(GL_STENCIL_TEST);
   rays_.BindTo(kRayUnit);
-  const std::vector<Pass> order = PassesOf(space, passes);
+  const std::vector<Pass> order = PassesOf(space, passes, grid.has_value());
   for (const Pass& pass : order) SetUp(space, view, pass);
   const auto groups = static_cast<GLuint>(std::count_if(
       order.begin(), order.end(), [](const Pass& pass) { return pass.kind == SweepPass::kObject; }));
@@ -259,9 +303,14 @@ SweptView PlaneSweepGl::Impl::Sweep(const SweepSpace& space, const core::CameraM
       if (rect.isEmpty()) continue;
       glScissor(rect.min().x(), rect.min().y(), rect.sizes().x(), rect.sizes().y());
     }
-    swept.stats.tested_points +=
+    const std::int64_t covered =
         is_cut ? std::int64_t{(*survey)[plane].sizes().x()} * (*survey)[plane].sizes().y() : pixels;
-    for (const Pass& pass : order) Draw(space, pass, plane, wanted);
+    swept.stats.tested_points += covered;
+    for (const Pass& pass : order) {
+      swept.stats.drawn_triangles +=
+          static_cast<std::int64_t>(Draw(space, grid ? &*grid : nullptr, pass, plane, wanted));
+      swept.stats.filled_pixels += covered;
+    }
   }
   swept.picture = ReadPicture(space);
   ThrowOnGlError(context_.renderer());
@@ -289,7 +338,7 @@ SweptView PlaneSweepGl::Sweep(const core::Rig& rig, std::span<const core::SoftMa
   core::Require(impl_->thread() == std::this_thread::get_id(),
                 "a plane sweep is used on the thread that made it");
   impl_->MakeCurrent();
-  return impl_->Sweep(SweepSpace(rig, masks, view, rays, options), view, passes);
+  return impl_->Sweep(SweepSpace(rig, masks, view, rays, options), view, passes, options.undistortion_grid);
 }
 
 const std::string& PlaneSweepGl::driver() const {

@@ -29,8 +29,9 @@ class PlaneSweepGl {
 
   // As recon::SweepPlanes, and equal to it pixel by pixel, except where rounding decides: textures are
   // interpolated with 8-bit fractions, so that labels may differ where the coverage is within 4/256 of one
-  // half (docs/plane_sweep.md; plane_sweep_gl_test). Throws: as SweepPlanes, and core::Error{kGraphics} when
-  // the driver fails.
+  // half (docs/plane_sweep.md; plane_sweep_gl_test). An undistortion grid needs kOneAPlaneAndCamera. Throws:
+  // as SweepPlanes, PreconditionError for a grid with kOneAPlane, and core::Error{kGraphics} when the driver
+  // fails.
   [[nodiscard]] SweptView Sweep(const core::Rig& rig, std::span<const core::SoftMask> masks,
                                 const core::CameraModel& view, const SweepRays& rays,
                                 const PlaneSweepOptions& options = {},

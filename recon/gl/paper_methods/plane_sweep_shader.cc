@@ -15,6 +15,17 @@ void main() {
 }
 )";
 
+constexpr const char* kGridVertexSource = R"(
+layout(location = 0) in vec2 place;
+layout(location = 1) in vec3 position;
+uniform float plane_depth;
+out vec3 picture_position;
+void main() {
+  picture_position = position;
+  gl_Position = vec4(2.0 * place - 1.0, 2.0 * plane_depth - 1.0, 1.0);
+}
+)";
+
 constexpr const char* kViewportVertexSource = R"(
 layout(location = 0) in vec2 page_position;
 layout(location = 1) in vec2 viewport_corner;
@@ -61,6 +72,14 @@ vec2 Position_@(vec3 ray, out bool in_domain) {
   vec3 h = from_ray_@ * ray;
   in_domain = h.z > 0.0;
   return h.xy / h.z;
+}
+)";
+
+constexpr const char* kGridPositionSource = R"(
+in vec3 picture_position;
+vec2 Position_@(vec3 ray, out bool in_domain) {
+  in_domain = picture_position.z > 0.0;
+  return in_domain ? picture_position.xy / picture_position.z : vec2(0.0);
 }
 )";
 
@@ -153,9 +172,11 @@ const char* RaySourceText(SweepRaySource source) {
   return kViewportRaySource;
 }
 
-std::string CameraSource(const core::CameraModel& camera, std::size_t index) {
+std::string CameraSource(const core::CameraModel& camera, bool has_grid_positions, std::size_t index) {
   std::string source = kCameraSource;
-  if (camera.is_ideal()) {
+  if (has_grid_positions) {
+    source += kGridPositionSource;
+  } else if (camera.is_ideal()) {
     source += kIdealPositionSource;
   } else {
     const bool is_fisheye = camera.calibration().distortion_model == core::DistortionModel::kFisheye;
@@ -169,13 +190,16 @@ std::string CameraSource(const core::CameraModel& camera, std::size_t index) {
 
 std::string SweepVertexSource() { return kVertexSource; }
 
+std::string GridVertexSource() { return kGridVertexSource; }
+
 std::string ViewportVertexSource() { return kViewportVertexSource; }
 
 std::string SweepShader::FragmentSource() const {
   if (pass == SweepPass::kPlane) return "void main() {}\n";
   std::string source = RaySourceText(ray_source);
   source += kAnswerSource;
-  for (std::size_t i = 0; i < group.size(); ++i) source += CameraSource(group[i].model, i);
+  for (std::size_t i = 0; i < group.size(); ++i)
+    source += CameraSource(group[i].model, has_grid_positions, i);
   if (tests_workspace) source += kWorkspaceSource;
   source = Replaced(source, '$', ray_source == SweepRaySource::kViewport ? "flat in" : "uniform");
   source +=

@@ -36,12 +36,19 @@ struct SweepShader {
   bool exterior_is_object = false;
   bool tests_workspace = false;
   SweepRaySource ray_source = SweepRaySource::kIdealView;
+  // Picture positions come from the vertices, for a group of one camera, instead of from the lens.
+  bool has_grid_positions = false;
 
   [[nodiscard]] std::string FragmentSource() const;
 };
 
 // One triangle over the picture at window depth `plane_depth`.
 [[nodiscard]] std::string SweepVertexSource();
+
+// Triangles of recon::PlaneGrid at window depth `plane_depth`. Attributes: position in the view's picture, 0
+// to 1; then that in the camera's, homogeneous (recon::GridTriangle), counted from its coverage's first
+// texel; zero where there is none.
+[[nodiscard]] std::string GridVertexSource();
 
 // Triangles in viewports of a page of `page_px`. Attributes: position on the page and its viewport's lower
 // left corner, px; then origin, along x, along y of recon::TriangleViewport in the world. The camera of the

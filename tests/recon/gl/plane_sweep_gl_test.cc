@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "recon/paper_methods/sweep_comparison.h"
 #include "tests/recon/scenes/random_scene.h"
 #include "tests/recon/scenes/sweep_oracle.h"
 #include "tests/support/soak.h"
@@ -27,10 +28,11 @@ std::vector<core::SoftMask> WithLevels(Random* random, const std::vector<core::B
 
 // Both pictures against the oracle: where they differ, the oracle is unsure.
 void ExpectOracles(Random* random, const RandomScene& scene, const core::CameraModel& view,
-                   SweepPasses passes, PlaneSweepGl* sweep, const PlaneSweepOptions& options, int* hits) {
+                   SweepPasses passes, PlaneSweepGl* sweep, const PlaneSweepOptions& options, int* hits,
+                   const SweepBand& band = kGlBand) {
   const auto masks = WithLevels(random, scene.masks);
   const SweptView swept = sweep->Sweep(*scene.rig, masks, view, SweepRays(view), options, passes);
-  const SweepCheck check = CheckSweep(*scene.rig, masks, view, options, swept.picture, kGlBand);
+  const SweepCheck check = CheckSweep(*scene.rig, masks, view, options, swept.picture, band);
   ASSERT_EQ(check.wrong_pixels, 0) << check.first_wrong;
   EXPECT_EQ(swept.picture.hit_pixels, check.hit_pixels);
   *hits += check.hit_pixels;
@@ -66,7 +68,6 @@ TEST(PlaneSweepGl, BothWaysAgreeWithTheCpu) {
     const auto view = RandomView(&random, static_cast<LensKind>(i % kLensKinds), *scene.rig);
     PlaneSweepOptions options;
     options.spacing_mm = 12.0;
-    options.undistortion_grid = i < 6 ? 0 : 5;
     const SweptView cpu = SweepPlanes(*scene.rig, masks, view, options);
     for (const auto passes : {SweepPasses::kOneAPlane, SweepPasses::kOneAPlaneAndCamera}) {
       const SweptView gl = sweep.Sweep(*scene.rig, masks, view, SweepRays(view), options, passes);
@@ -79,6 +80,78 @@ TEST(PlaneSweepGl, BothWaysAgreeWithTheCpu) {
   }
   EXPECT_GT(hits, 5000);
   EXPECT_LT(static_cast<double>(differing), kMostInTheBand * static_cast<double>(hits));
+}
+
+// The grid's positions are interpolated by the graphics card, from corners that are the CPU's.
+TEST(PlaneSweepGl, AGridIsWhatItsPositionsSay) {
+  Random random(7205);
+  PlaneSweepGl sweep;
+  // Corners are drawn to 8 bits of a pixel by Mesa, to 4 at least by any driver.
+  SweepBand band = kGlBand;
+  band.corner_px = 1.0 / 256.0;
+  int hits = 0;
+  for (int i = 0; i < 12; ++i) {
+    const auto unseen = i % 2 == 0 ? core::UnseenPolicy::kOutside : core::UnseenPolicy::kAbstain;
+    const RandomScene scene = MakeRingScene(&random, 3 + i % 3, unseen);
+    const auto view = RandomView(&random, static_cast<LensKind>(i % kLensKinds), *scene.rig);
+    const PlaneSweepOptions options{.spacing_mm = 12.0, .undistortion_grid = 1 + i % 8};
+    ExpectOracles(&random, scene, view, SweepPasses::kOneAPlaneAndCamera, &sweep, options, &hits, band);
+    if (HasFatalFailure()) FAIL() << "scene " << i;
+  }
+  EXPECT_GT(hits, 5000);
+}
+
+// As the self-test compares them.
+TEST(PlaneSweepGl, AGridIsTheCpusButForRounding) {
+  constexpr double kMostInTheBand = 0.02;  // of the hit pixels
+  Random random(7206);
+  PlaneSweepGl sweep;
+  std::int64_t hits = 0, differing = 0;
+  for (int i = 0; i < 6; ++i) {
+    const RandomScene scene = MakeRingScene(&random, 3, core::UnseenPolicy::kOutside);
+    const auto masks = WithLevels(&random, scene.masks);
+    const auto view = RandomView(&random, LensKind::kPinhole, *scene.rig);
+    const PlaneSweepOptions options{.spacing_mm = 12.0, .undistortion_grid = 5};
+    const SweptView cpu = SweepPlanes(*scene.rig, masks, view, options);
+    const SweptView gl =
+        sweep.Sweep(*scene.rig, masks, view, SweepRays(view), options, SweepPasses::kOneAPlaneAndCamera);
+    const SweepComparison comparison =
+        CompareSweeps(*scene.rig, masks, view, cpu.picture, gl.picture, options.undistortion_grid);
+    EXPECT_EQ(comparison.unexplained_pixels, 0) << "scene " << i;
+    hits += cpu.picture.hit_pixels;
+    differing += comparison.differing_pixels;
+  }
+  EXPECT_GT(hits, 3000);
+  EXPECT_LT(static_cast<double>(differing), kMostInTheBand * static_cast<double>(hits));
+}
+
+// The paper's formulas, but for the last draw of a plane, which takes one triangle here and two there.
+TEST(PlaneSweepGl, CountsItsWorkAsThePaperDoes) {
+  constexpr std::int64_t kCameras = 3, kCells = 5;
+  Random random(7208);
+  PlaneSweepGl sweep;
+  const RandomScene scene = MakeRingScene(&random, kCameras, core::UnseenPolicy::kOutside);
+  const auto masks = WithLevels(&random, scene.masks);
+  const auto view = RandomView(&random, LensKind::kPinhole, *scene.rig);
+  const SweptView paper = sweep.Sweep(*scene.rig, masks, view, SweepRays(view), {.undistortion_grid = kCells},
+                                      SweepPasses::kOneAPlaneAndCamera);
+  const std::int64_t pixels = std::int64_t{view.width_px()} * view.height_px();
+  ASSERT_GT(paper.stats.planes, 5);
+  EXPECT_EQ(paper.stats.drawn_triangles, (2 * kCameras * kCells * kCells + 1) * paper.stats.planes);
+  EXPECT_EQ(paper.stats.filled_pixels, (kCameras + 1) * paper.stats.planes * pixels);
+  const SweptView cut = sweep.Sweep(*scene.rig, masks, view, SweepRays(view));
+  EXPECT_LE(cut.stats.drawn_triangles, paper.stats.planes);
+  EXPECT_EQ(cut.stats.filled_pixels, cut.stats.tested_points);
+}
+
+TEST(PlaneSweepGl, AGridBelongsToThePapersPasses) {
+  Random random(7207);
+  PlaneSweepGl sweep;
+  const RandomScene scene = MakeRingScene(&random, 3, core::UnseenPolicy::kOutside);
+  const auto view = RandomView(&random, LensKind::kPinhole, *scene.rig);
+  EXPECT_THROW((void)sweep.Sweep(*scene.rig, WithLevels(&random, scene.masks), view, SweepRays(view),
+                                 {.undistortion_grid = 5}, SweepPasses::kOneAPlane),
+               core::PreconditionError);
 }
 
 // More cameras than OpenGL has textures at once are asked in groups.

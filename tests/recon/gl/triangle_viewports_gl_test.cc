@@ -53,7 +53,7 @@ TEST(TriangleViewportsGl, AgreesWithTheCpu) {
   for (int i = 0; i < 12; ++i) {
     const auto unseen = i % 2 == 0 ? core::UnseenPolicy::kOutside : core::UnseenPolicy::kAbstain;
     const RandomScene scene = MakeRingScene(&random, 3 + i % 3, unseen);
-    const CoverageHull hull(*scene.rig, WithLevels(&random, scene.masks), i < 8 ? 0 : 5);
+    const CoverageHull hull(*scene.rig, WithLevels(&random, scene.masks));
     const core::TriangleMesh part = RandomTriangles(&random, scene.rig->workspace_mm, 300);
     const core::RigidTransform world_from_part{random.Rotation(), 10.0 * random.Direction()};
     const SampledContacts cpu = SampleTriangles(hull, part, world_from_part);

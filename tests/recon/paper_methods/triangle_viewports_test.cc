@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "core/error.h"
-#include "recon/paper_methods/undistorted_mask.h"
 #include "tests/recon/scenes/part_samples.h"
 #include "tests/support/soak.h"
 
@@ -121,31 +120,6 @@ TEST(SampleTriangles, IsTheOraclesOnRandomScenes) {
   }
   EXPECT_GT(hull_samples, 5'000);
   EXPECT_LT(unsure, hull_samples / 100);
-}
-
-// Straightened by a grid, labels are those of the straight cameras.
-TEST(SampleTriangles, AGridsLabelsAreTheOraclesOfTheStraightCameras) {
-  Random random(7304);
-  constexpr int kGrid = 5;
-  int hull_samples = 0;
-  for (int i = 0; i < 6; ++i) {
-    const RandomScene scene = MakeRingScene(&random, 3, core::UnseenPolicy::kOutside);
-    const auto masks = SoftMasks(&random, scene.masks);
-    core::Rig straight_rig = *scene.rig;
-    straight_rig.cameras.clear();
-    std::vector<core::SoftMask> straight_masks;
-    for (std::size_t c = 0; c < masks.size(); ++c) {
-      UndistortedMask straight = Undistort(scene.rig->cameras[c], masks[c], kGrid, false);
-      straight_rig.cameras.push_back(straight.camera);
-      straight_masks.push_back(std::move(straight.mask));
-    }
-    const core::TriangleMesh part = RandomTriangles(&random, scene.rig->workspace_mm, 100);
-    const SampledContacts sampled = SampleTriangles(CoverageHull(*scene.rig, masks, kGrid), part, {});
-    const SampleCheck check = CheckSamples(straight_rig, straight_masks, part, {}, {}, sampled, kDoubleBand);
-    ASSERT_EQ(check.wrong_samples, 0) << check.first_wrong;
-    hull_samples += check.hull_samples;
-  }
-  EXPECT_GT(hull_samples, 300);
 }
 
 TEST(SampleTriangles, CountsWorkAsThePaperDoes) {

@@ -80,22 +80,51 @@ PointOracle::Opinion PointOracle::OpinionOf(std::size_t index, const Vector3d& x
   const Vector2d p = camera.PixelFromNormalised(n);
   const double size_px = camera.width_px() + camera.height_px() +
                          camera.calibration().camera_matrix.cwiseAbs().maxCoeff() * n.norm();
-  const double error_px =
-      camera.PixelStretch(n.norm() + error_n) * error_n + band_.roundings * kUnit * size_px;
+  return OpinionAt(
+      index, {p, camera.PixelStretch(n.norm() + error_n) * error_n + band_.roundings * kUnit * size_px});
+}
+
+PointOracle::Opinion PointOracle::OpinionAt(std::size_t index, const PicturePosition& position) const {
+  const core::CameraModel& camera = rig_.cameras[index];
   const Vector2d half(0.5 * camera.width_px(), 0.5 * camera.height_px());
   const Vector2d center = half - Vector2d::Constant(0.5);
-  const Sure in_picture = SureOf((half - (p - center).cwiseAbs()).minCoeff(), error_px);
+  const Sure in_picture = SureOf((half - (position.px - center).cwiseAbs()).minCoeff(), position.error_px);
   if (in_picture == Sure::kNo) return {Sure::kNo, Sure::kNo};
-  const Sure object = SureOf(CoverageAt(index, p) - 0.5, 2.0 * error_px + band_.filter_coverage);
+  const Sure object =
+      SureOf(CoverageAt(index, position.px) - 0.5, 2.0 * position.error_px + band_.filter_coverage);
   return {in_picture, And(in_picture, object)};
 }
 
+PointOracle::Opinion PointOracle::OpinionOfAny(
+    std::size_t index, std::span<const std::optional<PicturePosition>> positions) const {
+  std::optional<Opinion> all;
+  for (const std::optional<PicturePosition>& position : positions) {
+    const Opinion one = position ? OpinionAt(index, *position) : Opinion{Sure::kNo, Sure::kNo};
+    if (!all) all = one;
+    if (all->seen != one.seen) all->seen = Sure::kUnsure;
+    if (all->object != one.object) all->object = Sure::kUnsure;
+  }
+  return *all;
+}
+
 Sure PointOracle::InHull(const Vector3d& x_in_world, double size_mm) const {
+  return Decide(x_in_world, size_mm,
+                [&](std::size_t camera) { return OpinionOf(camera, x_in_world, size_mm); });
+}
+
+Sure PointOracle::InHullAt(const Vector3d& x_in_world, double size_mm,
+                           const PositionsOfCamera& positions) const {
+  return Decide(x_in_world, size_mm,
+                [&](std::size_t camera) { return OpinionOfAny(camera, positions(rig_.cameras[camera])); });
+}
+
+Sure PointOracle::Decide(const Vector3d& x_in_world, double size_mm,
+                         const std::function<Opinion(std::size_t)>& opinion_of) const {
   const double error_mm = band_.roundings * kUnit * (size_mm + x_in_world.norm());
   Sure inside = InBox(rig_.workspace_mm, x_in_world, error_mm), seen = Sure::kNo;
   for (std::size_t i = 0; i < coverages_.size(); ++i) {
     if (inside == Sure::kNo) return inside;
-    const Opinion opinion = OpinionOf(i, x_in_world, size_mm);
+    const Opinion opinion = opinion_of(i);
     seen = Or(seen, opinion.seen);
     const bool abstains = rig_.unseen == core::UnseenPolicy::kAbstain;
     inside = And(inside, abstains ? Or(opinion.object, Not(opinion.seen)) : opinion.object);
@@ -103,11 +132,40 @@ Sure PointOracle::InHull(const Vector3d& x_in_world, double size_mm) const {
   return And(inside, seen);
 }
 
+namespace {
+
+// Which points of planes are in the hull, with a grid and without.
+class SweptHull {
+ public:
+  SweptHull(const core::Rig& rig, std::span<const core::SoftMask> masks, const core::CameraModel& view,
+            int undistortion_grid, const SweepBand& band)
+      : points_(rig, masks, band), band_(band), world_from_view_(view.cam_from_world().Inverse()) {
+    if (undistortion_grid > 0) grid_.emplace(view, undistortion_grid);
+  }
+
+  [[nodiscard]] Sure Holds(const Eigen::Vector2i& pixel, const Vector3d& x_in_view) const {
+    const Vector3d x_in_world = world_from_view_ * x_in_view;
+    const double size_mm = x_in_view.norm() + world_from_view_.translation_mm.norm();
+    if (!grid_) return points_.InHull(x_in_world, size_mm);
+    return points_.InHullAt(x_in_world, size_mm, [&](const core::CameraModel& camera) {
+      return grid_->PositionsOf(camera, pixel.x(), pixel.y(), x_in_view.z(),
+                                {band_.roundings, band_.corner_px});
+    });
+  }
+
+ private:
+  PointOracle points_;
+  SweepBand band_;
+  core::RigidTransform world_from_view_;
+  std::optional<GridOracle> grid_;
+};
+
+}  // namespace
+
 SweepCheck CheckSweep(const core::Rig& rig, std::span<const core::SoftMask> masks,
                       const core::CameraModel& view, const PlaneSweepOptions& options,
                       const DepthMap& picture, const SweepBand& band) {
-  const PointOracle oracle(rig, masks, band);
-  const core::RigidTransform world_from_view = view.cam_from_world().Inverse();
+  const SweptHull hull(rig, masks, view, options.undistortion_grid, band);
   double far_mm = 0.0;
   for (int i = 0; i < 8; ++i) {
     const auto corner = rig.workspace_mm.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i));
@@ -122,9 +180,7 @@ SweepCheck CheckSweep(const core::Rig& rig, std::span<const core::SoftMask> mask
       for (double k = 1; ray && k * options.spacing_mm <= std::min(far_mm, options.far_mm); ++k) {
         const double z_mm = k * options.spacing_mm;
         if (z_mm < options.near_mm) continue;
-        const Vector3d x_in_view = z_mm * ray->homogeneous();
-        const Sure inside = oracle.InHull(world_from_view * x_in_view,
-                                          x_in_view.norm() + world_from_view.translation_mm.norm());
+        const Sure inside = hull.Holds({x, y}, z_mm * ray->homogeneous());
         is_unsure |= inside == Sure::kUnsure;
         is_found |= static_cast<float>(z_mm) == depth;
         const bool is_here = depth != 0.0F && is_found;

@@ -4,12 +4,15 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "recon/paper_methods/plane_sweep.h"
 #include "tests/recon/hull/sure.h"
+#include "tests/recon/scenes/grid_oracle.h"
 #include "tests/recon/scenes/random_scene.h"
 
 namespace elbowroom::recon {
@@ -18,6 +21,7 @@ namespace elbowroom::recon {
 struct SweepBand {
   double roundings = 32.0;       // of single precision, on the way to a position
   double filter_coverage = 0.0;  // of the interpolation, in shares of a pixel
+  double corner_px = 0.0;        // by which a grid's corners are moved when they are drawn
 };
 
 inline constexpr double kGlFilterCoverage = 4.0 / 256.0;
@@ -31,6 +35,13 @@ class PointOracle {
   // Whether the point is in the hull. `size_mm`: of the numbers that it was computed from.
   [[nodiscard]] Sure InHull(const Eigen::Vector3d& x_in_world, double size_mm) const;
 
+  // The same where each camera sees the point at one of these positions instead of through its lens;
+  // nothing: in its exterior.
+  using PositionsOfCamera =
+      std::function<std::vector<std::optional<PicturePosition>>(const core::CameraModel& camera)>;
+  [[nodiscard]] Sure InHullAt(const Eigen::Vector3d& x_in_world, double size_mm,
+                              const PositionsOfCamera& positions) const;
+
  private:
   struct Opinion {
     Sure seen, object;
@@ -38,6 +49,13 @@ class PointOracle {
   [[nodiscard]] double CoverageAt(std::size_t camera, const Eigen::Vector2d& pixel) const;
   [[nodiscard]] Opinion OpinionOf(std::size_t camera, const Eigen::Vector3d& x_in_world,
                                   double size_mm) const;
+  // Of a position of the camera's picture plane.
+  [[nodiscard]] Opinion OpinionAt(std::size_t camera, const PicturePosition& position) const;
+  [[nodiscard]] Opinion OpinionOfAny(std::size_t camera,
+                                     std::span<const std::optional<PicturePosition>> positions) const;
+  // What all cameras' opinions make of a point of the workspace.
+  [[nodiscard]] Sure Decide(const Eigen::Vector3d& x_in_world, double size_mm,
+                            const std::function<Opinion(std::size_t)>& opinion_of) const;
 
   const core::Rig& rig_;
   std::vector<std::vector<double>> coverages_;  // 0 to 1, row-major, one a camera
