@@ -66,4 +66,10 @@ DepthError ErrorTally::Summary() const {
   return error;
 }
 
+DepthError ErrorAgainst(const SurfacePicture& reference, const recon::DepthMap& found) {
+  ErrorTally tally;
+  tally.Add(reference, found);
+  return tally.Summary();
+}
+
 }  // namespace elbowroom::accuracy

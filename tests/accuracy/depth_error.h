@@ -41,4 +41,7 @@ class ErrorTally {
   std::vector<double> to_surface_mm_;
 };
 
+// What one picture has against the reference.
+[[nodiscard]] DepthError ErrorAgainst(const SurfacePicture& reference, const recon::DepthMap& found);
+
 }  // namespace elbowroom::accuracy

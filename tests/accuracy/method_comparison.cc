@@ -11,12 +11,6 @@ namespace {
 // What the methods take a mask for: docs/accuracy.md, "Conventions".
 constexpr auto kConvention = oracles::BoundaryConvention::kMarchingSquares;
 
-DepthError ErrorAgainst(const SurfacePicture& reference, const recon::DepthMap& found) {
-  ErrorTally tally;
-  tally.Add(reference, found);
-  return tally.Summary();
-}
-
 }  // namespace
 
 ComparedScene MakeComparedScene(const std::string& name, recon::ViewSceneRig rig, int view_width_px,

@@ -11,6 +11,7 @@
 #include "recon/segmentation/frame_segmenter.h"
 #include "recon/synthetic/synthetic_rig.h"
 #include "recon/synthetic/view_scene.h"
+#include "tests/accuracy/synthetic_segmentation.h"
 #include "tests/accuracy/view_methods.h"
 #include "tests/oracles/analytic_hull.h"
 #include "tests/oracles/mask_hull_oracle.h"
@@ -19,7 +20,6 @@ namespace elbowroom::accuracy {
 namespace {
 
 constexpr int kPaperCells = 5;
-constexpr int kRaysPerPixelSide = 8;
 
 // Depths, with the work that they took.
 struct Seen {
@@ -127,12 +127,6 @@ struct References {
 
   SurfacePicture masks, analytic;
 };
-
-DepthError ErrorAgainst(const SurfacePicture& reference, const recon::DepthMap& found) {
-  ErrorTally tally;
-  tally.Add(reference, found);
-  return tally.Summary();
-}
 
 }  // namespace
 
