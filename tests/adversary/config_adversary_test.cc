@@ -136,12 +136,6 @@ std::string With(const fs::path& folder, ConfigurationKind kind, const std::stri
   return at == std::string::npos ? text : text.replace(at, from.size(), to);
 }
 
-std::string Repeated(const std::string& text, int times) {
-  std::string all;
-  for (int i = 0; i < times; ++i) all += text;
-  return all;
-}
-
 class KnownDamage : public testing::Test {
  protected:
   void SetUp() override { WriteSoundTrial(folder_.path()); }

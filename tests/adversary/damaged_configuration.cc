@@ -91,12 +91,6 @@ camera = "view.yml"
 frames = "view_%d.png"
 )";
 
-std::string Repeated(const std::string& text, std::uint64_t times) {
-  std::string all;
-  for (std::uint64_t i = 0; i < times; ++i) all += text;
-  return all;
-}
-
 std::vector<std::string> LinesOf(const std::string& text) {
   std::vector<std::string> lines;
   for (std::size_t begin = 0; begin < text.size();) {
@@ -210,6 +204,12 @@ class LineDamage {
 };
 
 }  // namespace
+
+std::string Repeated(const std::string& text, std::uint64_t times) {
+  std::string all;
+  for (std::uint64_t i = 0; i < times; ++i) all += text;
+  return all;
+}
 
 std::string NameOf(ConfigurationKind kind) {
   constexpr const char* kNames[] = {"rig.yml", "view.yml", "pose.yml", "layout.toml", "trial.toml"};

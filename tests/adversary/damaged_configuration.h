@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <random>
@@ -27,5 +28,7 @@ void WriteSoundTrial(const std::filesystem::path& folder);
 // `text` with its bytes damaged (tests/fuzz/mutation.h), or its lines: dropped, doubled, moved, indented, a
 // value replaced by one that is too large, of another kind, nested deep or no text at all.
 [[nodiscard]] std::string Damaged(const std::string& text, const std::string& other, std::mt19937_64& random);
+
+[[nodiscard]] std::string Repeated(const std::string& text, std::uint64_t times);
 
 }  // namespace elbowroom::adversary

@@ -129,7 +129,7 @@ bool PartPainter::MeshKey::operator<(const MeshKey& other) const {
 }
 
 PartPainter::PartPainter(PartDetail detail)
-    : face_program_("part", kFaceVertexSource, std::string(kLightingSource) + kFaceFragmentSource),
+    : face_program_("part", kFaceVertexSource, std::string(kLightingSource).append(kFaceFragmentSource)),
       edge_program_("part edge", kEdgeVertexSource, kEdgeFragmentSource),
       depth_program_("part depth", kFaceVertexSource, kPartDepthSource) {
   if (detail == PartDetail::kOnDemand) level_maker_.emplace(kCreaseRad);

@@ -113,7 +113,7 @@ void AppendFrustum(std::vector<float>& floats, const CameraFrustum& frustum, con
 
 SurroundingsPainter::SurroundingsPainter()
     : background_program_("background", kBackgroundVertexSource, kBackgroundFragmentSource),
-      table_program_("table", kTableVertexSource, std::string(kLightingSource) + kTableFragmentSource),
+      table_program_("table", kTableVertexSource, std::string(kLightingSource).append(kTableFragmentSource)),
       line_program_("line", kLineVertexSource, kLineFragmentSource) {}
 
 void SurroundingsPainter::DrawBackground(const Scene& scene) const {
