@@ -1,4 +1,5 @@
 #include "tests/accuracy/depth_error.h"
+#include "tests/accuracy/quantile.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,14 +19,6 @@ double RootMeanSquare(const std::vector<double>& values) {
   double sum = 0.0;
   for (const double value : values) sum += value * value;
   return values.empty() ? 0.0 : std::sqrt(sum / static_cast<double>(values.size()));
-}
-
-// The value below which a share of the values lies.
-double Quantile(std::vector<double> values, double share) {
-  if (values.empty()) return 0.0;
-  const auto rank = static_cast<std::size_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(rank), values.end());
-  return values[rank];
 }
 
 }  // namespace

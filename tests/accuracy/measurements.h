@@ -12,6 +12,9 @@ namespace elbowroom::accuracy {
 // accuracy.md, "budget". Throws also: core::Error{kRange} naming a term that exceeds its ceiling.
 void MeasureBudget(const std::filesystem::path& docs);
 
+// accuracy.md, "finger", "finger_directions", "finger_cameras"; docs/pictures/finger_width.{svg,png}.
+void MeasureFinger(const std::filesystem::path& docs);
+
 // performance.md, "methods"; docs/pictures/view_methods.{svg,png}.
 void MeasureMethods(const std::filesystem::path& docs);
 
