@@ -61,8 +61,8 @@ Optics ModernOptics(int width_px, int height_px, double width_deg) {
 core::Rig PaperRig() {
   constexpr double kFarthestMm = 3300.0;
   constexpr double kPixelWidthThereMm = 2.5;
-  // 24 degrees span the field's 243 lines; the pixel's width at the far end gives the horizontal focal
-  // length.
+  // 24 degrees span the field's 243 lines (our reading: the paper doesn't say vertical or horizontal); the
+  // pixel's width at the far end gives the horizontal focal length.
   const Optics optics{720, 243, kFarthestMm / kPixelWidthThereMm, FocalPx(243, 24.0), {0, 0, 0, 0, 0}};
   core::Rig rig;
   rig.name = "paper";

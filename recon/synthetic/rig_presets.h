@@ -8,7 +8,8 @@ namespace elbowroom::recon {
 // The paper's: three cameras (overhead, left of the table, on a diagonal three feet above it), one field of
 // 720 x 243, 24 degree lenses without distortion, workspace 5' x 4' x 3'. No point of the workspace is
 // further than 3.3 m from a camera, and there a pixel is 5.8 mm high and 2.5 mm wide (the paper's
-// "Accuracy").
+// "Accuracy"). The paper doesn't say across what its lenses have 24 degrees: we take the height, which gives
+// its 5.8 mm.
 [[nodiscard]] core::Rig PaperRig();
 
 // Four 640 x 480 cameras, 50 degrees wide, around the table: near overhead, low at the back left (level with

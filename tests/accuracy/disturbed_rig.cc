@@ -23,7 +23,26 @@ Vector3d RandomDirection(std::mt19937_64* random) {
   return direction.normalized();
 }
 
+core::CameraModel Moved(const core::CameraModel& camera, const Disturbance& disturbance,
+                        std::mt19937_64* random) {
+  const Eigen::Matrix3d turn =
+      Eigen::AngleAxisd(core::RadiansFromDegrees(disturbance.rotation_deg), RandomDirection(random))
+          .toRotationMatrix();
+  core::CameraCalibration moved = camera.calibration();
+  moved.cam_from_world.rotation = turn * camera.cam_from_world().rotation;
+  const Vector3d center_in_world =
+      camera.center_in_world() + disturbance.position_mm * RandomDirection(random);
+  moved.cam_from_world.translation_mm = -(moved.cam_from_world.rotation * center_in_world);
+  return core::CameraModel(std::move(moved));
+}
+
 }  // namespace
+
+core::CameraModel DisturbedCamera(const core::CameraModel& camera, const Disturbance& disturbance,
+                                  std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  return Moved(camera, disturbance, &random);
+}
 
 std::vector<oracles::Sight> DisturbedSights(const core::Rig& rig, std::span<const recon::Solid> solids,
                                             const Disturbance& disturbance, std::uint64_t seed) {
@@ -31,21 +50,20 @@ std::vector<oracles::Sight> DisturbedSights(const core::Rig& rig, std::span<cons
   std::uniform_real_distribution<double> late(-0.5, 0.5);
   std::vector<oracles::Sight> sights;
   for (const core::CameraModel& camera : rig.cameras) {
-    const Eigen::Matrix3d turn =
-        Eigen::AngleAxisd(core::RadiansFromDegrees(disturbance.rotation_deg), RandomDirection(&random))
-            .toRotationMatrix();
-    core::CameraCalibration believed = camera.calibration();
-    believed.cam_from_world.rotation = turn * camera.cam_from_world().rotation;
-    const Vector3d center_in_world =
-        camera.center_in_world() + disturbance.position_mm * RandomDirection(&random);
-    believed.cam_from_world.translation_mm = -(believed.cam_from_world.rotation * center_in_world);
     oracles::Sight sight{
-        core::CameraModel(std::move(believed)), camera.cam_from_world(), {solids.begin(), solids.end()}};
+        Moved(camera, disturbance, &random), camera.cam_from_world(), {solids.begin(), solids.end()}};
     const Vector3d shift_mm = late(random) * disturbance.skew_s * disturbance.velocity_mm_s;
     for (recon::Solid& solid : sight.solids) solid.world_from_solid.translation_mm += shift_mm;
     sights.push_back(std::move(sight));
   }
   return sights;
+}
+
+std::shared_ptr<const core::Rig> BelievedRig(const core::Rig& rig, std::span<const oracles::Sight> sights) {
+  auto believed = std::make_shared<core::Rig>(rig);
+  believed->cameras.clear();
+  for (const oracles::Sight& sight : sights) believed->cameras.push_back(sight.believed);
+  return believed;
 }
 
 std::optional<double> NearestHitMm(std::span<const recon::Solid> solids, const recon::Ray& ray) {

@@ -17,6 +17,9 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   app.fallthrough();
   app.add_subcommand("budget", "the paper's error budget")->callback([&] { MeasureBudget(docs); });
+  app.add_subcommand("finger", "the paper's moving finger: how wide it is everywhere")->callback([&] {
+    MeasureFinger(docs);
+  });
   app.add_subcommand("work", "the paper's figures of its plane sweep beside ours")->callback([&] {
     MeasureSweepWork(docs);
   });

@@ -14,6 +14,8 @@ void MeasureBudget(const std::filesystem::path& docs);
 
 // plane_sweep.md, "work" and "work_methods": the paper's figures of its plane sweep beside ours.
 void MeasureSweepWork(const std::filesystem::path& docs);
+// accuracy.md, "finger", "finger_directions", "finger_cameras"; docs/pictures/finger_width.{svg,png}.
+void MeasureFinger(const std::filesystem::path& docs);
 
 // performance.md, "methods"; docs/pictures/view_methods.{svg,png}.
 void MeasureMethods(const std::filesystem::path& docs);

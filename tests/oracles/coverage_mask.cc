@@ -23,18 +23,31 @@ bool IsNearBoundary(const core::BitMask& mask, int x, int y) {
   return false;
 }
 
-bool IsHit(const core::CameraModel& camera, std::span<const recon::Solid> solids,
+// With the ball around it, which tells most rays that they miss it.
+struct BoundedSolid {
+  recon::Solid solid;
+  recon::BoundingSphere ball;
+};
+
+bool MissesBall(const recon::BoundingSphere& ball, const recon::Ray& ray) {
+  constexpr double kSlackMm = 1e-3;  // for rounding
+  const double aside_mm = ray.direction_in_world.cross(ball.center_in_world - ray.origin_in_world).norm();
+  return aside_mm > ball.radius_mm + kSlackMm;
+}
+
+bool IsHit(const core::CameraModel& camera, std::span<const BoundedSolid> solids,
            const Eigen::Vector2d& pixel) {
   const auto normalised = camera.NormalisedFromPixel(pixel);
   if (!normalised) return false;
   const recon::Ray ray{
       camera.center_in_world(),
       (camera.cam_from_world().rotation.transpose() * normalised->homogeneous()).normalized()};
-  return std::ranges::any_of(solids,
-                             [&](const recon::Solid& s) { return recon::FirstHit(s, ray).has_value(); });
+  return std::ranges::any_of(solids, [&](const BoundedSolid& s) {
+    return !MissesBall(s.ball, ray) && recon::FirstHit(s.solid, ray).has_value();
+  });
 }
 
-std::uint8_t LevelAt(const core::CameraModel& camera, std::span<const recon::Solid> solids, int x, int y,
+std::uint8_t LevelAt(const core::CameraModel& camera, std::span<const BoundedSolid> solids, int x, int y,
                      double footprint_px) {
   int hits = 0;
   for (int j = 0; j < kCoverageSamples; ++j) {
@@ -55,12 +68,14 @@ core::BitMask CenterMask(const core::CameraModel& camera, std::span<const recon:
 core::SoftMask CoverageMask(const core::CameraModel& camera, std::span<const recon::Solid> solids,
                             double footprint_px) {
   const core::BitMask centers = CenterMask(camera, solids);
+  std::vector<BoundedSolid> bounded;
+  for (const recon::Solid& solid : solids) bounded.push_back({solid, recon::BoundingSphereOf(solid)});
   const int width = camera.width_px(), height = camera.height_px();
   std::vector<std::uint8_t> level(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
   tbb::parallel_for(0, height, [&](int y) {
     for (int x = 0; x < width; ++x) {
       level[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)] =
-          IsNearBoundary(centers, x, y) ? LevelAt(camera, solids, x, y, footprint_px)
+          IsNearBoundary(centers, x, y) ? LevelAt(camera, bounded, x, y, footprint_px)
           : centers.At(x, y)            ? 255
                                         : 0;
     }
