@@ -11,7 +11,6 @@
 namespace elbowroom::cli {
 namespace {
 
-using cli::JsonOf;  // of points
 using Poses = std::vector<core::RigidTransform>;
 
 std::string TextOf(const Eigen::Vector3d& v, const char* between) {
@@ -22,7 +21,7 @@ Eigen::AlignedBox3d BoundsAt(const core::Part& part, const core::RigidTransform&
   return core::BoundsOf(*part.mesh, world_from_part);
 }
 
-nlohmann::json JsonOf(const core::Part& part, const core::RigidTransform& world_from_part) {
+nlohmann::json PartEntry(const core::Part& part, const core::RigidTransform& world_from_part) {
   const Eigen::AlignedBox3d bounds = BoundsAt(part, world_from_part);
   nlohmann::json json = {{"name", part.name},
                          {"file", part.file},
@@ -37,7 +36,7 @@ nlohmann::json JsonOf(const core::Part& part, const core::RigidTransform& world_
   return json;
 }
 
-nlohmann::json JsonOf(const core::Layout& layout, const core::Spacing& gap, const Poses& poses) {
+nlohmann::json SpacingEntry(const core::Layout& layout, const core::Spacing& gap, const Poses& poses) {
   return {{"name", gap.name},
           {"moving", gap.moving},
           {"reference", gap.reference},
@@ -48,7 +47,7 @@ nlohmann::json JsonOf(const core::Layout& layout, const core::Spacing& gap, cons
           {"gap_mm", core::GapMm(layout, gap, poses)}};
 }
 
-nlohmann::json JsonOf(const core::PairRule& rule) {
+nlohmann::json PairEntry(const core::PairRule& rule) {
   return {{"a", rule.a},
           {"b", rule.b},
           {"required_clearance_mm", rule.required_clearance_mm},
@@ -102,7 +101,7 @@ CommandResult ListingOf(const cad_import::ImportedLayout& imported, const std::f
                             Count(layout.pair_rules.size(), "pair"), "part", width, "size, mm",
                             "stands at, mm", "triangles", "unit", "file");
   for (core::PartIndex i = 0; i < layout.parts.size(); ++i) {
-    result.json["parts"].push_back(JsonOf(layout.parts[i], poses[i]));
+    result.json["parts"].push_back(PartEntry(layout.parts[i], poses[i]));
     result.text += LineOf(layout.parts[i], poses[i], width);
   }
   for (const core::Group& group : layout.groups) {
@@ -110,11 +109,11 @@ CommandResult ListingOf(const cad_import::ImportedLayout& imported, const std::f
     result.text += fmt::format("\ngroup '{}': {}", group.name, fmt::join(group.parts, ", "));
   }
   for (const core::Spacing& gap : layout.spacings) {
-    result.json["spacings"].push_back(JsonOf(layout, gap, poses));
+    result.json["spacings"].push_back(SpacingEntry(layout, gap, poses));
     result.text += LineOf(layout, gap, poses);
   }
   for (const core::PairRule& rule : layout.pair_rules) {
-    result.json["pairs"].push_back(JsonOf(rule));
+    result.json["pairs"].push_back(PairEntry(rule));
     result.text += LineOf(rule);
   }
   for (const std::string& warning : imported.warnings) result.text += "\nwarning: " + warning;

@@ -32,7 +32,7 @@ std::optional<control::SpacingRange> ParseRange(const std::string& text) {
   return control::SpacingRange{text.substr(0, equals), *from_mm, *to_mm, *step_mm};
 }
 
-nlohmann::json JsonOf(const review::PartAtSpacing& part, const std::string& name) {
+nlohmann::json PartJson(const review::PartAtSpacing& part, const std::string& name) {
   return {{"part", name},
           {"frames_in_contact", part.frames_in_contact},
           {"frames_near", part.frames_near},
@@ -44,7 +44,7 @@ nlohmann::json JsonOf(const review::PartAtSpacing& part, const std::string& name
           {"closest_frame", part.closest_frame ? nlohmann::json(*part.closest_frame) : nlohmann::json()}};
 }
 
-nlohmann::json JsonOf(const core::Layout& layout, const std::string& spacing,
+nlohmann::json StudyJson(const core::Layout& layout, const std::string& spacing,
                       const review::SpacingStudy& study) {
   nlohmann::json json = {{"spacing", spacing},
                          {"moved", nlohmann::json::array()},
@@ -59,7 +59,7 @@ nlohmann::json JsonOf(const core::Layout& layout, const std::string& spacing,
   for (const review::StudyStep& step : study.steps) {
     nlohmann::json parts = nlohmann::json::array();
     for (core::PartIndex i = 0; i < step.parts.size(); ++i)
-      parts.push_back(JsonOf(step.parts[i], layout.parts[i].name));
+      parts.push_back(PartJson(step.parts[i], layout.parts[i].name));
     json["steps"].push_back({{"spacing_mm", step.spacing_mm}, {"parts", parts}});
   }
   return json;
@@ -82,7 +82,7 @@ CommandResult Run(const SweepOptions& options, const CommandContext& context) {
   const review::SpacingStudy study =
       control::SweepSpacing(session, options.range, context.progress, context.stop);
   CommandResult result;
-  result.json = JsonOf(session.header().layout, options.range.spacing, study);
+  result.json = StudyJson(session.header().layout, options.range.spacing, study);
   result.text = TextOf(options.range.spacing, study);
   result.json["files"] = nlohmann::json::array();
   for (const auto& file : control::WriteSpacingSweep(session.header(), options.range, study, options.out)) {
