@@ -45,7 +45,7 @@ nlohmann::json PartJson(const review::PartAtSpacing& part, const std::string& na
 }
 
 nlohmann::json StudyJson(const core::Layout& layout, const std::string& spacing,
-                      const review::SpacingStudy& study) {
+                         const review::SpacingStudy& study) {
   nlohmann::json json = {{"spacing", spacing},
                          {"moved", nlohmann::json::array()},
                          {"largest_touched_mm", OrNull(study.largest_touched_mm)},
