@@ -13,6 +13,7 @@
 #include "core/infinity.h"
 #include "core/part_distance.h"
 #include "recon/hull/ray_crossings.h"
+#include "recon/hull/visual_hull.h"
 #include "review/inside_cells.h"
 
 namespace elbowroom::review {

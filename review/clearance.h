@@ -10,7 +10,7 @@
 #include "core/clearance.h"
 #include "core/contact.h"
 #include "core/rigid_transform.h"
-#include "recon/hull/visual_hull.h"
+#include "recon/hull/visual_hull_declared.h"
 
 namespace elbowroom::review {
 

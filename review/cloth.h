@@ -8,7 +8,7 @@
 
 #include "core/rigid_transform.h"
 #include "core/triangle_mesh.h"
-#include "recon/hull/visual_hull.h"
+#include "recon/hull/visual_hull_declared.h"
 #include "review/cloth_panel.h"
 
 namespace elbowroom::review {

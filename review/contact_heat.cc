@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "core/part_distance.h"
+#include "recon/hull/visual_hull.h"
 
 namespace elbowroom::review {
 namespace {

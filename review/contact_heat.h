@@ -11,7 +11,7 @@
 #include "core/heat_map.h"
 #include "core/rigid_transform.h"
 #include "core/surface_patches.h"
-#include "recon/hull/visual_hull.h"
+#include "recon/hull/visual_hull_declared.h"
 
 namespace elbowroom::review {
 

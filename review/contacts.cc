@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "recon/hull/triangle_pieces.h"
+#include "recon/hull/visual_hull.h"
 #include "review/containment.h"
 #include "review/point_spread.h"
 #include "review/recovery.h"

@@ -8,8 +8,9 @@
 #include "core/contact.h"
 #include "core/ids.h"
 #include "core/recovery_rule.h"
+#include "core/rig.h"
 #include "core/rigid_transform.h"
-#include "recon/hull/visual_hull.h"
+#include "recon/hull/visual_hull_declared.h"
 #include "review/inside_cells.h"
 
 namespace elbowroom::review {

@@ -1,5 +1,7 @@
 #include "review/containment.h"
 
+#include "recon/hull/visual_hull.h"
+
 namespace elbowroom::review {
 namespace {
 

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "core/rigid_transform.h"
-#include "recon/hull/visual_hull.h"
+#include "recon/hull/visual_hull_declared.h"
 #include "review/inside_cells.h"
 
 namespace elbowroom::review {

@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "recon/hull/ray_crossings.h"
+#include "recon/hull/visual_hull.h"
 #include "review/hull_part_intersection.h"
 
 namespace elbowroom::review {

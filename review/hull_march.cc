@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "recon/hull/visual_hull.h"
+
 namespace elbowroom::review {
 namespace {
 

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "recon/hull/ray.h"
-#include "recon/hull/visual_hull.h"
+#include "recon/hull/visual_hull_declared.h"
 
 namespace elbowroom::review {
 

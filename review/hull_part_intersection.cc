@@ -5,6 +5,7 @@
 #include <deque>
 
 #include "core/part_distance.h"
+#include "recon/hull/visual_hull.h"
 #include "review/inside_cells.h"
 #include "review/triangle_bisection.h"
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "recon/hull/visual_hull.h"
 
 namespace elbowroom::review {
 namespace {

@@ -7,7 +7,7 @@
 #include "core/contact.h"
 #include "core/ids.h"
 #include "core/rigid_transform.h"
-#include "recon/hull/visual_hull.h"
+#include "recon/hull/visual_hull_declared.h"
 #include "review/clearance.h"
 #include "review/contacts.h"
 

@@ -12,6 +12,7 @@
 #include "core/error.h"
 #include "core/part_distance.h"
 #include "core/units.h"
+#include "recon/hull/visual_hull.h"
 #include "review/hull_march.h"
 #include "review/inside_cells.h"
 

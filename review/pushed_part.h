@@ -7,7 +7,7 @@
 #include "core/contact.h"
 #include "core/layout.h"
 #include "core/rigid_transform.h"
-#include "recon/hull/visual_hull.h"
+#include "recon/hull/visual_hull_declared.h"
 #include "review/surface_model.h"
 
 namespace elbowroom::review {

@@ -5,6 +5,7 @@
 #include "core/error.h"
 #include "recon/hull/arc_crossings.h"
 #include "recon/hull/ray_crossings.h"
+#include "recon/hull/visual_hull.h"
 
 namespace elbowroom::review {
 namespace {

@@ -8,7 +8,7 @@
 #include "core/contact.h"
 #include "core/recovery_rule.h"
 #include "core/rigid_transform.h"
-#include "recon/hull/visual_hull.h"
+#include "recon/hull/visual_hull_declared.h"
 
 namespace elbowroom::review {
 

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "core/contact.h"
-#include "recon/hull/visual_hull.h"
+#include "recon/hull/visual_hull_declared.h"
 #include "review/recovery.h"
 
 namespace elbowroom::review {

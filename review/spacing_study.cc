@@ -10,6 +10,7 @@
 
 #include "core/error.h"
 #include "core/infinity.h"
+#include "recon/hull/visual_hull.h"
 
 namespace elbowroom::review {
 namespace {

@@ -12,7 +12,7 @@
 #include "core/ids.h"
 #include "core/layout.h"
 #include "core/progress.h"
-#include "recon/hull/visual_hull.h"
+#include "recon/hull/visual_hull_declared.h"
 #include "review/part_review.h"
 
 namespace elbowroom::review {

@@ -10,6 +10,7 @@
 #include "app/cli/rig_frame.h"
 #include "app/cli/unit_option.h"
 #include "app/cli/vector_json.h"
+#include "recon/hull/visual_hull.h"
 #include "review/clearance.h"
 
 namespace elbowroom::cli {

@@ -11,6 +11,7 @@
 #include "app/cli/unit_option.h"
 #include "app/cli/vector_json.h"
 #include "app/cli/way_out.h"
+#include "recon/hull/visual_hull.h"
 #include "review/contacts.h"
 
 namespace elbowroom::cli {

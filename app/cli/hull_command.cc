@@ -10,6 +10,7 @@
 #include "app/cli/unit_option.h"
 #include "cad_import/mesh_file.h"
 #include "core/error.h"
+#include "recon/hull/visual_hull.h"
 #include "recon/hull_mesh/hull_mesh.h"
 
 namespace elbowroom::cli {

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "recon/hull/visual_hull.h"
+
 namespace elbowroom::cli {
 
 namespace {

@@ -18,6 +18,7 @@
 #include "recon/exact_view/hull_view.h"
 #include "recon/exact_view/view_rays.h"
 #include "recon/gl/paper_methods/plane_sweep_gl.h"
+#include "recon/hull/visual_hull.h"
 #include "recon/images/depth_file.h"
 #include "recon/images/png_file.h"
 #include "recon/paper_methods/plane_sweep.h"

@@ -6,6 +6,7 @@
 
 #include "app/cli/vector_json.h"
 #include "core/units.h"
+#include "recon/hull/visual_hull.h"
 #include "review/recovery.h"
 
 namespace elbowroom::cli {

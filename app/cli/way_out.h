@@ -9,7 +9,7 @@
 #include "core/contact.h"
 #include "core/recovery_rule.h"
 #include "core/rigid_transform.h"
-#include "recon/hull/visual_hull.h"
+#include "recon/hull/visual_hull_declared.h"
 #include "review/escape_distance.h"
 #include "review/penetration.h"
 #include "review/recovery_uncertainty.h"

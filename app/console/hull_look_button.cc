@@ -5,6 +5,8 @@
 #include <array>
 #include <utility>
 
+#include "recon/hull/visual_hull.h"
+
 namespace elbowroom::console {
 
 HullLookButton::HullLookButton(QWidget* parent) : QToolButton(parent) {

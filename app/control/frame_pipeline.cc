@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "recon/contours/undistorted_plane.h"
+#include "recon/hull/visual_hull.h"
 
 namespace elbowroom::control {
 namespace {

@@ -11,7 +11,8 @@
 #include "core/layout.h"
 #include "core/session.h"
 #include "recon/footage/frame_set.h"
-#include "recon/hull/visual_hull.h"
+#include "recon/hull/hull_stats.h"
+#include "recon/hull/visual_hull_declared.h"
 #include "recon/segmentation/segmentation.h"
 
 namespace elbowroom::control {

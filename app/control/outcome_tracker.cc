@@ -8,6 +8,7 @@
 #include "app/control/recorded_frame.h"
 #include "app/control/trial_rules.h"
 #include "core/progress.h"
+#include "recon/hull/visual_hull.h"
 
 namespace elbowroom::control {
 

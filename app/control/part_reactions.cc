@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <variant>
 
+#include "recon/hull/visual_hull.h"
+
 namespace elbowroom::control {
 
 std::vector<core::RigidTransform> MotionsOf(const ReactionState& state) {

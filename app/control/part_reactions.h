@@ -10,7 +10,7 @@
 #include "core/contact.h"
 #include "core/layout.h"
 #include "core/rigid_transform.h"
-#include "recon/hull/visual_hull.h"
+#include "recon/hull/visual_hull_declared.h"
 #include "review/cloth.h"
 #include "review/particle_stream.h"
 #include "review/pushed_part.h"

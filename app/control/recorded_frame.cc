@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "core/file_limits.h"
+#include "recon/hull/visual_hull.h"
 #include "sessions/damage.h"
 
 namespace elbowroom::control {

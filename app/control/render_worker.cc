@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "recon/gl/scene/scene_renderer.h"
+#include "recon/hull/visual_hull.h"
 
 namespace elbowroom::control {
 namespace {

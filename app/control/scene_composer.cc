@@ -10,6 +10,7 @@
 #include "core/units.h"
 #include "recon/appearance/camera_texture.h"
 #include "recon/exact_view/hull_view.h"
+#include "recon/hull/visual_hull.h"
 #include "recon/hull_mesh/hull_mesh.h"
 
 namespace elbowroom::control {

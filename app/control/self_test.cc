@@ -14,6 +14,7 @@
 #include "recon/gl/exact_view/exact_view_gl.h"
 #include "recon/gl/paper_methods/plane_sweep_gl.h"
 #include "recon/gl/paper_methods/triangle_viewports_gl.h"
+#include "recon/hull/visual_hull.h"
 #include "recon/paper_methods/sweep_comparison.h"
 #include "recon/synthetic/demo_motion.h"
 #include "recon/synthetic/rig_presets.h"

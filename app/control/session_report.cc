@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "core/progress.h"
 #include "recon/gl/scene/scene_renderer.h"
+#include "recon/hull/visual_hull.h"
 #include "recon/images/png_file.h"
 #include "sessions/report/report.h"
 

@@ -12,6 +12,7 @@
 #include "core/error.h"
 #include "core/spelling.h"
 #include "recon/contours/undistorted_plane.h"
+#include "recon/hull/visual_hull.h"
 #include "recon/images/png_file.h"
 #include "sessions/report/csv_text.h"
 #include "sessions/report/whole_files.h"

@@ -6,7 +6,7 @@
 
 #include "recon/exact_view/hull_view.h"
 #include "recon/exact_view/view_rays.h"
-#include "recon/hull/visual_hull.h"
+#include "recon/hull/visual_hull_declared.h"
 
 namespace elbowroom::control {
 

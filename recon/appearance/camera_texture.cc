@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "recon/appearance/smooth_step.h"
 #include "recon/exact_view/hull_view.h"
+#include "recon/hull/visual_hull.h"
 
 namespace elbowroom::recon {
 namespace {

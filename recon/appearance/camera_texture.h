@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/camera_model.h"
-#include "recon/hull/visual_hull.h"
+#include "recon/hull/visual_hull_declared.h"
 #include "recon/images/picture_buffer.h"
 
 namespace elbowroom::recon {

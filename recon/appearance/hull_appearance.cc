@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "recon/appearance/smooth_step.h"
+#include "recon/hull/visual_hull.h"
 
 namespace elbowroom::recon {
 namespace {

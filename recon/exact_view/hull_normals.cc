@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "recon/contours/silhouette.h"
+#include "recon/hull/visual_hull.h"
 
 namespace elbowroom::recon {
 namespace {

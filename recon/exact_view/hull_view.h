@@ -8,7 +8,7 @@
 #include "core/camera_model.h"
 #include "core/ids.h"
 #include "recon/exact_view/view_rays.h"
-#include "recon/hull/visual_hull.h"
+#include "recon/hull/visual_hull_declared.h"
 #include "recon/images/picture_buffer.h"
 
 namespace elbowroom::recon {

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "recon/hull/ray_crossings.h"
-#include "recon/hull/visual_hull.h"
+#include "recon/hull/visual_hull_declared.h"
 
 namespace elbowroom::recon {
 

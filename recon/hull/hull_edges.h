@@ -8,7 +8,7 @@
 
 #include "core/ids.h"
 #include "recon/contours/contour.h"
-#include "recon/hull/visual_hull.h"
+#include "recon/hull/visual_hull_declared.h"
 
 namespace elbowroom::recon {
 

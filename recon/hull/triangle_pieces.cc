@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "recon/contours/contour_kernel.h"
 #include "recon/contours/silhouette.h"
+#include "recon/hull/visual_hull.h"
 
 namespace elbowroom::recon {
 namespace {

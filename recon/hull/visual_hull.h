@@ -11,6 +11,7 @@
 #include "core/ids.h"
 #include "core/rig.h"
 #include "core/soft_mask.h"
+#include "recon/hull/hull_stats.h"
 #include "recon/hull/world_shape.h"
 
 namespace elbowroom::recon {
@@ -117,13 +118,6 @@ class VisualHull {
 
 // Whether positions outside of a picture are labelled object: under `abstain` they are.
 [[nodiscard]] bool ExteriorIsObject(const core::Rig& rig);
-
-// The work that a frame's hull could do without.
-struct HullStats {
-  int unchanged_silhouettes = 0;  // taken over from the last frame, with all that was built for them
-  int empty_silhouettes = 0;      // without object
-  int untraced_silhouettes = 0;   // contour not needed: under `outside` an empty one empties the hull
-};
 
 struct FrameHull {
   std::shared_ptr<const VisualHull> hull;  // the last one itself if no silhouette has changed

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/progress.h"
-#include "recon/hull/visual_hull.h"
+#include "recon/hull/visual_hull_declared.h"
 
 namespace elbowroom::recon {
 

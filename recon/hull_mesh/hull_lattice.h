@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "recon/hull/visual_hull.h"
+#include "recon/hull/visual_hull_declared.h"
 #include "recon/hull_mesh/hull_blocks.h"
 #include "recon/hull_mesh/point_labels.h"
 

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "recon/hull/visual_hull.h"
 #include "recon/hull_mesh/block_surface.h"
 #include "recon/hull_mesh/hull_blocks.h"
 

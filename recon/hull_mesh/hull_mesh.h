@@ -6,7 +6,7 @@
 
 #include "core/progress.h"
 #include "core/triangle_mesh.h"
-#include "recon/hull/visual_hull.h"
+#include "recon/hull/visual_hull_declared.h"
 
 namespace elbowroom::recon {
 

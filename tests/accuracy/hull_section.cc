@@ -10,6 +10,7 @@
 
 #include "core/error.h"
 #include "recon/hull/ray_crossings.h"
+#include "recon/hull/visual_hull.h"
 #include "tests/oracles/first_along.h"
 
 namespace elbowroom::accuracy {

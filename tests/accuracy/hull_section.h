@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "recon/hull/ray.h"
-#include "recon/hull/visual_hull.h"
+#include "recon/hull/visual_hull_declared.h"
 #include "tests/oracles/analytic_hull.h"
 
 namespace elbowroom::accuracy {

@@ -10,6 +10,7 @@
 
 #include "core/units.h"
 #include "recon/contours/undistorted_plane.h"
+#include "recon/hull/visual_hull.h"
 #include "recon/synthetic/actors.h"
 #include "tests/accuracy/disturbed_rig.h"
 #include "tests/accuracy/quantile.h"

@@ -11,6 +11,7 @@
 #include "core/bvh.h"
 #include "recon/exact_view/hull_view.h"
 #include "recon/footage/recorded_rig.h"
+#include "recon/hull/visual_hull.h"
 #include "recon/hull_mesh/hull_mesh.h"
 #include "recon/images/mask_image.h"
 #include "recon/paper_methods/plane_sweep.h"

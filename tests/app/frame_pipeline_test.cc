@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "app/control/demo_parts.h"
+#include "recon/hull/visual_hull.h"
 #include "recon/synthetic/demo_motion.h"
 #include "recon/synthetic/rig_presets.h"
 #include "recon/synthetic/synthetic_rig.h"

@@ -5,6 +5,7 @@
 #include "app/control/frame_pipeline.h"
 #include "app/control/recorded_frame.h"
 #include "recon/contours/silhouette.h"
+#include "recon/hull/visual_hull.h"
 #include "recon/synthetic/demo_motion.h"
 #include "recon/synthetic/rig_presets.h"
 #include "recon/synthetic/synthetic_rig.h"

@@ -17,6 +17,7 @@
 #include "core/units.h"
 #include "recon/exact_view/view_comparison.h"
 #include "recon/gl/scene/scene_renderer.h"
+#include "recon/hull/visual_hull.h"
 #include "recon/images/png_file.h"
 #include "tests/review/curtain.h"
 

@@ -14,6 +14,7 @@
 #include "core/error.h"
 #include "recon/exact_view/view_comparison.h"
 #include "recon/gl/exact_view/exact_view_gl.h"
+#include "recon/hull/visual_hull.h"
 #include "recon/synthetic/view_scene.h"
 
 namespace elbowroom::control {

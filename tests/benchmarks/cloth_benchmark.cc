@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "recon/hull/visual_hull.h"
 #include "recon/hull_mesh/hull_mesh.h"
 #include "review/cloth.h"
 #include "tests/review/curtain.h"

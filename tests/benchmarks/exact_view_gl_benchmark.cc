@@ -8,6 +8,7 @@
 #include "recon/contours/undistorted_plane.h"
 #include "recon/exact_view/view_comparison.h"
 #include "recon/gl/exact_view/exact_view_gl.h"
+#include "recon/hull/visual_hull.h"
 #include "recon/synthetic/view_scene.h"
 
 namespace elbowroom::recon {

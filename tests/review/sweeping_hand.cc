@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "recon/hull/visual_hull.h"
 #include "recon/synthetic/actors.h"
 #include "recon/synthetic/demo_motion.h"
 #include "recon/synthetic/rig_presets.h"

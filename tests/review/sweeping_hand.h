@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/rigid_transform.h"
-#include "recon/hull/visual_hull.h"
+#include "recon/hull/visual_hull_declared.h"
 #include "recon/synthetic/solids.h"
 
 namespace elbowroom::review {

@@ -17,6 +17,7 @@
 #include "app/control/trial_rules.h"
 #include "core/error.h"
 #include "recon/exact_view/hull_view.h"
+#include "recon/hull/visual_hull.h"
 #include "recon/synthetic/rig_presets.h"
 #include "recon/synthetic/synthetic_rig.h"
 #include "tests/accuracy/measurements.h"

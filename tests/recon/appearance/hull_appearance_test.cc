@@ -16,6 +16,7 @@
 #include "recon/appearance/orbit_camera.h"
 #include "recon/exact_view/hull_view.h"
 #include "recon/hull/ray_crossings.h"
+#include "recon/hull/visual_hull.h"
 #include "recon/synthetic/rig_presets.h"
 #include "recon/synthetic/synthetic_rig.h"
 

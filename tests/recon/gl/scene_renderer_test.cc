@@ -15,6 +15,7 @@
 
 #include "core/error.h"
 #include "recon/appearance/orbit_camera.h"
+#include "recon/hull/visual_hull.h"
 #include "recon/images/png_file.h"
 #include "tests/recon/gl/sample_scene.h"
 

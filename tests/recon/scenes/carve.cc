@@ -4,6 +4,8 @@
 
 #include <atomic>
 
+#include "recon/hull/visual_hull.h"
+
 namespace elbowroom::recon {
 
 double CarvedVolumeMm3(const VisualHull& hull, const Eigen::AlignedBox3d& box_mm, int side) {

@@ -1,7 +1,7 @@
 // The hull's volume the slow, obviously right way.
 #pragma once
 
-#include "recon/hull/visual_hull.h"
+#include "recon/hull/visual_hull_declared.h"
 
 namespace elbowroom::recon {
 
