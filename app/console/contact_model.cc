@@ -7,7 +7,6 @@
 
 #include "app/console/lower_bound_text.h"
 #include "app/console/palette.h"
-#include "recon/hull/visual_hull.h"
 
 namespace elbowroom::console {
 namespace {

@@ -5,8 +5,6 @@
 #include <array>
 #include <utility>
 
-#include "recon/hull/visual_hull.h"
-
 namespace elbowroom::console {
 
 HullLookButton::HullLookButton(QWidget* parent) : QToolButton(parent) {

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "app/console/palette.h"
-#include "recon/hull/visual_hull.h"
 
 namespace elbowroom::console {
 namespace {

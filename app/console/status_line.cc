@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "recon/hull/visual_hull.h"
-
 namespace elbowroom::console {
 namespace {
 

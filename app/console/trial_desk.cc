@@ -5,7 +5,6 @@
 #include "app/control/session_report.h"
 #include "app/control/trial_runner.h"
 #include "core/error.h"
-#include "recon/hull/visual_hull.h"
 
 namespace elbowroom::console {
 namespace {

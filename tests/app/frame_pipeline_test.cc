@@ -153,8 +153,10 @@ TEST_F(FramePipelineTest, ClearanceWarmedByTheLastFrameIsAsTrue) {
     FramePipeline cold = MakePipeline(40.0);
     const SharedFrameResult a = warm.Process(MasksOf(frame), gap), b = cold.Process(MasksOf(frame), gap);
     for (std::size_t i = 0; i < 3; ++i) {
-      EXPECT_LE(a->record.contacts[i].clearance->interval.lower_mm, b->record.contacts[i].clearance->interval.upper_mm);
-      EXPECT_LE(b->record.contacts[i].clearance->interval.lower_mm, a->record.contacts[i].clearance->interval.upper_mm);
+      EXPECT_LE(a->record.contacts[i].clearance->interval.lower_mm,
+                b->record.contacts[i].clearance->interval.upper_mm);
+      EXPECT_LE(b->record.contacts[i].clearance->interval.lower_mm,
+                a->record.contacts[i].clearance->interval.upper_mm);
     }
     warm_queries += a->skipped.clearance_queries;
     cold_queries += b->skipped.clearance_queries;

@@ -31,7 +31,8 @@ std::vector<std::string> FlatNamesOf(const std::vector<std::string>& names) {
 TEST(CadModel, FlatPartsHaveNamesOfTheirOwn) {
   using Names = std::vector<std::string>;
   EXPECT_EQ(FlatNamesOf({"a", "b", "a", "a"}), (Names{"a", "b", "a 2", "a 3"}));
-  EXPECT_EQ(FlatNamesOf({"a", "a", "a 2"}), (Names{"a", "a 3", "a 2"})) << "as the file has it, where it can be";
+  EXPECT_EQ(FlatNamesOf({"a", "a", "a 2"}), (Names{"a", "a 3", "a 2"}))
+      << "as the file has it, where it can be";
   EXPECT_EQ(FlatNamesOf({"a 2", "a", "a", "a 2"}), (Names{"a 2", "a", "a 3", "a 2 2"}));
 }
 

@@ -8,7 +8,6 @@
 #include <string>
 
 #include "recon/gl/scene/lighting.h"
-#include "recon/hull/visual_hull.h"
 
 namespace elbowroom::recon::gl {
 namespace {

@@ -3,7 +3,6 @@
 #include <cstddef>
 
 #include "core/error.h"
-#include "recon/hull/visual_hull.h"
 
 namespace elbowroom::recon::gl {
 namespace {

@@ -15,7 +15,6 @@
 #include "recon/gl/scene/part_painter.h"
 #include "recon/gl/scene/surroundings_painter.h"
 #include "recon/gl/scene/view_matrices.h"
-#include "recon/hull/visual_hull.h"
 
 namespace elbowroom::recon::gl {
 namespace {
