@@ -4,7 +4,8 @@
 # Highway compiles a kernel several times, so a kernel can't share a compilation with other files (a unity build).
 function(elbowroom_compile_kernels_alone)
   foreach(source ${ARGN})
-    if(source MATCHES "(_kernel|tile_cast)[.]cc$")
+    file(STRINGS ${source} is_kernel REGEX "include [<\"]hwy/foreach_target.h")
+    if(is_kernel)
       set_source_files_properties(${source} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
     endif()
   endforeach()

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "recon/hull/visual_hull.h"
 
 namespace elbowroom::review {
 namespace {

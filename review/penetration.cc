@@ -12,7 +12,6 @@
 #include "core/part_distance.h"
 #include "core/units.h"
 #include "recon/hull/hull_depth.h"
-#include "recon/hull/visual_hull.h"
 #include "review/escape_distance.h"
 #include "review/inside_cells.h"
 

@@ -8,7 +8,6 @@
 #include <variant>
 
 #include "core/error.h"
-#include "recon/hull/visual_hull.h"
 #include "review/recovery.h"
 
 namespace elbowroom::review {

@@ -7,7 +7,6 @@
 
 #include "core/error.h"
 #include "recon/hull/hull_edges.h"
-#include "recon/hull/visual_hull.h"
 
 namespace elbowroom::review {
 namespace {

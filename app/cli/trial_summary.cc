@@ -4,8 +4,6 @@
 
 #include <algorithm>
 
-#include "recon/hull/visual_hull.h"
-
 namespace elbowroom::cli {
 
 namespace {

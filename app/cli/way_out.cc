@@ -6,7 +6,6 @@
 
 #include "app/cli/vector_json.h"
 #include "core/units.h"
-#include "recon/hull/visual_hull.h"
 #include "review/recovery.h"
 
 namespace elbowroom::cli {

@@ -1,7 +1,5 @@
 #include "app/control/frame_result.h"
 
-#include "recon/hull/visual_hull.h"
-
 namespace elbowroom::control {
 
 SkipCount& SkipCount::operator+=(const SkipCount& other) {

@@ -8,7 +8,6 @@
 #include "app/control/recorded_frame.h"
 #include "app/control/trial_rules.h"
 #include "core/progress.h"
-#include "recon/hull/visual_hull.h"
 
 namespace elbowroom::control {
 

@@ -6,8 +6,6 @@
 #include <cstddef>
 #include <variant>
 
-#include "recon/hull/visual_hull.h"
-
 namespace elbowroom::control {
 
 std::vector<core::RigidTransform> MotionsOf(const ReactionState& state) {

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "recon/gl/scene/scene_renderer.h"
-#include "recon/hull/visual_hull.h"
 
 namespace elbowroom::control {
 namespace {

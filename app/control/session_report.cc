@@ -11,7 +11,6 @@
 #include "core/error.h"
 #include "core/progress.h"
 #include "recon/gl/scene/scene_renderer.h"
-#include "recon/hull/visual_hull.h"
 #include "recon/images/png_file.h"
 #include "sessions/report/report.h"
 

@@ -12,7 +12,6 @@
 #include "core/error.h"
 #include "recon/exact_view/view_comparison.h"
 #include "recon/gl/exact_view/exact_view_gl.h"
-#include "recon/hull/visual_hull.h"
 
 namespace elbowroom::control {
 namespace {

@@ -9,7 +9,6 @@
 #include "core/error.h"
 #include "recon/appearance/smooth_step.h"
 #include "recon/exact_view/hull_view.h"
-#include "recon/hull/visual_hull.h"
 
 namespace elbowroom::recon {
 namespace {

@@ -7,7 +7,6 @@
 
 #include "core/error.h"
 #include "recon/appearance/smooth_step.h"
-#include "recon/hull/visual_hull.h"
 
 namespace elbowroom::recon {
 namespace {

@@ -11,6 +11,7 @@
 
 #include "core/error.h"
 #include "recon/exact_view/view_band.h"
+#include "recon/hull/visual_hull.h"
 
 namespace elbowroom::recon {
 namespace {

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "recon/contours/silhouette.h"
+#include "recon/hull/visual_hull.h"
 
 namespace elbowroom::recon {
 namespace {

@@ -15,7 +15,6 @@
 #include "recon/exact_view/hull_view.h"
 #include "recon/exact_view/tile_cast.h"
 #include "recon/exact_view/view_rays.h"
-#include "recon/hull/visual_hull.h"
 
 namespace elbowroom::recon {
 

@@ -7,7 +7,6 @@
 namespace elbowroom::recon {
 namespace {
 
-constexpr double kObjectLevel = 127.5;
 constexpr double kBorderMm = 0.01;
 
 // True if the camera's label at a point may come out either way.

@@ -10,12 +10,14 @@
 
 namespace elbowroom::recon {
 
+inline constexpr double kObjectLevel = 127.5;  // of 255: half of a pixel
+
 // One byte a pixel, from 0 (background) to 255 (object); the levels between are along the boundary, where the
 // mask has them. Cut to the object's rectangle and a pixel around it. A position inside `valid_px` (lower end
-// included) is object where the bilinear interpolation of the four texels around it is at least 127.5; any
-// other position of the picture is background. The label's edges cross the lines between pixel centres where
-// marching squares would. Beyond the picture's border, half a pixel outside its last centres, texels repeat
-// the border's.
+// included) is object where the bilinear interpolation of the four texels around it is at least
+// kObjectLevel; any other position of the picture is background. The label's edges cross the lines between
+// pixel centres where marching squares would. Beyond the picture's border, half a pixel outside its last
+// centres, texels repeat the border's.
 struct CoverageTexture {
   int left_px = 0, top_px = 0;              // picture position of the first texel
   int width_texels = 0, height_texels = 0;  // 0: nothing is object

@@ -31,10 +31,9 @@ struct Points {
 };
 
 // origin + dx * along_x + dy * along_y.
-template <typename Affine>
-Points PointsOf(const Affine& affine, Float dx, Float dy) {
+Points PointsAt(const SweepPoints& points, Float dx, Float dy) {
   const auto axis = [&](std::size_t i) {
-    return hn::MulAdd(dx, At(affine.along_x[i]), hn::MulAdd(dy, At(affine.along_y[i]), At(affine.origin[i])));
+    return hn::MulAdd(dx, At(points.along_x[i]), hn::MulAdd(dy, At(points.along_y[i]), At(points.origin[i])));
   };
   return {axis(0), axis(1), axis(2)};
 }
@@ -91,7 +90,7 @@ Mask IsCovered(const SweepAsker& asker, const Position& p, Mask valid) {
     return hn::MulAdd(u, hn::Sub(right, left), left);
   };
   const Float top = lerp_row(above);
-  return hn::Ge(hn::MulAdd(v, hn::Sub(lerp_row(below), top), top), At(127.5F));
+  return hn::Ge(hn::MulAdd(v, hn::Sub(lerp_row(below), top), top), At(static_cast<float>(kObjectLevel)));
 }
 
 template <SweepLens kLens>
@@ -102,7 +101,7 @@ bool AskAs(const SweepTile& tile, const SweepAsker& asker, SweepMarks* marks) {
     const Float open = hn::Load(kFloats, marks->open.data() + i);
     if (hn::AllFalse(kFloats, hn::Gt(open, zero))) continue;
     const Points point =
-        PointsOf(asker, hn::Load(kFloats, tile.dx.data() + i), hn::Load(kFloats, tile.dy.data() + i));
+        PointsAt(asker.points, hn::Load(kFloats, tile.dx.data() + i), hn::Load(kFloats, tile.dy.data() + i));
     const Float x = hn::Div(point.x, point.z), y = hn::Div(point.y, point.z);
     const Float r2 = hn::MulAdd(x, x, hn::Mul(y, y));
     const Mask in_domain = hn::And(hn::Gt(point.z, zero), hn::Le(r2, At(asker.max_radius_squared)));
@@ -142,7 +141,7 @@ bool AskBox(const SweepTile& tile, const SweepBox& box, SweepMarks* marks) {
   bool any_open = false;
   for (std::size_t i = 0; i < kSweepTilePixels; i += hn::Lanes(kFloats)) {
     const Points point =
-        PointsOf(box, hn::Load(kFloats, tile.dx.data() + i), hn::Load(kFloats, tile.dy.data() + i));
+        PointsAt(box.points, hn::Load(kFloats, tile.dx.data() + i), hn::Load(kFloats, tile.dy.data() + i));
     const auto within = [&](Float value, std::size_t axis) {
       return hn::And(hn::Ge(value, At(box.min[axis])), hn::Le(value, At(box.max[axis])));
     };

@@ -11,10 +11,14 @@ namespace elbowroom::recon {
 
 enum class SweepLens { kIdeal, kPolynomial, kFisheye };
 
+// A tile's points on a plane, mm: origin + dx * along_x + dy * along_y.
+struct SweepPoints {
+  std::array<float, 3> origin{}, along_x{}, along_y{};
+};
+
 // One camera as the loop takes it; picture positions count from the first texel of its coverage.
 struct SweepAsker {
-  // The tile's points in cam, mm: origin + dx * along_x + dy * along_y.
-  std::array<float, 3> origin{}, along_x{}, along_y{};
+  SweepPoints points;  // in cam
   float max_radius_squared = 0.0F;
   SweepLens lens = SweepLens::kIdeal;
   SweepLensCoefficients coefficients;
@@ -26,9 +30,9 @@ struct SweepAsker {
   std::int32_t stride = 0;
 };
 
-// Axis-aligned bounds in the world; points there are origin + dx * along_x + dy * along_y.
+// Axis-aligned bounds in the world.
 struct SweepBox {
-  std::array<float, 3> origin{}, along_x{}, along_y{};
+  SweepPoints points;  // in world
   std::array<float, 3> min{}, max{};
 };
 

@@ -50,7 +50,6 @@ SweepLensCoefficients LensCoefficientsOf(const core::CameraModel& camera) {
 }
 
 bool IsMatterOfRounding(const SweepCamera& camera, const Eigen::Vector2d& position_px) {
-  constexpr double kObjectLevel = 127.5;
   constexpr double kPositionPx = 0.01;
   constexpr double kBandLevels = 255.0 * (4.0 / 256.0 + 2.0 * kPositionPx);
   const Eigen::Vector2d picture_px(camera.model.width_px(), camera.model.height_px());

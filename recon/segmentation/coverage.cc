@@ -122,7 +122,10 @@ cv::Mat PackedMean(const cv::Mat& mean_bgr) {
   for (int y = 0; y < mean_bgr.rows; ++y) {
     const auto* mean = mean_bgr.ptr<float>(y);
     auto* out = packed.ptr<std::int32_t>(y);
-    const auto quarters = [&](int i) { return static_cast<std::int32_t>(4.0F * mean[i] + 0.5F); };
+    const auto quarters = [&](int i) {
+      const float half_more = 4.0F * mean[i] + 0.5F;  // positive: cut off, it is the nearest number
+      return static_cast<std::int32_t>(half_more);
+    };
     for (int x = 0; x < mean_bgr.cols; ++x)
       out[x] = quarters(3 * x) | quarters(3 * x + 1) << 10 | quarters(3 * x + 2) << 20;
   }

@@ -34,8 +34,8 @@ JointHistogram JointHistogramOf(const cv::Mat& image_bgr, const cv::Mat& mean_bg
     const auto* image = image_bgr.ptr<std::uint8_t>(y);
     const auto* mean = mean_bgr.ptr<float>(y);
     for (int i = channel; i < image_bgr.cols * 3; i += 3) {
-      const int level = static_cast<int>(mean[i] + 0.5F);  // a mean lies within 0..255
-      ++joint[static_cast<std::size_t>(level * kLevels + image[i])];
+      const float half_more = mean[i] + 0.5F;  // positive: cut off, it is the nearest level
+      ++joint[static_cast<std::size_t>(static_cast<int>(half_more) * kLevels + image[i])];
     }
   }
   return joint;

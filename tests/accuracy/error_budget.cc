@@ -65,13 +65,10 @@ DepthMap SegmentedView(const BudgetScene& scene, const Disturbance& disturbance,
 }
 
 BudgetTerm PlaneTerm(double spacing_mm, double ceiling_mm, const std::string& paper) {
-  return {fmt::format("planes {:.0f} mm apart", spacing_mm),
-          paper,
-          Convention::kNone,
-          false,
-          false,
-          ceiling_mm,
-          [=](const BudgetScene& scene, std::uint64_t, int stride) {
+  return {.name = fmt::format("planes {:.0f} mm apart", spacing_mm),
+          .paper = paper,
+          .ceiling_mm = ceiling_mm,
+          .view = [=](const BudgetScene& scene, std::uint64_t, int stride) {
             const auto contains = [&](const Eigen::Vector3d& x) { return scene.hull.Contains(x); };
             return PictureOnPlanes(scene.view, scene.rig.workspace_mm, spacing_mm, contains, stride);
           }};
@@ -79,13 +76,11 @@ BudgetTerm PlaneTerm(double spacing_mm, double ceiling_mm, const std::string& pa
 
 BudgetTerm DisturbedTerm(const std::string& name, const std::string& paper, const Disturbance& disturbance,
                          double ceiling_mm) {
-  return {name,
-          paper,
-          Convention::kNone,
-          true,
-          false,
-          ceiling_mm,
-          [=](const BudgetScene& scene, std::uint64_t seed, int stride) {
+  return {.name = name,
+          .paper = paper,
+          .is_random = true,
+          .ceiling_mm = ceiling_mm,
+          .view = [=](const BudgetScene& scene, std::uint64_t seed, int stride) {
             return DisturbedView(scene, disturbance, seed, stride);
           }};
 }
@@ -94,13 +89,11 @@ BudgetTerm DisturbedTerm(const std::string& name, const std::string& paper, cons
 BudgetTerm HeadTerm(const std::string& name, const std::string& paper, const Disturbance& noise) {
   const double ceiling_mm = kFarthestFromHeadMm * core::RadiansFromDegrees(noise.rotation_deg) +
                             noise.position_mm + kReferenceSlackMm;
-  return {name,
-          paper,
-          Convention::kNone,
-          true,
-          false,
-          ceiling_mm,
-          [=](const BudgetScene& scene, std::uint64_t seed, int stride) {
+  return {.name = name,
+          .paper = paper,
+          .is_random = true,
+          .ceiling_mm = ceiling_mm,
+          .view = [=](const BudgetScene& scene, std::uint64_t seed, int stride) {
             return PictureOf(
                 DisturbedCamera(scene.view, noise, seed),
                 [&](const Ray& ray) { return scene.hull.FirstSurface(ray); }, stride);
@@ -118,13 +111,12 @@ std::vector<BudgetTerm> HeadTerms() {
 
 BudgetTerm SegmentedTerm(const std::string& name, const std::string& paper, const Disturbance& disturbance,
                          double noise_levels, double spacing_mm, double ceiling_mm) {
-  return {name,
-          paper,
-          Convention::kMarching,
-          true,
-          false,
-          ceiling_mm,
-          [=](const BudgetScene& scene, std::uint64_t seed, int stride) {
+  return {.name = name,
+          .paper = paper,
+          .convention = Convention::kMarching,
+          .is_random = true,
+          .ceiling_mm = ceiling_mm,
+          .view = [=](const BudgetScene& scene, std::uint64_t seed, int stride) {
             return SegmentedView(scene, disturbance, noise_levels, spacing_mm, seed, stride);
           }};
 }

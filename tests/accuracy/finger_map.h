@@ -18,13 +18,14 @@ struct FingerMapPanel {
   std::vector<FingerMapCell> cells;  // at least one; where there is none the picture stays grey
 };
 
-// Writes stem.svg, stem.png and the script with the data, stem.gnuplot: the panels beside each other.
-// `half_mm`: half of a cell's and of the workspace's sides, which has its middle at the origin. Throws:
-// PreconditionError without panels or cells; core::Error{kFile} as RunGnuplot.
+// Half of the sides. The workspace has its middle at the origin.
 struct FingerMapScale {
   Eigen::Vector2d half_cell_mm;
   Eigen::Vector2d half_workspace_mm;
 };
+
+// Writes stem.svg, stem.png and the script with the data, stem.gnuplot: the panels beside each other. Throws:
+// PreconditionError without panels or cells; core::Error{kFile} as RunGnuplot.
 void DrawFingerMap(const std::vector<FingerMapPanel>& panels, const FingerMapScale& scale,
                    const std::filesystem::path& stem);
 

@@ -13,6 +13,7 @@
 #include <variant>
 
 #include "core/error.h"
+#include "recon/hull/visual_hull.h"
 #include "recon/hull_mesh/hull_mesh.h"
 #include "recon/paper_methods/triangle_viewports.h"
 #include "review/clearance.h"

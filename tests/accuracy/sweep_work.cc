@@ -7,6 +7,7 @@
 #include "recon/exact_view/hull_view.h"
 #include "recon/gl/exact_view/exact_view_gl.h"
 #include "recon/gl/paper_methods/plane_sweep_gl.h"
+#include "recon/hull/visual_hull.h"
 #include "recon/paper_methods/plane_sweep.h"
 #include "recon/segmentation/frame_segmenter.h"
 #include "recon/synthetic/synthetic_rig.h"
@@ -18,8 +19,6 @@
 
 namespace elbowroom::accuracy {
 namespace {
-
-constexpr int kPaperCells = 5;
 
 // Depths, with the work that they took.
 struct Seen {

@@ -11,6 +11,8 @@
 
 namespace elbowroom::accuracy {
 
+inline constexpr int kPaperCells = 5;  // along a side of a plane, whose lens is corrected at their corners
+
 // A way to see, from pictures in memory to depths, as it was counted and timed.
 struct SweepWork {
   std::string method;

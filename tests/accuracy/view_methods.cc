@@ -8,6 +8,7 @@
 #include "recon/exact_view/hull_view.h"
 #include "recon/gl/exact_view/exact_view_gl.h"
 #include "recon/gl/paper_methods/plane_sweep_gl.h"
+#include "recon/hull/visual_hull.h"
 #include "recon/hull_mesh/hull_mesh.h"
 #include "recon/paper_methods/plane_sweep.h"
 #include "recon/synthetic/view_scene.h"

@@ -17,7 +17,6 @@
 
 #include "app/console/main_window.h"
 #include "app/console/window_picture.h"
-#include "recon/hull/visual_hull.h"
 #include "recon/synthetic/demo_motion.h"
 #include "sessions/session_reader.h"
 #include "tests/app/opened_urls.h"

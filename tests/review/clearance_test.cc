@@ -1,6 +1,7 @@
 // Clearance bounds against pairs of points: whatever hull point is found by other means is no nearer than
 // `lower`, and the witnesses show `upper`.
 #include "review/clearance.h"
+#include "recon/hull/visual_hull.h"
 
 #include <gtest/gtest.h>
 

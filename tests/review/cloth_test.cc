@@ -1,5 +1,6 @@
 // Cloth at rest against the catenary, in motion against energy, and against hulls that come at it.
 #include "review/cloth.h"
+#include "recon/hull/visual_hull.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>

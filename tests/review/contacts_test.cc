@@ -1,5 +1,6 @@
 // Contacts against dense sampling of the part's surface with Contains() alone.
 #include "review/contacts.h"
+#include "recon/hull/visual_hull.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>

@@ -1,5 +1,6 @@
 // One part in one frame: contact, clearance and verdict agree with those who answer them one by one.
 #include "review/part_review.h"
+#include "recon/hull/visual_hull.h"
 
 #include <gtest/gtest.h>
 

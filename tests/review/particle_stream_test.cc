@@ -1,5 +1,6 @@
 // A stream against what it falls on.
 #include "review/particle_stream.h"
+#include "recon/hull/visual_hull.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>

@@ -1,5 +1,6 @@
 // The shortest way out, one direction's and any direction's, against closed forms and against brute force.
 #include "review/penetration.h"
+#include "recon/hull/visual_hull.h"
 
 #include <gtest/gtest.h>
 

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "core/part_distance.h"
+#include "recon/hull/visual_hull.h"
 #include "review/clearance.h"
 #include "review/contacts.h"
 #include "review/inside_cells.h"

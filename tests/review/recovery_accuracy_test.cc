@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/units.h"
+#include "recon/hull/visual_hull.h"
 #include "recon/synthetic/view_scene.h"
 #include "review/recovery.h"
 #include "review/recovery_uncertainty.h"

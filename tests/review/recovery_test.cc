@@ -1,5 +1,6 @@
 // Recovery against closed forms on a box, and its traps.
 #include "review/recovery.h"
+#include "recon/hull/visual_hull.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,6 @@
 // The study against an oracle that asks every frame at every step and skips nothing.
 #include "review/spacing_study.h"
+#include "recon/hull/visual_hull.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>

@@ -1,4 +1,5 @@
 #include "review/paper_methods/two_triangle_response.h"
+#include "recon/hull/visual_hull.h"
 
 #include <gtest/gtest.h>
 

@@ -23,6 +23,7 @@
 #include "recon/gl/objects/shader_program.h"
 #include "recon/gl/objects/texture.h"
 #include "recon/gl/objects/vertex_array.h"
+#include "recon/hull/visual_hull.h"
 
 namespace elbowroom::recon::gl {
 namespace {

@@ -5,7 +5,6 @@
 #include <map>
 #include <utility>
 
-#include "recon/hull/visual_hull.h"
 #include "recon/synthetic/rig_presets.h"
 #include "tests/accuracy/disturbed_rig.h"
 #include "tests/accuracy/finger_map.h"

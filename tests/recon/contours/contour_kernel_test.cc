@@ -10,6 +10,7 @@
 
 #include "recon/contours/contour_map.h"
 #include "recon/contours/silhouette.h"
+#include "recon/hull/visual_hull.h"
 #include "recon/hull_mesh/label_kernel.h"
 #include "tests/recon/scenes/random_scene.h"
 

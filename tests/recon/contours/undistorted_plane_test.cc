@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "recon/contours/contour_map.h"
+#include "recon/hull/visual_hull.h"
 #include "tests/recon/scenes/random_scene.h"
 
 namespace elbowroom::recon {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "recon/exact_view/epipolar_edges.h"
+#include "recon/hull/visual_hull.h"
 #include "tests/recon/scenes/random_scene.h"
 
 namespace elbowroom::recon {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "recon/exact_view/hull_view.h"
+#include "recon/hull/visual_hull.h"
 #include "tests/oracles/mask_hull_oracle.h"
 #include "tests/recon/scenes/random_scene.h"
 #include "tests/support/soak.h"

@@ -12,6 +12,7 @@
 #include "core/error.h"
 #include "recon/contours/silhouette.h"
 #include "recon/hull/ray_crossings.h"
+#include "recon/hull/visual_hull.h"
 #include "tests/recon/scenes/random_scene.h"
 
 namespace elbowroom::recon {

@@ -9,6 +9,7 @@
 
 #include "recon/exact_view/cast_intervals.h"
 #include "recon/exact_view/hull_view.h"
+#include "recon/hull/visual_hull.h"
 #include "tests/recon/scenes/random_scene.h"
 
 namespace elbowroom::recon {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "recon/exact_view/view_comparison.h"
+#include "recon/hull/visual_hull.h"
 #include "tests/recon/scenes/random_scene.h"
 #include "tests/support/soak.h"
 

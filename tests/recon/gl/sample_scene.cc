@@ -6,7 +6,6 @@
 #include <numbers>
 
 #include "recon/appearance/orbit_camera.h"
-#include "recon/hull/visual_hull.h"
 
 namespace elbowroom::recon::gl {
 namespace {

@@ -7,7 +7,6 @@
 #include "core/units.h"
 #include "recon/appearance/orbit_camera.h"
 #include "recon/gl/scene/scene_renderer.h"
-#include "recon/hull/visual_hull.h"
 #include "tests/recon/gl/sample_scene.h"
 
 namespace elbowroom::recon::gl {

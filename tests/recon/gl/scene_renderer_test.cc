@@ -15,7 +15,6 @@
 
 #include "core/error.h"
 #include "recon/appearance/orbit_camera.h"
-#include "recon/hull/visual_hull.h"
 #include "recon/images/png_file.h"
 #include "tests/recon/gl/sample_scene.h"
 

@@ -10,7 +10,6 @@
 #include "core/error.h"
 #include "recon/appearance/orbit_camera.h"
 #include "recon/gl/scene/scene_renderer.h"
-#include "recon/hull/visual_hull.h"
 #include "tests/recon/gl/sample_scene.h"
 
 namespace elbowroom::recon::gl {

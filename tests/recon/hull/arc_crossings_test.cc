@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/error.h"
+#include "recon/hull/visual_hull.h"
 #include "tests/recon/scenes/random_scene.h"
 
 namespace elbowroom::recon {

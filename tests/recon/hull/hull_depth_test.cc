@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "recon/hull/ray_crossings.h"
+#include "recon/hull/visual_hull.h"
 #include "tests/recon/scenes/random_scene.h"
 
 namespace elbowroom::recon {

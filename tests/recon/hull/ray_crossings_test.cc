@@ -10,6 +10,7 @@
 
 #include "core/error.h"
 #include "recon/contours/silhouette.h"
+#include "recon/hull/visual_hull.h"
 #include "tests/recon/scenes/random_scene.h"
 
 namespace elbowroom::recon {

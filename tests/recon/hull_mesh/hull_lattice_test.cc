@@ -1,5 +1,6 @@
 #include "recon/hull_mesh/hull_lattice.h"
 #include "recon/contours/silhouette.h"
+#include "recon/hull/visual_hull.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,5 @@
 #include "recon/hull_mesh/hull_mesh.h"
+#include "recon/hull/visual_hull.h"
 
 #include <gtest/gtest.h>
 #include <hwy/targets.h>

@@ -1,4 +1,5 @@
 #include "recon/paper_methods/plane_sweep.h"
+#include "recon/hull/visual_hull.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>

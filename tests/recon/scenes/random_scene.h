@@ -10,7 +10,6 @@
 #include "core/bit_mask.h"
 #include "core/rig.h"
 #include "core/soft_mask.h"
-#include "recon/hull/visual_hull.h"
 
 namespace elbowroom::recon {
 
