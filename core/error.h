@@ -25,7 +25,11 @@ class PreconditionError : public std::logic_error {
   using std::logic_error::logic_error;
 };
 
+[[noreturn]] void ThrowPreconditionError(std::string_view what_must_hold);
+
 // Throws: PreconditionError naming `what_must_hold` unless `condition`.
-void Require(bool condition, std::string_view what_must_hold);
+inline void Require(bool condition, std::string_view what_must_hold) {
+  if (!condition) ThrowPreconditionError(what_must_hold);
+}
 
 }  // namespace elbowroom::core

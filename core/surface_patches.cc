@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -32,10 +34,18 @@ void VisitPatches(const Corners& corners, double patch_mm, int halvings, const V
   for (const Corners& half : *halves) VisitPatches(half, patch_mm, halvings + 1, visit);
 }
 
-std::size_t CountPatches(const Corners& corners, double patch_mm, int halvings) {
-  std::size_t count = 0;
-  VisitPatches(corners, patch_mm, halvings, [&](const Corners&) { ++count; });
-  return count;
+// Returns how many patches the piece has, and appends SurfacePatches::in_first_half_ of it.
+std::uint16_t CountPatches(const Corners& corners, double patch_mm, int halvings,
+                           std::vector<std::uint16_t>* in_first_half) {
+  static_assert(1 << SurfacePatches::kMostHalvings <= std::numeric_limits<std::uint16_t>::max());
+  const auto halves = halvings < SurfacePatches::kMostHalvings ? HalvesOf(corners, patch_mm) : std::nullopt;
+  if (!halves) return 1;
+  const std::size_t piece = in_first_half->size();
+  in_first_half->push_back(0);
+  const std::uint16_t first = CountPatches(halves->front(), patch_mm, halvings + 1, in_first_half);
+  (*in_first_half)[piece] = first;
+  return static_cast<std::uint16_t>(first +
+                                    CountPatches(halves->back(), patch_mm, halvings + 1, in_first_half));
 }
 
 }  // namespace
@@ -46,7 +56,7 @@ SurfacePatches::SurfacePatches(SharedMesh mesh, double patch_mm)
   first_.reserve(mesh_->triangles.size() + 1);
   first_.push_back(0);
   for (std::size_t t = 0; t < mesh_->triangles.size(); ++t)
-    first_.push_back(first_.back() + CountPatches(TriangleAt(t), patch_mm_, 0));
+    first_.push_back(first_.back() + CountPatches(TriangleAt(t), patch_mm_, 0, &in_first_half_));
 }
 
 Corners SurfacePatches::TriangleAt(std::size_t triangle) const {
@@ -64,15 +74,20 @@ std::vector<Corners> SurfacePatches::CornersOf(std::size_t triangle) const {
 
 std::size_t SurfacePatches::PatchAt(std::size_t triangle, const Vector3d& x) const {
   Corners corners = TriangleAt(triangle);
-  std::size_t patch = FirstOf(triangle);
-  for (int halvings = 0; halvings < kMostHalvings; ++halvings) {
-    const auto halves = HalvesOf(corners, patch_mm_);
-    if (!halves) break;
-    const auto& [first, second] = *halves;
+  std::size_t patch = FirstOf(triangle), end = EndOf(triangle);
+  for (std::size_t piece = patch - triangle; end - patch > 1;) {
+    const auto [first, second] = *HalvesOf(corners, patch_mm_);
+    const std::size_t patches_of_first = in_first_half_[piece];
     // normal x cut lies in the triangle's plane, across the cut, and points to the first half.
     const Vector3d cut = first.c - first.b, normal = (first.b - first.a).cross(first.c - first.a);
     const bool is_in_second = normal.cross(cut).dot(x - first.b) < 0.0;
-    if (is_in_second) patch += CountPatches(first, patch_mm_, halvings + 1);
+    if (is_in_second) {
+      patch += patches_of_first;
+      piece += patches_of_first;  // past itself and what its first half is halved
+    } else {
+      end = patch + patches_of_first;
+      ++piece;
+    }
     corners = is_in_second ? second : first;
   }
   return patch;

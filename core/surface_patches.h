@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "core/triangle_mesh.h"
@@ -31,7 +32,7 @@ class SurfacePatches {
   [[nodiscard]] std::vector<Corners> CornersOf(std::size_t triangle) const;
 
   // The patch of the triangle on which the point lies. If the point is off the triangle, or the triangle has
-  // no area, any of its patches.
+  // no area, any of its patches. At most kMostHalvings steps.
   [[nodiscard]] std::size_t PatchAt(std::size_t triangle, const Eigen::Vector3d& x) const;
 
  private:
@@ -40,6 +41,9 @@ class SurfacePatches {
   SharedMesh mesh_;
   double patch_mm_;
   std::vector<std::size_t> first_;  // first patch of each triangle; at the end, the number of patches
+  // For each piece that is halved, the patches of its first half. A triangle with n patches is halved n - 1
+  // times: first the triangle, then all of its first half, then all of its second.
+  std::vector<std::uint16_t> in_first_half_;
 };
 
 }  // namespace elbowroom::core

@@ -138,7 +138,7 @@ void ContactTracker::FollowTouch(const TrackedFrame& frame, const core::PartCont
   if (contact.verdict == core::Verdict::kContact) {
     const bool begins = !contact.deepest || contact.deepest->depth_mm >= options_.enter_depth_mm;
     if (!state->touch && begins) {
-      state->touch.emplace();
+      state->touch = Touch{};
       state->touch->episode.part = contact.part;
       state->touch->episode.begin_frame = frame.record.frame;
       state->touch->episode.begin_time_s = frame.record.time_s;
@@ -158,7 +158,7 @@ void ContactTracker::FollowApproach(const TrackedFrame& frame, const core::PartC
   const double sure_mm = contact.clearance->interval.lower_mm - options_.uncertainty_mm;
   const bool is_below = sure_mm < options_.required_clearance_mm;
   if (is_below && !state->approach) {
-    state->approach.emplace();
+    state->approach = Approach{};
     state->approach->miss.part = contact.part;
     state->approach->miss.begin_frame = frame.record.frame;
     state->approach->miss.begin_time_s = frame.record.time_s;

@@ -52,9 +52,10 @@ std::size_t ObjectRangeTable::BinOf(double angle) const {
 
 OrderRange ObjectRangeTable::Over(double least_angle, double most_angle) const {
   const std::size_t first = BinOf(least_angle), end = BinOf(most_angle) + 1;
-  const auto level = static_cast<std::size_t>(std::bit_width(end - first) - 1);
+  const std::size_t span = std::bit_floor(end - first);
+  const auto level = static_cast<std::size_t>(std::countr_zero(span));
   const OrderRange* items = &items_[level * bins_];
-  return Union(items[first], items[end - (std::size_t{1} << level)]);
+  return Union(items[first], items[end - span]);
 }
 
 }  // namespace elbowroom::recon

@@ -130,8 +130,9 @@ struct FarPoints {
 constexpr FarPoints MakeFarPoints() {
   FarPoints points;
   for (std::size_t i = 0; i < points.y.size(); ++i) {
-    points.y[i] = static_cast<float>(i % kSide);
-    points.z[i] = static_cast<float>(i / kSide);
+    const std::size_t y = i % kSide, z = i / kSide;
+    points.y[i] = static_cast<float>(y);
+    points.z[i] = static_cast<float>(z);
   }
   return points;
 }

@@ -2,8 +2,9 @@
 
 namespace elbowroom::sessions {
 
-std::string ReportStyle() {
-  return R"css(
+namespace {
+
+constexpr const char* kReportStyle = R"css(
 :root { --ink: #1d2733; --quiet: #5c6b7a; --line: #dde3e9; --paper: #ffffff; --wash: #f4f6f8;
   --spacing: #1c5d99; --tool: #2a7f78; --touched: #c2311f; --free: #2e7d4f; --caution: #b7791f; }
 * { box-sizing: border-box; }
@@ -72,6 +73,9 @@ footer { margin-top: 40px; padding-top: 12px; border-top: 1px solid var(--line);
 }
 @page { margin: 16mm 14mm; }
 )css";
-}
+
+}  // namespace
+
+std::string ReportStyle() { return kReportStyle; }
 
 }  // namespace elbowroom::sessions

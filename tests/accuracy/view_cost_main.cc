@@ -38,7 +38,7 @@ core::CameraModel ViewOf(const core::CameraModel& standard, const CostOptions& o
   core::CameraCalibration c = WithMorePicture(standard, options.view_size).calibration();
   c.camera_matrix.topLeftCorner<2, 2>() *= options.zoom;
   if (options.away) {
-    const Eigen::Vector3d center_in_world = standard.center_in_world();
+    const Eigen::Vector3d& center_in_world = standard.center_in_world();
     c.cam_from_world.rotation.row(0) *= -1.0;
     c.cam_from_world.rotation.row(2) *= -1.0;
     c.cam_from_world.translation_mm = -(c.cam_from_world.rotation * center_in_world);

@@ -64,9 +64,10 @@ const TrialKind kDemo = {"demo", false, [](const fs::path& /*files*/, const fs::
                            return std::vector<std::string>{"--json", "demo", "--headless", "--out",
                                                            session.parent_path().string()};
                          }};
-constexpr int kRecordedFrames = 3000;
+// Enough that none of the disturbances outlasts the trial.
+int RecordedFrames() { return test_support::SoakScale() == 1 ? 1000 : 3000; }
 const TrialKind kRecorded = {"recorded", false, [](const fs::path& files, const fs::path& session) {
-                               const fs::path trial = WriteMaskTrial(files, kRecordedFrames);
+                               const fs::path trial = WriteMaskTrial(files, RecordedFrames());
                                return std::vector<std::string>{"--json",        "trial",      "run",
                                                                trial.string(),  "--headless", "--session",
                                                                session.string()};

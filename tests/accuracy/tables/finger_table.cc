@@ -18,7 +18,7 @@
 namespace elbowroom::accuracy {
 namespace {
 
-const Eigen::Vector3i kCells(7, 6, 4);
+const Eigen::Vector3i kPlacesAlong(7, 6, 4);
 constexpr int kDraws = 4;
 
 using WidthOf = std::function<std::optional<double>(const FingerWidths&)>;
@@ -163,7 +163,7 @@ void DrawMap(const core::Rig& rig, const std::vector<FingerPlace>& places, const
   DrawFingerMap({PanelOf("hull of perfect cameras", places, perfect.widths, seen),
                  PanelOf("hull, the errors all together", places, disturbed.widths, seen),
                  PanelOf("the same on planes 15 mm apart", places, disturbed.widths, OnPlanes)},
-                {0.5 * size_mm.cwiseQuotient(kCells.head<2>().cast<double>()), 0.5 * size_mm}, stem);
+                {0.5 * size_mm.cwiseQuotient(kPlacesAlong.head<2>().cast<double>()), 0.5 * size_mm}, stem);
 }
 
 std::string WidthsTable(const std::vector<Reconstructed>& all) {
@@ -178,7 +178,7 @@ std::string WidthsTable(const std::vector<Reconstructed>& all) {
 
 void MeasureFinger(const std::filesystem::path& docs) {
   const core::Rig rig = recon::PaperRig();
-  const std::vector<FingerPlace> everywhere = FingerPlaces(rig, kCells);
+  const std::vector<FingerPlace> everywhere = FingerPlaces(rig, kPlacesAlong);
   const std::vector<FingerPlace> places = SeenBy(static_cast<int>(rig.cameras.size()), everywhere);
   const std::filesystem::path file = docs / "accuracy.md";
   std::vector<Reconstructed> all;
