@@ -46,7 +46,11 @@ constexpr std::array<FormatRow, 16> kFormats = {{{FileFormat::kStl, ".stl", "STL
                                                  {FileFormat::kIges, ".igs", "IGES"},
                                                  {FileFormat::kBrep, ".brep", "BREP"}}};
 
-const FormatRow& RowOf(FileFormat format) { return *std::ranges::find(kFormats, format, &FormatRow::format); }
+const FormatRow& RowOf(FileFormat format) {
+  const auto row = std::ranges::find(kFormats, format, &FormatRow::format);
+  core::Require(row != kFormats.end(), "a format has a row");
+  return *row;
+}
 
 std::string ReadWhole(const std::filesystem::path& path) {
   const auto size_bytes = static_cast<std::size_t>(ReadableBytes(path));
