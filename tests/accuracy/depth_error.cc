@@ -1,10 +1,10 @@
 #include "tests/accuracy/depth_error.h"
-#include "tests/accuracy/quantile.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "core/error.h"
+#include "tests/accuracy/quantile.h"
 
 namespace elbowroom::accuracy {
 namespace {

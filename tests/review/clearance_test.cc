@@ -1,7 +1,6 @@
 // Clearance bounds against pairs of points: whatever hull point is found by other means is no nearer than
 // `lower`, and the witnesses show `upper`.
 #include "review/clearance.h"
-#include "recon/hull/visual_hull.h"
 
 #include <gtest/gtest.h>
 
@@ -14,6 +13,7 @@
 #include "core/error.h"
 #include "core/infinity.h"
 #include "core/part_distance.h"
+#include "recon/hull/visual_hull.h"
 #include "recon/hull_mesh/hull_mesh.h"
 #include "review/contacts.h"
 #include "tests/core/solids.h"

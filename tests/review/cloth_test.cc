@@ -1,6 +1,5 @@
 // Cloth at rest against the catenary, in motion against energy, and against hulls that come at it.
 #include "review/cloth.h"
-#include "recon/hull/visual_hull.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
@@ -11,6 +10,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "recon/hull/visual_hull.h"
 #include "tests/recon/scenes/random_scene.h"
 #include "tests/review/curtain.h"
 #include "tests/review/sweeping_hand.h"

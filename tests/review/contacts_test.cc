@@ -1,6 +1,5 @@
 // Contacts against dense sampling of the part's surface with Contains() alone.
 #include "review/contacts.h"
-#include "recon/hull/visual_hull.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
@@ -10,6 +9,7 @@
 #include <numeric>
 
 #include "core/error.h"
+#include "recon/hull/visual_hull.h"
 #include "tests/core/solids.h"
 #include "tests/recon/scenes/random_scene.h"
 #include "tests/review/box_hull.h"

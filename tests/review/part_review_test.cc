@@ -1,6 +1,5 @@
 // One part in one frame: contact, clearance and verdict agree with those who answer them one by one.
 #include "review/part_review.h"
-#include "recon/hull/visual_hull.h"
 
 #include <gtest/gtest.h>
 
@@ -9,6 +8,7 @@
 
 #include "core/error.h"
 #include "core/infinity.h"
+#include "recon/hull/visual_hull.h"
 #include "tests/core/solids.h"
 #include "tests/recon/scenes/random_scene.h"
 #include "tests/review/box_hull.h"

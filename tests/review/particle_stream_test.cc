@@ -1,6 +1,5 @@
 // A stream against what it falls on.
 #include "review/particle_stream.h"
-#include "recon/hull/visual_hull.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
@@ -11,6 +10,7 @@
 
 #include "core/error.h"
 #include "core/part_distance.h"
+#include "recon/hull/visual_hull.h"
 #include "review/inside_cells.h"
 #include "tests/core/solids.h"
 #include "tests/recon/scenes/random_scene.h"

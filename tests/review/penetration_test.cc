@@ -1,6 +1,5 @@
 // The shortest way out, one direction's and any direction's, against closed forms and against brute force.
 #include "review/penetration.h"
-#include "recon/hull/visual_hull.h"
 
 #include <gtest/gtest.h>
 
@@ -13,6 +12,7 @@
 
 #include "core/error.h"
 #include "core/part_distance.h"
+#include "recon/hull/visual_hull.h"
 #include "review/contacts.h"
 #include "review/escape_distance.h"
 #include "review/hull_part_intersection.h"

@@ -1,6 +1,5 @@
 // Recovery against closed forms on a box, and its traps.
 #include "review/recovery.h"
-#include "recon/hull/visual_hull.h"
 
 #include <gtest/gtest.h>
 
@@ -11,6 +10,7 @@
 
 #include "core/error.h"
 #include "recon/contours/silhouette.h"
+#include "recon/hull/visual_hull.h"
 #include "recon/paper_methods/coverage_hull.h"
 #include "review/contacts.h"
 #include "review/paper_methods/two_triangle_response.h"

@@ -1,6 +1,5 @@
 // The study against an oracle that asks every frame at every step and skips nothing.
 #include "review/spacing_study.h"
-#include "recon/hull/visual_hull.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
@@ -10,6 +9,7 @@
 #include <memory>
 
 #include "core/error.h"
+#include "recon/hull/visual_hull.h"
 #include "tests/core/solids.h"
 #include "tests/recon/scenes/random_scene.h"
 #include "tests/review/box_hull.h"

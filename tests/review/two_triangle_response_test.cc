@@ -1,5 +1,4 @@
 #include "review/paper_methods/two_triangle_response.h"
-#include "recon/hull/visual_hull.h"
 
 #include <gtest/gtest.h>
 
@@ -9,6 +8,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "recon/hull/visual_hull.h"
 #include "recon/paper_methods/triangle_viewports.h"
 #include "tests/core/solids.h"
 #include "tests/recon/scenes/random_scene.h"

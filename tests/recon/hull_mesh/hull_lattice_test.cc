@@ -1,6 +1,4 @@
 #include "recon/hull_mesh/hull_lattice.h"
-#include "recon/contours/silhouette.h"
-#include "recon/hull/visual_hull.h"
 
 #include <gtest/gtest.h>
 
@@ -9,6 +7,8 @@
 #include <optional>
 #include <utility>
 
+#include "recon/contours/silhouette.h"
+#include "recon/hull/visual_hull.h"
 #include "recon/hull_mesh/block_surface.h"
 #include "tests/recon/scenes/random_scene.h"
 #include "tests/support/soak.h"

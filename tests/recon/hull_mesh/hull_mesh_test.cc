@@ -1,5 +1,4 @@
 #include "recon/hull_mesh/hull_mesh.h"
-#include "recon/hull/visual_hull.h"
 
 #include <gtest/gtest.h>
 #include <hwy/targets.h>
@@ -9,6 +8,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "recon/hull/visual_hull.h"
 #include "tests/recon/scenes/carve.h"
 #include "tests/recon/scenes/random_scene.h"
 #include "tests/recon/scenes/vertex_fans.h"

@@ -1,5 +1,4 @@
 #include "recon/paper_methods/plane_sweep.h"
-#include "recon/hull/visual_hull.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
@@ -13,6 +12,7 @@
 #include "core/error.h"
 #include "recon/contours/silhouette.h"
 #include "recon/exact_view/hull_view.h"
+#include "recon/hull/visual_hull.h"
 #include "recon/paper_methods/sweep_comparison.h"
 #include "tests/recon/scenes/random_scene.h"
 #include "tests/recon/scenes/sweep_oracle.h"
