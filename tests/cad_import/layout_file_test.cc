@@ -79,7 +79,7 @@ class LayoutFile : public ::testing::Test {
   std::string ErrorAtLine(int line, const std::string& from, const std::string& to,
                           ErrorKind kind = ErrorKind::kFormat) {
     const auto path = WriteWith(from, to);
-    const std::string message = ErrorOf(kind, [&] { (void)ImportLayoutFile(path); });
+    std::string message = ErrorOf(kind, [&] { (void)ImportLayoutFile(path); });
     EXPECT_TRUE(Mentions(message, path.string() + ":" + std::to_string(line) + ": ")) << message;
     return message;
   }

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <boost/multiprecision/cpp_int.hpp>
+#include <cmath>
 #include <optional>
 #include <random>
 #include <vector>
@@ -69,13 +70,15 @@ std::vector<Vec> CommonEnds(const Tri& a, const Tri& b) {
   return ends;
 }
 
+// A vertex at whole millimetres.
+Vec VertexAt(const core::TriangleMesh& mesh, std::int32_t vertex) {
+  const Eigen::Vector3d& x = mesh.vertices_mm[static_cast<std::size_t>(vertex)];
+  return {std::lround(x.x()), std::lround(x.y()), std::lround(x.z())};
+}
+
 Tri TriOf(const core::TriangleMesh& mesh, std::size_t i) {
-  Tri t;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Eigen::Vector3d& x = mesh.vertices_mm[static_cast<std::size_t>(mesh.triangles[i][k])];
-    t[k] = {Rational(x.x()), Rational(x.y()), Rational(x.z())};
-  }
-  return t;
+  const auto& [a, b, c] = mesh.triangles[i];
+  return {VertexAt(mesh, a), VertexAt(mesh, b), VertexAt(mesh, c)};
 }
 
 // Do they meet elsewhere than in a corner or side that they share? All ends of their common points lie there
@@ -84,10 +87,7 @@ bool Meet(const core::TriangleMesh& mesh) {
   std::vector<Vec> shared;
   for (const std::int32_t corner : mesh.triangles[0])
     for (const std::int32_t other : mesh.triangles[1])
-      if (corner == other) {
-        const Eigen::Vector3d& x = mesh.vertices_mm[static_cast<std::size_t>(corner)];
-        shared.push_back({Rational(x.x()), Rational(x.y()), Rational(x.z())});
-      }
+      if (corner == other) shared.push_back(VertexAt(mesh, corner));
   if (shared.size() == 3) return false;
   for (const Vec& end : CommonEnds(TriOf(mesh, 0), TriOf(mesh, 1))) {
     if (shared.empty()) return true;

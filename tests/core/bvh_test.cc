@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <numeric>
 #include <random>
 
 #include "core/error.h"
@@ -43,12 +44,18 @@ bool Encloses(const Ball& ball, const Vector3d& x) {
   return (x - ball.center).norm() <= ball.radius_mm * (1.0 + kBallRounding);
 }
 
+void ExpectEachTriangleOnce(const TriangleTree& tree) {
+  std::vector<std::uint32_t> order(tree.order().begin(), tree.order().end()), once(order.size());
+  std::ranges::sort(order);
+  std::iota(once.begin(), once.end(), 0U);
+  ASSERT_EQ(order, once);
+  ASSERT_EQ(order.size(), tree.mesh().triangles.size());
+}
+
 void ExpectTreeHolds(const TriangleTree& tree) {
+  ExpectEachTriangleOnce(tree);
   const auto nodes = tree.nodes();
   const auto count = static_cast<std::uint32_t>(tree.mesh().triangles.size());
-  std::vector<std::uint32_t> order(tree.order().begin(), tree.order().end());
-  std::ranges::sort(order);
-  for (std::uint32_t i = 0; i < count; ++i) ASSERT_EQ(order[i], i) << "each triangle once";
   ASSERT_EQ(nodes[0].begin, 0U);
   ASSERT_EQ(nodes[0].end, count);
   for (const TriangleTree::Node& node : nodes) {

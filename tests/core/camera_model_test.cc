@@ -218,7 +218,7 @@ TEST(Lens, LeavesOutNoCoefficientThatRoundingWouldNotHide) {
 
 TEST(Lens, WithoutTheseCoefficientsIsTheSame) {
   const double most = std::nextafter(Lens::kLeastCoefficient, 0.0);
-  const auto ideal = [](std::vector<double> k) {
+  const auto ideal = [](const std::vector<double>& k) {
     return Lens(DistortionModel::kPlumbBob, k, "lens").is_ideal();
   };
   EXPECT_TRUE(ideal({most, -most, most, -most, most}));

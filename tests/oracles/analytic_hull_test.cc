@@ -45,7 +45,8 @@ double VolumeMm3(const AnalyticHull& hull, double half_mm, int side) {
   std::int64_t inside = 0;
   const double cell_mm = 2.0 * half_mm / side;
   for (int i = 0; i < side * side * side; ++i) {
-    const Vector3d at(i % side + 0.5, i / side % side + 0.5, i / (side * side) + 0.5);
+    const int x = i % side, y = i / side % side, z = i / (side * side);
+    const Vector3d at(x + 0.5, y + 0.5, z + 0.5);
     inside += hull.Contains(cell_mm * at - Vector3d::Constant(half_mm)) ? 1 : 0;
   }
   return static_cast<double>(inside) * cell_mm * cell_mm * cell_mm;

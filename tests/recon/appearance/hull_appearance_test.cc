@@ -76,8 +76,8 @@ struct Trial {
 };
 
 Vector3d HitAt(const HullView& picture, const SceneView& view, std::size_t pixel) {
-  const Vector2d at(static_cast<double>(pixel % static_cast<std::size_t>(view.width_px)),
-                    static_cast<double>(pixel / static_cast<std::size_t>(view.width_px)));
+  const auto width = static_cast<std::size_t>(view.width_px), x = pixel % width, y = pixel / width;
+  const Vector2d at(static_cast<double>(x), static_cast<double>(y));
   return view.cam_from_world.Inverse() * (static_cast<double>(picture.depth_mm[pixel]) * view.RayInCam(at));
 }
 

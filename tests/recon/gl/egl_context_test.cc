@@ -34,7 +34,8 @@ TEST(EglContext, MovedFromIsNotUsed) {
   EglContext first;
   const EglContext second = std::move(first);
   EXPECT_NO_THROW(second.MakeCurrent());
-  EXPECT_THROW(first.MakeCurrent(), core::PreconditionError);  // NOLINT(bugprone-use-after-move)
+  // NOLINTNEXTLINE(bugprone-use-after-move, clang-analyzer-cplusplus.Move)
+  EXPECT_THROW(first.MakeCurrent(), core::PreconditionError);
 }
 
 // In a process of its own, which reads the variable when it first touches EGL.

@@ -191,7 +191,8 @@ TEST(PlaneSweepGl, MovedFromIsNotUsed) {
   PlaneSweepGl first;
   const PlaneSweepGl second = std::move(first);
   EXPECT_FALSE(second.driver().empty());
-  EXPECT_THROW((void)first.driver(), core::PreconditionError);  // NOLINT(bugprone-use-after-move)
+  // NOLINTNEXTLINE(bugprone-use-after-move, clang-analyzer-cplusplus.Move)
+  EXPECT_THROW((void)first.driver(), core::PreconditionError);
 }
 
 }  // namespace

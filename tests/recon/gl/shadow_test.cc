@@ -88,6 +88,15 @@ struct Tally {
   int shaded = 0, lit = 0;
 };
 
+// What the spot lacks of the light that the lamp would give to it, in grey levels.
+void ExpectMissing(int missing, bool is_blocked, double at_least, double at_most) {
+  if (is_blocked) {
+    EXPECT_GT(missing, at_least);
+  } else {
+    EXPECT_LE(missing, at_most);
+  }
+}
+
 // Compares the picture with one without shadows at every spot. Of the light that the lamp gives to a spot,
 // all is missing in its shadow and nothing outside, but for a band of the filter's width at the shadow's
 // edge; and half of it is missing within one texel of the edge.
@@ -110,22 +119,16 @@ Tally ExpectShadows(const Scene& scene, const SpotAt& spot_at, const IsBlocked& 
       const double texel_mm = to_lamp.norm() / from_lamp.focal_px / cosine;  // on the surface, its long side
       const auto pixel = static_cast<std::size_t>(3 * (y * kWidthPx + x));
       const int missing = without.rgb[pixel] - with.rgb[pixel];
+      SCOPED_TRACE(testing::Message() << x << ", " << y);
       constexpr double kFilterTexels =
           2.0 * std::numbers::sqrt2 + 0.5;  // half its diagonal; the map's raster
       constexpr double kPixelMm = 3.0;      // of the picture, on these surfaces
       if (const auto blocked = BlockedAround(*spot, kFilterTexels * texel_mm + kPixelMm, is_blocked)) {
-        if (*blocked) {
-          EXPECT_GT(missing, 0.8 * kKeyShare * cosine - kRounding) << x << ", " << y;
-        } else {
-          EXPECT_LE(missing, kRounding) << x << ", " << y;
-        }
+        ExpectMissing(missing, *blocked, 0.8 * kKeyShare * cosine - kRounding, kRounding);
         ++(*blocked ? tally.shaded : tally.lit);
       } else if (const auto beside = BlockedAround(*spot, 1.0 * texel_mm + kPixelMm, is_blocked)) {
-        if (*beside) {
-          EXPECT_GT(missing, 0.35 * kKeyShare * cosine - kRounding) << x << ", " << y;
-        } else {
-          EXPECT_LT(missing, 0.65 * kKeyShare * cosine + kRounding) << x << ", " << y;
-        }
+        ExpectMissing(missing, *beside, 0.35 * kKeyShare * cosine - kRounding,
+                      0.65 * kKeyShare * cosine + kRounding);
       }
     }
   }

@@ -29,7 +29,8 @@ constexpr double kEndShare = 1.0 / 2048;
 bool IsBesideAChange(const VisualHull& hull, const Vector3d& x, double edge_mm) {
   const bool label = hull.Contains(x);
   for (int code = 0; code < 27; ++code) {
-    const Vector3d way(code % 3 - 1, code / 3 % 3 - 1, code / 9 - 1);
+    const int x_way = code % 3 - 1, y_way = code / 3 % 3 - 1, z_way = code / 9 - 1;
+    const Vector3d way(x_way, y_way, z_way);
     if (hull.Contains(x + kRoundingShare * edge_mm * way) != label) return true;
   }
   return false;

@@ -1,6 +1,8 @@
 // The hull's volume the slow, obviously right way.
 #pragma once
 
+#include <Eigen/Geometry>
+
 #include "recon/hull/visual_hull_declared.h"
 
 namespace elbowroom::recon {
