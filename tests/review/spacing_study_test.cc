@@ -103,16 +103,20 @@ SlowAnswer AskAll(const core::Layout& layout, const std::vector<StudyFrame>& fra
   return answer;
 }
 
-void ExpectAgree(const PartAtSpacing& fast, const SlowAnswer& answer) {
-  const PartAtSpacing& slow = answer.sum;
-  EXPECT_GE(fast.frames_in_contact, slow.frames_in_contact);
-  EXPECT_LE(fast.frames_in_contact, slow.frames_in_contact + answer.touching);
+void ExpectDistancesAgree(const PartAtSpacing& fast, const PartAtSpacing& slow) {
   EXPECT_EQ(fast.deepest_mm, slow.deepest_mm);
   EXPECT_LE(fast.lower_mm, slow.upper_mm + kStudyRoundingMm);
   EXPECT_LE(slow.lower_mm, fast.upper_mm + kStudyRoundingMm);
   if (slow.frames_in_contact > 0) {
     EXPECT_EQ(fast.upper_mm, 0.0);
   }
+}
+
+void ExpectAgree(const PartAtSpacing& fast, const SlowAnswer& answer) {
+  const PartAtSpacing& slow = answer.sum;
+  ExpectDistancesAgree(fast, slow);
+  EXPECT_GE(fast.frames_in_contact, slow.frames_in_contact);
+  EXPECT_LE(fast.frames_in_contact, slow.frames_in_contact + answer.touching);
   // What is clear to one may be undecided to the other, for bounds differ within their tolerance.
   EXPECT_LE(fast.frames_near, slow.frames_near + slow.frames_undecided + answer.touching);
   EXPECT_LE(slow.frames_near, fast.frames_near + fast.frames_undecided + answer.touching);

@@ -36,7 +36,7 @@ TEST_F(WritePngTest, ReadsBackPixelForPixel) {
   ASSERT_EQ(bgr.cols, 3);
   ASSERT_EQ(bgr.rows, 2);
   for (int i = 0; i < 6; ++i) {
-    const cv::Vec3b pixel = bgr.at<cv::Vec3b>(i / 3, i % 3);
+    const auto& pixel = bgr.at<cv::Vec3b>(i / 3, i % 3);
     for (int channel = 0; channel < 3; ++channel) {
       EXPECT_EQ(pixel[2 - channel], image_.rgb[static_cast<std::size_t>(3 * i + channel)]);
     }

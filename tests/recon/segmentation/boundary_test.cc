@@ -92,7 +92,8 @@ cv::Mat DiscPicture(const Disc& disc, double blur_px, double light) {
     for (int x = 0; x < kSide; ++x) {
       int inside = 0;
       for (int i = 0; i < kFine * kFine; ++i) {
-        const double u = x - 0.5 + (i % kFine + 0.5) / kFine, v = y - 0.5 + (i / kFine + 0.5) / kFine;
+        const int column = i % kFine, row = i / kFine;
+        const double u = x - 0.5 + (column + 0.5) / kFine, v = y - 0.5 + (row + 0.5) / kFine;
         inside += std::hypot(u - disc.x, v - disc.y) < disc.radius_px ? 1 : 0;
       }
       const double share = inside / static_cast<double>(kFine * kFine);
