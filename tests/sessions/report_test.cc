@@ -70,7 +70,7 @@ void ExpectNoBrokenNumbers(const std::string& html) {
 
 std::string ReportOf(const fs::path& session, const fs::path& out_dir, const ReportPictures& pictures = {}) {
   sessions::WriteReport(SessionReader(session), pictures, out_dir);
-  const std::string html = ReportText(out_dir / "report.html");
+  std::string html = ReportText(out_dir / "report.html");
   ExpectTagsNest(html);
   ExpectSelfContained(html);
   ExpectNoBrokenNumbers(html);
