@@ -1,8 +1,11 @@
 #include "recon/synthetic/camera_view.h"
 
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include <Eigen/Core>
 #include <algorithm>
+#include <cstddef>
 #include <optional>
 
 #include "recon/synthetic/sensor_noise.h"
@@ -20,37 +23,52 @@ std::vector<BoundingSphere> SpheresOf(std::span<const Solid> solids) {
 
 cv::Vec3f Levels(const Eigen::Vector3f& bgr) { return {bgr.x(), bgr.y(), bgr.z()}; }
 
-struct NearestHit {
-  const Solid* solid = nullptr;
-  RayHit hit;
-};
-
-std::optional<NearestHit> NearestOf(std::span<const Solid> solids, const Ray& ray) {
-  std::optional<NearestHit> nearest;
-  for (const Solid& solid : solids) {
-    const auto hit = FirstHit(solid, ray);
-    if (hit && (!nearest || hit->distance_mm < nearest->hit.distance_mm)) nearest = NearestHit{&solid, *hit};
-  }
-  return nearest;
-}
-
-// What the sensor makes of a row of clean grey levels.
-void ExposeRow(const cv::Vec3f* clean, const Exposure& exposure, std::uint64_t row, int width,
-               cv::Vec3b* out) {
-  RowNoise noise(StreamSeed(exposure.noise_seed, 0, 0, row));
-  const auto gain = static_cast<float>(exposure.gain);
-  const auto sigma = static_cast<float>(exposure.noise_sigma_levels);
-  float draw[3];
-  for (int x = 0; x < width; ++x) {
-    noise.Next(draw);
-    for (int channel = 0; channel < 3; ++channel) {
-      const float level = gain * clean[x][channel] + sigma * draw[channel] + 0.5F;
-      out[x][channel] = static_cast<unsigned char>(std::clamp(level, 0.0F, 255.0F));
-    }
-  }
+// What the sensor makes of a row of clean grey levels. `draws` is memory of the caller's.
+void ExposeRow(std::span<const float> clean, const Exposure& exposure, std::uint64_t row,
+               std::vector<float>& draws, unsigned char* out) {
+  draws.resize(clean.size());
+  DrawRowNoise(StreamSeed(exposure.noise_seed, 0, 0, row), draws);
+  using Levels = Eigen::Array<float, Eigen::Dynamic, 1>;
+  const auto size = static_cast<Eigen::Index>(clean.size());
+  const Eigen::Map<const Levels> clean_levels(clean.data(), size);
+  Eigen::Map<Levels> levels(draws.data(), size);
+  levels = static_cast<float>(exposure.gain) * clean_levels +
+           static_cast<float>(exposure.noise_sigma_levels) * levels + 0.5F;
+  levels = levels.max(0.0F).min(255.0F);
+  for (const float level : draws) *out++ = static_cast<unsigned char>(level);
 }
 
 }  // namespace
+
+CameraView::SolidInView::SolidInView(const Solid& its_solid, const BoundingSphere& sphere,
+                                     const Eigen::Vector3d& center_in_world)
+    : solid(&its_solid), to_sphere_in_world(sphere.center_in_world - center_in_world) {
+  // A line along the unit vector d passes the sphere's centre c at the squared distance |c|^2 - (d.c)^2,
+  // which is more than the squared radius if it misses. The slack is far more than rounding makes.
+  least_along_squared_mm2 =
+      to_sphere_in_world.squaredNorm() * (1.0 - 1e-9) - sphere.radius_mm * sphere.radius_mm - 1e-6;
+}
+
+bool CameraView::SolidInView::IsMissedBy(const Ray& ray) const {
+  const double along_mm = ray.direction_in_world.dot(to_sphere_in_world);
+  return along_mm * along_mm < least_along_squared_mm2;
+}
+
+bool CameraView::SolidInView::IsMetBy(const Ray& ray) const {
+  return !IsMissedBy(ray) && FirstHit(*solid, ray).has_value();
+}
+
+std::optional<CameraView::NearestHit> CameraView::NearestOf(std::span<const SolidInView> solids,
+                                                            const Ray& ray) {
+  std::optional<NearestHit> nearest;
+  for (const SolidInView& in_view : solids) {
+    if (in_view.IsMissedBy(ray)) continue;
+    const auto hit = FirstHit(*in_view.solid, ray);
+    if (hit && (!nearest || hit->distance_mm < nearest->hit.distance_mm))
+      nearest = NearestHit{in_view.solid, *hit};
+  }
+  return nearest;
+}
 
 CameraView::CameraView(const core::CameraModel& camera, std::uint64_t seed)
     : rays_(camera), empty_bgr_(rays_.height_px(), rays_.width_px(), CV_32FC3) {
@@ -59,19 +77,28 @@ CameraView::CameraView(const core::CameraModel& camera, std::uint64_t seed)
       empty_bgr_.at<cv::Vec3f>(y, x) = Levels(EmptySceneColor(seed, rays_.At(x, y)));
     }
   });
+  discs_.resize(rays_.tiles().size());
+  tbb::parallel_for(std::size_t{0}, discs_.size(), [&](std::size_t i) {
+    std::vector<Ray> rays;
+    const PixelTile& tile = rays_.tiles()[i];
+    for (int y = tile.y0; y < tile.y1; ++y)
+      for (int x = tile.x0; x < tile.x1; ++x) rays.push_back(rays_.At(x, y));
+    discs_[i] = DiscOnTable(rays);
+  });
 }
 
-std::vector<Solid> CameraView::SolidsNear(const PixelTile& tile, std::span<const Solid> solids,
-                                          std::span<const BoundingSphere> spheres) const {
-  std::vector<Solid> near;
+std::vector<CameraView::SolidInView> CameraView::SolidsNear(const PixelTile& tile,
+                                                            std::span<const Solid> solids,
+                                                            std::span<const BoundingSphere> spheres) const {
+  std::vector<SolidInView> near;
   for (std::size_t i = 0; i < solids.size(); ++i) {
-    if (rays_.MayMeet(tile, spheres[i])) near.push_back(solids[i]);
+    if (rays_.MayMeet(tile, spheres[i])) near.emplace_back(solids[i], spheres[i], rays_.center_in_world());
   }
   return near;
 }
 
-void CameraView::DrawTile(const PixelTile& tile, std::span<const Solid> solids, int samples_per_pixel_side,
-                          cv::Mat& clean_bgr) const {
+void CameraView::DrawTile(const PixelTile& tile, std::span<const SolidInView> solids,
+                          int samples_per_pixel_side, cv::Mat& clean_bgr) const {
   const int n = samples_per_pixel_side;
   const float share = 1.0F / static_cast<float>(n * n);
   const auto from_center = [&](int i) { return (i + 0.5) / n - 0.5; };
@@ -93,11 +120,22 @@ void CameraView::DrawTile(const PixelTile& tile, std::span<const Solid> solids, 
   }
 }
 
-void CameraView::DrawShadow(const PixelTile& tile, std::span<const Solid> solids,
+void CameraView::DrawShadow(std::size_t tile_index, std::span<const Solid> solids,
                             std::span<const BoundingSphere> spheres, cv::Mat& clean_bgr) const {
+  const std::optional<TableDisc>& disc = discs_[tile_index];
+  if (!disc) return;
+  std::vector<Solid> shading;
+  std::vector<BoundingSphere> their_spheres;
+  for (std::size_t i = 0; i < solids.size(); ++i) {
+    if (!MayShade(spheres[i], *disc)) continue;
+    shading.push_back(solids[i]);
+    their_spheres.push_back(spheres[i]);
+  }
+  if (shading.empty()) return;
+  const PixelTile& tile = rays_.tiles()[tile_index];
   for (int y = tile.y0; y < tile.y1; ++y) {
     for (int x = tile.x0; x < tile.x1; ++x)
-      clean_bgr.at<cv::Vec3f>(y, x) *= TableLight(rays_.At(x, y), solids, spheres);
+      clean_bgr.at<cv::Vec3f>(y, x) *= TableLight(rays_.At(x, y), shading, their_spheres);
   }
 }
 
@@ -106,14 +144,17 @@ cv::Mat CameraView::Render(std::span<const Solid> solids, const Exposure& exposu
   cv::Mat clean_bgr = empty_bgr_.clone();
   tbb::parallel_for(std::size_t{0}, rays_.tiles().size(), [&](std::size_t i) {
     const PixelTile& tile = rays_.tiles()[i];
-    if (exposure.table_shadow && !solids.empty()) DrawShadow(tile, solids, spheres, clean_bgr);
-    const std::vector<Solid> near = SolidsNear(tile, solids, spheres);
+    if (exposure.table_shadow) DrawShadow(i, solids, spheres, clean_bgr);
+    const std::vector<SolidInView> near = SolidsNear(tile, solids, spheres);
     if (!near.empty()) DrawTile(tile, near, exposure.samples_per_pixel_side, clean_bgr);
   });
   cv::Mat image_bgr(clean_bgr.size(), CV_8UC3);
-  tbb::parallel_for(0, clean_bgr.rows, [&](int y) {
-    ExposeRow(clean_bgr.ptr<cv::Vec3f>(y), exposure, static_cast<std::uint64_t>(y), clean_bgr.cols,
-              image_bgr.ptr<cv::Vec3b>(y));
+  const std::size_t levels_in_row = 3 * static_cast<std::size_t>(clean_bgr.cols);
+  tbb::parallel_for(tbb::blocked_range<int>(0, clean_bgr.rows), [&](const tbb::blocked_range<int>& rows) {
+    std::vector<float> draws;
+    for (int y = rows.begin(); y < rows.end(); ++y)
+      ExposeRow({clean_bgr.ptr<float>(y), levels_in_row}, exposure, static_cast<std::uint64_t>(y), draws,
+                image_bgr.ptr<unsigned char>(y));
   });
   return image_bgr;
 }
@@ -127,13 +168,12 @@ core::BitMask CameraView::TrueMask(std::span<const Solid> solids) const {
   tbb::parallel_for(std::size_t{0}, rays_.tiles().size() / per_row, [&](std::size_t row) {
     for (std::size_t i = row * per_row; i < (row + 1) * per_row; ++i) {
       const PixelTile& tile = rays_.tiles()[i];
-      const std::vector<Solid> near = SolidsNear(tile, solids, spheres);
+      const std::vector<SolidInView> near = SolidsNear(tile, solids, spheres);
       for (int y = tile.y0; !near.empty() && y < tile.y1; ++y) {
         for (int x = tile.x0; x < tile.x1; ++x) {
           const Ray ray = rays_.At(x, y);
-          if (std::ranges::any_of(near, [&](const Solid& s) { return FirstHit(s, ray).has_value(); })) {
+          if (std::ranges::any_of(near, [&](const SolidInView& solid) { return solid.IsMetBy(ray); }))
             mask.Set(x, y, true);
-          }
         }
       }
     }

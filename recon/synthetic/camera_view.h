@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <opencv2/core/mat.hpp>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "core/camera_model.h"
 #include "recon/synthetic/pixel_rays.h"
 #include "recon/synthetic/solids.h"
+#include "recon/synthetic/table_scene.h"
 
 namespace elbowroom::recon {
 
@@ -36,15 +38,33 @@ class CameraView {
   [[nodiscard]] core::BitMask TrueMask(std::span<const Solid> solids) const;
 
  private:
-  [[nodiscard]] std::vector<Solid> SolidsNear(const PixelTile& tile, std::span<const Solid> solids,
-                                              std::span<const BoundingSphere> spheres) const;
-  void DrawTile(const PixelTile& tile, std::span<const Solid> solids, int samples_per_pixel_side,
+  // A solid and its bounding sphere, as the camera sees them: most rays are found to miss the sphere.
+  struct SolidInView {
+    SolidInView(const Solid& its_solid, const BoundingSphere& sphere, const Eigen::Vector3d& center_in_world);
+    [[nodiscard]] bool IsMissedBy(const Ray& ray) const;  // false where it isn't certain
+    [[nodiscard]] bool IsMetBy(const Ray& ray) const;
+
+    const Solid* solid;
+    Eigen::Vector3d to_sphere_in_world;  // from the camera's centre to the sphere's
+    double least_along_squared_mm2 = 0.0;
+  };
+  struct NearestHit {
+    const Solid* solid = nullptr;
+    RayHit hit;
+  };
+
+  [[nodiscard]] static std::optional<NearestHit> NearestOf(std::span<const SolidInView> solids,
+                                                           const Ray& ray);
+  [[nodiscard]] std::vector<SolidInView> SolidsNear(const PixelTile& tile, std::span<const Solid> solids,
+                                                    std::span<const BoundingSphere> spheres) const;
+  void DrawTile(const PixelTile& tile, std::span<const SolidInView> solids, int samples_per_pixel_side,
                 cv::Mat& clean_bgr) const;
-  void DrawShadow(const PixelTile& tile, std::span<const Solid> solids,
+  void DrawShadow(std::size_t tile_index, std::span<const Solid> solids,
                   std::span<const BoundingSphere> spheres, cv::Mat& clean_bgr) const;
 
   PixelRays rays_;
-  cv::Mat empty_bgr_;  // CV_32FC3
+  std::vector<std::optional<TableDisc>> discs_;  // where the rays of each tile meet the table
+  cv::Mat empty_bgr_;                            // CV_32FC3
 };
 
 }  // namespace elbowroom::recon

@@ -27,6 +27,7 @@ class PixelRays {
   [[nodiscard]] int width_px() const { return width_px_; }
   [[nodiscard]] int height_px() const { return height_px_; }
   [[nodiscard]] const std::vector<PixelTile>& tiles() const { return tiles_; }
+  [[nodiscard]] const Eigen::Vector3d& center_in_world() const { return center_in_world_; }
 
   [[nodiscard]] Ray At(int x, int y) const;
 

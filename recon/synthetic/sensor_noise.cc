@@ -57,13 +57,16 @@ double UniformFrom(std::uint64_t stream_seed) {
   return static_cast<double>(Mixed(stream_seed + kStep) >> 11U) * 0x1.0p-53;
 }
 
-void RowNoise::Next(float (&bgr)[3]) {
-  static const float* const quantiles = Quantiles().data();
-  state_ += kStep;
-  std::uint64_t bits = Mixed(state_);
-  for (float& value : bgr) {
-    value = quantiles[bits & (kQuantiles - 1)];
-    bits >>= kQuantileBits;
+void DrawRowNoise(std::uint64_t stream_seed, std::span<float> draws) {
+  const float* const quantiles = Quantiles().data();
+  std::uint64_t state = stream_seed;
+  for (std::size_t i = 0; i + 2 < draws.size(); i += 3) {
+    state += kStep;
+    std::uint64_t bits = Mixed(state);
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+      draws[i + channel] = quantiles[bits & (kQuantiles - 1)];
+      bits >>= kQuantileBits;
+    }
   }
 }
 

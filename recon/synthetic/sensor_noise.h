@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 #include "core/ids.h"
 
@@ -14,14 +15,8 @@ namespace elbowroom::recon {
 // Uniform in [0, 1).
 [[nodiscard]] double UniformFrom(std::uint64_t stream_seed);
 
-// One row's worth of standard normal numbers, three at a time; drawn from 16,384 quantiles (|value| < 4.02).
-class RowNoise {
- public:
-  explicit RowNoise(std::uint64_t stream_seed) : state_(stream_seed) {}
-  void Next(float (&bgr)[3]);
-
- private:
-  std::uint64_t state_;
-};
+// Standard normal numbers, three to a pixel, drawn from 16,384 quantiles (|value| < 4.02). `draws` has a
+// multiple of three places.
+void DrawRowNoise(std::uint64_t stream_seed, std::span<float> draws);
 
 }  // namespace elbowroom::recon

@@ -54,14 +54,6 @@ Vector3d ToLampPoint(std::size_t k) {
   return (kToLampInWorld + kLampRadius * (u * aside + v * across)).normalized();
 }
 
-// False only if the cone from the point to the lamp misses the sphere.
-bool MayShade(const BoundingSphere& sphere, const Vector3d& x_in_world) {
-  const Vector3d to_sphere = sphere.center_in_world - x_in_world;
-  const double along = to_sphere.dot(kToLampInWorld);
-  const double beside = (to_sphere - along * kToLampInWorld).norm();
-  return beside <= kLampRadius * (std::max(along, 0.0) + sphere.radius_mm) + sphere.radius_mm;
-}
-
 }  // namespace
 
 Eigen::Vector3f EmptySceneColor(std::uint64_t seed, const Ray& ray) {
@@ -80,6 +72,26 @@ Eigen::Vector3f ShadedColor(const Vector3d& color_bgr, const Vector3d& normal_in
   return (light * color_bgr).cast<float>();
 }
 
+std::optional<TableDisc> DiscOnTable(std::span<const Ray> rays) {
+  Eigen::AlignedBox2d box;
+  for (const Ray& ray : rays)
+    if (const auto point = TablePoint(ray)) box.extend(*point);
+  if (box.isEmpty()) return std::nullopt;
+  const Vector2d center = box.center();
+  constexpr double kRoundingMm = 1e-6;
+  return TableDisc{{center.x(), center.y(), 0.0}, 0.5 * box.diagonal().norm() + kRoundingMm};
+}
+
+// The lamp's points lie within a cone around its axis. From another point of the disc the sphere is at most
+// the disc's radius farther along the axis, and at most as much nearer to it.
+bool MayShade(const BoundingSphere& sphere, const TableDisc& disc) {
+  const Vector3d to_sphere = sphere.center_in_world - disc.center_in_world;
+  const double along = to_sphere.dot(kToLampInWorld);
+  const double beside = (to_sphere - along * kToLampInWorld).norm() - disc.radius_mm;
+  return beside <=
+         kLampRadius * (std::max(along + disc.radius_mm, 0.0) + sphere.radius_mm) + sphere.radius_mm;
+}
+
 float TableLight(const Ray& ray, std::span<const Solid> solids, std::span<const BoundingSphere> spheres) {
   constexpr float kShadowDepth = 0.5F;  // full umbra takes half the light
   const auto point = TablePoint(ray);
@@ -87,7 +99,7 @@ float TableLight(const Ray& ray, std::span<const Solid> solids, std::span<const 
   const Vector3d x_in_world(point->x(), point->y(), 0.0);
   std::array<bool, kLampPoints.size()> blocked{};
   for (std::size_t i = 0; i < solids.size(); ++i) {
-    if (!MayShade(spheres[i], x_in_world)) continue;
+    if (!MayShade(spheres[i], {x_in_world, 0.0})) continue;
     for (std::size_t k = 0; k < kLampPoints.size(); ++k) {
       blocked[k] = blocked[k] || FirstHit(solids[i], {x_in_world, ToLampPoint(k)});
     }
