@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "core/error.h"
+#include "core/infinity.h"
 
 namespace elbowroom::core {
 namespace {
@@ -45,6 +46,51 @@ Eigen::AlignedBox3d BoxAround(const TriangleMesh& mesh, std::span<const std::uin
     for (const std::int32_t vertex : mesh.triangles[triangle])
       box.extend(mesh.vertices_mm[static_cast<std::size_t>(vertex)]);
   return box;
+}
+
+// Across the sum of the triangles' area vectors, each turned to the side of the first, so that the two faces
+// of a plate don't cancel.
+Disc DiscAround(const TriangleMesh& mesh, std::span<const std::uint32_t> triangles) {
+  const auto vertex = [&](std::int32_t i) -> const Eigen::Vector3d& {
+    return mesh.vertices_mm[static_cast<std::size_t>(i)];
+  };
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const std::uint32_t triangle : triangles) {
+    const auto& [a, b, c] = mesh.triangles[triangle];
+    const Eigen::Vector3d area = (vertex(b) - vertex(a)).cross(vertex(c) - vertex(a));
+    if (sum.dot(area) < 0.0)
+      sum -= area;
+    else
+      sum += area;
+  }
+  Disc disc;
+  const double length = sum.norm();
+  if (length > 0.0 && std::isfinite(length)) disc.normal = sum / length;
+  Eigen::AlignedBox3d box;
+  double low = kInfinity, high = -kInfinity;
+  for (const std::uint32_t triangle : triangles) {
+    for (const std::int32_t i : mesh.triangles[triangle]) {
+      box.extend(vertex(i));
+      const double height = disc.normal.dot(vertex(i));
+      low = std::min(low, height);
+      high = std::max(high, height);
+    }
+  }
+  const Eigen::Vector3d middle = box.center();
+  disc.center = middle + (0.5 * (low + high) - disc.normal.dot(middle)) * disc.normal;
+  double squared_mm2 = 0.0;
+  for (const std::uint32_t triangle : triangles) {
+    for (const std::int32_t i : mesh.triangles[triangle]) {
+      const Eigen::Vector3d from_center = vertex(i) - disc.center;
+      const double height = disc.normal.dot(from_center);
+      disc.half_height_mm = std::max(disc.half_height_mm, std::abs(height));
+      squared_mm2 = std::max(squared_mm2, from_center.squaredNorm() - height * height);
+    }
+  }
+  const double scale_mm = box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).norm();
+  disc.half_height_mm += kOutwards * scale_mm;
+  disc.radius_mm = std::sqrt(squared_mm2) * (1.0 + 1e-6) + kOutwards * scale_mm;
+  return disc;
 }
 
 double AreaOf(const TriangleMesh& mesh, std::span<const std::uint32_t> triangles) {
@@ -88,7 +134,7 @@ TriangleTree::TriangleTree(SharedMesh mesh) : mesh_(std::move(mesh)) {
   order_.resize(mesh_->triangles.size());
   std::iota(order_.begin(), order_.end(), 0U);
   if (order_.empty()) return;
-  nodes_.push_back({{}, {}, 0.0, 0, static_cast<std::uint32_t>(order_.size()), 0});
+  nodes_.push_back({{}, {}, {}, 0.0, 0, static_cast<std::uint32_t>(order_.size()), 0});
   Build(0);
 }
 
@@ -97,6 +143,7 @@ void TriangleTree::Build(std::uint32_t node) {
   const std::span<std::uint32_t> triangles(order_.data() + begin, end - begin);
   nodes_[node].ball = BallAround(*mesh_, triangles);
   nodes_[node].box = BoxAround(*mesh_, triangles);
+  nodes_[node].disc = DiscAround(*mesh_, triangles);
   nodes_[node].area_mm2 = AreaOf(*mesh_, triangles);
   if (end - begin <= kTrianglesInLeaf) return;
   Eigen::AlignedBox3d box;
@@ -111,8 +158,8 @@ void TriangleTree::Build(std::uint32_t node) {
       });
   const auto left = static_cast<std::uint32_t>(nodes_.size());
   nodes_[node].left = left;
-  nodes_.push_back({{}, {}, 0.0, begin, begin + half, 0});
-  nodes_.push_back({{}, {}, 0.0, begin + half, end, 0});
+  nodes_.push_back({{}, {}, {}, 0.0, begin, begin + half, 0});
+  nodes_.push_back({{}, {}, {}, 0.0, begin + half, end, 0});
   Build(left);
   Build(left + 1);
 }

@@ -16,17 +16,28 @@ struct Ball {
   double radius_mm = 0.0;
 };
 
+// A flat cylinder: the points within `half_height_mm` of the plane through `center` across `normal` (unit),
+// and within `radius_mm` of the line through it along `normal`.
+struct Disc {
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();
+  double half_height_mm = 0.0;
+  double radius_mm = 0.0;
+};
+
 // The smallest ball that encloses the triangle, made larger by what rounding may leave out.
 [[nodiscard]] Ball BallOf(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c);
 
 // Node 0 is the root; children are `left` and `left + 1`, leaves have left == 0. Each node covers the
 // triangles order()[begin .. end). Its box is the smallest around them; its ball encloses them, but isn't the
-// smallest. Both are in the mesh's frame. Immutable. Thread: any.
+// smallest. Its disc encloses them and lies along them: where a surface is smooth, a disc is thinner than a
+// box by the square of its size. All are in the mesh's frame. Immutable. Thread: any.
 class TriangleTree {
  public:
   struct Node {
     Ball ball;
     Eigen::AlignedBox3d box;
+    Disc disc;
     double area_mm2 = 0.0;  // sum over its triangles
     std::uint32_t begin = 0;
     std::uint32_t end = 0;

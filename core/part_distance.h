@@ -25,6 +25,8 @@ struct BoxInPart {
   // The tight bound is worked out only if it can reach this. Otherwise, and always if this is infinite, the
   // bound is that of the ball around the box.
   double enough_mm = std::numeric_limits<double>::infinity();
+  // The point found may be this much farther away than the nearest, and the bound this much too small.
+  double allowance_mm = 0.0;
 };
 
 // The nearest point of the triangle a, b, c. A triangle without area is its sides.
@@ -50,6 +52,6 @@ struct NearStretch {
 // A stretch along half edge `axis` that holds all points of the box that are nearer to the part than
 // `within_mm`, by the planes of FindNearest. The caller allows for rounding. Thread: any.
 [[nodiscard]] NearStretch FindNearStretch(const TriangleTree& part, const BoxInPart& box, Eigen::Index axis,
-                                          double within_mm);
+                                          double within_mm, std::uint32_t likely = 0);
 
 }  // namespace elbowroom::core

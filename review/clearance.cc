@@ -38,6 +38,9 @@ constexpr double kWorthwhile = 0.05;
 constexpr double kMostLeft = 0.8;
 // Edges shorter than this share of the longest aren't divided.
 constexpr double kFlat = 0.7;
+// A distance to the part may be wrong by this share of the tolerance, or of the half diagonal of a cell.
+constexpr double kAllowance = 0.0625;
+constexpr double kOfCell = 0.05;
 
 // A box of space around `center`.
 struct Cell {
@@ -103,7 +106,7 @@ class Search {
   }
   [[nodiscard]] BoxInPart BoxOf(const Vector3d& center, const Vector3d& half) const {
     return {part_from_world_ * center, part_from_world_.rotation * half.asDiagonal(),
-            FarEnoughMm() + slack_mm_};
+            FarEnoughMm() + slack_mm_, std::max(kAllowance * options_.tolerance_mm, kOfCell * half.norm())};
   }
   [[nodiscard]] bool Contains(const Vector3d& x_in_world, const recon::UndecidedCameras& open = {}) {
     ++queries_;
@@ -153,8 +156,8 @@ class Search {
     const double climb_mm = way.cwiseAbs().cwiseProduct(cell->half).maxCoeff(&axis) / nearest.distance_mm;
     if (nearest.distance_mm + climb_mm <= within_mm) return Cut::kNothing;  // the far end is near
     ++distances_;
-    const NearStretch near =
-        FindNearStretch(part_, BoxOf(cell->center, cell->half), axis, within_mm + slack_mm_);
+    const NearStretch near = FindNearStretch(part_, BoxOf(cell->center, cell->half), axis,
+                                             within_mm + slack_mm_, nearest.triangle);
     if (near.to - near.from > kMostLeft * 2.0) return Cut::kNothing;
     passed_mm_ = std::min(passed_mm_, within_mm);
     ++cut_cells_;
