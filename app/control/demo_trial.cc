@@ -45,7 +45,7 @@ TrialSetup MakeDemoTrial(DemoPlay play) {
     options.frame_count = 2 * frames_a_task;
     setup.script = ToolChanges(*options.frame_count, options.frame_rate_hz);
     setup.script.push_back({frames_a_task, SpacingRequest{"payload_a_gap", kGapNeededMm}});
-    setup.end_note = "ended with the simulated task, played twice";
+    options.what_ends_it = "the simulated task, played twice";
   }
   setup.source = std::make_shared<recon::SyntheticRig>(
       recon::FourCameraRig(), [](double time_s) { return recon::DemoSceneAt(time_s).objects; }, options);

@@ -41,22 +41,21 @@ sessions::SessionWriterOptions WriterOptionsOf(const TrialOptions& options) {
   return writer;
 }
 
-core::FrameIndex EndOf(const TrialSetup& setup, const FrameRange& range) {
-  const core::FrameIndex available =
-      setup.source->frame_count().value_or(std::numeric_limits<core::FrameIndex>::max());
-  const core::FrameIndex end = range.end.value_or(available);
-  if (range.first < 0 || range.first >= end) {
+// Refuses a range that the files promise no frames for.
+void RequireInRange(const TrialSetup& setup, const FrameRange& range) {
+  const std::optional<core::FrameIndex> promised = setup.source->frame_count();
+  const std::string asked =
+      fmt::format("frames {}:{}", range.first, range.end ? std::to_string(*range.end) : std::string());
+  if (range.first < 0 || range.first >= range.end.value_or(range.first + 1)) {
     throw core::Error(
         core::ErrorKind::kRange,
-        fmt::format("frames {}:{}: no frame is in that range; A:B counts from 0 and B is not included",
-                    range.first, end));
+        fmt::format("{}: no frame is in that range; A:B counts from 0 and B is not included", asked));
   }
-  if (end > available) {
+  if (promised && std::max(range.first + 1, range.end.value_or(0)) > *promised) {
     throw core::Error(core::ErrorKind::kRange,
-                      fmt::format("frames {}:{}: the footage has {} frames (0:{}); choose a range within it",
-                                  range.first, end, available, available));
+                      fmt::format("{}: the footage has {} frames (0:{}); choose a range within it", asked,
+                                  *promised, *promised));
   }
-  return end;
 }
 
 // Waits for the time at which a frame was taken; wakes early on a stop.
@@ -91,23 +90,26 @@ class Recording {
     outcome_.frames_in_contact.assign(setup.layout.parts.size(), 0);
   }
 
-  void Run(core::FrameIndex end, const std::stop_token& stop) {
+  void Run(const std::stop_token& stop) {
     pipeline_.emplace(setup_.source->rig(), setup_.layout,
                       setup_.source->ReadBackgrounds(options_.progress, stop), setup_.segmentation,
                       ReviewOptionsOf(setup_.info));
     tracker_.emplace(setup_.info, pipeline_->part_trees());
     const core::FrameIndex first = options_.frames.first;
+    const core::FrameIndex end = options_.frames.end.value_or(std::numeric_limits<core::FrameIndex>::max());
     for (core::FrameIndex frame = first; frame < end && !stop.stop_requested(); ++frame) {
-      recon::FrameSet frames = setup_.source->Read(frame, stop);
-      if (options_.at_capture_rate) pace_.WaitFor(frames.time_s, stop);
-      ApplyChanges(frame, frames.time_s);
+      std::optional<recon::FrameSet> frames = setup_.source->TryRead(frame, stop);
+      if (!frames) return EndWithFootage(frame);
+      if (options_.at_capture_rate) pace_.WaitFor(frames->time_s, stop);
+      ApplyChanges(frame, frames->time_s);
       const Clock::time_point begin = Clock::now();
-      const SharedFrameResult result = pipeline_->Process(std::move(frames), spacing_mm_, options_.on_hull);
+      const SharedFrameResult result = pipeline_->Process(std::move(*frames), spacing_mm_, options_.on_hull);
       outcome_.frame_ms.push_back(std::chrono::duration<double, std::milli>(Clock::now() - begin).count());
       Record(*result);
       const RecordedFrames recorded{outcome_.frames, writer_.frames_committed()};
       if (options_.on_frame) options_.on_frame(result, recorded);
-      options_.progress.Report(frame + 1 - first, setup_.source->frame_count() ? end - first : 0,
+      const core::FrameIndex expected = std::min(end, setup_.source->frame_count().value_or(first));
+      options_.progress.Report(frame + 1 - first, expected - first,
                                fmt::format("{} on disk, frame", recorded.committed));
     }
   }
@@ -155,6 +157,16 @@ class Recording {
   [[nodiscard]] bool HasFrames() const { return outcome_.frames > 0; }
 
  private:
+  // The files may have promised more frames than can be decoded.
+  void EndWithFootage(core::FrameIndex frames) const {
+    if (frames > options_.frames.first && frames >= options_.frames.end.value_or(0)) return;
+    throw core::Error(
+        core::ErrorKind::kRange,
+        fmt::format("frames {}:{}: the footage has {} frames (0:{}), as many as {}", options_.frames.first,
+                    options_.frames.end ? std::to_string(*options_.frames.end) : std::string(), frames,
+                    frames, setup_.source->WhatEndsIt()));
+  }
+
   void ApplyChanges(core::FrameIndex frame, double time_s) {
     for (const ScriptedChange& change : setup_.script) {
       if (change.frame != frame) continue;
@@ -215,19 +227,21 @@ class Recording {
   double last_time_s_ = 0.0;
 };
 
-std::string EndNote(const TrialSetup& setup, core::FrameIndex end, const std::stop_token& stop) {
+std::string EndNote(const TrialSetup& setup, const FrameRange& range, const std::stop_token& stop) {
   if (stop.stop_requested()) return "stopped by the experimenter";
-  return setup.source->frame_count() == end ? setup.end_note : fmt::format("ended at frame {} as asked", end);
+  if (range.end && setup.source->frame_count() != range.end)
+    return fmt::format("ended at frame {} as asked", *range.end);
+  return fmt::format("ended with {}", setup.source->WhatEndsIt());
 }
 
 }  // namespace
 
 TrialOutcome RunTrial(const TrialSetup& setup, const TrialOptions& options, TrialControls& controls,
                       std::stop_token stop) {
-  const core::FrameIndex end = EndOf(setup, options.frames);
+  RequireInRange(setup, options.frames);
   Recording recording(setup, options, controls);
   try {
-    recording.Run(end, stop);
+    recording.Run(stop);
   } catch (const core::Error& error) {
     // A stop while the backgrounds were measured ends the trial in order.
     if (error.kind() != core::ErrorKind::kCancelled) recording.EndAfter(error);
@@ -241,7 +255,7 @@ TrialOutcome RunTrial(const TrialSetup& setup, const TrialOptions& options, Tria
                       "the trial was stopped before its first frame; nothing was recorded");
   }
   try {
-    return recording.Finish(EndNote(setup, end, stop));
+    return recording.Finish(EndNote(setup, options.frames, stop));
   } catch (const core::Error& error) {
     recording.ThrowWithWhatIsKept(error);
   }

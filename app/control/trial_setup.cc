@@ -80,14 +80,6 @@ double LengthFromZero(const TomlEntry& entry, std::string_view key) {
   return length_mm;
 }
 
-// What the footage's length depends on, for the session's record.
-std::string EndNote(const recon::RecordedRig& source) {
-  const std::optional<recon::ShortestSource>& shortest = source.shortest_source();
-  if (!shortest) return {};
-  return fmt::format("ended with the shortest source, camera '{}' ({} frames)",
-                     source.rig().cameras[shortest->camera].name(), shortest->frames);
-}
-
 }  // namespace
 
 TrialSetup ReadTrialFile(const std::filesystem::path& path, std::stop_token stop) {
@@ -108,7 +100,6 @@ TrialSetup ReadTrialFile(const std::filesystem::path& path, std::stop_token stop
   setup.layout = core::WithPairsOfParts(std::move(imported.layout));
   setup.warnings = std::move(imported.warnings);
   auto source = std::make_shared<recon::RecordedRig>(recon::ReadRigFile(folder / root.Text("rig")), stop);
-  setup.end_note = EndNote(*source);
   setup.source = WithViewer(std::move(source), root, path, stop, &setup.warnings);
   return setup;
 }

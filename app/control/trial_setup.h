@@ -29,11 +29,10 @@ struct TrialSetup {
   recon::SegmentationOptions segmentation;
   std::shared_ptr<recon::FrameSetSource> source;
   std::vector<ScriptedChange> script;  // by frame
-  std::string end_note;                // what limits the footage, "" if nothing: goes into the session
   std::vector<std::string> warnings;   // of the files that were read
 };
 
-// Reads TRIAL.toml (docs/user_guide.md) with its rig and layout; opens the footage and measures its length.
+// Reads TRIAL.toml (docs/user_guide.md) with its rig and layout; opens the footage.
 // Throws: core::Error with file, line and key for what the trial file has wrong; what the rig's and the
 // layout's readers throw; Error{kCancelled}.
 [[nodiscard]] TrialSetup ReadTrialFile(const std::filesystem::path& path, std::stop_token stop = {});

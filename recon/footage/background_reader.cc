@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <optional>
 
 #include "core/bounded_queue.h"
 #include "core/error.h"
@@ -45,7 +46,9 @@ BackgroundReference ReadOne(const CameraSources& sources, const core::CameraMode
   BackgroundAccumulator accumulator;
   for (FrameIndex i = 0; i < used; ++i) {
     core::ThrowIfStopped(stop, "reading the background");
-    accumulator.Add(source->Read(i, stop).image_bgr);
+    const std::optional<SourcePicture> picture = source->Read(i, stop);
+    if (!picture) break;
+    accumulator.Add(picture->image_bgr);
     ticks.Push({0, 1});
   }
   return accumulator.Reference();

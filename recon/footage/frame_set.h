@@ -51,12 +51,20 @@ class FrameSetSource {
   virtual ~FrameSetSource() = default;
   [[nodiscard]] virtual const core::Rig& rig() const = 0;
 
-  // The number of frames of the shortest source; nothing if none has an end.
+  // The number of frames of the shortest source, as promised by the files until TryRead has met the end;
+  // nothing if no source has an end.
   [[nodiscard]] virtual std::optional<core::FrameIndex> frame_count() const = 0;
 
-  // Throws: Error{kRange} past the end, Error{kFile} naming camera, file and frame if it can't be read whole,
-  // Error{kCamera} when a live camera ended; Error{kCancelled} on a stop, heard at once.
-  [[nodiscard]] virtual FrameSet Read(core::FrameIndex index, std::stop_token stop = {}) = 0;
+  // What the end depends on: "the shortest source, camera 'cam03' (426 frames)"; "" without an end.
+  [[nodiscard]] virtual std::string WhatEndsIt() const = 0;
+
+  // Nothing at and after the end. Throws: Error{kRange} for an index below 0, Error{kFile} naming camera,
+  // file and frame if it can't be read whole, Error{kCamera} when a live camera ended; Error{kCancelled} on a
+  // stop, heard at once.
+  [[nodiscard]] virtual std::optional<FrameSet> TryRead(core::FrameIndex index, std::stop_token stop) = 0;
+
+  // The same, for a frame that must exist. Throws: what TryRead throws; Error{kRange} past the end.
+  [[nodiscard]] FrameSet Read(core::FrameIndex index, std::stop_token stop = {});
 
   // Problems of the frames read so far that didn't keep them from being read, a line each.
   [[nodiscard]] virtual std::vector<std::string> Warnings() const { return {}; }

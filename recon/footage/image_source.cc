@@ -30,11 +30,12 @@ class ImageFiles : public ImageSource {
   }
   [[nodiscard]] std::optional<double> frame_rate_hz() const override { return std::nullopt; }
 
-  [[nodiscard]] SourcePicture Read(FrameIndex index, const std::stop_token& stop) override {
-    subject_.RequireInRange(index, static_cast<FrameIndex>(files_.size()));
+  [[nodiscard]] std::optional<SourcePicture> Read(FrameIndex index, const std::stop_token& stop) override {
+    subject_.RequireNotNegative(index);
+    if (index >= static_cast<FrameIndex>(files_.size())) return std::nullopt;
     const PictureHeader& header = reader_.Open(files_[static_cast<std::size_t>(index)]);
     subject_.RequireSize(header.width_px, header.height_px, index);
-    return {reader_.Decode(DecodedAs::kBgr, stop)};
+    return SourcePicture{reader_.Decode(DecodedAs::kBgr, stop)};
   }
 
  private:

@@ -25,28 +25,31 @@ class ImageSource {
  public:
   virtual ~ImageSource() = default;
 
-  // How many can be read for certain; nothing for a live camera.
+  // Nothing for a live camera. Of a video it is what the container promises, until Read has met the video's
+  // end. Thread: any.
   [[nodiscard]] virtual std::optional<core::FrameIndex> frame_count() const = 0;
   [[nodiscard]] virtual std::optional<double> frame_rate_hz() const = 0;  // if the file says
 
-  // Reading in order is fast. Going back in a video decodes it again from its beginning, since only that is
-  // right for every codec. A live camera ignores the index: it gives its next picture that isn't damaged, and
-  // waits for it as long as the camera is there. Throws: Error{kRange} past the end, Error{kFile} naming
-  // camera, file and frame, Error{kCamera} when a live camera's pictures ended, or all of them were damaged
-  // for more than 3 s; Error{kCancelled} at once on a stop.
-  [[nodiscard]] virtual SourcePicture Read(core::FrameIndex index, const std::stop_token& stop = {}) = 0;
+  // Nothing at and after the end. Reading in order is fast. Going back in a video decodes it again from its
+  // beginning, since only that is right for every codec. A live camera ignores the index: it gives its next
+  // picture that isn't damaged, and waits for it as long as the camera is there. Throws: Error{kRange} for an
+  // index below 0; Error{kFile} naming camera, file and (about) the frame for a picture that can't be read,
+  // is damaged so that a decoder reports it, or is of another size than the camera's; Error{kCamera} when a
+  // live camera's pictures ended, or all of them were damaged for more than 3 s; Error{kCancelled} at once on
+  // a stop.
+  [[nodiscard]] virtual std::optional<SourcePicture> Read(core::FrameIndex index,
+                                                          const std::stop_token& stop = {}) = 0;
 
   // The number of damaged pictures of a live camera that were passed over. Thread: any.
   [[nodiscard]] virtual core::FrameIndex left_out() const { return 0; }
 };
 
-// Opens the source that `location` (a resolved one of CameraSources) names. A video is decoded once to its
-// end here, since its container may promise more frames than can be read, and so that a broken file is found
-// before it is used. Throws: Error{kFile} naming camera and file if it is missing, unreadable, without
-// pictures, cut short (with the frame where it breaks off and how many it promised), of another size than the
-// camera's, or damaged so that a decoder reports it (with about its frame); Error{kCancelled} on a stop.
-// Everything is decoded in a child process (recon/decoding/picture_worker.h): a codec that crashes is an
-// error, too.
+// Opens the source that `location` (a resolved one of CameraSources) names. Of a video, the container's
+// structure is checked and the first picture is decoded here; damage farther on is found by Read. A video
+// whose container promises no number of frames is decoded once to its end. Throws: Error{kFile} naming camera
+// and file if it is missing, unreadable, without pictures, cut short (with the frame where it breaks off and
+// how many it promised), or of another size than the camera's; Error{kCancelled} on a stop. Everything is
+// decoded in a child process (recon/decoding/picture_worker.h): a codec that crashes is an error, too.
 [[nodiscard]] std::unique_ptr<ImageSource> OpenImageSource(const std::string& location,
                                                            const core::CameraModel& camera,
                                                            std::stop_token stop = {});

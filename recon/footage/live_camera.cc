@@ -44,13 +44,13 @@ class LiveCamera : public ImageSource {
   [[nodiscard]] std::optional<double> frame_rate_hz() const override { return std::nullopt; }
   [[nodiscard]] FrameIndex left_out() const override { return left_out_; }
 
-  [[nodiscard]] SourcePicture Read(FrameIndex index, const std::stop_token& stop) override {
+  [[nodiscard]] std::optional<SourcePicture> Read(FrameIndex index, const std::stop_token& stop) override {
     int broken = 0;
     for (const auto begin = Clock::now();; ++broken) {
       auto picture = decoder_.Next(stop, std::nullopt);
       if (picture.value && picture.complaint.empty()) {
         subject_.RequireSize(picture.value->size_px.width, picture.value->size_px.height, index);
-        return {std::move(picture.value->image_bgr), Clock::now()};
+        return SourcePicture{std::move(picture.value->image_bgr), Clock::now()};
       }
       if (picture.decoder_ended || picture.complaint.empty()) FailAsEnded(index, picture.complaint);
       ++left_out_;

@@ -13,8 +13,7 @@ constexpr std::size_t kLiveFrames = 2;
 
 }  // namespace
 
-ReadAhead::ReadAhead(ReadFrame read, std::optional<core::FrameIndex> end)
-    : read_(std::move(read)), end_(end) {}
+ReadAhead::ReadAhead(ReadFrame read, Footage footage) : read_(std::move(read)), footage_(footage) {}
 
 ReadAhead::~ReadAhead() {
   thread_.request_stop();
@@ -29,39 +28,52 @@ void ReadAhead::Stop() {
 
 void ReadAhead::Expect(core::FrameIndex index) {
   if (next_ == index) return;
-  if (!end_) thread_.request_stop();  // not within a recorded frame: its video would be opened again
+  const bool is_live = footage_ == Footage::kLive;
+  if (is_live) thread_.request_stop();  // not within a recorded frame: its video would be opened again
   Stop();
-  queue_ = end_ ? std::make_unique<Queue>(kFramesAhead, core::WhenFull::kBlock)
-                : std::make_unique<Queue>(kLiveFrames, core::WhenFull::kDropOldest);
+  queue_ = is_live ? std::make_unique<Queue>(kLiveFrames, core::WhenFull::kDropOldest)
+                   : std::make_unique<Queue>(kFramesAhead, core::WhenFull::kBlock);
   next_ = index;
   thread_ = std::jthread(
       [this, queue = queue_.get(), index](const std::stop_token& stop) { Run(*queue, index, stop); });
 }
 
 void ReadAhead::Run(Queue& queue, core::FrameIndex begin, const std::stop_token& stop) const {
-  for (core::FrameIndex index = begin; !end_ || index < *end_; ++index) {
-    CapturedFrame captured;
+  for (core::FrameIndex index = begin;; ++index) {
+    Captured captured;
     try {
       captured.frame = read_(index, stop);
     } catch (...) {
       captured.error = std::current_exception();
     }
-    const bool is_last = captured.error != nullptr;
+    const bool is_last = !captured.frame;
     if (!queue.Push(std::move(captured)) || is_last) return;
   }
 }
 
-CapturedFrame ReadAhead::Take(const std::stop_token& stop) {
+std::optional<CameraFrame> ReadAhead::Take(const std::stop_token& stop) {
   core::Require(next_.has_value(), "a frame is expected before it is taken");
   const std::stop_callback stop_reading(stop, [this] { thread_.request_stop(); });
-  std::optional<CapturedFrame> captured = queue_->Pop();
-  core::Require(captured.has_value(), "a frame that is taken lies below the end");
-  if (captured->error) {
-    Stop();
-    std::rethrow_exception(captured->error);
+  std::optional<Captured> captured = queue_->Pop();
+  core::Require(captured.has_value(), "a queue is open until its last frame is taken");
+  if (captured->frame) {
+    ++*next_;
+    return std::move(captured->frame);
   }
-  ++*next_;
-  return std::move(*captured);
+  Stop();
+  if (captured->error) std::rethrow_exception(captured->error);
+  return std::nullopt;
+}
+
+std::unique_ptr<ReadAhead> ReadAheadOf(std::shared_ptr<ImageSource> source) {
+  const auto footage = source->frame_count() ? ReadAhead::Footage::kRecorded : ReadAhead::Footage::kLive;
+  auto read = [source = std::move(source)](core::FrameIndex index, const std::stop_token& stop) {
+    std::optional<CameraFrame> frame;
+    if (std::optional<SourcePicture> picture = source->Read(index, stop))
+      frame.emplace(CameraFrame{std::move(picture->image_bgr), std::nullopt, picture->captured_at});
+    return frame;
+  };
+  return std::make_unique<ReadAhead>(std::move(read), footage);
 }
 
 }  // namespace elbowroom::recon

@@ -11,44 +11,51 @@
 #include "core/bounded_queue.h"
 #include "core/ids.h"
 #include "recon/footage/frame_set.h"
+#include "recon/footage/image_source.h"
 
 namespace elbowroom::recon {
-
-struct CapturedFrame {
-  CameraFrame frame;
-  std::exception_ptr error;  // if set, `frame` could not be read
-};
 
 // Thread: one reader; `read` runs on this object's own thread only.
 class ReadAhead {
  public:
-  // It must end at once on a stop, since a camera may have no next picture.
-  using ReadFrame = std::function<CameraFrame(core::FrameIndex, const std::stop_token&)>;
+  // Nothing at and after the end. It must return at once on a stop, since a camera may have no next picture.
+  using ReadFrame = std::function<std::optional<CameraFrame>(core::FrameIndex, const std::stop_token&)>;
+  enum class Footage {
+    kRecorded,  // frames wait until they are taken
+    kLive,      // only the latest frames are kept
+  };
 
-  // Recorded frames (with `end`) wait until they are taken; of a live camera's frames only the latest are
-  // kept.
-  ReadAhead(ReadFrame read, std::optional<core::FrameIndex> end);
+  ReadAhead(ReadFrame read, Footage footage);
   ~ReadAhead();
   ReadAhead(const ReadAhead&) = delete;
   ReadAhead& operator=(const ReadAhead&) = delete;
 
-  // Makes `index` (below the end) the next frame to take; begins to read there unless it is that already.
+  // Makes `index` the next frame to take; begins to read there unless it is that already.
   void Expect(core::FrameIndex index);
 
-  // The frame expected, once it is read; a stop ends the reading. Throws: what reading it threw.
-  [[nodiscard]] CapturedFrame Take(const std::stop_token& stop);
+  // The frame expected, once it is read; nothing at and after the end. A stop ends the reading. Throws: what
+  // reading it threw.
+  [[nodiscard]] std::optional<CameraFrame> Take(const std::stop_token& stop);
 
  private:
-  using Queue = core::BoundedQueue<CapturedFrame>;
+  struct Captured {
+    std::optional<CameraFrame> frame;
+    std::exception_ptr error;  // if set, the frame could not be read
+  };
+  using Queue = core::BoundedQueue<Captured>;
 
   void Stop();
   void Run(Queue& queue, core::FrameIndex begin, const std::stop_token& stop) const;
 
   ReadFrame read_;
-  std::optional<core::FrameIndex> end_;
+  Footage footage_;
   std::optional<core::FrameIndex> next_;  // the frame that the queue yields next
   std::unique_ptr<Queue> queue_;
   std::jthread thread_;
 };
+
+// A source's pictures. Thread: the source belongs to the capture thread from then on, but for what it says
+// any thread may call.
+[[nodiscard]] std::unique_ptr<ReadAhead> ReadAheadOf(std::shared_ptr<ImageSource> source);
 
 }  // namespace elbowroom::recon

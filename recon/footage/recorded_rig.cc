@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <exception>
 #include <filesystem>
 #include <utility>
 
@@ -10,6 +11,7 @@
 #include "recon/footage/background_reader.h"
 #include "recon/footage/image_sequence.h"
 #include "recon/footage/per_camera.h"
+#include "recon/footage/read_ahead.h"
 #include "recon/images/image_file.h"
 #include "recon/images/mask_image.h"
 
@@ -19,14 +21,6 @@ namespace {
 using core::Error;
 using core::ErrorKind;
 using core::FrameIndex;
-
-struct OpenedCamera {
-  std::string location;
-  std::optional<FrameIndex> frames;
-  std::optional<double> frame_rate_hz;
-  ReadAhead::ReadFrame read;
-  std::shared_ptr<const ImageSource> source = nullptr;
-};
 
 core::BitMask ReadSizedMask(ImageReader& reader, const std::filesystem::path& file,
                             const core::CameraModel& camera, const std::stop_token& stop) {
@@ -43,8 +37,21 @@ core::BitMask ReadSizedMask(ImageReader& reader, const std::filesystem::path& fi
   return MaskFromImage(reader.Decode(DecodedAs::kStored, stop));
 }
 
-OpenedCamera OpenMasks(const std::string& location, const core::CameraModel& camera) {
-  const std::string who = fmt::format("camera '{}'", camera.name());
+// Ready masks as pictures of a source: no picture, a mask.
+ReadAhead::ReadFrame MasksOf(std::vector<std::filesystem::path> files, const core::CameraModel& camera) {
+  const auto reader = std::make_shared<ImageReader>(fmt::format("camera '{}'", camera.name()),
+                                                    cv::Size(camera.width_px(), camera.height_px()));
+  return [files = std::move(files), reader, camera](FrameIndex index, const std::stop_token& stop) {
+    std::optional<CameraFrame> frame;
+    if (index < static_cast<FrameIndex>(files.size())) {
+      const std::filesystem::path& file = files[static_cast<std::size_t>(index)];
+      frame.emplace(CameraFrame{{}, ReadSizedMask(*reader, file, camera, stop), {}});
+    }
+    return frame;
+  };
+}
+
+std::vector<std::filesystem::path> FindMaskFiles(const std::string& location, const std::string& who) {
   const SourceKind kind = KindOf(location);
   if (kind == SourceKind::kDevice || kind == SourceKind::kUrl || kind == SourceKind::kVideo) {
     throw Error(ErrorKind::kFormat,
@@ -52,63 +59,40 @@ OpenedCamera OpenMasks(const std::string& location, const core::CameraModel& cam
                             "folder of images",
                             who, location));
   }
-  std::vector<std::filesystem::path> files = FindImageFiles(location, who);
-  const auto count = static_cast<FrameIndex>(files.size());
-  const auto reader = std::make_shared<ImageReader>(who, cv::Size(camera.width_px(), camera.height_px()));
-  const auto read = [files = std::move(files), reader, camera](FrameIndex index,
-                                                               const std::stop_token& stop) {
-    return CameraFrame{{}, ReadSizedMask(*reader, files[static_cast<std::size_t>(index)], camera, stop), {}};
-  };
-  return {location, count, std::nullopt, read};
-}
-
-OpenedCamera OpenCamera(const CameraSources& sources, const core::CameraModel& camera,
-                        const std::stop_token& stop) {
-  if (!sources.masks.empty()) return OpenMasks(sources.masks, camera);
-  if (sources.frames.empty()) {
-    throw Error(ErrorKind::kFormat,
-                fmt::format("camera '{}': the rig names neither frames nor masks; add one", camera.name()));
-  }
-  const std::shared_ptr<ImageSource> source = OpenImageSource(sources.frames, camera, stop);
-  const auto read = [source](FrameIndex index, const std::stop_token& reading) {
-    SourcePicture picture = source->Read(index, reading);
-    return CameraFrame{std::move(picture.image_bgr), std::nullopt, picture.captured_at};
-  };
-  return {sources.frames, source->frame_count(), source->frame_rate_hz(), read, source};
-}
-
-std::vector<OpenedCamera> OpenAll(const RigFile& rig_file, const std::stop_token& stop) {
-  std::vector<OpenedCamera> opened(rig_file.rig.cameras.size());
-  RunPerCamera(opened.size(), [&](core::CameraIndex i) {
-    opened[i] = OpenCamera(rig_file.sources[i], rig_file.rig.cameras[i], stop);
-  });
-  return opened;
-}
-
-// The rate that all videos share; 25 Hz where none says.
-double CommonFrameRateHz(const std::vector<OpenedCamera>& opened, const core::Rig& rig) {
-  constexpr double kUnsaidRateHz = 25.0;
-  std::optional<std::size_t> first;
-  for (std::size_t i = 0; i < opened.size(); ++i) {
-    if (!opened[i].frame_rate_hz) continue;
-    if (!first) first = i;
-    RequireOneRate({rig.cameras[*first].name(), *opened[*first].frame_rate_hz},
-                   {rig.cameras[i].name(), *opened[i].frame_rate_hz});
-  }
-  return first ? *opened[*first].frame_rate_hz : kUnsaidRateHz;
-}
-
-std::optional<ShortestSource> FindShortest(const std::vector<OpenedCamera>& opened) {
-  std::optional<ShortestSource> shortest;
-  for (std::size_t i = 0; i < opened.size(); ++i) {
-    if (opened[i].frames && (!shortest || *opened[i].frames < shortest->frames)) {
-      shortest = ShortestSource{i, opened[i].location, *opened[i].frames};
-    }
-  }
-  return shortest;
+  return FindImageFiles(location, who);
 }
 
 }  // namespace
+
+// Where one camera's frames come from.
+struct RecordedRig::Camera {
+  std::string location;
+  std::shared_ptr<const ImageSource> source;  // null for one with ready masks
+  FrameIndex masks = 0;                       // the number of ready masks
+  std::unique_ptr<ReadAhead> frames;
+
+  // Nothing: a live camera.
+  [[nodiscard]] std::optional<FrameIndex> frame_count() const {
+    return source != nullptr ? source->frame_count() : masks;
+  }
+};
+
+RecordedRig::Camera RecordedRig::OpenCamera(const CameraSources& sources, const core::CameraModel& camera,
+                                            const std::stop_token& stop) {
+  const std::string who = fmt::format("camera '{}'", camera.name());
+  if (!sources.masks.empty()) {
+    std::vector<std::filesystem::path> files = FindMaskFiles(sources.masks, who);
+    const auto count = static_cast<FrameIndex>(files.size());
+    return {sources.masks, nullptr, count,
+            std::make_unique<ReadAhead>(MasksOf(std::move(files), camera), ReadAhead::Footage::kRecorded)};
+  }
+  if (sources.frames.empty()) {
+    throw Error(ErrorKind::kFormat, fmt::format("{}: the rig names neither frames nor masks; add one", who));
+  }
+  std::shared_ptr<ImageSource> source = OpenImageSource(sources.frames, camera, stop);
+  auto frames = ReadAheadOf(source);
+  return {sources.frames, std::move(source), 0, std::move(frames)};
+}
 
 void RequireOneRate(const CameraRate& one, const CameraRate& other) {
   constexpr double kAllowedRatio = 1.05;  // containers round, and average over dropped frames
@@ -131,13 +115,34 @@ RecordedRig::RecordedRig(RigFile rig_file, std::stop_token stop) : rig_file_(std
   core::Require(rig_file_.sources.size() == rig_file_.rig.cameras.size(),
                 "a rig file has sources for every camera");
   rig_file_.rig.Validate();
-  std::vector<OpenedCamera> opened = OpenAll(rig_file_, stop);
-  shortest_source_ = FindShortest(opened);
-  frame_rate_hz_ = CommonFrameRateHz(opened, rig_file_.rig);
-  for (OpenedCamera& camera : opened) {
-    const auto end = camera.frames ? frame_count() : std::nullopt;
-    sources_.push_back(std::move(camera.source));
-    cameras_.push_back(std::make_unique<ReadAhead>(std::move(camera.read), end));
+  cameras_.resize(rig_file_.rig.cameras.size());
+  RunPerCamera(cameras_.size(), [&](core::CameraIndex i) {
+    cameras_[i] = OpenCamera(rig_file_.sources[i], rig_file_.rig.cameras[i], stop);
+  });
+  FindShortest();
+  FindFrameRate();
+}
+
+RecordedRig::~RecordedRig() = default;
+
+// The rate that all videos share; 25 Hz where none says.
+void RecordedRig::FindFrameRate() {
+  std::optional<CameraRate> first;
+  for (core::CameraIndex i = 0; i < cameras_.size(); ++i) {
+    if (cameras_[i].source == nullptr || !cameras_[i].source->frame_rate_hz()) continue;
+    const CameraRate rate{rig_file_.rig.cameras[i].name(), *cameras_[i].source->frame_rate_hz()};
+    if (!first) first = rate;
+    RequireOneRate(*first, rate);
+  }
+  if (first) frame_rate_hz_ = first->frames_hz;
+}
+
+void RecordedRig::FindShortest() {
+  shortest_source_.reset();
+  for (core::CameraIndex i = 0; i < cameras_.size(); ++i) {
+    const auto frames = cameras_[i].frame_count();
+    if (frames && (!shortest_source_ || *frames < shortest_source_->frames))
+      shortest_source_ = ShortestSource{i, cameras_[i].location, *frames};
   }
 }
 
@@ -146,21 +151,35 @@ std::optional<FrameIndex> RecordedRig::frame_count() const {
   return shortest_source_->frames;
 }
 
-FrameSet RecordedRig::Read(FrameIndex index, std::stop_token stop) {
-  if (index < 0 || (shortest_source_ && index >= shortest_source_->frames)) {
-    const std::string why =
-        shortest_source_
-            ? fmt::format("the shortest source, '{}' of camera '{}', has {} frames (0 to {})",
-                          shortest_source_->location, rig_file_.rig.cameras[shortest_source_->camera].name(),
-                          shortest_source_->frames, shortest_source_->frames - 1)
-            : std::string("frames count from 0");
-    throw Error(ErrorKind::kRange, fmt::format("frame {} is out of range: {}", index, why));
+std::string RecordedRig::WhatEndsIt() const {
+  if (!shortest_source_) return {};
+  return fmt::format("the shortest source, camera '{}' ({} frames)",
+                     rig_file_.rig.cameras[shortest_source_->camera].name(), shortest_source_->frames);
+}
+
+std::optional<FrameSet> RecordedRig::TryRead(FrameIndex index, std::stop_token stop) {
+  if (index < 0) {
+    throw Error(ErrorKind::kRange, fmt::format("frame {} is out of range: frames count from 0", index));
   }
-  for (const auto& camera : cameras_) camera->Expect(index);
+  for (const Camera& camera : cameras_) camera.frames->Expect(index);
   FrameSet set{index, static_cast<double>(index) / frame_rate_hz_, {}};
-  for (const auto& camera : cameras_) {
-    set.cameras.push_back(camera->Take(stop).frame);
+  bool has_ended = false;
+  std::exception_ptr failure;
+  for (const Camera& camera : cameras_) {
+    try {
+      std::optional<CameraFrame> frame = camera.frames->Take(stop);
+      has_ended = has_ended || !frame;
+      if (frame) set.cameras.push_back(std::move(*frame));
+    } catch (...) {
+      if (!failure) failure = std::current_exception();
+    }
   }
+  // Where one camera ends, it doesn't matter what the others have.
+  if (has_ended) {
+    FindShortest();
+    return std::nullopt;
+  }
+  if (failure) std::rethrow_exception(failure);
   if (const auto captured_at = set.cameras.front().captured_at; captured_at && !shortest_source_) {
     if (!first_capture_) first_capture_ = captured_at;
     set.time_s = std::chrono::duration<double>(*captured_at - *first_capture_).count();
@@ -170,8 +189,9 @@ FrameSet RecordedRig::Read(FrameIndex index, std::stop_token stop) {
 
 std::vector<std::string> RecordedRig::Warnings() const {
   std::vector<std::string> warnings;
-  for (std::size_t i = 0; i < sources_.size(); ++i)
-    if (sources_[i] != nullptr) AddWarningOf(*sources_[i], rig_file_.rig.cameras[i].name(), &warnings);
+  for (core::CameraIndex i = 0; i < cameras_.size(); ++i)
+    if (cameras_[i].source != nullptr)
+      AddWarningOf(*cameras_[i].source, rig_file_.rig.cameras[i].name(), &warnings);
   return warnings;
 }
 

@@ -10,12 +10,11 @@
 
 #include "recon/footage/frame_set.h"
 #include "recon/footage/image_source.h"
-#include "recon/footage/read_ahead.h"
 #include "recon/rig_files/rig_file.h"
 
 namespace elbowroom::recon {
 
-// Which source ends the footage.
+// Which source ends the footage, as far as is known: the files' promises count until their ends are met.
 struct ShortestSource {
   core::CameraIndex camera = 0;  // the first of those equally short
   std::string location;
@@ -39,28 +38,38 @@ void AddWarningOf(const ImageSource& source, const std::string& camera, std::vec
 // frames ahead.
 class RecordedRig : public FrameSetSource {
  public:
-  // Opens every source, in parallel; videos are decoded once to know their length.
-  // Throws: Error naming camera and file for a source that is missing, unreadable or cut short, a camera with
-  // neither frames nor masks, frame rates that disagree; Error{kCancelled} on a stop.
+  // Opens every source, in parallel. Throws: Error naming camera and file for a source that is missing,
+  // unreadable or cut short, a camera with neither frames nor masks, frame rates that disagree;
+  // Error{kCancelled} on a stop.
   explicit RecordedRig(RigFile rig_file, std::stop_token stop = {});
+  ~RecordedRig() override;
+  RecordedRig(const RecordedRig&) = delete;
+  RecordedRig& operator=(const RecordedRig&) = delete;
 
   [[nodiscard]] const core::Rig& rig() const override { return rig_file_.rig; }
   [[nodiscard]] std::optional<core::FrameIndex> frame_count() const override;
   [[nodiscard]] const std::optional<ShortestSource>& shortest_source() const { return shortest_source_; }
   [[nodiscard]] double frame_rate_hz() const { return frame_rate_hz_; }
 
-  [[nodiscard]] FrameSet Read(core::FrameIndex index, std::stop_token stop = {}) override;
+  [[nodiscard]] std::string WhatEndsIt() const override;
+  [[nodiscard]] std::optional<FrameSet> TryRead(core::FrameIndex index, std::stop_token stop) override;
   [[nodiscard]] std::vector<std::string> Warnings() const override;
   [[nodiscard]] std::vector<BackgroundReference> ReadBackgrounds(const core::Progress& progress,
                                                                  std::stop_token stop) override;
 
  private:
+  struct Camera;
+
+  static Camera OpenCamera(const CameraSources& sources, const core::CameraModel& camera,
+                           const std::stop_token& stop);
+  void FindShortest();
+  void FindFrameRate();
+
   RigFile rig_file_;
   std::optional<ShortestSource> shortest_source_;
   double frame_rate_hz_ = 25.0;
   std::optional<std::chrono::steady_clock::time_point> first_capture_;  // of live cameras
-  std::vector<std::shared_ptr<const ImageSource>> sources_;  // one a camera; null for one with ready masks
-  std::vector<std::unique_ptr<ReadAhead>> cameras_;
+  std::vector<Camera> cameras_;
 };
 
 }  // namespace elbowroom::recon

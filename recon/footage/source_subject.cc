@@ -16,10 +16,9 @@ void SourceSubject::RequireSize(std::int64_t found_width_px, std::int64_t found_
       location, found_width_px, found_height_px, width_px, height_px));
 }
 
-void SourceSubject::RequireInRange(core::FrameIndex index, core::FrameIndex count) const {
-  if (index >= 0 && index < count) return;
-  Fail(fmt::format("frame {} is out of range: '{}' has {} frames (0 to {})", index, location, count,
-                   count - 1),
+void SourceSubject::RequireNotNegative(core::FrameIndex index) const {
+  if (index >= 0) return;
+  Fail(fmt::format("frame {} of '{}' is out of range: frames count from 0", index, location),
        core::ErrorKind::kRange);
 }
 

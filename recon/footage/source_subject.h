@@ -17,7 +17,7 @@ struct SourceSubject {
 
   [[noreturn]] void Fail(const std::string& what, core::ErrorKind kind = core::ErrorKind::kFile) const;
   void RequireSize(std::int64_t found_width_px, std::int64_t found_height_px, core::FrameIndex index) const;
-  void RequireInRange(core::FrameIndex index, core::FrameIndex count) const;
+  void RequireNotNegative(core::FrameIndex index) const;
 };
 
 }  // namespace elbowroom::recon

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <atomic>
 #include <chrono>
 #include <filesystem>
 #include <optional>
@@ -19,6 +20,7 @@ using core::FrameIndex;
 // The longest time to open a video and to answer each request for pictures. A file that takes longer was made
 // to do so.
 constexpr std::chrono::seconds kMostTime{8};
+constexpr FrameIndex kAtOnce = 32;
 constexpr const char* kWhatToDo = "it must be a video that FFmpeg reads; record or copy it again";
 
 class VideoFile : public ImageSource {
@@ -34,32 +36,31 @@ class VideoFile : public ImageSource {
     }
     const OpenedVideo opened = Open(stop);
     if (opened.frame_rate_hz > 0.0 && opened.frame_rate_hz < 10'000.0) frame_rate_hz_ = opened.frame_rate_hz;
-    CountFrames(stop);
-    if (count_ == 0)
+    if (IsPossible(opened.promised_frames)) {
+      count_ = static_cast<FrameIndex>(opened.promised_frames);
+    } else {
+      while (PassOver(*next_, kAtOnce, stop)) {
+      }
+      (void)Open(stop);
+    }
+    first_ = Next(0, stop);
+    if (!first_)
       subject_.Fail(fmt::format("no frame of '{}' can be decoded; {}", subject_.location, kWhatToDo));
-    if (GoesOn(stop)) FailAsDamaged(count_, "it can't be decoded, though later ones can");
-    (void)Open(stop);
   }
 
   [[nodiscard]] std::optional<FrameIndex> frame_count() const override { return count_; }
   [[nodiscard]] std::optional<double> frame_rate_hz() const override { return frame_rate_hz_; }
 
-  [[nodiscard]] SourcePicture Read(FrameIndex index, const std::stop_token& stop) override {
-    subject_.RequireInRange(index, count_);
+  [[nodiscard]] std::optional<SourcePicture> Read(FrameIndex index, const std::stop_token& stop) override {
+    subject_.RequireNotNegative(index);
+    if (has_met_end_ && index >= count_) return std::nullopt;
+    if (index == 0 && first_) return SourcePicture{*std::exchange(first_, std::nullopt)};
+    first_.reset();
     if (!next_ || index < *next_) (void)Open(stop);
-    FrameIndex at = *std::exchange(next_, std::nullopt);  // stays unknown if what follows throws
-    while (at < index) {
-      const auto skipped = decoder_.Skip(index - at, stop, kMostTime);
-      if (!skipped.complaint.empty()) FailAsDamaged(at, skipped.complaint);
-      if (!skipped.value || *skipped.value == 0) FailAt(at);
-      at += *skipped.value;
-    }
-    auto picture = decoder_.Next(stop, kMostTime);
-    if (!picture.complaint.empty()) FailAsDamaged(index, picture.complaint);
-    if (!picture.value) FailAt(index);
-    subject_.RequireSize(picture.value->size_px.width, picture.value->size_px.height, index);
-    next_ = index + 1;
-    return {std::move(picture.value->image_bgr)};
+    while (*next_ < index)
+      if (!PassOver(*next_, index - *next_, stop)) return std::nullopt;
+    if (auto image = Next(index, stop)) return SourcePicture{std::move(*image)};
+    return std::nullopt;
   }
 
  private:
@@ -88,14 +89,51 @@ class VideoFile : public ImageSource {
     return *opened.value;
   }
 
-  void CountFrames(const std::stop_token& stop) {
-    constexpr FrameIndex kAtOnce = 32;
-    for (;;) {
-      const auto skipped = decoder_.Skip(kAtOnce, stop, kMostTime);
-      count_ += skipped.value.value_or(0);
-      if (!skipped.complaint.empty()) FailAsDamaged(count_, skipped.complaint);
-      if (!skipped.value) return;
+  static bool IsPossible(double promised_frames) {
+    constexpr double kMostFrames = 1e9;
+    return promised_frames >= 1.0 && promised_frames < kMostFrames;
+  }
+
+  // Passes over up to `most` pictures from `at`, the decoder's next. False: the video ends at `at`.
+  bool PassOver(FrameIndex at, FrameIndex most, const std::stop_token& stop) {
+    next_.reset();  // unknown if what follows throws
+    const auto skipped = decoder_.Skip(most, stop, kMostTime);
+    const FrameIndex passed = skipped.value.value_or(0);
+    if (!skipped.complaint.empty()) FailAsDamaged(at + passed, skipped.complaint);
+    if (passed == 0) {
+      MeetEnd(at, stop);
+      return false;
     }
+    next_ = at + passed;
+    return true;
+  }
+
+  // Picture `at`, the decoder's next. Nothing: the video ends there.
+  std::optional<cv::Mat> Next(FrameIndex at, const std::stop_token& stop) {
+    next_.reset();
+    auto picture = decoder_.Next(stop, kMostTime);
+    if (!picture.complaint.empty()) FailAsDamaged(at, picture.complaint);
+    if (!picture.value) {
+      MeetEnd(at, stop);
+      return std::nullopt;
+    }
+    subject_.RequireSize(picture.value->size_px.width, picture.value->size_px.height, at);
+    next_ = at + 1;
+    if (at >= count_) count_ = at + 1;  // more than promised
+    return std::move(picture.value->image_bgr);
+  }
+
+  // Throws unless `at` can be the end.
+  void MeetEnd(FrameIndex at, const std::stop_token& stop) {
+    if (GoesOn(stop)) FailAsDamaged(at, "it can't be decoded, though later ones can");
+    if (has_met_end_ && at < count_) {
+      subject_.Fail(
+          fmt::format("frame {} of '{}' can't be decoded, though {} frames could be before; check "
+                      "the disk",
+                      at, subject_.location, count_.load()));
+    }
+    count_ = at;
+    has_met_end_ = true;
   }
 
   // Whether the video goes on after the end that OpenCV reported: it also stops at a packet that can't be
@@ -129,16 +167,12 @@ class VideoFile : public ImageSource {
                               bytes, frames));
   }
 
-  [[noreturn]] void FailAt(FrameIndex index) const {
-    subject_.Fail(
-        fmt::format("frame {} of '{}' can't be decoded, though {} frames could be before; check the disk",
-                    index, subject_.location, count_));
-  }
-
   SourceSubject subject_;
   VideoDecoder decoder_;
-  std::optional<FrameIndex> next_;  // the decoder's next frame; nothing: the video must be opened again
-  FrameIndex count_ = 0;
+  std::optional<FrameIndex> next_;     // the decoder's next frame; nothing: the video must be opened again
+  std::atomic<FrameIndex> count_ = 0;  // as promised, until the end has been met
+  bool has_met_end_ = false;
+  std::optional<cv::Mat> first_;  // picture 0, until a picture is read
   std::optional<double> frame_rate_hz_;
 };
 

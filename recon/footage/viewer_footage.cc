@@ -1,5 +1,7 @@
 #include "recon/footage/viewer_footage.h"
 
+#include <fmt/format.h>
+
 #include <utility>
 
 #include "core/error.h"
@@ -9,32 +11,39 @@ namespace elbowroom::recon {
 
 ViewerFootage::ViewerFootage(std::shared_ptr<RecordedRig> rig, core::CameraModel camera,
                              const std::string& location, std::stop_token stop)
-    : rig_(std::move(rig)) {
+    : rig_(std::move(rig)), location_(location) {
   core::Require(rig_ != nullptr, "a rig");
-  source_ = OpenImageSource(location, camera, std::move(stop));
+  std::shared_ptr<ImageSource> source = OpenImageSource(location, camera, std::move(stop));
+  source_ = source;
   if (const std::optional<double> rate_hz = source_->frame_rate_hz())
     RequireOneRate({rig_->rig().cameras.front().name(), rig_->frame_rate_hz()}, {camera.name(), *rate_hz});
-  frames_ = source_->frame_count();
-  pictures_ = std::make_unique<ReadAhead>(
-      [source = source_](core::FrameIndex index, const std::stop_token& reading) {
-        SourcePicture picture = source->Read(index, reading);
-        return CameraFrame{std::move(picture.image_bgr), std::nullopt, picture.captured_at};
-      },
-      frames_);
+  promised_ = source_->frame_count();
+  pictures_ = ReadAheadOf(std::move(source));
   camera_ = std::make_shared<const core::CameraModel>(std::move(camera));
 }
 
-FrameSet ViewerFootage::Read(core::FrameIndex index, std::stop_token stop) {
-  const bool has_picture = index >= 0 && (!frames_ || index < *frames_);
+std::optional<FrameSet> ViewerFootage::TryRead(core::FrameIndex index, std::stop_token stop) {
+  const bool has_picture = index >= 0 && (!end_ || index < *end_);
   if (has_picture) pictures_->Expect(index);
-  FrameSet set = rig_->Read(index, stop);
-  if (has_picture) set.viewer = ViewerPicture{camera_, pictures_->Take(stop).frame.image_bgr};
+  std::optional<FrameSet> set = rig_->TryRead(index, stop);
+  if (!set || !has_picture) return set;
+  if (auto picture = pictures_->Take(stop)) {
+    set->viewer = ViewerPicture{camera_, std::move(picture->image_bgr)};
+  } else {
+    end_ = source_->frame_count();
+  }
   return set;
 }
 
 std::vector<std::string> ViewerFootage::Warnings() const {
   std::vector<std::string> warnings = rig_->Warnings();
   AddWarningOf(*source_, camera_->name(), &warnings);
+  if (end_ && end_ < promised_) {
+    warnings.push_back(
+        fmt::format("the viewer's footage '{}' ended after {} frames of {} promised; later ones take their "
+                    "colours from the rig's cameras",
+                    location_, *end_, *promised_));
+  }
   return warnings;
 }
 

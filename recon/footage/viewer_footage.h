@@ -26,10 +26,11 @@ class ViewerFootage : public FrameSetSource {
 
   [[nodiscard]] const core::Rig& rig() const override { return rig_->rig(); }
   [[nodiscard]] std::optional<core::FrameIndex> frame_count() const override { return rig_->frame_count(); }
-  // The number of the viewer camera's frames; nothing for a live one.
-  [[nodiscard]] std::optional<core::FrameIndex> viewer_frame_count() const { return frames_; }
+  // The number of the viewer camera's frames, as promised until its end has been met; nothing for a live one.
+  [[nodiscard]] std::optional<core::FrameIndex> viewer_frame_count() const { return source_->frame_count(); }
+  [[nodiscard]] std::string WhatEndsIt() const override { return rig_->WhatEndsIt(); }
 
-  [[nodiscard]] FrameSet Read(core::FrameIndex index, std::stop_token stop = {}) override;
+  [[nodiscard]] std::optional<FrameSet> TryRead(core::FrameIndex index, std::stop_token stop) override;
   [[nodiscard]] std::vector<std::string> Warnings() const override;
   [[nodiscard]] std::vector<BackgroundReference> ReadBackgrounds(const core::Progress& progress,
                                                                  std::stop_token stop) override;
@@ -37,8 +38,10 @@ class ViewerFootage : public FrameSetSource {
  private:
   std::shared_ptr<RecordedRig> rig_;
   std::shared_ptr<const core::CameraModel> camera_;
-  std::optional<core::FrameIndex> frames_;
-  std::shared_ptr<ImageSource> source_;
+  std::string location_;
+  std::shared_ptr<const ImageSource> source_;
+  std::optional<core::FrameIndex> promised_;
+  std::optional<core::FrameIndex> end_;  // of the viewer camera's footage, once met
   std::unique_ptr<ReadAhead> pictures_;
 };
 

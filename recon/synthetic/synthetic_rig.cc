@@ -84,13 +84,12 @@ cv::Mat SyntheticRig::Capture(core::CameraIndex camera, core::FrameIndex noise_f
   return views_[camera].Render(solids, exposure);
 }
 
-FrameSet SyntheticRig::Read(core::FrameIndex index, std::stop_token /*stop*/) {
-  if (index < 0 || (options_.frame_count && index >= *options_.frame_count)) {
-    throw core::Error(
-        core::ErrorKind::kRange,
-        fmt::format("frame {} of simulated rig {} does not exist; frames run from 0 to {}", index, rig_.name,
-                    options_.frame_count ? std::to_string(*options_.frame_count - 1) : "no end"));
+std::optional<FrameSet> SyntheticRig::TryRead(core::FrameIndex index, std::stop_token /*stop*/) {
+  if (index < 0) {
+    throw core::Error(core::ErrorKind::kRange,
+                      fmt::format("frame {} is out of range: frames count from 0", index));
   }
+  if (options_.frame_count && index >= *options_.frame_count) return std::nullopt;
   const std::vector<SyntheticObject> objects = ObjectsAt(index);
   const std::vector<Solid> solids = AllSolids(objects);
   FrameSet set;

@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <stop_token>
+#include <string>
 #include <vector>
 
 #include "recon/footage/frame_set.h"
@@ -18,6 +19,7 @@ struct SyntheticRigOptions {
   std::uint64_t seed = 1;
   double frame_rate_hz = 15.0;                  // > 0
   std::optional<core::FrameIndex> frame_count;  // > 0; nothing: no end
+  std::string what_ends_it = "the simulation";  // FrameSetSource::WhatEndsIt
   double noise_sigma_levels = 1.5;              // Gaussian, each pixel and channel on its own; >= 0
   double flicker_share = 0.01;  // exposure gain of each camera and frame within 1 +- this; [0, 0.5]
   int background_frames = 30;   // number that a reference is measured from; > 0
@@ -44,7 +46,8 @@ class SyntheticRig : public FrameSetSource {
 
   [[nodiscard]] const core::Rig& rig() const override { return rig_; }
   [[nodiscard]] std::optional<core::FrameIndex> frame_count() const override { return options_.frame_count; }
-  [[nodiscard]] FrameSet Read(core::FrameIndex index, std::stop_token stop = {}) override;
+  [[nodiscard]] std::string WhatEndsIt() const override { return options_.what_ends_it; }
+  [[nodiscard]] std::optional<FrameSet> TryRead(core::FrameIndex index, std::stop_token stop) override;
   [[nodiscard]] std::vector<BackgroundReference> ReadBackgrounds(const core::Progress& progress,
                                                                  std::stop_token stop) override;
 

@@ -1,0 +1,18 @@
+#include "recon/footage/frame_set.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "core/error.h"
+
+namespace elbowroom::recon {
+
+FrameSet FrameSetSource::Read(core::FrameIndex index, std::stop_token stop) {
+  if (std::optional<FrameSet> set = TryRead(index, std::move(stop))) return std::move(*set);
+  throw core::Error(core::ErrorKind::kRange,
+                    fmt::format("frame {} is out of range: the footage has frames 0 to {}, as many as {}",
+                                index, frame_count().value_or(index) - 1, WhatEndsIt()));
+}
+
+}  // namespace elbowroom::recon
