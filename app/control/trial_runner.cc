@@ -158,11 +158,12 @@ class Recording {
 
  private:
   // The files may have promised more frames than can be decoded.
-  void EndWithFootage(core::FrameIndex frames) const {
-    if (frames > options_.frames.first && frames >= options_.frames.end.value_or(0)) return;
+  void EndWithFootage(core::FrameIndex end) const {
+    if (end > options_.frames.first && end >= options_.frames.end.value_or(0)) return;
+    const core::FrameIndex frames = setup_.source->frame_count().value_or(end);
     throw core::Error(
         core::ErrorKind::kRange,
-        fmt::format("frames {}:{}: the footage has {} frames (0:{}), as many as {}", options_.frames.first,
+        fmt::format("frames {}:{}: the footage has {} frames (0:{}); it ended with {}", options_.frames.first,
                     options_.frames.end ? std::to_string(*options_.frames.end) : std::string(), frames,
                     frames, setup_.source->WhatEndsIt()));
   }

@@ -11,8 +11,7 @@ namespace elbowroom::recon {
 FrameSet FrameSetSource::Read(core::FrameIndex index, std::stop_token stop) {
   if (std::optional<FrameSet> set = TryRead(index, std::move(stop))) return std::move(*set);
   throw core::Error(core::ErrorKind::kRange,
-                    fmt::format("frame {} is out of range: the footage has frames 0 to {}, as many as {}",
-                                index, frame_count().value_or(index) - 1, WhatEndsIt()));
+                    fmt::format("frame {} is out of range: the footage ends with {}", index, WhatEndsIt()));
 }
 
 }  // namespace elbowroom::recon

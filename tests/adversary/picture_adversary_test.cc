@@ -119,10 +119,8 @@ void ReadAll(const fs::path& file, Tally& tally) {
   const auto begin = Clock::now();
   try {
     const auto source = recon::OpenImageSource(file.string(), recon::testing::PlainCamera("cam1"));
-    for (core::FrameIndex i = 0; i < source->frame_count().value_or(0); ++i) {
-      const cv::Mat picture = source->Read(i).image_bgr;
-      EXPECT_EQ(picture.size(), cv::Size(kWidthPx, kHeightPx));
-    }
+    for (core::FrameIndex i = 0; const auto picture = source->Read(i); ++i)
+      EXPECT_EQ(picture->image_bgr.size(), cv::Size(kWidthPx, kHeightPx));
     ++tally.taken;
   } catch (const core::Error& error) {
     const std::string message = error.what();

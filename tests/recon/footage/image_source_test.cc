@@ -42,9 +42,8 @@ TEST(ImageSequence, BeginsAtZeroOrOne) {
     const auto source = OpenImageSource(folder.File("f_%03d.png"), PlainCamera("cam3"));
     ASSERT_EQ(source->frame_count(), 12);
     EXPECT_FALSE(source->frame_rate_hz().has_value());
-    for (const int i : {0, 11, 5}) EXPECT_EQ(NumberIn(source->Read(i).image_bgr), i);
-    EXPECT_THAT(ErrorOf(ErrorKind::kRange, [&] { (void)source->Read(12); }),
-                AllOf(HasSubstr("frame 12"), HasSubstr("12 frames")));
+    for (const int i : {0, 11, 5}) EXPECT_EQ(NumberIn(source->Read(i).value().image_bgr), i);
+    EXPECT_FALSE(source->Read(12).has_value());
     EXPECT_THAT(ErrorOf(ErrorKind::kRange, [&] { (void)source->Read(-1); }), HasSubstr("frame -1"));
   }
 }
@@ -54,7 +53,7 @@ TEST(ImageSequence, CountsUnpaddedNumbersAsNumbers) {
   for (int i = 0; i < 12; ++i) cv::imwrite(folder.File("f" + std::to_string(i) + ".png"), NumberedPicture(i));
   const auto source = OpenImageSource(folder.File("f%d.png"), PlainCamera("cam3"));
   ASSERT_EQ(source->frame_count(), 12);
-  EXPECT_EQ(NumberIn(source->Read(10).image_bgr), 10);  // by name it would come after f1
+  EXPECT_EQ(NumberIn(source->Read(10).value().image_bgr), 10);  // by name it would come after f1
 }
 
 TEST(ImageSequence, SaysWhereItHasAGapOrNoBeginning) {
@@ -88,10 +87,10 @@ TEST(ImageSource, TakesOneImageAndAFolder) {
   WriteSequence(folder, 7, 3);
   const auto all = OpenImageSource(folder.path().string(), PlainCamera("cam3"));
   EXPECT_EQ(all->frame_count(), 3);
-  EXPECT_EQ(NumberIn(all->Read(2).image_bgr), 2);
+  EXPECT_EQ(NumberIn(all->Read(2).value().image_bgr), 2);
   const auto one = OpenImageSource(folder.File("f_008.png"), PlainCamera("cam3"));
   EXPECT_EQ(one->frame_count(), 1);
-  EXPECT_EQ(NumberIn(one->Read(0).image_bgr), 1);
+  EXPECT_EQ(NumberIn(one->Read(0).value().image_bgr), 1);
 }
 
 TEST(VideoFile, GivesTheRightFrameInAnyOrder) {
@@ -100,22 +99,23 @@ TEST(VideoFile, GivesTheRightFrameInAnyOrder) {
   const auto source = OpenImageSource(folder.File("v.avi"), PlainCamera("cam3"));
   ASSERT_EQ(source->frame_count(), 40);
   EXPECT_NEAR(source->frame_rate_hz().value_or(0.0), 30.0, 1e-3);  // the container keeps it as a ratio
-  for (int i = 0; i < 40; ++i) EXPECT_EQ(NumberIn(source->Read(i).image_bgr), i);
+  for (int i = 0; i < 40; ++i) EXPECT_EQ(NumberIn(source->Read(i).value().image_bgr), i);
   std::mt19937 random(11);
   for (int k = 0; k < 30; ++k) {
     const int i = static_cast<int>(random() % 40U);
-    EXPECT_EQ(NumberIn(source->Read(i).image_bgr), i);
-    EXPECT_EQ(NumberIn(source->Read(i).image_bgr), i);
+    EXPECT_EQ(NumberIn(source->Read(i).value().image_bgr), i);
+    EXPECT_EQ(NumberIn(source->Read(i).value().image_bgr), i);
   }
-  EXPECT_THAT(ErrorOf(ErrorKind::kRange, [&] { (void)source->Read(40); }), HasSubstr("40 frames"));
+  for (const int i : {40, 55, 40}) EXPECT_FALSE(source->Read(i).has_value());
+  EXPECT_EQ(NumberIn(source->Read(39).value().image_bgr), 39);
 }
 
 TEST(VideoFile, PicturesStayAsTheyWereWhenMoreAreRead) {
   const TestFolder folder;
   testing::WriteVideo(folder.File("v.avi"), 3);
   const auto source = OpenImageSource(folder.File("v.avi"), PlainCamera("cam3"));
-  const cv::Mat first = source->Read(0).image_bgr;
-  EXPECT_FALSE(source->Read(1).captured_at.has_value());
+  const cv::Mat first = source->Read(0).value().image_bgr;
+  EXPECT_FALSE(source->Read(1).value().captured_at.has_value());
   (void)source->Read(2);
   EXPECT_EQ(NumberIn(first), 0);
 }
@@ -166,8 +166,33 @@ TEST(VideoFile, NamesTheFrameWhereItIsOverwritten) {
   testing::WriteText(folder.path() / "blank.avi", blank);
   EXPECT_THAT(OpenError(folder.File("headless.avi")),
               AllOf(HasSubstr("cam3"), HasSubstr("headless.avi"), HasSubstr("damaged at about frame 23")));
-  EXPECT_THAT(OpenError(folder.File("blank.avi")),
+  // What comes before the damage can be used.
+  const auto source = OpenImageSource(folder.File("blank.avi"), PlainCamera("cam3"));
+  for (int i = 0; i < 38; ++i) EXPECT_EQ(NumberIn(source->Read(i).value().image_bgr), i);
+  const auto read_on = [&] {
+    for (int i = 38; i < 60; ++i) (void)source->Read(i);
+  };
+  EXPECT_THAT(ErrorOf(ErrorKind::kFile, read_on),
               AllOf(HasSubstr("cam3"), HasSubstr("blank.avi"), HasSubstr("damaged at about frame 4")));
+  EXPECT_THAT(ErrorOf(ErrorKind::kFile, [&] { (void)source->Read(50); }), HasSubstr("damaged"));
+  EXPECT_EQ(NumberIn(source->Read(3).value().image_bgr), 3);
+}
+
+TEST(VideoFile, IsAsLongAsItsPicturesNotAsItsPromise) {
+  const TestFolder folder;
+  testing::WriteVideo(folder.File("v.avi"), 30);
+  for (const std::uint32_t promised : {0U, 30U, 50U, 5000U, 0xFFFFFFFFU}) {
+    SCOPED_TRACE(promised);
+    testing::PromiseFrames(folder.File("v.avi"), promised);
+    const auto source = OpenImageSource(folder.File("v.avi"), PlainCamera("cam3"));
+    for (int i = 0; i < 30; ++i) EXPECT_EQ(NumberIn(source->Read(i).value().image_bgr), i);
+    EXPECT_FALSE(source->Read(30).has_value());
+    EXPECT_EQ(source->frame_count(), 30);
+    EXPECT_EQ(NumberIn(source->Read(7).value().image_bgr), 7);
+    const auto other = OpenImageSource(folder.File("v.avi"), PlainCamera("cam3"));
+    EXPECT_FALSE(other->Read(44).has_value());
+    EXPECT_EQ(other->frame_count(), 30);
+  }
 }
 
 TEST(VideoFile, SaysWhatIsMissingOrUnreadable) {
@@ -183,7 +208,7 @@ TEST(VideoFile, SaysWhatIsMissingOrUnreadable) {
               AllOf(HasSubstr("frame 0"), HasSubstr("96 x 64"), HasSubstr("98 x 64")));
 }
 
-TEST(VideoFile, StopsCountingWhenAskedTo) {
+TEST(VideoFile, StopsOpeningWhenAskedTo) {
   const TestFolder folder;
   testing::WriteVideo(folder.File("v.avi"), 5);
   std::stop_source stop;
@@ -199,7 +224,7 @@ TEST(LiveCamera, HasNoEndAndSaysWhenItBreaksOff) {
   testing::WriteVideo(folder.File("v.avi"), 5);
   const auto source = OpenImageSource("file://" + folder.File("v.avi"), PlainCamera("cam3"));
   EXPECT_FALSE(source->frame_count().has_value());
-  for (int i = 0; i < 5; ++i) EXPECT_EQ(NumberIn(source->Read(i).image_bgr), i);
+  for (int i = 0; i < 5; ++i) EXPECT_EQ(NumberIn(source->Read(i).value().image_bgr), i);
   EXPECT_THAT(ErrorOf(ErrorKind::kCamera, [&] { (void)source->Read(5); }),
               AllOf(HasSubstr("cam3"), HasSubstr("frame 5")));
   EXPECT_THAT(OpenError("device:front", ErrorKind::kFormat), HasSubstr("device:0"));

@@ -48,7 +48,7 @@ TEST(LiveStream, BringsItsPicturesInOrder) {
   MjpegServer server([](int i) { return Jpeg(i % 256); });
   const auto source = OpenImageSource(server.url(), PlainCamera("cam3"));
   EXPECT_FALSE(source->frame_count().has_value());
-  for (int i = 0; i < 60; ++i) EXPECT_EQ(NumberIn(source->Read(i).image_bgr), i);
+  for (int i = 0; i < 60; ++i) EXPECT_EQ(NumberIn(source->Read(i).value().image_bgr), i);
   EXPECT_EQ(source->left_out(), 0);
 }
 
@@ -83,7 +83,7 @@ TEST(LiveStream, LeavesDamagedPicturesOutAndCountsThem) {
   core::FrameIndex index = 0;
   for (int i = 0; i < 100; ++i) {
     if (i % 20 == 13 || i % 20 == 17) continue;
-    EXPECT_EQ(NumberIn(source->Read(index++).image_bgr), i);
+    EXPECT_EQ(NumberIn(source->Read(index++).value().image_bgr), i);
   }
   EXPECT_EQ(source->left_out(), 10);
 }

@@ -9,6 +9,8 @@
 #include <opencv2/imgproc.hpp>
 #include <opencv2/videoio.hpp>
 
+#include "tests/support/text_file.h"
+
 namespace elbowroom::recon::testing {
 namespace fs = std::filesystem;
 
@@ -57,6 +59,22 @@ void CutFile(const fs::path& from, const fs::path& to, double share) {
   fs::copy_file(from, to, fs::copy_options::overwrite_existing);
   fs::permissions(to, fs::perms::owner_write, fs::perm_options::add);
   fs::resize_file(to, static_cast<std::uintmax_t>(static_cast<double>(fs::file_size(from)) * share));
+}
+
+void PromiseFrames(const fs::path& avi, std::uint32_t frames) {
+  std::string bytes = test_support::ReadText(avi);
+  // dwTotalFrames of the main header, dwLength of the stream's.
+  for (const std::size_t at : {bytes.find("avih") + 8 + 16, bytes.find("strh") + 8 + 32})
+    for (unsigned i = 0; i < 4; ++i) bytes.at(at + i) = static_cast<char>((frames >> (8U * i)) & 0xFFU);
+  WriteText(avi, bytes);
+}
+
+void DamageFrame(const fs::path& avi, int frame) {
+  std::string bytes = test_support::ReadText(avi);
+  std::size_t at = bytes.find("movi");
+  for (int i = 0; i <= frame; ++i) at = bytes.find("00dc", at + 4);
+  bytes.replace(at + 8 + 640, 60, 60, '\x55');
+  WriteText(avi, bytes);
 }
 
 void WriteText(const fs::path& path, const std::string& text) {

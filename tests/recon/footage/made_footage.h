@@ -1,6 +1,7 @@
 // Small footage that the tests make themselves: numbered pictures, videos, rigs.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <opencv2/core/mat.hpp>
@@ -38,6 +39,10 @@ class TestFolder {
 void WriteVideo(const std::string& path, int frames, int first_number = 0, double rate_hz = 30.0);
 // The first `share` of the file's bytes.
 void CutFile(const std::filesystem::path& from, const std::filesystem::path& to, double share);
+// Changes how many frames the headers of such an AVI promise.
+void PromiseFrames(const std::filesystem::path& avi, std::uint32_t frames);
+// Overwrites pixels of one of its frames, behind that frame's headers.
+void DamageFrame(const std::filesystem::path& avi, int frame);
 void WriteText(const std::filesystem::path& path, const std::string& text);
 
 [[nodiscard]] core::CameraModel PlainCamera(const std::string& name, int width_px = kWidthPx,

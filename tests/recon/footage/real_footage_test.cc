@@ -37,10 +37,13 @@ TEST_F(RealFootage, AWholeVideoIsNeverCalledCutShort) {
   for (std::size_t i = 0; i < 4; ++i) {
     const core::CameraModel& camera = rig_file.rig.cameras[i];
     const auto background = OpenImageSource(rig_file.sources[i].background, camera);
+    EXPECT_FALSE(background->Read(500).has_value()) << i;
     EXPECT_THAT(background->frame_count().value_or(0), AllOf(::testing::Ge(132), ::testing::Le(133))) << i;
     const auto video = OpenImageSource(rig_file.sources[i].frames, camera);
-    EXPECT_EQ(video->frame_count(), 426) << i;  // the container promises 428
-    EXPECT_EQ(video->Read(425).image_bgr.cols, 644) << i;
+    EXPECT_EQ(video->frame_count(), 428) << i;  // as promised
+    EXPECT_FALSE(video->Read(427).has_value()) << i;
+    EXPECT_EQ(video->frame_count(), 426) << i;
+    EXPECT_EQ(video->Read(425).value().image_bgr.cols, 644) << i;
   }
 }
 
@@ -68,9 +71,9 @@ TEST_F(RealFootage, RandomAccessGivesTheSamePictureAsReadingOn) {
   const auto source = OpenImageSource(rig_file.sources[2].frames, rig_file.rig.cameras[2]);
   const auto other = OpenImageSource(rig_file.sources[2].frames, rig_file.rig.cameras[2]);
   std::vector<cv::Mat> in_order;
-  for (int i = 0; i < 120; ++i) in_order.push_back(source->Read(i).image_bgr);
+  for (int i = 0; i < 120; ++i) in_order.push_back(source->Read(i).value().image_bgr);
   for (const int i : {117, 3, 0, 64, 65, 12}) {
-    EXPECT_EQ(cv::norm(other->Read(i).image_bgr, in_order[static_cast<std::size_t>(i)], cv::NORM_INF), 0.0)
+    EXPECT_EQ(cv::norm(other->Read(i).value().image_bgr, in_order[static_cast<std::size_t>(i)], cv::NORM_INF), 0.0)
         << i;
   }
 }

@@ -40,8 +40,38 @@ TEST(RecordedRig, EndsWithItsShortestSourceAndNamesIt) {
   EXPECT_EQ(rig.shortest_source()->frames, 22);
   EXPECT_EQ(rig.shortest_source()->location, folder.File("b.avi"));
   EXPECT_THAT(ErrorOf(ErrorKind::kRange, [&] { (void)rig.Read(22); }),
-              AllOf(HasSubstr("frame 22"), HasSubstr("cam2"), HasSubstr("b.avi"), HasSubstr("22 frames")));
+              AllOf(HasSubstr("frame 22"), HasSubstr("shortest source, camera 'cam2' (22 frames)")));
   EXPECT_THAT(ErrorOf(ErrorKind::kRange, [&] { (void)rig.Read(-1); }), HasSubstr("frame -1"));
+}
+
+TEST(RecordedRig, EndsWhereTheFirstVideoEndsWhateverTheyPromise) {
+  const TestFolder folder;
+  const std::vector<std::uint32_t> promised = {30, 60, 25};
+  const std::vector<int> held = {30, 22, 25};
+  std::vector<CameraSources> sources;
+  for (std::size_t i = 0; i < held.size(); ++i) {
+    const std::string file = folder.File(std::to_string(i) + ".avi");
+    testing::WriteVideo(file, held[i]);
+    testing::PromiseFrames(file, promised[i]);
+    sources.push_back({file, "", ""});
+  }
+  RecordedRig rig(PlainRig(sources));
+  EXPECT_EQ(rig.frame_count(), 25);
+  for (int i = 0; i < 22; ++i) EXPECT_EQ(NumberIn(rig.Read(i).cameras[0].image_bgr), i);
+  EXPECT_FALSE(rig.TryRead(22, {}).has_value());
+  EXPECT_EQ(rig.frame_count(), 22);
+  EXPECT_EQ(rig.shortest_source()->camera, 1U);
+  EXPECT_EQ(rig.Read(5).index, 5);
+}
+
+TEST(RecordedRig, DamageAfterTheEndDoesNotMatter) {
+  const TestFolder folder;
+  testing::WriteVideo(folder.File("a.avi"), 40);
+  testing::WriteVideo(folder.File("b.avi"), 20);
+  testing::DamageFrame(folder.File("a.avi"), 23);
+  RecordedRig rig(PlainRig({{folder.File("a.avi"), "", ""}, {folder.File("b.avi"), "", ""}}));
+  for (int i = 0; i < 20; ++i) EXPECT_EQ(NumberIn(rig.Read(i).cameras[0].image_bgr), i);
+  EXPECT_FALSE(rig.TryRead(20, {}).has_value());
 }
 
 TEST(RecordedRig, GivesFramesOfOneNumberInAnyOrder) {

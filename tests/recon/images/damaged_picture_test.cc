@@ -59,11 +59,15 @@ class DamagedPicture : public ::testing::Test {
   }
   [[nodiscard]] cv::Mat FrameOf(const std::string& name, const std::string& bytes) const {
     test_support::WriteText(folder_.path() / name, bytes);
-    return OpenImageSource(folder_.File(name), PlainCamera("cam3"))->Read(0).image_bgr;
+    return OpenImageSource(folder_.File(name), PlainCamera("cam3"))->Read(0).value().image_bgr;
   }
   [[nodiscard]] std::string ErrorOfVideo(const std::string& name, const std::string& bytes) const {
     test_support::WriteText(folder_.path() / name, bytes);
-    return ErrorOf(ErrorKind::kFile, [&] { (void)OpenImageSource(folder_.File(name), PlainCamera("cam3")); });
+    return ErrorOf(ErrorKind::kFile, [&] {
+      const auto source = OpenImageSource(folder_.File(name), PlainCamera("cam3"));
+      for (core::FrameIndex i = 0; source->Read(i).has_value(); ++i) {
+      }
+    });
   }
 
   TestFolder folder_;
@@ -97,10 +101,10 @@ TEST_F(DamagedPicture, NeverShowsThePictureBefore) {
   test_support::WriteText(folder_.path() / "f_0.jpg", jpeg);
   test_support::WriteText(folder_.path() / "f_1.jpg", bogus);
   const auto source = OpenImageSource(folder_.File("f_%d.jpg"), PlainCamera("cam3"));
-  EXPECT_EQ(NumberIn(source->Read(0).image_bgr), 5);
+  EXPECT_EQ(NumberIn(source->Read(0).value().image_bgr), 5);
   EXPECT_THAT(ErrorOf(ErrorKind::kFile, [&] { (void)source->Read(1); }),
               AllOf(HasSubstr("f_1.jpg"), HasSubstr("can't be decoded;")));
-  EXPECT_EQ(NumberIn(source->Read(0).image_bgr), 5);
+  EXPECT_EQ(NumberIn(source->Read(0).value().image_bgr), 5);
 }
 
 TEST_F(DamagedPicture, SoundPicturesOfEveryKindAreTaken) {
@@ -172,12 +176,8 @@ TEST_F(DamagedPicture, ZerosAfterAVideosHeaderAreNoHang) {
 
 TEST_F(DamagedPicture, WithinAVideoIsNamedByItsFrame) {
   testing::WriteVideo(folder_.File("v.avi"), 40);
-  const std::string whole = test_support::ReadText(folder_.path() / "v.avi");
-  std::size_t at = whole.find("movi");
-  for (int i = 0; i <= 23; ++i) at = whole.find("00dc", at + 4);
-  std::string damaged = whole;
-  damaged.replace(at + 8 + 640, 60, 60, '\x55');  // in the pixels of picture 23, behind its headers
-  EXPECT_THAT(ErrorOfVideo("damaged.avi", damaged),
+  testing::DamageFrame(folder_.File("v.avi"), 23);
+  EXPECT_THAT(ErrorOfVideo("damaged.avi", test_support::ReadText(folder_.path() / "v.avi")),
               AllOf(HasSubstr("cam3"), HasSubstr("damaged.avi"), HasSubstr("damaged at about frame 2")));
 }
 
@@ -195,7 +195,7 @@ TEST_F(DamagedPicture, ADecoderThatCrashesIsOneLineAndTheOthersGoOn) {
   testing::WriteVideo(folder_.File("v.avi"), 20);
   const auto source = OpenImageSource(folder_.File("v.avi"), PlainCamera("cam3"));
   const auto other = OpenImageSource(folder_.File("v.avi"), PlainCamera("cam4"));
-  EXPECT_EQ(NumberIn(source->Read(3).image_bgr), 3);
+  EXPECT_EQ(NumberIn(source->Read(3).value().image_bgr), 3);
   const std::vector<int> decoders = ChildrenOf(::getpid());
   ASSERT_EQ(decoders.size(), 1U);
   std::vector<int> workers = ChildrenOf(decoders[0]);
@@ -204,20 +204,20 @@ TEST_F(DamagedPicture, ADecoderThatCrashesIsOneLineAndTheOthersGoOn) {
   EXPECT_THAT(ErrorOf(ErrorKind::kFile, [&] { (void)source->Read(4); }),
               AllOf(HasSubstr("cam3"), HasSubstr("v.avi"), HasSubstr("frame 4"),
                     HasSubstr("its decoder crashed (ABRT)")));
-  EXPECT_EQ(NumberIn(other->Read(7).image_bgr), 7);
-  EXPECT_EQ(NumberIn(source->Read(5).image_bgr), 5);  // with another worker
+  EXPECT_EQ(NumberIn(other->Read(7).value().image_bgr), 7);
+  EXPECT_EQ(NumberIn(source->Read(5).value().image_bgr), 5);  // with another worker
 
   ::kill(decoders[0], SIGKILL);  // takes its workers with it, a moment later
   std::string message;
   while (message.empty()) {
     try {
-      EXPECT_EQ(NumberIn(source->Read(6).image_bgr), 6);
+      EXPECT_EQ(NumberIn(source->Read(6).value().image_bgr), 6);
     } catch (const core::Error& error) {
       message = error.what();
     }
   }
   EXPECT_THAT(message, AllOf(HasSubstr("cam3"), HasSubstr("its decoder is gone")));
-  EXPECT_EQ(NumberIn(source->Read(6).image_bgr), 6);  // of another decoder
+  EXPECT_EQ(NumberIn(source->Read(6).value().image_bgr), 6);  // of another decoder
 }
 
 }  // namespace
