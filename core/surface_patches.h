@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -28,6 +29,19 @@ class SurfacePatches {
   [[nodiscard]] std::size_t size() const { return first_.back(); }
   [[nodiscard]] std::size_t FirstOf(std::size_t triangle) const { return first_[triangle]; }
   [[nodiscard]] std::size_t EndOf(std::size_t triangle) const { return first_[triangle + 1]; }
+  // A triangle, or one of its halves, or one of theirs, with the patches that it consists of.
+  struct Piece {
+    Corners corners;
+    std::size_t first = 0;
+    std::size_t end = 0;
+    std::size_t halving = 0;  // its place in in_first_half_
+
+    [[nodiscard]] bool is_patch() const { return end - first == 1; }
+  };
+  [[nodiscard]] Piece PieceOf(std::size_t triangle) const;
+  // Of a piece that isn't a patch. The halves' patches follow one another.
+  [[nodiscard]] std::array<Piece, 2> HalvesOf(const Piece& piece) const;
+
   // A triangle's patches, FirstOf() first.
   [[nodiscard]] std::vector<Corners> CornersOf(std::size_t triangle) const;
 
@@ -36,10 +50,7 @@ class SurfacePatches {
   [[nodiscard]] std::size_t PatchAt(std::size_t triangle, const Eigen::Vector3d& x) const;
 
  private:
-  [[nodiscard]] Corners TriangleAt(std::size_t triangle) const;
-
   SharedMesh mesh_;
-  double patch_mm_;
   std::vector<std::size_t> first_;  // first patch of each triangle; at the end, the number of patches
   // For each piece that is halved, the patches of its first half. A triangle with n patches is halved n - 1
   // times: first the triangle, then all of its first half, then all of its second.

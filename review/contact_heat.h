@@ -21,12 +21,14 @@ struct TouchedPatch {
 };
 
 // The patches whose middle is in the hull, and those of the contact's points, each once, in order of number.
-// Thread: any.
+// known_mm: a depth for each patch, or nothing. Where the depth found here can't exceed it, it isn't worked
+// out, and is 0. Thread: any.
 [[nodiscard]] std::vector<TouchedPatch> FindTouchedPatches(const recon::VisualHull& hull,
                                                            const core::TriangleTree& part,
                                                            const core::RigidTransform& world_from_part,
                                                            const core::SurfacePatches& patches,
-                                                           const core::PartContact& contact);
+                                                           const core::PartContact& contact,
+                                                           std::span<const double> known_mm = {});
 
 // Heat maps from all frames, added in order of time, by the rules of docs/contact_tracking.md. A patch that
 // is touched in a frame dwells until the next one; the last frame lasts as long as the mean one. Thread: one.

@@ -1,6 +1,7 @@
 #include "app/control/trial_runner.h"
 
 #include <fmt/format.h>
+#include <tbb/task_group.h>
 
 #include <algorithm>
 #include <chrono>
@@ -105,7 +106,7 @@ class Recording {
       const Clock::time_point begin = Clock::now();
       const SharedFrameResult result = pipeline_->Process(std::move(*frames), spacing_mm_, options_.on_hull);
       outcome_.frame_ms.push_back(std::chrono::duration<double, std::milli>(Clock::now() - begin).count());
-      Record(*result);
+      Record(result);
       const RecordedFrames recorded{outcome_.frames, writer_.frames_committed()};
       if (options_.on_frame) options_.on_frame(result, recorded);
       const core::FrameIndex expected = std::min(end, setup_.source->frame_count().value_or(first));
@@ -120,6 +121,7 @@ class Recording {
     if (!end_note.empty()) notes.push_back(end_note);
     for (const std::string& note : notes)
       writer_.Append(core::SessionEvent{last_frame_, last_time_s_, core::Note{note}});
+    outcome_so_far_.wait();
     core::SessionOutcome outcome = tracker_ ? tracker_->Outcome() : core::SessionOutcome();
     outcome_.episodes = outcome.episodes;
     outcome_.near_misses = outcome.near_misses;
@@ -202,10 +204,16 @@ class Recording {
         core::SessionEvent{frame, time_s, core::SpacingChanged{request.spacing, from_mm, allowed_mm}});
   }
 
-  void Record(const FrameResult& result) {
+  // Touches and heat maps are brought up to date while the next frame is judged.
+  void Record(const SharedFrameResult& shared) {
+    const FrameResult& result = *shared;
     last_frame_ = result.record.frame;
     last_time_s_ = result.record.time_s;
-    tracker_->Add(result, std::vector<std::string>(tools_in_use_.begin(), tools_in_use_.end()));
+    outcome_so_far_.wait();
+    outcome_so_far_.run(
+        [this, shared, tools = std::vector<std::string>(tools_in_use_.begin(), tools_in_use_.end())] {
+          tracker_->Add(*shared, tools);
+        });
     writer_.Append(result.record);
     ++outcome_.frames;
     for (const core::PartContact& contact : result.record.contacts) {
@@ -220,6 +228,7 @@ class Recording {
   sessions::SessionWriter writer_;
   std::optional<FramePipeline> pipeline_;
   std::optional<OutcomeTracker> tracker_;  // refers to the pipeline's part trees
+  tbb::task_group outcome_so_far_;         // adds one frame at a time to the tracker
   std::set<std::string> tools_in_use_;
   Pace pace_;
   std::vector<double> spacing_mm_;

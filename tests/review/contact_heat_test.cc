@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <random>
 
 #include "review/contacts.h"
 #include "tests/core/solids.h"
@@ -104,6 +105,53 @@ TEST(FindTouchedPatches, AreThoseOfThePartHoweverItStands) {
   ASSERT_GT(here.size(), 300U);
   const core::RigidTransform shifted{Eigen::Matrix3d::Identity(), {200.0, 0.0, 0.0}};
   EXPECT_TRUE(FindTouchedPatches(*hull, tree, shifted, patches, {}).empty());
+}
+
+// Every patch's middle, asked alone.
+std::vector<TouchedPatch> AskedOneByOne(const recon::VisualHull& hull, const core::TriangleTree& tree,
+                                        const core::RigidTransform& pose,
+                                        const core::SurfacePatches& patches) {
+  std::vector<TouchedPatch> touched;
+  for (std::size_t t = 0; t < tree.mesh().triangles.size(); ++t) {
+    std::size_t patch = patches.FirstOf(t);
+    for (const core::SurfacePatches::Corners& corners : patches.CornersOf(t)) {
+      const Vector3d middle = pose * corners.Centre();
+      if (hull.Contains(middle)) touched.push_back({patch, hull.Probe(middle).radius_mm});
+      ++patch;
+    }
+  }
+  return touched;
+}
+
+TEST(FindTouchedPatches, AreThoseOfAskingEachPatchAlone) {
+  const core::TriangleTree tree = Plate();
+  const core::SurfacePatches patches(tree.shared_mesh(), core::kHeatPatchMm);
+  const Hull hull = Box();
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> shift_mm(-90.0, 90.0), angle(-M_PI, M_PI);
+  std::vector<double> peak_mm(patches.size(), 0.0);
+  std::size_t all = 0, known = 0;
+  for (int trial = 0; trial < 40; ++trial) {
+    const core::RigidTransform pose =
+        core::FromPositionAndRollPitchYaw({shift_mm(random), shift_mm(random), shift_mm(random)},
+                                          {angle(random), angle(random), angle(random)});
+    const std::vector<TouchedPatch> expected = AskedOneByOne(*hull, tree, pose, patches),
+                                    found = FindTouchedPatches(*hull, tree, pose, patches, {}),
+                                    deeper = FindTouchedPatches(*hull, tree, pose, patches, {}, peak_mm);
+    ASSERT_EQ(found.size(), expected.size());
+    ASSERT_EQ(deeper.size(), expected.size());
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+      EXPECT_EQ(found[i].patch, expected[i].patch);
+      EXPECT_EQ(found[i].depth_mm, expected[i].depth_mm);
+      double& peak = peak_mm[expected[i].patch];
+      EXPECT_EQ(std::max(deeper[i].depth_mm, peak), std::max(expected[i].depth_mm, peak));
+      known += deeper[i].depth_mm == 0.0 ? 1 : 0;
+      peak = std::max(peak, expected[i].depth_mm);
+    }
+    all += expected.size();
+  }
+  EXPECT_GT(all, 5000U);
+  EXPECT_GT(known, all / 2) << "depths that can't be a patch's largest aren't worked out";
 }
 
 TEST(ContactHeat, ANarrowContactShowsByItsPoints) {
