@@ -78,18 +78,18 @@ Disc DiscAround(const TriangleMesh& mesh, std::span<const std::uint32_t> triangl
   }
   const Eigen::Vector3d middle = box.center();
   disc.center = middle + (0.5 * (low + high) - disc.normal.dot(middle)) * disc.normal;
-  double squared_mm2 = 0.0;
+  double radius_mm = 0.0;
   for (const std::uint32_t triangle : triangles) {
     for (const std::int32_t i : mesh.triangles[triangle]) {
       const Eigen::Vector3d from_center = vertex(i) - disc.center;
       const double height = disc.normal.dot(from_center);
       disc.half_height_mm = std::max(disc.half_height_mm, std::abs(height));
-      squared_mm2 = std::max(squared_mm2, from_center.squaredNorm() - height * height);
+      radius_mm = std::max(radius_mm, (from_center - height * disc.normal).norm());
     }
   }
   const double scale_mm = box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).norm();
   disc.half_height_mm += kOutwards * scale_mm;
-  disc.radius_mm = std::sqrt(squared_mm2) * (1.0 + 1e-6) + kOutwards * scale_mm;
+  disc.radius_mm = radius_mm + kOutwards * scale_mm;
   return disc;
 }
 

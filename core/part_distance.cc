@@ -12,8 +12,8 @@ using Eigen::Vector3d;
 constexpr double kNeedle = 1e-6;
 // A node whose radius is no larger than this share of half the box's diagonal isn't opened for a bound.
 constexpr double kSmallNode = 0.5;
-// A stretch may be this much longer than it must be.
-constexpr double kGrowth = 0.05;
+// With an allowance, a stretch may be longer than it must be by this share of the half edge.
+constexpr double kLonger = 0.05;
 
 Vector3d NearestOnSegment(const Vector3d& x, const Vector3d& a, const Vector3d& b) {
   const Vector3d ab = b - a;
@@ -40,42 +40,39 @@ Vector3d NearestOnNeedle(const Vector3d& x, const Vector3d& a, const Vector3d& b
                 NearestOnSegment(x, c, a));
 }
 
-// Goes down the tree, nearer child first, and skips branches whose box is too far.
+// Goes down the tree, nearer child first, and skips branches whose box or disc is too far.
 class Search {
  public:
   Search(const TriangleTree& part, const BoxInPart& box)
-      : part_(part), x_(box.center), edges_(box.half_edges.transpose()), allowance_mm_(box.allowance_mm) {}
+      : part_(part),
+        x_(box.center),
+        edges_(box.half_edges.transpose()),
+        allowance_mm_(box.allowance_mm),
+        longer_(box.allowance_mm > 0.0 ? kLonger : 0.0) {}
 
   void FindNearest(std::uint32_t likely) {
     TryNearest(likely);
-    if (allowance_mm_ > 0.0) {
-      VisitRoughly(0, SquaredFromBox(0));
-    } else {
-      VisitNearest(0, SquaredFromBox(0));
-    }
+    VisitNearest(0, SquaredFromBox(0));
   }
 
-  // After FindNearest: the box's bound by the nearest triangle alone. The bound over all triangles is no
+  // After FindNearest: the box's bound by the triangle found alone. The bound over all triangles is no
   // larger.
   [[nodiscard]] double MostOfBox() const {
-    return nearest_.distance_mm - allowance_mm_ - Reach(x_ - nearest_.position_in_part);
+    return nearest_.distance_mm - Reach(x_ - nearest_.position_in_part);
   }
 
   void BoundBox() {
-    nearest_.box_lower_mm = MostOfBox();
-    least_tight_mm_ = nearest_.box_lower_mm + allowance_mm_;
+    least_mm_ = MostOfBox();
+    nearest_.box_lower_mm = least_mm_;
     VisitBound(0);
   }
 
   [[nodiscard]] const NearestOnPart& nearest() const { return nearest_; }
 
   NearStretch FindNearStretch(Eigen::Index axis, double within_mm, std::uint32_t likely) {
-    NearStretch stretch;
-    if (allowance_mm_ > 0.0) {
-      stretch = NearTo(x_ - NearestOn(likely), axis, within_mm);
-      if (!stretch.is_empty())
-        stretch = {std::max(stretch.from - kGrowth, -1.0), std::min(stretch.to + kGrowth, 1.0)};
-    }
+    NearStretch stretch = NearTo(x_ - NearestOn(likely), axis, within_mm);
+    if (!stretch.is_empty())
+      stretch = {std::max(stretch.from - longer_, -1.0), std::min(stretch.to + longer_, 1.0)};
     VisitNear(0, axis, within_mm, &stretch);
     return stretch;
   }
@@ -108,23 +105,6 @@ class Search {
     nearest_ = {std::sqrt(squared), p, triangle};
   }
 
-  void VisitNearest(std::uint32_t index, double squared_bound) {
-    if (squared_bound >= squared_) return;
-    const TriangleTree::Node& node = part_.nodes()[index];
-    if (node.left == 0) {
-      for (std::uint32_t i = node.begin; i < node.end; ++i) TryNearest(part_.order()[i]);
-      return;
-    }
-    const double left = SquaredFromBox(node.left), right = SquaredFromBox(node.left + 1);
-    if (left <= right) {
-      VisitNearest(node.left, left);
-      VisitNearest(node.left + 1, right);
-    } else {
-      VisitNearest(node.left + 1, right);
-      VisitNearest(node.left, left);
-    }
-  }
-
   // The way from the nearest point of the disc.
   [[nodiscard]] Vector3d FromDisc(const Disc& disc) const {
     const Vector3d from_center = x_ - disc.center;
@@ -136,20 +116,20 @@ class Search {
     return above * disc.normal + (length > 0.0 ? beside / length : 0.0) * aside;
   }
 
-  // As VisitNearest, but leaves out what is nearer by less than the allowance.
-  void VisitRoughly(std::uint32_t index, double squared_bound) {
-    const double worthwhile = nearest_.distance_mm - allowance_mm_;
-    if (worthwhile <= 0.0 || squared_bound >= worthwhile * worthwhile) return;
+  void VisitNearest(std::uint32_t index, double squared_bound) {
+    const double worthwhile_mm = nearest_.distance_mm - allowance_mm_;
+    const double squared_mm2 = worthwhile_mm * worthwhile_mm;
+    if (worthwhile_mm <= 0.0 || squared_bound >= squared_mm2) return;
     const TriangleTree::Node& node = part_.nodes()[index];
-    if (FromDisc(node.disc).squaredNorm() >= worthwhile * worthwhile) return;
+    if (FromDisc(node.disc).squaredNorm() >= squared_mm2) return;
     if (node.left == 0) {
       for (std::uint32_t i = node.begin; i < node.end; ++i) TryNearest(part_.order()[i]);
       return;
     }
     const double left = SquaredFromBox(node.left), right = SquaredFromBox(node.left + 1);
     const std::uint32_t nearer = left <= right ? 0 : 1;
-    VisitRoughly(node.left + nearer, std::min(left, right));
-    VisitRoughly(node.left + 1 - nearer, std::max(left, right));
+    VisitNearest(node.left + nearer, std::min(left, right));
+    VisitNearest(node.left + 1 - nearer, std::max(left, right));
   }
 
   // The node is small compared with the box: then the bound by the node's own box is taken. It holds for all
@@ -163,16 +143,10 @@ class Search {
     const Vector3d away = x_ - node.box.min().cwiseMax(x_.cwiseMin(node.box.max()));
     double lower_mm = away.norm() - Reach(away);
     if (lower_mm >= nearest_.box_lower_mm) return;
-    if (allowance_mm_ > 0.0) {
-      const Vector3d from_disc = FromDisc(node.disc);
-      lower_mm = std::max(lower_mm, from_disc.norm() - Reach(from_disc));
-      if (lower_mm >= least_tight_mm_ - allowance_mm_) {
-        nearest_.box_lower_mm = std::min(nearest_.box_lower_mm, lower_mm);
-        return;
-      }
-    }
-    if (IsSmall(node)) {
-      nearest_.box_lower_mm = lower_mm;
+    const Vector3d from_disc = FromDisc(node.disc);
+    lower_mm = std::max(lower_mm, from_disc.norm() - Reach(from_disc));
+    if (lower_mm >= least_mm_ - allowance_mm_ || IsSmall(node)) {
+      nearest_.box_lower_mm = std::min(nearest_.box_lower_mm, lower_mm);
       return;
     }
     if (node.left != 0) {
@@ -182,8 +156,8 @@ class Search {
     }
     for (std::uint32_t i = node.begin; i < node.end; ++i) {
       const Vector3d from_triangle = x_ - NearestOn(part_.order()[i]);
-      least_tight_mm_ = std::min(least_tight_mm_, from_triangle.norm() - Reach(from_triangle));
-      nearest_.box_lower_mm = std::min(nearest_.box_lower_mm, least_tight_mm_);
+      least_mm_ = std::min(least_mm_, from_triangle.norm() - Reach(from_triangle));
+      nearest_.box_lower_mm = std::min(nearest_.box_lower_mm, least_mm_);
     }
   }
 
@@ -206,15 +180,12 @@ class Search {
     const Vector3d away = x_ - node.box.min().cwiseMax(x_.cwiseMin(node.box.max()));
     const NearStretch most = NearTo(away, axis, within_mm);
     if (most.is_empty() || (most.from >= stretch->from && most.to <= stretch->to)) return;
-    NearStretch within = most;
-    if (allowance_mm_ > 0.0) {
-      const NearStretch by_disc = NearTo(FromDisc(node.disc), axis, within_mm);
-      within = {std::max(most.from, by_disc.from), std::min(most.to, by_disc.to)};
-      if (within.is_empty()) return;
-    }
-    const double growth = std::max(stretch->from - within.from, 0.0) + std::max(within.to - stretch->to, 0.0);
-    if (growth <= 0.0) return;
-    if (IsSmall(node) || (allowance_mm_ > 0.0 && !stretch->is_empty() && growth < kGrowth)) {
+    const NearStretch by_disc = NearTo(FromDisc(node.disc), axis, within_mm);
+    const NearStretch within{std::max(most.from, by_disc.from), std::min(most.to, by_disc.to)};
+    if (within.is_empty()) return;
+    const double longer = std::max(stretch->from - within.from, 0.0) + std::max(within.to - stretch->to, 0.0);
+    if (longer <= 0.0) return;
+    if (longer < longer_ || IsSmall(node)) {
       stretch->from = std::min(stretch->from, within.from);
       stretch->to = std::max(stretch->to, within.to);
       return;
@@ -236,9 +207,10 @@ class Search {
   const Vector3d x_;
   const Eigen::Matrix3d edges_;  // rows: the box's half edges
   NearestOnPart nearest_;
-  double squared_ = std::numeric_limits<double>::infinity();
+  double squared_ = std::numeric_limits<double>::infinity();  // of the distance found
   const double allowance_mm_;
-  double least_tight_mm_ = std::numeric_limits<double>::infinity();
+  const double longer_;
+  double least_mm_ = std::numeric_limits<double>::infinity();  // of the triangles asked: the box's bound
 };
 
 }  // namespace

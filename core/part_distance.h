@@ -25,7 +25,9 @@ struct BoxInPart {
   // The tight bound is worked out only if it can reach this. Otherwise, and always if this is infinite, the
   // bound is that of the ball around the box.
   double enough_mm = std::numeric_limits<double>::infinity();
-  // The point found may be this much farther away than the nearest, and the bound this much too small.
+  // The point found may be this much farther away than the nearest one, and the bound this much smaller than
+  // that of the planes of all triangles. It saves most of the work where much of the part is about equally
+  // near: the centre of a sphere is as far from each of its triangles.
   double allowance_mm = 0.0;
 };
 
@@ -33,12 +35,12 @@ struct BoxInPart {
 [[nodiscard]] Eigen::Vector3d NearestOnTriangle(const Eigen::Vector3d& x, const Eigen::Vector3d& a,
                                                 const Eigen::Vector3d& b, const Eigen::Vector3d& c);
 
-// The distance of the box's centre is exact but for double's rounding (part_distance_test). The distance of
-// the box is a lower bound: a triangle is convex, so all of it lies beyond the plane through its nearest
-// point across the way to the centre, and the box's distance to that plane is no larger than to the triangle.
-// A tree node that is small compared with the box is bounded by one plane for its box. `likely`: a triangle
-// that is probably near, which saves work and doesn't change the result. The part must have triangles.
-// Thread: any.
+// Without an allowance, the distance of the box's centre is exact but for double's rounding
+// (part_distance_test). The distance of the box is a lower bound: a triangle is convex, so all of it lies
+// beyond the plane through its nearest point across the way to the centre, and the box's distance to that
+// plane is no larger than to the triangle. The boxes and discs of the tree's nodes are convex, too. A node
+// that is small compared with the box is bounded by one plane. `likely`: a triangle that is probably near,
+// which saves work. The part must have triangles. Thread: any.
 [[nodiscard]] NearestOnPart FindNearest(const TriangleTree& part, const BoxInPart& box,
                                         std::uint32_t likely = 0);
 
@@ -50,8 +52,9 @@ struct NearStretch {
 };
 
 // A stretch along half edge `axis` that holds all points of the box that are nearer to the part than
-// `within_mm`, by the planes of FindNearest. The caller allows for rounding. Thread: any.
+// `within_mm`, by the planes of FindNearest. With an allowance (of any size) it may be longer than it must be
+// by a twentieth of the half edge. The caller allows for rounding. Thread: any.
 [[nodiscard]] NearStretch FindNearStretch(const TriangleTree& part, const BoxInPart& box, Eigen::Index axis,
-                                          double within_mm, std::uint32_t likely = 0);
+                                          double within_mm, std::uint32_t likely);
 
 }  // namespace elbowroom::core

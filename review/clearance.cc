@@ -38,9 +38,10 @@ constexpr double kWorthwhile = 0.05;
 constexpr double kMostLeft = 0.8;
 // Edges shorter than this share of the longest aren't divided.
 constexpr double kFlat = 0.7;
-// A distance to the part may be wrong by this share of the tolerance, or of the half diagonal of a cell.
-constexpr double kAllowance = 0.0625;
-constexpr double kOfCell = 0.05;
+// What distances to the part may be wrong by: this share of the tolerance, or of a large cell's half
+// diagonal.
+constexpr double kAllowedOfTolerance = 1.0 / 16.0;
+constexpr double kAllowedOfCell = 1.0 / 20.0;
 
 // A box of space around `center`.
 struct Cell {
@@ -106,7 +107,8 @@ class Search {
   }
   [[nodiscard]] BoxInPart BoxOf(const Vector3d& center, const Vector3d& half) const {
     return {part_from_world_ * center, part_from_world_.rotation * half.asDiagonal(),
-            FarEnoughMm() + slack_mm_, std::max(kAllowance * options_.tolerance_mm, kOfCell * half.norm())};
+            FarEnoughMm() + slack_mm_,
+            std::max(kAllowedOfTolerance * options_.tolerance_mm, kAllowedOfCell * half.norm())};
   }
   [[nodiscard]] bool Contains(const Vector3d& x_in_world, const recon::UndecidedCameras& open = {}) {
     ++queries_;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <numeric>
 #include <random>
@@ -44,6 +45,16 @@ bool Encloses(const Ball& ball, const Vector3d& x) {
   return (x - ball.center).norm() <= ball.radius_mm * (1.0 + kBallRounding);
 }
 
+// Discs allow for the rounding of the coordinates, in which this test's own distances round, too.
+bool Encloses(const Disc& disc, const Vector3d& x) {
+  const double rounding_mm = 1e-15 * x.norm();
+  const Vector3d from_center = x - disc.center;
+  const double height = disc.normal.dot(from_center);
+  return std::abs(disc.normal.norm() - 1.0) < kBallRounding &&
+         std::abs(height) <= disc.half_height_mm + rounding_mm &&
+         (from_center - height * disc.normal).norm() <= disc.radius_mm + rounding_mm;
+}
+
 void ExpectEachTriangleOnce(const TriangleTree& tree) {
   std::vector<std::uint32_t> order(tree.order().begin(), tree.order().end()), once(order.size());
   std::ranges::sort(order);
@@ -68,8 +79,11 @@ void ExpectTreeHolds(const TriangleTree& tree) {
       EXPECT_EQ(nodes[node.left + 1].end, node.end);
     }
     for (std::uint32_t i = node.begin; i < node.end; ++i) {
-      for (const std::int32_t vertex : tree.mesh().triangles[tree.order()[i]])
-        ASSERT_TRUE(Encloses(node.ball, tree.mesh().vertices_mm[static_cast<std::size_t>(vertex)]));
+      for (const std::int32_t vertex : tree.mesh().triangles[tree.order()[i]]) {
+        const Vector3d& x = tree.mesh().vertices_mm[static_cast<std::size_t>(vertex)];
+        ASSERT_TRUE(Encloses(node.ball, x));
+        ASSERT_TRUE(Encloses(node.disc, x));
+      }
     }
   }
 }
@@ -79,6 +93,34 @@ TEST(TriangleTree, NodesEncloseTheirTriangles) {
   for (const int triangles : {1, 2, 4, 5, 8, 9, 100, 1000})
     ExpectTreeHolds(TriangleTree(Soup(&random, triangles, Vector3d::Zero())));
   ExpectTreeHolds(TriangleTree(Soup(&random, 200, Vector3d(1e7, -1e7, 3e6))));  // far from the origin
+}
+
+// Where a surface is smooth, discs are flat: a sphere's is as thick as the cap that it covers.
+TEST(TriangleTree, DiscsLieAlongSmoothSurfaces) {
+  constexpr int kRows = 40;
+  constexpr double kRadiusMm = 60.0;
+  auto mesh = std::make_shared<TriangleMesh>();
+  for (int i = 0; i <= kRows; ++i) {
+    for (int j = 0; j < 2 * kRows; ++j) {
+      const double tilt = M_PI * i / kRows, turn = M_PI * j / kRows;
+      mesh->vertices_mm.push_back(kRadiusMm * Vector3d(std::sin(tilt) * std::cos(turn),
+                                                       std::sin(tilt) * std::sin(turn), std::cos(tilt)));
+    }
+  }
+  const auto id = [](int i, int j) { return static_cast<std::int32_t>(2 * kRows * i + j % (2 * kRows)); };
+  for (int i = 0; i < kRows; ++i) {
+    for (int j = 0; j < 2 * kRows; ++j) {
+      mesh->triangles.push_back({id(i, j), id(i + 1, j), id(i, j + 1)});
+      mesh->triangles.push_back({id(i, j + 1), id(i + 1, j), id(i + 1, j + 1)});
+    }
+  }
+  const TriangleTree tree(mesh);
+  for (const TriangleTree::Node& node : tree.nodes()) {
+    const double reach_mm = 2.0 * node.ball.radius_mm;
+    if (reach_mm > 0.5 * kRadiusMm) continue;
+    EXPECT_LE(node.disc.half_height_mm, reach_mm * reach_mm / kRadiusMm);
+    EXPECT_LE(node.disc.radius_mm, reach_mm);
+  }
 }
 
 TEST(TriangleTree, DuplicateAndPointTrianglesStillSplit) {
