@@ -1,8 +1,9 @@
-// docs/performance.md, "judging" and "judging_cost", and the pictures of the former.
+// docs/performance.md, "judging", "judging_cost" and "judging_shapes", and the pictures of the first.
 #include <fmt/format.h>
 
 #include "tests/accuracy/judging_comparison.h"
 #include "tests/accuracy/measurements.h"
+#include "tests/accuracy/shape_costs.h"
 #include "tests/reporting/machine_line.h"
 #include "tests/reporting/markdown_table.h"
 #include "tests/reporting/marked_section.h"
@@ -18,6 +19,7 @@ constexpr double kMeshEdgesMm[] = {8.0, 4.0, 2.0};
 constexpr std::uint64_t kJudgingSeed = 7801;
 constexpr TimingEffort kJudgingEffort{.repetitions = 11, .slow_repetitions = 3, .slow_ms = 20.0};
 constexpr TimingEffort kCostEffort{.repetitions = 201};
+constexpr int kShapeTriangles[] = {720, 28'320, 1'000'000};
 
 reporting::Table MethodTable(const std::vector<JudgingMethod>& contacts,
                              const std::vector<JudgingMethod>& clearances) {
@@ -51,6 +53,18 @@ reporting::Table CostTable(const std::vector<JudgingCost>& costs) {
   return table;
 }
 
+reporting::Table ShapeTable(const std::vector<ShapeCost>& costs) {
+  reporting::Table table{{"part", "triangles", "clearance, ms", "error, mm", "promised, mm",
+                          "queries of the hull", "distances to the part"},
+                         {}};
+  for (const ShapeCost& cost : costs) {
+    table.rows.push_back({cost.shape, std::to_string(cost.triangles), ThreeDigits(cost.clearance.median_ms),
+                          ThreeDigits(cost.error_mm), ThreeDigits(cost.promised_mm),
+                          std::to_string(cost.queries), std::to_string(cost.distances)});
+  }
+  return table;
+}
+
 void Draw(const std::string& title, const std::string& error_label, const std::vector<JudgingMethod>& methods,
           const std::filesystem::path& stem) {
   reporting::ParetoPanel panel{title, {}};
@@ -73,11 +87,14 @@ void MeasureJudging(const std::filesystem::path& docs) {
       CompareClearances(kPoses, kJudgingSeed, kMeshEdgesMm, kJudgingEffort);
   fmt::print(stderr, "judging: costs\n");
   const std::vector<JudgingCost> costs = MeasureJudgingCosts(kCostEffort);
+  fmt::print(stderr, "judging: shapes\n");
+  const std::vector<ShapeCost> shapes = MeasureShapeCosts(kShapeTriangles, kCostEffort);
   const std::filesystem::path file = docs / "performance.md";
   const std::string machine = "\n" + reporting::ToLine(reporting::ThisMachine(docs / ".."));
   reporting::WriteSection(file, "judging",
                           reporting::ToMarkdown(MethodTable(contacts, clearances)) + machine);
   reporting::WriteSection(file, "judging_cost", reporting::ToMarkdown(CostTable(costs)) + machine);
+  reporting::WriteSection(file, "judging_shapes", reporting::ToMarkdown(ShapeTable(shapes)) + machine);
   Draw("Contacts of a panel of 720 triangles: run time against error", "RMS error of the contact area, %",
        contacts, docs / "pictures/contact_methods");
   Draw("Clearance of the panel, 5 to 60 mm: run time against error", "RMS error, mm", clearances,
