@@ -149,9 +149,9 @@ CommandResult Run(const ClashCommandOptions& options, const CommandContext& cont
     review::ClashChecker checker(layout, matrix.pairs, uncertainty_mm);
     report = checker.Check(world_from_parts, context.progress, context.stop);
   };
-  const double time_ms = ComputeAndTimeMs(json, compute);
+  const RunTimes times = ComputeAndTime(json, compute);
   CommandResult result = ResultOf(report, layout, matrix.ignored);
-  result.json["time_ms"] = time_ms;
+  AddTimes(times, &result.json);
   result.json["warnings"] = imported.warnings;
   for (const std::string& warning : imported.warnings) result.text += "\nwarning: " + warning;
   return result;

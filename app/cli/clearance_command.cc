@@ -59,10 +59,10 @@ CommandResult Run(const ClearanceCommandOptions& options, const CommandContext& 
     clearance = review::FindClearance(hull, part, posed.world_from_part, options.clearance);
   };
   CommandResult result;
-  const double time_ms = ComputeAndTimeMs(json, compute);
+  const RunTimes times = ComputeAndTime(json, compute);
   result.json = Json(clearance);
   result.json["deviation_mm"] = posed.mesh->deviation_mm;
-  result.json["time_ms"] = time_ms;
+  AddTimes(times, &result.json);
   result.text = TextOf(clearance);
   if (options.required_mm) {
     const core::Verdict verdict = review::Judge(clearance, *options.required_mm, options.uncertainty_mm);

@@ -76,13 +76,13 @@ CommandResult Run(const ContactsOptions& options, const CommandContext& context,
     contact = review::FindContacts(hull, part, posed.world_from_part, 0, contact_options);
   };
   CommandResult result;
-  const double time_ms = ComputeAndTimeMs(json, compute);
+  const RunTimes times = ComputeAndTime(json, compute);
   const WayOut way_out =
       FindWayOut(hull, part, posed.world_from_part, options.recovery, contact, options.silhouette_px);
   result.json = Json(contact);
   AddWayOut(contact, way_out, &result.json);
   result.json["deviation_mm"] = posed.mesh->deviation_mm;
-  result.json["time_ms"] = time_ms;
+  AddTimes(times, &result.json);
   result.text = contact.verdict == core::Verdict::kContact
                     ? fmt::format("contact: {} points, {:.1f} mm2, at least {:.2f} mm deep",
                                   contact.contact_point_count, contact.contact_area_mm2,

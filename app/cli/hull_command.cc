@@ -29,13 +29,8 @@ CommandResult Run(const HullOptions& options, const CommandContext& context, boo
     hull = recon::MeshHull(recon::MakeVisualHull(frame.rig, frame.planes, frame.masks), options.edge_mm,
                            context.progress, context.stop);
   };
-  // Only --json prints the time, so only then the five timed runs are made.
   CommandResult result;
-  if (json) {
-    result.json["time_ms"] = MedianTimeMs(compute);
-  } else {
-    compute();
-  }
+  AddTimes(ComputeAndTime(json, compute), &result.json);
   if (hull.mesh.triangles.empty()) {
     throw core::Error(
         core::ErrorKind::kGeometry,

@@ -145,13 +145,8 @@ CommandResult Run(const ViewOptions& options, const CommandContext& context, boo
   Viewer viewer(options, frame, view.camera, rays);
   HullSeen seen;
   const auto compute = [&] { seen = viewer.See(); };
-  // Only --json prints the time, so only then the five timed runs are made.
   CommandResult result;
-  if (json) {
-    result.json["time_ms"] = MedianTimeMs(compute);
-  } else {
-    compute();
-  }
+  AddTimes(ComputeAndTime(json, compute), &result.json);
   core::PendingFiles files;
   files.Write(options.depth, recon::EncodeDepthTiff(seen.picture));
   if (!options.image.empty()) {

@@ -118,7 +118,7 @@ TEST_F(CliOnBallRig, HullIsWatertightAndAroundTheBall) {
   const ProgramRun run = Elbowroom({"hull", rig_, "--frame", "0", "--edge", "3", "--out", out, "--json"});
   ASSERT_EQ(run.exit_status, 0) << run.err;
   const auto json = nlohmann::json::parse(run.out);
-  for (const char* key : {"vertices", "triangles", "volume_mm3", "watertight", "time_ms"})
+  for (const char* key : {"vertices", "triangles", "volume_mm3", "watertight", "time_ms", "first_time_ms"})
     EXPECT_TRUE(json.contains(key)) << key;
   EXPECT_TRUE(json["watertight"].get<bool>());
   const double ball_mm3 = 4.0 / 3.0 * M_PI * std::pow(test_support::kBallRadiusMm, 3);
@@ -143,6 +143,7 @@ TEST_F(CliOnBallRig, ViewSeesTheBallByEveryMethod) {
     EXPECT_EQ(json["width"], 200);
     EXPECT_EQ(json["height"], 150);
     EXPECT_GT(json["time_ms"].get<double>(), 0.0);
+    EXPECT_GT(json["first_time_ms"].get<double>(), 0.0);
     depth[method] = cv::imread(tiff, cv::IMREAD_UNCHANGED);
     ASSERT_EQ(depth[method].type(), CV_32FC1);
     EXPECT_EQ(json["hit_pixels"], cv::countNonZero(depth[method]));
@@ -286,7 +287,7 @@ TEST_F(CliOnBallRig, ContactsTouchWhereTheBallIs) {
   EXPECT_GT(json["d_rec_mm"].get<double>(), 0.0);
   EXPECT_EQ(json["n_hull"].size(), 3U);
   EXPECT_EQ(json["triangles"], 12);
-  for (const char* key : {"time_ms", "queries", "skipped"}) EXPECT_TRUE(json.contains(key)) << key;
+  for (const char* key : {"time_ms", "first_time_ms", "queries", "skipped"}) EXPECT_TRUE(json.contains(key)) << key;
 }
 
 TEST_F(CliOnBallRig, ContactsSayWhichWayIsOut) {
@@ -374,7 +375,7 @@ TEST_F(CliOnBallRig, ClearanceLiesBetweenItsBounds) {
   EXPECT_EQ(json["witness_part_mm"].size(), 3U);
   EXPECT_EQ(json["witness_hull_mm"].size(), 3U);
   EXPECT_EQ(json["verdict"], lower_mm >= 20.0 ? "clear" : upper_mm < 20.0 ? "near" : "undecided");
-  for (const char* key : {"time_ms", "queries"}) EXPECT_TRUE(json.contains(key)) << key;
+  for (const char* key : {"time_ms", "first_time_ms", "queries"}) EXPECT_TRUE(json.contains(key)) << key;
 
   const ProgramRun touching = Elbowroom({"clearance", rig_, "--frame", "0", "--mesh", box_, "--unit", "mm",
                                          "--world-from-part", PoseAt(80, 0, 200), "--json"});
