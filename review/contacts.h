@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <optional>
 
 #include "core/bvh.h"
@@ -44,6 +45,25 @@ inline constexpr double kContainmentCell = 4.0;
                                              const core::RigidTransform& world_from_part,
                                              core::PartIndex part_index, const ContactOptions& options = {},
                                              InsideCells* inside = nullptr);
+
+// FindContacts' verdict, found with the first contact point.
+struct PartTouch {
+  bool touches = false;
+  // A point of the part's surface in the hull. Nothing if the hull stands inside the part and touches no
+  // face.
+  std::optional<Eigen::Vector3d> surface_in_world_mm;
+  std::int64_t queries = 0;
+};
+[[nodiscard]] PartTouch FindTouch(const recon::VisualHull& hull, const core::TriangleTree& part,
+                                  const core::RigidTransform& world_from_part, const ContactOptions& options,
+                                  InsideCells* inside = nullptr);
+
+// The depth of FindContacts' deepest point, if it is more than `least_mm` (>= 0). Surface that is certainly
+// not so deep isn't searched. Adds its queries of the hull to `*queries`. Thread: any.
+[[nodiscard]] std::optional<double> FindDeeper(const recon::VisualHull& hull, const core::TriangleTree& part,
+                                               const core::RigidTransform& world_from_part,
+                                               const ContactOptions& options, double least_mm,
+                                               std::int64_t* queries);
 
 // Smallest width of a pixel at a point, over the cameras that have the point in front of them. Nothing: none
 // has.

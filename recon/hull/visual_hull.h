@@ -93,6 +93,11 @@ class VisualHull {
   [[nodiscard]] bool MayBeDeeper(const Eigen::Vector3d& x_in_world, double radius_mm,
                                  core::CameraIndex* likely) const;
 
+  // Whether a point of the ball may be deeper in the hull than `depth_mm`: whether a ball of hull with a
+  // larger radius may be around it. A no is certain (docs/algorithms.md). `likely`: as above.
+  [[nodiscard]] bool MayHoldDeeper(const Eigen::Vector3d& center_in_world, double radius_mm, double depth_mm,
+                                   core::CameraIndex* likely) const;
+
   // The volume query of a closed ball. A radius of 0 is the point's own query.
   [[nodiscard]] BallAnswer Classify(const Eigen::Vector3d& center_in_world, double radius_mm) const;
 
