@@ -22,8 +22,12 @@ using recon::BallAnswer;
 constexpr double kSidesWithoutBall = 2.0;
 // The halves of what is larger than this many point spacings are searched in parallel.
 constexpr double kSpacingsAlone = 8.0;
+// A contact point that is deeper than this many point spacings is amid surface that is wholly in the hull, as
+// far as a point spacing goes. Ball queries show that even where certified radii are half of the true ones.
+constexpr double kDeepSpacings = 1.5;
 
 double AreaMm2(const Corners& t) { return 0.5 * (t.b - t.a).cross(t.c - t.a).norm(); }
+core::Ball BallOf(const Corners& t) { return core::BallOf(t.a, t.b, t.c); }
 Vector3d Centroid(const Corners& t) { return (t.a + t.b + t.c) / 3.0; }
 
 // The part of a small stretch of surface that is in the hull. It becomes one contact point.
@@ -45,11 +49,9 @@ class ContactSearch {
  public:
   ContactSearch(const recon::VisualHull& hull, const core::TriangleTree& part,
                 const core::RigidTransform& world_from_part, const ContactSearchRule& rule)
-      : hull_(hull),
-        part_(part),
-        world_from_part_(world_from_part),
-        rule_(rule),
-        found_{.farthest = rule.rp_obj} {}
+      : hull_(hull), part_(part), world_from_part_(world_from_part), rule_(rule) {
+    found_.farthest = rule.rp_obj;
+  }
 
   [[nodiscard]] FoundContacts Run() {
     VisitNode(0, {}, nullptr);
@@ -63,6 +65,11 @@ class ContactSearch {
       return world_from_part_ * part_.mesh().vertices_mm[static_cast<std::size_t>(i)];
     };
     return {vertex(a), vertex(b), vertex(c)};
+  }
+
+  [[nodiscard]] core::Ball BallAt(std::uint32_t node) const {
+    const core::Ball& ball = part_.nodes()[node].ball;
+    return {world_from_part_ * ball.center, ball.radius_mm};
   }
 
   BallAnswer Ask(const core::Ball& ball, recon::UndecidedCameras* open) {
@@ -80,6 +87,13 @@ class ContactSearch {
     AddPoint(own);
   }
 
+  // Whether a stretch of this size holds wanted points only in parts that are wholly inside, down to the size
+  // of a contact point. So it needn't be asked as a whole.
+  [[nodiscard]] bool IsAskedLater(double size_mm) const {
+    return size_mm > rule_.point_spacing_mm &&
+           rule_.deeper_than_mm.value_or(0.0) >= kDeepSpacings * rule_.point_spacing_mm;
+  }
+
   // Whether the rule wants nothing more of a stretch of surface. Only whole patches may hold too little
   // depth, so that a contact point is the same whatever depth is wanted.
   [[nodiscard]] bool IsUnwanted(const core::Ball& ball, const Patch* given) {
@@ -90,11 +104,14 @@ class ContactSearch {
     return !hull_.MayHoldDeeper(ball.center, ball.radius_mm, *rule_.deeper_than_mm, &likely_);
   }
 
+  [[nodiscard]] bool IsForAll() const { return !rule_.ends_with_first && !rule_.deeper_than_mm; }
+
   // Searches both halves of a node or triangle of this size, large ones in parallel. The result is the same
-  // as if one were searched after the other.
+  // as if one were searched after the other. If not all points are wanted, what the first half shows spares
+  // work in the second.
   template <typename First, typename Second>
   void VisitBoth(double size_mm, const First& first, const Second& second) {
-    if (size_mm <= kSpacingsAlone * rule_.point_spacing_mm || rule_.ends_with_first) {
+    if (size_mm <= kSpacingsAlone * rule_.point_spacing_mm || !IsForAll()) {
       first(this);
       return second(this);
     }
@@ -122,13 +139,13 @@ class ContactSearch {
 
   void VisitNode(std::uint32_t index, recon::UndecidedCameras open, Patch* given) {
     const core::TriangleTree::Node& node = part_.nodes()[index];
-    const core::Ball ball{world_from_part_ * node.ball.center, node.ball.radius_mm};
+    const core::Ball ball = BallAt(index);
     if (IsUnwanted(ball, given)) return;
-    const BallAnswer answer = Ask(ball, &open);
+    const double size_mm = 2.0 * node.ball.radius_mm;
+    const BallAnswer answer = IsAskedLater(size_mm) ? BallAnswer::kMixed : Ask(ball, &open);
     if (answer != BallAnswer::kMixed) found_.count.skipped += node.end - node.begin;
     if (answer == BallAnswer::kOutside) return;
     if (answer == BallAnswer::kInside) return AddNodeInside(index, given);
-    const double size_mm = 2.0 * node.ball.radius_mm;
     InPatch(size_mm, given, [&](Patch* patch) {
       if (node.left != 0) {
         return VisitBoth(
@@ -141,12 +158,13 @@ class ContactSearch {
   }
 
   void VisitTriangle(const Corners& triangle, recon::UndecidedCameras open, Patch* given) {
-    const core::Ball ball = core::BallOf(triangle.a, triangle.b, triangle.c);
+    const core::Ball ball = BallOf(triangle);
     if (IsUnwanted(ball, given)) return;
     const double size_mm = 2.0 * ball.radius_mm;
     InPatch(size_mm, given, [&](Patch* patch) {
       const double sides = std::max(std::ceil(size_mm / rule_.resolution_mm), 1.0);
-      if (sides > kSidesWithoutBall && AskTriangle(triangle, ball, &open, patch)) return;
+      if (sides > kSidesWithoutBall && !IsAskedLater(size_mm) && AskTriangle(triangle, ball, &open, patch))
+        return;
       if (sides == 1.0 || (patch != nullptr && sides <= recon::CutTriangle::kMostSides))
         return Cut({triangle.a, triangle.b, triangle.c, static_cast<int>(sides)}, AreaMm2(triangle), open,
                    patch);
@@ -194,14 +212,13 @@ class ContactSearch {
 
   void AddNodeInside(std::uint32_t index, Patch* given) {
     const core::TriangleTree::Node& node = part_.nodes()[index];
-    if (IsUnwanted({world_from_part_ * node.ball.center, node.ball.radius_mm}, given)) return;
     InPatch(2.0 * node.ball.radius_mm, given, [&](Patch* patch) {
       if (patch != nullptr) {
         ReachNode(index);
         patch->Add(node.area_mm2, Centroid(TriangleAt(part_.order()[node.begin])));
       } else if (node.left != 0) {
-        AddNodeInside(node.left, nullptr);
-        AddNodeInside(node.left + 1, nullptr);
+        for (const std::uint32_t child : {node.left, node.left + 1})
+          if (!IsUnwanted(BallAt(child), nullptr)) AddNodeInside(child, nullptr);
       } else {
         for (std::uint32_t i = node.begin; i < node.end; ++i)
           AddTriangleInside(TriangleAt(part_.order()[i]), nullptr);
@@ -215,13 +232,11 @@ class ContactSearch {
   }
 
   void AddInside(const Corners& triangle, Patch* given) {
-    const core::Ball ball = core::BallOf(triangle.a, triangle.b, triangle.c);
-    if (IsUnwanted(ball, given)) return;
-    InPatch(2.0 * ball.radius_mm, given, [&](Patch* patch) {
+    InPatch(2.0 * BallOf(triangle).radius_mm, given, [&](Patch* patch) {
       if (patch != nullptr) return patch->Add(AreaMm2(triangle), Centroid(triangle));
-      const auto [first, second] = Bisect(triangle);
-      AddInside(first, nullptr);
-      AddInside(second, nullptr);
+      const auto halves = Bisect(triangle);
+      for (const Corners& half : {halves.first, halves.second})
+        if (!IsUnwanted(BallOf(half), nullptr)) AddInside(half, nullptr);
     });
   }
 
