@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
+#include <tbb/task_group.h>
 
 #include <algorithm>
 #include <cmath>
@@ -43,8 +44,7 @@ class Study {
     for (const double spacing_mm : steps_mm_)
       result_.steps.push_back({spacing_mm, std::vector<PartAtSpacing>(judge_.part_count())});
     moved_.resize(frames_.count);
-    for (std::size_t begin = 0; begin < frames_.count;)
-      begin = AskBatch(begin, std::clamp(begin, std::size_t{1}, kLargestBatch));
+    AskAllFrames();
     Conclude();
     const auto all = static_cast<std::int64_t>(frames_.count);
     progress_.Report(all, all, "frames");
@@ -52,18 +52,35 @@ class Study {
   }
 
  private:
-  // Judges a batch of frames. Returns the index of the frame after it.
-  std::size_t AskBatch(std::size_t begin, std::size_t most) {
-    core::ThrowIfStopped(stop_, "the spacing study");
-    progress_.Report(static_cast<std::int64_t>(begin), static_cast<std::int64_t>(frames_.count), "frames");
+  // The frames of the next batch are loaded while those of this one are judged.
+  void AskAllFrames() {
+    std::vector<StudyFrame> batch = LoadBatch(0);
+    for (std::size_t begin = 0; begin < frames_.count;) {
+      const std::size_t end = begin + batch.size();
+      std::vector<std::vector<PartOverSpacing>> answers(batch.size());
+      tbb::task_group judging;
+      judging.run([&] {
+        tbb::parallel_for(std::size_t{0}, batch.size(),
+                          [&](std::size_t i) { answers[i] = judge_.AskSteps(batch[i], result_.steps); });
+      });
+      std::vector<StudyFrame> next = LoadBatch(end);
+      judging.wait();
+      for (std::size_t i = 0; i < batch.size(); ++i) Take(begin + i, batch[i].frame, std::move(answers[i]));
+      batch = std::move(next);
+      begin = end;
+    }
+  }
+
+  [[nodiscard]] std::vector<StudyFrame> LoadBatch(std::size_t begin) {
     std::vector<StudyFrame> batch;
-    for (std::size_t i = begin; i < std::min(begin + most, frames_.count); ++i)
+    const std::size_t most = std::clamp(begin, std::size_t{1}, kLargestBatch);
+    for (std::size_t i = begin; i < std::min(begin + most, frames_.count); ++i) {
+      core::ThrowIfStopped(stop_, "the spacing study");
       batch.push_back(frames_.load(i));
-    std::vector<std::vector<PartOverSpacing>> answers(batch.size());
-    tbb::parallel_for(std::size_t{0}, batch.size(),
-                      [&](std::size_t i) { answers[i] = judge_.AskSteps(batch[i], result_.steps); });
-    for (std::size_t i = 0; i < batch.size(); ++i) Take(begin + i, batch[i].frame, std::move(answers[i]));
-    return begin + batch.size();
+    }
+    if (!batch.empty())
+      progress_.Report(static_cast<std::int64_t>(begin), static_cast<std::int64_t>(frames_.count), "frames");
+    return batch;
   }
 
   void Take(std::size_t index, core::FrameIndex frame, std::vector<PartOverSpacing> answers) {
