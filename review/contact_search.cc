@@ -90,7 +90,7 @@ class ContactSearch {
   // Whether a stretch of this size holds wanted points only in parts that are wholly inside, down to the size
   // of a contact point. So it needn't be asked as a whole.
   [[nodiscard]] bool IsAskedLater(double size_mm) const {
-    return size_mm > rule_.point_spacing_mm &&
+    return size_mm > rule_.point_spacing_mm && rule_.resolution_mm <= rule_.point_spacing_mm &&
            rule_.deeper_than_mm.value_or(0.0) >= kDeepSpacings * rule_.point_spacing_mm;
   }
 
@@ -189,7 +189,8 @@ class ContactSearch {
   }
 
   // Cuts a triangle into pieces of the resolution's size, which their centres decide. The middle one of those
-  // in the hull stands for their place.
+  // in the hull stands for their place; a triangle that is wholly inside has the same place here as
+  // elsewhere.
   void Cut(const recon::CutTriangle& triangle, double area_mm2, const recon::UndecidedCameras& open,
            Patch* patch) {
     found_.count.queries += triangle.pieces();
@@ -205,9 +206,9 @@ class ContactSearch {
       if (2 * passed++ <= count) middle = piece;
       if (may_reach) Reach(triangle.CentreOf(piece));
     }
-    InPatch(0.0, patch, [&](Patch* whole) {
-      whole->Add(area_mm2 * count / triangle.pieces(), triangle.CentreOf(middle));
-    });
+    const Vector3d place = count == triangle.pieces() ? Centroid({triangle.a, triangle.b, triangle.c})
+                                                      : triangle.CentreOf(middle);
+    InPatch(0.0, patch, [&](Patch* whole) { whole->Add(area_mm2 * count / triangle.pieces(), place); });
   }
 
   void AddNodeInside(std::uint32_t index, Patch* given) {

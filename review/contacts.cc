@@ -27,7 +27,11 @@ ContactSearchRule SearchRule(const recon::VisualHull& hull, const core::Triangle
       options.resolution_mm > 0.0
           ? options.resolution_mm
           : 0.5 * PixelFootprintMm(hull.rig(), center_in_world).value_or(2.0 * kFallbackResolutionMm);
-  return {.resolution_mm = resolution_mm, .point_spacing_mm = options.point_spacing_mm, .rp_obj = rp_obj};
+  ContactSearchRule rule;
+  rule.resolution_mm = resolution_mm;
+  rule.point_spacing_mm = options.point_spacing_mm;
+  rule.rp_obj = rp_obj;
+  return rule;
 }
 
 // The hull inside a part whose surface it doesn't touch, after a search that took `*queries`.
@@ -133,7 +137,8 @@ PartTouch FindTouch(const recon::VisualHull& hull, const core::TriangleTree& par
   ContactSearchRule rule = SearchRule(hull, part, world_from_part, options, Vector3d::Zero());
   rule.ends_with_first = true;
   const FoundContacts found = SearchContacts(hull, part, world_from_part, rule);
-  PartTouch touch{.queries = found.count.queries};
+  PartTouch touch;
+  touch.queries = found.count.queries;
   if (!found.points.empty()) {
     touch.surface_in_world_mm = found.points.front().position_in_world_mm;
     touch.touches = true;

@@ -85,7 +85,8 @@ class Study {
 
   void Take(std::size_t index, core::FrameIndex frame, std::vector<PartOverSpacing> answers) {
     for (core::PartIndex i = 0; i < judge_.part_count(); ++i) {
-      PartOfFrame kept{.touched = std::move(answers[i].touched)};
+      PartOfFrame kept;
+      kept.touched = std::move(answers[i].touched);
       for (std::size_t step = 0; step < steps_mm_.size(); ++step) {
         const StepAnswer& answer = answers[i].steps[step];
         Add(answer, frame, &result_.steps[step].parts[i]);

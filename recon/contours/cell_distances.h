@@ -12,9 +12,9 @@
 
 namespace elbowroom::recon {
 
-// Lower bounds of the Euclidean distances between cells' centres, in cells. They are exact up to kNearCells;
-// farther away they come from blocks of 4 x 4 cells, and are short by at most 6 along each axis
-// (contour_map_test).
+// Bounds of the Euclidean distances between cells' centres, in cells. They are exact up to kNearCells;
+// farther away they come from blocks of 4 x 4 cells, and lower ones are short by at most 6 along each
+// axis (contour_map_test).
 class CellDistances {
  public:
   static constexpr int kNearCells = 11;
@@ -31,6 +31,11 @@ class CellDistances {
                    static_cast<std::size_t>(x / kBlock)];
   }
 
+  [[nodiscard]] double UpperBound(int x, int y) const {
+    const double lower = LowerBound(x, y);
+    return lower < kNearCells ? lower : lower * kUpwards + kShort;
+  }
+
   // The squared distance of each cell, capped at kNearCells^2; ContourCellsView::kBytesBehind more bytes
   // follow.
   [[nodiscard]] std::span<const std::uint8_t> near_squares() const {
@@ -39,6 +44,8 @@ class CellDistances {
 
  private:
   static constexpr int kBlock = 4;
+  static constexpr double kShort = 2.0 * (kBlock - 1) * 1.4142135623730952;  // two blocks' own sizes
+  static constexpr double kUpwards = 1.0 + 2e-6;                             // for the roots' rounding
   void FillNear(std::span<const std::uint32_t> holders);
   void FillBlocks(std::span<const std::uint32_t> holders);
 

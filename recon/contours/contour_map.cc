@@ -72,15 +72,19 @@ class ContourMap::Grid {
     const double off_centre = place.from_centre.norm();
     const double bound_px = (cells - kHalfDiagonal - off_centre) * cell_px;
     if (bound_px >= enough_px) return bound_px;
-    // Near edges `cells` is exact: the nearest edge touches that cell, or passes within kTouchCells of it, so
-    // it is no farther than the cell's far corner and kShortBy. Then the window isn't searched.
-    constexpr double kShortBy = 0.125;
-    const bool is_sure_to_be_less =
-        !std::isinf(enough_px) && (cells + kShortBy + kHalfDiagonal + off_centre) * cell_px < enough_px;
-    if (is_sure_to_be_less) return bound_px;
-    double within_px = kInfinity;  // no edge is in the window if the nearest mixed cell is farther
+    const bool is_sure_to_be_less = !std::isinf(enough_px) && AtMostPx(place) < enough_px;
+    if (is_sure_to_be_less) return bound_px;  // the window isn't searched
+    double within_px = kInfinity;             // no edge is in the window if the nearest mixed cell is farther
     if (cells < kWindowCells + 1) within_px = NearestInWindow(place, position).second;
     return std::max(bound_px, std::min(within_px, kWindowCells * cell_px));
+  }
+
+  // Upper bound, in px: the nearest edge touches a cell that holds some, or passes within kTouchCells of it,
+  // so it is no farther than that cell's far corner and kShortBy.
+  [[nodiscard]] double AtMostPx(const Place& place) const {
+    constexpr double kShortBy = 0.125;
+    const double cells = cells_.distances().UpperBound(place.cell.x(), place.cell.y());
+    return (cells + kShortBy + kHalfDiagonal + place.from_centre.norm()) * cells_.cell_px();
   }
 
   [[nodiscard]] std::optional<std::uint32_t> NearestEdge(const Place& place, const Vector2d& position) const {
@@ -147,6 +151,12 @@ PlaneLabel ContourMap::LabelAt(const Vector2d& position, double enough_px) const
   }
   label.distance_px = std::max(label.distance_px - kRoundingPx, 0.0);
   return label;
+}
+
+double ContourMap::EdgeWithinPx(const Vector2d& position) const {
+  if (bounds_px_.isEmpty()) return kInfinity;
+  const std::optional<Grid::Place> place = grid().Find(position);
+  return place ? grid().AtMostPx(*place) + kRoundingPx : kInfinity;
 }
 
 ContourCellsView ContourMap::CellsView() const {

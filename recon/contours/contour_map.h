@@ -48,6 +48,10 @@ class ContourMap {
   [[nodiscard]] PlaneLabel LabelAt(const Eigen::Vector2d& position,
                                    double enough_px = std::numeric_limits<double>::infinity()) const;
 
+  // An upper bound of the distance to the nearest edge, at most 3 cells above it up to 8, farther away
+  // at most 20; infinite outside of the bounds.
+  [[nodiscard]] double EdgeWithinPx(const Eigen::Vector2d& position) const;
+
   // The grid's cells, for queries of many positions. There are no cells if there are no edges. Valid as long
   // as the map lives.
   [[nodiscard]] ContourCellsView CellsView() const;

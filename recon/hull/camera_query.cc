@@ -77,6 +77,14 @@ BallLabel AskPlane(const core::CameraModel& camera, double focal_px, const Conto
   return answer;
 }
 
+double ChangesWithinMm(const core::CameraModel& camera, double focal_px, const ContourMap& labels,
+                       const Eigen::Vector3d& x_in_world) {
+  const Eigen::Vector3d x_in_cam = camera.cam_from_world() * x_in_world;
+  const std::optional<Eigen::Vector2d> position = PositionOf(x_in_cam, focal_px);
+  if (!position) return std::numeric_limits<double>::infinity();
+  return x_in_cam.z() * labels.EdgeWithinPx(*position) / focal_px;
+}
+
 std::optional<bool> LabelOfShape(const core::CameraModel& camera, double focal_px, const ContourMap& labels,
                                  const WorldShape& shape) {
   const core::RigidTransform& cam_from_world = camera.cam_from_world();

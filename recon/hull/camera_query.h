@@ -24,6 +24,11 @@ struct BallLabel {
                                  const Eigen::Vector3d& x_in_world,
                                  double enough_mm = std::numeric_limits<double>::infinity());
 
+// How near to a point a plane's label surely changes; infinite if that isn't known. The nearest edge, at
+// distance d in the picture, is the picture of a point at the same z that is z d / f away.
+[[nodiscard]] double ChangesWithinMm(const core::CameraModel& camera, double focal_px,
+                                     const ContourMap& labels, const Eigen::Vector3d& x_in_world);
+
 // The label that a plane gives to all points of a shape. Nothing if it gives both labels, or if that isn't
 // certain: for a shape that reaches behind the camera, covers too many rows of cells, or isn't separated from
 // an edge by the lines that are tried (IsClearOfEdges).

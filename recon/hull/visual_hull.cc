@@ -33,26 +33,8 @@ BallLabel AskSilhouette(const VisualHull& hull, std::size_t camera, const Eigen:
                   enough_mm);
 }
 
-// The distance of AskPlane is taken along the picture, and loses less than this share of a pixel to rounding.
-constexpr double kPlaneSlackPx = 4e-6;
+// Slack for rounding where depths are compared, as a share of them.
 constexpr double kDeeperSlack = 1e-8;
-
-// Whether a ball may be object to a camera as a whole. The edge that is nearest in the picture, at distance d
-// in pixels, has a point at the centre's own z, at the distance z d / f: no larger ball is all object.
-bool MayAllBeObject(const VisualHull& hull, std::size_t camera, const Eigen::Vector3d& center_in_world,
-                    double radius_mm) {
-  const core::CameraModel& model = hull.rig().cameras[camera];
-  const Eigen::Vector3d in_cam = model.cam_from_world() * center_in_world;
-  if (!(in_cam.z() > 0.0)) return true;
-  const double distance_mm = in_cam.norm();
-  const double px_mm = distance_mm / hull.silhouettes()[camera]->plane().focal_px();
-  // The radius that AskPlane certifies for an edge at the distance `radius_mm`.
-  const double enough_mm =
-      radius_mm * in_cam.z() / (distance_mm + radius_mm) * (1.0 - kDeeperSlack) - kPlaneSlackPx * px_mm;
-  if (!(enough_mm > 0.0)) return true;
-  const BallLabel label = AskSilhouette(hull, camera, center_in_world, enough_mm);
-  return label.is_object && label.radius_mm >= enough_mm;
-}
 
 // The camera that is asked as the k-th: `first`, then the others as they come.
 std::size_t CameraAskedAs(std::size_t k, std::size_t first) {
@@ -174,7 +156,7 @@ bool VisualHull::MayBeDeeper(const Eigen::Vector3d& x_in_world, double radius_mm
     // never leads to a no.
     const double px_mm =
         (x_in_world - rig_->cameras[i].center_in_world()).norm() / silhouettes_[i]->plane().focal_px();
-    const double enough_mm = radius_mm * (1.0 - kDeeperSlack) - kPlaneSlackPx * px_mm;
+    const double enough_mm = radius_mm * (1.0 - kDeeperSlack) - 4e-6 * px_mm;
     if (!(enough_mm > 0.0)) return true;
     const BallLabel label = AskSilhouette(*this, i, x_in_world, enough_mm);
     if (!label.is_object) return true;
@@ -198,13 +180,17 @@ bool VisualHull::MayHoldDeeper(const Eigen::Vector3d& center_in_world, double ra
     if (answer == BallAnswer::kOutside) *likely = open.likely;
     return answer != BallAnswer::kOutside;
   }
+  const double covered_mm = -near_mm;
   const Eigen::AlignedBox3d& workspace_mm = rig_->workspace_mm;
-  if (!workspace_mm.contains(center_in_world) || DistanceToFace(workspace_mm, center_in_world) < -near_mm)
+  if (!workspace_mm.contains(center_in_world) || DistanceToFace(workspace_mm, center_in_world) < covered_mm)
     return false;
   const std::size_t first = std::min(*likely, silhouettes_.size() - 1);
   for (std::size_t k = 0; k < silhouettes_.size(); ++k) {
     const std::size_t i = CameraAskedAs(k, first);
-    if (MayAllBeObject(*this, i, center_in_world, -near_mm)) continue;
+    const Silhouette& silhouette = *silhouettes_[i];
+    if (ChangesWithinMm(rig_->cameras[i], silhouette.plane().focal_px(), silhouette.labels(),
+                        center_in_world) >= covered_mm)
+      continue;
     *likely = i;
     return false;
   }

@@ -55,6 +55,11 @@ void ExpectPromiseHolds(const ContourMap& map, const Vector2d& at) {
   ASSERT_GE(label.distance_px, std::max(PromisedPx(map, at, truth_px), 0.0))
       << at.transpose() << " true distance " << truth_px;
   ASSERT_LE(label.distance_px, truth_px) << at.transpose();
+  const double within_px = map.EdgeWithinPx(at);
+  ASSERT_GE(within_px, truth_px) << at.transpose();
+  if (!std::isinf(within_px)) {
+    ASSERT_LE(within_px, truth_px + (truth_px < kNearCells - 3.0 ? 3.0 : 20.0)) << at.transpose();
+  }
   const std::optional<std::uint32_t> edge = map.NearestEdge(at);
   if (truth_px < kExactCells - kExactTolerancePx) {
     ASSERT_TRUE(edge.has_value());
@@ -161,6 +166,7 @@ TEST(ContourMap, LargeBoundsTakeLargerCells) {
     const double truth_px = DistanceByHand(contour, at);
     ASSERT_EQ(label.is_object, IsObjectByParity(contour, false, at));
     ASSERT_LE(label.distance_px, truth_px);
+    ASSERT_GE(map.EdgeWithinPx(at), truth_px);
     if (map.bounds_px().contains(at)) {
       ASSERT_GE(label.distance_px, std::min(truth_px, kNearCells * cell_px) - kShortCells * cell_px);
     }
@@ -218,6 +224,9 @@ TEST(CellDistances, AreLowerBoundsAsShortAsPromised) {
         ASSERT_LE(bound, truth * (1.0 + 1e-15));
         ASSERT_GE(bound, truth - (truth < CellDistances::kNearCells ? 1e-12 : 14.0 * std::sqrt(2.0)))
             << truth;
+        ASSERT_GE(distances.UpperBound(x, y), truth * (1.0 - 1e-15));
+        ASSERT_LE(distances.UpperBound(x, y),
+                  bound * (1.0 + 1e-5) + (truth < CellDistances::kNearCells ? 0.0 : 8.5));
       }
     }
   }

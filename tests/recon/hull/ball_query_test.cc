@@ -322,6 +322,34 @@ TEST(BallQuery, WhatMayNotBeDeeperIsNot) {
   EXPECT_GT(said_so, shallower / 2);  // else it saves nothing
 }
 
+// Balls that hold a point of known depth, many of them at their rims.
+TEST(BallQuery, ABallThatMayHoldNothingDeeperHoldsNothingDeeper) {
+  Random random(2009);
+  int deeper = 0, shallower = 0, said_so = 0;
+  for (int trial = 0; trial < 40 * test_support::SoakScale(); ++trial) {
+    const auto unseen = trial % 2 == 0 ? core::UnseenPolicy::kOutside : core::UnseenPolicy::kAbstain;
+    const RandomScene scene = MakeRingScene(&random, random.Whole(2, 6), unseen);
+    const VisualHull hull = MakeVisualHull(scene.rig, scene.masks);
+    core::CameraIndex likely = 0;
+    for (int i = 0; i < 4000; ++i) {
+      const Vector3d x = random.PointIn(scene.rig->workspace_mm);
+      const PointAnswer answer = hull.Probe(x);
+      const double radius_mm = random.LogUniform(0.01, 60.0);
+      if (!answer.is_inside) continue;
+      const double share = random.Chance(0.5) ? 1.0 - 1e-12 : random.Uniform(0.0, 1.0);
+      const Vector3d center = x + share * radius_mm * random.Direction();
+      const double asked_mm = answer.radius_mm * (1.0 - random.LogUniform(1e-12, 0.9));
+      ++deeper;
+      ASSERT_TRUE(hull.MayHoldDeeper(center, radius_mm, asked_mm, &likely))
+          << "a point " << answer.radius_mm << " mm deep, asked " << asked_mm << ", ball of " << radius_mm;
+      ++shallower;
+      said_so += hull.MayHoldDeeper(x, radius_mm, 2.0 * answer.radius_mm + radius_mm, &likely) ? 0 : 1;
+    }
+  }
+  EXPECT_GT(deeper, 1000);
+  EXPECT_GT(said_so, shallower / 2);  // else it saves nothing
+}
+
 TEST(BallQuery, HullShrinksWhenACameraIsAdded) {
   Random random(2003);
   for (int trial = 0; trial < 60; ++trial) {
