@@ -24,6 +24,9 @@ int main(int argc, char** argv) {
     MeasureSweepWork(docs);
   });
   app.add_subcommand("methods", "run time against error")->callback([&] { MeasureMethods(docs); });
+  app.add_subcommand("paper", "the paper's own set-up: views a second")->callback([&] {
+    MeasurePaperSetup(docs);
+  });
   app.add_subcommand("collision", "the paper's collision method beside the exact one")->callback([&] {
     MeasureCollisions(docs);
   });

@@ -20,6 +20,10 @@ void MeasureFinger(const std::filesystem::path& docs);
 // performance.md, "methods"; docs/pictures/view_methods.{svg,png}.
 void MeasureMethods(const std::filesystem::path& docs);
 
+// performance.md, "paper_setup": views a second of 320 x 240 from the paper's three cameras, 50 planes,
+// beside its own.
+void MeasurePaperSetup(const std::filesystem::path& docs);
+
 // performance.md, "cost": instructions by callgrind, of `view_cost` (the program).
 void MeasureCost(const std::filesystem::path& docs, const std::filesystem::path& view_cost);
 
