@@ -12,6 +12,7 @@
 #include "recon/exact_view/hull_normals.h"
 #include "recon/exact_view/tile_cast.h"
 #include "recon/exact_view/view_pencils.h"
+#include "recon/hull/visual_hull.h"
 
 namespace elbowroom::recon {
 namespace {
