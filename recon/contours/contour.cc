@@ -42,6 +42,10 @@ class Tracer {
     LatticeRow above, below;
     const auto [first, end] = Rows();
     FindWords(first, end);
+    for (LatticeRow* row : {&above, &below}) {
+      row->bits.assign(LatticeWords(), exterior_);
+      row->changes.assign(LatticeWords(), 0);
+    }
     ReadRow(first - 1, &above);
     for (int y = first - 1; y < end; ++y) {
       ReadRow(y + 1, &below);
@@ -104,13 +108,15 @@ class Tracer {
 
   static bool Bit(const Words& words, std::size_t i) { return ((words[i >> 6U] >> (i & 63U)) & 1U) != 0; }
 
+  // Fills the words from first_word_ to end_word_. All others carry the exterior, in every row.
   void ReadRow(int y, LatticeRow* row) {
-    row->bits.assign(LatticeWords(), exterior_);
-    row->changes.assign(LatticeWords(), 0);
     row->across.clear();
     if (y >= 0 && y < soft_.mask.height_px()) {
       FillBits(y, &row->bits);
       if (!soft_.levels.empty()) FillLevels(y, &row->levels);
+    } else {
+      std::fill(row->bits.begin() + static_cast<std::ptrdiff_t>(first_word_),
+                row->bits.begin() + static_cast<std::ptrdiff_t>(end_word_), exterior_);
     }
     AddVerticesAcross(y, row);
   }

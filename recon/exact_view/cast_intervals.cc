@@ -84,7 +84,7 @@ class AngleSweep {
   struct Met {
     EdgeOrder order;
     float to = 0.0F;
-    std::int32_t number = 0;
+    CastCrossing crossing;
     [[nodiscard]] double OrderAt(const Direction& direction) const {
       return direction.x * order.dx + direction.y * order.dy;
     }
@@ -103,7 +103,8 @@ class AngleSweep {
 
   [[nodiscard]] Met MetAt(std::size_t place) const {
     const std::uint32_t number = by_from_[place];
-    return {orders_[number], edges_[number].to, static_cast<std::int32_t>(number)};
+    const CastEdge& edge = edges_[number];
+    return {orders_[number], edge.to, CastCrossing(edge.key, static_cast<std::int32_t>(number))};
   }
 
   // Removes the edges that end at `at` and adds those that begin there. Where only one ends and one begins,
@@ -141,21 +142,21 @@ class AngleSweep {
 
   // The orders between which rays of the interval can be in the object. An order is linear in the angle
   // between whole numbers, so its extremes are at the ends of the interval and at the whole numbers in it.
-  [[nodiscard]] OrderRange RangeOf(double begin, double end) const {
+  [[nodiscard]] OrderRange RangeOf(double begin, double end) {
+    const Direction begins_along = std::exchange(next_begins_along_, DirectionAt(end));
     if (met_.empty() && !starts_inside_) return {kFloatInfinity, -kFloatInfinity};
     const bool has_first = !starts_inside_;
     const bool has_last = starts_inside_ == (met_.size() % 2 != 0);
     OrderRange range{has_first ? kFloatInfinity : -kFloatInfinity,
                      has_last ? -kFloatInfinity : kFloatInfinity};
-    const auto add = [&](double angle) {
-      const Direction direction = DirectionAt(angle);
+    const auto add = [&](const Direction& direction) {
       if (has_first) range.first = std::min(range.first, met_.front().OrderAt(direction));
       if (has_last) range.last = std::max(range.last, met_.back().OrderAt(direction));
     };
-    add(begin);
+    add(begins_along);
     for (const double whole : {-1.0, 0.0, 1.0})
-      if (begin < whole && whole < end) add(whole);
-    add(end);
+      if (begin < whole && whole < end) add(DirectionAt(whole));
+    add(next_begins_along_);
     return range;
   }
 
@@ -163,7 +164,7 @@ class AngleSweep {
   void Emit(float at) {
     out_.begins.push_back(at);
     out_.firsts.push_back(NextPlace());
-    for (const Met& edge : met_) out_.Add(edges_[static_cast<std::size_t>(edge.number)].key, edge.number);
+    for (const Met& edge : met_) out_.crossings.push_back(edge.crossing);
     AddLast();
     ranges_.push_back(RangeOf(std::max(double{at}, -2.0), std::min(double{end_}, 2.0)));
   }
@@ -179,6 +180,7 @@ class AngleSweep {
   std::size_t next_ = 0;        // in by_from_
   float end_ = kFloatInfinity;  // of the present interval: the next edge begins or one of `met_` ends
   std::vector<Met> met_;
+  Direction next_begins_along_ = DirectionAt(-2.0);  // the next interval begins where the last one ended
 };
 
 double BeginOf(const CastPencil& pencil, std::uint32_t bin) {

@@ -31,7 +31,8 @@ ObjectRangeTable::ObjectRangeTable(std::span<const float> begins, std::span<cons
     if (last_angle > first_angle_) bins_per_angle_ = inner / (last_angle - first_angle_);
   }
   const auto levels = static_cast<std::size_t>(std::bit_width(bins_));
-  items_.resize(levels * bins_, kNowhere);
+  items_.reserve(levels * bins_);
+  items_.resize(bins_, kNowhere);
   for (std::size_t i = 0; i < ranges.size(); ++i) {
     const std::size_t last = BinOf(begins[i + 1]);
     for (std::size_t bin = BinOf(begins[i]); bin <= last; ++bin) items_[bin] = Union(items_[bin], ranges[i]);
@@ -39,8 +40,8 @@ ObjectRangeTable::ObjectRangeTable(std::span<const float> begins, std::span<cons
   for (std::size_t level = 1; level < levels; ++level) {
     const std::size_t span = std::size_t{1} << level;
     const OrderRange* half = &items_[(level - 1) * bins_];
-    OrderRange* whole = &items_[level * bins_];
-    for (std::size_t i = 0; i + span <= bins_; ++i) whole[i] = Union(half[i], half[i + span / 2]);
+    for (std::size_t i = 0; i + span <= bins_; ++i) items_.push_back(Union(half[i], half[i + span / 2]));
+    items_.resize((level + 1) * bins_);  // where a range would reach beyond the last bin: never asked for
   }
 }
 
