@@ -1,5 +1,7 @@
 #include "review/spacing_judge.h"
 
+#include <tbb/enumerable_thread_specific.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -197,17 +199,34 @@ class SpacingJudge::PartInFrame {
   PartOverSpacing known_;
 };
 
+// The insides of all parts, one list a thread. They save work and change no answer.
+class SpacingJudge::InsideOfThreads {
+ public:
+  explicit InsideOfThreads(const std::vector<core::TriangleTree>& parts)
+      : cells_([&parts] {
+          std::vector<InsideCells> cells;
+          for (const core::TriangleTree& part : parts) cells.emplace_back(part);
+          return cells;
+        }) {}
+
+  [[nodiscard]] InsideCells* Of(core::PartIndex part) { return &cells_.local()[part]; }
+
+ private:
+  tbb::enumerable_thread_specific<std::vector<InsideCells>> cells_;
+};
+
 SpacingJudge::SpacingJudge(const core::Layout& layout, const SpacingStudyOptions& options)
-    : layout_(layout), options_(options), steps_mm_(options.Steps()), inside_([this] {
-        std::vector<InsideCells> cells;
-        for (const core::TriangleTree& tree : trees_) cells.emplace_back(tree);
-        return cells;
-      }) {
+    : layout_(layout),
+      options_(options),
+      steps_mm_(options.Steps()),
+      inside_(std::make_unique<InsideOfThreads>(trees_)) {
   for (const core::Part& part : layout.parts) trees_.emplace_back(part.mesh);
   // The parts that the spacing moves are those whose poses differ between any two values.
   const auto here = PosesAt(layout.InitialSpacings(), 0.0), there = PosesAt(layout.InitialSpacings(), 1.0);
   for (core::PartIndex i = 0; i < trees_.size(); ++i) moves_.push_back(!(here[i] == there[i]));
 }
+
+SpacingJudge::~SpacingJudge() = default;
 
 std::vector<core::RigidTransform> SpacingJudge::PosesAt(std::vector<double> spacing_mm,
                                                         double studied_mm) const {
@@ -215,7 +234,7 @@ std::vector<core::RigidTransform> SpacingJudge::PosesAt(std::vector<double> spac
   return core::PosesAt(layout_, spacing_mm);
 }
 
-InsideCells* SpacingJudge::InsideOf(core::PartIndex part) const { return &inside_.local()[part]; }
+InsideCells* SpacingJudge::InsideOf(core::PartIndex part) const { return inside_->Of(part); }
 
 std::vector<PartOverSpacing> SpacingJudge::AskSteps(const StudyFrame& frame,
                                                     std::span<const StudyStep> so_far) const {

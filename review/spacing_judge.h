@@ -2,10 +2,9 @@
 // of.
 #pragma once
 
-#include <tbb/enumerable_thread_specific.h>
-
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -52,6 +51,9 @@ class SpacingJudge {
  public:
   // `layout` and `options` must outlive it.
   SpacingJudge(const core::Layout& layout, const SpacingStudyOptions& options);
+  ~SpacingJudge();
+  SpacingJudge(const SpacingJudge&) = delete;
+  SpacingJudge& operator=(const SpacingJudge&) = delete;
 
   [[nodiscard]] const std::vector<double>& steps_mm() const { return steps_mm_; }
   [[nodiscard]] std::size_t part_count() const { return trees_.size(); }
@@ -67,6 +69,7 @@ class SpacingJudge {
 
  private:
   class PartInFrame;
+  class InsideOfThreads;
 
   [[nodiscard]] std::vector<core::RigidTransform> PosesAt(std::vector<double> spacing_mm,
                                                           double studied_mm) const;
@@ -77,8 +80,7 @@ class SpacingJudge {
   const std::vector<double> steps_mm_;
   std::vector<core::TriangleTree> trees_;
   std::vector<bool> moves_;
-  // One list of parts a thread. They save work and change no answer.
-  mutable tbb::enumerable_thread_specific<std::vector<InsideCells>> inside_;
+  std::unique_ptr<InsideOfThreads> inside_;
 };
 
 }  // namespace elbowroom::review

@@ -29,7 +29,7 @@ struct RotationAndStretch {
 RotationAndStretch PolarDecomposition(const Eigen::Matrix3d& linear) {
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(linear, Eigen::ComputeFullU | Eigen::ComputeFullV);
   Eigen::Matrix3d rotation = svd.matrixU() * svd.matrixV().transpose();
-  Eigen::Matrix3d stretch = svd.matrixV() * svd.singularValues().asDiagonal() * svd.matrixV().transpose();
+  Eigen::Matrix3d stretch = rotation.transpose() * linear;
   if (rotation.determinant() < 0.0) {
     rotation = -rotation;
     stretch = -stretch;
