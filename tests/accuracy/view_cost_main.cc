@@ -3,18 +3,26 @@
 #include <tbb/global_control.h>
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <memory>
+#include <string>
+#include <vector>
 
+#include "core/error.h"
 #include "recon/contours/undistorted_plane.h"
 #include "recon/exact_view/hull_view.h"
 #include "recon/hull/visual_hull.h"
+#include "recon/synthetic/solids.h"
 #include "recon/synthetic/view_scene.h"
 
 namespace elbowroom::accuracy {
 namespace {
 
+const Eigen::Vector3d kGrey = Eigen::Vector3d::Constant(200.0);
+
 struct CostOptions {
   bool eight = false;           // the rig of eight cameras, 1280 x 720
+  std::string shape = "hand";   // in the workspace: hand, fingers, people
   double zoom = 1.0;            // of the view's focal length
   int view_size = 1;            // factor on the view's width and height, its focal length unchanged
   int picture_size = 1;         // the same for the rig's cameras
@@ -24,6 +32,37 @@ struct CostOptions {
   bool unchanged = false;       // the frame before had the same masks, and was seen from the standard place
   bool moved = false;           // look from 10 mm beside
 };
+
+// Thin bars that hide one another: five spread fingers of a hand that lies flat.
+recon::SyntheticObject SpreadFingers() {
+  recon::SyntheticObject hand{"fingers", {}};
+  for (int i = 0; i < 5; ++i) {
+    const double angle = 0.45 * (i - 2);
+    const Eigen::Vector3d along(std::cos(angle), std::sin(angle), 0.15);
+    const Eigen::Vector3d knuckle = Eigen::Vector3d(60.0, 0.0, 150.0) + 40.0 * along;
+    hand.solids.push_back(recon::CapsuleBetween(knuckle, knuckle + 90.0 * along, 8.0, kGrey));
+  }
+  return hand;
+}
+
+// Two large bodies side by side, each with an arm stretched out.
+recon::SyntheticObject TwoPeople() {
+  recon::SyntheticObject people{"people", {}};
+  for (const double side : {-1.0, 1.0}) {
+    const Eigen::Vector3d hip(140.0, 130.0 * side, 60.0), neck(140.0, 130.0 * side, 260.0);
+    people.solids.push_back(recon::CapsuleBetween(hip, neck, 60.0, kGrey));
+    people.solids.push_back(recon::CapsuleBetween(neck, {20.0, 40.0 * side, 180.0}, 25.0, kGrey));
+  }
+  return people;
+}
+
+// Throws: PreconditionError for a shape that there isn't.
+std::vector<recon::SyntheticObject> ObjectsOf(const std::string& shape, const recon::ViewScene& scene) {
+  if (shape == "fingers") return {SpreadFingers()};
+  if (shape == "people") return {TwoPeople()};
+  core::Require(shape == "hand", "a shape is hand, fingers or people");
+  return scene.objects;
+}
 
 core::CameraModel WithMorePicture(const core::CameraModel& camera, int factor) {
   core::CameraCalibration c = camera.calibration();
@@ -62,7 +101,7 @@ void Run(const CostOptions& options) {
   recon::ViewScene scene =
       recon::MakeViewScene(options.eight ? recon::ViewSceneRig::kEight : recon::ViewSceneRig::kThree);
   for (core::CameraModel& camera : scene.rig.cameras) camera = WithMorePicture(camera, options.picture_size);
-  std::vector<core::SoftMask> masks = recon::TrueMasks(scene.rig, scene.objects);
+  std::vector<core::SoftMask> masks = recon::TrueMasks(scene.rig, ObjectsOf(options.shape, scene));
   if (options.blind) masks[0].mask = core::BitMask(masks[0].mask.width_px(), masks[0].mask.height_px());
   const Eigen::Vector3d center = scene.rig.workspace_mm.center();
   const Eigen::Vector3d half = 0.5 * options.workspace_size * scene.rig.workspace_mm.sizes();
@@ -85,6 +124,7 @@ int main(int argc, char** argv) {
   CLI::App app{"One exact view of the demo's hand, for callgrind to count."};
   elbowroom::accuracy::CostOptions options;
   app.add_flag("--eight", options.eight, "the rig of eight cameras of 1280 x 720");
+  app.add_option("--shape", options.shape, "hand, fingers or people");
   app.add_option("--zoom", options.zoom, "factor on the view's focal length");
   app.add_option("--view-size", options.view_size, "factor on the view's width and height");
   app.add_option("--picture-size", options.picture_size, "factor on the rig's pictures' width and height");
