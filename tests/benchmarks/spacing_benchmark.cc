@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <memory>
+#include <vector>
 
 #include "core/bvh.h"
 #include "core/layout.h"
@@ -52,7 +53,7 @@ Agreement AskAll(const core::Layout& layout, const std::vector<StudyFrame>& fram
   Agreement agreement;
   for (const StudyStep& step : study.steps) {
     double deepest_mm = 0.0, lower_mm = 1e9, upper_mm = 1e9;
-    const core::RigidTransform pose = core::PosesAt(layout, {step.spacing_mm})[1];
+    const core::RigidTransform pose = core::PosesAt(layout, std::vector{step.spacing_mm})[1];
     for (const StudyFrame& frame : frames) {
       const core::PartContact contact = FindContacts(*frame.hull, tree, pose, 1);
       agreement.queries += static_cast<double>(contact.count.queries);
