@@ -8,6 +8,22 @@
 namespace elbowroom::core {
 namespace {
 
+// The last word's highest bit that is a pixel.
+unsigned TopBit(const BitMask& mask) { return (static_cast<unsigned>(mask.width_px()) - 1) & 63U; }
+
+// The boundary pixels of a word, given those above and below it. Defined here so that it is inlined.
+inline std::uint64_t BoundaryBits(const std::uint64_t* row, std::uint64_t above, std::uint64_t below,
+                                  std::size_t i, std::size_t words, unsigned top) {
+  // The first and the last column are their own neighbours: the picture's border is no boundary.
+  const std::uint64_t before = i > 0 ? row[i - 1] >> 63U : row[0] & 1U;
+  const std::uint64_t after = i + 1 < words ? row[i + 1] << 63U : row[i] & (std::uint64_t{1} << top);
+  if ((row[i] | above | below | before | after) == 0) return 0;  // true of most words
+  const std::uint64_t left = (row[i] << 1U) | before, right = (row[i] >> 1U) | after;
+  const std::uint64_t boundary = (row[i] ^ left) | (row[i] ^ right) | (row[i] ^ above) | (row[i] ^ below);
+  // Clears the padding, which differs from its neighbour where the last pixel is object.
+  return i + 1 == words ? boundary & ((std::uint64_t{2} << top) - 1) : boundary;
+}
+
 // Calls visit(index of the word, its boundary pixels) for each word with boundary pixels, in order, until it
 // returns false.
 template <typename Visit>
@@ -16,7 +32,7 @@ void VisitBoundary(const BitMask& mask, Visit visit) {
   const auto height = static_cast<std::size_t>(mask.height_px());
   const std::uint64_t* in = mask.words().data();
   if (words == 0) return;
-  const unsigned top = (static_cast<unsigned>(mask.width_px()) - 1) & 63U;  // the last word's highest bit
+  const unsigned top = TopBit(mask);
   const auto shows_object = [&](std::size_t y) {
     std::uint64_t any = 0;
     for (std::size_t i = 0; y < height && i < words; ++i) any |= in[y * words + i];
@@ -30,14 +46,7 @@ void VisitBoundary(const BitMask& mask, Visit visit) {
     const std::uint64_t* above = y > 0 ? row - words : row;
     const std::uint64_t* below = y + 1 < height ? row + words : row;
     for (std::size_t i = 0; i < words; ++i) {
-      // The first and the last column are their own neighbours: the picture's border is no boundary.
-      const std::uint64_t before = i > 0 ? row[i - 1] >> 63U : row[0] & 1U;
-      const std::uint64_t after = i + 1 < words ? row[i + 1] << 63U : row[i] & (std::uint64_t{1} << top);
-      if ((row[i] | above[i] | below[i] | before | after) == 0) continue;  // true of most words
-      const std::uint64_t left = (row[i] << 1U) | before, right = (row[i] >> 1U) | after;
-      std::uint64_t boundary = (row[i] ^ left) | (row[i] ^ right) | (row[i] ^ above[i]) | (row[i] ^ below[i]);
-      // Clears the padding, which differs from its neighbour where the last pixel is object.
-      if (i + 1 == words) boundary &= (std::uint64_t{2} << top) - 1;
+      const std::uint64_t boundary = BoundaryBits(row, above[i], below[i], i, words, top);
       if (boundary != 0 && !visit(y * words + i, boundary)) return;
     }
   }
@@ -53,6 +62,14 @@ BitMask BoundaryPixels(const BitMask& mask) {
     return true;
   });
   return boundary;
+}
+
+std::uint64_t BoundaryOfWord(const BitMask& mask, std::size_t y, std::size_t i) {
+  const std::size_t words = mask.words_per_row();
+  const std::uint64_t* row = mask.words().data() + y * words;
+  const std::uint64_t above = y > 0 ? *(row + i - words) : row[i];
+  const std::uint64_t below = y + 1 < static_cast<std::size_t>(mask.height_px()) ? row[i + words] : row[i];
+  return BoundaryBits(row, above, below, i, words, TopBit(mask));
 }
 
 std::optional<std::string_view> SoftMask::BrokenRule() const {

@@ -1,6 +1,7 @@
 // A silhouette whose boundary is known between pixel centres.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string_view>
@@ -32,5 +33,8 @@ struct SoftMask {
 
 // The boundary pixels of a mask, as bits.
 [[nodiscard]] BitMask BoundaryPixels(const BitMask& mask);
+
+// The same of one word: word `i` of row y.
+[[nodiscard]] std::uint64_t BoundaryOfWord(const BitMask& mask, std::size_t y, std::size_t i);
 
 }  // namespace elbowroom::core

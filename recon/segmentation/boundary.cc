@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/error.h"
+#include "recon/segmentation/boundary_words.h"
 #include "recon/segmentation/coverage.h"
 
 namespace elbowroom::recon {
@@ -16,13 +16,8 @@ namespace {
 
 constexpr int kRounds = 2;  // each moves the boundary by a pixel at most
 
-// Rows [begin, end) that can hold the boundary in any round.
-struct Rows {
-  int begin = 0;
-  int end = 0;
-};
-
-Rows RowsAround(const core::BitMask& mask) {
+// The rows that can hold the boundary in any round.
+MaskRows RowsAround(const core::BitMask& mask) {
   const auto words = mask.words();
   const auto is_object = [](std::uint64_t word) { return word != 0; };
   const auto first = std::ranges::find_if(words, is_object);
@@ -34,24 +29,6 @@ Rows RowsAround(const core::BitMask& mask) {
   return {std::max(top - kRounds - 1, 0), std::min(bottom + kRounds + 2, mask.height_px())};
 }
 
-// Calls visit(x, y) for each object pixel of `mask` that isn't one of `done` yet, row by row from the left,
-// and adds it to `done`.
-template <typename Visit>
-void ForEachPixel(const core::BitMask& mask, core::BitMask* done, Rows rows, Visit visit) {
-  const std::size_t per_row = mask.words_per_row();
-  std::size_t word = static_cast<std::size_t>(rows.begin) * per_row;
-  const std::span<const std::uint64_t> words = mask.words();
-  const std::span<std::uint64_t> done_words = done->words();
-  for (int y = rows.begin; y < rows.end; ++y) {
-    for (std::size_t i = 0; i < per_row; ++i, ++word) {
-      if (words[word] == 0) continue;
-      std::uint64_t bits = words[word] & ~done_words[word];
-      done_words[word] |= bits;
-      for (; bits != 0; bits &= bits - 1) visit(static_cast<int>(i * 64) + std::countr_zero(bits), y);
-    }
-  }
-}
-
 // The levels of pixels along the boundary, and the mask that follows from them.
 class Locating {
  public:
@@ -59,57 +36,93 @@ class Locating {
       : estimator_(estimator),
         rows_(RowsAround(detected)),
         mask_(detected),
-        known_(detected.width_px(), detected.height_px()),
+        known_(static_cast<std::size_t>(rows_.end - rows_.begin) * detected.words_per_row()),
         // Not cleared, since only those of known pixels are read.
-        levels_(std::make_unique_for_overwrite<std::uint8_t[]>(detected.words().size() * 64)) {}
+        levels_(std::make_unique_for_overwrite<std::uint8_t[]>(known_.size() * 64)) {}
 
-  // Measures the pixels of `boundary` that aren't known yet. With may_move it also labels them by their
+  // The mask's boundary pixels, as it is now.
+  [[nodiscard]] std::vector<PixelWord> Boundary() const { return BoundaryWords(mask_, rows_); }
+
+  // Measures the pixels of `words` that aren't known yet. With may_move it also labels them by their
   // coverage.
-  void Measure(const core::BitMask& boundary, bool may_move);
+  void Measure(std::span<const PixelWord> words, bool may_move);
 
-  [[nodiscard]] const core::BitMask& mask() const { return mask_; }
+  [[nodiscard]] std::uint64_t ObjectOf(const PixelWord& word) const {
+    return mask_.words()[FromRow(word, 0)];
+  }
   [[nodiscard]] core::SoftMask Take() &&;
 
  private:
-  [[nodiscard]] std::size_t Index(int x, int y) const {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(mask_.width_px()) +
-           static_cast<std::size_t>(x);
+  // The number of a word, counted from row `first` on.
+  [[nodiscard]] std::size_t FromRow(const PixelWord& word, int first) const {
+    return static_cast<std::size_t>(word.y - first) * mask_.words_per_row() +
+           static_cast<std::size_t>(word.x) / 64;
   }
+  [[nodiscard]] std::uint8_t* LevelsOf(const PixelWord& word) const {
+    return levels_.get() + FromRow(word, rows_.begin) * 64;
+  }
+  void ListUnknown(std::span<const PixelWord> words);
 
   const CoverageEstimator& estimator_;
-  Rows rows_;
-  core::BitMask mask_, known_;
+  MaskRows rows_;
+  core::BitMask mask_;
+  std::vector<std::uint64_t> known_;  // a word of pixels each, from rows_.begin on
   std::unique_ptr<std::uint8_t[]> levels_;
+  // What is measured in one round: pixels by words, one by one, and their coverage.
+  std::vector<PixelWord> unknown_;
   std::vector<PixelPlace> places_;
-  std::vector<Coverage> coverages_;
+  std::vector<std::uint32_t> coverages_;
 };
 
-void Locating::Measure(const core::BitMask& boundary, bool may_move) {
-  constexpr std::uint8_t kHalfwayInside = 191, kHalfwayOutside = 64;  // where coverage isn't known
-  places_.clear();
-  ForEachPixel(boundary, &known_, rows_, [&](int x, int y) { places_.push_back({x, y}); });
+void Locating::ListUnknown(std::span<const PixelWord> words) {
+  unknown_.clear(), places_.clear();
+  for (const PixelWord& word : words) {
+    std::uint64_t& known = known_[FromRow(word, rows_.begin)];
+    const std::uint64_t unknown = word.bits & ~known;
+    if (unknown == 0) continue;
+    known |= unknown;
+    unknown_.push_back({word.x, word.y, unknown});
+    for (std::uint64_t bits = unknown; bits != 0; bits &= bits - 1)
+      places_.push_back({word.x + std::countr_zero(bits), word.y});
+  }
+}
+
+void Locating::Measure(std::span<const PixelWord> words, bool may_move) {
+  constexpr std::uint32_t kHalfwayInside = 191, kHalfwayOutside = 64;  // where coverage isn't known
+  ListUnknown(words);
   coverages_.resize(places_.size());
   estimator_.Estimate(places_, coverages_);
-  for (std::size_t i = 0; i < places_.size(); ++i) {
-    const auto [x, y] = places_[i];
-    const Coverage& coverage = coverages_[i];
-    const bool was_object = mask_.At(x, y), is_object = coverage.level >= 128;
-    if (coverage.is_known && may_move && was_object != is_object) mask_.Set(x, y, is_object);
-    levels_[Index(x, y)] =
-        coverage.is_known ? coverage.level : (was_object ? kHalfwayInside : kHalfwayOutside);
+  auto next = coverages_.begin();
+  for (const PixelWord& word : unknown_) {
+    std::uint64_t& object = mask_.words()[FromRow(word, 0)];
+    std::uint8_t* const levels = LevelsOf(word);
+    std::uint64_t moved = 0;
+    for (std::uint64_t bits = word.bits; bits != 0; bits &= bits - 1, ++next) {
+      const int i = std::countr_zero(bits);
+      const bool was_object = (object >> static_cast<unsigned>(i) & 1U) != 0;
+      const std::uint32_t otherwise = was_object ? kHalfwayInside : kHalfwayOutside;
+      const std::uint32_t level = *next >= kCoverageKnown ? *next - kCoverageKnown : otherwise;
+      levels[i] = static_cast<std::uint8_t>(level);
+      moved |= std::uint64_t{was_object != (level >= 128)} << static_cast<unsigned>(i);
+    }
+    if (may_move) object ^= moved;
   }
 }
 
 core::SoftMask Locating::Take() && {
-  const core::BitMask boundary = core::BoundaryPixels(mask_);
+  const std::vector<PixelWord> boundary = Boundary();
   Measure(boundary, false);
   core::SoftMask located;
-  core::BitMask listed(mask_.width_px(), mask_.height_px());
-  ForEachPixel(boundary, &listed, rows_, [&](int x, int y) {
-    const std::uint8_t level = levels_[Index(x, y)];
-    located.levels.push_back(mask_.At(x, y) ? std::max<std::uint8_t>(level, 128)
-                                            : std::min<std::uint8_t>(level, 127));
-  });
+  for (const PixelWord& word : boundary) {
+    const std::uint64_t object = ObjectOf(word);
+    const std::uint8_t* const levels = LevelsOf(word);
+    for (std::uint64_t bits = word.bits; bits != 0; bits &= bits - 1) {
+      const int i = std::countr_zero(bits);
+      const bool is_object = (object >> static_cast<unsigned>(i) & 1U) != 0;
+      located.levels.push_back(is_object ? std::max<std::uint8_t>(levels[i], 128)
+                                         : std::min<std::uint8_t>(levels[i], 127));
+    }
+  }
   located.mask = std::move(mask_);
   return located;
 }
@@ -122,11 +135,11 @@ core::SoftMask LocateBoundary(const core::BitMask& detected, const cv::Mat& imag
   Locating locating(detected, estimator);
   // The first round measures only object pixels along the boundary, since thresholds err outwards. The next
   // one measures both sides of the boundary that results.
-  core::BitMask boundary = core::BoundaryPixels(detected);
-  for (std::size_t i = 0; i < boundary.words().size(); ++i) boundary.words()[i] &= detected.words()[i];
+  std::vector<PixelWord> boundary = locating.Boundary();
+  for (PixelWord& word : boundary) word.bits &= locating.ObjectOf(word);
   for (int round = 0; round < kRounds; ++round) {
     locating.Measure(boundary, true);
-    boundary = core::BoundaryPixels(locating.mask());
+    if (round + 1 < kRounds) boundary = locating.Boundary();
   }
   return std::move(locating).Take();
 }

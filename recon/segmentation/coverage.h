@@ -1,12 +1,14 @@
 // How much of a pixel on a silhouette's boundary is object.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <opencv2/core/mat.hpp>
 #include <span>
 
 #include "core/bit_mask.h"
 #include "recon/segmentation/coverage_kernel.h"
+#include "recon/segmentation/coverage_reading.h"
 
 namespace elbowroom::recon {
 
@@ -14,52 +16,30 @@ namespace elbowroom::recon {
 // in the lowest ten bits, then green, then red.
 [[nodiscard]] cv::Mat PackedMean(const cv::Mat& mean_bgr);
 
-struct PixelPlace {
-  int x = 0;
-  int y = 0;
-};
-
-// A level as core::SoftMask has them; at least 128 where at least half of the pixel is object.
-struct Coverage {
-  std::uint8_t level = 0;
-  bool is_known = false;  // false where object and background are too alike
-};
-
 // Coverage in one picture, given which pixels were detected (docs/segmentation.md). Thread: any; the picture,
 // mean and mask must outlive it.
 class CoverageEstimator {
  public:
+  // Throws: PreconditionError unless the picture is CV_8UC3 and the mean CV_32SC1, both of the mask's size.
   CoverageEstimator(const core::BitMask& detected, const cv::Mat& image_bgr, const cv::Mat& packed_mean,
                     double least_contrast_levels);
 
-  // One coverage a place. Works in batches: first a batch's pixels are read, then its levels are reckoned.
-  void Estimate(std::span<const PixelPlace> places, std::span<Coverage> coverages) const;
+  // A level for each place, as ReckonCoverage. Works in batches: first a batch's pixels are read, then its
+  // levels are reckoned.
+  void Estimate(std::span<const PixelPlace> places, std::span<std::uint32_t> levels) const;
 
  private:
-  void Read(PixelPlace place, std::size_t i, CoverageSamples* samples) const;
-  void ReadObject(PixelPlace place, PixelPlace first, PixelPlace second, std::size_t i,
-                  CoverageSamples* samples) const;
+  void ReadStrongest(std::span<const PixelPlace> places, std::uint64_t which, CoverageSamples* samples) const;
   [[nodiscard]] std::uint32_t StrongestAround(PixelPlace place) const;
-
-  [[nodiscard]] bool IsPixel(PixelPlace p) const {
-    return static_cast<unsigned>(p.x) < static_cast<unsigned>(width_) &&
-           static_cast<unsigned>(p.y) < static_cast<unsigned>(height_);
-  }
-  [[nodiscard]] bool IsObject(PixelPlace p) const { return IsPixel(p) && detected_.At(p.x, p.y); }
-  [[nodiscard]] std::uint32_t Image(PixelPlace p) const {
-    const std::uint8_t* at = image_ + static_cast<std::size_t>(p.y) * image_stride_ + 3 * p.x;
+  [[nodiscard]] std::uint32_t Image(int x, int y) const {
+    const std::uint8_t* at = picture_.image + static_cast<std::ptrdiff_t>(y) * picture_.image_stride + 3 * x;
     return at[0] | static_cast<std::uint32_t>(at[1]) << 8U | static_cast<std::uint32_t>(at[2]) << 16U;
   }
-  [[nodiscard]] std::uint32_t Mean(PixelPlace p) const {
-    return mean_[static_cast<std::size_t>(p.y) * mean_stride_ + static_cast<std::size_t>(p.x)];
+  [[nodiscard]] std::uint32_t Mean(int x, int y) const {
+    return picture_.mean[static_cast<std::ptrdiff_t>(y) * picture_.mean_stride + x];
   }
 
-  const core::BitMask& detected_;
-  const std::uint8_t* image_;
-  std::size_t image_stride_;
-  const std::uint32_t* mean_;
-  std::size_t mean_stride_;
-  int width_, height_;
+  CoveragePicture picture_;
   float least_contrast2_;
 };
 

@@ -130,11 +130,10 @@ HWY_EXPORT(Reckon);
 
 }  // namespace
 
-void ReckonCoverage(const CoverageSamples& samples, float least_contrast2, std::size_t count,
-                    std::array<std::uint32_t, CoverageSamples::kBatch>* levels) {
+void ReckonCoverage(const CoverageSamples& samples, float least_contrast2, std::span<std::uint32_t> levels) {
   alignas(64) std::uint32_t reckoned[CoverageSamples::kBatch];
-  HWY_DYNAMIC_DISPATCH(Reckon)(samples, least_contrast2, count, reckoned);
-  std::copy_n(reckoned, count, levels->begin());
+  HWY_DYNAMIC_DISPATCH(Reckon)(samples, least_contrast2, levels.size(), reckoned);
+  std::copy_n(reckoned, levels.size(), levels.begin());
 }
 
 }  // namespace elbowroom::recon

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 namespace elbowroom::recon {
 
@@ -22,12 +23,11 @@ struct CoverageSamples {
   alignas(64) Colors far{};   // and a pixel further in
 };
 
-// A level for each of the first `count` samples, as core::SoftMask has them: at least 128 where half of the
-// pixel or more is object. kCoverageKnown is added where object and background differ enough for the level to
-// mean something. The same bits for every instruction set
+// A level for each of the first levels.size() samples, as core::SoftMask has them: at least 128 where half of
+// the pixel or more is object. kCoverageKnown is added where object and background differ enough for the
+// level to mean something. The same bits for every instruction set
 // (tests/recon/segmentation/difference_kernel_test.cc).
 inline constexpr std::uint32_t kCoverageKnown = 256;
-void ReckonCoverage(const CoverageSamples& samples, float least_contrast2, std::size_t count,
-                    std::array<std::uint32_t, CoverageSamples::kBatch>* levels);
+void ReckonCoverage(const CoverageSamples& samples, float least_contrast2, std::span<std::uint32_t> levels);
 
 }  // namespace elbowroom::recon

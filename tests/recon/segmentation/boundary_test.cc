@@ -18,6 +18,7 @@
 #include "recon/synthetic/rig_presets.h"
 #include "recon/synthetic/synthetic_rig.h"
 #include "tests/recon/segmentation/boundary_error.h"
+#include "tests/recon/segmentation/boundary_oracle.h"
 
 namespace elbowroom::recon {
 namespace {
@@ -45,9 +46,12 @@ Errors ErrorsWithNoise(double noise_sigma_levels, bool table_shadow) {
       const Segmenter segmenter(backgrounds[i], {});
       const core::SoftMask soft = segmenter.SegmentSoft(set.cameras[i].image_bgr);
       soft.Validate();
+      const core::BitMask found = segmenter.Segment(set.cameras[i].image_bgr);
+      EXPECT_EQ(soft,
+                LocateBoundarySlowly(found, set.cameras[i].image_bgr, PackedMean(backgrounds[i].mean_bgr),
+                                     SegmentationOptions().floor_levels));
       located.push_back(ErrorOfBoundary(soft, rig.rig().cameras[i], solids));
-      detected.push_back(
-          ErrorOfBoundary({segmenter.Segment(set.cameras[i].image_bgr), {}}, rig.rig().cameras[i], solids));
+      detected.push_back(ErrorOfBoundary({found, {}}, rig.rig().cameras[i], solids));
     }
   }
   const Errors errors{Pooled(located), Pooled(detected)};

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <hwy/targets.h>
+#include <cmath>
 #include <cstdint>
 #include <opencv2/core.hpp>
 #include <random>
@@ -12,6 +13,7 @@
 #include "recon/segmentation/boundary.h"
 #include "recon/segmentation/coverage.h"
 #include "recon/segmentation/mask_regions.h"
+#include "tests/recon/segmentation/boundary_oracle.h"
 
 namespace elbowroom::recon {
 namespace {
@@ -179,22 +181,34 @@ TEST_F(EachTarget, TellsHowManyPixelsItDidNotLookAt) {
   }
 }
 
-TEST_F(EachTarget, LocatesTheSameBoundary) {
+// Labels of every kind: blocks with holes, so thin lines and pixels without an interior, and smooth discs.
+// Both reach the picture's edge. Contrast is mostly high; where `busy`, every colour is random.
+TEST_F(EachTarget, LocatesTheBoundaryOfTheSlowOracle) {
   std::mt19937 random(4);
-  for (const int width : {1, 5, 64, 65, 191}) {
-    const Case made = RandomCase(width, 33, true, random);
-    const cv::Mat mean = PackedMean(made.mean_bgr);
-    core::BitMask detected(width, 33);
-    for (int y = 0; y < 33; ++y)
-      for (int x = 0; x < width; ++x) detected.Set(x, y, (x / 9 + y / 7) % 2 == 0 && random() % 20 != 0);
-    std::optional<core::SoftMask> first;
-    for (const std::int64_t target : Targets()) {
-      SCOPED_TRACE(hwy::TargetName(target));
-      Choose(target);
-      const core::SoftMask located = LocateBoundary(detected, made.image_bgr, mean, 20.0);
-      located.Validate();
-      if (!first) first = located;
-      EXPECT_EQ(located, *first) << width;
+  for (const int width : {1, 2, 5, 31, 64, 65, 128, 191, 700}) {
+    for (const int height : {2, 5, 33}) {
+      for (const bool busy : {false, true}) {
+        Case made = RandomCase(width, height, busy, random);
+        const cv::Mat mean = PackedMean(made.mean_bgr);
+        core::BitMask detected(width, height);
+        for (int y = 0; y < height; ++y) {
+          for (int x = 0; x < width; ++x) {
+            const bool is_block = (x / 9 + y / 7) % 2 == 0 && random() % 20 != 0;
+            detected.Set(x, y, busy ? is_block : std::hypot(x % 40 - 18, y - 12) < 11.0);
+            if (!busy && detected.At(x, y) && random() % 8 != 0)
+              made.image_bgr.at<cv::Vec3b>(y, x) =
+                  cv::Vec3b(30, 60, static_cast<std::uint8_t>(200 + random() % 20));
+          }
+        }
+        const core::SoftMask wanted = LocateBoundarySlowly(detected, made.image_bgr, mean, 20.0);
+        for (const std::int64_t target : Targets()) {
+          SCOPED_TRACE(hwy::TargetName(target));
+          Choose(target);
+          const core::SoftMask located = LocateBoundary(detected, made.image_bgr, mean, 20.0);
+          located.Validate();
+          ASSERT_EQ(located, wanted) << width << " x " << height;
+        }
+      }
     }
   }
 }
