@@ -189,6 +189,8 @@ TEST_F(EachTarget, LocatesTheBoundaryOfTheSlowOracle) {
     for (const int height : {2, 5, 33}) {
       for (const bool busy : {false, true}) {
         Case made = RandomCase(width, height, busy, random);
+        // A picture that isn't a window: AddressSanitizer sees bytes read past its end.
+        if (!busy) made.image_bgr = made.image_bgr.clone();
         const cv::Mat mean = PackedMean(made.mean_bgr);
         core::BitMask detected(width, height);
         for (int y = 0; y < height; ++y) {
