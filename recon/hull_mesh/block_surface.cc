@@ -97,14 +97,10 @@ constexpr std::array<std::size_t, kCubeEdges.size()> EdgeOffsets() {
 }
 constexpr auto kEdgeOffsets = EdgeOffsets();
 
-// For each Index() the number of a grid edge's vertex in the mesh, or -1. One more item at the end takes
-// those of edges that aren't needed.
-constexpr std::size_t kNoEdge = Index(3, 0, 0, 0);
-using VertexNumbers = std::array<std::int32_t, kNoEdge + 1>;
-
-VertexNumbers NumberEdges(std::span<const BlockNeighbour> blocks) {
-  VertexNumbers numbers;
-  numbers.fill(-1);
+// Calls visit(Index() of a grid edge, the number of its vertex) for the edges of these blocks. `no_edge`
+// stands for the Index() of edges that the first block doesn't share.
+template <typename Visit>
+void VisitVertices(std::span<const BlockNeighbour> blocks, std::size_t no_edge, const Visit& visit) {
   for (const BlockNeighbour& block : blocks) {
     const unsigned steps = block.steps;
     const std::size_t shift =
@@ -114,10 +110,9 @@ VertexNumbers NumberEdges(std::span<const BlockNeighbour> blocks) {
     for (const BlockEdge& edge : steps == 0 ? edges : edges.first(block.surface->near_edges)) {
       const auto [x, y, z] = edge.low;
       const bool is_shared = (steps & ~unsigned{edge.near_faces}) == 0;
-      numbers[is_shared ? shift + Index(edge.axis, x, y, z) : kNoEdge] = number++;
+      visit(is_shared ? shift + Index(edge.axis, x, y, z) : no_edge, number++);
     }
   }
-  return numbers;
 }
 
 }  // namespace
@@ -140,15 +135,18 @@ BlockSurface CutBlock(const HullLattice& lattice, const HullBlock& block) {
   return surface;
 }
 
-void WriteTriangles(std::span<const BlockNeighbour> blocks,
-                    std::span<std::array<std::int32_t, 3>> triangles) {
-  const VertexNumbers numbers = NumberEdges(blocks);
+void WriteTriangles(std::span<const BlockNeighbour> blocks, std::span<std::array<std::int32_t, 3>> triangles,
+                    VertexNumbers* numbers) {
+  static_assert(VertexNumbers::kNoEdge == Index(3, 0, 0, 0));
+  std::int32_t* const all_numbers = numbers->numbers_.data();
+  VisitVertices(blocks, VertexNumbers::kNoEdge,
+                [=](std::size_t edge, std::int32_t number) { all_numbers[edge] = number; });
   const std::array<CubeTriangles, 256>& table = CubeTable();
   std::size_t next = 0;
   std::int64_t all = 0;  // the bits of all numbers: negative if one is -1
   VisitCutCells(blocks.front().surface->labels,
                 [&](std::size_t x, std::size_t y, std::size_t z, std::size_t inside) {
-                  const std::int32_t* const cell = numbers.data() + Index(0, x, y, z);
+                  const std::int32_t* const cell = all_numbers + Index(0, x, y, z);
                   const CubeTriangles& cut = table[inside];
                   for (std::size_t i = 0; i < cut.count; ++i) {
                     std::array<std::int32_t, 3>& triangle = triangles[next++];
@@ -159,6 +157,8 @@ void WriteTriangles(std::span<const BlockNeighbour> blocks,
                   }
                 });
   core::Require(all >= 0, "the surface goes on in the next blocks");
+  VisitVertices(blocks, VertexNumbers::kNoEdge,
+                [=](std::size_t edge, std::int32_t) { all_numbers[edge] = VertexNumbers::kNone; });
 }
 
 }  // namespace elbowroom::recon

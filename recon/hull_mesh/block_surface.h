@@ -33,8 +33,25 @@ struct BlockNeighbour {
   std::int32_t first_vertex = 0;  // the number of its first vertex in the whole mesh
 };
 
+// For each grid edge of a block the number of its vertex in the whole mesh. Working memory of WriteTriangles,
+// kept from block to block: between two of them no edge has a vertex.
+class VertexNumbers {
+ public:
+  VertexNumbers() { numbers_.fill(kNone); }
+
+ private:
+  friend void WriteTriangles(std::span<const BlockNeighbour> blocks,
+                             std::span<std::array<std::int32_t, 3>> triangles, VertexNumbers* numbers);
+  static constexpr std::int32_t kNone = -1;
+  // One more item at the end takes the numbers of edges that aren't needed.
+  static constexpr std::size_t kNoEdge = 3UL * kBlockPoints * kBlockPoints * kBlockPoints;
+  std::array<std::int32_t, kNoEdge + 1> numbers_;
+};
+
 // Writes the triangles of a block, counter-clockwise seen from outside, from its own surface, which comes
-// first, and those of the blocks behind it along the axes. Throws: PreconditionError when one is missing.
-void WriteTriangles(std::span<const BlockNeighbour> blocks, std::span<std::array<std::int32_t, 3>> triangles);
+// first, and those of the blocks behind it along the axes. Throws: PreconditionError when one is missing;
+// then `numbers` can't be used again.
+void WriteTriangles(std::span<const BlockNeighbour> blocks, std::span<std::array<std::int32_t, 3>> triangles,
+                    VertexNumbers* numbers);
 
 }  // namespace elbowroom::recon

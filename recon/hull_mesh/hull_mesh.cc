@@ -1,5 +1,6 @@
 #include "recon/hull_mesh/hull_mesh.h"
 
+#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -38,6 +39,7 @@ core::TriangleMesh Join(std::span<const HullBlock> blocks, std::span<const Block
   std::vector<std::uint64_t> keys(blocks.size());
   std::transform(blocks.begin(), blocks.end(), keys.begin(),
                  [](const HullBlock& block) { return MortonKey(block.corner); });
+  tbb::enumerable_thread_specific<VertexNumbers> numbers;
   tbb::parallel_for(std::size_t{0}, surfaces.size(), [&](std::size_t i) {
     std::ranges::copy(surfaces[i].vertices_in_world,
                       mesh.vertices_mm.begin() + static_cast<std::ptrdiff_t>(firsts.vertices[i]));
@@ -53,7 +55,8 @@ core::TriangleMesh Join(std::span<const HullBlock> blocks, std::span<const Block
       around[count++] = {steps, &surfaces[block], static_cast<std::int32_t>(firsts.vertices[block])};
     }
     WriteTriangles({around.data(), count},
-                   std::span(mesh.triangles).subspan(firsts.triangles[i], surfaces[i].triangles));
+                   std::span(mesh.triangles).subspan(firsts.triangles[i], surfaces[i].triangles),
+                   &numbers.local());
   });
   return mesh;
 }
