@@ -24,7 +24,7 @@ namespace {
 constinit std::atomic<std::int64_t> allocation_count{0};
 constinit std::atomic<std::int64_t> byte_count{0};
 
-void Count(std::size_t bytes) {
+[[maybe_unused]] void Count(std::size_t bytes) {
   allocation_count.fetch_add(1, std::memory_order_relaxed);
   byte_count.fetch_add(static_cast<std::int64_t>(bytes), std::memory_order_relaxed);
 }
@@ -50,6 +50,8 @@ std::int64_t ResidentBytes() { return BytesInStatus("VmRSS:"); }
 std::int64_t PeakResidentBytes() { return BytesInStatus("VmHWM:"); }
 
 }  // namespace elbowroom::test_support
+
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 
 extern "C" {
 
@@ -85,3 +87,5 @@ int posix_memalign(void** block, std::size_t alignment, std::size_t size) {
 void free(void* block) { __libc_free(block); }
 
 }  // extern "C"
+
+#endif

@@ -1,4 +1,5 @@
-// How much memory a program asks the heap for. Whoever links this library has its malloc counted.
+// How much memory a program asks the heap for. Whoever links this library has its malloc counted, unless a
+// sanitizer brings a malloc of its own: then nothing is counted.
 #pragma once
 
 #include <cstdint>
