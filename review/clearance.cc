@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <queue>
-#include <string>
 #include <vector>
 
 #include "core/error.h"
@@ -19,6 +17,7 @@
 namespace elbowroom::review {
 namespace {
 
+using Cell = ClearanceCell;
 using core::BoxInPart;
 using core::NearestOnPart;
 using core::NearStretch;
@@ -43,27 +42,18 @@ constexpr double kFlat = 0.7;
 constexpr double kAllowedOfTolerance = 1.0 / 16.0;
 constexpr double kAllowedOfCell = 1.0 / 20.0;
 
-// A box of space around `center`.
-struct Cell {
-  double lower_mm = 0.0;  // no point of the cell is nearer to the part
-  Vector3d center;
-  Vector3d half;
-  std::uint32_t triangle = 0;  // nearest to the centre, or probably near
-  recon::UndecidedCameras open;
-
-  [[nodiscard]] bool operator<(const Cell& other) const { return lower_mm > other.lower_mm; }
-};
-
 // Branch and bound: takes cells in order of their lower bounds, nearest first, and drops those without hull.
 class Search {
  public:
   Search(const recon::VisualHull& hull, const core::TriangleTree& part,
-         const core::RigidTransform& world_from_part, const ClearanceOptions& options)
+         const core::RigidTransform& world_from_part, const ClearanceOptions& options, ReviewScratch* scratch)
       : hull_(hull),
         part_(part),
         world_from_part_(world_from_part),
         part_from_world_(world_from_part.Inverse()),
-        options_(options) {
+        options_(options),
+        scratch_(*scratch) {
+    cells_.clear();
     const Eigen::AlignedBox3d& box = hull.rig().workspace_mm;
     const double reach_mm = box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).norm() +
                             part.nodes()[0].ball.radius_mm + part.nodes()[0].ball.center.norm() +
@@ -78,10 +68,11 @@ class Search {
     Push(box.center(), 0.5 * box.sizes(), 0, &all);
     double lower_mm = kInfinity;
     while (!cells_.empty()) {
-      const Cell cell = cells_.top();
+      const Cell cell = cells_.front();
       lower_mm = cell.lower_mm;
       if (IsSettled(lower_mm) || queries_ >= options_.max_queries) break;
-      cells_.pop();
+      std::pop_heap(cells_.begin(), cells_.end());
+      cells_.pop_back();
       lower_mm = kInfinity;
       if (!Divide(cell)) {
         lower_mm = cell.lower_mm;
@@ -142,7 +133,8 @@ class Search {
         if (cut == Cut::kSome) Slide(cell.center, Nearest(cell.center, cell.triangle));
         return;
       case BallAnswer::kMixed:
-        cells_.push(cell);
+        cells_.push_back(cell);
+        std::push_heap(cells_.begin(), cells_.end());
     }
   }
 
@@ -235,7 +227,7 @@ class Search {
     const recon::Ray ray{p_in_world, (cell.center - p_in_world) / distance_mm};
     ++queries_;
     const std::optional<double> first_mm =
-        recon::FirstInside(hull_, ray, {0.0, distance_mm + cell.half.norm()});
+        recon::FirstInside(hull_, ray, {0.0, distance_mm + cell.half.norm()}, &scratch_.crossings);
     if (!first_mm) return;
     const Vector3d x_in_world = p_in_world + *first_mm * ray.direction_in_world;
     Offer(x_in_world, Nearest(x_in_world, nearest.triangle));
@@ -247,7 +239,7 @@ class Search {
     if (!(way.norm() > 0.0)) return;
     ++queries_;
     const recon::Ray ray{p_in_world, way.normalized()};
-    const std::optional<double> first_mm = recon::FirstInside(hull_, ray);
+    const std::optional<double> first_mm = recon::FirstInside(hull_, ray, {}, &scratch_.crossings);
     if (!first_mm) return;
     const Vector3d x_in_world = p_in_world + *first_mm * ray.direction_in_world;
     const NearestOnPart nearest = Nearest(x_in_world, 0);
@@ -278,7 +270,8 @@ class Search {
   const core::RigidTransform part_from_world_;
   const ClearanceOptions& options_;
   double slack_mm_ = 0.0;
-  std::priority_queue<Cell> cells_;
+  ReviewScratch& scratch_;
+  std::vector<Cell>& cells_ = scratch_.cells;  // a heap
   double upper_mm_ = kInfinity;
   double passed_mm_ = kInfinity;  // what was cut off cells is at least this far away
   Vector3d witness_hull_in_world_ = Vector3d::Zero();
@@ -299,18 +292,24 @@ Clearance WithDeviation(Clearance clearance, double deviation_mm) {
 }  // namespace
 
 void ClearanceOptions::Validate() const {
-  const auto require = [](bool holds, const std::string& what) {
-    if (!holds) throw core::Error(core::ErrorKind::kRange, "clearance: " + what);
+  const auto require = [](bool holds, auto what, const auto& value) {
+    if (!holds)
+      throw core::Error(core::ErrorKind::kRange,
+                        fmt::format("clearance: {}", fmt::format(fmt::runtime(what), value)));
   };
-  require(tolerance_mm > 0.0 && std::isfinite(tolerance_mm),
-          fmt::format("tolerance must be positive, not {} mm", tolerance_mm));
-  require(enough_mm > 0.0, fmt::format("enough must be positive, not {} mm", enough_mm));
-  require(max_queries > 0, fmt::format("at least one query must be allowed, not {}", max_queries));
+  require(tolerance_mm > 0.0 && std::isfinite(tolerance_mm), "tolerance must be positive, not {} mm",
+          tolerance_mm);
+  require(enough_mm > 0.0, "enough must be positive, not {} mm", enough_mm);
+  require(max_queries > 0, "at least one query must be allowed, not {}", max_queries);
 }
 
 Clearance FindClearance(const recon::VisualHull& hull, const core::TriangleTree& part,
                         const core::RigidTransform& world_from_part, const ClearanceOptions& options,
-                        const std::optional<ClearanceHint>& hint) {
+                        const std::optional<ClearanceHint>& hint, ReviewScratch* scratch) {
+  if (scratch == nullptr) {
+    ReviewScratch own;
+    return FindClearance(hull, part, world_from_part, options, hint, &own);
+  }
   options.Validate();
   Clearance nothing;
   nothing.interval.lower_mm = kInfinity;
@@ -327,7 +326,7 @@ Clearance FindClearance(const recon::VisualHull& hull, const core::TriangleTree&
       return nothing;
     }
   }
-  return WithDeviation(Search(hull, part, world_from_part, of_mesh).Run(hint), deviation_mm);
+  return WithDeviation(Search(hull, part, world_from_part, of_mesh, scratch).Run(hint), deviation_mm);
 }
 
 core::Verdict Judge(const Clearance& clearance, double required_mm, double uncertainty_mm) {

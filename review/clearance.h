@@ -11,6 +11,7 @@
 #include "core/contact.h"
 #include "core/rigid_transform.h"
 #include "recon/hull/visual_hull_declared.h"
+#include "review/review_scratch.h"
 
 namespace elbowroom::review {
 
@@ -48,11 +49,12 @@ struct ClearanceHint {
 // tell. The returned bounds are those of the surface that the mesh approximates: wider by the mesh's
 // deviation on either side. A hull whose nearest point found is inside a closed part meets it. The hint
 // changes the work and where within the tolerance the bounds fall, but they stay true. Held to an oracle by
-// clearance_test. Thread: any.
+// clearance_test. `scratch`: memory that is kept from search to search. Thread: any.
 [[nodiscard]] Clearance FindClearance(const recon::VisualHull& hull, const core::TriangleTree& part,
                                       const core::RigidTransform& world_from_part,
                                       const ClearanceOptions& options = {},
-                                      const std::optional<ClearanceHint>& hint = {});
+                                      const std::optional<ClearanceHint>& hint = {},
+                                      ReviewScratch* scratch = nullptr);
 
 // The verdict for a required clearance. `contact` where hull and mesh meet; otherwise `near` and `clear` only
 // where an error of `uncertainty_mm` (the rig's) in the bounds can't change them, else `undecided`.

@@ -9,6 +9,7 @@
 
 #include "recon/hull/triangle_pieces.h"
 #include "recon/hull/visual_hull.h"
+#include "review/point_chain.h"
 #include "review/triangle_bisection.h"
 
 namespace elbowroom::review {
@@ -48,13 +49,22 @@ struct Patch {
 class ContactSearch {
  public:
   ContactSearch(const recon::VisualHull& hull, const core::TriangleTree& part,
-                const core::RigidTransform& world_from_part, const ContactSearchRule& rule)
-      : hull_(hull), part_(part), world_from_part_(world_from_part), rule_(rule) {
+                const core::RigidTransform& world_from_part, const ContactSearchRule& rule,
+                PointChunks* chunks)
+      : hull_(hull),
+        part_(part),
+        world_from_part_(world_from_part),
+        rule_(rule),
+        chunks_(chunks),
+        points_(chunks) {
     found_.farthest = rule.rp_obj;
   }
 
-  [[nodiscard]] FoundContacts Run() {
+  // The points are in the memory of `points`.
+  [[nodiscard]] FoundContacts Run(std::vector<core::ContactPoint> points) {
     VisitNode(0, {}, nullptr);
+    found_.points = std::move(points);
+    points_.CopyTo(&found_.points);
     return std::move(found_);
   }
 
@@ -97,8 +107,7 @@ class ContactSearch {
   // Whether the rule wants nothing more of a stretch of surface. Only whole patches may hold too little
   // depth, so that a contact point is the same whatever depth is wanted.
   [[nodiscard]] bool IsUnwanted(const core::Ball& ball, const Patch* given) {
-    if (rule_.ends_with_first)
-      return !found_.points.empty() || (given != nullptr && given->largest_mm2 >= 0.0);
+    if (rule_.ends_with_first) return !points_.is_empty() || (given != nullptr && given->largest_mm2 >= 0.0);
     if (!rule_.deeper_than_mm || given != nullptr) return false;
     ++found_.count.queries;
     return !hull_.MayHoldDeeper(ball.center, ball.radius_mm, *rule_.deeper_than_mm, &likely_);
@@ -115,10 +124,10 @@ class ContactSearch {
       first(this);
       return second(this);
     }
-    ContactSearch beside(hull_, part_, world_from_part_, rule_);
+    ContactSearch beside(hull_, part_, world_from_part_, rule_, chunks_);
     tbb::parallel_invoke([&] { first(this); }, [&] { second(&beside); });
     const FoundContacts& others = beside.found_;
-    found_.points.insert(found_.points.end(), others.points.begin(), others.points.end());
+    points_.Append(beside.points_);
     Reach(others.farthest);
     found_.count.queries += others.count.queries;
     found_.count.skipped += others.count.skipped;
@@ -134,7 +143,7 @@ class ContactSearch {
       if (!(point.depth_mm > *rule_.deeper_than_mm)) return;
       rule_.deeper_than_mm = point.depth_mm;
     }
-    found_.points.push_back(point);
+    points_.Add(point);
   }
 
   void VisitNode(std::uint32_t index, recon::UndecidedCameras open, Patch* given) {
@@ -270,14 +279,19 @@ class ContactSearch {
   const core::RigidTransform& world_from_part_;
   ContactSearchRule rule_;        // deeper_than_mm grows with the points found
   core::CameraIndex likely_ = 0;  // showed last that a ball holds nothing deep enough
-  FoundContacts found_;
+  PointChunks* chunks_;
+  PointChain points_;
+  FoundContacts found_;  // but for the points
 };
 
 }  // namespace
 
 FoundContacts SearchContacts(const recon::VisualHull& hull, const core::TriangleTree& part,
-                             const core::RigidTransform& world_from_part, const ContactSearchRule& rule) {
-  return ContactSearch(hull, part, world_from_part, rule).Run();
+                             const core::RigidTransform& world_from_part, const ContactSearchRule& rule,
+                             ContactSearchScratch* scratch) {
+  scratch->chunks.Reset();
+  ContactSearch search(hull, part, world_from_part, rule, &scratch->chunks);
+  return search.Run(std::move(scratch->points));
 }
 
 }  // namespace elbowroom::review

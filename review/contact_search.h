@@ -10,6 +10,7 @@
 #include "core/contact.h"
 #include "core/rigid_transform.h"
 #include "recon/hull/visual_hull_declared.h"
+#include "review/review_scratch.h"
 
 namespace elbowroom::review {
 
@@ -32,9 +33,10 @@ struct FoundContacts {
 };
 
 // The part must have triangles, the hull mustn't be empty. The points are the same, in the same order, on any
-// number of threads. Rules and limits: FindContacts (contacts.h). Thread: any.
+// number of threads, and in the memory of `scratch->points`; who is done with them may give it back. Rules
+// and limits: FindContacts (contacts.h). Thread: any.
 [[nodiscard]] FoundContacts SearchContacts(const recon::VisualHull& hull, const core::TriangleTree& part,
                                            const core::RigidTransform& world_from_part,
-                                           const ContactSearchRule& rule);
+                                           const ContactSearchRule& rule, ContactSearchScratch* scratch);
 
 }  // namespace elbowroom::review

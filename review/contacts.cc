@@ -40,9 +40,11 @@ std::optional<Vector3d> FindContained(const recon::VisualHull& hull,
                                       const core::TriangleTree& part, const ContactSearchRule& rule,
                                       InsideCells* inside, std::int64_t* queries) {
   if (*queries == 1) return std::nullopt;  // the ball around the whole part is outside the hull
-  InsideCells own_cells(part);
-  return FindHullInside(hull, world_from_part, kContainmentCell * rule.resolution_mm,
-                        inside != nullptr ? inside : &own_cells, queries);
+  if (inside == nullptr) {
+    InsideCells own(part);
+    return FindContained(hull, world_from_part, part, rule, &own, queries);
+  }
+  return FindHullInside(hull, world_from_part, kContainmentCell * rule.resolution_mm, inside, queries);
 }
 
 // The deepest point; the first of several.
@@ -63,15 +65,16 @@ core::ContactPoint Deepest(const recon::VisualHull& hull, const std::vector<core
 }  // namespace
 
 void ContactOptions::Validate() const {
-  const auto require = [](bool holds, const std::string& what) {
-    if (!holds) throw core::Error(core::ErrorKind::kRange, "contacts: " + what);
+  const auto require = [](bool holds, fmt::format_string<const double&> what, const double& value) {
+    if (!holds)
+      throw core::Error(core::ErrorKind::kRange, fmt::format("contacts: {}", fmt::format(what, value)));
   };
-  require(resolution_mm >= 0.0 && std::isfinite(resolution_mm),
-          fmt::format("resolution must be positive, not {} mm", resolution_mm));
-  require(point_spacing_mm > 0.0, fmt::format("point spacing must be positive, not {} mm", point_spacing_mm));
-  const auto broken = recovery.BrokenRule();
-  require(!broken, fmt::format("recovery: {}", broken.value_or("")));
-  require(max_points > 0, fmt::format("at least one contact point must be kept, not {}", max_points));
+  require(resolution_mm >= 0.0 && std::isfinite(resolution_mm), "resolution must be positive, not {} mm",
+          resolution_mm);
+  require(point_spacing_mm > 0.0, "point spacing must be positive, not {} mm", point_spacing_mm);
+  if (const auto broken = recovery.BrokenRule())
+    throw core::Error(core::ErrorKind::kRange, fmt::format("contacts: recovery: {}", *broken));
+  require(max_points > 0, "at least one contact point must be kept, not {}", max_points);
 }
 
 std::optional<double> PixelFootprintMm(const core::Rig& rig, const Vector3d& x_in_world) {
@@ -87,7 +90,11 @@ std::optional<double> PixelFootprintMm(const core::Rig& rig, const Vector3d& x_i
 
 core::PartContact FindContacts(const recon::VisualHull& hull, const core::TriangleTree& part,
                                const core::RigidTransform& world_from_part, core::PartIndex part_index,
-                               const ContactOptions& options, InsideCells* inside) {
+                               const ContactOptions& options, InsideCells* inside, ReviewScratch* scratch) {
+  if (scratch == nullptr) {
+    ReviewScratch own;
+    return FindContacts(hull, part, world_from_part, part_index, options, inside, &own);
+  }
   options.Validate();
   core::PartContact contact;
   contact.part = part_index;
@@ -98,11 +105,12 @@ core::PartContact FindContacts(const recon::VisualHull& hull, const core::Triang
   const RecoveryWay way = WayOf(options.recovery, part, world_from_part);
   const ContactSearchRule rule = SearchRule(hull, part, world_from_part, options, way.rp_obj);
   contact.resolution_mm = rule.resolution_mm;
-  const FoundContacts found = SearchContacts(hull, part, world_from_part, rule);
+  FoundContacts found = SearchContacts(hull, part, world_from_part, rule, &scratch->search);
   contact.count.queries = found.count.queries;
   contact.count.skipped = found.count.skipped;
+  scratch->search.points = std::move(found.points);
 
-  const std::vector<core::ContactPoint>& points = found.points;
+  const std::vector<core::ContactPoint>& points = scratch->search.points;
   if (points.empty()) {
     contact.contained_in_world_mm =
         FindContained(hull, world_from_part, part, rule, inside, &contact.count.queries);
@@ -117,13 +125,13 @@ core::PartContact FindContacts(const recon::VisualHull& hull, const core::Triang
   contact.count.queries += contact.contact_point_count;
   tbb::parallel_invoke(
       [&] {
-        RecoveryAnswer answer = Recover(hull, found.farthest, way);
+        RecoveryAnswer answer = Recover(hull, found.farthest, way, &scratch->crossings);
         contact.recovery_status = answer.status;
         contact.recovery = std::move(answer.recovery);
         contact.deepest = Deepest(hull, points);
       },
       [&] {
-        contact.points = SpreadEvenly(points, static_cast<std::size_t>(options.max_points));
+        contact.points = SpreadEvenly(points, static_cast<std::size_t>(options.max_points), &scratch->spread);
         for (core::ContactPoint& point : contact.points)
           point.depth_mm = hull.Probe(point.position_in_world_mm).radius_mm;
       });
@@ -136,7 +144,8 @@ PartTouch FindTouch(const recon::VisualHull& hull, const core::TriangleTree& par
   if (part.nodes().empty() || hull.IsEmpty()) return {};
   ContactSearchRule rule = SearchRule(hull, part, world_from_part, options, Vector3d::Zero());
   rule.ends_with_first = true;
-  const FoundContacts found = SearchContacts(hull, part, world_from_part, rule);
+  ContactSearchScratch scratch;
+  const FoundContacts found = SearchContacts(hull, part, world_from_part, rule, &scratch);
   PartTouch touch;
   touch.queries = found.count.queries;
   if (!found.points.empty()) {
@@ -154,7 +163,8 @@ std::optional<double> FindDeeper(const recon::VisualHull& hull, const core::Tria
   if (part.nodes().empty() || hull.IsEmpty()) return std::nullopt;
   ContactSearchRule rule = SearchRule(hull, part, world_from_part, options, Vector3d::Zero());
   rule.deeper_than_mm = least_mm;
-  const FoundContacts found = SearchContacts(hull, part, world_from_part, rule);
+  ContactSearchScratch scratch;
+  const FoundContacts found = SearchContacts(hull, part, world_from_part, rule, &scratch);
   *queries += found.count.queries;
   if (found.points.empty()) return std::nullopt;
   return std::ranges::max(found.points, {}, &core::ContactPoint::depth_mm).depth_mm;

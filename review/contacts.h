@@ -13,6 +13,7 @@
 #include "core/rigid_transform.h"
 #include "recon/hull/visual_hull_declared.h"
 #include "review/inside_cells.h"
+#include "review/review_scratch.h"
 
 namespace elbowroom::review {
 
@@ -40,11 +41,11 @@ inline constexpr double kContainmentCell = 4.0;
 // and the area is good to (boundary length x resolution). A hull that touches no face but stands inside a
 // closed part is a contact without points (for its size see kContainmentCell). Held to a brute-force oracle
 // by tests/review/contacts_test.cc. `inside`: the part's cells, kept from frame to frame; they save work and
-// don't change the result. Thread: any.
+// don't change the result. `scratch`: the part's memory, kept likewise. Thread: any.
 [[nodiscard]] core::PartContact FindContacts(const recon::VisualHull& hull, const core::TriangleTree& part,
                                              const core::RigidTransform& world_from_part,
                                              core::PartIndex part_index, const ContactOptions& options = {},
-                                             InsideCells* inside = nullptr);
+                                             InsideCells* inside = nullptr, ReviewScratch* scratch = nullptr);
 
 // FindContacts' verdict, found with the first contact point.
 struct PartTouch {

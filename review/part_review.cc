@@ -42,8 +42,9 @@ double PartReviewOptions::EnoughMm() const { return required_clearance_mm + unce
 core::PartContact ReviewPart(const recon::VisualHull& hull, const core::TriangleTree& part,
                              const core::RigidTransform& world_from_part, core::PartIndex part_index,
                              const PartReviewOptions& options, const std::optional<ClearanceHint>& hint,
-                             InsideCells* inside) {
-  core::PartContact contact = FindContacts(hull, part, world_from_part, part_index, options.contacts, inside);
+                             InsideCells* inside, ReviewScratch* scratch) {
+  core::PartContact contact =
+      FindContacts(hull, part, world_from_part, part_index, options.contacts, inside, scratch);
   if (!(options.required_clearance_mm > 0.0)) return contact;
   if (contact.verdict == core::Verdict::kContact) {
     contact.clearance = ClearanceInContact(contact, part.mesh().deviation_mm);
@@ -52,7 +53,7 @@ core::PartContact ReviewPart(const recon::VisualHull& hull, const core::Triangle
   ClearanceOptions clearance_options;
   clearance_options.tolerance_mm = options.tolerance_mm;
   clearance_options.enough_mm = options.EnoughMm();
-  const Clearance found = FindClearance(hull, part, world_from_part, clearance_options, hint);
+  const Clearance found = FindClearance(hull, part, world_from_part, clearance_options, hint, scratch);
   contact.clearance = core::PartClearance{found.interval, found.has_witnesses, found.queries};
   contact.verdict = Judge(found, options.required_clearance_mm, options.uncertainty_mm);
   return contact;

@@ -29,13 +29,13 @@ struct PartReviewOptions {
 // FindContacts and, where a clearance is required, its bounds: 0 to the mesh's deviation, without a search,
 // where there is contact; else FindClearance as far as EnoughMm(), with Judge's verdict. So a part that meets
 // the hull in less than the contacts' resolution is in `contact` too, but without points. The hint changes
-// the work, and where within the tolerance the bounds fall. `inside`: as in FindContacts. Held to
+// the work, and where within the tolerance the bounds fall. `inside`, `scratch`: as in FindContacts. Held to
 // FindContacts and FindClearance by part_review_test. Thread: any.
 [[nodiscard]] core::PartContact ReviewPart(const recon::VisualHull& hull, const core::TriangleTree& part,
                                            const core::RigidTransform& world_from_part,
                                            core::PartIndex part_index, const PartReviewOptions& options,
                                            const std::optional<ClearanceHint>& hint = {},
-                                           InsideCells* inside = nullptr);
+                                           InsideCells* inside = nullptr, ReviewScratch* scratch = nullptr);
 
 // The hint that a part's last answer gives the next search. `world_from_part` is the pose of that answer.
 // Nothing: the answer has no witnesses.

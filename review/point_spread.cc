@@ -3,25 +3,39 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "core/error.h"
 
 namespace elbowroom::review {
 
 std::vector<core::ContactPoint> SpreadEvenly(std::span<const core::ContactPoint> points, std::size_t count) {
+  SpreadScratch own;
+  return SpreadEvenly(points, count, &own);
+}
+
+std::vector<core::ContactPoint> SpreadEvenly(std::span<const core::ContactPoint> points, std::size_t count,
+                                             SpreadScratch* scratch) {
   core::Require(count > 0, "at least one point is kept");
-  if (points.size() <= count) return {points.begin(), points.end()};
+  std::vector<core::ContactPoint> kept = std::move(scratch->kept);
+  if (points.size() <= count) {
+    kept.assign(points.begin(), points.end());
+    return kept;
+  }
+  kept.clear();
   // Single precision relative to the first point is enough: it only decides which of two points is farther.
-  using Row = Eigen::Array<float, 1, Eigen::Dynamic>;
+  using Rows = Eigen::Map<Eigen::Array<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
+  constexpr Eigen::Index kRows = 6;
   const auto size = static_cast<Eigen::Index>(points.size());
-  Eigen::Array<float, 3, Eigen::Dynamic, Eigen::RowMajor> at(3, size);
+  scratch->rows.resize(static_cast<std::size_t>(kRows * size));
+  Rows rows(scratch->rows.data(), kRows, size);
+  auto at = rows.topRows<3>();
   for (Eigen::Index i = 0; i < size; ++i)
     at.col(i) = (points[static_cast<std::size_t>(i)].position_in_world_mm - points[0].position_in_world_mm)
                     .cast<float>();
-  Row nearest = Row::Constant(size, std::numeric_limits<float>::infinity());
-  Row nearest_kept = Row::Zero(size);
-  Row squared(size);
-  std::vector<core::ContactPoint> kept;
+  auto nearest = rows.row(3), nearest_kept = rows.row(4), squared = rows.row(5);
+  nearest.setConstant(std::numeric_limits<float>::infinity());
+  nearest_kept.setZero();
   Eigen::Index next = 0;
   while (kept.size() < count) {
     squared = (at.row(0) - at(0, next)).square() + (at.row(1) - at(1, next)).square() +

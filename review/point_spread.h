@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/contact.h"
+#include "review/review_scratch.h"
 
 namespace elbowroom::review {
 
@@ -14,5 +15,8 @@ namespace elbowroom::review {
 // are no more than `count` points, they are returned unchanged.
 [[nodiscard]] std::vector<core::ContactPoint> SpreadEvenly(std::span<const core::ContactPoint> points,
                                                            std::size_t count);
+// The same, in the memory of `scratch->kept`.
+[[nodiscard]] std::vector<core::ContactPoint> SpreadEvenly(std::span<const core::ContactPoint> points,
+                                                           std::size_t count, SpreadScratch* scratch);
 
 }  // namespace elbowroom::review

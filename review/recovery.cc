@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "recon/hull/arc_crossings.h"
+#include "recon/hull/crossing_scratch.h"
 #include "recon/hull/ray_crossings.h"
 #include "recon/hull/visual_hull.h"
 
@@ -32,9 +33,10 @@ struct Exit {
 bool IsSeen(const recon::HullBoundary& boundary) { return boundary.camera && !boundary.is_outline; }
 
 // The end of the stretch of hull in which a ray starts, by the ray's crossings with the contours.
-Exit ExactExit(const recon::VisualHull& hull, const Vector3d& x, const Vector3d& direction) {
+Exit ExactExit(const recon::VisualHull& hull, const Vector3d& x, const Vector3d& direction,
+               recon::CrossingScratch* scratch) {
   Exit exit{0.0, x, direction};
-  for (const recon::HullInterval& interval : recon::IntervalsInHull(hull, {x, direction})) {
+  for (const recon::HullInterval& interval : recon::IntervalsInHull(hull, {x, direction}, {}, scratch)) {
     if (interval.from_mm > exit.d_rec_mm + kOnSurfaceMm) break;
     exit.d_rec_mm = interval.to_mm;
     exit.is_seen = IsSeen(interval.exit);
@@ -45,8 +47,8 @@ Exit ExactExit(const recon::VisualHull& hull, const Vector3d& x, const Vector3d&
 
 // The first hull point on the way from RP_obj to CP_obj. RP_obj isn't in the hull.
 Exit ExitFromReference(const recon::VisualHull& hull, const Vector3d& cp_obj, const Vector3d& rp_obj,
-                       const Vector3d& v_rec, double distance_mm) {
-  const auto intervals = recon::IntervalsInHull(hull, {rp_obj, -v_rec}, {0.0, distance_mm});
+                       const Vector3d& v_rec, double distance_mm, recon::CrossingScratch* scratch) {
+  const auto intervals = recon::IntervalsInHull(hull, {rp_obj, -v_rec}, {0.0, distance_mm}, scratch);
   // CP_obj itself is in the hull, so the ray has entered it by then, but for rounding on its surface.
   if (intervals.empty()) return {0.0, cp_obj, v_rec};
   const recon::HullInterval& first = intervals.front();
@@ -57,9 +59,9 @@ Exit ExitFromReference(const recon::VisualHull& hull, const Vector3d& cp_obj, co
 
 // Nothing if the whole circle is inside. `quarter`: where a quarter turn in this sense leads.
 std::optional<Exit> ExitAround(const recon::VisualHull& hull, const Vector3d& center, const Vector3d& arm,
-                               const Vector3d& quarter, double sense) {
+                               const Vector3d& quarter, double sense, recon::CrossingScratch* scratch) {
   const recon::Arc arc{center, arm, sense * quarter};
-  const auto found = recon::FirstOutside(hull, arc);
+  const auto found = recon::FirstOutside(hull, arc, scratch);
   if (!found) return std::nullopt;
   return Exit{found->angle_rad * arm.norm(), arc.At(found->angle_rad), sense * quarter.normalized(),
               found->angle_rad == 0.0 || IsSeen(found->boundary), sense * found->angle_rad};
@@ -82,30 +84,33 @@ RecoveryAnswer AnswerFor(const recon::VisualHull& hull, const Vector3d& cp_obj, 
   return {is_on_surface ? RecoveryStatus::kOnSurface : status, recovery};
 }
 
-RecoveryAnswer TowardsReference(const recon::VisualHull& hull, const Vector3d& cp_obj,
-                                const Vector3d& rp_obj) {
+RecoveryAnswer TowardsReference(const recon::VisualHull& hull, const Vector3d& cp_obj, const Vector3d& rp_obj,
+                                recon::CrossingScratch* scratch) {
   const double distance_mm = (rp_obj - cp_obj).norm();
   if (!(distance_mm > kNoLengthMm)) return {RecoveryStatus::kNoDirection, {}};
   const Vector3d v_rec = (rp_obj - cp_obj) / distance_mm;
   if (hull.Contains(rp_obj))
-    return AnswerFor(hull, cp_obj, ExactExit(hull, cp_obj, v_rec), RecoveryStatus::kReferenceInsideHull);
-  return AnswerFor(hull, cp_obj, ExitFromReference(hull, cp_obj, rp_obj, v_rec, distance_mm));
+    return AnswerFor(hull, cp_obj, ExactExit(hull, cp_obj, v_rec, scratch),
+                     RecoveryStatus::kReferenceInsideHull);
+  return AnswerFor(hull, cp_obj, ExitFromReference(hull, cp_obj, rp_obj, v_rec, distance_mm, scratch));
 }
 
-RecoveryAnswer AlongSlider(const recon::VisualHull& hull, const Vector3d& cp_obj, const RecoveryWay& way) {
+RecoveryAnswer AlongSlider(const recon::VisualHull& hull, const Vector3d& cp_obj, const RecoveryWay& way,
+                           recon::CrossingScratch* scratch) {
   std::optional<Exit> best;
   for (const int sense : {1, -1})
-    if (way.sense != -sense) best = Better(best, ExactExit(hull, cp_obj, sense * way.axis));
+    if (way.sense != -sense) best = Better(best, ExactExit(hull, cp_obj, sense * way.axis, scratch));
   return AnswerFor(hull, cp_obj, *best);
 }
 
-RecoveryAnswer AboutHinge(const recon::VisualHull& hull, const Vector3d& cp_obj, const RecoveryWay& way) {
+RecoveryAnswer AboutHinge(const recon::VisualHull& hull, const Vector3d& cp_obj, const RecoveryWay& way,
+                          recon::CrossingScratch* scratch) {
   const Vector3d center = way.at_mm + way.axis.dot(cp_obj - way.at_mm) * way.axis;
   const Vector3d arm = cp_obj - center, quarter = way.axis.cross(arm);
   if (!(arm.norm() > kNoLengthMm)) return {RecoveryStatus::kNoDirection, {}};
   std::optional<Exit> best;
   for (const int sense : {1, -1})
-    if (way.sense != -sense) best = Better(best, ExitAround(hull, center, arm, quarter, sense));
+    if (way.sense != -sense) best = Better(best, ExitAround(hull, center, arm, quarter, sense, scratch));
   if (!best) return {RecoveryStatus::kNoExit, {}};
   return AnswerFor(hull, cp_obj, *best);
 }
@@ -125,15 +130,21 @@ RecoveryWay WayOf(const core::RecoveryRule& rule, const core::TriangleTree& part
 }
 
 RecoveryAnswer Recover(const recon::VisualHull& hull, const Vector3d& cp_obj, const RecoveryWay& way) {
+  recon::CrossingScratch own;
+  return Recover(hull, cp_obj, way, &own);
+}
+
+RecoveryAnswer Recover(const recon::VisualHull& hull, const Vector3d& cp_obj, const RecoveryWay& way,
+                       recon::CrossingScratch* scratch) {
   switch (way.kind) {
     case RecoveryKind::kReference:
-      return TowardsReference(hull, cp_obj, way.rp_obj);
+      return TowardsReference(hull, cp_obj, way.rp_obj, scratch);
     case RecoveryKind::kDirection:
-      return AnswerFor(hull, cp_obj, ExactExit(hull, cp_obj, way.axis));
+      return AnswerFor(hull, cp_obj, ExactExit(hull, cp_obj, way.axis, scratch));
     case RecoveryKind::kSlider:
-      return AlongSlider(hull, cp_obj, way);
+      return AlongSlider(hull, cp_obj, way, scratch);
     case RecoveryKind::kHinge:
-      return AboutHinge(hull, cp_obj, way);
+      return AboutHinge(hull, cp_obj, way, scratch);
   }
   core::Require(false, "a kind of recovery");
   return {};

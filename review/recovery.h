@@ -8,6 +8,7 @@
 #include "core/contact.h"
 #include "core/recovery_rule.h"
 #include "core/rigid_transform.h"
+#include "recon/hull/crossing_scratch.h"
 #include "recon/hull/visual_hull_declared.h"
 
 namespace elbowroom::review {
@@ -37,5 +38,7 @@ struct RecoveryAnswer {
 // recovery_test. Thread: any.
 [[nodiscard]] RecoveryAnswer Recover(const recon::VisualHull& hull, const Eigen::Vector3d& cp_obj_in_world,
                                      const RecoveryWay& way);
+[[nodiscard]] RecoveryAnswer Recover(const recon::VisualHull& hull, const Eigen::Vector3d& cp_obj_in_world,
+                                     const RecoveryWay& way, recon::CrossingScratch* scratch);
 
 }  // namespace elbowroom::review

@@ -62,12 +62,9 @@ CommandResult SummaryOf(const control::TrialOutcome& outcome, const core::Layout
                  {"near_misses", nlohmann::json::array()}};
   result.text = fmt::format("{}: {} frames, all on disk, {}", outcome.session.string(), outcome.frames,
                             outcome.end_note);
-  if (!outcome.frame_ms.empty()) {
-    std::vector<double> times_ms = outcome.frame_ms;
-    const auto middle = times_ms.begin() + static_cast<std::ptrdiff_t>(times_ms.size() / 2);
-    std::nth_element(times_ms.begin(), middle, times_ms.end());
-    result.json["median_frame_ms"] = *middle;
-    result.text += fmt::format(" ({:.1f} ms a frame)", *middle);
+  if (const std::optional<double> median_ms = outcome.frame_times.MedianMs()) {
+    result.json["median_frame_ms"] = *median_ms;
+    result.text += fmt::format(" ({:.1f} ms a frame)", *median_ms);
   }
   for (core::PartIndex i = 0; i < layout.parts.size(); ++i) {
     const auto episodes =

@@ -36,21 +36,17 @@ FramePipeline::FramePipeline(core::Rig rig, core::Layout layout,
     : rig_(std::make_shared<const core::Rig>(std::move(rig))),
       planes_(recon::MakeUndistortedPlanes(*rig_)),
       layout_(std::make_shared<const core::Layout>(std::move(layout))),
+      judge_(*layout_, review),
       responders_(*layout_),
-      segmenter_(backgrounds, segmentation, *rig_),
-      review_(review) {
+      segmenter_(backgrounds, segmentation, *rig_) {
   rig_->Validate();
-  layout_->Validate();
-  review_.Validate();
   core::Require(backgrounds.size() == rig_->cameras.size(), "one background reference a camera");
-  for (const core::Part& part : layout_->parts) part_trees_.emplace_back(part.mesh);
-  for (const core::TriangleTree& part : part_trees_) inside_parts_.emplace_back(part);
 }
 
 SharedFrameResult FramePipeline::Process(recon::FrameSet frames, std::span<const double> spacing_mm,
                                          const WithHull& beside) {
   core::Require(frames.cameras.size() == rig_->cameras.size(), "one frame a camera");
-  auto result = std::make_shared<FrameResult>();
+  const std::shared_ptr<FrameResult> result = results_.Take();
   result->record.frame = frames.index;
   result->record.time_s = frames.time_s;
   result->layout = layout_;
@@ -75,7 +71,9 @@ SharedFrameResult FramePipeline::Process(recon::FrameSet frames, std::span<const
 
 void FramePipeline::Judge(std::span<const core::RigidTransform> world_from_rests, FrameResult* result) {
   Stopwatch watch;
-  UpdateContacts(result);
+  const bool is_new = !last_ || last_->hull != result->hull;
+  if (is_new && !part_trees().empty()) result->hull->Prepare();
+  judge_.Judge(last_.get(), result);
   result->times.contacts_ms = watch.LapMs();
   UpdateResponse(world_from_rests, result);
   result->times.response_ms = watch.LapMs();
@@ -100,46 +98,6 @@ void FramePipeline::UpdateResponse(std::span<const core::RigidTransform> world_f
   result->response = since_s > 0.0 ? responders_.Step(last, world_from_rests, result->record.contacts,
                                                       result->hull, std::min(since_s, kLongestS))
                                    : last;
-}
-
-void FramePipeline::UpdateContacts(FrameResult* result) {
-  const std::size_t parts = part_trees_.size();
-  result->record.contacts.resize(parts);
-  std::vector<std::uint8_t> is_unchanged(parts, 0);
-  for (std::size_t i = 0; i < parts; ++i)
-    is_unchanged[i] =
-        last_ && last_->hull == result->hull && last_->world_from_parts[i] == result->world_from_parts[i];
-  if (std::ranges::count(is_unchanged, 0) > 0) result->hull->Prepare();
-  tbb::parallel_for(std::size_t{0}, parts, [&](std::size_t i) {
-    result->record.contacts[i] = is_unchanged[i] ? last_->record.contacts[i] : Review(*result, i);
-  });
-  for (std::size_t i = 0; i < parts; ++i) {
-    if (is_unchanged[i]) {
-      ++result->skipped.unchanged_parts;
-      continue;
-    }
-    result->skipped.triangles_in_all += result->record.contacts[i].count.triangles;
-    result->skipped.triangles_skipped += result->record.contacts[i].count.skipped;
-    result->skipped.queries += result->record.contacts[i].count.queries;
-    if (!result->record.contacts[i].clearance) continue;
-    const core::PartClearance& clearance = *result->record.contacts[i].clearance;
-    result->skipped.clearance_queries += clearance.queries;
-    if (result->record.contacts[i].contact_point_count > 0 ||
-        result->record.contacts[i].contained_in_world_mm) {
-      ++result->skipped.clearances_by_contact;
-    } else if (clearance.queries == 1) {
-      ++result->skipped.clearances_by_ball;
-    }
-  }
-}
-
-core::PartContact FramePipeline::Review(const FrameResult& result, core::PartIndex part) {
-  const auto hint = last_ ? review::HintFrom(last_->record.contacts[part], last_->world_from_parts[part])
-                          : std::optional<review::ClearanceHint>();
-  review::PartReviewOptions options = review_;
-  options.contacts.recovery = layout_->parts[part].recovery;
-  return review::ReviewPart(*result.hull, part_trees_[part], result.world_from_parts[part], part, options,
-                            hint, &inside_parts_[part]);
 }
 
 }  // namespace elbowroom::control

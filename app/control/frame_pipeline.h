@@ -6,7 +6,9 @@
 #include <span>
 #include <vector>
 
+#include "app/control/frame_judge.h"
 #include "app/control/frame_result.h"
+#include "app/control/frame_result_pool.h"
 #include "app/control/part_reactions.h"
 #include "core/bvh.h"
 #include "core/layout.h"
@@ -35,7 +37,7 @@ class FramePipeline {
 
   [[nodiscard]] const std::shared_ptr<const core::Rig>& rig() const { return rig_; }
   [[nodiscard]] const std::shared_ptr<const core::Layout>& layout() const { return layout_; }
-  [[nodiscard]] std::span<const core::TriangleTree> part_trees() const { return part_trees_; }
+  [[nodiscard]] std::span<const core::TriangleTree> part_trees() const { return judge_.part_trees(); }
 
   // spacing_mm: in the layout's order. The result shares the frames' pictures. The parts are judged before
   // they give way in this frame, and cloths in their shape at rest; then those that give way react to the
@@ -47,18 +49,15 @@ class FramePipeline {
  private:
   void UpdateHull(std::vector<core::SoftMask> masks, FrameResult* result);
   void Judge(std::span<const core::RigidTransform> world_from_rests, FrameResult* result);
-  void UpdateContacts(FrameResult* result);
-  [[nodiscard]] core::PartContact Review(const FrameResult& result, core::PartIndex part);
   void UpdateResponse(std::span<const core::RigidTransform> world_from_rests, FrameResult* result);
 
   std::shared_ptr<const core::Rig> rig_;
   recon::UndistortedPlanes planes_;
   std::shared_ptr<const core::Layout> layout_;
-  std::vector<core::TriangleTree> part_trees_;
-  std::vector<review::InsideCells> inside_parts_;
+  FrameResultPool results_;
+  FrameJudge judge_;
   PartReactions responders_;
   recon::FrameSegmenter segmenter_;
-  review::PartReviewOptions review_;
   SharedFrameResult last_;
 };
 

@@ -105,7 +105,7 @@ class Recording {
       ApplyChanges(frame, frames->time_s);
       const Clock::time_point begin = Clock::now();
       const SharedFrameResult result = pipeline_->Process(std::move(*frames), spacing_mm_, options_.on_hull);
-      outcome_.frame_ms.push_back(std::chrono::duration<double, std::milli>(Clock::now() - begin).count());
+      outcome_.frame_times.Add(std::chrono::duration<double, std::milli>(Clock::now() - begin).count());
       Record(result);
       const RecordedFrames recorded{outcome_.frames, writer_.frames_committed()};
       if (options_.on_frame) options_.on_frame(result, recorded);

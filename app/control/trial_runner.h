@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "app/control/frame_result.h"
+#include "app/control/frame_time_tally.h"
 #include "app/control/trial_controls.h"
 #include "app/control/trial_setup.h"
 #include "core/progress.h"
@@ -54,7 +55,7 @@ struct TrialOutcome {
   std::vector<core::NearMiss> near_misses;
   std::string end_note;  // why it ended: "ended with the shortest source, camera 'cam03' (426 frames)", ...
   SkipCount skipped;     // over all frames
-  std::vector<double> frame_ms;  // segmentation to contacts, frame by frame
+  FrameTimeTally frame_times;  // segmentation to contacts
 };
 
 // Measures the backgrounds, creates the session, then sends each frame through the pipeline and into the

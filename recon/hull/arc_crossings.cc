@@ -5,10 +5,12 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <span>
 #include <vector>
 
 #include "core/error.h"
 #include "recon/contours/silhouette.h"
+#include "recon/hull/crossing_scratch.h"
 #include "recon/hull/visual_hull.h"
 
 namespace elbowroom::recon {
@@ -23,11 +25,6 @@ constexpr double kSkew = 1e-9;  // a share of the radius: so far off, an arc sti
 constexpr double kBeside = 1e-9;
 // Two meetings so close are one: nothing can be asked in between.
 constexpr double kSameRad = 1e-13;
-
-struct Meeting {
-  double angle_rad = 0.0;
-  HullBoundary boundary;
-};
 
 // The angles at which normal . x(angle) = offset, in [0, 2 pi). With a = along_start and b = along_quarter, a
 // cos(angle) + b sin(angle) = reach cos(angle - middle), so these are middle +- acos(rise / reach).
@@ -47,7 +44,7 @@ void VisitMeetings(const Arc& arc, const Vector3d& normal, double offset, const 
 // Adds where the circle meets the sectors that the edges span: the plane between the rays through an edge's
 // ends.
 void AddMeetings(const Arc& in_cam, const UndistortedPlane& plane, const Contour& contour,
-                 const HullBoundary& of_camera, std::vector<Meeting>* meetings) {
+                 const HullBoundary& of_camera, std::vector<ArcMeeting>* meetings) {
   const auto direction = [&](std::uint32_t vertex) {
     const Eigen::Vector2d& v = contour.vertices[vertex];
     return Vector3d(v.x(), v.y(), plane.focal_px());
@@ -66,8 +63,10 @@ void AddMeetings(const Arc& in_cam, const UndistortedPlane& plane, const Contour
   }
 }
 
-std::vector<Meeting> MeetingsOf(const VisualHull& hull, const Arc& arc) {
-  std::vector<Meeting> meetings;
+// In order, in the scratch's memory.
+std::span<const ArcMeeting> MeetingsOf(const VisualHull& hull, const Arc& arc, CrossingScratch* scratch) {
+  std::vector<ArcMeeting>& meetings = scratch->meetings;
+  meetings.clear();
   for (std::size_t i = 0; i < hull.silhouettes().size(); ++i) {
     const core::RigidTransform& cam_from_world = hull.rig().cameras[i].cam_from_world();
     const Arc in_cam{cam_from_world * arc.center_in_world, cam_from_world.rotation * arc.start_in_world,
@@ -85,7 +84,7 @@ std::vector<Meeting> MeetingsOf(const VisualHull& hull, const Arc& arc) {
         meetings.push_back({angle_rad, {}});
       });
   }
-  std::ranges::sort(meetings, {}, &Meeting::angle_rad);
+  std::ranges::sort(meetings, {}, &ArcMeeting::angle_rad);
   return meetings;
 }
 
@@ -96,18 +95,23 @@ Vector3d Arc::At(double angle_rad) const {
 }
 
 std::optional<ArcExit> FirstOutside(const VisualHull& hull, const Arc& arc) {
+  CrossingScratch own;
+  return FirstOutside(hull, arc, &own);
+}
+
+std::optional<ArcExit> FirstOutside(const VisualHull& hull, const Arc& arc, CrossingScratch* scratch) {
   const double radius_mm = arc.start_in_world.norm();
   core::Require(radius_mm > 0.0 && std::abs(arc.quarter_in_world.norm() - radius_mm) <= kSkew * radius_mm &&
                     std::abs(arc.start_in_world.dot(arc.quarter_in_world)) <= kSkew * radius_mm * radius_mm,
                 "an arc is part of a circle");
   if (hull.IsEmpty()) return ArcExit{};
-  Meeting last;
-  const std::vector<Meeting> meetings = MeetingsOf(hull, arc);
+  ArcMeeting last;
+  const std::span<const ArcMeeting> meetings = MeetingsOf(hull, arc, scratch);
   const auto is_outside_up_to = [&](double angle_rad) {
     return angle_rad > last.angle_rad + kSameRad &&
            !hull.Contains(arc.At(0.5 * (last.angle_rad + angle_rad)));
   };
-  for (const Meeting& meeting : meetings) {
+  for (const ArcMeeting& meeting : meetings) {
     if (is_outside_up_to(meeting.angle_rad)) return ArcExit{last.angle_rad, last.boundary};
     last = meeting;
   }

@@ -29,5 +29,7 @@ struct ArcExit {
 // two such meetings the label is asked of the point halfway. Held to steps of the point query by
 // arc_crossings_test. Throws: PreconditionError for a circle that isn't one. Thread: any.
 [[nodiscard]] std::optional<ArcExit> FirstOutside(const VisualHull& hull, const Arc& arc);
+[[nodiscard]] std::optional<ArcExit> FirstOutside(const VisualHull& hull, const Arc& arc,
+                                                  CrossingScratch* scratch);
 
 }  // namespace elbowroom::recon

@@ -72,18 +72,23 @@ std::optional<FittedTangent> FitTangent(const Contour& contour, std::uint32_t ed
   return fitted;
 }
 
+std::optional<NearEdge> NearEdgeOf(const VisualHull& hull, core::CameraIndex camera,
+                                   const Vector3d& x_in_world) {
+  const Vector3d x_in_cam = hull.rig().cameras[camera].cam_from_world() * x_in_world;
+  if (!(x_in_cam.z() > 0.0)) return std::nullopt;
+  const double focal_px = hull.silhouettes()[camera]->plane().focal_px();
+  const Vector2d position = x_in_cam.head<2>() * (focal_px / x_in_cam.z());
+  const ContourMap& labels = hull.silhouettes()[camera]->labels();
+  const std::optional<std::uint32_t> edge = labels.NearestEdge(position);
+  if (!edge) return std::nullopt;
+  return NearEdge{camera, *edge, position, DistanceToEdge(labels.contour(), *edge, position),
+                  x_in_cam.z() / focal_px};
+}
+
 std::vector<NearEdge> NearEdges(const VisualHull& hull, const Vector3d& x_in_world) {
   std::vector<NearEdge> near;
-  for (std::size_t i = 0; i < hull.silhouettes().size(); ++i) {
-    const Vector3d x_in_cam = hull.rig().cameras[i].cam_from_world() * x_in_world;
-    if (!(x_in_cam.z() > 0.0)) continue;
-    const double focal_px = hull.silhouettes()[i]->plane().focal_px();
-    const Vector2d position = x_in_cam.head<2>() * (focal_px / x_in_cam.z());
-    const ContourMap& labels = hull.silhouettes()[i]->labels();
-    if (const std::optional<std::uint32_t> edge = labels.NearestEdge(position))
-      near.push_back(
-          {i, *edge, position, DistanceToEdge(labels.contour(), *edge, position), x_in_cam.z() / focal_px});
-  }
+  for (std::size_t i = 0; i < hull.silhouettes().size(); ++i)
+    if (const std::optional<NearEdge> edge = NearEdgeOf(hull, i, x_in_world)) near.push_back(*edge);
   return near;
 }
 

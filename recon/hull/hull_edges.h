@@ -37,7 +37,10 @@ struct NearEdge {
   double px_mm = 0.0;  // the width of a pixel there, parallel to the picture plane
 };
 
-// One a camera at most.
+[[nodiscard]] std::optional<NearEdge> NearEdgeOf(const VisualHull& hull, core::CameraIndex camera,
+                                                 const Eigen::Vector3d& x_in_world);
+
+// Those of all cameras.
 [[nodiscard]] std::vector<NearEdge> NearEdges(const VisualHull& hull, const Eigen::Vector3d& x_in_world);
 
 // The width of a pixel at a point, mm; the largest over the cameras that look towards it, 0 if none does.

@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "recon/contours/silhouette.h"
 #include "recon/hull/camera_query.h"
+#include "recon/hull/crossing_scratch.h"
 #include "recon/hull/visual_hull.h"
 
 namespace elbowroom::recon {
@@ -26,15 +27,6 @@ struct RayInCam {
   Vector3d direction;
 };
 
-// A change of one camera's label along the ray.
-struct Event {
-  double t_mm = 0.0;
-  std::size_t camera = 0;
-  std::uint32_t edge = 0;
-  bool is_entry = false;
-  bool is_outline = false;
-};
-
 bool PassesThroughCentre(const RayInCam& ray) {
   return ray.direction.cross(ray.origin).norm() <= kThroughCentre * ray.origin.norm();
 }
@@ -42,7 +34,7 @@ bool PassesThroughCentre(const RayInCam& ray) {
 // A ray through the camera's centre has one label up to the centre and one from there on: those of the two
 // directions in which the camera sees the ray. Returns the label at the ray's origin.
 bool AddCentreEvent(const ContourMap& labels, double focal_px, const RayInCam& ray, std::size_t camera,
-                    bool is_outline, std::vector<Event>* events) {
+                    bool is_outline, std::vector<RayCrossing>* events) {
   const bool before = LabelInCam(labels, focal_px, -ray.direction);
   const bool after = LabelInCam(labels, focal_px, ray.direction);
   const double t_mm = -ray.origin.dot(ray.direction);
@@ -56,11 +48,12 @@ bool AddCentreEvent(const ContourMap& labels, double focal_px, const RayInCam& r
 // ray's line, and the order of the sides tells crossings of the edge's cone from those of its mirror image
 // behind the camera. Returns the label before the first event.
 bool AddEvents(const ContourMap& labels, double focal_px, const RayInCam& ray, std::size_t camera,
-               bool is_outline, std::vector<Event>* events) {
+               bool is_outline, CrossingScratch* scratch) {
   const Contour& contour = labels.contour();
   const Vector3d centre = -ray.origin;
   const Vector3d side = ray.direction.cross(centre);
-  std::vector<std::uint8_t> is_positive(contour.vertices.size());
+  std::vector<std::uint8_t>& is_positive = scratch->sides;
+  is_positive.resize(contour.vertices.size());
   for (std::size_t i = 0; i < contour.vertices.size(); ++i) {
     const Eigen::Vector2d& v = contour.vertices[i];
     is_positive[i] = side.x() * v.x() + side.y() * v.y() + side.z() * focal_px > 0.0 ? 1 : 0;
@@ -78,7 +71,7 @@ bool AddEvents(const ContourMap& labels, double focal_px, const RayInCam& ray, s
     if (is_entry != (rise > 0.0)) continue;  // a crossing of the mirror image
     const double t_mm = height / rise;
     if (!(t_mm > 0.0)) continue;
-    events->push_back({t_mm, camera, e, is_entry, is_outline});
+    scratch->crossings.push_back({t_mm, camera, e, is_entry, is_outline});
     is_tied = t_mm == first_mm || (is_tied && t_mm > first_mm);
     if (t_mm >= first_mm) continue;
     first_mm = t_mm;
@@ -110,10 +103,13 @@ RaySpan Clip(const Eigen::AlignedBox3d& box, const Ray& ray, RaySpan span) {
 // Which cameras label the ray's present place object, and which of them see it.
 class Votes {
  public:
-  explicit Votes(const VisualHull& hull)
+  Votes(const VisualHull& hull, CrossingScratch* scratch)
       : asks_for_sight_(ExteriorIsObject(hull.rig())),
-        objects_(hull.silhouettes().size(), 0),
-        visibility_outlines_(asks_for_sight_ ? hull.silhouettes().size() : 0, 0) {}
+        objects_(scratch->objects),
+        visibility_outlines_(scratch->outlines) {
+    objects_.assign(hull.silhouettes().size(), 0);
+    visibility_outlines_.assign(hull.silhouettes().size(), 0);
+  }
 
   void Set(std::size_t camera, bool is_outline, bool value) {
     std::uint8_t& vote = is_outline ? visibility_outlines_[camera] : objects_[camera];
@@ -129,13 +125,15 @@ class Votes {
   bool asks_for_sight_;
   int inside_ = 0;
   int seen_ = 0;
-  std::vector<std::uint8_t> objects_;
-  std::vector<std::uint8_t> visibility_outlines_;
+  std::vector<std::uint8_t>& objects_;
+  std::vector<std::uint8_t>& visibility_outlines_;
 };
 
-// Sets the votes to those where the ray starts. Returns all events beyond, in order.
-std::vector<Event> EventsAlong(const VisualHull& hull, const Ray& ray, Votes* votes) {
-  std::vector<Event> events;
+// Sets the votes to those where the ray starts. Returns all events beyond, in order, in the scratch's memory.
+std::span<const RayCrossing> EventsAlong(const VisualHull& hull, const Ray& ray, Votes* votes,
+                                         CrossingScratch* scratch) {
+  std::vector<RayCrossing>& events = scratch->crossings;
+  events.clear();
   for (std::size_t i = 0; i < hull.silhouettes().size(); ++i) {
     const core::RigidTransform& cam_from_world = hull.rig().cameras[i].cam_from_world();
     const RayInCam in_cam{cam_from_world * ray.origin_in_world,
@@ -146,35 +144,44 @@ std::vector<Event> EventsAlong(const VisualHull& hull, const Ray& ray, Votes* vo
         votes->Set(i, is_outline, AddCentreEvent(labels, plane.focal_px(), in_cam, i, is_outline, &events));
         return;
       }
-      votes->Set(i, is_outline, AddEvents(labels, plane.focal_px(), in_cam, i, is_outline, &events));
+      votes->Set(i, is_outline, AddEvents(labels, plane.focal_px(), in_cam, i, is_outline, scratch));
     };
     add(hull.silhouettes()[i]->labels(), false);
     if (ExteriorIsObject(hull.rig())) add(plane.outline(), true);
   }
-  std::sort(events.begin(), events.end(), [](const Event& a, const Event& b) { return a.t_mm < b.t_mm; });
+  std::sort(events.begin(), events.end(),
+            [](const RayCrossing& a, const RayCrossing& b) { return a.t_mm < b.t_mm; });
   return events;
 }
 
-HullBoundary BoundaryAt(const Event& event) { return {event.camera, event.edge, event.is_outline}; }
+HullBoundary BoundaryAt(const RayCrossing& event) { return {event.camera, event.edge, event.is_outline}; }
 
 }  // namespace
 
 std::vector<HullInterval> IntervalsInHull(const VisualHull& hull, const Ray& ray, const RaySpan& span) {
+  CrossingScratch own;
+  (void)IntervalsInHull(hull, ray, span, &own);
+  return std::move(own.intervals);
+}
+
+std::span<const HullInterval> IntervalsInHull(const VisualHull& hull, const Ray& ray, const RaySpan& span,
+                                              CrossingScratch* scratch) {
   core::Require(std::abs(ray.direction_in_world.norm() - 1.0) <= kUnitSlack, "a ray's direction is unit");
   core::Require(span.from_mm >= 0.0 && span.to_mm >= span.from_mm, "0 <= from <= to");
-  std::vector<HullInterval> intervals;
+  std::vector<HullInterval>& intervals = scratch->intervals;
+  intervals.clear();
   if (hull.IsEmpty()) return intervals;
   const RaySpan clipped = Clip(hull.rig().workspace_mm, ray, span);
   if (!(clipped.from_mm < clipped.to_mm)) return intervals;
-  Votes votes(hull);
-  const std::vector<Event> events = EventsAlong(hull, ray, &votes);
+  Votes votes(hull, scratch);
+  const std::span<const RayCrossing> events = EventsAlong(hull, ray, &votes, scratch);
   std::size_t next = 0;
   for (; next < events.size() && events[next].t_mm <= clipped.from_mm; ++next)
     votes.Set(events[next].camera, events[next].is_outline, events[next].is_entry);
   HullInterval interval{clipped.from_mm, 0.0, {}, {}};
   bool is_inside = votes.AreInside();
   for (; next < events.size() && events[next].t_mm < clipped.to_mm; ++next) {
-    const Event& event = events[next];
+    const RayCrossing& event = events[next];
     votes.Set(event.camera, event.is_outline, event.is_entry);
     if (votes.AreInside() == is_inside) continue;
     is_inside = !is_inside;
@@ -193,7 +200,13 @@ std::vector<HullInterval> IntervalsInHull(const VisualHull& hull, const Ray& ray
 }
 
 std::optional<double> FirstInside(const VisualHull& hull, const Ray& ray, const RaySpan& span) {
-  const std::vector<HullInterval> intervals = IntervalsInHull(hull, ray, span);
+  CrossingScratch own;
+  return FirstInside(hull, ray, span, &own);
+}
+
+std::optional<double> FirstInside(const VisualHull& hull, const Ray& ray, const RaySpan& span,
+                                  CrossingScratch* scratch) {
+  const std::span<const HullInterval> intervals = IntervalsInHull(hull, ray, span, scratch);
   if (intervals.empty()) return std::nullopt;
   return intervals.front().from_mm;
 }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/ids.h"
@@ -11,6 +12,8 @@
 #include "recon/hull/visual_hull_declared.h"
 
 namespace elbowroom::recon {
+
+struct CrossingScratch;  // recon/hull/crossing_scratch.h
 
 // The bound of the hull at one end of an interval: an edge of a camera's contour, or else a face of the
 // workspace or the end of the search.
@@ -40,10 +43,15 @@ struct RaySpan {
 // to.
 [[nodiscard]] std::vector<HullInterval> IntervalsInHull(const VisualHull& hull, const Ray& ray,
                                                         const RaySpan& span = {});
+// The same in the scratch's memory: valid until its next use.
+[[nodiscard]] std::span<const HullInterval> IntervalsInHull(const VisualHull& hull, const Ray& ray,
+                                                            const RaySpan& span, CrossingScratch* scratch);
 
 // Distance along the ray of the first point of the hull; from_mm itself if the span starts inside.
 [[nodiscard]] std::optional<double> FirstInside(const VisualHull& hull, const Ray& ray,
                                                 const RaySpan& span = {});
+[[nodiscard]] std::optional<double> FirstInside(const VisualHull& hull, const Ray& ray, const RaySpan& span,
+                                                CrossingScratch* scratch);
 
 // Distance along the ray of the first point that isn't in the hull; from_mm itself if the span starts
 // outside. Nothing if the ray stays inside up to to_mm.

@@ -271,16 +271,17 @@ BoundingEdge VisualHull::EdgeAt(const Eigen::Vector3d& surface_point_in_world) c
   double nearest_mm = rig_->workspace_mm.contains(surface_point_in_world)
                           ? DistanceToFace(rig_->workspace_mm, surface_point_in_world)
                           : 0.0;
-  const std::vector<NearEdge> edges = NearEdges(*this, surface_point_in_world);
-  const NearEdge* nearest = nullptr;
-  for (const NearEdge& edge : edges) {
+  std::optional<NearEdge> nearest;
+  for (std::size_t i = 0; i < silhouettes_.size(); ++i) {
+    const std::optional<NearEdge> edge = NearEdgeOf(*this, i, surface_point_in_world);
+    if (!edge) continue;
     // How far the point is from the plane that the edge and the camera's centre span, about.
-    const double distance_mm = edge.distance_px * edge.px_mm;
+    const double distance_mm = edge->distance_px * edge->px_mm;
     if (distance_mm >= nearest_mm) continue;
     nearest_mm = distance_mm;
-    nearest = &edge;
+    nearest = edge;
   }
-  if (nearest != nullptr) {
+  if (nearest) {
     bounding.camera = nearest->camera;
     bounding.normal_in_world = NormalOf(*this, *nearest).in_world;
   }

@@ -31,6 +31,9 @@ void MeasureCost(const std::filesystem::path& docs, const std::filesystem::path&
 // one thread and on two; still and empty scenes beside.
 void MeasureFrames(const std::filesystem::path& docs, int count = 10'000);
 
+// performance.md, "memory": what each stage of the demo's frames asks the heap for, on one thread and on two.
+void MeasureMemory(const std::filesystem::path& docs);
+
 // cad_import.md, "import": whole commands of `program` (elbowroom) on a mesh file of a million triangles.
 void MeasureImport(const std::filesystem::path& docs, const std::filesystem::path& program);
 

@@ -1,0 +1,81 @@
+#include "app/control/frame_judge.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "recon/hull/visual_hull.h"
+
+namespace elbowroom::control {
+namespace {
+
+// Memory for as many points is kept with each answer; a layout that keeps more of them allocates.
+constexpr int kPointsReserved = 256;
+
+bool IsUnchanged(const FrameResult* last, const FrameResult& result, core::PartIndex part) {
+  return last != nullptr && last->hull == result.hull &&
+         last->world_from_parts[part] == result.world_from_parts[part];
+}
+
+void Count(const core::PartContact& contact, SkipCount* skipped) {
+  skipped->triangles_in_all += contact.count.triangles;
+  skipped->triangles_skipped += contact.count.skipped;
+  skipped->queries += contact.count.queries;
+  if (!contact.clearance) return;
+  skipped->clearance_queries += contact.clearance->queries;
+  if (contact.contact_point_count > 0 || contact.contained_in_world_mm) {
+    ++skipped->clearances_by_contact;
+  } else if (contact.clearance->queries == 1) {
+    ++skipped->clearances_by_ball;
+  }
+}
+
+}  // namespace
+
+FrameJudge::FrameJudge(const core::Layout& layout, const review::PartReviewOptions& review)
+    : layout_(layout), review_(review), scratch_(layout.parts.size()) {
+  layout_.Validate();
+  review_.Validate();
+  for (const core::Part& part : layout_.parts) part_trees_.emplace_back(part.mesh);
+  for (const core::TriangleTree& part : part_trees_) inside_parts_.emplace_back(part);
+}
+
+void FrameJudge::Judge(const FrameResult* last, FrameResult* result) {
+  std::vector<core::PartContact>& contacts = result->record.contacts;
+  contacts.resize(part_trees_.size());
+  tbb::parallel_for(std::size_t{0}, contacts.size(), [&](std::size_t i) {
+    contacts[i].points.reserve(
+        static_cast<std::size_t>(std::min(review_.contacts.max_points, kPointsReserved)));
+    if (IsUnchanged(last, *result, i)) {
+      contacts[i] = last->record.contacts[i];
+      return;
+    }
+    std::vector<core::ContactPoint>& kept = scratch_[i].spread.kept;
+    kept = std::move(contacts[i].points);
+    contacts[i] = Review(last, *result, i);
+    if (!contacts[i].points.empty()) return;
+    contacts[i].points = std::move(kept);
+    contacts[i].points.clear();
+  });
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    if (IsUnchanged(last, *result, i)) {
+      ++result->skipped.unchanged_parts;
+    } else {
+      Count(contacts[i], &result->skipped);
+    }
+  }
+}
+
+core::PartContact FrameJudge::Review(const FrameResult* last, const FrameResult& result,
+                                     core::PartIndex part) {
+  const auto hint = last != nullptr
+                        ? review::HintFrom(last->record.contacts[part], last->world_from_parts[part])
+                        : std::optional<review::ClearanceHint>();
+  review::PartReviewOptions options = review_;
+  options.contacts.recovery = layout_.parts[part].recovery;
+  return review::ReviewPart(*result.hull, part_trees_[part], result.world_from_parts[part], part, options,
+                            hint, &inside_parts_[part], &scratch_[part]);
+}
+
+}  // namespace elbowroom::control
