@@ -195,24 +195,17 @@ class Way {
   const EdgeVec from_x_, from_y_, way_x_, way_y_, side_of_way_;
 };
 
-// The least share at which way i meets an edge of the cells in its box; more than 1 if there is none. Most
-// boxes have one or two rows of up to four edges, so these are looked at without a test. A box of one row is
-// looked at twice, which changes nothing.
+// The least share at which way i meets an edge of the cells in its box; more than 1 if there is none.
 HWY_INLINE double FirstCrossing(const ContourCellsView& cells, const Ways& ways, std::size_t i) {
   const Edges d;
   const Way way(ways, i);
   EdgeVec nearest = SetE(kNoCrossing);
-  const auto meet_row = [&](std::int32_t row) HWY_ATTR {
+  for (std::int32_t row = ways.top[i]; row <= ways.bottom[i]; ++row) {
     const std::uint32_t* const first = cells.first.data() + row * cells.width;
-    std::size_t at = first[ways.left[i]];
     const std::size_t end = first[ways.right[i] + 1];
-    nearest = way.Meet(cells.edges.data() + at, end - at, nearest);
-    for (at += hn::Lanes(d); at < end; at += hn::Lanes(d))
+    for (std::size_t at = first[ways.left[i]]; at < end; at += hn::Lanes(d))
       nearest = way.Meet(cells.edges.data() + at, end - at, nearest);
-  };
-  meet_row(ways.top[i]);
-  for (std::int32_t row = ways.top[i] + 1; row < ways.bottom[i]; ++row) meet_row(row);
-  meet_row(ways.bottom[i]);
+  }
   return hn::GetLane(hn::MinOfLanes(d, nearest));
 }
 

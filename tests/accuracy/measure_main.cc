@@ -32,6 +32,9 @@ int main(int argc, char** argv) {
   });
   app.add_subcommand("judging", "contacts and clearance: run time against error, and against what is asked")
       ->callback([&] { MeasureJudging(docs); });
+  app.add_subcommand("hard", "shapes that are hard on purpose: half, 99 %, worst")->callback([&] {
+    MeasureHardShapes(docs);
+  });
   int frame_count = 10'000;
   CLI::App* frames = app.add_subcommand("frames", "whole frames of the demo");
   frames->add_option("--count", frame_count, "frames a run")

@@ -46,6 +46,10 @@ void MeasureLogging(const std::filesystem::path& docs);
 // performance.md, "judging" and "judging_cost"; docs/pictures/{contact,clearance}_methods.{svg,png}.
 void MeasureJudging(const std::filesystem::path& docs);
 
+// performance.md, "hard": contacts, clearance, recovery, heat map and view for shapes that are hard on
+// purpose.
+void MeasureHardShapes(const std::filesystem::path& docs);
+
 // paper_collision.md, all its sections.
 void MeasureCollisions(const std::filesystem::path& docs);
 

@@ -3,7 +3,6 @@
 #include <tbb/global_control.h>
 
 #include <CLI/CLI.hpp>
-#include <cmath>
 #include <memory>
 #include <string>
 #include <vector>
@@ -12,17 +11,15 @@
 #include "recon/contours/undistorted_plane.h"
 #include "recon/exact_view/hull_view.h"
 #include "recon/hull/visual_hull.h"
-#include "recon/synthetic/solids.h"
 #include "recon/synthetic/view_scene.h"
+#include "tests/accuracy/hard/hard_hulls.h"
 
 namespace elbowroom::accuracy {
 namespace {
 
-const Eigen::Vector3d kGrey = Eigen::Vector3d::Constant(200.0);
-
 struct CostOptions {
   bool eight = false;           // the rig of eight cameras, 1280 x 720
-  std::string shape = "hand";   // in the workspace: hand, fingers, people
+  std::string shape = "hand";   // in the workspace: "hand", or a hard hull
   double zoom = 1.0;            // of the view's focal length
   int view_size = 1;            // factor on the view's width and height, its focal length unchanged
   int picture_size = 1;         // the same for the rig's cameras
@@ -33,35 +30,12 @@ struct CostOptions {
   bool moved = false;           // look from 10 mm beside
 };
 
-// Thin bars that hide one another: five spread fingers of a hand that lies flat.
-recon::SyntheticObject SpreadFingers() {
-  recon::SyntheticObject hand{"fingers", {}};
-  for (int i = 0; i < 5; ++i) {
-    const double angle = 0.45 * (i - 2);
-    const Eigen::Vector3d along(std::cos(angle), std::sin(angle), 0.15);
-    const Eigen::Vector3d knuckle = Eigen::Vector3d(60.0, 0.0, 150.0) + 40.0 * along;
-    hand.solids.push_back(recon::CapsuleBetween(knuckle, knuckle + 90.0 * along, 8.0, kGrey));
-  }
-  return hand;
-}
-
-// Two large bodies side by side, each with an arm stretched out.
-recon::SyntheticObject TwoPeople() {
-  recon::SyntheticObject people{"people", {}};
-  for (const double side : {-1.0, 1.0}) {
-    const Eigen::Vector3d hip(140.0, 130.0 * side, 60.0), neck(140.0, 130.0 * side, 260.0);
-    people.solids.push_back(recon::CapsuleBetween(hip, neck, 60.0, kGrey));
-    people.solids.push_back(recon::CapsuleBetween(neck, {20.0, 40.0 * side, 180.0}, 25.0, kGrey));
-  }
-  return people;
-}
-
 // Throws: PreconditionError for a shape that there isn't.
 std::vector<recon::SyntheticObject> ObjectsOf(const std::string& shape, const recon::ViewScene& scene) {
-  if (shape == "fingers") return {SpreadFingers()};
-  if (shape == "people") return {TwoPeople()};
-  core::Require(shape == "hand", "a shape is hand, fingers or people");
-  return scene.objects;
+  if (shape == "hand") return scene.objects;
+  for (const HardHull hull : kHardHulls)
+    if (shape == ToString(hull)) return {ObjectOf(hull)};
+  throw core::PreconditionError("a shape is hand, or a hard hull");
 }
 
 core::CameraModel WithMorePicture(const core::CameraModel& camera, int factor) {
@@ -124,7 +98,7 @@ int main(int argc, char** argv) {
   CLI::App app{"One exact view of the demo's hand, for callgrind to count."};
   elbowroom::accuracy::CostOptions options;
   app.add_flag("--eight", options.eight, "the rig of eight cameras of 1280 x 720");
-  app.add_option("--shape", options.shape, "hand, fingers or people");
+  app.add_option("--shape", options.shape, "hand, fist, spread fingers, reaching hand or two people");
   app.add_option("--zoom", options.zoom, "factor on the view's focal length");
   app.add_option("--view-size", options.view_size, "factor on the view's width and height");
   app.add_option("--picture-size", options.picture_size, "factor on the rig's pictures' width and height");

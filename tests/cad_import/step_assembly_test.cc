@@ -1,19 +1,14 @@
-// Assemblies, written here by OpenCASCADE's own STEP writer.
+// Assemblies, written by OpenCASCADE's own STEP writer.
 #include <gtest/gtest.h>
 
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeSphere.hxx>
-#include <STEPCAFControl_Writer.hxx>
-#include <TDataStd_Name.hxx>
-#include <TDocStd_Document.hxx>
-#include <XCAFApp_Application.hxx>
-#include <XCAFDoc_DocumentTool.hxx>
-#include <XCAFDoc_ShapeTool.hxx>
-#include <gp_Trsf.hxx>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "cad_import/cad_file.h"
+#include "tests/support/step_assembly.h"
 #include "tests/support/temporary_folder.h"
 
 namespace elbowroom::cad_import {
@@ -23,27 +18,15 @@ constexpr int kBalls = 100;
 
 // A rack of `kBalls` balls of radius 5, 20 apart along x, on a plate.
 void WriteRack(const std::filesystem::path& path) {
-  Handle(TDocStd_Document) document;
-  XCAFApp_Application::GetApplication()->NewDocument("MDTV-XCAF", document);
-  const Handle(XCAFDoc_ShapeTool) shapes = XCAFDoc_DocumentTool::ShapeTool(document->Main());
-  const TDF_Label rack = shapes->NewShape();
-  const TDF_Label ball = shapes->AddShape(BRepPrimAPI_MakeSphere(5.0).Shape(), false);
-  const TDF_Label plate =
-      shapes->AddShape(BRepPrimAPI_MakeBox(gp_Pnt(-10, -10, -7), 20.0 * kBalls, 20, 2).Shape(), false);
-  TDataStd_Name::Set(rack, "rack");
-  TDataStd_Name::Set(ball, "ball");
-  TDataStd_Name::Set(plate, "plate");
-  for (int i = 0; i < kBalls; ++i) {
-    gp_Trsf moved;
-    moved.SetTranslation(gp_Vec(20.0 * i, 0, 0));
-    const TDF_Label component = shapes->AddComponent(rack, ball, TopLoc_Location(moved));
-    TDataStd_Name::Set(component, ("ball " + std::to_string(i)).c_str());
-  }
-  shapes->AddComponent(rack, plate, TopLoc_Location());
-  shapes->UpdateAssemblies();
-  STEPCAFControl_Writer writer;
-  ASSERT_TRUE(writer.Transfer(document));
-  ASSERT_EQ(writer.Write(path.c_str()), IFSelect_RetDone);
+  const std::vector<test_support::StepBody> bodies = {
+      {"ball", BRepPrimAPI_MakeSphere(5.0).Shape()},
+      {"plate", BRepPrimAPI_MakeBox(gp_Pnt(-10, -10, -7), 20.0 * kBalls, 20, 2).Shape()}};
+  std::vector<test_support::StepInstance> instances;
+  for (int i = 0; i < kBalls; ++i)
+    instances.push_back(
+        {"ball " + std::to_string(i), 0, {Eigen::Matrix3d::Identity(), {20.0 * i, 0.0, 0.0}}});
+  instances.push_back({"plate", 1, {}});
+  test_support::WriteStepAssembly(path, "rack", bodies, instances);
 }
 
 TEST(StepAssembly, AHundredInstancesShareOneMesh) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <random>
 #include <utility>
 
 namespace elbowroom::test_support {
@@ -74,6 +75,36 @@ core::TriangleMesh NeedleForestMesh(double side_mm, double height_mm, int triang
       mesh.vertices_mm.push_back(foot + Vector3d(0.0, 0.0, height_mm));
       for (std::int32_t k = 0; k < 3; ++k)
         mesh.triangles.push_back({first + k, first + (k + 1) % 3, first + 3});
+    }
+  }
+  return mesh;
+}
+
+core::TriangleMesh ScanMesh(double side_mm, int triangles, std::uint64_t seed) {
+  constexpr double kLinesMoreThanPoints = 2.0;  // as a line scanner's: one direction is finer
+  constexpr double kUneven = 0.9;               // of the mean distance of two lines
+  constexpr double kBumpMm = 12.0, kBumps = 6.0, kNoiseMm = 0.3;
+  const int points = std::max(2, SideOf(static_cast<int>(triangles / (2.0 * kLinesMoreThanPoints))));
+  const int lines = static_cast<int>(kLinesMoreThanPoints * points);
+  std::mt19937_64 engine(seed);
+  std::uniform_real_distribution<double> noise_mm(-kNoiseMm, kNoiseMm);
+  const auto across = [&](int i, int count) {
+    const double share = static_cast<double>(i) / count;
+    return side_mm * (share - kUneven * std::sin(2.0 * M_PI * share) / (2.0 * M_PI) - 0.5);
+  };
+  core::TriangleMesh mesh;
+  for (int i = 0; i <= lines; ++i) {
+    for (int j = 0; j <= points; ++j) {
+      const double x = across(i, lines), y = across(j, points), turn = 2.0 * M_PI * kBumps / side_mm;
+      mesh.vertices_mm.emplace_back(x, y,
+                                    kBumpMm * std::sin(turn * x) * std::sin(turn * y) + noise_mm(engine));
+    }
+  }
+  const auto id = [&](int i, int j) { return static_cast<std::int32_t>(i * (points + 1) + j); };
+  for (int i = 0; i < lines; ++i) {
+    for (int j = 0; j < points; ++j) {
+      mesh.triangles.push_back({id(i, j), id(i + 1, j), id(i + 1, j + 1)});
+      mesh.triangles.push_back({id(i, j), id(i + 1, j + 1), id(i, j + 1)});
     }
   }
   return mesh;
