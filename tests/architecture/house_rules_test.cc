@@ -55,6 +55,11 @@ TEST(HouseRules, NoFolderHoldsTooManyFiles) {
     EXPECT_LE(files, kMostFilesInAFolder) << folder << ": make rooms inside it";
 }
 
+// Finds one of some words, "A|B".
+std::regex AnyWordOf(const std::string& words) {
+  return std::regex(std::string(R"(\b()").append(words).append(R"()\b)"));
+}
+
 // Paths and, after a path and a colon, the names that the file is said to have.
 TEST(HouseRules, WhereDoINamesWhatIsThere) {
   const std::string page = ReadText(kHouse / "docs/where_do_i.md");
@@ -66,8 +71,7 @@ TEST(HouseRules, WhereDoINamesWhatIsThere) {
     if (!fs::is_regular_file(path)) continue;
     const std::string text = ReadText(path), said = (*at)[2];
     for (std::sregex_iterator word(said.begin(), said.end(), name); word != end; ++word, ++names) {
-      EXPECT_TRUE(std::regex_search(text, std::regex("\\b" + (*word)[1].str() + "\\b")))
-          << (*at)[1] << " has no " << (*word)[1];
+      EXPECT_TRUE(std::regex_search(text, AnyWordOf((*word)[1]))) << (*at)[1] << " has no " << (*word)[1];
     }
   }
   EXPECT_GT(names, 80) << "or the page is read wrongly";
@@ -97,12 +101,12 @@ TEST(HouseRules, WhereDoINamesCallersThatCall) {
     const std::string here = (*at)[1], called_by = (*at)[2];
     std::string any;
     for (std::sregex_iterator word(here.begin(), here.end(), name); word != end; ++word)
-      any += (any.empty() ? "" : "|") + ((*word)[1].matched ? (*word)[1] : (*word)[2]).str();
+      any.append(any.empty() ? "" : "|").append((*word)[1].matched ? (*word)[1] : (*word)[2]);
     if (any.empty()) continue;
     for (std::sregex_iterator file(called_by.begin(), called_by.end(), caller); file != end;
          ++file, ++callers) {
       const std::string calling = BodiesOf(ReadText(kHouse / (*file)[1].str()), (*file)[2]);
-      EXPECT_TRUE(std::regex_search(calling, std::regex("\\b(" + any + ")\\b")))
+      EXPECT_TRUE(std::regex_search(calling, AnyWordOf(any)))
           << (*file)[1] << " " << (*file)[2] << " calls none of " << any;
     }
   }

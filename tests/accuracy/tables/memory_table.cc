@@ -33,7 +33,7 @@ using test_support::AllocationsSoFar;
 
 constexpr core::FrameIndex kPictures = 360;  // that are kept, to be played over and over
 constexpr int kRoundsBefore = 2, kRounds = 3;
-constexpr double kFrameRateHz = 30.0;
+constexpr double kPlayedRateHz = 30.0;
 
 constexpr std::array kStages = {"the frame's result", "masks",   "hull, with its contours",
                                 "contours' cells",    "judging", "operator's view",
@@ -118,7 +118,7 @@ MemoryUse UseOf(const control::TrialSetup& setup, const std::vector<recon::Frame
     StageCounts warming_up;
     for (recon::FrameSet frames : pictures) {
       frames.index = index++;
-      frames.time_s = static_cast<double>(frames.index) / kFrameRateHz;
+      frames.time_s = static_cast<double>(frames.index) / kPlayedRateHz;
       trial.Play(std::move(frames), round < kRoundsBefore ? &warming_up : &use.counts);
       use.most_added_bytes = std::max(use.most_added_bytes, test_support::ResidentBytes() - before_bytes);
     }

@@ -5,6 +5,7 @@
 #include <ostream>
 
 #include "recon/contours/silhouette.h"
+#include "recon/hull/visual_hull.h"
 #include "recon/hull_mesh/hull_mesh.h"
 #include "tests/recon/scenes/carve.h"
 #include "tests/recon/scenes/shared_data.h"
