@@ -21,7 +21,8 @@ namespace {
 using test_support::AllocationCount;
 using test_support::AllocationsSoFar;
 
-constexpr core::FrameIndex kFrames = 360, kStep = 4;  // all of the demo's motion, every fourth frame
+constexpr core::FrameIndex kPlayedFrames = 360,
+                           kPlayedStep = 4;  // all of the demo's motion, every fourth frame
 
 // Hulls of the demo's exact masks, ready to be asked.
 std::vector<SharedHull> DemoHulls() {
@@ -30,7 +31,7 @@ std::vector<SharedHull> DemoHulls() {
   const auto rig = std::make_shared<const core::Rig>(source.rig());
   const recon::UndistortedPlanes planes = recon::MakeUndistortedPlanes(*rig);
   std::vector<SharedHull> hulls;
-  for (core::FrameIndex frame = 0; frame < kFrames; frame += kStep) {
+  for (core::FrameIndex frame = 0; frame < kPlayedFrames; frame += kPlayedStep) {
     std::vector<core::SoftMask> masks;
     for (core::BitMask& mask : source.TrueMasks(source.ObjectsAt(frame)))
       masks.emplace_back().mask = std::move(mask);
