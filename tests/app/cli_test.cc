@@ -287,7 +287,8 @@ TEST_F(CliOnBallRig, ContactsTouchWhereTheBallIs) {
   EXPECT_GT(json["d_rec_mm"].get<double>(), 0.0);
   EXPECT_EQ(json["n_hull"].size(), 3U);
   EXPECT_EQ(json["triangles"], 12);
-  for (const char* key : {"time_ms", "first_time_ms", "queries", "skipped"}) EXPECT_TRUE(json.contains(key)) << key;
+  for (const char* key : {"time_ms", "first_time_ms", "queries", "skipped"})
+    EXPECT_TRUE(json.contains(key)) << key;
 }
 
 TEST_F(CliOnBallRig, ContactsSayWhichWayIsOut) {

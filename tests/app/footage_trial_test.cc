@@ -43,9 +43,9 @@ class FootageTrial : public testing::Test {
 
   [[nodiscard]] test_support::ProgramRun Run(const std::vector<std::string>& more = {}) const {
     std::filesystem::remove(session_);
-    std::vector<std::string> arguments = {"trial",     "run",           (folder_ / "trial.toml").string(),
-                                          "--session", session_.string(), "--headless",
-                                          "--json"};
+    std::vector<std::string> arguments = {
+        "trial",      "run",   (folder_ / "trial.toml").string(), "--session", session_.string(),
+        "--headless", "--json"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return test_support::RunProgram(ELBOWROOM_PROGRAM, arguments);
   }

@@ -193,8 +193,7 @@ void WriteModelTables(const fs::path& docs, const std::string& only) {
       refused.rows.push_back(RefusedRowOf(model));
     }
   }
-  const std::string machine =
-      fmt::format("\n{}", reporting::ToLine(reporting::ThisMachine(docs / "..")));
+  const std::string machine = fmt::format("\n{}", reporting::ToLine(reporting::ThisMachine(docs / "..")));
   const fs::path file = docs / "cad_models.md";
   reporting::WriteSection(file, "models_summary", Summary(models, collections.missing) + machine);
   reporting::WriteSection(file, "models", reporting::ToMarkdown(imported));

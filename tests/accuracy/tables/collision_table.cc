@@ -118,8 +118,7 @@ void MeasureCollisions(const std::filesystem::path& docs) {
   const std::vector<ResponseErrors> errors =
       MeasureResponses(recon::ViewSceneRig::kThree, kSolids, kRays, kSeed);
   const std::filesystem::path file = docs / "paper_collision.md";
-  const std::string machine =
-      fmt::format("\n{}", reporting::ToLine(reporting::ThisMachine(docs / "..")));
+  const std::string machine = fmt::format("\n{}", reporting::ToLine(reporting::ThisMachine(docs / "..")));
   reporting::WriteSection(file, "collision", reporting::ToMarkdown(MethodTable(parts)) + machine);
   reporting::WriteSection(file, "collision_work",
                           reporting::ToMarkdown(WorkTable(parts.front().paper.front())) + machine);

@@ -90,8 +90,7 @@ void MeasureJudging(const std::filesystem::path& docs) {
   fmt::print(stderr, "judging: shapes\n");
   const std::vector<ShapeCost> shapes = MeasureShapeCosts(kShapeTriangles, kCostEffort);
   const std::filesystem::path file = docs / "performance.md";
-  const std::string machine =
-      fmt::format("\n{}", reporting::ToLine(reporting::ThisMachine(docs / "..")));
+  const std::string machine = fmt::format("\n{}", reporting::ToLine(reporting::ThisMachine(docs / "..")));
   reporting::WriteSection(file, "judging",
                           reporting::ToMarkdown(MethodTable(contacts, clearances)) + machine);
   reporting::WriteSection(file, "judging_cost", reporting::ToMarkdown(CostTable(costs)) + machine);

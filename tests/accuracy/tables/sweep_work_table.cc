@@ -76,8 +76,7 @@ void MeasureSweepWork(const std::filesystem::path& docs) {
   fmt::print(stderr, "work\n");
   const SweepWorkResult result = TimeSweepWork();
   const std::filesystem::path file = docs / "plane_sweep.md";
-  const std::string machine =
-      fmt::format("\n{}", reporting::ToLine(reporting::ThisMachine(docs / "..")));
+  const std::string machine = fmt::format("\n{}", reporting::ToLine(reporting::ThisMachine(docs / "..")));
   reporting::WriteSection(file, "work", reporting::ToMarkdown(WorkTable(result)) + machine);
   reporting::WriteSection(file, "work_methods", reporting::ToMarkdown(MethodTable(result)) + machine);
 }

@@ -73,7 +73,8 @@ TEST_F(RealFootage, RandomAccessGivesTheSamePictureAsReadingOn) {
   std::vector<cv::Mat> in_order;
   for (int i = 0; i < 120; ++i) in_order.push_back(source->Read(i).value().image_bgr);
   for (const int i : {117, 3, 0, 64, 65, 12}) {
-    EXPECT_EQ(cv::norm(other->Read(i).value().image_bgr, in_order[static_cast<std::size_t>(i)], cv::NORM_INF), 0.0)
+    EXPECT_EQ(cv::norm(other->Read(i).value().image_bgr, in_order[static_cast<std::size_t>(i)], cv::NORM_INF),
+              0.0)
         << i;
   }
 }
