@@ -49,12 +49,14 @@ struct NearStretch {
   double from = 1.0;
   double to = -1.0;
   [[nodiscard]] bool is_empty() const { return from > to; }
+  [[nodiscard]] double length() const { return to - from; }  // below 0 if it is empty
 };
 
 // A stretch along half edge `axis` that holds all points of the box that are nearer to the part than
 // `within_mm`, by the planes of FindNearest. With an allowance (of any size) it may be longer than it must be
-// by a twentieth of the half edge. The caller allows for rounding. Thread: any.
+// by a twentieth of the half edge. A stretch that is longer than `longest` isn't worked out: then it is the
+// whole, from -1 to 1. The caller allows for rounding. Thread: any.
 [[nodiscard]] NearStretch FindNearStretch(const TriangleTree& part, const BoxInPart& box, Eigen::Index axis,
-                                          double within_mm, std::uint32_t likely);
+                                          double within_mm, std::uint32_t likely, double longest = 2.0);
 
 }  // namespace elbowroom::core

@@ -33,8 +33,8 @@ constexpr int kHalvings = 24;
 constexpr int kMostSlides = 8;
 // A hull point is slid along the hull while each slide lowers the upper bound by this share of the tolerance.
 constexpr double kWorthwhile = 0.05;
-// A cell is only cut if no more than this share of it is left.
-constexpr double kMostLeft = 0.8;
+// A cell is only cut if no more than this is left of its 2 half edges.
+constexpr double kMostLeft = 1.6;
 // Edges shorter than this share of the longest aren't divided.
 constexpr double kFlat = 0.7;
 // What distances to the part may be wrong by: this share of the tolerance, or of a large cell's half
@@ -151,8 +151,8 @@ class Search {
     if (nearest.distance_mm + climb_mm <= within_mm) return Cut::kNothing;  // the far end is near
     ++distances_;
     const NearStretch near = FindNearStretch(part_, BoxOf(cell->center, cell->half), axis,
-                                             within_mm + slack_mm_, nearest.triangle);
-    if (near.to - near.from > kMostLeft * 2.0) return Cut::kNothing;
+                                             within_mm + slack_mm_, nearest.triangle, kMostLeft);
+    if (near.length() > kMostLeft) return Cut::kNothing;
     passed_mm_ = std::min(passed_mm_, within_mm);
     ++cut_cells_;
     if (near.is_empty()) return Cut::kAll;

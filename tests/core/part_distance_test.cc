@@ -194,7 +194,11 @@ TEST(FindNearStretch, HoldsAllThatIsNearer) {
     const auto likely =
         static_cast<std::uint32_t>(random.Whole(0, static_cast<int>(asked.mesh.triangles.size()) - 1));
     const NearStretch stretch = FindNearStretch(part, asked.box, axis, within_mm, likely);
-    cut += stretch.to - stretch.from < 1.6 ? 1 : 0;
+    cut += stretch.length() < 1.6 ? 1 : 0;
+    const NearStretch if_short = FindNearStretch(part, asked.box, axis, within_mm, likely, 1.6);
+    const bool is_short = stretch.length() <= 1.6;
+    ASSERT_EQ(if_short.from, is_short ? stretch.from : -1.0);
+    ASSERT_EQ(if_short.to, is_short ? stretch.to : 1.0);
     for (int k = 0; k < 40; ++k) {
       const Vector3d x = RandomPointOf(asked.box, &random);
       if (SlowDistance(asked.mesh, x) >= within_mm - kDistanceRoundingMm) continue;
