@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <bit>
+#include <opencv2/core/types.hpp>
+#include <span>
 #include <utility>
 
 #include "core/error.h"
@@ -10,41 +12,6 @@ namespace elbowroom::recon {
 namespace {
 
 std::uint64_t BitsFrom(int first) { return ~std::uint64_t{0} << static_cast<unsigned>(first); }
-
-// The words of a mask that hold object: rows [top, bottom), words [first, last) of each.
-struct ObjectWords {
-  int top = 0, bottom = 0;
-  std::size_t first = 0, last = 0;
-};
-
-// Calls visit(x0, x1) for each run of `value` in a row of `width` pixels, from the left. Words outside of
-// [first, last) are known to be background.
-template <typename Visit>
-void ForEachRun(const std::uint64_t* row, int width, const ObjectWords& object, bool value, Visit visit) {
-  const std::uint64_t flip = value ? 0 : ~std::uint64_t{0};
-  int begin = !value && object.first > 0 ? 0 : -1;  // of the run that is open
-  int x = static_cast<int>(object.first * 64);
-  const auto visit_edges = [&](std::uint64_t bits) {
-    // A bit where a run begins or ends.
-    for (std::uint64_t edges = bits ^ ((bits << 1U) | (begin >= 0 ? 1U : 0U)); edges != 0;
-         edges &= edges - 1) {
-      const int at = x + std::countr_zero(edges);
-      if (begin < 0) {
-        begin = at;
-      } else {
-        visit(begin, at);
-        begin = -1;
-      }
-    }
-  };
-  for (std::size_t i = object.first; i < object.last; ++i, x += 64) {
-    const std::uint64_t bits = row[i] ^ flip;
-    visit_edges(width - x < 64 ? bits & ~BitsFrom(width - x) : bits);
-  }
-  if (x < width && !value && begin < 0) begin = x;
-  if (x < width && value && begin >= 0) visit(begin, x), begin = -1;
-  if (begin >= 0) visit(begin, width);
-}
 
 // Sets or clears pixels [x0, x1) of a row.
 void Fill(std::uint64_t* row, int x0, int x1, bool value) {
@@ -59,54 +26,51 @@ void Fill(std::uint64_t* row, int x0, int x1, bool value) {
 std::uint64_t* RowOf(core::BitMask& mask, int y) {
   return mask.words().data() + static_cast<std::size_t>(y) * mask.words_per_row();
 }
-const std::uint64_t* RowOf(const core::BitMask& mask, int y) {
-  return mask.words().data() + static_cast<std::size_t>(y) * mask.words_per_row();
-}
 
-ObjectWords ObjectWordsOf(const core::BitMask& mask) {
+// Most words hold no object, so only the others cost more than a comparison.
+std::vector<Run> ObjectRuns(const core::BitMask& mask) {
   const auto words = mask.words();
-  const auto is_object = [](std::uint64_t word) { return word != 0; };
-  const auto found = std::ranges::find_if(words, is_object);
-  if (found == words.end()) return {};
-  const auto found_last = std::find_if(words.rbegin(), words.rend(), is_object);
-  const auto per_row = static_cast<std::ptrdiff_t>(mask.words_per_row());
-  ObjectWords object{static_cast<int>((found - words.begin()) / per_row),
-                     static_cast<int>((words.rend() - found_last - 1) / per_row) + 1, 0, 0};
-  std::vector<std::uint64_t> any(mask.words_per_row());
-  for (int y = object.top; y < object.bottom; ++y) {
-    const std::uint64_t* row = RowOf(mask, y);
-    for (std::size_t i = 0; i < any.size(); ++i) any[i] |= row[i];
+  std::vector<Run> runs;
+  runs.reserve(static_cast<std::size_t>(mask.height_px()) * 2);
+  Run* last = nullptr;
+  std::size_t row_begin = 0;
+  int y = 0;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (words[i] == 0) continue;
+    for (; i >= row_begin + mask.words_per_row(); ++y) row_begin += mask.words_per_row();
+    const int x = static_cast<int>(i - row_begin) * 64;
+    for (std::uint64_t left = words[i]; left != 0;) {
+      const int begin = std::countr_zero(left);
+      const int end = begin + std::countr_one(left >> static_cast<unsigned>(begin));
+      if (last != nullptr && last->y == y && last->x1 == x + begin) {  // goes on from the word before
+        last->x1 = x + end;
+      } else {
+        last = &runs.emplace_back(Run{y, x + begin, x + end, 0});
+      }
+      left = end < 64 ? left & BitsFrom(end) : 0;
+    }
   }
-  object.first = static_cast<std::size_t>(std::ranges::find_if(any, is_object) - any.begin());
-  object.last = static_cast<std::size_t>(any.rend() - std::find_if(any.rbegin(), any.rend(), is_object));
-  return object;
+  return runs;
 }
 
 // Union-find over runs; the root of a region is its first run.
 class RunForest {
  public:
-  RunForest(const core::BitMask& mask, bool value, const ObjectWords& object) {
-    runs_.reserve(static_cast<std::size_t>(object.bottom - object.top) * 4);
-    row_begin_.reserve(static_cast<std::size_t>(object.bottom - object.top) + 1);
-    for (int y = object.top; y < object.bottom; ++y) {
-      row_begin_.push_back(runs_.size());
-      const std::uint64_t* row = RowOf(mask, y);
-      ForEachRun(row, mask.width_px(), object, value, [&](int x0, int x1) {
-        runs_.push_back({y, x0, x1, static_cast<std::uint32_t>(runs_.size())});
-      });
-    }
-    row_begin_.push_back(runs_.size());
+  // Runs by row, then from the left.
+  explicit RunForest(std::vector<Run> runs) : runs_(std::move(runs)) {
+    for (std::uint32_t i = 0; i < runs_.size(); ++i) runs_[i].region = i;
   }
 
   // Joins runs of adjoining rows that overlap, or (reach 1) touch at a corner.
   void Join(int reach) {
-    for (std::size_t row = 1; row + 1 < row_begin_.size(); ++row) {
-      std::size_t above = row_begin_[row - 1];
-      for (std::size_t i = row_begin_[row]; i < row_begin_[row + 1]; ++i) {
-        while (above < row_begin_[row] && runs_[above].x1 + reach <= runs_[i].x0) ++above;
-        for (std::size_t j = above; j < row_begin_[row] && runs_[j].x0 < runs_[i].x1 + reach; ++j)
-          Unite(static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j));
-      }
+    std::uint32_t above = 0;  // the first run of the row above that isn't to the left
+    for (std::uint32_t i = 0; i < runs_.size(); ++i) {
+      const Run run = runs_[i];
+      const auto is_before = [&](const Run& other) {
+        return other.y < run.y - 1 || (other.y == run.y - 1 && other.x1 + reach <= run.x0);
+      };
+      while (is_before(runs_[above])) ++above;  // ends at run i, if not earlier
+      for (std::uint32_t j = above; runs_[j].y < run.y && runs_[j].x0 < run.x1 + reach; ++j) Unite(i, j);
     }
   }
 
@@ -143,13 +107,64 @@ class RunForest {
   }
 
   std::vector<Run> runs_;  // region: a run of the same region that comes before, or itself
-  std::vector<std::size_t> row_begin_;
 };
+
+// Calls visit(x0, x1) for each gap beside and between a row's runs of object.
+template <typename Visit>
+void ForEachGap(std::span<const Run> object, int width, Visit visit) {
+  int x = 0;
+  for (const Run& run : object) {
+    if (run.x0 > x) visit(x, run.x0);
+    x = run.x1;
+  }
+  if (x < width) visit(x, width);
+}
+
+// The background's runs that can decide which regions have fewer than `least_px` pixels. A gap of so many
+// pixels in one row is in none of them. So only rows with a shorter gap matter, and the rows above and below
+// these, where a longer gap may adjoin it.
+std::vector<Run> DecidingGaps(std::span<const Run> object, const cv::Size& size, int least_px) {
+  // The object's rows, one above and one below; all rows where even one without object is short.
+  const bool is_wide = size.width >= least_px;
+  const int top = is_wide ? std::max(object.front().y - 1, 0) : 0;
+  const int bottom = is_wide ? std::min(object.back().y + 2, size.height) : size.height;
+  std::vector<Run> gaps;
+  const auto add = [&](std::span<const Run> of_row, int y) {
+    ForEachGap(of_row, size.width, [&](int x0, int x1) { gaps.push_back({y, x0, x1, 0}); });
+  };
+  std::span<const Run> above;
+  bool was_short = false, was_added = true;  // no row above the first
+  for (int y = top; y < bottom; ++y) {
+    std::size_t count = 0;
+    while (count < object.size() && object[count].y == y) ++count;
+    const std::span<const Run> here = object.first(count);
+    bool is_short = false;
+    ForEachGap(here, size.width, [&](int x0, int x1) { is_short |= x1 - x0 < least_px; });
+    if (is_short && !was_added) add(above, y - 1);
+    was_added = is_short || was_short;
+    if (was_added) add(here, y);
+    was_short = is_short;
+    above = here;
+    object = object.subspan(count);
+  }
+  return gaps;
+}
+
+// Fills the holes between runs of object.
+void FillBetween(core::BitMask& mask, std::span<const Run> object, int least_px) {
+  if (object.empty()) return;
+  RunForest forest(DecidingGaps(object, {mask.width_px(), mask.height_px()}, least_px));
+  forest.Join(0);
+  const Regions regions = std::move(forest).Take();
+  for (const Run& run : regions.runs) {
+    if (regions.area_px[run.region] < least_px) Fill(RowOf(mask, run.y), run.x0, run.x1, true);
+  }
+}
 
 }  // namespace
 
 Regions ObjectRegions(const core::BitMask& mask) {
-  RunForest forest(mask, true, ObjectWordsOf(mask));
+  RunForest forest(ObjectRuns(mask));
   forest.Join(1);
   return std::move(forest).Take();
 }
@@ -161,37 +176,25 @@ void ClearRegions(core::BitMask& mask, const Regions& regions, const std::vector
   }
 }
 
-void RemoveSmallBlobs(core::BitMask& mask, int least_px) {
-  if (least_px <= 1) return;
-  const Regions regions = ObjectRegions(mask);
-  std::vector<bool> keep;
-  keep.reserve(regions.area_px.size());
-  for (const std::int64_t area_px : regions.area_px) keep.push_back(area_px >= least_px);
-  ClearRegions(mask, regions, keep);
-}
+void RemoveSmallBlobs(core::BitMask& mask, int least_px) { CleanUp(mask, least_px, 0); }
 
-void FillSmallHoles(core::BitMask& mask, int least_px) {
-  if (least_px <= 1) return;
-  ObjectWords object = ObjectWordsOf(mask);
-  if (object.top == object.bottom) return;
-  // One row of background above and one below stand for all such rows.
-  object.top = std::max(object.top - 1, 0);
-  object.bottom = std::min(object.bottom + 1, mask.height_px());
-  RunForest forest(mask, false, object);
-  forest.Join(0);
-  Regions regions = std::move(forest).Take();
-  const std::int64_t width = mask.width_px();
-  const auto count_rows = [&](int begin, int end, std::uint32_t region) {
-    if (begin == end) return;
-    regions.area_px[region] += width * (end - begin);
-    for (int y = begin; y < end; ++y) regions.runs.push_back({y, 0, mask.width_px(), region});
-  };
-  const std::uint32_t below = regions.runs.empty() ? 0 : regions.runs.back().region;
-  count_rows(0, object.top, regions.runs.empty() ? 0 : regions.runs.front().region);
-  count_rows(object.bottom, mask.height_px(), below);
-  for (const Run& run : regions.runs) {
-    if (regions.area_px[run.region] < least_px) Fill(RowOf(mask, run.y), run.x0, run.x1, true);
+void FillSmallHoles(core::BitMask& mask, int least_px) { CleanUp(mask, 0, least_px); }
+
+void CleanUp(core::BitMask& mask, int least_blob_px, int least_hole_px) {
+  if (least_blob_px <= 1 && least_hole_px <= 1) return;
+  std::vector<Run> object;
+  if (least_blob_px > 1) {
+    Regions regions = ObjectRegions(mask);
+    std::erase_if(regions.runs, [&](const Run& run) {
+      const bool is_small = regions.area_px[run.region] < least_blob_px;
+      if (is_small) Fill(RowOf(mask, run.y), run.x0, run.x1, false);
+      return is_small;
+    });
+    object = std::move(regions.runs);
+  } else {
+    object = ObjectRuns(mask);
   }
+  if (least_hole_px > 1) FillBetween(mask, object, least_hole_px);
 }
 
 }  // namespace elbowroom::recon

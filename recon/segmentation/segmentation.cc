@@ -111,8 +111,7 @@ core::BitMask Segmenter::Detect(const cv::Mat& image_bgr, const EmptyScene& scen
           : DifferingPixels(scene.ranges, image_bgr, options_.min_blob_px, &skipped_px);
   if (stats != nullptr) *stats = {static_cast<std::int64_t>(image_bgr.total()), skipped_px};
   if (!mask.ShowsObject()) return mask;
-  RemoveSmallBlobs(mask, options_.min_blob_px);
-  FillSmallHoles(mask, options_.max_hole_px);
+  CleanUp(mask, options_.min_blob_px, options_.max_hole_px);
   return mask;
 }
 

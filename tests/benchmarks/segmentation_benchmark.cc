@@ -102,8 +102,7 @@ void SegmentCleanUp(benchmark::State& state) {
   for (auto _ : state) {
     for (std::size_t i = 0; i < kCameras; ++i) {
       core::BitMask mask = raw[i];
-      RemoveSmallBlobs(mask, options.min_blob_px);
-      FillSmallHoles(mask, options.max_hole_px);
+      CleanUp(mask, options.min_blob_px, options.max_hole_px);
       benchmark::DoNotOptimize(mask);
     }
   }
@@ -287,8 +286,7 @@ std::vector<cv::Mat> Cleaned(const std::vector<cv::Mat>& raw) {
   std::vector<const core::BitMask*> pointers;
   for (const cv::Mat& image : raw) {
     masks.push_back(MaskFromImage(image));
-    RemoveSmallBlobs(masks.back(), options.min_blob_px);
-    FillSmallHoles(masks.back(), options.max_hole_px);
+    CleanUp(masks.back(), options.min_blob_px, options.max_hole_px);
   }
   for (const core::BitMask& mask : masks) pointers.push_back(&mask);
   const auto confirmed = CrossCameraBlobs(Real()->rig).Confirm(pointers);

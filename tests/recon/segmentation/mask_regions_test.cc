@@ -60,6 +60,9 @@ TEST(MaskRegions, AreThoseOfASlowLabelling) {
                                ? without_blobs
                                : WithoutSmall(without_blobs, false, least_px, 4);
     ASSERT_EQ(mask, MaskFromImage(wanted)) << "picture " << i << ", holes below " << least_px;
+    core::BitMask at_once = MaskFromImage(object);
+    CleanUp(at_once, least_px, least_px);
+    ASSERT_EQ(at_once, mask) << "picture " << i;
   }
 }
 
