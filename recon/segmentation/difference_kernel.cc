@@ -23,15 +23,28 @@
 namespace elbowroom::recon {
 namespace {
 
-// Rows below one another, and the ranges that their pixels share.
-struct RowGroup {
-  std::size_t count = 0;
-  const std::uint8_t* shared_lowest = nullptr;
-  const std::int16_t* shared_width = nullptr;
-  const std::uint8_t* image[LevelRanges::kSharingRows];
-  const std::uint8_t* ranges[LevelRanges::kSharingRows];
-  const float* mean[LevelRanges::kSharingRows];
-  std::uint64_t* out[LevelRanges::kSharingRows];
+// Rows of a table, from the first on.
+template <typename T>
+struct Rows {
+  T* first = nullptr;
+  std::size_t stride = 0;  // in elements
+
+  [[nodiscard]] T* at(std::size_t row) const { return first + row * stride; }
+};
+
+// A picture, its ranges, and the mask to write. A group is LevelRanges::kSharingRows rows below one another.
+struct Comparison {
+  std::size_t width = 0, height = 0;
+  Rows<const std::uint8_t> image, ranges;
+  Rows<const std::uint8_t> shared_lowest;  // a row for each group
+  Rows<const std::int16_t> shared_width;   // likewise
+  Rows<const float> mean;                  // only with a shade rule
+  const ShadeRule* shade = nullptr;
+  Rows<std::uint64_t> out;
+
+  [[nodiscard]] std::size_t RowsOfGroup(std::size_t group) const {
+    return std::min<std::size_t>(LevelRanges::kSharingRows, height - group * LevelRanges::kSharingRows);
+  }
 };
 
 }  // namespace
@@ -190,30 +203,37 @@ HWY_INLINE std::uint64_t DifferingWord(const std::uint8_t* image, const std::uin
 // Sets bit w if a pixel that is looked at in the cell of word w has a channel outside of its range. Cells at
 // the end of a row that have fewer than 64 columns are left out. Goes row after row, since the processor
 // prefetches what is read in order.
-void LookAtCells(const RowGroup& rows, std::size_t width, std::uint64_t* bits) {
-  const auto look = [&](std::size_t row, std::size_t begin, std::size_t end) HWY_ATTR {
-    for (std::size_t word = 0; word < width / 64; ++word) {
+void LookAtCells(const Comparison& all, std::size_t group, std::uint64_t* bits) {
+  const std::uint8_t* const shared_lowest = all.shared_lowest.at(group);
+  const std::int16_t* const shared_width = all.shared_width.at(group);
+  const auto look = [&](std::size_t y, std::size_t begin, std::size_t end) HWY_ATTR {
+    const std::uint8_t *const image = all.image.at(y), *const ranges = all.ranges.at(y);
+    for (std::size_t word = 0; word < all.width / 64; ++word) {
       const std::size_t at = word * kWordBytes;
-      const auto farthest = FarthestAbove(rows.image[row] + at, rows.shared_lowest + at, begin, end);
-      if (AreWithin(farthest, rows.shared_width[word])) continue;
-      if (IsOutside(rows.image[row] + at, rows.ranges[row] + 2 * at, begin, end))
+      const auto farthest = FarthestAbove(image + at, shared_lowest + at, begin, end);
+      if (AreWithin(farthest, shared_width[word])) continue;
+      if (IsOutside(image + at, ranges + 2 * at, begin, end))
         bits[word / 64] |= std::uint64_t{1} << (word % 64);
     }
   };
-  look(0, 0, kWordBytes);
-  for (std::size_t row = 1; row < rows.count; ++row) look(row, kLookFrom, kLookTo);
+  const std::size_t y0 = group * LevelRanges::kSharingRows;
+  look(y0, 0, kWordBytes);
+  for (std::size_t row = 1; row < all.RowsOfGroup(group); ++row) look(y0 + row, kLookFrom, kLookTo);
 }
 
 // Writes a cell's differing pixels; true if there are any.
-bool DifferInCell(const RowGroup& rows, std::size_t word, std::size_t width, const ShadeRule* shade) {
-  const std::size_t x = word * 64, count = std::min<std::size_t>(64, width - x);
+bool DifferInCell(const Comparison& all, std::size_t group, std::size_t word) {
+  const std::size_t x = word * 64, count = std::min<std::size_t>(64, all.width - x);
+  const std::uint8_t* const shared_lowest = all.shared_lowest.at(group) + word * kWordBytes;
+  const std::int16_t shared_width = all.shared_width.at(group)[word];
   std::uint64_t any = 0;
-  for (std::size_t i = 0; i < rows.count; ++i) {
-    const float* mean = shade != nullptr ? rows.mean[i] + 3 * x : nullptr;
+  for (std::size_t row = 0; row < all.RowsOfGroup(group); ++row) {
+    const std::size_t y = group * LevelRanges::kSharingRows + row;
+    const float* mean = all.shade != nullptr ? all.mean.at(y) + 3 * x : nullptr;
     const std::uint64_t bits =
-        DifferingWord(rows.image[i] + 3 * x, rows.shared_lowest + word * kWordBytes, rows.shared_width[word],
-                      rows.ranges[i] + word * 2 * kWordBytes, mean, shade, count);
-    rows.out[i][word] = bits;
+        DifferingWord(all.image.at(y) + 3 * x, shared_lowest, shared_width,
+                      all.ranges.at(y) + word * 2 * kWordBytes, mean, all.shade, count);
+    all.out.at(y)[word] = bits;
     any |= bits;
   }
   return any != 0;
@@ -238,37 +258,49 @@ constexpr int kMostSkippedPx = (LevelRanges::kSharingRows - 1) * kSkippedOfRowPx
 
 constexpr int kStripCells = 30;  // rows of cells
 
+template <typename T>
+Rows<const T> RowsOf(const cv::Mat& table) {
+  return {table.ptr<T>(), table.step1()};
+}
+
 // A picture in cells of 64 pixels by LevelRanges::kSharingRows rows.
 class DifferenceSearch {
  public:
   DifferenceSearch(const LevelRanges& ranges, const cv::Mat& image_bgr, const cv::Mat& mean_bgr,
                    const ShadeRule* shade)
-      : ranges_(ranges),
-        image_bgr_(image_bgr),
-        mean_bgr_(mean_bgr),
-        shade_(shade),
-        mask_(image_bgr.cols, image_bgr.rows),
-        across_(static_cast<int>(mask_.words_per_row())),
-        down_((image_bgr.rows + LevelRanges::kSharingRows - 1) / LevelRanges::kSharingRows) {}
+      : mask_(image_bgr.cols, image_bgr.rows),
+        across_(mask_.words_per_row()),
+        down_(static_cast<std::size_t>(image_bgr.rows + LevelRanges::kSharingRows - 1) /
+              LevelRanges::kSharingRows) {
+    all_.width = static_cast<std::size_t>(image_bgr.cols);
+    all_.height = static_cast<std::size_t>(image_bgr.rows);
+    all_.image = RowsOf<std::uint8_t>(image_bgr);
+    all_.ranges = RowsOf<std::uint8_t>(ranges.levels());
+    all_.shared_lowest = RowsOf<std::uint8_t>(ranges.shared_lowest());
+    all_.shared_width = RowsOf<std::int16_t>(ranges.shared_width());
+    if (shade != nullptr) all_.mean = RowsOf<float>(mean_bgr);
+    all_.shade = shade;
+    all_.out = {mask_.words().data(), mask_.words_per_row()};
+  }
+  DifferenceSearch(const DifferenceSearch&) = delete;  // all_ points into mask_
+  DifferenceSearch& operator=(const DifferenceSearch&) = delete;
 
   [[nodiscard]] core::BitMask All() && {
-    for (int group = 0; group < down_; ++group) {
-      const RowGroup rows = RowsOf(group);
-      for (int word = 0; word < across_; ++word) (void)Differs(rows, word);
-    }
+    for (std::size_t group = 0; group < down_; ++group)
+      for (std::size_t word = 0; word < across_; ++word) (void)Differs(group, word);
     return std::move(mask_);
   }
 
   // Visits the cells in which a pixel that is looked at differs, and from there on all cells that adjoin one
   // with a differing pixel. So a region that has a pixel that is looked at is found as a whole.
   [[nodiscard]] core::BitMask Large(std::int64_t* skipped_px) && {
-    is_known_.assign(static_cast<std::size_t>(down_ * across_), 0);
+    is_known_.assign(down_ * across_, 0);
     const std::vector<std::uint64_t> hits = Look();
-    for (int group = 0; group < down_; ++group) VisitHits(group, hits);
+    for (std::size_t group = 0; group < down_; ++group) VisitHits(group, hits);
     while (!waiting_.empty()) {
-      const auto [group, word] = waiting_.back();
+      const Cell cell = waiting_.back();
       waiting_.pop_back();
-      Visit(RowsOf(group), group, word);
+      Visit(cell);
     }
     *skipped_px = unseen_px_;
     return std::move(mask_);
@@ -276,80 +308,66 @@ class DifferenceSearch {
 
  private:
   struct Cell {
-    int group, word;
+    std::size_t group, word;
   };
 
-  [[nodiscard]] RowGroup RowsOf(int group) {
-    const int y0 = group * LevelRanges::kSharingRows;
-    RowGroup rows;
-    rows.count = static_cast<std::size_t>(std::min(LevelRanges::kSharingRows, image_bgr_.rows - y0));
-    rows.shared_lowest = ranges_.shared_lowest(y0);
-    rows.shared_width = ranges_.shared_width(y0);
-    for (std::size_t i = 0; i < rows.count; ++i) {
-      const int y = y0 + static_cast<int>(i);
-      rows.image[i] = image_bgr_.ptr<std::uint8_t>(y);
-      rows.ranges[i] = ranges_.row(y);
-      rows.mean[i] = shade_ != nullptr ? mean_bgr_.ptr<float>(y) : nullptr;
-      rows.out[i] = mask_.words().data() + static_cast<std::size_t>(y) * mask_.words_per_row();
-    }
-    return rows;
+  bool Differs(std::size_t group, std::size_t word) const {
+    return HWY_DYNAMIC_DISPATCH(DifferInCell)(all_, group, word);
   }
 
-  bool Differs(const RowGroup& rows, int word) {
-    return HWY_DYNAMIC_DISPATCH(DifferInCell)(rows, static_cast<std::size_t>(word),
-                                              static_cast<std::size_t>(image_bgr_.cols), shade_);
-  }
-
-  [[nodiscard]] std::size_t HitWords() const { return static_cast<std::size_t>(across_ + 63) / 64; }
+  [[nodiscard]] std::size_t HitWords() const { return (across_ + 63) / 64; }
 
   // A row of bits for each row of cells. Strips are looked at in parallel, since reading is all that an empty
   // table costs. They are small, since a thread may start late.
-  [[nodiscard]] std::vector<std::uint64_t> Look() {
-    std::vector<std::uint64_t> hits(static_cast<std::size_t>(down_) * HitWords());
+  [[nodiscard]] std::vector<std::uint64_t> Look() const {
+    std::vector<std::uint64_t> hits(down_ * HitWords());
     tbb::parallel_for(
-        tbb::blocked_range<int>(0, down_, kStripCells),
-        [&](const tbb::blocked_range<int>& strip) {
-          for (int group = strip.begin(); group < strip.end(); ++group) HWY_DYNAMIC_DISPATCH(LookAtCells)
-          (RowsOf(group), static_cast<std::size_t>(image_bgr_.cols),
-           hits.data() + static_cast<std::size_t>(group) * HitWords());
+        tbb::blocked_range<std::size_t>(0, down_, kStripCells),
+        [&](const tbb::blocked_range<std::size_t>& strip) {
+          for (std::size_t group = strip.begin(); group < strip.end(); ++group)
+            HWY_DYNAMIC_DISPATCH(LookAtCells)(all_, group, hits.data() + group * HitWords());
         },
         tbb::simple_partitioner());
     return hits;
   }
 
-  void VisitHits(int group, const std::vector<std::uint64_t>& hits) {
-    const RowGroup rows = RowsOf(group);
-    unseen_px_ += UnseenOfCellPx(rows) * (image_bgr_.cols / 64);
+  void VisitHits(std::size_t group, const std::vector<std::uint64_t>& hits) {
+    const std::size_t full = all_.width / 64;
+    unseen_px_ += UnseenOfCellPx(group) * static_cast<std::int64_t>(full);
+    const auto visit = [&](std::size_t word) {
+      if (BecomesKnown({group, word})) Visit({group, word});
+    };
     for (std::size_t i = 0; i < HitWords(); ++i)
-      for (std::uint64_t left = hits[static_cast<std::size_t>(group) * HitWords() + i]; left != 0;
-           left &= left - 1)
-        Visit(rows, group, static_cast<int>(64 * i) + std::countr_zero(left));
-    if (image_bgr_.cols % 64 != 0) Visit(rows, group, across_ - 1);  // LookAtCells leaves it out
+      for (std::uint64_t left = hits[group * HitWords() + i]; left != 0; left &= left - 1)
+        visit(64 * i + static_cast<std::size_t>(std::countr_zero(left)));
+    if (full < across_) visit(full);  // LookAtCells leaves it out
   }
 
-  static std::int64_t UnseenOfCellPx(const RowGroup& rows) {
-    return kSkippedOfRowPx * (static_cast<std::int64_t>(rows.count) - 1);
+  [[nodiscard]] std::int64_t UnseenOfCellPx(std::size_t group) const {
+    return kSkippedOfRowPx * (static_cast<std::int64_t>(all_.RowsOfGroup(group)) - 1);
   }
 
-  void Visit(const RowGroup& rows, int group, int word) {
-    std::uint8_t& is_known = is_known_[static_cast<std::size_t>(group * across_ + word)];
-    if (is_known != 0) return;
-    is_known = 1;
-    if (word < image_bgr_.cols / 64) unseen_px_ -= UnseenOfCellPx(rows);
-    if (!Differs(rows, word)) return;
-    for (int y = std::max(group - 1, 0); y <= std::min(group + 1, down_ - 1); ++y)
-      for (int x = std::max(word - 1, 0); x <= std::min(word + 1, across_ - 1); ++x)
-        if (is_known_[static_cast<std::size_t>(y * across_ + x)] == 0) waiting_.push_back({y, x});
+  // False if the cell was known before. A known cell is visited, or waits for it.
+  [[nodiscard]] bool BecomesKnown(const Cell& cell) {
+    return std::exchange(is_known_[cell.group * across_ + cell.word], std::uint8_t{1}) == 0;
   }
 
-  const LevelRanges& ranges_;
-  const cv::Mat& image_bgr_;
-  const cv::Mat& mean_bgr_;
-  const ShadeRule* const shade_;
+  void Visit(const Cell& cell) {
+    if (cell.word < all_.width / 64) unseen_px_ -= UnseenOfCellPx(cell.group);
+    if (!Differs(cell.group, cell.word)) return;
+    const std::size_t left = cell.word - std::min<std::size_t>(cell.word, 1);
+    const std::size_t right = std::min(cell.word + 1, across_ - 1);
+    for (std::size_t group = cell.group - std::min<std::size_t>(cell.group, 1);
+         group <= std::min(cell.group + 1, down_ - 1); ++group)
+      for (std::size_t word = left; word <= right; ++word)
+        if (BecomesKnown({group, word})) waiting_.push_back({group, word});
+  }
+
   core::BitMask mask_;
-  const int across_, down_;
-  std::vector<Cell> waiting_;  // some more than once
-  std::vector<std::uint8_t> is_known_;
+  const std::size_t across_, down_;
+  Comparison all_;
+  std::vector<Cell> waiting_;
+  std::vector<std::uint8_t> is_known_;  // for each cell
   std::int64_t unseen_px_ = 0;
 };
 

@@ -48,7 +48,7 @@ void LevelRanges::Share() {
       std::fill(lowest, lowest + kBytes, std::uint8_t{0});
       std::fill(highest, highest + kBytes, std::uint8_t{255});
       for (int y = begin; y < end; ++y) {
-        const std::uint8_t* levels = row(y) + word * 2 * kBytes;
+        const std::uint8_t* levels = levels_.ptr<std::uint8_t>(y) + word * 2 * kBytes;
         for (int i = 0; i < kBytes; ++i) lowest[i] = std::max(lowest[i], levels[i]);
         for (int i = 0; i < kBytes; ++i) highest[i] = std::min(highest[i], levels[kBytes + i]);
       }

@@ -24,21 +24,17 @@ class LevelRanges {
   [[nodiscard]] int width_px() const { return width_px_; }
   [[nodiscard]] int height_px() const { return height_px_; }
 
-  // For each 64 pixels of a row their 192 lowest, then their 192 highest levels; 64-byte aligned. Pixels past
-  // the row's end may have any level.
-  [[nodiscard]] const std::uint8_t* row(int y) const { return levels_.ptr<std::uint8_t>(y); }
+  // CV_8U. For each 64 pixels of a row their 192 lowest, then their 192 highest levels; 64-byte aligned.
+  // Pixels past the row's end may have any level.
+  [[nodiscard]] const cv::Mat& levels() const { return levels_; }
 
-  // For each pixel and channel across: the lowest of the shared_width() + 1 levels that are background in all
-  // rows of y's group of kSharingRows.
-  [[nodiscard]] const std::uint8_t* shared_lowest(int y) const {
-    return shared_lowest_.ptr<std::uint8_t>(y / kSharingRows);
-  }
+  // CV_8U, a row for each kSharingRows rows of pixels. For each pixel and channel across: the lowest of the
+  // shared_width() + 1 levels that are background in all these rows.
+  [[nodiscard]] const cv::Mat& shared_lowest() const { return shared_lowest_; }
 
-  // One number for each 64 pixels across, so that one comparison serves them all. kNoneShared: the rows of
-  // one of these pixels have no level in common.
-  [[nodiscard]] const std::int16_t* shared_width(int y) const {
-    return shared_width_.ptr<std::int16_t>(y / kSharingRows);
-  }
+  // CV_16S, with the same rows. One number for each 64 pixels across, so that one comparison serves them all.
+  // kNoneShared: the rows of one of these pixels have no level in common.
+  [[nodiscard]] const cv::Mat& shared_width() const { return shared_width_; }
   static constexpr std::int16_t kNoneShared = -1;
 
  private:
