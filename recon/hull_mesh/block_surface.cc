@@ -97,10 +97,12 @@ constexpr std::array<std::size_t, kCubeEdges.size()> EdgeOffsets() {
 }
 constexpr auto kEdgeOffsets = EdgeOffsets();
 
-// Calls visit(Index() of a grid edge, the number of its vertex) for the edges of these blocks. `no_edge`
-// stands for the Index() of edges that the first block doesn't share.
+static_assert(VertexNumbers::kNoEdge == Index(3, 0, 0, 0));
+
+// Calls visit(Index() of a grid edge, the number of its vertex) for the edges of these blocks. kNoEdge stands
+// for the Index() of edges that the first block doesn't share.
 template <typename Visit>
-void VisitVertices(std::span<const BlockNeighbour> blocks, std::size_t no_edge, const Visit& visit) {
+void VisitVertices(std::span<const BlockNeighbour> blocks, const Visit& visit) {
   for (const BlockNeighbour& block : blocks) {
     const unsigned steps = block.steps;
     const std::size_t shift =
@@ -110,7 +112,7 @@ void VisitVertices(std::span<const BlockNeighbour> blocks, std::size_t no_edge, 
     for (const BlockEdge& edge : steps == 0 ? edges : edges.first(block.surface->near_edges)) {
       const auto [x, y, z] = edge.low;
       const bool is_shared = (steps & ~unsigned{edge.near_faces}) == 0;
-      visit(is_shared ? shift + Index(edge.axis, x, y, z) : no_edge, number++);
+      visit(is_shared ? shift + Index(edge.axis, x, y, z) : VertexNumbers::kNoEdge, number++);
     }
   }
 }
@@ -137,10 +139,8 @@ BlockSurface CutBlock(const HullLattice& lattice, const HullBlock& block) {
 
 void WriteTriangles(std::span<const BlockNeighbour> blocks, std::span<std::array<std::int32_t, 3>> triangles,
                     VertexNumbers* numbers) {
-  static_assert(VertexNumbers::kNoEdge == Index(3, 0, 0, 0));
   std::int32_t* const all_numbers = numbers->numbers_.data();
-  VisitVertices(blocks, VertexNumbers::kNoEdge,
-                [=](std::size_t edge, std::int32_t number) { all_numbers[edge] = number; });
+  VisitVertices(blocks, [=](std::size_t edge, std::int32_t number) { all_numbers[edge] = number; });
   const std::array<CubeTriangles, 256>& table = CubeTable();
   std::size_t next = 0;
   std::int64_t all = 0;  // the bits of all numbers: negative if one is -1
@@ -157,8 +157,7 @@ void WriteTriangles(std::span<const BlockNeighbour> blocks, std::span<std::array
                   }
                 });
   core::Require(all >= 0, "the surface goes on in the next blocks");
-  VisitVertices(blocks, VertexNumbers::kNoEdge,
-                [=](std::size_t edge, std::int32_t) { all_numbers[edge] = VertexNumbers::kNone; });
+  VisitVertices(blocks, [=](std::size_t edge, std::int32_t) { all_numbers[edge] = VertexNumbers::kNone; });
 }
 
 }  // namespace elbowroom::recon

@@ -37,14 +37,15 @@ struct BlockNeighbour {
 // kept from block to block: between two of them no edge has a vertex.
 class VertexNumbers {
  public:
+  static constexpr std::int32_t kNone = -1;
+  // One more item at the end takes the numbers of edges that aren't needed.
+  static constexpr std::size_t kNoEdge = 3UL * kBlockPoints * kBlockPoints * kBlockPoints;
+
   VertexNumbers() { numbers_.fill(kNone); }
 
  private:
   friend void WriteTriangles(std::span<const BlockNeighbour> blocks,
                              std::span<std::array<std::int32_t, 3>> triangles, VertexNumbers* numbers);
-  static constexpr std::int32_t kNone = -1;
-  // One more item at the end takes the numbers of edges that aren't needed.
-  static constexpr std::size_t kNoEdge = 3UL * kBlockPoints * kBlockPoints * kBlockPoints;
   std::array<std::int32_t, kNoEdge + 1> numbers_;
 };
 
