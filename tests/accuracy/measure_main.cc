@@ -41,9 +41,6 @@ int main(int argc, char** argv) {
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   frames->callback([&] { MeasureFrames(docs, frame_count); });
-  app.add_subcommand("memory", "allocations of the demo's frames, stage by stage")->callback([&] {
-    MeasureMemory(docs);
-  });
   CLI::App* imports = app.add_subcommand("import", "what an import costs");
   imports->add_option("PROGRAM", program, "elbowroom")->required();
   imports->callback([&] { MeasureImport(docs, program); });

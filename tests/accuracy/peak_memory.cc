@@ -13,26 +13,18 @@
 #include <thread>
 
 #include "core/error.h"
+#include "tests/support/resident_memory.h"
 
 namespace elbowroom::accuracy {
 namespace {
 
-// 0: it has ended.
-std::int64_t PeakBytesOf(pid_t process) {
-  std::ifstream status(fmt::format("/proc/{}/status", process));
-  for (std::string word; status >> word;) {
-    if (word != "VmHWM:") continue;
-    std::int64_t kib = 0;
-    status >> kib;
-    return kib * 1024;
-  }
-  return 0;
-}
+using test_support::PeakResidentBytes;
 
 void Look(pid_t process, PeakMemory& peak) {
-  peak.program_bytes = std::max(peak.program_bytes, PeakBytesOf(process));
+  peak.program_bytes = std::max(peak.program_bytes, PeakResidentBytes(process));
   std::ifstream children(fmt::format("/proc/{0}/task/{0}/children", process));
-  for (pid_t child = 0; children >> child;) peak.child_bytes = std::max(peak.child_bytes, PeakBytesOf(child));
+  for (pid_t child = 0; children >> child;)
+    peak.child_bytes = std::max(peak.child_bytes, PeakResidentBytes(child));
 }
 
 pid_t Start(const std::filesystem::path& program, const std::vector<std::string>& arguments) {

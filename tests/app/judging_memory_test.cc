@@ -96,7 +96,6 @@ TEST_P(JudgingMemory, TheSecondRoundAllocatesNothing) {
     EXPECT_GT(first.judging.allocations, 0);  // they are counted
     EXPECT_GT(first.contacts, 0);
     EXPECT_LT(first.contacts, static_cast<int>(3 * hulls.size()));
-    (void)second;
     EXPECT_EQ(third.judging.allocations, 0);
     EXPECT_EQ(second.judging.allocations, 0);
   }

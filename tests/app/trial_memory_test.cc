@@ -1,5 +1,6 @@
 // A trial's memory doesn't grow with its frames.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -10,7 +11,7 @@
 #include "app/control/demo_trial.h"
 #include "app/control/trial_runner.h"
 #include "recon/footage/frame_set.h"
-#include "tests/support/allocation_count.h"
+#include "tests/support/resident_memory.h"
 #include "tests/support/soak.h"
 #include "tests/support/temporary_folder.h"
 
@@ -64,7 +65,7 @@ TEST(TrialMemory, IsFlatOverManyRecordedFrames) {
   std::int64_t settled_bytes = 0, most_bytes = 0;
   options.on_frame = [&](const SharedFrameResult& /*result*/, const RecordedFrames& recorded) {
     if (recorded.seen % 100 != 0) return;
-    const std::int64_t bytes = test_support::ResidentBytes();
+    const std::int64_t bytes = test_support::ResidentBytes(::getpid());
     const bool is_settled = recorded.seen * kShareToSettle >= frames;
     (is_settled ? most_bytes : settled_bytes) = std::max(is_settled ? most_bytes : settled_bytes, bytes);
   };

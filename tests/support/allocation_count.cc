@@ -3,9 +3,7 @@
 #include <atomic>
 #include <cerrno>
 #include <cstddef>
-#include <fstream>
-#include <string>
-#include <string_view>
+#include <cstdint>
 
 // glibc lets a program replace malloc, and keeps its own under these names ("Replacing malloc" in its
 // manual).
@@ -29,25 +27,11 @@ constinit std::atomic<std::int64_t> byte_count{0};
   byte_count.fetch_add(static_cast<std::int64_t>(bytes), std::memory_order_relaxed);
 }
 
-std::int64_t BytesInStatus(std::string_view key) {
-  std::ifstream status("/proc/self/status");
-  for (std::string word; status >> word;) {
-    if (word != key) continue;
-    std::int64_t kib = 0;
-    status >> kib;
-    return kib * 1024;
-  }
-  return 0;
-}
-
 }  // namespace
 
 AllocationCount AllocationsSoFar() {
   return {allocation_count.load(std::memory_order_relaxed), byte_count.load(std::memory_order_relaxed)};
 }
-
-std::int64_t ResidentBytes() { return BytesInStatus("VmRSS:"); }
-std::int64_t PeakResidentBytes() { return BytesInStatus("VmHWM:"); }
 
 }  // namespace elbowroom::test_support
 

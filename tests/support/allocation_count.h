@@ -24,8 +24,4 @@ struct AllocationCount {
 
 [[nodiscard]] AllocationCount AllocationsSoFar();
 
-// The memory that the process has now, as Linux counts it (resident set); and the most that it ever had.
-[[nodiscard]] std::int64_t ResidentBytes();
-[[nodiscard]] std::int64_t PeakResidentBytes();
-
 }  // namespace elbowroom::test_support

@@ -1,6 +1,7 @@
 // docs/performance.md, "memory": what each stage of the demo's frames asks the heap for.
 #include <fmt/format.h>
 #include <tbb/global_control.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -24,6 +25,7 @@
 #include "tests/reporting/markdown_table.h"
 #include "tests/reporting/marked_section.h"
 #include "tests/support/allocation_count.h"
+#include "tests/support/resident_memory.h"
 
 namespace elbowroom::accuracy {
 namespace {
@@ -110,7 +112,7 @@ struct MemoryUse {
 MemoryUse UseOf(const control::TrialSetup& setup, const std::vector<recon::FrameSet>& pictures, int threads) {
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(threads));
-  const std::int64_t before_bytes = test_support::ResidentBytes();
+  const std::int64_t before_bytes = test_support::ResidentBytes(::getpid());
   StagedTrial trial(setup);
   MemoryUse use;
   core::FrameIndex index = 0;
@@ -120,7 +122,8 @@ MemoryUse UseOf(const control::TrialSetup& setup, const std::vector<recon::Frame
       frames.index = index++;
       frames.time_s = static_cast<double>(frames.index) / kPlayedRateHz;
       trial.Play(std::move(frames), round < kRoundsBefore ? &warming_up : &use.counts);
-      use.most_added_bytes = std::max(use.most_added_bytes, test_support::ResidentBytes() - before_bytes);
+      use.most_added_bytes =
+          std::max(use.most_added_bytes, test_support::ResidentBytes(::getpid()) - before_bytes);
     }
   }
   return use;
