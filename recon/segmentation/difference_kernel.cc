@@ -35,10 +35,11 @@ struct Rows {
 // A picture, its ranges, and the mask to write. A group is LevelRanges::kSharingRows rows below one another.
 struct Comparison {
   std::size_t width = 0, height = 0;
-  Rows<const std::uint8_t> image, ranges;
+  Rows<const std::uint8_t> image;
+  Rows<const std::uint8_t> ranges;         // a row for each group; a cell's rows follow one another
   Rows<const std::uint8_t> shared_lowest;  // a row for each group
   Rows<const std::int16_t> shared_width;   // likewise
-  Rows<const float> mean;                  // only with a shade rule
+  Rows<const float> mean;                  // likewise
   const ShadeRule* shade = nullptr;
   Rows<std::uint64_t> out;
 
@@ -56,7 +57,9 @@ namespace elbowroom::recon {
 namespace HWY_NAMESPACE {  // NOLINT(google-build-namespaces)
 namespace hn = hwy::HWY_NAMESPACE;
 
-constexpr std::size_t kWordBytes = 192;  // of 64 pixels
+constexpr std::size_t kWordBytes = 192;              // of 64 pixels
+constexpr std::size_t kRangeBytes = 2 * kWordBytes;  // their lowest and highest levels
+constexpr std::size_t kCellBytes = LevelRanges::kSharingRows * kRangeBytes;
 // The bytes that are looked at in all rows of a cell but the first. They hold pixels 22 to 41 wholly, and fit
 // one vector of 64 bytes.
 constexpr std::size_t kLookFrom = 64, kLookTo = 128;
@@ -172,16 +175,6 @@ HWY_INLINE std::uint64_t Shade(std::uint64_t candidates, const std::uint8_t* ima
   return bits;
 }
 
-// The same for the `count` pixels that are left at the end of a row.
-HWY_NOINLINE std::uint64_t ShadeAtEnd(std::uint64_t candidates, const std::uint8_t* image, const float* mean,
-                                      std::size_t count, const ShadeRule& rule) {
-  HWY_ALIGN std::uint8_t levels[kWordBytes] = {};
-  HWY_ALIGN float means[kWordBytes] = {};
-  std::memcpy(levels, image, count * 3);
-  std::memcpy(means, mean, count * 3 * sizeof(float));
-  return Shade(candidates, levels, means, rule);
-}
-
 // Bit i: pixel i of the 64 (or `count`) from `image` on differs, and isn't shade.
 HWY_INLINE std::uint64_t DifferingWord(const std::uint8_t* image, const std::uint8_t* shared_lowest,
                                        std::int16_t shared_width, const std::uint8_t* ranges,
@@ -196,8 +189,7 @@ HWY_INLINE std::uint64_t DifferingWord(const std::uint8_t* image, const std::uin
   if (AreWithin(FarthestAbove(levels, shared_lowest, 0, kWordBytes), shared_width)) return 0;
   const std::uint64_t bits = Differing(levels, ranges);
   if (bits == 0 || shade == nullptr) return bits;
-  return bits &
-         ~(count == 64 ? Shade(bits, image, mean, *shade) : ShadeAtEnd(bits, image, mean, count, *shade));
+  return bits & ~Shade(bits, levels, mean, *shade);
 }
 
 // Sets bit w if a pixel that is looked at in the cell of word w has a channel outside of its range. Cells at
@@ -207,12 +199,13 @@ void LookAtCells(const Comparison& all, std::size_t group, std::uint64_t* bits) 
   const std::uint8_t* const shared_lowest = all.shared_lowest.at(group);
   const std::int16_t* const shared_width = all.shared_width.at(group);
   const auto look = [&](std::size_t y, std::size_t begin, std::size_t end) HWY_ATTR {
-    const std::uint8_t *const image = all.image.at(y), *const ranges = all.ranges.at(y);
+    const std::uint8_t* const image = all.image.at(y);
+    const std::uint8_t* const ranges = all.ranges.at(group) + y % LevelRanges::kSharingRows * kRangeBytes;
     for (std::size_t word = 0; word < all.width / 64; ++word) {
       const std::size_t at = word * kWordBytes;
       const auto farthest = FarthestAbove(image + at, shared_lowest + at, begin, end);
       if (AreWithin(farthest, shared_width[word])) continue;
-      if (IsOutside(image + at, ranges + 2 * at, begin, end))
+      if (IsOutside(image + at, ranges + word * kCellBytes, begin, end))
         bits[word / 64] |= std::uint64_t{1} << (word % 64);
     }
   };
@@ -226,13 +219,14 @@ bool DifferInCell(const Comparison& all, std::size_t group, std::size_t word) {
   const std::size_t x = word * 64, count = std::min<std::size_t>(64, all.width - x);
   const std::uint8_t* const shared_lowest = all.shared_lowest.at(group) + word * kWordBytes;
   const std::int16_t shared_width = all.shared_width.at(group)[word];
+  const std::uint8_t* const ranges = all.ranges.at(group) + word * kCellBytes;
+  const float* const mean = all.mean.at(group) + word * LevelRanges::kSharingRows * kWordBytes;
   std::uint64_t any = 0;
   for (std::size_t row = 0; row < all.RowsOfGroup(group); ++row) {
     const std::size_t y = group * LevelRanges::kSharingRows + row;
-    const float* mean = all.shade != nullptr ? all.mean.at(y) + 3 * x : nullptr;
     const std::uint64_t bits =
-        DifferingWord(all.image.at(y) + 3 * x, shared_lowest, shared_width,
-                      all.ranges.at(y) + word * 2 * kWordBytes, mean, all.shade, count);
+        DifferingWord(all.image.at(y) + 3 * x, shared_lowest, shared_width, ranges + row * kRangeBytes,
+                      mean + row * kWordBytes, all.shade, count);
     all.out.at(y)[word] = bits;
     any |= bits;
   }
@@ -266,8 +260,7 @@ Rows<const T> RowsOf(const cv::Mat& table) {
 // A picture in cells of 64 pixels by LevelRanges::kSharingRows rows.
 class DifferenceSearch {
  public:
-  DifferenceSearch(const LevelRanges& ranges, const cv::Mat& image_bgr, const cv::Mat& mean_bgr,
-                   const ShadeRule* shade)
+  DifferenceSearch(const LevelRanges& ranges, const cv::Mat& image_bgr, const ShadeRule* shade)
       : mask_(image_bgr.cols, image_bgr.rows),
         across_(mask_.words_per_row()),
         down_(static_cast<std::size_t>(image_bgr.rows + LevelRanges::kSharingRows - 1) /
@@ -278,7 +271,7 @@ class DifferenceSearch {
     all_.ranges = RowsOf<std::uint8_t>(ranges.levels());
     all_.shared_lowest = RowsOf<std::uint8_t>(ranges.shared_lowest());
     all_.shared_width = RowsOf<std::int16_t>(ranges.shared_width());
-    if (shade != nullptr) all_.mean = RowsOf<float>(mean_bgr);
+    all_.mean = RowsOf<float>(ranges.mean());
     all_.shade = shade;
     all_.out = {mask_.words().data(), mask_.words_per_row()};
   }
@@ -371,12 +364,12 @@ class DifferenceSearch {
   std::int64_t unseen_px_ = 0;
 };
 
-core::BitMask Differing(const LevelRanges& ranges, const cv::Mat& image_bgr, const cv::Mat& mean_bgr,
-                        const ShadeRule* shade, int least_px, std::int64_t* skipped_px) {
+core::BitMask Differing(const LevelRanges& ranges, const cv::Mat& image_bgr, const ShadeRule* shade,
+                        int least_px, std::int64_t* skipped_px) {
   core::Require(
       image_bgr.type() == CV_8UC3 && image_bgr.size() == cv::Size(ranges.width_px(), ranges.height_px()),
       "a picture is 8-bit BGR and of its ranges' size");
-  DifferenceSearch search(ranges, image_bgr, mean_bgr, shade);
+  DifferenceSearch search(ranges, image_bgr, shade);
   std::int64_t unseen = 0;
   core::BitMask mask = least_px > kMostSkippedPx ? std::move(search).Large(&unseen) : std::move(search).All();
   if (skipped_px != nullptr) *skipped_px = unseen;
@@ -387,14 +380,12 @@ core::BitMask Differing(const LevelRanges& ranges, const cv::Mat& image_bgr, con
 
 core::BitMask DifferingPixels(const LevelRanges& ranges, const cv::Mat& image_bgr, int least_px,
                               std::int64_t* skipped_px) {
-  return Differing(ranges, image_bgr, {}, nullptr, least_px, skipped_px);
+  return Differing(ranges, image_bgr, nullptr, least_px, skipped_px);
 }
 
-core::BitMask DifferingPixels(const LevelRanges& ranges, const cv::Mat& image_bgr, const cv::Mat& mean_bgr,
-                              const ShadeRule& shade, int least_px, std::int64_t* skipped_px) {
-  core::Require(mean_bgr.type() == CV_32FC3 && mean_bgr.size() == image_bgr.size(),
-                "a background's mean is CV_32FC3 and of the picture's size");
-  return Differing(ranges, image_bgr, mean_bgr, &shade, least_px, skipped_px);
+core::BitMask DifferingPixels(const LevelRanges& ranges, const cv::Mat& image_bgr, const ShadeRule& shade,
+                              int least_px, std::int64_t* skipped_px) {
+  return Differing(ranges, image_bgr, &shade, least_px, skipped_px);
 }
 
 }  // namespace elbowroom::recon

@@ -21,12 +21,12 @@ struct ShadeRule {
 // Pixels with a channel outside its range; those that are shade are left out if there is a rule. 8-connected
 // regions of fewer than `least_px` pixels may be missing, as a whole or in part: if `least_px` is above 132,
 // not all pixels have to be looked at, and `skipped_px` receives how many weren't. `image_bgr` (CV_8UC3, any
-// row stride) and `mean_bgr` (CV_32FC3) are of the ranges' size. AVX-512, AVX2, SSE4, SSSE3 and plain code,
+// row stride) is of the ranges' size. AVX-512, AVX2, SSE4, SSSE3 and plain code,
 // chosen at run time, give the same bits (tests/recon/segmentation/difference_kernel_test.cc).
 [[nodiscard]] core::BitMask DifferingPixels(const LevelRanges& ranges, const cv::Mat& image_bgr,
                                             int least_px = 0, std::int64_t* skipped_px = nullptr);
 [[nodiscard]] core::BitMask DifferingPixels(const LevelRanges& ranges, const cv::Mat& image_bgr,
-                                            const cv::Mat& mean_bgr, const ShadeRule& shade, int least_px = 0,
+                                            const ShadeRule& shade, int least_px = 0,
                                             std::int64_t* skipped_px = nullptr);
 
 }  // namespace elbowroom::recon

@@ -7,18 +7,27 @@ namespace {
 
 constexpr int kBytes = 192;  // of 64 pixels
 
+// The number of a row's 64 pixels in the tables' row for their group.
+int NumberInGroup(int y, int word) {
+  return word * LevelRanges::kSharingRows + y % LevelRanges::kSharingRows;
+}
+
 }  // namespace
 
 LevelRanges::LevelRanges(const cv::Mat& mean_bgr, const cv::Mat& threshold_bgr)
     : width_px_(mean_bgr.cols), height_px_(mean_bgr.rows) {
-  levels_.create(height_px_, (width_px_ + 63) / 64 * 2 * kBytes, CV_8U);
+  const int groups = (height_px_ + kSharingRows - 1) / kSharingRows, words = (width_px_ + 63) / 64;
+  levels_.create(groups, words * kSharingRows * 2 * kBytes, CV_8U);
+  mean_ = cv::Mat::zeros(groups, words * kSharingRows * kBytes, CV_32F);
   for (int y = 0; y < height_px_; ++y) {
     const auto* mean = mean_bgr.ptr<float>(y);
     const auto* threshold = threshold_bgr.ptr<float>(y);
-    auto* lowest = levels_.ptr<std::uint8_t>(y);
-    for (int first = 0; first < width_px_ * 3; first += kBytes, lowest += 2 * kBytes) {
+    for (int first = 0; first < width_px_ * 3; first += kBytes) {
+      const int number = NumberInGroup(y, first / kBytes);
+      auto* lowest = levels_.ptr<std::uint8_t>(y / kSharingRows) + number * 2 * kBytes;
       std::uint8_t* highest = lowest + kBytes;
       const int count = std::min(kBytes, width_px_ * 3 - first);
+      std::copy_n(mean + first, count, mean_.ptr<float>(y / kSharingRows) + number * kBytes);
       for (int i = 0; i < count; ++i) {
         // Sums of two floats are exact in double. Rounded by hand: std::ceil and std::floor are calls on
         // plain x86-64.
@@ -48,7 +57,7 @@ void LevelRanges::Share() {
       std::fill(lowest, lowest + kBytes, std::uint8_t{0});
       std::fill(highest, highest + kBytes, std::uint8_t{255});
       for (int y = begin; y < end; ++y) {
-        const std::uint8_t* levels = levels_.ptr<std::uint8_t>(y) + word * 2 * kBytes;
+        const std::uint8_t* levels = levels_.ptr<std::uint8_t>(group) + NumberInGroup(y, word) * 2 * kBytes;
         for (int i = 0; i < kBytes; ++i) lowest[i] = std::max(lowest[i], levels[i]);
         for (int i = 0; i < kBytes; ++i) highest[i] = std::min(highest[i], levels[kBytes + i]);
       }

@@ -24,9 +24,13 @@ class LevelRanges {
   [[nodiscard]] int width_px() const { return width_px_; }
   [[nodiscard]] int height_px() const { return height_px_; }
 
-  // CV_8U. For each 64 pixels of a row their 192 lowest, then their 192 highest levels; 64-byte aligned.
-  // Pixels past the row's end may have any level.
+  // CV_8U, a row for each kSharingRows rows of pixels. For each 64 pixels across, and for each of these rows
+  // in turn: 192 lowest, then 192 highest levels; 64-byte aligned. So a cell's levels follow one another in
+  // memory, on one page or two. Pixels past the row's end may have any level.
   [[nodiscard]] const cv::Mat& levels() const { return levels_; }
+
+  // CV_32F, in the same order: 192 means for each 64 pixels of a row; zero past the row's end.
+  [[nodiscard]] const cv::Mat& mean() const { return mean_; }
 
   // CV_8U, a row for each kSharingRows rows of pixels. For each pixel and channel across: the lowest of the
   // shared_width() + 1 levels that are background in all these rows.
@@ -43,6 +47,7 @@ class LevelRanges {
   int width_px_ = 0;
   int height_px_ = 0;
   cv::Mat levels_, shared_lowest_;  // CV_8U
+  cv::Mat mean_;                    // CV_32F
   cv::Mat shared_width_;            // CV_16S
 };
 

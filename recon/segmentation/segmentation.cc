@@ -89,15 +89,17 @@ Segmenter::Segmenter(BackgroundReference background, const SegmentationOptions& 
                 "a background reference has mean and sigma, CV_32FC3 of one size");
   background.mean_bgr = mean_bgr_;
   threshold_bgr_ = ThresholdOf(background, options);
-  as_measured_ = {mean_bgr_, PackedMean(mean_bgr_), LevelRanges(mean_bgr_, threshold_bgr_)};
+  as_measured_ = {PackedMean(mean_bgr_), LevelRanges(mean_bgr_, threshold_bgr_)};
+  if (options.method == SegmentationMethod::kThreshold) mean_bgr_.release(), threshold_bgr_.release();
 }
 
 Segmenter::EmptyScene Segmenter::EmptySceneFor(const cv::Mat& image_bgr) const {
-  core::Require(image_bgr.type() == CV_8UC3 && image_bgr.size() == mean_bgr_.size(),
+  const cv::Size size(as_measured_.ranges.width_px(), as_measured_.ranges.height_px());
+  core::Require(image_bgr.type() == CV_8UC3 && image_bgr.size() == size,
                 "a picture to segment is 8-bit BGR of its background's size");
   if (options_.method == SegmentationMethod::kThreshold) return as_measured_;
   const cv::Mat mean = WithExposure(mean_bgr_, EstimateExposure(image_bgr, mean_bgr_));
-  return {mean, PackedMean(mean), LevelRanges(mean, threshold_bgr_)};
+  return {PackedMean(mean), LevelRanges(mean, threshold_bgr_)};
 }
 
 core::BitMask Segmenter::Detect(const cv::Mat& image_bgr, const EmptyScene& scene,
@@ -107,7 +109,7 @@ core::BitMask Segmenter::Detect(const cv::Mat& image_bgr, const EmptyScene& scen
   std::int64_t skipped_px = 0;
   core::BitMask mask =
       options_.shadows == ShadowRule::kReject
-          ? DifferingPixels(scene.ranges, image_bgr, scene.mean_bgr, shade, options_.min_blob_px, &skipped_px)
+          ? DifferingPixels(scene.ranges, image_bgr, shade, options_.min_blob_px, &skipped_px)
           : DifferingPixels(scene.ranges, image_bgr, options_.min_blob_px, &skipped_px);
   if (stats != nullptr) *stats = {static_cast<std::int64_t>(image_bgr.total()), skipped_px};
   if (!mask.ShowsObject()) return mask;

@@ -70,7 +70,6 @@ class Segmenter {
  private:
   // The camera's picture without an object, as it is expected.
   struct EmptyScene {
-    cv::Mat mean_bgr;  // CV_32FC3
     cv::Mat packed_mean;
     LevelRanges ranges;
   };
@@ -79,8 +78,8 @@ class Segmenter {
                                      SegmentationStats* stats) const;
 
   SegmentationOptions options_;
-  cv::Mat mean_bgr_;       // CV_32FC3
-  cv::Mat threshold_bgr_;  // CV_32FC3, grey levels
+  cv::Mat mean_bgr_;       // CV_32FC3; only kept for kAdaptive
+  cv::Mat threshold_bgr_;  // likewise, grey levels
   EmptyScene as_measured_;
 };
 

@@ -101,7 +101,7 @@ TEST_F(EachTarget, GivesTheSameBits) {
         SCOPED_TRACE(hwy::TargetName(target));
         Choose(target);
         const core::BitMask plain = DifferingPixels(ranges, made.image_bgr);
-        const core::BitMask lit = DifferingPixels(ranges, made.image_bgr, made.mean_bgr, kRule);
+        const core::BitMask lit = DifferingPixels(ranges, made.image_bgr, kRule);
         if (!first) first = plain, first_without_shade = lit;
         EXPECT_EQ(plain, *first);
         EXPECT_EQ(lit, *first_without_shade);
@@ -146,12 +146,12 @@ TEST_F(EachTarget, FindsAllLargeRegionsWithoutLookingAtEveryPixel) {
       }
       const LevelRanges ranges(mean, threshold);
       for (const int least_px : {50, 133, 200}) {
-        core::BitMask all = DifferingPixels(ranges, image, mean, kRule);
+        core::BitMask all = DifferingPixels(ranges, image, kRule);
         RemoveSmallBlobs(all, least_px);
         for (const std::int64_t target : Targets()) {
           SCOPED_TRACE(hwy::TargetName(target));
           Choose(target);
-          core::BitMask large = DifferingPixels(ranges, image, mean, kRule, least_px);
+          core::BitMask large = DifferingPixels(ranges, image, kRule, least_px);
           RemoveSmallBlobs(large, least_px);
           ASSERT_EQ(large, all) << width << ' ' << trial << ' ' << least_px;
         }
