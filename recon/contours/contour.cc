@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstddef>
 #include <span>
 #include <utility>
@@ -37,7 +38,7 @@ class Tracer {
   }
 
   Contour Trace() {
-    contour_.vertices.reserve(kUsualVertices);
+    pixels_.reserve(kUsualVertices);
     contour_.edges.reserve(kUsualVertices);
     LatticeRow above, below;
     const auto [first, end] = Rows();
@@ -52,6 +53,7 @@ class Tracer {
       TraceCells(y, above, below);
       std::swap(above, below);
     }
+    MoveToPlane();
     contour_.edge_from.resize(contour_.vertices.size());
     contour_.edge_to.resize(contour_.vertices.size());
     for (std::uint32_t i = 0; i < contour_.edges.size(); ++i) {
@@ -148,18 +150,33 @@ class Tracer {
     return (static_cast<double>(a) - 127.5) / (static_cast<double>(a) - static_cast<double>(b));
   }
 
-  std::uint32_t AddVertex(Eigen::Vector2d pixel, const Eigen::Vector2d& seen_end) {
-    // If the lens has no ray for the position (it folds there), the position is moved towards `seen_end` by
-    // halves until it has one.
-    std::optional<Eigen::Vector2d> at = plane_.FromPixel(pixel);
+  // `pixel`: a position between the centres of two neighbouring pixels.
+  std::uint32_t AddVertex(const Eigen::Vector2d& pixel) {
+    pixels_.push_back(pixel);
+    return static_cast<std::uint32_t>(pixels_.size() - 1);
+  }
+
+  // Takes the vertices from the picture to the undistorted plane.
+  void MoveToPlane() {
+    contour_.vertices.resize(pixels_.size());
+    plane_.FromPixels(pixels_, contour_.vertices.data());
+    for (std::size_t i = 0; i < pixels_.size(); ++i)
+      if (std::isnan(contour_.vertices[i].x())) contour_.vertices[i] = NearestSeen(pixels_[i]);
+  }
+
+  // If the lens has no ray for the position (it folds there), the position is moved by halves towards the one
+  // of its two pixels that is seen, until it has one.
+  [[nodiscard]] Eigen::Vector2d NearestSeen(Eigen::Vector2d pixel) const {
+    Eigen::Vector2d seen = pixel.array().floor();
+    if (!IsSeen(static_cast<int>(seen.x()), static_cast<int>(seen.y()))) seen = pixel.array().ceil();
+    std::optional<Eigen::Vector2d> at;
     for (int halving = 0; !at && halving < 20; ++halving) {
-      pixel = 0.5 * (pixel + seen_end);
+      pixel = 0.5 * (pixel + seen);
       at = plane_.FromPixel(pixel);
     }
-    if (!at) at = plane_.FromPixel(seen_end);
+    if (!at) at = plane_.FromPixel(seen);
     core::Require(at.has_value(), "one of two pixels with different labels is seen");
-    contour_.vertices.push_back(*at);
-    return static_cast<std::uint32_t>(contour_.vertices.size() - 1);
+    return *at;
   }
 
   // Adds a vertex between bits i and i + 1 of a row where they differ.
@@ -171,9 +188,7 @@ class Tracer {
         double share = 0.5;
         const bool is_border = i == 0 || i + 2 == bits_;
         if (!is_border && !soft_.levels.empty()) share = Share(row->levels[i], row->levels[i + 1]);
-        const double left_x = static_cast<double>(i) - 1.0;
-        const double seen_x = IsSeen(static_cast<int>(i) - 1, y) ? left_x : left_x + 1.0;
-        row->across.push_back(AddVertex({left_x + share, y}, {seen_x, y}));
+        row->across.push_back(AddVertex({static_cast<double>(i) - 1.0 + share, y}));
       }
     }
   }
@@ -197,8 +212,7 @@ class Tracer {
   std::uint32_t AddVertexDown(std::size_t i, int y, const LatticeRow& above, const LatticeRow& below) {
     const bool is_border = y < 0 || y + 1 == soft_.mask.height_px();
     const double share = is_border || soft_.levels.empty() ? 0.5 : Share(above.levels[i], below.levels[i]);
-    const double x = static_cast<double>(i) - 1.0;
-    return AddVertex({x, y + share}, {x, IsSeen(static_cast<int>(i) - 1, y) ? y : y + 1});
+    return AddVertex({static_cast<double>(i) - 1.0, y + share});
   }
 
   void TraceCells(int y, const LatticeRow& above, const LatticeRow& below) {
@@ -283,6 +297,7 @@ class Tracer {
   std::size_t first_word_ = 0;  // of a lattice row; and past the last
   std::size_t end_word_ = 0;
   std::size_t next_level_ = 0;
+  std::vector<Eigen::Vector2d> pixels_;  // the vertices, in the picture
   Contour contour_;
 };
 

@@ -10,6 +10,7 @@
 
 #include "recon/contours/contour.h"
 #include "recon/contours/contour_map.h"
+#include "recon/contours/node_table_kernel.h"
 
 namespace elbowroom::recon {
 namespace {
@@ -20,12 +21,6 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr int kWidestStepPx = 16;
 constexpr int kNarrowestStepPx = 4;
 constexpr double kTableErrorPx = 5e-6;
-
-// The weights of nodes -1, 0, 1, 2 for a place t past node 0 (Lagrange).
-std::array<double, 4> CubicWeights(double t) {
-  const double a = t + 1.0, b = t - 1.0, c = t - 2.0;
-  return {(-1.0 / 6.0) * (t * b * c), 0.5 * (a * b * c), -0.5 * (a * t * c), (1.0 / 6.0) * (a * t * b)};
-}
 
 }  // namespace
 
@@ -100,20 +95,12 @@ Eigen::Vector2d UndistortedPlane::NodesAt(const Eigen::Vector2d& pixel) const {
   return (pixel + Eigen::Vector2d::Constant(0.5)).cwiseProduct(nodes_per_pixel_);
 }
 
+NodeTable UndistortedPlane::Table() const { return {table_.data(), nodes_.x(), nodes_.y()}; }
+
 Eigen::Vector2d UndistortedPlane::FromTable(const Eigen::Vector2d& at_nodes) const {
-  // At the border the cubic of the four outermost nodes.
-  const int i = std::clamp(static_cast<int>(at_nodes.x()), 1, nodes_.x() - 3);
-  const int j = std::clamp(static_cast<int>(at_nodes.y()), 1, nodes_.y() - 3);
-  const std::array<double, 4> across = CubicWeights(at_nodes.x() - i), down = CubicWeights(at_nodes.y() - j);
-  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
-  for (int v = 0; v < 4; ++v) {
-    const Eigen::Vector2d* row =
-        &table_[static_cast<std::size_t>(j - 1 + v) * static_cast<std::size_t>(nodes_.x()) +
-                static_cast<std::size_t>(i - 1)];
-    sum += down[static_cast<std::size_t>(v)] *
-           (across[0] * row[0] + across[1] * row[1] + across[2] * row[2] + across[3] * row[3]);
-  }
-  return sum;
+  Eigen::Vector2d found;
+  InterpolateNodes(Table(), {&at_nodes, 1}, &found);
+  return found;
 }
 
 void UndistortedPlane::FindBentCells() {
@@ -157,12 +144,29 @@ Eigen::Vector2i UndistortedPlane::CellOf(const Eigen::Vector2d& at_nodes) const 
 }
 
 std::optional<Eigen::Vector2d> UndistortedPlane::FromPixel(const Eigen::Vector2d& pixel) const {
-  if (is_ideal_) return Eigen::Vector2d(plane_from_pixel_ * (pixel - principal_px_));
-  const Eigen::Vector2d at = NodesAt(pixel);
-  const Eigen::Vector2d found = FromTable(at);
-  const Eigen::Vector2i cell = CellOf(at);
-  if (!std::isnan(found.x()) && !bent_cells_.At(cell.x(), cell.y())) return found;
-  return Exactly(pixel, found);
+  Eigen::Vector2d position;
+  FromPixels({&pixel, 1}, &position);
+  if (std::isnan(position.x())) return std::nullopt;
+  return position;
+}
+
+void UndistortedPlane::FromPixels(std::span<const Eigen::Vector2d> pixels, Eigen::Vector2d* positions) const {
+  if (is_ideal_) {
+    for (const Eigen::Vector2d& pixel : pixels) *positions++ = plane_from_pixel_ * (pixel - principal_px_);
+    return;
+  }
+  constexpr std::size_t kAtOnce = 64;
+  std::array<Eigen::Vector2d, kAtOnce> places;
+  for (; !pixels.empty(); pixels = pixels.subspan(std::min(kAtOnce, pixels.size()))) {
+    const std::size_t count = std::min(kAtOnce, pixels.size());
+    for (std::size_t i = 0; i < count; ++i) places[i] = NodesAt(pixels[i]);
+    InterpolateNodes(Table(), {places.data(), count}, positions);
+    for (std::size_t i = 0; i < count; ++i, ++positions) {
+      const Eigen::Vector2i cell = CellOf(places[i]);
+      if (!std::isnan(positions->x()) && !bent_cells_.At(cell.x(), cell.y())) continue;
+      *positions = Exactly(pixels[i], *positions).value_or(Eigen::Vector2d::Constant(kNaN));
+    }
+  }
 }
 
 UndistortedPlanes MakeUndistortedPlanes(const core::Rig& rig) {

@@ -6,6 +6,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/bit_mask.h"
@@ -15,6 +16,7 @@
 namespace elbowroom::recon {
 
 class ContourMap;
+struct NodeTable;
 
 // The plane z = focal_px() in the camera's frame. A point (X, Y, Z) of that frame falls on
 // focal_px() * (X, Y) / Z; the principal axis falls on (0, 0). One unit is about one pixel; where pixels
@@ -31,6 +33,8 @@ class UndistortedPlane {
   // From a position in the picture, its border included, to one in the plane, to 1e-5 units
   // (undistorted_plane_test). Nothing where the lens model has no ray for that position.
   [[nodiscard]] std::optional<Eigen::Vector2d> FromPixel(const Eigen::Vector2d& pixel) const;
+  // The same for many at once, to the last bit; NaN in place of nothing. `positions` has room for one a pixel.
+  void FromPixels(std::span<const Eigen::Vector2d> pixels, Eigen::Vector2d* positions) const;
 
   // The pixels for whose centres the lens model has no ray. Nothing if there are none, as is usual.
   [[nodiscard]] const std::optional<core::BitMask>& unseen_pixels() const { return unseen_pixels_; }
@@ -42,6 +46,7 @@ class UndistortedPlane {
  private:
   void FillTable(int step_px);
   [[nodiscard]] Eigen::Vector2d NodesAt(const Eigen::Vector2d& pixel) const;
+  [[nodiscard]] NodeTable Table() const;
   [[nodiscard]] Eigen::Vector2d FromTable(const Eigen::Vector2d& at_nodes) const;
   // `nearby`: a position in the plane near the result; NaN if none is known.
   [[nodiscard]] std::optional<Eigen::Vector2d> Exactly(const Eigen::Vector2d& pixel,

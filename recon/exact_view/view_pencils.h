@@ -24,7 +24,7 @@ class ViewPencils {
  public:
   using Pencils = std::vector<std::unique_ptr<const EpipolarEdges>>;
   static constexpr int kSquarePx = 8;
-  static constexpr int kLargestSquarePx = 64;
+  static constexpr int kLargestSquarePx = 32;
 
   ViewPencils(const VisualHull& hull, const ViewRays& rays);
 

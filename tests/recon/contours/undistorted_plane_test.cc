@@ -1,9 +1,15 @@
 #include "recon/contours/undistorted_plane.h"
 
 #include <gtest/gtest.h>
+#include <hwy/targets.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
+#include <limits>
+#include <vector>
 
 #include "recon/contours/contour_map.h"
 #include "recon/hull/visual_hull.h"
@@ -70,6 +76,44 @@ TEST(UndistortedPlane, FollowsTheLensOfALargePicture) {
     for (int i = 0; i < 3000; ++i)
       ExpectFollowsTheLens(plane, {random.Uniform(-0.5, 643.5), random.Uniform(-0.5, 485.5)});
   }
+}
+
+TEST(UndistortedPlane, TakesManyPixelsToTheSameBitsAsOneOnEveryProcessor) {
+  Random random(5003);
+  const auto bits = [](const Vector2d& at) {
+    return std::array{std::bit_cast<std::uint64_t>(at.x()), std::bit_cast<std::uint64_t>(at.y())};
+  };
+  int targets = 0, seen = 0, unseen = 0;
+  for (int trial = 0; trial < 40; ++trial) {
+    const core::CameraModel camera = RandomCamera(&random, static_cast<LensKind>(trial % kLensKinds));
+    const UndistortedPlane plane(camera);
+    std::vector<Vector2d> pixels(static_cast<std::size_t>(random.Whole(0, 200)));
+    for (Vector2d& pixel : pixels)
+      pixel = {random.Uniform(-0.5, camera.width_px() - 0.5), random.Uniform(-0.5, camera.height_px() - 0.5)};
+    std::vector<Vector2d> expected;
+    for (const Vector2d& pixel : pixels) {
+      const std::optional<Vector2d> at = plane.FromPixel(pixel);
+      (at ? seen : unseen) += 1;
+      expected.push_back(at.value_or(Vector2d::Constant(std::numeric_limits<double>::quiet_NaN())));
+    }
+    targets = 0;
+    for (std::int64_t left = hwy::SupportedTargets(); left != 0; left &= left - 1, ++targets) {
+      hwy::SetSupportedTargetsForTest(left & -left);
+      std::vector<Vector2d> positions(pixels.size());
+      plane.FromPixels(pixels, positions.data());
+      for (std::size_t i = 0; i < pixels.size(); ++i) {
+        if (std::isnan(expected[i].x())) {
+          EXPECT_TRUE(std::isnan(positions[i].x())) << pixels[i].transpose();
+        } else {
+          EXPECT_EQ(bits(positions[i]), bits(expected[i])) << pixels[i].transpose();
+        }
+      }
+    }
+    hwy::SetSupportedTargetsForTest(0);
+  }
+  EXPECT_GE(targets, 2) << "the portable one and this processor's";
+  EXPECT_GT(seen, 1000);
+  EXPECT_GT(unseen, 10) << "pixels without a ray";
 }
 
 TEST(UndistortedPlane, IsAPinholesOwnPlane) {
