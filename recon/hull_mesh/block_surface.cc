@@ -113,6 +113,27 @@ constexpr std::array<std::uint16_t, kCubeEdges.size()> kEdgeOffsets = [] {
   return offsets;
 }();
 
+// The triangles of a cube, their corners by kEdgeOffsets. The items past `count` repeat the first one.
+struct CellTriangles {
+  std::size_t count = 0;
+  std::array<std::array<std::uint16_t, 3>, CubeTriangles::kMost> all{};
+};
+
+const std::array<CellTriangles, 256>& CellTable() {
+  static const std::array<CellTriangles, 256> table = [] {
+    std::array<CellTriangles, 256> made;
+    for (std::size_t inside = 0; inside < made.size(); ++inside) {
+      const CubeTriangles& cut = CubeTable()[inside];
+      made[inside].count = cut.count;
+      for (std::size_t i = 0; i < CubeTriangles::kMost; ++i)
+        for (std::size_t corner = 0; corner < 3; ++corner)
+          made[inside].all[i][corner] = kEdgeOffsets[cut.all[i < cut.count ? i : 0][corner]];
+    }
+    return made;
+  }();
+  return table;
+}
+
 static_assert(VertexNumbers::kEdges == Index(3, 0, 0, 0));
 
 // Sets the numbers of the first block's edges that have a vertex; on the far faces they are in the next
@@ -157,20 +178,29 @@ void WriteTriangles(std::span<const BlockNeighbour> blocks, std::span<std::array
   static_assert(VertexNumbers::kNone == -1, "all bits are set");
   std::memset(all_numbers, 0xFF, sizeof(numbers->numbers_));
   SetNumbers(blocks, all_numbers);
-  const std::array<CubeTriangles, 256>& table = CubeTable();
+  const std::array<CellTriangles, 256>& table = CellTable();
   std::size_t next = 0;
-  std::int64_t all = 0;  // the bits of all numbers: negative if one is -1
+  std::int32_t all = 0;  // the bits of all numbers: negative if one is -1
+  const auto write = [&](const std::int32_t* cell, const std::array<std::uint16_t, 3>& corners,
+                         std::array<std::int32_t, 3>* triangle) {
+    *triangle = {cell[corners[0]], cell[corners[1]], cell[corners[2]]};
+    all |= (*triangle)[0] | (*triangle)[1] | (*triangle)[2];
+  };
   VisitCutCells(blocks.front().surface->labels,
                 [&](std::size_t x, std::size_t y, std::size_t z, std::size_t inside) {
                   const std::int32_t* const cell = all_numbers + Index(0, x, y, z);
-                  const CubeTriangles& cut = table[inside];
-                  for (std::size_t i = 0; i < cut.count; ++i) {
-                    std::array<std::int32_t, 3>& triangle = triangles[next++];
-                    for (std::size_t corner = 0; corner < 3; ++corner) {
-                      triangle[corner] = cell[kEdgeOffsets[cut.all[i][corner]]];
-                      all |= triangle[corner];
-                    }
+                  const CellTriangles& cut = table[inside];
+                  // How many there are can't be predicted, and a wrong guess costs more than a triangle that
+                  // the next cell overwrites.
+                  constexpr std::size_t kAtLeast = 3;
+                  if (next + kAtLeast <= triangles.size()) {
+                    for (std::size_t i = 0; i < kAtLeast; ++i) write(cell, cut.all[i], &triangles[next + i]);
+                    for (std::size_t i = kAtLeast; i < cut.count; ++i)
+                      write(cell, cut.all[i], &triangles[next + i]);
+                  } else {
+                    for (std::size_t i = 0; i < cut.count; ++i) write(cell, cut.all[i], &triangles[next + i]);
                   }
+                  next += cut.count;
                 });
   core::Require(all >= 0, "the surface goes on in the next blocks");
 }

@@ -328,8 +328,9 @@ std::int32_t LeastClearSquare(const GridView& block) {
       if ((corner >> axis & 1U) != 0)
         for (std::size_t k = 0; k < 3; ++k) at[k] += kBlockCells * block.steps[axis][k];
     least_z = std::min(least_z, at[2]);
+    const double per_z = 1.0 / at[2];
     for (std::size_t k = 0; k < 2; ++k) {
-      const double u = at[k] / at[2];
+      const double u = at[k] * per_z;
       low[k] = std::min(low[k], u), high[k] = std::max(high[k], u);
     }
   }
