@@ -122,8 +122,9 @@ struct RowPlaces {
 constexpr RowPlaces kRowPlaces = [] {
   RowPlaces places;
   for (std::size_t i = 0; i < places.y.size(); ++i) {
-    places.y[i] = static_cast<float>(i % kSide);
-    places.z[i] = static_cast<float>(i / kSide);
+    const std::size_t y = i % kSide, z = i / kSide;
+    places.y[i] = static_cast<float>(y);
+    places.z[i] = static_cast<float>(z);
   }
   return places;
 }();
@@ -135,8 +136,9 @@ struct BarPlaces {
 constexpr BarPlaces kBarPlaces = [] {
   BarPlaces places;
   for (std::size_t i = 0; i < kBars; ++i) {
-    places.y[i] = static_cast<float>(2 * (i % kBarsOfSide) + 1);
-    places.z[i] = static_cast<float>(2 * (i / kBarsOfSide) + 1);
+    const std::size_t y = 2 * (i % kBarsOfSide) + 1, z = 2 * (i / kBarsOfSide) + 1;
+    places.y[i] = static_cast<float>(y);
+    places.z[i] = static_cast<float>(z);
   }
   return places;
 }();
