@@ -6,6 +6,7 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -21,6 +22,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 // Points side by side; no fused operation anywhere: it would round differently on processors without one.
 using Doubles = hn::CappedTag<double, 8>;
 using Ints = hn::Rebind<std::int32_t, Doubles>;
+using Indices = hn::Rebind<std::int64_t, Doubles>;
 using DoubleVec = hn::Vec<Doubles>;
 using IntVec = hn::Vec<Ints>;
 // Edges side by side: a cell has two or three.
@@ -30,6 +32,13 @@ using EdgeMask = hn::Mask<Edges>;
 
 constexpr std::size_t kMost = GridPoints::kMost;
 constexpr double kCellDiagonal = 1.4142135623730951;
+// For each clear square: how far positions in its cell are from all edges at least, in cells. Reading this is
+// several times as fast as a root.
+const std::array<double, 256> kClearCells = []() noexcept {
+  std::array<double, 256> cells{};
+  for (std::size_t i = 0; i < cells.size(); ++i) cells[i] = std::sqrt(static_cast<double>(i)) - kCellDiagonal;
+  return cells;
+}();
 // Rounding of a position and of a distance.
 constexpr double kRoundingPx = 1e-7;
 
@@ -232,8 +241,8 @@ HWY_INLINE std::uint64_t WaysNearEdges(const ContourCellsView& cells, const Poin
   const DoubleVec x = hn::Mul(half, hn::Add(from.x, to.x)), y = hn::Mul(half, hn::Add(from.y, to.y));
   const IntVec middle = Index(cells, nearest_cell(x, cells.origin_x_px, cells.width),
                               nearest_cell(y, cells.origin_y_px, cells.height));
-  const DoubleVec squares = hn::PromoteTo(d, Bytes(cells.clear_squares, middle));
-  const DoubleVec clear_cells = hn::Sub(hn::Sqrt(squares), Set(kCellDiagonal));
+  const DoubleVec clear_cells =
+      hn::GatherIndex(d, kClearCells.data(), hn::PromoteTo(Indices(), Bytes(cells.clear_squares, middle)));
   const DoubleVec clear_px = hn::Sub(hn::Mul(clear_cells, Set(cells.cell_px)), Set(kRoundingPx));
   const DoubleVec half_x = hn::Sub(to.x, x), half_y = hn::Sub(to.y, y);
   const DoubleVec reach2 = hn::Add(hn::Mul(half_x, half_x), hn::Mul(half_y, half_y));
@@ -261,13 +270,15 @@ void LowerShares(const GridView& grid, const ContourCellsView& cells, const Grid
     near |= WaysNearEdges(cells, Project(grid, from, i), Project(grid, to, i), i, &ways, shares);
   alignas(64) double in_picture[kMost];
   for (std::size_t i = 0; i < from.count; i += hn::Lanes(d)) hn::Store(Set(kNoCrossing), d, in_picture + i);
-  for (near &= PointsInUse(from); near != 0; near &= near - 1) {
-    const auto i = static_cast<std::size_t>(std::countr_zero(near));
+  near &= PointsInUse(from);
+  for (std::uint64_t left = near; left != 0; left &= left - 1) {
+    const auto i = static_cast<std::size_t>(std::countr_zero(left));
     in_picture[i] = FirstCrossing(cells, ways, i);
   }
   // From a share s of the way in the picture to one in space. In the picture 1 / z is linear, so the share in
   // space is s from_z / (to_z + s (from_z - to_z)).
   for (std::size_t i = 0; i < from.count; i += hn::Lanes(d)) {
+    if ((near >> i & ((std::uint64_t{1} << hn::Lanes(d)) - 1)) == 0) continue;  // nothing is met
     const DoubleVec share = hn::Load(d, in_picture + i), so_far = hn::Load(d, shares + i);
     const DoubleVec from_z = hn::Load(d, ways.from_z + i), to_z = hn::Load(d, ways.to_z + i);
     const DoubleVec in_space =

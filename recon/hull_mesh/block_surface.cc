@@ -62,6 +62,23 @@ void VisitCutCells(const BlockBits& bits, const Visit& visit) {
   }
 }
 
+// BlockEdge::index
+constexpr std::size_t Index(std::size_t axis, std::size_t x, std::size_t y, std::size_t z) {
+  return ((axis * kSide + z) * kSide + y) * kSide + x;
+}
+
+// The edges along axis 0 at z = 0, but for their label: item x + 8 y.
+constexpr std::array<BlockEdge, 64> kEdgesOfLayer = [] {
+  std::array<BlockEdge, 64> edges{};
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    const std::size_t x = i % kBlockCells, y = i / kBlockCells;
+    edges[i].low = {static_cast<std::uint8_t>(x), static_cast<std::uint8_t>(y), 0};
+    edges[i].near_faces = static_cast<std::uint8_t>((x == 0 ? 1 : 0) | (y == 0 ? 2 : 0) | 4);
+    edges[i].index = static_cast<std::uint16_t>(Index(0, x, y, 0));
+  }
+  return edges;
+}();
+
 // Appends the block's own edges that change: those on near faces, or all others.
 void AppendChanges(const BlockBits& bits, bool on_near_faces, std::vector<BlockEdge>* edges) {
   LayerLabels high = LabelsOf(bits, 0);
@@ -70,39 +87,58 @@ void AppendChanges(const BlockBits& bits, bool on_near_faces, std::vector<BlockE
     const Layer on_faces = z == 0 ? ~Layer{0} : kFirstOfRows | kFirstRow;
     const std::array<Layer, 3> next = {low.at_x, low.at_y, high.at};
     for (std::uint8_t axis = 0; axis < 3; ++axis) {
+      const std::size_t first = Index(axis, 0, 0, z);
       Layer changes = (low.at ^ next[axis]) & (on_near_faces ? on_faces : ~on_faces);
       for (; changes != 0; changes &= changes - 1) {
         const auto i = static_cast<unsigned>(std::countr_zero(changes));
-        const unsigned x = i % kBlockCells, y = i / kBlockCells;
-        const unsigned faces = unsigned{x == 0} | unsigned{y == 0} << 1U | unsigned{z == 0} << 2U;
-        const auto byte = [](std::size_t number) { return static_cast<std::uint8_t>(number); };
-        edges->push_back({axis, {byte(x), byte(y), byte(z)}, (low.at >> i & 1U) != 0, byte(faces)});
+        BlockEdge edge = kEdgesOfLayer[i];
+        edge.axis = axis;
+        edge.low[2] = static_cast<std::uint8_t>(z);
+        edge.low_is_inside = (low.at >> i & 1U) != 0;
+        edge.near_faces = static_cast<std::uint8_t>(edge.near_faces & (z == 0 ? 7U : 3U));
+        edge.index = static_cast<std::uint16_t>(edge.index + first);
+        edges->push_back(edge);
       }
     }
   }
 }
 
-constexpr std::size_t Index(std::size_t axis, std::size_t x, std::size_t y, std::size_t z) {
-  return ((axis * kSide + z) * kSide + y) * kSide + x;
-}
-
 // For each edge of a cube: how far its Index() is from that of the edge along axis 0 at the cell's corner.
-constexpr std::array<std::size_t, kCubeEdges.size()> EdgeOffsets() {
-  std::array<std::size_t, kCubeEdges.size()> offsets{};
+constexpr std::array<std::uint16_t, kCubeEdges.size()> kEdgeOffsets = [] {
+  std::array<std::uint16_t, kCubeEdges.size()> offsets{};
   for (std::size_t edge = 0; edge < offsets.size(); ++edge) {
     const auto low = static_cast<std::size_t>(kCubeEdges[edge].low);
-    offsets[edge] = Index(edge / 4, low & 1U, low >> 1U & 1U, low >> 2U);
+    offsets[edge] = static_cast<std::uint16_t>(Index(edge / 4, low & 1U, low >> 1U & 1U, low >> 2U));
   }
   return offsets;
+}();
+
+// The triangles of a cube, their corners by kEdgeOffsets. The items past `count` repeat the first one.
+struct CellTriangles {
+  std::size_t count = 0;
+  std::array<std::array<std::uint16_t, 3>, CubeTriangles::kMost> all{};
+};
+
+const std::array<CellTriangles, 256>& CellTable() {
+  static const std::array<CellTriangles, 256> table = [] {
+    std::array<CellTriangles, 256> made;
+    for (std::size_t inside = 0; inside < made.size(); ++inside) {
+      const CubeTriangles& cut = CubeTable()[inside];
+      made[inside].count = cut.count;
+      for (std::size_t i = 0; i < CubeTriangles::kMost; ++i)
+        for (std::size_t corner = 0; corner < 3; ++corner)
+          made[inside].all[i][corner] = kEdgeOffsets[cut.all[i < cut.count ? i : 0][corner]];
+    }
+    return made;
+  }();
+  return table;
 }
-constexpr auto kEdgeOffsets = EdgeOffsets();
 
-static_assert(VertexNumbers::kNoEdge == Index(3, 0, 0, 0));
+static_assert(VertexNumbers::kEdges == Index(3, 0, 0, 0));
 
-// Calls visit(Index() of a grid edge, the number of its vertex) for the edges of these blocks. kNoEdge stands
-// for the Index() of edges that the first block doesn't share.
-template <typename Visit>
-void VisitVertices(std::span<const BlockNeighbour> blocks, const Visit& visit) {
+// Sets the numbers of the first block's edges that have a vertex; on the far faces they are in the next
+// blocks.
+void SetNumbers(std::span<const BlockNeighbour> blocks, std::int32_t* numbers) {
   for (const BlockNeighbour& block : blocks) {
     const unsigned steps = block.steps;
     const std::size_t shift =
@@ -110,9 +146,8 @@ void VisitVertices(std::span<const BlockNeighbour> blocks, const Visit& visit) {
     const std::span<const BlockEdge> edges = block.surface->edges;
     std::int32_t number = block.first_vertex;
     for (const BlockEdge& edge : steps == 0 ? edges : edges.first(block.surface->near_edges)) {
-      const auto [x, y, z] = edge.low;
-      const bool is_shared = (steps & ~unsigned{edge.near_faces}) == 0;
-      visit(is_shared ? shift + Index(edge.axis, x, y, z) : VertexNumbers::kNoEdge, number++);
+      if ((steps & ~unsigned{edge.near_faces}) == 0) numbers[shift + edge.index] = number;
+      ++number;
     }
   }
 }
@@ -140,24 +175,34 @@ BlockSurface CutBlock(const HullLattice& lattice, const HullBlock& block) {
 void WriteTriangles(std::span<const BlockNeighbour> blocks, std::span<std::array<std::int32_t, 3>> triangles,
                     VertexNumbers* numbers) {
   std::int32_t* const all_numbers = numbers->numbers_.data();
-  VisitVertices(blocks, [=](std::size_t edge, std::int32_t number) { all_numbers[edge] = number; });
-  const std::array<CubeTriangles, 256>& table = CubeTable();
+  static_assert(VertexNumbers::kNone == -1, "all bits are set");
+  std::memset(all_numbers, 0xFF, sizeof(numbers->numbers_));
+  SetNumbers(blocks, all_numbers);
+  const std::array<CellTriangles, 256>& table = CellTable();
   std::size_t next = 0;
-  std::int64_t all = 0;  // the bits of all numbers: negative if one is -1
+  std::int32_t all = 0;  // the bits of all numbers: negative if one is -1
+  const auto write = [&](const std::int32_t* cell, const std::array<std::uint16_t, 3>& corners,
+                         std::array<std::int32_t, 3>* triangle) {
+    *triangle = {cell[corners[0]], cell[corners[1]], cell[corners[2]]};
+    all |= (*triangle)[0] | (*triangle)[1] | (*triangle)[2];
+  };
   VisitCutCells(blocks.front().surface->labels,
                 [&](std::size_t x, std::size_t y, std::size_t z, std::size_t inside) {
                   const std::int32_t* const cell = all_numbers + Index(0, x, y, z);
-                  const CubeTriangles& cut = table[inside];
-                  for (std::size_t i = 0; i < cut.count; ++i) {
-                    std::array<std::int32_t, 3>& triangle = triangles[next++];
-                    for (std::size_t corner = 0; corner < 3; ++corner) {
-                      triangle[corner] = cell[kEdgeOffsets[cut.all[i][corner]]];
-                      all |= triangle[corner];
-                    }
+                  const CellTriangles& cut = table[inside];
+                  // How many there are can't be predicted, and a wrong guess costs more than a triangle that
+                  // the next cell overwrites.
+                  constexpr std::size_t kAtLeast = 3;
+                  if (next + kAtLeast <= triangles.size()) {
+                    for (std::size_t i = 0; i < kAtLeast; ++i) write(cell, cut.all[i], &triangles[next + i]);
+                    for (std::size_t i = kAtLeast; i < cut.count; ++i)
+                      write(cell, cut.all[i], &triangles[next + i]);
+                  } else {
+                    for (std::size_t i = 0; i < cut.count; ++i) write(cell, cut.all[i], &triangles[next + i]);
                   }
+                  next += cut.count;
                 });
   core::Require(all >= 0, "the surface goes on in the next blocks");
-  VisitVertices(blocks, [=](std::size_t edge, std::int32_t) { all_numbers[edge] = VertexNumbers::kNone; });
 }
 
 }  // namespace elbowroom::recon

@@ -33,20 +33,16 @@ struct BlockNeighbour {
   std::int32_t first_vertex = 0;  // the number of its first vertex in the whole mesh
 };
 
-// For each grid edge of a block the number of its vertex in the whole mesh. Working memory of WriteTriangles,
-// kept from block to block: between two of them no edge has a vertex.
+// For each grid edge of a block the number of its vertex in the whole mesh. Working memory of WriteTriangles.
 class VertexNumbers {
  public:
   static constexpr std::int32_t kNone = -1;
-  // One more item at the end takes the numbers of edges that aren't needed.
-  static constexpr std::size_t kNoEdge = 3UL * kBlockPoints * kBlockPoints * kBlockPoints;
-
-  VertexNumbers() { numbers_.fill(kNone); }
+  static constexpr std::size_t kEdges = 3UL * kBlockPoints * kBlockPoints * kBlockPoints;
 
  private:
   friend void WriteTriangles(std::span<const BlockNeighbour> blocks,
                              std::span<std::array<std::int32_t, 3>> triangles, VertexNumbers* numbers);
-  std::array<std::int32_t, kNoEdge + 1> numbers_;
+  std::array<std::int32_t, kEdges> numbers_;
 };
 
 // Writes the triangles of a block, counter-clockwise seen from outside, from its own surface, which comes

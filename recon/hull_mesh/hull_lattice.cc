@@ -24,12 +24,9 @@ GridPoint LowEnd(const HullBlock& block, const BlockEdge& edge) {
 
 // Sets point i of `from` to the edge's end inside, and point i of `to` to its end outside.
 void SetEnds(const HullBlock& block, const BlockEdge& edge, std::size_t i, GridPoints* from, GridPoints* to) {
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double low = block.corner[static_cast<Eigen::Index>(axis)] + edge.low[axis];
-    const double high = low + (edge.axis == axis ? 1.0 : 0.0);
-    from->at[axis][i] = edge.low_is_inside ? low : high;
-    to->at[axis][i] = edge.low_is_inside ? high : low;
-  }
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    from->at[axis][i] = to->at[axis][i] = block.corner[static_cast<Eigen::Index>(axis)] + edge.low[axis];
+  (edge.low_is_inside ? to : from)->at[edge.axis][i] += 1.0;
 }
 
 Vector3d PointOf(const GridPoints& points, std::size_t i) {
@@ -68,13 +65,17 @@ HullLattice::HullLattice(const VisualHull& hull, const HullGrid& grid) : hull_(h
 
 BlockBits HullLattice::LabelsOf(const HullBlock& block, std::int64_t* queries) const {
   BlockBits bits = block.is_in_workspace ? AllPoints() : InWorkspace(block.corner);
-  // First by cells, for all cameras: most points in mixed cells of one camera are outside to another.
-  std::vector<BlockBits> mixed(block.cameras.size());
-  for (std::size_t i = 0; i < mixed.size(); ++i) {
-    const std::uint8_t camera = block.cameras[i];
-    const std::size_t groups = LabelByCells(views_[camera], block.corner, cells_[camera], &bits, &mixed[i]);
-    *queries += static_cast<std::int64_t>(8 * groups);
+  // First by bars, then by cells, each for all cameras: most points in mixed cells of one camera are outside
+  // to another.
+  std::vector<BlockInCells> in_cells;
+  in_cells.reserve(block.cameras.size());
+  for (const std::uint8_t camera : block.cameras) {
+    in_cells.emplace_back(views_[camera], block.corner, cells_[camera]);
+    *queries += static_cast<std::int64_t>(in_cells.back().LabelBars(&bits));
   }
+  std::vector<BlockBits> mixed(block.cameras.size());
+  for (std::size_t i = 0; i < mixed.size(); ++i)
+    *queries += static_cast<std::int64_t>(in_cells[i].LabelRows(&bits, &mixed[i]));
   for (std::size_t i = 0; i < mixed.size(); ++i) {
     const std::uint8_t camera = block.cameras[i];
     SettleMixed(views_[camera], cells_[camera], block.corner, mixed[i], &bits);
@@ -105,8 +106,9 @@ std::int64_t HullLattice::KeepSeen(const GridPoint& corner, BlockBits* bits) con
   BlockBits unseen = *bits;
   for (std::size_t i = 0; i < outlines_.size(); ++i) {
     BlockBits seen = unseen, mixed;
-    const std::size_t groups = LabelByCells(views_[i], corner, outlines_[i], &seen, &mixed);
-    queries += static_cast<std::int64_t>(8 * groups);
+    BlockInCells in_cells(views_[i], corner, outlines_[i]);
+    queries += static_cast<std::int64_t>(in_cells.LabelBars(&seen));
+    queries += static_cast<std::int64_t>(in_cells.LabelRows(&seen, &mixed));
     SettleMixed(views_[i], outlines_[i], corner, mixed, &seen);
     Clear(seen, &unseen);
   }
@@ -129,8 +131,12 @@ void HullLattice::FindExits(const HullBlock& block, std::span<const BlockEdge> e
     for (std::size_t i = 0; i < from.count; ++i) {
       const Vector3d inside = grid_.AtSteps(PointOf(from, i)), outside = grid_.AtSteps(PointOf(to, i));
       const bool is_exact = shares[i] >= 0.0 && shares[i] <= 1.0;
-      const double share = is_exact ? shares[i] : BisectedExit(inside, outside);
-      exits_in_world[i] = inside + std::clamp(share, kEndShare, 1.0 - kEndShare) * (outside - inside);
+      const double share =
+          std::clamp(is_exact ? shares[i] : BisectedExit(inside, outside), kEndShare, 1.0 - kEndShare);
+      // The other coordinates are those of both ends.
+      const int axis = edges[i].axis;
+      exits_in_world[i] = inside;
+      exits_in_world[i][axis] += share * (outside[axis] - inside[axis]);
     }
   }
 }

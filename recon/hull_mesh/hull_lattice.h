@@ -19,6 +19,7 @@ struct BlockEdge {
   std::array<std::uint8_t, 3> low{};  // its lower end, in the block
   bool low_is_inside = false;
   std::uint8_t near_faces = 0;  // bit a: coordinate a of the lower end is 0
+  std::uint16_t index = 0;      // among all edges that begin in the block or on its faces
 };
 
 class HullLattice {

@@ -41,12 +41,42 @@ struct BlockBits {
 };
 static_assert(kBlockCells == 8, "a row of cells is a group of points");
 
-// Clears the bits of those points of the block at `corner` that fall into cells of background. Points in
-// mixed cells keep their bits and are set in `mixed`: SettleMixed decides them. Works in float32. That is
-// right, since the label of a cell that isn't mixed also holds for points up to kTouchCells beside it, and
-// float32's error is less; where it might be more (a block that reaches behind the camera, or far from its
-// axis) all points are mixed. Groups without a bit are skipped. Returns how many groups were labelled.
-std::size_t LabelByCells(const GridView& grid, const GridPoint& corner, const ContourCellsView& cells,
-                         BlockBits* bits, BlockBits* mixed);
+// Bits of a block's rows of points along x: bit y + kBlockPoints * z.
+struct RowBits {
+  std::array<std::uint64_t, 2> words{};
+};
+
+// A block is cut into bars of 8 x 2 x 2 cells, which lie along x.
+inline constexpr std::size_t kBarsOfSide = kBlockCells / 2, kBars = kBarsOfSide * kBarsOfSide;
+
+// Bits of the bars that are all object, and all background: bit y + kBarsOfSide * z.
+struct BarLabels {
+  unsigned object = 0, background = 0;
+};
+
+// One camera's labels of the points of the block at `corner`, by the cells that they fall in. Works in
+// float32. That is right, since the label of a cell that isn't mixed also holds for points up to kTouchCells
+// beside it, and float32's error is less; where it might be more (a block that reaches behind the camera, or
+// far from its axis) all points are mixed. Both steps return how many labels they asked.
+class BlockInCells {
+ public:
+  // `cells` must outlive this.
+  BlockInCells(const GridView& grid, const GridPoint& corner, const ContourCellsView& cells);
+
+  // The first step: clears the bits of the points in bars that no edge reaches and that are background. Rows
+  // in bars that no edge reaches aren't asked again.
+  std::size_t LabelBars(BlockBits* bits);
+
+  // The second step: clears the bits of those points that fall into cells of background. Points in mixed
+  // cells keep their bits and are set in `mixed`, which must be empty: SettleMixed decides them. Groups
+  // without a bit are skipped.
+  std::size_t LabelRows(BlockBits* bits, BlockBits* mixed) const;
+
+ private:
+  const ContourCellsView& cells_;
+  GridView view_;  // from the block's own corner, x and y in cells times z
+  bool floats_will_do_ = false;
+  RowBits rows_;  // that are still to be asked
+};
 
 }  // namespace elbowroom::recon

@@ -30,9 +30,11 @@ class Waiting {
 
   void Settle() {
     const std::uint64_t object = LabelPoints(grid_, cells_, points_);
-    for (std::size_t i = 0; i < points_.count; ++i) {
-      const unsigned bit = bits_of_points_[i], clear = static_cast<unsigned>(~object >> i & 1U) << bit % 8;
-      bits_.groups[bit / 8] = static_cast<std::uint8_t>(bits_.groups[bit / 8] & ~clear);
+    const std::uint64_t all =
+        points_.count == 0 ? 0 : ~std::uint64_t{0} >> (GridPoints::kMost - points_.count);
+    for (std::uint64_t outside = all & ~object; outside != 0; outside &= outside - 1) {
+      const unsigned bit = bits_of_points_[static_cast<std::size_t>(std::countr_zero(outside))];
+      bits_.groups[bit / 8] = static_cast<std::uint8_t>(bits_.groups[bit / 8] & ~(1U << bit % 8));
     }
     points_.count = 0;
   }

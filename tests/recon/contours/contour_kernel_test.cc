@@ -186,7 +186,7 @@ GridPoints OneGroup(std::size_t group, const GridPoint& corner) {
   return points;
 }
 
-// What LabelByCells counts on.
+// What BlockInCells counts on.
 TEST(ContourKernel, CellsAreMixedIfAnEdgeIsNearlyInThem) {
   int looked_at = 0;
   ForRandomContours(6105, 20, [&](Random* random, const ContourMap& map) {
@@ -209,7 +209,7 @@ TEST(ContourKernel, CellsAreMixedIfAnEdgeIsNearlyInThem) {
 
 // In float32, but what it is sure of is so.
 TEST(ContourKernel, CellsThatAreSureAreRight) {
-  int sure = 0, mixed_points = 0, blocks_left = 0;
+  int sure = 0, mixed_points = 0, blocks_left = 0, blocks_by_bars = 0;
   ForRandomContours(6103, 60, [&](Random* random, const ContourMap& map) {
     GridView view = RandomView(random, map, random->Chance(0.1));
     // A block far from the grid's origin, at the same place in the picture.
@@ -219,21 +219,27 @@ TEST(ContourKernel, CellsThatAreSureAreRight) {
         view.origin[k] -= corner[static_cast<Eigen::Index>(axis)] * view.steps[axis][k];
     BlockBits bits, mixed;
     bits.groups.fill(0xFF);
-    EXPECT_EQ(LabelByCells(view, corner, map.CellsView(), &bits, &mixed), BlockBits::kGroups);
-    blocks_left += mixed.groups == bits.groups ? 1 : 0;
+    bits.groups.back() = 1;  // the far face's last point
+    const BlockBits all = bits;
+    const ContourCellsView cells = map.CellsView();
+    BlockInCells block(view, corner, cells);
+    block.LabelBars(&bits);
+    blocks_by_bars += block.LabelRows(&bits, &mixed) < 8 * BlockBits::kGroups ? 1 : 0;
+    blocks_left += mixed.groups == all.groups ? 1 : 0;
     for (std::size_t group = 0; group < BlockBits::kGroups; ++group) {
       const auto exact =
-          static_cast<std::uint8_t>(LabelPoints(view, map.CellsView(), OneGroup(group, corner)));
+          static_cast<std::uint8_t>(all.groups[group] & LabelPoints(view, cells, OneGroup(group, corner)));
       const unsigned unsure = mixed.groups[group];
       ASSERT_EQ(bits.groups[group] & ~unsure, exact & ~unsure) << "group " << group;
       ASSERT_EQ(bits.groups[group] & unsure, unsure);
       mixed_points += std::popcount(unsure);
-      sure += 8 - std::popcount(unsure);
+      sure += std::popcount(all.groups[group] & ~unsure);
     }
   });
   EXPECT_GT(sure, 10'000);
   EXPECT_GT(mixed_points, 10'000);
   EXPECT_GT(blocks_left, 2) << "blocks that float32 doesn't do";
+  EXPECT_GT(blocks_by_bars, 10) << "blocks with bars that no edge reaches";
 }
 
 TEST(ContourKernel, GivesTheSameBitsOnEveryTarget) {
