@@ -50,21 +50,27 @@ class ContactSearch {
  public:
   ContactSearch(const recon::VisualHull& hull, const core::TriangleTree& part,
                 const core::RigidTransform& world_from_part, const ContactSearchRule& rule,
-                PointChunks* chunks)
+                const SurfacePatches* patches, PointChunks* chunks)
       : hull_(hull),
         part_(part),
         world_from_part_(world_from_part),
         rule_(rule),
+        patches_(patches),
         chunks_(chunks),
         points_(chunks) {
     found_.farthest = rule.rp_obj;
   }
 
   // The points are in the memory of `points`.
-  [[nodiscard]] FoundContacts Run(std::vector<core::ContactPoint> points) {
-    VisitNode(0, {}, nullptr);
+  [[nodiscard]] FoundContacts Run(std::vector<core::ContactPoint> points, std::vector<TakenPlaces>* taken) {
     found_.points = std::move(points);
-    points_.CopyTo(&found_.points);
+    if (patches_ == nullptr) {
+      VisitNode(0, {}, nullptr);
+      points_.CopyTo(&found_.points);
+    } else {
+      VisitPart();
+      points_.CopyByPlace(patches_->size(), taken, &found_.points);
+    }
     return std::move(found_);
   }
 
@@ -77,9 +83,12 @@ class ContactSearch {
     return {vertex(a), vertex(b), vertex(c)};
   }
 
-  [[nodiscard]] core::Ball BallAt(std::uint32_t node) const {
-    const core::Ball& ball = part_.nodes()[node].ball;
+  [[nodiscard]] core::Ball BallAt(std::uint32_t node) const { return InWorld(part_.nodes()[node].ball); }
+  [[nodiscard]] core::Ball InWorld(const core::Ball& ball) const {
     return {world_from_part_ * ball.center, ball.radius_mm};
+  }
+  [[nodiscard]] Corners InWorld(const Corners& t) const {
+    return {world_from_part_ * t.a, world_from_part_ * t.b, world_from_part_ * t.c};
   }
 
   BallAnswer Ask(const core::Ball& ball, recon::UndecidedCameras* open) {
@@ -124,7 +133,7 @@ class ContactSearch {
       first(this);
       return second(this);
     }
-    ContactSearch beside(hull_, part_, world_from_part_, rule_, chunks_);
+    ContactSearch beside(hull_, part_, world_from_part_, rule_, patches_, chunks_);
     tbb::parallel_invoke([&] { first(this); }, [&] { second(&beside); });
     const FoundContacts& others = beside.found_;
     points_.Append(beside.points_);
@@ -143,7 +152,7 @@ class ContactSearch {
       if (!(point.depth_mm > *rule_.deeper_than_mm)) return;
       rule_.deeper_than_mm = point.depth_mm;
     }
-    points_.Add(point);
+    points_.Add(point, place_);
   }
 
   void VisitNode(std::uint32_t index, recon::UndecidedCameras open, Patch* given) {
@@ -166,8 +175,72 @@ class ContactSearch {
     });
   }
 
-  void VisitTriangle(const Corners& triangle, recon::UndecidedCameras open, Patch* given) {
-    const core::Ball ball = BallOf(triangle);
+  // The ball around the whole part is asked first, as without patches.
+  void VisitPart() {
+    recon::UndecidedCameras open;
+    const SurfacePatches::Node& root = patches_->nodes()[0];
+    const BallAnswer answer = Ask(BallAt(0), &open);
+    if (answer != BallAnswer::kMixed) found_.count.skipped += root.triangles;
+    if (answer == BallAnswer::kInside) AddPatchesInside(root);
+    if (answer == BallAnswer::kMixed) VisitPatches(0, open);
+  }
+
+  void VisitPatches(std::uint32_t index, recon::UndecidedCameras open) {
+    const SurfacePatches::Node& node = patches_->nodes()[index];
+    const double size_mm = 2.0 * node.ball.radius_mm;
+    const BallAnswer answer = AskPatches(node, &open);
+    if (answer != BallAnswer::kMixed) found_.count.skipped += node.triangles;
+    if (answer == BallAnswer::kOutside) return;
+    if (answer == BallAnswer::kInside) return AddPatchesInside(node);
+    if (node.left != 0) {
+      return VisitBoth(
+          size_mm, [&](ContactSearch* search) { search->VisitPatches(node.left, open); },
+          [&](ContactSearch* search) { search->VisitPatches(node.left + 1, open); });
+    }
+    for (std::uint32_t i = node.begin; i < node.end; ++i) {
+      const SurfacePatch& patch = patches_->at(i);
+      place_ = patches_->place(i);
+      if (patch.node) {
+        VisitNode(*patch.node, open, nullptr);
+      } else {
+        VisitTriangle(InWorld(patch.corners), InWorld(patch.ball), open, nullptr);
+      }
+    }
+  }
+
+  // Patches that are far apart: by the ball around them, which often excludes them; others by their box,
+  // which is flat where the surface is, and seldom mixed where the ball isn't.
+  BallAnswer AskPatches(const SurfacePatches::Node& node, recon::UndecidedCameras* open) {
+    if (2.0 * node.ball.radius_mm > kSpacingsAlone * rule_.point_spacing_mm) {
+      const BallAnswer answer = Ask(InWorld(node.ball), open);
+      if (answer != BallAnswer::kMixed) return answer;
+    }
+    ++found_.count.queries;
+    const Eigen::Matrix3d half_edges =
+        world_from_part_.rotation * (0.5 * node.box.sizes()).asDiagonal().toDenseMatrix();
+    return hull_.Classify(recon::WorldShape::Box(world_from_part_ * node.box.center(), half_edges), open);
+  }
+
+  void AddPatchesInside(const SurfacePatches::Node& node) {
+    for (std::uint32_t i = node.begin; i < node.end; ++i) {
+      const SurfacePatch& patch = patches_->at(i);
+      place_ = patches_->place(i);
+      if (patch.node) {
+        AddNodeInside(*patch.node, nullptr);
+        continue;
+      }
+      Patch own;
+      AddTriangleInside(InWorld(patch.corners), &own);
+      AddPoint(own);
+    }
+  }
+
+  void VisitTriangle(const Corners& triangle, const recon::UndecidedCameras& open, Patch* given) {
+    VisitTriangle(triangle, BallOf(triangle), open, given);
+  }
+
+  void VisitTriangle(const Corners& triangle, const core::Ball& ball, recon::UndecidedCameras open,
+                     Patch* given) {
     if (IsUnwanted(ball, given)) return;
     const double size_mm = 2.0 * ball.radius_mm;
     InPatch(size_mm, given, [&](Patch* patch) {
@@ -277,8 +350,10 @@ class ContactSearch {
   const recon::VisualHull& hull_;
   const core::TriangleTree& part_;
   const core::RigidTransform& world_from_part_;
-  ContactSearchRule rule_;        // deeper_than_mm grows with the points found
-  core::CameraIndex likely_ = 0;  // showed last that a ball holds nothing deep enough
+  ContactSearchRule rule_;         // deeper_than_mm grows with the points found
+  core::CameraIndex likely_ = 0;   // showed last that a ball holds nothing deep enough
+  const SurfacePatches* patches_;  // null: the part's tree is searched
+  std::uint32_t place_ = 0;        // of the patch that is searched
   PointChunks* chunks_;
   PointChain points_;
   FoundContacts found_;  // but for the points
@@ -288,10 +363,11 @@ class ContactSearch {
 
 FoundContacts SearchContacts(const recon::VisualHull& hull, const core::TriangleTree& part,
                              const core::RigidTransform& world_from_part, const ContactSearchRule& rule,
-                             ContactSearchScratch* scratch) {
+                             ContactSearchScratch* scratch, const SurfacePatches* patches) {
   scratch->chunks.Reset();
-  ContactSearch search(hull, part, world_from_part, rule, &scratch->chunks);
-  return search.Run(std::move(scratch->points));
+  if (rule.ends_with_first || rule.deeper_than_mm) patches = nullptr;
+  ContactSearch search(hull, part, world_from_part, rule, patches, &scratch->chunks);
+  return search.Run(std::move(scratch->points), &scratch->taken);
 }
 
 }  // namespace elbowroom::review
