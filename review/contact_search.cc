@@ -203,7 +203,7 @@ class ContactSearch {
       if (patch.node) {
         VisitNode(*patch.node, open, nullptr);
       } else {
-        VisitTriangle(InWorld(patch.corners), InWorld(patch.ball), open, nullptr);
+        VisitPatch(InWorld(patch.corners), 2.0 * patch.ball.radius_mm, open);
       }
     }
   }
@@ -235,39 +235,60 @@ class ContactSearch {
     }
   }
 
-  void VisitTriangle(const Corners& triangle, const recon::UndecidedCameras& open, Patch* given) {
-    VisitTriangle(triangle, BallOf(triangle), open, given);
+  // A patch of a mixed node. Its ball would seldom settle what the node's box didn't, so it isn't asked.
+  void VisitPatch(const Corners& triangle, double size_mm, recon::UndecidedCameras open) {
+    Patch own;
+    const bool is_settled =
+        SidesOf(size_mm) > recon::CutTriangle::kMostSides && AskShape(triangle, &open, &own);
+    if (!is_settled) CutOrHalve(triangle, size_mm, open, &own);
+    AddPoint(own);
   }
 
-  void VisitTriangle(const Corners& triangle, const core::Ball& ball, recon::UndecidedCameras open,
-                     Patch* given) {
+  void VisitTriangle(const Corners& triangle, recon::UndecidedCameras open, Patch* given) {
+    const core::Ball ball = BallOf(triangle);
     if (IsUnwanted(ball, given)) return;
     const double size_mm = 2.0 * ball.radius_mm;
     InPatch(size_mm, given, [&](Patch* patch) {
-      const double sides = std::max(std::ceil(size_mm / rule_.resolution_mm), 1.0);
-      if (sides > kSidesWithoutBall && !IsAskedLater(size_mm) && AskTriangle(triangle, ball, &open, patch))
+      if (SidesOf(size_mm) > kSidesWithoutBall && !IsAskedLater(size_mm) &&
+          AskTriangle(triangle, ball, &open, patch))
         return;
-      if (sides == 1.0 || (patch != nullptr && sides <= recon::CutTriangle::kMostSides))
-        return Cut({triangle.a, triangle.b, triangle.c, static_cast<int>(sides)}, AreaMm2(triangle), open,
-                   patch);
-      const auto halves = Bisect(triangle);
-      VisitBoth(
-          size_mm, [&](ContactSearch* search) { search->VisitTriangle(halves.first, open, patch); },
-          [&](ContactSearch* search) { search->VisitTriangle(halves.second, open, patch); });
+      CutOrHalve(triangle, size_mm, open, patch);
     });
+  }
+
+  // How many pieces of the resolution's size are along a triangle of this size.
+  [[nodiscard]] double SidesOf(double size_mm) const {
+    return std::max(std::ceil(size_mm / rule_.resolution_mm), 1.0);
+  }
+
+  void CutOrHalve(const Corners& triangle, double size_mm, const recon::UndecidedCameras& open,
+                  Patch* patch) {
+    const double sides = SidesOf(size_mm);
+    if (sides == 1.0 || (patch != nullptr && sides <= recon::CutTriangle::kMostSides))
+      return Cut({triangle.a, triangle.b, triangle.c, static_cast<int>(sides)}, AreaMm2(triangle), open,
+                 patch);
+    const auto halves = Bisect(triangle);
+    VisitBoth(
+        size_mm, [&](ContactSearch* search) { search->VisitTriangle(halves.first, open, patch); },
+        [&](ContactSearch* search) { search->VisitTriangle(halves.second, open, patch); });
+  }
+
+  // True if the query of the triangle itself settles it.
+  bool AskShape(const Corners& triangle, recon::UndecidedCameras* open, Patch* patch) {
+    ++found_.count.queries;
+    const BallAnswer answer =
+        hull_.Classify(recon::WorldShape::Triangle(triangle.a, triangle.b, triangle.c), open);
+    if (answer == BallAnswer::kInside) AddTriangleInside(triangle, patch);
+    return answer != BallAnswer::kMixed;
   }
 
   // True if the query of the triangle's ball, or of the triangle itself, settles it.
   bool AskTriangle(const Corners& triangle, const core::Ball& ball, recon::UndecidedCameras* open,
                    Patch* patch) {
-    BallAnswer answer = Ask(ball, open);
-    if (answer == BallAnswer::kMixed &&
-        2.0 * ball.radius_mm > recon::CutTriangle::kMostSides * rule_.resolution_mm) {
-      ++found_.count.queries;
-      answer = hull_.Classify(recon::WorldShape::Triangle(triangle.a, triangle.b, triangle.c), open);
-    }
+    const BallAnswer answer = Ask(ball, open);
     if (answer == BallAnswer::kInside) AddTriangleInside(triangle, patch);
-    return answer != BallAnswer::kMixed;
+    if (answer != BallAnswer::kMixed) return true;
+    return SidesOf(2.0 * ball.radius_mm) > recon::CutTriangle::kMostSides && AskShape(triangle, open, patch);
   }
 
   // Cuts a triangle into pieces of the resolution's size, which their centres decide. The middle one of those

@@ -368,10 +368,7 @@ bool IsClear(const GridView& grid, const ConvexCorners& shape, const ContourCell
   const Edges d;
   bool has_slabs = false;
   // The middle row first: an edge that the body covers is most likely there.
-  const std::int32_t low = std::max(top, 0), high = std::min(bottom, cells.height - 1);
-  const std::int32_t middle = low + (high - low) / 2;
-  for (std::int32_t k = 0; k <= high - low; ++k) {
-    const std::int32_t row = middle + (k % 2 != 0 ? k / 2 + 1 : -(k / 2));
+  for (std::int32_t row = std::max(top, 0); row <= std::min(bottom, cells.height - 1); ++row) {
     const std::uint32_t* const first = cells.first.data() + row * cells.width;
     const std::size_t end = first[std::min(right, cells.width - 1) + 1];
     for (std::size_t i = first[std::max(left, 0)]; i < end; i += hn::Lanes(d)) {
