@@ -50,12 +50,12 @@ class ContactSearch {
  public:
   ContactSearch(const recon::VisualHull& hull, const core::TriangleTree& part,
                 const core::RigidTransform& world_from_part, const ContactSearchRule& rule,
-                const SurfacePatches* patches, PointChunks* chunks)
+                const ContactStretches* stretches, PointChunks* chunks)
       : hull_(hull),
         part_(part),
         world_from_part_(world_from_part),
         rule_(rule),
-        patches_(patches),
+        stretches_(stretches),
         chunks_(chunks),
         points_(chunks) {
     found_.farthest = rule.rp_obj;
@@ -64,12 +64,12 @@ class ContactSearch {
   // The points are in the memory of `points`.
   [[nodiscard]] FoundContacts Run(std::vector<core::ContactPoint> points, std::vector<TakenPlaces>* taken) {
     found_.points = std::move(points);
-    if (patches_ == nullptr) {
+    if (stretches_ == nullptr) {
       VisitNode(0, {}, nullptr);
       points_.CopyTo(&found_.points);
     } else {
       VisitPart();
-      points_.CopyByPlace(patches_->size(), taken, &found_.points);
+      points_.CopyByPlace(stretches_->size(), taken, &found_.points);
     }
     return std::move(found_);
   }
@@ -133,7 +133,7 @@ class ContactSearch {
       first(this);
       return second(this);
     }
-    ContactSearch beside(hull_, part_, world_from_part_, rule_, patches_, chunks_);
+    ContactSearch beside(hull_, part_, world_from_part_, rule_, stretches_, chunks_);
     tbb::parallel_invoke([&] { first(this); }, [&] { second(&beside); });
     const FoundContacts& others = beside.found_;
     points_.Append(beside.points_);
@@ -175,43 +175,45 @@ class ContactSearch {
     });
   }
 
-  // The ball around the whole part is asked first, as without patches.
+  // The ball around the whole part is asked first, as without stretches.
   void VisitPart() {
     recon::UndecidedCameras open;
-    const SurfacePatches::Node& root = patches_->nodes()[0];
+    const ContactStretches::Node& root = stretches_->nodes()[0];
     const BallAnswer answer = Ask(BallAt(0), &open);
     if (answer != BallAnswer::kMixed) found_.count.skipped += root.triangles;
-    if (answer == BallAnswer::kInside) AddPatchesInside(root);
-    if (answer == BallAnswer::kMixed) VisitPatches(0, open);
+    if (answer == BallAnswer::kInside) AddStretchesInside(root);
+    if (answer == BallAnswer::kMixed) VisitStretches(0, open);
   }
 
-  void VisitPatches(std::uint32_t index, recon::UndecidedCameras open) {
-    const SurfacePatches::Node& node = patches_->nodes()[index];
+  void VisitStretches(std::uint32_t index, recon::UndecidedCameras open) {
+    const ContactStretches::Node& node = stretches_->nodes()[index];
     const double size_mm = 2.0 * node.ball.radius_mm;
-    const BallAnswer answer = AskPatches(node, &open);
+    const BallAnswer answer = AskStretches(node, &open);
     if (answer != BallAnswer::kMixed) found_.count.skipped += node.triangles;
     if (answer == BallAnswer::kOutside) return;
-    if (answer == BallAnswer::kInside) return AddPatchesInside(node);
+    if (answer == BallAnswer::kInside) return AddStretchesInside(node);
     if (node.left != 0) {
       return VisitBoth(
-          size_mm, [&](ContactSearch* search) { search->VisitPatches(node.left, open); },
-          [&](ContactSearch* search) { search->VisitPatches(node.left + 1, open); });
+          size_mm, [&](ContactSearch* search) { search->VisitStretches(node.left, open); },
+          [&](ContactSearch* search) { search->VisitStretches(node.left + 1, open); });
     }
     for (std::uint32_t i = node.begin; i < node.end; ++i) {
-      const SurfacePatch& patch = patches_->at(i);
-      place_ = patches_->place(i);
-      if (patch.node) {
-        VisitNode(*patch.node, open, nullptr);
+      const ContactStretch& stretch = stretches_->at(i);
+      place_ = stretches_->place(i);
+      if (stretch.node) {
+        VisitNode(*stretch.node, open, nullptr);
       } else {
-        VisitPatch(InWorld(patch.corners), 2.0 * patch.ball.radius_mm, open);
+        VisitStretch(InWorld(stretch.corners), 2.0 * stretch.ball.radius_mm, open);
       }
     }
   }
 
-  // Patches that are far apart: by the ball around them, which often excludes them; others by their box,
-  // which is flat where the surface is, and seldom mixed where the ball isn't.
-  BallAnswer AskPatches(const SurfacePatches::Node& node, recon::UndecidedCameras* open) {
-    if (2.0 * node.ball.radius_mm > kSpacingsAlone * rule_.point_spacing_mm) {
+  // Stretches that are far apart: by the ball around them, which often excludes them; others by their box,
+  // which lies in the ball, and is flat where the surface is. A box can't show that some camera sees all of
+  // it, a ball can.
+  BallAnswer AskStretches(const ContactStretches::Node& node, recon::UndecidedCameras* open) {
+    const bool asks_sight = recon::ExteriorIsObject(hull_.rig()) && open->asks_visibility;
+    if (asks_sight || 2.0 * node.ball.radius_mm > kSpacingsAlone * rule_.point_spacing_mm) {
       const BallAnswer answer = Ask(InWorld(node.ball), open);
       if (answer != BallAnswer::kMixed) return answer;
     }
@@ -221,22 +223,22 @@ class ContactSearch {
     return hull_.Classify(recon::WorldShape::Box(world_from_part_ * node.box.center(), half_edges), open);
   }
 
-  void AddPatchesInside(const SurfacePatches::Node& node) {
+  void AddStretchesInside(const ContactStretches::Node& node) {
     for (std::uint32_t i = node.begin; i < node.end; ++i) {
-      const SurfacePatch& patch = patches_->at(i);
-      place_ = patches_->place(i);
-      if (patch.node) {
-        AddNodeInside(*patch.node, nullptr);
+      const ContactStretch& stretch = stretches_->at(i);
+      place_ = stretches_->place(i);
+      if (stretch.node) {
+        AddNodeInside(*stretch.node, nullptr);
         continue;
       }
       Patch own;
-      AddTriangleInside(InWorld(patch.corners), &own);
+      AddTriangleInside(InWorld(stretch.corners), &own);
       AddPoint(own);
     }
   }
 
-  // A patch of a mixed node. Its ball would seldom settle what the node's box didn't, so it isn't asked.
-  void VisitPatch(const Corners& triangle, double size_mm, recon::UndecidedCameras open) {
+  // A stretch of a mixed node. Its ball would seldom settle what the node's box didn't, so it isn't asked.
+  void VisitStretch(const Corners& triangle, double size_mm, recon::UndecidedCameras open) {
     Patch own;
     const bool is_settled =
         SidesOf(size_mm) > recon::CutTriangle::kMostSides && AskShape(triangle, &open, &own);
@@ -371,10 +373,10 @@ class ContactSearch {
   const recon::VisualHull& hull_;
   const core::TriangleTree& part_;
   const core::RigidTransform& world_from_part_;
-  ContactSearchRule rule_;         // deeper_than_mm grows with the points found
-  core::CameraIndex likely_ = 0;   // showed last that a ball holds nothing deep enough
-  const SurfacePatches* patches_;  // null: the part's tree is searched
-  std::uint32_t place_ = 0;        // of the patch that is searched
+  ContactSearchRule rule_;             // deeper_than_mm grows with the points found
+  core::CameraIndex likely_ = 0;       // showed last that a ball holds nothing deep enough
+  const ContactStretches* stretches_;  // null: the part's tree is searched
+  std::uint32_t place_ = 0;            // of the stretch that is searched
   PointChunks* chunks_;
   PointChain points_;
   FoundContacts found_;  // but for the points
@@ -384,10 +386,10 @@ class ContactSearch {
 
 FoundContacts SearchContacts(const recon::VisualHull& hull, const core::TriangleTree& part,
                              const core::RigidTransform& world_from_part, const ContactSearchRule& rule,
-                             ContactSearchScratch* scratch, const SurfacePatches* patches) {
+                             ContactSearchScratch* scratch, const ContactStretches* stretches) {
   scratch->chunks.Reset();
-  if (rule.ends_with_first || rule.deeper_than_mm) patches = nullptr;
-  ContactSearch search(hull, part, world_from_part, rule, patches, &scratch->chunks);
+  if (rule.ends_with_first || rule.deeper_than_mm) stretches = nullptr;
+  ContactSearch search(hull, part, world_from_part, rule, stretches, &scratch->chunks);
   return search.Run(std::move(scratch->points), &scratch->taken);
 }
 

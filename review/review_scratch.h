@@ -9,8 +9,8 @@
 #include "core/contact.h"
 #include "recon/hull/crossing_scratch.h"
 #include "review/clearance_cell.h"
+#include "review/contact_stretches.h"
 #include "review/point_chain.h"
-#include "review/surface_patches.h"
 
 namespace elbowroom::review {
 
@@ -45,7 +45,7 @@ struct SpreadScratch {
 // judged with the same one frame after frame allocates nothing, once the memory is large enough for what the
 // part meets. Thread: one at a time.
 struct ReviewScratch {
-  std::unique_ptr<const SurfacePatches> patches;  // null: the part's tree is searched
+  std::unique_ptr<const ContactStretches> stretches;  // null: the part's tree is searched
   ContactSearchScratch search;
   SpreadScratch spread;
   recon::CrossingScratch crossings;
