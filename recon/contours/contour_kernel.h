@@ -41,8 +41,7 @@ inline constexpr double kUnknownCrossing = -1.0;
 // Bit i: point i is wanted, and it is object, by ContourMap::IsObject of its position in the plane. Points
 // that aren't in front of the camera are exterior.
 [[nodiscard]] std::uint64_t LabelPoints(const GridView& grid, const ContourCellsView& cells,
-                                        const GridPoints& points,
-                                        std::uint64_t wanted = ~std::uint64_t{0});
+                                        const GridPoints& points, std::uint64_t wanted = ~std::uint64_t{0});
 
 // A share for each of some ways between grid points. Elements after the last way mean nothing.
 struct WayShares {
