@@ -50,21 +50,27 @@ class ContactSearch {
  public:
   ContactSearch(const recon::VisualHull& hull, const core::TriangleTree& part,
                 const core::RigidTransform& world_from_part, const ContactSearchRule& rule,
-                PointChunks* chunks)
+                const ContactStretches* stretches, PointChunks* chunks)
       : hull_(hull),
         part_(part),
         world_from_part_(world_from_part),
         rule_(rule),
+        stretches_(stretches),
         chunks_(chunks),
         points_(chunks) {
     found_.farthest = rule.rp_obj;
   }
 
   // The points are in the memory of `points`.
-  [[nodiscard]] FoundContacts Run(std::vector<core::ContactPoint> points) {
-    VisitNode(0, {}, nullptr);
+  [[nodiscard]] FoundContacts Run(std::vector<core::ContactPoint> points, std::vector<TakenPlaces>* taken) {
     found_.points = std::move(points);
-    points_.CopyTo(&found_.points);
+    if (stretches_ == nullptr) {
+      VisitNode(0, {}, nullptr);
+      points_.CopyTo(&found_.points);
+    } else {
+      VisitPart();
+      points_.CopyByPlace(stretches_->size(), taken, &found_.points);
+    }
     return std::move(found_);
   }
 
@@ -77,9 +83,12 @@ class ContactSearch {
     return {vertex(a), vertex(b), vertex(c)};
   }
 
-  [[nodiscard]] core::Ball BallAt(std::uint32_t node) const {
-    const core::Ball& ball = part_.nodes()[node].ball;
+  [[nodiscard]] core::Ball BallAt(std::uint32_t node) const { return InWorld(part_.nodes()[node].ball); }
+  [[nodiscard]] core::Ball InWorld(const core::Ball& ball) const {
     return {world_from_part_ * ball.center, ball.radius_mm};
+  }
+  [[nodiscard]] Corners InWorld(const Corners& t) const {
+    return {world_from_part_ * t.a, world_from_part_ * t.b, world_from_part_ * t.c};
   }
 
   BallAnswer Ask(const core::Ball& ball, recon::UndecidedCameras* open) {
@@ -124,7 +133,7 @@ class ContactSearch {
       first(this);
       return second(this);
     }
-    ContactSearch beside(hull_, part_, world_from_part_, rule_, chunks_);
+    ContactSearch beside(hull_, part_, world_from_part_, rule_, stretches_, chunks_);
     tbb::parallel_invoke([&] { first(this); }, [&] { second(&beside); });
     const FoundContacts& others = beside.found_;
     points_.Append(beside.points_);
@@ -143,7 +152,7 @@ class ContactSearch {
       if (!(point.depth_mm > *rule_.deeper_than_mm)) return;
       rule_.deeper_than_mm = point.depth_mm;
     }
-    points_.Add(point);
+    points_.Add(point, place_);
   }
 
   void VisitNode(std::uint32_t index, recon::UndecidedCameras open, Patch* given) {
@@ -166,35 +175,122 @@ class ContactSearch {
     });
   }
 
+  // The ball around the whole part is asked first, as without stretches.
+  void VisitPart() {
+    recon::UndecidedCameras open;
+    const ContactStretches::Node& root = stretches_->nodes()[0];
+    const BallAnswer answer = Ask(BallAt(0), &open);
+    if (answer != BallAnswer::kMixed) found_.count.skipped += root.triangles;
+    if (answer == BallAnswer::kInside) AddStretchesInside(root);
+    if (answer == BallAnswer::kMixed) VisitStretches(0, open);
+  }
+
+  void VisitStretches(std::uint32_t index, recon::UndecidedCameras open) {
+    const ContactStretches::Node& node = stretches_->nodes()[index];
+    const double size_mm = 2.0 * node.ball.radius_mm;
+    const BallAnswer answer = AskStretches(node, &open);
+    if (answer != BallAnswer::kMixed) found_.count.skipped += node.triangles;
+    if (answer == BallAnswer::kOutside) return;
+    if (answer == BallAnswer::kInside) return AddStretchesInside(node);
+    if (node.left != 0) {
+      return VisitBoth(
+          size_mm, [&](ContactSearch* search) { search->VisitStretches(node.left, open); },
+          [&](ContactSearch* search) { search->VisitStretches(node.left + 1, open); });
+    }
+    for (std::uint32_t i = node.begin; i < node.end; ++i) {
+      const ContactStretch& stretch = stretches_->at(i);
+      place_ = stretches_->place(i);
+      if (stretch.node) {
+        VisitNode(*stretch.node, open, nullptr);
+      } else {
+        VisitStretch(InWorld(stretch.corners), 2.0 * stretch.ball.radius_mm, open);
+      }
+    }
+  }
+
+  // Stretches that are far apart: by the ball around them, which often excludes them; others by their box,
+  // which lies in the ball, and is flat where the surface is. A box can't show that some camera sees all of
+  // it, a ball can.
+  BallAnswer AskStretches(const ContactStretches::Node& node, recon::UndecidedCameras* open) {
+    const bool asks_sight = recon::ExteriorIsObject(hull_.rig()) && open->asks_visibility;
+    if (asks_sight || 2.0 * node.ball.radius_mm > kSpacingsAlone * rule_.point_spacing_mm) {
+      const BallAnswer answer = Ask(InWorld(node.ball), open);
+      if (answer != BallAnswer::kMixed) return answer;
+    }
+    ++found_.count.queries;
+    const Eigen::Matrix3d half_edges =
+        world_from_part_.rotation * (0.5 * node.box.sizes()).asDiagonal().toDenseMatrix();
+    return hull_.Classify(recon::WorldShape::Box(world_from_part_ * node.box.center(), half_edges), open);
+  }
+
+  void AddStretchesInside(const ContactStretches::Node& node) {
+    for (std::uint32_t i = node.begin; i < node.end; ++i) {
+      const ContactStretch& stretch = stretches_->at(i);
+      place_ = stretches_->place(i);
+      if (stretch.node) {
+        AddNodeInside(*stretch.node, nullptr);
+        continue;
+      }
+      Patch own;
+      AddTriangleInside(InWorld(stretch.corners), &own);
+      AddPoint(own);
+    }
+  }
+
+  // A stretch of a mixed node. Its ball would seldom settle what the node's box didn't, so it isn't asked.
+  void VisitStretch(const Corners& triangle, double size_mm, recon::UndecidedCameras open) {
+    Patch own;
+    const bool is_settled =
+        SidesOf(size_mm) > recon::CutTriangle::kMostSides && AskShape(triangle, &open, &own);
+    if (!is_settled) CutOrHalve(triangle, size_mm, open, &own);
+    AddPoint(own);
+  }
+
   void VisitTriangle(const Corners& triangle, recon::UndecidedCameras open, Patch* given) {
     const core::Ball ball = BallOf(triangle);
     if (IsUnwanted(ball, given)) return;
     const double size_mm = 2.0 * ball.radius_mm;
     InPatch(size_mm, given, [&](Patch* patch) {
-      const double sides = std::max(std::ceil(size_mm / rule_.resolution_mm), 1.0);
-      if (sides > kSidesWithoutBall && !IsAskedLater(size_mm) && AskTriangle(triangle, ball, &open, patch))
+      if (SidesOf(size_mm) > kSidesWithoutBall && !IsAskedLater(size_mm) &&
+          AskTriangle(triangle, ball, &open, patch))
         return;
-      if (sides == 1.0 || (patch != nullptr && sides <= recon::CutTriangle::kMostSides))
-        return Cut({triangle.a, triangle.b, triangle.c, static_cast<int>(sides)}, AreaMm2(triangle), open,
-                   patch);
-      const auto halves = Bisect(triangle);
-      VisitBoth(
-          size_mm, [&](ContactSearch* search) { search->VisitTriangle(halves.first, open, patch); },
-          [&](ContactSearch* search) { search->VisitTriangle(halves.second, open, patch); });
+      CutOrHalve(triangle, size_mm, open, patch);
     });
+  }
+
+  // How many pieces of the resolution's size are along a triangle of this size.
+  [[nodiscard]] double SidesOf(double size_mm) const {
+    return std::max(std::ceil(size_mm / rule_.resolution_mm), 1.0);
+  }
+
+  void CutOrHalve(const Corners& triangle, double size_mm, const recon::UndecidedCameras& open,
+                  Patch* patch) {
+    const double sides = SidesOf(size_mm);
+    if (sides == 1.0 || (patch != nullptr && sides <= recon::CutTriangle::kMostSides))
+      return Cut({triangle.a, triangle.b, triangle.c, static_cast<int>(sides)}, AreaMm2(triangle), open,
+                 patch);
+    const auto halves = Bisect(triangle);
+    VisitBoth(
+        size_mm, [&](ContactSearch* search) { search->VisitTriangle(halves.first, open, patch); },
+        [&](ContactSearch* search) { search->VisitTriangle(halves.second, open, patch); });
+  }
+
+  // True if the query of the triangle itself settles it.
+  bool AskShape(const Corners& triangle, recon::UndecidedCameras* open, Patch* patch) {
+    ++found_.count.queries;
+    const BallAnswer answer =
+        hull_.Classify(recon::WorldShape::Triangle(triangle.a, triangle.b, triangle.c), open);
+    if (answer == BallAnswer::kInside) AddTriangleInside(triangle, patch);
+    return answer != BallAnswer::kMixed;
   }
 
   // True if the query of the triangle's ball, or of the triangle itself, settles it.
   bool AskTriangle(const Corners& triangle, const core::Ball& ball, recon::UndecidedCameras* open,
                    Patch* patch) {
-    BallAnswer answer = Ask(ball, open);
-    if (answer == BallAnswer::kMixed &&
-        2.0 * ball.radius_mm > recon::CutTriangle::kMostSides * rule_.resolution_mm) {
-      ++found_.count.queries;
-      answer = hull_.Classify(recon::WorldShape::Triangle(triangle.a, triangle.b, triangle.c), open);
-    }
+    const BallAnswer answer = Ask(ball, open);
     if (answer == BallAnswer::kInside) AddTriangleInside(triangle, patch);
-    return answer != BallAnswer::kMixed;
+    if (answer != BallAnswer::kMixed) return true;
+    return SidesOf(2.0 * ball.radius_mm) > recon::CutTriangle::kMostSides && AskShape(triangle, open, patch);
   }
 
   // Cuts a triangle into pieces of the resolution's size, which their centres decide. The middle one of those
@@ -277,8 +373,10 @@ class ContactSearch {
   const recon::VisualHull& hull_;
   const core::TriangleTree& part_;
   const core::RigidTransform& world_from_part_;
-  ContactSearchRule rule_;        // deeper_than_mm grows with the points found
-  core::CameraIndex likely_ = 0;  // showed last that a ball holds nothing deep enough
+  ContactSearchRule rule_;             // deeper_than_mm grows with the points found
+  core::CameraIndex likely_ = 0;       // showed last that a ball holds nothing deep enough
+  const ContactStretches* stretches_;  // null: the part's tree is searched
+  std::uint32_t place_ = 0;            // of the stretch that is searched
   PointChunks* chunks_;
   PointChain points_;
   FoundContacts found_;  // but for the points
@@ -288,10 +386,11 @@ class ContactSearch {
 
 FoundContacts SearchContacts(const recon::VisualHull& hull, const core::TriangleTree& part,
                              const core::RigidTransform& world_from_part, const ContactSearchRule& rule,
-                             ContactSearchScratch* scratch) {
+                             ContactSearchScratch* scratch, const ContactStretches* stretches) {
   scratch->chunks.Reset();
-  ContactSearch search(hull, part, world_from_part, rule, &scratch->chunks);
-  return search.Run(std::move(scratch->points));
+  if (rule.ends_with_first || rule.deeper_than_mm) stretches = nullptr;
+  ContactSearch search(hull, part, world_from_part, rule, stretches, &scratch->chunks);
+  return search.Run(std::move(scratch->points), &scratch->taken);
 }
 
 }  // namespace elbowroom::review

@@ -33,10 +33,14 @@ struct FoundContacts {
 };
 
 // The part must have triangles, the hull mustn't be empty. The points are the same, in the same order, on any
-// number of threads, and in the memory of `scratch->points`; who is done with them may give it back. Rules
-// and limits: FindContacts (contacts.h). Thread: any.
+// number of threads, and in the memory of `scratch->points`; who is done with them may give it back.
+// `stretches`: those of this part and point spacing, or null; a rule that wants all points finds the same
+// ones in less time. Only the point of a stretch that is wholly inside, and has several triangles or is
+// larger than 8 resolutions, may stand elsewhere on it. Rules and limits: FindContacts (contacts.h). Thread:
+// any.
 [[nodiscard]] FoundContacts SearchContacts(const recon::VisualHull& hull, const core::TriangleTree& part,
                                            const core::RigidTransform& world_from_part,
-                                           const ContactSearchRule& rule, ContactSearchScratch* scratch);
+                                           const ContactSearchRule& rule, ContactSearchScratch* scratch,
+                                           const ContactStretches* stretches = nullptr);
 
 }  // namespace elbowroom::review

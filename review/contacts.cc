@@ -105,7 +105,9 @@ core::PartContact FindContacts(const recon::VisualHull& hull, const core::Triang
   const RecoveryWay way = WayOf(options.recovery, part, world_from_part);
   const ContactSearchRule rule = SearchRule(hull, part, world_from_part, options, way.rp_obj);
   contact.resolution_mm = rule.resolution_mm;
-  FoundContacts found = SearchContacts(hull, part, world_from_part, rule, &scratch->search);
+  const ContactStretches* stretches = scratch->stretches.get();
+  if (stretches != nullptr && !stretches->AreOf(part, rule.point_spacing_mm)) stretches = nullptr;
+  FoundContacts found = SearchContacts(hull, part, world_from_part, rule, &scratch->search, stretches);
   contact.count.queries = found.count.queries;
   contact.count.skipped = found.count.skipped;
   scratch->search.points = std::move(found.points);

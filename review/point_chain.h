@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <mutex>
 #include <vector>
@@ -16,6 +17,7 @@ struct PointChunk {
   static constexpr std::size_t kMost = 32;
 
   std::array<core::ContactPoint, kMost> points;
+  std::array<std::uint32_t, kMost> places;
   std::size_t count = 0;
   PointChunk* next = nullptr;
 };
@@ -35,6 +37,12 @@ class PointChunks {
   std::size_t taken_ = 0;
 };
 
+// Which of 64 places are taken, and how many of all those before them.
+struct TakenPlaces {
+  std::uint64_t bits = 0;
+  std::size_t before = 0;
+};
+
 // Points in the order in which they were added.
 class PointChain {
  public:
@@ -42,11 +50,15 @@ class PointChain {
   explicit PointChain(PointChunks* chunks) : chunks_(chunks) {}
 
   [[nodiscard]] bool is_empty() const { return first_ == nullptr; }
-  void Add(const core::ContactPoint& point);
+  // `place`: for CopyByPlace.
+  void Add(const core::ContactPoint& point, std::uint32_t place = 0);
   // Another chain of the same chunks, behind this one's points; copies none of them.
   void Append(const PointChain& other);
   // Replaces what `points` held.
   void CopyTo(std::vector<core::ContactPoint>* points) const;
+  // The same, by ascending places: they must differ, and be less than `places`. `taken` is memory.
+  void CopyByPlace(std::size_t places, std::vector<TakenPlaces>* taken,
+                   std::vector<core::ContactPoint>* points) const;
 
  private:
   PointChunks* chunks_;

@@ -2,12 +2,70 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
 #include "core/error.h"
 
 namespace elbowroom::review {
+namespace {
+
+using Row = SpreadBlock::Row;
+
+constexpr auto kPoints = static_cast<std::size_t>(SpreadBlock::kPoints);
+constexpr float kInfinite = std::numeric_limits<float>::infinity();
+// More than single precision loses in comparing a block with a point, as a share.
+constexpr float kSlack = 1e-5F;
+
+// Single precision relative to the first point is enough: it only decides which of two points is farther.
+Eigen::Vector3f PositionOf(std::span<const core::ContactPoint> points, std::size_t i) {
+  return (points[i].position_in_world_mm - points[0].position_in_world_mm).cast<float>();
+}
+
+Row SquaredDistances(const SpreadBlock& block, const Eigen::Vector3f& x) {
+  return (block.at[0] - x[0]).square() + (block.at[1] - x[1]).square() + (block.at[2] - x[2]).square();
+}
+
+// The last block is filled up with copies of the last point that are never the farthest.
+void FillBlocks(std::span<const core::ContactPoint> points, std::vector<SpreadBlock>* blocks) {
+  blocks->resize((points.size() + kPoints - 1) / kPoints);
+  for (std::size_t b = 0; b < blocks->size(); ++b) {
+    SpreadBlock& block = (*blocks)[b];
+    for (std::size_t k = 0; k < kPoints; ++k) {
+      const std::size_t i = b * kPoints + k;
+      const Eigen::Vector3f at = PositionOf(points, std::min(i, points.size() - 1));
+      for (Eigen::Index axis = 0; axis < 3; ++axis)
+        block.at[static_cast<std::size_t>(axis)][static_cast<Eigen::Index>(k)] = at[axis];
+      block.nearest[static_cast<Eigen::Index>(k)] = i < points.size() ? kInfinite : 0.0F;
+    }
+    block.nearest_kept.setZero();
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      block.center[axis] = 0.5F * (block.at[axis].minCoeff() + block.at[axis].maxCoeff());
+    block.radius = std::sqrt(SquaredDistances(block, Eigen::Vector3f(block.center.data())).maxCoeff());
+    block.farthest = block.reach = kInfinite;
+  }
+}
+
+void Keep(const Eigen::Vector3f& x, float number, SpreadBlock* block) {
+  if ((x - Eigen::Vector3f(block->center.data())).squaredNorm() > block->reach) return;
+  const Row squared = SquaredDistances(*block, x);
+  block->nearest_kept = (squared < block->nearest).select(Row::Constant(number), block->nearest_kept);
+  block->nearest = block->nearest.min(squared);
+  block->farthest = block->nearest.maxCoeff();
+  const float reach = (std::sqrt(block->farthest) + block->radius) * (1.0F + kSlack);
+  block->reach = reach * reach;
+}
+
+// The point that is farthest from all that are kept; the first of several.
+std::size_t Farthest(std::span<const SpreadBlock> blocks) {
+  const auto block = std::ranges::max_element(blocks, {}, &SpreadBlock::farthest);
+  const auto in_block = std::find(block->nearest.begin(), block->nearest.end(), block->farthest);
+  return static_cast<std::size_t>(block - blocks.begin()) * kPoints +
+         static_cast<std::size_t>(in_block - block->nearest.begin());
+}
+
+}  // namespace
 
 std::vector<core::ContactPoint> SpreadEvenly(std::span<const core::ContactPoint> points, std::size_t count) {
   SpreadScratch own;
@@ -23,31 +81,20 @@ std::vector<core::ContactPoint> SpreadEvenly(std::span<const core::ContactPoint>
     return kept;
   }
   kept.clear();
-  // Single precision relative to the first point is enough: it only decides which of two points is farther.
-  using Rows = Eigen::Map<Eigen::Array<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
-  constexpr Eigen::Index kRows = 6;
-  const auto size = static_cast<Eigen::Index>(points.size());
-  scratch->rows.resize(static_cast<std::size_t>(kRows * size));
-  Rows rows(scratch->rows.data(), kRows, size);
-  auto at = rows.topRows<3>();
-  for (Eigen::Index i = 0; i < size; ++i)
-    at.col(i) = (points[static_cast<std::size_t>(i)].position_in_world_mm - points[0].position_in_world_mm)
-                    .cast<float>();
-  auto nearest = rows.row(3), nearest_kept = rows.row(4), squared = rows.row(5);
-  nearest.setConstant(std::numeric_limits<float>::infinity());
-  nearest_kept.setZero();
-  Eigen::Index next = 0;
+  FillBlocks(points, &scratch->blocks);
+  std::size_t next = 0;
   while (kept.size() < count) {
-    squared = (at.row(0) - at(0, next)).square() + (at.row(1) - at(1, next)).square() +
-              (at.row(2) - at(2, next)).square();
-    nearest_kept = (squared < nearest).select(static_cast<float>(kept.size()), nearest_kept);
-    nearest = nearest.min(squared);
-    kept.push_back(points[static_cast<std::size_t>(next)]);
+    for (SpreadBlock& block : scratch->blocks)
+      Keep(PositionOf(points, next), static_cast<float>(kept.size()), &block);
+    kept.push_back(points[next]);
     kept.back().area_mm2 = 0.0;
-    next = std::find(nearest.begin(), nearest.end(), nearest.maxCoeff()) - nearest.begin();
+    next = Farthest(scratch->blocks);
   }
-  for (std::size_t i = 0; i < points.size(); ++i)
-    kept[static_cast<std::size_t>(nearest_kept[static_cast<Eigen::Index>(i)])].area_mm2 += points[i].area_mm2;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const SpreadBlock& block = scratch->blocks[i / kPoints];
+    const float nearest = block.nearest_kept[static_cast<Eigen::Index>(i % kPoints)];
+    kept[static_cast<std::size_t>(nearest)].area_mm2 += points[i].area_mm2;
+  }
   return kept;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <utility>
 
 namespace elbowroom::review {
@@ -11,14 +12,19 @@ struct Corners {
   Eigen::Vector3d a, b, c;
 };
 
-// The two halves, cut at the middle of the longest side.
+// Sides whose squared lengths differ by a smaller share are equally long: where two are, as in the halves of
+// every right triangle, rounding doesn't decide, and a triangle is cut at the same places in every frame.
+inline constexpr double kEqualSides = 1e-9;
+
+// The two halves, cut at the middle of the longest side; the first of several.
 [[nodiscard]] inline std::pair<Corners, Corners> Bisect(const Corners& t) {
   const double ab = (t.b - t.a).squaredNorm(), bc = (t.c - t.b).squaredNorm(), ca = (t.a - t.c).squaredNorm();
-  if (ab >= bc && ab >= ca) {
+  const double longest = std::max({ab, bc, ca}) * (1.0 - kEqualSides);
+  if (ab >= longest) {
     const Eigen::Vector3d m = 0.5 * (t.a + t.b);
     return {{t.a, m, t.c}, {m, t.b, t.c}};
   }
-  if (bc >= ca) {
+  if (bc >= longest) {
     const Eigen::Vector3d m = 0.5 * (t.b + t.c);
     return {{t.a, t.b, m}, {t.a, m, t.c}};
   }

@@ -39,6 +39,9 @@ FrameJudge::FrameJudge(const core::Layout& layout, const review::PartReviewOptio
   review_.Validate();
   for (const core::Part& part : layout_.parts) part_trees_.emplace_back(part.mesh);
   for (const core::TriangleTree& part : part_trees_) inside_parts_.emplace_back(part);
+  tbb::parallel_for(std::size_t{0}, part_trees_.size(), [&](std::size_t i) {
+    scratch_[i].stretches = review::ContactStretches::Make(part_trees_[i], review_.contacts.point_spacing_mm);
+  });
 }
 
 void FrameJudge::Judge(const FrameResult* last, FrameResult* result) {

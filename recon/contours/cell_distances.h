@@ -31,9 +31,9 @@ class CellDistances {
                    static_cast<std::size_t>(x / kBlock)];
   }
 
-  [[nodiscard]] double UpperBound(int x, int y) const {
-    const double lower = LowerBound(x, y);
-    return lower < kNearCells ? lower : lower * kUpwards + kShort;
+  [[nodiscard]] double UpperBound(int x, int y) const { return UpperBoundFrom(LowerBound(x, y)); }
+  [[nodiscard]] static double UpperBoundFrom(double lower_bound) {
+    return lower_bound < kNearCells ? lower_bound : lower_bound * kUpwards + kShort;
   }
 
   // The squared distance of each cell, capped at kNearCells^2; ContourCellsView::kBytesBehind more bytes

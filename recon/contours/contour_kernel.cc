@@ -124,7 +124,8 @@ std::uint64_t PointsInUse(const GridPoints& points) {
   return points.count == 0 ? 0 : ~std::uint64_t{0} >> (kMost - points.count);
 }
 
-std::uint64_t LabelSome(const GridView& grid, const ContourCellsView& cells, const GridPoints& points) {
+std::uint64_t LabelSome(const GridView& grid, const ContourCellsView& cells, const GridPoints& points,
+                        std::uint64_t wanted) {
   const Doubles d;
   const Ints n;
   const DoubleVec zero = hn::Zero(d);
@@ -148,7 +149,8 @@ std::uint64_t LabelSome(const GridView& grid, const ContourCellsView& cells, con
     hn::Store(column, n, columns + begin), hn::Store(row, n, rows + begin),
         hn::Store(index, n, indices + begin);
   }
-  for (mixed &= PointsInUse(points); mixed != 0; mixed &= mixed - 1) {
+  wanted &= PointsInUse(points);
+  for (mixed &= wanted; mixed != 0; mixed &= mixed - 1) {
     const auto i = static_cast<std::size_t>(std::countr_zero(mixed));
     const double centre[2] = {cells.origin_x_px + cells.cell_px * (columns[i] + 0.5),
                               cells.origin_y_px + cells.cell_px * (rows[i] + 0.5)};
@@ -157,7 +159,7 @@ std::uint64_t LabelSome(const GridView& grid, const ContourCellsView& cells, con
     const bool changes = LabelDiffers(cells.edges.data() + first[0], first[1] - first[0], centre, position);
     object ^= std::uint64_t{changes} << i;
   }
-  return object & PointsInUse(points);
+  return object & wanted;
 }
 
 // Ways in the picture, and the cells that their boxes reach to.
@@ -374,16 +376,21 @@ bool IsClear(const GridView& grid, const ConvexCorners& shape, const ContourCell
   // All edges are within the cells.
   if (right < 0 || bottom < 0 || left == cells.width || top == cells.height) return true;
   if (bottom - top >= kMostConvexRows) return false;
-  for (std::size_t i = 0; i < shape.sides.size(); ++i) {
-    const auto [from, to] = shape.sides[i];
-    slabs[2 + i] =
-        SlabAlong(corners, corners.y[from] - corners.y[to], corners.x[to] - corners.x[from], slack_px);
-  }
   const Edges d;
+  bool has_slabs = false;
+  // The middle row first: an edge that the body covers is most likely there.
   for (std::int32_t row = std::max(top, 0); row <= std::min(bottom, cells.height - 1); ++row) {
     const std::uint32_t* const first = cells.first.data() + row * cells.width;
     const std::size_t end = first[std::min(right, cells.width - 1) + 1];
     for (std::size_t i = first[std::max(left, 0)]; i < end; i += hn::Lanes(d)) {
+      if (!has_slabs) {
+        for (std::size_t side = 0; side < shape.sides.size(); ++side) {
+          const auto [from, to] = shape.sides[side];
+          slabs[2 + side] =
+              SlabAlong(corners, corners.y[from] - corners.y[to], corners.x[to] - corners.x[from], slack_px);
+        }
+        has_slabs = true;
+      }
       const EdgeMask is_there = hn::FirstN(d, end - i);
       const EdgeMask beside = AreBeside(Load(cells.edges.data() + i), slabs, corners, slack_px);
       if (!hn::AllFalse(d, hn::AndNot(beside, is_there))) return false;
@@ -409,8 +416,9 @@ bool LabelDiffersInCell(std::span<const ContourCellsView::Edge> edges, const std
   return HWY_DYNAMIC_DISPATCH(LabelDiffers)(edges.data(), edges.size(), centre_px.data(), position_px.data());
 }
 
-std::uint64_t LabelPoints(const GridView& grid, const ContourCellsView& cells, const GridPoints& points) {
-  return HWY_DYNAMIC_DISPATCH(LabelSome)(grid, cells, points);
+std::uint64_t LabelPoints(const GridView& grid, const ContourCellsView& cells, const GridPoints& points,
+                          std::uint64_t wanted) {
+  return HWY_DYNAMIC_DISPATCH(LabelSome)(grid, cells, points, wanted);
 }
 
 void LowerToCrossings(const GridView& grid, const ContourCellsView& cells, const GridPoints& from,

@@ -38,10 +38,10 @@ inline constexpr double kUnknownCrossing = -1.0;
                                       const std::array<double, 2>& centre_px,
                                       const std::array<double, 2>& position_px);
 
-// Bit i: point i is object, by ContourMap::IsObject of its position in the plane. Points that aren't in front
-// of the camera are exterior.
+// Bit i: point i is wanted, and it is object, by ContourMap::IsObject of its position in the plane. Points
+// that aren't in front of the camera are exterior.
 [[nodiscard]] std::uint64_t LabelPoints(const GridView& grid, const ContourCellsView& cells,
-                                        const GridPoints& points);
+                                        const GridPoints& points, std::uint64_t wanted = ~std::uint64_t{0});
 
 // A share for each of some ways between grid points. Elements after the last way mean nothing.
 struct WayShares {

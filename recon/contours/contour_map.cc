@@ -72,7 +72,7 @@ class ContourMap::Grid {
     const double off_centre = place.from_centre.norm();
     const double bound_px = (cells - kHalfDiagonal - off_centre) * cell_px;
     if (bound_px >= enough_px) return bound_px;
-    const bool is_sure_to_be_less = !std::isinf(enough_px) && AtMostPx(place) < enough_px;
+    const bool is_sure_to_be_less = !std::isinf(enough_px) && AtMostPx(cells, off_centre) < enough_px;
     if (is_sure_to_be_less) return bound_px;  // the window isn't searched
     double within_px = kInfinity;             // no edge is in the window if the nearest mixed cell is farther
     if (cells < kWindowCells + 1) within_px = NearestInWindow(place, position).second;
@@ -82,9 +82,12 @@ class ContourMap::Grid {
   // Upper bound, in px: the nearest edge touches a cell that holds some, or passes within kTouchCells of it,
   // so it is no farther than that cell's far corner and kShortBy.
   [[nodiscard]] double AtMostPx(const Place& place) const {
+    return AtMostPx(cells_.distances().LowerBound(place.cell.x(), place.cell.y()), place.from_centre.norm());
+  }
+  [[nodiscard]] double AtMostPx(double lower_bound_cells, double off_centre_cells) const {
     constexpr double kShortBy = 0.125;
-    const double cells = cells_.distances().UpperBound(place.cell.x(), place.cell.y());
-    return (cells + kShortBy + kHalfDiagonal + place.from_centre.norm()) * cells_.cell_px();
+    const double cells = CellDistances::UpperBoundFrom(lower_bound_cells);
+    return (cells + kShortBy + kHalfDiagonal + off_centre_cells) * cells_.cell_px();
   }
 
   [[nodiscard]] std::optional<std::uint32_t> NearestEdge(const Place& place, const Vector2d& position) const {

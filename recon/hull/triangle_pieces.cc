@@ -83,7 +83,7 @@ std::uint64_t PiecesInHull(const VisualHull& hull, const CutTriangle& triangle,
   for (std::size_t i = 0; i < silhouettes.size() && inside != 0; ++i) {
     if (!open.Asks(i)) continue;
     const GridView view = ViewOf(hull.rig().cameras[i], silhouettes[i]->plane().focal_px(), triangle);
-    inside &= LabelPoints(view, silhouettes[i]->labels().CellsView(), centres);
+    inside = LabelPoints(view, silhouettes[i]->labels().CellsView(), centres, inside);
   }
   if (!ExteriorIsObject(hull.rig()) || !open.asks_visibility) return inside;
   std::uint64_t seen = 0;

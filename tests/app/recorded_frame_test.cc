@@ -66,8 +66,12 @@ TEST_F(RecordedFrameTest, ComesBackWithTheSameHullToTheLastBit) {
   ASSERT_EQ(judged->record.contacts[1].verdict, core::Verdict::kContact);
   for (core::PartIndex i = 0; i < judged->record.contacts.size(); ++i) {
     const core::TriangleTree part(judged->layout->parts[i].mesh);
+    const review::ContactOptions options;
+    review::ReviewScratch scratch;
+    scratch.stretches = review::ContactStretches::Make(part, options.point_spacing_mm);
     ExpectSameContact(judged->record.contacts[i],
-                      review::FindContacts(*rebuilt->hull, part, rebuilt->world_from_parts[i], i));
+                      review::FindContacts(*rebuilt->hull, part, rebuilt->world_from_parts[i], i, options,
+                                           nullptr, &scratch));
   }
 }
 
