@@ -1,6 +1,7 @@
 #include "recon/footage/image_sequence.h"
 
 #include <fmt/format.h>
+#include <fnmatch.h>
 
 #include <algorithm>
 #include <cctype>
@@ -84,6 +85,22 @@ std::vector<fs::path> FindNumbered(const fs::path& location, const std::string& 
   return files;
 }
 
+std::vector<fs::path> FindFitting(const fs::path& location, const std::string& who) {
+  std::error_code ignored;
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(location.parent_path(), ignored)) {
+    const bool fits =
+        ::fnmatch(location.filename().c_str(), entry.path().filename().c_str(), FNM_PERIOD) == 0;
+    if (fits && HasImageExtension(entry.path())) files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  if (files.empty()) {
+    throw Error(ErrorKind::kFile, fmt::format("{}: no image fits '{}'; check the path and the pattern", who,
+                                              location.string()));
+  }
+  return files;
+}
+
 std::vector<fs::path> FindInFolder(const fs::path& folder, const std::string& who) {
   std::error_code ignored;
   std::vector<fs::path> files;
@@ -103,6 +120,7 @@ std::vector<fs::path> FindInFolder(const fs::path& folder, const std::string& wh
 std::vector<fs::path> FindImageFiles(const std::string& location, const std::string& who) {
   const SourceKind kind = KindOf(location);
   if (kind == SourceKind::kSequence) return FindNumbered(location, who);
+  if (kind == SourceKind::kGlob) return FindFitting(location, who);
   if (kind == SourceKind::kFolder) return FindInFolder(location, who);
   std::error_code ignored;
   if (!fs::exists(location, ignored)) {

@@ -2,13 +2,16 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
 #include <filesystem>
+#include <system_error>
 #include <utility>
 #include <vector>
 
 #include "recon/footage/image_sequence.h"
 #include "recon/footage/live_camera.h"
 #include "recon/footage/source_subject.h"
+#include "recon/footage/video_decoder.h"
 #include "recon/footage/video_file.h"
 #include "recon/images/image_file.h"
 #include "recon/rig_files/source_location.h"
@@ -44,24 +47,60 @@ class ImageFiles : public ImageSource {
   ImageReader reader_;
 };
 
-}  // namespace
-
-std::unique_ptr<ImageSource> OpenImageSource(const std::string& location, const core::CameraModel& camera,
-                                             std::stop_token stop) {
-  SourceSubject subject{fmt::format("camera '{}'", camera.name()), location, camera.width_px(),
-                        camera.height_px()};
-  switch (KindOf(location)) {
+std::unique_ptr<ImageSource> Open(SourceSubject subject, const std::stop_token& stop) {
+  switch (KindOf(subject.location)) {
     case SourceKind::kDevice:
     case SourceKind::kUrl:
       return OpenLiveCamera(std::move(subject), stop);
     case SourceKind::kVideo:
       return OpenVideoFile(std::move(subject), stop);
     case SourceKind::kSequence:
+    case SourceKind::kGlob:
     case SourceKind::kFolder:
     case SourceKind::kImage:
       break;
   }
   return std::make_unique<ImageFiles>(std::move(subject));
+}
+
+// The size of a source's first picture. Nothing if there is none; opening the source says why.
+std::optional<cv::Size> SizeOfFirst(const SourceSubject& subject, const std::stop_token& stop) {
+  if (KindOf(subject.location) != SourceKind::kVideo) {
+    ImageReader reader(subject.who);
+    const PictureHeader& header = reader.Open(FindImageFiles(subject.location, subject.who).front());
+    return cv::Size(static_cast<int>(header.width_px), static_cast<int>(header.height_px));
+  }
+  constexpr std::chrono::seconds kMostTime{8};
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(subject.location, ignored)) return std::nullopt;
+  VideoDecoder decoder(cv::Size(0, 0));
+  const auto opened = decoder.OpenVideo(subject.location, stop, kMostTime);
+  if (opened.value && !opened.value->size_px.empty()) return opened.value->size_px;
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::unique_ptr<ImageSource> OpenImageSource(const std::string& location, const core::CameraModel& camera,
+                                             std::stop_token stop) {
+  return Open({fmt::format("camera '{}'", camera.name()), location, camera.width_px(), camera.height_px()},
+              stop);
+}
+
+UncalibratedSource OpenUncalibratedSource(const std::string& location, const std::string& camera_name,
+                                          std::stop_token stop) {
+  SourceSubject subject{fmt::format("camera '{}'", camera_name), location, 0, 0, "the first picture is",
+                        "calibrate with pictures of one size"};
+  const SourceKind kind = KindOf(location);
+  if (kind == SourceKind::kDevice || kind == SourceKind::kUrl)
+    subject.Fail(
+        fmt::format("'{}' is a live camera; record its pictures first, and name the recording", location));
+  const std::optional<cv::Size> size_px = SizeOfFirst(subject, stop);
+  if (size_px) subject.width_px = size_px->width, subject.height_px = size_px->height;
+  std::unique_ptr<ImageSource> pictures = Open(subject, stop);
+  if (!size_px)
+    subject.Fail(fmt::format("'{}' doesn't say how large its pictures are; record it again", location));
+  return {std::move(pictures), *size_px};
 }
 
 }  // namespace elbowroom::recon

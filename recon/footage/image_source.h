@@ -54,4 +54,14 @@ class ImageSource {
                                                            const core::CameraModel& camera,
                                                            std::stop_token stop = {});
 
+// The same for a camera that isn't calibrated yet. All its pictures must have the size of the first one,
+// which is returned. Live cameras are refused. Throws: as above.
+struct UncalibratedSource {
+  std::unique_ptr<ImageSource> pictures;
+  cv::Size size_px;
+};
+[[nodiscard]] UncalibratedSource OpenUncalibratedSource(const std::string& location,
+                                                        const std::string& camera_name,
+                                                        std::stop_token stop = {});
+
 }  // namespace elbowroom::recon

@@ -11,9 +11,8 @@ void SourceSubject::Fail(const std::string& what, core::ErrorKind kind) const {
 void SourceSubject::RequireSize(std::int64_t found_width_px, std::int64_t found_height_px,
                                 core::FrameIndex index) const {
   if (found_width_px == width_px && found_height_px == height_px) return;
-  Fail(fmt::format(
-      "frame {} of '{}' is {} x {} px, but the rig says {} x {}; use footage of the calibrated size", index,
-      location, found_width_px, found_height_px, width_px, height_px));
+  Fail(fmt::format("frame {} of '{}' is {} x {} px, but {} {} x {}; {}", index, location, found_width_px,
+                   found_height_px, size_from, width_px, height_px, size_remedy));
 }
 
 void SourceSubject::RequireNotNegative(core::FrameIndex index) const {

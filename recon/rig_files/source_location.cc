@@ -22,6 +22,8 @@ SourceKind KindOf(const std::string& location) {
   if (location.find('%') != std::string::npos) return SourceKind::kSequence;
   std::error_code ignored;
   if (std::filesystem::is_directory(location, ignored)) return SourceKind::kFolder;
+  if (location.find_first_of("*?") != std::string::npos && !std::filesystem::exists(location, ignored))
+    return SourceKind::kGlob;
   return HasImageExtension(location) ? SourceKind::kImage : SourceKind::kVideo;
 }
 

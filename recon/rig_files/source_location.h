@@ -10,6 +10,7 @@ enum class SourceKind {
   kDevice,    // "device:0"
   kUrl,       // "rtsp://..."
   kSequence,  // "cam1/%04d.png"
+  kGlob,      // "photos/*.jpg": every image whose name fits, by name
   kFolder,    // every image in it, by name
   kImage,     // "cam1/background.png"
   kVideo,     // any other file
