@@ -1,96 +1,96 @@
 $all0_0 << EOD
-1.351905 3.110487184156514e-05 "CPU"
-7.138759 3.456495934914582e-05 "GL"
+1.015687 3.110487184156514e-05 "CPU"
+5.055932 3.456495934914582e-05 "GL"
 EOD
 $grey0_0 << EOD
-7.138759 3.456495934914582e-05 "GL"
+5.055932 3.456495934914582e-05 "GL"
 EOD
 $all0_1 << EOD
-3.31897 6.4196256297815735 "planes 15 mm apart"
-6.113122 2.238645512054733 "planes 5 mm apart"
-21.35861 0.47912261597162503 "planes 1 mm apart"
+2.59992 6.4196256297815735 "planes 15 mm apart"
+4.573949 2.238645512054733 "planes 5 mm apart"
+16.02756 0.47912261597162503 "planes 1 mm apart"
 EOD
 $grey0_1 << EOD
-3.31897 6.4196256297815735 "planes 15 mm apart"
-6.113122 2.238645512054733 "planes 5 mm apart"
-21.35861 0.47912261597162503 "planes 1 mm apart"
+2.59992 6.4196256297815735 "planes 15 mm apart"
+4.573949 2.238645512054733 "planes 5 mm apart"
+16.02756 0.47912261597162503 "planes 1 mm apart"
 EOD
 $all0_2 << EOD
-18.685349 6.4196256297815735 "planes 15 mm apart"
+13.942519 6.4196256297815735 "planes 15 mm apart"
 EOD
 $grey0_2 << EOD
-18.685349 6.4196256297815735 "planes 15 mm apart"
+13.942519 6.4196256297815735 "planes 15 mm apart"
 EOD
 $all0_3 << EOD
-40.381019 6.417599769735659 "planes 15 mm apart"
-109.745793 2.2367650210878196 "planes 5 mm apart"
+24.707066 6.417599769735659 "planes 15 mm apart"
+68.479783 2.2367650210878196 "planes 5 mm apart"
 EOD
 $grey0_3 << EOD
-40.381019 6.417599769735659 "planes 15 mm apart"
-109.745793 2.2367650210878196 "planes 5 mm apart"
+24.707066 6.417599769735659 "planes 15 mm apart"
+68.479783 2.2367650210878196 "planes 5 mm apart"
 EOD
 $all0_4 << EOD
-667.554981 6.326158033929101 "planes 15 mm apart"
+277.222972 6.405319900047326 "planes 15 mm apart"
 EOD
 $grey0_4 << EOD
-667.554981 6.326158033929101 "planes 15 mm apart"
+277.222972 6.405319900047326 "planes 15 mm apart"
 EOD
 $all0_5 << EOD
-18.751248 0.20675565984478014 "edges of 2 mm"
-6.694635 0.3666517614642404 "edges of 4 mm"
-3.464749 0.7954425340882524 "edges of 8 mm"
+12.819336 0.20675565984478014 "edges of 2 mm"
+4.639445 0.3666517614642404 "edges of 4 mm"
+2.346141 0.7954425340882524 "edges of 8 mm"
 EOD
 $grey0_5 << EOD
-18.751248 0.20675565984478014 "edges of 2 mm"
-6.694635 0.3666517614642404 "edges of 4 mm"
-3.464749 0.7954425340882524 "edges of 8 mm"
+12.819336 0.20675565984478014 "edges of 2 mm"
+4.639445 0.3666517614642404 "edges of 4 mm"
+2.346141 0.7954425340882524 "edges of 8 mm"
 EOD
 $all1_0 << EOD
-5.053175 0.025936238265934726 "CPU"
-19.131783 0.02593603067590106 "GL"
+3.053105 0.025936238265934726 "CPU"
+12.07558 0.02593603067590106 "GL"
 EOD
 $grey1_0 << EOD
 NaN NaN ""
 EOD
 $all1_1 << EOD
-5.946004 6.202984683564714 "planes 15 mm apart"
-9.019813 2.2048762968171434 "planes 5 mm apart"
-32.1216 0.5102606810397988 "planes 1 mm apart"
+4.206803 6.202984683564714 "planes 15 mm apart"
+6.628172 2.2048762968171434 "planes 5 mm apart"
+21.535242 0.5102606810397988 "planes 1 mm apart"
 EOD
 $grey1_1 << EOD
-5.946004 6.202984683564714 "planes 15 mm apart"
-9.019813 2.2048762968171434 "planes 5 mm apart"
-32.1216 0.5102606810397988 "planes 1 mm apart"
+4.206803 6.202984683564714 "planes 15 mm apart"
+6.628172 2.2048762968171434 "planes 5 mm apart"
+21.535242 0.5102606810397988 "planes 1 mm apart"
 EOD
 $all1_2 << EOD
-23.037481 6.202984683564714 "planes 15 mm apart"
+14.917329 6.202984683564714 "planes 15 mm apart"
 EOD
 $grey1_2 << EOD
-23.037481 6.202984683564714 "planes 15 mm apart"
+14.917329 6.202984683564714 "planes 15 mm apart"
 EOD
 $all1_3 << EOD
-83.72759 6.202492429757415 "planes 15 mm apart"
-232.817442 2.2030387844793116 "planes 5 mm apart"
+43.884691 6.202492429757415 "planes 15 mm apart"
+122.202904 2.2030387844793116 "planes 5 mm apart"
 EOD
 $grey1_3 << EOD
-83.72759 6.202492429757415 "planes 15 mm apart"
-232.817442 2.2030387844793116 "planes 5 mm apart"
+43.884691 6.202492429757415 "planes 15 mm apart"
+122.202904 2.2030387844793116 "planes 5 mm apart"
 EOD
 $all1_4 << EOD
-1405.682397 6.085492261502713 "planes 15 mm apart"
+627.705405 6.192794803283664 "planes 15 mm apart"
 EOD
 $grey1_4 << EOD
-1405.682397 6.085492261502713 "planes 15 mm apart"
+627.705405 6.192794803283664 "planes 15 mm apart"
 EOD
 $all1_5 << EOD
-35.288927 0.22701659343812378 "edges of 2 mm"
-13.716871 0.3986796917867054 "edges of 4 mm"
-8.348495 0.7914416185139392 "edges of 8 mm"
+21.252611 0.22701659343812378 "edges of 2 mm"
+8.5732 0.3986796917867054 "edges of 4 mm"
+4.785722 0.7914416185139392 "edges of 8 mm"
 EOD
 $grey1_5 << EOD
-35.288927 0.22701659343812378 "edges of 2 mm"
-13.716871 0.3986796917867054 "edges of 4 mm"
-8.348495 0.7914416185139392 "edges of 8 mm"
+21.252611 0.22701659343812378 "edges of 2 mm"
+8.5732 0.3986796917867054 "edges of 4 mm"
+4.785722 0.7914416185139392 "edges of 8 mm"
 EOD
 set logscale xy
 set grid lc rgb '#cccccc'
@@ -105,15 +105,15 @@ set terminal svg size 900,1120 font 'Sans,15' background rgb 'white'
 set output 'view_methods.svg'
 set multiplot layout 2,1
 set title 'Views of 640 x 480 from 3 cameras, 640 x 480: run time against error'
-plot $all0_0 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#0072B2' title 'exact view', $grey0_0 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all0_0 using 1:2:3 with labels center offset 0,0.9 tc rgb '#0072B2' notitle, $all0_1 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#D55E00' title 'plane sweep, CPU', $grey0_1 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all0_1 using 1:2:3 with labels left offset 0.9,0.5 tc rgb '#D55E00' notitle, $all0_2 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#009E73' title 'plain plane sweep, CPU', $grey0_2 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all0_2 using 1:2:3 with labels center offset 0,1.6 tc rgb '#009E73' notitle, $all0_3 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#CC79A7' title 'plane sweep, GL', $grey0_3 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all0_3 using 1:2:3 with labels left offset 0.9,0.5 tc rgb '#CC79A7' notitle, $all0_4 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#E69F00' title 'the paper''s sweep, GL', $grey0_4 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all0_4 using 1:2:3 with labels right offset -0.9,-0.5 tc rgb '#E69F00' notitle, $all0_5 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#56B4E9' title 'octree mesh', $grey0_5 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all0_5 using 1:2:3 with labels center offset 0,0.9 tc rgb '#56B4E9' notitle, NaN with points pt 7 ps 1.4 lc rgb '#b8b8b8' title 'dominated by another setting or method'
+plot $all0_0 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#0072B2' title 'exact view', $grey0_0 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all0_0 using 1:2:3 with labels center offset 0,0.9 tc rgb '#0072B2' notitle, $all0_1 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#D55E00' title 'plane sweep, CPU', $grey0_1 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all0_1 using 1:2:3 with labels left rotate by 25 offset 0.7,0.5 tc rgb '#D55E00' notitle, $all0_2 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#009E73' title 'plain plane sweep, CPU', $grey0_2 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all0_2 using 1:2:3 with labels center offset 0,1.6 tc rgb '#009E73' notitle, $all0_3 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#CC79A7' title 'plane sweep, GL', $grey0_3 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all0_3 using 1:2:3 with labels left rotate by 25 offset 0.7,0.5 tc rgb '#CC79A7' notitle, $all0_4 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#E69F00' title 'the paper''s sweep, GL', $grey0_4 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all0_4 using 1:2:3 with labels right offset -0.9,-0.5 tc rgb '#E69F00' notitle, $all0_5 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#56B4E9' title 'octree mesh', $grey0_5 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all0_5 using 1:2:3 with labels center offset 0,0.9 tc rgb '#56B4E9' notitle, NaN with points pt 7 ps 1.4 lc rgb '#b8b8b8' title 'dominated by another setting or method'
 set title 'Views of 640 x 480 from 8 cameras, 1280 x 720: run time against error'
-plot $all1_0 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#0072B2' title 'exact view', $grey1_0 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all1_0 using 1:2:3 with labels center offset 0,0.9 tc rgb '#0072B2' notitle, $all1_1 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#D55E00' title 'plane sweep, CPU', $grey1_1 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all1_1 using 1:2:3 with labels left offset 0.9,0.5 tc rgb '#D55E00' notitle, $all1_2 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#009E73' title 'plain plane sweep, CPU', $grey1_2 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all1_2 using 1:2:3 with labels center offset 0,1.6 tc rgb '#009E73' notitle, $all1_3 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#CC79A7' title 'plane sweep, GL', $grey1_3 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all1_3 using 1:2:3 with labels left offset 0.9,0.5 tc rgb '#CC79A7' notitle, $all1_4 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#E69F00' title 'the paper''s sweep, GL', $grey1_4 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all1_4 using 1:2:3 with labels right offset -0.9,-0.5 tc rgb '#E69F00' notitle, $all1_5 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#56B4E9' title 'octree mesh', $grey1_5 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all1_5 using 1:2:3 with labels center offset 0,0.9 tc rgb '#56B4E9' notitle, NaN with points pt 7 ps 1.4 lc rgb '#b8b8b8' title 'dominated by another setting or method'
+plot $all1_0 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#0072B2' title 'exact view', $grey1_0 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all1_0 using 1:2:3 with labels center offset 0,0.9 tc rgb '#0072B2' notitle, $all1_1 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#D55E00' title 'plane sweep, CPU', $grey1_1 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all1_1 using 1:2:3 with labels left rotate by 25 offset 0.7,0.5 tc rgb '#D55E00' notitle, $all1_2 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#009E73' title 'plain plane sweep, CPU', $grey1_2 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all1_2 using 1:2:3 with labels center offset 0,1.6 tc rgb '#009E73' notitle, $all1_3 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#CC79A7' title 'plane sweep, GL', $grey1_3 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all1_3 using 1:2:3 with labels left rotate by 25 offset 0.7,0.5 tc rgb '#CC79A7' notitle, $all1_4 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#E69F00' title 'the paper''s sweep, GL', $grey1_4 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all1_4 using 1:2:3 with labels right offset -0.9,-0.5 tc rgb '#E69F00' notitle, $all1_5 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#56B4E9' title 'octree mesh', $grey1_5 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all1_5 using 1:2:3 with labels center offset 0,0.9 tc rgb '#56B4E9' notitle, NaN with points pt 7 ps 1.4 lc rgb '#b8b8b8' title 'dominated by another setting or method'
 unset multiplot
 set terminal pngcairo size 1350,1680 font 'Sans,17'
 set output 'view_methods.png'
 set multiplot layout 2,1
 set title 'Views of 640 x 480 from 3 cameras, 640 x 480: run time against error'
-plot $all0_0 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#0072B2' title 'exact view', $grey0_0 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all0_0 using 1:2:3 with labels center offset 0,0.9 tc rgb '#0072B2' notitle, $all0_1 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#D55E00' title 'plane sweep, CPU', $grey0_1 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all0_1 using 1:2:3 with labels left offset 0.9,0.5 tc rgb '#D55E00' notitle, $all0_2 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#009E73' title 'plain plane sweep, CPU', $grey0_2 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all0_2 using 1:2:3 with labels center offset 0,1.6 tc rgb '#009E73' notitle, $all0_3 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#CC79A7' title 'plane sweep, GL', $grey0_3 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all0_3 using 1:2:3 with labels left offset 0.9,0.5 tc rgb '#CC79A7' notitle, $all0_4 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#E69F00' title 'the paper''s sweep, GL', $grey0_4 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all0_4 using 1:2:3 with labels right offset -0.9,-0.5 tc rgb '#E69F00' notitle, $all0_5 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#56B4E9' title 'octree mesh', $grey0_5 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all0_5 using 1:2:3 with labels center offset 0,0.9 tc rgb '#56B4E9' notitle, NaN with points pt 7 ps 1.4 lc rgb '#b8b8b8' title 'dominated by another setting or method'
+plot $all0_0 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#0072B2' title 'exact view', $grey0_0 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all0_0 using 1:2:3 with labels center offset 0,0.9 tc rgb '#0072B2' notitle, $all0_1 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#D55E00' title 'plane sweep, CPU', $grey0_1 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all0_1 using 1:2:3 with labels left rotate by 25 offset 0.7,0.5 tc rgb '#D55E00' notitle, $all0_2 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#009E73' title 'plain plane sweep, CPU', $grey0_2 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all0_2 using 1:2:3 with labels center offset 0,1.6 tc rgb '#009E73' notitle, $all0_3 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#CC79A7' title 'plane sweep, GL', $grey0_3 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all0_3 using 1:2:3 with labels left rotate by 25 offset 0.7,0.5 tc rgb '#CC79A7' notitle, $all0_4 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#E69F00' title 'the paper''s sweep, GL', $grey0_4 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all0_4 using 1:2:3 with labels right offset -0.9,-0.5 tc rgb '#E69F00' notitle, $all0_5 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#56B4E9' title 'octree mesh', $grey0_5 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all0_5 using 1:2:3 with labels center offset 0,0.9 tc rgb '#56B4E9' notitle, NaN with points pt 7 ps 1.4 lc rgb '#b8b8b8' title 'dominated by another setting or method'
 set title 'Views of 640 x 480 from 8 cameras, 1280 x 720: run time against error'
-plot $all1_0 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#0072B2' title 'exact view', $grey1_0 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all1_0 using 1:2:3 with labels center offset 0,0.9 tc rgb '#0072B2' notitle, $all1_1 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#D55E00' title 'plane sweep, CPU', $grey1_1 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all1_1 using 1:2:3 with labels left offset 0.9,0.5 tc rgb '#D55E00' notitle, $all1_2 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#009E73' title 'plain plane sweep, CPU', $grey1_2 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all1_2 using 1:2:3 with labels center offset 0,1.6 tc rgb '#009E73' notitle, $all1_3 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#CC79A7' title 'plane sweep, GL', $grey1_3 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all1_3 using 1:2:3 with labels left offset 0.9,0.5 tc rgb '#CC79A7' notitle, $all1_4 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#E69F00' title 'the paper''s sweep, GL', $grey1_4 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all1_4 using 1:2:3 with labels right offset -0.9,-0.5 tc rgb '#E69F00' notitle, $all1_5 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#56B4E9' title 'octree mesh', $grey1_5 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all1_5 using 1:2:3 with labels center offset 0,0.9 tc rgb '#56B4E9' notitle, NaN with points pt 7 ps 1.4 lc rgb '#b8b8b8' title 'dominated by another setting or method'
+plot $all1_0 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#0072B2' title 'exact view', $grey1_0 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all1_0 using 1:2:3 with labels center offset 0,0.9 tc rgb '#0072B2' notitle, $all1_1 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#D55E00' title 'plane sweep, CPU', $grey1_1 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all1_1 using 1:2:3 with labels left rotate by 25 offset 0.7,0.5 tc rgb '#D55E00' notitle, $all1_2 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#009E73' title 'plain plane sweep, CPU', $grey1_2 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all1_2 using 1:2:3 with labels center offset 0,1.6 tc rgb '#009E73' notitle, $all1_3 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#CC79A7' title 'plane sweep, GL', $grey1_3 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all1_3 using 1:2:3 with labels left rotate by 25 offset 0.7,0.5 tc rgb '#CC79A7' notitle, $all1_4 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#E69F00' title 'the paper''s sweep, GL', $grey1_4 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all1_4 using 1:2:3 with labels right offset -0.9,-0.5 tc rgb '#E69F00' notitle, $all1_5 using 1:2 with linespoints pt 7 ps 1.4 lw 2 lc rgb '#56B4E9' title 'octree mesh', $grey1_5 using 1:2 with points pt 7 ps 1.4 lc rgb '#b8b8b8' notitle, $all1_5 using 1:2:3 with labels center offset 0,0.9 tc rgb '#56B4E9' notitle, NaN with points pt 7 ps 1.4 lc rgb '#b8b8b8' title 'dominated by another setting or method'
 unset multiplot
