@@ -20,6 +20,7 @@ pkg_check_modules(HIGHWAY REQUIRED IMPORTED_TARGET libhwy libhwy-contrib)
 pkg_check_modules(ZSTD REQUIRED IMPORTED_TARGET libzstd)
 pkg_check_modules(XXHASH REQUIRED IMPORTED_TARGET libxxhash)
 find_package(Lib3mf REQUIRED)        # its pkg-config file asks for the static libraries of others
+find_package(Haru REQUIRED)
 find_package(OpenCVParts REQUIRED)   # only the modules in use; Debian ships no CMake config for single modules
 if(ELBOWROOM_CONSOLE)
   find_package(Qt6 REQUIRED COMPONENTS Widgets Test)

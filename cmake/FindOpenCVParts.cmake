@@ -2,7 +2,7 @@
 # modules, which only some folders need, are asked for as components.
 find_path(OpenCVParts_INCLUDE_DIR opencv2/core.hpp PATH_SUFFIXES opencv4 REQUIRED)
 set(_opencv_required OpenCVParts_INCLUDE_DIR)
-foreach(_module core imgproc imgcodecs videoio calib3d ${OpenCVParts_FIND_COMPONENTS})
+foreach(_module core imgproc imgcodecs videoio calib3d aruco ${OpenCVParts_FIND_COMPONENTS})
   find_library(OpenCVParts_${_module}_LIBRARY opencv_${_module} REQUIRED)
   list(APPEND _opencv_required OpenCVParts_${_module}_LIBRARY)
   if(NOT TARGET OpenCVParts::${_module})

@@ -66,8 +66,9 @@ void Board::Validate() const {
   Need(columns >= least && rows >= least && columns <= kMostAcross && rows <= kMostAcross,
        fmt::format("columns and rows are {} and {}; {} to {} are possible", columns, rows, least,
                    kMostAcross));
-  Need(!is_board_of_squares || columns != rows,
-       "a chessboard with as many columns as rows looks the same after a quarter turn; take one row less");
+  const bool looks_the_same_on_both_axes = is_board_of_squares || kind == BoardKind::kCircles;
+  Need(!looks_the_same_on_both_axes || columns != rows,
+       "with as many columns as rows it looks the same after a quarter turn; take one row less");
   Need(std::isfinite(square_mm) && square_mm > 0.0 && square_mm <= kLargestMm,
        fmt::format("square_mm is {}; it must be more than 0 and at most {} mm", square_mm, kLargestMm));
   if (!has_markers()) return;

@@ -21,6 +21,8 @@ enum class BoardKind { kChessboard, kCharuco, kAprilTags, kCircles, kAsymmetricC
 // where it is even, a white square is in the first corner.
 enum class CharucoLayout { kCurrent, kLegacy };
 
+// A chessboard's first square, outside of its first inner corner, is black.
+//
 // Frame `board`: the printed side looks along +z; x runs along the columns, and the rows run towards -y, as
 // in print. The origin is the board's first point (chessboard, circles), or the first corner of its outermost
 // square or tag (ChArUco, AprilTags).

@@ -79,7 +79,7 @@ TEST(Cli, HelpNamesWhatIsBuiltAndNothingElse) {
   const ProgramRun run = Elbowroom({"--help"});
   EXPECT_EQ(run.exit_status, 0);
   for (const char* command : {"demo", "trial", "report", "segment", "view", "hull", "contacts", "clearance",
-                              "clash", "sweep", "import", "layout", "bench"}) {
+                              "clash", "sweep", "import", "layout", "board", "bench"}) {
     EXPECT_NE(run.out.find(std::string("\n  ") + command + " "), std::string::npos) << command;
   }
   for (const char* later : {"replay"}) {
@@ -89,7 +89,7 @@ TEST(Cli, HelpNamesWhatIsBuiltAndNothingElse) {
 
 TEST(Cli, EveryCommandHasHelp) {
   for (const char* command : {"demo", "report", "segment", "view", "hull", "contacts", "clearance", "clash",
-                              "sweep", "import", "layout", "bench"}) {
+                              "sweep", "import", "layout", "board", "bench"}) {
     EXPECT_EQ(Elbowroom({command, "--help"}).exit_status, 0) << command;
   }
   EXPECT_EQ(Elbowroom({"trial", "run", "--help"}).exit_status, 0);
