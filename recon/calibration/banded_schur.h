@@ -1,0 +1,31 @@
+// Normal equations whose boards are eliminated first.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <optional>
+#include <vector>
+
+namespace elbowroom::recon {
+
+// H x = g, with c parameters of cameras and six of each board. Of the boards only those couple that stand at
+// most two places apart: the part to eliminate is a band, and so is its Cholesky factor. Time is of the order
+// of boards * c^2.
+struct NormalEquations {
+  Eigen::MatrixXd cameras;                                       // c x c, lower triangle
+  Eigen::VectorXd camera_gradient;                               // c
+  std::vector<std::array<Eigen::Matrix<double, 6, 6>, 3>> band;  // [k][d]: rows of board k + d, columns of k
+  std::vector<Eigen::Matrix<double, 6, Eigen::Dynamic>> mixed;   // [k]: rows of board k, columns of cameras
+  std::vector<Eigen::Matrix<double, 6, 1>> board_gradient;
+
+  NormalEquations(int camera_parameters, int boards);
+};
+
+// x for H with its diagonal multiplied by 1 + damping; nothing: not positive definite.
+[[nodiscard]] std::optional<Eigen::VectorXd> SolveNormalEquations(const NormalEquations& equations,
+                                                                  double damping);
+
+// The cameras' c x c part of the inverse of H; nothing: not positive definite.
+[[nodiscard]] std::optional<Eigen::MatrixXd> InverseOfCameras(const NormalEquations& equations);
+
+}  // namespace elbowroom::recon

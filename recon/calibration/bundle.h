@@ -1,0 +1,37 @@
+// The bundle adjustment: all parameters of an Adjustment at once.
+#pragma once
+
+#include <optional>
+#include <stop_token>
+
+#include "recon/calibration/adjustment.h"
+#include "recon/calibration/banded_schur.h"
+
+namespace elbowroom::recon {
+
+struct BundleOptions {
+  // Residuals pass a Cauchy loss of this many times the noise scale; 0: plain least squares.
+  double cauchy_scale = 0.0;
+  double noise_scale = 1.0;  // s; what weak knowledge of the lens is weighed against
+  int most_steps = 50;
+  double settled = 1e-9;  // relative change of the cost in a step, below which the fit ends
+};
+
+// Levenberg and Marquardt's method; the sums over points run in parallel by views and are added in the order
+// of views, so the result is the same for any number of threads. Throws: Error{kCancelled}.
+[[nodiscard]] Adjustment AdjustBundle(Adjustment start, const BundleOptions& options,
+                                      const std::stop_token& stop);
+
+// Normal equations of the used points at the present parameters.
+[[nodiscard]] NormalEquations EquationsOf(const Adjustment& adjustment, const BundleOptions& options);
+
+// Half the sum of losses that AdjustBundle lessens.
+[[nodiscard]] double CostOf(const Adjustment& adjustment, const BundleOptions& options);
+
+// The noise over the sightings' standard deviations. Robust: from the median of the used points' residuals,
+// as if they were normal in both coordinates. Else from their sum of squares and the degrees of freedom;
+// nothing where there are none.
+[[nodiscard]] double RobustNoiseScale(const Adjustment& adjustment);
+[[nodiscard]] std::optional<double> NoiseScale(const Adjustment& adjustment);
+
+}  // namespace elbowroom::recon

@@ -1,0 +1,212 @@
+#include "recon/calibration/lens_projection.h"
+
+#include <array>
+#include <cmath>
+
+namespace elbowroom::recon {
+namespace {
+
+using Eigen::Matrix2d;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+// A point of the distorted plane, and its derivatives by the normalised point and by the coefficients.
+struct DistortedPoint {
+  Vector2d at;
+  Matrix2d by_normalised;
+  Eigen::Matrix<double, 2, Eigen::Dynamic, 0, 2, kMostIntrinsics> by_coefficients;
+};
+
+// Coefficients in the order of the formulas; those that a lens doesn't have are 0.
+struct PolynomialLens {
+  std::array<double, 6> k{};  // k4 to k6: the denominator
+  double p1 = 0.0, p2 = 0.0;
+  std::array<double, 4> s{};
+
+  explicit PolynomialLens(const Eigen::VectorXd& values) {
+    const auto at = [&](int i) { return 4 + i < values.size() ? values[4 + i] : 0.0; };
+    k = {at(0), at(1), at(4), at(5), at(6), at(7)};
+    p1 = at(2);
+    p2 = at(3);
+    s = {at(8), at(9), at(10), at(11)};
+  }
+  [[nodiscard]] double Numerator(double t) const { return 1.0 + t * (k[0] + t * (k[1] + t * k[2])); }
+  [[nodiscard]] double Denominator(double t) const { return 1.0 + t * (k[3] + t * (k[4] + t * k[5])); }
+  [[nodiscard]] Vector2d OffAxis(const Vector2d& n, double t) const {
+    return {2.0 * p1 * n.x() * n.y() + p2 * (t + 2.0 * n.x() * n.x()) + t * (s[0] + t * s[1]),
+            p1 * (t + 2.0 * n.y() * n.y()) + 2.0 * p2 * n.x() * n.y() + t * (s[2] + t * s[3])};
+  }
+};
+
+std::optional<Vector2d> DistortPolynomial(const PolynomialLens& lens, const Vector2d& n) {
+  const double t = n.squaredNorm(), denominator = lens.Denominator(t);
+  if (!(denominator > 0.0)) return std::nullopt;
+  return n * (lens.Numerator(t) / denominator) + lens.OffAxis(n, t);
+}
+
+std::optional<DistortedPoint> DifferentiatePolynomial(const Eigen::VectorXd& values, const Vector2d& n) {
+  const PolynomialLens lens(values);
+  const double x = n.x(), y = n.y(), t = n.squaredNorm();
+  const double denominator = lens.Denominator(t);
+  if (!(denominator > 0.0)) return std::nullopt;
+  const double scale = lens.Numerator(t) / denominator;
+  // The derivatives by t = x^2 + y^2 of numerator, denominator and their quotient.
+  const auto& k = lens.k;
+  const double numerator_by_t = k[0] + t * (2.0 * k[1] + 3.0 * t * k[2]);
+  const double denominator_by_t = k[3] + t * (2.0 * k[4] + 3.0 * t * k[5]);
+  const double scale_by_t = (numerator_by_t - scale * denominator_by_t) / denominator;
+
+  DistortedPoint d;
+  d.at = n * scale + lens.OffAxis(n, t);
+  const double mixed = 2.0 * (lens.p1 * x + lens.p2 * y);
+  d.by_normalised << 2.0 * lens.p1 * y + 6.0 * lens.p2 * x, mixed, mixed,
+      6.0 * lens.p1 * y + 2.0 * lens.p2 * x;
+  d.by_normalised += scale * Matrix2d::Identity() + 2.0 * scale_by_t * n * n.transpose();
+  const Vector2d prism_by_t(lens.s[0] + 2.0 * t * lens.s[1], lens.s[2] + 2.0 * t * lens.s[3]);
+  d.by_normalised += 2.0 * prism_by_t * n.transpose();
+
+  const Vector2d radial = n / denominator;
+  const std::array<Vector2d, 12> by = {radial * t,
+                                       radial * t * t,
+                                       Vector2d(2.0 * x * y, t + 2.0 * y * y),
+                                       Vector2d(t + 2.0 * x * x, 2.0 * x * y),
+                                       radial * t * t * t,
+                                       radial * (-scale * t),
+                                       radial * (-scale * t * t),
+                                       radial * (-scale * t * t * t),
+                                       Vector2d(t, 0.0),
+                                       Vector2d(t * t, 0.0),
+                                       Vector2d(0.0, t),
+                                       Vector2d(0.0, t * t)};
+  const auto count = values.size() - 4;
+  d.by_coefficients.setZero(2, count);  // the tilt of a sensor, beyond the twelfth, is 0 and isn't found
+  for (Eigen::Index i = 0; i < std::min<Eigen::Index>(count, 12); ++i)
+    d.by_coefficients.col(i) = by[static_cast<std::size_t>(i)];
+  return d;
+}
+
+constexpr double kCentre = 1e-8;  // radius below which a fisheye's picture is the point itself
+
+Vector2d DistortFisheye(const Eigen::VectorXd& v, const Vector2d& n) {
+  const double radius = n.norm();
+  if (radius < kCentre) return n;
+  const double theta = std::atan(radius), t = theta * theta;
+  return n * (theta * (1.0 + t * (v[4] + t * (v[5] + t * (v[6] + t * v[7])))) / radius);
+}
+
+DistortedPoint DifferentiateFisheye(const Eigen::VectorXd& v, const Vector2d& n) {
+  DistortedPoint d;
+  d.by_coefficients.setZero(2, 4);
+  const double radius = n.norm();
+  if (radius < kCentre) {
+    d.at = n;
+    d.by_normalised = Matrix2d::Identity();
+    return d;
+  }
+  const double theta = std::atan(radius), t = theta * theta;
+  const double across = theta * (1.0 + t * (v[4] + t * (v[5] + t * (v[6] + t * v[7])))) / radius;
+  const double along = (1.0 + t * (3.0 * v[4] + t * (5.0 * v[5] + t * (7.0 * v[6] + t * 9.0 * v[7])))) /
+                       (1.0 + radius * radius);
+  d.at = n * across;
+  d.by_normalised =
+      across * Matrix2d::Identity() + ((along - across) / (radius * radius)) * n * n.transpose();
+  double power = theta / radius;
+  for (int i = 0; i < 4; ++i) {
+    power *= t;
+    d.by_coefficients.col(i) = n * power;
+  }
+  return d;
+}
+
+Vector2d PixelOf(const LensParameters& lens, const Vector2d& distorted) {
+  const Eigen::VectorXd& v = lens.values;
+  return {v[0] * distorted.x() + lens.skew_px * distorted.y() + v[2], v[1] * distorted.y() + v[3]};
+}
+
+}  // namespace
+
+LensParameters LensParametersOf(const core::CameraCalibration& calibration) {
+  const Eigen::Matrix3d& k = calibration.camera_matrix;
+  LensParameters lens;
+  lens.model = calibration.distortion_model;
+  lens.skew_px = k(0, 1);
+  const auto& distortion = calibration.distortion_coefficients;
+  // A fisheye has four coefficients, also where the last are left out.
+  const std::size_t count = lens.model == core::DistortionModel::kFisheye ? 4 : distortion.size();
+  lens.values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(4 + count));
+  lens.values.head<4>() << k(0, 0), k(1, 1), k(0, 2), k(1, 2);
+  for (std::size_t i = 0; i < std::min(count, distortion.size()); ++i)
+    lens.values[static_cast<Eigen::Index>(4 + i)] = distortion[i];
+  return lens;
+}
+
+void PutLens(const LensParameters& lens, core::CameraCalibration* calibration) {
+  const Eigen::VectorXd& v = lens.values;
+  calibration->camera_matrix << v[0], lens.skew_px, v[2], 0.0, v[1], v[3], 0.0, 0.0, 1.0;
+  calibration->distortion_model = lens.model;
+  calibration->distortion_coefficients.assign(v.data() + 4, v.data() + v.size());
+}
+
+std::optional<Vector2d> ProjectPoint(const LensParameters& lens, const Vector3d& x_in_cam) {
+  if (!(x_in_cam.z() > 0.0)) return std::nullopt;
+  const Vector2d normalised = x_in_cam.head<2>() / x_in_cam.z();
+  if (lens.model == core::DistortionModel::kFisheye)
+    return PixelOf(lens, DistortFisheye(lens.values, normalised));
+  const std::optional<Vector2d> distorted = DistortPolynomial(PolynomialLens(lens.values), normalised);
+  if (!distorted) return std::nullopt;
+  return PixelOf(lens, *distorted);
+}
+
+std::optional<ProjectedPoint> ProjectWithDerivatives(const LensParameters& lens, const Vector3d& x_in_cam) {
+  if (!(x_in_cam.z() > 0.0)) return std::nullopt;
+  const double inverse_z = 1.0 / x_in_cam.z();
+  const Vector2d normalised = x_in_cam.head<2>() * inverse_z;
+  const std::optional<DistortedPoint> d = lens.model == core::DistortionModel::kFisheye
+                                              ? DifferentiateFisheye(lens.values, normalised)
+                                              : DifferentiatePolynomial(lens.values, normalised);
+  if (!d) return std::nullopt;
+
+  Matrix2d scale;
+  scale << lens.values[0], lens.skew_px, 0.0, lens.values[1];
+  Eigen::Matrix<double, 2, 3> normalised_by_x;
+  normalised_by_x << inverse_z, 0.0, -normalised.x() * inverse_z, 0.0, inverse_z, -normalised.y() * inverse_z;
+
+  ProjectedPoint point;
+  point.pixel = PixelOf(lens, d->at);
+  point.by_x_in_cam = scale * d->by_normalised * normalised_by_x;
+  point.by_values.setZero(2, lens.count());
+  point.by_values(0, 0) = d->at.x();
+  point.by_values(1, 1) = d->at.y();
+  point.by_values(0, 2) = 1.0;
+  point.by_values(1, 3) = 1.0;
+  point.by_values.rightCols(d->by_coefficients.cols()) = scale * d->by_coefficients;
+  return point;
+}
+
+std::optional<Vector2d> NormalisedPoint(const LensParameters& lens, const Vector2d& pixel) {
+  constexpr int kSteps = 30;
+  constexpr double kSettledPx = 1e-9, kLargestRadius = 50.0;
+  const Eigen::VectorXd& v = lens.values;
+  const double y = (pixel.y() - v[3]) / v[1];
+  Vector2d at((pixel.x() - v[2] - lens.skew_px * y) / v[0], y);
+  if (lens.model == core::DistortionModel::kFisheye) {
+    const double theta = at.norm();
+    if (theta > 1e-6) at *= std::tan(std::min(theta, 1.5)) / theta;
+  }
+  for (int step = 0; step < kSteps; ++step) {
+    const auto projected = ProjectWithDerivatives(lens, {at.x(), at.y(), 1.0});
+    if (!projected) return std::nullopt;
+    const Vector2d residual = pixel - projected->pixel;
+    if (residual.norm() < kSettledPx) return at;
+    const Matrix2d by_point = projected->by_x_in_cam.leftCols<2>();
+    if (!(by_point.determinant() > 0.0)) return std::nullopt;  // beyond the fold
+    Vector2d move = by_point.inverse() * residual;
+    const double longest = 0.3 * (1.0 + at.norm());
+    if (move.norm() > longest) move *= longest / move.norm();
+    at += move;
+    if (!(at.norm() < kLargestRadius)) return std::nullopt;
+  }
+  return std::nullopt;
+}
+
+}  // namespace elbowroom::recon

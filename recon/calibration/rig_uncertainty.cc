@@ -1,0 +1,98 @@
+#include "recon/calibration/rig_uncertainty.h"
+
+#include <tbb/parallel_for.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "recon/calibration/point_response.h"
+
+namespace elbowroom::recon {
+namespace {
+
+// Nodes of one plane of the map.
+void FillPlane(const RigUncertainty& rig, int z, UncertaintyMap* map) {
+  for (int y = 0; y < map->nodes.y(); ++y) {
+    for (int x = 0; x < map->nodes.x(); ++x) {
+      const Eigen::Vector3d at = map->first_node_mm + map->edge_mm * Eigen::Vector3d(x, y, z);
+      const std::optional<PointUncertainty> uncertainty = rig.At(at);
+      UncertaintyMap::Node node;
+      node.is_known = uncertainty.has_value();
+      node.cameras = static_cast<std::uint8_t>(
+          std::min(255, uncertainty ? uncertainty->cameras : rig.CamerasSeeing(at)));
+      if (uncertainty) node.sigma_mm = static_cast<float>(uncertainty->sigma_mm());
+      const auto place = (static_cast<std::size_t>(z) * static_cast<std::size_t>(map->nodes.y()) +
+                          static_cast<std::size_t>(y)) *
+                             static_cast<std::size_t>(map->nodes.x()) +
+                         static_cast<std::size_t>(x);
+      map->values[place] = node;
+    }
+  }
+}
+
+}  // namespace
+
+double PointUncertainty::sigma_mm() const { return std::sqrt(covariance_mm2.trace()); }
+
+RigUncertainty::RigUncertainty(const CalibrationResult& result, double noise_px)
+    : covariance_(result.covariance), noise_px_(noise_px) {
+  core::Require(noise_px > 0.0 && std::isfinite(noise_px), "the noise of a pixel is positive");
+  int parameters = 0;
+  for (const CalibratedCamera& camera : result.cameras) {
+    cameras_.push_back(
+        {core::CameraModel(camera.calibration), LensParametersOf(camera.calibration), camera.parameters});
+    parameters += camera.parameters.size();
+  }
+  core::Require(covariance_.rows() == parameters && covariance_.cols() == parameters,
+                "the covariance has a row for each parameter of the cameras");
+}
+
+bool RigUncertainty::Sees(const Camera& camera, const Eigen::Vector3d& x_in_world) {
+  const std::optional<Eigen::Vector2d> pixel = camera.model.Project(x_in_world);
+  return pixel && pixel->x() >= -0.5 && pixel->y() >= -0.5 && pixel->x() <= camera.model.width_px() - 0.5 &&
+         pixel->y() <= camera.model.height_px() - 0.5;
+}
+
+int RigUncertainty::CamerasSeeing(const Eigen::Vector3d& x_in_world) const {
+  return static_cast<int>(
+      std::ranges::count_if(cameras_, [&](const Camera& c) { return Sees(c, x_in_world); }));
+}
+
+std::optional<PointUncertainty> RigUncertainty::At(const Eigen::Vector3d& x_in_world) const {
+  PointResponse response(static_cast<int>(covariance_.rows()));
+  PointUncertainty point;
+  for (const Camera& camera : cameras_) {
+    if (!Sees(camera, x_in_world)) continue;
+    ++point.cameras;
+    response.Add(camera.lens, camera.model.cam_from_world(), camera.parameters, x_in_world);
+  }
+  if (point.cameras < 2 || !response.Solve()) return std::nullopt;
+  const auto& g = response.by_parameters();
+  point.covariance_mm2 = noise_px_ * noise_px_ * response.by_noise() + (g * covariance_) * g.transpose();
+  return point;
+}
+
+UncertaintyMap MapUncertainty(const RigUncertainty& rig, const Eigen::AlignedBox3d& workspace_mm,
+                              double edge_mm, const core::Progress& progress, const std::stop_token& stop) {
+  constexpr double kMostNodes = 5e7, kRounding = 1e-9;
+  core::Require(edge_mm > 0.0 && std::isfinite(edge_mm), "the grid's edge is positive");
+  core::Require(!workspace_mm.isEmpty(), "the workspace isn't empty");
+  const Eigen::Vector3d counts = ((workspace_mm.sizes() / edge_mm).array() + kRounding).floor() + 1.0;
+  core::Require(counts.prod() <= kMostNodes, "a map has 50,000,000 nodes at most");
+  UncertaintyMap map{workspace_mm.min(), edge_mm, counts.cast<int>(), {}};
+  map.values.resize(static_cast<std::size_t>(counts.prod()));
+  constexpr int kPlanesAtOnce = 16;  // between two reports
+  for (int from = 0; from < map.nodes.z(); from += kPlanesAtOnce) {
+    core::ThrowIfStopped(stop, "uncertainty map");
+    progress.Report(from, map.nodes.z(), "uncertainty map");
+    tbb::parallel_for(from, std::min(from + kPlanesAtOnce, map.nodes.z()),
+                      [&](int z) { FillPlane(rig, z, &map); });
+  }
+  progress.Report(map.nodes.z(), map.nodes.z(), "uncertainty map");
+  return map;
+}
+
+}  // namespace elbowroom::recon
