@@ -62,6 +62,7 @@ struct Choice {
 // Each adds one subcommand and its options to `app`; when it is given, `*choice` is set.
 void AddBenchCommand(CLI::App& app, Choice* choice);
 void AddBoardCommand(CLI::App& app, Choice* choice);
+void AddCalibrateCommand(CLI::App& app, Choice* choice);
 void AddClashCommand(CLI::App& app, Choice* choice);
 void AddClearanceCommand(CLI::App& app, Choice* choice);
 void AddContactsCommand(CLI::App& app, Choice* choice);

@@ -137,6 +137,7 @@ int RunCommandLine(int argc, char** argv, const OpenConsole& open_console) {
   AddHullCommand(app, &choice);
   AddContactsCommand(app, &choice);
   AddClearanceCommand(app, &choice);
+  AddCalibrateCommand(app, &choice);
   AddClashCommand(app, &choice);
   AddImportCommand(app, &choice);
   AddLayoutCommand(app, &choice);

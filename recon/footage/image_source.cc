@@ -73,7 +73,7 @@ std::optional<cv::Size> SizeOfFirst(const SourceSubject& subject, const std::sto
   constexpr std::chrono::seconds kMostTime{8};
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(subject.location, ignored)) return std::nullopt;
-  VideoDecoder decoder(cv::Size(0, 0));
+  VideoDecoder decoder(cv::Size(1, 1));  // no picture is decoded here
   const auto opened = decoder.OpenVideo(subject.location, stop, kMostTime);
   if (opened.value && !opened.value->size_px.empty()) return opened.value->size_px;
   return std::nullopt;

@@ -24,7 +24,9 @@ constexpr const char* kDistortionModels = "\"plumb_bob\", \"rational_polynomial\
 
 constexpr const char* kPixels = "a whole number of pixels";
 
-constexpr std::string_view kRigKeys[] = {"rig_name", "workspace_mm", "unseen", "cameras"};
+constexpr std::string_view kRigKeys[] = {"rig_name", "workspace_mm", "unseen", "cameras", "calibration"};
+constexpr std::string_view kCalibrationKeys[] = {"made",     "board",     "rms_px", "held_out_rms_px",
+                                                 "noise_px", "covariance"};
 constexpr std::string_view kCameraKeys[] = {"name",
                                             "image_width",
                                             "image_height",
@@ -35,7 +37,9 @@ constexpr std::string_view kCameraKeys[] = {"name",
                                             "translation_cam_from_world_mm",
                                             "frames",
                                             "background",
-                                            "masks"};
+                                            "masks",
+                                            "timestamps",
+                                            "time_offset_s"};
 constexpr std::string_view kViewKeys[] = {"name",
                                           "image_width",
                                           "image_height",
@@ -53,14 +57,16 @@ Eigen::Matrix3d Matrix3(const YamlSection& section, const char* key) {
   return Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(n.data());
 }
 
+core::DistortionModel ParseModel(const YamlSection& section, const std::string& model) {
+  const auto parsed = core::ParseDistortionModel(model);
+  if (!parsed)
+    section.Fail(fmt::format("distortion_model '{}' is unknown; it must be {}", model, kDistortionModels));
+  return *parsed;
+}
+
 void ReadLens(const YamlSection& section, core::CameraCalibration* calibration) {
   (void)section.Get("distortion_model", kDistortionModels);
-  const std::string model = section.TextOr("distortion_model", "");
-  const auto parsed = core::ParseDistortionModel(model);
-  if (!parsed) {
-    section.Fail(fmt::format("distortion_model '{}' is unknown; it must be {}", model, kDistortionModels));
-  }
-  calibration->distortion_model = *parsed;
+  calibration->distortion_model = ParseModel(section, section.TextOr("distortion_model", ""));
   calibration->distortion_coefficients = section.Numbers("distortion_coefficients", 1, 0, "a 1 x N matrix");
 }
 
@@ -126,7 +132,44 @@ void AddCamera(const YamlNode& node, const std::string& file, const std::filesys
   rig_file.rig.cameras.push_back(ReadCamera(section, name, true));
   rig_file.sources.push_back({ResolvedLocation(section.TextOr("frames", ""), folder),
                               ResolvedLocation(section.TextOr("background", ""), folder),
-                              ResolvedLocation(section.TextOr("masks", ""), folder)});
+                              ResolvedLocation(section.TextOr("masks", ""), folder),
+                              ResolvedLocation(section.TextOr("timestamps", ""), folder),
+                              section.NumberOr("time_offset_s", 0.0)});
+}
+
+// A symmetric matrix, of which the file has the lower triangle, row by row.
+Eigen::MatrixXd ReadCovariance(const YamlSection& section, const core::Rig& rig) {
+  std::size_t size = 0;
+  for (const core::CameraModel& camera : rig.cameras)
+    size += 11 + camera.calibration().distortion_coefficients.size();
+  const std::vector<double> numbers =
+      section.Numbers("covariance", 0, size * (size + 1) / 2,
+                      fmt::format("the lower triangle of a matrix of {0} x {0}", size).c_str());
+  Eigen::MatrixXd covariance(size, size);
+  std::size_t next = 0;
+  for (Eigen::Index row = 0; row < covariance.rows(); ++row) {
+    for (Eigen::Index column = 0; column <= row; ++column)
+      covariance(row, column) = covariance(column, row) = numbers[next++];
+    if (covariance(row, row) < 0.0) section.Fail("covariance has a negative variance");
+  }
+  return covariance;
+}
+
+std::optional<RigCalibration> ReadCalibration(const YamlSection& root, const core::Rig& rig) {
+  const YamlNode* node = root.Find("calibration");
+  if (node == nullptr) return std::nullopt;
+  if (node->kind != YamlKind::kMap) root.Fail("key 'calibration' must be a map");
+  const YamlSection section{node, root.file, "calibration"};
+  section.RefuseMisspelt(kCalibrationKeys);
+  RigCalibration calibration;
+  calibration.made = section.TextOr("made", "");
+  calibration.board = section.TextOr("board", "");
+  calibration.rms_px = section.NumberOr("rms_px", 0.0);
+  if (section.Find("held_out_rms_px") != nullptr)
+    calibration.held_out_rms_px = section.NumberOr("held_out_rms_px", 0.0);
+  calibration.noise_px = section.NumberOr("noise_px", 0.0);
+  if (section.Find("covariance") != nullptr) calibration.covariance = ReadCovariance(section, rig);
+  return calibration;
 }
 
 // Where a view file has its camera's keys.
@@ -183,7 +226,30 @@ RigFile ReadRigFile(const std::filesystem::path& path) {
   } catch (const Error& error) {
     throw Error(error.kind(), file + ": " + error.what());
   }
+  rig_file.calibration = ReadCalibration(root, rig_file.rig);
   return rig_file;
+}
+
+core::CameraCalibration ReadLensFile(const std::filesystem::path& path) {
+  const std::string file = fmt::format("lens file '{}'", path.string());
+  const YamlNode document = ReadYamlFile(path, file, "lens file");
+  const YamlSection section = ViewSection({&document, file});
+  core::CameraCalibration calibration;
+  calibration.name = section.TextOr("name", section.TextOr("camera_name", path.stem().string()));
+  calibration.image_width_px = section.Integer("image_width", kPixels);
+  calibration.image_height_px = section.Integer("image_height", kPixels);
+  calibration.camera_matrix = Matrix3(section, "camera_matrix");
+  // OpenCV's own files name no model: theirs is plumb_bob, or rational_polynomial from six coefficients on.
+  calibration.distortion_coefficients = section.Numbers("distortion_coefficients", 0, 0, "a 1 x N matrix");
+  const bool is_rational = calibration.distortion_coefficients.size() > 5;
+  const std::string model =
+      section.TextOr("distortion_model", is_rational ? "rational_polynomial" : "plumb_bob");
+  calibration.distortion_model = ParseModel(section, model == "equidistant" ? "fisheye" : model);
+  try {
+    return core::CameraModel(std::move(calibration)).calibration();
+  } catch (const Error& error) {
+    throw Error(error.kind(), file + ": " + error.what());
+  }
 }
 
 ViewFile ReadViewFile(const std::filesystem::path& path) {

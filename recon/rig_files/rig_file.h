@@ -1,7 +1,9 @@
 // RIG.yml and VIEW.yml: a rig's calibration and where its cameras' pictures come from.
 #pragma once
 
+#include <Eigen/Core>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,13 +17,29 @@ struct CameraSources {
   std::string frames;
   std::string background;
   std::string masks;
+  std::string timestamps;
+  // A picture with the stamp t shows the scene at t + time_offset_s.
+  double time_offset_s = 0.0;
 
   [[nodiscard]] bool operator==(const CameraSources&) const = default;
 };
 
+// How the rig was calibrated, and how exactly.
+struct RigCalibration {
+  std::string made;   // when, UTC
+  std::string board;  // with what
+  double rms_px = 0.0;
+  std::optional<double> held_out_rms_px;
+  double noise_px = 0.0;  // of one coordinate of a point
+  // Of all cameras' parameters in the order of recon::ParameterBlock: for each camera fx fy cx cy [px], its
+  // distortion coefficients, rotation (3) [rad], translation (3) [mm], time offset [s].
+  Eigen::MatrixXd covariance;
+};
+
 struct RigFile {
   core::Rig rig;
-  std::vector<CameraSources> sources;  // one a camera
+  std::vector<CameraSources> sources = {};  // one a camera
+  std::optional<RigCalibration> calibration = std::nullopt;
 };
 
 // Matrices may be !!opencv-matrix, a flat list, or a list of rows. Throws: Error{kFile} if it can't be read,
@@ -29,6 +47,11 @@ struct RigFile {
 // Error{kCamera} for a camera that can't exist (singular matrix, no rotation, wrong number of coefficients).
 // All name the file, and the camera and the key where there is one.
 [[nodiscard]] RigFile ReadRigFile(const std::filesystem::path& path);
+
+// Reads a camera matrix and a lens: a camera of RIG.yml without its pose, what OpenCV's own calibration
+// writes, or ROS's camera_info (whose "equidistant" is "fisheye" here). The pose is the identity. Throws: as
+// ReadRigFile.
+[[nodiscard]] core::CameraCalibration ReadLensFile(const std::filesystem::path& path);
 
 // What VIEW.yml says.
 struct ViewFile {

@@ -59,6 +59,27 @@ std::string CameraText(const core::CameraCalibration& c) {
          MatrixText("translation_cam_from_world_mm", 3, 1, {c.cam_from_world.translation_mm.data(), 3});
 }
 
+// Nine digits are plenty for a variance, and keep a large rig's file small.
+std::string CalibrationText(const RigCalibration& calibration) {
+  std::string text =
+      fmt::format("calibration:\n   made: {}\n   board: {}\n   rms_px: {}\n", Quoted(calibration.made),
+                  Quoted(calibration.board), Number(calibration.rms_px));
+  if (calibration.held_out_rms_px)
+    text += fmt::format("   held_out_rms_px: {}\n", Number(*calibration.held_out_rms_px));
+  text += fmt::format("   noise_px: {}\n", Number(calibration.noise_px));
+  if (calibration.covariance.size() == 0) return text;
+  text +=
+      "   # The lower triangle, row by row; for each camera fx fy cx cy, the lens, a turn, a shift, the time "
+      "offset.\n";
+  text += "   covariance: [";
+  for (Eigen::Index row = 0; row < calibration.covariance.rows(); ++row) {
+    text += row > 0 ? ",\n      " : " ";
+    for (Eigen::Index column = 0; column <= row; ++column)
+      text += fmt::format("{}{:.9e}", column > 0 ? ", " : "", calibration.covariance(row, column));
+  }
+  return text + " ]\n";
+}
+
 }  // namespace
 
 void WriteRigFile(const RigFile& rig_file, const std::filesystem::path& path) {
@@ -79,7 +100,11 @@ void WriteRigFile(const RigFile& rig_file, const std::filesystem::path& path) {
     add("frames", rig_file.sources[i].frames);
     add("background", rig_file.sources[i].background);
     add("masks", rig_file.sources[i].masks);
+    add("timestamps", rig_file.sources[i].timestamps);
+    if (rig_file.sources[i].time_offset_s != 0.0)
+      text += fmt::format("      time_offset_s: {}\n", Number(rig_file.sources[i].time_offset_s));
   }
+  if (rig_file.calibration) text += CalibrationText(*rig_file.calibration);
   core::WriteWholeFile(path, text);
 }
 

@@ -58,6 +58,14 @@ std::string YamlSection::TextOr(const char* key, const std::string& otherwise) c
   return found->text;
 }
 
+double YamlSection::NumberOr(const char* key, double otherwise) const {
+  const YamlNode* found = Find(key);
+  if (found == nullptr) return otherwise;
+  if (!found->IsNumber())
+    FailAt(found->line, fmt::format("key '{}' must be a number", key), core::ErrorKind::kFormat);
+  return found->number;
+}
+
 int YamlSection::Integer(const char* key, const char* shape) const {
   const YamlNode& found = Get(key, shape);
   if (found.kind != YamlKind::kInteger)

@@ -26,6 +26,7 @@ struct YamlSection {
   // `shape` says what belongs there.
   [[nodiscard]] const YamlNode& Get(const char* key, const char* shape) const;
   [[nodiscard]] std::string TextOr(const char* key, const std::string& otherwise) const;
+  [[nodiscard]] double NumberOr(const char* key, double otherwise) const;
   [[nodiscard]] int Integer(const char* key, const char* shape) const;
 
   // `count` numbers (0: any count) of a list, a list of lists, or an !!opencv-matrix. If rows > 0, a matrix

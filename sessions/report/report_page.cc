@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "sessions/report/html_page.h"
 #include "sessions/report/markup.h"
 
 namespace elbowroom::sessions {
@@ -34,16 +35,11 @@ std::string PageFooter(const ReportData& data) {
 }  // namespace
 
 std::string ReportPage(const ReportData& data, const ReportPictures& pictures) {
-  return fmt::format(
-             "<!DOCTYPE html>\n<html lang='en'><head><meta charset='utf-8'>"
-             "<meta name='viewport' content='width=device-width, "
-             "initial-scale=1'>\n<title>{}</title>\n<style>{}</style>"
-             "</head>\n<body><main>\n",
-             TitleOf(data), ReportStyle()) +
-         PageHeader(data) + SummarySection(data) + TimelineSection(data) + PictureSection(pictures) +
-         SpacingSection(data) + EpisodeSection(data) + NearMissSection(data) + PartSection(data) +
-         HeatSection(data, pictures) + EventSection(data) + ReadingSection(data) + RigSection(data) +
-         PageFooter(data) + "</main></body></html>\n";
+  return HtmlPage(TitleOf(data), PageHeader(data) + SummarySection(data) + TimelineSection(data) +
+                                     PictureSection(pictures) + SpacingSection(data) + EpisodeSection(data) +
+                                     NearMissSection(data) + PartSection(data) + HeatSection(data, pictures) +
+                                     EventSection(data) + ReadingSection(data) + RigSection(data) +
+                                     PageFooter(data));
 }
 
 }  // namespace elbowroom::sessions

@@ -11,9 +11,6 @@ namespace elbowroom::sessions {
 // A complete HTML document that loads nothing.
 [[nodiscard]] std::string ReportPage(const ReportData& data, const ReportPictures& pictures);
 
-// Its style sheet.
-[[nodiscard]] std::string ReportStyle();
-
 // Sections, each a whole <section>, or empty where the session has nothing for it.
 [[nodiscard]] std::string SummarySection(const ReportData& data);
 [[nodiscard]] std::string SpacingSection(const ReportData& data);

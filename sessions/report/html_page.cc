@@ -1,4 +1,6 @@
-#include "sessions/report/report_page.h"
+#include "sessions/report/html_page.h"
+
+#include <fmt/format.h>
 
 namespace elbowroom::sessions {
 
@@ -76,6 +78,13 @@ footer { margin-top: 40px; padding-top: 12px; border-top: 1px solid var(--line);
 
 }  // namespace
 
-std::string ReportStyle() { return kReportStyle; }
+std::string HtmlPage(const std::string& title, const std::string& body) {
+  return fmt::format(
+      "<!DOCTYPE html>\n<html lang='en'><head><meta charset='utf-8'>"
+      "<meta name='viewport' content='width=device-width, "
+      "initial-scale=1'>\n<title>{}</title>\n<style>{}</style>"
+      "</head>\n<body><main>\n{}</main></body></html>\n",
+      title, kReportStyle, body);
+}
 
 }  // namespace elbowroom::sessions

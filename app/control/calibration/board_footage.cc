@@ -1,0 +1,225 @@
+#include "app/control/calibration/board_footage.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_pipeline.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <memory>
+#include <opencv2/core/mat.hpp>
+#include <utility>
+
+#include "core/error.h"
+#include "recon/boards/board_finder.h"
+#include "recon/footage/image_source.h"
+
+namespace elbowroom::control {
+namespace {
+
+using core::Error;
+using core::ErrorKind;
+using core::FrameIndex;
+
+struct OpenedCamera {
+  recon::UncalibratedSource frames;
+  std::optional<recon::UncalibratedSource> photos;
+  FrameStamps stamps;  // empty: none
+};
+
+OpenedCamera Open(const CameraFootage& camera, const std::stop_token& stop) {
+  OpenedCamera opened{recon::OpenUncalibratedSource(camera.frames, camera.name, stop), std::nullopt, {}};
+  if (!camera.intrinsics.empty()) {
+    opened.photos = recon::OpenUncalibratedSource(camera.intrinsics, camera.name, stop);
+    if (opened.photos->size_px != opened.frames.size_px) {
+      throw Error(
+          ErrorKind::kCamera,
+          fmt::format("camera '{}': its intrinsics are pictures of {} x {} px, but its frames are {} x {}; "
+                      "take both at one size",
+                      camera.name, opened.photos->size_px.width, opened.photos->size_px.height,
+                      opened.frames.size_px.width, opened.frames.size_px.height));
+    }
+  }
+  if (!camera.timestamps.empty())
+    opened.stamps = ReadFrameStamps(camera.timestamps, fmt::format("camera '{}'", camera.name));
+  return opened;
+}
+
+// Frame i of each camera, as far as the longest footage goes.
+std::vector<StampedSet> SetsByNumber(const std::vector<OpenedCamera>& cameras) {
+  FrameIndex longest = 0;
+  for (const OpenedCamera& camera : cameras)
+    longest = std::max(longest, camera.frames.pictures->frame_count().value_or(0));
+  const std::optional<double> rate_hz = cameras.front().frames.pictures->frame_rate_hz();
+  std::vector<StampedSet> sets(static_cast<std::size_t>(longest));
+  for (std::size_t i = 0; i < sets.size(); ++i) {
+    const double time_s = rate_hz ? static_cast<double>(i) / *rate_hz : 0.0;
+    for (const OpenedCamera& camera : cameras) {
+      const auto frame = static_cast<FrameIndex>(i);
+      const bool has = frame < camera.frames.pictures->frame_count().value_or(0);
+      sets[i].frames.push_back(has ? std::optional(StampedFrame{frame, time_s}) : std::nullopt);
+    }
+  }
+  return sets;
+}
+
+// Runs of three in a row, evenly spread, unless all can be kept.
+std::vector<StampedSet> Chosen(std::vector<StampedSet> sets) {
+  constexpr std::size_t kRun = 3;
+  if (sets.size() <= kMostBoardSets) return sets;
+  std::vector<StampedSet> chosen;
+  const std::size_t runs = kMostBoardSets / kRun;
+  for (std::size_t i = 0; i < runs; ++i) {
+    const std::size_t first = i * (sets.size() - kRun) / (runs - 1);
+    for (std::size_t k = first; k < first + kRun; ++k) chosen.push_back(std::move(sets[k]));
+  }
+  return chosen;
+}
+
+// Pictures of one source, of which the board is looked for in some.
+class Search {
+ public:
+  Search(recon::ImageSource* pictures, std::vector<FrameIndex> wanted, const recon::BoardFinder& finder,
+         std::stop_token stop)
+      : pictures_(pictures), wanted_(std::move(wanted)), finder_(finder), stop_(std::move(stop)) {}
+
+  // `report(done)` is called in order.
+  template <typename Report>
+  std::vector<BoardPicture> Run(const Report& report) {
+    std::vector<BoardPicture> found;
+    FrameIndex done = 0;
+    const auto tokens = static_cast<std::size_t>(2 * tbb::this_task_arena::max_concurrency());
+    tbb::parallel_pipeline(
+        tokens,
+        tbb::make_filter<void, Picture>(tbb::filter_mode::serial_in_order, [this](
+                                                                               tbb::flow_control& control) {
+          return Next(control);
+        }) & tbb::make_filter<Picture, Looked>(tbb::filter_mode::parallel, [this](const Picture& picture) {
+          return Looked{picture.frame, finder_.Find(picture.image_bgr)};
+        }) & tbb::make_filter<Looked, void>(tbb::filter_mode::serial_in_order, [&](const Looked& looked) {
+          if (looked.sighting) found.push_back({looked.frame, *looked.sighting});
+          report(++done);
+        }));
+    return found;
+  }
+
+ private:
+  struct Picture {
+    FrameIndex frame = 0;
+    cv::Mat image_bgr;
+  };
+  struct Looked {
+    FrameIndex frame = 0;
+    std::optional<recon::BoardSighting> sighting;
+  };
+
+  Picture Next(tbb::flow_control& control) {
+    core::ThrowIfStopped(stop_, "looking for the board");
+    if (next_ < wanted_.size()) {
+      const FrameIndex frame = wanted_[next_++];
+      if (auto picture = pictures_->Read(frame, stop_)) return {frame, std::move(picture->image_bgr)};
+    }
+    control.stop();
+    return {};
+  }
+
+  recon::ImageSource* pictures_;
+  std::vector<FrameIndex> wanted_;
+  std::size_t next_ = 0;
+  const recon::BoardFinder& finder_;
+  std::stop_token stop_;
+};
+
+std::vector<FrameIndex> All(const recon::ImageSource& pictures) {
+  std::vector<FrameIndex> all(static_cast<std::size_t>(pictures.frame_count().value_or(0)));
+  for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<FrameIndex>(i);
+  return all;
+}
+
+std::vector<FrameIndex> Wanted(const std::vector<StampedSet>& sets, std::size_t camera) {
+  std::vector<FrameIndex> wanted;
+  for (const StampedSet& set : sets)
+    if (set.frames[camera]) wanted.push_back(set.frames[camera]->frame);
+  std::ranges::sort(wanted);
+  const auto twice = std::ranges::unique(wanted);
+  wanted.erase(twice.begin(), twice.end());
+  return wanted;
+}
+
+void RequireStampsOfAll(const CalibrationFile& file, const std::vector<OpenedCamera>& cameras) {
+  for (std::size_t i = 0; i < cameras.size(); ++i) {
+    if (cameras[i].stamps.empty()) {
+      throw Error(
+          ErrorKind::kCamera,
+          fmt::format(
+              "camera '{}' has no timestamps, but others have; give stamps for all cameras or for none",
+              file.cameras[i].name));
+    }
+    const FrameIndex frames = cameras[i].frames.pictures->frame_count().value_or(0);
+    const auto stamps = static_cast<FrameIndex>(cameras[i].stamps.size());
+    if (stamps > frames) {
+      throw Error(
+          ErrorKind::kCamera,
+          fmt::format("camera '{}': there are stamps for {} frames, but '{}' has {}; use the stamps of this "
+                      "recording",
+                      file.cameras[i].name, stamps, file.cameras[i].frames, frames));
+    }
+  }
+}
+
+}  // namespace
+
+BoardFootage FindBoards(const CalibrationFile& file, const core::Progress& progress,
+                        const std::stop_token& stop) {
+  std::vector<OpenedCamera> cameras;
+  for (const CameraFootage& camera : file.cameras) cameras.push_back(Open(camera, stop));
+  BoardFootage footage;
+  const bool has_stamps =
+      std::ranges::any_of(cameras, [](const OpenedCamera& camera) { return !camera.stamps.empty(); });
+  if (has_stamps) {
+    RequireStampsOfAll(file, cameras);
+    std::vector<FrameStamps> stamps;
+    for (OpenedCamera& camera : cameras) stamps.push_back(std::move(camera.stamps));
+    footage.sets = Chosen(SetsByNearestStamp(stamps));
+    for (const FrameStamps& of_camera : stamps)
+      footage.period_s = std::max(footage.period_s.value_or(0.0), MedianPeriod(of_camera).value_or(0.0));
+  } else {
+    footage.sets = Chosen(SetsByNumber(cameras));
+    if (const auto rate_hz = cameras.front().frames.pictures->frame_rate_hz(); rate_hz && *rate_hz > 0.0)
+      footage.period_s = 1.0 / *rate_hz;
+  }
+  FrameIndex total = 0, done = 0;
+  std::vector<std::vector<FrameIndex>> wanted;
+  for (std::size_t i = 0; i < cameras.size(); ++i) {
+    wanted.push_back(Wanted(footage.sets, i));
+    total += std::ssize(wanted.back());
+    if (cameras[i].photos) total += cameras[i].photos->pictures->frame_count().value_or(0);
+  }
+  const recon::BoardFinder finder(file.board);
+  for (std::size_t i = 0; i < cameras.size(); ++i) {
+    OpenedCamera& camera = cameras[i];
+    CameraSightings sightings;
+    sightings.name = file.cameras[i].name;
+    sightings.width_px = camera.frames.size_px.width;
+    sightings.height_px = camera.frames.size_px.height;
+    sightings.rate_hz = camera.frames.pictures->frame_rate_hz();
+    const std::string what = fmt::format("looking for the board, {}", sightings.name);
+    const auto search = [&](recon::ImageSource* pictures, std::vector<FrameIndex> frames) {
+      std::vector<BoardPicture> found = Search(pictures, frames, finder, stop).Run([&](FrameIndex looked_at) {
+        progress.Report(done + looked_at, total, what);
+      });
+      done += std::ssize(frames);
+      return found;
+    };
+    sightings.looked_at = std::ssize(wanted[i]);
+    sightings.in_frames = search(camera.frames.pictures.get(), wanted[i]);
+    sightings.frames = camera.frames.pictures->frame_count().value_or(sightings.looked_at);
+    if (camera.photos) {
+      sightings.in_photos = search(camera.photos->pictures.get(), All(*camera.photos->pictures));
+      sightings.photos = camera.photos->pictures->frame_count().value_or(0);
+    }
+    footage.cameras.push_back(std::move(sightings));
+  }
+  return footage;
+}
+
+}  // namespace elbowroom::control

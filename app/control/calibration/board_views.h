@@ -1,0 +1,28 @@
+// From pictures of the board to what a calibration is made from.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "app/control/calibration/board_footage.h"
+#include "app/control/calibration/calibration_file.h"
+#include "recon/calibration/calibration_input.h"
+
+namespace elbowroom::control {
+
+// While the board lies still, its pictures show the same errors again and again: they count as one view, with
+// the mean of its points. It lies still as long as no camera sees its points move, in the mean, by more than
+// this from the first of these pictures.
+inline constexpr double kStillPx = 0.35;
+
+struct BoardViews {
+  recon::CalibrationInput input;
+  int still_sets = 0;  // sets that count as part of an earlier one
+};
+
+// `known`: by camera, the lens to keep. Throws: Error{kCamera}: no camera found the board at all, naming what
+// was looked for and in how many pictures; a camera that never found it; no camera found it in board_frame.
+[[nodiscard]] BoardViews ViewsOf(const CalibrationFile& file, const BoardFootage& footage,
+                                 std::vector<std::optional<core::CameraCalibration>> known);
+
+}  // namespace elbowroom::control

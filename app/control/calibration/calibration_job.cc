@@ -1,0 +1,149 @@
+#include "app/control/calibration/calibration_job.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+#include "app/control/calibration/board_views.h"
+#include "app/control/calibration/calibration_advice.h"
+#include "core/error.h"
+#include "core/system/utc_time.h"
+#include "recon/calibration/calibrate.h"
+
+namespace elbowroom::control {
+namespace {
+
+using core::Error;
+using core::ErrorKind;
+
+std::vector<std::optional<core::CameraCalibration>> ReadKnownLenses(const CalibrationFile& file,
+                                                                    const BoardFootage& footage) {
+  std::vector<std::optional<core::CameraCalibration>> known(file.cameras.size());
+  for (std::size_t i = 0; i < known.size(); ++i) {
+    if (file.cameras[i].known.empty()) continue;
+    known[i] = recon::ReadLensFile(file.cameras[i].known);
+    const CameraSightings& seen = footage.cameras[i];
+    if (known[i]->image_width_px != seen.width_px || known[i]->image_height_px != seen.height_px) {
+      throw Error(
+          ErrorKind::kCamera,
+          fmt::format(
+              "camera '{}': the lens of '{}' is for {} x {} px, but the frames are {} x {}; give the lens of "
+              "this size",
+              seen.name, file.cameras[i].known.string(), known[i]->image_width_px, known[i]->image_height_px,
+              seen.width_px, seen.height_px));
+    }
+  }
+  return known;
+}
+
+int NumberOf(const CalibrationFile& file, const std::string& name) {
+  const auto found = std::ranges::find(file.cameras, name, &CameraFootage::name);
+  return static_cast<int>(found - file.cameras.begin());
+}
+
+recon::KnownLength Resolved(const CalibrationFile& file, const KnownLength& known) {
+  recon::KnownLength resolved{known.title, known.length_mm, known.tolerance_mm, std::nullopt, {}, {}};
+  if (!known.cameras.empty())
+    resolved.cameras = {NumberOf(file, known.cameras[0]), NumberOf(file, known.cameras[1])};
+  for (const KnownLength::Pixel& pixel : known.pixels) {
+    const int camera = NumberOf(file, pixel.camera);
+    resolved.first.push_back({camera, pixel.from_px});
+    resolved.second.push_back({camera, pixel.to_px});
+  }
+  return resolved;
+}
+
+void CheckLengths(const CalibrationFile& file, CalibrationOutcome* outcome) {
+  for (const KnownLength& known : file.lengths) {
+    outcome->lengths.push_back(recon::CheckLength(outcome->result, Resolved(file, known)));
+    if (outcome->lengths.back().verdict != recon::LengthVerdict::kAgrees)
+      outcome->warnings.push_back(outcome->lengths.back().message);
+  }
+  outcome->scale_checked =
+      !outcome->lengths.empty() && std::ranges::all_of(outcome->lengths, [](const recon::LengthCheck& check) {
+        return check.verdict == recon::LengthVerdict::kAgrees;
+      });
+  if (file.lengths.empty()) {
+    outcome->advice.push_back(
+        fmt::format("the scale is as right as square_mm, {} mm: measure the distance of two cameras, or of "
+                    "two points that "
+                    "two cameras see, and write it as [[known_length]]",
+                    file.board.square_mm));
+  }
+}
+
+void SummariseMap(CalibrationOutcome* outcome) {
+  std::vector<double> sigmas_mm;
+  for (const recon::UncertaintyMap::Node& node : outcome->map.values)
+    if (node.is_known) sigmas_mm.push_back(node.sigma_mm);
+  if (sigmas_mm.empty()) {
+    outcome->warnings.emplace_back(
+        "no part of the workspace is seen by two cameras; check workspace_mm in [world]");
+    return;
+  }
+  outcome->seen_share =
+      static_cast<double>(sigmas_mm.size()) / static_cast<double>(outcome->map.values.size());
+  std::ranges::sort(sigmas_mm);
+  const auto at = [&](double share) {
+    return sigmas_mm[static_cast<std::size_t>(share * static_cast<double>(sigmas_mm.size() - 1))];
+  };
+  outcome->uncertainty_mm = Spread{at(0.5), at(0.95), sigmas_mm.back()};
+}
+
+// The map's spacing; wider for a workspace in which there would be too many nodes.
+double MapEdge(const Eigen::AlignedBox3d& workspace_mm) {
+  constexpr double kMostNodes = 1e6;
+  double edge_mm = kMapEdgeMm;
+  while ((workspace_mm.sizes() / edge_mm).array().floor().prod() > kMostNodes) edge_mm *= 1.5;
+  return edge_mm;
+}
+
+recon::RigFile RigFileOf(const CalibrationFile& file, const std::string& rig_name,
+                         const CalibrationOutcome& outcome) {
+  recon::RigFile rig_file;
+  rig_file.rig.name = rig_name;
+  rig_file.rig.workspace_mm = file.workspace_mm;
+  for (const recon::CalibratedCamera& camera : outcome.result.cameras) {
+    rig_file.rig.cameras.emplace_back(camera.calibration);
+    rig_file.sources.emplace_back();
+    rig_file.sources.back().time_offset_s = camera.time_offset_s;
+  }
+  rig_file.calibration =
+      recon::RigCalibration{core::NowUtc(),
+                            fmt::format("{} {} x {}, {} mm", recon::ToString(file.board.kind),
+                                        file.board.columns, file.board.rows, file.board.square_mm),
+                            outcome.result.rms_px,
+                            outcome.result.held_out_rms_px,
+                            outcome.result.noise_px,
+                            outcome.result.covariance};
+  return rig_file;
+}
+
+}  // namespace
+
+CalibrationOutcome CalibrateRig(const CalibrationFile& file, const std::string& rig_name,
+                                const core::Progress& progress, const std::stop_token& stop) {
+  CalibrationOutcome outcome;
+  outcome.footage = FindBoards(file, progress, stop);
+  BoardViews views = ViewsOf(file, outcome.footage, ReadKnownLenses(file, outcome.footage));
+  outcome.input = std::move(views.input);
+  const auto start = std::chrono::steady_clock::now();
+  outcome.result = recon::Calibrate(outcome.input, progress, stop);
+  outcome.warnings = outcome.footage.warnings;
+  outcome.warnings.insert(outcome.warnings.end(), outcome.result.warnings.begin(),
+                          outcome.result.warnings.end());
+  outcome.advice = AdviceFor(outcome.input, outcome.result);
+  CheckLengths(file, &outcome);
+  const recon::RigUncertainty uncertainty(outcome.result, outcome.result.noise_px);
+  outcome.map =
+      recon::MapUncertainty(uncertainty, file.workspace_mm, MapEdge(file.workspace_mm), progress, stop);
+  SummariseMap(&outcome);
+  outcome.time_ms =
+      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  outcome.rig_file = RigFileOf(file, rig_name, outcome);
+  return outcome;
+}
+
+}  // namespace elbowroom::control

@@ -1,0 +1,196 @@
+// A rig calibrated as a user does it, from pictures of a board whose poses are known.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
+
+#include "recon/boards/board_drawing.h"
+#include "recon/rig_files/rig_file.h"
+#include "tests/recon/boards/board_picture.h"
+#include "tests/support/run_program.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/text_file.h"
+
+namespace elbowroom {
+namespace {
+
+using Eigen::Vector3d;
+using test_support::ProgramRun;
+using test_support::WriteText;
+
+constexpr int kCameras = 3;
+constexpr int kSets = 14;
+
+recon::Board MakeCharuco() {
+  recon::Board board;
+  board.kind = recon::BoardKind::kCharuco;
+  board.columns = 7, board.rows = 5;
+  board.square_mm = 30.0, board.marker_mm = 22.0;
+  board.dictionary = "DICT_5X5_50";
+  return board;
+}
+
+// Three cameras around a table, 700 mm away; in the world the board lies on the table in set 0.
+std::vector<core::CameraCalibration> TrueCameras() {
+  std::vector<core::CameraCalibration> cameras;
+  for (int i = 0; i < kCameras; ++i) {
+    core::CameraCalibration camera;
+    camera.name = fmt::format("cam{}", i + 1);
+    camera.image_width_px = 480, camera.image_height_px = 360;
+    camera.camera_matrix << 520.0 + 10.0 * i, 0.0, 242.0, 0.0, 521.0 + 9.0 * i, 178.0, 0.0, 0.0, 1.0;
+    camera.distortion_coefficients = {-0.2 + 0.05 * i, 0.06, 0.0005, -0.0003, 0.0};
+    const double angle = -1.9 + 0.7 * i;
+    camera.cam_from_world = core::CamFromWorldLookingAt(
+        {105.0 + 520.0 * std::cos(angle), -75.0 + 520.0 * std::sin(angle), 470.0 + 20.0 * i},
+        {105.0, -75.0, 40.0});
+    cameras.push_back(camera);
+  }
+  return cameras;
+}
+
+// Flat on the table first, then held above it, tilted this way and that.
+core::RigidTransform WorldFromBoard(int set) {
+  if (set == 0) return {};
+  const Vector3d tilt_deg(24.0 * std::sin(2.1 * set), 24.0 * std::cos(1.7 * set), 40.0 * std::sin(0.9 * set));
+  core::RigidTransform turned = core::FromPositionAndRollPitchYaw(Vector3d::Zero(), tilt_deg);
+  const Vector3d middle_in_board(105.0, -75.0, 0.0);
+  const Vector3d middle_in_world(105.0 + 70.0 * std::sin(1.3 * set), -75.0 + 60.0 * std::cos(2.3 * set),
+                                 60.0 + 50.0 * std::sin(0.7 * set));
+  turned.translation_mm = middle_in_world - turned.rotation * middle_in_board;
+  return turned;
+}
+
+// Draws all pictures once for all tests of the file.
+const test_support::TemporaryFolder& Footage() {
+  static const test_support::TemporaryFolder folder;
+  static const bool is_drawn = [] {
+    const recon::BoardDrawing drawing = recon::DrawBoard(MakeCharuco());
+    for (const core::CameraCalibration& camera : TrueCameras()) {
+      std::filesystem::create_directories(folder / camera.name);
+      for (int set = 0; set < kSets; ++set) {
+        core::CameraCalibration to_board = camera;
+        to_board.cam_from_world = camera.cam_from_world * WorldFromBoard(set);
+        recon::testing::PictureOptions options;
+        options.seed = static_cast<unsigned>(100 * set + 1);
+        const cv::Mat picture = recon::testing::PictureOf(drawing, core::CameraModel(to_board), options);
+        cv::imwrite((folder / camera.name / fmt::format("{:02}.png", set)).string(), picture);
+      }
+    }
+    return true;
+  }();
+  EXPECT_TRUE(is_drawn);
+  return folder;
+}
+
+constexpr const char* kBoardText = R"([board]
+type = "charuco"
+columns = 7
+rows = 5
+square_mm = {}
+marker_mm = {}
+dictionary = "{}"
+)";
+constexpr const char* kWorldText = R"([world]
+board_frame = 0
+workspace_mm = [-50, -200, 0, 250, 50, 200]
+)";
+
+std::string CamerasText() {
+  std::string text;
+  for (int i = 1; i <= kCameras; ++i)
+    text += fmt::format(
+        "[[camera]]\nname = \"cam{0}\"\nframes = \"cam{0}/*.png\"\ndistortion_model = \"plumb_bob\"\n", i);
+  return text;
+}
+
+std::string CalibrationText(double square_mm = 30.0, const std::string& dictionary = "DICT_5X5_50") {
+  return fmt::format(kBoardText, square_mm, square_mm * 22.0 / 30.0, dictionary) + CamerasText() + kWorldText;
+}
+
+ProgramRun Calibrate(const std::string& text, const std::vector<std::string>& more = {}) {
+  const test_support::TemporaryFolder& folder = Footage();
+  WriteText(folder / "CALIB.toml", text);
+  std::filesystem::remove(folder / "rig.yml");
+  std::vector<std::string> arguments{"calibrate", (folder / "CALIB.toml").string(), "--out",
+                                     (folder / "rig.yml").string()};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return test_support::RunProgram(ELBOWROOM_PROGRAM, arguments);
+}
+
+bool HasRig() { return std::filesystem::exists(Footage() / "rig.yml"); }
+
+TEST(CalibrateCommand, FindsTheRigWithinItsStatedError) {
+  const ProgramRun run = Calibrate(CalibrationText(), {"--json"});
+  ASSERT_EQ(run.exit_status, 0) << run.err;
+  const auto json = nlohmann::json::parse(run.out);
+  ASSERT_EQ(json["cameras"].size(), static_cast<std::size_t>(kCameras));
+  const recon::RigFile file = recon::ReadRigFile(Footage() / "rig.yml");
+  const std::vector<core::CameraCalibration> truth = TrueCameras();
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    const Vector3d true_center = truth[i].cam_from_world.Inverse().translation_mm;
+    const double error_mm = (file.rig.cameras[i].center_in_world() - true_center).norm();
+    const double sigma_mm = json["cameras"][i]["center_sigma_mm"];
+    EXPECT_LE(error_mm, 3.0 * sigma_mm) << truth[i].name;
+    EXPECT_LE(sigma_mm, 3.0) << truth[i].name;
+    EXPECT_EQ(json["cameras"][i]["rejected_views"], 0);
+  }
+  EXPECT_LE(json["rms_px"].get<double>(), 0.2);
+  EXPECT_LE(json["held_out_rms_px"].get<double>(), 0.3);
+  EXPECT_LE(json["uncertainty_mm"]["median"].get<double>(), 1.0);
+  EXPECT_FALSE(json["scale_checked"].get<bool>());
+  EXPECT_FALSE(json["advice"].empty());
+  ASSERT_TRUE(file.calibration.has_value());
+  EXPECT_EQ(file.calibration->rms_px, json["rms_px"].get<double>());
+  EXPECT_EQ(file.calibration->covariance.rows(), kCameras * 16);
+}
+
+TEST(CalibrateCommand, AKnownLengthTellsAWrongBoard) {
+  const std::vector<core::CameraCalibration> truth = TrueCameras();
+  const double length_mm =
+      (truth[0].cam_from_world.Inverse().translation_mm - truth[2].cam_from_world.Inverse().translation_mm)
+          .norm();
+  const std::string known = fmt::format(
+      "[[known_length]]\nlength_mm = {:.1f}\ntolerance_mm = 2\ncameras = [\"cam1\", \"cam3\"]\n", length_mm);
+  const ProgramRun right = Calibrate(CalibrationText() + known, {"--json"});
+  ASSERT_EQ(right.exit_status, 0) << right.err;
+  EXPECT_TRUE(nlohmann::json::parse(right.out)["scale_checked"].get<bool>());
+  // Squares that are 4 % larger than stated: the same error of reprojection, but another length.
+  const ProgramRun wrong = Calibrate(CalibrationText(30.0 / 1.04) + known, {"--json"});
+  ASSERT_EQ(wrong.exit_status, 0) << wrong.err;
+  const auto json = nlohmann::json::parse(wrong.out), right_json = nlohmann::json::parse(right.out);
+  EXPECT_FALSE(json["scale_checked"].get<bool>());
+  EXPECT_FALSE(json["warnings"].empty());
+  EXPECT_NEAR(json["rms_px"].get<double>(), right_json["rms_px"].get<double>(), 1e-3);
+}
+
+TEST(CalibrateCommand, BadInputIsOneLineAndLeavesNoRig) {
+  const auto expect = [](const std::string& text, std::string_view part) {
+    const ProgramRun run = Calibrate(text);
+    EXPECT_EQ(run.exit_status, 1) << part;
+    EXPECT_NE(run.err.find(part), std::string::npos) << run.err;
+    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+    EXPECT_FALSE(HasRig()) << part;
+  };
+  expect(CalibrationText(30.0, "DICT_ARUCO_ORIGINAL"), "no camera shows the board");
+  expect(CalibrationText(30.0, "DICT_9X9"), "DICT_9X9");
+  expect(fmt::format(kBoardText, 30.0, 22.0, "DICT_5X5_50") +
+             "[[camera]]\nname = \"cam1\"\nframes = \"cam1/*.jpg\"\n" + kWorldText,
+         "no image fits");
+}
+
+TEST(CalibrateCommand, FewViewsAreRefusedWithTheCamerasName) {
+  const std::string text = fmt::format(kBoardText, 30.0, 22.0, "DICT_5X5_50") +
+                           "[[camera]]\nname = \"cam1\"\nframes = \"cam1/00.png\"\n"
+                           "[[camera]]\nname = \"cam2\"\nframes = \"cam2/00.png\"\n" +
+                           kWorldText;
+  const ProgramRun run = Calibrate(text);
+  EXPECT_EQ(run.exit_status, 1);
+  EXPECT_NE(run.err.find("cam1"), std::string::npos) << run.err;
+  EXPECT_FALSE(HasRig());
+}
+
+}  // namespace
+}  // namespace elbowroom
