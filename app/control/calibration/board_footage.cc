@@ -166,6 +166,51 @@ void RequireStampsOfAll(const CalibrationFile& file, const std::vector<OpenedCam
   }
 }
 
+// Which frames belong together, and how far apart they are in time.
+void FormSets(const CalibrationFile& file, std::vector<OpenedCamera>* cameras, BoardFootage* footage) {
+  const bool has_stamps =
+      std::ranges::any_of(*cameras, [](const OpenedCamera& camera) { return !camera.stamps.empty(); });
+  if (!has_stamps) {
+    footage->sets = Chosen(SetsByNumber(*cameras));
+    const auto rate_hz = cameras->front().frames.pictures->frame_rate_hz();
+    if (rate_hz && *rate_hz > 0.0) footage->period_s = 1.0 / *rate_hz;
+    return;
+  }
+  RequireStampsOfAll(file, *cameras);
+  std::vector<FrameStamps> stamps;
+  for (OpenedCamera& camera : *cameras) stamps.push_back(std::move(camera.stamps));
+  footage->sets = Chosen(SetsByNearestStamp(stamps));
+  for (const FrameStamps& of_camera : stamps)
+    footage->period_s = std::max(footage->period_s.value_or(0.0), MedianPeriod(of_camera).value_or(0.0));
+}
+
+// Looks for the board in the pictures of all cameras, and counts them for the progress.
+class BoardSearch {
+ public:
+  BoardSearch(const recon::Board& board, const core::Progress& progress, std::stop_token stop)
+      : finder_(board), progress_(progress), stop_(std::move(stop)) {}
+
+  void Expect(FrameIndex pictures) { total_ += pictures; }
+
+  std::vector<BoardPicture> Run(recon::ImageSource* pictures, std::vector<FrameIndex> frames,
+                                const std::string& camera) {
+    const FrameIndex count = std::ssize(frames);
+    std::vector<BoardPicture> found =
+        Search(pictures, std::move(frames), finder_, stop_).Run([&](FrameIndex looked_at) {
+          progress_.Report(done_ + looked_at, total_, "looking for the board, " + camera);
+        });
+    done_ += count;
+    return found;
+  }
+
+ private:
+  recon::BoardFinder finder_;
+  const core::Progress& progress_;
+  std::stop_token stop_;
+  FrameIndex done_ = 0;
+  FrameIndex total_ = 0;
+};
+
 }  // namespace
 
 BoardFootage FindBoards(const CalibrationFile& file, const core::Progress& progress,
@@ -173,53 +218,48 @@ BoardFootage FindBoards(const CalibrationFile& file, const core::Progress& progr
   std::vector<OpenedCamera> cameras;
   for (const CameraFootage& camera : file.cameras) cameras.push_back(Open(camera, stop));
   BoardFootage footage;
-  const bool has_stamps =
-      std::ranges::any_of(cameras, [](const OpenedCamera& camera) { return !camera.stamps.empty(); });
-  if (has_stamps) {
-    RequireStampsOfAll(file, cameras);
-    std::vector<FrameStamps> stamps;
-    for (OpenedCamera& camera : cameras) stamps.push_back(std::move(camera.stamps));
-    footage.sets = Chosen(SetsByNearestStamp(stamps));
-    for (const FrameStamps& of_camera : stamps)
-      footage.period_s = std::max(footage.period_s.value_or(0.0), MedianPeriod(of_camera).value_or(0.0));
-  } else {
-    footage.sets = Chosen(SetsByNumber(cameras));
-    if (const auto rate_hz = cameras.front().frames.pictures->frame_rate_hz(); rate_hz && *rate_hz > 0.0)
-      footage.period_s = 1.0 / *rate_hz;
-  }
-  FrameIndex total = 0, done = 0;
+  FormSets(file, &cameras, &footage);
+  BoardSearch search(file.board, progress, stop);
   std::vector<std::vector<FrameIndex>> wanted;
   for (std::size_t i = 0; i < cameras.size(); ++i) {
     wanted.push_back(Wanted(footage.sets, i));
-    total += std::ssize(wanted.back());
-    if (cameras[i].photos) total += cameras[i].photos->pictures->frame_count().value_or(0);
+    search.Expect(std::ssize(wanted.back()));
+    if (cameras[i].photos) search.Expect(cameras[i].photos->pictures->frame_count().value_or(0));
   }
-  const recon::BoardFinder finder(file.board);
   for (std::size_t i = 0; i < cameras.size(); ++i) {
     OpenedCamera& camera = cameras[i];
     CameraSightings sightings;
     sightings.name = file.cameras[i].name;
     sightings.width_px = camera.frames.size_px.width;
     sightings.height_px = camera.frames.size_px.height;
-    sightings.rate_hz = camera.frames.pictures->frame_rate_hz();
-    const std::string what = fmt::format("looking for the board, {}", sightings.name);
-    const auto search = [&](recon::ImageSource* pictures, std::vector<FrameIndex> frames) {
-      std::vector<BoardPicture> found = Search(pictures, frames, finder, stop).Run([&](FrameIndex looked_at) {
-        progress.Report(done + looked_at, total, what);
-      });
-      done += std::ssize(frames);
-      return found;
-    };
     sightings.looked_at = std::ssize(wanted[i]);
-    sightings.in_frames = search(camera.frames.pictures.get(), wanted[i]);
-    sightings.frames = camera.frames.pictures->frame_count().value_or(sightings.looked_at);
+    sightings.in_frames = search.Run(camera.frames.pictures.get(), std::move(wanted[i]), sightings.name);
     if (camera.photos) {
-      sightings.in_photos = search(camera.photos->pictures.get(), All(*camera.photos->pictures));
-      sightings.photos = camera.photos->pictures->frame_count().value_or(0);
+      recon::ImageSource& photos = *camera.photos->pictures;
+      sightings.photos = photos.frame_count().value_or(0);
+      sightings.in_photos = search.Run(&photos, All(photos), sightings.name);
     }
     footage.cameras.push_back(std::move(sightings));
   }
   return footage;
+}
+
+std::vector<StampedSet> SetsAfterOffsets(const BoardFootage& footage, const std::vector<double>& offsets_s) {
+  std::vector<FrameStamps> stamps(footage.cameras.size()), scene_times(footage.cameras.size());
+  for (const StampedSet& set : footage.sets) {
+    for (std::size_t i = 0; i < set.frames.size(); ++i) {
+      if (!set.frames[i]) continue;
+      const auto frame = static_cast<std::size_t>(set.frames[i]->frame);
+      if (frame >= stamps[i].size()) stamps[i].resize(frame + 1), scene_times[i].resize(frame + 1);
+      stamps[i][frame] = set.frames[i]->time_s;
+      scene_times[i][frame] = set.frames[i]->time_s + offsets_s[i];
+    }
+  }
+  std::vector<StampedSet> sets = SetsByNearestStamp(scene_times);
+  for (StampedSet& set : sets)
+    for (std::size_t i = 0; i < set.frames.size(); ++i)
+      if (auto& frame = set.frames[i]) frame->time_s = *stamps[i][static_cast<std::size_t>(frame->frame)];
+  return sets;
 }
 
 }  // namespace elbowroom::control

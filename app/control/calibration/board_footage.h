@@ -23,9 +23,7 @@ struct CameraSightings {
   std::string name;
   int width_px = 0;
   int height_px = 0;
-  std::optional<double> rate_hz;        // of a video
-  core::FrameIndex frames = 0;          // that the footage has
-  core::FrameIndex looked_at = 0;       // of them
+  core::FrameIndex looked_at = 0;       // frames
   std::vector<BoardPicture> in_frames;  // in order
   core::FrameIndex photos = 0;          // pictures for the lens alone
   std::vector<BoardPicture> in_photos;
@@ -49,5 +47,10 @@ inline constexpr std::size_t kMostBoardSets = 480;
 // footage don't fit, or some cameras have stamps and others not; Error{kCancelled} on a stop.
 [[nodiscard]] BoardFootage FindBoards(const CalibrationFile& file, const core::Progress& progress,
                                       const std::stop_token& stop);
+
+// The sets again, after cameras turned out to be late: a picture with the stamp t shows the scene at
+// t + offsets_s[camera]. Only frames that were looked at take part; their stamps stay as they were.
+[[nodiscard]] std::vector<StampedSet> SetsAfterOffsets(const BoardFootage& footage,
+                                                       const std::vector<double>& offsets_s);
 
 }  // namespace elbowroom::control

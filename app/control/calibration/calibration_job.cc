@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <utility>
 
 #include "app/control/calibration/board_views.h"
@@ -121,16 +122,38 @@ recon::RigFile RigFileOf(const CalibrationFile& file, const std::string& rig_nam
   return rig_file;
 }
 
+// Sets were formed by stamps. Where a camera turns out to be late by a good part of a period, its frames
+// belong to other sets.
+bool HasLateCamera(const CalibrationOutcome& outcome) {
+  constexpr double kMostShare = 0.3;
+  return outcome.footage.period_s &&
+         std::ranges::any_of(outcome.result.cameras, [&](const recon::CalibratedCamera& camera) {
+           return camera.time_offset_sigma_s &&
+                  std::abs(camera.time_offset_s) > kMostShare * *outcome.footage.period_s;
+         });
+}
+
+std::vector<double> OffsetsOf(const recon::CalibrationResult& result) {
+  std::vector<double> offsets_s;
+  for (const recon::CalibratedCamera& camera : result.cameras) offsets_s.push_back(camera.time_offset_s);
+  return offsets_s;
+}
+
 }  // namespace
 
 CalibrationOutcome CalibrateRig(const CalibrationFile& file, const std::string& rig_name,
                                 const core::Progress& progress, const std::stop_token& stop) {
   CalibrationOutcome outcome;
   outcome.footage = FindBoards(file, progress, stop);
-  BoardViews views = ViewsOf(file, outcome.footage, ReadKnownLenses(file, outcome.footage));
-  outcome.input = std::move(views.input);
+  const auto known = ReadKnownLenses(file, outcome.footage);
   const auto start = std::chrono::steady_clock::now();
+  outcome.input = ViewsOf(file, outcome.footage, known).input;
   outcome.result = recon::Calibrate(outcome.input, progress, stop);
+  if (HasLateCamera(outcome)) {
+    outcome.footage.sets = SetsAfterOffsets(outcome.footage, OffsetsOf(outcome.result));
+    outcome.input = ViewsOf(file, outcome.footage, known).input;
+    outcome.result = recon::Calibrate(outcome.input, progress, stop);
+  }
   outcome.warnings = outcome.footage.warnings;
   outcome.warnings.insert(outcome.warnings.end(), outcome.result.warnings.begin(),
                           outcome.result.warnings.end());
