@@ -48,7 +48,9 @@ double CostOfView(const Adjustment& a, const AdjustedView& view, const BundleOpt
 }
 
 double PriorWeight(double sigma, const BundleOptions& options) {
-  return options.noise_scale * options.noise_scale / (sigma * sigma);
+  constexpr double kLeastNoise =
+      1e-3;  // points without noise would make it nothing, and the equations singular
+  return std::pow(std::max(options.noise_scale, kLeastNoise) / sigma, 2);
 }
 
 // One view's equations: its camera's block, the flatness, and its boards, in this order.

@@ -194,21 +194,35 @@ std::vector<double> HeldOutErrors(const Adjustment& all, int folds, const std::s
   return errors;
 }
 
-// Whether a model's errors on views left out are no worse than the least ones: by 2 % at most, and by two
-// standard errors of the difference of views at most. The latter matters where there are many views: an error
-// of the model of a fifth of the noise is 2 %, and can be many standard deviations of the parameters.
-bool IsAsGood(const std::vector<double>& errors, const std::vector<double>& least) {
-  constexpr double kWithin = 1.02, kStandardErrors = 2.0;
-  double sum = 0.0, least_sum = 0.0, squares = 0.0;
+// How much larger the errors of one model on views left out are than those of another.
+struct ModelExcess {
+  double share = 0.0;            // of the RMS
+  double standard_errors = 0.0;  // of the difference between the models, view by view
+};
+
+ModelExcess ExcessOf(const std::vector<double>& errors, const std::vector<double>& others) {
+  double sum = 0.0, other_sum = 0.0, squares = 0.0;
   const auto count = static_cast<double>(errors.size());
   for (std::size_t i = 0; i < errors.size(); ++i) {
     sum += errors[i];
-    least_sum += least[i];
+    other_sum += others[i];
   }
-  const double mean = (sum - least_sum) / count;
-  for (std::size_t i = 0; i < errors.size(); ++i) squares += std::pow(errors[i] - least[i] - mean, 2);
+  const double mean = (sum - other_sum) / count;
+  for (std::size_t i = 0; i < errors.size(); ++i) squares += std::pow(errors[i] - others[i] - mean, 2);
   const double standard_error = std::sqrt(squares / (count * std::max(1.0, count - 1.0)));
-  return std::sqrt(sum) <= kWithin * std::sqrt(least_sum) && mean <= kStandardErrors * standard_error;
+  return {std::sqrt(sum / std::max(other_sum, 1e-300)) - 1.0, mean / std::max(standard_error, 1e-300)};
+}
+
+// Whether a simpler model must give way to another. By 2 % always. By less, if the difference is beyond two
+// standard errors: an error of the model of a fifth of the noise is 2 %, and can be many standard deviations
+// of the parameters. The fisheye model has no tangential terms: where a polynomial does nearly as well, a
+// fisheye would put them into the principal point, so it needs half a percent at least.
+bool MustGiveWay(const std::vector<double>& errors, const Candidate& other) {
+  constexpr double kShare = 0.02, kLeastShare = 0.005, kStandardErrors = 2.0;
+  const ModelExcess excess = ExcessOf(errors, other.held_out);
+  if (excess.share > kShare) return true;
+  const double least_share = other.model == DistortionModel::kFisheye ? kLeastShare : 0.0;
+  return excess.share > least_share && excess.standard_errors > kStandardErrors;
 }
 
 // All candidates are judged by the views and points that agree with the one of least noise.
@@ -229,15 +243,10 @@ const Candidate& ChooseModel(std::vector<Candidate>* candidates, const std::stop
     candidate.fit = AdjustBundle(std::move(candidate.fit), options, stop);
     candidate.held_out = HeldOutErrors(candidate.fit, folds, stop);
   }
-  const auto sum = [](const Candidate& c) {
-    double total = 0.0;
-    for (const double e : c.held_out) total += e;
-    return total;
-  };
-  const Candidate& least = *std::ranges::min_element(*candidates, {}, sum);
+  const Candidate* chosen = &candidates->front();
   for (const Candidate& candidate : *candidates)
-    if (IsAsGood(candidate.held_out, least.held_out)) return candidate;
-  return least;
+    if (MustGiveWay(chosen->held_out, candidate)) chosen = &candidate;
+  return *chosen;
 }
 
 [[noreturn]] void FailForViews(const CalibrationCamera& camera, int usable) {
@@ -285,8 +294,8 @@ LensFit FitLens(const CalibrationCamera& camera, const BoardSurface& surface,
   if (usable.size() < kLeastLensViews) FailForViews(camera, static_cast<int>(usable.size()));
   usable = Spread(usable, kMostLensViews);
 
-  std::vector<DistortionModel> models = {DistortionModel::kPlumbBob, DistortionModel::kFisheye,
-                                         DistortionModel::kRationalPolynomial};
+  std::vector<DistortionModel> models = {DistortionModel::kPlumbBob, DistortionModel::kRationalPolynomial,
+                                         DistortionModel::kFisheye};
   if (camera.distortion_model) models = {*camera.distortion_model};
   std::vector<Candidate> candidates;
   int most_views = 0;

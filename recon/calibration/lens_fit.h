@@ -26,7 +26,7 @@ inline constexpr int kLeastLensViews = 3;
 
 // Focal length from a row of candidates, then a fit with the views' poses; views and points that don't agree
 // are left out. Where the model isn't given, it is the simplest whose error on views left out is at most 2 %
-// above the least, and not above it by more than two standard errors.
+// above that of the others, and not above it by more than two standard errors.
 // Throws: Error{kCamera} naming the camera if fewer than three views agree; Error{kCancelled}.
 [[nodiscard]] LensFit FitLens(const CalibrationCamera& camera, const BoardSurface& surface,
                               std::span<const CalibrationView* const> views, const std::stop_token& stop);

@@ -49,6 +49,36 @@ double KeptError(const std::vector<double>& sigmas, const AdjustedView& view) {
   return RootMeanSquare(kept);
 }
 
+// How far a view is off, measured by its camera's other views.
+struct ViewMisfit {
+  int points = 0;
+  double rms = 0.0;     // of the used points, over their standard deviations
+  double excess = 0.0;  // standard deviations above the camera's median
+  bool is_too_large = false;
+};
+
+void MeasureAgainstCamera(int camera, const Adjustment& a, std::vector<ViewMisfit>* misfits) {
+  std::vector<double> errors;
+  std::vector<std::size_t> views;
+  for (std::size_t i = 0; i < a.views.size(); ++i) {
+    if (!a.views[i].is_used || a.views[i].camera != camera) continue;
+    views.push_back(i);
+    errors.push_back((*misfits)[i].rms);
+  }
+  const double median = std::max(MedianOf(errors), 1e-9);
+  std::vector<double> sizes;
+  for (const std::size_t i : views) {
+    ViewMisfit& misfit = (*misfits)[i];
+    misfit.excess = (misfit.rms / median - 1.0) * std::sqrt(4.0 * misfit.points);
+    sizes.push_back(std::abs(misfit.excess));
+  }
+  constexpr double kSigmaOfMedian = 1.4826;  // of a normal distribution, over its median deviation
+  const double spread = std::max(1.0, kSigmaOfMedian * MedianOf(sizes));
+  for (const std::size_t i : views)
+    (*misfits)[i].is_too_large =
+        (*misfits)[i].excess > kViewSigmas * spread || (*misfits)[i].rms > kViewMedians * median;
+}
+
 }  // namespace
 
 std::vector<double> ViewMedians(const Adjustment& a) {
@@ -59,25 +89,34 @@ std::vector<double> ViewMedians(const Adjustment& a) {
 
 bool LeaveOutliers(double noise_scale, Adjustment* a) {
   bool has_changed = false;
-  std::vector<std::vector<double>> kept_errors(a->cameras.size());
-  std::vector<double> errors(a->views.size(), 0.0);
+  std::vector<ViewMisfit> misfits(a->views.size());
   for (std::size_t i = 0; i < a->views.size(); ++i) {
     AdjustedView& view = a->views[i];
     if (!view.is_used) continue;
     const std::vector<double> sigmas = SigmasOf(*a, view);
     has_changed |= LeavePoints(sigmas, kPointSigmas * noise_scale, &view);
-    errors[i] = KeptError(sigmas, view);
-    kept_errors[static_cast<std::size_t>(view.camera)].push_back(errors[i]);
+    misfits[i].points = static_cast<int>(std::ranges::count_if(view.points, &AdjustedPoint::is_used));
+    misfits[i].rms = KeptError(sigmas, view);
   }
-  std::vector<double> medians;
-  for (const std::vector<double>& kept : kept_errors) medians.push_back(MedianOf(kept));
+  for (std::size_t camera = 0; camera < a->cameras.size(); ++camera)
+    MeasureAgainstCamera(static_cast<int>(camera), *a, &misfits);
+  std::vector<double> worst_of_board(a->boards.size(), 0.0);
+  for (std::size_t i = 0; i < a->views.size(); ++i)
+    for (int b = 0; b < a->views[i].board_count; ++b) {
+      double& worst =
+          worst_of_board[static_cast<std::size_t>(a->views[i].boards[static_cast<std::size_t>(b)])];
+      if (a->views[i].is_used) worst = std::max(worst, misfits[i].excess);
+    }
   for (std::size_t i = 0; i < a->views.size(); ++i) {
     AdjustedView& view = a->views[i];
     if (!view.is_used) continue;
-    const auto kept = static_cast<std::size_t>(std::ranges::count_if(view.points, &AdjustedPoint::is_used));
-    if (kept >= 4 && 2 * kept >= view.points.size() &&
-        errors[i] <= kViewMedians * medians[static_cast<std::size_t>(view.camera)])
-      continue;
+    bool is_worst = true;
+    for (int b = 0; b < view.board_count; ++b)
+      is_worst &= misfits[i].excess >=
+                  worst_of_board[static_cast<std::size_t>(view.boards[static_cast<std::size_t>(b)])];
+    const bool has_too_few =
+        misfits[i].points < 4 || 2 * static_cast<std::size_t>(misfits[i].points) < view.points.size();
+    if (!has_too_few && !(is_worst && misfits[i].is_too_large)) continue;
     view.is_used = false;
     has_changed = true;
   }

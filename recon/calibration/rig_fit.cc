@@ -241,13 +241,13 @@ void GiveReasons(RigState* state) {
     if (!view.is_used && view.reason.empty())
       view.reason = fmt::format(
           "more than half of its points are beyond {:.0f} standard deviations, or its error is "
-          "beyond {:.0f} times its camera's usual one",
-          kPointSigmas, kViewMedians);
+          "{:.0f} standard deviations above its camera's usual one",
+          kPointSigmas, kViewSigmas);
 }
 
 // Rounds of leaving out and fitting until nothing changes.
 void FitWithoutOutliers(const std::stop_token& stop, RigFit* fit) {
-  constexpr int kRounds = 4;
+  constexpr int kRounds = 8;
   RigState& state = fit->state;
   for (int round = 0; round < kRounds; ++round) {
     Adjustment a = AdjustmentOf(&state);

@@ -122,7 +122,7 @@ class BoardMotion {
     // The middle of the workspace at most 350 mm away, tilts of up to 0.7 rad, turns about z too. The cameras
     // stand on the +x side, so the board leans that way.
     const Vector3d position(220.0 * At(0, t_s), 260.0 * At(1, t_s), 150.0 + 150.0 * At(2, t_s));
-    const Vector3d turn(0.45 * At(3, t_s), 0.35 + 0.45 * At(4, t_s), 0.8 * At(5, t_s));
+    const Vector3d turn(0.6 * At(3, t_s), 0.35 + 0.55 * At(4, t_s), 0.8 * At(5, t_s));
     const double begun = std::clamp((t_s - 0.5) / 1.5, 0.0, 1.0);
     const double share =
         begun * begun * begun * (10.0 - begun * (15.0 - 6.0 * begun));  // smooth to the second order
@@ -326,7 +326,7 @@ CalibrationSceneOptions RandomSceneOptions(std::uint64_t seed) {
   options.bend_mm = random.Chance(0.3) ? 1.0 : 0.0;
   if (random.Chance(0.3)) options.most_offset = 0.0;
   if (random.Chance(0.3))
-    options.board = {BoardKind::kChessboard, 9, 7, 40.0, 0.0, ""};  // the same after half a turn
+    options.board = {BoardKind::kChessboard, 10, 8, 55.0, 0.0, ""};  // the same after half a turn
   return options;
 }
 

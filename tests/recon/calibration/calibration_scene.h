@@ -24,7 +24,7 @@ struct CalibrationSceneOptions {
   double bend_mm = 0.0;           // of the board, at most
   bool gives_models = false;      // else the lens's model is left to the fit
   bool has_plain_lenses = false;  // all plumb_bob, of little distortion
-  Board board{BoardKind::kCharuco, 9, 7, 45.0, 30.0, "DICT_5X5_100"};
+  Board board{BoardKind::kCharuco, 11, 8, 60.0, 40.0, "DICT_5X5_100"};  // A2 and a little more
 };
 
 struct CalibrationScene {
