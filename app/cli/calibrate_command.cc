@@ -74,6 +74,7 @@ nlohmann::json OutcomeJson(const control::CalibrationFile& file, const control::
   nlohmann::json json = {{"cameras", nlohmann::json::array()},
                          {"rms_px", result.rms_px},
                          {"held_out_rms_px", OrNull(result.held_out_rms_px)},
+                         {"cross_camera_rms_px", OrNull(result.cross_camera_rms_px)},
                          {"rigidity_rms_mm", OrNull(result.rigidity_rms_mm)},
                          {"scale_checked", outcome.scale_checked},
                          {"known_lengths", LengthsJson(file, outcome)},

@@ -213,6 +213,7 @@ CalibrationResult Calibrate(const CalibrationInput& input, const core::Progress&
   Report(progress, Stage::kHeldOut, "views kept out");
   const HeldOutFigures held_out = MeasureHeldOut(fit, stop);
   result.held_out_rms_px = held_out.rms_px;
+  result.cross_camera_rms_px = held_out.cross_camera_rms_px;
   result.rigidity_rms_mm = held_out.rigidity_rms_mm;
   PutWarnings(&result);
   Report(progress, Stage::kDone, "done");

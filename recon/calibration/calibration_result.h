@@ -81,6 +81,7 @@ struct CalibrationResult {
   int rejected_points = 0;
   // Nothing: too few sets to keep some out.
   std::optional<double> held_out_rms_px;
+  std::optional<double> cross_camera_rms_px;  // of kept-out views, from where the other cameras see the board
   std::optional<double> rigidity_rms_mm;
   std::vector<std::string> warnings;  // one plain line each
 };

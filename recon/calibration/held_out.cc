@@ -64,8 +64,18 @@ RigidTransform PlaceBoard(const std::vector<const AdjustedView*>& views, std::si
   return a->boards[board].rig_from_board;
 }
 
-void AddErrors(const std::vector<const AdjustedView*>& views, std::size_t board, Adjustment* a,
-               SumOfSquares* errors) {
+// Errors of a view's points where the board now is.
+void AddErrorsOf(const AdjustedView& view, const Adjustment& a, SumOfSquares* errors) {
+  const RigidTransform cam_from_board = CamFromBoardAt(a, view);
+  for (const AdjustedPoint& point : view.points) {
+    const auto residual = point.is_used ? ResidualOf(a, view, cam_from_board, point) : std::nullopt;
+    if (residual) errors->Add(residual->squaredNorm());
+  }
+}
+
+// Errors of each view where the others place the board.
+void AddCrossErrors(const std::vector<const AdjustedView*>& views, std::size_t board, Adjustment* a,
+                    SumOfSquares* errors) {
   const std::size_t least_others = a->cameras.size() > 2 ? 2 : 1;
   if (views.size() <= least_others) return;
   const RigidTransform before = a->boards[board].rig_from_board;
@@ -74,11 +84,7 @@ void AddErrors(const std::vector<const AdjustedView*>& views, std::size_t board,
     for (const AdjustedView* other : views)
       if (other != view) others.push_back(other);
     PlaceBoard(others, board, a);
-    const RigidTransform cam_from_board = CamFromBoardAt(*a, *view);
-    for (const AdjustedPoint& point : view->points) {
-      const auto residual = point.is_used ? ResidualOf(*a, *view, cam_from_board, point) : std::nullopt;
-      if (residual) errors->Add(residual->squaredNorm());
-    }
+    AddErrorsOf(*view, *a, errors);
     a->boards[board].rig_from_board = before;
   }
 }
@@ -128,18 +134,19 @@ HeldOutFigures MeasureHeldOut(const RigFit& fit, const std::stop_token& stop) {
   const std::vector<std::size_t> kept_out = KeptOutSets(fit.state);
   if (kept_out.empty()) return {};
   Adjustment a = SecondFit(fit, kept_out, stop);
-  SumOfSquares errors, lengths;
+  SumOfSquares errors, cross_errors, lengths;
   for (const std::size_t k : kept_out) {
     const auto board = static_cast<std::size_t>(fit.state.sets[k].adjusted);
     std::vector<const AdjustedView*> views;
     for (const AdjustedView& view : a.views)
       if (view.is_used && view.boards[0] == static_cast<int>(board)) views.push_back(&view);
     if (views.size() < 2) continue;
-    AddErrors(views, board, &a, &errors);
+    AddCrossErrors(views, board, &a, &cross_errors);
     PlaceBoard(views, board, &a);
+    for (const AdjustedView* view : views) AddErrorsOf(*view, a, &errors);
     AddLengths(TriangulateBoard(views, board, a), a, &lengths);
   }
-  return {errors.Rms(), lengths.Rms()};
+  return {errors.Rms(), cross_errors.Rms(), lengths.Rms()};
 }
 
 }  // namespace elbowroom::recon

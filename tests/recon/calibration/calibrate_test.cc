@@ -56,9 +56,11 @@ TEST(Calibrate, StatesTheNoiseThatThereIs) {
   EXPECT_NEAR(result.noise_px, 0.3, 0.015);
   EXPECT_NEAR(result.noise_scale, 1.5, 0.08);  // the sightings say 0.2 px
   EXPECT_NEAR(result.rms_px, 0.3 * std::sqrt(2.0), 0.03);
-  ASSERT_TRUE(result.held_out_rms_px && result.rigidity_rms_mm);
+  ASSERT_TRUE(result.held_out_rms_px && result.cross_camera_rms_px && result.rigidity_rms_mm);
   EXPECT_GE(*result.held_out_rms_px, 0.9 * result.rms_px);
-  EXPECT_LE(*result.held_out_rms_px, 3.0 * result.rms_px);
+  EXPECT_LE(*result.held_out_rms_px, 1.5 * result.rms_px);
+  EXPECT_GE(*result.cross_camera_rms_px, *result.held_out_rms_px) << "nothing of that view was fitted";
+  EXPECT_LE(*result.cross_camera_rms_px, 3.0 * result.rms_px);
   EXPECT_LE(*result.rigidity_rms_mm, 3.0);
   EXPECT_EQ(result.points + result.rejected_points, [&] {
     int points = 0;
