@@ -70,9 +70,9 @@ CommandResult Run(const BoardOptions& options) {
   result.json["paper"] = page.paper;
   result.json["page_mm"] = {page.width_mm, page.height_mm};
   result.json["toml"] = recon::BoardAsToml(board);
-  result.text = fmt::format("{}: {} paper, {:.6g} x {:.6g} mm. Print it at 100 % and measure its rulers.\n{}",
-                            options.out.string(), page.paper, page.width_mm, page.height_mm,
-                            recon::BoardAsToml(board));
+  result.text =
+      fmt::format("{}: {} paper, {:.6g} x {:.6g} mm. Print it at 100 % and measure its rulers.\n{}",
+                  options.out.string(), page.paper, page.width_mm, page.height_mm, recon::BoardAsToml(board));
   return result;
 }
 
@@ -81,8 +81,7 @@ CommandResult Run(const BoardOptions& options) {
 void AddBoardCommand(CLI::App& app, Choice* choice) {
   CLI::App* command = app.add_subcommand("board", "write a calibration board to print, true to scale");
   auto options = std::make_shared<BoardOptions>();
-  command
-      ->add_option("kind", options->kind, "chessboard, charuco, apriltag, circles or circles_asymmetric")
+  command->add_option("kind", options->kind, "chessboard, charuco, apriltag, circles or circles_asymmetric")
       ->required()
       ->check(CLI::IsMember({"chessboard", "charuco", "apriltag", "circles", "circles_asymmetric"}));
   command
@@ -107,9 +106,7 @@ void AddBoardCommand(CLI::App& app, Choice* choice) {
       ->check(CLI::IsMember({"current", "legacy"}));
   command->add_flag("--inverted", options->board.inverted, "white and black exchanged");
   command->add_option("--out", options->out, "file to write (.pdf)")->required();
-  command->callback([=] {
-    choice->action = [=](const CommandContext&) { return Run(*options); };
-  });
+  command->callback([=] { choice->action = [=](const CommandContext&) { return Run(*options); }; });
 }
 
 }  // namespace elbowroom::cli

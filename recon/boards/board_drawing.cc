@@ -31,7 +31,8 @@ void AddSquares(const Vector2d& first_corner, int columns, int rows, double side
 }
 
 // The dark modules of a marker, those of a row that touch in one rectangle.
-void AddMarker(const BoardMarker& marker, const std::vector<std::vector<bool>>& pattern, BoardDrawing* drawing) {
+void AddMarker(const BoardMarker& marker, const std::vector<std::vector<bool>>& pattern,
+               BoardDrawing* drawing) {
   const Vector2d& first = marker.corners_in_board[0];
   const auto across = pattern.size();
   const double module_mm = (marker.corners_in_board[1] - first).norm() / static_cast<double>(across);
@@ -63,7 +64,8 @@ BoardDrawing DrawBoard(const Board& board) {
   }
   if (board.has_markers()) {
     const MarkerDictionary dictionary(board.dictionary);
-    for (const BoardMarker& marker : MarkersOf(board)) AddMarker(marker, dictionary.PatternOf(marker.id), &drawing);
+    for (const BoardMarker& marker : MarkersOf(board))
+      AddMarker(marker, dictionary.PatternOf(marker.id), &drawing);
   } else if (board.kind != BoardKind::kChessboard) {
     const double radius = s * (board.kind == BoardKind::kCircles ? kCircleRadius : kAsymmetricCircleRadius);
     for (const Eigen::Vector3d& point : PointsOf(board)) drawing.circles.push_back({point.head<2>(), radius});

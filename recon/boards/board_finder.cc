@@ -27,9 +27,10 @@ BoardFinder::BoardFinder(const Board& board) {
     const std::size_t needed = MarkersOf(board).size();
     const int there = parts.dictionary->marker_count();
     if (needed > static_cast<std::size_t>(there))
-      throw core::Error(core::ErrorKind::kRange,
-                        fmt::format("the board: it has {} markers, and {} has only {}; take a larger dictionary",
-                                    needed, board.dictionary, there));
+      throw core::Error(
+          core::ErrorKind::kRange,
+          fmt::format("the board: it has {} markers, and {} has only {}; take a larger dictionary", needed,
+                      board.dictionary, there));
   }
   parts_ = std::make_unique<const Parts>(std::move(parts));
 }

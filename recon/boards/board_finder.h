@@ -23,8 +23,8 @@ class BoardFinder {
 
   // `grey_or_bgr`: 8 bits a channel, one or three channels. Boards with markers may be partly out of the
   // picture; of others at least four fifths must be seen, and half of each outer line. The numbers are right
-  // (up to half a turn, where a board looks the same then), or there is no sighting: points agree with one plane
-  // behind a radial lens, and squares have their colours. How exact: docs/calibration.md, measured by
+  // (up to half a turn, where a board looks the same then), or there is no sighting: points agree with one
+  // plane behind a radial lens, and squares have their colours. How exact: docs/calibration.md, measured by
   // board_finder_test and real_boards_test. Thread: any.
   [[nodiscard]] std::optional<BoardSighting> Find(const cv::Mat& grey_or_bgr) const;
 

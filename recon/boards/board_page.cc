@@ -15,9 +15,9 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr double kPointsPerMm = 72.0 / 25.4;
-constexpr double kPaperMargin = 6.0;     // printers don't print nearer to the paper's edge, mm
-constexpr double kBelowMm = 20.0;        // for the ruler and two lines of text
-constexpr double kBesideMm = 12.0;       // for the upright ruler
+constexpr double kPaperMargin = 6.0;  // printers don't print nearer to the paper's edge, mm
+constexpr double kBelowMm = 20.0;     // for the ruler and two lines of text
+constexpr double kBesideMm = 12.0;    // for the upright ruler
 constexpr double kRulerMm = 100.0;
 constexpr double kFontPoints = 8.0;
 
@@ -26,11 +26,11 @@ struct Paper {
   double width_mm;
   double height_mm;
 };
-constexpr Paper kPapers[] = {{"A4", 210.0, 297.0},            {"A4 landscape", 297.0, 210.0},
-                             {"A3", 297.0, 420.0},            {"A3 landscape", 420.0, 297.0},
-                             {"A2", 420.0, 594.0},            {"A2 landscape", 594.0, 420.0},
-                             {"A1", 594.0, 841.0},            {"A1 landscape", 841.0, 594.0},
-                             {"A0", 841.0, 1189.0},           {"A0 landscape", 1189.0, 841.0}};
+constexpr Paper kPapers[] = {{"A4", 210.0, 297.0},  {"A4 landscape", 297.0, 210.0},
+                             {"A3", 297.0, 420.0},  {"A3 landscape", 420.0, 297.0},
+                             {"A2", 420.0, 594.0},  {"A2 landscape", 594.0, 420.0},
+                             {"A1", 594.0, 841.0},  {"A1 landscape", 841.0, 594.0},
+                             {"A0", 841.0, 1189.0}, {"A0 landscape", 1189.0, 841.0}};
 
 // libharu goes on after an error and does nothing more; the first one says why.
 struct FirstFault {
@@ -172,8 +172,8 @@ std::string BoardAsPdf(const Board& board, const BoardPage& page) {
   DrawRuler(writer, {left, below - 5.0}, x, y);
   DrawRuler(writer, {kPaperMargin + 2.0, below}, y, x);
   const double room_mm = page.width_mm - left - kPaperMargin;
-  writer.Text("Print at 100 %, not fitted to the page. Both rulers are then 100 mm long.", {left, below - 11.0},
-              room_mm);
+  writer.Text("Print at 100 %, not fitted to the page. Both rulers are then 100 mm long.",
+              {left, below - 11.0}, room_mm);
   writer.Text(BoardAsToml(board), {left, below - 16.0}, room_mm);
   return writer.Bytes();
 }

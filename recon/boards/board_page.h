@@ -17,15 +17,16 @@ struct BoardPage {
   Eigen::Vector2d origin_on_page_mm;
 };
 
-// The smallest of A4 to A0 that has the drawing, its rulers and its lines of text; otherwise a page of its own.
+// The smallest of A4 to A0 that has the drawing, its rulers and its lines of text; otherwise a page of its
+// own.
 [[nodiscard]] BoardPage PageFor(const BoardDrawing& drawing);
 
 // The board as CALIB.toml has it, in one line: board = { type = "chessboard", ... }.
 [[nodiscard]] std::string BoardAsToml(const Board& board);
 
-// The bytes of a PDF file of one page: the board, a ruler of 100 mm on both axes that shows whether the printer kept the scale,
-// and the board's values. Lengths are exact to 0.001 mm (tested by board_page_test). Throws: as DrawBoard;
-// Error{kFile} if the PDF can't be made.
+// The bytes of a PDF file of one page: the board, a ruler of 100 mm on both axes that shows whether the
+// printer kept the scale, and the board's values. Lengths are exact to 0.001 mm (tested by board_page_test).
+// Throws: as DrawBoard; Error{kFile} if the PDF can't be made.
 [[nodiscard]] std::string BoardAsPdf(const Board& board, const BoardPage& page);
 
 }  // namespace elbowroom::recon

@@ -42,8 +42,8 @@ PointLattice CornersNearMarkers(const Board& board, const std::vector<PlacedMark
   for (int row = 0; row + 1 < board.rows; ++row) {
     for (int column = 0; column + 1 < board.columns; ++column) {
       const Vector2d x_in_board((column + 1) * board.square_mm, -(row + 1) * board.square_mm);
-      const auto local = PredictByMarkers(markers, x_in_board, board.square_mm,
-                                          kMarkerReachSquares * board.square_mm);
+      const auto local =
+          PredictByMarkers(markers, x_in_board, board.square_mm, kMarkerReachSquares * board.square_mm);
       if (!local) continue;
       if (const auto point = trial({column, row}, *local)) lattice[{column, row}] = *point;
     }
@@ -67,7 +67,8 @@ std::optional<BoardSighting> FindCharuco(const cv::Mat& grey, const Board& board
   LatticeNumbering numbering;
   for (int row = 0; row + 1 < board.rows; ++row)
     for (int column = 0; column + 1 < board.columns; ++column)
-      numbering.cells.push_back(lattice.contains({column, row}) ? std::optional(LatticeCell{column, row}) : std::nullopt);
+      numbering.cells.push_back(lattice.contains({column, row}) ? std::optional(LatticeCell{column, row})
+                                                                : std::nullopt);
   return SightingOf(lattice, numbering, board, grey.size(), kLeastAgreeingShare);
 }
 

@@ -1,10 +1,9 @@
 #include "recon/boards/chessboard_finder.h"
 
 #include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "recon/boards/lattice_sighting.h"
@@ -22,87 +21,93 @@ using Eigen::Vector2d;
 constexpr int kLevels = 3;
 constexpr int kLargestFirstPx = 1600;  // larger pictures are looked at smaller first
 constexpr int kMostSeeds = 40;         // that are grown, at one size
-constexpr double kMostTurnedSine = 0.35;
 constexpr double kLeastRightColors = 0.9;
 
-// The directions of a saddle's two edges, where its level is that of the saddle itself.
-std::array<Vector2d, 2> EdgesOf(const SaddlePoint& saddle) {
-  const Eigen::SelfAdjointEigenSolver<Matrix2d> solver(saddle.curvature);
-  const Vector2d down = solver.eigenvectors().col(0), up = solver.eigenvectors().col(1);
-  const double along_down = std::sqrt(std::max(1e-12, solver.eigenvalues()[1]));
-  const double along_up = std::sqrt(std::max(1e-12, -solver.eigenvalues()[0]));
-  return {(along_down * down + along_up * up).normalized(), (along_down * down - along_up * up).normalized()};
-}
-
-double SineBetween(const Vector2d& a, const Vector2d& b) { return std::abs(a.x() * b.y() - a.y() * b.x()); }
-
-// A saddle with a neighbour on both of its edges at least.
+// A saddle with four neighbours around it.
 struct Seed {
   PointLattice lattice;  // pixels are those of the saddles
   LocalLattice local;
   int sign = 1;  // of the saddle in the middle, cell (0, 0)
 };
 
+// Saddles opposite to each other around a third.
+struct OppositePair {
+  std::size_t ahead;
+  std::size_t behind;
+  Vector2d half;  // of the way from one to the other
+};
+
 class SeedSearch {
  public:
-  explicit SeedSearch(const std::vector<SaddlePoint>& saddles) : saddles_(saddles) {
-    for (const SaddlePoint& saddle : saddles) edges_.push_back(EdgesOf(saddle));
-  }
+  explicit SeedSearch(const std::vector<SaddlePoint>& saddles) : saddles_(saddles) {}
 
   [[nodiscard]] std::optional<Seed> SeedAt(std::size_t i) const {
-    const Vector2d& here = saddles_[i].pixel;
-    std::array<Vector2d, 2> axes = edges_[i];
-    if (axes[0].x() * axes[1].y() - axes[0].y() * axes[1].x() < 0.0) axes[1] = -axes[1];
+    std::vector<OppositePair> pairs = PairsAround(i);
+    if (pairs.empty()) return std::nullopt;
+    const OppositePair first = pairs.front();
+    const auto second = std::ranges::find_if(pairs, [&first](const OppositePair& pair) {
+      return SineBetween(pair.half, first.half) > kLeastSine;
+    });
+    if (second == pairs.end()) return std::nullopt;
+    if (Cross(first.half, second->half) < 0.0) std::swap(second->ahead, second->behind), second->half *= -1.0;
     Seed seed;
-    const Vector2d between = axes[0] + axes[1];
-    seed.sign = between.dot(saddles_[i].curvature * between) > 0.0 ? 1 : -1;
-    int found = 0;
-    for (int axis = 0; axis < 2; ++axis) {
-      const std::size_t k = static_cast<std::size_t>(axis);
-      const auto ahead = NearestAlong(i, axes[k], axes), behind = NearestAlong(i, -axes[k], axes);
-      if (!ahead && !behind) return std::nullopt;
-      const Vector2d step = ahead && behind ? Vector2d(0.5 * (saddles_[*ahead].pixel - saddles_[*behind].pixel))
-                            : ahead         ? Vector2d(saddles_[*ahead].pixel - here)
-                                            : Vector2d(here - saddles_[*behind].pixel);
-      if (ahead && behind &&
-          (saddles_[*ahead].pixel + saddles_[*behind].pixel - 2.0 * here).norm() > 0.5 * step.norm())
-        return std::nullopt;
-      seed.local.pixel_from_squares.col(axis) = step;
-      const LatticeCell cell = axis == 0 ? LatticeCell{1, 0} : LatticeCell{0, 1};
-      if (ahead) seed.lattice[cell] = {saddles_[*ahead].pixel, 1.0};
-      if (behind) seed.lattice[{-cell.column, -cell.row}] = {saddles_[*behind].pixel, 1.0};
-      found += (ahead ? 1 : 0) + (behind ? 1 : 0);
-    }
-    if (found < 3) return std::nullopt;
-    seed.local.pixel = here;
-    seed.lattice[{0, 0}] = {here, 1.0};
+    seed.local.pixel = saddles_[i].pixel;
+    seed.local.pixel_from_squares << first.half, second->half;
+    // The squares on both axes' sides lie along the diagonal.
+    const Vector2d diagonal = first.half + second->half;
+    seed.sign = diagonal.dot(saddles_[i].curvature * diagonal) > 0.0 ? 1 : -1;
+    seed.lattice[{0, 0}] = {saddles_[i].pixel, 1.0};
+    seed.lattice[{1, 0}] = {saddles_[first.ahead].pixel, 1.0};
+    seed.lattice[{-1, 0}] = {saddles_[first.behind].pixel, 1.0};
+    seed.lattice[{0, 1}] = {saddles_[second->ahead].pixel, 1.0};
+    seed.lattice[{0, -1}] = {saddles_[second->behind].pixel, 1.0};
     return seed;
   }
 
  private:
-  // The nearest saddle in a direction that has the same edges, light and dark exchanged.
-  [[nodiscard]] std::optional<std::size_t> NearestAlong(std::size_t from, const Vector2d& direction,
-                                                        const std::array<Vector2d, 2>& axes) const {
-    std::optional<std::size_t> nearest;
-    double nearest_px = 0.0;
-    const Vector2d between = axes[0] + axes[1], across = axes[0] - axes[1];
+  static constexpr std::size_t kNeighbours = 10;
+  static constexpr double kLeastSine = 0.12;
+  static constexpr double kMostUneven = 0.35;  // of the two ways from the middle, as a share of one
+
+  static double Cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
+  static double SineBetween(const Vector2d& a, const Vector2d& b) {
+    return std::abs(Cross(a, b)) / (a.norm() * b.norm());
+  }
+
+  // The nearest saddles whose light and dark directions are those of saddle `i`, exchanged.
+  [[nodiscard]] std::vector<std::size_t> NeighboursOf(std::size_t i) const {
+    const Eigen::SelfAdjointEigenSolver<Matrix2d> solver(saddles_[i].curvature);
+    const Vector2d dark = solver.eigenvectors().col(0), light = solver.eigenvectors().col(1);
+    std::vector<std::pair<double, std::size_t>> nearest;
     for (std::size_t j = 0; j < saddles_.size(); ++j) {
-      const Vector2d offset = saddles_[j].pixel - saddles_[from].pixel;
-      const double along = offset.dot(direction);
-      if (j == from || along < 2.0 || (nearest && along >= nearest_px)) continue;
-      if (SineBetween(offset, direction) > kMostTurnedSine * along) continue;
       const Matrix2d& curvature = saddles_[j].curvature;
-      const Matrix2d& here = saddles_[from].curvature;
-      if (between.dot(curvature * between) * between.dot(here * between) > 0.0) continue;
-      if (across.dot(curvature * across) * across.dot(here * across) > 0.0) continue;
-      nearest = j;
-      nearest_px = along;
+      if (j == i || light.dot(curvature * light) > 0.0 || dark.dot(curvature * dark) < 0.0) continue;
+      nearest.emplace_back((saddles_[j].pixel - saddles_[i].pixel).squaredNorm(), j);
     }
-    return nearest;
+    const std::size_t count = std::min(kNeighbours, nearest.size());
+    std::partial_sort(nearest.begin(), nearest.begin() + static_cast<std::ptrdiff_t>(count), nearest.end());
+    std::vector<std::size_t> neighbours;
+    for (std::size_t k = 0; k < count; ++k) neighbours.push_back(nearest[k].second);
+    return neighbours;
+  }
+
+  // The shortest first.
+  [[nodiscard]] std::vector<OppositePair> PairsAround(std::size_t i) const {
+    const std::vector<std::size_t> neighbours = NeighboursOf(i);
+    std::vector<OppositePair> pairs;
+    for (std::size_t a = 0; a < neighbours.size(); ++a) {
+      for (std::size_t b = a + 1; b < neighbours.size(); ++b) {
+        const Vector2d &ahead = saddles_[neighbours[a]].pixel, &behind = saddles_[neighbours[b]].pixel;
+        const Vector2d half = 0.5 * (ahead - behind);
+        if ((ahead + behind - 2.0 * saddles_[i].pixel).norm() < kMostUneven * half.norm())
+          pairs.push_back({neighbours[a], neighbours[b], half});
+      }
+    }
+    std::ranges::sort(pairs, {}, [](const OppositePair& pair) { return pair.half.squaredNorm(); });
+    return pairs;
   }
 
   const std::vector<SaddlePoint>& saddles_;
-  std::vector<std::array<Vector2d, 2>> edges_;
 };
 
 // The trial of a chessboard's cells.

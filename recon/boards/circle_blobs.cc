@@ -14,10 +14,10 @@ using Eigen::Matrix2d;
 using Eigen::Vector2d;
 
 constexpr double kLeastAreaPx2 = 20.0;
-constexpr double kMostAreaShare = 0.1;      // of the picture
+constexpr double kMostAreaShare = 0.1;  // of the picture
 constexpr double kMostAxisRatio = 10.0;
-constexpr double kMostRimSpread = 0.06;     // of the rim's distance from the centre, as a share of the radius
-constexpr double kOutlineErrorPx = 0.4;     // of an outline that runs through pixel centres
+constexpr double kMostRimSpread = 0.06;  // of the rim's distance from the centre, as a share of the radius
+constexpr double kOutlineErrorPx = 0.4;  // of an outline that runs through pixel centres
 constexpr double kDarkerByLevels = 6.0;
 constexpr double kLeastCircleContrast = 12.0;
 constexpr double kLeastCenterSigmaPx = 0.01;
@@ -82,7 +82,8 @@ struct CircleLevels {
 // Calls visit(offset from the centre, distance in radii, level) for the pixels of the blob's window. False:
 // the window isn't all in the picture.
 template <typename Visit>
-bool VisitWindow(const cv::Mat& grey, const Vector2d& center, const Matrix2d& unit_from_pixel, const Visit& visit) {
+bool VisitWindow(const cv::Mat& grey, const Vector2d& center, const Matrix2d& unit_from_pixel,
+                 const Visit& visit) {
   const Matrix2d pixel_from_unit = unit_from_pixel.inverse();
   const Vector2d reach = kWindow * pixel_from_unit.rowwise().norm();
   const Vector2d low = center - reach, high = center + reach;
@@ -110,7 +111,8 @@ std::optional<CircleLevels> LevelsOf(const cv::Mat& grey, const CircleBlob& blob
       ++outside;
     }
   };
-  if (!VisitWindow(grey, blob.pixel, blob.unit_from_pixel, add) || inside < 2 || outside < 8) return std::nullopt;
+  if (!VisitWindow(grey, blob.pixel, blob.unit_from_pixel, add) || inside < 2 || outside < 8)
+    return std::nullopt;
   CircleLevels levels{dark / inside, light / outside, 0.0};
   levels.noise = std::sqrt(std::max(0.0, squares / outside - levels.light * levels.light));
   if (!(levels.light - levels.dark >= kLeastCircleContrast)) return std::nullopt;

@@ -9,7 +9,7 @@
 namespace elbowroom::recon {
 
 struct CircleBlob {
-  Eigen::Vector2d pixel;     // its centre of area
+  Eigen::Vector2d pixel;            // its centre of area
   Eigen::Matrix2d unit_from_pixel;  // takes its rim, relative to its centre, to the unit circle
   double area_px2 = 0.0;
 };

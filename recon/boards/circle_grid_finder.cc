@@ -88,7 +88,8 @@ std::vector<LatticeCell> CircleCells(const Board& board) {
 // The nearest circles of an asymmetric grid are on diagonals; its cells are counted along the axes.
 PointLattice AlongAxes(const PointLattice& diagonal) {
   PointLattice lattice;
-  for (const auto& [cell, point] : diagonal) lattice[{cell.column - cell.row, cell.column + cell.row}] = point;
+  for (const auto& [cell, point] : diagonal)
+    lattice[{cell.column - cell.row, cell.column + cell.row}] = point;
   return lattice;
 }
 
@@ -110,7 +111,8 @@ Vector2d OffsetOfImage(const SeenPlane& plane, const Vector2d& center_in_board, 
   return area2 == 0.0 ? Vector2d::Zero() : Vector2d(moment / area2);
 }
 
-// Moves points from the ellipses' centres to the images of the circles' centres. `area_px2`: of each point's ellipse.
+// Moves points from the ellipses' centres to the images of the circles' centres. `area_px2`: of each point's
+// ellipse.
 void CorrectForPerspective(const Board& board, const std::vector<double>& area_px2, const cv::Size& picture,
                            std::vector<SightedPoint>* points) {
   const std::vector<Eigen::Vector3d> points_in_board = PointsOf(board);
@@ -134,12 +136,14 @@ void CorrectForPerspective(const Board& board, const std::vector<double>& area_p
 }
 
 std::optional<BoardSighting> SightingOfCircles(const cv::Mat& grey, const Board& board,
-                                               const std::vector<CircleBlob>& blobs, const PointLattice& lattice) {
+                                               const std::vector<CircleBlob>& blobs,
+                                               const PointLattice& lattice) {
   const std::vector<LatticeNumbering> numberings = NumberLattice(lattice, CircleCells(board));
   const LatticeNumbering* chosen = nullptr;
   double least = 0.0;
   for (const LatticeNumbering& numbering : numberings) {
-    const auto first = std::ranges::find_if(numbering.cells, [](const auto& cell) { return cell.has_value(); });
+    const auto first =
+        std::ranges::find_if(numbering.cells, [](const auto& cell) { return cell.has_value(); });
     const double sum = lattice.at(**first).pixel.sum();
     if (chosen != nullptr && sum >= least) continue;
     chosen = &numbering;
@@ -156,7 +160,8 @@ std::optional<BoardSighting> SightingOfCircles(const cv::Mat& grey, const Board&
     points.push_back({static_cast<int>(i), fit->pixel, fit->sigma_px});
     area_px2.push_back(blob.area_px2);
   }
-  if (static_cast<double>(points.size()) < kLeastShare * static_cast<double>(chosen->cells.size()) || points.size() < 4)
+  if (static_cast<double>(points.size()) < kLeastShare * static_cast<double>(chosen->cells.size()) ||
+      points.size() < 4)
     return std::nullopt;
   CorrectForPerspective(board, area_px2, grey.size(), &points);
   return AgreeingSighting(std::move(points), board, grey.size(), kLeastShare);

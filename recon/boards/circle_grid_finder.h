@@ -9,8 +9,9 @@
 
 namespace elbowroom::recon {
 
-// `grey`: circles are dark on light ground, all of one size. At least four fifths must be seen, and of each outer line
-// half. Points are where the circles' centres fall, not the centres of the ellipses: the two differ in perspective.
+// `grey`: circles are dark on light ground, all of one size. At least four fifths must be seen, and of each
+// outer line half. Points are where the circles' centres fall, not the centres of the ellipses: the two
+// differ in perspective.
 [[nodiscard]] std::optional<BoardSighting> FindCircleGrid(const cv::Mat& grey, const Board& board);
 
 }  // namespace elbowroom::recon

@@ -19,6 +19,7 @@ constexpr double kFurthestModules = 1.5;
 constexpr double kLeastEdgeExplained = 0.6;
 constexpr double kLeastEdgeContrast = 8.0;
 constexpr double kLeastEdgeSigmaPx = 0.01;
+constexpr double kWidestSharpPx = 1.5;  // of the step, where modules are smaller
 
 // Angle of the normal, which points into the dark square; distance of the edge from the window's origin;
 // levels c, d; logarithm of the step's width.
@@ -36,8 +37,8 @@ double EdgeLevel(const EdgeParameters& x, const Vector2d& offset, EdgeParameters
   const double l = (normal.dot(offset) - x[1]) * per_width;
   const double s = std::tanh(l);
   const double slope = x[3] * (1.0 - s * s);
-  (*gradient) << slope * per_width * (normal.x() * offset.y() - normal.y() * offset.x()), -slope * per_width, 1.0,
-      s, -slope * l;
+  (*gradient) << slope * per_width * (normal.x() * offset.y() - normal.y() * offset.x()), -slope * per_width,
+      1.0, s, -slope * l;
   return x[2] + x[3] * s;
 }
 
@@ -85,7 +86,7 @@ std::optional<FittedEdge> FitEdge(const cv::Mat& grey, const Vector2d& corner, c
   if (normal.dot(other) < 0.0) normal = -normal;
   EdgeParameters start;
   start << std::atan2(normal.y(), normal.x()), 0.0, 0.5 * (low + high), -0.5 * (high - low), 0.0;
-  const double widest = std::log(std::max(0.6, std::abs(normal.dot(other)) / modules));
+  const double widest = std::log(std::max(kWidestSharpPx, std::abs(normal.dot(other)) / modules));
   const auto hold = [widest](EdgeParameters* x) { (*x)[4] = std::clamp((*x)[4], std::log(0.3), widest); };
   const auto fit = FitLevels<kEdgeParameters>(samples, start, EdgeLevel, hold);
   if (!fit || !(-2.0 * fit->parameters[3] >= kLeastEdgeContrast)) return std::nullopt;

@@ -15,6 +15,8 @@ using Eigen::Vector2d;
 constexpr double kMostSides = 0.5;
 constexpr std::size_t kNearestMarkers = 4;
 constexpr int kRefits = 3;
+constexpr std::size_t kMostForPairs = 12;
+constexpr std::size_t kAgreeingPerStranger = 8;
 
 Vector2d CenterOf(const std::array<Vector2d, 4>& corners) {
   return 0.25 * (corners[0] + corners[1] + corners[2] + corners[3]);
@@ -45,7 +47,8 @@ bool Explains(const Matrix3d& pixel_from_board, const PlacedMarker& marker) {
   return true;
 }
 
-std::vector<PlacedMarker> ExplainedBy(const Matrix3d& pixel_from_board, const std::vector<PlacedMarker>& placed) {
+std::vector<PlacedMarker> ExplainedBy(const Matrix3d& pixel_from_board,
+                                      const std::vector<PlacedMarker>& placed) {
   std::map<int, PlacedMarker> by_id;
   for (const PlacedMarker& marker : placed)
     if (Explains(pixel_from_board, marker)) by_id.emplace(marker.on_board.id, marker);
@@ -54,23 +57,36 @@ std::vector<PlacedMarker> ExplainedBy(const Matrix3d& pixel_from_board, const st
   return explained;
 }
 
-// From one marker's homography, refitted to all that it explains.
-std::vector<PlacedMarker> ConsensusFrom(const PlacedMarker& first, const std::vector<PlacedMarker>& placed,
-                                        std::optional<Matrix3d>* pixel_from_board) {
-  *pixel_from_board = FitHomography(PairsOf(first));
-  if (!*pixel_from_board) return {};
-  std::vector<PlacedMarker> agreeing{first};
+struct Consensus {
+  std::vector<PlacedMarker> markers;
+  Matrix3d pixel_from_board;
+};
+
+// From the homography of one marker or two, refitted to all that it explains; replaces `best` if it has more.
+void TryConsensus(const std::vector<PlacedMarker>& start, const std::vector<PlacedMarker>& placed,
+                  Consensus* best) {
+  std::optional<Matrix3d> homography = FitHomography(PairsOf(start));
+  std::size_t explained = 0;
   // A single marker's homography is only good near it, so what it explains grows from refit to refit.
-  for (int i = 0; i < kRefits; ++i) {
-    const std::vector<PlacedMarker> next = ExplainedBy(**pixel_from_board, placed);
-    if (next.size() <= agreeing.size() && i > 0) break;
-    if (next.empty()) break;
-    const auto refitted = FitHomography(PairsOf(next));
-    if (!refitted) break;
-    agreeing = next;
-    *pixel_from_board = refitted;
+  for (int i = 0; i < kRefits && homography; ++i) {
+    const std::vector<PlacedMarker> markers = ExplainedBy(*homography, placed);
+    if (markers.size() <= explained) return;
+    explained = markers.size();
+    homography = FitHomography(PairsOf(markers));
+    if (homography && explained > best->markers.size()) *best = {markers, *homography};
   }
-  return agreeing;
+}
+
+Consensus FindConsensus(const std::vector<PlacedMarker>& placed) {
+  Consensus best;
+  for (std::size_t i = 0; i < placed.size() && best.markers.size() < placed.size(); ++i)
+    TryConsensus({placed[i]}, placed, &best);
+  // Few and damaged markers may agree only in pairs.
+  if (placed.size() > kMostForPairs) return best;
+  for (std::size_t i = 0; i < placed.size(); ++i)
+    for (std::size_t j = i + 1; j < placed.size() && best.markers.size() < placed.size(); ++j)
+      TryConsensus({placed[i], placed[j]}, placed, &best);
+  return best;
 }
 
 // Markers in the picture where the board is that aren't among the agreeing ones.
@@ -91,7 +107,8 @@ std::size_t StrangersOnBoard(const Matrix3d& pixel_from_board, const std::vector
   for (const DetectedMarker& marker : in_picture) {
     const Vector2d center = CenterOf(marker.corners_px);
     const Vector2d place = Map(board_from_pixel, center);
-    if (!((place - (low - margin)).minCoeff() >= 0.0 && ((high + margin) - place).minCoeff() >= 0.0)) continue;
+    if (!((place - (low - margin)).minCoeff() >= 0.0 && ((high + margin) - place).minCoeff() >= 0.0))
+      continue;
     const auto is_it = [&](const PlacedMarker& other) {
       return (CenterOf(other.in_picture.corners_px) - center).norm() < 1.0;
     };
@@ -108,18 +125,11 @@ std::vector<PlacedMarker> AgreeingMarkers(const std::vector<BoardMarker>& on_boa
   for (const DetectedMarker& marker : in_picture)
     if (static_cast<std::size_t>(marker.id) < on_board.size())
       placed.push_back({on_board[static_cast<std::size_t>(marker.id)], marker});
-  std::vector<PlacedMarker> best;
-  std::optional<Matrix3d> best_homography;
-  for (const PlacedMarker& first : placed) {
-    std::optional<Matrix3d> homography;
-    std::vector<PlacedMarker> agreeing = ConsensusFrom(first, placed, &homography);
-    if (agreeing.size() <= best.size()) continue;
-    best = std::move(agreeing);
-    best_homography = homography;
-    if (best.size() == placed.size()) break;
-  }
-  if (best.empty() || 3 * StrangersOnBoard(*best_homography, on_board, best, in_picture) > best.size()) return {};
-  return best;
+  Consensus best = FindConsensus(placed);
+  if (best.markers.empty()) return {};
+  const std::size_t strangers = StrangersOnBoard(best.pixel_from_board, on_board, best.markers, in_picture);
+  if (kAgreeingPerStranger * strangers > best.markers.size()) return {};
+  return best.markers;
 }
 
 std::optional<LocalLattice> PredictByMarkers(const std::vector<PlacedMarker>& markers,

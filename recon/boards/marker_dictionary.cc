@@ -46,8 +46,9 @@ constexpr int kLargestSearchedPx = 1600;
 cv::Ptr<cv::aruco::Dictionary> DictionaryOf(const std::string& name) {
   for (const NamedDictionary& named : kDictionaries)
     if (named.name == name) return cv::aruco::getPredefinedDictionary(named.value);
-  throw core::Error(core::ErrorKind::kRange, fmt::format("the board: there is no dictionary \"{}\"; there are {}",
-                                                         name, fmt::join(DictionaryNames(), ", ")));
+  throw core::Error(core::ErrorKind::kRange,
+                    fmt::format("the board: there is no dictionary \"{}\"; there are {}", name,
+                                fmt::join(DictionaryNames(), ", ")));
 }
 
 cv::Ptr<cv::aruco::DetectorParameters> SearchParameters() {
@@ -97,7 +98,8 @@ std::vector<std::vector<bool>> MarkerDictionary::PatternOf(int id) const {
 }
 
 std::vector<DetectedMarker> MarkerDictionary::Detect(const cv::Mat& grey) const {
-  const double scale = std::min(1.0, static_cast<double>(kLargestSearchedPx) / std::max(grey.cols, grey.rows));
+  const double scale =
+      std::min(1.0, static_cast<double>(kLargestSearchedPx) / std::max(grey.cols, grey.rows));
   cv::Mat searched = grey;
   if (scale < 1.0) cv::resize(grey, searched, {}, scale, scale, cv::INTER_AREA);
   std::vector<std::vector<cv::Point2f>> corners;

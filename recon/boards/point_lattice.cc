@@ -169,7 +169,8 @@ std::vector<LatticeNumbering> NumberLattice(const PointLattice& lattice,
       if (is_there) ++found;
     }
     const auto least = (1.0 - kMostMissing) * static_cast<double>(expected.size());
-    if (found == cells.size() && static_cast<double>(found) >= least) numberings.push_back(std::move(numbering));
+    if (found == cells.size() && static_cast<double>(found) >= least)
+      numberings.push_back(std::move(numbering));
   }
   return numberings;
 }

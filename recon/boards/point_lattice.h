@@ -44,9 +44,9 @@ struct LatticeNumbering {
   bool axes_exchanged = false;  // the board's columns run along the lattice's rows
 };
 
-// All ways to lay `expected`, the cells of a whole board in their order, over a lattice by quarter turns, such
-// that both reach equally far in each direction, no point is left over and at most a fifth is missing. An
-// outer line of the lattice with less than half of its cells is taken off first.
+// All ways to lay `expected`, the cells of a whole board in their order, over a lattice by quarter turns,
+// such that both reach equally far in each direction, no point is left over and at most a fifth is missing.
+// An outer line of the lattice with less than half of its cells is taken off first.
 [[nodiscard]] std::vector<LatticeNumbering> NumberLattice(const PointLattice& lattice,
                                                           const std::vector<LatticeCell>& expected);
 

@@ -45,7 +45,8 @@ double CrossingLevel(const Parameters& x, const Vector2d& offset, Parameters* gr
   return x[4] + x[5] * s1 * s2;
 }
 
-// A pixel of the window, and the quadrant it is in: bit 0 past the point along the columns, bit 1 along the rows.
+// A pixel of the window, and the quadrant it is in: bit 0 past the point along the columns, bit 1 along the
+// rows.
 struct Window {
   std::vector<LevelSample> samples;
   std::array<double, 4> level_sum{};

@@ -27,10 +27,11 @@ struct SaddleFit {
 };
 
 // Fits light = c + d s(l1/w) s(l2/w) to the levels around `near`: l1 and l2 are the distances from two lines,
-// s is a smooth step of width w. Window: 0.42 of a square to each side, as the square lies in the picture, at most
-// 12 px. The crossing is right whatever the blur, since the window and the pattern are symmetric about it;
-// saddle_fit_test measures it. sigma_px is that of the crossing, from the residuals. Nothing: outside the
-// picture, not such a crossing, further than 0.35 of a square from `near`.
+// s is a smooth step of width w. Window: 0.42 of a square to each side, as the square lies in the picture, at
+// most 12 px. If `near` is within half a pixel, the crossing is right whatever the blur, since window and
+// pattern are symmetric about it (saddle_fit_test); from further away, fit again from the result. sigma_px is
+// that of the crossing, from the residuals. Nothing: outside the picture, not such a crossing, further than
+// 0.35 of a square from `near`.
 [[nodiscard]] std::optional<SaddleFit> FitSaddle(const cv::Mat& grey, const LocalLattice& near,
                                                  const SaddleFitOptions& options);
 

@@ -13,8 +13,8 @@ using Eigen::Vector2d;
 
 constexpr std::size_t kMostSaddles = 1000;
 constexpr double kSmoothingPx = 1.2;
-// An ideal crossing between levels m - d and m + d, smoothed by s, has the strength (2 d / (pi s^2))^2. Half a
-// picture's sharpness is left for its own blur.
+// An ideal crossing between levels m - d and m + d, smoothed by s, has the strength (2 d / (pi s^2))^2. Half
+// a picture's sharpness is left for its own blur.
 constexpr double kLeastHalfContrast = 2.5;
 constexpr double kTwoByPi = 0.6366;
 
@@ -63,8 +63,9 @@ std::vector<SaddlePoint> FindSaddlePoints(const cv::Mat& grey, int halvings) {
     grey.convertTo(smooth, CV_32F);
   } else {
     cv::Mat smaller;
-    cv::resize(grey, smaller, cv::Size(std::max(1, grey.cols >> halvings), std::max(1, grey.rows >> halvings)),
-               0.0, 0.0, cv::INTER_AREA);
+    cv::resize(grey, smaller,
+               cv::Size(std::max(1, grey.cols >> halvings), std::max(1, grey.rows >> halvings)), 0.0, 0.0,
+               cv::INTER_AREA);
     smaller.convertTo(smooth, CV_32F);
   }
   cv::GaussianBlur(smooth, smooth, cv::Size(7, 7), kSmoothingPx, kSmoothingPx, cv::BORDER_REPLICATE);

@@ -13,9 +13,9 @@ struct SaddlePoint {
   double strength = 0.0;      // minus the determinant of `curvature`
 };
 
-// The picture made smaller by 2^halvings, so that saddles of large or blurred squares are found. Pixels of the
-// result are those of `grey`; their error is up to a pixel of the smaller picture. At most 1,000, the strongest
-// first. Thread: any.
+// The picture made smaller by 2^halvings, so that saddles of large or blurred squares are found. Pixels of
+// the result are those of `grey`; their error is up to a pixel of the smaller picture. At most 1,000, the
+// strongest first. Thread: any.
 [[nodiscard]] std::vector<SaddlePoint> FindSaddlePoints(const cv::Mat& grey, int halvings);
 
 }  // namespace elbowroom::recon

@@ -25,7 +25,8 @@ struct BentPlane {
 };
 
 // The best homography for a given bend, and its squared errors in the picture.
-BentPlane FitWithBend(const std::vector<PointPair>& pairs, double bend, const Vector2d& center, double stretch) {
+BentPlane FitWithBend(const std::vector<PointPair>& pairs, double bend, const Vector2d& center,
+                      double stretch) {
   std::vector<PointPair> undistorted = pairs;
   for (PointPair& pair : undistorted) {
     const Vector2d r = (pair.to - center) / stretch;
@@ -34,7 +35,8 @@ BentPlane FitWithBend(const std::vector<PointPair>& pairs, double bend, const Ve
   const auto homography = FitHomography(undistorted);
   if (!homography) return {};
   BentPlane bent{SeenPlane(*homography, bend, center, stretch), 0.0};
-  for (const PointPair& pair : pairs) bent.sum_px2 += (bent.plane->Project(pair.from) - pair.to).squaredNorm();
+  for (const PointPair& pair : pairs)
+    bent.sum_px2 += (bent.plane->Project(pair.from) - pair.to).squaredNorm();
   if (!std::isfinite(bent.sum_px2)) bent.sum_px2 = std::numeric_limits<double>::infinity();
   return bent;
 }

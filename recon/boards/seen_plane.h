@@ -32,13 +32,13 @@ class SeenPlane {
   double stretch_px_;
 };
 
-// The plane that fits pairs of (point in board, pixel) best, in a picture of that size. The bend is looked for
-// only if there are 12 pairs or more. Nothing: fewer than four pairs, or points on a line.
+// The plane that fits pairs of (point in board, pixel) best, in a picture of that size. The bend is looked
+// for only if there are 12 pairs or more. Nothing: fewer than four pairs, or points on a line.
 [[nodiscard]] std::optional<SeenPlane> FitSeenPlane(const std::vector<PointPair>& pairs, int width_px,
                                                     int height_px);
 
-// The places in `pairs` of those that agree with one plane, in their order: points further from it than five times the
-// median and than 0.5 px, or than a fifth of a square, are left out one round after another.
+// The places in `pairs` of those that agree with one plane, in their order: points further from it than five
+// times the median and than 0.5 px, or than a fifth of a square, are left out one round after another.
 [[nodiscard]] std::vector<std::size_t> AgreeingPairs(const std::vector<PointPair>& pairs, double square_mm,
                                                      int width_px, int height_px);
 

@@ -18,7 +18,8 @@ std::optional<double> LevelAt(const cv::Mat& grey, const Vector2d& pixel) {
   return grey.at<unsigned char>(static_cast<int>(rounded.y()), static_cast<int>(rounded.x()));
 }
 
-// The mean of the levels a quarter of a square away from a point, in all four squares: the middle of light and dark.
+// The mean of the levels a quarter of a square away from a point, in all four squares: the middle of light
+// and dark.
 std::optional<double> MiddleLevel(const cv::Mat& grey, const LocalLattice& local) {
   double sum = 0.0;
   for (const double x : {-0.12, 0.12}) {

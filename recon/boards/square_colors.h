@@ -8,9 +8,10 @@
 namespace elbowroom::recon {
 
 // The share of places inside the squares around the lattice's points that are light or dark as expected, of
-// all places that are in the picture. `sign`: as SaddleFitOptions has it, of the point in cell (0, 0). Looks at the dark
-// squares, and at the light ones too if they are `empty`.
-[[nodiscard]] double ShareOfRightColors(const cv::Mat& grey, const PointLattice& lattice, int sign, bool empty);
+// all places that are in the picture. `sign`: as SaddleFitOptions has it, of the point in cell (0, 0). Looks
+// at the dark squares, and at the light ones too if they are `empty`.
+[[nodiscard]] double ShareOfRightColors(const cv::Mat& grey, const PointLattice& lattice, int sign,
+                                        bool empty);
 
 // The sign of the point in a cell when that of cell (0, 0) is given.
 [[nodiscard]] inline int SignAt(LatticeCell cell, int sign_at_origin) {

@@ -87,8 +87,10 @@ TEST_F(BoardCommand, WrongUsageExitsWithTwo) {
 }
 
 TEST_F(BoardCommand, NeedsAPlaceForAPdf) {
-  const std::vector<std::string> board{"board", "chessboard", "--columns", "8", "--rows", "5", "--square", "20"};
-  for (const std::string& out : {(folder_ / "board.png").string(), (folder_ / "nowhere" / "board.pdf").string()}) {
+  const std::vector<std::string> board{"board",  "chessboard", "--columns", "8",
+                                       "--rows", "5",          "--square",  "20"};
+  for (const std::string& out :
+       {(folder_ / "board.png").string(), (folder_ / "nowhere" / "board.pdf").string()}) {
     std::vector<std::string> arguments = board;
     arguments.insert(arguments.end(), {"--out", out});
     const ProgramRun run = test_support::RunProgram(ELBOWROOM_PROGRAM, arguments);

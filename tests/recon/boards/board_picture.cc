@@ -22,9 +22,11 @@ class ShapeIndex {
       const auto [x0, y0] = CellAt(box.min());
       const auto [x1, y1] = CellAt(box.max());
       for (int y = y0; y <= y1; ++y)
-        for (int x = x0; x <= x1; ++x) (cells_[static_cast<std::size_t>(y * kAcross + x)].*list).push_back(shape);
+        for (int x = x0; x <= x1; ++x)
+          (cells_[static_cast<std::size_t>(y * kAcross + x)].*list).push_back(shape);
     };
-    for (std::size_t i = 0; i < drawing.rectangles.size(); ++i) add(drawing.rectangles[i], &Cell::rectangles, i);
+    for (std::size_t i = 0; i < drawing.rectangles.size(); ++i)
+      add(drawing.rectangles[i], &Cell::rectangles, i);
     for (std::size_t i = 0; i < drawing.circles.size(); ++i) {
       const DrawnCircle& circle = drawing.circles[i];
       const Vector2d radius = Vector2d::Constant(circle.radius_mm);
@@ -38,7 +40,8 @@ class ShapeIndex {
     for (const std::size_t i : cell.rectangles)
       if (drawing_.rectangles[i].contains(x_in_board)) return true;
     for (const std::size_t i : cell.circles)
-      if ((x_in_board - drawing_.circles[i].center_in_board).norm() <= drawing_.circles[i].radius_mm) return true;
+      if ((x_in_board - drawing_.circles[i].center_in_board).norm() <= drawing_.circles[i].radius_mm)
+        return true;
     return false;
   }
 
@@ -70,19 +73,22 @@ std::vector<std::optional<Vector2d>> CornersOfPixels(const core::CameraModel& ca
   return corners;
 }
 
-// Places in a pixel, from 0 to 1, whose projections on any line are spread evenly (Roberts' R2 sequence).
+// Places in a pixel, from 0 to 1, whose projections on any line are spread evenly (Roberts' R2 sequence),
+// each with its mirror image, so that their mean is the pixel's centre.
 std::vector<Vector2d> PlacesInPixel() {
   std::vector<Vector2d> places;
-  for (int i = 0; i < 36; ++i) {
+  for (int i = 0; i < 20; ++i) {
     const double x = 0.5 + 0.7548776662466927 * i, y = 0.5 + 0.5698402909980532 * i;
     places.emplace_back(x - std::floor(x), y - std::floor(y));
+    places.emplace_back(Vector2d(1.0, 1.0) - places.back());
   }
   return places;
 }
 
 }  // namespace
 
-cv::Mat PictureOf(const BoardDrawing& drawing, const core::CameraModel& camera, const PictureOptions& options) {
+cv::Mat PictureOf(const BoardDrawing& drawing, const core::CameraModel& camera,
+                  const PictureOptions& options) {
   const ShapeIndex shapes(drawing);
   const core::RigidTransform& cam_from_board = camera.cam_from_world();
   Matrix3d normalised_from_board;
@@ -145,10 +151,12 @@ core::CameraModel CameraAt(const Viewpoint& viewpoint, const BoardDrawing& drawi
   const Vector2d middle = drawing.ground.center() + viewpoint.aim_mm;
   const double e = viewpoint.elevation_deg * kDegree, a = viewpoint.azimuth_deg * kDegree;
   const Eigen::Vector3d target(middle.x(), middle.y(), 0.0);
-  const Eigen::Vector3d eye = target + viewpoint.distance_mm * Eigen::Vector3d(std::cos(e) * std::cos(a),
-                                                                               std::cos(e) * std::sin(a), std::sin(e));
+  const Eigen::Vector3d eye =
+      target + viewpoint.distance_mm *
+                   Eigen::Vector3d(std::cos(e) * std::cos(a), std::cos(e) * std::sin(a), std::sin(e));
   core::RigidTransform roll;
-  roll.rotation = Eigen::AngleAxisd(viewpoint.roll_deg * kDegree, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  roll.rotation =
+      Eigen::AngleAxisd(viewpoint.roll_deg * kDegree, Eigen::Vector3d::UnitZ()).toRotationMatrix();
   c.cam_from_world = roll * core::CamFromWorldLookingAt(eye, target);
   return core::CameraModel(c);
 }

@@ -21,13 +21,14 @@ struct PictureOptions {
   unsigned seed = 1;
 };
 
-// The board as the camera sees it where `cam_from_world` of the camera is cam_from_board. Each pixel is the mean of 36
-// places in it.
+// The board as the camera sees it where `cam_from_world` of the camera is cam_from_board. Each pixel is the
+// mean of 40 places in it.
 [[nodiscard]] cv::Mat PictureOf(const BoardDrawing& drawing, const core::CameraModel& camera,
                                 const PictureOptions& options);
 
-// One of the lenses "plain", "strong" (k1 = -0.37), "fisheye", "tele", looking at the middle of the board from
-// `distance_mm`, `elevation_deg` above its plane, from the direction `azimuth_deg`, turned by `roll_deg`.
+// One of the lenses "plain", "strong" (k1 = -0.37), "fisheye", "tele", looking at the middle of the board
+// from `distance_mm`, `elevation_deg` above its plane, from the direction `azimuth_deg`, turned by
+// `roll_deg`.
 struct Viewpoint {
   std::string lens = "plain";
   double distance_mm = 600.0;
@@ -39,9 +40,9 @@ struct Viewpoint {
 [[nodiscard]] core::CameraModel CameraAt(const Viewpoint& viewpoint, const BoardDrawing& drawing);
 
 struct SightingError {
-  double rms_px = 0.0;             // of both coordinates
-  double most_px = 0.0;            // the largest distance
-  double rms_of_sigma = 0.0;       // of each coordinate's error in standard deviations; 1 if they are honest
+  double rms_px = 0.0;        // of both coordinates
+  double most_px = 0.0;       // the largest distance
+  double rms_of_sigma = 0.0;  // of each coordinate's error in standard deviations; 1 if they are honest
 };
 // Against the truth; `half_turn`: numbers are those after half a turn. Nothing: a number with no such point.
 [[nodiscard]] std::optional<SightingError> ErrorOf(const BoardSighting& sighting, const Board& board,
