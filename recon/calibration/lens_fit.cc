@@ -215,14 +215,14 @@ ModelExcess ExcessOf(const std::vector<double>& errors, const std::vector<double
 
 // Whether a simpler model must give way to another. By 2 % always. By less, if the difference is beyond two
 // standard errors: an error of the model of a fifth of the noise is 2 %, and can be many standard deviations
-// of the parameters. The fisheye model has no tangential terms: where a polynomial does nearly as well, a
-// fisheye would put them into the principal point, so it needs half a percent at least.
+// of the parameters. Not so to a fisheye, which has no tangential terms and would put those of a lens that
+// has them into the principal point.
 bool MustGiveWay(const std::vector<double>& errors, const Candidate& other) {
-  constexpr double kShare = 0.02, kLeastShare = 0.005, kStandardErrors = 2.0;
+  constexpr double kShare = 0.02, kStandardErrors = 2.0;
   const ModelExcess excess = ExcessOf(errors, other.held_out);
   if (excess.share > kShare) return true;
-  const double least_share = other.model == DistortionModel::kFisheye ? kLeastShare : 0.0;
-  return excess.share > least_share && excess.standard_errors > kStandardErrors;
+  return other.model != DistortionModel::kFisheye && excess.share > 0.0 &&
+         excess.standard_errors > kStandardErrors;
 }
 
 // All candidates are judged by the views and points that agree with the one of least noise.
