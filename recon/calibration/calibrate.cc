@@ -203,7 +203,8 @@ CalibrationResult Calibrate(const CalibrationInput& input, const core::Progress&
 
   CalibrationResult result;
   result.noise_scale = fit.noise_scale;
-  result.warnings = fit.warnings;
+  result.warnings = fit.state.warnings;
+  result.warnings.insert(result.warnings.end(), fit.warnings.begin(), fit.warnings.end());
   PutCameras(fit, covariance, &result);
   const auto parameters = covariance.rows() - kFlatnessTerms;
   result.covariance = covariance.topLeftCorner(parameters, parameters);

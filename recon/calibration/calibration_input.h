@@ -27,6 +27,8 @@ struct CalibrationView {
   // Nothing: a picture for this camera's lens alone.
   std::optional<int> set;
   double time_s = 0.0;  // stamp of the picture, on the clock of all cameras; only differences count
+  // A board that looks the same after half a turn may be numbered from either end. Where one set alone joins
+  // two cameras, both are taken to number it from the same end.
   BoardSighting sighting;
   std::string label;  // for messages: "board/cam01/003.jpg", "frame 76"
 };

@@ -47,6 +47,7 @@ struct PairJoin {
   int agreeing = 0;
   int shared = 0;
   double score = 0.0;
+  bool is_by_numbering = false;  // half a turn of the board would fit as well
 };
 
 double MeanError(const LensParameters& lens, const RigidTransform& cam_from_board,
@@ -104,6 +105,7 @@ class RigStarter {
   [[nodiscard]] std::vector<RigidTransform> PosesFromEitherEnd(int view) const;
   void JoinCameras();
   [[noreturn]] void FailToJoin(const std::vector<bool>& is_joined) const;
+  void WarnOfNumbering(int a, int b);
   void PlaceBoard(RigSet* set);
   void TakeBoard(const RigidTransform& rig_from_board, RigSet* set);
   void TurnSet(RigSet* set);
@@ -243,8 +245,9 @@ PairJoin RigStarter::Join(int a, int b) const {
     }
   }
   const bool is_decided = best.shared == 1 && views_[static_cast<std::size_t>(shared[0].first)].is_decisive &&
-                          views_[static_cast<std::size_t>(shared[0].second)].is_decisive && !is_symmetric();
+                          views_[static_cast<std::size_t>(shared[0].second)].is_decisive;
   if (best.agreeing < 2 && !is_decided) best.agreeing = 0;
+  best.is_by_numbering = best.shared == 1 && is_symmetric();
   return best;
 }
 
@@ -273,6 +276,14 @@ void RigStarter::FailToJoin(const std::vector<bool>& is_joined) const {
       fmt::format("camera {} can't be joined to {}: {}; next, hold the board, tilted by 30 degrees, where "
                   "'{}' and '{}' both see it, at two places or more",
                   apart, joined, why, NameOf(partner), NameOf(first)));
+}
+
+void RigStarter::WarnOfNumbering(int a, int b) {
+  state_.warnings.push_back(fmt::format(
+      "the board looks the same after half a turn, and '{}' and '{}' share one view of it: both are taken to "
+      "number it from the same end, the one nearer to the upper left of their pictures; check on which sides "
+      "of the table they stand, or take more views",
+      NameOf(a), NameOf(b)));
 }
 
 void RigStarter::JoinCameras() {
@@ -306,6 +317,8 @@ void RigStarter::JoinCameras() {
       }
     }
     if (to < 0) FailToJoin(is_joined);
+    if (joins_[static_cast<std::size_t>(to)][static_cast<std::size_t>(from)].is_by_numbering)
+      WarnOfNumbering(from, to);
     is_joined[static_cast<std::size_t>(to)] = true;
     state_.cameras[static_cast<std::size_t>(to)].cam_from_rig =
         joins_[static_cast<std::size_t>(to)][static_cast<std::size_t>(from)].a_from_b *

@@ -47,6 +47,7 @@ struct RigState {
   int world_set = -1;          // place in sets; -1: the world is a camera
   std::vector<RigSet> sets;    // in the order of time
   std::vector<RigView> views;  // as in the input
+  std::vector<std::string> warnings;
 
   [[nodiscard]] int UsedViewsOf(const RigSet& set) const;
 };

@@ -57,6 +57,15 @@ BoardSighting Turned(const recon::Board& board, const BoardSighting& sighting) {
   return turned;
 }
 
+// From the end that is nearer to the upper left corner of the picture, for boards that have two alike.
+BoardSighting FromUpperLeft(const recon::Board& board, BoardSighting sighting) {
+  const auto from_corner = [](const SightedPoint& point) { return point.pixel.x() + point.pixel.y(); };
+  if (!recon::PointAfterHalfTurn(board, 0) || sighting.points.empty() ||
+      from_corner(sighting.points.front()) <= from_corner(sighting.points.back()))
+    return sighting;
+  return Turned(board, sighting);
+}
+
 // Mean distance of points with the same number. Nothing if they share too few.
 std::optional<double> MeanMovement(const BoardSighting& a, const BoardSighting& b) {
   constexpr int kFewest = 4;
@@ -110,6 +119,7 @@ class StillView {
       // Their errors are mostly the same in each picture, so the mean isn't taken to be more exact.
       view.sighting.points.push_back({number, sum.pixel / sum.count, sum.sigma_px / sum.count});
     }
+    view.sighting = FromUpperLeft(*board_, std::move(view.sighting));
     return view;
   }
 
