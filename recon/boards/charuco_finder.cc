@@ -1,5 +1,6 @@
 #include "recon/boards/charuco_finder.h"
 
+#include <algorithm>
 #include <vector>
 
 #include "recon/boards/lattice_sighting.h"

@@ -1,6 +1,7 @@
 // Which of the markers in a picture are those of a board, and where they say that the board is.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "recon/boards/board.h"

@@ -1,6 +1,8 @@
 // `elbowroom board`: a page that is written whole, and one line for what can't be.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>

@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgcodecs.hpp>
@@ -167,17 +169,13 @@ TEST_F(RealBoards, ChessboardsOfTheStereoPairAreWhereOpenCvSeesThem) {
   EXPECT_LT(rms_px, 0.2);
 }
 
-// In the second one a mouse lies on the board, and boxes are drawn over most markers and corners.
 TEST_F(RealBoards, CharucoPhotos) {
-  const Board board = Charuco(5, 7, 40.0, 20.0, "DICT_6X6_250");
-  const BoardFinder finder(board);
-  for (const auto& [name, least] : {std::pair("choriginal.jpg", 24U), std::pair("chocclusion.jpg", 5U)}) {
-    const auto sighting =
-        finder.Find(cv::imread((kSharedData / "calibration" / "aruco" / name).string(), cv::IMREAD_COLOR));
-    ASSERT_TRUE(sighting.has_value()) << name;
-    std::printf("%s: %zu of 24 corners\n", name, sighting->points.size());
-    EXPECT_GE(sighting->points.size(), least) << name;
-  }
+  const BoardFinder finder(Charuco(5, 7, 40.0, 20.0, "DICT_6X6_250"));
+  const fs::path photo = kSharedData / "calibration" / "aruco" / "choriginal.jpg";
+  const auto sighting = finder.Find(cv::imread(photo.string(), cv::IMREAD_COLOR));
+  ASSERT_TRUE(sighting.has_value());
+  std::printf("choriginal.jpg: %zu of 24 corners\n", sighting->points.size());
+  EXPECT_EQ(sighting->points.size(), 24U);
 }
 
 TEST_F(RealBoards, VideosOfWebcams) {

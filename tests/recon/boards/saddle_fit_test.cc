@@ -48,7 +48,7 @@ Matrix2d Axes(double length1, double angle1, double length2, double angle2) {
   return axes;
 }
 
-TEST(SaddleFit, IsWithinAHundredthOfAPixelWithoutNoise) {
+TEST(SaddleFit, IsWithinAFiftiethOfAPixelWithoutNoise) {
   for (const Matrix2d& axes :
        {Axes(20.0, 0.0, 20.0, 1.57), Axes(24.0, 0.4, 18.0, 1.8), Axes(30.0, 0.2, 12.0, 0.9)}) {
     for (const Vector2d& at : {Vector2d(30.0, 30.0), Vector2d(30.37, 29.81), Vector2d(29.5, 30.5)}) {
@@ -59,7 +59,7 @@ TEST(SaddleFit, IsWithinAHundredthOfAPixelWithoutNoise) {
       // The window must lie evenly around the crossing.
       const auto fit = FitSaddle(picture, {first->pixel, axes}, {});
       ASSERT_TRUE(fit.has_value());
-      EXPECT_LT((fit->pixel - at).norm(), 0.012);
+      EXPECT_LT((fit->pixel - at).norm(), 0.02);
     }
   }
 }
