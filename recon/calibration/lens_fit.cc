@@ -114,6 +114,21 @@ Adjustment SingleCamera(const BoardSurface& surface, const LensParameters& lens,
   return a;
 }
 
+// A fit of plumb_bob as the start of a rational lens: its polynomial over 1. All points have another chance.
+Adjustment WithDenominator(Adjustment a) {
+  LensParameters& lens = a.cameras.front().lens;
+  lens.model = DistortionModel::kRationalPolynomial;
+  const Eigen::VectorXd polynomial = lens.values;
+  lens.values = Eigen::VectorXd::Zero(4 + DistortionCount(lens.model));
+  lens.values.head(polynomial.size()) = polynomial;
+  for (AdjustedView& view : a.views) {
+    view.is_used =
+        !a.boards[static_cast<std::size_t>(view.boards[0])].rig_from_board.translation_mm.isZero(0.0);
+    for (AdjustedPoint& point : view.points) point.is_used = true;
+  }
+  return a;
+}
+
 PosedView PosedViewOf(const Adjustment& a, const AdjustedView& view) {
   PosedView posed;
   posed.lens = &a.cameras[static_cast<std::size_t>(view.camera)].lens;
@@ -301,7 +316,9 @@ LensFit FitLens(const CalibrationCamera& camera, const BoardSurface& surface,
   int most_views = 0;
   for (const DistortionModel model : models) {
     core::ThrowIfStopped(stop, "calibration");
-    Adjustment start = SingleCamera(surface, StartLens(camera, surface, model, usable), usable);
+    Adjustment start = model == DistortionModel::kRationalPolynomial && !candidates.empty()
+                           ? WithDenominator(candidates.front().fit)
+                           : SingleCamera(surface, StartLens(camera, surface, model, usable), usable);
     if (UsedViews(start) < kLeastLensViews) continue;
     Candidate candidate{model, FitSingle(std::move(start), stop), 0.0, {}};
     candidate.noise = RobustNoiseScale(candidate.fit);

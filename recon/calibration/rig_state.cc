@@ -230,7 +230,7 @@ PosedView PosedAtSetInstant(const Adjustment& a, const AdjustedView& view) {
   return posed;
 }
 
-void ChangeFrame(const core::RigidTransform& new_from_rig, RigState* state) {
+void ChangeFrame(core::RigidTransform new_from_rig, RigState* state) {
   const core::RigidTransform rig_from_new = new_from_rig.Inverse();
   for (AdjustedCamera& camera : state->cameras) camera.cam_from_rig = camera.cam_from_rig * rig_from_new;
   for (RigSet& set : state->sets) set.rig_from_board = new_from_rig * set.rig_from_board;

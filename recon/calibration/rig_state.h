@@ -74,7 +74,7 @@ void TakeOver(const Adjustment& adjustment, RigState* state);
 // set's views.
 [[nodiscard]] PosedView PosedAtSetInstant(const Adjustment& adjustment, const AdjustedView& view);
 
-// Moves the world's frame of the fit: x_in_new = new_from_rig * x_in_rig.
-void ChangeFrame(const core::RigidTransform& new_from_rig, RigState* state);
+// Changes the frame of the fit: x_in_new = new_from_rig * x_in_rig. By value: it may be a pose of the state.
+void ChangeFrame(core::RigidTransform new_from_rig, RigState* state);
 
 }  // namespace elbowroom::recon

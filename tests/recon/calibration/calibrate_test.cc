@@ -82,7 +82,7 @@ TEST(Calibrate, StatesTheNoiseThatThereIs) {
 }
 
 TEST(Calibrate, CovarianceIsThatOfManyDraws) {
-  const int draws = std::min(200, 60 * test_support::SoakScale());
+  const int draws = std::min(200, 30 * test_support::SoakScale());
   CalibrationSceneOptions options = CleanOptions();
   options.noise_px = 0.0;
   options.has_plain_lenses = true;
