@@ -25,7 +25,7 @@ struct BoardPage {
 [[nodiscard]] std::string BoardAsToml(const Board& board);
 
 // The bytes of a PDF file of one page: the board, a ruler of 100 mm on both axes that shows whether the
-// printer kept the scale, and the board's values. Lengths are exact to 0.001 mm (tested by board_page_test).
+// printer kept the scale, and the board's values. board_page_test finds the board in the printed page.
 // Throws: as DrawBoard; Error{kFile} if the PDF can't be made.
 [[nodiscard]] std::string BoardAsPdf(const Board& board, const BoardPage& page);
 

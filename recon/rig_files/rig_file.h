@@ -17,7 +17,7 @@ struct CameraSources {
   std::string frames;
   std::string background;
   std::string masks;
-  std::string timestamps;
+  std::string timestamps = {};
   // A picture with the stamp t shows the scene at t + time_offset_s.
   double time_offset_s = 0.0;
 
