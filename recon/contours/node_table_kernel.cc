@@ -3,9 +3,9 @@
 #define HWY_TARGET_INCLUDE "recon/contours/node_table_kernel.cc"
 #include <hwy/foreach_target.h>
 
+#include <hwy/highway.h>
 #include <algorithm>
 #include <cstddef>
-#include <hwy/highway.h>
 
 #include "recon/contours/node_table_kernel.h"
 

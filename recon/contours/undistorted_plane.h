@@ -33,7 +33,8 @@ class UndistortedPlane {
   // From a position in the picture, its border included, to one in the plane, to 1e-5 units
   // (undistorted_plane_test). Nothing where the lens model has no ray for that position.
   [[nodiscard]] std::optional<Eigen::Vector2d> FromPixel(const Eigen::Vector2d& pixel) const;
-  // The same for many at once, to the last bit; NaN in place of nothing. `positions` has room for one a pixel.
+  // The same for many at once, to the last bit; NaN in place of nothing. `positions` has room for one a
+  // pixel.
   void FromPixels(std::span<const Eigen::Vector2d> pixels, Eigen::Vector2d* positions) const;
 
   // The pixels for whose centres the lens model has no ray. Nothing if there are none, as is usual.
