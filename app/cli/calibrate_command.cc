@@ -1,15 +1,14 @@
 // elbowroom calibrate CALIB.toml --out RIG.yml: from pictures of a board to a rig whose error is known.
 #include <fmt/format.h>
 
-#include <cmath>
 #include <filesystem>
 #include <memory>
-#include <numbers>
 
 #include "app/cli/command.h"
 #include "app/cli/vector_json.h"
 #include "app/control/calibration/calibration_job.h"
 #include "app/control/calibration/calibration_report.h"
+#include "core/units.h"
 
 namespace elbowroom::cli {
 namespace {
@@ -19,8 +18,6 @@ struct CalibrateOptions {
   std::filesystem::path out;
   std::filesystem::path report;  // empty: none
 };
-
-double Degrees(double rad) { return rad * 180.0 / std::numbers::pi; }
 
 nlohmann::json RowsOf(const Eigen::Matrix3d& matrix) {
   nlohmann::json rows = nlohmann::json::array();
@@ -40,7 +37,7 @@ nlohmann::json CameraJson(const control::CalibrationOutcome& outcome, int number
           {"center_mm", JsonOf(model.center_in_world())},
           {"center_sigma_mm", recon::CenterSigmaMm(outcome.result, number)},
           {"center_covariance_mm2", RowsOf(recon::CenterCovariance(outcome.result, number))},
-          {"rotation_sigma_deg", Degrees(recon::RotationSigmaRad(outcome.result, number))},
+          {"rotation_sigma_deg", core::DegreesFromRadians(recon::RotationSigmaRad(outcome.result, number))},
           {"time_offset_s", camera.time_offset_s},
           {"time_offset_sigma_s", OrNull(camera.time_offset_sigma_s)}};
 }
@@ -105,7 +102,7 @@ std::string CameraText(const control::CalibrationOutcome& outcome, int number) {
   if (camera.views_rejected > 0) text += fmt::format(" ({} left out)", camera.views_rejected);
   text += fmt::format(", {:.2f} px, centre +- {:.2f} mm, rotation +- {:.3f} deg", camera.rms_px,
                       recon::CenterSigmaMm(outcome.result, number),
-                      Degrees(recon::RotationSigmaRad(outcome.result, number)));
+                      core::DegreesFromRadians(recon::RotationSigmaRad(outcome.result, number)));
   if (camera.time_offset_sigma_s)
     text += fmt::format(", {:.1f} +- {:.1f} ms late", 1e3 * camera.time_offset_s,
                         1e3 * *camera.time_offset_sigma_s);

@@ -130,27 +130,21 @@ bool RefineSeed(const cv::Mat& grey, Seed* seed) {
 }
 
 // Boards look the same after half a turn, or the first square says which end is the first.
-std::optional<LatticeNumbering> ChooseNumbering(const std::vector<LatticeNumbering>& numberings,
+std::optional<LatticeNumbering> ChooseNumbering(std::vector<LatticeNumbering> numberings,
                                                 const PointLattice& lattice, const Board& board, int sign) {
-  const LatticeNumbering* chosen = nullptr;
-  double least = 0.0;
-  for (const LatticeNumbering& numbering : numberings) {
-    const auto first =
-        std::ranges::find_if(numbering.cells, [](const auto& cell) { return cell.has_value(); });
-    const int place = static_cast<int>(first - numbering.cells.begin());
-    const int steps = place % board.columns + place / board.columns;
-    // A sign is that of one diagonal, and a quarter turn exchanges both.
-    const bool is_other_diagonal = (steps % 2 != 0) != numbering.axes_exchanged;
-    const int sign_of_first_point = is_other_diagonal ? -SignAt(**first, sign) : SignAt(**first, sign);
-    if ((board.columns + board.rows) % 2 != 0 && sign_of_first_point > 0) continue;
-    const double sum = lattice.at(**first).pixel.sum();
-    if (chosen == nullptr || sum < least) {
-      chosen = &numbering;
-      least = sum;
-    }
+  if ((board.columns + board.rows) % 2 != 0) {
+    std::erase_if(numberings, [&](const LatticeNumbering& numbering) {
+      const auto first =
+          std::ranges::find_if(numbering.cells, [](const auto& cell) { return cell.has_value(); });
+      const int place = static_cast<int>(first - numbering.cells.begin());
+      const int steps = place % board.columns + place / board.columns;
+      // A sign is that of one diagonal, and a quarter turn exchanges both.
+      const bool is_other_diagonal = (steps % 2 != 0) != numbering.axes_exchanged;
+      const int sign_there = SignAt(FirstFound(numbering), sign);
+      return (is_other_diagonal ? -sign_there : sign_there) > 0;
+    });
   }
-  if (chosen == nullptr) return std::nullopt;
-  return *chosen;
+  return FromUpperLeft(numberings, lattice);
 }
 
 std::vector<LatticeCell> CellsOf(const Board& board) {

@@ -138,18 +138,9 @@ void CorrectForPerspective(const Board& board, const std::vector<double>& area_p
 std::optional<BoardSighting> SightingOfCircles(const cv::Mat& grey, const Board& board,
                                                const std::vector<CircleBlob>& blobs,
                                                const PointLattice& lattice) {
-  const std::vector<LatticeNumbering> numberings = NumberLattice(lattice, CircleCells(board));
-  const LatticeNumbering* chosen = nullptr;
-  double least = 0.0;
-  for (const LatticeNumbering& numbering : numberings) {
-    const auto first =
-        std::ranges::find_if(numbering.cells, [](const auto& cell) { return cell.has_value(); });
-    const double sum = lattice.at(**first).pixel.sum();
-    if (chosen != nullptr && sum >= least) continue;
-    chosen = &numbering;
-    least = sum;
-  }
-  if (chosen == nullptr) return std::nullopt;
+  const std::optional<LatticeNumbering> chosen =
+      FromUpperLeft(NumberLattice(lattice, CircleCells(board)), lattice);
+  if (!chosen) return std::nullopt;
   std::vector<SightedPoint> points;
   std::vector<double> area_px2;
   for (std::size_t i = 0; i < chosen->cells.size(); ++i) {

@@ -175,4 +175,17 @@ std::vector<LatticeNumbering> NumberLattice(const PointLattice& lattice,
   return numberings;
 }
 
+LatticeCell FirstFound(const LatticeNumbering& numbering) {
+  return **std::ranges::find_if(numbering.cells, [](const auto& cell) { return cell.has_value(); });
+}
+
+std::optional<LatticeNumbering> FromUpperLeft(const std::vector<LatticeNumbering>& numberings,
+                                              const PointLattice& lattice) {
+  const auto nearest = std::ranges::min_element(numberings, {}, [&](const LatticeNumbering& numbering) {
+    return lattice.at(FirstFound(numbering)).pixel.sum();
+  });
+  if (nearest == numberings.end()) return std::nullopt;
+  return *nearest;
+}
+
 }  // namespace elbowroom::recon

@@ -50,4 +50,12 @@ struct LatticeNumbering {
 [[nodiscard]] std::vector<LatticeNumbering> NumberLattice(const PointLattice& lattice,
                                                           const std::vector<LatticeCell>& expected);
 
+// The cell of the first point that was found; NumberLattice gives no numbering without one.
+[[nodiscard]] LatticeCell FirstFound(const LatticeNumbering& numbering);
+
+// The one whose first point is nearest to the picture's upper left corner, by x + y. Nothing if there is
+// none.
+[[nodiscard]] std::optional<LatticeNumbering> FromUpperLeft(const std::vector<LatticeNumbering>& numberings,
+                                                            const PointLattice& lattice);
+
 }  // namespace elbowroom::recon

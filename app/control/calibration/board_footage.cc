@@ -45,14 +45,14 @@ OpenedCamera Open(const CameraFootage& camera, const std::stop_token& stop) {
 }
 
 // Frame i of each camera, as far as the longest footage goes.
-std::vector<StampedSet> SetsByNumber(const std::vector<OpenedCamera>& cameras) {
+std::vector<StampedSet> SetsByNumber(const std::vector<OpenedCamera>& cameras,
+                                     const std::optional<double>& period_s) {
   FrameIndex longest = 0;
   for (const OpenedCamera& camera : cameras)
     longest = std::max(longest, camera.frames.pictures->frame_count().value_or(0));
-  const std::optional<double> rate_hz = cameras.front().frames.pictures->frame_rate_hz();
   std::vector<StampedSet> sets(static_cast<std::size_t>(longest));
   for (std::size_t i = 0; i < sets.size(); ++i) {
-    const double time_s = rate_hz ? static_cast<double>(i) / *rate_hz : 0.0;
+    const double time_s = static_cast<double>(i) * period_s.value_or(0.0);
     for (const OpenedCamera& camera : cameras) {
       const auto frame = static_cast<FrameIndex>(i);
       const bool has = frame < camera.frames.pictures->frame_count().value_or(0);
@@ -171,9 +171,9 @@ void FormSets(const CalibrationFile& file, std::vector<OpenedCamera>* cameras, B
   const bool has_stamps =
       std::ranges::any_of(*cameras, [](const OpenedCamera& camera) { return !camera.stamps.empty(); });
   if (!has_stamps) {
-    footage->sets = Chosen(SetsByNumber(*cameras));
     const auto rate_hz = cameras->front().frames.pictures->frame_rate_hz();
     if (rate_hz && *rate_hz > 0.0) footage->period_s = 1.0 / *rate_hz;
+    footage->sets = Chosen(SetsByNumber(*cameras, footage->period_s));
     return;
   }
   RequireStampsOfAll(file, *cameras);

@@ -35,7 +35,6 @@ struct BoardFootage {
   // or 0 if there is no rate.
   std::vector<StampedSet> sets;
   std::optional<double> period_s;  // between two frames; nothing: times are not known
-  std::vector<std::string> warnings;
 };
 
 // At most this many sets are looked at. Longer footage is looked at in runs of three sets in a row, evenly

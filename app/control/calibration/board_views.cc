@@ -57,15 +57,6 @@ BoardSighting Turned(const recon::Board& board, const BoardSighting& sighting) {
   return turned;
 }
 
-// From the end that is nearer to the upper left corner of the picture, for boards that have two alike.
-BoardSighting FromUpperLeft(const recon::Board& board, BoardSighting sighting) {
-  const auto from_corner = [](const SightedPoint& point) { return point.pixel.x() + point.pixel.y(); };
-  if (!recon::PointAfterHalfTurn(board, 0) || sighting.points.empty() ||
-      from_corner(sighting.points.front()) <= from_corner(sighting.points.back()))
-    return sighting;
-  return Turned(board, sighting);
-}
-
 // Mean distance of points with the same number. Nothing if they share too few.
 std::optional<double> MeanMovement(const BoardSighting& a, const BoardSighting& b) {
   constexpr int kFewest = 4;
@@ -119,7 +110,6 @@ class StillView {
       // Their errors are mostly the same in each picture, so the mean isn't taken to be more exact.
       view.sighting.points.push_back({number, sum.pixel / sum.count, sum.sigma_px / sum.count});
     }
-    view.sighting = FromUpperLeft(*board_, std::move(view.sighting));
     return view;
   }
 
@@ -161,12 +151,10 @@ class SetJoiner {
     }
   }
 
-  void Run(BoardViews* views) {
+  void Run(std::vector<recon::CalibrationView>* views) {
     for (const StampedSet& set : footage_.sets) {
       if (!ShowsBoard(set)) continue;
-      if (IsContinued(set)) {
-        ++views->still_sets;
-      } else {
+      if (!IsContinued(set)) {
         Close(views);
         Begin(set);
       }
@@ -226,10 +214,10 @@ class SetJoiner {
     return true;
   }
 
-  void Close(BoardViews* views) {
+  void Close(std::vector<recon::CalibrationView>* views) {
     if (views_.empty()) return;
     for (std::size_t i = 0; i < views_.size(); ++i)
-      if (views_[i]) views->input.views.push_back(views_[i]->View(static_cast<int>(i), number_));
+      if (views_[i]) views->push_back(views_[i]->View(static_cast<int>(i), number_));
     views_.clear();
     ++number_;
   }
@@ -256,11 +244,10 @@ void AddPhotos(const BoardFootage& footage, recon::CalibrationInput* input) {
 
 }  // namespace
 
-BoardViews ViewsOf(const CalibrationFile& file, const BoardFootage& footage,
-                   std::vector<std::optional<core::CameraCalibration>> known) {
+recon::CalibrationInput ViewsOf(const CalibrationFile& file, const BoardFootage& footage,
+                                std::vector<std::optional<core::CameraCalibration>> known) {
   RequireBoards(file, footage);
-  BoardViews views;
-  recon::CalibrationInput& input = views.input;
+  recon::CalibrationInput input;
   input.board = file.board;
   for (std::size_t i = 0; i < footage.cameras.size(); ++i) {
     const CameraSightings& camera = footage.cameras[i];
@@ -268,7 +255,7 @@ BoardViews ViewsOf(const CalibrationFile& file, const BoardFootage& footage,
         {camera.name, camera.width_px, camera.height_px, file.cameras[i].lens_model, std::move(known[i])});
   }
   SetJoiner joiner(file, footage);
-  joiner.Run(&views);
+  joiner.Run(&input.views);
   AddPhotos(footage, &input);
   if (file.board_frame) {
     if (!joiner.world_set()) {
@@ -286,7 +273,7 @@ BoardViews ViewsOf(const CalibrationFile& file, const BoardFootage& footage,
   }
   input.finds_offsets = footage.period_s.has_value();
   if (footage.period_s) input.frame_period_s = *footage.period_s;
-  return views;
+  return input;
 }
 
 }  // namespace elbowroom::control

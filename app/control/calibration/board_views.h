@@ -15,14 +15,9 @@ namespace elbowroom::control {
 // this from the first of these pictures.
 inline constexpr double kStillPx = 0.35;
 
-struct BoardViews {
-  recon::CalibrationInput input;
-  int still_sets = 0;  // sets that count as part of an earlier one
-};
-
 // `known`: by camera, the lens to keep. Throws: Error{kCamera}: no camera found the board at all, naming what
 // was looked for and in how many pictures; a camera that never found it; no camera found it in board_frame.
-[[nodiscard]] BoardViews ViewsOf(const CalibrationFile& file, const BoardFootage& footage,
-                                 std::vector<std::optional<core::CameraCalibration>> known);
+[[nodiscard]] recon::CalibrationInput ViewsOf(const CalibrationFile& file, const BoardFootage& footage,
+                                              std::vector<std::optional<core::CameraCalibration>> known);
 
 }  // namespace elbowroom::control

@@ -9,9 +9,8 @@
 
 namespace elbowroom::control {
 
-// One line each, the most useful first: parts of a picture in which a camera hasn't seen the board, cameras
-// with few views or with views that aren't tilted, pairs of cameras that share few sets, cameras whose time
-// offset can't be told.
+// One line each, camera by camera: parts of its picture in which it hasn't seen the board, few views; then
+// cameras that share few instants with any other, where the board makes the world.
 [[nodiscard]] std::vector<std::string> AdviceFor(const recon::CalibrationInput& input,
                                                  const recon::CalibrationResult& result);
 

@@ -19,24 +19,27 @@ namespace {
 using core::Error;
 using core::ErrorKind;
 
-std::vector<std::optional<core::CameraCalibration>> ReadKnownLenses(const CalibrationFile& file,
-                                                                    const BoardFootage& footage) {
-  std::vector<std::optional<core::CameraCalibration>> known(file.cameras.size());
-  for (std::size_t i = 0; i < known.size(); ++i) {
-    if (file.cameras[i].known.empty()) continue;
-    known[i] = recon::ReadLensFile(file.cameras[i].known);
-    const CameraSightings& seen = footage.cameras[i];
-    if (known[i]->image_width_px != seen.width_px || known[i]->image_height_px != seen.height_px) {
-      throw Error(
-          ErrorKind::kCamera,
-          fmt::format(
-              "camera '{}': the lens of '{}' is for {} x {} px, but the frames are {} x {}; give the lens of "
-              "this size",
-              seen.name, file.cameras[i].known.string(), known[i]->image_width_px, known[i]->image_height_px,
-              seen.width_px, seen.height_px));
-    }
-  }
+using KnownLenses = std::vector<std::optional<core::CameraCalibration>>;  // by camera
+
+KnownLenses ReadKnownLenses(const CalibrationFile& file) {
+  KnownLenses known(file.cameras.size());
+  for (std::size_t i = 0; i < known.size(); ++i)
+    if (!file.cameras[i].known.empty()) known[i] = recon::ReadLensFile(file.cameras[i].known);
   return known;
+}
+
+void RequireSizes(const CalibrationFile& file, const KnownLenses& known, const BoardFootage& footage) {
+  for (std::size_t i = 0; i < known.size(); ++i) {
+    const CameraSightings& seen = footage.cameras[i];
+    if (!known[i] ||
+        (known[i]->image_width_px == seen.width_px && known[i]->image_height_px == seen.height_px))
+      continue;
+    throw Error(ErrorKind::kCamera,
+                fmt::format("camera '{}': the lens of '{}' is for {} x {} px, but the frames are {} x {}; "
+                            "give the lens of this size",
+                            seen.name, file.cameras[i].known.string(), known[i]->image_width_px,
+                            known[i]->image_height_px, seen.width_px, seen.height_px));
+  }
 }
 
 int NumberOf(const CalibrationFile& file, const std::string& name) {
@@ -144,19 +147,18 @@ std::vector<double> OffsetsOf(const recon::CalibrationResult& result) {
 CalibrationOutcome CalibrateRig(const CalibrationFile& file, const std::string& rig_name,
                                 const core::Progress& progress, const std::stop_token& stop) {
   CalibrationOutcome outcome;
+  const KnownLenses known = ReadKnownLenses(file);  // a wrong file is told before the long search
   outcome.footage = FindBoards(file, progress, stop);
-  const auto known = ReadKnownLenses(file, outcome.footage);
+  RequireSizes(file, known, outcome.footage);
   const auto start = std::chrono::steady_clock::now();
-  outcome.input = ViewsOf(file, outcome.footage, known).input;
+  outcome.input = ViewsOf(file, outcome.footage, known);
   outcome.result = recon::Calibrate(outcome.input, progress, stop);
   if (HasLateCamera(outcome)) {
     outcome.footage.sets = SetsAfterOffsets(outcome.footage, OffsetsOf(outcome.result));
-    outcome.input = ViewsOf(file, outcome.footage, known).input;
+    outcome.input = ViewsOf(file, outcome.footage, known);
     outcome.result = recon::Calibrate(outcome.input, progress, stop);
   }
-  outcome.warnings = outcome.footage.warnings;
-  outcome.warnings.insert(outcome.warnings.end(), outcome.result.warnings.begin(),
-                          outcome.result.warnings.end());
+  outcome.warnings = outcome.result.warnings;
   outcome.advice = AdviceFor(outcome.input, outcome.result);
   CheckLengths(file, &outcome);
   const recon::RigUncertainty uncertainty(outcome.result, outcome.result.noise_px);

@@ -2,9 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <numbers>
-
 #include "app/control/calibration/calibration_pictures.h"
+#include "core/units.h"
 #include "sessions/report/csv_text.h"
 #include "sessions/report/html_page.h"
 #include "sessions/report/html_table.h"
@@ -89,7 +88,7 @@ std::string CameraTable(const CalibrationOutcome& outcome) {
          fmt::format("{}", camera.views_used), fmt::format("{}", camera.views_rejected),
          fmt::format("{:.3f}", camera.rms_px),
          fmt::format("{:.2f}", recon::CenterSigmaMm(outcome.result, number)),
-         fmt::format("{:.3f}", recon::RotationSigmaRad(outcome.result, number) * 180.0 / std::numbers::pi),
+         fmt::format("{:.3f}", core::DegreesFromRadians(recon::RotationSigmaRad(outcome.result, number))),
          camera.time_offset_sigma_s ? fmt::format("{:.1f} &plusmn; {:.1f}", 1e3 * camera.time_offset_s,
                                                   1e3 * *camera.time_offset_sigma_s)
                                     : std::string("-")});

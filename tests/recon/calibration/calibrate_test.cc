@@ -19,13 +19,9 @@ namespace {
 using Eigen::Vector3d;
 
 CalibrationSceneOptions CleanOptions() {
-  CalibrationSceneOptions options;
+  CalibrationSceneOptions options = StillBoardOptions();
   options.cameras = 3;
   options.runs = 14;
-  options.frames_of_run = 1;
-  options.wrong_share = 0.0;
-  options.most_offset = 0.0;
-  options.gives_models = true;
   return options;
 }
 

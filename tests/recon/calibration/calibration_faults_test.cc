@@ -13,13 +13,10 @@ namespace elbowroom::recon {
 namespace {
 
 CalibrationScene SmallScene(std::uint64_t seed, double wrong_share = 0.0) {
-  CalibrationSceneOptions options;
+  CalibrationSceneOptions options = StillBoardOptions();
   options.cameras = 3;
   options.runs = 25;
-  options.frames_of_run = 1;
-  options.most_offset = 0.0;
   options.wrong_share = wrong_share;
-  options.gives_models = true;
   return MakeCalibrationScene(options, seed);
 }
 

@@ -27,6 +27,17 @@ struct CalibrationSceneOptions {
   Board board{BoardKind::kCharuco, 11, 8, 60.0, 40.0, "DICT_5X5_100"};  // A2 and a little more
 };
 
+// No two frames follow each other, so the board counts as still at each; no wrong views; the lenses' models
+// are given.
+[[nodiscard]] inline CalibrationSceneOptions StillBoardOptions() {
+  CalibrationSceneOptions options;
+  options.frames_of_run = 1;
+  options.most_offset = 0.0;
+  options.wrong_share = 0.0;
+  options.gives_models = true;
+  return options;
+}
+
 struct CalibrationScene {
   CalibrationInput input;
   std::vector<core::CameraCalibration> cameras;        // true

@@ -13,12 +13,8 @@ namespace {
 using Eigen::Vector3d;
 
 CalibrationScene LengthScene() {
-  CalibrationSceneOptions options;
+  CalibrationSceneOptions options = StillBoardOptions();
   options.runs = 25;
-  options.frames_of_run = 1;
-  options.most_offset = 0.0;
-  options.wrong_share = 0.0;
-  options.gives_models = true;
   return MakeCalibrationScene(options, 1);
 }
 

@@ -22,13 +22,9 @@ using Eigen::Vector3d;
 
 const CalibrationResult& FourCameras() {
   static const CalibrationResult result = [] {
-    CalibrationSceneOptions options;
+    CalibrationSceneOptions options = StillBoardOptions();
     options.runs = 25;
-    options.frames_of_run = 1;
-    options.most_offset = 0.0;
-    options.wrong_share = 0.0;
     options.has_plain_lenses = true;
-    options.gives_models = true;
     return Calibrate(MakeCalibrationScene(options, 1).input);
   }();
   return result;
