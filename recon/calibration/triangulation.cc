@@ -1,6 +1,7 @@
 #include "recon/calibration/triangulation.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Geometry>
 #include <cmath>
 
 namespace elbowroom::recon {
