@@ -1,5 +1,6 @@
 #include "recon/calibration/lens_projection.h"
 
+#include <Eigen/LU>
 #include <array>
 #include <cmath>
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/error.h"
+#include "recon/calibration/board_surface.h"
 #include "recon/calibration/calibrate.h"
 #include "recon/calibration/planar_pose.h"
 #include "recon/calibration/rotation.h"
