@@ -6,6 +6,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/error.h"
 #include "recon/calibration/point_response.h"
@@ -33,22 +34,33 @@ void FillPlane(const RigUncertainty& rig, int z, UncertaintyMap* map) {
   }
 }
 
+std::vector<core::CameraModel> ModelsOf(const CalibrationResult& result) {
+  std::vector<core::CameraModel> models;
+  for (const CalibratedCamera& camera : result.cameras) models.emplace_back(camera.calibration);
+  return models;
+}
+
 }  // namespace
 
 double PointUncertainty::sigma_mm() const { return std::sqrt(covariance_mm2.trace()); }
 
-RigUncertainty::RigUncertainty(const CalibrationResult& result, double noise_px)
-    : covariance_(result.covariance), noise_px_(noise_px) {
+RigUncertainty::RigUncertainty(std::span<const core::CameraModel> cameras, Eigen::MatrixXd covariance,
+                               double noise_px)
+    : covariance_(std::move(covariance)), noise_px_(noise_px) {
   core::Require(noise_px > 0.0 && std::isfinite(noise_px), "the noise of a pixel is positive");
   int parameters = 0;
-  for (const CalibratedCamera& camera : result.cameras) {
-    cameras_.push_back(
-        {core::CameraModel(camera.calibration), LensParametersOf(camera.calibration), camera.parameters});
-    parameters += camera.parameters.size();
+  for (const core::CameraModel& camera : cameras) {
+    const LensParameters lens = LensParametersOf(camera.calibration());
+    cameras_.push_back({camera, lens, {parameters, lens.count()}});
+    parameters += cameras_.back().parameters.size();
   }
+  if (covariance_.size() == 0) covariance_ = Eigen::MatrixXd::Zero(parameters, parameters);
   core::Require(covariance_.rows() == parameters && covariance_.cols() == parameters,
                 "the covariance has a row for each parameter of the cameras");
 }
+
+RigUncertainty::RigUncertainty(const CalibrationResult& result, double noise_px)
+    : RigUncertainty(ModelsOf(result), result.covariance, noise_px) {}
 
 bool RigUncertainty::Sees(const Camera& camera, const Eigen::Vector3d& x_in_world) {
   const std::optional<Eigen::Vector2d> pixel = camera.model.Project(x_in_world);

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <stop_token>
 #include <vector>
 
@@ -28,8 +29,11 @@ struct PointUncertainty {
 // still, so time offsets have no part in it.
 class RigUncertainty {
  public:
-  // `noise_px`: CalibrationResult::noise_px, or the noise of what is looked for later. Throws: Error{kCamera}
-  // as core::CameraModel; PreconditionError: a covariance of another size, or noise that isn't positive.
+  // `covariance` of all cameras' parameters, as RIG.yml keeps it: a ParameterBlock for each camera. Empty: the
+  // cameras are taken as exact. `noise_px`: CalibrationResult::noise_px, or the noise of what is looked for
+  // later. Throws: PreconditionError: a covariance of another size, or noise that isn't positive.
+  RigUncertainty(std::span<const core::CameraModel> cameras, Eigen::MatrixXd covariance, double noise_px);
+  // Throws: Error{kCamera} as core::CameraModel, too.
   RigUncertainty(const CalibrationResult& result, double noise_px);
 
   // Nothing: fewer than two cameras see the point, or all see it from one direction.

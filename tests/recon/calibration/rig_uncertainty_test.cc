@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <chrono>
 #include <cmath>
@@ -92,6 +93,19 @@ TEST(RigUncertainty, MoreNoiseIsMoreUncertainty) {
   const double much = RigUncertainty(FourCameras(), 1.0).At(x).value().sigma_mm();
   EXPECT_GT(little, 0.0);
   EXPECT_GT(much, 3.0 * little);
+}
+
+TEST(RigUncertainty, OfARigFileIsThatOfItsCalibration) {
+  const CalibrationResult& result = FourCameras();
+  std::vector<core::CameraModel> cameras;
+  for (const CalibratedCamera& camera : result.cameras) cameras.emplace_back(camera.calibration);
+  const Vector3d x(0.0, 0.0, 50.0);
+  const Eigen::Matrix3d stated = RigUncertainty(result, 0.3).At(x).value().covariance_mm2;
+  EXPECT_EQ(RigUncertainty(cameras, result.covariance, 0.3).At(x).value().covariance_mm2, stated);
+  // Exact cameras leave the noise of the pixels.
+  const Eigen::Matrix3d exact = RigUncertainty(cameras, {}, 0.3).At(x).value().covariance_mm2;
+  EXPECT_GT(exact.trace(), 0.0);
+  EXPECT_GT((stated - exact).eval().selfadjointView<Eigen::Lower>().eigenvalues().minCoeff(), -1e-9);
 }
 
 TEST(UncertaintyMap, HoldsWhatEachNodeHas) {
