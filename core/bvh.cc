@@ -164,4 +164,11 @@ void TriangleTree::Build(std::uint32_t node) {
   Build(left + 1);
 }
 
+Eigen::AlignedBox3d BoxAround(const TriangleTree& tree, const RigidTransform& b_from_mesh) {
+  if (tree.bounds().isEmpty()) return {};
+  const Eigen::Vector3d center = b_from_mesh * tree.bounds().center();
+  const Eigen::Vector3d half = 0.5 * (b_from_mesh.rotation.cwiseAbs() * tree.bounds().sizes());
+  return {center - half, center + half};
+}
+
 }  // namespace elbowroom::core

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "core/rigid_transform.h"
 #include "core/triangle_mesh.h"
 
 namespace elbowroom::core {
@@ -64,5 +65,8 @@ class TriangleTree {
   std::vector<Node> nodes_;
   std::vector<std::uint32_t> order_;
 };
+
+// A box of frame b that encloses the tree's bounds.
+[[nodiscard]] Eigen::AlignedBox3d BoxAround(const TriangleTree& tree, const RigidTransform& b_from_mesh);
 
 }  // namespace elbowroom::core

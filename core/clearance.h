@@ -4,6 +4,9 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <limits>
+#include <optional>
+
+#include "core/error_budget.h"
 
 namespace elbowroom::core {
 
@@ -21,6 +24,11 @@ struct PartClearance {
   ClearanceInterval interval;
   bool has_witnesses = false;  // the interval's witness points are set; they show its upper bound
   std::int64_t queries = 0;    // asked of the hull
+  // What the verdict allows for. Nothing: what the trial says for all parts.
+  std::optional<ErrorBudget> budget = {};
+
+  // 95 %: what the verdict allows for, where `given_mm` is what the trial says.
+  [[nodiscard]] double AllowedMm(double given_mm) const { return budget ? budget->ExpandedMm() : given_mm; }
 };
 
 }  // namespace elbowroom::core

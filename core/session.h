@@ -13,6 +13,7 @@
 #include "core/ids.h"
 #include "core/layout.h"
 #include "core/rig.h"
+#include "core/rig_quality.h"
 #include "core/rigid_transform.h"
 #include "core/soft_mask.h"
 
@@ -25,7 +26,8 @@ struct TrialInfo {
   double estimate_mm = 0.0;            // the participant's guess of the space needed; 0: none given
   double required_clearance_mm = 0.0;  // of parts to the hull; 0: only contact is judged
   std::vector<std::string> tools;
-  double uncertainty_mm = 0.0;  // of rig and parts; verdicts on clearance allow for it
+  // Of rig and parts; verdicts on clearance allow for it, unless the rig's quality gives what is computed.
+  double uncertainty_mm = 0.0;
 };
 
 struct SpacingChanged {
@@ -51,6 +53,7 @@ struct SessionEvent {
 struct SessionHeader {
   TrialInfo trial;
   Rig rig;
+  RigQuality rig_quality;
   Layout layout;
   std::string started_at_utc;                   // ISO 8601
   std::map<std::string, std::string> settings;  // segmentation and the like, as text

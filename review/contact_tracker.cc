@@ -155,7 +155,8 @@ void ContactTracker::FollowTouch(const TrackedFrame& frame, const core::PartCont
 void ContactTracker::FollowApproach(const TrackedFrame& frame, const core::PartContact& contact,
                                     PartState* state) const {
   if (!(options_.required_clearance_mm > 0.0) || !contact.clearance) return;
-  const double sure_mm = contact.clearance->interval.lower_mm - options_.uncertainty_mm;
+  const double sure_mm =
+      contact.clearance->interval.lower_mm - contact.clearance->AllowedMm(options_.uncertainty_mm);
   const bool is_below = sure_mm < options_.required_clearance_mm;
   if (is_below && !state->approach) {
     state->approach = Approach{};

@@ -23,7 +23,7 @@ struct TrackerOptions {
   double leave_resolutions = 2.0;
   // As in PartReviewOptions, mm. A required clearance of 0: no near misses.
   double required_clearance_mm = 0.0;
-  double uncertainty_mm = 0.0;
+  double uncertainty_mm = 0.0;  // of clearances without a budget of their own
   // An approach is over when the part is sure to be farther than required by this, mm.
   double leave_margin_mm = 1.0;
 

@@ -21,6 +21,39 @@ core::PartClearance ClearanceInContact(const core::PartContact& contact, double 
   return clearance;
 }
 
+// Searches as far as the worst of the rig's errors near the part makes necessary. Where the errors at the
+// witness points turn out to be larger, as at a thin edge of the hull, and the search ended too early for a
+// verdict, it is made again, farther.
+void SearchClearance(const recon::VisualHull& hull, const core::TriangleTree& part,
+                     const core::RigidTransform& world_from_part, const PartReviewOptions& options,
+                     const std::optional<ClearanceHint>& hint, ReviewScratch* scratch,
+                     core::PartContact* contact) {
+  std::optional<core::ErrorBudget> budget;
+  if (options.hull_errors) budget = options.hull_errors->WorstIn(core::BoxAround(part, world_from_part));
+  double allowed_mm = budget ? budget->ExpandedMm() : options.uncertainty_mm;
+  ClearanceOptions clearance_options;
+  clearance_options.tolerance_mm = options.tolerance_mm;
+  std::int64_t queries = 0;
+  for (;;) {
+    clearance_options.enough_mm = options.EnoughMm(allowed_mm);
+    const Clearance found = FindClearance(hull, part, world_from_part, clearance_options, hint, scratch);
+    const core::ClearanceInterval& interval = found.interval;
+    queries += found.queries;
+    if (budget && found.has_witnesses && !found.meets)
+      budget =
+          options.hull_errors->At(hull, interval.witness_hull_in_world_mm, interval.witness_part_in_world_mm);
+    const double needed_mm = budget ? budget->ExpandedMm() : allowed_mm;
+    const bool has_ended_early = interval.lower_mm >= clearance_options.enough_mm;
+    if (has_ended_early && interval.lower_mm < options.required_clearance_mm + needed_mm) {
+      allowed_mm = needed_mm;
+      continue;
+    }
+    contact->clearance = core::PartClearance{interval, found.has_witnesses, queries, budget};
+    contact->verdict = options.VerdictOf(found, needed_mm);
+    return;
+  }
+}
+
 }  // namespace
 
 void PartReviewOptions::Validate() const {
@@ -37,7 +70,14 @@ void PartReviewOptions::Validate() const {
   clearance.Validate();
 }
 
-double PartReviewOptions::EnoughMm() const { return required_clearance_mm + uncertainty_mm + tolerance_mm; }
+double PartReviewOptions::EnoughMm(double allowed_mm) const {
+  return required_clearance_mm + allowed_mm + tolerance_mm;
+}
+
+core::Verdict PartReviewOptions::VerdictOf(const Clearance& clearance, double allowed_mm) const {
+  const core::Verdict verdict = Judge(clearance, required_clearance_mm, allowed_mm);
+  return is_rig_refuted && verdict != core::Verdict::kContact ? core::Verdict::kUndecided : verdict;
+}
 
 core::PartContact ReviewPart(const recon::VisualHull& hull, const core::TriangleTree& part,
                              const core::RigidTransform& world_from_part, core::PartIndex part_index,
@@ -45,17 +85,19 @@ core::PartContact ReviewPart(const recon::VisualHull& hull, const core::Triangle
                              InsideCells* inside, ReviewScratch* scratch) {
   core::PartContact contact =
       FindContacts(hull, part, world_from_part, part_index, options.contacts, inside, scratch);
-  if (!(options.required_clearance_mm > 0.0)) return contact;
-  if (contact.verdict == core::Verdict::kContact) {
-    contact.clearance = ClearanceInContact(contact, part.mesh().deviation_mm);
+  const bool is_touched = contact.verdict == core::Verdict::kContact;
+  if (!(options.required_clearance_mm > 0.0)) {
+    if (!is_touched && options.is_rig_refuted) contact.verdict = core::Verdict::kUndecided;
     return contact;
   }
-  ClearanceOptions clearance_options;
-  clearance_options.tolerance_mm = options.tolerance_mm;
-  clearance_options.enough_mm = options.EnoughMm();
-  const Clearance found = FindClearance(hull, part, world_from_part, clearance_options, hint, scratch);
-  contact.clearance = core::PartClearance{found.interval, found.has_witnesses, found.queries};
-  contact.verdict = Judge(found, options.required_clearance_mm, options.uncertainty_mm);
+  if (is_touched) {
+    contact.clearance = ClearanceInContact(contact, part.mesh().deviation_mm);
+    if (options.hull_errors && contact.clearance->has_witnesses)
+      contact.clearance->budget =
+          options.hull_errors->WorstAt(contact.clearance->interval.witness_hull_in_world_mm);
+    return contact;
+  }
+  SearchClearance(hull, part, world_from_part, options, hint, scratch, &contact);
   return contact;
 }
 

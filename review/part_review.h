@@ -1,12 +1,14 @@
 // Judges one part in one frame: contact, clearance, and the verdict.
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include "core/bvh.h"
 #include "core/contact.h"
 #include "core/ids.h"
 #include "core/rigid_transform.h"
+#include "recon/error_budget/hull_errors.h"
 #include "recon/hull/visual_hull_declared.h"
 #include "review/clearance.h"
 #include "review/contacts.h"
@@ -17,20 +19,27 @@ struct PartReviewOptions {
   ContactOptions contacts;
   double required_clearance_mm = 0.0;  // of the part to the hull; 0: only contact is judged
   double uncertainty_mm = 0.0;         // of the rig; `near` and `clear` allow for it
-  double tolerance_mm = 1.0;           // wanted between a clearance's bounds
+  // If set, what `near` and `clear` allow for is computed from these for each part, instead.
+  std::shared_ptr<const recon::HullErrors> hull_errors;
+  bool is_rig_refuted = false;  // by its gauge: then no part is `near` or `clear`, but `undecided`
+  double tolerance_mm = 1.0;    // wanted between a clearance's bounds
 
   // Throws: core::Error{kRange} naming the option.
   void Validate() const;
-  // The search for a clearance ends once the part is sure to be this far away: required clearance,
-  // uncertainty and tolerance together, so that a tracker sees the part leave.
-  [[nodiscard]] double EnoughMm() const;
+  // The search for a clearance ends once the part is sure to be this far away: required clearance, what is
+  // allowed for, and tolerance together, so that a tracker sees the part leave.
+  [[nodiscard]] double EnoughMm(double allowed_mm) const;
+  [[nodiscard]] double EnoughMm() const { return EnoughMm(uncertainty_mm); }
+  // Judge, with the required clearance and a refuted rig's rule.
+  [[nodiscard]] core::Verdict VerdictOf(const Clearance& clearance, double allowed_mm) const;
 };
 
 // FindContacts and, where a clearance is required, its bounds: 0 to the mesh's deviation, without a search,
 // where there is contact; else FindClearance as far as EnoughMm(), with Judge's verdict. So a part that meets
 // the hull in less than the contacts' resolution is in `contact` too, but without points. The hint changes
-// the work, and where within the tolerance the bounds fall. `inside`, `scratch`: as in FindContacts. Held to
-// FindContacts and FindClearance by part_review_test. Thread: any.
+// the work, and where within the tolerance the bounds fall. With `hull_errors`, the budget of the answer is
+// that of its witness points; without witnesses, the worst in the part's box. `inside`, `scratch`: as in
+// FindContacts. Held to FindContacts and FindClearance by part_review_test. Thread: any.
 [[nodiscard]] core::PartContact ReviewPart(const recon::VisualHull& hull, const core::TriangleTree& part,
                                            const core::RigidTransform& world_from_part,
                                            core::PartIndex part_index, const PartReviewOptions& options,

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
+#include <mutex>
 #include <utility>
 
 #include "core/infinity.h"
@@ -67,7 +69,8 @@ class SpacingJudge::PartInFrame {
       if (IsSettled(world_from_part, so_far, &answer)) return;
       AskBalls(step, world_from_part, all_so_far, &answer);
       if (answer.lower_mm > 0.0 && IsSettled(world_from_part, so_far, &answer)) return;
-      Ask(spacing_mm, world_from_part, EnoughMm(so_far), options_.review.tolerance_mm, &answer);
+      Ask(spacing_mm, world_from_part, EnoughMm(so_far, AllowedMm(world_from_part)),
+          options_.review.tolerance_mm, &answer);
     }
     if (answer.verdict != core::Verdict::kContact) return;
     answer.was_asked = true;
@@ -93,8 +96,12 @@ class SpacingJudge::PartInFrame {
 
  private:
   // Distances from here on can change neither a verdict nor the least distance so far.
-  [[nodiscard]] double EnoughMm(const PartAtSpacing& so_far) const {
-    return std::max(options_.review.required_clearance_mm + options_.review.uncertainty_mm, so_far.upper_mm);
+  [[nodiscard]] double EnoughMm(const PartAtSpacing& so_far, double allowed_mm) const {
+    return std::max(options_.review.required_clearance_mm + allowed_mm, so_far.upper_mm);
+  }
+
+  [[nodiscard]] double AllowedMm(const core::RigidTransform& world_from_part) const {
+    return judge_.AllowedMm(part_, world_from_part);
   }
 
   void Touch(StepAnswer* answer) const {
@@ -120,10 +127,10 @@ class SpacingJudge::PartInFrame {
       const Vector3d witness = world_from_part * hint_->witness_part_in_part;
       known.interval.upper_mm = (witness - hint_->witness_hull_in_world).norm() + tree_.mesh().deviation_mm;
     }
-    const core::Verdict verdict =
-        Judge(known, options_.review.required_clearance_mm, options_.review.uncertainty_mm);
+    const double allowed_mm = AllowedMm(world_from_part);
+    const core::Verdict verdict = Judge(known, options_.review.required_clearance_mm, allowed_mm);
     if (verdict == core::Verdict::kUndecided || answer->lower_mm < so_far.upper_mm) return false;
-    answer->verdict = verdict;
+    answer->verdict = options_.review.VerdictOf(known, allowed_mm);
     return true;
   }
 
@@ -134,10 +141,11 @@ class SpacingJudge::PartInFrame {
     if (tree_.nodes().empty()) return;
     answer->was_asked = true;
     const core::Ball& ball = tree_.nodes()[0].ball;
+    const double allowed_mm = AllowedMm(world_from_part);
     for (std::size_t span = step + 1; span > 0; span /= 2) {
       double far_mm = 0.0;
       for (std::size_t i = 0; i < span; ++i)
-        far_mm = std::max(far_mm, EnoughMm(so_far[step - i].parts[part_]) +
+        far_mm = std::max(far_mm, EnoughMm(so_far[step - i].parts[part_], allowed_mm) +
                                       (judge_.steps_mm_[step] - judge_.steps_mm_[step - i]));
       if (!std::isfinite(far_mm) || !(far_mm > 0.0)) continue;
       ++answer->queries;
@@ -146,6 +154,16 @@ class SpacingJudge::PartInFrame {
       answer->lower_mm = std::max(answer->lower_mm, far_mm);
       return;
     }
+  }
+
+  // At the witness points, if there are any: as ReviewPart does.
+  [[nodiscard]] double AllowedAt(const Clearance& clearance,
+                                 const core::RigidTransform& world_from_part) const {
+    if (!options_.review.hull_errors || !clearance.has_witnesses || clearance.meets)
+      return AllowedMm(world_from_part);
+    return options_.review.hull_errors
+        ->At(hull_, clearance.interval.witness_hull_in_world_mm, clearance.interval.witness_part_in_world_mm)
+        .ExpandedMm();
   }
 
   // Contact is looked for only where no lower bound excludes it.
@@ -167,7 +185,7 @@ class SpacingJudge::PartInFrame {
     answer->queries += clearance.queries;
     answer->lower_mm = std::max(answer->lower_mm, clearance.interval.lower_mm);
     answer->upper_mm = clearance.interval.upper_mm;
-    answer->verdict = Judge(clearance, options_.review.required_clearance_mm, options_.review.uncertainty_mm);
+    answer->verdict = options_.review.VerdictOf(clearance, AllowedAt(clearance, world_from_part));
     if (clearance.has_witnesses)
       hint_ = ClearanceHint{world_from_part.Inverse() * clearance.interval.witness_part_in_world_mm,
                             clearance.interval.witness_hull_in_world_mm};
@@ -215,11 +233,37 @@ class SpacingJudge::InsideOfThreads {
   tbb::enumerable_thread_specific<std::vector<InsideCells>> cells_;
 };
 
+// The worst errors near the parts in their poses: hundreds of frames share a few poses.
+class SpacingJudge::WorstErrors {
+ public:
+  WorstErrors(const std::vector<core::TriangleTree>& parts, std::shared_ptr<const recon::HullErrors> errors)
+      : parts_(parts), errors_(std::move(errors)) {}
+
+  [[nodiscard]] double Of(core::PartIndex part, const core::RigidTransform& world_from_part) {
+    Key key;
+    key[0] = static_cast<double>(part);
+    Eigen::Map<Vector3d>(key.data() + 1) = world_from_part.translation_mm;
+    Eigen::Map<Eigen::Matrix3d>(key.data() + 4) = world_from_part.rotation;
+    const std::lock_guard lock(mutex_);
+    const auto [at, is_new] = known_mm_.try_emplace(key, 0.0);
+    if (is_new) at->second = errors_->WorstIn(core::BoxAround(parts_[part], world_from_part)).ExpandedMm();
+    return at->second;
+  }
+
+ private:
+  using Key = std::array<double, 13>;
+  const std::vector<core::TriangleTree>& parts_;
+  std::shared_ptr<const recon::HullErrors> errors_;
+  std::mutex mutex_;
+  std::map<Key, double> known_mm_;
+};
+
 SpacingJudge::SpacingJudge(const core::Layout& layout, const SpacingStudyOptions& options)
     : layout_(layout),
       options_(options),
       steps_mm_(options.Steps()),
-      inside_(std::make_unique<InsideOfThreads>(trees_)) {
+      inside_(std::make_unique<InsideOfThreads>(trees_)),
+      worst_(std::make_unique<WorstErrors>(trees_, options.review.hull_errors)) {
   for (const core::Part& part : layout.parts) trees_.emplace_back(part.mesh);
   // The parts that the spacing moves are those whose poses differ between any two values.
   const auto here = PosesAt(layout.InitialSpacings(), 0.0), there = PosesAt(layout.InitialSpacings(), 1.0);
@@ -235,6 +279,11 @@ std::vector<core::RigidTransform> SpacingJudge::PosesAt(std::vector<double> spac
 }
 
 InsideCells* SpacingJudge::InsideOf(core::PartIndex part) const { return inside_->Of(part); }
+
+double SpacingJudge::AllowedMm(core::PartIndex part, const core::RigidTransform& world_from_part) const {
+  if (!options_.review.hull_errors) return options_.review.uncertainty_mm;
+  return worst_->Of(part, world_from_part);
+}
 
 std::vector<PartOverSpacing> SpacingJudge::AskSteps(const StudyFrame& frame,
                                                     std::span<const StudyStep> so_far) const {

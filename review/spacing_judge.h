@@ -70,10 +70,13 @@ class SpacingJudge {
  private:
   class PartInFrame;
   class InsideOfThreads;
+  class WorstErrors;
 
   [[nodiscard]] std::vector<core::RigidTransform> PosesAt(std::vector<double> spacing_mm,
                                                           double studied_mm) const;
   [[nodiscard]] InsideCells* InsideOf(core::PartIndex part) const;
+  // What a verdict allows for where no witness points tell.
+  [[nodiscard]] double AllowedMm(core::PartIndex part, const core::RigidTransform& world_from_part) const;
 
   const core::Layout& layout_;
   const SpacingStudyOptions& options_;
@@ -81,6 +84,7 @@ class SpacingJudge {
   std::vector<core::TriangleTree> trees_;
   std::vector<bool> moves_;
   std::unique_ptr<InsideOfThreads> inside_;
+  std::unique_ptr<WorstErrors> worst_;
 };
 
 }  // namespace elbowroom::review

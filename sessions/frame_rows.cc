@@ -99,7 +99,8 @@ FrameInserter::FrameInserter(Database& database)
           "INSERT INTO contact VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, "
           "?)"),
       insert_point_(database, "INSERT INTO contact_point VALUES (?, ?, ?, ?, ?, ?, ?, ?)"),
-      insert_clearance_(database, "INSERT INTO clearance VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)"),
+      insert_clearance_(database,
+                        "INSERT INTO clearance VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)"),
       insert_motion_(database, "INSERT INTO part_motion VALUES (?, ?, ?, ?)") {}
 
 void FrameInserter::Insert(const core::FrameRecord& record) {
@@ -178,10 +179,16 @@ void FrameInserter::InsertClearance(core::FrameIndex frame, const core::PartCont
   const auto witness = [&](const Eigen::Vector3d& x) {
     return contact.clearance->has_witnesses ? std::optional(x) : std::nullopt;
   };
+  const std::optional<core::ErrorBudget>& budget = contact.clearance->budget;
+  const auto sigma = [&](double core::ErrorBudget::*length_mm) {
+    return budget ? std::optional((*budget).*length_mm) : std::nullopt;
+  };
   insert_clearance_
       .With(frame, contact.part, finite(interval.lower_mm), finite(interval.upper_mm),
             witness(interval.witness_part_in_world_mm), witness(interval.witness_hull_in_world_mm),
-            contact.clearance->queries)
+            contact.clearance->queries, sigma(&core::ErrorBudget::calibration_mm),
+            sigma(&core::ErrorBudget::footprint_mm), sigma(&core::ErrorBudget::segmentation_mm),
+            sigma(&core::ErrorBudget::skew_mm))
       .Run();
 }
 

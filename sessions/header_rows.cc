@@ -5,6 +5,7 @@
 #include "core/error.h"
 #include "sessions/damage.h"
 #include "sessions/layout_rows.h"
+#include "sessions/rig_quality_rows.h"
 #include "sessions/rig_rows.h"
 #include "sessions/row_rules.h"
 #include "sessions/statement.h"
@@ -81,6 +82,7 @@ void InsertHeader(Database& database, const core::SessionHeader& header) {
   for (std::size_t i = 0; i < header.trial.tools.size(); ++i)
     insert_tool.With(i, header.trial.tools[i]).Run();
   InsertCameras(database, header.rig.cameras);
+  InsertRigQuality(database, header.rig_quality);
   InsertLayout(database, header.layout);
 }
 
@@ -96,6 +98,7 @@ core::SessionHeader ReadHeader(Database& database) {
   header.rig.cameras = ReadCameras(database);
   if (header.rig.cameras.empty())
     FailAsDamaged(fmt::format("session '{}'", database.path().string()), "it has no camera");
+  header.rig_quality = ReadRigQuality(database, header.rig);
   return header;
 }
 

@@ -21,8 +21,9 @@ constexpr const char* kContactColumns =
     "c.cp_hull_z_mm, "
     "c.v_rec_x, c.v_rec_y, c.v_rec_z, c.n_hull_x, c.n_hull_y, c.n_hull_z, c.recovery_angle_rad, "
     "cl.queries, cl.lower_mm, cl.upper_mm, cl.part_x_mm, cl.part_y_mm, cl.part_z_mm, "
-    "cl.hull_x_mm, cl.hull_y_mm, cl.hull_z_mm";
-constexpr int kContactColumnCount = 37;
+    "cl.hull_x_mm, cl.hull_y_mm, cl.hull_z_mm, "
+    "cl.calibration_mm, cl.footprint_mm, cl.segmentation_mm, cl.skew_mm";
+constexpr int kContactColumnCount = 41;
 constexpr const char* kContactTables =
     "part_frame pf LEFT JOIN contact c USING (frame_index, part_index) "
     "LEFT JOIN clearance cl USING (frame_index, part_index)";
@@ -59,6 +60,12 @@ core::PartClearance ReadClearance(const Statement& row, const std::string& where
   if (clearance.has_witnesses) {
     clearance.interval.witness_part_in_world_mm = Position(row.Vector(31), where, "a witness point");
     clearance.interval.witness_hull_in_world_mm = Position(row.Vector(34), where, "a witness point");
+  }
+  if (!row.IsNull(37)) {
+    const auto sigma_mm = [&](int column) {
+      return Magnitude(row.Real(column), where, "what a verdict allows for");
+    };
+    clearance.budget = core::ErrorBudget{sigma_mm(37), sigma_mm(38), sigma_mm(39), sigma_mm(40)};
   }
   return clearance;
 }

@@ -9,7 +9,7 @@
 namespace elbowroom::sessions {
 
 inline constexpr std::int64_t kApplicationId = 0x456C6277;  // "Elbw" in the file's header
-inline constexpr std::int64_t kSchemaVersion = 6;
+inline constexpr std::int64_t kSchemaVersion = 7;
 
 // The SQL that leads from schema 0, an empty file, to schema 1.
 [[nodiscard]] std::string Schema1Sql();
@@ -30,6 +30,9 @@ inline constexpr std::int64_t kSchemaVersion = 6;
 
 // From schema 5 to schema 6: groups of parts, and spacings between groups.
 [[nodiscard]] std::string Schema6Sql();
+
+// From schema 6 to schema 7: how exact the rig is, and what each clearance's verdict allows for.
+[[nodiscard]] std::string Schema7Sql();
 
 // Brings the open transaction's database to kSchemaVersion by the migrations that it lacks, in order.
 void Migrate(Database& database);

@@ -5,13 +5,16 @@
 #include <optional>
 
 #include "app/cli/command.h"
+#include "app/cli/error_budget_json.h"
 #include "app/cli/part_option.h"
 #include "app/cli/repeated_timing.h"
 #include "app/cli/rig_frame.h"
 #include "app/cli/unit_option.h"
 #include "app/cli/vector_json.h"
+#include "recon/error_budget/hull_errors.h"
 #include "recon/hull/visual_hull.h"
 #include "review/clearance.h"
+#include "review/part_review.h"
 
 namespace elbowroom::cli {
 namespace {
@@ -21,7 +24,7 @@ struct ClearanceCommandOptions {
   PartOptions part;
   review::ClearanceOptions clearance;
   std::optional<double> required_mm;
-  double uncertainty_mm = 0.0;
+  std::optional<double> uncertainty_mm;
 };
 
 nlohmann::json Json(const review::Clearance& clearance) {
@@ -47,6 +50,31 @@ std::string TextOf(const review::Clearance& clearance) {
   return fmt::format("{:.3f} to {:.3f} mm", interval.lower_mm, interval.upper_mm);
 }
 
+// What a verdict allows for: as given, or computed from the rig's covariance, or nothing.
+std::optional<core::ErrorBudget> BudgetOf(const RigFrame& frame, const recon::VisualHull& hull,
+                                          const core::TriangleTree& part,
+                                          const core::RigidTransform& world_from_part,
+                                          const review::Clearance& clearance) {
+  if (!frame.quality.errors) return std::nullopt;
+  const recon::HullErrors errors(*frame.rig, *frame.quality.errors);
+  if (!clearance.has_witnesses) return errors.WorstIn(core::BoxAround(part, world_from_part));
+  const core::ClearanceInterval& interval = clearance.interval;
+  if (clearance.meets) return errors.WorstAt(interval.witness_hull_in_world_mm);
+  return errors.At(hull, interval.witness_hull_in_world_mm, interval.witness_part_in_world_mm);
+}
+
+void AddVerdict(double required_mm, const review::Clearance& clearance, double allowed_mm,
+                const core::RigQuality& quality, CommandResult* result) {
+  review::PartReviewOptions review;
+  review.required_clearance_mm = required_mm;
+  review.is_rig_refuted = quality.is_refuted();
+  const core::Verdict verdict = review.VerdictOf(clearance, allowed_mm);
+  result->json["verdict"] = ToString(verdict);
+  result->json["required_mm"] = required_mm;
+  result->text += fmt::format("; {} mm required, +- {:.2g} mm allowed for: {}", required_mm, allowed_mm,
+                              ToString(verdict));
+}
+
 CommandResult Run(const ClearanceCommandOptions& options, const CommandContext& context, bool json) {
   options.clearance.Validate();
   // The mesh and its pose are read before the frame: an error in them is found sooner.
@@ -63,12 +91,14 @@ CommandResult Run(const ClearanceCommandOptions& options, const CommandContext& 
   result.json = Json(clearance);
   result.json["deviation_mm"] = posed.mesh->deviation_mm;
   AddTimes(times, &result.json);
+  const std::optional<core::ErrorBudget> budget =
+      options.uncertainty_mm ? std::nullopt : BudgetOf(frame, hull, part, posed.world_from_part, clearance);
+  const double allowed_mm = budget ? budget->ExpandedMm() : options.uncertainty_mm.value_or(0.0);
+  result.json["uncertainty_mm"] = allowed_mm;
+  result.json["uncertainty"] = budget ? JsonOf(*budget) : nlohmann::json();
   result.text = TextOf(clearance);
   if (options.required_mm) {
-    const core::Verdict verdict = review::Judge(clearance, *options.required_mm, options.uncertainty_mm);
-    result.json["verdict"] = ToString(verdict);
-    result.json["required_mm"] = *options.required_mm;
-    result.text += fmt::format("; {} mm required: {}", *options.required_mm, ToString(verdict));
+    AddVerdict(*options.required_mm, clearance, allowed_mm, frame.quality, &result);
   }
   return result;
 }
@@ -85,8 +115,10 @@ void AddClearanceCommand(CLI::App& app, Choice* choice) {
   command->add_option("--required", options->required_mm, "clearance that is required: adds a verdict, mm")
       ->check(PositiveLength());
   command
-      ->add_option("--uncertainty", options->uncertainty_mm,
-                   "what the verdict allows for the rig and the part, mm (default: 0)")
+      ->add_option(
+          "--uncertainty", options->uncertainty_mm,
+          "what the verdict allows for the rig and the part, mm (default: computed where RIG.yml has a "
+          "covariance, else 0)")
       ->check(LengthFromZero());
   command->callback([=, &app] {
     const bool json = app.get_option("--json")->as<bool>();

@@ -17,8 +17,12 @@ void AddRigFrameOptions(CLI::App& command, RigFrameOptions* options) {
 }
 
 RigFrame LoadRigFrame(const RigFrameOptions& options, const CommandContext& context) {
-  recon::RecordedRig source(recon::ReadRigFile(options.rig_file), context.stop);
-  RigFrame result{std::make_shared<const core::Rig>(source.rig()), {}, {}};
+  recon::RigFile rig_file = recon::ReadRigFile(options.rig_file);
+  core::RigQuality quality;
+  if (rig_file.calibration && rig_file.calibration->covariance.size() > 0)
+    quality.errors = core::RigErrors{rig_file.calibration->covariance};
+  recon::RecordedRig source(std::move(rig_file), context.stop);
+  RigFrame result{std::make_shared<const core::Rig>(source.rig()), {}, std::move(quality), {}};
   // The frame is read before the backgrounds: a missing frame is found sooner.
   const recon::FrameSet frames = source.Read(options.frame, context.stop);
   result.masks =

@@ -9,6 +9,7 @@
 #include "app/cli/command.h"
 #include "core/ids.h"
 #include "core/rig.h"
+#include "core/rig_quality.h"
 #include "core/soft_mask.h"
 #include "recon/contours/undistorted_plane.h"
 
@@ -26,6 +27,7 @@ struct RigFrame {
   std::shared_ptr<const core::Rig> rig;
   // One a camera: ready masks, or segmented with the default options, with boundaries between pixels.
   std::vector<core::SoftMask> masks;
+  core::RigQuality quality;
   recon::UndistortedPlanes planes;  // with all that depends on the rig alone, which no frame's time includes
 };
 

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "app/cli/error_budget_json.h"
+
 namespace elbowroom::cli {
 
 namespace {
@@ -70,9 +72,13 @@ CommandResult SummaryOf(const control::TrialOutcome& outcome, const core::Layout
     const auto episodes =
         std::count_if(outcome.episodes.begin(), outcome.episodes.end(),
                       [&](const core::ContactEpisode& episode) { return episode.part == i; });
-    result.json["parts"].push_back({{"name", layout.parts[i].name},
-                                    {"frames_in_contact", outcome.frames_in_contact[i]},
-                                    {"episodes", episodes}});
+    const std::optional<core::ErrorBudget>& budget = outcome.largest_budgets[i];
+    result.json["parts"].push_back(
+        {{"name", layout.parts[i].name},
+         {"frames_in_contact", outcome.frames_in_contact[i]},
+         {"episodes", episodes},
+         {"largest_uncertainty_mm", budget ? nlohmann::json(budget->ExpandedMm()) : nullptr},
+         {"largest_uncertainty", budget ? JsonOf(*budget) : nlohmann::json()}});
     result.text += fmt::format("\n  {}: in contact in {} frames, {} episodes", layout.parts[i].name,
                                outcome.frames_in_contact[i], episodes);
   }

@@ -62,7 +62,7 @@ review::SpacingStudy SweepSpacing(const sessions::SessionReader& session, const 
   options.from_mm = range.from_mm;
   options.to_mm = range.to_mm;
   options.step_mm = range.step_mm;
-  options.review = ReviewOptionsOf(header.trial);
+  options.review = ReviewOptionsOf(header.trial, header.rig, header.rig_quality);
   const std::vector<sessions::FrameSummary> frames = session.frames();
   if (frames.empty()) {
     throw core::Error(core::ErrorKind::kRange, fmt::format("session '{}' has no frames; record a trial first",

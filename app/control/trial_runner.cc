@@ -29,6 +29,7 @@ core::SessionHeader HeaderOf(const TrialSetup& setup) {
   core::SessionHeader header;
   header.trial = setup.info;
   header.rig = setup.source->rig();
+  header.rig_quality = setup.rig_quality;
   header.layout = setup.layout;
   header.started_at_utc = core::NowUtc();
   header.settings = SettingsOf(setup.segmentation);
@@ -89,12 +90,13 @@ class Recording {
         writer_(options.session, HeaderOf(setup), WriterOptionsOf(options)) {
     spacing_mm_ = setup.layout.InitialSpacings();
     outcome_.frames_in_contact.assign(setup.layout.parts.size(), 0);
+    outcome_.largest_budgets.resize(setup.layout.parts.size());
   }
 
   void Run(const std::stop_token& stop) {
     pipeline_.emplace(setup_.source->rig(), setup_.layout,
                       setup_.source->ReadBackgrounds(options_.progress, stop), setup_.segmentation,
-                      ReviewOptionsOf(setup_.info));
+                      ReviewOptionsOf(setup_.info, setup_.source->rig(), setup_.rig_quality));
     tracker_.emplace(setup_.info, pipeline_->part_trees());
     const core::FrameIndex first = options_.frames.first;
     const core::FrameIndex end = options_.frames.end.value_or(std::numeric_limits<core::FrameIndex>::max());
@@ -218,6 +220,10 @@ class Recording {
     ++outcome_.frames;
     for (const core::PartContact& contact : result.record.contacts) {
       outcome_.frames_in_contact[contact.part] += contact.verdict == core::Verdict::kContact ? 1 : 0;
+      if (!contact.clearance || !contact.clearance->budget) continue;
+      const core::ErrorBudget& budget = *contact.clearance->budget;
+      std::optional<core::ErrorBudget>& largest = outcome_.largest_budgets[contact.part];
+      if (!largest || budget.CombinedMm() > largest->CombinedMm()) largest = budget;
     }
     outcome_.skipped += result.skipped;
   }

@@ -13,6 +13,7 @@
 #include "app/control/frame_time_tally.h"
 #include "app/control/trial_controls.h"
 #include "app/control/trial_setup.h"
+#include "core/error_budget.h"
 #include "core/progress.h"
 #include "core/session.h"
 #include "sessions/session_writer.h"
@@ -51,6 +52,8 @@ struct TrialOutcome {
   std::int64_t frames_committed = 0;
   sessions::RecordingState recording = sessions::RecordingState::kInFile;  // where the last frame was written
   std::vector<std::int64_t> frames_in_contact;                             // one a part
+  // One a part: the largest that a verdict allowed for; nothing where none was computed.
+  std::vector<std::optional<core::ErrorBudget>> largest_budgets;
   std::vector<core::ContactEpisode> episodes;
   std::vector<core::NearMiss> near_misses;
   std::string end_note;  // why it ended: "ended with the shortest source, camera 'cam03' (426 frames)", ...

@@ -24,13 +24,19 @@ Value Choice(const TomlEntry& entry, std::string_view key, Value otherwise, Pars
   return *value;
 }
 
-recon::SegmentationOptions ReadSegmentation(const TomlEntry& root, const std::string& file) {
+struct SegmentationTable {
   recon::SegmentationOptions options;
+  double boundary_sigma_px = core::kBoundarySigmaPx;
+};
+
+SegmentationTable ReadSegmentation(const TomlEntry& root, const std::string& file) {
+  SegmentationTable read;
+  recon::SegmentationOptions& options = read.options;
   const toml::node* node = root.Find("segmentation");
-  if (node == nullptr) return options;
+  if (node == nullptr) return read;
   if (!node->is_table()) root.Fail("segmentation", "must be written as [segmentation]");
   const TomlEntry entry(*node->as_table(), file, "[segmentation]",
-                        {"method", "k_sigma", "floor_levels", "min_blob_px", "shadows"});
+                        {"method", "k_sigma", "floor_levels", "min_blob_px", "shadows", "boundary_sigma_px"});
   options.method =
       Choice(entry, "method", options.method, recon::ParseSegmentationMethod, R"("threshold" or "adaptive")");
   options.shadows =
@@ -41,12 +47,15 @@ recon::SegmentationOptions ReadSegmentation(const TomlEntry& root, const std::st
   if (min_blob_px < 0.0 || min_blob_px > 1e9)
     entry.Fail("min_blob_px", "must be a number of pixels, 0 or more");
   options.min_blob_px = static_cast<int>(min_blob_px);
+  read.boundary_sigma_px = entry.NumberOr("boundary_sigma_px", read.boundary_sigma_px);
+  if (!(read.boundary_sigma_px >= 0.0))
+    entry.Fail("boundary_sigma_px", "must be a number of pixels, 0 or more");
   try {
     options.Validate();
   } catch (const core::Error& error) {
     entry.FailAt(node->source(), error.what());
   }
-  return options;
+  return read;
 }
 
 // The rig's footage, with that of the viewer camera if the trial has one.
@@ -80,6 +89,16 @@ double LengthFromZero(const TomlEntry& entry, std::string_view key) {
   return length_mm;
 }
 
+// What verdicts allow for follows from the rig's covariance, if it has one and the trial doesn't say it
+// itself.
+core::RigQuality QualityOf(const recon::RigFile& rig_file, const TomlEntry& root, double boundary_sigma_px) {
+  core::RigQuality quality;
+  if (root.Find("uncertainty_mm") == nullptr && rig_file.calibration &&
+      rig_file.calibration->covariance.size() > 0)
+    quality.errors = core::RigErrors{rig_file.calibration->covariance, boundary_sigma_px};
+  return quality;
+}
+
 }  // namespace
 
 TrialSetup ReadTrialFile(const std::filesystem::path& path, std::stop_token stop) {
@@ -94,12 +113,15 @@ TrialSetup ReadTrialFile(const std::filesystem::path& path, std::stop_token stop
   setup.info.required_clearance_mm = LengthFromZero(root, "required_clearance_mm");
   setup.info.uncertainty_mm = LengthFromZero(root, "uncertainty_mm");
   setup.info.tools = root.Texts("tools");
-  setup.segmentation = ReadSegmentation(root, path.string());
+  const SegmentationTable segmentation = ReadSegmentation(root, path.string());
+  setup.segmentation = segmentation.options;
   const std::filesystem::path folder = path.parent_path();
   cad_import::ImportedLayout imported = cad_import::ImportLayoutFile(folder / root.Text("layout"), {}, stop);
   setup.layout = core::WithPairsOfParts(std::move(imported.layout));
   setup.warnings = std::move(imported.warnings);
-  auto source = std::make_shared<recon::RecordedRig>(recon::ReadRigFile(folder / root.Text("rig")), stop);
+  recon::RigFile rig_file = recon::ReadRigFile(folder / root.Text("rig"));
+  setup.rig_quality = QualityOf(rig_file, root, segmentation.boundary_sigma_px);
+  auto source = std::make_shared<recon::RecordedRig>(std::move(rig_file), stop);
   setup.source = WithViewer(std::move(source), root, path, stop, &setup.warnings);
   return setup;
 }

@@ -11,6 +11,7 @@
 
 #include "app/control/trial_controls.h"
 #include "core/layout.h"
+#include "core/rig_quality.h"
 #include "core/session.h"
 #include "recon/footage/frame_set.h"
 #include "recon/segmentation/segmentation.h"
@@ -26,6 +27,7 @@ struct ScriptedChange {
 struct TrialSetup {
   core::TrialInfo info;
   core::Layout layout;
+  core::RigQuality rig_quality;  // with errors only where the trial doesn't say uncertainty_mm itself
   recon::SegmentationOptions segmentation;
   std::shared_ptr<recon::FrameSetSource> source;
   std::vector<ScriptedChange> script;  // by frame

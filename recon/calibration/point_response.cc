@@ -2,22 +2,17 @@
 
 #include <Eigen/LU>
 
-#include "recon/calibration/rotation.h"
+#include "recon/calibration/pixel_response.h"
 
 namespace elbowroom::recon {
 
 void PointResponse::Add(const LensParameters& lens, const core::RigidTransform& cam_from_world,
                         const ParameterBlock& block, const Eigen::Vector3d& x_in_world) {
-  const Eigen::Vector3d turned = cam_from_world.rotation * x_in_world;
-  const auto projected = ProjectWithDerivatives(lens, turned + cam_from_world.translation_mm);
-  if (!projected) return;
-  const Eigen::Matrix<double, 2, 3> by_x = projected->by_x_in_cam * cam_from_world.rotation;
+  const auto pixel = PixelResponseAt(lens, cam_from_world, x_in_world);
+  if (!pixel) return;
+  const Eigen::Matrix<double, 2, 3>& by_x = pixel->by_x_in_world;
   normal_ += by_x.transpose() * by_x;
-  // Minus A^T B, block by block; a turn w of the camera moves the point in its frame by w x turned.
-  const Eigen::Matrix<double, 3, 2> minus = -by_x.transpose();
-  by_parameters_.middleCols(block.first, block.intrinsics) = minus * projected->by_values;
-  by_parameters_.middleCols<3>(block.rotation()) = minus * (-projected->by_x_in_cam * Hat(turned));
-  by_parameters_.middleCols<3>(block.translation()) = minus * projected->by_x_in_cam;
+  by_parameters_.middleCols(block.first, block.size()) = -by_x.transpose() * pixel->by_parameters;  // -A^T B
 }
 
 bool PointResponse::Solve() {

@@ -27,6 +27,7 @@ void ExpectSame(const core::PartClearance& actual, const core::PartClearance& ex
   EXPECT_EQ(actual.interval.witness_hull_in_world_mm, expected.interval.witness_hull_in_world_mm);
   EXPECT_EQ(actual.has_witnesses, expected.has_witnesses);
   EXPECT_EQ(actual.queries, expected.queries);
+  EXPECT_EQ(actual.budget, expected.budget);
 }
 
 void ExpectSame(const core::Rig& actual, const core::Rig& expected) {
@@ -74,6 +75,11 @@ void ExpectSame(const core::Layout& actual, const core::Layout& expected) {
   }
   EXPECT_EQ(actual.streams, expected.streams);
   EXPECT_EQ(actual.groups, expected.groups);
+}
+
+void ExpectSame(const core::RigErrors& actual, const core::RigErrors& expected) {
+  EXPECT_EQ(actual.covariance, expected.covariance);
+  EXPECT_EQ(actual.boundary_sigma_px, expected.boundary_sigma_px);
 }
 
 template <typename Value>
@@ -135,6 +141,8 @@ void ExpectEqual(const core::NearMiss& actual, const core::NearMiss& expected) {
 }
 
 void ExpectEqual(const core::SessionHeader& actual, const core::SessionHeader& expected) {
+  ExpectSameWherePresent(actual.rig_quality.errors, expected.rig_quality.errors);
+  EXPECT_EQ(actual.rig_quality.gauge, expected.rig_quality.gauge);
   EXPECT_EQ(actual.trial.participant, expected.trial.participant);
   EXPECT_EQ(actual.trial.task, expected.trial.task);
   EXPECT_EQ(actual.trial.estimate_mm, expected.trial.estimate_mm);

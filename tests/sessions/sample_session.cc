@@ -95,6 +95,7 @@ void AddClearances(core::FrameRecord* record) {
   met = {{0.0, 0.0, at, at}, true, 0};
   core::PartClearance& searched = record->contacts[2].clearance.emplace();
   searched = {{20.0 / 3.0, 22.0 / 3.0, {1.0 / 3.0, 2.0, 3.0}, {4.0, 5e-9, 6.0}}, true, 412 + record->frame};
+  searched.budget = core::ErrorBudget{1.0 / 3.0, 0.0, 1.0 / 7.0, 0.0};
   if (record->contacts[2].verdict != core::Verdict::kClear) return;
   searched = {{record->frame == 2 ? kInfinity : 21.1, kInfinity, {0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}}, false, 1};
 }
@@ -132,6 +133,17 @@ core::SessionHeader SampleHeader() {
   header.layout.parts[2].gives_way = core::PushRule{.max_speed_mm_per_s = 1e3 / 3.0};
   header.layout.streams = {
       {"faucet; DROP", {0.1, -2e-9, 300.0}, {0.0, 1.0 / 3.0, -1.0}, 200.0 / 3.0, 500.0, 3.0}};
+  // Its numbers are the same either way across the diagonal.
+  const Eigen::Index parameters = 2 * 11 + 5 + 4;
+  header.rig_quality.errors = core::RigErrors{
+      Eigen::MatrixXd::NullaryExpr(parameters, parameters,
+                                   [](Eigen::Index row, Eigen::Index column) {
+                                     return row == column ? 1.0 / static_cast<double>(row + 3)
+                                                          : -1e-9 * static_cast<double>(row + column);
+                                   }),
+      1.0 / 7.0};
+  header.rig_quality.gauge =
+      core::RigGauge{"2024-02-29T08:00:00Z", 10.0, 10.0 + 1.0 / 3.0, 1.0 / 3.0, 0.5, 27, true};
   header.started_at_utc = "2024-03-01T09:30:00Z";
   header.settings = {{"segmentation.method", "threshold"}, {"k_sigma", "4"}};
   header.versions = {{"elbowroom", "0.1.0"}, {"opengl", "llvmpipe"}};
@@ -184,6 +196,10 @@ core::FrameRecord AsOfSchema(int schema, core::FrameRecord record) {
     for (core::PartContact& contact : record.contacts) contact.clearance.reset();
   }
   if (schema < 4) record.rest_from_parts.clear();
+  if (schema < 7) {
+    for (core::PartContact& contact : record.contacts)
+      if (contact.clearance) contact.clearance->budget.reset();
+  }
   return record;
 }
 
@@ -203,6 +219,7 @@ core::SessionHeader AsOfSchema(int schema, core::SessionHeader header) {
     header.layout.groups.clear();
     header.layout.spacings[1].moving = "payload B";
   }
+  if (schema < 7) header.rig_quality = {};
   return header;
 }
 

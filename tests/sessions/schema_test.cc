@@ -37,8 +37,8 @@ std::string SchemaOf(const std::filesystem::path& path) {
 
 // In the order in which they were released.
 constexpr std::array<std::string (*)(), sessions::kSchemaVersion> kSchemas = {
-    &sessions::Schema1Sql, &sessions::Schema2Sql, &sessions::Schema3Sql,
-    &sessions::Schema4Sql, &sessions::Schema5Sql, &sessions::Schema6Sql};
+    &sessions::Schema1Sql, &sessions::Schema2Sql, &sessions::Schema3Sql, &sessions::Schema4Sql,
+    &sessions::Schema5Sql, &sessions::Schema6Sql, &sessions::Schema7Sql};
 
 sessions::Database CreateOfSchema(std::size_t schema, const std::filesystem::path& path) {
   sessions::Database database = sessions::Database::Create(path);
@@ -76,7 +76,7 @@ TEST(Schema, AnEmptyDatabaseBecomesTheNewestSchemaAndMigratingAgainChangesNothin
 }
 
 TEST(Schema, StoredSessionsOfEverySchemaAreRead) {
-  for (const int schema : {1, 2, 3, 4, 5, 6}) {
+  for (const int schema : {1, 2, 3, 4, 5, 6, 7}) {
     SCOPED_TRACE(schema);
     const SessionReader reader(kStored / fmt::format("session_schema_{}.db", schema));
     ExpectEqual(reader.header(), AsOfSchema(schema, SampleHeader()));
@@ -117,8 +117,8 @@ TEST(Schema, AnOlderSchemaIsMigratedInMemoryAndTheFileStays) {
 TEST(Schema, ANewerSchemaIsNamed) {
   const TemporaryFolder folder;
   WriteSampleSession(folder / "s.db", 1);
-  SQLite::Database((folder / "s.db").string(), SQLite::OPEN_READWRITE).exec("PRAGMA user_version = 7");
-  ExpectError([&] { SessionReader(folder / "s.db"); }, core::ErrorKind::kFormat, "has schema 7");
+  SQLite::Database((folder / "s.db").string(), SQLite::OPEN_READWRITE).exec("PRAGMA user_version = 8");
+  ExpectError([&] { SessionReader(folder / "s.db"); }, core::ErrorKind::kFormat, "has schema 8");
 }
 
 TEST(Schema, CountsAndFlagsOutOfRangeAreRefusedByTheDatabaseItself) {

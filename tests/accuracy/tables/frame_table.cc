@@ -51,7 +51,8 @@ class Player {
  public:
   explicit Player(const control::TrialSetup& setup)
       : pipeline_(setup.source->rig(), setup.layout, setup.source->ReadBackgrounds({}, {}),
-                  setup.segmentation, control::ReviewOptionsOf(setup.info)) {
+                  setup.segmentation,
+                  control::ReviewOptionsOf(setup.info, setup.source->rig(), setup.rig_quality)) {
     for (const core::Spacing& spacing : setup.layout.spacings) spacing_mm_.push_back(spacing.initial_mm);
   }
 

@@ -83,8 +83,9 @@ struct Cost {
 Cost MeasureCost(const control::TrialSetup& setup, const std::vector<recon::FrameSet>& pictures,
                  bool is_paced) {
   const test_support::TemporaryFolder folder;
-  control::FramePipeline pipeline(setup.source->rig(), setup.layout, setup.source->ReadBackgrounds({}, {}),
-                                  setup.segmentation, control::ReviewOptionsOf(setup.info));
+  control::FramePipeline pipeline(
+      setup.source->rig(), setup.layout, setup.source->ReadBackgrounds({}, {}), setup.segmentation,
+      control::ReviewOptionsOf(setup.info, setup.source->rig(), setup.rig_quality));
   core::SessionHeader header;
   header.trial = setup.info;
   header.rig = setup.source->rig();

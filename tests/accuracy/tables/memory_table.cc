@@ -50,7 +50,7 @@ class StagedTrial {
         rig_(std::make_shared<const core::Rig>(setup.source->rig())),
         planes_(recon::MakeUndistortedPlanes(*rig_)),
         segmenter_(setup.source->ReadBackgrounds({}, {}), setup.segmentation, *rig_),
-        judge_(*layout_, control::ReviewOptionsOf(setup.info)),
+        judge_(*layout_, control::ReviewOptionsOf(setup.info, setup.source->rig(), setup.rig_quality)),
         tracker_(setup.info, judge_.part_trees()) {}
 
   void Play(recon::FrameSet frames, StageCounts* counts) {
