@@ -47,6 +47,13 @@ core::Recovery ReadRecovery(const Statement& row, const std::string& where) {
   return recovery;
 }
 
+core::ErrorBudget ReadBudget(const Statement& row, int first_column, const std::string& where) {
+  const auto sigma_mm = [&](int column) {
+    return Magnitude(row.Real(first_column + column), where, "what a verdict allows for");
+  };
+  return {sigma_mm(0), sigma_mm(1), sigma_mm(2), sigma_mm(3)};
+}
+
 core::PartClearance ReadClearance(const Statement& row, const std::string& where) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   core::PartClearance clearance;
@@ -62,10 +69,7 @@ core::PartClearance ReadClearance(const Statement& row, const std::string& where
     clearance.interval.witness_hull_in_world_mm = Position(row.Vector(34), where, "a witness point");
   }
   if (!row.IsNull(37)) {
-    const auto sigma_mm = [&](int column) {
-      return Magnitude(row.Real(column), where, "what a verdict allows for");
-    };
-    clearance.budget = core::ErrorBudget{sigma_mm(37), sigma_mm(38), sigma_mm(39), sigma_mm(40)};
+    clearance.budget = ReadBudget(row, 37, where);
   }
   return clearance;
 }
@@ -180,6 +184,21 @@ std::vector<PartTotals> ReadPartTotals(Database& database, const core::Layout& l
     totals[part] = {part, rows.Integer(1), rows.Integer(2), rows.Integer(3), rows.Integer(4)};
   }
   return totals;
+}
+
+std::vector<PartBudget> ReadPartBudgets(Database& database, const core::Layout& layout) {
+  // SQLite takes the columns beside max() from the row in which the largest is.
+  Statement rows(database,
+                 "SELECT part_index, calibration_mm, footprint_mm, segmentation_mm, skew_mm, "
+                 "max(calibration_mm * calibration_mm + footprint_mm * footprint_mm "
+                 "+ segmentation_mm * segmentation_mm + skew_mm * skew_mm) "
+                 "FROM clearance WHERE calibration_mm IS NOT NULL GROUP BY part_index");
+  const std::string where = fmt::format("session '{}'", database.path().string());
+  std::vector<PartBudget> budgets;
+  while (rows.Next())
+    budgets.push_back(
+        {IndexBelow(rows.Integer(0), layout.parts.size(), where, "part"), ReadBudget(rows, 1, where)});
+  return budgets;
 }
 
 }  // namespace elbowroom::sessions

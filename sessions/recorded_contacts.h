@@ -28,6 +28,12 @@ struct PartTotals {
   std::int64_t frames_clear = 0;
 };
 
+// The largest that a verdict on the part allowed for.
+struct PartBudget {
+  core::PartIndex part = 0;
+  core::ErrorBudget largest;
+};
+
 // All throw Error{kDatabase}, or Error{kFormat} where a row is damaged.
 // Each part of the layout once, in its order, as far as the frame has rows.
 [[nodiscard]] std::vector<core::PartContact> ReadContacts(Database& database, std::size_t parts,
@@ -38,5 +44,7 @@ struct PartTotals {
 [[nodiscard]] std::vector<ContactRow> ReadClearanceRows(Database& database, const core::Layout& layout);
 // One a part.
 [[nodiscard]] std::vector<PartTotals> ReadPartTotals(Database& database, const core::Layout& layout);
+// One a part for which one was computed, by part.
+[[nodiscard]] std::vector<PartBudget> ReadPartBudgets(Database& database, const core::Layout& layout);
 
 }  // namespace elbowroom::sessions

@@ -181,6 +181,10 @@ std::vector<ContactRow> SessionReader::clearances() const {
 std::vector<PartTotals> SessionReader::part_totals() const {
   return impl_->limit.Guarded([&] { return ReadPartTotals(impl_->database, impl_->header.layout); });
 }
+
+std::vector<PartBudget> SessionReader::part_budgets() const {
+  return impl_->limit.Guarded([&] { return ReadPartBudgets(impl_->database, impl_->header.layout); });
+}
 std::int64_t SessionReader::most_steps_taken() const { return impl_->limit.most_steps_taken(); }
 
 }  // namespace elbowroom::sessions

@@ -74,6 +74,7 @@ class SessionReader {
   [[nodiscard]] std::vector<ContactRow> contacts() const;            // every part in contact, frame by frame
   [[nodiscard]] std::vector<ContactRow> clearances() const;          // every part with a clearance, likewise
   [[nodiscard]] std::vector<PartTotals> part_totals() const;         // one a part
+  [[nodiscard]] std::vector<PartBudget> part_budgets() const;        // of parts for which one was computed
 
   // The steps of SQLite's virtual machine that the most expensive query so far took (QueryLimit).
   [[nodiscard]] std::int64_t most_steps_taken() const;

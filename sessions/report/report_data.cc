@@ -37,6 +37,7 @@ std::map<core::FrameIndex, double> DepthByFrame(const ReportData& data, core::Sp
 }
 
 void SumUpParts(const SessionReader& session, ReportData& data) {
+  data.budgets = session.part_budgets();
   for (const PartTotals& totals : session.part_totals()) data.parts.push_back({totals, 0, 0.0, 0.0});
   for (const core::ContactEpisode& episode : data.episodes) ++data.parts[episode.part].touches;
   std::map<core::FrameIndex, double> duration_s;

@@ -57,6 +57,7 @@ struct ReportData {
   std::vector<core::NearMiss> near_misses;
   std::vector<ContactRow> contacts;
   std::vector<PartSummary> parts;      // the layout's order
+  std::vector<PartBudget> budgets;     // of parts for which one was computed
   std::vector<SpacingStudy> spacings;  // the layout's order
   std::optional<core::SpacingIndex>
       judged_spacing;  // that the estimate is compared with: the first that moved, or else the first

@@ -37,9 +37,9 @@ std::string PageFooter(const ReportData& data) {
 std::string ReportPage(const ReportData& data, const ReportPictures& pictures) {
   return HtmlPage(TitleOf(data), PageHeader(data) + SummarySection(data) + TimelineSection(data) +
                                      PictureSection(pictures) + SpacingSection(data) + EpisodeSection(data) +
-                                     NearMissSection(data) + PartSection(data) + HeatSection(data, pictures) +
-                                     EventSection(data) + ReadingSection(data) + RigSection(data) +
-                                     PageFooter(data));
+                                     NearMissSection(data) + PartSection(data) + TrustSection(data) +
+                                     HeatSection(data, pictures) + EventSection(data) + ReadingSection(data) +
+                                     RigSection(data) + PageFooter(data));
 }
 
 }  // namespace elbowroom::sessions

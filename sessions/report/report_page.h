@@ -18,6 +18,8 @@ namespace elbowroom::sessions {
 [[nodiscard]] std::string EpisodeSection(const ReportData& data);
 [[nodiscard]] std::string NearMissSection(const ReportData& data);
 [[nodiscard]] std::string PartSection(const ReportData& data);
+// How sure the verdicts are, and what that is made of.
+[[nodiscard]] std::string TrustSection(const ReportData& data);
 [[nodiscard]] std::string HeatSection(const ReportData& data, const ReportPictures& pictures);
 [[nodiscard]] std::string EventSection(const ReportData& data);
 [[nodiscard]] std::string PictureSection(const ReportPictures& pictures);

@@ -146,11 +146,12 @@ std::string StatusRemark(const ReportData& data) {
 }  // namespace
 
 std::string SummarySection(const ReportData& data) {
-  const char* outcome = data.status != SessionStatus::kComplete ? " broken"
-                        : data.contacts.empty()                 ? ""
-                                                                : " touched";
+  const std::string gauge_failure = GaugeFailure(data.header.rig_quality);
+  const bool is_doubtful = data.status != SessionStatus::kComplete || !gauge_failure.empty();
+  const char* outcome = is_doubtful ? " broken" : data.contacts.empty() ? "" : " touched";
   std::string section = fmt::format("<section><div class='verdict{}'><p>{}</p>", outcome,
                                     WithUnitsHeld(Escaped(VerdictSentence(data))));
+  if (!gauge_failure.empty()) section += "<p>" + WithUnitsHeld(Escaped(gauge_failure)) + "</p>";
   section += StatusRemark(data);
   return section + "</div>\n" + Tiles(data) + "</section>\n";
 }

@@ -151,4 +151,14 @@ std::string SpaceNeeded(const ReportData& data) {
   return fmt::format("{}\u2013{}", Number(*touched_mm), Millimetres(*enough_mm));
 }
 
+std::string GaugeFailure(const core::RigQuality& quality) {
+  if (!quality.is_refuted()) return "";
+  const core::RigGauge& gauge = *quality.gauge;
+  return fmt::format(
+      "The rig's gauge failed: a rod of {:.2f} mm measured {:.2f} mm, and {:.2f} mm is the bound ({} "
+      "places). "
+      "So no part counts as near or clear, but as undecided. Calibrate the rig again, and gauge it.",
+      gauge.true_diameter_mm, gauge.diameter_mm, gauge.bound_mm, gauge.places);
+}
+
 }  // namespace elbowroom::sessions

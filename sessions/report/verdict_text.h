@@ -17,6 +17,9 @@ namespace elbowroom::sessions {
 // "140–240 mm": touched at the first, free of touches at the second; "unknown" where nothing was tried.
 [[nodiscard]] std::string SpaceNeeded(const ReportData& data);
 
+// Of a gauge that failed: what was measured, and what follows. Empty otherwise.
+[[nodiscard]] std::string GaugeFailure(const core::RigQuality& quality);
+
 // One decimal, none where it is zero: "140 mm", "12.5 mm".
 [[nodiscard]] std::string Millimetres(double length_mm);
 
