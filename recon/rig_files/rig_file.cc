@@ -24,9 +24,12 @@ constexpr const char* kDistortionModels = "\"plumb_bob\", \"rational_polynomial\
 
 constexpr const char* kPixels = "a whole number of pixels";
 
-constexpr std::string_view kRigKeys[] = {"rig_name", "workspace_mm", "unseen", "cameras", "calibration"};
+constexpr std::string_view kRigKeys[] = {"rig_name", "workspace_mm", "unseen",
+                                         "cameras",  "calibration",  "gauge"};
 constexpr std::string_view kCalibrationKeys[] = {"made",     "board",     "rms_px", "held_out_rms_px",
                                                  "noise_px", "covariance"};
+constexpr std::string_view kGaugeKeys[] = {"made",     "true_diameter_mm", "diameter_mm", "error_mm",
+                                           "bound_mm", "places",           "passed"};
 constexpr std::string_view kCameraKeys[] = {"name",
                                             "image_width",
                                             "image_height",
@@ -172,6 +175,36 @@ std::optional<RigCalibration> ReadCalibration(const YamlSection& root, const cor
   return calibration;
 }
 
+bool ReadPassed(const YamlSection& section) {
+  (void)section.Get("passed", "true or false");
+  const std::string text = section.TextOr("passed", "");
+  if (text != "true" && text != "false")
+    section.Fail(fmt::format("passed is '{}'; it must be true or false", text));
+  return text == "true";
+}
+
+// Verdicts depend on a gauge, so nothing in it is guessed.
+std::optional<RigGauge> ReadGauge(const YamlSection& root) {
+  const YamlNode* node = root.Find("gauge");
+  if (node == nullptr) return std::nullopt;
+  if (node->kind != YamlKind::kMap) root.Fail("key 'gauge' must be a map");
+  const YamlSection section{node, root.file, "gauge"};
+  section.RefuseMisspelt(kGaugeKeys);
+  const auto number = [&](const char* key) {
+    (void)section.Get(key, "a number of millimetres");
+    return section.NumberOr(key, 0.0);
+  };
+  RigGauge gauge;
+  gauge.made = section.TextOr("made", "");
+  gauge.true_diameter_mm = number("true_diameter_mm");
+  gauge.diameter_mm = number("diameter_mm");
+  gauge.error_mm = number("error_mm");
+  gauge.bound_mm = number("bound_mm");
+  gauge.places = section.Integer("places", "a whole number of places");
+  gauge.passed = ReadPassed(section);
+  return gauge;
+}
+
 // Where a view file has its camera's keys.
 YamlSection ViewSection(const YamlSection& root) {
   const YamlNode *camera = root.Find("camera"), *cameras = root.Find("cameras");
@@ -227,6 +260,7 @@ RigFile ReadRigFile(const std::filesystem::path& path) {
     throw Error(error.kind(), file + ": " + error.what());
   }
   rig_file.calibration = ReadCalibration(root, rig_file.rig);
+  rig_file.gauge = ReadGauge(root);
   return rig_file;
 }
 

@@ -36,10 +36,24 @@ struct RigCalibration {
   Eigen::MatrixXd covariance;
 };
 
+// What the last gauge said: a rod of known diameter, measured through the workspace (docs/gauge.md).
+struct RigGauge {
+  std::string made;  // when, UTC
+  double true_diameter_mm = 0.0;
+  double diameter_mm = 0.0;  // of the place with the largest error, as the next two
+  double error_mm = 0.0;     // measured less true
+  double bound_mm = 0.0;
+  int places = 0;
+  bool passed = false;  // every place is within its bound
+
+  [[nodiscard]] bool operator==(const RigGauge&) const = default;
+};
+
 struct RigFile {
   core::Rig rig;
   std::vector<CameraSources> sources = {};  // one a camera
   std::optional<RigCalibration> calibration = std::nullopt;
+  std::optional<RigGauge> gauge = std::nullopt;
 };
 
 // Matrices may be !!opencv-matrix, a flat list, or a list of rows. Throws: Error{kFile} if it can't be read,
@@ -69,5 +83,10 @@ struct ViewFile {
 // Writes the whole file or nothing; every number reads back exactly. Sources below the file's folder become
 // relative to it. Throws: Error{kFile}; PreconditionError unless `sources` has one entry a camera.
 void WriteRigFile(const RigFile& rig_file, const std::filesystem::path& path);
+
+// Puts the gauge into an existing rig file in place of the one that it has, and keeps all the rest as it is,
+// comments included; a file whose form doesn't allow that is written anew. Throws: as ReadRigFile;
+// Error{kFile}.
+void SaveGauge(const RigGauge& gauge, const std::filesystem::path& path);
 
 }  // namespace elbowroom::recon

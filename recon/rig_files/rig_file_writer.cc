@@ -2,12 +2,17 @@
 
 #include <Eigen/Core>
 #include <span>
+#include <sstream>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "core/error.h"
+#include "core/system/configuration_file.h"
 #include "core/system/whole_file.h"
 #include "recon/rig_files/rig_file.h"
 #include "recon/rig_files/source_location.h"
+#include "recon/rig_files/yaml_text.h"
 
 namespace elbowroom::recon {
 namespace {
@@ -80,6 +85,43 @@ std::string CalibrationText(const RigCalibration& calibration) {
   return text + " ]\n";
 }
 
+std::string GaugeText(const RigGauge& gauge) {
+  return fmt::format(
+      "gauge:\n   made: {}\n   true_diameter_mm: {}\n   diameter_mm: {}\n   error_mm: {}\n   bound_mm: {}\n"
+      "   places: {}\n   passed: {}\n",
+      Quoted(gauge.made), Number(gauge.true_diameter_mm), Number(gauge.diameter_mm), Number(gauge.error_mm),
+      Number(gauge.bound_mm), gauge.places, gauge.passed);
+}
+
+// The text without its block `gauge:`, with the new one at the end.
+std::string WithGauge(const std::string& text, const RigGauge& gauge) {
+  std::istringstream lines(text);
+  std::string kept, line;
+  bool is_gauge = false;
+  while (std::getline(lines, line)) {
+    const bool is_top =
+        !line.empty() && std::string_view(" \t#\r").find(line.front()) == std::string_view::npos;
+    if (is_top) is_gauge = line.starts_with("gauge:");
+    if (!is_gauge) kept += line + "\n";
+  }
+  return kept + GaugeText(gauge);
+}
+
+// Whether the changed text is the same document with that gauge.
+bool SaysTheSame(const YamlNode& before, const std::string& changed, const RigGauge& gauge) {
+  try {
+    const YamlNode after = ParseYaml(changed, "");
+    const std::string alone = "%YAML:1.0\n---\n" + GaugeText(gauge);
+    const YamlNode gauge_alone = ParseYaml(alone, "");
+    std::vector<std::string> keys = before.keys;
+    std::erase(keys, "gauge");
+    keys.emplace_back("gauge");
+    return after.keys == keys && after.items.back().keys == gauge_alone.items.back().keys;
+  } catch (const core::Error&) {
+    return false;  // as of a document in braces, after which nothing may stand
+  }
+}
+
 }  // namespace
 
 void WriteRigFile(const RigFile& rig_file, const std::filesystem::path& path) {
@@ -105,7 +147,21 @@ void WriteRigFile(const RigFile& rig_file, const std::filesystem::path& path) {
       text += fmt::format("      time_offset_s: {}\n", Number(rig_file.sources[i].time_offset_s));
   }
   if (rig_file.calibration) text += CalibrationText(*rig_file.calibration);
+  if (rig_file.gauge) text += GaugeText(*rig_file.gauge);
   core::WriteWholeFile(path, text);
+}
+
+void SaveGauge(const RigGauge& gauge, const std::filesystem::path& path) {
+  RigFile rig_file = ReadRigFile(path);
+  const std::string who = fmt::format("rig file '{}'", path.string());
+  const std::string text = core::ReadConfiguration(path, who, "rig file");
+  const std::string changed = WithGauge(text, gauge);
+  if (SaysTheSame(ParseYaml(text, who), changed, gauge)) {
+    core::WriteWholeFile(path, changed);
+    return;
+  }
+  rig_file.gauge = gauge;
+  WriteRigFile(rig_file, path);
 }
 
 }  // namespace elbowroom::recon

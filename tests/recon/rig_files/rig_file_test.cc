@@ -8,6 +8,7 @@
 #include <string>
 
 #include "tests/recon/footage/made_footage.h"
+#include "tests/support/text_file.h"
 
 namespace elbowroom::recon {
 namespace {
@@ -88,6 +89,72 @@ TEST(RigFile, WritesWhatItReadsBackBitForBit) {
   EXPECT_EQ(back.cam_from_world, odd.cam_from_world);
   EXPECT_EQ(read.rig.workspace_mm.min(), written.rig.workspace_mm.min());
   EXPECT_EQ(read.sources, written.sources);
+}
+
+const RigGauge kSomeGauge{"2026-11-30T12:00:00Z", 10.0, 10.0 + 1.0 / 3.0, 1.0 / 3.0, 0.7, 27, true};
+
+TEST(RigFile, KeepsAGaugeBitForBit) {
+  const TestFolder folder;
+  RigFile written = testing::PlainRig({{"", "", ""}});
+  WriteRigFile(written, folder.path() / "rig.yml");
+  EXPECT_FALSE(ReadRigFile(folder.path() / "rig.yml").gauge);
+  written.gauge = kSomeGauge;
+  for (const bool passed : {true, false}) {
+    written.gauge->passed = passed;
+    WriteRigFile(written, folder.path() / "rig.yml");
+    EXPECT_EQ(ReadRigFile(folder.path() / "rig.yml").gauge, written.gauge);
+  }
+}
+
+TEST(RigFile, TakesAGaugeWithoutChangingTheRest) {
+  const TestFolder folder;
+  const auto path = folder.path() / "rig.yml";
+  const std::string with_remark = kFlowRig + "# mind the tripod\nhome_made: 3\n";
+  WriteText(path, with_remark);
+  SaveGauge(kSomeGauge, path);
+  EXPECT_EQ(ReadRigFile(path).gauge, kSomeGauge);
+  const std::string once = test_support::ReadText(path);
+  EXPECT_TRUE(once.starts_with(with_remark)) << once;
+  RigGauge other = kSomeGauge;
+  other.passed = false;
+  other.places = 3;
+  SaveGauge(other, path);
+  EXPECT_EQ(ReadRigFile(path).gauge, other);
+  EXPECT_TRUE(test_support::ReadText(path).starts_with(with_remark));
+  SaveGauge(kSomeGauge, path);
+  EXPECT_EQ(test_support::ReadText(path), once);
+}
+
+TEST(RigFile, TakesAGaugeWhereNothingCanBeAppended) {
+  const TestFolder folder;
+  const auto path = folder.path() / "rig.yml";
+  WriteRigFile(testing::PlainRig({{folder.File("cam1/%04d.png"), "", ""}}), path);
+  const RigFile before = ReadRigFile(path);
+  WriteText(path, test_support::ReadText(path) + "...\n");
+  SaveGauge(kSomeGauge, path);
+  const RigFile after = ReadRigFile(path);
+  EXPECT_EQ(after.gauge, kSomeGauge);
+  EXPECT_EQ(after.sources, before.sources);
+}
+
+TEST(RigFile, RefusesAGaugeOfWhichAPartIsMissing) {
+  const std::string gauge =
+      "gauge: { made: \"today\", true_diameter_mm: 10, diameter_mm: 10.1, error_mm: 0.1, bound_mm: 0.5, "
+      "places: 27, passed: true }\n";
+  const TestFolder folder;
+  WriteText(folder.path() / "rig.yml", kFlowRig + gauge);
+  EXPECT_EQ(ReadRigFile(folder.path() / "rig.yml").gauge,
+            (RigGauge{"today", 10.0, 10.1, 0.1, 0.5, 27, true}));
+  const std::pair<const char*, const char*> defects[] = {{"passed: true", "passed: perhaps"},
+                                                         {", passed: true", ""},
+                                                         {"bound_mm: 0.5, ", ""},
+                                                         {"places: 27", "places: 2.5"},
+                                                         {"error_mm: 0.1", "error_mm: small"},
+                                                         {"diameter_mm: 10.1", "diametre_mm: 10.1"}};
+  for (const auto& [from, to] : defects) {
+    const std::string message = RigError(ErrorKind::kFormat, Replaced(kFlowRig + gauge, from, to));
+    EXPECT_THAT(message, HasSubstr("gauge")) << from;
+  }
 }
 
 TEST(RigFile, WritesNothingWhereItCannotWriteAll) {
