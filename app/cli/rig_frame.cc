@@ -18,9 +18,7 @@ void AddRigFrameOptions(CLI::App& command, RigFrameOptions* options) {
 
 RigFrame LoadRigFrame(const RigFrameOptions& options, const CommandContext& context) {
   recon::RigFile rig_file = recon::ReadRigFile(options.rig_file);
-  core::RigQuality quality;
-  if (rig_file.calibration && rig_file.calibration->covariance.size() > 0)
-    quality.errors = core::RigErrors{rig_file.calibration->covariance};
+  core::RigQuality quality = recon::QualityOf(rig_file);
   recon::RecordedRig source(std::move(rig_file), context.stop);
   RigFrame result{std::make_shared<const core::Rig>(source.rig()), {}, std::move(quality), {}};
   // The frame is read before the backgrounds: a missing frame is found sooner.

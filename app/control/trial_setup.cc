@@ -89,16 +89,6 @@ double LengthFromZero(const TomlEntry& entry, std::string_view key) {
   return length_mm;
 }
 
-// What verdicts allow for follows from the rig's covariance, if it has one and the trial doesn't say it
-// itself.
-core::RigQuality QualityOf(const recon::RigFile& rig_file, const TomlEntry& root, double boundary_sigma_px) {
-  core::RigQuality quality;
-  if (root.Find("uncertainty_mm") == nullptr && rig_file.calibration &&
-      rig_file.calibration->covariance.size() > 0)
-    quality.errors = core::RigErrors{rig_file.calibration->covariance, boundary_sigma_px};
-  return quality;
-}
-
 }  // namespace
 
 TrialSetup ReadTrialFile(const std::filesystem::path& path, std::stop_token stop) {
@@ -120,7 +110,17 @@ TrialSetup ReadTrialFile(const std::filesystem::path& path, std::stop_token stop
   setup.layout = core::WithPairsOfParts(std::move(imported.layout));
   setup.warnings = std::move(imported.warnings);
   recon::RigFile rig_file = recon::ReadRigFile(folder / root.Text("rig"));
-  setup.rig_quality = QualityOf(rig_file, root, segmentation.boundary_sigma_px);
+  setup.rig_quality = recon::QualityOf(rig_file);
+  core::RigQuality& quality = setup.rig_quality;
+  if (root.Find("uncertainty_mm") != nullptr) quality.errors.reset();  // what the trial says wins
+  if (quality.errors) quality.errors->boundary_sigma_px = segmentation.boundary_sigma_px;
+  if (quality.is_refuted()) {
+    setup.warnings.push_back(
+        fmt::format("the gauge of rig '{}' failed ({:.2f} mm off, {:.2f} mm is the bound): no part will be "
+                    "near or clear, but "
+                    "undecided; calibrate the rig again, and gauge it",
+                    rig_file.rig.name, quality.gauge->error_mm, quality.gauge->bound_mm));
+  }
   auto source = std::make_shared<recon::RecordedRig>(std::move(rig_file), stop);
   setup.source = WithViewer(std::move(source), root, path, stop, &setup.warnings);
   return setup;

@@ -184,7 +184,7 @@ bool ReadPassed(const YamlSection& section) {
 }
 
 // Verdicts depend on a gauge, so nothing in it is guessed.
-std::optional<RigGauge> ReadGauge(const YamlSection& root) {
+std::optional<core::RigGauge> ReadGauge(const YamlSection& root) {
   const YamlNode* node = root.Find("gauge");
   if (node == nullptr) return std::nullopt;
   if (node->kind != YamlKind::kMap) root.Fail("key 'gauge' must be a map");
@@ -194,7 +194,7 @@ std::optional<RigGauge> ReadGauge(const YamlSection& root) {
     (void)section.Get(key, "a number of millimetres");
     return section.NumberOr(key, 0.0);
   };
-  RigGauge gauge;
+  core::RigGauge gauge;
   gauge.made = section.TextOr("made", "");
   gauge.true_diameter_mm = number("true_diameter_mm");
   gauge.diameter_mm = number("diameter_mm");
@@ -237,6 +237,13 @@ void RequireModestPicture(const YamlSection& section, const core::CameraModel& c
 }
 
 }  // namespace
+
+core::RigQuality QualityOf(const RigFile& rig_file) {
+  core::RigQuality quality{std::nullopt, rig_file.gauge};
+  if (rig_file.calibration && rig_file.calibration->covariance.size() > 0)
+    quality.errors = core::RigErrors{rig_file.calibration->covariance};
+  return quality;
+}
 
 RigFile ReadRigFile(const std::filesystem::path& path) {
   const std::string file = fmt::format("rig file '{}'", path.string());

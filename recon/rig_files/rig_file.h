@@ -9,6 +9,7 @@
 
 #include "core/camera_model.h"
 #include "core/rig.h"
+#include "core/rig_quality.h"
 
 namespace elbowroom::recon {
 
@@ -36,25 +37,15 @@ struct RigCalibration {
   Eigen::MatrixXd covariance;
 };
 
-// What the last gauge said: a rod of known diameter, measured through the workspace (docs/gauge.md).
-struct RigGauge {
-  std::string made;  // when, UTC
-  double true_diameter_mm = 0.0;
-  double diameter_mm = 0.0;  // of the place with the largest error, as the next two
-  double error_mm = 0.0;     // measured less true
-  double bound_mm = 0.0;
-  int places = 0;
-  bool passed = false;  // every place is within its bound
-
-  [[nodiscard]] bool operator==(const RigGauge&) const = default;
-};
-
 struct RigFile {
   core::Rig rig;
   std::vector<CameraSources> sources = {};  // one a camera
   std::optional<RigCalibration> calibration = std::nullopt;
-  std::optional<RigGauge> gauge = std::nullopt;
+  std::optional<core::RigGauge> gauge = std::nullopt;
 };
+
+// What verdicts need to know of it.
+[[nodiscard]] core::RigQuality QualityOf(const RigFile& rig_file);
 
 // Matrices may be !!opencv-matrix, a flat list, or a list of rows. Throws: Error{kFile} if it can't be read,
 // Error{kFormat} for a missing or wrong key, Error{kRange} for a workspace that is empty or too large,
@@ -87,6 +78,6 @@ void WriteRigFile(const RigFile& rig_file, const std::filesystem::path& path);
 // Puts the gauge into an existing rig file in place of the one that it has, and keeps all the rest as it is,
 // comments included; a file whose form doesn't allow that is written anew. Throws: as ReadRigFile;
 // Error{kFile}.
-void SaveGauge(const RigGauge& gauge, const std::filesystem::path& path);
+void SaveGauge(const core::RigGauge& gauge, const std::filesystem::path& path);
 
 }  // namespace elbowroom::recon

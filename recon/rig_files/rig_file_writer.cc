@@ -85,7 +85,7 @@ std::string CalibrationText(const RigCalibration& calibration) {
   return text + " ]\n";
 }
 
-std::string GaugeText(const RigGauge& gauge) {
+std::string GaugeText(const core::RigGauge& gauge) {
   return fmt::format(
       "gauge:\n   made: {}\n   true_diameter_mm: {}\n   diameter_mm: {}\n   error_mm: {}\n   bound_mm: {}\n"
       "   places: {}\n   passed: {}\n",
@@ -94,7 +94,7 @@ std::string GaugeText(const RigGauge& gauge) {
 }
 
 // The text without its block `gauge:`, with the new one at the end.
-std::string WithGauge(const std::string& text, const RigGauge& gauge) {
+std::string WithGauge(const std::string& text, const core::RigGauge& gauge) {
   std::istringstream lines(text);
   std::string kept, line;
   bool is_gauge = false;
@@ -108,7 +108,7 @@ std::string WithGauge(const std::string& text, const RigGauge& gauge) {
 }
 
 // Whether the changed text is the same document with that gauge.
-bool SaysTheSame(const YamlNode& before, const std::string& changed, const RigGauge& gauge) {
+bool SaysTheSame(const YamlNode& before, const std::string& changed, const core::RigGauge& gauge) {
   try {
     const YamlNode after = ParseYaml(changed, "");
     const std::string alone = "%YAML:1.0\n---\n" + GaugeText(gauge);
@@ -151,7 +151,7 @@ void WriteRigFile(const RigFile& rig_file, const std::filesystem::path& path) {
   core::WriteWholeFile(path, text);
 }
 
-void SaveGauge(const RigGauge& gauge, const std::filesystem::path& path) {
+void SaveGauge(const core::RigGauge& gauge, const std::filesystem::path& path) {
   RigFile rig_file = ReadRigFile(path);
   const std::string who = fmt::format("rig file '{}'", path.string());
   const std::string text = core::ReadConfiguration(path, who, "rig file");

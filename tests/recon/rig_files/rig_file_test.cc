@@ -91,7 +91,7 @@ TEST(RigFile, WritesWhatItReadsBackBitForBit) {
   EXPECT_EQ(read.sources, written.sources);
 }
 
-const RigGauge kSomeGauge{"2026-11-30T12:00:00Z", 10.0, 10.0 + 1.0 / 3.0, 1.0 / 3.0, 0.7, 27, true};
+const core::RigGauge kSomeGauge{"2026-11-30T12:00:00Z", 10.0, 10.0 + 1.0 / 3.0, 1.0 / 3.0, 0.7, 27, true};
 
 TEST(RigFile, KeepsAGaugeBitForBit) {
   const TestFolder folder;
@@ -115,7 +115,7 @@ TEST(RigFile, TakesAGaugeWithoutChangingTheRest) {
   EXPECT_EQ(ReadRigFile(path).gauge, kSomeGauge);
   const std::string once = test_support::ReadText(path);
   EXPECT_TRUE(once.starts_with(with_remark)) << once;
-  RigGauge other = kSomeGauge;
+  core::RigGauge other = kSomeGauge;
   other.passed = false;
   other.places = 3;
   SaveGauge(other, path);
@@ -144,7 +144,7 @@ TEST(RigFile, RefusesAGaugeOfWhichAPartIsMissing) {
   const TestFolder folder;
   WriteText(folder.path() / "rig.yml", kFlowRig + gauge);
   EXPECT_EQ(ReadRigFile(folder.path() / "rig.yml").gauge,
-            (RigGauge{"today", 10.0, 10.1, 0.1, 0.5, 27, true}));
+            (core::RigGauge{"today", 10.0, 10.1, 0.1, 0.5, 27, true}));
   const std::pair<const char*, const char*> defects[] = {{"passed: true", "passed: perhaps"},
                                                          {", passed: true", ""},
                                                          {"bound_mm: 0.5, ", ""},
