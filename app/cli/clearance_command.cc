@@ -95,7 +95,7 @@ CommandResult Run(const ClearanceCommandOptions& options, const CommandContext& 
       options.uncertainty_mm ? std::nullopt : BudgetOf(frame, hull, part, posed.world_from_part, clearance);
   const double allowed_mm = budget ? budget->ExpandedMm() : options.uncertainty_mm.value_or(0.0);
   result.json["uncertainty_mm"] = allowed_mm;
-  result.json["uncertainty"] = budget ? JsonOf(*budget) : nlohmann::json();
+  result.json["budget"] = budget ? JsonOf(*budget) : nlohmann::json();
   result.text = TextOf(clearance);
   if (options.required_mm) {
     AddVerdict(*options.required_mm, clearance, allowed_mm, frame.quality, &result);

@@ -78,7 +78,7 @@ CommandResult SummaryOf(const control::TrialOutcome& outcome, const core::Layout
          {"frames_in_contact", outcome.frames_in_contact[i]},
          {"episodes", episodes},
          {"largest_uncertainty_mm", budget ? nlohmann::json(budget->ExpandedMm()) : nullptr},
-         {"largest_uncertainty", budget ? JsonOf(*budget) : nlohmann::json()}});
+         {"largest_budget", budget ? JsonOf(*budget) : nlohmann::json()}});
     result.text += fmt::format("\n  {}: in contact in {} frames, {} episodes", layout.parts[i].name,
                                outcome.frames_in_contact[i], episodes);
   }

@@ -6,10 +6,15 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+#include <opencv2/videoio.hpp>
+#include <tuple>
+#include <utility>
 
 #include "recon/boards/board_drawing.h"
 #include "recon/rig_files/rig_file.h"
 #include "tests/recon/boards/board_picture.h"
+#include "tests/recon/footage/made_footage.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text_file.h"
@@ -179,6 +184,121 @@ TEST(CalibrateCommand, BadInputIsOneLineAndLeavesNoRig) {
   expect(fmt::format(kBoardText, 30.0, 22.0, "DICT_5X5_50") +
              "[[camera]]\nname = \"cam1\"\nframes = \"cam1/*.jpg\"\n" + kWorldText,
          "no image fits");
+}
+
+// Only these cameras, with this text for each one's frames.
+std::string Only(const std::vector<std::pair<std::string, std::string>>& frames_of,
+                 const std::string& more = "") {
+  std::string text = fmt::format(kBoardText, 30.0, 22.0, "DICT_5X5_50");
+  for (const auto& [name, frames] : frames_of)
+    text += fmt::format("[[camera]]\nname = \"{}\"\nframes = \"{}\"\ndistortion_model = \"plumb_bob\"\n{}",
+                        name, frames, more);
+  return text + kWorldText;
+}
+
+void CopyPictures(const std::string& from, const std::string& to, int first, int end, double scale = 1.0) {
+  const std::filesystem::path folder = Footage() / to;
+  std::filesystem::remove_all(folder);
+  std::filesystem::create_directories(folder);
+  for (int set = first; set < end; ++set) {
+    cv::Mat picture = cv::imread((Footage() / from / fmt::format("{:02}.png", set)).string());
+    if (scale != 1.0) cv::resize(picture, picture, {}, scale, scale);
+    cv::imwrite((folder / fmt::format("{:02}.png", set)).string(), picture);
+  }
+}
+
+TEST(CalibrateCommand, WhatTheFootageLacksIsOneLineWithTheCamerasName) {
+  const auto expect = [](const std::string& text, const std::vector<std::string>& parts) {
+    const ProgramRun run = Calibrate(text);
+    EXPECT_EQ(run.exit_status, 1) << parts.front();
+    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+    for (const std::string& part : parts) EXPECT_NE(run.err.find(part), std::string::npos) << run.err;
+    EXPECT_FALSE(HasRig()) << parts.front();
+  };
+  // No picture of the second camera shows the board.
+  std::filesystem::create_directories(Footage() / "blank");
+  for (int set = 0; set < kSets; ++set)
+    cv::imwrite((Footage() / "blank" / fmt::format("{:02}.png", set)).string(),
+                cv::Mat(360, 480, CV_8UC3, cv::Scalar(90, 90, 90)));
+  expect(Only({{"cam1", "cam1/*.png"}, {"cam2", "blank/*.png"}}), {"cam2", "board"});
+  // No two cameras see it at once: one sees the first half, the other the second.
+  for (int set = 0; set < kSets; ++set) {
+    for (const auto& [from, to, shows] :
+         {std::tuple("cam1", "early", set < kSets / 2), std::tuple("cam2", "late", set >= kSets / 2)}) {
+      std::filesystem::create_directories(Footage() / to);
+      const std::string name = fmt::format("{:02}.png", set);
+      std::filesystem::copy_file(Footage() / (shows ? from : "blank") / name, Footage() / to / name,
+                                 std::filesystem::copy_options::overwrite_existing);
+    }
+  }
+  expect(Only({{"cam1", "early/*.png"}, {"cam2", "late/*.png"}}), {"cam1", "cam2"});
+  // Pictures of two sizes, in one camera and between its photos and its frames.
+  CopyPictures("cam1", "sizes", 0, kSets);
+  cv::Mat small = cv::imread((Footage() / "sizes" / "05.png").string());
+  cv::resize(small, small, {}, 0.5, 0.5);
+  cv::imwrite((Footage() / "sizes" / "05.png").string(), small);
+  expect(Only({{"cam1", "sizes/*.png"}, {"cam2", "cam2/*.png"}}), {"cam1", "frame 5 of", "240 x 180 px"});
+  CopyPictures("cam1", "photos", 0, 5, 0.5);
+  expect(Only({{"cam1", "cam1/*.png"}}, "intrinsics = \"photos/*.png\"\n"),
+         {"cam1", "240 x 180", "480 x 360"});
+  // Stamps that go backwards.
+  std::string stamps = "frame,time_s\n";
+  for (int set = 0; set < kSets; ++set) stamps += fmt::format("{},{}\n", set, set == 6 ? 0.01 : 0.1 * set);
+  WriteText(Footage() / "stamps.csv", stamps);
+  expect(Only({{"cam1", "cam1/*.png"}, {"cam2", "cam2/*.png"}}, "timestamps = \"stamps.csv\"\n"),
+         {"cam1", "stamps.csv", "line 8", "goes back"});
+}
+
+// Writes the pictures of a camera as a video.
+std::filesystem::path VideoOf(const std::string& camera) {
+  const std::filesystem::path path = Footage() / (camera + ".avi");
+  cv::VideoWriter writer(path.string(), cv::VideoWriter::fourcc('M', 'J', 'P', 'G'), 10.0, {480, 360});
+  writer.set(cv::VIDEOWRITER_PROP_QUALITY, 98);
+  for (int set = 0; set < kSets; ++set)
+    writer.write(cv::imread((Footage() / camera / fmt::format("{:02}.png", set)).string()));
+  writer.release();
+  return path;
+}
+
+TEST(CalibrateCommand, AVideoThatIsCutShortIsNamed) {
+  for (int i = 1; i <= kCameras; ++i) (void)VideoOf(fmt::format("cam{}", i));
+  const std::string text = Only({{"cam1", "cam1.avi"}, {"cam2", "cam2.avi"}, {"cam3", "cam3.avi"}});
+  const ProgramRun whole = Calibrate(text, {"--json"});
+  ASSERT_EQ(whole.exit_status, 0) << whole.err;
+  EXPECT_TRUE(nlohmann::json::parse(whole.out)["warnings"].empty()) << whole.out;
+  // The container promises more than there is.
+  recon::testing::PromiseFrames(Footage() / "cam2.avi", kSets + 5);
+  const ProgramRun promised = Calibrate(text, {"--json"});
+  ASSERT_EQ(promised.exit_status, 0) << promised.err;
+  EXPECT_NE(promised.out.find("camera 'cam2'"), std::string::npos) << promised.out;
+  // The file breaks off.
+  recon::testing::CutFile(VideoOf("cam2"), Footage() / "cut.avi", 0.6);
+  const ProgramRun cut = Calibrate(Only({{"cam1", "cam1.avi"}, {"cam2", "cut.avi"}}));
+  EXPECT_EQ(cut.exit_status, 1);
+  EXPECT_EQ(std::count(cut.err.begin(), cut.err.end(), '\n'), 1) << cut.err;
+  EXPECT_NE(cut.err.find("cut.avi"), std::string::npos) << cut.err;
+  EXPECT_FALSE(HasRig());
+}
+
+TEST(CalibrateCommand, ARigFileNamesTheTrialsPictures) {
+  std::string text = CalibrationText();
+  text.insert(text.find("distortion_model"),
+              "trial_frames = \"cam1/%02d.png\"\nbackground = \"blank.png\"\n");
+  const ProgramRun run = Calibrate(text);
+  ASSERT_EQ(run.exit_status, 0) << run.err;
+  const recon::RigFile file = recon::ReadRigFile(Footage() / "rig.yml");
+  EXPECT_EQ(file.sources[0].frames, (Footage() / "cam1/%02d.png").string());
+  EXPECT_EQ(file.sources[0].background, (Footage() / "blank.png").string());
+  EXPECT_EQ(file.sources[1].frames, "");
+}
+
+TEST(CalibrateCommand, ThreeViewsAreWarnedOfByName) {
+  CopyPictures("cam1", "few1", 0, 3);
+  CopyPictures("cam2", "few2", 0, 3);
+  const ProgramRun run = Calibrate(Only({{"cam1", "few1/*.png"}, {"cam2", "few2/*.png"}}), {"--json"});
+  ASSERT_EQ(run.exit_status, 0) << run.err;
+  EXPECT_NE(run.out.find("camera 'cam1': only 3 of its views are used"), std::string::npos) << run.out;
+  EXPECT_NE(run.out.find("camera 'cam2': only 3 of its views are used"), std::string::npos) << run.out;
 }
 
 TEST(CalibrateCommand, FewViewsAreRefusedWithTheCamerasName) {

@@ -105,7 +105,7 @@ TEST_F(ErrorBudgetTrial, IsComputedFromTheCovarianceAndDecides) {
   EXPECT_NEAR(much.footprint_mm, little.footprint_mm, 1e-9);
   const auto part = nlohmann::json::parse(run.out)["parts"][0];
   EXPECT_EQ(part["largest_uncertainty_mm"], much.ExpandedMm());
-  EXPECT_EQ(part["largest_uncertainty"]["calibration_mm"], much.calibration_mm);
+  EXPECT_EQ(part["largest_budget"]["calibration_mm"], much.calibration_mm);
   const std::string report = Report();
   EXPECT_THAT(report, HasSubstr("What a verdict allows for is computed"));
   EXPECT_THAT(report, HasSubstr("<td>box"));
@@ -189,11 +189,11 @@ TEST_F(ErrorBudgetTrial, TheClearanceCommandSaysTheSame) {
   EXPECT_EQ(computed["verdict"], "undecided");
   // The searches end at witness points up to the tolerance apart.
   EXPECT_NEAR(computed["uncertainty_mm"].get<double>() / recorded.ExpandedMm(), 1.0, 0.05);
-  EXPECT_NEAR(computed["uncertainty"]["calibration_mm"].get<double>() / recorded.calibration_mm, 1.0, 0.05);
+  EXPECT_NEAR(computed["budget"]["calibration_mm"].get<double>() / recorded.calibration_mm, 1.0, 0.05);
   const auto given = clearance({"--uncertainty", "0.5"});
   EXPECT_EQ(given["verdict"], "clear");
   EXPECT_EQ(given["uncertainty_mm"], 0.5);
-  EXPECT_TRUE(given["uncertainty"].is_null());
+  EXPECT_TRUE(given["budget"].is_null());
 }
 
 }  // namespace

@@ -102,6 +102,9 @@ class Search {
     return found;
   }
 
+  // The first wanted frame that the source promised and didn't have.
+  [[nodiscard]] std::optional<FrameIndex> missing_from() const { return missing_from_; }
+
  private:
   struct Picture {
     FrameIndex frame = 0;
@@ -117,6 +120,7 @@ class Search {
     if (next_ < wanted_.size()) {
       const FrameIndex frame = wanted_[next_++];
       if (auto picture = pictures_->Read(frame, stop_)) return {frame, std::move(picture->image_bgr)};
+      missing_from_ = frame;
     }
     control.stop();
     return {};
@@ -125,6 +129,7 @@ class Search {
   recon::ImageSource* pictures_;
   std::vector<FrameIndex> wanted_;
   std::size_t next_ = 0;
+  std::optional<FrameIndex> missing_from_;
   const recon::BoardFinder& finder_;
   std::stop_token stop_;
 };
@@ -166,6 +171,24 @@ void RequireStampsOfAll(const CalibrationFile& file, const std::vector<OpenedCam
   }
 }
 
+// Frame i goes with frame i: footage that begins at other instants is not seen here, but other lengths tell
+// of it.
+void WarnOfLengths(const CalibrationFile& file, const std::vector<OpenedCamera>& cameras,
+                   BoardFootage* footage) {
+  const auto length = [&](std::size_t i) { return cameras[i].frames.pictures->frame_count().value_or(0); };
+  std::size_t shortest = 0, longest = 0;
+  for (std::size_t i = 0; i < cameras.size(); ++i) {
+    if (length(i) < length(shortest)) shortest = i;
+    if (length(i) > length(longest)) longest = i;
+  }
+  if (length(shortest) == length(longest)) return;
+  footage->warnings.push_back(fmt::format(
+      "camera '{}' has {} frames and camera '{}' {}; without timestamps frame 0 of one is taken at the "
+      "instant of "
+      "frame 0 of the other: make sure that they begin together",
+      file.cameras[shortest].name, length(shortest), file.cameras[longest].name, length(longest)));
+}
+
 // Which frames belong together, and how far apart they are in time.
 void FormSets(const CalibrationFile& file, std::vector<OpenedCamera>* cameras, BoardFootage* footage) {
   const bool has_stamps =
@@ -173,6 +196,7 @@ void FormSets(const CalibrationFile& file, std::vector<OpenedCamera>* cameras, B
   if (!has_stamps) {
     const auto rate_hz = cameras->front().frames.pictures->frame_rate_hz();
     if (rate_hz && *rate_hz > 0.0) footage->period_s = 1.0 / *rate_hz;
+    WarnOfLengths(file, *cameras, footage);
     footage->sets = Chosen(SetsByNumber(*cameras, footage->period_s));
     return;
   }
@@ -195,13 +219,23 @@ class BoardSearch {
   std::vector<BoardPicture> Run(recon::ImageSource* pictures, std::vector<FrameIndex> frames,
                                 const std::string& camera) {
     const FrameIndex count = std::ssize(frames);
-    std::vector<BoardPicture> found =
-        Search(pictures, std::move(frames), finder_, stop_).Run([&](FrameIndex looked_at) {
-          progress_.Report(done_ + looked_at, total_, "looking for the board, " + camera);
-        });
+    const FrameIndex promised = pictures->frame_count().value_or(0);
+    Search search(pictures, std::move(frames), finder_, stop_);
+    std::vector<BoardPicture> found = search.Run([&](FrameIndex looked_at) {
+      progress_.Report(done_ + looked_at, total_, "looking for the board, " + camera);
+    });
     done_ += count;
+    if (const auto missing_from = search.missing_from()) {
+      warnings_.push_back(
+          fmt::format("camera '{}': its footage promises {} frames, but has none from about frame {} on: it "
+                      "was cut short, and "
+                      "the rest is missing",
+                      camera, promised, *missing_from));
+    }
     return found;
   }
+
+  [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
 
  private:
   recon::BoardFinder finder_;
@@ -209,6 +243,7 @@ class BoardSearch {
   std::stop_token stop_;
   FrameIndex done_ = 0;
   FrameIndex total_ = 0;
+  std::vector<std::string> warnings_;
 };
 
 }  // namespace
@@ -241,6 +276,7 @@ BoardFootage FindBoards(const CalibrationFile& file, const core::Progress& progr
     }
     footage.cameras.push_back(std::move(sightings));
   }
+  footage.warnings.insert(footage.warnings.end(), search.warnings().begin(), search.warnings().end());
   return footage;
 }
 

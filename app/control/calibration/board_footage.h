@@ -34,7 +34,8 @@ struct BoardFootage {
   // Frames that belong together. Without stamps frame i goes with frame i, and its time is i over the rate,
   // or 0 if there is no rate.
   std::vector<StampedSet> sets;
-  std::optional<double> period_s;  // between two frames; nothing: times are not known
+  std::optional<double> period_s;     // between two frames; nothing: times are not known
+  std::vector<std::string> warnings;  // plain lines about the footage, each with the camera's name
 };
 
 // At most this many sets are looked at. Longer footage is looked at in runs of three sets in a row, evenly

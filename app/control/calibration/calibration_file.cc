@@ -18,8 +18,9 @@ using core::ErrorKind;
 
 constexpr std::string_view kBoardKeys[] = {"type",      "columns",    "rows",   "square_mm",
                                            "marker_mm", "dictionary", "layout", "inverted"};
-constexpr std::string_view kCameraKeys[] = {"name",       "frames",           "intrinsics",
-                                            "timestamps", "distortion_model", "known"};
+constexpr std::string_view kCameraKeys[] = {"name",         "frames",           "intrinsics",
+                                            "timestamps",   "distortion_model", "known",
+                                            "trial_frames", "background",       "masks"};
 constexpr std::string_view kLengthKeys[] = {"length_mm", "tolerance_mm", "cameras", "pixels"};
 constexpr std::string_view kPixelKeys[] = {"camera", "from_px", "to_px"};
 
@@ -81,6 +82,9 @@ CameraFootage ReadCamera(const TomlEntry& entry, const std::filesystem::path& fo
     const std::string text = entry.TextOr(key, "");
     return text.empty() ? std::filesystem::path() : folder / text;
   };
+  camera.trial.frames = recon::ResolvedLocation(entry.TextOr("trial_frames", ""), folder);
+  camera.trial.background = recon::ResolvedLocation(entry.TextOr("background", ""), folder);
+  camera.trial.masks = recon::ResolvedLocation(entry.TextOr("masks", ""), folder);
   camera.timestamps = path("timestamps");
   camera.known = path("known");
   const std::string model = entry.TextOr("distortion_model", "auto");

@@ -11,6 +11,7 @@
 #include "core/camera_model.h"
 #include "core/ids.h"
 #include "recon/boards/board.h"
+#include "recon/rig_files/rig_file.h"
 
 namespace elbowroom::control {
 
@@ -22,6 +23,7 @@ struct CameraFootage {
   std::filesystem::path timestamps;                 // empty: frame i goes with frame i
   std::optional<core::DistortionModel> lens_model;  // nothing: chosen by the error on views left out
   std::filesystem::path known;                      // a file with the lens to keep; empty: it is found
+  recon::CameraSources trial;                       // what RIG.yml shall say of the trial's pictures
 };
 
 // A length that somebody measured, to hold the scale against.

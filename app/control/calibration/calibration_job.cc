@@ -109,9 +109,10 @@ recon::RigFile RigFileOf(const CalibrationFile& file, const std::string& rig_nam
   recon::RigFile rig_file;
   rig_file.rig.name = rig_name;
   rig_file.rig.workspace_mm = file.workspace_mm;
-  for (const recon::CalibratedCamera& camera : outcome.result.cameras) {
+  for (std::size_t i = 0; i < file.cameras.size(); ++i) {
+    const recon::CalibratedCamera& camera = outcome.result.cameras[i];
     rig_file.rig.cameras.emplace_back(camera.calibration);
-    rig_file.sources.emplace_back();
+    rig_file.sources.push_back(file.cameras[i].trial);
     rig_file.sources.back().time_offset_s = camera.time_offset_s;
   }
   rig_file.calibration =
@@ -158,7 +159,9 @@ CalibrationOutcome CalibrateRig(const CalibrationFile& file, const std::string& 
     outcome.input = ViewsOf(file, outcome.footage, known);
     outcome.result = recon::Calibrate(outcome.input, progress, stop);
   }
-  outcome.warnings = outcome.result.warnings;
+  outcome.warnings = outcome.footage.warnings;
+  outcome.warnings.insert(outcome.warnings.end(), outcome.result.warnings.begin(),
+                          outcome.result.warnings.end());
   outcome.advice = AdviceFor(outcome.input, outcome.result);
   CheckLengths(file, &outcome);
   const recon::RigUncertainty uncertainty(outcome.result, outcome.result.noise_px);
