@@ -110,9 +110,13 @@ std::string ResidualPicture(const CalibrationOutcome& outcome, int camera) {
   const auto at = static_cast<std::size_t>(camera);
   const recon::CalibrationCamera& of_input = outcome.input.cameras[at];
   const double rms_px = outcome.result.cameras[at].rms_px, enlargement = Enlargement(rms_px);
+  // Pictures of all sizes are drawn as wide, so that the words below have one size.
+  constexpr double kWidth = 1040.0;
+  const double scale = kWidth / of_input.width_px, height = scale * of_input.height_px;
   std::string svg = fmt::format(
-      "<svg viewBox='-1 -1 {} {}' role='img'><rect width='{}' height='{}' fill='#f4f6f8' stroke='#94a1ad'/>",
-      of_input.width_px + 2, of_input.height_px + 24, of_input.width_px, of_input.height_px);
+      "<svg viewBox='-1 -1 {} {:.1f}' role='img'><g transform='scale({:.5f})'><rect width='{}' height='{}' "
+      "fill='#f4f6f8' stroke='#94a1ad'/>",
+      kWidth + 2.0, height + 24.0, scale, of_input.width_px, of_input.height_px);
   for (std::size_t i = 0; i < outcome.input.views.size(); ++i) {
     if (outcome.input.views[i].camera != camera) continue;
     const recon::ViewOutcome& view = outcome.result.views[i];
@@ -120,9 +124,9 @@ std::string ResidualPicture(const CalibrationOutcome& outcome, int camera) {
       svg +=
           view.is_used && point.is_used ? ResidualLine(point, enlargement, 3.0 * rms_px) : Cross(point.pixel);
   }
-  return svg +
+  return svg + "</g>" +
          sessions::Label(
-             0.0, of_input.height_px + 18.0,
+             0.0, height + 18.0,
              fmt::format("lines: residuals, {:.0f} times as long; crosses: points left out", enlargement),
              "remark") +
          "</svg>";
