@@ -44,6 +44,9 @@ int main(int argc, char** argv) {
   CLI::App* imports = app.add_subcommand("import", "what an import costs");
   imports->add_option("PROGRAM", program, "elbowroom")->required();
   imports->callback([&] { MeasureImport(docs, program); });
+  CLI::App* calibrations = app.add_subcommand("calibration", "what a calibration costs");
+  calibrations->add_option("PROGRAM", program, "elbowroom")->required();
+  calibrations->callback([&] { MeasureCalibration(docs, program); });
   app.add_subcommand("detail", "parts drawn whole and by levels")->callback([&] { MeasureDetail(docs); });
   app.add_subcommand("logging", "what recording costs a frame")->callback([&] { MeasureLogging(docs); });
   CLI::App* cost = app.add_subcommand("cost", "instructions by callgrind");

@@ -37,6 +37,9 @@ void MeasureMemory(const std::filesystem::path& docs);
 // cad_import.md, "import": whole commands of `program` (elbowroom) on a mesh file of a million triangles.
 void MeasureImport(const std::filesystem::path& docs, const std::filesystem::path& program);
 
+// calibration.md, "calibrate": whole runs of `program` (elbowroom) on pictures of a board.
+void MeasureCalibration(const std::filesystem::path& docs, const std::filesystem::path& program);
+
 // performance.md, "detail": large parts drawn whole and by levels of detail, and how the pictures differ.
 void MeasureDetail(const std::filesystem::path& docs);
 
