@@ -42,6 +42,12 @@ std::vector<core::CameraModel> ModelsOf(const CalibrationResult& result) {
 
 }  // namespace
 
+bool IsInPicture(const core::CameraModel& camera, const Eigen::Vector3d& x_in_world) {
+  const std::optional<Eigen::Vector2d> pixel = camera.Project(x_in_world);
+  return pixel && pixel->x() >= -0.5 && pixel->y() >= -0.5 && pixel->x() <= camera.width_px() - 0.5 &&
+         pixel->y() <= camera.height_px() - 0.5;
+}
+
 double PointUncertainty::sigma_mm() const { return std::sqrt(covariance_mm2.trace()); }
 
 RigUncertainty::RigUncertainty(std::span<const core::CameraModel> cameras, Eigen::MatrixXd covariance,
@@ -57,34 +63,36 @@ RigUncertainty::RigUncertainty(std::span<const core::CameraModel> cameras, Eigen
   if (covariance_.size() == 0) covariance_ = Eigen::MatrixXd::Zero(parameters, parameters);
   core::Require(covariance_.rows() == parameters && covariance_.cols() == parameters,
                 "the covariance has a row for each parameter of the cameras");
+  is_exact_ = covariance_.isZero(0.0);
 }
 
 RigUncertainty::RigUncertainty(const CalibrationResult& result, double noise_px)
     : RigUncertainty(ModelsOf(result), result.covariance, noise_px) {}
 
-bool RigUncertainty::Sees(const Camera& camera, const Eigen::Vector3d& x_in_world) {
-  const std::optional<Eigen::Vector2d> pixel = camera.model.Project(x_in_world);
-  return pixel && pixel->x() >= -0.5 && pixel->y() >= -0.5 && pixel->x() <= camera.model.width_px() - 0.5 &&
-         pixel->y() <= camera.model.height_px() - 0.5;
-}
-
 int RigUncertainty::CamerasSeeing(const Eigen::Vector3d& x_in_world) const {
   return static_cast<int>(
-      std::ranges::count_if(cameras_, [&](const Camera& c) { return Sees(c, x_in_world); }));
+      std::ranges::count_if(cameras_, [&](const Camera& c) { return IsInPicture(c.model, x_in_world); }));
 }
 
 std::optional<PointUncertainty> RigUncertainty::At(const Eigen::Vector3d& x_in_world) const {
   PointResponse response(static_cast<int>(covariance_.rows()));
   PointUncertainty point;
   for (const Camera& camera : cameras_) {
-    if (!Sees(camera, x_in_world)) continue;
+    if (!IsInPicture(camera.model, x_in_world)) continue;
     ++point.cameras;
     response.Add(camera.lens, camera.model.cam_from_world(), camera.parameters, x_in_world);
   }
   if (point.cameras < 2 || !response.Solve()) return std::nullopt;
+  point.covariance_mm2 = noise_px_ * noise_px_ * response.by_noise();
+  if (is_exact_) return point;
   const auto& g = response.by_parameters();
-  point.covariance_mm2 = noise_px_ * noise_px_ * response.by_noise() + (g * covariance_) * g.transpose();
+  point.covariance_mm2 += (g * covariance_) * g.transpose();
   return point;
+}
+
+double MapEdgeMm(const Eigen::AlignedBox3d& box_mm, double edge_mm, double most_nodes) {
+  while (((box_mm.sizes() / edge_mm).array().floor() + 1.0).prod() > most_nodes) edge_mm *= 1.5;
+  return edge_mm;
 }
 
 UncertaintyMap MapUncertainty(const RigUncertainty& rig, const Eigen::AlignedBox3d& workspace_mm,

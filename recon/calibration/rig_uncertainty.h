@@ -23,15 +23,18 @@ struct PointUncertainty {
   [[nodiscard]] double sigma_mm() const;  // sqrt(trace)
 };
 
+// The point is before the camera and in its picture.
+[[nodiscard]] bool IsInPicture(const core::CameraModel& camera, const Eigen::Vector3d& x_in_world);
+
 // The covariance of a point that is triangulated by all cameras that see it, to the first order:
 // A+ (sigma^2 I + B Sigma B^T) A+^T, with A and B the derivatives of its pixels by the point and by the
 // cameras' parameters, Sigma their covariance, sigma the noise of one coordinate of a pixel. The point stands
 // still, so time offsets have no part in it.
 class RigUncertainty {
  public:
-  // `covariance` of all cameras' parameters, as RIG.yml keeps it: a ParameterBlock for each camera. Empty: the
-  // cameras are taken as exact. `noise_px`: CalibrationResult::noise_px, or the noise of what is looked for
-  // later. Throws: PreconditionError: a covariance of another size, or noise that isn't positive.
+  // `covariance` of all cameras' parameters, as RIG.yml keeps it: a ParameterBlock for each camera. Empty:
+  // the cameras are taken as exact. `noise_px`: CalibrationResult::noise_px, or the noise of what is looked
+  // for later. Throws: PreconditionError: a covariance of another size, or noise that isn't positive.
   RigUncertainty(std::span<const core::CameraModel> cameras, Eigen::MatrixXd covariance, double noise_px);
   // Throws: Error{kCamera} as core::CameraModel, too.
   RigUncertainty(const CalibrationResult& result, double noise_px);
@@ -46,11 +49,11 @@ class RigUncertainty {
     LensParameters lens;
     ParameterBlock parameters;
   };
-  [[nodiscard]] static bool Sees(const Camera& camera, const Eigen::Vector3d& x_in_world);
 
   std::vector<Camera> cameras_;
   Eigen::MatrixXd covariance_;
   double noise_px_ = 0.0;
+  bool is_exact_ = false;  // the covariance is 0
 };
 
 // Sigma at the nodes of a grid: x runs fastest, then y, then z.
@@ -65,6 +68,12 @@ struct UncertaintyMap {
   Eigen::Vector3i nodes;
   std::vector<Node> values;
 };
+
+// `edge_mm`, made wider by factors of 1.5 until the box has `most_nodes` at most.
+inline constexpr double kMapEdgeMm = 20.0;
+inline constexpr double kMostMapNodes = 1e6;
+[[nodiscard]] double MapEdgeMm(const Eigen::AlignedBox3d& box_mm, double edge_mm = kMapEdgeMm,
+                               double most_nodes = kMostMapNodes);
 
 // Nodes from the box's least corner on, at most at its largest. Throws: PreconditionError: an edge that isn't
 // positive, an empty box, or more than 50,000,000 nodes; Error{kCancelled}. Thread: progress is called on the

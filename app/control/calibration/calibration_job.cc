@@ -89,19 +89,7 @@ void SummariseMap(CalibrationOutcome* outcome) {
   }
   outcome->seen_share =
       static_cast<double>(sigmas_mm.size()) / static_cast<double>(outcome->map.values.size());
-  std::ranges::sort(sigmas_mm);
-  const auto at = [&](double share) {
-    return sigmas_mm[static_cast<std::size_t>(share * static_cast<double>(sigmas_mm.size() - 1))];
-  };
-  outcome->uncertainty_mm = Spread{at(0.5), at(0.95), sigmas_mm.back()};
-}
-
-// The map's spacing; wider for a workspace in which there would be too many nodes.
-double MapEdge(const Eigen::AlignedBox3d& workspace_mm) {
-  constexpr double kMostNodes = 1e6;
-  double edge_mm = kMapEdgeMm;
-  while ((workspace_mm.sizes() / edge_mm).array().floor().prod() > kMostNodes) edge_mm *= 1.5;
-  return edge_mm;
+  outcome->uncertainty_mm = core::SpreadOf(std::move(sigmas_mm));
 }
 
 recon::RigFile RigFileOf(const CalibrationFile& file, const std::string& rig_name,
@@ -165,8 +153,8 @@ CalibrationOutcome CalibrateRig(const CalibrationFile& file, const std::string& 
   outcome.advice = AdviceFor(outcome.input, outcome.result);
   CheckLengths(file, &outcome);
   const recon::RigUncertainty uncertainty(outcome.result, outcome.result.noise_px);
-  outcome.map =
-      recon::MapUncertainty(uncertainty, file.workspace_mm, MapEdge(file.workspace_mm), progress, stop);
+  outcome.map = recon::MapUncertainty(uncertainty, file.workspace_mm, recon::MapEdgeMm(file.workspace_mm),
+                                      progress, stop);
   SummariseMap(&outcome);
   outcome.time_ms =
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();

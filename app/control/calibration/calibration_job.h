@@ -10,6 +10,7 @@
 #include "app/control/calibration/board_footage.h"
 #include "app/control/calibration/calibration_file.h"
 #include "core/progress.h"
+#include "core/spread.h"
 #include "recon/calibration/calibration_input.h"
 #include "recon/calibration/calibration_result.h"
 #include "recon/calibration/known_length.h"
@@ -18,20 +19,13 @@
 
 namespace elbowroom::control {
 
-// Of a quantity over the workspace, in mm.
-struct Spread {
-  double median = 0.0;
-  double p95 = 0.0;
-  double max = 0.0;
-};
-
 struct CalibrationOutcome {
   BoardFootage footage;
   recon::CalibrationInput input;
   recon::CalibrationResult result;
-  recon::UncertaintyMap map;             // over the workspace
-  std::optional<Spread> uncertainty_mm;  // of the map's nodes; nothing: two cameras see none of them
-  double seen_share = 0.0;               // of the map's nodes, those that two cameras see
+  recon::UncertaintyMap map;                   // over the workspace
+  std::optional<core::Spread> uncertainty_mm;  // of the map's nodes; nothing: two cameras see none of them
+  double seen_share = 0.0;                     // of the map's nodes, those that two cameras see
   std::vector<recon::LengthCheck> lengths;
   bool scale_checked = false;
   std::vector<std::string> warnings;  // plain lines
@@ -39,9 +33,6 @@ struct CalibrationOutcome {
   recon::RigFile rig_file;
   double time_ms = 0.0;  // from sightings to the map
 };
-
-// The spacing of the map's nodes.
-inline constexpr double kMapEdgeMm = 20.0;
 
 // Throws: what FindBoards, ViewsOf and recon::Calibrate throw; Error{kCancelled} on a stop.
 [[nodiscard]] CalibrationOutcome CalibrateRig(const CalibrationFile& file, const std::string& rig_name,
