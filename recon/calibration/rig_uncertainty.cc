@@ -74,20 +74,35 @@ int RigUncertainty::CamerasSeeing(const Eigen::Vector3d& x_in_world) const {
       std::ranges::count_if(cameras_, [&](const Camera& c) { return IsInPicture(c.model, x_in_world); }));
 }
 
-std::optional<PointUncertainty> RigUncertainty::At(const Eigen::Vector3d& x_in_world) const {
+std::optional<PointResponse> RigUncertainty::ResponseAt(const Eigen::Vector3d& x_in_world,
+                                                        int* seeing) const {
   PointResponse response(static_cast<int>(covariance_.rows()));
-  PointUncertainty point;
+  *seeing = 0;
   for (const Camera& camera : cameras_) {
     if (!IsInPicture(camera.model, x_in_world)) continue;
-    ++point.cameras;
+    ++*seeing;
     response.Add(camera.lens, camera.model.cam_from_world(), camera.parameters, x_in_world);
   }
-  if (point.cameras < 2 || !response.Solve()) return std::nullopt;
-  point.covariance_mm2 = noise_px_ * noise_px_ * response.by_noise();
+  if (*seeing < 2 || !response.Solve()) return std::nullopt;
+  return response;
+}
+
+std::optional<PointUncertainty> RigUncertainty::At(const Eigen::Vector3d& x_in_world) const {
+  PointUncertainty point;
+  const std::optional<PointResponse> response = ResponseAt(x_in_world, &point.cameras);
+  if (!response) return std::nullopt;
+  point.covariance_mm2 = noise_px_ * noise_px_ * response->by_noise();
   if (is_exact_) return point;
-  const auto& g = response.by_parameters();
+  const auto& g = response->by_parameters();
   point.covariance_mm2 += (g * covariance_) * g.transpose();
   return point;
+}
+
+std::optional<Eigen::Matrix3Xd> RigUncertainty::ShiftByParameters(const Eigen::Vector3d& x_in_world) const {
+  int seeing = 0;
+  const std::optional<PointResponse> response = ResponseAt(x_in_world, &seeing);
+  if (!response) return std::nullopt;
+  return response->by_parameters();
 }
 
 double MapEdgeMm(const Eigen::AlignedBox3d& box_mm, double edge_mm, double most_nodes) {

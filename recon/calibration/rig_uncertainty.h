@@ -16,6 +16,8 @@
 
 namespace elbowroom::recon {
 
+class PointResponse;  // recon/calibration/point_response.h
+
 struct PointUncertainty {
   Eigen::Matrix3d covariance_mm2 = Eigen::Matrix3d::Zero();  // of the triangulated point, in world
   int cameras = 0;                                           // that see it
@@ -41,9 +43,14 @@ class RigUncertainty {
 
   // Nothing: fewer than two cameras see the point, or all see it from one direction.
   [[nodiscard]] std::optional<PointUncertainty> At(const Eigen::Vector3d& x_in_world) const;
+  // How the triangulated point moves with the cameras' parameters, 3 x their number; nothing likewise.
+  [[nodiscard]] std::optional<Eigen::Matrix3Xd> ShiftByParameters(const Eigen::Vector3d& x_in_world) const;
   [[nodiscard]] int CamerasSeeing(const Eigen::Vector3d& x_in_world) const;
 
  private:
+  // Solved; nothing as At. Sets `seeing` to the number of cameras that see the point.
+  [[nodiscard]] std::optional<PointResponse> ResponseAt(const Eigen::Vector3d& x_in_world, int* seeing) const;
+
   struct Camera {
     core::CameraModel model;
     LensParameters lens;

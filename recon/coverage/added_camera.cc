@@ -1,10 +1,9 @@
 #include "recon/coverage/added_camera.h"
 
-#include <fmt/format.h>
-
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -44,33 +43,35 @@ Matrix6d ByWorldMotion(const core::RigidTransform& cam_from_world, const Vector3
   return by_motion;
 }
 
-// A camera's turn, times `arm_mm`, and the shift of its centre, both along the world's axes and in mm, by its
-// rotation and translation parameters.
-Matrix6d ToTurnAndShift(const core::RigidTransform& cam_from_world, double arm_mm) {
-  const Matrix3d back = cam_from_world.rotation.transpose();
-  Matrix6d to = Matrix6d::Zero();
-  to.topLeftCorner<3, 3>() = arm_mm * back;
-  to.bottomLeftCorner<3, 3>() = -back * CrossMatrix(cam_from_world.translation_mm);
-  to.bottomRightCorner<3, 3>() = -back;
-  return to;
+// Places at which the cameras' errors are looked at.
+std::vector<Vector3d> PlacesIn(const Eigen::AlignedBox3d& box_mm) {
+  constexpr double kFromMiddle = 0.35;  // of the box's sides
+  std::vector<Vector3d> places_mm;
+  for (int i = 0; i < 27; ++i)
+    places_mm.push_back(box_mm.center() + kFromMiddle * box_mm.sizes().cwiseProduct(
+                                                            Vector3d(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1)));
+  return places_mm;
 }
 
-// The motion of the world's frame that explains the cameras' errors best, as a function of these: 6 x the
-// number of parameters.
-MatrixXd CommonMotion(const core::Rig& rig, const std::vector<ParameterBlock>& blocks,
-                      Eigen::Index parameters, const Vector3d& middle_mm) {
-  double arm_mm = 0.0;
-  for (const core::CameraModel& camera : rig.cameras)
-    arm_mm += (camera.center_in_world() - middle_mm).norm() / static_cast<double>(rig.cameras.size());
+// The motion of the world's frame that explains best how the cameras' errors move triangulated points, as a
+// function of these errors: 6 x the number of parameters. Zero: too few places are seen.
+MatrixXd CommonMotion(const CalibratedRig& rig, const std::vector<Vector3d>& places_mm) {
+  const Vector3d middle_mm = rig.rig.workspace_mm.center();
+  const RigUncertainty uncertainty(rig.rig.cameras, rig.covariance, rig.noise_px);
   Matrix6d normal = Matrix6d::Zero();
-  MatrixXd right = MatrixXd::Zero(6, parameters);
-  for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
-    const core::RigidTransform& cam_from_world = rig.cameras[i].cam_from_world();
-    const Matrix6d observed = ToTurnAndShift(cam_from_world, arm_mm);
-    const Matrix6d model = observed * ByWorldMotion(cam_from_world, middle_mm);
-    normal += model.transpose() * model;
-    right.middleCols<6>(blocks[i].rotation()) = model.transpose() * observed;
+  MatrixXd right = MatrixXd::Zero(6, rig.covariance.rows());
+  int seen = 0;
+  for (const Vector3d& x : places_mm) {
+    const std::optional<Eigen::Matrix3Xd> shift = uncertainty.ShiftByParameters(x);
+    if (!shift) continue;
+    ++seen;
+    Eigen::Matrix<double, 3, 6> by_motion;
+    by_motion << -CrossMatrix(x - middle_mm), Matrix3d::Identity();
+    normal += by_motion.transpose() * by_motion;
+    right += by_motion.transpose() * *shift;
   }
+  constexpr int kFewestPlaces = 8;
+  if (seen < kFewestPlaces) return MatrixXd::Zero(6, rig.covariance.rows());
   return normal.ldlt().solve(right);
 }
 
@@ -83,42 +84,63 @@ MatrixXd OwnError(const core::CameraModel& camera, const ParameterBlock& block, 
   return own;
 }
 
-double OwnSigmaMm(const core::CameraModel& camera, const ParameterBlock& block, const MatrixXd& own,
-                  const MatrixXd& covariance) {
-  const Eigen::Matrix<double, 3, Eigen::Dynamic> shift =
-      ToTurnAndShift(camera.cam_from_world(), 1.0).bottomRows<3>() * own.middleRows<6>(block.intrinsics);
-  return std::sqrt(std::max((shift * covariance * shift.transpose()).trace(), 0.0));
+// By how much of an angle a camera's own error shifts what it sees: RMS over the places, in rad; 0 if it sees
+// none.
+double OwnSigmaRad(const core::CameraModel& camera, const MatrixXd& own_covariance,
+                   const std::vector<Vector3d>& places_mm) {
+  const LensParameters lens = LensParametersOf(camera.calibration());
+  const core::RigidTransform& cam_from_world = camera.cam_from_world();
+  double sum_px2 = 0.0;
+  int seen = 0;
+  for (const Vector3d& x : places_mm) {
+    const Vector3d turned = cam_from_world.rotation * x;
+    const auto point = ProjectWithDerivatives(lens, turned + cam_from_world.translation_mm);
+    if (!point || !IsInPicture(camera, x)) continue;
+    Eigen::Matrix<double, 2, Eigen::Dynamic> by_own = MatrixXd::Zero(2, own_covariance.rows());
+    by_own.leftCols(lens.count()) = point->by_values;
+    by_own.middleCols<3>(lens.count()) = -point->by_x_in_cam * CrossMatrix(turned);
+    by_own.middleCols<3>(lens.count() + 3) = point->by_x_in_cam;
+    sum_px2 += (by_own * own_covariance * by_own.transpose()).trace();
+    ++seen;
+  }
+  return seen > 0 ? std::sqrt(sum_px2 / seen) / camera.calibration().camera_matrix(0, 0) : 0.0;
 }
 
-// The own error of camera `like` as that of a camera at another pose: the turn and the shift of the centre
-// stay the same along the camera's axes.
+// The own error of a camera as that of one with the same lens at another pose. What a calibration knows well
+// is where the place that a camera looks at falls in its picture; lens, turn and centre are known much worse,
+// and make up for each other there. So the turn stays, and the shift of that place in the camera's frame
+// grows with its distance.
 void MoveTo(const core::RigidTransform& cam_from_world, const core::RigidTransform& like,
-            const ParameterBlock& block, MatrixXd* own) {
-  own->middleRows<3>(block.intrinsics + 3) +=
-      CrossMatrix(like.translation_mm - cam_from_world.translation_mm) * own->middleRows<3>(block.intrinsics);
+            const Vector3d& looked_at_mm, const ParameterBlock& block, MatrixXd* own) {
+  const Vector3d before = like * looked_at_mm, after = cam_from_world * looked_at_mm;
+  const double growth = after.norm() / before.norm();
+  const MatrixXd turn = own->middleRows<3>(block.rotation() - block.first);
+  auto shift = own->middleRows<3>(block.translation() - block.first);
+  shift = growth * (shift - CrossMatrix(before) * turn) + CrossMatrix(after) * turn;
 }
 
-MatrixXd WithBlock(const CalibratedRig& rig, std::size_t like, const core::RigidTransform& cam_from_world) {
+double MedianOf(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::ranges::nth_element(values, middle);
+  return *middle;
+}
+
+MatrixXd CovarianceWith(const CalibratedRig& rig, std::size_t like,
+                        const core::RigidTransform& cam_from_world) {
   const std::vector<ParameterBlock> blocks = BlocksOf(rig.rig);
   const Eigen::Index count = rig.covariance.rows(), added = blocks[like].size();
   const Vector3d middle_mm = rig.rig.workspace_mm.center();
-  const bool has_common = rig.rig.cameras.size() > 1;  // one camera's error is all its own
-  const MatrixXd common =
-      has_common ? CommonMotion(rig.rig, blocks, count, middle_mm) : MatrixXd::Zero(6, count);
-  std::vector<double> sigmas_mm;
-  for (std::size_t i = 0; i < blocks.size(); ++i)
-    sigmas_mm.push_back(OwnSigmaMm(rig.rig.cameras[i], blocks[i],
-                                   OwnError(rig.rig.cameras[i], blocks[i], common, middle_mm),
-                                   rig.covariance));
-  const double of_like_mm = sigmas_mm[like];
-  std::ranges::nth_element(sigmas_mm, sigmas_mm.begin() + static_cast<std::ptrdiff_t>(sigmas_mm.size() / 2));
-  double scale = of_like_mm > 0.0 ? sigmas_mm[sigmas_mm.size() / 2] / of_like_mm : 1.0;
-  // The fit of the common motion takes its share of the own errors away.
-  const auto cameras = static_cast<double>(blocks.size());
-  if (has_common) scale *= std::sqrt(cameras / (cameras - 1.0));
+  const std::vector<Vector3d> places_mm = PlacesIn(rig.rig.workspace_mm);
+  const MatrixXd common = CommonMotion(rig, places_mm);
+  std::vector<double> sigmas_rad;
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    const MatrixXd own = OwnError(rig.rig.cameras[i], blocks[i], common, middle_mm);
+    sigmas_rad.push_back(OwnSigmaRad(rig.rig.cameras[i], own * rig.covariance * own.transpose(), places_mm));
+  }
+  const double scale = sigmas_rad[like] > 0.0 ? MedianOf(sigmas_rad) / sigmas_rad[like] : 1.0;
 
   MatrixXd own = OwnError(rig.rig.cameras[like], blocks[like], common, middle_mm);
-  MoveTo(cam_from_world, rig.rig.cameras[like].cam_from_world(), blocks[like], &own);
+  MoveTo(cam_from_world, rig.rig.cameras[like].cam_from_world(), middle_mm, blocks[like], &own);
   MatrixXd shared = MatrixXd::Zero(added, count);
   shared.middleRows<6>(blocks[like].intrinsics) = ByWorldMotion(cam_from_world, middle_mm) * common;
   MatrixXd covariance(count + added, count + added);
@@ -139,7 +161,7 @@ CalibratedRig WithCamera(const CalibratedRig& rig, std::size_t like,
   camera.name = "next";
   camera.cam_from_world = cam_from_world;
   more.rig.cameras.emplace_back(std::move(camera));
-  if (rig.covariance.size() > 0) more.covariance = WithBlock(rig, like, cam_from_world);
+  if (rig.covariance.size() > 0) more.covariance = CovarianceWith(rig, like, cam_from_world);
   return more;
 }
 

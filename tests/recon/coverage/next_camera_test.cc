@@ -25,7 +25,10 @@ ServedSpace SpaceOf(const core::Rig& rig, double edge_mm) {
 }
 
 CalibratedRig RigOf(const CalibrationResult& result, const Eigen::AlignedBox3d& workspace_mm) {
-  CalibratedRig rig{{"calibrated", workspace_mm}, result.covariance, result.noise_px};
+  CalibratedRig rig;
+  rig.rig.workspace_mm = workspace_mm;
+  rig.covariance = result.covariance;
+  rig.noise_px = result.noise_px;
   for (const CalibratedCamera& camera : result.cameras) rig.rig.cameras.emplace_back(camera.calibration);
   return rig;
 }
@@ -54,7 +57,7 @@ TEST(NextCamera, LooksAtWhatTwoCamerasDontSee) {
   const CalibratedRig calibrated{rig};
   const NextCamera next = FindNextCamera(calibrated, {}, SpaceOf(rig, 60.0), {});
   ASSERT_FALSE(next.best.empty());
-  EXPECT_LT(next.before.seen_share, 0.7);
+  EXPECT_LT(next.before.seen_share, 0.75);
   EXPECT_GT(next.best.front().after.seen_share, next.before.seen_share + 0.1);
 }
 
@@ -119,9 +122,9 @@ TEST(NextCamera, WeighsTheSpaceNearParts) {
   EXPECT_LT(near.best[0].near_after->uncertainty_mm->median, near.near_before->uncertainty_mm->median);
 }
 
-TEST(NextCamera, SaysNothingWhereACameraOnlyCosts) {
-  // `outside`: what a new camera doesn't see is lost. A lens that sees a hundredth of the workspace can only
-  // cost.
+TEST(NextCamera, LostSpaceIsNoGain) {
+  // `outside`: what a camera does not see is lost. Lenses that see a hundredth of the workspace cost more than
+  // their finer pixels are worth.
   std::vector<Vector3d> eyes;
   for (const double turn : {0.3, 1.8, 3.1, 4.6})
     eyes.emplace_back(900 * std::cos(turn), 900 * std::sin(turn), 700.0);
