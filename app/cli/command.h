@@ -66,6 +66,7 @@ void AddCalibrateCommand(CLI::App& app, Choice* choice);
 void AddClashCommand(CLI::App& app, Choice* choice);
 void AddClearanceCommand(CLI::App& app, Choice* choice);
 void AddContactsCommand(CLI::App& app, Choice* choice);
+void AddCoverageCommand(CLI::App& app, Choice* choice);
 void AddDemoCommand(CLI::App& app, Choice* choice);
 void AddHullCommand(CLI::App& app, Choice* choice);
 void AddImportCommand(CLI::App& app, Choice* choice);

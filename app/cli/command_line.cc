@@ -136,6 +136,7 @@ int RunCommandLine(int argc, char** argv, const OpenConsole& open_console) {
   AddViewCommand(app, &choice);
   AddHullCommand(app, &choice);
   AddContactsCommand(app, &choice);
+  AddCoverageCommand(app, &choice);
   AddClearanceCommand(app, &choice);
   AddCalibrateCommand(app, &choice);
   AddClashCommand(app, &choice);
