@@ -159,6 +159,14 @@ void AddCoverageCommand(CLI::App& app, Choice* choice) {
       ->check(PositiveLength());
   AddLength(*command, "--ball", &options->request.ball_mm,
             "diameter of the ball whose phantom volume is worked out, mm (default: 50)");
+  command
+      ->add_option("--ceiling", options->request.ceiling_mm,
+                   "propose no camera above this height (z in world), mm")
+      ->check(CLI::Validator(
+          [](const std::string& text) -> std::string {
+            return ParseNumber(text) ? "" : "must be a number, not " + text;
+          },
+          "MM"));
   command->add_flag("!--no-next", options->request.tries_cameras,
                     "don't look for a place for another camera");
   command

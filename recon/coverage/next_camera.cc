@@ -118,7 +118,7 @@ std::vector<Vector3d> Directions(int count) {
 }
 
 std::vector<Place> PlacesFor(const core::Rig& rig, const ServedSpace& space, const Vector3d& worst_mm,
-                             int directions) {
+                             const NextCameraOptions& search) {
   double floor_mm = rig.workspace_mm.min().z();
   bool may_be_inside = false;
   for (const core::CameraModel& camera : rig.cameras) {
@@ -128,9 +128,10 @@ std::vector<Place> PlacesFor(const core::Rig& rig, const ServedSpace& space, con
   const double apart_mm = 0.1 * rig.workspace_mm.diagonal().norm();  // targets nearer than that are one
   std::vector<Place> places;
   for (const double shell_mm : ShellsOf(rig, space.middle_mm)) {
-    for (const Vector3d& direction : Directions(directions)) {
+    for (const Vector3d& direction : Directions(search.directions)) {
       const Vector3d center_mm = space.middle_mm + shell_mm * direction;
-      if (center_mm.z() < floor_mm || (!may_be_inside && rig.workspace_mm.contains(center_mm))) continue;
+      if (center_mm.z() < floor_mm || center_mm.z() > search.ceiling_mm) continue;
+      if (!may_be_inside && rig.workspace_mm.contains(center_mm)) continue;
       places.push_back({center_mm, space.middle_mm});
       if ((worst_mm - space.middle_mm).norm() > apart_mm && (worst_mm - center_mm).norm() > apart_mm)
         places.push_back({center_mm, worst_mm});
@@ -185,7 +186,7 @@ NextCamera FindNextCamera(const CalibratedRig& rig, const CoverageOptions& optio
   const RigCoverage today(rig, options);
   const Sample few = SampleOf(today, space, search.tried_points, stop);
   next.lens_of = SeesMost(rig.rig, Thinned(space.points_mm, search.final_points));
-  std::vector<Place> places = PlacesFor(rig.rig, space, WorstRegion(few), search.directions);
+  std::vector<Place> places = PlacesFor(rig.rig, space, WorstRegion(few), search);
   next.tried = places.size();
   for (std::size_t i = 0; i < places.size(); ++i) {
     core::ThrowIfStopped(stop, "next camera");

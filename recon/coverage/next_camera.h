@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <span>
 #include <stop_token>
@@ -23,6 +24,7 @@ struct ServedSpace {
 };
 
 struct NextCameraOptions {
+  double ceiling_mm = std::numeric_limits<double>::infinity();  // no place has a larger z
   int directions = 60;              // tried around the middle, over a whole sphere; > 0
   int proposals = 3;                // at most; > 0
   std::size_t tried_points = 160;   // of each list, with which all places are compared; > 0

@@ -158,7 +158,7 @@ std::string Change(const CoverageFigures& before, const CoverageFigures& after) 
                     MmText(after.uncertainty_mm->median)));
   }
   if (before.phantom_fraction && after.phantom_fraction)
-    add(fmt::format("the phantom share from {} to {}", PercentText(before.phantom_fraction->median),
+    add(fmt::format("the phantom share from {} to {} (median)", PercentText(before.phantom_fraction->median),
                     PercentText(after.phantom_fraction->median)));
   const auto moved = [&](const char* what, double from, double to) {
     if (std::abs(to - from) >= 0.005)
@@ -177,13 +177,20 @@ void AddNext(const CoverageOutcome& outcome, std::vector<std::string>* advice) {
         "none of {} places and directions tried for another camera makes the rig better", next.tried));
     return;
   }
+  // A gain of 0.05 is about a twentieth of the error and the phantom volume together.
+  constexpr double kLittle = 0.05;
+  const bool is_little = next.best.front().gain < kLittle;
   for (std::size_t i = 0; i < next.best.size(); ++i) {
+    if (is_little && i > 0) break;
     const recon::ProposedCamera& camera = next.best[i];
     const bool at_middle = (camera.look_at_mm - outcome.rig.rig.workspace_mm.center()).norm() < 1e-6;
     advice->push_back(
         fmt::format("{}{} camera at {}, with the lens of '{}', looking at {}, changes {}{}",
-                    i == 0 ? "" : "or: ", OrdinalText(outcome.rig.rig.cameras.size() + 1),
-                    PlaceText(camera.center_mm), outcome.rig.rig.cameras[next.lens_of].name(),
+                    is_little ? "another camera buys little: "
+                    : i == 0  ? ""
+                              : "or: ",
+                    OrdinalText(outcome.rig.rig.cameras.size() + 1), PlaceText(camera.center_mm),
+                    outcome.rig.rig.cameras[next.lens_of].name(),
                     at_middle ? std::string("the middle of the workspace") : PlaceText(camera.look_at_mm),
                     Change(next.before, camera.after),
                     next.near_before && camera.near_after

@@ -179,9 +179,11 @@ CoverageOutcome CoverRig(const CoverageRequest& request, const core::Progress& p
   const std::vector<Vector3d> near_points = CoverParts(coverage, progress, stop, &outcome);
   CompareWithExact(outcome, points, &outcome.exact_uncertainty_mm);
   if (request.tries_cameras) {
+    recon::NextCameraOptions search;
+    if (request.ceiling_mm) search.ceiling_mm = *request.ceiling_mm;
     outcome.next =
         recon::FindNextCamera(outcome.rig, outcome.options,
-                              {points, near_points, MiddleOf(outcome, near_points)}, {}, progress, stop);
+                              {points, near_points, MiddleOf(outcome, near_points)}, search, progress, stop);
   }
   outcome.advice = CoverageAdvice(outcome);
   outcome.advice_ms = SinceMs(after_map);

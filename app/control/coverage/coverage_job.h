@@ -17,11 +17,12 @@ namespace elbowroom::control {
 
 struct CoverageRequest {
   std::filesystem::path rig_file;
-  std::filesystem::path layout;   // empty: none
-  std::optional<double> grid_mm;  // > 0; nothing: 20 mm, wider or narrower by the workspace's size
-  std::optional<double> ball_mm;  // > 0; nothing: 50 mm, smaller in a small workspace
-  double near_mm = 100.0;         // > 0; how far from a part's surface counts as near it
-  bool tries_cameras = true;      // looks for the next camera
+  std::filesystem::path layout;      // empty: none
+  std::optional<double> grid_mm;     // > 0; nothing: 20 mm, wider or narrower by the workspace's size
+  std::optional<double> ball_mm;     // > 0; nothing: 50 mm, smaller in a small workspace
+  double near_mm = 100.0;            // > 0; how far from a part's surface counts as near it
+  std::optional<double> ceiling_mm;  // no camera is proposed above this z; nothing: at any height
+  bool tries_cameras = true;         // looks for the next camera
 };
 
 // The space near one part, within the workspace.

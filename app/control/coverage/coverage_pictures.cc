@@ -114,13 +114,12 @@ class SlicePicture {
     const Eigen::AlignedBox3d& box = outcome_.rig.rig.workspace_mm;
     svg += RectangleOf({box.min()[panel_.u], box.min()[panel_.v]}, {box.max()[panel_.u], box.max()[panel_.v]},
                        "fill='#cfd6dd'");
+    svg += "<g shape-rendering='crispEdges'>";
     for (int row = 0; row < outcome_.grid.counts[panel_.v]; ++row)
       for (int column = 0; column < outcome_.grid.counts[panel_.u];) column = AddRun(column, row, &svg);
+    svg += "</g>";
     for (std::size_t i = 0; i < outcome_.layout.parts.size(); ++i) svg += Outline(i);
-    for (const core::CameraModel& camera : outcome_.rig.rig.cameras)
-      svg += Dot(camera.center_in_world(), camera.name(), "#1d2733");
-    if (outcome_.next && !outcome_.next->best.empty())
-      svg += Dot(outcome_.next->best.front().center_mm, "next", "#2e7d4f");
+    svg += Dots();
     return svg + sessions::Label(corner_.x(), corner_.y() - 7.0, panel_.title, "quiet") +
            sessions::Label(corner_.x() + size.x() - 4.0, corner_.y() + size.y() - 5.0,
                            fmt::format("{} \u2192, {} \u2191", "xyz"[panel_.u], "xyz"[panel_.v]), "tick",
@@ -201,17 +200,36 @@ class SlicePicture {
     return outline;
   }
 
+  // All cameras, with names that don't lie on each other, on a white halo.
+  [[nodiscard]] std::string Dots() const {
+    std::vector<Vector2d> names;
+    std::string svg = "<g style='paint-order:stroke;stroke:#ffffff;stroke-width:2.5px'>";
+    for (const core::CameraModel& camera : outcome_.rig.rig.cameras)
+      svg += Dot(camera.center_in_world(), camera.name(), "#1d2733", &names);
+    if (outcome_.next && !outcome_.next->best.empty())
+      svg += Dot(outcome_.next->best.front().center_mm, "next", "#2e7d4f", &names);
+    return svg + "</g>";
+  }
+
   // Hollow and on the picture's edge where the place is beyond it.
-  [[nodiscard]] std::string Dot(const Vector3d& x_mm, const std::string& name, const char* colour) const {
+  [[nodiscard]] std::string Dot(const Vector3d& x_mm, const std::string& name, const char* colour,
+                                std::vector<Vector2d>* names) const {
+    constexpr double kNameWidth = 60.0, kNameHeight = 12.0;
     const Vector2d uv = UvOf(x_mm), inset = 0.03 * (high_ - low_),
                    held = uv.cwiseMax(low_ + inset).cwiseMin(high_ - inset);
-    const bool is_beyond = held != uv;
     const Vector2d at = At(held);
     const bool at_right = at.x() > corner_.x() + 0.5 * scale_ * (high_ - low_).x();
-    return fmt::format("<circle cx='{:.1f}' cy='{:.1f}' r='4' fill='{}' stroke='{}' stroke-width='1.6'/>",
-                       at.x(), at.y(), is_beyond ? "#ffffff" : colour, colour) +
-           sessions::Label(at.x() + (at_right ? -7.0 : 7.0), at.y() + 4.0, sessions::Shortened(name, 14),
-                           "remark", at_right ? Anchor::kEnd : Anchor::kStart);
+    Vector2d name_at = at + Vector2d(at_right ? -7.0 : 7.0, 4.0);
+    const auto lies_on = [&](const Vector2d& other) {
+      return std::abs(other.x() - name_at.x()) < kNameWidth &&
+             std::abs(other.y() - name_at.y()) < kNameHeight;
+    };
+    while (std::ranges::any_of(*names, lies_on)) name_at.y() += kNameHeight;
+    names->push_back(name_at);
+    return fmt::format("<circle cx='{:.1f}' cy='{:.1f}' r='4' style='fill:{};stroke:{};stroke-width:1.6px'/>",
+                       at.x(), at.y(), held != uv ? "#ffffff" : colour, colour) +
+           sessions::Label(name_at.x(), name_at.y(), sessions::Shortened(name, 14), "remark",
+                           at_right ? Anchor::kEnd : Anchor::kStart);
   }
 
   static constexpr double kMargin = 0.22;  // around the workspace, of its longest side
@@ -252,7 +270,7 @@ const char* GreyOf(CoverageQuantity quantity) {
   return "";
 }
 
-std::string Legend(const ColourScale& colours, CoverageQuantity quantity, double top) {
+std::string Legend(const ColourScale& colours, CoverageQuantity quantity, bool has_parts, double top) {
   constexpr double kWidth = 15.0, kHeight = 13.0;
   std::string svg;
   for (int i = 0; i <= kShades; ++i) {
@@ -271,10 +289,11 @@ std::string Legend(const ColourScale& colours, CoverageQuantity quantity, double
     svg +=
         sessions::Label(share * right, top + kHeight + 15.0, Shown(value, quantity) + beyond, "tick", anchor);
   }
-  return svg + sessions::Label(right + 24.0, top + kHeight - 2.0,
-                               fmt::format("{}{}dots: cameras; hollow: beyond the picture's edge",
-                                           GreyOf(quantity), *GreyOf(quantity) ? "; " : ""),
-                               "tick");
+  return svg + sessions::Label(
+                   right + 24.0, top + kHeight - 2.0,
+                   fmt::format("{}{}dots: cameras; hollow: beyond the picture's edge{}", GreyOf(quantity),
+                               *GreyOf(quantity) ? "; " : "", has_parts ? "; blue: parts" : ""),
+                   "tick");
 }
 
 }  // namespace
@@ -356,7 +375,7 @@ std::string CoveragePicture(const CoverageOutcome& outcome, CoverageQuantity qua
   }
   const double bottom = corner.y() + row_height;
   return fmt::format("<svg viewBox='0 0 {} {:.0f}' role='img'>", kWidth, bottom + 56.0) + svg +
-         Legend(colours, quantity, bottom + 16.0) + "</svg>";
+         Legend(colours, quantity, !outcome.layout.parts.empty(), bottom + 16.0) + "</svg>";
 }
 
 std::string StandaloneSvg(const std::string& svg) {

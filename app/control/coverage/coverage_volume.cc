@@ -64,29 +64,46 @@ void AppendBox(const Vector3d& center_mm, const Vector3d& half_mm, core::Triangl
     mesh->triangles.push_back({first + face[0], first + face[1], first + face[2]});
 }
 
+// From the 5th to the 95th percentile, as in the pictures.
+struct ColourRange {
+  double low_mm = 0.0;
+  double high_mm = 1.0;
+};
+ColourRange RangeOf(const CoverageOutcome& outcome) {
+  std::vector<double> sigmas_mm;
+  for (const recon::CoverageNode& node : outcome.nodes)
+    if (node.has_sigma) sigmas_mm.push_back(node.sigma_mm);
+  std::ranges::sort(sigmas_mm);
+  const double low_mm = core::PercentileOf(sigmas_mm, 0.05);
+  return {low_mm, std::max(core::PercentileOf(sigmas_mm, 0.95), low_mm * 1.001 + 1e-9)};
+}
+
 void AddUncertainty(const CoverageOutcome& outcome, CadModel* model) {
-  const auto& spread = outcome.figures.uncertainty_mm;
-  if (!spread) return;
+  if (!outcome.figures.uncertainty_mm) return;
   constexpr double kMostCubes = 12000.0, kHalfShare = 0.16;
   const recon::CoverageGrid& grid = outcome.grid;
   const int step = static_cast<int>(std::ceil(std::cbrt(static_cast<double>(grid.size()) / kMostCubes)));
-  const double step_mm = std::max(spread->p95, 1e-6) / (kColours - 1);
+  const ColourRange range = RangeOf(outcome);
+  const double step_mm = (range.high_mm - range.low_mm) / kColours;
   std::array<core::TriangleMesh, kColours> meshes;
   for (int z = 0; z < grid.counts.z(); z += step) {
     for (int y = 0; y < grid.counts.y(); y += step) {
       for (int x = 0; x < grid.counts.x(); x += step) {
         const std::size_t node = grid.NodeAt(x, y, z);
         if (!outcome.nodes[node].has_sigma) continue;
-        const auto colour = std::min<std::size_t>(
-            static_cast<std::size_t>(outcome.nodes[node].sigma_mm / step_mm), kColours - 1);
+        const double place =
+            std::clamp((outcome.nodes[node].sigma_mm - range.low_mm) / step_mm, 0.0, kColours - 1.0);
+        const auto colour = static_cast<std::size_t>(place);
         AppendBox(grid.PointAt(node), Vector3d::Constant(kHalfShare * grid.edge_mm * step), &meshes[colour]);
       }
     }
   }
   for (int i = 0; i < kColours; ++i) {
-    const std::string name = i + 1 < kColours
-                                 ? fmt::format("{} to {} mm", MmText(i * step_mm), MmText((i + 1) * step_mm))
-                                 : fmt::format("{} mm and more", MmText(i * step_mm));
+    const std::string from = MmText(range.low_mm + i * step_mm),
+                      to = MmText(range.low_mm + (i + 1) * step_mm);
+    const std::string name = i == 0             ? fmt::format("up to {} mm", to)
+                             : i + 1 < kColours ? fmt::format("{} to {} mm", from, to)
+                                                : fmt::format("{} mm and more", from);
     AddShape(std::move(meshes[static_cast<std::size_t>(i)]), fmt::format("coverage/uncertainty/{}", name),
              RgbOf(sessions::DepthColour(static_cast<double>(i) / (kColours - 1))), model);
   }
@@ -102,7 +119,7 @@ void AddWorkspace(const Eigen::AlignedBox3d& box, CadModel* model) {
       center[second] = corner & 1 ? box.max()[second] : box.min()[second];
       center[third] = corner & 2 ? box.max()[third] : box.min()[third];
       Vector3d half = Vector3d::Constant(half_mm);
-      half[axis] += 0.5 * box.sizes()[axis];
+      half[axis] = std::max(0.5 * box.sizes()[axis] - 2.0 * half_mm, half_mm);  // short of the corners
       AppendBox(center, half, &edges);
     }
   }
