@@ -150,9 +150,11 @@ std::string Change(const CoverageFigures& before, const CoverageFigures& after) 
   std::string text;
   const auto add = [&](const std::string& what) { text += (text.empty() ? "" : ", ") + what; };
   if (before.uncertainty_mm && after.uncertainty_mm) {
-    add(fmt::format("the error of a point from {} to {} mm (median) and from {} to {} mm (95 %)",
+    const bool is_over_more = after.seen_share > before.seen_share + 0.01;
+    add(fmt::format("the error of a point from {} to {} mm (median) and from {} to {} mm (95 %{})",
                     MmText(before.uncertainty_mm->median), MmText(after.uncertainty_mm->median),
-                    MmText(before.uncertainty_mm->p95), MmText(after.uncertainty_mm->p95)));
+                    MmText(before.uncertainty_mm->p95), MmText(after.uncertainty_mm->p95),
+                    is_over_more ? ", of more space" : ""));
   } else if (after.uncertainty_mm) {
     add(fmt::format("the error of a point from unknown to {} mm (median)",
                     MmText(after.uncertainty_mm->median)));

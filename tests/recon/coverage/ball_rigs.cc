@@ -1,6 +1,9 @@
 #include "tests/recon/coverage/ball_rigs.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -30,18 +33,42 @@ Eigen::AlignedBox3d Cube(double half_mm) {
   return {Vector3d::Constant(-half_mm), Vector3d::Constant(half_mm)};
 }
 
-std::vector<core::BitMask> MasksOfBall(const core::Rig& rig, const Vector3d& center_mm, double radius_mm) {
-  std::vector<core::BitMask> masks;
+namespace {
+
+// By how much the pixel's ray passes inside of the ball's surface, in mm; nothing: the lens has no ray there.
+std::optional<double> InsideMm(const core::CameraModel& camera, const Vector3d& center_in_cam,
+                               double radius_mm, int x, int y) {
+  const std::optional<Eigen::Vector2d> ray = camera.NormalisedFromPixel({x, y});
+  if (!ray) return std::nullopt;
+  const Vector3d way = ray->homogeneous().normalized();
+  const double along_mm = way.dot(center_in_cam);
+  if (along_mm <= 0.0) return std::nullopt;
+  return radius_mm - (center_in_cam - along_mm * way).norm();
+}
+
+}  // namespace
+
+std::vector<core::SoftMask> MasksOfBall(const core::Rig& rig, const Vector3d& center_mm, double radius_mm) {
+  std::vector<core::SoftMask> masks;
   for (const core::CameraModel& camera : rig.cameras) {
-    core::BitMask& mask = masks.emplace_back(camera.width_px(), camera.height_px());
+    core::SoftMask& soft = masks.emplace_back();
+    soft.mask = core::BitMask(camera.width_px(), camera.height_px());
     const Vector3d center_in_cam = camera.cam_from_world() * center_mm;
-    for (int y = 0; y < mask.height_px(); ++y) {
-      for (int x = 0; x < mask.width_px(); ++x) {
-        const std::optional<Eigen::Vector2d> ray = camera.NormalisedFromPixel({x, y});
-        if (!ray) continue;
-        const Vector3d way = ray->homogeneous().normalized();
-        const double along_mm = way.dot(center_in_cam);
-        if (along_mm > 0.0 && (center_in_cam - along_mm * way).norm() <= radius_mm) mask.Set(x, y, true);
+    const auto inside_mm = [&](int x, int y) { return InsideMm(camera, center_in_cam, radius_mm, x, y); };
+    for (int y = 0; y < soft.mask.height_px(); ++y)
+      for (int x = 0; x < soft.mask.width_px(); ++x)
+        soft.mask.Set(x, y, inside_mm(x, y).value_or(-1.0) >= 0.0);
+    // Levels that are linear in the distance put the boundary where it is.
+    const Eigen::Matrix3d& k = camera.calibration().camera_matrix;
+    const double levels_per_mm = 80.0 * std::min(k(0, 0), k(1, 1)) / center_in_cam.norm();
+    const core::BitMask boundary = core::BoundaryPixels(soft.mask);
+    for (int y = 0; y < soft.mask.height_px(); ++y) {
+      for (int x = 0; x < soft.mask.width_px(); ++x) {
+        if (!boundary.At(x, y)) continue;
+        const double level = 127.5 + levels_per_mm * inside_mm(x, y).value_or(-1e9);
+        const bool is_object = soft.mask.At(x, y);
+        soft.levels.push_back(static_cast<std::uint8_t>(
+            std::lround(std::clamp(level, is_object ? 128.0 : 0.0, is_object ? 255.0 : 127.0))));
       }
     }
   }

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "core/bit_mask.h"
 #include "core/rig.h"
+#include "core/soft_mask.h"
 #include "tests/recon/scenes/random_scene.h"
 
 namespace elbowroom::recon {
@@ -19,8 +19,8 @@ namespace elbowroom::recon {
 // A cube about the origin.
 [[nodiscard]] Eigen::AlignedBox3d Cube(double half_mm);
 
-// The pixels whose ray meets the ball, one mask a camera.
-[[nodiscard]] std::vector<core::BitMask> MasksOfBall(const core::Rig& rig, const Eigen::Vector3d& center_mm,
-                                                     double radius_mm);
+// The pixels whose ray meets the ball, one mask a camera, with the boundary between pixels.
+[[nodiscard]] std::vector<core::SoftMask> MasksOfBall(const core::Rig& rig, const Eigen::Vector3d& center_mm,
+                                                      double radius_mm);
 
 }  // namespace elbowroom::recon

@@ -18,11 +18,11 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Pixels of 1 to 3 mm round a silhouette, and a hull's surface is meshed with steps of 10 mm: balls of 200 mm
-// keep that below 2 % of the volume.
-constexpr double kShareTolerance = 0.02;
+// The mesh's chords of 6 mm cut a ball of 200 mm, the ball's share is counted with 40,000 points, and the 60
+// rays are off by up to 0.004.
+constexpr double kShareTolerance = 0.012;
 constexpr double kRadiusMm = 100.0;
-constexpr double kEdgeMm = 10.0;
+constexpr double kEdgeMm = 6.0;
 
 // Of the ball, what is in the hull and in the workspace, by points.
 double BallInHullMm3(const VisualHull& hull, const Vector3d& center_mm) {
@@ -56,20 +56,34 @@ void HoldToTheHull(const core::Rig& rig, const Vector3d& center_mm, Outcome* out
   outcome->worst = std::max(outcome->worst, std::abs(volume->phantom_fraction() - truth));
 }
 
+// The rig with the part of its workspace that is near the place.
+core::Rig Around(core::Rig rig, const Vector3d& place_mm) {
+  constexpr double kReachMm = 300.0;
+  rig.workspace_mm = rig.workspace_mm.intersection(
+      {place_mm - Vector3d::Constant(kReachMm), place_mm + Vector3d::Constant(kReachMm)});
+  return rig;
+}
+
 TEST(BallHull, IsTheHullThatTheProgramMakesOfItsMasks) {
   Random random(11);
   Outcome outcome;
   for (core::Rig rig : {PaperRig(), FourCameraRig(), EightCameraRig()}) {
     for (const auto unseen : {core::UnseenPolicy::kOutside, core::UnseenPolicy::kAbstain}) {
       rig.unseen = unseen;
-      HoldToTheHull(rig, rig.workspace_mm.center(), &outcome);
-      HoldToTheHull(rig, rig.workspace_mm.min() + Vector3d::Constant(40.0), &outcome);
-      HoldToTheHull(rig, rig.workspace_mm.max() - Vector3d(30.0, 120.0, 20.0), &outcome);
-      for (int i = 0; i < 2; ++i) HoldToTheHull(rig, random.PointIn(rig.workspace_mm), &outcome);
+      // The hulls of `abstain` reach to the workspace's end; most are looked at in a smaller space.
+      const bool is_whole = unseen == core::UnseenPolicy::kOutside || rig.cameras.size() == 4;
+      HoldToTheHull(is_whole ? rig : Around(rig, rig.workspace_mm.center()), rig.workspace_mm.center(),
+                    &outcome);
+      HoldToTheHull(Around(rig, rig.workspace_mm.min() + Vector3d::Constant(40.0)),
+                    rig.workspace_mm.min() + Vector3d::Constant(40.0), &outcome);
+      for (int i = 0; i < 4; ++i) {
+        const Vector3d place = random.PointIn(rig.workspace_mm);
+        HoldToTheHull(Around(rig, place), place, &outcome);
+      }
     }
   }
   std::printf("%d balls: worst difference of the phantom share %.4f\n", outcome.asked, outcome.worst);
-  EXPECT_GE(outcome.asked, 20);
+  EXPECT_GE(outcome.asked, 12);
 }
 
 TEST(BallHull, IsTheHullWherePicturesCutTheBall) {

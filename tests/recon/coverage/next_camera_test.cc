@@ -123,8 +123,8 @@ TEST(NextCamera, WeighsTheSpaceNearParts) {
 }
 
 TEST(NextCamera, LostSpaceIsNoGain) {
-  // `outside`: what a camera does not see is lost. Lenses that see a hundredth of the workspace cost more than
-  // their finer pixels are worth.
+  // `outside`: what a camera does not see is lost. Lenses that see a hundredth of the workspace cost more
+  // than their finer pixels are worth.
   std::vector<Vector3d> eyes;
   for (const double turn : {0.3, 1.8, 3.1, 4.6})
     eyes.emplace_back(900 * std::cos(turn), 900 * std::sin(turn), 700.0);

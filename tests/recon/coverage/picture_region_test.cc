@@ -85,7 +85,7 @@ TEST(PictureRegion, CutsARayWhereItEntersAndLeaves) {
 TEST(PictureRegion, ABallThatItSurelyHoldsIsInThePicture) {
   Random random(3);
   int held = 0;
-  for (int trial = 0; trial < 4000; ++trial) {
+  for (int trial = 0; trial < 1500; ++trial) {
     const core::CameraModel camera = OrdinaryCamera(&random);
     const PictureRegion region(camera);
     const Vector3d center = random.Uniform(200.0, 1000.0) * (Vector3d(0, 0, 1) + 0.5 * random.Direction());
@@ -94,7 +94,7 @@ TEST(PictureRegion, ABallThatItSurelyHoldsIsInThePicture) {
     ++held;
     for (int i = 0; i < 20; ++i) EXPECT_TRUE(region.Holds(center + radius_mm * random.Direction()));
   }
-  EXPECT_GT(held, 500);
+  EXPECT_GT(held, 200);
 }
 
 TEST(RayStretches, KeepAndRemove) {
