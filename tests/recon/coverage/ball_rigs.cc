@@ -46,6 +46,23 @@ std::optional<double> InsideMm(const core::CameraModel& camera, const Vector3d& 
   return radius_mm - (center_in_cam - along_mm * way).norm();
 }
 
+// Pixels from `first` up to `end`, x and y, that hold the ball's image; all where the lens doesn't say.
+struct Window {
+  Eigen::Vector2i first;
+  Eigen::Vector2i end;
+};
+Window WindowOf(const core::CameraModel& camera, const Vector3d& center_in_cam, double radius_mm) {
+  const Eigen::Vector2i size(camera.width_px(), camera.height_px());
+  const std::optional<Eigen::Vector2d> middle = camera.ProjectInCam(center_in_cam);
+  if (!middle || center_in_cam.z() < 2.0 * radius_mm) return {Eigen::Vector2i::Zero(), size};
+  // Twice what a pinhole would need.
+  const double half_px = 2.0 * camera.calibration().camera_matrix.diagonal().head<2>().maxCoeff() *
+                         radius_mm * center_in_cam.norm() /
+                         ((center_in_cam.z() - radius_mm) * center_in_cam.z());
+  return {(middle->array() - half_px).floor().cast<int>().max(0),
+          (middle->array() + half_px).ceil().cast<int>().min(size.array())};
+}
+
 }  // namespace
 
 std::vector<core::SoftMask> MasksOfBall(const core::Rig& rig, const Vector3d& center_mm, double radius_mm) {
@@ -55,8 +72,9 @@ std::vector<core::SoftMask> MasksOfBall(const core::Rig& rig, const Vector3d& ce
     soft.mask = core::BitMask(camera.width_px(), camera.height_px());
     const Vector3d center_in_cam = camera.cam_from_world() * center_mm;
     const auto inside_mm = [&](int x, int y) { return InsideMm(camera, center_in_cam, radius_mm, x, y); };
-    for (int y = 0; y < soft.mask.height_px(); ++y)
-      for (int x = 0; x < soft.mask.width_px(); ++x)
+    const Window window = WindowOf(camera, center_in_cam, radius_mm);
+    for (int y = window.first.y(); y < window.end.y(); ++y)
+      for (int x = window.first.x(); x < window.end.x(); ++x)
         soft.mask.Set(x, y, inside_mm(x, y).value_or(-1.0) >= 0.0);
     // Levels that are linear in the distance put the boundary where it is.
     const Eigen::Matrix3d& k = camera.calibration().camera_matrix;
