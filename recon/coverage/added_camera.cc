@@ -9,6 +9,7 @@
 
 #include "recon/calibration/calibration_result.h"
 #include "recon/calibration/lens_projection.h"
+#include "recon/calibration/pixel_response.h"
 
 namespace elbowroom::recon {
 namespace {
@@ -93,13 +94,9 @@ double OwnSigmaRad(const core::CameraModel& camera, const MatrixXd& own_covarian
   double sum_px2 = 0.0;
   int seen = 0;
   for (const Vector3d& x : places_mm) {
-    const Vector3d turned = cam_from_world.rotation * x;
-    const auto point = ProjectWithDerivatives(lens, turned + cam_from_world.translation_mm);
-    if (!point || !IsInPicture(camera, x)) continue;
-    Eigen::Matrix<double, 2, Eigen::Dynamic> by_own = MatrixXd::Zero(2, own_covariance.rows());
-    by_own.leftCols(lens.count()) = point->by_values;
-    by_own.middleCols<3>(lens.count()) = -point->by_x_in_cam * CrossMatrix(turned);
-    by_own.middleCols<3>(lens.count() + 3) = point->by_x_in_cam;
+    const std::optional<PixelResponse> response = PixelResponseAt(lens, cam_from_world, x);
+    if (!response || !IsInPicture(camera, x)) continue;
+    const Eigen::Matrix2Xd& by_own = response->by_parameters;
     sum_px2 += (by_own * own_covariance * by_own.transpose()).trace();
     ++seen;
   }
