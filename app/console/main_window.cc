@@ -74,6 +74,8 @@ void MainWindow::AddActions() {
   demo->setObjectName("start_demo");
   auto* open = new OpenTrialAction(*desk_, choice_, this);
   open->setObjectName("open_trial");
+  auto* calibrate = new CalibrateAction(*desk_, this);
+  calibrate->setObjectName("calibrate");
   auto* stop = new StopAction(*desk_, this);
   stop->setObjectName("stop");
   auto* report = new ReportAction(*desk_, this);
@@ -84,7 +86,7 @@ void MainWindow::AddActions() {
   redo->setObjectName("redo_gap");
   hull_look_ = new HullLookButton;
   hull_look_->setObjectName("hull_look");
-  bar->addActions({demo, open});
+  bar->addActions({demo, open, calibrate});
   bar->addSeparator();
   bar->addAction(stop);
   bar->addSeparator();

@@ -4,10 +4,12 @@
 #include <QDesktopServices>
 #include <QDir>
 #include <QFileDialog>
+#include <QFileInfo>
 #include <QStyle>
 #include <QUrl>
 #include <utility>
 
+#include "app/console/calibration_dialog.h"
 #include "app/control/demo_trial.h"
 
 namespace elbowroom::console {
@@ -80,6 +82,23 @@ OpenTrialAction::OpenTrialAction(TrialDesk& desk, SessionChoice& choice, QWidget
         QFileDialog::getOpenFileName(window, tr("Open a trial"), {}, tr("Trials (*.toml);;All files (*)"));
     if (file.isEmpty()) return;
     if (const auto session = choice.Choose(window)) StartTrialFile(desk, PathFrom(file), *session);
+  });
+  EnableWhile(this, desk, IsIdle);
+}
+
+CalibrateAction::CalibrateAction(TrialDesk& desk, QWidget* window)
+    : QAction(window->style()->standardIcon(QStyle::SP_FileDialogContentsView), tr("&Calibrate …"), window) {
+  setToolTip(tr("Find the cameras' lenses and places from pictures of a board, as a CALIB.toml says"));
+  connect(this, &QAction::triggered, window, [window] {
+    const QString file = QFileDialog::getOpenFileName(window, tr("Calibrate from"), {},
+                                                      tr("Calibrations (*.toml);;All files (*)"));
+    if (file.isEmpty()) return;
+    const QString rig = QFileDialog::getSaveFileName(
+        window, tr("Write the rig into"), QFileInfo(file).dir().filePath("rig.yml"), tr("Rigs (*.yml)"));
+    if (rig.isEmpty()) return;
+    auto* dialog = new CalibrationDialog(PathFrom(file), PathFrom(rig), window);
+    dialog->setAttribute(Qt::WA_DeleteOnClose);
+    dialog->open();
   });
   EnableWhile(this, desk, IsIdle);
 }

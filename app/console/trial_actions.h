@@ -36,6 +36,12 @@ class OpenTrialAction : public QAction {
   OpenTrialAction(TrialDesk& desk, SessionChoice& choice, QWidget* window);
 };
 
+// Asks for a CALIB.toml and a RIG.yml, and shows the calibration.
+class CalibrateAction : public QAction {
+ public:
+  CalibrateAction(TrialDesk& desk, QWidget* window);
+};
+
 // Ends the trial under way, or gives up the report under way.
 class StopAction : public QAction {
  public:
