@@ -74,18 +74,21 @@ core::CameraCalibration OfProjection(const ForeignCamera& camera, const RigConve
 }  // namespace
 
 std::optional<ForeignFormat> ParseForeignFormat(std::string_view text) {
-  const auto found = std::ranges::find(kForeignFormats, text, &std::pair<ForeignFormat, std::string_view>::second);
+  const auto found =
+      std::ranges::find(kForeignFormats, text, &std::pair<ForeignFormat, std::string_view>::second);
   return found == kForeignFormats.end() ? std::nullopt : std::optional(found->first);
 }
 
 std::string_view ToString(ForeignFormat format) {
-  return std::ranges::find(kForeignFormats, format, &std::pair<ForeignFormat, std::string_view>::first)->second;
+  return std::ranges::find(kForeignFormats, format, &std::pair<ForeignFormat, std::string_view>::first)
+      ->second;
 }
 
 std::string ToString(const RigConvention& convention) {
-  return fmt::format("{}, {} axes",
-                     convention.pose == RigConvention::Pose::kCamFromWorld ? "cam_from_world" : "world_from_cam",
-                     convention.axes == RigConvention::Axes::kOpenCv ? "OpenCV" : "OpenGL");
+  return fmt::format(
+      "{}, {} axes",
+      convention.pose == RigConvention::Pose::kCamFromWorld ? "cam_from_world" : "world_from_cam",
+      convention.axes == RigConvention::Axes::kOpenCv ? "OpenCV" : "OpenGL");
 }
 
 RigConvention DocumentedConvention(ForeignFormat format) {
@@ -101,13 +104,12 @@ RigConvention DocumentedConvention(ForeignFormat format) {
   return {};
 }
 
-std::optional<double> DocumentedUnitMm(ForeignFormat format) {
-  constexpr double kMetreMm = 1000.0;
+std::optional<core::LengthUnit> DocumentedUnit(ForeignFormat format) {
   switch (format) {
     case ForeignFormat::kRos:
     case ForeignFormat::kKalibr:
     case ForeignFormat::kCaliscope:
-      return kMetreMm;
+      return core::LengthUnit::kMetre;
     case ForeignFormat::kOpenCv:
     case ForeignFormat::kAnipose:  // the unit of its board's squares
     case ForeignFormat::kProjection:
@@ -152,7 +154,8 @@ std::vector<core::CameraCalibration> CalibrationsOf(const ForeignRig& rig, const
       RigidTransform cam_from_world = Stated(camera, *camera.stated, unit_mm);
       if (convention.pose == RigConvention::Pose::kWorldFromCam) cam_from_world = cam_from_world.Inverse();
       if (rig.is_chain) cam_from_world = before_from_world = cam_from_world * before_from_world;
-      if (convention.axes == RigConvention::Axes::kOpenGl) cam_from_world = opencv_from_opengl * cam_from_world;
+      if (convention.axes == RigConvention::Axes::kOpenGl)
+        cam_from_world = opencv_from_opengl * cam_from_world;
       calibrations.push_back(camera.lens);
       calibrations.back().cam_from_world = cam_from_world;
     }
@@ -212,16 +215,17 @@ ForeignRig Joined(std::vector<ForeignRig> rigs) {
   if (joined.is_chain && rigs.size() > 1) fail("a chain of cameras is one file; give it alone");
   for (ForeignRig& rig : rigs) {
     if (rig.format != joined.format)
-      fail(fmt::format("the files are of several formats ({} and {}); give files of one", ToString(joined.format),
-                       ToString(rig.format)));
+      fail(fmt::format("the files are of several formats ({} and {}); give files of one",
+                       ToString(joined.format), ToString(rig.format)));
     for (ForeignCamera& camera : rig.cameras) joined.cameras.push_back(std::move(camera));
     if (rig.second_from_first) joined.second_from_first = rig.second_from_first;
     joined.warnings.insert(joined.warnings.end(), rig.warnings.begin(), rig.warnings.end());
   }
   if (joined.second_from_first) {
     if (joined.cameras.size() != 2)
-      fail(fmt::format("R and T lie between two cameras, but the files have {}; add the file with both lenses",
-                       joined.cameras.size()));
+      fail(
+          fmt::format("R and T lie between two cameras, but the files have {}; add the file with both lenses",
+                      joined.cameras.size()));
     joined.cameras[0].stated = StatedPose{};
     joined.cameras[1].stated = joined.second_from_first;
   }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/camera_model.h"
+#include "core/units.h"
 
 namespace elbowroom::recon {
 
@@ -48,8 +49,8 @@ struct RigConvention {
   // What the stated pose maps: x_cam = R x_world + t, or x_world = R x_cam + t. In a chain the world is the
   // camera before.
   enum class Pose { kCamFromWorld, kWorldFromCam };
-  // OpenCV: x right, y down, z forward. OpenGL: x right, y up, looking along -z; of a projection matrix, whose
-  // camera has no axes: rows of pixels are counted from below.
+  // OpenCV: x right, y down, z forward. OpenGL: x right, y up, looking along -z; of a projection matrix,
+  // whose camera has no axes: rows of pixels are counted from below.
   enum class Axes { kOpenCv, kOpenGl };
   Pose pose = Pose::kCamFromWorld;
   Axes axes = Axes::kOpenCv;
@@ -61,14 +62,14 @@ struct RigConvention {
 
 // The convention that the format's documentation states.
 [[nodiscard]] RigConvention DocumentedConvention(ForeignFormat format);
-// The length of the format's unit; nothing where it has none of its own (OpenCV, anipose, matrices).
-[[nodiscard]] std::optional<double> DocumentedUnitMm(ForeignFormat format);
+// The unit of its lengths; nothing where it has none of its own (OpenCV, anipose, matrices).
+[[nodiscard]] std::optional<core::LengthUnit> DocumentedUnit(ForeignFormat format);
 // All that the format's numbers could mean, the documented one first.
 [[nodiscard]] std::vector<RigConvention> PossibleConventions(ForeignFormat format);
 
 // Complete calibrations under a convention; in world, which is as in the file, but in mm. Throws:
-// PreconditionError unless all cameras have a pose and a size; Error{kCamera} naming a camera whose pose isn't
-// a rotation, or whose matrix has no camera matrix in it.
+// PreconditionError unless all cameras have a pose and a size; Error{kCamera} naming a camera whose pose
+// isn't a rotation, or whose matrix has no camera matrix in it.
 [[nodiscard]] std::vector<core::CameraCalibration> CalibrationsOf(const ForeignRig& rig,
                                                                   const RigConvention& convention,
                                                                   double unit_mm);

@@ -80,9 +80,10 @@ void PutDistortion(const YamlSection& section, const char* key, core::CameraCali
   if (is_fisheye != nullptr && is_fisheye->IsNumber() && is_fisheye->number != 0.0) model = "fisheye";
   const auto parsed = core::ParseDistortionModel(model == "equidistant" ? "fisheye" : model);
   if (!parsed)
-    section.Fail(fmt::format("distortion_model '{}' is unknown here; it must be plumb_bob, "
-                             "rational_polynomial, equidistant or fisheye",
-                             model));
+    section.Fail(
+        fmt::format("distortion_model '{}' is unknown here; it must be plumb_bob, "
+                    "rational_polynomial, equidistant or fisheye",
+                    model));
   lens->distortion_model = *parsed;
   DropTilt(lens);
 }
@@ -95,7 +96,8 @@ constexpr std::initializer_list<const char*> kMatrixKeys = {"camera_matrix", "Ca
 
 std::optional<StatedPose> PoseIn(const YamlSection& section) {
   const char* rotation = SpellingIn(section, {"rotation_cam_from_world", "R", "rvec", "rotation"});
-  const char* translation = SpellingIn(section, {"translation_cam_from_world_mm", "T", "tvec", "t", "translation"});
+  const char* translation =
+      SpellingIn(section, {"translation_cam_from_world_mm", "T", "tvec", "t", "translation"});
   if (rotation == nullptr || translation == nullptr) return std::nullopt;
   return StatedPose{RotationIn(section, rotation), VectorIn(section, translation)};
 }
@@ -105,7 +107,8 @@ ForeignCamera OpenCvCamera(const YamlSection& section, const std::string& name) 
   camera.name = NameIn(section, "name", NameIn(section, "camera_name", name));
   PutSize(section, &camera.lens);
   const char* matrix = SpellingIn(section, kMatrixKeys);
-  if (matrix == nullptr) section.Fail("key 'camera_matrix' is missing; give a file with a camera's calibration");
+  if (matrix == nullptr)
+    section.Fail("key 'camera_matrix' is missing; give a file with a camera's calibration");
   camera.lens.camera_matrix = MatrixIn(section, matrix);
   PutDistortion(section,
                 SpellingIn(section, {"distortion_coefficients", "Distortion_Coefficients", "distCoeffs",
@@ -119,8 +122,9 @@ ForeignCamera OpenCvCamera(const YamlSection& section, const std::string& name) 
 std::vector<ForeignCamera> StereoCameras(const YamlSection& root) {
   std::vector<ForeignCamera> cameras;
   for (int i = 1; i <= 2; ++i) {
-    const std::string m = fmt::format("M{}", i), k = fmt::format("K{}", i), c = fmt::format("cameraMatrix{}", i),
-                      d = fmt::format("D{}", i), dist = fmt::format("distCoeffs{}", i);
+    const std::string m = fmt::format("M{}", i), k = fmt::format("K{}", i),
+                      c = fmt::format("cameraMatrix{}", i), d = fmt::format("D{}", i),
+                      dist = fmt::format("distCoeffs{}", i);
     const char* matrix = SpellingIn(root, {m.c_str(), k.c_str(), c.c_str()});
     if (matrix == nullptr) return {};
     ForeignCamera camera;
@@ -139,8 +143,7 @@ ForeignRig ParseOpenCv(const YamlSection& root, const std::string& name) {
   if (list != nullptr && list->kind == YamlKind::kList) {
     for (const YamlNode& item : list->items) {
       if (item.kind != YamlKind::kMap) root.Fail("'cameras' must list maps, one a camera");
-      rig.cameras.push_back(
-          OpenCvCamera({&item, root.file}, fmt::format("cam{}", rig.cameras.size() + 1)));
+      rig.cameras.push_back(OpenCvCamera({&item, root.file}, fmt::format("cam{}", rig.cameras.size() + 1)));
     }
   } else if (one != nullptr && one->kind == YamlKind::kMap) {
     rig.cameras.push_back(OpenCvCamera({one, root.file}, name));
@@ -168,9 +171,9 @@ ForeignRig ParseRos(const YamlSection& root, const std::string& name) {
   if (root.Find("projection_matrix") != nullptr) {
     const std::vector<double> numbers = FiniteIn(root, "projection_matrix", 12, "a 3 x 4 matrix");
     const Eigen::Matrix<double, 3, 4> p = Eigen::Map<const RowMajor34>(numbers.data());
-    const Eigen::Matrix3d rectification =
-        root.Find("rectification_matrix") == nullptr ? Eigen::Matrix3d(Eigen::Matrix3d::Identity())
-                                                     : MatrixIn(root, "rectification_matrix");
+    const Eigen::Matrix3d rectification = root.Find("rectification_matrix") == nullptr
+                                              ? Eigen::Matrix3d(Eigen::Matrix3d::Identity())
+                                              : MatrixIn(root, "rectification_matrix");
     const Eigen::FullPivLU<Eigen::Matrix3d> left(p.leftCols<3>());
     if (left.isInvertible())
       camera.stated = StatedPose{rectification.transpose(), rectification.transpose() * left.solve(p.col(3))};
@@ -189,7 +192,8 @@ DistortionModel KalibrModel(const YamlSection& section) {
   const std::string model = section.TextOr("distortion_model", "none");
   if (model == "radtan" || model == "none") return DistortionModel::kPlumbBob;
   if (model == "equidistant" || model == "equi") return DistortionModel::kFisheye;
-  section.Fail(fmt::format("distortion_model '{}' has no equal here; it must be radtan, equidistant or none", model));
+  section.Fail(
+      fmt::format("distortion_model '{}' has no equal here; it must be radtan, equidistant or none", model));
 }
 
 ForeignCamera KalibrCamera(const YamlSection& section, const std::string& name) {
@@ -312,8 +316,8 @@ ForeignRig ParseProjections(std::string_view text, const std::string& who, const
   ForeignRig rig;
   for (std::size_t i = 0; i < names.size(); ++i) {
     const std::string otherwise = names.size() == 1 ? name : fmt::format("cam{}", i + 1);
-    rig.cameras.push_back(CameraOf(std::span(numbers).subspan(12 * i, 12),
-                                   names[i].empty() ? otherwise : names[i], who));
+    rig.cameras.push_back(
+        CameraOf(std::span(numbers).subspan(12 * i, 12), names[i].empty() ? otherwise : names[i], who));
   }
   return rig;
 }

@@ -120,8 +120,7 @@ class StorageXmlParser {
         AddItem(tag.name, Content(tag, depth + 1), &node);
         continue;
       }
-      if (tag.name != begin.name)
-        Fail(fmt::format("</{}> ends what <{}> began", tag.name, begin.name));
+      if (tag.name != begin.name) Fail(fmt::format("</{}> ends what <{}> began", tag.name, begin.name));
       break;
     }
     // A single word is a value, not a list of one.
@@ -166,8 +165,8 @@ class StorageXmlParser {
         {"&lt;", '<'}, {"&gt;", '>'}, {"&amp;", '&'}, {"&quot;", '"'}, {"&apos;", '\''}};
     std::string plain;
     while (!text.empty()) {
-      const auto entity = std::ranges::find_if(
-          kEntities, [&](const auto& known) { return text.starts_with(known.first); });
+      const auto entity =
+          std::ranges::find_if(kEntities, [&](const auto& known) { return text.starts_with(known.first); });
       const bool is_entity = entity != std::end(kEntities);
       plain += is_entity ? entity->second : text.front();
       text.remove_prefix(is_entity ? entity->first.size() : 1);

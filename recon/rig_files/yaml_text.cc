@@ -58,8 +58,7 @@ class YamlParser {
   YamlNode Document(YamlHeader header) {
     if (text_.starts_with("\xEF\xBB\xBF")) text_.remove_prefix(3);
     const bool has_header = text_.starts_with("%YAML:1.") || text_.starts_with("%YAML 1.");
-    if (!has_header && header == YamlHeader::kRequired)
-      FailAsNoYaml("it must begin with '%YAML:1.0'");
+    if (!has_header && header == YamlHeader::kRequired) FailAsNoYaml("it must begin with '%YAML:1.0'");
     for (SkipSpace(); Peek() == '%'; SkipSpace()) SkipLine();
     if (text_.substr(at_).starts_with("---")) at_ += 3;
     SkipSpace();

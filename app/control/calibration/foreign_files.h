@@ -20,6 +20,7 @@ namespace elbowroom::control {
 // lenses: RIG.yml and those of recon::ForeignFormat but 3 x 4 matrices. Width and height are 0 if the file
 // doesn't say them. Throws: as ReadForeignFiles; Error{kCamera} if the file has several cameras, and none of
 // that name, or a camera that can't exist.
-[[nodiscard]] core::CameraCalibration ReadLensFile(const std::filesystem::path& file, const std::string& name);
+[[nodiscard]] core::CameraCalibration ReadLensFile(const std::filesystem::path& file,
+                                                   const std::string& name);
 
 }  // namespace elbowroom::control

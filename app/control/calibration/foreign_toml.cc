@@ -25,10 +25,11 @@ struct CameraTable {
 
   [[noreturn]] void Fail(std::string_view key, const std::string& what) const {
     const toml::node* node = table->get(key);
-    throw core::Error(core::ErrorKind::kFormat,
-                      fmt::format("{}:{}: {}: key '{}' {}", file,
-                                  (node != nullptr ? node : static_cast<const toml::node*>(table))->source().begin.line,
-                                  title, key, what));
+    throw core::Error(
+        core::ErrorKind::kFormat,
+        fmt::format("{}:{}: {}: key '{}' {}", file,
+                    (node != nullptr ? node : static_cast<const toml::node*>(table))->source().begin.line,
+                    title, key, what));
   }
   [[nodiscard]] bool Has(std::string_view key) const { return table->contains(key); }
   [[nodiscard]] bool Flag(std::string_view key) const { return (*table)[key].value_or(false); }
@@ -38,7 +39,8 @@ struct CameraTable {
     std::vector<double> numbers;
     const toml::node* node = table->get(key);
     if (node == nullptr) Fail(key, fmt::format("is missing; it must be {}", shape));
-    if (!node->is_array() || !Append(*node->as_array(), &numbers)) Fail(key, fmt::format("must be {}", shape));
+    if (!node->is_array() || !Append(*node->as_array(), &numbers))
+      Fail(key, fmt::format("must be {}", shape));
     return numbers;
   }
 
@@ -86,9 +88,8 @@ std::optional<recon::StatedPose> PoseOf(const CameraTable& camera) {
   const std::vector<double> t = camera.Numbers("translation", "3 numbers");
   if (r.size() != 3 && r.size() != 9) camera.Fail("rotation", "must be a rotation vector, or a 3 x 3 matrix");
   if (t.size() != 3) camera.Fail("translation", "must be 3 numbers");
-  const Eigen::Matrix3d rotation = r.size() == 9
-                                       ? Eigen::Matrix3d(Eigen::Map<const RowMajor3>(r.data()))
-                                       : recon::RotationFromRodrigues({r[0], r[1], r[2]});
+  const Eigen::Matrix3d rotation = r.size() == 9 ? Eigen::Matrix3d(Eigen::Map<const RowMajor3>(r.data()))
+                                                 : recon::RotationFromRodrigues({r[0], r[1], r[2]});
   return recon::StatedPose{rotation, {t[0], t[1], t[2]}};
 }
 
@@ -106,10 +107,11 @@ void AddCameraOf(const CameraTable& table, const std::string& key, recon::Foreig
   PutTomlLens(table, &camera.lens);
   camera.stated = PoseOf(table);
   if ((*table.table)["rotation_count"].value_or(0) % 4 != 0)
-    rig->warnings.push_back(fmt::format(
-        "camera '{}': Caliscope shows its pictures turned (rotation_count); the calibration is of the pictures as "
-        "they were recorded, if the check says so",
-        camera.name));
+    rig->warnings.push_back(
+        fmt::format("camera '{}': Caliscope shows its pictures turned (rotation_count); the calibration is "
+                    "of the pictures as "
+                    "they were recorded, if the check says so",
+                    camera.name));
   rig->cameras.push_back(std::move(camera));
 }
 
@@ -138,8 +140,8 @@ recon::ForeignRig ParseForeignToml(std::string_view text, const std::string& fil
     throw core::Error(core::ErrorKind::kFormat,
                       fmt::format("{}: holds no camera: no table such as [cam_0] with a 'matrix'", file));
   if (rig.cameras.size() > core::kMostCameras)
-    throw core::Error(core::ErrorKind::kFormat, fmt::format("{}: {} cameras are more than can be used", file,
-                                                            rig.cameras.size()));
+    throw core::Error(core::ErrorKind::kFormat,
+                      fmt::format("{}: {} cameras are more than can be used", file, rig.cameras.size()));
   return rig;
 }
 

@@ -8,9 +8,9 @@
 
 namespace elbowroom::control {
 
-// Tables with a `matrix`: [cam_0] ... of anipose, [cameras.0] ... of Caliscope. Cameras that Caliscope ignores
-// are left out, with a warning. The format is told by the tables' keys. `file` begins the messages. Throws:
-// Error{kFormat} naming file, line and key.
+// Tables with a `matrix`: [cam_0] ... of anipose, [cameras.0] ... of Caliscope. Cameras that Caliscope
+// ignores are left out, with a warning. The format is told by the tables' keys. `file` begins the messages.
+// Throws: Error{kFormat} naming file, line and key.
 [[nodiscard]] recon::ForeignRig ParseForeignToml(std::string_view text, const std::string& file);
 
 }  // namespace elbowroom::control
