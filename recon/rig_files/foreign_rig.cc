@@ -65,8 +65,8 @@ core::CameraCalibration OfProjection(const ForeignCamera& camera, const RigConve
                                                 "3 x 3 part is singular); correct the file",
                                                 camera.name));
   }
-  core::CameraCalibration calibration = camera.lens;
-  calibration.camera_matrix = split->camera_matrix;
+  core::CameraCalibration calibration = camera.known.value_or(camera.lens);
+  if (!camera.known) calibration.camera_matrix = split->camera_matrix;
   calibration.cam_from_world = Stated(camera, split->cam_from_world, unit_mm);
   return calibration;
 }

@@ -25,8 +25,7 @@ using KnownLenses = std::vector<std::optional<core::CameraCalibration>>;  // by 
 KnownLenses ReadKnownLenses(const CalibrationFile& file) {
   KnownLenses known(file.cameras.size());
   for (std::size_t i = 0; i < known.size(); ++i)
-    if (!file.cameras[i].known.empty())
-      known[i] = ReadLensFile(file.cameras[i].known, file.cameras[i].name);
+    if (!file.cameras[i].known.empty()) known[i] = ReadLensFile(file.cameras[i].known, file.cameras[i].name);
   return known;
 }
 

@@ -71,7 +71,7 @@ void RequireDecided(const MatchedRig& matched, const recon::CalibrationInput& in
     throw Error(
         ErrorKind::kCamera,
         fmt::format("the board refutes the poses: camera '{}' is {:.1f} px off at best ({}), at most {:.1f} "
-                    "are allowed{}; check names and order of the cameras, and square_mm",
+                    "are allowed{}; check the cameras' names and lenses, and square_mm",
                     input.cameras[i].name, *error_px, ToString(best.convention),
                     MostErrorPx(input.cameras[i]), others));
   }

@@ -153,12 +153,28 @@ void PutFootageSizes(const BoardFootage& footage, MatchedRig* matched) {
     const CameraSightings& seen = footage.cameras[i];
     core::CameraCalibration& lens = matched->rig.cameras[matched->places[i]].lens;
     put(seen, &lens);
+    if (camera.known) put(seen, &*matched->rig.cameras[matched->places[i]].known);
     if (lens.image_width_px != seen.width_px || lens.image_height_px != seen.height_px)
       FailOf(camera, fmt::format("its calibration is for {} x {} px, but the frames are {} x {}; use frames "
                                  "of this size",
                                  lens.image_width_px, lens.image_height_px, seen.width_px, seen.height_px));
   }
   for (ForeignCamera& camera : matched->rig.cameras) put(footage.cameras.front(), &camera.lens);
+}
+
+// A 3 x 4 matrix is without a lens; the check may name one.
+void PutKnownLenses(const CalibrationFile& check, MatchedRig* matched, std::vector<std::string>* warnings) {
+  if (matched->rig.format != recon::ForeignFormat::kProjection) return;
+  for (std::size_t i = 0; i < check.cameras.size(); ++i) {
+    ForeignCamera& camera = matched->rig.cameras[matched->places[i]];
+    if (!check.cameras[i].known.empty())
+      camera.known = ReadLensFile(check.cameras[i].known, check.cameras[i].name);
+    if (check.cameras[i].known.empty())
+      warnings->push_back(
+          fmt::format("camera '{}': a 3 x 4 matrix has no lens, so its pictures are taken as undistorted; "
+                      "name the lens as known in the check",
+                      check.cameras[i].name));
+  }
 }
 
 RigidTransform WorldOf(const CalibrationFile& check, const recon::CalibrationInput& input,
@@ -199,6 +215,8 @@ RigImport ImportRig(const RigImportOptions& options, const std::string& rig_name
                               WorldFromFile(options.up_in_file), rig_name);
   core::Rig& rig = import.rig_file.rig;
   rig.workspace_mm = options.workspace_mm ? *options.workspace_mm : GuessedWorkspace(rig);
+  if (foreign.format == recon::ForeignFormat::kProjection)
+    import.warnings.emplace_back("3 x 4 matrices have no lens: the pictures are taken as undistorted");
   if (!options.workspace_mm)
     import.warnings.emplace_back(
         "workspace_mm is a cube around where the cameras look; correct it in the rig file, or "
@@ -215,6 +233,7 @@ RigImport ImportCheckedRig(const RigImportOptions& options, const CalibrationFil
   RequirePoses(matched.rig);
   import.warnings = matched.rig.warnings;
   matched.places = MatchedCameras(matched.rig, check, &import.warnings);
+  PutKnownLenses(check, &matched, &import.warnings);
   if (matched.rig.cameras.size() > matched.places.size())
     import.warnings.push_back(fmt::format("{} of the files' cameras aren't in the check, and left out",
                                           matched.rig.cameras.size() - matched.places.size()));
