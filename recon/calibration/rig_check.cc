@@ -17,7 +17,6 @@ namespace elbowroom::recon {
 namespace {
 
 using core::RigidTransform;
-using Eigen::Vector3d;
 
 constexpr double kCheckCauchyScale = 10.0;  // of the sightings' sigmas: other programs' rigs aren't as exact
 
@@ -196,35 +195,31 @@ double Median(std::vector<double> values) {
   return *middle;
 }
 
-// Where the board is in a set, and how each view is numbered.
+// Where the board is in a set, each view numbered from the end that fits.
 struct PlacedBoard {
   RigidTransform world_from_board;
   std::vector<PosedView> views;
-  std::vector<bool> is_turned;
   double cost = std::numeric_limits<double>::infinity();
 };
 
 // Every view numbered from the end that fits the pose better.
 PlacedBoard NumberedFor(const ScaledRig& rig, const CheckedSet& set, double scale,
                         const RigidTransform& world_from_board) {
-  PlacedBoard placed{world_from_board, {}, {}, 0.0};
+  PlacedBoard placed{world_from_board, {}, 0.0};
   for (const CheckedView& view : set.views) {
     PosedView one{&rig.lens(view.camera), rig.CamFromWorld(view.camera, scale), view.points};
     ViewError error = ErrorOf(one, world_from_board);
-    bool is_turned = false;
     if (!view.turned.empty()) {
       PosedView other = one;
       other.points = view.turned;
       const ViewError turned = ErrorOf(other, world_from_board);
-      is_turned = turned.rms_px < error.rms_px;
-      if (is_turned) {
+      if (turned.rms_px < error.rms_px) {
         one = std::move(other);
         error = turned;
       }
     }
     placed.cost += std::min(error.median_px, 1e3);
     placed.views.push_back(std::move(one));
-    placed.is_turned.push_back(is_turned);
   }
   return placed;
 }
@@ -356,9 +351,10 @@ std::optional<RigidTransform> BoardInSet(const CalibrationInput& input,
     const std::vector<PlanarPose> poses = PosesOf(rig, checked.views.front(), checked.views.front().points);
     if (poses.size() == 2 && poses[1].error.rms_px < kDecided * poses[0].error.rms_px) return std::nullopt;
   }
-  if (!placed->is_turned.front()) return placed->world_from_board;
-  const Eigen::Matrix3d turn = Vector3d(-1.0, -1.0, 1.0).asDiagonal();
-  return placed->world_from_board * RigidTransform{turn, surface.center() - turn * surface.center()};
+  const RigidTransform cam_from_board =
+      rig.CamFromWorld(checked.views.front().camera, 1.0) * placed->world_from_board;
+  const bool is_turned = !surface.half_turn().empty() && !surface.HasFirstCornerFirst(cam_from_board);
+  return is_turned ? placed->world_from_board * surface.HalfTurn() : placed->world_from_board;
 }
 
 bool AreTheSameRig(std::span<const core::CameraCalibration> a, std::span<const core::CameraCalibration> b) {
