@@ -43,7 +43,7 @@ def rt_of(pose):
 
 def given_start(start, frames):
     """Poses and focal lengths from the scene; mrcal's own start fails on half-hidden boards seen aslant."""
-    half_turn = mrcal.rt_from_Rt(np.vstack((np.diag((1.0, -1.0, -1.0)), np.zeros(3))))
+    half_turn = np.array((np.pi, 0.0, 0.0, 0.0, 0.0, 0.0))
     intrinsics = np.array(start["intrinsics"])
     extrinsics = np.array([rt_of(pose) for pose in start["cam_from_cam0"][1:]])
     poses = np.array([mrcal.compose_rt(rt_of(start["cam0_from_board"][str(f)]), half_turn) for f in frames])
@@ -134,44 +134,63 @@ def gradient_of_first_frame(inputs, camera, point, state_count):
     return in_cam, gradient
 
 
-def covariance(factorization, gradient, inputs, noise_px):
-    """noise^2 G (J^T J)^-1 G^T; mrcal scales its state, so G is scaled, too."""
+def inverse_normal_matrix(inputs, prior_px):
+    """(J^T J + P)^-1 in mrcal's scaled state, and the step that P makes from mrcal's optimum.
+
+    P = prior_px^2 for each distortion coefficient: it is known to be 0 +- 1, as in our fit. mrcal can't have that.
+    """
+    packed, _, jacobian, _ = mrcal.optimizer_callback(**inputs)
+    dense = jacobian.toarray()
+    knowledge = np.zeros(dense.shape[1])
+    count = inputs["intrinsics"].shape[1]
+    for camera in range(len(inputs["intrinsics"])):
+        at = mrcal.state_index_intrinsics(camera, **inputs)
+        knowledge[at + 4 : at + count] = prior_px
+    # A state is the packed one times its scale, so a gradient by the state, "unpacked", is one by the packed state.
+    scaled = knowledge.copy()
+    mrcal.unpack_state(scaled, **inputs)
+    inverse = np.linalg.inv(dense.T @ dense + np.diag(scaled**2))
+    step = -inverse @ (scaled**2 * packed)
+    mrcal.unpack_state(step, **inputs)
+    return inverse, step
+
+
+def covariance(inverse, gradient, inputs, noise_px):
     scaled = gradient.copy()
     mrcal.unpack_state(scaled, **inputs)
-    return noise_px**2 * scaled @ factorization.solve_xt_JtJ_bt(scaled).T
+    return noise_px**2 * scaled @ inverse @ scaled.T
 
 
-def sigma_of_state(factorization, inputs, at, count, state_count, noise_px):
-    gradient = np.zeros((count, state_count))
+def sigma_of_state(inverse, inputs, at, count, noise_px):
+    gradient = np.zeros((count, inverse.shape[0]))
     gradient[np.arange(count), at + np.arange(count)] = 1.0
-    return np.sqrt(np.diag(covariance(factorization, gradient, inputs, noise_px)))
+    return np.sqrt(np.diag(covariance(inverse, gradient, inputs, noise_px)))
 
 
-def camera_result(scene, inputs, factorization, camera, noise_px):
-    state_count = mrcal.num_states(**inputs)
+def camera_result(scene, inputs, camera, noise_px, prior_px):
+    inverse, step = inverse_normal_matrix(inputs, prior_px)
     model = mrcal.cameramodel(optimization_inputs=inputs, icam_intrinsics=camera)
     count = inputs["intrinsics"].shape[1]
     at = mrcal.state_index_intrinsics(camera, **inputs)
-    pose = mrcal.identity_rt() if camera == 0 else inputs["extrinsics_rt_fromref"][camera - 1]
+    intrinsics = inputs["intrinsics"][camera] + step[at : at + count]
     result = {
-        "intrinsics": inputs["intrinsics"][camera].tolist(),
-        "intrinsics_sigma": sigma_of_state(factorization, inputs, at, count, state_count, noise_px).tolist(),
-        "rotation_cam_from_cam0": mrcal.R_from_r(pose[:3]).tolist(),
-        "translation_cam_from_cam0_mm": (pose[3:] / MM).tolist(),
+        "intrinsics": intrinsics.tolist(),
+        "intrinsics_sigma": sigma_of_state(inverse, inputs, at, count, noise_px).tolist(),
         "points": [],
     }
+    pose = mrcal.identity_rt()
     if camera > 0:
         at = mrcal.state_index_extrinsics(camera - 1, **inputs)
-        sigma = sigma_of_state(factorization, inputs, at, 6, state_count, noise_px)
-        result["translation_sigma_mm"] = (sigma[3:] / MM).tolist()
+        pose = inputs["extrinsics_rt_fromref"][camera - 1] + step[at : at + 6]
+        result["translation_sigma_mm"] = (sigma_of_state(inverse, inputs, at, 6, noise_px)[3:] / MM).tolist()
+    result["rotation_cam_from_cam0"] = mrcal.R_from_r(pose[:3]).tolist()
+    result["translation_cam_from_cam0_mm"] = (pose[3:] / MM).tolist()
     for point_mm in scene["points_mm"]:
-        in_cam, gradient = gradient_of_first_frame(inputs, camera, board_point(point_mm), state_count)
+        in_cam, gradient = gradient_of_first_frame(inputs, camera, board_point(point_mm), inverse.shape[0])
         ask = {"what": "worstdirection-stdev", "observed_pixel_uncertainty": noise_px}
         result["points"].append(
             {
-                "first_board_px": float(
-                    mrcal.worst_direction_stdev(covariance(factorization, gradient, inputs, noise_px))
-                ),
+                "first_board_px": float(mrcal.worst_direction_stdev(covariance(inverse, gradient, inputs, noise_px))),
                 "all_boards_px": float(mrcal.projection_uncertainty(in_cam, model, **ask)),
                 "at_infinity_px": float(mrcal.projection_uncertainty(in_cam, model, atinfinity=True, **ask)),
             }
@@ -186,7 +205,7 @@ def main():
     frames = sorted({frame for frame, _ in grids})
     inputs = seed(scene, grids, frames)
     optimize(inputs)
-    _, residuals, _, factorization = mrcal.optimizer_callback(**inputs)
+    residuals = mrcal.optimizer_callback(**inputs)[1]
     weights = inputs["observations_board"][..., 2].ravel()
     used = weights > 0.0
     weighted = residuals[: 2 * weights.size].reshape(-1, 2)[used]
@@ -205,8 +224,10 @@ def main():
                 "mrcal_noise_px": float(
                     np.std(mrcal.residuals_chessboard(inputs, residuals=residuals).ravel())
                 ),
-                "cameras": [
-                    camera_result(scene, inputs, factorization, i, noise_px) for i in range(len(scene["cameras"]))
+                # As mrcal has it, and with what our fit knows of lenses beforehand.
+                "cameras": [camera_result(scene, inputs, i, noise_px, 0.0) for i in range(len(scene["cameras"]))],
+                "knowing_lenses": [
+                    camera_result(scene, inputs, i, noise_px, noise_px) for i in range(len(scene["cameras"]))
                 ],
             }
         )

