@@ -300,5 +300,67 @@ TEST(Mrcal, FindsTheSameRigAndTheSameUncertainty) {
   }
 }
 
+// Eight coefficients where five would do: the pictures don't tell most of them, and only what was known
+// before keeps them in bounds. What they do to a point is told all the same.
+TEST(Mrcal, ARationalLensThatThePicturesDoNotTellMovesNoPose) {
+  SKIP_WITHOUT_MRCAL();
+  // Between a fit that knows 0 +- 1 of each coefficient and one that doesn't, poses move by a share of a
+  // sigma.
+  constexpr double kShareOfSigma = 0.2;
+  // Five more unknowns that three pictures' worth of noise can't fill: chi squared falls by one each.
+  constexpr double kFittedAwayPx = 5e-4;
+  CalibrationScene scene = SyntheticScene(2, 4);
+  for (CalibrationCamera& camera : scene.input.cameras)
+    camera.distortion_model = core::DistortionModel::kRationalPolynomial;
+  const CalibrationResult result = Calibrate(scene.input);
+  const json theirs = RunMrcal(scene.input, result, "LENSMODEL_OPENCV8", PointsToAsk(), StartNear(scene));
+  ASSERT_FALSE(theirs.is_null());
+  Print(result, theirs, PointsToAsk());
+  const Agreement agreement = Compare(result, theirs, "cameras", PointsToAsk());
+  EXPECT_LE(agreement.rms_px, kFittedAwayPx);
+  EXPECT_LE(agreement.pose_sigmas, kShareOfSigma);
+}
+
+// Sightings of OpenCV's stereo pair; empty: the pictures aren't here.
+CalibrationInput StereoPair() {
+  const std::filesystem::path folder =
+      std::filesystem::path(ELBOWROOM_SHARED_DATA_DIR) / "calibration/chessboard";
+  CalibrationInput input;
+  input.board = {BoardKind::kChessboard, 9, 6, 25.0, 0.0, ""};
+  input.has_flat_board = true;
+  input.cameras = {{"left", 640, 480, core::DistortionModel::kPlumbBob, std::nullopt},
+                   {"right", 640, 480, core::DistortionModel::kPlumbBob, std::nullopt}};
+  const BoardFinder finder(input.board);
+  int set = 0;
+  for (int picture = 1; picture <= 14; ++picture) {
+    bool is_there = false;
+    for (int camera = 0; camera < 2; ++camera) {
+      const auto path =
+          folder / fmt::format("{}{:02}.jpg", input.cameras[static_cast<std::size_t>(camera)].name, picture);
+      const cv::Mat image = std::filesystem::exists(path) ? cv::imread(path.string()) : cv::Mat();
+      const auto sighting = image.empty() ? std::nullopt : finder.Find(image);
+      if (sighting) input.views.push_back({camera, set, 0.0, *sighting, path.filename().string()});
+      is_there = is_there || sighting.has_value();
+    }
+    set += is_there ? 1 : 0;
+  }
+  return input;
+}
+
+TEST(Mrcal, FindsTheSameRigFromRealPictures) {
+  SKIP_WITHOUT_MRCAL();
+  const CalibrationInput input = StereoPair();
+  if (input.views.empty())
+    GTEST_SKIP() << "NOT TESTED: OpenCV's stereo pair isn't in " << ELBOWROOM_SHARED_DATA_DIR;
+  const CalibrationResult result = Calibrate(input);
+  const std::vector<Vector3d> points = {{100.0, -60.0, 0.0}, {100.0, -60.0, 100.0}, {0.0, 0.0, -100.0}};
+  const json theirs = RunMrcal(input, result, "LENSMODEL_OPENCV5", points);
+  ASSERT_FALSE(theirs.is_null());
+  EXPECT_EQ(theirs["points"], result.points);
+  Print(result, theirs, points);
+  (void)Compare(result, theirs, "cameras", points);
+  ExpectAgreement(Compare(result, theirs, "knowing_lenses", points));
+}
+
 }  // namespace
 }  // namespace elbowroom::recon
