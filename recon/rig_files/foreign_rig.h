@@ -33,8 +33,8 @@ struct ForeignCamera {
   std::optional<StatedPose> stated;  // nothing: the file has a lens alone
   // The 3 x 4 matrix itself, where that is what the file has; its parts are in `lens` and `stated`, too.
   std::optional<Eigen::Matrix<double, 3, 4>> projection;
-  // With such a matrix, the camera matrix and lens that somebody else knows; nothing: the pictures are without
-  // distortion, and the camera matrix is the matrix's own.
+  // With such a matrix, the camera matrix and lens that somebody else knows; nothing: the pictures are
+  // without distortion, and the camera matrix is the matrix's own.
   std::optional<core::CameraCalibration> known = std::nullopt;
 };
 
