@@ -72,6 +72,7 @@ void AddHullCommand(CLI::App& app, Choice* choice);
 void AddImportCommand(CLI::App& app, Choice* choice);
 void AddLayoutCommand(CLI::App& app, Choice* choice);
 void AddReportCommand(CLI::App& app, Choice* choice);
+void AddRigCommand(CLI::App& app, Choice* choice);
 void AddSegmentCommand(CLI::App& app, Choice* choice);
 void AddSweepCommand(CLI::App& app, Choice* choice);
 void AddTrialCommand(CLI::App& app, Choice* choice);

@@ -139,6 +139,7 @@ int RunCommandLine(int argc, char** argv, const OpenConsole& open_console) {
   AddCoverageCommand(app, &choice);
   AddClearanceCommand(app, &choice);
   AddCalibrateCommand(app, &choice);
+  AddRigCommand(app, &choice);
   AddClashCommand(app, &choice);
   AddImportCommand(app, &choice);
   AddLayoutCommand(app, &choice);

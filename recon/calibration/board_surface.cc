@@ -34,4 +34,17 @@ BoardSurface::BoardSurface(const Board& board) : flat_(PointsOf(board)) {
   for (int i = 0; i < points(); ++i) half_turn_.push_back(PointAfterHalfTurn(board, i).value_or(i));
 }
 
+core::RigidTransform BoardSurface::HalfTurn() const {
+  const Eigen::Matrix3d turn = Eigen::Vector3d(-1.0, -1.0, 1.0).asDiagonal();
+  return {turn, center_ - turn * center_};
+}
+
+bool BoardSurface::HasFirstCornerFirst(const core::RigidTransform& cam_from_board) const {
+  const auto sum_of = [&](const Eigen::Vector3d& x_in_board) {
+    const Eigen::Vector3d x = cam_from_board * x_in_board;
+    return x.x() / x.z() + x.y() / x.z();
+  };
+  return sum_of(flat_.front()) <= sum_of(flat_.back());
+}
+
 }  // namespace elbowroom::recon

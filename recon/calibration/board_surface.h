@@ -5,6 +5,7 @@
 #include <array>
 #include <vector>
 
+#include "core/rigid_transform.h"
 #include "recon/boards/board.h"
 
 namespace elbowroom::recon {
@@ -30,6 +31,11 @@ class BoardSurface {
   [[nodiscard]] bool can_bend() const { return can_bend_; }
   // PointAfterHalfTurn; empty for boards whose points can be told apart.
   [[nodiscard]] const std::vector<int>& half_turn() const { return half_turn_; }
+  // Turns the board by half a turn about its middle: each point goes where half_turn() says.
+  [[nodiscard]] core::RigidTransform HalfTurn() const;
+  // In the picture of a camera, the first corner is the one with the smaller x + y: the end by which a board
+  // that looks the same after half a turn is told, where it is the world.
+  [[nodiscard]] bool HasFirstCornerFirst(const core::RigidTransform& cam_from_board) const;
   [[nodiscard]] double diagonal_mm() const { return diagonal_mm_; }
   [[nodiscard]] const Eigen::Vector3d& center() const { return center_; }
 

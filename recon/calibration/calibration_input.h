@@ -46,6 +46,7 @@ struct CalibrationInput {
   std::vector<CalibrationView> views;
   CalibrationWorld world;
   bool finds_offsets = false;          // whether cameras may be late or early against their stamps
+  bool has_flat_board = false;         // glass or granite: its flatness isn't looked for
   double frame_period_s = 1.0 / 30.0;  // nominal time between two frames of a camera; > 0
 
   // Throws: Error{kRange} naming the board's fault; Error{kCamera} naming a camera without size or views, or

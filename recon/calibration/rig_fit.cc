@@ -199,7 +199,8 @@ void FreeOffsetsAndFlatness(RigFit* fit) {
   if (state.has_motion && state.input->finds_offsets)
     for (std::size_t i = 1; i < state.cameras.size(); ++i) state.cameras[i].is_offset_fixed = false;
   const auto used = static_cast<std::size_t>(std::ranges::count_if(state.views, &RigView::is_used));
-  state.is_flatness_fixed = !state.surface->can_bend() || used < kLeastViewsForFlatness;
+  state.is_flatness_fixed =
+      state.input->has_flat_board || !state.surface->can_bend() || used < kLeastViewsForFlatness;
 }
 
 // An offset that isn't known to half a frame period stays 0.

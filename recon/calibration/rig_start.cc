@@ -26,12 +26,6 @@ constexpr double kAgrees = 2.0;            // times that
 constexpr int kMostHypotheses = 40;        // sets of a pair that give them
 constexpr int kMostWitnesses = 60;         // sets that are asked about them
 
-// The turn of the board by which its points take each other's places.
-RigidTransform HalfTurn(const BoardSurface& surface) {
-  const Eigen::Matrix3d turn = Eigen::Vector3d(-1.0, -1.0, 1.0).asDiagonal();
-  return {turn, surface.center() - turn * surface.center()};
-}
-
 // A view with its poses, and a few of its points to ask.
 struct StartView {
   std::vector<PlanarPose> poses;
@@ -76,7 +70,7 @@ double Say(double error_px, double agreement_px) {
 class RigStarter {
  public:
   RigStarter(const std::stop_token& stop, RigState* state)
-      : stop_(stop), state_(*state), half_turn_(HalfTurn(*state->surface)) {}
+      : stop_(stop), state_(*state), half_turn_(state->surface->HalfTurn()) {}
 
   void Run() {
     FindViews();
@@ -396,11 +390,7 @@ void RigStarter::TurnWorldAsSeen(RigSet* set) {
     if (!view.has_pose) continue;
     const RigidTransform cam_from_board =
         state_.cameras[static_cast<std::size_t>(view.camera)].cam_from_rig * set->rig_from_board;
-    const auto sum_of = [&](int point) {
-      const Vector3d x = cam_from_board * state_.surface->Flat(point);
-      return x.x() / x.z() + x.y() / x.z();
-    };
-    if (sum_of(0) > sum_of(state_.surface->points() - 1)) TurnSet(set);
+    if (!state_.surface->HasFirstCornerFirst(cam_from_board)) TurnSet(set);
     return;
   }
 }

@@ -271,28 +271,6 @@ RigFile ReadRigFile(const std::filesystem::path& path) {
   return rig_file;
 }
 
-core::CameraCalibration ReadLensFile(const std::filesystem::path& path) {
-  const std::string file = fmt::format("lens file '{}'", path.string());
-  const YamlNode document = ReadYamlFile(path, file, "lens file");
-  const YamlSection section = ViewSection({&document, file});
-  core::CameraCalibration calibration;
-  calibration.name = section.TextOr("name", section.TextOr("camera_name", path.stem().string()));
-  calibration.image_width_px = section.Integer("image_width", kPixels);
-  calibration.image_height_px = section.Integer("image_height", kPixels);
-  calibration.camera_matrix = Matrix3(section, "camera_matrix");
-  // OpenCV's own files name no model: theirs is plumb_bob, or rational_polynomial from six coefficients on.
-  calibration.distortion_coefficients = section.Numbers("distortion_coefficients", 0, 0, "a 1 x N matrix");
-  const bool is_rational = calibration.distortion_coefficients.size() > 5;
-  const std::string model =
-      section.TextOr("distortion_model", is_rational ? "rational_polynomial" : "plumb_bob");
-  calibration.distortion_model = ParseModel(section, model == "equidistant" ? "fisheye" : model);
-  try {
-    return core::CameraModel(std::move(calibration)).calibration();
-  } catch (const Error& error) {
-    throw Error(error.kind(), file + ": " + error.what());
-  }
-}
-
 ViewFile ReadViewFile(const std::filesystem::path& path) {
   const std::string file = fmt::format("view file '{}'", path.string());
   const YamlNode document = ReadYamlFile(path, file, "view file");

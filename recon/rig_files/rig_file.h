@@ -53,11 +53,6 @@ struct RigFile {
 // All name the file, and the camera and the key where there is one.
 [[nodiscard]] RigFile ReadRigFile(const std::filesystem::path& path);
 
-// Reads a camera matrix and a lens: a camera of RIG.yml without its pose, what OpenCV's own calibration
-// writes, or ROS's camera_info (whose "equidistant" is "fisheye" here). The pose is the identity. Throws: as
-// ReadRigFile.
-[[nodiscard]] core::CameraCalibration ReadLensFile(const std::filesystem::path& path);
-
 // What VIEW.yml says.
 struct ViewFile {
   core::CameraModel camera;

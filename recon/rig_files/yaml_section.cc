@@ -8,6 +8,7 @@
 
 #include "core/spelling.h"
 #include "core/system/configuration_file.h"
+#include "recon/rig_files/storage_xml.h"
 
 namespace elbowroom::recon {
 namespace {
@@ -109,6 +110,12 @@ void YamlSection::RefuseMisspelt(std::span<const std::string_view> known) const 
 
 YamlNode ReadYamlFile(const std::filesystem::path& path, const std::string& who, std::string_view what) {
   return ParseYaml(core::ReadConfiguration(path, who, what), who);
+}
+
+YamlNode ParseStorage(std::string_view text, const std::string& who) {
+  const std::size_t first = text.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
+  if (first != std::string_view::npos && text[first] == '<') return ParseStorageXml(text, who);
+  return ParseYaml(text, who, YamlHeader::kOptional);
 }
 
 }  // namespace elbowroom::recon

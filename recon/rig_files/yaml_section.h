@@ -47,4 +47,7 @@ struct YamlSection {
 [[nodiscard]] YamlNode ReadYamlFile(const std::filesystem::path& path, const std::string& who,
                                     std::string_view what);
 
+// The same of a text that another program wrote: YAML with or without its first line, JSON, or OpenCV's XML.
+[[nodiscard]] YamlNode ParseStorage(std::string_view text, const std::string& who);
+
 }  // namespace elbowroom::recon

@@ -55,10 +55,10 @@ class YamlParser {
  public:
   YamlParser(std::string_view text, const std::string& who) : text_(text), who_(who) {}
 
-  YamlNode Document() {
+  YamlNode Document(YamlHeader header) {
     if (text_.starts_with("\xEF\xBB\xBF")) text_.remove_prefix(3);
-    if (!text_.starts_with("%YAML:1.") && !text_.starts_with("%YAML 1."))
-      FailAsNoYaml("it must begin with '%YAML:1.0'");
+    const bool has_header = text_.starts_with("%YAML:1.") || text_.starts_with("%YAML 1.");
+    if (!has_header && header == YamlHeader::kRequired) FailAsNoYaml("it must begin with '%YAML:1.0'");
     for (SkipSpace(); Peek() == '%'; SkipSpace()) SkipLine();
     if (text_.substr(at_).starts_with("---")) at_ += 3;
     SkipSpace();
@@ -101,9 +101,9 @@ class YamlParser {
       if (Peek() == '\n') {
         ++line_;
         line_begin_ = at_ + 1;
-      } else if (Peek() == '\t') {
+      } else if (Peek() == '\t' && flow_depth_ == 0) {
         Fail("a tab; indent by spaces");
-      } else if (Peek() != ' ' && Peek() != '\r') {
+      } else if (Peek() != ' ' && Peek() != '\r' && Peek() != '\t') {
         return;
       }
     }
@@ -228,6 +228,7 @@ class YamlParser {
     const char close = is_map ? '}' : ']';
     node.kind = is_map ? YamlKind::kMap : YamlKind::kList;
     std::unordered_set<std::string> seen;
+    ++flow_depth_;
     ++at_;
     for (SkipSpace(); Peek() != close; SkipSpace()) {
       if (AtEnd()) Fail(fmt::format("the '{}' of line {} has no '{}'", is_map ? '{' : '[', node.line, close));
@@ -244,6 +245,7 @@ class YamlParser {
         Fail(fmt::format("',' or '{}' must stand here", close));
       }
     }
+    --flow_depth_;
     ++at_;
   }
 
@@ -280,10 +282,7 @@ class YamlParser {
     if (plain.empty()) Fail("a value is missing here");
     RequirePlain(plain);
     node.text = plain;
-    const auto number = is_text ? std::nullopt : NumberOf(plain);
-    if (!number) return;
-    node.kind = IsInteger(plain, *number) ? YamlKind::kInteger : YamlKind::kReal;
-    node.number = *number;
+    if (!is_text) PutPlainScalar(plain, &node);
   }
 
   void RequirePlain(std::string_view text) const {
@@ -336,6 +335,7 @@ class YamlParser {
   std::size_t line_begin_ = 0;
   int line_ = 1;
   std::size_t values_ = 0;
+  int flow_depth_ = 0;  // inside of [ ] and { } columns mean nothing, and tabs are space
 };
 
 }  // namespace
@@ -345,6 +345,17 @@ const YamlNode* YamlNode::Find(std::string_view key) const {
   return found == keys.end() ? nullptr : &items[static_cast<std::size_t>(found - keys.begin())];
 }
 
-YamlNode ParseYaml(std::string_view text, const std::string& who) { return YamlParser(text, who).Document(); }
+void PutPlainScalar(std::string_view plain, YamlNode* node) {
+  node->kind = YamlKind::kText;
+  node->text = plain;
+  const auto number = NumberOf(plain);
+  if (!number) return;
+  node->kind = IsInteger(plain, *number) ? YamlKind::kInteger : YamlKind::kReal;
+  node->number = *number;
+}
+
+YamlNode ParseYaml(std::string_view text, const std::string& who, YamlHeader header) {
+  return YamlParser(text, who).Document(header);
+}
 
 }  // namespace elbowroom::recon

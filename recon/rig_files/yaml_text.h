@@ -24,10 +24,18 @@ struct YamlNode {
   [[nodiscard]] const YamlNode* Find(std::string_view key) const;
 };
 
+// A number where the text looks like one, else text.
+void PutPlainScalar(std::string_view plain, YamlNode* node);
+
+// Whether the document must begin with %YAML:1.0. Other programs leave that out; so does JSON, which is YAML
+// but for this.
+enum class YamlHeader { kRequired, kOptional };
+
 // Reads a document, which must be a map. It may hold %YAML:1.0, block and flow lists and maps, quoted and
 // plain scalars, and comments; tags such as !!opencv-matrix are passed over. Not supported are anchors, texts
 // of several lines, complex keys and base64. `who` begins the messages. Throws: Error{kFormat}, with the line
 // if the file is YAML at all; also for a document nested more than 64 deep or of more than 200,000 values.
-[[nodiscard]] YamlNode ParseYaml(std::string_view text, const std::string& who);
+[[nodiscard]] YamlNode ParseYaml(std::string_view text, const std::string& who,
+                                 YamlHeader header = YamlHeader::kRequired);
 
 }  // namespace elbowroom::recon

@@ -312,5 +312,102 @@ TEST(CalibrateCommand, FewViewsAreRefusedWithTheCamerasName) {
   EXPECT_FALSE(HasRig());
 }
 
+// As anipose writes it, or would if its poses were the cameras' own: in cm, of a world that isn't the board.
+std::string AniposeText(bool is_world_from_cam) {
+  const core::RigidTransform board_from_world =
+      core::FromPositionAndRollPitchYaw({150.0, -80.0, 40.0}, {20.0, -35.0, 70.0});
+  std::string text;
+  for (const core::CameraCalibration& camera : TrueCameras()) {
+    core::RigidTransform stated = camera.cam_from_world * board_from_world;
+    if (is_world_from_cam) stated = stated.Inverse();
+    const Eigen::AngleAxisd turn(stated.rotation);
+    const Vector3d vector = turn.angle() * turn.axis(), t_cm = 0.1 * stated.translation_mm;
+    const Eigen::Matrix3d& k = camera.camera_matrix;
+    const std::vector<double>& d = camera.distortion_coefficients;
+    text += fmt::format(
+        "[cam_{0}]\nname = \"{0}\"\nsize = [480, 360]\nmatrix = [[{1}, 0.0, {2}], [0.0, {3}, {4}], [0.0, "
+        "0.0, 1.0]]\n"
+        "distortions = [{5}, {6}, {7}, {8}, 0.0]\nrotation = [{9}, {10}, {11}]\ntranslation = [{12}, {13}, "
+        "{14}]\n",
+        camera.name, k(0, 0), k(0, 2), k(1, 1), k(1, 2), d[0], d[1], d[2], d[3], vector.x(), vector.y(),
+        vector.z(), t_cm.x(), t_cm.y(), t_cm.z());
+  }
+  return text + "[metadata]\nadjusted = false\n";
+}
+
+ProgramRun ImportRig(const std::string& rig, const std::vector<std::string>& more) {
+  const test_support::TemporaryFolder& folder = Footage();
+  WriteText(folder / "calibration.toml", rig);
+  WriteText(folder / "CALIB.toml", CalibrationText());
+  std::filesystem::remove(folder / "rig.yml");
+  std::vector<std::string> arguments{"rig", "import", (folder / "calibration.toml").string(), "--out",
+                                     (folder / "rig.yml").string()};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return test_support::RunProgram(ELBOWROOM_PROGRAM, arguments);
+}
+
+TEST(RigImportCommand, TheBoardTellsPosesUnitAndWorld) {
+  constexpr double kWorldMm =
+      3.0;  // of one board in three pictures, as FindsTheRigWithinItsStatedError has it
+  for (const bool is_world_from_cam : {false, true}) {
+    const ProgramRun run =
+        ImportRig(AniposeText(is_world_from_cam), {"--json", "--check", (Footage() / "CALIB.toml").string()});
+    ASSERT_EQ(run.exit_status, 0) << run.err;
+    const auto json = nlohmann::json::parse(run.out);
+    EXPECT_EQ(json["format"], "anipose");
+    EXPECT_EQ(json["pose"], is_world_from_cam ? "world_from_cam" : "cam_from_world");
+    EXPECT_EQ(json["axes"], "opencv");
+    EXPECT_EQ(json["unit"], "cm");
+    EXPECT_LE(json["error_px"].get<double>(), 0.3);
+    EXPECT_EQ(json["tried"].size(), 4U);
+    EXPECT_EQ(json["warnings"].size(), is_world_from_cam ? 1U : 0U) << json["warnings"];
+    const recon::RigFile file = recon::ReadRigFile(Footage() / "rig.yml");
+    const std::vector<core::CameraCalibration> truth = TrueCameras();
+    ASSERT_EQ(file.rig.cameras.size(), truth.size());
+    for (std::size_t i = 0; i < truth.size(); ++i)
+      EXPECT_LE(
+          (file.rig.cameras[i].center_in_world() - truth[i].cam_from_world.Inverse().translation_mm).norm(),
+          kWorldMm);
+    ASSERT_TRUE(file.calibration.has_value());
+    EXPECT_EQ(file.calibration->covariance.size(), 0);
+  }
+}
+
+TEST(RigImportCommand, WithoutACheckItSaysSo) {
+  const ProgramRun run = ImportRig(AniposeText(false), {"--unit", "cm", "--up", "-y", "--json"});
+  ASSERT_EQ(run.exit_status, 0) << run.err;
+  const auto json = nlohmann::json::parse(run.out);
+  EXPECT_FALSE(json["checked"].get<bool>());
+  EXPECT_NE(json["warnings"].dump().find("nothing is checked"), std::string::npos);
+  const recon::RigFile file = recon::ReadRigFile(Footage() / "rig.yml");
+  EXPECT_FALSE(file.rig.workspace_mm.isEmpty());
+  // What was along -y in the file is along z now: the board's place in the file, seen by the first camera.
+  const core::RigidTransform file_from_cam =
+      (TrueCameras()[0].cam_from_world *
+       core::FromPositionAndRollPitchYaw({150.0, -80.0, 40.0}, {20.0, -35.0, 70.0}))
+          .Inverse();
+  EXPECT_NEAR(file.rig.cameras[0].center_in_world().z(), -file_from_cam.translation_mm.y(), 1e-3);
+}
+
+TEST(RigImportCommand, BadInputIsOneLineAndLeavesNoRig) {
+  const std::string check = (Footage() / "CALIB.toml").string();
+  const auto expect = [](const ProgramRun& run, std::string_view part) {
+    EXPECT_EQ(run.exit_status, 1) << part;
+    EXPECT_NE(run.err.find(part), std::string::npos) << run.err;
+    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+    EXPECT_FALSE(HasRig()) << part;
+  };
+  expect(ImportRig(AniposeText(false), {}), "don't say their unit");
+  expect(ImportRig("[cam_0]\nsize = 5\nmatrix = 1\n", {"--unit", "mm"}), "[cam_0]: key 'size'");
+  std::string exchanged = AniposeText(false);
+  exchanged.replace(exchanged.find("name = \"cam1\""), 13, "name = \"cam9\"");
+  expect(ImportRig(exchanged, {"--check", check}), "no camera 'cam1'");
+  exchanged.replace(exchanged.find("name = \"cam2\""), 13, "name = \"cam1\"");
+  exchanged.replace(exchanged.find("name = \"cam9\""), 13, "name = \"cam2\"");
+  expect(ImportRig(exchanged, {"--check", check}), "the board refutes the poses");
+  expect(ImportRig(AniposeText(true), {"--check", check, "--pose", "cam_from_world"}), "refutes");
+  EXPECT_EQ(ImportRig(AniposeText(false), {"--check", check, "--up", "y"}).exit_status, 2);
+}
+
 }  // namespace
 }  // namespace elbowroom

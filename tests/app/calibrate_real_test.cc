@@ -89,5 +89,63 @@ TEST_F(RealPictures, OfABoardOnTheFloorJoinFourCameras) {
   }
 }
 
+// Caliscope's own result of the webcams' session; its cameras have no offsets, so moving boards are off.
+TEST_F(RealPictures, AnImportedRigOfCaliscopeIsAsTheBoardHasIt) {
+  const auto run = test_support::RunProgram(
+      ELBOWROOM_PROGRAM, {"rig", "import", (kData / "calibration/webcams/camera_array.toml").string(),
+                          "--out", (folder_ / "rig.yml").string(), "--check",
+                          (kData / "calibration/webcams/CALIB_known.toml").string(), "--json"});
+  ASSERT_EQ(run.exit_status, 0) << run.err;
+  const auto json = nlohmann::json::parse(run.out);
+  EXPECT_EQ(json["format"], "caliscope");
+  EXPECT_EQ(json["pose"], "cam_from_world");
+  EXPECT_EQ(json["axes"], "opencv");
+  EXPECT_EQ(json["unit"], "m");
+  EXPECT_LE(json["error_px"].get<double>(), 1.5);
+  EXPECT_NEAR(json["scale_of_board"].get<double>(), 1.0, 0.01);
+  EXPECT_GE(json["tried"][1]["error_px"].get<double>(), 50.0);
+}
+
+// The rig that comes with the four cameras, as 3 x 4 matrices of the wrong sign, in metres.
+TEST_F(RealPictures, MatricesOfFourCamerasAreTheRigThatTheyAreOf) {
+  const recon::RigFile given = recon::ReadRigFile(kData / "four_cameras/rig.yml");
+  std::string matrices, cameras;
+  const std::filesystem::path footage = std::filesystem::absolute(kData / "four_cameras");
+  for (const core::CameraModel& camera : given.rig.cameras) {
+    Eigen::Matrix<double, 3, 4> p;
+    p << camera.cam_from_world().rotation, 1e-3 * camera.cam_from_world().translation_mm;
+    p = -2.5 * camera.calibration().camera_matrix * p;
+    matrices += camera.name() + "\n";
+    for (int row = 0; row < 3; ++row)
+      matrices +=
+          fmt::format("{:.17g} {:.17g} {:.17g} {:.17g}\n", p(row, 0), p(row, 1), p(row, 2), p(row, 3));
+    cameras += fmt::format(
+        "[[camera]]\nname = \"{0}\"\nframes = \"{1}/{0}/checkerboard.avi\"\nknown = "
+        "\"{1}/rig.yml\"\n",
+        camera.name(), footage.string());
+  }
+  test_support::WriteText(folder_ / "matrices.txt", matrices);
+  test_support::WriteText(
+      folder_ / "CALIB.toml",
+      "[board]\ntype = \"chessboard\"\ncolumns = 8\nrows = 6\nsquare_mm = 115.0\n" + cameras +
+          "[world]\nboard_frame = 0\nworkspace_mm = [-1500, -3000, 0, 3500, 2500, 2200]\n");
+  const auto run =
+      test_support::RunProgram(ELBOWROOM_PROGRAM, {"rig", "import", (folder_ / "matrices.txt").string(),
+                                                   "--out", (folder_ / "rig.yml").string(), "--check",
+                                                   (folder_ / "CALIB.toml").string(), "--json"});
+  ASSERT_EQ(run.exit_status, 0) << run.err;
+  const auto json = nlohmann::json::parse(run.out);
+  EXPECT_EQ(json["axes"], "opencv");
+  EXPECT_EQ(json["unit"], "m");
+  EXPECT_LE(json["error_px"].get<double>(),
+            2.1);  // the given rig's worst camera has 2.02 px on these corners
+  const recon::RigFile found = recon::ReadRigFile(folder_ / "rig.yml");
+  constexpr double kRoundingMm = 1e-6;
+  const auto apart = [](const core::Rig& rig, std::size_t i) {
+    return (rig.cameras[i].center_in_world() - rig.cameras[0].center_in_world()).norm();
+  };
+  for (std::size_t i = 1; i < 4; ++i) EXPECT_NEAR(apart(found.rig, i), apart(given.rig, i), kRoundingMm);
+}
+
 }  // namespace
 }  // namespace elbowroom

@@ -9,6 +9,7 @@
 
 #include "app/control/calibration/board_views.h"
 #include "app/control/calibration/calibration_advice.h"
+#include "app/control/calibration/foreign_files.h"
 #include "core/error.h"
 #include "core/system/utc_time.h"
 #include "recon/calibration/calibrate.h"
@@ -24,13 +25,19 @@ using KnownLenses = std::vector<std::optional<core::CameraCalibration>>;  // by 
 KnownLenses ReadKnownLenses(const CalibrationFile& file) {
   KnownLenses known(file.cameras.size());
   for (std::size_t i = 0; i < known.size(); ++i)
-    if (!file.cameras[i].known.empty()) known[i] = recon::ReadLensFile(file.cameras[i].known);
+    if (!file.cameras[i].known.empty()) known[i] = ReadLensFile(file.cameras[i].known, file.cameras[i].name);
   return known;
 }
 
-void RequireSizes(const CalibrationFile& file, const KnownLenses& known, const BoardFootage& footage) {
+// A lens whose file says no size is for the frames' size.
+void RequireSizes(const CalibrationFile& file, const BoardFootage& footage, KnownLenses* known_lenses) {
+  KnownLenses& known = *known_lenses;
   for (std::size_t i = 0; i < known.size(); ++i) {
     const CameraSightings& seen = footage.cameras[i];
+    if (known[i] && known[i]->image_width_px == 0) {
+      known[i]->image_width_px = seen.width_px;
+      known[i]->image_height_px = seen.height_px;
+    }
     if (!known[i] ||
         (known[i]->image_width_px == seen.width_px && known[i]->image_height_px == seen.height_px))
       continue;
@@ -136,9 +143,9 @@ std::vector<double> OffsetsOf(const recon::CalibrationResult& result) {
 CalibrationOutcome CalibrateRig(const CalibrationFile& file, const std::string& rig_name,
                                 const core::Progress& progress, const std::stop_token& stop) {
   CalibrationOutcome outcome;
-  const KnownLenses known = ReadKnownLenses(file);  // a wrong file is told before the long search
+  KnownLenses known = ReadKnownLenses(file);  // a wrong file is told before the long search
   outcome.footage = FindBoards(file, progress, stop);
-  RequireSizes(file, known, outcome.footage);
+  RequireSizes(file, outcome.footage, &known);
   const auto start = std::chrono::steady_clock::now();
   outcome.input = ViewsOf(file, outcome.footage, known);
   outcome.result = recon::Calibrate(outcome.input, progress, stop);
