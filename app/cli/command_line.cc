@@ -138,6 +138,7 @@ int RunCommandLine(int argc, char** argv, const OpenConsole& open_console) {
   AddContactsCommand(app, &choice);
   AddClearanceCommand(app, &choice);
   AddCalibrateCommand(app, &choice);
+  AddGaugeCommand(app, &choice);
   AddClashCommand(app, &choice);
   AddImportCommand(app, &choice);
   AddLayoutCommand(app, &choice);

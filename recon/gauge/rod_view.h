@@ -22,10 +22,12 @@ struct BoundaryLimits {
 
 // A crossing of the contour with a line between two neighbouring pixel centres.
 struct ContourPoint {
-  Eigen::Vector2d position;       // UndistortedPlane units
-  Eigen::Vector2d step_in_plane;  // how it moves if the crossing moves by a pixel along its line
-  Eigen::Vector2d along;          // unit: the contour's direction there, object to the left
-  bool is_at_border = false;      // of the picture: not where an object ends
+  Eigen::Vector2d position = Eigen::Vector2d::Zero();  // UndistortedPlane units
+  Eigen::Vector2d step_in_plane =
+      Eigen::Vector2d::UnitX();  // how it moves if the crossing moves by a pixel along its line
+  Eigen::Vector2d along =
+      Eigen::Vector2d::UnitX();  // unit: the contour's direction there, object to the left
+  bool is_at_border = false;     // of the picture: not where an object ends
 };
 
 // How far off a line a point of a straight edge may be: `px` pixels across it.

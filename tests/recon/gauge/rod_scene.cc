@@ -75,22 +75,33 @@ std::vector<Rod> TwentySevenRods(const core::Rig& rig, double share, double diam
   return rods;
 }
 
-std::vector<core::SoftMask> MasksOf(const core::Rig& rig, const std::vector<SyntheticObject>& objects,
-                                    Silhouettes silhouettes, std::uint64_t seed) {
+struct RodStage::Inside {
+  std::vector<SyntheticObject> objects;
+  std::unique_ptr<SyntheticRig> rig;
+  std::unique_ptr<FrameSegmenter> segmenter;  // null: ready masks
+};
+
+RodStage::RodStage(const core::Rig& rig, Silhouettes silhouettes) : inside_(std::make_unique<Inside>()) {
   SyntheticRigOptions options;
-  options.seed = seed;
   options.noise_sigma_levels = 0.02 * 255.0;
   options.samples_per_pixel_side = 8;
   options.background_frames = 10;
-  SyntheticRig source(
-      rig, [&](double) { return objects; }, options);
+  Inside* inside = inside_.get();
+  inside->rig = std::make_unique<SyntheticRig>(
+      rig, [inside](double) { return inside->objects; }, options);
+  if (silhouettes == Silhouettes::kSegmented)
+    inside->segmenter =
+        std::make_unique<FrameSegmenter>(inside->rig->ReadBackgrounds({}, {}), SegmentationOptions(), rig);
+}
+
+RodStage::~RodStage() = default;
+
+std::vector<core::SoftMask> RodStage::MasksOf(const std::vector<SyntheticObject>& objects) {
+  inside_->objects = objects;
+  if (inside_->segmenter) return inside_->segmenter->SegmentSoft(inside_->rig->TryRead(0, {}).value());
   std::vector<core::SoftMask> masks;
-  if (silhouettes == Silhouettes::kReady) {
-    for (core::BitMask& mask : source.TrueMasks(objects)) masks.push_back({std::move(mask), {}});
-    return masks;
-  }
-  const FrameSegmenter segmenter(source.ReadBackgrounds({}, {}), {}, rig);
-  return segmenter.SegmentSoft(source.TryRead(0, {}).value());
+  for (core::BitMask& mask : inside_->rig->TrueMasks(objects)) masks.push_back({std::move(mask), {}});
+  return masks;
 }
 
 core::Rig RingRig(int cameras) {
@@ -102,9 +113,9 @@ core::Rig RingRig(int cameras) {
     const double angle = 2.0 * std::numbers::pi * i / cameras;
     core::CameraCalibration camera;
     camera.name = "cam" + std::to_string(i + 1);
-    camera.image_width_px = 800;
-    camera.image_height_px = 600;
-    camera.camera_matrix << 900, 0, 399.5, 0, 900, 299.5, 0, 0, 1;
+    camera.image_width_px = 640;
+    camera.image_height_px = 480;
+    camera.camera_matrix << 720, 0, 319.5, 0, 720, 239.5, 0, 0, 1;
     camera.distortion_coefficients = {-0.08, 0.02, 0.0005, -0.0004, 0.0};
     const Vector3d eye =
         target + Vector3d(1200 * std::cos(angle), 1200 * std::sin(angle), i % 2 == 0 ? 700 : 150);

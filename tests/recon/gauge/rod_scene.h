@@ -2,7 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "core/rig.h"
@@ -32,11 +32,22 @@ struct Rod {
                                                double length_mm);
 
 enum class Silhouettes { kReady, kSegmented };
-// What the rig's cameras make of the scene: ready masks, or pictures with 2 % noise and pixels of mixed
-// colour, segmented.
-[[nodiscard]] std::vector<core::SoftMask> MasksOf(const core::Rig& rig,
-                                                  const std::vector<SyntheticObject>& objects,
-                                                  Silhouettes silhouettes, std::uint64_t seed = 1);
+
+// A rig before which objects are put: gives what its cameras make of them, ready masks, or pictures with 2 %
+// noise and pixels of mixed colour, segmented.
+class RodStage {
+ public:
+  RodStage(const core::Rig& rig, Silhouettes silhouettes);
+  ~RodStage();
+  RodStage(const RodStage&) = delete;
+  RodStage& operator=(const RodStage&) = delete;
+
+  [[nodiscard]] std::vector<core::SoftMask> MasksOf(const std::vector<SyntheticObject>& objects);
+
+ private:
+  struct Inside;
+  std::unique_ptr<Inside> inside_;
+};
 
 // Cameras 1200 mm around the place, evenly, looking at it from above and from the side in turn.
 [[nodiscard]] core::Rig RingRig(int cameras);
