@@ -3,12 +3,15 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <utility>
+#include <vector>
 
 #include "recon/gauge/rod_ends.h"
+#include "recon/gauge/width_range.h"
 
 namespace elbowroom::recon {
 namespace {
@@ -37,6 +40,59 @@ MatrixXd BowRows(const FittedRod& rod) {
     rows.row(row) /= rod.limits_mm[i];
   }
   return rows;
+}
+
+// The bows across the axis that all ready masks allow: a strip of the plane for each camera.
+struct BowStrip {
+  Vector2d normal;  // the camera's sideways direction, in terms of across_in_world
+  double low_mm;
+  double high_mm;
+
+  [[nodiscard]] bool Holds(const Vector2d& bow_mm) const {
+    constexpr double kRoundingMm = 1e-6;
+    const double along = normal.dot(bow_mm);
+    return along >= low_mm - kRoundingMm && along <= high_mm + kRoundingMm;
+  }
+};
+
+std::vector<BowStrip> BowStrips(const FittedRod& rod) {
+  std::vector<BowStrip> strips;
+  const double half_mm = 0.5 * (rod.to_mm - rod.from_mm), middle_mm = 0.5 * (rod.to_mm + rod.from_mm);
+  for (const int camera : rod.cameras) {
+    std::vector<SidePoint> points;
+    Vector3d sideways = Vector3d::Zero();
+    for (const std::size_t i : rod.SightsOf(camera)) {
+      const Touch& touch = rod.fit.touches[i];
+      points.push_back({rod.sights[i].side, touch.along_mm - middle_mm, touch.error_mm, rod.limits_mm[i]});
+      sideways -= rod.sights[i].side * touch.inward_in_world;
+    }
+    const auto ones = std::ranges::count(points, 1, &SidePoint::side);
+    if (ones < 2 || std::ssize(points) - ones < 2) continue;
+    const BowRange range = BowsWithin(points, half_mm);
+    const Vector2d normal(sideways.dot(rod.fit.across_in_world[0]), sideways.dot(rod.fit.across_in_world[1]));
+    strips.push_back({normal.normalized(), range.low_mm, range.high_mm});
+  }
+  return strips;
+}
+
+// The distance from a bow to the farthest that all strips allow; nothing where they allow none, or any.
+std::optional<double> FarthestMm(const std::vector<BowStrip>& strips, const Vector2d& from_mm) {
+  std::optional<double> farthest_mm;
+  for (std::size_t a = 0; a < strips.size(); ++a) {
+    for (std::size_t b = a + 1; b < strips.size(); ++b) {
+      Eigen::Matrix2d normals;
+      normals << strips[a].normal.transpose(), strips[b].normal.transpose();
+      if (std::abs(normals.determinant()) < 1e-6) continue;
+      for (const double one : {strips[a].low_mm, strips[a].high_mm}) {
+        for (const double other : {strips[b].low_mm, strips[b].high_mm}) {
+          const Vector2d corner = normals.inverse() * Vector2d(one, other);
+          if (std::ranges::all_of(strips, [&](const BowStrip& strip) { return strip.Holds(corner); }))
+            farthest_mm = std::max(farthest_mm.value_or(0.0), (corner - from_mm).norm());
+        }
+      }
+    }
+  }
+  return farthest_mm;
 }
 
 // An end by one camera: where it is along the axis, and what makes it wrong.
@@ -109,6 +165,10 @@ std::optional<BoundedMm> StraightnessOf(const FittedRod& rod, const ErrorBudget&
   BoundedMm straightness{bow_mm.norm(), {}};
   straightness.bound.silhouettes_mm =
       Vector2d(budget.WorstMm(weights.col(0)), budget.WorstMm(weights.col(1))).norm();
+  if (std::ranges::all_of(rod.sights, [](const TangentSight& sight) { return sight.view->is_ready; })) {
+    if (const std::optional<double> farthest_mm = FarthestMm(BowStrips(rod), bow_mm))
+      straightness.bound.silhouettes_mm = *farthest_mm;
+  }
   straightness.bound.calibration_mm = Vector2d(budget.CalibrationMm(budget.ByParameters(weights.col(0))),
                                                budget.CalibrationMm(budget.ByParameters(weights.col(1))))
                                           .norm();
@@ -120,6 +180,7 @@ std::optional<BoundedMm> LengthOf(const FittedRod& rod, std::span<const RodView>
                                   const BoundaryLimits& limits) {
   std::optional<MeasuredEnd> ends[2];  // at the negative and the positive side
   for (const RodStrip& strip : strips) {
+    if (std::ranges::count(rod.cameras, strip.camera) == 0) continue;
     const RodView& view = views[static_cast<std::size_t>(strip.camera)];
     for (const bool is_forward : {false, true}) {
       const auto tip = FreeEnd(view, strip.strip, is_forward);

@@ -56,26 +56,45 @@ void Refit(const BoundaryLimits& limits, FittedRod* rod) {
   }
 }
 
-// Near an end the silhouette follows the end's rim, which leaves the side so gently that it can't be told
-// from it. The sides themselves end where a half ball's would, or farther out.
-void CutEnds(const RodView& view, const RodStrip& strip, FittedRod* rod) {
-  constexpr double kMarginPx = 1.5;
-  const Cylinder cylinder = rod->fit.cylinder;
-  for (const bool is_forward : {false, true}) {
-    const std::optional<SeenEnd> end = FreeEnd(view, strip.strip, is_forward);
-    if (!end) continue;
-    const double tip_mm = AlongAxis(cylinder, view, end->position);
-    const double outward = tip_mm > AlongAxis(cylinder, view, strip.strip.middle) ? 1.0 : -1.0;
-    const Vector3d sight = view.SightInWorld(end->position);
-    const double sine = std::max(sight.cross(cylinder.axis_in_world).norm(), 1e-3);
-    const Vector3d tip = cylinder.point_in_world + tip_mm * cylinder.axis_in_world;
-    const double px_mm = (tip - view.camera().center_in_world()).norm() / view.plane->focal_px() * end->step;
-    const double most_mm = outward * tip_mm - (cylinder.radius_mm + kMarginPx * px_mm) / sine;
-    std::erase_if(rod->sights, [&](const TangentSight& sight_of_side) {
-      return sight_of_side.camera == strip.camera &&
-             outward * TouchOf(cylinder, sight_of_side).along_mm > most_mm;
-    });
+// How far the sides of a rod may be used towards one of its ends, along the axis times `outward`. Near a free
+// end the silhouette follows the end's rim, which leaves the side so gently that it can't be told from it;
+// the sides themselves end where a half ball's would, or farther out. At an end that is held, fingers may lie
+// along the side: a diameter of it isn't used.
+double MostAlong(const RodView& view, const RodStrip& strip, bool is_forward, double outward,
+                 const FittedRod& rod) {
+  constexpr double kMarginPx = 1.5, kHeldPx = 3.0;
+  const Cylinder& cylinder = rod.fit.cylinder;
+  const std::optional<SeenEnd> end = FreeEnd(view, strip.strip, is_forward);
+  const Eigen::Vector2d at =
+      end ? end->position
+          : strip.strip.middle + (is_forward ? strip.strip.to : strip.strip.from) * strip.strip.along;
+  double tip_mm = outward * AlongAxis(cylinder, view, at);
+  if (!end) {
+    for (const std::size_t i : rod.SightsOf(strip.camera))
+      tip_mm = std::max(tip_mm, outward * TouchOf(cylinder, rod.sights[i]).along_mm);
   }
+  const Vector3d sight = view.SightInWorld(at);
+  const double sine = std::max(sight.cross(cylinder.axis_in_world).norm(), 1e-3);
+  const Vector3d tip = cylinder.point_in_world + outward * tip_mm * cylinder.axis_in_world;
+  const double px_mm =
+      (tip - view.camera().center_in_world()).norm() / view.plane->focal_px() * (end ? end->step : 1.0);
+  const double margin_mm =
+      end ? cylinder.radius_mm + kMarginPx * px_mm : 2.0 * cylinder.radius_mm + kHeldPx * px_mm;
+  return tip_mm - margin_mm / sine;
+}
+
+void CutEnds(const RodView& view, const RodStrip& strip, FittedRod* rod) {
+  const Cylinder& cylinder = rod->fit.cylinder;
+  const double middle_mm = AlongAxis(cylinder, view, strip.strip.middle);
+  const double forward =
+      AlongAxis(cylinder, view, strip.strip.middle + strip.strip.along) > middle_mm ? 1.0 : -1.0;
+  const double most_mm[2] = {MostAlong(view, strip, false, -forward, *rod),
+                             MostAlong(view, strip, true, forward, *rod)};
+  std::erase_if(rod->sights, [&](const TangentSight& sight) {
+    if (sight.camera != strip.camera) return false;
+    const double along_mm = forward * TouchOf(cylinder, sight).along_mm;
+    return along_mm > most_mm[1] || -along_mm > most_mm[0];
+  });
 }
 
 }  // namespace

@@ -112,8 +112,9 @@ std::optional<CameraWidth> WidthIn(const FittedRod& rod, int camera, const Error
 
 CombinedWidth Combined(std::span<const CameraWidth> widths) {
   CombinedWidth combined;
-  double low_mm = -std::numeric_limits<double>::infinity(), high_mm = -low_mm;
-  double sum = 0.0, mean_mm = 0.0, half_mm = 0.0;
+  double low_mm = -std::numeric_limits<double>::infinity();
+  double high_mm = -low_mm;
+  double sum = 0.0, mean_mm = 0.0, half_mm = 0.0, narrowest_mm = high_mm;
   GaugeBound share;  // of a bound, by source
   for (const CameraWidth& width : widths) {
     const double value_mm = width.diameter.value_mm, total_mm = width.diameter.bound.total_mm();
@@ -124,6 +125,7 @@ CombinedWidth Combined(std::span<const CameraWidth> widths) {
     share.calibration_mm += weight * width.diameter.bound.calibration_mm;
     mean_mm += weight * value_mm;
     half_mm += weight * total_mm;
+    narrowest_mm = std::min(narrowest_mm, total_mm);
     low_mm = std::max(low_mm, value_mm - total_mm);
     high_mm = std::min(high_mm, value_mm + total_mm);
   }
@@ -132,7 +134,10 @@ CombinedWidth Combined(std::span<const CameraWidth> widths) {
   combined.agree = low_mm <= high_mm;
   const bool is_hard = std::ranges::all_of(widths, &CameraWidth::is_hard);
   combined.diameter.value_mm = is_hard && combined.agree ? 0.5 * (low_mm + high_mm) : mean_mm;
-  const double bound_mm = is_hard && combined.agree ? 0.5 * (high_mm - low_mm) : half_mm;
+  // Ranges that barely overlap are more often a sign of a crossing that isn't the rod's than good luck.
+  constexpr double kLeastShare = 0.5;
+  const double bound_mm =
+      is_hard && combined.agree ? std::max(0.5 * (high_mm - low_mm), kLeastShare * narrowest_mm) : half_mm;
   const double scale = bound_mm / (share.silhouettes_mm + share.distance_mm + share.calibration_mm);
   combined.diameter.bound = {scale * share.silhouettes_mm, scale * share.distance_mm,
                              scale * share.calibration_mm};

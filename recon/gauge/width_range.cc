@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "core/error.h"
 
@@ -44,7 +45,7 @@ double GapAt(std::span<const SidePoint> points, double turn) {
 // Of a convex function.
 template <typename Function>
 double LeastOf(double from, double to, const Function& value) {
-  constexpr int kSteps = 60;  // 0.618^60 = 3e-13
+  constexpr int kSteps = 45;  // 0.618^45 = 4e-10
   constexpr double kGolden = 0.6180339887498949;
   double a = to - kGolden * (to - from), b = from + kGolden * (to - from);
   double at_a = value(a), at_b = value(b);
@@ -69,7 +70,7 @@ double LeastOf(double from, double to, const Function& value) {
 // Where a convex function that is at most 0 at `inside` comes to 0 on the way to `outside`.
 template <typename Function>
 double ZeroBetween(double inside, double outside, const Function& value) {
-  constexpr int kSteps = 60;
+  constexpr int kSteps = 35;  // 2^-35 = 3e-11
   for (int i = 0; i < kSteps; ++i) {
     const double middle = 0.5 * (inside + outside);
     (value(middle) <= 0.0 ? inside : outside) = middle;
@@ -93,11 +94,23 @@ double LargestTurn(std::span<const SidePoint> points) {
   return longest_mm > 0.0 ? 4.0 * most_mm / longest_mm : 0.0;
 }
 
+void RequireBothSides(std::span<const SidePoint> points) {
+  const auto ones = std::ranges::count(points, 1, &SidePoint::side);
+  core::Require(ones >= 2 && std::ssize(points) - ones >= 2, "each side of a rod has two points or more");
+}
+
+// The gap of the best turn, for points that are straightened by a bow.
+double LeastGap(std::vector<SidePoint> points, double half_mm, double bow_mm) {
+  for (SidePoint& point : points)
+    point.error_mm -= point.side * bow_mm * std::pow(point.along_mm / half_mm, 2);
+  const double most_turn = LargestTurn(points);
+  return GapAt(points, LeastOf(-most_turn, most_turn, [&](double turn) { return GapAt(points, turn); }));
+}
+
 }  // namespace
 
 RadiusRange RadiiWithin(std::span<const SidePoint> points) {
-  const auto ones = std::ranges::count(points, 1, &SidePoint::side);
-  core::Require(ones >= 2 && std::ssize(points) - ones >= 2, "each side of a rod has two points or more");
+  RequireBothSides(points);
   const double most_turn = LargestTurn(points);
   const double best = LeastOf(-most_turn, most_turn, [&](double turn) { return GapAt(points, turn); });
   RadiusRange range;
@@ -117,6 +130,24 @@ RadiusRange RadiiWithin(std::span<const SidePoint> points) {
   range.high_mm = most_at(LeastOf(from, to, [&](double turn) { return -most_at(turn); }));
   range.low_mm = least_at(LeastOf(from, to, least_at));
   return range;
+}
+
+BowRange BowsWithin(std::span<const SidePoint> points, double half_mm) {
+  RequireBothSides(points);
+  core::Require(half_mm > 0.0, "a rod has a length");
+  const std::vector<SidePoint> all(points.begin(), points.end());
+  double most_mm = 0.0, reach_mm = 0.0;
+  for (const SidePoint& point : points) {
+    most_mm = std::max(most_mm, std::abs(point.error_mm) + point.limit_mm);
+    reach_mm = std::max(reach_mm, std::abs(point.along_mm));
+  }
+  // A bow that is more than this over the points' reach can't be made up for by shift and turn.
+  const double most_bow_mm = 16.0 * most_mm * std::pow(half_mm / std::max(reach_mm, 1e-9), 2);
+  const auto gap_at = [&](double bow_mm) { return LeastGap(all, half_mm, bow_mm); };
+  const double best_mm = LeastOf(-most_bow_mm, most_bow_mm, gap_at);
+  const double raised_mm = std::max(0.0, gap_at(best_mm));
+  const auto excess_at = [&](double bow_mm) { return gap_at(bow_mm) - 2.0 * raised_mm; };
+  return {ZeroBetween(best_mm, -most_bow_mm, excess_at), ZeroBetween(best_mm, most_bow_mm, excess_at)};
 }
 
 }  // namespace elbowroom::recon

@@ -1,4 +1,4 @@
-// The radii that one camera's ready mask allows.
+// The radii, and the bows, that one camera's ready mask allows.
 #pragma once
 
 #include <span>
@@ -25,5 +25,14 @@ struct RadiusRange {
 // rod is, the limits are first raised to those of the rod that fits best, and once more by as much. Throws:
 // PreconditionError when a side has fewer than two points.
 [[nodiscard]] RadiusRange RadiiWithin(std::span<const SidePoint> points);
+
+struct BowRange {
+  double low_mm = 0.0;
+  double high_mm = 0.0;
+};
+
+// The same for the bow b of a rod whose sides are off by side * b * (along / half)^2, besides shift, turn and
+// radius, where `half_mm` > 0. Throws: as RadiiWithin.
+[[nodiscard]] BowRange BowsWithin(std::span<const SidePoint> points, double half_mm);
 
 }  // namespace elbowroom::recon

@@ -160,13 +160,15 @@ TEST(GaugeRod, NoticesATurnedCamera) {
   for (const Case& c : {Case{"paper rig", PaperRig(), 300.0}, Case{"four cameras", FourCameraRig(), 200.0}}) {
     RodStage stage(c.rig, Silhouettes::kReady);
     for (const double angle_deg : {0.1, 0.25, 0.5, 1.0}) {
-      for (const auto& [name, about] : {std::pair{"across", Vector3d(0.2, 0.1, 1.0)},
-                                        std::pair{"up and down", Vector3d(0.7, 0.7, 0.1)}}) {
+      const Eigen::Matrix3d& axes = c.rig.cameras[1].cam_from_world().rotation;
+      for (const auto& [name, axis] :
+           {std::pair{"sideways", 1}, std::pair{"up", 0}, std::pair{"about its sight", 2}}) {
+        const Vector3d about = axes.row(axis).transpose();
         const core::Rig turned = testing::WithTurnedCamera(c.rig, 1, angle_deg, about);
         const int places = PlacesThatDisagree(&stage, c.rig, turned, 10.0, c.length_mm);
         std::printf("%s, camera '%s' turned by %.2f deg %s: noticed at %d of 27 places\n", c.title,
                     c.rig.cameras[1].name().c_str(), angle_deg, name, places);
-        if (angle_deg >= 0.5) {
+        if (angle_deg >= 0.5 && axis != 2) {
           EXPECT_GE(places, 20) << c.title << angle_deg << name;
         }
       }
@@ -245,6 +247,11 @@ TEST(GaugeRod, MeasuresARodInAHand) {
           << result.rod->diameter.bound.total_mm();
       EXPECT_TRUE(result.rod->CamerasAgree());
       EXPECT_TRUE(result.rod->widths_agree);
+      if (!result.rod->widths_agree)
+        for (const CameraOfGauge& camera : result.rod->cameras)
+          if (camera.diameter)
+            std::printf("   %s %.3f +- %.3f excess %.2f px\n", camera.name.c_str(), camera.diameter->value_mm,
+                        camera.diameter->bound.total_mm(), camera.excess_px);
       EXPECT_FALSE(result.rod->length) << "an end is in the hand";
       EXPECT_GT(std::abs(result.rod->direction_in_world.dot(rod.direction_in_world)), 0.999);
     }
@@ -321,7 +328,7 @@ TEST(GaugeRod, MeasuresHowFarARodIsBowed) {
     const double seen = std::pow(found.seen_mm / rod.length_mm, 2);
     EXPECT_NEAR(found.straightness->value_mm, bow_mm * seen, found.straightness->bound.total_mm()) << bow_mm;
     EXPECT_NEAR(found.straightness->value_mm, bow_mm * seen, 0.1 + 0.1 * bow_mm) << bow_mm;
-    EXPECT_EQ(found.straightness->value_mm > found.straightness->bound.total_mm(), bow_mm > 2.0) << bow_mm;
+    EXPECT_EQ(found.straightness->value_mm > found.straightness->bound.total_mm(), bow_mm > 0.5) << bow_mm;
   }
 }
 
