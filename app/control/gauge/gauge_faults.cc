@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace elbowroom::control {
@@ -34,10 +35,23 @@ void AddCamera(const CameraOfGauge& camera, std::vector<std::string>* faults) {
     case RodSight::kBlind:
       break;
   }
-  if (camera.offset && std::abs(camera.offset->value_mm) > camera.offset->bound.total_mm())
-    faults->push_back(fmt::format(
-        "camera '{}' sees the rod {:.2f} mm beside where the others see it, beyond the bound of {:.2f} mm",
-        camera.name, std::abs(camera.offset->value_mm), camera.offset->bound.total_mm()));
+}
+
+double ShareOfBound(const CameraOfGauge& camera) {
+  const bool has_bound = camera.sight == RodSight::kMeasured && camera.offset;
+  return has_bound ? std::abs(camera.offset->value_mm) / camera.offset->bound.total_mm() : 0.0;
+}
+
+// One line for all cameras that measure the rod and disagree: a wrong one moves the others' axis, too.
+void AddOffsets(const std::vector<CameraOfGauge>& cameras, std::vector<std::string>* faults) {
+  const auto worst = std::ranges::max_element(cameras, {}, ShareOfBound);
+  if (ShareOfBound(*worst) <= 1.0) return;
+  std::string line = fmt::format(
+      "camera '{}' sees the rod {:.2f} mm beside where the others see it, beyond the bound of {:.2f} mm",
+      worst->name, std::abs(worst->offset->value_mm), worst->offset->bound.total_mm());
+  const auto measured = std::ranges::count(cameras, RodSight::kMeasured, &CameraOfGauge::sight);
+  if (measured == 3) line += "; with three cameras it can't be told which one is wrong";
+  faults->push_back(line);
 }
 
 std::string WidthsOf(const std::vector<CameraOfGauge>& cameras) {
@@ -60,6 +74,7 @@ std::vector<std::string> FaultsOf(const GaugePlace& place, const TrueRod& truth)
   if (!rod.widths_agree)
     faults.push_back("the cameras' widths of the rod have no diameter in common: " + WidthsOf(rod.cameras));
   for (const CameraOfGauge& camera : rod.cameras) AddCamera(camera, &faults);
+  AddOffsets(rod.cameras, &faults);
   if (rod.straightness && rod.straightness->value_mm > rod.straightness->bound.total_mm())
     faults.push_back(fmt::format("the rod is bowed by {:.2f} mm, beyond the bound of {:.2f} mm",
                                  rod.straightness->value_mm, rod.straightness->bound.total_mm()));

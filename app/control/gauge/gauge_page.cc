@@ -57,6 +57,12 @@ std::vector<std::string> FaultLines(const GaugeOutcome& outcome) {
   for (const GaugePlace& place : outcome.places)
     for (const std::string& fault : place.faults)
       lines.push_back(fmt::format("frame {}: {}", place.frame, fault));
+  constexpr std::size_t kMostLines = 40;
+  if (lines.size() > kMostLines) {
+    const std::size_t more = lines.size() - kMostLines;
+    lines.resize(kMostLines);
+    lines.push_back(fmt::format("and {} more", more));
+  }
   return lines;
 }
 
@@ -71,7 +77,7 @@ std::string PlaceTable(const GaugeOutcome& outcome) {
                    {"at, mm", true},
                    {"diameter, mm", true},
                    {"error, mm", true},
-                   {"of the bound: silhouettes", true},
+                   {"bound: silhouettes", true},
                    {"distance", true},
                    {"calibration", true},
                    {"bow, mm", true},
@@ -80,7 +86,8 @@ std::string PlaceTable(const GaugeOutcome& outcome) {
   for (const GaugePlace& place : outcome.places) {
     const recon::GaugeBound& bound = place.rod.diameter.bound;
     const Eigen::Vector3d& at = place.rod.position_in_world;
-    table.Add({fmt::format("{}", place.frame), fmt::format("{:.0f}, {:.0f}, {:.0f}", at.x(), at.y(), at.z()),
+    table.Add({fmt::format("{}", place.frame),
+               fmt::format("{}, {}, {}", std::lround(at.x()), std::lround(at.y()), std::lround(at.z())),
                OrDash(place.rod.diameter, 3), fmt::format("{:+.3f}", place.error_mm),
                fmt::format("{:.3f}", bound.silhouettes_mm), fmt::format("{:.3f}", bound.distance_mm),
                fmt::format("{:.3f}", bound.calibration_mm), OrDash(place.rod.straightness, 2),
@@ -93,10 +100,11 @@ std::string CameraTable(const GaugeOutcome& outcome) {
   HtmlTable table({{"camera"},
                    {"places measured", true},
                    {"largest error alone, mm", true},
-                   {"beside the others at most, mm", true}});
+                   {"beside the others &plusmn; bound, where worst, mm", true}});
   for (std::size_t c = 0; c < outcome.places.front().rod.cameras.size(); ++c) {
     int measured = 0;
-    double error_mm = 0.0, offset_mm = 0.0;
+    double error_mm = 0.0, share = 0.0;
+    std::optional<recon::BoundedMm> offset;
     for (const GaugePlace& place : outcome.places) {
       const recon::CameraOfGauge& camera = place.rod.cameras[c];
       if (camera.diameter) {
@@ -104,10 +112,13 @@ std::string CameraTable(const GaugeOutcome& outcome) {
         const double own_mm = camera.diameter->value_mm - outcome.truth.diameter_mm;
         if (std::abs(own_mm) > std::abs(error_mm)) error_mm = own_mm;
       }
-      if (camera.offset) offset_mm = std::max(offset_mm, std::abs(camera.offset->value_mm));
+      if (!camera.offset || camera.sight != recon::RodSight::kMeasured) continue;
+      const double of_bound = std::abs(camera.offset->value_mm) / camera.offset->bound.total_mm();
+      if (of_bound > share) offset = camera.offset;
+      share = std::max(share, of_bound);
     }
     table.Add({Escaped(outcome.places.front().rod.cameras[c].name), fmt::format("{}", measured),
-               fmt::format("{:+.3f}", error_mm), fmt::format("{:.2f}", offset_mm)});
+               fmt::format("{:+.3f}", error_mm), OrDash(offset, 2)});
   }
   return "<section><h2>Cameras</h2><div class='scroll'>" + table.Html() + "</div></section>\n";
 }
@@ -118,10 +129,10 @@ std::filesystem::path WriteGaugePage(const core::Rig& rig, const GaugeOutcome& o
                                      const std::filesystem::path& folder) {
   const std::string page = sessions::HtmlPage(
       Escaped(rig.name),
-      Header(rig, outcome) + Verdict(outcome) + Listed("What is wrong", FaultLines(outcome)) +
-          Listed("Warnings", outcome.warnings) + "<section><h2>Where the rod was</h2>" +
-          PlacesPicture(rig, outcome) + "</section>\n<section><h2>Error of the diameter</h2>" +
-          ErrorsPicture(outcome) + "</section>\n" + CameraTable(outcome) + PlaceTable(outcome));
+      Header(rig, outcome) + Verdict(outcome) + "<section><h2>Where the rod was</h2>" +
+          PlacesPicture(rig, outcome) + "</section>\n<section><h2>Error of the diameter, mm</h2>" +
+          ErrorsPicture(outcome) + "</section>\n" + Listed("What is wrong", FaultLines(outcome)) +
+          Listed("Warnings", outcome.warnings) + CameraTable(outcome) + PlaceTable(outcome));
   sessions::WriteWholeFiles(folder, {{"gauge.html", page}});
   return folder / "gauge.html";
 }
