@@ -7,7 +7,7 @@
 #include <cstddef>
 
 #include "core/error.h"
-#include "recon/gauge/error_budget.h"
+#include "recon/gauge/rod_errors.h"
 #include "recon/gauge/rod_search.h"
 #include "recon/gauge/rod_shape.h"
 #include "recon/gauge/rod_sights.h"
@@ -61,7 +61,7 @@ class Measurement {
         found_(found),
         rod_(rod),
         limits_(limits),
-        budget_(rig, covariance, rod.sights, rod.fit.touches, rod.limits_mm) {}
+        errors_(rig, covariance, rod.sights, rod.fit.touches, rod.limits_mm) {}
 
   [[nodiscard]] std::optional<RodMeasurement> Make() const {
     RodMeasurement result;
@@ -78,8 +78,8 @@ class Measurement {
     result.direction_in_world.cwiseAbs().maxCoeff(&largest);
     if (result.direction_in_world[largest] < 0.0) result.direction_in_world *= -1.0;
     result.seen_mm = rod_.to_mm - rod_.from_mm;
-    result.straightness = StraightnessOf(rod_, budget_);
-    result.length = LengthOf(rod_, views_, found_.agreeing, budget_, limits_);
+    result.straightness = StraightnessOf(rod_, errors_);
+    result.length = LengthOf(rod_, views_, found_.agreeing, errors_, limits_);
     return result;
   }
 
@@ -95,11 +95,11 @@ class Measurement {
     camera.name = rig_.cameras[at].name();
     camera.distance_mm = (Middle() - rig_.cameras[at].center_in_world()).norm();
     if (std::ranges::count(rod_.cameras, number) > 0) {
-      if (const auto width = WidthIn(rod_, number, budget_, limits_)) {
+      if (const auto width = WidthIn(rod_, number, errors_, limits_)) {
         camera.sight = RodSight::kMeasured;
         camera.diameter = width->diameter;
         camera.excess_px = width->excess_px;
-        if (rod_.cameras.size() > 2) camera.offset = OffsetOf(rod_, number, budget_);
+        if (rod_.cameras.size() > 2) camera.offset = OffsetOf(rod_, number, errors_);
         widths->push_back(*width);
       }
       return camera;
@@ -120,7 +120,7 @@ class Measurement {
   const FoundRod& found_;
   const FittedRod& rod_;
   BoundaryLimits limits_;
-  ErrorBudget budget_;
+  RodErrors errors_;
 };
 
 }  // namespace

@@ -106,7 +106,7 @@ struct MeasuredEnd {
 };
 
 MeasuredEnd Measure(const FittedRod& rod, int camera, const RodView& view, const SeenEnd& end,
-                    const ErrorBudget& budget, const BoundaryLimits& limits) {
+                    const RodErrors& errors, const BoundaryLimits& limits) {
   const Cylinder& cylinder = rod.fit.cylinder;
   const Vector3d sight = view.SightInWorld(end.position);
   const double along_mm = AlongAxis(cylinder, view, end.position);
@@ -134,20 +134,20 @@ MeasuredEnd Measure(const FittedRod& rod, int camera, const RodView& view, const
   }
   const auto gain = AxisGain(rod.fit, rod.limits_mm, std::vector<bool>(rod.sights.size(), true));
   const VectorXd weights = cosine / sine * (by_axis * gain).transpose();
-  measured.distance_mm = budget.WorstMm(weights);
+  measured.distance_mm = errors.WorstMm(weights);
   TangentSight tip = rod.sights[rod.SightsOf(camera).front()];
   tip.sight_in_world = sight;
   Touch touch;
   touch.inward_in_world = (cylinder.axis_in_world - cosine * sight) / sine;
   touch.distance_mm = (end_in_world - tip.eye_in_world).dot(sight);
   measured.by_parameters =
-      budget.ByParameters(weights) - budget.OfCamera(camera, ErrorByParameters(touch, tip) / sine);
+      errors.ByParameters(weights) - errors.OfCamera(camera, ErrorByParameters(touch, tip) / sine);
   return measured;
 }
 
 }  // namespace
 
-std::optional<BoundedMm> StraightnessOf(const FittedRod& rod, const ErrorBudget& budget) {
+std::optional<BoundedMm> StraightnessOf(const FittedRod& rod, const RodErrors& errors) {
   constexpr double kLeastRatio = 1e-7;
   const MatrixXd rows = BowRows(rod);
   const MatrixXd normal = rows.transpose() * rows;
@@ -164,19 +164,19 @@ std::optional<BoundedMm> StraightnessOf(const FittedRod& rod, const ErrorBudget&
   const Vector2d bow_mm = weights.transpose() * errors_mm;
   BoundedMm straightness{bow_mm.norm(), {}};
   straightness.bound.silhouettes_mm =
-      Vector2d(budget.WorstMm(weights.col(0)), budget.WorstMm(weights.col(1))).norm();
+      Vector2d(errors.WorstMm(weights.col(0)), errors.WorstMm(weights.col(1))).norm();
   if (std::ranges::all_of(rod.sights, [](const TangentSight& sight) { return sight.view->is_ready; })) {
     if (const std::optional<double> farthest_mm = FarthestMm(BowStrips(rod), bow_mm))
       straightness.bound.silhouettes_mm = *farthest_mm;
   }
-  straightness.bound.calibration_mm = Vector2d(budget.CalibrationMm(budget.ByParameters(weights.col(0))),
-                                               budget.CalibrationMm(budget.ByParameters(weights.col(1))))
+  straightness.bound.calibration_mm = Vector2d(errors.CalibrationMm(errors.ByParameters(weights.col(0))),
+                                               errors.CalibrationMm(errors.ByParameters(weights.col(1))))
                                           .norm();
   return straightness;
 }
 
 std::optional<BoundedMm> LengthOf(const FittedRod& rod, std::span<const RodView> views,
-                                  std::span<const RodStrip> strips, const ErrorBudget& budget,
+                                  std::span<const RodStrip> strips, const RodErrors& errors,
                                   const BoundaryLimits& limits) {
   std::optional<MeasuredEnd> ends[2];  // at the negative and the positive side
   for (const RodStrip& strip : strips) {
@@ -185,7 +185,7 @@ std::optional<BoundedMm> LengthOf(const FittedRod& rod, std::span<const RodView>
     for (const bool is_forward : {false, true}) {
       const auto tip = FreeEnd(view, strip.strip, is_forward);
       if (!tip) continue;
-      MeasuredEnd end = Measure(rod, strip.camera, view, *tip, budget, limits);
+      MeasuredEnd end = Measure(rod, strip.camera, view, *tip, errors, limits);
       auto& best = ends[end.along_mm > 0.0 ? 1 : 0];
       if (!best || end.bound_mm() < best->bound_mm()) best = std::move(end);
     }
@@ -194,7 +194,7 @@ std::optional<BoundedMm> LengthOf(const FittedRod& rod, std::span<const RodView>
   BoundedMm length{ends[1]->along_mm - ends[0]->along_mm, {}};
   length.bound.silhouettes_mm = ends[0]->silhouettes_mm + ends[1]->silhouettes_mm;
   length.bound.distance_mm = ends[0]->distance_mm + ends[1]->distance_mm;
-  length.bound.calibration_mm = budget.CalibrationMm(ends[1]->by_parameters - ends[0]->by_parameters);
+  length.bound.calibration_mm = errors.CalibrationMm(ends[1]->by_parameters - ends[0]->by_parameters);
   return length;
 }
 

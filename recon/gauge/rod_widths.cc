@@ -83,7 +83,7 @@ double MeanMmPerPx(const FittedRod& rod, const std::vector<std::size_t>& of_came
 
 }  // namespace
 
-std::optional<CameraWidth> WidthIn(const FittedRod& rod, int camera, const ErrorBudget& budget,
+std::optional<CameraWidth> WidthIn(const FittedRod& rod, int camera, const RodErrors& errors,
                                    const BoundaryLimits& limits) {
   const std::vector<std::size_t> of_camera = rod.SightsOf(camera);
   const std::vector<SidePoint> points = SidePoints(rod, of_camera);
@@ -105,8 +105,8 @@ std::optional<CameraWidth> WidthIn(const FittedRod& rod, int camera, const Error
   if (gain.size() > 0) by_axis = (ByAxis(rod, weights) * gain).transpose();
   width.diameter.value_mm = 2.0 * (rod.fit.cylinder.radius_mm + correction_mm);
   width.diameter.bound.silhouettes_mm = 2.0 * silhouettes_mm;
-  width.diameter.bound.distance_mm = 2.0 * budget.WorstMm(by_axis);
-  width.diameter.bound.calibration_mm = 2.0 * budget.CalibrationMm(budget.ByParameters(weights + by_axis));
+  width.diameter.bound.distance_mm = 2.0 * errors.WorstMm(by_axis);
+  width.diameter.bound.calibration_mm = 2.0 * errors.CalibrationMm(errors.ByParameters(weights + by_axis));
   return width;
 }
 
@@ -144,7 +144,7 @@ CombinedWidth Combined(std::span<const CameraWidth> widths) {
   return combined;
 }
 
-std::optional<BoundedMm> OffsetOf(const FittedRod& rod, int camera, const ErrorBudget& budget) {
+std::optional<BoundedMm> OffsetOf(const FittedRod& rod, int camera, const RodErrors& errors) {
   std::vector<bool> others(rod.sights.size());
   VectorXd weights = VectorXd::Zero(static_cast<Eigen::Index>(rod.sights.size()));
   int counts[2] = {0, 0};
@@ -160,9 +160,9 @@ std::optional<BoundedMm> OffsetOf(const FittedRod& rod, int camera, const ErrorB
   const VectorXd by_axis = (ByAxis(rod, weights) * gain).transpose();
   BoundedMm offset;
   offset.value_mm = Sum(rod, weights + by_axis);
-  offset.bound.silhouettes_mm = budget.WorstMm(weights);
-  offset.bound.distance_mm = budget.WorstMm(by_axis);
-  offset.bound.calibration_mm = budget.CalibrationMm(budget.ByParameters(weights + by_axis));
+  offset.bound.silhouettes_mm = errors.WorstMm(weights);
+  offset.bound.distance_mm = errors.WorstMm(by_axis);
+  offset.bound.calibration_mm = errors.CalibrationMm(errors.ByParameters(weights + by_axis));
   return offset;
 }
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "recon/gauge/error_budget.h"
+#include "recon/gauge/rod_errors.h"
 #include "recon/gauge/rod_gauge.h"
 #include "recon/gauge/rod_sights.h"
 
@@ -18,7 +18,7 @@ struct CameraWidth {
 };
 
 // By the picture of one camera alone, which has both sides. Nothing: too few points.
-[[nodiscard]] std::optional<CameraWidth> WidthIn(const FittedRod& rod, int camera, const ErrorBudget& budget,
+[[nodiscard]] std::optional<CameraWidth> WidthIn(const FittedRod& rod, int camera, const RodErrors& errors,
                                                  const BoundaryLimits& limits);
 
 struct CombinedWidth {
@@ -30,6 +30,6 @@ struct CombinedWidth {
 [[nodiscard]] CombinedWidth Combined(std::span<const CameraWidth> widths);
 
 // How far beside the axis that the others see this camera sees it; nothing if they don't tell the axis.
-[[nodiscard]] std::optional<BoundedMm> OffsetOf(const FittedRod& rod, int camera, const ErrorBudget& budget);
+[[nodiscard]] std::optional<BoundedMm> OffsetOf(const FittedRod& rod, int camera, const RodErrors& errors);
 
 }  // namespace elbowroom::recon

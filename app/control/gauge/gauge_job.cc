@@ -139,7 +139,7 @@ GaugeOutcome GaugeRig(const GaugeFrames& frames, const TrueRod& truth, const cor
   return outcome;
 }
 
-recon::RigGauge RigGaugeOf(const GaugeOutcome& outcome) {
+core::RigGauge RigGaugeOf(const GaugeOutcome& outcome) {
   const GaugePlace& worst = outcome.worst_place();
   return {core::NowUtc(),  outcome.truth.diameter_mm,           worst.rod.diameter.value_mm,
           worst.error_mm,  worst.rod.diameter.bound.total_mm(), static_cast<int>(outcome.places.size()),

@@ -10,6 +10,7 @@
 
 #include "core/ids.h"
 #include "core/progress.h"
+#include "core/rig_quality.h"
 #include "core/soft_mask.h"
 #include "recon/contours/undistorted_plane.h"
 #include "recon/gauge/rod_gauge.h"
@@ -66,6 +67,6 @@ struct GaugeOutcome {
                                     const core::Progress& progress, const std::stop_token& stop);
 
 // What RIG.yml keeps of it.
-[[nodiscard]] recon::RigGauge RigGaugeOf(const GaugeOutcome& outcome);
+[[nodiscard]] core::RigGauge RigGaugeOf(const GaugeOutcome& outcome);
 
 }  // namespace elbowroom::control

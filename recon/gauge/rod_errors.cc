@@ -1,4 +1,4 @@
-#include "recon/gauge/error_budget.h"
+#include "recon/gauge/rod_errors.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,9 +11,9 @@
 
 namespace elbowroom::recon {
 
-ErrorBudget::ErrorBudget(const core::Rig& rig, const Eigen::MatrixXd& covariance,
-                         std::span<const TangentSight> sights, std::span<const Touch> touches,
-                         std::span<const double> limits_mm)
+RodErrors::RodErrors(const core::Rig& rig, const Eigen::MatrixXd& covariance,
+                     std::span<const TangentSight> sights, std::span<const Touch> touches,
+                     std::span<const double> limits_mm)
     : covariance_(covariance), sights_(sights), limits_mm_(limits_mm) {
   if (covariance.size() == 0) return;
   int parameters = 0;
@@ -27,14 +27,14 @@ ErrorBudget::ErrorBudget(const core::Rig& rig, const Eigen::MatrixXd& covariance
     by_parameters_.push_back(ErrorByParameters(touches[i], sights[i]));
 }
 
-double ErrorBudget::WorstMm(const Eigen::VectorXd& weights) const {
+double RodErrors::WorstMm(const Eigen::VectorXd& weights) const {
   double worst_mm = 0.0;
   for (std::size_t i = 0; i < limits_mm_.size(); ++i)
     worst_mm += std::abs(weights[static_cast<Eigen::Index>(i)]) * limits_mm_[i];
   return worst_mm;
 }
 
-Eigen::VectorXd ErrorBudget::ByParameters(const Eigen::VectorXd& weights) const {
+Eigen::VectorXd RodErrors::ByParameters(const Eigen::VectorXd& weights) const {
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(covariance_.rows());
   for (std::size_t i = 0; i < by_parameters_.size(); ++i) {
     const auto camera = static_cast<std::size_t>(sights_[i].camera);
@@ -44,12 +44,12 @@ Eigen::VectorXd ErrorBudget::ByParameters(const Eigen::VectorXd& weights) const 
   return sum;
 }
 
-double ErrorBudget::CalibrationMm(const Eigen::VectorXd& by_parameters) const {
+double RodErrors::CalibrationMm(const Eigen::VectorXd& by_parameters) const {
   if (covariance_.size() == 0) return 0.0;
   return kGaugeSigmas * std::sqrt(std::max(0.0, by_parameters.dot(covariance_ * by_parameters)));
 }
 
-Eigen::VectorXd ErrorBudget::OfCamera(int camera, const Eigen::VectorXd& by_its_parameters) const {
+Eigen::VectorXd RodErrors::OfCamera(int camera, const Eigen::VectorXd& by_its_parameters) const {
   Eigen::VectorXd all = Eigen::VectorXd::Zero(covariance_.rows());
   if (covariance_.size() > 0)
     all.segment(first_[static_cast<std::size_t>(camera)], by_its_parameters.size()) = by_its_parameters;

@@ -9,12 +9,12 @@
 
 namespace elbowroom::recon {
 
-class ErrorBudget {
+class RodErrors {
  public:
   // All three outlive it; `limits_mm` is how far off each sight may be. Throws: PreconditionError for a
   // covariance of another size than the rig's.
-  ErrorBudget(const core::Rig& rig, const Eigen::MatrixXd& covariance, std::span<const TangentSight> sights,
-              std::span<const Touch> touches, std::span<const double> limits_mm);
+  RodErrors(const core::Rig& rig, const Eigen::MatrixXd& covariance, std::span<const TangentSight> sights,
+            std::span<const Touch> touches, std::span<const double> limits_mm);
 
   // The most that boundaries within their limits can do to the figure with these weights of the sights.
   [[nodiscard]] double WorstMm(const Eigen::VectorXd& weights) const;
