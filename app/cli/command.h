@@ -68,6 +68,7 @@ void AddClearanceCommand(CLI::App& app, Choice* choice);
 void AddContactsCommand(CLI::App& app, Choice* choice);
 void AddCoverageCommand(CLI::App& app, Choice* choice);
 void AddDemoCommand(CLI::App& app, Choice* choice);
+void AddGaugeCommand(CLI::App& app, Choice* choice);
 void AddHullCommand(CLI::App& app, Choice* choice);
 void AddImportCommand(CLI::App& app, Choice* choice);
 void AddLayoutCommand(CLI::App& app, Choice* choice);

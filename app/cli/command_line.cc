@@ -140,6 +140,7 @@ int RunCommandLine(int argc, char** argv, const OpenConsole& open_console) {
   AddClearanceCommand(app, &choice);
   AddCalibrateCommand(app, &choice);
   AddRigCommand(app, &choice);
+  AddGaugeCommand(app, &choice);
   AddClashCommand(app, &choice);
   AddImportCommand(app, &choice);
   AddLayoutCommand(app, &choice);
