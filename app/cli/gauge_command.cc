@@ -29,7 +29,7 @@ struct GaugeOptions {
 
 constexpr std::size_t kMostPlaces = 10'000;
 
-// "A:B" or "A:B:STEP", both ends included.
+// "A:B" or "A:B:STEP", B not included.
 std::vector<core::FrameIndex> ParseRange(const std::string& text) {
   const auto fail = [&](const std::string& what) {
     return CLI::ValidationError("--frames", fmt::format("'{}': {}", text, what));
@@ -48,11 +48,11 @@ std::vector<core::FrameIndex> ParseRange(const std::string& text) {
   if (numbers.size() < 2 || numbers.size() > 3) throw fail("must be A:B or A:B:STEP, as 0:100:10");
   const core::FrameIndex step = numbers.size() == 3 ? numbers[2] : 1;
   if (step < 1) throw fail("the step must be 1 or more");
-  if (numbers[1] < numbers[0]) throw fail("ends before it begins");
-  if (static_cast<std::size_t>((numbers[1] - numbers[0]) / step) >= kMostPlaces)
+  if (numbers[1] <= numbers[0]) throw fail("has no frame; B is not included");
+  if (static_cast<std::size_t>((numbers[1] - numbers[0] - 1) / step) >= kMostPlaces)
     throw fail(fmt::format("more than {} frames; choose a larger step", kMostPlaces));
   std::vector<core::FrameIndex> frames;
-  for (core::FrameIndex frame = numbers[0]; frame <= numbers[1]; frame += step) frames.push_back(frame);
+  for (core::FrameIndex frame = numbers[0]; frame < numbers[1]; frame += step) frames.push_back(frame);
   return frames;
 }
 
@@ -207,7 +207,7 @@ void AddGaugeCommand(CLI::App& app, Choice* choice) {
               options->ranges.insert(options->ranges.end(), range.begin(), range.end());
             }
           },
-          "frames from A to B, the rod at one place in each; may be given several times")
+          "frames from A to B, B not included, the rod at one place in each; may be given several times")
       ->type_name("A:B[:STEP]");
   command->add_option("--rod", options->diameter_mm, "the rod's true diameter, mm")
       ->required()

@@ -73,7 +73,7 @@ nlohmann::json JsonOf(const ProgramRun& run) {
 
 TEST(GaugeCommand, IsWithinItsBoundAt27Places) {
   const auto json =
-      JsonOf(Gauge(TrueRig(), {"--frames", "0:26", "--rod", "10", "--length", "300", "--json"}));
+      JsonOf(Gauge(TrueRig(), {"--frames", "0:27", "--rod", "10", "--length", "300", "--json"}));
   EXPECT_EQ(json["places"], kPlaces);
   EXPECT_EQ(json["frames"].size(), kPlaces);
   EXPECT_EQ(json["true_diameter_mm"], 10.0);
@@ -107,7 +107,7 @@ TEST(GaugeCommand, KeepsItsResultAndWritesAPage) {
   const test_support::TemporaryFolder folder;
   const auto rig = WriteRodRig(folder.path());
   const std::string before = test_support::ReadText(rig);
-  const auto json = JsonOf(Gauge(rig, {"--frame", "3", "--frame", "12", "--frames", "20:26:3", "--rod", "10",
+  const auto json = JsonOf(Gauge(rig, {"--frame", "3", "--frame", "12", "--frames", "20:27:3", "--rod", "10",
                                        "--out", (folder / "page").string(), "--save", "--json"}));
   EXPECT_EQ(json["places"], 5);
   EXPECT_TRUE(json["saved"]);
@@ -128,7 +128,7 @@ TEST(GaugeCommand, KeepsItsResultAndWritesAPage) {
 
 TEST(GaugeCommand, FailsARodOfAnotherDiameterAndLength) {
   const auto json =
-      JsonOf(Gauge(TrueRig(), {"--frames", "0:26", "--rod", "12", "--length", "340", "--json"}));
+      JsonOf(Gauge(TrueRig(), {"--frames", "0:27", "--rod", "12", "--length", "340", "--json"}));
   EXPECT_FALSE(json["passed"]);
   EXPECT_NEAR(json["error_mm"].get<double>(), -2.0, 0.1);
   for (const auto& place : json["frames"]) EXPECT_FALSE(place["passed"]) << place["frame"];
@@ -139,7 +139,7 @@ TEST(GaugeCommand, FailsARigWithATurnedCamera) {
   for (const double angle_deg : {0.5, 1.0}) {
     const test_support::TemporaryFolder folder;
     const auto rig = WriteRodRig(folder.path(), angle_deg);
-    const ProgramRun run = Gauge(rig, {"--frames", "0:26", "--rod", "10", "--save", "--json"});
+    const ProgramRun run = Gauge(rig, {"--frames", "0:27", "--rod", "10", "--save", "--json"});
     const auto json = JsonOf(run);
     EXPECT_FALSE(json["passed"]);
     EXPECT_THAT(run.err, HasSubstr("the gauge failed"));
@@ -160,7 +160,7 @@ TEST(GaugeCommand, SaysWhatItSawWhereThereIsNoRod) {
   EXPECT_EQ(thick.exit_status, 1);
   EXPECT_THAT(thick.err, HasSubstr("two straight edges"));
   // Among others it is a warning.
-  const auto json = JsonOf(Gauge(TrueRig(), {"--frames", "25:27", "--rod", "10", "--json"}));
+  const auto json = JsonOf(Gauge(TrueRig(), {"--frames", "25:28", "--rod", "10", "--json"}));
   EXPECT_EQ(json["places"], 2);
   EXPECT_THAT(json["warnings"].dump(), HasSubstr("frame 27: no rod"));
 }

@@ -53,6 +53,16 @@ TEST_F(FirstRig, IsCalibratedGaugedTriedAndReported) {
   }
   EXPECT_TRUE(fs::exists(folder_ / "calibration" / "report.html"));
 
+  const auto gauged = Run({"gauge", "rig.yml", "--frames", fmt::format("0:{}", kRodFrames), "--rod",
+                           fmt::format("{}", kRodDiameterMm), "--length", fmt::format("{}", kRodLengthMm),
+                           "--save", "--json"});
+  ASSERT_FALSE(gauged.is_null());
+  EXPECT_EQ(gauged["places"], kRodFrames);
+  EXPECT_TRUE(gauged["passed"]) << gauged.dump();
+  const auto covered = Run({"coverage", "rig.yml", "--layout", "layout.toml", "--out", "coverage", "--json"});
+  ASSERT_FALSE(covered.is_null());
+  EXPECT_GE(covered["cameras_seeing"]["median"], 2);
+
   const auto tried = Run({"trial", "run", "trial.toml", "--session", "first.db", "--headless", "--frames",
                           fmt::format("{}:{}", kRodFrames, kRodFrames + kHandFrames), "--json"});
   ASSERT_FALSE(tried.is_null());
@@ -64,6 +74,7 @@ TEST_F(FirstRig, IsCalibratedGaugedTriedAndReported) {
   const std::string page = test_support::ReadText(folder_ / "report" / "report.html");
   EXPECT_THAT(page, HasSubstr("1 touch"));
   EXPECT_THAT(page, HasSubstr("What a verdict allows for is computed"));
+  EXPECT_THAT(page, HasSubstr("<b>passed</b>"));
 }
 
 // The pictures that ship are those that the generator draws, up to the JPEG coder.
