@@ -16,7 +16,7 @@ namespace elbowroom::recon {
 struct BoundaryLimits {
   double ready_px = 0.5;  // a ready mask's: it lies between two centres and is taken to be halfway
   // A segmented one's: docs/gauge.md measures it on rods.
-  double segmented_bias_px = 0.5;    // common to a side of the rod
+  double segmented_bias_px = 0.8;    // common to a side of the rod
   double segmented_noise_px = 0.15;  // standard deviation of each crossing
 };
 

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
+#include <random>
 #include <string>
 #include <utility>
 
@@ -61,8 +62,12 @@ SyntheticObject HandAtTheEnd(const Rod& rod) {
   return Hand(world_from_wrist, PipePinch(), elbow);
 }
 
-std::vector<Rod> TwentySevenRods(const core::Rig& rig, double share, double diameter_mm, double length_mm) {
+std::vector<Rod> TwentySevenRods(const core::Rig& rig, double share, double diameter_mm, double length_mm,
+                                 unsigned draw) {
   std::vector<Rod> rods;
+  std::mt19937 random(draw);
+  std::uniform_real_distribution<double> within(-0.5, 0.5);
+  std::normal_distribution<double> normal;
   const Vector3d center = rig.workspace_mm.center(), size = share * rig.workspace_mm.sizes();
   for (int k = 0; k < 27; ++k) {
     const Vector3d cell(k % 3 - 1, (k / 3) % 3 - 1, k / 9 - 1);
@@ -71,6 +76,11 @@ std::vector<Rod> TwentySevenRods(const core::Rig& rig, double share, double diam
     const double flat = std::sqrt(1.0 - z * z);
     rods.push_back({center + cell.cwiseProduct(size) / 3.0,
                     Vector3d(flat * std::cos(angle), flat * std::sin(angle), z), diameter_mm, length_mm});
+    if (draw == 0) continue;
+    for (int axis = 0; axis < 3; ++axis) {
+      rods.back().middle_in_world[axis] += within(random) * size[axis] / 3.0;
+      rods.back().direction_in_world[axis] = normal(random);
+    }
   }
   return rods;
 }

@@ -28,8 +28,9 @@ struct Rod {
 [[nodiscard]] SyntheticObject HandAtTheEnd(const Rod& rod);
 
 // Middles of 3 x 3 x 3 cells of the share of the workspace around its centre, and directions all different.
+// `draw` 0: these; others: each moved within its cell and turned at random.
 [[nodiscard]] std::vector<Rod> TwentySevenRods(const core::Rig& rig, double share, double diameter_mm,
-                                               double length_mm);
+                                               double length_mm, unsigned draw = 0);
 
 enum class Silhouettes { kReady, kSegmented };
 
