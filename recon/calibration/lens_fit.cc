@@ -44,7 +44,7 @@ LensParameters PlainLens(const CalibrationCamera& camera, DistortionModel model,
 }
 
 std::vector<PlanarPose> PosesOfView(const LensParameters& lens, const BoardSurface& surface,
-                                    std::span<const AdjustedPoint> points) {
+                                    std::span<const AdjustedPoint> points, int most_steps = kPoseSteps) {
   std::vector<PosePoint> posed;
   std::vector<Vector2d> normalised;
   for (const AdjustedPoint& point : points) {
@@ -53,7 +53,7 @@ std::vector<PlanarPose> PosesOfView(const LensParameters& lens, const BoardSurfa
     normalised.push_back(*at);
     posed.push_back({surface.Flat(point.point), point.pixel, point.inverse_sigma});
   }
-  return PlanarPosesOf(lens, posed, normalised);
+  return PlanarPosesOf(lens, posed, normalised, most_steps);
 }
 
 // `most` of the values at even steps.
@@ -69,8 +69,8 @@ std::vector<T> Spread(const std::vector<T>& all, int most) {
 // The focal length, of a row of them, whose lens without distortion fits the middle view best.
 LensParameters StartLens(const CalibrationCamera& camera, const BoardSurface& surface, DistortionModel model,
                          const std::vector<std::vector<AdjustedPoint>>& views) {
-  constexpr int kFocalLengths = 20;
-  constexpr double kShortest = 0.3, kStep = 1.15;  // of the longer side; the longest is 4.3
+  constexpr int kFocalLengths = 13, kPoseStepsAtStart = 6;
+  constexpr double kShortest = 0.3, kStep = 1.25;  // of the longer side; the longest is 4.4
   const double side_px = std::max(camera.width_px, camera.height_px);
   LensParameters best;
   double least_px = std::numeric_limits<double>::infinity();
@@ -78,7 +78,7 @@ LensParameters StartLens(const CalibrationCamera& camera, const BoardSurface& su
     const LensParameters lens = PlainLens(camera, model, kShortest * std::pow(kStep, i) * side_px);
     std::vector<double> errors;
     for (const auto& points : Spread(views, kMostStartViews)) {
-      const std::vector<PlanarPose> poses = PosesOfView(lens, surface, points);
+      const std::vector<PlanarPose> poses = PosesOfView(lens, surface, points, kPoseStepsAtStart);
       errors.push_back(poses.empty() ? std::numeric_limits<double>::max() : poses.front().error.rms_px);
     }
     const auto middle = errors.begin() + static_cast<std::ptrdiff_t>(errors.size() / 2);

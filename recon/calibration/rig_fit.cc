@@ -38,28 +38,44 @@ std::vector<std::vector<PosedView>> ViewsOfBoards(const Adjustment& a) {
 
 // The best pose from the mirror images of a board's pose in each of its views.
 PoseFit BestFlip(const std::vector<PosedView>& views, const RigidTransform& rig_from_board,
-                 const Eigen::Vector3d& center, double cauchy_scale) {
+                 const Eigen::Vector3d& center, double cauchy_scale, int most_steps) {
   PoseFit best{rig_from_board, std::numeric_limits<double>::infinity()};
   for (const PosedView& view : views) {
     const RigidTransform start =
         view.cam_from_rig.Inverse() * Flipped(view.cam_from_rig * rig_from_board, center);
-    const PoseFit fit = FitBoardPose(views, start, cauchy_scale);
+    const PoseFit fit = FitBoardPose(views, start, cauchy_scale, most_steps);
     if (fit.cost < best.cost) best = fit;
   }
   return best;
 }
 
+// Whose mirror images are tried: of all boards, or of those that fit worse than the noise.
+enum class FlipsTried { kAll, kOfMisfits };
+
+// A squared residual of one point is twice the noise's square in the mean, so half of it is one of these.
+bool FitsLikeNoise(const std::vector<PosedView>& views, double cost, double noise_scale) {
+  constexpr double kLikeNoise = 1.5;
+  std::size_t points = 0;
+  for (const PosedView& view : views) points += view.points.size();
+  return cost <= kLikeNoise * noise_scale * noise_scale * static_cast<double>(points);
+}
+
 // Exchanges poses whose mirror image fits better; returns whether there were any. A flip of the world's board
 // moves the world.
-bool TakeBetterBoards(double cauchy_scale, Adjustment* a, std::optional<RigidTransform>* new_world) {
+bool TakeBetterBoards(FlipsTried tried, const BundleOptions& options, Adjustment* a,
+                      std::optional<RigidTransform>* new_world) {
   constexpr double kClearlyBetter = 0.999;  // both ways may end in one minimum
+  constexpr int kSteps = 10;  // a minimum near the mirror image takes five; else the fit goes back to the pose
+  const double cauchy_scale = options.cauchy_scale * options.noise_scale;
   const std::vector<std::vector<PosedView>> views = ViewsOfBoards(*a);
   bool has_changed = false;
   for (std::size_t k = 0; k < a->boards.size(); ++k) {
     if (views[k].empty()) continue;
     AdjustedBoard& board = a->boards[k];
     const PoseFit kept = FitBoardPose(views[k], board.rig_from_board, cauchy_scale);
-    const PoseFit other = BestFlip(views[k], kept.rig_from_board, a->surface->center(), cauchy_scale);
+    if (tried == FlipsTried::kOfMisfits && FitsLikeNoise(views[k], kept.cost, options.noise_scale)) continue;
+    const PoseFit other =
+        BestFlip(views[k], kept.rig_from_board, a->surface->center(), cauchy_scale, kSteps);
     if (!(other.cost < kClearlyBetter * kept.cost)) continue;
     has_changed = true;
     if (board.is_fixed)
@@ -70,9 +86,9 @@ bool TakeBetterBoards(double cauchy_scale, Adjustment* a, std::optional<RigidTra
   return has_changed;
 }
 
-bool ExchangeFlips(double cauchy_scale, Adjustment* a, RigState* state) {
+bool ExchangeFlips(FlipsTried tried, const BundleOptions& options, Adjustment* a, RigState* state) {
   std::optional<RigidTransform> new_world;
-  const bool has_changed = TakeBetterBoards(cauchy_scale, a, &new_world);
+  const bool has_changed = TakeBetterBoards(tried, options, a, &new_world);
   TakeOver(*a, state);
   if (!new_world) return has_changed;
   RigSet& world = state->sets[static_cast<std::size_t>(state->world_set)];
@@ -82,7 +98,8 @@ bool ExchangeFlips(double cauchy_scale, Adjustment* a, RigState* state) {
   return true;
 }
 
-void FitRobustly(bool with_lenses, int rounds, const std::stop_token& stop, RigState* state) {
+void FitRobustly(bool with_lenses, int rounds, FlipsTried tried, const std::stop_token& stop,
+                 RigState* state) {
   BundleOptions options;
   options.cauchy_scale = kRobustScale;
   options.most_steps = 12;
@@ -97,7 +114,7 @@ void FitRobustly(bool with_lenses, int rounds, const std::stop_token& stop, RigS
     options.noise_scale = RobustNoiseScale(a);
     a = AdjustBundle(std::move(a), options, stop);
     for (std::size_t i = 0; i < was_fixed.size(); ++i) a.cameras[i].is_lens_fixed = was_fixed[i];
-    ExchangeFlips(kRobustScale * options.noise_scale, &a, state);
+    ExchangeFlips(tried, options, &a, state);
   }
 }
 
@@ -142,7 +159,7 @@ bool LeaveUnconfirmedViews(RigState* state) {
 
 // A view by itself whose two poses fit alike says little of the lens and may say it wrongly.
 void LeaveUndecidedViews(double noise_scale, RigState* state) {
-  constexpr double kLeastDifference = 25.0;  // of chi squared
+  constexpr double kLeastDifference = 9.0;  // of chi squared
   constexpr int kEnoughViews = 10;
   const Adjustment a = AdjustmentOf(state);
   const std::vector<std::vector<PosedView>> views = ViewsOfBoards(a);
@@ -153,8 +170,11 @@ void LeaveUndecidedViews(double noise_scale, RigState* state) {
       continue;
     const auto k = static_cast<std::size_t>(a.views[static_cast<std::size_t>(view.adjusted)].boards[0]);
     const PoseFit kept = FitBoardPose(views[k], a.boards[k].rig_from_board, 0.0);
-    const PoseFit other = BestFlip(views[k], kept.rig_from_board, a.surface->center(), 0.0);
-    if (2.0 * (other.cost - kept.cost) >= kLeastDifference * noise_scale * noise_scale) continue;
+    const PoseFit other =
+        BestFlip(views[k], kept.rig_from_board, a.surface->center(), 0.0, kPoseSteps);
+    if (AreOnePose(other.rig_from_board, kept.rig_from_board) ||
+        2.0 * (other.cost - kept.cost) >= kLeastDifference * noise_scale * noise_scale)
+      continue;
     view.is_used = false;
     view.is_final = true;
     view.reason = "its two possible poses fit alike, and no other camera sees the board";
@@ -222,7 +242,7 @@ void FixUnknownOffsets(const std::stop_token& stop, RigFit* fit) {
                     "it sees it; move the board faster there",
                     NameOfCamera(state, i)));
   }
-  if (has_changed) FitRobustly(true, 1, stop, &state);
+  if (has_changed) FitRobustly(true, 1, FlipsTried::kOfMisfits, stop, &state);
 }
 
 // Views that were far off while offsets weren't known get another chance.
@@ -257,7 +277,9 @@ void FitWithoutOutliers(const std::stop_token& stop, RigFit* fit) {
     has_changed |= LeaveUnconfirmedViews(&state);
     if (!has_changed && round > 0) break;
     a = FitPlainly(&state, fit->noise_scale, 12, stop);
-    ExchangeFlips(0.0, &a, &state);
+    BundleOptions plain;
+    plain.noise_scale = fit->noise_scale;
+    ExchangeFlips(round == 0 ? FlipsTried::kAll : FlipsTried::kOfMisfits, plain, &a, &state);
     LeaveViewsFromBehind(a, &state);
   }
   fit->adjustment = FitPlainly(&state, fit->noise_scale, 30, stop);
@@ -310,17 +332,17 @@ RigFit FitRig(RigState start, const std::stop_token& stop) {
   constexpr double kFarMedians = 6.0;
   RigFit fit;
   fit.state = std::move(start);
-  FitRobustly(false, 2, stop, &fit.state);
-  FitRobustly(true, 1, stop, &fit.state);
+  FitRobustly(false, 2, FlipsTried::kOfMisfits, stop, &fit.state);
+  FitRobustly(true, 1, FlipsTried::kOfMisfits, stop, &fit.state);
   LeaveFarViews(kFarMedians, false, &fit.state);
   FreeOffsetsAndFlatness(&fit);
   RequireEnoughViews(fit.state);
-  FitRobustly(true, 2, stop, &fit.state);
+  FitRobustly(true, 2, FlipsTried::kOfMisfits, stop, &fit.state);
   FixUnknownOffsets(stop, &fit);
   AskFarViewsAgain(&fit.state);
   LeaveUnconfirmedViews(&fit.state);
   LeaveUndecidedViews(RobustNoiseScale(AdjustmentOf(&fit.state)), &fit.state);
-  FitRobustly(true, 1, stop, &fit.state);
+  FitRobustly(true, 1, FlipsTried::kAll, stop, &fit.state);
   FitWithoutOutliers(stop, &fit);
   RequireEnoughViews(fit.state);
   GiveReasons(&fit.state);

@@ -56,8 +56,8 @@ struct CalibrationScene {
 // Options as a soak draws them: 3 to 8 cameras, and all that calibration must stand. Little data: 60 to 120
 // sets and nothing else.
 [[nodiscard]] CalibrationSceneOptions RandomSceneOptions(std::uint64_t seed);
-// The same, recorded as docs/user_guide.md says: the board at rest for 1 to 2 s, 84 to 99 sets of motion,
-// and 25 to 40 photos for each lens.
+// The same, recorded as docs/user_guide.md says: a board of small squares at rest for 1 to 2 s, 51 to 99 sets
+// of motion, and 30 to 40 photos for each lens.
 [[nodiscard]] CalibrationSceneOptions RecommendedSceneOptions(std::uint64_t seed);
 
 // Adds noise to the true positions of a scene without noise or wrong views.

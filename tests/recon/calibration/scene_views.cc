@@ -109,13 +109,13 @@ void NumberFromOtherEnd(const BoardSurface& surface, BoardSighting* sighting) {
 RigidTransform DrawLensPhoto(const core::CameraModel& camera, const TrueBoard& board, Random* random) {
   constexpr double kDegree = std::numbers::pi / 180.0, kLeastShown = 0.4;
   for (;;) {
-    const Vector2d at(random->Uniform(0.15, 0.85) * camera.width_px(),
-                      random->Uniform(0.15, 0.85) * camera.height_px());
+    const Vector2d at(random->Uniform(0.2, 0.8) * camera.width_px(),
+                      random->Uniform(0.2, 0.8) * camera.height_px());
     const std::optional<Vector2d> sight = camera.NormalisedFromPixel(at);
     const double tilt_axis = random->Uniform(0.0, 2.0 * std::numbers::pi);
-    const double tilt = kDegree * random->Uniform(10.0, 50.0);
+    const double tilt = kDegree * random->Uniform(15.0, 50.0);
     const double roll = random->Uniform(-std::numbers::pi, std::numbers::pi);
-    const double share = random->Uniform(0.6, 1.3);
+    const double share = random->Uniform(0.8, 1.5);
     if (!sight) continue;
     RigidTransform cam_from_board;
     cam_from_board.rotation =

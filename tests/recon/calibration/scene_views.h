@@ -43,8 +43,9 @@ void Disturb(Fault fault, Random* random, BoardSighting* sighting);
 
 void NumberFromOtherEnd(const BoardSurface& surface, BoardSighting* sighting);
 
-// The board held before the camera for a photo of its lens: at a place anywhere in the picture, as long as
-// 60 to 130 % of the picture is wide, tilted by 10 to 50 degrees in any direction, turned by any angle.
+// The board held before the camera for a photo of its lens: its middle anywhere in the inner 60 % of
+// the picture, as long as 80 to 150 % of the picture is wide, tilted by 15 to 50 degrees in any direction, and
+// turned by any angle.
 [[nodiscard]] core::RigidTransform DrawLensPhoto(const core::CameraModel& camera, const TrueBoard& board,
                                                  Random* random);
 
