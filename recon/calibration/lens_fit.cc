@@ -19,7 +19,7 @@ namespace {
 using core::DistortionModel;
 using Eigen::Vector2d;
 
-constexpr int kMostLensViews = 30;  // more add time and little accuracy; the joint fit uses all
+constexpr int kMostLensViews = 40;  // more add time and little accuracy; the joint fit uses all
 constexpr int kMostStartViews = 15;
 constexpr std::size_t kLeastPoints = 6;
 
@@ -240,10 +240,24 @@ bool MustGiveWay(const std::vector<double>& errors, const Candidate& other) {
          excess.standard_errors > kStandardErrors;
 }
 
-// All candidates are judged by the views and points that agree with the one of least noise.
+// Of the candidates whose noise is about the least, the one that most points agree with. A model that doesn't
+// fit far from the middle calls the points there wrong, and fits the others as well.
+const Candidate& FinestOf(const std::vector<Candidate>& candidates) {
+  constexpr double kAboutTheLeast = 1.05;
+  const double least = std::ranges::min_element(candidates, {}, &Candidate::noise)->noise;
+  const auto points_of = [&](const Candidate& candidate) {
+    std::ptrdiff_t points = 0;
+    for (const AdjustedView& view : candidate.fit.views)
+      if (view.is_used) points += std::ranges::count_if(view.points, &AdjustedPoint::is_used);
+    return candidate.noise <= kAboutTheLeast * least ? points : 0;
+  };
+  return *std::ranges::max_element(candidates, {}, points_of);
+}
+
+// All candidates are judged by the views and points that agree with the finest.
 const Candidate& ChooseModel(std::vector<Candidate>* candidates, const std::stop_token& stop) {
   constexpr int kFolds = 5;
-  Candidate& finest = *std::ranges::min_element(*candidates, {}, &Candidate::noise);
+  const Candidate& finest = FinestOf(*candidates);
   const int folds = std::min(kFolds, UsedViews(finest.fit));
   for (Candidate& candidate : *candidates) {
     for (std::size_t i = 0; i < finest.fit.views.size(); ++i) {

@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "core/error.h"
 #include "core/progress.h"
+#include "recon/calibration/flips.h"
+#include "recon/calibration/lens_agreement.h"
 #include "recon/calibration/outliers.h"
+#include "recon/calibration/rig_covariance.h"
 
 namespace elbowroom::recon {
 namespace {
@@ -26,76 +28,6 @@ double MedianOfValues(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
-}
-
-// The used views of each board, at its instant.
-std::vector<std::vector<PosedView>> ViewsOfBoards(const Adjustment& a) {
-  std::vector<std::vector<PosedView>> views(a.boards.size());
-  for (const AdjustedView& view : a.views)
-    if (view.is_used) views[static_cast<std::size_t>(view.boards[0])].push_back(PosedAtSetInstant(a, view));
-  return views;
-}
-
-// The best pose from the mirror images of a board's pose in each of its views.
-PoseFit BestFlip(const std::vector<PosedView>& views, const RigidTransform& rig_from_board,
-                 const Eigen::Vector3d& center, double cauchy_scale, int most_steps) {
-  PoseFit best{rig_from_board, std::numeric_limits<double>::infinity()};
-  for (const PosedView& view : views) {
-    const RigidTransform start =
-        view.cam_from_rig.Inverse() * Flipped(view.cam_from_rig * rig_from_board, center);
-    const PoseFit fit = FitBoardPose(views, start, cauchy_scale, most_steps);
-    if (fit.cost < best.cost) best = fit;
-  }
-  return best;
-}
-
-// Whose mirror images are tried: of all boards, or of those that fit worse than the noise.
-enum class FlipsTried { kAll, kOfMisfits };
-
-// A squared residual of one point is twice the noise's square in the mean, so half of it is one of these.
-bool FitsLikeNoise(const std::vector<PosedView>& views, double cost, double noise_scale) {
-  constexpr double kLikeNoise = 1.5;
-  std::size_t points = 0;
-  for (const PosedView& view : views) points += view.points.size();
-  return cost <= kLikeNoise * noise_scale * noise_scale * static_cast<double>(points);
-}
-
-// Exchanges poses whose mirror image fits better; returns whether there were any. A flip of the world's board
-// moves the world.
-bool TakeBetterBoards(FlipsTried tried, const BundleOptions& options, Adjustment* a,
-                      std::optional<RigidTransform>* new_world) {
-  constexpr double kClearlyBetter = 0.999;  // both ways may end in one minimum
-  constexpr int kSteps = 10;  // a minimum near the mirror image takes five; else the fit goes back to the pose
-  const double cauchy_scale = options.cauchy_scale * options.noise_scale;
-  const std::vector<std::vector<PosedView>> views = ViewsOfBoards(*a);
-  bool has_changed = false;
-  for (std::size_t k = 0; k < a->boards.size(); ++k) {
-    if (views[k].empty()) continue;
-    AdjustedBoard& board = a->boards[k];
-    const PoseFit kept = FitBoardPose(views[k], board.rig_from_board, cauchy_scale);
-    if (tried == FlipsTried::kOfMisfits && FitsLikeNoise(views[k], kept.cost, options.noise_scale)) continue;
-    const PoseFit other =
-        BestFlip(views[k], kept.rig_from_board, a->surface->center(), cauchy_scale, kSteps);
-    if (!(other.cost < kClearlyBetter * kept.cost)) continue;
-    has_changed = true;
-    if (board.is_fixed)
-      *new_world = other.rig_from_board;
-    else
-      board.rig_from_board = other.rig_from_board;
-  }
-  return has_changed;
-}
-
-bool ExchangeFlips(FlipsTried tried, const BundleOptions& options, Adjustment* a, RigState* state) {
-  std::optional<RigidTransform> new_world;
-  const bool has_changed = TakeBetterBoards(tried, options, a, &new_world);
-  TakeOver(*a, state);
-  if (!new_world) return has_changed;
-  RigSet& world = state->sets[static_cast<std::size_t>(state->world_set)];
-  world.rig_from_board = *new_world;
-  ChangeFrame(new_world->Inverse(), state);
-  world.rig_from_board = {};
-  return true;
 }
 
 void FitRobustly(bool with_lenses, int rounds, FlipsTried tried, const std::stop_token& stop,
@@ -170,8 +102,7 @@ void LeaveUndecidedViews(double noise_scale, RigState* state) {
       continue;
     const auto k = static_cast<std::size_t>(a.views[static_cast<std::size_t>(view.adjusted)].boards[0]);
     const PoseFit kept = FitBoardPose(views[k], a.boards[k].rig_from_board, 0.0);
-    const PoseFit other =
-        BestFlip(views[k], kept.rig_from_board, a.surface->center(), 0.0, kPoseSteps);
+    const PoseFit other = BestFlip(views[k], kept, a.surface->center(), 0.0);
     if (AreOnePose(other.rig_from_board, kept.rig_from_board) ||
         2.0 * (other.cost - kept.cost) >= kLeastDifference * noise_scale * noise_scale)
       continue;
@@ -227,7 +158,7 @@ void FixUnknownOffsets(const std::stop_token& stop, RigFit* fit) {
   constexpr double kMostSigma = 0.5;
   RigState& state = fit->state;
   const Adjustment a = AdjustmentOf(&state);
-  const Eigen::MatrixXd covariance = CovarianceOf(a, RobustNoiseScale(a));
+  const Eigen::MatrixXd covariance = CovarianceOf(a, RobustNoiseScale(a), *state.input);
   bool has_changed = false;
   for (int i = 0; i < static_cast<int>(state.cameras.size()); ++i) {
     AdjustedCamera& camera = state.cameras[static_cast<std::size_t>(i)];
@@ -256,11 +187,32 @@ void AskFarViewsAgain(RigState* state) {
   LeaveFarViews(kMostMedians, true, state);
 }
 
+// Returns whether there were any.
+bool LeaveContradictingViews(double noise_scale, RigState* state) {
+  const Adjustment a = AdjustmentOf(state);
+  std::vector<bool> is_alone(a.views.size(), false);
+  std::vector<RigView*> views(a.views.size(), nullptr);
+  for (RigView& view : state->views) {
+    if (view.adjusted < 0) continue;
+    is_alone[static_cast<std::size_t>(view.adjusted)] = !view.shares_board;
+    views[static_cast<std::size_t>(view.adjusted)] = &view;
+  }
+  const std::vector<std::size_t> contradicting =
+      ContradictingViews(a, is_alone, CovarianceOf(a, noise_scale, *state->input), noise_scale);
+  for (const std::size_t i : contradicting) {
+    views[i]->is_used = false;
+    views[i]->is_final = true;
+    views[i]->reason = "it contradicts the lens that the camera's other views tell";
+  }
+  return !contradicting.empty();
+}
+
 void GiveReasons(RigState* state) {
   for (RigView& view : state->views)
     if (!view.is_used && view.reason.empty())
       view.reason = fmt::format(
-          "more than half of its points are beyond {:.0f} standard deviations, or its error is "
+          "more than half of its points are beyond {:.0f} standard deviations, or the others are on a line, "
+          "or its error is "
           "{:.0f} standard deviations above its camera's usual one",
           kPointSigmas, kViewSigmas);
 }
@@ -275,11 +227,12 @@ void FitWithoutOutliers(const std::stop_token& stop, RigFit* fit) {
     bool has_changed = LeaveOutliers(fit->noise_scale, &a);
     TakeOver(a, &state);
     has_changed |= LeaveUnconfirmedViews(&state);
+    if (!has_changed && round > 0) has_changed = LeaveContradictingViews(fit->noise_scale, &state);
     if (!has_changed && round > 0) break;
     a = FitPlainly(&state, fit->noise_scale, 12, stop);
     BundleOptions plain;
     plain.noise_scale = fit->noise_scale;
-    ExchangeFlips(round == 0 ? FlipsTried::kAll : FlipsTried::kOfMisfits, plain, &a, &state);
+    ExchangeFlips(round == 0 ? FlipsTried::kOfDoubtful : FlipsTried::kOfMisfits, plain, &a, &state);
     LeaveViewsFromBehind(a, &state);
   }
   fit->adjustment = FitPlainly(&state, fit->noise_scale, 30, stop);
@@ -342,36 +295,11 @@ RigFit FitRig(RigState start, const std::stop_token& stop) {
   AskFarViewsAgain(&fit.state);
   LeaveUnconfirmedViews(&fit.state);
   LeaveUndecidedViews(RobustNoiseScale(AdjustmentOf(&fit.state)), &fit.state);
-  FitRobustly(true, 1, FlipsTried::kAll, stop, &fit.state);
+  FitRobustly(true, 1, FlipsTried::kOfDoubtful, stop, &fit.state);
   FitWithoutOutliers(stop, &fit);
   RequireEnoughViews(fit.state);
   GiveReasons(&fit.state);
   return fit;
-}
-
-Eigen::MatrixXd CovarianceOf(const Adjustment& a, double noise_scale) {
-  BundleOptions options;
-  options.noise_scale = noise_scale;
-  const std::optional<Eigen::MatrixXd> inverse = InverseOfCameras(EquationsOf(a, options));
-  if (!inverse)
-    throw core::Error(
-        core::ErrorKind::kCamera,
-        "the views don't decide all parameters of the cameras; next, take views of the tilted board in all "
-        "parts of each camera's picture");
-  Eigen::MatrixXd covariance = noise_scale * noise_scale * *inverse;
-  const auto clear = [&](int first, int count) {
-    covariance.middleRows(first, count).setZero();
-    covariance.middleCols(first, count).setZero();
-  };
-  for (int i = 0; i < static_cast<int>(a.cameras.size()); ++i) {
-    const AdjustedCamera& camera = a.cameras[static_cast<std::size_t>(i)];
-    const ParameterBlock block = a.BlockOf(i);
-    if (camera.is_lens_fixed) clear(block.first, block.intrinsics);
-    if (camera.is_pose_fixed) clear(block.rotation(), 6);
-    if (camera.is_offset_fixed) clear(block.time_offset(), 1);
-  }
-  if (a.is_flatness_fixed) clear(a.camera_parameters() - kFlatnessTerms, kFlatnessTerms);
-  return covariance;
 }
 
 }  // namespace elbowroom::recon

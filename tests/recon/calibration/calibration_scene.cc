@@ -295,7 +295,8 @@ CalibrationScene MakeCalibrationScene(const CalibrationSceneOptions& options, st
   SceneBuilder builder(options, TrueBoard(options.board, options.bend_mm * bend), &random, &scene);
   builder.RecordMotion();
   builder.TakeLensPhotos();
-  if (!BoardSurface(options.board).half_turn().empty()) NumberWorldAsSeen(BoardSurface(options.board), &scene);
+  if (!BoardSurface(options.board).half_turn().empty())
+    NumberWorldAsSeen(BoardSurface(options.board), &scene);
   MoveWorldToFirstBoard(&scene);
   builder.AddNoiseAndMergeRest();
   return scene;

@@ -40,10 +40,14 @@ class Tally {
   // The wanted share, by so much and three standard errors.
   void Expect(const char* what, double slack_68, double slack_95) const {
     const Share share_68 = ShareOf(in_68_), share_95 = ShareOf(in_95_);
-    std::printf("  %-9s 68 %%: %.1f +- %.1f   95 %%: %.1f +- %.1f\n", what, 100.0 * share_68.share,
-                100.0 * share_68.sigma, 100.0 * share_95.share, 100.0 * share_95.sigma);
     EXPECT_NEAR(share_68.share, 0.68, slack_68 + 3.0 * share_68.sigma) << what;
     EXPECT_NEAR(share_95.share, 0.95, slack_95 + 3.0 * share_95.sigma) << what;
+  }
+
+  void Print(const char* what) const {
+    const Share share_68 = ShareOf(in_68_), share_95 = ShareOf(in_95_);
+    std::printf("  %-32s 68 %%: %.1f +- %.1f   95 %%: %.1f +- %.1f\n", what, 100.0 * share_68.share,
+                100.0 * share_68.sigma, 100.0 * share_95.share, 100.0 * share_95.sigma);
   }
 
  private:
@@ -97,6 +101,7 @@ struct RigOutcome {
   std::vector<CameraError> cameras;
   std::vector<double> turn_to_first_deg, distance_to_first_mm;  // errors of each camera against the first
   std::vector<double> center_sigma_mm, rotation_sigma_deg;
+  std::vector<bool> has_true_model;
   int flipped = 0, other_models = 0, wrong_used = 0, right_left_out = 0, views = 0;
   double seconds = 0.0;
 };
@@ -107,7 +112,8 @@ void CompareWithFirst(const CalibrationScene& scene, const CalibrationResult& re
   };
   for (std::size_t i = 1; i < scene.cameras.size(); ++i) {
     const core::RigidTransform truth = first_from(scene.cameras[0], scene.cameras[i]),
-                               found = first_from(result.cameras[0].calibration, result.cameras[i].calibration);
+                               found =
+                                   first_from(result.cameras[0].calibration, result.cameras[i].calibration);
     outcome->turn_to_first_deg.push_back(
         VectorFromRotation(truth.rotation * found.rotation.transpose()).norm() / kDegree);
     outcome->distance_to_first_mm.push_back(
@@ -133,8 +139,9 @@ RigOutcome OutcomeOfRig(const CalibrationSceneOptions& options, std::uint64_t se
     outcome.cameras.push_back(ErrorOfCamera(scene, result, i));
     outcome.center_sigma_mm.push_back(CenterSigmaMm(result, i));
     outcome.rotation_sigma_deg.push_back(RotationSigmaRad(result, i) / kDegree);
-    outcome.other_models +=
-        result.cameras[at].calibration.distortion_model != scene.cameras[at].distortion_model ? 1 : 0;
+    outcome.has_true_model.push_back(result.cameras[at].calibration.distortion_model ==
+                                     scene.cameras[at].distortion_model);
+    outcome.other_models += outcome.has_true_model.back() ? 0 : 1;
   }
   outcome.views = static_cast<int>(result.views.size());
   for (std::size_t i = 0; i < result.views.size(); ++i) {
@@ -174,8 +181,8 @@ class Series {
   }
 
   void Print() const {
-    std::printf("  %d rigs, %d refused; %d cameras, %d with another model; %d boards flipped\n", rigs_, refused_,
-                static_cast<int>(center_mm_.size()), other_models_, flipped_);
+    std::printf("  %d rigs, %d refused; %d cameras, %d with another model; %d boards flipped\n", rigs_,
+                refused_, static_cast<int>(center_mm_.size()), other_models_, flipped_);
     std::printf("  of %d views, %d wrong ones used and %d right ones left out\n", views_, wrong_used_,
                 right_left_out_);
     PrintErrors("centre", "mm", center_mm_);
@@ -186,6 +193,11 @@ class Series {
     PrintErrors("stated sigma of centre", "mm", center_sigma_mm_);
     PrintErrors("stated sigma of rotation", "deg", rotation_sigma_deg_);
     PrintErrors("time", "s", seconds_);
+    centers_.Print("centre");
+    rotations_.Print("rotation");
+    rotations_of_true_models_.Print("rotation, the lens's own model");
+    rotations_of_others_.Print("rotation, another model");
+    offsets_.Print("offset");
   }
 
   void Expect(double most_center_mm, double most_rotation_deg) const {
@@ -201,11 +213,12 @@ class Series {
 
  private:
   void AddCameras(std::uint64_t seed, const RigOutcome& rig) {
-    std::vector<double> centers, rotations, offsets;
+    std::vector<double> centers, rotations, offsets, of_true_models, of_others;
     for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
       const CameraError& error = rig.cameras[i];
       centers.push_back(error.center_chi2);
       rotations.push_back(error.rotation_chi2);
+      (rig.has_true_model[i] ? of_true_models : of_others).push_back(error.rotation_chi2);
       center_mm_.push_back(error.center_mm);
       rotation_deg_.push_back(error.rotation_rad / kDegree);
       if (error.has_offset) {
@@ -214,16 +227,19 @@ class Series {
       }
       constexpr double kStrange = 25.0;
       if (std::max({error.center_chi2, error.rotation_chi2, error.offset_chi2}) > kStrange)
-        std::printf("  rig %d, camera %zu: squared distances %.0f, %.0f, %.0f\n", static_cast<int>(seed), i + 1,
-                    error.center_chi2, error.rotation_chi2, error.offset_chi2);
+        std::printf("  rig %d, camera %zu: squared distances %.0f, %.0f, %.0f\n", static_cast<int>(seed),
+                    i + 1, error.center_chi2, error.rotation_chi2, error.offset_chi2);
     }
     centers_.Add(centers, k68Of3, k95Of3);
     rotations_.Add(rotations, k68Of3, k95Of3);
+    rotations_of_true_models_.Add(of_true_models, k68Of3, k95Of3);
+    rotations_of_others_.Add(of_others, k68Of3, k95Of3);
     offsets_.Add(offsets, k68Of1, k95Of1);
   }
 
-  int rigs_ = 0, refused_ = 0, flipped_ = 0, other_models_ = 0, wrong_used_ = 0, right_left_out_ = 0, views_ = 0;
-  Tally centers_, rotations_, offsets_;
+  int rigs_ = 0, refused_ = 0, flipped_ = 0, other_models_ = 0, wrong_used_ = 0, right_left_out_ = 0,
+      views_ = 0;
+  Tally centers_, rotations_, rotations_of_true_models_, rotations_of_others_, offsets_;
   std::vector<double> center_mm_, rotation_deg_, offset_ms_, turn_to_first_deg_, distance_to_first_mm_,
       center_sigma_mm_, rotation_sigma_deg_, seconds_;
 };
@@ -241,7 +257,7 @@ Series RunSeries(const char* name, int rigs, CalibrationSceneOptions (*options_o
     });
     for (std::size_t i = 0; i < outcomes.size(); ++i)
       series.Add(static_cast<std::uint64_t>(first) + i, outcomes[i]);
-    if (first > 0 && first % (10 * kPortion) == 0) series.Print();
+    if (first > 0 && first % (5 * kPortion) == 0) series.Print();
     std::fflush(stdout);
   }
   series.Print();

@@ -1,9 +1,9 @@
 #include "tests/recon/calibration/scene_views.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <Eigen/Geometry>
 #include <numbers>
 
 #include "recon/calibration/planar_pose.h"
@@ -123,7 +123,8 @@ RigidTransform DrawLensPhoto(const core::CameraModel& camera, const TrueBoard& b
         RotationFromVector(tilt * Vector3d(std::cos(tilt_axis), std::sin(tilt_axis), 0.0)) *
         RotationFromVector({0.0, 0.0, roll}) * RotationFromVector({std::numbers::pi, 0.0, 0.0});
     const double length_mm = 2.0 * std::abs(board.surface.center().x());
-    const double distance_mm = camera.calibration().camera_matrix(0, 0) * length_mm / (share * camera.width_px());
+    const double distance_mm =
+        camera.calibration().camera_matrix(0, 0) * length_mm / (share * camera.width_px());
     cam_from_board.translation_mm =
         distance_mm * sight->homogeneous().normalized() - cam_from_board.rotation * board.surface.center();
     const RigidTransform world_from_board = camera.cam_from_world().Inverse() * cam_from_board;

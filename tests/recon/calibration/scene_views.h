@@ -26,7 +26,8 @@ struct TrueBoard {
 void AddNoiseTo(double noise_px, Random* random, BoardSighting* sighting);
 
 // The points in the camera's picture. Empty: too few, from behind, or too much aslant.
-[[nodiscard]] BoardSighting Look(const core::CameraModel& camera, const core::RigidTransform& world_from_board,
+[[nodiscard]] BoardSighting Look(const core::CameraModel& camera,
+                                 const core::RigidTransform& world_from_board,
                                  const std::vector<Eigen::Vector3d>& points, double sigma_px);
 
 // The points on one side of a line through the middle, at a random angle.
@@ -44,8 +45,8 @@ void Disturb(Fault fault, Random* random, BoardSighting* sighting);
 void NumberFromOtherEnd(const BoardSurface& surface, BoardSighting* sighting);
 
 // The board held before the camera for a photo of its lens: its middle anywhere in the inner 60 % of
-// the picture, as long as 80 to 150 % of the picture is wide, tilted by 15 to 50 degrees in any direction, and
-// turned by any angle.
+// the picture, as long as 80 to 150 % of the picture is wide, tilted by 15 to 50 degrees in any direction,
+// and turned by any angle.
 [[nodiscard]] core::RigidTransform DrawLensPhoto(const core::CameraModel& camera, const TrueBoard& board,
                                                  Random* random);
 
