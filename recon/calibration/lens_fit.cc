@@ -230,14 +230,14 @@ ModelExcess ExcessOf(const std::vector<double>& errors, const std::vector<double
 
 // Whether a simpler model must give way to another. By 2 % always. By less, if the difference is beyond two
 // standard errors: an error of the model of a fifth of the noise is 2 %, and can be many standard deviations
-// of the parameters. Not so to a fisheye, which has no tangential terms and would put those of a lens that
-// has them into the principal point.
+// of the parameters. To a fisheye by a thousandth at least: it has no tangential terms, and would put small
+// ones of a lens that has them into the principal point.
 bool MustGiveWay(const std::vector<double>& errors, const Candidate& other) {
-  constexpr double kShare = 0.02, kStandardErrors = 2.0;
+  constexpr double kShare = 0.02, kShareToFisheye = 0.001, kStandardErrors = 2.0;
   const ModelExcess excess = ExcessOf(errors, other.held_out);
   if (excess.share > kShare) return true;
-  return other.model != DistortionModel::kFisheye && excess.share > 0.0 &&
-         excess.standard_errors > kStandardErrors;
+  const double least = other.model == DistortionModel::kFisheye ? kShareToFisheye : 0.0;
+  return excess.share > least && excess.standard_errors > kStandardErrors;
 }
 
 // Of the candidates whose noise is about the least, the one that most points agree with. A model that doesn't

@@ -11,6 +11,10 @@ using Eigen::Matrix2d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
+// Where the denominator of a rational lens vanishes, the numerator of a fit vanishes too: the lens is that of
+// lower orders, and the derivatives by the coefficients have no bounds. No real lens comes near it.
+constexpr double kLeastDenominator = 0.05;
+
 // A point of the distorted plane, and its derivatives by the normalised point.
 struct DistortedPoint {
   Vector2d at;
@@ -42,14 +46,14 @@ struct PolynomialLens {
 
 std::optional<Vector2d> DistortPolynomial(const PolynomialLens& lens, const Vector2d& n) {
   const double t = n.squaredNorm(), denominator = lens.Denominator(t);
-  if (!(denominator > 0.0)) return std::nullopt;
+  if (!(denominator > kLeastDenominator)) return std::nullopt;
   return n * (lens.Numerator(t) / denominator) + lens.OffAxis(n, t);
 }
 
 std::optional<DistortedPoint> DifferentiatePolynomial(const PolynomialLens& lens, const Vector2d& n) {
   const double x = n.x(), y = n.y(), t = n.squaredNorm();
   const double denominator = lens.Denominator(t);
-  if (!(denominator > 0.0)) return std::nullopt;
+  if (!(denominator > kLeastDenominator)) return std::nullopt;
   const double scale = lens.Numerator(t) / denominator;
   // The derivatives by t = x^2 + y^2 of numerator, denominator and their quotient.
   const auto& k = lens.k;

@@ -24,7 +24,7 @@ struct LensParameters {
 void PutLens(const LensParameters& lens, core::CameraCalibration* calibration);
 
 // As core::CameraModel::ProjectInCam to 1e-9 px (lens_projection_test), but also beyond the lens's domain.
-// Nothing: the point isn't before the camera plane, or the denominator of a rational lens isn't positive.
+// Nothing: the point isn't before the camera plane, or the denominator of a rational lens isn't above 0.05.
 [[nodiscard]] std::optional<Eigen::Vector2d> ProjectPoint(const LensParameters& lens,
                                                           const Eigen::Vector3d& x_in_cam);
 

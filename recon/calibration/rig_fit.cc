@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 
@@ -113,18 +115,45 @@ void LeaveUndecidedViews(double noise_scale, RigState* state) {
   }
 }
 
-bool LeaveViewsFromBehind(const Adjustment& a, RigState* state) {
-  bool has_changed = false;
+// The largest distance from the axis, in the normalised plane, of what may be in the picture, with room to
+// spare. A pose farther off can still land in the picture, as lenses fold or end there in the formula.
+double FarthestInPicture(const LensParameters& lens, const CalibrationCamera& camera) {
+  constexpr double kRoom = 1.5, kWithoutInverse = 3.0;  // 72 degrees from the axis
+  double farthest = 0.0;
+  for (const double x : {0.0, camera.width_px - 1.0})
+    for (const double y : {0.0, camera.height_px - 1.0}) {
+      const auto corner = NormalisedPoint(lens, {x, y});
+      farthest = std::max(farthest, corner ? kRoom * corner->norm() : kWithoutInverse);
+    }
+  return farthest;
+}
+
+bool IsBeforeLens(const Adjustment& a, const AdjustedView& view, const RigidTransform& cam_from_board,
+                  double farthest) {
+  return std::ranges::all_of(view.points, [&](const AdjustedPoint& point) {
+    const Eigen::Vector3d x_in_cam = cam_from_board * a.surface->Flat(point.point);
+    return !point.is_used || (x_in_cam.z() > 0.0 && x_in_cam.hnormalized().norm() <= farthest);
+  });
+}
+
+// Poses that fit the formulas and that no camera can see.
+void LeaveImpossibleViews(const Adjustment& a, RigState* state) {
+  std::vector<double> farthest;
+  for (std::size_t i = 0; i < a.cameras.size(); ++i)
+    farthest.push_back(FarthestInPicture(a.cameras[i].lens, state->input->cameras[i]));
   for (RigView& view : state->views) {
     if (view.adjusted < 0 || !view.is_used) continue;
-    const RigidTransform cam_from_board = CamFromBoardAt(a, a.views[static_cast<std::size_t>(view.adjusted)]);
-    if (ShowsPrintedSide(cam_from_board, a.surface->center())) continue;
+    const AdjustedView& adjusted = a.views[static_cast<std::size_t>(view.adjusted)];
+    const RigidTransform cam_from_board = CamFromBoardAt(a, adjusted);
+    const bool is_from_behind = !ShowsPrintedSide(cam_from_board, a.surface->center());
+    if (!is_from_behind &&
+        IsBeforeLens(a, adjusted, cam_from_board, farthest[static_cast<std::size_t>(view.camera)]))
+      continue;
     view.is_used = false;
     view.is_final = true;
-    view.reason = "it would see the board from behind";
-    has_changed = true;
+    view.reason = is_from_behind ? "it would see the board from behind"
+                                 : "it would see the board far outside of the picture";
   }
-  return has_changed;
 }
 
 bool StampsDiffer(const RigState& state) {
@@ -233,7 +262,7 @@ void FitWithoutOutliers(const std::stop_token& stop, RigFit* fit) {
     BundleOptions plain;
     plain.noise_scale = fit->noise_scale;
     ExchangeFlips(round == 0 ? FlipsTried::kOfDoubtful : FlipsTried::kOfMisfits, plain, &a, &state);
-    LeaveViewsFromBehind(a, &state);
+    LeaveImpossibleViews(a, &state);
   }
   fit->adjustment = FitPlainly(&state, fit->noise_scale, 30, stop);
   fit->noise_scale = NoiseScale(fit->adjustment).value_or(fit->noise_scale);
@@ -291,6 +320,7 @@ RigFit FitRig(RigState start, const std::stop_token& stop) {
   FreeOffsetsAndFlatness(&fit);
   RequireEnoughViews(fit.state);
   FitRobustly(true, 2, FlipsTried::kOfMisfits, stop, &fit.state);
+  LeaveImpossibleViews(AdjustmentOf(&fit.state), &fit.state);
   FixUnknownOffsets(stop, &fit);
   AskFarViewsAgain(&fit.state);
   LeaveUnconfirmedViews(&fit.state);
