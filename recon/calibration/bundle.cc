@@ -2,10 +2,12 @@
 
 #include <tbb/parallel_for.h>
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "core/error.h"
 #include "core/progress.h"
 #include "recon/calibration/rotation.h"
 
@@ -254,6 +256,17 @@ NormalEquations EquationsOf(const Adjustment& a, const BundleOptions& options) {
   AddPriors(a, options, &sum);
   FixWhatStays(a, &sum);
   return sum;
+}
+
+std::optional<LensEvidence> LensEvidenceOf(const Adjustment& a, const AdjustedView& view) {
+  core::Require(view.board_count == 1, "a view by itself has one board");
+  const ViewEquations e = EquationsOfView(a, view, {});
+  const int intrinsics = a.cameras[static_cast<std::size_t>(view.camera)].lens.count();
+  const Eigen::LLT<MatrixXd> board(e.matrix.bottomRightCorner(6, 6));
+  if (board.info() != Eigen::Success) return std::nullopt;
+  const MatrixXd mixed = e.matrix.bottomLeftCorner(6, intrinsics), solved = board.solve(mixed);
+  return LensEvidence{e.matrix.topLeftCorner(intrinsics, intrinsics) - mixed.transpose() * solved,
+                      e.gradient.head(intrinsics) - solved.transpose() * e.gradient.tail(6)};
 }
 
 Adjustment AdjustBundle(Adjustment start, const BundleOptions& options, const std::stop_token& stop) {

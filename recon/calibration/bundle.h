@@ -25,6 +25,15 @@ struct BundleOptions {
 // Normal equations of the used points at the present parameters.
 [[nodiscard]] NormalEquations EquationsOf(const Adjustment& adjustment, const BundleOptions& options);
 
+// What one view, whose board no other view shows, says of its camera's lens: the normal equations of the
+// intrinsics with the board's pose eliminated. Nothing: the view doesn't decide its pose.
+struct LensEvidence {
+  Eigen::MatrixXd information;
+  Eigen::VectorXd gradient;
+};
+[[nodiscard]] std::optional<LensEvidence> LensEvidenceOf(const Adjustment& adjustment,
+                                                         const AdjustedView& view);
+
 // Half the sum of losses that AdjustBundle lessens.
 [[nodiscard]] double CostOf(const Adjustment& adjustment, const BundleOptions& options);
 

@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "recon/calibration/held_out.h"
 #include "recon/calibration/lens_fit.h"
+#include "recon/calibration/rig_covariance.h"
 #include "recon/calibration/rig_fit.h"
 #include "recon/calibration/rig_start.h"
 
@@ -199,7 +200,7 @@ CalibrationResult Calibrate(const CalibrationInput& input, const core::Progress&
   StartRig(stop, &start);
   Report(progress, Stage::kAdjusting, "bundle adjustment");
   const RigFit fit = FitRig(std::move(start), stop);
-  const Eigen::MatrixXd covariance = CovarianceOf(fit.adjustment, fit.noise_scale);
+  const Eigen::MatrixXd covariance = CovarianceOf(fit.adjustment, fit.noise_scale, input);
 
   CalibrationResult result;
   result.noise_scale = fit.noise_scale;

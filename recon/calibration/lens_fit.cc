@@ -19,7 +19,7 @@ namespace {
 using core::DistortionModel;
 using Eigen::Vector2d;
 
-constexpr int kMostLensViews = 30;  // more add time and little accuracy; the joint fit uses all
+constexpr int kMostLensViews = 40;  // more add time and little accuracy; the joint fit uses all
 constexpr int kMostStartViews = 15;
 constexpr std::size_t kLeastPoints = 6;
 
@@ -44,7 +44,7 @@ LensParameters PlainLens(const CalibrationCamera& camera, DistortionModel model,
 }
 
 std::vector<PlanarPose> PosesOfView(const LensParameters& lens, const BoardSurface& surface,
-                                    std::span<const AdjustedPoint> points) {
+                                    std::span<const AdjustedPoint> points, int most_steps = kPoseSteps) {
   std::vector<PosePoint> posed;
   std::vector<Vector2d> normalised;
   for (const AdjustedPoint& point : points) {
@@ -53,7 +53,7 @@ std::vector<PlanarPose> PosesOfView(const LensParameters& lens, const BoardSurfa
     normalised.push_back(*at);
     posed.push_back({surface.Flat(point.point), point.pixel, point.inverse_sigma});
   }
-  return PlanarPosesOf(lens, posed, normalised);
+  return PlanarPosesOf(lens, posed, normalised, most_steps);
 }
 
 // `most` of the values at even steps.
@@ -69,8 +69,8 @@ std::vector<T> Spread(const std::vector<T>& all, int most) {
 // The focal length, of a row of them, whose lens without distortion fits the middle view best.
 LensParameters StartLens(const CalibrationCamera& camera, const BoardSurface& surface, DistortionModel model,
                          const std::vector<std::vector<AdjustedPoint>>& views) {
-  constexpr int kFocalLengths = 20;
-  constexpr double kShortest = 0.3, kStep = 1.15;  // of the longer side; the longest is 4.3
+  constexpr int kFocalLengths = 13, kPoseStepsAtStart = 6;
+  constexpr double kShortest = 0.3, kStep = 1.25;  // of the longer side; the longest is 4.4
   const double side_px = std::max(camera.width_px, camera.height_px);
   LensParameters best;
   double least_px = std::numeric_limits<double>::infinity();
@@ -78,7 +78,7 @@ LensParameters StartLens(const CalibrationCamera& camera, const BoardSurface& su
     const LensParameters lens = PlainLens(camera, model, kShortest * std::pow(kStep, i) * side_px);
     std::vector<double> errors;
     for (const auto& points : Spread(views, kMostStartViews)) {
-      const std::vector<PlanarPose> poses = PosesOfView(lens, surface, points);
+      const std::vector<PlanarPose> poses = PosesOfView(lens, surface, points, kPoseStepsAtStart);
       errors.push_back(poses.empty() ? std::numeric_limits<double>::max() : poses.front().error.rms_px);
     }
     const auto middle = errors.begin() + static_cast<std::ptrdiff_t>(errors.size() / 2);
@@ -230,20 +230,34 @@ ModelExcess ExcessOf(const std::vector<double>& errors, const std::vector<double
 
 // Whether a simpler model must give way to another. By 2 % always. By less, if the difference is beyond two
 // standard errors: an error of the model of a fifth of the noise is 2 %, and can be many standard deviations
-// of the parameters. Not so to a fisheye, which has no tangential terms and would put those of a lens that
-// has them into the principal point.
+// of the parameters. To a fisheye by a thousandth at least: it has no tangential terms, and would put small
+// ones of a lens that has them into the principal point.
 bool MustGiveWay(const std::vector<double>& errors, const Candidate& other) {
-  constexpr double kShare = 0.02, kStandardErrors = 2.0;
+  constexpr double kShare = 0.02, kShareToFisheye = 0.001, kStandardErrors = 2.0;
   const ModelExcess excess = ExcessOf(errors, other.held_out);
   if (excess.share > kShare) return true;
-  return other.model != DistortionModel::kFisheye && excess.share > 0.0 &&
-         excess.standard_errors > kStandardErrors;
+  const double least = other.model == DistortionModel::kFisheye ? kShareToFisheye : 0.0;
+  return excess.share > least && excess.standard_errors > kStandardErrors;
 }
 
-// All candidates are judged by the views and points that agree with the one of least noise.
+// Of the candidates whose noise is about the least, the one that most points agree with. A model that doesn't
+// fit far from the middle calls the points there wrong, and fits the others as well.
+const Candidate& FinestOf(const std::vector<Candidate>& candidates) {
+  constexpr double kAboutTheLeast = 1.05;
+  const double least = std::ranges::min_element(candidates, {}, &Candidate::noise)->noise;
+  const auto points_of = [&](const Candidate& candidate) {
+    std::ptrdiff_t points = 0;
+    for (const AdjustedView& view : candidate.fit.views)
+      if (view.is_used) points += std::ranges::count_if(view.points, &AdjustedPoint::is_used);
+    return candidate.noise <= kAboutTheLeast * least ? points : 0;
+  };
+  return *std::ranges::max_element(candidates, {}, points_of);
+}
+
+// All candidates are judged by the views and points that agree with the finest.
 const Candidate& ChooseModel(std::vector<Candidate>* candidates, const std::stop_token& stop) {
   constexpr int kFolds = 5;
-  Candidate& finest = *std::ranges::min_element(*candidates, {}, &Candidate::noise);
+  const Candidate& finest = FinestOf(*candidates);
   const int folds = std::min(kFolds, UsedViews(finest.fit));
   for (Candidate& candidate : *candidates) {
     for (std::size_t i = 0; i < finest.fit.views.size(); ++i) {

@@ -11,12 +11,17 @@ using Eigen::Matrix2d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-// A point of the distorted plane, and its derivatives by the normalised point and by the coefficients.
+// Where the denominator of a rational lens vanishes, the numerator of a fit vanishes too: the lens is that of
+// lower orders, and the derivatives by the coefficients have no bounds. No real lens comes near it.
+constexpr double kLeastDenominator = 0.05;
+
+// A point of the distorted plane, and its derivatives by the normalised point.
 struct DistortedPoint {
   Vector2d at;
   Matrix2d by_normalised;
-  Eigen::Matrix<double, 2, Eigen::Dynamic, 0, 2, kMostIntrinsics> by_coefficients;
 };
+// The derivatives by the coefficients.
+using ByCoefficients = Eigen::Matrix<double, 2, Eigen::Dynamic, 0, 2, kMostIntrinsics>;
 
 // Coefficients in the order of the formulas; those that a lens doesn't have are 0.
 struct PolynomialLens {
@@ -41,15 +46,14 @@ struct PolynomialLens {
 
 std::optional<Vector2d> DistortPolynomial(const PolynomialLens& lens, const Vector2d& n) {
   const double t = n.squaredNorm(), denominator = lens.Denominator(t);
-  if (!(denominator > 0.0)) return std::nullopt;
+  if (!(denominator > kLeastDenominator)) return std::nullopt;
   return n * (lens.Numerator(t) / denominator) + lens.OffAxis(n, t);
 }
 
-std::optional<DistortedPoint> DifferentiatePolynomial(const Eigen::VectorXd& values, const Vector2d& n) {
-  const PolynomialLens lens(values);
+std::optional<DistortedPoint> DifferentiatePolynomial(const PolynomialLens& lens, const Vector2d& n) {
   const double x = n.x(), y = n.y(), t = n.squaredNorm();
   const double denominator = lens.Denominator(t);
-  if (!(denominator > 0.0)) return std::nullopt;
+  if (!(denominator > kLeastDenominator)) return std::nullopt;
   const double scale = lens.Numerator(t) / denominator;
   // The derivatives by t = x^2 + y^2 of numerator, denominator and their quotient.
   const auto& k = lens.k;
@@ -65,25 +69,28 @@ std::optional<DistortedPoint> DifferentiatePolynomial(const Eigen::VectorXd& val
   d.by_normalised += scale * Matrix2d::Identity() + 2.0 * scale_by_t * n * n.transpose();
   const Vector2d prism_by_t(lens.s[0] + 2.0 * t * lens.s[1], lens.s[2] + 2.0 * t * lens.s[3]);
   d.by_normalised += 2.0 * prism_by_t * n.transpose();
-
-  const Vector2d radial = n / denominator;
-  const std::array<Vector2d, 12> by = {radial * t,
-                                       radial * t * t,
-                                       Vector2d(2.0 * x * y, t + 2.0 * y * y),
-                                       Vector2d(t + 2.0 * x * x, 2.0 * x * y),
-                                       radial * t * t * t,
-                                       radial * (-scale * t),
-                                       radial * (-scale * t * t),
-                                       radial * (-scale * t * t * t),
-                                       Vector2d(t, 0.0),
-                                       Vector2d(t * t, 0.0),
-                                       Vector2d(0.0, t),
-                                       Vector2d(0.0, t * t)};
-  const auto count = values.size() - 4;
-  d.by_coefficients.setZero(2, count);  // the tilt of a sensor, beyond the twelfth, is 0 and isn't found
-  for (Eigen::Index i = 0; i < std::min<Eigen::Index>(count, 12); ++i)
-    d.by_coefficients.col(i) = by[static_cast<std::size_t>(i)];
   return d;
+}
+
+void DifferentiateByPolynomial(const PolynomialLens& lens, const Vector2d& n, ByCoefficients* by) {
+  const double x = n.x(), y = n.y(), t = n.squaredNorm();
+  const double denominator = lens.Denominator(t), scale = lens.Numerator(t) / denominator;
+  const Vector2d radial = n / denominator;
+  const std::array<Vector2d, 12> all = {radial * t,
+                                        radial * t * t,
+                                        Vector2d(2.0 * x * y, t + 2.0 * y * y),
+                                        Vector2d(t + 2.0 * x * x, 2.0 * x * y),
+                                        radial * t * t * t,
+                                        radial * (-scale * t),
+                                        radial * (-scale * t * t),
+                                        radial * (-scale * t * t * t),
+                                        Vector2d(t, 0.0),
+                                        Vector2d(t * t, 0.0),
+                                        Vector2d(0.0, t),
+                                        Vector2d(0.0, t * t)};
+  by->setZero();  // the tilt of a sensor, beyond the twelfth, is 0 and isn't found
+  for (Eigen::Index i = 0; i < std::min<Eigen::Index>(by->cols(), 12); ++i)
+    by->col(i) = all[static_cast<std::size_t>(i)];
 }
 
 constexpr double kCentre = 1e-8;  // radius below which a fisheye's picture is the point itself
@@ -96,32 +103,43 @@ Vector2d DistortFisheye(const Eigen::VectorXd& v, const Vector2d& n) {
 }
 
 DistortedPoint DifferentiateFisheye(const Eigen::VectorXd& v, const Vector2d& n) {
-  DistortedPoint d;
-  d.by_coefficients.setZero(2, 4);
   const double radius = n.norm();
-  if (radius < kCentre) {
-    d.at = n;
-    d.by_normalised = Matrix2d::Identity();
-    return d;
-  }
+  if (radius < kCentre) return {n, Matrix2d::Identity()};
   const double theta = std::atan(radius), t = theta * theta;
   const double across = theta * (1.0 + t * (v[4] + t * (v[5] + t * (v[6] + t * v[7])))) / radius;
   const double along = (1.0 + t * (3.0 * v[4] + t * (5.0 * v[5] + t * (7.0 * v[6] + t * 9.0 * v[7])))) /
                        (1.0 + radius * radius);
-  d.at = n * across;
-  d.by_normalised =
-      across * Matrix2d::Identity() + ((along - across) / (radius * radius)) * n * n.transpose();
+  return {n * across,
+          across * Matrix2d::Identity() + ((along - across) / (radius * radius)) * n * n.transpose()};
+}
+
+void DifferentiateByFisheye(const Vector2d& n, ByCoefficients* by) {
+  by->setZero();
+  const double radius = n.norm();
+  if (radius < kCentre) return;
+  const double theta = std::atan(radius), t = theta * theta;
   double power = theta / radius;
   for (int i = 0; i < 4; ++i) {
     power *= t;
-    d.by_coefficients.col(i) = n * power;
+    by->col(i) = n * power;
   }
-  return d;
 }
 
 Vector2d PixelOf(const LensParameters& lens, const Vector2d& distorted) {
   const Eigen::VectorXd& v = lens.values;
   return {v[0] * distorted.x() + lens.skew_px * distorted.y() + v[2], v[1] * distorted.y() + v[3]};
+}
+
+Vector2d DistortedOf(const LensParameters& lens, const Vector2d& pixel) {
+  const Eigen::VectorXd& v = lens.values;
+  const double y = (pixel.y() - v[3]) / v[1];
+  return {(pixel.x() - v[2] - lens.skew_px * y) / v[0], y};
+}
+
+Matrix2d FocalMatrix(const LensParameters& lens) {
+  Matrix2d focal;
+  focal << lens.values[0], lens.skew_px, 0.0, lens.values[1];
+  return focal;
 }
 
 }  // namespace
@@ -158,44 +176,53 @@ std::optional<Vector2d> ProjectPoint(const LensParameters& lens, const Vector3d&
   return PixelOf(lens, *distorted);
 }
 
-std::optional<ProjectedPoint> ProjectWithDerivatives(const LensParameters& lens, const Vector3d& x_in_cam) {
+std::optional<PosedPixel> ProjectWithPointDerivative(const LensParameters& lens, const Vector3d& x_in_cam) {
   if (!(x_in_cam.z() > 0.0)) return std::nullopt;
   const double inverse_z = 1.0 / x_in_cam.z();
   const Vector2d normalised = x_in_cam.head<2>() * inverse_z;
-  const std::optional<DistortedPoint> d = lens.model == core::DistortionModel::kFisheye
-                                              ? DifferentiateFisheye(lens.values, normalised)
-                                              : DifferentiatePolynomial(lens.values, normalised);
+  const std::optional<DistortedPoint> d =
+      lens.model == core::DistortionModel::kFisheye
+          ? DifferentiateFisheye(lens.values, normalised)
+          : DifferentiatePolynomial(PolynomialLens(lens.values), normalised);
   if (!d) return std::nullopt;
-
-  Matrix2d scale;
-  scale << lens.values[0], lens.skew_px, 0.0, lens.values[1];
   Eigen::Matrix<double, 2, 3> normalised_by_x;
   normalised_by_x << inverse_z, 0.0, -normalised.x() * inverse_z, 0.0, inverse_z, -normalised.y() * inverse_z;
+  return PosedPixel{PixelOf(lens, d->at), FocalMatrix(lens) * d->by_normalised * normalised_by_x};
+}
 
-  ProjectedPoint point;
-  point.pixel = PixelOf(lens, d->at);
-  point.by_x_in_cam = scale * d->by_normalised * normalised_by_x;
-  point.by_values.setZero(2, lens.count());
-  point.by_values(0, 0) = d->at.x();
-  point.by_values(1, 1) = d->at.y();
-  point.by_values(0, 2) = 1.0;
-  point.by_values(1, 3) = 1.0;
-  point.by_values.rightCols(d->by_coefficients.cols()) = scale * d->by_coefficients;
+std::optional<ProjectedPoint> ProjectWithDerivatives(const LensParameters& lens, const Vector3d& x_in_cam) {
+  const std::optional<PosedPixel> seen = ProjectWithPointDerivative(lens, x_in_cam);
+  if (!seen) return std::nullopt;
+  std::optional<ProjectedPoint> point(std::in_place);
+  point->pixel = seen->pixel;
+  point->by_x_in_cam = seen->by_x_in_cam;
+
+  const Vector2d normalised = x_in_cam.head<2>() / x_in_cam.z();
+  ByCoefficients by_coefficients(2, lens.count() - 4);
+  if (lens.model == core::DistortionModel::kFisheye)
+    DifferentiateByFisheye(normalised, &by_coefficients);
+  else
+    DifferentiateByPolynomial(PolynomialLens(lens.values), normalised, &by_coefficients);
+  const Vector2d distorted = DistortedOf(lens, seen->pixel);
+  point->by_values.setZero(2, lens.count());
+  point->by_values(0, 0) = distorted.x();
+  point->by_values(1, 1) = distorted.y();
+  point->by_values(0, 2) = 1.0;
+  point->by_values(1, 3) = 1.0;
+  point->by_values.rightCols(by_coefficients.cols()).noalias() = FocalMatrix(lens) * by_coefficients;
   return point;
 }
 
 std::optional<Vector2d> NormalisedPoint(const LensParameters& lens, const Vector2d& pixel) {
   constexpr int kSteps = 30;
   constexpr double kSettledPx = 1e-9, kLargestRadius = 50.0;
-  const Eigen::VectorXd& v = lens.values;
-  const double y = (pixel.y() - v[3]) / v[1];
-  Vector2d at((pixel.x() - v[2] - lens.skew_px * y) / v[0], y);
+  Vector2d at = DistortedOf(lens, pixel);
   if (lens.model == core::DistortionModel::kFisheye) {
     const double theta = at.norm();
     if (theta > 1e-6) at *= std::tan(std::min(theta, 1.5)) / theta;
   }
   for (int step = 0; step < kSteps; ++step) {
-    const auto projected = ProjectWithDerivatives(lens, {at.x(), at.y(), 1.0});
+    const auto projected = ProjectWithPointDerivative(lens, {at.x(), at.y(), 1.0});
     if (!projected) return std::nullopt;
     const Vector2d residual = pixel - projected->pixel;
     if (residual.norm() < kSettledPx) return at;

@@ -24,16 +24,22 @@ struct LensParameters {
 void PutLens(const LensParameters& lens, core::CameraCalibration* calibration);
 
 // As core::CameraModel::ProjectInCam to 1e-9 px (lens_projection_test), but also beyond the lens's domain.
-// Nothing: the point isn't before the camera plane, or the denominator of a rational lens isn't positive.
+// Nothing: the point isn't before the camera plane, or the denominator of a rational lens isn't above 0.05.
 [[nodiscard]] std::optional<Eigen::Vector2d> ProjectPoint(const LensParameters& lens,
                                                           const Eigen::Vector3d& x_in_cam);
 
-struct ProjectedPoint {
+struct PosedPixel {
   Eigen::Vector2d pixel;
-  Eigen::Matrix<double, 2, 3> by_x_in_cam;                                    // px / mm
+  Eigen::Matrix<double, 2, 3> by_x_in_cam;  // px / mm
+};
+// The same pixel with its derivative by the point, which is all that a pose needs.
+[[nodiscard]] std::optional<PosedPixel> ProjectWithPointDerivative(const LensParameters& lens,
+                                                                   const Eigen::Vector3d& x_in_cam);
+
+struct ProjectedPoint : PosedPixel {
   Eigen::Matrix<double, 2, Eigen::Dynamic, 0, 2, kMostIntrinsics> by_values;  // px / unit of each value
 };
-// The same pixel with its derivatives (lens_projection_test holds them to differences).
+// With the derivatives by the lens too (lens_projection_test holds them to differences).
 [[nodiscard]] std::optional<ProjectedPoint> ProjectWithDerivatives(const LensParameters& lens,
                                                                    const Eigen::Vector3d& x_in_cam);
 

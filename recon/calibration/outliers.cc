@@ -1,5 +1,6 @@
 #include "recon/calibration/outliers.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -47,6 +48,23 @@ double KeptError(const std::vector<double>& sigmas, const AdjustedView& view) {
   for (std::size_t i = 0; i < sigmas.size(); ++i)
     if (view.points[i].is_used) kept.push_back(sigmas[i]);
   return RootMeanSquare(kept);
+}
+
+// Points on one line don't tell how the board is turned about it.
+bool AreOnALine(const Adjustment& a, const AdjustedView& view) {
+  constexpr double kThin = 1e-6;  // of the points' variance across the line over that along it
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d squares = Eigen::Matrix2d::Zero();
+  double count = 0.0;
+  for (const AdjustedPoint& point : view.points) {
+    if (!point.is_used) continue;
+    const Eigen::Vector2d at = a.surface->Flat(point.point).head<2>();
+    sum += at;
+    squares += at * at.transpose();
+    count += 1.0;
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> spread(squares - sum * sum.transpose() / count);
+  return spread.eigenvalues()[0] <= kThin * spread.eigenvalues()[1];
 }
 
 // How far a view is off, measured by its camera's other views.
@@ -114,8 +132,9 @@ bool LeaveOutliers(double noise_scale, Adjustment* a) {
     for (int b = 0; b < view.board_count; ++b)
       is_worst &= misfits[i].excess >=
                   worst_of_board[static_cast<std::size_t>(view.boards[static_cast<std::size_t>(b)])];
-    const bool has_too_few =
-        misfits[i].points < 4 || 2 * static_cast<std::size_t>(misfits[i].points) < view.points.size();
+    const bool has_too_few = misfits[i].points < 4 ||
+                             2 * static_cast<std::size_t>(misfits[i].points) < view.points.size() ||
+                             AreOnALine(*a, view);
     if (!has_too_few && !(is_worst && misfits[i].is_too_large)) continue;
     view.is_used = false;
     has_changed = true;

@@ -20,10 +20,10 @@ inline constexpr double kViewMedians = 3.0;  // or beyond so many times the medi
 // aren't used stay so.
 //
 // A point is left out beyond kPointSigmas times `noise_scale`. A view is left out if more than half of its
-// points are, or fewer than four remain, or its RMS is too large. How far the RMS of n points is from the
-// camera's median is measured in its standard deviation, 1 / sqrt(4 n) of the median, times the spread that
-// the camera's views have by this measure, where that is more than 1. Of views that share a board, only the
-// worst goes at a time: the others may be off because of it.
+// points are, or fewer than four remain, or all on a line, or its RMS is too large. How far the RMS of n
+// points is from the camera's median is measured in its standard deviation, 1 / sqrt(4 n) of the median,
+// times the spread that the camera's views have by this measure, where that is more than 1. Of views that
+// share a board, only the worst goes at a time: the others may be off because of it.
 bool LeaveOutliers(double noise_scale, Adjustment* adjustment);
 
 }  // namespace elbowroom::recon

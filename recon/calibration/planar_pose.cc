@@ -21,22 +21,45 @@ using Vector6d = Eigen::Matrix<double, 6, 1>;
 
 constexpr double kFarOffPx = 1000.0;  // what a point behind a camera counts as
 
-double PoseLoss(double squared, double c) {
-  return c > 0.0 ? 0.5 * c * c * std::log1p(squared / (c * c)) : 0.5 * squared;
-}
 double PoseWeight(double squared, double c) { return c > 0.0 ? 1.0 / (1.0 + squared / (c * c)) : 1.0; }
 
+// The sum of losses of squared residuals: half of each, or Cauchy's c^2 / 2 * log(1 + squared / c^2). The
+// logarithm is taken of products: one takes the time of ten multiplications.
+class LossSum {
+ public:
+  explicit LossSum(double cauchy_scale) : c2_(cauchy_scale * cauchy_scale) {}
+
+  void Add(double squared) {
+    if (c2_ <= 0.0) {
+      sum_ += squared;
+      return;
+    }
+    product_ *= 1.0 + squared / c2_;
+    if (product_ < kLarge) return;
+    sum_ += c2_ * std::log(product_);
+    product_ = 1.0;
+  }
+  [[nodiscard]] double Half() const { return 0.5 * (c2_ > 0.0 ? sum_ + c2_ * std::log(product_) : sum_); }
+
+ private:
+  static constexpr double kLarge = 1e150;  // times one more factor it is still a number
+
+  double c2_;
+  double product_ = 1.0;
+  double sum_ = 0.0;
+};
+
 double PoseCost(std::span<const PosedView> views, const RigidTransform& rig_from_board, double cauchy_scale) {
-  double cost = 0.0;
+  LossSum loss(cauchy_scale);
   for (const PosedView& view : views) {
     const RigidTransform cam_from_board = view.cam_from_rig * rig_from_board;
     for (const PosePoint& point : view.points) {
       const auto pixel = ProjectPoint(*view.lens, cam_from_board * point.x_in_board);
       const double px2 = pixel ? (*pixel - point.pixel).squaredNorm() : kFarOffPx * kFarOffPx;
-      cost += PoseLoss(px2 * point.inverse_sigma * point.inverse_sigma, cauchy_scale);
+      loss.Add(px2 * point.inverse_sigma * point.inverse_sigma);
     }
   }
-  return cost;
+  return loss.Half();
 }
 
 struct PoseEquations {
@@ -44,24 +67,43 @@ struct PoseEquations {
   Vector6d gradient = Vector6d::Zero();
 };
 
-// By a turn of the board from the right and its translation.
+// By a turn of the board about the camera's centre and a translation, both in the camera's frame.
+PoseEquations EquationsInCamera(const PosedView& view, const RigidTransform& cam_from_board,
+                                double cauchy_scale) {
+  PoseEquations e;
+  for (const PosePoint& point : view.points) {
+    const Vector3d x = cam_from_board * point.x_in_board;
+    const auto projected = ProjectWithPointDerivative(*view.lens, x);
+    if (!projected) continue;
+    const Vector2d residual = projected->pixel - point.pixel;
+    const double inverse2 = point.inverse_sigma * point.inverse_sigma;
+    const double weight = inverse2 * PoseWeight(residual.squaredNorm() * inverse2, cauchy_scale);
+    for (Eigen::Index i = 0; i < 2; ++i) {
+      const Vector3d by_x = projected->by_x_in_cam.row(i).transpose();
+      Vector6d by_pose;  // a turn w moves x by w x x
+      by_pose << x.cross(by_x), by_x;
+      const Vector6d weighted = weight * by_pose;
+      for (Eigen::Index column = 0; column < 6; ++column) e.matrix.col(column) += by_pose[column] * weighted;
+      e.gradient -= residual[i] * weighted;
+    }
+  }
+  return e;
+}
+
+// By a turn of the board from the right and its translation in the rig.
 PoseEquations EquationsOfPose(std::span<const PosedView> views, const RigidTransform& rig_from_board,
                               double cauchy_scale) {
   PoseEquations e;
   for (const PosedView& view : views) {
     const RigidTransform cam_from_board = view.cam_from_rig * rig_from_board;
-    for (const PosePoint& point : view.points) {
-      const auto projected = ProjectWithDerivatives(*view.lens, cam_from_board * point.x_in_board);
-      if (!projected) continue;
-      const Vector2d residual = projected->pixel - point.pixel;
-      const double inverse2 = point.inverse_sigma * point.inverse_sigma;
-      const double weight = inverse2 * PoseWeight(residual.squaredNorm() * inverse2, cauchy_scale);
-      Eigen::Matrix<double, 2, 6> by_pose;
-      by_pose.leftCols<3>() = -projected->by_x_in_cam * cam_from_board.rotation * Hat(point.x_in_board);
-      by_pose.rightCols<3>() = projected->by_x_in_cam * view.cam_from_rig.rotation;
-      e.matrix.noalias() += weight * by_pose.transpose() * by_pose;
-      e.gradient.noalias() -= weight * by_pose.transpose() * residual;
-    }
+    const PoseEquations in_camera = EquationsInCamera(view, cam_from_board, cauchy_scale);
+    // A turn from the right is about the board's origin.
+    Matrix6d by_board = Matrix6d::Zero();
+    by_board.topLeftCorner<3, 3>() = cam_from_board.rotation;
+    by_board.bottomLeftCorner<3, 3>() = Hat(cam_from_board.translation_mm) * cam_from_board.rotation;
+    by_board.bottomRightCorner<3, 3>() = view.cam_from_rig.rotation;
+    e.matrix += by_board.transpose() * in_camera.matrix * by_board;
+    e.gradient += by_board.transpose() * in_camera.gradient;
   }
   return e;
 }
@@ -126,18 +168,13 @@ std::optional<RigidTransform> PoseFromHomography(std::span<const PosePoint> poin
   return pose;
 }
 
-bool AreTheSame(const RigidTransform& a, const RigidTransform& b) {
-  constexpr double kSameTurnRad = 1e-3;
-  return VectorFromRotation(a.rotation.transpose() * b.rotation).norm() < kSameTurnRad;
-}
-
 }  // namespace
 
-PoseFit FitBoardPose(std::span<const PosedView> views, const RigidTransform& start, double cauchy_scale) {
-  constexpr int kSteps = 30;
+PoseFit FitBoardPose(std::span<const PosedView> views, const RigidTransform& start, double cauchy_scale,
+                     int most_steps) {
   PoseFit fit{start, PoseCost(views, start, cauchy_scale)};
   double damping = 1e-4;
-  for (int step = 0; step < kSteps; ++step) {
+  for (int step = 0; step < most_steps; ++step) {
     const PoseEquations e = EquationsOfPose(views, fit.rig_from_board, cauchy_scale);
     bool is_better = false;
     double gain = 0.0;
@@ -178,7 +215,7 @@ ViewError ErrorOf(const PosedView& view, const RigidTransform& rig_from_board) {
 }
 
 std::vector<PlanarPose> PlanarPosesOf(const LensParameters& lens, std::span<const PosePoint> points,
-                                      std::span<const Vector2d> normalised) {
+                                      std::span<const Vector2d> normalised, int most_steps) {
   if (points.size() < 4) return {};
   constexpr double kCauchyScale = 10.0;
   PosedView view{&lens, {}, {points.begin(), points.end()}};
@@ -187,15 +224,21 @@ std::vector<PlanarPose> PlanarPosesOf(const LensParameters& lens, std::span<cons
   std::vector<PlanarPose> poses;
   const std::optional<RigidTransform> start = PoseFromHomography(points, normalised);
   if (!start) return {};
-  const PoseFit one = FitBoardPose({&view, 1}, *start, kCauchyScale);
-  const PoseFit other = FitBoardPose({&view, 1}, Flipped(one.rig_from_board, center), kCauchyScale);
+  const PoseFit one = FitBoardPose({&view, 1}, *start, kCauchyScale, most_steps);
+  const PoseFit other =
+      FitBoardPose({&view, 1}, Flipped(one.rig_from_board, center), kCauchyScale, most_steps);
   for (const PoseFit& fit : {one, other}) {
     if (!ShowsPrintedSide(fit.rig_from_board, center)) continue;
-    if (!poses.empty() && AreTheSame(poses.front().cam_from_board, fit.rig_from_board)) continue;
+    if (!poses.empty() && AreOnePose(poses.front().cam_from_board, fit.rig_from_board)) continue;
     poses.push_back({fit.rig_from_board, ErrorOf(view, fit.rig_from_board)});
   }
   std::ranges::stable_sort(poses, {}, [](const PlanarPose& pose) { return pose.error.rms_px; });
   return poses;
+}
+
+bool AreOnePose(const RigidTransform& a, const RigidTransform& b) {
+  constexpr double kSameTurnRad = 1e-3;
+  return VectorFromRotation(a.rotation.transpose() * b.rotation).norm() < kSameTurnRad;
 }
 
 bool ShowsPrintedSide(const RigidTransform& cam_from_board, const Vector3d& center_in_board) {

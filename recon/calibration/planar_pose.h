@@ -29,9 +29,11 @@ struct PoseFit {
   double cost = 0.0;  // half the sum of losses; points behind a camera count as 1,000 px off
 };
 
+inline constexpr int kPoseSteps = 30;
+
 // The minimum near `start` of the Cauchy loss (cauchy_scale in standard deviations; 0: plain squares).
 [[nodiscard]] PoseFit FitBoardPose(std::span<const PosedView> views, const core::RigidTransform& start,
-                                   double cauchy_scale);
+                                   double cauchy_scale, int most_steps = kPoseSteps);
 
 // RMS of |residual| of one view in px, and the median of |residual|.
 struct ViewError {
@@ -52,7 +54,11 @@ struct PlanarPose {
 // and camera matrix.
 [[nodiscard]] std::vector<PlanarPose> PlanarPosesOf(const LensParameters& lens,
                                                     std::span<const PosePoint> points,
-                                                    std::span<const Eigen::Vector2d> normalised);
+                                                    std::span<const Eigen::Vector2d> normalised,
+                                                    int most_steps = kPoseSteps);
+
+// Whether two fits ended in the same minimum: turned by less than a milliradian.
+[[nodiscard]] bool AreOnePose(const core::RigidTransform& a, const core::RigidTransform& b);
 
 // The printed side looks to the camera, and the point is before it.
 [[nodiscard]] bool ShowsPrintedSide(const core::RigidTransform& cam_from_board,

@@ -2,13 +2,17 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "core/error.h"
 #include "core/progress.h"
+#include "recon/calibration/flips.h"
+#include "recon/calibration/lens_agreement.h"
 #include "recon/calibration/outliers.h"
+#include "recon/calibration/rig_covariance.h"
 
 namespace elbowroom::recon {
 namespace {
@@ -28,61 +32,8 @@ double MedianOfValues(std::vector<double> values) {
   return *middle;
 }
 
-// The used views of each board, at its instant.
-std::vector<std::vector<PosedView>> ViewsOfBoards(const Adjustment& a) {
-  std::vector<std::vector<PosedView>> views(a.boards.size());
-  for (const AdjustedView& view : a.views)
-    if (view.is_used) views[static_cast<std::size_t>(view.boards[0])].push_back(PosedAtSetInstant(a, view));
-  return views;
-}
-
-// The best pose from the mirror images of a board's pose in each of its views.
-PoseFit BestFlip(const std::vector<PosedView>& views, const RigidTransform& rig_from_board,
-                 const Eigen::Vector3d& center, double cauchy_scale) {
-  PoseFit best{rig_from_board, std::numeric_limits<double>::infinity()};
-  for (const PosedView& view : views) {
-    const RigidTransform start =
-        view.cam_from_rig.Inverse() * Flipped(view.cam_from_rig * rig_from_board, center);
-    const PoseFit fit = FitBoardPose(views, start, cauchy_scale);
-    if (fit.cost < best.cost) best = fit;
-  }
-  return best;
-}
-
-// Exchanges poses whose mirror image fits better; returns whether there were any. A flip of the world's board
-// moves the world.
-bool TakeBetterBoards(double cauchy_scale, Adjustment* a, std::optional<RigidTransform>* new_world) {
-  constexpr double kClearlyBetter = 0.999;  // both ways may end in one minimum
-  const std::vector<std::vector<PosedView>> views = ViewsOfBoards(*a);
-  bool has_changed = false;
-  for (std::size_t k = 0; k < a->boards.size(); ++k) {
-    if (views[k].empty()) continue;
-    AdjustedBoard& board = a->boards[k];
-    const PoseFit kept = FitBoardPose(views[k], board.rig_from_board, cauchy_scale);
-    const PoseFit other = BestFlip(views[k], kept.rig_from_board, a->surface->center(), cauchy_scale);
-    if (!(other.cost < kClearlyBetter * kept.cost)) continue;
-    has_changed = true;
-    if (board.is_fixed)
-      *new_world = other.rig_from_board;
-    else
-      board.rig_from_board = other.rig_from_board;
-  }
-  return has_changed;
-}
-
-bool ExchangeFlips(double cauchy_scale, Adjustment* a, RigState* state) {
-  std::optional<RigidTransform> new_world;
-  const bool has_changed = TakeBetterBoards(cauchy_scale, a, &new_world);
-  TakeOver(*a, state);
-  if (!new_world) return has_changed;
-  RigSet& world = state->sets[static_cast<std::size_t>(state->world_set)];
-  world.rig_from_board = *new_world;
-  ChangeFrame(new_world->Inverse(), state);
-  world.rig_from_board = {};
-  return true;
-}
-
-void FitRobustly(bool with_lenses, int rounds, const std::stop_token& stop, RigState* state) {
+void FitRobustly(bool with_lenses, int rounds, FlipsTried tried, const std::stop_token& stop,
+                 RigState* state) {
   BundleOptions options;
   options.cauchy_scale = kRobustScale;
   options.most_steps = 12;
@@ -97,7 +48,7 @@ void FitRobustly(bool with_lenses, int rounds, const std::stop_token& stop, RigS
     options.noise_scale = RobustNoiseScale(a);
     a = AdjustBundle(std::move(a), options, stop);
     for (std::size_t i = 0; i < was_fixed.size(); ++i) a.cameras[i].is_lens_fixed = was_fixed[i];
-    ExchangeFlips(kRobustScale * options.noise_scale, &a, state);
+    ExchangeFlips(tried, options, &a, state);
   }
 }
 
@@ -142,7 +93,7 @@ bool LeaveUnconfirmedViews(RigState* state) {
 
 // A view by itself whose two poses fit alike says little of the lens and may say it wrongly.
 void LeaveUndecidedViews(double noise_scale, RigState* state) {
-  constexpr double kLeastDifference = 25.0;  // of chi squared
+  constexpr double kLeastDifference = 9.0;  // of chi squared
   constexpr int kEnoughViews = 10;
   const Adjustment a = AdjustmentOf(state);
   const std::vector<std::vector<PosedView>> views = ViewsOfBoards(a);
@@ -153,8 +104,10 @@ void LeaveUndecidedViews(double noise_scale, RigState* state) {
       continue;
     const auto k = static_cast<std::size_t>(a.views[static_cast<std::size_t>(view.adjusted)].boards[0]);
     const PoseFit kept = FitBoardPose(views[k], a.boards[k].rig_from_board, 0.0);
-    const PoseFit other = BestFlip(views[k], kept.rig_from_board, a.surface->center(), 0.0);
-    if (2.0 * (other.cost - kept.cost) >= kLeastDifference * noise_scale * noise_scale) continue;
+    const PoseFit other = BestFlip(views[k], kept, a.surface->center(), 0.0);
+    if (AreOnePose(other.rig_from_board, kept.rig_from_board) ||
+        2.0 * (other.cost - kept.cost) >= kLeastDifference * noise_scale * noise_scale)
+      continue;
     view.is_used = false;
     view.is_final = true;
     view.reason = "its two possible poses fit alike, and no other camera sees the board";
@@ -162,18 +115,45 @@ void LeaveUndecidedViews(double noise_scale, RigState* state) {
   }
 }
 
-bool LeaveViewsFromBehind(const Adjustment& a, RigState* state) {
-  bool has_changed = false;
+// The largest distance from the axis, in the normalised plane, of what may be in the picture, with room to
+// spare. A pose farther off can still land in the picture, as lenses fold or end there in the formula.
+double FarthestInPicture(const LensParameters& lens, const CalibrationCamera& camera) {
+  constexpr double kRoom = 1.5, kWithoutInverse = 3.0;  // 72 degrees from the axis
+  double farthest = 0.0;
+  for (const double x : {0.0, camera.width_px - 1.0})
+    for (const double y : {0.0, camera.height_px - 1.0}) {
+      const auto corner = NormalisedPoint(lens, {x, y});
+      farthest = std::max(farthest, corner ? kRoom * corner->norm() : kWithoutInverse);
+    }
+  return farthest;
+}
+
+bool IsBeforeLens(const Adjustment& a, const AdjustedView& view, const RigidTransform& cam_from_board,
+                  double farthest) {
+  return std::ranges::all_of(view.points, [&](const AdjustedPoint& point) {
+    const Eigen::Vector3d x_in_cam = cam_from_board * a.surface->Flat(point.point);
+    return !point.is_used || (x_in_cam.z() > 0.0 && x_in_cam.hnormalized().norm() <= farthest);
+  });
+}
+
+// Poses that fit the formulas and that no camera can see.
+void LeaveImpossibleViews(const Adjustment& a, RigState* state) {
+  std::vector<double> farthest;
+  for (std::size_t i = 0; i < a.cameras.size(); ++i)
+    farthest.push_back(FarthestInPicture(a.cameras[i].lens, state->input->cameras[i]));
   for (RigView& view : state->views) {
     if (view.adjusted < 0 || !view.is_used) continue;
-    const RigidTransform cam_from_board = CamFromBoardAt(a, a.views[static_cast<std::size_t>(view.adjusted)]);
-    if (ShowsPrintedSide(cam_from_board, a.surface->center())) continue;
+    const AdjustedView& adjusted = a.views[static_cast<std::size_t>(view.adjusted)];
+    const RigidTransform cam_from_board = CamFromBoardAt(a, adjusted);
+    const bool is_from_behind = !ShowsPrintedSide(cam_from_board, a.surface->center());
+    if (!is_from_behind &&
+        IsBeforeLens(a, adjusted, cam_from_board, farthest[static_cast<std::size_t>(view.camera)]))
+      continue;
     view.is_used = false;
     view.is_final = true;
-    view.reason = "it would see the board from behind";
-    has_changed = true;
+    view.reason = is_from_behind ? "it would see the board from behind"
+                                 : "it would see the board far outside of the picture";
   }
-  return has_changed;
 }
 
 bool StampsDiffer(const RigState& state) {
@@ -208,7 +188,7 @@ void FixUnknownOffsets(const std::stop_token& stop, RigFit* fit) {
   constexpr double kMostSigma = 0.5;
   RigState& state = fit->state;
   const Adjustment a = AdjustmentOf(&state);
-  const Eigen::MatrixXd covariance = CovarianceOf(a, RobustNoiseScale(a));
+  const Eigen::MatrixXd covariance = CovarianceOf(a, RobustNoiseScale(a), *state.input);
   bool has_changed = false;
   for (int i = 0; i < static_cast<int>(state.cameras.size()); ++i) {
     AdjustedCamera& camera = state.cameras[static_cast<std::size_t>(i)];
@@ -223,7 +203,7 @@ void FixUnknownOffsets(const std::stop_token& stop, RigFit* fit) {
                     "it sees it; move the board faster there",
                     NameOfCamera(state, i)));
   }
-  if (has_changed) FitRobustly(true, 1, stop, &state);
+  if (has_changed) FitRobustly(true, 1, FlipsTried::kOfMisfits, stop, &state);
 }
 
 // Views that were far off while offsets weren't known get another chance.
@@ -237,11 +217,32 @@ void AskFarViewsAgain(RigState* state) {
   LeaveFarViews(kMostMedians, true, state);
 }
 
+// Returns whether there were any.
+bool LeaveContradictingViews(double noise_scale, RigState* state) {
+  const Adjustment a = AdjustmentOf(state);
+  std::vector<bool> is_alone(a.views.size(), false);
+  std::vector<RigView*> views(a.views.size(), nullptr);
+  for (RigView& view : state->views) {
+    if (view.adjusted < 0) continue;
+    is_alone[static_cast<std::size_t>(view.adjusted)] = !view.shares_board;
+    views[static_cast<std::size_t>(view.adjusted)] = &view;
+  }
+  const std::vector<std::size_t> contradicting =
+      ContradictingViews(a, is_alone, CovarianceOf(a, noise_scale, *state->input), noise_scale);
+  for (const std::size_t i : contradicting) {
+    views[i]->is_used = false;
+    views[i]->is_final = true;
+    views[i]->reason = "it contradicts the lens that the camera's other views tell";
+  }
+  return !contradicting.empty();
+}
+
 void GiveReasons(RigState* state) {
   for (RigView& view : state->views)
     if (!view.is_used && view.reason.empty())
       view.reason = fmt::format(
-          "more than half of its points are beyond {:.0f} standard deviations, or its error is "
+          "more than half of its points are beyond {:.0f} standard deviations, or the others are on a line, "
+          "or its error is "
           "{:.0f} standard deviations above its camera's usual one",
           kPointSigmas, kViewSigmas);
 }
@@ -256,10 +257,13 @@ void FitWithoutOutliers(const std::stop_token& stop, RigFit* fit) {
     bool has_changed = LeaveOutliers(fit->noise_scale, &a);
     TakeOver(a, &state);
     has_changed |= LeaveUnconfirmedViews(&state);
+    if (!has_changed && round > 0) has_changed = LeaveContradictingViews(fit->noise_scale, &state);
     if (!has_changed && round > 0) break;
     a = FitPlainly(&state, fit->noise_scale, 12, stop);
-    ExchangeFlips(0.0, &a, &state);
-    LeaveViewsFromBehind(a, &state);
+    BundleOptions plain;
+    plain.noise_scale = fit->noise_scale;
+    ExchangeFlips(round == 0 ? FlipsTried::kOfDoubtful : FlipsTried::kOfMisfits, plain, &a, &state);
+    LeaveImpossibleViews(a, &state);
   }
   fit->adjustment = FitPlainly(&state, fit->noise_scale, 30, stop);
   fit->noise_scale = NoiseScale(fit->adjustment).value_or(fit->noise_scale);
@@ -311,46 +315,22 @@ RigFit FitRig(RigState start, const std::stop_token& stop) {
   constexpr double kFarMedians = 6.0;
   RigFit fit;
   fit.state = std::move(start);
-  FitRobustly(false, 2, stop, &fit.state);
-  FitRobustly(true, 1, stop, &fit.state);
+  FitRobustly(false, 2, FlipsTried::kOfMisfits, stop, &fit.state);
+  FitRobustly(true, 1, FlipsTried::kOfMisfits, stop, &fit.state);
   LeaveFarViews(kFarMedians, false, &fit.state);
   FreeOffsetsAndFlatness(&fit);
   RequireEnoughViews(fit.state);
-  FitRobustly(true, 2, stop, &fit.state);
+  FitRobustly(true, 2, FlipsTried::kOfMisfits, stop, &fit.state);
+  LeaveImpossibleViews(AdjustmentOf(&fit.state), &fit.state);
   FixUnknownOffsets(stop, &fit);
   AskFarViewsAgain(&fit.state);
   LeaveUnconfirmedViews(&fit.state);
   LeaveUndecidedViews(RobustNoiseScale(AdjustmentOf(&fit.state)), &fit.state);
-  FitRobustly(true, 1, stop, &fit.state);
+  FitRobustly(true, 1, FlipsTried::kOfDoubtful, stop, &fit.state);
   FitWithoutOutliers(stop, &fit);
   RequireEnoughViews(fit.state);
   GiveReasons(&fit.state);
   return fit;
-}
-
-Eigen::MatrixXd CovarianceOf(const Adjustment& a, double noise_scale) {
-  BundleOptions options;
-  options.noise_scale = noise_scale;
-  const std::optional<Eigen::MatrixXd> inverse = InverseOfCameras(EquationsOf(a, options));
-  if (!inverse)
-    throw core::Error(
-        core::ErrorKind::kCamera,
-        "the views don't decide all parameters of the cameras; next, take views of the tilted board in all "
-        "parts of each camera's picture");
-  Eigen::MatrixXd covariance = noise_scale * noise_scale * *inverse;
-  const auto clear = [&](int first, int count) {
-    covariance.middleRows(first, count).setZero();
-    covariance.middleCols(first, count).setZero();
-  };
-  for (int i = 0; i < static_cast<int>(a.cameras.size()); ++i) {
-    const AdjustedCamera& camera = a.cameras[static_cast<std::size_t>(i)];
-    const ParameterBlock block = a.BlockOf(i);
-    if (camera.is_lens_fixed) clear(block.first, block.intrinsics);
-    if (camera.is_pose_fixed) clear(block.rotation(), 6);
-    if (camera.is_offset_fixed) clear(block.time_offset(), 1);
-  }
-  if (a.is_flatness_fixed) clear(a.camera_parameters() - kFlatnessTerms, kFlatnessTerms);
-  return covariance;
 }
 
 }  // namespace elbowroom::recon

@@ -27,8 +27,4 @@ struct RigFit {
 [[nodiscard]] Adjustment FitPlainly(RigState* state, double noise_scale, int most_steps,
                                     const std::stop_token& stop);
 
-// Covariance of all parameters of an Adjustment's cameras, flatness last; 0 for what is fixed. Throws:
-// Error{kCamera} if the views don't decide all parameters.
-[[nodiscard]] Eigen::MatrixXd CovarianceOf(const Adjustment& adjustment, double noise_scale);
-
 }  // namespace elbowroom::recon

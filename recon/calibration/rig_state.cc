@@ -55,6 +55,21 @@ bool IsAtSetInstant(const RigState& state, const RigView& view) {
   return camera.is_offset_fixed && std::abs(view.time_s + camera.time_offset_s - time_s) < kSameInstantS;
 }
 
+// Beyond its ends a parabola through three poses is soon as far off as the noise: it is three times as far
+// off half a step outside as anywhere inside.
+bool IsWithin(const RigState& state, const std::vector<int>& confirmed, const Neighbours& neighbours,
+              const RigView& view) {
+  constexpr double kMostOutside = 0.15;  // of a frame period; as far off as inside
+  const double t_s = view.time_s + state.cameras[static_cast<std::size_t>(view.camera)].time_offset_s;
+  const auto time_of = [&](int k) {
+    return state.sets[static_cast<std::size_t>(confirmed[static_cast<std::size_t>(k)])].time_s;
+  };
+  const auto [first, last] =
+      std::ranges::minmax({time_of(neighbours[0]), time_of(neighbours[1]), time_of(neighbours[2])});
+  const double outside_s = kMostOutside * state.input->frame_period_s;
+  return t_s >= first - outside_s && t_s <= last + outside_s;
+}
+
 AdjustedView AdjustedViewOf(const RigView& view) {
   AdjustedView adjusted;
   adjusted.camera = view.camera;
@@ -81,7 +96,7 @@ void AddSharedViews(const std::vector<int>& confirmed, RigState* state, Adjustme
       RigView& view = state->views[static_cast<std::size_t>(v)];
       if (!view.is_used) continue;
       const bool moves = state->has_motion && !IsAtSetInstant(*state, view);
-      if (moves && !neighbours && !is_world) continue;
+      if (moves && !is_world && !(neighbours && IsWithin(*state, confirmed, *neighbours, view))) continue;
       AdjustedView adjusted = AdjustedViewOf(view);
       adjusted.boards[0] = i;
       if (moves && neighbours) {

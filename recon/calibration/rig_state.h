@@ -60,8 +60,8 @@ struct RigState {
 // first, in the order of time. Keeps in the state where everything went.
 //
 // A view of another instant than its set's needs three sets in a row, none more than 3.5 frame periods from
-// the next, that several cameras confirm. Where there are none, the view is taken for its lens alone; the
-// board of the world's set is taken as still.
+// the next, that several cameras confirm, and its instant must be between them. Where there are none, the
+// view is taken for its lens alone; the board of the world's set is taken as still.
 [[nodiscard]] Adjustment AdjustmentOf(RigState* state);
 
 // Brings what the adjustment found back into the state.

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <map>
-#include <span>
 
 #include "core/error.h"
+#include "recon/boards/resting_board.h"
 
 namespace elbowroom::control {
 namespace {
@@ -15,7 +15,6 @@ using core::Error;
 using core::ErrorKind;
 using core::FrameIndex;
 using recon::BoardSighting;
-using recon::SightedPoint;
 
 std::string DescriptionOf(const recon::Board& board) {
   return fmt::format("{} of {} x {}{}", recon::ToString(board.kind), board.columns, board.rows,
@@ -49,52 +48,20 @@ void RequireBoards(const CalibrationFile& file, const BoardFootage& footage) {
   }
 }
 
-// The same board numbered from its other end.
-BoardSighting Turned(const recon::Board& board, const BoardSighting& sighting) {
-  BoardSighting turned = sighting;
-  for (SightedPoint& point : turned.points) point.point = *recon::PointAfterHalfTurn(board, point.point);
-  std::ranges::sort(turned.points, {}, &SightedPoint::point);
-  return turned;
-}
-
-// Mean distance of points with the same number. Nothing if they share too few.
-std::optional<double> MeanMovement(const BoardSighting& a, const BoardSighting& b) {
-  constexpr int kFewest = 4;
-  double sum_px = 0.0;
-  int shared = 0;
-  auto other = b.points.begin();
-  for (const SightedPoint& point : a.points) {
-    while (other != b.points.end() && other->point < point.point) ++other;
-    if (other == b.points.end() || other->point != point.point) continue;
-    sum_px += (point.pixel - other->pixel).norm();
-    ++shared;
-  }
-  if (shared < kFewest) return std::nullopt;
-  return sum_px / shared;
-}
-
 // One camera's pictures of a board that lies still.
 class StillView {
  public:
   StillView(const recon::Board& board, const StampedFrame& frame, const BoardSighting& sighting)
-      : board_(&board), first_(sighting), first_frame_(frame.frame) {
-    Take(sighting, frame);
-  }
+      : rest_(board, sighting),
+        first_frame_(frame.frame),
+        last_frame_(frame.frame),
+        time_sum_s_(frame.time_s) {}
 
   // Takes the picture if the board hasn't moved since the first one.
   bool Add(const BoardSighting& sighting, const StampedFrame& frame) {
-    const auto is_still = [this](const BoardSighting& other) {
-      const std::optional<double> moved_px = MeanMovement(first_, other);
-      return moved_px && *moved_px <= kStillPx;
-    };
-    if (is_still(sighting)) {
-      Take(sighting, frame);
-      return true;
-    }
-    if (!recon::PointAfterHalfTurn(*board_, 0)) return false;
-    const BoardSighting turned = Turned(*board_, sighting);
-    if (!is_still(turned)) return false;
-    Take(turned, frame);
+    if (!rest_.Add(sighting)) return false;
+    last_frame_ = frame.frame;
+    time_sum_s_ += frame.time_s;
     return true;
   }
 
@@ -102,43 +69,18 @@ class StillView {
     recon::CalibrationView view;
     view.camera = camera;
     view.set = set;
-    view.time_s = time_sum_s_ / pictures_;
+    view.time_s = time_sum_s_ / rest_.pictures();
     view.label = first_frame_ == last_frame_ ? fmt::format("frame {}", first_frame_)
                                              : fmt::format("frames {} to {}", first_frame_, last_frame_);
-    for (const auto& [number, sum] : points_) {
-      if (2 * sum.count < pictures_) continue;
-      // Their errors are mostly the same in each picture, so the mean isn't taken to be more exact.
-      view.sighting.points.push_back({number, sum.pixel / sum.count, sum.sigma_px / sum.count});
-    }
+    view.sighting = rest_.Mean();
     return view;
   }
 
  private:
-  struct Sum {
-    Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
-    double sigma_px = 0.0;
-    int count = 0;
-  };
-
-  void Take(const BoardSighting& sighting, const StampedFrame& frame) {
-    for (const SightedPoint& point : sighting.points) {
-      Sum& sum = points_[point.point];
-      sum.pixel += point.pixel;
-      sum.sigma_px += point.sigma_px;
-      ++sum.count;
-    }
-    last_frame_ = frame.frame;
-    time_sum_s_ += frame.time_s;
-    ++pictures_;
-  }
-
-  const recon::Board* board_;
-  BoardSighting first_;
+  recon::RestingBoard rest_;
   FrameIndex first_frame_ = 0;
   FrameIndex last_frame_ = 0;
   double time_sum_s_ = 0.0;
-  int pictures_ = 0;
-  std::map<int, Sum> points_;
 };
 
 // Goes through the sets in order, and joins those between which the board lies still.

@@ -10,11 +10,8 @@
 
 namespace elbowroom::control {
 
-// While the board lies still, its pictures show the same errors again and again: they count as one view, with
-// the mean of its points. It lies still as long as no camera sees its points move, in the mean, by more than
-// this from the first of these pictures.
-inline constexpr double kStillPx = 0.35;
-
+// While the board lies still for all cameras that see it, its pictures count as one view: a RestingBoard.
+//
 // `known`: by camera, the lens to keep. Throws: Error{kCamera}: no camera found the board at all, naming what
 // was looked for and in how many pictures; a camera that never found it; no camera found it in board_frame.
 [[nodiscard]] recon::CalibrationInput ViewsOf(const CalibrationFile& file, const BoardFootage& footage,

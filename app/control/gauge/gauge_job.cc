@@ -72,7 +72,7 @@ void AddWarnings(const GaugeFrames& frames, GaugeOutcome* outcome) {
   constexpr std::size_t kFewPlaces = 10;
   if (outcome->places.size() < kFewPlaces)
     outcome->warnings.push_back(fmt::format(
-        "{} of the workspace was gauged; move the rod through all of it, and use --frames",
+        "the rod was measured at {} only; move it through all of the workspace, and use --frames",
         outcome->places.size() == 1 ? "one place" : fmt::format("{} places", outcome->places.size())));
 }
 

@@ -9,9 +9,10 @@
 #include <utility>
 
 #include "core/error.h"
+#include "recon/boards/resting_board.h"
 #include "recon/calibration/board_surface.h"
-#include "recon/calibration/planar_pose.h"
 #include "recon/calibration/rotation.h"
+#include "tests/recon/calibration/scene_views.h"
 
 namespace elbowroom::recon {
 namespace {
@@ -21,12 +22,6 @@ using core::DistortionModel;
 using core::RigidTransform;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
-
-double Normal(Random* random) {
-  // Box and Muller; the engine's own normal distribution differs between libraries.
-  const double radius = std::sqrt(-2.0 * std::log(random->Uniform(1e-300, 1.0)));
-  return radius * std::cos(random->Uniform(0.0, 2.0 * std::numbers::pi));
-}
 
 std::vector<double> DrawDistortion(DistortionModel model, bool is_plain, Random* random) {
   const auto draw = [random](double low, double high) { return random->Uniform(low, high); };
@@ -146,63 +141,6 @@ class BoardMotion {
   std::array<std::array<Wave, 3>, 6> waves_;
 };
 
-// What a camera sees of the board: the points in its picture. Empty: too few, from behind, or too much
-// aslant.
-BoardSighting Look(const core::CameraModel& camera, const RigidTransform& world_from_board,
-                   const std::vector<Vector3d>& points, double sigma_px) {
-  constexpr double kMostSlant = 0.26;  // cosine of 75 degrees
-  constexpr std::size_t kLeastPoints = 8;
-  const RigidTransform cam_from_board = camera.cam_from_world() * world_from_board;
-  const Vector3d middle = cam_from_board * points[points.size() / 2];
-  BoardSighting sighting;
-  if (-cam_from_board.rotation.col(2).dot(middle.normalized()) < kMostSlant) return sighting;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const auto pixel = camera.Project(world_from_board * points[i]);
-    if (!pixel || pixel->minCoeff() < 2.0 || pixel->x() > camera.width_px() - 3.0 ||
-        pixel->y() > camera.height_px() - 3.0)
-      continue;
-    sighting.points.push_back({static_cast<int>(i), *pixel, sigma_px});
-  }
-  if (sighting.points.size() < kLeastPoints) sighting.points.clear();
-  return sighting;
-}
-
-void HideHalf(const std::vector<Vector3d>& points, Random* random, BoardSighting* sighting) {
-  const Vector3d side = random->Direction();
-  Vector3d middle = Vector3d::Zero();
-  for (const SightedPoint& point : sighting->points)
-    middle += points[static_cast<std::size_t>(point.point)] / static_cast<double>(sighting->points.size());
-  BoardSighting half;
-  for (const SightedPoint& point : sighting->points)
-    if (side.head<2>().dot((points[static_cast<std::size_t>(point.point)] - middle).head<2>()) >= 0.0)
-      half.points.push_back(point);
-  if (half.points.size() >= 8) *sighting = half;
-}
-
-// The board's points take each other's numbers, in one of three ways that detectors can go wrong.
-void ConfuseNumbers(Random* random, BoardSighting* sighting) {
-  auto& points = sighting->points;
-  const auto count = static_cast<int>(points.size());
-  const int shift = random->Whole(1, std::max(1, count / 2));
-  std::vector<Vector2d> pixels;
-  for (const SightedPoint& point : points) pixels.push_back(point.pixel);
-  for (int i = 0; i < count; ++i)
-    points[static_cast<std::size_t>(i)].pixel = pixels[static_cast<std::size_t>((i + shift) % count)];
-}
-
-void ShiftPoints(double share, Random* random, BoardSighting* sighting) {
-  const Vector2d shift = random->Uniform(6.0, 40.0) * random->Direction().head<2>().normalized();
-  for (SightedPoint& point : sighting->points)
-    if (random->Chance(share)) point.pixel += shift;
-}
-
-// Numbered from the board's other end.
-void NumberFromOtherEnd(const BoardSurface& surface, BoardSighting* sighting) {
-  for (SightedPoint& point : sighting->points)
-    point.point = surface.half_turn()[static_cast<std::size_t>(point.point)];
-  std::ranges::sort(sighting->points, {}, &SightedPoint::point);
-}
-
 // In the first camera that sees the world's board the first corner is the one with the smaller x + y; where
 // the motion has it otherwise, the true board is numbered from its other end.
 void NumberWorldAsSeen(const BoardSurface& surface, CalibrationScene* scene) {
@@ -218,23 +156,6 @@ void NumberWorldAsSeen(const BoardSurface& surface, CalibrationScene* scene) {
     for (RigidTransform& board : scene->world_from_board) board = board * half_turn;
     return;
   }
-}
-
-enum class Fault { kNone, kMirrored, kConfused, kPointsShifted, kViewShifted };
-constexpr std::array<Fault, 4> kFaults = {Fault::kMirrored, Fault::kConfused, Fault::kPointsShifted,
-                                          Fault::kViewShifted};
-
-void Disturb(Fault fault, Random* random, BoardSighting* sighting) {
-  if (fault == Fault::kConfused) ConfuseNumbers(random, sighting);
-  if (fault == Fault::kPointsShifted) ShiftPoints(0.4, random, sighting);
-  if (fault == Fault::kViewShifted) ShiftPoints(1.0, random, sighting);
-}
-
-// The board as a flip would have it.
-RigidTransform MirroredFor(const core::CameraModel& camera, const RigidTransform& world_from_board,
-                           const BoardSurface& surface) {
-  return camera.cam_from_world().Inverse() *
-         Flipped(camera.cam_from_world() * world_from_board, surface.center());
 }
 
 CalibrationScene SceneWithoutViews(const CalibrationSceneOptions& options, Random* random) {
@@ -263,56 +184,121 @@ void MoveWorldToFirstBoard(CalibrationScene* scene) {
   for (RigidTransform& board : scene->world_from_board) board = old_from_new.Inverse() * board;
 }
 
+// Adds views to a scene that has cameras.
+class SceneBuilder {
+ public:
+  SceneBuilder(const CalibrationSceneOptions& options, TrueBoard board, Random* random,
+               CalibrationScene* scene)
+      : options_(options),
+        board_(std::move(board)),
+        motion_(board_.surface.center(), random),
+        models_(scene->cameras.begin(), scene->cameras.end()),
+        random_(*random),
+        scene_(*scene) {}
+
+  void RecordMotion();
+  void TakeLensPhotos();
+  // A board at rest is many pictures, each with its noise.
+  void AddNoiseAndMergeRest();
+
+ private:
+  void AddSet(double t_s, int set);
+  // Another pose, points that are wrong, half of them hidden.
+  void AddView(std::size_t camera, const RigidTransform& world_from_board, Fault fault, CalibrationView view);
+
+  const CalibrationSceneOptions& options_;
+  TrueBoard board_;
+  BoardMotion motion_;
+  std::vector<core::CameraModel> models_;
+  Random& random_;
+  CalibrationScene& scene_;
+};
+
+void SceneBuilder::RecordMotion() {
+  constexpr double kMotionS = 60.0, kStartS = 1.0;  // after a rest; the board moves from 0.5 s on
+  const double period_s = scene_.input.frame_period_s;
+  const int between =
+      std::max(options_.frames_of_run + 5, static_cast<int>(kMotionS / period_s / options_.runs));
+  const int rests = options_.rest_s > 0.0 ? 1 : 0;
+  if (rests > 0) AddSet(-0.5 * options_.rest_s, 0);
+  for (int i = 0; i < options_.runs * options_.frames_of_run; ++i) {
+    const double t_s = (i / options_.frames_of_run * between + i % options_.frames_of_run) * period_s;
+    AddSet(t_s + rests * kStartS, i + rests);
+  }
+}
+
+void SceneBuilder::AddSet(double t_s, int set) {
+  scene_.world_from_board.push_back(motion_.WorldFromBoardAt(t_s));
+  for (std::size_t camera = 0; camera < models_.size(); ++camera) {
+    const RigidTransform world_from_board = motion_.WorldFromBoardAt(t_s + scene_.offsets_s[camera]);
+    if (Look(models_[camera], world_from_board, board_.points, options_.sigma_px).points.empty()) continue;
+    // The world's set is as it should be; its faults have tests of their own.
+    const Fault fault = DrawFault(set > 0 ? options_.wrong_share : 0.0, &random_);
+    AddView(camera, world_from_board, fault,
+            {static_cast<int>(camera), set, t_s, {}, "frame " + std::to_string(set)});
+  }
+}
+
+void SceneBuilder::AddView(std::size_t camera, const RigidTransform& world_from_board, Fault fault,
+                           CalibrationView view) {
+  view.sighting = Look(models_[camera], world_from_board, board_.points, options_.sigma_px);
+  if (fault == Fault::kMirrored) {
+    const BoardSighting seen =
+        Look(models_[camera], MirroredFor(models_[camera], world_from_board, board_.surface.center()),
+             board_.points, options_.sigma_px);
+    if (!seen.points.empty()) view.sighting = seen;
+  }
+  if (random_.Chance(options_.occluded_share)) HideHalf(board_.points, &random_, &view.sighting);
+  Disturb(fault, &random_, &view.sighting);
+  if (!board_.surface.half_turn().empty() && random_.Chance(0.5))
+    NumberFromOtherEnd(board_.surface, &view.sighting);
+  scene_.input.views.push_back(std::move(view));
+  scene_.is_wrong.push_back(fault != Fault::kNone);
+  scene_.is_mirrored.push_back(fault == Fault::kMirrored);
+}
+
+void SceneBuilder::TakeLensPhotos() {
+  for (std::size_t camera = 0; camera < models_.size(); ++camera)
+    for (int i = 0; i < options_.lens_photos; ++i) {
+      const RigidTransform world_from_board = DrawLensPhoto(models_[camera], board_, &random_);
+      AddView(camera, world_from_board, DrawFault(options_.wrong_share, &random_),
+              {static_cast<int>(camera), std::nullopt, 0.0, {}, "photo " + std::to_string(i)});
+    }
+}
+
+void SceneBuilder::AddNoiseAndMergeRest() {
+  const int pictures = static_cast<int>(options_.rest_s / scene_.input.frame_period_s);
+  for (CalibrationView& view : scene_.input.views) {
+    const BoardSighting clean = view.sighting;
+    AddNoiseTo(options_.noise_px, &random_, &view.sighting);
+    if (view.set != 0 || pictures < 2) continue;
+    RestingBoard rest(options_.board, view.sighting);
+    for (int i = 1; i < pictures; ++i) {
+      BoardSighting next = clean;
+      AddNoiseTo(options_.noise_px, &random_, &next);
+      (void)rest.Add(next);
+    }
+    view.sighting = rest.Mean();
+  }
+}
+
 }  // namespace
 
 void AddNoise(double noise_px, Random* random, CalibrationInput* input) {
-  for (CalibrationView& view : input->views)
-    for (SightedPoint& point : view.sighting.points)
-      point.pixel += noise_px * Vector2d(Normal(random), Normal(random));
+  for (CalibrationView& view : input->views) AddNoiseTo(noise_px, random, &view.sighting);
 }
 
 CalibrationScene MakeCalibrationScene(const CalibrationSceneOptions& options, std::uint64_t seed) {
   Random random(seed);
   CalibrationScene scene = SceneWithoutViews(options, &random);
-  const BoardSurface surface(options.board);
   const Vector3d bend(random.Uniform(-1.0, 1.0), random.Uniform(-1.0, 1.0), random.Uniform(-1.0, 1.0));
-  std::vector<Vector3d> points;
-  for (int i = 0; i < surface.points(); ++i) points.push_back(surface.Bent(i, options.bend_mm * bend));
-  const BoardMotion motion(surface.center(), &random);
-  std::vector<core::CameraModel> models(scene.cameras.begin(), scene.cameras.end());
-
-  constexpr double kMotionS = 60.0;
-  const double period_s = scene.input.frame_period_s;
-  const int between =
-      std::max(options.frames_of_run + 5, static_cast<int>(kMotionS / period_s / options.runs));
-  for (int set = 0; set < options.runs * options.frames_of_run; ++set) {
-    const double t_s = (set / options.frames_of_run * between + set % options.frames_of_run) * period_s;
-    scene.world_from_board.push_back(motion.WorldFromBoardAt(t_s));
-    for (std::size_t camera = 0; camera < models.size(); ++camera) {
-      const RigidTransform world_from_board = motion.WorldFromBoardAt(t_s + scene.offsets_s[camera]);
-      BoardSighting sighting = Look(models[camera], world_from_board, points, options.sigma_px);
-      if (sighting.points.empty()) continue;
-      // The world's set is as it should be; its faults have tests of their own.
-      const Fault fault = random.Chance(options.wrong_share) && set > 0
-                              ? kFaults[static_cast<std::size_t>(random.Whole(0, 3))]
-                              : Fault::kNone;
-      if (fault == Fault::kMirrored) {
-        const BoardSighting seen = Look(
-            models[camera], MirroredFor(models[camera], world_from_board, surface), points, options.sigma_px);
-        if (!seen.points.empty()) sighting = seen;
-      }
-      if (random.Chance(options.occluded_share)) HideHalf(points, &random, &sighting);
-      Disturb(fault, &random, &sighting);
-      if (!surface.half_turn().empty() && random.Chance(0.5)) NumberFromOtherEnd(surface, &sighting);
-      scene.input.views.push_back(
-          {static_cast<int>(camera), set, t_s, sighting, "frame " + std::to_string(set)});
-      scene.is_wrong.push_back(fault != Fault::kNone);
-      scene.is_mirrored.push_back(fault == Fault::kMirrored);
-    }
-  }
-  if (!surface.half_turn().empty()) NumberWorldAsSeen(surface, &scene);
+  SceneBuilder builder(options, TrueBoard(options.board, options.bend_mm * bend), &random, &scene);
+  builder.RecordMotion();
+  builder.TakeLensPhotos();
+  if (!BoardSurface(options.board).half_turn().empty())
+    NumberWorldAsSeen(BoardSurface(options.board), &scene);
   MoveWorldToFirstBoard(&scene);
-  AddNoise(options.noise_px, &random, &scene.input);
+  builder.AddNoiseAndMergeRest();
   return scene;
 }
 
@@ -327,6 +313,20 @@ CalibrationSceneOptions RandomSceneOptions(std::uint64_t seed) {
   if (random.Chance(0.3)) options.most_offset = 0.0;
   if (random.Chance(0.3))
     options.board = {BoardKind::kChessboard, 10, 8, 55.0, 0.0, ""};  // the same after half a turn
+  return options;
+}
+
+CalibrationSceneOptions RecommendedSceneOptions(std::uint64_t seed) {
+  CalibrationSceneOptions options = RandomSceneOptions(seed);
+  Random random(seed * 6007 + 5);
+  options.frames_of_run = 3;
+  options.runs = random.Whole(17, 33);
+  options.rest_s = random.Uniform(1.0, 2.0);
+  options.lens_photos = random.Whole(30, 40);
+  // The same plate with smaller squares: 165 corners instead of 70 and 63.
+  options.board = options.board.kind == BoardKind::kChessboard
+                      ? Board{BoardKind::kChessboard, 16, 12, 40.0, 0.0, ""}
+                      : Board{BoardKind::kCharuco, 16, 12, 40.0, 28.0, "DICT_5X5_100"};
   return options;
 }
 
