@@ -77,8 +77,7 @@ TEST_F(RealPictures, OfABoardOnTheFloorJoinFourCameras) {
   const nlohmann::json json = Calibrate(kData / "four_cameras/CALIB.toml");
   ASSERT_FALSE(json.is_null());
   EXPECT_LE(json["rms_px"].get<double>(), 0.25);
-  EXPECT_NE(json["warnings"][0].get<std::string>().find("looks the same after half a turn"),
-            std::string::npos);
+  EXPECT_NE(json["warnings"].dump().find("looks the same after half a turn"), std::string::npos);
   const recon::RigFile found = recon::ReadRigFile(folder_ / "rig.yml");
   const recon::RigFile given = recon::ReadRigFile(kData / "four_cameras/rig.yml");
   // The given poses are 1 to 2 px off on the board's corners, so they can only tell that nothing is mixed up.

@@ -225,7 +225,10 @@ class BoardSearch {
       progress_.Report(done_ + looked_at, total_, "looking for the board, " + camera);
     });
     done_ += count;
-    if (const auto missing_from = search.missing_from()) {
+    // Containers are often off by a frame or two; that isn't a loss.
+    constexpr FrameIndex kOftenMissing = 3;
+    const auto missing_from = search.missing_from();
+    if (missing_from && promised - *missing_from > kOftenMissing) {
       warnings_.push_back(
           fmt::format("camera '{}': its footage promises {} frames, but has none from about frame {} on: it "
                       "was cut short, and "
