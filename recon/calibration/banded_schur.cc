@@ -66,7 +66,7 @@ struct ScaledCholesky {
   Eigen::VectorXd scale;
   Eigen::LLT<Eigen::MatrixXd> factors;
 
-  // Taking the boards away leaves rounding errors of 1e-12 of the diagonal. `least` of it, added, bounds what
+  // Taking the boards away leaves rounding errors of the diagonal. `least` of it, added, bounds what
   // the equations don't tell, as the last coefficients of a rational lens.
   explicit ScaledCholesky(const Eigen::MatrixXd& lower, double least = 0.0)
       : scale(lower.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse()),
@@ -111,7 +111,7 @@ std::optional<Eigen::VectorXd> SolveNormalEquations(const NormalEquations& e, do
 std::optional<Eigen::MatrixXd> InverseOfCameras(const NormalEquations& e) {
   const std::optional<EliminatedBoards> boards = Eliminate(e, 0.0);
   if (!boards) return std::nullopt;
-  constexpr double kLeast = 1e-11;
+  constexpr double kLeast = 1e-13;
   const ScaledCholesky cholesky(ReduceCameras(e, *boards, 0.0).matrix, kLeast);
   if (cholesky.factors.info() != Eigen::Success) return std::nullopt;
   const Eigen::Index columns = e.camera_gradient.size();

@@ -25,7 +25,7 @@ struct NormalEquations {
 [[nodiscard]] std::optional<Eigen::VectorXd> SolveNormalEquations(const NormalEquations& equations,
                                                                   double damping);
 
-// The cameras' c x c part of the inverse of H, in directions that H tells to 1e-11 of its diagonal; nothing:
+// The cameras' c x c part of the inverse of H, in directions that H tells to 1e-13 of its diagonal; nothing:
 // not positive definite.
 [[nodiscard]] std::optional<Eigen::MatrixXd> InverseOfCameras(const NormalEquations& equations);
 

@@ -6,7 +6,9 @@
 #include "core/error.h"
 #include "recon/calibration/board_surface.h"
 #include "recon/calibration/calibrate.h"
+#include "recon/calibration/lens_fit.h"
 #include "recon/calibration/planar_pose.h"
+#include "recon/calibration/rig_covariance.h"
 #include "recon/calibration/rotation.h"
 #include "tests/recon/calibration/calibration_scene.h"
 
@@ -146,6 +148,110 @@ TEST(CalibrationFaults, PointsThatTheBoardDoesNotHaveAreNamed) {
   CalibrationScene scene = SmallScene(8);
   scene.input.views[3].sighting.points.back().point = 4000;
   ExpectInMessage(RefusalOf(scene.input), {scene.input.views[3].label.c_str(), "point 4000"});
+}
+
+// Photos for the lens alone: most have one pose, and their mirror image falls back to it.
+TEST(CalibrationFaults, PhotosWithOneClearPoseAreUsed) {
+  CalibrationSceneOptions options = StillBoardOptions();
+  options.cameras = 2;
+  options.runs = 15;
+  options.lens_photos = 30;
+  options.occluded_share = 0.0;
+  const CalibrationScene scene = MakeCalibrationScene(options, 21);
+  const CalibrationResult result = Calibrate(scene.input);
+  int photos = 0, used = 0;
+  for (std::size_t i = 0; i < result.views.size(); ++i) {
+    if (scene.input.views[i].set) continue;
+    ++photos;
+    used += result.views[i].is_used ? 1 : 0;
+  }
+  EXPECT_EQ(photos, 60);
+  EXPECT_GE(used, 57);
+}
+
+// A picture of which all points are shifted fits some pose of the board within a few pixels.
+TEST(CalibrationFaults, APhotoThatContradictsTheLensIsLeftOut) {
+  CalibrationSceneOptions options = StillBoardOptions();
+  options.cameras = 2;
+  options.runs = 15;
+  options.lens_photos = 30;
+  options.occluded_share = 0.0;
+  CalibrationScene scene = MakeCalibrationScene(options, 22);
+  std::vector<std::size_t> shifted;
+  for (std::size_t i = 0; i < scene.input.views.size(); ++i) {
+    CalibrationView& view = scene.input.views[i];
+    if (view.set || view.label != "photo 7") continue;
+    shifted.push_back(i);
+    for (SightedPoint& point : view.sighting.points) point.pixel += Eigen::Vector2d(32.0, 24.0);
+  }
+  const CalibrationResult result = Calibrate(scene.input);
+  ASSERT_EQ(shifted.size(), 2U);
+  for (const std::size_t i : shifted) EXPECT_FALSE(result.views[i].is_used);
+  for (int i = 0; i < 2; ++i) EXPECT_LE(ErrorOfCamera(scene, result, i).rotation_chi2, 30.0);
+}
+
+// Where the points of a view that are right lie on a line, they don't tell how the board is turned about it.
+TEST(CalibrationFaults, AViewOfOneLineIsLeftOut) {
+  CalibrationScene scene = SmallScene(23);
+  BoardSighting& sighting = scene.input.views[20].sighting;
+  ASSERT_GE(sighting.points.size(), 12U);
+  const int row = sighting.points.front().point / 10;
+  std::erase_if(sighting.points, [&](const SightedPoint& point) { return point.point / 10 > row + 1; });
+  int number = 0;
+  for (SightedPoint& point : sighting.points)
+    if (point.point / 10 != row) point.pixel += Eigen::Vector2d(300.0 + 40.0 * (++number % 3), 200.0);
+  const CalibrationResult result = Calibrate(scene.input);
+  EXPECT_FALSE(result.views[20].is_used);
+}
+
+// In one of these, points far from the middle didn't fit a plumb_bob, were called wrong, and were not asked.
+TEST(CalibrationFaults, AFisheyeIsNotTakenForAnotherLensByItsMiddle) {
+  const CalibrationScene scene = MakeCalibrationScene(RecommendedSceneOptions(20), 20);
+  ASSERT_EQ(scene.cameras[1].distortion_model, core::DistortionModel::kFisheye);
+  const BoardSurface surface(scene.input.board);
+  std::vector<const CalibrationView*> views;
+  for (const bool is_for_lens : {true, false})
+    for (const CalibrationView& view : scene.input.views)
+      if (view.camera == 1 && view.set.has_value() != is_for_lens) views.push_back(&view);
+  EXPECT_EQ(FitLens(scene.input.cameras[1], surface, views, {}).lens.model, core::DistortionModel::kFisheye);
+}
+
+TEST(CalibrationFaults, ACameraOfWhichTooLittleIsKnownIsNamed) {
+  const CalibrationScene scene = SmallScene(24);
+  const BoardSurface surface(scene.input.board);
+  Adjustment a;
+  a.surface = &surface;
+  for (const core::CameraCalibration& camera : scene.cameras)
+    a.cameras.push_back({LensParametersOf(camera), camera.cam_from_world});
+  a.boards.push_back({scene.world_from_board[0], 0.0, true});
+  for (int i = 0; i < 2; ++i) {  // the third sees nothing
+    a.cameras[static_cast<std::size_t>(i)].is_lens_fixed = true;
+    AdjustedView view;
+    view.camera = i;
+    for (int p = 0; p < surface.points(); ++p)
+      view.points.push_back({p,
+                             ProjectPoint(a.cameras[static_cast<std::size_t>(i)].lens,
+                                          scene.cameras[static_cast<std::size_t>(i)].cam_from_world *
+                                              (scene.world_from_board[0] * surface.Flat(p)))
+                                 .value(),
+                             5.0});
+    a.views.push_back(view);
+  }
+  try {
+    (void)CovarianceOf(a, 1.0, scene.input);
+    ADD_FAILURE() << "it was not refused";
+  } catch (const core::Error& error) {
+    ExpectInMessage(error.what(), {"camera 'cam3'", "next, take views with it", "tilted"});
+  }
+}
+
+TEST(CalibrationFaults, AWorldThatOneUnclearViewShowsIsRefused) {
+  CalibrationScene scene = SmallScene(25);
+  std::erase_if(scene.input.views,
+                [](const CalibrationView& view) { return view.set == 0 && view.camera != 0; });
+  for (CalibrationView& view : scene.input.views)
+    if (view.set == 0 && view.camera == 0) view.sighting.points.resize(2);
+  ExpectInMessage(RefusalOf(scene.input), {"camera 'cam1'", "set 0", "next, take a picture"});
 }
 
 TEST(CalibrationFaults, AStillBoardTellsNoOffsets) {
