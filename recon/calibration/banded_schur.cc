@@ -121,4 +121,21 @@ std::optional<Eigen::MatrixXd> InverseOfCameras(const NormalEquations& e) {
   return Eigen::MatrixXd(0.5 * (inverse + inverse.transpose()));
 }
 
+std::optional<Matrix6d> InverseOfBoard(const NormalEquations& e, std::size_t k) {
+  constexpr double kLeast = 1e-10;
+  const std::optional<EliminatedBoards> boards = Eliminate(e, kLeast);
+  if (!boards) return std::nullopt;
+  Matrix6d block = Matrix6d::Zero();
+  std::vector<Matrix6d> columns(e.band.size(), Matrix6d::Zero());  // of L^-1, those of board k
+  for (std::size_t row = k; row < columns.size(); ++row) {
+    Matrix6d right = row == k ? Matrix6d(Matrix6d::Identity()) : Matrix6d(Matrix6d::Zero());
+    for (std::size_t d = 1; d <= 2 && row >= k + d; ++d)
+      right.noalias() -= boards->factor[row - d][d] * columns[row - d];
+    boards->factor[row][0].triangularView<Eigen::Lower>().solveInPlace(right);
+    columns[row] = right;
+    block.noalias() += right.transpose() * right;
+  }
+  return block;
+}
+
 }  // namespace elbowroom::recon

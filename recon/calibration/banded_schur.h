@@ -29,4 +29,9 @@ struct NormalEquations {
 // not positive definite.
 [[nodiscard]] std::optional<Eigen::MatrixXd> InverseOfCameras(const NormalEquations& equations);
 
+// Board k's 6 x 6 block of the inverse of the boards' part of H, as if the cameras were known, in directions
+// that H tells to 1e-10 of its diagonal; nothing: not positive definite.
+[[nodiscard]] std::optional<Eigen::Matrix<double, 6, 6>> InverseOfBoard(const NormalEquations& equations,
+                                                                        std::size_t k);
+
 }  // namespace elbowroom::recon

@@ -269,6 +269,10 @@ std::optional<LensEvidence> LensEvidenceOf(const Adjustment& a, const AdjustedVi
                       e.gradient.head(intrinsics) - solved.transpose() * e.gradient.tail(6)};
 }
 
+MatrixXd BoardInformation(const Adjustment& a, const AdjustedView& view) {
+  return EquationsOfView(a, view, {}).matrix.bottomRightCorner(6 * view.board_count, 6 * view.board_count);
+}
+
 Adjustment AdjustBundle(Adjustment start, const BundleOptions& options, const std::stop_token& stop) {
   constexpr double kMostDamping = 1e12, kLeastDamping = 1e-10;
   double damping = 1e-5, cost = CostOf(start, options);

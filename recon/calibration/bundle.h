@@ -34,6 +34,10 @@ struct LensEvidence {
 [[nodiscard]] std::optional<LensEvidence> LensEvidenceOf(const Adjustment& adjustment,
                                                          const AdjustedView& view);
 
+// What a view says of its boards' poses if all else is known: information on the turn from the right and the
+// translation of each, (rad, mm)^-2, for residuals over the sightings' standard deviations.
+[[nodiscard]] Eigen::MatrixXd BoardInformation(const Adjustment& adjustment, const AdjustedView& view);
+
 // Half the sum of losses that AdjustBundle lessens.
 [[nodiscard]] double CostOf(const Adjustment& adjustment, const BundleOptions& options);
 

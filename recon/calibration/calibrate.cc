@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "recon/calibration/board_certainty.h"
 #include "recon/calibration/held_out.h"
 #include "recon/calibration/lens_fit.h"
 #include "recon/calibration/rig_covariance.h"
@@ -147,7 +148,11 @@ void PutFlatness(const RigFit& fit, const Eigen::MatrixXd& covariance, Calibrati
         std::max(flatness.largest_mm, std::abs(fit.state.surface->Bending(i).dot(fit.state.flatness_mm)));
 }
 
-void PutBoards(const RigState& state, CalibrationResult* result) {
+// Those whose turn is known, and would be without any one of the cameras.
+void PutBoards(const RigFit& fit, CalibrationResult* result) {
+  constexpr double kMostTurnSigma = 0.01;
+  const RigState& state = fit.state;
+  const std::vector<double> sigmas = ConfirmedTurnSigmas(fit.adjustment, fit.noise_scale);
   for (std::size_t k = 0; k < state.sets.size(); ++k) {
     const RigSet& set = state.sets[k];
     int shared = 0;
@@ -155,7 +160,9 @@ void PutBoards(const RigState& state, CalibrationResult* result) {
       const RigView& view = state.views[static_cast<std::size_t>(v)];
       shared += view.is_used && view.shares_board ? 1 : 0;
     }
-    if (set.adjusted < 0 || shared < (static_cast<int>(k) == state.world_set ? 1 : 2)) continue;
+    const bool is_world = static_cast<int>(k) == state.world_set;
+    if (set.adjusted < 0 || shared < (is_world ? 1 : 2)) continue;
+    if (!is_world && !(sigmas[static_cast<std::size_t>(set.adjusted)] <= kMostTurnSigma)) continue;
     result->boards.push_back({set.number, set.time_s, set.rig_from_board, shared});
   }
 }
@@ -211,7 +218,7 @@ CalibrationResult Calibrate(const CalibrationInput& input, const core::Progress&
   result.covariance = covariance.topLeftCorner(parameters, parameters);
   PutViews(fit, &result);
   PutFlatness(fit, covariance, &result);
-  PutBoards(fit.state, &result);
+  PutBoards(fit, &result);
   Report(progress, Stage::kHeldOut, "views kept out");
   const HeldOutFigures held_out = MeasureHeldOut(fit, stop);
   result.held_out_rms_px = held_out.rms_px;

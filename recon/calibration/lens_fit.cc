@@ -23,24 +23,11 @@ constexpr int kMostLensViews = 40;  // more add time and little accuracy; the jo
 constexpr int kMostStartViews = 15;
 constexpr std::size_t kLeastPoints = 6;
 
-int DistortionCount(DistortionModel model) {
-  switch (model) {
-    case DistortionModel::kPlumbBob:
-      return 5;
-    case DistortionModel::kRationalPolynomial:
-      return 8;
-    case DistortionModel::kFisheye:
-      return 4;
-  }
-  return 0;
-}
-
 LensParameters PlainLens(const CalibrationCamera& camera, DistortionModel model, double focal_px) {
   LensParameters lens;
-  lens.model = model;
-  lens.values = Eigen::VectorXd::Zero(4 + DistortionCount(model));
-  lens.values.head<4>() << focal_px, focal_px, 0.5 * (camera.width_px - 1), 0.5 * (camera.height_px - 1);
-  return lens;
+  lens.values =
+      Eigen::Vector4d(focal_px, focal_px, 0.5 * (camera.width_px - 1), 0.5 * (camera.height_px - 1));
+  return WithModel(lens, model);
 }
 
 std::vector<PlanarPose> PosesOfView(const LensParameters& lens, const BoardSurface& surface,
@@ -117,10 +104,7 @@ Adjustment SingleCamera(const BoardSurface& surface, const LensParameters& lens,
 // A fit of plumb_bob as the start of a rational lens: its polynomial over 1. All points have another chance.
 Adjustment WithDenominator(Adjustment a) {
   LensParameters& lens = a.cameras.front().lens;
-  lens.model = DistortionModel::kRationalPolynomial;
-  const Eigen::VectorXd polynomial = lens.values;
-  lens.values = Eigen::VectorXd::Zero(4 + DistortionCount(lens.model));
-  lens.values.head(polynomial.size()) = polynomial;
+  lens = WithModel(lens, DistortionModel::kRationalPolynomial);
   for (AdjustedView& view : a.views) {
     view.is_used =
         !a.boards[static_cast<std::size_t>(view.boards[0])].rig_from_board.translation_mm.isZero(0.0);
@@ -181,101 +165,21 @@ struct Candidate {
   DistortionModel model;
   Adjustment fit;
   double noise = 0.0;
-  std::vector<double> held_out;  // squared residuals of each view, with a lens that doesn't know it
+  std::ptrdiff_t points = 0;  // that agree with it
 };
 
-// Squared residuals over variances of each used view, whose pose is found with the lens of the other folds.
-std::vector<double> HeldOutErrors(const Adjustment& all, int folds, const std::stop_token& stop) {
-  std::vector<double> errors(all.views.size(), 0.0);
-  BundleOptions options;
-  options.noise_scale = RobustNoiseScale(all);
-  options.most_steps = 8;
-  options.settled = 1e-5;
-  for (int fold = 0; fold < folds; ++fold) {
-    Adjustment others = all;
-    int number = 0;
-    std::vector<std::size_t> left_out;
-    for (std::size_t i = 0; i < all.views.size(); ++i) {
-      if (!all.views[i].is_used || number++ % folds != fold) continue;
-      others.views[i].is_used = false;
-      left_out.push_back(i);
-    }
-    others = AdjustBundle(std::move(others), options, stop);
-    for (const std::size_t i : left_out) {
-      const PosedView posed = PosedViewOf(others, others.views[i]);
-      errors[i] = 2.0 * FitBoardPose({&posed, 1}, all.boards[i].rig_from_board, 0.0).cost;
-    }
-  }
-  return errors;
-}
-
-// How much larger the errors of one model on views left out are than those of another.
-struct ModelExcess {
-  double share = 0.0;            // of the RMS
-  double standard_errors = 0.0;  // of the difference between the models, view by view
-};
-
-ModelExcess ExcessOf(const std::vector<double>& errors, const std::vector<double>& others) {
-  double sum = 0.0, other_sum = 0.0, squares = 0.0;
-  const auto count = static_cast<double>(errors.size());
-  for (std::size_t i = 0; i < errors.size(); ++i) {
-    sum += errors[i];
-    other_sum += others[i];
-  }
-  const double mean = (sum - other_sum) / count;
-  for (std::size_t i = 0; i < errors.size(); ++i) squares += std::pow(errors[i] - others[i] - mean, 2);
-  const double standard_error = std::sqrt(squares / (count * std::max(1.0, count - 1.0)));
-  return {std::sqrt(sum / std::max(other_sum, 1e-300)) - 1.0, mean / std::max(standard_error, 1e-300)};
-}
-
-// Whether a simpler model must give way to another. By 2 % always. By less, if the difference is beyond two
-// standard errors: an error of the model of a fifth of the noise is 2 %, and can be many standard deviations
-// of the parameters. To a fisheye by a thousandth at least: it has no tangential terms, and would put small
-// ones of a lens that has them into the principal point.
-bool MustGiveWay(const std::vector<double>& errors, const Candidate& other) {
-  constexpr double kShare = 0.02, kShareToFisheye = 0.001, kStandardErrors = 2.0;
-  const ModelExcess excess = ExcessOf(errors, other.held_out);
-  if (excess.share > kShare) return true;
-  const double least = other.model == DistortionModel::kFisheye ? kShareToFisheye : 0.0;
-  return excess.share > least && excess.standard_errors > kStandardErrors;
-}
-
-// Of the candidates whose noise is about the least, the one that most points agree with. A model that doesn't
-// fit far from the middle calls the points there wrong, and fits the others as well.
-const Candidate& FinestOf(const std::vector<Candidate>& candidates) {
-  constexpr double kAboutTheLeast = 1.05;
+// The simplest whose noise is about the least and with which about the most points agree. A model that
+// doesn't fit far from the middle calls the points there wrong, and fits the others as well.
+const Candidate& RoughChoice(const std::vector<Candidate>& candidates) {
+  constexpr double kAboutTheLeast = 1.05, kAboutTheMost = 0.98;
   const double least = std::ranges::min_element(candidates, {}, &Candidate::noise)->noise;
   const auto points_of = [&](const Candidate& candidate) {
-    std::ptrdiff_t points = 0;
-    for (const AdjustedView& view : candidate.fit.views)
-      if (view.is_used) points += std::ranges::count_if(view.points, &AdjustedPoint::is_used);
-    return candidate.noise <= kAboutTheLeast * least ? points : 0;
+    return candidate.noise <= kAboutTheLeast * least ? candidate.points : 0;
   };
-  return *std::ranges::max_element(candidates, {}, points_of);
-}
-
-// All candidates are judged by the views and points that agree with the finest.
-const Candidate& ChooseModel(std::vector<Candidate>* candidates, const std::stop_token& stop) {
-  constexpr int kFolds = 5;
-  const Candidate& finest = FinestOf(*candidates);
-  const int folds = std::min(kFolds, UsedViews(finest.fit));
-  for (Candidate& candidate : *candidates) {
-    for (std::size_t i = 0; i < finest.fit.views.size(); ++i) {
-      const AdjustedView& shared = finest.fit.views[i];
-      if (shared.is_used && !candidate.fit.views[i].is_used && candidate.model != finest.model)
-        candidate.fit.boards[i] = finest.fit.boards[i];  // it had no pose of use
-      candidate.fit.views[i] = shared;
-    }
-    BundleOptions options;
-    options.noise_scale = RobustNoiseScale(candidate.fit);
-    options.settled = 1e-5;
-    candidate.fit = AdjustBundle(std::move(candidate.fit), options, stop);
-    candidate.held_out = HeldOutErrors(candidate.fit, folds, stop);
-  }
-  const Candidate* chosen = &candidates->front();
-  for (const Candidate& candidate : *candidates)
-    if (MustGiveWay(chosen->held_out, candidate)) chosen = &candidate;
-  return *chosen;
+  const auto most = static_cast<double>(points_of(*std::ranges::max_element(candidates, {}, points_of)));
+  return *std::ranges::find_if(candidates, [&](const Candidate& candidate) {
+    return static_cast<double>(points_of(candidate)) >= kAboutTheMost * most;
+  });
 }
 
 [[noreturn]] void FailForViews(const CalibrationCamera& camera, int usable) {
@@ -288,7 +192,7 @@ const Candidate& ChooseModel(std::vector<Candidate>* candidates, const std::stop
           camera.name, usable, usable == 1 ? "s" : "", kLeastLensViews));
 }
 
-LensFit FitOf(const Candidate& candidate, bool is_chosen) {
+LensFit FitOf(const Candidate& candidate) {
   double sum = 0.0;
   int points = 0;
   for (const AdjustedView& view : candidate.fit.views) {
@@ -303,7 +207,7 @@ LensFit FitOf(const Candidate& candidate, bool is_chosen) {
     }
   }
   return {candidate.fit.cameras.front().lens, points > 0 ? std::sqrt(sum / points) : 0.0,
-          UsedViews(candidate.fit), is_chosen};
+          UsedViews(candidate.fit)};
 }
 
 }  // namespace
@@ -334,14 +238,15 @@ LensFit FitLens(const CalibrationCamera& camera, const BoardSurface& surface,
                            ? WithDenominator(candidates.front().fit)
                            : SingleCamera(surface, StartLens(camera, surface, model, usable), usable);
     if (UsedViews(start) < kLeastLensViews) continue;
-    Candidate candidate{model, FitSingle(std::move(start), stop), 0.0, {}};
+    Candidate candidate{model, FitSingle(std::move(start), stop)};
     candidate.noise = RobustNoiseScale(candidate.fit);
+    for (const AdjustedView& view : candidate.fit.views)
+      if (view.is_used) candidate.points += std::ranges::count_if(view.points, &AdjustedPoint::is_used);
     most_views = std::max(most_views, UsedViews(candidate.fit));
     if (UsedViews(candidate.fit) >= kLeastLensViews) candidates.push_back(std::move(candidate));
   }
   if (candidates.empty()) FailForViews(camera, most_views);
-  if (candidates.size() == 1) return FitOf(candidates.front(), false);
-  return FitOf(ChooseModel(&candidates, stop), true);
+  return FitOf(RoughChoice(candidates));
 }
 
 }  // namespace elbowroom::recon

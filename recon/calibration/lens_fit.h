@@ -17,17 +17,16 @@ namespace elbowroom::recon {
 struct LensFit {
   LensParameters lens;
   double rms_px = 0.0;
-  int views = 0;           // that agree with the lens
-  bool is_chosen = false;  // the model was chosen by the error on views left out
+  int views = 0;  // that agree with the lens
 };
 
 // The least number of views that show a lens.
 inline constexpr int kLeastLensViews = 3;
 
 // Focal length from a row of candidates, then a fit with the views' poses; views and points that don't agree
-// are left out. Where the model isn't given, it is the simplest whose error on views left out is at most 2 %
-// above that of the others, and not above it by more than two standard errors.
-// Throws: Error{kCamera} naming the camera if fewer than three views agree; Error{kCancelled}.
+// are left out. Where the model isn't given, it is a rough choice: the simplest with which about as many
+// points agree as with any (lens_choice.h judges it by the rig). Throws: Error{kCamera} naming the camera if
+// fewer than three views agree; Error{kCancelled}.
 [[nodiscard]] LensFit FitLens(const CalibrationCamera& camera, const BoardSurface& surface,
                               std::span<const CalibrationView* const> views, const std::stop_token& stop);
 

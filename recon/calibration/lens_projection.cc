@@ -142,7 +142,30 @@ Matrix2d FocalMatrix(const LensParameters& lens) {
   return focal;
 }
 
+int DistortionCount(core::DistortionModel model) {
+  switch (model) {
+    case core::DistortionModel::kPlumbBob:
+      return 5;
+    case core::DistortionModel::kRationalPolynomial:
+      return 8;
+    case core::DistortionModel::kFisheye:
+      return 4;
+  }
+  return 0;
+}
+
 }  // namespace
+
+LensParameters WithModel(const LensParameters& lens, core::DistortionModel model) {
+  const bool is_polynomial_over_1 =
+      lens.model == core::DistortionModel::kPlumbBob && model == core::DistortionModel::kRationalPolynomial;
+  const int kept = is_polynomial_over_1 || lens.model == model ? lens.count() : 4;
+  LensParameters other = lens;
+  other.model = model;
+  other.values = Eigen::VectorXd::Zero(4 + DistortionCount(model));
+  other.values.head(kept) = lens.values.head(kept);
+  return other;
+}
 
 LensParameters LensParametersOf(const core::CameraCalibration& calibration) {
   const Eigen::Matrix3d& k = calibration.camera_matrix;

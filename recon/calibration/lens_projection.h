@@ -19,6 +19,10 @@ struct LensParameters {
   [[nodiscard]] int count() const { return static_cast<int>(values.size()); }
 };
 
+// The same camera matrix with another model: a plumb_bob as a rational lens is its polynomial over 1; else
+// there is no distortion.
+[[nodiscard]] LensParameters WithModel(const LensParameters& lens, core::DistortionModel model);
+
 [[nodiscard]] LensParameters LensParametersOf(const core::CameraCalibration& calibration);
 // Writes camera matrix, model and distortion.
 void PutLens(const LensParameters& lens, core::CameraCalibration* calibration);

@@ -1,6 +1,7 @@
 #include "recon/calibration/rig_fit.h"
 
 #include <fmt/format.h>
+#include <tbb/parallel_for.h>
 
 #include <Eigen/Geometry>
 
@@ -11,6 +12,7 @@
 #include "core/progress.h"
 #include "recon/calibration/flips.h"
 #include "recon/calibration/lens_agreement.h"
+#include "recon/calibration/lens_choice.h"
 #include "recon/calibration/outliers.h"
 #include "recon/calibration/rig_covariance.h"
 
@@ -269,6 +271,19 @@ void FitWithoutOutliers(const std::stop_token& stop, RigFit* fit) {
   fit->noise_scale = NoiseScale(fit->adjustment).value_or(fit->noise_scale);
 }
 
+// Returns whether a camera's lens has another model now.
+bool ChooseLenses(const std::stop_token& stop, RigFit* fit) {
+  std::vector<AdjustedCamera>& cameras = fit->state.cameras;
+  std::vector<char> has_changed(cameras.size(), 0);
+  tbb::parallel_for(std::size_t{0}, cameras.size(), [&](std::size_t i) {
+    if (cameras[i].is_lens_fixed || fit->state.input->cameras[i].distortion_model) return;
+    LensParameters lens = ChooseLens(fit->adjustment, static_cast<int>(i), fit->noise_scale, stop);
+    has_changed[i] = lens.model != cameras[i].lens.model ? 1 : 0;
+    cameras[i].lens = std::move(lens);
+  });
+  return std::ranges::count(has_changed, 1) > 0;
+}
+
 void RequireEnoughViews(const RigState& state) {
   for (int i = 0; i < static_cast<int>(state.cameras.size()); ++i) {
     int shared = 0, used = 0;
@@ -328,6 +343,10 @@ RigFit FitRig(RigState start, const std::stop_token& stop) {
   LeaveUndecidedViews(RobustNoiseScale(AdjustmentOf(&fit.state)), &fit.state);
   FitRobustly(true, 1, FlipsTried::kOfDoubtful, stop, &fit.state);
   FitWithoutOutliers(stop, &fit);
+  if (ChooseLenses(stop, &fit)) {
+    FitRobustly(true, 1, FlipsTried::kOfMisfits, stop, &fit.state);
+    FitWithoutOutliers(stop, &fit);
+  }
   RequireEnoughViews(fit.state);
   GiveReasons(&fit.state);
   return fit;

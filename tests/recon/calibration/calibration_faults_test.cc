@@ -6,7 +6,6 @@
 #include "core/error.h"
 #include "recon/calibration/board_surface.h"
 #include "recon/calibration/calibrate.h"
-#include "recon/calibration/lens_fit.h"
 #include "recon/calibration/planar_pose.h"
 #include "recon/calibration/rig_covariance.h"
 #include "recon/calibration/rotation.h"
@@ -202,18 +201,6 @@ TEST(CalibrationFaults, AViewOfOneLineIsLeftOut) {
     if (point.point / 10 != row) point.pixel += Eigen::Vector2d(300.0 + 40.0 * (++number % 3), 200.0);
   const CalibrationResult result = Calibrate(scene.input);
   EXPECT_FALSE(result.views[20].is_used);
-}
-
-// In one of these, points far from the middle didn't fit a plumb_bob, were called wrong, and were not asked.
-TEST(CalibrationFaults, AFisheyeIsNotTakenForAnotherLensByItsMiddle) {
-  const CalibrationScene scene = MakeCalibrationScene(RecommendedSceneOptions(20), 20);
-  ASSERT_EQ(scene.cameras[1].distortion_model, core::DistortionModel::kFisheye);
-  const BoardSurface surface(scene.input.board);
-  std::vector<const CalibrationView*> views;
-  for (const bool is_for_lens : {true, false})
-    for (const CalibrationView& view : scene.input.views)
-      if (view.camera == 1 && view.set.has_value() != is_for_lens) views.push_back(&view);
-  EXPECT_EQ(FitLens(scene.input.cameras[1], surface, views, {}).lens.model, core::DistortionModel::kFisheye);
 }
 
 TEST(CalibrationFaults, ACameraOfWhichTooLittleIsKnownIsNamed) {
