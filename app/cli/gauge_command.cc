@@ -30,7 +30,7 @@ struct GaugeOptions {
 constexpr std::size_t kMostPlaces = 10'000;
 
 // "A:B" or "A:B:STEP", B not included.
-std::vector<core::FrameIndex> ParseRange(const std::string& text) {
+std::vector<core::FrameIndex> ParseFrameNumbers(const std::string& text) {
   const auto fail = [&](const std::string& what) {
     return CLI::ValidationError("--frames", fmt::format("'{}': {}", text, what));
   };
@@ -203,7 +203,7 @@ void AddGaugeCommand(CLI::App& app, Choice* choice) {
           "--frames",
           [options](const std::vector<std::string>& texts) {
             for (const std::string& text : texts) {
-              const std::vector<core::FrameIndex> range = ParseRange(text);
+              const std::vector<core::FrameIndex> range = ParseFrameNumbers(text);
               options->ranges.insert(options->ranges.end(), range.begin(), range.end());
             }
           },

@@ -20,7 +20,7 @@ struct SweepOptions {
 };
 
 // NAME=FROM:TO:STEP
-std::optional<control::SpacingRange> ParseRange(const std::string& text) {
+std::optional<control::SpacingRange> ParseSpacingRange(const std::string& text) {
   const std::size_t equals = text.rfind('='),
                     first = text.find(':', equals == std::string::npos ? 0 : equals),
                     second = first == std::string::npos ? first : text.find(':', first + 1);
@@ -101,13 +101,14 @@ void AddSweepCommand(CLI::App& app, Choice* choice) {
   command->add_option("SESSION", options->session, "the session (S.db)")->required();
   command
       ->add_option_function<std::string>(
-          "--spacing", [options](const std::string& text) { options->range = *ParseRange(text); },
+          "--spacing", [options](const std::string& text) { options->range = *ParseSpacingRange(text); },
           "the gap to sweep, and its values in mm")
       ->required()
       ->check(CLI::Validator(
           [](const std::string& text) -> std::string {
-            return ParseRange(text) ? ""
-                                    : "must be NAME=FROM:TO:STEP in mm, FROM no larger than TO, not " + text;
+            return ParseSpacingRange(text)
+                       ? ""
+                       : "must be NAME=FROM:TO:STEP in mm, FROM no larger than TO, not " + text;
           },
           "NAME=FROM:TO:STEP_MM"));
   command->add_option("--out", options->out, "folder for sweep.csv, sweep.svg, sweep.png; made if needed")

@@ -25,7 +25,7 @@ struct TrialRunOptions {
 };
 
 // "A:B", "A:" or ":B", A below B.
-bool ParseRange(const std::string& text, control::FrameRange* range) {
+bool ParseFrameRange(const std::string& text, control::FrameRange* range) {
   const std::size_t colon = text.find(':');
   if (colon == std::string::npos) return false;
   const auto number = [&](std::size_t begin, std::size_t end, core::FrameIndex* value) {
@@ -74,7 +74,7 @@ void AddTrialCommand(CLI::App& app, Choice* choice) {
       ->add_option("--frames", "frames A to B, B not included; A: and :B leave one end open (default: all)")
       ->type_name("A:B")
       ->each([=](const std::string& text) {
-        if (!ParseRange(text, &options->frames))
+        if (!ParseFrameRange(text, &options->frames))
           throw CLI::ValidationError("must be A:B, two frame numbers from 0 with A below B");
       });
   command->callback([=] {

@@ -27,7 +27,7 @@ class RestingBoard {
 
   // The mean of each point that half of the pictures show. How its standard deviation shrinks is measured: by
   // the share of the variance that changes from picture to picture. With v the stated variance, w that of the
-  // changes and n pictures it is v - w + w / n, or v / n where w is v or more.
+  // changes and n pictures it is v - w + w / n, or v / n where w isn't clearly less than v.
   [[nodiscard]] BoardSighting Mean() const;
 
  private:

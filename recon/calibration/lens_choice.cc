@@ -35,7 +35,8 @@ Adjustment ViewsOf(const Adjustment& rig, int camera) {
 struct JudgedModel {
   DistortionModel model;
   Adjustment fit;
-  double held_out_chi2 = 0.0;  // of all points, each with a lens and a pose that don't know it
+  std::vector<double>
+      held_out;  // chi squared of each view's points, each with a lens and a pose that don't know it
 };
 
 // Which fifth of the points each point of each view is in. They are drawn: every fifth would be a column of
@@ -55,10 +56,10 @@ Folds DrawFolds(const Adjustment& a) {
   return folds;
 }
 
-double HeldOutChi2(const Adjustment& all, const Folds& folds, const BundleOptions& options,
-                   const std::stop_token& stop) {
+std::vector<double> HeldOutChi2(const Adjustment& all, const Folds& folds, const BundleOptions& options,
+                                const std::stop_token& stop) {
   constexpr double kMostSigmas = 10.0;  // a rational lens may have a pole just where a point is left out
-  double sum = 0.0;
+  std::vector<double> chi2(all.views.size(), 0.0);
   for (unsigned fold = 0; fold < kFolds; ++fold) {
     Adjustment others = all;
     for (std::size_t v = 0; v < all.views.size(); ++v)
@@ -73,11 +74,11 @@ double HeldOutChi2(const Adjustment& all, const Folds& folds, const BundleOption
         const auto residual = ResidualOf(others, others.views[v], cam_from_board, point);
         const double sigmas =
             residual ? residual->norm() * point.inverse_sigma / options.noise_scale : kMostSigmas;
-        sum += std::pow(std::min(sigmas, kMostSigmas), 2);
+        chi2[v] += std::pow(std::min(sigmas, kMostSigmas), 2);
       }
     }
   }
-  return sum;
+  return chi2;
 }
 
 JudgedModel Judge(Adjustment fit, DistortionModel model, const BundleOptions& options,
@@ -93,15 +94,29 @@ JudgedModel Judge(Adjustment fit, DistortionModel model, const BundleOptions& op
     fix_boards(false);
   }
   fit = AdjustBundle(std::move(fit), options, stop);
-  const double held_out_chi2 = HeldOutChi2(fit, DrawFolds(fit), options, stop);
-  return {model, std::move(fit), held_out_chi2};
+  std::vector<double> held_out = HeldOutChi2(fit, DrawFolds(fit), options, stop);
+  return {model, std::move(fit), std::move(held_out)};
+}
+
+// Whether the error on points left out is clearly less, by at least `least` of chi squared. Residuals of one
+// view may be off together, as those of a rolling shutter are, so the standard error is that of the views'
+// differences.
+bool IsClearlyBetter(const JudgedModel& model, const JudgedModel& than, double least) {
+  constexpr double kStandardErrors = 2.0;
+  const auto count = static_cast<double>(model.held_out.size());
+  double gain = 0.0, squares = 0.0;
+  for (std::size_t v = 0; v < model.held_out.size(); ++v) gain += than.held_out[v] - model.held_out[v];
+  for (std::size_t v = 0; v < model.held_out.size(); ++v)
+    squares += std::pow(than.held_out[v] - model.held_out[v] - gain / count, 2);
+  const double standard_error = std::sqrt(squares * count / std::max(1.0, count - 1.0));
+  return gain > std::max(least, kStandardErrors * standard_error);
 }
 
 }  // namespace
 
 LensParameters ChooseLens(const Adjustment& rig, int camera, double noise_scale,
                           const std::stop_token& stop) {
-  constexpr double kClearly = 9.0;  // of chi squared
+  constexpr double kLeastForFisheye = 9.0;  // of chi squared
   BundleOptions options;
   options.noise_scale = noise_scale;
   options.most_steps = 15;
@@ -111,10 +126,10 @@ LensParameters ChooseLens(const Adjustment& rig, int camera, double noise_scale,
   JudgedModel best = Judge(alone, DistortionModel::kPlumbBob, options, stop);
   JudgedModel rational = Judge(present == DistortionModel::kPlumbBob ? best.fit : alone,
                                DistortionModel::kRationalPolynomial, options, stop);
-  if (rational.held_out_chi2 < best.held_out_chi2) best = std::move(rational);
+  if (IsClearlyBetter(rational, best, 0.0)) best = std::move(rational);
   if (best.model != DistortionModel::kPlumbBob || present == DistortionModel::kFisheye) {
     JudgedModel fisheye = Judge(alone, DistortionModel::kFisheye, options, stop);
-    if (fisheye.held_out_chi2 < best.held_out_chi2 - kClearly) best = std::move(fisheye);
+    if (IsClearlyBetter(fisheye, best, kLeastForFisheye)) best = std::move(fisheye);
   }
   return best.model == present ? alone.cameras.front().lens : best.fit.cameras.front().lens;
 }

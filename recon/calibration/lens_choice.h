@@ -7,10 +7,11 @@
 
 namespace elbowroom::recon {
 
-// The lens of the model that the camera's used views tell: the one with the least error on views left out
-// (five folds), each view with a board pose of its own. A model without tangential terms (fisheye) must be
-// clearly better, as it puts those of a lens that has them into the principal point. It isn't tried where a
-// plumb_bob is enough. The present lens, unchanged, if its model is the best. Throws: Error{kCancelled}.
+// The lens of the model that the camera's used views tell: the simplest whose error on points left out (five
+// folds, each view with a board pose of its own) no other's is clearly below, by two standard errors of the
+// views' differences. A fisheye must be better by 9 of chi squared, too: it has no tangential terms, and puts
+// those of a lens that has them into the principal point. It isn't tried where a plumb_bob is enough. If the
+// present model is the best, the present lens, unchanged. Throws: Error{kCancelled}.
 [[nodiscard]] LensParameters ChooseLens(const Adjustment& rig, int camera, double noise_scale,
                                         const std::stop_token& stop);
 

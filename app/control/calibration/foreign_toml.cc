@@ -18,7 +18,7 @@ using recon::ForeignFormat;
 using RowMajor3 = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 
 // One camera's table, with what messages need.
-struct CameraTable {
+struct TomlCamera {
   const toml::table* table = nullptr;
   std::string file;
   std::string title;  // "[cam_0]"
@@ -59,7 +59,7 @@ struct CameraTable {
   }
 };
 
-void PutTomlSize(const CameraTable& camera, core::CameraCalibration* lens) {
+void PutTomlSize(const TomlCamera& camera, core::CameraCalibration* lens) {
   constexpr double kMostPixels = 1e6;
   const std::vector<double> size = camera.Numbers("size", "[width, height] in pixels");
   const bool is_size = size.size() == 2 && size[0] >= 1.0 && size[1] >= 1.0 && size[0] <= kMostPixels &&
@@ -69,7 +69,7 @@ void PutTomlSize(const CameraTable& camera, core::CameraCalibration* lens) {
   lens->image_height_px = static_cast<int>(size[1]);
 }
 
-void PutTomlLens(const CameraTable& camera, core::CameraCalibration* lens) {
+void PutTomlLens(const TomlCamera& camera, core::CameraCalibration* lens) {
   const std::vector<double> matrix = camera.Numbers("matrix", "a 3 x 3 matrix, row by row");
   if (matrix.size() != 9) camera.Fail("matrix", "must be a 3 x 3 matrix, row by row");
   lens->camera_matrix = Eigen::Map<const RowMajor3>(matrix.data());
@@ -82,7 +82,7 @@ void PutTomlLens(const CameraTable& camera, core::CameraCalibration* lens) {
   }
 }
 
-std::optional<recon::StatedPose> PoseOf(const CameraTable& camera) {
+std::optional<recon::StatedPose> PoseOf(const TomlCamera& camera) {
   if (!camera.Has("rotation") || !camera.Has("translation")) return std::nullopt;
   const std::vector<double> r = camera.Numbers("rotation", "a rotation vector, or a 3 x 3 matrix");
   const std::vector<double> t = camera.Numbers("translation", "3 numbers");
@@ -93,7 +93,7 @@ std::optional<recon::StatedPose> PoseOf(const CameraTable& camera) {
   return recon::StatedPose{rotation, {t[0], t[1], t[2]}};
 }
 
-void AddCameraOf(const CameraTable& table, const std::string& key, recon::ForeignRig* rig) {
+void AddCameraOf(const TomlCamera& table, const std::string& key, recon::ForeignRig* rig) {
   ForeignCamera camera;
   const bool is_number = key.find_first_not_of("0123456789") == std::string::npos;
   const std::string keyed = is_number ? "cam_" + key : key;
