@@ -73,6 +73,7 @@ nlohmann::json OutcomeJson(const control::CalibrationFile& file, const control::
                          {"held_out_rms_px", OrNull(result.held_out_rms_px)},
                          {"cross_camera_rms_px", OrNull(result.cross_camera_rms_px)},
                          {"rigidity_rms_mm", OrNull(result.rigidity_rms_mm)},
+                         {"uncertainty_scale", result.uncertainty_scale},
                          {"scale_checked", outcome.scale_checked},
                          {"known_lengths", LengthsJson(file, outcome)},
                          {"uncertainty_mm", nullptr},

@@ -1,6 +1,7 @@
 #include "recon/calibration/banded_schur.h"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
 
 namespace elbowroom::recon {
@@ -74,6 +75,38 @@ struct ScaledCholesky {
                 least * Eigen::MatrixXd::Identity(lower.rows(), lower.cols())) {}
 };
 
+std::optional<Eigen::MatrixXd> InverseOfReduced(const NormalEquations& e, const EliminatedBoards& boards) {
+  constexpr double kLeast = 1e-13;
+  const ScaledCholesky cholesky(ReduceCameras(e, boards, 0.0).matrix, kLeast);
+  if (cholesky.factors.info() != Eigen::Success) return std::nullopt;
+  const Eigen::Index columns = e.camera_gradient.size();
+  const Eigen::MatrixXd inverse = cholesky.scale.asDiagonal() *
+                                  cholesky.factors.solve(Eigen::MatrixXd::Identity(columns, columns)) *
+                                  cholesky.scale.asDiagonal();
+  return Eigen::MatrixXd(0.5 * (inverse + inverse.transpose()));
+}
+
+// mixedᵀ B⁻¹ g of the part's boards, with B the boards' band.
+Eigen::VectorXd OfBoardsInCameras(const GradientPart& part, const EliminatedBoards& boards,
+                                  Eigen::Index columns) {
+  using Vector6d = Eigen::Matrix<double, 6, 1>;
+  std::vector<Vector6d> reduced(boards.factor.size(), Vector6d::Zero());
+  std::size_t first = reduced.size();
+  for (const auto& [board, gradient] : part.boards) {
+    reduced[static_cast<std::size_t>(board)] += gradient;
+    first = std::min(first, static_cast<std::size_t>(board));
+  }
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(columns);
+  for (std::size_t k = first; k < reduced.size(); ++k) {
+    for (std::size_t d = 1; d <= 2 && k >= first + d; ++d)
+      reduced[k] -= boards.factor[k - d][d] * reduced[k - d];
+    if (reduced[k].isZero(0.0)) continue;
+    boards.factor[k][0].triangularView<Eigen::Lower>().solveInPlace(reduced[k]);
+    sum.noalias() += boards.reduced[k].leftCols(columns).transpose() * reduced[k];
+  }
+  return sum;
+}
+
 }  // namespace
 
 NormalEquations::NormalEquations(int camera_parameters, int boards)
@@ -110,15 +143,20 @@ std::optional<Eigen::VectorXd> SolveNormalEquations(const NormalEquations& e, do
 
 std::optional<Eigen::MatrixXd> InverseOfCameras(const NormalEquations& e) {
   const std::optional<EliminatedBoards> boards = Eliminate(e, 0.0);
+  return boards ? InverseOfReduced(e, *boards) : std::nullopt;
+}
+
+std::optional<double> SpreadOfParts(const NormalEquations& e, const std::vector<GradientPart>& parts) {
+  const std::optional<EliminatedBoards> boards = Eliminate(e, 0.0);
   if (!boards) return std::nullopt;
-  constexpr double kLeast = 1e-13;
-  const ScaledCholesky cholesky(ReduceCameras(e, *boards, 0.0).matrix, kLeast);
-  if (cholesky.factors.info() != Eigen::Success) return std::nullopt;
-  const Eigen::Index columns = e.camera_gradient.size();
-  const Eigen::MatrixXd inverse = cholesky.scale.asDiagonal() *
-                                  cholesky.factors.solve(Eigen::MatrixXd::Identity(columns, columns)) *
-                                  cholesky.scale.asDiagonal();
-  return Eigen::MatrixXd(0.5 * (inverse + inverse.transpose()));
+  const std::optional<Eigen::MatrixXd> inverse = InverseOfReduced(e, *boards);
+  if (!inverse) return std::nullopt;
+  double sum = 0.0;
+  for (const GradientPart& part : parts) {
+    const Eigen::VectorXd left = part.cameras - OfBoardsInCameras(part, *boards, part.cameras.size());
+    sum += left.dot(*inverse * left);
+  }
+  return sum;
 }
 
 std::optional<Matrix6d> InverseOfBoard(const NormalEquations& e, std::size_t k) {

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace elbowroom::recon {
@@ -28,6 +29,17 @@ struct NormalEquations {
 // The cameras' c x c part of the inverse of H, in directions that H tells to 1e-13 of its diagonal; nothing:
 // not positive definite.
 [[nodiscard]] std::optional<Eigen::MatrixXd> InverseOfCameras(const NormalEquations& equations);
+
+// A share of the right-hand side g.
+struct GradientPart {
+  Eigen::VectorXd cameras;                                          // c
+  std::vector<std::pair<int, Eigen::Matrix<double, 6, 1>>> boards;  // by number
+};
+
+// The sum over the parts of xᵀ C x, with x what is left of a part for the cameras once the boards are
+// eliminated, and C as InverseOfCameras; nothing: not positive definite.
+[[nodiscard]] std::optional<double> SpreadOfParts(const NormalEquations& equations,
+                                                  const std::vector<GradientPart>& parts);
 
 // Board k's 6 x 6 block of the inverse of the boards' part of H, as if the cameras were known, in directions
 // that H tells to 1e-10 of its diagonal; nothing: not positive definite.

@@ -191,6 +191,26 @@ void FixWhatStays(const Adjustment& a, NormalEquations* e) {
     if (a.boards[k].is_fixed || !IsSeen(*e, k)) FixBoard(k, e);
 }
 
+// A view's share of the gradient, 0 for what stays.
+GradientPart PullOf(const Adjustment& a, const AdjustedView& view, const BundleOptions& options) {
+  const ViewEquations e = EquationsOfView(a, view, options);
+  const AdjustedCamera& camera = a.cameras[static_cast<std::size_t>(view.camera)];
+  const ParameterBlock block = a.BlockOf(view.camera);
+  GradientPart pull{VectorXd::Zero(a.camera_parameters()), {}};
+  pull.cameras.segment(block.first, block.size()) = e.gradient.head(block.size());
+  if (camera.is_lens_fixed) pull.cameras.segment(block.first, block.intrinsics).setZero();
+  if (camera.is_pose_fixed) pull.cameras.segment(block.rotation(), 6).setZero();
+  if (camera.is_offset_fixed) pull.cameras[block.time_offset()] = 0.0;
+  if (!a.is_flatness_fixed)
+    pull.cameras.tail<kFlatnessTerms>() = e.gradient.segment<kFlatnessTerms>(block.size());
+  for (int i = 0; i < view.board_count; ++i) {
+    const int board = view.boards[static_cast<std::size_t>(i)];
+    if (!a.boards[static_cast<std::size_t>(board)].is_fixed)
+      pull.boards.emplace_back(board, e.gradient.segment<6>(block.size() + kFlatnessTerms + 6 * i));
+  }
+  return pull;
+}
+
 // A square picture's pixel is as wide as high to a few percent: lenses whose values say else, or whose focal
 // length isn't positive, are no step to take.
 bool IsPossible(const Adjustment& a) {
@@ -267,6 +287,18 @@ std::optional<LensEvidence> LensEvidenceOf(const Adjustment& a, const AdjustedVi
   const MatrixXd mixed = e.matrix.bottomLeftCorner(6, intrinsics), solved = board.solve(mixed);
   return LensEvidence{e.matrix.topLeftCorner(intrinsics, intrinsics) - mixed.transpose() * solved,
                       e.gradient.head(intrinsics) - solved.transpose() * e.gradient.tail(6)};
+}
+
+std::optional<double> SpreadOfPulls(const Adjustment& a, double noise_scale) {
+  BundleOptions options;
+  options.noise_scale = noise_scale;
+  std::vector<GradientPart> pulls(a.views.size());
+  tbb::parallel_for(std::size_t{0}, a.views.size(), [&](std::size_t i) {
+    if (a.views[i].is_used) pulls[i] = PullOf(a, a.views[i], options);
+  });
+  std::erase_if(pulls, [](const GradientPart& pull) { return pull.cameras.size() == 0; });
+  const std::optional<double> spread = SpreadOfParts(EquationsOf(a, options), pulls);
+  return spread ? std::optional(*spread / (noise_scale * noise_scale)) : std::nullopt;
 }
 
 MatrixXd BoardInformation(const Adjustment& a, const AdjustedView& view) {

@@ -34,6 +34,11 @@ struct LensEvidence {
 [[nodiscard]] std::optional<LensEvidence> LensEvidenceOf(const Adjustment& adjustment,
                                                          const AdjustedView& view);
 
+// The sum over the used views of gᵀ C g / s⁴ with g the view's pull on the cameras once the boards are
+// eliminated (minus the gradient of its half sum of squares) and C the covariance over s². With independent
+// residuals it is about the number of the cameras' parameters.
+[[nodiscard]] std::optional<double> SpreadOfPulls(const Adjustment& adjustment, double noise_scale);
+
 // What a view says of its boards' poses if all else is known: information on the turn from the right and the
 // translation of each, (rad, mm)^-2, for residuals over the sightings' standard deviations.
 [[nodiscard]] Eigen::MatrixXd BoardInformation(const Adjustment& adjustment, const AdjustedView& view);

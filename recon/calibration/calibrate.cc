@@ -13,6 +13,7 @@
 #include "recon/calibration/rig_covariance.h"
 #include "recon/calibration/rig_fit.h"
 #include "recon/calibration/rig_start.h"
+#include "recon/calibration/uncertainty_scale.h"
 
 namespace elbowroom::recon {
 namespace {
@@ -167,6 +168,23 @@ void PutBoards(const RigFit& fit, CalibrationResult* result) {
   }
 }
 
+void PutHeldOut(const HeldOutFigures& held_out, CalibrationResult* result) {
+  result->held_out_rms_px = held_out.rms_px;
+  result->cross_camera_rms_px = held_out.cross_camera_rms_px;
+  result->rigidity_rms_mm = held_out.rigidity_rms_mm;
+}
+
+void PutUncertaintyScale(double scale, CalibrationResult* result) {
+  result->uncertainty_scale = scale;
+  if (scale > 1.0)
+    result->warnings.push_back(fmt::format(
+        "the points of a picture are off together, not each by itself, so all uncertainties are enlarged by "
+        "{:.1f}; "
+        "a rolling shutter, a jerk of the board or a board that isn't flat does that: move the board "
+        "slowly, or hold it still",
+        scale));
+}
+
 void PutWarnings(CalibrationResult* result) {
   constexpr int kGoodViews = 10;
   constexpr double kLargeRmsPx = 1.5;
@@ -207,23 +225,22 @@ CalibrationResult Calibrate(const CalibrationInput& input, const core::Progress&
   StartRig(stop, &start);
   Report(progress, Stage::kAdjusting, "bundle adjustment");
   const RigFit fit = FitRig(std::move(start), stop);
-  const Eigen::MatrixXd covariance = CovarianceOf(fit.adjustment, fit.noise_scale, input);
+  Eigen::MatrixXd covariance = CovarianceOf(fit.adjustment, fit.noise_scale, input);
+  Report(progress, Stage::kHeldOut, "views kept out");
 
   CalibrationResult result;
   result.noise_scale = fit.noise_scale;
   result.warnings = fit.state.warnings;
   result.warnings.insert(result.warnings.end(), fit.warnings.begin(), fit.warnings.end());
+  PutHeldOut(MeasureHeldOut(fit, stop), &result);
+  PutUncertaintyScale(UncertaintyScale(fit, stop), &result);
+  covariance *= result.uncertainty_scale * result.uncertainty_scale;
   PutCameras(fit, covariance, &result);
   const auto parameters = covariance.rows() - kFlatnessTerms;
   result.covariance = covariance.topLeftCorner(parameters, parameters);
   PutViews(fit, &result);
   PutFlatness(fit, covariance, &result);
   PutBoards(fit, &result);
-  Report(progress, Stage::kHeldOut, "views kept out");
-  const HeldOutFigures held_out = MeasureHeldOut(fit, stop);
-  result.held_out_rms_px = held_out.rms_px;
-  result.cross_camera_rms_px = held_out.cross_camera_rms_px;
-  result.rigidity_rms_mm = held_out.rigidity_rms_mm;
   PutWarnings(&result);
   Report(progress, Stage::kDone, "done");
   return result;

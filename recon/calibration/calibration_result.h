@@ -69,7 +69,8 @@ struct BoardFlatness {
 
 struct CalibrationResult {
   std::vector<CalibratedCamera> cameras;  // as in the input
-  // Of all cameras' parameters, in the order of their blocks; 0 for what is kept or fixed.
+  // Of all cameras' parameters, in the order of their blocks; 0 for what is kept or fixed. Enlarged by the
+  // square of uncertainty_scale, as all sigmas here are.
   Eigen::MatrixXd covariance;
   std::vector<ViewOutcome> views;  // as in the input
   std::vector<BoardPose> boards;   // in the order of sets
@@ -83,6 +84,9 @@ struct CalibrationResult {
   std::optional<double> held_out_rms_px;
   std::optional<double> cross_camera_rms_px;  // of kept-out views, from where the other cameras see the board
   std::optional<double> rigidity_rms_mm;
+  // 1 where the residuals of a view are independent; else how much less they tell than their number (standard
+  // deviations).
+  double uncertainty_scale = 1.0;
   std::vector<std::string> warnings;  // one plain line each
 };
 

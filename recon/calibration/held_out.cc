@@ -13,7 +13,7 @@ using core::RigidTransform;
 using Eigen::Vector3d;
 
 constexpr int kEveryNth = 5;
-constexpr std::size_t kLeastSets = 10;
+constexpr std::size_t kLeastSets = 6;
 
 struct SumOfSquares {
   double sum = 0.0;

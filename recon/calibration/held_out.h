@@ -19,7 +19,7 @@ struct HeldOutFigures {
 // cameras alone (by two of them at least, where the rig has more than two): the strictest figure, as nothing
 // in that view was fitted. rigidity_rms_mm: error of the distances between points of the board that two or
 // more cameras triangulate, from each to the farthest. Motion between the instants of a set is taken off the
-// pixels first. Nothing where there are fewer than ten such sets. Throws: Error{kCancelled}.
+// pixels first. Nothing where there are fewer than six such sets. Throws: Error{kCancelled}.
 [[nodiscard]] HeldOutFigures MeasureHeldOut(const RigFit& fit, const std::stop_token& stop);
 
 }  // namespace elbowroom::recon
