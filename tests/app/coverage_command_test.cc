@@ -173,6 +173,20 @@ TEST_F(CoverageCommand, UsesTheCovarianceOfTheFile) {
             std::string::npos);
 }
 
+TEST_F(CoverageCommand, SaysThatTheGaugeRefutesTheRig) {
+  Write(recon::FourCameraRig(), true);
+  core::RigGauge gauge;
+  gauge.error_mm = 2.25;
+  gauge.bound_mm = 0.5;
+  recon::SaveGauge(gauge, folder_ / "rig.yml");
+  const nlohmann::json json = Json({"--grid", "80", "--no-next"});
+  ASSERT_FALSE(json.is_null());
+  ASSERT_EQ(json["warnings"].size(), 1U) << json["warnings"];
+  EXPECT_NE(json["warnings"][0].get<std::string>().find("2.25 mm off, 0.50 mm is the bound"),
+            std::string::npos)
+      << json["warnings"];
+}
+
 TEST_F(CoverageCommand, ThePromisedCameraKeepsItsPromise) {
   constexpr double kSampling = 0.03;  // the promise is over some of the places
   core::Rig rig = recon::FourCameraRig();

@@ -32,6 +32,11 @@ double SinceMs(const Clock::time_point& start) {
 void TakeRig(const recon::RigFile& file, CoverageOutcome* outcome) {
   outcome->rig.rig = file.rig;
   outcome->rig.noise_px = kNoisePx;
+  if (file.gauge && !file.gauge->passed)
+    outcome->warnings.push_back(fmt::format(
+        "the gauge of the rig failed ({:.2f} mm off, {:.2f} mm is the bound), so the true errors are "
+        "larger than these; calibrate the rig again, and gauge it",
+        file.gauge->error_mm, file.gauge->bound_mm));
   outcome->has_covariance = file.calibration && file.calibration->covariance.size() > 0;
   if (file.calibration && file.calibration->noise_px > 0.0)
     outcome->rig.noise_px = file.calibration->noise_px;
