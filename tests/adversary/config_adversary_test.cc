@@ -16,6 +16,7 @@
 
 #include "core/plain_text.h"
 #include "tests/adversary/damaged_configuration.h"
+#include "tests/adversary/foreign_texts.h"
 #include "tests/support/run_program.h"
 #include "tests/support/soak.h"
 #include "tests/support/temporary_folder.h"
@@ -126,6 +127,35 @@ TEST(ConfigAdversary, DamagedConfigurationsEndInOneLine) {
   EXPECT_GT(tally.refused, runs / 4);
   std::cout << runs << " damaged configurations: " << tally.taken << " taken, " << tally.refused
             << " refused; the largest child took " << LargestChildKb() / 1000 << " MB\n";
+}
+
+TEST(ConfigAdversary, DamagedRigsOfOtherProgramsEndInOneLine) {
+  const int scale = test_support::SoakScale();
+  const int runs = scale == 1 ? kRunsInASmokeTest : kRunsAScale * scale;
+  Tally tally;
+  tbb::parallel_for(0, runs, [&](int i) {
+    std::mt19937_64 random(72'001 + static_cast<std::uint64_t>(i));
+    const TemporaryFolder folder;
+    const ForeignText& foreign = kForeignTexts[static_cast<std::size_t>(i) % kForeignTexts.size()];
+    const ForeignText& other = kForeignTexts[random() % kForeignTexts.size()];
+    const bool is_sound = i < static_cast<int>(kForeignTexts.size());
+    const fs::path file = folder / foreign.name;
+    test_support::WriteText(file, is_sound
+                                      ? std::string(foreign.text)
+                                      : Damaged(std::string(foreign.text), std::string(other.text), random));
+    SCOPED_TRACE(fmt::format("{}: {}", i, foreign.name));
+    const ProgramRun run = Elbowroom(
+        {"rig", "import", std::string(foreign.name), "--format", std::string(foreign.format), "--size", "640",
+         "480", "--unit", "mm", "--workspace", "-100", "-100", "0", "100", "100", "200", "--out", "rig.yml"},
+        folder.path());
+    if (is_sound) EXPECT_EQ(run.exit_status, 0) << run.err;
+    ExpectInOrder(run, tally);
+    EXPECT_EQ(fs::exists(folder / "rig.yml"), run.exit_status == 0);
+    if (::testing::Test::HasFailure()) KeepForALook(file, i);
+  });
+  EXPECT_LT(LargestChildKb(), kLargestKb);
+  EXPECT_GT(tally.taken, runs / 20) << "damage that leaves nothing sound tests little";
+  EXPECT_GT(tally.refused, runs / 4);
 }
 
 // The file of that kind, its `from` replaced; `from` must be there.
