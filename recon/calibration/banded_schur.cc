@@ -16,6 +16,9 @@ struct EliminatedBoards {
   std::vector<Wide6> reduced;                   // six rows a board, c + 1 columns
 };
 
+// Of the boards' diagonal, added: the instants of all pictures may leave a board between them undecided.
+constexpr double kLeastOfBoards = 1e-12;
+
 std::optional<EliminatedBoards> Eliminate(const NormalEquations& e, double damping) {
   const std::size_t count = e.band.size();
   const Eigen::Index columns = e.camera_gradient.size();
@@ -142,12 +145,12 @@ std::optional<Eigen::VectorXd> SolveNormalEquations(const NormalEquations& e, do
 }
 
 std::optional<Eigen::MatrixXd> InverseOfCameras(const NormalEquations& e) {
-  const std::optional<EliminatedBoards> boards = Eliminate(e, 0.0);
+  const std::optional<EliminatedBoards> boards = Eliminate(e, kLeastOfBoards);
   return boards ? InverseOfReduced(e, *boards) : std::nullopt;
 }
 
 std::optional<double> SpreadOfParts(const NormalEquations& e, const std::vector<GradientPart>& parts) {
-  const std::optional<EliminatedBoards> boards = Eliminate(e, 0.0);
+  const std::optional<EliminatedBoards> boards = Eliminate(e, kLeastOfBoards);
   if (!boards) return std::nullopt;
   const std::optional<Eigen::MatrixXd> inverse = InverseOfReduced(e, *boards);
   if (!inverse) return std::nullopt;

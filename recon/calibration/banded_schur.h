@@ -26,8 +26,8 @@ struct NormalEquations {
 [[nodiscard]] std::optional<Eigen::VectorXd> SolveNormalEquations(const NormalEquations& equations,
                                                                   double damping);
 
-// The cameras' c x c part of the inverse of H, in directions that H tells to 1e-13 of its diagonal; nothing:
-// not positive definite.
+// The cameras' c x c part of the inverse of H, in directions that H tells to 1e-13 of its diagonal (of the
+// boards', to 1e-12); nothing: not positive definite.
 [[nodiscard]] std::optional<Eigen::MatrixXd> InverseOfCameras(const NormalEquations& equations);
 
 // A share of the right-hand side g.
