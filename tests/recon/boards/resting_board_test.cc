@@ -9,15 +9,15 @@
 namespace elbowroom::recon {
 namespace {
 
-constexpr double kSigmaPx = 0.2;
-constexpr int kPictures = 30;
+constexpr double kRestSigmaPx = 0.2;
+constexpr int kRestPictures = 30;
 
-const Board kBoard{BoardKind::kCharuco, 16, 12, 40.0, 28.0, "DICT_5X5_100"};
+const Board kRestBoard{BoardKind::kCharuco, 16, 12, 40.0, 28.0, "DICT_5X5_100"};
 
 BoardSighting BoardAt(const Eigen::Vector2d& corner) {
   BoardSighting sighting;
-  for (int i = 0; i < static_cast<int>(PointsOf(kBoard).size()); ++i)
-    sighting.points.push_back({i, corner + 30.0 * Eigen::Vector2d(i % 15, i / 15), kSigmaPx});
+  for (int i = 0; i < static_cast<int>(PointsOf(kRestBoard).size()); ++i)
+    sighting.points.push_back({i, corner + 30.0 * Eigen::Vector2d(i % 15, i / 15), kRestSigmaPx});
   return sighting;
 }
 
@@ -34,8 +34,8 @@ BoardSighting MeanOf(double fixed_px, double changing_px, unsigned seed) {
   Disturb(fixed_px, &random, &still);
   BoardSighting picture = still;
   Disturb(changing_px, &random, &picture);
-  RestingBoard rest(kBoard, picture);
-  for (int i = 1; i < kPictures; ++i) {
+  RestingBoard rest(kRestBoard, picture);
+  for (int i = 1; i < kRestPictures; ++i) {
     picture = still;
     Disturb(changing_px, &random, &picture);
     EXPECT_TRUE(rest.Add(picture));
@@ -60,14 +60,14 @@ double ErrorOverStated(double fixed_px, double changing_px) {
 // 6,600 coordinates: the ratio's own standard error is 1.7 %.
 TEST(RestingBoard, TheMeanIsKnownAsItSays) {
   constexpr double kThreeStandardErrors = 0.052;
-  EXPECT_NEAR(ErrorOverStated(0.0, kSigmaPx), 1.0, kThreeStandardErrors);
+  EXPECT_NEAR(ErrorOverStated(0.0, kRestSigmaPx), 1.0, kThreeStandardErrors);
   EXPECT_NEAR(ErrorOverStated(0.16, 0.12), 1.0, kThreeStandardErrors);
-  EXPECT_NEAR(ErrorOverStated(kSigmaPx, 0.01), 1.0, kThreeStandardErrors);
+  EXPECT_NEAR(ErrorOverStated(kRestSigmaPx, 0.01), 1.0, kThreeStandardErrors);
 }
 
 TEST(RestingBoard, ABoardThatHasMovedIsAnother) {
   std::mt19937_64 random(1);
-  RestingBoard rest(kBoard, BoardAt({100.0, 80.0}));
+  RestingBoard rest(kRestBoard, BoardAt({100.0, 80.0}));
   BoardSighting moved = BoardAt({100.0 + 2.0 * kMostRestPx, 80.0});
   Disturb(0.1, &random, &moved);
   EXPECT_FALSE(rest.Add(moved));
@@ -78,7 +78,7 @@ TEST(RestingBoard, ABoardThatHasMovedIsAnother) {
 }
 
 TEST(RestingBoard, PointsThatHalfOfThePicturesDontShowAreLeftOut) {
-  RestingBoard rest(kBoard, BoardAt({100.0, 80.0}));
+  RestingBoard rest(kRestBoard, BoardAt({100.0, 80.0}));
   BoardSighting half = BoardAt({100.0, 80.0});
   half.points.resize(90);
   for (int i = 0; i < 2; ++i) EXPECT_TRUE(rest.Add(half));
