@@ -148,7 +148,9 @@ TEST(ConfigAdversary, DamagedRigsOfOtherProgramsEndInOneLine) {
         {"rig", "import", std::string(foreign.name), "--format", std::string(foreign.format), "--size", "640",
          "480", "--unit", "mm", "--workspace", "-100", "-100", "0", "100", "100", "200", "--out", "rig.yml"},
         folder.path());
-    if (is_sound) EXPECT_EQ(run.exit_status, 0) << run.err;
+    if (is_sound) {
+      EXPECT_EQ(run.exit_status, 0) << run.err;
+    }
     ExpectInOrder(run, tally);
     EXPECT_EQ(fs::exists(folder / "rig.yml"), run.exit_status == 0);
     if (::testing::Test::HasFailure()) KeepForALook(file, i);
