@@ -36,7 +36,7 @@ struct JudgedModel {
   DistortionModel model;
   Adjustment fit;
   std::vector<double>
-      held_out;  // chi squared of each view's points, each with a lens and a pose that don't know it
+      held_out;  // chi squared of each view's points, by lenses and poses that don't know them
 };
 
 // Which fifth of the points each point of each view is in. They are drawn: every fifth would be a column of
