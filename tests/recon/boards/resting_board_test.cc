@@ -22,9 +22,9 @@ BoardSighting BoardAt(const Eigen::Vector2d& corner) {
 }
 
 void Disturb(double sigma_px, std::mt19937_64* random, BoardSighting* sighting) {
-  std::normal_distribution<double> normal(0.0, sigma_px);
+  std::normal_distribution<double> normal;
   for (SightedPoint& point : sighting->points)
-    for (double& coordinate : point.pixel) coordinate += normal(*random);
+    for (double& coordinate : point.pixel) coordinate += sigma_px * normal(*random);
 }
 
 // The mean of pictures whose noise has a part that is the same in all of them.

@@ -13,8 +13,9 @@
 namespace elbowroom::recon {
 namespace {
 
-// In the first of these rigs a camera alone saw the board at its instant, in a wrong picture; in the others, two
-// cameras that were late and early by half a period left the boards' poses at the stamps between undecided.
+// In the first of these rigs a camera alone saw the board at its instant, in a wrong picture; in the others,
+// two cameras that were late and early by half a period left the boards' poses at the stamps between
+// undecided.
 TEST(BoardCertainty, ABoardThatNothingConfirmsIsntAccepted) {
   constexpr double kMostTurnRad = 0.05;
   for (const std::uint64_t seed : {185U, 293U, 310U}) {
