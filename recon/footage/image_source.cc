@@ -63,7 +63,8 @@ std::unique_ptr<ImageSource> Open(SourceSubject subject, const std::stop_token& 
   return std::make_unique<ImageFiles>(std::move(subject));
 }
 
-// The size of a source's first picture. Nothing if there is none; opening the source says why.
+// The size of a source's first picture; empty if its video doesn't say it. Nothing if there is none; opening
+// the source says why.
 std::optional<cv::Size> SizeOfFirst(const SourceSubject& subject, const std::stop_token& stop) {
   if (KindOf(subject.location) != SourceKind::kVideo) {
     ImageReader reader(subject.who);
@@ -75,8 +76,7 @@ std::optional<cv::Size> SizeOfFirst(const SourceSubject& subject, const std::sto
   if (!std::filesystem::is_regular_file(subject.location, ignored)) return std::nullopt;
   VideoDecoder decoder(cv::Size(1, 1));  // no picture is decoded here
   const auto opened = decoder.OpenVideo(subject.location, stop, kMostTime);
-  if (opened.value && !opened.value->size_px.empty()) return opened.value->size_px;
-  return std::nullopt;
+  return opened.value ? std::optional(opened.value->size_px) : std::nullopt;
 }
 
 }  // namespace
@@ -95,12 +95,13 @@ UncalibratedSource OpenUncalibratedSource(const std::string& location, const std
   if (kind == SourceKind::kDevice || kind == SourceKind::kUrl)
     subject.Fail(
         fmt::format("'{}' is a live camera; record its pictures first, and name the recording", location));
-  const std::optional<cv::Size> size_px = SizeOfFirst(subject, stop);
-  if (size_px) subject.width_px = size_px->width, subject.height_px = size_px->height;
-  std::unique_ptr<ImageSource> pictures = Open(subject, stop);
-  if (!size_px)
+  const std::optional<cv::Size> found = SizeOfFirst(subject, stop);
+  const cv::Size size_px = found.value_or(cv::Size(1, 1));  // then opening it fails
+  if (size_px.empty())
     subject.Fail(fmt::format("'{}' doesn't say how large its pictures are; record it again", location));
-  return {std::move(pictures), *size_px};
+  subject.width_px = size_px.width;
+  subject.height_px = size_px.height;
+  return {Open(subject, stop), size_px};
 }
 
 }  // namespace elbowroom::recon

@@ -249,10 +249,13 @@ TEST(CalibrateCommand, WhatTheFootageLacksIsOneLineWithTheCamerasName) {
          {"cam1", "stamps.csv", "line 8", "goes back"});
 }
 
-// Writes the pictures of a camera as a video.
-std::filesystem::path VideoOf(const std::string& camera) {
-  const std::filesystem::path path = Footage() / (camera + ".avi");
-  cv::VideoWriter writer(path.string(), cv::VideoWriter::fourcc('M', 'J', 'P', 'G'), 10.0, {480, 360});
+// Writes the pictures of a camera as a video: Motion JPEG, or MPEG-4 in a container whose table is at its
+// end.
+std::filesystem::path VideoOf(const std::string& camera, const std::string& extension = ".avi") {
+  const std::filesystem::path path = Footage() / (camera + extension);
+  const int codec = extension == ".avi" ? cv::VideoWriter::fourcc('M', 'J', 'P', 'G')
+                                        : cv::VideoWriter::fourcc('m', 'p', '4', 'v');
+  cv::VideoWriter writer(path.string(), codec, 10.0, {480, 360});
   writer.set(cv::VIDEOWRITER_PROP_QUALITY, 98);
   for (int set = 0; set < kSets; ++set)
     writer.write(cv::imread((Footage() / camera / fmt::format("{:02}.png", set)).string()));
@@ -272,12 +275,16 @@ TEST(CalibrateCommand, AVideoThatIsCutShortIsNamed) {
   ASSERT_EQ(promised.exit_status, 0) << promised.err;
   EXPECT_NE(promised.out.find("camera 'cam2'"), std::string::npos) << promised.out;
   // The file breaks off.
-  recon::testing::CutFile(VideoOf("cam2"), Footage() / "cut.avi", 0.6);
-  const ProgramRun cut = Calibrate(Only({{"cam1", "cam1.avi"}, {"cam2", "cut.avi"}}));
-  EXPECT_EQ(cut.exit_status, 1);
-  EXPECT_EQ(std::count(cut.err.begin(), cut.err.end(), '\n'), 1) << cut.err;
-  EXPECT_NE(cut.err.find("cut.avi"), std::string::npos) << cut.err;
-  EXPECT_FALSE(HasRig());
+  for (const std::string extension : {".avi", ".mp4"}) {
+    const std::string name = "cut" + extension;
+    recon::testing::CutFile(VideoOf("cam2", extension), Footage() / name, 0.6);
+    const ProgramRun cut = Calibrate(Only({{"cam1", "cam1.avi"}, {"cam2", name}}));
+    EXPECT_EQ(cut.exit_status, 1);
+    EXPECT_EQ(std::count(cut.err.begin(), cut.err.end(), '\n'), 1) << cut.err;
+    EXPECT_NE(cut.err.find(name), std::string::npos) << cut.err;
+    EXPECT_EQ(cut.err.find("internal error"), std::string::npos) << cut.err;
+    EXPECT_FALSE(HasRig());
+  }
 }
 
 TEST(CalibrateCommand, ARigFileNamesTheTrialsPictures) {
