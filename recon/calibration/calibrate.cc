@@ -178,10 +178,9 @@ void PutUncertaintyScale(double scale, CalibrationResult* result) {
   result->uncertainty_scale = scale;
   if (scale > 1.0)
     result->warnings.push_back(fmt::format(
-        "the points of a picture are off together, not each by itself, so all uncertainties are enlarged by "
-        "{:.1f}; "
-        "a rolling shutter, a jerk of the board or a board that isn't flat does that: move the board "
-        "slowly, or hold it still",
+        "the points of a picture are off together, not each by itself, so all uncertainties are "
+        "enlarged by {:.1f}; a rolling shutter, a jerk of the board, a board that isn't flat or a "
+        "lens unlike its model does that: hold the board still, or move it slowly",
         scale));
 }
 
