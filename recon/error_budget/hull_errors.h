@@ -38,8 +38,8 @@ class HullErrors {
   // does.
   [[nodiscard]] core::ErrorBudget WorstAt(const Eigen::Vector3d& x_in_world) const;
 
-  // The largest of WorstAt over a grid of 3 x 3 x 3 points of the box, each moved into the workspace. An empty
-  // box: all 0.
+  // The largest of WorstAt over a grid of 3 x 3 x 3 points of the box, each moved into the workspace. An
+  // empty box: all 0.
   [[nodiscard]] core::ErrorBudget WorstIn(const Eigen::AlignedBox3d& box_in_world) const;
 
  private:
