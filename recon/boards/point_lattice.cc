@@ -100,8 +100,9 @@ std::set<LatticeCell> WithoutRaggedLines(const PointLattice& lattice) {
       std::map<int, int> count;
       int most = 0;
       for (const LatticeCell& cell : cells) most = std::max(most, ++count[cell.*along]);
-      for (const auto& [line, points] : {*count.begin(), *count.rbegin()}) {
-        if (2 * points >= most) continue;
+      for (const std::pair<const int, int>& of_line : {*count.begin(), *count.rbegin()}) {
+        const int line = of_line.first;
+        if (2 * of_line.second >= most) continue;
         std::erase_if(cells, [&](const LatticeCell& cell) { return cell.*along == line; });
         is_changed = true;
       }

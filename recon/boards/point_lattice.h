@@ -2,11 +2,11 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <compare>
 #include <cstddef>
 #include <functional>
 #include <map>
 #include <optional>
+#include <tuple>
 #include <vector>
 
 #include "recon/boards/saddle_fit.h"
@@ -16,7 +16,10 @@ namespace elbowroom::recon {
 struct LatticeCell {
   int column = 0;
   int row = 0;
-  [[nodiscard]] auto operator<=>(const LatticeCell&) const = default;
+  [[nodiscard]] bool operator==(const LatticeCell&) const = default;
+  [[nodiscard]] bool operator<(const LatticeCell& other) const {
+    return std::tie(column, row) < std::tie(other.column, other.row);
+  }
 };
 
 struct LatticePoint {

@@ -65,7 +65,7 @@ bool IsWithin(const RigState& state, const std::vector<int>& confirmed, const Ne
     return state.sets[static_cast<std::size_t>(confirmed[static_cast<std::size_t>(k)])].time_s;
   };
   const auto [first, last] =
-      std::ranges::minmax({time_of(neighbours[0]), time_of(neighbours[1]), time_of(neighbours[2])});
+      std::minmax({time_of(neighbours[0]), time_of(neighbours[1]), time_of(neighbours[2])});
   const double outside_s = kMostOutside * state.input->frame_period_s;
   return t_s >= first - outside_s && t_s <= last + outside_s;
 }
@@ -245,6 +245,7 @@ PosedView PosedAtSetInstant(const Adjustment& a, const AdjustedView& view) {
   return posed;
 }
 
+// NOLINTNEXTLINE(performance-unnecessary-value-param): it may be a pose of the state
 void ChangeFrame(core::RigidTransform new_from_rig, RigState* state) {
   const core::RigidTransform rig_from_new = new_from_rig.Inverse();
   for (AdjustedCamera& camera : state->cameras) camera.cam_from_rig = camera.cam_from_rig * rig_from_new;

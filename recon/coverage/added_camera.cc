@@ -48,9 +48,11 @@ Matrix6d ByWorldMotion(const core::RigidTransform& cam_from_world, const Vector3
 std::vector<Vector3d> PlacesIn(const Eigen::AlignedBox3d& box_mm) {
   constexpr double kFromMiddle = 0.35;  // of the box's sides
   std::vector<Vector3d> places_mm;
-  for (int i = 0; i < 27; ++i)
-    places_mm.push_back(box_mm.center() + kFromMiddle * box_mm.sizes().cwiseProduct(
-                                                            Vector3d(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1)));
+  for (int i = 0; i < 27; ++i) {
+    const int column = i % 3 - 1, row = i / 3 % 3 - 1, layer = i / 9 - 1;
+    places_mm.push_back(box_mm.center() +
+                        kFromMiddle * box_mm.sizes().cwiseProduct(Vector3d(column, row, layer)));
+  }
   return places_mm;
 }
 

@@ -84,9 +84,9 @@ std::vector<CoverageNode> RigCoverage::At(std::span<const Vector3d> points_in_wo
 
 Vector3d CoverageGrid::PointAt(std::size_t node) const {
   const auto across = static_cast<std::size_t>(counts.x()), deep = static_cast<std::size_t>(counts.y());
-  return first_mm + edge_mm * Vector3d(static_cast<double>(node % across),
-                                       static_cast<double>(node / across % deep),
-                                       static_cast<double>(node / across / deep));
+  const std::size_t x = node % across, y = node / across % deep, z = node / across / deep;
+  return first_mm +
+         edge_mm * Vector3d(static_cast<double>(x), static_cast<double>(y), static_cast<double>(z));
 }
 
 std::size_t CoverageGrid::NodeAt(int x, int y, int z) const {

@@ -155,7 +155,8 @@ ErrorBudget HullErrors::WorstIn(const Eigen::AlignedBox3d& box_in_world) const {
       box_in_world.min().cwiseMax(workspace_mm_.min()).cwiseMin(workspace_mm_.max()),
       box_in_world.max().cwiseMax(workspace_mm_.min()).cwiseMin(workspace_mm_.max()));
   for (int i = 0; i < 27; ++i) {
-    const Vector3d share(0.5 * (i % 3), 0.5 * (i / 3 % 3), 0.5 * (i / 9));
+    const int column = i % 3, row = i / 3 % 3, layer = i / 9;
+    const Vector3d share(0.5 * column, 0.5 * row, 0.5 * layer);
     const ErrorBudget budget = WorstAt(box.min() + share.cwiseProduct(box.sizes()));
     if (budget.CombinedMm() > worst.CombinedMm()) worst = budget;
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -45,10 +46,10 @@ using TangentJacobian = Eigen::Matrix<double, Eigen::Dynamic, 5>;
 
 struct CylinderFit {
   Cylinder cylinder;
-  Eigen::Vector3d across_in_world[2];  // unit
-  std::vector<Touch> touches;          // one a sight
-  TangentJacobian jacobian;            // of error_mm
-  bool is_found = false;               // false: the sights don't tell the axis
+  std::array<Eigen::Vector3d, 2> across_in_world;  // unit
+  std::vector<Touch> touches;                      // one a sight
+  TangentJacobian jacobian;                        // of error_mm
+  bool is_found = false;                           // false: the sights don't tell the axis
 };
 
 // Least squares of the errors, each over its limit: those with `is_used`, or all. From `start` on, by Gauss

@@ -36,7 +36,8 @@ MatrixXd BowRows(const FittedRod& rod) {
     rows(row, 2 * cameras) = 1.0;
     for (int k = 0; k < 2; ++k)
       rows(row, 2 * cameras + 1 + k) =
-          -s * s * rod.fit.touches[i].inward_in_world.dot(rod.fit.across_in_world[k]);
+          -s * s *
+          rod.fit.touches[i].inward_in_world.dot(rod.fit.across_in_world[static_cast<std::size_t>(k)]);
     rows.row(row) /= rod.limits_mm[i];
   }
   return rows;
@@ -129,7 +130,7 @@ MeasuredEnd Measure(const FittedRod& rod, int camera, const RodView& view, const
   const Vector3d away = (sight - cosine * cylinder.axis_in_world) / sine;
   Eigen::RowVector4d by_axis;
   for (int k = 0; k < 2; ++k) {
-    by_axis[k] = away.dot(rod.fit.across_in_world[k]);
+    by_axis[k] = away.dot(rod.fit.across_in_world[static_cast<std::size_t>(k)]);
     by_axis[k + 2] = along_mm * by_axis[k];
   }
   const auto gain = AxisGain(rod.fit, rod.limits_mm, std::vector<bool>(rod.sights.size(), true));

@@ -30,7 +30,8 @@ std::vector<Chain> ChainsOf(const RodView& view, const Chain& loop) {
   const auto corner = std::ranges::max_element(
       loop, {}, [&](std::uint32_t i) { return (view.points[i].position - center).squaredNorm(); });
   Chain turned = loop;
-  std::ranges::rotate(turned, turned.begin() + ((cut != loop.end() ? cut : corner) - loop.begin()));
+  std::rotate(turned.begin(), turned.begin() + ((cut != loop.end() ? cut : corner) - loop.begin()),
+              turned.end());
   std::vector<Chain> chains(1);
   for (const std::uint32_t i : turned) {
     if (!at_border(i))
