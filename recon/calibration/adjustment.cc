@@ -66,6 +66,19 @@ int Adjustment::camera_parameters() const {
   return last.first + last.size() + kFlatnessTerms;
 }
 
+std::vector<ParameterRange> Adjustment::kept_parameters() const {
+  std::vector<ParameterRange> kept;
+  for (int i = 0; i < static_cast<int>(cameras.size()); ++i) {
+    const AdjustedCamera& camera = cameras[static_cast<std::size_t>(i)];
+    const ParameterBlock block = BlockOf(i);
+    if (camera.is_lens_fixed) kept.push_back({block.first, block.intrinsics});
+    if (camera.is_pose_fixed) kept.push_back({block.rotation(), 6});
+    if (camera.is_offset_fixed) kept.push_back({block.time_offset(), 1});
+  }
+  if (is_flatness_fixed) kept.push_back({camera_parameters() - kFlatnessTerms, kFlatnessTerms});
+  return kept;
+}
+
 RigidTransform RigFromBoardAt(const Adjustment& a, const AdjustedView& view) {
   const RigidTransform& own = BoardOfView(a, view, 0).rig_from_board;
   if (view.board_count == 1) return own;

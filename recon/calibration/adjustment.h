@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <span>
 #include <vector>
 
 #include "core/rigid_transform.h"
@@ -45,6 +46,16 @@ struct AdjustedView {
   std::vector<AdjustedPoint> points;
 };
 
+// A stretch of the cameras' parameters.
+struct ParameterRange {
+  int first = 0;
+  int count = 0;
+};
+
+[[nodiscard]] inline std::span<const int> BoardsOf(const AdjustedView& view) {
+  return {view.boards.data(), static_cast<std::size_t>(view.board_count)};
+}
+
 struct Adjustment {
   const BoardSurface* surface = nullptr;
   Eigen::Vector3d flatness_mm = Eigen::Vector3d::Zero();
@@ -56,6 +67,7 @@ struct Adjustment {
 
   [[nodiscard]] ParameterBlock BlockOf(int camera) const;
   [[nodiscard]] int camera_parameters() const;  // of all blocks, and of the flatness behind them
+  [[nodiscard]] std::vector<ParameterRange> kept_parameters() const;  // of these, what stays as it is
 };
 
 // How the board stands in the rig at the instant of the view. The board's position and its turn from its own

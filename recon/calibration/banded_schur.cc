@@ -119,6 +119,14 @@ NormalEquations::NormalEquations(int camera_parameters, int boards)
       mixed(static_cast<std::size_t>(boards), Wide6::Zero(6, camera_parameters)),
       board_gradient(static_cast<std::size_t>(boards), Eigen::Matrix<double, 6, 1>::Zero()) {}
 
+void NormalEquations::AddToBand(std::span<const int> boards, const Eigen::MatrixXd& matrix) {
+  for (std::size_t i = 0; i < boards.size(); ++i)
+    for (std::size_t j = 0; j < boards.size(); ++j)
+      if (boards[i] >= boards[j])
+        band[static_cast<std::size_t>(boards[j])][static_cast<std::size_t>(boards[i] - boards[j])] +=
+            matrix.block<6, 6>(6 * static_cast<Eigen::Index>(i), 6 * static_cast<Eigen::Index>(j));
+}
+
 std::optional<Eigen::VectorXd> SolveNormalEquations(const NormalEquations& e, double damping) {
   const std::optional<EliminatedBoards> boards = Eliminate(e, damping);
   if (!boards) return std::nullopt;

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -20,6 +21,9 @@ struct NormalEquations {
   std::vector<Eigen::Matrix<double, 6, 1>> board_gradient;
 
   NormalEquations(int camera_parameters, int boards);
+
+  // Adds a whole matrix of six rows and columns for each of the boards.
+  void AddToBand(std::span<const int> boards, const Eigen::MatrixXd& matrix);
 };
 
 // x for H with its diagonal multiplied by 1 + damping; nothing: not positive definite.

@@ -127,19 +127,13 @@ void AddView(const Adjustment& a, const AdjustedView& view, const ViewEquations&
   sum->camera_gradient.segment(block.first, size) += add.gradient.head(size);
   sum->camera_gradient.tail<kFlatnessTerms>() += add.gradient.segment<kFlatnessTerms>(size);
   for (int i = 0; i < view.board_count; ++i) {
-    const int board = view.boards[static_cast<std::size_t>(i)];
-    const auto k = static_cast<std::size_t>(board);
+    const auto k = static_cast<std::size_t>(view.boards[static_cast<std::size_t>(i)]);
     const int row = cameras + 6 * i;
     sum->mixed[k].middleCols(block.first, size) += m.block(row, 0, 6, size);
     sum->mixed[k].rightCols<kFlatnessTerms>() += m.block<6, kFlatnessTerms>(row, size);
     sum->board_gradient[k] += add.gradient.segment<6>(row);
-    for (int j = 0; j < view.board_count; ++j) {
-      const int other = view.boards[static_cast<std::size_t>(j)];
-      if (board >= other)
-        sum->band[static_cast<std::size_t>(other)][static_cast<std::size_t>(board - other)] +=
-            m.block<6, 6>(row, cameras + 6 * j);
-    }
   }
+  sum->AddToBand(BoardsOf(view), m.bottomRightCorner(6 * view.board_count, 6 * view.board_count));
 }
 
 void AddPriors(const Adjustment& a, const BundleOptions& options, NormalEquations* e) {
@@ -158,7 +152,8 @@ void AddPriors(const Adjustment& a, const BundleOptions& options, NormalEquation
 }
 
 // Takes parameters out that stay as they are: their step becomes 0.
-void FixCameraParameters(int first, int count, NormalEquations* e) {
+void FixCameraParameters(const ParameterRange& range, NormalEquations* e) {
+  const auto [first, count] = range;
   e->cameras.middleRows(first, count).setZero();
   e->cameras.middleCols(first, count).setZero();
   e->cameras.diagonal().segment(first, count).setOnes();
@@ -179,34 +174,23 @@ void FixBoard(std::size_t k, NormalEquations* e) {
 bool IsSeen(const NormalEquations& e, std::size_t k) { return e.band[k][0].diagonal().minCoeff() > 0.0; }
 
 void FixWhatStays(const Adjustment& a, NormalEquations* e) {
-  for (int i = 0; i < static_cast<int>(a.cameras.size()); ++i) {
-    const AdjustedCamera& camera = a.cameras[static_cast<std::size_t>(i)];
-    const ParameterBlock block = a.BlockOf(i);
-    if (camera.is_lens_fixed) FixCameraParameters(block.first, block.intrinsics, e);
-    if (camera.is_pose_fixed) FixCameraParameters(block.rotation(), 6, e);
-    if (camera.is_offset_fixed) FixCameraParameters(block.time_offset(), 1, e);
-  }
-  if (a.is_flatness_fixed) FixCameraParameters(a.camera_parameters() - kFlatnessTerms, kFlatnessTerms, e);
+  for (const ParameterRange& range : a.kept_parameters()) FixCameraParameters(range, e);
   for (std::size_t k = 0; k < a.boards.size(); ++k)
     if (a.boards[k].is_fixed || !IsSeen(*e, k)) FixBoard(k, e);
 }
 
 // A view's share of the gradient, 0 for what stays.
-GradientPart PullOf(const Adjustment& a, const AdjustedView& view, const BundleOptions& options) {
-  const ViewEquations e = EquationsOfView(a, view, options);
-  const AdjustedCamera& camera = a.cameras[static_cast<std::size_t>(view.camera)];
+GradientPart PullOf(const Adjustment& a, const AdjustedView& view, const std::vector<ParameterRange>& kept) {
+  const VectorXd gradient = EquationsOfView(a, view, {}).gradient;
   const ParameterBlock block = a.BlockOf(view.camera);
   GradientPart pull{VectorXd::Zero(a.camera_parameters()), {}};
-  pull.cameras.segment(block.first, block.size()) = e.gradient.head(block.size());
-  if (camera.is_lens_fixed) pull.cameras.segment(block.first, block.intrinsics).setZero();
-  if (camera.is_pose_fixed) pull.cameras.segment(block.rotation(), 6).setZero();
-  if (camera.is_offset_fixed) pull.cameras[block.time_offset()] = 0.0;
-  if (!a.is_flatness_fixed)
-    pull.cameras.tail<kFlatnessTerms>() = e.gradient.segment<kFlatnessTerms>(block.size());
+  pull.cameras.segment(block.first, block.size()) = gradient.head(block.size());
+  pull.cameras.tail<kFlatnessTerms>() = gradient.segment<kFlatnessTerms>(block.size());
+  for (const auto& [first, count] : kept) pull.cameras.segment(first, count).setZero();
   for (int i = 0; i < view.board_count; ++i) {
     const int board = view.boards[static_cast<std::size_t>(i)];
     if (!a.boards[static_cast<std::size_t>(board)].is_fixed)
-      pull.boards.emplace_back(board, e.gradient.segment<6>(block.size() + kFlatnessTerms + 6 * i));
+      pull.boards.emplace_back(board, gradient.segment<6>(block.size() + kFlatnessTerms + 6 * i));
   }
   return pull;
 }
@@ -292,11 +276,10 @@ std::optional<LensEvidence> LensEvidenceOf(const Adjustment& a, const AdjustedVi
 std::optional<double> SpreadOfPulls(const Adjustment& a, double noise_scale) {
   BundleOptions options;
   options.noise_scale = noise_scale;
-  std::vector<GradientPart> pulls(a.views.size());
-  tbb::parallel_for(std::size_t{0}, a.views.size(), [&](std::size_t i) {
-    if (a.views[i].is_used) pulls[i] = PullOf(a, a.views[i], options);
-  });
-  std::erase_if(pulls, [](const GradientPart& pull) { return pull.cameras.size() == 0; });
+  const std::vector<ParameterRange> kept = a.kept_parameters();
+  std::vector<GradientPart> pulls;
+  for (const AdjustedView& view : a.views)
+    if (view.is_used) pulls.push_back(PullOf(a, view, kept));
   const std::optional<double> spread = SpreadOfParts(EquationsOf(a, options), pulls);
   return spread ? std::optional(*spread / (noise_scale * noise_scale)) : std::nullopt;
 }

@@ -149,7 +149,7 @@ void PutFlatness(const RigFit& fit, const Eigen::MatrixXd& covariance, Calibrati
         std::max(flatness.largest_mm, std::abs(fit.state.surface->Bending(i).dot(fit.state.flatness_mm)));
 }
 
-// Those whose turn is known, and would be without any one of the cameras.
+// Those whose turn would be known without any one view of their sets.
 void PutBoards(const RigFit& fit, CalibrationResult* result) {
   constexpr double kMostTurnSigma = 0.01;
   const RigState& state = fit.state;

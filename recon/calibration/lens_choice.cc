@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "recon/calibration/bundle.h"
-#include "recon/calibration/rig_state.h"
 
 namespace elbowroom::recon {
 namespace {
@@ -35,8 +34,8 @@ Adjustment ViewsOf(const Adjustment& rig, int camera) {
 struct JudgedModel {
   DistortionModel model;
   Adjustment fit;
-  std::vector<double>
-      held_out;  // chi squared of each view's points, by lenses and poses that don't know them
+  // Chi squared of each view's points, by lenses and poses that don't know them.
+  std::vector<double> held_out;
 };
 
 // Which fifth of the points each point of each view is in. They are drawn: every fifth would be a column of
@@ -81,7 +80,7 @@ std::vector<double> HeldOutChi2(const Adjustment& all, const Folds& folds, const
   return chi2;
 }
 
-JudgedModel Judge(Adjustment fit, DistortionModel model, const BundleOptions& options,
+JudgedModel Judge(Adjustment fit, DistortionModel model, const Folds& folds, const BundleOptions& options,
                   const std::stop_token& stop) {
   LensParameters& lens = fit.cameras.front().lens;
   if (lens.model != model) {
@@ -94,7 +93,7 @@ JudgedModel Judge(Adjustment fit, DistortionModel model, const BundleOptions& op
     fix_boards(false);
   }
   fit = AdjustBundle(std::move(fit), options, stop);
-  std::vector<double> held_out = HeldOutChi2(fit, DrawFolds(fit), options, stop);
+  std::vector<double> held_out = HeldOutChi2(fit, folds, options, stop);
   return {model, std::move(fit), std::move(held_out)};
 }
 
@@ -122,13 +121,14 @@ LensParameters ChooseLens(const Adjustment& rig, int camera, double noise_scale,
   options.most_steps = 15;
   options.settled = 1e-6;
   const Adjustment alone = ViewsOf(rig, camera);
+  const Folds folds = DrawFolds(alone);
   const DistortionModel present = alone.cameras.front().lens.model;
-  JudgedModel best = Judge(alone, DistortionModel::kPlumbBob, options, stop);
+  JudgedModel best = Judge(alone, DistortionModel::kPlumbBob, folds, options, stop);
   JudgedModel rational = Judge(present == DistortionModel::kPlumbBob ? best.fit : alone,
-                               DistortionModel::kRationalPolynomial, options, stop);
+                               DistortionModel::kRationalPolynomial, folds, options, stop);
   if (IsClearlyBetter(rational, best, 0.0)) best = std::move(rational);
   if (best.model != DistortionModel::kPlumbBob || present == DistortionModel::kFisheye) {
-    JudgedModel fisheye = Judge(alone, DistortionModel::kFisheye, options, stop);
+    JudgedModel fisheye = Judge(alone, DistortionModel::kFisheye, folds, options, stop);
     if (IsClearlyBetter(fisheye, best, kLeastForFisheye)) best = std::move(fisheye);
   }
   return best.model == present ? alone.cameras.front().lens : best.fit.cameras.front().lens;

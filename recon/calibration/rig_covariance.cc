@@ -48,20 +48,13 @@ Eigen::MatrixXd CovarianceOf(const Adjustment& a, double noise_scale, const Cali
   const std::optional<Eigen::MatrixXd> inverse = InverseOfCameras(EquationsOf(a, options));
   if (!inverse) FailAtUndecided(input.cameras[LeastSeenCamera(a)].name);
   Eigen::MatrixXd covariance = noise_scale * noise_scale * *inverse;
-  const auto clear = [&](int first, int count) {
+  for (int i = 0; i < static_cast<int>(a.cameras.size()); ++i)
+    if (!IsDecided(a.cameras[static_cast<std::size_t>(i)], a.BlockOf(i), covariance))
+      FailAtUndecided(input.cameras[static_cast<std::size_t>(i)].name);
+  for (const auto& [first, count] : a.kept_parameters()) {
     covariance.middleRows(first, count).setZero();
     covariance.middleCols(first, count).setZero();
-  };
-  for (int i = 0; i < static_cast<int>(a.cameras.size()); ++i) {
-    const AdjustedCamera& camera = a.cameras[static_cast<std::size_t>(i)];
-    const ParameterBlock block = a.BlockOf(i);
-    if (!IsDecided(camera, block, covariance))
-      FailAtUndecided(input.cameras[static_cast<std::size_t>(i)].name);
-    if (camera.is_lens_fixed) clear(block.first, block.intrinsics);
-    if (camera.is_pose_fixed) clear(block.rotation(), 6);
-    if (camera.is_offset_fixed) clear(block.time_offset(), 1);
   }
-  if (a.is_flatness_fixed) clear(a.camera_parameters() - kFlatnessTerms, kFlatnessTerms);
   return covariance;
 }
 

@@ -32,7 +32,7 @@ RigState WithDrawnNoise(const RigFit& fit) {
 
 double UncertaintyScale(const RigFit& fit, const std::stop_token& stop) {
   constexpr int kSteps = 8;
-  constexpr double kByChance = 1.25;  // that much and more in none of 1,000 rigs with independent noise
+  constexpr double kByChance = 1.25;  // independent noise gives less (CalibrationCoverage)
   RigState drawn = WithDrawnNoise(fit);
   const Adjustment refitted = FitPlainly(&drawn, fit.noise_scale, kSteps, stop);
   const std::optional<double> spread = SpreadOfPulls(fit.adjustment, fit.noise_scale),

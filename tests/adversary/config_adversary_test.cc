@@ -101,9 +101,21 @@ void KeepForALook(const fs::path& file, int number) {
       fs::copy_options::overwrite_existing);
 }
 
-TEST(ConfigAdversary, DamagedConfigurationsEndInOneLine) {
+int RunsOfATest() {
   const int scale = test_support::SoakScale();
-  const int runs = scale == 1 ? kRunsInASmokeTest : kRunsAScale * scale;
+  return scale == 1 ? kRunsInASmokeTest : kRunsAScale * scale;
+}
+
+void ExpectBothEnds(const char* what, int runs, const Tally& tally) {
+  EXPECT_LT(LargestChildKb(), kLargestKb);
+  EXPECT_GT(tally.taken, runs / 20) << "damage that leaves nothing sound tests little";
+  EXPECT_GT(tally.refused, runs / 4);
+  std::cout << runs << " damaged " << what << ": " << tally.taken << " taken, " << tally.refused
+            << " refused; the largest child took " << LargestChildKb() / 1000 << " MB\n";
+}
+
+TEST(ConfigAdversary, DamagedConfigurationsEndInOneLine) {
+  const int runs = RunsOfATest();
   Tally tally;
   tbb::parallel_for(0, runs, [&](int i) {
     std::mt19937_64 random(71'001 + static_cast<std::uint64_t>(i));
@@ -122,16 +134,11 @@ TEST(ConfigAdversary, DamagedConfigurationsEndInOneLine) {
     }
     if (::testing::Test::HasFailure()) KeepForALook(file, i);
   });
-  EXPECT_LT(LargestChildKb(), kLargestKb);
-  EXPECT_GT(tally.taken, runs / 20) << "damage that leaves nothing sound tests little";
-  EXPECT_GT(tally.refused, runs / 4);
-  std::cout << runs << " damaged configurations: " << tally.taken << " taken, " << tally.refused
-            << " refused; the largest child took " << LargestChildKb() / 1000 << " MB\n";
+  ExpectBothEnds("configurations", runs, tally);
 }
 
 TEST(ConfigAdversary, DamagedRigsOfOtherProgramsEndInOneLine) {
-  const int scale = test_support::SoakScale();
-  const int runs = scale == 1 ? kRunsInASmokeTest : kRunsAScale * scale;
+  const int runs = RunsOfATest();
   Tally tally;
   tbb::parallel_for(0, runs, [&](int i) {
     std::mt19937_64 random(72'001 + static_cast<std::uint64_t>(i));
@@ -155,9 +162,7 @@ TEST(ConfigAdversary, DamagedRigsOfOtherProgramsEndInOneLine) {
     EXPECT_EQ(fs::exists(folder / "rig.yml"), run.exit_status == 0);
     if (::testing::Test::HasFailure()) KeepForALook(file, i);
   });
-  EXPECT_LT(LargestChildKb(), kLargestKb);
-  EXPECT_GT(tally.taken, runs / 20) << "damage that leaves nothing sound tests little";
-  EXPECT_GT(tally.refused, runs / 4);
+  ExpectBothEnds("rigs of other programs", runs, tally);
 }
 
 // The file of that kind, its `from` replaced; `from` must be there.

@@ -102,6 +102,7 @@ struct RigOutcome {
   std::vector<double> turn_to_first_deg, distance_to_first_mm;  // errors of each camera against the first
   std::vector<double> center_sigma_mm, rotation_sigma_deg;
   std::vector<bool> has_true_model;
+  bool is_enlarged = false;
   int flipped = 0, other_models = 0, wrong_used = 0, right_left_out = 0, views = 0;
   double seconds = 0.0;
 };
@@ -134,6 +135,7 @@ RigOutcome OutcomeOfRig(const CalibrationSceneOptions& options, std::uint64_t se
   }
   outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   outcome.flipped = FlippedBoards(scene, result);
+  outcome.is_enlarged = result.uncertainty_scale > 1.0;
   for (int i = 0; i < static_cast<int>(scene.cameras.size()); ++i) {
     const auto at = static_cast<std::size_t>(i);
     outcome.cameras.push_back(ErrorOfCamera(scene, result, i));
@@ -173,6 +175,7 @@ class Series {
     append(rig.center_sigma_mm, &center_sigma_mm_);
     append(rig.rotation_sigma_deg, &rotation_sigma_deg_);
     flipped_ += rig.flipped;
+    enlarged_ += rig.is_enlarged ? 1 : 0;
     other_models_ += rig.other_models;
     wrong_used_ += rig.wrong_used;
     right_left_out_ += rig.right_left_out;
@@ -183,6 +186,7 @@ class Series {
   void Print() const {
     std::printf("  %d rigs, %d refused; %d cameras, %d with another model; %d boards flipped\n", rigs_,
                 refused_, static_cast<int>(center_mm_.size()), other_models_, flipped_);
+    std::printf("  %d rigs whose uncertainties are enlarged\n", enlarged_);
     std::printf("  of %d views, %d wrong ones used and %d right ones left out\n", views_, wrong_used_,
                 right_left_out_);
     PrintErrors("centre", "mm", center_mm_);
@@ -208,6 +212,7 @@ class Series {
     EXPECT_LE(QuantileOf(rotation_deg_, 0.5), most_rotation_deg);
     EXPECT_LE(QuantileOf(offset_ms_, 0.5), 1.0);
     EXPECT_EQ(flipped_, 0);
+    EXPECT_EQ(enlarged_, 0) << "the noise here is independent";
     EXPECT_LE(refused_, rigs_ / 20);  // every rig can be calibrated
   }
 
@@ -237,8 +242,8 @@ class Series {
     offsets_.Add(offsets, k68Of1, k95Of1);
   }
 
-  int rigs_ = 0, refused_ = 0, flipped_ = 0, other_models_ = 0, wrong_used_ = 0, right_left_out_ = 0,
-      views_ = 0;
+  int rigs_ = 0, refused_ = 0, flipped_ = 0, enlarged_ = 0, other_models_ = 0, wrong_used_ = 0,
+      right_left_out_ = 0, views_ = 0;
   Tally centers_, rotations_, rotations_of_true_models_, rotations_of_others_, offsets_;
   std::vector<double> center_mm_, rotation_deg_, offset_ms_, turn_to_first_deg_, distance_to_first_mm_,
       center_sigma_mm_, rotation_sigma_deg_, seconds_;
