@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -60,12 +61,23 @@ struct SessionHeader {
   std::map<std::string, std::string> versions;  // software and drivers
 };
 
+// Which picture of its camera a frame took, and when that was taken.
+struct CameraStamp {
+  std::uint64_t picture = 0;  // the camera's own count of its pictures: what is missing in it was lost
+  double time_s = 0.0;        // of the middle of its exposure, on the clock of FrameRecord::time_s
+
+  [[nodiscard]] bool operator==(const CameraStamp&) const = default;
+};
+
 using SharedMasks = std::shared_ptr<const std::vector<SoftMask>>;
 
 struct FrameRecord {
   FrameIndex frame = 0;
   double time_s = 0.0;                // of capture, from the first frame
   SharedMasks masks;                  // one a camera
+  // One a camera; nothing for a camera whose picture is missing in this frame: its mask is all object then.
+  // Empty: the cameras have no stamps, and look at one instant as far as is known.
+  std::vector<std::optional<CameraStamp>> stamps;
   std::vector<double> spacing_mm;     // in the layout's order
   std::vector<PartContact> contacts;  // one a part, in the layout's order
   // How pushed parts were moved from the poses that layout and spacings give them: one a part, in the
