@@ -19,6 +19,8 @@ pkg_check_modules(EPOXY REQUIRED IMPORTED_TARGET epoxy)
 pkg_check_modules(HIGHWAY REQUIRED IMPORTED_TARGET libhwy libhwy-contrib)
 pkg_check_modules(ZSTD REQUIRED IMPORTED_TARGET libzstd)
 pkg_check_modules(XXHASH REQUIRED IMPORTED_TARGET libxxhash)
+pkg_check_modules(ARAVIS REQUIRED IMPORTED_TARGET aravis-0.8)
+set_target_properties(PkgConfig::ARAVIS PROPERTIES INTERFACE_COMPILE_OPTIONS "")   # -pthread, which precompiled headers lack
 find_package(Lib3mf REQUIRED)        # its pkg-config file asks for the static libraries of others
 find_package(Haru REQUIRED)
 find_package(OpenCVParts REQUIRED)   # only the modules in use; Debian ships no CMake config for single modules

@@ -13,6 +13,7 @@
 #include "core/heat_map.h"
 #include "core/ids.h"
 #include "core/layout.h"
+#include "core/picture_loss.h"
 #include "core/rig.h"
 #include "core/rig_quality.h"
 #include "core/rigid_transform.h"
@@ -73,11 +74,12 @@ using SharedMasks = std::shared_ptr<const std::vector<SoftMask>>;
 
 struct FrameRecord {
   FrameIndex frame = 0;
-  double time_s = 0.0;                // of capture, from the first frame
-  SharedMasks masks;                  // one a camera
+  double time_s = 0.0;  // of capture, from the first frame
+  SharedMasks masks;    // one a camera
   // One a camera; nothing for a camera whose picture is missing in this frame: its mask is all object then.
   // Empty: the cameras have no stamps, and look at one instant as far as is known.
   std::vector<std::optional<CameraStamp>> stamps;
+  std::vector<PictureLoss> losses;    // that became known since the frame before
   std::vector<double> spacing_mm;     // in the layout's order
   std::vector<PartContact> contacts;  // one a part, in the layout's order
   // How pushed parts were moved from the poses that layout and spacings give them: one a part, in the

@@ -35,8 +35,11 @@ struct ViewerPicture {
 
 struct FrameSet {
   core::FrameIndex index = 0;
-  double time_s = 0.0;               // of capture, from frame 0
-  std::vector<CameraFrame> cameras;  // in the rig's order
+  double time_s = 0.0;                         // of capture, from frame 0
+  std::vector<CameraFrame> cameras;            // in the rig's order
+  std::vector<core::PictureLoss> losses = {};  // of live cameras, that became known since the set before
+  // The instant of time_s on the computer's clock; nothing for recorded footage.
+  std::optional<std::chrono::steady_clock::time_point> taken_at = std::nullopt;
   std::optional<ViewerPicture> viewer = std::nullopt;
 };
 

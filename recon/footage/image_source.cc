@@ -49,6 +49,9 @@ class ImageFiles : public ImageSource {
 
 std::unique_ptr<ImageSource> Open(SourceSubject subject, const std::stop_token& stop) {
   switch (KindOf(subject.location)) {
+    case SourceKind::kGenicam:
+      subject.Fail(
+          fmt::format("'{}' is a live camera; here only recorded footage can be read", subject.location));
     case SourceKind::kDevice:
     case SourceKind::kUrl:
       return OpenLiveCamera(std::move(subject), stop);
@@ -91,8 +94,7 @@ UncalibratedSource OpenUncalibratedSource(const std::string& location, const std
                                           std::stop_token stop) {
   SourceSubject subject{fmt::format("camera '{}'", camera_name), location, 0, 0, "the first picture is",
                         "calibrate with pictures of one size"};
-  const SourceKind kind = KindOf(location);
-  if (kind == SourceKind::kDevice || kind == SourceKind::kUrl)
+  if (IsLive(location))
     subject.Fail(
         fmt::format("'{}' is a live camera; record its pictures first, and name the recording", location));
   const std::optional<cv::Size> found = SizeOfFirst(subject, stop);

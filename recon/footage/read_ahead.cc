@@ -70,8 +70,8 @@ std::unique_ptr<ReadAhead> ReadAheadOf(std::shared_ptr<ImageSource> source) {
   auto read = [source = std::move(source)](core::FrameIndex index, const std::stop_token& stop) {
     std::optional<CameraFrame> frame;
     if (std::optional<SourcePicture> picture = source->Read(index, stop))
-      frame.emplace(CameraFrame{std::move(picture->image_bgr), std::nullopt, std::nullopt,
-                                picture->captured_at});
+      frame.emplace(
+          CameraFrame{std::move(picture->image_bgr), std::nullopt, std::nullopt, picture->captured_at});
     return frame;
   };
   return std::make_unique<ReadAhead>(std::move(read), footage);

@@ -52,8 +52,7 @@ ReadAhead::ReadFrame MasksOf(std::vector<std::filesystem::path> files, const cor
 }
 
 std::vector<std::filesystem::path> FindMaskFiles(const std::string& location, const std::string& who) {
-  const SourceKind kind = KindOf(location);
-  if (kind == SourceKind::kDevice || kind == SourceKind::kUrl || kind == SourceKind::kVideo) {
+  if (IsLive(location) || KindOf(location) == SourceKind::kVideo) {
     throw Error(ErrorKind::kFormat,
                 fmt::format("{}: masks '{}' must be an image, a pattern such as mask_%04d.png or a "
                             "folder of images",

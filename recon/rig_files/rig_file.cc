@@ -42,7 +42,11 @@ constexpr std::string_view kCameraKeys[] = {"name",
                                             "background",
                                             "masks",
                                             "timestamps",
-                                            "time_offset_s"};
+                                            "time_offset_s",
+                                            "capture"};
+constexpr std::string_view kCaptureKeys[] = {"width",       "height",       "rate_hz",
+                                             "exposure_us", "gain_db",      "white_balance_k",
+                                             "trigger",     "pixel_format", "packet_bytes"};
 constexpr std::string_view kViewKeys[] = {"name",
                                           "image_width",
                                           "image_height",
@@ -118,6 +122,54 @@ core::UnseenPolicy ReadUnseen(const YamlSection& section) {
   section.Fail(fmt::format("unseen is '{}'; say \"outside\" or \"abstain\"", text));
 }
 
+struct Allowed {
+  double least = 0.0;
+  double most = 0.0;
+};
+
+std::optional<double> ReadSetting(const YamlSection& section, const char* key, Allowed allowed) {
+  if (section.Find(key) == nullptr) return std::nullopt;
+  const double value = section.NumberOr(key, 0.0);
+  if (!(value >= allowed.least && value <= allowed.most))
+    section.Fail(fmt::format("{} is {}; it must be {} to {}", key, value, allowed.least, allowed.most),
+                 ErrorKind::kRange);
+  return value;
+}
+
+// A calibration holds for one size of picture, so the camera is set to that.
+void RequireCalibratedSize(const YamlSection& section, const char* key, int calibrated_px) {
+  if (section.Find(key) == nullptr) return;
+  if (const int size_px = section.Integer(key, kPixels); size_px != calibrated_px)
+    section.Fail(
+        fmt::format("{} is {}, but the camera was calibrated with {}; leave it out, or calibrate again", key,
+                    size_px, calibrated_px));
+}
+
+CaptureSettings ReadCapture(const YamlSection& camera, const core::CameraModel& model) {
+  const YamlNode* node = camera.Find("capture");
+  if (node == nullptr) return {};
+  if (node->kind != YamlKind::kMap) camera.Fail("key 'capture' must be a map");
+  const YamlSection section{node, camera.file, fmt::format("{}, capture", camera.title)};
+  section.RefuseMisspelt(kCaptureKeys);
+  RequireCalibratedSize(section, "width", model.width_px());
+  RequireCalibratedSize(section, "height", model.height_px());
+  constexpr double kTiny = 1e-3;
+  CaptureSettings settings;
+  settings.rate_hz = ReadSetting(section, "rate_hz", {kTiny, 1000.0});
+  settings.exposure_us = ReadSetting(section, "exposure_us", {kTiny, 1e6});
+  settings.gain_db = ReadSetting(section, "gain_db", {-20.0, 100.0});
+  settings.white_balance_k = ReadSetting(section, "white_balance_k", {1000.0, 20'000.0});
+  const std::string trigger = section.TextOr("trigger", "free");
+  const auto parsed = ParseCaptureTrigger(trigger);
+  if (!parsed)
+    section.Fail(fmt::format("trigger is '{}'; say \"free\", \"software\" or \"hardware\"", trigger));
+  settings.trigger = *parsed;
+  settings.pixel_format = section.TextOr("pixel_format", "");
+  if (const auto bytes = ReadSetting(section, "packet_bytes", {576.0, 16'000.0}))
+    settings.packet_bytes = static_cast<int>(*bytes);
+  return settings;
+}
+
 void AddCamera(const YamlNode& node, const std::string& file, const std::filesystem::path& folder,
                RigFile& rig_file) {
   YamlSection section{&node, file, fmt::format("camera number {}", rig_file.sources.size() + 1)};
@@ -137,7 +189,8 @@ void AddCamera(const YamlNode& node, const std::string& file, const std::filesys
                               ResolvedLocation(section.TextOr("background", ""), folder),
                               ResolvedLocation(section.TextOr("masks", ""), folder),
                               ResolvedLocation(section.TextOr("timestamps", ""), folder),
-                              section.NumberOr("time_offset_s", 0.0)});
+                              section.NumberOr("time_offset_s", 0.0),
+                              ReadCapture(section, rig_file.rig.cameras.back())});
 }
 
 // A symmetric matrix, of which the file has the lower triangle, row by row.

@@ -10,10 +10,12 @@
 #include "core/camera_model.h"
 #include "core/rig.h"
 #include "core/rig_quality.h"
+#include "recon/rig_files/capture_settings.h"
 
 namespace elbowroom::recon {
 
-// Absolute paths (in RIG.yml they are relative to it), or "device:N", or a URL; empty = absent.
+// Absolute paths (in RIG.yml they are relative to it), or live cameras as in source_location.h; empty =
+// absent.
 struct CameraSources {
   std::string frames;
   std::string background;
@@ -21,6 +23,7 @@ struct CameraSources {
   std::string timestamps = {};
   // A picture with the stamp t shows the scene at t + time_offset_s.
   double time_offset_s = 0.0;
+  CaptureSettings capture = {};  // of a live camera
 
   [[nodiscard]] bool operator==(const CameraSources&) const = default;
 };

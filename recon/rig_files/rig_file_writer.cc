@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Core>
+#include <optional>
 #include <span>
 #include <sstream>
 #include <string>
@@ -62,6 +63,26 @@ std::string CameraText(const core::CameraCalibration& c) {
          MatrixText("distortion_coefficients", 1, static_cast<int>(coefficients.size()), coefficients) +
          Matrix3Text("rotation_cam_from_world", c.cam_from_world.rotation) +
          MatrixText("translation_cam_from_world_mm", 3, 1, {c.cam_from_world.translation_mm.data(), 3});
+}
+
+// Empty where the camera keeps all of its own settings.
+std::string CaptureText(const CaptureSettings& settings) {
+  std::string text;
+  const auto add = [&](const char* key, const std::string& value) {
+    text += fmt::format("         {}: {}\n", key, value);
+  };
+  const auto add_number = [&](const char* key, const std::optional<double>& value) {
+    if (value) add(key, Number(*value));
+  };
+  add_number("rate_hz", settings.rate_hz);
+  add_number("exposure_us", settings.exposure_us);
+  add_number("gain_db", settings.gain_db);
+  add_number("white_balance_k", settings.white_balance_k);
+  if (settings.trigger != CaptureTrigger::kFree)
+    add("trigger", Quoted(std::string(ToString(settings.trigger))));
+  if (!settings.pixel_format.empty()) add("pixel_format", Quoted(settings.pixel_format));
+  if (settings.packet_bytes) add("packet_bytes", fmt::format("{}", *settings.packet_bytes));
+  return text.empty() ? text : "      capture:\n" + text;
 }
 
 // Nine digits are plenty for a variance, and keep a large rig's file small.
@@ -145,6 +166,7 @@ void WriteRigFile(const RigFile& rig_file, const std::filesystem::path& path) {
     add("timestamps", rig_file.sources[i].timestamps);
     if (rig_file.sources[i].time_offset_s != 0.0)
       text += fmt::format("      time_offset_s: {}\n", Number(rig_file.sources[i].time_offset_s));
+    text += CaptureText(rig_file.sources[i].capture);
   }
   if (rig_file.calibration) text += CalibrationText(*rig_file.calibration);
   if (rig_file.gauge) text += GaugeText(*rig_file.gauge);

@@ -17,7 +17,8 @@ bool HasImageExtension(const std::filesystem::path& path) {
 }
 
 SourceKind KindOf(const std::string& location) {
-  if (location.starts_with("device:")) return SourceKind::kDevice;
+  if (location.starts_with("device:") || location.starts_with("v4l2:")) return SourceKind::kDevice;
+  if (location.starts_with("gige:")) return SourceKind::kGenicam;
   if (location.find("://") != std::string::npos) return SourceKind::kUrl;
   if (location.find('%') != std::string::npos) return SourceKind::kSequence;
   std::error_code ignored;
@@ -27,10 +28,24 @@ SourceKind KindOf(const std::string& location) {
   return HasImageExtension(location) ? SourceKind::kImage : SourceKind::kVideo;
 }
 
+bool IsLive(const std::string& location) {
+  switch (KindOf(location)) {
+    case SourceKind::kDevice:
+    case SourceKind::kGenicam:
+    case SourceKind::kUrl:
+      return true;
+    case SourceKind::kSequence:
+    case SourceKind::kGlob:
+    case SourceKind::kFolder:
+    case SourceKind::kImage:
+    case SourceKind::kVideo:
+      break;
+  }
+  return false;
+}
+
 std::string ResolvedLocation(const std::string& location, const std::filesystem::path& folder) {
-  if (location.empty()) return location;
-  const SourceKind kind = KindOf(location);
-  if (kind == SourceKind::kDevice || kind == SourceKind::kUrl) return location;
+  if (location.empty() || IsLive(location)) return location;
   return (folder / location).lexically_normal().string();
 }
 

@@ -7,7 +7,8 @@
 namespace elbowroom::recon {
 
 enum class SourceKind {
-  kDevice,    // "device:0"
+  kDevice,    // "v4l2:/dev/video0", or "device:0" for the same
+  kGenicam,   // "gige:NAME": a GigE Vision or USB3 Vision camera by its name, serial number or address
   kUrl,       // "rtsp://..."
   kSequence,  // "cam1/%04d.png"
   kGlob,      // "photos/*.jpg": every image whose name fits, by name
@@ -17,6 +18,9 @@ enum class SourceKind {
 };
 
 [[nodiscard]] SourceKind KindOf(const std::string& location);
+
+// Pictures come as they are taken, without an end.
+[[nodiscard]] bool IsLive(const std::string& location);
 
 // Paths that are relative are taken from `folder`; absolute paths, devices, URLs and "" stay.
 [[nodiscard]] std::string ResolvedLocation(const std::string& location, const std::filesystem::path& folder);

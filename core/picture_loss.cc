@@ -1,0 +1,22 @@
+#include "core/picture_loss.h"
+
+#include <array>
+#include <cstddef>
+
+namespace elbowroom::core {
+namespace {
+
+constexpr std::array<std::string_view, 7> kReasons{"not sent", "incomplete",  "damaged", "camera gone",
+                                                   "no room",  "passed over", "unpaired"};
+
+}  // namespace
+
+std::string_view ToString(LossReason reason) { return kReasons[static_cast<std::size_t>(reason)]; }
+
+std::optional<LossReason> ParseLossReason(std::string_view text) {
+  for (std::size_t i = 0; i < kReasons.size(); ++i)
+    if (kReasons[i] == text) return static_cast<LossReason>(i);
+  return std::nullopt;
+}
+
+}  // namespace elbowroom::core
