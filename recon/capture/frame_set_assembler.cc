@@ -25,8 +25,12 @@ constexpr double kWorthwhile = 0.8;
 constexpr std::chrono::microseconds kNoticeable{500};
 // A phase follows clocks that drift apart, not the stamps' jitter.
 constexpr int kMostPhases = 20;
-// Periods of cameras of one rate differ by less.
-constexpr double kSameRate = 0.9;
+// A camera that is faster than this share of the slowest one doesn't lead.
+constexpr double kSlowestLead = 0.9;
+// Cameras of one rate differ by less in their periods.
+constexpr double kOneRate = 0.99;
+// A camera whose pictures lie farther from the leader's, in periods, takes its next or its last one instead.
+constexpr double kMostPhase = 0.6;
 
 Duration Seconds(double s) { return std::chrono::duration_cast<Duration>(std::chrono::duration<double>(s)); }
 
@@ -65,7 +69,7 @@ void FrameSetAssembler::FollowPeriod(Camera& camera, const CapturedPicture& pict
   if (camera.newest && picture.number > camera.newest->number && picture.taken_at > camera.newest->taken_at) {
     const auto periods = static_cast<Duration::rep>(picture.number - camera.newest->number);
     const Duration period = (picture.taken_at - camera.newest->taken_at) / periods;
-    const bool is_near = period > camera.period / 2 && period < 2 * camera.period;
+    const bool is_near = 5 * period > 4 * camera.period && 4 * period < 5 * camera.period;
     camera.period = is_near ? camera.period + Share(kNew, period - camera.period) : period;
   }
   camera.newest =
@@ -98,39 +102,54 @@ std::optional<Instant> FrameSetAssembler::EarliestAfter(Instant time) const {
   return earliest;
 }
 
-// The time of the leader's next picture. If that is missing, one period after the last instant; if nobody has
-// a picture near that, whatever comes next.
+std::optional<Instant> FrameSetAssembler::NextOfLeader(Instant least) const {
+  for (const CapturedPicture& picture : cameras_[leader_].waiting)
+    if (TimeOf(leader_, picture) > least) return TimeOf(leader_, picture);
+  return std::nullopt;
+}
+
+// The time of the leader's next picture. If one is missing before that, the time at which it was due; if
+// nobody has a picture near that, whatever comes next.
 std::optional<Instant> FrameSetAssembler::NextInstant() const {
-  const Camera& leader = cameras_[leader_];
-  const Duration half = leader.period / 2;
+  const Duration period = cameras_[leader_].period, half = period / 2;
   const Instant least = last_instant_ ? *last_instant_ + half : Instant::min();
-  std::optional<Instant> lead;
-  for (const CapturedPicture& picture : leader.waiting) {
-    if (TimeOf(leader_, picture) <= least) continue;
-    lead = TimeOf(leader_, picture);
-    break;
-  }
+  const std::optional<Instant> lead = NextOfLeader(least);
   if (!last_instant_) return lead ? lead : EarliestAfter(least);
-  const Instant expected = *last_instant_ + leader.period;
-  if (lead && *lead <= expected + half) return lead;
-  const std::optional<Instant> earliest = EarliestAfter(expected - half);
-  if (!earliest || *earliest <= expected + half) return earliest ? std::optional(expected) : std::nullopt;
+  Instant due = *last_instant_ + period;
+  if (lead) {
+    const auto missing = (*lead - due + half) / period;
+    if (missing < 1) return lead;
+    due = *lead - missing * period;
+  }
+  const std::optional<Instant> earliest = EarliestAfter(due - half);
+  if (!earliest) return std::nullopt;
+  if (*earliest <= due + half) return due;
   return lead ? lead : earliest;
+}
+
+// Where a camera's picture of this instant is due. With cameras of one rate it keeps its place before or
+// after the leader's, also if that is a little more than half a period away: stamps that jitter about the
+// half would leave every other set incomplete.
+Instant FrameSetAssembler::DueOf(CameraIndex index, Instant instant) const {
+  const Camera& camera = cameras_[index];
+  const Camera& leader = cameras_[leader_];
+  const bool is_of_one_rate =
+      camera.period > Share(kOneRate, leader.period) && leader.period > Share(kOneRate, camera.period);
+  return is_of_one_rate && index != leader_ ? instant + camera.phase : instant;
 }
 
 FrameSetAssembler::Choice FrameSetAssembler::ChoiceOf(CameraIndex index, Instant instant) const {
   const Camera& camera = cameras_[index];
+  const Instant due = DueOf(index, instant);
   Choice choice;
   Duration nearest = camera.period / 2;
   for (std::size_t i = 0; i < camera.waiting.size(); ++i) {
-    const Instant at = TimeOf(index, camera.waiting[i]);
-    const Duration away = at > instant ? at - instant : instant - at;
-    if (away <= nearest) {
-      nearest = away;
-      choice.picture = i;
-    }
+    const Duration away = std::chrono::abs(TimeOf(index, camera.waiting[i]) - due);
+    if (away > nearest) continue;
+    nearest = away;
+    choice.picture = i;
   }
-  const bool has_later = !camera.waiting.empty() && TimeOf(index, camera.waiting.back()) >= instant;
+  const bool has_later = !camera.waiting.empty() && TimeOf(index, camera.waiting.back()) >= due;
   choice.is_final =
       has_later || camera.is_gone || (choice.picture && nearest <= Share(kSurelyNearest, camera.period));
   return choice;
@@ -152,27 +171,32 @@ Instant FrameSetAssembler::DeadlineOf(const std::vector<Choice>& choices) const 
 std::optional<Instant> FrameSetAssembler::Deadline() const {
   const std::optional<Instant> instant = NextInstant();
   if (!instant) return std::nullopt;
-  return DeadlineOf(ChoicesAt(*instant));
+  const std::vector<Choice> choices = ChoicesAt(*instant);
+  if (std::ranges::none_of(choices, &Choice::has_picture)) return std::nullopt;
+  return DeadlineOf(choices);
 }
 
 std::optional<PictureSet> FrameSetAssembler::TryTake(Instant now) {
-  const std::optional<Instant> instant = NextInstant();
-  if (!instant) return std::nullopt;
-  const std::vector<Choice> choices = ChoicesAt(*instant);
-  const bool is_final = std::ranges::all_of(choices, &Choice::is_final);
-  if (!is_final && now < DeadlineOf(choices)) return std::nullopt;
-  return TakeSet(*instant, choices);
+  for (std::optional<Instant> instant; (instant = NextInstant());) {
+    const std::vector<Choice> choices = ChoicesAt(*instant);
+    const bool is_final = std::ranges::all_of(choices, &Choice::is_final);
+    const bool has_any = std::ranges::any_of(choices, &Choice::has_picture);
+    if (!is_final && (!has_any || now < DeadlineOf(choices))) return std::nullopt;
+    if (has_any) return TakeSet(*instant, choices);
+    last_instant_ = *instant;  // nobody took a picture then
+  }
+  return std::nullopt;
 }
 
 PictureSet FrameSetAssembler::TakeSet(Instant instant, const std::vector<Choice>& choices) {
-  PictureSet set{{}, std::vector<std::optional<CapturedPicture>>(cameras_.size())};
+  PictureSet set{leader_, {}, std::vector<std::optional<CapturedPicture>>(cameras_.size())};
   Instant earliest = Instant::max(), latest = Instant::min();
   for (CameraIndex i = 0; i < cameras_.size(); ++i) {
     std::deque<CapturedPicture>& waiting = cameras_[i].waiting;
     const std::size_t unused = choices[i].picture.value_or(0);
     for (std::size_t k = 0; k < unused; ++k) DropFirst(i);
     if (!choices[i].picture) {
-      while (!waiting.empty() && TimeOf(i, waiting.front()) < instant) DropFirst(i);
+      while (!waiting.empty() && TimeOf(i, waiting.front()) < DueOf(i, instant)) DropFirst(i);
       continue;
     }
     const Instant at = TimeOf(i, waiting.front());
@@ -193,7 +217,9 @@ void FrameSetAssembler::FollowPhases(Instant instant, const PictureSet& set) {
     if (!set.pictures[i]) continue;
     const Duration phase = TimeOf(i, *set.pictures[i]) - instant;
     camera.phases = std::min(camera.phases + 1, kMostPhases);
-    camera.phase += Wrapped(phase - camera.phase, cameras_[leader_].period) / camera.phases;
+    camera.phase += (phase - camera.phase) / camera.phases;
+    const Duration most = Share(kMostPhase, cameras_[leader_].period);
+    if (std::chrono::abs(camera.phase) > most) camera.phase = Wrapped(camera.phase, cameras_[leader_].period);
   }
   sets_without_leader_ = set.pictures[leader_] ? 0 : sets_without_leader_ + 1;
   if (sets_without_leader_ >= kMostSetsWithoutLeader) {
@@ -223,13 +249,13 @@ void FrameSetAssembler::ChooseLeader(bool must_change) {
   std::optional<CameraIndex> best;
   for (CameraIndex i = 0; i < cameras_.size(); ++i) {
     const Camera& camera = cameras_[i];
-    if (camera.is_gone || camera.phases == 0 || camera.period < Share(kSameRate, longest)) continue;
+    if (camera.is_gone || camera.phases == 0 || camera.period < Share(kSlowestLead, longest)) continue;
     if (must_change && i == leader_) continue;
     if (!best || SkewLedBy(i) < SkewLedBy(*best)) best = i;
   }
   if (!best || *best == leader_) return;
   const Duration now = SkewLedBy(leader_);
-  const bool is_too_fast = cameras_[leader_].period < Share(kSameRate, longest);
+  const bool is_too_fast = cameras_[leader_].period < Share(kSlowestLead, longest);
   if (must_change || is_too_fast || (now > kNoticeable && SkewLedBy(*best) < Share(kWorthwhile, now)))
     Lead(*best);
 }

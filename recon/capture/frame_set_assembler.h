@@ -13,6 +13,7 @@ namespace elbowroom::recon {
 
 // The pictures of one instant.
 struct PictureSet {
+  core::CameraIndex leader = 0;       // whose picture the others lie nearest to
   CaptureClock::time_point taken_at;  // the middle between its earliest and its latest picture
   std::vector<std::optional<CapturedPicture>> pictures;  // by camera; nothing: it has none near this instant
 };
@@ -23,13 +24,15 @@ struct AssemblerOptions {
 };
 
 // One camera leads: each of its pictures makes a set, with the picture of every other camera that is nearest
-// in time and at most half a period away. Where the leader leaves one out, its time is taken as one period
-// after the last. The leader is the camera whose pictures lie in the middle of the others', so that the skew
-// is small; another one takes over if it fails, or if clocks have drifted so far that the skew gets smaller
-// by a fifth. Each picture is in one set at most (docs/capture.md).
+// in time and at most half a period away (up to 0.6 of one, where clocks drift past the half). Where the
+// leader leaves one out, the time at which that was due takes its place. The leader is the camera whose
+// pictures lie in the middle of the others', so that the skew is small; another one takes over if it fails,
+// or if clocks have drifted so far that the skew gets smaller by a fifth. Each picture is in one set at most
+// (docs/capture.md).
 //
-// A set is decided as soon as no picture that may still come can change it, and one period after its last
-// picture came at the latest. Held to the slow search over all recorded pictures by frame_set_assembler_test.
+// Sets are decided in order: as soon as no picture that may still come can change one, and one period after
+// the last of its pictures, or of those of earlier sets, came at the latest. Held to a slow search over all
+// pictures by frame_set_assembler_test.
 // Thread: one at a time.
 class FrameSetAssembler {
  public:
@@ -62,13 +65,17 @@ class FrameSetAssembler {
   struct Choice {
     std::optional<std::size_t> picture;  // among those that wait
     bool is_final = false;               // none that is nearer can come any more
+
+    [[nodiscard]] bool has_picture() const { return picture.has_value(); }
   };
   using Instant = CaptureClock::time_point;
 
   [[nodiscard]] Instant TimeOf(core::CameraIndex camera, const CapturedPicture& picture) const;
   void FollowPeriod(Camera& camera, const CapturedPicture& picture);
   [[nodiscard]] std::optional<Instant> NextInstant() const;
+  [[nodiscard]] std::optional<Instant> NextOfLeader(Instant least) const;
   [[nodiscard]] std::optional<Instant> EarliestAfter(Instant time) const;
+  [[nodiscard]] Instant DueOf(core::CameraIndex camera, Instant instant) const;
   [[nodiscard]] Choice ChoiceOf(core::CameraIndex camera, Instant instant) const;
   [[nodiscard]] std::vector<Choice> ChoicesAt(Instant instant) const;
   [[nodiscard]] Instant DeadlineOf(const std::vector<Choice>& choices) const;

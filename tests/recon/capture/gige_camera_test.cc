@@ -18,9 +18,9 @@ namespace {
 
 using core::ErrorKind;
 using testing::ErrorOf;
-using ::testing::HasSubstr;
 using testing::FakeGigeCamera;
 using testing::FakeSettings;
+using ::testing::HasSubstr;
 using testing::kHeightPx;
 using testing::kWidthPx;
 using testing::LoopbackAddress;
