@@ -153,7 +153,8 @@ void ExpectNearest(const std::vector<Event>& events, const Outcome& outcome) {
       const auto& chosen = decided.set.pictures[event.camera];
       const Duration reach =
           chosen ? std::chrono::abs(chosen->taken_at - leaders->taken_at) : Seconds(0.5 * kPeriodS);
-      EXPECT_GE(away, reach - kKeepsPlace) << "camera " << event.camera << " picture " << event.picture.number;
+      EXPECT_GE(away, reach - kKeepsPlace)
+          << "camera " << event.camera << " picture " << event.picture.number;
     }
   }
 }

@@ -2,7 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <chrono>
+#include <array>
+#include <atomic>
+#include <map>
 #include <memory>
 #include <opencv2/core.hpp>
 #include <string>
@@ -24,6 +26,7 @@ using ::testing::HasSubstr;
 using testing::kHeightPx;
 using testing::kWidthPx;
 using testing::LoopbackAddress;
+using ::testing::Not;
 using testing::NumberedPicture;
 using testing::NumberIn;
 
@@ -49,7 +52,8 @@ class GigeCameras : public ::testing::Test {
     if (!is_on) return;
     cameras_[static_cast<std::size_t>(i)] = std::make_unique<FakeGigeCamera>(
         LoopbackAddress(i), "GV0" + std::to_string(i + 1),
-        [](std::int64_t index, const FakeSettings&, cv::Mat& pixels) {
+        [this, i](std::int64_t index, const FakeSettings& settings, cv::Mat& pixels) {
+          exposure_us_[static_cast<std::size_t>(i)] = settings.exposure_us;
           const cv::Mat picture = NumberedPicture(static_cast<int>(index % 256), pixels.cols, pixels.rows);
           cv::extractChannel(picture, pixels, 0);
         });
@@ -68,6 +72,7 @@ class GigeCameras : public ::testing::Test {
     return testing::PlainRig(sources);
   }
 
+  std::array<std::atomic<double>, kMostCameras> exposure_us_{};  // that the cameras were last set to
   std::vector<std::unique_ptr<FakeGigeCamera>> cameras_;
 };
 
@@ -83,6 +88,99 @@ TEST_F(GigeCameras, BringTheirPicturesInSets) {
       EXPECT_EQ(frame.image_bgr.size(), cv::Size(kWidthPx, kHeightPx));
     }
   }
+}
+
+// Of each camera: which numbers are in sets, and which are lost. Every number is one of them, once.
+class Accounts {
+ public:
+  explicit Accounts(std::size_t cameras) : numbers_(cameras) {}
+
+  void Add(const FrameSet& set) {
+    for (core::CameraIndex i = 0; i < set.cameras.size(); ++i)
+      if (const auto& stamp = set.cameras[i].stamp) Enter(i, stamp->picture, stamp->picture, "in a set");
+    for (const core::PictureLoss& loss : set.losses) {
+      Enter(loss.camera, loss.first, loss.last, std::string(core::ToString(loss.reason)));
+      lost_[loss.reason] += loss.count();
+    }
+  }
+
+  [[nodiscard]] std::uint64_t lost(core::LossReason reason) const {
+    const auto found = lost_.find(reason);
+    return found == lost_.end() ? 0 : found->second;
+  }
+
+  // From the first number that is known to the last, but for those of sets that are still to come.
+  void ExpectWhole() const {
+    for (const auto& numbers : numbers_) {
+      ASSERT_FALSE(numbers.empty());
+      constexpr std::uint64_t kStillToCome = 8;
+      for (std::uint64_t n = numbers.begin()->first; n + kStillToCome < numbers.rbegin()->first; ++n)
+        EXPECT_TRUE(numbers.contains(n)) << "picture " << n << " is nowhere";
+    }
+  }
+
+ private:
+  void Enter(core::CameraIndex camera, std::uint64_t first, std::uint64_t last, const std::string& what) {
+    for (std::uint64_t n = first; n <= last; ++n) {
+      const auto [at, is_new] = numbers_.at(camera).emplace(n, what);
+      EXPECT_TRUE(is_new) << "picture " << n << " is " << at->second << " and " << what;
+    }
+  }
+
+  std::vector<std::map<std::uint64_t, std::string>> numbers_;
+  std::map<core::LossReason, std::uint64_t> lost_;
+};
+
+TEST_F(GigeCameras, EveryLossIsNamed) {
+  Start(2);
+  LiveRig rig(Rig());
+  Accounts accounts(2);
+  std::vector<int> last_content(2, -1);
+  std::vector<std::uint64_t> last_number(2, 0);
+  cameras_[0]->SetPacketLoss(0.02);
+  for (int i = 0; i < 90; ++i) {
+    const FrameSet set = rig.Read(i);
+    accounts.Add(set);
+    for (std::size_t k = 0; k < 2; ++k) {
+      if (!set.cameras[k].stamp) continue;
+      // Numbers go on as the camera's own pictures do.
+      const int content = NumberIn(set.cameras[k].image_bgr);
+      const std::uint64_t number = set.cameras[k].stamp->picture;
+      if (last_content[k] >= 0) {
+        EXPECT_EQ((content - last_content[k] + 256) % 256, static_cast<int>(number - last_number[k]));
+      }
+      last_content[k] = content;
+      last_number[k] = number;
+    }
+  }
+  accounts.ExpectWhole();
+  EXPECT_GT(accounts.lost(core::LossReason::kIncomplete) + accounts.lost(core::LossReason::kNotSent), 0U);
+}
+
+TEST_F(GigeCameras, OneThatComesBackHasItsSettings) {
+  Start(2);
+  LiveRig rig(Rig());
+  Accounts accounts(2);
+  core::FrameIndex frame = 0;
+  const auto read_until = [&](auto is_reached) {
+    for (;;) {
+      const FrameSet set = rig.Read(frame++);
+      accounts.Add(set);
+      if (is_reached(set)) return;
+    }
+  };
+  read_until([](const FrameSet& set) { return set.cameras[1].stamp.has_value() && set.index > 10; });
+  Switch(1, false);
+  read_until([&](const FrameSet&) { return rig.states()[1].presence == CameraPresence::kGone; });
+  EXPECT_THAT(rig.states()[1].trouble, Not(::testing::IsEmpty()));
+  EXPECT_EQ(rig.states()[0].presence, CameraPresence::kRunning);
+  Switch(1, true);
+  read_until([](const FrameSet& set) { return set.cameras[1].stamp.has_value(); });
+  EXPECT_EQ(rig.states()[1].report.exposure_us, 4000.0);
+  EXPECT_EQ(exposure_us_[1], 4000.0);
+  read_until([&, until = frame + 20](const FrameSet& set) { return set.index >= until; });
+  accounts.ExpectWhole();
+  EXPECT_GT(accounts.lost(core::LossReason::kCameraGone), 5U);
 }
 
 TEST_F(GigeCameras, OneThatIsntThereIsNamed) {
