@@ -37,6 +37,14 @@ class FramePipelineTest : public testing::Test {
   recon::SyntheticRig source_;
 };
 
+// The frame set with a stamp for each camera: camera i looks i * 7 ms before the set's time.
+recon::FrameSet Stamped(recon::FrameSet frames) {
+  for (std::size_t i = 0; i < frames.cameras.size(); ++i)
+    frames.cameras[i].stamp = core::CameraStamp{static_cast<std::uint64_t>(frames.index) + i,
+                                                frames.time_s - 7e-3 * static_cast<double>(i)};
+  return frames;
+}
+
 constexpr core::FrameIndex kTouching = 60;  // the pipe is being lowered
 
 void ExpectSameContacts(const FrameResult& a, const FrameResult& b) {
@@ -59,6 +67,16 @@ TEST_F(FramePipelineTest, AnUnchangedFrameIsNotComputedAgain) {
   EXPECT_EQ(again->skipped.queries, 0);
   EXPECT_EQ(again->hull, first->hull);
   ExpectSameContacts(*first, *again);
+}
+
+TEST_F(FramePipelineTest, TheRecordKeepsTheStampsOfTheFrameSet) {
+  FramePipeline pipeline = MakePipeline();
+  const std::vector<double> gap = {kGapInitialMm};
+  EXPECT_TRUE(pipeline.Process(MasksOf(kTouching), gap)->record.stamps.empty());
+  recon::FrameSet frames = Stamped(MasksOf(kTouching));
+  const SharedFrameResult result = pipeline.Process(frames, gap);
+  ASSERT_EQ(result->record.stamps.size(), 4U);
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(result->record.stamps[i], frames.cameras[i].stamp);
 }
 
 TEST_F(FramePipelineTest, WhatNeedsNoMoreThanTheHullRunsBeside) {
