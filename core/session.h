@@ -1,6 +1,7 @@
 // The values of a session: what was set up, and what happened frame by frame.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -73,8 +74,8 @@ using SharedMasks = std::shared_ptr<const std::vector<SoftMask>>;
 
 struct FrameRecord {
   FrameIndex frame = 0;
-  double time_s = 0.0;                // of capture, from the first frame
-  SharedMasks masks;                  // one a camera
+  double time_s = 0.0;  // of capture, from the first frame
+  SharedMasks masks;    // one a camera
   // One a camera; nothing for a camera whose picture is missing in this frame: its mask is all object then.
   // Empty: the cameras have no stamps, and look at one instant as far as is known.
   std::vector<std::optional<CameraStamp>> stamps;
@@ -83,6 +84,11 @@ struct FrameRecord {
   // How pushed parts were moved from the poses that layout and spacings give them: one a part, in the
   // layout's order. Empty if none was pushed.
   std::vector<RigidTransform> rest_from_parts;
+
+  // Whether the picture of a camera is missing. The hull is larger then than with all cameras.
+  [[nodiscard]] bool LacksCamera() const {
+    return std::ranges::any_of(stamps, [](const auto& stamp) { return !stamp; });
+  }
 };
 
 // The results that are written at a session's end.

@@ -101,6 +101,11 @@ void FramePipeline::UpdateHull(std::vector<core::SoftMask> masks, FrameResult* r
 void FramePipeline::UpdateResponse(std::span<const core::RigidTransform> world_from_rests,
                                    FrameResult* result) {
   if (responders_.is_empty()) return;
+  // A hull that is too large must not push parts: they wait for the next frame with all cameras.
+  if (result->record.LacksCamera()) {
+    if (last_) result->response = last_->response;
+    return;
+  }
   // The time step of the first frame, and the longest time step, which bounds that after a pause.
   constexpr double kFirstS = 1.0 / 30.0, kLongestS = 0.25;
   const double since_s = last_ ? result->record.time_s - last_->record.time_s : kFirstS;

@@ -79,6 +79,49 @@ TEST_F(FramePipelineTest, TheRecordKeepsTheStampsOfTheFrameSet) {
   for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(result->record.stamps[i], frames.cameras[i].stamp);
 }
 
+TEST_F(FramePipelineTest, WithoutACameraATouchIsUndecidedAndClearStaysClear) {
+  FramePipeline pipeline = MakePipeline(15.0);
+  const std::vector<double> gap = {kGapInitialMm};
+  const SharedFrameResult whole = pipeline.Process(Stamped(MasksOf(kTouching)), gap);
+  ASSERT_EQ(whole->record.contacts[1].verdict, core::Verdict::kContact);
+  int clear = 0;
+  for (std::size_t missing = 0; missing < 4; ++missing) {
+    recon::FrameSet frames = Stamped(MasksOf(kTouching));
+    frames.cameras[missing] = {};
+    const SharedFrameResult result = pipeline.Process(frames, gap);
+    EXPECT_TRUE(result->record.LacksCamera());
+    EXPECT_EQ((*result->record.masks)[missing].mask.CountObjectPixels(), 640U * 480U);
+    EXPECT_EQ(result->record.contacts[1].verdict, core::Verdict::kUndecided);
+    EXPECT_GT(result->record.contacts[1].contact_point_count, 0) << "the evidence stays";
+    for (std::size_t i = 0; i < 3; ++i) {
+      const core::PartContact& contact = result->record.contacts[i];
+      if (contact.verdict != core::Verdict::kClear) continue;
+      ++clear;
+      EXPECT_EQ(whole->record.contacts[i].verdict, core::Verdict::kClear) << missing;
+    }
+  }
+  EXPECT_GT(clear, 0);
+}
+
+// A camera whose lens is covered shows all object, too, but it isn't missing.
+TEST_F(FramePipelineTest, AnEqualHullThatLackedACameraIsJudgedAgain) {
+  FramePipeline pipeline = MakePipeline();
+  const std::vector<double> gap = {kGapInitialMm};
+  recon::FrameSet lacking = Stamped(MasksOf(kTouching)), covered = lacking;
+  lacking.cameras[0] = {};
+  covered.cameras[0].ready_mask->SetAll();
+  const SharedFrameResult first = pipeline.Process(lacking, gap);
+  const SharedFrameResult again = pipeline.Process(lacking, gap);
+  EXPECT_EQ(again->hull, first->hull);
+  EXPECT_EQ(again->skipped.unchanged_parts, 3);
+  EXPECT_EQ(again->record.contacts[1].verdict, core::Verdict::kUndecided);
+  const SharedFrameResult seen = pipeline.Process(covered, gap);
+  EXPECT_EQ(seen->hull, first->hull);
+  EXPECT_EQ(seen->skipped.unchanged_parts, 0);
+  EXPECT_EQ(seen->record.contacts[1].verdict, core::Verdict::kContact);
+  EXPECT_EQ(pipeline.Process(lacking, gap)->record.contacts[1].verdict, core::Verdict::kUndecided);
+}
+
 TEST_F(FramePipelineTest, WhatNeedsNoMoreThanTheHullRunsBeside) {
   FramePipeline alone = MakePipeline(15.0), beside = MakePipeline(15.0);
   const std::vector<double> gap = {kGapInitialMm};
