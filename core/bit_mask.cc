@@ -13,6 +13,14 @@ BitMask::BitMask(int width_px, int height_px) : width_px_(width_px), height_px_(
   words_.assign(words_per_row_ * static_cast<std::size_t>(height_px), 0U);
 }
 
+void BitMask::SetAll() {
+  std::fill(words_.begin(), words_.end(), ~std::uint64_t{0});
+  const int past_last_word = width_px_ % 64;
+  if (past_last_word == 0) return;
+  const std::uint64_t last = (std::uint64_t{1} << static_cast<unsigned>(past_last_word)) - 1U;
+  for (std::size_t i = words_per_row_ - 1; i < words_.size(); i += words_per_row_) words_[i] = last;
+}
+
 std::size_t BitMask::CountObjectPixels() const {
   std::size_t count = 0;
   // Most words are empty, and not every processor that this is compiled for counts bits.

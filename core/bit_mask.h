@@ -28,6 +28,8 @@ class BitMask {
     word = object ? (word | bit) : (word & ~bit);
   }
 
+  void SetAll();  // every pixel is object
+
   // Row-major words, least significant bit = smallest x; writers must keep the padding zero.
   [[nodiscard]] std::span<const std::uint64_t> words() const { return words_; }
   [[nodiscard]] std::span<std::uint64_t> words() { return words_; }

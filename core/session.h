@@ -1,6 +1,7 @@
 // The values of a session: what was set up, and what happened frame by frame.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -85,6 +86,11 @@ struct FrameRecord {
   // How pushed parts were moved from the poses that layout and spacings give them: one a part, in the
   // layout's order. Empty if none was pushed.
   std::vector<RigidTransform> rest_from_parts;
+
+  // Whether the picture of a camera is missing. The hull is larger then than with all cameras.
+  [[nodiscard]] bool LacksCamera() const {
+    return std::ranges::any_of(stamps, [](const auto& stamp) { return !stamp; });
+  }
 };
 
 // The results that are written at a session's end.

@@ -109,6 +109,7 @@ void TrackerOptions::Validate() const {
 ContactTracker::ContactTracker(const TrackerOptions& options) : options_(options) { options_.Validate(); }
 
 void ContactTracker::Add(const TrackedFrame& frame) {
+  if (frame.record.LacksCamera()) return;
   CloseWhatIsOver(frame.record.time_s);
   for (const core::PartContact& contact : frame.record.contacts) {
     PartState& state = parts_[contact.part];

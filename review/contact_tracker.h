@@ -38,7 +38,8 @@ struct TrackedFrame {
 };
 
 // Frames are added one by one, in order of time. The rules are those of docs/contact_tracking.md. Episodes of
-// one part never overlap. A change of spacing between two frames doesn't by itself end a touch. Thread: one.
+// one part never overlap. A frame that lacks a camera is passed over: it shows neither a touch nor its end.
+// A change of spacing between two frames doesn't by itself end a touch. Thread: one.
 class ContactTracker {
  public:
   explicit ContactTracker(const TrackerOptions& options = {});

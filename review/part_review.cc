@@ -75,8 +75,13 @@ double PartReviewOptions::EnoughMm(double allowed_mm) const {
 }
 
 core::Verdict PartReviewOptions::VerdictOf(const Clearance& clearance, double allowed_mm) const {
-  const core::Verdict verdict = Judge(clearance, required_clearance_mm, allowed_mm);
-  return is_rig_refuted && verdict != core::Verdict::kContact ? core::Verdict::kUndecided : verdict;
+  return VerdictOf(Judge(clearance, required_clearance_mm, allowed_mm));
+}
+
+core::Verdict PartReviewOptions::VerdictOf(core::Verdict of_hull) const {
+  if (is_rig_refuted && of_hull != core::Verdict::kContact) return core::Verdict::kUndecided;
+  if (lacks_camera && of_hull != core::Verdict::kClear) return core::Verdict::kUndecided;
+  return of_hull;
 }
 
 core::PartContact ReviewPart(const recon::VisualHull& hull, const core::TriangleTree& part,
@@ -86,10 +91,8 @@ core::PartContact ReviewPart(const recon::VisualHull& hull, const core::Triangle
   core::PartContact contact =
       FindContacts(hull, part, world_from_part, part_index, options.contacts, inside, scratch);
   const bool is_touched = contact.verdict == core::Verdict::kContact;
-  if (!(options.required_clearance_mm > 0.0)) {
-    if (!is_touched && options.is_rig_refuted) contact.verdict = core::Verdict::kUndecided;
-    return contact;
-  }
+  contact.verdict = options.VerdictOf(contact.verdict);
+  if (!(options.required_clearance_mm > 0.0)) return contact;
   if (is_touched) {
     contact.clearance = ClearanceInContact(contact, part.mesh().deviation_mm);
     if (options.hull_errors && contact.clearance->has_witnesses)

@@ -22,7 +22,10 @@ struct PartReviewOptions {
   // If set, what `near` and `clear` allow for is computed from these for each part, instead.
   std::shared_ptr<const recon::HullErrors> hull_errors;
   bool is_rig_refuted = false;  // by its gauge: then no part is `near` or `clear`, but `undecided`
-  double tolerance_mm = 1.0;    // wanted between a clearance's bounds
+  // The picture of a camera is missing in this frame, so that the hull is larger than with all cameras: then
+  // only `clear` is sure, and all else is `undecided`.
+  bool lacks_camera = false;
+  double tolerance_mm = 1.0;  // wanted between a clearance's bounds
 
   // Throws: core::Error{kRange} naming the option.
   void Validate() const;
@@ -30,8 +33,9 @@ struct PartReviewOptions {
   // allowed for, and tolerance together, so that a tracker sees the part leave.
   [[nodiscard]] double EnoughMm(double allowed_mm) const;
   [[nodiscard]] double EnoughMm() const { return EnoughMm(uncertainty_mm); }
-  // Judge, with the required clearance and a refuted rig's rule.
+  // Judge, with the required clearance and the rules for a refuted rig and for a missing camera.
   [[nodiscard]] core::Verdict VerdictOf(const Clearance& clearance, double allowed_mm) const;
+  [[nodiscard]] core::Verdict VerdictOf(core::Verdict of_hull) const;
 };
 
 // FindContacts and, where a clearance is required, its bounds: 0 to the mesh's deviation, without a search,

@@ -10,6 +10,7 @@
 #include "sessions/damage.h"
 #include "sessions/recorded_contacts.h"
 #include "sessions/row_rules.h"
+#include "sessions/stamp_rows.h"
 
 namespace elbowroom::sessions {
 namespace {
@@ -100,8 +101,9 @@ FrameInserter::FrameInserter(Database& database)
           "?)"),
       insert_point_(database, "INSERT INTO contact_point VALUES (?, ?, ?, ?, ?, ?, ?, ?)"),
       insert_clearance_(database,
-                        "INSERT INTO clearance VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)"),
-      insert_motion_(database, "INSERT INTO part_motion VALUES (?, ?, ?, ?)") {}
+                        "INSERT INTO clearance VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)"),
+      insert_motion_(database, "INSERT INTO part_motion VALUES (?, ?, ?, ?)"),
+      insert_stamp_(database, "INSERT INTO camera_stamp VALUES (?, ?, ?, ?)") {}
 
 void FrameInserter::Insert(const core::FrameRecord& record) {
   insert_frame_.With(record.frame, record.time_s).Run();
@@ -111,6 +113,17 @@ void FrameInserter::Insert(const core::FrameRecord& record) {
   InsertSilhouettes(record.frame, *record.masks);
   for (const core::PartContact& contact : record.contacts) InsertPart(record.frame, contact);
   InsertMotions(record);
+  InsertStamps(record);
+}
+
+void FrameInserter::InsertStamps(const core::FrameRecord& record) {
+  for (core::CameraIndex i = 0; i < record.stamps.size(); ++i) {
+    const std::optional<core::CameraStamp>& stamp = record.stamps[i];
+    insert_stamp_
+        .With(record.frame, i, stamp ? std::optional(stamp->picture) : std::nullopt,
+              stamp ? std::optional(stamp->time_s) : std::nullopt)
+        .Run();
+  }
 }
 
 void FrameInserter::InsertMotions(const core::FrameRecord& record) {
@@ -188,7 +201,7 @@ void FrameInserter::InsertClearance(core::FrameIndex frame, const core::PartCont
             witness(interval.witness_part_in_world_mm), witness(interval.witness_hull_in_world_mm),
             contact.clearance->queries, sigma(&core::ErrorBudget::calibration_mm),
             sigma(&core::ErrorBudget::footprint_mm), sigma(&core::ErrorBudget::segmentation_mm),
-            sigma(&core::ErrorBudget::skew_mm))
+            sigma(&core::ErrorBudget::skew_mm), sigma(&core::ErrorBudget::given_mm))
       .Run();
 }
 
@@ -202,6 +215,7 @@ core::FrameRecord ReadFrame(Database& database, const core::SessionHeader& heade
   record.time_s = Time_s(row.Real(0), where, "its time");
   record.spacing_mm = ReadSpacings(database, frame, where);
   record.masks = ReadSilhouettes(database, header.rig, frame, where);
+  record.stamps = ReadStamps(database, header.rig.cameras.size(), frame, where);
   record.contacts = ReadContacts(database, header.layout.parts.size(), frame);
   record.rest_from_parts = ReadMotions(database, header.layout.parts.size(), frame, where);
   if (record.spacing_mm.size() != header.layout.spacings.size() ||

@@ -25,6 +25,7 @@ class FrameInserter {
   void InsertEvidence(core::FrameIndex frame, const core::PartContact& contact);
   void InsertClearance(core::FrameIndex frame, const core::PartContact& contact);
   void InsertMotions(const core::FrameRecord& record);
+  void InsertStamps(const core::FrameRecord& record);
 
   Compressor compressor_;
   Statement insert_frame_;
@@ -37,6 +38,7 @@ class FrameInserter {
   Statement insert_point_;
   Statement insert_clearance_;
   Statement insert_motion_;
+  Statement insert_stamp_;
 };
 
 // Throws: Error{kRange} when there is no such frame; Error{kFormat} naming it where its rows are damaged or

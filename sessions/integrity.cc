@@ -72,6 +72,17 @@ void RequireWholeFrames(Database& database) {
   }
 }
 
+// A frame has stamps of all cameras or of none; schemas before 8 have no stamps at all.
+void RequireWholeStamps(Database& database) {
+  Statement row(database,
+                "SELECT frame_index, count(*) FROM camera_stamp GROUP BY frame_index "
+                "HAVING count(*) <> (SELECT count(*) FROM camera)");
+  if (row.Next())
+    FailAsDamaged(NameOf(database), fmt::format("rows are missing: frame {} has {} rows in table "
+                                                "'camera_stamp', where it has one a camera, or none",
+                                                row.Integer(0), row.Integer(1)));
+}
+
 }  // namespace
 
 void DistrustFile(Database& database) {
@@ -101,6 +112,7 @@ void RequireIntegrity(Database& database, std::int64_t schema, const std::stop_t
   limit.Guarded([&] { RequireOk(copy, "PRAGMA quick_check(1)"); });
   RequireReferences(database, schema);
   RequireWholeFrames(database);
+  if (schema >= 8) RequireWholeStamps(database);
 }
 
 }  // namespace elbowroom::sessions

@@ -22,8 +22,8 @@ constexpr const char* kContactColumns =
     "c.v_rec_x, c.v_rec_y, c.v_rec_z, c.n_hull_x, c.n_hull_y, c.n_hull_z, c.recovery_angle_rad, "
     "cl.queries, cl.lower_mm, cl.upper_mm, cl.part_x_mm, cl.part_y_mm, cl.part_z_mm, "
     "cl.hull_x_mm, cl.hull_y_mm, cl.hull_z_mm, "
-    "cl.calibration_mm, cl.footprint_mm, cl.segmentation_mm, cl.skew_mm";
-constexpr int kContactColumnCount = 41;
+    "cl.calibration_mm, cl.footprint_mm, cl.segmentation_mm, cl.skew_mm, cl.given_mm";
+constexpr int kContactColumnCount = 42;
 constexpr const char* kContactTables =
     "part_frame pf LEFT JOIN contact c USING (frame_index, part_index) "
     "LEFT JOIN clearance cl USING (frame_index, part_index)";
@@ -51,7 +51,9 @@ core::ErrorBudget ReadBudget(const Statement& row, int first_column, const std::
   const auto sigma_mm = [&](int column) {
     return Magnitude(row.Real(first_column + column), where, "what a verdict allows for");
   };
-  return {sigma_mm(0), sigma_mm(1), sigma_mm(2), sigma_mm(3)};
+  // Files of schema 7 have no fifth.
+  return {sigma_mm(0), sigma_mm(1), sigma_mm(2), sigma_mm(3),
+          row.IsNull(first_column + 4) ? 0.0 : sigma_mm(4)};
 }
 
 core::PartClearance ReadClearance(const Statement& row, const std::string& where) {
@@ -188,11 +190,12 @@ std::vector<PartTotals> ReadPartTotals(Database& database, const core::Layout& l
 
 std::vector<PartBudget> ReadPartBudgets(Database& database, const core::Layout& layout) {
   // SQLite takes the columns beside max() from the row in which the largest is.
-  Statement rows(database,
-                 "SELECT part_index, calibration_mm, footprint_mm, segmentation_mm, skew_mm, "
-                 "max(calibration_mm * calibration_mm + footprint_mm * footprint_mm "
-                 "+ segmentation_mm * segmentation_mm + skew_mm * skew_mm) "
-                 "FROM clearance WHERE calibration_mm IS NOT NULL GROUP BY part_index");
+  Statement rows(
+      database,
+      "SELECT part_index, calibration_mm, footprint_mm, segmentation_mm, skew_mm, given_mm, "
+      "max(calibration_mm * calibration_mm + footprint_mm * footprint_mm "
+      "+ segmentation_mm * segmentation_mm + skew_mm * skew_mm + coalesce(given_mm * given_mm, 0)) "
+      "FROM clearance WHERE calibration_mm IS NOT NULL GROUP BY part_index");
   const std::string where = fmt::format("session '{}'", database.path().string());
   std::vector<PartBudget> budgets;
   while (rows.Next())

@@ -9,7 +9,7 @@
 namespace elbowroom::sessions {
 
 inline constexpr std::int64_t kApplicationId = 0x456C6277;  // "Elbw" in the file's header
-inline constexpr std::int64_t kSchemaVersion = 7;
+inline constexpr std::int64_t kSchemaVersion = 8;
 
 // The SQL that leads from schema 0, an empty file, to schema 1.
 [[nodiscard]] std::string Schema1Sql();
@@ -33,6 +33,9 @@ inline constexpr std::int64_t kSchemaVersion = 7;
 
 // From schema 6 to schema 7: how exact the rig is, and what each clearance's verdict allows for.
 [[nodiscard]] std::string Schema7Sql();
+
+// From schema 7 to schema 8: the stamps of each frame's pictures, and what the trial itself allows for.
+[[nodiscard]] std::string Schema8Sql();
 
 // Brings the open transaction's database to kSchemaVersion by the migrations that it lacks, in order.
 void Migrate(Database& database);

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <cstdint>
 #include <utility>
 
 #include "core/error.h"
@@ -31,6 +33,11 @@ void RequireFits(const core::FrameRecord& record, const core::SessionHeader& hea
   }
   Require(record.rest_from_parts.empty() || record.rest_from_parts.size() == header.layout.parts.size(),
           "one motion a part, or none");
+  Require(record.stamps.empty() || record.stamps.size() == header.rig.cameras.size(),
+          "one stamp a camera, or none");
+  for (const std::optional<core::CameraStamp>& stamp : record.stamps)
+    Require(!stamp || (std::isfinite(stamp->time_s) && std::in_range<std::int64_t>(stamp->picture)),
+            "a stamp has a time, and a count that fits in 63 bits");
 }
 
 }  // namespace

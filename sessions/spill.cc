@@ -27,6 +27,7 @@ INSERT OR IGNORE INTO main.mask (content_hash, width_px, height_px, object_px, w
 INSERT OR IGNORE INTO main.silhouette
   SELECT s.frame_index, s.camera_index, ours.mask_id FROM spill.silhouette s
   JOIN spill.mask theirs USING (mask_id) JOIN main.mask ours ON ours.content_hash = theirs.content_hash;
+INSERT OR IGNORE INTO main.camera_stamp SELECT * FROM spill.camera_stamp;
 INSERT OR IGNORE INTO main.part_frame SELECT * FROM spill.part_frame;
 INSERT OR IGNORE INTO main.contact SELECT * FROM spill.contact;
 INSERT OR IGNORE INTO main.contact_point SELECT * FROM spill.contact_point;

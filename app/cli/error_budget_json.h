@@ -12,6 +12,7 @@ namespace elbowroom::cli {
           {"footprint_mm", budget.footprint_mm},
           {"segmentation_mm", budget.segmentation_mm},
           {"skew_mm", budget.skew_mm},
+          {"given_mm", budget.given_mm},
           {"coverage_factor", core::kCoverageFactor}};
 }
 

@@ -15,6 +15,7 @@ constexpr int kPointsReserved = 256;
 
 bool IsUnchanged(const FrameResult* last, const FrameResult& result, core::PartIndex part) {
   return last != nullptr && last->hull == result.hull &&
+         last->record.LacksCamera() == result.record.LacksCamera() &&
          last->world_from_parts[part] == result.world_from_parts[part];
 }
 
@@ -77,6 +78,7 @@ core::PartContact FrameJudge::Review(const FrameResult* last, const FrameResult&
                         : std::optional<review::ClearanceHint>();
   review::PartReviewOptions options = review_;
   options.contacts.recovery = layout_.parts[part].recovery;
+  options.lacks_camera = result.record.LacksCamera();
   return review::ReviewPart(*result.hull, part_trees_[part], result.world_from_parts[part], part, options,
                             hint, &inside_parts_[part], &scratch_[part]);
 }

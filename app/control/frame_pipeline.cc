@@ -27,6 +27,15 @@ class Stopwatch {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
+// One a camera, with nothing for one whose picture is missing. Empty: no camera has a stamp.
+std::vector<std::optional<core::CameraStamp>> StampsOf(const recon::FrameSet& frames) {
+  const auto has_stamp = [](const recon::CameraFrame& camera) { return camera.stamp.has_value(); };
+  if (std::ranges::none_of(frames.cameras, has_stamp)) return {};
+  std::vector<std::optional<core::CameraStamp>> stamps;
+  for (const recon::CameraFrame& camera : frames.cameras) stamps.push_back(camera.stamp);
+  return stamps;
+}
+
 }  // namespace
 
 FramePipeline::FramePipeline(core::Rig rig, core::Layout layout,
@@ -49,6 +58,7 @@ SharedFrameResult FramePipeline::Process(recon::FrameSet frames, std::span<const
   const std::shared_ptr<FrameResult> result = results_.Take();
   result->record.frame = frames.index;
   result->record.time_s = frames.time_s;
+  result->record.stamps = StampsOf(frames);
   result->layout = layout_;
   result->record.spacing_mm.assign(spacing_mm.begin(), spacing_mm.end());
   const std::vector<core::RigidTransform> world_from_rests = core::PosesAt(*layout_, spacing_mm);
@@ -91,6 +101,11 @@ void FramePipeline::UpdateHull(std::vector<core::SoftMask> masks, FrameResult* r
 void FramePipeline::UpdateResponse(std::span<const core::RigidTransform> world_from_rests,
                                    FrameResult* result) {
   if (responders_.is_empty()) return;
+  // A hull that is too large must not push parts: they wait for the next frame with all cameras.
+  if (result->record.LacksCamera()) {
+    if (last_) result->response = last_->response;
+    return;
+  }
   // The time step of the first frame, and the longest time step, which bounds that after a pause.
   constexpr double kFirstS = 1.0 / 30.0, kLongestS = 0.25;
   const double since_s = last_ ? result->record.time_s - last_->record.time_s : kFirstS;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <set>
 #include <string_view>
 
 #include "app/control/spacing_sweep_picture.h"
@@ -52,6 +53,19 @@ std::string SweepCsv(const core::Layout& layout, const review::SpacingStudy& stu
   return csv;
 }
 
+// Those with a picture of each camera. Without one the hull is too large, so that a touch of it shows
+// nothing.
+std::vector<sessions::FrameSummary> CompleteFrames(const sessions::SessionReader& session) {
+  std::vector<sessions::FrameSummary> frames = session.frames();
+  std::set<core::FrameIndex> incomplete;
+  for (const sessions::StampedFrame& frame : session.stamped_frames())
+    if (std::ranges::any_of(frame.stamps, [](const auto& stamp) { return !stamp; }))
+      incomplete.insert(frame.frame);
+  std::erase_if(frames,
+                [&](const sessions::FrameSummary& frame) { return incomplete.contains(frame.frame); });
+  return frames;
+}
+
 }  // namespace
 
 review::SpacingStudy SweepSpacing(const sessions::SessionReader& session, const SpacingRange& range,
@@ -63,10 +77,11 @@ review::SpacingStudy SweepSpacing(const sessions::SessionReader& session, const 
   options.to_mm = range.to_mm;
   options.step_mm = range.step_mm;
   options.review = ReviewOptionsOf(header.trial, header.rig, header.rig_quality);
-  const std::vector<sessions::FrameSummary> frames = session.frames();
+  const std::vector<sessions::FrameSummary> frames = CompleteFrames(session);
   if (frames.empty()) {
-    throw core::Error(core::ErrorKind::kRange, fmt::format("session '{}' has no frames; record a trial first",
-                                                           session.path().string()));
+    throw core::Error(core::ErrorKind::kRange,
+                      fmt::format("session '{}' has no frames with all cameras; record a trial first",
+                                  session.path().string()));
   }
   // Reading a frame checks that its silhouettes have the sizes of the cameras' pictures, before planes of
   // these sizes are made.

@@ -38,6 +38,19 @@ FrameSegmenter::FrameSegmenter(const std::vector<BackgroundReference>& backgroun
     segmenters_.emplace_back();
     if (!background.mean_bgr.empty()) segmenters_.back().emplace(background, options);
   }
+  for (const core::CameraModel& camera : rig.cameras) {
+    all_object_.emplace_back(camera.width_px(), camera.height_px());
+    all_object_.back().SetAll();
+  }
+}
+
+std::vector<bool> FrameSegmenter::MissingIn(const FrameSet& frames) {
+  const bool has_stamps =
+      std::ranges::any_of(frames.cameras, [](const CameraFrame& camera) { return camera.stamp.has_value(); });
+  std::vector<bool> is_missing;
+  for (const CameraFrame& camera : frames.cameras)
+    is_missing.push_back(has_stamps && !camera.stamp && !camera.ready_mask && camera.image_bgr.empty());
+  return is_missing;
 }
 
 std::vector<core::SoftMask> FrameSegmenter::Masks(const FrameSet& frames, Edges edges,
@@ -45,10 +58,16 @@ std::vector<core::SoftMask> FrameSegmenter::Masks(const FrameSet& frames, Edges 
   core::Require(frames.cameras.size() == segmenters_.size(), "one frame a camera");
   std::vector<core::SoftMask> masks(frames.cameras.size());
   std::vector<SegmentationStats> each(frames.cameras.size());
+  const std::vector<bool> is_missing = MissingIn(frames);
   std::atomic<bool> shows_object{false};
   tbb::parallel_for(std::size_t{0}, masks.size(), [&](std::size_t i) {
     const CameraFrame& camera = frames.cameras[i];
-    core::Require(camera.ready_mask || segmenters_[i], "a picture to segment has a background");
+    core::Require(camera.ready_mask || is_missing[i] || segmenters_[i],
+                  "a picture to segment has a background");
+    if (is_missing[i]) {
+      masks[i].mask = all_object_[i];
+      return;  // it confirms every blob, and has none of its own
+    }
     if (camera.ready_mask) {
       masks[i].mask = *camera.ready_mask;
     } else if (edges == Edges::kLocated) {
@@ -58,7 +77,7 @@ std::vector<core::SoftMask> FrameSegmenter::Masks(const FrameSet& frames, Edges 
     }
     if (masks[i].mask.ShowsObject()) shows_object.store(true, std::memory_order_relaxed);
   });
-  if (shows_object) DropUnconfirmed(frames, &masks);
+  if (shows_object) DropUnconfirmed(frames, is_missing, &masks);
   if (stats != nullptr)
     for (const SegmentationStats& of_camera : each) *stats += of_camera;
   return masks;
@@ -66,13 +85,15 @@ std::vector<core::SoftMask> FrameSegmenter::Masks(const FrameSet& frames, Edges 
 
 // Runs after the boundaries are located, since that may move them outwards: a dropped blob must have no point
 // in the hull of the masks that are handed on.
-void FrameSegmenter::DropUnconfirmed(const FrameSet& frames, std::vector<core::SoftMask>* masks) const {
+void FrameSegmenter::DropUnconfirmed(const FrameSet& frames, const std::vector<bool>& is_missing,
+                                     std::vector<core::SoftMask>* masks) const {
   std::vector<const core::BitMask*> bits;
   for (const core::SoftMask& mask : *masks) bits.push_back(&mask.mask);
   const std::vector<ConfirmedBlobs> confirmed = cross_camera_blobs_.Confirm(bits);
   for (std::size_t i = 0; i < masks->size(); ++i) {
     const std::vector<bool>& keep = confirmed[i].is_confirmed;
-    if (frames.cameras[i].ready_mask || std::ranges::find(keep, false) == keep.end()) continue;
+    if (is_missing[i] || frames.cameras[i].ready_mask || std::ranges::find(keep, false) == keep.end())
+      continue;
     (*masks)[i] = WithoutBlobs((*masks)[i], confirmed[i].blobs, keep);
   }
 }

@@ -1,4 +1,5 @@
-// A frame set's masks: ready ones as they are, others by segmenting the pictures.
+// A frame set's masks: ready ones as they are, others by segmenting the pictures, and all object where a
+// picture is missing.
 #pragma once
 
 #include <optional>
@@ -22,7 +23,9 @@ class FrameSegmenter {
                  const core::Rig& rig);
 
   // One mask a camera: the pixels detected, with boundaries where the thresholds put them. Cameras are
-  // processed in parallel. Throws: PreconditionError for a picture whose camera has no background.
+  // processed in parallel. Of a camera without picture, ready mask and stamp, in a set in which another
+  // camera has a stamp, all pixels are object: its picture is missing, so it can't exclude anything. Throws:
+  // PreconditionError for a picture whose camera has no background.
   [[nodiscard]] std::vector<core::BitMask> Segment(const FrameSet& frames) const;
 
   // The same with boundaries located between pixels; ready masks come without levels. `stats` grows by the
@@ -34,9 +37,12 @@ class FrameSegmenter {
   enum class Edges { kDetected, kLocated };
   [[nodiscard]] std::vector<core::SoftMask> Masks(const FrameSet& frames, Edges edges,
                                                   SegmentationStats* stats) const;
-  void DropUnconfirmed(const FrameSet& frames, std::vector<core::SoftMask>* masks) const;
+  [[nodiscard]] static std::vector<bool> MissingIn(const FrameSet& frames);
+  void DropUnconfirmed(const FrameSet& frames, const std::vector<bool>& is_missing,
+                       std::vector<core::SoftMask>* masks) const;
 
   std::vector<std::optional<Segmenter>> segmenters_;
+  std::vector<core::BitMask> all_object_;  // one a camera
   CrossCameraBlobs cross_camera_blobs_;
 };
 

@@ -13,7 +13,7 @@ std::string ClearanceHeader(const core::Layout& layout) {
   std::string line =
       "frame,time_s,part,verdict,verdict_errs,required_mm,uncertainty_mm,lower_mm,upper_mm,"
       "part_x_mm,part_y_mm,part_z_mm,hull_x_mm,hull_y_mm,hull_z_mm,"
-      "calibration_mm,footprint_mm,segmentation_mm,skew_mm";
+      "calibration_mm,footprint_mm,segmentation_mm,skew_mm,given_mm";
   for (const core::Spacing& spacing : layout.spacings)
     line += ',' + Quoted("spacing " + spacing.name + " mm");
   return line + '\n';
@@ -35,10 +35,10 @@ std::string LineOf(const core::SessionHeader& header, const ContactRow& row) {
   AppendVector(line, witness(clearance.interval.witness_part_in_world_mm));
   AppendVector(line, witness(clearance.interval.witness_hull_in_world_mm));
   if (const auto& budget = clearance.budget) {
-    line += fmt::format(",{},{},{},{}", budget->calibration_mm, budget->footprint_mm, budget->segmentation_mm,
-                        budget->skew_mm);
+    line += fmt::format(",{},{},{},{},{}", budget->calibration_mm, budget->footprint_mm,
+                        budget->segmentation_mm, budget->skew_mm, budget->given_mm);
   } else {
-    line += ",,,,";
+    line += ",,,,,";
   }
   for (const double spacing_mm : row.spacing_mm) line += fmt::format(",{}", spacing_mm);
   return line + '\n';

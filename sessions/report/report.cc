@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <tuple>
 
 #include "core/error.h"
@@ -9,6 +10,7 @@
 #include "sessions/report/contacts_csv.h"
 #include "sessions/report/report_data.h"
 #include "sessions/report/report_page.h"
+#include "sessions/report/stamps_csv.h"
 #include "sessions/report/whole_files.h"
 
 namespace elbowroom::sessions {
@@ -38,9 +40,13 @@ void WriteReport(const SessionReader& session, const ReportPictures& pictures,
   if (pictures.overview_png) RequirePng(*pictures.overview_png);
   for (const ReportPictures::Heat& heat : pictures.heat) RequirePng(heat.png);
   const ReportData data = CollectReportData(session);
-  WriteWholeFiles(out_dir, {{"report.html", ReportPage(data, pictures)},
-                            {"contacts.csv", ContactsCsv(data.header.layout, data.contacts)},
-                            {"clearance.csv", ClearanceCsv(data.header, session.clearances())}});
+  std::map<std::string, std::string> files = {
+      {"report.html", ReportPage(data, pictures)},
+      {"contacts.csv", ContactsCsv(data.header.layout, data.contacts)},
+      {"clearance.csv", ClearanceCsv(data.header, session.clearances())}};
+  if (!data.stamped_frames.empty())
+    files.emplace("stamps.csv", StampsCsv(data.header.rig, data.stamped_frames));
+  WriteWholeFiles(out_dir, files);
 }
 
 }  // namespace elbowroom::sessions

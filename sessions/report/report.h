@@ -30,8 +30,9 @@ struct ReportPictures {
     std::span<const core::ContactEpisode> episodes);
 
 // Writes `out_dir`/report.html (no script, nothing loaded from elsewhere, fit for print), contacts.csv (a row
-// for each part in contact in each frame) and clearance.csv (a row for each part whose clearance was asked);
-// all or none. Makes the folder; replaces an older report.
+// for each part in contact in each frame), clearance.csv (a row for each part whose clearance was asked) and,
+// where the cameras have stamps, stamps.csv (a row for each camera in each frame); all or none. Makes the
+// folder; replaces an older report.
 // Throws: Error{kFile} naming what can't be written; what SessionReader throws; PreconditionError for bytes
 // that are no PNG.
 void WriteReport(const SessionReader& session, const ReportPictures& pictures,

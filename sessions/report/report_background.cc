@@ -69,8 +69,8 @@ std::string RigSection(const ReportData& data) {
       "<section><h2>Rig and software</h2><p class='lead'>Rig {}; workspace {:.0f}, {:.0f}, "
       "{:.0f} to {:.0f}, {:.0f}, {:.0f} mm.</p>\n",
       Escaped(rig.name), low.x(), low.y(), low.z(), high.x(), high.y(), high.z());
-  section +=
-      CameraTable(rig) + Texts(data.header.versions, "Component") + Texts(data.header.settings, "Setting");
+  section += CameraTable(rig) + SkewOfCameras(data) + Texts(data.header.versions, "Component") +
+             Texts(data.header.settings, "Setting");
   if (data.ended_at_utc) section += "<p class='lead'>Ended " + Escaped(*data.ended_at_utc) + ".</p>\n";
   return section + "</section>\n";
 }

@@ -28,8 +28,9 @@ std::string PageHeader(const ReportData& data) {
 std::string PageFooter(const ReportData& data) {
   return fmt::format(
       "<footer>Made from <b>{}</b>, which holds every frame behind these figures; contacts.csv beside this "
-      "page lists each part in contact in each frame, clearance.csv how far each part was.</footer>\n",
-      Escaped(data.session_name));
+      "page lists each part in contact in each frame, clearance.csv how far each part was{}.</footer>\n",
+      Escaped(data.session_name),
+      data.stamped_frames.empty() ? "" : ", stamps.csv which picture of each camera each frame took");
 }
 
 }  // namespace

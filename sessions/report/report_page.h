@@ -26,4 +26,8 @@ namespace elbowroom::sessions {
 [[nodiscard]] std::string ReadingSection(const ReportData& data);
 [[nodiscard]] std::string RigSection(const ReportData& data);
 
+// A part of the rig's section: how far apart the instants are at which the cameras look, and which frames
+// lack which camera. Empty: the cameras have no stamps.
+[[nodiscard]] std::string SkewOfCameras(const ReportData& data);
+
 }  // namespace elbowroom::sessions

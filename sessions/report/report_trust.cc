@@ -16,12 +16,14 @@ std::string BudgetTable(const ReportData& data) {
                    {"Pixel <small>1 &sigma;</small>", true},
                    {"Segmentation <small>1 &sigma;</small>", true},
                    {"Cameras at other instants <small>1 &sigma;</small>", true},
+                   {"Given by the trial <small>1 &sigma;</small>", true},
                    {"Allowed for <small>2 &sigma; of all</small>", true}});
   for (const PartBudget& budget : data.budgets) {
     const core::ErrorBudget& largest = budget.largest;
     table.Add({Escaped(data.header.layout.parts[budget.part].name), Sigma(largest.calibration_mm),
                Sigma(largest.footprint_mm), Sigma(largest.segmentation_mm),
-               largest.skew_mm > 0.0 ? Sigma(largest.skew_mm) : "not measured", Sigma(largest.ExpandedMm())});
+               data.stamped_frames.empty() ? "not measured" : Sigma(largest.skew_mm),
+               largest.given_mm > 0.0 ? Sigma(largest.given_mm) : "&ndash;", Sigma(largest.ExpandedMm())});
   }
   return table.empty() ? "" : table.Html();
 }
@@ -34,12 +36,20 @@ std::string WhatIsAllowedFor(const ReportData& data) {
            "largest for each part:</p>\n" +
            BudgetTable(data);
   }
+  const char* skew =
+      data.budgets.empty()
+          ? ""
+          : " To that comes how far the hull may have moved between the cameras&rsquo; instants. The largest "
+            "for each part:";
   if (trial.uncertainty_mm > 0.0)
-    return fmt::format("<p class='lead'>Verdicts allow for {:.2f} mm, as the trial says.</p>\n",
-                       trial.uncertainty_mm);
-  return "<p class='lead'>Verdicts allow for no error of the rig: its file has no covariance, or the trial "
-         "says "
-         "0 mm.</p>\n";
+    return fmt::format("<p class='lead'>Verdicts allow for {:.2f} mm, as the trial says.{}</p>\n",
+                       trial.uncertainty_mm, skew) +
+           BudgetTable(data);
+  return fmt::format(
+             "<p class='lead'>Verdicts allow for no error of the rig: its file has no covariance, or the "
+             "trial says 0 mm.{}</p>\n",
+             skew) +
+         BudgetTable(data);
 }
 
 std::string GaugeLine(const std::optional<core::RigGauge>& gauge) {

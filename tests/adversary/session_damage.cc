@@ -116,7 +116,8 @@ constexpr std::array kTables = {"session",       "setting",
                                 "heat_map",      "episode_spacing",
                                 "cloth",         "pushed",
                                 "stream",        "part_motion",
-                                "part_group",    "part_group_member"};
+                                "part_group",    "part_group_member",
+                                "camera_stamp"};
 constexpr std::array kViews = {"v_spacing", "v_contact",    "v_episode",      "v_event",
                                "v_part",    "v_silhouette", "v_contact_point"};
 constexpr std::array kValues = {"NULL",
@@ -370,6 +371,13 @@ constexpr std::array kKnownReproducers = {
                "INSERT INTO event (frame_index, time_s, kind, note) "
                "VALUES (1, 0.1, 'note', printf('%.*c', 30000000, 'n'))"},
     Reproducer{"no camera that is one", "UPDATE camera SET camera_matrix = '[1e300,0,0,0,1e-300,0,0,0,1]'"},
+    Reproducer{"a frame with the stamp of one camera of two",
+               "DELETE FROM camera_stamp WHERE frame_index = 0 AND camera_index = 0"},
+    Reproducer{"a stamp of a camera beyond the rig",
+               "UPDATE camera_stamp SET camera_index = camera_index + 7"},
+    Reproducer{"a picture of negative number", "UPDATE camera_stamp SET picture = -picture - 1"},
+    Reproducer{"a picture taken at no time", "UPDATE camera_stamp SET taken_at_s = 9e999"},
+    Reproducer{"a picture taken beyond a trial's time", "UPDATE camera_stamp SET taken_at_s = 1e300"},
     Reproducer{"parts turned by no rotation",
                "UPDATE part SET rotation_world_from_part = '[9,0,0,0,9,0,0,0,9]'"},
 };

@@ -37,6 +37,14 @@ class FramePipelineTest : public testing::Test {
   recon::SyntheticRig source_;
 };
 
+// The frame set with a stamp for each camera: camera i looks i * 7 ms before the set's time.
+recon::FrameSet Stamped(recon::FrameSet frames) {
+  for (std::size_t i = 0; i < frames.cameras.size(); ++i)
+    frames.cameras[i].stamp = core::CameraStamp{static_cast<std::uint64_t>(frames.index) + i,
+                                                frames.time_s - 7e-3 * static_cast<double>(i)};
+  return frames;
+}
+
 constexpr core::FrameIndex kTouching = 60;  // the pipe is being lowered
 
 void ExpectSameContacts(const FrameResult& a, const FrameResult& b) {
@@ -59,6 +67,59 @@ TEST_F(FramePipelineTest, AnUnchangedFrameIsNotComputedAgain) {
   EXPECT_EQ(again->skipped.queries, 0);
   EXPECT_EQ(again->hull, first->hull);
   ExpectSameContacts(*first, *again);
+}
+
+TEST_F(FramePipelineTest, TheRecordKeepsTheStampsOfTheFrameSet) {
+  FramePipeline pipeline = MakePipeline();
+  const std::vector<double> gap = {kGapInitialMm};
+  EXPECT_TRUE(pipeline.Process(MasksOf(kTouching), gap)->record.stamps.empty());
+  recon::FrameSet frames = Stamped(MasksOf(kTouching));
+  const SharedFrameResult result = pipeline.Process(frames, gap);
+  ASSERT_EQ(result->record.stamps.size(), 4U);
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(result->record.stamps[i], frames.cameras[i].stamp);
+}
+
+TEST_F(FramePipelineTest, WithoutACameraATouchIsUndecidedAndClearStaysClear) {
+  FramePipeline pipeline = MakePipeline(15.0);
+  const std::vector<double> gap = {kGapInitialMm};
+  const SharedFrameResult whole = pipeline.Process(Stamped(MasksOf(kTouching)), gap);
+  ASSERT_EQ(whole->record.contacts[1].verdict, core::Verdict::kContact);
+  int clear = 0;
+  for (std::size_t missing = 0; missing < 4; ++missing) {
+    recon::FrameSet frames = Stamped(MasksOf(kTouching));
+    frames.cameras[missing] = {};
+    const SharedFrameResult result = pipeline.Process(frames, gap);
+    EXPECT_TRUE(result->record.LacksCamera());
+    EXPECT_EQ((*result->record.masks)[missing].mask.CountObjectPixels(), 640U * 480U);
+    EXPECT_EQ(result->record.contacts[1].verdict, core::Verdict::kUndecided);
+    EXPECT_GT(result->record.contacts[1].contact_point_count, 0) << "the evidence stays";
+    for (std::size_t i = 0; i < 3; ++i) {
+      const core::PartContact& contact = result->record.contacts[i];
+      if (contact.verdict != core::Verdict::kClear) continue;
+      ++clear;
+      EXPECT_EQ(whole->record.contacts[i].verdict, core::Verdict::kClear) << missing;
+    }
+  }
+  EXPECT_GT(clear, 0);
+}
+
+// A camera whose lens is covered shows all object, too, but it isn't missing.
+TEST_F(FramePipelineTest, AnEqualHullThatLackedACameraIsJudgedAgain) {
+  FramePipeline pipeline = MakePipeline();
+  const std::vector<double> gap = {kGapInitialMm};
+  recon::FrameSet lacking = Stamped(MasksOf(kTouching)), covered = lacking;
+  lacking.cameras[0] = {};
+  covered.cameras[0].ready_mask->SetAll();
+  const SharedFrameResult first = pipeline.Process(lacking, gap);
+  const SharedFrameResult again = pipeline.Process(lacking, gap);
+  EXPECT_EQ(again->hull, first->hull);
+  EXPECT_EQ(again->skipped.unchanged_parts, 3);
+  EXPECT_EQ(again->record.contacts[1].verdict, core::Verdict::kUndecided);
+  const SharedFrameResult seen = pipeline.Process(covered, gap);
+  EXPECT_EQ(seen->hull, first->hull);
+  EXPECT_EQ(seen->skipped.unchanged_parts, 0);
+  EXPECT_EQ(seen->record.contacts[1].verdict, core::Verdict::kContact);
+  EXPECT_EQ(pipeline.Process(lacking, gap)->record.contacts[1].verdict, core::Verdict::kUndecided);
 }
 
 TEST_F(FramePipelineTest, WhatNeedsNoMoreThanTheHullRunsBeside) {

@@ -62,5 +62,18 @@ TEST(BitMask, SizesMayBeZeroButNotNegative) {
   EXPECT_THROW(BitMask(5, -1), PreconditionError);
 }
 
+TEST(BitMask, SetAllSetsThePixelsAndNotThePadding) {
+  for (const int width_px : {1, 63, 64, 65, 130}) {
+    BitMask all(width_px, 3), one_by_one(width_px, 3);
+    all.SetAll();
+    for (int y = 0; y < 3; ++y)
+      for (int x = 0; x < width_px; ++x) one_by_one.Set(x, y, true);
+    EXPECT_EQ(all, one_by_one) << width_px;
+  }
+  BitMask none(0, 3);
+  none.SetAll();
+  EXPECT_FALSE(none.ShowsObject());
+}
+
 }  // namespace
 }  // namespace elbowroom::core

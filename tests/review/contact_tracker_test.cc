@@ -33,7 +33,7 @@ core::PartContact Clear(core::PartIndex part) {
 
 core::FrameRecord RecordOf(core::FrameIndex frame, double time_s, std::vector<core::PartContact> contacts,
                            std::vector<double> spacing_mm = {}) {
-  return {frame, time_s, nullptr, std::move(spacing_mm), std::move(contacts), {}};
+  return {frame, time_s, nullptr, {}, std::move(spacing_mm), std::move(contacts), {}};
 }
 
 void AddFrame(ContactTracker* tracker, core::FrameIndex frame, const core::PartContact& contact,
@@ -131,6 +131,28 @@ TEST(ContactTracker, NothingButContactCounts) {
     AddFrame(&tracker, 0, contact);
   }
   EXPECT_TRUE(tracker.Episodes().empty());
+}
+
+TEST(ContactTracker, AFrameThatLacksACameraIsPassedOver) {
+  ContactTracker tracker(TrackerOptions{.required_clearance_mm = 20.0});
+  const auto add = [&](core::FrameIndex frame, core::PartContact contact, bool lacks_camera) {
+    if (lacks_camera) contact.verdict = core::Verdict::kUndecided;
+    core::FrameRecord record = RecordOf(frame, static_cast<double>(frame) / 10.0, {contact});
+    if (lacks_camera) record.stamps = {core::CameraStamp{1, record.time_s}, std::nullopt};
+    tracker.Add({record, {}, {}});
+  };
+  core::PartContact meets = Touch(0, 1.0);
+  meets.clearance = core::PartClearance{};
+  meets.clearance->interval.upper_mm = 0.0;
+  add(0, meets, true);
+  EXPECT_TRUE(tracker.Episodes().empty());
+  EXPECT_TRUE(tracker.NearMisses().empty()) << "the hull's size alone may have done it";
+  add(1, meets, false);
+  for (core::FrameIndex frame = 2; frame < 6; ++frame) add(frame, meets, true);
+  add(6, meets, false);
+  ASSERT_EQ(tracker.Episodes().size(), 1U) << "a gap that ends within 0.5 s";
+  EXPECT_EQ(tracker.Episodes()[0].frames_in_contact, 2);
+  EXPECT_EQ(tracker.Episodes()[0].end_frame, 6);
 }
 
 TEST(ContactTracker, SaysWhereOnThePartAndWithWhichTools) {

@@ -53,6 +53,23 @@ TEST(ReviewPart, WithoutARequiredClearanceOnlyContactIsAsked) {
   EXPECT_EQ(Review(-5.0, {}).verdict, core::Verdict::kContact);
 }
 
+TEST(ReviewPart, WithoutACameraOnlyClearIsSureAndTheEvidenceStays) {
+  for (const double required_mm : {0.0, 20.0}) {
+    PartReviewOptions options = Requiring(required_mm);
+    const core::PartContact with_all = Review(-5.0, options);
+    options.lacks_camera = true;
+    const core::PartContact touched = Review(-5.0, options);
+    EXPECT_EQ(touched.verdict, core::Verdict::kUndecided);
+    EXPECT_GT(touched.contact_point_count, 0);
+    EXPECT_EQ(touched.contact_point_count, with_all.contact_point_count);
+    EXPECT_EQ(touched.deepest->depth_mm, with_all.deepest->depth_mm);
+    EXPECT_EQ(touched.recovery->d_rec_mm, with_all.recovery->d_rec_mm);
+    EXPECT_EQ(Review(30.0, options).verdict, core::Verdict::kClear);
+    const auto between = required_mm > 0.0 ? core::Verdict::kUndecided : core::Verdict::kClear;
+    EXPECT_EQ(Review(10.0, options).verdict, between);
+  }
+}
+
 TEST(ReviewPart, ContactNeedsNoSearch) {
   const core::PartContact contact = Review(-5.0, Requiring(20.0));
   ASSERT_TRUE(contact.clearance.has_value());

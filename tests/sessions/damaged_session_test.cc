@@ -66,9 +66,13 @@ TEST(DamagedSession, NamesTheTableAndTheRowThatIsMissing) {
                 "a row of 'silhouette' refers to one of 'mask' that isn't there");
   refused_after(
       "UPDATE camera SET camera_index = camera_index + 10; UPDATE silhouette SET camera_index = camera_index "
-      "+ 10",
+      "+ 10; UPDATE camera_stamp SET camera_index = camera_index + 10",
       "camera 10 comes where 0 belongs");
   refused_after("UPDATE part_frame SET verdict = 'perhaps'", "CHECK constraint failed");
+  refused_after("DELETE FROM camera_stamp WHERE frame_index = 3 AND camera_index = 1",
+                "frame 3 has 1 rows in table 'camera_stamp', where it has one a camera, or none");
+  refused_after("UPDATE camera_stamp SET camera_index = 7 WHERE camera_index = 1",
+                "a row of 'camera_stamp' refers to one of 'camera' that isn't there");
 }
 
 TEST(DamagedSession, TablesAndViewsMustBeThoseOfTheSchema) {
@@ -242,7 +246,7 @@ TEST(DamagedSession, WhatItHoldsCanBeSalvaged) {
   ExpectRefused(path, "the integrity check says");
   const std::string salvage =
       "(sqlite3 s.db .dump | sed 's/^ROLLBACK;.*/COMMIT;/'; "
-      "echo 'PRAGMA application_id = 1164730999; PRAGMA user_version = 7;') | sqlite3 saved.db";
+      "echo 'PRAGMA application_id = 1164730999; PRAGMA user_version = 8;') | sqlite3 saved.db";
   ASSERT_EQ(
       test_support::RunProgram("/bin/bash", {"-c", salvage}, {.working_folder = folder.path()}).exit_status,
       0);

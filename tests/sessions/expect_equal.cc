@@ -116,6 +116,7 @@ void ExpectEqual(const core::FrameRecord& actual, const core::FrameRecord& expec
   for (std::size_t i = 0; i < expected.contacts.size(); ++i)
     ExpectEqual(actual.contacts[i], expected.contacts[i]);
   EXPECT_EQ(actual.rest_from_parts, expected.rest_from_parts);
+  EXPECT_EQ(actual.stamps, expected.stamps);
 }
 
 void ExpectEqual(const core::ContactEpisode& actual, const core::ContactEpisode& expected) {

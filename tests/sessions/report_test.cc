@@ -91,6 +91,48 @@ TEST(Report, TellsTheUsualTrialAndNeedsNothingButItself) {
   EXPECT_NE(html.find("contact errs on the safe side"), std::string::npos);
 }
 
+TEST(Report, TellsTheCamerasSkewAndWhichFramesLackWhichCamera) {
+  const TemporaryFolder folder;
+  const core::SessionHeader header = SampleHeader();
+  {
+    sessions::SessionWriter writer(folder / "s.db", header);
+    for (core::FrameIndex i = 0; i < 40; ++i) {
+      core::FrameRecord record = SampleFrame(header, i, 1);
+      const auto count = static_cast<std::uint64_t>(i);
+      record.stamps = {core::CameraStamp{count, record.time_s - 2e-3},
+                       core::CameraStamp{count, record.time_s + (i == 30 ? 30e-3 : 4e-3)}};
+      if (i == 3 || (i >= 17 && i < 20)) record.stamps[1].reset();
+      if (i >= 22 && i % 2 == 0) record.stamps[0].reset();
+      writer.Append(record);
+    }
+    writer.Finish({});
+  }
+  const std::string html = ReportOf(folder / "s.db", folder / "out");
+  EXPECT_NE(html.find("within 6.0 ms of each other (median; 6.0 ms in 95 % of the frames, 6.0 ms at most). "
+                      "13 of 40 frames lack a camera"),
+            std::string::npos);
+  EXPECT_NE(
+      html.find("<td>left</td><td class='n'>2.0 ms</td><td class='n'>2.0 ms</td>"
+                "<td class='n'>2.0 ms</td><td>22, 24, 26, 28, 30, 32, 34, 36 and 1 more stretches</td>"),
+      std::string::npos);
+  EXPECT_NE(html.find("<td>above</td><td class='n'>4.0 ms</td><td class='n'>4.0 ms</td>"
+                      "<td class='n'>30.0 ms</td><td>3, 17&ndash;19</td>"),
+            std::string::npos);
+  const std::string csv = ReportText(folder / "out" / "stamps.csv");
+  EXPECT_EQ(Count(csv, "\n"), 1 + 2 * 40);
+  EXPECT_NE(csv.find("\n3,0.1,above,,,\n"), std::string::npos);
+  EXPECT_EQ(Count(csv, ",,,\n"), 13);
+}
+
+TEST(Report, SaysNothingOfSkewWhereNoCameraHasStamps) {
+  const TemporaryFolder folder;
+  WriteTrial(folder / "s.db", UsualTrial());
+  const std::string html = ReportOf(folder / "s.db", folder / "out");
+  EXPECT_EQ(html.find("Missing in frames"), std::string::npos);
+  EXPECT_EQ(html.find("stamps.csv"), std::string::npos);
+  EXPECT_FALSE(fs::exists(folder / "out" / "stamps.csv"));
+}
+
 TEST(Report, ListsNearMissesClearancesAndHeat) {
   const TemporaryFolder folder;
   WriteSampleSession(folder / "s.db", 6);

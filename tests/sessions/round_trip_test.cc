@@ -1,8 +1,10 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <thread>
 
+#include "core/error.h"
 #include "sessions/session_reader.h"
 #include "sessions/session_writer.h"
 #include "tests/sessions/sample_session.h"
@@ -55,6 +57,44 @@ TEST(SessionRoundTrip, EveryWayOutOfTheHullComesBackExactly) {
   const SessionReader reader(folder / "s.db");
   ExpectEqual(reader.header(), header);
   for (const core::FrameRecord& frame : frames) ExpectEqual(reader.ReadFrame(frame.frame), frame);
+}
+
+TEST(SessionRoundTrip, StampsComeBackExactlyAndAMissingCameraStaysMissing) {
+  const TemporaryFolder folder;
+  const core::SessionHeader header = SampleHeader();
+  std::vector<core::FrameRecord> frames;
+  for (core::FrameIndex i = 0; i < 4; ++i) frames.push_back(SampleFrame(header, i, kTripSeed));
+  frames[1].stamps = {core::CameraStamp{std::uint64_t{1} << 62U, 1.0 / 3.0}, std::nullopt};
+  frames[2].stamps = {std::nullopt, std::nullopt};
+  frames[3].stamps = {};
+  {
+    SessionWriter writer(folder / "s.db", header);
+    for (const core::FrameRecord& frame : frames) writer.Append(frame);
+    writer.Finish({});
+  }
+  const SessionReader reader(folder / "s.db");
+  for (const core::FrameRecord& frame : frames) ExpectEqual(reader.ReadFrame(frame.frame), frame);
+  const std::vector<sessions::StampedFrame> stamped = reader.stamped_frames();
+  ASSERT_EQ(stamped.size(), 3U);
+  for (std::size_t i = 0; i < stamped.size(); ++i) {
+    EXPECT_EQ(stamped[i].frame, frames[i].frame);
+    EXPECT_EQ(stamped[i].time_s, frames[i].time_s);
+    EXPECT_EQ(stamped[i].stamps, frames[i].stamps);
+  }
+}
+
+TEST(SessionRoundTrip, AStampThatNoCameraGivesIsRefused) {
+  const TemporaryFolder folder;
+  const core::SessionHeader header = SampleHeader();
+  SessionWriter writer(folder / "s.db", header);
+  core::FrameRecord record = SampleFrame(header, 0, kTripSeed);
+  const auto refuses = [&](std::vector<std::optional<core::CameraStamp>> stamps) {
+    record.stamps = std::move(stamps);
+    EXPECT_THROW(writer.Append(record), core::PreconditionError);
+  };
+  refuses({core::CameraStamp{1, 0.0}});
+  refuses({core::CameraStamp{std::uint64_t{1} << 63U, 0.0}, std::nullopt});
+  refuses({core::CameraStamp{1, std::nan("")}, std::nullopt});
 }
 
 TEST(SessionRoundTrip, EqualMeshesAreKeptOnceInTheFileAndInMemory) {

@@ -95,9 +95,19 @@ void AddClearances(core::FrameRecord* record) {
   met = {{0.0, 0.0, at, at}, true, 0};
   core::PartClearance& searched = record->contacts[2].clearance.emplace();
   searched = {{20.0 / 3.0, 22.0 / 3.0, {1.0 / 3.0, 2.0, 3.0}, {4.0, 5e-9, 6.0}}, true, 412 + record->frame};
-  searched.budget = core::ErrorBudget{1.0 / 3.0, 0.0, 1.0 / 7.0, 0.0};
+  searched.budget = core::ErrorBudget{1.0 / 3.0, 0.0, 1.0 / 7.0, 1.0 / 9.0, 1.0 / 11.0};
   if (record->contacts[2].verdict != core::Verdict::kClear) return;
   searched = {{record->frame == 2 ? kInfinity : 21.1, kInfinity, {0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}}, false, 1};
+}
+
+// In turn: of two cameras, of the first alone, none.
+void AddStamps(std::size_t cameras, core::FrameRecord* record) {
+  if (record->frame % 3 == 2) return;
+  const auto count = static_cast<std::uint64_t>(record->frame);
+  record->stamps.resize(cameras);
+  // More than a double tells apart.
+  record->stamps[0] = core::CameraStamp{(std::uint64_t{1} << 62U) + 1U + count, record->time_s - 1e-3 / 3.0};
+  if (record->frame % 3 == 0) record->stamps[1] = core::CameraStamp{count, record->time_s + 0.023};
 }
 
 }  // namespace
@@ -178,6 +188,7 @@ core::FrameRecord SampleFrame(const core::SessionHeader& header, core::FrameInde
     record.contacts[i].count = {720, 91 + frame, 654};
   }
   AddClearances(&record);
+  AddStamps(header.rig.cameras.size(), &record);
   if (frame >= 3) {
     record.rest_from_parts.resize(3);
     record.rest_from_parts[2] =
@@ -199,6 +210,12 @@ core::FrameRecord AsOfSchema(int schema, core::FrameRecord record) {
   if (schema < 7) {
     for (core::PartContact& contact : record.contacts)
       if (contact.clearance) contact.clearance->budget.reset();
+  }
+  if (schema < 8) {
+    record.stamps.clear();
+    for (core::PartContact& contact : record.contacts)
+      if (contact.clearance && contact.clearance->budget)
+        contact.clearance->budget->skew_mm = contact.clearance->budget->given_mm = 0.0;
   }
   return record;
 }

@@ -38,7 +38,7 @@ std::string SchemaOf(const std::filesystem::path& path) {
 // In the order in which they were released.
 constexpr std::array<std::string (*)(), sessions::kSchemaVersion> kSchemas = {
     &sessions::Schema1Sql, &sessions::Schema2Sql, &sessions::Schema3Sql, &sessions::Schema4Sql,
-    &sessions::Schema5Sql, &sessions::Schema6Sql, &sessions::Schema7Sql};
+    &sessions::Schema5Sql, &sessions::Schema6Sql, &sessions::Schema7Sql, &sessions::Schema8Sql};
 
 sessions::Database CreateOfSchema(std::size_t schema, const std::filesystem::path& path) {
   sessions::Database database = sessions::Database::Create(path);
@@ -76,7 +76,7 @@ TEST(Schema, AnEmptyDatabaseBecomesTheNewestSchemaAndMigratingAgainChangesNothin
 }
 
 TEST(Schema, StoredSessionsOfEverySchemaAreRead) {
-  for (const int schema : {1, 2, 3, 4, 5, 6, 7}) {
+  for (const int schema : {1, 2, 3, 4, 5, 6, 7, 8}) {
     SCOPED_TRACE(schema);
     const SessionReader reader(kStored / fmt::format("session_schema_{}.db", schema));
     ExpectEqual(reader.header(), AsOfSchema(schema, SampleHeader()));
@@ -90,6 +90,7 @@ TEST(Schema, StoredSessionsOfEverySchemaAreRead) {
     EXPECT_EQ(reader.heat_maps().size(), schema >= 3 ? 1U : 0U);
     EXPECT_EQ(reader.clearances().empty(), schema < 3);
     EXPECT_EQ(reader.events().size(), 4U);
+    EXPECT_EQ(reader.stamped_frames().size(), schema >= 8 ? 4U : 0U);
   }
 }
 
@@ -117,8 +118,8 @@ TEST(Schema, AnOlderSchemaIsMigratedInMemoryAndTheFileStays) {
 TEST(Schema, ANewerSchemaIsNamed) {
   const TemporaryFolder folder;
   WriteSampleSession(folder / "s.db", 1);
-  SQLite::Database((folder / "s.db").string(), SQLite::OPEN_READWRITE).exec("PRAGMA user_version = 8");
-  ExpectError([&] { SessionReader(folder / "s.db"); }, core::ErrorKind::kFormat, "has schema 8");
+  SQLite::Database((folder / "s.db").string(), SQLite::OPEN_READWRITE).exec("PRAGMA user_version = 9");
+  ExpectError([&] { SessionReader(folder / "s.db"); }, core::ErrorKind::kFormat, "has schema 9");
 }
 
 TEST(Schema, CountsAndFlagsOutOfRangeAreRefusedByTheDatabaseItself) {
@@ -147,7 +148,12 @@ TEST(Schema, CountsAndFlagsOutOfRangeAreRefusedByTheDatabaseItself) {
                           "UPDATE spacing SET moving_group = 9",
                           "INSERT INTO part_group_member VALUES (0, 9, 9)",
                           "INSERT INTO part_motion VALUES (99, 0, '[1,0,0,0,1,0,0,0,1]', '[0,0,0]')",
-                          "INSERT INTO part_motion VALUES (0, 0, '[1]', '[0,0,0]')"}) {
+                          "INSERT INTO part_motion VALUES (0, 0, '[1]', '[0,0,0]')",
+                          "UPDATE camera_stamp SET picture = -1",
+                          "UPDATE camera_stamp SET taken_at_s = NULL",
+                          "INSERT INTO camera_stamp VALUES (0, 2, 1, 0.5)",
+                          "INSERT INTO camera_stamp VALUES (99, 0, 1, 0.5)",
+                          "UPDATE clearance SET given_mm = -1"}) {
     EXPECT_THROW(database.exec(sql), SQLite::Exception) << sql;
   }
 }
