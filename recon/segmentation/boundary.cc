@@ -130,8 +130,9 @@ core::SoftMask Locating::Take() && {
 }  // namespace
 
 core::SoftMask LocateBoundary(const core::BitMask& detected, const cv::Mat& image_bgr,
-                              const cv::Mat& packed_mean, double least_contrast_levels) {
-  const CoverageEstimator estimator(detected, image_bgr, packed_mean, least_contrast_levels);
+                              const cv::Mat& packed_mean, double least_contrast_levels,
+                              const FixedExposure* exposure) {
+  const CoverageEstimator estimator(detected, image_bgr, packed_mean, least_contrast_levels, exposure);
   Locating locating(detected, estimator);
   // The first round measures only object pixels along the boundary, since thresholds err outwards. The next
   // one measures both sides of the boundary that results.

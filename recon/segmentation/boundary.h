@@ -5,6 +5,7 @@
 
 #include "core/bit_mask.h"
 #include "core/soft_mask.h"
+#include "recon/segmentation/exposure.h"
 
 namespace elbowroom::recon {
 
@@ -15,8 +16,10 @@ namespace elbowroom::recon {
 // on how the lens blurs (docs/segmentation.md, tests/recon/segmentation/boundary_test.cc). Where object and
 // background differ by less than `least_contrast_levels` the detected boundary stays, halfway between the
 // pixels. Thin objects stay at least a pixel wide. `packed_mean`: the background, as PackedMean
-// (recon/segmentation/coverage.h). Throws: PreconditionError unless CV_8UC3 and CV_32SC1 of the mask's size.
+// (recon/segmentation/coverage.h), to which `exposure` is applied first unless it is null. Throws:
+// PreconditionError unless CV_8UC3 and CV_32SC1 of the mask's size.
 [[nodiscard]] core::SoftMask LocateBoundary(const core::BitMask& detected, const cv::Mat& image_bgr,
-                                            const cv::Mat& packed_mean, double least_contrast_levels);
+                                            const cv::Mat& packed_mean, double least_contrast_levels,
+                                            const FixedExposure* exposure = nullptr);
 
 }  // namespace elbowroom::recon

@@ -43,7 +43,8 @@ cv::Mat PackedMean(const cv::Mat& mean_bgr) {
 }
 
 CoverageEstimator::CoverageEstimator(const core::BitMask& detected, const cv::Mat& image_bgr,
-                                     const cv::Mat& packed_mean, double least_contrast_levels)
+                                     const cv::Mat& packed_mean, double least_contrast_levels,
+                                     const FixedExposure* exposure)
     : least_contrast2_(static_cast<float>(least_contrast_levels * least_contrast_levels)) {
   const cv::Size size(detected.width_px(), detected.height_px());
   core::Require(image_bgr.type() == CV_8UC3 && packed_mean.type() == CV_32SC1 && image_bgr.size() == size &&
@@ -52,9 +53,12 @@ CoverageEstimator::CoverageEstimator(const core::BitMask& detected, const cv::Ma
   const auto rows = static_cast<std::size_t>(std::max(size.height, 1));
   core::Require(std::max(image_bgr.step[0], packed_mean.step[0]) <= std::numeric_limits<int>::max() / rows,
                 "a picture has less than 2 GiB");  // places are reckoned in 32 bits
-  picture_ = {&detected, image_bgr.data, static_cast<int>(image_bgr.step[0]),
+  picture_ = {&detected,
+              image_bgr.data,
+              static_cast<int>(image_bgr.step[0]),
               reinterpret_cast<const std::uint32_t*>(packed_mean.data),
-              static_cast<int>(packed_mean.step[0] / sizeof(std::uint32_t))};
+              static_cast<int>(packed_mean.step[0] / sizeof(std::uint32_t)),
+              exposure};
 }
 
 // The object pixel among 3 x 3 that differs most from the background: for objects without an interior.

@@ -21,8 +21,9 @@ namespace elbowroom::recon {
 class CoverageEstimator {
  public:
   // Throws: PreconditionError unless the picture is CV_8UC3 and the mean CV_32SC1, both of the mask's size.
+  // `exposure`: the change that is applied to the mean first, or null.
   CoverageEstimator(const core::BitMask& detected, const cv::Mat& image_bgr, const cv::Mat& packed_mean,
-                    double least_contrast_levels);
+                    double least_contrast_levels, const FixedExposure* exposure = nullptr);
 
   // A level for each place, as ReckonCoverage. Works in batches: first a batch's pixels are read, then its
   // levels are reckoned.
@@ -36,7 +37,8 @@ class CoverageEstimator {
     return at[0] | static_cast<std::uint32_t>(at[1]) << 8U | static_cast<std::uint32_t>(at[2]) << 16U;
   }
   [[nodiscard]] std::uint32_t Mean(int x, int y) const {
-    return picture_.mean[static_cast<std::ptrdiff_t>(y) * picture_.mean_stride + x];
+    const std::uint32_t mean = picture_.mean[static_cast<std::ptrdiff_t>(y) * picture_.mean_stride + x];
+    return picture_.exposure == nullptr ? mean : WithExposure(mean, *picture_.exposure);
   }
 
   CoveragePicture picture_;

@@ -55,11 +55,35 @@ struct Places {
   VI x, y;
 };
 
+// Packed means as they are, and after a change of exposure, as WithExposure has it.
+struct MeanAsMeasured {
+  explicit MeanAsMeasured(const CoveragePicture& /*picture*/) {}
+  HWY_INLINE VB operator()(VB packed) const { return packed; }
+};
+struct MeanAsFollowed {
+  explicit MeanAsFollowed(const CoveragePicture& picture) : exposure(*picture.exposure) {}
+  HWY_INLINE VB operator()(VB packed) const {
+    return hn::Or(Channel<0>(packed), hn::Or(Channel<1>(packed), Channel<2>(packed)));
+  }
+  template <std::size_t channel>
+  HWY_INLINE VB Channel(VB packed) const {
+    const VI quarters = AsInts(hn::And(hn::ShiftRight<10 * channel>(packed), SetBits(1023U)));
+    const VI offset =
+        SetInt(exposure.offset[channel] * (1 << kQuarterOffsetShift) + (1 << (FixedExposure::kGainBits - 1)));
+    const VI sum = hn::Add(hn::Mul(quarters, SetInt(exposure.gain[channel])), offset);
+    const VI rounded = hn::ShiftRight<FixedExposure::kGainBits>(sum);
+    return hn::ShiftLeft<10 * channel>(AsBits(hn::Min(hn::Max(rounded, SetInt(0)), SetInt(kMostQuarters))));
+  }
+  const FixedExposure& exposure;
+};
+
 // Numbers that are the same for all pixels of a picture.
+template <class MeanRule>
 class Reader {
  public:
   explicit Reader(const CoveragePicture& picture)
       : picture_(picture),
+        mean_rule_(picture),
         width_(picture.detected->width_px()),
         height_(picture.detected->height_px()),
         row_bytes_(static_cast<int>(picture.detected->words_per_row() * 8)),
@@ -79,8 +103,9 @@ class Reader {
   }
 
   [[nodiscard]] HWY_INLINE VB Mean(const Places& at) const {
-    return AsBits(hn::GatherIndex(Ints(), reinterpret_cast<const std::int32_t*>(picture_.mean),
-                                  hn::Add(hn::Mul(at.y, SetInt(picture_.mean_stride)), at.x)));
+    const VI index = hn::Add(hn::Mul(at.y, SetInt(picture_.mean_stride)), at.x);
+    return mean_rule_(
+        AsBits(hn::GatherIndex(Ints(), reinterpret_cast<const std::int32_t*>(picture_.mean), index)));
   }
 
   // All ones where a pixel is object.
@@ -150,6 +175,7 @@ class Reader {
   }
 
   const CoveragePicture& picture_;
+  MeanRule mean_rule_;
   int width_, height_, row_bytes_;
   const std::int32_t* labels_;
   const std::int32_t* steps_;
@@ -175,6 +201,7 @@ HWY_INLINE Places Choose(VB is_first, const Places& first, const Places& second)
   return {Choose(is_first, first.x, second.x), Choose(is_first, first.y, second.y)};
 }
 
+template <class Reader>
 HWY_INLINE void ReadPair(const Reader& reader, const Places& at, VB kept, std::size_t i,
                          CoverageSamples::Pair* pair) {
   hn::Store(hn::And(reader.Image(at), kept), Bits(), pair->image.data() + i);
@@ -182,6 +209,7 @@ HWY_INLINE void ReadPair(const Reader& reader, const Places& at, VB kept, std::s
 }
 
 // One vector of places, from number i of the batch on. Returns ones where there is no interior.
+template <class Reader>
 HWY_INLINE VB ReadVector(const Reader& reader, const Places& place, std::size_t i, CoverageSamples* samples) {
   const VB ones = SetBits(~0U);
   const VB labels = reader.Labels(place), steps = reader.Steps(labels);
@@ -223,10 +251,11 @@ HWY_INLINE VB ReadVector(const Reader& reader, const Places& place, std::size_t 
   return hn::Not(has_interior);
 }
 
-std::uint64_t ReadBatch(const CoveragePicture& picture, const PixelPlace* places, std::size_t count,
-                        CoverageSamples* samples) {
+template <class MeanRule>
+HWY_INLINE std::uint64_t ReadBatchBy(const CoveragePicture& picture, const PixelPlace* places,
+                                     std::size_t count, CoverageSamples* samples) {
   static_assert(sizeof(PixelPlace) == 2 * sizeof(std::int32_t));
-  const Reader reader(picture);
+  const Reader<MeanRule> reader(picture);
   std::uint64_t without_interior = 0;
   for (std::size_t i = 0; i < count; i += hn::Lanes(Ints())) {
     Places place;
@@ -241,6 +270,15 @@ std::uint64_t ReadBatch(const CoveragePicture& picture, const PixelPlace* places
   return without_interior;
 }
 
+std::uint64_t ReadBatch(const CoveragePicture& picture, const PixelPlace* places, std::size_t count,
+                        CoverageSamples* samples) {
+  return ReadBatchBy<MeanAsMeasured>(picture, places, count, samples);
+}
+std::uint64_t ReadFollowedBatch(const CoveragePicture& picture, const PixelPlace* places, std::size_t count,
+                                CoverageSamples* samples) {
+  return ReadBatchBy<MeanAsFollowed>(picture, places, count, samples);
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace elbowroom::recon
 HWY_AFTER_NAMESPACE();
@@ -250,12 +288,15 @@ namespace elbowroom::recon {
 namespace {
 
 HWY_EXPORT(ReadBatch);
+HWY_EXPORT(ReadFollowedBatch);
 
 }  // namespace
 
 std::uint64_t ReadSamples(const CoveragePicture& picture, const PixelPlace* places, std::size_t count,
                           CoverageSamples* samples) {
-  const std::uint64_t bits = HWY_DYNAMIC_DISPATCH(ReadBatch)(picture, places, count, samples);
+  const std::uint64_t bits = picture.exposure == nullptr
+                                 ? HWY_DYNAMIC_DISPATCH(ReadBatch)(picture, places, count, samples)
+                                 : HWY_DYNAMIC_DISPATCH(ReadFollowedBatch)(picture, places, count, samples);
   return count < 64 ? bits & ((std::uint64_t{1} << count) - 1) : bits;
 }
 

@@ -6,6 +6,7 @@
 
 #include "core/bit_mask.h"
 #include "recon/segmentation/coverage_kernel.h"
+#include "recon/segmentation/exposure.h"
 
 namespace elbowroom::recon {
 
@@ -17,10 +18,11 @@ struct PixelPlace {
 // A picture with the background's mean and the pixels that were detected in it, all of one size.
 struct CoveragePicture {
   const core::BitMask* detected = nullptr;
-  const std::uint8_t* image = nullptr;  // three bytes a pixel
-  int image_stride = 0;                 // bytes
-  const std::uint32_t* mean = nullptr;  // as PackedMean
-  int mean_stride = 0;                  // pixels
+  const std::uint8_t* image = nullptr;      // three bytes a pixel
+  int image_stride = 0;                     // bytes
+  const std::uint32_t* mean = nullptr;      // as PackedMean
+  int mean_stride = 0;                      // pixels
+  const FixedExposure* exposure = nullptr;  // null: the mean is as measured
 };
 
 // Reads what CoverageSamples holds for the first `count` of kBatch places. Every place must be a pixel, also

@@ -1,16 +1,12 @@
 #include "recon/segmentation/difference_kernel.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
-#include <bit>
+#include <array>
 #include <cstdint>
 #include <cstring>
-#include <utility>
-#include <vector>
 
 #include "core/error.h"
+#include "recon/segmentation/cell_search.h"
 
 // Highway compiles what stands between HWY_BEFORE_NAMESPACE and HWY_AFTER_NAMESPACE once a target.
 #undef HWY_TARGET_INCLUDE
@@ -48,6 +44,19 @@ struct Comparison {
   }
 };
 
+// A change of exposure for each level of 64 pixels, and for each channel.
+struct ExposureOfWord {
+  alignas(64) std::array<std::int16_t, 192> gain{}, offset{};  // as FixedExposure
+  std::array<float, 3> gain_bgr{}, offset_bgr{};
+};
+
+// A picture and ranges that follow its exposure.
+struct FollowedComparison {
+  Comparison picture;  // without ranges
+  Rows<const std::int16_t> ranges, shared;
+  const ExposureOfWord* exposure = nullptr;
+};
+
 }  // namespace
 }  // namespace elbowroom::recon
 #endif
@@ -63,6 +72,7 @@ constexpr std::size_t kCellBytes = LevelRanges::kSharingRows * kRangeBytes;
 // The bytes that are looked at in all rows of a cell but the first. They hold pixels 22 to 41 wholly, and fit
 // one vector of 64 bytes.
 constexpr std::size_t kLookFrom = 64, kLookTo = 128;
+static_assert(kLookFrom <= 3 * kLookFromPx && 3 * kLookToPx <= kLookTo);
 
 // ORs the three bits of each of 16 pixels and closes the gaps.
 HWY_INLINE std::uint64_t PixelsOf16(std::uint64_t channels) {
@@ -138,10 +148,11 @@ HWY_INLINE hn::Vec<DF> FloatsOf(DF df, hn::Vec<hn::Rebind<std::uint8_t, DF>> lev
   return hn::ConvertTo(df, hn::PromoteTo(hn::Rebind<std::int32_t, DF>(), levels));
 }
 
-// Bit i: pixel i of 64 is shade; pixels that aren't candidates needn't be decided. No contraction to fused
-// multiply-add, so that every target rounds alike.
+// Bit i: pixel i of 64 is shade; pixels that aren't candidates needn't be decided. `follow` changes a channel
+// of the mean. No contraction to fused multiply-add, so that every target rounds alike.
+template <class Follow>
 HWY_INLINE std::uint64_t Shade(std::uint64_t candidates, const std::uint8_t* image, const float* mean,
-                               const ShadeRule& rule) {
+                               const ShadeRule& rule, const Follow& follow) {
   const hn::CappedTag<float, 64> df;
   const hn::Rebind<std::uint8_t, decltype(df)> du;
   using V = hn::Vec<decltype(df)>;
@@ -157,6 +168,7 @@ HWY_INLINE std::uint64_t Shade(std::uint64_t candidates, const std::uint8_t* ima
     const V ib = FloatsOf(df, image_b), ig = FloatsOf(df, image_g), ir = FloatsOf(df, image_r);
     V mb, mg, mr;
     hn::LoadInterleaved3(df, mean + 3 * i, mb, mg, mr);
+    mb = follow(mb, 0), mg = follow(mg, 1), mr = follow(mr, 2);
     const auto dot = [](V a, V b, V c, V x, V y, V z)
                          HWY_ATTR { return hn::Add(hn::Add(hn::Mul(a, x), hn::Mul(b, y)), hn::Mul(c, z)); };
     const V im = dot(ib, ig, ir, mb, mg, mr), mm = dot(mb, mg, mr, mb, mg, mr);
@@ -175,21 +187,44 @@ HWY_INLINE std::uint64_t Shade(std::uint64_t candidates, const std::uint8_t* ima
   return bits;
 }
 
+struct AsMeasured {
+  template <class V>
+  HWY_INLINE V operator()(V mean, std::size_t /*channel*/) const {
+    return mean;
+  }
+};
+
+// gain * mean + offset within 0..255.
+struct AsFollowed {
+  const ExposureOfWord& exposure;
+
+  template <class V>
+  HWY_INLINE V operator()(V mean, std::size_t channel) const {
+    const hn::DFromV<V> df;
+    const V changed = hn::Add(hn::Mul(mean, hn::Set(df, exposure.gain_bgr[channel])),
+                              hn::Set(df, exposure.offset_bgr[channel]));
+    return hn::Min(hn::Max(changed, hn::Zero(df)), hn::Set(df, 255.0F));
+  }
+};
+
+// The levels of a row's pixels, or of the last `count` of them, with zeros after these.
+HWY_INLINE const std::uint8_t* WholeWord(const std::uint8_t* image, std::size_t count, std::uint8_t* rest) {
+  if (count >= 64) return image;
+  std::memset(rest, 0, kWordBytes);
+  std::memcpy(rest, image, count * 3);
+  return rest;
+}
+
 // Bit i: pixel i of the 64 (or `count`) from `image` on differs, and isn't shade.
 HWY_INLINE std::uint64_t DifferingWord(const std::uint8_t* image, const std::uint8_t* shared_lowest,
                                        std::int16_t shared_width, const std::uint8_t* ranges,
                                        const float* mean, const ShadeRule* shade, std::size_t count) {
-  const std::uint8_t* levels = image;
   HWY_ALIGN std::uint8_t rest[kWordBytes];
-  if (count < 64) {
-    std::memset(rest, 0, sizeof rest);
-    std::memcpy(rest, image, count * 3);
-    levels = rest;
-  }
+  const std::uint8_t* const levels = WholeWord(image, count, rest);
   if (AreWithin(FarthestAbove(levels, shared_lowest, 0, kWordBytes), shared_width)) return 0;
   const std::uint64_t bits = Differing(levels, ranges);
   if (bits == 0 || shade == nullptr) return bits;
-  return bits & ~Shade(bits, levels, mean, *shade);
+  return bits & ~Shade(bits, levels, mean, *shade, AsMeasured());
 }
 
 // Sets bit w if a pixel that is looked at in the cell of word w has a channel outside of its range. Cells at
@@ -233,6 +268,73 @@ bool DifferInCell(const Comparison& all, std::size_t group, std::size_t word) {
   return any != 0;
 }
 
+// Ranges [begin, end) of 64 pixels after the change, as bytes: the whole levels from gain * lowest + offset
+// to gain * highest + offset. With levels in 1 / 64 and a gain in 1 / 2^13, the rounded 15-bit product is in
+// sixteenths of a level, as the offset is. Each step keeps the order of levels.
+HWY_INLINE void Follow(const std::int16_t* ranges, const ExposureOfWord& exposure, std::size_t begin,
+                       std::size_t end, std::uint8_t* bytes) {
+  constexpr int kFraction = FixedExposure::kOffsetBits;
+  static_assert(FollowedRanges::kLevelBits + FixedExposure::kGainBits - 15 == kFraction);
+  const hn::CappedTag<std::int16_t, 32> d;
+  const hn::Rebind<std::uint8_t, decltype(d)> du;
+  const auto up = hn::Set(d, (1 << kFraction) - 1);
+  for (std::size_t i = begin; i < end; i += hn::Lanes(d)) {
+    const auto gain = hn::Load(d, exposure.gain.data() + i), offset = hn::Load(d, exposure.offset.data() + i);
+    const auto change = [&](const std::int16_t* level) HWY_ATTR {
+      return hn::SaturatedAdd(hn::MulFixedPoint15(hn::Load(d, level), gain), offset);
+    };
+    const auto lowest = hn::ShiftRight<kFraction>(hn::SaturatedAdd(change(ranges + i), up));
+    const auto highest = hn::ShiftRight<kFraction>(change(ranges + kWordBytes + i));
+    hn::Store(hn::DemoteTo(du, lowest), du, bytes + i);
+    hn::Store(hn::DemoteTo(du, highest), du, bytes + kWordBytes + i);
+  }
+}
+
+// As LookAtCells.
+void LookAtFollowedCells(const FollowedComparison& all, std::size_t group, std::uint64_t* bits) {
+  const std::int16_t* const ranges = all.ranges.at(group);
+  const std::int16_t* const shared = all.shared.at(group);
+  const std::size_t y0 = group * LevelRanges::kSharingRows, rows = all.picture.RowsOfGroup(group);
+  HWY_ALIGN std::uint8_t common[kRangeBytes], own[kRangeBytes];
+  for (std::size_t word = 0; word < all.picture.width / 64; ++word) {
+    Follow(shared + word * kRangeBytes, *all.exposure, 0, kWordBytes, common);
+    const auto is_outside = [&](std::size_t row, std::size_t begin, std::size_t end) HWY_ATTR {
+      const std::uint8_t* const image = all.picture.image.at(y0 + row) + word * kWordBytes;
+      if (!IsOutside(image, common, begin, end)) return false;
+      Follow(ranges + word * kCellBytes + row * kRangeBytes, *all.exposure, begin, end, own);
+      return IsOutside(image, own, begin, end);
+    };
+    bool differs = is_outside(0, 0, kWordBytes);
+    for (std::size_t row = 1; row < rows && !differs; ++row) differs = is_outside(row, kLookFrom, kLookTo);
+    if (differs) bits[word / 64] |= std::uint64_t{1} << (word % 64);
+  }
+}
+
+// As DifferInCell.
+bool DifferInFollowedCell(const FollowedComparison& all, std::size_t group, std::size_t word) {
+  const Comparison& picture = all.picture;
+  const std::size_t x = word * 64, count = std::min<std::size_t>(64, picture.width - x);
+  const std::int16_t* const ranges = all.ranges.at(group) + word * kCellBytes;
+  const float* const mean = picture.mean.at(group) + word * LevelRanges::kSharingRows * kWordBytes;
+  HWY_ALIGN std::uint8_t common[kRangeBytes], own[kRangeBytes], rest[kWordBytes];
+  Follow(all.shared.at(group) + word * kRangeBytes, *all.exposure, 0, kWordBytes, common);
+  std::uint64_t any = 0;
+  for (std::size_t row = 0; row < picture.RowsOfGroup(group); ++row) {
+    const std::size_t y = group * LevelRanges::kSharingRows + row;
+    const std::uint8_t* const levels = WholeWord(picture.image.at(y) + 3 * x, count, rest);
+    std::uint64_t bits = 0;
+    if (IsOutside(levels, common, 0, kWordBytes)) {
+      Follow(ranges + row * kRangeBytes, *all.exposure, 0, kWordBytes, own);
+      bits = Differing(levels, own);
+      if (bits != 0 && picture.shade != nullptr)
+        bits &= ~Shade(bits, levels, mean + row * kWordBytes, *picture.shade, AsFollowed{*all.exposure});
+    }
+    picture.out.at(y)[word] = bits;
+    any |= bits;
+  }
+  return any != 0;
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace elbowroom::recon
 HWY_AFTER_NAMESPACE();
@@ -243,137 +345,67 @@ namespace {
 
 HWY_EXPORT(LookAtCells);
 HWY_EXPORT(DifferInCell);
-
-// The pixels between those that are looked at: rows 1 to 3 of a cell, from pixel 42 to pixel 21 of the next
-// one. A region that holds no pixel that is looked at lies within such a gap, so it has at most
-// kMostSkippedPx pixels.
-constexpr int kSkippedOfRowPx = 64 - 20;
-constexpr int kMostSkippedPx = (LevelRanges::kSharingRows - 1) * kSkippedOfRowPx;
-
-constexpr int kStripCells = 30;  // rows of cells
+HWY_EXPORT(LookAtFollowedCells);
+HWY_EXPORT(DifferInFollowedCell);
 
 template <typename T>
 Rows<const T> RowsOf(const cv::Mat& table) {
   return {table.ptr<T>(), table.step1()};
 }
 
-// A picture in cells of 64 pixels by LevelRanges::kSharingRows rows.
-class DifferenceSearch {
- public:
-  DifferenceSearch(const LevelRanges& ranges, const cv::Mat& image_bgr, const ShadeRule* shade)
-      : mask_(image_bgr.cols, image_bgr.rows),
-        across_(mask_.words_per_row()),
-        down_(static_cast<std::size_t>(image_bgr.rows + LevelRanges::kSharingRows - 1) /
-              LevelRanges::kSharingRows) {
-    all_.width = static_cast<std::size_t>(image_bgr.cols);
-    all_.height = static_cast<std::size_t>(image_bgr.rows);
-    all_.image = RowsOf<std::uint8_t>(image_bgr);
-    all_.ranges = RowsOf<std::uint8_t>(ranges.levels());
-    all_.shared_lowest = RowsOf<std::uint8_t>(ranges.shared_lowest());
-    all_.shared_width = RowsOf<std::int16_t>(ranges.shared_width());
-    all_.mean = RowsOf<float>(ranges.mean());
-    all_.shade = shade;
-    all_.out = {mask_.words().data(), mask_.words_per_row()};
-  }
-  DifferenceSearch(const DifferenceSearch&) = delete;  // all_ points into mask_
-  DifferenceSearch& operator=(const DifferenceSearch&) = delete;
+// The part that is alike for all tables of the empty scene.
+template <class Table>
+Comparison ComparisonWith(const Table& table, const cv::Mat& image_bgr, const ShadeRule* shade,
+                          core::BitMask* mask) {
+  core::Require(
+      image_bgr.type() == CV_8UC3 && image_bgr.size() == cv::Size(table.width_px(), table.height_px()),
+      "a picture is 8-bit BGR and of its ranges' size");
+  *mask = core::BitMask(image_bgr.cols, image_bgr.rows);
+  Comparison all;
+  all.width = static_cast<std::size_t>(image_bgr.cols);
+  all.height = static_cast<std::size_t>(image_bgr.rows);
+  all.image = RowsOf<std::uint8_t>(image_bgr);
+  all.mean = RowsOf<float>(table.mean());
+  all.shade = shade;
+  all.out = {mask->words().data(), mask->words_per_row()};
+  return all;
+}
 
-  [[nodiscard]] core::BitMask All() && {
-    for (std::size_t group = 0; group < down_; ++group)
-      for (std::size_t word = 0; word < across_; ++word) (void)Differs(group, word);
-    return std::move(mask_);
-  }
-
-  // Visits the cells in which a pixel that is looked at differs, and from there on all cells that adjoin one
-  // with a differing pixel. So a region that has a pixel that is looked at is found as a whole.
-  [[nodiscard]] core::BitMask Large(std::int64_t* skipped_px) && {
-    is_known_.assign(down_ * across_, 0);
-    const std::vector<std::uint64_t> hits = Look();
-    for (std::size_t group = 0; group < down_; ++group) VisitHits(group, hits);
-    while (!waiting_.empty()) {
-      const Cell cell = waiting_.back();
-      waiting_.pop_back();
-      Visit(cell);
-    }
-    *skipped_px = unseen_px_;
-    return std::move(mask_);
-  }
-
- private:
-  struct Cell {
-    std::size_t group, word;
-  };
-
-  bool Differs(std::size_t group, std::size_t word) const {
-    return HWY_DYNAMIC_DISPATCH(DifferInCell)(all_, group, word);
-  }
-
-  [[nodiscard]] std::size_t HitWords() const { return (across_ + 63) / 64; }
-
-  // A row of bits for each row of cells. Strips are looked at in parallel, since reading is all that an empty
-  // table costs. They are small, since a thread may start late.
-  [[nodiscard]] std::vector<std::uint64_t> Look() const {
-    std::vector<std::uint64_t> hits(down_ * HitWords());
-    tbb::parallel_for(
-        tbb::blocked_range<std::size_t>(0, down_, kStripCells),
-        [&](const tbb::blocked_range<std::size_t>& strip) {
-          for (std::size_t group = strip.begin(); group < strip.end(); ++group)
-            HWY_DYNAMIC_DISPATCH(LookAtCells)(all_, group, hits.data() + group * HitWords());
-        },
-        tbb::simple_partitioner());
-    return hits;
-  }
-
-  void VisitHits(std::size_t group, const std::vector<std::uint64_t>& hits) {
-    const std::size_t full = all_.width / 64;
-    unseen_px_ += UnseenOfCellPx(group) * static_cast<std::int64_t>(full);
-    const auto visit = [&](std::size_t word) {
-      if (BecomesKnown({group, word})) Visit({group, word});
-    };
-    for (std::size_t i = 0; i < HitWords(); ++i)
-      for (std::uint64_t left = hits[group * HitWords() + i]; left != 0; left &= left - 1)
-        visit(64 * i + static_cast<std::size_t>(std::countr_zero(left)));
-    if (full < across_) visit(full);  // LookAtCells leaves it out
-  }
-
-  [[nodiscard]] std::int64_t UnseenOfCellPx(std::size_t group) const {
-    return kSkippedOfRowPx * (static_cast<std::int64_t>(all_.RowsOfGroup(group)) - 1);
-  }
-
-  // False if the cell was known before. A known cell is visited, or waits for it.
-  [[nodiscard]] bool BecomesKnown(const Cell& cell) {
-    return std::exchange(is_known_[cell.group * across_ + cell.word], std::uint8_t{1}) == 0;
-  }
-
-  void Visit(const Cell& cell) {
-    if (cell.word < all_.width / 64) unseen_px_ -= UnseenOfCellPx(cell.group);
-    if (!Differs(cell.group, cell.word)) return;
-    const std::size_t left = cell.word - std::min<std::size_t>(cell.word, 1);
-    const std::size_t right = std::min(cell.word + 1, across_ - 1);
-    for (std::size_t group = cell.group - std::min<std::size_t>(cell.group, 1);
-         group <= std::min(cell.group + 1, down_ - 1); ++group)
-      for (std::size_t word = left; word <= right; ++word)
-        if (BecomesKnown({group, word})) waiting_.push_back({group, word});
-  }
-
-  core::BitMask mask_;
-  const std::size_t across_, down_;
-  Comparison all_;
-  std::vector<Cell> waiting_;
-  std::vector<std::uint8_t> is_known_;  // for each cell
-  std::int64_t unseen_px_ = 0;
-};
+// `kernel`: the comparison of cells of the picture, of which `all` holds the size.
+void Search(const Comparison& all, const CellKernel& kernel, int least_px, std::int64_t* skipped_px) {
+  const std::int64_t unseen_px = SearchCells(all.width, all.height, kernel, least_px);
+  if (skipped_px != nullptr) *skipped_px = unseen_px;
+}
 
 core::BitMask Differing(const LevelRanges& ranges, const cv::Mat& image_bgr, const ShadeRule* shade,
                         int least_px, std::int64_t* skipped_px) {
-  core::Require(
-      image_bgr.type() == CV_8UC3 && image_bgr.size() == cv::Size(ranges.width_px(), ranges.height_px()),
-      "a picture is 8-bit BGR and of its ranges' size");
-  DifferenceSearch search(ranges, image_bgr, shade);
-  std::int64_t unseen = 0;
-  core::BitMask mask = least_px > kMostSkippedPx ? std::move(search).Large(&unseen) : std::move(search).All();
-  if (skipped_px != nullptr) *skipped_px = unseen;
+  core::BitMask mask;
+  Comparison all = ComparisonWith(ranges, image_bgr, shade, &mask);
+  all.ranges = RowsOf<std::uint8_t>(ranges.levels());
+  all.shared_lowest = RowsOf<std::uint8_t>(ranges.shared_lowest());
+  all.shared_width = RowsOf<std::int16_t>(ranges.shared_width());
+  const CellKernel kernel{[&](std::size_t group, std::uint64_t* bits) {
+                            HWY_DYNAMIC_DISPATCH(LookAtCells)(all, group, bits);
+                          },
+                          [&](std::size_t group, std::size_t word) {
+                            return HWY_DYNAMIC_DISPATCH(DifferInCell)(all, group, word);
+                          }};
+  Search(all, kernel, least_px, skipped_px);
   return mask;
+}
+
+// The change of exposure for each level of 64 pixels.
+ExposureOfWord ForWord(const FixedExposure& exposure) {
+  ExposureOfWord word;
+  for (std::size_t i = 0; i < word.gain.size(); ++i) {
+    word.gain[i] = exposure.gain[i % 3];
+    word.offset[i] = exposure.offset[i % 3];
+  }
+  for (std::size_t c = 0; c < 3; ++c) {
+    word.gain_bgr[c] = static_cast<float>(exposure.Gain(c));
+    word.offset_bgr[c] = static_cast<float>(exposure.OffsetLevels(c));
+  }
+  return word;
 }
 
 }  // namespace
@@ -386,6 +418,24 @@ core::BitMask DifferingPixels(const LevelRanges& ranges, const cv::Mat& image_bg
 core::BitMask DifferingPixels(const LevelRanges& ranges, const cv::Mat& image_bgr, const ShadeRule& shade,
                               int least_px, std::int64_t* skipped_px) {
   return Differing(ranges, image_bgr, &shade, least_px, skipped_px);
+}
+
+core::BitMask DifferingPixels(const FollowedRanges& ranges, const FixedExposure& exposure,
+                              const cv::Mat& image_bgr, const ShadeRule* shade, int least_px,
+                              std::int64_t* skipped_px) {
+  core::BitMask mask;
+  const ExposureOfWord of_word = ForWord(exposure);
+  FollowedComparison all{ComparisonWith(ranges, image_bgr, shade, &mask),
+                         RowsOf<std::int16_t>(ranges.levels()), RowsOf<std::int16_t>(ranges.shared()),
+                         &of_word};
+  const CellKernel kernel{[&](std::size_t group, std::uint64_t* bits) {
+                            HWY_DYNAMIC_DISPATCH(LookAtFollowedCells)(all, group, bits);
+                          },
+                          [&](std::size_t group, std::size_t word) {
+                            return HWY_DYNAMIC_DISPATCH(DifferInFollowedCell)(all, group, word);
+                          }};
+  Search(all.picture, kernel, least_px, skipped_px);
+  return mask;
 }
 
 }  // namespace elbowroom::recon

@@ -5,6 +5,8 @@
 #include <opencv2/core/mat.hpp>
 
 #include "core/bit_mask.h"
+#include "recon/segmentation/exposure.h"
+#include "recon/segmentation/followed_ranges.h"
 #include "recon/segmentation/level_ranges.h"
 
 namespace elbowroom::recon {
@@ -28,5 +30,10 @@ struct ShadeRule {
 [[nodiscard]] core::BitMask DifferingPixels(const LevelRanges& ranges, const cv::Mat& image_bgr,
                                             const ShadeRule& shade, int least_px = 0,
                                             std::int64_t* skipped_px = nullptr);
+
+// The same against ranges and means that a change of exposure is applied to first; `shade` may be null.
+[[nodiscard]] core::BitMask DifferingPixels(const FollowedRanges& ranges, const FixedExposure& exposure,
+                                            const cv::Mat& image_bgr, const ShadeRule* shade,
+                                            int least_px = 0, std::int64_t* skipped_px = nullptr);
 
 }  // namespace elbowroom::recon

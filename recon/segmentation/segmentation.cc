@@ -14,7 +14,6 @@
 #include "recon/segmentation/boundary.h"
 #include "recon/segmentation/coverage.h"
 #include "recon/segmentation/difference_kernel.h"
-#include "recon/segmentation/exposure.h"
 #include "recon/segmentation/mask_regions.h"
 
 namespace elbowroom::recon {
@@ -81,36 +80,43 @@ SegmentationStats& SegmentationStats::operator+=(const SegmentationStats& other)
 }
 
 Segmenter::Segmenter(BackgroundReference background, const SegmentationOptions& options)
-    : options_(options), mean_bgr_(std::move(background.mean_bgr)) {
+    : options_(options), size_(background.mean_bgr.size()) {
   options.Validate();
-  core::Require(mean_bgr_.type() == CV_32FC3 && !mean_bgr_.empty() &&
-                    background.sigma_bgr.type() == CV_32FC3 &&
-                    background.sigma_bgr.size() == mean_bgr_.size(),
+  core::Require(background.mean_bgr.type() == CV_32FC3 && !background.mean_bgr.empty() &&
+                    background.sigma_bgr.type() == CV_32FC3 && background.sigma_bgr.size() == size_,
                 "a background reference has mean and sigma, CV_32FC3 of one size");
-  background.mean_bgr = mean_bgr_;
-  threshold_bgr_ = ThresholdOf(background, options);
-  as_measured_ = {PackedMean(mean_bgr_), LevelRanges(mean_bgr_, threshold_bgr_)};
-  if (options.method == SegmentationMethod::kThreshold) mean_bgr_.release(), threshold_bgr_.release();
+  const cv::Mat threshold_bgr = ThresholdOf(background, options);
+  packed_mean_ = PackedMean(background.mean_bgr);
+  if (options.method == SegmentationMethod::kThreshold) {
+    ranges_ = LevelRanges(background.mean_bgr, threshold_bgr);
+  } else {
+    followed_ranges_ = FollowedRanges(background.mean_bgr, threshold_bgr);
+    exposure_estimator_ = ExposureEstimator(background);
+  }
 }
 
-Segmenter::EmptyScene Segmenter::EmptySceneFor(const cv::Mat& image_bgr) const {
-  const cv::Size size(as_measured_.ranges.width_px(), as_measured_.ranges.height_px());
-  core::Require(image_bgr.type() == CV_8UC3 && image_bgr.size() == size,
+std::optional<FixedExposure> Segmenter::ExposureOf(const cv::Mat& image_bgr) const {
+  core::Require(image_bgr.type() == CV_8UC3 && image_bgr.size() == size_,
                 "a picture to segment is 8-bit BGR of its background's size");
-  if (options_.method == SegmentationMethod::kThreshold) return as_measured_;
-  const cv::Mat mean = WithExposure(mean_bgr_, EstimateExposure(image_bgr, mean_bgr_));
-  return {PackedMean(mean), LevelRanges(mean, threshold_bgr_)};
+  if (options_.method == SegmentationMethod::kThreshold) return std::nullopt;
+  return FixedExposure(exposure_estimator_.Estimate(image_bgr));
 }
 
-core::BitMask Segmenter::Detect(const cv::Mat& image_bgr, const EmptyScene& scene,
+core::BitMask Segmenter::Detect(const cv::Mat& image_bgr, const std::optional<FixedExposure>& exposure,
                                 SegmentationStats* stats) const {
   const ShadeRule shade{static_cast<float>(options_.shadow_darkest),
                         static_cast<float>(options_.shadow_chroma), kShadeNoiseLevels};
+  const bool rejects_shade = options_.shadows == ShadowRule::kReject;
+  const int least_px = options_.min_blob_px;
   std::int64_t skipped_px = 0;
-  core::BitMask mask =
-      options_.shadows == ShadowRule::kReject
-          ? DifferingPixels(scene.ranges, image_bgr, shade, options_.min_blob_px, &skipped_px)
-          : DifferingPixels(scene.ranges, image_bgr, options_.min_blob_px, &skipped_px);
+  core::BitMask mask;
+  if (exposure) {
+    mask = DifferingPixels(followed_ranges_, *exposure, image_bgr, rejects_shade ? &shade : nullptr, least_px,
+                           &skipped_px);
+  } else {
+    mask = rejects_shade ? DifferingPixels(ranges_, image_bgr, shade, least_px, &skipped_px)
+                         : DifferingPixels(ranges_, image_bgr, least_px, &skipped_px);
+  }
   if (stats != nullptr) *stats = {static_cast<std::int64_t>(image_bgr.total()), skipped_px};
   if (!mask.ShowsObject()) return mask;
   CleanUp(mask, options_.min_blob_px, options_.max_hole_px);
@@ -118,14 +124,17 @@ core::BitMask Segmenter::Detect(const cv::Mat& image_bgr, const EmptyScene& scen
 }
 
 core::BitMask Segmenter::Segment(const cv::Mat& image_bgr, SegmentationStats* stats) const {
-  return Detect(image_bgr, EmptySceneFor(image_bgr), stats);
+  return Detect(image_bgr, ExposureOf(image_bgr), stats);
 }
 
 core::SoftMask Segmenter::SegmentSoft(const cv::Mat& image_bgr, SegmentationStats* stats) const {
-  const EmptyScene scene = EmptySceneFor(image_bgr);
-  core::BitMask detected = Detect(image_bgr, scene, stats);
+  const std::optional<FixedExposure> exposure = ExposureOf(image_bgr);
+  core::BitMask detected = Detect(image_bgr, exposure, stats);
   if (!detected.ShowsObject()) return {std::move(detected), {}};
-  return LocateBoundary(detected, image_bgr, scene.packed_mean, options_.floor_levels);
+  if (!exposure) return LocateBoundary(detected, image_bgr, packed_mean_, options_.floor_levels);
+  // Objects and background are lit alike, so their contrast changes as the background does.
+  const double gain = (exposure->Gain(0) + exposure->Gain(1) + exposure->Gain(2)) / 3.0;
+  return LocateBoundary(detected, image_bgr, packed_mean_, gain * options_.floor_levels, &*exposure);
 }
 
 }  // namespace elbowroom::recon

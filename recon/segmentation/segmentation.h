@@ -9,6 +9,8 @@
 #include "core/bit_mask.h"
 #include "core/soft_mask.h"
 #include "recon/footage/frame_set.h"
+#include "recon/segmentation/exposure_estimator.h"
+#include "recon/segmentation/followed_ranges.h"
 #include "recon/segmentation/level_ranges.h"
 
 namespace elbowroom::recon {
@@ -68,19 +70,17 @@ class Segmenter {
                                            SegmentationStats* stats = nullptr) const;
 
  private:
-  // The camera's picture without an object, as it is expected.
-  struct EmptyScene {
-    cv::Mat packed_mean;
-    LevelRanges ranges;
-  };
-  [[nodiscard]] EmptyScene EmptySceneFor(const cv::Mat& image_bgr) const;
-  [[nodiscard]] core::BitMask Detect(const cv::Mat& image_bgr, const EmptyScene& scene,
+  // The change that a picture is compared under; nothing for kThreshold. Throws: as Segment().
+  [[nodiscard]] std::optional<FixedExposure> ExposureOf(const cv::Mat& image_bgr) const;
+  [[nodiscard]] core::BitMask Detect(const cv::Mat& image_bgr, const std::optional<FixedExposure>& exposure,
                                      SegmentationStats* stats) const;
 
   SegmentationOptions options_;
-  cv::Mat mean_bgr_;       // CV_32FC3; only kept for kAdaptive
-  cv::Mat threshold_bgr_;  // likewise, grey levels
-  EmptyScene as_measured_;
+  cv::Size size_;
+  cv::Mat packed_mean_;
+  LevelRanges ranges_;  // for kThreshold; the next two are for kAdaptive
+  FollowedRanges followed_ranges_;
+  ExposureEstimator exposure_estimator_;
 };
 
 }  // namespace elbowroom::recon

@@ -48,6 +48,7 @@ int main(int argc, char** argv) {
   calibrations->add_option("PROGRAM", program, "elbowroom")->required();
   calibrations->callback([&] { MeasureCalibration(docs, program); });
   app.add_subcommand("detail", "parts drawn whole and by levels")->callback([&] { MeasureDetail(docs); });
+  app.add_subcommand("light", "segmentation when the light changes")->callback([&] { MeasureLight(docs); });
   app.add_subcommand("logging", "what recording costs a frame")->callback([&] { MeasureLogging(docs); });
   CLI::App* cost = app.add_subcommand("cost", "instructions by callgrind");
   cost->add_option("PROGRAM", view_cost, "view_cost")->required();

@@ -13,6 +13,7 @@
 #include "recon/segmentation/boundary.h"
 #include "recon/segmentation/coverage.h"
 #include "recon/segmentation/mask_regions.h"
+#include "tests/oracles/exposure_oracle.h"
 #include "tests/recon/segmentation/boundary_oracle.h"
 
 namespace elbowroom::recon {
@@ -125,6 +126,97 @@ TEST_F(EachTarget, GivesTheSameBits) {
   EXPECT_GE(targets.size(), 2U) << "only one instruction set to compare";
 }
 
+// The rounded rule bit by bit, and the rule in real numbers for all levels but those within kBoundLevels of
+// an end of their range: 1 / 128 of a level by rounding it (times the gain), 2^-14 of at most 512 levels by
+// rounding the gain, and 1 / 32 each by rounding product and offset, with gains below 2.
+TEST_F(EachTarget, FollowsAnExposureAsTheSlowOracle) {
+  constexpr double kBoundLevels = 2.0 / 128 + 512.0 / 16384 + 2.0 / 32;
+  std::mt19937 random(6);
+  std::int64_t within_bound = 0, levels = 0;
+  for (const int width : {1, 21, 64, 65, 191, 333}) {
+    for (const bool busy : {false, true}) {
+      for (int trial = 0; trial < 4; ++trial) {
+        Case made = RandomCase(width, 17, busy, random);
+        ExposureChange change;
+        for (std::size_t c = 0; c < 3; ++c) {
+          change.gain[c] = 0.5 + static_cast<double>(random() % 1500U) / 1000.0;
+          change.offset_levels[c] = static_cast<double>(random() % 800U) / 10.0 - 40.0;
+        }
+        const FixedExposure exposure(change);
+        ExposureChange fixed;
+        for (std::size_t c = 0; c < 3; ++c)
+          fixed.gain[c] = exposure.Gain(c), fixed.offset_levels[c] = exposure.OffsetLevels(c);
+        if (!busy) {  // most levels are background after the change
+          oracles::WithExposure(made.mean_bgr, fixed).convertTo(made.image_bgr, CV_8U);
+          made.image_bgr.at<cv::Vec3b>(8, width / 2) = {0, 255, 0};
+        }
+        const FollowedRanges ranges(made.mean_bgr, made.threshold_bgr);
+        const core::BitMask wanted =
+            oracles::OutsidePixels(made.image_bgr, made.mean_bgr, made.threshold_bgr, exposure);
+        std::optional<core::BitMask> first_lit;
+        for (const std::int64_t target : Targets()) {
+          SCOPED_TRACE(hwy::TargetName(target));
+          Choose(target);
+          ASSERT_EQ(DifferingPixels(ranges, exposure, made.image_bgr, nullptr), wanted) << width;
+          const core::BitMask lit = DifferingPixels(ranges, exposure, made.image_bgr, &kRule);
+          if (!first_lit) first_lit = lit;
+          EXPECT_EQ(lit, *first_lit);
+        }
+        Case followed = made;
+        followed.mean_bgr = oracles::WithExposure(made.mean_bgr, fixed);
+        for (int y = 0; y < 17; ++y) {
+          for (int x = 0; x < width; ++x) {
+            bool surely = false, perhaps = false;
+            for (int c = 0; c < 3; ++c) {
+              const auto channel = static_cast<std::size_t>(c);
+              const auto outside = [&](double by_levels) {
+                return oracles::IsOutsideExactly(
+                    made.image_bgr.at<cv::Vec3b>(y, x)[c], made.mean_bgr.at<cv::Vec3f>(y, x)[c],
+                    made.threshold_bgr.at<cv::Vec3f>(y, x)[c], fixed.gain[channel],
+                    fixed.offset_levels[channel], by_levels);
+              };
+              surely |= outside(kBoundLevels);
+              perhaps |= outside(-kBoundLevels);
+            }
+            ++levels;
+            if (surely != perhaps) {
+              ++within_bound;
+            } else {
+              ASSERT_EQ(wanted.At(x, y), surely) << width << ": " << x << ' ' << y;
+            }
+            if (const auto shade = IsShade(followed, y, x)) {
+              ASSERT_EQ(first_lit->At(x, y), wanted.At(x, y) && !*shade) << width << ": " << x << ' ' << y;
+            }
+          }
+        }
+      }
+    }
+  }
+  EXPECT_LT(within_bound * 4, levels) << "too few levels are held to the rule in real numbers";
+}
+
+TEST(Exposure, AFollowedMeanIsWithinThreeEighthsOfALevel) {
+  // Half a quarter before, times a gain of 2, and after; 2^-14 of 255 levels for the gain, 1 / 32 for the
+  // offset.
+  constexpr double kBoundLevels = 2.0 / 8 + 1.0 / 8 + 255.0 / 16384 + 1.0 / 32;
+  std::mt19937 random(7);
+  for (int trial = 0; trial < 2000; ++trial) {
+    ExposureChange change;
+    const double level = static_cast<double>(random() % 2551U) / 10.0;
+    for (std::size_t c = 0; c < 3; ++c) {
+      change.gain[c] = 0.5 + static_cast<double>(random() % 1500U) / 1000.0;
+      change.offset_levels[c] = static_cast<double>(random() % 800U) / 10.0 - 40.0;
+    }
+    const cv::Mat packed = PackedMean(cv::Mat(1, 1, CV_32FC3, cv::Scalar::all(level)));
+    const std::uint32_t followed =
+        WithExposure(static_cast<std::uint32_t>(packed.at<std::int32_t>(0, 0)), FixedExposure(change));
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double wanted = std::clamp(change.gain[c] * level + change.offset_levels[c], 0.0, 255.75);
+      EXPECT_NEAR(((followed >> (10 * c)) & 1023U) / 4.0, wanted, kBoundLevels) << level;
+    }
+  }
+}
+
 // Noise of few pixels, thin lines and frames all over the picture, between the pixels that are looked at too:
 // what is left of it without small regions is the same.
 TEST_F(EachTarget, FindsAllLargeRegionsWithoutLookingAtEveryPixel) {
@@ -154,6 +246,10 @@ TEST_F(EachTarget, FindsAllLargeRegionsWithoutLookingAtEveryPixel) {
           core::BitMask large = DifferingPixels(ranges, image, kRule, least_px);
           RemoveSmallBlobs(large, least_px);
           ASSERT_EQ(large, all) << width << ' ' << trial << ' ' << least_px;
+          core::BitMask followed =
+              DifferingPixels(FollowedRanges(mean, threshold), FixedExposure({}), image, &kRule, least_px);
+          RemoveSmallBlobs(followed, least_px);
+          ASSERT_EQ(followed, all) << width << ' ' << trial << ' ' << least_px;
         }
       }
     }
@@ -165,6 +261,8 @@ TEST_F(EachTarget, TellsHowManyPixelsItDidNotLookAt) {
   const cv::Size size(330, 22);
   const LevelRanges ranges(cv::Mat(size, CV_32FC3, cv::Scalar::all(100.0)),
                            cv::Mat(size, CV_32FC3, cv::Scalar::all(10.0)));
+  const FollowedRanges followed(cv::Mat(size, CV_32FC3, cv::Scalar::all(100.0)),
+                                cv::Mat(size, CV_32FC3, cv::Scalar::all(10.0)));
   cv::Mat image(size, CV_8UC3, cv::Scalar::all(100.0));
   cv::Mat touched = image.clone();
   touched.at<cv::Vec3b>(8, 64) = {100, 150, 100};
@@ -178,6 +276,11 @@ TEST_F(EachTarget, TellsHowManyPixelsItDidNotLookAt) {
     EXPECT_EQ(unseen_px, 5 * 44 * (5 * 3 + 1) - 9 * 44 * 3);
     EXPECT_EQ(DifferingPixels(ranges, touched, 100, &unseen_px).CountObjectPixels(), 1U);
     EXPECT_EQ(unseen_px, 0) << "regions of 100 pixels may hide between the pixels that are looked at";
+    const FixedExposure as_it_is({});
+    EXPECT_EQ(DifferingPixels(followed, as_it_is, image, nullptr, 200, &unseen_px).CountObjectPixels(), 0U);
+    EXPECT_EQ(unseen_px, 5 * 44 * (5 * 3 + 1));
+    EXPECT_EQ(DifferingPixels(followed, as_it_is, touched, nullptr, 200, &unseen_px).CountObjectPixels(), 1U);
+    EXPECT_EQ(unseen_px, 5 * 44 * (5 * 3 + 1) - 9 * 44 * 3);
   }
 }
 
@@ -203,12 +306,18 @@ TEST_F(EachTarget, LocatesTheBoundaryOfTheSlowOracle) {
           }
         }
         const core::SoftMask wanted = LocateBoundarySlowly(detected, made.image_bgr, mean, 20.0);
+        const FixedExposure exposure({{0.8, 1.1, 1.3}, {5.0, -12.0, 3.0}});
+        cv::Mat followed = mean.clone();
+        for (auto& packed : cv::Mat_<std::int32_t>(followed))
+          packed = static_cast<std::int32_t>(WithExposure(static_cast<std::uint32_t>(packed), exposure));
+        const core::SoftMask wanted_followed = LocateBoundarySlowly(detected, made.image_bgr, followed, 20.0);
         for (const std::int64_t target : Targets()) {
           SCOPED_TRACE(hwy::TargetName(target));
           Choose(target);
           const core::SoftMask located = LocateBoundary(detected, made.image_bgr, mean, 20.0);
           located.Validate();
           ASSERT_EQ(located, wanted) << width << " x " << height;
+          ASSERT_EQ(LocateBoundary(detected, made.image_bgr, mean, 20.0, &exposure), wanted_followed);
         }
       }
     }

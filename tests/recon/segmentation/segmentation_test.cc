@@ -13,6 +13,7 @@
 #include "core/error.h"
 #include "recon/images/mask_image.h"
 #include "recon/segmentation/exposure.h"
+#include "tests/oracles/exposure_oracle.h"
 #include "tests/recon/footage/made_footage.h"
 
 namespace elbowroom::recon {
@@ -158,7 +159,7 @@ TEST(Segmentation, EdgeSlackForgivesAShiftOfTheCamera) {
 TEST(Segmentation, AdaptiveFollowsAChangeOfExposure) {
   const BackgroundReference background = Background(1.0F);
   const ExposureChange change{{1.25, 1.2, 1.3}, {6.0, -4.0, 3.0}};
-  cv::Mat picture = PictureOf(WithExposure(background.mean_bgr, change), 1.0);
+  cv::Mat picture = PictureOf(oracles::WithExposure(background.mean_bgr, change), 1.0);
   const cv::Rect object(30, 20, 45, 40);  // a sixth of the picture
   picture(object).setTo(cv::Scalar(5, 10, 240));
   SegmentationOptions options;
@@ -168,23 +169,6 @@ TEST(Segmentation, AdaptiveFollowsAChangeOfExposure) {
   options.method = SegmentationMethod::kAdaptive;
   const core::BitMask mask = Segmenter(background, options).Segment(picture);
   EXPECT_EQ(mask.CountObjectPixels(), static_cast<std::size_t>(object.area()));
-}
-
-TEST(Exposure, IsFoundThroughNoiseAndAnObject) {
-  constexpr double kGainTolerance = 0.02;  // a tenth of the change, with a fifth of the picture covered
-  constexpr double kOffsetToleranceLevels = 2.5;
-  cv::Mat mean = Background(1.0F).mean_bgr;
-  const ExposureChange truth{{0.8, 1.2, 1.0}, {12.0, -6.0, 9.0}};
-  cv::Mat picture = PictureOf(WithExposure(mean, truth), 1.5);
-  picture(cv::Rect(0, 0, 50, 45)).setTo(cv::Scalar(250, 5, 5));
-  const ExposureChange found = EstimateExposure(picture, mean);
-  for (std::size_t c = 0; c < 2; ++c) {
-    EXPECT_NEAR(found.gain[c], truth.gain[c], kGainTolerance) << c;
-    EXPECT_NEAR(found.offset_levels[c], truth.offset_levels[c], kOffsetToleranceLevels) << c;
-  }
-  // The red background is one level, from which only a gain can be had.
-  EXPECT_EQ(found.offset_levels[2], 0.0);
-  EXPECT_NEAR(found.gain[2] * 60.0, 69.0, kOffsetToleranceLevels);
 }
 
 TEST(Segmentation, GivesOneMaskWhateverTheThreads) {
