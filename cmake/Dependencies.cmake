@@ -20,7 +20,13 @@ pkg_check_modules(HIGHWAY REQUIRED IMPORTED_TARGET libhwy libhwy-contrib)
 pkg_check_modules(ZSTD REQUIRED IMPORTED_TARGET libzstd)
 pkg_check_modules(XXHASH REQUIRED IMPORTED_TARGET libxxhash)
 pkg_check_modules(ARAVIS REQUIRED IMPORTED_TARGET aravis-0.8)
-set_target_properties(PkgConfig::ARAVIS PROPERTIES INTERFACE_COMPILE_OPTIONS "")   # -pthread, which precompiled headers lack
+pkg_check_modules(GSTREAMER REQUIRED IMPORTED_TARGET gstreamer-1.0 gstreamer-app-1.0 gstreamer-video-1.0)
+if(ELBOWROOM_TESTS)
+  pkg_check_modules(GSTREAMER_RTSP_SERVER REQUIRED IMPORTED_TARGET gstreamer-rtsp-server-1.0 gstreamer-app-1.0)
+  set_target_properties(PkgConfig::GSTREAMER_RTSP_SERVER PROPERTIES INTERFACE_COMPILE_OPTIONS "")
+endif()
+# Without -pthread, which precompiled headers lack.
+set_target_properties(PkgConfig::ARAVIS PkgConfig::GSTREAMER PROPERTIES INTERFACE_COMPILE_OPTIONS "")
 find_package(Lib3mf REQUIRED)        # its pkg-config file asks for the static libraries of others
 find_package(Haru REQUIRED)
 find_package(OpenCVParts REQUIRED)   # only the modules in use; Debian ships no CMake config for single modules

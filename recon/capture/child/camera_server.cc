@@ -18,6 +18,7 @@
 #include "recon/capture/device/camera_device.h"
 #include "recon/capture/device/camera_protocol.h"
 #include "recon/capture/genicam/genicam_camera.h"
+#include "recon/capture/stream/stream_camera.h"
 #include "recon/decoding/packet.h"
 #include "recon/rig_files/source_location.h"
 
@@ -33,8 +34,9 @@ std::unique_ptr<CameraDevice> OpenDevice(const DeviceRequest& request) {
   switch (KindOf(request.location)) {
     case SourceKind::kGenicam:
       return OpenGenicamCamera(request);
-    case SourceKind::kDevice:
     case SourceKind::kUrl:
+      return OpenStreamCamera(request);
+    case SourceKind::kDevice:
     case SourceKind::kSequence:
     case SourceKind::kGlob:
     case SourceKind::kFolder:
@@ -57,7 +59,7 @@ class Server {
     request_ = RequestOf(*order, packet->Text<CameraOrder>());
     MapSlots();
     // Buffers of the driver, pictures being decoded, and the libraries.
-    constexpr double kLibraries = 2e9, kPictures = 64.0;
+    constexpr double kLibraries = 4e9, kPictures = 64.0;
     core::OwnLimits limits;
     limits.memory_bytes = kLibraries + kPictures * 3.0 * request_.width_px * request_.height_px;
     core::LimitMyself(limits);

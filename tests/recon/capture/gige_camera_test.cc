@@ -4,7 +4,6 @@
 
 #include <array>
 #include <atomic>
-#include <map>
 #include <memory>
 #include <opencv2/core.hpp>
 #include <string>
@@ -12,6 +11,7 @@
 
 #include "recon/capture/live_rig.h"
 #include "tests/recon/capture/fake_gige_camera.h"
+#include "tests/recon/capture/live_accounts.h"
 #include "tests/recon/capture/own_network.h"
 #include "tests/recon/footage/made_footage.h"
 
@@ -25,6 +25,7 @@ using testing::FakeSettings;
 using ::testing::HasSubstr;
 using testing::kHeightPx;
 using testing::kWidthPx;
+using testing::LiveAccounts;
 using testing::LoopbackAddress;
 using ::testing::Not;
 using testing::NumberedPicture;
@@ -32,10 +33,7 @@ using testing::NumberIn;
 
 constexpr int kMostCameras = 8;
 
-class OwnNetwork : public ::testing::Environment {
-  void SetUp() override { testing::EnterOwnNetwork(kMostCameras); }
-};
-const auto* const kNetwork = ::testing::AddGlobalTestEnvironment(new OwnNetwork);
+const auto* const kNetwork = ::testing::AddGlobalTestEnvironment(new testing::OwnNetwork(kMostCameras));
 
 // Numbered pictures in grey, from cameras at the first addresses.
 class GigeCameras : public ::testing::Test {
@@ -90,51 +88,10 @@ TEST_F(GigeCameras, BringTheirPicturesInSets) {
   }
 }
 
-// Of each camera: which numbers are in sets, and which are lost. Every number is one of them, once.
-class Accounts {
- public:
-  explicit Accounts(std::size_t cameras) : numbers_(cameras) {}
-
-  void Add(const FrameSet& set) {
-    for (core::CameraIndex i = 0; i < set.cameras.size(); ++i)
-      if (const auto& stamp = set.cameras[i].stamp) Enter(i, stamp->picture, stamp->picture, "in a set");
-    for (const core::PictureLoss& loss : set.losses) {
-      Enter(loss.camera, loss.first, loss.last, std::string(core::ToString(loss.reason)));
-      lost_[loss.reason] += loss.count();
-    }
-  }
-
-  [[nodiscard]] std::uint64_t lost(core::LossReason reason) const {
-    const auto found = lost_.find(reason);
-    return found == lost_.end() ? 0 : found->second;
-  }
-
-  // From the first number that is known to the last, but for those of sets that are still to come.
-  void ExpectWhole() const {
-    for (const auto& numbers : numbers_) {
-      ASSERT_FALSE(numbers.empty());
-      constexpr std::uint64_t kStillToCome = 8;
-      for (std::uint64_t n = numbers.begin()->first; n + kStillToCome < numbers.rbegin()->first; ++n)
-        EXPECT_TRUE(numbers.contains(n)) << "picture " << n << " is nowhere";
-    }
-  }
-
- private:
-  void Enter(core::CameraIndex camera, std::uint64_t first, std::uint64_t last, const std::string& what) {
-    for (std::uint64_t n = first; n <= last; ++n) {
-      const auto [at, is_new] = numbers_.at(camera).emplace(n, what);
-      EXPECT_TRUE(is_new) << "picture " << n << " is " << at->second << " and " << what;
-    }
-  }
-
-  std::vector<std::map<std::uint64_t, std::string>> numbers_;
-  std::map<core::LossReason, std::uint64_t> lost_;
-};
-
 TEST_F(GigeCameras, EveryLossIsNamed) {
   Start(2);
   LiveRig rig(Rig());
-  Accounts accounts(2);
+  LiveAccounts accounts(2);
   std::vector<int> last_content(2, -1);
   std::vector<std::uint64_t> last_number(2, 0);
   cameras_[0]->SetPacketLoss(0.02);
@@ -160,7 +117,7 @@ TEST_F(GigeCameras, EveryLossIsNamed) {
 TEST_F(GigeCameras, OneThatComesBackHasItsSettings) {
   Start(2);
   LiveRig rig(Rig());
-  Accounts accounts(2);
+  LiveAccounts accounts(2);
   core::FrameIndex frame = 0;
   const auto read_until = [&](auto is_reached) {
     for (;;) {
