@@ -19,6 +19,7 @@
 #include "recon/capture/device/camera_protocol.h"
 #include "recon/capture/genicam/genicam_camera.h"
 #include "recon/capture/stream/stream_camera.h"
+#include "recon/capture/v4l2/v4l2_camera.h"
 #include "recon/decoding/packet.h"
 #include "recon/rig_files/source_location.h"
 
@@ -37,6 +38,7 @@ std::unique_ptr<CameraDevice> OpenDevice(const DeviceRequest& request) {
     case SourceKind::kUrl:
       return OpenStreamCamera(request);
     case SourceKind::kDevice:
+      return OpenV4l2Camera(request);
     case SourceKind::kSequence:
     case SourceKind::kGlob:
     case SourceKind::kFolder:

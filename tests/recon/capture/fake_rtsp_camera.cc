@@ -63,7 +63,8 @@ FakeRtspCamera::FakeRtspCamera(int port, cv::Size size_px, int rate_hz, Picture 
   GstRTSPMediaFactory* factory = gst_rtsp_media_factory_new();
   const std::string launch = fmt::format(
       "( appsrc name=pictures is-live=true format=time max-buffers=2 block=false "
-      "caps=video/x-raw,format=BGR,width={},height={},framerate={}/1 ! clocksync ! videoconvert ! video/x-raw,format=I420 ! "
+      "caps=video/x-raw,format=BGR,width={},height={},framerate={}/1 ! clocksync ! videoconvert ! "
+      "video/x-raw,format=I420 ! "
       "x264enc tune=zerolatency speed-preset=ultrafast key-int-max={} bitrate=4000 ! rtph264pay name=pay0 "
       "pt=96 )",
       size_px.width, size_px.height, rate_hz, rate_hz);
