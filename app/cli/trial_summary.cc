@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <numeric>
+#include <optional>
 
 #include "app/cli/error_budget_json.h"
 
@@ -20,6 +23,22 @@ const char* ToString(sessions::RecordingState state) {
       return "spill";
   }
   return "";
+}
+
+// What only live cameras have.
+void AddCapture(const control::TrialOutcome& outcome, CommandResult* result) {
+  const std::optional<double> median_ms = outcome.latencies.MedianMs();
+  if (!median_ms) return;
+  const double p99_ms = *outcome.latencies.QuantileMs(0.99);
+  const std::int64_t lost =
+      std::accumulate(outcome.pictures_lost.begin(), outcome.pictures_lost.end(), std::int64_t{0});
+  result->json["latency_ms"] = {{"median", *median_ms}, {"p99", p99_ms}};
+  result->json["frames_without_camera"] = outcome.frames_without_camera;
+  result->json["pictures_lost"] = outcome.pictures_lost;
+  result->text += fmt::format(
+      "\n  capture to verdict: {:.1f} ms in the median, {:.1f} ms in 99 %; {} pictures lost, "
+      "{} frames lack a camera",
+      *median_ms, p99_ms, lost, outcome.frames_without_camera);
 }
 
 }  // namespace
@@ -68,6 +87,7 @@ CommandResult SummaryOf(const control::TrialOutcome& outcome, const core::Layout
     result.json["median_frame_ms"] = *median_ms;
     result.text += fmt::format(" ({:.1f} ms a frame)", *median_ms);
   }
+  AddCapture(outcome, &result);
   for (core::PartIndex i = 0; i < layout.parts.size(); ++i) {
     const auto episodes =
         std::count_if(outcome.episodes.begin(), outcome.episodes.end(),

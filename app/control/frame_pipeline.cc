@@ -59,6 +59,7 @@ SharedFrameResult FramePipeline::Process(recon::FrameSet frames, std::span<const
   result->record.frame = frames.index;
   result->record.time_s = frames.time_s;
   result->record.stamps = StampsOf(frames);
+  result->record.losses = frames.losses;
   result->layout = layout_;
   result->record.spacing_mm.assign(spacing_mm.begin(), spacing_mm.end());
   const std::vector<core::RigidTransform> world_from_rests = core::PosesAt(*layout_, spacing_mm);

@@ -16,11 +16,12 @@ void FrameTimeTally::Add(double time_ms) {
   ++all_;
 }
 
-std::optional<double> FrameTimeTally::MedianMs() const {
+std::optional<double> FrameTimeTally::QuantileMs(double share) const {
   std::int64_t shorter = 0;
   for (std::size_t i = 0; i < kSteps; ++i) {
     shorter += frames_[i];
-    if (shorter > all_ / 2) return kLeastMs * std::pow(kStep, static_cast<double>(i) + 0.5);
+    if (static_cast<double>(shorter) > share * static_cast<double>(all_))
+      return kLeastMs * std::pow(kStep, static_cast<double>(i) + 0.5);
   }
   return std::nullopt;
 }

@@ -14,7 +14,9 @@ class FrameTimeTally {
   void Add(double time_ms);
 
   // The time of the frame in the middle, of two the longer one, to 0.5 %. Nothing: no frame was added.
-  [[nodiscard]] std::optional<double> MedianMs() const;
+  [[nodiscard]] std::optional<double> MedianMs() const { return QuantileMs(0.5); }
+  // The least time that more than this share of the frames don't exceed, likewise; `share` in [0, 1).
+  [[nodiscard]] std::optional<double> QuantileMs(double share) const;
 
  private:
   static constexpr std::size_t kSteps = 2084;  // log(1e9) / log(1.01), and one

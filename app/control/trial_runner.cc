@@ -91,6 +91,7 @@ class Recording {
     spacing_mm_ = setup.layout.InitialSpacings();
     outcome_.frames_in_contact.assign(setup.layout.parts.size(), 0);
     outcome_.largest_budgets.resize(setup.layout.parts.size());
+    outcome_.pictures_lost.assign(setup.source->rig().cameras.size(), 0);
   }
 
   void Run(const std::stop_token& stop) {
@@ -103,11 +104,14 @@ class Recording {
     for (core::FrameIndex frame = first; frame < end && !stop.stop_requested(); ++frame) {
       std::optional<recon::FrameSet> frames = setup_.source->TryRead(frame, stop);
       if (!frames) return EndWithFootage(frame);
-      if (options_.at_capture_rate) pace_.WaitFor(frames->time_s, stop);
+      const std::optional<Clock::time_point> taken_at = frames->taken_at;  // a live frame comes when it comes
+      if (options_.at_capture_rate && !taken_at) pace_.WaitFor(frames->time_s, stop);
       ApplyChanges(frame, frames->time_s);
       const Clock::time_point begin = Clock::now();
       const SharedFrameResult result = pipeline_->Process(std::move(*frames), spacing_mm_, options_.on_hull);
       outcome_.frame_times.Add(std::chrono::duration<double, std::milli>(Clock::now() - begin).count());
+      if (taken_at)
+        outcome_.latencies.Add(std::chrono::duration<double, std::milli>(Clock::now() - *taken_at).count());
       Record(result);
       const RecordedFrames recorded{outcome_.frames, writer_.frames_committed()};
       if (options_.on_frame) options_.on_frame(result, recorded);
@@ -226,6 +230,9 @@ class Recording {
       if (!largest || budget.CombinedMm() > largest->CombinedMm()) largest = budget;
     }
     outcome_.skipped += result.skipped;
+    outcome_.frames_without_camera += result.record.LacksCamera() ? 1 : 0;
+    for (const core::PictureLoss& loss : result.record.losses)
+      outcome_.pictures_lost[loss.camera] += static_cast<std::int64_t>(loss.count());
   }
 
   const TrialSetup& setup_;

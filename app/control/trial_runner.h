@@ -59,6 +59,11 @@ struct TrialOutcome {
   std::string end_note;  // why it ended: "ended with the shortest source, camera 'cam03' (426 frames)", ...
   SkipCount skipped;     // over all frames
   FrameTimeTally frame_times;  // segmentation to contacts
+  // Of live cameras: from the middle of the exposure to the verdict; frames that lack a camera; pictures that
+  // no frame has, by camera.
+  FrameTimeTally latencies;
+  std::int64_t frames_without_camera = 0;
+  std::vector<std::int64_t> pictures_lost;
 };
 
 // Measures the backgrounds, creates the session, then sends each frame through the pipeline and into the

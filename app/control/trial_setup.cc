@@ -5,6 +5,9 @@
 #include "cad_import/layout/layout_file.h"
 #include "cad_import/layout/toml_entry.h"
 #include "core/error.h"
+#include "recon/capture/live_rig.h"
+#include "recon/capture/live_viewer.h"
+#include "recon/capture/rig_source.h"
 #include "recon/footage/recorded_rig.h"
 #include "recon/footage/viewer_footage.h"
 #include "recon/rig_files/rig_file.h"
@@ -58,29 +61,59 @@ SegmentationTable ReadSegmentation(const TomlEntry& root, const std::string& fil
   return read;
 }
 
-// The rig's footage, with that of the viewer camera if the trial has one.
-std::shared_ptr<recon::FrameSetSource> WithViewer(std::shared_ptr<recon::RecordedRig> rig,
-                                                  const TomlEntry& root, const std::filesystem::path& file,
-                                                  const std::stop_token& stop,
-                                                  std::vector<std::string>* warnings) {
+struct ViewerEntry {
+  core::CameraModel camera;
+  std::string location;
+};
+
+// The camera that [viewer] names, if it is there.
+std::optional<ViewerEntry> ReadViewer(const TomlEntry& root, const std::filesystem::path& file) {
   const toml::node* node = root.Find("viewer");
-  if (node == nullptr) return rig;
+  if (node == nullptr) return std::nullopt;
   if (!node->is_table()) root.Fail("viewer", "must be written as [viewer]");
   const TomlEntry entry(*node->as_table(), file.string(), "[viewer]", {"camera", "frames"});
   const std::filesystem::path folder = std::filesystem::absolute(file).parent_path();
   const recon::ViewFile view = recon::ReadViewFile(folder / entry.Text("camera"));
   if (view.is_orthographic) entry.Fail("camera", "must name a perspective camera; this one is orthographic");
-  const std::string frames = entry.Text("frames");
-  auto footage = std::make_shared<recon::ViewerFootage>(std::move(rig), view.camera,
-                                                        recon::ResolvedLocation(frames, folder), stop);
+  return ViewerEntry{view.camera, recon::ResolvedLocation(entry.Text("frames"), folder)};
+}
+
+std::shared_ptr<recon::FrameSetSource> RecordedWithViewer(std::shared_ptr<recon::RecordedRig> rig,
+                                                          const ViewerEntry& viewer,
+                                                          const std::stop_token& stop,
+                                                          std::vector<std::string>* warnings) {
+  auto footage = std::make_shared<recon::ViewerFootage>(std::move(rig), viewer.camera, viewer.location, stop);
   const auto viewer_frames = footage->viewer_frame_count(), rig_frames = footage->frame_count();
   if (viewer_frames && (!rig_frames || *viewer_frames < *rig_frames)) {
     warnings->push_back(
         fmt::format("the viewer's footage '{}' ends after {} frames; later ones take their colours from the "
                     "rig's cameras",
-                    frames, *viewer_frames));
+                    viewer.location, *viewer_frames));
   }
   return footage;
+}
+
+// The rig's frame sets, with the pictures of the viewer camera if the trial has one.
+std::shared_ptr<recon::FrameSetSource> OpenSource(recon::RigFile rig_file,
+                                                  const std::optional<ViewerEntry>& viewer,
+                                                  const std::stop_token& stop,
+                                                  std::vector<std::string>* warnings) {
+  if (!viewer) return recon::OpenRig(std::move(rig_file), stop);
+  const bool is_live = recon::IsLiveRig(rig_file);
+  if (is_live != recon::IsLive(viewer->location)) {
+    throw core::Error(
+        core::ErrorKind::kFormat,
+        fmt::format("the viewer's pictures '{}' {} live, and those of rig '{}' {}; use both live, or "
+                    "both recorded",
+                    viewer->location, is_live ? "aren't" : "are", rig_file.rig.name,
+                    is_live ? "are" : "aren't"));
+  }
+  if (is_live) {
+    return std::make_shared<recon::LiveViewer>(recon::OpenRig(std::move(rig_file), stop), viewer->camera,
+                                               viewer->location);
+  }
+  return RecordedWithViewer(std::make_shared<recon::RecordedRig>(std::move(rig_file), stop), *viewer, stop,
+                            warnings);
 }
 
 double LengthFromZero(const TomlEntry& entry, std::string_view key) {
@@ -121,8 +154,7 @@ TrialSetup ReadTrialFile(const std::filesystem::path& path, std::stop_token stop
                     "undecided; calibrate the rig again, and gauge it",
                     rig_file.rig.name, quality.gauge->error_mm, quality.gauge->bound_mm));
   }
-  auto source = std::make_shared<recon::RecordedRig>(std::move(rig_file), stop);
-  setup.source = WithViewer(std::move(source), root, path, stop, &setup.warnings);
+  setup.source = OpenSource(std::move(rig_file), ReadViewer(root, path), stop, &setup.warnings);
   return setup;
 }
 

@@ -106,7 +106,7 @@ std::vector<DecidedSet> LiveRig::TakeDecided() {
   std::vector<DecidedSet> decided;
   const CaptureClock::time_point now = CaptureClock::now();
   while (std::optional<PictureSet> set = assembler_.TryTake(now)) {
-    for (const PictureLoss& loss : losses_) lost_[loss.camera] += loss.count();
+    for (const PictureLoss& loss : losses_) lost_[loss.camera] += has_reader_ ? loss.count() : 0;
     decided.push_back({std::move(*set), now, std::exchange(losses_, {})});
   }
   return decided;
@@ -137,6 +137,10 @@ void LiveRig::Decide(const std::stop_token& stop) {
 
 void LiveRig::Offer(const DecidedSet& set) {
   sets_.push_back(set);
+  if (!has_reader_) {
+    if (sets_.size() > 1) sets_.pop_front();
+    return;
+  }
   if (sets_.size() <= kMostReady) return;
   const DecidedSet& old = sets_.front();
   unread_.insert(unread_.end(), old.losses.begin(), old.losses.end());
@@ -149,12 +153,12 @@ void LiveRig::Offer(const DecidedSet& set) {
   sets_.pop_front();
 }
 
-FrameSet LiveRig::FrameSetOf(DecidedSet decided) {
+FrameSet LiveRig::FrameSetOf(DecidedSet decided, core::FrameIndex index) {
   if (!first_at_) first_at_ = decided.set.taken_at;
   const auto seconds = [&](CaptureClock::time_point at) {
     return std::chrono::duration<double>(at - *first_at_).count();
   };
-  FrameSet frames{next_index_++, seconds(decided.set.taken_at), {}};
+  FrameSet frames{index, seconds(decided.set.taken_at), {}};
   frames.taken_at = decided.set.taken_at;
   frames.losses = std::move(decided.losses);
   for (CameraIndex i = 0; i < decided.set.pictures.size(); ++i) {
@@ -173,13 +177,14 @@ FrameSet LiveRig::FrameSetOf(DecidedSet decided) {
 std::optional<FrameSet> LiveRig::TryRead(core::FrameIndex index, std::stop_token stop) {
   core::Require(index >= 0, "frames count from 0");
   std::unique_lock lock(mutex_);
+  has_reader_ = true;
   ready_.wait(lock, stop, [this] { return !sets_.empty(); });
   core::ThrowIfStopped(stop, "waiting for the cameras");
   DecidedSet decided = std::move(sets_.front());
   sets_.pop_front();
   decided.losses.insert(decided.losses.begin(), unread_.begin(), unread_.end());
   unread_.clear();
-  return FrameSetOf(std::move(decided));
+  return FrameSetOf(std::move(decided), index);
 }
 
 std::vector<std::string> LiveRig::Warnings() const {

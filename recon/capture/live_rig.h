@@ -35,9 +35,10 @@ struct LiveTaps {
 };
 
 // Frame sets by nearest stamp (FrameSetAssembler) as long as the program wants them. A frame of a camera that
-// has no picture in a set is empty. The index that is asked for is ignored: a reader gets the next set; one
-// that is too slow finds the latest kMostReady, and those before them count as passed over. Each set brings
-// the losses that became known since the one before. Thread: one reader.
+// has no picture in a set is empty. The index that is asked for becomes that of the next set. A reader that
+// is too slow finds the latest kMostReady, and those before them count as passed over; but before its first
+// read nothing counts as lost. Each set brings the losses that became known since the one before. Thread: one
+// reader.
 class LiveRig : public FrameSetSource {
  public:
   static constexpr std::size_t kMostReady = 4;
@@ -67,7 +68,7 @@ class LiveRig : public FrameSetSource {
   // With mutex_ held.
   [[nodiscard]] std::vector<DecidedSet> TakeDecided();
   void Offer(const DecidedSet& set);
-  [[nodiscard]] FrameSet FrameSetOf(DecidedSet decided);
+  [[nodiscard]] FrameSet FrameSetOf(DecidedSet decided, core::FrameIndex index);
 
   RigFile rig_file_;
   LiveTaps taps_;
@@ -80,9 +81,9 @@ class LiveRig : public FrameSetSource {
   std::vector<core::PictureLoss> losses_;  // since the last set that was decided
   std::vector<core::PictureLoss> unread_;  // of sets that were passed over, and those pictures
   std::vector<std::uint64_t> lost_;        // by camera, in all
+  bool has_reader_ = false;                // until then nothing counts as lost
   std::deque<DecidedSet> sets_;
   std::optional<CaptureClock::time_point> first_at_;
-  core::FrameIndex next_index_ = 0;
   std::vector<std::unique_ptr<CameraLink>> links_;
   std::jthread decider_;
 };

@@ -9,8 +9,8 @@
 
 namespace elbowroom::recon {
 
-// A LiveRig if all cameras are live, else a RecordedRig. Throws: what their constructors throw; Error{kFormat}
-// naming two cameras for a rig of which one is live and the other one is not.
+// A LiveRig if all cameras are live, else a RecordedRig. Throws: what their constructors throw;
+// Error{kFormat} naming two cameras for a rig of which one is live and the other one is not.
 [[nodiscard]] std::shared_ptr<FrameSetSource> OpenRig(RigFile rig_file, const std::stop_token& stop);
 
 // Whether all cameras of the rig are live. Throws: Error{kFormat} as OpenRig.
