@@ -55,6 +55,7 @@ FrameSetAssembler::FrameSetAssembler(std::size_t cameras, AssemblerOptions optio
                 "there is one time offset a camera");
   for (CameraIndex i = 0; i < cameras; ++i) {
     cameras_[i].period = Seconds(options.period_s);
+    cameras_[i].periods.fill(cameras_[i].period);
     if (!options.time_offset_s.empty()) cameras_[i].offset = Seconds(options.time_offset_s[i]);
   }
 }
@@ -63,14 +64,16 @@ Instant FrameSetAssembler::TimeOf(CameraIndex camera, const CapturedPicture& pic
   return picture.taken_at + cameras_[camera].offset;
 }
 
-// Two pictures lie as many periods apart as their numbers say.
+// Two pictures lie as many periods apart as their numbers say. The median of several, since a camera may
+// leave a picture out without counting it.
 void FrameSetAssembler::FollowPeriod(Camera& camera, const CapturedPicture& picture) {
-  constexpr double kNew = 0.02;
   if (camera.newest && picture.number > camera.newest->number && picture.taken_at > camera.newest->taken_at) {
     const auto periods = static_cast<Duration::rep>(picture.number - camera.newest->number);
-    const Duration period = (picture.taken_at - camera.newest->taken_at) / periods;
-    const bool is_near = 5 * period > 4 * camera.period && 4 * period < 5 * camera.period;
-    camera.period = is_near ? camera.period + Share(kNew, period - camera.period) : period;
+    camera.periods.at(camera.next_period) = (picture.taken_at - camera.newest->taken_at) / periods;
+    camera.next_period = (camera.next_period + 1) % camera.periods.size();
+    std::array<Duration, kPeriods> sorted = camera.periods;
+    std::nth_element(sorted.begin(), sorted.begin() + kPeriods / 2, sorted.end());
+    camera.period = sorted[kPeriods / 2];
   }
   camera.newest =
       CapturedPicture{{}, picture.number, picture.taken_at, picture.arrived_at, picture.stamp_source};

@@ -1,6 +1,8 @@
 // Puts the pictures of several live cameras together, by their stamps, as they come.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <functional>
@@ -52,11 +54,15 @@ class FrameSetAssembler {
   [[nodiscard]] std::optional<CaptureClock::time_point> Deadline() const;
 
  private:
+  static constexpr std::size_t kPeriods = 15;
+
   struct Camera {
     std::deque<CapturedPicture> waiting;
     bool is_gone = false;
     CaptureClock::duration offset{0};
-    CaptureClock::duration period{0};
+    CaptureClock::duration period{0};  // the median of the last ones
+    std::array<CaptureClock::duration, kPeriods> periods{};
+    std::size_t next_period = 0;            // the oldest of them
     std::optional<CapturedPicture> newest;  // without its pixels
     CaptureClock::duration phase{0};        // how far its pictures lie behind the leader's, smoothed
     int phases = 0;                         // from how many sets that is known, up to a limit

@@ -21,7 +21,10 @@ struct FakeGigeCamera::Impl {
     const bool is_colour = format == ARV_PIXEL_FORMAT_RGB_8_PACKED;
     cv::Mat pixels(arv_buffer_get_image_height(buffer), arv_buffer_get_image_width(buffer),
                    is_colour ? CV_8UC3 : CV_8UC1, data);
-    impl.fill(impl.sent++, {static_cast<double>(exposure_us), gain}, pixels);
+    const Clock::time_point taken_at =
+        impl.fill(impl.sent++, {static_cast<double>(exposure_us), gain}, pixels);
+    const auto ago = std::chrono::duration_cast<std::chrono::microseconds>(Clock::now() - taken_at);
+    arv_buffer_set_timestamp(buffer, static_cast<guint64>(g_get_real_time() - ago.count()) * 1000);
   }
 };
 

@@ -216,6 +216,21 @@ TEST(FrameSetAssembler, TheOneInTheMiddleLeads) {
   EXPECT_GE(Complete(led), led.sets.size() - 2);
 }
 
+// As of a camera that was busy: its next number comes two periods later.
+TEST(FrameSetAssembler, APictureThatACameraLeavesOutUncountedIsMissing) {
+  for (const CameraIndex camera : {0U, 1U}) {
+    std::vector<Event> events = Simulate({{}, {}, {}}, 2.0, 8);
+    std::erase_if(events, [&](const Event& e) { return e.camera == camera && e.picture.number == 30; });
+    for (Event& event : events)
+      if (event.camera == camera && event.picture.number > 30) --event.picture.number;
+    const Outcome outcome = Assemble(events, 3);
+    ExpectSound(events, outcome);
+    ASSERT_EQ(outcome.sets.size(), 60U);
+    EXPECT_EQ(Complete(outcome), 59U);
+    EXPECT_FALSE(outcome.sets[30].set.pictures[camera].has_value());
+  }
+}
+
 TEST(FrameSetAssembler, ACameraThatIsGoneDelaysNobody) {
   const std::vector<Event> events = Simulate({{}, {}, {.gone_from_s = 1.0, .gone_to_s = 2.0}}, 3.0, 4);
   const Outcome outcome = Assemble(events, 3);

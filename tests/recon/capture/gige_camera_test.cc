@@ -54,6 +54,7 @@ class GigeCameras : public ::testing::Test {
           exposure_us_[static_cast<std::size_t>(i)] = settings.exposure_us;
           const cv::Mat picture = NumberedPicture(static_cast<int>(index % 256), pixels.cols, pixels.rows);
           cv::extractChannel(picture, pixels, 0);
+          return FakeGigeCamera::Clock::now();
         });
   }
 
