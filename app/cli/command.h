@@ -63,6 +63,7 @@ struct Choice {
 void AddBenchCommand(CLI::App& app, Choice* choice);
 void AddBoardCommand(CLI::App& app, Choice* choice);
 void AddCalibrateCommand(CLI::App& app, Choice* choice);
+void AddCamerasCommand(CLI::App& app, Choice* choice);
 void AddClashCommand(CLI::App& app, Choice* choice);
 void AddClearanceCommand(CLI::App& app, Choice* choice);
 void AddContactsCommand(CLI::App& app, Choice* choice);

@@ -139,6 +139,7 @@ int RunCommandLine(int argc, char** argv, const OpenConsole& open_console) {
   AddCoverageCommand(app, &choice);
   AddClearanceCommand(app, &choice);
   AddCalibrateCommand(app, &choice);
+  AddCamerasCommand(app, &choice);
   AddRigCommand(app, &choice);
   AddGaugeCommand(app, &choice);
   AddClashCommand(app, &choice);

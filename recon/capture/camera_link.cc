@@ -162,6 +162,8 @@ class CameraLink::Session {
         return std::nullopt;
       case CameraNewsKind::kAlive:
         return WhatIsOverdue();
+      case CameraNewsKind::kListed:
+        break;
       case CameraNewsKind::kFailed:
         return core::PrintableLine(text, kLongestPacketBytes);
     }

@@ -58,6 +58,7 @@ class Server {
     const std::optional<Packet> packet = ReceivePacket(socket_);
     const auto order = packet ? packet->Head<CameraOrder>() : std::nullopt;
     if (!order) std::_Exit(EXIT_FAILURE);
+    if (packet->Text<CameraOrder>() == kListOrder) List();
     request_ = RequestOf(*order, packet->Text<CameraOrder>());
     MapSlots();
     // Buffers of the driver, pictures being decoded, and the libraries.
@@ -85,6 +86,15 @@ class Server {
   }
 
  private:
+  [[noreturn]] void List() {
+    std::string text;
+    for (const std::string& camera : FindV4l2Cameras()) text += camera + '\n';
+    for (const std::string& camera : FindGenicamCameras()) text += "gige:" + camera + '\n';
+    (void)SendPacket(socket_, CameraNews{.kind = CameraNewsKind::kListed},
+                     std::string_view(text).substr(0, kLongestPacketBytes / 2));
+    std::_Exit(EXIT_SUCCESS);
+  }
+
   void MapSlots() {
     const std::size_t picture_bytes = std::size_t{3} * static_cast<std::size_t>(request_.width_px) *
                                       static_cast<std::size_t>(request_.height_px);

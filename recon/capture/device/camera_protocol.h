@@ -24,6 +24,9 @@ inline constexpr std::int32_t kPictureSlots = 4;
 // The camera program says at least this often that it is well.
 inline constexpr std::chrono::milliseconds kSignOfLife{200};
 
+// As location: list the cameras that there are, a line each, and end. No memory is shared then.
+inline constexpr std::string_view kListOrder = "list";
+
 // The text after it is the location.
 struct CameraOrder {
   std::int32_t width_px = 0;
@@ -46,6 +49,7 @@ struct CommandToCamera {
 
 enum class CameraNewsKind : std::int32_t {
   kStarted,  // with the settings as read back; the text is the name and the warnings, a line each
+  kListed,   // the text is the list
   kPicture,
   kAlive,
   kFailed,  // the text says why; the camera program ends

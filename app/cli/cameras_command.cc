@@ -1,0 +1,134 @@
+// elbowroom cameras list|check: which live cameras there are, and how well those of a rig do.
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "app/cli/command.h"
+#include "app/cli/vector_json.h"
+#include "app/control/cameras/camera_check.h"
+#include "recon/rig_files/rig_file.h"
+
+namespace elbowroom::cli {
+namespace {
+
+nlohmann::json SpreadJson(const std::optional<core::Spread>& spread) {
+  if (!spread) return nullptr;
+  return {{"median", spread->median}, {"p95", spread->p95}, {"max", spread->max}};
+}
+
+const char* NameOf(const std::optional<recon::StampSource>& source) {
+  if (!source) return "none";
+  switch (*source) {
+    case recon::StampSource::kDevice:
+      return "camera";
+    case recon::StampSource::kDriver:
+      return "driver";
+    case recon::StampSource::kArrival:
+      return "arrival";
+  }
+  return "";
+}
+
+nlohmann::json CameraJson(const control::CameraHealth& camera) {
+  nlohmann::json losses = nlohmann::json::object();
+  for (const auto& [reason, count] : camera.losses) losses[std::string(core::ToString(reason))] = count;
+  const recon::DeviceReport& report = camera.state.report;
+  return {{"name", camera.name},
+          {"device", report.name},
+          {"running", camera.state.presence == recon::CameraPresence::kRunning},
+          {"frames", camera.frames},
+          {"lost", camera.lost()},
+          {"losses", losses},
+          {"unpaired", camera.unpaired},
+          {"rate_hz", OrNull(camera.rate_hz)},
+          {"latency_ms", camera.latency_ms ? nlohmann::json(camera.latency_ms->median) : nlohmann::json()},
+          {"latency", SpreadJson(camera.latency_ms)},
+          {"skew_ms", SpreadJson(camera.skew_ms)},
+          {"stamps", NameOf(camera.stamps)},
+          {"exposure_us", OrNull(report.exposure_us)},
+          {"gain_db", OrNull(report.gain_db)},
+          {"white_balance_k", OrNull(report.white_balance_k)},
+          {"mean_level", camera.mean_level},
+          {"saturated_share", camera.saturated_share},
+          {"sharpness", camera.sharpness},
+          {"advice", camera.advice}};
+}
+
+std::string CameraText(const control::CameraHealth& camera) {
+  std::string text = fmt::format("{}: {} pictures, {} lost", camera.name, camera.frames, camera.lost());
+  if (camera.rate_hz) text += fmt::format(", {:.2f} Hz", *camera.rate_hz);
+  if (camera.latency_ms)
+    text += fmt::format(", {:.1f} ms from exposure to arrival", camera.latency_ms->median);
+  if (camera.skew_ms)
+    text += fmt::format(", skew {:.1f} ms (95 %: {:.1f})", camera.skew_ms->median, camera.skew_ms->p95);
+  if (camera.state.report.exposure_us)
+    text += fmt::format(", exposure {:.0f} us", *camera.state.report.exposure_us);
+  if (camera.state.report.gain_db) text += fmt::format(", gain {:.1f} dB", *camera.state.report.gain_db);
+  text += fmt::format(", level {:.0f}, sharpness {:.0f}\n", camera.mean_level, camera.sharpness);
+  if (camera.advice.empty()) return text + "  all is well\n";
+  for (const std::string& line : camera.advice) text += "  " + line + "\n";
+  return text;
+}
+
+struct CheckOptions {
+  std::filesystem::path rig_file;
+  double seconds = 5.0;
+};
+
+CommandResult Check(const CheckOptions& options, const CommandContext& context) {
+  const recon::RigFile rig_file = recon::ReadRigFile(options.rig_file);
+  const control::RigHealth health =
+      control::CheckCameras(rig_file, options.seconds, context.progress, context.stop);
+  CommandResult result;
+  result.json = {{"cameras", nlohmann::json::array()},
+                 {"sets", health.sets},
+                 {"incomplete_sets", health.incomplete_sets},
+                 {"decision_ms", SpreadJson(health.decision_ms)},
+                 {"seconds", health.seconds},
+                 {"well", health.is_well()}};
+  for (const control::CameraHealth& camera : health.cameras) {
+    result.json["cameras"].push_back(CameraJson(camera));
+    result.text += CameraText(camera);
+  }
+  result.text += fmt::format("{} frame sets in {:.1f} s, {} of them lack a camera", health.sets,
+                             health.seconds, health.incomplete_sets);
+  return result;
+}
+
+CommandResult List(const CommandContext& context) {
+  CommandResult result;
+  const std::vector<std::string> cameras = control::ListCameras(context.stop);
+  result.json = {{"cameras", cameras}};
+  for (const std::string& camera : cameras) result.text += camera + "\n";
+  if (cameras.empty()) {
+    result.text = "no camera was found\n";
+    result.hint = "a stream (rtsp://...) can't be found; name its address in RIG.yml";
+  }
+  result.text.pop_back();
+  return result;
+}
+
+}  // namespace
+
+void AddCamerasCommand(CLI::App& app, Choice* choice) {
+  CLI::App* cameras = app.add_subcommand("cameras", "live cameras");
+  cameras->require_subcommand(1);
+  CLI::App* list = cameras->add_subcommand("list", "what is plugged in or answers on the network");
+  list->callback([=] { choice->action = List; });
+
+  CLI::App* check =
+      cameras->add_subcommand("check", "rate, losses, skew, latency and picture of every camera");
+  auto options = std::make_shared<CheckOptions>();
+  check->add_option("RIG", options->rig_file, "the rig (RIG.yml) with live cameras")->required();
+  constexpr double kLongestS = 3600.0;
+  check->add_option("--seconds", options->seconds, "how long to look (default: 5)")
+      ->check(CLI::Range(0.1, kLongestS));
+  check->callback([=] {
+    choice->action = [options](const CommandContext& context) { return Check(*options, context); };
+  });
+}
+
+}  // namespace elbowroom::cli
