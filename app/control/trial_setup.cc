@@ -83,12 +83,13 @@ std::shared_ptr<recon::FrameSetSource> RecordedWithViewer(std::shared_ptr<recon:
                                                           const std::stop_token& stop,
                                                           std::vector<std::string>* warnings) {
   auto footage = std::make_shared<recon::ViewerFootage>(std::move(rig), viewer.camera, viewer.location, stop);
-  const auto viewer_frames = footage->viewer_frame_count(), rig_frames = footage->frame_count();
-  if (viewer_frames && (!rig_frames || *viewer_frames < *rig_frames)) {
+  const core::FrameIndex viewer_frames = footage->viewer_frame_count();
+  const std::optional<core::FrameIndex> rig_frames = footage->frame_count();
+  if (!rig_frames || viewer_frames < *rig_frames) {
     warnings->push_back(
         fmt::format("the viewer's footage '{}' ends after {} frames; later ones take their colours from the "
                     "rig's cameras",
-                    viewer.location, *viewer_frames));
+                    viewer.location, viewer_frames));
   }
   return footage;
 }

@@ -12,7 +12,7 @@
 
 namespace elbowroom::recon {
 
-// An open video or camera. Thread: one at a time.
+// An open video. Thread: one at a time.
 class VideoStream {
  public:
   virtual ~VideoStream() = default;
@@ -33,9 +33,8 @@ struct PictureCodecs {
   cv::Mat (*decode)(std::string_view bytes, DecodedAs as);
   // `extension` names the format: ".png".
   std::vector<std::uint8_t> (*encode)(const cv::Mat& image, const std::string& extension);
-  // Open a file or an address through FFmpeg, or a camera by its number. Null if it can't be opened.
+  // Opens a file through FFmpeg. Null if it can't be opened.
   std::unique_ptr<VideoStream> (*open_video)(const std::string& location);
-  std::unique_ptr<VideoStream> (*open_device)(int number);
 };
 
 // Loads them at the first call. Throws: Error{kFile} if that fails. Thread: any.

@@ -61,7 +61,6 @@ std::unique_ptr<VideoStream> Open(const auto&... arguments) {
 const elbowroom::recon::PictureCodecs& ElbowroomPictureCodecs() {
   using namespace elbowroom::recon;
   static constexpr PictureCodecs kCodecs = {
-      &Decode, &Encode, [](const std::string& location) { return Open(location, int{cv::CAP_FFMPEG}); },
-      [](int number) { return Open(number); }};
+      &Decode, &Encode, [](const std::string& location) { return Open(location, int{cv::CAP_FFMPEG}); }};
   return kCodecs;
 }

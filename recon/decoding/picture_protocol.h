@@ -25,7 +25,6 @@ struct WorkerOrder {
 enum class PictureTask : std::int32_t {
   kDecode,      // decode the file in the shared memory
   kOpenVideo,   // open the video that the request's text names
-  kOpenDevice,  // open the camera with this number
   kGrab,        // pass over up to so many pictures of the video
   kNext,        // decode the video's next picture
   kEncode,      // encode the pixels in the shared memory; the text names the kind of file: ".png"
@@ -34,7 +33,7 @@ enum class PictureTask : std::int32_t {
 struct PictureRequest {
   PictureTask task = PictureTask::kDecode;
   DecodedAs as = DecodedAs::kStored;
-  std::int64_t number = 0;    // of the file's bytes, of the device, or of pictures to grab
+  std::int64_t number = 0;    // of the file's bytes, or of pictures to grab
   std::int32_t width_px = 0;  // of the picture that is expected, or of the pixels to encode
   std::int32_t height_px = 0;
   std::int32_t type = 0;   // OpenCV's, of pixels to encode

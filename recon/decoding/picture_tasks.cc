@@ -88,10 +88,6 @@ class Worker {
         video_.reset();  // before the next takes its memory
         video_ = codecs_.open_video(text);
         return Opened();
-      case PictureTask::kOpenDevice:
-        video_.reset();
-        video_ = codecs_.open_device(static_cast<int>(request.number));
-        return Opened();
       case PictureTask::kGrab:
         return Grab(request.number, request.tries);
       case PictureTask::kNext:

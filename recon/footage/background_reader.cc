@@ -11,6 +11,7 @@
 #include "recon/footage/background.h"
 #include "recon/footage/image_source.h"
 #include "recon/footage/per_camera.h"
+#include "recon/rig_files/source_location.h"
 
 namespace elbowroom::recon {
 namespace {
@@ -34,14 +35,13 @@ BackgroundReference ReadOne(const CameraSources& sources, const core::CameraMode
                                                 "background video or image, or masks",
                                                 camera.name()));
   }
-  const auto source = OpenImageSource(sources.background, camera, stop);
-  const auto count = source->frame_count();
-  if (!count) {
+  if (IsLive(sources.background)) {
     throw Error(ErrorKind::kFormat,
                 fmt::format("camera '{}': background '{}' must be recorded footage or an image",
                             camera.name(), sources.background));
   }
-  const FrameIndex used = std::min<FrameIndex>(*count, BackgroundAccumulator::kMostFrames);
+  const auto source = OpenImageSource(sources.background, camera, stop);
+  const FrameIndex used = std::min<FrameIndex>(source->frame_count(), BackgroundAccumulator::kMostFrames);
   ticks.Push({used, 0});
   BackgroundAccumulator accumulator;
   for (FrameIndex i = 0; i < used; ++i) {

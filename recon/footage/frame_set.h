@@ -19,12 +19,10 @@
 namespace elbowroom::recon {
 
 struct CameraFrame {
-  cv::Mat image_bgr;                        // 8-bit, 3 channels; empty where the camera brings ready masks
-  std::optional<core::BitMask> ready_mask;  // then there is nothing to segment
+  cv::Mat image_bgr;  // 8-bit, 3 channels; empty where the camera brings ready masks
+  std::optional<core::BitMask> ready_mask = std::nullopt;  // then there is nothing to segment
   // Of a picture that has one: of a live camera, or of footage that was recorded with stamps.
   std::optional<core::CameraStamp> stamp = std::nullopt;
-  // When a live camera's picture came; nothing for a recorded frame.
-  std::optional<std::chrono::steady_clock::time_point> captured_at = std::nullopt;
 };
 
 // What a camera outside of the rig saw (recon/footage/viewer_footage.h).

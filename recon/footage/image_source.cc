@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "recon/footage/image_sequence.h"
-#include "recon/footage/live_camera.h"
 #include "recon/footage/source_subject.h"
 #include "recon/footage/video_decoder.h"
 #include "recon/footage/video_file.h"
@@ -28,9 +27,7 @@ class ImageFiles : public ImageSource {
         files_(FindImageFiles(subject_.location, subject_.who)),
         reader_(subject_.who, cv::Size(subject_.width_px, subject_.height_px)) {}
 
-  [[nodiscard]] std::optional<FrameIndex> frame_count() const override {
-    return static_cast<FrameIndex>(files_.size());
-  }
+  [[nodiscard]] FrameIndex frame_count() const override { return static_cast<FrameIndex>(files_.size()); }
   [[nodiscard]] std::optional<double> frame_rate_hz() const override { return std::nullopt; }
 
   [[nodiscard]] std::optional<SourcePicture> Read(FrameIndex index, const std::stop_token& stop) override {
@@ -49,12 +46,11 @@ class ImageFiles : public ImageSource {
 
 std::unique_ptr<ImageSource> Open(SourceSubject subject, const std::stop_token& stop) {
   switch (KindOf(subject.location)) {
+    case SourceKind::kDevice:
     case SourceKind::kGenicam:
+    case SourceKind::kUrl:
       subject.Fail(
           fmt::format("'{}' is a live camera; here only recorded footage can be read", subject.location));
-    case SourceKind::kDevice:
-    case SourceKind::kUrl:
-      return OpenLiveCamera(std::move(subject), stop);
     case SourceKind::kVideo:
       return OpenVideoFile(std::move(subject), stop);
     case SourceKind::kSequence:

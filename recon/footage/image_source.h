@@ -1,7 +1,6 @@
 // One camera's pictures by number, wherever they are kept.
 #pragma once
 
-#include <chrono>
 #include <memory>
 #include <opencv2/core/mat.hpp>
 #include <optional>
@@ -15,9 +14,6 @@ namespace elbowroom::recon {
 
 struct SourcePicture {
   cv::Mat image_bgr;  // 8-bit BGR of the camera's size, in memory of its own
-  // When the picture of a live camera came. Nothing for a recorded one: its number and the rate give its
-  // time.
-  std::optional<std::chrono::steady_clock::time_point> captured_at = std::nullopt;
 };
 
 // Thread: one reader.
@@ -25,23 +21,16 @@ class ImageSource {
  public:
   virtual ~ImageSource() = default;
 
-  // Nothing for a live camera. Of a video it is what the container promises, until Read has met the video's
-  // end. Thread: any.
-  [[nodiscard]] virtual std::optional<core::FrameIndex> frame_count() const = 0;
+  // Of a video it is what the container promises, until Read has met the video's end. Thread: any.
+  [[nodiscard]] virtual core::FrameIndex frame_count() const = 0;
   [[nodiscard]] virtual std::optional<double> frame_rate_hz() const = 0;  // if the file says
 
   // Nothing at and after the end. Reading in order is fast. Going back in a video decodes it again from its
-  // beginning, since only that is right for every codec. A live camera ignores the index: it gives its next
-  // picture that isn't damaged, and waits for it as long as the camera is there. Throws: Error{kRange} for an
-  // index below 0; Error{kFile} naming camera, file and (about) the frame for a picture that can't be read,
-  // is damaged so that a decoder reports it, or is of another size than the camera's; Error{kCamera} when a
-  // live camera's pictures ended, or all of them were damaged for more than 3 s; Error{kCancelled} at once on
-  // a stop.
+  // beginning, since only that is right for every codec. Throws: Error{kRange} for an index below 0;
+  // Error{kFile} naming camera, file and (about) the frame for a picture that can't be read, is damaged so
+  // that a decoder reports it, or is of another size than the camera's; Error{kCancelled} at once on a stop.
   [[nodiscard]] virtual std::optional<SourcePicture> Read(core::FrameIndex index,
                                                           const std::stop_token& stop = {}) = 0;
-
-  // The number of damaged pictures of a live camera that were passed over. Thread: any.
-  [[nodiscard]] virtual core::FrameIndex left_out() const { return 0; }
 };
 
 // Opens the source that `location` (a resolved one of CameraSources) names. Of a video, the container's

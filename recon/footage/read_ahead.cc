@@ -8,12 +8,10 @@ namespace elbowroom::recon {
 namespace {
 
 constexpr std::size_t kFramesAhead = 4;
-// The latest, and one more, so that the end of a stream does not push out its last picture.
-constexpr std::size_t kLiveFrames = 2;
 
 }  // namespace
 
-ReadAhead::ReadAhead(ReadFrame read, Footage footage) : read_(std::move(read)), footage_(footage) {}
+ReadAhead::ReadAhead(ReadFrame read) : read_(std::move(read)) {}
 
 ReadAhead::~ReadAhead() {
   thread_.request_stop();
@@ -28,11 +26,8 @@ void ReadAhead::Stop() {
 
 void ReadAhead::Expect(core::FrameIndex index) {
   if (next_ == index) return;
-  const bool is_live = footage_ == Footage::kLive;
-  if (is_live) thread_.request_stop();  // not within a recorded frame: its video would be opened again
-  Stop();
-  queue_ = is_live ? std::make_unique<Queue>(kLiveFrames, core::WhenFull::kDropOldest)
-                   : std::make_unique<Queue>(kFramesAhead, core::WhenFull::kBlock);
+  Stop();  // not within a frame: its video would be opened again
+  queue_ = std::make_unique<Queue>(kFramesAhead, core::WhenFull::kBlock);
   next_ = index;
   thread_ = std::jthread(
       [this, queue = queue_.get(), index](const std::stop_token& stop) { Run(*queue, index, stop); });
@@ -66,15 +61,13 @@ std::optional<CameraFrame> ReadAhead::Take(const std::stop_token& stop) {
 }
 
 std::unique_ptr<ReadAhead> ReadAheadOf(std::shared_ptr<ImageSource> source) {
-  const auto footage = source->frame_count() ? ReadAhead::Footage::kRecorded : ReadAhead::Footage::kLive;
   auto read = [source = std::move(source)](core::FrameIndex index, const std::stop_token& stop) {
     std::optional<CameraFrame> frame;
     if (std::optional<SourcePicture> picture = source->Read(index, stop))
-      frame.emplace(
-          CameraFrame{std::move(picture->image_bgr), std::nullopt, std::nullopt, picture->captured_at});
+      frame.emplace(CameraFrame{std::move(picture->image_bgr)});
     return frame;
   };
-  return std::make_unique<ReadAhead>(std::move(read), footage);
+  return std::make_unique<ReadAhead>(std::move(read));
 }
 
 }  // namespace elbowroom::recon

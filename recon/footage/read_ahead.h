@@ -1,4 +1,4 @@
-// A camera's capture thread: it reads the next frames while earlier ones are still being processed.
+// A camera's reading thread: it reads the next frames while earlier ones are still being processed.
 #pragma once
 
 #include <exception>
@@ -18,14 +18,10 @@ namespace elbowroom::recon {
 // Thread: one reader; `read` runs on this object's own thread only.
 class ReadAhead {
  public:
-  // Nothing at and after the end. It must return at once on a stop, since a camera may have no next picture.
+  // Nothing at and after the end. It must return at once on a stop.
   using ReadFrame = std::function<std::optional<CameraFrame>(core::FrameIndex, const std::stop_token&)>;
-  enum class Footage {
-    kRecorded,  // frames wait until they are taken
-    kLive,      // only the latest frames are kept
-  };
 
-  ReadAhead(ReadFrame read, Footage footage);
+  explicit ReadAhead(ReadFrame read);
   ~ReadAhead();
   ReadAhead(const ReadAhead&) = delete;
   ReadAhead& operator=(const ReadAhead&) = delete;
@@ -48,13 +44,12 @@ class ReadAhead {
   void Run(Queue& queue, core::FrameIndex begin, const std::stop_token& stop) const;
 
   ReadFrame read_;
-  Footage footage_;
   std::optional<core::FrameIndex> next_;  // the frame that the queue yields next
   std::unique_ptr<Queue> queue_;
   std::jthread thread_;
 };
 
-// A source's pictures. Thread: the source belongs to the capture thread from then on, but for what it says
+// A source's pictures. Thread: the source belongs to the reading thread from then on, but for what it says
 // any thread may call.
 [[nodiscard]] std::unique_ptr<ReadAhead> ReadAheadOf(std::shared_ptr<ImageSource> source);
 

@@ -45,7 +45,7 @@ ReadAhead::ReadFrame MasksOf(std::vector<std::filesystem::path> files, const cor
     std::optional<CameraFrame> frame;
     if (index < static_cast<FrameIndex>(files.size())) {
       const std::filesystem::path& file = files[static_cast<std::size_t>(index)];
-      frame.emplace(CameraFrame{{}, ReadSizedMask(*reader, file, camera, stop), {}});
+      frame.emplace(CameraFrame{{}, ReadSizedMask(*reader, file, camera, stop)});
     }
     return frame;
   };
@@ -70,10 +70,7 @@ struct RecordedRig::Camera {
   FrameIndex masks = 0;                       // the number of ready masks
   std::unique_ptr<ReadAhead> frames;
 
-  // Nothing: a live camera.
-  [[nodiscard]] std::optional<FrameIndex> frame_count() const {
-    return source != nullptr ? source->frame_count() : masks;
-  }
+  [[nodiscard]] FrameIndex frame_count() const { return source != nullptr ? source->frame_count() : masks; }
 };
 
 RecordedRig::Camera RecordedRig::OpenCamera(const CameraSources& sources, const core::CameraModel& camera,
@@ -82,8 +79,7 @@ RecordedRig::Camera RecordedRig::OpenCamera(const CameraSources& sources, const 
   if (!sources.masks.empty()) {
     std::vector<std::filesystem::path> files = FindMaskFiles(sources.masks, who);
     const auto count = static_cast<FrameIndex>(files.size());
-    return {sources.masks, nullptr, count,
-            std::make_unique<ReadAhead>(MasksOf(std::move(files), camera), ReadAhead::Footage::kRecorded)};
+    return {sources.masks, nullptr, count, std::make_unique<ReadAhead>(MasksOf(std::move(files), camera))};
   }
   if (sources.frames.empty()) {
     throw Error(ErrorKind::kFormat, fmt::format("{}: the rig names neither frames nor masks; add one", who));
@@ -101,13 +97,6 @@ void RequireOneRate(const CameraRate& one, const CameraRate& other) {
               fmt::format("camera '{}' runs at {:.3g} frames/s and camera '{}' at {:.3g}; frames of one "
                           "number must be of one instant: use footage of one rate",
                           one.camera, one.frames_hz, other.camera, other.frames_hz));
-}
-
-void AddWarningOf(const ImageSource& source, const std::string& camera, std::vector<std::string>* warnings) {
-  if (const FrameIndex left_out = source.left_out(); left_out > 0) {
-    warnings->push_back(fmt::format("camera '{}': {} damaged live {} left out", camera, left_out,
-                                    left_out == 1 ? "picture was" : "pictures were"));
-  }
 }
 
 RecordedRig::RecordedRig(RigFile rig_file, std::stop_token stop) : rig_file_(std::move(rig_file)) {
@@ -139,9 +128,9 @@ void RecordedRig::FindFrameRate() {
 void RecordedRig::FindShortest() {
   shortest_source_.reset();
   for (core::CameraIndex i = 0; i < cameras_.size(); ++i) {
-    const auto frames = cameras_[i].frame_count();
-    if (frames && (!shortest_source_ || *frames < shortest_source_->frames))
-      shortest_source_ = ShortestSource{i, cameras_[i].location, *frames};
+    const FrameIndex frames = cameras_[i].frame_count();
+    if (!shortest_source_ || frames < shortest_source_->frames)
+      shortest_source_ = ShortestSource{i, cameras_[i].location, frames};
   }
 }
 
@@ -179,19 +168,7 @@ std::optional<FrameSet> RecordedRig::TryRead(FrameIndex index, std::stop_token s
     return std::nullopt;
   }
   if (failure) std::rethrow_exception(failure);
-  if (const auto captured_at = set.cameras.front().captured_at; captured_at && !shortest_source_) {
-    if (!first_capture_) first_capture_ = captured_at;
-    set.time_s = std::chrono::duration<double>(*captured_at - *first_capture_).count();
-  }
   return set;
-}
-
-std::vector<std::string> RecordedRig::Warnings() const {
-  std::vector<std::string> warnings;
-  for (core::CameraIndex i = 0; i < cameras_.size(); ++i)
-    if (cameras_[i].source != nullptr)
-      AddWarningOf(*cameras_[i].source, rig_file_.rig.cameras[i].name(), &warnings);
-  return warnings;
 }
 
 std::vector<BackgroundReference> RecordedRig::ReadBackgrounds(const core::Progress& progress,

@@ -1,7 +1,6 @@
-// A rig's frame sets from what RIG.yml names: videos, image sequences, ready masks, live cameras.
+// A rig's frame sets from what RIG.yml names: videos, image sequences, ready masks.
 #pragma once
 
-#include <chrono>
 #include <memory>
 #include <optional>
 #include <stop_token>
@@ -29,13 +28,9 @@ struct CameraRate {
 // Throws: Error{kFormat} naming both cameras when their rates differ by more than containers round.
 void RequireOneRate(const CameraRate& one, const CameraRate& other);
 
-// Adds how many damaged pictures of a live camera were left out, if any were.
-void AddWarningOf(const ImageSource& source, const std::string& camera, std::vector<std::string>* warnings);
-
 // Frame i of a set is frame i of every camera's source. Times come from the videos' frame rate (25 Hz if none
-// gives one), or from the clock if all sources are live. A live camera brings its latest picture. A camera
-// with ready masks brings those and no picture. Thread: one reader; a capture thread a camera reads a few
-// frames ahead.
+// gives one). A camera with ready masks brings those and no picture. Thread: one reader; a capture thread a
+// camera reads a few frames ahead.
 class RecordedRig : public FrameSetSource {
  public:
   // Opens every source, in parallel. Throws: Error naming camera and file for a source that is missing,
@@ -53,7 +48,6 @@ class RecordedRig : public FrameSetSource {
 
   [[nodiscard]] std::string WhatEndsIt() const override;
   [[nodiscard]] std::optional<FrameSet> TryRead(core::FrameIndex index, std::stop_token stop) override;
-  [[nodiscard]] std::vector<std::string> Warnings() const override;
   [[nodiscard]] std::vector<BackgroundReference> ReadBackgrounds(const core::Progress& progress,
                                                                  std::stop_token stop) override;
 
@@ -68,7 +62,6 @@ class RecordedRig : public FrameSetSource {
   RigFile rig_file_;
   std::optional<ShortestSource> shortest_source_;
   double frame_rate_hz_ = 25.0;
-  std::optional<std::chrono::steady_clock::time_point> first_capture_;  // of live cameras
   std::vector<Camera> cameras_;
 };
 

@@ -21,11 +21,6 @@ Decoded<OpenedVideo> VideoDecoder::OpenVideo(const std::string& location, const 
   return OpenedBy(worker_.Ask({.task = PictureTask::kOpenVideo}, location, stop, most_time));
 }
 
-Decoded<OpenedVideo> VideoDecoder::OpenDevice(int number, const std::stop_token& stop,
-                                              const MostTime& most_time) {
-  return OpenedBy(worker_.Ask({.task = PictureTask::kOpenDevice, .number = number}, {}, stop, most_time));
-}
-
 Decoded<core::FrameIndex> VideoDecoder::Skip(core::FrameIndex most, const std::stop_token& stop,
                                              const MostTime& most_time, int tries) {
   const PictureRequest request{.task = PictureTask::kGrab, .number = most, .tries = tries};

@@ -43,8 +43,6 @@ class VideoDecoder {
   // All throw: Error{kCancelled} at once on a stop; Error{kFile} when no decoder can be started.
   [[nodiscard]] Decoded<OpenedVideo> OpenVideo(const std::string& location, const std::stop_token& stop,
                                                const MostTime& most_time);
-  [[nodiscard]] Decoded<OpenedVideo> OpenDevice(int number, const std::stop_token& stop,
-                                                const MostTime& most_time);
   // Passes over up to `most` pictures, trying each up to `tries` times, and returns their number. If it is
   // less than `most`, there may still be more pictures. Nothing means that the next one can't be decoded, or
   // that there is none.

@@ -48,7 +48,7 @@ class VideoFile : public ImageSource {
       subject_.Fail(fmt::format("no frame of '{}' can be decoded; {}", subject_.location, kWhatToDo));
   }
 
-  [[nodiscard]] std::optional<FrameIndex> frame_count() const override { return count_; }
+  [[nodiscard]] FrameIndex frame_count() const override { return count_; }
   [[nodiscard]] std::optional<double> frame_rate_hz() const override { return frame_rate_hz_; }
 
   [[nodiscard]] std::optional<SourcePicture> Read(FrameIndex index, const std::stop_token& stop) override {

@@ -37,12 +37,11 @@ std::optional<FrameSet> ViewerFootage::TryRead(core::FrameIndex index, std::stop
 
 std::vector<std::string> ViewerFootage::Warnings() const {
   std::vector<std::string> warnings = rig_->Warnings();
-  AddWarningOf(*source_, camera_->name(), &warnings);
-  if (end_ && end_ < promised_) {
+  if (end_ && *end_ < promised_) {
     warnings.push_back(
         fmt::format("the viewer's footage '{}' ended after {} frames of {} promised; later ones take their "
                     "colours from the rig's cameras",
-                    location_, *end_, *promised_));
+                    location_, *end_, promised_));
   }
   return warnings;
 }

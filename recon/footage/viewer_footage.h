@@ -26,8 +26,8 @@ class ViewerFootage : public FrameSetSource {
 
   [[nodiscard]] const core::Rig& rig() const override { return rig_->rig(); }
   [[nodiscard]] std::optional<core::FrameIndex> frame_count() const override { return rig_->frame_count(); }
-  // The number of the viewer camera's frames, as promised until its end has been met; nothing for a live one.
-  [[nodiscard]] std::optional<core::FrameIndex> viewer_frame_count() const { return source_->frame_count(); }
+  // The number of the viewer camera's frames, as promised until its end has been met.
+  [[nodiscard]] core::FrameIndex viewer_frame_count() const { return source_->frame_count(); }
   [[nodiscard]] std::string WhatEndsIt() const override { return rig_->WhatEndsIt(); }
 
   [[nodiscard]] std::optional<FrameSet> TryRead(core::FrameIndex index, std::stop_token stop) override;
@@ -40,7 +40,7 @@ class ViewerFootage : public FrameSetSource {
   std::shared_ptr<const core::CameraModel> camera_;
   std::string location_;
   std::shared_ptr<const ImageSource> source_;
-  std::optional<core::FrameIndex> promised_;
+  core::FrameIndex promised_ = 0;
   std::optional<core::FrameIndex> end_;  // of the viewer camera's footage, once met
   std::unique_ptr<ReadAhead> pictures_;
 };

@@ -49,13 +49,13 @@ std::vector<StampedSet> SetsByNumber(const std::vector<OpenedCamera>& cameras,
                                      const std::optional<double>& period_s) {
   FrameIndex longest = 0;
   for (const OpenedCamera& camera : cameras)
-    longest = std::max(longest, camera.frames.pictures->frame_count().value_or(0));
+    longest = std::max(longest, camera.frames.pictures->frame_count());
   std::vector<StampedSet> sets(static_cast<std::size_t>(longest));
   for (std::size_t i = 0; i < sets.size(); ++i) {
     const double time_s = static_cast<double>(i) * period_s.value_or(0.0);
     for (const OpenedCamera& camera : cameras) {
       const auto frame = static_cast<FrameIndex>(i);
-      const bool has = frame < camera.frames.pictures->frame_count().value_or(0);
+      const bool has = frame < camera.frames.pictures->frame_count();
       sets[i].frames.push_back(has ? std::optional(StampedFrame{frame, time_s}) : std::nullopt);
     }
   }
@@ -135,7 +135,7 @@ class Search {
 };
 
 std::vector<FrameIndex> All(const recon::ImageSource& pictures) {
-  std::vector<FrameIndex> all(static_cast<std::size_t>(pictures.frame_count().value_or(0)));
+  std::vector<FrameIndex> all(static_cast<std::size_t>(pictures.frame_count()));
   for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<FrameIndex>(i);
   return all;
 }
@@ -159,7 +159,7 @@ void RequireStampsOfAll(const CalibrationFile& file, const std::vector<OpenedCam
               "camera '{}' has no timestamps, but others have; give stamps for all cameras or for none",
               file.cameras[i].name));
     }
-    const FrameIndex frames = cameras[i].frames.pictures->frame_count().value_or(0);
+    const FrameIndex frames = cameras[i].frames.pictures->frame_count();
     const auto stamps = static_cast<FrameIndex>(cameras[i].stamps.size());
     if (stamps > frames) {
       throw Error(
@@ -175,7 +175,7 @@ void RequireStampsOfAll(const CalibrationFile& file, const std::vector<OpenedCam
 // of it.
 void WarnOfLengths(const CalibrationFile& file, const std::vector<OpenedCamera>& cameras,
                    BoardFootage* footage) {
-  const auto length = [&](std::size_t i) { return cameras[i].frames.pictures->frame_count().value_or(0); };
+  const auto length = [&](std::size_t i) { return cameras[i].frames.pictures->frame_count(); };
   std::size_t shortest = 0, longest = 0;
   for (std::size_t i = 0; i < cameras.size(); ++i) {
     if (length(i) < length(shortest)) shortest = i;
@@ -219,7 +219,7 @@ class BoardSearch {
   std::vector<BoardPicture> Run(recon::ImageSource* pictures, std::vector<FrameIndex> frames,
                                 const std::string& camera) {
     const FrameIndex count = std::ssize(frames);
-    const FrameIndex promised = pictures->frame_count().value_or(0);
+    const FrameIndex promised = pictures->frame_count();
     Search search(pictures, std::move(frames), finder_, stop_);
     std::vector<BoardPicture> found = search.Run([&](FrameIndex looked_at) {
       progress_.Report(done_ + looked_at, total_, "looking for the board, " + camera);
@@ -262,7 +262,7 @@ BoardFootage FindBoards(const CalibrationFile& file, const core::Progress& progr
   for (std::size_t i = 0; i < cameras.size(); ++i) {
     wanted.push_back(Wanted(footage.sets, i));
     search.Expect(std::ssize(wanted.back()));
-    if (cameras[i].photos) search.Expect(cameras[i].photos->pictures->frame_count().value_or(0));
+    if (cameras[i].photos) search.Expect(cameras[i].photos->pictures->frame_count());
   }
   for (std::size_t i = 0; i < cameras.size(); ++i) {
     OpenedCamera& camera = cameras[i];
@@ -274,7 +274,7 @@ BoardFootage FindBoards(const CalibrationFile& file, const core::Progress& progr
     sightings.in_frames = search.Run(camera.frames.pictures.get(), std::move(wanted[i]), sightings.name);
     if (camera.photos) {
       recon::ImageSource& photos = *camera.photos->pictures;
-      sightings.photos = photos.frame_count().value_or(0);
+      sightings.photos = photos.frame_count();
       sightings.in_photos = search.Run(&photos, All(photos), sightings.name);
     }
     footage.cameras.push_back(std::move(sightings));
