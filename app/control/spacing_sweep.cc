@@ -58,7 +58,7 @@ std::string SweepCsv(const core::Layout& layout, const review::SpacingStudy& stu
 std::vector<sessions::FrameSummary> CompleteFrames(const sessions::SessionReader& session) {
   std::vector<sessions::FrameSummary> frames = session.frames();
   std::set<core::FrameIndex> incomplete;
-  for (const sessions::StampedFrame& frame : session.stamped_frames())
+  for (const sessions::StampRow& frame : session.stamp_rows())
     if (std::ranges::any_of(frame.stamps, [](const auto& stamp) { return !stamp; }))
       incomplete.insert(frame.frame);
   std::erase_if(frames,
