@@ -21,16 +21,6 @@ core::PartClearance ClearanceInContact(const core::PartContact& contact, double 
   return clearance;
 }
 
-// Whether the part is clear of what the hull may lack, because its cameras don't look at one instant.
-bool StaysClear(const recon::VisualHull& hull, const core::TriangleTree& part,
-                const core::RigidTransform& world_from_part, const PartReviewOptions& options,
-                std::optional<core::ErrorBudget> budget) {
-  if (!options.skew_errors || options.skew_errors->is_still()) return true;
-  budget->skew_mm = 0.0;  // it is in the contours' motion
-  const double distance_mm = options.required_clearance_mm + budget->ExpandedMm() + part.mesh().deviation_mm;
-  return options.skew_errors->StaysFarther(hull, part, world_from_part, distance_mm, options.tolerance_mm);
-}
-
 // Searches as far as the worst of the rig's errors near the part makes necessary. Where the errors at the
 // witness points turn out to be larger, as at a thin edge of the hull, and the search ended too early for a
 // verdict, it is made again, farther.
@@ -58,8 +48,7 @@ void SearchClearance(const recon::VisualHull& hull, const core::TriangleTree& pa
     }
     contact->clearance = core::PartClearance{interval, found.has_witnesses, queries, budget};
     contact->verdict = options.VerdictOf(found, needed_mm);
-    if (contact->verdict == core::Verdict::kClear &&
-        !StaysClear(hull, part, world_from_part, options, budget))
+    if (contact->verdict == core::Verdict::kClear && !options.StaysClear(hull, part, world_from_part, budget))
       contact->verdict = core::Verdict::kUndecided;
     return;
   }
@@ -110,6 +99,16 @@ std::optional<core::ErrorBudget> PartReviewOptions::WorstBudget(
     budget.skew_mm = skew_errors->WorstInMm(
         hull, {box_in_world.center(), 0.5 * box_in_world.diagonal().norm() + required_clearance_mm});
   return budget;
+}
+
+bool PartReviewOptions::StaysClear(const recon::VisualHull& hull, const core::TriangleTree& part,
+                                   const core::RigidTransform& world_from_part,
+                                   const std::optional<core::ErrorBudget>& budget) const {
+  if (!skew_errors || skew_errors->is_still()) return true;
+  core::ErrorBudget rest = budget ? *budget : GivenBudget();
+  rest.skew_mm = 0.0;  // it is in the contours' motion
+  const double distance_mm = required_clearance_mm + rest.ExpandedMm() + part.mesh().deviation_mm;
+  return skew_errors->StaysFarther(hull, part, world_from_part, distance_mm, tolerance_mm);
 }
 
 core::ErrorBudget PartReviewOptions::GivenBudget() const {

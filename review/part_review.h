@@ -45,6 +45,11 @@ struct PartReviewOptions {
                                                              const Eigen::Vector3d& x_in_world) const;
   [[nodiscard]] std::optional<core::ErrorBudget> WorstBudget(const recon::VisualHull& hull,
                                                              const Eigen::AlignedBox3d& box_in_world) const;
+  // Whether a part that is clear by its distance to the hull is so of what the hull may lack, because its
+  // cameras don't look at one instant; `budget`: what its verdict allowed for.
+  [[nodiscard]] bool StaysClear(const recon::VisualHull& hull, const core::TriangleTree& part,
+                                const core::RigidTransform& world_from_part,
+                                const std::optional<core::ErrorBudget>& budget) const;
   // Judge, with the required clearance and the rules for a refuted rig and for a missing camera.
   [[nodiscard]] core::Verdict VerdictOf(const Clearance& clearance, double allowed_mm) const;
   [[nodiscard]] core::Verdict VerdictOf(core::Verdict of_hull) const;
