@@ -28,8 +28,7 @@ void SearchClearance(const recon::VisualHull& hull, const core::TriangleTree& pa
                      const core::RigidTransform& world_from_part, const PartReviewOptions& options,
                      const std::optional<ClearanceHint>& hint, ReviewScratch* scratch,
                      core::PartContact* contact) {
-  std::optional<core::ErrorBudget> budget;
-  if (options.hull_errors) budget = options.hull_errors->WorstIn(core::BoxAround(part, world_from_part));
+  std::optional<core::ErrorBudget> budget = options.WorstBudget(hull, core::BoxAround(part, world_from_part));
   double allowed_mm = budget ? budget->ExpandedMm() : options.uncertainty_mm;
   ClearanceOptions clearance_options;
   clearance_options.tolerance_mm = options.tolerance_mm;
@@ -40,8 +39,7 @@ void SearchClearance(const recon::VisualHull& hull, const core::TriangleTree& pa
     const core::ClearanceInterval& interval = found.interval;
     queries += found.queries;
     if (budget && found.has_witnesses && !found.meets)
-      budget =
-          options.hull_errors->At(hull, interval.witness_hull_in_world_mm, interval.witness_part_in_world_mm);
+      budget = options.BudgetAt(hull, interval.witness_hull_in_world_mm, interval.witness_part_in_world_mm);
     const double needed_mm = budget ? budget->ExpandedMm() : allowed_mm;
     const bool has_ended_early = interval.lower_mm >= clearance_options.enough_mm;
     if (has_ended_early && interval.lower_mm < options.required_clearance_mm + needed_mm) {
@@ -50,6 +48,8 @@ void SearchClearance(const recon::VisualHull& hull, const core::TriangleTree& pa
     }
     contact->clearance = core::PartClearance{interval, found.has_witnesses, queries, budget};
     contact->verdict = options.VerdictOf(found, needed_mm);
+    if (contact->verdict == core::Verdict::kClear && !options.StaysClear(hull, part, world_from_part, budget))
+      contact->verdict = core::Verdict::kUndecided;
     return;
   }
 }
@@ -74,6 +74,49 @@ double PartReviewOptions::EnoughMm(double allowed_mm) const {
   return required_clearance_mm + allowed_mm + tolerance_mm;
 }
 
+std::optional<core::ErrorBudget> PartReviewOptions::BudgetAt(const recon::VisualHull& hull,
+                                                             const Eigen::Vector3d& x_of_hull,
+                                                             const Eigen::Vector3d& x_of_part) const {
+  if (!hull_errors && !skew_errors) return std::nullopt;
+  core::ErrorBudget budget = hull_errors ? hull_errors->At(hull, x_of_hull, x_of_part) : GivenBudget();
+  if (skew_errors) budget.skew_mm = skew_errors->AtMm(hull, x_of_hull, x_of_part);
+  return budget;
+}
+
+std::optional<core::ErrorBudget> PartReviewOptions::WorstBudget(const recon::VisualHull& hull,
+                                                                const Eigen::Vector3d& x_in_world) const {
+  if (!hull_errors && !skew_errors) return std::nullopt;
+  core::ErrorBudget budget = hull_errors ? hull_errors->WorstAt(x_in_world) : GivenBudget();
+  if (skew_errors) budget.skew_mm = skew_errors->WorstInMm(hull, {x_in_world, required_clearance_mm});
+  return budget;
+}
+
+std::optional<core::ErrorBudget> PartReviewOptions::WorstBudget(
+    const recon::VisualHull& hull, const Eigen::AlignedBox3d& box_in_world) const {
+  if (!hull_errors && !skew_errors) return std::nullopt;
+  core::ErrorBudget budget = hull_errors ? hull_errors->WorstIn(box_in_world) : GivenBudget();
+  if (skew_errors && !box_in_world.isEmpty())
+    budget.skew_mm = skew_errors->WorstInMm(
+        hull, {box_in_world.center(), 0.5 * box_in_world.diagonal().norm() + required_clearance_mm});
+  return budget;
+}
+
+bool PartReviewOptions::StaysClear(const recon::VisualHull& hull, const core::TriangleTree& part,
+                                   const core::RigidTransform& world_from_part,
+                                   const std::optional<core::ErrorBudget>& budget) const {
+  if (!skew_errors || skew_errors->is_still()) return true;
+  core::ErrorBudget rest = budget ? *budget : GivenBudget();
+  rest.skew_mm = 0.0;  // it is in the contours' motion
+  const double distance_mm = required_clearance_mm + rest.ExpandedMm() + part.mesh().deviation_mm;
+  return skew_errors->StaysFarther(hull, part, world_from_part, distance_mm, tolerance_mm);
+}
+
+core::ErrorBudget PartReviewOptions::GivenBudget() const {
+  core::ErrorBudget budget;
+  budget.given_mm = uncertainty_mm / core::kCoverageFactor;
+  return budget;
+}
+
 core::Verdict PartReviewOptions::VerdictOf(const Clearance& clearance, double allowed_mm) const {
   return VerdictOf(Judge(clearance, required_clearance_mm, allowed_mm));
 }
@@ -95,9 +138,8 @@ core::PartContact ReviewPart(const recon::VisualHull& hull, const core::Triangle
   if (!(options.required_clearance_mm > 0.0)) return contact;
   if (is_touched) {
     contact.clearance = ClearanceInContact(contact, part.mesh().deviation_mm);
-    if (options.hull_errors && contact.clearance->has_witnesses)
-      contact.clearance->budget =
-          options.hull_errors->WorstAt(contact.clearance->interval.witness_hull_in_world_mm);
+    const Eigen::Vector3d& at = contact.clearance->interval.witness_hull_in_world_mm;
+    if (contact.clearance->has_witnesses) contact.clearance->budget = options.WorstBudget(hull, at);
     return contact;
   }
   SearchClearance(hull, part, world_from_part, options, hint, scratch, &contact);

@@ -39,11 +39,12 @@ bool IsIn(std::span<const TouchedSpacings> touched, double spacing_mm) {
 // one value shows is used at those below.
 class SpacingJudge::PartInFrame {
  public:
-  PartInFrame(const SpacingJudge& judge, const recon::VisualHull& hull, core::PartIndex part,
+  PartInFrame(const SpacingJudge& judge, const StudyFrame& frame, core::PartIndex part,
               const Vector3d& motion_in_world)
       : judge_(judge),
         options_(judge.options_),
-        hull_(hull),
+        review_(ReviewOf(judge.options_.review, frame)),
+        hull_(*frame.hull),
         part_(part),
         tree_(judge.trees_[part]),
         motion_(motion_in_world) {
@@ -100,8 +101,23 @@ class SpacingJudge::PartInFrame {
     return std::max(options_.review.required_clearance_mm + allowed_mm, so_far.upper_mm);
   }
 
+  [[nodiscard]] static PartReviewOptions ReviewOf(PartReviewOptions review, const StudyFrame& frame) {
+    if (frame.skew_errors && !frame.skew_errors->is_still()) review.skew_errors = frame.skew_errors;
+    return review;
+  }
+
+  // The worst errors of a rig are those of hundreds of frames, the worst skew is a frame's own.
   [[nodiscard]] double AllowedMm(const core::RigidTransform& world_from_part) const {
-    return judge_.AllowedMm(part_, world_from_part);
+    if (!review_.skew_errors) return judge_.AllowedMm(part_, world_from_part);
+    return review_.WorstBudget(hull_, core::BoxAround(tree_, world_from_part))->ExpandedMm();
+  }
+
+  [[nodiscard]] core::Verdict VerdictOf(const Clearance& clearance, double allowed_mm,
+                                        const core::RigidTransform& world_from_part) const {
+    const core::Verdict verdict = review_.VerdictOf(clearance, allowed_mm);
+    if (verdict != core::Verdict::kClear || !review_.skew_errors) return verdict;
+    const auto budget = review_.WorstBudget(hull_, core::BoxAround(tree_, world_from_part));
+    return review_.StaysClear(hull_, tree_, world_from_part, budget) ? verdict : core::Verdict::kUndecided;
   }
 
   void Touch(StepAnswer* answer) const {
@@ -130,7 +146,7 @@ class SpacingJudge::PartInFrame {
     const double allowed_mm = AllowedMm(world_from_part);
     const core::Verdict verdict = Judge(known, options_.review.required_clearance_mm, allowed_mm);
     if (verdict == core::Verdict::kUndecided || answer->lower_mm < so_far.upper_mm) return false;
-    answer->verdict = options_.review.VerdictOf(known, allowed_mm);
+    answer->verdict = VerdictOf(known, allowed_mm, world_from_part);
     return true;
   }
 
@@ -159,11 +175,10 @@ class SpacingJudge::PartInFrame {
   // At the witness points, if there are any: as ReviewPart does.
   [[nodiscard]] double AllowedAt(const Clearance& clearance,
                                  const core::RigidTransform& world_from_part) const {
-    if (!options_.review.hull_errors || !clearance.has_witnesses || clearance.meets)
-      return AllowedMm(world_from_part);
-    return options_.review.hull_errors
-        ->At(hull_, clearance.interval.witness_hull_in_world_mm, clearance.interval.witness_part_in_world_mm)
-        .ExpandedMm();
+    if (!clearance.has_witnesses || clearance.meets) return AllowedMm(world_from_part);
+    const auto budget = review_.BudgetAt(hull_, clearance.interval.witness_hull_in_world_mm,
+                                         clearance.interval.witness_part_in_world_mm);
+    return budget ? budget->ExpandedMm() : AllowedMm(world_from_part);
   }
 
   // Contact is looked for only where no lower bound excludes it.
@@ -185,7 +200,7 @@ class SpacingJudge::PartInFrame {
     answer->queries += clearance.queries;
     answer->lower_mm = std::max(answer->lower_mm, clearance.interval.lower_mm);
     answer->upper_mm = clearance.interval.upper_mm;
-    answer->verdict = options_.review.VerdictOf(clearance, AllowedAt(clearance, world_from_part));
+    answer->verdict = VerdictOf(clearance, AllowedAt(clearance, world_from_part), world_from_part);
     if (clearance.has_witnesses)
       hint_ = ClearanceHint{world_from_part.Inverse() * clearance.interval.witness_part_in_world_mm,
                             clearance.interval.witness_hull_in_world_mm};
@@ -209,6 +224,7 @@ class SpacingJudge::PartInFrame {
 
   const SpacingJudge& judge_;
   const SpacingStudyOptions& options_;
+  PartReviewOptions review_;  // with this frame's skew
   const recon::VisualHull& hull_;
   core::PartIndex part_;
   const core::TriangleTree& tree_;
@@ -290,8 +306,7 @@ std::vector<PartOverSpacing> SpacingJudge::AskSteps(const StudyFrame& frame,
   const auto here = PosesAt(frame.spacing_mm, 0.0), there = PosesAt(frame.spacing_mm, 1.0);
   std::vector<PartInFrame> parts;
   for (core::PartIndex i = 0; i < trees_.size(); ++i)
-    parts.emplace_back(*this, *frame.hull, i,
-                       (there[i].translation_mm - here[i].translation_mm).normalized());
+    parts.emplace_back(*this, frame, i, (there[i].translation_mm - here[i].translation_mm).normalized());
   for (std::size_t step = steps_mm_.size(); step-- > 0;) {
     const auto poses = PosesAt(frame.spacing_mm, steps_mm_[step]);
     for (core::PartIndex i = 0; i < trees_.size(); ++i)
@@ -308,7 +323,7 @@ Freedom SpacingJudge::AskFreedom(const StudyFrame& frame, double spacing_mm, Stu
   Freedom freedom = Freedom::kFree;
   for (core::PartIndex i = 0; i < trees_.size(); ++i) {
     if (!moves_[i]) continue;
-    PartInFrame part(*this, *frame.hull, i, (there[i].translation_mm - here[i].translation_mm).normalized());
+    PartInFrame part(*this, frame, i, (there[i].translation_mm - here[i].translation_mm).normalized());
     const Freedom of_part = part.AskFreedom(spacing_mm, poses[i], count);
     if (of_part == Freedom::kTouched) return of_part;
     if (of_part == Freedom::kUndecided) freedom = of_part;

@@ -21,6 +21,7 @@ struct StudyFrame {
   core::FrameIndex frame = 0;
   std::shared_ptr<const recon::VisualHull> hull;
   std::vector<double> spacing_mm;  // as recorded, in the layout's order; the studied one's is not used
+  std::shared_ptr<const recon::SkewErrors> skew_errors = nullptr;  // null: the cameras have no stamps
 };
 
 // Frames 0 ... count - 1. They are loaded one at a time; a frame may be loaded more than once.

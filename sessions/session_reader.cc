@@ -186,9 +186,9 @@ std::vector<PartBudget> SessionReader::part_budgets() const {
   return impl_->limit.Guarded([&] { return ReadPartBudgets(impl_->database, impl_->header.layout); });
 }
 
-std::vector<StampedFrame> SessionReader::stamped_frames() const {
+std::vector<StampRow> SessionReader::stamp_rows() const {
   return impl_->limit.Guarded(
-      [&] { return ReadStampedFrames(impl_->database, impl_->header.rig.cameras.size()); });
+      [&] { return ReadStampRows(impl_->database, impl_->header.rig.cameras.size()); });
 }
 
 std::int64_t SessionReader::most_steps_taken() const { return impl_->limit.most_steps_taken(); }

@@ -41,14 +41,14 @@ std::vector<std::optional<core::CameraStamp>> ReadStamps(Database& database, std
   return stamps;
 }
 
-std::vector<StampedFrame> ReadStampedFrames(Database& database, std::size_t cameras) {
+std::vector<StampRow> ReadStampRows(Database& database, std::size_t cameras) {
   Statement rows(database,
                  "SELECT frame_index, time_s, camera_index, picture, taken_at_s FROM camera_stamp "
                  "JOIN frame USING (frame_index) ORDER BY frame_index, camera_index");
   const auto where = [&](core::FrameIndex frame) {
     return fmt::format("session '{}', frame {}", database.path().string(), frame);
   };
-  std::vector<StampedFrame> frames;
+  std::vector<StampRow> frames;
   const auto require_whole = [&] {
     if (!frames.empty()) RequireAllOrNone(frames.back().stamps.size(), cameras, where(frames.back().frame));
   };

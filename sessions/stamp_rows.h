@@ -13,7 +13,7 @@
 namespace elbowroom::sessions {
 
 // A frame whose cameras have stamps.
-struct StampedFrame {
+struct StampRow {
   core::FrameIndex frame = 0;
   double time_s = 0.0;                                   // of the frame
   std::vector<std::optional<core::CameraStamp>> stamps;  // one a camera; nothing: its picture is missing
@@ -26,6 +26,6 @@ struct StampedFrame {
                                                                        core::FrameIndex frame,
                                                                        const std::string& where);
 // By number.
-[[nodiscard]] std::vector<StampedFrame> ReadStampedFrames(Database& database, std::size_t cameras);
+[[nodiscard]] std::vector<StampRow> ReadStampRows(Database& database, std::size_t cameras);
 
 }  // namespace elbowroom::sessions

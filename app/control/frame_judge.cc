@@ -13,9 +13,15 @@ namespace {
 // Memory for as many points is kept with each answer; a layout that keeps more of them allocates.
 constexpr int kPointsReserved = 256;
 
+// Whether the hull's errors by skew are the same in both frames: none in either.
+bool IsSkewUnchanged(const FrameResult& last, const FrameResult& result) {
+  if (!last.skew_errors || !result.skew_errors) return last.skew_errors == result.skew_errors;
+  return last.skew_errors->is_still() && result.skew_errors->is_still();
+}
+
 bool IsUnchanged(const FrameResult* last, const FrameResult& result, core::PartIndex part) {
   return last != nullptr && last->hull == result.hull &&
-         last->record.LacksCamera() == result.record.LacksCamera() &&
+         last->record.LacksCamera() == result.record.LacksCamera() && IsSkewUnchanged(*last, result) &&
          last->world_from_parts[part] == result.world_from_parts[part];
 }
 
@@ -79,6 +85,7 @@ core::PartContact FrameJudge::Review(const FrameResult* last, const FrameResult&
   review::PartReviewOptions options = review_;
   options.contacts.recovery = layout_.parts[part].recovery;
   options.lacks_camera = result.record.LacksCamera();
+  options.skew_errors = result.skew_errors;
   return review::ReviewPart(*result.hull, part_trees_[part], result.world_from_parts[part], part, options,
                             hint, &inside_parts_[part], &scratch_[part]);
 }

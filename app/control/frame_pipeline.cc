@@ -47,7 +47,8 @@ FramePipeline::FramePipeline(core::Rig rig, core::Layout layout,
       layout_(std::make_shared<const core::Layout>(std::move(layout))),
       judge_(*layout_, review),
       responders_(*layout_),
-      segmenter_(backgrounds, segmentation, *rig_) {
+      segmenter_(backgrounds, segmentation, *rig_),
+      asks_clearance_(review.required_clearance_mm > 0.0) {
   rig_->Validate();
   core::Require(backgrounds.size() == rig_->cameras.size(), "one background reference a camera");
 }
@@ -84,6 +85,8 @@ void FramePipeline::Judge(std::span<const core::RigidTransform> world_from_rests
   Stopwatch watch;
   const bool is_new = !last_ || last_->hull != result->hull;
   if (is_new && !part_trees().empty()) result->hull->Prepare();
+  if (asks_clearance_)
+    result->skew_errors = motions_.Next(*result->hull, result->record.stamps, result->record.time_s);
   judge_.Judge(last_.get(), result);
   result->times.contacts_ms = watch.LapMs();
   UpdateResponse(world_from_rests, result);

@@ -15,6 +15,7 @@
 #include "core/rig.h"
 #include "core/soft_mask.h"
 #include "recon/contours/undistorted_plane.h"
+#include "recon/error_budget/motion_history.h"
 #include "recon/footage/frame_set.h"
 #include "recon/segmentation/frame_segmenter.h"
 #include "review/part_review.h"
@@ -58,6 +59,8 @@ class FramePipeline {
   FrameJudge judge_;
   PartReactions responders_;
   recon::FrameSegmenter segmenter_;
+  bool asks_clearance_;
+  recon::MotionHistory motions_;
   SharedFrameResult last_;
 };
 

@@ -10,6 +10,7 @@
 #include "core/ids.h"
 #include "core/layout.h"
 #include "core/session.h"
+#include "recon/error_budget/skew_errors.h"
 #include "recon/footage/frame_set.h"
 #include "recon/hull/hull_stats.h"
 #include "recon/hull/visual_hull_declared.h"
@@ -49,6 +50,8 @@ struct FrameResult {
   // The pictures that the masks come from. Null for a frame that was read from a session.
   std::shared_ptr<const recon::FrameSet> camera_frames;
   SharedHull hull;
+  // Null: the cameras have no stamps, or no clearance is required, or the frame was read from a session.
+  std::shared_ptr<const recon::SkewErrors> skew_errors;
   std::shared_ptr<const core::Layout> layout;
   std::vector<core::RigidTransform> world_from_parts;  // in the layout's order, where parts are
   SharedReactions response;                            // to this frame; null: nothing gives way or flows

@@ -7,12 +7,14 @@
 #include <memory>
 #include <set>
 #include <string_view>
+#include <utility>
 
 #include "app/control/spacing_sweep_picture.h"
 #include "app/control/trial_rules.h"
 #include "core/error.h"
 #include "core/spelling.h"
 #include "recon/contours/undistorted_plane.h"
+#include "recon/error_budget/motion_history.h"
 #include "recon/hull/visual_hull.h"
 #include "recon/images/png_file.h"
 #include "sessions/report/csv_text.h"
@@ -58,13 +60,59 @@ std::string SweepCsv(const core::Layout& layout, const review::SpacingStudy& stu
 std::vector<sessions::FrameSummary> CompleteFrames(const sessions::SessionReader& session) {
   std::vector<sessions::FrameSummary> frames = session.frames();
   std::set<core::FrameIndex> incomplete;
-  for (const sessions::StampedFrame& frame : session.stamped_frames())
+  for (const sessions::StampRow& frame : session.stamp_rows())
     if (std::ranges::any_of(frame.stamps, [](const auto& stamp) { return !stamp; }))
       incomplete.insert(frame.frame);
   std::erase_if(frames,
                 [&](const sessions::FrameSummary& frame) { return incomplete.contains(frame.frame); });
   return frames;
 }
+
+// Recorded frames with their hulls, and how fast these moved.
+class StudyFrameLoader {
+ public:
+  StudyFrameLoader(const sessions::SessionReader& session, const std::vector<sessions::FrameSummary>& frames)
+      : session_(session), frames_(frames), rig_(std::make_shared<const core::Rig>(session.header().rig)) {
+    // Reading a frame checks that its silhouettes have the sizes of the cameras' pictures, before planes of
+    // these sizes are made.
+    (void)session.ReadFrame(frames.front().frame);
+    // Skew counts where a clearance is required.
+    has_stamps_ = session.header().trial.required_clearance_mm > 0.0 && !session.stamp_rows().empty();
+    planes_ = recon::MakeUndistortedPlanes(*rig_);
+  }
+
+  // Frames with stamps need the two before them; where the last one loaded was the one before, that is known.
+  [[nodiscard]] review::StudyFrame Load(std::size_t i) {
+    if (i != next_) {
+      motions_ = {};
+      last_ = nullptr;
+      if (has_stamps_)
+        for (std::size_t before = i - std::min<std::size_t>(i, 2); before < i; ++before) (void)Follow(before);
+    }
+    next_ = i + 1;
+    return Follow(i);
+  }
+
+ private:
+  review::StudyFrame Follow(std::size_t i) {
+    const core::FrameRecord record = session_.ReadFrame(frames_[i].frame);
+    const auto hull = recon::NextHull(last_, rig_, planes_, *record.masks).hull;
+    review::StudyFrame frame{record.frame, hull, record.spacing_mm};
+    if (!has_stamps_) return frame;
+    last_ = hull;
+    frame.skew_errors = motions_.Next(*hull, record.stamps, record.time_s);
+    return frame;
+  }
+
+  const sessions::SessionReader& session_;
+  const std::vector<sessions::FrameSummary>& frames_;
+  std::shared_ptr<const core::Rig> rig_;
+  recon::UndistortedPlanes planes_;
+  recon::MotionHistory motions_;
+  std::shared_ptr<const recon::VisualHull> last_;  // of a session with stamps: its silhouettes that stay
+  std::size_t next_ = 0;
+  bool has_stamps_ = false;
+};
 
 }  // namespace
 
@@ -83,17 +131,8 @@ review::SpacingStudy SweepSpacing(const sessions::SessionReader& session, const 
                       fmt::format("session '{}' has no frames with all cameras; record a trial first",
                                   session.path().string()));
   }
-  // Reading a frame checks that its silhouettes have the sizes of the cameras' pictures, before planes of
-  // these sizes are made.
-  (void)session.ReadFrame(frames.front().frame);
-  const auto rig = std::make_shared<const core::Rig>(header.rig);
-  const recon::UndistortedPlanes planes = recon::MakeUndistortedPlanes(*rig);
-  const auto load = [&](std::size_t i) -> review::StudyFrame {
-    const core::FrameRecord record = session.ReadFrame(frames[i].frame);
-    return {record.frame,
-            std::make_shared<const recon::VisualHull>(recon::MakeVisualHull(rig, planes, *record.masks)),
-            record.spacing_mm};
-  };
+  StudyFrameLoader loader(session, frames);
+  const auto load = [&](std::size_t i) { return loader.Load(i); };
   return review::StudySpacing(header.layout, {frames.size(), load}, options, progress, stop);
 }
 

@@ -8,8 +8,7 @@
 
 #include "core/error.h"
 #include "recon/contours/silhouette.h"
-#include "recon/error_budget/normal_cone.h"
-#include "recon/hull/hull_edges.h"
+#include "recon/error_budget/surface_bounds.h"
 #include "recon/hull/visual_hull.h"
 
 namespace elbowroom::recon {
@@ -22,13 +21,6 @@ using Eigen::Vector3d;
 
 // Of a value that is anywhere within one pixel: 1 / sqrt(12).
 constexpr double kWithinPixelSigmaPx = 0.28867513459481287;
-// A contour this close to a point bounds the hull there. The point is found by bisection.
-constexpr double kBoundingPx = 1.0;
-constexpr double kOnFaceMm = 1e-3;
-// The contours' normals are good to some degrees, and a search's witness points to its tolerance. Where the
-// direction is farther than this from the normals' cone, they don't explain it.
-constexpr double kMostResidual = 0.5;
-
 bool IsInPicture(const core::CameraModel& camera, const Vector3d& x_in_world) {
   const std::optional<Vector2d> pixel = camera.Project(x_in_world);
   return pixel && pixel->x() >= -0.5 && pixel->y() >= -0.5 && pixel->x() <= camera.width_px() - 0.5 &&
@@ -74,20 +66,16 @@ std::optional<HullErrors::Bound> HullErrors::BoundBy(std::size_t camera, const V
 std::vector<HullErrors::Bound> HullErrors::BoundsAt(const VisualHull& hull,
                                                     const Vector3d& x_in_world) const {
   std::vector<Bound> bounds;
-  for (const NearEdge& edge : NearEdges(hull, x_in_world)) {
-    if (edge.distance_px > kBoundingPx) continue;
-    auto bound = BoundBy(edge.camera, NormalOf(hull, edge).in_world, x_in_world);
-    if (!bound) continue;
-    bound->is_located = !hull.silhouettes()[edge.camera]->soft_mask().levels.empty();
-    bounds.push_back(std::move(*bound));
-  }
-  for (int axis = 0; axis < 3; ++axis) {
-    for (const double sign : {-1.0, 1.0}) {
-      const double face_mm = sign < 0.0 ? workspace_mm_.min()[axis] : workspace_mm_.max()[axis];
-      if (std::abs(x_in_world[axis] - face_mm) > kOnFaceMm) continue;
+  for (const SurfaceBound& surface : SurfaceBoundsAt(hull, x_in_world)) {
+    if (!surface.edge) {
       bounds.push_back(
-          {sign * Vector3d::Unit(axis), Eigen::RowVectorXd::Zero(errors_.covariance.cols()), 0.0, true});
+          {surface.normal_in_world, Eigen::RowVectorXd::Zero(errors_.covariance.cols()), 0.0, true});
+      continue;
     }
+    auto bound = BoundBy(surface.edge->camera, surface.normal_in_world, x_in_world);
+    if (!bound) continue;
+    bound->is_located = !hull.silhouettes()[surface.edge->camera]->soft_mask().levels.empty();
+    bounds.push_back(std::move(*bound));
   }
   return bounds;
 }
@@ -98,15 +86,13 @@ ErrorBudget HullErrors::At(const VisualHull& hull, const Vector3d& x_of_hull,
   const Vector3d towards_part = (x_of_part - x_of_hull).normalized();
   std::vector<Vector3d> normals;
   for (const Bound& bound : bounds) normals.push_back(bound.normal_in_world);
-  const ConeWeights cone = WeightsInCone(normals, towards_part);
-  if (!(cone.residual <= kMostResidual)) return WorstAt(x_of_hull);
-  // The direction's nearest one in the cone, made a unit vector again.
-  const double scale = 1.0 / std::sqrt(1.0 - cone.residual * cone.residual);
+  const std::optional<std::vector<double>> shares = SharesOf(normals, towards_part);
+  if (!shares) return WorstAt(x_of_hull);
   Eigen::RowVectorXd shift_mm = Eigen::RowVectorXd::Zero(errors_.covariance.cols());
   ErrorBudget budget;
   double footprint_mm2 = 0.0, segmentation_mm2 = 0.0;
   for (std::size_t i = 0; i < bounds.size(); ++i) {
-    const double weight = scale * cone.weights[i];
+    const double weight = (*shares)[i];
     shift_mm += weight * bounds[i].shift_mm;
     const double pixel_mm = weight * bounds[i].mm_per_px;
     const double sigma_px = bounds[i].is_located ? errors_.boundary_sigma_px : kWithinPixelSigmaPx;

@@ -44,8 +44,7 @@ void WriteReport(const SessionReader& session, const ReportPictures& pictures,
       {"report.html", ReportPage(data, pictures)},
       {"contacts.csv", ContactsCsv(data.header.layout, data.contacts)},
       {"clearance.csv", ClearanceCsv(data.header, session.clearances())}};
-  if (!data.stamped_frames.empty())
-    files.emplace("stamps.csv", StampsCsv(data.header.rig, data.stamped_frames));
+  if (!data.stamps.empty()) files.emplace("stamps.csv", StampsCsv(data.header.rig, data.stamps));
   WriteWholeFiles(out_dir, files);
 }
 

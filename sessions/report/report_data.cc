@@ -122,7 +122,7 @@ ReportData CollectReportData(const SessionReader& session) {
   data.episodes = session.episodes();
   data.near_misses = session.near_misses();
   data.contacts = session.contacts();
-  data.stamped_frames = session.stamped_frames();
+  data.stamps = session.stamp_rows();
   MeasureTime(data);
   SumUpParts(session, data);
   for (core::SpacingIndex i = 0; i < data.header.layout.spacings.size(); ++i) {

@@ -56,10 +56,10 @@ struct ReportData {
   std::vector<core::ContactEpisode> episodes;
   std::vector<core::NearMiss> near_misses;
   std::vector<ContactRow> contacts;
-  std::vector<PartSummary> parts;            // the layout's order
-  std::vector<PartBudget> budgets;           // of parts for which one was computed
-  std::vector<StampedFrame> stamped_frames;  // by number; none where the cameras have no stamps
-  std::vector<SpacingStudy> spacings;        // the layout's order
+  std::vector<PartSummary> parts;      // the layout's order
+  std::vector<PartBudget> budgets;     // of parts for which one was computed
+  std::vector<StampRow> stamps;        // by number; none where the cameras have no stamps
+  std::vector<SpacingStudy> spacings;  // the layout's order
   std::optional<core::SpacingIndex>
       judged_spacing;  // that the estimate is compared with: the first that moved, or else the first
   double begin_s = 0.0;

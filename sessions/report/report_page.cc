@@ -30,7 +30,7 @@ std::string PageFooter(const ReportData& data) {
       "<footer>Made from <b>{}</b>, which holds every frame behind these figures; contacts.csv beside this "
       "page lists each part in contact in each frame, clearance.csv how far each part was{}.</footer>\n",
       Escaped(data.session_name),
-      data.stamped_frames.empty() ? "" : ", stamps.csv which picture of each camera each frame took");
+      data.stamps.empty() ? "" : ", stamps.csv which picture of each camera each frame took");
 }
 
 }  // namespace

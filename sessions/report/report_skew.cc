@@ -17,18 +17,18 @@ namespace {
 constexpr std::size_t kMostStretches = 8;
 
 // How far a camera's instants are from those of its frames, in ms; nothing where its picture is missing.
-std::vector<double> SkewsMs(const std::vector<StampedFrame>& frames, core::CameraIndex camera) {
+std::vector<double> SkewsMs(const std::vector<StampRow>& frames, core::CameraIndex camera) {
   std::vector<double> skews_ms;
-  for (const StampedFrame& frame : frames)
+  for (const StampRow& frame : frames)
     if (const auto& stamp = frame.stamps[camera])
       skews_ms.push_back(1e3 * std::abs(stamp->time_s - frame.time_s));
   return skews_ms;
 }
 
 // Between the first and the last camera of each frame with two pictures or more, in ms.
-std::vector<double> SpansMs(const std::vector<StampedFrame>& frames) {
+std::vector<double> SpansMs(const std::vector<StampRow>& frames) {
   std::vector<double> spans_ms;
-  for (const StampedFrame& frame : frames) {
+  for (const StampRow& frame : frames) {
     std::vector<double> at_s;
     for (const std::optional<core::CameraStamp>& stamp : frame.stamps)
       if (stamp) at_s.push_back(stamp->time_s);
@@ -39,18 +39,18 @@ std::vector<double> SpansMs(const std::vector<StampedFrame>& frames) {
   return spans_ms;
 }
 
-std::int64_t IncompleteFrames(const std::vector<StampedFrame>& frames) {
-  return std::ranges::count_if(frames, [](const StampedFrame& frame) {
+std::int64_t IncompleteFrames(const std::vector<StampRow>& frames) {
+  return std::ranges::count_if(frames, [](const StampRow& frame) {
     return std::ranges::any_of(frame.stamps, [](const auto& stamp) { return !stamp; });
   });
 }
 
 // "3, 17-19": the frames without the camera's picture. Frames that follow each other in the recording are a
 // stretch.
-std::string FramesWithout(const std::vector<StampedFrame>& frames, core::CameraIndex camera) {
+std::string FramesWithout(const std::vector<StampRow>& frames, core::CameraIndex camera) {
   std::vector<std::pair<core::FrameIndex, core::FrameIndex>> stretches;
   bool goes_on = false;
-  for (const StampedFrame& frame : frames) {
+  for (const StampRow& frame : frames) {
     const bool is_missing = !frame.stamps[camera];
     if (is_missing && goes_on) {
       stretches.back().second = frame.frame;
@@ -70,7 +70,7 @@ std::string FramesWithout(const std::vector<StampedFrame>& frames, core::CameraI
   return text.empty() ? "none" : text;
 }
 
-std::string SkewLine(const std::vector<StampedFrame>& frames) {
+std::string SkewLine(const std::vector<StampRow>& frames) {
   const std::optional<core::Spread> span_ms = core::SpreadOf(SpansMs(frames));
   const std::int64_t incomplete = IncompleteFrames(frames);
   std::string line = span_ms ? fmt::format(
@@ -89,21 +89,21 @@ std::string SkewLine(const std::vector<StampedFrame>& frames) {
 }  // namespace
 
 std::string SkewOfCameras(const ReportData& data) {
-  if (data.stamped_frames.empty()) return "";
+  if (data.stamps.empty()) return "";
   HtmlTable table({{"Camera"},
                    {"From the frame&rsquo;s time <small>median</small>", true},
                    {"<small>95 % of frames</small>", true},
                    {"<small>largest</small>", true},
                    {"Missing in frames"}});
   for (core::CameraIndex i = 0; i < data.header.rig.cameras.size(); ++i) {
-    const std::optional<core::Spread> skew_ms = core::SpreadOf(SkewsMs(data.stamped_frames, i));
+    const std::optional<core::Spread> skew_ms = core::SpreadOf(SkewsMs(data.stamps, i));
     const auto cell = [&](double core::Spread::*value) {
       return skew_ms ? fmt::format("{:.1f} ms", (*skew_ms).*value) : std::string("&ndash;");
     };
     table.Add({Escaped(data.header.rig.cameras[i].name()), cell(&core::Spread::median),
-               cell(&core::Spread::p95), cell(&core::Spread::max), FramesWithout(data.stamped_frames, i)});
+               cell(&core::Spread::p95), cell(&core::Spread::max), FramesWithout(data.stamps, i)});
   }
-  return SkewLine(data.stamped_frames) + table.Html();
+  return SkewLine(data.stamps) + table.Html();
 }
 
 }  // namespace elbowroom::sessions

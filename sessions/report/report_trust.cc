@@ -22,7 +22,7 @@ std::string BudgetTable(const ReportData& data) {
     const core::ErrorBudget& largest = budget.largest;
     table.Add({Escaped(data.header.layout.parts[budget.part].name), Sigma(largest.calibration_mm),
                Sigma(largest.footprint_mm), Sigma(largest.segmentation_mm),
-               data.stamped_frames.empty() ? "not measured" : Sigma(largest.skew_mm),
+               data.stamps.empty() ? "not measured" : Sigma(largest.skew_mm),
                largest.given_mm > 0.0 ? Sigma(largest.given_mm) : "&ndash;", Sigma(largest.ExpandedMm())});
   }
   return table.empty() ? "" : table.Html();

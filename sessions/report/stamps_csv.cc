@@ -6,9 +6,9 @@
 
 namespace elbowroom::sessions {
 
-std::string StampsCsv(const core::Rig& rig, std::span<const StampedFrame> frames) {
+std::string StampsCsv(const core::Rig& rig, std::span<const StampRow> frames) {
   std::string csv = "frame,time_s,camera,picture,taken_at_s,skew_ms\n";
-  for (const StampedFrame& frame : frames) {
+  for (const StampRow& frame : frames) {
     for (core::CameraIndex i = 0; i < frame.stamps.size(); ++i) {
       csv += fmt::format("{},{},{},", frame.frame, frame.time_s, Quoted(rig.cameras[i].name()));
       if (const std::optional<core::CameraStamp>& stamp = frame.stamps[i]) {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "app/control/demo_parts.h"
@@ -120,6 +121,48 @@ TEST_F(FramePipelineTest, AnEqualHullThatLackedACameraIsJudgedAgain) {
   EXPECT_EQ(seen->skipped.unchanged_parts, 0);
   EXPECT_EQ(seen->record.contacts[1].verdict, core::Verdict::kContact);
   EXPECT_EQ(pipeline.Process(lacking, gap)->record.contacts[1].verdict, core::Verdict::kUndecided);
+}
+
+double LargestSkewMm(const FrameResult& result) {
+  double largest_mm = 0.0;
+  for (const core::PartContact& contact : result.record.contacts)
+    largest_mm = std::max(largest_mm, contact.clearance->budget->skew_mm);
+  return largest_mm;
+}
+
+TEST_F(FramePipelineTest, SkewTimesSpeedIsAllowedForAndAHullThatStopsIsJudgedAgain) {
+  FramePipeline pipeline = MakePipeline(15.0);
+  const std::vector<double> gap = {kGapInitialMm};
+  const auto show = [&](core::FrameIndex masks_of, core::FrameIndex as_frame) {
+    recon::FrameSet frames = MasksOf(masks_of);
+    frames.index = as_frame;
+    frames.time_s = source_.TimeOfFrameS(as_frame);
+    return pipeline.Process(Stamped(std::move(frames)), gap);
+  };
+  (void)show(kTouching - 40, 0);
+  (void)show(kTouching - 20, 1);
+  const SharedFrameResult moving = show(kTouching, 2);
+  EXPECT_GT(LargestSkewMm(*moving), 0.1);
+  EXPECT_EQ(moving->record.contacts[0].clearance->budget->given_mm, 0.0);
+  const SharedFrameResult stopped = show(kTouching, 3);
+  EXPECT_EQ(stopped->hull, moving->hull);
+  EXPECT_EQ(LargestSkewMm(*stopped), 0.0);
+  EXPECT_EQ(stopped->skipped.unchanged_parts, 0) << "the moving hull's answers allowed for more";
+  const SharedFrameResult still = show(kTouching, 4);
+  EXPECT_EQ(still->skipped.unchanged_parts, 3);
+  EXPECT_EQ(LargestSkewMm(*still), 0.0);
+}
+
+TEST_F(FramePipelineTest, WithoutStampsOrARequiredClearanceNothingIsSaidOfSkew) {
+  const std::vector<double> gap = {kGapInitialMm};
+  FramePipeline unstamped = MakePipeline(15.0), contact_only = MakePipeline();
+  for (const core::FrameIndex frame : {kTouching - 1, kTouching}) {
+    const SharedFrameResult result = unstamped.Process(MasksOf(frame), gap);
+    EXPECT_EQ(result->skew_errors, nullptr);
+    for (const core::PartContact& contact : result->record.contacts)
+      EXPECT_FALSE(contact.clearance->budget.has_value());
+    EXPECT_EQ(contact_only.Process(Stamped(MasksOf(frame)), gap)->skew_errors, nullptr);
+  }
 }
 
 TEST_F(FramePipelineTest, WhatNeedsNoMoreThanTheHullRunsBeside) {

@@ -5,6 +5,8 @@
 
 #include <cmath>
 #include <memory>
+#include <optional>
+#include <vector>
 
 #include "core/error.h"
 #include "core/infinity.h"
@@ -68,6 +70,31 @@ TEST(ReviewPart, WithoutACameraOnlyClearIsSureAndTheEvidenceStays) {
     const auto between = required_mm > 0.0 ? core::Verdict::kUndecided : core::Verdict::kClear;
     EXPECT_EQ(Review(10.0, options).verdict, between);
   }
+}
+
+// In the first frame nothing is known of the hull's speed.
+PartReviewOptions OfAFirstFrame(double required_mm, double uncertainty_mm, double skew_s) {
+  PartReviewOptions options = Requiring(required_mm, uncertainty_mm);
+  recon::CameraLook look;
+  look.skew_s = skew_s;
+  std::vector<std::optional<recon::CameraLook>> looks(BoxHull().silhouettes().size(), look);
+  options.skew_errors = std::make_shared<const recon::SkewErrors>(std::move(looks));
+  return options;
+}
+
+TEST(ReviewPart, AllowsForSkewBesideWhatTheTrialGives) {
+  constexpr double kSkewS = 0.001;  // 2 mm at the fastest
+  const core::PartContact near = Review(18.0, OfAFirstFrame(20.0, 3.0, kSkewS));
+  ASSERT_TRUE(near.clearance->budget.has_value());
+  EXPECT_EQ(near.clearance->budget->given_mm, 1.5);
+  EXPECT_GE(near.clearance->budget->skew_mm, recon::kFastestMmPerS * kSkewS);
+  EXPECT_EQ(near.clearance->budget->calibration_mm, 0.0);
+  EXPECT_EQ(near.verdict, core::Verdict::kUndecided) << "2 mm nearer than required, 5 mm allowed for";
+  EXPECT_EQ(Review(18.0, OfAFirstFrame(20.0, 0.0, 0.0)).verdict, core::Verdict::kNear);
+  EXPECT_EQ(Review(40.0, OfAFirstFrame(20.0, 3.0, kSkewS)).verdict, core::Verdict::kClear);
+  EXPECT_EQ(Review(23.0, OfAFirstFrame(20.0, 0.0, kSkewS)).verdict, core::Verdict::kUndecided);
+  EXPECT_EQ(Review(23.0, Requiring(20.0)).verdict, core::Verdict::kClear);
+  EXPECT_EQ(Review(-5.0, OfAFirstFrame(20.0, 0.0, kSkewS)).verdict, core::Verdict::kContact);
 }
 
 TEST(ReviewPart, ContactNeedsNoSearch) {

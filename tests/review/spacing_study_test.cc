@@ -134,6 +134,35 @@ SpacingStudyOptions From(double from_mm, double to_mm, double step_mm, double re
   return options;
 }
 
+TEST(StudySpacing, AllowsForTheSkewOfEachFrame) {
+  recon::Random random(979);
+  const core::Layout layout = LidLayout();
+  const std::vector<StudyFrame> at_once = RandomFrames(&random, 8);
+  std::vector<StudyFrame> skewed = at_once;
+  for (StudyFrame& frame : skewed) {
+    recon::CameraLook look;  // of a first frame
+    look.skew_s = 0.005;
+    std::vector<std::optional<recon::CameraLook>> looks(frame.hull->silhouettes().size(), look);
+    frame.skew_errors = std::make_shared<const recon::SkewErrors>(std::move(looks));
+  }
+  const SpacingStudyOptions options = From(0.0, 190.0, 19.0);
+  const SpacingStudy without = StudySpacing(layout, Shared(at_once), options);
+  const SpacingStudy with = StudySpacing(layout, Shared(skewed), options);
+  std::int64_t clear_without = 0, clear_with = 0;
+  for (std::size_t step = 0; step < without.steps.size(); ++step) {
+    for (core::PartIndex part = 0; part < layout.parts.size(); ++part) {
+      const PartAtSpacing &a = without.steps[step].parts[part], &b = with.steps[step].parts[part];
+      EXPECT_EQ(a.frames_in_contact, b.frames_in_contact) << "contact is what the hull shows";
+      EXPECT_LE(b.frames_clear, a.frames_clear);
+      clear_without += a.frames_clear;
+      clear_with += b.frames_clear;
+    }
+  }
+  EXPECT_LT(clear_with, clear_without);
+  EXPECT_GT(clear_with, 0);
+  EXPECT_EQ(with.largest_touched_mm, without.largest_touched_mm);
+}
+
 TEST(StudySpacing, AgreesWithAskingEveryFrameAtEveryStep) {
   recon::Random random(977);
   const core::Layout layout = LidLayout();

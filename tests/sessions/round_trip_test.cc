@@ -74,7 +74,7 @@ TEST(SessionRoundTrip, StampsComeBackExactlyAndAMissingCameraStaysMissing) {
   }
   const SessionReader reader(folder / "s.db");
   for (const core::FrameRecord& frame : frames) ExpectEqual(reader.ReadFrame(frame.frame), frame);
-  const std::vector<sessions::StampedFrame> stamped = reader.stamped_frames();
+  const std::vector<sessions::StampRow> stamped = reader.stamp_rows();
   ASSERT_EQ(stamped.size(), 3U);
   for (std::size_t i = 0; i < stamped.size(); ++i) {
     EXPECT_EQ(stamped[i].frame, frames[i].frame);

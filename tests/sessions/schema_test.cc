@@ -90,7 +90,7 @@ TEST(Schema, StoredSessionsOfEverySchemaAreRead) {
     EXPECT_EQ(reader.heat_maps().size(), schema >= 3 ? 1U : 0U);
     EXPECT_EQ(reader.clearances().empty(), schema < 3);
     EXPECT_EQ(reader.events().size(), 4U);
-    EXPECT_EQ(reader.stamped_frames().size(), schema >= 8 ? 4U : 0U);
+    EXPECT_EQ(reader.stamp_rows().size(), schema >= 8 ? 4U : 0U);
   }
 }
 
