@@ -6,6 +6,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/error.h"
+#include "recon/segmentation/ignored_pixels.h"
 
 namespace elbowroom::recon {
 namespace {
@@ -30,14 +31,16 @@ bool IsClipped(float level) { return level < kDarkestLevel || level > kBrightest
 
 }  // namespace
 
-ExposureEstimator::ExposureEstimator(const BackgroundReference& background, const cv::Mat& ignore)
+ExposureEstimator::ExposureEstimator(const BackgroundReference& background, const core::BitMask& ignore,
+                                     int samples)
     : size_(background.mean_bgr.size()) {
   core::Require(background.mean_bgr.type() == CV_32FC3 && !background.mean_bgr.empty() &&
                     background.sigma_bgr.type() == CV_32FC3 && background.sigma_bgr.size() == size_,
                 "a background reference has mean and sigma, CV_32FC3 of one size");
-  core::Require(ignore.empty() || (ignore.type() == CV_8U && ignore.size() == size_),
-                "an ignore mask is CV_8U of its background's size");
-  ChoosePlaces(background.mean_bgr, ignore);
+  core::Require(IsEmpty(ignore) || (ignore.width_px() == size_.width && ignore.height_px() == size_.height),
+                "an ignore mask is of its background's size");
+  core::Require(samples > 0 && samples <= kSamples, "there are 1 to kSamples samples");
+  ChoosePlaces(background.mean_bgr, ignore, samples);
   std::vector<float> light;
   for (const cv::Point& place : places_) {
     const auto &mean = background.mean_bgr.at<cv::Vec3f>(place),
@@ -58,20 +61,20 @@ ExposureEstimator::ExposureEstimator(const BackgroundReference& background, cons
         static_cast<double>(std::max<std::size_t>(places_.size(), 1)) * std::max(background.frames, 1);
 }
 
-void ExposureEstimator::ChoosePlaces(const cv::Mat& mean_bgr, const cv::Mat& ignore) {
+void ExposureEstimator::ChoosePlaces(const cv::Mat& mean_bgr, const core::BitMask& ignore, int samples) {
   cv::Mat along_x, along_y;
   cv::Sobel(mean_bgr, along_x, CV_32F, 1, 0, 3, 1.0 / 8.0, 0.0, cv::BORDER_REPLICATE);
   cv::Sobel(mean_bgr, along_y, CV_32F, 0, 1, 3, 1.0 / 8.0, 0.0, cv::BORDER_REPLICATE);
-  // Rounded up, so that there are at most kSamples squares and their numbers fit 16 bits.
-  const int side = std::max(
-      1, static_cast<int>(std::ceil(std::sqrt(static_cast<double>(mean_bgr.total()) / double{kSamples}))));
+  // Rounded up, so that there are at most `samples` squares and their numbers fit 16 bits.
+  const int side =
+      std::max(1, static_cast<int>(std::ceil(std::sqrt(static_cast<double>(mean_bgr.total()) / samples))));
   for (int top = 0; top + side <= size_.height; top += side) {
     for (int left = 0; left + side <= size_.width; left += side) {
       cv::Point best(-1, -1);
       double least = std::numeric_limits<double>::infinity();
       for (int y = top; y < top + side; ++y) {
         for (int x = left; x < left + side; ++x) {
-          if (!ignore.empty() && ignore.at<std::uint8_t>(y, x) != 0) continue;
+          if (!IsEmpty(ignore) && ignore.At(x, y)) continue;
           const auto& mean = mean_bgr.at<cv::Vec3f>(y, x);
           constexpr double kClippedIsWorse = 1e6;
           const double rank =
