@@ -13,10 +13,10 @@ namespace {
 constexpr float kSureS = static_cast<float>(0.5 * LastingChanges::kLastingS);
 // Another colour: in one channel by this many levels and this share of the background's.
 constexpr float kLeastLevels = 10.0F, kLeastShare = 0.12F;
-constexpr float kMostRestless = 0.05F;        // of a changed square
-constexpr float kRestlessBeside = 0.1F;       // from here on something moves in a square
-constexpr double kMostRestlessAround = 0.25;  // share of such squares around a change
-constexpr double kAverageS = 20.0;            // over which a majority's colour is averaged
+constexpr float kMostRestless = 0.05F;       // of a changed square
+constexpr float kRestlessBeside = 0.03F;     // from here on something moves in a square
+constexpr double kMostRestlessAround = 0.1;  // share of such squares around a change
+constexpr double kAverageS = 20.0;           // over which a majority's colour is averaged
 
 }  // namespace
 
@@ -84,13 +84,22 @@ void LastingChanges::Add(const cv::Mat& image_bgr, const core::BitMask& mask, co
   }
 }
 
-bool LastingChanges::HasChanged(const Square& square) const {
-  if (square.is_ignored || square.weight_s < kSureS || square.restless > kMostRestless) return false;
+bool LastingChanges::IsOther(const Square& square) {
   for (std::size_t c = 0; c < 3; ++c) {
     const float least = std::max(kLeastLevels, kLeastShare * square.background[c]);
     if (std::abs(square.majority[c] - square.background[c]) > least) return true;
   }
   return false;
+}
+
+bool LastingChanges::HasChanged(const Square& square) {
+  return !square.is_ignored && square.weight_s >= kSureS && square.restless <= kMostRestless &&
+         IsOther(square);
+}
+
+bool LastingChanges::IsQuietBackground(const Square& square) {
+  return square.is_ignored ||
+         (square.weight_s >= kSureS && square.restless <= kRestlessBeside && !IsOther(square));
 }
 
 std::vector<std::size_t> LastingChanges::Around(std::size_t square) const {
@@ -125,7 +134,7 @@ std::vector<LastingChange> LastingChanges::Changes() const {
     std::ranges::sort(beside);
     beside.erase(std::unique(beside.begin(), beside.end()), beside.end());
     const auto restless =
-        std::ranges::count_if(beside, [&](std::size_t i) { return squares_[i].restless > kRestlessBeside; });
+        std::ranges::count_if(beside, [&](std::size_t i) { return !IsQuietBackground(squares_[i]); });
     if (group.size() < kLeastSquares ||
         static_cast<double>(restless) > kMostRestlessAround * static_cast<double>(beside.size()))
       continue;

@@ -46,7 +46,9 @@ class LastingChanges {
     bool is_ignored = false;
   };
 
-  [[nodiscard]] bool HasChanged(const Square& square) const;
+  [[nodiscard]] static bool IsOther(const Square& square);     // its majority has another colour
+  [[nodiscard]] static bool HasChanged(const Square& square);  // for good
+  [[nodiscard]] static bool IsQuietBackground(const Square& square);
   [[nodiscard]] std::vector<std::size_t> Around(std::size_t square) const;
 
   cv::Size size_;

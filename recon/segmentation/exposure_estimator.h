@@ -47,17 +47,24 @@ class ExposureEstimator {
     float offset = 0.0F;
   };
   using Lines = std::array<Line, 3>;
+  static constexpr std::size_t kBins = 8;  // of as many places each, from dark to bright
 
   void ChoosePlaces(const cv::Mat& mean_bgr, const core::BitMask& ignore, int samples);
+  void SortIntoBins();
   [[nodiscard]] Lines FirstLines(const Levels& picture) const;
-  [[nodiscard]] double MisfitOf(const Lines& lines, const Levels& picture) const;
+  [[nodiscard]] float MisfitOf(const Lines& lines, const Levels& scored) const;
   [[nodiscard]] std::size_t Refine(double cut2, const Levels& picture, Lines* lines) const;
 
   cv::Size size_;
   std::vector<cv::Point> places_;
   Levels mean_;
-  Levels per_variance_;                  // 1 / variance of a picture's level about the mean; 0 where clipped
-  std::vector<std::uint16_t> by_light_;  // numbers of the places, from dark to bright
+  Levels per_variance_;  // 1 / variance of a picture's level about the mean; 0 where clipped
+  // For the first lines: the places of each bin, and each bin's median of the background.
+  std::array<std::vector<std::uint16_t>, kBins> bins_;
+  std::array<std::array<float, 3>, kBins> bin_mean_{};
+  // And the places that the lines are scored by, with mean_ and per_variance_ there.
+  std::vector<std::uint16_t> scored_;
+  Levels scored_mean_, scored_per_variance_;
   std::array<double, 3> mean_variance_{};  // of the error of the mean itself
 };
 

@@ -115,17 +115,18 @@ TEST(LightWatch, LeavesOutWhatIsNotLaterAndRefusesOtherSizes) {
 }
 
 // Two hands work without a break; the light of a day, with clouds, moves by 15 % and changes its colour. Two
-// pictures a second, and 15 in twelve seconds of five minutes, so that a pulse could be seen. Eight hours
-// with
-// `./dev soak 24` or more; here twenty minutes, of another part of the day for each table.
+// pictures a second, and 15 in twelve seconds of five minutes, so that a pulse could be seen. Here twenty
+// minutes, of another part of the day for each table; with `./dev soak 24` eight hours, with 48 another day.
 TEST(LightWatch, RaisesNoFalseAlarmInHoursOfWork) {
   constexpr double kDayS = 8.0 * 3600.0, kShareS = 1200.0;
   constexpr double kSlowS = 0.5, kFastS = 1.0 / 15.0, kFastEveryS = 300.0, kFastForS = 12.0;
   constexpr double kReportEveryS = 20.0;
   const double watched_s = std::min(kDayS, kShareS * test_support::SoakScale());
+  const std::size_t days = static_cast<std::size_t>(std::max(1, test_support::SoakScale() / 24));
   int reports = 0;
-  for (std::size_t table = 0; table < std::size(kTables); ++table) {
-    const LightScene scene(kTables[table], kWatchNoiseLevels, 11 + table);
+  for (std::size_t run = 0; run < std::size(kTables) * days; ++run) {
+    const std::size_t table = run % std::size(kTables);
+    const LightScene scene(kTables[table], kWatchNoiseLevels, 11 + run);
     LightWatch watch("cam1", scene.Background(), true);
     const double begin_s = (kDayS - watched_s) * static_cast<double>(table) / 2.0;
     double next_report_s = begin_s + kFastForS;
@@ -140,8 +141,8 @@ TEST(LightWatch, RaisesNoFalseAlarmInHoursOfWork) {
       next_report_s += kReportEveryS;
       ++reports;
       const LightReport report = watch.Report();
-      ASSERT_THAT(report.advice, IsEmpty()) << "table " << table << ", after " << t - begin_s << " s";
-      ASSERT_FALSE(report.pulse.has_value()) << "table " << table << ", after " << t - begin_s << " s";
+      ASSERT_THAT(report.advice, IsEmpty()) << "run " << run << ", after " << t - begin_s << " s";
+      ASSERT_FALSE(report.pulse.has_value()) << "run " << run << ", after " << t - begin_s << " s";
       ASSERT_NEAR(report.gain, 1.0 + day + cloud, 0.02) << t;
     }
   }
