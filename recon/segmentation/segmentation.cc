@@ -41,7 +41,8 @@ SegmentationStats& SegmentationStats::operator+=(const SegmentationStats& other)
   return *this;
 }
 
-Segmenter::Segmenter(BackgroundReference background, const SegmentationOptions& options, core::BitMask ignore)
+Segmenter::Segmenter(const BackgroundReference& background, const SegmentationOptions& options,
+                     core::BitMask ignore)
     : options_(options), ignore_(std::move(ignore)), size_(background.mean_bgr.size()) {
   options.Validate();
   core::Require(background.mean_bgr.type() == CV_32FC3 && !background.mean_bgr.empty() &&

@@ -34,7 +34,8 @@ class Segmenter {
   // `options.cameras` isn't looked at. Pixels of `ignore` (none: it has no size) are background in every
   // picture. Throws: Error{kRange} as Validate(); PreconditionError for an empty background, or an `ignore`
   // of another size.
-  Segmenter(BackgroundReference background, const SegmentationOptions& options, core::BitMask ignore = {});
+  Segmenter(const BackgroundReference& background, const SegmentationOptions& options,
+            core::BitMask ignore = {});
 
   // The pixels detected as above; `stats` receives the counts. Throws: PreconditionError unless `image_bgr`
   // is CV_8UC3 of the background's size.

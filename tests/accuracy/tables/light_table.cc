@@ -52,7 +52,7 @@ core::SoftMask SegmentAnew(const recon::BackgroundReference& background, const c
   recon::BackgroundReference changed = background;
   changed.mean_bgr = oracles::WithExposure(background.mean_bgr,
                                            oracles::EstimateExposureSlowly(picture, background.mean_bgr));
-  return Segmenter(std::move(changed), {}).SegmentSoft(picture);
+  return Segmenter(changed, {}).SegmentSoft(picture);
 }
 
 std::vector<std::function<void()>> JobsOf(const Scene& scene, const std::vector<cv::Mat>& pictures) {
