@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <opencv2/imgproc.hpp>
 
 #include "core/error.h"
+#include "recon/segmentation/ignored_pixels.h"
 
 namespace elbowroom::recon {
 namespace {
@@ -26,19 +28,28 @@ bool CanBeFollowed(float gain, float offset) {
          std::abs(offset) <= static_cast<float>(kMostOffsetLevels);
 }
 
+// Reorders the values.
+float MedianOf(std::vector<float>& values) {
+  if (values.empty()) return 0.0F;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::ranges::nth_element(values, middle);
+  return *middle;
+}
+
 bool IsClipped(float level) { return level < kDarkestLevel || level > kBrightestLevel; }
 
 }  // namespace
 
-ExposureEstimator::ExposureEstimator(const BackgroundReference& background, const cv::Mat& ignore)
+ExposureEstimator::ExposureEstimator(const BackgroundReference& background, const core::BitMask& ignore,
+                                     int samples)
     : size_(background.mean_bgr.size()) {
   core::Require(background.mean_bgr.type() == CV_32FC3 && !background.mean_bgr.empty() &&
                     background.sigma_bgr.type() == CV_32FC3 && background.sigma_bgr.size() == size_,
                 "a background reference has mean and sigma, CV_32FC3 of one size");
-  core::Require(ignore.empty() || (ignore.type() == CV_8U && ignore.size() == size_),
-                "an ignore mask is CV_8U of its background's size");
-  ChoosePlaces(background.mean_bgr, ignore);
-  std::vector<float> light;
+  core::Require(IsEmpty(ignore) || (ignore.width_px() == size_.width && ignore.height_px() == size_.height),
+                "an ignore mask is of its background's size");
+  core::Require(samples > 0 && samples <= kSamples, "there are 1 to kSamples samples");
+  ChoosePlaces(background.mean_bgr, ignore, samples);
   for (const cv::Point& place : places_) {
     const auto &mean = background.mean_bgr.at<cv::Vec3f>(place),
                &sigma = background.sigma_bgr.at<cv::Vec3f>(place);
@@ -49,29 +60,52 @@ ExposureEstimator::ExposureEstimator(const BackgroundReference& background, cons
           IsClipped(level) ? 0.0F : 1.0F / (noise * noise + kModelSigmaLevels * kModelSigmaLevels));
       mean_variance_[c] += static_cast<double>(noise) * noise;
     }
-    light.push_back(mean[0] + mean[1] + mean[2]);
-    by_light_.push_back(static_cast<std::uint16_t>(by_light_.size()));
   }
-  std::ranges::stable_sort(by_light_, {}, [&](std::uint16_t i) { return light[i]; });
   for (double& variance : mean_variance_)
     variance /=
         static_cast<double>(std::max<std::size_t>(places_.size(), 1)) * std::max(background.frames, 1);
+  SortIntoBins();
 }
 
-void ExposureEstimator::ChoosePlaces(const cv::Mat& mean_bgr, const cv::Mat& ignore) {
+void ExposureEstimator::SortIntoBins() {
+  constexpr std::size_t kOfEvery = 2, kScoredOfEvery = 4;  // enough for lines that are refined later
+  const std::size_t n = places_.size();
+  std::vector<std::uint16_t> by_light(n);
+  std::iota(by_light.begin(), by_light.end(), std::uint16_t{0});
+  std::ranges::stable_sort(by_light, {},
+                           [&](std::uint16_t i) { return mean_[0][i] + mean_[1][i] + mean_[2][i]; });
+  for (std::size_t bin = 0; bin < kBins; ++bin) {
+    for (std::size_t i = n * bin / kBins; i < n * (bin + 1) / kBins; i += kOfEvery)
+      bins_[bin].push_back(by_light[i]);
+    for (std::size_t c = 0; c < 3; ++c) {
+      std::vector<float> means;
+      for (const std::uint16_t i : bins_[bin]) means.push_back(mean_[c][i]);
+      bin_mean_[bin][c] = MedianOf(means);
+    }
+  }
+  for (std::size_t i = 0; i < n; i += kScoredOfEvery) {
+    scored_.push_back(static_cast<std::uint16_t>(i));
+    for (std::size_t c = 0; c < 3; ++c) {
+      scored_mean_[c].push_back(mean_[c][i]);
+      scored_per_variance_[c].push_back(per_variance_[c][i]);
+    }
+  }
+}
+
+void ExposureEstimator::ChoosePlaces(const cv::Mat& mean_bgr, const core::BitMask& ignore, int samples) {
   cv::Mat along_x, along_y;
   cv::Sobel(mean_bgr, along_x, CV_32F, 1, 0, 3, 1.0 / 8.0, 0.0, cv::BORDER_REPLICATE);
   cv::Sobel(mean_bgr, along_y, CV_32F, 0, 1, 3, 1.0 / 8.0, 0.0, cv::BORDER_REPLICATE);
-  // Rounded up, so that there are at most kSamples squares and their numbers fit 16 bits.
-  const int side = std::max(
-      1, static_cast<int>(std::ceil(std::sqrt(static_cast<double>(mean_bgr.total()) / double{kSamples}))));
+  // Rounded up, so that there are at most `samples` squares and their numbers fit 16 bits.
+  const int side =
+      std::max(1, static_cast<int>(std::ceil(std::sqrt(static_cast<double>(mean_bgr.total()) / samples))));
   for (int top = 0; top + side <= size_.height; top += side) {
     for (int left = 0; left + side <= size_.width; left += side) {
       cv::Point best(-1, -1);
       double least = std::numeric_limits<double>::infinity();
       for (int y = top; y < top + side; ++y) {
         for (int x = left; x < left + side; ++x) {
-          if (!ignore.empty() && ignore.at<std::uint8_t>(y, x) != 0) continue;
+          if (!IsEmpty(ignore) && ignore.At(x, y)) continue;
           const auto& mean = mean_bgr.at<cv::Vec3f>(y, x);
           constexpr double kClippedIsWorse = 1e6;
           const double rank =
@@ -86,67 +120,60 @@ void ExposureEstimator::ChoosePlaces(const cv::Mat& mean_bgr, const cv::Mat& ign
   }
 }
 
-// The sum over some pixels of how far they are off in all channels, in their noise, cut off where a pixel is
-// surely no background.
-double ExposureEstimator::MisfitOf(const Lines& lines, const Levels& picture) const {
-  constexpr std::size_t kOfEvery = 4;
-  double sum = 0.0;
-  for (std::size_t i = 0; i < places_.size(); i += kOfEvery) {
-    float off2 = 0.0F;
+// The sum over the scored pixels of how far they are off in all channels, in their noise, cut off where a
+// pixel is surely no background. In lanes of their own, so that the compiler makes vectors of them.
+float ExposureEstimator::MisfitOf(const Lines& lines, const Levels& scored) const {
+  constexpr std::size_t kLanes = 8;
+  std::array<float, kLanes> sums{};
+  const std::size_t whole = scored_.size() / kLanes * kLanes;
+  for (std::size_t begin = 0; begin < whole; begin += kLanes) {
+    std::array<float, kLanes> off2{};
     for (std::size_t c = 0; c < 3; ++c) {
-      const float residual = picture[c][i] - lines[c].gain * mean_[c][i] - lines[c].offset;
-      off2 += residual * residual * per_variance_[c][i];
+      const float *mean = &scored_mean_[c][begin], *per_variance = &scored_per_variance_[c][begin];
+      const float *level = &scored[c][begin], gain = lines[c].gain, offset = lines[c].offset;
+      for (std::size_t k = 0; k < kLanes; ++k) {
+        const float residual = level[k] - gain * mean[k] - offset;
+        off2[k] += residual * residual * per_variance[k];
+      }
     }
-    sum += static_cast<double>(std::min(off2, kCut2));
+    for (std::size_t k = 0; k < kLanes; ++k) sums[k] += off2[k] < kCut2 ? off2[k] : kCut2;
   }
-  return sum;
+  return std::accumulate(sums.begin(), sums.end(), 0.0F);
 }
 
-// The best of some lines through medians. The pixels are divided by their background's light into bins of as
-// many pixels each. In a bin that objects cover less than half of, the medians lie on the lines; of these,
-// two give them, or one and gains alone.
+// The best of some lines through medians. The pixels are divided by their background's light into bins. In a
+// bin that objects cover less than half of, the medians lie on the lines; of these, two give them, or one and
+// gains alone.
 ExposureEstimator::Lines ExposureEstimator::FirstLines(const Levels& picture) const {
-  constexpr std::size_t kBins = 8, kOfEvery = 2;
-  struct Middle {
-    float background = 0.0F, picture = 0.0F;
-  };
-  std::array<std::array<Middle, 3>, kBins> middles;
-  std::vector<float> backgrounds, pictures;
-  const auto median = [](std::vector<float>& values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::ranges::nth_element(values, middle);
-    return *middle;
-  };
-  const std::size_t n = places_.size();
+  std::array<std::array<float, 3>, kBins> bin_picture{};
+  std::vector<float> changes;
   for (std::size_t bin = 0; bin < kBins; ++bin) {
     for (std::size_t c = 0; c < 3; ++c) {
-      backgrounds.clear(), pictures.clear();
-      for (std::size_t i = n * bin / kBins; i < n * (bin + 1) / kBins; i += kOfEvery) {
-        backgrounds.push_back(mean_[c][by_light_[i]]);
-        pictures.push_back(picture[c][by_light_[i]] - backgrounds.back());
-      }
-      const float background = median(backgrounds);
-      middles[bin][c] = {background, background + median(pictures)};
+      changes.clear();
+      for (const std::uint16_t i : bins_[bin]) changes.push_back(picture[c][i] - mean_[c][i]);
+      bin_picture[bin][c] = bin_mean_[bin][c] + MedianOf(changes);
     }
   }
+  Levels scored;
+  for (std::size_t c = 0; c < 3; ++c)
+    for (const std::uint16_t i : scored_) scored[c].push_back(picture[c][i]);
   Lines best;
-  double least = MisfitOf(best, picture);
+  float least = MisfitOf(best, scored);
   const auto consider = [&](const auto& line_of_channel) {
     Lines lines;
     for (std::size_t c = 0; c < 3; ++c) {
       const Line line = line_of_channel(c);
       if (CanBeFollowed(line.gain, line.offset)) lines[c] = line;
     }
-    const double misfit = MisfitOf(lines, picture);
+    const float misfit = MisfitOf(lines, scored);
     if (misfit < least) least = misfit, best = lines;
   };
   for (std::size_t a = 0; a < kBins; ++a) {
-    consider([&](std::size_t c) { return Line{middles[a][c].picture / middles[a][c].background, 0.0F}; });
+    consider([&](std::size_t c) { return Line{bin_picture[a][c] / bin_mean_[a][c], 0.0F}; });
     for (std::size_t b = a + 1; b < kBins; ++b) {
       consider([&](std::size_t c) {
-        const Middle &dark = middles[a][c], &bright = middles[b][c];
-        const float gain = (bright.picture - dark.picture) / (bright.background - dark.background);
-        return Line{gain, dark.picture - gain * dark.background};
+        const float gain = (bin_picture[b][c] - bin_picture[a][c]) / (bin_mean_[b][c] - bin_mean_[a][c]);
+        return Line{gain, bin_picture[a][c] - gain * bin_mean_[a][c]};
       });
     }
   }

@@ -33,10 +33,15 @@ core::SoftMask WithoutBlobs(const core::SoftMask& soft, const Regions& regions,
 FrameSegmenter::FrameSegmenter(const std::vector<BackgroundReference>& backgrounds,
                                const SegmentationOptions& options, const core::Rig& rig)
     : cross_camera_blobs_(rig) {
-  options.Validate();
-  for (const BackgroundReference& background : backgrounds) {
+  options.Validate(rig);
+  core::Require(backgrounds.size() == rig.cameras.size(), "one background a camera");
+  for (std::size_t i = 0; i < backgrounds.size(); ++i) {
     segmenters_.emplace_back();
-    if (!background.mean_bgr.empty()) segmenters_.back().emplace(background, options);
+    if (backgrounds[i].mean_bgr.empty()) continue;
+    const std::string& name = rig.cameras[i].name();
+    const CameraSegmentation* differing = options.OfCamera(name);
+    segmenters_.back().emplace(backgrounds[i], options.ForCamera(name),
+                               differing == nullptr ? core::BitMask() : differing->ignore);
   }
   for (const core::CameraModel& camera : rig.cameras) {
     all_object_.emplace_back(camera.width_px(), camera.height_px());

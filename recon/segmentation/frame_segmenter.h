@@ -18,7 +18,8 @@ namespace elbowroom::recon {
 // can't be part of the hull are dropped from segmented pictures (CrossCameraBlobs). Immutable. Thread: any.
 class FrameSegmenter {
  public:
-  // Throws: core::Error{kRange} as SegmentationOptions::Validate(); core::Error as core::Rig::Validate().
+  // Throws: core::Error{kRange} as SegmentationOptions::Validate(rig); core::Error as core::Rig::Validate();
+  // PreconditionError unless there is one background a camera.
   FrameSegmenter(const std::vector<BackgroundReference>& backgrounds, const SegmentationOptions& options,
                  const core::Rig& rig);
 

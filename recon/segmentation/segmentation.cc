@@ -1,9 +1,6 @@
 #include "recon/segmentation/segmentation.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
@@ -14,18 +11,14 @@
 #include "recon/segmentation/boundary.h"
 #include "recon/segmentation/coverage.h"
 #include "recon/segmentation/difference_kernel.h"
+#include "recon/segmentation/ignored_pixels.h"
 #include "recon/segmentation/mask_regions.h"
 
 namespace elbowroom::recon {
 namespace {
 
 constexpr float kShadeNoiseLevels = 0.0F;
-
-void RequireInRange(bool holds, std::string_view option, double value, std::string_view range) {
-  if (holds) return;
-  throw core::Error(core::ErrorKind::kRange,
-                    fmt::format("segmentation: {} is {}, but must be {}", option, value, range));
-}
+constexpr float kNeverObjectLevels = 512.0F;  // more than two levels can differ
 
 // Grey levels by which a pixel may differ before it is object.
 cv::Mat ThresholdOf(const BackgroundReference& background, const SegmentationOptions& options) {
@@ -42,56 +35,30 @@ cv::Mat ThresholdOf(const BackgroundReference& background, const SegmentationOpt
 
 }  // namespace
 
-std::optional<SegmentationMethod> ParseSegmentationMethod(std::string_view text) {
-  if (text == "threshold") return SegmentationMethod::kThreshold;
-  if (text == "adaptive") return SegmentationMethod::kAdaptive;
-  return std::nullopt;
-}
-
-std::optional<ShadowRule> ParseShadowRule(std::string_view text) {
-  if (text == "keep") return ShadowRule::kKeep;
-  if (text == "reject") return ShadowRule::kReject;
-  return std::nullopt;
-}
-
-std::string_view ToString(SegmentationMethod method) {
-  return method == SegmentationMethod::kThreshold ? "threshold" : "adaptive";
-}
-
-std::string_view ToString(ShadowRule rule) { return rule == ShadowRule::kKeep ? "keep" : "reject"; }
-
-void SegmentationOptions::Validate() const {
-  // Written so that a NaN fails.
-  RequireInRange(k_sigma > 0.0 && std::isfinite(k_sigma), "k_sigma", k_sigma, "a positive number");
-  RequireInRange(floor_levels >= 0.0 && floor_levels <= 255.0, "floor_levels", floor_levels,
-                 "in 0..255 grey levels");
-  RequireInRange(edge_slack_px >= 0.0 && edge_slack_px <= 5.0, "edge_slack_px", edge_slack_px,
-                 "in 0..5 pixels");
-  RequireInRange(min_blob_px >= 0, "min_blob_px", min_blob_px, "at least 0 pixels");
-  RequireInRange(max_hole_px >= 0, "max_hole_px", max_hole_px, "at least 0 pixels");
-  RequireInRange(shadow_darkest >= 0.0 && shadow_darkest <= 1.0, "shadow_darkest", shadow_darkest, "in 0..1");
-  RequireInRange(shadow_chroma >= 0.0 && shadow_chroma <= 1.0, "shadow_chroma", shadow_chroma, "in 0..1");
-}
-
 SegmentationStats& SegmentationStats::operator+=(const SegmentationStats& other) {
   pixels += other.pixels;
   skipped_pixels += other.skipped_pixels;
   return *this;
 }
 
-Segmenter::Segmenter(BackgroundReference background, const SegmentationOptions& options)
-    : options_(options), size_(background.mean_bgr.size()) {
+Segmenter::Segmenter(const BackgroundReference& background, const SegmentationOptions& options,
+                     core::BitMask ignore)
+    : options_(options), ignore_(std::move(ignore)), size_(background.mean_bgr.size()) {
   options.Validate();
   core::Require(background.mean_bgr.type() == CV_32FC3 && !background.mean_bgr.empty() &&
                     background.sigma_bgr.type() == CV_32FC3 && background.sigma_bgr.size() == size_,
                 "a background reference has mean and sigma, CV_32FC3 of one size");
-  const cv::Mat threshold_bgr = ThresholdOf(background, options);
+  core::Require(
+      IsEmpty(ignore_) || (ignore_.width_px() == size_.width && ignore_.height_px() == size_.height),
+      "an ignore mask is of its background's size");
+  cv::Mat threshold_bgr = ThresholdOf(background, options);
+  SetPixels(ignore_, kNeverObjectLevels, &threshold_bgr);
   packed_mean_ = PackedMean(background.mean_bgr);
   if (options.method == SegmentationMethod::kThreshold) {
     ranges_ = LevelRanges(background.mean_bgr, threshold_bgr);
   } else {
     followed_ranges_ = FollowedRanges(background.mean_bgr, threshold_bgr);
-    exposure_estimator_ = ExposureEstimator(background);
+    exposure_estimator_ = ExposureEstimator(background, ignore_);
   }
 }
 
@@ -119,7 +86,10 @@ core::BitMask Segmenter::Detect(const cv::Mat& image_bgr, const std::optional<Fi
   }
   if (stats != nullptr) *stats = {static_cast<std::int64_t>(image_bgr.total()), skipped_px};
   if (!mask.ShowsObject()) return mask;
+  // A clipped pixel may differ under another exposure even so; and a filled hole may be ignored.
+  ClearPixels(ignore_, &mask);
   CleanUp(mask, options_.min_blob_px, options_.max_hole_px);
+  ClearPixels(ignore_, &mask);
   return mask;
 }
 
@@ -131,10 +101,11 @@ core::SoftMask Segmenter::SegmentSoft(const cv::Mat& image_bgr, SegmentationStat
   const std::optional<FixedExposure> exposure = ExposureOf(image_bgr);
   core::BitMask detected = Detect(image_bgr, exposure, stats);
   if (!detected.ShowsObject()) return {std::move(detected), {}};
-  if (!exposure) return LocateBoundary(detected, image_bgr, packed_mean_, options_.floor_levels);
   // Objects and background are lit alike, so their contrast changes as the background does.
-  const double gain = (exposure->Gain(0) + exposure->Gain(1) + exposure->Gain(2)) / 3.0;
-  return LocateBoundary(detected, image_bgr, packed_mean_, gain * options_.floor_levels, &*exposure);
+  const double gain = exposure ? (exposure->Gain(0) + exposure->Gain(1) + exposure->Gain(2)) / 3.0 : 1.0;
+  core::SoftMask located = LocateBoundary(detected, image_bgr, packed_mean_, gain * options_.floor_levels,
+                                          exposure ? &*exposure : nullptr);
+  return IsEmpty(ignore_) ? std::move(located) : WithoutPixels(located, ignore_);
 }
 
 }  // namespace elbowroom::recon

@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <opencv2/core/mat.hpp>
 #include <optional>
-#include <string_view>
 
 #include "core/bit_mask.h"
 #include "core/soft_mask.h"
@@ -12,35 +11,9 @@
 #include "recon/segmentation/exposure_estimator.h"
 #include "recon/segmentation/followed_ranges.h"
 #include "recon/segmentation/level_ranges.h"
+#include "recon/segmentation/segmentation_options.h"
 
 namespace elbowroom::recon {
-
-enum class SegmentationMethod {
-  kThreshold,  // against the background reference as it is
-  kAdaptive,   // the reference first follows a change of exposure of the whole picture, gain and offset a
-               // channel
-};
-enum class ShadowRule { kKeep, kReject };
-
-[[nodiscard]] std::optional<SegmentationMethod> ParseSegmentationMethod(std::string_view text);
-[[nodiscard]] std::optional<ShadowRule> ParseShadowRule(std::string_view text);  // "keep", "reject"
-[[nodiscard]] std::string_view ToString(SegmentationMethod method);
-[[nodiscard]] std::string_view ToString(ShadowRule rule);
-
-struct SegmentationOptions {
-  SegmentationMethod method = SegmentationMethod::kThreshold;
-  double k_sigma = 5.0;        // > 0; times the pixel's own noise
-  double floor_levels = 20.0;  // 0..255 grey levels; the least difference that counts, whatever the noise
-  double edge_slack_px = 0.8;  // 0..5; how far a camera may have shifted since the background was taken
-  int min_blob_px = 200;       // >= 0; smaller 8-connected object regions are removed
-  int max_hole_px = 100;       // >= 0; smaller 4-connected background regions inside an object are filled
-  ShadowRule shadows = ShadowRule::kReject;
-  double shadow_darkest = 0.55;  // 0..1; below this share of the background's brightness it is no shadow
-  double shadow_chroma = 0.10;   // 0..1; how far a shadow may change its colour, as a share of its brightness
-
-  // Throws: Error{kRange} naming the option that is out of range.
-  void Validate() const;
-};
 
 struct SegmentationStats {
   std::int64_t pixels = 0;          // of the pictures segmented
@@ -58,8 +31,11 @@ struct SegmentationStats {
 // filled. A picture without any difference gives an empty mask. The same result for any number of threads.
 class Segmenter {
  public:
-  // Throws: Error{kRange} as Validate(); PreconditionError for an empty background.
-  Segmenter(BackgroundReference background, const SegmentationOptions& options);
+  // `options.cameras` isn't looked at. Pixels of `ignore` (none: it has no size) are background in every
+  // picture. Throws: Error{kRange} as Validate(); PreconditionError for an empty background, or an `ignore`
+  // of another size.
+  Segmenter(const BackgroundReference& background, const SegmentationOptions& options,
+            core::BitMask ignore = {});
 
   // The pixels detected as above; `stats` receives the counts. Throws: PreconditionError unless `image_bgr`
   // is CV_8UC3 of the background's size.
@@ -76,6 +52,7 @@ class Segmenter {
                                      SegmentationStats* stats) const;
 
   SegmentationOptions options_;
+  core::BitMask ignore_;  // without a size if no pixel is ignored
   cv::Size size_;
   cv::Mat packed_mean_;
   LevelRanges ranges_;  // for kThreshold; the next two are for kAdaptive

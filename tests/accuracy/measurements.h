@@ -40,7 +40,8 @@ void MeasureImport(const std::filesystem::path& docs, const std::filesystem::pat
 // calibration.md, "calibrate": whole runs of `program` (elbowroom) on pictures of a board.
 void MeasureCalibration(const std::filesystem::path& docs, const std::filesystem::path& program);
 
-// segmentation.md, "light": time and error of both methods when the light changes.
+// segmentation.md, "light": time and error of both methods when the light changes; light.md, "watch": what
+// watching the light costs.
 void MeasureLight(const std::filesystem::path& docs);
 
 // performance.md, "detail": large parts drawn whole and by levels of detail, and how the pictures differ.

@@ -86,6 +86,11 @@ k_sigma = 4.0
 floor_levels = 6
 min_blob_px = 20
 shadows = "keep"
+[[segmentation.camera]]
+name = "cam1"
+k_sigma = 8.5
+floor_levels = 12
+ignore = "cam1/mask_0000.png"
 [viewer]
 camera = "view.yml"
 frames = "view_%d.png"

@@ -81,5 +81,66 @@ TEST(ReadTrialFile, WhatAViewerHasWrongIsOneLine) {
   }
 }
 
+// A trial whose cameras have segmentation settings of their own, as given.
+class SegmentedTrial {
+ public:
+  explicit SegmentedTrial(const std::string& cameras) {
+    test_support::WriteBallFootage(folder_.path());
+    test_support::WriteBoxStl(folder_ / "box.stl", 40.0);
+    WriteText(folder_ / "layout.toml", kLayout);
+    cv::Mat window(240, 320, CV_8U, cv::Scalar(0));
+    window(cv::Rect(10, 20, 30, 40)).setTo(255);
+    cv::imwrite((folder_ / "window.png").string(), window);
+    cv::imwrite((folder_ / "small.png").string(), window(cv::Rect(0, 0, 64, 48)));
+    WriteText(file(), "rig = \"rig.yml\"\nlayout = \"layout.toml\"\n[segmentation]\nk_sigma = 6\n" + cameras);
+  }
+  [[nodiscard]] std::filesystem::path file() const { return folder_ / "trial.toml"; }
+
+ private:
+  test_support::TemporaryFolder folder_;
+};
+
+TEST(ReadTrialFile, CamerasHaveThresholdsAndIgnoreMasksOfTheirOwn) {
+  const SegmentedTrial trial(
+      "[[segmentation.camera]]\nname = \"cam2\"\nk_sigma = 8.0\nfloor_levels = 12\n"
+      "[[segmentation.camera]]\nname = \"cam4\"\nignore = \"window.png\"\n");
+  const recon::SegmentationOptions options = ReadTrialFile(trial.file()).segmentation;
+  ASSERT_EQ(options.cameras.size(), 2U);
+  EXPECT_EQ(options.ForCamera("cam1").k_sigma, 6.0);
+  EXPECT_EQ(options.ForCamera("cam2").k_sigma, 8.0);
+  EXPECT_EQ(options.ForCamera("cam2").floor_levels, 12.0);
+  EXPECT_EQ(options.OfCamera("cam2")->ignore.CountObjectPixels(), 0U);
+  EXPECT_EQ(options.ForCamera("cam4").k_sigma, 6.0);
+  EXPECT_EQ(options.OfCamera("cam4")->ignore.CountObjectPixels(), 30U * 40U);
+  const auto settings = SettingsOf(options);
+  EXPECT_EQ(settings.at("segmentation.camera.cam2.k_sigma"), "8");
+  EXPECT_EQ(settings.at("segmentation.camera.cam2.floor_levels"), "12");
+  EXPECT_EQ(settings.at("segmentation.camera.cam4.ignored_pixels"), "1200");
+}
+
+TEST(ReadTrialFile, WhatACamerasSegmentationHasWrongIsOneLine) {
+  const std::string camera = "[[segmentation.camera]]\n";
+  for (const auto& [cameras, said] :
+       {std::pair{camera + "k_sigma = 4.0\n", "name"},
+        {camera + "name = \"cam9\"\n", "'cam9' isn't in the rig, whose cameras are 'cam1'"},
+        {camera + "name = \"cam1\"\nk_sigma = 0\n", "k_sigma"},
+        {camera + "name = \"cam1\"\nfloor_levels = 300\n", "floor_levels"},
+        {camera + "name = \"cam1\"\nignore = \"none.png\"\n", "none.png"},
+        {camera + "name = \"cam1\"\nignore = \"small.png\"\n",
+         "64 x 48 pixels, but its pictures have 320 x 240"},
+        {camera + "name = \"cam1\"\nmask = \"window.png\"\n", "mask"},
+        {camera + "name = \"cam1\"\n" + camera + "name = \"cam1\"\n", "second time"},
+        {std::string("camera = 3\n"), "[[camera]]"}}) {
+    const SegmentedTrial trial(cameras);
+    try {
+      (void)ReadTrialFile(trial.file());
+      FAIL() << cameras;
+    } catch (const core::Error& error) {
+      EXPECT_NE(std::string(error.what()).find(said), std::string::npos) << error.what();
+      EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
+    }
+  }
+}
+
 }  // namespace
 }  // namespace elbowroom::control

@@ -1,4 +1,5 @@
-// docs/segmentation.md, "light": run time beside error when the light changes.
+// docs/segmentation.md, "light": run time beside error when the light changes. docs/light.md, "watch": what
+// watching it costs.
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
@@ -6,6 +7,7 @@
 #include <functional>
 #include <utility>
 
+#include "recon/light/light_watch.h"
 #include "recon/segmentation/segmentation.h"
 #include "tests/accuracy/interleaved_timing.h"
 #include "tests/accuracy/measurements.h"
@@ -50,7 +52,7 @@ core::SoftMask SegmentAnew(const recon::BackgroundReference& background, const c
   recon::BackgroundReference changed = background;
   changed.mean_bgr = oracles::WithExposure(background.mean_bgr,
                                            oracles::EstimateExposureSlowly(picture, background.mean_bgr));
-  return Segmenter(std::move(changed), {}).SegmentSoft(picture);
+  return Segmenter(changed, {}).SegmentSoft(picture);
 }
 
 std::vector<std::function<void()>> JobsOf(const Scene& scene, const std::vector<cv::Mat>& pictures) {
@@ -75,6 +77,31 @@ std::string Ratios(const std::vector<Scene>& scenes, const std::vector<double>& 
   return fmt::format("{} / {}", ThreeDigits(ratios[ratios.size() / 2]), ThreeDigits(ratios.back()));
 }
 
+// Ten seconds at 30 Hz are watched; then a picture more, or a report.
+void MeasureWatch(const Scene& scene, const std::vector<cv::Mat>& pictures,
+                  const std::filesystem::path& docs) {
+  constexpr double kRateHz = 30.0;
+  constexpr int kFramesBefore = 300;
+  recon::LightWatch watch("cam1", scene.backgrounds[0], false);
+  const core::BitMask mask = scene.adaptive[0].Segment(pictures[0]);
+  double time_s = 0.0;
+  const auto add = [&] { watch.Add(pictures[0], mask, time_s += 1.0 / kRateHz); };
+  for (int i = 0; i < kFramesBefore; ++i) add();
+  constexpr int kAtOnce = 30;  // a second: one picture in six is also looked at for lasting changes
+  const std::function<void()> jobs[] = {[&] {
+                                          for (int i = 0; i < kAtOnce; ++i) add();
+                                        },
+                                        [&] { (void)watch.Report(); }};
+  const auto times = TimeInTurns(jobs, 1);
+  const reporting::Table table{
+      {"step", "1 thread, ms"},
+      {{"a picture of 640 x 480 (mean of a second)", ThreeDigits(times[0].median_ms / kAtOnce)},
+       {"a report", ThreeDigits(times[1].median_ms)}}};
+  reporting::WriteSection(
+      docs / "light.md", "watch",
+      reporting::ToMarkdown(table) + "\n" + reporting::ToLine(reporting::ThisMachine(docs / "..")));
+}
+
 }  // namespace
 
 void MeasureLight(const std::filesystem::path& docs) {
@@ -93,6 +120,7 @@ void MeasureLight(const std::filesystem::path& docs) {
     const recon::Light light = recon::LightAt(LightChange::kFlickerAndDrift, i, 1, kFrames);
     pictures.push_back(recon::Exposed(scenes[crowded].lit.view_bgr[i], light, kNoiseLevels, i));
   }
+  MeasureWatch(scenes[crowded], pictures, docs);
   const auto jobs = JobsOf(scenes[crowded], pictures);
   const auto one = TimeInTurns(jobs, 1), two = TimeInTurns(jobs, 2);
   reporting::Table table{{"method", "1 thread, ms", "2 threads, ms"}, {}};

@@ -176,13 +176,14 @@ TEST(ExposureEstimator, ChangesNothingWhereAllIsClipped) {
 TEST(ExposureEstimator, NeverChoosesAnIgnoredPixel) {
   const cv::Mat levels(480, 640, CV_32FC3, cv::Scalar::all(100));
   const BackgroundReference background{levels, cv::Mat(levels.size(), CV_32FC3, cv::Scalar::all(1.0)), 30};
-  cv::Mat ignore(480, 640, CV_8U, cv::Scalar(0));
-  ignore(cv::Rect(100, 50, 301, 200)).setTo(1);
+  core::BitMask ignore(640, 480);
+  for (int y = 50; y < 250; ++y)
+    for (int x = 100; x < 401; ++x) ignore.Set(x, y, true);
   const ExposureEstimator estimator(background, ignore);
   EXPECT_GT(estimator.places().size(), 1000U);
   EXPECT_LE(estimator.places().size(), static_cast<std::size_t>(ExposureEstimator::kSamples));
-  for (const cv::Point& place : estimator.places()) EXPECT_EQ(ignore.at<std::uint8_t>(place), 0);
-  EXPECT_THROW(ExposureEstimator(background, cv::Mat(48, 64, CV_8U)), core::PreconditionError);
+  for (const cv::Point& place : estimator.places()) EXPECT_FALSE(ignore.At(place.x, place.y));
+  EXPECT_THROW(ExposureEstimator(background, core::BitMask(64, 48)), core::PreconditionError);
   EXPECT_THROW((void)estimator.Estimate(cv::Mat(48, 64, CV_8UC3)), core::PreconditionError);
 }
 

@@ -1,0 +1,54 @@
+// The light of a real recording: people at work under office lamps.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <vector>
+
+#include "recon/footage/recorded_rig.h"
+#include "recon/light/light_watch.h"
+#include "recon/segmentation/frame_segmenter.h"
+
+namespace elbowroom::recon {
+namespace {
+
+TEST(RealLight, OfARecordingIsSteadyAndItsPeopleAreNoLastingChange) {
+  const std::filesystem::path file =
+      std::filesystem::path(ELBOWROOM_SHARED_DATA_DIR) / "four_cameras" / "rig.yml";
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << "NOT TESTED on real footage: " << file << " is absent";
+  // The recording lasts 426 frames. It is watched as 15 pictures a second, and once more as three a second,
+  // so that it takes longer than a lasting change needs.
+  constexpr core::FrameIndex kFrames = 426;
+  constexpr double kGainTolerance = 0.08;  // the lamps are steady; the cameras' exposure may move a little
+  RecordedRig rig(ReadRigFile(file));
+  const std::vector<BackgroundReference> backgrounds = rig.ReadBackgrounds({}, {});
+  const FrameSegmenter segmenter(backgrounds, SegmentationOptions(), rig.rig());
+  std::vector<LightWatch> fast, slow;
+  for (std::size_t i = 0; i < backgrounds.size(); ++i) {
+    fast.emplace_back(rig.rig().cameras[i].name(), backgrounds[i], false);
+    slow.emplace_back(rig.rig().cameras[i].name(), backgrounds[i], false);
+  }
+  for (core::FrameIndex frame = 0; frame < kFrames; ++frame) {
+    const FrameSet set = rig.Read(frame);
+    const std::vector<core::BitMask> masks = segmenter.Segment(set);
+    for (std::size_t i = 0; i < masks.size(); ++i) {
+      fast[i].Add(set.cameras[i].image_bgr, masks[i], static_cast<double>(frame) / 15.0);
+      slow[i].Add(set.cameras[i].image_bgr, masks[i], static_cast<double>(frame) / 3.0);
+    }
+  }
+  for (std::size_t i = 0; i < fast.size(); ++i) {
+    const LightReport report = fast[i].Report();
+    EXPECT_NEAR(report.gain, 1.0, kGainTolerance) << i;
+    EXPECT_GT(report.agreeing_share, 0.5) << i;
+    EXPECT_FALSE(report.pulse && report.pulse->matters) << i;
+    EXPECT_TRUE(report.changes.empty()) << i;
+    RecordProperty("gain_" + std::to_string(i), std::to_string(report.gain));
+    RecordProperty("agreeing_" + std::to_string(i), std::to_string(report.agreeing_share));
+    RecordProperty("pulse_" + std::to_string(i),
+                   std::to_string(report.pulse ? report.pulse->amplitude_share : 0.0));
+    const LightReport longer = slow[i].Report();
+    EXPECT_TRUE(longer.changes.empty()) << i << ": " << longer.advice.front();
+  }
+}
+
+}  // namespace
+}  // namespace elbowroom::recon
