@@ -1,5 +1,7 @@
 #include "core/picture_loss.h"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <cstddef>
 
@@ -17,6 +19,13 @@ std::optional<LossReason> ParseLossReason(std::string_view text) {
   for (std::size_t i = 0; i < kReasons.size(); ++i)
     if (kReasons[i] == text) return static_cast<LossReason>(i);
   return std::nullopt;
+}
+
+std::string TextOf(const PictureLoss& loss, std::string_view camera_name) {
+  const std::string which = loss.first == loss.last
+                                ? fmt::format("picture {} was", loss.first)
+                                : fmt::format("pictures {} to {} were", loss.first, loss.last);
+  return fmt::format("camera '{}': {} lost ({})", camera_name, which, ToString(loss.reason));
 }
 
 }  // namespace elbowroom::core

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "core/ids.h"
@@ -33,5 +34,8 @@ struct PictureLoss {
   [[nodiscard]] std::uint64_t count() const { return last - first + 1; }
   [[nodiscard]] bool operator==(const PictureLoss&) const = default;
 };
+
+// "camera 'cam2': pictures 120 to 123 were lost (incomplete)".
+[[nodiscard]] std::string TextOf(const PictureLoss& loss, std::string_view camera_name);
 
 }  // namespace elbowroom::core

@@ -80,6 +80,40 @@ class Pace {
   std::condition_variable_any wakes_;
 };
 
+// Losses of live pictures as notes of the session: those that follow each other in number are one.
+class LossNotes {
+ public:
+  explicit LossNotes(const core::Rig& rig) : rig_(rig), open_(rig.cameras.size()) {}
+
+  // The notes that nothing more can be added to.
+  [[nodiscard]] std::vector<std::string> Add(const core::PictureLoss& loss) {
+    std::optional<core::PictureLoss>& open = open_.at(loss.camera);
+    if (open && open->reason == loss.reason && open->last + 1 == loss.first) {
+      open->last = loss.last;
+      return {};
+    }
+    std::vector<std::string> notes;
+    if (open) notes.push_back(TextOf(*open));
+    open = loss;
+    return notes;
+  }
+
+  [[nodiscard]] std::vector<std::string> Rest() const {
+    std::vector<std::string> notes;
+    for (const auto& open : open_)
+      if (open) notes.push_back(TextOf(*open));
+    return notes;
+  }
+
+ private:
+  [[nodiscard]] std::string TextOf(const core::PictureLoss& loss) const {
+    return core::TextOf(loss, rig_.cameras[loss.camera].name());
+  }
+
+  const core::Rig& rig_;
+  std::vector<std::optional<core::PictureLoss>> open_;  // by camera
+};
+
 // One trial under way: what is recorded and what is counted.
 class Recording {
  public:
@@ -87,6 +121,7 @@ class Recording {
       : setup_(setup),
         options_(options),
         controls_(controls),
+        loss_notes_(setup.source->rig()),
         writer_(options.session, HeaderOf(setup), WriterOptionsOf(options)) {
     spacing_mm_ = setup.layout.InitialSpacings();
     outcome_.frames_in_contact.assign(setup.layout.parts.size(), 0);
@@ -123,10 +158,9 @@ class Recording {
 
   TrialOutcome Finish(const std::string& end_note) {
     outcome_.end_note = end_note;
-    std::vector<std::string> notes = setup_.source->Warnings();
-    if (!end_note.empty()) notes.push_back(end_note);
-    for (const std::string& note : notes)
-      writer_.Append(core::SessionEvent{last_frame_, last_time_s_, core::Note{note}});
+    for (const std::string& note : loss_notes_.Rest()) Append(note);
+    for (const std::string& note : setup_.source->Warnings()) Append(note);
+    if (!end_note.empty()) Append(end_note);
     outcome_so_far_.wait();
     core::SessionOutcome outcome = tracker_ ? tracker_->Outcome() : core::SessionOutcome();
     outcome_.episodes = outcome.episodes;
@@ -210,6 +244,10 @@ class Recording {
         core::SessionEvent{frame, time_s, core::SpacingChanged{request.spacing, from_mm, allowed_mm}});
   }
 
+  void Append(const std::string& note) {
+    writer_.Append(core::SessionEvent{last_frame_, last_time_s_, core::Note{note}});
+  }
+
   // Touches and heat maps are brought up to date while the next frame is judged.
   void Record(const SharedFrameResult& shared) {
     const FrameResult& result = *shared;
@@ -231,13 +269,16 @@ class Recording {
     }
     outcome_.skipped += result.skipped;
     outcome_.frames_without_camera += result.record.LacksCamera() ? 1 : 0;
-    for (const core::PictureLoss& loss : result.record.losses)
+    for (const core::PictureLoss& loss : result.record.losses) {
       outcome_.pictures_lost[loss.camera] += static_cast<std::int64_t>(loss.count());
+      for (const std::string& note : loss_notes_.Add(loss)) Append(note);
+    }
   }
 
   const TrialSetup& setup_;
   const TrialOptions& options_;
   TrialControls& controls_;
+  LossNotes loss_notes_;
   sessions::SessionWriter writer_;
   std::optional<FramePipeline> pipeline_;
   std::optional<OutcomeTracker> tracker_;  // refers to the pipeline's part trees

@@ -13,6 +13,7 @@
 #include "app/control/frame_pipeline.h"
 #include "app/control/trial_runner.h"
 #include "recon/capture/live_rig.h"
+#include "sessions/session_reader.h"
 #include "tests/recon/capture/live_accounts.h"
 #include "tests/recon/capture/own_network.h"
 #include "tests/recon/capture/served_rig.h"
@@ -122,6 +123,14 @@ TEST(LiveTrial, FindsWhatTheRecordingFinds) {
   std::int64_t lost = 0;
   for (const std::int64_t of_camera : outcome.pictures_lost) lost += of_camera;
   EXPECT_GT(lost, 0);  // packets were lost on purpose
+  // The session names them.
+  std::int64_t named = 0;
+  const sessions::SessionReader session(outcome.session);
+  for (const core::SessionEvent& event : session.events()) {
+    const auto* note = std::get_if<core::Note>(&event.what);
+    if (note != nullptr && note->text.find("lost (incomplete)") != std::string::npos) ++named;
+  }
+  EXPECT_GT(named, 0);
 }
 
 }  // namespace
