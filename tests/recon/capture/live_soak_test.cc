@@ -76,7 +76,9 @@ TEST(LiveSoak, EightCamerasAreAccountedForAndKeepTheirMemory) {
     decision_ms.push_back(std::chrono::duration<double, std::milli>(decided.decided_at - last).count());
   };
   const double seconds = kSeconds * test_support::SoakScale();
-  decision_ms.reserve(static_cast<std::size_t>(2.0 * kRateHz * seconds));
+  decision_ms.assign(static_cast<std::size_t>(2.0 * kRateHz * seconds),
+                     1.0);  // its memory is there from now on
+  decision_ms.clear();
   LiveRig rig(farm.Rig(kRateHz), std::move(taps));
   LiveAccounts accounts(kCameras);
   farm.SetPacketLoss(5, 1e-4);
