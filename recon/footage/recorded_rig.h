@@ -10,6 +10,7 @@
 
 #include "recon/footage/frame_set.h"
 #include "recon/footage/image_source.h"
+#include "recon/footage/stamped_frames.h"
 #include "recon/rig_files/rig_file.h"
 
 namespace elbowroom::recon {
@@ -32,7 +33,10 @@ void RequireOneRate(const CameraRate& one, const CameraRate& other);
 // Adds how many damaged pictures of a live camera were left out, if any were.
 void AddWarningOf(const ImageSource& source, const std::string& camera, std::vector<std::string>* warnings);
 
-// Frame i of a set is frame i of every camera's source. Times come from the videos' frame rate (25 Hz if none
+// Where all cameras have recorded footage with timestamps, the sets are those of SetsByNearestStamp, after
+// each camera's time offset: their times are the medians of their pictures', from the first set's on, each
+// picture has its stamp, and a camera without a picture near a set's time is missing in it. Otherwise frame i
+// of a set is frame i of every camera's source. Times come from the videos' frame rate (25 Hz if none
 // gives one), or from the clock if all sources are live. A live camera brings its latest picture. A camera
 // with ready masks brings those and no picture. Thread: one reader; a capture thread a camera reads a few
 // frames ahead.
@@ -64,12 +68,17 @@ class RecordedRig : public FrameSetSource {
                            const std::stop_token& stop);
   void FindShortest();
   void FindFrameRate();
+  void FormSets();
+  [[nodiscard]] std::optional<FrameSet> TryReadSet(core::FrameIndex index, const std::stop_token& stop);
 
   RigFile rig_file_;
   std::optional<ShortestSource> shortest_source_;
   double frame_rate_hz_ = 25.0;
   std::optional<std::chrono::steady_clock::time_point> first_capture_;  // of live cameras
   std::vector<Camera> cameras_;
+  // By stamps; empty: frame i goes with frame i. Times from the first set's on.
+  std::vector<StampedSet> sets_;
+  std::vector<double> set_times_s_;
 };
 
 }  // namespace elbowroom::recon
