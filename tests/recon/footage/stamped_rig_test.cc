@@ -4,6 +4,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
 #include <functional>
 #include <set>
 
@@ -103,6 +107,44 @@ TEST(StampedRig, ATableThatCantBeReadIsNamed) {
   WriteText(folder.File("a.csv"), "frame,time_s\n70,0.2\n71,0.3\n");
   EXPECT_THAT(ErrorOf(ErrorKind::kFormat, [&] { RecordedRig rig(PlainRig({sources})); }),
               HasSubstr("name no picture that their footage has"));
+}
+
+// Four webcams that share no clock.
+TEST(StampedRig, RealWebcamsPlayAtTheirStamps) {
+  const std::filesystem::path webcams =
+      std::filesystem::path(ELBOWROOM_SHARED_DATA_DIR) / "calibration" / "webcams";
+  if (!std::filesystem::exists(webcams)) GTEST_SKIP() << "NOT TESTED: no footage at " << webcams;
+  std::vector<CameraSources> sources;
+  for (int i = 0; i < 4; ++i) {
+    sources.push_back({(webcams / fmt::format("cam_{}.mp4", i)).string(), "", ""});
+    sources.back().timestamps = (webcams / "stamps" / fmt::format("cam_{}.csv", i)).string();
+  }
+  RigFile rig_file = PlainRig(sources);
+  for (core::CameraModel& camera : rig_file.rig.cameras) {
+    core::CameraCalibration calibration = camera.calibration();
+    calibration.image_width_px = 1280;
+    calibration.image_height_px = 720;
+    camera = core::CameraModel(calibration);
+  }
+  RecordedRig rig(rig_file);
+  ASSERT_GT(rig.frame_count(), 90) << "of about 111 pictures a camera";
+  double last_s = -1.0, farthest_s = 0.0;
+  int missing = 0;
+  for (core::FrameIndex i = 0; i < 20; ++i) {
+    const FrameSet set = rig.Read(i);
+    EXPECT_GT(set.time_s, last_s);
+    last_s = set.time_s;
+    for (const CameraFrame& camera : set.cameras) {
+      missing += camera.stamp ? 0 : 1;
+      EXPECT_EQ(camera.stamp.has_value(), !camera.image_bgr.empty());
+      if (camera.stamp) farthest_s = std::max(farthest_s, std::abs(camera.stamp->time_s - set.time_s));
+    }
+  }
+  std::printf("%lld sets at %.2f Hz; of the first 20, cameras within %.1f ms of the set's time, %d missing\n",
+              static_cast<long long>(*rig.frame_count()), rig.frame_rate_hz(), 1e3 * farthest_s, missing);
+  EXPECT_GT(farthest_s, 1e-4) << "they are free-running";
+  EXPECT_LT(farthest_s, 1.0 / rig.frame_rate_hz());
+  EXPECT_LT(missing, 20);
 }
 
 }  // namespace
