@@ -29,6 +29,28 @@ std::pair<double, double> LevelOf(const std::vector<double>& values) {
   return {level, 1.4826 * MiddleOf(distances)};
 }
 
+struct BlinkShares {
+  std::vector<double> share;
+  double sigma = 0.0;
+};
+
+// Nothing: the curve has no two levels.
+std::optional<BlinkShares> SharesOf(const BlinkCurve& curve) {
+  BlinkShares shares;
+  const auto [least, most] = std::ranges::minmax(curve.brightness);
+  std::vector<double> dark, lit;
+  for (const double value : curve.brightness) (value < 0.5 * (least + most) ? dark : lit).push_back(value);
+  if (dark.size() < kFewestOfALevel || lit.size() < kFewestOfALevel) return std::nullopt;
+  const auto [dark_level, dark_sigma] = LevelOf(dark);
+  const auto [lit_level, lit_sigma] = LevelOf(lit);
+  if (lit_level <= dark_level) return std::nullopt;
+  shares.sigma = std::max(kLeastSigma, std::max(dark_sigma, lit_sigma) / (lit_level - dark_level));
+  if (shares.sigma > kMostSigma) return std::nullopt;
+  for (const double value : curve.brightness)
+    shares.share.push_back((value - dark_level) / (lit_level - dark_level));
+  return shares;
+}
+
 }  // namespace
 
 std::optional<BlinkEdges> FindBlinkEdges(const BlinkCurve& curve, double longest_gap_s) {
@@ -41,17 +63,9 @@ std::optional<BlinkEdges> FindBlinkEdges(const BlinkCurve& curve, double longest
   }
   BlinkEdges found;
   found.period_s = MiddleOf(steps_s);
-  const auto [least, most] = std::ranges::minmax(curve.brightness);
-  std::vector<double> dark, lit;
-  for (const double value : curve.brightness) (value < 0.5 * (least + most) ? dark : lit).push_back(value);
-  if (dark.size() < kFewestOfALevel || lit.size() < kFewestOfALevel) return std::nullopt;
-  const auto [dark_level, dark_sigma] = LevelOf(dark);
-  const auto [lit_level, lit_sigma] = LevelOf(lit);
-  if (lit_level <= dark_level) return std::nullopt;
-  found.share_sigma = std::max(kLeastSigma, std::max(dark_sigma, lit_sigma) / (lit_level - dark_level));
-  if (found.share_sigma > kMostSigma) return std::nullopt;
-  for (const double value : curve.brightness)
-    found.share.push_back((value - dark_level) / (lit_level - dark_level));
+  std::optional<BlinkShares> shares = SharesOf(curve);
+  if (!shares) return std::nullopt;
+  found.share = std::move(shares->share), found.share_sigma = shares->sigma;
 
   enum class Shows { kDark, kLit, kPartly };
   const auto shows = [&](std::size_t i) {

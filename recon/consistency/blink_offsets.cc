@@ -160,6 +160,41 @@ double ExposureByCount(const BlinkEdges& edges) {
   return std::clamp(share * edges.period_s, 5.0 * kLeastExposureS, 0.9 * edges.period_s);
 }
 
+// What the curves say by themselves.
+struct ReadCurves {
+  std::vector<BlinkEdges> cameras;
+  std::vector<double> coarse_s;
+  BlinkNoise noise;
+  BlinkTiming start;
+  std::vector<bool> is_exposure_known;
+  double longest_exposure_s = 0.0;
+};
+
+std::optional<ReadCurves> ReadAll(std::span<const BlinkCurve> curves, const BlinkOffsetOptions& options) {
+  const auto count = static_cast<Eigen::Index>(curves.size());
+  ReadCurves read;
+  read.noise.stamp_jitter_s = options.stamp_jitter_s, read.noise.wrong_share = options.wrong_share;
+  read.start = {VectorXd::Zero(count), VectorXd::Zero(count)};
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    if (!curves[i].is_linear) return std::nullopt;
+    std::optional<BlinkEdges> edges = FindBlinkEdges(curves[i], 1.8 * options.shortest_blink_s);
+    if (!edges) return std::nullopt;
+    const std::optional<double> offset_s =
+        i == 0 ? 0.0 : CoarseOffset(curves[0], read.cameras[0], curves[i], *edges, options.search_s);
+    if (!offset_s) return std::nullopt;
+    read.coarse_s.push_back(*offset_s);
+    read.noise.share_sigma.push_back(edges->share_sigma);
+    const bool is_known = i < options.exposure_s.size() && options.exposure_s[i] > 0.0;
+    read.is_exposure_known.push_back(is_known);
+    const auto at = static_cast<Eigen::Index>(i);
+    read.start.offset_s[at] = *offset_s;
+    read.start.exposure_s[at] = is_known ? options.exposure_s[i] : ExposureByCount(*edges);
+    read.longest_exposure_s = std::max(read.longest_exposure_s, edges->period_s);
+    read.cameras.push_back(std::move(*edges));
+  }
+  return read;
+}
+
 }  // namespace
 
 void BlinkOffsetOptions::Validate() const {
@@ -177,31 +212,9 @@ std::optional<BlinkOffsets> FindBlinkOffsets(std::span<const BlinkCurve> curves,
   constexpr std::size_t kFewestEdges = 10;
   core::Require(curves.size() >= 2, "offsets are between two cameras or more");
   options.Validate();
-  std::vector<BlinkEdges> cameras;
-  std::vector<double> coarse_s;
-  BlinkNoise noise;
-  noise.stamp_jitter_s = options.stamp_jitter_s, noise.wrong_share = options.wrong_share;
-  BlinkTiming start{VectorXd::Zero(static_cast<Eigen::Index>(curves.size())),
-                    VectorXd::Zero(static_cast<Eigen::Index>(curves.size()))};
-  std::vector<bool> is_known;
-  double longest_exposure_s = 0.0;
-  for (std::size_t i = 0; i < curves.size(); ++i) {
-    if (!curves[i].is_linear) return std::nullopt;
-    std::optional<BlinkEdges> edges = FindBlinkEdges(curves[i], 1.8 * options.shortest_blink_s);
-    if (!edges) return std::nullopt;
-    const auto offset_s =
-        i == 0 ? 0.0 : CoarseOffset(curves[0], cameras[0], curves[i], *edges, options.search_s);
-    if (!offset_s) return std::nullopt;
-    coarse_s.push_back(*offset_s);
-    noise.share_sigma.push_back(edges->share_sigma);
-    is_known.push_back(i < options.exposure_s.size() && options.exposure_s[i] > 0.0);
-    const auto at = static_cast<Eigen::Index>(i);
-    start.offset_s[at] = *offset_s;
-    start.exposure_s[at] = is_known.back() ? options.exposure_s[i] : ExposureByCount(*edges);
-    longest_exposure_s = std::max(longest_exposure_s, edges->period_s);
-    cameras.push_back(std::move(*edges));
-  }
-  std::vector<SharedEdge> shared = MatchEdges(cameras, coarse_s, options.shortest_blink_s);
+  std::optional<ReadCurves> read = ReadAll(curves, options);
+  if (!read) return std::nullopt;
+  std::vector<SharedEdge> shared = MatchEdges(read->cameras, read->coarse_s, options.shortest_blink_s);
   BlinkOffsets found;
   found.edges = shared.size();
   std::vector<std::size_t> seen(curves.size(), 0);
@@ -212,8 +225,8 @@ std::optional<BlinkOffsets> FindBlinkOffsets(std::span<const BlinkCurve> curves,
     }
   if (*std::ranges::min_element(seen) < kFewestEdges) return std::nullopt;
 
-  const BlinkPosterior posterior(std::move(shared), std::move(noise), std::move(start), std::move(is_known),
-                                 longest_exposure_s);
+  const BlinkPosterior posterior(std::move(shared), std::move(read->noise), std::move(read->start),
+                                 std::move(read->is_exposure_known), read->longest_exposure_s);
   const Draws drawn = DrawPosterior(posterior, Climb(posterior), options.draws, options.seed);
   const Eigen::Index offsets = posterior.offsets();
   const BlinkTiming timing = posterior.TimingAt(drawn.mean);

@@ -80,8 +80,10 @@ std::optional<BlinkRegion> FindBlinkingRegion(std::span<const cv::Mat> pictures)
     }
   region.is_linear = static_cast<int>(linear.size()) >= kFewestLinearPixels;
   region.pixels = region.is_linear ? linear : all;
-  for (const int pixel : region.pixels)
-    region.row_px += static_cast<double>(pixel / region.width_px) / static_cast<double>(region.pixels.size());
+  for (const int pixel : region.pixels) {
+    const int row = pixel / region.width_px;
+    region.row_px += row / static_cast<double>(region.pixels.size());
+  }
   return region;
 }
 
