@@ -270,7 +270,8 @@ class Recording {
     outcome_.skipped += result.skipped;
     outcome_.frames_without_camera += result.record.LacksCamera() ? 1 : 0;
     for (const core::PictureLoss& loss : result.record.losses) {
-      outcome_.pictures_lost[loss.camera] += static_cast<std::int64_t>(loss.count());
+      if (loss.reason != core::LossReason::kUnpaired)
+        outcome_.pictures_lost[loss.camera] += static_cast<std::int64_t>(loss.count());
       for (const std::string& note : loss_notes_.Add(loss)) Append(note);
     }
   }

@@ -60,7 +60,7 @@ struct TrialOutcome {
   SkipCount skipped;     // over all frames
   FrameTimeTally frame_times;  // segmentation to contacts
   // Of live cameras: from the middle of the exposure to the verdict; frames that lack a camera; pictures that
-  // no frame has, by camera.
+  // were lost, by camera.
   FrameTimeTally latencies;
   std::int64_t frames_without_camera = 0;
   std::vector<std::int64_t> pictures_lost;

@@ -193,7 +193,7 @@ std::optional<PictureSet> FrameSetAssembler::TryTake(Instant now) {
 
 PictureSet FrameSetAssembler::TakeSet(Instant instant, const std::vector<Choice>& choices) {
   PictureSet set{leader_, {}, std::vector<std::optional<CapturedPicture>>(cameras_.size())};
-  Instant earliest = Instant::max(), latest = Instant::min();
+  std::vector<Instant> times;
   for (CameraIndex i = 0; i < cameras_.size(); ++i) {
     std::deque<CapturedPicture>& waiting = cameras_[i].waiting;
     const std::size_t unused = choices[i].picture.value_or(0);
@@ -202,13 +202,13 @@ PictureSet FrameSetAssembler::TakeSet(Instant instant, const std::vector<Choice>
       while (!waiting.empty() && TimeOf(i, waiting.front()) < DueOf(i, instant)) DropFirst(i);
       continue;
     }
-    const Instant at = TimeOf(i, waiting.front());
-    earliest = std::min(earliest, at);
-    latest = std::max(latest, at);
+    times.push_back(TimeOf(i, waiting.front()));
     set.pictures[i] = std::move(waiting.front());
     waiting.pop_front();
   }
-  set.taken_at = earliest + (latest - earliest) / 2;
+  std::ranges::sort(times);
+  const Instant middle = times[(times.size() - 1) / 2];
+  set.taken_at = middle + (times[times.size() / 2] - middle) / 2;
   last_instant_ = instant;
   FollowPhases(instant, set);
   return set;

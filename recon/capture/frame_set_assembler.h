@@ -15,8 +15,9 @@ namespace elbowroom::recon {
 
 // The pictures of one instant.
 struct PictureSet {
-  core::CameraIndex leader = 0;       // whose picture the others lie nearest to
-  CaptureClock::time_point taken_at;  // the middle between its earliest and its latest picture
+  core::CameraIndex leader = 0;  // whose picture the others lie nearest to
+  CaptureClock::time_point
+      taken_at;  // the median of its pictures, of an even number the mean of the middle two
   std::vector<std::optional<CapturedPicture>> pictures;  // by camera; nothing: it has none near this instant
 };
 

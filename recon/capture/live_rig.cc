@@ -107,7 +107,8 @@ std::vector<DecidedSet> LiveRig::TakeDecided() {
   std::vector<DecidedSet> decided;
   const CaptureClock::time_point now = CaptureClock::now();
   while (std::optional<PictureSet> set = assembler_.TryTake(now)) {
-    for (const PictureLoss& loss : losses_) lost_[loss.camera] += has_reader_ ? loss.count() : 0;
+    for (const PictureLoss& loss : losses_)
+      if (has_reader_ && loss.reason != LossReason::kUnpaired) lost_[loss.camera] += loss.count();
     decided.push_back({std::move(*set), now, std::exchange(losses_, {})});
   }
   return decided;

@@ -70,6 +70,17 @@ struct RecordedRig::Camera {
   FrameIndex masks = 0;                       // the number of ready masks
   std::unique_ptr<ReadAhead> frames;
 
+  // Makes that frame the next to take. A few frames before it are read and dropped: to begin anew in a video
+  // costs more.
+  void SkipTo(FrameIndex frame, const std::stop_token& stop) {
+    constexpr FrameIndex kMostDropped = 16;
+    if (next && *next < frame && frame - *next <= kMostDropped)
+      while (*next < frame && frames->Take(stop)) ++*next;
+    frames->Expect(frame);
+    next = frame + 1;
+  }
+  std::optional<FrameIndex> next = {};  // of SkipTo: the frame that comes next
+
   [[nodiscard]] FrameIndex frame_count() const { return source != nullptr ? source->frame_count() : masks; }
 };
 
@@ -88,6 +99,19 @@ RecordedRig::Camera RecordedRig::OpenCamera(const CameraSources& sources, const 
   auto frames = ReadAheadOf(source);
   return {sources.frames, std::move(source), 0, std::move(frames)};
 }
+
+namespace {
+
+// Of a set's pictures; of an even number of them the mean of the two in the middle.
+double MedianTime(const StampedSet& set) {
+  std::vector<double> times_s;
+  for (const std::optional<StampedFrame>& frame : set.frames)
+    if (frame) times_s.push_back(frame->time_s);
+  std::ranges::sort(times_s);
+  return 0.5 * (times_s[(times_s.size() - 1) / 2] + times_s[times_s.size() / 2]);
+}
+
+}  // namespace
 
 void RequireOneRate(const CameraRate& one, const CameraRate& other) {
   constexpr double kAllowedRatio = 1.05;  // containers round, and average over dropped frames
@@ -108,7 +132,38 @@ RecordedRig::RecordedRig(RigFile rig_file, std::stop_token stop) : rig_file_(std
     cameras_[i] = OpenCamera(rig_file_.sources[i], rig_file_.rig.cameras[i], stop);
   });
   FindShortest();
-  FindFrameRate();
+  FormSets();
+  if (sets_.empty()) FindFrameRate();
+}
+
+// Stamps of pictures that their source doesn't have count for nothing.
+void RecordedRig::FormSets() {
+  std::vector<FrameStamps> stamps(cameras_.size());
+  for (core::CameraIndex i = 0; i < cameras_.size(); ++i) {
+    const CameraSources& sources = rig_file_.sources[i];
+    if (sources.timestamps.empty()) return;
+    stamps[i] =
+        ReadFrameStamps(sources.timestamps, fmt::format("camera '{}'", rig_file_.rig.cameras[i].name()));
+    stamps[i].resize(std::min(stamps[i].size(), static_cast<std::size_t>(cameras_[i].frame_count())));
+    for (std::optional<double>& at_s : stamps[i])
+      if (at_s) *at_s += sources.time_offset_s;
+  }
+  sets_ = SetsByNearestStamp(stamps);
+  if (sets_.empty()) {
+    throw Error(ErrorKind::kFormat,
+                "the cameras' tables of stamps name no picture that their footage has; check timestamps");
+  }
+  double from_s = 0.0;
+  for (StampedSet& set : sets_) {
+    const double time_s = MedianTime(set);
+    if (set_times_s_.empty()) from_s = time_s;
+    for (std::optional<StampedFrame>& frame : set.frames)
+      if (frame) frame->time_s -= from_s;
+    // Medians over different cameras may go back a little.
+    set_times_s_.push_back(set_times_s_.empty() ? 0.0 : std::max(time_s - from_s, set_times_s_.back()));
+  }
+  if (sets_.size() > 1 && set_times_s_.back() > 0.0)
+    frame_rate_hz_ = static_cast<double>(sets_.size() - 1) / set_times_s_.back();
 }
 
 RecordedRig::~RecordedRig() = default;
@@ -135,11 +190,13 @@ void RecordedRig::FindShortest() {
 }
 
 std::optional<FrameIndex> RecordedRig::frame_count() const {
+  if (!sets_.empty()) return static_cast<FrameIndex>(sets_.size());
   if (!shortest_source_) return std::nullopt;
   return shortest_source_->frames;
 }
 
 std::string RecordedRig::WhatEndsIt() const {
+  if (!sets_.empty()) return fmt::format("the last set of pictures by their stamps ({} sets)", sets_.size());
   if (!shortest_source_) return {};
   return fmt::format("the shortest source, camera '{}' ({} frames)",
                      rig_file_.rig.cameras[shortest_source_->camera].name(), shortest_source_->frames);
@@ -149,6 +206,7 @@ std::optional<FrameSet> RecordedRig::TryRead(FrameIndex index, std::stop_token s
   if (index < 0) {
     throw Error(ErrorKind::kRange, fmt::format("frame {} is out of range: frames count from 0", index));
   }
+  if (!sets_.empty()) return TryReadSet(index, stop);
   for (const Camera& camera : cameras_) camera.frames->Expect(index);
   FrameSet set{index, static_cast<double>(index) / frame_rate_hz_, {}};
   bool has_ended = false;
@@ -168,6 +226,30 @@ std::optional<FrameSet> RecordedRig::TryRead(FrameIndex index, std::stop_token s
     return std::nullopt;
   }
   if (failure) std::rethrow_exception(failure);
+  return set;
+}
+
+std::optional<FrameSet> RecordedRig::TryReadSet(FrameIndex index, const std::stop_token& stop) {
+  const auto at = static_cast<std::size_t>(index);
+  if (at >= sets_.size()) return std::nullopt;
+  const StampedSet& stamped = sets_[at];
+  for (core::CameraIndex i = 0; i < cameras_.size(); ++i)
+    if (stamped.frames[i]) cameras_[i].SkipTo(stamped.frames[i]->frame, stop);
+  FrameSet set{index, set_times_s_[at], {}};
+  for (core::CameraIndex i = 0; i < cameras_.size(); ++i) {
+    set.cameras.emplace_back();
+    const std::optional<StampedFrame>& stamp = stamped.frames[i];
+    if (!stamp) continue;
+    std::optional<CameraFrame> frame = cameras_[i].frames->Take(stop);
+    // The file promised more pictures than can be decoded.
+    if (!frame) {
+      sets_.resize(at);
+      set_times_s_.resize(at);
+      return std::nullopt;
+    }
+    set.cameras.back() = std::move(*frame);
+    set.cameras.back().stamp = core::CameraStamp{static_cast<std::uint64_t>(stamp->frame), stamp->time_s};
+  }
   return set;
 }
 

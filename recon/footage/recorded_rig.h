@@ -9,6 +9,7 @@
 
 #include "recon/footage/frame_set.h"
 #include "recon/footage/image_source.h"
+#include "recon/footage/stamped_frames.h"
 #include "recon/rig_files/rig_file.h"
 
 namespace elbowroom::recon {
@@ -28,7 +29,10 @@ struct CameraRate {
 // Throws: Error{kFormat} naming both cameras when their rates differ by more than containers round.
 void RequireOneRate(const CameraRate& one, const CameraRate& other);
 
-// Frame i of a set is frame i of every camera's source. Times come from the videos' frame rate (25 Hz if none
+// Where all cameras have recorded footage with timestamps, the sets are those of SetsByNearestStamp, after
+// each camera's time offset: their times are the medians of their pictures', from the first set's on, each
+// picture has its stamp, and a camera without a picture near a set's time is missing in it. Otherwise frame i
+// of a set is frame i of every camera's source. Times come from the videos' frame rate (25 Hz if none
 // gives one). A camera with ready masks brings those and no picture. Thread: one reader; a capture thread a
 // camera reads a few frames ahead.
 class RecordedRig : public FrameSetSource {
@@ -58,11 +62,16 @@ class RecordedRig : public FrameSetSource {
                            const std::stop_token& stop);
   void FindShortest();
   void FindFrameRate();
+  void FormSets();
+  [[nodiscard]] std::optional<FrameSet> TryReadSet(core::FrameIndex index, const std::stop_token& stop);
 
   RigFile rig_file_;
   std::optional<ShortestSource> shortest_source_;
   double frame_rate_hz_ = 25.0;
   std::vector<Camera> cameras_;
+  // By stamps; empty: frame i goes with frame i. Times from the first set's on.
+  std::vector<StampedSet> sets_;
+  std::vector<double> set_times_s_;
 };
 
 }  // namespace elbowroom::recon

@@ -23,7 +23,7 @@ using core::FrameIndex;
 struct OpenedCamera {
   recon::UncalibratedSource frames;
   std::optional<recon::UncalibratedSource> photos;
-  FrameStamps stamps;  // empty: none
+  recon::FrameStamps stamps;  // empty: none
 };
 
 OpenedCamera Open(const CameraFootage& camera, const std::stop_token& stop) {
@@ -40,33 +40,33 @@ OpenedCamera Open(const CameraFootage& camera, const std::stop_token& stop) {
     }
   }
   if (!camera.timestamps.empty())
-    opened.stamps = ReadFrameStamps(camera.timestamps, fmt::format("camera '{}'", camera.name));
+    opened.stamps = recon::ReadFrameStamps(camera.timestamps, fmt::format("camera '{}'", camera.name));
   return opened;
 }
 
 // Frame i of each camera, as far as the longest footage goes.
-std::vector<StampedSet> SetsByNumber(const std::vector<OpenedCamera>& cameras,
-                                     const std::optional<double>& period_s) {
+std::vector<recon::StampedSet> SetsByNumber(const std::vector<OpenedCamera>& cameras,
+                                            const std::optional<double>& period_s) {
   FrameIndex longest = 0;
   for (const OpenedCamera& camera : cameras)
     longest = std::max(longest, camera.frames.pictures->frame_count());
-  std::vector<StampedSet> sets(static_cast<std::size_t>(longest));
+  std::vector<recon::StampedSet> sets(static_cast<std::size_t>(longest));
   for (std::size_t i = 0; i < sets.size(); ++i) {
     const double time_s = static_cast<double>(i) * period_s.value_or(0.0);
     for (const OpenedCamera& camera : cameras) {
       const auto frame = static_cast<FrameIndex>(i);
       const bool has = frame < camera.frames.pictures->frame_count();
-      sets[i].frames.push_back(has ? std::optional(StampedFrame{frame, time_s}) : std::nullopt);
+      sets[i].frames.push_back(has ? std::optional(recon::StampedFrame{frame, time_s}) : std::nullopt);
     }
   }
   return sets;
 }
 
 // Runs of three in a row, evenly spread, unless all can be kept.
-std::vector<StampedSet> Chosen(std::vector<StampedSet> sets) {
+std::vector<recon::StampedSet> Chosen(std::vector<recon::StampedSet> sets) {
   constexpr std::size_t kRun = 3;
   if (sets.size() <= kMostBoardSets) return sets;
-  std::vector<StampedSet> chosen;
+  std::vector<recon::StampedSet> chosen;
   const std::size_t runs = kMostBoardSets / kRun;
   for (std::size_t i = 0; i < runs; ++i) {
     const std::size_t first = i * (sets.size() - kRun) / (runs - 1);
@@ -140,9 +140,9 @@ std::vector<FrameIndex> All(const recon::ImageSource& pictures) {
   return all;
 }
 
-std::vector<FrameIndex> Wanted(const std::vector<StampedSet>& sets, std::size_t camera) {
+std::vector<FrameIndex> Wanted(const std::vector<recon::StampedSet>& sets, std::size_t camera) {
   std::vector<FrameIndex> wanted;
-  for (const StampedSet& set : sets)
+  for (const recon::StampedSet& set : sets)
     if (set.frames[camera]) wanted.push_back(set.frames[camera]->frame);
   std::ranges::sort(wanted);
   const auto twice = std::ranges::unique(wanted);
@@ -201,11 +201,12 @@ void FormSets(const CalibrationFile& file, std::vector<OpenedCamera>* cameras, B
     return;
   }
   RequireStampsOfAll(file, *cameras);
-  std::vector<FrameStamps> stamps;
+  std::vector<recon::FrameStamps> stamps;
   for (OpenedCamera& camera : *cameras) stamps.push_back(std::move(camera.stamps));
-  footage->sets = Chosen(SetsByNearestStamp(stamps));
-  for (const FrameStamps& of_camera : stamps)
-    footage->period_s = std::max(footage->period_s.value_or(0.0), MedianPeriod(of_camera).value_or(0.0));
+  footage->sets = Chosen(recon::SetsByNearestStamp(stamps));
+  for (const recon::FrameStamps& of_camera : stamps)
+    footage->period_s =
+        std::max(footage->period_s.value_or(0.0), recon::MedianPeriod(of_camera).value_or(0.0));
 }
 
 // Looks for the board in the pictures of all cameras, and counts them for the progress.
@@ -283,9 +284,10 @@ BoardFootage FindBoards(const CalibrationFile& file, const core::Progress& progr
   return footage;
 }
 
-std::vector<StampedSet> SetsAfterOffsets(const BoardFootage& footage, const std::vector<double>& offsets_s) {
-  std::vector<FrameStamps> stamps(footage.cameras.size()), scene_times(footage.cameras.size());
-  for (const StampedSet& set : footage.sets) {
+std::vector<recon::StampedSet> SetsAfterOffsets(const BoardFootage& footage,
+                                                const std::vector<double>& offsets_s) {
+  std::vector<recon::FrameStamps> stamps(footage.cameras.size()), scene_times(footage.cameras.size());
+  for (const recon::StampedSet& set : footage.sets) {
     for (std::size_t i = 0; i < set.frames.size(); ++i) {
       if (!set.frames[i]) continue;
       const auto frame = static_cast<std::size_t>(set.frames[i]->frame);
@@ -294,8 +296,8 @@ std::vector<StampedSet> SetsAfterOffsets(const BoardFootage& footage, const std:
       scene_times[i][frame] = set.frames[i]->time_s + offsets_s[i];
     }
   }
-  std::vector<StampedSet> sets = SetsByNearestStamp(scene_times);
-  for (StampedSet& set : sets)
+  std::vector<recon::StampedSet> sets = recon::SetsByNearestStamp(scene_times);
+  for (recon::StampedSet& set : sets)
     for (std::size_t i = 0; i < set.frames.size(); ++i)
       if (auto& frame = set.frames[i]) frame->time_s = *stamps[i][static_cast<std::size_t>(frame->frame)];
   return sets;

@@ -51,14 +51,14 @@ void RequireBoards(const CalibrationFile& file, const BoardFootage& footage) {
 // One camera's pictures of a board that lies still.
 class StillView {
  public:
-  StillView(const recon::Board& board, const StampedFrame& frame, const BoardSighting& sighting)
+  StillView(const recon::Board& board, const recon::StampedFrame& frame, const BoardSighting& sighting)
       : rest_(board, sighting),
         first_frame_(frame.frame),
         last_frame_(frame.frame),
         time_sum_s_(frame.time_s) {}
 
   // Takes the picture if the board hasn't moved since the first one.
-  bool Add(const BoardSighting& sighting, const StampedFrame& frame) {
+  bool Add(const BoardSighting& sighting, const recon::StampedFrame& frame) {
     if (!rest_.Add(sighting)) return false;
     last_frame_ = frame.frame;
     time_sum_s_ += frame.time_s;
@@ -94,7 +94,7 @@ class SetJoiner {
   }
 
   void Run(std::vector<recon::CalibrationView>* views) {
-    for (const StampedSet& set : footage_.sets) {
+    for (const recon::StampedSet& set : footage_.sets) {
       if (!ShowsBoard(set)) continue;
       if (!IsContinued(set)) {
         Close(views);
@@ -109,24 +109,24 @@ class SetJoiner {
   [[nodiscard]] std::optional<int> world_set() const { return world_set_; }
 
  private:
-  [[nodiscard]] const BoardSighting* SightingIn(const StampedSet& set, std::size_t camera) const {
+  [[nodiscard]] const BoardSighting* SightingIn(const recon::StampedSet& set, std::size_t camera) const {
     if (!set.frames[camera]) return nullptr;
     const auto found = sightings_[camera].find(set.frames[camera]->frame);
     return found == sightings_[camera].end() ? nullptr : found->second;
   }
-  [[nodiscard]] bool ShowsBoard(const StampedSet& set) const {
+  [[nodiscard]] bool ShowsBoard(const recon::StampedSet& set) const {
     for (std::size_t i = 0; i < sightings_.size(); ++i)
       if (SightingIn(set, i) != nullptr) return true;
     return false;
   }
   // Whether the first camera that sees the board there sees it in the frame that the file names.
-  [[nodiscard]] bool HasWorldFrame(const StampedSet& set) const {
+  [[nodiscard]] bool HasWorldFrame(const recon::StampedSet& set) const {
     for (std::size_t i = 0; i < sightings_.size(); ++i)
       if (SightingIn(set, i) != nullptr && set.frames[i]->frame == *file_.board_frame) return true;
     return false;
   }
 
-  void Begin(const StampedSet& set) {
+  void Begin(const recon::StampedSet& set) {
     views_.clear();
     views_.resize(sightings_.size());
     for (std::size_t i = 0; i < sightings_.size(); ++i) {
@@ -136,7 +136,7 @@ class SetJoiner {
   }
 
   // Takes the set's pictures if the board lies still in all cameras that see it now and before.
-  bool IsContinued(const StampedSet& set) {
+  bool IsContinued(const recon::StampedSet& set) {
     if (views_.empty()) return false;
     std::vector<std::optional<StillView>> continued = views_;
     int agree = 0;

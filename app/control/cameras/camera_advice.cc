@@ -15,6 +15,8 @@ constexpr double kMostSaturatedShare = 0.01;
 // Cameras of one rate need not be farther apart than half a period; a fifth is 7 ms at 30 Hz.
 constexpr double kMostSkewPeriods = 0.2;
 
+constexpr double kLeastRateShare = 0.97;
+
 std::int64_t Count(const CameraHealth& camera, core::LossReason reason) {
   const auto found = camera.losses.find(reason);
   return found == camera.losses.end() ? 0 : found->second;
@@ -54,6 +56,12 @@ void AdviseOnPicture(const CameraHealth& camera, std::vector<std::string>* advic
   if (camera.saturated_share > kMostSaturatedShare)
     advice->push_back(fmt::format("{:.0f} % of its picture are too bright: close the lens, or expose shorter",
                                   100.0 * camera.saturated_share));
+  const std::optional<double>& said_hz = camera.state.report.rate_hz;
+  if (said_hz && camera.rate_hz && *camera.rate_hz < kLeastRateShare * *said_hz)
+    advice->push_back(
+        fmt::format("it takes {:.1f} pictures a second instead of {:.1f}: expose shorter, or ask for a lower "
+                    "rate (capture: rate_hz)",
+                    *camera.rate_hz, *said_hz));
   const double period_ms = 1000.0 / camera.rate_hz.value_or(30.0);
   if (camera.skew_ms && camera.skew_ms->median > kMostSkewPeriods * period_ms)
     advice->push_back(

@@ -4,6 +4,7 @@
 #include <gst/app/gstappsrc.h>
 #include <gst/rtsp-server/rtsp-server.h>
 
+#include <random>
 #include <stdexcept>
 #include <thread>
 #include <utility>
@@ -15,7 +16,9 @@ namespace {
 struct Feed {
   FakeRtspCamera::Picture picture;
   int rate_hz = 30;
+  double damaged_share = 0.0;
   int index = 0;
+  std::mt19937 random{1};
 };
 
 void PushNext(GstElement* source, guint, gpointer data) {
@@ -28,6 +31,22 @@ void PushNext(GstElement* source, guint, gpointer data) {
   GST_BUFFER_DURATION(buffer) = gst_util_uint64_scale_int(1, GST_SECOND, feed.rate_hz);
   ++feed.index;
   gst_app_src_push_buffer(GST_APP_SRC(source), buffer);
+}
+
+// Overwrites bytes of an encoded picture.
+GstPadProbeReturn Damage(GstPad*, GstPadProbeInfo* info, gpointer data) {
+  auto& feed = *static_cast<Feed*>(data);
+  if (!std::bernoulli_distribution(feed.damaged_share)(feed.random)) return GST_PAD_PROBE_OK;
+  GstBuffer* buffer = gst_buffer_make_writable(GST_PAD_PROBE_INFO_BUFFER(info));
+  info->data = buffer;
+  GstMapInfo map;
+  if (gst_buffer_map(buffer, &map, GST_MAP_WRITE) == 0) return GST_PAD_PROBE_OK;
+  std::uniform_int_distribution<std::size_t> at(0, map.size - 1);
+  std::uniform_int_distribution<int> byte(0, 255);
+  constexpr int kBytes = 20;
+  for (int i = 0; i < kBytes; ++i) map.data[at(feed.random)] = static_cast<guint8>(byte(feed.random));
+  gst_buffer_unmap(buffer, &map);
+  return GST_PAD_PROBE_OK;
 }
 
 }  // namespace
@@ -49,15 +68,22 @@ struct FakeRtspCamera::Impl {
                            [](gpointer data) { delete static_cast<Feed*>(data); });
     g_signal_connect(source, "need-data", G_CALLBACK(&PushNext), feed);
     gst_object_unref(source);
+    if (feed->damaged_share > 0.0) {
+      GstElement* encoder = gst_bin_get_by_name_recurse_up(GST_BIN(bin), "encoder");
+      GstPad* pad = gst_element_get_static_pad(encoder, "src");
+      gst_pad_add_probe(pad, GST_PAD_PROBE_TYPE_BUFFER, &Damage, feed, nullptr);
+      gst_object_unref(pad);
+      gst_object_unref(encoder);
+    }
     gst_object_unref(bin);
   }
 };
 
-FakeRtspCamera::FakeRtspCamera(int port, cv::Size size_px, int rate_hz, Picture picture)
+FakeRtspCamera::FakeRtspCamera(int port, cv::Size size_px, int rate_hz, Picture picture, double damaged_share)
     : impl_(std::make_unique<Impl>()) {
   gst_init(nullptr, nullptr);
   impl_->port = port;
-  impl_->feed = {std::move(picture), rate_hz};
+  impl_->feed = {std::move(picture), rate_hz, damaged_share};
   impl_->server = gst_rtsp_server_new();
   gst_rtsp_server_set_service(impl_->server, std::to_string(port).c_str());
   GstRTSPMediaFactory* factory = gst_rtsp_media_factory_new();
@@ -65,7 +91,8 @@ FakeRtspCamera::FakeRtspCamera(int port, cv::Size size_px, int rate_hz, Picture 
       "( appsrc name=pictures is-live=true format=time max-buffers=2 block=false "
       "caps=video/x-raw,format=BGR,width={},height={},framerate={}/1 ! clocksync ! videoconvert ! "
       "video/x-raw,format=I420 ! "
-      "x264enc tune=zerolatency speed-preset=ultrafast key-int-max={} bitrate=4000 ! rtph264pay name=pay0 "
+      "x264enc name=encoder tune=zerolatency speed-preset=ultrafast key-int-max={} bitrate=4000 ! rtph264pay "
+      "name=pay0 "
       "pt=96 )",
       size_px.width, size_px.height, rate_hz, rate_hz);
   gst_rtsp_media_factory_set_launch(factory, launch.c_str());

@@ -14,8 +14,9 @@ class FakeRtspCamera {
   // Gives picture `index` (0, 1, ...) of a client's stream: CV_8UC3, BGR.
   using Picture = std::function<cv::Mat(int index)>;
 
-  // Throws: std::runtime_error where the port is taken.
-  FakeRtspCamera(int port, cv::Size size_px, int rate_hz, Picture picture);
+  // `damaged_share`: of the encoded pictures, in which some bytes are overwritten. Throws: std::runtime_error
+  // where the port is taken.
+  FakeRtspCamera(int port, cv::Size size_px, int rate_hz, Picture picture, double damaged_share = 0.0);
   ~FakeRtspCamera();
   FakeRtspCamera(const FakeRtspCamera&) = delete;
   FakeRtspCamera& operator=(const FakeRtspCamera&) = delete;

@@ -7,6 +7,7 @@
 #include <functional>
 #include <future>
 #include <optional>
+#include <random>
 #include <stop_token>
 #include <string>
 #include <thread>
@@ -15,6 +16,7 @@
 #include "tests/recon/capture/live_accounts.h"
 #include "tests/recon/footage/made_footage.h"
 #include "tests/recon/footage/mjpeg_server.h"
+#include "tests/support/soak.h"
 
 namespace elbowroom::recon {
 namespace {
@@ -87,6 +89,45 @@ TEST(HttpCamera, DamagedPicturesAreNamed) {
   for (int i = 0; i < 50; ++i) accounts.Add(rig.Read(i));
   accounts.ExpectWhole();
   EXPECT_GE(accounts.lost(core::LossReason::kDamaged), 1U);
+}
+
+// JPEG files that are cut, overwritten, or claim to be huge: between them whole ones come through.
+TEST(HttpCamera, ManyDamagedPicturesCostThemselvesAndNothingElse) {
+  const int parts = 200 * test_support::SoakScale();
+  std::mt19937 random(3);
+  const auto part = [&](int i) {
+    std::string jpeg = Jpeg(i % 256);
+    if (i % 4 == 0) return jpeg;
+    const auto below = [&](std::size_t end) {
+      return std::uniform_int_distribution<std::size_t>(0, end - 1)(random);
+    };
+    switch (i % 4) {
+      case 1:
+        jpeg.resize(below(jpeg.size()));
+        break;
+      case 2:
+        for (int k = 0; k < 10; ++k) jpeg[below(jpeg.size())] = static_cast<char>(below(256));
+        break;
+      default: {  // its header claims 65,500 x 65,500 pixels
+        const std::size_t at = jpeg.find("\xff\xc0");
+        if (at != std::string::npos) jpeg.replace(at + 5, 4, "\xff\xdc\xff\xdc");
+      }
+    }
+    return jpeg;
+  };
+  MjpegServer server([&](int i) -> std::optional<std::string> {
+    static const auto begin = std::chrono::steady_clock::now();
+    std::this_thread::sleep_until(begin + i * std::chrono::milliseconds(10));
+    return i < parts ? std::optional(part(i)) : std::optional(Jpeg(7));
+  });
+  LiveRig rig(RigOf(server));
+  LiveAccounts accounts(1);
+  for (int i = 0; accounts.judged() < static_cast<std::uint64_t>(parts) / 5; ++i) {
+    const FrameSet set = rig.Read(i);
+    accounts.Add(set);
+    EXPECT_EQ(set.cameras[0].image_bgr.cols, testing::kWidthPx);
+  }
+  accounts.ExpectWhole();
 }
 
 TEST(HttpCamera, AStopIsHeardWhileItStalls) {

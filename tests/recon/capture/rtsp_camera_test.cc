@@ -86,6 +86,18 @@ TEST_F(RtspCamera, AStreamThatIsCutIsAGapWithItsPicturesNamed) {
   EXPECT_GT(accounts.lost(core::LossReason::kCameraGone), 3U);
 }
 
+// A tenth of the pictures arrive with overwritten bytes, some of which no decoder gets over.
+TEST_F(RtspCamera, ADamagedStreamCostsPicturesAndNothingElse) {
+  camera_ = std::make_unique<FakeRtspCamera>(
+      kPort, cv::Size(kWidth, kHeight), kRateHz,
+      [](int index) { return NumberedPicture(index % 256, kWidth, kHeight); }, 0.1);
+  LiveRig rig(Rig());
+  LiveAccounts accounts(1);
+  for (int i = 0; i < 60; ++i) accounts.Add(rig.Read(i));
+  accounts.ExpectWhole();
+  EXPECT_EQ(accounts.judged(), 60U);
+}
+
 TEST_F(RtspCamera, OneOfAnotherSizeIsRefused) {
   Switch(true);
   const std::string message = ErrorOf(ErrorKind::kCamera, [] { LiveRig rig(Rig(192)); });

@@ -1,4 +1,4 @@
-#include "app/control/calibration/stamped_frames.h"
+#include "recon/footage/stamped_frames.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text_file.h"
 
-namespace elbowroom::control {
+namespace elbowroom::recon {
 namespace {
 
 using test_support::TemporaryFolder;
@@ -114,4 +114,4 @@ TEST(SetsByNearestStamp, NeedStampsOfEveryCamera) {
 }
 
 }  // namespace
-}  // namespace elbowroom::control
+}  // namespace elbowroom::recon

@@ -1,4 +1,4 @@
-#include "app/control/calibration/stamped_frames.h"
+#include "recon/footage/stamped_frames.h"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,7 @@
 #include "core/error.h"
 #include "core/system/configuration_file.h"
 
-namespace elbowroom::control {
+namespace elbowroom::recon {
 namespace {
 
 using core::FrameIndex;
@@ -166,4 +166,4 @@ std::vector<StampedSet> SetsByNearestStamp(std::span<const FrameStamps> cameras)
   return sets;
 }
 
-}  // namespace elbowroom::control
+}  // namespace elbowroom::recon

@@ -9,7 +9,7 @@
 
 #include "core/ids.h"
 
-namespace elbowroom::control {
+namespace elbowroom::recon {
 
 // A frame's time in s, by its number; frames without a stamp have none.
 using FrameStamps = std::vector<std::optional<double>>;
@@ -40,4 +40,4 @@ struct StampedSet {
 // The median time between one stamp and the next, in s. Nothing with fewer than two stamps.
 [[nodiscard]] std::optional<double> MedianPeriod(const FrameStamps& stamps);
 
-}  // namespace elbowroom::control
+}  // namespace elbowroom::recon

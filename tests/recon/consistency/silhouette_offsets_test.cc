@@ -1,0 +1,176 @@
+#include "recon/consistency/silhouette_offsets.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "core/error.h"
+#include "tests/recon/consistency/capsule_masks.h"
+#include "tests/recon/consistency/hand_stage.h"
+#include "tests/recon/consistency/tangent_footage.h"
+#include "tests/support/soak.h"
+
+namespace elbowroom::recon::testing {
+namespace {
+
+constexpr double kFilmRateHz = 30.0;
+constexpr double kFootageS = 30.0;
+constexpr double kMostErrorS = 0.003;  // what is promised for half a minute of moving hands
+
+// When camera i takes its picture k, by its stamp: it runs freely, and its stamps jitter a little.
+double StampOf(std::uint64_t seed, core::CameraIndex camera, int picture) {
+  const double phase_s = 0.0077 * static_cast<double>(camera) + 0.01;
+  return phase_s + picture / kFilmRateHz +
+         5e-4 * NormalFrom(seed + camera, 10'000 + static_cast<std::uint64_t>(picture));
+}
+bool IsDropped(std::uint64_t seed, core::CameraIndex camera, int picture) {
+  return NormalFrom(seed + 31 * camera, 90'000 + static_cast<std::uint64_t>(picture)) > 2.3;  // 1 %
+}
+
+// Offsets up to about a frame period and a half; that of the first camera is 0.
+std::vector<double> DrawOffsets(std::uint64_t seed, std::size_t cameras) {
+  std::vector<double> offsets_s{0.0};
+  while (offsets_s.size() < cameras)
+    offsets_s.push_back(std::clamp(0.022 * NormalFrom(seed, 500 + offsets_s.size()), -0.05, 0.05));
+  return offsets_s;
+}
+
+using Footage = std::vector<std::vector<StampedTangents>>;
+
+Footage Film(TangentFootage* scene, std::uint64_t seed, const std::vector<double>& offsets_s,
+             double seconds) {
+  // What the stamps say is off by a fifth of a millisecond, each by itself.
+  scene->delay_s = [seed, offsets_s](core::CameraIndex camera, double stamp_s) {
+    const auto number = static_cast<std::uint64_t>(std::llround(stamp_s * 1e6));
+    return offsets_s[camera] + 2e-4 * NormalFrom(seed + 77 + camera, number);
+  };
+  Footage footage(offsets_s.size());
+  for (core::CameraIndex camera = 0; camera < offsets_s.size(); ++camera)
+    for (int picture = 0; picture < seconds * kFilmRateHz; ++picture) {
+      if (IsDropped(seed, camera, picture)) continue;
+      const double stamp_s = StampOf(seed, camera, picture);
+      footage[camera].push_back({stamp_s, scene->TangentsOf(camera, stamp_s)});
+    }
+  return footage;
+}
+
+struct OffsetTally {
+  std::vector<double> errors_s;
+  int within_1 = 0, within_2 = 0;
+  double squares = 0.0;  // of the errors in sigmas, by the covariance
+};
+
+void RecordOffsets(const std::string& name, OffsetTally tally) {
+  const auto whole = [](double value) { return static_cast<int>(std::lround(value)); };
+  const auto count = static_cast<double>(tally.errors_s.size());
+  std::ranges::sort(tally.errors_s);
+  ::testing::Test::RecordProperty(name + "_trials", whole(count));
+  ::testing::Test::RecordProperty(name + "_median_us",
+                                  whole(1e6 * tally.errors_s[tally.errors_s.size() / 2]));
+  ::testing::Test::RecordProperty(name + "_worst_us", whole(1e6 * tally.errors_s.back()));
+  ::testing::Test::RecordProperty(name + "_within_1_percent", whole(100.0 * tally.within_1 / count));
+  ::testing::Test::RecordProperty(name + "_within_2_percent", whole(100.0 * tally.within_2 / count));
+  ::testing::Test::RecordProperty(name + "_squares_percent", whole(100.0 * tally.squares / count));
+}
+
+OffsetTally FindMany(int cameras, double speed, std::uint64_t seeds) {
+  OffsetTally tally;
+  for (std::uint64_t seed = 1; seed <= seeds; ++seed)
+    for (const MovingShape shape : kMovingShapes) {
+      TangentFootage scene(HandRig(cameras), {.shape = shape, .seed = seed, .speed = speed}, {.seed = seed});
+      const std::vector<double> truth_s = DrawOffsets(seed, static_cast<std::size_t>(cameras));
+      const auto found = FindSilhouetteOffsets(*scene.pairs(), Film(&scene, seed, truth_s, kFootageS));
+      EXPECT_TRUE(found) << NameOf(shape) << " seed " << seed;
+      if (!found) continue;
+      Eigen::VectorXd errors_s(cameras - 1);
+      for (std::size_t i = 1; i < truth_s.size(); ++i) {
+        const double error_s = std::abs(found->offset_s[i] - truth_s[i]);
+        EXPECT_LT(error_s, kMostErrorS) << NameOf(shape) << " seed " << seed << " camera " << i;
+        errors_s[static_cast<Eigen::Index>(i) - 1] = found->offset_s[i] - truth_s[i];
+        tally.errors_s.push_back(error_s);
+        if (error_s < found->sigma_s[i]) ++tally.within_1;
+        if (error_s < 2.0 * found->sigma_s[i]) ++tally.within_2;
+      }
+      tally.squares += errors_s.dot(found->covariance_s2.ldlt().solve(errors_s));
+    }
+  return tally;
+}
+
+// 68 and 95 % of a normal number; of about 60 trials that aren't independent, so the bounds are wide.
+void ExpectSigmasHold(const OffsetTally& tally) {
+  const auto count = static_cast<double>(tally.errors_s.size());
+  EXPECT_GT(tally.within_1, 0.52 * count);
+  EXPECT_LT(tally.within_1, 0.9 * count);
+  EXPECT_GT(tally.within_2, 0.85 * count);
+  EXPECT_LT(tally.squares, 1.8 * count);
+  EXPECT_GT(tally.squares, 0.4 * count);
+}
+
+TEST(SilhouetteOffsets, AreFoundToATenthOfAMillisecondAtWorkingSpeed) {
+  const OffsetTally tally = FindMany(4, 1.0, static_cast<std::uint64_t>(4 * test_support::SoakScale()));
+  RecordOffsets("four", tally);
+  ExpectSigmasHold(tally);
+  EXPECT_LT(*std::ranges::max_element(tally.errors_s), 0.001);
+}
+
+TEST(SilhouetteOffsets, AreFoundByThreeCameras) {
+  const OffsetTally tally = FindMany(3, 1.0, static_cast<std::uint64_t>(4 * test_support::SoakScale()));
+  RecordOffsets("three", tally);
+  ExpectSigmasHold(tally);
+}
+
+// A third of the speed: three times the error, and few movements to judge it by.
+TEST(SilhouetteOffsets, AreFoundFromSlowHands) {
+  const OffsetTally tally = FindMany(4, 0.3, static_cast<std::uint64_t>(4 * test_support::SoakScale()));
+  RecordOffsets("slow", tally);
+  ExpectSigmasHold(tally);
+}
+
+TEST(SilhouetteOffsets, AreFoundByEightCamerasAndBeyondTwoPeriods) {
+  TangentFootage scene(HandRig(8), {.shape = MovingShape::kOpenHand, .seed = 2}, {.seed = 2});
+  std::vector<double> truth_s{0.0, 0.02, -0.03, 0.075, -0.01, 0.033, -0.015, 0.0};
+  const auto found =
+      FindSilhouetteOffsets(*scene.pairs(), Film(&scene, 2, truth_s, kFootageS), {.search_s = 0.12});
+  ASSERT_TRUE(found);
+  for (std::size_t i = 1; i < truth_s.size(); ++i)
+    EXPECT_NEAR(found->offset_s[i], truth_s[i], 5.0 * found->sigma_s[i]);
+}
+
+// The whole way from masks, with arms that the border cuts.
+TEST(SilhouetteOffsets, AreFoundFromMasksOfCutArms) {
+  constexpr double kSeconds = 16.0;
+  const HandStage stage(HandRig(4));
+  const HandMotion motion{.shape = MovingShape::kOpenHand, .seed = 6, .forearm_mm = 700.0};
+  const std::vector<double> truth_s{0.0, 0.021, -0.017, 0.03};
+  Footage footage(4);
+  for (core::CameraIndex camera = 0; camera < 4; ++camera)
+    for (int picture = 0; picture < kSeconds * kFilmRateHz; ++picture) {
+      const double stamp_s = StampOf(6, camera, picture);
+      const std::vector<Solid> solids = HandsAt(motion, 1.0 + stamp_s + truth_s[camera]);
+      const core::SoftMask mask = stage.cameras[camera].MaskOf(
+          solids, {.noise_px = 0.18, .seed = camera * 100'000 + static_cast<std::uint64_t>(picture)});
+      footage[camera].push_back({stamp_s, FindTangents(stage.pairs, camera, mask)});
+    }
+  const auto found = FindSilhouetteOffsets(stage.pairs, footage);
+  ASSERT_TRUE(found);
+  for (std::size_t i = 1; i < 4; ++i) {
+    EXPECT_NEAR(found->offset_s[i], truth_s[i], kMostErrorS);
+    EXPECT_NEAR(found->offset_s[i], truth_s[i], 5.0 * found->sigma_s[i]);
+  }
+}
+
+TEST(SilhouetteOffsets, StillHandsAndShortFootageTellNothing) {
+  const std::vector<double> truth_s{0.0, 0.01, 0.02};
+  TangentFootage still(HandRig(3), {.speed = 0.0}, {});
+  EXPECT_FALSE(FindSilhouetteOffsets(*still.pairs(), Film(&still, 1, truth_s, kFootageS)));
+  TangentFootage brief(HandRig(3), {}, {});
+  EXPECT_FALSE(FindSilhouetteOffsets(*brief.pairs(), Film(&brief, 1, truth_s, 3.0)));
+  EXPECT_THROW((void)FindSilhouetteOffsets(*brief.pairs(), Footage(2)), core::PreconditionError);
+}
+
+}  // namespace
+}  // namespace elbowroom::recon::testing
