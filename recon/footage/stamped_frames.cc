@@ -48,17 +48,17 @@ class StampTable {
       : who_(fmt::format("{}: stamps '{}'", who, path.string())),
         text_(core::ReadConfiguration(path, who_, "table of stamps")) {}
 
-  FrameStamps Read() {
+  FrameTable Read() {
     std::string line;
     if (!std::getline(text_, line)) Fail("is empty; it needs the columns frame and time_s");
     ReadHeader(line);
-    FrameStamps stamps;
+    FrameTable table;
     while (std::getline(text_, line)) {
       ++line_;
-      if (line.find_first_not_of(" \r\t") != std::string::npos) ReadLine(line, &stamps);
+      if (line.find_first_not_of(" \r\t") != std::string::npos) ReadLine(line, &table);
     }
-    if (stamps.empty()) Fail("has no stamps");
-    return stamps;
+    if (table.time_s.empty()) Fail("has no stamps");
+    return table;
   }
 
  private:
@@ -75,11 +75,14 @@ class StampTable {
     };
     frame_column_ = column("frame");
     time_column_ = column("time_s");
+    if (std::ranges::find(names, "picture") != names.end()) picture_column_ = column("picture");
   }
 
-  void ReadLine(const std::string& line, FrameStamps* stamps) {
+  void ReadLine(const std::string& line, FrameTable* table) {
+    FrameStamps* stamps = &table->time_s;
     const std::vector<std::string_view> fields = Fields(line);
-    if (fields.size() <= std::max(frame_column_, time_column_)) Fail("has too few columns");
+    if (fields.size() <= std::max({frame_column_, time_column_, picture_column_.value_or(0)}))
+      Fail("has too few columns");
     const auto frame = Parsed<FrameIndex>(fields[frame_column_]);
     const auto time_s = Parsed<double>(fields[time_column_]);
     if (!frame || *frame < 0 || *frame >= kMostFrames)
@@ -93,6 +96,11 @@ class StampTable {
     }
     stamps->resize(at + 1);
     stamps->back() = *time_s;
+    if (!picture_column_) return;
+    const auto picture = Parsed<std::uint64_t>(fields[*picture_column_]);
+    if (!picture) Fail(fmt::format("'{}' is no picture's number", fields[*picture_column_]));
+    table->pictures.resize(at + 1);
+    table->pictures.back() = *picture;
   }
 
   std::string who_;
@@ -100,6 +108,7 @@ class StampTable {
   int line_ = 1;
   std::size_t frame_column_ = 0;
   std::size_t time_column_ = 0;
+  std::optional<std::size_t> picture_column_;
 };
 
 std::vector<StampedFrame> Present(const FrameStamps& stamps) {
@@ -135,6 +144,10 @@ std::vector<std::optional<StampedFrame>> Nearest(const std::vector<StampedFrame>
 }  // namespace
 
 FrameStamps ReadFrameStamps(const std::filesystem::path& path, const std::string& who) {
+  return ReadFrameTable(path, who).time_s;
+}
+
+FrameTable ReadFrameTable(const std::filesystem::path& path, const std::string& who) {
   return StampTable(path, who).Read();
 }
 

@@ -1,6 +1,7 @@
 // Frames of cameras that share no clock, put together by their stamps.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <span>
@@ -19,6 +20,15 @@ using FrameStamps = std::vector<std::optional<double>>;
 // missing column, a value that is no number, a frame that occurs twice, or a stamp that isn't later than the
 // one of the frame before it.
 [[nodiscard]] FrameStamps ReadFrameStamps(const std::filesystem::path& path, const std::string& who);
+
+// The same table with its column `picture`: the numbers that the camera's pictures had when they came.
+struct FrameTable {
+  FrameStamps time_s;
+  std::vector<std::uint64_t> pictures;  // by frame, 0 without a stamp; empty: the table has no such column
+};
+
+// Throws: as ReadFrameStamps; Error{kFormat} also for a picture that is no number.
+[[nodiscard]] FrameTable ReadFrameTable(const std::filesystem::path& path, const std::string& who);
 
 struct StampedFrame {
   core::FrameIndex frame = 0;

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <mutex>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -52,34 +54,48 @@ std::vector<std::string> FootageRecording::Troubles() const {
   return troubles;
 }
 
-FootageRecorder::FootageRecorder(RigFile rig_file, FootageRecorderOptions options)
-    : rig_file_(std::move(rig_file)), options_(options), rates_hz_(rig_file_.rig.cameras.size()) {}
+struct FootageRecorder::Shared {
+  std::mutex mutex;
+  std::vector<std::optional<double>> rates_hz;           // as the cameras say
+  std::vector<std::shared_ptr<CameraRecorder>> cameras;  // empty but between Begin and End
 
-FootageRecorder::~FootageRecorder() = default;
+  [[nodiscard]] std::shared_ptr<CameraRecorder> RecorderOf(CameraIndex camera) {
+    const std::lock_guard lock(mutex);
+    return cameras.empty() ? nullptr : cameras[camera];
+  }
+  [[nodiscard]] std::vector<std::shared_ptr<CameraRecorder>> TakeAll() {
+    const std::lock_guard lock(mutex);
+    return std::exchange(cameras, {});
+  }
+};
+
+FootageRecorder::FootageRecorder(RigFile rig_file, FootageRecorderOptions options)
+    : rig_file_(std::move(rig_file)), options_(options), shared_(std::make_shared<Shared>()) {
+  shared_->rates_hz.resize(rig_file_.rig.cameras.size());
+}
+
+FootageRecorder::~FootageRecorder() { (void)shared_->TakeAll(); }
 
 LiveTaps FootageRecorder::Taps() {
   LiveTaps taps;
-  const auto recorder_of = [this](CameraIndex camera) {
-    const std::lock_guard lock(mutex_);
-    return cameras_.empty() ? nullptr : cameras_[camera];
+  taps.on_picture = [shared = shared_](CameraIndex camera, const CapturedPicture& picture) {
+    if (const auto recorder = shared->RecorderOf(camera)) recorder->Add(picture);
   };
-  taps.on_picture = [recorder_of](CameraIndex camera, const CapturedPicture& picture) {
-    if (const auto recorder = recorder_of(camera)) recorder->Add(picture);
+  taps.on_loss = [shared = shared_](const core::PictureLoss& loss) {
+    if (const auto recorder = shared->RecorderOf(loss.camera)) recorder->AddLoss(loss);
   };
-  taps.on_loss = [recorder_of](const core::PictureLoss& loss) {
-    if (const auto recorder = recorder_of(loss.camera)) recorder->AddLoss(loss);
-  };
-  taps.on_state = [this](CameraIndex camera, const CameraState& state) {
-    const std::lock_guard lock(mutex_);
-    if (state.report.rate_hz) rates_hz_[camera] = state.report.rate_hz;
+  taps.on_state = [shared = shared_](CameraIndex camera, const CameraState& state) {
+    const std::lock_guard lock(shared->mutex);
+    if (state.report.rate_hz) shared->rates_hz[camera] = state.report.rate_hz;
   };
   return taps;
 }
 
 double FootageRecorder::RateOf(CameraIndex camera) const {
   constexpr double kUsualRateHz = 30.0;
-  const std::lock_guard lock(mutex_);
-  if (rates_hz_[camera] && *rates_hz_[camera] > 0.0) return *rates_hz_[camera];
+  const std::lock_guard lock(shared_->mutex);
+  const std::optional<double>& rate_hz = shared_->rates_hz[camera];
+  if (rate_hz && *rate_hz > 0.0) return *rate_hz;
   return rig_file_.sources[camera].capture.rate_hz.value_or(kUsualRateHz);
 }
 
@@ -102,8 +118,8 @@ void FootageRecorder::Begin(const fs::path& folder) {
                               options_.least_free_bytes}));
   }
   begin_ = std::chrono::steady_clock::now();
-  const std::lock_guard lock(mutex_);
-  cameras_ = std::move(cameras);
+  const std::lock_guard lock(shared_->mutex);
+  shared_->cameras = std::move(cameras);
 }
 
 // So that the folder can go elsewhere. What is no single file stays where it is.
@@ -123,16 +139,12 @@ void FootageRecorder::CopyBackground(CameraIndex camera) {
 }
 
 bool FootageRecorder::has_ended() const {
-  const std::lock_guard lock(mutex_);
-  return std::ranges::any_of(cameras_, [](const auto& camera) { return camera->has_ended(); });
+  const std::lock_guard lock(shared_->mutex);
+  return std::ranges::any_of(shared_->cameras, [](const auto& camera) { return camera->has_ended(); });
 }
 
 FootageRecording FootageRecorder::End() {
-  std::vector<std::shared_ptr<CameraRecorder>> cameras;
-  {
-    const std::lock_guard lock(mutex_);
-    cameras.swap(cameras_);
-  }
+  const std::vector<std::shared_ptr<CameraRecorder>> cameras = shared_->TakeAll();
   core::Require(!cameras.empty(), "a recording has begun and not ended");
   FootageRecording recording;
   recording.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();

@@ -5,8 +5,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
-#include <mutex>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -46,7 +44,7 @@ class FootageRecorder {
   FootageRecorder(const FootageRecorder&) = delete;
   FootageRecorder& operator=(const FootageRecorder&) = delete;
 
-  // For the LiveRig of the same rig file; this lives longer than that.
+  // For the LiveRig of the same rig file; they are without effect once this is gone.
   [[nodiscard]] LiveTaps Taps();
 
   // Throws: Error{kFile} if there is something in the folder, or it can't be made; PreconditionError the
@@ -61,6 +59,7 @@ class FootageRecorder {
   [[nodiscard]] FootageRecording End();
 
  private:
+  struct Shared;  // with the capture threads
   void CopyBackground(core::CameraIndex camera);
   [[nodiscard]] double RateOf(core::CameraIndex camera) const;
   void WriteRig(FootageRecording* recording) const;
@@ -70,9 +69,7 @@ class FootageRecorder {
   std::filesystem::path folder_;
   std::vector<std::filesystem::path> camera_folders_;
   std::chrono::steady_clock::time_point begin_;
-  mutable std::mutex mutex_;  // of what the capture threads use
-  std::vector<std::optional<double>> rates_hz_;
-  std::vector<std::shared_ptr<CameraRecorder>> cameras_;  // empty but between Begin and End
+  std::shared_ptr<Shared> shared_;
 };
 
 // Throws: Error{kFile} if `folder` is no folder, or there is something in it.

@@ -46,6 +46,9 @@ TEST(FrameStamps, WrongTablesAreRefusedWithTheLine) {
   EXPECT_NE(ErrorOf("frame,time_s\n-1,1\n").find("'-1' is no frame's number"), std::string::npos);
   EXPECT_NE(ErrorOf("frame,time_s\n1,1\n0,2\n").find("line 3: frame 0 comes after frame 1"),
             std::string::npos);
+  EXPECT_NE(ErrorOf("frame,time_s,picture\n1,1,x\n").find("line 2: 'x' is no picture's number"),
+            std::string::npos);
+  EXPECT_NE(ErrorOf("frame,time_s,picture\n1,1\n").find("line 2: has too few columns"), std::string::npos);
   EXPECT_NE(ErrorOf("frame,time_s\n1\n").find("line 2: has too few columns"), std::string::npos);
   EXPECT_NE(ErrorOf("frame,time_s\n").find("has no stamps"), std::string::npos);
   EXPECT_NE(ErrorOf("").find("is empty"), std::string::npos);
