@@ -157,7 +157,7 @@ void RecordedRig::FormSets() {
     for (std::optional<double>& at_s : stamps[i])
       if (at_s) *at_s += sources.time_offset_s;
   }
-  sets_ = SetsByNearestStamp(stamps);
+  sets_ = SetsOfAllTimes(stamps);
   if (sets_.empty()) {
     throw Error(ErrorKind::kFormat,
                 "the cameras' tables of stamps name no picture that their footage has; check timestamps");

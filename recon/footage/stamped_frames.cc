@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <sstream>
 #include <string_view>
 
@@ -141,6 +142,66 @@ std::vector<std::optional<StampedFrame>> Nearest(const std::vector<StampedFrame>
   return nearest;
 }
 
+using Stamps = std::vector<StampedFrame>;
+
+std::vector<Stamps> AllPresent(std::span<const FrameStamps> cameras) {
+  std::vector<Stamps> present;
+  for (const FrameStamps& stamps : cameras) present.push_back(Present(stamps));
+  return present;
+}
+
+// How far the others are from this camera's frames: the sum of the medians, looked at in some places.
+double SpreadAround(const Stamps& leader, const std::vector<Stamps>& others) {
+  constexpr std::size_t kMostPlaces = 200;
+  const std::size_t step = leader.size() / kMostPlaces + 1;
+  double spread_s = 0.0;
+  for (const Stamps& other : others) {
+    std::vector<double> distances_s;
+    for (std::size_t i = 0; i < leader.size(); i += step) {
+      const double time_s = leader[i].time_s;
+      const auto after = std::ranges::lower_bound(other, time_s, {}, &StampedFrame::time_s);
+      double nearest_s =
+          after == other.end() ? std::numeric_limits<double>::infinity() : after->time_s - time_s;
+      if (after != other.begin()) nearest_s = std::min(nearest_s, time_s - std::prev(after)->time_s);
+      distances_s.push_back(nearest_s);
+    }
+    const auto middle = distances_s.begin() + static_cast<std::ptrdiff_t>(distances_s.size() / 2);
+    std::nth_element(distances_s.begin(), middle, distances_s.end());
+    spread_s += *middle;
+  }
+  return spread_s;
+}
+
+// Which camera's frames make the sets.
+std::size_t LeaderOf(const std::vector<Stamps>& cameras, const std::vector<double>& periods_s) {
+  constexpr double kSameRate = 0.95;
+  const double longest_s = *std::ranges::max_element(periods_s);
+  std::size_t leader = 0;
+  double least_s = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < cameras.size(); ++i) {
+    if (periods_s[i] < kSameRate * longest_s) continue;
+    const double spread_s = SpreadAround(cameras[i], cameras);
+    if (spread_s >= least_s) continue;
+    leader = i;
+    least_s = spread_s;
+  }
+  return leader;
+}
+
+// The leader's stamps, and between them the times at which those that are missing were due.
+Stamps DueTimes(const Stamps& leader, double period_s) {
+  Stamps times;
+  for (const StampedFrame& frame : leader) {
+    if (!times.empty() && period_s > 0.0) {
+      const double from_s = times.back().time_s, gap_s = frame.time_s - from_s;
+      const double periods = std::min(std::round(gap_s / period_s), static_cast<double>(kMostFrames));
+      for (double k = 1.0; k < periods; k += 1.0) times.push_back({-1, from_s + gap_s * k / periods});
+    }
+    times.push_back(frame);
+  }
+  return times;
+}
+
 }  // namespace
 
 FrameStamps ReadFrameStamps(const std::filesystem::path& path, const std::string& who) {
@@ -163,9 +224,8 @@ std::optional<double> MedianPeriod(const FrameStamps& stamps) {
 }
 
 std::vector<StampedSet> SetsByNearestStamp(std::span<const FrameStamps> cameras) {
-  std::vector<std::vector<StampedFrame>> present;
-  for (const FrameStamps& stamps : cameras) present.push_back(Present(stamps));
-  const auto fewest = std::ranges::min_element(present, {}, &std::vector<StampedFrame>::size);
+  const std::vector<Stamps> present = AllPresent(cameras);
+  const auto fewest = std::ranges::min_element(present, {}, &Stamps::size);
   if (fewest == present.end() || fewest->empty()) return {};
   std::vector<StampedSet> sets(fewest->size());
   for (StampedSet& set : sets) set.frames.resize(cameras.size());
@@ -176,6 +236,32 @@ std::vector<StampedSet> SetsByNearestStamp(std::span<const FrameStamps> cameras)
         Nearest(present[camera], *fewest, decides ? 0.0 : reach_s);
     for (std::size_t i = 0; i < sets.size(); ++i) sets[i].frames[camera] = nearest[i];
   }
+  return sets;
+}
+
+std::vector<StampedSet> SetsOfAllTimes(std::span<const FrameStamps> cameras) {
+  const std::vector<Stamps> present = AllPresent(cameras);
+  if (present.empty() || std::ranges::any_of(present, &Stamps::empty)) return {};
+  std::vector<double> periods_s;
+  for (const FrameStamps& stamps : cameras) periods_s.push_back(MedianPeriod(stamps).value_or(0.0));
+  const std::size_t leader = LeaderOf(present, periods_s);
+  const double reach_s = 0.5 * periods_s[leader];
+  double from_s = -std::numeric_limits<double>::infinity(), to_s = -from_s;
+  for (const Stamps& stamps : present) {
+    from_s = std::max(from_s, stamps.front().time_s - reach_s);
+    to_s = std::min(to_s, stamps.back().time_s + reach_s);
+  }
+  Stamps times = DueTimes(present[leader], periods_s[leader]);
+  std::erase_if(times, [&](const StampedFrame& time) { return time.time_s < from_s || time.time_s > to_s; });
+  std::vector<StampedSet> sets(times.size());
+  for (StampedSet& set : sets) set.frames.resize(cameras.size());
+  for (std::size_t camera = 0; camera < cameras.size(); ++camera) {
+    const auto nearest = Nearest(present[camera], times, 0.5 * periods_s[camera]);
+    for (std::size_t i = 0; i < sets.size(); ++i) sets[i].frames[camera] = nearest[i];
+  }
+  std::erase_if(sets, [](const StampedSet& set) {
+    return std::ranges::none_of(set.frames, [](const auto& frame) { return frame.has_value(); });
+  });
   return sets;
 }
 
