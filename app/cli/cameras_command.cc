@@ -150,7 +150,8 @@ CommandResult Record(const RecordOptions& options, const CommandContext& context
   constexpr double kBytesPerMb = 1e6;
   result.text += fmt::format("{:.1f} s, {:.1f} MB; '{}' plays it", footage.seconds,
                              static_cast<double>(footage.bytes) / kBytesPerMb, footage.rig_file.string());
-  if (!recorded.warnings.empty()) result.hint = recorded.warnings.front();
+  for (const std::string& warning : recorded.warnings) result.text += "\nwarning: " + warning;
+  if (recorded.ended_early) result.hint = recorded.warnings.front();
   return result;
 }
 
