@@ -54,6 +54,17 @@ class BoundedQueue {
     return true;
   }
 
+  // Adds the value only if there is room for it; never waits. False: it was not added.
+  bool PushIfRoom(T value) {
+    {
+      const std::lock_guard lock(mutex_);
+      if (closed_ || values_.size() >= capacity_) return false;
+      values_.push_back(std::move(value));
+    }
+    has_value_.notify_one();
+    return true;
+  }
+
   // Waits for a value. Nothing: the queue is closed and empty.
   [[nodiscard]] std::optional<T> Pop() {
     std::unique_lock lock(mutex_);

@@ -1,14 +1,18 @@
-// elbowroom cameras list|check: which live cameras there are, and how well those of a rig do.
+// elbowroom cameras list|check|record: which live cameras there are, how well those of a rig do, and what
+// they see.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 
 #include "app/cli/command.h"
 #include "app/cli/vector_json.h"
 #include "app/control/cameras/camera_check.h"
+#include "app/control/cameras/camera_recording.h"
 #include "recon/rig_files/rig_file.h"
 
 namespace elbowroom::cli {
@@ -98,6 +102,59 @@ CommandResult Check(const CheckOptions& options, const CommandContext& context) 
   return result;
 }
 
+struct RecordOptions {
+  std::filesystem::path rig_file;
+  std::filesystem::path folder;
+  std::optional<double> seconds;
+};
+
+nlohmann::json RecordingJson(const recon::CameraRecording& camera) {
+  nlohmann::json missing = nlohmann::json::array();
+  for (const recon::MissingPictures& pictures : camera.missing)
+    missing.push_back({{"first", pictures.first}, {"last", pictures.last}, {"reason", pictures.reason}});
+  return {{"name", camera.name},           {"frames", camera.frames},       {"lost", camera.lost},
+          {"unwritten", camera.unwritten}, {"file", camera.video.string()}, {"missing", missing}};
+}
+
+std::string RecordingText(const recon::CameraRecording& camera) {
+  std::string text = fmt::format("{}: {} pictures, {} lost, {} not written\n", camera.name, camera.frames,
+                                 camera.lost, camera.unwritten);
+  constexpr std::size_t kMostShown = 5;
+  for (std::size_t i = 0; i < std::min(kMostShown, camera.missing.size()); ++i) {
+    const recon::MissingPictures& pictures = camera.missing[i];
+    text += pictures.count() == 1
+                ? fmt::format("  picture {}: {}\n", pictures.first, pictures.reason)
+                : fmt::format("  pictures {} to {}: {}\n", pictures.first, pictures.last, pictures.reason);
+  }
+  if (camera.missing.size() > kMostShown)
+    text += fmt::format("  {} more in losses.csv\n", camera.missing.size() - kMostShown);
+  return text;
+}
+
+CommandResult Record(const RecordOptions& options, const CommandContext& context) {
+  const recon::RigFile rig_file = recon::ReadRigFile(options.rig_file);
+  const control::CamerasRecorded recorded =
+      control::RecordCameras(rig_file, options.folder, options.seconds, context.progress, context.stop);
+  const recon::FootageRecording& footage = recorded.footage;
+  CommandResult result;
+  result.json = {{"cameras", nlohmann::json::array()},
+                 {"seconds", footage.seconds},
+                 {"bytes", footage.bytes},
+                 {"rig", footage.rig_file.string()},
+                 {"ended_early", recorded.ended_early},
+                 {"warnings", recorded.warnings}};
+  for (const recon::CameraRecording& camera : footage.cameras) {
+    result.json["cameras"].push_back(RecordingJson(camera));
+    result.text += RecordingText(camera);
+  }
+  constexpr double kBytesPerMb = 1e6;
+  result.text += fmt::format("{:.1f} s, {:.1f} MB; '{}' plays it", footage.seconds,
+                             static_cast<double>(footage.bytes) / kBytesPerMb, footage.rig_file.string());
+  for (const std::string& warning : recorded.warnings) result.text += "\nwarning: " + warning;
+  if (recorded.ended_early) result.hint = recorded.warnings.front();
+  return result;
+}
+
 CommandResult List(const CommandContext& context) {
   CommandResult result;
   const std::vector<std::string> cameras = control::ListCameras(context.stop);
@@ -128,6 +185,20 @@ void AddCamerasCommand(CLI::App& app, Choice* choice) {
       ->check(CLI::Range(0.1, kLongestS));
   check->callback([=] {
     choice->action = [options](const CommandContext& context) { return Check(*options, context); };
+  });
+
+  CLI::App* record = cameras->add_subcommand("record", "record footage as it comes, with its stamps");
+  auto record_options = std::make_shared<RecordOptions>();
+  record->add_option("RIG", record_options->rig_file, "the rig (RIG.yml) with live cameras")->required();
+  record->add_option("--out", record_options->folder, "a new folder; its RIG.yml plays the footage")
+      ->required();
+  constexpr double kLongestRecordingS = 86400.0;
+  record->add_option("--seconds", record_options->seconds, "how long to record (default: until Ctrl-C)")
+      ->check(CLI::Range(0.1, kLongestRecordingS));
+  record->callback([=] {
+    choice->action = [record_options](const CommandContext& context) {
+      return Record(*record_options, context);
+    };
   });
 }
 

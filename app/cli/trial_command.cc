@@ -53,7 +53,7 @@ CommandResult RunHeadless(const TrialRunOptions& options, const CommandContext& 
   CommandResult result = SummaryOf(control::RunTrial(setup, trial, controls, context.stop), setup.layout);
   std::vector<std::string> warnings = setup.warnings;
   std::ranges::copy(setup.source->Warnings(), std::back_inserter(warnings));
-  result.json["warnings"] = warnings;
+  for (const std::string& warning : warnings) result.json["warnings"].push_back(warning);
   for (const std::string& warning : warnings) result.text += "\nwarning: " + warning;
   log.AddTo(&result);
   return result;

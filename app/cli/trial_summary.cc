@@ -41,6 +41,23 @@ void AddCapture(const control::TrialOutcome& outcome, CommandResult* result) {
       *median_ms, p99_ms, lost, outcome.frames_without_camera);
 }
 
+void AddFootage(const recon::FootageRecording& footage, CommandResult* result) {
+  std::uint64_t unwritten = 0;
+  for (const recon::CameraRecording& camera : footage.cameras) unwritten += camera.unwritten;
+  result->json["footage"] = {{"rig", footage.rig_file.string()},
+                             {"seconds", footage.seconds},
+                             {"bytes", footage.bytes},
+                             {"unwritten", unwritten}};
+  constexpr double kBytesPerMb = 1e6;
+  result->text += fmt::format("\n  footage: {:.1f} s, {:.1f} MB, {} pictures not written", footage.seconds,
+                              static_cast<double>(footage.bytes) / kBytesPerMb, unwritten);
+  if (!footage.rig_file.empty()) result->text += fmt::format("; '{}' plays it", footage.rig_file.string());
+  for (const std::string& trouble : footage.Troubles()) {
+    result->json["warnings"].push_back(trouble);
+    result->text += "\nwarning: " + trouble;
+  }
+}
+
 }  // namespace
 
 void RecordingLog::Print(const sessions::RecordingNews& news) {
@@ -88,6 +105,7 @@ CommandResult SummaryOf(const control::TrialOutcome& outcome, const core::Layout
     result.text += fmt::format(" ({:.1f} ms a frame)", *median_ms);
   }
   AddCapture(outcome, &result);
+  if (outcome.footage) AddFootage(*outcome.footage, &result);
   for (core::PartIndex i = 0; i < layout.parts.size(); ++i) {
     const auto episodes =
         std::count_if(outcome.episodes.begin(), outcome.episodes.end(),

@@ -130,6 +130,10 @@ class Recording {
   }
 
   void Run(const std::stop_token& stop) {
+    if (setup_.footage) {
+      setup_.footage->Begin(FootageFolderOf(options_.session));
+      is_recording_footage_ = true;
+    }
     pipeline_.emplace(setup_.source->rig(), setup_.layout,
                       setup_.source->ReadBackgrounds(options_.progress, stop), setup_.segmentation,
                       ReviewOptionsOf(setup_.info, setup_.source->rig(), setup_.rig_quality));
@@ -158,6 +162,7 @@ class Recording {
 
   TrialOutcome Finish(const std::string& end_note) {
     outcome_.end_note = end_note;
+    EndFootage();
     for (const std::string& note : loss_notes_.Rest()) Append(note);
     for (const std::string& note : setup_.source->Warnings()) Append(note);
     if (!end_note.empty()) Append(end_note);
@@ -175,7 +180,7 @@ class Recording {
   // Ends the session because of `failure`, and throws it with what is kept.
   [[noreturn]] void EndAfter(const core::Error& failure) {
     if (!HasFrames()) {
-      writer_.Abandon();
+      Abandon();
       throw core::Error(failure.kind(), failure.what());
     }
     try {
@@ -194,7 +199,10 @@ class Recording {
     throw core::Error(failure.kind(), fmt::format("{}; {}", failure.what(), what_is_kept));
   }
 
-  void Abandon() { writer_.Abandon(); }
+  void Abandon() {
+    writer_.Abandon();
+    AbandonFootage();
+  }
 
   [[nodiscard]] bool HasFrames() const { return outcome_.frames > 0; }
 
@@ -244,6 +252,29 @@ class Recording {
         core::SessionEvent{frame, time_s, core::SpacingChanged{request.spacing, from_mm, allowed_mm}});
   }
 
+  // Trouble with it is noted; the session is worth more than its footage.
+  void EndFootage() {
+    if (!std::exchange(is_recording_footage_, false)) return;
+    try {
+      outcome_.footage = setup_.footage->End();
+      for (const std::string& trouble : outcome_.footage->Troubles()) Append("footage: " + trouble);
+      for (const recon::CameraRecording& camera : outcome_.footage->cameras)
+        if (camera.unwritten > 0)
+          Append(fmt::format("footage: {} pictures of camera '{}' weren't written", camera.unwritten,
+                             camera.name));
+    } catch (const core::Error& error) {
+      Append(fmt::format("footage: {}", error.what()));
+    }
+  }
+
+  // Of a trial without a frame nothing stays.
+  void AbandonFootage() {
+    if (!is_recording_footage_) return;
+    EndFootage();
+    std::error_code ignored;
+    std::filesystem::remove_all(FootageFolderOf(options_.session), ignored);
+  }
+
   void Append(const std::string& note) {
     writer_.Append(core::SessionEvent{last_frame_, last_time_s_, core::Note{note}});
   }
@@ -288,6 +319,7 @@ class Recording {
   Pace pace_;
   std::vector<double> spacing_mm_;
   TrialOutcome outcome_;
+  bool is_recording_footage_ = false;
   core::FrameIndex last_frame_ = 0;
   double last_time_s_ = 0.0;
 };
@@ -301,9 +333,15 @@ std::string EndNote(const TrialSetup& setup, const FrameRange& range, const std:
 
 }  // namespace
 
+std::filesystem::path FootageFolderOf(const std::filesystem::path& session) {
+  std::filesystem::path folder = session;
+  return folder.replace_extension(".footage");
+}
+
 TrialOutcome RunTrial(const TrialSetup& setup, const TrialOptions& options, TrialControls& controls,
                       std::stop_token stop) {
   RequireInRange(setup, options.frames);
+  if (setup.footage) recon::RequireEmptyFolder(FootageFolderOf(options.session));
   Recording recording(setup, options, controls);
   try {
     recording.Run(stop);

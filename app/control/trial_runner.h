@@ -64,6 +64,7 @@ struct TrialOutcome {
   FrameTimeTally latencies;
   std::int64_t frames_without_camera = 0;
   std::vector<std::int64_t> pictures_lost;
+  std::optional<recon::FootageRecording> footage;  // if the trial records it
 };
 
 // Measures the backgrounds, creates the session, then sends each frame through the pipeline and into the
@@ -71,10 +72,14 @@ struct TrialOutcome {
 // up to that frame. It also ends when footage or a camera fails, and when the session file can't be written
 // for long: all frames so far are kept, and the failure is thrown with their number. Only a session without a
 // frame is removed. A request for a spacing that the layout doesn't have is ignored, with a note in the
-// session.
+// session. Where the setup records footage, it lies beside the session, in FootageFolderOf; that it can't be
+// written is noted, and the trial goes on.
 // Throws: core::Error for footage, session file, or a frame range beyond the footage; Error{kCancelled} when
 // it was stopped before the first frame. Thread: the caller's; `controls` may be used from any.
 TrialOutcome RunTrial(const TrialSetup& setup, const TrialOptions& options, TrialControls& controls,
                       std::stop_token stop);
+
+// "trials/anna.footage" for "trials/anna.db".
+[[nodiscard]] std::filesystem::path FootageFolderOf(const std::filesystem::path& session);
 
 }  // namespace elbowroom::control

@@ -137,9 +137,9 @@ std::shared_ptr<recon::FrameSetSource> RecordedWithViewer(std::shared_ptr<recon:
 // The rig's frame sets, with the pictures of the viewer camera if the trial has one.
 std::shared_ptr<recon::FrameSetSource> OpenSource(recon::RigFile rig_file,
                                                   const std::optional<ViewerEntry>& viewer,
-                                                  const std::stop_token& stop,
+                                                  recon::LiveTaps taps, const std::stop_token& stop,
                                                   std::vector<std::string>* warnings) {
-  if (!viewer) return recon::OpenRig(std::move(rig_file), stop);
+  if (!viewer) return recon::OpenRig(std::move(rig_file), stop, std::move(taps));
   const bool is_live = recon::IsLiveRig(rig_file);
   if (is_live != recon::IsLive(viewer->location)) {
     throw core::Error(
@@ -150,11 +150,23 @@ std::shared_ptr<recon::FrameSetSource> OpenSource(recon::RigFile rig_file,
                     is_live ? "are" : "aren't"));
   }
   if (is_live) {
-    return std::make_shared<recon::LiveViewer>(recon::OpenRig(std::move(rig_file), stop), viewer->camera,
-                                               viewer->location);
+    return std::make_shared<recon::LiveViewer>(recon::OpenRig(std::move(rig_file), stop, std::move(taps)),
+                                               viewer->camera, viewer->location);
   }
   return RecordedWithViewer(std::make_shared<recon::RecordedRig>(std::move(rig_file), stop), *viewer, stop,
                             warnings);
+}
+
+// Null: the trial keeps silhouettes, or its footage is recorded already.
+std::shared_ptr<recon::FootageRecorder> RecorderFor(const TomlEntry& root, const recon::RigFile& rig_file,
+                                                    std::vector<std::string>* warnings) {
+  const std::string record = root.TextOr("record", "silhouettes");
+  if (record == "silhouettes") return nullptr;
+  if (record != "footage") root.Fail("record", R"(must be "silhouettes" or "footage")");
+  if (recon::IsLiveRig(rig_file)) return std::make_shared<recon::FootageRecorder>(rig_file);
+  warnings->push_back(fmt::format(
+      "record = \"footage\" is for live cameras; those of rig '{}' are recorded already", rig_file.rig.name));
+  return nullptr;
 }
 
 double LengthFromZero(const TomlEntry& entry, std::string_view key) {
@@ -169,7 +181,7 @@ TrialSetup ReadTrialFile(const std::filesystem::path& path, std::stop_token stop
   const toml::table table = cad_import::ParseTomlFile(path, "trial file");
   const TomlEntry root(table, path.string(), "",
                        {"rig", "layout", "participant", "task", "estimate_mm", "required_clearance_mm",
-                        "uncertainty_mm", "tools", "segmentation", "viewer"});
+                        "uncertainty_mm", "tools", "segmentation", "viewer", "record"});
   TrialSetup setup;
   setup.info.participant = root.TextOr("participant", "");
   setup.info.task = root.TextOr("task", "");
@@ -196,7 +208,10 @@ TrialSetup ReadTrialFile(const std::filesystem::path& path, std::stop_token stop
                     "undecided; calibrate the rig again, and gauge it",
                     rig_file.rig.name, quality.gauge->error_mm, quality.gauge->bound_mm));
   }
-  setup.source = OpenSource(std::move(rig_file), ReadViewer(root, path), stop, &setup.warnings);
+  setup.footage = RecorderFor(root, rig_file, &setup.warnings);
+  recon::LiveTaps taps = setup.footage ? setup.footage->Taps() : recon::LiveTaps();
+  setup.source =
+      OpenSource(std::move(rig_file), ReadViewer(root, path), std::move(taps), stop, &setup.warnings);
   return setup;
 }
 

@@ -14,6 +14,7 @@
 #include "core/rig_quality.h"
 #include "core/session.h"
 #include "recon/footage/frame_set.h"
+#include "recon/recording/footage_recorder.h"
 #include "recon/segmentation/segmentation.h"
 
 namespace elbowroom::control {
@@ -30,8 +31,9 @@ struct TrialSetup {
   core::RigQuality rig_quality;  // with errors only where the trial doesn't say uncertainty_mm itself
   recon::SegmentationOptions segmentation;
   std::shared_ptr<recon::FrameSetSource> source;
-  std::vector<ScriptedChange> script;  // by frame
-  std::vector<std::string> warnings;   // of the files that were read
+  std::shared_ptr<recon::FootageRecorder> footage = nullptr;  // of `source`; null: only silhouettes are kept
+  std::vector<ScriptedChange> script;                         // by frame
+  std::vector<std::string> warnings;                          // of the files that were read
 };
 
 // Reads TRIAL.toml (docs/user_guide.md) with its rig and layout; opens the footage.

@@ -1,12 +1,8 @@
 #include "recon/capture/camera_link.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/mman.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cstddef>
 #include <exception>
 #include <optional>
 #include <utility>
@@ -17,6 +13,7 @@
 #include "recon/capture/device/camera_protocol.h"
 #include "recon/capture/picture_counter.h"
 #include "recon/capture/picture_pool.h"
+#include "recon/capture/shared_slots.h"
 #include "recon/decoding/packet.h"
 
 namespace elbowroom::recon {
@@ -50,41 +47,6 @@ LossReason ReasonOf(PictureState state) {
   }
   throw core::PreconditionError("this state has no reason");
 }
-
-// The pictures' memory, which the camera's program writes and this one reads.
-class SharedSlots {
- public:
-  explicit SharedSlots(cv::Size size_px)
-      : bytes_(std::size_t{3} * static_cast<std::size_t>(size_px.area())),
-        size_px_(size_px),
-        file_(core::MakeMemoryFile("camera")) {
-    const auto all = static_cast<off_t>(bytes_ * kPictureSlots);
-    const bool has_memory = ::ftruncate(file_.number(), all) == 0 &&
-                            ::fcntl(file_.number(), F_ADD_SEALS, F_SEAL_SHRINK | F_SEAL_GROW) == 0;
-    void* memory = has_memory ? ::mmap(nullptr, static_cast<std::size_t>(all), PROT_READ | PROT_WRITE,
-                                       MAP_SHARED, file_.number(), 0)
-                              : MAP_FAILED;
-    if (memory == MAP_FAILED) {
-      throw core::Error(core::ErrorKind::kFile, "there is no memory for pictures; close other programs");
-    }
-    memory_ = static_cast<unsigned char*>(memory);
-  }
-  ~SharedSlots() { ::munmap(memory_, bytes_ * kPictureSlots); }
-  SharedSlots(const SharedSlots&) = delete;
-  SharedSlots& operator=(const SharedSlots&) = delete;
-
-  [[nodiscard]] const core::Descriptor& file() const { return file_; }
-
-  void CopyTo(std::int32_t slot, cv::Mat& picture) const {
-    cv::Mat(size_px_, CV_8UC3, memory_ + static_cast<std::size_t>(slot) * bytes_).copyTo(picture);
-  }
-
- private:
-  std::size_t bytes_;
-  cv::Size size_px_;
-  core::Descriptor file_;
-  unsigned char* memory_ = nullptr;
-};
 
 }  // namespace
 
@@ -179,7 +141,7 @@ class CameraLink::Session {
       return;
     }
     CapturedPicture captured{pool_.Take(), 0, taken_at, AtNs(picture.arrived_ns), picture.stamp_source};
-    slots_.CopyTo(news.slot, captured.image_bgr);
+    slots_.Slot(news.slot).copyTo(captured.image_bgr);
     (void)SendPacket(socket_, CommandToCamera{CameraCommand::kSlotBack, news.slot});
     captured.number = counter_.Count(picture.number, taken_at);
     link_.handlers_.on_picture(std::move(captured));

@@ -65,6 +65,7 @@ void LiveRig::StartCamera(CameraIndex camera) {
   };
   handlers.on_loss = [this, camera](PictureLoss loss) {
     loss.camera = camera;
+    if (taps_.on_loss) taps_.on_loss(loss);
     const std::lock_guard lock(mutex_);
     losses_.push_back(loss);
   };

@@ -30,6 +30,7 @@ struct DecidedSet {
 // Who else wants to know. Called on the capture threads, or on the one that decides sets; must not block.
 struct LiveTaps {
   std::function<void(core::CameraIndex, const CapturedPicture&)> on_picture;  // every whole picture
+  std::function<void(const core::PictureLoss&)> on_loss;  // every one that a camera had; not the unpaired
   std::function<void(core::CameraIndex, const CameraState&)> on_state;
   std::function<void(const DecidedSet&)> on_set;  // every one, also those that nobody will read
 };

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "core/error.h"
-#include "recon/capture/live_rig.h"
 #include "recon/footage/recorded_rig.h"
 #include "recon/rig_files/source_location.h"
 
@@ -30,8 +29,8 @@ bool IsLiveRig(const RigFile& rig_file) {
   return live.has_value();
 }
 
-std::shared_ptr<FrameSetSource> OpenRig(RigFile rig_file, const std::stop_token& stop) {
-  if (IsLiveRig(rig_file)) return std::make_shared<LiveRig>(std::move(rig_file), LiveTaps(), stop);
+std::shared_ptr<FrameSetSource> OpenRig(RigFile rig_file, const std::stop_token& stop, LiveTaps taps) {
+  if (IsLiveRig(rig_file)) return std::make_shared<LiveRig>(std::move(rig_file), std::move(taps), stop);
   return std::make_shared<RecordedRig>(std::move(rig_file), stop);
 }
 

@@ -81,6 +81,13 @@ struct RecordedRig::Camera {
   }
   std::optional<FrameIndex> next = {};  // of SkipTo: the frame that comes next
 
+  // The number that the camera's picture had when it came; of other footage, that of the frame.
+  [[nodiscard]] std::uint64_t NumberOf(FrameIndex frame) const {
+    return pictures.empty() ? static_cast<std::uint64_t>(frame)
+                            : pictures.at(static_cast<std::size_t>(frame));
+  }
+  std::vector<std::uint64_t> pictures = {};
+
   [[nodiscard]] FrameIndex frame_count() const { return source != nullptr ? source->frame_count() : masks; }
 };
 
@@ -142,13 +149,15 @@ void RecordedRig::FormSets() {
   for (core::CameraIndex i = 0; i < cameras_.size(); ++i) {
     const CameraSources& sources = rig_file_.sources[i];
     if (sources.timestamps.empty()) return;
-    stamps[i] =
-        ReadFrameStamps(sources.timestamps, fmt::format("camera '{}'", rig_file_.rig.cameras[i].name()));
+    FrameTable table =
+        ReadFrameTable(sources.timestamps, fmt::format("camera '{}'", rig_file_.rig.cameras[i].name()));
+    stamps[i] = std::move(table.time_s);
+    cameras_[i].pictures = std::move(table.pictures);
     stamps[i].resize(std::min(stamps[i].size(), static_cast<std::size_t>(cameras_[i].frame_count())));
     for (std::optional<double>& at_s : stamps[i])
       if (at_s) *at_s += sources.time_offset_s;
   }
-  sets_ = SetsByNearestStamp(stamps);
+  sets_ = SetsOfAllTimes(stamps);
   if (sets_.empty()) {
     throw Error(ErrorKind::kFormat,
                 "the cameras' tables of stamps name no picture that their footage has; check timestamps");
@@ -248,7 +257,7 @@ std::optional<FrameSet> RecordedRig::TryReadSet(FrameIndex index, const std::sto
       return std::nullopt;
     }
     set.cameras.back() = std::move(*frame);
-    set.cameras.back().stamp = core::CameraStamp{static_cast<std::uint64_t>(stamp->frame), stamp->time_s};
+    set.cameras.back().stamp = core::CameraStamp{cameras_[i].NumberOf(stamp->frame), stamp->time_s};
   }
   return set;
 }

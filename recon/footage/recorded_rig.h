@@ -29,7 +29,7 @@ struct CameraRate {
 // Throws: Error{kFormat} naming both cameras when their rates differ by more than containers round.
 void RequireOneRate(const CameraRate& one, const CameraRate& other);
 
-// Where all cameras have recorded footage with timestamps, the sets are those of SetsByNearestStamp, after
+// Where all cameras have recorded footage with timestamps, the sets are those of SetsOfAllTimes, after
 // each camera's time offset: their times are the medians of their pictures', from the first set's on, each
 // picture has its stamp, and a camera without a picture near a set's time is missing in it. Otherwise frame i
 // of a set is frame i of every camera's source. Times come from the videos' frame rate (25 Hz if none

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <sstream>
 #include <string_view>
 
@@ -48,17 +49,17 @@ class StampTable {
       : who_(fmt::format("{}: stamps '{}'", who, path.string())),
         text_(core::ReadConfiguration(path, who_, "table of stamps")) {}
 
-  FrameStamps Read() {
+  FrameTable Read() {
     std::string line;
     if (!std::getline(text_, line)) Fail("is empty; it needs the columns frame and time_s");
     ReadHeader(line);
-    FrameStamps stamps;
+    FrameTable table;
     while (std::getline(text_, line)) {
       ++line_;
-      if (line.find_first_not_of(" \r\t") != std::string::npos) ReadLine(line, &stamps);
+      if (line.find_first_not_of(" \r\t") != std::string::npos) ReadLine(line, &table);
     }
-    if (stamps.empty()) Fail("has no stamps");
-    return stamps;
+    if (table.time_s.empty()) Fail("has no stamps");
+    return table;
   }
 
  private:
@@ -75,11 +76,14 @@ class StampTable {
     };
     frame_column_ = column("frame");
     time_column_ = column("time_s");
+    if (std::ranges::find(names, "picture") != names.end()) picture_column_ = column("picture");
   }
 
-  void ReadLine(const std::string& line, FrameStamps* stamps) {
+  void ReadLine(const std::string& line, FrameTable* table) {
+    FrameStamps* stamps = &table->time_s;
     const std::vector<std::string_view> fields = Fields(line);
-    if (fields.size() <= std::max(frame_column_, time_column_)) Fail("has too few columns");
+    if (fields.size() <= std::max({frame_column_, time_column_, picture_column_.value_or(0)}))
+      Fail("has too few columns");
     const auto frame = Parsed<FrameIndex>(fields[frame_column_]);
     const auto time_s = Parsed<double>(fields[time_column_]);
     if (!frame || *frame < 0 || *frame >= kMostFrames)
@@ -93,6 +97,11 @@ class StampTable {
     }
     stamps->resize(at + 1);
     stamps->back() = *time_s;
+    if (!picture_column_) return;
+    const auto picture = Parsed<std::uint64_t>(fields[*picture_column_]);
+    if (!picture) Fail(fmt::format("'{}' is no picture's number", fields[*picture_column_]));
+    table->pictures.resize(at + 1);
+    table->pictures.back() = *picture;
   }
 
   std::string who_;
@@ -100,6 +109,7 @@ class StampTable {
   int line_ = 1;
   std::size_t frame_column_ = 0;
   std::size_t time_column_ = 0;
+  std::optional<std::size_t> picture_column_;
 };
 
 std::vector<StampedFrame> Present(const FrameStamps& stamps) {
@@ -132,9 +142,73 @@ std::vector<std::optional<StampedFrame>> Nearest(const std::vector<StampedFrame>
   return nearest;
 }
 
+using Stamps = std::vector<StampedFrame>;
+
+std::vector<Stamps> AllPresent(std::span<const FrameStamps> cameras) {
+  std::vector<Stamps> present;
+  for (const FrameStamps& stamps : cameras) present.push_back(Present(stamps));
+  return present;
+}
+
+// How far the others are from this camera's frames: the sum of the medians, looked at in some places.
+double SpreadAround(const Stamps& leader, const std::vector<Stamps>& others) {
+  constexpr std::size_t kMostPlaces = 200;
+  const std::size_t step = leader.size() / kMostPlaces + 1;
+  double spread_s = 0.0;
+  for (const Stamps& other : others) {
+    std::vector<double> distances_s;
+    for (std::size_t i = 0; i < leader.size(); i += step) {
+      const double time_s = leader[i].time_s;
+      const auto after = std::ranges::lower_bound(other, time_s, {}, &StampedFrame::time_s);
+      double nearest_s =
+          after == other.end() ? std::numeric_limits<double>::infinity() : after->time_s - time_s;
+      if (after != other.begin()) nearest_s = std::min(nearest_s, time_s - std::prev(after)->time_s);
+      distances_s.push_back(nearest_s);
+    }
+    const auto middle = distances_s.begin() + static_cast<std::ptrdiff_t>(distances_s.size() / 2);
+    std::nth_element(distances_s.begin(), middle, distances_s.end());
+    spread_s += *middle;
+  }
+  return spread_s;
+}
+
+// Which camera's frames make the sets.
+std::size_t LeaderOf(const std::vector<Stamps>& cameras, const std::vector<double>& periods_s) {
+  constexpr double kSameRate = 0.95;
+  const double longest_s = *std::ranges::max_element(periods_s);
+  std::size_t leader = 0;
+  double least_s = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < cameras.size(); ++i) {
+    if (periods_s[i] < kSameRate * longest_s) continue;
+    const double spread_s = SpreadAround(cameras[i], cameras);
+    if (spread_s >= least_s) continue;
+    leader = i;
+    least_s = spread_s;
+  }
+  return leader;
+}
+
+// The leader's stamps, and between them the times at which those that are missing were due.
+Stamps DueTimes(const Stamps& leader, double period_s) {
+  Stamps times;
+  for (const StampedFrame& frame : leader) {
+    if (!times.empty() && period_s > 0.0) {
+      const double from_s = times.back().time_s, gap_s = frame.time_s - from_s;
+      const double periods = std::min(std::round(gap_s / period_s), static_cast<double>(kMostFrames));
+      for (double k = 1.0; k < periods; k += 1.0) times.push_back({-1, from_s + gap_s * k / periods});
+    }
+    times.push_back(frame);
+  }
+  return times;
+}
+
 }  // namespace
 
 FrameStamps ReadFrameStamps(const std::filesystem::path& path, const std::string& who) {
+  return ReadFrameTable(path, who).time_s;
+}
+
+FrameTable ReadFrameTable(const std::filesystem::path& path, const std::string& who) {
   return StampTable(path, who).Read();
 }
 
@@ -150,9 +224,8 @@ std::optional<double> MedianPeriod(const FrameStamps& stamps) {
 }
 
 std::vector<StampedSet> SetsByNearestStamp(std::span<const FrameStamps> cameras) {
-  std::vector<std::vector<StampedFrame>> present;
-  for (const FrameStamps& stamps : cameras) present.push_back(Present(stamps));
-  const auto fewest = std::ranges::min_element(present, {}, &std::vector<StampedFrame>::size);
+  const std::vector<Stamps> present = AllPresent(cameras);
+  const auto fewest = std::ranges::min_element(present, {}, &Stamps::size);
   if (fewest == present.end() || fewest->empty()) return {};
   std::vector<StampedSet> sets(fewest->size());
   for (StampedSet& set : sets) set.frames.resize(cameras.size());
@@ -163,6 +236,32 @@ std::vector<StampedSet> SetsByNearestStamp(std::span<const FrameStamps> cameras)
         Nearest(present[camera], *fewest, decides ? 0.0 : reach_s);
     for (std::size_t i = 0; i < sets.size(); ++i) sets[i].frames[camera] = nearest[i];
   }
+  return sets;
+}
+
+std::vector<StampedSet> SetsOfAllTimes(std::span<const FrameStamps> cameras) {
+  const std::vector<Stamps> present = AllPresent(cameras);
+  if (present.empty() || std::ranges::any_of(present, &Stamps::empty)) return {};
+  std::vector<double> periods_s;
+  for (const FrameStamps& stamps : cameras) periods_s.push_back(MedianPeriod(stamps).value_or(0.0));
+  const std::size_t leader = LeaderOf(present, periods_s);
+  const double reach_s = 0.5 * periods_s[leader];
+  double from_s = -std::numeric_limits<double>::infinity(), to_s = -from_s;
+  for (const Stamps& stamps : present) {
+    from_s = std::max(from_s, stamps.front().time_s - reach_s);
+    to_s = std::min(to_s, stamps.back().time_s + reach_s);
+  }
+  Stamps times = DueTimes(present[leader], periods_s[leader]);
+  std::erase_if(times, [&](const StampedFrame& time) { return time.time_s < from_s || time.time_s > to_s; });
+  std::vector<StampedSet> sets(times.size());
+  for (StampedSet& set : sets) set.frames.resize(cameras.size());
+  for (std::size_t camera = 0; camera < cameras.size(); ++camera) {
+    const auto nearest = Nearest(present[camera], times, 0.5 * periods_s[camera]);
+    for (std::size_t i = 0; i < sets.size(); ++i) sets[i].frames[camera] = nearest[i];
+  }
+  std::erase_if(sets, [](const StampedSet& set) {
+    return std::ranges::none_of(set.frames, [](const auto& frame) { return frame.has_value(); });
+  });
   return sets;
 }
 

@@ -1,6 +1,7 @@
 // Frames of cameras that share no clock, put together by their stamps.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <span>
@@ -20,6 +21,15 @@ using FrameStamps = std::vector<std::optional<double>>;
 // one of the frame before it.
 [[nodiscard]] FrameStamps ReadFrameStamps(const std::filesystem::path& path, const std::string& who);
 
+// The same table with its column `picture`: the numbers that the camera's pictures had when they came.
+struct FrameTable {
+  FrameStamps time_s;
+  std::vector<std::uint64_t> pictures;  // by frame, 0 without a stamp; empty: the table has no such column
+};
+
+// Throws: as ReadFrameStamps; Error{kFormat} also for a picture that is no number.
+[[nodiscard]] FrameTable ReadFrameTable(const std::filesystem::path& path, const std::string& who);
+
 struct StampedFrame {
   core::FrameIndex frame = 0;
   double time_s = 0.0;
@@ -36,6 +46,12 @@ struct StampedSet {
 // stamps decides when sets are; of another camera the frame belongs to it that is the nearest in time, at
 // most half of that camera's own median period away. Empty if a camera has no stamps.
 [[nodiscard]] std::vector<StampedSet> SetsByNearestStamp(std::span<const FrameStamps> cameras);
+
+// The sets of footage in which cameras lost pictures, from the latest of the first stamps to the earliest of
+// the last ones. Of the slowest cameras, that one leads which is the nearest to the others; each of its frames
+// makes a set, as above. Where frames of it are missing, the times at which they were due take their places,
+// so that no time is left out as long as one camera has pictures. Empty if a camera has no stamps.
+[[nodiscard]] std::vector<StampedSet> SetsOfAllTimes(std::span<const FrameStamps> cameras);
 
 // The median time between one stamp and the next, in s. Nothing with fewer than two stamps.
 [[nodiscard]] std::optional<double> MedianPeriod(const FrameStamps& stamps);

@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <map>
 #include <memory>
-#include <opencv2/imgcodecs.hpp>
 #include <vector>
 
 #include "app/control/demo_trial.h"
@@ -14,6 +13,7 @@
 #include "app/control/trial_runner.h"
 #include "recon/capture/live_rig.h"
 #include "sessions/session_reader.h"
+#include "tests/app/live_demo.h"
 #include "tests/recon/capture/live_accounts.h"
 #include "tests/recon/capture/own_network.h"
 #include "tests/recon/capture/served_rig.h"
@@ -26,62 +26,20 @@ using recon::testing::LiveAccounts;
 using recon::testing::ServedRig;
 using test_support::TemporaryFolder;
 
-constexpr int kCameras = 4;
-// The demo's own rate; slow enough for a machine that also renders, sends and judges.
-constexpr double kRateHz = 15.0;
-// In these the hand lowers the pipe between the payloads, and touches them.
-constexpr core::FrameIndex kFirst = 60, kSets = 60;
-
 const auto* const kNetwork = ::testing::AddGlobalTestEnvironment(new recon::testing::OwnNetwork(kCameras));
 
-// The demo, some of its frame sets, and its empty scene.
-struct Footage {
-  TrialSetup setup = MakeDemoTrial(DemoPlay::kForever);
-  std::vector<recon::FrameSet> sets;
-  std::vector<recon::BackgroundReference> backgrounds;
-};
-
-Footage Render() {
-  Footage footage;
-  for (core::FrameIndex i = 0; i < kSets; ++i) footage.sets.push_back(footage.setup.source->Read(kFirst + i));
-  footage.backgrounds = footage.setup.source->ReadBackgrounds({}, {});
-  return footage;
-}
-
-// The rig with its live cameras, and pictures of the empty scene in `folder`.
-recon::RigFile LiveRigFile(const Footage& footage, const ServedRig& served, const TemporaryFolder& folder) {
-  recon::RigFile rig_file{footage.setup.source->rig()};
-  for (std::size_t i = 0; i < kCameras; ++i) {
-    cv::Mat mean;
-    footage.backgrounds[i].mean_bgr.convertTo(mean, CV_8U);
-    const std::filesystem::path background = folder / ("background" + std::to_string(i) + ".png");
-    cv::imwrite(background.string(), mean);
-    rig_file.sources.push_back(served.SourcesOf(i));
-    rig_file.sources.back().background = background.string();
-  }
-  return rig_file;
-}
-
-// What was found of each part, as numbers that are equal for equal pictures.
-std::vector<std::tuple<core::Verdict, std::int64_t, double>> FoundIn(const core::FrameRecord& record) {
-  std::vector<std::tuple<core::Verdict, std::int64_t, double>> found;
-  for (const core::PartContact& contact : record.contacts)
-    found.emplace_back(contact.verdict, contact.contact_point_count, contact.contact_area_mm2);
-  return found;
-}
-
 TEST(LiveTrial, FindsWhatTheRecordingFinds) {
-  Footage footage = Render();
+  DemoFootage footage = RenderDemo();
   const TemporaryFolder folder;
   ServedRig served(footage.sets, kRateHz);
-  const recon::RigFile rig_file = LiveRigFile(footage, served, folder);
+  const recon::RigFile rig_file = LiveRigFile(footage, served, folder.path());
   TrialSetup setup = footage.setup;
   setup.source = std::make_shared<recon::LiveRig>(rig_file);
   // What the recording gives, set by set.
   FramePipeline recorded(footage.setup.source->rig(), footage.setup.layout,
                          setup.source->ReadBackgrounds({}, {}), footage.setup.segmentation);
   const std::vector<double> gaps = footage.setup.layout.InitialSpacings();
-  std::vector<std::vector<std::tuple<core::Verdict, std::int64_t, double>>> expected;
+  std::vector<Found> expected;
   bool has_contact = false;
   for (const recon::FrameSet& set : footage.sets) {
     const SharedFrameResult result = recorded.Process(set, gaps);

@@ -62,6 +62,25 @@ TEST(ReadTrialFile, TheViewersPicturesComeWithTheFrames) {
   EXPECT_EQ(frames.viewer->image_bgr.at<cv::Vec3b>(20, 20), cv::Vec3b(0, 200, 0));
 }
 
+TEST(ReadTrialFile, FootageIsKeptOfLiveCamerasAlone) {
+  const ViewerTrial trial("camera = \"head.yml\"\nframes = \"head_%d.png\"\n");
+  const std::string table = "rig = \"rig.yml\"\nlayout = \"layout.toml\"\nrecord = ";
+  WriteText(trial.file(), table + "\"footage\"\n");
+  const TrialSetup setup = ReadTrialFile(trial.file());
+  EXPECT_EQ(setup.footage, nullptr);
+  ASSERT_EQ(setup.warnings.size(), 1U);
+  EXPECT_NE(setup.warnings[0].find("record = \"footage\" is for live cameras"), std::string::npos);
+  WriteText(trial.file(), table + "\"silhouettes\"\n");
+  EXPECT_TRUE(ReadTrialFile(trial.file()).warnings.empty());
+  WriteText(trial.file(), table + "\"all\"\n");
+  try {
+    (void)ReadTrialFile(trial.file());
+    FAIL() << "it was read";
+  } catch (const core::Error& error) {
+    EXPECT_NE(std::string(error.what()).find("\"silhouettes\" or \"footage\""), std::string::npos);
+  }
+}
+
 TEST(ReadTrialFile, WhatAViewerHasWrongIsOneLine) {
   for (const auto& [viewer, said] :
        {std::pair{"camera = \"head.yml\"\n", "frames"},

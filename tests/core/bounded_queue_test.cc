@@ -39,6 +39,19 @@ TEST(BoundedQueue, WhatIsPushedIfEmptyReplacesNothing) {
   EXPECT_EQ(queue.TryPop(), std::nullopt);
 }
 
+TEST(BoundedQueue, PushIfRoomNeverWaits) {
+  BoundedQueue<int> queue(2, WhenFull::kBlock);
+  EXPECT_TRUE(queue.PushIfRoom(1));
+  EXPECT_TRUE(queue.PushIfRoom(2));
+  EXPECT_FALSE(queue.PushIfRoom(3));
+  EXPECT_EQ(queue.Pop(), 1);
+  EXPECT_TRUE(queue.PushIfRoom(4));
+  queue.Close();
+  EXPECT_EQ(queue.Pop(), 2);
+  EXPECT_FALSE(queue.PushIfRoom(5));
+  EXPECT_EQ(queue.Pop(), 4);
+}
+
 TEST(BoundedQueue, ClosedTakesNothingInButGivesWhatIsInside) {
   BoundedQueue<int> queue(2, WhenFull::kBlock);
   EXPECT_TRUE(queue.Push(1));

@@ -205,14 +205,17 @@ bool RigHealth::is_well() const {
   return std::ranges::all_of(cameras, [](const CameraHealth& camera) { return camera.advice.empty(); });
 }
 
+void RequireLiveRig(const recon::RigFile& rig_file) {
+  if (recon::IsLiveRig(rig_file)) return;
+  throw core::Error(core::ErrorKind::kFormat,
+                    fmt::format("rig '{}' has no live cameras: each camera's 'frames' must name one, as "
+                                "\"v4l2:/dev/video0\", \"gige:NAME\" or \"rtsp://...\"",
+                                rig_file.rig.name));
+}
+
 RigHealth CheckCameras(const recon::RigFile& rig_file, double seconds, const core::Progress& progress,
                        const std::stop_token& stop) {
-  if (!recon::IsLiveRig(rig_file)) {
-    throw core::Error(core::ErrorKind::kFormat,
-                      fmt::format("rig '{}' has no live cameras: each camera's 'frames' must name one, as "
-                                  "\"v4l2:/dev/video0\", \"gige:NAME\" or \"rtsp://...\"",
-                                  rig_file.rig.name));
-  }
+  RequireLiveRig(rig_file);
   Check check(rig_file, stop);
   check.Run(seconds, progress, stop);
   return check.Health(rig_file.rig);

@@ -47,6 +47,9 @@ struct RigHealth {
   [[nodiscard]] bool is_well() const;
 };
 
+// Throws: Error{kFormat} for a rig that isn't live.
+void RequireLiveRig(const recon::RigFile& rig_file);
+
 // Runs all cameras for so long. Throws: as recon::LiveRig; Error{kFormat} for a rig that isn't live;
 // Error{kCancelled} on a stop.
 [[nodiscard]] RigHealth CheckCameras(const recon::RigFile& rig_file, double seconds,

@@ -1,7 +1,6 @@
 #include "recon/capture/child/camera_server.h"
 
 #include <poll.h>
-#include <sys/mman.h>
 
 #include <algorithm>
 #include <chrono>
@@ -15,8 +14,11 @@
 
 #include "core/error.h"
 #include "core/system/child_process.h"
+#include "recon/capture/child/slot_map.h"
+#include "recon/capture/child/video_server.h"
 #include "recon/capture/device/camera_device.h"
 #include "recon/capture/device/camera_protocol.h"
+#include "recon/capture/device/video_protocol.h"
 #include "recon/capture/genicam/genicam_camera.h"
 #include "recon/capture/stream/stream_camera.h"
 #include "recon/capture/v4l2/v4l2_camera.h"
@@ -60,12 +62,17 @@ class Server {
     if (!order) std::_Exit(EXIT_FAILURE);
     if (packet->Text<CameraOrder>() == kListOrder) List();
     request_ = RequestOf(*order, packet->Text<CameraOrder>());
-    MapSlots();
     // Buffers of the driver, pictures being decoded, and the libraries.
     constexpr double kLibraries = 4e9, kPictures = 64.0;
     core::OwnLimits limits;
     limits.memory_bytes = kLibraries + kPictures * 3.0 * request_.width_px * request_.height_px;
     core::LimitMyself(limits);
+    if (request_.location.starts_with(kWriteOrder))
+      ServeVideo(socket_, request_, request_.location.substr(kWriteOrder.size()));
+    slots_ = MapSlots({request_.width_px, request_.height_px});
+    if (slots_.empty()) std::_Exit(EXIT_FAILURE);
+    is_free_.assign(kPictureSlots, true);
+    spare_.create(request_.height_px, request_.width_px, CV_8UC3);
   }
 
   [[noreturn]] void Run() {
@@ -93,20 +100,6 @@ class Server {
     (void)SendPacket(socket_, CameraNews{.kind = CameraNewsKind::kListed},
                      std::string_view(text).substr(0, kLongestPacketBytes / 2));
     std::_Exit(EXIT_SUCCESS);
-  }
-
-  void MapSlots() {
-    const std::size_t picture_bytes = std::size_t{3} * static_cast<std::size_t>(request_.width_px) *
-                                      static_cast<std::size_t>(request_.height_px);
-    void* memory =
-        ::mmap(nullptr, picture_bytes * kPictureSlots, PROT_READ | PROT_WRITE, MAP_SHARED, kCameraMemory, 0);
-    if (memory == MAP_FAILED) std::_Exit(EXIT_FAILURE);
-    for (int i = 0; i < kPictureSlots; ++i) {
-      slots_.emplace_back(request_.height_px, request_.width_px, CV_8UC3,
-                          static_cast<unsigned char*>(memory) + static_cast<std::size_t>(i) * picture_bytes);
-    }
-    is_free_.assign(kPictureSlots, true);
-    spare_.create(request_.height_px, request_.width_px, CV_8UC3);
   }
 
   void Tell(const CameraNews& news, std::string_view text = {}) {

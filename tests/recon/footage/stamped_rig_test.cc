@@ -87,6 +87,18 @@ TEST(StampedRig, ACameraWithoutAPictureNearIsMissingInTheSet) {
   }
 }
 
+TEST(StampedRig, PicturesKeepTheNumbersThatTheyCameWith) {
+  const TestFolder folder;
+  CameraSources sources = StampedVideo(folder, "a", 4, [](int i) { return 0.04 * i; });
+  WriteText(folder.File("a.csv"), "frame,time_s,picture\n0,0.0,7\n2,0.08,9\n3,0.12,12\n");
+  RecordedRig rig(PlainRig({sources}));
+  ASSERT_EQ(rig.frame_count(), 3);
+  EXPECT_EQ(rig.Read(0).cameras[0].stamp->picture, 7U);
+  EXPECT_EQ(rig.Read(1).cameras[0].stamp->picture, 9U);
+  EXPECT_EQ(rig.Read(2).cameras[0].stamp->picture, 12U);
+  EXPECT_EQ(NumberIn(rig.Read(1).cameras[0].image_bgr), 2);
+}
+
 TEST(StampedRig, WithoutATableForEachCameraFramesGoByTheirNumbers) {
   const TestFolder folder;
   CameraSources without = StampedVideo(folder, "b", 8, [](int i) { return 7.0 + i; });
