@@ -121,6 +121,42 @@ TEST(BackgroundCommand, KeepsMeanAndNoiseOfEveryPixelAndAllElseOfTheRig) {
   }
 }
 
+TEST(BackgroundCommand, GivesCamerasCheckTheLightToCompareWith) {
+  const TemporaryFolder folder;
+  const std::filesystem::path out = folder / "empty";
+  std::filesystem::path rig;
+  {
+    const ServedRig served(EmptySets(), kRateHz);
+    rig = WriteLiveRig(served, folder.path());
+    ASSERT_EQ(TakeBackground(rig, out, {"--seconds", "2"}).exit_status, 0);
+    const ProgramRun without = test_support::RunProgram(
+        ELBOWROOM_PROGRAM, {"cameras", "check", rig.string(), "--seconds", "1", "--json"});
+    ASSERT_EQ(without.exit_status, 0) << without.err;
+    EXPECT_TRUE(nlohmann::json::parse(without.out)["cameras"][0]["light"].is_null());
+  }
+  std::vector<recon::FrameSet> darker = EmptySets();
+  for (recon::FrameSet& set : darker) {
+    for (recon::CameraFrame& frame : set.cameras) {
+      cv::Mat dimmed;
+      frame.image_bgr.convertTo(dimmed, CV_8U, 0.8);
+      frame.image_bgr = dimmed;
+    }
+  }
+  const ServedRig served(darker, kRateHz);
+  const ProgramRun run = test_support::RunProgram(
+      ELBOWROOM_PROGRAM, {"cameras", "check", (out / "RIG.yml").string(), "--seconds", "1", "--json"});
+  ASSERT_EQ(run.exit_status, 0) << run.err;
+  const nlohmann::json json = nlohmann::json::parse(run.out);
+  EXPECT_FALSE(json["well"].get<bool>());
+  for (const nlohmann::json& camera : json["cameras"]) {
+    constexpr double kGainTolerance = 0.02;  // the simulated exposure flickers by 1 %
+    EXPECT_NEAR(camera["light"]["gain"], 0.8, kGainTolerance);
+    std::string advice;
+    for (const nlohmann::json& line : camera["advice"]) advice += line.get<std::string>() + "\n";
+    EXPECT_THAT(advice, HasSubstr("darker than when the background was taken"));
+  }
+}
+
 TEST(BackgroundCommand, RefusesSomethingThatMovesAndNamesCameraAndPlace) {
   std::vector<recon::FrameSet> sets = EmptySets();
   // A sleeve at the picture's edge, in camera 3 only, in some pictures of each second.
