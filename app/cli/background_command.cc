@@ -35,9 +35,10 @@ nlohmann::json BackgroundJson(const control::CameraBackground& camera) {
                          {"suggested_floor_levels", nullptr},
                          {"flicker_hz", FlickerHz(camera.scene.pulse)},
                          {"flicker_share", nullptr},
-                         {"light_steady", camera.scene.is_light_steady()},
+                         {"light_steady", nullptr},
                          {"moved", !camera.scene.moved_px.empty()},
                          {"faults", camera.faults}};
+  if (camera.scene.moved_px.empty()) json["light_steady"] = camera.scene.is_light_steady();
   if (camera.scene.pulse) json["flicker_share"] = camera.scene.pulse->amplitude_share;
   if (camera.suggested) {
     json["suggested_k_sigma"] = camera.suggested->k_sigma;

@@ -18,10 +18,11 @@ struct TimedPicture {
 };
 
 struct EmptySceneReport {
-  double mean_level = 0.0;                   // grey levels, over all pixels and channels
-  double sigma_median_levels = 0.0;          // of one pixel and channel over the pictures
-  std::vector<cv::Rect> moved_px;            // where something moved, the largest first; empty: nothing did
-  std::optional<LightPulse> pulse;           // nothing also where there are too few pictures (kLeastGains)
+  double mean_level = 0.0;           // grey levels, over all pixels and channels
+  double sigma_median_levels = 0.0;  // of one pixel and channel over the pictures
+  std::vector<cv::Rect> moved_px;    // where something moved, the largest first; empty: nothing did
+  // Nothing also where there are too few pictures (kLeastGains), or something moved.
+  std::optional<LightPulse> pulse;
   double least_gain = 1.0, most_gain = 1.0;  // of the light, against its mean; each a mean of five pictures
 
   // The light pulses or wanders by more than 2 % to either side, so that a threshold may feel it.
