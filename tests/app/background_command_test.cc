@@ -182,7 +182,10 @@ TEST(BackgroundCommand, RefusesSomethingThatMovesAndNamesCameraAndPlace) {
   const ProgramRun taken = TakeBackground(rig, folder / "empty", {"--seconds", "2", "--anyway"});
   ASSERT_EQ(taken.exit_status, 0) << taken.err;
   const nlohmann::json json = nlohmann::json::parse(taken.out);
-  for (std::size_t i = 0; i < kCameras; ++i) EXPECT_EQ(json["cameras"][i]["moved"], i == 2) << i;
+  for (std::size_t i = 0; i < kCameras; ++i) {
+    EXPECT_EQ(json["cameras"][i]["moved"], i == 2) << i;
+    EXPECT_EQ(json["cameras"][i]["suggested_k_sigma"].is_null(), i == 2) << i;
+  }
   EXPECT_TRUE(std::filesystem::exists(folder / "empty" / "RIG.yml"));
 }
 

@@ -111,8 +111,10 @@ CameraBackground Examine(const std::string& name, const std::vector<recon::Timed
   const recon::BackgroundReference reference = accumulator.Reference();
   CameraBackground camera{name, accumulator.frames(),
                           recon::ExamineEmptyScene(pictures, reference, min_blob_px)};
-  camera.suggested =
-      recon::SuggestThreshold(reference, kWantedFalseRate, recon::SegmentationOptions().edge_slack_px);
+  if (camera.scene.moved_px.empty()) {
+    camera.suggested =
+        recon::SuggestThreshold(reference, kWantedFalseRate, recon::SegmentationOptions().edge_slack_px);
+  }
   camera.faults = recon::FaultsOf(camera.scene, name, pictures.front().image_bgr.size());
   return camera;
 }

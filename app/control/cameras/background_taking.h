@@ -29,7 +29,7 @@ struct CameraBackground {
   std::string name;
   int frames = 0;  // pictures in the folder
   recon::EmptySceneReport scene;
-  // For one false candidate in a million pixels; nothing: all of the picture is clipped.
+  // For one false candidate in a million pixels; nothing: all of the picture is clipped, or something moved.
   std::optional<recon::NoiseThreshold> suggested = std::nullopt;
   std::vector<std::string> faults = {};  // a sentence each; empty unless taken anyway
 };
