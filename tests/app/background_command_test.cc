@@ -8,9 +8,12 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgproc.hpp>
+#include <stop_token>
 #include <string>
 #include <vector>
 
+#include "app/control/cameras/background_taking.h"
+#include "core/error.h"
 #include "recon/footage/background_reader.h"
 #include "recon/rig_files/rig_file.h"
 #include "recon/synthetic/rig_presets.h"
@@ -217,6 +220,30 @@ TEST(BackgroundCommand, LeavesAFolderThatIsInUseAlone) {
   EXPECT_THAT(run.err, HasSubstr("is not empty; choose a folder that is new or empty"));
   ExpectNothingWritten(folder.path());
   EXPECT_THAT(TakeBackground(rig, folder / "50%").err, HasSubstr("has a '%'"));
+}
+
+// Stopped while people leave, while pictures are taken, and while they are written.
+TEST(BackgroundCommand, LeavesNothingBehindWhenItIsStopped) {
+  const TemporaryFolder folder;
+  const ServedRig served(EmptySets(), kRateHz);
+  const recon::RigFile rig = recon::ReadRigFile(WriteLiveRig(served, folder.path()));
+  for (const std::string at :
+       {"leave the cameras' view", "taking the background", "writing the background"}) {
+    std::stop_source source;
+    const core::Progress progress([&](std::int64_t, std::int64_t, const std::string& what) {
+      if (what.starts_with(at)) source.request_stop();
+    });
+    control::BackgroundOptions options;
+    options.countdown_s = 0.2;
+    options.seconds = 1.0;
+    try {
+      (void)control::TakeBackground(rig, folder / "empty", options, progress, source.get_token());
+      ADD_FAILURE() << at << ": not stopped";
+    } catch (const core::Error& error) {
+      EXPECT_EQ(error.kind(), core::ErrorKind::kCancelled) << error.what();
+    }
+    ExpectNothingWritten(folder.path());
+  }
 }
 
 TEST(BackgroundCommand, NeedsLiveCamerasAndEnoughPictures) {

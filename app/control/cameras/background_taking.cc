@@ -176,9 +176,9 @@ BackgroundOutcome TakeBackground(const recon::RigFile& rig_file, const fs::path&
   UnfinishedFolder unfinished(folder);
   recon::RigFile with_background = rig_file;
   for (core::CameraIndex i = 0; i < pictures.size(); ++i) {
-    core::ThrowIfStopped(stop, "writing the background");
     progress.Report(static_cast<std::int64_t>(i), static_cast<std::int64_t>(pictures.size()),
                     "writing the background, camera");
+    core::ThrowIfStopped(stop, "writing the background");
     const fs::path of_camera = unfinished.path() / rig_file.rig.cameras[i].name();
     outcome.bytes += WritePictures(pictures[i], of_camera);
     with_background.sources[i].background = (of_camera / "%04d.png").string();
