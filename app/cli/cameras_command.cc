@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "app/cli/command.h"
+#include "app/cli/light_json.h"
 #include "app/cli/vector_json.h"
 #include "app/control/cameras/camera_check.h"
 #include "app/control/cameras/camera_recording.h"
@@ -58,6 +59,7 @@ nlohmann::json CameraJson(const control::CameraHealth& camera) {
           {"mean_level", camera.mean_level},
           {"saturated_share", camera.saturated_share},
           {"sharpness", camera.sharpness},
+          {"light", camera.light ? JsonOf(*camera.light) : nlohmann::json()},
           {"advice", camera.advice}};
 }
 
@@ -71,7 +73,13 @@ std::string CameraText(const control::CameraHealth& camera) {
   if (camera.state.report.exposure_us)
     text += fmt::format(", exposure {:.0f} us", *camera.state.report.exposure_us);
   if (camera.state.report.gain_db) text += fmt::format(", gain {:.1f} dB", *camera.state.report.gain_db);
-  text += fmt::format(", level {:.0f}, sharpness {:.0f}\n", camera.mean_level, camera.sharpness);
+  text += fmt::format(", level {:.0f}, sharpness {:.0f}", camera.mean_level, camera.sharpness);
+  if (camera.light) {
+    text += fmt::format(", light {:.0f} % of the background's", 100.0 * camera.light->gain);
+    if (camera.light->pulse)
+      text += fmt::format(", flickers by {:.1f} %", 100.0 * camera.light->pulse->amplitude_share);
+  }
+  text += "\n";
   if (camera.advice.empty()) return text + "  all is well\n";
   for (const std::string& line : camera.advice) text += "  " + line + "\n";
   return text;
@@ -92,11 +100,13 @@ CommandResult Check(const CheckOptions& options, const CommandContext& context) 
                  {"incomplete_sets", health.incomplete_sets},
                  {"decision_ms", SpreadJson(health.decision_ms)},
                  {"seconds", health.seconds},
+                 {"warnings", health.warnings},
                  {"well", health.is_well()}};
   for (const control::CameraHealth& camera : health.cameras) {
     result.json["cameras"].push_back(CameraJson(camera));
     result.text += CameraText(camera);
   }
+  for (const std::string& warning : health.warnings) result.text += "warning: " + warning + "\n";
   result.text += fmt::format("{} frame sets in {:.1f} s, {} of them lack a camera", health.sets,
                              health.seconds, health.incomplete_sets);
   return result;

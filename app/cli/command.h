@@ -60,6 +60,7 @@ struct Choice {
 };
 
 // Each adds one subcommand and its options to `app`; when it is given, `*choice` is set.
+void AddBackgroundCommand(CLI::App& app, Choice* choice);
 void AddBenchCommand(CLI::App& app, Choice* choice);
 void AddBoardCommand(CLI::App& app, Choice* choice);
 void AddCalibrateCommand(CLI::App& app, Choice* choice);

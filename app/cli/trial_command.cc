@@ -50,9 +50,11 @@ CommandResult RunHeadless(const TrialRunOptions& options, const CommandContext& 
   RecordingLog log(context);
   trial.on_recording = [&](const sessions::RecordingNews& news) { log.Print(news); };
   control::TrialControls controls;
-  CommandResult result = SummaryOf(control::RunTrial(setup, trial, controls, context.stop), setup.layout);
+  const control::TrialOutcome outcome = control::RunTrial(setup, trial, controls, context.stop);
+  CommandResult result = SummaryOf(outcome, setup.layout);
   std::vector<std::string> warnings = setup.warnings;
   std::ranges::copy(setup.source->Warnings(), std::back_inserter(warnings));
+  std::ranges::copy(outcome.light_advice, std::back_inserter(warnings));
   for (const std::string& warning : warnings) result.json["warnings"].push_back(warning);
   for (const std::string& warning : warnings) result.text += "\nwarning: " + warning;
   log.AddTo(&result);

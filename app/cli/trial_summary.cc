@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "app/cli/error_budget_json.h"
+#include "app/cli/light_json.h"
 
 namespace elbowroom::cli {
 
@@ -35,6 +36,8 @@ void AddCapture(const control::TrialOutcome& outcome, CommandResult* result) {
   result->json["latency_ms"] = {{"median", *median_ms}, {"p99", p99_ms}};
   result->json["frames_without_camera"] = outcome.frames_without_camera;
   result->json["pictures_lost"] = outcome.pictures_lost;
+  result->json["light"] = nlohmann::json::array();
+  for (const recon::LightReport& light : outcome.light) result->json["light"].push_back(JsonOf(light));
   result->text += fmt::format(
       "\n  capture to verdict: {:.1f} ms in the median, {:.1f} ms in 99 %; {} pictures lost, "
       "{} frames lack a camera",

@@ -13,6 +13,7 @@
 #include <variant>
 
 #include "app/control/frame_pipeline.h"
+#include "app/control/light/trial_light.h"
 #include "app/control/outcome_tracker.h"
 #include "app/control/trial_rules.h"
 #include "app/control/versions.h"
@@ -134,8 +135,8 @@ class Recording {
       setup_.footage->Begin(FootageFolderOf(options_.session));
       is_recording_footage_ = true;
     }
-    pipeline_.emplace(setup_.source->rig(), setup_.layout,
-                      setup_.source->ReadBackgrounds(options_.progress, stop), setup_.segmentation,
+    backgrounds_ = setup_.source->ReadBackgrounds(options_.progress, stop);
+    pipeline_.emplace(setup_.source->rig(), setup_.layout, backgrounds_, setup_.segmentation,
                       ReviewOptionsOf(setup_.info, setup_.source->rig(), setup_.rig_quality));
     tracker_.emplace(setup_.info, pipeline_->part_trees());
     const core::FrameIndex first = options_.frames.first;
@@ -152,6 +153,7 @@ class Recording {
       if (taken_at)
         outcome_.latencies.Add(std::chrono::duration<double, std::milli>(Clock::now() - *taken_at).count());
       Record(result);
+      WatchLight(*result);
       const RecordedFrames recorded{outcome_.frames, writer_.frames_committed()};
       if (options_.on_frame) options_.on_frame(result, recorded);
       const core::FrameIndex expected = std::min(end, setup_.source->frame_count().value_or(first));
@@ -165,6 +167,7 @@ class Recording {
     EndFootage();
     for (const std::string& note : loss_notes_.Rest()) Append(note);
     for (const std::string& note : setup_.source->Warnings()) Append(note);
+    FinishLight();
     if (!end_note.empty()) Append(end_note);
     outcome_so_far_.wait();
     core::SessionOutcome outcome = tracker_ ? tracker_->Outcome() : core::SessionOutcome();
@@ -307,11 +310,31 @@ class Recording {
     }
   }
 
+  // Of live cameras, while the next frame is judged: a recording's light can't be put right any more.
+  void WatchLight(const FrameResult& result) {
+    std::vector<recon::BackgroundReference> backgrounds = std::exchange(backgrounds_, {});
+    if (!result.camera_frames->taken_at) return;
+    if (!light_)
+      light_.emplace(setup_.source->rig(), std::move(backgrounds), setup_.segmentation, options_.on_light);
+    light_->Offer(result.camera_frames, result.record.masks);
+    for (const std::string& note : light_->TakeNotes()) Append(note);
+  }
+
+  void FinishLight() {
+    if (!light_) return;
+    light_->Finish();
+    for (const std::string& note : light_->TakeNotes()) Append(note);
+    outcome_.light = light_->reports();
+    outcome_.light_advice = light_->advice();
+  }
+
   const TrialSetup& setup_;
   const TrialOptions& options_;
   TrialControls& controls_;
   LossNotes loss_notes_;
   sessions::SessionWriter writer_;
+  std::vector<recon::BackgroundReference> backgrounds_;  // until the first frame
+  std::optional<TrialLight> light_;                      // of live cameras
   std::optional<FramePipeline> pipeline_;
   std::optional<OutcomeTracker> tracker_;  // refers to the pipeline's part trees
   tbb::task_group outcome_so_far_;         // adds one frame at a time to the tracker

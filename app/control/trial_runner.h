@@ -11,6 +11,7 @@
 
 #include "app/control/frame_result.h"
 #include "app/control/frame_time_tally.h"
+#include "app/control/light/trial_light.h"
 #include "app/control/trial_controls.h"
 #include "app/control/trial_setup.h"
 #include "core/error_budget.h"
@@ -43,6 +44,9 @@ struct TrialOptions {
   std::function<void(const sessions::RecordingNews&)> on_recording;
   // Called with every frame's hull while its parts are judged, on any thread; must not block.
   std::function<void(const SharedHull&)> on_hull;
+  // Live cameras only: called with each report of a camera's light, every some seconds, on a thread of its
+  // own; must not block.
+  OnLight on_light;
   core::Progress progress;
 };
 
@@ -65,6 +69,9 @@ struct TrialOutcome {
   std::int64_t frames_without_camera = 0;
   std::vector<std::int64_t> pictures_lost;
   std::optional<recon::FootageRecording> footage;  // if the trial records it
+  // Likewise: the light at the end, one a camera that has a background; and all advice that was given.
+  std::vector<recon::LightReport> light;
+  std::vector<std::string> light_advice;
 };
 
 // Measures the backgrounds, creates the session, then sends each frame through the pipeline and into the

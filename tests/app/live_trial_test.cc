@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <atomic>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -89,6 +91,43 @@ TEST(LiveTrial, FindsWhatTheRecordingFinds) {
     if (note != nullptr && note->text.find("lost (incomplete)") != std::string::npos) ++named;
   }
   EXPECT_GT(named, 0);
+}
+
+TEST(LiveTrial, LightThatChangedIsANoteOfTheSession) {
+  Footage footage = Render();
+  const TemporaryFolder folder;
+  constexpr double kBrighter = 1.2;
+  std::vector<recon::FrameSet> brighter = footage.sets;
+  for (recon::FrameSet& set : brighter) {
+    for (recon::CameraFrame& frame : set.cameras) {
+      cv::Mat lit;
+      frame.image_bgr.convertTo(lit, CV_8U, kBrighter);
+      frame.image_bgr = lit;
+    }
+  }
+  const ServedRig served(std::move(brighter), kRateHz);
+  TrialSetup setup = footage.setup;
+  setup.source = std::make_shared<recon::LiveRig>(LiveRigFile(footage, served, folder));
+  std::atomic<int> reports = 0;
+  TrialOptions options;
+  options.session = folder / "light.db";
+  options.frames.end = kSets;
+  options.on_light = [&](const recon::LightReport&) { ++reports; };
+  TrialControls controls;
+  const TrialOutcome outcome = RunTrial(setup, options, controls, {});
+  ASSERT_EQ(outcome.light.size(), static_cast<std::size_t>(kCameras));
+  constexpr double kGainTolerance = 0.03;  // the scene flickers by 1 %, and two seconds may be few frames
+  for (const recon::LightReport& light : outcome.light) EXPECT_NEAR(light.gain, kBrighter, kGainTolerance);
+  EXPECT_EQ(outcome.light_advice.size(), static_cast<std::size_t>(kCameras));
+  EXPECT_GE(reports, kCameras);
+  std::vector<std::string> notes;
+  const sessions::SessionReader session(outcome.session);
+  for (const core::SessionEvent& event : session.events())
+    if (const auto* note = std::get_if<core::Note>(&event.what)) notes.push_back(note->text);
+  for (const std::string& advice : outcome.light_advice) {
+    EXPECT_THAT(advice, ::testing::HasSubstr("brighter than when the background was taken"));
+    EXPECT_EQ(std::ranges::count(notes, advice), 1) << advice;
+  }
 }
 
 }  // namespace

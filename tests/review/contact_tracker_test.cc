@@ -33,7 +33,12 @@ core::PartContact Clear(core::PartIndex part) {
 
 core::FrameRecord RecordOf(core::FrameIndex frame, double time_s, std::vector<core::PartContact> contacts,
                            std::vector<double> spacing_mm = {}) {
-  return {frame, time_s, nullptr, {}, std::move(spacing_mm), std::move(contacts), {}};
+  core::FrameRecord record;
+  record.frame = frame;
+  record.time_s = time_s;
+  record.spacing_mm = std::move(spacing_mm);
+  record.contacts = std::move(contacts);
+  return record;
 }
 
 void AddFrame(ContactTracker* tracker, core::FrameIndex frame, const core::PartContact& contact,

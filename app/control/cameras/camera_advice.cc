@@ -70,12 +70,21 @@ void AdviseOnPicture(const CameraHealth& camera, std::vector<std::string>* advic
                     camera.skew_ms->median));
 }
 
+// Its lines name the camera, as those of a trial do.
+void AdviseOnLight(const CameraHealth& camera, std::vector<std::string>* advice) {
+  if (!camera.light) return;
+  const std::string name = fmt::format("camera '{}': ", camera.name);
+  for (const std::string& line : camera.light->advice)
+    advice->push_back(line.starts_with(name) ? line.substr(name.size()) : line);
+}
+
 }  // namespace
 
 void AddAdvice(RigHealth* health) {
   for (CameraHealth& camera : health->cameras) {
     AdviseOnLosses(camera, &camera.advice);
     AdviseOnPicture(camera, &camera.advice);
+    AdviseOnLight(camera, &camera.advice);
   }
 }
 

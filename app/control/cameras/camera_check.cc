@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "app/control/cameras/camera_advice.h"
+#include "app/control/cameras/light_check.h"
 #include "core/error.h"
 #include "recon/capture/camera_list.h"
 #include "recon/capture/live_rig.h"
@@ -71,13 +72,16 @@ struct Tally {
 
 class Check {
  public:
-  Check(const recon::RigFile& rig_file, const std::stop_token& stop)
-      : tallies_(rig_file.rig.cameras.size()), rig_(rig_file, Taps(), stop) {
+  Check(const recon::RigFile& rig_file, const core::Progress& progress, const std::stop_token& stop)
+      : tallies_(rig_file.rig.cameras.size()),
+        light_(rig_file, progress, stop),
+        rig_(rig_file, Taps(), stop) {
     // What came while the other cameras started doesn't count.
     const std::lock_guard lock(mutex_);
     for (Tally& tally : tallies_) tally = {};
     sets_ = incomplete_sets_ = 0;
     decision_ms_.clear();
+    light_.Forget();
     begin_ = Clock::now();
   }
 
@@ -91,6 +95,7 @@ class Check {
       lock.unlock();
       core::ThrowIfStopped(stop, "checking the cameras");
       LookAtPictures();
+      light_.Look();
       progress.Report(static_cast<std::int64_t>(MsBetween(begin_, std::min(end, Clock::now())) / 1000.0),
                       static_cast<std::int64_t>(std::ceil(seconds)), "checking the cameras, second");
     }
@@ -100,7 +105,7 @@ class Check {
   [[nodiscard]] RigHealth Health(const core::Rig& rig) {
     const std::vector<recon::CameraState> states = rig_.states();
     const std::lock_guard lock(mutex_);
-    RigHealth health{{}, sets_, incomplete_sets_, core::SpreadOf(decision_ms_), seconds_};
+    RigHealth health{{}, sets_, incomplete_sets_, core::SpreadOf(decision_ms_), seconds_, {}};
     for (core::CameraIndex i = 0; i < tallies_.size(); ++i) {
       const Tally& tally = tallies_[i];
       CameraHealth camera;
@@ -120,8 +125,10 @@ class Check {
       camera.mean_level = tally.level_sum / looks;
       camera.saturated_share = tally.saturated_sum / looks;
       camera.sharpness = tally.sharpness_sum / looks;
+      camera.light = light_.Report(i);
       health.cameras.push_back(std::move(camera));
     }
+    if (!light_.trouble().empty()) health.warnings.push_back(light_.trouble());
     AddAdvice(&health);
     return health;
   }
@@ -130,6 +137,7 @@ class Check {
   [[nodiscard]] recon::LiveTaps Taps() {
     recon::LiveTaps taps;
     taps.on_picture = [this](core::CameraIndex camera, const recon::CapturedPicture& picture) {
+      light_.Keep(camera, picture);
       const std::lock_guard lock(mutex_);
       tallies_[camera].Add(picture);
     };
@@ -190,6 +198,7 @@ class Check {
   std::vector<double> decision_ms_;
   Clock::time_point begin_;
   double seconds_ = 0.0;
+  LightCheck light_;
   recon::LiveRig rig_;  // last: its threads use the others
 };
 
@@ -202,7 +211,8 @@ std::int64_t CameraHealth::lost() const {
 }
 
 bool RigHealth::is_well() const {
-  return std::ranges::all_of(cameras, [](const CameraHealth& camera) { return camera.advice.empty(); });
+  return warnings.empty() &&
+         std::ranges::all_of(cameras, [](const CameraHealth& camera) { return camera.advice.empty(); });
 }
 
 void RequireLiveRig(const recon::RigFile& rig_file) {
@@ -216,7 +226,7 @@ void RequireLiveRig(const recon::RigFile& rig_file) {
 RigHealth CheckCameras(const recon::RigFile& rig_file, double seconds, const core::Progress& progress,
                        const std::stop_token& stop) {
   RequireLiveRig(rig_file);
-  Check check(rig_file, stop);
+  Check check(rig_file, progress, stop);
   check.Run(seconds, progress, stop);
   return check.Health(rig_file.rig);
 }

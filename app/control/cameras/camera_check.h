@@ -12,6 +12,7 @@
 #include "core/progress.h"
 #include "core/spread.h"
 #include "recon/capture/captured_picture.h"
+#include "recon/light/light_report.h"
 #include "recon/rig_files/rig_file.h"
 
 namespace elbowroom::control {
@@ -31,7 +32,8 @@ struct CameraHealth {
   double saturated_share = 0.0;  // of pixels with a channel at 255
   // Variance of the Laplacian of the grey picture, levels^2: it falls when the lens is out of focus.
   double sharpness = 0.0;
-  std::vector<std::string> advice;  // what to do about it, a line each; empty: all is well
+  std::optional<recon::LightReport> light;  // against the rig's background; nothing: it has none
+  std::vector<std::string> advice;          // what to do about it, a line each; empty: all is well
 
   [[nodiscard]] std::int64_t lost() const;
 };
@@ -43,6 +45,7 @@ struct RigHealth {
   // From the arrival of a set's last picture to its decision, ms.
   std::optional<core::Spread> decision_ms;
   double seconds = 0.0;
+  std::vector<std::string> warnings;  // of the rig as a whole
 
   [[nodiscard]] bool is_well() const;
 };
@@ -50,8 +53,8 @@ struct RigHealth {
 // Throws: Error{kFormat} for a rig that isn't live.
 void RequireLiveRig(const recon::RigFile& rig_file);
 
-// Runs all cameras for so long. Throws: as recon::LiveRig; Error{kFormat} for a rig that isn't live;
-// Error{kCancelled} on a stop.
+// Runs all cameras for so long. If the rig has backgrounds, the light is held against them. Throws: as
+// recon::LiveRig; Error{kFormat} for a rig that isn't live; Error{kCancelled} on a stop.
 [[nodiscard]] RigHealth CheckCameras(const recon::RigFile& rig_file, double seconds,
                                      const core::Progress& progress, const std::stop_token& stop);
 

@@ -2,9 +2,13 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
+#include "recon/footage/background.h"
+#include "recon/footage/image_source.h"
 #include "recon/footage/recorded_rig.h"
+#include "recon/light/empty_scene.h"
 #include "recon/light/light_watch.h"
 #include "recon/segmentation/frame_segmenter.h"
 
@@ -47,6 +51,39 @@ TEST(RealLight, OfARecordingIsSteadyAndItsPeopleAreNoLastingChange) {
                    std::to_string(report.pulse ? report.pulse->amplitude_share : 0.0));
     const LightReport longer = slow[i].Report();
     EXPECT_TRUE(longer.changes.empty()) << i << ": " << longer.advice.front();
+  }
+}
+
+// Sixty pictures: of the empty room, and at the end `with_person` of the person in it.
+EmptySceneReport ExamineRoom(const CameraSources& sources, const core::CameraModel& camera, int with_person) {
+  constexpr int kPictures = 60;
+  constexpr double kFootageRateHz = 25.0;
+  const auto empty = OpenImageSource(sources.background, camera),
+             person = OpenImageSource(sources.frames, camera);
+  std::vector<TimedPicture> pictures;
+  BackgroundAccumulator accumulator;
+  for (int i = 0; i < kPictures; ++i) {
+    ImageSource& source = i < kPictures - with_person ? *empty : *person;
+    pictures.push_back({source.Read(i).value().image_bgr, i / kFootageRateHz});
+    accumulator.Add(pictures.back().image_bgr);
+  }
+  constexpr int kMinBlobPx = 200;
+  return ExamineEmptyScene(pictures, accumulator.Reference(), kMinBlobPx);
+}
+
+TEST(RealLight, AnEmptyRoomIsToldFromOneThatSomebodyEnters) {
+  const std::filesystem::path file =
+      std::filesystem::path(ELBOWROOM_SHARED_DATA_DIR) / "four_cameras" / "rig.yml";
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << "NOT TESTED on real footage: " << file << " is absent";
+  const RigFile rig_file = ReadRigFile(file);
+  for (std::size_t i = 0; i < rig_file.sources.size(); ++i) {
+    const core::CameraModel& camera = rig_file.rig.cameras[i];
+    const cv::Size size(camera.width_px(), camera.height_px());
+    const std::vector<std::string> faults =
+        FaultsOf(ExamineRoom(rig_file.sources[i], camera, 0), camera.name(), size);
+    EXPECT_TRUE(faults.empty()) << faults.front();
+    for (const int with_person : {1, 20})
+      EXPECT_FALSE(ExamineRoom(rig_file.sources[i], camera, with_person).moved_px.empty()) << camera.name();
   }
 }
 
