@@ -94,7 +94,7 @@ TEST(LiveTrial, FindsWhatTheRecordingFinds) {
 }
 
 TEST(LiveTrial, LightThatChangedIsANoteOfTheSession) {
-  Footage footage = Render();
+  DemoFootage footage = RenderDemo();
   const TemporaryFolder folder;
   constexpr double kBrighter = 1.2;
   std::vector<recon::FrameSet> brighter = footage.sets;
@@ -107,7 +107,7 @@ TEST(LiveTrial, LightThatChangedIsANoteOfTheSession) {
   }
   const ServedRig served(std::move(brighter), kRateHz);
   TrialSetup setup = footage.setup;
-  setup.source = std::make_shared<recon::LiveRig>(LiveRigFile(footage, served, folder));
+  setup.source = std::make_shared<recon::LiveRig>(LiveRigFile(footage, served, folder.path()));
   std::atomic<int> reports = 0;
   TrialOptions options;
   options.session = folder / "light.db";
