@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace elbowroom::recon::testing {
 
 void LiveAccounts::Add(const FrameSet& set) {
@@ -34,8 +36,8 @@ void LiveAccounts::ExpectWhole() const {
 void LiveAccounts::Enter(core::CameraIndex camera, std::uint64_t first, std::uint64_t last,
                          std::string_view what) {
   Book& book = books_.at(camera);
-  if (!book.next) book.next = first;
-  for (std::uint64_t n = first; n <= last; ++n) {
+  if (!book.next) book.next = book.begin = first;
+  for (std::uint64_t n = std::max(first, book.begin); n <= last; ++n) {
     const bool is_new = n >= *book.next && book.beyond.insert(n).second;
     EXPECT_TRUE(is_new) << "camera " << camera << ": picture " << n << " is entered again, as " << what;
   }

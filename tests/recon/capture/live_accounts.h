@@ -28,6 +28,7 @@ class LiveAccounts {
 
  private:
   struct Book {
+    std::uint64_t begin = 0;            // what was taken before the first entry doesn't count
     std::optional<std::uint64_t> next;  // all from the first number to here are entered
     std::set<std::uint64_t> beyond;     // entered, after a number that isn't yet
   };

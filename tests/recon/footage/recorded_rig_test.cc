@@ -172,18 +172,11 @@ TEST(RecordedRig, NamesTheFirstOfSeveralBadCameras) {
   }
 }
 
-TEST(RecordedRig, StampsALiveStreamWithTheClock) {
-  const TestFolder folder;
-  testing::WriteVideo(folder.File("a.avi"), 10);
-  RecordedRig rig(PlainRig({{"file://" + folder.File("a.avi"), "", ""}}));
-  EXPECT_FALSE(rig.frame_count().has_value());
-  EXPECT_FALSE(rig.shortest_source().has_value());
-  EXPECT_EQ(rig.Read(0).time_s, 0.0);
-  // The reader is late for most of the stream, then it ends.
-  std::string message = ErrorOf(ErrorKind::kCamera, [&] {
-    for (int i = 1; i < 11; ++i) EXPECT_GE(rig.Read(i).time_s, 0.0);
+TEST(RecordedRig, RefusesALiveCamera) {
+  const std::string message = ErrorOf(ErrorKind::kFile, [&] {
+    const RecordedRig rig(PlainRig({{"rtsp://camera/1", "", ""}}));
   });
-  EXPECT_THAT(message, AllOf(HasSubstr("cam1"), HasSubstr("ended")));
+  EXPECT_THAT(message, AllOf(HasSubstr("cam1"), HasSubstr("only recorded footage can be read")));
 }
 
 TEST(RecordedRig, MeasuresBackgroundsWithProgressAndStops) {
