@@ -71,18 +71,19 @@ void MjpegServer::Stall() {
 }
 
 void MjpegServer::Run(const std::stop_token& stop) {
-  if (!WaitFor(listening_, POLLIN, stop)) return;
-  caller_ = core::Descriptor(::accept4(listening_.number(), nullptr, nullptr, SOCK_CLOEXEC));
-  if (!part_) return Stall();
-  if (!Send(caller_, "HTTP/1.0 200 OK\r\nContent-Type: multipart/x-mixed-replace; boundary=frame\r\n\r\n",
-            stop))
-    return;
-  for (int i = 0;; ++i) {
-    const std::optional<std::string> part = part_(i);
-    if (!part) return Stall();
-    const std::string head =
-        "--frame\r\nContent-Type: image/jpeg\r\nContent-Length: " + std::to_string(part->size()) + "\r\n\r\n";
-    if (!Send(caller_, head + *part + "\r\n", stop)) return;
+  for (int i = 0; WaitFor(listening_, POLLIN, stop);) {
+    caller_ = core::Descriptor(::accept4(listening_.number(), nullptr, nullptr, SOCK_CLOEXEC));
+    if (!part_) return Stall();
+    bool is_there = Send(
+        caller_, "HTTP/1.0 200 OK\r\nContent-Type: multipart/x-mixed-replace; boundary=frame\r\n\r\n", stop);
+    while (is_there) {
+      const std::optional<std::string> part = part_(i++);
+      if (!part) return Stall();
+      const std::string head =
+          "--frame\r\nContent-Type: image/jpeg\r\nContent-Length: " + std::to_string(part->size()) +
+          "\r\n\r\n";
+      is_there = Send(caller_, head + *part + "\r\n", stop);
+    }
   }
 }
 

@@ -12,7 +12,8 @@
 
 namespace elbowroom::recon::testing {
 
-// Answers the first call to its address on 127.0.0.1, and ends with this object.
+// Answers calls to its address on 127.0.0.1, one at a time, and ends with this object. A later caller gets
+// the parts that come next.
 class MjpegServer {
  public:
   // What part `index` of the stream holds; nothing: it stalls from there on, the connection stays open.
