@@ -23,11 +23,11 @@ struct WorkerOrder {
 };
 
 enum class PictureTask : std::int32_t {
-  kDecode,      // decode the file in the shared memory
-  kOpenVideo,   // open the video that the request's text names
-  kGrab,        // pass over up to so many pictures of the video
-  kNext,        // decode the video's next picture
-  kEncode,      // encode the pixels in the shared memory; the text names the kind of file: ".png"
+  kDecode,     // decode the file in the shared memory
+  kOpenVideo,  // open the video that the request's text names
+  kGrab,       // pass over up to so many pictures of the video
+  kNext,       // decode the video's next picture
+  kEncode,     // encode the pixels in the shared memory; the text names the kind of file: ".png"
 };
 
 struct PictureRequest {
