@@ -1,15 +1,12 @@
 #include "recon/capture/picture_pool.h"
 
 #include <algorithm>
-#include <cstddef>
 
 namespace elbowroom::recon {
-namespace {
 
-// More pictures than a consumer in pace holds; beyond that, memory comes and goes.
-constexpr std::size_t kMostKept = 16;
-
-}  // namespace
+PicturePool::PicturePool(cv::Size size_px) : size_px_(size_px) {
+  for (int i = 0; i < kKept; ++i) kept_.emplace_back(size_px_, CV_8UC3, cv::Scalar::all(0));
+}
 
 // A count of 1 is the pool's own. Once it is 1, nobody can raise it but this thread.
 cv::Mat PicturePool::Take() {
@@ -17,10 +14,7 @@ cv::Mat PicturePool::Take() {
     return CV_XADD(&picture.u->refcount, 0) == 1;  // an atomic read
   };
   const auto found = std::ranges::find_if(kept_, is_alone);
-  if (found != kept_.end()) return *found;
-  cv::Mat picture(size_px_, CV_8UC3);
-  if (kept_.size() < kMostKept) kept_.push_back(picture);
-  return picture;
+  return found != kept_.end() ? *found : cv::Mat(size_px_, CV_8UC3);
 }
 
 }  // namespace elbowroom::recon
