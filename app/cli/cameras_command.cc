@@ -19,11 +19,6 @@
 namespace elbowroom::cli {
 namespace {
 
-nlohmann::json SpreadJson(const std::optional<core::Spread>& spread) {
-  if (!spread) return nullptr;
-  return {{"median", spread->median}, {"p95", spread->p95}, {"max", spread->max}};
-}
-
 const char* NameOf(const std::optional<recon::StampSource>& source) {
   if (!source) return "none";
   switch (*source) {
@@ -50,8 +45,8 @@ nlohmann::json CameraJson(const control::CameraHealth& camera) {
           {"unpaired", camera.unpaired},
           {"rate_hz", OrNull(camera.rate_hz)},
           {"latency_ms", camera.latency_ms ? nlohmann::json(camera.latency_ms->median) : nlohmann::json()},
-          {"latency", SpreadJson(camera.latency_ms)},
-          {"skew_ms", SpreadJson(camera.skew_ms)},
+          {"latency", JsonOf(camera.latency_ms)},
+          {"skew_ms", JsonOf(camera.skew_ms)},
           {"stamps", NameOf(camera.stamps)},
           {"exposure_us", OrNull(report.exposure_us)},
           {"gain_db", OrNull(report.gain_db)},
@@ -98,7 +93,7 @@ CommandResult Check(const CheckOptions& options, const CommandContext& context) 
   result.json = {{"cameras", nlohmann::json::array()},
                  {"sets", health.sets},
                  {"incomplete_sets", health.incomplete_sets},
-                 {"decision_ms", SpreadJson(health.decision_ms)},
+                 {"decision_ms", JsonOf(health.decision_ms)},
                  {"seconds", health.seconds},
                  {"warnings", health.warnings},
                  {"well", health.is_well()}};

@@ -20,11 +20,6 @@ struct CoverageCommandOptions {
   std::filesystem::path out;
 };
 
-nlohmann::json SpreadJson(const std::optional<core::Spread>& spread) {
-  if (!spread) return nullptr;
-  return {{"median", spread->median}, {"p95", spread->p95}, {"max", spread->max}};
-}
-
 nlohmann::json FiguresJson(const recon::CoverageFigures& figures) {
   nlohmann::json json = {{"nodes", figures.nodes},
                          {"seen_share", figures.seen_share},
@@ -33,7 +28,7 @@ nlohmann::json FiguresJson(const recon::CoverageFigures& figures) {
                          {"nodes_without_uncertainty", figures.without_sigma},
                          {"nodes_without_phantom", figures.without_phantom}};
   for (const control::CoverageQuantity quantity : control::kCoverageQuantities)
-    json[control::NameOf(quantity)] = SpreadJson(control::SpreadOf(figures, quantity));
+    json[control::NameOf(quantity)] = JsonOf(control::SpreadOf(figures, quantity));
   if (figures.cameras_seeing) json["cameras_seeing"]["min"] = figures.fewest_cameras;
   return json;
 }
