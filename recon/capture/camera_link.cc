@@ -9,7 +9,7 @@
 
 #include "core/error.h"
 #include "core/system/child_process.h"
-#include "core/system/module.h"
+#include "recon/capture/camera_program.h"
 #include "recon/capture/device/camera_protocol.h"
 #include "recon/capture/picture_counter.h"
 #include "recon/capture/picture_pool.h"
@@ -63,21 +63,17 @@ class CameraLink::Session {
 
   // Runs the camera's program until it ends; returns what was wrong.
   std::string RunOnce(const std::stop_token& stop) {
-    core::Pipe ends = core::MakeSocketPair();
-    core::Child child({.program = core::FindProgramBeside(kCameraProgram),
-                       .arguments = {"elbowroom_camera"},
-                       .gives = {&ends.to, &slots_.file()}});
-    ends.to.Close();
-    socket_ = std::move(ends.from);
+    CameraProgram program(&slots_);
+    socket_ = std::move(program.socket);
     is_running_ = false;
     counter_.Interrupt();
     last_picture_ = last_sign_ = CaptureClock::now();
     if (!SendPacket(socket_, OrderFor(link_.request_), link_.request_.location))
       return "its program ends at once";
     std::optional<std::string> trouble;
-    while (!trouble && !stop.stop_requested()) trouble = Step(child, stop);
+    while (!trouble && !stop.stop_requested()) trouble = Step(program.child, stop);
     socket_.Close();  // it lets go of the camera then
-    (void)child.WaitForEnd({}, CaptureClock::now() + kLongestEnd);
+    (void)program.child.WaitForEnd({}, CaptureClock::now() + kLongestEnd);
     return trouble.value_or("");
   }
 

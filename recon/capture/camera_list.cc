@@ -7,7 +7,7 @@
 #include "core/error.h"
 #include "core/progress.h"
 #include "core/system/child_process.h"
-#include "core/system/module.h"
+#include "recon/capture/camera_program.h"
 #include "recon/capture/device/camera_protocol.h"
 #include "recon/decoding/packet.h"
 
@@ -15,15 +15,13 @@ namespace elbowroom::recon {
 
 std::vector<std::string> FindLiveCameras(const std::stop_token& stop) {
   constexpr std::chrono::seconds kLongest{15};
-  core::Pipe ends = core::MakeSocketPair();
-  core::Child child({.program = core::FindProgramBeside(kCameraProgram),
-                     .arguments = {"elbowroom_camera"},
-                     .gives = {&ends.to}});
-  ends.to.Close();
-  (void)SendPacket(ends.from, CameraOrder{}, kListOrder);
-  const core::Woken woken = core::WaitToRead(ends.from, stop, std::chrono::steady_clock::now() + kLongest);
+  const CameraProgram program;
+  (void)SendPacket(program.socket, CameraOrder{}, kListOrder);
+  const core::Woken woken =
+      core::WaitToRead(program.socket, stop, std::chrono::steady_clock::now() + kLongest);
   core::ThrowIfStopped(stop, "looking for cameras");
-  const std::optional<Packet> packet = woken == core::Woken::kReady ? ReceivePacket(ends.from) : std::nullopt;
+  const std::optional<Packet> packet =
+      woken == core::Woken::kReady ? ReceivePacket(program.socket) : std::nullopt;
   const auto news = packet ? packet->Head<CameraNews>() : std::nullopt;
   if (!news || news->kind == CameraNewsKind::kFailed) {
     throw core::Error(core::ErrorKind::kCamera,

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <opencv2/core/mat.hpp>
 
-#include "core/system/child_process.h"
+#include "core/system/shared_memory.h"
 
 namespace elbowroom::recon {
 
@@ -15,11 +15,8 @@ class SharedSlots {
  public:
   // Throws: Error{kFile} when there is no memory.
   explicit SharedSlots(cv::Size size_px);
-  ~SharedSlots();
-  SharedSlots(const SharedSlots&) = delete;
-  SharedSlots& operator=(const SharedSlots&) = delete;
 
-  [[nodiscard]] const core::Descriptor& file() const { return file_; }
+  [[nodiscard]] const core::Descriptor& file() const { return memory_.file(); }
 
   // The pixels of one slot, CV_8UC3, in the shared memory itself.
   [[nodiscard]] cv::Mat Slot(std::int32_t slot) const;
@@ -27,8 +24,7 @@ class SharedSlots {
  private:
   std::size_t bytes_;
   cv::Size size_px_;
-  core::Descriptor file_;
-  unsigned char* memory_ = nullptr;
+  core::SharedMemory memory_;
 };
 
 }  // namespace elbowroom::recon

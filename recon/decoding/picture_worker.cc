@@ -1,13 +1,9 @@
 #include "recon/decoding/picture_worker.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/mman.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <mutex>
 #include <thread>
 
@@ -87,39 +83,22 @@ WorkerOrder OrderFor(const WorkerNeeds& needs) {
 }  // namespace
 
 PictureWorker::PictureWorker(const WorkerNeeds& needs)
-    : order_(OrderFor(needs)), memory_file_(core::MakeMemoryFile("pictures")) {
-  const std::int64_t bytes = order_.pixel_bytes + order_.file_bytes;
-  // Sealed, so that a worker can't shrink it while this program uses it.
-  const bool has_memory = ::ftruncate(memory_file_.number(), bytes) == 0 &&
-                          ::fcntl(memory_file_.number(), F_ADD_SEALS, F_SEAL_SHRINK | F_SEAL_GROW) == 0;
-  void* memory = has_memory ? ::mmap(nullptr, static_cast<std::size_t>(bytes), PROT_READ | PROT_WRITE,
-                                     MAP_SHARED, memory_file_.number(), 0)
-                            : MAP_FAILED;
-  if (memory == MAP_FAILED) {
-    // The limit on files holds for those in memory, too.
-    throw Error(ErrorKind::kFile,
-                errno == EFBIG
-                    ? "the limit on the size of files (ulimit -f) is too small for pictures; raise it"
-                    : "there is no memory for pictures; close other programs");
-  }
-  memory_ = static_cast<std::byte*>(memory);
-}
+    : order_(OrderFor(needs)),
+      memory_("pictures", static_cast<std::size_t>(order_.pixel_bytes + order_.file_bytes)) {}
 
-PictureWorker::~PictureWorker() {
-  ::munmap(memory_, static_cast<std::size_t>(order_.pixel_bytes + order_.file_bytes));
-}
+PictureWorker::~PictureWorker() = default;
 
 std::span<std::byte> PictureWorker::file_bytes() const {
-  return {memory_ + order_.pixel_bytes, static_cast<std::size_t>(order_.file_bytes)};
+  return memory_.bytes().subspan(static_cast<std::size_t>(order_.pixel_bytes));
 }
 
 std::span<std::byte> PictureWorker::pixel_bytes() const {
-  return {memory_, static_cast<std::size_t>(order_.pixel_bytes)};
+  return memory_.bytes().first(static_cast<std::size_t>(order_.pixel_bytes));
 }
 
 void PictureWorker::Start(const std::stop_token& stop) {
   core::Pipe socket = core::MakeSocketPair(), leash = core::MakeSocketPair();
-  const std::array files{socket.to.number(), leash.to.number(), memory_file_.number()};
+  const std::array files{socket.to.number(), leash.to.number(), memory_.file().number()};
   DecoderOfThisProgram().Order(order_, files);
   socket.to.Close();
   leash.to.Close();

@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "core/system/child_process.h"
+#include "core/system/shared_memory.h"
 #include "recon/decoding/picture_protocol.h"
 
 namespace elbowroom::recon {
@@ -59,8 +60,7 @@ class PictureWorker {
   [[nodiscard]] PictureAnswer AnswerOfEnd();
 
   WorkerOrder order_;
-  core::Descriptor memory_file_;
-  std::byte* memory_ = nullptr;
+  core::SharedMemory memory_;  // the pixels, then the file
   core::Descriptor socket_, leash_;
 };
 

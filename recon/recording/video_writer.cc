@@ -8,7 +8,6 @@
 #include <string_view>
 
 #include "core/error.h"
-#include "core/system/module.h"
 #include "recon/capture/device/camera_protocol.h"
 #include "recon/capture/device/video_protocol.h"
 #include "recon/decoding/packet.h"
@@ -16,17 +15,10 @@
 namespace elbowroom::recon {
 
 VideoWriter::VideoWriter(const std::filesystem::path& file, cv::Size size_px, double rate_hz)
-    : file_(file),
-      slots_(size_px),
-      is_free_(kPictureSlots, true),
-      ends_(core::MakeSocketPair()),
-      child_({.program = core::FindProgramBeside(kCameraProgram),
-              .arguments = {"elbowroom_camera"},
-              .gives = {&ends_.to, &slots_.file()}}) {
-  ends_.to.Close();
+    : file_(file), slots_(size_px), is_free_(kPictureSlots, true), program_(&slots_) {
   DeviceRequest request{std::string(kWriteOrder) + file.string(), size_px.width, size_px.height, {}};
   request.settings.rate_hz = rate_hz;
-  if (!SendPacket(ends_.from, OrderFor(request), request.location)) Fail("its encoder ends at once");
+  if (!SendPacket(program_.socket, OrderFor(request), request.location)) Fail("its encoder ends at once");
 }
 
 VideoWriter::~VideoWriter() = default;
@@ -37,13 +29,13 @@ void VideoWriter::Fail(std::string_view why) const {
 
 bool VideoWriter::TakeNews() {
   const auto deadline = std::chrono::steady_clock::now() + kLongestWait;
-  if (core::WaitToRead(ends_.from, {}, deadline) == core::Woken::kTooLate) {
-    child_.Kill();
+  if (core::WaitToRead(program_.socket, {}, deadline) == core::Woken::kTooLate) {
+    program_.child.Kill();
     Fail(fmt::format("nothing was written for {} s; is the disk well?", kLongestWait.count()));
   }
-  const std::optional<Packet> packet = ReceivePacket(ends_.from);
+  const std::optional<Packet> packet = ReceivePacket(program_.socket);
   const auto news = packet ? packet->Head<VideoNews>() : std::nullopt;
-  if (!news) Fail("its encoder " + core::TextOfEnd(child_.Wait()));
+  if (!news) Fail("its encoder " + core::TextOfEnd(program_.child.Wait()));
   switch (news->kind) {
     case VideoNewsKind::kSlotBack:
       is_free_.at(static_cast<std::size_t>(news->slot)) = true;
@@ -70,11 +62,11 @@ void VideoWriter::Write(const cv::Mat& image_bgr) {
   image_bgr.copyTo(pixels);
   *free = false;
   // If it can't be sent, the next message says why.
-  (void)SendPacket(ends_.from, VideoCommand{VideoCommandKind::kWrite, slot});
+  (void)SendPacket(program_.socket, VideoCommand{VideoCommandKind::kWrite, slot});
 }
 
 void VideoWriter::Finish() {
-  (void)SendPacket(ends_.from, VideoCommand{VideoCommandKind::kFinish});
+  (void)SendPacket(program_.socket, VideoCommand{VideoCommandKind::kFinish});
   while (!TakeNews()) {
   }
 }

@@ -5,7 +5,7 @@
 #include <opencv2/core/mat.hpp>
 #include <vector>
 
-#include "core/system/child_process.h"
+#include "recon/capture/camera_program.h"
 #include "recon/capture/shared_slots.h"
 
 namespace elbowroom::recon {
@@ -39,8 +39,7 @@ class VideoWriter {
   std::filesystem::path file_;
   SharedSlots slots_;
   std::vector<bool> is_free_;
-  core::Pipe ends_;
-  core::Child child_;
+  CameraProgram program_;
 };
 
 }  // namespace elbowroom::recon

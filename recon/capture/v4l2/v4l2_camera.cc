@@ -39,6 +39,12 @@ std::string NameOf(std::uint32_t format) {
   return name;
 }
 
+// What the device itself can, of a driver that has several.
+std::uint32_t AbilitiesOf(const v4l2_capability& capability) {
+  return (capability.capabilities & V4L2_CAP_DEVICE_CAPS) != 0 ? capability.device_caps
+                                                               : capability.capabilities;
+}
+
 class V4l2Camera : public CameraDevice {
  public:
   V4l2Camera(const DeviceRequest& request, std::unique_ptr<VideoSystem> system)
@@ -99,8 +105,7 @@ class V4l2Camera : public CameraDevice {
   void RequireCapture() {
     v4l2_capability capability{};
     RequireDone(VIDIOC_QUERYCAP, &capability, "is no video device");
-    const std::uint32_t can = (capability.capabilities & V4L2_CAP_DEVICE_CAPS) != 0 ? capability.device_caps
-                                                                                    : capability.capabilities;
+    const std::uint32_t can = AbilitiesOf(capability);
     if ((can & V4L2_CAP_VIDEO_CAPTURE) == 0 || (can & V4L2_CAP_STREAMING) == 0)
       Fail("gives no pictures; it is another of the camera's devices: see 'elbowroom cameras list'");
     report_.name = reinterpret_cast<const char*>(capability.card);
@@ -277,8 +282,7 @@ std::vector<std::string> FindV4l2Cameras() {
     const std::unique_ptr<VideoSystem> system = OpenVideoSystem(path);
     v4l2_capability capability{};
     if (system == nullptr || system->Ioctl(VIDIOC_QUERYCAP, &capability) != 0) continue;
-    const std::uint32_t can = (capability.capabilities & V4L2_CAP_DEVICE_CAPS) != 0 ? capability.device_caps
-                                                                                    : capability.capabilities;
+    const std::uint32_t can = AbilitiesOf(capability);
     if ((can & V4L2_CAP_VIDEO_CAPTURE) != 0)
       found.push_back(fmt::format("v4l2:{} ({})", path, reinterpret_cast<const char*>(capability.card)));
   }
