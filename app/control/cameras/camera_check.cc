@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <condition_variable>
 #include <mutex>
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
 #include "app/control/cameras/camera_advice.h"
 #include "app/control/cameras/light_check.h"
+#include "app/control/cameras/timed_wait.h"
 #include "core/error.h"
 #include "recon/capture/camera_list.h"
 #include "recon/capture/live_rig.h"
@@ -86,19 +86,12 @@ class Check {
   }
 
   void Run(double seconds, const core::Progress& progress, const std::stop_token& stop) {
-    const auto end =
-        begin_ + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
-    constexpr std::chrono::milliseconds kBetweenReports{100};
-    while (Clock::now() < end) {
-      std::unique_lock lock(mutex_);
-      wakes_.wait_until(lock, stop, std::min(end, Clock::now() + kBetweenReports), [] { return false; });
-      lock.unlock();
-      core::ThrowIfStopped(stop, "checking the cameras");
+    WaitSeconds(seconds, "checking the cameras, second", progress, stop, [this] {
       LookAtPictures();
       light_.Look();
-      progress.Report(static_cast<std::int64_t>(MsBetween(begin_, std::min(end, Clock::now())) / 1000.0),
-                      static_cast<std::int64_t>(std::ceil(seconds)), "checking the cameras, second");
-    }
+      return false;
+    });
+    core::ThrowIfStopped(stop, "checking the cameras");
     seconds_ = MsBetween(begin_, Clock::now()) / 1000.0;
   }
 
@@ -192,7 +185,6 @@ class Check {
   }
 
   std::mutex mutex_;
-  std::condition_variable_any wakes_;
   std::vector<Tally> tallies_;
   std::int64_t sets_ = 0, incomplete_sets_ = 0;
   std::vector<double> decision_ms_;

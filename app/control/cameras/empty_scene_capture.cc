@@ -1,14 +1,13 @@
 #include "app/control/cameras/empty_scene_capture.h"
 
-#include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <condition_variable>
 #include <mutex>
 #include <optional>
 #include <string>
 #include <utility>
 
+#include "app/control/cameras/timed_wait.h"
 #include "core/error.h"
 #include "recon/capture/live_rig.h"
 
@@ -16,10 +15,6 @@ namespace elbowroom::control {
 namespace {
 
 using CaptureTime = recon::CaptureClock::time_point;
-
-std::chrono::nanoseconds NanosecondsOf(double seconds) {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::duration<double>(seconds));
-}
 
 class PictureCapture {
  public:
@@ -64,23 +59,14 @@ class PictureCapture {
     pictures_[camera].push_back({picture.image_bgr, time_s});
   }
 
-  void Wait(double seconds, const std::string& what, const core::Progress& progress,
-            const std::stop_token& stop) {
-    const CaptureTime begin = recon::CaptureClock::now(), end = begin + NanosecondsOf(seconds);
-    constexpr std::chrono::milliseconds kBetweenReports{100};
-    for (CaptureTime now = begin; now < end; now = recon::CaptureClock::now()) {
-      progress.Report(static_cast<std::int64_t>(std::chrono::duration<double>(now - begin).count()),
-                      static_cast<std::int64_t>(std::ceil(seconds)), what);
-      std::unique_lock lock(mutex_);
-      wakes_.wait_until(lock, stop, std::min(end, now + kBetweenReports), [] { return false; });
-      lock.unlock();
-      core::ThrowIfStopped(stop, "taking the background");
-    }
+  static void Wait(double seconds, const std::string& what, const core::Progress& progress,
+                   const std::stop_token& stop) {
+    WaitSeconds(seconds, what, progress, stop, [] { return false; });
+    core::ThrowIfStopped(stop, "taking the background");
   }
 
   CaptureSpan span_;
   std::mutex mutex_;
-  std::condition_variable_any wakes_;
   std::optional<CaptureTime> begin_;  // nothing: pictures aren't kept
   std::vector<std::vector<recon::TimedPicture>> pictures_;
   std::vector<int> next_part_;  // of the time, that a picture is wanted of
