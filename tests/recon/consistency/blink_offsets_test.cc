@@ -2,9 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Cholesky>
 #include <algorithm>
-#include <cmath>
 #include <opencv2/core.hpp>
 #include <string>
 #include <vector>
@@ -13,6 +11,7 @@
 #include "recon/consistency/blink_region.h"
 #include "tests/recon/consistency/blinking_light.h"
 #include "tests/recon/consistency/capsule_masks.h"
+#include "tests/recon/consistency/offset_tally.h"
 #include "tests/support/soak.h"
 
 namespace elbowroom::recon::testing {
@@ -33,15 +32,9 @@ BlinkCamera CameraOf(std::uint64_t seed, std::uint64_t camera, double exposure_s
           .phase_s = 0.3 + 0.007 * static_cast<double>(camera)};
 }
 
-struct BlinkTally {
-  std::vector<double> errors_s;
-  int within_1 = 0, within_2 = 0;
-  double squares = 0.0;
-};
-
-BlinkTally FindManyBlinks(double exposure_s, bool is_known, std::uint64_t seeds) {
+OffsetTally FindManyBlinks(double exposure_s, bool is_known, std::uint64_t seeds) {
   constexpr double kNoiseShare = 0.01;
-  BlinkTally tally;
+  OffsetTally tally;
   for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
     const BlinkingLight light(seed, kBlinkSeconds + 10.0);
     std::vector<BlinkCurve> curves;
@@ -54,29 +47,16 @@ BlinkTally FindManyBlinks(double exposure_s, bool is_known, std::uint64_t seeds)
     const auto found = FindBlinkOffsets(curves, {.exposure_s = exposures_s});
     EXPECT_TRUE(found) << seed;
     if (!found) continue;
-    Eigen::VectorXd errors_s(kBlinkCameras - 1);
-    for (std::uint64_t i = 1; i < kBlinkCameras; ++i) {
-      errors_s[static_cast<Eigen::Index>(i) - 1] = found->offset_s[i] - TrueBlinkOffsetS(seed, i);
-      tally.errors_s.push_back(std::abs(found->offset_s[i] - TrueBlinkOffsetS(seed, i)));
-      if (tally.errors_s.back() < found->sigma_s[i]) ++tally.within_1;
-      if (tally.errors_s.back() < 2.0 * found->sigma_s[i]) ++tally.within_2;
-    }
-    tally.squares += errors_s.dot(found->covariance_s2.ldlt().solve(errors_s));
+    std::vector<double> true_s{0.0};
+    for (std::uint64_t i = 1; i < kBlinkCameras; ++i) true_s.push_back(TrueBlinkOffsetS(seed, i));
+    tally.Add(found->offset_s, found->sigma_s, found->covariance_s2, true_s);
   }
   return tally;
 }
 
-void RecordAndExpect(const std::string& name, BlinkTally tally) {
-  const auto whole = [](double value) { return static_cast<int>(std::lround(value)); };
+void RecordAndExpect(const std::string& name, const OffsetTally& tally) {
+  tally.Record(name);
   const auto count = static_cast<double>(tally.errors_s.size());
-  std::ranges::sort(tally.errors_s);
-  ::testing::Test::RecordProperty(name + "_trials", whole(count));
-  ::testing::Test::RecordProperty(name + "_median_us",
-                                  whole(1e6 * tally.errors_s[tally.errors_s.size() / 2]));
-  ::testing::Test::RecordProperty(name + "_worst_us", whole(1e6 * tally.errors_s.back()));
-  ::testing::Test::RecordProperty(name + "_within_1_percent", whole(100.0 * tally.within_1 / count));
-  ::testing::Test::RecordProperty(name + "_within_2_percent", whole(100.0 * tally.within_2 / count));
-  ::testing::Test::RecordProperty(name + "_squares_percent", whole(100.0 * tally.squares / count));
   // 68 and 95 %, of few trials: the three of a seed share the first camera's error, so that they hold or fail
   // together.
   EXPECT_GT(tally.within_1, 0.4 * count) << name;
@@ -85,14 +65,14 @@ void RecordAndExpect(const std::string& name, BlinkTally tally) {
 }
 
 TEST(BlinkOffsets, AreFoundWithLongExposures) {
-  const BlinkTally tally =
+  const OffsetTally tally =
       FindManyBlinks(0.02, true, static_cast<std::uint64_t>(6 * test_support::SoakScale()));
   RecordAndExpect("known_20", tally);
   EXPECT_LT(*std::ranges::max_element(tally.errors_s), kMostBlinkErrorS);
 }
 
 TEST(BlinkOffsets, AreFoundWithLongExposuresThatNobodyKnows) {
-  const BlinkTally tally =
+  const OffsetTally tally =
       FindManyBlinks(0.02, false, static_cast<std::uint64_t>(6 * test_support::SoakScale()));
   RecordAndExpect("unknown_20", tally);
   EXPECT_LT(*std::ranges::max_element(tally.errors_s), kMostBlinkErrorS);
@@ -101,7 +81,7 @@ TEST(BlinkOffsets, AreFoundWithLongExposuresThatNobodyKnows) {
 // Exposures that never overlap tell of an offset only by how many edges fall between them: the sigma says so.
 TEST(BlinkOffsets, AreAsUncertainAsTheySayWithShortExposures) {
   constexpr double kMostErrorS = 0.0025;
-  const BlinkTally tally =
+  const OffsetTally tally =
       FindManyBlinks(0.008, true, static_cast<std::uint64_t>(6 * test_support::SoakScale()));
   RecordAndExpect("known_8", tally);
   EXPECT_LT(*std::ranges::max_element(tally.errors_s), kMostErrorS);

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -11,6 +10,7 @@
 #include "core/error.h"
 #include "tests/recon/consistency/capsule_masks.h"
 #include "tests/recon/consistency/hand_stage.h"
+#include "tests/recon/consistency/offset_tally.h"
 #include "tests/recon/consistency/tangent_footage.h"
 #include "tests/support/soak.h"
 
@@ -58,25 +58,6 @@ Footage Film(TangentFootage* scene, std::uint64_t seed, const std::vector<double
   return footage;
 }
 
-struct OffsetTally {
-  std::vector<double> errors_s;
-  int within_1 = 0, within_2 = 0;
-  double squares = 0.0;  // of the errors in sigmas, by the covariance
-};
-
-void RecordOffsets(const std::string& name, OffsetTally tally) {
-  const auto whole = [](double value) { return static_cast<int>(std::lround(value)); };
-  const auto count = static_cast<double>(tally.errors_s.size());
-  std::ranges::sort(tally.errors_s);
-  ::testing::Test::RecordProperty(name + "_trials", whole(count));
-  ::testing::Test::RecordProperty(name + "_median_us",
-                                  whole(1e6 * tally.errors_s[tally.errors_s.size() / 2]));
-  ::testing::Test::RecordProperty(name + "_worst_us", whole(1e6 * tally.errors_s.back()));
-  ::testing::Test::RecordProperty(name + "_within_1_percent", whole(100.0 * tally.within_1 / count));
-  ::testing::Test::RecordProperty(name + "_within_2_percent", whole(100.0 * tally.within_2 / count));
-  ::testing::Test::RecordProperty(name + "_squares_percent", whole(100.0 * tally.squares / count));
-}
-
 OffsetTally FindMany(int cameras, double speed, std::uint64_t seeds) {
   OffsetTally tally;
   for (std::uint64_t seed = 1; seed <= seeds; ++seed)
@@ -86,16 +67,10 @@ OffsetTally FindMany(int cameras, double speed, std::uint64_t seeds) {
       const auto found = FindSilhouetteOffsets(*scene.pairs(), Film(&scene, seed, truth_s, kFootageS));
       EXPECT_TRUE(found) << NameOf(shape) << " seed " << seed;
       if (!found) continue;
-      Eigen::VectorXd errors_s(cameras - 1);
-      for (std::size_t i = 1; i < truth_s.size(); ++i) {
-        const double error_s = std::abs(found->offset_s[i] - truth_s[i]);
-        EXPECT_LT(error_s, kMostErrorS) << NameOf(shape) << " seed " << seed << " camera " << i;
-        errors_s[static_cast<Eigen::Index>(i) - 1] = found->offset_s[i] - truth_s[i];
-        tally.errors_s.push_back(error_s);
-        if (error_s < found->sigma_s[i]) ++tally.within_1;
-        if (error_s < 2.0 * found->sigma_s[i]) ++tally.within_2;
-      }
-      tally.squares += errors_s.dot(found->covariance_s2.ldlt().solve(errors_s));
+      for (std::size_t i = 1; i < truth_s.size(); ++i)
+        EXPECT_LT(std::abs(found->offset_s[i] - truth_s[i]), kMostErrorS)
+            << NameOf(shape) << " seed " << seed << " camera " << i;
+      tally.Add(found->offset_s, found->sigma_s, found->covariance_s2, truth_s);
     }
   return tally;
 }
@@ -112,21 +87,21 @@ void ExpectSigmasHold(const OffsetTally& tally) {
 
 TEST(SilhouetteOffsets, AreFoundToATenthOfAMillisecondAtWorkingSpeed) {
   const OffsetTally tally = FindMany(4, 1.0, static_cast<std::uint64_t>(4 * test_support::SoakScale()));
-  RecordOffsets("four", tally);
+  tally.Record("four");
   ExpectSigmasHold(tally);
   EXPECT_LT(*std::ranges::max_element(tally.errors_s), 0.001);
 }
 
 TEST(SilhouetteOffsets, AreFoundByThreeCameras) {
   const OffsetTally tally = FindMany(3, 1.0, static_cast<std::uint64_t>(4 * test_support::SoakScale()));
-  RecordOffsets("three", tally);
+  tally.Record("three");
   ExpectSigmasHold(tally);
 }
 
 // A third of the speed: three times the error, and few movements to judge it by.
 TEST(SilhouetteOffsets, AreFoundFromSlowHands) {
   const OffsetTally tally = FindMany(4, 0.3, static_cast<std::uint64_t>(4 * test_support::SoakScale()));
-  RecordOffsets("slow", tally);
+  tally.Record("slow");
   ExpectSigmasHold(tally);
 }
 
