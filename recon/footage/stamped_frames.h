@@ -48,9 +48,9 @@ struct StampedSet {
 [[nodiscard]] std::vector<StampedSet> SetsByNearestStamp(std::span<const FrameStamps> cameras);
 
 // The sets of footage in which cameras lost pictures, from the latest of the first stamps to the earliest of
-// the last ones. Of the slowest cameras, that one leads which is the nearest to the others; each of its frames
-// makes a set, as above. Where frames of it are missing, the times at which they were due take their places,
-// so that no time is left out as long as one camera has pictures. Empty if a camera has no stamps.
+// the last ones. Of the slowest cameras, that one leads which is the nearest to the others; each of its
+// frames makes a set, as above. Where frames of it are missing, the times at which they were due take their
+// places, so that no time is left out as long as one camera has pictures. Empty if a camera has no stamps.
 [[nodiscard]] std::vector<StampedSet> SetsOfAllTimes(std::span<const FrameStamps> cameras);
 
 // The median time between one stamp and the next, in s. Nothing with fewer than two stamps.
