@@ -1,5 +1,5 @@
-// elbowroom cameras list|check|record: which live cameras there are, how well those of a rig do, and what
-// they see.
+// elbowroom cameras list|check|record|offsets: which live cameras there are, how well those of a rig do, what
+// they see, and how late each is.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,6 +11,7 @@
 
 #include "app/cli/command.h"
 #include "app/cli/light_json.h"
+#include "app/cli/offsets_command.h"
 #include "app/cli/vector_json.h"
 #include "app/control/cameras/camera_check.h"
 #include "app/control/cameras/camera_recording.h"
@@ -86,7 +87,7 @@ struct CheckOptions {
 };
 
 CommandResult Check(const CheckOptions& options, const CommandContext& context) {
-  const recon::RigFile rig_file = recon::ReadRigFile(options.rig_file);
+  const recon::RigFile rig_file = recon::ReadRigFile(options.rig_file, recon::RigUse::kPictures);
   const control::RigHealth health =
       control::CheckCameras(rig_file, options.seconds, context.progress, context.stop);
   CommandResult result;
@@ -137,7 +138,7 @@ std::string RecordingText(const recon::CameraRecording& camera) {
 }
 
 CommandResult Record(const RecordOptions& options, const CommandContext& context) {
-  const recon::RigFile rig_file = recon::ReadRigFile(options.rig_file);
+  const recon::RigFile rig_file = recon::ReadRigFile(options.rig_file, recon::RigUse::kPictures);
   const control::CamerasRecorded recorded =
       control::RecordCameras(rig_file, options.folder, options.seconds, context.progress, context.stop);
   const recon::FootageRecording& footage = recorded.footage;
@@ -160,12 +161,26 @@ CommandResult Record(const RecordOptions& options, const CommandContext& context
   return result;
 }
 
-CommandResult List(const CommandContext& context) {
+struct ListOptions {
+  std::vector<std::string> more;  // locations of cameras that can't be found
+  std::filesystem::path out;
+  std::vector<int> size_px = {640, 480};
+  double rate_hz = 30.0;
+};
+
+CommandResult List(const ListOptions& options, const CommandContext& context) {
   CommandResult result;
-  const std::vector<std::string> cameras = control::ListCameras(context.stop);
-  result.json = {{"cameras", cameras}};
+  std::vector<std::string> cameras = control::ListCameras(context.stop);
+  cameras.insert(cameras.end(), options.more.begin(), options.more.end());
+  result.json = {{"cameras", cameras}, {"out", nullptr}};
   for (const std::string& camera : cameras) result.text += camera + "\n";
-  if (cameras.empty()) {
+  if (!options.out.empty()) {
+    recon::WriteRigFile(
+        control::UncalibratedRig(cameras, options.size_px[0], options.size_px[1], options.rate_hz),
+        options.out);
+    result.json["out"] = options.out.string();
+    result.text += options.out.string() + "\n";
+  } else if (cameras.empty()) {
     result.text = "no camera was found\n";
     result.hint = "a stream (rtsp://...) can't be found; name its address in RIG.yml";
   }
@@ -179,7 +194,25 @@ void AddCamerasCommand(CLI::App& app, Choice* choice) {
   CLI::App* cameras = app.add_subcommand("cameras", "live cameras");
   cameras->require_subcommand(1);
   CLI::App* list = cameras->add_subcommand("list", "what is plugged in or answers on the network");
-  list->callback([=] { choice->action = List; });
+  auto list_options = std::make_shared<ListOptions>();
+  list->add_option(
+      "--out", list_options->out,
+      "a rig file of these cameras to write, for 'cameras check' and 'cameras record', until they "
+      "are calibrated");
+  constexpr int kMostPx = 65'535;
+  list->add_option("--size", list_options->size_px, "their pictures' size in that file (default: 640x480)")
+      ->delimiter('x')
+      ->expected(2)
+      ->check(CLI::Range(1, kMostPx));
+  constexpr double kFastestHz = 1000.0;
+  list->add_option("--rate", list_options->rate_hz, "their pictures a second in that file (default: 30)")
+      ->check(CLI::Range(0.1, kFastestHz));
+  list->add_option("--add", list_options->more,
+                   "a camera that can't be found, as rtsp://...; may be given several times")
+      ->take_all();
+  list->callback([=] {
+    choice->action = [list_options](const CommandContext& context) { return List(*list_options, context); };
+  });
 
   CLI::App* check =
       cameras->add_subcommand("check", "rate, losses, skew, latency and picture of every camera");
@@ -205,6 +238,7 @@ void AddCamerasCommand(CLI::App& app, Choice* choice) {
       return Record(*record_options, context);
     };
   });
+  AddOffsetsCommand(*cameras, choice);
 }
 
 }  // namespace elbowroom::cli

@@ -16,6 +16,7 @@
 #include "recon/capture/camera_list.h"
 #include "recon/capture/live_rig.h"
 #include "recon/capture/rig_source.h"
+#include "recon/rig_files/source_location.h"
 
 namespace elbowroom::control {
 namespace {
@@ -224,5 +225,27 @@ RigHealth CheckCameras(const recon::RigFile& rig_file, double seconds, const cor
 }
 
 std::vector<std::string> ListCameras(const std::stop_token& stop) { return recon::FindLiveCameras(stop); }
+
+recon::RigFile UncalibratedRig(const std::vector<std::string>& cameras, int width_px, int height_px,
+                               double rate_hz) {
+  recon::RigFile rig_file;
+  rig_file.is_calibrated = false;
+  for (const std::string& camera : cameras) {
+    const std::string location = camera.substr(0, camera.find(" ("));
+    if (!recon::IsLive(location))
+      throw core::Error(core::ErrorKind::kFormat,
+                        fmt::format("'{}' is no live camera; name it as 'v4l2:/dev/video0', 'gige:NAME' or "
+                                    "'rtsp://...'",
+                                    location));
+    rig_file.rig.cameras.push_back(
+        recon::PlaceholderCamera(fmt::format("cam{}", rig_file.sources.size() + 1), width_px, height_px));
+    rig_file.sources.emplace_back().frames = location;
+    rig_file.sources.back().capture.rate_hz = rate_hz;
+  }
+  if (cameras.empty())
+    throw core::Error(core::ErrorKind::kFormat,
+                      "no camera was found; plug one in, or name a stream with --add rtsp://...");
+  return rig_file;
+}
 
 }  // namespace elbowroom::control

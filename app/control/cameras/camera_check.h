@@ -61,4 +61,9 @@ void RequireLiveRig(const recon::RigFile& rig_file);
 // What is plugged in or answers on the network, as RIG.yml names it, with more words in brackets.
 [[nodiscard]] std::vector<std::string> ListCameras(const std::stop_token& stop);
 
+// A rig of the cameras at these locations (as ListCameras gives them, or streams), called cam1, cam2, ...,
+// that aren't calibrated yet. Throws: Error{kFormat} for no camera, or for one that isn't live.
+[[nodiscard]] recon::RigFile UncalibratedRig(const std::vector<std::string>& cameras, int width_px,
+                                             int height_px, double rate_hz);
+
 }  // namespace elbowroom::control
