@@ -1,19 +1,38 @@
 #include "app/console/camera_strip.h"
 
+#include <QEvent>
 #include <QHBoxLayout>
-#include <QLocale>
 #include <QPainter>
 #include <algorithm>
+#include <array>
 
 #include "app/console/palette.h"
-#include "app/console/silhouette_picture.h"
 
 namespace elbowroom::console {
 namespace {
 
-constexpr int kLargestPictureWidthPx = 360;
-constexpr int kStripHeightPx = 148;
-constexpr int kCaptionWidthPx = 140;
+constexpr int kStripHeightPx = 196;
+constexpr int kLeastCaptionWidthPx = 150;  // a caption may be wider than a narrow picture
+constexpr int kCaptionLines = 3;
+constexpr double kGoneOpacity = 0.25;
+
+QImage TilePicture(const recon::Image& image, bool is_gone) {
+  const QImage view(image.rgb.data(), image.width_px, image.height_px, 3 * image.width_px,
+                    QImage::Format_RGB888);
+  return view.convertToFormat(is_gone ? QImage::Format_Grayscale8 : QImage::Format_RGB32);  // a deep copy
+}
+
+// Left and right on one line; the left text is shortened where there isn't room for both.
+void PaintPair(QPainter& painter, const QRect& line, const QString& left, const QString& right,
+               const QColor& left_color, const QColor& right_color) {
+  painter.setPen(right_color);
+  painter.drawText(line, Qt::AlignRight | Qt::AlignVCenter, right);
+  painter.setPen(left_color);
+  const int room_px =
+      line.width() - (right.isEmpty() ? 0 : painter.fontMetrics().horizontalAdvance(right) + 8);
+  painter.drawText(line, Qt::AlignLeft | Qt::AlignVCenter,
+                   painter.fontMetrics().elidedText(left, Qt::ElideRight, room_px));
+}
 
 }  // namespace
 
@@ -24,33 +43,52 @@ CameraThumbnail::CameraThumbnail(const core::CameraModel& camera, QWidget* paren
   setMinimumWidth(60);
 }
 
-void CameraThumbnail::ShowMask(const core::BitMask& mask) {
-  picture_ = SilhouettePicture(mask, kLargestPictureWidthPx);
-  object_px_ = mask.CountObjectPixels();
+void CameraThumbnail::ShowTile(const control::CameraTile& tile) {
+  picture_ = TilePicture(tile.picture, !tile.gone.empty());
+  text_ = TextOf(tile);
+  setToolTip(text_.tool_tip);
   update();
+}
+
+int CameraThumbnail::CaptionHeight() const { return kCaptionLines * fontMetrics().height() + 4; }
+
+QSize CameraThumbnail::PictureRoom() const {
+  return QSize(width(), std::max(0, height() - CaptionHeight())) * devicePixelRatio();
 }
 
 void CameraThumbnail::paintEvent(QPaintEvent* /*event*/) {
   QPainter painter(this);
-  painter.setRenderHint(QPainter::SmoothPixmapTransform);
-  const int text_height_px = painter.fontMetrics().height() + 4;
-  const QSize room(width(), height() - text_height_px);
-  QRect target(QPoint(), camera_px_.scaled(room, Qt::KeepAspectRatio));
-  target.moveCenter(QRect(QPoint(), room).center());
-  painter.fillRect(target, kSilhouetteBackground);
-  if (!picture_.isNull()) painter.drawImage(target, picture_);
+  const QRect room(0, 0, width(), std::max(0, height() - CaptionHeight()));
+  QRect picture(QPoint(), camera_px_.scaled(room.size(), Qt::KeepAspectRatio));
+  picture.moveCenter(room.center());
+  PaintPicture(painter, picture);
+  const int caption_width_px = std::min(width(), std::max(picture.width(), kLeastCaptionWidthPx));
+  PaintCaption(painter, QRect((width() - caption_width_px) / 2, picture.bottom() + 2, caption_width_px,
+                              CaptionHeight()));
+}
 
-  // The caption is under its picture, and wider than a picture that is too narrow for name and count.
-  const int caption_width_px = std::min(width(), std::max(target.width(), kCaptionWidthPx));
-  QRect caption(0, height() - text_height_px, caption_width_px, text_height_px);
-  caption.moveLeft((width() - caption_width_px) / 2);
-  const QString count = QLocale().toString(static_cast<qulonglong>(object_px_)) + " px";
-  painter.setPen(kQuietText);
-  painter.drawText(caption, Qt::AlignRight | Qt::AlignVCenter, count);
-  painter.setPen(palette().color(QPalette::WindowText));
-  const int name_width_px = caption.width() - painter.fontMetrics().horizontalAdvance(count) - 8;
-  painter.drawText(caption, Qt::AlignLeft | Qt::AlignVCenter,
-                   painter.fontMetrics().elidedText(name_, Qt::ElideRight, name_width_px));
+void CameraThumbnail::PaintPicture(QPainter& painter, const QRect& room) const {
+  painter.fillRect(room, kSilhouetteBackground);
+  const bool is_troubled = !text_.trouble.isEmpty();
+  painter.setRenderHint(QPainter::SmoothPixmapTransform);
+  painter.setOpacity(is_troubled ? kGoneOpacity : 1.0);
+  if (!picture_.isNull()) painter.drawImage(room, picture_);
+  painter.setOpacity(1.0);
+  if (!is_troubled) return;
+  painter.setPen(kSilhouetteObject);
+  painter.drawText(room.adjusted(6, 4, -6, -4), Qt::AlignCenter | Qt::TextWordWrap, "✖ " + text_.trouble);
+}
+
+void CameraThumbnail::PaintCaption(QPainter& painter, const QRect& room) const {
+  const QColor normal = palette().color(QPalette::WindowText);
+  const std::array<std::array<QString, 2>, kCaptionLines> lines = {
+      {{name_, text_.rate}, {text_.lost, text_.skew}, {text_.light, text_.advice}}};
+  QRect line(room.topLeft(), QSize(room.width(), fontMetrics().height()));
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const QColor right = i == 2 ? kAttentionAmber : kQuietText;
+    PaintPair(painter, line, lines[i][0], lines[i][1], i == 0 ? normal : kQuietText, right);
+    line.translate(0, line.height());
+  }
 }
 
 CameraStrip::CameraStrip(QWidget* parent) : QFrame(parent) {
@@ -63,19 +101,47 @@ CameraStrip::CameraStrip(QWidget* parent) : QFrame(parent) {
 void CameraStrip::Open(const core::Rig& rig) {
   qDeleteAll(thumbnails_);
   thumbnails_.clear();
-  shown_.reset();
   for (const core::CameraModel& camera : rig.cameras) {
     thumbnails_.push_back(new CameraThumbnail(camera, this));
     layout()->addWidget(thumbnails_.back());
   }
 }
 
-void CameraStrip::ShowMasks(const core::SharedMasks& masks) {
-  for (std::size_t i = 0; i < masks->size() && i < thumbnails_.size(); ++i) {
-    const core::BitMask& mask = (*masks)[i].mask;
-    if (!shown_ || (*shown_)[i].mask != mask) thumbnails_[i]->ShowMask(mask);
+void CameraStrip::ShowTiles(const control::SharedTiles& tiles) {
+  for (std::size_t i = 0; i < std::min(tiles->size(), thumbnails_.size()); ++i)
+    thumbnails_[i]->ShowTile((*tiles)[i]);
+}
+
+void CameraStrip::SetWindowMinimized(bool is_minimized) {
+  is_minimized_ = is_minimized;
+  TellRoom();
+}
+
+// The layout has given the thumbnails their sizes when it asks for a new one, or is shown.
+bool CameraStrip::event(QEvent* event) {
+  const bool is_done = QFrame::event(event);
+  switch (event->type()) {
+    case QEvent::Show:
+    case QEvent::Hide:
+    case QEvent::Resize:
+    case QEvent::LayoutRequest:
+      TellRoom();
+      break;
+    default:
+      break;
   }
-  shown_ = masks;
+  return is_done;
+}
+
+void CameraStrip::TellRoom() {
+  control::ThumbnailRoom room;
+  if (isVisible() && !is_minimized_ && !thumbnails_.empty()) {
+    layout()->activate();
+    const QSize px = thumbnails_.front()->PictureRoom();
+    room = {px.width(), px.height()};
+  }
+  if (room == std::exchange(told_, room)) return;
+  emit RoomChanged(room);
 }
 
 }  // namespace elbowroom::console

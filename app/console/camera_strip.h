@@ -1,4 +1,4 @@
-// What the cameras see as object, side by side.
+// What the cameras see, side by side, and how well each does.
 #pragma once
 
 #include <QFrame>
@@ -6,40 +6,60 @@
 #include <QString>
 #include <vector>
 
-#include "core/bit_mask.h"
+#include "app/console/tile_text.h"
+#include "app/control/tiles/tile_maker.h"
 #include "core/rig.h"
-#include "core/session.h"
 
 namespace elbowroom::console {
 
-// One camera: its silhouette, its name and how many object pixels there are.
+// One camera: its picture with the silhouette's outline, and its figures below. Grey while it is gone.
 class CameraThumbnail : public QWidget {
  public:
   explicit CameraThumbnail(const core::CameraModel& camera, QWidget* parent = nullptr);
 
-  void ShowMask(const core::BitMask& mask);
+  void ShowTile(const control::CameraTile& tile);
+  [[nodiscard]] const TileText& text() const { return text_; }
+  [[nodiscard]] const QImage& picture() const { return picture_; }
+  [[nodiscard]] QSize PictureRoom() const;  // in the screen's pixels
 
  protected:
   void paintEvent(QPaintEvent* event) override;
 
  private:
+  [[nodiscard]] int CaptionHeight() const;
+  void PaintPicture(QPainter& painter, const QRect& room) const;
+  void PaintCaption(QPainter& painter, const QRect& room) const;
+
   QString name_;
   QSize camera_px_;
   QImage picture_;
-  std::size_t object_px_ = 0;
+  TileText text_;
 };
 
-// Thread: UI.
+// Tells how large a picture may be, so that nobody makes one that isn't seen. Thread: UI.
 class CameraStrip : public QFrame {
+  Q_OBJECT
+
  public:
   explicit CameraStrip(QWidget* parent = nullptr);
 
   void Open(const core::Rig& rig);
-  void ShowMasks(const core::SharedMasks& masks);  // one a camera; those already shown cost nothing
+  void ShowTiles(const control::SharedTiles& tiles);
+  void SetWindowMinimized(bool is_minimized);
+  [[nodiscard]] const std::vector<CameraThumbnail*>& thumbnails() const { return thumbnails_; }
+
+ signals:
+  void RoomChanged(const elbowroom::control::ThumbnailRoom& room);  // of one picture; empty: none is seen
+
+ protected:
+  bool event(QEvent* event) override;
 
  private:
+  void TellRoom();
+
   std::vector<CameraThumbnail*> thumbnails_;  // owned by Qt as children
-  core::SharedMasks shown_;
+  bool is_minimized_ = false;
+  control::ThumbnailRoom told_;
 };
 
 }  // namespace elbowroom::console

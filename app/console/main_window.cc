@@ -2,13 +2,15 @@
 
 #include <QCloseEvent>
 #include <QKeyEvent>
-#include <QMenuBar>
+#include <QMenu>
 #include <QSplitter>
 #include <QToolBar>
+#include <QToolButton>
 #include <QVBoxLayout>
 #include <optional>
 #include <utility>
 
+#include "app/console/camera_actions.h"
 #include "app/console/listing.h"
 
 namespace elbowroom::console {
@@ -51,6 +53,7 @@ MainWindow::MainWindow(std::filesystem::path session)
   status_ = new StatusLine(this);
   setStatusBar(status_);
   spacings_ = new SpacingPanel;
+  AddPreflight();
   AddActions();
   auto* splitter = new QSplitter(Qt::Horizontal);
   splitter->setChildrenCollapsible(false);
@@ -65,6 +68,15 @@ MainWindow::MainWindow(std::filesystem::path session)
 }
 
 MainWindow::~MainWindow() = default;
+
+void MainWindow::AddPreflight() {
+  preflight_ = new PreflightPanel(*desk_);
+  preflight_dock_ = new QDockWidget(tr("Preflight"), this);
+  preflight_dock_->setObjectName("preflight");
+  preflight_dock_->setWidget(preflight_);
+  addDockWidget(Qt::LeftDockWidgetArea, preflight_dock_);
+  preflight_dock_->hide();
+}
 
 void MainWindow::AddActions() {
   auto* bar = addToolBar(tr("Trial"));
@@ -86,7 +98,23 @@ void MainWindow::AddActions() {
   redo->setObjectName("redo_gap");
   hull_look_ = new HullLookButton;
   hull_look_->setObjectName("hull_look");
+  auto* preflight = preflight_dock_->toggleViewAction();
+  preflight->setObjectName("show_preflight");
+  preflight->setText(tr("&Preflight"));
+  preflight->setToolTip(tr("See before a trial whether cameras, background, calibration and disk are ready"));
+  auto* background = new TakeBackgroundAction(*desk_, *preflight_, this);
+  background->setObjectName("take_background");
+  preflight_->ShowBackgroundButton(background);
+  auto* menu = new QMenu(this);
+  menu->setToolTipsVisible(true);
+  menu->addActions({preflight, background});
+  auto* cameras = new QToolButton;
+  cameras->setObjectName("cameras");
+  cameras->setText(tr("Ca&meras"));
+  cameras->setPopupMode(QToolButton::InstantPopup);
+  cameras->setMenu(menu);
   bar->addActions({demo, open, calibrate});
+  bar->addWidget(cameras);
   bar->addSeparator();
   bar->addAction(stop);
   bar->addSeparator();
@@ -140,6 +168,8 @@ void MainWindow::FollowDesk() {
   connect(desk_, &TrialDesk::TrialOpened, this, &MainWindow::OpenTrial);
   connect(desk_, &TrialDesk::HullArrived, view_, &OperatorView::Foresee);
   connect(desk_, &TrialDesk::FrameArrived, this, &MainWindow::ShowFrame);
+  connect(desk_, &TrialDesk::TilesArrived, strip_, &CameraStrip::ShowTiles);
+  connect(strip_, &CameraStrip::RoomChanged, desk_, &TrialDesk::SetTileRoom);
   connect(desk_, &TrialDesk::Failed, this, &MainWindow::ShowError);
   connect(desk_, &TrialDesk::Progressed, status_, &StatusLine::ShowProgress);
   connect(desk_, &TrialDesk::TrialEnded, messages_, &MessageBar::ShowNote);
@@ -173,7 +203,6 @@ void MainWindow::OpenTrial(const control::TrialSetup& setup) {
 
 void MainWindow::ShowFrame(const FrameNews& news) {
   view_->ShowFrame(news.result);
-  strip_->ShowMasks(news.result->record.masks);
   spacings_->ShowApplied(news.result->record.spacing_mm);
   contacts_->ShowFrame(*news.result);
   touches_->ShowFrame(*news.result, news.tallies);
@@ -182,12 +211,19 @@ void MainWindow::ShowFrame(const FrameNews& news) {
 
 void MainWindow::ShowState() {
   const bool is_running = desk_->state() == DeskState::kRunning && !desk_->is_stopping();
+  if (desk_->state() == DeskState::kRunning) preflight_dock_->hide();  // it is for before a trial
   spacings_->setEnabled(is_running);
   tools_->setEnabled(is_running);
   if (desk_->state() == DeskState::kIdle) {
     status_->HideProgress();
     if (closes_when_idle_) close();
   }
+}
+
+void MainWindow::changeEvent(QEvent* event) {
+  QMainWindow::changeEvent(event);
+  if (event->type() == QEvent::WindowStateChange && strip_ != nullptr)
+    strip_->SetWindowMinimized(isMinimized());
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {

@@ -1,6 +1,7 @@
 // The console's one window.
 #pragma once
 
+#include <QDockWidget>
 #include <QMainWindow>
 #include <filesystem>
 
@@ -9,6 +10,7 @@
 #include "app/console/hull_look_button.h"
 #include "app/console/message_bar.h"
 #include "app/console/operator_view.h"
+#include "app/console/preflight_panel.h"
 #include "app/console/spacing_panel.h"
 #include "app/console/status_line.h"
 #include "app/console/tool_panel.h"
@@ -32,16 +34,20 @@ class MainWindow : public QMainWindow {
   [[nodiscard]] TrialDesk& desk() { return *desk_; }
   [[nodiscard]] SessionChoice& session_choice() { return choice_; }
   [[nodiscard]] OperatorView& view() { return *view_; }
+  [[nodiscard]] CameraStrip& strip() { return *strip_; }
+  [[nodiscard]] PreflightPanel& preflight() { return *preflight_; }
 
  public slots:
   void ShowError(const QString& line);
 
  protected:
+  void changeEvent(QEvent* event) override;
   void closeEvent(QCloseEvent* event) override;
   void keyPressEvent(QKeyEvent* event) override;
 
  private:
   void AddActions();
+  void AddPreflight();
   [[nodiscard]] QWidget* MakeCentre();
   [[nodiscard]] QWidget* MakeSide();
   void FollowDesk();
@@ -55,6 +61,8 @@ class MainWindow : public QMainWindow {
   MessageBar* messages_ = nullptr;
   OperatorView* view_ = nullptr;
   HullLookButton* hull_look_ = nullptr;
+  PreflightPanel* preflight_ = nullptr;
+  QDockWidget* preflight_dock_ = nullptr;
   CameraStrip* strip_ = nullptr;
   SpacingPanel* spacings_ = nullptr;
   ToolPanel* tools_ = nullptr;

@@ -35,6 +35,7 @@ void EnableWhileGapsCan(QAction* action, SpacingPanel& spacings, bool (GapHistor
 }
 
 bool IsIdle(const TrialDesk& desk) { return desk.state() == DeskState::kIdle; }
+bool CanStart(const TrialDesk& desk) { return IsIdle(desk) && !desk.are_cameras_taken(); }
 
 }  // namespace
 
@@ -61,7 +62,7 @@ void StartDemo(TrialDesk& desk, const std::filesystem::path& session) {
 void StartTrialFile(TrialDesk& desk, const std::filesystem::path& trial_file,
                     const std::filesystem::path& session) {
   desk.Start([trial_file](const std::stop_token& stop) { return control::ReadTrialFile(trial_file, stop); },
-             session);
+             session, trial_file);
 }
 
 StartDemoAction::StartDemoAction(TrialDesk& desk, SessionChoice& choice, QWidget* window)
@@ -78,12 +79,13 @@ OpenTrialAction::OpenTrialAction(TrialDesk& desk, SessionChoice& choice, QWidget
   setShortcut(QKeySequence::Open);
   setToolTip(tr("Run the trial that a TRIAL.toml describes"));
   connect(this, &QAction::triggered, window, [&desk, &choice, window] {
-    const QString file =
-        QFileDialog::getOpenFileName(window, tr("Open a trial"), {}, tr("Trials (*.toml);;All files (*)"));
+    const QString file = QFileDialog::getOpenFileName(window, tr("Open a trial"),
+                                                      QString::fromStdString(desk.trial_file().string()),
+                                                      tr("Trials (*.toml);;All files (*)"));
     if (file.isEmpty()) return;
     if (const auto session = choice.Choose(window)) StartTrialFile(desk, PathFrom(file), *session);
   });
-  EnableWhile(this, desk, IsIdle);
+  EnableWhile(this, desk, CanStart);
 }
 
 CalibrateAction::CalibrateAction(TrialDesk& desk, QWidget* window)

@@ -24,9 +24,11 @@ QString EndNote(const control::TrialOutcome& outcome) {
 
 TrialDesk::~TrialDesk() = default;
 
-void TrialDesk::Start(SetupReader read_setup, const std::filesystem::path& session) {
+void TrialDesk::Start(SetupReader read_setup, const std::filesystem::path& session,
+                      const std::filesystem::path& trial_file) {
   core::Require(state_ == DeskState::kIdle, "a trial starts on an idle desk");
   session_ = session;
+  trial_file_ = trial_file;
   recorded_.reset();
   has_frames_ = false;
   EnterState(DeskState::kReading);
@@ -49,9 +51,15 @@ void TrialDesk::Run(control::TrialSetup setup) {
   options.at_capture_rate = true;
   options.progress = ProgressToHere();
   auto tally = std::make_shared<control::EpisodeTally>(setup.layout.parts.size());
-  options.on_frame = [this, tally](const control::SharedFrameResult& result,
-                                   const control::RecordedFrames& recorded) {
+  tiles_ = std::make_unique<control::TileMaker>(setup.source, [this](const control::SharedTiles& tiles) {
+    bridge_.PostLatest(Bridge::Stream::kTiles, [this, tiles] { emit TilesArrived(tiles); });
+  });
+  tiles_->SetRoom(tile_room_);
+  options.on_light = [tiles = tiles_.get()](const recon::LightReport& report) { tiles->AddLight(report); };
+  options.on_frame = [this, tally, tiles = tiles_.get()](const control::SharedFrameResult& result,
+                                                         const control::RecordedFrames& recorded) {
     tally->Add(*result);
+    tiles->Add(result);
     has_frames_ = true;
     bridge_.PostLatest(Bridge::Stream::kFrame, [this, news = FrameNews{result, tally->Parts(), recorded}] {
       emit FrameArrived(news);
@@ -73,6 +81,7 @@ void TrialDesk::Run(control::TrialSetup setup) {
 
 void TrialDesk::FinishTrial(const control::TrialThread::Ended& ended) {
   trial_.reset();  // its thread has nothing left to do
+  tiles_.reset();
   if (ended.outcome) session_ = ended.outcome->session;
   if (has_frames_) recorded_ = session_;  // a trial that failed keeps what it recorded
   EnterState(DeskState::kIdle);
@@ -128,6 +137,16 @@ void TrialDesk::SetSpacing(const std::string& spacing, double to_mm) {
 
 void TrialDesk::MarkTool(const std::string& tool, bool in_use) {
   if (trial_) trial_->controls().MarkTool(tool, in_use);
+}
+
+void TrialDesk::SetTileRoom(const control::ThumbnailRoom& room) {
+  tile_room_ = room;
+  if (tiles_) tiles_->SetRoom(room);
+}
+
+void TrialDesk::SetCamerasTaken(bool are_taken) {
+  are_cameras_taken_ = are_taken;
+  emit StateChanged();
 }
 
 void TrialDesk::EnterState(DeskState state) {

@@ -16,6 +16,7 @@
 #include "app/console/bridge.h"
 #include "app/control/episode_tally.h"
 #include "app/control/frame_result.h"
+#include "app/control/tiles/tile_maker.h"
 #include "app/control/trial_setup.h"
 #include "app/control/trial_thread.h"
 
@@ -48,9 +49,17 @@ class TrialDesk : public QObject {
   // The session of the running trial, or else of the last one that recorded a frame.
   [[nodiscard]] const std::filesystem::path& session() const { return session_; }
 
+  // The TRIAL.toml of the trial that was started last; empty: it has none.
+  [[nodiscard]] const std::filesystem::path& trial_file() const { return trial_file_; }
+
+  // Somebody else has the cameras: no trial should be started.
+  [[nodiscard]] bool are_cameras_taken() const { return are_cameras_taken_; }
+  void SetCamerasTaken(bool are_taken);
+
   // Reads a trial, then runs it at the pace at which its frames were taken, recording into `session`.
   // The desk is idle.
-  void Start(SetupReader read_setup, const std::filesystem::path& session);
+  void Start(SetupReader read_setup, const std::filesystem::path& session,
+             const std::filesystem::path& trial_file = {});
 
   // The last trial's report, into the folder SESSION-report beside the session. can_report() holds.
   void WriteReport();
@@ -62,11 +71,15 @@ class TrialDesk : public QObject {
   void SetSpacing(const std::string& spacing, double to_mm);
   void MarkTool(const std::string& tool, bool in_use);
 
+  // How large a picture of a camera's tile may be; an empty room: none is made.
+  void SetTileRoom(const control::ThumbnailRoom& room);
+
  signals:
   void StateChanged();
   void TrialOpened(const elbowroom::control::TrialSetup& setup);
   void HullArrived(const elbowroom::control::SharedHull& hull);  // of a frame that is being judged
   void FrameArrived(const elbowroom::console::FrameNews& news);
+  void TilesArrived(const elbowroom::control::SharedTiles& tiles);
   // The place where frames are recorded has changed; is_well: they go into the session file.
   void RecordingChanged(bool is_well, const QString& line);
   void TrialEnded(const QString& note);
@@ -83,11 +96,14 @@ class TrialDesk : public QObject {
 
   DeskState state_ = DeskState::kIdle;
   bool is_stopping_ = false;
-  std::filesystem::path session_;
+  bool are_cameras_taken_ = false;
+  std::filesystem::path session_, trial_file_;
+  control::ThumbnailRoom tile_room_;
   std::atomic<bool> has_frames_ = false;           // of the trial under way, or the last one
   std::optional<std::filesystem::path> recorded_;  // can be reported on
   Bridge bridge_;                                  // before the threads that post to it
   std::unique_ptr<BackgroundJob> job_;
+  std::unique_ptr<control::TileMaker> tiles_;  // before the trial that hands it frames
   std::unique_ptr<control::TrialThread> trial_;
 };
 

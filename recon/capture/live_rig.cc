@@ -203,6 +203,14 @@ std::vector<std::string> LiveRig::Warnings() const {
   return warnings;
 }
 
+std::vector<std::string> LiveRig::CameraTroubles() const {
+  const std::lock_guard lock(mutex_);
+  std::vector<std::string> troubles;
+  for (const CameraState& state : states_)
+    troubles.push_back(state.presence == CameraPresence::kGone ? state.trouble : std::string());
+  return troubles;
+}
+
 std::vector<BackgroundReference> LiveRig::ReadBackgrounds(const core::Progress& progress,
                                                           std::stop_token stop) {
   return ReadBackgroundReferences(rig_file_, progress, std::move(stop));

@@ -56,6 +56,7 @@ class LiveRig : public FrameSetSource {
   [[nodiscard]] std::string WhatEndsIt() const override { return {}; }
   [[nodiscard]] std::optional<FrameSet> TryRead(core::FrameIndex index, std::stop_token stop) override;
   [[nodiscard]] std::vector<std::string> Warnings() const override;
+  [[nodiscard]] std::vector<std::string> CameraTroubles() const override;
   [[nodiscard]] std::vector<BackgroundReference> ReadBackgrounds(const core::Progress& progress,
                                                                  std::stop_token stop) override;
 

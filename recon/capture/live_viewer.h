@@ -27,6 +27,7 @@ class LiveViewer : public FrameSetSource {
   [[nodiscard]] std::string WhatEndsIt() const override { return rig_->WhatEndsIt(); }
   [[nodiscard]] std::optional<FrameSet> TryRead(core::FrameIndex index, std::stop_token stop) override;
   [[nodiscard]] std::vector<std::string> Warnings() const override;
+  [[nodiscard]] std::vector<std::string> CameraTroubles() const override { return rig_->CameraTroubles(); }
   [[nodiscard]] std::vector<BackgroundReference> ReadBackgrounds(const core::Progress& progress,
                                                                  std::stop_token stop) override;
 

@@ -73,6 +73,10 @@ class FrameSetSource {
   // Problems of the frames read so far that didn't keep them from being read, a line each.
   [[nodiscard]] virtual std::vector<std::string> Warnings() const { return {}; }
 
+  // Of each live camera, why nothing comes from it at present, one line; "": it is there. Empty: no camera is
+  // live. Thread: any.
+  [[nodiscard]] virtual std::vector<std::string> CameraTroubles() const { return {}; }
+
   // One a camera. Throws: Error{kFile}; Error{kCancelled} on a stop.
   [[nodiscard]] virtual std::vector<BackgroundReference> ReadBackgrounds(const core::Progress& progress,
                                                                          std::stop_token stop) = 0;

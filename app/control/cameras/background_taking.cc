@@ -121,7 +121,7 @@ void RefuseFaults(const std::vector<CameraBackground>& cameras) {
   throw Error(
       ErrorKind::kCamera,
       fmt::format("{}{}; nothing was written: put that right and take the background again, or take it "
-                  "with --anyway",
+                  "anyway (--anyway)",
                   faults.front(), more));
 }
 

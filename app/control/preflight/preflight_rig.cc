@@ -1,0 +1,36 @@
+#include "app/control/preflight/preflight_rig.h"
+
+#include <fmt/format.h>
+
+#include <string>
+
+#include "cad_import/layout/toml_entry.h"
+#include "core/error.h"
+#include "recon/capture/rig_source.h"
+
+namespace elbowroom::control {
+namespace {
+
+std::filesystem::path RigPathOf(const std::filesystem::path& file) {
+  if (file.extension() != ".toml") return file;
+  const toml::table trial = cad_import::ParseTomlFile(file, "trial file");
+  const auto rig = trial["rig"].value<std::string>();
+  if (!rig) {
+    throw core::Error(
+        core::ErrorKind::kFormat,
+        fmt::format("{}: names no rig; a trial file has the line rig = \"RIG.yml\"", file.string()));
+  }
+  return file.parent_path() / *rig;
+}
+
+}  // namespace
+
+PreflightRig ReadPreflightRig(const std::filesystem::path& file) {
+  PreflightRig rig;
+  rig.path = RigPathOf(file);
+  rig.rig_file = recon::ReadRigFile(rig.path);
+  rig.is_live = recon::IsLiveRig(rig.rig_file);
+  return rig;
+}
+
+}  // namespace elbowroom::control

@@ -1,0 +1,78 @@
+#include "app/control/tiles/thumbnail.h"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+#include "core/error.h"
+#include "recon/images/mask_image.h"
+
+namespace elbowroom::control {
+namespace {
+
+// A quarter of a small pixel is object where a finger of one pixel crosses two.
+constexpr std::uint8_t kLeastShare = 64;  // of 255
+
+cv::Size SizeWithin(const core::BitMask& mask, const ThumbnailRoom& room) {
+  const double scale = std::min({1.0, static_cast<double>(room.width_px) / mask.width_px(),
+                                 static_cast<double>(room.height_px) / mask.height_px()});
+  const auto scaled = [scale](int side_px) {
+    return std::max(1, static_cast<int>(std::lround(scale * side_px)));
+  };
+  return {scaled(mask.width_px()), scaled(mask.height_px())};
+}
+
+cv::Vec3b Pixel(const ThumbnailColor& color) { return {color[0], color[1], color[2]}; }
+
+// From background to object by `share`, 8 bits.
+cv::Mat Tinted(const cv::Mat& share) {
+  cv::Mat rgb(share.size(), CV_8UC3);
+  for (int y = 0; y < share.rows; ++y) {
+    for (int x = 0; x < share.cols; ++x) {
+      const int of_255 = share.at<std::uint8_t>(y, x);
+      cv::Vec3b& pixel = rgb.at<cv::Vec3b>(y, x);
+      for (int c = 0; c < 3; ++c) {
+        const auto at = static_cast<std::size_t>(c);
+        pixel[c] = static_cast<std::uint8_t>(kMaskBackground[at] +
+                                             (kMaskObject[at] - kMaskBackground[at]) * of_255 / 255);
+      }
+    }
+  }
+  return rgb;
+}
+
+// Marks the pixels on both sides of the boundary; the picture's edge is none.
+void DrawOutline(const cv::Mat& share, cv::Mat& rgb) {
+  const auto is_object = [&](int x, int y) { return share.at<std::uint8_t>(y, x) >= kLeastShare; };
+  for (int y = 0; y < share.rows; ++y) {
+    for (int x = 0; x < share.cols; ++x) {
+      const bool object = is_object(x, y);
+      const bool is_edge =
+          (x > 0 && is_object(x - 1, y) != object) || (x + 1 < share.cols && is_object(x + 1, y) != object) ||
+          (y > 0 && is_object(x, y - 1) != object) || (y + 1 < share.rows && is_object(x, y + 1) != object);
+      if (is_edge) rgb.at<cv::Vec3b>(y, x) = Pixel(object ? kOutline : kOutlineShade);
+    }
+  }
+}
+
+}  // namespace
+
+recon::Image ThumbnailOf(const cv::Mat& image_bgr, const core::BitMask& mask, const ThumbnailRoom& room) {
+  core::Require(image_bgr.empty() || image_bgr.size() == cv::Size(mask.width_px(), mask.height_px()),
+                "a thumbnail's picture has its mask's size");
+  if (room.is_empty() || mask.width_px() == 0 || mask.height_px() == 0) return {};
+  const cv::Size size = SizeWithin(mask, room);
+  cv::Mat share, rgb;
+  cv::resize(recon::ImageFromMask(mask), share, size, 0.0, 0.0, cv::INTER_AREA);
+  if (image_bgr.empty()) {
+    rgb = Tinted(share);
+  } else {
+    cv::Mat small_bgr;
+    cv::resize(image_bgr, small_bgr, size, 0.0, 0.0, cv::INTER_AREA);
+    cv::cvtColor(small_bgr, rgb, cv::COLOR_BGR2RGB);
+  }
+  DrawOutline(share, rgb);
+  return {rgb.cols, rgb.rows, {rgb.datastart, rgb.dataend}};
+}
+
+}  // namespace elbowroom::control
