@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <string>
@@ -15,6 +16,8 @@
 #include "app/cli/vector_json.h"
 #include "app/control/cameras/camera_check.h"
 #include "app/control/cameras/camera_recording.h"
+#include "app/control/preflight/preflight.h"
+#include "app/control/preflight/preflight_page.h"
 #include "recon/rig_files/rig_file.h"
 
 namespace elbowroom::cli {
@@ -84,7 +87,16 @@ std::string CameraText(const control::CameraHealth& camera) {
 struct CheckOptions {
   std::filesystem::path rig_file;
   double seconds = 5.0;
+  std::filesystem::path out;
 };
+
+// The page says of the rig as a whole what can be known without its cameras, too.
+std::string WritePage(const CheckOptions& options, const recon::RigFile& rig_file,
+                      const control::RigHealth& health) {
+  std::vector<control::PreflightRow> rows = control::CameraRows(health);
+  std::ranges::move(control::RigRows(rig_file, options.out), std::back_inserter(rows));
+  return control::WritePreflightPage(rig_file.rig.name, rows, health, options.out).string();
+}
 
 CommandResult Check(const CheckOptions& options, const CommandContext& context) {
   const recon::RigFile rig_file = recon::ReadRigFile(options.rig_file, recon::RigUse::kPictures);
@@ -105,6 +117,12 @@ CommandResult Check(const CheckOptions& options, const CommandContext& context) 
   for (const std::string& warning : health.warnings) result.text += "warning: " + warning + "\n";
   result.text += fmt::format("{} frame sets in {:.1f} s, {} of them lack a camera", health.sets,
                              health.seconds, health.incomplete_sets);
+  result.json["out"] = nullptr;
+  if (!options.out.empty()) {
+    const std::string page = WritePage(options, rig_file, health);
+    result.json["out"] = page;
+    result.text += "\n" + page;
+  }
   return result;
 }
 
@@ -175,9 +193,10 @@ CommandResult List(const ListOptions& options, const CommandContext& context) {
   result.json = {{"cameras", cameras}, {"out", nullptr}};
   for (const std::string& camera : cameras) result.text += camera + "\n";
   if (!options.out.empty()) {
-    recon::WriteRigFile(
-        control::UncalibratedRig(cameras, options.size_px[0], options.size_px[1], options.rate_hz),
-        options.out);
+    recon::RigFile rig_file =
+        control::UncalibratedRig(cameras, options.size_px[0], options.size_px[1], options.rate_hz);
+    rig_file.rig.name = options.out.stem().string();
+    recon::WriteRigFile(rig_file, options.out);
     result.json["out"] = options.out.string();
     result.text += options.out.string() + "\n";
   } else if (cameras.empty()) {
@@ -221,6 +240,8 @@ void AddCamerasCommand(CLI::App& app, Choice* choice) {
   constexpr double kLongestS = 3600.0;
   check->add_option("--seconds", options->seconds, "how long to look (default: 5)")
       ->check(CLI::Range(0.1, kLongestS));
+  check->add_option("--out", options->out,
+                    "a folder for preflight.html: every camera's picture, well or with what to do");
   check->callback([=] {
     choice->action = [options](const CommandContext& context) { return Check(*options, context); };
   });

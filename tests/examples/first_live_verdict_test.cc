@@ -26,7 +26,7 @@ using recon::testing::ServedRig;
 using test_support::ReadText;
 using test_support::WriteText;
 using ::testing::HasSubstr;
-using ::testing::IsEmpty;
+using ::testing::Not;
 namespace fs = std::filesystem;
 
 constexpr int kCameras = 3;
@@ -73,7 +73,7 @@ class FirstLiveVerdict : public ::testing::Test {
   // What the reader changes in cameras.yml for these cameras: the pixels are to come as they are.
   void SetPixelFormat() const {
     std::string text = ReadText(folder_ / "cameras.yml");
-    const std::string rate = "rate_hz: 10\n", with_format = rate + "         pixel_format: \"RGB8\"\n";
+    const std::string rate = "rate_hz: 10.0\n", with_format = rate + "         pixel_format: \"RGB8\"\n";
     for (std::size_t at = text.find(rate); at != std::string::npos;
          at = text.find(rate, at + with_format.size()))
       text.replace(at, rate.size(), with_format);
@@ -111,9 +111,14 @@ TEST_F(FirstLiveVerdict, ComesAsTheUserGuideSays) {
     const recon::RigFile listed = recon::ReadRigFile(folder_ / "cameras.yml", recon::RigUse::kPictures);
     EXPECT_FALSE(listed.is_calibrated);
     SetPixelFormat();
-    const nlohmann::json check = Run({"cameras", "check", "cameras.yml", "--seconds", "1"});
+    ASSERT_THAT(ReadText(folder_ / "cameras.yml"), HasSubstr("RGB8"));
+    const nlohmann::json check =
+        Run({"cameras", "check", "cameras.yml", "--seconds", "1", "--out", "preflight"});
     ASSERT_FALSE(check.is_null());
     EXPECT_EQ(check["cameras"].size(), static_cast<std::size_t>(kCameras));
+    const std::string page = ReadText(folder_ / "preflight" / "preflight.html");
+    EXPECT_THAT(page, HasSubstr("Not ready for a trial."));
+    EXPECT_THAT(page, HasSubstr("aren&#39;t calibrated yet"));
   }
   {
     const ServedRig board(BoardSets(), kRateHz);
@@ -133,6 +138,15 @@ TEST_F(FirstLiveVerdict, ComesAsTheUserGuideSays) {
   {
     const ServedRig empty({SetOf("empty.jpg")}, kRateHz);
     ASSERT_FALSE(Run({"background", "rig.yml", "--out", "empty", "--seconds", "2"}).is_null());
+    ASSERT_FALSE(
+        Run({"cameras", "check", "empty/RIG.yml", "--seconds", "2", "--out", "preflight"}).is_null());
+    const std::string page = ReadText(folder_ / "preflight" / "preflight.html");
+    EXPECT_THAT(page, Not(HasSubstr("Not ready for a trial.")));
+    std::size_t pictures = 0;
+    for (std::size_t at = page.find("src='data:image/png"); at != std::string::npos;
+         at = page.find("src='data:image/png", at + 1))
+      ++pictures;
+    EXPECT_EQ(pictures, static_cast<std::size_t>(kCameras));
   }
   {
     const ServedRig hand(HandSets(), kRateHz);
@@ -160,7 +174,7 @@ TEST_F(FirstLiveVerdict, BeforeTheCalibrationThereIsNoTrial) {
       ELBOWROOM_PROGRAM, {"trial", "run", "trial.toml", "--session", "first.db", "--headless"},
       {.working_folder = folder_.path()});
   EXPECT_EQ(run.exit_status, 1);
-  EXPECT_THAT(run.err, HasSubstr("camera 'cam1' isn't calibrated yet"));
+  EXPECT_THAT(run.err, HasSubstr("camera 'cam1': not calibrated yet"));
 }
 
 }  // namespace

@@ -39,7 +39,8 @@ struct Tally {
   Clock::time_point first_at, last_at;
   std::optional<recon::StampSource> stamps;
   std::vector<double> latency_ms, skew_ms;
-  cv::Mat latest;
+  cv::Mat latest;     // not looked at yet; empty: all are
+  cv::Mat looked_at;  // the last one that was
   double level_sum = 0.0, saturated_sum = 0.0, sharpness_sum = 0.0;
   std::int64_t looks = 0;
 
@@ -119,6 +120,7 @@ class Check {
       camera.mean_level = tally.level_sum / looks;
       camera.saturated_share = tally.saturated_sum / looks;
       camera.sharpness = tally.sharpness_sum / looks;
+      camera.picture = (tally.latest.empty() ? tally.looked_at : tally.latest).clone();
       camera.light = light_.Report(i);
       health.cameras.push_back(std::move(camera));
     }
@@ -173,7 +175,7 @@ class Check {
       {
         const std::lock_guard lock(mutex_);
         if (tally.frames < tally.looks * kFramesBetweenLooks || tally.latest.empty()) continue;
-        picture = std::exchange(tally.latest, cv::Mat());
+        picture = tally.looked_at = std::exchange(tally.latest, cv::Mat());
       }
       Tally look;
       look.Look(picture);

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <map>
+#include <opencv2/core/mat.hpp>
 #include <optional>
 #include <stop_token>
 #include <string>
@@ -32,6 +33,7 @@ struct CameraHealth {
   double saturated_share = 0.0;  // of pixels with a channel at 255
   // Variance of the Laplacian of the grey picture, levels^2: it falls when the lens is out of focus.
   double sharpness = 0.0;
+  cv::Mat picture;                          // the last one that came, as it was; empty: none
   std::optional<recon::LightReport> light;  // against the rig's background; nothing: it has none
   std::vector<std::string> advice;          // what to do about it, a line each; empty: all is well
 

@@ -183,8 +183,8 @@ class Feed {
     const bool has_stamps =
         std::ranges::any_of(frames.cameras, [](const CameraFrame& f) { return f.stamp.has_value(); });
     lacks_stamps_ |= !has_stamps;
-    if (!begin_s_) begin_s_ = frames.time_s;
-    result_->seconds = frames.time_s - *begin_s_;
+    if (sets_++ == 0) begin_s_ = frames.time_s;
+    result_->seconds = frames.time_s - begin_s_;
     for (core::CameraIndex i = 0; i < frames.cameras.size(); ++i) {
       const CameraFrame& picture = frames.cameras[i];
       if (has_stamps && !picture.stamp) continue;
@@ -203,7 +203,8 @@ class Feed {
   OffsetFinder* finder_;
   TimeOffsets* result_;
   std::vector<std::optional<double>> last_s_;  // by camera
-  std::optional<double> begin_s_;
+  std::int64_t sets_ = 0;
+  double begin_s_ = 0.0;  // of the first set
   bool lacks_stamps_ = false;
 };
 

@@ -353,14 +353,14 @@ TEST(RigFile, UncalibratedItIsGoodForPicturesAlone) {
             "%YAML:1.0\n---\ncameras:\n  - { name: \"cam1\", image_width: 64, image_height: 48, frames: "
             "\"gige:one\", capture: { rate_hz: 20 } }\n");
   EXPECT_THAT(ErrorOf(ErrorKind::kFormat, [&] { (void)ReadRigFile(file); }),
-              HasSubstr("camera 'cam1' isn't calibrated yet"));
+              HasSubstr("camera 'cam1': not calibrated yet"));
   const RigFile rig_file = ReadRigFile(file, RigUse::kPictures);
   EXPECT_FALSE(rig_file.is_calibrated);
   EXPECT_EQ(rig_file.rig.cameras[0].width_px(), 64);
   EXPECT_EQ(rig_file.sources[0].capture.rate_hz, 20.0);
   WriteRigFile(rig_file, copy);
   EXPECT_THAT(ErrorOf(ErrorKind::kFormat, [&] { (void)ReadRigFile(copy); }),
-              HasSubstr("isn't calibrated yet"));
+              HasSubstr("not calibrated yet"));
   const RigFile again = ReadRigFile(copy, RigUse::kPictures);
   EXPECT_FALSE(again.is_calibrated);
   EXPECT_EQ(again.sources, rig_file.sources);
