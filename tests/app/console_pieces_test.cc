@@ -200,7 +200,7 @@ TEST(PicturePace, CoarsensPicturesOnASlowMachineAndRefinesThemAgain) {
   const auto draw = [&](double finest_ms) {
     for (int i = 0; i < 20; ++i) pace.Add(finest_ms * pace.fineness().relative_cost);
   };
-  for (const double finest_ms : {200.0, 300.0, 450.0, 600.0, 900.0}) {
+  for (const double finest_ms : {200.0, 300.0, 450.0, 600.0, 800.0}) {
     draw(finest_ms);
     EXPECT_LE(finest_ms * pace.fineness().relative_cost, PicturePace::kAimMs);
     const PictureFineness settled = pace.fineness();
