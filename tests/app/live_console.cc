@@ -1,9 +1,14 @@
-// live_console FILE SESSION.db SECONDS [PICTURE.png [WIDTH HEIGHT]]: runs a trial in the console's window for
-// so long, on whatever screen Qt finds. FILE is a TRIAL.toml, or a RIG.yml whose live cameras see the demo's
-// parts. Prints as JSON how old the operator's pictures were when they were painted, how long each took to
-// draw, and how much processor time went where. For measuring, together with serve_demo.
+// The console's window with live cameras, without a person, on whatever screen Qt finds; together with
+// serve_demo.
+//   live_console trial FILE SESSION.db SECONDS [PICTURE.png]   runs a trial; prints as JSON how old the
+//   operator's
+//     pictures were when they were painted, how long each took to draw, and how much processor time went
+//     where
+//   live_console preflight FILE SECONDS PICTURE.png            checks the cameras, and takes a picture
+// FILE is a TRIAL.toml, or a RIG.yml whose live cameras see the demo's parts.
 #include <unistd.h>
 
+#include <QAction>
 #include <QApplication>
 #include <QStyleFactory>
 #include <QTimer>
@@ -106,20 +111,25 @@ console::TrialDesk::SetupReader ReaderOf(const std::filesystem::path& file) {
   };
 }
 
-}  // namespace
+// Checks the cameras of the file for so long, and takes a picture of the window.
+int ShowPreflight(console::MainWindow& window, const std::vector<std::string>& words) {
+  console::PreflightPanel& panel = window.preflight();
+  window.findChild<QAction*>("show_preflight")->trigger();
+  QObject::connect(&panel, &console::PreflightPanel::RigChanged, &window, [&] {
+    if (panel.CanCheck() && panel.rows().size() < 4) panel.Check(std::stod(words.at(2)));
+  });
+  QObject::connect(&panel, &console::PreflightPanel::Checked, &window, [&] {
+    QTimer::singleShot(std::chrono::milliseconds(200), &window, [&] {  // the table has its rows' heights then
+      window.grab().save(QString::fromStdString(words.at(3)), "PNG");
+      QApplication::exit(EXIT_SUCCESS);
+    });
+  });
+  panel.Open(words.at(1));
+  return QApplication::exec();
+}
 
-int main(int argc, char** argv) {
-  cad_import::ServeImport(argc, argv);
-  const QApplication application(argc, argv);
-  if (argc < 4) {
-    std::cerr << "usage: live_console FILE SESSION.db SECONDS [PICTURE.png [WIDTH HEIGHT]]\n";
-    return 2;
-  }
-  QApplication::setStyle(QStyleFactory::create("Fusion"));
-  const double seconds = std::stod(argv[3]);
-  console::MainWindow window;
-  if (argc > 6) window.resize(std::stoi(argv[5]), std::stoi(argv[6]));
-  window.show();
+int MeasureTrial(console::MainWindow& window, const std::vector<std::string>& words) {
+  const double seconds = std::stod(words.at(3));
   Measured measured;
   std::string error;
   QObject::connect(&window.desk(), &console::TrialDesk::Failed, &window, [&](const QString& line) {
@@ -130,6 +140,11 @@ int main(int argc, char** argv) {
                    [&](qint64, double age_ms) { measured.age_ms.push_back(age_ms); });
   QObject::connect(&window.view(), &console::OperatorView::PictureShown, &window,
                    [&](qint64, double drawing_ms) { measured.drawing_ms.push_back(drawing_ms); });
+  const auto finish = [&] {
+    std::cout << JsonOf(measured, seconds).dump(2) << std::endl;
+    if (words.size() > 4) window.grab().save(QString::fromStdString(words[4]), "PNG");
+    window.close();
+  };
   bool has_begun = false;
   QObject::connect(&window.desk(), &console::TrialDesk::FrameArrived, &window,
                    [&](const console::FrameNews& news) {
@@ -139,15 +154,32 @@ int main(int argc, char** argv) {
                      if (std::exchange(has_begun, true)) return;
                      QTimer::singleShot(kWarmUp, &window, [&] {
                        measured = {};
-                       QTimer::singleShot(static_cast<int>(1000.0 * seconds), &window, [&] {
-                         std::cout << JsonOf(measured, seconds).dump(2) << std::endl;
-                         if (argc > 4) window.grab().save(argv[4], "PNG");
-                         window.close();
-                       });
+                       QTimer::singleShot(static_cast<int>(1000.0 * seconds), &window, finish);
                      });
                    });
-  window.desk().Start(ReaderOf(argv[1]), argv[2]);
+  window.desk().Start(ReaderOf(words.at(1)), words.at(2));
   QApplication::exec();
   if (!error.empty()) std::cerr << error << "\n";
   return error.empty() && !measured.age_ms.empty() ? EXIT_SUCCESS : EXIT_FAILURE;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  cad_import::ServeImport(argc, argv);
+  const QApplication application(argc, argv);
+  QApplication::setStyle(QStyleFactory::create("Fusion"));
+  const std::vector<std::string> words(argv + 1, argv + argc);
+  console::MainWindow window;
+  window.show();
+  try {
+    if (words.size() >= 4 && words[0] == "trial") return MeasureTrial(window, words);
+    if (words.size() == 4 && words[0] == "preflight") return ShowPreflight(window, words);
+  } catch (const std::exception& failure) {
+    std::cerr << failure.what() << "\n";
+    return EXIT_FAILURE;
+  }
+  std::cerr << "usage: live_console trial FILE SESSION.db SECONDS [PICTURE.png]\n"
+               "       live_console preflight FILE SECONDS PICTURE.png\n";
+  return 2;
 }
