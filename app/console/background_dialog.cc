@@ -23,6 +23,14 @@ QDoubleSpinBox* SecondsBox(double value_s, double least_s, double most_s) {
   return box;
 }
 
+// To be read from the other side of the table.
+void SetLarge(QLabel* label, bool is_large) {
+  constexpr double kLarger = 2.0;
+  QFont font = label->parentWidget()->font();
+  if (is_large) font.setPointSizeF(kLarger * font.pointSizeF());
+  label->setFont(font);
+}
+
 QString TakenText(const control::BackgroundOutcome& outcome) {
   QString text =
       QObject::tr(
@@ -122,6 +130,7 @@ void BackgroundDialog::Start() {
 // The countdown counts down here; what is written counts up.
 void BackgroundDialog::ShowProgress(std::int64_t done, std::int64_t total, const std::string& what) {
   const bool is_countdown = what.starts_with("leave");
+  SetLarge(headline_, is_countdown);
   headline_->setText(is_countdown
                          ? tr("Leave the cameras' view: %1 s").arg(std::max<std::int64_t>(0, total - done))
                          : QString::fromStdString(what) + QString(" %1").arg(done + 1));
@@ -132,6 +141,7 @@ void BackgroundDialog::ShowProgress(std::int64_t done, std::int64_t total, const
 void BackgroundDialog::Finish(const std::string& error, const control::BackgroundOutcome& outcome) {
   job_.reset();  // its thread has nothing left to do
   SetRunning(false);
+  SetLarge(headline_, false);
   headline_->setText(error.empty() ? TakenText(outcome) : "✖ " + QString::fromStdString(error));
   emit Ended(error.empty());
   if (error.empty()) emit Taken(QString::fromStdString(outcome.rig_file.string()));

@@ -137,7 +137,8 @@ void CameraStrip::TellRoom() {
   control::ThumbnailRoom room;
   if (isVisible() && !is_minimized_ && !thumbnails_.empty()) {
     layout()->activate();
-    const QSize px = thumbnails_.front()->PictureRoom();
+    QSize px = thumbnails_.front()->PictureRoom();  // they differ by the pixel that the layout has over
+    for (const CameraThumbnail* thumbnail : thumbnails_) px = px.boundedTo(thumbnail->PictureRoom());
     room = {px.width(), px.height()};
   }
   if (room == std::exchange(told_, room)) return;

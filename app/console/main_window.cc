@@ -139,6 +139,8 @@ QWidget* MainWindow::MakeCentre() {
   connect(hull_look_, &HullLookButton::Chosen, view_, &OperatorView::SetLook);
   connect(view_, &OperatorView::PictureShown, this,
           [this](qint64, double drawing_ms) { status_->ShowPicture(drawing_ms, view_->driver()); });
+  connect(view_, &OperatorView::PictureSeen, this,
+          [this](qint64, double age_ms) { status_->ShowAge(age_ms); });
   return centre;
 }
 

@@ -35,6 +35,7 @@ class MainWindow : public QMainWindow {
   [[nodiscard]] SessionChoice& session_choice() { return choice_; }
   [[nodiscard]] OperatorView& view() { return *view_; }
   [[nodiscard]] CameraStrip& strip() { return *strip_; }
+  [[nodiscard]] const StatusLine& status() const { return *status_; }
   [[nodiscard]] PreflightPanel& preflight() { return *preflight_; }
 
  public slots:

@@ -55,6 +55,10 @@ void OperatorView::Foresee(const control::SharedHull& hull) {
 }
 
 void OperatorView::ShowFrame(control::SharedFrameResult result) {
+  if (!result_) {
+    const bool is_live = result->camera_frames && result->camera_frames->taken_at;
+    pace_ = PicturePace(is_live ? PicturePace::kLiveAimMs : PicturePace::kAimMs);
+  }
   result_ = std::move(result);
   if (camera_) {
     AskForPicture();
@@ -115,7 +119,7 @@ void OperatorView::Submit(const PictureFineness& fineness) {
   drawn_with_ = fineness;
   is_outdated_ = false;
   drawing_.start();
-  worker_.Submit({result_, *camera_, size.width(), size.height(), fineness.hull, look_});
+  worker_.Submit({result_, *camera_, size.width(), size.height(), fineness.hull, fineness.is_smooth, look_});
 }
 
 QSize OperatorView::LargestPicture() const {
@@ -131,7 +135,9 @@ void OperatorView::ShowPicture(const QImage& picture, const control::RenderReque
   last_error_.clear();
   if (drawn_with_ == pace_.fineness()) pace_.Add(drawing_ms);
   picture_ = picture;
-  picture_frame_ = request.result->record.frame;
+  const qint64 last_frame = std::exchange(picture_frame_, request.result->record.frame);
+  const auto& camera_frames = request.result->camera_frames;
+  if (camera_frames && picture_frame_ != last_frame) taken_at_ = camera_frames->taken_at;
   update();
   if (is_outdated_) {
     Submit(pace_.fineness());
@@ -156,6 +162,19 @@ void OperatorView::paintEvent(QPaintEvent* /*event*/) {
   target.moveCenter(rect().center());
   painter.drawImage(target, picture_);
   PaintCaption(painter);
+  if (taken_at_) TellAge();
+}
+
+// This event's painting has been handed to the screen when the next event comes.
+void OperatorView::TellAge() {
+  QMetaObject::invokeMethod(
+      this,
+      [this, frame = picture_frame_, taken_at = *std::exchange(taken_at_, std::nullopt)] {
+        emit PictureSeen(
+            frame,
+            std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - taken_at).count());
+      },
+      Qt::QueuedConnection);
 }
 
 void OperatorView::PaintCaption(QPainter& painter) const {

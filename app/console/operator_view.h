@@ -7,6 +7,7 @@
 #include <QString>
 #include <QTimer>
 #include <QWidget>
+#include <chrono>
 #include <memory>
 #include <optional>
 
@@ -44,7 +45,9 @@ class OperatorView : public QWidget {
   [[nodiscard]] const std::optional<recon::OrbitCamera>& camera() const { return camera_; }
 
  signals:
-  void PictureShown(qint64 frame, double drawing_ms);
+  void PictureShown(qint64 frame, double drawing_ms);  // it is drawn, and will be painted
+  // Of live cameras: that picture was painted, so long after the middle of its frame's exposure.
+  void PictureSeen(qint64 frame, double age_ms);
   void Failed(const QString& line);
 
  protected:
@@ -61,6 +64,7 @@ class OperatorView : public QWidget {
   void Submit(const PictureFineness& fineness);
   void ShowPicture(const QImage& picture, const control::RenderRequest& request);
   void PaintCaption(QPainter& painter) const;
+  void TellAge();
   [[nodiscard]] QSize LargestPicture() const;
 
   std::optional<recon::OrbitCamera> camera_;  // nothing until the first fit
@@ -68,6 +72,8 @@ class OperatorView : public QWidget {
   control::SceneLook look_;
   QImage picture_;
   qint64 picture_frame_ = 0;
+  // When its frame was taken; nothing: of recorded footage, or its age was told.
+  std::optional<std::chrono::steady_clock::time_point> taken_at_;
   PicturePace pace_;
   PictureFineness drawn_with_;  // the picture asked for last
   QElapsedTimer drawing_;       // valid while a picture is asked for

@@ -10,7 +10,8 @@ namespace elbowroom::console {
 struct PictureFineness {
   double picture = 1.0;
   double hull = 1.0;
-  double relative_cost = 1.0;  // of drawing, roughly: casting the hull's rays takes most of it
+  bool is_smooth = true;       // four samples a pixel, not one
+  double relative_cost = 1.0;  // of drawing, roughly
 
   [[nodiscard]] bool operator==(const PictureFineness&) const = default;
 };
@@ -20,16 +21,25 @@ struct PictureFineness {
 class PicturePace {
  public:
   static constexpr double kAimMs = 140.0;  // a picture this old still follows the hand
+  // Of live cameras: about a frame's time at 30 Hz, so that each frame is drawn and is shown within two.
+  static constexpr double kLiveAimMs = 35.0;
   static constexpr PictureFineness kFinest{};
+
+  explicit PicturePace(double aim_ms = kAimMs) : aim_ms_(aim_ms) {}
 
   [[nodiscard]] const PictureFineness& fineness() const { return kSteps[step_]; }
 
   void Add(double drawing_ms);  // of a picture drawn with fineness()
 
  private:
-  static constexpr std::array<PictureFineness, 4> kSteps = {
-      {{1.0, 1.0, 1.0}, {1.0, 0.5, 0.36}, {0.8, 0.5, 0.23}, {0.65, 0.5, 0.15}}};
+  // The costs are those of software OpenGL with the demo's parts; docs/performance.md, "Live cameras".
+  static constexpr std::array<PictureFineness, 5> kSteps = {{{1.0, 1.0, true, 1.0},
+                                                             {1.0, 1.0, false, 0.44},
+                                                             {0.8, 0.5, false, 0.31},
+                                                             {0.65, 0.5, false, 0.23},
+                                                             {0.5, 0.5, false, 0.17}}};
 
+  double aim_ms_;
   std::size_t step_ = 0;
   int in_a_row_ = 0;  // pictures that asked for the same change: above zero coarser, below zero finer
 };

@@ -71,10 +71,11 @@ PreflightPanel::PreflightPanel(TrialDesk& desk, QWidget* parent) : QWidget(paren
   headline_->setWordWrap(true);
   table_ = new QTableWidget(0, 3);
   table_->setObjectName("preflight_rows");
-  table_->setHorizontalHeaderLabels({tr("State"), tr("Of"), tr("What was found, and what to do")});
+  table_->setHorizontalHeaderLabels({tr("State"), tr("Of"), tr("Finding, and what to do")});
   table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
   table_->setSelectionMode(QAbstractItemView::NoSelection);
   table_->setFocusPolicy(Qt::NoFocus);
+  table_->setStyleSheet("QTableWidget::item { padding: 3px; }");
   table_->verticalHeader()->hide();
   table_->verticalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
   table_->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);

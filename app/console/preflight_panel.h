@@ -41,6 +41,7 @@ class PreflightPanel : public QWidget {
 
   // Nothing: none was opened, or it couldn't be read.
   [[nodiscard]] const std::optional<control::PreflightRig>& rig() const { return rig_; }
+  [[nodiscard]] QSize sizeHint() const override { return {440, 500}; }
   [[nodiscard]] bool CanCheck() const;
   [[nodiscard]] const std::vector<control::PreflightRow>& rows() const { return rows_; }
 

@@ -22,10 +22,13 @@ StatusLine::StatusLine(QWidget* parent) : QStatusBar(parent) {
   frame_ = AddField("status_frame", 0);
   recorded_ = AddField("status_recorded", 0);
   times_ = AddField("status_times", 0);
-  skipped_ = AddField("status_skipped", 0);
+  age_ = AddField("status_age", 0);
+  skipped_ = AddField("status_skipped", 3);
   session_ = AddField("status_session", 1);
-  session_->setMinimumWidth(60);  // cut off rather than widening the window
-  session_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+  for (QLabel* field : {skipped_, session_}) {  // cut off rather than widening the window
+    field->setMinimumWidth(60);
+    field->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+  }
   driver_ = AddField("status_driver", 0);
   progress_ = new QProgressBar;
   progress_->setFixedWidth(220);
@@ -45,6 +48,9 @@ QLabel* StatusLine::AddField(const QString& name, int stretch) {
 
 void StatusLine::Open(const std::filesystem::path& session) {
   rate_.Clear();
+  ages_ = {};
+  age_->clear();
+  age_->setMinimumWidth(0);
   session_->setText(QString::fromStdString(session.filename().string()));
   session_->setToolTip(QString::fromStdString(session.string()));
 }
@@ -59,7 +65,7 @@ void StatusLine::ShowFrame(const control::FrameResult& result, const control::Re
   recorded_->setText(tr("on disk: %1 of %2 frames").arg(recorded.committed).arg(recorded.seen));
   const QString response =
       result.response ? tr("   response %1").arg(result.times.response_ms, 0, 'f', 0) : QString();
-  times_->setText(tr("segmentation %1   hull %2   contacts %3%4   picture %5 ms")
+  times_->setText(tr("segmentation %1   hull %2   contacts %3%4   drawing %5 ms")
                       .arg(result.times.segmentation_ms, 0, 'f', 0)
                       .arg(result.times.hull_ms, 0, 'f', 0)
                       .arg(result.times.contacts_ms, 0, 'f', 0)
@@ -73,8 +79,9 @@ void StatusLine::ShowFrame(const control::FrameResult& result, const control::Re
           .arg(result.skipped.unchanged_parts)
           .arg(result.record.contacts.size())
           .arg(PercentOf(result.skipped.triangles_skipped, result.skipped.triangles_in_all)));
+  skipped_->setToolTip(skipped_->text());
   // A field never shrinks: texts of changing length would move the other fields with every frame.
-  for (QLabel* field : {frame_, recorded_, times_, skipped_}) {
+  for (QLabel* field : {frame_, recorded_, times_}) {
     field->setMinimumWidth(std::max(field->minimumWidth(), field->sizeHint().width()));
   }
 }
@@ -84,6 +91,15 @@ void StatusLine::ShowPicture(double drawing_ms, const QString& driver) {
   if (driver_->toolTip() == driver) return;
   driver_->setToolTip(driver);
   driver_->setText(ShortDriver(driver));
+}
+
+void StatusLine::ShowAge(double age_ms) {
+  ages_.Add(age_ms);
+  age_->setText(tr("picture %1 ms old").arg(age_ms, 0, 'f', 0));
+  age_->setMinimumWidth(std::max(age_->minimumWidth(), age_->sizeHint().width()));
+  age_->setToolTip(tr("From the exposure to the screen, ms: median %1, and at most %2 in 95 of 100")
+                       .arg(ages_.MedianMs().value_or(0.0), 0, 'f', 0)
+                       .arg(ages_.QuantileMs(0.95).value_or(0.0), 0, 'f', 0));
 }
 
 void StatusLine::ShowProgress(qint64 done, qint64 total, const QString& what) {

@@ -8,6 +8,7 @@
 
 #include "app/console/frame_rate.h"
 #include "app/control/frame_result.h"
+#include "app/control/frame_time_tally.h"
 #include "app/control/trial_runner.h"
 
 namespace elbowroom::console {
@@ -20,8 +21,10 @@ class StatusLine : public QStatusBar {
   void Open(const std::filesystem::path& session);
   void ShowFrame(const control::FrameResult& result, const control::RecordedFrames& recorded);
   void ShowPicture(double drawing_ms, const QString& driver);
+  void ShowAge(double age_ms);  // of the operator's picture when it was painted; live cameras only
   void ShowProgress(qint64 done, qint64 total, const QString& what);  // total <= 0: not known, not shown
   void HideProgress() { progress_->hide(); }
+  [[nodiscard]] const control::FrameTimeTally& ages() const { return ages_; }
 
  private:
   QLabel* AddField(const QString& name, int stretch);
@@ -29,12 +32,14 @@ class StatusLine : public QStatusBar {
   QLabel* frame_ = nullptr;
   QLabel* recorded_ = nullptr;
   QLabel* times_ = nullptr;
+  QLabel* age_ = nullptr;
   QLabel* skipped_ = nullptr;
   QLabel* session_ = nullptr;
   QLabel* driver_ = nullptr;
   QProgressBar* progress_ = nullptr;
   double picture_ms_ = 0.0;
   FrameRate rate_;
+  control::FrameTimeTally ages_;  // of this trial's pictures
 };
 
 }  // namespace elbowroom::console

@@ -3,6 +3,7 @@
 #include <QLocale>
 #include <QObject>
 #include <QStringList>
+#include <cmath>
 
 namespace elbowroom::console {
 namespace {
@@ -28,8 +29,9 @@ TileText TextOf(const control::CameraTile& tile) {
   text.rate = figures.rate_hz ? QObject::tr("%1 Hz").arg(*figures.rate_hz, 0, 'f', 1) : size_px;
   if (figures.lost) text.lost = QObject::tr("lost %1").arg(*figures.lost);
   if (figures.skew_ms) {
-    const QString sign = *figures.skew_ms < 0.0 ? "" : "+";
-    text.skew = QObject::tr("skew %1%2 ms").arg(sign).arg(*figures.skew_ms, 0, 'f', 1);
+    constexpr double kTenths = 10.0;
+    const double shown_ms = std::round(*figures.skew_ms * kTenths) / kTenths + 0.0;  // no "-0.0"
+    text.skew = QObject::tr("skew %1%2 ms").arg(shown_ms > 0.0 ? "+" : "").arg(shown_ms, 0, 'f', 1);
   }
   if (figures.light) text.light = LightText(*figures.light);
   text.trouble = TroubleOf(tile);

@@ -39,8 +39,9 @@ void RenderWorker::Run() {
         const std::lock_guard lock(driver_mutex_);
         driver_ = renderer->driver();
       }
-      const recon::gl::Scene scene =
+      recon::gl::Scene scene =
           composer.Compose(*request->result, ViewOf(*request), request->look, request->hull_scale);
+      if (!request->is_smooth) scene.smoothness = recon::gl::Smoothness::kOneSample;
       on_image_(renderer->Render(scene), *request);
       last = *request;
     } catch (const std::exception& error) {  // the worker's outermost loop: nothing may escape a thread

@@ -21,6 +21,7 @@ struct RenderRequest {
   int width_px = 640;
   int height_px = 480;
   double hull_scale = 1.0;  // as SceneComposer::Compose
+  bool is_smooth = true;    // four samples a pixel; false: one, which is drawn sooner
   SceneLook look;
 };
 

@@ -1,14 +1,14 @@
-// The console's parts on their own: bridge, silhouettes, contact list, frame rate, start without a display.
+// The console's parts on their own: bridge, tiles' texts, contact list, frame rate, start without a display.
 #include <gtest/gtest.h>
 
 #include <QCoreApplication>
+#include <QLocale>
 #include <QTest>
 #include <QThread>
 #include <QTimer>
 #include <algorithm>
 #include <filesystem>
 #include <map>
-#include <random>
 #include <semaphore>
 #include <thread>
 
@@ -17,9 +17,8 @@
 #include "app/console/console_main.h"
 #include "app/console/contact_model.h"
 #include "app/console/frame_rate.h"
-#include "app/console/palette.h"
 #include "app/console/picture_pace.h"
-#include "app/console/silhouette_picture.h"
+#include "app/console/tile_text.h"
 #include "app/console/trial_actions.h"
 #include "core/error.h"
 #include "tests/app/stall_watch.h"
@@ -107,44 +106,40 @@ TEST(BackgroundJob, TellsItsWorkToStop) {
   EXPECT_TRUE(QTest::qWaitFor([&] { return is_done; }, kPatienceMs));
 }
 
-// Mean of a picture's grey levels as a share of the way from background to object.
-double ObjectShare(const QImage& picture) {
-  double sum = 0.0;
-  for (int y = 0; y < picture.height(); ++y) {
-    for (int x = 0; x < picture.width(); ++x) sum += qRed(picture.pixel(x, y));
-  }
-  const double mean = sum / (picture.width() * picture.height());
-  return (mean - kSilhouetteBackground.red()) / (kSilhouetteObject.red() - kSilhouetteBackground.red());
-}
+TEST(TileText, SaysWhatIsKnownAndNoMore) {
+  control::CameraTile tile;
+  tile.name = "cam1";
+  tile.object_px = 12345;
+  const TileText recorded = TextOf(tile);
+  EXPECT_EQ(recorded.rate, QLocale().toString(12345) + " px");
+  EXPECT_TRUE(recorded.lost.isEmpty() && recorded.skew.isEmpty() && recorded.light.isEmpty() &&
+              recorded.advice.isEmpty() && recorded.trouble.isEmpty());
 
-TEST(SilhouettePicture, KeepsTheShareOfObjectPixelsOfAnyMask) {
-  constexpr double kRounding = 1.0 / 200.0;  // a grey level of the 208 between the two colours
-  std::mt19937 random(20010404);
-  for (const auto& [width_px, height_px] : {std::pair{640, 480}, {1280, 720}, {64, 64}, {256, 100}}) {
-    core::BitMask mask(width_px, height_px);
-    for (int y = 0; y < height_px; ++y) {
-      for (int x = 0; x < width_px; ++x) mask.Set(x, y, random() % 3 == 0);
-    }
-    const QImage picture = SilhouettePicture(mask, 160);
-    EXPECT_LE(picture.width(), 160);
-    const double share = static_cast<double>(mask.CountObjectPixels()) / (width_px * height_px);
-    EXPECT_NEAR(ObjectShare(picture), share, kRounding) << width_px;
-  }
-}
+  tile.figures.rate_hz = 29.97;
+  tile.figures.lost = 3;
+  tile.figures.skew_ms = 2.14;
+  tile.figures.light = recon::LightReport();
+  tile.figures.light->gain = 0.966;
+  TileText live = TextOf(tile);
+  EXPECT_EQ(live.rate, "30.0 Hz");
+  EXPECT_EQ(live.lost, "lost 3");
+  EXPECT_EQ(live.skew, "skew +2.1 ms");
+  EXPECT_EQ(live.light, "light 97 %");
+  tile.figures.skew_ms = -0.04;
+  EXPECT_EQ(TextOf(tile).skew, "skew 0.0 ms");
+  tile.figures.skew_ms = -2.16;
+  EXPECT_EQ(TextOf(tile).skew, "skew -2.2 ms");
 
-TEST(SilhouettePicture, ShowsEachPixelInItsPlaceWhereItNeedNotShrink) {
-  core::BitMask mask(70, 3);
-  mask.Set(0, 0, true);
-  mask.Set(65, 1, true);
-  mask.Set(69, 2, true);
-  const QImage picture = SilhouettePicture(mask, 100);
-  ASSERT_EQ(picture.size(), QSize(70, 3));
-  for (int y = 0; y < 3; ++y) {
-    for (int x = 0; x < 70; ++x) {
-      const QColor expected = mask.At(x, y) ? kSilhouetteObject : kSilhouetteBackground;
-      EXPECT_EQ(picture.pixelColor(x, y), expected) << x << ", " << y;
-    }
-  }
+  tile.figures.light->pulse = recon::LightPulse{0.05, 10.0, 100.0, true, true};
+  tile.figures.light->advice = {"camera 'cam1': lamps on 50 Hz mains flicker by 5 %"};
+  tile.is_missing = true;
+  live = TextOf(tile);
+  EXPECT_EQ(live.light, "light 97 %, flicker 5 %");
+  EXPECT_FALSE(live.advice.isEmpty());
+  EXPECT_TRUE(live.tool_tip.contains("50 Hz mains"));
+  EXPECT_EQ(live.trouble, "no picture");
+  tile.gone = "it sends nothing";
+  EXPECT_EQ(TextOf(tile).trouble, "gone: it sends nothing");
 }
 
 control::FrameResult TwoPartsWith(core::Verdict first, core::Verdict second) {
@@ -200,7 +195,7 @@ TEST(PicturePace, CoarsensPicturesOnASlowMachineAndRefinesThemAgain) {
   const auto draw = [&](double finest_ms) {
     for (int i = 0; i < 20; ++i) pace.Add(finest_ms * pace.fineness().relative_cost);
   };
-  for (const double finest_ms : {200.0, 300.0, 450.0, 600.0, 900.0}) {
+  for (const double finest_ms : {200.0, 300.0, 450.0, 600.0, 800.0}) {
     draw(finest_ms);
     EXPECT_LE(finest_ms * pace.fineness().relative_cost, PicturePace::kAimMs);
     const PictureFineness settled = pace.fineness();

@@ -12,6 +12,7 @@
 #include "tests/sessions/sample_session.h"
 #include "tests/sessions/sample_trial.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/text_file.h"
 
 namespace elbowroom::tests {
 namespace {

@@ -22,6 +22,21 @@ cv::Size SizeWithin(const core::BitMask& mask, const ThumbnailRoom& room) {
   return {scaled(mask.width_px()), scaled(mask.height_px())};
 }
 
+// The mean of the pixels that each small one covers. Halving first is several times quicker than one step.
+cv::Mat Shrunk(const cv::Mat& image, const cv::Size& size) {
+  cv::Mat shrunk = image;
+  while (shrunk.cols >= 2 * size.width && shrunk.rows >= 2 * size.height && shrunk.cols % 2 == 0 &&
+         shrunk.rows % 2 == 0) {
+    cv::Mat half;
+    cv::resize(shrunk, half, shrunk.size() / 2, 0.0, 0.0, cv::INTER_AREA);
+    shrunk = half;
+  }
+  if (shrunk.size() == size) return shrunk;
+  cv::Mat fitted;
+  cv::resize(shrunk, fitted, size, 0.0, 0.0, cv::INTER_AREA);
+  return fitted;
+}
+
 cv::Vec3b Pixel(const ThumbnailColor& color) { return {color[0], color[1], color[2]}; }
 
 // From background to object by `share`, 8 bits.
@@ -62,14 +77,12 @@ recon::Image ThumbnailOf(const cv::Mat& image_bgr, const core::BitMask& mask, co
                 "a thumbnail's picture has its mask's size");
   if (room.is_empty() || mask.width_px() == 0 || mask.height_px() == 0) return {};
   const cv::Size size = SizeWithin(mask, room);
-  cv::Mat share, rgb;
-  cv::resize(recon::ImageFromMask(mask), share, size, 0.0, 0.0, cv::INTER_AREA);
+  const cv::Mat share = Shrunk(recon::ImageFromMask(mask), size);
+  cv::Mat rgb;
   if (image_bgr.empty()) {
     rgb = Tinted(share);
   } else {
-    cv::Mat small_bgr;
-    cv::resize(image_bgr, small_bgr, size, 0.0, 0.0, cv::INTER_AREA);
-    cv::cvtColor(small_bgr, rgb, cv::COLOR_BGR2RGB);
+    cv::cvtColor(Shrunk(image_bgr, size), rgb, cv::COLOR_BGR2RGB);
   }
   DrawOutline(share, rgb);
   return {rgb.cols, rgb.rows, {rgb.datastart, rgb.dataend}};

@@ -56,6 +56,7 @@ uniform sampler2D layer_camera_color;
 uniform bool has_camera_color;
 uniform bool is_flat;
 uniform float focal_px;
+uniform float samples_in_pixel;
 uniform mat4 cam_from_world;
 uniform vec3 color;
 out vec4 pixel;
@@ -113,8 +114,8 @@ void main() {
     inverse_depth += weight / max(depth, near_far.x);
     normal_in_world += weight * texelFetch(layer_normal, min(texel, textureSize(layer_normal, 0) - 1), 0).xyz;
   }
-  // Whole samples, a little less than k / 4 each: drivers round up, to the nearest, or dither.
-  float samples = floor(4.0 * coverage + 0.51);
+  // Whole samples, a little less than k / n each: drivers round up, to the nearest, or dither.
+  float samples = floor(samples_in_pixel * coverage + 0.51);
   if (samples < 1.0) discard;
   vec3 normal = mat3(cam_from_world) * normal_in_world;
   bool unknown = dot(normal, normal) < 0.25 * kept * kept;
@@ -141,7 +142,7 @@ void main() {
   if (is_flat) shown = color * mix(kUnlit, 1.0, light);
   // A camera's picture has the room's light in it; what virtual parts keep away is missing from that.
   shown = mix(shown, vec3(0.0), seen.a) + seen.rgb * mix(kUnlit, 1.0, part_light);
-  pixel = vec4(shown, 0.25 * samples - 0.01);
+  pixel = vec4(shown, samples / samples_in_pixel - 0.01);
   gl_FragDepth = BufferDepth(depth);
 }
 )";
@@ -217,6 +218,7 @@ void HullPainter::Draw(const Scene& scene, const ViewMatrices& matrices, const L
   picture_program_.Use();
   picture_program_.Set("layer_normal", kNormalUnit);
   picture_program_.Set("focal_px", static_cast<float>(matrices.view.focal_px));
+  picture_program_.Set("samples_in_pixel", scene.smoothness == Smoothness::kFourSamples ? 4.0F : 1.0F);
   picture_program_.Set("cam_from_world", matrices.cam_from_world);
   picture_program_.Set("color", scene.hull_color);
   picture_program_.Set("is_flat", scene.hull_appearance == HullAppearance::kFlat ? 1 : 0);

@@ -231,6 +231,15 @@ void PartPainter::DrawEdges(const DrawnPart& drawn, const ViewMatrices& matrices
   glDisable(GL_BLEND);
 }
 
+void PartPainter::DrawOpaqueDepth(std::span<const ScenePart> parts, const ViewMatrices& matrices) {
+  glEnable(GL_POLYGON_OFFSET_FILL);
+  glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    if (parts[i].opacity >= 1.0F) DrawFaceDepth(Drawn(parts, i), matrices);
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  glDisable(GL_POLYGON_OFFSET_FILL);
+}
+
 void PartPainter::DrawOpaque(std::span<const ScenePart> parts, const ViewMatrices& matrices,
                              const Lighting& light) {
   face_program_.Use();

@@ -41,6 +41,8 @@ class PartPainter {
   // PartDetail::kWhole.
   void AwaitLevels();
 
+  // Depths of the opaque parts, so that DrawOpaque shades only what is seen: the same picture.
+  void DrawOpaqueDepth(std::span<const ScenePart> parts, const ViewMatrices& matrices);
   void DrawOpaque(std::span<const ScenePart> parts, const ViewMatrices& matrices, const Lighting& light);
 
   // Back to front. What is drawn later and stands behind a part is hidden.

@@ -36,8 +36,12 @@ struct CameraFrustum {
 // Nothing where the lens's domain doesn't reach the corners of the picture.
 [[nodiscard]] std::optional<CameraFrustum> FrustumOf(const core::CameraModel& camera, double depth_mm);
 
+// Samples a pixel. One is drawn sooner, with jagged edges: software OpenGL takes about half of the time.
+enum class Smoothness { kOneSample, kFourSamples };
+
 struct Scene {
   SceneView view;
+  Smoothness smoothness = Smoothness::kFourSamples;
   std::vector<ScenePart> parts;
   // The hull from the scene's view; null: none. Texel (i, j) of one with the view's own size is pixel (i, j);
   // a smaller one covers the same picture and is scaled up. Normals that are zero, or not there, are taken

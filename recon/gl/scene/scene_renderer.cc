@@ -22,11 +22,16 @@ namespace {
 constexpr int kSamples = 4;  // OpenGL 3.3 promises as many
 
 struct Targets {
-  Framebuffer sampled;
   Framebuffer single;
+  std::optional<Framebuffer> sampled;  // nothing: pictures are drawn into `single`
 
-  Targets(int width_px, int height_px)
-      : sampled(width_px, height_px, kSamples), single(width_px, height_px, 1) {}
+  Targets(const SceneView& view, Smoothness smoothness) : single(view.width_px, view.height_px, 1) {
+    if (smoothness == Smoothness::kFourSamples) sampled.emplace(view.width_px, view.height_px, kSamples);
+  }
+  [[nodiscard]] bool Fit(const SceneView& view, Smoothness smoothness) const {
+    return single.width_px() == view.width_px && single.height_px() == view.height_px &&
+           sampled.has_value() == (smoothness == Smoothness::kFourSamples);
+  }
 };
 
 }  // namespace
@@ -47,7 +52,7 @@ class SceneRenderer::Impl {
   [[nodiscard]] std::thread::id thread() const { return thread_; }
 
  private:
-  [[nodiscard]] const Targets& TargetsFor(const SceneView& view);
+  [[nodiscard]] const Targets& TargetsFor(const SceneView& view, Smoothness smoothness);
 
   EglContext context_;
   std::thread::id thread_ = std::this_thread::get_id();
@@ -59,30 +64,31 @@ class SceneRenderer::Impl {
   std::optional<Targets> targets_;
 };
 
-const Targets& SceneRenderer::Impl::TargetsFor(const SceneView& view) {
-  if (!targets_ || targets_->single.width_px() != view.width_px ||
-      targets_->single.height_px() != view.height_px) {
+const Targets& SceneRenderer::Impl::TargetsFor(const SceneView& view, Smoothness smoothness) {
+  if (!targets_ || !targets_->Fit(view, smoothness)) {
     targets_.reset();
-    targets_.emplace(view.width_px, view.height_px);
+    targets_.emplace(view, smoothness);
   }
   return *targets_;
 }
 
 Image SceneRenderer::Impl::Render(const Scene& scene) {
   const ViewMatrices matrices = MatricesOf(scene.view);
-  const Targets& targets = TargetsFor(scene.view);
+  const Targets& targets = TargetsFor(scene.view, scene.smoothness);
   parts_.Update(scene.parts, scene.view);
   lighting_.Update(scene, parts_);
-  targets.sampled.Bind();
+  (targets.sampled ? *targets.sampled : targets.single).Bind();
   glClear(GL_DEPTH_BUFFER_BIT);
   surroundings_.DrawBackground(scene);
+  // With one sample a pixel that is hidden is found out before it is shaded.
+  if (!targets.sampled) parts_.DrawOpaqueDepth(scene.parts, matrices);
   parts_.DrawOpaque(scene.parts, matrices, lighting_);
   if (scene.hull != nullptr) hull_.Draw(scene, matrices, lighting_);
   surroundings_.DrawTable(scene, matrices, lighting_);
   surroundings_.DrawLines(scene, matrices);
   parts_.DrawTransparent(scene.parts, matrices, lighting_);
   contacts_.Draw(scene.contact_points_in_world, matrices);
-  targets.single.ResolveColourFrom(targets.sampled);
+  if (targets.sampled) targets.single.ResolveColourFrom(*targets.sampled);
   targets.single.BindForReading();
   Image image{scene.view.width_px, scene.view.height_px, {}};
   image.rgb.resize(3 * static_cast<std::size_t>(image.width_px) * static_cast<std::size_t>(image.height_px));
@@ -93,7 +99,7 @@ Image SceneRenderer::Impl::Render(const Scene& scene) {
 
 DepthImage SceneRenderer::Impl::RenderDepth(const Scene& scene) {
   const ViewMatrices matrices = MatricesOf(scene.view);
-  const Targets& targets = TargetsFor(scene.view);
+  const Targets& targets = TargetsFor(scene.view, scene.smoothness);
   parts_.Update(scene.parts, scene.view);
   targets.single.Bind();
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);

@@ -31,7 +31,7 @@ class SceneRenderer {
   SceneRenderer(SceneRenderer&&) noexcept;
   SceneRenderer& operator=(SceneRenderer&&) noexcept;
 
-  // The picture with four samples a pixel. The same scene gives the same bytes on the same driver, but for
+  // The picture. The same scene gives the same bytes on the same driver, but for
   // levels of detail that have come in between.
   // Throws: PreconditionError as Scene::Validate; Error{kGeometry} for a mesh that can't be drawn;
   // Error{kGraphics} when the driver fails, for example when it is out of memory.

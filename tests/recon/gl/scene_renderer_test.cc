@@ -84,9 +84,14 @@ TEST(SceneRenderer, EmptySceneIsItsBackgroundFromTopToBottom) {
   EXPECT_GE(bottom[2], 254);
 }
 
-TEST(SceneRenderer, NearerOfHullAndPartOwnsThePixel) {
+class SceneOfEachSmoothness : public ::testing::TestWithParam<Smoothness> {};
+INSTANTIATE_TEST_SUITE_P(SceneRenderer, SceneOfEachSmoothness,
+                         ::testing::Values(Smoothness::kOneSample, Smoothness::kFourSamples));
+
+TEST_P(SceneOfEachSmoothness, NearerOfHullAndPartOwnsThePixel) {
   SceneRenderer renderer;
   Scene scene = GreyScene();
+  scene.smoothness = GetParam();
   const Eigen::AlignedBox3d box(Eigen::Vector3d(-60, -60, -60), Eigen::Vector3d(60, 60, 60));
   scene.parts.push_back(BluePart(BoxMesh(box.min(), box.max())));
   const Eigen::Vector3d to_eye = scene.view.EyeInWorld().normalized();
@@ -116,6 +121,40 @@ TEST(SceneRenderer, NearerOfHullAndPartOwnsThePixel) {
       EXPECT_EQ(middle, offset_mm > 0.0 ? Owner::kHull : Owner::kPart) << offset_mm;
     }
   }
+}
+
+TEST_P(SceneOfEachSmoothness, HullIsAsLargeAsItsLayer) {
+  SceneRenderer renderer;
+  Scene scene = GreyScene();
+  scene.smoothness = GetParam();
+  const std::vector<Capsule> ball{{{0, 0, 0}, {5, 0, 0}, 100}};
+  scene.hull = CastLayer(scene.view, 320, 240, ball);
+  const Image image = renderer.Render(scene);
+  int hits = 0, owned = 0;
+  for (int y = 0; y < 240; ++y) {
+    for (int x = 0; x < 320; ++x) {
+      hits += CastRay(scene.view, {x, y}, ball) ? 1 : 0;
+      owned += OwnerOf(PixelAt(image, x, y)) == Owner::kHull ? 1 : 0;
+    }
+  }
+  constexpr double kMostOffShare = 0.01;  // a rim that is a third of a pixel too wide would be 0.02
+  EXPECT_NEAR(owned, hits, kMostOffShare * hits);
+}
+
+TEST(SceneRenderer, OneSampleShowsTheSamePictureButForItsEdges) {
+  SceneRenderer renderer;
+  Scene scene = TrialScene(640, 480);
+  const Image smooth = renderer.Render(scene);
+  scene.smoothness = Smoothness::kOneSample;
+  const Image jagged = renderer.Render(scene);
+  scene.smoothness = Smoothness::kFourSamples;
+  EXPECT_EQ(renderer.Render(scene), smooth);
+  EXPECT_NE(jagged, smooth);
+  int off = 0;
+  for (std::size_t i = 0; i < smooth.rgb.size(); ++i)
+    off += std::abs(int{smooth.rgb[i]} - int{jagged.rgb[i]}) > 8;
+  constexpr double kMostEdges = 0.05;  // of the picture's values: outlines and the grid's lines
+  EXPECT_LT(off, kMostEdges * static_cast<double>(smooth.rgb.size()));
 }
 
 TEST(SceneRenderer, LayerWithoutNormalsIsShadedFromItsDepths) {
