@@ -175,6 +175,7 @@ void MainWindow::FollowDesk() {
   connect(desk_, &TrialDesk::Failed, this, &MainWindow::ShowError);
   connect(desk_, &TrialDesk::Progressed, status_, &StatusLine::ShowProgress);
   connect(desk_, &TrialDesk::TrialEnded, messages_, &MessageBar::ShowNote);
+  connect(desk_, &TrialDesk::CameraKnocked, messages_, &MessageBar::ShowError);
   connect(desk_, &TrialDesk::RecordingChanged, this, [this](bool is_well, const QString& line) {
     if (is_well) {
       messages_->ShowNote(line);

@@ -4,6 +4,7 @@
 
 #include "app/control/session_report.h"
 #include "app/control/trial_runner.h"
+#include "app/control/watch/knock_watch.h"
 #include "core/error.h"
 
 namespace elbowroom::console {
@@ -68,6 +69,9 @@ void TrialDesk::Run(control::TrialSetup setup) {
   options.on_recording = [this](const sessions::RecordingNews& news) {
     bridge_.Post([this, is_well = news.state == sessions::RecordingState::kInFile,
                   line = QString::fromStdString(news.line)] { emit RecordingChanged(is_well, line); });
+  };
+  options.on_knock = [this](const control::KnockReport& report) {
+    bridge_.Post([this, line = QString::fromStdString(report.advice)] { emit CameraKnocked(line); });
   };
   options.on_hull = [this](const control::SharedHull& hull) {
     bridge_.PostLatest(Bridge::Stream::kHull, [this, hull] { emit HullArrived(hull); });

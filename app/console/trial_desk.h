@@ -82,6 +82,8 @@ class TrialDesk : public QObject {
   void TilesArrived(const elbowroom::control::SharedTiles& tiles);
   // The place where frames are recorded has changed; is_well: they go into the session file.
   void RecordingChanged(bool is_well, const QString& line);
+  // A camera was turned or moved while the trial runs; the line says which, and what to do.
+  void CameraKnocked(const QString& line);
   void TrialEnded(const QString& note);
   void ReportWritten(const QString& html_file);
   void Progressed(qint64 done, qint64 total, const QString& what);  // total <= 0: not known
