@@ -206,6 +206,21 @@ TEST(PicturePace, CoarsensPicturesOnASlowMachineAndRefinesThemAgain) {
   EXPECT_EQ(pace.fineness(), PicturePace::kFinest);
 }
 
+TEST(PicturePace, OfLiveCamerasGivesUpSmoothEdgesBeforePixels) {
+  PicturePace pace(PicturePace::kLiveAimMs);
+  const auto draw = [&](double finest_ms) {
+    for (int i = 0; i < 20; ++i) pace.Add(finest_ms * pace.fineness().relative_cost);
+  };
+  draw(30.0);
+  EXPECT_EQ(pace.fineness(), PicturePace::kFinest);
+  draw(75.0);
+  EXPECT_FALSE(pace.fineness().is_smooth);
+  EXPECT_EQ(pace.fineness().picture, 1.0);
+  draw(150.0);
+  EXPECT_LT(pace.fineness().picture, 1.0);
+  EXPECT_LE(150.0 * pace.fineness().relative_cost, PicturePace::kLiveAimMs);
+}
+
 TEST(PicturePace, OneSlowPictureChangesNothing) {
   PicturePace pace;
   for (int i = 0; i < 10; ++i) pace.Add(i % 2 == 0 ? 1000.0 : 20.0);
