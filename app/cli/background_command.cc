@@ -61,7 +61,7 @@ std::string BackgroundText(const control::CameraBackground& camera) {
 }
 
 CommandResult Run(const BackgroundCommandOptions& options, const CommandContext& context) {
-  const recon::RigFile rig_file = recon::ReadRigFile(options.rig_file);
+  const recon::RigFile rig_file = recon::ReadRigFile(options.rig_file, recon::RigUse::kPictures);
   control::BackgroundOptions background;
   background.seconds = options.seconds;
   background.countdown_s = options.countdown_s.value_or(::isatty(STDERR_FILENO) != 0 ? kCountdownS : 0.0);

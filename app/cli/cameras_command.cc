@@ -1,9 +1,10 @@
-// elbowroom cameras list|check|record: which live cameras there are, how well those of a rig do, and what
-// they see.
+// elbowroom cameras list|check|record|offsets: which live cameras there are, how well those of a rig do, what
+// they see, and how late each is.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <string>
@@ -11,9 +12,12 @@
 
 #include "app/cli/command.h"
 #include "app/cli/light_json.h"
+#include "app/cli/offsets_command.h"
 #include "app/cli/vector_json.h"
 #include "app/control/cameras/camera_check.h"
 #include "app/control/cameras/camera_recording.h"
+#include "app/control/preflight/preflight.h"
+#include "app/control/preflight/preflight_page.h"
 #include "recon/rig_files/rig_file.h"
 
 namespace elbowroom::cli {
@@ -83,10 +87,19 @@ std::string CameraText(const control::CameraHealth& camera) {
 struct CheckOptions {
   std::filesystem::path rig_file;
   double seconds = 5.0;
+  std::filesystem::path out;
 };
 
+// The page says of the rig as a whole what can be known without its cameras, too.
+std::string WritePage(const CheckOptions& options, const recon::RigFile& rig_file,
+                      const control::RigHealth& health) {
+  std::vector<control::PreflightRow> rows = control::CameraRows(health);
+  std::ranges::move(control::RigRows(rig_file, options.out), std::back_inserter(rows));
+  return control::WritePreflightPage(rig_file.rig.name, rows, health, options.out).string();
+}
+
 CommandResult Check(const CheckOptions& options, const CommandContext& context) {
-  const recon::RigFile rig_file = recon::ReadRigFile(options.rig_file);
+  const recon::RigFile rig_file = recon::ReadRigFile(options.rig_file, recon::RigUse::kPictures);
   const control::RigHealth health =
       control::CheckCameras(rig_file, options.seconds, context.progress, context.stop);
   CommandResult result;
@@ -104,6 +117,12 @@ CommandResult Check(const CheckOptions& options, const CommandContext& context) 
   for (const std::string& warning : health.warnings) result.text += "warning: " + warning + "\n";
   result.text += fmt::format("{} frame sets in {:.1f} s, {} of them lack a camera", health.sets,
                              health.seconds, health.incomplete_sets);
+  result.json["out"] = nullptr;
+  if (!options.out.empty()) {
+    const std::string page = WritePage(options, rig_file, health);
+    result.json["out"] = page;
+    result.text += "\n" + page;
+  }
   return result;
 }
 
@@ -137,7 +156,7 @@ std::string RecordingText(const recon::CameraRecording& camera) {
 }
 
 CommandResult Record(const RecordOptions& options, const CommandContext& context) {
-  const recon::RigFile rig_file = recon::ReadRigFile(options.rig_file);
+  const recon::RigFile rig_file = recon::ReadRigFile(options.rig_file, recon::RigUse::kPictures);
   const control::CamerasRecorded recorded =
       control::RecordCameras(rig_file, options.folder, options.seconds, context.progress, context.stop);
   const recon::FootageRecording& footage = recorded.footage;
@@ -160,12 +179,27 @@ CommandResult Record(const RecordOptions& options, const CommandContext& context
   return result;
 }
 
-CommandResult List(const CommandContext& context) {
+struct ListOptions {
+  std::vector<std::string> more;  // locations of cameras that can't be found
+  std::filesystem::path out;
+  std::vector<int> size_px = {640, 480};
+  double rate_hz = 30.0;
+};
+
+CommandResult List(const ListOptions& options, const CommandContext& context) {
   CommandResult result;
-  const std::vector<std::string> cameras = control::ListCameras(context.stop);
-  result.json = {{"cameras", cameras}};
+  std::vector<std::string> cameras = control::ListCameras(context.stop);
+  cameras.insert(cameras.end(), options.more.begin(), options.more.end());
+  result.json = {{"cameras", cameras}, {"out", nullptr}};
   for (const std::string& camera : cameras) result.text += camera + "\n";
-  if (cameras.empty()) {
+  if (!options.out.empty()) {
+    recon::RigFile rig_file =
+        control::UncalibratedRig(cameras, options.size_px[0], options.size_px[1], options.rate_hz);
+    rig_file.rig.name = options.out.stem().string();
+    recon::WriteRigFile(rig_file, options.out);
+    result.json["out"] = options.out.string();
+    result.text += options.out.string() + "\n";
+  } else if (cameras.empty()) {
     result.text = "no camera was found\n";
     result.hint = "a stream (rtsp://...) can't be found; name its address in RIG.yml";
   }
@@ -179,7 +213,25 @@ void AddCamerasCommand(CLI::App& app, Choice* choice) {
   CLI::App* cameras = app.add_subcommand("cameras", "live cameras");
   cameras->require_subcommand(1);
   CLI::App* list = cameras->add_subcommand("list", "what is plugged in or answers on the network");
-  list->callback([=] { choice->action = List; });
+  auto list_options = std::make_shared<ListOptions>();
+  list->add_option(
+      "--out", list_options->out,
+      "a rig file of these cameras to write, for 'cameras check' and 'cameras record', until they "
+      "are calibrated");
+  constexpr int kMostPx = 65'535;
+  list->add_option("--size", list_options->size_px, "their pictures' size in that file (default: 640x480)")
+      ->delimiter('x')
+      ->expected(2)
+      ->check(CLI::Range(1, kMostPx));
+  constexpr double kFastestHz = 1000.0;
+  list->add_option("--rate", list_options->rate_hz, "their pictures a second in that file (default: 30)")
+      ->check(CLI::Range(0.1, kFastestHz));
+  list->add_option("--add", list_options->more,
+                   "a camera that can't be found, as rtsp://...; may be given several times")
+      ->take_all();
+  list->callback([=] {
+    choice->action = [list_options](const CommandContext& context) { return List(*list_options, context); };
+  });
 
   CLI::App* check =
       cameras->add_subcommand("check", "rate, losses, skew, latency and picture of every camera");
@@ -188,6 +240,8 @@ void AddCamerasCommand(CLI::App& app, Choice* choice) {
   constexpr double kLongestS = 3600.0;
   check->add_option("--seconds", options->seconds, "how long to look (default: 5)")
       ->check(CLI::Range(0.1, kLongestS));
+  check->add_option("--out", options->out,
+                    "a folder for preflight.html: every camera's picture, well or with what to do");
   check->callback([=] {
     choice->action = [options](const CommandContext& context) { return Check(*options, context); };
   });
@@ -205,6 +259,7 @@ void AddCamerasCommand(CLI::App& app, Choice* choice) {
       return Record(*record_options, context);
     };
   });
+  AddOffsetsCommand(*cameras, choice);
 }
 
 }  // namespace elbowroom::cli

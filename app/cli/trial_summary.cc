@@ -9,6 +9,7 @@
 
 #include "app/cli/error_budget_json.h"
 #include "app/cli/light_json.h"
+#include "app/cli/vector_json.h"
 
 namespace elbowroom::cli {
 
@@ -42,6 +43,21 @@ void AddCapture(const control::TrialOutcome& outcome, CommandResult* result) {
       "\n  capture to verdict: {:.1f} ms in the median, {:.1f} ms in 99 %; {} pictures lost, "
       "{} frames lack a camera",
       *median_ms, p99_ms, lost, outcome.frames_without_camera);
+}
+
+void AddKnocks(const control::KnockReport& knocks, CommandResult* result) {
+  result->json["knocks"] = {{"state", ToString(knocks.state)},
+                            {"evidence_s", knocks.evidence_s},
+                            {"frames_compared", knocks.frames_compared},
+                            {"frames_skipped", knocks.frames_skipped},
+                            {"noise_factor", knocks.noise_factor},
+                            {"cameras", knocks.cameras},
+                            {"since_s", OrNull(knocks.since_s)},
+                            {"shift_px", OrNull(knocks.shift_px)},
+                            {"shift_sigma_px", OrNull(knocks.shift_sigma_px)}};
+  if (knocks.advice.empty()) return;
+  result->json["warnings"].push_back(knocks.advice);
+  result->text += "\nwarning: " + knocks.advice;
 }
 
 void AddFootage(const recon::FootageRecording& footage, CommandResult* result) {
@@ -108,6 +124,7 @@ CommandResult SummaryOf(const control::TrialOutcome& outcome, const core::Layout
     result.text += fmt::format(" ({:.1f} ms a frame)", *median_ms);
   }
   AddCapture(outcome, &result);
+  AddKnocks(outcome.knocks, &result);
   if (outcome.footage) AddFootage(*outcome.footage, &result);
   for (core::PartIndex i = 0; i < layout.parts.size(); ++i) {
     const auto episodes =

@@ -123,6 +123,7 @@ class Recording {
         options_(options),
         controls_(controls),
         loss_notes_(setup.source->rig()),
+        knock_watch_(setup.source->rig()),
         writer_(options.session, HeaderOf(setup), WriterOptionsOf(options)) {
     spacing_mm_ = setup.layout.InitialSpacings();
     outcome_.frames_in_contact.assign(setup.layout.parts.size(), 0);
@@ -170,6 +171,8 @@ class Recording {
     FinishLight();
     if (!end_note.empty()) Append(end_note);
     outcome_so_far_.wait();
+    TellOfKnock();
+    outcome_.knocks = knock_watch_.report();
     core::SessionOutcome outcome = tracker_ ? tracker_->Outcome() : core::SessionOutcome();
     outcome_.episodes = outcome.episodes;
     outcome_.near_misses = outcome.near_misses;
@@ -282,16 +285,26 @@ class Recording {
     writer_.Append(core::SessionEvent{last_frame_, last_time_s_, core::Note{note}});
   }
 
-  // Touches and heat maps are brought up to date while the next frame is judged.
+  // When nothing of a frame is under way.
+  void TellOfKnock() {
+    const std::optional<std::string> advice = std::exchange(knock_advice_, std::nullopt);
+    if (!advice) return;
+    Append(*advice);
+    if (options_.on_knock) options_.on_knock(knock_watch_.report());
+  }
+
+  // Touches, heat maps and the watch are brought up to date while the next frame is judged.
   void Record(const SharedFrameResult& shared) {
     const FrameResult& result = *shared;
     last_frame_ = result.record.frame;
     last_time_s_ = result.record.time_s;
     outcome_so_far_.wait();
+    TellOfKnock();
     outcome_so_far_.run(
         [this, shared, tools = std::vector<std::string>(tools_in_use_.begin(), tools_in_use_.end())] {
           tracker_->Add(*shared, tools);
         });
+    outcome_so_far_.run([this, shared] { knock_advice_ = knock_watch_.Add(shared->record); });
     writer_.Append(result.record);
     ++outcome_.frames;
     for (const core::PartContact& contact : result.record.contacts) {
@@ -332,12 +345,14 @@ class Recording {
   const TrialOptions& options_;
   TrialControls& controls_;
   LossNotes loss_notes_;
+  KnockWatch knock_watch_;
+  std::optional<std::string> knock_advice_;  // of the frame before
   sessions::SessionWriter writer_;
   std::vector<recon::BackgroundReference> backgrounds_;  // until the first frame
   std::optional<TrialLight> light_;                      // of live cameras
   std::optional<FramePipeline> pipeline_;
   std::optional<OutcomeTracker> tracker_;  // refers to the pipeline's part trees
-  tbb::task_group outcome_so_far_;         // adds one frame at a time to the tracker
+  tbb::task_group outcome_so_far_;         // adds one frame at a time to tracker and watch
   std::set<std::string> tools_in_use_;
   Pace pace_;
   std::vector<double> spacing_mm_;

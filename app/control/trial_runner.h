@@ -14,6 +14,7 @@
 #include "app/control/light/trial_light.h"
 #include "app/control/trial_controls.h"
 #include "app/control/trial_setup.h"
+#include "app/control/watch/knock_watch.h"
 #include "core/error_budget.h"
 #include "core/progress.h"
 #include "core/session.h"
@@ -47,6 +48,8 @@ struct TrialOptions {
   // Live cameras only: called with each report of a camera's light, every some seconds, on a thread of its
   // own; must not block.
   OnLight on_light;
+  // Called when it is new that a camera was knocked, on the trial's thread; must not block.
+  std::function<void(const KnockReport&)> on_knock;
   core::Progress progress;
 };
 
@@ -72,6 +75,7 @@ struct TrialOutcome {
   // Likewise: the light at the end, one a camera that has a background; and all advice that was given.
   std::vector<recon::LightReport> light;
   std::vector<std::string> light_advice;
+  KnockReport knocks;  // whether a camera was knocked
 };
 
 // Measures the backgrounds, creates the session, then sends each frame through the pipeline and into the

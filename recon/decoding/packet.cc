@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <utility>
 
 #include "core/error.h"
 
@@ -45,9 +46,16 @@ std::optional<Packet> ReceivePacket(const core::Descriptor& socket) {
   message.msg_control = control.data();
   message.msg_controllen = control.size();
   ssize_t size = 0;
+  // A peer that ended with packets unread leaves its last words behind one reset: once it is told, they are
+  // read.
+  bool is_reset = false;
+  const auto is_worth_another_try = [&] {
+    if (errno == EINTR) return true;
+    return errno == ECONNRESET && !std::exchange(is_reset, true);
+  };
   do {
     size = ::recvmsg(socket.number(), &message, MSG_CMSG_CLOEXEC);
-  } while (size < 0 && errno == EINTR);
+  } while (size < 0 && is_worth_another_try());
   if (size <= 0) return std::nullopt;
   Packet packet{std::string(buffer.data(), static_cast<std::size_t>(size)), {}};
   for (cmsghdr* header = CMSG_FIRSTHDR(&message); header != nullptr; header = CMSG_NXTHDR(&message, header)) {

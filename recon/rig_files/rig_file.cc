@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -109,6 +110,22 @@ core::CameraModel ReadCamera(const YamlSection& section, const std::string& name
   }
 }
 
+constexpr const char* kPoseKeys[] = {"camera_matrix", "rotation_cam_from_world",
+                                     "translation_cam_from_world_mm"};
+
+bool SaysNothingOfCalibration(const YamlSection& section) {
+  return std::ranges::none_of(kPoseKeys, [&](const char* key) { return section.Find(key) != nullptr; });
+}
+
+core::CameraModel ReadUncalibrated(const YamlSection& section, const std::string& name) {
+  try {
+    return PlaceholderCamera(name, section.Integer("image_width", kPixels),
+                             section.Integer("image_height", kPixels));
+  } catch (const Error& error) {
+    YamlSection{section.node, section.file}.Fail(error.what(), error.kind());  // the message names the camera
+  }
+}
+
 Eigen::AlignedBox3d ReadWorkspace(const YamlSection& section) {
   constexpr const char* kShape = "[x0,y0,z0,x1,y1,z1] in millimetres";
   const std::vector<double> n = Lengths(section, "workspace_mm", 0, 6, kShape, ErrorKind::kRange);
@@ -170,7 +187,7 @@ CaptureSettings ReadCapture(const YamlSection& camera, const core::CameraModel& 
   return settings;
 }
 
-void AddCamera(const YamlNode& node, const std::string& file, const std::filesystem::path& folder,
+void AddCamera(const YamlNode& node, const std::string& file, const std::filesystem::path& folder, RigUse use,
                RigFile& rig_file) {
   YamlSection section{&node, file, fmt::format("camera number {}", rig_file.sources.size() + 1)};
   if (node.kind != YamlKind::kMap) section.Fail("must be a map of keys such as name and camera_matrix");
@@ -184,7 +201,14 @@ void AddCamera(const YamlNode& node, const std::string& file, const std::filesys
   for (const core::CameraModel& other : rig_file.rig.cameras) {
     if (other.name() == name) section.Fail("this name occurs twice; give every camera its own");
   }
-  rig_file.rig.cameras.push_back(ReadCamera(section, name, true));
+  if (SaysNothingOfCalibration(section)) {
+    if (use == RigUse::kMeasure)
+      section.Fail(
+          "not calibrated yet (no camera_matrix, no pose); 'elbowroom calibrate' does it");
+    rig_file.is_calibrated = false;
+  }
+  rig_file.rig.cameras.push_back(SaysNothingOfCalibration(section) ? ReadUncalibrated(section, name)
+                                                                   : ReadCamera(section, name, true));
   rig_file.sources.push_back({ResolvedLocation(section.TextOr("frames", ""), folder),
                               ResolvedLocation(section.TextOr("background", ""), folder),
                               ResolvedLocation(section.TextOr("masks", ""), folder),
@@ -298,7 +322,16 @@ core::RigQuality QualityOf(const RigFile& rig_file) {
   return quality;
 }
 
-RigFile ReadRigFile(const std::filesystem::path& path) {
+core::CameraModel PlaceholderCamera(const std::string& name, int width_px, int height_px) {
+  core::CameraCalibration calibration;
+  calibration.name = name;
+  calibration.image_width_px = width_px;
+  calibration.image_height_px = height_px;
+  calibration.camera_matrix << width_px, 0.0, 0.5 * width_px, 0.0, width_px, 0.5 * height_px, 0.0, 0.0, 1.0;
+  return core::CameraModel(std::move(calibration));
+}
+
+RigFile ReadRigFile(const std::filesystem::path& path, RigUse use) {
   const std::string file = fmt::format("rig file '{}'", path.string());
   const std::filesystem::path folder = std::filesystem::absolute(path).parent_path();
   const YamlNode document = ReadYamlFile(path, file, "rig file");
@@ -306,20 +339,23 @@ RigFile ReadRigFile(const std::filesystem::path& path) {
   root.RefuseMisspelt(kRigKeys);
   RigFile rig_file;
   rig_file.rig.name = root.TextOr("rig_name", path.stem().string());
-  rig_file.rig.workspace_mm = ReadWorkspace(root);
   rig_file.rig.unseen = ReadUnseen(root);
   const YamlNode& cameras = root.Get("cameras", "a list with one entry a camera");
   if (cameras.kind != YamlKind::kList) root.Fail("key 'cameras' must be a list with one entry a camera");
   if (cameras.items.size() > core::kMostCameras)
     root.Fail(fmt::format("{} cameras are more than can be used; list at most {}", cameras.items.size(),
                           core::kMostCameras));
-  for (const YamlNode& camera : cameras.items) AddCamera(camera, file, folder, rig_file);
+  for (const YamlNode& camera : cameras.items) AddCamera(camera, file, folder, use, rig_file);
+  if (rig_file.is_calibrated || root.Find("workspace_mm") != nullptr)
+    rig_file.rig.workspace_mm = ReadWorkspace(root);
+  else
+    rig_file.rig.workspace_mm = {Eigen::Vector3d::Constant(-1.0), Eigen::Vector3d::Constant(1.0)};
   try {
     rig_file.rig.Validate();
   } catch (const Error& error) {
     throw Error(error.kind(), file + ": " + error.what());
   }
-  rig_file.calibration = ReadCalibration(root, rig_file.rig);
+  if (rig_file.is_calibrated) rig_file.calibration = ReadCalibration(root, rig_file.rig);
   rig_file.gauge = ReadGauge(root);
   return rig_file;
 }

@@ -45,6 +45,14 @@ struct RigFile {
   std::vector<CameraSources> sources = {};  // one a camera
   std::optional<RigCalibration> calibration = std::nullopt;
   std::optional<core::RigGauge> gauge = std::nullopt;
+  // False: lenses, places and workspace are placeholders, which the file doesn't have.
+  bool is_calibrated = true;
+};
+
+// What a rig file is read for.
+enum class RigUse {
+  kMeasure,   // the cameras must be calibrated
+  kPictures,  // they need not be: pictures are looked at, or recorded
 };
 
 // What verdicts need to know of it.
@@ -54,7 +62,10 @@ struct RigFile {
 // Error{kFormat} for a missing or wrong key, Error{kRange} for a workspace that is empty or too large,
 // Error{kCamera} for a camera that can't exist (singular matrix, no rotation, wrong number of coefficients).
 // All name the file, and the camera and the key where there is one.
-[[nodiscard]] RigFile ReadRigFile(const std::filesystem::path& path);
+[[nodiscard]] RigFile ReadRigFile(const std::filesystem::path& path, RigUse use = RigUse::kMeasure);
+
+// A camera that isn't calibrated yet: a lens of a usual angle, at a place of no meaning.
+[[nodiscard]] core::CameraModel PlaceholderCamera(const std::string& name, int width_px, int height_px);
 
 // What VIEW.yml says.
 struct ViewFile {
@@ -69,8 +80,9 @@ struct ViewFile {
 // of more than 40 million pixels.
 [[nodiscard]] ViewFile ReadViewFile(const std::filesystem::path& path);
 
-// Writes the whole file or nothing; every number reads back exactly. Sources below the file's folder become
-// relative to it. Throws: Error{kFile}; PreconditionError unless `sources` has one entry a camera.
+// Writes the whole file or nothing; every number reads back exactly. Placeholders aren't written. Sources
+// below the file's folder become relative to it. Throws: Error{kFile}; PreconditionError unless `sources` has
+// one entry a camera.
 void WriteRigFile(const RigFile& rig_file, const std::filesystem::path& path);
 
 // Puts the gauge into an existing rig file in place of the one that it has, and keeps all the rest as it is,

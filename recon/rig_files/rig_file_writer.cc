@@ -52,13 +52,15 @@ std::string Matrix3Text(const char* key, const Eigen::Matrix3d& matrix) {
   return MatrixText(key, 3, 3, {by_rows.data(), 9});
 }
 
-std::string CameraText(const core::CameraCalibration& c) {
+std::string CameraText(const core::CameraCalibration& c, bool is_calibrated) {
   const std::vector<double>& d = c.distortion_coefficients;
   // An empty !!opencv-matrix can't be read back; no distortion is a list of zeros.
   const std::vector<double> coefficients = d.empty() ? std::vector<double>(4, 0.0) : d;
-  return fmt::format("   -\n      name: {}\n      image_width: {}\n      image_height: {}\n", Quoted(c.name),
-                     c.image_width_px, c.image_height_px) +
-         Matrix3Text("camera_matrix", c.camera_matrix) +
+  const std::string size =
+      fmt::format("   -\n      name: {}\n      image_width: {}\n      image_height: {}\n", Quoted(c.name),
+                  c.image_width_px, c.image_height_px);
+  if (!is_calibrated) return size;
+  return size + Matrix3Text("camera_matrix", c.camera_matrix) +
          fmt::format("      distortion_model: \"{}\"\n", core::ToString(c.distortion_model)) +
          MatrixText("distortion_coefficients", 1, static_cast<int>(coefficients.size()), coefficients) +
          Matrix3Text("rotation_cam_from_world", c.cam_from_world.rotation) +
@@ -151,11 +153,12 @@ void WriteRigFile(const RigFile& rig_file, const std::filesystem::path& path) {
   const std::filesystem::path folder = std::filesystem::absolute(path).parent_path();
   const Eigen::Vector3d low = rig.workspace_mm.min(), high = rig.workspace_mm.max();
   const double workspace[] = {low.x(), low.y(), low.z(), high.x(), high.y(), high.z()};
-  std::string text = fmt::format("%YAML:1.0\n---\nrig_name: {}\nworkspace_mm: {}\nunseen: \"{}\"\ncameras:\n",
-                                 Quoted(rig.name), NumberList(workspace),
-                                 rig.unseen == core::UnseenPolicy::kAbstain ? "abstain" : "outside");
+  std::string text = fmt::format("%YAML:1.0\n---\nrig_name: {}\n", Quoted(rig.name));
+  if (rig_file.is_calibrated) text += fmt::format("workspace_mm: {}\n", NumberList(workspace));
+  text += fmt::format("unseen: \"{}\"\ncameras:\n",
+                      rig.unseen == core::UnseenPolicy::kAbstain ? "abstain" : "outside");
   for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
-    text += CameraText(rig.cameras[i].calibration());
+    text += CameraText(rig.cameras[i].calibration(), rig_file.is_calibrated);
     const auto add = [&](const char* key, const std::string& location) {
       if (!location.empty())
         text += fmt::format("      {}: {}\n", key, Quoted(LocationSeenFrom(location, folder)));

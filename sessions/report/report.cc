@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <system_error>
 #include <tuple>
 
 #include "core/error.h"
@@ -44,8 +45,12 @@ void WriteReport(const SessionReader& session, const ReportPictures& pictures,
       {"report.html", ReportPage(data, pictures)},
       {"contacts.csv", ContactsCsv(data.header.layout, data.contacts)},
       {"clearance.csv", ClearanceCsv(data.header, session.clearances())}};
-  if (!data.stamps.empty()) files.emplace("stamps.csv", StampsCsv(data.header.rig, data.stamps));
+  constexpr const char* kStampsFile = "stamps.csv";
+  if (!data.stamps.empty()) files.emplace(kStampsFile, StampsCsv(data.header.rig, data.stamps));
   WriteWholeFiles(out_dir, files);
+  // One of an earlier report in the same folder is of another session.
+  std::error_code ignored;
+  if (data.stamps.empty()) std::filesystem::remove(out_dir / kStampsFile, ignored);
 }
 
 }  // namespace elbowroom::sessions

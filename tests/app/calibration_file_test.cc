@@ -95,6 +95,28 @@ pixels = [{ camera = "cam1", from_px = [10.5, 20], to_px = [300, 21] },
   EXPECT_EQ(file.lengths[1].pixels[1].to_px, Eigen::Vector2d(301, 25));
 }
 
+TEST(ReadCalibrationFile, TakesLiveCamerasByName) {
+  const CalibrationText text;
+  WriteText(text.folder() / "cameras.yml", R"(%YAML:1.0
+---
+cameras:
+  - { name: "cam2", image_width: 64, image_height: 48, frames: "gige:two" }
+  - { name: "cam1", image_width: 64, image_height: 48, frames: "gige:one", capture: { rate_hz: 20, gain_db: 1 } }
+)");
+  const std::string live = "live = \"cameras.yml\"\n";
+  const CalibrationFile file = text.Read(live + kBoard + kCameras + kWorld);
+  EXPECT_EQ(file.cameras[0].trial.frames, "gige:one");
+  EXPECT_EQ(file.cameras[0].trial.capture.rate_hz, 20.0);
+  EXPECT_EQ(file.cameras[0].trial.capture.gain_db, 1.0);
+  EXPECT_EQ(file.cameras[1].trial.frames, "gige:two");
+  const std::string third = "[[camera]]\nname = \"cam3\"\nframes = \"cam3/board.avi\"\n";
+  EXPECT_NE(text.ErrorOf(live + kBoard + kCameras + third + kWorld).find("without a camera 'cam3'"),
+            std::string::npos);
+  const std::string both = "[[camera]]\nname = \"cam1\"\nframes = \"b.avi\"\ntrial_frames = \"t.avi\"\n";
+  EXPECT_NE(text.ErrorOf(live + kBoard + both + kWorld).find("both say where the pictures of camera 'cam1'"),
+            std::string::npos);
+}
+
 TEST(ReadCalibrationFile, WhatIsWrongIsOneLineThatNamesThePlace) {
   const CalibrationText text;
   const std::string board(kBoard), cameras(kCameras), world(kWorld);

@@ -12,6 +12,7 @@
 #include "tests/sessions/sample_session.h"
 #include "tests/sessions/sample_trial.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/text_file.h"
 
 namespace elbowroom::tests {
 namespace {
@@ -127,6 +128,8 @@ TEST(Report, TellsTheCamerasSkewAndWhichFramesLackWhichCamera) {
 TEST(Report, SaysNothingOfSkewWhereNoCameraHasStamps) {
   const TemporaryFolder folder;
   WriteTrial(folder / "s.db", UsualTrial());
+  fs::create_directories(folder / "out");
+  test_support::WriteText(folder / "out" / "stamps.csv", "of an earlier report");
   const std::string html = ReportOf(folder / "s.db", folder / "out");
   EXPECT_EQ(html.find("Missing in frames"), std::string::npos);
   EXPECT_EQ(html.find("stamps.csv"), std::string::npos);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -178,12 +179,29 @@ void RequireNames(const TomlEntry& root, const CalibrationFile& calibration) {
   }
 }
 
+// Where the calibrated cameras bring their pictures from in a trial, and what they are set to.
+void TakeLiveCameras(const TomlEntry& root, const recon::RigFile& live, CalibrationFile* calibration) {
+  for (CameraFootage& camera : calibration->cameras) {
+    const auto same =
+        std::ranges::find(live.rig.cameras, camera.name, [](const core::CameraModel& c) { return c.name(); });
+    if (same == live.rig.cameras.end())
+      root.Fail("live", fmt::format("names a file without a camera '{}'", camera.name));
+    if (!camera.trial.frames.empty())
+      root.Fail("live", fmt::format("and trial_frames both say where the pictures of camera '{}' come from",
+                                    camera.name));
+    const recon::CameraSources& sources =
+        live.sources[static_cast<std::size_t>(same - live.rig.cameras.begin())];
+    camera.trial.frames = sources.frames;
+    camera.trial.capture = sources.capture;
+  }
+}
+
 }  // namespace
 
 CalibrationFile ReadCalibrationFile(const std::filesystem::path& path) {
   const toml::table table = cad_import::ParseTomlFile(path, "calibration file");
   const std::string file = path.string();
-  const TomlEntry root(table, file, "", {"board", "camera", "world", "known_length"});
+  const TomlEntry root(table, file, "", {"board", "camera", "world", "known_length", "live"});
   const std::filesystem::path folder = std::filesystem::absolute(path).parent_path();
   CalibrationFile calibration;
   calibration.board = ReadBoard(root, file);
@@ -193,6 +211,8 @@ CalibrationFile ReadCalibrationFile(const std::filesystem::path& path) {
   if (calibration.cameras.size() > core::kMostCameras)
     root.Fail("camera", fmt::format("occurs {} times; at most {} cameras can be used",
                                     calibration.cameras.size(), core::kMostCameras));
+  if (const std::string live = root.TextOr("live", ""); !live.empty())
+    TakeLiveCameras(root, recon::ReadRigFile(folder / live, recon::RigUse::kPictures), &calibration);
   for (const TomlEntry& entry : root.Entries("known_length", kLengthKeys))
     calibration.lengths.push_back(ReadLength(entry));
   ReadWorld(root, file, &calibration);

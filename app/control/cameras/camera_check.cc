@@ -16,6 +16,7 @@
 #include "recon/capture/camera_list.h"
 #include "recon/capture/live_rig.h"
 #include "recon/capture/rig_source.h"
+#include "recon/rig_files/source_location.h"
 
 namespace elbowroom::control {
 namespace {
@@ -38,7 +39,8 @@ struct Tally {
   Clock::time_point first_at, last_at;
   std::optional<recon::StampSource> stamps;
   std::vector<double> latency_ms, skew_ms;
-  cv::Mat latest;
+  cv::Mat latest;     // not looked at yet; empty: all are
+  cv::Mat looked_at;  // the last one that was
   double level_sum = 0.0, saturated_sum = 0.0, sharpness_sum = 0.0;
   std::int64_t looks = 0;
 
@@ -118,6 +120,7 @@ class Check {
       camera.mean_level = tally.level_sum / looks;
       camera.saturated_share = tally.saturated_sum / looks;
       camera.sharpness = tally.sharpness_sum / looks;
+      camera.picture = (tally.latest.empty() ? tally.looked_at : tally.latest).clone();
       camera.light = light_.Report(i);
       health.cameras.push_back(std::move(camera));
     }
@@ -172,7 +175,7 @@ class Check {
       {
         const std::lock_guard lock(mutex_);
         if (tally.frames < tally.looks * kFramesBetweenLooks || tally.latest.empty()) continue;
-        picture = std::exchange(tally.latest, cv::Mat());
+        picture = tally.looked_at = std::exchange(tally.latest, cv::Mat());
       }
       Tally look;
       look.Look(picture);
@@ -224,5 +227,27 @@ RigHealth CheckCameras(const recon::RigFile& rig_file, double seconds, const cor
 }
 
 std::vector<std::string> ListCameras(const std::stop_token& stop) { return recon::FindLiveCameras(stop); }
+
+recon::RigFile UncalibratedRig(const std::vector<std::string>& cameras, int width_px, int height_px,
+                               double rate_hz) {
+  recon::RigFile rig_file;
+  rig_file.is_calibrated = false;
+  for (const std::string& camera : cameras) {
+    const std::string location = camera.substr(0, camera.find(" ("));
+    if (!recon::IsLive(location))
+      throw core::Error(core::ErrorKind::kFormat,
+                        fmt::format("'{}' is no live camera; name it as 'v4l2:/dev/video0', 'gige:NAME' or "
+                                    "'rtsp://...'",
+                                    location));
+    rig_file.rig.cameras.push_back(
+        recon::PlaceholderCamera(fmt::format("cam{}", rig_file.sources.size() + 1), width_px, height_px));
+    rig_file.sources.emplace_back().frames = location;
+    rig_file.sources.back().capture.rate_hz = rate_hz;
+  }
+  if (cameras.empty())
+    throw core::Error(core::ErrorKind::kFormat,
+                      "no camera was found; plug one in, or name a stream with --add rtsp://...");
+  return rig_file;
+}
 
 }  // namespace elbowroom::control

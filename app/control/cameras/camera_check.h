@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <map>
+#include <opencv2/core/mat.hpp>
 #include <optional>
 #include <stop_token>
 #include <string>
@@ -32,6 +33,7 @@ struct CameraHealth {
   double saturated_share = 0.0;  // of pixels with a channel at 255
   // Variance of the Laplacian of the grey picture, levels^2: it falls when the lens is out of focus.
   double sharpness = 0.0;
+  cv::Mat picture;                          // the last one that came, as it was; empty: none
   std::optional<recon::LightReport> light;  // against the rig's background; nothing: it has none
   std::vector<std::string> advice;          // what to do about it, a line each; empty: all is well
 
@@ -60,5 +62,10 @@ void RequireLiveRig(const recon::RigFile& rig_file);
 
 // What is plugged in or answers on the network, as RIG.yml names it, with more words in brackets.
 [[nodiscard]] std::vector<std::string> ListCameras(const std::stop_token& stop);
+
+// A rig of the cameras at these locations (as ListCameras gives them, or streams), called cam1, cam2, ...,
+// that aren't calibrated yet. Throws: Error{kFormat} for no camera, or for one that isn't live.
+[[nodiscard]] recon::RigFile UncalibratedRig(const std::vector<std::string>& cameras, int width_px,
+                                             int height_px, double rate_hz);
 
 }  // namespace elbowroom::control

@@ -57,6 +57,14 @@ void Summarise(GaugeOutcome* outcome) {
         "view");
 }
 
+std::string LackingCamera(const recon::FrameSet& pictures, const core::Rig& rig) {
+  for (std::size_t i = 0; i < pictures.cameras.size(); ++i) {
+    const recon::CameraFrame& camera = pictures.cameras[i];
+    if (camera.image_bgr.empty() && !camera.ready_mask) return rig.cameras[i].name();
+  }
+  return "";
+}
+
 void AddWarnings(const GaugeFrames& frames, GaugeOutcome* outcome) {
   const auto& calibration = frames.rig_file.calibration;
   if (!calibration || calibration->covariance.size() == 0)
@@ -86,7 +94,7 @@ GaugeFrames ReadGaugeFrames(const std::filesystem::path& rig_file, std::vector<c
                             const core::Progress& progress, const std::stop_token& stop) {
   std::ranges::sort(frames);
   frames.erase(std::ranges::unique(frames).begin(), frames.end());
-  GaugeFrames result{recon::ReadRigFile(rig_file), {}, std::move(frames), {}};
+  GaugeFrames result{recon::ReadRigFile(rig_file), {}, std::move(frames), {}, {}};
   recon::RecordedRig source(result.rig_file, stop);
   std::optional<recon::FrameSegmenter> segmenter;
   for (const core::FrameIndex frame : result.frames) {
@@ -98,6 +106,7 @@ GaugeFrames ReadGaugeFrames(const std::filesystem::path& rig_file, std::vector<c
     if (!segmenter)
       segmenter.emplace(source.ReadBackgrounds(progress, stop), recon::SegmentationOptions(), source.rig());
     result.masks.push_back(segmenter->SegmentSoft(pictures));
+    result.lacking_camera.push_back(LackingCamera(pictures, source.rig()));
   }
   result.planes = recon::MakeUndistortedPlanes(result.rig_file.rig);
   return result;
@@ -114,6 +123,10 @@ GaugeOutcome GaugeRig(const GaugeFrames& frames, const TrueRod& truth, const cor
     progress.Report(static_cast<std::int64_t>(from), static_cast<std::int64_t>(results.size()),
                     "places measured");
     tbb::parallel_for(from, std::min(from + kFramesAtOnce, results.size()), [&](std::size_t i) {
+      if (const std::string& camera = frames.lacking_camera[i]; !camera.empty()) {
+        results[i].reason = fmt::format("the picture of camera '{}' is missing", camera);
+        return;
+      }
       results[i] =
           recon::GaugeRod(frames.rig_file.rig, frames.planes, frames.masks[i], covariance, truth.diameter_mm);
     });

@@ -29,6 +29,8 @@ struct GaugeFrames {
   recon::UndistortedPlanes planes;
   std::vector<core::FrameIndex> frames;
   std::vector<std::vector<core::SoftMask>> masks;  // by frame, one a camera
+  // By frame: a camera whose picture is missing in it; "": none. Such a frame isn't measured.
+  std::vector<std::string> lacking_camera;
 };
 
 // In ascending order, each once. Throws: core::Error for the rig's files and for a frame that they don't

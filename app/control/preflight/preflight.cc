@@ -61,6 +61,12 @@ PreflightRow CalibrationRow(const recon::RigFile& rig_file) {
     row.advice = {"Calibrate the rig again, and gauge it: until then no part will be near or clear"};
     return row;
   }
+  if (!rig_file.is_calibrated) {
+    row.state = PreflightState::kFault;
+    row.finding = "the cameras aren't calibrated yet";
+    row.advice = {"Record the board with 'cameras record', and calibrate"};
+    return row;
+  }
   if (!rig_file.calibration) {
     row.state = PreflightState::kAttention;
     row.finding = "RIG.yml says nothing of its age and its errors";

@@ -3,7 +3,8 @@
 namespace elbowroom::recon {
 
 std::optional<std::uint64_t> PictureCount::Next(std::uint64_t number) {
-  constexpr std::uint64_t kRound = 65'535;  // 0 is not a number of a picture
+  constexpr std::uint64_t kRound = 65'535;
+  if (number == 0) return std::nullopt;
   if (!last_) {
     last_ = last_without_end_ = number;
     return number;
@@ -12,8 +13,8 @@ std::optional<std::uint64_t> PictureCount::Next(std::uint64_t number) {
   if (number <= *last_) {
     if (*last_ > kRound) return std::nullopt;  // counts in 64 bits
     step = number + kRound - *last_;
-    if (step > kRound / 2) return std::nullopt;
   }
+  if (number <= kRound && step > kRound / 2) return std::nullopt;
   last_ = number;
   last_without_end_ += step;
   return last_without_end_;

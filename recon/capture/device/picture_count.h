@@ -10,8 +10,8 @@ namespace elbowroom::recon {
 // Thread: one.
 class PictureCount {
  public:
-  // The count that goes on. A number that lies less than half a round before the last one belongs to an
-  // earlier picture: nothing.
+  // The count that goes on. Nothing: the picture has no number of its own, as where the packet that carries
+  // it was lost. That is 0, or the number of an earlier picture: less than half a round before the last one.
   [[nodiscard]] std::optional<std::uint64_t> Next(std::uint64_t number);
 
  private:

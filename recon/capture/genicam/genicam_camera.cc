@@ -260,10 +260,7 @@ class GenicamCamera : public CameraDevice {
     const std::int64_t now_ns = MonotonicNs(), now_real_ns = g_get_real_time() * 1000;
     const ArvBufferStatus status = arv_buffer_get_status(buffer);
     if (status == ARV_BUFFER_STATUS_CLEARED || status == ARV_BUFFER_STATUS_ABORTED) return std::nullopt;
-    const guint64 frame_id = arv_buffer_get_frame_id(buffer);
-    // A buffer for whose picture only some packets came, and not the one with the number, says 0.
-    if (frame_id == 0 && status != ARV_BUFFER_STATUS_SUCCESS) return std::nullopt;
-    const auto number = count_.Next(frame_id);
+    const auto number = count_.Next(arv_buffer_get_frame_id(buffer));
     if (!number) return std::nullopt;
     // When the first of its packets came.
     const auto begun_ns =

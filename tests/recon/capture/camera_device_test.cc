@@ -64,6 +64,22 @@ TEST(PictureCount, ALateOneIsNone) {
   EXPECT_EQ(count.Next(101), 101U);
 }
 
+// What a buffer holds whose first packet was lost: nothing yet, or what it held before.
+TEST(PictureCount, APictureWithoutANumberIsNone) {
+  for (const std::uint64_t first : {std::uint64_t{7}, std::uint64_t{65'010}}) {
+    PictureCount count;
+    EXPECT_EQ(count.Next(0), std::nullopt);
+    EXPECT_EQ(count.Next(first), first);
+    EXPECT_EQ(count.Next(0), std::nullopt);
+    EXPECT_EQ(count.Next(first + 2), first + 2);
+  }
+  PictureCount count;
+  (void)count.Next(65'534);
+  EXPECT_EQ(count.Next(3), 65'538U);
+  EXPECT_EQ(count.Next(65'530), std::nullopt);
+  EXPECT_EQ(count.Next(4), 65'539U);
+}
+
 TEST(PictureCount, CountsIn64Bits) {
   PictureCount count;
   EXPECT_EQ(count.Next(65'535), 65'535U);

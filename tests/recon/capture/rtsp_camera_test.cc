@@ -13,6 +13,7 @@
 #include "tests/recon/capture/live_accounts.h"
 #include "tests/recon/capture/own_network.h"
 #include "tests/recon/footage/made_footage.h"
+#include "tests/support/soak.h"
 
 namespace elbowroom::recon {
 namespace {
@@ -93,9 +94,10 @@ TEST_F(RtspCamera, ADamagedStreamCostsPicturesAndNothingElse) {
       [](int index) { return NumberedPicture(index % 256, kWidth, kHeight); }, 0.1);
   LiveRig rig(Rig());
   LiveAccounts accounts(1);
-  for (int i = 0; i < 60; ++i) accounts.Add(rig.Read(i));
+  const int sets = 60 * test_support::SoakScale();
+  for (int i = 0; i < sets; ++i) accounts.Add(rig.Read(i));
   accounts.ExpectWhole();
-  EXPECT_EQ(accounts.judged(), 60U);
+  EXPECT_EQ(accounts.judged(), static_cast<std::uint64_t>(sets));
 }
 
 TEST_F(RtspCamera, OneOfAnotherSizeIsRefused) {

@@ -345,5 +345,32 @@ translation_cam_from_world_mm: [0, 0, 500]
   expect_refused(keys + "camera: {}\ncameras: [ {} ]\n", "both");
 }
 
+// Before the calibration a file names cameras alone.
+TEST(RigFile, UncalibratedItIsGoodForPicturesAlone) {
+  const TestFolder folder;
+  const std::string file = folder.File("cameras.yml"), copy = folder.File("copy.yml");
+  WriteText(file,
+            "%YAML:1.0\n---\ncameras:\n  - { name: \"cam1\", image_width: 64, image_height: 48, frames: "
+            "\"gige:one\", capture: { rate_hz: 20 } }\n");
+  EXPECT_THAT(ErrorOf(ErrorKind::kFormat, [&] { (void)ReadRigFile(file); }),
+              HasSubstr("camera 'cam1': not calibrated yet"));
+  const RigFile rig_file = ReadRigFile(file, RigUse::kPictures);
+  EXPECT_FALSE(rig_file.is_calibrated);
+  EXPECT_EQ(rig_file.rig.cameras[0].width_px(), 64);
+  EXPECT_EQ(rig_file.sources[0].capture.rate_hz, 20.0);
+  WriteRigFile(rig_file, copy);
+  EXPECT_THAT(ErrorOf(ErrorKind::kFormat, [&] { (void)ReadRigFile(copy); }),
+              HasSubstr("not calibrated yet"));
+  const RigFile again = ReadRigFile(copy, RigUse::kPictures);
+  EXPECT_FALSE(again.is_calibrated);
+  EXPECT_EQ(again.sources, rig_file.sources);
+  // What says something of a calibration must say all of it.
+  WriteText(file,
+            "%YAML:1.0\n---\ncameras:\n  - { name: \"cam1\", image_width: 64, image_height: 48, "
+            "camera_matrix: [ 50, 0, 32, 0, 50, 24, 0, 0, 1 ] }\n");
+  EXPECT_THAT(ErrorOf(ErrorKind::kFormat, [&] { (void)ReadRigFile(file, RigUse::kPictures); }),
+              HasSubstr("missing"));
+}
+
 }  // namespace
 }  // namespace elbowroom::recon
