@@ -21,7 +21,7 @@
 #include "app/console/tile_text.h"
 #include "app/console/trial_actions.h"
 #include "core/error.h"
-#include "tests/app/stall_watch.h"
+#include "tests/app/console/stall_watch.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
 
