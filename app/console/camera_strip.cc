@@ -7,6 +7,7 @@
 #include <array>
 
 #include "app/console/palette.h"
+#include "recon/images/image.h"
 
 namespace elbowroom::console {
 namespace {
@@ -96,6 +97,7 @@ CameraStrip::CameraStrip(QWidget* parent) : QFrame(parent) {
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(0, 4, 0, 0);
   row->setSpacing(10);
+  hide();
 }
 
 void CameraStrip::Open(const core::Rig& rig) {
@@ -105,6 +107,7 @@ void CameraStrip::Open(const core::Rig& rig) {
     thumbnails_.push_back(new CameraThumbnail(camera, this));
     layout()->addWidget(thumbnails_.back());
   }
+  show();
 }
 
 void CameraStrip::ShowTiles(const control::SharedTiles& tiles) {

@@ -36,7 +36,8 @@ class CameraThumbnail : public QWidget {
   TileText text_;
 };
 
-// Tells how large a picture may be, so that nobody makes one that isn't seen. Thread: UI.
+// Hidden until a rig is opened. Tells how large a picture may be, so that nobody makes one that isn't seen.
+// Thread: UI.
 class CameraStrip : public QFrame {
   Q_OBJECT
 

@@ -88,6 +88,11 @@ void CloseInOrder(MainWindow& window) {
 
 }  // namespace
 
+void SetConsoleStyle() {
+  QApplication::setStyle(QStyleFactory::create("Fusion"));
+  QApplication::setPalette(LightPalette());
+}
+
 int RunConsole(const ConsoleOptions& options) {
   RequireDisplay();
   if (options.demo) core::MakeFolder(core::FolderOf(options.session));
@@ -98,8 +103,7 @@ int RunConsole(const ConsoleOptions& options) {
   ConsoleApplication application(argc, options.argv != nullptr ? options.argv : default_argv);
   qInstallMessageHandler(usual);
   QApplication::setApplicationName("Elbowroom");
-  QApplication::setStyle(QStyleFactory::create("Fusion"));
-  QApplication::setPalette(LightPalette());
+  SetConsoleStyle();
 
   MainWindow window(options.session);
   application.ShowErrorsIn(&window);

@@ -19,6 +19,9 @@ struct ConsoleOptions {
   std::stop_token stop{};  // closes the window in order: what it records is complete up to there
 };
 
+// Gives the application's windows the console's style and colours. Thread: the program's first.
+void SetConsoleStyle();
+
 // Opens the window and returns its exit status once it is closed. Throws: core::Error{kGraphics} when there
 // is no display to open it on; core::Error{kFile} when the demo's folder can't be made or the ordered picture
 // can't be written. Thread: the program's first; once a process.

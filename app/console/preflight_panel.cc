@@ -63,9 +63,9 @@ PreflightPanel::PreflightPanel(TrialDesk& desk, QWidget* parent) : QWidget(paren
   file_name_ = new QLabel;
   file_name_->setObjectName("preflight_file");
   file_name_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);  // cut off rather than wide
-  auto* choose = new QPushButton(tr("C&hoose …"));
-  choose->setObjectName("preflight_choose");
-  choose->setToolTip(tr("Choose a trial (TRIAL.toml) or a rig (RIG.yml)"));
+  choose_ = new QPushButton(tr("C&hoose …"));
+  choose_->setObjectName("preflight_choose");
+  choose_->setToolTip(tr("Choose a trial (TRIAL.toml) or a rig (RIG.yml)"));
   headline_ = new QLabel;
   headline_->setObjectName("preflight_headline");
   headline_->setWordWrap(true);
@@ -92,7 +92,7 @@ PreflightPanel::PreflightPanel(TrialDesk& desk, QWidget* parent) : QWidget(paren
   auto* column = new QVBoxLayout(this);
   auto* first = new QHBoxLayout;
   first->addWidget(file_name_, 1);
-  first->addWidget(choose);
+  first->addWidget(choose_);
   column->addLayout(first);
   column->addWidget(headline_);
   column->addWidget(table_, 1);
@@ -107,7 +107,7 @@ PreflightPanel::PreflightPanel(TrialDesk& desk, QWidget* parent) : QWidget(paren
   column->addLayout(buttons);
   setMinimumWidth(340);
 
-  connect(choose, &QPushButton::clicked, this, &PreflightPanel::Choose);
+  connect(choose_, &QPushButton::clicked, this, &PreflightPanel::Choose);
   connect(check_, &QPushButton::clicked, this, [this] { Check(); });
   connect(cancel_, &QPushButton::clicked, this, &PreflightPanel::Cancel);
   connect(&desk_, &TrialDesk::StateChanged, this, &PreflightPanel::FollowDesk);
@@ -244,6 +244,7 @@ void PreflightPanel::ShowButtons() {
     progress_->setFormat({});
   }
   cancel_->setVisible(job_ != nullptr);
+  choose_->setEnabled(job_ == nullptr);
   check_->setEnabled(CanCheck());
   check_->setToolTip(desk_.state() == DeskState::kRunning
                          ? tr("The running trial has the cameras: stop it first")

@@ -68,6 +68,7 @@ class PreflightPanel : public QWidget {
   int runs_ = 0;                 // jobs that were started
   bool has_checked_ = false;     // rows_ has the cameras'
   QLabel* file_name_ = nullptr;  // this and the next are owned by Qt as children
+  QPushButton* choose_ = nullptr;
   QLabel* headline_ = nullptr;
   QTableWidget* table_ = nullptr;
   QProgressBar* progress_ = nullptr;

@@ -75,10 +75,9 @@ TEST(Thumbnail, ShowsAThingOfOnePixelInWidth) {
   for (int y = 0; y < image.height_px; ++y) EXPECT_EQ(PixelOf(image, 80, y), kOutline) << y;
 }
 
-TEST(Thumbnail, WithoutAPictureKeepsTheShareOfObjectPixels) {
+TEST(Thumbnail, WithoutAPictureShowsTheSilhouetteInItsTwoColours) {
   std::mt19937 random(20010404);
   core::BitMask mask(640, 480);
-  // Blocks of a small pixel, all object or none: no outline can hide a share, as where there is none at all.
   const recon::Image empty = ThumbnailOf({}, mask, {160, 120});
   for (int y = 0; y < empty.height_px; ++y)
     for (int x = 0; x < empty.width_px; ++x) ASSERT_EQ(PixelOf(empty, x, y), kMaskBackground);

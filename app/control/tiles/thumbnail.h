@@ -25,9 +25,9 @@ inline constexpr ThumbnailColor kOutline = {0xff, 0xd2, 0x3f}, kOutlineShade = {
 // Without a picture the silhouette itself is shown, in these two colours.
 inline constexpr ThumbnailColor kMaskObject = {0xb9, 0xc2, 0xcc}, kMaskBackground = {0x24, 0x2b, 0x33};
 
-// The largest picture of the mask's proportions that the room holds, at most as large as the mask; each pixel
-// is the mean of those that it covers. `image_bgr` has the mask's size, or none: ready masks. An empty room,
-// or a mask without a size, gives an empty image. Throws: PreconditionError for a picture of another size.
+// The largest picture of the mask's proportions that the room holds, at most as large as the mask.
+// `image_bgr` has the mask's size, or none: ready masks. An empty room, or a mask without a size, gives an
+// empty image. Throws: PreconditionError for a picture of another size.
 [[nodiscard]] recon::Image ThumbnailOf(const cv::Mat& image_bgr, const core::BitMask& mask,
                                        const ThumbnailRoom& room);
 

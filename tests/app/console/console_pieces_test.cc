@@ -21,7 +21,7 @@
 #include "app/console/tile_text.h"
 #include "app/console/trial_actions.h"
 #include "core/error.h"
-#include "tests/app/stall_watch.h"
+#include "tests/app/console/stall_watch.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
 
@@ -204,6 +204,21 @@ TEST(PicturePace, CoarsensPicturesOnASlowMachineAndRefinesThemAgain) {
   }
   draw(50.0);
   EXPECT_EQ(pace.fineness(), PicturePace::kFinest);
+}
+
+TEST(PicturePace, OfLiveCamerasGivesUpSmoothEdgesBeforePixels) {
+  PicturePace pace(PicturePace::kLiveAimMs);
+  const auto draw = [&](double finest_ms) {
+    for (int i = 0; i < 20; ++i) pace.Add(finest_ms * pace.fineness().relative_cost);
+  };
+  draw(30.0);
+  EXPECT_EQ(pace.fineness(), PicturePace::kFinest);
+  draw(75.0);
+  EXPECT_FALSE(pace.fineness().is_smooth);
+  EXPECT_EQ(pace.fineness().picture, 1.0);
+  draw(150.0);
+  EXPECT_LT(pace.fineness().picture, 1.0);
+  EXPECT_LE(150.0 * pace.fineness().relative_cost, PicturePace::kLiveAimMs);
 }
 
 TEST(PicturePace, OneSlowPictureChangesNothing) {

@@ -10,7 +10,6 @@
 
 #include <QAction>
 #include <QApplication>
-#include <QStyleFactory>
 #include <QTimer>
 #include <algorithm>
 #include <cstdlib>
@@ -21,6 +20,7 @@
 #include <string>
 #include <vector>
 
+#include "app/console/console_main.h"
 #include "app/console/main_window.h"
 #include "app/control/demo_trial.h"
 #include "cad_import/import_worker.h"
@@ -168,7 +168,7 @@ int MeasureTrial(console::MainWindow& window, const std::vector<std::string>& wo
 int main(int argc, char** argv) {
   cad_import::ServeImport(argc, argv);
   const QApplication application(argc, argv);
-  QApplication::setStyle(QStyleFactory::create("Fusion"));
+  console::SetConsoleStyle();
   const std::vector<std::string> words(argv + 1, argv + argc);
   console::MainWindow window;
   window.show();

@@ -13,7 +13,7 @@
 #include <filesystem>
 
 #include "recon/rig_files/rig_file.h"
-#include "tests/app/opened_urls.h"
+#include "tests/app/console/opened_urls.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text_file.h"
 

@@ -162,6 +162,23 @@ TEST_F(LiveWindowTest, APreflightShowsARowForEachCameraAndForTheRig) {
   EXPECT_FALSE(Headline().contains("aren't checked"));
 }
 
+TEST_F(LiveWindowTest, ARigOfRecordedFilesHasNoLiveCamerasToCheck) {
+  recon::RigFile recorded = recon::ReadRigFile(rig_path_);
+  for (recon::CameraSources& sources : recorded.sources) sources.frames = (folder_ / "video.avi").string();
+  recon::WriteRigFile(recorded, folder_ / "recorded.yml");
+  window_.preflight().Open(folder_ / "recorded.yml");
+  ASSERT_TRUE(WaitUntil([&] { return window_.preflight().rig().has_value(); }));
+  EXPECT_TRUE(Headline().contains("no live cameras")) << Headline().toStdString();
+  EXPECT_FALSE(window_.preflight().CanCheck());
+  EXPECT_FALSE(Action("take_background").isEnabled());
+  EXPECT_TRUE(Action("take_background").toolTip().contains("recorded"));
+
+  window_.preflight().Open(folder_ / "nowhere.yml");
+  ASSERT_TRUE(WaitUntil([&] { return Headline().startsWith("✖"); }));
+  EXPECT_TRUE(Headline().contains("nowhere.yml"));
+  EXPECT_TRUE(window_.preflight().rows().empty());
+}
+
 TEST_F(LiveWindowTest, ACancelledPreflightKeepsWhatWasKnown) {
   OpenRig();
   QSignalSpy checked(&window_.preflight(), &PreflightPanel::Checked);

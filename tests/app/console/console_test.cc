@@ -19,8 +19,8 @@
 #include "app/console/window_picture.h"
 #include "recon/synthetic/demo_motion.h"
 #include "sessions/session_reader.h"
-#include "tests/app/opened_urls.h"
-#include "tests/app/stall_watch.h"
+#include "tests/app/console/opened_urls.h"
+#include "tests/app/console/stall_watch.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text_file.h"
 

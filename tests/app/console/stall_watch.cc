@@ -1,4 +1,4 @@
-#include "tests/app/stall_watch.h"
+#include "tests/app/console/stall_watch.h"
 
 #include <algorithm>
 #include <fstream>
