@@ -77,17 +77,17 @@ TEST(GaugeCommand, AFrameThatLacksACameraIsNotMeasured) {
   recon::RigFile rig_file = recon::ReadRigFile(WriteRodRig(folder.path()));
   for (std::size_t i = 0; i < rig_file.sources.size(); ++i) {
     std::string stamps = "frame,time_s\n";
-    for (int frame = 0; frame < 4; ++frame)
-      if (i != 1 || frame != 1) stamps += fmt::format("{},{}\n", frame, 0.1 * frame);
+    for (int frame = 0; frame < 12; ++frame)
+      if (i != 1 || frame != 5) stamps += fmt::format("{},{}\n", frame, 0.1 * frame);
     rig_file.sources[i].timestamps = (folder / fmt::format("{}.csv", i)).string();
     test_support::WriteText(rig_file.sources[i].timestamps, stamps);
   }
   recon::WriteRigFile(rig_file, folder / "stamped.yml");
-  const auto json = JsonOf(Gauge(folder / "stamped.yml", {"--frames", "0:4", "--rod", "10", "--json"}));
+  const auto json = JsonOf(Gauge(folder / "stamped.yml", {"--frames", "3:7", "--rod", "10", "--json"}));
   EXPECT_EQ(json["places"], 3);
   const std::string& lacking = rig_file.rig.cameras[1].name();
   EXPECT_THAT(json["warnings"].dump(),
-              HasSubstr(fmt::format("frame 1: no rod: the picture of camera '{}' is missing", lacking)));
+              HasSubstr(fmt::format("frame 5: no rod: the picture of camera '{}' is missing", lacking)));
 }
 
 TEST(GaugeCommand, IsWithinItsBoundAt27Places) {

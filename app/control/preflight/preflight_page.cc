@@ -16,6 +16,7 @@ namespace {
 
 using sessions::Escaped;
 
+// The words are those of the console's panel.
 struct Look {
   const char* word;
   const char* color;  // of the style sheet
@@ -26,9 +27,9 @@ Look LookOf(PreflightState state) {
     case PreflightState::kWell:
       return {"well", "--free"};
     case PreflightState::kAttention:
-      return {"to do", "--caution"};
+      return {"see to it", "--caution"};
     case PreflightState::kFault:
-      return {"not ready", "--touched"};
+      return {"fault", "--touched"};
   }
   return {"", "--quiet"};
 }
