@@ -106,6 +106,7 @@ CommandResult SummaryOf(const control::TrialOutcome& outcome, const core::Layout
                  {"skipped",
                   {{"pixels", outcome.skipped.segmentation.skipped_pixels},
                    {"of_pixels", outcome.skipped.segmentation.pixels},
+                   {"second_looks", outcome.skipped.segmentation.second_looks},
                    {"unchanged_silhouettes", outcome.skipped.hull.unchanged_silhouettes},
                    {"empty_silhouettes", outcome.skipped.hull.empty_silhouettes},
                    {"untraced_silhouettes", outcome.skipped.hull.untraced_silhouettes},

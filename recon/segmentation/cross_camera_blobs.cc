@@ -153,14 +153,18 @@ CrossCameraBlobs::CrossCameraBlobs(const core::Rig& rig) {
   }
 }
 
-std::vector<ConfirmedBlobs> CrossCameraBlobs::Confirm(std::span<const core::BitMask* const> masks) const {
-  const std::size_t cameras = pictures_.size();
-  core::Require(masks.size() == cameras, "one mask a camera");
-  for (std::size_t c = 0; c < cameras; ++c) {
+void CrossCameraBlobs::RequireOneMaskACamera(std::span<const core::BitMask* const> masks) const {
+  core::Require(masks.size() == pictures_.size(), "one mask a camera");
+  for (std::size_t c = 0; c < masks.size(); ++c) {
     core::Require(
         masks[c]->width_px() == pictures_[c].width_px && masks[c]->height_px() == pictures_[c].height_px,
         "a mask is of its camera's size");
   }
+}
+
+std::vector<ConfirmedBlobs> CrossCameraBlobs::Confirm(std::span<const core::BitMask* const> masks) const {
+  RequireOneMaskACamera(masks);
+  const std::size_t cameras = pictures_.size();
   std::vector<TileSums> sums(cameras);
   std::vector<ConfirmedBlobs> result(cameras);
   tbb::parallel_for(std::size_t{0}, cameras, [&](std::size_t c) {
@@ -189,6 +193,7 @@ std::vector<ConfirmedBlobs> CrossCameraBlobs::Confirm(std::span<const core::BitM
   for (std::size_t c = 0; c < cameras; ++c) {
     std::vector<bool>& is_confirmed = result[c].is_confirmed;
     is_confirmed.assign(result[c].blobs.area_px.size(), !any);
+    result[c].is_told_apart = any;
     if (!any) continue;
     confirmed[c].Sum();
     for (const Run& run : result[c].blobs.runs) {
@@ -198,6 +203,46 @@ std::vector<ConfirmedBlobs> CrossCameraBlobs::Confirm(std::span<const core::BitM
     }
   }
   return result;
+}
+
+std::vector<bool> CrossCameraBlobs::MayOverlook(std::span<const core::BitMask* const> masks,
+                                                std::span<const ConfirmedBlobs> confirmed) const {
+  constexpr std::size_t kLeastWitnesses = 2;
+  RequireOneMaskACamera(masks);
+  const std::size_t cameras = pictures_.size();
+  core::Require(confirmed.size() == cameras, "what is confirmed is of these masks");
+  std::vector<bool> may_overlook(cameras, false);
+  std::vector<std::size_t> witnesses;  // cameras with a blob that is confirmed nowhere
+  std::vector<TileSums> unconfirmed(cameras);
+  for (std::size_t c = 0; c < cameras; ++c) {
+    const ConfirmedBlobs& blobs = confirmed[c];
+    std::vector<bool> keep(blobs.is_confirmed.size(), true);
+    if (blobs.is_told_apart) keep.assign(blobs.is_confirmed.begin(), blobs.is_confirmed.end()), keep.flip();
+    if (std::ranges::find(keep, true) == keep.end()) continue;
+    core::BitMask rest = *masks[c];
+    ClearRegions(rest, blobs.blobs, keep);
+    unconfirmed[c] = TileSums(rest);
+    witnesses.push_back(c);
+  }
+  if (witnesses.size() < kLeastWitnesses) return may_overlook;
+  std::vector<TileSums> sums(cameras);
+  for (std::size_t c = 0; c < cameras; ++c) sums[c] = TileSums(*masks[c]);
+  const std::size_t most_deniers = std::max<std::size_t>(1, cameras / 2);
+  std::vector<std::size_t> deniers;
+  for (std::size_t cell = 0; cell < boxes_.size(); cell += cameras) {
+    const auto shows = [&](const std::vector<TileSums>& what, std::size_t c) {
+      const TileBox& box = boxes_[cell + c];
+      return what[c].AnyIn(box.x0, box.y0, box.x1, box.y1);
+    };
+    const auto seen = std::ranges::count_if(witnesses, [&](std::size_t c) { return shows(unconfirmed, c); });
+    if (static_cast<std::size_t>(seen) < kLeastWitnesses) continue;
+    deniers.clear();
+    for (std::size_t c = 0; c < cameras && deniers.size() <= most_deniers; ++c)
+      if (boxes_[cell + c].has_say && !shows(sums, c)) deniers.push_back(c);
+    if (deniers.size() > most_deniers) continue;
+    for (const std::size_t c : deniers) may_overlook[c] = true;
+  }
+  return may_overlook;
 }
 
 }  // namespace elbowroom::recon

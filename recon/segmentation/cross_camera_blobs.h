@@ -16,6 +16,7 @@ namespace elbowroom::recon {
 struct ConfirmedBlobs {
   Regions blobs;                   // ObjectRegions of the mask
   std::vector<bool> is_confirmed;  // one a region
+  bool is_told_apart = true;       // false: no cell was confirmed, so all regions count as confirmed
 };
 
 // Which blobs of a rig's masks can't be part of the hull. The workspace is cut into cells, and each cell
@@ -31,6 +32,12 @@ class CrossCameraBlobs {
   // Throws: PreconditionError unless there is one mask a camera, of its size.
   [[nodiscard]] std::vector<ConfirmedBlobs> Confirm(std::span<const core::BitMask* const> masks) const;
 
+  // Which cameras may have dropped too small a blob, one a camera: such a camera rules out a cell in which
+  // all others show object, and two of them at least a blob that is confirmed nowhere. Of many cameras a
+  // quarter may do so at once. `confirmed`: of these masks. Throws: likewise.
+  [[nodiscard]] std::vector<bool> MayOverlook(std::span<const core::BitMask* const> masks,
+                                              std::span<const ConfirmedBlobs> confirmed) const;
+
  private:
   // Tiles [x0, x1) x [y0, y1); empty where the camera sees nothing of the cell.
   struct TileBox {
@@ -40,6 +47,7 @@ class CrossCameraBlobs {
   struct Picture {
     int width_px = 0, height_px = 0;
   };
+  void RequireOneMaskACamera(std::span<const core::BitMask* const> masks) const;
   [[nodiscard]] static TileBox BoxOf(const core::CameraModel& camera, const Eigen::Vector3d& center_in_world,
                                      double radius_mm);
 

@@ -73,28 +73,49 @@ std::vector<core::SoftMask> FrameSegmenter::Masks(const FrameSet& frames, Edges 
       masks[i].mask = all_object_[i];
       return;  // it confirms every blob, and has none of its own
     }
-    if (camera.ready_mask) {
-      masks[i].mask = *camera.ready_mask;
-    } else if (edges == Edges::kLocated) {
-      masks[i] = segmenters_[i]->SegmentSoft(camera.image_bgr, &each[i]);
-    } else {
-      masks[i].mask = segmenters_[i]->Segment(camera.image_bgr, &each[i]);
-    }
+    masks[i] = MaskOf(camera, i, edges, BlobLimit::kUsual, &each[i]);
     if (masks[i].mask.ShowsObject()) shows_object.store(true, std::memory_order_relaxed);
   });
-  if (shows_object) DropUnconfirmed(frames, is_missing, &masks);
+  if (shows_object)
+    DropUnconfirmed(frames, is_missing, LookAgain(frames, is_missing, edges, &masks, &each.front()), &masks);
   if (stats != nullptr)
     for (const SegmentationStats& of_camera : each) *stats += of_camera;
   return masks;
 }
 
+core::SoftMask FrameSegmenter::MaskOf(const CameraFrame& camera, std::size_t i, Edges edges, BlobLimit limit,
+                                      SegmentationStats* stats) const {
+  if (camera.ready_mask) return {*camera.ready_mask, {}};
+  if (edges == Edges::kLocated) return segmenters_[i]->SegmentSoft(camera.image_bgr, stats, limit);
+  return {segmenters_[i]->Segment(camera.image_bgr, stats, limit), {}};
+}
+
+// A tool that points at a camera is a small blob there. Without that blob the tool would have no hull at all.
+std::vector<ConfirmedBlobs> FrameSegmenter::LookAgain(const FrameSet& frames,
+                                                      const std::vector<bool>& is_missing, Edges edges,
+                                                      std::vector<core::SoftMask>* masks,
+                                                      SegmentationStats* stats) const {
+  std::vector<const core::BitMask*> bits;
+  for (const core::SoftMask& mask : *masks) bits.push_back(&mask.mask);
+  std::vector<ConfirmedBlobs> confirmed = cross_camera_blobs_.Confirm(bits);
+  const std::vector<bool> may_overlook = cross_camera_blobs_.MayOverlook(bits, confirmed);
+  bool is_changed = false;
+  for (std::size_t i = 0; i < masks->size(); ++i) {
+    if (!may_overlook[i] || is_missing[i] || frames.cameras[i].ready_mask) continue;
+    core::SoftMask mask = MaskOf(frames.cameras[i], i, edges, BlobLimit::kSmall, nullptr);
+    ++stats->second_looks;
+    if (mask == (*masks)[i]) continue;
+    (*masks)[i] = std::move(mask);
+    is_changed = true;
+  }
+  return is_changed ? cross_camera_blobs_.Confirm(bits) : confirmed;
+}
+
 // Runs after the boundaries are located, since that may move them outwards: a dropped blob must have no point
 // in the hull of the masks that are handed on.
 void FrameSegmenter::DropUnconfirmed(const FrameSet& frames, const std::vector<bool>& is_missing,
-                                     std::vector<core::SoftMask>* masks) const {
-  std::vector<const core::BitMask*> bits;
-  for (const core::SoftMask& mask : *masks) bits.push_back(&mask.mask);
-  const std::vector<ConfirmedBlobs> confirmed = cross_camera_blobs_.Confirm(bits);
+                                     const std::vector<ConfirmedBlobs>& confirmed,
+                                     std::vector<core::SoftMask>* masks) {
   for (std::size_t i = 0; i < masks->size(); ++i) {
     const std::vector<bool>& keep = confirmed[i].is_confirmed;
     if (is_missing[i] || frames.cameras[i].ready_mask || std::ranges::find(keep, false) == keep.end())

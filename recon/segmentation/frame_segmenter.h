@@ -39,8 +39,16 @@ class FrameSegmenter {
   [[nodiscard]] std::vector<core::SoftMask> Masks(const FrameSet& frames, Edges edges,
                                                   SegmentationStats* stats) const;
   [[nodiscard]] static std::vector<bool> MissingIn(const FrameSet& frames);
-  void DropUnconfirmed(const FrameSet& frames, const std::vector<bool>& is_missing,
-                       std::vector<core::SoftMask>* masks) const;
+  [[nodiscard]] core::SoftMask MaskOf(const CameraFrame& camera, std::size_t i, Edges edges, BlobLimit limit,
+                                      SegmentationStats* stats) const;
+  // The blobs of the masks after cameras were looked at again whose blob may have been too small.
+  [[nodiscard]] std::vector<ConfirmedBlobs> LookAgain(const FrameSet& frames,
+                                                      const std::vector<bool>& is_missing, Edges edges,
+                                                      std::vector<core::SoftMask>* masks,
+                                                      SegmentationStats* stats) const;
+  static void DropUnconfirmed(const FrameSet& frames, const std::vector<bool>& is_missing,
+                              const std::vector<ConfirmedBlobs>& confirmed,
+                              std::vector<core::SoftMask>* masks);
 
   std::vector<std::optional<Segmenter>> segmenters_;
   std::vector<core::BitMask> all_object_;  // one a camera

@@ -38,6 +38,7 @@ cv::Mat ThresholdOf(const BackgroundReference& background, const SegmentationOpt
 SegmentationStats& SegmentationStats::operator+=(const SegmentationStats& other) {
   pixels += other.pixels;
   skipped_pixels += other.skipped_pixels;
+  second_looks += other.second_looks;
   return *this;
 }
 
@@ -70,11 +71,12 @@ std::optional<FixedExposure> Segmenter::ExposureOf(const cv::Mat& image_bgr) con
 }
 
 core::BitMask Segmenter::Detect(const cv::Mat& image_bgr, const std::optional<FixedExposure>& exposure,
-                                SegmentationStats* stats) const {
+                                BlobLimit limit, SegmentationStats* stats) const {
   const ShadeRule shade{static_cast<float>(options_.shadow_darkest),
                         static_cast<float>(options_.shadow_chroma), kShadeNoiseLevels};
   const bool rejects_shade = options_.shadows == ShadowRule::kReject;
-  const int least_px = options_.min_blob_px;
+  const int least_px =
+      limit == BlobLimit::kUsual ? options_.min_blob_px : std::min(options_.min_blob_px, kSmallestBlobPx);
   std::int64_t skipped_px = 0;
   core::BitMask mask;
   if (exposure) {
@@ -84,22 +86,23 @@ core::BitMask Segmenter::Detect(const cv::Mat& image_bgr, const std::optional<Fi
     mask = rejects_shade ? DifferingPixels(ranges_, image_bgr, shade, least_px, &skipped_px)
                          : DifferingPixels(ranges_, image_bgr, least_px, &skipped_px);
   }
-  if (stats != nullptr) *stats = {static_cast<std::int64_t>(image_bgr.total()), skipped_px};
+  if (stats != nullptr) *stats = {static_cast<std::int64_t>(image_bgr.total()), skipped_px, 0};
   if (!mask.ShowsObject()) return mask;
   // A clipped pixel may differ under another exposure even so; and a filled hole may be ignored.
   ClearPixels(ignore_, &mask);
-  CleanUp(mask, options_.min_blob_px, options_.max_hole_px);
+  CleanUp(mask, least_px, options_.max_hole_px);
   ClearPixels(ignore_, &mask);
   return mask;
 }
 
-core::BitMask Segmenter::Segment(const cv::Mat& image_bgr, SegmentationStats* stats) const {
-  return Detect(image_bgr, ExposureOf(image_bgr), stats);
+core::BitMask Segmenter::Segment(const cv::Mat& image_bgr, SegmentationStats* stats, BlobLimit limit) const {
+  return Detect(image_bgr, ExposureOf(image_bgr), limit, stats);
 }
 
-core::SoftMask Segmenter::SegmentSoft(const cv::Mat& image_bgr, SegmentationStats* stats) const {
+core::SoftMask Segmenter::SegmentSoft(const cv::Mat& image_bgr, SegmentationStats* stats,
+                                      BlobLimit limit) const {
   const std::optional<FixedExposure> exposure = ExposureOf(image_bgr);
-  core::BitMask detected = Detect(image_bgr, exposure, stats);
+  core::BitMask detected = Detect(image_bgr, exposure, limit, stats);
   if (!detected.ShowsObject()) return {std::move(detected), {}};
   // Objects and background are lit alike, so their contrast changes as the background does.
   const double gain = exposure ? (exposure->Gain(0) + exposure->Gain(1) + exposure->Gain(2)) / 3.0 : 1.0;

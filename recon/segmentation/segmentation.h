@@ -18,10 +18,19 @@ namespace elbowroom::recon {
 struct SegmentationStats {
   std::int64_t pixels = 0;          // of the pictures segmented
   std::int64_t skipped_pixels = 0;  // of those: not looked at, as no region of min_blob_px can be there
+  std::int64_t second_looks =
+      0;  // pictures looked at again, for smaller blobs; their pixels don't count twice
 
   // Adds the counts of other pictures.
   SegmentationStats& operator+=(const SegmentationStats& other);
 };
+
+// The fewest pixels of a blob that is kept.
+enum class BlobLimit {
+  kUsual,  // SegmentationOptions::min_blob_px
+  kSmall,  // kSmallestBlobPx, where other cameras say that something is there
+};
+inline constexpr int kSmallestBlobPx = 8;  // a cable of 6 mm that points at a camera 1.2 m away has 9
 
 // One camera's background with its thresholds worked out. Immutable.
 //
@@ -39,17 +48,18 @@ class Segmenter {
 
   // The pixels detected as above; `stats` receives the counts. Throws: PreconditionError unless `image_bgr`
   // is CV_8UC3 of the background's size.
-  [[nodiscard]] core::BitMask Segment(const cv::Mat& image_bgr, SegmentationStats* stats = nullptr) const;
+  [[nodiscard]] core::BitMask Segment(const cv::Mat& image_bgr, SegmentationStats* stats = nullptr,
+                                      BlobLimit limit = BlobLimit::kUsual) const;
 
   // The same with its boundary located between pixels, as LocateBoundary. Throws: likewise.
-  [[nodiscard]] core::SoftMask SegmentSoft(const cv::Mat& image_bgr,
-                                           SegmentationStats* stats = nullptr) const;
+  [[nodiscard]] core::SoftMask SegmentSoft(const cv::Mat& image_bgr, SegmentationStats* stats = nullptr,
+                                           BlobLimit limit = BlobLimit::kUsual) const;
 
  private:
   // The change that a picture is compared under; nothing for kThreshold. Throws: as Segment().
   [[nodiscard]] std::optional<FixedExposure> ExposureOf(const cv::Mat& image_bgr) const;
   [[nodiscard]] core::BitMask Detect(const cv::Mat& image_bgr, const std::optional<FixedExposure>& exposure,
-                                     SegmentationStats* stats) const;
+                                     BlobLimit limit, SegmentationStats* stats) const;
 
   SegmentationOptions options_;
   core::BitMask ignore_;  // without a size if no pixel is ignored

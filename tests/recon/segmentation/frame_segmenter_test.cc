@@ -3,9 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <vector>
 
 #include "core/error.h"
+#include "recon/hull/visual_hull.h"
 #include "recon/synthetic/demo_motion.h"
 #include "recon/synthetic/rig_presets.h"
 #include "recon/synthetic/synthetic_rig.h"
@@ -69,6 +71,59 @@ TEST_F(MissingPicture, AReadyMaskOrAPictureWithoutAStampIsNotMissing) {
   EXPECT_EQ(segmenter_.SegmentSoft(frames_), whole);
   frames_.cameras[kMissing] = {{}, whole[kMissing].mask};
   EXPECT_EQ(segmenter_.SegmentSoft(frames_)[kMissing].mask, whole[kMissing].mask);
+}
+
+// A rod of 7 mm that points at one camera, for which it is a blob far below min_blob_px. Of the others one
+// may see less than that, too.
+class PointedAt : public testing::TestWithParam<std::size_t> {
+ protected:
+  static constexpr double kRadiusMm = 3.5, kLengthMm = 160.0;
+
+  PointedAt()
+      : rig_(FourCameraRig()),
+        eye_(rig_.cameras[GetParam()].center_in_world()),
+        end_(rig_.workspace_mm.center() + Eigen::Vector3d(0.0, 0.0, -40.0)),
+        source_(rig_, [this](double) { return Objects(); }) {}
+
+  [[nodiscard]] std::vector<SyntheticObject> Objects() const {
+    const Eigen::Vector3d along = (eye_ - end_).normalized();
+    Eigen::Matrix3d rotation;
+    rotation.col(2) = along;
+    rotation.col(0) = along.unitOrthogonal();
+    rotation.col(1) = along.cross(rotation.col(0));
+    return {
+        {"rod", {{Tube{kRadiusMm, 0.0, kLengthMm}, {rotation, end_}, Eigen::Vector3d(90.0, 200.0, 235.0)}}}};
+  }
+
+  core::Rig rig_;
+  Eigen::Vector3d eye_, end_;
+  SyntheticRig source_;
+};
+
+TEST_P(PointedAt, ARodKeepsItsHull) {
+  const FrameSet frames = source_.Read(0);
+  const FrameSegmenter segmenter(source_.ReadBackgrounds({}, {}), {}, rig_);
+  SegmentationStats stats;
+  const std::vector<core::SoftMask> masks = segmenter.SegmentSoft(frames, &stats);
+  const VisualHull hull = MakeVisualHull(std::make_shared<const core::Rig>(rig_), masks);
+  const Eigen::Vector3d along = (eye_ - end_).normalized();
+  int inside = 0;
+  constexpr int kPlaces = 40;
+  for (int i = 0; i < kPlaces; ++i)
+    inside += hull.Contains(end_ + along * (kLengthMm * (i + 0.5) / kPlaces)) ? 1 : 0;
+  EXPECT_GE(inside, kPlaces - 2);  // an end may lie on a boundary
+  EXPECT_GE(stats.second_looks, 1);
+}
+
+INSTANTIATE_TEST_SUITE_P(Cameras, PointedAt, testing::Values(0U, 1U, 2U, 3U));
+
+TEST(SecondLook, IsNotTakenOfAHandAtWork) {
+  SyntheticRig source(FourCameraRig(), [](double time_s) { return DemoSceneAt(time_s).objects; });
+  const FrameSegmenter segmenter(source.ReadBackgrounds({}, {}), {}, source.rig());
+  SegmentationStats stats;
+  for (core::FrameIndex frame = 0; frame < 400; frame += 40)
+    (void)segmenter.SegmentSoft(source.Read(frame), &stats);
+  EXPECT_EQ(stats.second_looks, 0);
 }
 
 }  // namespace
