@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <cstdint>
 #include <limits>
 #include <queue>
 #include <vector>
@@ -14,16 +16,14 @@ namespace {
 
 using Corners = std::array<Eigen::Vector3d, 3>;
 
-double SignedDistanceMm(std::span<const recon::Solid> solids, const Eigen::Vector3d& x_in_world) {
-  double least_mm = std::numeric_limits<double>::infinity();
-  for (const recon::Solid& solid : solids)
-    least_mm = std::min(least_mm, recon::SignedDistanceMm(solid, x_in_world));
-  return least_mm;
-}
+// Solids by number, a bit each.
+using Some = std::uint64_t;
+constexpr std::size_t kMostSolids = 64;
 
-// A piece of surface, and what none of its points is nearer than.
+// A piece of surface, which solids may be the nearest to one of its points, and what none is nearer than.
 struct Piece {
   Corners corners;
+  Some solids = 0;
   double least_mm = 0.0;
 
   [[nodiscard]] bool operator<(const Piece& other) const { return least_mm > other.least_mm; }
@@ -35,12 +35,8 @@ class Search {
   explicit Search(std::span<const recon::Solid> solids) : solids_(solids) {}
 
   void Add(const Corners& corners) {
-    const Eigen::Vector3d middle = (corners[0] + corners[1] + corners[2]) / 3.0;
-    double reach_mm = 0.0;
-    for (const Eigen::Vector3d& corner : corners) reach_mm = std::max(reach_mm, (corner - middle).norm());
-    const double distance_mm = SignedDistanceMm(solids_, middle);
-    found_mm_ = std::min(found_mm_, distance_mm);
-    if (distance_mm - reach_mm < found_mm_) pieces_.push({corners, distance_mm - reach_mm});
+    const Some all = solids_.size() == kMostSolids ? ~Some{0} : (Some{1} << solids_.size()) - 1;
+    Add(corners, all);
   }
 
   [[nodiscard]] double Run(double tolerance_mm, double far_mm) {
@@ -49,14 +45,37 @@ class Search {
       if (nearest.least_mm >= found_mm_ - tolerance_mm) break;
       if (nearest.least_mm >= far_mm) return std::max(found_mm_, far_mm);
       pieces_.pop();
-      Halve(nearest.corners);
+      Halve(nearest);
     }
     return found_mm_;
   }
 
  private:
+  void Add(const Corners& corners, Some solids) {
+    const Eigen::Vector3d middle = (corners[0] + corners[1] + corners[2]) / 3.0;
+    double reach_mm = 0.0;
+    for (const Eigen::Vector3d& corner : corners) reach_mm = std::max(reach_mm, (corner - middle).norm());
+    std::array<double, kMostSolids> distances_mm;
+    double distance_mm = std::numeric_limits<double>::infinity();
+    for (Some left = solids; left != 0; left &= left - 1) {
+      const auto i = static_cast<std::size_t>(std::countr_zero(left));
+      distances_mm[i] = recon::SignedDistanceMm(solids_[i], middle);
+      distance_mm = std::min(distance_mm, distances_mm[i]);
+    }
+    found_mm_ = std::min(found_mm_, distance_mm);
+    if (distance_mm - reach_mm >= found_mm_) return;
+    // At no point of the piece is a solid the nearest that is farther from its middle than this.
+    Some near = 0;
+    for (Some left = solids; left != 0; left &= left - 1) {
+      const auto i = static_cast<std::size_t>(std::countr_zero(left));
+      if (distances_mm[i] <= distance_mm + 2.0 * reach_mm) near |= Some{1} << i;
+    }
+    pieces_.push({corners, near, distance_mm - reach_mm});
+  }
+
   // Across the longest side.
-  void Halve(const Corners& corners) {
+  void Halve(const Piece& piece) {
+    const Corners& corners = piece.corners;
     std::size_t longest = 0;
     const auto length = [&](std::size_t i) { return (corners[(i + 1) % 3] - corners[i]).norm(); };
     for (std::size_t i = 1; i < 3; ++i)
@@ -65,8 +84,8 @@ class Search {
     const Eigen::Vector3d& b = corners[(longest + 1) % 3];
     const Eigen::Vector3d& c = corners[(longest + 2) % 3];
     const Eigen::Vector3d middle = 0.5 * (a + b);
-    Add({a, middle, c});
-    Add({middle, b, c});
+    Add({a, middle, c}, piece.solids);
+    Add({middle, b, c}, piece.solids);
   }
 
   std::span<const recon::Solid> solids_;
@@ -91,6 +110,7 @@ bool HoldsASolid(const core::TriangleMesh& part, const core::RigidTransform& wor
 double SolidDistanceMm(const core::TriangleMesh& part, const core::RigidTransform& world_from_part,
                        std::span<const recon::Solid> solids, double tolerance_mm, double far_mm) {
   core::Require(!solids.empty() && !part.triangles.empty(), "there are solids and triangles");
+  core::Require(solids.size() <= kMostSolids, "there are 64 solids at most");
   core::Require(tolerance_mm > 0.0, "the tolerance is positive");
   Search search(solids);
   for (const auto& triangle : part.triangles) {

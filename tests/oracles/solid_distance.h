@@ -16,7 +16,7 @@ namespace elbowroom::oracles {
 //
 // Branch and bound over pieces of triangles: a distance changes by no more than the way. Solids and part in
 // world. Held to closed forms and to dense samples by solid_distance_test. Throws: PreconditionError without
-// solids or triangles, or for a tolerance that isn't positive.
+// solids or triangles, for more than 64 solids, or for a tolerance that isn't positive.
 [[nodiscard]] double SolidDistanceMm(const core::TriangleMesh& part,
                                      const core::RigidTransform& world_from_part,
                                      std::span<const recon::Solid> solids, double tolerance_mm,

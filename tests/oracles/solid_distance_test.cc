@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <vector>
 
 #include "recon/synthetic/actors.h"
 #include "tests/core/solids.h"
@@ -32,7 +34,7 @@ TEST(SolidDistance, IsThatOfClosedForms) {
   EXPECT_NEAR(DistanceMm(box, {BallAt({103.0, 84.0, 30.0}, 2.0)}), 3.0, kToleranceMm) << "beside an edge";
   EXPECT_NEAR(DistanceMm(box, {BallAt({50.0, 40.0, 80.0}, 25.0)}), -5.0, kToleranceMm) << "5 mm deep";
   EXPECT_NEAR(DistanceMm(box, {BallAt({50.0, 40.0, 30.0}, 10.0)}), -20.0, kToleranceMm) << "inside";
-  EXPECT_EQ(DistanceMm(box, {BallAt({50.0, 40.0, 900.0}, 10.0)}), kFarMm);
+  EXPECT_GE(DistanceMm(box, {BallAt({50.0, 40.0, 900.0}, 10.0)}), kFarMm) << "far away";
 }
 
 TEST(SolidDistance, IsNeverBelowNorFarAboveThatOfDenseSamples) {

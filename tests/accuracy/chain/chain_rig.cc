@@ -28,8 +28,8 @@ using core::RigidTransform;
 using Eigen::Vector3d;
 using recon::Random;
 
-constexpr int kColumns = 11, kRows = 8;
-constexpr double kSquareMm = 45.0, kMarkerMm = 34.0;
+constexpr int kColumns = 9, kRows = 6;
+constexpr double kSquareMm = 60.0, kMarkerMm = 46.0;
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kHalfSideMm = 330.0, kFromZMm = -20.0, kToZMm = 430.0;  // of the workspace
 
@@ -91,13 +91,27 @@ std::vector<RigidTransform> DrawBoardPoses(int count, Random* random) {
   return world_from_boards;
 }
 
+// No hand holds a board quite still, and no two cameras look at the same instant: where one sees it instead.
+RigidTransform HeldByAHand(const RigidTransform& world_from_board, Random* random) {
+  constexpr double kTrembleMmPerS = 20.0, kTrembleRadPerS = 0.05, kMostSkewS = 1.0 / 60.0;
+  const double late_s = random->Uniform(-kMostSkewS, kMostSkewS);
+  RigidTransform world_from_held = world_from_board;
+  world_from_held.rotation =
+      Eigen::AngleAxisd(kTrembleRadPerS * late_s, random->Direction()).toRotationMatrix() *
+      world_from_board.rotation;
+  world_from_held.translation_mm = world_from_board * BoardMiddle() -
+                                   world_from_held.rotation * BoardMiddle() +
+                                   kTrembleMmPerS * late_s * random->Direction();
+  return world_from_held;
+}
+
 // A board's back shows nothing.
 cv::Mat PictureOfBoard(const recon::BoardDrawing& drawing, const core::CameraModel& camera,
                        const RigidTransform& world_from_board, unsigned seed) {
   core::CameraCalibration to_board = camera.calibration();
   to_board.cam_from_world = to_board.cam_from_world * world_from_board;
-  recon::testing::PictureOptions options;
-  options.seed = seed;
+  // As grey and as noisy as an indoor picture is, so that points are off as in real ones (calibration.md).
+  const recon::testing::PictureOptions options{170.0, 40.0, 100.0, 0.8, 5.0, seed};
   if ((world_from_board.Inverse() * camera.center_in_world()).z() <= 0.0)
     return {camera.height_px(), camera.width_px(), CV_8U, cv::Scalar(options.surround)};
   return recon::testing::PictureOf(drawing, core::CameraModel(to_board), options);
@@ -112,7 +126,10 @@ void DrawPictures(const core::Rig& truth, const std::vector<RigidTransform>& wor
     fs::create_directories(folder / camera.name());
     tbb::parallel_for(std::size_t{0}, world_from_boards.size(), [&](std::size_t pose) {
       const auto number = static_cast<unsigned>(1000 * seed + 100 * i + pose + 1);
-      const cv::Mat picture = PictureOfBoard(drawing, camera, world_from_boards[pose], number);
+      Random random(number);
+      const RigidTransform& world_from_board = world_from_boards[pose];
+      const cv::Mat picture = PictureOfBoard(
+          drawing, camera, pose == 0 ? world_from_board : HeldByAHand(world_from_board, &random), number);
       const fs::path file = folder / camera.name() / fmt::format("{:03}.png", pose);
       if (!cv::imwrite(file.string(), picture))
         throw core::Error(core::ErrorKind::kFile, fmt::format("'{}' can't be written", file.string()));

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cstdio>
 #include <iterator>
 
 #include "recon/synthetic/sensor_noise.h"
@@ -18,7 +17,6 @@ void AddVerdict(const JudgedPart& part, std::size_t rule, RuleFigures* figures) 
   const core::Verdict verdict = part.verdicts[rule];
   figures->tally.Add(part.true_mm, verdict);
   if (verdict != core::Verdict::kClear) return;
-  figures->deepest_clear_mm = std::max(figures->deepest_clear_mm, -part.true_mm);
   if (part.true_mm >= kRequiredMm[rule]) return;
   ++figures->clear_but_nearer;
   figures->most_missing_mm = std::max(figures->most_missing_mm, kRequiredMm[rule] - part.true_mm);
@@ -68,10 +66,11 @@ ChainFigures StudyChain(const ChainStudyOptions& options, const core::Progress& 
     figures.frames += std::int64_t{options.trials} * options.frames;
     for (const std::vector<JudgedPart>& of_trial : judged)
       for (const JudgedPart& part : of_trial) {
-        std::printf("DUMP %d %d %d %d %d %.2f %d %d %d %.2f %.2f %.3f %.3f %.3f\n", options.rig.cameras, calibration, static_cast<int>(&of_trial - judged.data()), static_cast<int>(part.frame), static_cast<int>(part.part), part.true_mm, static_cast<int>(part.verdicts[0]), static_cast<int>(part.verdicts[1]), static_cast<int>(part.verdicts[2]), part.bounds ? part.bounds->lower_mm : -1.0, part.bounds ? part.bounds->upper_mm : -1.0, part.bounds ? part.bounds->budget.calibration_mm : -1.0, part.bounds ? part.bounds->budget.segmentation_mm : -1.0, part.bounds ? part.bounds->budget.skew_mm : -1.0);
         for (std::size_t rule = 0; rule < kRequiredMm.size(); ++rule)
           AddVerdict(part, rule, &figures.rules[rule]);
         AddBounds(part, &figures);
+        figures.fastest_mm_per_s.push_back(part.fastest_mm_per_s);
+        figures.most_skew_ms.push_back(1e3 * part.most_skew_s);
       }
   }
   return figures;

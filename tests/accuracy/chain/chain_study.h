@@ -13,9 +13,9 @@ namespace elbowroom::accuracy {
 
 struct ChainStudyOptions {
   ChainRigOptions rig;
-  int calibrations = 5;
-  int trials = 20;   // of each calibration, the objects in turn
-  int frames = 100;  // of each trial; every frame has all parts
+  int calibrations = 10;
+  int trials = 20;  // of each calibration, the objects in turn
+  int frames = 50;  // of each trial; every frame has all parts
   std::uint64_t seed = 1;
 };
 
@@ -24,7 +24,6 @@ struct RuleFigures {
   VerdictTally tally;
   std::int64_t clear_but_nearer = 0;  // said `clear`, and truly nearer than the required clearance
   double most_missing_mm = 0.0;       // of those: how much nearer than required, at most
-  double deepest_clear_mm = 0.0;      // how deep the deepest touch was that is called `clear`
 };
 
 struct ChainFigures {
@@ -38,8 +37,9 @@ struct ChainFigures {
   std::int64_t nearer_than_bounds = 0;
   double most_below_bounds_mm = 0.0;
   std::vector<double> allowed_mm, calibration_mm, segmentation_mm, skew_mm;  // of those, U and 1 sigma each
-  std::vector<double>
-      hull_excess_mm;  // of parts that are truly apart: by how much the hull is nearer (less than 0: farther)
+  // Of parts that are truly apart: by how much nearer the hull is.
+  std::vector<double> hull_excess_mm;
+  std::vector<double> fastest_mm_per_s, most_skew_ms;  // of JudgedPart, by part
 };
 
 // Trials run in parallel; the result is the same for any number of threads.

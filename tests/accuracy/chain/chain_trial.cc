@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <utility>
 
@@ -89,6 +90,25 @@ core::Layout DrawLayout(const ChainMotion& motion, double to_s, Random* random) 
   return DrawChainLayout(meshes, objects, distances_mm, random);
 }
 
+double FastestMmPerS(const ChainMotion& motion, double time_s) {
+  constexpr double kStepS = 1e-3;
+  const std::vector<recon::Solid> before = SolidsAt(motion, time_s - kStepS);
+  const std::vector<recon::Solid> after = SolidsAt(motion, time_s + kStepS);
+  double way_mm = 0.0;
+  for (std::size_t i = 0; i < before.size(); ++i)
+    way_mm = std::max(way_mm, (recon::BoundingSphereOf(after[i]).center_in_world -
+                               recon::BoundingSphereOf(before[i]).center_in_world)
+                                  .norm());
+  return way_mm / (2.0 * kStepS);
+}
+
+double MostSkewS(const ChainClock::Set& set) {
+  double most_s = 0.0;
+  for (const ChainClock::Instant& camera : set.cameras)
+    most_s = std::max(most_s, std::abs(camera.true_s - set.time_s));
+  return most_s;
+}
+
 // The pipeline of a trial with the usual rule; the other rules judge the same hulls.
 class ChainJudges {
  public:
@@ -151,10 +171,11 @@ std::vector<JudgedPart> RunChainTrial(const ChainRig& rig, const ChainCameras& c
     const ChainJudges::Results& results = judges.Judge(std::move(frames));
     if (frame < kFirstFrames) continue;
     const std::vector<recon::Solid> solids = SolidsAt(motion, set.time_s);
+    const double fastest_mm_per_s = FastestMmPerS(motion, set.time_s);
     for (core::PartIndex part = 0; part < layout.parts.size(); ++part) {
       JudgedPart one;
-      one.part = part;
-      one.frame = frame;
+      one.fastest_mm_per_s = fastest_mm_per_s;
+      one.most_skew_s = MostSkewS(set);
       one.true_mm = oracles::SolidDistanceMm(*layout.parts[part].mesh, layout.parts[part].world_from_part,
                                              solids, kTrueToleranceMm, kTrueFarMm);
       for (std::size_t rule = 0; rule < results.size(); ++rule)

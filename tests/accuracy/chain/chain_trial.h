@@ -34,13 +34,13 @@ struct JudgedPart {
     core::ErrorBudget budget;
   };
   std::optional<Bounds> bounds;
-  core::PartIndex part = 0;
-  std::int64_t frame = 0;
+  double fastest_mm_per_s = 0.0;  // of what is real, the middle of its fastest solid
+  double most_skew_s = 0.0;       // of the cameras: how far from the frame's time one took its picture
 };
 
 struct ChainTrialOptions {
   ChainObject object = ChainObject::kOpenHand;
-  int frames = 100;
+  int frames = 50;
   std::uint64_t seed = 1;
 };
 

@@ -99,6 +99,7 @@ std::string WordsTable(const std::vector<ChainFigures>& rigs) {
 
 std::string RigsTable(const std::vector<ChainFigures>& rigs) {
   Table table{{"cameras", "frames", "calibrations", "views kept out, px", "cameras' places off by, mm",
+               "fastest of the object: median, mm/s", "95 %", "farthest camera in time: median, ms", "95 %",
                "hull nearer than the object by: median, mm", "95 %", "allowed for (U): median, mm", "95 %",
                "calibration, 1 sigma", "segmentation", "skew", "truth below lower - U, %", "by, mm, at most"},
               {}};
@@ -107,7 +108,9 @@ std::string RigsTable(const std::vector<ChainFigures>& rigs) {
     table.rows.push_back(
         {fmt::format("{}", rig.cameras), fmt::format("{}", rig.frames),
          fmt::format("{}", rig.held_out_px.size()), median(rig.held_out_px), median(rig.center_error_mm),
-         median(rig.hull_excess_mm), ThreeDigits(Quantile(rig.hull_excess_mm, 0.95)), median(rig.allowed_mm),
+         median(rig.fastest_mm_per_s), ThreeDigits(Quantile(rig.fastest_mm_per_s, 0.95)),
+         median(rig.most_skew_ms), ThreeDigits(Quantile(rig.most_skew_ms, 0.95)), median(rig.hull_excess_mm),
+         ThreeDigits(Quantile(rig.hull_excess_mm, 0.95)), median(rig.allowed_mm),
          ThreeDigits(Quantile(rig.allowed_mm, 0.95)), median(rig.calibration_mm), median(rig.segmentation_mm),
          median(rig.skew_mm), Percent(rig.nearer_than_bounds, rig.with_bounds),
          rig.nearer_than_bounds > 0 ? ThreeDigits(rig.most_below_bounds_mm) : "-"});
@@ -138,7 +141,7 @@ void WriteSections(const std::vector<ChainFigures>& rigs, const std::filesystem:
 }  // namespace
 
 void MeasureChain(const std::filesystem::path& docs, int frames) {
-  constexpr int kCalibrations = 5, kFramesOfTrial = 50;
+  constexpr int kCalibrations = 10, kFramesOfTrial = 50;
   std::mutex lines;
   const core::Progress progress([&](std::int64_t done, std::int64_t total, const std::string& what) {
     const std::scoped_lock lock(lines);
