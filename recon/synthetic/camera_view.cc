@@ -133,11 +133,10 @@ void CameraView::DrawTileByEdges(const PixelTile& tile, std::span<const SolidInV
   const auto hit_at = [&](int x, int y) -> const std::optional<NearestHit>& {
     return hits[static_cast<std::size_t>((y - y0) * (x1 - x0) + x - x0)];
   };
-  const auto solid_at = [&](int x, int y) { return hit_at(x, y) ? hit_at(x, y)->solid : nullptr; };
   const auto is_on_edge = [&](int x, int y) {
     for (int v = std::max(y - 1, y0); v <= std::min(y + 1, y1 - 1); ++v)
       for (int u = std::max(x - 1, x0); u <= std::min(x + 1, x1 - 1); ++u)
-        if (solid_at(u, v) != solid_at(x, y)) return true;
+        if (hit_at(u, v).has_value() != hit_at(x, y).has_value()) return true;
     return false;
   };
   for (int y = tile.y0; y < tile.y1; ++y) {

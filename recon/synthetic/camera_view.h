@@ -34,9 +34,9 @@ class CameraView {
   // 8-bit BGR. Uses all cores; the same bits on any number of them.
   [[nodiscard]] cv::Mat Render(std::span<const Solid> solids, const Exposure& exposure) const;
 
-  // The same before the sensor: grey levels, CV_32FC3, without gain and noise. Only pixels on an edge, where
-  // the centre rays of the nine pixels around don't all meet the same solid or none, take `edge_samples`
-  // rays each way; the others take the one through their centre.
+  // The same before the sensor: grey levels, CV_32FC3, without gain and noise. Only pixels on the edge of a
+  // silhouette, where some of the centre rays of the nine pixels around meet a solid and some don't, take
+  // `edge_samples` rays each way; the others take the one through their centre.
   [[nodiscard]] cv::Mat DrawLevels(std::span<const Solid> solids, int edge_samples) const;
 
   // The pixels whose centre ray hits a solid.

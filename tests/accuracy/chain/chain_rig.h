@@ -12,7 +12,7 @@ namespace elbowroom::accuracy {
 
 struct ChainRigOptions {
   int cameras = 4;
-  int board_poses = 30;        // beside the board on the table
+  int board_poses = 25;        // beside the board on the table
   double picture_scale = 1.0;  // 1: 640 x 480
 };
 

@@ -13,8 +13,8 @@ namespace elbowroom::accuracy {
 
 struct ChainStudyOptions {
   ChainRigOptions rig;
-  int calibrations = 10;
-  int trials = 20;  // of each calibration, the objects in turn
+  int calibrations = 8;
+  int trials = 25;  // of each calibration, the objects in turn
   int frames = 50;  // of each trial; every frame has all parts
   std::uint64_t seed = 1;
 };

@@ -22,7 +22,7 @@ namespace {
 using recon::Random;
 
 constexpr int kFirstFrames = 4;
-constexpr double kTrueToleranceMm = 0.02;
+constexpr double kTrueToleranceMm = 0.05;
 constexpr double kTrueFarMm = VerdictTally::kFarthestMm;
 
 review::PartReviewOptions ReviewWith(const ChainRig& rig, double required_mm) {

@@ -23,7 +23,7 @@ inline constexpr std::size_t kTouchRule = 0, kClosestRule = 1, kUsualRule = 2;
 
 // A part in a frame.
 struct JudgedPart {
-  double true_mm = 0.0;  // oracles::SolidDistanceMm at the frame's time; 0.02 mm above the exact one at most
+  double true_mm = 0.0;  // oracles::SolidDistanceMm at the frame's time; 0.05 mm above the exact one at most
   std::array<core::Verdict, kRequiredMm.size()> verdicts{};
   // Of the usual rule: the bounds of the distance to the hull, and what its verdict allows for. Nothing: hull
   // and part meet.

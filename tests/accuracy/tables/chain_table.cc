@@ -141,7 +141,7 @@ void WriteSections(const std::vector<ChainFigures>& rigs, const std::filesystem:
 }  // namespace
 
 void MeasureChain(const std::filesystem::path& docs, int frames) {
-  constexpr int kCalibrations = 10, kFramesOfTrial = 50;
+  constexpr int kCalibrations = 8, kFramesOfTrial = 50;
   std::mutex lines;
   const core::Progress progress([&](std::int64_t done, std::int64_t total, const std::string& what) {
     const std::scoped_lock lock(lines);
