@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <iterator>
 
 #include "recon/synthetic/sensor_noise.h"
@@ -25,6 +26,10 @@ void AddVerdict(const JudgedPart& part, std::size_t rule, RuleFigures* figures) 
 void AddBounds(const JudgedPart& part, ChainFigures* figures) {
   if (!part.bounds || part.true_mm >= VerdictTally::kFarthestMm) return;
   const JudgedPart::Bounds& bounds = *part.bounds;
+  if (std::isinf(bounds.lower_mm)) {
+    ++figures->without_hull;
+    return;
+  }
   ++figures->with_bounds;
   const double below_mm = bounds.lower_mm - bounds.budget.ExpandedMm() - part.true_mm;
   if (below_mm > 0.0) {

@@ -32,10 +32,11 @@ struct ChainFigures {
   std::vector<double> held_out_px, center_error_mm;  // by calibration
   std::array<RuleFigures, kRequiredMm.size()> rules;
   // Parts with bounds (JudgedPart::Bounds): whether the object is nowhere nearer than the lower bound less
-  // what the verdict allows for.
+  // what the verdict allows for. Where there is no hull, that bound is infinite.
   std::int64_t with_bounds = 0;
   std::int64_t nearer_than_bounds = 0;
   double most_below_bounds_mm = 0.0;
+  std::int64_t without_hull = 0;  // they count to none of the three above
   std::vector<double> allowed_mm, calibration_mm, segmentation_mm, skew_mm;  // of those, U and 1 sigma each
   // Of parts that are truly apart: by how much nearer the hull is.
   std::vector<double> hull_excess_mm;

@@ -12,6 +12,7 @@ namespace {
 using core::Verdict;
 
 constexpr int kFromMm = -10, kToMm = 40, kStepMm = 1;
+constexpr double kBoxWidth = 1.04;  // of a step: no seams between boxes
 
 // From the bottom up. Told apart by those who see colours differently, too (Okabe and Ito).
 struct Layer {
@@ -71,9 +72,9 @@ void DrawVerdicts(const std::vector<std::vector<VerdictPanel>>& rows, const std:
       "set xrange [{}:{}]\nset yrange [0:100]\nset boxwidth {}\nset border 3\nset tics nomirror out\nset "
       "xtics 10\n"
       "set ytics 25\nset xlabel 'true distance, mm (below 0: overlap)'\nset ylabel 'share, %'\n"
-      "set key outside bottom center horizontal width 2 samplen 1.5 invert\n"
+      "set key below horizontal maxrows 1 samplen 1 width -1 invert\nset bmargin 5.2\n"
       "set arrow 1 from 0,0 to 0,100 nohead front lw 1.5 lc rgb '#000000'\n",
-      kFromMm, kToMm, kStepMm);
+      kFromMm, kToMm, kBoxWidth * kStepMm);
   // Names without a folder: the script runs beside them.
   const std::string name = stem.filename().string(), plot = PlotAll(rows);
   const std::size_t wide = rows.front().size(), high = rows.size();
