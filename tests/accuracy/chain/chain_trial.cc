@@ -64,7 +64,7 @@ bool IsSeenWhole(const core::Rig& rig, const ChainMotion& motion, double from_s,
 ChainMotion DrawSeenMotion(const core::Rig& rig, ChainObject object, double to_s, Random* random) {
   constexpr int kTries = 1000;
   for (int i = 0; i < kTries; ++i) {
-    const ChainMotion motion =
+    ChainMotion motion =
         DrawChainMotion(object, ChainMiddleInWorld(), static_cast<std::uint64_t>(random->Whole(0, 1 << 30)));
     if (IsSeenWhole(rig, motion, 0.0, to_s)) return motion;
   }

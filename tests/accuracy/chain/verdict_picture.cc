@@ -72,7 +72,7 @@ void DrawVerdicts(const std::vector<std::vector<VerdictPanel>>& rows, const std:
       "set xrange [{}:{}]\nset yrange [0:100]\nset boxwidth {}\nset border 3\nset tics nomirror out\nset "
       "xtics 10\n"
       "set ytics 25\nset xlabel 'true distance, mm (below 0: overlap)'\nset ylabel 'share, %'\n"
-      "set key below horizontal maxrows 1 samplen 1 width -1 invert\nset bmargin 5.2\n"
+      "set key inside bottom right opaque box samplen 1.5\nset bmargin 3.5\n"
       "set arrow 1 from 0,0 to 0,100 nohead front lw 1.5 lc rgb '#000000'\n",
       kFromMm, kToMm, kBoxWidth * kStepMm);
   // Names without a folder: the script runs beside them.
