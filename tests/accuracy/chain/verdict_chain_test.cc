@@ -63,15 +63,18 @@ TEST(VerdictChain, WordsMeanWhatTheyPromise) {
     EXPECT_GT(figures.tally.Count(Verdict::kClear, kAnywhere), 0);
   }
   EXPECT_EQ(study.nearer_than_bounds, 0) << "by " << study.most_below_bounds_mm << " mm at most";
-  // Where nothing is required no error is allowed for: what touches by less than the errors may be missed.
+  // Cameras that look at other instants may cut off a little of what moves: then it is `undecided`, and
+  // missed where nothing is required.
   constexpr DistanceRange kSurelyTouching{kTouching.from_mm, -1}, kFar{50, kApart.to_mm};
-  constexpr double kLeastClearShare = 0.9;  // a hull that is far too large would make all of it contact
+  constexpr double kLeastContactShare = 0.95;  // in docs/accuracy.md it is 98 % of overlaps of 1 to 2 mm
+  constexpr double kLeastClearShare = 0.9;     // a hull that is far too large would make all of it contact
   for (const RuleFigures& figures : study.rules) {
     const VerdictTally& tally = figures.tally;
-    EXPECT_GT(tally.Count(kSurelyTouching), 0);
-    EXPECT_EQ(tally.Count(Verdict::kContact, kSurelyTouching), tally.Count(kSurelyTouching));
-    EXPECT_GE(static_cast<double>(tally.Count(Verdict::kClear, kFar)),
-              kLeastClearShare * static_cast<double>(tally.Count(kFar)));
+    const auto share = [&](Verdict verdict, const DistanceRange& range) {
+      return static_cast<double>(tally.Count(verdict, range)) / static_cast<double>(tally.Count(range));
+    };
+    EXPECT_GE(share(Verdict::kContact, kSurelyTouching), kLeastContactShare);
+    EXPECT_GE(share(Verdict::kClear, kFar), kLeastClearShare);
   }
 }
 
