@@ -97,25 +97,57 @@ std::vector<CameraView::SolidInView> CameraView::SolidsNear(const PixelTile& til
   return near;
 }
 
+void CameraView::DrawPixel(int x, int y, std::span<const SolidInView> solids, int samples_per_pixel_side,
+                           cv::Mat& clean_bgr) const {
+  const int n = samples_per_pixel_side;
+  const auto from_center = [&](int i) { return (i + 0.5) / n - 0.5; };
+  cv::Vec3f color(0.0F, 0.0F, 0.0F);
+  int hits = 0;
+  for (int i = 0; i < n * n; ++i) {
+    const Ray ray = n == 1 ? rays_.At(x, y) : rays_.At(x, y, {from_center(i % n), from_center(i / n)});
+    const auto nearest = NearestOf(solids, ray);
+    if (!nearest) continue;
+    color += Levels(ShadedColor(nearest->solid->color_bgr, nearest->hit.normal_in_world));
+    ++hits;
+  }
+  if (hits == 0) return;
+  auto& clean = clean_bgr.at<cv::Vec3f>(y, x);
+  clean = 1.0F / static_cast<float>(n * n) * (color + static_cast<float>(n * n - hits) * clean);
+}
+
 void CameraView::DrawTile(const PixelTile& tile, std::span<const SolidInView> solids,
                           int samples_per_pixel_side, cv::Mat& clean_bgr) const {
-  const int n = samples_per_pixel_side;
-  const float share = 1.0F / static_cast<float>(n * n);
-  const auto from_center = [&](int i) { return (i + 0.5) / n - 0.5; };
+  for (int y = tile.y0; y < tile.y1; ++y)
+    for (int x = tile.x0; x < tile.x1; ++x) DrawPixel(x, y, solids, samples_per_pixel_side, clean_bgr);
+}
+
+// What the centre rays around the tile meet needn't be complete: a solid that no ray through the tile's
+// pixels meets gives none of them an edge.
+void CameraView::DrawTileByEdges(const PixelTile& tile, std::span<const SolidInView> solids, int edge_samples,
+                                 cv::Mat& clean_bgr) const {
+  const int x0 = std::max(tile.x0 - 1, 0), x1 = std::min(tile.x1 + 1, rays_.width_px());
+  const int y0 = std::max(tile.y0 - 1, 0), y1 = std::min(tile.y1 + 1, rays_.height_px());
+  std::vector<std::optional<NearestHit>> hits;
+  for (int y = y0; y < y1; ++y)
+    for (int x = x0; x < x1; ++x) hits.push_back(NearestOf(solids, rays_.At(x, y)));
+  const auto hit_at = [&](int x, int y) -> const std::optional<NearestHit>& {
+    return hits[static_cast<std::size_t>((y - y0) * (x1 - x0) + x - x0)];
+  };
+  const auto is_on_edge = [&](int x, int y) {
+    for (int v = std::max(y - 1, y0); v <= std::min(y + 1, y1 - 1); ++v)
+      for (int u = std::max(x - 1, x0); u <= std::min(x + 1, x1 - 1); ++u)
+        if (hit_at(u, v).has_value() != hit_at(x, y).has_value()) return true;
+    return false;
+  };
   for (int y = tile.y0; y < tile.y1; ++y) {
     for (int x = tile.x0; x < tile.x1; ++x) {
-      cv::Vec3f color(0.0F, 0.0F, 0.0F);
-      int hits = 0;
-      for (int i = 0; i < n * n; ++i) {
-        const Ray ray = n == 1 ? rays_.At(x, y) : rays_.At(x, y, {from_center(i % n), from_center(i / n)});
-        const auto nearest = NearestOf(solids, ray);
-        if (!nearest) continue;
-        color += Levels(ShadedColor(nearest->solid->color_bgr, nearest->hit.normal_in_world));
-        ++hits;
+      const std::optional<NearestHit>& nearest = hit_at(x, y);
+      if (is_on_edge(x, y)) {
+        DrawPixel(x, y, solids, edge_samples, clean_bgr);
+      } else if (nearest) {
+        clean_bgr.at<cv::Vec3f>(y, x) =
+            Levels(ShadedColor(nearest->solid->color_bgr, nearest->hit.normal_in_world));
       }
-      if (hits == 0) continue;
-      auto& clean = clean_bgr.at<cv::Vec3f>(y, x);
-      clean = share * (color + static_cast<float>(n * n - hits) * clean);
     }
   }
 }
@@ -157,6 +189,16 @@ cv::Mat CameraView::Render(std::span<const Solid> solids, const Exposure& exposu
                 image_bgr.ptr<unsigned char>(y));
   });
   return image_bgr;
+}
+
+cv::Mat CameraView::DrawLevels(std::span<const Solid> solids, int edge_samples) const {
+  const std::vector<BoundingSphere> spheres = SpheresOf(solids);
+  cv::Mat clean_bgr = empty_bgr_.clone();
+  tbb::parallel_for(std::size_t{0}, rays_.tiles().size(), [&](std::size_t i) {
+    const std::vector<SolidInView> near = SolidsNear(rays_.tiles()[i], solids, spheres);
+    if (!near.empty()) DrawTileByEdges(rays_.tiles()[i], near, edge_samples, clean_bgr);
+  });
+  return clean_bgr;
 }
 
 core::BitMask CameraView::TrueMask(std::span<const Solid> solids) const {

@@ -34,6 +34,11 @@ class CameraView {
   // 8-bit BGR. Uses all cores; the same bits on any number of them.
   [[nodiscard]] cv::Mat Render(std::span<const Solid> solids, const Exposure& exposure) const;
 
+  // The same before the sensor: grey levels, CV_32FC3, without gain and noise. Only pixels on the edge of a
+  // silhouette, where some of the centre rays of the nine pixels around meet a solid and some don't, take
+  // `edge_samples` rays each way; the others take the one through their centre.
+  [[nodiscard]] cv::Mat DrawLevels(std::span<const Solid> solids, int edge_samples) const;
+
   // The pixels whose centre ray hits a solid.
   [[nodiscard]] core::BitMask TrueMask(std::span<const Solid> solids) const;
 
@@ -57,8 +62,12 @@ class CameraView {
                                                            const Ray& ray);
   [[nodiscard]] std::vector<SolidInView> SolidsNear(const PixelTile& tile, std::span<const Solid> solids,
                                                     std::span<const BoundingSphere> spheres) const;
+  void DrawPixel(int x, int y, std::span<const SolidInView> solids, int samples_per_pixel_side,
+                 cv::Mat& clean_bgr) const;
   void DrawTile(const PixelTile& tile, std::span<const SolidInView> solids, int samples_per_pixel_side,
                 cv::Mat& clean_bgr) const;
+  void DrawTileByEdges(const PixelTile& tile, std::span<const SolidInView> solids, int edge_samples,
+                       cv::Mat& clean_bgr) const;
   void DrawShadow(std::size_t tile_index, std::span<const Solid> solids,
                   std::span<const BoundingSphere> spheres, cv::Mat& clean_bgr) const;
 

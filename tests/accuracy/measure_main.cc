@@ -20,6 +20,12 @@ int main(int argc, char** argv) {
   app.add_subcommand("finger", "the paper's moving finger: how wide it is everywhere")->callback([&] {
     MeasureFinger(docs);
   });
+  int chain_frames = 10'000;
+  CLI::App* chain = app.add_subcommand("chain", "the whole chain: how often each verdict is right");
+  chain->add_option("--count", chain_frames, "frames a rig")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  chain->callback([&] { MeasureChain(docs, chain_frames); });
   app.add_subcommand("work", "the paper's figures of its plane sweep beside ours")->callback([&] {
     MeasureSweepWork(docs);
   });

@@ -17,6 +17,10 @@ void MeasureSweepWork(const std::filesystem::path& docs);
 // accuracy.md, "finger", "finger_directions", "finger_cameras"; docs/pictures/finger_width.{svg,png}.
 void MeasureFinger(const std::filesystem::path& docs);
 
+// accuracy.md, "chain", "chain_words", "chain_rigs"; docs/pictures/verdict_words.{svg,png}: the whole chain,
+// from the board to the verdict, against the true object; `frames` of each of three rigs.
+void MeasureChain(const std::filesystem::path& docs, int frames = 10'000);
+
 // performance.md, "methods"; docs/pictures/view_methods.{svg,png}.
 void MeasureMethods(const std::filesystem::path& docs);
 

@@ -60,13 +60,37 @@ class ShapeIndex {
   std::vector<Cell> cells_{static_cast<std::size_t>(kAcross * kAcross)};
 };
 
-// The normalised image point of each pixel corner; nothing where the lens has none.
-std::vector<std::optional<Vector2d>> CornersOfPixels(const core::CameraModel& camera) {
+// All pixels that may show something of the board; the whole picture where its outline isn't all before the
+// lens.
+cv::Rect BoxAround(const BoardDrawing& drawing, const core::CameraModel& camera) {
+  constexpr int kStepsOfSide = 16;
+  constexpr double kMarginPx = 3.0;  // the outline is curved between its steps, and a pixel has an extent
+  const cv::Rect picture(0, 0, camera.width_px(), camera.height_px());
+  const Vector2d from = drawing.ground.min(), to = drawing.ground.max();
+  Eigen::AlignedBox2d box;
+  for (int i = 0; i <= kStepsOfSide; ++i) {
+    const Vector2d at = from + static_cast<double>(i) / kStepsOfSide * (to - from);
+    for (const Vector2d& x_in_board : {Vector2d(at.x(), from.y()), Vector2d(at.x(), to.y()),
+                                       Vector2d(from.x(), at.y()), Vector2d(to.x(), at.y())}) {
+      const auto pixel = camera.Project({x_in_board.x(), x_in_board.y(), 0.0});
+      if (!pixel) return picture;
+      box.extend(*pixel);
+    }
+  }
+  const Vector2d low = box.min().array() - kMarginPx, high = box.max().array() + kMarginPx;
+  const cv::Point first(cvFloor(std::max(low.x(), 0.0)), cvFloor(std::max(low.y(), 0.0)));
+  const cv::Point last(cvCeil(std::min(high.x(), 1.0 * picture.width)),
+                       cvCeil(std::min(high.y(), 1.0 * picture.height)));
+  return last.x > first.x && last.y > first.y ? cv::Rect(first, last) : cv::Rect();
+}
+
+// The normalised image point of each corner of the box's pixels; nothing where the lens has none.
+std::vector<std::optional<Vector2d>> CornersOfPixels(const core::CameraModel& camera, const cv::Rect& box) {
   std::vector<std::optional<Vector2d>> corners;
-  for (int y = 0; y <= camera.height_px(); ++y)
-    for (int x = 0; x <= camera.width_px(); ++x) {
+  for (int y = box.y; y <= box.y + box.height; ++y)
+    for (int x = box.x; x <= box.x + box.width; ++x) {
       const Vector2d pixel(x - 0.5, y - 0.5);
-      const bool has_nearby = !corners.empty() && corners.back().has_value() && x > 0;
+      const bool has_nearby = !corners.empty() && corners.back().has_value() && x > box.x;
       corners.push_back(has_nearby ? camera.NormalisedFromPixel(pixel, *corners.back())
                                    : camera.NormalisedFromPixel(pixel));
     }
@@ -94,7 +118,8 @@ cv::Mat PictureOf(const BoardDrawing& drawing, const core::CameraModel& camera,
   Matrix3d normalised_from_board;
   normalised_from_board << cam_from_board.rotation.leftCols<2>(), cam_from_board.translation_mm;
   const Matrix3d board_from_normalised = normalised_from_board.inverse();
-  const std::vector<std::optional<Vector2d>> corners = CornersOfPixels(camera);
+  const cv::Rect box = BoxAround(drawing, camera);
+  const std::vector<std::optional<Vector2d>> corners = CornersOfPixels(camera, box);
   const std::vector<Vector2d> places = PlacesInPixel();
   const double shape = drawing.inverted ? options.light : options.dark;
   const double ground = drawing.inverted ? options.dark : options.light;
@@ -107,10 +132,11 @@ cv::Mat PictureOf(const BoardDrawing& drawing, const core::CameraModel& camera,
     return shapes.IsInShape(x_in_board) ? shape : ground;
   };
   cv::Mat picture(camera.height_px(), camera.width_px(), CV_32F, cv::Scalar(options.surround));
-  const auto across = static_cast<std::size_t>(camera.width_px() + 1);
-  for (int y = 0; y < picture.rows; ++y) {
-    for (int x = 0; x < picture.cols; ++x) {
-      const std::size_t i = static_cast<std::size_t>(y) * across + static_cast<std::size_t>(x);
+  const auto across = static_cast<std::size_t>(box.width + 1);
+  for (int y = box.y; y < box.y + box.height; ++y) {
+    for (int x = box.x; x < box.x + box.width; ++x) {
+      const std::size_t i =
+          static_cast<std::size_t>(y - box.y) * across + static_cast<std::size_t>(x - box.x);
       const auto &a = corners[i], &b = corners[i + 1], &c = corners[i + across], &d = corners[i + across + 1];
       if (!a || !b || !c || !d) continue;
       double sum = 0.0;

@@ -48,7 +48,7 @@ void AddHand(const HandMotion& motion, std::uint64_t first_channel, const HandSh
 }
 
 void AddBumpyBall(const HandMotion& motion, double time_s, std::vector<Solid>* solids) {
-  const core::RigidTransform world_from_ball = WanderingPose(motion, 0, time_s);
+  const core::RigidTransform world_from_ball = PoseAt(motion, time_s);
   for (int i = 0; i < 14; ++i) {
     const auto number = static_cast<std::uint64_t>(1000 + 4 * i);
     const Vector3d away(NormalFrom(motion.seed, number), NormalFrom(motion.seed, number + 1),
@@ -78,6 +78,10 @@ const char* NameOf(MovingShape shape) {
   return "unknown";
 }
 
+core::RigidTransform PoseAt(const HandMotion& motion, double time_s) {
+  return WanderingPose(motion, 0, time_s);
+}
+
 std::vector<Solid> HandsAt(const HandMotion& motion, double time_s) {
   std::vector<Solid> solids;
   switch (motion.shape) {
@@ -93,7 +97,7 @@ std::vector<Solid> HandsAt(const HandMotion& motion, double time_s) {
       break;
     case MovingShape::kTongs: {
       const double open = 0.5 + 0.4 * Wander(motion.seed, 6, motion.speed * time_s);
-      const SyntheticObject tongs = Tongs(WanderingPose(motion, 0, time_s), 0.3 * open);
+      const SyntheticObject tongs = Tongs(PoseAt(motion, time_s), 0.3 * open);
       solids = tongs.solids;
       break;
     }

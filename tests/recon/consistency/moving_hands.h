@@ -24,6 +24,9 @@ struct HandMotion {
   Eigen::Vector3d middle_in_world{60.0, 0.0, 200.0};
 };
 
+// The pose of the first hand's wrist, of the tongs or of the ball at a time.
+[[nodiscard]] core::RigidTransform PoseAt(const HandMotion& motion, double time_s);
+
 // What stands there at a time. A sum of sines with seeded phases: smooth, never at rest, never the same.
 [[nodiscard]] std::vector<Solid> HandsAt(const HandMotion& motion, double time_s);
 
