@@ -203,8 +203,7 @@ void AddCamera(const YamlNode& node, const std::string& file, const std::filesys
   }
   if (SaysNothingOfCalibration(section)) {
     if (use == RigUse::kMeasure)
-      section.Fail(
-          "not calibrated yet (no camera_matrix, no pose); 'elbowroom calibrate' does it");
+      section.Fail("not calibrated yet (no camera_matrix, no pose); 'elbowroom calibrate' does it");
     rig_file.is_calibrated = false;
   }
   rig_file.rig.cameras.push_back(SaysNothingOfCalibration(section) ? ReadUncalibrated(section, name)

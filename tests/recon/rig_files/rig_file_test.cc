@@ -359,8 +359,7 @@ TEST(RigFile, UncalibratedItIsGoodForPicturesAlone) {
   EXPECT_EQ(rig_file.rig.cameras[0].width_px(), 64);
   EXPECT_EQ(rig_file.sources[0].capture.rate_hz, 20.0);
   WriteRigFile(rig_file, copy);
-  EXPECT_THAT(ErrorOf(ErrorKind::kFormat, [&] { (void)ReadRigFile(copy); }),
-              HasSubstr("not calibrated yet"));
+  EXPECT_THAT(ErrorOf(ErrorKind::kFormat, [&] { (void)ReadRigFile(copy); }), HasSubstr("not calibrated yet"));
   const RigFile again = ReadRigFile(copy, RigUse::kPictures);
   EXPECT_FALSE(again.is_calibrated);
   EXPECT_EQ(again.sources, rig_file.sources);
