@@ -4,6 +4,10 @@
 # Highway compiles a kernel several times, so a kernel can't share a compilation with other files (a unity build).
 function(elbowroom_compile_kernels_alone)
   foreach(source ${ARGN})
+    get_source_file_property(is_generated ${source} GENERATED)
+    if(is_generated)
+      continue()   # not written yet
+    endif()
     file(STRINGS ${source} is_kernel REGEX "include [<\"]hwy/foreach_target.h")
     if(is_kernel)
       set_source_files_properties(${source} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)

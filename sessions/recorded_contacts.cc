@@ -127,7 +127,8 @@ std::vector<double> ReadSpacings(Statement& rows, const core::Layout& layout, co
   return spacing_mm;
 }
 
-std::vector<ContactRow> ReadRowsWhere(Database& database, const core::Layout& layout, const char* condition) {
+void VisitRowsWhere(Database& database, const core::Layout& layout, const char* condition,
+                    const RowVisitor& visit) {
   Statement rows(database,
                  fmt::format("SELECT {}, f.frame_index, f.time_s FROM {} JOIN frame f USING (frame_index) "
                              "WHERE {} ORDER BY f.frame_index, pf.part_index",
@@ -135,18 +136,20 @@ std::vector<ContactRow> ReadRowsWhere(Database& database, const core::Layout& la
   Statement spacings(
       database,
       "SELECT spacing_index, spacing_mm FROM frame_spacing WHERE frame_index = ? ORDER BY spacing_index");
-  std::vector<ContactRow> result;
+  ContactRow row;
+  row.frame = -1;
+  std::string where;
   while (rows.Next()) {
-    ContactRow row;
-    row.frame = rows.Integer(kContactColumnCount);
-    const std::string where = FrameOf(database, row.frame);
+    if (const core::FrameIndex frame = rows.Integer(kContactColumnCount); frame != row.frame) {
+      row.frame = frame;
+      where = FrameOf(database, frame);
+      row.spacing_mm = ReadSpacings(spacings, layout, frame, where);
+    }
     row.time_s = Time_s(rows.Real(kContactColumnCount + 1), where, "its time");
-    row.spacing_mm = ReadSpacings(spacings, layout, row.frame, where);
     row.contact = ReadContact(rows, where);
     row.contact.part = IndexBelow(rows.Integer(0), layout.parts.size(), where, "part");
-    result.push_back(std::move(row));
+    visit(row);
   }
-  return result;
 }
 
 }  // namespace
@@ -165,11 +168,11 @@ std::vector<core::PartContact> ReadContacts(Database& database, std::size_t part
   return contacts;
 }
 
-std::vector<ContactRow> ReadContactRows(Database& database, const core::Layout& layout) {
-  return ReadRowsWhere(database, layout, "pf.verdict = 'contact'");
+void VisitContactRows(Database& database, const core::Layout& layout, const RowVisitor& visit) {
+  VisitRowsWhere(database, layout, "pf.verdict = 'contact'", visit);
 }
-std::vector<ContactRow> ReadClearanceRows(Database& database, const core::Layout& layout) {
-  return ReadRowsWhere(database, layout, "cl.queries IS NOT NULL");
+void VisitClearanceRows(Database& database, const core::Layout& layout, const RowVisitor& visit) {
+  VisitRowsWhere(database, layout, "cl.queries IS NOT NULL", visit);
 }
 
 std::vector<PartTotals> ReadPartTotals(Database& database, const core::Layout& layout) {
@@ -177,13 +180,19 @@ std::vector<PartTotals> ReadPartTotals(Database& database, const core::Layout& l
   Statement rows(database,
                  "SELECT part_index, count(*) FILTER (WHERE verdict = 'contact'), "
                  "count(*) FILTER (WHERE verdict = 'near'), count(*) FILTER (WHERE verdict = 'undecided'), "
-                 "count(*) FILTER (WHERE verdict = 'clear') FROM part_frame GROUP BY part_index");
+                 "count(*) FILTER (WHERE verdict = 'clear'), sum(triangles), sum(queries), sum(skipped) "
+                 "FROM part_frame GROUP BY part_index");
   std::vector<PartTotals> totals(layout.parts.size());
   for (core::PartIndex i = 0; i < totals.size(); ++i) totals[i].part = i;
   while (rows.Next()) {
     const core::PartIndex part = IndexBelow(rows.Integer(0), totals.size(),
                                             fmt::format("session '{}'", database.path().string()), "part");
-    totals[part] = {part, rows.Integer(1), rows.Integer(2), rows.Integer(3), rows.Integer(4)};
+    totals[part] = {part,
+                    rows.Integer(1),
+                    rows.Integer(2),
+                    rows.Integer(3),
+                    rows.Integer(4),
+                    {rows.Integer(5), rows.Integer(6), rows.Integer(7)}};
   }
   return totals;
 }

@@ -1,6 +1,7 @@
 // The contacts and clearances of the parts, read back from rows.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -26,7 +27,10 @@ struct PartTotals {
   std::int64_t frames_near = 0;
   std::int64_t frames_undecided = 0;
   std::int64_t frames_clear = 0;
+  core::QueryCount count;  // of contact, over all frames
 };
+
+using RowVisitor = std::function<void(const ContactRow&)>;
 
 // The largest that a verdict on the part allowed for.
 struct PartBudget {
@@ -39,9 +43,9 @@ struct PartBudget {
 [[nodiscard]] std::vector<core::PartContact> ReadContacts(Database& database, std::size_t parts,
                                                           core::FrameIndex frame);
 // Those with the verdict 'contact', by frame and part.
-[[nodiscard]] std::vector<ContactRow> ReadContactRows(Database& database, const core::Layout& layout);
+void VisitContactRows(Database& database, const core::Layout& layout, const RowVisitor& visit);
 // Those with a clearance, by frame and part.
-[[nodiscard]] std::vector<ContactRow> ReadClearanceRows(Database& database, const core::Layout& layout);
+void VisitClearanceRows(Database& database, const core::Layout& layout, const RowVisitor& visit);
 // One a part.
 [[nodiscard]] std::vector<PartTotals> ReadPartTotals(Database& database, const core::Layout& layout);
 // One a part for which one was computed, by part.

@@ -173,10 +173,20 @@ std::vector<core::HeatMap> SessionReader::heat_maps() const {
   return impl_->limit.Guarded([&] { return ReadHeatMaps(impl_->database, impl_->header.layout); });
 }
 std::vector<ContactRow> SessionReader::contacts() const {
-  return impl_->limit.Guarded([&] { return ReadContactRows(impl_->database, impl_->header.layout); });
+  std::vector<ContactRow> rows;
+  VisitContacts([&](const ContactRow& row) { rows.push_back(row); });
+  return rows;
 }
 std::vector<ContactRow> SessionReader::clearances() const {
-  return impl_->limit.Guarded([&] { return ReadClearanceRows(impl_->database, impl_->header.layout); });
+  std::vector<ContactRow> rows;
+  VisitClearances([&](const ContactRow& row) { rows.push_back(row); });
+  return rows;
+}
+void SessionReader::VisitContacts(const RowVisitor& visit) const {
+  impl_->limit.Guarded([&] { VisitContactRows(impl_->database, impl_->header.layout, visit); });
+}
+void SessionReader::VisitClearances(const RowVisitor& visit) const {
+  impl_->limit.Guarded([&] { VisitClearanceRows(impl_->database, impl_->header.layout, visit); });
 }
 std::vector<PartTotals> SessionReader::part_totals() const {
   return impl_->limit.Guarded([&] { return ReadPartTotals(impl_->database, impl_->header.layout); });

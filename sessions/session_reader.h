@@ -74,6 +74,9 @@ class SessionReader {
   [[nodiscard]] std::vector<core::HeatMap> heat_maps() const;        // by part; likewise
   [[nodiscard]] std::vector<ContactRow> contacts() const;            // every part in contact, frame by frame
   [[nodiscard]] std::vector<ContactRow> clearances() const;          // every part with a clearance, likewise
+  // The same rows one by one, for sessions of any length. The visitor must not read the session.
+  void VisitContacts(const RowVisitor& visit) const;
+  void VisitClearances(const RowVisitor& visit) const;
   [[nodiscard]] std::vector<PartTotals> part_totals() const;         // one a part
   [[nodiscard]] std::vector<PartBudget> part_budgets() const;        // of parts for which one was computed
   [[nodiscard]] std::vector<StampRow> stamp_rows() const;            // those with stamps, by number

@@ -7,7 +7,7 @@
 #include "app/cli/command.h"
 #include "app/cli/trial_summary.h"
 #include "app/control/demo_trial.h"
-#include "app/control/session_report.h"
+#include "app/control/report/session_report.h"
 #include "core/error.h"
 #include "core/system/file_sync.h"
 

@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "app/cli/command.h"
-#include "app/control/session_report.h"
+#include "app/control/report/session_report.h"
 
 namespace elbowroom::cli {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "app/control/session_report.h"
+#include "app/control/report/session_report.h"
 #include "app/control/trial_runner.h"
 #include "app/control/watch/knock_watch.h"
 #include "core/error.h"

@@ -28,20 +28,6 @@ std::vector<double> RoundTicks(double low, double high, int most) {
   return ticks;
 }
 
-std::string DepthColour(double fraction) {
-  using Colour = std::array<double, 3>;
-  constexpr std::array<Colour, 4> kStops = {{{253, 212, 158}, {252, 141, 89}, {215, 48, 31}, {115, 0, 0}}};
-  const double position = std::clamp(fraction, 0.0, 1.0) * (kStops.size() - 1);
-  const auto stop = std::min(static_cast<std::size_t>(position), kStops.size() - 2);
-  const double share = position - static_cast<double>(stop);
-  std::string colour = "#";
-  for (std::size_t i = 0; i < 3; ++i) {
-    const double level = kStops[stop][i] + share * (kStops[stop + 1][i] - kStops[stop][i]);
-    colour += fmt::format("{:02x}", static_cast<int>(std::lround(level)));
-  }
-  return colour;
-}
-
 std::string TimeGrid(const Plot& plot) {
   std::string svg;
   for (const double time_s : RoundTicks(plot.begin_s, plot.end_s, kMostTimeTicks)) {

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "sessions/charts/ink.h"
+
 namespace elbowroom::sessions {
 
 // A rectangle of the picture (SVG user units, y down) over which time runs to the right and a value upwards.
@@ -27,9 +29,6 @@ struct Plot {
 
 // Round numbers (1, 2 or 5 times a power of ten apart) from `low` to `high`, at most `most` of them (>= 2).
 [[nodiscard]] std::vector<double> RoundTicks(double low, double high, int most);
-
-// "#rrggbb" from pale (0) to dark red (1). The lightness changes evenly, so that a grey print shows it too.
-[[nodiscard]] std::string DepthColour(double fraction);
 
 // SVG: vertical grid lines through the plot, and the seconds under it.
 [[nodiscard]] std::string TimeGrid(const Plot& plot);

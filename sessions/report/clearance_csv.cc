@@ -19,7 +19,9 @@ std::string ClearanceHeader(const core::Layout& layout) {
   return line + '\n';
 }
 
-std::string LineOf(const core::SessionHeader& header, const ContactRow& row) {
+}  // namespace
+
+std::string ClearanceLine(const core::SessionHeader& header, const ContactRow& row) {
   const core::PartClearance& clearance = *row.contact.clearance;
   const auto length = [](double length_mm) {
     return std::isfinite(length_mm) ? fmt::format(",{}", length_mm) : std::string(",");
@@ -44,8 +46,6 @@ std::string LineOf(const core::SessionHeader& header, const ContactRow& row) {
   return line + '\n';
 }
 
-}  // namespace
-
 std::string_view HowItErrs(core::Verdict verdict) {
   switch (verdict) {
     case core::Verdict::kContact:
@@ -62,7 +62,7 @@ std::string_view HowItErrs(core::Verdict verdict) {
 
 std::string ClearanceCsv(const core::SessionHeader& header, std::span<const ContactRow> rows) {
   std::string csv = ClearanceHeader(header.layout);
-  for (const ContactRow& row : rows) csv += LineOf(header, row);
+  for (const ContactRow& row : rows) csv += ClearanceLine(header, row);
   return csv;
 }
 

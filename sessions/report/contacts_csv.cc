@@ -17,7 +17,9 @@ std::string ContactHeader(const core::Layout& layout) {
   return line + '\n';
 }
 
-std::string LineOf(const core::Layout& layout, const ContactRow& row) {
+}  // namespace
+
+std::string ContactLine(const core::Layout& layout, const ContactRow& row) {
   using Point = std::optional<Eigen::Vector3d>;
   const core::PartContact& contact = row.contact;
   std::string line =
@@ -35,11 +37,9 @@ std::string LineOf(const core::Layout& layout, const ContactRow& row) {
   return line + '\n';
 }
 
-}  // namespace
-
 std::string ContactsCsv(const core::Layout& layout, std::span<const ContactRow> rows) {
   std::string csv = ContactHeader(layout);
-  for (const ContactRow& row : rows) csv += LineOf(layout, row);
+  for (const ContactRow& row : rows) csv += ContactLine(layout, row);
   return csv;
 }
 

@@ -2,15 +2,19 @@
 
 #include <fmt/format.h>
 
+#include "sessions/charts/ink.h"
+#include "web/bundle.h"
+
 namespace elbowroom::sessions {
 
 namespace {
 
 constexpr const char* kReportStyle = R"css(
-:root { --ink: #1d2733; --quiet: #5c6b7a; --line: #dde3e9; --paper: #ffffff; --wash: #f4f6f8;
-  --spacing: #1c5d99; --tool: #2a7f78; --touched: #c2311f; --free: #2e7d4f; --caution: #b7791f; }
+:root { color-scheme: light dark; --line: #dde3e9; --paper: #ffffff; --wash: #f4f6f8; --worst: #fdf1e8; --chosen: #dcebf8; }
+@media screen and (prefers-color-scheme: dark) {
+  :root { --line: #39434e; --paper: #1c232b; --wash: #12171c; --worst: #3a2a20; --chosen: #1f3850; } }
 * { box-sizing: border-box; }
-body { margin: 0; background: var(--wash); color: var(--ink);
+body { margin: 0; overflow-wrap: break-word; background: var(--wash); color: var(--ink);
   font: 15px/1.5 "Segoe UI", "Helvetica Neue", Arial, "Liberation Sans", sans-serif; }
 main { max-width: 1120px; margin: 0 auto; padding: 36px 40px 56px; background: var(--paper); }
 header { margin-bottom: 22px; }
@@ -39,9 +43,27 @@ td { border-bottom: 1px solid var(--line); padding: 5px 11px; vertical-align: to
 th:first-child, td:first-child { padding-left: 4px; }
 th:first-child:not(.n) { min-width: 150px; }
 th.n, td.n { text-align: right; white-space: nowrap; overflow-wrap: normal; }
+td.n small { white-space: normal; overflow-wrap: anywhere; }
 th small { display: block; }
 th small, td small { font-weight: 400; color: var(--quiet); font-size: 12px; }
-tr.worst td { background: #fdf1e8; }
+tr.worst td { background: var(--worst); }
+tr.group th { border-top: 2px solid var(--line); padding-top: 14px; color: var(--ink); font-size: 14px; overflow-wrap: anywhere; }
+tr.selected td { background: var(--chosen); }
+.runs tr[data-touch] { cursor: pointer; }
+tr[data-touch]:focus-visible { outline: 2px solid var(--spacing); outline-offset: -2px; }
+img.snapshot { display: block; width: 160px; border-radius: 3px; }
+figure.chart svg { max-width: 100%; height: auto; }
+.chart-place svg { height: 100%; margin: 0; }
+.model-place { height: 460px; border: 1px solid var(--line); border-radius: 4px; overflow: hidden; }
+.model-place canvas { display: block; width: 100%; height: 100%; touch-action: none; }
+.model-place > p { padding: 12px 16px; color: var(--quiet); }
+.told { color: var(--quiet); min-height: 1.5em; overflow-wrap: anywhere; }
+form.filters, form.switches { display: flex; flex-wrap: wrap; gap: 8px 18px; margin: 10px 0; font-size: 13.5px; }
+form.filters label, form.switches label { color: var(--quiet); max-width: 100%; }
+form.filters select, form.filters input { max-width: 220px; font: inherit; color: var(--ink); background: var(--paper);
+  border: 1px solid var(--line); border-radius: 3px; padding: 2px 6px; }
+form.filters output { color: var(--quiet); }
+[hidden] { display: none !important; }
 .dot { display: inline-block; width: 10px; height: 10px; border-radius: 2px; margin-right: 7px; }
 figure { margin: 12px 0; }
 figure img { display: block; max-width: 100%; border: 1px solid var(--line); border-radius: 4px; }
@@ -49,42 +71,55 @@ figcaption { color: var(--quiet); font-size: 13.5px; margin-top: 6px; max-width:
 ul { padding-left: 20px; max-width: 80ch; margin: 8px 0; }
 li { margin: 5px 0; }
 svg { display: block; width: 100%; height: auto; margin: 10px 0 0; font-family: inherit; }
-svg text { fill: var(--ink); font-size: 12.5px; }
 svg .tick, svg .remark, svg .quiet { fill: var(--quiet); }
+svg .name, svg .number { fill: var(--ink); }
 svg .tick, svg .remark { font-size: 11.5px; }
-svg .number { font-size: 11px; font-weight: 600; }
-svg .value { fill: var(--spacing); font-weight: 600; }
-svg .grid { stroke: #e6eaee; stroke-width: 1; }
+svg .name, svg .quiet { font-size: 12.5px; }
+svg .grid { stroke: var(--grid); stroke-width: 1; }
 svg .axis { stroke: #94a1ad; stroke-width: 1; }
-svg .lane { fill: #f0f3f5; }
-svg .touch { fill: transparent; stroke: #4a1208; stroke-width: 1; }
-svg .tool { fill: var(--tool); }
-svg .spacing { fill: none; stroke: var(--spacing); stroke-width: 2.2; stroke-linejoin: round; }
-svg .estimate { stroke: var(--caution); stroke-width: 1.4; stroke-dasharray: 6 4; }
-svg .estimate-text { fill: var(--caution); font-size: 11.5px; }
-svg .contact-band { fill: #f6cdbd; }
 footer { margin-top: 40px; padding-top: 12px; border-top: 1px solid var(--line); color: var(--quiet); font-size: 12.5px; }
 @media print {
   body { background: none; font-size: 10.5pt; }
   main { max-width: none; padding: 0; }
   * { -webkit-print-color-adjust: exact; print-color-adjust: exact; }
   h2, h3 { break-after: avoid; }
+  form.filters, form.switches, #model { display: none; }
   svg, figure, tr, .verdict, dl.tiles { break-inside: avoid; }
   thead { display: table-header-group; }
   .scroll { overflow: visible; }
+}
+@media (max-width: 640px) {
+  main { padding: 20px 14px 40px; }
+  h1 { font-size: 22px; }
+  .model-place { height: 320px; }
+  .chart-place { min-width: 620px; }
+  figure.chart { overflow-x: auto; }
+  td, th { padding: 5px 7px; }
 }
 @page { margin: 16mm 14mm; }
 )css";
 
 }  // namespace
 
-std::string HtmlPage(const std::string& title, const std::string& body) {
+std::string HtmlPage(const std::string& title, const std::string& body, const std::string& data_json) {
+  const bool runs = !data_json.empty();
+  const std::string policy = fmt::format(
+      "default-src 'none'; img-src data: blob:; style-src 'unsafe-inline'; base-uri 'none'; form-action "
+      "'none'{}",
+      runs ? fmt::format("; script-src 'sha256-{}'", web::ReportScriptSha256()) : "");
+  const std::string scripts =
+      runs
+          ? fmt::format("<script type='application/json' id='report-data'>{}</script>\n<script>{}</script>\n",
+                        data_json, web::ReportScript())
+          : "";
   return fmt::format(
       "<!DOCTYPE html>\n<html lang='en'><head><meta charset='utf-8'>"
+      "<meta http-equiv='Content-Security-Policy' content=\"{}\">"
       "<meta name='viewport' content='width=device-width, "
-      "initial-scale=1'>\n<title>{}</title>\n<style>{}</style>"
-      "</head>\n<body><main>\n{}</main></body></html>\n",
-      title, kReportStyle, body);
+      "initial-scale=1'>\n<title>{}</title>\n<style>:root {{ {}}}\n@media screen and (prefers-color-scheme: "
+      "dark) {{ :root {{ {}}} }}\n{}</style>"
+      "</head>\n<body><main>\n{}</main>\n{}</body></html>\n",
+      policy, title, LightInks(), DarkInks(), kReportStyle, body, scripts);
 }
 
 }  // namespace elbowroom::sessions

@@ -1,5 +1,6 @@
 #include "sessions/report/markup.h"
 
+#include <algorithm>
 #include <cstdint>
 
 namespace elbowroom::sessions {
@@ -34,17 +35,21 @@ std::string Escaped(std::string_view text) {
   return escaped;
 }
 
-std::string PngAsDataUrl(std::span<const unsigned char> png) {
+std::string Base64(std::span<const unsigned char> bytes) {
   constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string url = "data:image/png;base64,";
-  url.reserve(url.size() + (png.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < png.size(); i += 3) {
-    const std::size_t count = std::min<std::size_t>(3, png.size() - i);
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
     std::uint32_t bits = 0;
-    for (std::size_t j = 0; j < 3; ++j) bits = bits << 8U | (j < count ? png[i + j] : 0U);
-    for (std::size_t j = 0; j < 4; ++j) url += j <= count ? kDigits[bits >> (18U - 6U * j) & 63U] : '=';
+    for (std::size_t j = 0; j < 3; ++j) bits = bits << 8U | (j < count ? bytes[i + j] : 0U);
+    for (std::size_t j = 0; j < 4; ++j) text += j <= count ? kDigits[bits >> (18U - 6U * j) & 63U] : '=';
   }
-  return url;
+  return text;
+}
+
+std::string PngAsDataUrl(std::span<const unsigned char> png) {
+  return "data:image/png;base64," + Base64(png);
 }
 
 }  // namespace elbowroom::sessions

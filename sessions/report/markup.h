@@ -10,7 +10,10 @@ namespace elbowroom::sessions {
 // Safe between tags and in quoted attributes; control characters but tab and newline become spaces.
 [[nodiscard]] std::string Escaped(std::string_view text);
 
-// "data:image/png;base64,..." (RFC 4648).
+// RFC 4648.
+[[nodiscard]] std::string Base64(std::span<const unsigned char> bytes);
+
+// "data:image/png;base64,...".
 [[nodiscard]] std::string PngAsDataUrl(std::span<const unsigned char> png);
 
 }  // namespace elbowroom::sessions

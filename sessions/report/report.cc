@@ -40,11 +40,15 @@ void WriteReport(const SessionReader& session, const ReportPictures& pictures,
   if (!pictures.worst_moment_png.empty()) RequirePng(pictures.worst_moment_png);
   if (pictures.overview_png) RequirePng(*pictures.overview_png);
   for (const ReportPictures::Heat& heat : pictures.heat) RequirePng(heat.png);
-  const ReportData data = CollectReportData(session);
-  std::map<std::string, std::string> files = {
-      {"report.html", ReportPage(data, pictures)},
-      {"contacts.csv", ContactsCsv(data.header.layout, data.contacts)},
-      {"clearance.csv", ClearanceCsv(data.header, session.clearances())}};
+  for (const ReportPictures::Touch& touch : pictures.touches) RequirePng(touch.png);
+  const core::SessionHeader header = session.header();
+  std::string contacts = ContactsCsv(header.layout, {}), clearances = ClearanceCsv(header, {});
+  const ReportData data = CollectReportData(
+      session, [&](const ContactRow& row) { contacts += ContactLine(header.layout, row); },
+      [&](const ContactRow& row) { clearances += ClearanceLine(header, row); });
+  std::map<std::string, std::string> files = {{"report.html", ReportPage(data, pictures)},
+                                              {"contacts.csv", std::move(contacts)},
+                                              {"clearance.csv", std::move(clearances)}};
   constexpr const char* kStampsFile = "stamps.csv";
   if (!data.stamps.empty()) files.emplace(kStampsFile, StampsCsv(data.header.rig, data.stamps));
   WriteWholeFiles(out_dir, files);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/contact.h"
+#include "sessions/report/report_model.h"
 #include "sessions/session_reader.h"
 
 namespace elbowroom::sessions {
@@ -22,6 +23,12 @@ struct ReportPictures {
     std::vector<unsigned char> png;
   };
   std::vector<Heat> heat = {};  // where each touched part was touched
+  struct Touch {
+    std::size_t place = 0;  // in TouchesOf(session).touches
+    std::vector<unsigned char> png;
+  };
+  std::vector<Touch> touches = {};  // snapshots, of some of them
+  ReportModel model = {};           // what the 3-D view shows
 };
 
 // The touch to draw: the deepest, ties go to the larger area, then to the earlier. Nothing if nothing
@@ -29,12 +36,11 @@ struct ReportPictures {
 [[nodiscard]] std::optional<core::ContactEpisode> WorstEpisode(
     std::span<const core::ContactEpisode> episodes);
 
-// Writes `out_dir`/report.html (no script, nothing loaded from elsewhere, fit for print), contacts.csv (a row
-// for each part in contact in each frame), clearance.csv (a row for each part whose clearance was asked) and,
-// where the cameras have stamps, stamps.csv (a row for each camera in each frame); all or none. Makes the
-// folder; replaces an older report.
-// Throws: Error{kFile} naming what can't be written; what SessionReader throws; PreconditionError for bytes
-// that are no PNG.
+// Writes `out_dir`/report.html (nothing loaded from elsewhere; fit for print; it says the same without its
+// script), contacts.csv (a row for each part in contact in each frame), clearance.csv (a row for each part
+// whose clearance was asked) and, where the cameras have stamps, stamps.csv (a row for each camera in each
+// frame); all or none. Makes the folder; replaces an older report. Throws: Error{kFile} naming what can't be
+// written; what SessionReader throws; PreconditionError for bytes that are no PNG.
 void WriteReport(const SessionReader& session, const ReportPictures& pictures,
                  const std::filesystem::path& out_dir);
 

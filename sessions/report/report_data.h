@@ -3,9 +3,12 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/session.h"
+#include "sessions/report/report_touch.h"
+#include "sessions/report/time_columns.h"
 #include "sessions/session_reader.h"
 
 namespace elbowroom::sessions {
@@ -25,24 +28,48 @@ struct SpacingStep {
   double spacing_mm = 0.0;
 };
 
-// The course of one spacing over the trial, and how much space is needed according to it.
-struct SpacingStudy {
-  core::SpacingIndex spacing = 0;
-  std::vector<SpacingStep> steps;
+// How much space is needed, according to some of a trial's frames.
+struct SpaceNeed {
   std::vector<SpacingLevel> levels;  // ascending
   std::optional<double> largest_touched_mm;
   // The smallest value above every touched one that was held for kTriedFor_s without a touch.
   std::optional<double> smallest_free_mm;
+
+  [[nodiscard]] double held_s() const;
+};
+
+// The need according to the frames in which a tool was in use; the empty name: none was.
+struct ToolNeed {
+  std::string tool;
+  SpaceNeed need;
+};
+
+// The course of one spacing over the trial, and how much space is needed according to it.
+struct SpacingStudy : SpaceNeed {
+  core::SpacingIndex spacing = 0;
+  std::vector<SpacingStep> steps;
+  std::vector<ToolNeed> by_tool;  // without a tool first; empty where none was ever marked
 };
 
 // A value that a spacing only passed on its way to another doesn't count as free of touches.
 inline constexpr double kTriedFor_s = 2.0;
+
+// The least distance between a part and the hull, over all frames.
+struct ClosestApproach {
+  core::FrameIndex frame = 0;
+  double time_s = 0.0;
+  double lower_mm = 0.0;
+  double upper_mm = 0.0;
+  std::vector<double> spacing_mm;
+};
 
 struct PartSummary {
   PartTotals frames;
   std::int64_t touches = 0;
   double in_contact_s = 0.0;
   double deepest_mm = 0.0;
+  std::optional<ClosestApproach> closest;  // nothing: no clearance was asked, or the hull was empty
+  std::vector<PartColumn> columns;
 };
 
 struct ReportData {
@@ -54,8 +81,8 @@ struct ReportData {
   std::vector<FrameSummary> frames;
   std::vector<core::SessionEvent> events;
   std::vector<core::ContactEpisode> episodes;
-  std::vector<core::NearMiss> near_misses;
-  std::vector<ContactRow> contacts;
+  TouchList list;  // the worst of touches and near misses
+  std::size_t near_misses = 0;
   std::vector<PartSummary> parts;      // the layout's order
   std::vector<PartBudget> budgets;     // of parts for which one was computed
   std::vector<StampRow> stamps;        // by number; none where the cameras have no stamps
@@ -68,12 +95,22 @@ struct ReportData {
   double in_contact_s = 0.0;    // any part
   std::int64_t frames_in_contact = 0;
   double deepest_mm = 0.0;
+  TimeColumns columns;
+
+  [[nodiscard]] bool has_contact() const { return frames_in_contact > 0; }
+  [[nodiscard]] bool has_clearance() const;
 };
 
 // Whether the part is at either end of the spacing, as a part or in a group. A touch of any other part
 // doesn't show how large the spacing must be.
-[[nodiscard]] bool IsBoundedBy(const ReportData& data, core::PartIndex part, core::SpacingIndex spacing);
+[[nodiscard]] bool IsBoundedBy(const core::Layout& layout, core::PartIndex part, core::SpacingIndex spacing);
 
-[[nodiscard]] ReportData CollectReportData(const SessionReader& session);
+// The tools that events mark, in order of their first mark.
+[[nodiscard]] std::vector<std::string> ToolsMarked(const ReportData& data);
+
+// Reads every row of the session once; the visitors see those of contacts, then those of clearances, as they
+// come.
+[[nodiscard]] ReportData CollectReportData(const SessionReader& session, const RowVisitor& on_contact = {},
+                                           const RowVisitor& on_clearance = {});
 
 }  // namespace elbowroom::sessions

@@ -4,6 +4,7 @@
 
 #include "sessions/report/html_page.h"
 #include "sessions/report/markup.h"
+#include "sessions/report/page_data.h"
 
 namespace elbowroom::sessions {
 namespace {
@@ -35,12 +36,23 @@ std::string PageFooter(const ReportData& data) {
 
 }  // namespace
 
+std::string ModelSection(const ReportPictures& pictures) {
+  if (pictures.model.moments.empty()) return "";
+  return "<section id='model'><h2>In space</h2><p class='lead'>Parts, the hull of a moment and its contact "
+         "points; balls are touches and near misses. A row of the table of touches selects its moment here, "
+         "a "
+         "ball its row. Drag to turn, wheel to come nearer.</p>\n<div class='model-place'><p>This view needs "
+         "JavaScript and WebGL; the pictures of this page don&rsquo;t.</p></div></section>\n";
+}
+
 std::string ReportPage(const ReportData& data, const ReportPictures& pictures) {
-  return HtmlPage(TitleOf(data), PageHeader(data) + SummarySection(data) + TimelineSection(data) +
-                                     PictureSection(pictures) + SpacingSection(data) + EpisodeSection(data) +
-                                     NearMissSection(data) + PartSection(data) + TrustSection(data) +
-                                     HeatSection(data, pictures) + EventSection(data) + ReadingSection(data) +
-                                     RigSection(data) + PageFooter(data));
+  PageCharts charts;
+  std::string body = PageHeader(data) + SummarySection(data) + TimelineSection(data, &charts) +
+                     ModelSection(pictures) + PictureSection(pictures) + TouchSection(data, pictures) +
+                     SpacingSection(data, &charts) + ApproachSection(data, &charts) + PartSection(data) +
+                     TrustSection(data) + HeatSection(data, pictures) + EventSection(data) +
+                     ReadingSection(data) + RigSection(data) + PageFooter(data);
+  return HtmlPage(TitleOf(data), body, PageDataJson(data, charts, pictures.model));
 }
 
 }  // namespace elbowroom::sessions

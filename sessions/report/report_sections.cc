@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <variant>
 
-#include "sessions/report/chart.h"
+#include "sessions/report/approach_chart.h"
 #include "sessions/report/html_table.h"
 #include "sessions/report/markup.h"
+#include "sessions/report/page_charts.h"
 #include "sessions/report/report_page.h"
 #include "sessions/report/timeline_chart.h"
 #include "sessions/report/verdict_text.h"
@@ -36,7 +37,7 @@ std::string Tiles(const ReportData& data) {
   tiles += Tile(
       "Time in contact", fmt::format("{:.1f} s", data.in_contact_s),
       duration_s > 0.0 ? fmt::format("{:.0f} % of the trial", 100.0 * data.in_contact_s / duration_s) : "");
-  tiles += Tile("Deepest", data.contacts.empty() ? "none" : Millimetres(data.deepest_mm));
+  tiles += Tile("Deepest", data.has_contact() ? Millimetres(data.deepest_mm) : "none");
   if (data.judged_spacing) {
     tiles += Tile("Space needed", SpaceNeeded(data),
                   Escaped(data.header.layout.spacings[*data.judged_spacing].name));
@@ -77,31 +78,6 @@ std::string LevelTable(const SpacingStudy& study) {
          (left_out > 0
               ? fmt::format("<p class='lead'>{} more values, held shorter, are not listed.</p>\n", left_out)
               : "");
-}
-
-std::string EpisodeRowColour(const ReportData& data, const core::ContactEpisode& episode) {
-  const double fraction = data.deepest_mm > 0.0 ? episode.peak_depth_mm / data.deepest_mm : 0.0;
-  return fmt::format("<span class='dot' style='background:{}'></span>", DepthColour(fraction));
-}
-
-std::string Moment(double time_s, core::FrameIndex frame) {
-  return fmt::format("{:.2f} s <small>frame {}</small>", time_s, frame);
-}
-
-std::string SpacingTexts(const ReportData& data, const std::vector<double>& spacing_mm) {
-  std::string text;
-  for (std::size_t i = 0; i < spacing_mm.size(); ++i) {
-    text += fmt::format("{}{}", i == 0 ? "" : "<br>", Millimetres(spacing_mm[i]));
-    if (data.spacings.size() > 1)
-      text += " <small>" + Escaped(data.header.layout.spacings[i].name) + "</small>";
-  }
-  return text;
-}
-
-std::string ToolTexts(const std::vector<std::string>& tools) {
-  std::string text;
-  for (const std::string& tool : tools) text += (text.empty() ? "" : ", ") + Escaped(tool);
-  return text.empty() ? "&ndash;" : text;
 }
 
 std::string WhatHappened(const core::SessionEvent& event) {
@@ -148,7 +124,7 @@ std::string StatusRemark(const ReportData& data) {
 std::string SummarySection(const ReportData& data) {
   const std::string gauge_failure = GaugeFailure(data.header.rig_quality);
   const bool is_doubtful = data.status != SessionStatus::kComplete || !gauge_failure.empty();
-  const char* outcome = is_doubtful ? " broken" : data.contacts.empty() ? "" : " touched";
+  const char* outcome = is_doubtful ? " broken" : data.has_contact() ? " touched" : "";
   std::string section = fmt::format("<section><div class='verdict{}'><p>{}</p>", outcome,
                                     WithUnitsHeld(Escaped(VerdictSentence(data))));
   if (!gauge_failure.empty()) section += "<p>" + WithUnitsHeld(Escaped(gauge_failure)) + "</p>";
@@ -156,12 +132,13 @@ std::string SummarySection(const ReportData& data) {
   return section + "</div>\n" + Tiles(data) + "</section>\n";
 }
 
-std::string TimelineSection(const ReportData& data) {
+std::string TimelineSection(const ReportData& data, PageCharts* charts) {
   if (data.frames.empty()) return "";
   return "<section><h2>Touches over time</h2><p class='lead'>A bar is one touch, from the first frame in "
          "contact to the "
-         "last; the darker, the deeper.</p>\n" +
-         TimelineChart(data) + "</section>\n";
+         "last; the darker, the deeper: " +
+         Millimetres(DarkestDepth(data)) + " is the darkest.</p>\n" + charts->Add(TimelineChart(data)) +
+         "</section>\n";
 }
 
 std::string PictureSection(const ReportPictures& pictures) {
@@ -176,7 +153,33 @@ std::string PictureSection(const ReportPictures& pictures) {
                      pictures.worst_moment_png.empty() ? "Overview" : "The worst moment", figures);
 }
 
-std::string SpacingSection(const ReportData& data) {
+std::string ApproachSection(const ReportData& data, PageCharts* charts) {
+  if (!data.has_clearance()) return "";
+  const auto shown = std::min<std::ptrdiff_t>(
+      std::ranges::count_if(data.parts, [](const PartSummary& part) { return part.closest.has_value(); }),
+      kMostApproaches);
+  HtmlTable table({{"Part"},
+                   {"Closest <small>at least, at most</small>", true},
+                   {"When", true},
+                   {"Spacing <small>then</small>", true}});
+  for (const PartSummary& part : data.parts) {
+    if (!part.closest) continue;
+    table.Add(
+        {"<bdi>" + Escaped(data.header.layout.parts[part.frames.part].name) + "</bdi>",
+         fmt::format("{} to {}", Millimetres(part.closest->lower_mm), Millimetres(part.closest->upper_mm)),
+         fmt::format("{:.2f} s <small>frame {}</small>", part.closest->time_s, part.closest->frame),
+         SpacingTexts(data, part.closest->spacing_mm)});
+  }
+  return fmt::format(
+             "<section><h2>Closest approach</h2><p class='lead'>Bounds of the distance between a part and "
+             "the "
+             "hull, the closest of each moment; the real distance may be larger. Drawn for {} of {} parts, "
+             "those that came closest.</p>\n",
+             shown, data.parts.size()) +
+         charts->Add(ApproachChart(data)) + table.Html() + "</section>\n";
+}
+
+std::string SpacingSection(const ReportData& data, PageCharts* charts) {
   if (data.frames.empty() || data.spacings.empty()) return "";
   std::string section =
       "<section><h2>Spacing history</h2><p class='lead'>The spacing as the experimenter set it; times "
@@ -186,71 +189,9 @@ std::string SpacingSection(const ReportData& data) {
     section += fmt::format("<h3>{}</h3><p class='lead'>Gap along {} from {} to {}, {} to {}.</p>\n",
                            Escaped(spacing.name), core::ToString(spacing.axis), Escaped(spacing.reference),
                            Escaped(spacing.moving), Millimetres(spacing.min_mm), Millimetres(spacing.max_mm));
-    section += SpacingChart(data, study) + LevelTable(study);
+    section += charts->Add(SpacingChart(data, study)) + LevelTable(study);
   }
   return section + "</section>\n";
-}
-
-std::string EpisodeSection(const ReportData& data) {
-  HtmlTable table({{"Touch", true},
-                   {"Part"},
-                   {"Begin", true},
-                   {"Peak", true},
-                   {"End", true},
-                   {"Duration", true},
-                   {"Depth <small>at peak</small>", true},
-                   {"Area <small>at peak</small>", true},
-                   {"Position <small>x, y, z in mm</small>", true},
-                   {"Spacing <small>at peak</small>", true},
-                   {"Tools"}});
-  const auto worst = WorstEpisode(data.episodes);
-  for (const core::ContactEpisode& e : data.episodes) {
-    const Eigen::Vector3d& at = e.peak_position_in_world_mm;
-    table.Add(
-        {std::to_string(e.id), EpisodeRowColour(data, e) + Escaped(data.header.layout.parts[e.part].name),
-         Moment(e.begin_time_s, e.begin_frame), Moment(e.peak_time_s, e.peak_frame),
-         Moment(e.end_time_s, e.end_frame),
-         fmt::format("{:.2f} s", e.end_time_s - e.begin_time_s + data.frame_period_s),
-         Millimetres(e.peak_depth_mm), fmt::format("{:.0f} mm&sup2;", e.peak_area_mm2),
-         fmt::format("{:.0f}, {:.0f}, {:.0f}", at.x(), at.y(), at.z()),
-         SpacingTexts(data, e.spacing_at_peak_mm), ToolTexts(e.tools)},
-        worst->id == e.id ? "worst" : "");
-  }
-  if (table.empty()) return "";
-  return "<section><h2>Every touch</h2><p class='lead'>The deepest one is highlighted.</p>\n" + table.Html() +
-         "</section>\n";
-}
-
-std::string NearMissSection(const ReportData& data) {
-  HtmlTable table({{"Near miss", true},
-                   {"Part"},
-                   {"Begin", true},
-                   {"Closest", true},
-                   {"End", true},
-                   {"Clearance <small>at least, at most</small>", true},
-                   {"Position <small>x, y, z in mm, on the part</small>", true},
-                   {"Spacing <small>at closest</small>", true},
-                   {"Tools"},
-                   {"Below"}});
-  for (const core::NearMiss& miss : data.near_misses) {
-    const core::ClearanceInterval& closest = miss.closest.interval;
-    const Eigen::Vector3d& at = closest.witness_part_in_world_mm;
-    table.Add({std::to_string(miss.id), Escaped(data.header.layout.parts[miss.part].name),
-               Moment(miss.begin_time_s, miss.begin_frame), Moment(miss.closest_time_s, miss.closest_frame),
-               Moment(miss.end_time_s, miss.end_frame),
-               miss.closest.has_witnesses
-                   ? fmt::format("{} to {}", Millimetres(closest.lower_mm), Millimetres(closest.upper_mm))
-                   : "at least " + Millimetres(closest.lower_mm),
-               miss.closest.has_witnesses ? fmt::format("{:.0f}, {:.0f}, {:.0f}", at.x(), at.y(), at.z())
-                                          : "&ndash;",
-               SpacingTexts(data, miss.spacing_at_closest_mm), ToolTexts(miss.tools),
-               miss.verdict == core::Verdict::kNear ? "yes" : "undecided"});
-  }
-  if (table.empty()) return "";
-  return fmt::format(
-      "<section><h2>Near misses</h2><p class='lead'>Approaches below the required {} that ended without a "
-      "touch. The real distance may be larger: the hull is larger than the hand.</p>\n{}</section>\n",
-      Millimetres(data.header.trial.required_clearance_mm), table.Html());
 }
 
 std::string HeatSection(const ReportData& data, const ReportPictures& pictures) {

@@ -1,18 +1,20 @@
-// The pictures of a trial over time, as SVG.
+// The charts of a trial over time.
 #pragma once
 
-#include <string>
-
+#include "sessions/charts/chart.h"
 #include "sessions/report/report_data.h"
 
 namespace elbowroom::sessions {
 
-// Parts as lanes, touches as bars shaded by depth, tools in use above, the spacings as step lines under them
-// on the same time axis. Needs at least one frame.
-[[nodiscard]] std::string TimelineChart(const ReportData& data);
+// Tools in use and parts as lanes, contacts as bars shaded by depth, touches and near misses as frames around
+// them, the spacings as step lines below. Needs at least one frame.
+[[nodiscard]] Chart TimelineChart(const ReportData& data);
 
-// One spacing over the trial, its values written on, times in contact shaded, the estimate as a dashed line
-// where it is the judged spacing. Needs at least one frame.
-[[nodiscard]] std::string SpacingChart(const ReportData& data, const SpacingStudy& study);
+// One spacing over the trial, times in contact shaded, the estimate as a dashed line where it is the judged
+// spacing. Needs at least one frame.
+[[nodiscard]] Chart SpacingChart(const ReportData& data, const SpacingStudy& study);
+
+// The depth in mm that the darkest colour stands for: a round number at or above the deepest.
+[[nodiscard]] double DarkestDepth(const ReportData& data);
 
 }  // namespace elbowroom::sessions

@@ -30,8 +30,9 @@ const SpacingStudy* Judged(const ReportData& data) {
 std::string AtWhichSpacings(const ReportData& data) {
   const SpacingStudy* study = Judged(data);
   if (study == nullptr || !study->largest_touched_mm) return "";
-  const bool is_about_all_touches = std::ranges::all_of(data.contacts, [&](const ContactRow& row) {
-    return IsBoundedBy(data, row.contact.part, study->spacing);
+  const bool is_about_all_touches = std::ranges::all_of(data.parts, [&](const PartSummary& part) {
+    return part.frames.frames_in_contact == 0 ||
+           IsBoundedBy(data.header.layout, part.frames.part, study->spacing);
   });
   if (!is_about_all_touches) return "";
   std::vector<SpacingLevel> touched;
@@ -103,13 +104,13 @@ std::string SpaceClause(const ReportData& data) {
 std::string WhatWasTouched(const ReportData& data) {
   const double duration_s = data.end_s - data.begin_s;
   if (data.frames.empty()) return "No frame was recorded";
-  if (data.contacts.empty() && IsAllOfTheTask(data))
+  if (!data.has_contact() && IsAllOfTheTask(data))
     return fmt::format("Nothing was touched in {:.1f} s", duration_s);
   const std::string contacts =
-      data.contacts.empty() ? "nothing touched"
-      : data.has_outcome    ? HowMany(static_cast<std::int64_t>(data.episodes.size()), "touch")
-                            : fmt::format("contact in {} of {}", data.frames_in_contact,
-                                          HowMany(static_cast<std::int64_t>(data.frames.size()), "frame"));
+      !data.has_contact() ? "nothing touched"
+      : data.has_outcome  ? HowMany(static_cast<std::int64_t>(data.episodes.size()), "touch")
+                          : fmt::format("contact in {} of {}", data.frames_in_contact,
+                                        HowMany(static_cast<std::int64_t>(data.frames.size()), "frame"));
   switch (data.status) {
     case SessionStatus::kRecording:
       return fmt::format("The recording is under way: {:.1f} s so far with {}", duration_s, contacts);

@@ -1,4 +1,4 @@
-#include "app/control/session_report.h"
+#include "app/control/report/session_report.h"
 
 #include <fmt/format.h>
 
@@ -7,6 +7,7 @@
 #include "app/control/heat_picture.h"
 #include "app/control/outcome_tracker.h"
 #include "app/control/recorded_frame.h"
+#include "app/control/report/touch_moments.h"
 #include "app/control/scene_composer.h"
 #include "core/error.h"
 #include "core/progress.h"
@@ -37,12 +38,12 @@ std::optional<WorstMoment> WorstMomentOf(const sessions::SessionReader& session)
     return WorstMoment{episode->peak_frame, episode->part};
   std::optional<WorstMoment> worst;
   double deepest_mm = -1.0;
-  for (const sessions::ContactRow& row : session.contacts()) {
+  session.VisitContacts([&](const sessions::ContactRow& row) {
     const double depth_mm = row.contact.deepest ? row.contact.deepest->depth_mm : 0.0;
-    if (depth_mm <= deepest_mm) continue;
+    if (depth_mm <= deepest_mm) return;
     deepest_mm = depth_mm;
     worst = WorstMoment{row.frame, row.contact.part};
-  }
+  });
   return worst;
 }
 
@@ -88,6 +89,7 @@ ReportFiles WriteSessionReport(const std::filesystem::path& session_path, const 
       pictures.worst_moment_png = recon::EncodePng(Draw(renderer, composer, *shown, camera));
       pictures.caption = CaptionOf(*shown, worst->part, renderer.driver());
     }
+    AddTouchMoments(session, *shown, renderer, composer, stop, &pictures);
   }
   AddHeat(session, &pictures);
   core::ThrowIfStopped(stop, "the report");

@@ -1,0 +1,25 @@
+// The charts of a page: as pictures, and as what its script draws anew.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sessions/charts/chart.h"
+#include "sessions/charts/chart_painter.h"
+
+namespace elbowroom::sessions {
+
+class PageCharts {
+ public:
+  // HTML: a <figure> with the chart's picture, which the script replaces by the chart.
+  [[nodiscard]] std::string Add(const Chart& chart);
+  // What web/page/charts_in_page.js takes, as JSON in ASCII without "<".
+  [[nodiscard]] std::string Json() const { return "[" + json_ + "]"; }
+
+ private:
+  ChartPainter painter_;
+  std::size_t count_ = 0;
+  std::string json_;
+};
+
+}  // namespace elbowroom::sessions
