@@ -6,7 +6,6 @@
 
 #include <cerrno>
 #include <set>
-#include <utility>
 
 #include "core/error.h"
 #include "core/system/file_sync.h"
@@ -22,34 +21,18 @@ namespace fs = std::filesystem;
                                             path.string()));
 }
 
-bool WriteAll(int file, std::string_view bytes) {
+// Writes all of `bytes` and waits until they are on the disk. If a file were renamed before that, it could be
+// empty after a power failure.
+bool WriteToDisk(int file, std::string_view bytes) {
   while (!bytes.empty()) {
     const ssize_t size = ::write(file, bytes.data(), bytes.size());
     if (size < 0 && errno == EINTR) continue;
     if (size <= 0) return false;
     bytes.remove_prefix(static_cast<std::size_t>(size));
   }
-  return true;
+  // A file that isn't on a disk, such as a pipe, can't be synced and needn't be.
+  return ::fsync(file) == 0 || errno == EINVAL || errno == EROFS;
 }
-
-// Waits until the file is on the disk. If it were renamed before that, it could be empty after a power
-// failure. A file that isn't on a disk, such as a pipe, can't be synced and needn't be.
-bool SyncToDisk(int file) { return ::fsync(file) == 0 || errno == EINVAL || errno == EROFS; }
-
-// Closes the file at the latest when it is destroyed.
-class OpenFile {
- public:
-  explicit OpenFile(int file) : file_(file) {}
-  ~OpenFile() { (void)Close(); }
-  OpenFile(const OpenFile&) = delete;
-  OpenFile& operator=(const OpenFile&) = delete;
-
-  [[nodiscard]] int get() const { return file_; }
-  bool Close() { return file_ < 0 || ::close(std::exchange(file_, -1)) == 0; }
-
- private:
-  int file_;
-};
 
 }  // namespace
 
@@ -59,10 +42,6 @@ PendingFiles::~PendingFiles() {
 }
 
 void PendingFiles::Write(const fs::path& path, std::string_view bytes) {
-  WriteInPieces(path, [&](const Sink& sink) { sink(bytes); });
-}
-
-void PendingFiles::WriteInPieces(const fs::path& path, const std::function<void(const Sink&)>& produce) {
   std::error_code error;
   // A symbolic link stays; the file that it points to is replaced.
   const fs::path target = fs::is_symlink(path, error) ? fs::weakly_canonical(path, error) : path;
@@ -71,13 +50,12 @@ void PendingFiles::WriteInPieces(const fs::path& path, const std::function<void(
   if (fs::is_directory(status) || (is_there && ::access(target.c_str(), W_OK) != 0)) FailToWrite(path);
   const fs::path temporary = fmt::format("{}.{}.part", target.string(), getpid());
   constexpr mode_t kAsTheUserLikes = 0666;
-  OpenFile file(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, kAsTheUserLikes));
-  if (file.get() < 0) FailToWrite(path);
+  const int file = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, kAsTheUserLikes);
+  if (file < 0) FailToWrite(path);
   files_.push_back({temporary, target});
-  bool is_written = true;
-  produce([&](std::string_view bytes) { is_written = is_written && WriteAll(file.get(), bytes); });
-  is_written = is_written && SyncToDisk(file.get());
-  if (!file.Close() || !is_written) FailToWrite(path);
+  const bool is_written = WriteToDisk(file, bytes);
+  const bool is_closed = ::close(file) == 0;
+  if (!is_written || !is_closed) FailToWrite(path);
   if (is_there) fs::permissions(temporary, status.permissions(), error);
 }
 

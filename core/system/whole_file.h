@@ -2,7 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <string_view>
 #include <vector>
 
@@ -23,11 +22,8 @@ class PendingFiles {
   PendingFiles(const PendingFiles&) = delete;
   PendingFiles& operator=(const PendingFiles&) = delete;
 
-  // All throw: Error{kFile} naming the path.
+  // Both throw: Error{kFile} naming the path.
   void Write(const std::filesystem::path& path, std::string_view bytes);
-  // The bytes that `produce` hands to its argument, piece by piece. What `produce` throws comes through.
-  using Sink = std::function<void(std::string_view)>;
-  void WriteInPieces(const std::filesystem::path& path, const std::function<void(const Sink&)>& produce);
   void RenameAll();
 
  private:

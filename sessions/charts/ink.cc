@@ -45,15 +45,6 @@ std::string ColorOf(Ink ink) {
 std::string LightInks() { return Declarations(&NamedInk::light); }
 std::string DarkInks() { return Declarations(&NamedInk::dark); }
 
-std::string OnLightPaper(std::string svg) {
-  for (const NamedInk& ink : kInks) {
-    const std::string name = ColorOf(ink.ink);
-    for (std::size_t at = 0; (at = svg.find(name, at)) != std::string::npos;)
-      svg.replace(at, name.size(), ink.light);
-  }
-  return svg;
-}
-
 std::string DepthColour(double fraction) {
   using Colour = std::array<double, 3>;
   constexpr std::array<Colour, 4> kStops = {{{253, 212, 158}, {252, 141, 89}, {215, 48, 31}, {115, 0, 0}}};

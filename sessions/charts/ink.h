@@ -15,9 +15,6 @@ namespace elbowroom::sessions {
 [[nodiscard]] std::string LightInks();
 [[nodiscard]] std::string DarkInks();
 
-// The SVG with the colours of light paper in place of those names, for what has no style sheet.
-[[nodiscard]] std::string OnLightPaper(std::string svg);
-
 // "#rrggbb" from pale (0) to dark red (1). The lightness changes evenly, so that a grey print shows it too.
 [[nodiscard]] std::string DepthColour(double fraction);
 

@@ -10,12 +10,6 @@
 #include "sessions/report/markup.h"
 
 namespace elbowroom::sessions {
-namespace {
-
-constexpr int kMostTimeTicks = 12;
-
-}  // namespace
-
 std::vector<double> RoundTicks(double low, double high, int most) {
   core::Require(most >= 2 && low < high, "an axis has a length and at least two ticks");
   double step = std::pow(10.0, std::floor(std::log10((high - low) / most)));
@@ -26,29 +20,6 @@ std::vector<double> RoundTicks(double low, double high, int most) {
   std::vector<double> ticks;
   for (double i = std::ceil(low / step); i <= std::floor(high / step + 1e-9); ++i) ticks.push_back(i * step);
   return ticks;
-}
-
-std::string TimeGrid(const Plot& plot) {
-  std::string svg;
-  for (const double time_s : RoundTicks(plot.begin_s, plot.end_s, kMostTimeTicks)) {
-    svg += fmt::format("<line class='grid' x1='{0:.1f}' x2='{0:.1f}' y1='{1:.1f}' y2='{2:.1f}'/>",
-                       plot.X(time_s), plot.top, plot.bottom());
-  }
-  return svg;
-}
-
-std::string TimeAxis(const Plot& plot) {
-  std::string svg = fmt::format("<line class='axis' x1='{:.1f}' x2='{:.1f}' y1='{:.1f}' y2='{:.1f}'/>",
-                                plot.left, plot.right(), plot.bottom(), plot.bottom());
-  const std::vector<double> ticks = RoundTicks(plot.begin_s, plot.end_s, kMostTimeTicks);
-  for (const double time_s : ticks) {
-    svg += fmt::format("<line class='axis' x1='{0:.1f}' x2='{0:.1f}' y1='{1:.1f}' y2='{2:.1f}'/>",
-                       plot.X(time_s), plot.bottom(), plot.bottom() + 4);
-    const bool is_last = time_s == ticks.back();
-    svg += Label(plot.X(time_s), plot.bottom() + 17, fmt::format("{:.6g}{}", time_s, is_last ? " s" : ""),
-                 "tick", Anchor::kMiddle);
-  }
-  return svg;
 }
 
 std::string ValueAxis(const Plot& plot, int most_ticks) {

@@ -30,9 +30,6 @@ struct Plot {
 // Round numbers (1, 2 or 5 times a power of ten apart) from `low` to `high`, at most `most` of them (>= 2).
 [[nodiscard]] std::vector<double> RoundTicks(double low, double high, int most);
 
-// SVG: vertical grid lines through the plot, and the seconds under it.
-[[nodiscard]] std::string TimeGrid(const Plot& plot);
-[[nodiscard]] std::string TimeAxis(const Plot& plot);
 // SVG: horizontal grid lines with their values in mm to the left.
 [[nodiscard]] std::string ValueAxis(const Plot& plot, int most_ticks);
 

@@ -119,6 +119,19 @@ std::string StatusRemark(const ReportData& data) {
   return "";
 }
 
+// What each tool needs; empty where no tool was marked.
+std::string ToolNeedTable(const SpacingStudy& study) {
+  HtmlTable table({{"In use"}, {"For", true}, {"Touched up to", true}, {"Free of touches from", true}});
+  const auto length = [](const std::optional<double>& length_mm) {
+    return length_mm ? Millimetres(*length_mm) : std::string("&ndash;");
+  };
+  for (const ToolNeed& tool : study.by_tool)
+    table.Add({tool.tool.empty() ? "no tool" : "<bdi>" + Escaped(tool.tool) + "</bdi>",
+               fmt::format("{:.1f} s", tool.need.held_s()), length(tool.need.largest_touched_mm),
+               length(tool.need.smallest_free_mm)});
+  return table.empty() ? "" : table.Html();
+}
+
 }  // namespace
 
 std::string SummarySection(const ReportData& data) {
@@ -189,7 +202,7 @@ std::string SpacingSection(const ReportData& data, PageCharts* charts) {
     section += fmt::format("<h3>{}</h3><p class='lead'>Gap along {} from {} to {}, {} to {}.</p>\n",
                            Escaped(spacing.name), core::ToString(spacing.axis), Escaped(spacing.reference),
                            Escaped(spacing.moving), Millimetres(spacing.min_mm), Millimetres(spacing.max_mm));
-    section += charts->Add(SpacingChart(data, study)) + LevelTable(study);
+    section += charts->Add(SpacingChart(data, study)) + LevelTable(study) + ToolNeedTable(study);
   }
   return section + "</section>\n";
 }
