@@ -77,9 +77,9 @@ class SessionReader {
   // The same rows one by one, for sessions of any length. The visitor must not read the session.
   void VisitContacts(const RowVisitor& visit) const;
   void VisitClearances(const RowVisitor& visit) const;
-  [[nodiscard]] std::vector<PartTotals> part_totals() const;         // one a part
-  [[nodiscard]] std::vector<PartBudget> part_budgets() const;        // of parts for which one was computed
-  [[nodiscard]] std::vector<StampRow> stamp_rows() const;            // those with stamps, by number
+  [[nodiscard]] std::vector<PartTotals> part_totals() const;   // one a part
+  [[nodiscard]] std::vector<PartBudget> part_budgets() const;  // of parts for which one was computed
+  [[nodiscard]] std::vector<StampRow> stamp_rows() const;      // those with stamps, by number
 
   // The steps of SQLite's virtual machine that the most expensive query so far took (QueryLimit).
   [[nodiscard]] std::int64_t most_steps_taken() const;
