@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/findings/finding.h"
 #include "core/session.h"
 #include "sessions/recorded_contacts.h"
 #include "sessions/stamp_rows.h"
@@ -72,11 +73,16 @@ class SessionReader {
   [[nodiscard]] std::vector<core::ContactEpisode> episodes() const;  // by id; none without an outcome
   [[nodiscard]] std::vector<core::NearMiss> near_misses() const;     // likewise
   [[nodiscard]] std::vector<core::HeatMap> heat_maps() const;        // by part; likewise
-  [[nodiscard]] std::vector<ContactRow> contacts() const;            // every part in contact, frame by frame
-  [[nodiscard]] std::vector<ContactRow> clearances() const;          // every part with a clearance, likewise
-  [[nodiscard]] std::vector<PartTotals> part_totals() const;         // one a part
-  [[nodiscard]] std::vector<PartBudget> part_budgets() const;        // of parts for which one was computed
-  [[nodiscard]] std::vector<StampRow> stamp_rows() const;            // those with stamps, by number
+  // Touches and near misses as reviewers follow them, by time; each episode and near miss that there is, too.
+  [[nodiscard]] std::vector<core::Finding> findings() const;
+  [[nodiscard]] std::vector<core::FootageFile> footage() const;  // RIG.yml first; none: not kept
+  [[nodiscard]] std::string first_recording_id() const;        // of the session that cameras or footage gave
+  [[nodiscard]] std::string recording_id() const;              // of this one
+  [[nodiscard]] std::vector<ContactRow> contacts() const;      // every part in contact, frame by frame
+  [[nodiscard]] std::vector<ContactRow> clearances() const;    // every part with a clearance, likewise
+  [[nodiscard]] std::vector<PartTotals> part_totals() const;   // one a part
+  [[nodiscard]] std::vector<PartBudget> part_budgets() const;  // of parts for which one was computed
+  [[nodiscard]] std::vector<StampRow> stamp_rows() const;      // those with stamps, by number
 
   // The steps of SQLite's virtual machine that the most expensive query so far took (QueryLimit).
   [[nodiscard]] std::int64_t most_steps_taken() const;

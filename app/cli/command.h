@@ -74,6 +74,7 @@ void AddGaugeCommand(CLI::App& app, Choice* choice);
 void AddHullCommand(CLI::App& app, Choice* choice);
 void AddImportCommand(CLI::App& app, Choice* choice);
 void AddLayoutCommand(CLI::App& app, Choice* choice);
+void AddReplayCommand(CLI::App& app, Choice* choice);
 void AddReportCommand(CLI::App& app, Choice* choice);
 void AddRigCommand(CLI::App& app, Choice* choice);
 void AddSegmentCommand(CLI::App& app, Choice* choice);

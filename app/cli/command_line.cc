@@ -129,6 +129,7 @@ int RunCommandLine(int argc, char** argv, const OpenConsole& open_console) {
   Choice choice;
   AddDemoCommand(app, &choice);
   AddTrialCommand(app, &choice);
+  AddReplayCommand(app, &choice);
   AddReportCommand(app, &choice);
   AddSweepCommand(app, &choice);
   AddBackgroundCommand(app, &choice);

@@ -1,4 +1,4 @@
-#include "app/control/spacing_sweep_picture.h"
+#include "app/control/sweep/spacing_sweep_picture.h"
 
 #include <fmt/format.h>
 

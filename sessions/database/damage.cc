@@ -1,4 +1,4 @@
-#include "sessions/damage.h"
+#include "sessions/database/damage.h"
 
 #include <fmt/format.h>
 

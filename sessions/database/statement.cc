@@ -1,11 +1,11 @@
-#include "sessions/statement.h"
+#include "sessions/database/statement.h"
 
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <fmt/format.h>
 
 #include <cmath>
 
-#include "sessions/damage.h"
+#include "sessions/database/damage.h"
 
 namespace elbowroom::sessions {
 namespace {

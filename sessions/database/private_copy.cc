@@ -1,4 +1,4 @@
-#include "sessions/private_copy.h"
+#include "sessions/database/private_copy.h"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "core/error.h"
-#include "sessions/session_files.h"
+#include "sessions/database/session_files.h"
 
 namespace elbowroom::sessions {
 namespace {

@@ -1,4 +1,4 @@
-#include "sessions/query_limit.h"
+#include "sessions/database/query_limit.h"
 
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <fmt/format.h>
@@ -9,7 +9,7 @@
 
 #include "core/error.h"
 #include "core/progress.h"
-#include "sessions/damage.h"
+#include "sessions/database/damage.h"
 
 namespace elbowroom::sessions {
 namespace {

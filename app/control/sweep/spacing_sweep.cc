@@ -1,4 +1,4 @@
-#include "app/control/spacing_sweep.h"
+#include "app/control/sweep/spacing_sweep.h"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 #include <string_view>
 #include <utility>
 
-#include "app/control/spacing_sweep_picture.h"
+#include "app/control/sweep/spacing_sweep_picture.h"
 #include "app/control/trial_rules.h"
 #include "core/error.h"
 #include "core/spelling.h"

@@ -5,7 +5,7 @@
 #include <memory>
 #include <stop_token>
 
-#include "sessions/database.h"
+#include "sessions/database/database.h"
 
 namespace elbowroom::sessions {
 

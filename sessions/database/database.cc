@@ -1,4 +1,4 @@
-#include "sessions/database.h"
+#include "sessions/database/database.h"
 
 #include <SQLiteCpp/Backup.h>
 #include <SQLiteCpp/SQLiteCpp.h>
@@ -16,9 +16,9 @@
 
 #include "core/progress.h"
 #include "core/system/file_sync.h"
-#include "sessions/damage.h"
-#include "sessions/private_copy.h"
-#include "sessions/session_files.h"
+#include "sessions/database/damage.h"
+#include "sessions/database/private_copy.h"
+#include "sessions/database/session_files.h"
 
 namespace elbowroom::sessions {
 namespace {

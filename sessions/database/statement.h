@@ -10,7 +10,7 @@
 #include <string>
 #include <string_view>
 
-#include "sessions/database.h"
+#include "sessions/database/database.h"
 
 namespace SQLite {
 class Column;
