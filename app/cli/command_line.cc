@@ -131,6 +131,7 @@ int RunCommandLine(int argc, char** argv, const OpenConsole& open_console) {
   AddTrialCommand(app, &choice);
   AddReportCommand(app, &choice);
   AddSweepCommand(app, &choice);
+  AddKeepoutCommand(app, &choice);
   AddBackgroundCommand(app, &choice);
   AddBoardCommand(app, &choice);
   AddSegmentCommand(app, &choice);
