@@ -18,6 +18,9 @@
 namespace elbowroom::recon {
 namespace {
 
+// Boxes that differ by no more than this share of their coordinates are one: the rounding of the grid's.
+constexpr double kSameBoxShare = 1e-9;
+
 // What one tile is to add.
 struct TileTask {
   std::vector<std::pair<std::size_t, UndecidedCameras>> hulls;  // by number, in their order
@@ -26,8 +29,11 @@ struct TileTask {
 };
 
 // How far an object that a camera sees in the rectangle around a cell's picture can be from a corner of the
-// cell, in diagonals of the cell (docs/keep_out.md).
-double ReachInDiagonals(const core::Rig& rig, double diagonal_mm) {
+// cell, in diagonals of the cell (docs/keep_out.md). A cell of a larger grid may reach beyond the workspace.
+double ReachInDiagonals(const core::Rig& rig, const SweptGrid& grid) {
+  const double diagonal_mm = grid.DiagonalMm();
+  const bool has_more =
+      !rig.workspace_mm.isApprox({grid.At(GridCell::Zero()), grid.At(grid.cells)}, kSameBoxShare);
   double reach = 0.0;
   for (const core::CameraModel& camera : rig.cameras) {
     double least_z = core::kInfinity;
@@ -35,6 +41,7 @@ double ReachInDiagonals(const core::Rig& rig, double diagonal_mm) {
       const auto corner = static_cast<Eigen::AlignedBox3d::CornerType>(c);
       least_z = std::min(least_z, (camera.cam_from_world() * rig.workspace_mm.corner(corner)).z());
     }
+    if (has_more) least_z -= diagonal_mm;
     if (!(least_z > diagonal_mm)) return core::kInfinity;
     const double slope = camera.max_radius();
     reach = std::max(reach, std::sqrt(2.0 + slope * slope) * least_z / (least_z - diagonal_mm));
@@ -75,7 +82,7 @@ struct SweptVolume::Impl {
   void FindReaches(std::span<const HullSpan> hulls) {
     for (const HullSpan& span : hulls)
       if (!reaches.contains(span.hull->shared_rig()))
-        reaches[span.hull->shared_rig()] = ReachInDiagonals(span.hull->rig(), grid.DiagonalMm());
+        reaches[span.hull->shared_rig()] = ReachInDiagonals(span.hull->rig(), grid);
   }
 
   PlacedTile* TileAt(const GridCell& tile) {
