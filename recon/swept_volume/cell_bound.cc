@@ -184,9 +184,13 @@ class LeastLimits {
   [[nodiscard]] const CornerLimits& limits() const { return limits_; }
 
  private:
+  // Values above 0 say where the surface is; those below only how steeply it is passed.
+  static double Weighed(double value_mm) { return value_mm > 0.0 ? value_mm : 0.05 * value_mm; }
+
   [[nodiscard]] double Lowered(const CornerLimits& limits) const {
     double lowered_mm = 0.0;
-    for (std::size_t c = 0; c < kCellCorners; ++c) lowered_mm += std::max(values_[c] - limits[c], 0.0);
+    for (std::size_t c = 0; c < kCellCorners; ++c)
+      lowered_mm += std::max(Weighed(values_[c]) - Weighed(limits[c]), 0.0);
     return lowered_mm;
   }
 

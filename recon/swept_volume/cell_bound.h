@@ -27,9 +27,9 @@ struct BoundOptions {
 
 // One camera's contour, or a face of the workspace, has a plane beyond which a cell holds nothing of the
 // hull: the distances of the corners to it are limits. Of all planes that are tried the one that lowers
-// `values`, which the corners have so far, least. Nothing: the cell holds no point of the hull. A cell of
-// which no plane cuts off anything is taken as all hull. Cameras that `open` doesn't ask give no plane.
-// Derivation in docs/keep_out.md. Thread: any.
+// `values`, which the corners have so far, least, where values below 0 count a twentieth. Nothing: the cell
+// holds no point of the hull. A cell of which no plane cuts off anything is taken as all hull. Cameras that
+// `open` doesn't ask give no plane. Derivation in docs/keep_out.md. Thread: any.
 [[nodiscard]] std::optional<CornerLimits> LimitsOf(const VisualHull& hull, const CellBox& cell,
                                                    const UndecidedCameras& open, const CornerLimits& values,
                                                    const BoundOptions& options);

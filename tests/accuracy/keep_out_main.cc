@@ -6,10 +6,14 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <chrono>
+#include <cmath>
+#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
+#include <limits>
 #include <memory>
 #include <random>
 #include <vector>
@@ -68,11 +72,13 @@ void MeasureExcess(const std::filesystem::path& path, std::vector<Sample>* sampl
     const recon::VisualHull hull = recon::MakeVisualHull(rig, planes, *record.masks);
     if (hull.IsEmpty()) continue;
     for (Sample& sample : *samples) {
-      const Vector3d middle =
-          sample.ray.origin_in_world + 0.5 * sample.reach_mm * sample.ray.direction_in_world;
-      if (hull.Classify(middle, 0.5 * sample.reach_mm) == recon::BallAnswer::kOutside) continue;
-      sample.reach_mm =
-          recon::FirstInside(hull, sample.ray, {0.0, sample.reach_mm}).value_or(sample.reach_mm);
+      if (hull.Classify(sample.ray.origin_in_world, sample.reach_mm) == recon::BallAnswer::kOutside) continue;
+      const Vector3d in = sample.ray.direction_in_world, aside = in.unitOrthogonal(),
+                     across = in.cross(aside);
+      for (const Vector3d& lean : {Vector3d(0, 0, 0), aside, Vector3d(-aside), across, Vector3d(-across)})
+        sample.reach_mm = recon::FirstInside(hull, {sample.ray.origin_in_world, (in + lean).normalized()},
+                                             {0.0, sample.reach_mm})
+                              .value_or(sample.reach_mm);
     }
   }
 }
@@ -87,7 +93,7 @@ void PrintRow(const std::filesystem::path& session, double edge_mm) {
     seconds.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
   }
   std::ranges::sort(seconds);
-  std::vector<Sample> samples = SamplesOf(found.swept.mesh, 2000, 2.0 * found.bound_mm);
+  std::vector<Sample> samples = SamplesOf(found.swept.mesh, 600, found.bound_mm);
   MeasureExcess(session, &samples);
   std::vector<double> excess_mm;
   for (const Sample& sample : samples) excess_mm.push_back(sample.reach_mm);
@@ -101,41 +107,62 @@ void PrintRow(const std::filesystem::path& session, double edge_mm) {
       100.0 * buried / (buried + asked), static_cast<double>(found.bytes) / (1 << 20));
 }
 
-// The volume in shades of its dwell, in a few steps, with the parts where the session ended.
+// A picture's pixels, each with the nearest point of a surface that is drawn into it.
+struct Canvas {
+  int width_px, height_px;
+  std::vector<double> depth_mm;     // along the view's axis; infinite: nothing
+  std::vector<Vector3d> color_rgb;  // 0..1
+};
+
+// One triangle, its dwell as a share of the longest from corner to corner.
+void DrawTriangle(const recon::SceneView& view, const std::array<Vector3d, 3>& corners,
+                  const Vector3d& shares, Canvas* canvas) {
+  std::array<Vector3d, 3> seen;  // pixel, 1 / z
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vector3d x_in_cam = view.cam_from_world * corners[k];
+    seen[k] << view.focal_px * x_in_cam.head<2>() / x_in_cam.z() + view.PrincipalPoint(), 1.0 / x_in_cam.z();
+  }
+  const Vector3d normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalized();
+  const double light = 0.62 + 0.38 * std::max(normal.dot(Vector3d(-0.3, -0.5, 0.8).normalized()), 0.0);
+  Eigen::Matrix3d plane;
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    const Vector3d& s = seen[static_cast<std::size_t>(k)];
+    plane.col(k) << s.x(), s.y(), 1.0;
+  }
+  if (!(plane.determinant() < -1e-9)) return;  // turned away: y points down
+  const Eigen::Matrix3d weights_of = plane.inverse();
+  Eigen::AlignedBox2d box;
+  for (const Vector3d& s : seen) box.extend(Eigen::Vector2d(s.head<2>()));
+  for (int y = std::max(0, static_cast<int>(box.min().y()));
+       y <= std::min(canvas->height_px - 1, static_cast<int>(box.max().y()) + 1); ++y) {
+    for (int x = std::max(0, static_cast<int>(box.min().x()));
+         x <= std::min(canvas->width_px - 1, static_cast<int>(box.max().x()) + 1); ++x) {
+      const Vector3d weights = weights_of * Vector3d(x, y, 1.0);
+      if (weights.minCoeff() < -1e-6) continue;
+      const double z_mm =
+          1.0 / (weights[0] * seen[0].z() + weights[1] * seen[1].z() + weights[2] * seen[2].z());
+      const auto pixel = static_cast<std::size_t>(y * canvas->width_px + x);
+      if (z_mm >= canvas->depth_mm[pixel]) continue;
+      canvas->depth_mm[pixel] = z_mm;
+      const double share = std::sqrt(std::clamp(weights.dot(shares), 0.0, 1.0));
+      canvas->color_rgb[pixel] =
+          light * Vector3d(1.0 - 0.45 * share, 0.88 - 0.85 * share, 0.74 - 0.70 * share);
+    }
+  }
+}
+
+// The volume in shades of its dwell, with the parts where the session ended.
 void DrawPicture(const std::filesystem::path& path, double edge_mm, const std::filesystem::path& png) {
-  constexpr int kShades = 24, kWidthPx = 1200, kHeightPx = 800;
+  constexpr int kWidthPx = 1200, kHeightPx = 800;
   const control::KeepOut found = control::FindKeepOut({{path}, edge_mm, {}, {}}, {}, {});
   const core::TriangleMesh& mesh = found.swept.mesh;
   const double longest_s = *std::ranges::max_element(found.swept.dwell_s);
   recon::gl::Scene scene;
-  std::vector<core::TriangleMesh> shades(kShades);
-  for (const auto& triangle : mesh.triangles) {
-    double dwell_s = 0.0;
-    for (const std::int32_t i : triangle) dwell_s += found.swept.dwell_s[static_cast<std::size_t>(i)] / 3.0;
-    const double share = std::sqrt(std::min(dwell_s / longest_s, 1.0));
-    core::TriangleMesh& shade = shades[static_cast<std::size_t>(share * (kShades - 1))];
-    auto& corners = shade.triangles.emplace_back();
-    for (std::size_t k = 0; k < 3; ++k) {
-      corners[k] = static_cast<std::int32_t>(shade.vertices_mm.size());
-      shade.vertices_mm.push_back(mesh.vertices_mm[static_cast<std::size_t>(triangle[k])]);
-    }
-  }
-  for (int i = 0; i < kShades; ++i) {
-    core::TriangleMesh& shade = shades[static_cast<std::size_t>(i)];
-    if (shade.triangles.empty()) continue;
-    const float share = static_cast<float>(i) / (kShades - 1);
-    scene.parts.push_back(
-        {std::make_shared<const core::TriangleMesh>(std::move(shade)),
-         {},
-         Eigen::Vector3f(1.0F - 0.45F * share, 0.88F - 0.85F * share, 0.74F - 0.70F * share),
-         false,
-         1.0F});
-  }
   const sessions::SessionReader session(path);
   const core::Layout& layout = session.header().layout;
   const auto world_from_parts = core::PosesAt(layout, session.frames().back().spacing_mm);
   for (std::size_t i = 0; i < layout.parts.size(); ++i)
-    scene.parts.push_back({layout.parts[i].mesh, world_from_parts[i], {0.55F, 0.64F, 0.76F}, false, 0.45F});
+    scene.parts.push_back({layout.parts[i].mesh, world_from_parts[i], {0.55F, 0.64F, 0.76F}, false, 0.55F});
   recon::OrbitCamera camera;
   camera.elevation_rad = core::RadiansFromDegrees(24.0);
   camera.azimuth_rad = core::RadiansFromDegrees(-115.0);
@@ -143,7 +170,34 @@ void DrawPicture(const std::filesystem::path& path, double edge_mm, const std::f
                                kHeightPx);
   scene.lamp = recon::gl::LampOver(core::BoundsOf(mesh));
   recon::gl::SceneRenderer renderer;
-  recon::WritePng(renderer.Render(scene), png);
+  recon::Image picture = renderer.Render(scene);
+  const recon::gl::DepthImage parts = renderer.RenderDepth(scene);
+  constexpr std::size_t kPixels = std::size_t{kWidthPx} * kHeightPx;
+  Canvas canvas{kWidthPx, kHeightPx, std::vector<double>(kPixels, std::numeric_limits<double>::infinity()),
+                std::vector<Vector3d>(kPixels)};
+  for (const auto& triangle : mesh.triangles) {
+    std::array<Vector3d, 3> corners;
+    Vector3d shares;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto vertex = static_cast<std::size_t>(triangle[k]);
+      corners[k] = mesh.vertices_mm[vertex];
+      shares[static_cast<Eigen::Index>(k)] = found.swept.dwell_s[vertex] / longest_s;
+    }
+    DrawTriangle(scene.view, corners, shares, &canvas);
+  }
+  for (std::size_t i = 0; i < kPixels; ++i) {
+    if (std::isinf(canvas.depth_mm[i])) continue;
+    const double part_mm = static_cast<double>(parts.depth_mm[i]);
+    const double share =
+        part_mm > 0.0 && part_mm < canvas.depth_mm[i] ? 0.55 : 1.0;  // behind a part it shows through
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+      std::uint8_t& value = picture.rgb[3 * i + channel];
+      value = static_cast<std::uint8_t>(std::lround(
+          share * 255.0 * std::clamp(canvas.color_rgb[i][static_cast<Eigen::Index>(channel)], 0.0, 1.0) +
+          (1.0 - share) * value));
+    }
+  }
+  recon::WritePng(picture, png);
 }
 
 }  // namespace
