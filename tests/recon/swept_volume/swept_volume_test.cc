@@ -127,6 +127,41 @@ TEST(SweptVolume, NoPointOfTheMeshIsFartherFromAllHullsThanItSays) {
   EXPECT_GT(points, 20'000);
 }
 
+// As of sessions that were recorded on different days.
+TEST(SweptVolume, HullsOfRigsWithOtherWorkspacesAreHeldWithinTheBound) {
+  Random random(2414);
+  int points = 0, vertices = 0;
+  for (int trial = 0; trial < 20; ++trial) {
+    const auto here = RandomHulls(&random, 2), there = RandomHulls(&random, 2);
+    const Eigen::AlignedBox3d workspace_mm =
+        here.front().hull->rig().workspace_mm.merged(there.front().hull->rig().workspace_mm);
+    SweptVolume volume(workspace_mm,
+                       {.edge_mm = workspace_mm.sizes().maxCoeff() / random.Uniform(5.0, 30.0)});
+    volume.Add(here);
+    volume.Add(there);
+    const SweptMesh swept = volume.Mesh();
+    if (swept.mesh.triangles.empty()) continue;
+    EXPECT_TRUE(core::IsWatertight(swept.mesh)) << trial;
+    const MeshSides sides(InFloats(swept.mesh));
+    for (const auto* spans : {&here, &there})
+      for (const Vector3d& point : PointsInHulls(&random, *spans, 500)) {
+        EXPECT_TRUE(sides.Holds(point)) << trial;
+        ++points;
+      }
+    const double bound_mm = volume.BoundMm();
+    if (std::isinf(bound_mm)) continue;
+    for (const Vector3d& vertex : swept.mesh.vertices_mm) {
+      const auto is_near = [&](const HullSpan& span) {
+        return span.hull->Classify(vertex, bound_mm) != BallAnswer::kOutside;
+      };
+      EXPECT_TRUE(std::ranges::any_of(here, is_near) || std::ranges::any_of(there, is_near)) << trial;
+      ++vertices;
+    }
+  }
+  EXPECT_GT(points, 2000);
+  EXPECT_GT(vertices, 2000);
+}
+
 // A vertex is on the volume's surface, so hulls cover it for no time; they reach the cell that it is in.
 TEST(SweptVolume, DwellIsBetweenTheTimesOfTheCellAndOfItsSurroundings) {
   Random random(2404);
