@@ -33,12 +33,12 @@ struct SweptVolumeOptions {
 };
 
 // Hulls are added to a sparse grid, whose corners keep values such that the values interpolated in the cells'
-// tetrahedra are at most 0 in every hull. The mesh is the surface at 0, so every point of every hull is inside
-// it or on it: certified, also after its vertices are rounded to float32 (swept_volume_test). How far the mesh
-// may reach beyond: BoundMm(). The dwell of a vertex is at least the time for which hulls reached into the
-// cells that it is in, and at most that for which they weren't surely farther from it than two cells'
-// diagonals. Derivation: docs/keep_out.md. Thread: one at a time; the result depends neither on the number of
-// threads nor on how hulls are shared out to calls.
+// tetrahedra are at most 0 in every hull. The mesh is the surface at 0, so every point of every hull is
+// inside it or on it: certified, also after its vertices are rounded to float32 (swept_volume_test). How far
+// the mesh may reach beyond: BoundMm(). The dwell of a vertex is at least the time for which hulls reached
+// into the cells that it is in, and at most that for which they weren't surely farther from it than two
+// cells' diagonals. Derivation: docs/keep_out.md. Thread: one at a time; the result depends neither on the
+// number of threads nor on how hulls are shared out to calls.
 class SweptVolume {
  public:
   // Throws: as MakeSweptGrid.
