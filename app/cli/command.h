@@ -73,6 +73,7 @@ void AddDemoCommand(CLI::App& app, Choice* choice);
 void AddGaugeCommand(CLI::App& app, Choice* choice);
 void AddHullCommand(CLI::App& app, Choice* choice);
 void AddImportCommand(CLI::App& app, Choice* choice);
+void AddKeepoutCommand(CLI::App& app, Choice* choice);
 void AddLayoutCommand(CLI::App& app, Choice* choice);
 void AddReplayCommand(CLI::App& app, Choice* choice);
 void AddReportCommand(CLI::App& app, Choice* choice);

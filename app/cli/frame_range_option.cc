@@ -7,7 +7,6 @@
 namespace elbowroom::cli {
 namespace {
 
-// "A:B", "A:" or ":B", A below B.
 bool ParseFrameRange(const std::string& text, control::FrameRange* range) {
   const std::size_t colon = text.find(':');
   if (colon == std::string::npos) return false;

@@ -1,4 +1,4 @@
-// --frames A:B: which frames of footage or of a session.
+// --frames A:B of commands that go over frames.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -7,7 +7,7 @@
 
 namespace elbowroom::cli {
 
-// `range` outlives the parsing of the command line.
+// "A:B", "A:" or ":B", A below B, which isn't included. `range` must live as long as the command is parsed.
 void AddFrameRangeOption(CLI::App& command, control::FrameRange* range);
 
 }  // namespace elbowroom::cli

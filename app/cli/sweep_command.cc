@@ -7,7 +7,7 @@
 
 #include "app/cli/command.h"
 #include "app/cli/unit_option.h"
-#include "app/cli/vector_json.h"
+#include "app/cli/value_json.h"
 #include "app/control/sweep/spacing_sweep.h"
 
 namespace elbowroom::cli {

@@ -1,4 +1,4 @@
-// Points, directions, numbers and spreads in what `--json` prints.
+// Points, directions, numbers, spreads and error budgets in what `--json` prints.
 #pragma once
 
 #include <Eigen/Core>
@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "core/error_budget.h"
 #include "core/spread.h"
 
 namespace elbowroom::cli {
@@ -22,6 +23,16 @@ namespace elbowroom::cli {
 [[nodiscard]] inline nlohmann::json JsonOf(const std::optional<core::Spread>& spread) {
   if (!spread) return nullptr;
   return {{"median", spread->median}, {"p95", spread->p95}, {"max", spread->max}};
+}
+
+// What a verdict allows for.
+[[nodiscard]] inline nlohmann::json JsonOf(const core::ErrorBudget& budget) {
+  return {{"calibration_mm", budget.calibration_mm},
+          {"footprint_mm", budget.footprint_mm},
+          {"segmentation_mm", budget.segmentation_mm},
+          {"skew_mm", budget.skew_mm},
+          {"given_mm", budget.given_mm},
+          {"coverage_factor", core::kCoverageFactor}};
 }
 
 }  // namespace elbowroom::cli
