@@ -32,6 +32,11 @@ std::array<cad_import::ColorRgb, kShades> Shades() {
   return shades;
 }
 
+std::string ErrorText(double bound_mm) {
+  return std::isfinite(bound_mm) ? fmt::format("contains every hull; beyond by at most {:.4g} mm", bound_mm)
+                                 : "contains every hull; beyond unbounded: a camera is in the workspace";
+}
+
 cad_import::VertexField FieldOf(const KeepOutRequest& request, const KeepOut& keep_out) {
   cad_import::VertexField field{"dwell_s", keep_out.swept.dwell_s, {}, {}};
   const auto shades = Shades();
@@ -39,10 +44,9 @@ cad_import::VertexField FieldOf(const KeepOutRequest& request, const KeepOut& ke
   for (const double seconds : field.values)
     field.colors.push_back(shades[static_cast<std::size_t>(
         std::lround(std::sqrt(seconds / longest_s) * static_cast<double>(kShades - 1)))]);
-  field.notes = {
-      {"error", fmt::format("contains every hull; beyond by at most {:.4g} mm", keep_out.bound_mm)},
-      {"edge_mm", fmt::format("{:.6g}", request.edge_mm)},
-      {"frames", std::to_string(keep_out.frames)}};
+  field.notes = {{"error", ErrorText(keep_out.bound_mm)},
+                 {"edge_mm", fmt::format("{:.6g}", request.edge_mm)},
+                 {"frames", std::to_string(keep_out.frames)}};
   if (request.tool) field.notes.emplace_back("tool", *request.tool);
   for (const auto& session : request.sessions)
     field.notes.emplace_back("session", session.filename().string());
