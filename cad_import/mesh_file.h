@@ -7,6 +7,7 @@
 
 #include "cad_import/model/cad_model.h"
 #include "cad_import/model/import_options.h"
+#include "cad_import/model/vertex_field.h"
 #include "core/progress.h"
 #include "core/triangle_mesh.h"
 
@@ -29,6 +30,13 @@ struct ImportedMesh {
 // Throws: Error{kGeometry} for a mesh that ValidateMesh refuses, Error{kFormat} for another extension,
 // Error{kFile} if it can't be written.
 void WriteMeshFile(const core::TriangleMesh& mesh, const std::filesystem::path& path);
+
+// Likewise with what the field says of each vertex: .ply as a property of its name beside red, green, blue;
+// .glb as an attribute `_NAME` beside COLOR_0. Notes are comments in .ply, `extras` in .glb, and the header
+// of .stl, which holds nothing else of the field. Throws: likewise, and Error{kRange} for a .glb of more than
+// 4 GiB.
+void WriteFieldFile(const core::TriangleMesh& mesh, const VertexField& field,
+                    const std::filesystem::path& path);
 
 // Likewise a model: .glb keeps its instances, their names, paths and colours, a shape stored once for each
 // colour that it has; .ply and .stl hold it flattened. Axes stay as they are. Throws: likewise.

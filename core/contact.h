@@ -76,6 +76,7 @@ struct PartContact {
 // One touch of one part: frames that follow each other with gaps no longer than the tracker's rule.
 struct ContactEpisode {
   EpisodeId id = 0;
+  FindingId finding_id;  // empty until it is recorded
   PartIndex part = 0;
   FrameIndex begin_frame = 0;
   FrameIndex peak_frame = 0;  // deepest; ties go to the larger area, then the earlier frame
@@ -95,6 +96,7 @@ struct ContactEpisode {
 // A part came nearer to the hull than its required clearance, and moved away again without a touch.
 struct NearMiss {
   EpisodeId id = 0;
+  FindingId finding_id;  // empty until it is recorded
   PartIndex part = 0;
   FrameIndex begin_frame = 0;
   FrameIndex closest_frame = 0;  // least upper bound; ties go to the lower one, then the earlier frame
@@ -102,11 +104,12 @@ struct NearMiss {
   double begin_time_s = 0.0;
   double closest_time_s = 0.0;
   double end_time_s = 0.0;
-  std::int64_t frames_below = 0;              // those that weren't clear
-  Verdict verdict = Verdict::kUndecided;      // kNear: some frame was surely below
-  PartClearance closest;                      // that of the closest frame
-  std::vector<double> spacing_at_closest_mm;  // in the layout's order
-  std::vector<std::string> tools;             // marked in use meanwhile, in order of name
+  std::int64_t frames_below = 0;                    // those that weren't clear
+  Verdict verdict = Verdict::kUndecided;            // kNear: some frame was surely below
+  PartClearance closest;                            // that of the closest frame
+  std::optional<Eigen::Vector3d> place_in_part_mm;  // its witness on the part; nothing: not known
+  std::vector<double> spacing_at_closest_mm;        // in the layout's order
+  std::vector<std::string> tools;                   // marked in use meanwhile, in order of name
 };
 
 }  // namespace elbowroom::core

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 
 namespace elbowroom::core {
 
@@ -12,5 +13,8 @@ using GroupIndex = std::size_t;    // position in Layout::groups
 using CameraIndex = std::size_t;   // position in Rig::cameras
 using FrameIndex = std::int64_t;   // 0 is the first frame of the footage, not of the trial's range
 using EpisodeId = std::int64_t;    // counts from 1 within a session
+
+// 32 hexadecimal digits that name a touch or near miss. Its replays have the same (core/findings).
+using FindingId = std::string;
 
 }  // namespace elbowroom::core

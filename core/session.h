@@ -2,6 +2,8 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -53,6 +55,16 @@ struct SessionEvent {
   std::variant<SpacingChanged, ToolMarked, Note> what;
 };
 
+// The session that a replay was made from.
+struct SessionOrigin {
+  std::string file;                // as it was given
+  std::string recording_id;        // of that session
+  std::string first_recording_id;  // of the session that cameras or footage gave: another one for the replay
+                                   // of a replay
+  std::string replayed_at_utc;     // ISO 8601
+  std::vector<std::string> changes;  // in words; empty: nothing was changed
+};
+
 struct SessionHeader {
   TrialInfo trial;
   Rig rig;
@@ -61,6 +73,7 @@ struct SessionHeader {
   std::string started_at_utc;                   // ISO 8601
   std::map<std::string, std::string> settings;  // segmentation and the like, as text
   std::map<std::string, std::string> versions;  // software and drivers
+  std::optional<SessionOrigin> origin = {};     // of a replay
 };
 
 // Which picture of its camera a frame took, and when that was taken.
@@ -91,6 +104,13 @@ struct FrameRecord {
   [[nodiscard]] bool LacksCamera() const {
     return std::ranges::any_of(stamps, [](const auto& stamp) { return !stamp; });
   }
+};
+
+// A file with pictures that silhouettes come from, or the RIG.yml that plays them.
+struct FootageFile {
+  std::string file;  // relative to the session's folder
+  std::int64_t bytes = 0;
+  std::array<std::byte, 16> content_hash = {};  // 128-bit XXH3
 };
 
 // The results that are written at a session's end.

@@ -77,6 +77,10 @@ void Extend(const TrackedFrame& frame, const core::PartContact& contact, core::N
   };
   if (!is_first && bounds(*contact.clearance) >= bounds(miss->closest)) return;
   miss->closest = *contact.clearance;
+  miss->place_in_part_mm.reset();
+  if (contact.clearance->has_witnesses)
+    miss->place_in_part_mm =
+        frame.world_from_parts[contact.part].Inverse() * contact.clearance->interval.witness_part_in_world_mm;
   miss->closest_frame = frame.record.frame;
   miss->closest_time_s = frame.record.time_s;
   miss->spacing_at_closest_mm = frame.record.spacing_mm;

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "core/error.h"
-#include "sessions/damage.h"
+#include "sessions/database/damage.h"
 #include "sessions/recorded_contacts.h"
 #include "sessions/row_rules.h"
 #include "sessions/stamp_rows.h"
@@ -17,13 +17,6 @@ namespace {
 
 using core::Error;
 using core::ErrorKind;
-
-// Without evidence, the row in part_frame holds all that there is of the part.
-bool HasEvidence(const core::PartContact& contact) {
-  return contact.verdict == core::Verdict::kContact || contact.contact_point_count != 0 ||
-         !contact.points.empty() || contact.contact_area_mm2 != 0.0 || contact.deepest || contact.recovery ||
-         contact.recovery_status != core::RecoveryStatus::kNoContact;
-}
 
 // Runs the statement to its end: a statement left open would hold its snapshot, and the log could never be
 // folded back.
@@ -85,6 +78,12 @@ std::vector<core::RigidTransform> ReadMotions(Database& database, std::size_t pa
 }
 
 }  // namespace
+
+bool HasContactRow(const core::PartContact& contact) {
+  return contact.verdict == core::Verdict::kContact || contact.contact_point_count != 0 ||
+         !contact.points.empty() || contact.contact_area_mm2 != 0.0 || contact.deepest || contact.recovery ||
+         contact.recovery_status != core::RecoveryStatus::kNoContact;
+}
 
 FrameInserter::FrameInserter(Database& database)
     : insert_frame_(database, "INSERT INTO frame VALUES (?, ?)"),
@@ -158,7 +157,7 @@ void FrameInserter::InsertPart(core::FrameIndex frame, const core::PartContact& 
       .With(frame, contact.part, core::ToString(contact.verdict), contact.resolution_mm,
             contact.count.triangles, contact.count.queries, contact.count.skipped)
       .Run();
-  if (HasEvidence(contact)) InsertEvidence(frame, contact);
+  if (HasContactRow(contact)) InsertEvidence(frame, contact);
   if (contact.clearance) InsertClearance(frame, contact);
 }
 

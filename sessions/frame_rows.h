@@ -4,11 +4,14 @@
 #include <span>
 
 #include "core/session.h"
-#include "sessions/database.h"
+#include "sessions/database/database.h"
+#include "sessions/database/statement.h"
 #include "sessions/packing.h"
-#include "sessions/statement.h"
 
 namespace elbowroom::sessions {
+
+// Whether there is evidence of the part. Without any, its row in part_frame holds all that there is.
+[[nodiscard]] bool HasContactRow(const core::PartContact& contact);
 
 // Keeps its statements prepared from frame to frame.
 class FrameInserter {

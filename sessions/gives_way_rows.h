@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/layout.h"
-#include "sessions/database.h"
+#include "sessions/database/database.h"
 
 namespace elbowroom::sessions {
 

@@ -3,12 +3,13 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
-#include "sessions/damage.h"
+#include "sessions/database/damage.h"
+#include "sessions/database/statement.h"
 #include "sessions/layout_rows.h"
+#include "sessions/packing.h"
 #include "sessions/rig_quality_rows.h"
 #include "sessions/rig_rows.h"
 #include "sessions/row_rules.h"
-#include "sessions/statement.h"
 
 namespace elbowroom::sessions {
 namespace {
@@ -59,6 +60,22 @@ void ReadSessionRow(Database& database, core::SessionHeader& header) {
   if (!(header.rig.workspace_mm.sizes().minCoeff() > 0.0)) FailAsDamaged(where, "its workspace is empty");
 }
 
+void InsertOrigin(Database& database, const core::SessionOrigin& origin) {
+  Statement(database, "INSERT INTO origin VALUES (1, ?, ?, ?, ?, ?)")
+      .With(origin.file, origin.recording_id, origin.first_recording_id, origin.replayed_at_utc,
+            JsonFrom(origin.changes))
+      .Run();
+}
+
+std::optional<core::SessionOrigin> ReadOrigin(Database& database) {
+  Statement row(database,
+                "SELECT file, recording_id, first_recording_id, replayed_at_utc, changes FROM origin");
+  if (!row.Next()) return std::nullopt;
+  const std::string where = fmt::format("session '{}', its origin", database.path().string());
+  return core::SessionOrigin{row.Text(0), row.Text(1), row.Text(2), row.Text(3),
+                             TextsFromJson(row.Text(4), where)};
+}
+
 void InsertTexts(Database& database, const std::string& table,
                  const std::map<std::string, std::string>& texts) {
   Statement insert(database, "INSERT INTO " + table + " VALUES (?, ?)");
@@ -84,6 +101,7 @@ void InsertHeader(Database& database, const core::SessionHeader& header) {
   InsertCameras(database, header.rig.cameras);
   InsertRigQuality(database, header.rig_quality);
   InsertLayout(database, header.layout);
+  if (header.origin) InsertOrigin(database, *header.origin);
 }
 
 core::SessionHeader ReadHeader(Database& database) {
@@ -99,6 +117,7 @@ core::SessionHeader ReadHeader(Database& database) {
   if (header.rig.cameras.empty())
     FailAsDamaged(fmt::format("session '{}'", database.path().string()), "it has no camera");
   header.rig_quality = ReadRigQuality(database, header.rig);
+  header.origin = ReadOrigin(database);
   return header;
 }
 

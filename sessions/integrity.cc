@@ -7,10 +7,10 @@
 #include <algorithm>
 #include <string>
 
-#include "sessions/damage.h"
-#include "sessions/query_limit.h"
+#include "sessions/database/damage.h"
+#include "sessions/database/query_limit.h"
+#include "sessions/database/statement.h"
 #include "sessions/schema_check.h"
-#include "sessions/statement.h"
 
 namespace elbowroom::sessions {
 namespace {

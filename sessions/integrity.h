@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <stop_token>
 
-#include "sessions/database.h"
+#include "sessions/database/database.h"
 
 namespace elbowroom::sessions {
 

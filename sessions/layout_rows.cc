@@ -8,11 +8,11 @@
 #include <utility>
 
 #include "core/error.h"
-#include "sessions/damage.h"
+#include "sessions/database/damage.h"
+#include "sessions/database/statement.h"
 #include "sessions/gives_way_rows.h"
 #include "sessions/packing.h"
 #include "sessions/row_rules.h"
-#include "sessions/statement.h"
 
 namespace elbowroom::sessions {
 namespace {

@@ -6,11 +6,11 @@
 #include <cmath>
 
 #include "core/surface_patches.h"
-#include "sessions/damage.h"
+#include "sessions/database/damage.h"
+#include "sessions/database/statement.h"
 #include "sessions/packing.h"
 #include "sessions/recorded_contacts.h"
 #include "sessions/row_rules.h"
-#include "sessions/statement.h"
 
 namespace elbowroom::sessions {
 namespace {
@@ -65,6 +65,7 @@ core::ContactEpisode ReadEpisode(const Statement& row, const core::Layout& layou
   episode.peak_position_in_world_mm = Position(row.Vector(11), where, "its place");
   if (!row.IsNull(14)) episode.peak_position_in_part_mm = row.Vector(14);
   episode.tools = TextsFromJson(row.Text(17), where);
+  if (!row.IsNull(18)) episode.finding_id = row.Text(18);
   return episode;
 }
 
@@ -89,20 +90,22 @@ core::NearMiss ReadNearMiss(const Statement& row, const core::Layout& layout, co
     FailAsDamaged(where, "its spacings aren't those of the layout");
   for (const double spacing_mm : miss.spacing_at_closest_mm) (void)GapMm(spacing_mm, where, "a spacing");
   miss.tools = TextsFromJson(row.Text(11), where);
+  if (!row.IsNull(12)) miss.finding_id = row.Text(12);
+  if (!row.IsNull(13)) miss.place_in_part_mm = Position(row.Vector(13), where, "its place");
   return miss;
 }
 
 void InsertEpisodes(Database& database, std::span<const core::ContactEpisode> episodes) {
   Statement insert(database,
                    "INSERT INTO episode VALUES "
-                   "(?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+                   "(?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
   Statement insert_spacing(database, "INSERT INTO episode_spacing VALUES (?, ?, ?)");
   for (const core::ContactEpisode& episode : episodes) {
     insert
         .With(episode.id, episode.part, episode.begin_frame, episode.peak_frame, episode.end_frame,
               episode.begin_time_s, episode.peak_time_s, episode.end_time_s, episode.frames_in_contact,
               episode.peak_depth_mm, episode.peak_area_mm2, episode.peak_position_in_world_mm,
-              episode.peak_position_in_part_mm, JsonFrom(episode.tools))
+              episode.peak_position_in_part_mm, JsonFrom(episode.tools), episode.finding_id)
         .Run();
     for (core::SpacingIndex i = 0; i < episode.spacing_at_peak_mm.size(); ++i) {
       insert_spacing.With(episode.id, i, episode.spacing_at_peak_mm[i]).Run();
@@ -111,12 +114,13 @@ void InsertEpisodes(Database& database, std::span<const core::ContactEpisode> ep
 }
 
 void InsertNearMisses(Database& database, std::span<const core::NearMiss> misses) {
-  Statement insert(database, "INSERT INTO near_miss VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+  Statement insert(database, "INSERT INTO near_miss VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
   for (const core::NearMiss& miss : misses) {
     insert
         .With(miss.id, miss.part, miss.begin_frame, miss.closest_frame, miss.end_frame, miss.begin_time_s,
               miss.closest_time_s, miss.end_time_s, miss.frames_below, core::ToString(miss.verdict),
-              JsonFrom(miss.spacing_at_closest_mm), JsonFrom(miss.tools))
+              JsonFrom(miss.spacing_at_closest_mm), JsonFrom(miss.tools), miss.finding_id,
+              miss.place_in_part_mm)
         .Run();
   }
 }

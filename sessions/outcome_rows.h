@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/session.h"
-#include "sessions/database.h"
+#include "sessions/database/database.h"
 
 namespace elbowroom::sessions {
 

@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
-#include "sessions/damage.h"
+#include "sessions/database/damage.h"
 
 namespace elbowroom::sessions {
 namespace {

@@ -5,9 +5,9 @@
 #include <array>
 #include <limits>
 
-#include "sessions/damage.h"
+#include "sessions/database/damage.h"
+#include "sessions/database/statement.h"
 #include "sessions/row_rules.h"
-#include "sessions/statement.h"
 
 namespace elbowroom::sessions {
 namespace {

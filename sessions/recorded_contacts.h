@@ -8,7 +8,7 @@
 #include "core/contact.h"
 #include "core/ids.h"
 #include "core/layout.h"
-#include "sessions/database.h"
+#include "sessions/database/database.h"
 
 namespace elbowroom::sessions {
 

@@ -8,10 +8,11 @@
 
 #include "core/system/file_sync.h"
 #include "core/system/utc_time.h"
+#include "sessions/database/session_files.h"
+#include "sessions/finding_rows.h"
 #include "sessions/header_rows.h"
 #include "sessions/outcome_rows.h"
 #include "sessions/schema.h"
-#include "sessions/session_files.h"
 #include "sessions/spill.h"
 
 namespace elbowroom::sessions {
@@ -111,11 +112,20 @@ void RecordingStore::WriteInto(Place& place, const RecordingEntry& entry) const 
     place.frames->Insert(*record);
   } else if (const auto* event = std::get_if<core::SessionEvent>(&entry)) {
     InsertEvent(place.database, header_.layout, *event);
-  } else if (const auto* outcome = std::get_if<core::SessionOutcome>(&entry)) {
-    InsertOutcome(place.database, *outcome);
-    place.database.Execute(
-        fmt::format("UPDATE session SET status = 'complete', ended_at_utc = '{}'", core::NowUtc()));
+  } else if (const auto* end = std::get_if<SessionEnd>(&entry)) {
+    WriteEnd(place.database, *end);
   }
+}
+
+void RecordingStore::WriteEnd(Database& database, const SessionEnd& end) const {
+  core::SessionOutcome outcome = end.outcome;
+  NameFindings(header_.layout, header_.origin ? header_.origin->first_recording_id : recording_id_, &outcome);
+  InsertOutcome(database, outcome);
+  InsertAbsentFindings(database, end.closing.absent);
+  for (const auto& [finding, remark] : end.closing.remarks) InsertRemark(database, finding, remark);
+  InsertFootage(database, end.closing.footage);
+  database.Execute(
+      fmt::format("UPDATE session SET status = 'complete', ended_at_utc = '{}'", core::NowUtc()));
 }
 
 bool RecordingStore::RestoreIfGone() {

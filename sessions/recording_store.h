@@ -8,13 +8,19 @@
 #include <variant>
 
 #include "core/session.h"
-#include "sessions/database.h"
+#include "sessions/database/database.h"
 #include "sessions/frame_rows.h"
+#include "sessions/session_closing.h"
 
 namespace elbowroom::sessions {
 
-// An entry of a recording. Entries come in order; an outcome is the last.
-using RecordingEntry = std::variant<core::FrameRecord, core::SessionEvent, core::SessionOutcome>;
+struct SessionEnd {
+  core::SessionOutcome outcome;
+  SessionClosing closing;
+};
+
+// An entry of a recording. Entries come in order; the end is the last.
+using RecordingEntry = std::variant<core::FrameRecord, core::SessionEvent, SessionEnd>;
 
 // Thread: one.
 class RecordingStore {
@@ -54,6 +60,7 @@ class RecordingStore {
     std::optional<FrameInserter> frames;
   };
   void WriteInto(Place& place, const RecordingEntry& entry) const;
+  void WriteEnd(Database& database, const SessionEnd& end) const;
   [[nodiscard]] Database MadeAgain();
 
   const core::SessionHeader& header_;

@@ -3,7 +3,7 @@
 
 #include "core/rig.h"
 #include "core/rig_quality.h"
-#include "sessions/database.h"
+#include "sessions/database/database.h"
 
 namespace elbowroom::sessions {
 

@@ -5,7 +5,7 @@
 
 #include "core/camera_model.h"
 #include "core/ids.h"
-#include "sessions/database.h"
+#include "sessions/database/database.h"
 
 namespace elbowroom::sessions {
 

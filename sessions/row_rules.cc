@@ -6,7 +6,7 @@
 
 #include "core/file_limits.h"
 #include "core/rigid_transform.h"
-#include "sessions/damage.h"
+#include "sessions/database/damage.h"
 
 namespace elbowroom::sessions {
 

@@ -5,7 +5,7 @@
 #include <array>
 
 #include "core/error.h"
-#include "sessions/damage.h"
+#include "sessions/database/damage.h"
 
 namespace elbowroom::sessions {
 namespace {
@@ -15,8 +15,9 @@ using core::ErrorKind;
 
 // Entry i leads from schema i to schema i + 1. An entry that has been released never changes.
 using Migration = std::string (*)();
-constexpr std::array<Migration, kSchemaVersion> kMigrations = {
-    &Schema1Sql, &Schema2Sql, &Schema3Sql, &Schema4Sql, &Schema5Sql, &Schema6Sql, &Schema7Sql, &Schema8Sql};
+constexpr std::array<Migration, kSchemaVersion> kMigrations = {&Schema1Sql, &Schema2Sql, &Schema3Sql,
+                                                               &Schema4Sql, &Schema5Sql, &Schema6Sql,
+                                                               &Schema7Sql, &Schema8Sql, &Schema9Sql};
 
 }  // namespace
 

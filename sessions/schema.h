@@ -4,12 +4,12 @@
 #include <cstdint>
 #include <string>
 
-#include "sessions/database.h"
+#include "sessions/database/database.h"
 
 namespace elbowroom::sessions {
 
 inline constexpr std::int64_t kApplicationId = 0x456C6277;  // "Elbw" in the file's header
-inline constexpr std::int64_t kSchemaVersion = 8;
+inline constexpr std::int64_t kSchemaVersion = 9;
 
 // The SQL that leads from schema 0, an empty file, to schema 1.
 [[nodiscard]] std::string Schema1Sql();
@@ -36,6 +36,10 @@ inline constexpr std::int64_t kSchemaVersion = 8;
 
 // From schema 7 to schema 8: the stamps of each frame's pictures, and what the trial itself allows for.
 [[nodiscard]] std::string Schema8Sql();
+
+// From schema 8 to schema 9: replays and what they were made from; names of touches and near misses that
+// outlive a replay; what reviewers said; the files of the footage.
+[[nodiscard]] std::string Schema9Sql();
 
 // Brings the open transaction's database to kSchemaVersion by the migrations that it lacks, in order.
 void Migrate(Database& database);

@@ -8,9 +8,9 @@
 #include <set>
 
 #include "core/error.h"
-#include "sessions/damage.h"
+#include "sessions/database/damage.h"
+#include "sessions/database/statement.h"
 #include "sessions/schema.h"
-#include "sessions/statement.h"
 
 namespace elbowroom::sessions {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "sessions/database.h"
+#include "sessions/database/database.h"
 
 namespace elbowroom::sessions {
 

@@ -2,10 +2,10 @@
 
 #include <memory>
 
-#include "sessions/private_copy.h"
+#include "sessions/database/private_copy.h"
+#include "sessions/database/session_files.h"
 #include "sessions/schema.h"
 #include "sessions/schema_check.h"
-#include "sessions/session_files.h"
 #include "sessions/spill.h"
 
 namespace elbowroom::sessions {

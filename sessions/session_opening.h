@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "sessions/database.h"
+#include "sessions/database/database.h"
 
 namespace elbowroom::sessions {
 

@@ -6,18 +6,19 @@
 #include <utility>
 
 #include "core/error.h"
-#include "sessions/damage.h"
-#include "sessions/database.h"
+#include "sessions/database/damage.h"
+#include "sessions/database/database.h"
+#include "sessions/database/query_limit.h"
+#include "sessions/database/statement.h"
+#include "sessions/finding_rows.h"
 #include "sessions/frame_rows.h"
 #include "sessions/header_rows.h"
 #include "sessions/integrity.h"
 #include "sessions/outcome_rows.h"
-#include "sessions/query_limit.h"
 #include "sessions/row_rules.h"
 #include "sessions/schema.h"
 #include "sessions/schema_check.h"
 #include "sessions/session_opening.h"
-#include "sessions/statement.h"
 
 namespace elbowroom::sessions {
 namespace {
@@ -99,6 +100,15 @@ struct SessionReader::Impl {
     header = ReadHeader(database);
   }
 
+  // Without heat maps. Rows of older programs have no ids of findings: these get them here.
+  [[nodiscard]] core::SessionOutcome NamedOutcome() {
+    core::SessionOutcome outcome;
+    outcome.episodes = adopted ? adopted->episodes : ReadEpisodes(database, header.layout);
+    outcome.near_misses = adopted ? adopted->near_misses : ReadNearMisses(database, header.layout);
+    NameFindings(header.layout, FirstRecordingId(database, header), &outcome);
+    return outcome;
+  }
+
   OpenedSession opened;
   Database& database = opened.database;
   QueryLimit limit;
@@ -161,12 +171,25 @@ std::vector<core::SessionEvent> SessionReader::events() const {
   return impl_->limit.Guarded([&] { return ReadEvents(impl_->database); });
 }
 std::vector<core::ContactEpisode> SessionReader::episodes() const {
-  if (impl_->adopted) return impl_->adopted->episodes;
-  return impl_->limit.Guarded([&] { return ReadEpisodes(impl_->database, impl_->header.layout); });
+  return impl_->limit.Guarded([&] { return impl_->NamedOutcome().episodes; });
 }
 std::vector<core::NearMiss> SessionReader::near_misses() const {
-  if (impl_->adopted) return impl_->adopted->near_misses;
-  return impl_->limit.Guarded([&] { return ReadNearMisses(impl_->database, impl_->header.layout); });
+  return impl_->limit.Guarded([&] { return impl_->NamedOutcome().near_misses; });
+}
+std::vector<core::Finding> SessionReader::findings() const {
+  return impl_->limit.Guarded(
+      [&] { return ReadFindings(impl_->database, impl_->header.layout, impl_->NamedOutcome()); });
+}
+std::vector<core::FootageFile> SessionReader::footage() const {
+  return impl_->limit.Guarded([&] { return ReadFootage(impl_->database); });
+}
+std::string SessionReader::first_recording_id() const {
+  return impl_->limit.Guarded([&] { return FirstRecordingId(impl_->database, impl_->header); });
+}
+std::string SessionReader::recording_id() const {
+  return impl_->limit.Guarded([&] {
+    return ReadRecordingId(impl_->database).value_or(FirstRecordingId(impl_->database, impl_->header));
+  });
 }
 std::vector<core::HeatMap> SessionReader::heat_maps() const {
   if (impl_->adopted) return impl_->adopted->heat_maps;

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/findings/finding.h"
 #include "core/session.h"
 #include "sessions/recorded_contacts.h"
 #include "sessions/stamp_rows.h"
@@ -72,8 +73,13 @@ class SessionReader {
   [[nodiscard]] std::vector<core::ContactEpisode> episodes() const;  // by id; none without an outcome
   [[nodiscard]] std::vector<core::NearMiss> near_misses() const;     // likewise
   [[nodiscard]] std::vector<core::HeatMap> heat_maps() const;        // by part; likewise
-  [[nodiscard]] std::vector<ContactRow> contacts() const;            // every part in contact, frame by frame
-  [[nodiscard]] std::vector<ContactRow> clearances() const;          // every part with a clearance, likewise
+  // Touches and near misses as reviewers follow them, by time; each episode and near miss that there is, too.
+  [[nodiscard]] std::vector<core::Finding> findings() const;
+  [[nodiscard]] std::vector<core::FootageFile> footage() const;  // RIG.yml first; none: not kept
+  [[nodiscard]] std::string first_recording_id() const;        // of the session that cameras or footage gave
+  [[nodiscard]] std::string recording_id() const;              // of this one
+  [[nodiscard]] std::vector<ContactRow> contacts() const;      // every part in contact, frame by frame
+  [[nodiscard]] std::vector<ContactRow> clearances() const;    // every part with a clearance, likewise
   // The same rows one by one, for sessions of any length. The visitor must not read the session.
   void VisitContacts(const RowVisitor& visit) const;
   void VisitClearances(const RowVisitor& visit) const;

@@ -82,10 +82,10 @@ void SessionWriter::Append(core::SessionEvent event) {
   impl_->thread.Push(std::move(event));
 }
 
-void SessionWriter::Finish(core::SessionOutcome outcome) {
+void SessionWriter::Finish(core::SessionOutcome outcome, SessionClosing closing) {
   Require(!std::exchange(impl_->is_over, true), "a session is finished or abandoned once");
   try {
-    impl_->thread.Push(std::move(outcome));
+    impl_->thread.Push(SessionEnd{std::move(outcome), std::move(closing)});
     impl_->thread.Stop();
     impl_->thread.ThrowIfFailed();
   } catch (...) {

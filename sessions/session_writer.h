@@ -8,6 +8,7 @@
 #include <string>
 
 #include "core/session.h"
+#include "sessions/session_closing.h"
 
 namespace elbowroom::sessions {
 
@@ -65,10 +66,11 @@ class SessionWriter {
   // A changed spacing is one of the layout's.
   void Append(core::SessionEvent event);
 
-  // Writes what is still queued and the outcome, marks the session 'complete' and folds it into a single
-  // file. Where the session file still can't be written, a spill with the rest stays beside it. If it throws,
-  // what was committed stays, and a session without a frame is removed.
-  void Finish(core::SessionOutcome outcome);
+  // Writes what is still queued, the outcome and the closing, names the findings that have no id, marks the
+  // session 'complete' and folds it into a single file. Where the session file still can't be written, a
+  // spill with the rest stays beside it. If it throws, what was committed stays, and a session without a
+  // frame is removed.
+  void Finish(core::SessionOutcome outcome, SessionClosing closing = {});
 
   // Removes a session that has no frame. Throws: Error{kFile} when the file can't be removed.
   void Abandon();

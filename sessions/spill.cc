@@ -8,11 +8,11 @@
 #include <string_view>
 
 #include "core/error.h"
+#include "sessions/database/session_files.h"
+#include "sessions/database/statement.h"
 #include "sessions/header_rows.h"
 #include "sessions/schema.h"
 #include "sessions/schema_check.h"
-#include "sessions/session_files.h"
-#include "sessions/statement.h"
 
 namespace elbowroom::sessions {
 namespace {
@@ -44,6 +44,9 @@ INSERT INTO main.event (frame_index, time_s, kind, spacing_index, from_mm, to_mm
       AND old.kind = new.kind AND old.spacing_index IS new.spacing_index AND old.from_mm IS new.from_mm
       AND old.to_mm IS new.to_mm AND old.tool IS new.tool AND old.in_use IS new.in_use AND old.note IS new.note)
   ORDER BY event_id;
+INSERT OR IGNORE INTO main.absent_finding SELECT * FROM spill.absent_finding;
+INSERT OR IGNORE INTO main.remark SELECT * FROM spill.remark;
+INSERT OR IGNORE INTO main.footage SELECT * FROM spill.footage;
 UPDATE main.session SET status = spill.session.status, ended_at_utc = spill.session.ended_at_utc
   FROM spill.session WHERE main.session.status = 'recording';
 )sql";

@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include "sessions/damage.h"
+#include "sessions/database/damage.h"
+#include "sessions/database/statement.h"
 #include "sessions/row_rules.h"
-#include "sessions/statement.h"
 
 namespace elbowroom::sessions {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "core/ids.h"
 #include "core/session.h"
-#include "sessions/database.h"
+#include "sessions/database/database.h"
 
 namespace elbowroom::sessions {
 

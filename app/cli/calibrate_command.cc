@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "app/cli/command.h"
-#include "app/cli/vector_json.h"
+#include "app/cli/value_json.h"
 #include "app/control/calibration/calibration_job.h"
 #include "app/control/calibration/calibration_report.h"
 #include "core/units.h"

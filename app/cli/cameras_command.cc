@@ -13,7 +13,7 @@
 #include "app/cli/command.h"
 #include "app/cli/light_json.h"
 #include "app/cli/offsets_command.h"
-#include "app/cli/vector_json.h"
+#include "app/cli/value_json.h"
 #include "app/control/cameras/camera_check.h"
 #include "app/control/cameras/camera_recording.h"
 #include "app/control/preflight/preflight.h"

@@ -10,7 +10,7 @@
 #include "app/cli/repeated_timing.h"
 #include "app/cli/spacing_option.h"
 #include "app/cli/unit_option.h"
-#include "app/cli/vector_json.h"
+#include "app/cli/value_json.h"
 #include "cad_import/layout/layout_file.h"
 #include "review/clash.h"
 

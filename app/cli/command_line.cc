@@ -129,8 +129,10 @@ int RunCommandLine(int argc, char** argv, const OpenConsole& open_console) {
   Choice choice;
   AddDemoCommand(app, &choice);
   AddTrialCommand(app, &choice);
+  AddReplayCommand(app, &choice);
   AddReportCommand(app, &choice);
   AddSweepCommand(app, &choice);
+  AddKeepoutCommand(app, &choice);
   AddBackgroundCommand(app, &choice);
   AddBoardCommand(app, &choice);
   AddSegmentCommand(app, &choice);

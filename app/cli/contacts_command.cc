@@ -9,7 +9,7 @@
 #include "app/cli/repeated_timing.h"
 #include "app/cli/rig_frame.h"
 #include "app/cli/unit_option.h"
-#include "app/cli/vector_json.h"
+#include "app/cli/value_json.h"
 #include "app/cli/way_out.h"
 #include "recon/hull/visual_hull.h"
 #include "review/contacts.h"

@@ -6,7 +6,7 @@
 
 #include "app/cli/command.h"
 #include "app/cli/unit_option.h"
-#include "app/cli/vector_json.h"
+#include "app/cli/value_json.h"
 #include "app/control/coverage/coverage_job.h"
 #include "app/control/coverage/coverage_pictures.h"
 #include "app/control/coverage/coverage_report.h"

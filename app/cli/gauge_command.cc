@@ -10,7 +10,7 @@
 #include "app/cli/command.h"
 #include "app/cli/repeated_timing.h"
 #include "app/cli/unit_option.h"
-#include "app/cli/vector_json.h"
+#include "app/cli/value_json.h"
 #include "app/control/gauge/gauge_job.h"
 #include "app/control/gauge/gauge_page.h"
 

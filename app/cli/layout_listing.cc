@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "app/cli/vector_json.h"
+#include "app/cli/value_json.h"
 
 namespace elbowroom::cli {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "app/cli/command.h"
 #include "app/cli/unit_option.h"
-#include "app/cli/vector_json.h"
+#include "app/cli/value_json.h"
 #include "app/control/calibration/calibration_file.h"
 #include "app/control/calibration/rig_import.h"
 

@@ -7,8 +7,8 @@
 
 #include "app/cli/command.h"
 #include "app/cli/unit_option.h"
-#include "app/cli/vector_json.h"
-#include "app/control/spacing_sweep.h"
+#include "app/cli/value_json.h"
+#include "app/control/sweep/spacing_sweep.h"
 
 namespace elbowroom::cli {
 namespace {

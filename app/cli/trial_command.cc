@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <filesystem>
 #include <iterator>
 #include <memory>
@@ -10,6 +9,7 @@
 #include <vector>
 
 #include "app/cli/command.h"
+#include "app/cli/frame_range_option.h"
 #include "app/cli/trial_summary.h"
 #include "app/control/trial_runner.h"
 #include "app/control/trial_setup.h"
@@ -23,23 +23,6 @@ struct TrialRunOptions {
   bool headless = false;
   control::FrameRange frames;
 };
-
-// "A:B", "A:" or ":B", A below B.
-bool ParseFrameRange(const std::string& text, control::FrameRange* range) {
-  const std::size_t colon = text.find(':');
-  if (colon == std::string::npos) return false;
-  const auto number = [&](std::size_t begin, std::size_t end, core::FrameIndex* value) {
-    const char* last = text.data() + end;
-    const auto [stop, error] = std::from_chars(text.data() + begin, last, *value);
-    return error == std::errc() && stop == last && *value >= 0;
-  };
-  core::FrameIndex end = 0;
-  if (colon > 0 && !number(0, colon, &range->first)) return false;
-  if (colon + 1 == text.size()) return true;
-  if (!number(colon + 1, text.size(), &end)) return false;
-  range->end = end;
-  return range->first < end;
-}
 
 CommandResult RunHeadless(const TrialRunOptions& options, const CommandContext& context) {
   const control::TrialSetup setup = control::ReadTrialFile(options.trial_file, context.stop);
@@ -72,13 +55,7 @@ void AddTrialCommand(CLI::App& app, Choice* choice) {
   command->add_option("--session", options->session, "session file to record; must not exist yet")
       ->required();
   command->add_flag("--headless", options->headless, "no window, as fast as it goes");
-  command
-      ->add_option("--frames", "frames A to B, B not included; A: and :B leave one end open (default: all)")
-      ->type_name("A:B")
-      ->each([=](const std::string& text) {
-        if (!ParseFrameRange(text, &options->frames))
-          throw CLI::ValidationError("must be A:B, two frame numbers from 0 with A below B");
-      });
+  AddFrameRangeOption(*command, &options->frames);
   command->callback([=] {
     if (options->headless) {
       choice->action = [=](const CommandContext& context) { return RunHeadless(*options, context); };

@@ -7,9 +7,8 @@
 #include <numeric>
 #include <optional>
 
-#include "app/cli/error_budget_json.h"
 #include "app/cli/light_json.h"
-#include "app/cli/vector_json.h"
+#include "app/cli/value_json.h"
 
 namespace elbowroom::cli {
 

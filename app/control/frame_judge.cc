@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <memory>
 #include <utility>
 
 #include "recon/hull/visual_hull.h"
@@ -38,22 +39,33 @@ void Count(const core::PartContact& contact, SkipCount* skipped) {
   }
 }
 
+std::shared_ptr<const std::vector<core::TriangleTree>> TreesOf(const core::Layout& layout) {
+  layout.Validate();
+  auto trees = std::make_shared<std::vector<core::TriangleTree>>();
+  for (const core::Part& part : layout.parts) trees->emplace_back(part.mesh);
+  return trees;
+}
+
 }  // namespace
 
 FrameJudge::FrameJudge(const core::Layout& layout, const review::PartReviewOptions& review)
-    : layout_(layout), review_(review), scratch_(layout.parts.size()) {
+    : FrameJudge(layout, review, TreesOf(layout)) {}
+
+FrameJudge::FrameJudge(const core::Layout& layout, const review::PartReviewOptions& review,
+                       SharedTrees part_trees)
+    : layout_(layout), review_(review), part_trees_(std::move(part_trees)), scratch_(layout.parts.size()) {
   layout_.Validate();
   review_.Validate();
-  for (const core::Part& part : layout_.parts) part_trees_.emplace_back(part.mesh);
-  for (const core::TriangleTree& part : part_trees_) inside_parts_.emplace_back(part);
-  tbb::parallel_for(std::size_t{0}, part_trees_.size(), [&](std::size_t i) {
-    scratch_[i].stretches = review::ContactStretches::Make(part_trees_[i], review_.contacts.point_spacing_mm);
+  for (const core::TriangleTree& part : *part_trees_) inside_parts_.emplace_back(part);
+  tbb::parallel_for(std::size_t{0}, part_trees_->size(), [&](std::size_t i) {
+    scratch_[i].stretches =
+        review::ContactStretches::Make((*part_trees_)[i], review_.contacts.point_spacing_mm);
   });
 }
 
 void FrameJudge::Judge(const FrameResult* last, FrameResult* result) {
   std::vector<core::PartContact>& contacts = result->record.contacts;
-  contacts.resize(part_trees_.size());
+  contacts.resize(part_trees_->size());
   tbb::parallel_for(std::size_t{0}, contacts.size(), [&](std::size_t i) {
     contacts[i].points.reserve(
         static_cast<std::size_t>(std::min(review_.contacts.max_points, kPointsReserved)));
@@ -86,7 +98,7 @@ core::PartContact FrameJudge::Review(const FrameResult* last, const FrameResult&
   options.contacts.recovery = layout_.parts[part].recovery;
   options.lacks_camera = result.record.LacksCamera();
   options.skew_errors = result.skew_errors;
-  return review::ReviewPart(*result.hull, part_trees_[part], result.world_from_parts[part], part, options,
+  return review::ReviewPart(*result.hull, (*part_trees_)[part], result.world_from_parts[part], part, options,
                             hint, &inside_parts_[part], &scratch_[part]);
 }
 

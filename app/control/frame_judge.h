@@ -18,7 +18,10 @@ class FrameJudge {
   // The layout must outlive it. Throws: what Layout::Validate and PartReviewOptions::Validate throw.
   FrameJudge(const core::Layout& layout, const review::PartReviewOptions& review);
 
-  [[nodiscard]] std::span<const core::TriangleTree> part_trees() const { return part_trees_; }
+  // One of the same parts, with memory of its own: for another thread.
+  [[nodiscard]] FrameJudge Another() const { return {layout_, review_, part_trees_}; }
+
+  [[nodiscard]] std::span<const core::TriangleTree> part_trees() const { return *part_trees_; }
 
   // Finds contacts, recovery and clearance of each part in the result's hull, and counts what was skipped.
   // The parts stand where result->world_from_parts says. `last`: the frame before, or null; parts that didn't
@@ -28,12 +31,15 @@ class FrameJudge {
   void Judge(const FrameResult* last, FrameResult* result);
 
  private:
+  using SharedTrees = std::shared_ptr<const std::vector<core::TriangleTree>>;
+  FrameJudge(const core::Layout& layout, const review::PartReviewOptions& review, SharedTrees part_trees);
+
   [[nodiscard]] core::PartContact Review(const FrameResult* last, const FrameResult& result,
                                          core::PartIndex part);
 
   const core::Layout& layout_;
   review::PartReviewOptions review_;
-  std::vector<core::TriangleTree> part_trees_;
+  SharedTrees part_trees_;
   std::vector<review::InsideCells> inside_parts_;
   std::vector<review::ReviewScratch> scratch_;  // one a part
 };

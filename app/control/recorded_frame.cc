@@ -6,7 +6,7 @@
 
 #include "core/file_limits.h"
 #include "recon/hull/visual_hull.h"
-#include "sessions/damage.h"
+#include "sessions/database/damage.h"
 
 namespace elbowroom::control {
 namespace {

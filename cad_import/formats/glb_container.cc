@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <utility>
 
 #include "cad_import/formats/gltf_check.h"
@@ -75,6 +76,27 @@ std::string_view JsonOf(std::string_view glb) { return glb.substr(kJsonAt, WordA
 std::string Padded(std::string glb) {
   const std::string json(JsonOf(glb));
   return WithJson(std::move(glb), json);
+}
+
+std::string MakeGlb(const std::string& json, std::string_view buffer) {
+  std::string glb("glTF");
+  glb.resize(kJsonAt, '\0');
+  SetAt(glb, 4, 2);
+  SetAt(glb, kJsonBytesAt + 4, kJsonChunk);
+  glb += json;
+  glb.resize(glb.size() + MissingBytes(glb.size()), ' ');
+  SetAt(glb, kJsonBytesAt, glb.size() - kJsonAt);
+  const std::size_t chunk_at = glb.size(), buffer_bytes = buffer.size() + MissingBytes(buffer.size());
+  if (chunk_at + kChunkHeaderBytes + buffer_bytes > std::numeric_limits<std::uint32_t>::max())
+    throw core::Error(core::ErrorKind::kRange,
+                      "a GLB file holds at most 4 GiB; choose a coarser mesh or .ply");
+  glb.resize(chunk_at + kChunkHeaderBytes, '\0');
+  SetAt(glb, chunk_at, buffer_bytes);
+  SetAt(glb, chunk_at + 4, kBinaryChunk);
+  glb += buffer;
+  glb.resize(chunk_at + kChunkHeaderBytes + buffer_bytes, '\0');
+  SetAt(glb, kTotalAt, glb.size());
+  return glb;
 }
 
 std::string WithJson(std::string glb, const std::string& json) {

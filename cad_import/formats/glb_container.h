@@ -21,4 +21,8 @@ void CheckGlb(std::string_view bytes, const std::string& where);
 [[nodiscard]] std::string_view JsonOf(std::string_view glb);
 [[nodiscard]] std::string WithJson(std::string glb, const std::string& json);
 
+// A whole file of a document and its one buffer, padded. Throws: Error{kRange}: more than the 4 GiB that a
+// file can hold.
+[[nodiscard]] std::string MakeGlb(const std::string& json, std::string_view buffer);
+
 }  // namespace elbowroom::cad_import

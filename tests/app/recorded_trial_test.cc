@@ -46,10 +46,11 @@ struct Judged {
   std::vector<cv::Mat> pictures;
 };
 std::map<PictureNumbers, Judged> JudgedIn(const TrialSetup& setup, const TrialOptions& asked,
-                                          TrialOutcome* outcome) {
+                                          TrialOutcome* outcome, std::size_t* losses = nullptr) {
   std::map<PictureNumbers, Judged> judged;
   TrialOptions options = asked;
   options.on_frame = [&](const SharedFrameResult& result, const RecordedFrames&) {
+    if (losses != nullptr) *losses += result->record.losses.size();
     const auto numbers = NumbersIn(*result->camera_frames);
     if (!numbers) return;
     Judged& frame = judged[*numbers];
@@ -77,7 +78,8 @@ TEST(RecordedTrial, GivesWhatTheLiveTrialGave) {
   options.session = folder / "live.db";
   options.frames.end = kSets;
   TrialOutcome live_outcome;
-  const std::map<PictureNumbers, Judged> live = JudgedIn(setup, options, &live_outcome);
+  std::size_t losses = 0;
+  const std::map<PictureNumbers, Judged> live = JudgedIn(setup, options, &live_outcome, &losses);
   ASSERT_TRUE(live_outcome.footage.has_value());
   EXPECT_THAT(live_outcome.footage->Troubles(), IsEmpty());
   ASSERT_EQ(live_outcome.footage->rig_file, folder / "live.footage" / "RIG.yml");
@@ -104,7 +106,10 @@ TEST(RecordedTrial, GivesWhatTheLiveTrialGave) {
   }
   EXPECT_GT(compared, 0U);
   EXPECT_GT(contacts, 0U);
-  // Only what wasn't written, or is at the edge of the recording, is in the live trial alone.
+  // Where a picture came too late for its live set, as on a busy machine, another camera may have led from
+  // then on, and sets were made of other pictures than the recording's.
+  if (losses > 0) return;
+  // Else only what wasn't written, or is at the edge of the recording, is in the live trial alone.
   std::uint64_t unwritten = 0;
   for (const recon::CameraRecording& camera : live_outcome.footage->cameras) unwritten += camera.unwritten;
   constexpr std::uint64_t kEdges = 2;

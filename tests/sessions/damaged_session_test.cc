@@ -11,13 +11,13 @@
 #include <fstream>
 #include <stop_token>
 
-#include "sessions/damage.h"
+#include "sessions/database/damage.h"
+#include "sessions/database/query_limit.h"
+#include "sessions/database/statement.h"
 #include "sessions/packing.h"
-#include "sessions/query_limit.h"
 #include "sessions/schema.h"
 #include "sessions/schema_check.h"
 #include "sessions/session_reader.h"
-#include "sessions/statement.h"
 #include "tests/sessions/expect_error.h"
 #include "tests/sessions/sample_session.h"
 #include "tests/support/run_program.h"
@@ -246,7 +246,7 @@ TEST(DamagedSession, WhatItHoldsCanBeSalvaged) {
   ExpectRefused(path, "the integrity check says");
   const std::string salvage =
       "(sqlite3 s.db .dump | sed 's/^ROLLBACK;.*/COMMIT;/'; "
-      "echo 'PRAGMA application_id = 1164730999; PRAGMA user_version = 8;') | sqlite3 saved.db";
+      "echo 'PRAGMA application_id = 1164730999; PRAGMA user_version = 9;') | sqlite3 saved.db";
   ASSERT_EQ(
       test_support::RunProgram("/bin/bash", {"-c", salvage}, {.working_folder = folder.path()}).exit_status,
       0);

@@ -77,6 +77,13 @@ void ExpectSame(const core::Layout& actual, const core::Layout& expected) {
   EXPECT_EQ(actual.groups, expected.groups);
 }
 
+void ExpectSame(const core::SessionOrigin& actual, const core::SessionOrigin& expected) {
+  EXPECT_EQ(std::tie(actual.file, actual.recording_id, actual.first_recording_id, actual.replayed_at_utc,
+                     actual.changes),
+            std::tie(expected.file, expected.recording_id, expected.first_recording_id,
+                     expected.replayed_at_utc, expected.changes));
+}
+
 void ExpectSame(const core::RigErrors& actual, const core::RigErrors& expected) {
   EXPECT_EQ(actual.covariance, expected.covariance);
   EXPECT_EQ(actual.boundary_sigma_px, expected.boundary_sigma_px);
@@ -139,6 +146,7 @@ void ExpectEqual(const core::NearMiss& actual, const core::NearMiss& expected) {
   };
   EXPECT_EQ(fields(actual), fields(expected));
   ExpectSame(actual.closest, expected.closest);
+  EXPECT_EQ(actual.place_in_part_mm, expected.place_in_part_mm);
 }
 
 void ExpectEqual(const core::SessionHeader& actual, const core::SessionHeader& expected) {
@@ -153,6 +161,7 @@ void ExpectEqual(const core::SessionHeader& actual, const core::SessionHeader& e
   EXPECT_EQ(actual.started_at_utc, expected.started_at_utc);
   EXPECT_EQ(actual.settings, expected.settings);
   EXPECT_EQ(actual.versions, expected.versions);
+  ExpectSameWherePresent(actual.origin, expected.origin);
   ExpectSame(actual.rig, expected.rig);
   ExpectSame(actual.layout, expected.layout);
 }

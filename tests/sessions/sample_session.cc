@@ -157,6 +157,11 @@ core::SessionHeader SampleHeader() {
   header.started_at_utc = "2024-03-01T09:30:00Z";
   header.settings = {{"segmentation.method", "threshold"}, {"k_sigma", "4"}};
   header.versions = {{"elbowroom", "0.1.0"}, {"opengl", "llvmpipe"}};
+  header.origin = core::SessionOrigin{"first/O'Hara.db",
+                                      std::string(32, 'a'),
+                                      std::string(32, 'b'),
+                                      "2024-03-02T10:00:00Z",
+                                      {"spacing 'PMT to A': 240 mm in all frames"}};
   return header;
 }
 
@@ -237,6 +242,7 @@ core::SessionHeader AsOfSchema(int schema, core::SessionHeader header) {
     header.layout.spacings[1].moving = "payload B";
   }
   if (schema < 7) header.rig_quality = {};
+  if (schema < 9) header.origin.reset();
   return header;
 }
 
@@ -284,6 +290,7 @@ core::SessionOutcome SampleOutcome(core::FrameIndex first, core::FrameIndex last
   miss.closest = *SampleFrame(SampleHeader(), first, 1).contacts[2].clearance;
   miss.spacing_at_closest_mm = {140.0, 0.1};
   miss.tools = {"tongs"};
+  miss.place_in_part_mm = Eigen::Vector3d(-1.0 / 3.0, 7.0, 1e-9);
   outcome.near_misses = {miss};
   const std::size_t patches =
       core::SurfacePatches(SampleHeader().layout.parts[0].mesh, core::kHeatPatchMm).size();
@@ -296,12 +303,34 @@ core::SessionOutcome SampleOutcome(core::FrameIndex first, core::FrameIndex last
   return outcome;
 }
 
+sessions::SessionClosing SampleClosing() {
+  sessions::SessionClosing closing;
+  core::Finding gone;
+  gone.id = std::string(32, 'c');
+  gone.part = "payload <A>";
+  gone.end_s = 1.0 / 3.0;
+  gone.place_in_part_mm = Eigen::Vector3d(0.1, 0.2, 0.3);
+  gone.presence = core::FindingPresence::kGone;
+  core::Finding unchecked;
+  unchecked.id = std::string(32, 'd');
+  unchecked.kind = core::FindingKind::kNearMiss;
+  unchecked.part = "taken out";
+  unchecked.begin_s = 0.1;
+  unchecked.end_s = 0.2;
+  unchecked.presence = core::FindingPresence::kNotChecked;
+  closing.absent = {gone, unchecked};
+  closing.remarks = {{gone.id, {"2024-03-02T10:00:00Z", "O'Hara", core::ReviewStatus::kReviewed, ""}},
+                     {gone.id, {"2024-03-02T10:00:01Z", "=cmd|", {}, "<script>alert(1)</script>"}}};
+  closing.footage = {{"S.footage/RIG.yml", 1234, {std::byte{1}, std::byte{255}}}};
+  return closing;
+}
+
 void WriteSampleSession(const std::filesystem::path& path, core::FrameIndex frames) {
   const core::SessionHeader header = SampleHeader();
   sessions::SessionWriter writer(path, header);
   for (core::FrameIndex i = 0; i < frames; ++i) writer.Append(SampleFrame(header, i, 1));
   for (const core::SessionEvent& event : SampleEvents()) writer.Append(event);
-  writer.Finish(SampleOutcome(0, frames - 1));
+  writer.Finish(SampleOutcome(0, frames - 1), SampleClosing());
 }
 
 }  // namespace elbowroom::tests

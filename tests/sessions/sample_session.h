@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/session.h"
+#include "sessions/session_closing.h"
 
 namespace elbowroom::tests {
 
@@ -30,6 +31,9 @@ namespace elbowroom::tests {
 
 // The episodes, with places and tools; a near miss of part 2 and a heat map of part 0.
 [[nodiscard]] core::SessionOutcome SampleOutcome(core::FrameIndex first, core::FrameIndex last);
+
+// A finding that is gone, with remarks; one that wasn't checked; a footage file.
+[[nodiscard]] sessions::SessionClosing SampleClosing();
 
 // Writes `frames` frames from 0 on, the sample events and outcome, and finishes the session.
 void WriteSampleSession(const std::filesystem::path& path, core::FrameIndex frames);

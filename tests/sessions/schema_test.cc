@@ -37,8 +37,9 @@ std::string SchemaOf(const std::filesystem::path& path) {
 
 // In the order in which they were released.
 constexpr std::array<std::string (*)(), sessions::kSchemaVersion> kSchemas = {
-    &sessions::Schema1Sql, &sessions::Schema2Sql, &sessions::Schema3Sql, &sessions::Schema4Sql,
-    &sessions::Schema5Sql, &sessions::Schema6Sql, &sessions::Schema7Sql, &sessions::Schema8Sql};
+    &sessions::Schema1Sql, &sessions::Schema2Sql, &sessions::Schema3Sql,
+    &sessions::Schema4Sql, &sessions::Schema5Sql, &sessions::Schema6Sql,
+    &sessions::Schema7Sql, &sessions::Schema8Sql, &sessions::Schema9Sql};
 
 sessions::Database CreateOfSchema(std::size_t schema, const std::filesystem::path& path) {
   sessions::Database database = sessions::Database::Create(path);
@@ -76,7 +77,7 @@ TEST(Schema, AnEmptyDatabaseBecomesTheNewestSchemaAndMigratingAgainChangesNothin
 }
 
 TEST(Schema, StoredSessionsOfEverySchemaAreRead) {
-  for (const int schema : {1, 2, 3, 4, 5, 6, 7, 8}) {
+  for (const int schema : {1, 2, 3, 4, 5, 6, 7, 8, 9}) {
     SCOPED_TRACE(schema);
     const SessionReader reader(kStored / fmt::format("session_schema_{}.db", schema));
     ExpectEqual(reader.header(), AsOfSchema(schema, SampleHeader()));
@@ -91,6 +92,10 @@ TEST(Schema, StoredSessionsOfEverySchemaAreRead) {
     EXPECT_EQ(reader.clearances().empty(), schema < 3);
     EXPECT_EQ(reader.events().size(), 4U);
     EXPECT_EQ(reader.stamp_rows().size(), schema >= 8 ? 4U : 0U);
+    // Findings of older files are named when they are read; they are the episodes and near misses.
+    EXPECT_EQ(reader.findings().size(), schema >= 9 ? 5U : schema >= 3 ? 3U : 2U);
+    for (const core::Finding& finding : reader.findings()) EXPECT_EQ(finding.id.size(), 32U);
+    EXPECT_EQ(reader.footage().size(), schema >= 9 ? 1U : 0U);
   }
 }
 
@@ -118,8 +123,8 @@ TEST(Schema, AnOlderSchemaIsMigratedInMemoryAndTheFileStays) {
 TEST(Schema, ANewerSchemaIsNamed) {
   const TemporaryFolder folder;
   WriteSampleSession(folder / "s.db", 1);
-  SQLite::Database((folder / "s.db").string(), SQLite::OPEN_READWRITE).exec("PRAGMA user_version = 9");
-  ExpectError([&] { SessionReader(folder / "s.db"); }, core::ErrorKind::kFormat, "has schema 9");
+  SQLite::Database((folder / "s.db").string(), SQLite::OPEN_READWRITE).exec("PRAGMA user_version = 10");
+  ExpectError([&] { SessionReader(folder / "s.db"); }, core::ErrorKind::kFormat, "has schema 10");
 }
 
 TEST(Schema, CountsAndFlagsOutOfRangeAreRefusedByTheDatabaseItself) {
@@ -153,7 +158,17 @@ TEST(Schema, CountsAndFlagsOutOfRangeAreRefusedByTheDatabaseItself) {
                           "UPDATE camera_stamp SET taken_at_s = NULL",
                           "INSERT INTO camera_stamp VALUES (0, 2, 1, 0.5)",
                           "INSERT INTO camera_stamp VALUES (99, 0, 1, 0.5)",
-                          "UPDATE clearance SET given_mm = -1"}) {
+                          "UPDATE clearance SET given_mm = -1",
+                          "UPDATE episode SET finding_id = 'short'",
+                          "UPDATE near_miss SET finding_id = ''",
+                          "UPDATE remark SET status = 'done'",
+                          "UPDATE remark SET status = NULL, comment = ''",
+                          "UPDATE absent_finding SET kind = 'clash'",
+                          "UPDATE absent_finding SET was_checked = 2",
+                          "UPDATE origin SET changes = 'none'",
+                          "INSERT INTO origin SELECT 2, file, recording_id, first_recording_id, "
+                          "replayed_at_utc, changes FROM origin",
+                          "UPDATE footage SET content_hash = x'00'"}) {
     EXPECT_THROW(database.exec(sql), SQLite::Exception) << sql;
   }
 }

@@ -1,0 +1,129 @@
+#include "app/control/replay/replay_runs.h"
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include "recon/hull/visual_hull.h"
+
+namespace elbowroom::control {
+namespace {
+
+// Of a run: frames that wait to be judged keep their contacts in memory.
+constexpr std::size_t kLongestPiece = 32;
+
+// A contour's motion, and the one before, come from the two pictures before.
+constexpr std::size_t kPicturesBefore = 2;
+
+// How many frames before `first` are needed so that the motion of each camera's silhouette is known as it was
+// in the trial.
+std::size_t FramesOfMotion(const sessions::SessionReader& session,
+                           std::span<const sessions::FrameSummary> frames, std::size_t first) {
+  const std::vector<sessions::StampRow> rows = session.stamp_rows();
+  if (rows.empty()) return 0;
+  std::vector<std::set<double>> times(session.header().rig.cameras.size());
+  const auto is_known = [&] {
+    return std::ranges::all_of(times,
+                               [](const auto& of_camera) { return of_camera.size() >= kPicturesBefore; });
+  };
+  auto row = std::ranges::lower_bound(rows, frames[first].frame, {}, &sessions::StampRow::frame);
+  std::size_t back = 0;
+  while (back < first && !is_known()) {
+    ++back;
+    if (row == rows.begin() || std::prev(row)->frame != frames[first - back].frame) continue;
+    --row;
+    for (core::CameraIndex i = 0; i < times.size(); ++i)
+      if (row->stamps[i]) times[i].insert(row->stamps[i]->time_s);
+  }
+  return back;
+}
+
+}  // namespace
+
+ReplayRuns::ReplayRuns(const sessions::SessionReader& session, std::span<const sessions::FrameSummary> frames,
+                       const ReplayLayout& layout, std::size_t first, std::size_t end, bool asks_clearance)
+    : session_(session),
+      frames_(frames),
+      layout_(layout),
+      shared_layout_(std::make_shared<const core::Layout>(layout.layout())),
+      rig_(std::make_shared<const core::Rig>(session.header().rig)),
+      end_(end),
+      asks_clearance_(asks_clearance) {
+  // Reading a frame checks that its silhouettes have the sizes of the cameras' pictures, before planes of
+  // these sizes are made.
+  (void)session_.ReadFrame(frames_[first].frame);
+  planes_ = recon::MakeUndistortedPlanes(*rig_);
+  const std::size_t begin = BeginOfRun(first);
+  next_ = begin > 0 ? begin - 1 : 0;
+  if (asks_clearance_) next_ = std::min(next_, first - FramesOfMotion(session_, frames_, first));
+  while (next_ < begin) before_ = RecordedAs(Load(next_).record);
+}
+
+std::size_t ReplayRuns::BeginOfRun(std::size_t first) const {
+  core::SharedMasks masks = session_.ReadFrame(frames_[first].frame).masks;
+  std::size_t begin = first;
+  while (begin > 0 && *session_.ReadFrame(frames_[begin - 1].frame).masks == *masks) --begin;
+  return begin;
+}
+
+std::optional<ReplayRun> ReplayRuns::Next() {
+  if (!pending_ && next_ < end_) pending_ = Load(next_);
+  if (!pending_) return std::nullopt;
+  ReplayRun run;
+  run.goes_on = goes_on_;
+  if (!goes_on_) run.before = before_;
+  const SharedHull hull = pending_->hull;
+  goes_on_ = false;
+  while (pending_) {
+    run.frames.push_back(FrameFrom(*std::exchange(pending_, std::nullopt)));
+    if (next_ == end_) break;
+    pending_ = Load(next_);
+    if (pending_->hull != hull) break;
+    goes_on_ = run.frames.size() == kLongestPiece;
+    if (goes_on_) break;
+  }
+  before_ = RecordedAs(run.frames.back().recorded);
+  return run;
+}
+
+ReplayRuns::Loaded ReplayRuns::Load(std::size_t i) {
+  Loaded loaded;
+  loaded.record = session_.ReadFrame(frames_[i].frame);
+  loaded.hull = recon::NextHull(last_hull_, rig_, planes_, *loaded.record.masks).hull;
+  if (asks_clearance_)
+    loaded.skew_errors = motions_.Next(*loaded.hull, loaded.record.stamps, loaded.record.time_s);
+  last_hull_ = loaded.hull;
+  next_ = i + 1;
+  return loaded;
+}
+
+ReplayedFrame ReplayRuns::FrameFrom(Loaded loaded) {
+  ReplayedFrame frame{std::move(loaded.record), results_.Take()};
+  FrameResult& result = *frame.result;
+  result.record.frame = frame.recorded.frame;
+  result.record.time_s = frame.recorded.time_s;
+  result.record.masks = frame.recorded.masks;
+  result.record.stamps = frame.recorded.stamps;
+  result.record.spacing_mm = layout_.SpacingsFrom(frame.recorded.spacing_mm);
+  result.hull = std::move(loaded.hull);
+  result.skew_errors = std::move(loaded.skew_errors);
+  result.layout = shared_layout_;
+  result.world_from_parts = core::PosesAt(*shared_layout_, result.record.spacing_mm);
+  return frame;
+}
+
+std::shared_ptr<const FrameResult> ReplayRuns::RecordedAs(const core::FrameRecord& record) const {
+  const std::vector<core::RigidTransform> world_from_parts =
+      core::PosesAt(session_.header().layout, record.spacing_mm);
+  auto result = std::make_shared<FrameResult>();
+  for (core::PartIndex i = 0; i < shared_layout_->parts.size(); ++i) {
+    const auto& source = layout_.RecordedOf(i);
+    const bool has_answer = source && source->has_same_mesh;
+    result->record.contacts.push_back(has_answer ? record.contacts[source->part] : core::PartContact());
+    result->record.contacts.back().part = i;
+    result->world_from_parts.push_back(has_answer ? world_from_parts[source->part] : core::RigidTransform());
+  }
+  return result;
+}
+
+}  // namespace elbowroom::control
