@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
+#include <string>
 #include <tuple>
 
 #include "sessions/report/report.h"
@@ -13,6 +15,7 @@ namespace {
 ReportTouch RowOf(const core::ContactEpisode& episode) {
   ReportTouch touch;
   touch.id = episode.id;
+  touch.finding_id = episode.finding_id;
   touch.part = episode.part;
   touch.frame = episode.peak_frame;
   touch.begin_s = episode.begin_time_s;
@@ -30,6 +33,7 @@ ReportTouch RowOf(const core::NearMiss& miss) {
   ReportTouch touch;
   touch.is_near_miss = true;
   touch.id = miss.id;
+  touch.finding_id = miss.finding_id;
   touch.part = miss.part;
   touch.frame = miss.closest_frame;
   touch.begin_s = miss.begin_time_s;
@@ -41,6 +45,13 @@ ReportTouch RowOf(const core::NearMiss& miss) {
   touch.spacing_mm = miss.spacing_at_closest_mm;
   touch.tools = miss.tools;
   return touch;
+}
+
+std::map<core::FindingId, std::string> ReviewStatusesOf(const SessionReader& session) {
+  std::map<core::FindingId, std::string> statuses;
+  for (const core::Finding& finding : session.findings())
+    statuses.emplace(finding.id, core::ToString(finding.status()));
+  return statuses;
 }
 
 bool IsWorse(const ReportTouch& a, const ReportTouch& b) {
@@ -70,6 +81,8 @@ TouchList TouchesOf(const SessionReader& session) {
   std::ranges::stable_sort(list.touches, {}, [](const ReportTouch& touch) {
     return std::tuple(touch.part, touch.begin_s, touch.is_near_miss);
   });
+  const std::map<core::FindingId, std::string> statuses = ReviewStatusesOf(session);
+  for (ReportTouch& touch : list.touches) touch.status = statuses.at(touch.finding_id);
   if (const auto worst = WorstEpisode(episodes)) {
     const auto at = std::ranges::find_if(
         list.touches, [&](const ReportTouch& touch) { return !touch.is_near_miss && touch.id == worst->id; });

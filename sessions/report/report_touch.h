@@ -18,6 +18,7 @@ inline constexpr std::size_t kMostTouches = 500;
 struct ReportTouch {
   bool is_near_miss = false;
   core::EpisodeId id = 0;  // numbered for themselves: touches, near misses
+  core::FindingId finding_id;
   core::PartIndex part = 0;
   core::FrameIndex frame = 0;  // deepest, or closest
   double begin_s = 0.0;
@@ -30,7 +31,7 @@ struct ReportTouch {
   std::optional<Eigen::Vector3d> at_in_world_mm;
   std::vector<double> spacing_mm;  // then, in the layout's order
   std::vector<std::string> tools;
-  std::string status;  // of the review: "new", "approved", ...; empty: the session has none
+  std::string status;  // of the review: "new", "approved", ...
 };
 
 struct TouchList {
