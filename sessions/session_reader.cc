@@ -100,13 +100,17 @@ struct SessionReader::Impl {
     header = ReadHeader(database);
   }
 
-  // Without heat maps. Rows of older programs have no ids of findings: these get them here.
-  [[nodiscard]] core::SessionOutcome NamedOutcome() {
-    core::SessionOutcome outcome;
-    outcome.episodes = adopted ? adopted->episodes : ReadEpisodes(database, header.layout);
-    outcome.near_misses = adopted ? adopted->near_misses : ReadNearMisses(database, header.layout);
+  // Rows of older programs have no ids of findings: these get them here.
+  [[nodiscard]] core::SessionOutcome Named(core::SessionOutcome outcome) {
     NameFindings(header.layout, FirstRecordingId(database, header), &outcome);
     return outcome;
+  }
+  [[nodiscard]] std::vector<core::ContactEpisode> NamedEpisodes() {
+    return Named({adopted ? adopted->episodes : ReadEpisodes(database, header.layout), {}, {}}).episodes;
+  }
+  [[nodiscard]] std::vector<core::NearMiss> NamedNearMisses() {
+    return Named({{}, adopted ? adopted->near_misses : ReadNearMisses(database, header.layout), {}})
+        .near_misses;
   }
 
   OpenedSession opened;
@@ -171,14 +175,16 @@ std::vector<core::SessionEvent> SessionReader::events() const {
   return impl_->limit.Guarded([&] { return ReadEvents(impl_->database); });
 }
 std::vector<core::ContactEpisode> SessionReader::episodes() const {
-  return impl_->limit.Guarded([&] { return impl_->NamedOutcome().episodes; });
+  return impl_->limit.Guarded([&] { return impl_->NamedEpisodes(); });
 }
 std::vector<core::NearMiss> SessionReader::near_misses() const {
-  return impl_->limit.Guarded([&] { return impl_->NamedOutcome().near_misses; });
+  return impl_->limit.Guarded([&] { return impl_->NamedNearMisses(); });
 }
 std::vector<core::Finding> SessionReader::findings() const {
-  return impl_->limit.Guarded(
-      [&] { return ReadFindings(impl_->database, impl_->header.layout, impl_->NamedOutcome()); });
+  return impl_->limit.Guarded([&] {
+    return ReadFindings(impl_->database, impl_->header.layout,
+                        {impl_->NamedEpisodes(), impl_->NamedNearMisses(), {}});
+  });
 }
 std::vector<core::FootageFile> SessionReader::footage() const {
   return impl_->limit.Guarded([&] { return ReadFootage(impl_->database); });

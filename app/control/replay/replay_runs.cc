@@ -49,11 +49,10 @@ ReplayRuns::ReplayRuns(const sessions::SessionReader& session, std::span<const s
       rig_(std::make_shared<const core::Rig>(session.header().rig)),
       end_(end),
       asks_clearance_(asks_clearance) {
-  // Reading a frame checks that its silhouettes have the sizes of the cameras' pictures, before planes of
-  // these sizes are made.
-  (void)session_.ReadFrame(frames_[first].frame);
-  planes_ = recon::MakeUndistortedPlanes(*rig_);
+  // Reading a frame, as is done here, checks that its silhouettes have the sizes of the cameras' pictures,
+  // before planes of these sizes are made.
   const std::size_t begin = BeginOfRun(first);
+  planes_ = recon::MakeUndistortedPlanes(*rig_);
   next_ = begin > 0 ? begin - 1 : 0;
   if (asks_clearance_) next_ = std::min(next_, first - FramesOfMotion(session_, frames_, first));
   while (next_ < begin) before_ = RecordedAs(Load(next_).record);
