@@ -1,5 +1,7 @@
 #include "core/layout.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
 #include <map>
@@ -10,6 +12,7 @@
 #include "core/error.h"
 #include "core/layout_fault.h"
 #include "core/pairs_of_rule.h"
+#include "core/spelling.h"
 
 namespace elbowroom::core {
 namespace {
@@ -107,6 +110,16 @@ std::optional<SpacingIndex> Layout::FindSpacing(std::string_view name) const {
     if (spacings[i].name == name) return i;
   }
   return std::nullopt;
+}
+
+SpacingIndex RequireSpacing(const Layout& layout, const std::string& name, std::string_view option) {
+  if (const auto index = layout.FindSpacing(name)) return *index;
+  std::vector<std::string_view> known;
+  for (const Spacing& spacing : layout.spacings) known.emplace_back(spacing.name);
+  const auto nearest = NearestWord(name, known);
+  throw Error(ErrorKind::kRange, fmt::format("{}: no spacing is named '{}'; {}", option, name,
+                                             nearest ? fmt::format("did you mean '{}'?", *nearest)
+                                                     : std::string("use the name of a [[spacing]]")));
 }
 
 std::vector<double> Layout::InitialSpacings() const {

@@ -91,6 +91,11 @@ struct Layout {
   [[nodiscard]] std::vector<double> InitialSpacings() const;
 };
 
+// The spacing that `option` of a command names. Throws: Error{kRange}: none has that name; says which is like
+// it.
+[[nodiscard]] SpacingIndex RequireSpacing(const Layout& layout, const std::string& name,
+                                          std::string_view option = "--spacing");
+
 // world_from_part of every part (same order) with spacing i at spacing_mm[i]. A function of the values alone:
 // moving a gap out and back gives bit-equal poses. References are placed before the parts that move against
 // them. Throws: PreconditionError when the count differs from the layout's spacings.

@@ -84,6 +84,11 @@ struct CameraStamp {
   [[nodiscard]] bool operator==(const CameraStamp&) const = default;
 };
 
+// Of a frame, one a camera: whether the picture of one is missing. No stamps at all: none is.
+[[nodiscard]] inline bool LacksCamera(const std::vector<std::optional<CameraStamp>>& stamps) {
+  return std::ranges::any_of(stamps, [](const auto& stamp) { return !stamp; });
+}
+
 using SharedMasks = std::shared_ptr<const std::vector<SoftMask>>;
 
 struct FrameRecord {
@@ -101,9 +106,7 @@ struct FrameRecord {
   std::vector<RigidTransform> rest_from_parts;
 
   // Whether the picture of a camera is missing. The hull is larger then than with all cameras.
-  [[nodiscard]] bool LacksCamera() const {
-    return std::ranges::any_of(stamps, [](const auto& stamp) { return !stamp; });
-  }
+  [[nodiscard]] bool LacksCamera() const { return core::LacksCamera(stamps); }
 };
 
 // A file with pictures that silhouettes come from, or the RIG.yml that plays them.

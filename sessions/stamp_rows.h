@@ -17,6 +17,9 @@ struct StampRow {
   core::FrameIndex frame = 0;
   double time_s = 0.0;                                   // of the frame
   std::vector<std::optional<core::CameraStamp>> stamps;  // one a camera; nothing: its picture is missing
+
+  // As FrameRecord::LacksCamera.
+  [[nodiscard]] bool LacksCamera() const { return core::LacksCamera(stamps); }
 };
 
 // Both throw Error{kDatabase}, or Error{kFormat} where a row is damaged.

@@ -3,11 +3,9 @@
 #include <fmt/format.h>
 
 #include <optional>
-#include <string_view>
 
 #include "app/cli/unit_option.h"
 #include "core/error.h"
-#include "core/spelling.h"
 
 namespace elbowroom::cli {
 namespace {
@@ -43,24 +41,15 @@ void AddSpacingOption(CLI::App& command, std::vector<SpacingSetting>* settings) 
 std::vector<double> SpacingsWith(const core::Layout& layout, const std::vector<SpacingSetting>& settings) {
   std::vector<double> gaps_mm = layout.InitialSpacings();
   for (const auto& [name, gap_mm] : settings) {
-    const auto index = layout.FindSpacing(name);
-    if (!index) {
-      std::vector<std::string_view> known;
-      for (const core::Spacing& spacing : layout.spacings) known.emplace_back(spacing.name);
-      const auto nearest = core::NearestWord(name, known);
-      throw core::Error(core::ErrorKind::kRange,
-                        fmt::format("--spacing: no spacing is named '{}'; {}", name,
-                                    nearest ? fmt::format("did you mean '{}'?", *nearest)
-                                            : "use the name of a [[spacing]]"));
-    }
-    const core::Spacing& spacing = layout.spacings[*index];
+    const core::SpacingIndex index = core::RequireSpacing(layout, name);
+    const core::Spacing& spacing = layout.spacings[index];
     if (gap_mm < spacing.min_mm || gap_mm > spacing.max_mm) {
       throw core::Error(
           core::ErrorKind::kRange,
           fmt::format("--spacing: '{}' goes from {} to {} mm, not to {}; choose a gap between them", name,
                       spacing.min_mm, spacing.max_mm, gap_mm));
     }
-    gaps_mm[*index] = gap_mm;
+    gaps_mm[index] = gap_mm;
   }
   return gaps_mm;
 }

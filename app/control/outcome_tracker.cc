@@ -1,13 +1,12 @@
 #include "app/control/outcome_tracker.h"
 
-#include <set>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include "app/control/recorded_frame.h"
 #include "app/control/trial_rules.h"
 #include "core/progress.h"
+#include "core/tools_in_use.h"
 
 namespace elbowroom::control {
 
@@ -29,22 +28,10 @@ core::SessionOutcome OutcomeFromFrames(const sessions::SessionReader& session, c
   for (const core::Part& part : session.header().layout.parts) part_trees.emplace_back(part.mesh);
   OutcomeTracker tracker(session.header().trial, part_trees);
   const std::vector<sessions::FrameSummary> frames = session.frames();
-  const std::vector<core::SessionEvent> events = session.events();
-  auto event = events.begin();
-  std::set<std::string> tools_in_use;
+  core::ToolsOfFrames tools(session.events());
   for (std::size_t i = 0; i < frames.size(); ++i) {
     core::ThrowIfStopped(stop, "putting the session's touches together");
-    for (; event != events.end() && event->frame <= frames[i].frame; ++event) {
-      const auto* mark = std::get_if<core::ToolMarked>(&event->what);
-      if (mark == nullptr) continue;
-      if (mark->in_use) {
-        tools_in_use.insert(mark->tool);
-      } else {
-        tools_in_use.erase(mark->tool);
-      }
-    }
-    tracker.Add(*RebuildFrame(session, frames[i].frame),
-                std::vector<std::string>(tools_in_use.begin(), tools_in_use.end()));
+    tracker.Add(*RebuildFrame(session, frames[i].frame), tools.At(frames[i].frame));
     progress.Report(static_cast<std::int64_t>(i + 1), static_cast<std::int64_t>(frames.size()),
                     "touches of a session that wasn't ended, frame");
   }

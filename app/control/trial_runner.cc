@@ -8,7 +8,6 @@
 #include <condition_variable>
 #include <limits>
 #include <mutex>
-#include <set>
 #include <utility>
 #include <variant>
 
@@ -19,6 +18,7 @@
 #include "app/control/versions.h"
 #include "core/error.h"
 #include "core/system/utc_time.h"
+#include "core/tools_in_use.h"
 #include "sessions/session_writer.h"
 
 namespace elbowroom::control {
@@ -235,12 +235,9 @@ class Recording {
   }
 
   void Apply(core::FrameIndex frame, double time_s, const ToolRequest& request) {
-    if (request.in_use) {
-      tools_in_use_.insert(request.tool);
-    } else {
-      tools_in_use_.erase(request.tool);
-    }
-    writer_.Append(core::SessionEvent{frame, time_s, core::ToolMarked{request.tool, request.in_use}});
+    const core::ToolMarked mark{request.tool, request.in_use};
+    tools_in_use_.Take(mark);
+    writer_.Append(core::SessionEvent{frame, time_s, mark});
   }
 
   void Apply(core::FrameIndex frame, double time_s, const SpacingRequest& request) {
@@ -301,7 +298,7 @@ class Recording {
     outcome_so_far_.wait();
     TellOfKnock();
     outcome_so_far_.run(
-        [this, shared, tools = std::vector<std::string>(tools_in_use_.begin(), tools_in_use_.end())] {
+        [this, shared, tools = tools_in_use_.names()] {
           tracker_->Add(*shared, tools);
         });
     outcome_so_far_.run([this, shared] { knock_advice_ = knock_watch_.Add(shared->record); });
@@ -353,7 +350,7 @@ class Recording {
   std::optional<FramePipeline> pipeline_;
   std::optional<OutcomeTracker> tracker_;  // refers to the pipeline's part trees
   tbb::task_group outcome_so_far_;         // adds one frame at a time to tracker and watch
-  std::set<std::string> tools_in_use_;
+  core::ToolsInUse tools_in_use_;
   Pace pace_;
   std::vector<double> spacing_mm_;
   TrialOutcome outcome_;

@@ -11,9 +11,9 @@
 #include <utility>
 #include <variant>
 
-#include "app/control/keep_out/tool_spans.h"
 #include "core/error.h"
 #include "core/spelling.h"
+#include "core/tools_in_use.h"
 #include "recon/contours/undistorted_plane.h"
 #include "recon/hull/visual_hull.h"
 #include "sessions/session_reader.h"
@@ -45,17 +45,15 @@ std::vector<double> SecondsOf(const std::vector<sessions::FrameSummary>& frames)
 ChosenFrames ChooseFrames(const sessions::SessionReader& session, const KeepOutRequest& request) {
   std::set<core::FrameIndex> incomplete;
   for (const sessions::StampRow& row : session.stamp_rows())
-    if (std::ranges::any_of(row.stamps, [](const auto& stamp) { return !stamp; }))
-      incomplete.insert(row.frame);
-  std::optional<ToolSpans> spans;
-  if (request.tool) spans.emplace(*request.tool, session.events());
+    if (row.LacksCamera()) incomplete.insert(row.frame);
+  core::ToolsOfFrames tools(session.events());
   const std::vector<sessions::FrameSummary> frames = session.frames();
   const std::vector<double> seconds = SecondsOf(frames);
   ChosenFrames chosen;
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const core::FrameIndex frame = frames[i].frame;
     if (frame < request.frames.first || (request.frames.end && frame >= *request.frames.end)) continue;
-    if (spans && !spans->Holds(frame)) continue;
+    if (request.tool && !std::ranges::binary_search(tools.At(frame), *request.tool)) continue;
     if (incomplete.contains(frame)) {
       ++chosen.without_camera;
     } else {

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <memory>
-#include <set>
 #include <utility>
 
 #include "app/control/outcome_tracker.h"
@@ -20,6 +19,7 @@
 #include "app/control/versions.h"
 #include "core/error.h"
 #include "core/system/utc_time.h"
+#include "core/tools_in_use.h"
 #include "sessions/row_comparison.h"
 #include "sessions/session_writer.h"
 #include "sessions/unfinished_session.h"
@@ -78,7 +78,7 @@ class ReplayRecording {
 
   void Add(const core::FrameRecord& recorded, const SharedFrameResult& result) {
     TakeEvents(recorded.frame, recorded.time_s);
-    tracker_.Add(*result, std::vector<std::string>(tools_in_use_.begin(), tools_in_use_.end()));
+    tracker_.Add(*result, tools_in_use_.names());
     writer_.Append(result->record);
     if (outcome_.frames++ == 0) checked_.begin_s = recorded.time_s;
     checked_.end_s = recorded.time_s;
@@ -114,19 +114,13 @@ class ReplayRecording {
   // use.
   void TakeEvents(core::FrameIndex frame, double time_s) {
     for (; next_event_ != events_.end() && next_event_->frame <= frame; ++next_event_) {
-      if (const auto* mark = std::get_if<core::ToolMarked>(&next_event_->what)) {
-        if (mark->in_use) {
-          tools_in_use_.insert(mark->tool);
-        } else {
-          tools_in_use_.erase(mark->tool);
-        }
-      }
+      tools_in_use_.Take(*next_event_);
       const bool is_before = outcome_.frames == 0 && next_event_->frame < frame;
       if (!is_before) writer_.Append(layout_.EventFrom(*next_event_));
       if (is_before) has_earlier_ = true;
     }
     if (!std::exchange(has_earlier_, false)) return;
-    for (const std::string& tool : tools_in_use_)
+    for (const std::string& tool : tools_in_use_.names())
       writer_.Append(core::SessionEvent{frame, time_s, core::ToolMarked{tool, true}});
   }
 
@@ -144,7 +138,7 @@ class ReplayRecording {
   std::vector<core::SessionEvent> events_;
   std::vector<core::SessionEvent>::const_iterator next_event_;
   std::vector<core::Finding> findings_;
-  std::set<std::string> tools_in_use_;
+  core::ToolsInUse tools_in_use_;
   bool has_earlier_ = false;
   CheckedRange checked_;
   ReplayOutcome outcome_;

@@ -13,26 +13,15 @@
 namespace elbowroom::control {
 namespace {
 
-template <typename Named>
-std::string DidYouMean(const std::string& name, const std::vector<Named>& entries, const char* else_do) {
-  std::vector<std::string_view> known;
-  for (const Named& entry : entries) known.emplace_back(entry.name);
-  const auto nearest = core::NearestWord(name, known);
-  return nearest ? fmt::format("did you mean '{}'?", *nearest) : else_do;
-}
-
-core::SpacingIndex RequireSpacing(const core::Layout& layout, const std::string& name) {
-  if (const auto index = layout.FindSpacing(name)) return *index;
-  throw core::Error(core::ErrorKind::kRange,
-                    fmt::format("--spacing: no spacing is named '{}'; {}", name,
-                                DidYouMean(name, layout.spacings, "use the name of a [[spacing]]")));
-}
-
 core::PartIndex RequirePart(const core::Layout& layout, const std::string& name) {
   if (const auto index = layout.FindPart(name)) return *index;
+  std::vector<std::string_view> known;
+  for (const core::Part& part : layout.parts) known.emplace_back(part.name);
+  const auto nearest = core::NearestWord(name, known);
   throw core::Error(core::ErrorKind::kRange,
                     fmt::format("--part: no part is named '{}'; {}", name,
-                                DidYouMean(name, layout.parts, "use the name of a [[part]]")));
+                                nearest ? fmt::format("did you mean '{}'?", *nearest)
+                                        : std::string("use the name of a [[part]]")));
 }
 
 bool HaveSameMesh(const core::Part& a, const core::Part& b) {
@@ -109,7 +98,7 @@ void ReplayLayout::Revise(const std::vector<PartRevision>& parts) {
 
 void ReplayLayout::Hold(const std::map<std::string, double>& held_mm) {
   for (const auto& [name, value_mm] : held_mm) {
-    const core::SpacingIndex index = RequireSpacing(layout_, name);
+    const core::SpacingIndex index = core::RequireSpacing(layout_, name);
     const core::Spacing& spacing = layout_.spacings[index];
     if (!(value_mm >= spacing.min_mm && value_mm <= spacing.max_mm)) {
       throw core::Error(core::ErrorKind::kRange,
