@@ -21,14 +21,8 @@ using Eigen::Vector3d;
 ContactSearchRule SearchRule(const recon::VisualHull& hull, const core::TriangleTree& part,
                              const core::RigidTransform& world_from_part, const ContactOptions& options,
                              const Vector3d& rp_obj) {
-  const Vector3d center_in_world = world_from_part * part.nodes()[0].ball.center;
-  constexpr double kFallbackResolutionMm = 1.0;  // if no camera has the part in front of it
-  const double resolution_mm =
-      options.resolution_mm > 0.0
-          ? options.resolution_mm
-          : 0.5 * PixelFootprintMm(hull.rig(), center_in_world).value_or(2.0 * kFallbackResolutionMm);
   ContactSearchRule rule;
-  rule.resolution_mm = resolution_mm;
+  rule.resolution_mm = ContactResolutionMm(hull, part, world_from_part, options);
   rule.point_spacing_mm = options.point_spacing_mm;
   rule.rp_obj = rp_obj;
   return rule;
@@ -75,6 +69,14 @@ void ContactOptions::Validate() const {
   if (const auto broken = recovery.BrokenRule())
     throw core::Error(core::ErrorKind::kRange, fmt::format("contacts: recovery: {}", *broken));
   require(max_points > 0, "at least one contact point must be kept, not {}", max_points);
+}
+
+double ContactResolutionMm(const recon::VisualHull& hull, const core::TriangleTree& part,
+                           const core::RigidTransform& world_from_part, const ContactOptions& options) {
+  if (options.resolution_mm > 0.0) return options.resolution_mm;
+  constexpr double kFallbackResolutionMm = 1.0;  // if no camera has the part in front of it
+  const Vector3d center_in_world = world_from_part * part.nodes()[0].ball.center;
+  return 0.5 * PixelFootprintMm(hull.rig(), center_in_world).value_or(2.0 * kFallbackResolutionMm);
 }
 
 std::optional<double> PixelFootprintMm(const core::Rig& rig, const Vector3d& x_in_world) {

@@ -66,6 +66,11 @@ struct PartTouch {
                                                const ContactOptions& options, double least_mm,
                                                std::int64_t* queries);
 
+// The size of the pieces of a part's surface that are decided by their centres. The part has triangles.
+[[nodiscard]] double ContactResolutionMm(const recon::VisualHull& hull, const core::TriangleTree& part,
+                                         const core::RigidTransform& world_from_part,
+                                         const ContactOptions& options);
+
 // Smallest width of a pixel at a point, over the cameras that have the point in front of them. Nothing: none
 // has.
 [[nodiscard]] std::optional<double> PixelFootprintMm(const core::Rig& rig, const Eigen::Vector3d& x_in_world);

@@ -21,39 +21,6 @@ core::PartClearance ClearanceInContact(const core::PartContact& contact, double 
   return clearance;
 }
 
-// Searches as far as the worst of the rig's errors near the part makes necessary. Where the errors at the
-// witness points turn out to be larger, as at a thin edge of the hull, and the search ended too early for a
-// verdict, it is made again, farther.
-void SearchClearance(const recon::VisualHull& hull, const core::TriangleTree& part,
-                     const core::RigidTransform& world_from_part, const PartReviewOptions& options,
-                     const std::optional<ClearanceHint>& hint, ReviewScratch* scratch,
-                     core::PartContact* contact) {
-  std::optional<core::ErrorBudget> budget = options.WorstBudget(hull, core::BoxAround(part, world_from_part));
-  double allowed_mm = budget ? budget->ExpandedMm() : options.uncertainty_mm;
-  ClearanceOptions clearance_options;
-  clearance_options.tolerance_mm = options.tolerance_mm;
-  std::int64_t queries = 0;
-  for (;;) {
-    clearance_options.enough_mm = options.EnoughMm(allowed_mm);
-    const Clearance found = FindClearance(hull, part, world_from_part, clearance_options, hint, scratch);
-    const core::ClearanceInterval& interval = found.interval;
-    queries += found.queries;
-    if (budget && found.has_witnesses && !found.meets)
-      budget = options.BudgetAt(hull, interval.witness_hull_in_world_mm, interval.witness_part_in_world_mm);
-    const double needed_mm = budget ? budget->ExpandedMm() : allowed_mm;
-    const bool has_ended_early = interval.lower_mm >= clearance_options.enough_mm;
-    if (has_ended_early && interval.lower_mm < options.required_clearance_mm + needed_mm) {
-      allowed_mm = needed_mm;
-      continue;
-    }
-    contact->clearance = core::PartClearance{interval, found.has_witnesses, queries, budget};
-    contact->verdict = options.VerdictOf(found, needed_mm);
-    if (contact->verdict == core::Verdict::kClear && !options.StaysClear(hull, part, world_from_part, budget))
-      contact->verdict = core::Verdict::kUndecided;
-    return;
-  }
-}
-
 }  // namespace
 
 void PartReviewOptions::Validate() const {
@@ -127,10 +94,41 @@ core::Verdict PartReviewOptions::VerdictOf(core::Verdict of_hull) const {
   return of_hull;
 }
 
+// Searches as far as the worst of the rig's errors near the part makes necessary. Where the errors at the
+// witness points turn out to be larger, as at a thin edge of the hull, and the search ended too early for a
+// verdict, it is made again, farther.
+ReviewedClearance ReviewClearance(const recon::VisualHull& hull, const core::TriangleTree& part,
+                                  const core::RigidTransform& world_from_part,
+                                  const PartReviewOptions& options, ReviewScratch* scratch) {
+  std::optional<core::ErrorBudget> budget = options.WorstBudget(hull, core::BoxAround(part, world_from_part));
+  double allowed_mm = budget ? budget->ExpandedMm() : options.uncertainty_mm;
+  ClearanceOptions clearance_options;
+  clearance_options.tolerance_mm = options.tolerance_mm;
+  std::int64_t queries = 0;
+  for (;;) {
+    clearance_options.enough_mm = options.EnoughMm(allowed_mm);
+    const Clearance found = FindClearance(hull, part, world_from_part, clearance_options, {}, scratch);
+    const core::ClearanceInterval& interval = found.interval;
+    queries += found.queries;
+    if (budget && found.has_witnesses && !found.meets)
+      budget = options.BudgetAt(hull, interval.witness_hull_in_world_mm, interval.witness_part_in_world_mm);
+    const double needed_mm = budget ? budget->ExpandedMm() : allowed_mm;
+    const bool has_ended_early = interval.lower_mm >= clearance_options.enough_mm;
+    if (has_ended_early && interval.lower_mm < options.required_clearance_mm + needed_mm) {
+      allowed_mm = needed_mm;
+      continue;
+    }
+    ReviewedClearance reviewed{{interval, found.has_witnesses, queries, budget},
+                               options.VerdictOf(found, needed_mm)};
+    if (reviewed.verdict == core::Verdict::kClear && !options.StaysClear(hull, part, world_from_part, budget))
+      reviewed.verdict = core::Verdict::kUndecided;
+    return reviewed;
+  }
+}
+
 core::PartContact ReviewPart(const recon::VisualHull& hull, const core::TriangleTree& part,
                              const core::RigidTransform& world_from_part, core::PartIndex part_index,
-                             const PartReviewOptions& options, const std::optional<ClearanceHint>& hint,
-                             InsideCells* inside, ReviewScratch* scratch) {
+                             const PartReviewOptions& options, InsideCells* inside, ReviewScratch* scratch) {
   core::PartContact contact =
       FindContacts(hull, part, world_from_part, part_index, options.contacts, inside, scratch);
   const bool is_touched = contact.verdict == core::Verdict::kContact;
@@ -142,16 +140,10 @@ core::PartContact ReviewPart(const recon::VisualHull& hull, const core::Triangle
     if (contact.clearance->has_witnesses) contact.clearance->budget = options.WorstBudget(hull, at);
     return contact;
   }
-  SearchClearance(hull, part, world_from_part, options, hint, scratch, &contact);
+  const ReviewedClearance reviewed = ReviewClearance(hull, part, world_from_part, options, scratch);
+  contact.clearance = reviewed.clearance;
+  contact.verdict = reviewed.verdict;
   return contact;
-}
-
-std::optional<ClearanceHint> HintFrom(const core::PartContact& last,
-                                      const core::RigidTransform& world_from_part) {
-  if (!last.clearance || !last.clearance->has_witnesses) return std::nullopt;
-  const core::ClearanceInterval& interval = last.clearance->interval;
-  return ClearanceHint{world_from_part.Inverse() * interval.witness_part_in_world_mm,
-                       interval.witness_hull_in_world_mm};
 }
 
 }  // namespace elbowroom::review

@@ -58,22 +58,29 @@ struct PartReviewOptions {
   [[nodiscard]] core::ErrorBudget GivenBudget() const;
 };
 
+struct ReviewedClearance {
+  core::PartClearance clearance;
+  core::Verdict verdict = core::Verdict::kClear;
+};
+
+// The clearance of a part that FindContacts finds in no contact: FindClearance as far as EnoughMm(), with
+// Judge's verdict, and the budget. A function of these alone: nothing of other frames goes in. The required
+// clearance is above 0. Thread: any.
+[[nodiscard]] ReviewedClearance ReviewClearance(const recon::VisualHull& hull, const core::TriangleTree& part,
+                                                const core::RigidTransform& world_from_part,
+                                                const PartReviewOptions& options,
+                                                ReviewScratch* scratch = nullptr);
+
 // FindContacts and, where a clearance is required, its bounds: 0 to the mesh's deviation, without a search,
-// where there is contact; else FindClearance as far as EnoughMm(), with Judge's verdict. So a part that meets
-// the hull in less than the contacts' resolution is in `contact` too, but without points. The hint changes
-// the work, and where within the tolerance the bounds fall. With `hull_errors` or `skew_errors`, the budget
-// of the answer is that of its witness points; without witnesses, the worst in the part's box. With the
-// latter, a part is `clear` only if the hull's contours, moved on by 2 sigma, leave it so. `inside`,
-// `scratch`: as in FindContacts. Held to FindContacts and FindClearance by part_review_test. Thread: any.
+// where there is contact; else ReviewClearance. So a part that meets the hull in less than the contacts'
+// resolution is in `contact` too, but without points. A function of hull, part, pose and options: the same in
+// a trial, a replay and a spacing study. With `hull_errors` or `skew_errors`, the budget of the answer is
+// that of its witness points; without witnesses, the worst in the part's box. With the latter, a part is
+// `clear` only if the hull's contours, moved on by 2 sigma, leave it so. `inside`, `scratch`: as in
+// FindContacts. Held to FindContacts and FindClearance by part_review_test. Thread: any.
 [[nodiscard]] core::PartContact ReviewPart(const recon::VisualHull& hull, const core::TriangleTree& part,
                                            const core::RigidTransform& world_from_part,
                                            core::PartIndex part_index, const PartReviewOptions& options,
-                                           const std::optional<ClearanceHint>& hint = {},
                                            InsideCells* inside = nullptr, ReviewScratch* scratch = nullptr);
-
-// The hint that a part's last answer gives the next search. `world_from_part` is the pose of that answer.
-// Nothing: the answer has no witnesses.
-[[nodiscard]] std::optional<ClearanceHint> HintFrom(const core::PartContact& last,
-                                                    const core::RigidTransform& world_from_part);
 
 }  // namespace elbowroom::review

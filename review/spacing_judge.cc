@@ -24,6 +24,9 @@ using recon::BallAnswer;
 // Touching is told from free by clearances whose bounds are as close as the spacing's tolerance divided by
 // these, one after the other until the bounds tell.
 constexpr std::array kFiner = {4.0, 32.0, 256.0};
+// A point of a part that is so many of the contacts' resolutions within the hull is on a piece of surface
+// whose centre is in the hull, too.
+constexpr double kSurelyFound = 2.0;
 // Rounding of a ray's crossings, by which touched stretches are shortened at both ends.
 constexpr double kCrossingRoundingMm = 1e-6;
 
@@ -53,9 +56,11 @@ class SpacingJudge::PartInFrame {
 
   [[nodiscard]] PartOverSpacing TakeAnswers() { return std::move(known_); }
 
+  // What ReviewPart says at this step; bounds of the distance where they may be the least ones.
   void AskStep(std::size_t step, const core::RigidTransform& world_from_part, const PartAtSpacing& so_far,
                std::span<const StudyStep> all_so_far) {
     StepAnswer& answer = known_.steps[step];
+    allowed_mm_.reset();
     if (step + 1 < known_.steps.size() && !judge_.moves_[part_]) {
       answer = known_.steps[step + 1];
       answer.was_asked = false;
@@ -63,18 +68,17 @@ class SpacingJudge::PartInFrame {
       return;
     }
     const double spacing_mm = judge_.steps_mm_[step];
-    if (IsIn(known_.touched, spacing_mm)) {
+    if (IsIn(known_.touched, spacing_mm) && IsSurelyFound(spacing_mm, world_from_part, &answer)) {
       Touch(&answer);
     } else {
       SetLower(step, &answer);
       if (IsSettled(world_from_part, so_far, &answer)) return;
       AskBalls(step, world_from_part, all_so_far, &answer);
-      if (answer.lower_mm > 0.0 && IsSettled(world_from_part, so_far, &answer)) return;
-      Ask(spacing_mm, world_from_part, EnoughMm(so_far, AllowedMm(world_from_part)),
-          options_.review.tolerance_mm, &answer);
+      if (IsSettled(world_from_part, so_far, &answer)) return;
+      AskAll(spacing_mm, world_from_part, so_far, &answer);
     }
-    if (answer.verdict != core::Verdict::kContact) return;
     answer.was_asked = true;
+    if (answer.verdict != core::Verdict::kContact) return;
     answer.depth_mm = FindDeeper(hull_, tree_, world_from_part, options_.review.contacts, so_far.deepest_mm,
                                  &answer.queries)
                           .value_or(0.0);
@@ -86,129 +90,189 @@ class SpacingJudge::PartInFrame {
     for (const double finer : kFiner) {
       const double tolerance_mm = options_.tolerance_mm / finer;
       StepAnswer answer;
-      Ask(spacing_mm, world_from_part, tolerance_mm, tolerance_mm, &answer);
+      const bool touches = LookForTouch(spacing_mm, world_from_part, &answer) ||
+                           Narrow(world_from_part, tolerance_mm, tolerance_mm, &answer);
       ++count->asked;
       count->queries += answer.queries;
-      if (answer.verdict == core::Verdict::kContact) return Freedom::kTouched;
+      if (touches) return Freedom::kTouched;
       if (answer.lower_mm > 0.0) return Freedom::kFree;
     }
     return Freedom::kUndecided;
   }
 
  private:
-  // Distances from here on can change neither a verdict nor the least distance so far.
-  [[nodiscard]] double EnoughMm(const PartAtSpacing& so_far, double allowed_mm) const {
-    return std::max(options_.review.required_clearance_mm + allowed_mm, so_far.upper_mm);
-  }
-
   [[nodiscard]] static PartReviewOptions ReviewOf(PartReviewOptions review, const StudyFrame& frame) {
-    if (frame.skew_errors && !frame.skew_errors->is_still()) review.skew_errors = frame.skew_errors;
+    review.skew_errors = frame.skew_errors;
     return review;
   }
 
   // The worst errors of a rig are those of hundreds of frames, the worst skew is a frame's own.
-  [[nodiscard]] double AllowedMm(const core::RigidTransform& world_from_part) const {
-    if (!review_.skew_errors) return judge_.AllowedMm(part_, world_from_part);
-    return review_.WorstBudget(hull_, core::BoxAround(tree_, world_from_part))->ExpandedMm();
+  [[nodiscard]] double AllowedMm(const core::RigidTransform& world_from_part) {
+    if (!allowed_mm_) {
+      allowed_mm_ = review_.skew_errors
+                        ? review_.WorstBudget(hull_, core::BoxAround(tree_, world_from_part))->ExpandedMm()
+                        : judge_.AllowedMm(part_, world_from_part);
+    }
+    return *allowed_mm_;
   }
 
-  [[nodiscard]] core::Verdict VerdictOf(const Clearance& clearance, double allowed_mm,
-                                        const core::RigidTransform& world_from_part) const {
-    const core::Verdict verdict = review_.VerdictOf(clearance, allowed_mm);
+  [[nodiscard]] bool AsksClearance() const { return review_.required_clearance_mm > 0.0; }
+
+  // Whether what a verdict allows for hangs on the witness points of its search.
+  [[nodiscard]] bool HasBudget() const {
+    return review_.hull_errors || (review_.skew_errors && !review_.skew_errors->is_still());
+  }
+
+  // ReviewPart's search for a clearance may end with a lower bound so much smaller than the distance, or an
+  // upper bound so much larger.
+  [[nodiscard]] double SlackMm() const { return review_.tolerance_mm + 2.0 * tree_.mesh().deviation_mm; }
+
+  // The verdict of a part that is clear of the ball with which its search would begin.
+  [[nodiscard]] core::Verdict VerdictBeyondBall(const core::RigidTransform& world_from_part) const {
+    const core::Verdict verdict = review_.VerdictOf(core::Verdict::kClear);
     if (verdict != core::Verdict::kClear || !review_.skew_errors) return verdict;
     const auto budget = review_.WorstBudget(hull_, core::BoxAround(tree_, world_from_part));
     return review_.StaysClear(hull_, tree_, world_from_part, budget) ? verdict : core::Verdict::kUndecided;
   }
 
   void Touch(StepAnswer* answer) const {
-    answer->verdict = core::Verdict::kContact;
+    answer->verdict = review_.VerdictOf(core::Verdict::kContact);
     answer->lower_mm = 0.0;
     answer->upper_mm = tree_.mesh().deviation_mm;
   }
 
-  // What the step above leaves of its lower bound.
+  // What the step above leaves of its lower bounds.
   void SetLower(std::size_t step, StepAnswer* answer) const {
     if (step + 1 == known_.steps.size()) return;
     const double moved_mm = judge_.steps_mm_[step + 1] - judge_.steps_mm_[step];
     answer->lower_mm = std::max(known_.steps[step + 1].lower_mm - moved_mm, 0.0);
+    answer->beyond_mm = std::max(known_.steps[step + 1].beyond_mm - moved_mm, 0.0);
+  }
+
+  // ReviewPart's verdict, if what is known gives it without a search: `lower_mm` is a lower bound of the
+  // distance, `beyond_mm` one of that of the ball around the part.
+  [[nodiscard]] std::optional<core::Verdict> KnownVerdict(const core::RigidTransform& world_from_part,
+                                                          const StepAnswer& answer) {
+    if (!AsksClearance()) return review_.VerdictOf(core::Verdict::kClear);
+    const double allowed_mm = AllowedMm(world_from_part);
+    if (answer.beyond_mm >= review_.EnoughMm(allowed_mm)) return VerdictBeyondBall(world_from_part);
+    if (HasBudget()) return std::nullopt;
+    const double clear_mm = review_.required_clearance_mm + allowed_mm + SlackMm();
+    if (answer.lower_mm >= clear_mm) return review_.VerdictOf(core::Verdict::kClear);
+    // Where no lower bound tells, the search may find that they meet.
+    const double near_mm = review_.required_clearance_mm - allowed_mm - SlackMm();
+    if (answer.lower_mm > 0.0 && UpperByHint(world_from_part) < near_mm)
+      return review_.VerdictOf(core::Verdict::kNear);
+    return std::nullopt;
+  }
+
+  // The distance here of the last search's witness points.
+  [[nodiscard]] double UpperByHint(const core::RigidTransform& world_from_part) const {
+    if (!hint_) return kInfinity;
+    const Vector3d witness = world_from_part * hint_->witness_part_in_part;
+    return (witness - hint_->witness_hull_in_world).norm() + tree_.mesh().deviation_mm;
   }
 
   // Whether a lower bound, and the distance here of the last search's witness points, leave nothing to ask.
   [[nodiscard]] bool IsSettled(const core::RigidTransform& world_from_part, const PartAtSpacing& so_far,
-                               StepAnswer* answer) const {
-    if (!(answer->lower_mm > 0.0)) return false;
-    Clearance known;
-    known.interval.lower_mm = answer->lower_mm;
-    if (hint_) {
-      const Vector3d witness = world_from_part * hint_->witness_part_in_part;
-      known.interval.upper_mm = (witness - hint_->witness_hull_in_world).norm() + tree_.mesh().deviation_mm;
-    }
-    const double allowed_mm = AllowedMm(world_from_part);
-    const core::Verdict verdict = Judge(known, options_.review.required_clearance_mm, allowed_mm);
-    if (verdict == core::Verdict::kUndecided || answer->lower_mm < so_far.upper_mm) return false;
-    answer->verdict = VerdictOf(known, allowed_mm, world_from_part);
-    return true;
+                               StepAnswer* answer) {
+    if (!(answer->lower_mm > 0.0) || answer->lower_mm < so_far.upper_mm) return false;
+    const auto verdict = KnownVerdict(world_from_part, *answer);
+    if (verdict) answer->verdict = *verdict;
+    return verdict.has_value();
   }
 
   // Tries to settle this step, and all steps below, by one query of a ball around the part: large enough to
   // allow for the part's motion in between. If that fails, half as many steps, and so on.
   void AskBalls(std::size_t step, const core::RigidTransform& world_from_part,
-                std::span<const StudyStep> so_far, StepAnswer* answer) const {
+                std::span<const StudyStep> so_far, StepAnswer* answer) {
     if (tree_.nodes().empty()) return;
     answer->was_asked = true;
     const core::Ball& ball = tree_.nodes()[0].ball;
-    const double allowed_mm = AllowedMm(world_from_part);
+    const double enough_mm = AsksClearance() ? review_.EnoughMm(AllowedMm(world_from_part)) : 0.0;
     for (std::size_t span = step + 1; span > 0; span /= 2) {
       double far_mm = 0.0;
       for (std::size_t i = 0; i < span; ++i)
-        far_mm = std::max(far_mm, EnoughMm(so_far[step - i].parts[part_], allowed_mm) +
+        far_mm = std::max(far_mm, std::max(enough_mm, so_far[step - i].parts[part_].upper_mm) +
                                       (judge_.steps_mm_[step] - judge_.steps_mm_[step - i]));
       if (!std::isfinite(far_mm) || !(far_mm > 0.0)) continue;
       ++answer->queries;
       const double reach_mm = ball.radius_mm + tree_.mesh().deviation_mm + far_mm;
       if (hull_.Classify(world_from_part * ball.center, reach_mm) != BallAnswer::kOutside) continue;
+      answer->beyond_mm = std::max(answer->beyond_mm, far_mm);
       answer->lower_mm = std::max(answer->lower_mm, far_mm);
       return;
     }
   }
 
-  // At the witness points, if there are any: as ReviewPart does.
-  [[nodiscard]] double AllowedAt(const Clearance& clearance,
-                                 const core::RigidTransform& world_from_part) const {
-    if (!clearance.has_witnesses || clearance.meets) return AllowedMm(world_from_part);
-    const auto budget = review_.BudgetAt(hull_, clearance.interval.witness_hull_in_world_mm,
-                                         clearance.interval.witness_part_in_world_mm);
-    return budget ? budget->ExpandedMm() : AllowedMm(world_from_part);
+  // A touch, the verdict by ReviewPart's own search, and the distance.
+  void AskAll(double spacing_mm, const core::RigidTransform& world_from_part, const PartAtSpacing& so_far,
+              StepAnswer* answer) {
+    if (LookForTouch(spacing_mm, world_from_part, answer)) return Touch(answer);
+    const auto known = KnownVerdict(world_from_part, *answer);
+    if (known) {
+      answer->verdict = *known;
+    } else {
+      const ReviewedClearance reviewed = ReviewClearance(hull_, tree_, world_from_part, review_);
+      answer->queries += reviewed.clearance.queries;
+      answer->verdict = reviewed.verdict;
+      TakeBounds(reviewed.clearance.interval, reviewed.clearance.has_witnesses, world_from_part, answer);
+      if (reviewed.verdict == core::Verdict::kContact) return Touch(answer);
+    }
+    // A distance from here on can't be the least one.
+    const bool is_narrow = answer->upper_mm - answer->lower_mm <= SlackMm();
+    if (is_narrow || answer->lower_mm >= so_far.upper_mm) return;
+    (void)Narrow(world_from_part, so_far.upper_mm, review_.tolerance_mm, answer);
   }
 
-  // Contact is looked for only where no lower bound excludes it.
-  void Ask(double spacing_mm, const core::RigidTransform& world_from_part, double enough_mm,
-           double tolerance_mm, StepAnswer* answer) {
-    answer->was_asked = true;
-    if (!(answer->lower_mm > 0.0)) {
-      const PartTouch touch =
-          FindTouch(hull_, tree_, world_from_part, options_.review.contacts, judge_.InsideOf(part_));
-      answer->queries += touch.queries;
-      if (touch.surface_in_world_mm) Follow(spacing_mm, *touch.surface_in_world_mm);
-      if (touch.touches) return Touch(answer);
-    }
-    if (enough_mm <= 0.0) return;
+  void TakeBounds(const core::ClearanceInterval& interval, bool has_witnesses,
+                  const core::RigidTransform& world_from_part, StepAnswer* answer) {
+    answer->lower_mm = std::max(answer->lower_mm, interval.lower_mm);
+    answer->upper_mm = std::min(answer->upper_mm, interval.upper_mm);
+    if (has_witnesses)
+      hint_ = ClearanceHint{world_from_part.Inverse() * interval.witness_part_in_world_mm,
+                            interval.witness_hull_in_world_mm};
+  }
+
+  // Bounds of the distance, as far as `enough_mm`. True: hull and part meet.
+  bool Narrow(const core::RigidTransform& world_from_part, double enough_mm, double tolerance_mm,
+              StepAnswer* answer) {
+    if (!(enough_mm > 0.0)) return false;
     ClearanceOptions clearance_options;
     clearance_options.tolerance_mm = tolerance_mm;
     clearance_options.enough_mm = enough_mm;
     const Clearance clearance = FindClearance(hull_, tree_, world_from_part, clearance_options, hint_);
     answer->queries += clearance.queries;
-    answer->lower_mm = std::max(answer->lower_mm, clearance.interval.lower_mm);
-    answer->upper_mm = clearance.interval.upper_mm;
-    answer->verdict = VerdictOf(clearance, AllowedAt(clearance, world_from_part), world_from_part);
-    if (clearance.has_witnesses)
-      hint_ = ClearanceHint{world_from_part.Inverse() * clearance.interval.witness_part_in_world_mm,
-                            clearance.interval.witness_hull_in_world_mm};
+    TakeBounds(clearance.interval, clearance.has_witnesses, world_from_part, answer);
+    return clearance.meets;
+  }
+
+  // Contact is looked for only where no lower bound excludes it.
+  [[nodiscard]] bool LookForTouch(double spacing_mm, const core::RigidTransform& world_from_part,
+                                  StepAnswer* answer) {
+    if (answer->lower_mm > 0.0) return false;
+    const PartTouch touch =
+        FindTouch(hull_, tree_, world_from_part, options_.review.contacts, judge_.InsideOf(part_));
+    answer->queries += touch.queries;
+    if (touch.surface_in_world_mm) Follow(spacing_mm, *touch.surface_in_world_mm, world_from_part);
+    return touch.touches;
+  }
+
+  // Whether a followed point is so far within the hull here that FindContacts can't miss it.
+  [[nodiscard]] bool IsSurelyFound(double spacing_mm, const core::RigidTransform& world_from_part,
+                                   StepAnswer* answer) const {
+    const double reach_mm =
+        kSurelyFound * ContactResolutionMm(hull_, tree_, world_from_part, options_.review.contacts);
+    return std::ranges::any_of(known_.touched, [&](const TouchedSpacings& touched) {
+      if (!IsIn({&touched, 1}, spacing_mm)) return false;
+      ++answer->queries;
+      return hull_.Classify(world_from_part * touched.point_in_part_mm, reach_mm) == BallAnswer::kInside;
+    });
   }
 
   // Adds the values of the spacing at which this point of the part's surface is in the hull: from the step
   // above to the least one, for at larger ones the part was asked before.
-  void Follow(double spacing_mm, const Vector3d& x_in_world) {
+  void Follow(double spacing_mm, const Vector3d& x_in_world, const core::RigidTransform& world_from_part) {
     if (!judge_.moves_[part_]) return;
     const std::vector<double>& steps_mm = judge_.steps_mm_;
     const auto above = std::ranges::upper_bound(steps_mm, spacing_mm);
@@ -217,7 +281,8 @@ class SpacingJudge::PartInFrame {
     for (const recon::HullInterval& interval :
          recon::IntervalsInHull(hull_, down, {0.0, from_mm - steps_mm.front()})) {
       const TouchedSpacings touched{from_mm - interval.to_mm + kCrossingRoundingMm,
-                                    from_mm - interval.from_mm - kCrossingRoundingMm};
+                                    from_mm - interval.from_mm - kCrossingRoundingMm,
+                                    world_from_part.Inverse() * x_in_world};
       if (touched.from_mm <= touched.to_mm) known_.touched.push_back(touched);
     }
   }
@@ -230,6 +295,7 @@ class SpacingJudge::PartInFrame {
   const core::TriangleTree& tree_;
   Vector3d motion_;  // of the part while the spacing grows by 1 mm
   std::optional<ClearanceHint> hint_;
+  std::optional<double> allowed_mm_;  // at this step
   PartOverSpacing known_;
 };
 
@@ -281,9 +347,8 @@ SpacingJudge::SpacingJudge(const core::Layout& layout, const SpacingStudyOptions
       inside_(std::make_unique<InsideOfThreads>(trees_)),
       worst_(std::make_unique<WorstErrors>(trees_, options.review.hull_errors)) {
   for (const core::Part& part : layout.parts) trees_.emplace_back(part.mesh);
-  // The parts that the spacing moves are those whose poses differ between any two values.
-  const auto here = PosesAt(layout.InitialSpacings(), 0.0), there = PosesAt(layout.InitialSpacings(), 1.0);
-  for (core::PartIndex i = 0; i < trees_.size(); ++i) moves_.push_back(!(here[i] == there[i]));
+  moves_.assign(trees_.size(), false);
+  for (const core::PartIndex part : PartsMovedBy(layout, options.spacing)) moves_[part] = true;
 }
 
 SpacingJudge::~SpacingJudge() = default;

@@ -2,6 +2,7 @@
 // of.
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -27,6 +28,7 @@ struct StepAnswer {
   double depth_mm = 0.0;  // only if it is more than the step's largest so far; else 0
   double lower_mm = 0.0;
   double upper_mm = std::numeric_limits<double>::infinity();
+  double beyond_mm = 0.0;  // the ball around the part is at least so far from the hull
   std::int64_t queries = 0;
   bool was_asked = false;
 };
@@ -35,6 +37,7 @@ struct StepAnswer {
 struct TouchedSpacings {
   double from_mm = 0.0;
   double to_mm = 0.0;
+  Eigen::Vector3d point_in_part_mm = Eigen::Vector3d::Zero();
 };
 
 [[nodiscard]] bool IsIn(std::span<const TouchedSpacings> touched, double spacing_mm);

@@ -26,6 +26,14 @@ struct PartOfFrame {
   std::vector<TouchedSpacings> touched;
 };
 
+// Frames that follow each other and have the same answers: hull, spacings and group are one.
+struct FrameRun {
+  StudyFrame first;
+  std::int64_t frames = 1;
+};
+
+bool IsStill(const StudyFrame& frame) { return !frame.skew_errors || frame.skew_errors->is_still(); }
+
 class Study {
  public:
   Study(const core::Layout& layout, const StudyFrames& frames, const SpacingStudyOptions& options,
@@ -36,136 +44,180 @@ class Study {
         progress_(progress),
         stop_(std::move(stop)),
         steps_mm_(judge_.steps_mm()) {
-    for (core::PartIndex i = 0; i < judge_.part_count(); ++i)
-      if (judge_.Moves(i)) result_.moved.push_back(i);
+    result_.moved = PartsMovedBy(layout, options.spacing);
   }
 
   SpacingStudy Run() {
+    SpacingCurve empty;
     for (const double spacing_mm : steps_mm_)
-      result_.steps.push_back({spacing_mm, std::vector<PartAtSpacing>(judge_.part_count())});
-    moved_.resize(frames_.count);
+      empty.steps.push_back({spacing_mm, std::vector<PartAtSpacing>(judge_.part_count())});
+    result_.curves.assign(options_.groups, empty);
+    kept_.resize(options_.groups);
     AskAllFrames();
-    Conclude();
+    for (std::size_t group = 0; group < options_.groups; ++group) Conclude(group);
     const auto all = static_cast<std::int64_t>(frames_.count);
     progress_.Report(all, all, "frames");
     return std::move(result_);
   }
 
  private:
+  // What is kept of the moved parts in a run of frames.
+  struct Kept {
+    std::size_t position = 0;        // of its first frame
+    std::vector<PartOfFrame> parts;  // the moved ones
+  };
+
   // The frames of the next batch are loaded while those of this one are judged.
   void AskAllFrames() {
-    std::vector<StudyFrame> batch = LoadBatch(0);
-    for (std::size_t begin = 0; begin < frames_.count;) {
-      const std::size_t end = begin + batch.size();
+    std::vector<FrameRun> batch = LoadBatch();
+    while (!batch.empty()) {
+      const std::size_t begin = asked_;
       std::vector<std::vector<PartOverSpacing>> answers(batch.size());
       tbb::task_group judging;
       judging.run([&] {
-        tbb::parallel_for(std::size_t{0}, batch.size(),
-                          [&](std::size_t i) { answers[i] = judge_.AskSteps(batch[i], result_.steps); });
+        tbb::parallel_for(std::size_t{0}, batch.size(), [&](std::size_t i) {
+          answers[i] = judge_.AskSteps(batch[i].first, result_.curves[batch[i].first.group].steps);
+        });
       });
-      std::vector<StudyFrame> next = LoadBatch(end);
+      std::vector<FrameRun> next;
+      try {
+        next = LoadBatch();
+      } catch (...) {
+        judging.wait();
+        throw;
+      }
       judging.wait();
-      for (std::size_t i = 0; i < batch.size(); ++i) Take(begin + i, batch[i].frame, std::move(answers[i]));
+      std::size_t position = begin;
+      for (std::size_t i = 0; i < batch.size(); ++i) {
+        Take(position, batch[i], std::move(answers[i]));
+        position += static_cast<std::size_t>(batch[i].frames);
+      }
+      asked_ = position;
       batch = std::move(next);
-      begin = end;
     }
   }
 
-  [[nodiscard]] std::vector<StudyFrame> LoadBatch(std::size_t begin) {
-    std::vector<StudyFrame> batch;
-    const std::size_t most = std::clamp(begin, std::size_t{1}, kLargestBatch);
-    for (std::size_t i = begin; i < std::min(begin + most, frames_.count); ++i) {
-      core::ThrowIfStopped(stop_, "the spacing study");
-      batch.push_back(frames_.load(i));
+  [[nodiscard]] static bool HaveOneAnswer(const StudyFrame& a, const StudyFrame& b) {
+    return a.hull == b.hull && a.group == b.group && a.spacing_mm == b.spacing_mm && IsStill(a) && IsStill(b);
+  }
+
+  // The frame after those of the last batch waits in `pending_`.
+  [[nodiscard]] std::vector<FrameRun> LoadBatch() {
+    std::vector<FrameRun> batch;
+    const std::size_t most = std::clamp(loaded_, std::size_t{1}, kLargestBatch);
+    const std::size_t begin = loaded_;
+    for (;;) {
+      if (!pending_ && loaded_ < frames_.count) {
+        core::ThrowIfStopped(stop_, "the spacing study");
+        pending_ = frames_.load(loaded_);
+      }
+      if (!pending_) break;
+      if (!batch.empty() && HaveOneAnswer(batch.back().first, *pending_)) {
+        ++batch.back().frames;
+        ++result_.count.unchanged_frames;
+      } else if (batch.size() < most) {
+        core::Require(pending_->group < options_.groups, "a frame's group is one of the study's");
+        batch.push_back({*std::move(pending_)});
+      } else {
+        break;
+      }
+      pending_.reset();
+      ++loaded_;
     }
     if (!batch.empty())
       progress_.Report(static_cast<std::int64_t>(begin), static_cast<std::int64_t>(frames_.count), "frames");
     return batch;
   }
 
-  void Take(std::size_t index, core::FrameIndex frame, std::vector<PartOverSpacing> answers) {
+  void Take(std::size_t position, const FrameRun& run, std::vector<PartOverSpacing> answers) {
+    SpacingCurve& curve = result_.curves[run.first.group];
+    curve.frames += run.frames;
+    Kept kept{position, {}};
     for (core::PartIndex i = 0; i < judge_.part_count(); ++i) {
-      PartOfFrame kept;
-      kept.touched = std::move(answers[i].touched);
+      PartOfFrame of_part;
+      of_part.touched = std::move(answers[i].touched);
       for (std::size_t step = 0; step < steps_mm_.size(); ++step) {
         const StepAnswer& answer = answers[i].steps[step];
-        Add(answer, frame, &result_.steps[step].parts[i]);
+        Add(answer, run, &curve.steps[step].parts[i]);
         result_.count.queries += answer.queries;
         ++(answer.was_asked  ? result_.count.asked
            : judge_.Moves(i) ? result_.count.settled_by_motion
                              : result_.count.unmoved);
-        kept.lower_mm.push_back(answer.lower_mm);
+        of_part.lower_mm.push_back(answer.lower_mm);
       }
-      if (judge_.Moves(i)) moved_[index].push_back(std::move(kept));
+      if (judge_.Moves(i)) kept.parts.push_back(std::move(of_part));
     }
+    kept_[run.first.group].push_back(std::move(kept));
   }
 
-  static void Add(const StepAnswer& answer, core::FrameIndex frame, PartAtSpacing* sum) {
+  static void Add(const StepAnswer& answer, const FrameRun& run, PartAtSpacing* sum) {
     switch (answer.verdict) {
       case core::Verdict::kContact:
-        ++sum->frames_in_contact;
+        sum->frames_in_contact += run.frames;
         break;
       case core::Verdict::kNear:
-        ++sum->frames_near;
+        sum->frames_near += run.frames;
         break;
       case core::Verdict::kClear:
-        ++sum->frames_clear;
+        sum->frames_clear += run.frames;
         break;
       case core::Verdict::kUndecided:
-        ++sum->frames_undecided;
+        sum->frames_undecided += run.frames;
         break;
     }
-    if (answer.upper_mm < sum->upper_mm || answer.depth_mm > sum->deepest_mm) sum->closest_frame = frame;
+    if (answer.upper_mm < sum->upper_mm || answer.depth_mm > sum->deepest_mm)
+      sum->closest_frame = run.first.frame;
     sum->deepest_mm = std::max(sum->deepest_mm, answer.depth_mm);
     sum->upper_mm = std::min(sum->upper_mm, answer.upper_mm);
     sum->lower_mm = std::min({sum->lower_mm, answer.lower_mm, sum->upper_mm});
   }
 
-  [[nodiscard]] bool IsTouched(std::size_t step) const {
+  [[nodiscard]] bool IsTouched(const SpacingCurve& curve, std::size_t step) const {
     return std::ranges::any_of(
-        result_.moved, [&](core::PartIndex i) { return result_.steps[step].parts[i].frames_in_contact > 0; });
+        result_.moved, [&](core::PartIndex i) { return curve.steps[step].parts[i].frames_in_contact > 0; });
   }
 
   // Goes from the largest step down to the first that isn't free, then bisects between that and the one
   // above.
-  void Conclude() {
+  void Conclude(std::size_t group) {
+    SpacingCurve& curve = result_.curves[group];
     std::size_t free = steps_mm_.size();
     Freedom below = Freedom::kFree;
     while (free > 0) {
-      below = IsTouched(free - 1) ? Freedom::kTouched : FreedomAt(steps_mm_[free - 1]);
+      below = IsTouched(curve, free - 1) ? Freedom::kTouched : FreedomAt(group, steps_mm_[free - 1]);
       if (below != Freedom::kFree) break;
       --free;
     }
     for (std::size_t step = 0; step < free; ++step) {
-      if (IsTouched(step) || (step + 1 == free && below == Freedom::kTouched))
-        result_.largest_touched_mm = steps_mm_[step];
+      if (IsTouched(curve, step) || (step + 1 == free && below == Freedom::kTouched))
+        curve.largest_touched_mm = steps_mm_[step];
     }
-    if (free < steps_mm_.size()) result_.smallest_free_mm = steps_mm_[free];
+    if (free < steps_mm_.size()) curve.smallest_free_mm = steps_mm_[free];
     if (free == 0 || free == steps_mm_.size()) return;
     double not_free_mm = steps_mm_[free - 1], free_mm = steps_mm_[free];
     while (free_mm - not_free_mm > options_.tolerance_mm) {
       core::ThrowIfStopped(stop_, "the spacing study");
       const double middle_mm = 0.5 * (not_free_mm + free_mm);
-      const Freedom freedom = FreedomAt(middle_mm);
+      const Freedom freedom = FreedomAt(group, middle_mm);
       (freedom == Freedom::kFree ? free_mm : not_free_mm) = middle_mm;
-      if (freedom == Freedom::kTouched) result_.largest_touched_mm = middle_mm;
+      if (freedom == Freedom::kTouched) curve.largest_touched_mm = middle_mm;
     }
-    result_.smallest_free_mm = free_mm;
+    curve.smallest_free_mm = free_mm;
   }
 
   // Whether a moved part is in the hull in some frame at this value. Only frames in which that is possible
   // are loaded again.
-  Freedom FreedomAt(double spacing_mm) {
-    if (std::ranges::any_of(moved_, [&](const auto& parts) {
-          return std::ranges::any_of(parts,
+  Freedom FreedomAt(std::size_t group, double spacing_mm) {
+    if (std::ranges::any_of(kept_[group], [&](const Kept& kept) {
+          return std::ranges::any_of(kept.parts,
                                      [&](const PartOfFrame& part) { return IsIn(part.touched, spacing_mm); });
         }))
       return Freedom::kTouched;
     Freedom freedom = Freedom::kFree;
-    for (std::size_t i = 0; i < frames_.count; ++i) {
-      if (SureMm(i, spacing_mm) > 0.0) continue;
+    for (const Kept& kept : kept_[group]) {
+      if (SureMm(kept, spacing_mm) > 0.0) continue;
       core::ThrowIfStopped(stop_, "the spacing study");
-      const Freedom of_frame = judge_.AskFreedom(frames_.load(i), spacing_mm, &result_.count);
+      const Freedom of_frame = judge_.AskFreedom(frames_.load(kept.position), spacing_mm, &result_.count);
       if (of_frame == Freedom::kTouched) return of_frame;
       if (of_frame == Freedom::kUndecided) freedom = of_frame;
     }
@@ -174,9 +226,9 @@ class Study {
 
   // A lower bound of all moved parts' distances in this frame: a part's distance changes by no more than the
   // spacing does, so each step's lower bound gives one here.
-  [[nodiscard]] double SureMm(std::size_t frame, double spacing_mm) const {
+  [[nodiscard]] double SureMm(const Kept& kept, double spacing_mm) const {
     double sure_mm = core::kInfinity;
-    for (const PartOfFrame& part : moved_[frame]) {
+    for (const PartOfFrame& part : kept.parts) {
       double of_part_mm = 0.0;
       for (std::size_t step = 0; step < steps_mm_.size(); ++step)
         of_part_mm = std::max(of_part_mm, part.lower_mm[step] - std::abs(steps_mm_[step] - spacing_mm));
@@ -191,9 +243,29 @@ class Study {
   const core::Progress& progress_;
   const std::stop_token stop_;
   const std::vector<double>& steps_mm_;
-  std::vector<std::vector<PartOfFrame>> moved_;  // frames x moved parts
+  std::vector<std::vector<Kept>> kept_;  // groups x runs of frames
+  std::size_t loaded_ = 0;               // frames that are in a batch
+  std::size_t asked_ = 0;
+  std::optional<StudyFrame> pending_;
   SpacingStudy result_;
 };
+
+// Whether the second answer is the closer one.
+bool IsCloser(const PartAtSpacing& now, const PartAtSpacing& other) {
+  if (other.deepest_mm != now.deepest_mm) return other.deepest_mm > now.deepest_mm;
+  return other.upper_mm < now.upper_mm;
+}
+
+void Add(const PartAtSpacing& other, PartAtSpacing* sum) {
+  if (IsCloser(*sum, other)) sum->closest_frame = other.closest_frame;
+  sum->frames_in_contact += other.frames_in_contact;
+  sum->frames_near += other.frames_near;
+  sum->frames_undecided += other.frames_undecided;
+  sum->frames_clear += other.frames_clear;
+  sum->deepest_mm = std::max(sum->deepest_mm, other.deepest_mm);
+  sum->lower_mm = std::min(sum->lower_mm, other.lower_mm);
+  sum->upper_mm = std::min(sum->upper_mm, other.upper_mm);
+}
 
 }  // namespace
 
@@ -212,6 +284,7 @@ void SpacingStudyOptions::Validate(const core::Layout& layout) const {
           fmt::format("{} steps at most; choose a longer one than {} mm", kMostSpacings, step_mm));
   require(tolerance_mm > 0.0 && std::isfinite(tolerance_mm),
           fmt::format("the tolerance must be positive, not {} mm", tolerance_mm));
+  core::Require(groups > 0, "a study has a group of frames at least");
   review.Validate();
 }
 
@@ -220,6 +293,57 @@ std::vector<double> SpacingStudyOptions::Steps() const {
   for (double i = 0.0; from_mm + i * step_mm < to_mm; ++i) steps_mm.push_back(from_mm + i * step_mm);
   steps_mm.push_back(to_mm);
   return steps_mm;
+}
+
+std::vector<core::PartIndex> PartsMovedBy(const core::Layout& layout, core::SpacingIndex spacing) {
+  std::vector<double> spacing_mm = layout.InitialSpacings();
+  spacing_mm[spacing] = 0.0;
+  const auto here = core::PosesAt(layout, spacing_mm);
+  spacing_mm[spacing] = 1.0;
+  const auto there = core::PosesAt(layout, spacing_mm);
+  std::vector<core::PartIndex> moved;
+  for (core::PartIndex i = 0; i < here.size(); ++i)
+    if (!(here[i] == there[i])) moved.push_back(i);
+  return moved;
+}
+
+// A value is free of contact for all if it is so for each.
+SpacingCurve Together(std::span<const SpacingCurve> curves) {
+  if (curves.empty()) return {};
+  SpacingCurve sum = curves.front();
+  for (const SpacingCurve& curve : curves.subspan(1)) {
+    core::Require(curve.steps.size() == sum.steps.size(), "the curves have the same steps");
+    sum.frames += curve.frames;
+    for (std::size_t step = 0; step < sum.steps.size(); ++step)
+      for (core::PartIndex i = 0; i < sum.steps[step].parts.size(); ++i)
+        Add(curve.steps[step].parts.at(i), &sum.steps[step].parts[i]);
+    if (curve.largest_touched_mm)
+      sum.largest_touched_mm = std::max(curve.largest_touched_mm, sum.largest_touched_mm);
+    sum.smallest_free_mm = curve.smallest_free_mm && sum.smallest_free_mm
+                               ? std::max(curve.smallest_free_mm, sum.smallest_free_mm)
+                               : std::nullopt;
+  }
+  return sum;
+}
+
+std::optional<double> SmallestClearMm(const SpacingCurve& curve, std::span<const core::PartIndex> parts) {
+  std::optional<double> smallest_mm;
+  for (std::size_t step = curve.steps.size(); step-- > 0;) {
+    const bool is_clear = std::ranges::all_of(
+        parts, [&](core::PartIndex i) { return curve.steps[step].parts[i].frames_clear == curve.frames; });
+    if (!is_clear) break;
+    smallest_mm = curve.steps[step].spacing_mm;
+  }
+  return smallest_mm;
+}
+
+StudyCount& StudyCount::operator+=(const StudyCount& other) {
+  asked += other.asked;
+  settled_by_motion += other.settled_by_motion;
+  unmoved += other.unmoved;
+  queries += other.queries;
+  unchanged_frames += other.unchanged_frames;
+  return *this;
 }
 
 SpacingStudy StudySpacing(const core::Layout& layout, const StudyFrames& frames,

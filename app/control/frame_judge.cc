@@ -75,7 +75,7 @@ void FrameJudge::Judge(const FrameResult* last, FrameResult* result) {
     }
     std::vector<core::ContactPoint>& kept = scratch_[i].spread.kept;
     kept = std::move(contacts[i].points);
-    contacts[i] = Review(last, *result, i);
+    contacts[i] = Review(*result, i);
     if (!contacts[i].points.empty()) return;
     contacts[i].points = std::move(kept);
     contacts[i].points.clear();
@@ -89,17 +89,13 @@ void FrameJudge::Judge(const FrameResult* last, FrameResult* result) {
   }
 }
 
-core::PartContact FrameJudge::Review(const FrameResult* last, const FrameResult& result,
-                                     core::PartIndex part) {
-  const auto hint = last != nullptr
-                        ? review::HintFrom(last->record.contacts[part], last->world_from_parts[part])
-                        : std::optional<review::ClearanceHint>();
+core::PartContact FrameJudge::Review(const FrameResult& result, core::PartIndex part) {
   review::PartReviewOptions options = review_;
   options.contacts.recovery = layout_.parts[part].recovery;
   options.lacks_camera = result.record.LacksCamera();
   options.skew_errors = result.skew_errors;
   return review::ReviewPart(*result.hull, (*part_trees_)[part], result.world_from_parts[part], part, options,
-                            hint, &inside_parts_[part], &scratch_[part]);
+                            &inside_parts_[part], &scratch_[part]);
 }
 
 }  // namespace elbowroom::control

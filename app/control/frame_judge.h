@@ -34,8 +34,7 @@ class FrameJudge {
   using SharedTrees = std::shared_ptr<const std::vector<core::TriangleTree>>;
   FrameJudge(const core::Layout& layout, const review::PartReviewOptions& review, SharedTrees part_trees);
 
-  [[nodiscard]] core::PartContact Review(const FrameResult* last, const FrameResult& result,
-                                         core::PartIndex part);
+  [[nodiscard]] core::PartContact Review(const FrameResult& result, core::PartIndex part);
 
   const core::Layout& layout_;
   review::PartReviewOptions review_;

@@ -51,7 +51,7 @@ Agreement AskAll(const core::Layout& layout, const std::vector<StudyFrame>& fram
                  const SpacingStudy& study) {
   const core::TriangleTree tree(layout.parts[1].mesh);
   Agreement agreement;
-  for (const StudyStep& step : study.steps) {
+  for (const StudyStep& step : study.curves[0].steps) {
     double deepest_mm = 0.0, lower_mm = 1e9, upper_mm = 1e9;
     const core::RigidTransform pose = core::PosesAt(layout, std::vector{step.spacing_mm})[1];
     for (const StudyFrame& frame : frames) {
@@ -88,8 +88,8 @@ void StudyOf(benchmark::State& state, const std::function<TriangleMesh()>& make_
   const Agreement all = AskAll(layout, frames, study);
   for (auto _ : state) benchmark::DoNotOptimize(study = StudySpacing(layout, source, options));
   std::int64_t in_contact = 0;
-  for (const StudyStep& step : study.steps) in_contact += step.parts[1].frames_in_contact;
-  state.counters["steps"] = static_cast<double>(study.steps.size());
+  for (const StudyStep& step : study.curves[0].steps) in_contact += step.parts[1].frames_in_contact;
+  state.counters["steps"] = static_cast<double>(study.curves[0].steps.size());
   state.counters["frames"] = kFrames;
   state.counters["in_contact"] = static_cast<double>(in_contact);
   state.counters["queries"] = static_cast<double>(study.count.queries);

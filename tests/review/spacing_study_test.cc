@@ -63,65 +63,45 @@ std::vector<StudyFrame> RandomFrames(recon::Random* random, int count) {
   return frames;
 }
 
-// What was asked of one part at one spacing, frame by frame, with nothing known from elsewhere.
-struct SlowAnswer {
-  PartAtSpacing sum;
-  // Frames without a contact point in which the bounds allow for one: they meet, if at all, in less than the
-  // contacts' resolution, and which side of it the bounds' search comes out on depends on where it began.
-  int touching = 0;
-};
-
-SlowAnswer AskAll(const core::Layout& layout, const std::vector<StudyFrame>& frames, double spacing_mm,
-                  core::PartIndex part, const PartReviewOptions& options) {
+// What ReviewPart says of one part at one spacing, frame by frame, with nothing known from elsewhere, and the
+// least distance.
+PartAtSpacing AskAll(const core::Layout& layout, const std::vector<StudyFrame>& frames, double spacing_mm,
+                     core::PartIndex part, const PartReviewOptions& options) {
   const core::TriangleTree tree(layout.parts[part].mesh);
-  SlowAnswer answer;
-  PartAtSpacing& sum = answer.sum;
+  PartAtSpacing sum;
   for (const StudyFrame& frame : frames) {
     const auto pose = core::PosesAt(layout, std::vector{spacing_mm, frame.spacing_mm[1]})[part];
-    const core::PartContact contact = FindContacts(*frame.hull, tree, pose, part, options.contacts);
-    if (contact.verdict == core::Verdict::kContact) {
-      ++sum.frames_in_contact;
-      sum.deepest_mm = std::max(sum.deepest_mm, contact.deepest ? contact.deepest->depth_mm : 0.0);
-      sum.lower_mm = sum.upper_mm = 0.0;
-      continue;
-    }
+    PartReviewOptions of_frame = options;
+    of_frame.skew_errors = frame.skew_errors;
+    const core::PartContact contact = ReviewPart(*frame.hull, tree, pose, part, of_frame);
+    sum.frames_in_contact += contact.verdict == core::Verdict::kContact ? 1 : 0;
+    sum.frames_near += contact.verdict == core::Verdict::kNear ? 1 : 0;
+    sum.frames_undecided += contact.verdict == core::Verdict::kUndecided ? 1 : 0;
+    sum.frames_clear += contact.verdict == core::Verdict::kClear ? 1 : 0;
+    if (contact.deepest) sum.deepest_mm = std::max(sum.deepest_mm, contact.deepest->depth_mm);
     ClearanceOptions clearance_options;
     clearance_options.tolerance_mm = options.tolerance_mm;
-    const Clearance clearance = FindClearance(*frame.hull, tree, pose, clearance_options);
-    const core::ClearanceInterval& interval = clearance.interval;
-    answer.touching += interval.lower_mm == 0.0 ? 1 : 0;
-    const core::Verdict verdict =
-        !(options.required_clearance_mm > 0.0)
-            ? core::Verdict::kClear
-            : Judge(clearance, options.required_clearance_mm, options.uncertainty_mm);
-    if (verdict == core::Verdict::kNear || verdict == core::Verdict::kContact) ++sum.frames_near;
-    if (verdict == core::Verdict::kUndecided) ++sum.frames_undecided;
-    if (verdict == core::Verdict::kClear) ++sum.frames_clear;
+    core::ClearanceInterval interval = FindClearance(*frame.hull, tree, pose, clearance_options).interval;
+    if (contact.verdict == core::Verdict::kContact) interval.lower_mm = interval.upper_mm = 0.0;
     sum.lower_mm = std::min(sum.lower_mm, interval.lower_mm);
     sum.upper_mm = std::min(sum.upper_mm, interval.upper_mm);
   }
-  return answer;
+  return sum;
 }
 
-void ExpectDistancesAgree(const PartAtSpacing& fast, const PartAtSpacing& slow) {
+// Verdicts and depths are the same; the bounds hold one least distance between them, and both are as narrow
+// as the tolerance.
+void ExpectAgree(const PartAtSpacing& fast, const PartAtSpacing& slow, double tolerance_mm = 1.0) {
+  EXPECT_EQ(fast.frames_in_contact, slow.frames_in_contact);
+  EXPECT_EQ(fast.frames_near, slow.frames_near);
+  EXPECT_EQ(fast.frames_undecided, slow.frames_undecided);
+  EXPECT_EQ(fast.frames_clear, slow.frames_clear);
   EXPECT_EQ(fast.deepest_mm, slow.deepest_mm);
   EXPECT_LE(fast.lower_mm, slow.upper_mm + kStudyRoundingMm);
   EXPECT_LE(slow.lower_mm, fast.upper_mm + kStudyRoundingMm);
-  if (slow.frames_in_contact > 0) {
-    EXPECT_EQ(fast.upper_mm, 0.0);
+  if (std::isfinite(slow.upper_mm)) {
+    EXPECT_LE(fast.upper_mm - fast.lower_mm, tolerance_mm + kStudyRoundingMm);
   }
-}
-
-void ExpectAgree(const PartAtSpacing& fast, const SlowAnswer& answer) {
-  const PartAtSpacing& slow = answer.sum;
-  ExpectDistancesAgree(fast, slow);
-  EXPECT_GE(fast.frames_in_contact, slow.frames_in_contact);
-  EXPECT_LE(fast.frames_in_contact, slow.frames_in_contact + answer.touching);
-  // What is clear to one may be undecided to the other, for bounds differ within their tolerance.
-  EXPECT_LE(fast.frames_near, slow.frames_near + slow.frames_undecided + answer.touching);
-  EXPECT_LE(slow.frames_near, fast.frames_near + fast.frames_undecided + answer.touching);
-  EXPECT_LE(fast.frames_clear, slow.frames_clear + slow.frames_undecided);
-  EXPECT_LE(slow.frames_clear, fast.frames_clear + fast.frames_undecided + answer.touching);
 }
 
 SpacingStudyOptions From(double from_mm, double to_mm, double step_mm, double required_mm = 8.0) {
@@ -149,9 +129,10 @@ TEST(StudySpacing, AllowsForTheSkewOfEachFrame) {
   const SpacingStudy without = StudySpacing(layout, Shared(at_once), options);
   const SpacingStudy with = StudySpacing(layout, Shared(skewed), options);
   std::int64_t clear_without = 0, clear_with = 0;
-  for (std::size_t step = 0; step < without.steps.size(); ++step) {
+  for (std::size_t step = 0; step < without.curves[0].steps.size(); ++step) {
     for (core::PartIndex part = 0; part < layout.parts.size(); ++part) {
-      const PartAtSpacing &a = without.steps[step].parts[part], &b = with.steps[step].parts[part];
+      const PartAtSpacing &a = without.curves[0].steps[step].parts[part],
+                          &b = with.curves[0].steps[step].parts[part];
       EXPECT_EQ(a.frames_in_contact, b.frames_in_contact) << "contact is what the hull shows";
       EXPECT_LE(b.frames_clear, a.frames_clear);
       clear_without += a.frames_clear;
@@ -160,7 +141,7 @@ TEST(StudySpacing, AllowsForTheSkewOfEachFrame) {
   }
   EXPECT_LT(clear_with, clear_without);
   EXPECT_GT(clear_with, 0);
-  EXPECT_EQ(with.largest_touched_mm, without.largest_touched_mm);
+  EXPECT_EQ(with.curves[0].largest_touched_mm, without.curves[0].largest_touched_mm);
 }
 
 TEST(StudySpacing, AgreesWithAskingEveryFrameAtEveryStep) {
@@ -172,8 +153,8 @@ TEST(StudySpacing, AgreesWithAskingEveryFrameAtEveryStep) {
     const std::vector<StudyFrame> frames = RandomFrames(&random, 8);
     const SpacingStudyOptions options = From(0.0, 190.0, 19.0, trial % 2 == 0 ? 8.0 : 0.0);
     const SpacingStudy study = StudySpacing(layout, Shared(frames), options);
-    ASSERT_EQ(study.steps.size(), 11U);
-    for (const StudyStep& step : study.steps) {
+    ASSERT_EQ(study.curves[0].steps.size(), 11U);
+    for (const StudyStep& step : study.curves[0].steps) {
       for (core::PartIndex part = 0; part < layout.parts.size(); ++part) {
         SCOPED_TRACE(layout.parts[part].name + " at " + std::to_string(step.spacing_mm));
         ExpectAgree(step.parts[part], AskAll(layout, frames, step.spacing_mm, part, options.review));
@@ -197,7 +178,7 @@ PartReviewOptions FineReview() {
 // Contact of any moved part in any frame, or as good as.
 bool Touches(const core::Layout& layout, const std::vector<StudyFrame>& frames, double spacing_mm) {
   return std::ranges::any_of(std::vector{kMoving, kRider}, [&](core::PartIndex part) {
-    return AskAll(layout, frames, spacing_mm, part, FineReview()).sum.upper_mm <= FineReview().tolerance_mm;
+    return AskAll(layout, frames, spacing_mm, part, FineReview()).upper_mm <= FineReview().tolerance_mm;
   });
 }
 
@@ -210,20 +191,20 @@ TEST(StudySpacing, FindsTheSmallestSpacingWithoutContactBetweenTwoValuesThatShow
     const std::vector<StudyFrame> frames = RandomFrames(&random, 3);
     const SpacingStudyOptions options = From(0.0, 280.0, 20.0, 0.0);
     const SpacingStudy study = StudySpacing(layout, Shared(frames), options);
-    if (!study.largest_touched_mm || !study.smallest_free_mm) continue;
+    if (!study.curves[0].largest_touched_mm || !study.curves[0].smallest_free_mm) continue;
     ++found;
-    EXPECT_GT(*study.smallest_free_mm, *study.largest_touched_mm);
-    const double between_mm = 0.5 * (*study.smallest_free_mm + *study.largest_touched_mm);
-    if (*study.smallest_free_mm - *study.largest_touched_mm > options.tolerance_mm) {
+    EXPECT_GT(*study.curves[0].smallest_free_mm, *study.curves[0].largest_touched_mm);
+    const double between_mm = 0.5 * (*study.curves[0].smallest_free_mm + *study.curves[0].largest_touched_mm);
+    if (*study.curves[0].smallest_free_mm - *study.curves[0].largest_touched_mm > options.tolerance_mm) {
       ++left_open;
       double least_mm = 1e9;
       for (const core::PartIndex part : {kMoving, kRider})
-        least_mm = std::min(least_mm, AskAll(layout, frames, between_mm, part, FineReview()).sum.upper_mm);
+        least_mm = std::min(least_mm, AskAll(layout, frames, between_mm, part, FineReview()).upper_mm);
       EXPECT_LE(least_mm, 2.0 * FineReview().tolerance_mm) << "only what grazes may be left open";
     }
-    EXPECT_TRUE(Touches(layout, frames, *study.largest_touched_mm));
-    EXPECT_FALSE(Touches(layout, frames, *study.smallest_free_mm));
-    for (double above_mm = 280.0; above_mm > *study.smallest_free_mm; above_mm -= 20.0)
+    EXPECT_TRUE(Touches(layout, frames, *study.curves[0].largest_touched_mm));
+    EXPECT_FALSE(Touches(layout, frames, *study.curves[0].smallest_free_mm));
+    for (double above_mm = 280.0; above_mm > *study.curves[0].smallest_free_mm; above_mm -= 20.0)
       EXPECT_FALSE(Touches(layout, frames, above_mm)) << above_mm;
   }
   EXPECT_GT(found, 1);
@@ -235,26 +216,92 @@ TEST(StudySpacing, OfABoxIsItsHeight) {
   const auto hull = std::make_shared<const recon::VisualHull>(BoxHull());
   const std::vector<StudyFrame> frames{{7, hull, {100.0, 5.0}}};
   const SpacingStudy study = StudySpacing(LidLayout(), Shared(frames), From(60.0, 200.0, 10.0, 0.0));
-  ASSERT_TRUE(study.largest_touched_mm && study.smallest_free_mm);
-  EXPECT_NEAR(*study.largest_touched_mm, 130.0, 0.5 + kBoxHullMm);
-  EXPECT_NEAR(*study.smallest_free_mm, 130.0, 0.5 + kBoxHullMm);
-  EXPECT_EQ(study.steps.back().parts[kMoving].closest_frame, 7);
-  const PartAtSpacing& at_200 = study.steps.back().parts[kMoving];
+  ASSERT_TRUE(study.curves[0].largest_touched_mm && study.curves[0].smallest_free_mm);
+  EXPECT_NEAR(*study.curves[0].largest_touched_mm, 130.0, 0.5 + kBoxHullMm);
+  EXPECT_NEAR(*study.curves[0].smallest_free_mm, 130.0, 0.5 + kBoxHullMm);
+  EXPECT_EQ(study.curves[0].steps.back().parts[kMoving].closest_frame, 7);
+  const PartAtSpacing& at_200 = study.curves[0].steps.back().parts[kMoving];
   EXPECT_LE(at_200.lower_mm, 70.0 + kBoxHullMm);
   EXPECT_GE(at_200.upper_mm, 70.0 - kBoxHullMm);
-  EXPECT_NEAR(study.steps[0].parts[kFixed].upper_mm, study.steps[5].parts[kFixed].upper_mm, 0.0);
+  EXPECT_NEAR(study.curves[0].steps[0].parts[kFixed].upper_mm,
+              study.curves[0].steps[5].parts[kFixed].upper_mm, 0.0);
 }
 
 TEST(StudySpacing, SaysWhenNothingOrEverythingTouches) {
   const auto hull = std::make_shared<const recon::VisualHull>(BoxHull());
   const std::vector<StudyFrame> frames{{0, hull, {100.0, 5.0}}};
   const SpacingStudy above = StudySpacing(LidLayout(), Shared(frames), From(140.0, 160.0, 10.0));
-  EXPECT_FALSE(above.largest_touched_mm.has_value());
-  EXPECT_EQ(above.smallest_free_mm, 140.0);
+  EXPECT_FALSE(above.curves[0].largest_touched_mm.has_value());
+  EXPECT_EQ(above.curves[0].smallest_free_mm, 140.0);
   const SpacingStudy within = StudySpacing(LidLayout(), Shared(frames), From(60.0, 100.0, 10.0));
-  EXPECT_EQ(within.largest_touched_mm, 100.0);
-  EXPECT_FALSE(within.smallest_free_mm.has_value());
-  EXPECT_EQ(StudySpacing(LidLayout(), {}, From(60.0, 100.0, 10.0)).smallest_free_mm, 60.0) << "no frames";
+  EXPECT_EQ(within.curves[0].largest_touched_mm, 100.0);
+  EXPECT_FALSE(within.curves[0].smallest_free_mm.has_value());
+  EXPECT_EQ(StudySpacing(LidLayout(), {}, From(60.0, 100.0, 10.0)).curves[0].smallest_free_mm, 60.0)
+      << "no frames";
+}
+
+// Frames in two groups, and in two studies: the curves together are that of all frames.
+TEST(StudySpacing, GroupsAndPiecesTogetherAreTheWhole) {
+  recon::Random random(1283);
+  std::vector<StudyFrame> frames = RandomFrames(&random, 12);
+  SpacingStudyOptions options = From(0.0, 280.0, 20.0);
+  const SpacingStudy whole = StudySpacing(LidLayout(), Shared(frames), options);
+  options.groups = 2;
+  for (std::size_t i = 0; i < frames.size(); ++i) frames[i].group = i % 3 == 0 ? 1 : 0;
+  const SpacingStudy groups = StudySpacing(LidLayout(), Shared(frames), options);
+  EXPECT_EQ(groups.curves[1].frames, 4);
+  const SpacingCurve together = Together(groups.curves);
+  EXPECT_EQ(together.frames, 12);
+  std::vector<SpacingCurve> pieces;
+  for (const auto& [from, to] : {std::pair{0, 5}, std::pair{5, 12}}) {
+    const std::vector<StudyFrame> piece(frames.begin() + from, frames.begin() + to);
+    const SpacingStudy study = StudySpacing(LidLayout(), Shared(piece), options);
+    pieces.insert(pieces.end(), study.curves.begin(), study.curves.end());
+  }
+  const SpacingCurve of_pieces = Together(pieces);
+  for (std::size_t step = 0; step < whole.curves[0].steps.size(); ++step)
+    for (core::PartIndex part = 0; part < 4; ++part) {
+      ExpectAgree(together.steps[step].parts[part], whole.curves[0].steps[step].parts[part]);
+      ExpectAgree(of_pieces.steps[step].parts[part], whole.curves[0].steps[step].parts[part]);
+    }
+  // Each is found to the tolerance of its own bisection.
+  for (const SpacingCurve* curve : {&together, &of_pieces}) {
+    ASSERT_EQ(curve->smallest_free_mm.has_value(), whole.curves[0].smallest_free_mm.has_value());
+    if (!curve->smallest_free_mm) continue;
+    EXPECT_NEAR(*curve->smallest_free_mm, *whole.curves[0].smallest_free_mm, options.tolerance_mm);
+  }
+}
+
+TEST(StudySpacing, AFrameThatStaysIsAskedOnce) {
+  recon::Random random(77);
+  const std::vector<StudyFrame> once = RandomFrames(&random, 3);
+  std::vector<StudyFrame> twice;
+  for (const StudyFrame& frame : once) twice.insert(twice.end(), 2, frame);
+  const SpacingStudy a = StudySpacing(LidLayout(), Shared(once), From(0.0, 200.0, 25.0));
+  const SpacingStudy b = StudySpacing(LidLayout(), Shared(twice), From(0.0, 200.0, 25.0));
+  EXPECT_EQ(a.count.unchanged_frames, 0);
+  EXPECT_EQ(b.count.unchanged_frames, 3);
+  EXPECT_EQ(b.curves[0].frames, 6);
+  for (std::size_t step = 0; step < a.curves[0].steps.size(); ++step)
+    for (core::PartIndex i = 0; i < 4; ++i) {
+      const PartAtSpacing &x = a.curves[0].steps[step].parts[i], &y = b.curves[0].steps[step].parts[i];
+      EXPECT_EQ(2 * x.frames_in_contact, y.frames_in_contact);
+      EXPECT_EQ(2 * x.frames_clear, y.frames_clear);
+      EXPECT_EQ(x.deepest_mm, y.deepest_mm);
+    }
+}
+
+TEST(SmallestClearMm, CountsDownFromTheLargestStep) {
+  SpacingCurve curve;
+  curve.frames = 2;
+  for (const std::int64_t clear : {2, 1, 2, 2}) {
+    PartAtSpacing part;
+    part.frames_clear = clear;
+    curve.steps.push_back({10.0 * static_cast<double>(curve.steps.size()), {part}});
+  }
+  EXPECT_EQ(SmallestClearMm(curve, std::vector<core::PartIndex>{0}), 20.0) << "not 0: 10 isn't clear";
+  curve.steps.back().parts[0].frames_clear = 1;
+  EXPECT_EQ(SmallestClearMm(curve, std::vector<core::PartIndex>{0}), std::nullopt);
 }
 
 TEST(StudySpacing, IsTheSameOnAnyNumberOfThreads) {
@@ -265,18 +312,21 @@ TEST(StudySpacing, IsTheSameOnAnyNumberOfThreads) {
   const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
   const SpacingStudy one = study();
   EXPECT_EQ(one.count.queries, many.count.queries);
-  EXPECT_EQ(one.smallest_free_mm, many.smallest_free_mm);
-  for (std::size_t step = 0; step < one.steps.size(); ++step) {
+  EXPECT_EQ(one.curves[0].smallest_free_mm, many.curves[0].smallest_free_mm);
+  for (std::size_t step = 0; step < one.curves[0].steps.size(); ++step) {
     for (std::size_t part = 0; part < 4; ++part) {
-      EXPECT_EQ(one.steps[step].parts[part].lower_mm, many.steps[step].parts[part].lower_mm);
-      EXPECT_EQ(one.steps[step].parts[part].upper_mm, many.steps[step].parts[part].upper_mm);
+      EXPECT_EQ(one.curves[0].steps[step].parts[part].lower_mm,
+                many.curves[0].steps[step].parts[part].lower_mm);
+      EXPECT_EQ(one.curves[0].steps[step].parts[part].upper_mm,
+                many.curves[0].steps[step].parts[part].upper_mm);
     }
   }
 }
 
 TEST(StudySpacing, ReportsProgressAndStops) {
   const auto hull = std::make_shared<const recon::VisualHull>(BoxHull());
-  const std::vector<StudyFrame> frames(40, {0, hull, {100.0, 5.0}});
+  std::vector<StudyFrame> frames(40, {0, hull, {100.0, 5.0}});
+  for (std::size_t i = 0; i < frames.size(); ++i) frames[i].spacing_mm[1] += static_cast<double>(i % 2);
   std::stop_source stop;
   std::int64_t reports = 0;
   const core::Progress progress([&](std::int64_t, std::int64_t total, const std::string&) {

@@ -24,10 +24,7 @@ std::unique_ptr<FrameJudge> ReplayJudging::Take() {
 
 void ReplayJudging::Judge(const FrameResult* last, ReplayRun* run) {
   core::Require(run->goes_on == (last != nullptr), "a run that goes on is judged after the one before");
-  if (last == nullptr) {
-    last = run->before.get();
-    if (!part_trees().empty()) run->frames.front().result->hull->Prepare();
-  }
+  if (last == nullptr && !part_trees().empty()) run->frames.front().result->hull->Prepare();
   std::unique_ptr<FrameJudge> judge = Take();
   for (ReplayedFrame& frame : run->frames) {
     judge->Judge(last, frame.result.get());

@@ -1,9 +1,9 @@
 #include "app/control/replay/replay_runs.h"
 
 #include <algorithm>
-#include <set>
 #include <utility>
 
+#include "app/control/replay/frames_of_motion.h"
 #include "recon/hull/visual_hull.h"
 
 namespace elbowroom::control {
@@ -11,32 +11,6 @@ namespace {
 
 // Of a run: frames that wait to be judged keep their contacts in memory.
 constexpr std::size_t kLongestPiece = 32;
-
-// A contour's motion, and the one before, come from the two pictures before.
-constexpr std::size_t kPicturesBefore = 2;
-
-// How many frames before `first` are needed so that the motion of each camera's silhouette is known as it was
-// in the trial.
-std::size_t FramesOfMotion(const sessions::SessionReader& session,
-                           std::span<const sessions::FrameSummary> frames, std::size_t first) {
-  const std::vector<sessions::StampRow> rows = session.stamp_rows();
-  if (rows.empty()) return 0;
-  std::vector<std::set<double>> times(session.header().rig.cameras.size());
-  const auto is_known = [&] {
-    return std::ranges::all_of(times,
-                               [](const auto& of_camera) { return of_camera.size() >= kPicturesBefore; });
-  };
-  auto row = std::ranges::lower_bound(rows, frames[first].frame, {}, &sessions::StampRow::frame);
-  std::size_t back = 0;
-  while (back < first && !is_known()) {
-    ++back;
-    if (row == rows.begin() || std::prev(row)->frame != frames[first - back].frame) continue;
-    --row;
-    for (core::CameraIndex i = 0; i < times.size(); ++i)
-      if (row->stamps[i]) times[i].insert(row->stamps[i]->time_s);
-  }
-  return back;
-}
 
 }  // namespace
 
@@ -53,9 +27,9 @@ ReplayRuns::ReplayRuns(const sessions::SessionReader& session, std::span<const s
   // before planes of these sizes are made.
   const std::size_t begin = BeginOfRun(first);
   planes_ = recon::MakeUndistortedPlanes(*rig_);
-  next_ = begin > 0 ? begin - 1 : 0;
-  if (asks_clearance_) next_ = std::min(next_, first - FramesOfMotion(session_, frames_, first));
-  while (next_ < begin) before_ = RecordedAs(Load(next_).record);
+  next_ = begin;
+  if (asks_clearance_) next_ = std::min(next_, first - FramesOfMotion(session_.stamp_rows(), frames_, first));
+  while (next_ < begin) (void)Load(next_);
 }
 
 std::size_t ReplayRuns::BeginOfRun(std::size_t first) const {
@@ -70,7 +44,6 @@ std::optional<ReplayRun> ReplayRuns::Next() {
   if (!pending_) return std::nullopt;
   ReplayRun run;
   run.goes_on = goes_on_;
-  if (!goes_on_) run.before = before_;
   const SharedHull hull = pending_->hull;
   goes_on_ = false;
   while (pending_) {
@@ -81,7 +54,6 @@ std::optional<ReplayRun> ReplayRuns::Next() {
     goes_on_ = run.frames.size() == kLongestPiece;
     if (goes_on_) break;
   }
-  before_ = RecordedAs(run.frames.back().recorded);
   return run;
 }
 
@@ -109,20 +81,6 @@ ReplayedFrame ReplayRuns::FrameFrom(Loaded loaded) {
   result.layout = shared_layout_;
   result.world_from_parts = core::PosesAt(*shared_layout_, result.record.spacing_mm);
   return frame;
-}
-
-std::shared_ptr<const FrameResult> ReplayRuns::RecordedAs(const core::FrameRecord& record) const {
-  const std::vector<core::RigidTransform> world_from_parts =
-      core::PosesAt(session_.header().layout, record.spacing_mm);
-  auto result = std::make_shared<FrameResult>();
-  for (core::PartIndex i = 0; i < shared_layout_->parts.size(); ++i) {
-    const auto& source = layout_.RecordedOf(i);
-    const bool has_answer = source && source->has_same_mesh;
-    result->record.contacts.push_back(has_answer ? record.contacts[source->part] : core::PartContact());
-    result->record.contacts.back().part = i;
-    result->world_from_parts.push_back(has_answer ? world_from_parts[source->part] : core::RigidTransform());
-  }
-  return result;
 }
 
 }  // namespace elbowroom::control

@@ -24,9 +24,6 @@ struct ReplayedFrame {
 // Frames that follow each other, with one hull, which isn't that of the frame before.
 struct ReplayRun {
   std::vector<ReplayedFrame> frames;
-  // The recorded frame before the first, in terms of the replay's layout: where the searches for clearances
-  // begin, as they did in the trial. Null: there is none, or it is in the run before.
-  std::shared_ptr<const FrameResult> before;
   // Its hull is that of the run before: a run of many frames is cut into pieces. It is judged after that one.
   bool goes_on = false;
 };
@@ -51,7 +48,6 @@ class ReplayRuns {
   [[nodiscard]] std::size_t BeginOfRun(std::size_t first) const;
   [[nodiscard]] Loaded Load(std::size_t i);
   [[nodiscard]] ReplayedFrame FrameFrom(Loaded loaded);
-  [[nodiscard]] std::shared_ptr<const FrameResult> RecordedAs(const core::FrameRecord& record) const;
 
   const sessions::SessionReader& session_;
   std::span<const sessions::FrameSummary> frames_;
@@ -65,8 +61,7 @@ class ReplayRuns {
   std::size_t end_;
   bool asks_clearance_;
   SharedHull last_hull_;
-  std::shared_ptr<const FrameResult> before_;  // the frame before the next run
-  std::optional<Loaded> pending_;              // the first frame of the next run
+  std::optional<Loaded> pending_;  // the first frame of the next run
   bool goes_on_ = false;
 };
 

@@ -67,7 +67,7 @@ core::PartContact ReviewOf(const recon::VisualHull& hull, const HardAssembly& as
                            review::InsideCells* inside) {
   return review::ReviewPart(hull, assembly.TreeOf(part),
                             world_from_assembly * assembly.instances[part].assembly_from_part, part,
-                            AssemblyReview(), {}, inside);
+                            AssemblyReview(), inside);
 }
 
 }  // namespace elbowroom::accuracy
