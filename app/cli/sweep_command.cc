@@ -1,22 +1,26 @@
-// elbowroom sweep S.db --spacing NAME=FROM:TO:STEP_MM --out DIR: how much space the recorded motion needs.
+// elbowroom sweep S.db... --spacing NAME=FROM:TO:STEP_MM --out DIR: how much space recorded motion needs.
 #include <fmt/format.h>
+#include <tbb/global_control.h>
 
-#include <filesystem>
+#include <cstdint>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "app/cli/command.h"
 #include "app/cli/unit_option.h"
 #include "app/cli/value_json.h"
 #include "app/control/sweep/spacing_sweep.h"
+#include "app/control/sweep/sweep_engines.h"
+#include "app/control/sweep/sweep_files.h"
 
 namespace elbowroom::cli {
 namespace {
 
 struct SweepOptions {
-  std::filesystem::path session;
-  std::filesystem::path out;
-  control::SpacingRange range;
+  control::SweepRequest request;
+  control::SweepEngine engine = control::SweepEngine::kLocal;
+  bool cells_only = false;
 };
 
 // NAME=FROM:TO:STEP
@@ -44,48 +48,131 @@ nlohmann::json PartJson(const review::PartAtSpacing& part, const std::string& na
           {"closest_frame", part.closest_frame ? nlohmann::json(*part.closest_frame) : nlohmann::json()}};
 }
 
-nlohmann::json StudyJson(const core::Layout& layout, const std::string& spacing,
-                         const review::SpacingStudy& study) {
-  nlohmann::json json = {{"spacing", spacing},
-                         {"moved", nlohmann::json::array()},
-                         {"largest_touched_mm", OrNull(study.largest_touched_mm)},
-                         {"smallest_free_mm", OrNull(study.smallest_free_mm)},
-                         {"steps", nlohmann::json::array()},
-                         {"asked", study.count.asked},
-                         {"settled_by_motion", study.count.settled_by_motion},
-                         {"unmoved", study.count.unmoved},
-                         {"queries", study.count.queries}};
-  for (const core::PartIndex part : study.moved) json["moved"].push_back(layout.parts[part].name);
-  for (const review::StudyStep& step : study.steps) {
+nlohmann::json StepsJson(const control::SpacingSweep& sweep, const review::SpacingCurve& curve) {
+  nlohmann::json steps = nlohmann::json::array();
+  for (const review::StudyStep& step : curve.steps) {
     nlohmann::json parts = nlohmann::json::array();
     for (core::PartIndex i = 0; i < step.parts.size(); ++i)
-      parts.push_back(PartJson(step.parts[i], layout.parts[i].name));
-    json["steps"].push_back({{"spacing_mm", step.spacing_mm}, {"parts", parts}});
+      parts.push_back(PartJson(step.parts[i], sweep.parts[i]));
+    steps.push_back({{"spacing_mm", step.spacing_mm}, {"parts", parts}});
   }
+  return steps;
+}
+
+nlohmann::json CurveJson(const control::SpacingSweep& sweep, const review::SpacingCurve& curve,
+                         const std::optional<double>& with_clearance_mm) {
+  return {{"frames", curve.frames},
+          {"largest_touched_mm", OrNull(curve.largest_touched_mm)},
+          {"smallest_free_mm", OrNull(curve.smallest_free_mm)},
+          {"smallest_with_clearance_mm", OrNull(with_clearance_mm)},
+          {"steps", StepsJson(sweep, curve)}};
+}
+
+// `session`: null for all of them.
+nlohmann::json CurvesJson(const control::SpacingSweep& sweep, const control::SweptCurves& curves,
+                          const control::SweptSession* session) {
+  const auto json_of = [&](const review::SpacingCurve& curve) {
+    return CurveJson(sweep, curve,
+                     session != nullptr ? control::SmallestWithClearanceMm(sweep, *session, curve)
+                                        : control::SmallestWithClearanceMm(sweep, curve));
+  };
+  nlohmann::json json = json_of(curves.all);
+  json["tools"] = nlohmann::json::array();
+  const auto add = [&](const nlohmann::json& tool, const review::SpacingCurve& curve) {
+    nlohmann::json of_tool = json_of(curve);
+    of_tool["tool"] = tool;
+    json["tools"].push_back(std::move(of_tool));
+  };
+  add(nullptr, curves.without_tools);
+  for (const auto& [tool, curve] : curves.with_tool) add(tool, curve);
   return json;
 }
 
-std::string TextOf(const std::string& spacing, const review::SpacingStudy& study) {
-  if (study.moved.empty()) return fmt::format("'{}' moves no part", spacing);
-  if (!study.smallest_free_mm)
-    return fmt::format("'{}': touched at {:.1f} mm; no spacing tried above it is free of contact", spacing,
-                       study.largest_touched_mm.value_or(study.steps.back().spacing_mm));
-  if (!study.largest_touched_mm)
-    return fmt::format("'{}': free of contact from {:.1f} mm on, the smallest tried", spacing,
-                       *study.smallest_free_mm);
-  return fmt::format("'{}': touched at {:.2f} mm, free of contact from {:.2f} mm on", spacing,
-                     *study.largest_touched_mm, *study.smallest_free_mm);
+nlohmann::json SessionJson(const control::SpacingSweep& sweep, const control::SweptSession& session) {
+  nlohmann::json json = CurvesJson(sweep, session.curves, &session);
+  json["session"] = session.path.string();
+  json["recording_id"] = session.recording_id;
+  json["participant"] = session.participant;
+  json["estimate_mm"] = session.estimate_mm > 0.0 ? nlohmann::json(session.estimate_mm) : nlohmann::json();
+  json["required_clearance_mm"] = session.required_clearance_mm;
+  json["frames_without_camera"] = session.frames_without_camera;
+  return json;
+}
+
+// The keys of all sessions' curve stand at the top, as those of a single session's.
+nlohmann::json SweepJson(const SweepOptions& options, const control::SpacingSweep& sweep) {
+  nlohmann::json all = CurvesJson(sweep, sweep.all, nullptr), json = all;
+  json["all"] = std::move(all);
+  json["spacing"] = options.request.range.spacing;
+  json["moved"] = nlohmann::json::array();
+  for (const core::PartIndex part : sweep.moved) json["moved"].push_back(sweep.parts[part]);
+  json["sessions"] = nlohmann::json::array();
+  std::int64_t without_camera = 0;
+  for (const control::SweptSession& session : sweep.sessions) {
+    json["sessions"].push_back(SessionJson(sweep, session));
+    without_camera += session.frames_without_camera;
+  }
+  json["frames_without_camera"] = without_camera;
+  json["asked"] = sweep.count.asked;
+  json["settled_by_motion"] = sweep.count.settled_by_motion;
+  json["unmoved"] = sweep.count.unmoved;
+  json["unchanged_frames"] = sweep.count.unchanged_frames;
+  json["queries"] = sweep.count.queries;
+  json["cells"] = sweep.cells;
+  json["cells_from_before"] = sweep.cells_from_before;
+  json["engine"] = control::ToString(options.engine);
+  return json;
+}
+
+std::string TextOf(const std::string& spacing, const control::SpacingSweep& sweep,
+                   const review::SpacingCurve& curve) {
+  if (sweep.moved.empty()) return fmt::format("'{}' moves no part", spacing);
+  std::string text;
+  if (!curve.smallest_free_mm)
+    text = fmt::format("'{}': touched at {:.1f} mm; no spacing tried above it is free of contact", spacing,
+                       curve.largest_touched_mm.value_or(curve.steps.back().spacing_mm));
+  else if (!curve.largest_touched_mm)
+    text = fmt::format("'{}': free of contact from {:.1f} mm on, the smallest tried", spacing,
+                       *curve.smallest_free_mm);
+  else
+    text = fmt::format("'{}': touched at {:.2f} mm, free of contact from {:.2f} mm on", spacing,
+                       *curve.largest_touched_mm, *curve.smallest_free_mm);
+  if (const auto clear_mm = control::SmallestWithClearanceMm(sweep, curve))
+    text += fmt::format("; the required clearance is sure from {:.6g} mm on", *clear_mm);
+  return text;
+}
+
+std::string TextOf(const std::string& spacing, const control::SpacingSweep& sweep) {
+  std::string text = TextOf(spacing, sweep, sweep.all.all);
+  if (sweep.sessions.size() > 1) {
+    text = fmt::format("{} sessions: {}", sweep.sessions.size(), text);
+    for (const control::SweptSession& session : sweep.sessions)
+      text += fmt::format("\n{}: {}", session.path.string(), TextOf(spacing, sweep, session.curves.all));
+  }
+  if (sweep.all.with_tool.empty()) return text;
+  text += "\nwithout a tool: " + TextOf(spacing, sweep, sweep.all.without_tools);
+  for (const auto& [tool, curve] : sweep.all.with_tool)
+    text += fmt::format("\nwith {}: {}", tool, TextOf(spacing, sweep, curve));
+  return text;
 }
 
 CommandResult Run(const SweepOptions& options, const CommandContext& context) {
-  const sessions::SessionReader session(options.session, context.stop);
-  const review::SpacingStudy study =
-      control::SweepSpacing(session, options.range, context.progress, context.stop);
+  control::SweepRequest request = options.request;
+  const auto threads =
+      static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+  if (options.engine != control::SweepEngine::kLocal)
+    request.cells_before =
+        control::RunSweepEngine(options.engine, request, threads, context.progress, context.stop);
+  const control::SpacingSweep sweep = control::SweepSpacing(request, context.progress, context.stop);
   CommandResult result;
-  result.json = StudyJson(session.header().layout, options.range.spacing, study);
-  result.text = TextOf(options.range.spacing, study);
+  result.json = SweepJson(options, sweep);
+  result.text = TextOf(request.range.spacing, sweep);
+  if (sweep.cells_from_before > 0)
+    result.text +=
+        fmt::format("\n{} of {} cells were kept from before", sweep.cells_from_before, sweep.cells);
   result.json["files"] = nlohmann::json::array();
-  for (const auto& file : control::WriteSpacingSweep(session.header(), options.range, study, options.out)) {
+  if (options.cells_only) return result;
+  for (const auto& file : control::WriteSpacingSweep(request.range, sweep, request.folder)) {
     result.json["files"].push_back(file.string());
     result.text += "\n" + file.string();
   }
@@ -96,12 +183,13 @@ CommandResult Run(const SweepOptions& options, const CommandContext& context) {
 
 void AddSweepCommand(CLI::App& app, Choice* choice) {
   CLI::App* command =
-      app.add_subcommand("sweep", "space needed: contacts and clearance of a session over a spacing");
+      app.add_subcommand("sweep", "space needed: contacts and clearance of sessions over a spacing");
   auto options = std::make_shared<SweepOptions>();
-  command->add_option("SESSION", options->session, "the session (S.db)")->required();
+  command->add_option("SESSION", options->request.sessions, "the sessions (S.db), of one layout")->required();
   command
       ->add_option_function<std::string>(
-          "--spacing", [options](const std::string& text) { options->range = *ParseSpacingRange(text); },
+          "--spacing",
+          [options](const std::string& text) { options->request.range = *ParseSpacingRange(text); },
           "the gap to sweep, and its values in mm")
       ->required()
       ->check(CLI::Validator(
@@ -111,8 +199,20 @@ void AddSweepCommand(CLI::App& app, Choice* choice) {
                        : "must be NAME=FROM:TO:STEP in mm, FROM no larger than TO, not " + text;
           },
           "NAME=FROM:TO:STEP_MM"));
-  command->add_option("--out", options->out, "folder for sweep.csv, sweep.svg, sweep.png; made if needed")
+  command
+      ->add_option("--out", options->request.folder,
+                   "folder for sweep.csv, sweep.svg, sweep.png; made if needed. What is done is kept in its "
+                   "cells, so that a sweep that was ended early goes on")
       ->required();
+  command
+      ->add_option_function<std::string>(
+          "--engine",
+          [options](const std::string& text) { options->engine = *control::ParseSweepEngine(text); },
+          "who judges: this process, processes of GNU parallel, or an array of Slurm")
+      ->check(CLI::IsMember({"local", "parallel", "slurm"}))
+      ->default_str("local");
+  command->add_flag("--cells-only", options->cells_only,
+                    "keep the cells, write no files: for an engine's jobs");
   command->callback(
       [=] { choice->action = [=](const CommandContext& context) { return Run(*options, context); }; });
 }

@@ -155,6 +155,7 @@ Child::~Child() {
 }
 
 void Child::Kill() const { ::kill(pid_, SIGKILL); }
+void Child::AskToEnd() const { ::kill(pid_, SIGTERM); }
 int Child::Wait() { return *Ask(0); }
 std::optional<int> Child::Status() { return Ask(WNOHANG); }
 

@@ -1,151 +1,142 @@
 #include "app/control/sweep/spacing_sweep.h"
 
 #include <fmt/format.h>
+#include <tbb/parallel_for.h>
+#include <tbb/partitioner.h>
+#include <tbb/task_arena.h>
 
-#include <algorithm>
-#include <cmath>
-#include <memory>
-#include <set>
-#include <string_view>
+#include <atomic>
+#include <exception>
+#include <mutex>
+#include <optional>
 #include <utility>
 
-#include "app/control/sweep/spacing_sweep_picture.h"
-#include "app/control/trial_rules.h"
+#include "app/control/sweep/session_sweep.h"
 #include "core/error.h"
-#include "core/spelling.h"
-#include "recon/contours/undistorted_plane.h"
-#include "recon/error_budget/motion_history.h"
-#include "recon/hull/visual_hull.h"
-#include "recon/images/png_file.h"
-#include "sessions/report/csv_text.h"
-#include "sessions/report/whole_files.h"
 
 namespace elbowroom::control {
 namespace {
 
-core::SpacingIndex FindSpacing(const core::Layout& layout, const std::string& name) {
-  if (const auto index = layout.FindSpacing(name)) return *index;
-  std::vector<std::string_view> known;
-  for (const core::Spacing& spacing : layout.spacings) known.emplace_back(spacing.name);
-  const auto nearest = core::NearestWord(name, known);
-  throw core::Error(
-      core::ErrorKind::kRange,
-      fmt::format("--spacing: no spacing of the session is named '{}'; {}", name,
-                  nearest ? fmt::format("did you mean '{}'?", *nearest) : "use the name of a [[spacing]]"));
+// Runs a task for each session, several at once. The first failure stops the others, and is thrown.
+template <typename Task>
+void ForEachSession(std::size_t count, const std::stop_token& stop, const Task& task) {
+  std::stop_source all;
+  const std::stop_callback pass_on(stop, [&] { all.request_stop(); });
+  std::once_flag once;
+  std::exception_ptr first;
+  tbb::parallel_for(
+      tbb::blocked_range<std::size_t>(0, count, 1),
+      [&](const tbb::blocked_range<std::size_t>& range) {
+        // A thread that waits for its session's own work doesn't begin another session meanwhile.
+        tbb::this_task_arena::isolate([&] {
+          for (std::size_t i = range.begin(); i < range.end(); ++i) {
+            try {
+              core::ThrowIfStopped(all.get_token(), "the sweep");
+              task(i, all.get_token());
+            } catch (...) {
+              std::call_once(once, [&] { first = std::current_exception(); });
+              all.request_stop();
+            }
+          }
+        });
+      },
+      tbb::simple_partitioner());
+  if (first) std::rethrow_exception(first);
 }
 
-std::string SweepCsv(const core::Layout& layout, const review::SpacingStudy& study) {
-  std::string csv =
-      "spacing_mm,part,moves,frames_in_contact,frames_near,frames_undecided,frames_clear,deepest_mm,lower_mm,"
-      "upper_mm,closest_frame\n";
-  const auto length = [](double length_mm) {
-    return std::isfinite(length_mm) ? fmt::format("{}", length_mm) : std::string();
-  };
-  for (const review::StudyStep& step : study.steps) {
-    for (core::PartIndex i = 0; i < step.parts.size(); ++i) {
-      const review::PartAtSpacing& part = step.parts[i];
-      const bool moves = std::ranges::find(study.moved, i) != study.moved.end();
-      csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", step.spacing_mm,
-                         sessions::Quoted(layout.parts[i].name), moves ? 1 : 0, part.frames_in_contact,
-                         part.frames_near, part.frames_undecided, part.frames_clear, part.deepest_mm,
-                         length(part.lower_mm), length(part.upper_mm),
-                         part.closest_frame ? std::to_string(*part.closest_frame) : "");
-    }
-  }
-  return csv;
-}
-
-// Those with a picture of each camera. Without one the hull is too large, so that a touch of it shows
-// nothing.
-std::vector<sessions::FrameSummary> CompleteFrames(const sessions::SessionReader& session) {
-  std::vector<sessions::FrameSummary> frames = session.frames();
-  std::set<core::FrameIndex> incomplete;
-  for (const sessions::StampRow& frame : session.stamp_rows())
-    if (std::ranges::any_of(frame.stamps, [](const auto& stamp) { return !stamp; }))
-      incomplete.insert(frame.frame);
-  std::erase_if(frames,
-                [&](const sessions::FrameSummary& frame) { return incomplete.contains(frame.frame); });
-  return frames;
-}
-
-// Recorded frames with their hulls, and how fast these moved.
-class StudyFrameLoader {
+// What several threads report, one at a time; who comes meanwhile leaves it out.
+class SharedProgress {
  public:
-  StudyFrameLoader(const sessions::SessionReader& session, const std::vector<sessions::FrameSummary>& frames)
-      : session_(session), frames_(frames), rig_(std::make_shared<const core::Rig>(session.header().rig)) {
-    // Reading a frame checks that its silhouettes have the sizes of the cameras' pictures, before planes of
-    // these sizes are made.
-    (void)session.ReadFrame(frames.front().frame);
-    // Skew counts where a clearance is required.
-    has_stamps_ = session.header().trial.required_clearance_mm > 0.0 && !session.stamp_rows().empty();
-    planes_ = recon::MakeUndistortedPlanes(*rig_);
-  }
+  SharedProgress(const core::Progress& progress, std::int64_t total) : progress_(progress), total_(total) {}
 
-  // Frames with stamps need the two before them; where the last one loaded was the one before, that is known.
-  [[nodiscard]] review::StudyFrame Load(std::size_t i) {
-    if (i != next_) {
-      motions_ = {};
-      last_ = nullptr;
-      if (has_stamps_)
-        for (std::size_t before = i - std::min<std::size_t>(i, 2); before < i; ++before) (void)Follow(before);
-    }
-    next_ = i + 1;
-    return Follow(i);
+  void Add(std::int64_t frames) {
+    const std::int64_t done = done_ += frames;
+    if (is_reporting_.test_and_set()) return;
+    progress_.Report(done, total_, "frames");
+    is_reporting_.clear();
   }
 
  private:
-  review::StudyFrame Follow(std::size_t i) {
-    const core::FrameRecord record = session_.ReadFrame(frames_[i].frame);
-    const auto hull = recon::NextHull(last_, rig_, planes_, *record.masks).hull;
-    review::StudyFrame frame{record.frame, hull, record.spacing_mm};
-    if (!has_stamps_) return frame;
-    last_ = hull;
-    frame.skew_errors = motions_.Next(*hull, record.stamps, record.time_s);
-    return frame;
-  }
-
-  const sessions::SessionReader& session_;
-  const std::vector<sessions::FrameSummary>& frames_;
-  std::shared_ptr<const core::Rig> rig_;
-  recon::UndistortedPlanes planes_;
-  recon::MotionHistory motions_;
-  std::shared_ptr<const recon::VisualHull> last_;  // of a session with stamps: its silhouettes that stay
-  std::size_t next_ = 0;
-  bool has_stamps_ = false;
+  const core::Progress& progress_;
+  const std::int64_t total_;
+  std::atomic<std::int64_t> done_ = 0;
+  std::atomic_flag is_reporting_;
 };
+
+// What is compared between sessions before any of them is judged.
+struct SessionCheck {
+  std::vector<std::string> parts;
+  std::vector<core::PartIndex> moved;
+  std::string recording_id;
+};
+
+void RequireSameParts(const SweepRequest& request, const std::vector<SessionCheck>& checks) {
+  for (std::size_t i = 1; i < checks.size(); ++i) {
+    if (checks[i].parts == checks.front().parts && checks[i].moved == checks.front().moved) continue;
+    throw core::Error(
+        core::ErrorKind::kRange,
+        fmt::format("sessions '{}' and '{}' have parts of other names, or '{}' moves others; replay them "
+                    "with one layout, or sweep each alone",
+                    request.sessions.front().string(), request.sessions[i].string(), request.range.spacing));
+  }
+}
+
+void RequireEachOnce(const SweepRequest& request, const std::vector<SessionCheck>& checks) {
+  std::map<std::string, std::size_t> by_id;
+  for (std::size_t i = 0; i < checks.size(); ++i) {
+    if (checks[i].recording_id.empty()) continue;
+    const auto [other, is_new] = by_id.emplace(checks[i].recording_id, i);
+    if (is_new) continue;
+    throw core::Error(core::ErrorKind::kRange,
+                      fmt::format("sessions '{}' and '{}' are one recording, which would count twice; leave "
+                                  "one of them out",
+                                  request.sessions[other->second].string(), request.sessions[i].string()));
+  }
+}
+
+// How many frames there are in all. Throws what is wrong with any session.
+std::int64_t CheckSessions(const SweepRequest& request, const std::stop_token& stop) {
+  core::Require(!request.sessions.empty(), "a session at least");
+  std::vector<SessionCheck> checks(request.sessions.size());
+  std::atomic<std::int64_t> frames = 0;
+  ForEachSession(request.sessions.size(), stop, [&](std::size_t i, const std::stop_token& token) {
+    const SessionSweep session(request.sessions[i], request.range, token);
+    checks[i] = {session.PartNames(), session.MovedParts(), session.recording_id()};
+    frames += session.frame_count();
+  });
+  RequireSameParts(request, checks);
+  RequireEachOnce(request, checks);
+  return frames;
+}
 
 }  // namespace
 
-review::SpacingStudy SweepSpacing(const sessions::SessionReader& session, const SpacingRange& range,
-                                  const core::Progress& progress, std::stop_token stop) {
-  const core::SessionHeader& header = session.header();
-  review::SpacingStudyOptions options;
-  options.spacing = FindSpacing(header.layout, range.spacing);
-  options.from_mm = range.from_mm;
-  options.to_mm = range.to_mm;
-  options.step_mm = range.step_mm;
-  options.review = ReviewOptionsOf(header.trial, header.rig, header.rig_quality);
-  const std::vector<sessions::FrameSummary> frames = CompleteFrames(session);
-  if (frames.empty()) {
-    throw core::Error(core::ErrorKind::kRange,
-                      fmt::format("session '{}' has no frames with all cameras; record a trial first",
-                                  session.path().string()));
-  }
-  StudyFrameLoader loader(session, frames);
-  const auto load = [&](std::size_t i) { return loader.Load(i); };
-  return review::StudySpacing(header.layout, {frames.size(), load}, options, progress, stop);
+void CheckSweep(const SweepRequest& request, const std::stop_token& stop) {
+  (void)CheckSessions(request, stop);
 }
 
-std::vector<std::filesystem::path> WriteSpacingSweep(const core::SessionHeader& header,
-                                                     const SpacingRange& range,
-                                                     const review::SpacingStudy& study,
-                                                     const std::filesystem::path& folder) {
-  const LineDrawing picture = SpacingSweepPicture(header, range.spacing, study);
-  const std::vector<std::uint8_t> png = recon::EncodePng(ImageOf(picture));
-  sessions::WriteWholeFiles(folder, {{"sweep.csv", SweepCsv(header.layout, study)},
-                                     {"sweep.svg", SvgOf(picture)},
-                                     {"sweep.png", std::string(png.begin(), png.end())}});
-  return {folder / "sweep.csv", folder / "sweep.svg", folder / "sweep.png"};
+SpacingSweep SweepSpacing(const SweepRequest& request, const core::Progress& progress,
+                          const std::stop_token& stop) {
+  const std::int64_t total = CheckSessions(request, stop);
+  SharedProgress shared(progress, total);
+  std::vector<SessionPiece> pieces(request.sessions.size());
+  ForEachSession(request.sessions.size(), stop, [&](std::size_t i, const std::stop_token& token) {
+    const SessionSweep session(request.sessions[i], request.range, token);
+    pieces[i] = session.Run(
+        request, [&](std::int64_t frames) { shared.Add(frames); }, token);
+  });
+  SpacingSweep sweep;
+  sweep.parts = pieces.front().parts;
+  sweep.moved = pieces.front().moved;
+  for (SessionPiece& piece : pieces) {
+    sweep.count += piece.count;
+    sweep.cells += piece.cells;
+    sweep.cells_from_before += piece.cells_from_before;
+    sweep.sessions.push_back(std::move(piece.session));
+  }
+  sweep.all = Together(sweep.sessions);
+  progress.Report(total, total, "frames");
+  return sweep;
 }
 
 }  // namespace elbowroom::control

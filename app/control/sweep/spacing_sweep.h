@@ -1,15 +1,19 @@
-// How much space the recorded motion needs: one spacing of a session's layout swept over a range.
+// How much space recorded motion needs: one spacing of the layout swept over a range, for one session or all
+// participants'.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <map>
+#include <optional>
+#include <set>
 #include <stop_token>
 #include <string>
 #include <vector>
 
+#include "core/ids.h"
 #include "core/progress.h"
-#include "core/session.h"
 #include "review/spacing_study.h"
-#include "sessions/session_reader.h"
 
 namespace elbowroom::control {
 
@@ -20,18 +24,53 @@ struct SpacingRange {
   double step_mm = 10.0;
 };
 
-// Judges every recorded frame of the session at every step, against the clearance that the trial required.
-// Throws: core::Error{kRange}: no such spacing, a range beyond its limits, a session without frames; what
-// SessionReader throws; Error{kCancelled}.
-[[nodiscard]] review::SpacingStudy SweepSpacing(const sessions::SessionReader& session,
-                                                const SpacingRange& range, const core::Progress& progress,
-                                                std::stop_token stop);
+struct SweepRequest {
+  std::vector<std::filesystem::path> sessions;  // at least one; all have parts of the same names
+  SpacingRange range;
+  std::filesystem::path folder;  // keeps what is done, in `cells`; made if need be
+  // The names of the cells that count as kept from before. Nothing: all that are there.
+  std::optional<std::set<std::string>> cells_before = {};
+};
 
-// sweep.csv (a line for each part at each step), sweep.svg and sweep.png in `folder`, which is made if it
-// isn't there; all or none. Throws: core::Error{kFile}.
-[[nodiscard]] std::vector<std::filesystem::path> WriteSpacingSweep(const core::SessionHeader& header,
-                                                                   const SpacingRange& range,
-                                                                   const review::SpacingStudy& study,
-                                                                   const std::filesystem::path& folder);
+// The same question for all frames, and for those with a tool.
+struct SweptCurves {
+  review::SpacingCurve all;
+  review::SpacingCurve without_tools;                     // frames in which none was marked in use
+  std::map<std::string, review::SpacingCurve> with_tool;  // frames in which it was, maybe beside others
+};
+
+struct SweptSession {
+  std::filesystem::path path;
+  std::string recording_id;
+  std::string participant;
+  double estimate_mm = 0.0;                // 0: none given
+  double required_clearance_mm = 0.0;      // 0: only contact was judged
+  std::int64_t frames_without_camera = 0;  // left out: a picture is missing, so the hull is larger
+  SweptCurves curves;
+};
+
+struct SpacingSweep {
+  std::vector<std::string> parts;      // names
+  std::vector<core::PartIndex> moved;  // those that the spacing moves
+  std::vector<SweptSession> sessions;  // as they were asked for
+  SweptCurves all;                     // of all sessions; without numbers of frames if there are several
+  review::StudyCount count;
+  std::int64_t cells = 0;
+  std::int64_t cells_from_before = 0;  // of them: kept by a sweep that was ended early, or by another
+};
+
+// Judges every recorded frame at every step, against the clearance that its trial required: verdicts and
+// depths are those of a replay at that value (sweep_equals_replay_test). The work is cut into cells, each a
+// stretch of a session's frames at all steps. A finished cell is kept in the folder, whole or not at all, and
+// isn't asked again while session, range and program stay the same. What comes out is a function of sessions
+// and range alone, whatever the number of threads and whatever was kept. docs/sweep.md.
+// Throws: core::Error{kRange}: no such spacing, a range beyond its limits, a session without frames, other
+// parts than the first session's; {kFile}: the folder can't be written; what SessionReader throws;
+// {kCancelled}: what was finished is kept. Thread: any; `progress` is called on several, one at a time.
+[[nodiscard]] SpacingSweep SweepSpacing(const SweepRequest& request, const core::Progress& progress,
+                                        const std::stop_token& stop);
+
+// What SweepSpacing would throw at once for these sessions. Nothing is judged or written.
+void CheckSweep(const SweepRequest& request, const std::stop_token& stop);
 
 }  // namespace elbowroom::control

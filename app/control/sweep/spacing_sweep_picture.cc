@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <utility>
 
+#include "app/control/sweep/sweep_files.h"
 #include "sessions/report/chart.h"
 
 namespace elbowroom::control {
@@ -20,20 +23,21 @@ constexpr double kPlotWidth = 780.0;
 constexpr const char* kGridColor = "#dddddd";
 constexpr const char* kAxis = "#555555";
 constexpr const char* kFree = "#2a7f3b";
+constexpr const char* kWithClearance = "#1b5e8a";
 constexpr const char* kEstimate = "#8a6d00";
 // The parts' colours: for lines, and for the bands between a clearance's bounds.
 constexpr std::array<const char*, 5> kCurveColors = {"#b2182b", "#2166ac", "#7b3294", "#01665e", "#b35806"};
 constexpr std::array<const char*, 5> kPaleColors = {"#f4c5bd", "#c3d9ec", "#dcc9e4", "#bfe0dc", "#f3d7b6"};
 
 // The spacing runs to the right, in the members of sessions::Plot that are named after time.
-sessions::Plot PlotAt(double top, double height, const review::SpacingStudy& study, double high) {
+sessions::Plot PlotAt(double top, double height, const review::SpacingCurve& curve, double high) {
   sessions::Plot plot;
   plot.left = kLeft;
   plot.top = top;
   plot.width = kPlotWidth;
   plot.height = height;
-  plot.begin_s = study.steps.front().spacing_mm;
-  plot.end_s = std::max(study.steps.back().spacing_mm, plot.begin_s + 1.0);
+  plot.begin_s = curve.steps.front().spacing_mm;
+  plot.end_s = std::max(curve.steps.back().spacing_mm, plot.begin_s + 1.0);
   plot.high = high;
   return plot;
 }
@@ -65,30 +69,53 @@ void AddMark(const sessions::Plot& plot, double spacing_mm, const std::string& t
       {{is_left ? x + 6.0 : x - 6.0, text_y}, text, is_left ? Anchor::kStart : Anchor::kEnd, 13.0, color});
 }
 
-void AddMarks(const core::SessionHeader& header, const review::SpacingStudy& study,
-              const sessions::Plot& plot, bool has_text, LineDrawing* drawing) {
-  const double estimate_mm = header.trial.estimate_mm;
-  if (estimate_mm > 0.0) {
-    AddMark(plot, estimate_mm, has_text ? fmt::format("estimate {:.6g} mm", estimate_mm) : "", kEstimate,
-            plot.top + 16.0, drawing);
+void AddMarks(const SpacingSweep& sweep, const sessions::Plot& plot, bool has_text, LineDrawing* drawing) {
+  const auto text = [&](const char* what, double spacing_mm) {
+    return has_text ? fmt::format("{} {:.6g} mm", what, spacing_mm) : std::string();
+  };
+  const bool is_one = sweep.sessions.size() == 1;
+  bool is_first = true;
+  for (const SweptSession& session : sweep.sessions) {
+    if (!(session.estimate_mm > 0.0)) continue;
+    const bool has_label = std::exchange(is_first, false);
+    AddMark(plot, session.estimate_mm,
+            has_label ? text(is_one ? "estimate" : "estimates, the first", session.estimate_mm) : "",
+            kEstimate, plot.top + 16.0, drawing);
   }
-  if (study.smallest_free_mm) {
-    AddMark(plot, *study.smallest_free_mm,
-            has_text ? fmt::format("no contact from {:.1f} mm on", *study.smallest_free_mm) : "", kFree,
-            plot.top + 34.0, drawing);
-  }
+  if (sweep.all.all.smallest_free_mm)
+    AddMark(plot, *sweep.all.all.smallest_free_mm, text("no contact from", *sweep.all.all.smallest_free_mm),
+            kFree, plot.top + 34.0, drawing);
+  if (const auto clear_mm = SmallestWithClearanceMm(sweep, sweep.all.all))
+    AddMark(plot, *clear_mm, text("required clearance from", *clear_mm), kWithClearance, plot.top + 52.0,
+            drawing);
 }
 
 // The upper end of the clearance axis: a little above the largest finite upper bound of the moved parts.
-double HighestMm(const review::SpacingStudy& study) {
+double HighestMm(const SpacingSweep& sweep) {
   double highest_mm = 1.0;
-  for (const review::StudyStep& step : study.steps) {
-    for (const core::PartIndex part : study.moved) {
-      const double upper_mm = step.parts[part].upper_mm;
-      if (std::isfinite(upper_mm)) highest_mm = std::max(highest_mm, upper_mm);
-    }
-  }
+  for (const SweptSession& session : sweep.sessions)
+    for (const review::StudyStep& step : session.curves.all.steps)
+      for (const core::PartIndex part : sweep.moved)
+        if (std::isfinite(step.parts[part].upper_mm))
+          highest_mm = std::max(highest_mm, step.parts[part].upper_mm);
   return 1.05 * highest_mm;
+}
+
+// What the upper plot shows: frames, or of several sessions per cent of them.
+double ContactShare(const SpacingSweep& sweep, const review::SpacingCurve& curve,
+                    const review::PartAtSpacing& part) {
+  const auto frames = static_cast<double>(part.frames_in_contact);
+  if (sweep.sessions.size() == 1) return frames;
+  return 100.0 * frames / static_cast<double>(std::max<std::int64_t>(curve.frames, 1));
+}
+
+double HighestShare(const SpacingSweep& sweep) {
+  double highest = 1.0;
+  for (const SweptSession& session : sweep.sessions)
+    for (const review::StudyStep& step : session.curves.all.steps)
+      for (const core::PartIndex part : sweep.moved)
+        highest = std::max(highest, ContactShare(sweep, session.curves.all, step.parts[part]));
+  return 1.05 * highest;
 }
 
 // A dot where a step was judged; the lines between dots only join them.
@@ -97,20 +124,42 @@ LineDrawing::Area DotAt(const LineDrawing::Point& at, const char* color) {
   return {{{at.x - kHalf, at.y - kHalf}, {at.x + kHalf, at.y + kHalf}}, color};
 }
 
-void AddPart(const review::SpacingStudy& study, core::PartIndex part, std::size_t color,
-             const sessions::Plot& frames, const sessions::Plot& clearance, LineDrawing* drawing) {
-  LineDrawing::Line contacts{{}, kCurveColors[color], 2.0}, lower{{}, kCurveColors[color], 1.0},
-      upper = lower;
-  LineDrawing::Area band{{}, kPaleColors[color]};
-  for (const review::StudyStep& step : study.steps) {
+// The two plots of the picture.
+struct Plots {
+  sessions::Plot contact;
+  sessions::Plot clearance;
+};
+
+// A part's curve of one of several sessions.
+void AddThin(const SpacingSweep& sweep, const review::SpacingCurve& curve, core::PartIndex part,
+             std::size_t color, const Plots& plots, LineDrawing* drawing) {
+  LineDrawing::Line contacts{{}, kPaleColors[color], 1.0}, upper = contacts;
+  for (const review::StudyStep& step : curve.steps) {
     const review::PartAtSpacing& at = step.parts[part];
-    const double x = frames.X(step.spacing_mm), y = frames.Y(static_cast<double>(at.frames_in_contact));
+    const double x = plots.contact.X(step.spacing_mm);
+    contacts.points.push_back({x, plots.contact.Y(ContactShare(sweep, curve, at))});
+    if (std::isfinite(at.upper_mm)) upper.points.push_back({x, plots.clearance.Y(at.upper_mm)});
+  }
+  drawing->lines.push_back(contacts);
+  drawing->lines.push_back(upper);
+}
+
+void AddThick(const SpacingSweep& sweep, core::PartIndex part, std::size_t color, const Plots& plots,
+              LineDrawing* drawing) {
+  const bool is_one = sweep.sessions.size() == 1;
+  LineDrawing::Line contacts{{}, kCurveColors[color], is_one ? 2.0 : 3.0},
+      lower{{}, kCurveColors[color], 1.0}, upper{{}, kCurveColors[color], is_one ? 1.0 : 2.0};
+  LineDrawing::Area band{{}, kPaleColors[color]};
+  for (const review::StudyStep& step : sweep.all.all.steps) {
+    const review::PartAtSpacing& at = step.parts[part];
+    const double x = plots.contact.X(step.spacing_mm),
+                 y = plots.contact.Y(ContactShare(sweep, sweep.all.all, at));
     contacts.points.push_back({x, y});
     drawing->areas.push_back(DotAt({x, y}, kCurveColors[color]));
     if (!std::isfinite(at.upper_mm)) continue;
-    drawing->areas.push_back(DotAt({x, clearance.Y(at.upper_mm)}, kCurveColors[color]));
-    lower.points.push_back({x, clearance.Y(at.lower_mm)});
-    upper.points.push_back({x, clearance.Y(at.upper_mm)});
+    drawing->areas.push_back(DotAt({x, plots.clearance.Y(at.upper_mm)}, kCurveColors[color]));
+    lower.points.push_back({x, plots.clearance.Y(at.lower_mm)});
+    upper.points.push_back({x, plots.clearance.Y(at.upper_mm)});
   }
   band.points = upper.points;
   band.points.insert(band.points.end(), lower.points.rbegin(), lower.points.rend());
@@ -118,33 +167,41 @@ void AddPart(const review::SpacingStudy& study, core::PartIndex part, std::size_
   for (LineDrawing::Line& line : std::array{contacts, lower, upper}) drawing->lines.push_back(line);
 }
 
+void AddLegend(const SpacingSweep& sweep, LineDrawing* drawing) {
+  double legend_x = kLeft;
+  for (std::size_t i = 0; i < sweep.moved.size(); ++i) {
+    const std::string& name = sweep.parts[sweep.moved[i]];
+    drawing->areas.push_back(
+        {{{legend_x, 24.0}, {legend_x + 14.0, 34.0}}, kCurveColors[i % kCurveColors.size()]});
+    drawing->texts.push_back({{legend_x + 20.0, 34.0}, name, Anchor::kStart, 14.0});
+    legend_x += 50.0 + 9.0 * static_cast<double>(name.size());
+  }
+  if (sweep.sessions.size() > 1)
+    drawing->texts.push_back({{kLeft + kPlotWidth, 34.0},
+                              fmt::format("{} sessions: each thin, all thick", sweep.sessions.size()),
+                              Anchor::kEnd,
+                              14.0});
+}
+
 }  // namespace
 
-LineDrawing SpacingSweepPicture(const core::SessionHeader& header, const std::string& spacing,
-                                const review::SpacingStudy& study) {
+LineDrawing SpacingSweepPicture(const SpacingSweep& sweep, const std::string& spacing) {
   LineDrawing drawing;
   drawing.width_px = kChartWidthPx;
   drawing.height_px = kChartHeightPx;
-  double most_frames = 1.0;
-  for (const review::StudyStep& step : study.steps) {
-    for (const core::PartIndex part : study.moved)
-      most_frames = std::max(most_frames, static_cast<double>(step.parts[part].frames_in_contact));
-  }
-  const sessions::Plot frames = PlotAt(72.0, 200.0, study, 1.05 * most_frames),
-                       clearance = PlotAt(344.0, 200.0, study, HighestMm(study));
-  AddAxes(frames, "frames in contact", &drawing);
-  AddAxes(clearance, "least clearance over all frames, mm: between its two bounds", &drawing);
-  double legend_x = kLeft;
-  for (std::size_t i = 0; i < study.moved.size(); ++i) {
-    const std::size_t color = i % kCurveColors.size();
-    AddPart(study, study.moved[i], color, frames, clearance, &drawing);
-    const std::string& name = header.layout.parts[study.moved[i]].name;
-    drawing.areas.push_back({{{legend_x, 24.0}, {legend_x + 14.0, 34.0}}, kCurveColors[color]});
-    drawing.texts.push_back({{legend_x + 20.0, 34.0}, name, Anchor::kStart, 14.0});
-    legend_x += 50.0 + 9.0 * static_cast<double>(name.size());
-  }
-  AddMarks(header, study, frames, true, &drawing);
-  AddMarks(header, study, clearance, false, &drawing);
+  const bool is_one = sweep.sessions.size() == 1;
+  const Plots plots{PlotAt(72.0, 200.0, sweep.all.all, HighestShare(sweep)),
+                    PlotAt(344.0, 200.0, sweep.all.all, HighestMm(sweep))};
+  AddAxes(plots.contact, is_one ? "frames in contact" : "frames in contact, per cent", &drawing);
+  AddAxes(plots.clearance, "least clearance over all frames, mm: between its two bounds", &drawing);
+  for (std::size_t i = 0; i < sweep.moved.size() && !is_one; ++i)
+    for (const SweptSession& session : sweep.sessions)
+      AddThin(sweep, session.curves.all, sweep.moved[i], i % kCurveColors.size(), plots, &drawing);
+  for (std::size_t i = 0; i < sweep.moved.size(); ++i)
+    AddThick(sweep, sweep.moved[i], i % kCurveColors.size(), plots, &drawing);
+  AddLegend(sweep, &drawing);
+  AddMarks(sweep, plots.contact, true, &drawing);
+  AddMarks(sweep, plots.clearance, false, &drawing);
   drawing.texts.push_back({{kLeft + 0.5 * kPlotWidth, kChartHeightPx - 22.0},
                            fmt::format("{}, mm", spacing),
                            Anchor::kMiddle,

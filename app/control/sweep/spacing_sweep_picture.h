@@ -1,17 +1,17 @@
-// A spacing study as a chart: frames in contact and least clearance over the spacing.
+// A sweep as a chart: frames in contact and least clearance over the spacing.
 #pragma once
 
 #include <string>
 
 #include "app/control/line_drawing.h"
-#include "core/session.h"
-#include "review/spacing_study.h"
+#include "app/control/sweep/spacing_sweep.h"
 
 namespace elbowroom::control {
 
-// Shows the parts that the spacing moves: above, in how many frames each is in contact; below, the bounds of
-// its least clearance, as a band. Marks the smallest spacing without contact and the trial's estimate.
-[[nodiscard]] LineDrawing SpacingSweepPicture(const core::SessionHeader& header, const std::string& spacing,
-                                              const review::SpacingStudy& study);
+// Shows the parts that the spacing moves: above, in how many frames each is in contact (of several sessions,
+// in how many per cent: each session thin, all together thick); below, the bounds of its least clearance over
+// all frames, as a band (of several sessions, the upper bound of each, thin). Marks the smallest spacing
+// without contact and with the required clearance, and the participants' estimates.
+[[nodiscard]] LineDrawing SpacingSweepPicture(const SpacingSweep& sweep, const std::string& spacing);
 
 }  // namespace elbowroom::control

@@ -1,0 +1,29 @@
+// Who asks the cells of a sweep: this process, or processes that GNU parallel or Slurm starts.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <set>
+#include <stop_token>
+#include <string>
+#include <string_view>
+
+#include "app/control/sweep/spacing_sweep.h"
+#include "core/progress.h"
+
+namespace elbowroom::control {
+
+enum class SweepEngine { kLocal, kParallel, kSlurm };
+[[nodiscard]] std::optional<SweepEngine> ParseSweepEngine(std::string_view text);  // "local", "parallel", ...
+[[nodiscard]] std::string_view ToString(SweepEngine engine);
+
+// Has every cell of the request kept, by a process for each session, several at once, each with one thread
+// (Slurm: with `threads`). Writes the commands and, for Slurm, the script of the array into the folder's
+// `engine`. Then SweepSpacing finds all cells. kLocal: nothing is to be done. Returns the names of the cells
+// that were there before.
+// Throws: core::Error{kFile}: the engine's program isn't installed, a process failed (with its message);
+// {kCancelled}: processes are ended, an array is cancelled.
+std::set<std::string> RunSweepEngine(SweepEngine engine, const SweepRequest& request, int threads,
+                                     const core::Progress& progress, const std::stop_token& stop);
+
+}  // namespace elbowroom::control
