@@ -26,7 +26,7 @@ using recon::BallAnswer;
 constexpr std::array kFiner = {4.0, 32.0, 256.0};
 // A point of a part that is so many of the contacts' resolutions within the hull is on a piece of surface
 // whose centre is in the hull, too.
-constexpr double kSurelyFound = 2.0;
+constexpr double kSurelyFound = 1.0;
 // Rounding of a ray's crossings, by which touched stretches are shortened at both ends.
 constexpr double kCrossingRoundingMm = 1e-6;
 

@@ -13,7 +13,7 @@ namespace {
 
 // A cell's frames: so few that little is lost with a killed sweep, so many that what a cell's first frames
 // show saves most of the questions about the others.
-constexpr std::size_t kFramesACell = 128;
+constexpr std::size_t kFramesACell = 256;
 
 // The sets of tools of the frames [first, end), ascending, and which of them each frame has.
 struct ToolGroups {
