@@ -1,9 +1,11 @@
 // Which tools are marked in use, as the events of a trial say it one after the other.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "core/ids.h"
@@ -14,8 +16,16 @@ namespace elbowroom::core {
 // A tool that is marked twice is in use once.
 class ToolsInUse {
  public:
-  void Take(const ToolMarked& mark);
-  void Take(const SessionEvent& event);  // events of other kinds change nothing
+  void Take(const ToolMarked& mark) {
+    const auto at = std::ranges::lower_bound(names_, mark.tool);
+    const bool is_in_use = at != names_.end() && *at == mark.tool;
+    if (mark.in_use && !is_in_use) names_.insert(at, mark.tool);
+    if (!mark.in_use && is_in_use) names_.erase(at);
+  }
+  // Events of other kinds change nothing.
+  void Take(const SessionEvent& event) {
+    if (const auto* mark = std::get_if<ToolMarked>(&event.what)) Take(*mark);
+  }
 
   [[nodiscard]] const std::vector<std::string>& names() const { return names_; }  // ascending
 
@@ -30,7 +40,10 @@ class ToolsOfFrames {
   explicit ToolsOfFrames(std::vector<SessionEvent> events) : events_(std::move(events)) {}
 
   // Ascending; valid until the next call. Frames must not decrease from call to call.
-  [[nodiscard]] const std::vector<std::string>& At(FrameIndex frame);
+  [[nodiscard]] const std::vector<std::string>& At(FrameIndex frame) {
+    for (; next_ < events_.size() && events_[next_].frame <= frame; ++next_) now_.Take(events_[next_]);
+    return now_.names();
+  }
 
  private:
   std::vector<SessionEvent> events_;

@@ -6,9 +6,9 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <utility>
 
 #include "app/control/sweep/sweep_files.h"
+#include "core/infinity.h"
 #include "sessions/report/chart.h"
 
 namespace elbowroom::control {
@@ -58,36 +58,46 @@ void AddAxes(const sessions::Plot& plot, const std::string& title, LineDrawing* 
   drawing->texts.push_back({{plot.left, plot.top - 10.0}, title, Anchor::kStart, 14.0});
 }
 
-void AddMark(const sessions::Plot& plot, double spacing_mm, const std::string& text, const char* color,
-             double text_y, LineDrawing* drawing) {
+// A line of the colour. Its text stands at the plot's right end, where curves of contact are low.
+void AddMark(const sessions::Plot& plot, double spacing_mm, const char* color, LineDrawing* drawing) {
   if (spacing_mm < plot.begin_s || spacing_mm > plot.end_s) return;
   const double x = plot.X(spacing_mm);
   drawing->lines.push_back({{{x, plot.top}, {x, plot.bottom()}}, color, 2.0});
-  if (text.empty()) return;
-  const bool is_left = x < plot.left + 0.5 * plot.width;
-  drawing->texts.push_back(
-      {{is_left ? x + 6.0 : x - 6.0, text_y}, text, is_left ? Anchor::kStart : Anchor::kEnd, 13.0, color});
 }
 
-void AddMarks(const SpacingSweep& sweep, const sessions::Plot& plot, bool has_text, LineDrawing* drawing) {
-  const auto text = [&](const char* what, double spacing_mm) {
-    return has_text ? fmt::format("{} {:.6g} mm", what, spacing_mm) : std::string();
-  };
-  const bool is_one = sweep.sessions.size() == 1;
-  bool is_first = true;
+// The smallest and the largest of the participants' estimates.
+std::string EstimatesText(const SpacingSweep& sweep) {
+  double least_mm = core::kInfinity, most_mm = 0.0;
   for (const SweptSession& session : sweep.sessions) {
     if (!(session.estimate_mm > 0.0)) continue;
-    const bool has_label = std::exchange(is_first, false);
-    AddMark(plot, session.estimate_mm,
-            has_label ? text(is_one ? "estimate" : "estimates, the first", session.estimate_mm) : "",
-            kEstimate, plot.top + 16.0, drawing);
+    least_mm = std::min(least_mm, session.estimate_mm);
+    most_mm = std::max(most_mm, session.estimate_mm);
   }
-  if (sweep.all.all.smallest_free_mm)
-    AddMark(plot, *sweep.all.all.smallest_free_mm, text("no contact from", *sweep.all.all.smallest_free_mm),
-            kFree, plot.top + 34.0, drawing);
+  if (!(most_mm > 0.0)) return {};
+  if (least_mm == most_mm) return fmt::format("estimate {:.6g} mm", most_mm);
+  return fmt::format("estimates {:.6g} to {:.6g} mm", least_mm, most_mm);
+}
+
+void AddMarks(const SpacingSweep& sweep, const sessions::Plot& plot, LineDrawing* drawing) {
+  for (const SweptSession& session : sweep.sessions)
+    if (session.estimate_mm > 0.0) AddMark(plot, session.estimate_mm, kEstimate, drawing);
+  if (sweep.all.all.smallest_free_mm) AddMark(plot, *sweep.all.all.smallest_free_mm, kFree, drawing);
   if (const auto clear_mm = SmallestWithClearanceMm(sweep, sweep.all.all))
-    AddMark(plot, *clear_mm, text("required clearance from", *clear_mm), kWithClearance, plot.top + 52.0,
-            drawing);
+    AddMark(plot, *clear_mm, kWithClearance, drawing);
+}
+
+void AddMarkTexts(const SpacingSweep& sweep, const sessions::Plot& plot, LineDrawing* drawing) {
+  double y = plot.top + 16.0;
+  const auto add = [&](const std::string& text, const char* color) {
+    if (text.empty()) return;
+    drawing->texts.push_back({{plot.right() - 8.0, y}, text, Anchor::kEnd, 13.0, color});
+    y += 18.0;
+  };
+  add(EstimatesText(sweep), kEstimate);
+  if (const auto free_mm = sweep.all.all.smallest_free_mm)
+    add(fmt::format("no contact from {:.6g} mm on", *free_mm), kFree);
+  if (const auto clear_mm = SmallestWithClearanceMm(sweep, sweep.all.all))
+    add(fmt::format("required clearance from {:.6g} mm on", *clear_mm), kWithClearance);
 }
 
 // The upper end of the clearance axis: a little above the largest finite upper bound of the moved parts.
@@ -200,8 +210,9 @@ LineDrawing SpacingSweepPicture(const SpacingSweep& sweep, const std::string& sp
   for (std::size_t i = 0; i < sweep.moved.size(); ++i)
     AddThick(sweep, sweep.moved[i], i % kCurveColors.size(), plots, &drawing);
   AddLegend(sweep, &drawing);
-  AddMarks(sweep, plots.contact, true, &drawing);
-  AddMarks(sweep, plots.clearance, false, &drawing);
+  AddMarks(sweep, plots.contact, &drawing);
+  AddMarks(sweep, plots.clearance, &drawing);
+  AddMarkTexts(sweep, plots.contact, &drawing);
   drawing.texts.push_back({{kLeft + 0.5 * kPlotWidth, kChartHeightPx - 22.0},
                            fmt::format("{}, mm", spacing),
                            Anchor::kMiddle,

@@ -138,7 +138,7 @@ std::string MaybeText(const std::optional<double>& length_mm) {
 void AppendCurve(const SweepCell::Curve& of_tools, std::string* text) {
   const review::SpacingCurve& curve = of_tools.curve;
   *text += fmt::format("{}", of_tools.tools.size());
-  for (const std::string& tool : of_tools.tools) *text += " " + WordOf(tool);
+  for (const std::string& tool : of_tools.tools) *text += fmt::format(" {}", WordOf(tool));
   *text += fmt::format("\n{} {} {} {} {}\n", curve.frames, MaybeText(curve.largest_touched_mm),
                        MaybeText(curve.smallest_free_mm), curve.steps.size(),
                        curve.steps.empty() ? 0 : curve.steps.front().parts.size());
