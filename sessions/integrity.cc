@@ -10,7 +10,7 @@
 #include "sessions/database/damage.h"
 #include "sessions/database/query_limit.h"
 #include "sessions/database/statement.h"
-#include "sessions/schema_check.h"
+#include "sessions/schema/schema_check.h"
 
 namespace elbowroom::sessions {
 namespace {

@@ -5,9 +5,9 @@
 #include <memory>
 #include <optional>
 
-#include "app/cli/command.h"
-#include "app/cli/unit_option.h"
-#include "app/cli/value_json.h"
+#include "app/cli/options/command.h"
+#include "app/cli/options/unit_option.h"
+#include "app/cli/options/value_json.h"
 #include "app/control/sweep/spacing_sweep.h"
 
 namespace elbowroom::cli {
