@@ -59,4 +59,7 @@ struct Finding {
 [[nodiscard]] FindingId MakeFindingId(std::string_view first_recording_id, FindingKind kind,
                                       std::string_view part, FrameIndex begin_frame);
 
+// 32 hex digits that tell the remark from others of the finding: of who said what, and when.
+[[nodiscard]] std::string RemarkId(const FindingId& finding, const ReviewRemark& remark);
+
 }  // namespace elbowroom::core

@@ -8,10 +8,12 @@
 #include "core/error.h"
 #include "core/system/file_sync.h"
 #include "core/system/whole_file.h"
+#include "sessions/bcf/bcf_file.h"
 #include "sessions/report/clearance_csv.h"
 #include "sessions/report/contacts_csv.h"
 #include "sessions/report/report_data.h"
 #include "sessions/report/report_page.h"
+#include "sessions/report/report_topics.h"
 #include "sessions/report/stamps_csv.h"
 
 namespace elbowroom::sessions {
@@ -53,6 +55,7 @@ void WriteReport(const SessionReader& session, const ReportPictures& pictures,
       session, [&](const ContactRow& row) { contacts.Append(ContactLine(header.layout, row)); },
       [&](const ContactRow& row) { clearances.Append(ClearanceLine(header, row)); });
   files.Write(out_dir / "report.html", ReportPage(data, pictures));
+  files.Write(out_dir / "touches.bcfzip", PackBcf(TopicsOf(session, data.list, pictures)));
   constexpr const char* kStampsFile = "stamps.csv";
   if (!data.stamps.empty()) files.Write(out_dir / kStampsFile, StampsCsv(data.header.rig, data.stamps));
   files.RenameAll();

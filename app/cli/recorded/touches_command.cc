@@ -1,4 +1,4 @@
-// elbowroom touches S.db [set TOUCH...]: what reviewers follow, and what they say of it.
+// elbowroom touches S.db [set TOUCH... | import FILE]: what reviewers follow, and what they say of it.
 #include <fmt/format.h>
 #include <pwd.h>
 #include <unistd.h>
@@ -18,6 +18,8 @@
 #include "core/findings/finding_names.h"
 #include "core/plain_text.h"
 #include "core/system/utc_time.h"
+#include "sessions/bcf/bcf_file.h"
+#include "sessions/bcf/review_import.h"
 #include "sessions/review_editor.h"
 
 namespace elbowroom::cli {
@@ -167,6 +169,33 @@ CommandResult Set(const TouchesOptions& options, const SetOptions& set, const Co
   return result;
 }
 
+CommandResult Import(const TouchesOptions& options, const std::filesystem::path& file,
+                     const CommandContext& context) {
+  const std::vector<sessions::BcfTopic> topics = sessions::ReadBcfFile(file);
+  const sessions::ReviewImport import = sessions::RemarksFrom(topics, FindingsOf(options, context));
+  if (import.topics == 0)
+    throw core::Error(
+        core::ErrorKind::kRange,
+        fmt::format("{}: none of its {} topics is a touch or near miss of session '{}'; give the "
+                    "session that it was made from",
+                    file.string(), topics.size(), options.session.string()));
+  if (!import.remarks.empty()) sessions::AddRemarks(options.session, import.remarks);
+  CommandResult result = ListOf(options, FindingsOf(options, context));
+  result.json["changed"] = nlohmann::json::array();
+  for (const sessions::FindingRemark& said : import.remarks)
+    if (std::ranges::find(result.json["changed"], said.finding) == result.json["changed"].end())
+      result.json["changed"].push_back(said.finding);
+  result.json["imported"] = {{"file", file.string()},
+                             {"topics", import.topics},
+                             {"topics_of_others", import.of_others},
+                             {"remarks", import.remarks.size()},
+                             {"notes", import.notes}};
+  result.text += fmt::format("\n{}: {} topics, {} remarks taken over", file.string(), import.topics,
+                             import.remarks.size());
+  for (const std::string& note : import.notes) result.text += "\nnote: " + note;
+  return result;
+}
+
 }  // namespace
 
 void AddTouchesCommand(CLI::App& app, Choice* choice) {
@@ -195,6 +224,16 @@ void AddTouchesCommand(CLI::App& app, Choice* choice) {
     if (!said->status && said->comment.empty()) throw CLI::RequiredError("--status or --comment");
     choice->action = [=](const CommandContext& context) { return Set(*options, *said, context); };
   });
+
+  CLI::App* import =
+      command->add_subcommand("import", "take over statuses and comments from a BCF file that came back");
+  auto file = std::make_shared<std::filesystem::path>();
+  import->add_option("FILE", *file, "the BCF file (.bcfzip, .bcf), of version 2.1")->required();
+  import->callback([=] {
+    choice->action = [=](const CommandContext& context) { return Import(*options, *file, context);
+};
+}  // namespace elbowroom::cli
+);
 }
 
 }  // namespace elbowroom::cli
