@@ -23,8 +23,6 @@
 namespace elbowroom::sessions {
 namespace {
 
-constexpr std::int64_t kRowsAReport = 1000;
-
 // What takes the room, and is of no use without the rest of its session.
 bool StaysInSession(std::string_view table) {
   constexpr std::array<std::string_view, 4> kStays = {"mesh", "mask", "silhouette", "v_silhouette"};
@@ -71,16 +69,14 @@ class MergedFile {
     const std::size_t columns = ColumnsOf(session, table).size();
     std::string places = "?";
     for (std::size_t i = 0; i < columns; ++i) places += ", ?";
-    SQLite::Statement insert(database_.connection(),
-                             fmt::format("INSERT INTO \"{}\" VALUES ({})", table, places));
-    sqlite3_stmt* raw = insert.getPreparedStatement();
+    RawStatement insert(database_, fmt::format("INSERT INTO \"{}\" VALUES ({})", table, places));
     std::int64_t rows = 0;
     VisitRows(session, table, [&](sqlite3_stmt* row) {
-      insert.reset();
-      insert.bind(1, session_id);
+      insert.Reset();
+      sqlite3_bind_int64(insert.get(), 1, session_id);
       for (int i = 0; i < static_cast<int>(columns); ++i)
-        sqlite3_bind_value(raw, i + 2, sqlite3_column_value(row, i));
-      insert.exec();
+        sqlite3_bind_value(insert.get(), i + 2, sqlite3_column_value(row, i));
+      (void)insert.Next();
       if (++rows % kRowsAReport != 0) return;
       core::ThrowIfStopped(stop, "the merge");
       progress.Report(rows, 0, fmt::format("session {}: rows of {}", session_id, table));

@@ -22,8 +22,6 @@
 namespace elbowroom::sessions {
 namespace {
 
-constexpr std::int64_t kRowsAReport = 1000;
-
 std::string TextAt(sqlite3_stmt* row, int column) {
   const auto* text = reinterpret_cast<const char*>(sqlite3_column_text(row, column));
   return AsUtf8(std::string(text, static_cast<std::size_t>(sqlite3_column_bytes(row, column))));

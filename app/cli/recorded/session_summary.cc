@@ -49,7 +49,7 @@ nlohmann::json SpacingsJson(const core::Layout& layout, const std::vector<sessio
 }
 
 nlohmann::json ReviewJson(const std::vector<core::Finding>& findings) {
-  nlohmann::json review = nlohmann::json::object();
+  nlohmann::json review = {{"statuses", nlohmann::json::object()}};
   std::size_t remarks = 0;
   for (const core::Finding& finding : findings) {
     const std::string status(core::ToString(finding.status()));

@@ -150,22 +150,28 @@ void RequireFit(const SetOptions& set) {
                                   set.comment.size(), kLongestCommentBytes));
 }
 
+// The ids of the findings, each once.
+std::vector<core::FindingId> ChangedBy(const std::vector<sessions::FindingRemark>& remarks) {
+  std::vector<core::FindingId> ids;
+  for (const sessions::FindingRemark& said : remarks)
+    if (std::ranges::find(ids, said.finding) == ids.end()) ids.push_back(said.finding);
+  return ids;
+}
+
 CommandResult Set(const TouchesOptions& options, const SetOptions& set, const CommandContext& context) {
   RequireFit(set);
   std::vector<sessions::FindingRemark> remarks;
-  nlohmann::json changed = nlohmann::json::array();
   {
     const std::vector<Finding> findings = FindingsOf(options, context);
     for (const std::string& text : set.touches) {
       const core::FindingId& id = core::FindFinding(findings, text).id;
-      if (std::ranges::find(changed, id) != changed.end()) continue;
-      remarks.push_back({id, {core::NowUtc(), set.by, set.status, set.comment}});
-      changed.push_back(id);
+      if (std::ranges::find(remarks, id, &sessions::FindingRemark::finding) == remarks.end())
+        remarks.push_back({id, {core::NowUtc(), set.by, set.status, set.comment}});
     }
   }
   sessions::AddRemarks(options.session, remarks);
   CommandResult result = ListOf(options, FindingsOf(options, context));
-  result.json["changed"] = changed;
+  result.json["changed"] = ChangedBy(remarks);
   return result;
 }
 
@@ -181,10 +187,7 @@ CommandResult Import(const TouchesOptions& options, const std::filesystem::path&
                     file.string(), topics.size(), options.session.string()));
   if (!import.remarks.empty()) sessions::AddRemarks(options.session, import.remarks);
   CommandResult result = ListOf(options, FindingsOf(options, context));
-  result.json["changed"] = nlohmann::json::array();
-  for (const sessions::FindingRemark& said : import.remarks)
-    if (std::ranges::find(result.json["changed"], said.finding) == result.json["changed"].end())
-      result.json["changed"].push_back(said.finding);
+  result.json["changed"] = ChangedBy(import.remarks);
   result.json["imported"] = {{"file", file.string()},
                              {"topics", import.topics},
                              {"topics_of_others", import.of_others},
