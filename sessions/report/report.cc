@@ -2,14 +2,18 @@
 
 #include <algorithm>
 #include <array>
+#include <future>
 #include <map>
 #include <system_error>
 #include <tuple>
 
 #include "core/error.h"
+#include "sessions/charts/chart_painter.h"
+#include "sessions/print/pdf.h"
 #include "sessions/report/clearance_csv.h"
 #include "sessions/report/contacts_csv.h"
 #include "sessions/report/report_data.h"
+#include "sessions/report/report_document.h"
 #include "sessions/report/report_page.h"
 #include "sessions/report/stamps_csv.h"
 #include "sessions/report/whole_files.h"
@@ -46,11 +50,15 @@ void WriteReport(const SessionReader& session, const ReportPictures& pictures,
   const ReportData data = CollectReportData(
       session, [&](const ContactRow& row) { contacts += ContactLine(header.layout, row); },
       [&](const ContactRow& row) { clearances += ClearanceLine(header, row); });
-  std::map<std::string, std::string> files = {{"report.html", ReportPage(data, pictures)},
+  ChartPainter painter;
+  const Document document = ReportDocument(data, pictures, &painter);
+  std::future<std::string> pdf = std::async(std::launch::async, [&] { return PdfOf(document); });
+  std::map<std::string, std::string> files = {{"report.html", ReportPage(data, document, pictures.model)},
                                               {"contacts.csv", std::move(contacts)},
                                               {"clearance.csv", std::move(clearances)}};
   constexpr const char* kStampsFile = "stamps.csv";
   if (!data.stamps.empty()) files.emplace(kStampsFile, StampsCsv(data.header.rig, data.stamps));
+  files.emplace("report.pdf", pdf.get());
   WriteWholeFiles(out_dir, files);
   // One of an earlier report in the same folder is of another session.
   std::error_code ignored;
