@@ -72,7 +72,7 @@ struct Tiles {
 
 struct DocumentColumn {
   RichText title;
-  bool is_number = false;  // aligned to the right; breaks at line breaks and within remarks and names only
+  bool is_number = false;  // aligned to the right; breaks at line breaks and within names only
 };
 
 struct DocumentCell {
@@ -100,7 +100,9 @@ struct DocumentTable {
 
 struct DrawnChart {
   Chart chart;
-  std::string svg;  // its colours are inks (ink.h)
+  // Its colours are inks (ink.h).
+  std::string svg;
+  std::string paper_svg;  // narrower, so that its texts are as large as a report's on paper
 };
 
 struct Picture {
@@ -127,6 +129,7 @@ struct Document {
   std::vector<std::string> facts;
   std::vector<Section> sections;
   RichText footer;
+  std::string source;       // the file that the document is of
   std::string made_at_utc;  // ISO 8601: what the document is of, not when it was written
 };
 

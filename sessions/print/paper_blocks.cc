@@ -17,7 +17,6 @@ constexpr double kBarWidth = 4.0;  // beside the verdict
 constexpr double kVerdictPad = 12.0;
 constexpr double kBulletIndent = 11.0;
 constexpr double kTileGap = 6.0;
-constexpr std::size_t kTilesInARow = 4;
 constexpr double kPictureWidth = 380.0;
 // A picture is drawn smaller, down to this share, to stand on the page where it belongs.
 constexpr double kSmallestPicture = 0.62;
@@ -40,7 +39,7 @@ class BlockPlacer {
     Flow(kicker, small);
     pages_.Mark(document.title, false);
     Flow(document.title, StrongLook(kTitleSize));
-    pages_.Space(2.0);
+    pages_.Space(4.0);
     Flow(facts, BodyLook(true));
     pages_.Space(8.0);
   }
@@ -79,7 +78,7 @@ class BlockPlacer {
   void operator()(const Bullets& bullets) {
     pages_.Space(2.0);
     for (const RichText& item : bullets.items) {
-      pages_.Need(2.0 * kTextSize);
+      pages_.Need(std::min(TextHeight(item, BodyLook(false)), 0.5 * kBodyHeight));
       PaperText dot(fonts_, "\u2022", BodyLook(false));
       dot.Wrap(kBulletIndent);
       pages_.Put(PlacedLines{dot, 0, 1, kMarginX + 2.0, pages_.y()});
@@ -103,7 +102,7 @@ class BlockPlacer {
     pages_.Space(8.0);
   }
   void operator()(const DrawnChart& chart) {
-    const SvgDrawing drawing(chart.svg, inks_);
+    const SvgDrawing drawing(chart.paper_svg, inks_);
     const Box box = ChartBox(drawing);
     pages_.Space(4.0);
     pages_.Need(box.height);
@@ -148,6 +147,16 @@ class BlockPlacer {
     return {0.0, 0.0, scale * drawing.width_px(), scale * drawing.height_px()};
   }
 
+  static double FullWidth(const PngDrawing& drawing) {
+    const double aspect = drawing.height_px() / drawing.width_px();
+    return std::min({kPictureWidth, drawing.width_px(), 0.9 * kBodyHeight / aspect});
+  }
+
+  // With what is above it. A long caption may go on on the next page.
+  double CaptionHeight(const Picture& picture) const {
+    return std::min(TextHeight(picture.caption, BodyLook(true)), 60.0) + 10.0;
+  }
+
   double TextHeight(const RichText& text, const TextLook& look) const {
     PaperText lines(fonts_, text, look);
     lines.Wrap(kBodyWidth);
@@ -163,10 +172,11 @@ class BlockPlacer {
       } else if (const auto* text = std::get_if<Paragraph>(&block)) {
         height += TextHeight(text->text, BodyLook(text->is_quiet)) + 4.0;
       } else if (const auto* chart = std::get_if<DrawnChart>(&block)) {
-        return height + ChartBox(SvgDrawing(chart->svg, inks_)).height + 4.0;
+        return height + ChartBox(SvgDrawing(chart->paper_svg, inks_)).height + 4.0;
       } else if (const auto* picture = std::get_if<Picture>(&block)) {
         const PngDrawing drawing(picture->png);
-        return height + kSmallestPicture * kPictureWidth * drawing.height_px() / drawing.width_px() + 30.0;
+        const double smallest = kSmallestPicture * FullWidth(drawing) * drawing.height_px() / drawing.width_px();
+        return height + smallest + CaptionHeight(*picture) + 8.0;
       } else {
         return height + kLeastBesideHeading;
       }
@@ -180,11 +190,11 @@ class BlockPlacer {
 };
 
 void BlockPlacer::operator()(const Tiles& tiles) {
-  const std::size_t in_a_row = std::min(kTilesInARow, std::max<std::size_t>(tiles.tiles.size(), 1));
+  const std::size_t in_a_row = tiles.tiles.size() > 4 ? 3 : std::max<std::size_t>(tiles.tiles.size(), 1);
   const double gaps = kTileGap * static_cast<double>(in_a_row - 1);
   const double width = (kBodyWidth - gaps) / static_cast<double>(in_a_row);
   const TextLook look{.size_pt = 7.5,
-                      .color = kQuietInk,
+                      .color = kInk,
                       .strong_scale = 13.0 / 7.5,
                       .remark_scale = 1.0,
                       .remark_color = kQuietInk,
@@ -193,7 +203,8 @@ void BlockPlacer::operator()(const Tiles& tiles) {
   for (std::size_t i = 0; i < tiles.tiles.size(); ++i) {
     if (i % in_a_row == 0) rows.push_back({.cells = {}, .rule = 0.0, .is_framed = true});
     const Tile& tile = tiles.tiles[i];
-    RichText text(tile.title);
+    RichText text;
+    text += Remark(tile.title);
     text += {.text = tile.value, .emphasis = Emphasis::kStrong, .begins_line = true};
     if (!tile.remark.empty()) text += Remark(tile.remark);
     PaperCell& cell = rows.back().cells.emplace_back();
@@ -211,12 +222,11 @@ void BlockPlacer::operator()(const Tiles& tiles) {
 void BlockPlacer::operator()(const Picture& picture) {
   const PngDrawing drawing(picture.png);
   const double aspect = drawing.height_px() / drawing.width_px();
-  double width = std::min({kPictureWidth, drawing.width_px(), kBodyHeight / aspect - 40.0});
-  const double below = TextHeight(picture.caption, BodyLook(true)) + 4.0;
-  const double fits = (pages_.room() - below - 6.0) / aspect;
+  double width = FullWidth(drawing);
+  const double fits = (pages_.room() - CaptionHeight(picture)) / aspect;
   if (fits >= kSmallestPicture * width) width = std::min(width, fits);
   pages_.Space(6.0);
-  pages_.Need(width * aspect + std::min(below, 60.0));
+  pages_.Need(width * aspect + CaptionHeight(picture) - 6.5);
   pages_.Put(PlacedPng{drawing, {kMarginX, pages_.y(), width, width * aspect}});
   pages_.Down(width * aspect + 4.0);
   Flow(picture.caption, BodyLook(true));

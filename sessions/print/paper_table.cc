@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "core/error.h"
 #include "sessions/print/paper_look.h"
 
 namespace elbowroom::sessions {
@@ -18,6 +19,7 @@ constexpr double kFewestLinesHeight = 36.0;  // of a row that is continued on th
 constexpr double kLeastTableShare = 0.66;
 // A word longer than this share of the page's width may be broken.
 constexpr double kLongestWordShare = 0.22;
+constexpr double kShortText = 52.0;  // isn't broken between words
 
 double SnapshotHeight(const PngDrawing& picture) {
   return kSnapshotWidth * picture.height_px() / picture.width_px();
@@ -95,9 +97,10 @@ void PlaceRow(const PaperRow* head, const PaperRow& row, double needed, PaperPag
     PutHead(head, pages);
   }
   Progress at(row.cells.size(), 0);
-  while (true) {
+  for (bool is_continued = false;; is_continued = true) {
     const Progress next = PutShare(row, at, pages);
     if (IsDone(row, next)) return;
+    core::Require(!is_continued || next != at, "a page holds a line");
     at = next;
     pages->Break();
     PutHead(head, pages);
@@ -182,8 +185,10 @@ class TableMaker {
   static void Measure(PaperCell* cell, bool stays_whole, ColumnWidth* width) {
     const double around = 2.0 * kPadX + IndentOf(*cell);
     const double longest = stays_whole ? 0.5 * kBodyWidth : kLongestWordShare * kBodyWidth;
-    width->least = std::max(width->least, std::min(cell->text->LeastWidth(), longest) + around);
-    width->natural = std::max(width->natural, std::min(cell->text->NaturalWidth(), kBodyWidth) + around);
+    const double natural = cell->text->NaturalWidth();
+    const double least = std::max(cell->text->LeastWidth(), std::min(natural, kShortText));
+    width->least = std::max(width->least, std::min(least, longest) + around);
+    width->natural = std::max(width->natural, std::min(natural, kBodyWidth) + around);
     width->natural = std::max(width->natural, width->least);
   }
 

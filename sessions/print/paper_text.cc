@@ -37,11 +37,12 @@ class TextMaker {
     if (is_isolated) text_ += kIsolate;
     text_ += Printable(run.text);
     if (is_isolated) text_ += kEndOfIsolate;
+    Insert(pango_attr_insert_hyphens_new(FALSE), begin);  // a broken name isn't told with one
     const bool is_strong = run.emphasis == Emphasis::kStrong;
     if (is_strong || look_.is_strong) Insert(pango_attr_weight_new(PANGO_WEIGHT_BOLD), begin);
     if (is_strong) Insert(pango_attr_scale_new(look_.strong_scale), begin);
     if (is_remark) AddRemark(begin);
-    if (look_.holds_lines && !is_remark && !run.is_name) Insert(pango_attr_allow_breaks_new(FALSE), begin);
+    if (look_.holds_lines && !run.is_name) Insert(pango_attr_allow_breaks_new(FALSE), begin);
   }
 
   void GiveTo(PangoLayout* layout) const {

@@ -30,7 +30,7 @@ struct TextLook {
   double remark_scale = 0.9;
   Color remark_color = {};
   bool remarks_stand_below = false;  // each on a line of its own
-  bool holds_lines = false;          // no break but within remarks and names
+  bool holds_lines = false;          // no break but within names
   bool aligns_right = false;
   bool is_cut = false;  // to one line
 };

@@ -82,8 +82,7 @@ void DrawPages(cairo_t* cairo, const PaperFonts& fonts, const PaperPages& pages,
       DrawRunning(cairo, fonts, document.title, kBodyTop - 26.0, false);
       DrawRunning(cairo, fonts, document.kicker, kBodyTop - 26.0, true);
     }
-    DrawRunning(cairo, fonts, PlainText(document.facts.empty() ? "" : document.facts.front()), kBodyBottom + 18.0,
-                false);
+    DrawRunning(cairo, fonts, document.source, kBodyBottom + 18.0, false);
     DrawRunning(cairo, fonts, fmt::format("page {} of {}", i + 1, count), kBodyBottom + 18.0, true);
     cairo_show_page(cairo);
   }

@@ -10,10 +10,25 @@
 namespace elbowroom::sessions {
 namespace {
 
-std::string WithColors(std::string svg, const InkColors& inks) {
-  for (const auto& [ink, color] : inks)
-    for (std::size_t at = 0; (at = svg.find(ink, at)) != std::string::npos;) svg.replace(at, ink.size(), color);
-  return svg;
+void Replace(const std::string& what, const std::string& by, std::string* text) {
+  for (std::size_t at = 0; (at = text->find(what, at)) != std::string::npos; at += by.size())
+    text->replace(at, what.size(), by);
+}
+
+// What librsvg doesn't know, said otherwise: inks, and the middle of a line of text. Only within tags: texts
+// stay as they are.
+std::string ForLibrary(const std::string& svg, const InkColors& inks) {
+  std::string told;
+  for (std::size_t at = 0; at < svg.size();) {
+    const std::size_t begin = std::min(svg.find('<', at), svg.size());
+    const std::size_t end = std::min(svg.find('>', begin), svg.size());
+    std::string tag = svg.substr(begin, end - begin);
+    for (const auto& [ink, color] : inks) Replace(ink, color, &tag);
+    Replace("dominant-baseline=\"central\"", "dy=\"0.35em\"", &tag);
+    told += svg.substr(at, begin - at) + tag;
+    at = end;
+  }
+  return told;
 }
 
 // Reads on from the front of `bytes`.
@@ -27,10 +42,10 @@ cairo_status_t ReadOn(void* bytes, unsigned char* data, unsigned int length) {
 
 }  // namespace
 
-SvgDrawing::SvgDrawing(std::string svg, const InkColors& inks) {
-  const std::string colored = WithColors(std::move(svg), inks);
+SvgDrawing::SvgDrawing(const std::string& svg, const InkColors& inks) {
+  const std::string told = ForLibrary(svg, inks);
   GError* error = nullptr;
-  svg_.reset(rsvg_handle_new_from_data(reinterpret_cast<const guint8*>(colored.data()), colored.size(), &error),
+  svg_.reset(rsvg_handle_new_from_data(reinterpret_cast<const guint8*>(told.data()), told.size(), &error),
              [](RsvgHandle* handle) { if (handle != nullptr) g_object_unref(handle); });
   const std::string why = error == nullptr ? "" : error->message;
   g_clear_error(&error);

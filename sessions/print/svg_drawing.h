@@ -25,7 +25,7 @@ struct Box {
 class SvgDrawing {
  public:
   // Throws: PreconditionError if it isn't one.
-  SvgDrawing(std::string svg, const InkColors& inks);
+  SvgDrawing(const std::string& svg, const InkColors& inks);
 
   [[nodiscard]] double width_px() const { return width_px_; }
   [[nodiscard]] double height_px() const { return height_px_; }

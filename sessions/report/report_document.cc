@@ -51,6 +51,7 @@ Document ReportDocument(const ReportData& data, const ReportPictures& pictures, 
   document.title = TitleOf(data);
   document.facts = FactsOf(data);
   document.footer = FooterOf(data);
+  document.source = data.session_name;
   document.made_at_utc = data.ended_at_utc.value_or(data.header.started_at_utc);
   for (Section& section :
        std::vector{SummarySection(data), TimelineSection(data, painter), ModelSection(pictures),

@@ -123,8 +123,9 @@ void AddGivesWayNotes(const core::Layout& layout, std::vector<Block>* blocks) {
 }
 
 DrawnChart Drawn(Chart chart, ChartPainter* painter) {
-  std::string svg = painter->Svg(chart);
-  return {std::move(chart), std::move(svg)};
+  constexpr double kPaperWidthPx = 880.0;
+  std::string svg = painter->Svg(chart), paper_svg = painter->Svg(chart, kPaperWidthPx);
+  return {std::move(chart), std::move(svg), std::move(paper_svg)};
 }
 
 DocumentTable ApproachTable(const ReportData& data) {
@@ -206,11 +207,12 @@ Section SpacingSection(const ReportData& data, ChartPainter* painter) {
   for (const SpacingStudy& study : data.spacings) {
     const core::Spacing& spacing = data.header.layout.spacings[study.spacing];
     section.blocks.push_back(Heading{spacing.name, true});
-    section.blocks.push_back(
-        Paragraph{fmt::format("Gap along {} from {} to {}, {} to {}.", core::ToString(spacing.axis),
-                              spacing.reference, spacing.moving, Millimetres(spacing.min_mm),
-                              Millimetres(spacing.max_mm)),
-                  true});
+    RichText gap = fmt::format("Gap along {} from ", core::ToString(spacing.axis));
+    gap += NameRun(spacing.reference);
+    gap += {.text = " to "};
+    gap += NameRun(spacing.moving);
+    gap += {.text = fmt::format(", {} to {}.", Millimetres(spacing.min_mm), Millimetres(spacing.max_mm))};
+    section.blocks.push_back(Paragraph{std::move(gap), true});
     section.blocks.push_back(Drawn(SpacingChart(data, study), painter));
     AddLevels(study, &section.blocks);
     AddToolNeeds(study, &section.blocks);
