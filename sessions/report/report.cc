@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <future>
 #include <system_error>
 #include <tuple>
 
@@ -9,9 +10,12 @@
 #include "core/system/file_sync.h"
 #include "core/system/whole_file.h"
 #include "sessions/bcf/bcf_file.h"
+#include "sessions/charts/chart_painter.h"
+#include "sessions/print/pdf.h"
 #include "sessions/report/clearance_csv.h"
 #include "sessions/report/contacts_csv.h"
 #include "sessions/report/report_data.h"
+#include "sessions/report/report_document.h"
 #include "sessions/report/report_page.h"
 #include "sessions/report/report_topics.h"
 #include "sessions/report/stamps_csv.h"
@@ -54,10 +58,14 @@ void WriteReport(const SessionReader& session, const ReportPictures& pictures,
   const ReportData data = CollectReportData(
       session, [&](const ContactRow& row) { contacts.Append(ContactLine(header.layout, row)); },
       [&](const ContactRow& row) { clearances.Append(ClearanceLine(header, row)); });
-  files.Write(out_dir / "report.html", ReportPage(data, pictures));
+  ChartPainter painter;
+  const Document document = ReportDocument(data, pictures, &painter);
+  std::future<std::string> pdf = std::async(std::launch::async, [&] { return PdfOf(document); });
+  files.Write(out_dir / "report.html", ReportPage(data, document, pictures.model));
   files.Write(out_dir / "touches.bcfzip", PackBcf(TopicsOf(session, data.list, pictures)));
   constexpr const char* kStampsFile = "stamps.csv";
   if (!data.stamps.empty()) files.Write(out_dir / kStampsFile, StampsCsv(data.header.rig, data.stamps));
+  files.Write(out_dir / "report.pdf", pdf.get());
   files.RenameAll();
   // One of an earlier report in the same folder is of another session.
   std::error_code ignored;
