@@ -45,8 +45,8 @@ std::string SvgWith(const LineDrawing& drawing, const std::string& content) {
 }  // namespace
 
 std::string SvgOf(const LineDrawing& drawing) {
-  const std::string ground = fmt::format("<rect width='{}' height='{}' fill='#ffffff'/>\n", drawing.width_px,
-                                         drawing.height_px);
+  const std::string ground =
+      fmt::format("<rect width='{}' height='{}' fill='#ffffff'/>\n", drawing.width_px, drawing.height_px);
   return SvgWith(drawing, ground + Shapes(drawing));
 }
 

@@ -24,13 +24,15 @@ std::span<std::uint8_t> RowOf(const PixelsToPaint& pixels, int row) {
 
 void PaintOnPixels(const std::string& svg, double left_px, const PixelsToPaint& pixels) {
   const std::unique_ptr<cairo_surface_t, void (*)(cairo_surface_t*)> surface(
-      cairo_image_surface_create(CAIRO_FORMAT_RGB24, pixels.width_px, pixels.height_px), cairo_surface_destroy);
+      cairo_image_surface_create(CAIRO_FORMAT_RGB24, pixels.width_px, pixels.height_px),
+      cairo_surface_destroy);
   core::Require(cairo_surface_status(surface.get()) == CAIRO_STATUS_SUCCESS, "a picture can be painted on");
   for (int y = 0; y < pixels.height_px; ++y) {
     const std::span<const std::uint8_t> rgb = RowOf(pixels, y);
     const std::span<std::uint32_t> row = RowOf(surface.get(), y, pixels.width_px);
     for (std::size_t x = 0; x < row.size(); ++x)
-      row[x] = 0xFF000000U | std::uint32_t{rgb[3 * x]} << 16U | std::uint32_t{rgb[3 * x + 1]} << 8U | rgb[3 * x + 2];
+      row[x] = 0xFF000000U | std::uint32_t{rgb[3 * x]} << 16U | std::uint32_t{rgb[3 * x + 1]} << 8U |
+               rgb[3 * x + 2];
   }
   cairo_surface_mark_dirty(surface.get());
   {
@@ -43,7 +45,8 @@ void PaintOnPixels(const std::string& svg, double left_px, const PixelsToPaint& 
     const std::span<std::uint8_t> rgb = RowOf(pixels, y);
     const std::span<const std::uint32_t> row = RowOf(surface.get(), y, pixels.width_px);
     for (std::size_t x = 0; x < row.size(); ++x)
-      for (std::size_t i = 0; i < 3; ++i) rgb[3 * x + i] = static_cast<std::uint8_t>(row[x] >> (16 - 8 * i) & 0xFFU);
+      for (std::size_t i = 0; i < 3; ++i)
+        rgb[3 * x + i] = static_cast<std::uint8_t>(row[x] >> (16 - 8 * i) & 0xFFU);
   }
 }
 
