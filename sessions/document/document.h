@@ -77,8 +77,8 @@ struct DocumentColumn {
 
 struct DocumentCell {
   RichText text;
-  std::string dot = {};                       // colour of a mark before the text (an ink or #rrggbb)
-  std::span<const unsigned char> png = {};    // instead of the text
+  std::string dot = {};                     // colour of a mark before the text (an ink or #rrggbb)
+  std::span<const unsigned char> png = {};  // instead of the text
 
   DocumentCell() = default;
   template <std::convertible_to<RichText> Text>
@@ -89,7 +89,7 @@ struct DocumentCell {
 struct DocumentRow {
   std::vector<DocumentCell> cells;  // one a column; of the head of a group, one
   bool is_highlighted = false;
-  bool begins_group = false;  // it is the head of those that follow
+  bool begins_group = false;                                   // it is the head of those that follow
   std::vector<std::pair<std::string, std::string>> data = {};  // what a page's script reads of the row
 };
 
@@ -114,7 +114,8 @@ struct Picture {
 // Where a page has its 3-D view.
 struct ModelView {};
 
-using Block = std::variant<Heading, Paragraph, Bullets, Verdict, Tiles, DocumentTable, DrawnChart, Picture, ModelView>;
+using Block =
+    std::variant<Heading, Paragraph, Bullets, Verdict, Tiles, DocumentTable, DrawnChart, Picture, ModelView>;
 
 struct Section {
   std::string id = {};

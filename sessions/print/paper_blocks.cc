@@ -175,7 +175,8 @@ class BlockPlacer {
         return height + ChartBox(SvgDrawing(chart->paper_svg, inks_)).height + 4.0;
       } else if (const auto* picture = std::get_if<Picture>(&block)) {
         const PngDrawing drawing(picture->png);
-        const double smallest = kSmallestPicture * FullWidth(drawing) * drawing.height_px() / drawing.width_px();
+        const double smallest =
+            kSmallestPicture * FullWidth(drawing) * drawing.height_px() / drawing.width_px();
         return height + smallest + CaptionHeight(*picture) + 8.0;
       } else {
         return height + kLeastBesideHeading;

@@ -56,7 +56,8 @@ bool IsDone(const PaperRow& row, const Progress& at) {
 void PutCell(const PaperCell& cell, std::size_t first, std::size_t end, double y, PaperPages* pages) {
   if (cell.picture) {
     if (first < end)
-      pages->Put(PlacedPng{*cell.picture, {cell.left + kPadX, y, kSnapshotWidth, SnapshotHeight(*cell.picture)}});
+      pages->Put(
+          PlacedPng{*cell.picture, {cell.left + kPadX, y, kSnapshotWidth, SnapshotHeight(*cell.picture)}});
     return;
   }
   if (!cell.text || first >= end) return;
@@ -80,8 +81,7 @@ Progress PutShare(const PaperRow& row, const Progress& from, PaperPages* pages) 
     if (row.is_framed) pages->Put(PlacedFrame{{cell.left, top, cell.width, height}, kLine});
     PutCell(cell, from[i], to[i], top + kPadY, pages);
   }
-  if (row.rule > 0.0)
-    pages->Put(PlacedFill{{left, top + height - row.rule, right - left, row.rule}, kLine});
+  if (row.rule > 0.0) pages->Put(PlacedFill{{left, top + height - row.rule, right - left, row.rule}, kLine});
   pages->Down(height);
   return to;
 }

@@ -13,15 +13,15 @@ struct PaperCell {
   std::optional<PaperText> text = {};
   std::optional<PngDrawing> picture = {};  // instead of the text
   std::optional<Color> dot = {};           // before the text
-  double left = 0.0;                  // of the page
+  double left = 0.0;                       // of the page
   double width = 0.0;
 };
 
 struct PaperRow {
   std::vector<PaperCell> cells = {};
-  std::optional<Color> wash = {};       // behind it
-  double rule = 0.5;                // below it; 0: none
-  bool is_framed = false;           // each cell has a frame
+  std::optional<Color> wash = {};  // behind it
+  double rule = 0.5;               // below it; 0: none
+  bool is_framed = false;          // each cell has a frame
   bool stays_with_next = false;
 
   [[nodiscard]] double Height() const;  // whole

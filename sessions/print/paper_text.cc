@@ -96,8 +96,7 @@ std::string Printable(const std::string& text) {
   return printable;
 }
 
-PaperFonts::PaperFonts()
-    : map_(pango_cairo_font_map_new_for_font_type(CAIRO_FONT_TYPE_FT), g_object_unref) {
+PaperFonts::PaperFonts() : map_(pango_cairo_font_map_new_for_font_type(CAIRO_FONT_TYPE_FT), g_object_unref) {
   pango_cairo_font_map_set_resolution(PANGO_CAIRO_FONT_MAP(map_.get()), 72.0);
   PangoFontFamily** families = nullptr;
   int count = 0;

@@ -56,7 +56,9 @@ class Drawer {
   void operator()(const PlacedPng& png) const { png.drawing.Draw(cairo_, png.box); }
 
  private:
-  void SetColor(const Color& color) const { cairo_set_source_rgb(cairo_, color.red, color.green, color.blue); }
+  void SetColor(const Color& color) const {
+    cairo_set_source_rgb(cairo_, color.red, color.green, color.blue);
+  }
 
   cairo_t* cairo_;
 };

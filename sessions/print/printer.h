@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sessions/document/document.h"
+#include "sessions/print/svg_pixels.h"
 
 namespace elbowroom::sessions {
 
@@ -14,6 +15,7 @@ using InkColors = std::vector<std::pair<std::string, std::string>>;
 
 struct Printer {
   std::string (*pdf)(const Document& document, const InkColors& inks);
+  void (*paint)(const std::string& svg, double left_px, const PixelsToPaint& pixels);
 };
 
 // Loads it at the first call. Throws: Error{kFile} if that fails. Thread: any.

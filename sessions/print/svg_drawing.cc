@@ -46,7 +46,9 @@ SvgDrawing::SvgDrawing(const std::string& svg, const InkColors& inks) {
   const std::string told = ForLibrary(svg, inks);
   GError* error = nullptr;
   svg_.reset(rsvg_handle_new_from_data(reinterpret_cast<const guint8*>(told.data()), told.size(), &error),
-             [](RsvgHandle* handle) { if (handle != nullptr) g_object_unref(handle); });
+             [](RsvgHandle* handle) {
+               if (handle != nullptr) g_object_unref(handle);
+             });
   const std::string why = error == nullptr ? "" : error->message;
   g_clear_error(&error);
   core::Require(svg_ != nullptr, "an SVG can be read: " + why);

@@ -28,8 +28,7 @@ std::string Html(const RichText& text) {
 }
 
 std::string Html(const DocumentCell& cell) {
-  if (!cell.png.empty())
-    return fmt::format("<img class='snapshot' alt='' src='{}'>", PngAsDataUrl(cell.png));
+  if (!cell.png.empty()) return fmt::format("<img class='snapshot' alt='' src='{}'>", PngAsDataUrl(cell.png));
   const std::string dot =
       cell.dot.empty() ? "" : fmt::format("<span class='dot' style='background:{}'></span>", cell.dot);
   return dot + Html(cell.text);
@@ -37,8 +36,7 @@ std::string Html(const DocumentCell& cell) {
 
 std::string Attributes(const DocumentRow& row) {
   std::string attributes;
-  for (const auto& [name, value] : row.data)
-    attributes += fmt::format(" data-{}='{}'", name, Escaped(value));
+  for (const auto& [name, value] : row.data) attributes += fmt::format(" data-{}='{}'", name, Escaped(value));
   return attributes;
 }
 
@@ -62,8 +60,7 @@ class BlockWriter {
   std::string operator()(const Verdict& verdict) const {
     constexpr const char* kClasses[] = {"", " touched", " broken"};
     std::string texts;
-    for (const std::string& text : verdict.paragraphs)
-      texts += "<p>" + WithUnitsHeld(Escaped(text)) + "</p>";
+    for (const std::string& text : verdict.paragraphs) texts += "<p>" + WithUnitsHeld(Escaped(text)) + "</p>";
     return fmt::format("<div class='verdict{}'>{}</div>\n",
                        kClasses[static_cast<std::size_t>(verdict.outcome)], texts);
   }

@@ -51,8 +51,9 @@ Section ReadingSection(const ReportData& data) {
               "contact errs on the safe side",
               ". A reported touch may have been a near miss; a part that is clear was missed by everything "
               "in the silhouettes."}),
-      InTurn({"A ", "touch",
-              " is a run of frames in which a part reaches into the hull; gaps of a few frames are bridged."}),
+      InTurn(
+          {"A ", "touch",
+           " is a run of frames in which a part reaches into the hull; gaps of a few frames are bridged."}),
       InTurn({"", "Depth",
               " is how far inside the hull the deepest sample of the part\u2019s surface lies, measured to "
               "the hull\u2019s surface; it is never over-stated for that sample. It is a distance, not a "
@@ -62,11 +63,12 @@ Section ReadingSection(const ReportData& data) {
               " (too close to call). ", "Near",
               " errs on the safe side as contact does: the real distance may be larger. ", "Clear",
               " is sure, as far as the silhouettes are right."}),
-      InTurn({"", "Space needed",
-              fmt::format(" lies between the largest spacing with a touch and the smallest one above it that "
-                          "was held for at least {:.0f} s without any. Trying a value between the two narrows "
-                          "it. It says nothing of values that were not tried.",
-                          kTriedFor_s)}),
+      InTurn(
+          {"", "Space needed",
+           fmt::format(" lies between the largest spacing with a touch and the smallest one above it that "
+                       "was held for at least {:.0f} s without any. Trying a value between the two narrows "
+                       "it. It says nothing of values that were not tried.",
+                       kTriedFor_s)}),
       fmt::format("A point that a camera can\u2019t see counts as {}.",
                   abstains ? "open for that camera: the others decide" : "empty")};
   return {.blocks = {Heading{"How to read this"}, std::move(bullets)}};
@@ -76,11 +78,12 @@ Section RigSection(const ReportData& data) {
   const core::Rig& rig = data.header.rig;
   const Eigen::Vector3d &low = rig.workspace_mm.min(), &high = rig.workspace_mm.max();
   Section section{
-      .blocks = {Heading{"Rig and software"},
-                 Paragraph{fmt::format("Rig {}; workspace {:.0f}, {:.0f}, {:.0f} to {:.0f}, {:.0f}, {:.0f} mm.",
-                                       rig.name, low.x(), low.y(), low.z(), high.x(), high.y(), high.z()),
-                           true},
-                 CameraTable(rig)}};
+      .blocks = {
+          Heading{"Rig and software"},
+          Paragraph{fmt::format("Rig {}; workspace {:.0f}, {:.0f}, {:.0f} to {:.0f}, {:.0f}, {:.0f} mm.",
+                                rig.name, low.x(), low.y(), low.z(), high.x(), high.y(), high.z()),
+                    true},
+          CameraTable(rig)}};
   for (Block& block : SkewOfCameras(data)) section.blocks.push_back(std::move(block));
   AddTexts(data.header.versions, "Component", &section.blocks);
   AddTexts(data.header.settings, "Setting", &section.blocks);

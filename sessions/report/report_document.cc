@@ -11,8 +11,7 @@ std::string TitleOf(const ReportData& data) {
 
 std::vector<std::string> FactsOf(const ReportData& data) {
   std::vector<std::string> facts;
-  if (!data.header.trial.participant.empty())
-    facts.push_back("participant " + data.header.trial.participant);
+  if (!data.header.trial.participant.empty()) facts.push_back("participant " + data.header.trial.participant);
   facts.push_back("started " + data.header.started_at_utc);
   facts.push_back(fmt::format("{} frames over {:.1f} s", data.frames.size(), data.end_s - data.begin_s));
   facts.push_back(fmt::format("rig {}, {} camera{}", data.header.rig.name, data.header.rig.cameras.size(),

@@ -51,10 +51,10 @@ void AddLevels(const SpacingStudy& study, std::vector<Block>* blocks) {
     const char* outcome = is_touched                    ? "touched"
                           : level.held_s >= kTriedFor_s ? "free of touches"
                                                         : "only passed";
-    table.rows.push_back({{Millimetres(level.spacing_mm), fmt::format("{:.1f} s", level.held_s),
-                           std::to_string(level.touches),
-                           fmt::format("{} of {}", level.frames_in_contact, level.frames),
-                           is_touched ? Millimetres(level.deepest_mm) : kNothing, outcome}});
+    table.rows.push_back(
+        {{Millimetres(level.spacing_mm), fmt::format("{:.1f} s", level.held_s), std::to_string(level.touches),
+          fmt::format("{} of {}", level.frames_in_contact, level.frames),
+          is_touched ? Millimetres(level.deepest_mm) : kNothing, outcome}});
   }
   blocks->push_back(std::move(table));
   const std::size_t left_out = study.levels.size() - levels.size();
@@ -98,8 +98,8 @@ std::string StatusRemark(const ReportData& data) {
 
 // What each tool needs; nothing where no tool was marked.
 void AddToolNeeds(const SpacingStudy& study, std::vector<Block>* blocks) {
-  DocumentTable table{
-      {{"In use"}, {"For", true}, {"Touched up to", true}, {"Free of touches from", true}}, {}};
+  DocumentTable table{{{"In use"}, {"For", true}, {"Touched up to", true}, {"Free of touches from", true}},
+                      {}};
   const auto length = [](const std::optional<double>& length_mm) {
     return length_mm ? Millimetres(*length_mm) : std::string(kNothing);
   };
@@ -169,8 +169,8 @@ Section TimelineSection(const ReportData& data, ChartPainter* painter) {
   const std::string lead =
       "A bar is one touch, from the first frame in contact to the last; the darker, the deeper: " +
       Millimetres(DarkestDepth(data)) + " is the darkest.";
-  return {.blocks = {Heading{"Touches over time"}, Paragraph{lead, true},
-                     Drawn(TimelineChart(data), painter)}};
+  return {
+      .blocks = {Heading{"Touches over time"}, Paragraph{lead, true}, Drawn(TimelineChart(data), painter)}};
 }
 
 Section PictureSection(const ReportPictures& pictures) {
@@ -194,8 +194,8 @@ Section ApproachSection(const ReportData& data, ChartPainter* painter) {
       "Bounds of the distance between a part and the hull, the closest of each moment; the real distance may "
       "be larger. Drawn for {} of {} parts, those that came closest.",
       shown, data.parts.size());
-  return {.blocks = {Heading{"Closest approach"}, Paragraph{lead, true},
-                     Drawn(ApproachChart(data), painter), ApproachTable(data)}};
+  return {.blocks = {Heading{"Closest approach"}, Paragraph{lead, true}, Drawn(ApproachChart(data), painter),
+                     ApproachTable(data)}};
 }
 
 Section SpacingSection(const ReportData& data, ChartPainter* painter) {

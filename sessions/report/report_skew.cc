@@ -99,8 +99,9 @@ std::vector<Block> SkewOfCameras(const ReportData& data) {
     const auto cell = [&](double core::Spread::*value) {
       return skew_ms ? fmt::format("{:.1f} ms", (*skew_ms).*value) : std::string(kNothing);
     };
-    table.rows.push_back({{data.header.rig.cameras[i].name(), cell(&core::Spread::median),
-                           cell(&core::Spread::p95), cell(&core::Spread::max), FramesWithout(data.stamps, i)}});
+    table.rows.push_back(
+        {{data.header.rig.cameras[i].name(), cell(&core::Spread::median), cell(&core::Spread::p95),
+          cell(&core::Spread::max), FramesWithout(data.stamps, i)}});
   }
   return {Paragraph{SkewLine(data.stamps), true}, std::move(table)};
 }

@@ -21,11 +21,11 @@ void AddBudgets(const ReportData& data, std::vector<Block>* blocks) {
                       {}};
   for (const PartBudget& budget : data.budgets) {
     const core::ErrorBudget& largest = budget.largest;
-    table.rows.push_back({{data.header.layout.parts[budget.part].name, Sigma(largest.calibration_mm),
-                           Sigma(largest.footprint_mm), Sigma(largest.segmentation_mm),
-                           data.stamps.empty() ? "not measured" : Sigma(largest.skew_mm),
-                           largest.given_mm > 0.0 ? Sigma(largest.given_mm) : kNothing,
-                           Sigma(largest.ExpandedMm())}});
+    table.rows.push_back(
+        {{data.header.layout.parts[budget.part].name, Sigma(largest.calibration_mm),
+          Sigma(largest.footprint_mm), Sigma(largest.segmentation_mm),
+          data.stamps.empty() ? "not measured" : Sigma(largest.skew_mm),
+          largest.given_mm > 0.0 ? Sigma(largest.given_mm) : kNothing, Sigma(largest.ExpandedMm())}});
   }
   if (!table.rows.empty()) blocks->push_back(std::move(table));
 }
@@ -34,12 +34,13 @@ std::string WhatIsAllowedFor(const ReportData& data) {
   const core::TrialInfo& trial = data.header.trial;
   if (data.header.rig_quality.errors) {
     return "What a verdict allows for is computed for each part in each frame, from the covariance of the "
-           "rig\u2019s calibration, the size of a pixel there, and the silhouettes. The largest for each part:";
+           "rig\u2019s calibration, the size of a pixel there, and the silhouettes. The largest for each "
+           "part:";
   }
-  const char* skew =
-      data.budgets.empty() ? ""
-                           : " To that comes how far the hull may have moved between the cameras\u2019 "
-                             "instants. The largest for each part:";
+  const char* skew = data.budgets.empty()
+                         ? ""
+                         : " To that comes how far the hull may have moved between the cameras\u2019 "
+                           "instants. The largest for each part:";
   if (trial.uncertainty_mm > 0.0)
     return fmt::format("Verdicts allow for {:.2f} mm, as the trial says.{}", trial.uncertainty_mm, skew);
   return fmt::format(

@@ -33,9 +33,9 @@ std::vector<DocumentColumn> ColumnsOf(const TouchColumns& columns) {
 RichText DepthText(const ReportTouch& touch) {
   if (!touch.is_near_miss) return Millimetres(touch.depth_mm);
   const core::ClearanceInterval& closest = touch.closest->interval;
-  RichText text = touch.closest->has_witnesses ? fmt::format("{} to {}", Millimetres(closest.lower_mm),
-                                                             Millimetres(closest.upper_mm))
-                                               : "at least " + Millimetres(closest.lower_mm);
+  RichText text = touch.closest->has_witnesses
+                      ? fmt::format("{} to {}", Millimetres(closest.lower_mm), Millimetres(closest.upper_mm))
+                      : "at least " + Millimetres(closest.lower_mm);
   if (!touch.is_sure) text += Remark("maybe not below");
   return text;
 }

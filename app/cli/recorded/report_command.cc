@@ -30,8 +30,8 @@ CommandResult Run(const ReportOptions& options, const CommandContext& context) {
 }  // namespace
 
 void AddReportCommand(CLI::App& app, Choice* choice) {
-  CLI::App* command =
-      app.add_subcommand("report", "write the report of a session: report.html, report.pdf, contacts.csv, clearance.csv");
+  CLI::App* command = app.add_subcommand(
+      "report", "write the report of a session: report.html, report.pdf, contacts.csv, clearance.csv");
   auto options = std::make_shared<ReportOptions>();
   command->add_option("SESSION", options->session, "the session (S.db)")->required();
   command->add_option("--out", options->out, "folder for the report; made if it isn't there")->required();

@@ -51,11 +51,13 @@ TEST_F(Pdf, NoRowIsBrokenBetweenPagesAndEachPageHasTheHead) {
     lines += {.text = fmt::format("row{}end", i), .begins_line = true};
     table.rows.push_back({{std::move(lines), fmt::format("{}.5 mm", i)}});
   }
-  const std::vector<std::string> pages = TextsOfPages(Written(DocumentOf({Heading{"Rows"}, std::move(table)})));
+  const std::vector<std::string> pages =
+      TextsOfPages(Written(DocumentOf({Heading{"Rows"}, std::move(table)})));
   ASSERT_GT(pages.size(), 4U);
   int rows = 0;
   for (std::size_t page = 0; page < pages.size(); ++page) {
-    EXPECT_EQ(CountOf(pages[page], "Name\nFigure\n") + CountOf(pages[page], "Name Figure\n"), 1) << pages[page];
+    EXPECT_EQ(CountOf(pages[page], "Name\nFigure\n") + CountOf(pages[page], "Name Figure\n"), 1)
+        << pages[page];
     EXPECT_EQ(CountOf(pages[page], fmt::format("page {} of {}", page + 1, pages.size())), 1);
     EXPECT_EQ(CountOf(pages[page], "line0"), CountOf(pages[page], "end")) << "page " << page + 1;
     rows += static_cast<int>(CountOf(pages[page], "end"));
@@ -76,9 +78,10 @@ TEST_F(Pdf, ARowHigherThanAPageGoesOnOnTheNext) {
 TEST_F(Pdf, LongTextsEverywhereLoseNothing) {
   constexpr int kLetters = 10'000;
   const std::string text(kLetters, 'x');
-  Document document = DocumentOf({Verdict{Verdict::Outcome::kTouched, {text, text}},
-                                  Tiles{{{text, text, text}, {"a", "b", text}}}, Heading{text}, Heading{text, true},
-                                  Paragraph{text}, Bullets{{text}}, Picture{kSamplePng, text, text}});
+  Document document =
+      DocumentOf({Verdict{Verdict::Outcome::kTouched, {text, text}},
+                  Tiles{{{text, text, text}, {"a", "b", text}}}, Heading{text}, Heading{text, true},
+                  Paragraph{text}, Bullets{{text}}, Picture{kSamplePng, text, text}});
   document.facts = {text};
   document.title = text;
   document.footer = text;

@@ -14,8 +14,8 @@ namespace {
 
 constexpr const char* kPdfToText = "/usr/bin/pdftotext";
 constexpr const char* kQpdf = "/usr/bin/qpdf";
-// Of A4, in points: what stands in its margins is clipped by many printers. A slanted letter may reach a point
-// out of its line.
+// Of A4, in points: what stands in its margins is clipped by many printers. A slanted letter may reach a
+// point out of its line.
 constexpr double kWidth = 595.3, kHeight = 841.9, kMarginX = 39.0, kMarginY = 24.0;
 
 std::string RunForText(const std::filesystem::path& pdf, const char* how) {
@@ -56,7 +56,8 @@ void ExpectGoodPdf(const std::filesystem::path& pdf) {
   const test_support::ProgramRun check = test_support::RunProgram(kQpdf, {"--check", pdf.string()});
   EXPECT_EQ(check.exit_status, 0) << check.out << check.err;
   const std::string boxes = RunForText(pdf, "-bbox");
-  const std::regex word(R"RE(<word xMin="([-0-9.]+)" yMin="([-0-9.]+)" xMax="([-0-9.]+)" yMax="([-0-9.]+)">)RE");
+  const std::regex word(
+      R"RE(<word xMin="([-0-9.]+)" yMin="([-0-9.]+)" xMax="([-0-9.]+)" yMax="([-0-9.]+)">)RE");
   std::size_t words = 0;
   for (std::sregex_iterator at(boxes.begin(), boxes.end(), word), end; at != end; ++at, ++words) {
     const auto number = [&](int i) { return std::stod((*at)[static_cast<std::size_t>(i)]); };

@@ -29,7 +29,6 @@ class ReportPdf : public testing::Test {
   fs::path Reported(const fs::path& session, const sessions::ReportPictures& pictures = {}) {
     sessions::WriteReport(SessionReader(session), pictures, folder_ / "out");
     ExpectGoodPdf(folder_ / "out" / "report.pdf");
-    if (const char* keep = std::getenv("KEEP_PDF")) fs::copy_file(folder_ / "out" / "report.pdf", fs::path(keep) / (std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + ".pdf"), fs::copy_options::overwrite_existing);
     return folder_ / "out" / "report.pdf";
   }
 
@@ -38,8 +37,13 @@ class ReportPdf : public testing::Test {
 
 std::string WithoutTags(const std::string& html) {
   std::string text = std::regex_replace(html, std::regex("<[^>]*>"), " ");
-  for (const auto& [entity, letter] :
-       {std::pair("&lt;", "<"), {"&gt;", ">"}, {"&quot;", "\""}, {"&#39;", "'"}, {"&nbsp;", " "}, {"&middot;", "\u00b7"}, {"&amp;", "&"}})
+  for (const auto& [entity, letter] : {std::pair("&lt;", "<"),
+                                       {"&gt;", ">"},
+                                       {"&quot;", "\""},
+                                       {"&#39;", "'"},
+                                       {"&nbsp;", " "},
+                                       {"&middot;", "\u00b7"},
+                                       {"&amp;", "&"}})
     text = std::regex_replace(text, std::regex(entity), letter);
   return Squeezed(text);
 }
