@@ -70,6 +70,12 @@ class TextMaker {
   std::string text_;
 };
 
+bool HasLetters(PangoContext* context) {
+  const std::unique_ptr<PangoLayout, void (*)(void*)> layout(pango_layout_new(context), g_object_unref);
+  pango_layout_set_text(layout.get(), "Aa1", -1);
+  return pango_layout_get_unknown_glyphs_count(layout.get()) == 0;
+}
+
 void SetFont(PangoLayout* layout, double size_pt) {
   PangoFontDescription* font = pango_font_description_new();
   pango_font_description_set_family_static(font, kFamilies);
@@ -98,13 +104,6 @@ std::string Printable(const std::string& text) {
 
 PaperFonts::PaperFonts() : map_(pango_cairo_font_map_new_for_font_type(CAIRO_FONT_TYPE_FT), g_object_unref) {
   pango_cairo_font_map_set_resolution(PANGO_CAIRO_FONT_MAP(map_.get()), 72.0);
-  PangoFontFamily** families = nullptr;
-  int count = 0;
-  pango_font_map_list_families(map_.get(), &families, &count);
-  g_free(families);
-  if (count == 0)
-    throw core::Error(core::ErrorKind::kFile,
-                      "a PDF needs a font, and none is installed: install one, such as fonts-dejavu-core");
   context_.reset(pango_font_map_create_context(map_.get()), g_object_unref);
   // Letters keep their own widths: paper has no pixels to round them to.
   pango_context_set_round_glyph_positions(context_.get(), FALSE);
@@ -113,6 +112,9 @@ PaperFonts::PaperFonts() : map_(pango_cairo_font_map_new_for_font_type(CAIRO_FON
   cairo_font_options_set_hint_metrics(options, CAIRO_HINT_METRICS_OFF);
   pango_cairo_context_set_font_options(context_.get(), options);
   cairo_font_options_destroy(options);
+  if (!HasLetters(context_.get()))
+    throw core::Error(core::ErrorKind::kFile,
+                      "a PDF needs a font, and none is installed: install one, such as fonts-dejavu-core");
 }
 
 PaperText::PaperText(const PaperFonts& fonts, const RichText& text, const TextLook& look)

@@ -4,6 +4,9 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cstdio>
+#include <cstdlib>
+
 #include "core/error.h"
 #include "tests/sessions/print/read_pdf.h"
 #include "tests/sessions/sample_picture.h"
@@ -103,6 +106,14 @@ TEST_F(Pdf, TextsAreTextWhateverTheySay) {
   EXPECT_NE(text.find("bytes"), std::string::npos);
 }
 
+TEST_F(Pdf, HasAnOutlineOfItsSections) {
+  const std::filesystem::path pdf =
+      Written(DocumentOf({Heading{"First"}, Heading{"Below", true}, Heading{"Second"}, Paragraph{"text"}}));
+  const std::string bytes = test_support::ReadText(pdf);
+  for (const char* title : {"(A title)", "(First)", "(Below)", "(Second)"})
+    EXPECT_NE(bytes.find("/Title " + std::string(title)), std::string::npos) << title;
+}
+
 TEST_F(Pdf, WhatIsForScreensIsLeftOut) {
   Document document = DocumentOf({Paragraph{"on paper"}});
   document.sections.push_back({.blocks = {Heading{"turn it"}, ModelView{}}, .is_for_screens = true});
@@ -123,6 +134,22 @@ TEST(PdfBytes, AreTheSameForTheSameDocument) {
   EXPECT_TRUE(bytes.starts_with("%PDF-1."));
   EXPECT_EQ(bytes, PdfOf(document));
   EXPECT_NE(bytes.find("/CreationDate (20260102030405"), std::string::npos) << "the session's time";
+}
+
+TEST(PdfBytesDeathTest, AMachineWithoutFontsIsTold) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");  // fontconfig reads its configuration once a process
+  const TemporaryFolder folder;
+  test_support::WriteText(folder / "fonts.conf", "<fontconfig><dir>/nonexistent</dir></fontconfig>");
+  const auto print = [&] {
+    ::setenv("FONTCONFIG_FILE", (folder / "fonts.conf").c_str(), 1);
+    try {
+      (void)PdfOf(DocumentOf({}));
+    } catch (const core::Error& error) {
+      std::fputs(error.what(), stderr);
+      std::_Exit(3);
+    }
+  };
+  EXPECT_EXIT(print(), testing::ExitedWithCode(3), "needs a font, and none is installed");
 }
 
 TEST(PdfBytes, APictureMustBeAPng) {
