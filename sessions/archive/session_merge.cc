@@ -14,7 +14,6 @@
 #include "sessions/archive/table_rows.h"
 #include "sessions/database/database.h"
 #include "sessions/database/statement.h"
-#include "sessions/header_rows.h"
 #include "sessions/schema/schema.h"
 #include "sessions/session_reader.h"
 #include "sessions/sound_session.h"

@@ -35,7 +35,7 @@ TEST_F(SessionsCommand, Shows) {
   EXPECT_EQ(session["status"], "complete");
   EXPECT_EQ(session["touches"], 7);
   EXPECT_EQ(session["frames"], 620);
-  EXPECT_TRUE(session["origin"].is_null());
+  EXPECT_EQ(session["origin"]["file"], "first/O'Hara.db");
   EXPECT_EQ(session["review"]["statuses"]["new"], 7);
   EXPECT_THAT(Sessions({"show", In("s.db")}).out, HasSubstr("7 touches"));
 }
