@@ -41,9 +41,9 @@ struct ReportPictures {
 // Writes `out_dir`/report.html (nothing loaded from elsewhere; fit for print; it says the same without its
 // script), report.pdf (the same document on A4, without the 3-D view), contacts.csv (a row for each part in
 // contact in each frame), clearance.csv (a row for each part whose clearance was asked), touches.bcfzip (the
-// touches for CAD teams) and, where the cameras have stamps, stamps.csv (a row for each camera in each frame);
-// all or none. Makes the folder; replaces an older report. Throws: Error{kFile} naming what can't be written;
-// what SessionReader throws; PreconditionError for bytes that are no PNG.
+// touches for CAD teams) and, where the cameras have stamps, stamps.csv (a row for each camera in each
+// frame); all or none. Makes the folder; replaces an older report. Throws: Error{kFile} naming what can't be
+// written; what SessionReader throws; PreconditionError for bytes that are no PNG.
 void WriteReport(const SessionReader& session, const ReportPictures& pictures,
                  const std::filesystem::path& out_dir);
 

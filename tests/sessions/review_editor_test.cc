@@ -20,7 +20,9 @@ using sessions::AddRemarks;
 using sessions::FindingRemark;
 using sessions::SessionReader;
 
-std::vector<core::Finding> FindingsOf(const std::filesystem::path& path) { return SessionReader(path).findings(); }
+std::vector<core::Finding> FindingsOf(const std::filesystem::path& path) {
+  return SessionReader(path).findings();
+}
 
 core::Finding FindingWith(const std::filesystem::path& path, const core::FindingId& id) {
   for (const core::Finding& finding : FindingsOf(path))
@@ -33,7 +35,8 @@ TEST(ReviewEditor, AddsToWhatWasSaidBefore) {
   const auto path = folder / "s.db";
   WriteSampleSession(path, 3);
   const core::Finding before = FindingsOf(path).front();
-  const core::ReviewRemark first{"2024-05-01T00:00:00Z", "Ann", ReviewStatus::kActive, "look \xE2\x80\xAE here"},
+  const core::ReviewRemark first{"2024-05-01T00:00:00Z", "Ann", ReviewStatus::kActive,
+                                 "look \xE2\x80\xAE here"},
       second{"2024-05-01T00:00:01Z", "Bo", {}, std::string(10'000, 'x')};
   AddRemarks(path, std::vector<FindingRemark>{{before.id, first}, {before.id, second}});
   const core::Finding after = FindingWith(path, before.id);

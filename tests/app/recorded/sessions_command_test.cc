@@ -43,7 +43,8 @@ TEST_F(SessionsCommand, Shows) {
 TEST_F(SessionsCommand, CheckFailsWhereOneIsNotSound) {
   EXPECT_EQ(Sessions({"check", In("s.db")}).exit_status, 0);
   std::filesystem::copy_file(In("s.db"), In("t.db"));
-  SQLite::Database(In("t.db"), SQLite::OPEN_READWRITE).exec("DELETE FROM frame_spacing WHERE frame_index = 3");
+  SQLite::Database(In("t.db"), SQLite::OPEN_READWRITE)
+      .exec("DELETE FROM frame_spacing WHERE frame_index = 3");
   const ProgramRun run = Sessions({"check", In("s.db"), In("t.db"), "--json"});
   EXPECT_EQ(run.exit_status, 1);
   EXPECT_EQ(std::ranges::count(run.err, '\n'), 1) << run.err;
@@ -55,11 +56,13 @@ TEST_F(SessionsCommand, CheckFailsWhereOneIsNotSound) {
 }
 
 TEST_F(SessionsCommand, Exports) {
-  const ProgramRun run = Sessions({"export", In("s.db"), "--out", In("out"), "--tables", "v_episode,event", "--json"});
+  const ProgramRun run =
+      Sessions({"export", In("s.db"), "--out", In("out"), "--tables", "v_episode,event", "--json"});
   ASSERT_EQ(run.exit_status, 0) << run.err;
   const auto json = nlohmann::json::parse(run.out);
   EXPECT_EQ(json["tables"][0]["rows"], 7);
-  for (const auto& file : json["files"]) EXPECT_TRUE(std::filesystem::exists(file.get<std::string>())) << file;
+  for (const auto& file : json["files"])
+    EXPECT_TRUE(std::filesystem::exists(file.get<std::string>())) << file;
   EXPECT_EQ(Sessions({"export", In("s.db"), "--out", In("out"), "--tables", "nothing"}).exit_status, 1);
 }
 

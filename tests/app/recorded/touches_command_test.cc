@@ -36,7 +36,8 @@ TEST_F(TouchesCommand, ListsAndSets) {
   ASSERT_EQ(listed["touches"].size(), 7U);
   EXPECT_EQ(listed["counts"]["new"], 7);
   const std::string id = listed["touches"][2]["id"];
-  const auto set = Json({"set", id.substr(0, 10), "1", "--status", "approved", "--comment", "=cmd| <b>", "--by", "Ann"});
+  const auto set =
+      Json({"set", id.substr(0, 10), "1", "--status", "approved", "--comment", "=cmd| <b>", "--by", "Ann"});
   EXPECT_EQ(set["changed"].size(), 2U);
   const auto after = Json({});
   EXPECT_EQ(after["counts"]["approved"], 2);

@@ -61,7 +61,8 @@ TEST_F(SessionMerge, HoldsTheRowsOfEachSession) {
         continue;
       }
       std::string columns;
-      for (SQLite::Statement column(one, "SELECT name FROM pragma_table_info('" + name + "')"); column.executeStep();)
+      for (SQLite::Statement column(one, "SELECT name FROM pragma_table_info('" + name + "')");
+           column.executeStep();)
         columns += (columns.empty() ? "\"" : ", \"") + column.getColumn(0).getString() + "\"";
       const auto expected = RowsOf(one, fmt::format("SELECT {} FROM \"{}\"", columns, name));
       EXPECT_EQ(RowsOf(merged, fmt::format("SELECT {} FROM \"{}\" WHERE session_id = {}", columns, name,
@@ -115,7 +116,8 @@ TEST_F(SessionMerge, IsToldFromASession) {
 }
 
 TEST_F(SessionMerge, TakesFilesOfOlderSchemas) {
-  const auto stored = std::filesystem::path(ELBOWROOM_SOURCE_DIR) / "tests/sessions/stored/session_schema_3.db";
+  const auto stored =
+      std::filesystem::path(ELBOWROOM_SOURCE_DIR) / "tests/sessions/stored/session_schema_3.db";
   WriteSampleSession(a_, 2);
   const auto taken = Merge({stored, a_});
   EXPECT_GT(taken[0].rows, 0);
