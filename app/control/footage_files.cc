@@ -10,12 +10,14 @@
 
 namespace elbowroom::control {
 
-std::vector<core::FootageFile> FootageFilesIn(const std::filesystem::path& folder) {
+std::vector<core::FootageFile> FootageFilesIn(const std::filesystem::path& folder,
+                                              const core::Progress& progress) {
   const std::filesystem::path above = core::FolderOf(folder);
   std::vector<core::FootageFile> files;
   try {
     for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
       if (!entry.is_regular_file()) continue;
+      progress.Report(std::ssize(files) + 1, 0, "checksums of the footage, file");
       const std::string name = entry.path().lexically_relative(above).string();
       files.push_back({name, static_cast<std::int64_t>(entry.file_size()), core::HashOfFile(entry.path())});
     }

@@ -269,7 +269,7 @@ class Recording {
         if (camera.unwritten > 0)
           Append(fmt::format("footage: {} pictures of camera '{}' weren't written", camera.unwritten,
                              camera.name));
-      closing_.footage = FootageFilesIn(FootageFolderOf(options_.session));
+      closing_.footage = FootageFilesIn(FootageFolderOf(options_.session), options_.progress);
     } catch (const core::Error& error) {
       Append(fmt::format("footage: {}", error.what()));
     }

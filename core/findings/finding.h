@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -16,6 +17,10 @@ namespace elbowroom::core {
 enum class FindingKind { kTouch, kNearMiss };
 
 enum class ReviewStatus { kNew, kActive, kReviewed, kApproved, kResolved };
+
+inline constexpr std::array kReviewStatuses = {ReviewStatus::kNew, ReviewStatus::kActive,
+                                               ReviewStatus::kReviewed, ReviewStatus::kApproved,
+                                               ReviewStatus::kResolved};
 
 // Where a finding of the session that was replayed is in the replay.
 enum class FindingPresence {

@@ -14,6 +14,8 @@
 #include "sessions/archive/table_rows.h"
 #include "sessions/database/database.h"
 #include "sessions/database/statement.h"
+#include "sessions/finding_rows.h"
+#include "sessions/header_rows.h"
 #include "sessions/schema/schema.h"
 #include "sessions/session_reader.h"
 #include "sessions/sound_session.h"
@@ -100,32 +102,31 @@ class MergedFile {
   Database database_;
 };
 
-void RequireFinished(const SessionReader& session) {
-  if (session.has_outcome()) return;
-  const std::string path = session.path().string();
+void RequireFinished(SoundSession& session) {
+  Statement row(session.database(), "SELECT status FROM session");
+  if (row.Next() && row.Text(0) == ToString(SessionStatus::kComplete)) return;
+  const std::string path = session.database().path().string();
   throw core::Error(
       core::ErrorKind::kRange,
-      session.status() == SessionStatus::kRecording
+      session.is_in_use()
           ? fmt::format("session '{}' is being recorded; merge it when its trial has ended", path)
           : fmt::format("session '{}' was cut off and has no touches yet; 'elbowroom replay' makes a whole "
                         "one of it",
                         path));
 }
 
-MergedSession Describe(const std::filesystem::path& path, std::int64_t id, const std::stop_token& stop) {
-  const SessionReader session(path, stop);
-  RequireFinished(session);
-  return {id, path, session.header().trial.participant, session.recording_id(), session.first_recording_id(),
-          0};
+MergedSession Describe(const std::filesystem::path& path, std::int64_t id, Database& session) {
+  const core::SessionHeader header = ReadHeader(session);
+  const std::string first = FirstRecordingId(session, header);
+  return {id, path, header.trial.participant, ReadRecordingId(session).value_or(first), first, 0};
 }
 
-void RequireDifferent(std::span<const MergedSession> sessions) {
-  for (std::size_t i = 0; i < sessions.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j)
-      if (sessions[i].recording_id == sessions[j].recording_id)
-        throw core::Error(core::ErrorKind::kRange,
-                          fmt::format("'{}' and '{}' are the same session; give each one once",
-                                      sessions[j].file.string(), sessions[i].file.string()));
+void RequireOther(const MergedSession& session, std::span<const MergedSession> taken) {
+  const auto same = std::ranges::find(taken, session.recording_id, &MergedSession::recording_id);
+  if (same != taken.end())
+    throw core::Error(core::ErrorKind::kRange,
+                      fmt::format("'{}' and '{}' are the same session; give each one once",
+                                  same->file.string(), session.file.string()));
 }
 
 }  // namespace
@@ -135,22 +136,22 @@ std::vector<MergedSession> MergeSessions(std::span<const std::filesystem::path> 
                                          const std::stop_token& stop) {
   UnfinishedSession unfinished(merged);
   std::vector<MergedSession> taken;
-  for (const auto& path : sessions) {
-    taken.push_back(Describe(path, std::ssize(taken) + 1, stop));
-    progress.Report(std::ssize(taken), std::ssize(sessions), "opening sessions");
-  }
-  RequireDifferent(taken);
   {
     MergedFile file(unfinished.temporary());
     const std::string now = core::NowUtc();
-    for (MergedSession& session : taken) {
-      SoundSession source(session.file, stop);
+    for (const auto& path : sessions) {
+      progress.Report(std::ssize(taken), std::ssize(sessions), "sessions merged");
+      SoundSession source(path, stop);
       Transaction transaction(file.database());
-      file.AddSource(session, now, stop);
       source.limit().Guarded([&] {
-        source.database().Execute("BEGIN");
+        source.database().Execute("BEGIN");  // all tables as they are at one moment
+        RequireFinished(source);
+        MergedSession session = Describe(path, std::ssize(taken) + 1, source.database());
+        RequireOther(session, taken);
+        file.AddSource(session, now, stop);
         for (const std::string& table : MergedTables())
           session.rows += file.Take(source.database(), table, session.session_id, progress, stop);
+        taken.push_back(std::move(session));
       });
       transaction.Commit();
     }

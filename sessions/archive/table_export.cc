@@ -7,7 +7,6 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <span>
-#include <string_view>
 
 #include "core/error.h"
 #include "core/spelling.h"
@@ -114,14 +113,11 @@ class TableFiles {
 
 void RequireKnown(const std::vector<std::string>& tables) {
   const std::vector<std::string> known = TablesAndViews();
-  const std::vector<std::string_view> words(known.begin(), known.end());
   for (const std::string& table : tables) {
     if (std::ranges::find(known, table) != known.end()) continue;
-    const auto nearest = core::NearestWord(table, words);
     throw core::Error(core::ErrorKind::kRange,
                       fmt::format("--tables: a session has no table or view '{}'; {}", table,
-                                  nearest ? fmt::format("did you mean '{}'?", *nearest)
-                                          : "docs/session_database.md lists them"));
+                                  core::SpellingAdvice(table, known, "docs/session_database.md lists them")));
   }
 }
 

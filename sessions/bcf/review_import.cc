@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/spelling.h"
 #include "sessions/database/damage.h"
 
 namespace elbowroom::sessions {
@@ -15,16 +16,9 @@ namespace {
 
 using core::ReviewStatus;
 
-std::string LowerCase(std::string_view text) {
-  std::string lower(text);
-  std::ranges::transform(lower, lower.begin(),
-                         [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-  return lower;
-}
-
 // Ours, and what the programs of CAD teams call theirs.
 std::optional<ReviewStatus> StatusFrom(std::string_view topic_status) {
-  const std::string text = LowerCase(topic_status);
+  const std::string text = core::LowerCase(topic_status);
   if (const auto own = core::ParseReviewStatus(text)) return own;
   constexpr std::array<std::pair<std::string_view, ReviewStatus>, 9> kOthers = {{
       {"open", ReviewStatus::kActive},

@@ -38,6 +38,9 @@ namespace elbowroom::sessions {
 // The spacings' values, each on a line.
 [[nodiscard]] RichText SpacingTexts(const ReportData& data, const std::vector<double>& spacing_mm);
 
+// "12 mm" deep, or "11 mm to 13 mm" from the hull; a near miss without witness points is "at least" so far.
+[[nodiscard]] RichText DepthText(const ReportTouch& touch);
+
 // "–": a cell that has nothing to say.
 inline constexpr const char* kNothing = "\u2013";
 

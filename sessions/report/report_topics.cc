@@ -5,6 +5,7 @@
 #include <map>
 
 #include "sessions/bcf/review_import.h"
+#include "sessions/report/report_document.h"
 
 namespace elbowroom::sessions {
 namespace {
@@ -32,9 +33,7 @@ std::string SpacingsText(const core::Layout& layout, const ReportTouch& touch) {
 std::string HowFar(const ReportTouch& touch) {
   if (!touch.is_near_miss)
     return fmt::format("at least {:.1f} mm deep, over {:.0f} mm\u00b2", touch.depth_mm, touch.area_mm2);
-  const core::ClearanceInterval& interval = touch.closest->interval;
-  return fmt::format("{:.1f} to {:.1f} mm away{}", interval.lower_mm, interval.upper_mm,
-                     touch.is_sure ? "" : ", perhaps far enough");
+  return PlainText(DepthText(touch)) + " away";
 }
 
 std::string DescriptionOf(const core::SessionHeader& header, const ReportTouch& touch) {

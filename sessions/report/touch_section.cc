@@ -10,9 +10,10 @@
 namespace elbowroom::sessions {
 namespace {
 
-// Which columns the table has beside those that every touch fills.
+// What the rows have in common.
 struct TouchColumns {
-  bool has_status = false;
+  std::vector<std::string> tools;     // by which a page filters
+  std::vector<std::string> statuses;  // likewise; none: the table has no such column
   bool has_pictures = false;
 };
 
@@ -26,18 +27,8 @@ std::vector<DocumentColumn> ColumnsOf(const TouchColumns& columns) {
                          {WithRemark("Position", "x, y, z in mm"), true},
                          {WithRemark("Spacing", "then"), true},
                          {"Tools"}});
-  if (columns.has_status) all.push_back({"Status"});
+  if (!columns.statuses.empty()) all.push_back({"Status"});
   return all;
-}
-
-RichText DepthText(const ReportTouch& touch) {
-  if (!touch.is_near_miss) return Millimetres(touch.depth_mm);
-  const core::ClearanceInterval& closest = touch.closest->interval;
-  RichText text = touch.closest->has_witnesses
-                      ? fmt::format("{} to {}", Millimetres(closest.lower_mm), Millimetres(closest.upper_mm))
-                      : "at least " + Millimetres(closest.lower_mm);
-  if (!touch.is_sure) text += Remark("maybe not below");
-  return text;
 }
 
 DocumentCell NameCell(const ReportData& data, const ReportTouch& touch) {
@@ -81,8 +72,8 @@ DocumentRow TouchRow(const ReportData& data, std::size_t i, const TouchColumns& 
   row.data = {{"touch", std::to_string(i)},
               {"part", std::to_string(touch.part)},
               {"kind", touch.is_near_miss ? "near" : "touch"},
-              {"tools", PlacesOf(touch.tools, ToolsMarked(data))},
-              {"status", PlacesOf({touch.status}, StatusesOf(data))}};
+              {"tools", PlacesOf(touch.tools, columns.tools)},
+              {"status", PlacesOf({touch.status}, columns.statuses)}};
   if (columns.has_pictures) row.cells.push_back(PictureCell(pictures, i));
   const double lasted_s = touch.end_s - touch.begin_s + data.frame_period_s;
   row.cells.insert(
@@ -92,7 +83,7 @@ DocumentRow TouchRow(const ReportData& data, std::size_t i, const TouchColumns& 
        DepthText(touch), touch.is_near_miss ? kNothing : fmt::format("{:.0f} mm\u00b2", touch.area_mm2),
        at ? fmt::format("{:.0f}, {:.0f}, {:.0f}", at->x(), at->y(), at->z()) : kNothing,
        SpacingTexts(data, touch.spacing_mm), ToolText(touch)});
-  if (columns.has_status) row.cells.emplace_back(touch.status);
+  if (!columns.statuses.empty()) row.cells.emplace_back(touch.status);
   return row;
 }
 
@@ -110,6 +101,16 @@ DocumentRow GroupHead(const ReportData& data, core::PartIndex part) {
 
 }  // namespace
 
+RichText DepthText(const ReportTouch& touch) {
+  if (!touch.is_near_miss) return Millimetres(touch.depth_mm);
+  const core::ClearanceInterval& closest = touch.closest->interval;
+  RichText text = touch.closest->has_witnesses
+                      ? fmt::format("{} to {}", Millimetres(closest.lower_mm), Millimetres(closest.upper_mm))
+                      : "at least " + Millimetres(closest.lower_mm);
+  if (!touch.is_sure) text += Remark("maybe not below");
+  return text;
+}
+
 RichText SpacingTexts(const ReportData& data, const std::vector<double>& spacing_mm) {
   RichText text;
   for (std::size_t i = 0; i < spacing_mm.size(); ++i) {
@@ -122,7 +123,7 @@ RichText SpacingTexts(const ReportData& data, const std::vector<double>& spacing
 
 Section TouchSection(const ReportData& data, const ReportPictures& pictures) {
   if (data.list.touches.empty()) return {};
-  const TouchColumns columns{!StatusesOf(data).empty(), !pictures.touches.empty()};
+  const TouchColumns columns{ToolsMarked(data), StatusesOf(data), !pictures.touches.empty()};
   DocumentTable table{ColumnsOf(columns), {}};
   for (std::size_t i = 0; i < data.list.touches.size(); ++i) {
     const core::PartIndex part = data.list.touches[i].part;

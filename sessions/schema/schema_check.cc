@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "core/error.h"
+#include "core/spelling.h"
 #include "sessions/database/damage.h"
 #include "sessions/database/statement.h"
 #include "sessions/schema/schema.h"
@@ -49,13 +50,6 @@ std::vector<std::string> NamesOfSchema(std::int64_t schema, std::string_view typ
   return names;
 }
 
-// SQLite doesn't distinguish upper and lower case in names.
-std::string LowerCase(std::string name) {
-  std::ranges::transform(name, name.begin(),
-                         [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-  return name;
-}
-
 // The SQL in a form that is the same for all versions of SQLite, and after a dump was read back.
 std::string Essence(const std::string& sql) {
   std::string essence;
@@ -91,7 +85,8 @@ std::vector<std::string> ViewsOfSchema(std::int64_t schema) { return NamesOfSche
 void RequireTablesOfSchema(Database& database, std::int64_t schema) {
   const std::string where = fmt::format("session '{}'", database.path().string());
   std::map<std::string, Entry> found;
-  for (Entry& entry : EntriesOf(database)) found.emplace(LowerCase(entry.name), std::move(entry));
+  // SQLite doesn't distinguish upper and lower case in names.
+  for (Entry& entry : EntriesOf(database)) found.emplace(core::LowerCase(entry.name), std::move(entry));
   std::set<std::string> tables;
   for (const Entry& wanted : EntriesOfSchema(schema)) {
     if (IsOfSqlite(wanted)) continue;
@@ -112,18 +107,18 @@ void RequireTablesOfSchema(Database& database, std::int64_t schema) {
           fmt::format("{}: its index '{}' is one of expressions, which may take for ever to check; "
                       "drop it with DROP INDEX in the sqlite3 shell",
                       where, Quotable(entry.name)));
-    if (entry.type == "trigger" && tables.contains(LowerCase(entry.table)))
+    if (entry.type == "trigger" && tables.contains(core::LowerCase(entry.table)))
       FailAsDamaged(where, fmt::format("it has a trigger, '{}', which no schema has", Quotable(entry.name)));
   }
 }
 
 void DropAllButTablesOfSchema(Database& copy, std::int64_t schema) {
   std::set<std::string> wanted;
-  for (const Entry& entry : EntriesOfSchema(schema)) wanted.insert(LowerCase(entry.name));
+  for (const Entry& entry : EntriesOfSchema(schema)) wanted.insert(core::LowerCase(entry.name));
   // Views and indices first: they may refer to tables.
   for (const char* type : {"trigger", "view", "index", "table"}) {
     for (const Entry& entry : EntriesOf(copy)) {
-      if (entry.type != type || IsOfSqlite(entry) || wanted.contains(LowerCase(entry.name))) continue;
+      if (entry.type != type || IsOfSqlite(entry) || wanted.contains(core::LowerCase(entry.name))) continue;
       copy.Execute(fmt::format("DROP {} IF EXISTS {}", type, Quoted(entry.name)));
     }
   }

@@ -31,7 +31,8 @@ CommandResult Run(const ReportOptions& options, const CommandContext& context) {
 
 void AddReportCommand(CLI::App& app, Choice* choice) {
   CLI::App* command = app.add_subcommand(
-      "report", "write the report of a session: report.html, report.pdf, contacts.csv, clearance.csv");
+      "report",
+      "write the report of a session: report.html, report.pdf, touches.bcfzip, contacts.csv, clearance.csv");
   auto options = std::make_shared<ReportOptions>();
   command->add_option("SESSION", options->session, "the session (S.db)")->required();
   command->add_option("--out", options->out, "folder for the report; made if it isn't there")->required();

@@ -63,6 +63,10 @@ nlohmann::json ReviewJson(const std::vector<core::Finding>& findings) {
   return review;
 }
 
+bool IsNearMissHere(const core::Finding& finding) {
+  return finding.kind == core::FindingKind::kNearMiss && finding.presence == core::FindingPresence::kHere;
+}
+
 nlohmann::json NamesOf(const core::Rig& rig) {
   nlohmann::json names = nlohmann::json::array();
   for (const core::CameraModel& camera : rig.cameras) names.push_back(camera.name());
@@ -85,6 +89,7 @@ nlohmann::json SummaryJson(const sessions::SessionReader& session) {
   const core::SessionHeader& header = session.header();
   const std::vector<sessions::FrameSummary> frames = session.frames();
   const std::vector<core::ContactEpisode> episodes = session.episodes();
+  const std::vector<core::Finding> findings = session.findings();
   const std::vector<core::FootageFile> footage = session.footage();
   std::error_code unknown;
   nlohmann::json json = {
@@ -109,9 +114,9 @@ nlohmann::json SummaryJson(const sessions::SessionReader& session) {
       {"first_frame", frames.empty() ? nlohmann::json() : nlohmann::json(frames.front().frame)},
       {"seconds", frames.empty() ? 0.0 : frames.back().time_s - frames.front().time_s},
       {"touches", episodes.size()},
-      {"near_misses", session.near_misses().size()},
+      {"near_misses", std::ranges::count_if(findings, IsNearMissHere)},
       {"events", session.events().size()},
-      {"review", ReviewJson(session.findings())},
+      {"review", ReviewJson(findings)},
       {"footage_files", footage.size()},
       {"footage_bytes", std::accumulate(footage.begin(), footage.end(), std::int64_t{0},
                                         [](auto sum, const auto& file) { return sum + file.bytes; })},

@@ -4,7 +4,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -28,9 +27,6 @@ namespace {
 using core::Finding;
 using core::ReviewStatus;
 
-constexpr std::array kStatuses = {ReviewStatus::kNew, ReviewStatus::kActive, ReviewStatus::kReviewed,
-                                  ReviewStatus::kApproved, ReviewStatus::kResolved};
-
 // A comment is a note, no document. Reports show all of it.
 constexpr std::size_t kLongestCommentBytes = 64 * 1024;
 constexpr std::size_t kLongestNameBytes = 200;
@@ -51,7 +47,7 @@ struct SetOptions {
 
 std::vector<std::string> StatusNames() {
   std::vector<std::string> names;
-  for (const ReviewStatus status : kStatuses) names.emplace_back(core::ToString(status));
+  for (const ReviewStatus status : core::kReviewStatuses) names.emplace_back(core::ToString(status));
   return names;
 }
 
@@ -121,7 +117,7 @@ CommandResult ListOf(const TouchesOptions& options, const std::vector<Finding>& 
     result.text += FindingText(finding) + "\n";
   }
   std::string counts;
-  for (const ReviewStatus status : kStatuses) {
+  for (const ReviewStatus status : core::kReviewStatuses) {
     const auto count = std::ranges::count(findings, status, &Finding::status);
     result.json["counts"][std::string(core::ToString(status))] = count;
     if (count > 0)
@@ -158,19 +154,25 @@ std::vector<core::FindingId> ChangedBy(const std::vector<sessions::FindingRemark
   return ids;
 }
 
+// Adds the remarks to the session's file, and to `findings`.
+void AddTo(const TouchesOptions& options, const std::vector<sessions::FindingRemark>& remarks,
+           std::vector<Finding>* findings) {
+  sessions::AddRemarks(options.session, remarks);
+  for (const sessions::FindingRemark& said : remarks)
+    std::ranges::find(*findings, said.finding, &Finding::id)->remarks.push_back(said.remark);
+}
+
 CommandResult Set(const TouchesOptions& options, const SetOptions& set, const CommandContext& context) {
   RequireFit(set);
+  std::vector<Finding> findings = FindingsOf(options, context);
   std::vector<sessions::FindingRemark> remarks;
-  {
-    const std::vector<Finding> findings = FindingsOf(options, context);
-    for (const std::string& text : set.touches) {
-      const core::FindingId& id = core::FindFinding(findings, text).id;
-      if (std::ranges::find(remarks, id, &sessions::FindingRemark::finding) == remarks.end())
-        remarks.push_back({id, {core::NowUtc(), set.by, set.status, set.comment}});
-    }
+  for (const std::string& text : set.touches) {
+    const core::FindingId& id = core::FindFinding(findings, text).id;
+    if (std::ranges::find(remarks, id, &sessions::FindingRemark::finding) == remarks.end())
+      remarks.push_back({id, {core::NowUtc(), set.by, set.status, set.comment}});
   }
-  sessions::AddRemarks(options.session, remarks);
-  CommandResult result = ListOf(options, FindingsOf(options, context));
+  AddTo(options, remarks, &findings);
+  CommandResult result = ListOf(options, findings);
   result.json["changed"] = ChangedBy(remarks);
   return result;
 }
@@ -178,15 +180,16 @@ CommandResult Set(const TouchesOptions& options, const SetOptions& set, const Co
 CommandResult Import(const TouchesOptions& options, const std::filesystem::path& file,
                      const CommandContext& context) {
   const std::vector<sessions::BcfTopic> topics = sessions::ReadBcfFile(file);
-  const sessions::ReviewImport import = sessions::RemarksFrom(topics, FindingsOf(options, context));
+  std::vector<Finding> findings = FindingsOf(options, context);
+  const sessions::ReviewImport import = sessions::RemarksFrom(topics, findings);
   if (import.topics == 0)
     throw core::Error(
         core::ErrorKind::kRange,
         fmt::format("{}: none of its {} topics is a touch or near miss of session '{}'; give the "
                     "session that it was made from",
                     file.string(), topics.size(), options.session.string()));
-  if (!import.remarks.empty()) sessions::AddRemarks(options.session, import.remarks);
-  CommandResult result = ListOf(options, FindingsOf(options, context));
+  if (!import.remarks.empty()) AddTo(options, import.remarks, &findings);
+  CommandResult result = ListOf(options, findings);
   result.json["changed"] = ChangedBy(import.remarks);
   result.json["imported"] = {{"file", file.string()},
                              {"topics", import.topics},

@@ -28,6 +28,7 @@ TEST(ReportTopics, HaveAnEntryForEachFindingUnderItsId) {
     const auto topic = std::ranges::find(topics, finding.id, &BcfTopic::id);
     ASSERT_NE(topic, topics.end());
     EXPECT_EQ(topic->components.front(), finding.part);
+    EXPECT_EQ(topic->title.find("inf"), std::string::npos) << topic->title;
     EXPECT_EQ(topic->camera.has_value(), finding.presence == core::FindingPresence::kHere);
   }
   const auto gone = std::ranges::find(topics, std::string(32, 'c'), &BcfTopic::id);
