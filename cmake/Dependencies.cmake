@@ -22,7 +22,12 @@ pkg_check_modules(XXHASH REQUIRED IMPORTED_TARGET libxxhash)
 pkg_check_modules(ARAVIS REQUIRED IMPORTED_TARGET aravis-0.8)
 pkg_check_modules(GSTREAMER REQUIRED IMPORTED_TARGET gstreamer-1.0 gstreamer-app-1.0 gstreamer-video-1.0)
 pkg_check_modules(TURBOJPEG REQUIRED IMPORTED_TARGET libturbojpeg)
+pkg_check_modules(LIBZIP REQUIRED IMPORTED_TARGET libzip)  # its own config file asks for its tools
+find_package(pugixml REQUIRED)
 pkg_check_modules(DUKTAPE REQUIRED IMPORTED_TARGET duktape)
+pkg_check_modules(CAIRO REQUIRED IMPORTED_TARGET cairo-pdf)
+pkg_check_modules(PANGO REQUIRED IMPORTED_TARGET pangocairo)
+pkg_check_modules(RSVG REQUIRED IMPORTED_TARGET librsvg-2.0)
 # They bundle the scripts of pages, from npm packages.
 find_program(NODE_PROGRAM NAMES node nodejs REQUIRED)
 find_program(NPM_PROGRAM npm REQUIRED)
@@ -31,7 +36,7 @@ if(ELBOWROOM_TESTS)
   set_target_properties(PkgConfig::GSTREAMER_RTSP_SERVER PROPERTIES INTERFACE_COMPILE_OPTIONS "")
 endif()
 # Without -pthread, which precompiled headers lack.
-set_target_properties(PkgConfig::ARAVIS PkgConfig::GSTREAMER PROPERTIES INTERFACE_COMPILE_OPTIONS "")
+set_target_properties(PkgConfig::ARAVIS PkgConfig::GSTREAMER PkgConfig::PANGO PkgConfig::RSVG PROPERTIES INTERFACE_COMPILE_OPTIONS "")
 find_package(Lib3mf REQUIRED)        # its pkg-config file asks for the static libraries of others
 find_package(Haru REQUIRED)
 find_package(OpenCVParts REQUIRED)   # only the modules in use; Debian ships no CMake config for single modules

@@ -1,5 +1,7 @@
 #include "core/spelling.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstddef>
 #include <numeric>
@@ -37,6 +39,25 @@ std::optional<std::string_view> NearestWord(std::string_view word, std::span<con
     }
   }
   return nearest;
+}
+
+std::string SpellingAdvice(std::string_view word, std::span<const std::string_view> known,
+                           std::string_view otherwise) {
+  const auto nearest = NearestWord(word, known);
+  return nearest ? fmt::format("did you mean '{}'?", *nearest) : std::string(otherwise);
+}
+
+std::string SpellingAdvice(std::string_view word, std::span<const std::string> known,
+                           std::string_view otherwise) {
+  const std::vector<std::string_view> words(known.begin(), known.end());
+  return SpellingAdvice(word, words, otherwise);
+}
+
+std::string LowerCase(std::string_view text) {
+  std::string lower(text);
+  std::ranges::transform(lower, lower.begin(),
+                         [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  return lower;
 }
 
 }  // namespace elbowroom::core

@@ -21,9 +21,8 @@ PartIndex PartNamed(const core::Layout& layout, const std::string& name) {
   if (const auto part = layout.FindPart(name)) return *part;
   std::vector<std::string_view> known;
   for (const core::Part& part : layout.parts) known.emplace_back(part.name);
-  const auto nearest = core::NearestWord(name, known);
   Fail(fmt::format("no part is named '{}'; {}", name,
-                   nearest ? fmt::format("did you mean '{}'?", *nearest) : "use the name of a [[part]]"));
+                   core::SpellingAdvice(name, known, "use the name of a [[part]]")));
 }
 
 // One flag a part.

@@ -5,12 +5,13 @@
 #include <sqlite3.h>
 
 #include <algorithm>
+#include <future>
 #include <string>
 
 #include "sessions/database/damage.h"
 #include "sessions/database/query_limit.h"
 #include "sessions/database/statement.h"
-#include "sessions/schema_check.h"
+#include "sessions/schema/schema_check.h"
 
 namespace elbowroom::sessions {
 namespace {
@@ -104,13 +105,18 @@ void DistrustFile(Database& database) {
 
 void RequireIntegrity(Database& database, std::int64_t schema, const std::stop_token& stop) {
   const ReadSnapshot snapshot(database);
-  RequireOk(database, "PRAGMA integrity_check(1)");
   // A connection that can't write has no CHECKs (SQLite's sqlite3AddCheckConstraint). A copy that can be
-  // written has them.
+  // written has them. It is checked beside the file itself, whose damage is named first.
   Database copy = database.CopyAside(stop);
   const QueryLimit limit(copy, stop);
-  limit.Guarded([&] { RequireOk(copy, "PRAGMA quick_check(1)"); });
-  RequireReferences(database, schema);
+  std::future<void> rows = std::async(std::launch::async, [&] {
+    limit.Guarded([&] {
+      RequireOk(copy, "PRAGMA quick_check(1)");
+      RequireReferences(copy, schema);
+    });
+  });
+  RequireOk(database, "PRAGMA integrity_check(1)");
+  rows.get();
   RequireWholeFrames(database);
   if (schema >= 8) RequireWholeStamps(database);
 }

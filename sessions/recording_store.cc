@@ -12,7 +12,7 @@
 #include "sessions/finding_rows.h"
 #include "sessions/header_rows.h"
 #include "sessions/outcome_rows.h"
-#include "sessions/schema.h"
+#include "sessions/schema/schema.h"
 #include "sessions/spill.h"
 
 namespace elbowroom::sessions {

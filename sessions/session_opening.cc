@@ -4,8 +4,8 @@
 
 #include "sessions/database/private_copy.h"
 #include "sessions/database/session_files.h"
-#include "sessions/schema.h"
-#include "sessions/schema_check.h"
+#include "sessions/schema/schema.h"
+#include "sessions/schema/schema_check.h"
 #include "sessions/spill.h"
 
 namespace elbowroom::sessions {

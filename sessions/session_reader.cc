@@ -13,39 +13,14 @@
 #include "sessions/finding_rows.h"
 #include "sessions/frame_rows.h"
 #include "sessions/header_rows.h"
-#include "sessions/integrity.h"
 #include "sessions/outcome_rows.h"
 #include "sessions/row_rules.h"
-#include "sessions/schema.h"
-#include "sessions/schema_check.h"
-#include "sessions/session_opening.h"
+#include "sessions/sound_session.h"
 
 namespace elbowroom::sessions {
 namespace {
 
 constexpr std::string_view kStatusNames[] = {"recording", "cut off", "complete", "abandoned"};
-
-// Checks the file before anything is read from it: first its tables, then its integrity. Rows are checked as
-// they are read.
-void RequireSound(Database& database, const std::stop_token& stop) {
-  RequireReadableSession(database);
-  const std::int64_t schema = database.ReadInteger("PRAGMA user_version");
-  if (schema == 0) {  // without tables; reading the header then fails, as there is no set-up
-    if (database.ReadInteger("SELECT count(*) FROM sqlite_schema") > 0)
-      FailAsDamaged(fmt::format("session '{}'", database.path().string()), "it has tables, but of schema 0");
-    return;
-  }
-  RequireTablesOfSchema(database, schema);
-  RequireIntegrity(database, schema, stop);
-}
-
-Database CopyOfNewestSchema(Database& database, const std::stop_token& stop) {
-  const std::int64_t schema = database.ReadInteger("PRAGMA user_version");
-  Database copy = database.CopyInMemory(stop);
-  DropAllButTablesOfSchema(copy, schema);
-  Migrate(copy);
-  return copy;
-}
 
 std::vector<FrameSummary> ReadFrameSummaries(Database& database, const core::SessionHeader& header) {
   Statement rows(
@@ -83,21 +58,8 @@ std::vector<FrameSummary> ReadFrameSummaries(Database& database, const core::Ses
 std::string_view ToString(SessionStatus status) { return kStatusNames[static_cast<std::size_t>(status)]; }
 
 struct SessionReader::Impl {
-  Impl(const std::filesystem::path& path, const std::stop_token& stop)
-      : opened(OpenSession(path)), limit(database, stop) {
-    limit.Guarded([&] { Open(stop); });
-  }
-
-  void Open(const std::stop_token& stop) {
-    DistrustFile(database);
-    RequireSound(database, stop);
-    if (database.ReadInteger("PRAGMA user_version") != kSchemaVersion) {
-      Database copy = CopyOfNewestSchema(database, stop);
-      limit = QueryLimit(copy, stop);
-      database = std::move(copy);
-      DistrustFile(database);
-    }
-    header = ReadHeader(database);
+  Impl(const std::filesystem::path& path, const std::stop_token& stop) : file(path, stop) {
+    header = limit.Guarded([&] { return ReadHeader(database); });
   }
 
   // Rows of older programs have no ids of findings: these get them here.
@@ -113,9 +75,9 @@ struct SessionReader::Impl {
         .near_misses;
   }
 
-  OpenedSession opened;
-  Database& database = opened.database;
-  QueryLimit limit;
+  SoundSession file;
+  Database& database = file.database();
+  const QueryLimit& limit = file.limit();
   core::SessionHeader header;
   std::optional<core::SessionOutcome> adopted;
 };
@@ -137,7 +99,7 @@ SessionStatus SessionReader::status() const {
   if (text == "complete") return SessionStatus::kComplete;
   if (text == "abandoned") return SessionStatus::kAbandoned;
   if (text == "recording")
-    return impl_->opened.is_in_use ? SessionStatus::kRecording : SessionStatus::kCutOff;
+    return impl_->file.is_in_use() ? SessionStatus::kRecording : SessionStatus::kCutOff;
   FailAsDamaged(fmt::format("session '{}'", path().string()),
                 fmt::format("no status is called '{}'", Quotable(text)));
 }
@@ -149,6 +111,8 @@ std::optional<std::string> SessionReader::ended_at_utc() const {
     return row.Text(0);
   });
 }
+
+std::int64_t SessionReader::file_schema() const { return impl_->file.schema(); }
 
 std::int64_t SessionReader::frame_count() const {
   return impl_->limit.Guarded([&] { return impl_->database.ReadInteger("SELECT count(*) FROM frame"); });

@@ -52,6 +52,7 @@ class SessionReader {
   [[nodiscard]] const std::filesystem::path& path() const;
   [[nodiscard]] const core::SessionHeader& header() const;
   [[nodiscard]] SessionStatus status() const;
+  [[nodiscard]] std::int64_t file_schema() const;  // of the file, before it was migrated in memory
   [[nodiscard]] std::optional<std::string> ended_at_utc() const;  // nothing while recording
 
   [[nodiscard]] std::int64_t frame_count() const;
@@ -76,10 +77,10 @@ class SessionReader {
   // Touches and near misses as reviewers follow them, by time; each episode and near miss that there is, too.
   [[nodiscard]] std::vector<core::Finding> findings() const;
   [[nodiscard]] std::vector<core::FootageFile> footage() const;  // RIG.yml first; none: not kept
-  [[nodiscard]] std::string first_recording_id() const;        // of the session that cameras or footage gave
-  [[nodiscard]] std::string recording_id() const;              // of this one
-  [[nodiscard]] std::vector<ContactRow> contacts() const;      // every part in contact, frame by frame
-  [[nodiscard]] std::vector<ContactRow> clearances() const;    // every part with a clearance, likewise
+  [[nodiscard]] std::string first_recording_id() const;      // of the session that cameras or footage gave
+  [[nodiscard]] std::string recording_id() const;            // of this one
+  [[nodiscard]] std::vector<ContactRow> contacts() const;    // every part in contact, frame by frame
+  [[nodiscard]] std::vector<ContactRow> clearances() const;  // every part with a clearance, likewise
   // The same rows one by one, for sessions of any length. The visitor must not read the session.
   void VisitContacts(const RowVisitor& visit) const;
   void VisitClearances(const RowVisitor& visit) const;

@@ -11,8 +11,8 @@
 #include "sessions/database/session_files.h"
 #include "sessions/database/statement.h"
 #include "sessions/header_rows.h"
-#include "sessions/schema.h"
-#include "sessions/schema_check.h"
+#include "sessions/schema/schema.h"
+#include "sessions/schema/schema_check.h"
 
 namespace elbowroom::sessions {
 namespace {

@@ -7,8 +7,8 @@
 #include <optional>
 #include <string>
 
-#include "app/cli/command.h"
 #include "app/cli/light_json.h"
+#include "app/cli/options/command.h"
 #include "app/control/cameras/background_taking.h"
 #include "recon/rig_files/rig_file.h"
 

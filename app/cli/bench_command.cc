@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "app/cli/command.h"
+#include "app/cli/options/command.h"
 #include "app/cli/standard_streams.h"
 #include "app/control/benchmarks.h"
 #include "app/control/self_test.h"

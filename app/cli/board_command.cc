@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <memory>
 
-#include "app/cli/command.h"
-#include "app/cli/file_ending.h"
-#include "app/cli/unit_option.h"
+#include "app/cli/options/command.h"
+#include "app/cli/options/file_ending.h"
+#include "app/cli/options/unit_option.h"
 #include "core/error.h"
 #include "core/system/whole_file.h"
 #include "recon/boards/board.h"

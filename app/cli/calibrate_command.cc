@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <memory>
 
-#include "app/cli/command.h"
-#include "app/cli/value_json.h"
+#include "app/cli/options/command.h"
+#include "app/cli/options/value_json.h"
 #include "app/control/calibration/calibration_job.h"
 #include "app/control/calibration/calibration_report.h"
 #include "core/units.h"

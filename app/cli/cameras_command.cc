@@ -10,10 +10,10 @@
 #include <string>
 #include <utility>
 
-#include "app/cli/command.h"
 #include "app/cli/light_json.h"
 #include "app/cli/offsets_command.h"
-#include "app/cli/value_json.h"
+#include "app/cli/options/command.h"
+#include "app/cli/options/value_json.h"
 #include "app/control/cameras/camera_check.h"
 #include "app/control/cameras/camera_recording.h"
 #include "app/control/preflight/preflight.h"

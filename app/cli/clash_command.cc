@@ -6,11 +6,11 @@
 #include <memory>
 #include <tuple>
 
-#include "app/cli/command.h"
+#include "app/cli/options/command.h"
+#include "app/cli/options/spacing_option.h"
+#include "app/cli/options/unit_option.h"
+#include "app/cli/options/value_json.h"
 #include "app/cli/repeated_timing.h"
-#include "app/cli/spacing_option.h"
-#include "app/cli/unit_option.h"
-#include "app/cli/value_json.h"
 #include "cad_import/layout/layout_file.h"
 #include "review/clash.h"
 

@@ -99,7 +99,7 @@ int RunAction(const CommandAction& action, bool json) {
       (json ? result.json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) : result.text) +
       '\n');
   if (!result.hint.empty()) PrintToStderr(result.hint);
-  return 0;
+  return result.failure.empty() ? 0 : Fail(result.failure);
 }
 
 // Help and version are results and go to stdout; wrong usage gives one line on stderr.
@@ -133,6 +133,8 @@ int RunCommandLine(int argc, char** argv, const OpenConsole& open_console) {
   AddReportCommand(app, &choice);
   AddSweepCommand(app, &choice);
   AddKeepoutCommand(app, &choice);
+  AddTouchesCommand(app, &choice);
+  AddSessionsCommand(app, &choice);
   AddBackgroundCommand(app, &choice);
   AddBoardCommand(app, &choice);
   AddSegmentCommand(app, &choice);

@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "app/cli/command.h"
+#include "app/cli/options/command.h"
 
 namespace elbowroom::cli {
 

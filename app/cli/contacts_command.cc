@@ -3,13 +3,13 @@
 
 #include <memory>
 
-#include "app/cli/command.h"
-#include "app/cli/part_option.h"
-#include "app/cli/recovery_option.h"
+#include "app/cli/options/command.h"
+#include "app/cli/options/part_option.h"
+#include "app/cli/options/recovery_option.h"
+#include "app/cli/options/unit_option.h"
+#include "app/cli/options/value_json.h"
 #include "app/cli/repeated_timing.h"
 #include "app/cli/rig_frame.h"
-#include "app/cli/unit_option.h"
-#include "app/cli/value_json.h"
 #include "app/cli/way_out.h"
 #include "recon/hull/visual_hull.h"
 #include "review/contacts.h"

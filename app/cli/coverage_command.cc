@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <memory>
 
-#include "app/cli/command.h"
-#include "app/cli/unit_option.h"
-#include "app/cli/value_json.h"
+#include "app/cli/options/command.h"
+#include "app/cli/options/unit_option.h"
+#include "app/cli/options/value_json.h"
 #include "app/control/coverage/coverage_job.h"
 #include "app/control/coverage/coverage_pictures.h"
 #include "app/control/coverage/coverage_report.h"

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "app/cli/command.h"
+#include "app/cli/options/command.h"
 #include "app/cli/trial_summary.h"
 #include "app/control/demo_trial.h"
 #include "app/control/report/session_report.h"

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "app/cli/command.h"
+#include "app/cli/options/command.h"
+#include "app/cli/options/unit_option.h"
+#include "app/cli/options/value_json.h"
 #include "app/cli/repeated_timing.h"
-#include "app/cli/unit_option.h"
-#include "app/cli/value_json.h"
 #include "app/control/gauge/gauge_job.h"
 #include "app/control/gauge/gauge_page.h"
 

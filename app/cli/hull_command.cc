@@ -4,10 +4,10 @@
 #include <filesystem>
 #include <memory>
 
-#include "app/cli/command.h"
+#include "app/cli/options/command.h"
+#include "app/cli/options/unit_option.h"
 #include "app/cli/repeated_timing.h"
 #include "app/cli/rig_frame.h"
-#include "app/cli/unit_option.h"
 #include "cad_import/mesh_file.h"
 #include "core/error.h"
 #include "recon/hull/visual_hull.h"

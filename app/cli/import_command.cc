@@ -6,9 +6,9 @@
 #include <memory>
 #include <optional>
 
-#include "app/cli/command.h"
-#include "app/cli/file_ending.h"
-#include "app/cli/unit_option.h"
+#include "app/cli/options/command.h"
+#include "app/cli/options/file_ending.h"
+#include "app/cli/options/unit_option.h"
 #include "app/control/import_picture.h"
 #include "cad_import/cad_file.h"
 #include "cad_import/formats/file_format.h"

@@ -10,12 +10,12 @@
 #include <utility>
 #include <vector>
 
-#include "app/cli/command.h"
-#include "app/cli/file_ending.h"
 #include "app/cli/folder_lock.h"
 #include "app/cli/layout_edit.h"
 #include "app/cli/layout_listing.h"
-#include "app/cli/unit_option.h"
+#include "app/cli/options/command.h"
+#include "app/cli/options/file_ending.h"
+#include "app/cli/options/unit_option.h"
 #include "app/control/layout_picture.h"
 #include "cad_import/layout/layout_file.h"
 #include "core/error.h"

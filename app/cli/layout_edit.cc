@@ -49,12 +49,10 @@ std::optional<std::size_t> FindPair(const LayoutText& text, const PairEdit& edit
   std::vector<std::string> names;
   for (const std::string_view kind : kinds)
     for (std::size_t i = 0; i < text.Count(kind); ++i) names.push_back(NameOf(text, kind, i));
-  const std::vector<std::string_view> known(names.begin(), names.end());
-  const auto nearest = core::NearestWord(name, known);
-  throw core::Error(core::ErrorKind::kRange,
-                    fmt::format("{}: nothing is named '{}'; {}", text.file().string(), name,
-                                nearest ? fmt::format("did you mean '{}'?", *nearest)
-                                        : "`elbowroom layout show` lists the names"));
+  throw core::Error(
+      core::ErrorKind::kRange,
+      fmt::format("{}: nothing is named '{}'; {}", text.file().string(), name,
+                  core::SpellingAdvice(name, names, "`elbowroom layout show` lists the names")));
 }
 
 // The path of the file relative to the layout's folder.

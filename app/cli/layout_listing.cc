@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "app/cli/value_json.h"
+#include "app/cli/options/value_json.h"
 
 namespace elbowroom::cli {
 namespace {

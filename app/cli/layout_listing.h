@@ -1,7 +1,7 @@
 // A layout as `elbowroom layout` prints it.
 #pragma once
 
-#include "app/cli/command.h"
+#include "app/cli/options/command.h"
 #include "cad_import/layout/layout_file.h"
 
 namespace elbowroom::cli {

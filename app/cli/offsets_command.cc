@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-#include "app/cli/value_json.h"
+#include "app/cli/options/value_json.h"
 #include "app/control/cameras/time_offsets.h"
 #include "recon/rig_files/rig_file.h"
 

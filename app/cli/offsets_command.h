@@ -1,7 +1,7 @@
 // The subcommand of `cameras` that measures time offsets.
 #pragma once
 
-#include "app/cli/command.h"
+#include "app/cli/options/command.h"
 
 namespace elbowroom::cli {
 

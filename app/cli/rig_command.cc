@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "app/cli/command.h"
-#include "app/cli/unit_option.h"
-#include "app/cli/value_json.h"
+#include "app/cli/options/command.h"
+#include "app/cli/options/unit_option.h"
+#include "app/cli/options/value_json.h"
 #include "app/control/calibration/calibration_file.h"
 #include "app/control/calibration/rig_import.h"
 

@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "app/cli/command.h"
+#include "app/cli/options/command.h"
 #include "core/ids.h"
 #include "core/rig.h"
 #include "core/rig_quality.h"

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "app/cli/command.h"
+#include "app/cli/options/command.h"
 #include "app/cli/rig_frame.h"
 #include "core/system/file_sync.h"
 #include "recon/images/mask_image.h"

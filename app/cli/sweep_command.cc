@@ -7,9 +7,9 @@
 #include <optional>
 #include <utility>
 
-#include "app/cli/command.h"
-#include "app/cli/unit_option.h"
-#include "app/cli/value_json.h"
+#include "app/cli/options/command.h"
+#include "app/cli/options/unit_option.h"
+#include "app/cli/options/value_json.h"
 #include "app/control/sweep/spacing_sweep.h"
 #include "app/control/sweep/sweep_engines.h"
 #include "app/control/sweep/sweep_files.h"

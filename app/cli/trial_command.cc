@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "app/cli/command.h"
-#include "app/cli/frame_range_option.h"
+#include "app/cli/options/command.h"
+#include "app/cli/options/frame_range_option.h"
 #include "app/cli/trial_summary.h"
 #include "app/control/trial_runner.h"
 #include "app/control/trial_setup.h"

@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "app/cli/light_json.h"
-#include "app/cli/value_json.h"
+#include "app/cli/options/value_json.h"
 
 namespace elbowroom::cli {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "app/cli/command.h"
+#include "app/cli/options/command.h"
 #include "app/control/trial_runner.h"
 
 namespace elbowroom::cli {

@@ -7,11 +7,11 @@
 #include <optional>
 #include <vector>
 
-#include "app/cli/command.h"
-#include "app/cli/file_ending.h"
+#include "app/cli/options/command.h"
+#include "app/cli/options/file_ending.h"
+#include "app/cli/options/unit_option.h"
 #include "app/cli/repeated_timing.h"
 #include "app/cli/rig_frame.h"
-#include "app/cli/unit_option.h"
 #include "core/error.h"
 #include "core/system/whole_file.h"
 #include "recon/appearance/shaded_depth.h"

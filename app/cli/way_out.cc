@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "app/cli/value_json.h"
+#include "app/cli/options/value_json.h"
 #include "core/units.h"
 #include "review/recovery.h"
 

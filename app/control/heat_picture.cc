@@ -22,8 +22,9 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr int kHeatViewPx = 600;  // of one view, square
-constexpr int kBarPx = 64;        // below it
+constexpr int kHeatViewPx = 600;    // of one view, square
+constexpr double kTextSize = 20.0;  // a report shows the picture at half its size
+constexpr int kBarPx = 76;          // below it
 // The mean direction of the touched patches decides from which side to look only if its horizontal share is
 // above this.
 constexpr double kSideways = 0.1;
@@ -115,24 +116,26 @@ recon::Image Colored(recon::Image picture, const std::vector<std::optional<std::
 }
 
 LineDrawing ColorBar(const std::string& what, float most, const char* unit) {
-  constexpr double kLeft = 60.0, kWidth = 480.0, kTop = kHeatViewPx + 22.0, kHeight = 14.0;
+  constexpr double kLeft = 60.0, kWidth = 480.0, kTop = kHeatViewPx + 34.0, kHeight = 14.0;
   LineDrawing drawing;
   for (int shade = 0; shade < kShades; ++shade) {
     const double x = kLeft + kWidth * shade / kShades;
     drawing.areas.push_back({{{x, kTop}, {x + kWidth / kShades, kTop + kHeight}},
                              sessions::DepthColour((shade + 0.5) / kShades)});
   }
-  drawing.texts = {{{kLeft + 0.5 * kWidth, kTop - 7.0}, what, LineDrawing::Anchor::kMiddle, 14.0},
-                   {{kLeft, kTop + kHeight + 17.0}, "0", LineDrawing::Anchor::kMiddle},
-                   {{kLeft + kWidth, kTop + kHeight + 17.0},
+  drawing.texts = {{{kLeft + 0.5 * kWidth, kTop - 9.0}, what, LineDrawing::Anchor::kMiddle, kTextSize},
+                   {{kLeft, kTop + kHeight + 21.0}, "0", LineDrawing::Anchor::kMiddle, kTextSize},
+                   {{kLeft + kWidth, kTop + kHeight + 21.0},
                     fmt::format("{:.3g} {}", most, unit),
-                    LineDrawing::Anchor::kMiddle}};
+                    LineDrawing::Anchor::kMiddle,
+                    kTextSize}};
   return drawing;
 }
 
 LineDrawing TurnedOverNote() {
   LineDrawing note;
-  note.texts = {{{kHeatViewPx, 22.0}, "seen from below: turned over", LineDrawing::Anchor::kMiddle, 14.0}};
+  note.texts = {
+      {{kHeatViewPx, 26.0}, "seen from below: turned over", LineDrawing::Anchor::kMiddle, kTextSize}};
   return note;
 }
 

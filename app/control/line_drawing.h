@@ -9,7 +9,7 @@
 
 namespace elbowroom::control {
 
-// Units are pixels of the picture, y down. Colours are "#rrggbb". Texts are ASCII.
+// Units are pixels of the picture, y down. Colours are "#rrggbb".
 struct LineDrawing {
   struct Point {
     double x = 0.0;
@@ -42,7 +42,8 @@ struct LineDrawing {
 
 [[nodiscard]] std::string SvgOf(const LineDrawing& drawing);  // on white
 
-// Paints the drawing on a picture; what reaches out of it is cut off. offset_px: of the drawing's left edge.
+// Paints the drawing on a picture; what reaches out of it is cut off. An integer position is the middle of a
+// pixel. offset_px: of the drawing's left edge.
 void PaintOn(recon::Image* image, const LineDrawing& drawing, int offset_px = 0);
 
 [[nodiscard]] recon::Image ImageOf(const LineDrawing& drawing);  // on white

@@ -11,6 +11,7 @@
 #include <utility>
 #include <variant>
 
+#include "app/control/footage_files.h"
 #include "app/control/frame_pipeline.h"
 #include "app/control/light/trial_light.h"
 #include "app/control/outcome_tracker.h"
@@ -176,7 +177,7 @@ class Recording {
     core::SessionOutcome outcome = tracker_ ? tracker_->Outcome() : core::SessionOutcome();
     outcome_.episodes = outcome.episodes;
     outcome_.near_misses = outcome.near_misses;
-    writer_.Finish(std::move(outcome));
+    writer_.Finish(std::move(outcome), std::move(closing_));
     outcome_.session = writer_.path();
     outcome_.frames_committed = writer_.frames_committed();
     outcome_.recording = writer_.state();
@@ -265,6 +266,7 @@ class Recording {
         if (camera.unwritten > 0)
           Append(fmt::format("footage: {} pictures of camera '{}' weren't written", camera.unwritten,
                              camera.name));
+      closing_.footage = FootageFilesIn(FootageFolderOf(options_.session), options_.progress);
     } catch (const core::Error& error) {
       Append(fmt::format("footage: {}", error.what()));
     }
@@ -355,6 +357,7 @@ class Recording {
   std::vector<double> spacing_mm_;
   TrialOutcome outcome_;
   bool is_recording_footage_ = false;
+  sessions::SessionClosing closing_;
   core::FrameIndex last_frame_ = 0;
   double last_time_s_ = 0.0;
 };

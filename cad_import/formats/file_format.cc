@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cstdint>
 #include <fstream>
 #include <utility>
@@ -15,6 +14,7 @@
 #include "cad_import/formats/ply_check.h"
 #include "cad_import/formats/stl_check.h"
 #include "core/error.h"
+#include "core/spelling.h"
 
 namespace elbowroom::cad_import {
 namespace {
@@ -117,9 +117,7 @@ bool IsBoundaryRepresentation(FileFormat format) {
 }
 
 std::optional<FileFormat> FindFormat(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string extension = core::LowerCase(path.extension().string());
   for (const FormatRow& row : kFormats) {
     if (row.extension == extension) return row.format;
   }

@@ -49,23 +49,16 @@ class MeshShelf {
   std::map<std::tuple<fs::path, Unit, std::string>, core::SharedMesh> meshes_;
 };
 
-// Advice to an author who wrote `name` and meant one of `known`.
-std::string Advice(const std::string& name, const std::vector<std::string>& known,
-                   const std::string& otherwise) {
-  const std::vector<std::string_view> words(known.begin(), known.end());
-  const auto nearest = core::NearestWord(name, words);
-  return nearest ? fmt::format("did you mean '{}'?", *nearest) : otherwise;
-}
-
 // If `name` is the last name of a node, the advice is its whole path.
 std::string NodeAdvice(const std::string& name, const std::vector<std::string>& nodes) {
   constexpr std::size_t kFew = 5;
   for (const std::string& node : nodes)
     if (node.ends_with("/" + name)) return fmt::format("did you mean '{}'?", node);
   const std::span some(nodes.data(), std::min(nodes.size(), kFew));
-  return Advice(name, nodes,
-                fmt::format("it has '{}'{}", fmt::join(some, "', '"),
-                            nodes.size() > kFew ? fmt::format(" and {} more", nodes.size() - kFew) : ""));
+  return core::SpellingAdvice(
+      name, nodes,
+      fmt::format("it has '{}'{}", fmt::join(some, "', '"),
+                  nodes.size() > kFew ? fmt::format(" and {} more", nodes.size() - kFew) : ""));
 }
 
 // The first key of the part's recovery rule that is there: its line is named where the keys don't fit
@@ -144,8 +137,8 @@ void RequirePart(const core::Layout& layout, const TomlEntry& entry, std::string
   for (const core::Part& part : layout.parts) known.push_back(part.name);
   if (may_be_group)
     for (const core::Group& group : layout.groups) known.push_back(group.name);
-  entry.Fail(key,
-             fmt::format("names no part: '{}'; {}", name, Advice(name, known, "use the name of a [[part]]")));
+  entry.Fail(key, fmt::format("names no part: '{}'; {}", name,
+                              core::SpellingAdvice(name, known, "use the name of a [[part]]")));
 }
 
 core::Group ReadGroup(const TomlEntry& entry, const core::Layout& layout) {

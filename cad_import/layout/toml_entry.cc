@@ -61,9 +61,8 @@ TomlEntry::TomlEntry(const toml::table& table, std::string file, std::string tit
     : table_(table), file_(std::move(file)), title_(std::move(title)) {
   for (const auto& [key, value] : table_) {
     if (std::find(known.begin(), known.end(), key.str()) != known.end()) continue;
-    const auto nearest = core::NearestWord(key.str(), known);
     FailAt(key.source(), fmt::format("unknown key '{}'; {}", key.str(),
-                                     nearest ? fmt::format("did you mean '{}'?", *nearest) : "remove it"));
+                                     core::SpellingAdvice(key.str(), known, "remove it")));
   }
 }
 

@@ -22,6 +22,11 @@ std::optional<Enum> Parse(const std::array<std::string_view, kCount>& names, std
   return static_cast<Enum>(std::distance(names.begin(), name));
 }
 
+std::string HashInHex(const std::string& text) {
+  const XXH128_hash_t hash = XXH3_128bits(text.data(), text.size());
+  return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
+}
+
 }  // namespace
 
 std::string_view ToString(FindingKind kind) { return kKinds.at(static_cast<std::size_t>(kind)); }
@@ -46,8 +51,12 @@ ReviewStatus Finding::status() const {
 FindingId MakeFindingId(std::string_view first_recording_id, FindingKind kind, std::string_view part,
                         FrameIndex begin_frame) {
   const std::string what = fmt::format("{}|{}|{}|{}", first_recording_id, ToString(kind), begin_frame, part);
-  const XXH128_hash_t hash = XXH3_128bits(what.data(), what.size());
-  return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
+  return HashInHex(what);
+}
+
+std::string RemarkId(const FindingId& finding, const ReviewRemark& remark) {
+  return HashInHex(fmt::format("{}|{}|{}|{}|{}", finding, remark.at_utc, remark.by,
+                               remark.status ? ToString(*remark.status) : "", remark.comment));
 }
 
 }  // namespace elbowroom::core

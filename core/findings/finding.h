@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -16,6 +17,10 @@ namespace elbowroom::core {
 enum class FindingKind { kTouch, kNearMiss };
 
 enum class ReviewStatus { kNew, kActive, kReviewed, kApproved, kResolved };
+
+inline constexpr std::array kReviewStatuses = {ReviewStatus::kNew, ReviewStatus::kActive,
+                                               ReviewStatus::kReviewed, ReviewStatus::kApproved,
+                                               ReviewStatus::kResolved};
 
 // Where a finding of the session that was replayed is in the replay.
 enum class FindingPresence {
@@ -58,5 +63,8 @@ struct Finding {
 // The id of a finding that no session before had. Of `first_recording_id`, kind, part and first frame.
 [[nodiscard]] FindingId MakeFindingId(std::string_view first_recording_id, FindingKind kind,
                                       std::string_view part, FrameIndex begin_frame);
+
+// 32 hex digits that tell the remark from others of the finding: of who said what, and when.
+[[nodiscard]] std::string RemarkId(const FindingId& finding, const ReviewRemark& remark);
 
 }  // namespace elbowroom::core

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -13,25 +15,41 @@ namespace elbowroom::core {
 // permission is not replaced. Throws: Error{kFile} naming the path.
 void WriteWholeFile(const std::filesystem::path& path, std::string_view bytes);
 
-// Several files, all of them written as temporaries before the first is renamed. The destructor removes the
-// temporaries that weren't renamed.
-class PendingFiles {
+// A file of any length, written piece by piece as a temporary. Every member throws Error{kFile} naming the
+// path. The destructor removes the temporary unless it was renamed.
+class PendingFile {
  public:
-  PendingFiles() = default;
-  ~PendingFiles();
-  PendingFiles(const PendingFiles&) = delete;
-  PendingFiles& operator=(const PendingFiles&) = delete;
+  explicit PendingFile(const std::filesystem::path& path);
+  ~PendingFile();
+  PendingFile(const PendingFile&) = delete;
+  PendingFile& operator=(const PendingFile&) = delete;
 
-  // Both throw: Error{kFile} naming the path.
-  void Write(const std::filesystem::path& path, std::string_view bytes);
-  void RenameAll();
+  void Append(std::string_view bytes);
+  void Close();   // all that was appended is on the disk; nothing more can be appended
+  void Rename();  // after Close()
+  [[nodiscard]] const std::filesystem::path& target() const { return target_; }
 
  private:
-  struct Pending {
-    std::filesystem::path temporary;
-    std::filesystem::path path;
-  };
-  std::vector<Pending> files_;
+  void WriteOut();
+
+  std::filesystem::path path_;       // as given, for messages
+  std::filesystem::path target_;     // where a symbolic link points to
+  std::filesystem::path temporary_;  // empty: there is none any more
+  std::string waiting_;              // for a larger write
+  int file_ = -1;                    // -1: closed
+};
+
+// Several files, all of them written as temporaries before the first is renamed. The destructor removes the
+// temporaries that weren't renamed. Every member throws Error{kFile} naming the path.
+class PendingFiles {
+ public:
+  void Write(const std::filesystem::path& path, std::string_view bytes);
+  // To be written piece by piece; lives as long as this does.
+  [[nodiscard]] PendingFile& Begin(const std::filesystem::path& path);
+  void RenameAll();  // closes those that are still open, first
+
+ private:
+  std::vector<std::unique_ptr<PendingFile>> files_;
 };
 
 }  // namespace elbowroom::core

@@ -13,6 +13,9 @@ using core::CameraIndex;
 using Duration = CaptureClock::duration;
 using Instant = CaptureClock::time_point;
 
+// A set waits for this share of a period at most. What is left is for the thread to wake up: the set is then
+// decided within one period.
+constexpr double kLongestWait = 0.95;
 // More pictures of one camera than ever wait while sets are taken in time.
 constexpr std::size_t kMostWaiting = 64;
 // A camera's next picture comes one period after its last one. So a picture at most this share of a period
@@ -168,7 +171,7 @@ Instant FrameSetAssembler::DeadlineOf(const std::vector<Choice>& choices) const 
   Instant last = Instant::min();
   for (CameraIndex i = 0; i < cameras_.size(); ++i)
     if (choices[i].picture) last = std::max(last, cameras_[i].waiting[*choices[i].picture].arrived_at);
-  return last + cameras_[leader_].period;
+  return last + Share(kLongestWait, cameras_[leader_].period);
 }
 
 std::optional<Instant> FrameSetAssembler::Deadline() const {

@@ -33,8 +33,8 @@ struct AssemblerOptions {
 // or if clocks have drifted so far that the skew gets smaller by a fifth. Each picture is in one set at most
 // (docs/capture.md).
 //
-// Sets are decided in order: as soon as no picture that may still come can change one, and one period after
-// the last of its pictures, or of those of earlier sets, came at the latest. Held to a slow search over all
+// Sets are decided in order: as soon as no picture that may still come can change one, and within one
+// period after the last of its pictures, or of those of earlier sets, came. Held to a slow search over all
 // pictures by frame_set_assembler_test.
 // Thread: one at a time.
 class FrameSetAssembler {

@@ -2,17 +2,16 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <string_view>
+
+#include "core/spelling.h"
 
 namespace elbowroom::recon {
 
 bool HasImageExtension(const std::filesystem::path& path) {
   constexpr std::array<std::string_view, 8> kExtensions{".png",  ".jpg", ".jpeg", ".bmp",
                                                         ".tiff", ".tif", ".pgm",  ".ppm"};
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string extension = core::LowerCase(path.extension().string());
   return std::find(kExtensions.begin(), kExtensions.end(), extension) != kExtensions.end();
 }
 

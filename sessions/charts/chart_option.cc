@@ -77,6 +77,7 @@ Json ValueAxis(const ChartPanel& panel, std::size_t index) {
   if (panel.low) axis["min"] = Number(panel.low);
   if (panel.high) axis["max"] = Number(panel.high);
   if (panel.counts) axis["minInterval"] = 1;
+  axis["axisLabel"]["hideOverlap"] = true;
   return axis;
 }
 

@@ -45,6 +45,12 @@ std::string ColorOf(Ink ink) {
 std::string LightInks() { return Declarations(&NamedInk::light); }
 std::string DarkInks() { return Declarations(&NamedInk::dark); }
 
+std::vector<std::pair<std::string, std::string>> InksOnPaper() {
+  std::vector<std::pair<std::string, std::string>> inks;
+  for (const NamedInk& ink : kInks) inks.emplace_back(ColorOf(ink.ink), ink.light);
+  return inks;
+}
+
 std::string DepthColour(double fraction) {
   using Colour = std::array<double, 3>;
   constexpr std::array<Colour, 4> kStops = {{{253, 212, 158}, {252, 141, 89}, {215, 48, 31}, {115, 0, 0}}};

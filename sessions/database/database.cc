@@ -113,6 +113,8 @@ std::unique_ptr<SQLite::Database> ConnectToRead(const fs::path& path, int flags)
 // removed. If such a journal came back after a power failure, it would undo the change to a log, and the
 // frames in the log would be lost.
 void MakeDurable(SQLite::Database& connection) {
+  // Of a new file. Packed silhouettes have about 1.8 KiB: in pages of 4 KiB a third of the room stays empty.
+  connection.exec("PRAGMA page_size = 8192");
   connection.exec("PRAGMA synchronous = EXTRA; PRAGMA journal_mode = WAL; PRAGMA foreign_keys = ON");
 }
 

@@ -43,7 +43,7 @@ td { border-bottom: 1px solid var(--line); padding: 5px 11px; vertical-align: to
 th:first-child, td:first-child { padding-left: 4px; }
 th:first-child:not(.n) { min-width: 150px; }
 th.n, td.n { text-align: right; white-space: nowrap; overflow-wrap: normal; }
-td.n small { white-space: normal; overflow-wrap: anywhere; }
+td.n small { display: block; white-space: normal; overflow-wrap: break-word; }
 th small { display: block; }
 th small, td small { font-weight: 400; color: var(--quiet); font-size: 12px; }
 tr.worst td { background: var(--worst); }

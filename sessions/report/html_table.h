@@ -15,8 +15,11 @@ class HtmlTable {
  public:
   explicit HtmlTable(std::vector<TableColumn> columns) : columns_(std::move(columns)) {}
 
-  // One HTML cell a column.
-  void Add(const std::vector<std::string>& cells, const std::string& css_class = "");
+  // One HTML cell a column. `attributes` of the row: " data-part='3'".
+  void Add(const std::vector<std::string>& cells, const std::string& css_class = "",
+           const std::string& attributes = "");
+  // What follows stands below this HTML, as one body of the table.
+  void BeginGroup(const std::string& html);
   [[nodiscard]] bool empty() const { return rows_.empty(); }
   [[nodiscard]] std::string Html() const;
 

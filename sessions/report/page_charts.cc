@@ -7,12 +7,13 @@
 
 namespace elbowroom::sessions {
 
-std::string PageCharts::Add(const Chart& chart) {
+std::string PageCharts::Add(const DrawnChart& drawn) {
+  const Chart& chart = drawn.chart;
   const std::string id = fmt::format("chart-{}", count_++);
   json_ += fmt::format(R"({}{{"id":"{}","height":{},"option":{}}})", json_.empty() ? "" : ",", id,
                        HeightOf(chart), OptionJson(chart));
   return fmt::format("<figure class='chart' id='{}' role='img' aria-label='{}'>{}</figure>\n", id,
-                     Escaped(chart.title), painter_.Svg(chart));
+                     Escaped(chart.title), drawn.svg);
 }
 
 }  // namespace elbowroom::sessions

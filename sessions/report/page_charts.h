@@ -2,22 +2,19 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
-#include "sessions/charts/chart.h"
-#include "sessions/charts/chart_painter.h"
+#include "sessions/document/document.h"
 
 namespace elbowroom::sessions {
 
 class PageCharts {
  public:
   // HTML: a <figure> with the chart's picture, which the script replaces by the chart.
-  [[nodiscard]] std::string Add(const Chart& chart);
+  [[nodiscard]] std::string Add(const DrawnChart& drawn);
   // What web/page/charts_in_page.js takes, as JSON in ASCII without "<".
   [[nodiscard]] std::string Json() const { return "[" + json_ + "]"; }
 
  private:
-  ChartPainter painter_;
   std::size_t count_ = 0;
   std::string json_;
 };

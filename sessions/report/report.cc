@@ -2,17 +2,23 @@
 
 #include <algorithm>
 #include <array>
-#include <map>
+#include <future>
 #include <system_error>
 #include <tuple>
 
 #include "core/error.h"
+#include "core/system/file_sync.h"
+#include "core/system/whole_file.h"
+#include "sessions/bcf/bcf_file.h"
+#include "sessions/charts/chart_painter.h"
+#include "sessions/print/pdf.h"
 #include "sessions/report/clearance_csv.h"
 #include "sessions/report/contacts_csv.h"
 #include "sessions/report/report_data.h"
+#include "sessions/report/report_document.h"
 #include "sessions/report/report_page.h"
+#include "sessions/report/report_topics.h"
 #include "sessions/report/stamps_csv.h"
-#include "sessions/report/whole_files.h"
 
 namespace elbowroom::sessions {
 namespace {
@@ -42,16 +48,25 @@ void WriteReport(const SessionReader& session, const ReportPictures& pictures,
   for (const ReportPictures::Heat& heat : pictures.heat) RequirePng(heat.png);
   for (const ReportPictures::Touch& touch : pictures.touches) RequirePng(touch.png);
   const core::SessionHeader header = session.header();
-  std::string contacts = ContactsCsv(header.layout, {}), clearances = ClearanceCsv(header, {});
+  core::MakeFolder(out_dir);
+  core::PendingFiles files;
+  // A session may have more rows than there is memory for.
+  core::PendingFile& contacts = files.Begin(out_dir / "contacts.csv");
+  core::PendingFile& clearances = files.Begin(out_dir / "clearance.csv");
+  contacts.Append(ContactsCsv(header.layout, {}));
+  clearances.Append(ClearanceCsv(header, {}));
   const ReportData data = CollectReportData(
-      session, [&](const ContactRow& row) { contacts += ContactLine(header.layout, row); },
-      [&](const ContactRow& row) { clearances += ClearanceLine(header, row); });
-  std::map<std::string, std::string> files = {{"report.html", ReportPage(data, pictures)},
-                                              {"contacts.csv", std::move(contacts)},
-                                              {"clearance.csv", std::move(clearances)}};
+      session, [&](const ContactRow& row) { contacts.Append(ContactLine(header.layout, row)); },
+      [&](const ContactRow& row) { clearances.Append(ClearanceLine(header, row)); });
+  ChartPainter painter;
+  const Document document = ReportDocument(data, pictures, &painter);
+  std::future<std::string> pdf = std::async(std::launch::async, [&] { return PdfOf(document); });
+  files.Write(out_dir / "report.html", ReportPage(data, document, pictures.model));
+  files.Write(out_dir / "touches.bcfzip", PackBcf(TopicsOf(session, data.list, pictures)));
   constexpr const char* kStampsFile = "stamps.csv";
-  if (!data.stamps.empty()) files.emplace(kStampsFile, StampsCsv(data.header.rig, data.stamps));
-  WriteWholeFiles(out_dir, files);
+  if (!data.stamps.empty()) files.Write(out_dir / kStampsFile, StampsCsv(data.header.rig, data.stamps));
+  files.Write(out_dir / "report.pdf", pdf.get());
+  files.RenameAll();
   // One of an earlier report in the same folder is of another session.
   std::error_code ignored;
   if (data.stamps.empty()) std::filesystem::remove(out_dir / kStampsFile, ignored);

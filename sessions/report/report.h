@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/contact.h"
+#include "sessions/bcf/bcf_topic.h"
 #include "sessions/report/report_model.h"
 #include "sessions/session_reader.h"
 
@@ -26,6 +27,7 @@ struct ReportPictures {
   struct Touch {
     std::size_t place = 0;  // in TouchesOf(session).touches
     std::vector<unsigned char> png;
+    TopicCamera camera = {};  // that sees what the picture shows
   };
   std::vector<Touch> touches = {};  // snapshots, of some of them
   ReportModel model = {};           // what the 3-D view shows
@@ -37,8 +39,9 @@ struct ReportPictures {
     std::span<const core::ContactEpisode> episodes);
 
 // Writes `out_dir`/report.html (nothing loaded from elsewhere; fit for print; it says the same without its
-// script), contacts.csv (a row for each part in contact in each frame), clearance.csv (a row for each part
-// whose clearance was asked) and, where the cameras have stamps, stamps.csv (a row for each camera in each
+// script), report.pdf (the same document on A4, without the 3-D view), contacts.csv (a row for each part in
+// contact in each frame), clearance.csv (a row for each part whose clearance was asked), touches.bcfzip (the
+// touches for CAD teams) and, where the cameras have stamps, stamps.csv (a row for each camera in each
 // frame); all or none. Makes the folder; replaces an older report. Throws: Error{kFile} naming what can't be
 // written; what SessionReader throws; PreconditionError for bytes that are no PNG.
 void WriteReport(const SessionReader& session, const ReportPictures& pictures,

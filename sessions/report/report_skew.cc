@@ -6,9 +6,7 @@
 #include <vector>
 
 #include "core/spread.h"
-#include "sessions/report/html_table.h"
-#include "sessions/report/markup.h"
-#include "sessions/report/report_page.h"
+#include "sessions/report/report_document.h"
 
 namespace elbowroom::sessions {
 namespace {
@@ -63,7 +61,7 @@ std::string FramesWithout(const std::vector<StampRow>& frames, core::CameraIndex
   for (std::size_t i = 0; i < std::min(stretches.size(), kMostStretches); ++i) {
     const auto& [first, last] = stretches[i];
     text += fmt::format("{}{}", i == 0 ? "" : ", ", first);
-    if (last != first) text += fmt::format("&ndash;{}", last);
+    if (last != first) text += fmt::format("\u2013{}", last);
   }
   if (stretches.size() > kMostStretches)
     text += fmt::format(" and {} more stretches", stretches.size() - kMostStretches);
@@ -83,27 +81,29 @@ std::string SkewLine(const std::vector<StampRow>& frames) {
                                 "{} of {} frames lack a camera: there the hull is too large, and a touch "
                                 "counts as undecided.",
                                 incomplete, frames.size());
-  return "<p class='lead'>" + line + "</p>\n";
+  return line;
 }
 
 }  // namespace
 
-std::string SkewOfCameras(const ReportData& data) {
-  if (data.stamps.empty()) return "";
-  HtmlTable table({{"Camera"},
-                   {"From the frame&rsquo;s time <small>median</small>", true},
-                   {"<small>95 % of frames</small>", true},
-                   {"<small>largest</small>", true},
-                   {"Missing in frames"}});
+std::vector<Block> SkewOfCameras(const ReportData& data) {
+  if (data.stamps.empty()) return {};
+  DocumentTable table{{{"Camera"},
+                       {WithRemark("From the frame\u2019s time", "median"), true},
+                       {WithRemark("", "95 % of frames"), true},
+                       {WithRemark("", "largest"), true},
+                       {"Missing in frames"}},
+                      {}};
   for (core::CameraIndex i = 0; i < data.header.rig.cameras.size(); ++i) {
     const std::optional<core::Spread> skew_ms = core::SpreadOf(SkewsMs(data.stamps, i));
     const auto cell = [&](double core::Spread::*value) {
-      return skew_ms ? fmt::format("{:.1f} ms", (*skew_ms).*value) : std::string("&ndash;");
+      return skew_ms ? fmt::format("{:.1f} ms", (*skew_ms).*value) : std::string(kNothing);
     };
-    table.Add({Escaped(data.header.rig.cameras[i].name()), cell(&core::Spread::median),
-               cell(&core::Spread::p95), cell(&core::Spread::max), FramesWithout(data.stamps, i)});
+    table.rows.push_back(
+        {{data.header.rig.cameras[i].name(), cell(&core::Spread::median), cell(&core::Spread::p95),
+          cell(&core::Spread::max), FramesWithout(data.stamps, i)}});
   }
-  return SkewLine(data.stamps) + table.Html();
+  return {Paragraph{SkewLine(data.stamps), true}, std::move(table)};
 }
 
 }  // namespace elbowroom::sessions

@@ -3,55 +3,48 @@
 #include <algorithm>
 
 #include "sessions/charts/ink.h"
-#include "sessions/report/markup.h"
 #include "sessions/report/page_data.h"
-#include "sessions/report/report_page.h"
+#include "sessions/report/report_document.h"
 #include "sessions/report/verdict_text.h"
 
 namespace elbowroom::sessions {
 namespace {
 
-// Which columns the table has beside those that every touch fills.
+// What the rows have in common.
 struct TouchColumns {
-  bool has_status = false;
+  std::vector<std::string> tools;     // by which a page filters
+  std::vector<std::string> statuses;  // likewise; none: the table has no such column
   bool has_pictures = false;
-
-  [[nodiscard]] int count() const { return 7 + (has_status ? 1 : 0) + (has_pictures ? 1 : 0); }
 };
 
-std::string Cell(const std::string& html, bool is_number) {
-  return fmt::format("<td{}>{}</td>", is_number ? " class='n'" : "", html);
+std::vector<DocumentColumn> ColumnsOf(const TouchColumns& columns) {
+  std::vector<DocumentColumn> all = {{"Touch"}};
+  if (columns.has_pictures) all.push_back({"Picture"});
+  all.insert(all.end(), {{WithRemark("Peak", "or closest"), true},
+                         {"Lasted", true},
+                         {WithRemark("Depth or distance", "to the hull"), true},
+                         {"Area", true},
+                         {WithRemark("Position", "x, y, z in mm"), true},
+                         {WithRemark("Spacing", "then"), true},
+                         {"Tools"}});
+  if (!columns.statuses.empty()) all.push_back({"Status"});
+  return all;
 }
 
-std::string TouchHead(const TouchColumns& columns) {
-  return fmt::format(
-      "<thead><tr><th>Touch</th>{}<th class='n'>Peak <small>or closest</small></th>"
-      "<th class='n'>Lasted</th><th class='n'>Depth or distance <small>to the hull</small></th>"
-      "<th class='n'>Area</th><th class='n'>Position <small>x, y, z in mm</small></th>"
-      "<th class='n'>Spacing <small>then</small></th><th>Tools</th>{}</tr></thead>\n",
-      columns.has_pictures ? "<th>Picture</th>" : "", columns.has_status ? "<th>Status</th>" : "");
-}
-
-std::string DepthCell(const ReportTouch& touch) {
-  if (!touch.is_near_miss) return Millimetres(touch.depth_mm);
-  const core::ClearanceInterval& closest = touch.closest->interval;
-  return (touch.closest->has_witnesses
-              ? fmt::format("{} to {}", Millimetres(closest.lower_mm), Millimetres(closest.upper_mm))
-              : "at least " + Millimetres(closest.lower_mm)) +
-         (touch.is_sure ? "" : "<small>maybe not below</small>");
-}
-
-std::string NameCell(const ReportData& data, const ReportTouch& touch) {
+DocumentCell NameCell(const ReportData& data, const ReportTouch& touch) {
   const double fraction = data.deepest_mm > 0.0 ? touch.depth_mm / data.deepest_mm : 0.0;
-  return fmt::format("<span class='dot' style='background:{}'></span>{}",
-                     touch.is_near_miss ? ColorOf(Ink::kCaution) : DepthColour(fraction), NameOf(touch));
+  DocumentCell cell(NameOf(touch));
+  cell.dot = touch.is_near_miss ? ColorOf(Ink::kCaution) : DepthColour(fraction);
+  return cell;
 }
 
-std::string ToolCell(const ReportTouch& touch) {
-  std::string text;
-  for (const std::string& tool : touch.tools)
-    text += (text.empty() ? "" : ", ") + ("<bdi>" + Escaped(tool) + "</bdi>");
-  return text.empty() ? "&ndash;" : text;
+RichText ToolText(const ReportTouch& touch) {
+  RichText text;
+  for (const std::string& tool : touch.tools) {
+    if (!text.empty()) text += {.text = ", "};
+    text += NameRun(tool);
+  }
+  return text.empty() ? RichText(kNothing) : text;
 }
 
 // Numbers of names in `names`, as the filters compare them.
@@ -64,78 +57,89 @@ std::string PlacesOf(const std::vector<std::string>& wanted, const std::vector<s
   return places;
 }
 
-std::string PictureCell(const ReportPictures& pictures, std::size_t touch) {
+DocumentCell PictureCell(const ReportPictures& pictures, std::size_t touch) {
+  DocumentCell cell;
   const auto at = std::ranges::find(pictures.touches, touch, &ReportPictures::Touch::place);
-  if (at == pictures.touches.end()) return "<td></td>";
-  return fmt::format("<td><img class='snapshot' alt='' src='{}'></td>", PngAsDataUrl(at->png));
+  if (at != pictures.touches.end()) cell.png = at->png;
+  return cell;
 }
 
-std::string TouchRow(const ReportData& data, std::size_t i, const TouchColumns& columns,
+DocumentRow TouchRow(const ReportData& data, std::size_t i, const TouchColumns& columns,
                      const ReportPictures& pictures) {
   const ReportTouch& touch = data.list.touches[i];
   const auto& at = touch.at_in_world_mm;
-  std::string row = fmt::format(
-      "<tr{} data-touch='{}' data-part='{}' data-kind='{}' data-tools='{}' data-status='{}'>",
-      data.list.worst == i ? " class='worst'" : "", i, touch.part, touch.is_near_miss ? "near" : "touch",
-      PlacesOf(touch.tools, ToolsMarked(data)), PlacesOf({touch.status}, StatusesOf(data)));
-  row += Cell(NameCell(data, touch), false);
-  if (columns.has_pictures) row += PictureCell(pictures, i);
-  row += Cell(fmt::format("{:.2f} s <small>frame {}</small>", touch.time_s, touch.frame), true);
-  row += Cell(fmt::format("{:.2f} s <small>from {:.2f} s</small>",
-                          touch.end_s - touch.begin_s + data.frame_period_s, touch.begin_s),
-              true);
-  row += Cell(DepthCell(touch), true);
-  row += Cell(touch.is_near_miss ? "&ndash;" : fmt::format("{:.0f} mm&sup2;", touch.area_mm2), true);
-  row += Cell(at ? fmt::format("{:.0f}, {:.0f}, {:.0f}", at->x(), at->y(), at->z()) : "&ndash;", true);
-  row += Cell(SpacingTexts(data, touch.spacing_mm), true) + Cell(ToolCell(touch), false);
-  if (columns.has_status) row += Cell(Escaped(touch.status), false);
-  return row + "</tr>\n";
+  DocumentRow row{.cells = {NameCell(data, touch)}, .is_highlighted = data.list.worst == i};
+  row.data = {{"touch", std::to_string(i)},
+              {"part", std::to_string(touch.part)},
+              {"kind", touch.is_near_miss ? "near" : "touch"},
+              {"tools", PlacesOf(touch.tools, columns.tools)},
+              {"status", PlacesOf({touch.status}, columns.statuses)}};
+  if (columns.has_pictures) row.cells.push_back(PictureCell(pictures, i));
+  const double lasted_s = touch.end_s - touch.begin_s + data.frame_period_s;
+  row.cells.insert(
+      row.cells.end(),
+      {WithRemark(fmt::format("{:.2f} s", touch.time_s), fmt::format("frame {}", touch.frame)),
+       WithRemark(fmt::format("{:.2f} s", lasted_s), fmt::format("from {:.2f} s", touch.begin_s)),
+       DepthText(touch), touch.is_near_miss ? kNothing : fmt::format("{:.0f} mm\u00b2", touch.area_mm2),
+       at ? fmt::format("{:.0f}, {:.0f}, {:.0f}", at->x(), at->y(), at->z()) : kNothing,
+       SpacingTexts(data, touch.spacing_mm), ToolText(touch)});
+  if (!columns.statuses.empty()) row.cells.emplace_back(touch.status);
+  return row;
 }
 
-std::string GroupHead(const ReportData& data, core::PartIndex part, const TouchColumns& columns) {
+DocumentRow GroupHead(const ReportData& data, core::PartIndex part) {
   const auto count = [&](bool near_misses) {
     return std::ranges::count_if(data.list.touches, [&](const ReportTouch& touch) {
       return touch.part == part && touch.is_near_miss == near_misses;
     });
   };
-  return fmt::format(
-      "<tr class='group'><th colspan='{}' scope='rowgroup'><bdi>{}</bdi> <small>touches: {}, near misses: "
-      "{}</small></th></tr>\n",
-      columns.count(), Escaped(data.header.layout.parts[part].name), count(false), count(true));
+  RichText head;
+  head += NameRun(data.header.layout.parts[part].name);
+  head += Remark(fmt::format("touches: {}, near misses: {}", count(false), count(true)));
+  return {.cells = {std::move(head)}, .begins_group = true};
 }
 
 }  // namespace
 
-std::string SpacingTexts(const ReportData& data, const std::vector<double>& spacing_mm) {
-  std::string text;
+RichText DepthText(const ReportTouch& touch) {
+  if (!touch.is_near_miss) return Millimetres(touch.depth_mm);
+  const core::ClearanceInterval& closest = touch.closest->interval;
+  RichText text = touch.closest->has_witnesses
+                      ? fmt::format("{} to {}", Millimetres(closest.lower_mm), Millimetres(closest.upper_mm))
+                      : "at least " + Millimetres(closest.lower_mm);
+  if (!touch.is_sure) text += Remark("maybe not below");
+  return text;
+}
+
+RichText SpacingTexts(const ReportData& data, const std::vector<double>& spacing_mm) {
+  RichText text;
   for (std::size_t i = 0; i < spacing_mm.size(); ++i) {
-    text += fmt::format("{}{}", i == 0 ? "" : "<br>", Millimetres(spacing_mm[i]));
+    text += {.text = Millimetres(spacing_mm[i]), .begins_line = i > 0};
     if (data.spacings.size() > 1)
-      text += " <small><bdi>" + Escaped(data.header.layout.spacings[i].name) + "</bdi></small>";
+      text += {.text = data.header.layout.spacings[i].name, .emphasis = Emphasis::kRemark, .is_name = true};
   }
   return text;
 }
 
-std::string TouchSection(const ReportData& data, const ReportPictures& pictures) {
-  if (data.list.touches.empty()) return "";
-  const TouchColumns columns{!StatusesOf(data).empty(), !pictures.touches.empty()};
-  std::string rows;
+Section TouchSection(const ReportData& data, const ReportPictures& pictures) {
+  if (data.list.touches.empty()) return {};
+  const TouchColumns columns{ToolsMarked(data), StatusesOf(data), !pictures.touches.empty()};
+  DocumentTable table{ColumnsOf(columns), {}};
   for (std::size_t i = 0; i < data.list.touches.size(); ++i) {
     const core::PartIndex part = data.list.touches[i].part;
-    const bool begins = i == 0 || data.list.touches[i - 1].part != part;
-    if (begins) rows += (i == 0 ? "" : "</tbody>") + ("<tbody>" + GroupHead(data, part, columns));
-    rows += TouchRow(data, i, columns, pictures);
+    if (i == 0 || data.list.touches[i - 1].part != part) table.rows.push_back(GroupHead(data, part));
+    table.rows.push_back(TouchRow(data, i, columns, pictures));
   }
   const std::string left_out =
       data.list.left_out == 0
           ? ""
           : fmt::format(" These are the worst; the session has {} more.", data.list.left_out);
-  return fmt::format(
-      "<section id='touches'><h2>Every touch and near miss</h2><p class='lead'>By part. The deepest touch is "
-      "highlighted. A near miss is an approach below the required {} that ended without a touch; the real "
-      "distance may be larger: the hull is larger than the hand.{}</p>\n<div class='scroll'><table>{}{}"
-      "</tbody></table></div></section>\n",
-      Millimetres(data.header.trial.required_clearance_mm), left_out, TouchHead(columns), rows);
+  const std::string lead = fmt::format(
+      "By part. The deepest touch is highlighted. A near miss is an approach below the required {} that "
+      "ended without a touch; the real distance may be larger: the hull is larger than the hand.{}",
+      Millimetres(data.header.trial.required_clearance_mm), left_out);
+  return {.id = "touches",
+          .blocks = {Heading{"Every touch and near miss"}, Paragraph{lead, true}, std::move(table)}};
 }
 
 }  // namespace elbowroom::sessions

@@ -17,7 +17,8 @@ TEST(Demo, TouchesPayloadAAt140MmAndNothingAt240) {
   const test_support::ProgramRun run =
       test_support::RunProgram(ELBOWROOM_PROGRAM, {"demo", "--out", out.string(), "--headless"});
   ASSERT_EQ(run.exit_status, 0) << run.err;
-  for (const char* file : {"session.db", "report.html", "contacts.csv", "clearance.csv", "view.png"}) {
+  for (const char* file :
+       {"session.db", "report.html", "report.pdf", "contacts.csv", "clearance.csv", "view.png"}) {
     EXPECT_GT(std::filesystem::file_size(out / file), 1000U) << file;
   }
   const sessions::SessionReader session(out / "session.db");

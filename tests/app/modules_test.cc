@@ -48,7 +48,7 @@ class CopiedProgram : public testing::Test {
 };
 
 TEST_F(CopiedProgram, WorksWithItsModulesBesideIt) {
-  EXPECT_EQ(CopyThose("libelbowroom_"), 3);
+  EXPECT_EQ(CopyThose("libelbowroom_"), 4);
   EXPECT_EQ(CopyThose("elbowroom_decoder-"), 1);
   EXPECT_EQ(Segment().err, "");
   EXPECT_FALSE(fs::is_empty(folder_ / "masks"));

@@ -14,6 +14,7 @@
 #include "core/error.h"
 #include "recon/capture/live_rig.h"
 #include "recon/footage/recorded_rig.h"
+#include "sessions/archive/session_check.h"
 #include "tests/app/live_demo.h"
 #include "tests/recon/capture/served_rig.h"
 #include "tests/support/temporary_folder.h"
@@ -83,6 +84,10 @@ TEST(RecordedTrial, GivesWhatTheLiveTrialGave) {
   ASSERT_TRUE(live_outcome.footage.has_value());
   EXPECT_THAT(live_outcome.footage->Troubles(), IsEmpty());
   ASSERT_EQ(live_outcome.footage->rig_file, folder / "live.footage" / "RIG.yml");
+  const sessions::SessionCheck check = sessions::CheckSession(folder / "live.db", {}, {});
+  EXPECT_TRUE(check.is_sound()) << check.problems.front();
+  EXPECT_GT(check.footage_files, static_cast<std::int64_t>(rig_file.rig.cameras.size()));
+  EXPECT_EQ(sessions::SessionReader(folder / "live.db").footage().front().file, "live.footage/RIG.yml");
 
   setup.footage.reset();
   setup.source = std::make_shared<recon::RecordedRig>(recon::ReadRigFile(live_outcome.footage->rig_file));

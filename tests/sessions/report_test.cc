@@ -15,6 +15,7 @@
 #include "sessions/report/timeline_chart.h"
 #include "sessions/session_writer.h"
 #include "tests/sessions/expect_error.h"
+#include "tests/sessions/sample_picture.h"
 #include "tests/sessions/sample_session.h"
 #include "tests/sessions/sample_trial.h"
 #include "tests/support/temporary_folder.h"
@@ -28,8 +29,7 @@ using sessions::ReportPictures;
 using sessions::SessionReader;
 using test_support::TemporaryFolder;
 
-// The start of a PNG file, enough to be taken for one.
-const std::vector<unsigned char> kPng = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n', 0, 1, 2, 3};
+const std::vector<unsigned char>& kPng = kSamplePng;
 
 std::string ReportText(const fs::path& path) {
   std::ostringstream text;
@@ -101,7 +101,7 @@ TEST(Report, TellsTheUsualTrialAndNeedsNothingButItself) {
             std::string::npos);
   EXPECT_EQ(Count(html, "<tr data-touch='") + Count(html, "<tr class='worst' data-touch='"), 7);
   EXPECT_EQ(Count(html, "<tr class='group'>"), 2) << "a group for each touched part";
-  EXPECT_EQ(Count(html, "src='data:image/png;base64,iVBORw0KGgoAAQID'"), 2);
+  EXPECT_EQ(Count(html, "src='" + sessions::PngAsDataUrl(kPng) + "'"), 2);
   EXPECT_NE(html.find("Deep &amp; &lt;deeper&gt;"), std::string::npos);
   EXPECT_EQ(Count(html, "<tr class='worst' data-touch="), 1);
   EXPECT_NE(html.find("contact errs on the safe side"), std::string::npos);
@@ -132,7 +132,7 @@ TEST(Report, TellsTheCamerasSkewAndWhichFramesLackWhichCamera) {
                 "<td class='n'>2.0 ms</td><td>22, 24, 26, 28, 30, 32, 34, 36 and 1 more stretches</td>"),
       std::string::npos);
   EXPECT_NE(html.find("<td>above</td><td class='n'>4.0 ms</td><td class='n'>4.0 ms</td>"
-                      "<td class='n'>30.0 ms</td><td>3, 17&ndash;19</td>"),
+                      "<td class='n'>30.0 ms</td><td>3, 17\u201319</td>"),
             std::string::npos);
   const std::string csv = ReportText(folder / "out" / "stamps.csv");
   EXPECT_EQ(Count(csv, "\n"), 1 + 2 * 40);

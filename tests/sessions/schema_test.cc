@@ -1,4 +1,4 @@
-#include "sessions/schema.h"
+#include "sessions/schema/schema.h"
 
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <fmt/format.h>

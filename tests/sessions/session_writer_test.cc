@@ -333,7 +333,7 @@ TEST(SessionWriter, PutsASessionIntoAnotherFolderWhereTheNameOfItsOwnWasTaken) {
 // does.
 int RecordUntilTheDiskIsFull(const fs::path& path) {
   std::signal(SIGXFSZ, SIG_IGN);
-  const rlimit limit{400'000, 400'000};
+  const rlimit limit{800'000, 800'000};
   const core::SessionHeader header = SampleHeader();
   sessions::SessionWriterOptions options;
   options.patience_s = options.spill_after_s = 0.1;

@@ -93,7 +93,7 @@ std::string CameraTable(const CalibrationOutcome& outcome) {
                                                   1e3 * *camera.time_offset_sigma_s)
                                     : std::string("-")});
   }
-  return "<section><h2>Cameras</h2><div class='scroll'>" + table.Html() + "</div></section>\n";
+  return "<section><h2>Cameras</h2>" + table.Html() + "</section>\n";
 }
 
 std::string LengthTable(const CalibrationFile& file, const CalibrationOutcome& outcome) {
@@ -106,7 +106,7 @@ std::string LengthTable(const CalibrationFile& file, const CalibrationOutcome& o
                fmt::format("{:.1f}", check.measured_mm), fmt::format("{:.1f}", check.sigma_mm),
                Escaped(check.message)});
   }
-  return "<section><h2>Known lengths</h2><div class='scroll'>" + table.Html() + "</div></section>\n";
+  return "<section><h2>Known lengths</h2>" + table.Html() + "</section>\n";
 }
 
 std::string MapSection(const CalibrationOutcome& outcome) {
@@ -140,7 +140,7 @@ std::string RejectedSection(const CalibrationOutcome& outcome) {
                Escaped(view.label), Escaped(found.reason), fmt::format("{:.2f}", found.rms_px)});
   }
   if (table.empty()) return "";
-  return "<section><h2>Views left out</h2><div class='scroll'>" + table.Html() + "</div></section>\n";
+  return "<section><h2>Views left out</h2>" + table.Html() + "</section>\n";
 }
 
 std::string ResidualsCsv(const CalibrationOutcome& outcome) {

@@ -86,7 +86,7 @@ std::string FigureTable(const CoverageOutcome& outcome) {
     AddRows(fmt::format("near {}<small> ({} places within {} mm)</small>", Escaped(part.name),
                         part.figures.nodes, MmText(outcome.near_mm)),
             part.figures, &table);
-  return "<section><h2>Figures</h2><div class='scroll'>" + table.Html() + "</div></section>\n";
+  return "<section><h2>Figures</h2>" + table.Html() + "</section>\n";
 }
 
 std::string NextTable(const CoverageOutcome& outcome) {
@@ -112,8 +112,8 @@ std::string NextTable(const CoverageOutcome& outcome) {
   return fmt::format(
       "<section><h2>One more camera</h2><p class='lead'>{} places and directions were tried, over {} places "
       "of the workspace. The lens is "
-      "that of {}; the camera is taken to be calibrated as well as the median one.</p><div "
-      "class='scroll'>{}</div></section>\n",
+      "that of {}; the camera is taken to be calibrated as well as the median one.</p>{}"
+      "</section>\n",
       outcome.next->tried, outcome.next->points,
       Escaped(outcome.rig.rig.cameras[outcome.next->lens_of].name()), table.Html());
 }

@@ -93,7 +93,7 @@ std::string PlaceTable(const GaugeOutcome& outcome) {
                fmt::format("{:.3f}", bound.calibration_mm), OrDash(place.rod.straightness, 2),
                OrDash(place.rod.length, 1), place.passed() ? "yes" : "no"});
   }
-  return "<section><h2>Places</h2><div class='scroll'>" + table.Html() + "</div></section>\n";
+  return "<section><h2>Places</h2>" + table.Html() + "</section>\n";
 }
 
 std::string CameraTable(const GaugeOutcome& outcome) {
@@ -120,7 +120,7 @@ std::string CameraTable(const GaugeOutcome& outcome) {
     table.Add({Escaped(outcome.places.front().rod.cameras[c].name), fmt::format("{}", measured),
                fmt::format("{:+.3f}", error_mm), OrDash(offset, 2)});
   }
-  return "<section><h2>Cameras</h2><div class='scroll'>" + table.Html() + "</div></section>\n";
+  return "<section><h2>Cameras</h2>" + table.Html() + "</section>\n";
 }
 
 }  // namespace

@@ -7,7 +7,6 @@
 #include <memory>
 #include <set>
 #include <span>
-#include <string_view>
 #include <utility>
 #include <variant>
 
@@ -73,11 +72,9 @@ void RequireKnownTool(const std::string& tool, std::span<const sessions::Session
       if (const auto* mark = std::get_if<core::ToolMarked>(&event.what)) known.push_back(mark->tool);
   }
   if (std::ranges::find(known, tool) != known.end()) return;
-  const std::vector<std::string_view> words(known.begin(), known.end());
-  const auto nearest = core::NearestWord(tool, words);
-  throw Error(ErrorKind::kRange, fmt::format("--tool: no tool of the sessions is named '{}'; {}", tool,
-                                             nearest ? fmt::format("did you mean '{}'?", *nearest)
-                                                     : "use a name of the trial's tools"));
+  throw Error(ErrorKind::kRange,
+              fmt::format("--tool: no tool of the sessions is named '{}'; {}", tool,
+                          core::SpellingAdvice(tool, known, "use a name of the trial's tools")));
 }
 
 std::string NoFrames(const KeepOutRequest& request, const std::vector<ChosenFrames>& chosen,

@@ -65,7 +65,7 @@ std::string Table(const std::vector<PreflightRow>& rows) {
   sessions::HtmlTable table({{""}, {"state"}, {"what is"}, {"what to do"}});
   for (const PreflightRow& row : rows)
     table.Add({Escaped(row.subject), StateHtml(row.state), Escaped(row.finding), AdviceHtml(row)});
-  return "<section><h2>All lines</h2><div class='scroll'>" + table.Html() + "</div></section>\n";
+  return "<section><h2>All lines</h2>" + table.Html() + "</section>\n";
 }
 
 std::string Pictures(const std::vector<PreflightRow>& rows, const RigHealth& health) {

@@ -95,7 +95,8 @@ ReportFiles WriteSessionReport(const std::filesystem::path& session_path, const 
   core::ThrowIfStopped(stop, "the report");
   progress.Report(3, 4, "writing the report");
   sessions::WriteReport(session, pictures, folder);
-  return {{folder / "report.html", folder / "contacts.csv", folder / "clearance.csv"}};
+  return {{folder / "report.html", folder / "report.pdf", folder / "contacts.csv", folder / "clearance.csv",
+           folder / "touches.bcfzip"}};
 }
 
 void WriteFramePicture(const FrameResult& result, const std::filesystem::path& png, int width_px,

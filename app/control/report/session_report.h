@@ -14,8 +14,9 @@ struct ReportFiles {
   std::vector<std::filesystem::path> written;
 };
 
-// report.html, contacts.csv and clearance.csv in `folder` (made if it isn't there), with a picture of the
-// deepest contact and one of the whole scene. Throws: core::Error{kFile, kDatabase, kGraphics}.
+// report.html, report.pdf, contacts.csv, clearance.csv and touches.bcfzip in `folder` (made if it isn't
+// there), with a picture of the deepest contact and one of the whole scene. Throws: core::Error{kFile,
+// kDatabase, kGraphics}.
 ReportFiles WriteSessionReport(const std::filesystem::path& session, const std::filesystem::path& folder,
                                const core::Progress& progress, std::stop_token stop);
 

@@ -1,11 +1,13 @@
 #include "app/control/report/touch_moments.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <tuple>
 
 #include "app/control/recorded_frame.h"
 #include "core/error.h"
+#include "core/units.h"
 #include "recon/hull_mesh/hull_mesh.h"
 #include "recon/images/png_file.h"
 
@@ -34,6 +36,19 @@ sessions::ReportModel::Moment MomentOf(const FrameResult& result, const Eigen::A
     for (const core::ContactPoint& point : contact.points)
       moment.contacts_in_world_mm.push_back(point.position_in_world_mm);
   return moment;
+}
+
+// The same picture from nearer, with the least field of view that BCF takes.
+sessions::TopicCamera TopicCameraOf(recon::OrbitCamera camera) {
+  sessions::TopicCamera shown;
+  const double fov_rad = core::RadiansFromDegrees(shown.vertical_fov_deg);
+  camera.distance_mm *= std::tan(0.5 * camera.vertical_fov_rad) / std::tan(0.5 * fov_rad);
+  const core::RigidTransform world_from_cam =
+      recon::ViewFrom(camera, kSnapshotWidthPx, kSnapshotHeightPx).cam_from_world.Inverse();
+  shown.eye_mm = world_from_cam.translation_mm;
+  shown.direction = world_from_cam.rotation.col(2);
+  shown.up = -world_from_cam.rotation.col(1);
+  return shown;
 }
 
 bool HasMoment(const sessions::ReportModel& model, core::FrameIndex frame) {
@@ -69,7 +84,7 @@ void AddTouchMoments(const sessions::SessionReader& session, const FrameResult& 
                            : ContactCamera(*frame, touch.part, kSnapshotWidthPx, kSnapshotHeightPx);
     const recon::Image picture = renderer.Render(
         composer.Compose(*frame, recon::ViewFrom(camera, kSnapshotWidthPx, kSnapshotHeightPx)));
-    pictures->touches.push_back({place, recon::EncodePng(picture)});
+    pictures->touches.push_back({place, recon::EncodePng(picture), TopicCameraOf(camera)});
     if (!HasMoment(pictures->model, touch.frame))
       pictures->model.moments.push_back(MomentOf(*frame, workspace_mm));
   }

@@ -134,7 +134,7 @@ void ExpectDecidedInTime(const Outcome& outcome) {
   for (const Decided& decided : outcome.sets) {
     for (const auto& picture : decided.set.pictures)
       if (picture) last = std::max(last, picture->arrived_at);
-    EXPECT_LE(decided.decided_at - last, Seconds(kPeriodS * 1.02));  // its period is measured, with jitter
+    EXPECT_LE(decided.decided_at - last, Seconds(kPeriodS));
   }
 }
 

@@ -1,0 +1,174 @@
+// elbowroom replay S.db --session NEW.db: the recorded motion judged again, as it was or with changes.
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/cli/options/command.h"
+#include "app/cli/options/frame_range_option.h"
+#include "app/cli/options/spacing_option.h"
+#include "app/control/outcome_tracker.h"
+#include "app/control/replay/replay.h"
+#include "cad_import/layout/layout_file.h"
+#include "cad_import/mesh_file.h"
+#include "core/units.h"
+
+namespace elbowroom::cli {
+namespace {
+
+// NAME=FILE[:UNIT]
+struct PartSetting {
+  std::string name;
+  std::filesystem::path file;
+  std::optional<core::LengthUnit> unit;
+};
+
+struct ReplayCommandOptions {
+  std::filesystem::path recorded;
+  std::filesystem::path layout;
+  std::vector<SpacingSetting> spacings;
+  std::vector<PartSetting> parts;
+  control::ReplayOptions replay;
+};
+
+std::optional<PartSetting> ParsePart(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos || equals == 0 || equals + 1 == text.size()) return std::nullopt;
+  PartSetting part{text.substr(0, equals), text.substr(equals + 1), std::nullopt};
+  const std::string file = part.file.string();
+  const std::size_t colon = file.rfind(':');
+  if (colon == std::string::npos || colon == 0) return part;
+  // A colon belongs to the file's name unless a unit follows it.
+  part.unit = core::ParseLengthUnit(file.substr(colon + 1));
+  if (part.unit) part.file = file.substr(0, colon);
+  return part;
+}
+
+control::ReplayChanges ChangesOf(const ReplayCommandOptions& options, const CommandContext& context,
+                                 std::vector<std::string>* warnings) {
+  control::ReplayChanges changes;
+  if (!options.layout.empty()) {
+    cad_import::ImportedLayout imported =
+        cad_import::ImportLayoutFile(options.layout, context.progress, context.stop);
+    changes.layout = std::move(imported.layout);
+    *warnings = std::move(imported.warnings);
+  }
+  for (const PartSetting& part : options.parts) {
+    cad_import::ImportedMesh imported =
+        cad_import::ImportMeshFile(part.file, {.unit = part.unit}, context.progress, context.stop);
+    for (const std::string& warning : imported.report.warnings)
+      warnings->push_back(fmt::format("part '{}': {}", part.name, warning));
+    changes.parts.push_back({part.name, part.file.string(), std::move(imported.mesh)});
+  }
+  for (const SpacingSetting& spacing : options.spacings) changes.held_mm[spacing.name] = spacing.gap_mm;
+  return changes;
+}
+
+nlohmann::json ComparisonJson(const std::optional<control::ReplayComparison>& compared) {
+  if (!compared) return nullptr;
+  return {{"frames", compared->frames},
+          {"rows", compared->rows},
+          {"frames_that_differ", compared->frames_that_differ},
+          {"first_that_differs",
+           compared->first_that_differs ? nlohmann::json(*compared->first_that_differs) : nlohmann::json()}};
+}
+
+nlohmann::json SkippedJson(const control::SkipCount& skipped) {
+  return {{"unchanged_silhouettes", skipped.hull.unchanged_silhouettes},
+          {"unchanged_parts", skipped.unchanged_parts},
+          {"triangles", skipped.triangles_skipped},
+          {"of_triangles", skipped.triangles_in_all},
+          {"queries", skipped.queries},
+          {"clearances_by_contact", skipped.clearances_by_contact},
+          {"clearances_by_ball", skipped.clearances_by_ball},
+          {"clearance_queries", skipped.clearance_queries}};
+}
+
+nlohmann::json ReplayJson(const ReplayCommandOptions& options, const control::ReplayOutcome& outcome) {
+  const bool is_compared = outcome.compared.has_value();
+  nlohmann::json absent = nlohmann::json::array();
+  for (const core::Finding& finding : outcome.absent)
+    absent.push_back({{"id", finding.id},
+                      {"kind", core::ToString(finding.kind)},
+                      {"part", finding.part},
+                      {"presence", core::ToString(finding.presence)}});
+  return {{"session", options.replay.session.string()},
+          {"replay_of", options.recorded.string()},
+          {"frames", outcome.frames},
+          {"touches", outcome.outcome.episodes.size()},
+          {"near_misses", outcome.outcome.near_misses.size()},
+          {"contact_rows", outcome.contact_rows},
+          {"changes", outcome.changes},
+          {"identical",
+           is_compared ? nlohmann::json(outcome.compared->frames_that_differ == 0) : nlohmann::json()},
+          {"compared", ComparisonJson(outcome.compared)},
+          {"absent", absent},
+          {"skipped", SkippedJson(outcome.skipped)},
+          {"time_ms", outcome.time_s * 1000.0},
+          {"frame_ms", outcome.time_s * 1000.0 / static_cast<double>(outcome.frames)}};
+}
+
+std::string ReplayText(const ReplayCommandOptions& options, const control::ReplayOutcome& outcome) {
+  std::string text =
+      fmt::format("{}: {} frames replayed in {:.2f} s ({:.2f} ms a frame), {} touches, {} near misses",
+                  options.replay.session.string(), outcome.frames, outcome.time_s,
+                  outcome.time_s * 1000.0 / static_cast<double>(outcome.frames),
+                  outcome.outcome.episodes.size(), outcome.outcome.near_misses.size());
+  for (const std::string& change : outcome.changes) text += "\n  changed: " + change;
+  if (const auto& compared = outcome.compared) {
+    text += compared->frames_that_differ == 0
+                ? fmt::format("\n  identical: all {} rows are those of the recording", compared->rows)
+                : fmt::format("\n  not identical: {} of {} frames differ, the first is {}",
+                              compared->frames_that_differ, compared->frames, *compared->first_that_differs);
+  }
+  for (const core::Finding& finding : outcome.absent)
+    text += fmt::format("\n  {}: {} on '{}' at {:.2f} s ({})", core::ToString(finding.presence),
+                        core::ToString(finding.kind), finding.part, finding.begin_s, finding.id.substr(0, 8));
+  return text;
+}
+
+CommandResult Run(const ReplayCommandOptions& options, const CommandContext& context) {
+  const sessions::SessionReader recorded =
+      control::OpenWithOutcome(options.recorded, context.progress, context.stop);
+  control::ReplayOptions replay = options.replay;
+  std::vector<std::string> warnings;
+  replay.changes = ChangesOf(options, context, &warnings);
+  const control::ReplayOutcome outcome = control::RunReplay(recorded, replay, context.progress, context.stop);
+  CommandResult result{ReplayJson(options, outcome), ReplayText(options, outcome)};
+  result.json["warnings"] = warnings;
+  for (const std::string& warning : warnings) result.text += "\nwarning: " + warning;
+  return result;
+}
+
+}  // namespace
+
+void AddReplayCommand(CLI::App& app, Choice* choice) {
+  CLI::App* command =
+      app.add_subcommand("replay", "judge a session's motion again, with other gaps or parts");
+  auto options = std::make_shared<ReplayCommandOptions>();
+  command->add_option("SESSION", options->recorded, "the recorded session (S.db)")->required();
+  command->add_option("--session", options->replay.session, "the new session; must not exist yet")
+      ->required();
+  AddSpacingOption(*command, &options->spacings);
+  command->add_option("--layout", options->layout,
+                      "another layout (LAYOUT.toml); names say which part is which");
+  command
+      ->add_option_function<std::vector<std::string>>(
+          "--part",
+          [options](const std::vector<std::string>& texts) {
+            for (const std::string& text : texts) options->parts.push_back(*ParsePart(text));
+          },
+          "another revision of a part's CAD, in its place; may be given several times")
+      ->type_name("NAME=FILE[:UNIT]")
+      ->check([](const std::string& text) {
+        return ParsePart(text) ? std::string() : "must be NAME=FILE or NAME=FILE:UNIT, not " + text;
+      });
+  AddFrameRangeOption(*command, &options->replay.frames);
+  command->callback(
+      [=] { choice->action = [=](const CommandContext& context) { return Run(*options, context); }; });
+}
+
+}  // namespace elbowroom::cli

@@ -1,0 +1,160 @@
+#include "app/cli/recorded/session_summary.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include "app/cli/options/value_json.h"
+#include "core/plain_text.h"
+
+namespace elbowroom::cli {
+namespace {
+
+nlohmann::json OriginJson(const std::optional<core::SessionOrigin>& origin) {
+  if (!origin) return nullptr;
+  return {{"file", origin->file},
+          {"recording_id", origin->recording_id},
+          {"replayed_at_utc", origin->replayed_at_utc},
+          {"changes", origin->changes}};
+}
+
+nlohmann::json PartsJson(const sessions::SessionReader& session) {
+  nlohmann::json parts = nlohmann::json::array();
+  for (const sessions::PartTotals& totals : session.part_totals())
+    parts.push_back({{"part", session.header().layout.parts[totals.part].name},
+                     {"frames_in_contact", totals.frames_in_contact},
+                     {"frames_near", totals.frames_near},
+                     {"frames_undecided", totals.frames_undecided},
+                     {"frames_clear", totals.frames_clear}});
+  return parts;
+}
+
+nlohmann::json SpacingsJson(const core::Layout& layout, const std::vector<sessions::FrameSummary>& frames) {
+  nlohmann::json spacings = nlohmann::json::array();
+  for (core::SpacingIndex i = 0; i < layout.spacings.size(); ++i) {
+    nlohmann::json spacing = {
+        {"spacing", layout.spacings[i].name}, {"least_mm", nullptr}, {"most_mm", nullptr}};
+    if (!frames.empty()) {
+      const auto value = [i](const sessions::FrameSummary& frame) { return frame.spacing_mm[i]; };
+      spacing["least_mm"] = value(*std::ranges::min_element(frames, {}, value));
+      spacing["most_mm"] = value(*std::ranges::max_element(frames, {}, value));
+    }
+    spacings.push_back(spacing);
+  }
+  return spacings;
+}
+
+nlohmann::json ReviewJson(const std::vector<core::Finding>& findings) {
+  nlohmann::json review = {{"statuses", nlohmann::json::object()}};
+  std::size_t remarks = 0;
+  for (const core::Finding& finding : findings) {
+    const std::string status(core::ToString(finding.status()));
+    review["statuses"][status] = review["statuses"].value(status, 0) + 1;
+    remarks += finding.remarks.size();
+  }
+  review["remarks"] = remarks;
+  review["gone"] = std::ranges::count(findings, core::FindingPresence::kGone, &core::Finding::presence);
+  review["not_checked"] =
+      std::ranges::count(findings, core::FindingPresence::kNotChecked, &core::Finding::presence);
+  return review;
+}
+
+bool IsNearMissHere(const core::Finding& finding) {
+  return finding.kind == core::FindingKind::kNearMiss && finding.presence == core::FindingPresence::kHere;
+}
+
+nlohmann::json NamesOf(const core::Rig& rig) {
+  nlohmann::json names = nlohmann::json::array();
+  for (const core::CameraModel& camera : rig.cameras) names.push_back(camera.name());
+  return names;
+}
+
+std::string Shown(const nlohmann::json& text) { return core::OneLine(text.get<std::string>(), 120); }
+
+std::string OriginText(const nlohmann::json& origin) {
+  if (origin.is_null()) return "";
+  std::string text = fmt::format("\n  replay of {}", Shown(origin["file"]));
+  if (origin["changes"].empty()) text += ", unchanged";
+  for (const nlohmann::json& change : origin["changes"]) text += "\n    changed: " + Shown(change);
+  return text;
+}
+
+}  // namespace
+
+nlohmann::json SummaryJson(const sessions::SessionReader& session) {
+  const core::SessionHeader& header = session.header();
+  const std::vector<sessions::FrameSummary> frames = session.frames();
+  const std::vector<core::ContactEpisode> episodes = session.episodes();
+  const std::vector<core::Finding> findings = session.findings();
+  const std::vector<core::FootageFile> footage = session.footage();
+  std::error_code unknown;
+  nlohmann::json json = {
+      {"session", session.path().string()},
+      {"status", sessions::ToString(session.status())},
+      {"schema", session.file_schema()},
+      {"bytes", std::filesystem::file_size(session.path(), unknown)},
+      {"recording_id", session.recording_id()},
+      {"first_recording_id", session.first_recording_id()},
+      {"origin", OriginJson(header.origin)},
+      {"participant", header.trial.participant},
+      {"task", header.trial.task},
+      {"estimate_mm", header.trial.estimate_mm},
+      {"required_clearance_mm", header.trial.required_clearance_mm},
+      {"tools", header.trial.tools},
+      {"started_at_utc", header.started_at_utc},
+      {"ended_at_utc", session.ended_at_utc() ? nlohmann::json(*session.ended_at_utc()) : nlohmann::json()},
+      {"cameras", NamesOf(header.rig)},
+      {"parts", PartsJson(session)},
+      {"spacings", SpacingsJson(header.layout, frames)},
+      {"frames", frames.size()},
+      {"first_frame", frames.empty() ? nlohmann::json() : nlohmann::json(frames.front().frame)},
+      {"seconds", frames.empty() ? 0.0 : frames.back().time_s - frames.front().time_s},
+      {"touches", episodes.size()},
+      {"near_misses", std::ranges::count_if(findings, IsNearMissHere)},
+      {"events", session.events().size()},
+      {"review", ReviewJson(findings)},
+      {"footage_files", footage.size()},
+      {"footage_bytes", std::accumulate(footage.begin(), footage.end(), std::int64_t{0},
+                                        [](auto sum, const auto& file) { return sum + file.bytes; })},
+      {"versions", header.versions},
+      {"settings", header.settings}};
+  double deepest_mm = 0.0;
+  for (const core::ContactEpisode& episode : episodes)
+    deepest_mm = std::max(deepest_mm, episode.peak_depth_mm);
+  json["deepest_mm"] = episodes.empty() ? nlohmann::json() : nlohmann::json(deepest_mm);
+  return json;
+}
+
+std::string SummaryText(const nlohmann::json& summary) {
+  std::string text = fmt::format("{}: {}, begun {}", Shown(summary["session"]),
+                                 summary["status"].get<std::string>(), Shown(summary["started_at_utc"]));
+  text += OriginText(summary["origin"]);
+  text +=
+      fmt::format("\n  participant '{}', task '{}'", Shown(summary["participant"]), Shown(summary["task"]));
+  text +=
+      fmt::format("\n  {} frames, {:.1f} s, {} cameras, {:.1f} MB, schema {}", summary["frames"].get<int>(),
+                  summary["seconds"].get<double>(), summary["cameras"].size(),
+                  summary["bytes"].get<double>() / 1e6, summary["schema"].get<int>());
+  text += fmt::format("\n  {} touches", summary["touches"].get<int>());
+  if (!summary["deepest_mm"].is_null())
+    text += fmt::format(" (the deepest {:.1f} mm)", summary["deepest_mm"].get<double>());
+  text += fmt::format(", {} near misses, {} remarks of reviewers", summary["near_misses"].get<int>(),
+                      summary["review"]["remarks"].get<int>());
+  for (const nlohmann::json& part : summary["parts"])
+    text +=
+        fmt::format("\n  part '{}': {} frames in contact, {} near, {} undecided, {} clear",
+                    Shown(part["part"]), part["frames_in_contact"].get<int>(), part["frames_near"].get<int>(),
+                    part["frames_undecided"].get<int>(), part["frames_clear"].get<int>());
+  for (const nlohmann::json& spacing : summary["spacings"]) {
+    if (spacing["least_mm"].is_null()) continue;
+    text += fmt::format("\n  spacing '{}': {:.1f} to {:.1f} mm", Shown(spacing["spacing"]),
+                        spacing["least_mm"].get<double>(), spacing["most_mm"].get<double>());
+  }
+  return text;
+}
+
+}  // namespace elbowroom::cli
