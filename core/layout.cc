@@ -116,10 +116,8 @@ SpacingIndex RequireSpacing(const Layout& layout, const std::string& name, std::
   if (const auto index = layout.FindSpacing(name)) return *index;
   std::vector<std::string_view> known;
   for (const Spacing& spacing : layout.spacings) known.emplace_back(spacing.name);
-  const auto nearest = NearestWord(name, known);
   throw Error(ErrorKind::kRange, fmt::format("{}: no spacing is named '{}'; {}", option, name,
-                                             nearest ? fmt::format("did you mean '{}'?", *nearest)
-                                                     : std::string("use the name of a [[spacing]]")));
+                                             SpellingAdvice(name, known, "use the name of a [[spacing]]")));
 }
 
 std::vector<double> Layout::InitialSpacings() const {

@@ -17,11 +17,9 @@ core::PartIndex RequirePart(const core::Layout& layout, const std::string& name)
   if (const auto index = layout.FindPart(name)) return *index;
   std::vector<std::string_view> known;
   for (const core::Part& part : layout.parts) known.emplace_back(part.name);
-  const auto nearest = core::NearestWord(name, known);
   throw core::Error(core::ErrorKind::kRange,
                     fmt::format("--part: no part is named '{}'; {}", name,
-                                nearest ? fmt::format("did you mean '{}'?", *nearest)
-                                        : std::string("use the name of a [[part]]")));
+                                core::SpellingAdvice(name, known, "use the name of a [[part]]")));
 }
 
 bool HaveSameMesh(const core::Part& a, const core::Part& b) {
