@@ -84,7 +84,7 @@ TEST_F(SweepEngines, TheScriptForSlurmKeepsEveryCell) {
     test_support::RunOptions as_task;
     as_task.environment = {{"SLURM_ARRAY_TASK_ID", std::to_string(task)}};
     EXPECT_EQ(test_support::RunProgram("/bin/bash", {script.string()}, as_task).exit_status, 0);
-    EXPECT_EQ(FilesIn(folder_ / "slurm" / "cells"), static_cast<std::size_t>(task));
+    EXPECT_EQ(KeptCells(folder_ / "slurm"), static_cast<std::size_t>(task));
   }
   const auto gathered = RunSweep(sessions_, kRange, folder_ / "slurm", {"--json"});
   ASSERT_EQ(gathered.exit_status, 0) << gathered.err;

@@ -121,7 +121,7 @@ TEST_F(SweptDemo, ToolsSplitTheFrames) {
 ProgramRun SweepAndKill(const fs::path& session, const fs::path& out, int signal) {
   test_support::RunOptions options;
   options.while_running = [&](int process) {
-    while (FilesIn(out / "cells") == 0 && kill(process, 0) == 0)
+    while (KeptCells(out) == 0 && kill(process, 0) == 0)
       std::this_thread::sleep_for(std::chrono::milliseconds(2));
     kill(process, signal);
   };
@@ -135,7 +135,7 @@ TEST_P(EndedSweep, GoesOnAndGivesTheSameBytes) {
   const ProgramRun ended = SweepAndKill(Session(), out, GetParam());
   EXPECT_EQ(ended.exit_status, GetParam() == SIGKILL ? 128 + SIGKILL : 1) << ended.err;
   EXPECT_FALSE(fs::exists(out / "sweep.csv"));
-  const std::size_t kept = FilesIn(out / "cells");
+  const std::size_t kept = KeptCells(out);
   ASSERT_GE(kept, 1U);
   ASSERT_LT(kept, whole_["cells"].get<std::size_t>()) << "it was through before it was ended";
   const ProgramRun again = RunSweep({Session()}, kDemoRange, out, {"--json"});

@@ -21,7 +21,7 @@ int RecordTaskFrames(const std::filesystem::path& path, core::FrameIndex first =
                                                 const std::vector<std::string>& more = {},
                                                 const test_support::RunOptions& options = {});
 
-[[nodiscard]] std::size_t FilesIn(const std::filesystem::path& folder);  // 0 if there is none
+[[nodiscard]] std::size_t KeptCells(const std::filesystem::path& out);  // whole ones
 
 // sweep.csv, sweep.svg and sweep.png have the same bytes in both folders.
 void ExpectSameSweep(const std::filesystem::path& a, const std::filesystem::path& b);
