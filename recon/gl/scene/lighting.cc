@@ -182,7 +182,8 @@ void Lighting::UpdateHullShadow(const Scene& scene) {
   ++count_.hull_uploads;
 }
 
-void Lighting::Apply(const ShaderProgram& program, const ViewMatrices& matrices) const {
+void Lighting::Apply(const ShaderProgram& program, const ViewMatrices& matrices,
+                     HullShadow hull_shadow) const {
   const SceneView shadow_view = lamp_.ShadowView(1);
   const core::RigidTransform lamp_from_cam =
       shadow_view.cam_from_world * matrices.view.cam_from_world.Inverse();
@@ -197,7 +198,8 @@ void Lighting::Apply(const ShaderProgram& program, const ViewMatrices& matrices)
   part_shadow_.BindTo(kPartShadowUnit);
   hull_shadow_.BindTo(kHullShadowUnit);
   program.Set("part_bounds", CornersOf(part_bounds_));
-  program.Set("hull_bounds", CornersOf(hull_bounds_));
+  program.Set("hull_bounds",
+              CornersOf(hull_shadow == HullShadow::kThrown ? hull_bounds_ : Eigen::AlignedBox2f()));
   program.Set("part_shadow", kPartShadowUnit);
   program.Set("hull_shadow", kHullShadowUnit);
 }

@@ -15,6 +15,9 @@
 
 namespace elbowroom::recon::gl {
 
+// kLeftOut: the hull lets all light through.
+enum class HullShadow { kThrown, kLeftOut };
+
 // Keeps the shadows of parts and of the hull apart. Each is renewed only when it changed. A hull with the
 // colours of camera pictures takes only the shadows of the parts: the pictures already show its own.
 class Lighting {
@@ -27,7 +30,10 @@ class Lighting {
   void Update(const Scene& scene, PartPainter& parts);
 
   // Sets what kLightingSource declares; the program must be in use.
-  void Apply(const ShaderProgram& program, const ViewMatrices& matrices) const;
+  void Apply(const ShaderProgram& program, const ViewMatrices& matrices,
+             HullShadow hull_shadow = HullShadow::kThrown) const;
+
+  [[nodiscard]] bool HullThrowsShadow() const { return !hull_bounds_.isEmpty(); }
 
   [[nodiscard]] const ShadowCount& count() const { return count_; }
 
