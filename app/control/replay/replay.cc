@@ -19,7 +19,9 @@
 #include "app/control/trial_rules.h"
 #include "app/control/versions.h"
 #include "core/error.h"
+#include "core/system/file_sync.h"
 #include "core/system/utc_time.h"
+#include "sessions/archive/footage_check.h"
 #include "sessions/row_comparison.h"
 #include "sessions/session_writer.h"
 #include "sessions/unfinished_session.h"
@@ -50,12 +52,23 @@ Selection SelectFrames(const sessions::SessionReader& session,
                                                          session.path().string(), what_is_there));
 }
 
-core::SessionHeader HeaderOf(const sessions::SessionReader& recorded, const ReplayLayout& layout) {
+std::vector<std::string> ChangesOf(const ReplayLayout& layout,
+                                   const std::optional<ReplaySegmentation>& segmentation) {
+  std::vector<std::string> changes = layout.changes();
+  if (segmentation)
+    changes.insert(changes.end(), segmentation->changes().begin(), segmentation->changes().end());
+  return changes;
+}
+
+core::SessionHeader HeaderOf(const sessions::SessionReader& recorded, const ReplayLayout& layout,
+                             const std::optional<ReplaySegmentation>& segmentation) {
   core::SessionHeader header = recorded.header();
+  if (segmentation) segmentation->Describe(&header);
   header.layout = layout.layout();
   header.versions = SoftwareVersions();
-  header.origin = core::SessionOrigin{recorded.path().string(), recorded.recording_id(),
-                                      recorded.first_recording_id(), core::NowUtc(), layout.changes()};
+  header.origin =
+      core::SessionOrigin{recorded.path().string(), recorded.recording_id(), recorded.first_recording_id(),
+                          core::NowUtc(), ChangesOf(layout, segmentation)};
   return header;
 }
 
@@ -63,25 +76,30 @@ core::SessionHeader HeaderOf(const sessions::SessionReader& recorded, const Repl
 class ReplayRecording {
  public:
   ReplayRecording(const sessions::SessionReader& recorded, const ReplayLayout& layout,
-                  std::span<const core::TriangleTree> part_trees, const std::filesystem::path& path)
+                  std::span<const core::TriangleTree> part_trees, const core::SessionHeader& header,
+                  const std::filesystem::path& path, sessions::UnfinishedSession* file)
       : recorded_(recorded),
         layout_(layout),
         tracker_(recorded.header().trial, part_trees),
         events_(recorded.events()),
         next_event_(events_.begin()),
         findings_(recorded.findings()),
-        file_(path),
-        writer_(file_.temporary(), HeaderOf(recorded, layout)) {
-    outcome_.changes = layout.changes();
+        path_(path),
+        file_(*file),
+        writer_(file_.temporary(), header) {
+    outcome_.changes = header.origin->changes;
     if (outcome_.changes.empty()) outcome_.compared.emplace();
   }
 
-  void Add(const core::FrameRecord& recorded, const SharedFrameResult& result) {
+  void Add(const core::FrameRecord& recorded, const SharedFrameResult& result,
+           const SegmentingCount& segmenting) {
     TakeEvents(recorded.frame, recorded.time_s);
     tracker_.Add(*result, std::vector<std::string>(tools_in_use_.begin(), tools_in_use_.end()));
     writer_.Append(result->record);
     if (outcome_.frames++ == 0) checked_.begin_s = recorded.time_s;
     checked_.end_s = recorded.time_s;
+    last_frame_ = recorded.frame;
+    segmenting_ += segmenting;
     for (const core::PartContact& contact : result->record.contacts)
       outcome_.contact_rows += contact.verdict == core::Verdict::kContact ? 1 : 0;
     outcome_.skipped += result->skipped;
@@ -91,11 +109,12 @@ class ReplayRecording {
   ReplayOutcome Finish(bool to_the_end) {
     if (to_the_end)
       for (; next_event_ != events_.end(); ++next_event_) writer_.Append(layout_.EventFrom(*next_event_));
+    TellMissing();
     core::SessionOutcome outcome = tracker_.Outcome();
     MatchFindings(findings_, layout_.layout(), &outcome);
     sessions::SessionClosing closing =
         TakeOverReview(findings_, layout_.layout(), checked_, outcome, kReviewer, core::NowUtc());
-    closing.footage = recorded_.footage();
+    closing.footage = FootageFrom(path_);
     outcome_.outcome = outcome;
     outcome_.absent = closing.absent;
     writer_.Finish(std::move(outcome), std::move(closing));
@@ -109,7 +128,31 @@ class ReplayRecording {
     return std::move(outcome_);
   }
 
+  [[nodiscard]] const SegmentingCount& segmenting() const { return segmenting_; }
+
  private:
+  void TellMissing() {
+    if (segmenting_.missing == 0) return;
+    writer_.Append(core::SessionEvent{
+        last_frame_, checked_.end_s,
+        core::Note{fmt::format("segmented again: {} pictures that were judged aren't in the footage; their "
+                               "frames lack that camera",
+                               segmenting_.missing)}});
+  }
+
+  // The recording's footage, as seen from the new session.
+  [[nodiscard]] std::vector<core::FootageFile> FootageFrom(const std::filesystem::path& session) const {
+    std::vector<core::FootageFile> files = recorded_.footage();
+    const std::filesystem::path folder =
+        std::filesystem::absolute(core::FolderOf(session)).lexically_normal();
+    for (core::FootageFile& file : files)
+      file.file = std::filesystem::absolute(sessions::FootagePath(recorded_.path(), file))
+                      .lexically_normal()
+                      .lexically_proximate(folder)
+                      .string();
+    return files;
+  }
+
   // The events up to the frame. Those before the first frame of the replay aren't in it, but for the tools in
   // use.
   void TakeEvents(core::FrameIndex frame, double time_s) {
@@ -147,8 +190,11 @@ class ReplayRecording {
   std::set<std::string> tools_in_use_;
   bool has_earlier_ = false;
   CheckedRange checked_;
+  core::FrameIndex last_frame_ = 0;
+  SegmentingCount segmenting_;
   ReplayOutcome outcome_;
-  sessions::UnfinishedSession file_;
+  std::filesystem::path path_;
+  sessions::UnfinishedSession& file_;
   sessions::SessionWriter writer_;
 };
 
@@ -161,15 +207,18 @@ class Replay {
         frames_(recorded.frames()),
         selected_(SelectFrames(recorded, frames_, options.frames)),
         layout_(recorded.header().layout, options.changes),
-        review_(
-            ReviewOptionsOf(recorded.header().trial, recorded.header().rig, recorded.header().rig_quality)),
         path_(options.session),
+        file_(path_),
         progress_(progress),
-        stop_(stop) {}
+        stop_(stop) {
+    if (options.segmenting) segmentation_.emplace(recorded, *options.segmenting, progress, stop);
+    header_ = HeaderOf(recorded, layout_, segmentation_);
+    review_ = ReviewOptionsOf(header_.trial, header_.rig, header_.rig_quality);
+  }
 
   ReplayOutcome Run() {
     Stopwatch watch;
-    ReplayOutcome outcome = GivesWay() ? RunOneByOne() : RunSeveralAtOnce();
+    ReplayOutcome outcome = GivesWay() || HasOtherSilhouettes() ? RunOneByOne() : RunSeveralAtOnce();
     outcome.time_s = watch.LapMs() / 1000.0;
     return outcome;
   }
@@ -178,10 +227,23 @@ class Replay {
   // A part that gives way goes on from where the frame before left it.
   [[nodiscard]] bool GivesWay() const { return !PartReactions(layout_.layout()).is_empty(); }
 
+  // Then what was found in the frame before, as it is recorded, is no guide.
+  [[nodiscard]] bool HasOtherSilhouettes() const {
+    return segmentation_ && !segmentation_->changes().empty();
+  }
+
+  [[nodiscard]] ReplayOutcome Finish(ReplayRecording* recording) const {
+    ReplayOutcome outcome = recording->Finish(selected_.end == frames_.size());
+    if (segmentation_)
+      outcome.segmented =
+          ReplaySegmented{segmentation_->footage(), recording->segmenting(), segmentation_->warnings()};
+    return outcome;
+  }
+
   void Record(const core::FrameRecord& recorded, const SharedFrameResult& result,
-              ReplayRecording* recording) const {
+              const SegmentingCount& segmenting, ReplayRecording* recording) const {
     const core::FrameIndex first = frames_[selected_.first].frame;
-    if (recorded.frame >= first) recording->Add(recorded, result);
+    if (recorded.frame >= first) recording->Add(recorded, result, segmenting);
     const auto done = static_cast<std::int64_t>(
         std::ranges::upper_bound(frames_, recorded.frame, {}, &sessions::FrameSummary::frame) -
         frames_.begin());
@@ -191,9 +253,9 @@ class Replay {
 
   ReplayOutcome RunSeveralAtOnce() {
     ReplayJudging judging(layout_.layout(), review_);
-    ReplayRecording recording(recorded_, layout_, judging.part_trees(), path_);
+    ReplayRecording recording(recorded_, layout_, judging.part_trees(), header_, path_, &file_);
     ReplayRuns runs(recorded_, frames_, layout_, selected_.first, selected_.end,
-                    review_.required_clearance_mm > 0.0);
+                    review_.required_clearance_mm > 0.0, segmentation_ ? &*segmentation_ : nullptr, stop_);
     SharedFrameResult last;
     using SharedRun = std::shared_ptr<ReplayRun>;
     const auto read = [&](tbb::flow_control& control) -> SharedRun {
@@ -211,7 +273,8 @@ class Replay {
     };
     const auto record = [&](const SharedRun& run) {
       if (run->goes_on) judging.Judge(last.get(), run.get());
-      for (const ReplayedFrame& frame : run->frames) Record(frame.recorded, frame.result, &recording);
+      for (const ReplayedFrame& frame : run->frames)
+        Record(frame.recorded, frame.result, frame.segmenting, &recording);
       last = run->frames.back().result;
     };
     constexpr std::size_t kRunsAThread = 4;
@@ -221,30 +284,70 @@ class Replay {
                                tbb::make_filter<SharedRun, SharedRun>(tbb::filter_mode::parallel, judge) &
                                tbb::make_filter<SharedRun, void>(tbb::filter_mode::serial_in_order, record));
     core::ThrowIfStopped(stop_, "the replay");
-    return recording.Finish(selected_.end == frames_.size());
+    return Finish(&recording);
   }
 
-  // All frames from the session's first, since what a part did before moves it now.
+  // Where parts give way, all frames from the session's first, since what a part did before moves it now;
+  // else from as far before the first that is wanted as the motion of silhouettes has to be known.
+  [[nodiscard]] std::size_t BeginOfOrder() const {
+    if (GivesWay()) return 0;
+    if (!(review_.required_clearance_mm > 0.0)) return selected_.first;
+    return selected_.first - FramesOfMotion(recorded_, frames_, selected_.first);
+  }
+
+  // In order, each after the one before; the next frame is read and segmented, and the last one recorded,
+  // meanwhile.
   ReplayOutcome RunOneByOne() {
-    SilhouettePipeline pipeline(recorded_.header().rig, layout_.layout(), review_);
-    ReplayRecording recording(recorded_, layout_, pipeline.part_trees(), path_);
-    for (std::size_t i = 0; i < selected_.end; ++i) {
-      core::ThrowIfStopped(stop_, "the replay");
-      const core::FrameRecord recorded = recorded_.ReadFrame(frames_[i].frame);
-      const SharedFrameResult result =
+    SilhouettePipeline pipeline(header_.rig, layout_.layout(), review_);
+    ReplayRecording recording(recorded_, layout_, pipeline.part_trees(), header_, path_, &file_);
+    struct Step {
+      core::FrameRecord recorded;
+      SegmentingCount segmenting;
+      SharedFrameResult result;
+    };
+    using SharedStep = std::shared_ptr<Step>;
+    std::size_t next = BeginOfOrder();
+    const auto read = [&](tbb::flow_control& control) -> SharedStep {
+      if (stop_.stop_requested() || next == selected_.end) {
+        control.stop();
+        return nullptr;
+      }
+      auto step = std::make_shared<Step>();
+      step->recorded = recorded_.ReadFrame(frames_[next++].frame);
+      if (segmentation_) step->segmenting = segmentation_->Segment(&step->recorded, stop_);
+      return step;
+    };
+    const auto judge = [&](SharedStep step) {
+      const core::FrameRecord& recorded = step->recorded;
+      const std::shared_ptr<FrameResult> result =
           pipeline.Process({recorded.frame, recorded.time_s, *recorded.masks, recorded.stamps, {}},
                            layout_.SpacingsFrom(recorded.spacing_mm));
-      Record(recorded, result, &recording);
-    }
-    return recording.Finish(selected_.end == frames_.size());
+      result->skipped.segmentation = step->segmenting.stats;
+      step->result = result;
+      return step;
+    };
+    const auto record = [&](const SharedStep& step) {
+      Record(step->recorded, step->result, step->segmenting, &recording);
+    };
+    constexpr std::size_t kFramesUnderWay = 4;
+    tbb::parallel_pipeline(
+        kFramesUnderWay,
+        tbb::make_filter<void, SharedStep>(tbb::filter_mode::serial_in_order, read) &
+            tbb::make_filter<SharedStep, SharedStep>(tbb::filter_mode::serial_in_order, judge) &
+            tbb::make_filter<SharedStep, void>(tbb::filter_mode::serial_in_order, record));
+    core::ThrowIfStopped(stop_, "the replay");
+    return Finish(&recording);
   }
 
   const sessions::SessionReader& recorded_;
   const std::vector<sessions::FrameSummary> frames_;
   const Selection selected_;
   const ReplayLayout layout_;
-  const review::PartReviewOptions review_;
   const std::filesystem::path path_;
+  sessions::UnfinishedSession file_;  // refuses a name that is taken before long footage is checked
+  std::optional<ReplaySegmentation> segmentation_;
+  core::SessionHeader header_;
+  review::PartReviewOptions review_;
   const core::Progress& progress_;
   const std::stop_token stop_;
 };
