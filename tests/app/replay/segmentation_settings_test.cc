@@ -53,8 +53,8 @@ TEST(SegmentationSettings, KeepMasksOfIgnoredPixelsBesideFootage) {
   const test_support::TemporaryFolder folder;
   recon::SegmentationOptions options;
   core::BitMask mask(rig.cameras[2].width_px(), rig.cameras[2].height_px());
-  mask.Set(3, 4);
-  mask.Set(100, 50);
+  mask.Set(3, 4, true);
+  mask.Set(100, 50, true);
   options.cameras.push_back({rig.cameras[2].name(), std::nullopt, std::nullopt, mask});
   KeepIgnoredPixels(options, rig, folder.path());
   EXPECT_EQ(recon::ReadMaskImage(IgnoredPixelsFile(folder.path(), 2), "it"), mask);
