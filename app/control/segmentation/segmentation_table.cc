@@ -97,7 +97,8 @@ SegmentationTable ReadSegmentationFile(const std::filesystem::path& file, const 
   const toml::table table = cad_import::ParseTomlFile(file, "segmentation file");
   const TomlEntry root(table, file.string(), "", kTrialKeys);
   if (root.Find("segmentation") == nullptr)
-    root.FailAt(table.source(), "has no [segmentation]; write that table as in a trial file");
+    root.FailAt(table.source(),
+                "has no [segmentation]; add that table, as in a trial file (an empty one: the defaults)");
   return ReadSegmentation(root, file, rig);
 }
 
