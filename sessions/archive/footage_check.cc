@@ -10,7 +10,7 @@
 namespace elbowroom::sessions {
 
 std::filesystem::path FootagePath(const std::filesystem::path& session, const core::FootageFile& file) {
-  return core::FolderOf(session) / file.file;
+  return (core::FolderOf(session) / file.file).lexically_normal();
 }
 
 std::optional<std::string> FootageProblem(const std::filesystem::path& session, const core::FootageFile& file,

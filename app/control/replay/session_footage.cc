@@ -120,7 +120,8 @@ SessionFootage FindFootage(const sessions::SessionReader& recorded, const fs::pa
   if (!rig.empty()) given = SourcesOf(recorded, rig, recon::ReadRigFile(rig));
   SessionFootage footage;
   footage.is_named = !files.empty();
-  footage.location = fs::absolute(footage.is_named ? CheckedFootage(recorded, files, progress, stop) : rig);
+  const fs::path location = footage.is_named ? CheckedFootage(recorded, files, progress, stop) : rig;
+  footage.location = fs::absolute(location).lexically_normal();
   footage.rig_file.rig = recorded.header().rig;
   if (!footage.is_named) {
     footage.rig_file.sources = std::move(given);

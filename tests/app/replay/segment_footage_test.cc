@@ -148,6 +148,7 @@ TEST_F(SegmentFootage, WithTheRecordedSettingsIsTheLiveTrial) {
   EXPECT_GT(outcome_->frames_without_camera, 0);
   const ReplayOutcome outcome = Segmented("s", Session("again"));
   EXPECT_THAT(outcome.changes, IsEmpty());
+  EXPECT_THAT(outcome.segmented->warnings, IsEmpty());
   ASSERT_TRUE(outcome.compared.has_value());
   EXPECT_EQ(outcome.compared->frames_that_differ, 0);
   EXPECT_EQ(outcome.frames, kFrames);
@@ -158,6 +159,18 @@ TEST_F(SegmentFootage, WithTheRecordedSettingsIsTheLiveTrial) {
   EXPECT_EQ(RowsThatDiffer(Session("s"), Session("again")), 0);
   const ReplayOutcome part = Segmented("s", Session("part"), {}, {12, 22});
   EXPECT_EQ(part.compared->frames_that_differ, 0);
+}
+
+TEST_F(SegmentFootage, MayBeNamedFromItsOwnFolder) {
+  const fs::path here = fs::current_path();
+  fs::current_path(folder_.path());
+  const sessions::SessionReader reader = OpenWithOutcome("s.db", {}, {});
+  const ReplayOutcome outcome = RunReplay(reader, {"again.db", {}, {0, 4}, SegmentingOptions()}, {}, {});
+  fs::current_path(here);
+  EXPECT_EQ(outcome.compared->frames_that_differ, 0);
+  EXPECT_EQ(outcome.segmented->footage, Footage("RIG.yml"));
+  EXPECT_THAT(outcome.segmented->warnings, IsEmpty());
+  EXPECT_EQ(sessions::SessionReader(Session("again")).footage().front().file, "s.footage/RIG.yml");
 }
 
 // There and back: the thresholds that were right give the trial's own rows.
