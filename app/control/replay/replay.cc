@@ -7,29 +7,21 @@
 
 #include <algorithm>
 #include <memory>
-#include <set>
 #include <utility>
 
-#include "app/control/outcome_tracker.h"
-#include "app/control/replay/finding_matches.h"
 #include "app/control/replay/replay_judging.h"
+#include "app/control/replay/replay_recording.h"
 #include "app/control/replay/replay_runs.h"
 #include "app/control/silhouette_pipeline.h"
 #include "app/control/stopwatch.h"
 #include "app/control/trial_rules.h"
 #include "app/control/versions.h"
 #include "core/error.h"
-#include "core/system/file_sync.h"
 #include "core/system/utc_time.h"
-#include "sessions/archive/footage_check.h"
-#include "sessions/row_comparison.h"
-#include "sessions/session_writer.h"
 #include "sessions/unfinished_session.h"
 
 namespace elbowroom::control {
 namespace {
-
-constexpr const char* kReviewer = "elbowroom replay";
 
 // Positions in `frames` of those in the range.
 struct Selection {
@@ -71,132 +63,6 @@ core::SessionHeader HeaderOf(const sessions::SessionReader& recorded, const Repl
                           core::NowUtc(), ChangesOf(layout, segmentation)};
   return header;
 }
-
-// What becomes of the judged frames, in their order.
-class ReplayRecording {
- public:
-  ReplayRecording(const sessions::SessionReader& recorded, const ReplayLayout& layout,
-                  std::span<const core::TriangleTree> part_trees, const core::SessionHeader& header,
-                  const std::filesystem::path& path, sessions::UnfinishedSession* file)
-      : recorded_(recorded),
-        layout_(layout),
-        tracker_(recorded.header().trial, part_trees),
-        events_(recorded.events()),
-        next_event_(events_.begin()),
-        findings_(recorded.findings()),
-        path_(path),
-        file_(*file),
-        writer_(file_.temporary(), header) {
-    outcome_.changes = header.origin->changes;
-    if (outcome_.changes.empty()) outcome_.compared.emplace();
-  }
-
-  void Add(const core::FrameRecord& recorded, const SharedFrameResult& result,
-           const SegmentingCount& segmenting) {
-    TakeEvents(recorded.frame, recorded.time_s);
-    tracker_.Add(*result, std::vector<std::string>(tools_in_use_.begin(), tools_in_use_.end()));
-    writer_.Append(result->record);
-    if (outcome_.frames++ == 0) checked_.begin_s = recorded.time_s;
-    checked_.end_s = recorded.time_s;
-    last_frame_ = recorded.frame;
-    segmenting_ += segmenting;
-    for (const core::PartContact& contact : result->record.contacts)
-      outcome_.contact_rows += contact.verdict == core::Verdict::kContact ? 1 : 0;
-    outcome_.skipped += result->skipped;
-    if (outcome_.compared) Compare(recorded, result->record);
-  }
-
-  ReplayOutcome Finish(bool to_the_end) {
-    if (to_the_end)
-      for (; next_event_ != events_.end(); ++next_event_) writer_.Append(layout_.EventFrom(*next_event_));
-    TellMissing();
-    core::SessionOutcome outcome = tracker_.Outcome();
-    MatchFindings(findings_, layout_.layout(), &outcome);
-    sessions::SessionClosing closing =
-        TakeOverReview(findings_, layout_.layout(), checked_, outcome, kReviewer, core::NowUtc());
-    closing.footage = FootageFrom(path_);
-    outcome_.outcome = outcome;
-    outcome_.absent = closing.absent;
-    writer_.Finish(std::move(outcome), std::move(closing));
-    if (writer_.state() != sessions::RecordingState::kInFile || writer_.path() != file_.temporary())
-      throw core::Error(
-          core::ErrorKind::kFile,
-          fmt::format("the new session couldn't be written as '{}'; leave its folder alone, and "
-                      "try again",
-                      file_.temporary().string()));
-    file_.PutInPlace();
-    return std::move(outcome_);
-  }
-
-  [[nodiscard]] const SegmentingCount& segmenting() const { return segmenting_; }
-
- private:
-  void TellMissing() {
-    if (segmenting_.missing == 0) return;
-    writer_.Append(core::SessionEvent{
-        last_frame_, checked_.end_s,
-        core::Note{fmt::format("segmented again: {} pictures that were judged aren't in the footage; their "
-                               "frames lack that camera",
-                               segmenting_.missing)}});
-  }
-
-  // The recording's footage, as seen from the new session.
-  [[nodiscard]] std::vector<core::FootageFile> FootageFrom(const std::filesystem::path& session) const {
-    std::vector<core::FootageFile> files = recorded_.footage();
-    const std::filesystem::path folder =
-        std::filesystem::absolute(core::FolderOf(session)).lexically_normal();
-    for (core::FootageFile& file : files)
-      file.file = std::filesystem::absolute(sessions::FootagePath(recorded_.path(), file))
-                      .lexically_normal()
-                      .lexically_proximate(folder)
-                      .string();
-    return files;
-  }
-
-  // The events up to the frame. Those before the first frame of the replay aren't in it, but for the tools in
-  // use.
-  void TakeEvents(core::FrameIndex frame, double time_s) {
-    for (; next_event_ != events_.end() && next_event_->frame <= frame; ++next_event_) {
-      if (const auto* mark = std::get_if<core::ToolMarked>(&next_event_->what)) {
-        if (mark->in_use) {
-          tools_in_use_.insert(mark->tool);
-        } else {
-          tools_in_use_.erase(mark->tool);
-        }
-      }
-      const bool is_before = outcome_.frames == 0 && next_event_->frame < frame;
-      if (!is_before) writer_.Append(layout_.EventFrom(*next_event_));
-      if (is_before) has_earlier_ = true;
-    }
-    if (!std::exchange(has_earlier_, false)) return;
-    for (const std::string& tool : tools_in_use_)
-      writer_.Append(core::SessionEvent{frame, time_s, core::ToolMarked{tool, true}});
-  }
-
-  void Compare(const core::FrameRecord& recorded, const core::FrameRecord& replayed) {
-    const sessions::RowComparison rows = sessions::CompareRows(recorded, replayed);
-    ++outcome_.compared->frames;
-    outcome_.compared->rows += rows.rows;
-    if (rows.are_equal) return;
-    if (outcome_.compared->frames_that_differ++ == 0) outcome_.compared->first_that_differs = recorded.frame;
-  }
-
-  const sessions::SessionReader& recorded_;
-  const ReplayLayout& layout_;
-  OutcomeTracker tracker_;
-  std::vector<core::SessionEvent> events_;
-  std::vector<core::SessionEvent>::const_iterator next_event_;
-  std::vector<core::Finding> findings_;
-  std::set<std::string> tools_in_use_;
-  bool has_earlier_ = false;
-  CheckedRange checked_;
-  core::FrameIndex last_frame_ = 0;
-  SegmentingCount segmenting_;
-  ReplayOutcome outcome_;
-  std::filesystem::path path_;
-  sessions::UnfinishedSession& file_;
-  sessions::SessionWriter writer_;
-};
 
 // One replay: which frames, judged how.
 class Replay {
@@ -240,13 +106,11 @@ class Replay {
     return outcome;
   }
 
-  void Record(const core::FrameRecord& recorded, const SharedFrameResult& result,
-              const SegmentingCount& segmenting, ReplayRecording* recording) const {
-    const core::FrameIndex first = frames_[selected_.first].frame;
-    if (recorded.frame >= first) recording->Add(recorded, result, segmenting);
+  void Record(const ReplayedFrame& frame, ReplayRecording* recording) const {
+    const core::FrameIndex number = frame.recorded.frame;
+    if (number >= frames_[selected_.first].frame) recording->Add(frame);
     const auto done = static_cast<std::int64_t>(
-        std::ranges::upper_bound(frames_, recorded.frame, {}, &sessions::FrameSummary::frame) -
-        frames_.begin());
+        std::ranges::upper_bound(frames_, number, {}, &sessions::FrameSummary::frame) - frames_.begin());
     progress_.Report(done - static_cast<std::int64_t>(selected_.first),
                      static_cast<std::int64_t>(selected_.end - selected_.first), "replaying frame");
   }
@@ -273,8 +137,7 @@ class Replay {
     };
     const auto record = [&](const SharedRun& run) {
       if (run->goes_on) judging.Judge(last.get(), run.get());
-      for (const ReplayedFrame& frame : run->frames)
-        Record(frame.recorded, frame.result, frame.segmenting, &recording);
+      for (const ReplayedFrame& frame : run->frames) Record(frame, &recording);
       last = run->frames.back().result;
     };
     constexpr std::size_t kRunsAThread = 4;
@@ -295,46 +158,42 @@ class Replay {
     return selected_.first - FramesOfMotion(recorded_, frames_, selected_.first);
   }
 
+  using SharedFrame = std::shared_ptr<ReplayedFrame>;
+
+  // Before it is judged.
+  [[nodiscard]] SharedFrame ReadFrame(std::size_t i) {
+    auto frame = std::make_shared<ReplayedFrame>();
+    frame->recorded = recorded_.ReadFrame(frames_[i].frame);
+    if (segmentation_) frame->segmenting = segmentation_->Segment(&frame->recorded, stop_);
+    return frame;
+  }
+
   // In order, each after the one before; the next frame is read and segmented, and the last one recorded,
   // meanwhile.
   ReplayOutcome RunOneByOne() {
     SilhouettePipeline pipeline(header_.rig, layout_.layout(), review_);
     ReplayRecording recording(recorded_, layout_, pipeline.part_trees(), header_, path_, &file_);
-    struct Step {
-      core::FrameRecord recorded;
-      SegmentingCount segmenting;
-      SharedFrameResult result;
-    };
-    using SharedStep = std::shared_ptr<Step>;
     std::size_t next = BeginOfOrder();
-    const auto read = [&](tbb::flow_control& control) -> SharedStep {
-      if (stop_.stop_requested() || next == selected_.end) {
-        control.stop();
-        return nullptr;
-      }
-      auto step = std::make_shared<Step>();
-      step->recorded = recorded_.ReadFrame(frames_[next++].frame);
-      if (segmentation_) step->segmenting = segmentation_->Segment(&step->recorded, stop_);
-      return step;
+    const auto read = [&](tbb::flow_control& control) -> SharedFrame {
+      if (!stop_.stop_requested() && next < selected_.end) return ReadFrame(next++);
+      control.stop();
+      return nullptr;
     };
-    const auto judge = [&](SharedStep step) {
-      const core::FrameRecord& recorded = step->recorded;
-      const std::shared_ptr<FrameResult> result =
+    const auto judge = [&](SharedFrame frame) {
+      const core::FrameRecord& recorded = frame->recorded;
+      frame->result =
           pipeline.Process({recorded.frame, recorded.time_s, *recorded.masks, recorded.stamps, {}},
                            layout_.SpacingsFrom(recorded.spacing_mm));
-      result->skipped.segmentation = step->segmenting.stats;
-      step->result = result;
-      return step;
+      frame->result->skipped.segmentation = frame->segmenting.stats;
+      return frame;
     };
-    const auto record = [&](const SharedStep& step) {
-      Record(step->recorded, step->result, step->segmenting, &recording);
-    };
+    const auto record = [&](const SharedFrame& frame) { Record(*frame, &recording); };
     constexpr std::size_t kFramesUnderWay = 4;
     tbb::parallel_pipeline(
         kFramesUnderWay,
-        tbb::make_filter<void, SharedStep>(tbb::filter_mode::serial_in_order, read) &
-            tbb::make_filter<SharedStep, SharedStep>(tbb::filter_mode::serial_in_order, judge) &
-            tbb::make_filter<SharedStep, void>(tbb::filter_mode::serial_in_order, record));
+        tbb::make_filter<void, SharedFrame>(tbb::filter_mode::serial_in_order, read) &
+            tbb::make_filter<SharedFrame, SharedFrame>(tbb::filter_mode::serial_in_order, judge) &
+            tbb::make_filter<SharedFrame, void>(tbb::filter_mode::serial_in_order, record));
     core::ThrowIfStopped(stop_, "the replay");
     return Finish(&recording);
   }

@@ -14,6 +14,7 @@
 #include "app/control/replay/replay.h"
 #include "app/control/trial_runner.h"
 #include "core/error.h"
+#include "core/gives_way.h"
 #include "recon/footage/recorded_rig.h"
 #include "sessions/session_reader.h"
 #include "tests/app/live_demo.h"
@@ -148,6 +149,17 @@ TEST_F(SegmentPictures, TogetherWithAnotherGapIsTheTrialAtThatGap) {
   const ReplayOutcome outcome =
       Segmented("wrong", "repaired", {SettingsFile(right_levels_), rig()}, {}, {.held_mm = {{gap, kGapMm}}});
   EXPECT_EQ(outcome.changes.size(), 2U);
+  EXPECT_EQ(RowsThatDiffer(Session("right"), Session("repaired")), 0);
+}
+
+TEST_F(SegmentPictures, WithPartsThatGiveWayTakesTheSameSteps) {
+  TrialSetup& setup = demo_->setup;
+  setup.layout.parts[1].gives_way = core::PushRule{};
+  Record("wrong", kTooHighLevels);
+  Record("right", right_levels_);
+  setup.layout.parts[1].gives_way = {};
+  EXPECT_EQ(Segmented("right", "again", {"", rig()}).compared->frames_that_differ, 0);
+  (void)Segmented("wrong", "repaired", {SettingsFile(right_levels_), rig()});
   EXPECT_EQ(RowsThatDiffer(Session("right"), Session("repaired")), 0);
 }
 
