@@ -187,7 +187,7 @@ void AddSegmentOptions(CLI::App& command, ReplayCommandOptions* options) {
 
 void AddReplayCommand(CLI::App& app, Choice* choice) {
   CLI::App* command =
-      app.add_subcommand("replay", "judge a session's motion again, with other gaps or parts");
+      app.add_subcommand("replay", "judge a session's motion again, with other gaps, parts or thresholds");
   auto options = std::make_shared<ReplayCommandOptions>();
   command->add_option("SESSION", options->recorded, "the recorded session (S.db)")->required();
   command->add_option("--session", options->replay.session, "the new session; must not exist yet")

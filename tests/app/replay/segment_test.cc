@@ -163,6 +163,28 @@ TEST_F(SegmentPictures, WithPartsThatGiveWayTakesTheSameSteps) {
   EXPECT_EQ(RowsThatDiffer(Session("right"), Session("repaired")), 0);
 }
 
+// What verdicts allow for is part of the table.
+TEST_F(SegmentPictures, TheBoundarysErrorIsThatOfTheFile) {
+  TrialSetup& setup = demo_->setup;
+  Eigen::Index parameters = 0;
+  constexpr Eigen::Index kOfEach = 4 + 6 + 1;  // beside the lens's coefficients
+  for (const core::CameraModel& camera : setup.source->rig().cameras)
+    parameters += kOfEach + static_cast<Eigen::Index>(camera.calibration().distortion_coefficients.size());
+  const core::RigQuality usual = setup.rig_quality;
+  setup.rig_quality.errors = core::RigErrors{1e-8 * Eigen::MatrixXd::Identity(parameters, parameters), 0.2};
+  Record("wrong", right_levels_);
+  setup.rig_quality.errors->boundary_sigma_px = 0.7;
+  Record("right", right_levels_);
+  setup.rig_quality = usual;
+  ASSERT_GT(RowsThatDiffer(Session("wrong"), Session("right")), 0);
+  const fs::path file = folder_ / "boundary.toml";
+  test_support::WriteText(file, "[segmentation]\nboundary_sigma_px = 0.7\n");
+  const ReplayOutcome outcome = Segmented("wrong", "repaired", {file, rig()});
+  EXPECT_THAT(outcome.changes, Contains("segmentation.boundary_sigma_px: 0.7 instead of 0.2"));
+  EXPECT_EQ(RowsThatDiffer(Session("right"), Session("repaired")), 0);
+  EXPECT_EQ(sessions::SessionReader(Session("repaired")).header().rig_quality.errors->boundary_sigma_px, 0.7);
+}
+
 TEST_F(SegmentPictures, SomeFramesWithOtherSettingsTouchWhereAllFramesDo) {
   Record("wrong", kTooHighLevels);
   Record("right", right_levels_);
