@@ -38,16 +38,11 @@ class SegmentPictures : public testing::Test {
   static constexpr core::FrameIndex kFrames = 24;
   static constexpr double kTooHighLevels = 90.0;
 
-  static void SetUpTestSuite() { demo_ = new DemoFootage(RenderDemo()); }
-  static void TearDownTestSuite() {
-    delete demo_;
-    demo_ = nullptr;
-  }
-
-  void SetUp() override {
-    recon::RigFile rig_file{demo_->setup.source->rig()};
+  static void SetUpTestSuite() {
+    demo_ = new DemoFootage(RenderDemo());
+    pictures_ = new test_support::TemporaryFolder();
     for (std::size_t i = 0; i < kCameras; ++i) {
-      const fs::path camera = folder_ / fmt::format("cam{}", i + 1);
+      const fs::path camera = *pictures_ / fmt::format("cam{}", i + 1);
       fs::create_directories(camera);
       for (core::FrameIndex frame = 0; frame < kFrames; ++frame)
         cv::imwrite((camera / fmt::format("{:04}.png", frame)).string(),
@@ -55,6 +50,19 @@ class SegmentPictures : public testing::Test {
       cv::Mat mean;
       demo_->backgrounds[i].mean_bgr.convertTo(mean, CV_8U);
       cv::imwrite((camera / "empty.png").string(), mean);
+    }
+  }
+  static void TearDownTestSuite() {
+    delete pictures_;
+    delete demo_;
+  }
+
+  void SetUp() override {
+    fs::copy(pictures_->path(), folder_.path(),
+             fs::copy_options::recursive | fs::copy_options::overwrite_existing);
+    recon::RigFile rig_file{demo_->setup.source->rig()};
+    for (std::size_t i = 0; i < kCameras; ++i) {
+      const fs::path camera = folder_ / fmt::format("cam{}", i + 1);
       rig_file.sources.push_back({(camera / "%04d.png").string(), (camera / "empty.png").string(), ""});
     }
     recon::WriteRigFile(rig_file, rig());
@@ -95,11 +103,13 @@ class SegmentPictures : public testing::Test {
   }
 
   static DemoFootage* demo_;
+  static test_support::TemporaryFolder* pictures_;
   test_support::TemporaryFolder folder_;
   double right_levels_ = recon::SegmentationOptions().floor_levels;
 };
 
 DemoFootage* SegmentPictures::demo_ = nullptr;
+test_support::TemporaryFolder* SegmentPictures::pictures_ = nullptr;
 
 TEST_F(SegmentPictures, WithTheRecordedSettingsIsTheRecording) {
   Record("s", right_levels_);
