@@ -1,6 +1,7 @@
 // How a trial segments its pictures, as its session keeps it.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <string>
