@@ -9,9 +9,8 @@
 #include <memory>
 #include <utility>
 
-#include "app/control/outcome_tracker.h"
-#include "app/control/replay/finding_matches.h"
 #include "app/control/replay/replay_judging.h"
+#include "app/control/replay/replay_recording.h"
 #include "app/control/replay/replay_runs.h"
 #include "app/control/silhouette_pipeline.h"
 #include "app/control/stopwatch.h"
@@ -19,15 +18,16 @@
 #include "app/control/versions.h"
 #include "core/error.h"
 #include "core/system/utc_time.h"
+<<<<<<< HEAD
 #include "core/tools_in_use.h"
 #include "sessions/row_comparison.h"
 #include "sessions/session_writer.h"
+=======
+>>>>>>> segment24
 #include "sessions/unfinished_session.h"
 
 namespace elbowroom::control {
 namespace {
-
-constexpr const char* kReviewer = "elbowroom replay";
 
 // Positions in `frames` of those in the range.
 struct Selection {
@@ -50,15 +50,15 @@ Selection SelectFrames(const sessions::SessionReader& session,
                                                          session.path().string(), what_is_there));
 }
 
-core::SessionHeader HeaderOf(const sessions::SessionReader& recorded, const ReplayLayout& layout) {
-  core::SessionHeader header = recorded.header();
-  header.layout = layout.layout();
-  header.versions = SoftwareVersions();
-  header.origin = core::SessionOrigin{recorded.path().string(), recorded.recording_id(),
-                                      recorded.first_recording_id(), core::NowUtc(), layout.changes()};
-  return header;
+std::vector<std::string> ChangesOf(const ReplayLayout& layout,
+                                   const std::optional<ReplaySegmentation>& segmentation) {
+  std::vector<std::string> changes = layout.changes();
+  if (segmentation)
+    changes.insert(changes.end(), segmentation->changes().begin(), segmentation->changes().end());
+  return changes;
 }
 
+<<<<<<< HEAD
 // What becomes of the judged frames, in their order.
 class ReplayRecording {
  public:
@@ -145,6 +145,19 @@ class ReplayRecording {
   sessions::UnfinishedSession file_;
   sessions::SessionWriter writer_;
 };
+=======
+core::SessionHeader HeaderOf(const sessions::SessionReader& recorded, const ReplayLayout& layout,
+                             const std::optional<ReplaySegmentation>& segmentation) {
+  core::SessionHeader header = recorded.header();
+  if (segmentation) segmentation->Describe(&header);
+  header.layout = layout.layout();
+  header.versions = SoftwareVersions();
+  header.origin =
+      core::SessionOrigin{recorded.path().string(), recorded.recording_id(), recorded.first_recording_id(),
+                          core::NowUtc(), ChangesOf(layout, segmentation)};
+  return header;
+}
+>>>>>>> segment24
 
 // One replay: which frames, judged how.
 class Replay {
@@ -155,15 +168,18 @@ class Replay {
         frames_(recorded.frames()),
         selected_(SelectFrames(recorded, frames_, options.frames)),
         layout_(recorded.header().layout, options.changes),
-        review_(
-            ReviewOptionsOf(recorded.header().trial, recorded.header().rig, recorded.header().rig_quality)),
         path_(options.session),
+        file_(path_),
         progress_(progress),
-        stop_(stop) {}
+        stop_(stop) {
+    if (options.segmenting) segmentation_.emplace(recorded, *options.segmenting, progress, stop);
+    header_ = HeaderOf(recorded, layout_, segmentation_);
+    review_ = ReviewOptionsOf(header_.trial, header_.rig, header_.rig_quality);
+  }
 
   ReplayOutcome Run() {
     Stopwatch watch;
-    ReplayOutcome outcome = GivesWay() ? RunOneByOne() : RunSeveralAtOnce();
+    ReplayOutcome outcome = GivesWay() || HasOtherSilhouettes() ? RunOneByOne() : RunSeveralAtOnce();
     outcome.time_s = watch.LapMs() / 1000.0;
     return outcome;
   }
@@ -172,22 +188,33 @@ class Replay {
   // A part that gives way goes on from where the frame before left it.
   [[nodiscard]] bool GivesWay() const { return !PartReactions(layout_.layout()).is_empty(); }
 
-  void Record(const core::FrameRecord& recorded, const SharedFrameResult& result,
-              ReplayRecording* recording) const {
-    const core::FrameIndex first = frames_[selected_.first].frame;
-    if (recorded.frame >= first) recording->Add(recorded, result);
+  // Then what was found in the frame before, as it is recorded, is no guide.
+  [[nodiscard]] bool HasOtherSilhouettes() const {
+    return segmentation_ && !segmentation_->changes().empty();
+  }
+
+  [[nodiscard]] ReplayOutcome Finish(ReplayRecording* recording) const {
+    ReplayOutcome outcome = recording->Finish(selected_.end == frames_.size());
+    if (segmentation_)
+      outcome.segmented =
+          ReplaySegmented{segmentation_->footage(), recording->segmenting(), segmentation_->warnings()};
+    return outcome;
+  }
+
+  void Record(const ReplayedFrame& frame, ReplayRecording* recording) const {
+    const core::FrameIndex number = frame.recorded.frame;
+    if (number >= frames_[selected_.first].frame) recording->Add(frame);
     const auto done = static_cast<std::int64_t>(
-        std::ranges::upper_bound(frames_, recorded.frame, {}, &sessions::FrameSummary::frame) -
-        frames_.begin());
+        std::ranges::upper_bound(frames_, number, {}, &sessions::FrameSummary::frame) - frames_.begin());
     progress_.Report(done - static_cast<std::int64_t>(selected_.first),
                      static_cast<std::int64_t>(selected_.end - selected_.first), "replaying frame");
   }
 
   ReplayOutcome RunSeveralAtOnce() {
     ReplayJudging judging(layout_.layout(), review_);
-    ReplayRecording recording(recorded_, layout_, judging.part_trees(), path_);
+    ReplayRecording recording(recorded_, layout_, judging.part_trees(), header_, path_, &file_);
     ReplayRuns runs(recorded_, frames_, layout_, selected_.first, selected_.end,
-                    review_.required_clearance_mm > 0.0);
+                    review_.required_clearance_mm > 0.0, segmentation_ ? &*segmentation_ : nullptr, stop_);
     SharedFrameResult last;
     using SharedRun = std::shared_ptr<ReplayRun>;
     const auto read = [&](tbb::flow_control& control) -> SharedRun {
@@ -205,7 +232,7 @@ class Replay {
     };
     const auto record = [&](const SharedRun& run) {
       if (run->goes_on) judging.Judge(last.get(), run.get());
-      for (const ReplayedFrame& frame : run->frames) Record(frame.recorded, frame.result, &recording);
+      for (const ReplayedFrame& frame : run->frames) Record(frame, &recording);
       last = run->frames.back().result;
     };
     constexpr std::size_t kRunsAThread = 4;
@@ -215,30 +242,66 @@ class Replay {
                                tbb::make_filter<SharedRun, SharedRun>(tbb::filter_mode::parallel, judge) &
                                tbb::make_filter<SharedRun, void>(tbb::filter_mode::serial_in_order, record));
     core::ThrowIfStopped(stop_, "the replay");
-    return recording.Finish(selected_.end == frames_.size());
+    return Finish(&recording);
   }
 
-  // All frames from the session's first, since what a part did before moves it now.
+  // Where parts give way, all frames from the session's first, since what a part did before moves it now;
+  // else from as far before the first that is wanted as the motion of silhouettes has to be known.
+  [[nodiscard]] std::size_t BeginOfOrder() const {
+    if (GivesWay()) return 0;
+    if (!(review_.required_clearance_mm > 0.0)) return selected_.first;
+    return selected_.first - FramesOfMotion(recorded_, frames_, selected_.first);
+  }
+
+  using SharedFrame = std::shared_ptr<ReplayedFrame>;
+
+  // Before it is judged.
+  [[nodiscard]] SharedFrame ReadFrame(std::size_t i) {
+    auto frame = std::make_shared<ReplayedFrame>();
+    frame->recorded = recorded_.ReadFrame(frames_[i].frame);
+    if (segmentation_) frame->segmenting = segmentation_->Segment(&frame->recorded, stop_);
+    return frame;
+  }
+
+  // In order, each after the one before; the next frame is read and segmented, and the last one recorded,
+  // meanwhile.
   ReplayOutcome RunOneByOne() {
-    SilhouettePipeline pipeline(recorded_.header().rig, layout_.layout(), review_);
-    ReplayRecording recording(recorded_, layout_, pipeline.part_trees(), path_);
-    for (std::size_t i = 0; i < selected_.end; ++i) {
-      core::ThrowIfStopped(stop_, "the replay");
-      const core::FrameRecord recorded = recorded_.ReadFrame(frames_[i].frame);
-      const SharedFrameResult result =
+    SilhouettePipeline pipeline(header_.rig, layout_.layout(), review_);
+    ReplayRecording recording(recorded_, layout_, pipeline.part_trees(), header_, path_, &file_);
+    std::size_t next = BeginOfOrder();
+    const auto read = [&](tbb::flow_control& control) -> SharedFrame {
+      if (!stop_.stop_requested() && next < selected_.end) return ReadFrame(next++);
+      control.stop();
+      return nullptr;
+    };
+    const auto judge = [&](SharedFrame frame) {
+      const core::FrameRecord& recorded = frame->recorded;
+      frame->result =
           pipeline.Process({recorded.frame, recorded.time_s, *recorded.masks, recorded.stamps, {}},
                            layout_.SpacingsFrom(recorded.spacing_mm));
-      Record(recorded, result, &recording);
-    }
-    return recording.Finish(selected_.end == frames_.size());
+      frame->result->skipped.segmentation = frame->segmenting.stats;
+      return frame;
+    };
+    const auto record = [&](const SharedFrame& frame) { Record(*frame, &recording); };
+    constexpr std::size_t kFramesUnderWay = 4;
+    tbb::parallel_pipeline(
+        kFramesUnderWay,
+        tbb::make_filter<void, SharedFrame>(tbb::filter_mode::serial_in_order, read) &
+            tbb::make_filter<SharedFrame, SharedFrame>(tbb::filter_mode::serial_in_order, judge) &
+            tbb::make_filter<SharedFrame, void>(tbb::filter_mode::serial_in_order, record));
+    core::ThrowIfStopped(stop_, "the replay");
+    return Finish(&recording);
   }
 
   const sessions::SessionReader& recorded_;
   const std::vector<sessions::FrameSummary> frames_;
   const Selection selected_;
   const ReplayLayout layout_;
-  const review::PartReviewOptions review_;
   const std::filesystem::path path_;
+  sessions::UnfinishedSession file_;  // refuses a name that is taken before long footage is checked
+  std::optional<ReplaySegmentation> segmentation_;
+  core::SessionHeader header_;
+  review::PartReviewOptions review_;
   const core::Progress& progress_;
   const std::stop_token stop_;
 };

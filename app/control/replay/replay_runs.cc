@@ -12,17 +12,49 @@ namespace {
 // Of a run: frames that wait to be judged keep their contacts in memory.
 constexpr std::size_t kLongestPiece = 32;
 
+<<<<<<< HEAD
 }  // namespace
 
+=======
+// A contour's motion, and the one before, come from the two pictures before.
+constexpr std::size_t kPicturesBefore = 2;
+
+}  // namespace
+
+std::size_t FramesOfMotion(const sessions::SessionReader& session,
+                           std::span<const sessions::FrameSummary> frames, std::size_t first) {
+  const std::vector<sessions::StampRow> rows = session.stamp_rows();
+  if (rows.empty()) return 0;
+  std::vector<std::set<double>> times(session.header().rig.cameras.size());
+  const auto is_known = [&] {
+    return std::ranges::all_of(times,
+                               [](const auto& of_camera) { return of_camera.size() >= kPicturesBefore; });
+  };
+  auto row = std::ranges::lower_bound(rows, frames[first].frame, {}, &sessions::StampRow::frame);
+  std::size_t back = 0;
+  while (back < first && !is_known()) {
+    ++back;
+    if (row == rows.begin() || std::prev(row)->frame != frames[first - back].frame) continue;
+    --row;
+    for (core::CameraIndex i = 0; i < times.size(); ++i)
+      if (row->stamps[i]) times[i].insert(row->stamps[i]->time_s);
+  }
+  return back;
+}
+
+>>>>>>> segment24
 ReplayRuns::ReplayRuns(const sessions::SessionReader& session, std::span<const sessions::FrameSummary> frames,
-                       const ReplayLayout& layout, std::size_t first, std::size_t end, bool asks_clearance)
+                       const ReplayLayout& layout, std::size_t first, std::size_t end, bool asks_clearance,
+                       ReplaySegmentation* segmentation, std::stop_token stop)
     : session_(session),
       frames_(frames),
       layout_(layout),
       shared_layout_(std::make_shared<const core::Layout>(layout.layout())),
       rig_(std::make_shared<const core::Rig>(session.header().rig)),
       end_(end),
-      asks_clearance_(asks_clearance) {
+      asks_clearance_(asks_clearance),
+      segmentation_(segmentation),
+      stop_(std::move(stop)) {
   // Reading a frame, as is done here, checks that its silhouettes have the sizes of the cameras' pictures,
   // before planes of these sizes are made.
   const std::size_t begin = BeginOfRun(first);
@@ -60,6 +92,7 @@ std::optional<ReplayRun> ReplayRuns::Next() {
 ReplayRuns::Loaded ReplayRuns::Load(std::size_t i) {
   Loaded loaded;
   loaded.record = session_.ReadFrame(frames_[i].frame);
+  if (segmentation_ != nullptr) loaded.segmenting = segmentation_->Segment(&loaded.record, stop_);
   loaded.hull = recon::NextHull(last_hull_, rig_, planes_, *loaded.record.masks).hull;
   if (asks_clearance_)
     loaded.skew_errors = motions_.Next(*loaded.hull, loaded.record.stamps, loaded.record.time_s);
@@ -69,7 +102,7 @@ ReplayRuns::Loaded ReplayRuns::Load(std::size_t i) {
 }
 
 ReplayedFrame ReplayRuns::FrameFrom(Loaded loaded) {
-  ReplayedFrame frame{std::move(loaded.record), results_.Take()};
+  ReplayedFrame frame{std::move(loaded.record), results_.Take(), loaded.segmenting};
   FrameResult& result = *frame.result;
   result.record.frame = frame.recorded.frame;
   result.record.time_s = frame.recorded.time_s;
