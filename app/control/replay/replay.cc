@@ -18,12 +18,6 @@
 #include "app/control/versions.h"
 #include "core/error.h"
 #include "core/system/utc_time.h"
-<<<<<<< HEAD
-#include "core/tools_in_use.h"
-#include "sessions/row_comparison.h"
-#include "sessions/session_writer.h"
-=======
->>>>>>> segment24
 #include "sessions/unfinished_session.h"
 
 namespace elbowroom::control {
@@ -58,94 +52,6 @@ std::vector<std::string> ChangesOf(const ReplayLayout& layout,
   return changes;
 }
 
-<<<<<<< HEAD
-// What becomes of the judged frames, in their order.
-class ReplayRecording {
- public:
-  ReplayRecording(const sessions::SessionReader& recorded, const ReplayLayout& layout,
-                  std::span<const core::TriangleTree> part_trees, const std::filesystem::path& path)
-      : recorded_(recorded),
-        layout_(layout),
-        tracker_(recorded.header().trial, part_trees),
-        events_(recorded.events()),
-        next_event_(events_.begin()),
-        findings_(recorded.findings()),
-        file_(path),
-        writer_(file_.temporary(), HeaderOf(recorded, layout)) {
-    outcome_.changes = layout.changes();
-    if (outcome_.changes.empty()) outcome_.compared.emplace();
-  }
-
-  void Add(const core::FrameRecord& recorded, const SharedFrameResult& result) {
-    TakeEvents(recorded.frame, recorded.time_s);
-    tracker_.Add(*result, tools_in_use_.names());
-    writer_.Append(result->record);
-    if (outcome_.frames++ == 0) checked_.begin_s = recorded.time_s;
-    checked_.end_s = recorded.time_s;
-    for (const core::PartContact& contact : result->record.contacts)
-      outcome_.contact_rows += contact.verdict == core::Verdict::kContact ? 1 : 0;
-    outcome_.skipped += result->skipped;
-    if (outcome_.compared) Compare(recorded, result->record);
-  }
-
-  ReplayOutcome Finish(bool to_the_end) {
-    if (to_the_end)
-      for (; next_event_ != events_.end(); ++next_event_) writer_.Append(layout_.EventFrom(*next_event_));
-    core::SessionOutcome outcome = tracker_.Outcome();
-    MatchFindings(findings_, layout_.layout(), &outcome);
-    sessions::SessionClosing closing =
-        TakeOverReview(findings_, layout_.layout(), checked_, outcome, kReviewer, core::NowUtc());
-    closing.footage = recorded_.footage();
-    outcome_.outcome = outcome;
-    outcome_.absent = closing.absent;
-    writer_.Finish(std::move(outcome), std::move(closing));
-    if (writer_.state() != sessions::RecordingState::kInFile || writer_.path() != file_.temporary())
-      throw core::Error(
-          core::ErrorKind::kFile,
-          fmt::format("the new session couldn't be written as '{}'; leave its folder alone, and "
-                      "try again",
-                      file_.temporary().string()));
-    file_.PutInPlace();
-    return std::move(outcome_);
-  }
-
- private:
-  // The events up to the frame. Those before the first frame of the replay aren't in it, but for the tools in
-  // use.
-  void TakeEvents(core::FrameIndex frame, double time_s) {
-    for (; next_event_ != events_.end() && next_event_->frame <= frame; ++next_event_) {
-      tools_in_use_.Take(*next_event_);
-      const bool is_before = outcome_.frames == 0 && next_event_->frame < frame;
-      if (!is_before) writer_.Append(layout_.EventFrom(*next_event_));
-      if (is_before) has_earlier_ = true;
-    }
-    if (!std::exchange(has_earlier_, false)) return;
-    for (const std::string& tool : tools_in_use_.names())
-      writer_.Append(core::SessionEvent{frame, time_s, core::ToolMarked{tool, true}});
-  }
-
-  void Compare(const core::FrameRecord& recorded, const core::FrameRecord& replayed) {
-    const sessions::RowComparison rows = sessions::CompareRows(recorded, replayed);
-    ++outcome_.compared->frames;
-    outcome_.compared->rows += rows.rows;
-    if (rows.are_equal) return;
-    if (outcome_.compared->frames_that_differ++ == 0) outcome_.compared->first_that_differs = recorded.frame;
-  }
-
-  const sessions::SessionReader& recorded_;
-  const ReplayLayout& layout_;
-  OutcomeTracker tracker_;
-  std::vector<core::SessionEvent> events_;
-  std::vector<core::SessionEvent>::const_iterator next_event_;
-  std::vector<core::Finding> findings_;
-  core::ToolsInUse tools_in_use_;
-  bool has_earlier_ = false;
-  CheckedRange checked_;
-  ReplayOutcome outcome_;
-  sessions::UnfinishedSession file_;
-  sessions::SessionWriter writer_;
-};
-=======
 core::SessionHeader HeaderOf(const sessions::SessionReader& recorded, const ReplayLayout& layout,
                              const std::optional<ReplaySegmentation>& segmentation) {
   core::SessionHeader header = recorded.header();
@@ -157,7 +63,6 @@ core::SessionHeader HeaderOf(const sessions::SessionReader& recorded, const Repl
                           core::NowUtc(), ChangesOf(layout, segmentation)};
   return header;
 }
->>>>>>> segment24
 
 // One replay: which frames, judged how.
 class Replay {
@@ -179,7 +84,7 @@ class Replay {
 
   ReplayOutcome Run() {
     Stopwatch watch;
-    ReplayOutcome outcome = GivesWay() || HasOtherSilhouettes() ? RunOneByOne() : RunSeveralAtOnce();
+    ReplayOutcome outcome = GivesWay() ? RunOneByOne() : RunSeveralAtOnce();
     outcome.time_s = watch.LapMs() / 1000.0;
     return outcome;
   }
@@ -187,11 +92,6 @@ class Replay {
  private:
   // A part that gives way goes on from where the frame before left it.
   [[nodiscard]] bool GivesWay() const { return !PartReactions(layout_.layout()).is_empty(); }
-
-  // Then what was found in the frame before, as it is recorded, is no guide.
-  [[nodiscard]] bool HasOtherSilhouettes() const {
-    return segmentation_ && !segmentation_->changes().empty();
-  }
 
   [[nodiscard]] ReplayOutcome Finish(ReplayRecording* recording) const {
     ReplayOutcome outcome = recording->Finish(selected_.end == frames_.size());
@@ -245,14 +145,6 @@ class Replay {
     return Finish(&recording);
   }
 
-  // Where parts give way, all frames from the session's first, since what a part did before moves it now;
-  // else from as far before the first that is wanted as the motion of silhouettes has to be known.
-  [[nodiscard]] std::size_t BeginOfOrder() const {
-    if (GivesWay()) return 0;
-    if (!(review_.required_clearance_mm > 0.0)) return selected_.first;
-    return selected_.first - FramesOfMotion(recorded_, frames_, selected_.first);
-  }
-
   using SharedFrame = std::shared_ptr<ReplayedFrame>;
 
   // Before it is judged.
@@ -263,12 +155,12 @@ class Replay {
     return frame;
   }
 
-  // In order, each after the one before; the next frame is read and segmented, and the last one recorded,
-  // meanwhile.
+  // In order from the session's first frame, since what a part did before moves it now; the next frame is read
+  // and segmented, and the last one recorded, meanwhile.
   ReplayOutcome RunOneByOne() {
     SilhouettePipeline pipeline(header_.rig, layout_.layout(), review_);
     ReplayRecording recording(recorded_, layout_, pipeline.part_trees(), header_, path_, &file_);
-    std::size_t next = BeginOfOrder();
+    std::size_t next = 0;
     const auto read = [&](tbb::flow_control& control) -> SharedFrame {
       if (!stop_.stop_requested() && next < selected_.end) return ReadFrame(next++);
       control.stop();

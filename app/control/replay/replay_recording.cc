@@ -39,7 +39,7 @@ void ReplayRecording::Add(const ReplayedFrame& frame) {
   const core::FrameRecord& recorded = frame.recorded;
   const FrameResult& result = *frame.result;
   TakeEvents(recorded.frame, recorded.time_s);
-  tracker_.Add(result, std::vector<std::string>(tools_in_use_.begin(), tools_in_use_.end()));
+  tracker_.Add(result, tools_in_use_.names());
   writer_.Append(result.record);
   if (outcome_.frames++ == 0) checked_.begin_s = recorded.time_s;
   checked_.end_s = recorded.time_s;
@@ -76,19 +76,13 @@ ReplayOutcome ReplayRecording::Finish(bool to_the_end) {
 // use.
 void ReplayRecording::TakeEvents(core::FrameIndex frame, double time_s) {
   for (; next_event_ != events_.end() && next_event_->frame <= frame; ++next_event_) {
-    if (const auto* mark = std::get_if<core::ToolMarked>(&next_event_->what)) {
-      if (mark->in_use) {
-        tools_in_use_.insert(mark->tool);
-      } else {
-        tools_in_use_.erase(mark->tool);
-      }
-    }
+    tools_in_use_.Take(*next_event_);
     const bool is_before = outcome_.frames == 0 && next_event_->frame < frame;
     if (!is_before) writer_.Append(layout_.EventFrom(*next_event_));
     if (is_before) has_earlier_ = true;
   }
   if (!std::exchange(has_earlier_, false)) return;
-  for (const std::string& tool : tools_in_use_)
+  for (const std::string& tool : tools_in_use_.names())
     writer_.Append(core::SessionEvent{frame, time_s, core::ToolMarked{tool, true}});
 }
 

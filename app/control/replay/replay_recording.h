@@ -2,7 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -16,6 +15,7 @@
 #include "core/bvh.h"
 #include "core/findings/finding.h"
 #include "core/session.h"
+#include "core/tools_in_use.h"
 #include "sessions/session_reader.h"
 #include "sessions/session_writer.h"
 #include "sessions/unfinished_session.h"
@@ -52,7 +52,7 @@ class ReplayRecording {
   std::vector<core::SessionEvent> events_;
   std::vector<core::SessionEvent>::const_iterator next_event_;
   std::vector<core::Finding> findings_;
-  std::set<std::string> tools_in_use_;
+  core::ToolsInUse tools_in_use_;
   bool has_earlier_ = false;
   CheckedRange checked_;
   core::FrameIndex last_frame_ = 0;

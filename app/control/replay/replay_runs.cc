@@ -12,37 +12,8 @@ namespace {
 // Of a run: frames that wait to be judged keep their contacts in memory.
 constexpr std::size_t kLongestPiece = 32;
 
-<<<<<<< HEAD
 }  // namespace
 
-=======
-// A contour's motion, and the one before, come from the two pictures before.
-constexpr std::size_t kPicturesBefore = 2;
-
-}  // namespace
-
-std::size_t FramesOfMotion(const sessions::SessionReader& session,
-                           std::span<const sessions::FrameSummary> frames, std::size_t first) {
-  const std::vector<sessions::StampRow> rows = session.stamp_rows();
-  if (rows.empty()) return 0;
-  std::vector<std::set<double>> times(session.header().rig.cameras.size());
-  const auto is_known = [&] {
-    return std::ranges::all_of(times,
-                               [](const auto& of_camera) { return of_camera.size() >= kPicturesBefore; });
-  };
-  auto row = std::ranges::lower_bound(rows, frames[first].frame, {}, &sessions::StampRow::frame);
-  std::size_t back = 0;
-  while (back < first && !is_known()) {
-    ++back;
-    if (row == rows.begin() || std::prev(row)->frame != frames[first - back].frame) continue;
-    --row;
-    for (core::CameraIndex i = 0; i < times.size(); ++i)
-      if (row->stamps[i]) times[i].insert(row->stamps[i]->time_s);
-  }
-  return back;
-}
-
->>>>>>> segment24
 ReplayRuns::ReplayRuns(const sessions::SessionReader& session, std::span<const sessions::FrameSummary> frames,
                        const ReplayLayout& layout, std::size_t first, std::size_t end, bool asks_clearance,
                        ReplaySegmentation* segmentation, std::stop_token stop)
