@@ -9,6 +9,7 @@
 
 #include "core/contact.h"
 #include "sessions/bcf/bcf_topic.h"
+#include "sessions/report/pair_approach.h"
 #include "sessions/report/report_model.h"
 #include "sessions/session_reader.h"
 
@@ -31,6 +32,7 @@ struct ReportPictures {
   };
   std::vector<Touch> touches = {};  // snapshots, of some of them
   ReportModel model = {};           // what the 3-D view shows
+  PairApproaches pairs = {};        // virtual parts against each other
 };
 
 // The touch to draw: the deepest, ties go to the larger area, then to the earlier. Nothing if nothing

@@ -23,9 +23,10 @@ RichText FooterOf(const ReportData& data) {
   RichText footer("Made from ");
   footer += Strong(data.session_name);
   footer += {.text = fmt::format(
-                 ", which holds every frame behind these figures; contacts.csv beside this report lists "
-                 "each part in contact in each frame, clearance.csv how far each part was{}.",
-                 data.stamps.empty() ? "" : ", stamps.csv which picture of each camera each frame took")};
+                 ", which holds every frame behind these figures; beside this page: report.pdf (the same to "
+                 "print), touches.bcfzip (the touches for CAD programs, BCF 2.1), contacts.csv (each part in "
+                 "contact in each frame), clearance.csv (how far each part was){}.",
+                 data.stamps.empty() ? "" : ", stamps.csv (which picture of each camera each frame took)")};
   return footer;
 }
 
@@ -55,8 +56,9 @@ Document ReportDocument(const ReportData& data, const ReportPictures& pictures, 
   for (Section& section :
        std::vector{SummarySection(data), TimelineSection(data, painter), ModelSection(pictures),
                    PictureSection(pictures), TouchSection(data, pictures), SpacingSection(data, painter),
-                   ApproachSection(data, painter), PartSection(data), TrustSection(data),
-                   HeatSection(data, pictures), EventSection(data), ReadingSection(data), RigSection(data)}) {
+                   ApproachSection(data, painter), PairSection(data, pictures.pairs), PartSection(data),
+                   TrustSection(data), HeatSection(data, pictures), EventSection(data), ReadingSection(data),
+                   SkippedSection(data), RigSection(data)}) {
     if (!section.blocks.empty()) document.sections.push_back(std::move(section));
   }
   return document;

@@ -15,6 +15,9 @@ namespace elbowroom::sessions {
 [[nodiscard]] Document ReportDocument(const ReportData& data, const ReportPictures& pictures,
                                       ChartPainter* painter);
 
+// The figures at the top.
+[[nodiscard]] Tiles TilesOf(const ReportData& data);
+
 // Sections; without blocks where the session has nothing for it.
 [[nodiscard]] Section SummarySection(const ReportData& data);
 [[nodiscard]] Section SpacingSection(const ReportData& data, ChartPainter* painter);
@@ -23,6 +26,10 @@ namespace elbowroom::sessions {
 [[nodiscard]] Section ModelSection(const ReportPictures& pictures);
 [[nodiscard]] Section TouchSection(const ReportData& data, const ReportPictures& pictures);
 [[nodiscard]] Section PartSection(const ReportData& data);
+// The virtual parts of the layout's pair rules, held against each other.
+[[nodiscard]] Section PairSection(const ReportData& data, const PairApproaches& approaches);
+// What needn't be looked at to be sure.
+[[nodiscard]] Section SkippedSection(const ReportData& data);
 // How sure the verdicts are, and what that is made of.
 [[nodiscard]] Section TrustSection(const ReportData& data);
 [[nodiscard]] Section HeatSection(const ReportData& data, const ReportPictures& pictures);

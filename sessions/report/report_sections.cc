@@ -14,24 +14,6 @@ namespace {
 // A spacing with more values than this was moved by a slider: only the values held longest are listed.
 constexpr std::size_t kMostLevels = 16;
 
-Tiles TilesOf(const ReportData& data) {
-  const double duration_s = data.end_s - data.begin_s;
-  const core::TrialInfo& trial = data.header.trial;
-  Tiles tiles;
-  const auto add = [&](Tile tile) { tiles.tiles.push_back(std::move(tile)); };
-  if (data.has_outcome) add({"Touches", std::to_string(data.episodes.size()), TouchesByPart(data)});
-  add({"Time in contact", fmt::format("{:.1f} s", data.in_contact_s),
-       duration_s > 0.0 ? fmt::format("{:.0f} % of the trial", 100.0 * data.in_contact_s / duration_s) : ""});
-  add({"Deepest", data.has_contact() ? Millimetres(data.deepest_mm) : "none"});
-  if (data.judged_spacing)
-    add({"Space needed", SpaceNeeded(data), data.header.layout.spacings[*data.judged_spacing].name});
-  add({"Participant\u2019s estimate",
-       trial.estimate_mm > 0.0 ? Millimetres(trial.estimate_mm) : "none given"});
-  if (trial.required_clearance_mm > 0.0)
-    add({"Required clearance", Millimetres(trial.required_clearance_mm), "not part of the space needed"});
-  return tiles;
-}
-
 void AddLevels(const SpacingStudy& study, std::vector<Block>* blocks) {
   std::vector<SpacingLevel> levels = study.levels;
   if (levels.size() > kMostLevels) {

@@ -7,6 +7,7 @@
 #include "app/control/heat_picture.h"
 #include "app/control/outcome_tracker.h"
 #include "app/control/recorded_frame.h"
+#include "app/control/report/pair_approaches.h"
 #include "app/control/report/touch_moments.h"
 #include "app/control/scene_composer.h"
 #include "core/error.h"
@@ -57,6 +58,12 @@ std::string CaptionOf(const FrameResult& result, core::PartIndex part, const std
       result.layout->parts[part].name, contact.contact_area_mm2, driver);
 }
 
+// Mean, s; 0 for a single frame.
+double FramePeriod(const std::vector<sessions::FrameSummary>& frames) {
+  if (frames.size() < 2) return 0.0;
+  return (frames.back().time_s - frames.front().time_s) / static_cast<double>(frames.size() - 1);
+}
+
 void AddHeat(const sessions::SessionReader& session, sessions::ReportPictures* pictures) {
   const std::vector<core::HeatMap> maps = session.heat_maps();
   if (maps.empty()) return;
@@ -92,6 +99,7 @@ ReportFiles WriteSessionReport(const std::filesystem::path& session_path, const 
     AddTouchMoments(session, *shown, renderer, composer, stop, &pictures);
   }
   AddHeat(session, &pictures);
+  pictures.pairs = PairApproachesOf(session.header().layout, frames, FramePeriod(frames), stop);
   core::ThrowIfStopped(stop, "the report");
   progress.Report(3, 4, "writing the report");
   sessions::WriteReport(session, pictures, folder);
