@@ -10,7 +10,6 @@
 #include "core/system/file_sync.h"
 #include "core/system/whole_file.h"
 #include "sessions/bcf/bcf_file.h"
-#include "sessions/charts/chart_painter.h"
 #include "sessions/print/pdf.h"
 #include "sessions/report/clearance_csv.h"
 #include "sessions/report/contacts_csv.h"
@@ -55,11 +54,13 @@ void WriteReport(const SessionReader& session, const ReportPictures& pictures,
   core::PendingFile& clearances = files.Begin(out_dir / "clearance.csv");
   contacts.Append(ContactsCsv(header.layout, {}));
   clearances.Append(ClearanceCsv(header, {}));
+  std::future<ChartPainters> painters_made =
+      std::async(std::launch::async, [] { return ChartPainters(); });  // meanwhile
   const ReportData data = CollectReportData(
       session, [&](const ContactRow& row) { contacts.Append(ContactLine(header.layout, row)); },
       [&](const ContactRow& row) { clearances.Append(ClearanceLine(header, row)); });
-  ChartPainter painter;
-  const Document document = ReportDocument(data, pictures, &painter);
+  ChartPainters painters = painters_made.get();
+  const Document document = ReportDocument(data, pictures, &painters);
   std::future<std::string> pdf = std::async(std::launch::async, [&] { return PdfOf(document); });
   files.Write(out_dir / "report.html", ReportPage(data, document, pictures.model));
   files.Write(out_dir / "touches.bcfzip", PackBcf(TopicsOf(session, data.list, pictures)));

@@ -45,7 +45,7 @@ Section ModelSection(const ReportPictures& pictures) {
   return section;
 }
 
-Document ReportDocument(const ReportData& data, const ReportPictures& pictures, ChartPainter* painter) {
+Document ReportDocument(const ReportData& data, const ReportPictures& pictures, ChartPainters* painters) {
   Document document;
   document.kicker = "Elbowroom trial report";
   document.title = TitleOf(data);
@@ -54,9 +54,9 @@ Document ReportDocument(const ReportData& data, const ReportPictures& pictures, 
   document.source = data.session_name;
   document.made_at_utc = data.ended_at_utc.value_or(data.header.started_at_utc);
   for (Section& section :
-       std::vector{SummarySection(data), TimelineSection(data, painter), ModelSection(pictures),
-                   PictureSection(pictures), TouchSection(data, pictures), SpacingSection(data, painter),
-                   ApproachSection(data, painter), PairSection(data, pictures.pairs), PartSection(data),
+       std::vector{SummarySection(data), TimelineSection(data, painters), ModelSection(pictures),
+                   PictureSection(pictures), TouchSection(data, pictures), SpacingSection(data, painters),
+                   ApproachSection(data, painters), PairSection(data, pictures.pairs), PartSection(data),
                    TrustSection(data), HeatSection(data, pictures), EventSection(data), ReadingSection(data),
                    SkippedSection(data), RigSection(data)}) {
     if (!section.blocks.empty()) document.sections.push_back(std::move(section));

@@ -11,18 +11,24 @@
 
 namespace elbowroom::sessions {
 
+// One for each size of a chart, so that both sizes are drawn at once.
+struct ChartPainters {
+  ChartPainter screen;
+  ChartPainter paper;
+};
+
 // Its pictures' bytes are those of `pictures`.
 [[nodiscard]] Document ReportDocument(const ReportData& data, const ReportPictures& pictures,
-                                      ChartPainter* painter);
+                                      ChartPainters* painters);
 
 // The figures at the top.
 [[nodiscard]] Tiles TilesOf(const ReportData& data);
 
 // Sections; without blocks where the session has nothing for it.
 [[nodiscard]] Section SummarySection(const ReportData& data);
-[[nodiscard]] Section SpacingSection(const ReportData& data, ChartPainter* painter);
-[[nodiscard]] Section TimelineSection(const ReportData& data, ChartPainter* painter);
-[[nodiscard]] Section ApproachSection(const ReportData& data, ChartPainter* painter);
+[[nodiscard]] Section SpacingSection(const ReportData& data, ChartPainters* painters);
+[[nodiscard]] Section TimelineSection(const ReportData& data, ChartPainters* painters);
+[[nodiscard]] Section ApproachSection(const ReportData& data, ChartPainters* painters);
 [[nodiscard]] Section ModelSection(const ReportPictures& pictures);
 [[nodiscard]] Section TouchSection(const ReportData& data, const ReportPictures& pictures);
 [[nodiscard]] Section PartSection(const ReportData& data);

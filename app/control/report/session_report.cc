@@ -39,12 +39,14 @@ std::optional<WorstMoment> WorstMomentOf(const sessions::SessionReader& session)
     return WorstMoment{episode->peak_frame, episode->part};
   std::optional<WorstMoment> worst;
   double deepest_mm = -1.0;
-  session.VisitContacts([&](const sessions::ContactRow& row) {
-    const double depth_mm = row.contact.deepest ? row.contact.deepest->depth_mm : 0.0;
-    if (depth_mm <= deepest_mm) return;
-    deepest_mm = depth_mm;
-    worst = WorstMoment{row.frame, row.contact.part};
-  });
+  session.VisitRows(
+      [&](const sessions::ContactRow& row) {
+        const double depth_mm = row.contact.deepest ? row.contact.deepest->depth_mm : 0.0;
+        if (depth_mm <= deepest_mm) return;
+        deepest_mm = depth_mm;
+        worst = WorstMoment{row.frame, row.contact.part};
+      },
+      {});
   return worst;
 }
 
@@ -64,11 +66,9 @@ double FramePeriod(const std::vector<sessions::FrameSummary>& frames) {
   return (frames.back().time_s - frames.front().time_s) / static_cast<double>(frames.size() - 1);
 }
 
-void AddHeat(const sessions::SessionReader& session, sessions::ReportPictures* pictures) {
-  const std::vector<core::HeatMap> maps = session.heat_maps();
-  if (maps.empty()) return;
-  recon::gl::SceneRenderer renderer;
-  for (const core::HeatMap& map : maps) {
+void AddHeat(const sessions::SessionReader& session, recon::gl::SceneRenderer& renderer,
+             sessions::ReportPictures* pictures) {
+  for (const core::HeatMap& map : session.heat_maps()) {
     const core::SharedMesh& mesh = session.header().layout.parts[map.part].mesh;
     pictures->heat.push_back({map.part, recon::EncodePng(HeatPicture(renderer, mesh, map))});
   }
@@ -97,8 +97,8 @@ ReportFiles WriteSessionReport(const std::filesystem::path& session_path, const 
       pictures.caption = CaptionOf(*shown, worst->part, renderer.driver());
     }
     AddTouchMoments(session, *shown, renderer, composer, stop, &pictures);
+    AddHeat(session, renderer, &pictures);
   }
-  AddHeat(session, &pictures);
   pictures.pairs = PairApproachesOf(session.header().layout, frames, FramePeriod(frames), stop);
   core::ThrowIfStopped(stop, "the report");
   progress.Report(3, 4, "writing the report");
