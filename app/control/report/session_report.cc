@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "app/control/heat_picture.h"
+#include "app/control/keep_out/keep_out_job.h"
 #include "app/control/outcome_tracker.h"
 #include "app/control/recorded_frame.h"
 #include "app/control/report/pair_approaches.h"
@@ -77,7 +78,8 @@ void AddHeat(const sessions::SessionReader& session, recon::gl::SceneRenderer& r
 }  // namespace
 
 ReportFiles WriteSessionReport(const std::filesystem::path& session_path, const std::filesystem::path& folder,
-                               const core::Progress& progress, std::stop_token stop) {
+                               const core::Progress& progress, std::stop_token stop,
+                               const ReportOptions& options) {
   const sessions::SessionReader session = OpenWithOutcome(session_path, progress, stop);
   const std::vector<sessions::FrameSummary> frames = session.frames();
   sessions::ReportPictures pictures;
@@ -99,6 +101,9 @@ ReportFiles WriteSessionReport(const std::filesystem::path& session_path, const 
     AddTouchMoments(session, *shown, renderer, composer, stop, &pictures);
     AddHeat(session, renderer, &pictures);
   }
+  if (options.keep_out_edge_mm && !pictures.model.moments.empty())
+    pictures.model.keep_out =
+        FindKeepOut({{session_path}, *options.keep_out_edge_mm, {}, {}}, progress, stop).swept.mesh;
   pictures.pairs = PairApproachesOf(session.header().layout, frames, FramePeriod(frames), stop);
   core::ThrowIfStopped(stop, "the report");
   progress.Report(3, 4, "writing the report");
