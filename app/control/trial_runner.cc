@@ -315,10 +315,7 @@ class Recording {
     last_time_s_ = result.record.time_s;
     outcome_so_far_.wait();
     TellOfKnock();
-    outcome_so_far_.run(
-        [this, shared, tools = tools_in_use_.names()] {
-          tracker_->Add(*shared, tools);
-        });
+    outcome_so_far_.run([this, shared, tools = tools_in_use_.names()] { tracker_->Add(*shared, tools); });
     outcome_so_far_.run([this, shared] { knock_advice_ = knock_watch_.Add(shared->record); });
     writer_.Append(result.record);
     ++outcome_.frames;

@@ -17,6 +17,7 @@
 #include "sessions/report/report_document.h"
 #include "sessions/report/report_page.h"
 #include "sessions/report/report_topics.h"
+#include "sessions/report/row_lines.h"
 #include "sessions/report/stamps_csv.h"
 
 namespace elbowroom::sessions {
@@ -56,9 +57,13 @@ void WriteReport(const SessionReader& session, const ReportPictures& pictures,
   clearances.Append(ClearanceCsv(header, {}));
   std::future<ChartPainters> painters_made =
       std::async(std::launch::async, [] { return ChartPainters(); });  // meanwhile
+  RowLines contact_lines(&contacts, [&](const ContactRow& row) { return ContactLine(header.layout, row); });
+  RowLines clearance_lines(&clearances, [&](const ContactRow& row) { return ClearanceLine(header, row); });
   const ReportData data = CollectReportData(
-      session, [&](const ContactRow& row) { contacts.Append(ContactLine(header.layout, row)); },
-      [&](const ContactRow& row) { clearances.Append(ClearanceLine(header, row)); });
+      session, [&](const ContactRow& row) { contact_lines.Add(row); },
+      [&](const ContactRow& row) { clearance_lines.Add(row); });
+  contact_lines.Finish();
+  clearance_lines.Finish();
   ChartPainters painters = painters_made.get();
   const Document document = ReportDocument(data, pictures, &painters);
   std::future<std::string> pdf = std::async(std::launch::async, [&] { return PdfOf(document); });

@@ -25,7 +25,8 @@ class RowLines {
 
   void Add(const ContactRow& row);
 
-  // All lines are in the file. Throws: what PendingFile::Append throws. To be called once, after the last row.
+  // All lines are in the file. Throws: what PendingFile::Append throws. To be called once, after the last
+  // row.
   void Finish();
 
  private:

@@ -155,8 +155,8 @@ class Replay {
     return frame;
   }
 
-  // In order from the session's first frame, since what a part did before moves it now; the next frame is read
-  // and segmented, and the last one recorded, meanwhile.
+  // In order from the session's first frame, since what a part did before moves it now; the next frame is
+  // read and segmented, and the last one recorded, meanwhile.
   ReplayOutcome RunOneByOne() {
     SilhouettePipeline pipeline(header_.rig, layout_.layout(), review_);
     ReplayRecording recording(recorded_, layout_, pipeline.part_trees(), header_, path_, &file_);
