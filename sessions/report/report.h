@@ -29,6 +29,7 @@ struct ReportPictures {
     std::size_t place = 0;  // in TouchesOf(session).touches
     std::vector<unsigned char> png;
     TopicCamera camera = {};  // that sees what the picture shows
+    std::optional<TopicCut> cut = {};  // where a part hides the place from it
   };
   std::vector<Touch> touches = {};  // snapshots, of some of them
   ReportModel model = {};           // what the 3-D view shows
