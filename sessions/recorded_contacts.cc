@@ -116,6 +116,10 @@ void ReadPoints(Database& database, core::FrameIndex frame, const std::string& w
   }
 }
 
+void Add(std::int64_t count, const std::string& where, std::int64_t* sum) {
+  if (__builtin_add_overflow(*sum, count, sum)) FailAsDamaged(where, "its counts are too large");
+}
+
 std::vector<double> ReadSpacings(Statement& rows, const core::Layout& layout, core::FrameIndex frame,
                                  const std::string& where) {
   std::vector<double> spacing_mm;
@@ -127,11 +131,16 @@ std::vector<double> ReadSpacings(Statement& rows, const core::Layout& layout, co
   return spacing_mm;
 }
 
-void VisitRowsWhere(Database& database, const core::Layout& layout, const char* condition,
-                    const RowVisitor& visit) {
+}  // namespace
+
+void VisitRows(Database& database, const core::Layout& layout, const RowVisitor& on_contact,
+               const RowVisitor& on_clearance) {
+  const char* condition = !on_clearance ? "pf.verdict = 'contact'"
+                          : !on_contact ? "cl.queries IS NOT NULL"
+                                        : "(pf.verdict = 'contact' OR cl.queries IS NOT NULL)";
   Statement rows(database,
                  fmt::format("SELECT {}, f.frame_index, f.time_s FROM {} JOIN frame f USING (frame_index) "
-                             "WHERE {} ORDER BY f.frame_index, pf.part_index",
+                             "WHERE {} ORDER BY pf.frame_index, pf.part_index",
                              kContactColumns, kContactTables, condition));
   Statement spacings(
       database,
@@ -148,11 +157,10 @@ void VisitRowsWhere(Database& database, const core::Layout& layout, const char* 
     row.time_s = Time_s(rows.Real(kContactColumnCount + 1), where, "its time");
     row.contact = ReadContact(rows, where);
     row.contact.part = IndexBelow(rows.Integer(0), layout.parts.size(), where, "part");
-    visit(row);
+    if (on_contact && row.contact.verdict == core::Verdict::kContact) on_contact(row);
+    if (on_clearance && row.contact.clearance) on_clearance(row);
   }
 }
-
-}  // namespace
 
 std::vector<core::PartContact> ReadContacts(Database& database, std::size_t parts, core::FrameIndex frame) {
   const std::string where = FrameOf(database, frame);
@@ -168,31 +176,24 @@ std::vector<core::PartContact> ReadContacts(Database& database, std::size_t part
   return contacts;
 }
 
-void VisitContactRows(Database& database, const core::Layout& layout, const RowVisitor& visit) {
-  VisitRowsWhere(database, layout, "pf.verdict = 'contact'", visit);
-}
-void VisitClearanceRows(Database& database, const core::Layout& layout, const RowVisitor& visit) {
-  VisitRowsWhere(database, layout, "cl.queries IS NOT NULL", visit);
-}
-
 std::vector<PartTotals> ReadPartTotals(Database& database, const core::Layout& layout) {
   // Counts as the view v_part does, but reads the table: a table holds only what the file's pages hold.
+  // Grouped by SQLite, the rows would be sorted first, on disk.
   Statement rows(database,
-                 "SELECT part_index, count(*) FILTER (WHERE verdict = 'contact'), "
-                 "count(*) FILTER (WHERE verdict = 'near'), count(*) FILTER (WHERE verdict = 'undecided'), "
-                 "count(*) FILTER (WHERE verdict = 'clear'), sum(triangles), sum(queries), sum(skipped) "
-                 "FROM part_frame GROUP BY part_index");
+                 "SELECT part_index, verdict = 'contact', verdict = 'near', verdict = 'undecided', "
+                 "verdict = 'clear', triangles, queries, skipped FROM part_frame");
+  const std::string where = fmt::format("session '{}'", database.path().string());
   std::vector<PartTotals> totals(layout.parts.size());
   for (core::PartIndex i = 0; i < totals.size(); ++i) totals[i].part = i;
   while (rows.Next()) {
-    const core::PartIndex part = IndexBelow(rows.Integer(0), totals.size(),
-                                            fmt::format("session '{}'", database.path().string()), "part");
-    totals[part] = {part,
-                    rows.Integer(1),
-                    rows.Integer(2),
-                    rows.Integer(3),
-                    rows.Integer(4),
-                    {rows.Integer(5), rows.Integer(6), rows.Integer(7)}};
+    PartTotals& part = totals[IndexBelow(rows.Integer(0), totals.size(), where, "part")];
+    part.frames_in_contact += rows.Integer(1);
+    part.frames_near += rows.Integer(2);
+    part.frames_undecided += rows.Integer(3);
+    part.frames_clear += rows.Integer(4);
+    Add(rows.Integer(5), where, &part.count.triangles);
+    Add(rows.Integer(6), where, &part.count.queries);
+    Add(rows.Integer(7), where, &part.count.skipped);
   }
   return totals;
 }

@@ -42,10 +42,10 @@ struct PartBudget {
 // Each part of the layout once, in its order, as far as the frame has rows.
 [[nodiscard]] std::vector<core::PartContact> ReadContacts(Database& database, std::size_t parts,
                                                           core::FrameIndex frame);
-// Those with the verdict 'contact', by frame and part.
-void VisitContactRows(Database& database, const core::Layout& layout, const RowVisitor& visit);
-// Those with a clearance, by frame and part.
-void VisitClearanceRows(Database& database, const core::Layout& layout, const RowVisitor& visit);
+// Those with the verdict 'contact', and those with a clearance, by frame and part, in one pass. Without a
+// visitor rows of its kind aren't read.
+void VisitRows(Database& database, const core::Layout& layout, const RowVisitor& on_contact,
+               const RowVisitor& on_clearance);
 // One a part.
 [[nodiscard]] std::vector<PartTotals> ReadPartTotals(Database& database, const core::Layout& layout);
 // One a part for which one was computed, by part.

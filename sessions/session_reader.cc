@@ -167,19 +167,17 @@ std::vector<core::HeatMap> SessionReader::heat_maps() const {
 }
 std::vector<ContactRow> SessionReader::contacts() const {
   std::vector<ContactRow> rows;
-  VisitContacts([&](const ContactRow& row) { rows.push_back(row); });
+  VisitRows([&](const ContactRow& row) { rows.push_back(row); }, {});
   return rows;
 }
 std::vector<ContactRow> SessionReader::clearances() const {
   std::vector<ContactRow> rows;
-  VisitClearances([&](const ContactRow& row) { rows.push_back(row); });
+  VisitRows({}, [&](const ContactRow& row) { rows.push_back(row); });
   return rows;
 }
-void SessionReader::VisitContacts(const RowVisitor& visit) const {
-  impl_->limit.Guarded([&] { VisitContactRows(impl_->database, impl_->header.layout, visit); });
-}
-void SessionReader::VisitClearances(const RowVisitor& visit) const {
-  impl_->limit.Guarded([&] { VisitClearanceRows(impl_->database, impl_->header.layout, visit); });
+void SessionReader::VisitRows(const RowVisitor& on_contact, const RowVisitor& on_clearance) const {
+  impl_->limit.Guarded(
+      [&] { sessions::VisitRows(impl_->database, impl_->header.layout, on_contact, on_clearance); });
 }
 std::vector<PartTotals> SessionReader::part_totals() const {
   return impl_->limit.Guarded([&] { return ReadPartTotals(impl_->database, impl_->header.layout); });

@@ -81,9 +81,9 @@ class SessionReader {
   [[nodiscard]] std::string recording_id() const;            // of this one
   [[nodiscard]] std::vector<ContactRow> contacts() const;    // every part in contact, frame by frame
   [[nodiscard]] std::vector<ContactRow> clearances() const;  // every part with a clearance, likewise
-  // The same rows one by one, for sessions of any length. The visitor must not read the session.
-  void VisitContacts(const RowVisitor& visit) const;
-  void VisitClearances(const RowVisitor& visit) const;
+  // The same rows one by one, for sessions of any length, in one pass: a row may be of both kinds. An empty
+  // visitor wants none. Visitors must not read the session.
+  void VisitRows(const RowVisitor& on_contact, const RowVisitor& on_clearance) const;
   [[nodiscard]] std::vector<PartTotals> part_totals() const;   // one a part
   [[nodiscard]] std::vector<PartBudget> part_budgets() const;  // of parts for which one was computed
   [[nodiscard]] std::vector<StampRow> stamp_rows() const;      // those with stamps, by number

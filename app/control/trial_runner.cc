@@ -15,6 +15,7 @@
 #include "app/control/frame_pipeline.h"
 #include "app/control/light/trial_light.h"
 #include "app/control/outcome_tracker.h"
+#include "app/control/segmentation/segmentation_settings.h"
 #include "app/control/trial_rules.h"
 #include "app/control/versions.h"
 #include "core/error.h"
@@ -134,8 +135,11 @@ class Recording {
 
   void Run(const std::stop_token& stop) {
     if (setup_.footage) {
-      setup_.footage->Begin(FootageFolderOf(options_.session));
+      const std::filesystem::path folder = FootageFolderOf(options_.session);
+      setup_.footage->Begin(folder);
+      footage_from_ = Clock::now();
       is_recording_footage_ = true;
+      KeepIgnoredPixels(setup_.segmentation, setup_.source->rig(), folder);
     }
     backgrounds_ = setup_.source->ReadBackgrounds(options_.progress, stop);
     pipeline_.emplace(setup_.source->rig(), setup_.layout, backgrounds_, setup_.segmentation,
@@ -145,6 +149,7 @@ class Recording {
     const core::FrameIndex end = options_.frames.end.value_or(std::numeric_limits<core::FrameIndex>::max());
     for (core::FrameIndex frame = first; frame < end && !stop.stop_requested(); ++frame) {
       std::optional<recon::FrameSet> frames = setup_.source->TryRead(frame, stop);
+      while (frames && IsBeforeFootage(*frames)) frames = setup_.source->TryRead(frame, stop);
       if (!frames) return EndWithFootage(frame);
       const std::optional<Clock::time_point> taken_at = frames->taken_at;  // a live frame comes when it comes
       if (options_.at_capture_rate && !taken_at) pace_.WaitFor(frames->time_s, stop);
@@ -256,6 +261,17 @@ class Recording {
         core::SessionEvent{frame, time_s, core::SpacingChanged{request.spacing, from_mm, allowed_mm}});
   }
 
+  // Live cameras run before the trial does, and a set may wait of which a picture came before the footage
+  // began: the trial begins with the first one that is in the footage.
+  [[nodiscard]] bool IsBeforeFootage(const recon::FrameSet& frames) const {
+    if (!is_recording_footage_ || !frames.taken_at || HasFrames()) return false;
+    return std::ranges::any_of(frames.cameras, [&](const recon::CameraFrame& camera) {
+      if (!camera.stamp) return false;
+      const std::chrono::duration<double> from_middle(camera.stamp->time_s - frames.time_s);
+      return *frames.taken_at + std::chrono::duration_cast<Clock::duration>(from_middle) < footage_from_;
+    });
+  }
+
   // Trouble with it is noted; the session is worth more than its footage.
   void EndFootage() {
     if (!std::exchange(is_recording_footage_, false)) return;
@@ -299,10 +315,7 @@ class Recording {
     last_time_s_ = result.record.time_s;
     outcome_so_far_.wait();
     TellOfKnock();
-    outcome_so_far_.run(
-        [this, shared, tools = tools_in_use_.names()] {
-          tracker_->Add(*shared, tools);
-        });
+    outcome_so_far_.run([this, shared, tools = tools_in_use_.names()] { tracker_->Add(*shared, tools); });
     outcome_so_far_.run([this, shared] { knock_advice_ = knock_watch_.Add(shared->record); });
     writer_.Append(result.record);
     ++outcome_.frames;
@@ -357,6 +370,7 @@ class Recording {
   std::vector<double> spacing_mm_;
   TrialOutcome outcome_;
   bool is_recording_footage_ = false;
+  Clock::time_point footage_from_;
   sessions::SessionClosing closing_;
   core::FrameIndex last_frame_ = 0;
   double last_time_s_ = 0.0;

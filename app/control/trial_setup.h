@@ -2,7 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <map>
 #include <memory>
 #include <stop_token>
 #include <string>
@@ -40,8 +39,5 @@ struct TrialSetup {
 // Throws: core::Error with file, line and key for what the trial file has wrong; what the rig's and the
 // layout's readers throw; Error{kCancelled}.
 [[nodiscard]] TrialSetup ReadTrialFile(const std::filesystem::path& path, std::stop_token stop = {});
-
-// The settings that a session keeps, as text.
-[[nodiscard]] std::map<std::string, std::string> SettingsOf(const recon::SegmentationOptions& options);
 
 }  // namespace elbowroom::control

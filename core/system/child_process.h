@@ -63,7 +63,7 @@ class Child {
   Child& operator=(const Child&) = delete;
 
   void Kill() const;
-  void AskToEnd() const;  // SIGTERM
+  void AskToEnd() const;        // SIGTERM
   int Wait();                   // until it has ended; the status is waitpid's
   std::optional<int> Status();  // nothing while it runs
   [[nodiscard]] Woken WaitForEnd(const std::stop_token& stop, const Deadline& deadline);

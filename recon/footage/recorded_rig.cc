@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <exception>
 #include <filesystem>
+#include <unordered_map>
 #include <utility>
 
 #include "core/error.h"
@@ -88,6 +89,20 @@ struct RecordedRig::Camera {
   }
   std::vector<std::uint64_t> pictures = {};
 
+  // The frame of the picture with that number. Nothing: the table of stamps doesn't have it.
+  [[nodiscard]] std::optional<FrameIndex> FrameOf(std::uint64_t number) const {
+    if (pictures.empty()) return static_cast<FrameIndex>(number);
+    const auto frame = frames_of.find(number);
+    if (frame == frames_of.end()) return std::nullopt;
+    return frame->second;
+  }
+  std::unordered_map<std::uint64_t, FrameIndex> frames_of = {};
+  void KeepPictures(FrameTable table) {
+    pictures = std::move(table.pictures);
+    for (std::size_t i = 0; i < pictures.size(); ++i)
+      if (table.time_s[i]) frames_of.emplace(pictures[i], static_cast<FrameIndex>(i));
+  }
+
   [[nodiscard]] FrameIndex frame_count() const { return source != nullptr ? source->frame_count() : masks; }
 };
 
@@ -151,8 +166,8 @@ void RecordedRig::FormSets() {
     if (sources.timestamps.empty()) return;
     FrameTable table =
         ReadFrameTable(sources.timestamps, fmt::format("camera '{}'", rig_file_.rig.cameras[i].name()));
-    stamps[i] = std::move(table.time_s);
-    cameras_[i].pictures = std::move(table.pictures);
+    stamps[i] = table.time_s;
+    cameras_[i].KeepPictures(std::move(table));
     stamps[i].resize(std::min(stamps[i].size(), static_cast<std::size_t>(cameras_[i].frame_count())));
     for (std::optional<double>& at_s : stamps[i])
       if (at_s) *at_s += sources.time_offset_s;
@@ -236,6 +251,29 @@ std::optional<FrameSet> RecordedRig::TryRead(FrameIndex index, std::stop_token s
   }
   if (failure) std::rethrow_exception(failure);
   return set;
+}
+
+std::vector<std::optional<CameraFrame>> RecordedRig::ReadPictures(
+    std::span<const std::optional<std::uint64_t>> numbers, const std::stop_token& stop) {
+  core::Require(numbers.size() == cameras_.size(), "one number a camera");
+  std::vector<std::optional<FrameIndex>> frames(cameras_.size());
+  for (core::CameraIndex i = 0; i < cameras_.size(); ++i) {
+    if (!numbers[i]) continue;
+    frames[i] = sets_.empty() ? static_cast<FrameIndex>(*numbers[i]) : cameras_[i].FrameOf(*numbers[i]);
+    if (frames[i]) cameras_[i].SkipTo(*frames[i], stop);
+  }
+  std::vector<std::optional<CameraFrame>> pictures(cameras_.size());
+  for (core::CameraIndex i = 0; i < cameras_.size(); ++i) {
+    if (!frames[i]) continue;
+    pictures[i] = cameras_[i].frames->Take(stop);
+    if (!pictures[i])
+      throw Error(
+          ErrorKind::kFile,
+          fmt::format("camera '{}': footage '{}' has no frame {}, which is its picture {}; it is too "
+                      "short, or not the one that was judged",
+                      rig_file_.rig.cameras[i].name(), cameras_[i].location, *frames[i], *numbers[i]));
+  }
+  return pictures;
 }
 
 std::optional<FrameSet> RecordedRig::TryReadSet(FrameIndex index, const std::stop_token& stop) {

@@ -1,8 +1,10 @@
 // A rig's frame sets from what RIG.yml names: videos, image sequences, ready masks.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <stop_token>
 #include <string>
 #include <vector>
@@ -54,6 +56,13 @@ class RecordedRig : public FrameSetSource {
   [[nodiscard]] std::optional<FrameSet> TryRead(core::FrameIndex index, std::stop_token stop) override;
   [[nodiscard]] std::vector<BackgroundReference> ReadBackgrounds(const core::Progress& progress,
                                                                  std::stop_token stop) override;
+
+  // Of each camera the picture with that number (CameraStamp::picture; without stamps, or without numbers
+  // among them, frame i is picture i), whatever sets they are in. Nothing for a camera for which no number is
+  // given, or whose table of stamps doesn't have it. Fast where numbers grow. Throws: Error{kFile} naming
+  // camera, file and picture that the footage should have and doesn't, and as TryRead; Error{kCancelled}.
+  [[nodiscard]] std::vector<std::optional<CameraFrame>> ReadPictures(
+      std::span<const std::optional<std::uint64_t>> numbers, const std::stop_token& stop);
 
  private:
   struct Camera;

@@ -6,8 +6,7 @@
 #include <set>
 
 #include "core/error.h"
-#include "core/system/file_hash.h"
-#include "core/system/file_sync.h"
+#include "sessions/archive/footage_check.h"
 
 namespace elbowroom::sessions {
 namespace {
@@ -84,20 +83,10 @@ class Checking {
   }
 
   void CheckFootage(const SessionReader& session) {
-    const std::filesystem::path folder = core::FolderOf(session.path());
     for (const core::FootageFile& file : session.footage()) {
       progress_.Report(++check_->footage_files, 0, "checking footage");
-      const std::filesystem::path path = folder / file.file;
-      std::error_code ignored;
-      std::string wrong;
-      if (!std::filesystem::is_regular_file(path, ignored)) {
-        wrong = "isn't there; put it back";
-      } else if (core::HashOfFile(path, stop_) != file.content_hash) {
-        wrong = "isn't the one that was recorded; put that back";
-      }
-      if (!wrong.empty())
-        check_->problems.push_back(
-            fmt::format("footage '{}' of session '{}' {}", path.string(), session.path().string(), wrong));
+      if (std::optional<std::string> problem = FootageProblem(session.path(), file, stop_))
+        check_->problems.push_back(*std::move(problem));
     }
   }
 

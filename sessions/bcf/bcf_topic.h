@@ -16,6 +16,12 @@ struct TopicCamera {
   double vertical_fov_deg = 45.0;                        // BCF 2.1 takes 45 to 60
 };
 
+// A plane beyond which nothing is shown, in world.
+struct TopicCut {
+  Eigen::Vector3d at_mm = Eigen::Vector3d::Zero();
+  Eigen::Vector3d to_hidden = Eigen::Vector3d::UnitZ();  // of length 1, into what isn't shown
+};
+
 struct TopicComment {
   std::string id;      // 32 hex digits
   std::string at_utc;  // ISO 8601
@@ -37,6 +43,7 @@ struct BcfTopic {
   std::vector<TopicComment> comments;
   std::vector<std::string> components;  // by name: what touches what
   std::optional<TopicCamera> camera;
+  std::optional<TopicCut> cut;              // only with a camera
   std::vector<unsigned char> snapshot_png;  // empty: none
 };
 

@@ -168,6 +168,11 @@ std::string ViewpointXml(const BcfTopic& topic) {
   AddVector(camera, "CameraDirection", topic.camera->direction);
   AddVector(camera, "CameraUpVector", topic.camera->up);
   Add(camera, "FieldOfView", fmt::format("{}", topic.camera->vertical_fov_deg));
+  if (topic.cut) {
+    xml_node plane = info.append_child("ClippingPlanes").append_child("ClippingPlane");
+    AddVector(plane, "Location", topic.cut->at_mm / kMmPerMetre);
+    AddVector(plane, "Direction", topic.cut->to_hidden);
+  }
   return TextOf(document);
 }
 

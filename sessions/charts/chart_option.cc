@@ -78,6 +78,7 @@ Json ValueAxis(const ChartPanel& panel, std::size_t index) {
   if (panel.high) axis["max"] = Number(panel.high);
   if (panel.counts) axis["minInterval"] = 1;
   axis["axisLabel"]["hideOverlap"] = true;
+  if (panel.high) axis["axisLabel"]["showMaxLabel"] = false;  // the end of the range, beside a round number
   return axis;
 }
 

@@ -10,7 +10,6 @@
 #include "core/system/file_sync.h"
 #include "core/system/whole_file.h"
 #include "sessions/bcf/bcf_file.h"
-#include "sessions/charts/chart_painter.h"
 #include "sessions/print/pdf.h"
 #include "sessions/report/clearance_csv.h"
 #include "sessions/report/contacts_csv.h"
@@ -18,6 +17,7 @@
 #include "sessions/report/report_document.h"
 #include "sessions/report/report_page.h"
 #include "sessions/report/report_topics.h"
+#include "sessions/report/row_lines.h"
 #include "sessions/report/stamps_csv.h"
 
 namespace elbowroom::sessions {
@@ -55,11 +55,17 @@ void WriteReport(const SessionReader& session, const ReportPictures& pictures,
   core::PendingFile& clearances = files.Begin(out_dir / "clearance.csv");
   contacts.Append(ContactsCsv(header.layout, {}));
   clearances.Append(ClearanceCsv(header, {}));
+  std::future<ChartPainters> painters_made =
+      std::async(std::launch::async, [] { return ChartPainters(); });  // meanwhile
+  RowLines contact_lines(&contacts, [&](const ContactRow& row) { return ContactLine(header.layout, row); });
+  RowLines clearance_lines(&clearances, [&](const ContactRow& row) { return ClearanceLine(header, row); });
   const ReportData data = CollectReportData(
-      session, [&](const ContactRow& row) { contacts.Append(ContactLine(header.layout, row)); },
-      [&](const ContactRow& row) { clearances.Append(ClearanceLine(header, row)); });
-  ChartPainter painter;
-  const Document document = ReportDocument(data, pictures, &painter);
+      session, [&](const ContactRow& row) { contact_lines.Add(row); },
+      [&](const ContactRow& row) { clearance_lines.Add(row); });
+  contact_lines.Finish();
+  clearance_lines.Finish();
+  ChartPainters painters = painters_made.get();
+  const Document document = ReportDocument(data, pictures, &painters);
   std::future<std::string> pdf = std::async(std::launch::async, [&] { return PdfOf(document); });
   files.Write(out_dir / "report.html", ReportPage(data, document, pictures.model));
   files.Write(out_dir / "touches.bcfzip", PackBcf(TopicsOf(session, data.list, pictures)));

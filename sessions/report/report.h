@@ -9,6 +9,7 @@
 
 #include "core/contact.h"
 #include "sessions/bcf/bcf_topic.h"
+#include "sessions/report/pair_approach.h"
 #include "sessions/report/report_model.h"
 #include "sessions/session_reader.h"
 
@@ -28,9 +29,11 @@ struct ReportPictures {
     std::size_t place = 0;  // in TouchesOf(session).touches
     std::vector<unsigned char> png;
     TopicCamera camera = {};  // that sees what the picture shows
+    std::optional<TopicCut> cut = {};  // where a part hides the place from it
   };
   std::vector<Touch> touches = {};  // snapshots, of some of them
   ReportModel model = {};           // what the 3-D view shows
+  PairApproaches pairs = {};        // virtual parts against each other
 };
 
 // The touch to draw: the deepest, ties go to the larger area, then to the earlier. Nothing if nothing

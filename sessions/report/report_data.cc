@@ -204,15 +204,16 @@ ReportData CollectReportData(const SessionReader& session, const RowVisitor& on_
                              const RowVisitor& on_clearance) {
   ReportData data = DataWithoutRows(session);
   FrameTouches touches(data.frames, data.header.layout);
-  session.VisitContacts([&](const ContactRow& row) {
-    AddContact(data, touches, row);
-    if (on_contact) on_contact(row);
-  });
   FramePlaces places(data.frames);
-  session.VisitClearances([&](const ContactRow& row) {
-    AddClearance(data, places.Of(row.frame), row);
-    if (on_clearance) on_clearance(row);
-  });
+  session.VisitRows(
+      [&](const ContactRow& row) {
+        AddContact(data, touches, row);
+        if (on_contact) on_contact(row);
+      },
+      [&](const ContactRow& row) {
+        AddClearance(data, places.Of(row.frame), row);
+        if (on_clearance) on_clearance(row);
+      });
   for (std::size_t i = 0; i < data.frames.size(); ++i) {
     if (!touches.IsTouched(i)) continue;
     ++data.frames_in_contact;

@@ -108,7 +108,7 @@ struct ReportData {
 // The tools that events mark, in order of their first mark.
 [[nodiscard]] std::vector<std::string> ToolsMarked(const ReportData& data);
 
-// Reads every row of the session once; the visitors see those of contacts, then those of clearances, as they
+// Reads every row of the session once; the visitors see those of contacts and of clearances as they
 // come.
 [[nodiscard]] ReportData CollectReportData(const SessionReader& session, const RowVisitor& on_contact = {},
                                            const RowVisitor& on_clearance = {});

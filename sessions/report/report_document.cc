@@ -23,9 +23,10 @@ RichText FooterOf(const ReportData& data) {
   RichText footer("Made from ");
   footer += Strong(data.session_name);
   footer += {.text = fmt::format(
-                 ", which holds every frame behind these figures; contacts.csv beside this report lists "
-                 "each part in contact in each frame, clearance.csv how far each part was{}.",
-                 data.stamps.empty() ? "" : ", stamps.csv which picture of each camera each frame took")};
+                 ", which holds every frame behind these figures; beside this page: report.pdf (the same to "
+                 "print), touches.bcfzip (the touches for CAD programs, BCF 2.1), contacts.csv (each part in "
+                 "contact in each frame), clearance.csv (how far each part was){}.",
+                 data.stamps.empty() ? "" : ", stamps.csv (which picture of each camera each frame took)")};
   return footer;
 }
 
@@ -44,7 +45,7 @@ Section ModelSection(const ReportPictures& pictures) {
   return section;
 }
 
-Document ReportDocument(const ReportData& data, const ReportPictures& pictures, ChartPainter* painter) {
+Document ReportDocument(const ReportData& data, const ReportPictures& pictures, ChartPainters* painters) {
   Document document;
   document.kicker = "Elbowroom trial report";
   document.title = TitleOf(data);
@@ -53,10 +54,11 @@ Document ReportDocument(const ReportData& data, const ReportPictures& pictures, 
   document.source = data.session_name;
   document.made_at_utc = data.ended_at_utc.value_or(data.header.started_at_utc);
   for (Section& section :
-       std::vector{SummarySection(data), TimelineSection(data, painter), ModelSection(pictures),
-                   PictureSection(pictures), TouchSection(data, pictures), SpacingSection(data, painter),
-                   ApproachSection(data, painter), PartSection(data), TrustSection(data),
-                   HeatSection(data, pictures), EventSection(data), ReadingSection(data), RigSection(data)}) {
+       std::vector{SummarySection(data), TimelineSection(data, painters), ModelSection(pictures),
+                   PictureSection(pictures), TouchSection(data, pictures), SpacingSection(data, painters),
+                   ApproachSection(data, painters), PairSection(data, pictures.pairs), PartSection(data),
+                   TrustSection(data), HeatSection(data, pictures), EventSection(data), ReadingSection(data),
+                   SkippedSection(data), RigSection(data)}) {
     if (!section.blocks.empty()) document.sections.push_back(std::move(section));
   }
   return document;

@@ -11,18 +11,31 @@
 
 namespace elbowroom::sessions {
 
+// One for each size of a chart, so that both sizes are drawn at once.
+struct ChartPainters {
+  ChartPainter screen;
+  ChartPainter paper;
+};
+
 // Its pictures' bytes are those of `pictures`.
 [[nodiscard]] Document ReportDocument(const ReportData& data, const ReportPictures& pictures,
-                                      ChartPainter* painter);
+                                      ChartPainters* painters);
+
+// The figures at the top.
+[[nodiscard]] Tiles TilesOf(const ReportData& data);
 
 // Sections; without blocks where the session has nothing for it.
 [[nodiscard]] Section SummarySection(const ReportData& data);
-[[nodiscard]] Section SpacingSection(const ReportData& data, ChartPainter* painter);
-[[nodiscard]] Section TimelineSection(const ReportData& data, ChartPainter* painter);
-[[nodiscard]] Section ApproachSection(const ReportData& data, ChartPainter* painter);
+[[nodiscard]] Section SpacingSection(const ReportData& data, ChartPainters* painters);
+[[nodiscard]] Section TimelineSection(const ReportData& data, ChartPainters* painters);
+[[nodiscard]] Section ApproachSection(const ReportData& data, ChartPainters* painters);
 [[nodiscard]] Section ModelSection(const ReportPictures& pictures);
 [[nodiscard]] Section TouchSection(const ReportData& data, const ReportPictures& pictures);
 [[nodiscard]] Section PartSection(const ReportData& data);
+// The virtual parts of the layout's pair rules, held against each other.
+[[nodiscard]] Section PairSection(const ReportData& data, const PairApproaches& approaches);
+// What needn't be looked at to be sure.
+[[nodiscard]] Section SkippedSection(const ReportData& data);
 // How sure the verdicts are, and what that is made of.
 [[nodiscard]] Section TrustSection(const ReportData& data);
 [[nodiscard]] Section HeatSection(const ReportData& data, const ReportPictures& pictures);

@@ -112,7 +112,7 @@ std::string PackedMeshJson(const core::TriangleMesh& mesh, std::size_t most_tria
 
 std::string ModelJson(const core::Layout& layout, const Eigen::AlignedBox3d& workspace_mm,
                       const ReportModel& model) {
-  Json meshes = Json::array(), parts = Json::array(), moments = Json::array();
+  Json meshes = Json::array(), parts = Json::array(), volumes = Json::array(), moments = Json::array();
   std::map<const core::TriangleMesh*, std::size_t> place;  // parts may share one
   for (const core::Part& part : layout.parts) {
     const auto [it, is_new] = place.try_emplace(part.mesh.get(), meshes.size());
@@ -123,9 +123,13 @@ std::string ModelJson(const core::Layout& layout, const Eigen::AlignedBox3d& wor
     moments.push_back(MomentJson(moment, meshes.size()));
     meshes.push_back(PackedMeshOf(moment.hull, kMostModelTriangles));
   }
+  if (model.keep_out) {
+    volumes.push_back({{"name", "keep-out volume"}, {"mesh", meshes.size()}});
+    meshes.push_back(PackedMeshOf(*model.keep_out, kMostVolumeTriangles));
+  }
   const Json json = {{"meshes", meshes},
                      {"parts", parts},
-                     {"volumes", Json::array()},
+                     {"volumes", volumes},
                      {"moments", moments},
                      {"low", Vector(workspace_mm.min())},
                      {"high", Vector(workspace_mm.max())}};

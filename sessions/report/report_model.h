@@ -22,10 +22,13 @@ struct ReportModel {
     std::vector<Eigen::Vector3d> contacts_in_world_mm;
   };
   std::vector<Moment> moments;  // the first is shown first; none: the report has no 3-D view
+  // What CAD must leave free, in world, mm.
+  std::optional<core::TriangleMesh> keep_out = {};
 };
 
 // Meshes of more triangles are told coarser.
 inline constexpr std::size_t kMostModelTriangles = 20'000;
+inline constexpr std::size_t kMostVolumeTriangles = 100'000;  // of the keep-out volume, which is one
 
 // What web/page/model_view.js takes, as JSON in ASCII without "<": {meshes, parts, volumes, moments, low,
 // high}.

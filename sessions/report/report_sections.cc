@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <future>
 #include <variant>
 
 #include "sessions/report/approach_chart.h"
@@ -13,24 +14,6 @@ namespace {
 
 // A spacing with more values than this was moved by a slider: only the values held longest are listed.
 constexpr std::size_t kMostLevels = 16;
-
-Tiles TilesOf(const ReportData& data) {
-  const double duration_s = data.end_s - data.begin_s;
-  const core::TrialInfo& trial = data.header.trial;
-  Tiles tiles;
-  const auto add = [&](Tile tile) { tiles.tiles.push_back(std::move(tile)); };
-  if (data.has_outcome) add({"Touches", std::to_string(data.episodes.size()), TouchesByPart(data)});
-  add({"Time in contact", fmt::format("{:.1f} s", data.in_contact_s),
-       duration_s > 0.0 ? fmt::format("{:.0f} % of the trial", 100.0 * data.in_contact_s / duration_s) : ""});
-  add({"Deepest", data.has_contact() ? Millimetres(data.deepest_mm) : "none"});
-  if (data.judged_spacing)
-    add({"Space needed", SpaceNeeded(data), data.header.layout.spacings[*data.judged_spacing].name});
-  add({"Participant\u2019s estimate",
-       trial.estimate_mm > 0.0 ? Millimetres(trial.estimate_mm) : "none given"});
-  if (trial.required_clearance_mm > 0.0)
-    add({"Required clearance", Millimetres(trial.required_clearance_mm), "not part of the space needed"});
-  return tiles;
-}
 
 void AddLevels(const SpacingStudy& study, std::vector<Block>* blocks) {
   std::vector<SpacingLevel> levels = study.levels;
@@ -122,9 +105,11 @@ void AddGivesWayNotes(const core::Layout& layout, std::vector<Block>* blocks) {
   }
 }
 
-DrawnChart Drawn(Chart chart, ChartPainter* painter) {
+DrawnChart Drawn(Chart chart, ChartPainters* painters) {
   constexpr double kPaperWidthPx = 880.0;
-  std::string svg = painter->Svg(chart), paper_svg = painter->Svg(chart, kPaperWidthPx);
+  std::future<std::string> paper =
+      std::async(std::launch::async, [&] { return painters->paper.Svg(chart, kPaperWidthPx); });
+  std::string svg = painters->screen.Svg(chart), paper_svg = paper.get();
   return {std::move(chart), std::move(svg), std::move(paper_svg)};
 }
 
@@ -164,13 +149,13 @@ Section SummarySection(const ReportData& data) {
   return {.blocks = {std::move(verdict), TilesOf(data)}};
 }
 
-Section TimelineSection(const ReportData& data, ChartPainter* painter) {
+Section TimelineSection(const ReportData& data, ChartPainters* painters) {
   if (data.frames.empty()) return {};
   const std::string lead =
       "A bar is one touch, from the first frame in contact to the last; the darker, the deeper: " +
       Millimetres(DarkestDepth(data)) + " is the darkest.";
   return {
-      .blocks = {Heading{"Touches over time"}, Paragraph{lead, true}, Drawn(TimelineChart(data), painter)}};
+      .blocks = {Heading{"Touches over time"}, Paragraph{lead, true}, Drawn(TimelineChart(data), painters)}};
 }
 
 Section PictureSection(const ReportPictures& pictures) {
@@ -185,7 +170,7 @@ Section PictureSection(const ReportPictures& pictures) {
   return section;
 }
 
-Section ApproachSection(const ReportData& data, ChartPainter* painter) {
+Section ApproachSection(const ReportData& data, ChartPainters* painters) {
   if (!data.has_clearance()) return {};
   const auto shown = std::min<std::ptrdiff_t>(
       std::ranges::count_if(data.parts, [](const PartSummary& part) { return part.closest.has_value(); }),
@@ -194,11 +179,11 @@ Section ApproachSection(const ReportData& data, ChartPainter* painter) {
       "Bounds of the distance between a part and the hull, the closest of each moment; the real distance may "
       "be larger. Drawn for {} of {} parts, those that came closest.",
       shown, data.parts.size());
-  return {.blocks = {Heading{"Closest approach"}, Paragraph{lead, true}, Drawn(ApproachChart(data), painter),
+  return {.blocks = {Heading{"Closest approach"}, Paragraph{lead, true}, Drawn(ApproachChart(data), painters),
                      ApproachTable(data)}};
 }
 
-Section SpacingSection(const ReportData& data, ChartPainter* painter) {
+Section SpacingSection(const ReportData& data, ChartPainters* painters) {
   if (data.frames.empty() || data.spacings.empty()) return {};
   Section section{.blocks = {Heading{"Spacing history"},
                              Paragraph{"The spacing as the experimenter set it; times with any part in "
@@ -213,7 +198,7 @@ Section SpacingSection(const ReportData& data, ChartPainter* painter) {
     gap += NameRun(spacing.moving);
     gap += {.text = fmt::format(", {} to {}.", Millimetres(spacing.min_mm), Millimetres(spacing.max_mm))};
     section.blocks.push_back(Paragraph{std::move(gap), true});
-    section.blocks.push_back(Drawn(SpacingChart(data, study), painter));
+    section.blocks.push_back(Drawn(SpacingChart(data, study), painters));
     AddLevels(study, &section.blocks);
     AddToolNeeds(study, &section.blocks);
   }

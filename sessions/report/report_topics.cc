@@ -105,6 +105,7 @@ std::vector<BcfTopic> TopicsOf(const SessionReader& session, const TouchList& li
   }
   for (const ReportPictures::Touch& picture : pictures.touches) {
     topics[picture.place].camera = picture.camera;
+    topics[picture.place].cut = picture.cut;
     topics[picture.place].snapshot_png = picture.png;
   }
   for (const auto& [id, finding] : findings)

@@ -73,8 +73,14 @@ bool IsAllOfTheTask(const ReportData& data) { return data.status == SessionStatu
 
 // The spacing that was enough for the task; nothing for a task that wasn't done to its end, as its rest might
 // have touched something. (A touch shows that more space is needed, however the task goes on.)
-std::optional<double> EnoughMm(const ReportData& data, const SpacingStudy& study) {
-  return IsAllOfTheTask(data) ? study.smallest_free_mm : std::nullopt;
+std::optional<double> EnoughMm(const ReportData& data, const SpaceNeed& need) {
+  return IsAllOfTheTask(data) ? need.smallest_free_mm : std::nullopt;
+}
+
+// "140–240 mm"
+std::string RangeText(double least_mm, double most_mm) {
+  if (Number(least_mm) == Number(most_mm)) return Millimetres(least_mm);
+  return fmt::format("{}\u2013{}", Number(least_mm), Millimetres(most_mm));
 }
 
 std::string SpaceClause(const ReportData& data) {
@@ -144,12 +150,35 @@ std::string TouchesByPart(const ReportData& data) {
 std::string SpaceNeeded(const ReportData& data) {
   const SpacingStudy* study = Judged(data);
   if (study == nullptr) return "unknown";
-  const auto& touched_mm = study->largest_touched_mm;
-  const std::optional<double> enough_mm = EnoughMm(data, *study);
+  return NeedText(*study, IsAllOfTheTask(data));
+}
+
+std::string NeedText(const SpaceNeed& need, bool is_whole_task) {
+  const auto& touched_mm = need.largest_touched_mm;
+  const std::optional<double> enough_mm = is_whole_task ? need.smallest_free_mm : std::nullopt;
   if (!touched_mm && !enough_mm) return "unknown";
   if (!touched_mm) return "at most " + Millimetres(*enough_mm);
   if (!enough_mm) return "more than " + Millimetres(*touched_mm);
-  return fmt::format("{}\u2013{}", Number(*touched_mm), Millimetres(*enough_mm));
+  return RangeText(*touched_mm, *enough_mm);
+}
+
+std::string SpaceProvided(const ReportData& data) {
+  const SpacingStudy* study = Judged(data);
+  if (study == nullptr || study->levels.empty()) return "unknown";
+  return RangeText(study->levels.front().spacing_mm, study->levels.back().spacing_mm);
+}
+
+std::string Shortfall(const ReportData& data) {
+  const SpacingStudy* study = Judged(data);
+  const double estimate_mm = data.header.trial.estimate_mm;
+  if (study == nullptr || !(estimate_mm > 0.0)) return "unknown";
+  const auto& touched_mm = study->largest_touched_mm;
+  const std::optional<double> enough_mm = EnoughMm(data, *study);
+  if (enough_mm && *enough_mm <= estimate_mm) return "none";
+  const bool is_too_little = touched_mm && *touched_mm >= estimate_mm;
+  if (is_too_little && enough_mm) return RangeText(*touched_mm - estimate_mm, *enough_mm - estimate_mm);
+  if (is_too_little) return "more than " + Millimetres(*touched_mm - estimate_mm);
+  return enough_mm ? "at most " + Millimetres(*enough_mm - estimate_mm) : "unknown";
 }
 
 std::string GaugeFailure(const core::RigQuality& quality) {

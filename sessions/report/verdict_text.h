@@ -17,6 +17,16 @@ namespace elbowroom::sessions {
 // "140–240 mm": touched at the first, free of touches at the second; "unknown" where nothing was tried.
 [[nodiscard]] std::string SpaceNeeded(const ReportData& data);
 
+// The same of some of the frames; unless these are the whole task's, nothing is known to be enough.
+[[nodiscard]] std::string NeedText(const SpaceNeed& need, bool is_whole_task);
+
+// "140–240 mm": the least and the largest value that the judged spacing had.
+[[nodiscard]] std::string SpaceProvided(const ReportData& data);
+
+// The space needed less the participant's estimate: "20–60 mm", "at most 56 mm", "more than 20 mm", "none"
+// where the estimate is enough, "unknown".
+[[nodiscard]] std::string Shortfall(const ReportData& data);
+
 // Of a gauge that failed: what was measured, and what follows. Empty otherwise.
 [[nodiscard]] std::string GaugeFailure(const core::RigQuality& quality);
 

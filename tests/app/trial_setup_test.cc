@@ -5,6 +5,7 @@
 
 #include <opencv2/imgcodecs.hpp>
 
+#include "app/control/segmentation/segmentation_settings.h"
 #include "core/error.h"
 #include "tests/app/mask_rig.h"
 #include "tests/support/temporary_folder.h"

@@ -45,6 +45,7 @@ sessions::ReportPictures PicturesOf(const core::SessionHeader& header, core::Fra
   moment.contacts_in_world_mm = {{10, 10, 10}, {20, 10, 10}};
   sessions::ReportPictures pictures;
   pictures.model.moments = {moment};
+  pictures.model.keep_out = moment.hull;
   return pictures;
 }
 

@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "sessions/report/chart.h"
+#include "sessions/report/report_document.h"
 #include "tests/sessions/sample_session.h"
 #include "tests/sessions/sample_trial.h"
 #include "tests/support/temporary_folder.h"
@@ -42,6 +45,46 @@ TEST(VerdictText, AnEstimateBetweenTouchedAndFreeWasNotTried) {
       << VerdictOf(plan);
   plan.estimate_mm = 0.0;
   EXPECT_TRUE(VerdictOf(plan).ends_with("at most 240 mm.")) << VerdictOf(plan);
+}
+
+TEST(VerdictText, ShortfallIsTheSpaceNeededLessTheEstimate) {
+  TrialPlan plan = UsualTrial();  // touched at 140 mm, free of touches at 240 mm
+  const auto shortfall = [&](double estimate_mm) {
+    plan.estimate_mm = estimate_mm;
+    return sessions::Shortfall(DataOf(plan));
+  };
+  EXPECT_EQ(shortfall(100.0), "40\u2013140 mm");
+  EXPECT_EQ(shortfall(140.0), "0\u2013100 mm");
+  EXPECT_EQ(shortfall(200.0), "at most 40 mm");
+  EXPECT_EQ(shortfall(240.0), "none");
+  EXPECT_EQ(shortfall(0.0), "unknown");
+  plan.opened_at_s = 100.0;  // never
+  EXPECT_EQ(shortfall(100.0), "more than 40 mm");
+  EXPECT_EQ(shortfall(200.0), "unknown");
+  plan = UsualTrial();
+  plan.is_finished = false;  // the rest of the task might have touched at 240 mm
+  EXPECT_EQ(shortfall(100.0), "more than 40 mm");
+}
+
+TEST(VerdictText, SpaceProvidedIsWhatTheSpacingWas) {
+  TrialPlan plan = UsualTrial();
+  EXPECT_EQ(sessions::SpaceProvided(DataOf(plan)), "140\u2013240 mm");
+  plan.opened_at_s = 100.0;
+  EXPECT_EQ(sessions::SpaceProvided(DataOf(plan)), "140 mm");
+}
+
+TEST(VerdictText, TilesBeginWithTheDecision) {
+  const sessions::Tiles tiles = sessions::TilesOf(DataOf(UsualTrial()));
+  ASSERT_GE(tiles.tiles.size(), 5U);
+  EXPECT_EQ(tiles.tiles[0].title, "Space provided");
+  EXPECT_EQ(tiles.tiles[1].title, "Space needed");
+  EXPECT_EQ(tiles.tiles[1].value, "140\u2013240 mm");
+  EXPECT_EQ(tiles.tiles[1].remark, "without a tool 140\u2013240 mm, with tongs 140\u2013240 mm");
+  EXPECT_EQ(tiles.tiles[3].title, "Shortfall");
+  EXPECT_EQ(tiles.tiles[3].value, "0\u2013100 mm");
+  const auto sure = std::ranges::find(tiles.tiles, "How sure", &sessions::Tile::title);
+  ASSERT_NE(sure, tiles.tiles.end());
+  EXPECT_TRUE(sure->remark.ends_with("the gauge passed")) << sure->remark;
 }
 
 TEST(VerdictText, TouchedAtEverySpacingTried) {

@@ -24,7 +24,7 @@ struct KeepoutOptions {
 
 constexpr double kMiB = 1 << 20;
 
-nlohmann::json SummaryJson(const control::KeepOutRequest& request, const control::KeepOut& found) {
+nlohmann::json KeepOutJson(const control::KeepOutRequest& request, const control::KeepOut& found) {
   const core::TriangleMesh& mesh = found.swept.mesh;
   return {{"vertices", mesh.vertices_mm.size()},
           {"triangles", mesh.triangles.size()},
@@ -57,7 +57,7 @@ CommandResult Run(const KeepoutOptions& options, const CommandContext& context) 
   const double time_ms = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
   control::WriteKeepOut(request, found, options.out);
   CommandResult result;
-  result.json = SummaryJson(request, found);
+  result.json = KeepOutJson(request, found);
   result.json["time_ms"] = time_ms;
   result.json["files"] = {options.out.string()};
   result.text =

@@ -31,6 +31,8 @@ struct ReplayCommandOptions {
   std::filesystem::path layout;
   std::vector<SpacingSetting> spacings;
   std::vector<PartSetting> parts;
+  bool segments = false;
+  control::SegmentingOptions segmenting;
   control::ReplayOptions replay;
 };
 
@@ -87,6 +89,14 @@ nlohmann::json SkippedJson(const control::SkipCount& skipped) {
           {"clearance_queries", skipped.clearance_queries}};
 }
 
+nlohmann::json SegmentedJson(const std::optional<control::ReplaySegmented>& segmented) {
+  if (!segmented) return nullptr;
+  return {{"footage", segmented->footage.string()},
+          {"pictures", segmented->count.pictures},
+          {"missing_pictures", segmented->count.missing},
+          {"silhouettes_that_differ", segmented->count.silhouettes_that_differ}};
+}
+
 nlohmann::json ReplayJson(const ReplayCommandOptions& options, const control::ReplayOutcome& outcome) {
   const bool is_compared = outcome.compared.has_value();
   nlohmann::json absent = nlohmann::json::array();
@@ -105,6 +115,7 @@ nlohmann::json ReplayJson(const ReplayCommandOptions& options, const control::Re
           {"identical",
            is_compared ? nlohmann::json(outcome.compared->frames_that_differ == 0) : nlohmann::json()},
           {"compared", ComparisonJson(outcome.compared)},
+          {"segmented", SegmentedJson(outcome.segmented)},
           {"absent", absent},
           {"skipped", SkippedJson(outcome.skipped)},
           {"time_ms", outcome.time_s * 1000.0},
@@ -118,6 +129,15 @@ std::string ReplayText(const ReplayCommandOptions& options, const control::Repla
                   outcome.time_s * 1000.0 / static_cast<double>(outcome.frames),
                   outcome.outcome.episodes.size(), outcome.outcome.near_misses.size());
   for (const std::string& change : outcome.changes) text += "\n  changed: " + change;
+  if (const auto& segmented = outcome.segmented) {
+    text += fmt::format(
+        "\n  segmented again: {} pictures of '{}'; {} silhouettes differ from the recorded ones",
+        segmented->count.pictures, segmented->footage.string(), segmented->count.silhouettes_that_differ);
+    if (segmented->count.missing > 0)
+      text +=
+          fmt::format("\n  {} pictures that were judged aren't in the footage; their frames lack that camera",
+                      segmented->count.missing);
+  }
   if (const auto& compared = outcome.compared) {
     text += compared->frames_that_differ == 0
                 ? fmt::format("\n  identical: all {} rows are those of the recording", compared->rows)
@@ -136,18 +156,38 @@ CommandResult Run(const ReplayCommandOptions& options, const CommandContext& con
   control::ReplayOptions replay = options.replay;
   std::vector<std::string> warnings;
   replay.changes = ChangesOf(options, context, &warnings);
+  if (options.segments) replay.segmenting = options.segmenting;
   const control::ReplayOutcome outcome = control::RunReplay(recorded, replay, context.progress, context.stop);
+  if (outcome.segmented)
+    warnings.insert(warnings.end(), outcome.segmented->warnings.begin(), outcome.segmented->warnings.end());
   CommandResult result{ReplayJson(options, outcome), ReplayText(options, outcome)};
   result.json["warnings"] = warnings;
   for (const std::string& warning : warnings) result.text += "\nwarning: " + warning;
   return result;
 }
 
+void AddSegmentOptions(CLI::App& command, ReplayCommandOptions* options) {
+  CLI::Option* segment = command.add_flag(
+      "--segment", options->segments,
+      "segment the footage's pictures again, with the recorded settings unless others are given");
+  command
+      .add_option(
+          "--segmentation", options->segmenting.settings,
+          "with --segment: the settings are those of [segmentation] in this file, such as a TRIAL.toml")
+      ->needs(segment);
+  command
+      .add_option(
+          "--rig", options->segmenting.rig,
+          "with --segment: the backgrounds are those that this RIG.yml names; of a session that names no "
+          "footage, the pictures, too")
+      ->needs(segment);
+}
+
 }  // namespace
 
 void AddReplayCommand(CLI::App& app, Choice* choice) {
   CLI::App* command =
-      app.add_subcommand("replay", "judge a session's motion again, with other gaps or parts");
+      app.add_subcommand("replay", "judge a session's motion again, with other gaps, parts or thresholds");
   auto options = std::make_shared<ReplayCommandOptions>();
   command->add_option("SESSION", options->recorded, "the recorded session (S.db)")->required();
   command->add_option("--session", options->replay.session, "the new session; must not exist yet")
@@ -167,6 +207,7 @@ void AddReplayCommand(CLI::App& app, Choice* choice) {
         return ParsePart(text) ? std::string() : "must be NAME=FILE or NAME=FILE:UNIT, not " + text;
       });
   AddFrameRangeOption(*command, &options->replay.frames);
+  AddSegmentOptions(*command, options.get());
   command->callback(
       [=] { choice->action = [=](const CommandContext& context) { return Run(*options, context); }; });
 }

@@ -15,14 +15,17 @@ constexpr std::size_t kLongestPiece = 32;
 }  // namespace
 
 ReplayRuns::ReplayRuns(const sessions::SessionReader& session, std::span<const sessions::FrameSummary> frames,
-                       const ReplayLayout& layout, std::size_t first, std::size_t end, bool asks_clearance)
+                       const ReplayLayout& layout, std::size_t first, std::size_t end, bool asks_clearance,
+                       ReplaySegmentation* segmentation, std::stop_token stop)
     : session_(session),
       frames_(frames),
       layout_(layout),
       shared_layout_(std::make_shared<const core::Layout>(layout.layout())),
       rig_(std::make_shared<const core::Rig>(session.header().rig)),
       end_(end),
-      asks_clearance_(asks_clearance) {
+      asks_clearance_(asks_clearance),
+      segmentation_(segmentation),
+      stop_(std::move(stop)) {
   // Reading a frame, as is done here, checks that its silhouettes have the sizes of the cameras' pictures,
   // before planes of these sizes are made.
   const std::size_t begin = BeginOfRun(first);
@@ -60,6 +63,7 @@ std::optional<ReplayRun> ReplayRuns::Next() {
 ReplayRuns::Loaded ReplayRuns::Load(std::size_t i) {
   Loaded loaded;
   loaded.record = session_.ReadFrame(frames_[i].frame);
+  if (segmentation_ != nullptr) loaded.segmenting = segmentation_->Segment(&loaded.record, stop_);
   loaded.hull = recon::NextHull(last_hull_, rig_, planes_, *loaded.record.masks).hull;
   if (asks_clearance_)
     loaded.skew_errors = motions_.Next(*loaded.hull, loaded.record.stamps, loaded.record.time_s);
@@ -69,7 +73,7 @@ ReplayRuns::Loaded ReplayRuns::Load(std::size_t i) {
 }
 
 ReplayedFrame ReplayRuns::FrameFrom(Loaded loaded) {
-  ReplayedFrame frame{std::move(loaded.record), results_.Take()};
+  ReplayedFrame frame{std::move(loaded.record), results_.Take(), loaded.segmenting};
   FrameResult& result = *frame.result;
   result.record.frame = frame.recorded.frame;
   result.record.time_s = frame.recorded.time_s;

@@ -5,8 +5,10 @@
 #include <optional>
 
 #include "app/control/heat_picture.h"
+#include "app/control/keep_out/keep_out_job.h"
 #include "app/control/outcome_tracker.h"
 #include "app/control/recorded_frame.h"
+#include "app/control/report/pair_approaches.h"
 #include "app/control/report/touch_moments.h"
 #include "app/control/scene_composer.h"
 #include "core/error.h"
@@ -38,12 +40,14 @@ std::optional<WorstMoment> WorstMomentOf(const sessions::SessionReader& session)
     return WorstMoment{episode->peak_frame, episode->part};
   std::optional<WorstMoment> worst;
   double deepest_mm = -1.0;
-  session.VisitContacts([&](const sessions::ContactRow& row) {
-    const double depth_mm = row.contact.deepest ? row.contact.deepest->depth_mm : 0.0;
-    if (depth_mm <= deepest_mm) return;
-    deepest_mm = depth_mm;
-    worst = WorstMoment{row.frame, row.contact.part};
-  });
+  session.VisitRows(
+      [&](const sessions::ContactRow& row) {
+        const double depth_mm = row.contact.deepest ? row.contact.deepest->depth_mm : 0.0;
+        if (depth_mm <= deepest_mm) return;
+        deepest_mm = depth_mm;
+        worst = WorstMoment{row.frame, row.contact.part};
+      },
+      {});
   return worst;
 }
 
@@ -57,11 +61,15 @@ std::string CaptionOf(const FrameResult& result, core::PartIndex part, const std
       result.layout->parts[part].name, contact.contact_area_mm2, driver);
 }
 
-void AddHeat(const sessions::SessionReader& session, sessions::ReportPictures* pictures) {
-  const std::vector<core::HeatMap> maps = session.heat_maps();
-  if (maps.empty()) return;
-  recon::gl::SceneRenderer renderer;
-  for (const core::HeatMap& map : maps) {
+// Mean, s; 0 for a single frame.
+double FramePeriod(const std::vector<sessions::FrameSummary>& frames) {
+  if (frames.size() < 2) return 0.0;
+  return (frames.back().time_s - frames.front().time_s) / static_cast<double>(frames.size() - 1);
+}
+
+void AddHeat(const sessions::SessionReader& session, recon::gl::SceneRenderer& renderer,
+             sessions::ReportPictures* pictures) {
+  for (const core::HeatMap& map : session.heat_maps()) {
     const core::SharedMesh& mesh = session.header().layout.parts[map.part].mesh;
     pictures->heat.push_back({map.part, recon::EncodePng(HeatPicture(renderer, mesh, map))});
   }
@@ -70,7 +78,8 @@ void AddHeat(const sessions::SessionReader& session, sessions::ReportPictures* p
 }  // namespace
 
 ReportFiles WriteSessionReport(const std::filesystem::path& session_path, const std::filesystem::path& folder,
-                               const core::Progress& progress, std::stop_token stop) {
+                               const core::Progress& progress, std::stop_token stop,
+                               const ReportOptions& options) {
   const sessions::SessionReader session = OpenWithOutcome(session_path, progress, stop);
   const std::vector<sessions::FrameSummary> frames = session.frames();
   sessions::ReportPictures pictures;
@@ -90,8 +99,12 @@ ReportFiles WriteSessionReport(const std::filesystem::path& session_path, const 
       pictures.caption = CaptionOf(*shown, worst->part, renderer.driver());
     }
     AddTouchMoments(session, *shown, renderer, composer, stop, &pictures);
+    AddHeat(session, renderer, &pictures);
   }
-  AddHeat(session, &pictures);
+  if (options.keep_out_edge_mm && !pictures.model.moments.empty())
+    pictures.model.keep_out =
+        FindKeepOut({{session_path}, *options.keep_out_edge_mm, {}, {}}, progress, stop).swept.mesh;
+  pictures.pairs = PairApproachesOf(session.header().layout, frames, FramePeriod(frames), stop);
   core::ThrowIfStopped(stop, "the report");
   progress.Report(3, 4, "writing the report");
   sessions::WriteReport(session, pictures, folder);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <stop_token>
 #include <vector>
 
@@ -14,11 +15,18 @@ struct ReportFiles {
   std::vector<std::filesystem::path> written;
 };
 
+struct ReportOptions {
+  // Of the cells of the keep-out volume in the 3-D view (FindKeepOut), mm; nothing: the view has none. It
+  // takes a second and more.
+  std::optional<double> keep_out_edge_mm;
+};
+
 // report.html, report.pdf, contacts.csv, clearance.csv and touches.bcfzip in `folder` (made if it isn't
 // there), with a picture of the deepest contact and one of the whole scene. Throws: core::Error{kFile,
-// kDatabase, kGraphics}.
+// kDatabase, kGraphics, kCancelled}; what FindKeepOut throws.
 ReportFiles WriteSessionReport(const std::filesystem::path& session, const std::filesystem::path& folder,
-                               const core::Progress& progress, std::stop_token stop);
+                               const core::Progress& progress, std::stop_token stop,
+                               const ReportOptions& options = {});
 
 // The operator's view of one recorded frame as a PNG, whole or not at all; for the demo's view.png.
 void WriteFramePicture(const FrameResult& result, const std::filesystem::path& png, int width_px,

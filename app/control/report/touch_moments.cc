@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "app/control/recorded_frame.h"
+#include "app/control/report/cut_away.h"
 #include "core/error.h"
 #include "core/units.h"
 #include "recon/hull_mesh/hull_mesh.h"
@@ -84,7 +85,10 @@ void AddTouchMoments(const sessions::SessionReader& session, const FrameResult& 
                            : ContactCamera(*frame, touch.part, kSnapshotWidthPx, kSnapshotHeightPx);
     const recon::Image picture = renderer.Render(
         composer.Compose(*frame, recon::ViewFrom(camera, kSnapshotWidthPx, kSnapshotHeightPx)));
-    pictures->touches.push_back({place, recon::EncodePng(picture), TopicCameraOf(camera)});
+    const sessions::TopicCamera topic_camera = TopicCameraOf(camera);
+    std::optional<sessions::TopicCut> cut;
+    if (touch.at_in_world_mm) cut = CutBefore(*frame, topic_camera.eye_mm, *touch.at_in_world_mm);
+    pictures->touches.push_back({place, recon::EncodePng(picture), topic_camera, cut});
     if (!HasMoment(pictures->model, touch.frame))
       pictures->model.moments.push_back(MomentOf(*frame, workspace_mm));
   }

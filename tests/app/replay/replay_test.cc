@@ -13,6 +13,7 @@
 #include "core/error.h"
 #include "core/gives_way.h"
 #include "sessions/session_reader.h"
+#include "tests/app/replay/session_rows.h"
 #include "tests/sessions/sample_session.h"
 #include "tests/support/temporary_folder.h"
 
@@ -35,24 +36,6 @@ ReplayOutcome Replayed(const fs::path& recorded, const fs::path& session, Replay
                        FrameRange frames = {}) {
   const sessions::SessionReader reader = OpenWithOutcome(recorded, {}, {});
   return RunReplay(reader, {session, std::move(changes), frames}, {}, {});
-}
-
-// Rows of tables of the results that are in one file alone. `where`: which frames of the first.
-std::int64_t RowsThatDiffer(const fs::path& recorded, const fs::path& replayed,
-                            const std::string& where = "1") {
-  SQLite::Database database(recorded.string(), SQLite::OPEN_READWRITE);
-  database.exec("ATTACH '" + replayed.string() + "' AS other");
-  std::int64_t differing = 0;
-  for (const std::string table : {"frame", "frame_spacing", "part_frame", "contact", "contact_point",
-                                  "clearance", "part_motion", "camera_stamp"}) {
-    const std::string of_first = "SELECT * FROM main." + table + " WHERE " + where;
-    const std::string of_other = "SELECT * FROM other." + table;
-    for (const std::string& query : {of_first + " EXCEPT " + of_other, of_other + " EXCEPT " + of_first}) {
-      SQLite::Statement rows(database, "SELECT count(*) FROM (" + query + ")");
-      if (rows.executeStep()) differing += rows.getColumn(0).getInt64();
-    }
-  }
-  return differing;
 }
 
 constexpr FrameRange kWithTouches = {40, 130};

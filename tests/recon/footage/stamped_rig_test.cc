@@ -20,6 +20,7 @@ namespace {
 
 using core::ErrorKind;
 using test_support::WriteText;
+using ::testing::AllOf;
 using testing::ErrorOf;
 using ::testing::HasSubstr;
 using testing::NumberIn;
@@ -108,6 +109,48 @@ TEST(StampedRig, WithoutATableForEachCameraFramesGoByTheirNumbers) {
   const FrameSet set = rig.Read(5);
   EXPECT_EQ(NumberIn(set.cameras[1].image_bgr), 5);
   EXPECT_FALSE(set.cameras[0].stamp.has_value());
+}
+
+using PictureNumbers = std::vector<std::optional<std::uint64_t>>;
+
+TEST(StampedRig, PicturesAreFoundByTheirNumbersWhateverTheirSets) {
+  const TestFolder folder;
+  CameraSources a = StampedVideo(folder, "a", 4, [](int i) { return 0.04 * i; });
+  CameraSources b = StampedVideo(folder, "b", 60, [](int i) { return 0.04 * i; });
+  WriteText(folder.File("a.csv"), "frame,time_s,picture\n0,0.0,7\n2,0.08,9\n3,0.12,12\n8,0.36,20\n");
+  RecordedRig rig(PlainRig({a, b}));
+  const auto read = [&](const PictureNumbers& numbers) {
+    std::vector<int> found;
+    for (const auto& picture : rig.ReadPictures(numbers, {}))
+      found.push_back(picture ? NumberIn(picture->image_bgr) : -1);
+    return found;
+  };
+  using Found = std::vector<int>;
+  EXPECT_EQ(read({9, 40}), (Found{2, 40}));
+  EXPECT_EQ(read({12, 41}), (Found{3, 41}));
+  EXPECT_EQ(read({7, 3}), (Found{0, 3}));
+  EXPECT_EQ(read({8, 59}), (Found{-1, 59}));  // the table doesn't have it
+  EXPECT_EQ(read({0, std::nullopt}), (Found{-1, -1}));
+  EXPECT_EQ(read({std::nullopt, 4}), (Found{-1, 4}));
+  EXPECT_THAT(ErrorOf(ErrorKind::kFile,
+                      [&] {
+                        (void)read({20, 5});
+                      }),
+              AllOf(HasSubstr("camera 'cam1'"), HasSubstr("no frame 8, which is its picture 20")));
+  EXPECT_EQ(read({9, 6}), (Found{2, 6}));
+  // Sets are read as before.
+  EXPECT_EQ(NumberIn(rig.Read(1).cameras[1].image_bgr), 2);
+}
+
+TEST(StampedRig, WithoutStampsPicturesAreFoundByTheFramesNumbers) {
+  const TestFolder folder;
+  CameraSources without = StampedVideo(folder, "b", 8, [](int i) { return 7.0 + i; });
+  without.timestamps.clear();
+  RecordedRig rig(PlainRig({StampedVideo(folder, "a", 6, [](int i) { return 3.0 * i; }), without}));
+  const PictureNumbers numbers{5, 7};
+  const auto pictures = rig.ReadPictures(numbers, {});
+  EXPECT_EQ(NumberIn(pictures[0]->image_bgr), 5);
+  EXPECT_EQ(NumberIn(pictures[1]->image_bgr), 7);
 }
 
 TEST(StampedRig, ATableThatCantBeReadIsNamed) {

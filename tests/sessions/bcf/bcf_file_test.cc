@@ -39,6 +39,7 @@ BcfTopic Sample(char digit, const std::string& text) {
   topic.components = {text, "what is real"};
   topic.camera = sessions::TopicCamera{
       {1000.0, -500.0, 250.0}, Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitZ(), 45.0};
+  topic.cut = sessions::TopicCut{{1000.0, 300.0, 250.0}, -Eigen::Vector3d::UnitY()};
   topic.snapshot_png = {0x89, 'P', 'N', 'G'};
   return topic;
 }
@@ -86,6 +87,10 @@ void ExpectViewpointAsTheStandardSays(const std::string& xml) {
   ExpectSequence(camera, {"CameraViewPoint", "CameraDirection", "CameraUpVector", "FieldOfView"});
   for (const auto part : camera.children())
     if (std::string(part.name()) != "FieldOfView") ExpectSequence(part, {"X", "Y", "Z"});
+  for (const auto plane : info.child("ClippingPlanes").children()) {
+    ExpectSequence(plane, {"Location", "Direction"});
+    for (const auto part : plane.children()) ExpectSequence(part, {"X", "Y", "Z"});
+  }
 }
 
 const std::string kHostile = std::string(
@@ -162,6 +167,9 @@ TEST(BcfFile, SaysLengthsInMetres) {
   const auto eye = document.child("VisualizationInfo").child("PerspectiveCamera").child("CameraViewPoint");
   EXPECT_EQ(eye.child("X").text().as_double(), 1.0);
   EXPECT_EQ(eye.child("Y").text().as_double(), -0.5);
+  const auto plane = document.child("VisualizationInfo").child("ClippingPlanes").child("ClippingPlane");
+  EXPECT_EQ(plane.child("Location").child("Y").text().as_double(), 0.3);
+  EXPECT_EQ(plane.child("Direction").child("Y").text().as_double(), -1.0);
 }
 
 TEST(BcfFile, RefusesWhatIsNoSuchFile) {

@@ -1,0 +1,13 @@
+// The keys of a trial file.
+#pragma once
+
+#include <array>
+#include <string_view>
+
+namespace elbowroom::control {
+
+inline constexpr std::array<std::string_view, 11> kTrialKeys{
+    "rig",   "layout",       "participant", "task",  "estimate_mm", "required_clearance_mm", "uncertainty_mm",
+    "tools", "segmentation", "viewer",      "record"};
+
+}  // namespace elbowroom::control

@@ -1,0 +1,69 @@
+#include <fmt/format.h>
+
+#include "sessions/report/report_document.h"
+#include "sessions/report/verdict_text.h"
+
+namespace elbowroom::sessions {
+namespace {
+
+std::string GapText(const PairApproach& pair) {
+  return pair.gap_mm ? fmt::format("{:.2f} mm", *pair.gap_mm) : "at least " + Millimetres(pair.at_least_mm);
+}
+
+std::string VerdictOf(const PairApproach& pair) {
+  if (pair.verdict == core::Verdict::kContact && pair.authorised_contact) return "contact, which is allowed";
+  return std::string(core::ToString(pair.verdict));
+}
+
+}  // namespace
+
+Section PairSection(const ReportData& data, const PairApproaches& approaches) {
+  if (approaches.pairs.empty()) return {};
+  DocumentTable table{{{"Parts"},
+                       {"Required", true},
+                       {WithRemark("Closest", "between their surfaces"), true},
+                       {WithRemark("Spacing", "then"), true},
+                       {"From", true},
+                       {"Verdict"},
+                       {"Rule not kept for", true}},
+                      {}};
+  for (const PairApproach& pair : approaches.pairs) {
+    RichText names;
+    names += NameRun(data.header.layout.parts[pair.a].name);
+    names += {.text = " and "};
+    names += NameRun(data.header.layout.parts[pair.b].name);
+    table.rows.push_back(
+        {{std::move(names), Millimetres(pair.required_mm), GapText(pair), SpacingTexts(data, pair.spacing_mm),
+          fmt::format("{:.2f} s", pair.time_s), VerdictOf(pair),
+          pair.broken_s > 0.0 ? fmt::format("{:.1f} s", pair.broken_s) : kNothing}});
+  }
+  std::string lead =
+      "Virtual parts against each other, by the layout\u2019s pair rules, where the spacings put them.";
+  if (approaches.judged < approaches.settings)
+    lead +=
+        fmt::format(" {} of {} settings of the spacings were judged: those held longest, and the extremes.",
+                    approaches.judged, approaches.settings);
+  return {.blocks = {Heading{"Parts against parts"}, Paragraph{std::move(lead), true}, std::move(table)}};
+}
+
+Section SkippedSection(const ReportData& data) {
+  core::QueryCount sum;
+  for (const PartSummary& part : data.parts) {
+    sum.triangles += part.frames.count.triangles;
+    sum.queries += part.frames.count.queries;
+    sum.skipped += part.frames.count.skipped;
+  }
+  if (sum.triangles == 0) return {};
+  return {.blocks = {Heading{"What was skipped"},
+                     Paragraph{fmt::format(
+                         "Over all frames the parts had {} triangles to be judged. {} of them "
+                         "({:.1f} %) were settled without a look at each, together with all of "
+                         "their neighbours, as the hull was surely too far away; {} "
+                         "questions were asked of the hull. What is skipped changes no "
+                         "verdict.",
+                         sum.triangles, sum.skipped,
+                         100.0 * static_cast<double>(sum.skipped) / static_cast<double>(sum.triangles),
+                         sum.queries)}}};
+}
+
+}  // namespace elbowroom::sessions
