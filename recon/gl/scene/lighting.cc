@@ -172,9 +172,11 @@ void Lighting::UpdateHullShadow(const Scene& scene) {
   if (scene.hull_from_lamp == nullptr) {
     hull_shadow_.Upload(1, std::vector<float>{1.0F});
     hull_bounds_.setEmpty();
+    hull_reach_ = {};
   } else {
     const HullView& layer = *scene.hull_from_lamp;
     hull_bounds_ = BoundsOfHits(layer);
+    hull_reach_ = ShadowReach(layer);
     hull_shadow_.Upload(layer.width_px, BufferDepths(layer, scene.lamp.ShadowView(layer.width_px)));
   }
   hull_from_lamp_ = scene.hull_from_lamp;

@@ -11,6 +11,7 @@
 #include "recon/gl/scene/scene.h"
 #include "recon/gl/scene/shadow_count.h"
 #include "recon/gl/scene/shadow_map.h"
+#include "recon/gl/scene/shadow_reach.h"
 #include "recon/gl/scene/view_matrices.h"
 
 namespace elbowroom::recon::gl {
@@ -33,7 +34,7 @@ class Lighting {
   void Apply(const ShaderProgram& program, const ViewMatrices& matrices,
              HullShadow hull_shadow = HullShadow::kThrown) const;
 
-  [[nodiscard]] bool HullThrowsShadow() const { return !hull_bounds_.isEmpty(); }
+  [[nodiscard]] const ShadowReach& hull_reach() const { return hull_reach_; }
 
   [[nodiscard]] const ShadowCount& count() const { return count_; }
 
@@ -54,6 +55,7 @@ class Lighting {
   bool has_hull_shadow_ = false;
   Eigen::AlignedBox2f part_bounds_;  // of what throws the shadow, in shares of its map
   Eigen::AlignedBox2f hull_bounds_;
+  ShadowReach hull_reach_;
   ShadowMap part_shadow_;
   ShadowMap hull_shadow_;
   ShadowCount count_;

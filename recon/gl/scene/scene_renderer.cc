@@ -104,6 +104,7 @@ void SceneRenderer::Impl::DrawOnStillLayer(const Scene& scene, const ViewMatrice
     parts_.DrawOpaque(scene.parts, matrices, lighting_, HullShadow::kLeftOut);
     surroundings_.DrawTable(scene, matrices, lighting_, HullShadow::kLeftOut);
     surroundings_.DrawLines(scene, matrices);
+    still_.EndDrawing(matrices, scene.lamp);
     ++still_count_.drawn;
   }
   still_.ShowIn(target, matrices, lighting_);
@@ -124,7 +125,9 @@ Image SceneRenderer::Impl::Render(const Scene& scene) {
   const Targets& targets = TargetsFor(scene.view, scene.smoothness);
   parts_.Update(scene.parts, scene.view);
   lighting_.Update(scene, parts_);
-  if (still_things_ == StillThings::kKept && StillLayer::Suits(scene, parts_)) {
+  const bool is_still = still_things_ == StillThings::kKept && StillLayer::Suits(scene, parts_) &&
+                        still_.ComesAgain(scene, parts_, lighting_);
+  if (is_still) {
     DrawOnStillLayer(scene, matrices, targets.single);
   } else {
     DrawAll(scene, matrices, targets.sampled ? *targets.sampled : targets.single);

@@ -34,7 +34,7 @@ class SceneRenderer {
   SceneRenderer& operator=(SceneRenderer&&) noexcept;
 
   // The picture. The same scene gives the same bytes on the same driver, but for levels of detail that have
-  // come in between.
+  // come in between, and, in pictures of one sample, for 2 of 255 where what stays is kept.
   // Throws: PreconditionError as Scene::Validate; Error{kGeometry} for a mesh that can't be drawn;
   // Error{kGraphics} when the driver fails, for example when it is out of memory.
   [[nodiscard]] Image Render(const Scene& scene);

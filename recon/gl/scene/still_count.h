@@ -10,7 +10,7 @@ namespace elbowroom::recon::gl {
 enum class StillThings { kKept, kDrawnAnew };
 
 struct StillCount {
-  std::int64_t drawn = 0;  // pictures for which it was drawn
+  std::int64_t drawn = 0;  // pictures for which it was drawn, to be kept
   std::int64_t kept = 0;   // pictures that took it as it was
 
   [[nodiscard]] bool operator==(const StillCount&) const = default;

@@ -1,6 +1,7 @@
 #include "recon/gl/scene/still_layer.h"
 
 #include <fmt/format.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
@@ -16,10 +17,11 @@ constexpr int kUnlitUnit = 1;
 constexpr int kPlaceUnit = 2;
 constexpr double kBelowTableMm = 1.0;  // that a part may reach down: what is left of it there is a few pixels
 
+constexpr int kTilePx = 16;
+
 constexpr const char* kCornerSource = R"(
-void main() {
-  gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0, 0.0, 1.0);
-}
+layout(location = 0) in vec2 corner;
+void main() { gl_Position = vec4(corner, 0.0, 1.0); }
 )";
 
 // Pixels that the hull leaves all light are as they were copied.
@@ -57,6 +59,47 @@ void BindTexture(int unit, GLuint texture) {
   glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
   glBindTexture(GL_TEXTURE_2D, texture);
   glActiveTexture(GL_TEXTURE0);
+}
+
+// Where what a pixel shows is in the lamp's picture, as kLightingSource has it.
+class LampPlace {
+ public:
+  LampPlace(const SceneView& view, const SceneLamp& lamp)
+      : middle_px_(0.5F * static_cast<float>(view.width_px), 0.5F * static_cast<float>(view.height_px)),
+        focal_px_(static_cast<float>(view.focal_px)) {
+    const SceneView lamp_view = lamp.ShadowView(1);
+    const core::RigidTransform lamp_from_cam = lamp_view.cam_from_world * view.cam_from_world.Inverse();
+    rotation_ = lamp_from_cam.rotation.cast<float>();
+    translation_mm_ = lamp_from_cam.translation_mm.cast<float>();
+    focal_share_ = static_cast<float>(lamp_view.focal_px);
+  }
+
+  // In shares of its sides; nothing for what is behind the lamp.
+  [[nodiscard]] std::optional<Eigen::Vector2f> Of(int x_px, int y_px, float depth_mm) const {
+    const Eigen::Vector2f window(static_cast<float>(x_px) + 0.5F, static_cast<float>(y_px) + 0.5F);
+    Eigen::Vector3f x_in_cam;
+    x_in_cam << (window - middle_px_) / focal_px_, 1.0F;
+    const Eigen::Vector3f x_in_lamp = rotation_ * (depth_mm * x_in_cam) + translation_mm_;
+    if (x_in_lamp.z() <= 0.0F) return std::nullopt;
+    return Eigen::Vector2f((focal_share_ * x_in_lamp.head<2>() / x_in_lamp.z()).array() + 0.5F);
+  }
+
+ private:
+  Eigen::Vector2f middle_px_;
+  float focal_px_;
+  Eigen::Matrix3f rotation_;
+  Eigen::Vector3f translation_mm_;
+  float focal_share_ = 1.0F;
+};
+
+// Two triangles in clip space.
+void AppendSquare(int x_px, int y_px, int width_px, int height_px, std::vector<float>& floats) {
+  const auto clip = [](int px, int size_px) {
+    return 2.0F * static_cast<float>(std::min(px, size_px)) / static_cast<float>(size_px) - 1.0F;
+  };
+  const float left = clip(x_px, width_px), right = clip(x_px + kTilePx, width_px),
+              low = clip(y_px, height_px), high = clip(y_px + kTilePx, height_px);
+  floats.insert(floats.end(), {left, low, right, low, right, high, left, low, right, high, left, high});
 }
 
 template <typename Box>
@@ -143,15 +186,51 @@ void StillLayer::BeginDrawing(const Scene& scene, const PartPainter& parts, cons
   content_ = ContentOf(scene, parts, light);
 }
 
-void StillLayer::ShowIn(const Framebuffer& target, const ViewMatrices& matrices,
-                        const Lighting& light) const {
+bool StillLayer::ComesAgain(const Scene& scene, const PartPainter& parts, const Lighting& light) {
+  Content content = ContentOf(scene, parts, light);
+  const bool comes_again = asked_for_ && AreSame(*asked_for_, content);
+  asked_for_ = std::move(content);
+  return comes_again;
+}
+
+void StillLayer::EndDrawing(const ViewMatrices& matrices, const SceneLamp& lamp) {
+  const int width_px = buffers_->width_px, height_px = buffers_->height_px;
+  std::vector<Eigen::Vector4f> places(static_cast<std::size_t>(width_px) *
+                                      static_cast<std::size_t>(height_px));
+  glReadBuffer(GL_COLOR_ATTACHMENT2);
+  glReadPixels(0, 0, width_px, height_px, GL_RGBA, GL_FLOAT, places.data());
+  glReadBuffer(GL_COLOR_ATTACHMENT0);
+  const LampPlace in_lamp(matrices.view, lamp);
+  tiles_.clear();
+  for (int y = 0; y < height_px; y += kTilePx)
+    for (int x = 0; x < width_px; x += kTilePx) tiles_.push_back({x, y, {}});
+  tbb::parallel_for(std::size_t{0}, tiles_.size(), [&](std::size_t i) {
+    Tile& tile = tiles_[i];
+    for (int y = tile.y_px; y < std::min(tile.y_px + kTilePx, height_px); ++y)
+      for (int x = tile.x_px; x < std::min(tile.x_px + kTilePx, width_px); ++x) {
+        const float depth_mm = places[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_px) +
+                                      static_cast<std::size_t>(x)]
+                                   .head<3>()
+                                   .norm();
+        if (const auto share = depth_mm > 0.0F ? in_lamp.Of(x, y, depth_mm) : std::nullopt)
+          tile.in_lamp.extend(*share);
+      }
+  });
+}
+
+void StillLayer::ShowIn(const Framebuffer& target, const ViewMatrices& matrices, const Lighting& light) {
   const int width_px = buffers_->width_px, height_px = buffers_->height_px;
   glBindFramebuffer(GL_READ_FRAMEBUFFER, buffers_->framebuffer.get());
   target.BindForDrawing();
   glBlitFramebuffer(0, 0, width_px, height_px, 0, 0, width_px, height_px,
                     GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT, GL_NEAREST);
   target.Bind();
-  if (!light.HullThrowsShadow()) return;
+  std::vector<float> corners;
+  for (const Tile& tile : tiles_)
+    if (light.hull_reach().Meets(tile.in_lamp))
+      AppendSquare(tile.x_px, tile.y_px, width_px, height_px, corners);
+  if (corners.empty()) return;
+  corners_.Upload(corners, Refill::kEachFrame);
   shadow_program_.Use();
   light.Apply(shadow_program_, matrices);
   shadow_program_.Set("kept_lit", kLitUnit);
@@ -164,7 +243,7 @@ void StillLayer::ShowIn(const Framebuffer& target, const ViewMatrices& matrices,
   BindTexture(kUnlitUnit, buffers_->unlit.get());
   BindTexture(kPlaceUnit, buffers_->place.get());
   glDisable(GL_DEPTH_TEST);
-  corners_.Draw(GL_TRIANGLES, 3);
+  corners_.Draw(GL_TRIANGLES);
   glEnable(GL_DEPTH_TEST);
 }
 

@@ -38,9 +38,16 @@ class StillLayer {
   // `place` there. It then holds the scene. Throws: Error{kGraphics} when the driver can't hold it.
   void BeginDrawing(const Scene& scene, const PartPainter& parts, const Lighting& light);
 
+  // To be called when all is drawn: looks where each piece of the picture stands in the lamp's.
+  void EndDrawing(const ViewMatrices& matrices, const SceneLamp& lamp);
+
+  // Whether the layer was asked for this scene the last time, too. What changes from picture to picture, as
+  // when the eye turns, is drawn sooner without a layer.
+  [[nodiscard]] bool ComesAgain(const Scene& scene, const PartPainter& parts, const Lighting& light);
+
   // Copies colours and depths to the target, which has the same size and one sample, and puts the hull's
-  // shadow on them. The target is bound afterwards.
-  void ShowIn(const Framebuffer& target, const ViewMatrices& matrices, const Lighting& light) const;
+  // shadow on them, in those pieces that it can reach. The target is bound afterwards.
+  void ShowIn(const Framebuffer& target, const ViewMatrices& matrices, const Lighting& light);
 
  private:
   struct KeptPart {
@@ -56,6 +63,12 @@ class StillLayer {
     std::vector<KeptPart> parts;
     std::int64_t part_passes = 0;  // of the parts' shadows
   };
+  // A square of the picture.
+  struct Tile {
+    int x_px = 0;
+    int y_px = 0;
+    Eigen::AlignedBox2f in_lamp;  // around its surfaces, in shares of the lamp's picture; empty: none
+  };
   struct Buffers {
     Buffers(int width_px, int height_px);
     int width_px, height_px;
@@ -67,9 +80,10 @@ class StillLayer {
   [[nodiscard]] static bool AreSame(const Content& a, const Content& b);
 
   ShaderProgram shadow_program_;
-  VertexArray corners_{};
+  VertexArray corners_{2};
   std::optional<Buffers> buffers_;
-  std::optional<Content> content_;
+  std::optional<Content> content_, asked_for_;
+  std::vector<Tile> tiles_;
 };
 
 }  // namespace elbowroom::recon::gl

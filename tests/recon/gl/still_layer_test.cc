@@ -6,6 +6,7 @@
 #include <random>
 
 #include "recon/gl/scene/scene_renderer.h"
+#include "recon/gl/scene/shadow_reach.h"
 #include "tests/recon/gl/sample_scene.h"
 
 namespace elbowroom::recon::gl {
@@ -62,7 +63,7 @@ TEST_F(KeptPictures, OfAMovingHandAreThoseDrawnAnew) {
     PutHandAt(scene, {-150 + 300 * share(random), -120 + 240 * share(random), 20 + 400 * share(random)});
     ExpectSame(scene);
   }
-  EXPECT_EQ(kept_.still_count(), (StillCount{1, 11}));
+  EXPECT_EQ(kept_.still_count(), (StillCount{1, 10}));  // the first picture is drawn without
   EXPECT_EQ(anew_.still_count(), StillCount{});
 }
 
@@ -70,6 +71,7 @@ TEST_F(KeptPictures, HaveNoTraceOfAHullThatLeft) {
   Scene scene = OneSampleScene();
   scene.hull.reset();
   scene.hull_from_lamp.reset();
+  (void)kept_.Render(scene);
   const Image empty = kept_.Render(scene);
   Scene with_hand = OneSampleScene();
   EXPECT_NE(kept_.Render(with_hand), empty);
@@ -99,12 +101,14 @@ TEST_F(KeptPictures, FollowEveryChangeOfWhatIsStill) {
   Scene scene = OneSampleScene();
   const auto expect_drawn_again = [&](const char* what, const auto& change) {
     SCOPED_TRACE(what);
-    (void)kept_.Render(scene);
+    for (int i = 0; i < 2; ++i) (void)kept_.Render(scene);
     const StillCount before = kept_.still_count();
     change();
     PutHandAt(scene, {55, 0, 225});
     ExpectSame(scene);
-    EXPECT_EQ(kept_.still_count(), (StillCount{before.drawn + 1, before.kept}));
+    EXPECT_EQ(kept_.still_count(), before);  // what changed may change again
+    for (int i = 0; i < 2; ++i) ExpectSame(scene);
+    EXPECT_EQ(kept_.still_count(), (StillCount{before.drawn + 1, before.kept + 1}));
   };
   expect_drawn_again("pose", [&] { scene.parts[3].world_from_part.translation_mm.z() += 20; });
   expect_drawn_again("colour", [&] { scene.parts[1].color = {0.2F, 0.5F, 0.3F}; });
@@ -125,25 +129,55 @@ TEST_F(KeptPictures, FollowEveryChangeOfWhatIsStill) {
 TEST_F(KeptPictures, AreNotTakenWhereTheyWouldDiffer) {
   Scene scene = OneSampleScene();
   scene.parts[0].world_from_part.translation_mm.z() -= 50.0;  // seen through the table
-  ExpectSame(scene);
+  for (int i = 0; i < 2; ++i) ExpectSame(scene);
   scene = OneSampleScene();
   scene.view.cam_from_world = core::CamFromWorldLookingAt({900, -600, -300}, {0, 0, 100});  // from below
   PutHandAt(scene, {55, 0, 225});
-  ExpectSame(scene);
+  for (int i = 0; i < 2; ++i) ExpectSame(scene);
   scene = TrialScene(kStillWidthPx, kStillHeightPx);  // four samples
-  ExpectSame(scene);
+  for (int i = 0; i < 2; ++i) ExpectSame(scene);
   EXPECT_EQ(kept_.still_count(), StillCount{});
 }
 
-TEST_F(KeptPictures, AreTheSameBytesAsThoseOfANewRenderer) {
+TEST_F(KeptPictures, AreTheSameBytesAgainAndAgain) {
   Scene scene = OneSampleScene();
-  (void)kept_.Render(scene);
-  PutHandAt(scene, {-80, 40, 200});
-  SceneRenderer fresh;
-  EXPECT_EQ(kept_.Render(scene), fresh.Render(scene));
+  for (int i = 0; i < 2; ++i) (void)kept_.Render(scene);
+  const Image kept = kept_.Render(scene);
+  Scene moved = scene;
+  PutHandAt(moved, {-80, 40, 200});
+  (void)kept_.Render(moved);
+  EXPECT_EQ(kept_.Render(scene), kept);
   Scene wider = TrialScene(kStillWidthPx + 31, kStillHeightPx);
   wider.smoothness = Smoothness::kOneSample;
-  EXPECT_EQ(kept_.Render(wider), fresh.Render(wider));
+  for (int i = 0; i < 3; ++i) ExpectSame(wider);
+}
+
+TEST(ShadowReach, HoldsEachPlaceThatReadsAHit) {
+  HullView layer;
+  layer.width_px = layer.height_px = 100;
+  layer.depth_mm.assign(10'000, 0.0F);
+  EXPECT_FALSE(ShadowReach(layer).Meets({Eigen::Vector2f(0, 0), Eigen::Vector2f(1, 1)}));
+  EXPECT_FALSE(ShadowReach().Meets({Eigen::Vector2f(0, 0), Eigen::Vector2f(1, 1)}));
+  std::mt19937 random(5);
+  std::uniform_int_distribution<int> texel(0, 99);
+  for (int i = 0; i < 40; ++i) {
+    const int x = texel(random), y = texel(random);
+    layer.depth_mm[static_cast<std::size_t>(100 * y + x)] = 500.0F;
+    const ShadowReach reach(layer);
+    for (const float beside : {-2.0F, 0.5F, 3.0F}) {  // texels from its left edge that read it
+      const Eigen::Vector2f place((static_cast<float>(x) + beside) / 100.0F,
+                                  (static_cast<float>(y) + 0.5F) / 100.0F);
+      if ((place.array() < 0.0F).any() || (place.array() > 1.0F).any()) continue;
+      EXPECT_TRUE(reach.Meets({place, place})) << place.transpose();
+    }
+  }
+  layer.depth_mm.assign(10'000, 0.0F);
+  layer.depth_mm[100 * 50 + 50] = 500.0F;
+  const ShadowReach reach(layer);
+  EXPECT_FALSE(reach.Meets({Eigen::Vector2f(0.0F, 0.0F), Eigen::Vector2f(0.4F, 1.0F)}));
+  EXPECT_FALSE(reach.Meets({Eigen::Vector2f(0.6F, 0.0F), Eigen::Vector2f(1.0F, 1.0F)}));
+  EXPECT_TRUE(reach.Meets({Eigen::Vector2f(0.0F, 0.45F), Eigen::Vector2f(1.0F, 0.55F)}));
+  EXPECT_FALSE(reach.Meets({Eigen::Vector2f(1.5F, 0.0F), Eigen::Vector2f(2.0F, 1.0F)}));
 }
 
 }  // namespace
