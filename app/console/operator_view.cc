@@ -55,10 +55,7 @@ void OperatorView::Foresee(const control::SharedHull& hull) {
 }
 
 void OperatorView::ShowFrame(control::SharedFrameResult result) {
-  if (!result_) {
-    const bool is_live = result->camera_frames && result->camera_frames->taken_at;
-    pace_ = PicturePace(is_live ? PicturePace::kLiveAimMs : PicturePace::kAimMs);
-  }
+  if (!result_) pace_ = PicturePace();
   result_ = std::move(result);
   if (camera_) {
     AskForPicture();
