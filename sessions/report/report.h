@@ -28,7 +28,7 @@ struct ReportPictures {
   struct Touch {
     std::size_t place = 0;  // in TouchesOf(session).touches
     std::vector<unsigned char> png;
-    TopicCamera camera = {};  // that sees what the picture shows
+    TopicCamera camera = {};           // that sees what the picture shows
     std::optional<TopicCut> cut = {};  // where a part hides the place from it
   };
   std::vector<Touch> touches = {};  // snapshots, of some of them

@@ -36,6 +36,7 @@ struct ChartPainters {
 [[nodiscard]] Section PairSection(const ReportData& data, const PairApproaches& approaches);
 // What needn't be looked at to be sure.
 [[nodiscard]] Section SkippedSection(const ReportData& data);
+inline constexpr const char* kTrustId = "how-sure";
 // How sure the verdicts are, and what that is made of.
 [[nodiscard]] Section TrustSection(const ReportData& data);
 [[nodiscard]] Section HeatSection(const ReportData& data, const ReportPictures& pictures);

@@ -47,23 +47,30 @@ Section PairSection(const ReportData& data, const PairApproaches& approaches) {
 }
 
 Section SkippedSection(const ReportData& data) {
-  core::QueryCount sum;
+  DocumentTable table{{{"Part"},
+                       {WithRemark("Triangles", "over all frames"), true},
+                       {WithRemark("Settled together", "the hull was surely too far away"), true},
+                       {WithRemark("Questions", "asked of the hull"), true}},
+                      {}};
   for (const PartSummary& part : data.parts) {
-    sum.triangles += part.frames.count.triangles;
-    sum.queries += part.frames.count.queries;
-    sum.skipped += part.frames.count.skipped;
+    const core::QueryCount& count = part.frames.count;
+    if (count.triangles == 0) continue;
+    RichText name;
+    name += NameRun(data.header.layout.parts[part.frames.part].name);
+    table.rows.push_back(
+        {{std::move(name), std::to_string(count.triangles),
+          fmt::format("{} ({:.1f} %)", count.skipped,
+                      100.0 * static_cast<double>(count.skipped) / static_cast<double>(count.triangles)),
+          std::to_string(count.queries)}});
   }
-  if (sum.triangles == 0) return {};
-  return {.blocks = {Heading{"What was skipped"},
-                     Paragraph{fmt::format(
-                         "Over all frames the parts had {} triangles to be judged. {} of them "
-                         "({:.1f} %) were settled without a look at each, together with all of "
-                         "their neighbours, as the hull was surely too far away; {} "
-                         "questions were asked of the hull. What is skipped changes no "
-                         "verdict.",
-                         sum.triangles, sum.skipped,
-                         100.0 * static_cast<double>(sum.skipped) / static_cast<double>(sum.triangles),
-                         sum.queries)}}};
+  if (table.rows.empty()) return {};
+  return {
+      .blocks = {Heading{"What was skipped"},
+                 Paragraph{"Triangles that were settled without a look at each, together with their "
+                           "neighbours. A part that stood still before a hull that stayed kept its answer, "
+                           "with its counts. What is skipped changes no verdict.",
+                           true},
+                 std::move(table)}};
 }
 
 }  // namespace elbowroom::sessions
