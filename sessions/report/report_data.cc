@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "core/error.h"
+#include "core/tools_in_use.h"
 #include "sessions/report/frame_touches.h"
 
 namespace elbowroom::sessions {
@@ -107,18 +108,12 @@ void CountTouches(const ReportData& data, SpacingStudy& study) {
 // Which tools are in use in each frame: bit i is the tool i.
 std::vector<std::uint64_t> ToolsInUse(const ReportData& data, const std::vector<std::string>& tools) {
   std::vector<std::uint64_t> in_use(data.frames.size(), 0);
-  std::uint64_t now = 0;
-  auto event = data.events.begin();
-  for (std::size_t i = 0; i < data.frames.size(); ++i) {
-    for (; event != data.events.end() && event->frame <= data.frames[i].frame; ++event) {
-      const auto* mark = std::get_if<core::ToolMarked>(&event->what);
-      const auto tool = mark == nullptr ? tools.end() : std::ranges::find(tools, mark->tool);
-      if (tool == tools.end()) continue;
-      const std::uint64_t bit = std::uint64_t{1} << static_cast<unsigned>(tool - tools.begin());
-      now = mark->in_use ? now | bit : now & ~bit;
+  core::ToolsOfFrames tools_of_frames(data.events);
+  for (std::size_t i = 0; i < data.frames.size(); ++i)
+    for (const std::string& name : tools_of_frames.At(data.frames[i].frame)) {
+      const auto tool = std::ranges::find(tools, name);
+      if (tool != tools.end()) in_use[i] |= std::uint64_t{1} << static_cast<unsigned>(tool - tools.begin());
     }
-    in_use[i] = now;
-  }
   return in_use;
 }
 
