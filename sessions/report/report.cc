@@ -30,6 +30,13 @@ void RequirePng(std::span<const unsigned char> bytes) {
       "a report's picture is a PNG file's bytes");
 }
 
+void RequirePngs(const ReportPictures& pictures) {
+  if (!pictures.worst_moment_png.empty()) RequirePng(pictures.worst_moment_png);
+  if (pictures.overview_png) RequirePng(*pictures.overview_png);
+  for (const ReportPictures::Heat& heat : pictures.heat) RequirePng(heat.png);
+  for (const ReportPictures::Touch& touch : pictures.touches) RequirePng(touch.png);
+}
+
 }  // namespace
 
 std::optional<core::ContactEpisode> WorstEpisode(std::span<const core::ContactEpisode> episodes) {
@@ -41,12 +48,8 @@ std::optional<core::ContactEpisode> WorstEpisode(std::span<const core::ContactEp
   return *worst;
 }
 
-void WriteReport(const SessionReader& session, const ReportPictures& pictures,
+void WriteReport(const SessionReader& session, const PictureSource& draw,
                  const std::filesystem::path& out_dir) {
-  if (!pictures.worst_moment_png.empty()) RequirePng(pictures.worst_moment_png);
-  if (pictures.overview_png) RequirePng(*pictures.overview_png);
-  for (const ReportPictures::Heat& heat : pictures.heat) RequirePng(heat.png);
-  for (const ReportPictures::Touch& touch : pictures.touches) RequirePng(touch.png);
   const core::SessionHeader header = session.header();
   core::MakeFolder(out_dir);
   core::PendingFiles files;
@@ -64,8 +67,13 @@ void WriteReport(const SessionReader& session, const ReportPictures& pictures,
       [&](const ContactRow& row) { clearance_lines.Add(row); });
   contact_lines.Finish();
   clearance_lines.Finish();
-  ChartPainters painters = painters_made.get();
-  const Document document = ReportDocument(data, pictures, &painters);
+  std::future<ChartSections> charts = std::async(std::launch::async, [&] {
+    ChartPainters painters = painters_made.get();
+    return DrawCharts(data, &painters);
+  });
+  const ReportPictures pictures = draw ? draw() : ReportPictures();  // meanwhile
+  RequirePngs(pictures);
+  const Document document = ReportDocument(data, pictures, charts.get());
   std::future<std::string> pdf = std::async(std::launch::async, [&] { return PdfOf(document); });
   files.Write(out_dir / "report.html", ReportPage(data, document, pictures.model));
   files.Write(out_dir / "touches.bcfzip", PackBcf(TopicsOf(session, data.list, pictures)));

@@ -17,9 +17,17 @@ struct ChartPainters {
   ChartPainter paper;
 };
 
+// The sections that have charts, which take longest; they need no pictures.
+struct ChartSections {
+  Section timeline;
+  Section spacing;
+  Section approach;
+};
+[[nodiscard]] ChartSections DrawCharts(const ReportData& data, ChartPainters* painters);
+
 // Its pictures' bytes are those of `pictures`.
 [[nodiscard]] Document ReportDocument(const ReportData& data, const ReportPictures& pictures,
-                                      ChartPainters* painters);
+                                      ChartSections charts);
 
 // The figures at the top.
 [[nodiscard]] Tiles TilesOf(const ReportData& data);
