@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <future>
+#include <memory>
 #include <system_error>
 #include <tuple>
+#include <utility>
 
 #include "core/error.h"
 #include "core/system/file_sync.h"
@@ -58,8 +60,8 @@ void WriteReport(const SessionReader& session, const PictureSource& draw,
   core::PendingFile& clearances = files.Begin(out_dir / "clearance.csv");
   contacts.Append(ContactsCsv(header.layout, {}));
   clearances.Append(ClearanceCsv(header, {}));
-  std::future<ChartPainters> painters_made =
-      std::async(std::launch::async, [] { return ChartPainters(); });  // meanwhile
+  std::future<std::unique_ptr<ChartPainters>> painters_made =
+      std::async(std::launch::async, [] { return std::make_unique<ChartPainters>(); });  // meanwhile
   RowLines contact_lines(&contacts, [&](const ContactRow& row) { return ContactLine(header.layout, row); });
   RowLines clearance_lines(&clearances, [&](const ContactRow& row) { return ClearanceLine(header, row); });
   const ReportData data = CollectReportData(
@@ -67,13 +69,15 @@ void WriteReport(const SessionReader& session, const PictureSource& draw,
       [&](const ContactRow& row) { clearance_lines.Add(row); });
   contact_lines.Finish();
   clearance_lines.Finish();
+  std::unique_ptr<ChartPainters> painters;
   std::future<ChartSections> charts = std::async(std::launch::async, [&] {
-    ChartPainters painters = painters_made.get();
-    return DrawCharts(data, &painters);
+    painters = painters_made.get();
+    return DrawCharts(data, painters.get());
   });
   const ReportPictures pictures = draw ? draw() : ReportPictures();  // meanwhile
   RequirePngs(pictures);
-  const Document document = ReportDocument(data, pictures, charts.get());
+  ChartSections chart_sections = charts.get();
+  const Document document = ReportDocument(data, pictures, std::move(chart_sections), painters.get());
   std::future<std::string> pdf = std::async(std::launch::async, [&] { return PdfOf(document); });
   files.Write(out_dir / "report.html", ReportPage(data, document, pictures.model));
   files.Write(out_dir / "touches.bcfzip", PackBcf(TopicsOf(session, data.list, pictures)));

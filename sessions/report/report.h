@@ -10,7 +10,7 @@
 
 #include "core/contact.h"
 #include "sessions/bcf/bcf_topic.h"
-#include "sessions/report/pair_approach.h"
+#include "sessions/report/pair_approaches.h"
 #include "sessions/report/report_model.h"
 #include "sessions/session_reader.h"
 

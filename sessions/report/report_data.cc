@@ -14,11 +14,6 @@
 namespace elbowroom::sessions {
 namespace {
 
-// Frames of a trial need not be evenly spaced: each lasts until the next.
-double EndOf(const ReportData& data, std::size_t frame) {
-  return frame + 1 < data.frames.size() ? data.frames[frame + 1].time_s
-                                        : data.frames[frame].time_s + data.frame_period_s;
-}
 double DurationOf(const ReportData& data, std::size_t frame) {
   return EndOf(data, frame) - data.frames[frame].time_s;
 }
@@ -168,6 +163,11 @@ ReportData DataWithoutRows(const SessionReader& session) {
 }
 
 }  // namespace
+
+double EndOf(const ReportData& data, std::size_t frame) {
+  return frame + 1 < data.frames.size() ? data.frames[frame + 1].time_s
+                                        : data.frames[frame].time_s + data.frame_period_s;
+}
 
 double SpaceNeed::held_s() const {
   double sum_s = 0.0;

@@ -51,7 +51,8 @@ ChartSections DrawCharts(const ReportData& data, ChartPainters* painters) {
   return {TimelineSection(data, painters), SpacingSection(data, painters), ApproachSection(data, painters)};
 }
 
-Document ReportDocument(const ReportData& data, const ReportPictures& pictures, ChartSections charts) {
+Document ReportDocument(const ReportData& data, const ReportPictures& pictures, ChartSections charts,
+                        ChartPainters* painters) {
   Document document;
   document.kicker = "Elbowroom trial report";
   document.title = TitleOf(data);
@@ -62,7 +63,7 @@ Document ReportDocument(const ReportData& data, const ReportPictures& pictures, 
   for (Section& section :
        std::vector{SummarySection(data), std::move(charts.timeline), ModelSection(pictures),
                    PictureSection(pictures), TouchSection(data, pictures), std::move(charts.spacing),
-                   std::move(charts.approach), PairSection(data, pictures.pairs), PartSection(data),
+                   std::move(charts.approach), PairSection(data, pictures.pairs, painters), PartSection(data),
                    TrustSection(data), HeatSection(data, pictures), EventSection(data), ReadingSection(data),
                    SkippedSection(data), RigSection(data)}) {
     if (!section.blocks.empty()) document.sections.push_back(std::move(section));

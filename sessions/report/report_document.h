@@ -17,7 +17,9 @@ struct ChartPainters {
   ChartPainter paper;
 };
 
-// The sections that have charts, which take longest; they need no pictures.
+[[nodiscard]] DrawnChart Drawn(Chart chart, ChartPainters* painters);
+
+// The sections that have charts and need no pictures.
 struct ChartSections {
   Section timeline;
   Section spacing;
@@ -27,7 +29,7 @@ struct ChartSections {
 
 // Its pictures' bytes are those of `pictures`.
 [[nodiscard]] Document ReportDocument(const ReportData& data, const ReportPictures& pictures,
-                                      ChartSections charts);
+                                      ChartSections charts, ChartPainters* painters);
 
 // The figures at the top.
 [[nodiscard]] Tiles TilesOf(const ReportData& data);
@@ -41,7 +43,8 @@ struct ChartSections {
 [[nodiscard]] Section TouchSection(const ReportData& data, const ReportPictures& pictures);
 [[nodiscard]] Section PartSection(const ReportData& data);
 // The virtual parts of the layout's pair rules, held against each other.
-[[nodiscard]] Section PairSection(const ReportData& data, const PairApproaches& approaches);
+[[nodiscard]] Section PairSection(const ReportData& data, const PairApproaches& approaches,
+                                  ChartPainters* painters);
 // What needn't be looked at to be sure.
 [[nodiscard]] Section SkippedSection(const ReportData& data);
 inline constexpr const char* kTrustId = "how-sure";

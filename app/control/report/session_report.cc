@@ -61,12 +61,6 @@ std::string CaptionOf(const FrameResult& result, core::PartIndex part, const std
       result.layout->parts[part].name, contact.contact_area_mm2, driver);
 }
 
-// Mean, s; 0 for a single frame.
-double FramePeriod(const std::vector<sessions::FrameSummary>& frames) {
-  if (frames.size() < 2) return 0.0;
-  return (frames.back().time_s - frames.front().time_s) / static_cast<double>(frames.size() - 1);
-}
-
 void AddHeat(const sessions::SessionReader& session, recon::gl::SceneRenderer& renderer,
              sessions::ReportPictures* pictures) {
   for (const core::HeatMap& map : session.heat_maps()) {
@@ -102,7 +96,7 @@ sessions::ReportPictures DrawPictures(const sessions::SessionReader& session,
   if (options.keep_out_edge_mm && !pictures.model.moments.empty())
     pictures.model.keep_out =
         FindKeepOut({{session.path()}, *options.keep_out_edge_mm, {}, {}}, progress, stop).swept.mesh;
-  pictures.pairs = PairApproachesOf(session.header().layout, frames, FramePeriod(frames), stop);
+  pictures.pairs = PairApproachesOf(session.header().layout, frames, stop);
   core::ThrowIfStopped(stop, "the report");
   progress.Report(3, 4, "writing the report");
   return pictures;
