@@ -79,6 +79,21 @@ TEST(DamagedSession, NamesTheTableAndTheRowThatIsMissing) {
                 "a row of 'camera_stamp' refers to one of 'camera' that isn't there");
 }
 
+// Ids become names of files and attributes.
+TEST(DamagedSession, AnIdHasHexDigitsOnly) {
+  const TemporaryFolder folder;
+  const char* bad = "printf('%.*c', 32, 'g')";
+  for (const char* column : {"episode SET finding_id", "near_miss SET finding_id",
+                             "absent_finding SET finding_id", "remark SET exchange_id"}) {
+    const fs::path path = SampleIn(folder);
+    const std::string table(column, std::string_view(column).find(' '));
+    Execute(path, fmt::format("UPDATE {} = {} WHERE finding_id = (SELECT min(finding_id) FROM {})", column,
+                              bad, table));
+    ExpectError([&] { (void)SessionReader(path).findings(); }, ErrorKind::kFormat,
+                "where 32 hexadecimal digits belong");
+  }
+}
+
 TEST(DamagedSession, TablesAndViewsMustBeThoseOfTheSchema) {
   const TemporaryFolder folder;
   const auto refused_after = [&](const char* sql, const char* says) {
