@@ -47,13 +47,15 @@ core::ReviewStatus StatusFrom(const std::string& text, const std::string& where)
 }
 
 Remarks ReadRemarks(Database& database) {
-  Statement rows(database,
-                 "SELECT finding_id, at_utc, by_name, status, comment FROM remark ORDER BY remark_id");
+  Statement rows(
+      database,
+      "SELECT finding_id, at_utc, by_name, status, comment, exchange_id FROM remark ORDER BY remark_id");
   const std::string where = fmt::format("session '{}', a remark", database.path().string());
   Remarks remarks;
   while (rows.Next()) {
     core::ReviewRemark remark{rows.Text(1), rows.Text(2), std::nullopt, rows.Text(4)};
     if (!rows.IsNull(3)) remark.status = StatusFrom(rows.Text(3), where);
+    if (!rows.IsNull(5)) remark.exchange_id = Id(rows.Text(5), where, "its exchange_id");
     remarks[rows.Text(0)].push_back(std::move(remark));
   }
   return remarks;
@@ -66,9 +68,9 @@ std::vector<core::Finding> ReadAbsentFindings(Database& database) {
   std::vector<core::Finding> findings;
   while (rows.Next()) {
     core::Finding finding;
-    finding.id = rows.Text(0);
     const std::string where =
-        fmt::format("session '{}', absent finding {}", database.path().string(), Quotable(finding.id));
+        fmt::format("session '{}', absent finding {}", database.path().string(), Quotable(rows.Text(0)));
+    finding.id = Id(rows.Text(0), where, "its id");
     const auto kind = core::ParseFindingKind(rows.Text(1));
     if (!kind) FailAsDamaged(where, fmt::format("no finding is called '{}'", Quotable(rows.Text(1))));
     finding.kind = *kind;
@@ -116,9 +118,12 @@ void InsertAbsentFindings(Database& database, std::span<const core::Finding> fin
 
 void InsertRemark(Database& database, const core::FindingId& finding, const core::ReviewRemark& remark) {
   const auto status = remark.status ? std::optional(core::ToString(*remark.status)) : std::nullopt;
+  const auto exchange_id =
+      remark.exchange_id.empty() ? std::nullopt : std::optional<std::string>(remark.exchange_id);
   Statement(database,
-            "INSERT INTO remark (finding_id, at_utc, by_name, status, comment) VALUES (?, ?, ?, ?, ?)")
-      .With(finding, remark.at_utc, remark.by, status, remark.comment)
+            "INSERT INTO remark (finding_id, at_utc, by_name, status, comment, exchange_id) "
+            "VALUES (?, ?, ?, ?, ?, ?)")
+      .With(finding, remark.at_utc, remark.by, status, remark.comment, exchange_id)
       .Run();
 }
 

@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <future>
+#include <optional>
 #include <string>
+#include <utility>
 
 #include "sessions/database/damage.h"
 #include "sessions/database/query_limit.h"
@@ -84,6 +86,15 @@ void RequireWholeStamps(Database& database) {
                                                 row.Integer(0), row.Integer(1)));
 }
 
+// A connection that can't write has no CHECKs (SQLite's sqlite3AddCheckConstraint). So the check of the rows
+// asks one that SQLite takes for able to write, of the file where it may be written, else of a copy.
+Database WithChecks(Database& database, const std::stop_token& stop) {
+  std::optional<Database> beside = database.OpenBeside();
+  if (!beside) return database.CopyAside(stop);
+  DistrustFile(*beside);
+  return std::move(*beside);
+}
+
 }  // namespace
 
 void DistrustFile(Database& database) {
@@ -105,20 +116,15 @@ void DistrustFile(Database& database) {
 
 void RequireIntegrity(Database& database, std::int64_t schema, const std::stop_token& stop) {
   const ReadSnapshot snapshot(database);
-  // A connection that can't write has no CHECKs (SQLite's sqlite3AddCheckConstraint). A copy that can be
-  // written has them. It is checked beside the file itself, whose damage is named first.
-  Database copy = database.CopyAside(stop);
-  const QueryLimit limit(copy, stop);
-  std::future<void> rows = std::async(std::launch::async, [&] {
-    limit.Guarded([&] {
-      RequireOk(copy, "PRAGMA quick_check(1)");
-      RequireReferences(copy, schema);
-    });
+  Database beside = WithChecks(database, stop);
+  const QueryLimit limit(beside, stop);
+  std::future<void> relations = std::async(std::launch::async, [&] {
+    RequireReferences(database, schema);
+    RequireWholeFrames(database);
+    if (schema >= 8) RequireWholeStamps(database);
   });
-  RequireOk(database, "PRAGMA integrity_check(1)");
-  rows.get();
-  RequireWholeFrames(database);
-  if (schema >= 8) RequireWholeStamps(database);
+  limit.Guarded([&] { RequireOk(beside, "PRAGMA integrity_check(1)"); });
+  relations.get();  // after it: damaged pages are named first
 }
 
 }  // namespace elbowroom::sessions

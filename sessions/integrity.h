@@ -15,10 +15,10 @@ namespace elbowroom::sessions {
 void DistrustFile(Database& database);
 
 // Checks the whole file at once: SQLite's own integrity check, references between rows, and that each frame
-// has its spacings, silhouettes and parts. Reads one snapshot, so that a recording may go on meanwhile. The
-// tables are those of `schema` (RequireTablesOfSchema).
-// Throws: Error{kFormat} naming the first damage; Error{kFile} where there is no room for the temporary copy
-// that this takes; Error{kCancelled}.
+// has its spacings, silhouettes and parts. Each check reads one state of the file, so that a recording may go
+// on meanwhile. The tables are those of `schema` (RequireTablesOfSchema). Throws: Error{kFormat} naming the
+// first damage; Error{kFile} where the file can't be written and there is no room for the temporary copy that
+// this then takes; Error{kCancelled}.
 void RequireIntegrity(Database& database, std::int64_t schema, const std::stop_token& stop);
 
 }  // namespace elbowroom::sessions

@@ -65,7 +65,7 @@ core::ContactEpisode ReadEpisode(const Statement& row, const core::Layout& layou
   episode.peak_position_in_world_mm = Position(row.Vector(11), where, "its place");
   if (!row.IsNull(14)) episode.peak_position_in_part_mm = row.Vector(14);
   episode.tools = TextsFromJson(row.Text(17), where);
-  if (!row.IsNull(18)) episode.finding_id = row.Text(18);
+  if (!row.IsNull(18)) episode.finding_id = Id(row.Text(18), where, "its id as a finding");
   return episode;
 }
 
@@ -90,7 +90,7 @@ core::NearMiss ReadNearMiss(const Statement& row, const core::Layout& layout, co
     FailAsDamaged(where, "its spacings aren't those of the layout");
   for (const double spacing_mm : miss.spacing_at_closest_mm) (void)GapMm(spacing_mm, where, "a spacing");
   miss.tools = TextsFromJson(row.Text(11), where);
-  if (!row.IsNull(12)) miss.finding_id = row.Text(12);
+  if (!row.IsNull(12)) miss.finding_id = Id(row.Text(12), where, "its id as a finding");
   if (!row.IsNull(13)) miss.place_in_part_mm = Position(row.Vector(13), where, "its place");
   return miss;
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/file_limits.h"
+#include "core/findings/finding.h"
 #include "core/rigid_transform.h"
 #include "sessions/database/damage.h"
 
@@ -34,6 +35,12 @@ double GapMm(double length_mm, const std::string& where, std::string_view what) 
   if (!(std::abs(length_mm) <= core::kLongestLengthMm))
     FailAsDamaged(where, fmt::format("{} is {:.6g} mm, which no gap is", what, length_mm));
   return length_mm;
+}
+
+std::string Id(std::string text, const std::string& where, std::string_view what) {
+  if (!core::IsId(text))
+    FailAsDamaged(where, fmt::format("{} is '{}', where 32 hexadecimal digits belong", what, Quotable(text)));
+  return text;
 }
 
 double Magnitude(double value, const std::string& where, std::string_view what) {

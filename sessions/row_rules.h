@@ -26,6 +26,9 @@ void RequireInTurn(std::int64_t index, std::size_t position, const std::string& 
 [[nodiscard]] std::int64_t CountFrom(std::int64_t least, std::int64_t number, const std::string& where,
                                      std::string_view what);
 
+// The id of a finding or remark (core::IsId).
+[[nodiscard]] std::string Id(std::string text, const std::string& where, std::string_view what);
+
 // A gap of either sign, core::kLongestLengthMm at most.
 [[nodiscard]] double GapMm(double length_mm, const std::string& where, std::string_view what);
 // A length, an area or a depth: from 0 to the square of core::kLongestLengthMm.

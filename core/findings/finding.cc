@@ -54,7 +54,12 @@ FindingId MakeFindingId(std::string_view first_recording_id, FindingKind kind, s
   return HashInHex(what);
 }
 
+bool IsId(std::string_view text) {
+  return text.size() == 32 && text.find_first_not_of("0123456789abcdef") == std::string_view::npos;
+}
+
 std::string RemarkId(const FindingId& finding, const ReviewRemark& remark) {
+  if (!remark.exchange_id.empty()) return remark.exchange_id;
   return HashInHex(fmt::format("{}|{}|{}|{}|{}", finding, remark.at_utc, remark.by,
                                remark.status ? ToString(*remark.status) : "", remark.comment));
 }

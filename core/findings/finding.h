@@ -41,6 +41,7 @@ struct ReviewRemark {
   std::string by;      // who
   std::optional<ReviewStatus> status;
   std::string comment;
+  std::string exchange_id = {};  // 32 hex digits, of the file that it came in; empty: it was made here
 
   [[nodiscard]] bool operator==(const ReviewRemark&) const = default;
 };
@@ -60,11 +61,15 @@ struct Finding {
   [[nodiscard]] ReviewStatus status() const;  // the last one that was set; kNew without one
 };
 
+// Whether it has the form of an id: 32 digits, 0 to 9 and a to f.
+[[nodiscard]] bool IsId(std::string_view text);
+
 // The id of a finding that no session before had. Of `first_recording_id`, kind, part and first frame.
 [[nodiscard]] FindingId MakeFindingId(std::string_view first_recording_id, FindingKind kind,
                                       std::string_view part, FrameIndex begin_frame);
 
-// 32 hex digits that tell the remark from others of the finding: of who said what, and when.
+// 32 hex digits that tell the remark from others of the finding: its exchange_id, else of who said what, and
+// when.
 [[nodiscard]] std::string RemarkId(const FindingId& finding, const ReviewRemark& remark);
 
 }  // namespace elbowroom::core

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "core/error.h"
+#include "core/findings/finding.h"
 #include "sessions/database/damage.h"
 
 namespace elbowroom::sessions {
@@ -101,8 +102,7 @@ std::string IdFrom(const std::string& guid) {
 }  // namespace
 
 std::string GuidFrom(std::string_view id) {
-  core::Require(id.size() == 32 && id.find_first_not_of("0123456789abcdef") == std::string_view::npos,
-                "an id has 32 hex digits");
+  core::Require(core::IsId(id), "an id has 32 hex digits");
   return fmt::format("{}-{}-{}-{}-{}", id.substr(0, 8), id.substr(8, 4), id.substr(12, 4), id.substr(16, 4),
                      id.substr(20));
 }

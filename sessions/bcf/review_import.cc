@@ -42,6 +42,13 @@ bool HasSaid(const core::Finding& finding, const TopicComment& comment) {
   });
 }
 
+// It keeps its id, so that the other program knows it again.
+core::ReviewRemark RemarkOf(const TopicComment& comment) {
+  core::ReviewRemark remark{comment.at_utc, comment.author, {}, comment.text};
+  if (core::IsId(comment.id)) remark.exchange_id = comment.id;
+  return remark;
+}
+
 std::string LastTime(const core::Finding& finding) {
   std::string last;
   for (const core::ReviewRemark& remark : finding.remarks) last = std::max(last, remark.at_utc);
@@ -90,7 +97,7 @@ ReviewImport RemarksFrom(std::span<const BcfTopic> topics, std::span<const core:
     const core::Finding& finding = *found->second;
     for (const TopicComment& comment : topic.comments)
       if (!comment.text.empty() && !HasSaid(finding, comment))
-        import.remarks.push_back({finding.id, { comment.at_utc, comment.author, {}, comment.text }});
+        import.remarks.push_back({finding.id, RemarkOf(comment)});
     TakeStatus(topic, finding, &import);
   }
   std::ranges::stable_sort(import.remarks, {}, [](const FindingRemark& said) { return said.remark.at_utc; });

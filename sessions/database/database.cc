@@ -279,6 +279,23 @@ std::int64_t Database::ReadInteger(const std::string& sql) {
 Database Database::CopyInMemory(const std::stop_token& stop) { return CopyUnder(":memory:", stop); }
 Database Database::CopyAside(const std::stop_token& stop) { return CopyUnder("", stop); }
 
+std::optional<Database> Database::OpenBeside() {
+  const char* file = sqlite3_db_filename(connection_->getHandle(), "main");
+  if (file == nullptr || *file == '\0') return std::nullopt;
+  try {
+    Database beside(path_, ConnectToRead(file, SQLite::OPEN_READWRITE));
+    sqlite3* connection = beside.connection_->getHandle();
+    // Closing it must not fold a log into the file.
+    sqlite3_db_config(connection, SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, nullptr);
+    if (sqlite3_db_readonly(connection, "main") != 0) return std::nullopt;
+    beside.copy_ = copy_;
+    return beside;
+  } catch (const SQLite::Exception& exception) {
+    if (WantsToWrite(exception)) return std::nullopt;
+    RethrowAsError(path_);
+  }
+}
+
 Database Database::CopyUnder(const char* sqlite_name, const std::stop_token& stop) {
   try {
     auto copy = std::make_unique<SQLite::Database>(sqlite_name, SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);

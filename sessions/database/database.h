@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <stop_token>
 #include <string>
 
@@ -68,7 +69,11 @@ class Database {
   // and Error{kFile} where there is no room for it.
   [[nodiscard]] Database CopyInMemory(const std::stop_token& stop = {});
 
-  // The same in a temporary file, which SQLite removes: for a file that may be larger than memory.
+  // A second connection to the same file, for another thread. SQLite takes it for one that writes, as the
+  // checks of a table need, but it is not allowed to. Nothing where the file can't be written.
+  [[nodiscard]] std::optional<Database> OpenBeside();
+
+  // A private copy in a temporary file, which SQLite removes: for a file that may be larger than memory.
   [[nodiscard]] Database CopyAside(const std::stop_token& stop = {});
 
   // An empty database in memory; errors call it `name`.

@@ -65,6 +65,7 @@ struct Tile {
   std::string title;
   std::string value;
   std::string remark = {};
+  std::string section_id = {};  // that says more; empty: none
 };
 struct Tiles {
   std::vector<Tile> tiles;

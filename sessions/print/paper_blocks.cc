@@ -20,7 +20,14 @@ constexpr double kTileGap = 6.0;
 constexpr double kPictureWidth = 380.0;
 // A picture is drawn smaller, down to this share, to stand on the page where it belongs.
 constexpr double kSmallestPicture = 0.62;
-constexpr double kLeastBesideHeading = 70.0;  // of a table, below its heading
+constexpr double kLeastBesideHeading = 70.0;  // of a table, below its heading, and without pictures
+
+// Whether its first row has one, below the head of a group or not.
+bool BeginsWithPicture(const DocumentTable& table) {
+  const auto first = std::ranges::find_if_not(table.rows, &DocumentRow::begins_group);
+  return first != table.rows.end() &&
+         std::ranges::any_of(first->cells, [](const DocumentCell& cell) { return !cell.png.empty(); });
+}
 
 // Puts blocks on pages, one overload for each kind.
 class BlockPlacer {
@@ -179,7 +186,9 @@ class BlockPlacer {
             kSmallestPicture * FullWidth(drawing) * drawing.height_px() / drawing.width_px();
         return height + smallest + CaptionHeight(*picture) + 8.0;
       } else {
-        return height + kLeastBesideHeading;
+        const auto* table = std::get_if<DocumentTable>(&block);
+        const bool has_pictures = table != nullptr && BeginsWithPicture(*table);
+        return height + (has_pictures ? kSnapshotWidth : 0.0) + kLeastBesideHeading;
       }
     }
     return height;

@@ -9,6 +9,8 @@
 
 namespace elbowroom::sessions {
 
+inline constexpr double kSnapshotWidth = 78.0;  // of a picture in a cell, which is no higher than wide
+
 struct PaperCell {
   std::optional<PaperText> text = {};
   std::optional<PngDrawing> picture = {};  // instead of the text

@@ -27,6 +27,11 @@ std::string Html(const RichText& text) {
   return html;
 }
 
+std::string TileTitle(const Tile& tile) {
+  const std::string title = Escaped(tile.title);
+  return tile.section_id.empty() ? title : fmt::format("<a href='#{}'>{}</a>", tile.section_id, title);
+}
+
 std::string Html(const DocumentCell& cell) {
   if (!cell.png.empty()) return fmt::format("<img class='snapshot' alt='' src='{}'>", PngAsDataUrl(cell.png));
   const std::string dot =
@@ -67,7 +72,7 @@ class BlockWriter {
   std::string operator()(const Tiles& tiles) const {
     std::string html;
     for (const Tile& tile : tiles.tiles)
-      html += fmt::format("<div><dt>{}</dt><dd>{}<small>{}</small></dd></div>", Escaped(tile.title),
+      html += fmt::format("<div><dt>{}</dt><dd>{}<small>{}</small></dd></div>", TileTitle(tile),
                           Escaped(tile.value), Escaped(tile.remark));
     return "<dl class='tiles'>" + html + "</dl>\n";
   }

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <future>
+#include <memory>
 #include <system_error>
 #include <tuple>
+#include <utility>
 
 #include "core/error.h"
 #include "core/system/file_sync.h"
@@ -30,6 +32,13 @@ void RequirePng(std::span<const unsigned char> bytes) {
       "a report's picture is a PNG file's bytes");
 }
 
+void RequirePngs(const ReportPictures& pictures) {
+  if (!pictures.worst_moment_png.empty()) RequirePng(pictures.worst_moment_png);
+  if (pictures.overview_png) RequirePng(*pictures.overview_png);
+  for (const ReportPictures::Heat& heat : pictures.heat) RequirePng(heat.png);
+  for (const ReportPictures::Touch& touch : pictures.touches) RequirePng(touch.png);
+}
+
 }  // namespace
 
 std::optional<core::ContactEpisode> WorstEpisode(std::span<const core::ContactEpisode> episodes) {
@@ -41,12 +50,8 @@ std::optional<core::ContactEpisode> WorstEpisode(std::span<const core::ContactEp
   return *worst;
 }
 
-void WriteReport(const SessionReader& session, const ReportPictures& pictures,
+void WriteReport(const SessionReader& session, const PictureSource& draw,
                  const std::filesystem::path& out_dir) {
-  if (!pictures.worst_moment_png.empty()) RequirePng(pictures.worst_moment_png);
-  if (pictures.overview_png) RequirePng(*pictures.overview_png);
-  for (const ReportPictures::Heat& heat : pictures.heat) RequirePng(heat.png);
-  for (const ReportPictures::Touch& touch : pictures.touches) RequirePng(touch.png);
   const core::SessionHeader header = session.header();
   core::MakeFolder(out_dir);
   core::PendingFiles files;
@@ -55,8 +60,8 @@ void WriteReport(const SessionReader& session, const ReportPictures& pictures,
   core::PendingFile& clearances = files.Begin(out_dir / "clearance.csv");
   contacts.Append(ContactsCsv(header.layout, {}));
   clearances.Append(ClearanceCsv(header, {}));
-  std::future<ChartPainters> painters_made =
-      std::async(std::launch::async, [] { return ChartPainters(); });  // meanwhile
+  std::future<std::unique_ptr<ChartPainters>> painters_made =
+      std::async(std::launch::async, [] { return std::make_unique<ChartPainters>(); });  // meanwhile
   RowLines contact_lines(&contacts, [&](const ContactRow& row) { return ContactLine(header.layout, row); });
   RowLines clearance_lines(&clearances, [&](const ContactRow& row) { return ClearanceLine(header, row); });
   const ReportData data = CollectReportData(
@@ -64,8 +69,15 @@ void WriteReport(const SessionReader& session, const ReportPictures& pictures,
       [&](const ContactRow& row) { clearance_lines.Add(row); });
   contact_lines.Finish();
   clearance_lines.Finish();
-  ChartPainters painters = painters_made.get();
-  const Document document = ReportDocument(data, pictures, &painters);
+  std::unique_ptr<ChartPainters> painters;
+  std::future<ChartSections> charts = std::async(std::launch::async, [&] {
+    painters = painters_made.get();
+    return DrawCharts(data, painters.get());
+  });
+  const ReportPictures pictures = draw ? draw() : ReportPictures();  // meanwhile
+  RequirePngs(pictures);
+  ChartSections chart_sections = charts.get();
+  const Document document = ReportDocument(data, pictures, std::move(chart_sections), painters.get());
   std::future<std::string> pdf = std::async(std::launch::async, [&] { return PdfOf(document); });
   files.Write(out_dir / "report.html", ReportPage(data, document, pictures.model));
   files.Write(out_dir / "touches.bcfzip", PackBcf(TopicsOf(session, data.list, pictures)));

@@ -8,16 +8,12 @@
 #include <variant>
 
 #include "core/error.h"
+#include "core/tools_in_use.h"
 #include "sessions/report/frame_touches.h"
 
 namespace elbowroom::sessions {
 namespace {
 
-// Frames of a trial need not be evenly spaced: each lasts until the next.
-double EndOf(const ReportData& data, std::size_t frame) {
-  return frame + 1 < data.frames.size() ? data.frames[frame + 1].time_s
-                                        : data.frames[frame].time_s + data.frame_period_s;
-}
 double DurationOf(const ReportData& data, std::size_t frame) {
   return EndOf(data, frame) - data.frames[frame].time_s;
 }
@@ -107,18 +103,12 @@ void CountTouches(const ReportData& data, SpacingStudy& study) {
 // Which tools are in use in each frame: bit i is the tool i.
 std::vector<std::uint64_t> ToolsInUse(const ReportData& data, const std::vector<std::string>& tools) {
   std::vector<std::uint64_t> in_use(data.frames.size(), 0);
-  std::uint64_t now = 0;
-  auto event = data.events.begin();
-  for (std::size_t i = 0; i < data.frames.size(); ++i) {
-    for (; event != data.events.end() && event->frame <= data.frames[i].frame; ++event) {
-      const auto* mark = std::get_if<core::ToolMarked>(&event->what);
-      const auto tool = mark == nullptr ? tools.end() : std::ranges::find(tools, mark->tool);
-      if (tool == tools.end()) continue;
-      const std::uint64_t bit = std::uint64_t{1} << static_cast<unsigned>(tool - tools.begin());
-      now = mark->in_use ? now | bit : now & ~bit;
+  core::ToolsOfFrames tools_of_frames(data.events);
+  for (std::size_t i = 0; i < data.frames.size(); ++i)
+    for (const std::string& name : tools_of_frames.At(data.frames[i].frame)) {
+      const auto tool = std::ranges::find(tools, name);
+      if (tool != tools.end()) in_use[i] |= std::uint64_t{1} << static_cast<unsigned>(tool - tools.begin());
     }
-    in_use[i] = now;
-  }
   return in_use;
 }
 
@@ -173,6 +163,11 @@ ReportData DataWithoutRows(const SessionReader& session) {
 }
 
 }  // namespace
+
+double EndOf(const ReportData& data, std::size_t frame) {
+  return frame + 1 < data.frames.size() ? data.frames[frame + 1].time_s
+                                        : data.frames[frame].time_s + data.frame_period_s;
+}
 
 double SpaceNeed::held_s() const {
   double sum_s = 0.0;

@@ -105,6 +105,9 @@ struct ReportData {
 // doesn't show how large the spacing must be.
 [[nodiscard]] bool IsBoundedBy(const core::Layout& layout, core::PartIndex part, core::SpacingIndex spacing);
 
+// When the frame ends, s: frames need not be evenly spaced, each lasts until the next.
+[[nodiscard]] double EndOf(const ReportData& data, std::size_t frame);
+
 // The tools that events mark, in order of their first mark.
 [[nodiscard]] std::vector<std::string> ToolsMarked(const ReportData& data);
 

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 namespace elbowroom::sessions {
 namespace {
 
@@ -45,7 +47,12 @@ Section ModelSection(const ReportPictures& pictures) {
   return section;
 }
 
-Document ReportDocument(const ReportData& data, const ReportPictures& pictures, ChartPainters* painters) {
+ChartSections DrawCharts(const ReportData& data, ChartPainters* painters) {
+  return {TimelineSection(data, painters), SpacingSection(data, painters), ApproachSection(data, painters)};
+}
+
+Document ReportDocument(const ReportData& data, const ReportPictures& pictures, ChartSections charts,
+                        ChartPainters* painters) {
   Document document;
   document.kicker = "Elbowroom trial report";
   document.title = TitleOf(data);
@@ -54,9 +61,9 @@ Document ReportDocument(const ReportData& data, const ReportPictures& pictures, 
   document.source = data.session_name;
   document.made_at_utc = data.ended_at_utc.value_or(data.header.started_at_utc);
   for (Section& section :
-       std::vector{SummarySection(data), TimelineSection(data, painters), ModelSection(pictures),
-                   PictureSection(pictures), TouchSection(data, pictures), SpacingSection(data, painters),
-                   ApproachSection(data, painters), PairSection(data, pictures.pairs), PartSection(data),
+       std::vector{SummarySection(data), std::move(charts.timeline), ModelSection(pictures),
+                   PictureSection(pictures), TouchSection(data, pictures), std::move(charts.spacing),
+                   std::move(charts.approach), PairSection(data, pictures.pairs, painters), PartSection(data),
                    TrustSection(data), HeatSection(data, pictures), EventSection(data), ReadingSection(data),
                    SkippedSection(data), RigSection(data)}) {
     if (!section.blocks.empty()) document.sections.push_back(std::move(section));

@@ -17,9 +17,19 @@ struct ChartPainters {
   ChartPainter paper;
 };
 
+[[nodiscard]] DrawnChart Drawn(Chart chart, ChartPainters* painters);
+
+// The sections that have charts and need no pictures.
+struct ChartSections {
+  Section timeline;
+  Section spacing;
+  Section approach;
+};
+[[nodiscard]] ChartSections DrawCharts(const ReportData& data, ChartPainters* painters);
+
 // Its pictures' bytes are those of `pictures`.
 [[nodiscard]] Document ReportDocument(const ReportData& data, const ReportPictures& pictures,
-                                      ChartPainters* painters);
+                                      ChartSections charts, ChartPainters* painters);
 
 // The figures at the top.
 [[nodiscard]] Tiles TilesOf(const ReportData& data);
@@ -33,9 +43,11 @@ struct ChartPainters {
 [[nodiscard]] Section TouchSection(const ReportData& data, const ReportPictures& pictures);
 [[nodiscard]] Section PartSection(const ReportData& data);
 // The virtual parts of the layout's pair rules, held against each other.
-[[nodiscard]] Section PairSection(const ReportData& data, const PairApproaches& approaches);
+[[nodiscard]] Section PairSection(const ReportData& data, const PairApproaches& approaches,
+                                  ChartPainters* painters);
 // What needn't be looked at to be sure.
 [[nodiscard]] Section SkippedSection(const ReportData& data);
+inline constexpr const char* kTrustId = "how-sure";
 // How sure the verdicts are, and what that is made of.
 [[nodiscard]] Section TrustSection(const ReportData& data);
 [[nodiscard]] Section HeatSection(const ReportData& data, const ReportPictures& pictures);

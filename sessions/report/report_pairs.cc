@@ -1,24 +1,25 @@
 #include <fmt/format.h>
 
+#include "sessions/report/pair_course.h"
 #include "sessions/report/report_document.h"
 #include "sessions/report/verdict_text.h"
 
 namespace elbowroom::sessions {
 namespace {
 
-std::string GapText(const PairApproach& pair) {
-  return pair.gap_mm ? fmt::format("{:.2f} mm", *pair.gap_mm) : "at least " + Millimetres(pair.at_least_mm);
+std::string GapText(const PairDistance& distance) {
+  return distance.gap_mm ? fmt::format("{:.2f} mm", *distance.gap_mm)
+                         : "at least " + Millimetres(distance.at_least_mm);
 }
 
-std::string VerdictOf(const PairApproach& pair) {
-  if (pair.verdict == core::Verdict::kContact && pair.authorised_contact) return "contact, which is allowed";
-  return std::string(core::ToString(pair.verdict));
+std::string VerdictOf(const RuledPair& pair, const PairDistance& distance) {
+  if (distance.verdict == core::Verdict::kContact && pair.authorised_contact)
+    return "contact, which is allowed";
+  return std::string(core::ToString(distance.verdict));
 }
 
-}  // namespace
-
-Section PairSection(const ReportData& data, const PairApproaches& approaches) {
-  if (approaches.pairs.empty()) return {};
+DocumentTable TableOf(const ReportData& data, const PairApproaches& approaches,
+                      const std::vector<PairCourse>& courses) {
   DocumentTable table{{{"Parts"},
                        {"Required", true},
                        {WithRemark("Closest", "between their surfaces"), true},
@@ -27,43 +28,67 @@ Section PairSection(const ReportData& data, const PairApproaches& approaches) {
                        {"Verdict"},
                        {"Rule not kept for", true}},
                       {}};
-  for (const PairApproach& pair : approaches.pairs) {
+  for (const PairCourse& course : courses) {
+    const RuledPair& pair = approaches.pairs[course.pair];
+    const PairDistance& distance = course.closest_distance();
     RichText names;
     names += NameRun(data.header.layout.parts[pair.a].name);
     names += {.text = " and "};
     names += NameRun(data.header.layout.parts[pair.b].name);
-    table.rows.push_back(
-        {{std::move(names), Millimetres(pair.required_mm), GapText(pair), SpacingTexts(data, pair.spacing_mm),
-          fmt::format("{:.2f} s", pair.time_s), VerdictOf(pair),
-          pair.broken_s > 0.0 ? fmt::format("{:.1f} s", pair.broken_s) : kNothing}});
+    table.rows.push_back({{std::move(names), Millimetres(pair.required_mm), GapText(distance),
+                           SpacingTexts(data, course.closest->spacing_mm),
+                           fmt::format("{:.2f} s", course.time_s), VerdictOf(pair, distance),
+                           course.broken_s > 0.0 ? fmt::format("{:.1f} s", course.broken_s) : kNothing}});
   }
+  return table;
+}
+
+}  // namespace
+
+Section PairSection(const ReportData& data, const PairApproaches& approaches, ChartPainters* painters) {
+  const std::vector<PairCourse> courses = CoursesOf(data, approaches);
+  if (courses.empty()) return {};
   std::string lead =
-      "Virtual parts against each other, by the layout\u2019s pair rules, where the spacings put them.";
-  if (approaches.judged < approaches.settings)
+      "Virtual parts against each other, by the layout\u2019s pair rules, where the spacings put them: the "
+      "gap "
+      "between their surfaces, or a lower bound of it (dashed) where that shows that the rule is kept.";
+  if (courses.size() > kMostPairPanels)
+    lead += fmt::format(" Drawn for {} of {} pairs, those nearest to breaking their rule.", kMostPairPanels,
+                        courses.size());
+  if (approaches.judged.size() < approaches.settings)
     lead +=
         fmt::format(" {} of {} settings of the spacings were judged: those held longest, and the extremes.",
-                    approaches.judged, approaches.settings);
-  return {.blocks = {Heading{"Parts against parts"}, Paragraph{std::move(lead), true}, std::move(table)}};
+                    approaches.judged.size(), approaches.settings);
+  return {.blocks = {Heading{"Parts against parts"}, Paragraph{std::move(lead), true},
+                     Drawn(PairChart(data, approaches, courses), painters),
+                     TableOf(data, approaches, courses)}};
 }
 
 Section SkippedSection(const ReportData& data) {
-  core::QueryCount sum;
+  DocumentTable table{{{"Part"},
+                       {WithRemark("Triangles", "over all frames"), true},
+                       {WithRemark("Settled together", "the hull was surely too far away"), true},
+                       {WithRemark("Questions", "asked of the hull"), true}},
+                      {}};
   for (const PartSummary& part : data.parts) {
-    sum.triangles += part.frames.count.triangles;
-    sum.queries += part.frames.count.queries;
-    sum.skipped += part.frames.count.skipped;
+    const core::QueryCount& count = part.frames.count;
+    if (count.triangles == 0) continue;
+    RichText name;
+    name += NameRun(data.header.layout.parts[part.frames.part].name);
+    table.rows.push_back(
+        {{std::move(name), std::to_string(count.triangles),
+          fmt::format("{} ({:.1f} %)", count.skipped,
+                      100.0 * static_cast<double>(count.skipped) / static_cast<double>(count.triangles)),
+          std::to_string(count.queries)}});
   }
-  if (sum.triangles == 0) return {};
-  return {.blocks = {Heading{"What was skipped"},
-                     Paragraph{fmt::format(
-                         "Over all frames the parts had {} triangles to be judged. {} of them "
-                         "({:.1f} %) were settled without a look at each, together with all of "
-                         "their neighbours, as the hull was surely too far away; {} "
-                         "questions were asked of the hull. What is skipped changes no "
-                         "verdict.",
-                         sum.triangles, sum.skipped,
-                         100.0 * static_cast<double>(sum.skipped) / static_cast<double>(sum.triangles),
-                         sum.queries)}}};
+  if (table.rows.empty()) return {};
+  return {
+      .blocks = {Heading{"What was skipped"},
+                 Paragraph{"Triangles that were settled without a look at each, together with their "
+                           "neighbours. A part that stood still before a hull that stayed kept its answer, "
+                           "with its counts. What is skipped changes no verdict.",
+                           true},
+                 std::move(table)}};
 }
 
 }  // namespace elbowroom::sessions

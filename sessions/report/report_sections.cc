@@ -105,14 +105,6 @@ void AddGivesWayNotes(const core::Layout& layout, std::vector<Block>* blocks) {
   }
 }
 
-DrawnChart Drawn(Chart chart, ChartPainters* painters) {
-  constexpr double kPaperWidthPx = 880.0;
-  std::future<std::string> paper =
-      std::async(std::launch::async, [&] { return painters->paper.Svg(chart, kPaperWidthPx); });
-  std::string svg = painters->screen.Svg(chart), paper_svg = paper.get();
-  return {std::move(chart), std::move(svg), std::move(paper_svg)};
-}
-
 DocumentTable ApproachTable(const ReportData& data) {
   DocumentTable table{{{"Part"},
                        {WithRemark("Closest", "at least, at most"), true},
@@ -134,6 +126,14 @@ DocumentTable ApproachTable(const ReportData& data) {
 }
 
 }  // namespace
+
+DrawnChart Drawn(Chart chart, ChartPainters* painters) {
+  constexpr double kPaperWidthPx = 880.0;
+  std::future<std::string> paper =
+      std::async(std::launch::async, [&] { return painters->paper.Svg(chart, kPaperWidthPx); });
+  std::string svg = painters->screen.Svg(chart), paper_svg = paper.get();
+  return {std::move(chart), std::move(svg), std::move(paper_svg)};
+}
 
 Section SummarySection(const ReportData& data) {
   const std::string gauge_failure = GaugeFailure(data.header.rig_quality);

@@ -42,10 +42,12 @@ Tile CertaintyTile(const ReportData& data) {
     const char* of_what = quality.errors ? "2 \u03c3 at most: calibration, pixels, silhouettes"
                                          : "2 \u03c3 at most: as the trial says";
     return {"How sure", "\u00b1 " + Millimetres(largest_mm),
-            fmt::format("{}{}; {}", of_what, data.stamps.empty() ? "" : ", skew of the cameras", gauge)};
+            fmt::format("{}{}; {}", of_what, data.stamps.empty() ? "" : ", skew of the cameras", gauge),
+            kTrustId};
   }
-  if (given_mm > 0.0) return {"How sure", "\u00b1 " + Millimetres(given_mm), "as the trial says; " + gauge};
-  return {"How sure", "not stated", "the rig has no covariance; " + gauge};
+  if (given_mm > 0.0)
+    return {"How sure", "\u00b1 " + Millimetres(given_mm), "as the trial says; " + gauge, kTrustId};
+  return {"How sure", "not stated", "the rig has no covariance; " + gauge, kTrustId};
 }
 
 }  // namespace

@@ -61,7 +61,8 @@ RichText GaugeLine(const std::optional<core::RigGauge>& gauge) {
 }  // namespace
 
 Section TrustSection(const ReportData& data) {
-  Section section{.blocks = {Heading{"How sure this is"}, Paragraph{WhatIsAllowedFor(data), true}}};
+  Section section{.id = kTrustId,
+                  .blocks = {Heading{"How sure this is"}, Paragraph{WhatIsAllowedFor(data), true}}};
   AddBudgets(data, &section.blocks);
   section.blocks.emplace_back(Paragraph{GaugeLine(data.header.rig_quality.gauge), true});
   return section;

@@ -44,6 +44,7 @@ CREATE TABLE remark (
   by_name TEXT NOT NULL,
   status TEXT CHECK (status IN ('new', 'active', 'reviewed', 'approved', 'resolved')),  -- NULL: unchanged
   comment TEXT NOT NULL,
+  exchange_id TEXT CHECK (length(exchange_id) = 32),  -- of the file that it came in; NULL: it was made here
   CHECK (status IS NOT NULL OR comment <> '')
 ) STRICT;
 CREATE INDEX remark_by_finding ON remark (finding_id, remark_id);

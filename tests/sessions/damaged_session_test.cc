@@ -1,11 +1,14 @@
 // A damaged session file is told from a sound one, and what it still holds can be salvaged.
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
@@ -22,6 +25,7 @@
 #include "tests/sessions/sample_session.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/text_file.h"
 
 namespace elbowroom::tests {
 namespace {
@@ -73,6 +77,21 @@ TEST(DamagedSession, NamesTheTableAndTheRowThatIsMissing) {
                 "frame 3 has 1 rows in table 'camera_stamp', where it has one a camera, or none");
   refused_after("UPDATE camera_stamp SET camera_index = 7 WHERE camera_index = 1",
                 "a row of 'camera_stamp' refers to one of 'camera' that isn't there");
+}
+
+// Ids become names of files and attributes.
+TEST(DamagedSession, AnIdHasHexDigitsOnly) {
+  const TemporaryFolder folder;
+  const char* bad = "printf('%.*c', 32, 'g')";
+  for (const char* column : {"episode SET finding_id", "near_miss SET finding_id",
+                             "absent_finding SET finding_id", "remark SET exchange_id"}) {
+    const fs::path path = SampleIn(folder);
+    const std::string table(column, std::string_view(column).find(' '));
+    Execute(path, fmt::format("UPDATE {} = {} WHERE finding_id = (SELECT min(finding_id) FROM {})", column,
+                              bad, table));
+    ExpectError([&] { (void)SessionReader(path).findings(); }, ErrorKind::kFormat,
+                "where 32 hexadecimal digits belong");
+  }
 }
 
 TEST(DamagedSession, TablesAndViewsMustBeThoseOfTheSchema) {
@@ -159,18 +178,48 @@ TEST(QueryLimit, EndsWhatNobodyWaitsFor) {
   ExpectError([&] { SessionReader(path, stop.get_token()); }, ErrorKind::kCancelled, path.string());
 }
 
-// In a process of its own, whose files may not grow beyond this.
-[[noreturn]] void ReadWithoutRoom(const fs::path& path) {
-  std::signal(SIGXFSZ, SIG_IGN);
-  const rlimit limit{8192, 8192};
-  int status = 1;
-  try {
-    if (setrlimit(RLIMIT_FSIZE, &limit) == 0) SessionReader reader(path);
-  } catch (const core::Error& error) {
-    const bool names_copy = std::string(error.what()).find("temporary copy") != std::string::npos;
-    status = error.kind() == ErrorKind::kFile && names_copy ? 0 : 2;
+// What opening the session says to one who may read it and not write it. In a process of its own, whose files
+// may not grow beyond so many bytes.
+std::string SaidToReader(const TemporaryFolder& folder, const fs::path& path,
+                         rlim_t most_bytes = RLIM_INFINITY) {
+  constexpr auto kRead = static_cast<fs::perms>(0444), kEnter = static_cast<fs::perms>(0555);
+  fs::permissions(folder.path(), kEnter);
+  fs::permissions(path, kRead);
+  std::array<int, 2> pipe_ends{};
+  if (::pipe(pipe_ends.data()) != 0) return "no pipe";
+  const pid_t child = fork();
+  if (child == 0) {
+    std::signal(SIGXFSZ, SIG_IGN);
+    const rlimit limit{most_bytes, most_bytes};
+    std::string said = "sound";
+    try {
+      constexpr uid_t kNobody = 65534;
+      if ((::geteuid() == 0 && ::setuid(kNobody) != 0) || setrlimit(RLIMIT_FSIZE, &limit) != 0) _exit(1);
+      if (::access(path.c_str(), W_OK) == 0) _exit(1);
+      SessionReader reader(path);
+    } catch (const std::exception& error) {
+      said = error.what();
+    }
+    _exit(::write(pipe_ends[1], said.data(), said.size()) == std::ssize(said) ? 0 : 1);
   }
-  _exit(status);
+  ::close(pipe_ends[1]);
+  std::string said(4096, ' ');
+  said.resize(static_cast<std::size_t>(std::max<ssize_t>(::read(pipe_ends[0], said.data(), said.size()), 0)));
+  ::close(pipe_ends[0]);
+  int status = 1;
+  (void)waitpid(child, &status, 0);
+  fs::permissions(folder.path(), fs::perms::owner_all);
+  return WIFEXITED(status) && WEXITSTATUS(status) == 0 ? said : "the process failed";
+}
+
+// SQLite checks rows only through a connection that could write: here it has a copy.
+TEST(DamagedSession, IsFoundAlsoWhereTheFileCannotBeWritten) {
+  const TemporaryFolder folder;
+  const fs::path path = SampleIn(folder);
+  EXPECT_EQ(SaidToReader(folder, path), "sound");
+  fs::permissions(path, fs::perms::owner_all);
+  Execute(path, "UPDATE part_frame SET verdict = 'perhaps'");
+  EXPECT_THAT(SaidToReader(folder, path), testing::HasSubstr("CHECK constraint failed"));
 }
 
 TEST(DamagedSession, ACheckWithoutRoomForItsCopySaysSo) {
@@ -178,13 +227,19 @@ TEST(DamagedSession, ACheckWithoutRoomForItsCopySaysSo) {
   const fs::path path = SampleIn(folder);
   Execute(path,
           "CREATE TABLE more (bytes BLOB); INSERT INTO more VALUES (zeroblob(8000000)); DROP TABLE more");
-  const pid_t child = fork();
-  ASSERT_GE(child, 0);
-  if (child == 0) ReadWithoutRoom(path);
-  int status = 0;
-  ASSERT_EQ(waitpid(child, &status, 0), child);
-  ASSERT_TRUE(WIFEXITED(status));
-  EXPECT_EQ(WEXITSTATUS(status), 0);
+  EXPECT_THAT(SaidToReader(folder, path, 8192), testing::HasSubstr("temporary copy"));
+}
+
+// A file that may be written isn't copied, and opening it changes no byte.
+TEST(DamagedSession, IsLookedForInTheFileItself) {
+  const TemporaryFolder folder;
+  const fs::path path = SampleIn(folder);
+  const std::string before = test_support::ReadText(path);
+  const auto time = fs::last_write_time(path);
+  { const SessionReader reader(path); }
+  EXPECT_EQ(test_support::ReadText(path), before);
+  EXPECT_EQ(fs::last_write_time(path), time);
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()), 1);
 }
 
 // The limit must be far from what a sound session takes.

@@ -54,8 +54,9 @@ TEST(ReportPage, WorksInABrowser) {
   const TemporaryFolder folder;
   WriteTrial(folder / "s.db", UsualTrial());
   const sessions::SessionReader session(folder / "s.db");
-  sessions::WriteReport(session, PicturesOf(session.header(), session.episodes().front().peak_frame),
-                        folder / "out");
+  sessions::WriteReport(
+      session, [&] { return PicturesOf(session.header(), session.episodes().front().peak_frame); },
+      folder / "out");
   ExpectPageWorks(folder / "out" / "report.html", folder / "shots");
 }
 
@@ -78,7 +79,8 @@ TEST(ReportPage, RunsNoTextOfOthers) {
     writer.Append(core::SessionEvent{1, 0.1, core::ToolMarked{kHostileName, true}});
     writer.Finish({SampleEpisodes(0, 19), {}, {}});
   }
-  sessions::WriteReport(sessions::SessionReader(folder / "s.db"), PicturesOf(header, 3), folder / "out");
+  sessions::WriteReport(
+      sessions::SessionReader(folder / "s.db"), [&] { return PicturesOf(header, 3); }, folder / "out");
   ExpectPageWorks(folder / "out" / "report.html", folder / "shots");
 }
 

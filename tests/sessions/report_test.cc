@@ -85,7 +85,8 @@ void ExpectNoBrokenNumbers(const std::string& html) {
 }
 
 std::string ReportOf(const fs::path& session, const fs::path& out_dir, const ReportPictures& pictures = {}) {
-  sessions::WriteReport(SessionReader(session), pictures, out_dir);
+  sessions::WriteReport(
+      SessionReader(session), [&] { return pictures; }, out_dir);
   std::string html = WithoutProgram(ReportText(out_dir / "report.html"));
   ExpectTagsNest(html);
   ExpectSelfContained(html);
@@ -378,7 +379,9 @@ TEST(Report, TakesOnlyPngPictures) {
   const TemporaryFolder folder;
   WriteTrial(folder / "s.db", UsualTrial());
   const SessionReader session(folder / "s.db");
-  EXPECT_THROW(sessions::WriteReport(session, {{1, 2, 3}, "", std::nullopt}, folder.path()),
+  const ReportPictures no_png{{1, 2, 3}, "", std::nullopt};
+  EXPECT_THROW(sessions::WriteReport(
+                   session, [&] { return no_png; }, folder.path()),
                core::PreconditionError);
   EXPECT_FALSE(fs::exists(folder / "report.html"));
 }

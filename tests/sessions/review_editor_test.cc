@@ -37,7 +37,7 @@ TEST(ReviewEditor, AddsToWhatWasSaidBefore) {
   const core::Finding before = FindingsOf(path).front();
   const core::ReviewRemark first{"2024-05-01T00:00:00Z", "Ann", ReviewStatus::kActive,
                                  "look \xE2\x80\xAE here"},
-      second{"2024-05-01T00:00:01Z", "Bo", {}, std::string(10'000, 'x')};
+      second{"2024-05-01T00:00:01Z", "Bo", {}, std::string(10'000, 'x'), std::string(32, '9')};
   AddRemarks(path, std::vector<FindingRemark>{{before.id, first}, {before.id, second}});
   const core::Finding after = FindingWith(path, before.id);
   ASSERT_EQ(after.remarks.size(), before.remarks.size() + 2);

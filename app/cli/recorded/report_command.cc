@@ -40,7 +40,7 @@ void AddReportCommand(CLI::App& app, Choice* choice) {
   command
       ->add_option(
           "--keep-out", arguments->options.keep_out_edge_mm,
-          "show the keep-out volume in the 3-D view, of cells with this edge, mm (10 is a good start)")
+          "show the keep-out volume in the 3-D view, of cells with this edge, mm (20 is a good start)")
       ->check(CLI::PositiveNumber);
   command->callback(
       [=] { choice->action = [=](const CommandContext& context) { return Run(*arguments, context); }; });

@@ -6,7 +6,7 @@
 #include <stop_token>
 
 #include "core/layout.h"
-#include "sessions/report/pair_approach.h"
+#include "sessions/report/pair_approaches.h"
 #include "sessions/session_reader.h"
 
 namespace elbowroom::control {
@@ -16,10 +16,10 @@ namespace elbowroom::control {
 inline constexpr std::size_t kMostSettings = 64;
 
 // The pairs of the layout's rules, judged as by `elbowroom clash` at each setting of the frames, where the
-// parts stand before any of them gives way. `frame_period_s`: how long a frame counts. Throws:
-// core::Error{kCancelled}; core::Error{kRange} as review::PairsOf.
+// parts stand before any of them gives way. Throws: core::Error{kCancelled}; core::Error{kRange} as
+// review::PairsOf.
 [[nodiscard]] sessions::PairApproaches PairApproachesOf(const core::Layout& layout,
                                                         std::span<const sessions::FrameSummary> frames,
-                                                        double frame_period_s, const std::stop_token& stop);
+                                                        const std::stop_token& stop);
 
 }  // namespace elbowroom::control

@@ -61,12 +61,6 @@ std::string CaptionOf(const FrameResult& result, core::PartIndex part, const std
       result.layout->parts[part].name, contact.contact_area_mm2, driver);
 }
 
-// Mean, s; 0 for a single frame.
-double FramePeriod(const std::vector<sessions::FrameSummary>& frames) {
-  if (frames.size() < 2) return 0.0;
-  return (frames.back().time_s - frames.front().time_s) / static_cast<double>(frames.size() - 1);
-}
-
 void AddHeat(const sessions::SessionReader& session, recon::gl::SceneRenderer& renderer,
              sessions::ReportPictures* pictures) {
   for (const core::HeatMap& map : session.heat_maps()) {
@@ -75,13 +69,11 @@ void AddHeat(const sessions::SessionReader& session, recon::gl::SceneRenderer& r
   }
 }
 
-}  // namespace
-
-ReportFiles WriteSessionReport(const std::filesystem::path& session_path, const std::filesystem::path& folder,
-                               const core::Progress& progress, std::stop_token stop,
-                               const ReportOptions& options) {
-  const sessions::SessionReader session = OpenWithOutcome(session_path, progress, stop);
-  const std::vector<sessions::FrameSummary> frames = session.frames();
+// Everything that is rendered or asked of the geometry again.
+sessions::ReportPictures DrawPictures(const sessions::SessionReader& session,
+                                      const std::vector<sessions::FrameSummary>& frames,
+                                      const core::Progress& progress, const std::stop_token& stop,
+                                      const ReportOptions& options) {
   sessions::ReportPictures pictures;
   if (!frames.empty()) {
     recon::gl::SceneRenderer renderer;
@@ -103,11 +95,23 @@ ReportFiles WriteSessionReport(const std::filesystem::path& session_path, const 
   }
   if (options.keep_out_edge_mm && !pictures.model.moments.empty())
     pictures.model.keep_out =
-        FindKeepOut({{session_path}, *options.keep_out_edge_mm, {}, {}}, progress, stop).swept.mesh;
-  pictures.pairs = PairApproachesOf(session.header().layout, frames, FramePeriod(frames), stop);
+        FindKeepOut({{session.path()}, *options.keep_out_edge_mm, {}, {}}, progress, stop).swept.mesh;
+  pictures.pairs = PairApproachesOf(session.header().layout, frames, stop);
   core::ThrowIfStopped(stop, "the report");
   progress.Report(3, 4, "writing the report");
-  sessions::WriteReport(session, pictures, folder);
+  return pictures;
+}
+
+}  // namespace
+
+ReportFiles WriteSessionReport(const std::filesystem::path& session_path, const std::filesystem::path& folder,
+                               const core::Progress& progress, std::stop_token stop,
+                               const ReportOptions& options) {
+  const sessions::SessionReader session = OpenWithOutcome(session_path, progress, stop);
+  const std::vector<sessions::FrameSummary> frames = session.frames();
+  progress.Report(0, 4, "reading the session");
+  sessions::WriteReport(
+      session, [&] { return DrawPictures(session, frames, progress, stop, options); }, folder);
   return {{folder / "report.html", folder / "report.pdf", folder / "contacts.csv", folder / "clearance.csv",
            folder / "touches.bcfzip"}};
 }

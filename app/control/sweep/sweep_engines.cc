@@ -94,11 +94,16 @@ std::set<std::string> NamesIn(const fs::path& folder) {
   return names;
 }
 
-// What the first process complained of that complained; empty: none did.
+// What the process complained of that complained first; empty: none did. The others may only say that they were
+// ended for its sake, so the time counts and not the name.
 std::string FirstComplaint(const fs::path& folder) {
-  for (const std::string& name : NamesIn(folder)) {
-    if (!name.ends_with(".err")) continue;
-    std::ifstream file(folder / name);
+  std::map<fs::file_time_type, fs::path> complaints;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (entry.path().extension() == ".err" && entry.file_size() > 0)
+      complaints.emplace(entry.last_write_time(), entry.path());
+  }
+  for (const auto& [time, path] : complaints) {
+    std::ifstream file(path);
     for (std::string line; std::getline(file, line);)
       if (!line.empty()) return core::PrintableLine(line, 500);
   }

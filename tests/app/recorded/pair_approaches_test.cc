@@ -52,31 +52,34 @@ std::vector<sessions::FrameSummary> FramesAt(const std::vector<double>& gaps_mm)
 }
 
 sessions::PairApproaches ApproachesAt(const core::Layout& layout, const std::vector<double>& gaps_mm) {
-  return control::PairApproachesOf(layout, FramesAt(gaps_mm), kPeriod_s, {});
+  return control::PairApproachesOf(layout, FramesAt(gaps_mm), {});
 }
 
-TEST(PairApproaches, AreOfTheSettingAtWhichThePartsWereClosest) {
+TEST(PairApproaches, JudgeEachSettingOnce) {
   const sessions::PairApproaches found = ApproachesAt(TwoBoxes(), {30, 30, 12, 12, 12, 30, 40});
   ASSERT_EQ(found.pairs.size(), 1U);
-  const sessions::PairApproach& pair = found.pairs.front();
-  EXPECT_EQ(pair.verdict, core::Verdict::kNear);
-  EXPECT_NEAR(pair.gap_mm.value(), 12.0, 1e-9);
-  EXPECT_EQ(pair.spacing_mm, std::vector<double>{12.0});
-  EXPECT_DOUBLE_EQ(pair.time_s, 0.2);
-  EXPECT_NEAR(pair.broken_s, 0.3, 1e-9);
+  EXPECT_EQ(found.pairs.front().required_mm, 20.0);
   EXPECT_EQ(found.settings, 3U);
-  EXPECT_EQ(found.judged, 3U);
+  ASSERT_EQ(found.judged.size(), 3U);
+  for (const double gap_mm : {12.0, 30.0, 40.0}) {
+    const sessions::PairSetting* setting = found.Find({gap_mm});
+    ASSERT_NE(setting, nullptr);
+    const sessions::PairDistance& distance = setting->distances.at(0);
+    EXPECT_EQ(distance.verdict, gap_mm < 20.0 ? core::Verdict::kNear : core::Verdict::kClear);
+    EXPECT_LE(distance.at_least_mm, gap_mm + 1e-9);
+    EXPECT_NEAR(distance.gap_mm.value_or(gap_mm), gap_mm, 1e-9);
+  }
+  EXPECT_TRUE(found.Find({12.0})->distances[0].gap_mm.has_value());
+  EXPECT_EQ(found.Find({13.0}), nullptr);
 }
 
-TEST(PairApproaches, ContactThatIsAllowedBreaksNoRule) {
+TEST(PairApproaches, TellWhereContactIsAllowed) {
   core::Layout layout = TwoBoxes();
   layout.pair_rules.front().authorised_contact = true;
   const sessions::PairApproaches found = ApproachesAt(layout, {30, 0, 0});
   ASSERT_EQ(found.pairs.size(), 1U);
-  EXPECT_EQ(found.pairs.front().verdict, core::Verdict::kContact);
-  EXPECT_EQ(found.pairs.front().broken_s, 0.0);
-  layout.pair_rules.front().authorised_contact = false;
-  EXPECT_NEAR(ApproachesAt(layout, {30, 0, 0}).pairs.front().broken_s, 0.2, 1e-9);
+  EXPECT_TRUE(found.pairs.front().authorised_contact);
+  EXPECT_EQ(found.Find({0.0})->distances.at(0).verdict, core::Verdict::kContact);
 }
 
 TEST(PairApproaches, OfASliderTakeTheExtremes) {
@@ -84,8 +87,11 @@ TEST(PairApproaches, OfASliderTakeTheExtremes) {
   for (double gap_mm = 300.0; gap_mm > 5.0; gap_mm -= 0.5) gaps_mm.push_back(gap_mm);
   const sessions::PairApproaches found = ApproachesAt(TwoBoxes(), gaps_mm);
   EXPECT_EQ(found.settings, 590U);
-  EXPECT_LE(found.judged, control::kMostSettings + 2);
-  EXPECT_NEAR(found.pairs.front().gap_mm.value(), 5.5, 1e-9);
+  EXPECT_LE(found.judged.size(), control::kMostSettings + 2);
+  ASSERT_NE(found.Find({5.5}), nullptr);
+  EXPECT_NEAR(found.Find({5.5})->distances.at(0).gap_mm.value(), 5.5, 1e-9);
+  EXPECT_NE(found.Find({300.0}), nullptr);
+  EXPECT_NE(found.Find({100.0}), nullptr) << "it was held longest";
 }
 
 TEST(PairApproaches, NeedARuleAndAFrame) {

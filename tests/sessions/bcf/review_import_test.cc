@@ -53,12 +53,23 @@ TEST(ReviewImport, TakesStatusesAndCommentsOnce) {
   const ReviewImport import = Import(topic);
   ASSERT_EQ(import.remarks.size(), 2U);
   EXPECT_EQ(import.remarks[0].remark,
-            (core::ReviewRemark{"2024-03-04T00:00:00Z", "Bo", {}, "moved by 20 mm"}));
+            (core::ReviewRemark{"2024-03-04T00:00:00Z", "Bo", {}, "moved by 20 mm", std::string(32, 'f')}));
   EXPECT_EQ(import.remarks[1].remark,
             (core::ReviewRemark{"2024-03-05T00:00:00Z", "Bo", ReviewStatus::kResolved, ""}));
   core::Finding after = Finding();
   for (const auto& said : import.remarks) after.remarks.push_back(said.remark);
   EXPECT_TRUE(Import(topic, after).remarks.empty()) << "the second time";
+}
+
+// The other program finds its own comment in what it is sent, and not a second one.
+TEST(ReviewImport, ACommentKeepsItsId) {
+  BcfTopic topic = Topic();
+  topic.comments.push_back({std::string(32, 'f'), "2024-03-04T00:00:00Z", "Bo", "moved by 20 mm"});
+  topic.comments.push_back({"no id", "2024-03-04T00:00:01Z", "Bo", "and 5 mm more"});
+  const ReviewImport import = Import(topic);
+  ASSERT_EQ(import.remarks.size(), 2U);
+  EXPECT_EQ(core::RemarkId(Finding().id, import.remarks[0].remark), std::string(32, 'f'));
+  EXPECT_TRUE(core::IsId(core::RemarkId(Finding().id, import.remarks[1].remark)));
 }
 
 TEST(ReviewImport, KnowsTheStatusesOfOtherPrograms) {

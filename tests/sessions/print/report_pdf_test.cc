@@ -27,7 +27,8 @@ class ReportPdf : public testing::Test {
   }
 
   fs::path Reported(const fs::path& session, const sessions::ReportPictures& pictures = {}) {
-    sessions::WriteReport(SessionReader(session), pictures, folder_ / "out");
+    sessions::WriteReport(
+        SessionReader(session), [&] { return pictures; }, folder_ / "out");
     ExpectGoodPdf(folder_ / "out" / "report.pdf");
     return folder_ / "out" / "report.pdf";
   }
