@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/console/palette.h"
+#include "app/console/desktop/theme.h"
 
 namespace elbowroom::console {
 namespace {
@@ -41,7 +41,7 @@ void SpacingControl::AddRows(const core::Spacing& spacing) {
                               QString::fromStdString(spacing.moving),
                               QString::fromUtf8(core::ToString(spacing.axis).data())));
   applied_ = new QLabel;
-  applied_->setStyleSheet("color: " + kQuietText.name());
+  applied_->setForegroundRole(QPalette::PlaceholderText);  // the quiet one
   slider_ = new QSlider(Qt::Horizontal);
   slider_->setObjectName("spacing_slider:" + name);
   slider_->setPageStep(SliderFrom(kButtonStepMm));

@@ -168,7 +168,7 @@ int MeasureTrial(console::MainWindow& window, const std::vector<std::string>& wo
 int main(int argc, char** argv) {
   cad_import::ServeImport(argc, argv);
   const QApplication application(argc, argv);
-  console::SetConsoleStyle();
+  console::SetTheme(console::Theme::kLight);
   const std::vector<std::string> words(argv + 1, argv + argc);
   console::MainWindow window;
   window.show();
