@@ -95,7 +95,7 @@ void CameraThumbnail::PaintCaption(QPainter& painter, const QRect& room) const {
 CameraStrip::CameraStrip(QWidget* parent) : QFrame(parent) {
   setMinimumHeight(kLeastStripHeightPx);
   auto* row = new QHBoxLayout(this);
-  row->setContentsMargins(0, 4, 0, 0);
+  row->setContentsMargins(6, 4, 6, 0);
   row->setSpacing(10);
   hide();
 }

@@ -130,15 +130,14 @@ void MainWindow::AddPanels() {
   connect(tools_, &ToolPanel::Marked, desk_, &TrialDesk::MarkTool);
 }
 
-// A third of the window for the figures, and most of that for the lists.
+// Two fifths of a small window for the figures, and no more than their columns need of a large one.
 void MainWindow::FitPanels() {
   const auto named = [this](const char* name) { return findChild<QDockWidget*>(name); };
   const QList<QDockWidget*> side = {named("gaps_panel"), named("contacts_panel"), named("touches_panel")};
-  const int side_px = std::clamp(width() / 3, 320, 460);
+  const int side_px = std::clamp(2 * width() / 5, 400, 460);
   resizeDocks({side.front()}, {side_px}, Qt::Horizontal);
-  const int gaps_px = side.front()->widget()->sizeHint().height();
-  const int list_px = std::max(80, (height() - gaps_px) / 2);
-  resizeDocks(side, {gaps_px, list_px, list_px}, Qt::Vertical);
+  const int list_px = height() / 3;
+  resizeDocks(side, {list_px, list_px, list_px}, Qt::Vertical);
 }
 
 QWidget* MainWindow::MakeCentre() {
@@ -163,6 +162,15 @@ void MainWindow::FollowView() {
           [this](qint64, double drawing_ms) { status_->ShowPicture(drawing_ms, view_->driver()); });
   connect(view_, &OperatorView::PictureSeen, this,
           [this](qint64, double age_ms) { status_->ShowAge(age_ms); });
+}
+
+// As high as the trial's gaps and tools are, but no higher than half of the window.
+void MainWindow::FitGaps() {
+  auto* dock = findChild<QDockWidget*>("gaps_panel");
+  const auto* area = qobject_cast<QScrollArea*>(dock->widget());
+  area->widget()->layout()->activate();
+  const int title_px = dock->height() - area->height();
+  resizeDocks({dock}, {std::min(title_px + area->widget()->sizeHint().height(), height() / 2)}, Qt::Vertical);
 }
 
 void MainWindow::StartTrial(const QString& trial_file) {
@@ -213,6 +221,7 @@ void MainWindow::OpenTrial(const control::TrialSetup& setup) {
   strip_->Open(setup.source->rig());
   spacings_->Open(setup.layout);
   tools_->Open(setup.info.tools);
+  FitGaps();
   contacts_->Clear();
   touches_->Open(setup.layout);
   status_->Open(desk_->session());
@@ -244,6 +253,7 @@ void MainWindow::changeEvent(QEvent* event) {
   QMainWindow::changeEvent(event);
   if (event->type() == QEvent::WindowStateChange && strip_ != nullptr)
     strip_->SetWindowMinimized(isMinimized());
+  if (event->type() == QEvent::PaletteChange) TakeIcons();
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {

@@ -8,11 +8,11 @@
 
 #include "app/console/camera_strip.h"
 #include "app/console/contact_model.h"
+#include "app/console/desktop/session_place.h"
 #include "app/console/hull_look_button.h"
 #include "app/console/message_bar.h"
 #include "app/console/operator_view.h"
 #include "app/console/preflight_panel.h"
-#include "app/console/desktop/session_place.h"
 #include "app/console/spacing_panel.h"
 #include "app/console/status_line.h"
 #include "app/console/tool_panel.h"
@@ -56,6 +56,7 @@ class MainWindow : public QMainWindow {
  private:
   void AddActions();
   void AddMenus();
+  void TakeIcons();  // those that have the text's colour
   [[nodiscard]] QMenu* ThemeMenu();
   void AddPreflight();
   void AddPanels();
@@ -69,6 +70,7 @@ class MainWindow : public QMainWindow {
   void ShowFrame(const FrameNews& news);
   void ShowState();
   void FitPanels();
+  void FitGaps();
 
   TrialDesk* desk_;  // this and all below are owned by Qt as children
   SessionPlace place_;

@@ -2,8 +2,10 @@
 #include <QActionGroup>
 #include <QMenu>
 #include <QMenuBar>
+#include <QStyle>
 #include <QToolBar>
 #include <array>
+#include <utility>
 
 #include "app/console/camera_actions.h"
 #include "app/console/desktop/recent_trials.h"
@@ -40,6 +42,7 @@ void MainWindow::AddActions() {
   auto* background = new TakeBackgroundAction(*desk_, *preflight_, this);
   background->setObjectName("take_background");
   preflight_->ShowBackgroundButton(background);
+  TakeIcons();
   bar->addActions({demo, open});
   bar->addSeparator();
   bar->addActions({stop, report});
@@ -47,6 +50,14 @@ void MainWindow::AddActions() {
   bar->addActions({undo, redo});
   bar->addSeparator();
   bar->addWidget(hull_look_);
+}
+
+void MainWindow::TakeIcons() {
+  for (const auto& [name, standard] :
+       {std::pair{"start_demo", QStyle::SP_MediaPlay}, std::pair{"stop", QStyle::SP_MediaStop}}) {
+    if (auto* action = findChild<QAction*>(name))
+      action->setIcon(InTextColor(style()->standardIcon(standard)));
+  }
 }
 
 void MainWindow::AddMenus() {

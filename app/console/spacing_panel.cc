@@ -112,10 +112,11 @@ void SpacingControl::ShowApplied(double applied_mm) {
   if (is_changed && !awaited_mm_) ShowValue(applied_mm);
 }
 
-SpacingPanel::SpacingPanel(QWidget* parent) : QGroupBox(tr("Layout"), parent) {
+SpacingPanel::SpacingPanel(QWidget* parent) : QGroupBox(tr("Gaps"), parent) {
   auto* column = new QVBoxLayout(this);
   column->setSpacing(10);
   history_ = new GapHistory(this);
+  hide();  // until there is a gap
   connect(history_, &GapHistory::Changed, this, &SpacingPanel::HistoryChanged);
 }
 
@@ -137,6 +138,7 @@ void SpacingPanel::Open(const core::Layout& layout) {
             });
   }
   if (!controls_.empty()) Activate(controls_.front());
+  setVisible(!controls_.empty());
 }
 
 void SpacingPanel::Activate(SpacingControl* control) {

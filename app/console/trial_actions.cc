@@ -51,7 +51,7 @@ void StartTrialFile(TrialDesk& desk, const std::filesystem::path& trial_file, Se
 }
 
 StartDemoAction::StartDemoAction(TrialDesk& desk, SessionPlace& place, QWidget* window)
-    : QAction(window->style()->standardIcon(QStyle::SP_MediaPlay), tr("Start &demo"), window) {
+    : QAction(tr("Start &demo"), window) {
   setToolTip(tr("Play the built-in trial: a simulated hand at the PMT box, payload A above it"));
   connect(this, &QAction::triggered, window, [&desk, &place] { StartDemo(desk, place); });
   EnableWhile(this, desk, IsIdle);
@@ -97,8 +97,7 @@ CalibrateAction::CalibrateAction(TrialDesk& desk, QWidget* window)
   EnableWhile(this, desk, IsIdle);
 }
 
-StopAction::StopAction(TrialDesk& desk, QWidget* window)
-    : QAction(window->style()->standardIcon(QStyle::SP_MediaStop), tr("&Stop"), window) {
+StopAction::StopAction(TrialDesk& desk, QWidget* window) : QAction(tr("&Stop"), window) {
   setToolTip(tr("End the trial; its session is complete up to this frame"));
   connect(this, &QAction::triggered, &desk, &TrialDesk::Stop);
   EnableWhile(this, desk, [](const TrialDesk& at) { return !IsIdle(at) && !at.is_stopping(); });

@@ -1,6 +1,7 @@
 #include "app/console/desktop/theme.h"
 
 #include <QApplication>
+#include <QPainter>
 #include <QPalette>
 #include <QSettings>
 #include <QStyleFactory>
@@ -24,7 +25,7 @@ constexpr Colors kLightColors = {
     .silhouette_background = {0x24, 0x2b, 0x33},
 };
 constexpr Colors kDarkColors = {
-    .view_background = {0x2b, 0x32, 0x3a},
+    .view_background = {0x22, 0x28, 0x2f},
     .picture_text = {0x5b, 0x66, 0x73},
     .quiet_text = {0x9d, 0xa8, 0xb3},
     .contact = {0xff, 0x8f, 0x76},
@@ -58,9 +59,9 @@ QPalette LightPalette() {
 }
 
 QPalette DarkPalette() {
-  QPalette palette(QColor(0x2f, 0x36, 0x3e), QColor(0x20, 0x26, 0x2c));  // buttons, windows
-  palette.setColor(QPalette::Base, QColor(0x18, 0x1d, 0x22));
-  palette.setColor(QPalette::AlternateBase, QColor(0x1d, 0x23, 0x29));
+  QPalette palette(QColor(0x3f, 0x48, 0x52), QColor(0x2b, 0x32, 0x3a));  // buttons, windows
+  palette.setColor(QPalette::Base, QColor(0x1e, 0x24, 0x2a));
+  palette.setColor(QPalette::AlternateBase, QColor(0x24, 0x2a, 0x31));
   palette.setColor(QPalette::ToolTipBase, QColor(0x2f, 0x36, 0x3e));
   for (const QPalette::ColorRole role :
        {QPalette::WindowText, QPalette::Text, QPalette::ButtonText, QPalette::ToolTipText}) {
@@ -84,6 +85,15 @@ void SetTheme(Theme theme) {
   state = {theme, theme == Theme::kDark || (theme == Theme::kSystem && was_dark)};
   QApplication::setStyle(QStyleFactory::create("Fusion"));
   QApplication::setPalette(state.is_dark ? DarkPalette() : LightPalette());
+}
+
+QIcon InTextColor(const QIcon& icon) {
+  QPixmap shape = icon.pixmap(QSize(64, 64));
+  QPainter painter(&shape);
+  painter.setCompositionMode(QPainter::CompositionMode_SourceIn);
+  painter.fillRect(shape.rect(), QApplication::palette().color(QPalette::ButtonText));
+  painter.end();
+  return QIcon(shape);
 }
 
 Theme CurrentTheme() { return Current().theme; }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <QColor>
+#include <QIcon>
 #include <QString>
 #include <array>
 
@@ -30,6 +31,9 @@ struct Colors {
 // Gives all windows the theme; kSystem: dark where the desktop was dark when the program began. Thread: UI.
 void SetTheme(Theme theme);
 [[nodiscard]] Theme CurrentTheme();
+
+// A picture of one colour, in that of the theme's text.
+[[nodiscard]] QIcon InTextColor(const QIcon& icon);
 
 // Over the program's runs.
 [[nodiscard]] Theme RememberedTheme();
