@@ -106,11 +106,14 @@ QDockWidget* MainWindow::AddPanel(const QString& name, const QString& title, QWi
 
 void MainWindow::AddPanels() {
   tools_ = new ToolPanel;
+  note_ = new NoteLine;
+  note_->setObjectName("note");
   auto* gaps = new QWidget;
   auto* column = new QVBoxLayout(gaps);
   column->setContentsMargins(4, 0, 4, 4);
   column->addWidget(spacings_);
   column->addWidget(tools_);
+  column->addWidget(note_);
   column->addStretch(1);
   contacts_ = new ContactModel(this);
   touches_ = new TouchModel(this);
@@ -128,6 +131,7 @@ void MainWindow::AddPanels() {
   cameras_dock_->hide();  // until there are cameras
   connect(spacings_, &SpacingPanel::Requested, desk_, &TrialDesk::SetSpacing);
   connect(tools_, &ToolPanel::Marked, desk_, &TrialDesk::MarkTool);
+  connect(note_, &NoteLine::Written, desk_, &TrialDesk::AddNote);
 }
 
 // Two fifths of a small window for the figures, and no more than their columns need of a large one.
@@ -243,6 +247,7 @@ void MainWindow::ShowState() {
   if (desk_->state() == DeskState::kRunning) preflight_dock_->hide();  // it is for before a trial
   spacings_->setEnabled(is_running);
   tools_->setEnabled(is_running);
+  note_->setEnabled(is_running);
   if (desk_->state() == DeskState::kIdle) {
     status_->HideProgress();
     if (closes_when_idle_) close();
@@ -270,6 +275,8 @@ void MainWindow::closeEvent(QCloseEvent* event) {
 void MainWindow::keyPressEvent(QKeyEvent* event) {
   if (const std::optional<double> step_mm = SpacingStepFor(*event)) {
     spacings_->StepActive(*step_mm);
+  } else if (event->key() >= Qt::Key_1 && event->key() <= Qt::Key_9) {
+    tools_->Toggle(static_cast<std::size_t>(event->key() - Qt::Key_1));
   } else {
     QMainWindow::keyPressEvent(event);
   }

@@ -11,6 +11,7 @@
 #include "app/console/desktop/session_place.h"
 #include "app/console/hull_look_button.h"
 #include "app/console/message_bar.h"
+#include "app/console/note_line.h"
 #include "app/console/operator_view.h"
 #include "app/console/preflight_panel.h"
 #include "app/console/spacing_panel.h"
@@ -86,6 +87,7 @@ class MainWindow : public QMainWindow {
   CameraStrip* strip_ = nullptr;
   SpacingPanel* spacings_ = nullptr;
   ToolPanel* tools_ = nullptr;
+  NoteLine* note_ = nullptr;
   ContactModel* contacts_ = nullptr;
   TouchModel* touches_ = nullptr;
   StatusLine* status_ = nullptr;

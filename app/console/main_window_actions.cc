@@ -78,6 +78,9 @@ void MainWindow::AddMenus() {
   trial->addActions({action("start_demo"), action("stop"), action("report")});
   trial->addSeparator();
   trial->addActions({action("undo_gap"), action("redo_gap")});
+  trial->addSeparator();
+  trial->addAction(tr("&Note"), QKeySequence(Qt::CTRL | Qt::Key_N), note_,
+                   [this] { note_->setFocus(Qt::ShortcutFocusReason); });
   auto* cameras = menuBar()->addMenu(tr("&Cameras"));
   cameras->setToolTipsVisible(true);
   cameras->addActions({action("show_preflight"), action("take_background"), action("calibrate")});

@@ -7,6 +7,7 @@
 #include <QDoubleSpinBox>
 #include <QHeaderView>
 #include <QLabel>
+#include <QLineEdit>
 #include <QMenu>
 #include <QSignalSpy>
 #include <QSlider>
@@ -184,6 +185,37 @@ TEST_F(ConsoleTest, KeysAndCheckBoxesReachTheRunningTrial) {
   ASSERT_NE(marked, events.end());
   EXPECT_EQ(std::get<core::ToolMarked>(marked->what).tool, "tongs");
   EXPECT_TRUE(std::get<core::ToolMarked>(marked->what).in_use);
+}
+
+TEST_F(ConsoleTest, NotesAndToolsAreMarkedFromTheKeyboard) {
+  StartDemoAndWaitForFrames();
+  window_.activateWindow();
+  ASSERT_TRUE(QTest::qWaitForWindowActive(&window_));
+  QTest::keyClick(&window_, Qt::Key_1);
+  QTest::keyClick(&window_, Qt::Key_9);  // no such tool
+  EXPECT_TRUE(Find<QCheckBox>("tool:tongs")->isChecked());
+  QTest::keyClick(&window_, Qt::Key_N, Qt::ControlModifier);
+  auto* note = Find<QLineEdit>("note");
+  ASSERT_TRUE(note->hasFocus());
+  QTest::keyClicks(note, " reaches with 1 finger + a twist ");
+  EXPECT_TRUE(GapIs(kGuessedGapMm)) << "what is typed moves nothing";
+  QTest::keyClick(note, Qt::Key_Return);
+  EXPECT_EQ(note->text(), "");
+  EXPECT_FALSE(note->hasFocus());
+  QTest::keyClick(note, Qt::Key_N, Qt::ControlModifier);
+  QTest::keyClicks(note, "not this one");
+  QTest::keyClick(note, Qt::Key_Escape);
+  const int frames_before = frames_;
+  ASSERT_TRUE(WaitUntil([&] { return frames_ > frames_before + 2; }));
+  StopAndWait();
+  std::vector<std::string> notes, tools;
+  for (const core::SessionEvent& event : sessions::SessionReader(session_).events()) {
+    if (const auto* said = std::get_if<core::Note>(&event.what)) notes.push_back(said->text);
+    if (const auto* mark = std::get_if<core::ToolMarked>(&event.what)) tools.push_back(mark->tool);
+  }
+  EXPECT_EQ(std::ranges::count(notes, "reaches with 1 finger + a twist"), 1);
+  EXPECT_EQ(std::ranges::count(notes, "not this one"), 0);
+  EXPECT_EQ(tools, std::vector<std::string>{"tongs"});
 }
 
 TEST_F(ConsoleTest, UndoBringsTheGapBackAndTheSessionRecordsBothChanges) {

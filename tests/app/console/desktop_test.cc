@@ -26,7 +26,6 @@ using test_support::TemporaryFolder;
 
 constexpr int kLongMs = 120'000;  // far beyond what reading a trial takes
 
-
 class Desktop : public testing::Test {
  protected:
   Desktop() { QSettings().clear(); }
