@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "app/console/console_main.h"
+#include "app/console/desktop/theme.h"
 #include "app/console/main_window.h"
 #include "app/control/demo_trial.h"
 #include "cad_import/import_worker.h"
