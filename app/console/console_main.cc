@@ -1,6 +1,7 @@
 #include "app/console/console_main.h"
 
 #include <QApplication>
+#include <QIcon>
 #include <QPalette>
 #include <QStyleFactory>
 #include <QTimer>
@@ -103,6 +104,8 @@ int RunConsole(const ConsoleOptions& options) {
   ConsoleApplication application(argc, options.argv != nullptr ? options.argv : default_argv);
   qInstallMessageHandler(usual);
   QApplication::setApplicationName("Elbowroom");
+  QApplication::setDesktopFileName("elbowroom");  // of app/desktop
+  QApplication::setWindowIcon(QIcon::fromTheme("elbowroom"));
   SetConsoleStyle();
 
   MainWindow window(options.session);
