@@ -4,7 +4,7 @@ set(folder ${CPACK_TEMPORARY_INSTALL_DIRECTORY}/usr/share/doc/${CPACK_PACKAGE_NA
 file(WRITE ${folder}/changelog.Debian
 "${CPACK_PACKAGE_NAME} (${CPACK_PACKAGE_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE}) unstable; urgency=medium
 
-  * What has changed is in CHANGELOG.md.gz.
+  * What has changed is in changelog.gz.
 
  -- ${CPACK_PACKAGE_CONTACT}  ${date}
 ")
