@@ -65,7 +65,7 @@ inside() {
 # as_user COMMAND...: as somebody who has installed nothing, in a home without a file.
 as_user() {
   env -i PATH=/usr/bin:/bin LC_ALL=C.UTF-8 HOME=/home/user XDG_RUNTIME_DIR=/home/user DISPLAY="${shown:-}" \
-    chroot --userspec=user:user "$clean" /bin/sh -c 'cd ~ && exec "$@"' sh "$@"
+    /usr/sbin/chroot --userspec=user:user "$clean" /bin/sh -c 'cd ~ && exec "$@"' sh "$@"
 }
 
 # shellcheck disable=SC2016 # dpkg-query fills it in
