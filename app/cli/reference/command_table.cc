@@ -40,33 +40,35 @@ ArgumentEntry EntryOf(const CLI::Option& option) {
           .repeats = option.get_expected_max() > 1};
 }
 
-// Its own name stands after those of the commands above it. The first line that --help has below "Usage:".
-std::string UsageOf(const CLI::App& app, const std::vector<std::string>& path) {
-  std::string name = kProgram;
-  if (!path.empty()) name += fmt::format(" {}", fmt::join(path, " "));
+// What --help has behind "Usage:", where the command is called by `called`.
+std::string UsageOf(const CLI::App& app, const std::string& called) {
   constexpr std::string_view kBefore = "Usage: ";
-  const std::string usage = CLI::detail::trim_copy(CLI::Formatter().make_usage(&app, name));
+  const std::string usage = CLI::detail::trim_copy(CLI::Formatter().make_usage(&app, called));
   return usage.starts_with(kBefore) ? usage.substr(kBefore.size()) : usage;
 }
 
-void AddCommands(const CLI::App& app, const std::vector<std::string>& path,
+// `called`: "elbowroom touches SESSION set", with what the commands above it take before it.
+void AddCommands(const CLI::App& app, const std::string& called, const std::vector<std::string>& path,
                  std::vector<CommandEntry>* table) {
   CommandEntry command{.path = path,
-                       .usage = UsageOf(app, path),
+                       .usage = UsageOf(app, called),
                        .description = app.get_description(),
                        .positionals = {},
                        .options = {},
-                       .subcommands = {}};
+                       .subcommands = {},
+                       .footer = CLI::detail::trim_copy(app.get_footer())};
   for (const CLI::Option* option : app.get_options(IsShown))
     (option->get_positional() ? command.positionals : command.options).push_back(EntryOf(*option));
   std::vector<const CLI::App*> subcommands =
       app.get_subcommands([](const CLI::App* subcommand) { return !subcommand->get_group().empty(); });
   for (const CLI::App* subcommand : subcommands) command.subcommands.push_back(subcommand->get_name());
+  std::string before = called;
+  for (const ArgumentEntry& positional : command.positionals) before += " " + positional.names.front();
   table->push_back(std::move(command));
   for (const CLI::App* subcommand : subcommands) {
     std::vector<std::string> below = path;
     below.push_back(subcommand->get_name());
-    AddCommands(*subcommand, below, table);
+    AddCommands(*subcommand, fmt::format("{} {}", before, subcommand->get_name()), below, table);
   }
 }
 
@@ -74,7 +76,7 @@ void AddCommands(const CLI::App& app, const std::vector<std::string>& path,
 
 std::vector<CommandEntry> CommandTable(const CLI::App& app) {
   std::vector<CommandEntry> table;
-  AddCommands(app, {}, &table);
+  AddCommands(app, kProgram, {}, &table);
   return table;
 }
 

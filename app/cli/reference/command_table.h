@@ -22,6 +22,7 @@ struct CommandEntry {
   std::string description;
   std::vector<ArgumentEntry> positionals, options;
   std::vector<std::string> subcommands;
+  std::string footer;  // lines below all that; may be empty
 };
 
 // The program first, then each command before its subcommands, in the order of --help. Hidden ones are left

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <sstream>
+
 namespace elbowroom::cli {
 namespace {
 
@@ -45,9 +47,18 @@ std::string ArgumentsText(const CommandEntry& command) {
   return text;
 }
 
+// Lines that stay as they are.
+std::string FooterText(const std::string& footer) {
+  if (footer.empty()) return "";
+  std::string text = ".PP\n.nf\n";
+  std::istringstream lines(footer);
+  for (std::string line; std::getline(lines, line);) text += Roff(line) + "\n";
+  return text + ".fi\n";
+}
+
 std::string CommandSection(const CommandEntry& command) {
-  return fmt::format(".SS {}\n.B {}\n.PP\n{}\n{}", RoffQuoted(JoinedPath(command)), Roff(command.usage),
-                     Roff(command.description), ArgumentsText(command));
+  return fmt::format(".SS {}\n.B {}\n.PP\n{}\n{}{}", RoffQuoted(JoinedPath(command)), Roff(command.usage),
+                     Roff(command.description), ArgumentsText(command), FooterText(command.footer));
 }
 
 constexpr std::string_view kEnd = R"(.SH EXIT STATUS

@@ -20,7 +20,8 @@ std::vector<std::string> NamesIn(const std::string& line) {
   std::string word, name;
   words >> word;
   std::istringstream list(word);
-  while (std::getline(list, name, ',')) names.push_back(name);
+  while (std::getline(list, name, ','))
+    names.push_back(name.substr(0, name.find('{')));  // "--no-next{false}"
   return names;
 }
 
@@ -28,19 +29,17 @@ void ReadLine(const std::string& line, std::vector<HelpEntry>* entries) {
   const bool is_name = line.size() > kNameColumn && line.find_first_not_of(' ') == kNameColumn;
   if (is_name) entries->push_back({NamesIn(line), ""});
   if (line.size() <= kDescriptionColumn || entries->empty()) return;
-  const bool is_behind_name = is_name && line[kDescriptionColumn - 1] == ' ' &&
-                              line[kDescriptionColumn] != ' ' &&
-                              line.substr(0, kDescriptionColumn).find("  ", kNameColumn) != std::string::npos;
+  // Where a name reaches so far, the next line has the description.
   const bool is_below_name = line.find_first_not_of(' ') == kDescriptionColumn;
-  if (is_behind_name || is_below_name) entries->back().description += line.substr(kDescriptionColumn);
+  const bool is_behind_name = is_name && line[kDescriptionColumn - 1] == ' ';
+  if (is_behind_name || is_below_name) entries->back().description = line.substr(kDescriptionColumn);
 }
 
-HelpPage ReadHelpPage(const std::vector<std::string>& path) {
-  std::vector<std::string> arguments = path;
+HelpPage ReadHelpPage(const std::vector<std::string>& path, std::vector<std::string> arguments) {
   arguments.emplace_back("--help");
   const ProgramRun run = RunProgram(ELBOWROOM_PROGRAM, arguments);
   if (run.exit_status != 0) throw std::runtime_error(run.err);
-  HelpPage page{.path = path, .positionals = {}, .options = {}, .subcommands = {}};
+  HelpPage page{.path = path, .positionals = {}, .options = {}, .subcommands = {}, .footer = {}};
   std::vector<HelpEntry>* section = nullptr;
   std::istringstream lines(run.out);
   for (std::string line; std::getline(lines, line);) {
@@ -50,20 +49,29 @@ HelpPage ReadHelpPage(const std::vector<std::string>& path) {
       section = &page.options;
     } else if (line == "Subcommands:") {
       section = &page.subcommands;
-    } else if (section != nullptr) {
+    } else if (section == nullptr) {
+      continue;
+    } else if (!page.footer.empty() || (!line.empty() && line.front() != ' ')) {
+      page.footer.push_back(line);
+    } else {
       ReadLine(line, section);
     }
   }
   return page;
 }
 
-void AddPages(const std::vector<std::string>& path, std::vector<HelpPage>* pages) {
-  pages->push_back(ReadHelpPage(path));
+// `words` choose the command: its path, with something for each positional before a subcommand.
+void AddPages(const std::vector<std::string>& path, std::vector<std::string> words,
+              std::vector<HelpPage>* pages) {
+  pages->push_back(ReadHelpPage(path, words));
+  words.insert(words.end(), pages->back().positionals.size(), "S.db");
   const std::vector<HelpEntry> subcommands = pages->back().subcommands;
   for (const HelpEntry& subcommand : subcommands) {
     std::vector<std::string> below = path;
     below.push_back(subcommand.names.front());
-    AddPages(below, pages);
+    std::vector<std::string> words_below = words;
+    words_below.push_back(below.back());
+    AddPages(below, words_below, pages);
   }
 }
 
@@ -71,7 +79,7 @@ void AddPages(const std::vector<std::string>& path, std::vector<HelpPage>* pages
 
 std::vector<HelpPage> ReadHelpPages() {
   std::vector<HelpPage> pages;
-  AddPages({}, &pages);
+  AddPages({}, {}, &pages);
   return pages;
 }
 

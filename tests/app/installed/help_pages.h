@@ -14,6 +14,7 @@ struct HelpEntry {
 struct HelpPage {
   std::vector<std::string> path;  // {"trial", "run"}
   std::vector<HelpEntry> positionals, options, subcommands;
+  std::vector<std::string> footer;  // lines below all that
 };
 
 // The page of the program, and those of all commands below it, each before its subcommands.

@@ -75,7 +75,7 @@ TEST(Manual, HasEachCommandAndOptionOfHelpWithItsDescription) {
     const std::size_t begin = manual.find(title);
     ASSERT_NE(begin, std::string::npos) << path;
     const std::size_t end = manual.find("\n.S", begin + title.size());
-    const std::string section = manual.substr(begin, end - begin);
+    const std::string section = manual.substr(begin, end - begin) + "\n";
     std::vector<HelpEntry> entries = page.options;
     entries.insert(entries.end(), page.positionals.begin(), page.positionals.end());
     for (const HelpEntry& entry : entries) {
@@ -84,6 +84,8 @@ TEST(Manual, HasEachCommandAndOptionOfHelpWithItsDescription) {
       EXPECT_FALSE(entry.description.empty()) << path << " " << entry.names.front();
       EXPECT_THAT(section, testing::HasSubstr("\n" + entry.description + "\n")) << path;
     }
+    for (const std::string& line : page.footer)
+      EXPECT_THAT(section, testing::HasSubstr("\n" + line + "\n")) << path;
   }
 }
 
