@@ -23,12 +23,15 @@ die() {
 work=$(mktemp -d)
 clean=$work/debian
 screen_process=''
+mounted=()
 clean_up() {
+  local place
   [[ -z $screen_process ]] || kill "$screen_process" 2>/dev/null || true
-  # Nothing of this machine is below it any more when it is removed.
-  if umount --recursive "$clean" 2>/dev/null || ! findmnt --submounts "$clean" >/dev/null; then
-    rm -rf --one-file-system "$work"
-  fi
+  # Nothing of this machine may be below it when it is removed.
+  for place in "${mounted[@]}"; do
+    umount "$place" || return
+  done
+  rm -rf --one-file-system "$work"
 }
 trap clean_up EXIT
 
@@ -53,8 +56,11 @@ make_clean_debian() {
   apt-config dump | grep -E '^Acquire::https?::Proxy' >"$clean/etc/apt/apt.conf.d/proxy" || true
   printf '#!/bin/sh\nexit 101\n' >"$clean/usr/sbin/policy-rc.d"
   chmod 755 "$clean/usr/sbin/policy-rc.d"
+  mkdir -p "$clean/dev/shm"
   mount -t proc proc "$clean/proc"
-  mount -t tmpfs tmpfs "$clean/dev/shm" 2>/dev/null || { mkdir -p "$clean/dev/shm" && mount -t tmpfs tmpfs "$clean/dev/shm"; }
+  mounted+=("$clean/proc")
+  mount -t tmpfs tmpfs "$clean/dev/shm"
+  mounted+=("$clean/dev/shm")
 }
 
 # inside COMMAND...: as root, in the clean system.
@@ -113,6 +119,7 @@ show_window() {
   shown=:$number
   mkdir -p "$clean/tmp/.X11-unix"
   mount --bind /tmp/.X11-unix "$clean/tmp/.X11-unix"
+  mounted+=("$clean/tmp/.X11-unix")
   as_user elbowroom demo --out window --picture window.png --after 4 --gap 140 >"$work/window.log" 2>&1 &
   local window=$!
   # The trial runs when its session is there; then the picture of the screen.

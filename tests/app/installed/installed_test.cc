@@ -59,7 +59,7 @@ TEST_F(Installed, PlaysTheDemoFromAnotherFolder) {
 
 TEST_F(Installed, FindsItsModulesAndPrograms) {
   const ProgramRun import =
-      Run("import '" + (kExample / "bracket.stl").string() + "'", {{"ELBOWROOM_CACHE", "off"}});
+      Run("import '" + (kExample / "bracket.stl").string() + "' --unit mm", {{"ELBOWROOM_CACHE", "off"}});
   EXPECT_EQ(import.exit_status, 0) << import.err;
   const fs::path rig = test_support::WriteBallRig(Elsewhere() / "rig");
   const ProgramRun segment = Run("segment '" + rig.string() + "' --frame 0 --out masks");
@@ -90,15 +90,18 @@ TEST_F(Installed, HasADesktopEntryThatIsValid) {
     EXPECT_TRUE(fs::exists(Prefix() / "share/icons/hicolor" / icon)) << icon;
 }
 
-// Qt's database of file types, of the installed file and the system's own.
+// Qt's database of file types, made of the installed file and the system's, as where both are installed below
+// /usr.
 class FileTypes : public Installed {
  protected:
   void SetUp() override {
     const fs::path share = Prefix() / "share";
+    fs::copy_file("/usr/share/mime/packages/freedesktop.org.xml", share / "mime/packages/freedesktop.org.xml",
+                  fs::copy_options::overwrite_existing);
     const ProgramRun run = RunProgram("/usr/bin/update-mime-database", {(share / "mime").string()});
     ASSERT_EQ(run.exit_status, 0) << run.err;
     qputenv("XDG_DATA_HOME", (Elsewhere() / "home").c_str());
-    qputenv("XDG_DATA_DIRS", (share.string() + ":/usr/share").c_str());
+    qputenv("XDG_DATA_DIRS", share.c_str());
   }
 
   static std::string TypeOf(const fs::path& file) {
