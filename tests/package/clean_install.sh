@@ -90,6 +90,7 @@ install_package() {
     die "the package could not be installed"
   }
   say "installed in $((SECONDS - begin)) s: $(($(installed_packages) - packages)) packages, $(($(disk_mib) - size)) MiB on the disk"
+  grep -q application/x-elbowroom-session "$clean/usr/share/mime/types" || die "the desktop doesn't know the file types"
   inside useradd --create-home user
 }
 

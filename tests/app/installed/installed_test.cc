@@ -98,7 +98,8 @@ class FileTypes : public Installed {
     const fs::path share = Prefix() / "share";
     fs::copy_file("/usr/share/mime/packages/freedesktop.org.xml", share / "mime/packages/freedesktop.org.xml",
                   fs::copy_options::overwrite_existing);
-    const ProgramRun run = RunProgram("/usr/bin/update-mime-database", {(share / "mime").string()});
+    const ProgramRun run = RunProgram("/usr/bin/update-mime-database", {(share / "mime").string()},
+                                      {.environment = {{"PKGSYSTEM_ENABLE_FSYNC", "0"}}});
     ASSERT_EQ(run.exit_status, 0) << run.err;
     qputenv("XDG_DATA_HOME", (Elsewhere() / "home").c_str());
     qputenv("XDG_DATA_DIRS", share.c_str());
