@@ -5,6 +5,10 @@
 # this machine's apt uses, with its trusted keys. Needs root. All mounts are in a namespace of their own.
 set -euo pipefail
 
+if ((EUID != 0)); then
+  printf 'run it as root: it makes a system of its own\n' >&2
+  exit 1
+fi
 if [[ ${1:-} != --inside ]]; then
   exec unshare --mount --propagation private -- "$0" --inside "$@"
 fi
