@@ -49,6 +49,7 @@ const hash = createHash('sha256').update(script, 'utf8').digest('base64');
 mkdirSync(out, { recursive: true });
 writeFileSync(join(out, 'charts.js'), charts.text);
 writeFileSync(join(out, 'report.js'), script);
+writeFileSync(join(out, 'licences_of_scripts.txt'), licences);
 writeFileSync(join(out, 'bundle_text.cc'), `// Written by web/bundle.mjs.
 #include "web/bundle.h"
 

@@ -151,6 +151,8 @@ int RunCommandLine(int argc, char** argv, const OpenConsole& open_console) {
   AddImportCommand(app, &choice);
   AddLayoutCommand(app, &choice);
   AddBenchCommand(app, &choice);
+  AddOpenCommand(app, &choice);
+  AddReferenceCommand(app, &choice);
   try {
     app.parse(ArgumentsOf(argc, argv));
   } catch (const CLI::ParseError& error) {

@@ -1,6 +1,7 @@
 #include "app/console/console_main.h"
 
 #include <QApplication>
+#include <QIcon>
 #include <QTimer>
 #include <cstdio>
 #include <cstdlib>
@@ -86,6 +87,8 @@ int RunConsole(const ConsoleOptions& options) {
   qInstallMessageHandler(usual);
   QApplication::setOrganizationName("Elbowroom");  // of the settings
   QApplication::setApplicationName("Elbowroom");
+  QApplication::setDesktopFileName("elbowroom");  // of app/desktop
+  QApplication::setWindowIcon(QIcon::fromTheme("elbowroom"));
   // A picture for the documentation doesn't depend on what its maker likes.
   SetTheme(options.picture ? Theme::kLight : RememberedTheme());
 

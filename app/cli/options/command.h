@@ -77,6 +77,8 @@ void AddHullCommand(CLI::App& app, Choice* choice);
 void AddImportCommand(CLI::App& app, Choice* choice);
 void AddKeepoutCommand(CLI::App& app, Choice* choice);
 void AddLayoutCommand(CLI::App& app, Choice* choice);
+void AddOpenCommand(CLI::App& app, Choice* choice);
+void AddReferenceCommand(CLI::App& app, Choice* choice);
 void AddReplayCommand(CLI::App& app, Choice* choice);
 void AddReportCommand(CLI::App& app, Choice* choice);
 void AddSessionsCommand(CLI::App& app, Choice* choice);
