@@ -1,0 +1,119 @@
+#include "app/console/pair_rule_list.h"
+
+#include <QVBoxLayout>
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
+#include "app/console/lower_bound_text.h"
+#include "app/console/palette.h"
+
+namespace elbowroom::console {
+namespace {
+
+QString VerdictWord(core::Verdict verdict) {
+  switch (verdict) {
+    case core::Verdict::kContact:
+      return PairRuleList::tr("contact");
+    case core::Verdict::kNear:
+      return PairRuleList::tr("near");
+    case core::Verdict::kClear:
+      return PairRuleList::tr("clear");
+    case core::Verdict::kUndecided:
+      return PairRuleList::tr("undecided");
+  }
+  return {};
+}
+
+// The words say the same: nobody needs to tell the colours apart.
+QColor ColorOf(const review::PairClash& pair) {
+  if (!control::IsBroken(pair)) return kClearGreen;
+  return pair.verdict == core::Verdict::kContact ? kContactRed : kAttentionAmber;
+}
+
+double Margin_mm(const review::PairClash& pair) { return pair.at_least_mm - pair.demand.required_mm; }
+
+}  // namespace
+
+PairRuleList::PairRuleList(const core::Layout& layout, std::vector<std::size_t> shown, bool only_broken,
+                           QWidget* parent)
+    : QWidget(parent), shown_(std::move(shown)), only_broken_(only_broken) {
+  for (const core::Part& part : layout.parts) part_names_.push_back(QString::fromStdString(part.name));
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(1);
+  for (std::size_t i = 0; i < std::min(shown_.size(), kMostLines + 1); ++i) {
+    auto* line = new QLabel;
+    line->setObjectName(QString("pair_rule:%1").arg(i));
+    line->setTextFormat(Qt::PlainText);
+    line->setWordWrap(true);
+    line->setToolTip(
+        tr("A pair rule of the layout, judged at the gap of the latest frame: the distance between "
+           "the surfaces of two parts in mm, and what the rule requires"));
+    column->addWidget(line);
+    lines_.push_back(line);
+  }
+  for (std::size_t i = 0; i < lines_.size(); ++i) ShowLine(i, {}, kQuietText);
+  if (!lines_.empty() && !only_broken_) ShowLine(0, tr("pair rules: not judged yet"), kQuietText);
+}
+
+QString PairRuleList::TextOf(const review::PairClash& pair) const {
+  const QString number = LowerBoundText(pair.at_least_mm + review::kTouchMm);
+  QString distance = pair.gap ? tr("%1 mm apart").arg(number) : tr("at least %1 mm apart").arg(number);
+  if (pair.contained) distance = tr("one inside the other");
+  const bool is_broken = control::IsBroken(pair);
+  const QString names = tr("%1 and %2").arg(part_names_[pair.demand.a], part_names_[pair.demand.b]);
+  const QString state = is_broken ? tr("rule broken") : tr("rule kept");
+  return tr("%1 %2: %3, %4; %5, %6 mm required", "sign, parts, distance, verdict, state, number")
+      .arg(is_broken ? QString::fromUtf8("✕") : QString::fromUtf8("✓"), names, distance,
+           VerdictWord(pair.verdict), state, QString::number(pair.demand.required_mm, 'g'));
+}
+
+std::vector<const review::PairClash*> PairRuleList::InOrder(const control::PairVerdicts& verdicts) const {
+  std::vector<const review::PairClash*> pairs;
+  for (const std::size_t i : shown_)
+    if (!only_broken_ || control::IsBroken(verdicts.pairs[i])) pairs.push_back(&verdicts.pairs[i]);
+  std::ranges::stable_sort(pairs, {}, [](const review::PairClash* pair) {
+    return std::pair(!control::IsBroken(*pair), Margin_mm(*pair));
+  });
+  return pairs;
+}
+
+void PairRuleList::ShowVerdicts(const control::SharedPairVerdicts& verdicts,
+                                std::span<const double> spacing_mm) {
+  if (!verdicts || lines_.empty()) return;
+  const bool is_of_frame = std::ranges::equal(verdicts->setting.spacing_mm, spacing_mm);
+  if (verdicts == verdicts_ && is_of_frame == is_of_frame_) return;
+  verdicts_ = verdicts;
+  is_of_frame_ = is_of_frame;
+  const std::vector<const review::PairClash*> pairs = InOrder(*verdicts);
+  const QString of_before = is_of_frame ? QString() : tr(" (at the gap before; this one is being judged)");
+  for (std::size_t i = 0; i < lines_.size(); ++i) {
+    if (i >= pairs.size()) {
+      ShowLine(i, {}, kQuietText);
+    } else if (i == kMostLines) {
+      ShowLine(i,
+               tr("and %n more rule(s), farther from being broken", "", static_cast<int>(pairs.size() - i)),
+               kQuietText);
+    } else {
+      ShowLine(i, TextOf(*pairs[i]) + of_before, is_of_frame ? ColorOf(*pairs[i]) : kQuietText);
+    }
+  }
+}
+
+void PairRuleList::ShowLine(std::size_t line, const QString& text, const QColor& color) {
+  QLabel& label = *lines_[line];
+  label.setText(text);
+  label.setAccessibleName(text.isEmpty() ? QString() : tr("Pair rule: %1").arg(text));
+  label.setStyleSheet("color: " + color.name());
+  label.setHidden(text.isEmpty());
+}
+
+QStringList PairRuleList::texts() const {
+  QStringList texts;
+  for (const QLabel* line : lines_)
+    if (!line->text().isEmpty()) texts.push_back(line->text());
+  return texts;
+}
+
+}  // namespace elbowroom::console
