@@ -31,6 +31,13 @@ QColor ColorOf(const review::PairClash& pair) {
   return pair.verdict == core::Verdict::kContact ? kContactRed : kAttentionAmber;
 }
 
+// How many rules aren't shown.
+QString OthersText(std::span<const review::PairClash* const> pairs) {
+  const auto broken =
+      std::ranges::count_if(pairs, [](const review::PairClash* pair) { return control::IsBroken(*pair); });
+  return PairRuleList::tr("and %1 more, %2 of them broken").arg(pairs.size()).arg(broken);
+}
+
 double Margin_mm(const review::PairClash& pair) { return pair.at_least_mm - pair.demand.required_mm; }
 
 }  // namespace
@@ -53,28 +60,30 @@ PairRuleList::PairRuleList(const core::Layout& layout, std::vector<std::size_t> 
     column->addWidget(line);
     lines_.push_back(line);
   }
-  for (std::size_t i = 0; i < lines_.size(); ++i) ShowLine(i, {}, kQuietText);
-  if (!lines_.empty() && !only_broken_) ShowLine(0, tr("pair rules: not judged yet"), kQuietText);
+  for (std::size_t i = 0; i < lines_.size(); ++i)
+    ShowLine(i, i == 0 && !only_broken_ ? tr("pair rules: not judged yet") : QString(), kQuietText);
+  setHidden(texts().isEmpty());
 }
 
 QString PairRuleList::TextOf(const review::PairClash& pair) const {
   const QString number = LowerBoundText(pair.at_least_mm + review::kTouchMm);
-  QString distance = pair.gap ? tr("%1 mm apart").arg(number) : tr("at least %1 mm apart").arg(number);
+  QString distance = pair.gap ? tr("%1 mm").arg(number) : tr("≥ %1 mm").arg(number);
   if (pair.contained) distance = tr("one inside the other");
-  const bool is_broken = control::IsBroken(pair);
   const QString names = tr("%1 and %2").arg(part_names_[pair.demand.a], part_names_[pair.demand.b]);
-  const QString state = is_broken ? tr("rule broken") : tr("rule kept");
-  return tr("%1 %2: %3, %4; %5, %6 mm required", "sign, parts, distance, verdict, state, number")
-      .arg(is_broken ? QString::fromUtf8("✕") : QString::fromUtf8("✓"), names, distance,
-           VerdictWord(pair.verdict), state, QString::number(pair.demand.required_mm, 'g'));
+  const QString required = QString::number(pair.demand.required_mm, 'g');
+  const bool is_broken = control::IsBroken(pair);
+  return tr("%1 %2: %3, %4; %5", "sign, parts, distance, verdict, whether the rule is kept")
+      .arg(QString::fromUtf8(is_broken ? "✕" : "✓"), names, distance, VerdictWord(pair.verdict),
+           is_broken ? tr("rule of %1 mm broken").arg(required) : tr("rule of %1 mm kept").arg(required));
 }
 
 std::vector<const review::PairClash*> PairRuleList::InOrder(const control::PairVerdicts& verdicts) const {
   std::vector<const review::PairClash*> pairs;
   for (const std::size_t i : shown_)
     if (!only_broken_ || control::IsBroken(verdicts.pairs[i])) pairs.push_back(&verdicts.pairs[i]);
-  std::ranges::stable_sort(pairs, {}, [](const review::PairClash* pair) {
-    return std::pair(!control::IsBroken(*pair), Margin_mm(*pair));
+  const auto first = pairs.begin() + static_cast<std::ptrdiff_t>(std::min(pairs.size(), kMostLines));
+  std::ranges::partial_sort(pairs, first, {}, [](const review::PairClash* pair) {
+    return std::tuple(!control::IsBroken(*pair), Margin_mm(*pair), pair);
   });
   return pairs;
 }
@@ -92,13 +101,12 @@ void PairRuleList::ShowVerdicts(const control::SharedPairVerdicts& verdicts,
     if (i >= pairs.size()) {
       ShowLine(i, {}, kQuietText);
     } else if (i == kMostLines) {
-      ShowLine(i,
-               tr("and %n more rule(s), farther from being broken", "", static_cast<int>(pairs.size() - i)),
-               kQuietText);
+      ShowLine(i, OthersText(std::span(pairs).subspan(i)), kQuietText);
     } else {
       ShowLine(i, TextOf(*pairs[i]) + of_before, is_of_frame ? ColorOf(*pairs[i]) : kQuietText);
     }
   }
+  setHidden(texts().isEmpty());
 }
 
 void PairRuleList::ShowLine(std::size_t line, const QString& text, const QColor& color) {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/pair_rule.h"
+#include "core/pairs_of_rule.h"
 #include "sessions/report/chart.h"
 #include "sessions/report/verdict_text.h"
 

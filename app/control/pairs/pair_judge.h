@@ -9,7 +9,7 @@
 
 #include "core/ids.h"
 #include "core/layout.h"
-#include "core/pair_rule.h"
+#include "core/pairs_of_rule.h"
 #include "review/clash.h"
 
 namespace elbowroom::control {

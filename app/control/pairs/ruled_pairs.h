@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/layout.h"
-#include "review/clash_pairs.h"
+#include "review/clash.h"
 
 namespace elbowroom::control {
 

@@ -56,15 +56,15 @@ TEST_F(ShownRules, SayGapAndVerdictInWordsAndColour) {
   Open(Shelf());
   EXPECT_EQ(Line(), "pair rules: not judged yet");
   ShowAt(12.5, 12.5);
-  EXPECT_EQ(Line(), "✕ base and shelf: 12.5 mm apart, near; rule broken, 20 mm required");
+  EXPECT_EQ(Line(), "✕ base and shelf: 12.5 mm, near; rule of 20 mm broken");
   EXPECT_EQ(Label()->accessibleName(), "Pair rule: " + Line());
   EXPECT_TRUE(Label()->styleSheet().contains(kAttentionAmber.name()));
   EXPECT_FALSE(Label()->isHidden());
   ShowAt(0.0, 0.0);
-  EXPECT_EQ(Line(), "✕ base and shelf: 0.0 mm apart, contact; rule broken, 20 mm required");
+  EXPECT_EQ(Line(), "✕ base and shelf: 0.0 mm, contact; rule of 20 mm broken");
   EXPECT_TRUE(Label()->styleSheet().contains(kContactRed.name()));
   ShowAt(80.0, 80.0);
-  EXPECT_EQ(Line(), "✓ base and shelf: at least 80.0 mm apart, clear; rule kept, 20 mm required");
+  EXPECT_EQ(Line(), "✓ base and shelf: ≥ 80.0 mm, clear; rule of 20 mm kept");
   EXPECT_TRUE(Label()->styleSheet().contains(kClearGreen.name()));
 }
 
@@ -74,7 +74,7 @@ TEST_F(ShownRules, SayWhenTheVerdictIsOfTheGapBefore) {
   EXPECT_TRUE(Line().endsWith(" (at the gap before; this one is being judged)"));
   EXPECT_TRUE(Label()->styleSheet().contains(kQuietText.name()));
   ShowAt(40.0, 40.0);
-  EXPECT_TRUE(Line().endsWith("rule kept, 20 mm required"));
+  EXPECT_TRUE(Line().endsWith("rule of 20 mm kept"));
 }
 
 TEST_F(ShownRules, OfPartsThatNoSpacingMovesAreShownWhenBroken) {
@@ -83,11 +83,11 @@ TEST_F(ShownRules, OfPartsThatNoSpacingMovesAreShownWhenBroken) {
   ShowAt(80.0, 80.0);
   ASSERT_EQ(panel_.rules().size(), 2U);
   EXPECT_TRUE(panel_.rules()[1]->texts().isEmpty());
+  EXPECT_TRUE(panel_.rules()[1]->isHidden());
   layout.pair_rules[1].required_clearance_mm = 8.0;
   Open(layout);
   ShowAt(80.0, 80.0);
-  EXPECT_EQ(panel_.rules()[1]->texts(),
-            QStringList({"✕ base and post: 5.0 mm apart, near; rule broken, 8 mm required"}));
+  EXPECT_EQ(panel_.rules()[1]->texts(), QStringList({"✕ base and post: 5.0 mm, near; rule of 8 mm broken"}));
 }
 
 TEST_F(ShownRules, OfManyTheOnesNearestToBeingBrokenAreShown) {
@@ -101,10 +101,22 @@ TEST_F(ShownRules, OfManyTheOnesNearestToBeingBrokenAreShown) {
   ShowAt(30.0, 30.0);
   const QStringList texts = panel_.rules()[0]->texts();
   ASSERT_EQ(texts.size(), 4);
-  EXPECT_TRUE(texts[0].startsWith("✕ shelf and low 0: 30.0 mm apart"));
+  EXPECT_TRUE(texts[0].startsWith("✕ shelf and low 0: 30.0 mm, near"));
   EXPECT_TRUE(texts[1].startsWith("✓ shelf and low 1"));
   EXPECT_TRUE(texts[2].startsWith("✓ shelf and low 2"));
-  EXPECT_EQ(texts[3], "and 3 more rule(s), farther from being broken");
+  EXPECT_EQ(texts[3], "and 3 more, 0 of them broken");
+}
+
+TEST_F(ShownRules, OfManyBrokenOnesTheOthersAreCounted) {
+  core::Layout layout = Shelf();
+  layout.pair_rules.clear();
+  for (int i = 0; i < 6; ++i) {
+    layout.parts.push_back(BoxAt("low " + std::to_string(i), {0, 0, -10.0 * i}));
+    layout.pair_rules.push_back({"shelf", layout.parts.back().name, 65.0, false});
+  }
+  Open(layout);
+  ShowAt(30.0, 30.0);
+  EXPECT_EQ(panel_.rules()[0]->texts().value(3), "and 3 more, 1 of them broken");
 }
 
 TEST_F(ShownRules, ALayoutWithoutRulesShowsNoLine) {
