@@ -27,16 +27,21 @@ constexpr double kDistanceRounding = 4e-15;
 // the same.
 constexpr double kShiftRounding = 4e-15;
 
-AlignedBox3d BoundsInWorld(const core::TriangleTree& tree, const core::RigidTransform& world_from_part) {
+AlignedBox3d TurnedBounds(const core::TriangleTree& tree, const Eigen::Matrix3d& rotation) {
   AlignedBox3d box;
   for (const auto& triangle : tree.mesh().triangles) {
     for (const std::int32_t i : triangle)
-      box.extend(world_from_part * tree.mesh().vertices_mm[static_cast<std::size_t>(i)]);
+      box.extend(rotation * tree.mesh().vertices_mm[static_cast<std::size_t>(i)]);
   }
+  return box;
+}
+
+AlignedBox3d BoundsInWorld(const core::TriangleTree& tree, const AlignedBox3d& turned_bounds,
+                           const Vector3d& translation_mm) {
   const double size_mm = tree.bounds().min().cwiseAbs().sum() + tree.bounds().max().cwiseAbs().sum() +
-                         world_from_part.translation_mm.cwiseAbs().sum();
+                         translation_mm.cwiseAbs().sum();
   const Vector3d margin_mm = Vector3d::Constant(kDistanceRounding * size_mm);
-  return {box.min() - margin_mm, box.max() + margin_mm};
+  return {turned_bounds.min() + translation_mm - margin_mm, turned_bounds.max() + translation_mm + margin_mm};
 }
 
 core::Verdict VerdictAt(double distance_mm, double required_mm) {
@@ -157,7 +162,11 @@ std::vector<ClashChecker::Motion> ClashChecker::Place(std::span<const core::Rigi
       if (stays) return;
     }
     part.world_from_part = world_from_parts[i];
-    if (part.model) part.bounds_in_world = BoundsInWorld(part.model->tree(), world_from_parts[i]);
+    if (!part.model) return;
+    if (motions[i] == Motion::kTurned)
+      part.turned_bounds = TurnedBounds(part.model->tree(), part.world_from_part.rotation);
+    part.bounds_in_world =
+        BoundsInWorld(part.model->tree(), part.turned_bounds, part.world_from_part.translation_mm);
   });
   return motions;
 }

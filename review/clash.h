@@ -83,6 +83,7 @@ class ClashChecker {
     std::shared_ptr<const SurfaceModel> model;  // null: in no pair
     double uncertainty_mm = 0.0;
     core::RigidTransform world_from_part;
+    Eigen::AlignedBox3d turned_bounds;    // with its rotation, before it is shifted
     Eigen::AlignedBox3d bounds_in_world;  // rounded outwards
   };
 

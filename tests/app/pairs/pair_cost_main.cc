@@ -15,6 +15,7 @@
 #include "app/control/demo_parts.h"
 #include "app/control/pairs/pair_judge.h"
 #include "app/control/pairs/ruled_pairs.h"
+#include "cad_import/import_worker.h"
 #include "cad_import/layout/layout_file.h"
 #include "review/clash.h"
 #include "tests/app/pairs/ruled_layouts.h"
@@ -100,6 +101,7 @@ void Measure(const std::string& name, const core::Layout& layout) {
 
 int main(int argc, char** argv) {
   using namespace elbowroom;
+  cad_import::ServeImport(argc, argv);  // returns unless this is a child that imports
   std::mt19937_64 random(1);
   fmt::print(
       "layout, parts, triangles, pairs; ms: first, a change (median, longest), judged anew (median, "
