@@ -5,7 +5,7 @@
 #include <QVBoxLayout>
 #include <utility>
 
-#include "app/console/palette.h"
+#include "app/console/desktop/theme.h"
 
 namespace elbowroom::console {
 namespace {

@@ -6,13 +6,13 @@
 #include <algorithm>
 #include <array>
 
-#include "app/console/palette.h"
+#include "app/console/desktop/theme.h"
 #include "recon/images/image.h"
 
 namespace elbowroom::console {
 namespace {
 
-constexpr int kStripHeightPx = 196;
+constexpr int kStripHeightPx = 196, kLeastStripHeightPx = 110;
 constexpr int kLeastCaptionWidthPx = 150;  // a caption may be wider than a narrow picture
 constexpr int kCaptionLines = 3;
 constexpr double kGoneOpacity = 0.25;
@@ -69,14 +69,14 @@ void CameraThumbnail::paintEvent(QPaintEvent* /*event*/) {
 }
 
 void CameraThumbnail::PaintPicture(QPainter& painter, const QRect& room) const {
-  painter.fillRect(room, kSilhouetteBackground);
+  painter.fillRect(room, ThemeColors().silhouette_background);
   const bool is_troubled = !text_.trouble.isEmpty();
   painter.setRenderHint(QPainter::SmoothPixmapTransform);
   painter.setOpacity(is_troubled ? kGoneOpacity : 1.0);
   if (!picture_.isNull()) painter.drawImage(room, picture_);
   painter.setOpacity(1.0);
   if (!is_troubled) return;
-  painter.setPen(kSilhouetteObject);
+  painter.setPen(ThemeColors().silhouette_object);
   painter.drawText(room.adjusted(6, 4, -6, -4), Qt::AlignCenter | Qt::TextWordWrap, "✖ " + text_.trouble);
 }
 
@@ -86,19 +86,21 @@ void CameraThumbnail::PaintCaption(QPainter& painter, const QRect& room) const {
       {{name_, text_.rate}, {text_.lost, text_.skew}, {text_.light, text_.advice}}};
   QRect line(room.topLeft(), QSize(room.width(), fontMetrics().height()));
   for (std::size_t i = 0; i < lines.size(); ++i) {
-    const QColor right = i == 2 ? kAttentionAmber : kQuietText;
-    PaintPair(painter, line, lines[i][0], lines[i][1], i == 0 ? normal : kQuietText, right);
+    const QColor right = i == 2 ? ThemeColors().attention : ThemeColors().quiet_text;
+    PaintPair(painter, line, lines[i][0], lines[i][1], i == 0 ? normal : ThemeColors().quiet_text, right);
     line.translate(0, line.height());
   }
 }
 
 CameraStrip::CameraStrip(QWidget* parent) : QFrame(parent) {
-  setFixedHeight(kStripHeightPx);
+  setMinimumHeight(kLeastStripHeightPx);
   auto* row = new QHBoxLayout(this);
-  row->setContentsMargins(0, 4, 0, 0);
+  row->setContentsMargins(6, 4, 6, 0);
   row->setSpacing(10);
   hide();
 }
+
+QSize CameraStrip::sizeHint() const { return {QFrame::sizeHint().width(), kStripHeightPx}; }
 
 void CameraStrip::Open(const core::Rig& rig) {
   qDeleteAll(thumbnails_);

@@ -47,6 +47,7 @@ class CameraStrip : public QFrame {
   void Open(const core::Rig& rig);
   void ShowTiles(const control::SharedTiles& tiles);
   void SetWindowMinimized(bool is_minimized);
+  [[nodiscard]] QSize sizeHint() const override;
   [[nodiscard]] const std::vector<CameraThumbnail*>& thumbnails() const { return thumbnails_; }
 
  signals:

@@ -1,8 +1,6 @@
 #include "app/console/console_main.h"
 
 #include <QApplication>
-#include <QPalette>
-#include <QStyleFactory>
 #include <QTimer>
 #include <cstdio>
 #include <cstdlib>
@@ -10,6 +8,7 @@
 #include <stop_token>
 #include <string>
 
+#include "app/console/desktop/theme.h"
 #include "app/console/main_window.h"
 #include "core/error.h"
 #include "core/system/file_sync.h"
@@ -61,23 +60,11 @@ class ConsoleApplication : public QApplication {
   MainWindow* window_ = nullptr;
 };
 
-QPalette LightPalette() {
-  QPalette palette(QColor(0xf2, 0xf4, 0xf6));
-  palette.setColor(QPalette::Base, Qt::white);
-  palette.setColor(QPalette::AlternateBase, QColor(0xf7, 0xf8, 0xfa));
-  palette.setColor(QPalette::Highlight, QColor(0x2f, 0x6f, 0xb3));
-  palette.setColor(QPalette::HighlightedText, Qt::white);
-  return palette;
-}
-
 void StartWhatWasAsked(MainWindow& window, const ConsoleOptions& options) {
-  if (options.trial_file.empty() && !options.demo) return;
-  const auto session = window.session_choice().Choose(&window);
-  if (!session) return;
   if (!options.trial_file.empty()) {
-    StartTrialFile(window.desk(), options.trial_file, *session);
-  } else {
-    StartDemo(window.desk(), *session);
+    StartTrialFile(window.desk(), options.trial_file, window.session_place());
+  } else if (options.demo) {
+    StartDemo(window.desk(), window.session_place());
   }
 }
 
@@ -88,11 +75,6 @@ void CloseInOrder(MainWindow& window) {
 
 }  // namespace
 
-void SetConsoleStyle() {
-  QApplication::setStyle(QStyleFactory::create("Fusion"));
-  QApplication::setPalette(LightPalette());
-}
-
 int RunConsole(const ConsoleOptions& options) {
   RequireDisplay();
   if (options.demo) core::MakeFolder(core::FolderOf(options.session));
@@ -102,10 +84,13 @@ int RunConsole(const ConsoleOptions& options) {
   const QtMessageHandler usual = qInstallMessageHandler(ReportFatal);
   ConsoleApplication application(argc, options.argv != nullptr ? options.argv : default_argv);
   qInstallMessageHandler(usual);
+  QApplication::setOrganizationName("Elbowroom");  // of the settings
   QApplication::setApplicationName("Elbowroom");
-  SetConsoleStyle();
+  // A picture for the documentation doesn't depend on what its maker likes.
+  SetTheme(options.picture ? Theme::kLight : RememberedTheme());
 
   MainWindow window(options.session);
+  if (!options.picture) window.Remember();
   application.ShowErrorsIn(&window);
   std::string picture_error;
   if (options.picture) {

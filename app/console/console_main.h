@@ -12,15 +12,12 @@ namespace elbowroom::console {
 struct ConsoleOptions {
   std::filesystem::path trial_file;       // a TRIAL.toml to run at once; empty: none
   bool demo = false;                      // or the built-in trial
-  std::filesystem::path session;          // where the first trial is recorded; empty: the user is asked
+  std::filesystem::path session;          // where the first trial is recorded; empty: in SessionsFolder()
   std::optional<PictureOrder> picture{};  // take one picture of the window, then close
   int argc = 0;                           // for Qt's own options
   char** argv = nullptr;
   std::stop_token stop{};  // closes the window in order: what it records is complete up to there
 };
-
-// Gives the application's windows the console's style and colours. Thread: the program's first.
-void SetConsoleStyle();
 
 // Opens the window and returns its exit status once it is closed. Throws: core::Error{kGraphics} when there
 // is no display to open it on; core::Error{kFile} when the demo's folder can't be made or the ordered picture

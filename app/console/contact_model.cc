@@ -5,8 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "app/console/desktop/theme.h"
 #include "app/console/lower_bound_text.h"
-#include "app/console/palette.h"
 
 namespace elbowroom::console {
 namespace {
@@ -86,8 +86,8 @@ QVariant ContactModel::data(const QModelIndex& index, int role) const {
   if (role == Qt::TextAlignmentRole) {
     return QVariant((index.column() == kPart ? Qt::AlignLeft : Qt::AlignRight) | Qt::AlignVCenter);
   }
-  if (role == Qt::BackgroundRole) return kContactTint;
-  if (role == Qt::ForegroundRole && index.column() == kPart) return kContactRed;
+  if (role == Qt::BackgroundRole) return ThemeColors().contact_tint;
+  if (role == Qt::ForegroundRole && index.column() == kPart) return ThemeColors().contact;
   return {};
 }
 

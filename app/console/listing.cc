@@ -4,7 +4,7 @@
 #include <QPainter>
 #include <utility>
 
-#include "app/console/palette.h"
+#include "app/console/desktop/theme.h"
 
 namespace elbowroom::console {
 
@@ -27,7 +27,7 @@ void Listing::paintEvent(QPaintEvent* event) {
   QTableView::paintEvent(event);
   if (model()->rowCount() > 0) return;
   QPainter painter(viewport());
-  painter.setPen(kQuietText);
+  painter.setPen(ThemeColors().quiet_text);
   painter.drawText(viewport()->rect(), Qt::AlignCenter, empty_text_);
 }
 

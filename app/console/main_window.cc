@@ -2,15 +2,20 @@
 
 #include <QCloseEvent>
 #include <QKeyEvent>
-#include <QMenu>
-#include <QSplitter>
-#include <QToolBar>
-#include <QToolButton>
+#include <QMimeData>
+#include <QScreen>
+#include <QScrollArea>
 #include <QVBoxLayout>
+#include <algorithm>
+#include <array>
 #include <optional>
 #include <utility>
 
 #include "app/console/camera_actions.h"
+#include "app/console/desktop/recent_trials.h"
+#include "app/console/desktop/theme.h"
+#include "app/console/desktop/welcome_page.h"
+#include "app/console/desktop/window_memory.h"
 #include "app/console/listing.h"
 
 namespace elbowroom::console {
@@ -38,131 +43,153 @@ std::optional<double> SpacingStepFor(const QKeyEvent& event) {
   }
 }
 
-QGroupBox* Boxed(const QString& title, QWidget* content) {
-  auto* box = new QGroupBox(title);
-  auto* column = new QVBoxLayout(box);
-  column->setContentsMargins(6, 6, 6, 6);
-  column->addWidget(content);
-  return box;
+// The file that was dropped, if it can be opened.
+QString TrialIn(const QMimeData* data) {
+  if (data == nullptr || data->urls().size() != 1) return {};
+  const QString file = data->urls().front().toLocalFile();
+  return file.endsWith(".toml", Qt::CaseInsensitive) ? file : QString();
+}
+
+QScrollArea* Scrolling(QWidget* content) {
+  auto* area = new QScrollArea;
+  area->setWidgetResizable(true);
+  area->setFrameShape(QFrame::NoFrame);
+  area->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  area->setWidget(content);
+  return area;
 }
 
 }  // namespace
 
 MainWindow::MainWindow(std::filesystem::path session)
-    : desk_(new TrialDesk(this)), choice_(std::move(session)) {
+    : desk_(new TrialDesk(this)), place_(std::move(session)) {
   status_ = new StatusLine(this);
   setStatusBar(status_);
+  setAcceptDrops(true);
+  setDockOptions(AnimatedDocks | AllowNestedDocks | AllowTabbedDocks);
+  setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);
   spacings_ = new SpacingPanel;
+  view_ = new OperatorView;
   AddPreflight();
+  AddPanels();
   AddActions();
-  auto* splitter = new QSplitter(Qt::Horizontal);
-  splitter->setChildrenCollapsible(false);
-  splitter->addWidget(MakeCentre());
-  splitter->addWidget(MakeSide());
-  splitter->setStretchFactor(0, 1);
-  splitter->setSizes({kFirstSize.width() - 460, 460});
-  setCentralWidget(splitter);
+  AddMenus();
+  setCentralWidget(MakeCentre());
   FollowDesk();
+  FollowView();
   ShowState();
-  resize(kFirstSize);
+  resize(kFirstSize.boundedTo(screen()->availableGeometry().size()));
+  FitPanels();
 }
 
 MainWindow::~MainWindow() = default;
 
+void MainWindow::Remember() {
+  is_remembered_ = true;
+  RestoreWindow(this, kFirstSize);
+}
+
 void MainWindow::AddPreflight() {
   preflight_ = new PreflightPanel(*desk_);
-  preflight_dock_ = new QDockWidget(tr("Preflight"), this);
-  preflight_dock_->setObjectName("preflight");
-  preflight_dock_->setWidget(preflight_);
-  addDockWidget(Qt::LeftDockWidgetArea, preflight_dock_);
+  preflight_dock_ = AddPanel("preflight", tr("Preflight"), preflight_, Qt::LeftDockWidgetArea);
   preflight_dock_->hide();
 }
 
-void MainWindow::AddActions() {
-  auto* bar = addToolBar(tr("Trial"));
-  bar->setMovable(false);
-  bar->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
-  auto* demo = new StartDemoAction(*desk_, choice_, this);
-  demo->setObjectName("start_demo");
-  auto* open = new OpenTrialAction(*desk_, choice_, this);
-  open->setObjectName("open_trial");
-  auto* calibrate = new CalibrateAction(*desk_, this);
-  calibrate->setObjectName("calibrate");
-  auto* stop = new StopAction(*desk_, this);
-  stop->setObjectName("stop");
-  auto* report = new ReportAction(*desk_, this);
-  report->setObjectName("report");
-  auto* undo = new UndoGapAction(*spacings_, this);
-  undo->setObjectName("undo_gap");
-  auto* redo = new RedoGapAction(*spacings_, this);
-  redo->setObjectName("redo_gap");
-  hull_look_ = new HullLookButton;
-  hull_look_->setObjectName("hull_look");
-  auto* preflight = preflight_dock_->toggleViewAction();
-  preflight->setObjectName("show_preflight");
-  preflight->setText(tr("&Preflight"));
-  preflight->setToolTip(tr("See before a trial whether cameras, background, calibration and disk are ready"));
-  auto* background = new TakeBackgroundAction(*desk_, *preflight_, this);
-  background->setObjectName("take_background");
-  preflight_->ShowBackgroundButton(background);
-  auto* menu = new QMenu(this);
-  menu->setToolTipsVisible(true);
-  menu->addActions({preflight, background});
-  auto* cameras = new QToolButton;
-  cameras->setObjectName("cameras");
-  cameras->setText(tr("Ca&meras"));
-  cameras->setPopupMode(QToolButton::InstantPopup);
-  cameras->setMenu(menu);
-  bar->addActions({demo, open, calibrate});
-  bar->addWidget(cameras);
-  bar->addSeparator();
-  bar->addAction(stop);
-  bar->addSeparator();
-  bar->addAction(report);
-  bar->addSeparator();
-  bar->addActions({undo, redo});
-  bar->addSeparator();
-  bar->addWidget(hull_look_);
+QDockWidget* MainWindow::AddPanel(const QString& name, const QString& title, QWidget* content,
+                                  Qt::DockWidgetArea area) {
+  auto* dock = new QDockWidget(title, this);
+  dock->setObjectName(name);
+  dock->setWidget(content);
+  addDockWidget(area, dock);
+  return dock;
+}
+
+void MainWindow::AddPanels() {
+  tools_ = new ToolPanel;
+  note_ = new NoteLine;
+  note_->setObjectName("note");
+  auto* gaps = new QWidget;
+  auto* column = new QVBoxLayout(gaps);
+  column->setContentsMargins(4, 0, 4, 4);
+  column->addWidget(spacings_);
+  column->addWidget(tools_);
+  column->addWidget(note_);
+  column->addStretch(1);
+  contacts_ = new ContactModel(this);
+  touches_ = new TouchModel(this);
+  auto* contact_list = new Listing(contacts_, tr("No contact in this frame"));
+  contact_list->setObjectName("contact_list");
+  contact_list->setAccessibleName(tr("Contacts now"));
+  auto* touch_list = new Listing(touches_, tr("No parts yet"));
+  touch_list->setObjectName("touch_list");
+  touch_list->setAccessibleName(tr("Touches so far"));
+  strip_ = new CameraStrip;
+  AddPanel("gaps_panel", tr("Gaps and tools"), Scrolling(gaps), Qt::RightDockWidgetArea);
+  AddPanel("contacts_panel", tr("Contacts now"), contact_list, Qt::RightDockWidgetArea);
+  AddPanel("touches_panel", tr("Touches so far"), touch_list, Qt::RightDockWidgetArea);
+  cameras_dock_ = AddPanel("cameras_panel", tr("Camera pictures"), strip_, Qt::BottomDockWidgetArea);
+  cameras_dock_->hide();  // until there are cameras
+  connect(spacings_, &SpacingPanel::Requested, desk_, &TrialDesk::SetSpacing);
+  connect(tools_, &ToolPanel::Marked, desk_, &TrialDesk::MarkTool);
+  connect(note_, &NoteLine::Written, desk_, &TrialDesk::AddNote);
+}
+
+// Two fifths of a small window for the figures, and no more than their columns need of a large one.
+void MainWindow::FitPanels() {
+  const auto named = [this](const char* name) { return findChild<QDockWidget*>(name); };
+  const QList<QDockWidget*> side = {named("gaps_panel"), named("contacts_panel"), named("touches_panel")};
+  const int side_px = std::clamp(2 * width() / 5, 400, 460);
+  resizeDocks({side.front()}, {side_px}, Qt::Horizontal);
+  const int list_px = height() / 3;
+  resizeDocks(side, {list_px, list_px, list_px}, Qt::Vertical);
 }
 
 QWidget* MainWindow::MakeCentre() {
   messages_ = new MessageBar;
-  view_ = new OperatorView;
-  strip_ = new CameraStrip;
+  auto* welcome = new WelcomePage(findChild<QAction*>("start_demo"), findChild<QAction*>("open_trial"));
+  connect(welcome, &WelcomePage::TrialChosen, this, &MainWindow::StartTrial);
+  pages_ = new QStackedWidget;
+  pages_->addWidget(welcome);
+  pages_->addWidget(view_);
   auto* centre = new QWidget;
   auto* column = new QVBoxLayout(centre);
-  column->setContentsMargins(8, 8, 4, 4);
+  column->setContentsMargins(6, 6, 6, 2);
   column->addWidget(messages_);
-  column->addWidget(view_, 1);
-  column->addWidget(strip_);
+  column->addWidget(pages_, 1);
+  return centre;
+}
+
+void MainWindow::FollowView() {
   connect(view_, &OperatorView::Failed, this, &MainWindow::ShowError);
   connect(hull_look_, &HullLookButton::Chosen, view_, &OperatorView::SetLook);
   connect(view_, &OperatorView::PictureShown, this,
           [this](qint64, double drawing_ms) { status_->ShowPicture(drawing_ms, view_->driver()); });
   connect(view_, &OperatorView::PictureSeen, this,
           [this](qint64, double age_ms) { status_->ShowAge(age_ms); });
-  return centre;
 }
 
-QWidget* MainWindow::MakeSide() {
-  tools_ = new ToolPanel;
-  contacts_ = new ContactModel(this);
-  touches_ = new TouchModel(this);
-  auto* contact_list = new Listing(contacts_, tr("No contact in this frame"));
-  contact_list->setObjectName("contact_list");
-  auto* touch_list = new Listing(touches_, tr("No parts yet"));
-  touch_list->setObjectName("touch_list");
-  auto* side = new QWidget;
-  side->setMinimumWidth(380);
-  auto* column = new QVBoxLayout(side);
-  column->setContentsMargins(4, 8, 8, 4);
-  column->addWidget(spacings_);
-  column->addWidget(tools_);
-  column->addWidget(Boxed(tr("Contacts now"), contact_list), 1);
-  column->addWidget(Boxed(tr("Touches so far"), touch_list), 1);
-  connect(spacings_, &SpacingPanel::Requested, desk_, &TrialDesk::SetSpacing);
-  connect(tools_, &ToolPanel::Marked, desk_, &TrialDesk::MarkTool);
-  return side;
+// As high as the trial's gaps and tools are, but no higher than half of the window.
+void MainWindow::FitGaps() {
+  auto* dock = findChild<QDockWidget*>("gaps_panel");
+  const auto* area = qobject_cast<QScrollArea*>(dock->widget());
+  area->widget()->layout()->activate();
+  const int title_px = dock->height() - area->height();
+  resizeDocks({dock}, {std::min(title_px + area->widget()->sizeHint().height(), height() / 2)}, Qt::Vertical);
+}
+
+void MainWindow::StartTrial(const QString& trial_file) {
+  if (desk_->state() != DeskState::kIdle || desk_->are_cameras_taken())
+    return ShowError(tr("Another trial, or its report, is under way: stop it first"));
+  StartTrialFile(*desk_, trial_file.toStdString(), place_);
+}
+
+void MainWindow::dragEnterEvent(QDragEnterEvent* event) {
+  if (!TrialIn(event->mimeData()).isEmpty()) event->acceptProposedAction();
+}
+
+void MainWindow::dropEvent(QDropEvent* event) {
+  event->acceptProposedAction();
+  StartTrial(TrialIn(event->mimeData()));
 }
 
 void MainWindow::FollowDesk() {
@@ -193,9 +220,12 @@ void MainWindow::ShowError(const QString& line) { messages_->ShowError(line); }
 void MainWindow::OpenTrial(const control::TrialSetup& setup) {
   messages_->hide();
   view_->Clear();
+  pages_->setCurrentWidget(view_);
+  cameras_dock_->show();
   strip_->Open(setup.source->rig());
   spacings_->Open(setup.layout);
   tools_->Open(setup.info.tools);
+  FitGaps();
   contacts_->Clear();
   touches_->Open(setup.layout);
   status_->Open(desk_->session());
@@ -218,6 +248,7 @@ void MainWindow::ShowState() {
   if (desk_->state() == DeskState::kRunning) preflight_dock_->hide();  // it is for before a trial
   spacings_->setEnabled(is_running);
   tools_->setEnabled(is_running);
+  note_->setEnabled(is_running);
   if (desk_->state() == DeskState::kIdle) {
     status_->HideProgress();
     if (closes_when_idle_) close();
@@ -228,10 +259,14 @@ void MainWindow::changeEvent(QEvent* event) {
   QMainWindow::changeEvent(event);
   if (event->type() == QEvent::WindowStateChange && strip_ != nullptr)
     strip_->SetWindowMinimized(isMinimized());
+  if (event->type() == QEvent::PaletteChange) TakeIcons();
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {
-  if (desk_->state() == DeskState::kIdle) return event->accept();
+  if (desk_->state() == DeskState::kIdle) {
+    if (is_remembered_) SaveWindow(*this);
+    return event->accept();
+  }
   closes_when_idle_ = true;
   desk_->Stop();
   messages_->ShowNote(tr("Closing as soon as the session is complete …"));
@@ -241,8 +276,8 @@ void MainWindow::closeEvent(QCloseEvent* event) {
 void MainWindow::keyPressEvent(QKeyEvent* event) {
   if (const std::optional<double> step_mm = SpacingStepFor(*event)) {
     spacings_->StepActive(*step_mm);
-  } else if (event->key() == Qt::Key_F) {
-    view_->Fit();
+  } else if (event->key() >= Qt::Key_1 && event->key() <= Qt::Key_9) {
+    tools_->Toggle(static_cast<std::size_t>(event->key() - Qt::Key_1));
   } else {
     QMainWindow::keyPressEvent(event);
   }

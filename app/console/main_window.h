@@ -3,12 +3,15 @@
 
 #include <QDockWidget>
 #include <QMainWindow>
+#include <QStackedWidget>
 #include <filesystem>
 
 #include "app/console/camera_strip.h"
 #include "app/console/contact_model.h"
+#include "app/console/desktop/session_place.h"
 #include "app/console/hull_look_button.h"
 #include "app/console/message_bar.h"
+#include "app/console/note_line.h"
 #include "app/console/operator_view.h"
 #include "app/console/preflight_panel.h"
 #include "app/console/spacing_panel.h"
@@ -27,46 +30,64 @@ class MainWindow : public QMainWindow {
   Q_OBJECT
 
  public:
-  // `session`: where the first trial is recorded; empty: the user is asked.
+  // `session`: where the first trial is recorded; empty: in SessionsFolder().
   explicit MainWindow(std::filesystem::path session = {});
   ~MainWindow() override;
 
   [[nodiscard]] TrialDesk& desk() { return *desk_; }
-  [[nodiscard]] SessionChoice& session_choice() { return choice_; }
+  [[nodiscard]] SessionPlace& session_place() { return place_; }
   [[nodiscard]] OperatorView& view() { return *view_; }
   [[nodiscard]] CameraStrip& strip() { return *strip_; }
   [[nodiscard]] const StatusLine& status() const { return *status_; }
   [[nodiscard]] PreflightPanel& preflight() { return *preflight_; }
 
+  // Takes size, place and panels from the last run, and leaves them for the next.
+  void Remember();
+
  public slots:
   void ShowError(const QString& line);
 
  protected:
+  void dragEnterEvent(QDragEnterEvent* event) override;
+  void dropEvent(QDropEvent* event) override;
   void changeEvent(QEvent* event) override;
   void closeEvent(QCloseEvent* event) override;
   void keyPressEvent(QKeyEvent* event) override;
 
  private:
   void AddActions();
+  void AddMenus();
+  void TakeIcons();  // those that have the text's colour
+  [[nodiscard]] QMenu* ThemeMenu();
   void AddPreflight();
+  void AddPanels();
+  // A panel that can be moved, floated and hidden; its name is for the settings.
+  QDockWidget* AddPanel(const QString& name, const QString& title, QWidget* content, Qt::DockWidgetArea area);
   [[nodiscard]] QWidget* MakeCentre();
-  [[nodiscard]] QWidget* MakeSide();
   void FollowDesk();
+  void FollowView();
+  void StartTrial(const QString& trial_file);
   void OpenTrial(const control::TrialSetup& setup);
   void ShowFrame(const FrameNews& news);
   void ShowState();
+  void FitPanels();
+  void FitGaps();
 
   TrialDesk* desk_;  // this and all below are owned by Qt as children
-  SessionChoice choice_;
+  SessionPlace place_;
   bool closes_when_idle_ = false;
+  bool is_remembered_ = false;
   MessageBar* messages_ = nullptr;
+  QStackedWidget* pages_ = nullptr;  // the welcome page and the view
   OperatorView* view_ = nullptr;
   HullLookButton* hull_look_ = nullptr;
   PreflightPanel* preflight_ = nullptr;
   QDockWidget* preflight_dock_ = nullptr;
+  QDockWidget* cameras_dock_ = nullptr;
   CameraStrip* strip_ = nullptr;
   SpacingPanel* spacings_ = nullptr;
   ToolPanel* tools_ = nullptr;
+  NoteLine* note_ = nullptr;
   ContactModel* contacts_ = nullptr;
   TouchModel* touches_ = nullptr;
   StatusLine* status_ = nullptr;

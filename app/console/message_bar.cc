@@ -1,8 +1,11 @@
 #include "app/console/message_bar.h"
 
+#include <QEvent>
 #include <QHBoxLayout>
 #include <QStyle>
 #include <QToolButton>
+
+#include "app/console/desktop/theme.h"
 
 namespace elbowroom::console {
 
@@ -23,19 +26,32 @@ MessageBar::MessageBar(QWidget* parent) : QFrame(parent), text_(new QLabel) {
   hide();
 }
 
-void MessageBar::ShowError(const QString& line) {
-  ShowLine(line, "background: #fce9e4; border: 1px solid #d9917f; color: #7c1f0d;");
-}
+void MessageBar::ShowError(const QString& line) { ShowLine(line, true); }
 
-void MessageBar::ShowNote(const QString& line) {
-  ShowLine(line, "background: #e6f1e9; border: 1px solid #9cc4a8; color: #1f5331;");
-}
+void MessageBar::ShowNote(const QString& line) { ShowLine(line, false); }
 
-void MessageBar::ShowLine(const QString& line, const QString& colors) {
-  setStyleSheet("QFrame { border-radius: 3px; " + colors +
-                " } QLabel, QToolButton { border: none; background: transparent; }");
+void MessageBar::ShowLine(const QString& line, bool is_error) {
+  is_error_ = is_error;
+  TakeColors();
   text_->setText(line);
+  text_->setAccessibleName(is_error ? tr("Error") : tr("Note"));
   show();
+}
+
+void MessageBar::TakeColors() {
+  const Colors& colors = ThemeColors();
+  const QColor& ink = is_error_ ? colors.contact : colors.clear;
+  const QColor& tint = is_error_ ? colors.contact_tint : colors.clear_tint;
+  const QString sheet = QString(
+                            "QFrame { border-radius: 3px; background: %1; border: 1px solid %2; color: "
+                            "%2; } QLabel, QToolButton { border: none; background: transparent; }")
+                            .arg(tint.name(), ink.name());
+  if (sheet != styleSheet()) setStyleSheet(sheet);
+}
+
+void MessageBar::changeEvent(QEvent* event) {
+  QFrame::changeEvent(event);
+  if (event->type() == QEvent::PaletteChange && isVisible()) TakeColors();
 }
 
 }  // namespace elbowroom::console

@@ -16,10 +16,15 @@ class MessageBar : public QFrame {
   void ShowNote(const QString& line);
   [[nodiscard]] QString text() const { return text_->text(); }
 
+ protected:
+  void changeEvent(QEvent* event) override;
+
  private:
-  void ShowLine(const QString& line, const QString& colors);
+  void ShowLine(const QString& line, bool is_error);
+  void TakeColors();
 
   QLabel* text_;
+  bool is_error_ = false;
 };
 
 }  // namespace elbowroom::console

@@ -6,7 +6,7 @@
 #include <chrono>
 #include <utility>
 
-#include "app/console/palette.h"
+#include "app/console/desktop/theme.h"
 
 namespace elbowroom::console {
 namespace {
@@ -55,10 +55,7 @@ void OperatorView::Foresee(const control::SharedHull& hull) {
 }
 
 void OperatorView::ShowFrame(control::SharedFrameResult result) {
-  if (!result_) {
-    const bool is_live = result->camera_frames && result->camera_frames->taken_at;
-    pace_ = PicturePace(is_live ? PicturePace::kLiveAimMs : PicturePace::kAimMs);
-  }
+  if (!result_) pace_ = PicturePace();
   result_ = std::move(result);
   if (camera_) {
     AskForPicture();
@@ -149,9 +146,9 @@ void OperatorView::ShowPicture(const QImage& picture, const control::RenderReque
 
 void OperatorView::paintEvent(QPaintEvent* /*event*/) {
   QPainter painter(this);
-  painter.fillRect(rect(), kViewBackground);
+  painter.fillRect(rect(), ThemeColors().view_background);
   if (picture_.isNull()) {
-    painter.setPen(kQuietText);
+    painter.setPen(ThemeColors().quiet_text);
     painter.drawText(rect(), Qt::AlignCenter,
                      result_ ? tr("Drawing the first picture …")
                              : tr("No trial is running.\nStart the demo, or open a trial."));
@@ -179,7 +176,7 @@ void OperatorView::TellAge() {
 
 void OperatorView::PaintCaption(QPainter& painter) const {
   const QRect room = rect().adjusted(10, 0, -10, -8);
-  painter.setPen(kQuietText);
+  painter.setPen(ThemeColors().picture_text);
   painter.drawText(room, Qt::AlignBottom | Qt::AlignLeft,
                    tr("drag: orbit   right drag: pan   wheel: zoom   F: fit"));
   painter.drawText(room, Qt::AlignBottom | Qt::AlignRight, tr("frame %1").arg(picture_frame_));

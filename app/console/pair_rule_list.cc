@@ -1,12 +1,13 @@
 #include "app/console/pair_rule_list.h"
 
+#include <QEvent>
 #include <QVBoxLayout>
 #include <algorithm>
 #include <tuple>
 #include <utility>
 
+#include "app/console/desktop/theme.h"
 #include "app/console/lower_bound_text.h"
-#include "app/console/palette.h"
 
 namespace elbowroom::console {
 namespace {
@@ -27,8 +28,8 @@ QString VerdictWord(core::Verdict verdict) {
 
 // The words say the same: nobody needs to tell the colours apart.
 QColor ColorOf(const review::PairClash& pair) {
-  if (!control::IsBroken(pair)) return kClearGreen;
-  return pair.verdict == core::Verdict::kContact ? kContactRed : kAttentionAmber;
+  if (!control::IsBroken(pair)) return ThemeColors().clear;
+  return pair.verdict == core::Verdict::kContact ? ThemeColors().contact : ThemeColors().attention;
 }
 
 // How many rules aren't shown.
@@ -61,7 +62,8 @@ PairRuleList::PairRuleList(const core::Layout& layout, std::vector<std::size_t> 
     lines_.push_back(line);
   }
   for (std::size_t i = 0; i < lines_.size(); ++i)
-    ShowLine(i, i == 0 && !only_broken_ ? tr("pair rules: not judged yet") : QString(), kQuietText);
+    ShowLine(i, i == 0 && !only_broken_ ? tr("pair rules: not judged yet") : QString(),
+             ThemeColors().quiet_text);
   setHidden(texts().isEmpty());
 }
 
@@ -95,18 +97,28 @@ void PairRuleList::ShowVerdicts(const control::SharedPairVerdicts& verdicts,
   if (verdicts == verdicts_ && is_of_frame == is_of_frame_) return;
   verdicts_ = verdicts;
   is_of_frame_ = is_of_frame;
-  const std::vector<const review::PairClash*> pairs = InOrder(*verdicts);
-  const QString of_before = is_of_frame ? QString() : tr(" (at the gap before; this one is being judged)");
+  ShowLines();
+}
+
+void PairRuleList::ShowLines() {
+  const std::vector<const review::PairClash*> pairs = InOrder(*verdicts_);
+  const QString of_before = is_of_frame_ ? QString() : tr(" (at the gap before; this one is being judged)");
   for (std::size_t i = 0; i < lines_.size(); ++i) {
     if (i >= pairs.size()) {
-      ShowLine(i, {}, kQuietText);
+      ShowLine(i, {}, ThemeColors().quiet_text);
     } else if (i == kMostLines) {
-      ShowLine(i, OthersText(std::span(pairs).subspan(i)), kQuietText);
+      ShowLine(i, OthersText(std::span(pairs).subspan(i)), ThemeColors().quiet_text);
     } else {
-      ShowLine(i, TextOf(*pairs[i]) + of_before, is_of_frame ? ColorOf(*pairs[i]) : kQuietText);
+      ShowLine(i, TextOf(*pairs[i]) + of_before,
+               is_of_frame_ ? ColorOf(*pairs[i]) : ThemeColors().quiet_text);
     }
   }
   setHidden(texts().isEmpty());
+}
+
+void PairRuleList::changeEvent(QEvent* event) {
+  QWidget::changeEvent(event);
+  if (event->type() == QEvent::PaletteChange && verdicts_) ShowLines();  // another theme's colours
 }
 
 void PairRuleList::ShowLine(std::size_t line, const QString& text, const QColor& color) {

@@ -31,7 +31,11 @@ class PairRuleList : public QWidget {
 
   [[nodiscard]] QStringList texts() const;  // of the lines that are shown
 
+ protected:
+  void changeEvent(QEvent* event) override;
+
  private:
+  void ShowLines();
   void ShowLine(std::size_t line, const QString& text, const QColor& color);
   [[nodiscard]] QString TextOf(const review::PairClash& pair) const;
   [[nodiscard]] std::vector<const review::PairClash*> InOrder(const control::PairVerdicts& verdicts) const;

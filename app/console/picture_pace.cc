@@ -15,9 +15,9 @@ void PicturePace::Add(double drawing_ms) {
   const bool is_coarsest = step_ + 1 == kSteps.size();
   const double finer_ms =
       step_ == 0 ? drawing_ms : drawing_ms * kSteps[step_ - 1].relative_cost / kSteps[step_].relative_cost;
-  if (drawing_ms > aim_ms_ && !is_coarsest) {
+  if (drawing_ms > kAimMs && !is_coarsest) {
     in_a_row_ = std::max(in_a_row_, 0) + 1;
-  } else if (step_ > 0 && finer_ms < kRoomToRefine * aim_ms_) {
+  } else if (step_ > 0 && finer_ms < kRoomToRefine * kAimMs) {
     in_a_row_ = std::min(in_a_row_, 0) - 1;
   } else {
     in_a_row_ = 0;

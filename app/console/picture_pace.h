@@ -20,26 +20,23 @@ struct PictureFineness {
 // is time, in a few steps and with patience, so that they don't change to and fro. Thread: one.
 class PicturePace {
  public:
-  static constexpr double kAimMs = 140.0;  // a picture this old still follows the hand
-  // Of live cameras: about a frame's time at 30 Hz, so that each frame is drawn and is shown within two.
-  static constexpr double kLiveAimMs = 35.0;
+  // About a frame's time at 30 Hz, so that each frame is drawn and is shown within two.
+  static constexpr double kAimMs = 35.0;
   static constexpr PictureFineness kFinest{};
-
-  explicit PicturePace(double aim_ms = kAimMs) : aim_ms_(aim_ms) {}
 
   [[nodiscard]] const PictureFineness& fineness() const { return kSteps[step_]; }
 
   void Add(double drawing_ms);  // of a picture drawn with fineness()
 
  private:
-  // The costs are those of software OpenGL with the demo's parts; docs/performance.md, "Live cameras".
+  // The costs are those of software OpenGL with the demo's parts while the eye is still; docs/performance.md,
+  // "Live cameras".
   static constexpr std::array<PictureFineness, 5> kSteps = {{{1.0, 1.0, true, 1.0},
-                                                             {1.0, 1.0, false, 0.44},
-                                                             {0.8, 0.5, false, 0.31},
-                                                             {0.65, 0.5, false, 0.23},
-                                                             {0.5, 0.5, false, 0.17}}};
+                                                             {1.0, 1.0, false, 0.25},
+                                                             {0.8, 0.5, false, 0.18},
+                                                             {0.65, 0.5, false, 0.13},
+                                                             {0.5, 0.5, false, 0.1}}};
 
-  double aim_ms_;
   std::size_t step_ = 0;
   int in_a_row_ = 0;  // pictures that asked for the same change: above zero coarser, below zero finer
 };

@@ -2,6 +2,7 @@
 
 #include <QAction>
 #include <QDir>
+#include <QEvent>
 #include <QFileDialog>
 #include <QHBoxLayout>
 #include <QHeaderView>
@@ -9,7 +10,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "app/console/palette.h"
+#include "app/console/desktop/theme.h"
 #include "app/control/cameras/camera_check.h"
 
 namespace elbowroom::console {
@@ -24,11 +25,11 @@ struct StateLook {
 StateLook LookOf(control::PreflightState state) {
   switch (state) {
     case control::PreflightState::kWell:
-      return {QObject::tr("✔ well"), kClearGreen};
+      return {QObject::tr("✔ well"), ThemeColors().clear};
     case control::PreflightState::kAttention:
-      return {QObject::tr("▲ see to it"), kAttentionAmber};
+      return {QObject::tr("▲ see to it"), ThemeColors().attention};
     case control::PreflightState::kFault:
-      return {QObject::tr("✖ fault"), kContactRed};
+      return {QObject::tr("✖ fault"), ThemeColors().contact};
   }
   return {};
 }
@@ -214,6 +215,11 @@ QString PreflightPanel::Headline() const {
   if (to_do == 0)
     return (has_checked_ ? tr("✔ All is well: the trial can begin.") : tr("✔ So far all is well.")) + cameras;
   return (to_do == 1 ? tr("▲ One thing to do.") : tr("▲ %1 things to do.").arg(to_do)) + cameras;
+}
+
+void PreflightPanel::changeEvent(QEvent* event) {
+  QWidget::changeEvent(event);
+  if (event->type() == QEvent::PaletteChange && table_ != nullptr) ShowRows();
 }
 
 void PreflightPanel::ShowRows() {

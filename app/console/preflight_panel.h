@@ -49,6 +49,9 @@ class PreflightPanel : public QWidget {
   void RigChanged();
   void Checked(bool is_complete);  // false: it was cancelled, or failed
 
+ protected:
+  void changeEvent(QEvent* event) override;
+
  private:
   void Choose();
   void FollowDesk();

@@ -10,7 +10,7 @@
 #include <set>
 #include <utility>
 
-#include "app/console/palette.h"
+#include "app/console/desktop/theme.h"
 #include "app/control/pairs/ruled_pairs.h"
 
 namespace elbowroom::console {
@@ -44,7 +44,7 @@ void SpacingControl::AddRows(const core::Spacing& spacing) {
                               QString::fromStdString(spacing.moving),
                               QString::fromUtf8(core::ToString(spacing.axis).data())));
   applied_ = new QLabel;
-  applied_->setStyleSheet("color: " + kQuietText.name());
+  applied_->setForegroundRole(QPalette::PlaceholderText);  // the quiet one
   slider_ = new QSlider(Qt::Horizontal);
   slider_->setObjectName("spacing_slider:" + name);
   slider_->setPageStep(SliderFrom(kButtonStepMm));
@@ -115,10 +115,11 @@ void SpacingControl::ShowApplied(double applied_mm) {
   if (is_changed && !awaited_mm_) ShowValue(applied_mm);
 }
 
-SpacingPanel::SpacingPanel(QWidget* parent) : QGroupBox(tr("Layout"), parent) {
+SpacingPanel::SpacingPanel(QWidget* parent) : QGroupBox(tr("Gaps"), parent) {
   auto* column = new QVBoxLayout(this);
   column->setSpacing(10);
   history_ = new GapHistory(this);
+  hide();  // until there is a gap
   connect(history_, &GapHistory::Changed, this, &SpacingPanel::HistoryChanged);
 }
 
@@ -149,6 +150,7 @@ void SpacingPanel::Open(const core::Layout& layout) {
   }
   AddRules(layout, {of_no_spacing.begin(), of_no_spacing.end()}, true);
   if (!controls_.empty()) Activate(controls_.front());
+  setVisible(!controls_.empty() || !pairs.empty());
 }
 
 void SpacingPanel::AddRules(const core::Layout& layout, std::vector<std::size_t> shown, bool only_broken) {

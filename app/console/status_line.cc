@@ -25,10 +25,6 @@ StatusLine::StatusLine(QWidget* parent) : QStatusBar(parent) {
   age_ = AddField("status_age", 0);
   skipped_ = AddField("status_skipped", 3);
   session_ = AddField("status_session", 1);
-  for (QLabel* field : {skipped_, session_}) {  // cut off rather than widening the window
-    field->setMinimumWidth(60);
-    field->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
-  }
   driver_ = AddField("status_driver", 0);
   progress_ = new QProgressBar;
   progress_->setFixedWidth(220);
@@ -83,6 +79,25 @@ void StatusLine::ShowFrame(const control::FrameResult& result, const control::Re
   // A field never shrinks: texts of changing length would move the other fields with every frame.
   for (QLabel* field : {frame_, recorded_, times_}) {
     field->setMinimumWidth(std::max(field->minimumWidth(), field->sizeHint().width()));
+  }
+  FitFields();
+}
+
+QSize StatusLine::minimumSizeHint() const { return {320, QStatusBar::minimumSizeHint().height()}; }
+
+void StatusLine::resizeEvent(QResizeEvent* event) {
+  QStatusBar::resizeEvent(event);
+  FitFields();
+}
+
+void StatusLine::FitFields() {
+  constexpr int kBesideFieldPx = 8;
+  int room_px = width() - (progress_->isVisible() ? progress_->width() + kBesideFieldPx : 0);
+  for (QLabel* field : {frame_, session_, recorded_, age_, times_, skipped_, driver_}) {
+    const int wanted_px = std::max(field->minimumWidth(), field->sizeHint().width()) + kBesideFieldPx;
+    const bool fits = wanted_px <= room_px;
+    if (fits) room_px -= wanted_px;
+    if (field->isHidden() == fits) field->setVisible(fits);
   }
 }
 

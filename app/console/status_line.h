@@ -25,8 +25,14 @@ class StatusLine : public QStatusBar {
   void ShowProgress(qint64 done, qint64 total, const QString& what);  // total <= 0: not known, not shown
   void HideProgress() { progress_->hide(); }
   [[nodiscard]] const control::FrameTimeTally& ages() const { return ages_; }
+  [[nodiscard]] QSize minimumSizeHint() const override;  // it gives way to the window, which may be small
+
+ protected:
+  void resizeEvent(QResizeEvent* event) override;
 
  private:
+  // Shows as many fields as there is room for, the most important first.
+  void FitFields();
   QLabel* AddField(const QString& name, int stretch);
 
   QLabel* frame_ = nullptr;

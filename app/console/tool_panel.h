@@ -16,6 +16,7 @@ class ToolPanel : public QGroupBox {
   explicit ToolPanel(QWidget* parent = nullptr);
 
   void Open(const std::vector<std::string>& tools);  // all not in use; without tools the panel hides
+  void Toggle(std::size_t place);                    // in the order of Open; does nothing beyond the last
 
  signals:
   void Marked(const std::string& tool, bool in_use);

@@ -3,8 +3,8 @@
 #include <QLocale>
 #include <array>
 
+#include "app/console/desktop/theme.h"
 #include "app/console/lower_bound_text.h"
-#include "app/console/palette.h"
 
 namespace elbowroom::console {
 namespace {
@@ -18,17 +18,17 @@ Qt::Alignment AlignmentOf(int column) {
 }
 
 QColor ColorOf(std::optional<core::Verdict> verdict) {
-  if (!verdict) return kQuietText;
+  if (!verdict) return ThemeColors().quiet_text;
   switch (*verdict) {
     case core::Verdict::kContact:
-      return kContactRed;
+      return ThemeColors().contact;
     case core::Verdict::kClear:
-      return kClearGreen;
+      return ThemeColors().clear;
     case core::Verdict::kNear:
     case core::Verdict::kUndecided:
       break;
   }
-  return kQuietText;
+  return ThemeColors().quiet_text;
 }
 
 }  // namespace

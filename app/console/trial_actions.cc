@@ -1,6 +1,5 @@
 #include "app/console/trial_actions.h"
 
-#include <QDateTime>
 #include <QDesktopServices>
 #include <QDir>
 #include <QFileDialog>
@@ -10,6 +9,7 @@
 #include <utility>
 
 #include "app/console/calibration_dialog.h"
+#include "app/console/desktop/recent_trials.h"
 #include "app/control/demo_trial.h"
 
 namespace elbowroom::console {
@@ -39,53 +39,45 @@ bool CanStart(const TrialDesk& desk) { return IsIdle(desk) && !desk.are_cameras_
 
 }  // namespace
 
-QString DefaultSessionName(const QDateTime& at) {
-  return "elbowroom-" + at.toString("yyyyMMdd-hhmmss") + ".db";
-}
-
-std::optional<std::filesystem::path> SessionChoice::Choose(QWidget* window) {
-  if (!given_.empty()) return std::exchange(given_, {});
-  // The dialog doesn't ask about overwriting: a session never replaces a file, and starting it says so.
-  const QString path = QFileDialog::getSaveFileName(
-      window, QObject::tr("Record the session into"),
-      QDir::home().filePath(DefaultSessionName(QDateTime::currentDateTime())), QObject::tr("Sessions (*.db)"),
-      nullptr, QFileDialog::DontConfirmOverwrite);
-  if (path.isEmpty()) return std::nullopt;
-  return PathFrom(path);
-}
-
-void StartDemo(TrialDesk& desk, const std::filesystem::path& session) {
+void StartDemo(TrialDesk& desk, SessionPlace& place) {
   desk.Start([](const std::stop_token&) { return control::MakeDemoTrial(control::DemoPlay::kForever); },
-             session);
+             place.Next());
 }
 
-void StartTrialFile(TrialDesk& desk, const std::filesystem::path& trial_file,
-                    const std::filesystem::path& session) {
+void StartTrialFile(TrialDesk& desk, const std::filesystem::path& trial_file, SessionPlace& place) {
   desk.Start([trial_file](const std::stop_token& stop) { return control::ReadTrialFile(trial_file, stop); },
-             session, trial_file);
+             place.Next(), trial_file);
+  RememberTrial(QString::fromStdString(trial_file.string()));
 }
 
-StartDemoAction::StartDemoAction(TrialDesk& desk, SessionChoice& choice, QWidget* window)
-    : QAction(window->style()->standardIcon(QStyle::SP_MediaPlay), tr("Start &demo"), window) {
+StartDemoAction::StartDemoAction(TrialDesk& desk, SessionPlace& place, QWidget* window)
+    : QAction(tr("Start &demo"), window) {
   setToolTip(tr("Play the built-in trial: a simulated hand at the PMT box, payload A above it"));
-  connect(this, &QAction::triggered, window, [&desk, &choice, window] {
-    if (const auto session = choice.Choose(window)) StartDemo(desk, *session);
-  });
+  connect(this, &QAction::triggered, window, [&desk, &place] { StartDemo(desk, place); });
   EnableWhile(this, desk, IsIdle);
 }
 
-OpenTrialAction::OpenTrialAction(TrialDesk& desk, SessionChoice& choice, QWidget* window)
+OpenTrialAction::OpenTrialAction(TrialDesk& desk, SessionPlace& place, QWidget* window)
     : QAction(window->style()->standardIcon(QStyle::SP_DialogOpenButton), tr("&Open trial …"), window) {
   setShortcut(QKeySequence::Open);
   setToolTip(tr("Run the trial that a TRIAL.toml describes"));
-  connect(this, &QAction::triggered, window, [&desk, &choice, window] {
-    const QString file = QFileDialog::getOpenFileName(window, tr("Open a trial"),
-                                                      QString::fromStdString(desk.trial_file().string()),
-                                                      tr("Trials (*.toml);;All files (*)"));
-    if (file.isEmpty()) return;
-    if (const auto session = choice.Choose(window)) StartTrialFile(desk, PathFrom(file), *session);
+  connect(this, &QAction::triggered, window, [&desk, &place, window] {
+    const QString last = desk.trial_file().empty() ? RecentTrials().value(0)
+                                                   : QString::fromStdString(desk.trial_file().string());
+    const QString file =
+        QFileDialog::getOpenFileName(window, tr("Open a trial"), last, tr("Trials (*.toml);;All files (*)"));
+    if (!file.isEmpty()) StartTrialFile(desk, PathFrom(file), place);
   });
   EnableWhile(this, desk, CanStart);
+}
+
+SessionsFolderAction::SessionsFolderAction(QWidget* window) : QAction(tr("&Sessions folder …"), window) {
+  setToolTip(tr("Choose where the next trials are recorded"));
+  connect(this, &QAction::triggered, window, [window] {
+    const QString folder = QFileDialog::getExistingDirectory(
+        window, tr("Record sessions into"), QString::fromStdString(SessionsFolder().string()));
+    if (!folder.isEmpty()) SetSessionsFolder(PathFrom(folder));
+  });
 }
 
 CalibrateAction::CalibrateAction(TrialDesk& desk, QWidget* window)
@@ -105,8 +97,7 @@ CalibrateAction::CalibrateAction(TrialDesk& desk, QWidget* window)
   EnableWhile(this, desk, IsIdle);
 }
 
-StopAction::StopAction(TrialDesk& desk, QWidget* window)
-    : QAction(window->style()->standardIcon(QStyle::SP_MediaStop), tr("&Stop"), window) {
+StopAction::StopAction(TrialDesk& desk, QWidget* window) : QAction(tr("&Stop"), window) {
   setToolTip(tr("End the trial; its session is complete up to this frame"));
   connect(this, &QAction::triggered, &desk, &TrialDesk::Stop);
   EnableWhile(this, desk, [](const TrialDesk& at) { return !IsIdle(at) && !at.is_stopping(); });

@@ -4,36 +4,21 @@
 #include <QAction>
 #include <QWidget>
 #include <filesystem>
-#include <optional>
 
+#include "app/console/desktop/session_place.h"
 #include "app/console/spacing_panel.h"
 #include "app/console/trial_desk.h"
 
 namespace elbowroom::console {
 
-// Where the next trial is recorded: the path given beforehand, once; else the user is asked.
-class SessionChoice {
- public:
-  explicit SessionChoice(std::filesystem::path given) : given_(std::move(given)) {}
-
-  // Nothing if the user cancels.
-  [[nodiscard]] std::optional<std::filesystem::path> Choose(QWidget* window);
-
- private:
-  std::filesystem::path given_;  // empty: none, or used up
-};
-
-// "elbowroom-20250131-093000.db" at local time.
-[[nodiscard]] QString DefaultSessionName(const QDateTime& at);
-
 class StartDemoAction : public QAction {
  public:
-  StartDemoAction(TrialDesk& desk, SessionChoice& choice, QWidget* window);
+  StartDemoAction(TrialDesk& desk, SessionPlace& place, QWidget* window);
 };
 
 class OpenTrialAction : public QAction {
  public:
-  OpenTrialAction(TrialDesk& desk, SessionChoice& choice, QWidget* window);
+  OpenTrialAction(TrialDesk& desk, SessionPlace& place, QWidget* window);
 };
 
 // Asks for a CALIB.toml and a RIG.yml, and shows the calibration.
@@ -64,9 +49,15 @@ class RedoGapAction : public QAction {
   RedoGapAction(SpacingPanel& spacings, QWidget* window);
 };
 
-// What the actions do once the session's path is known.
-void StartDemo(TrialDesk& desk, const std::filesystem::path& session);
-void StartTrialFile(TrialDesk& desk, const std::filesystem::path& trial_file,
-                    const std::filesystem::path& session);
+// Chooses the folder for sessions.
+class SessionsFolderAction : public QAction {
+ public:
+  explicit SessionsFolderAction(QWidget* window);
+};
+
+// What the actions do: start a trial that is recorded at the next place. Throw: what SessionPlace::Next
+// throws.
+void StartDemo(TrialDesk& desk, SessionPlace& place);
+void StartTrialFile(TrialDesk& desk, const std::filesystem::path& trial_file, SessionPlace& place);
 
 }  // namespace elbowroom::console

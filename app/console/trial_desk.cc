@@ -143,6 +143,10 @@ void TrialDesk::MarkTool(const std::string& tool, bool in_use) {
   if (trial_) trial_->controls().MarkTool(tool, in_use);
 }
 
+void TrialDesk::AddNote(const QString& note) {
+  if (trial_) trial_->controls().AddNote(note.toStdString());
+}
+
 void TrialDesk::SetTileRoom(const control::ThumbnailRoom& room) {
   tile_room_ = room;
   if (tiles_) tiles_->SetRoom(room);

@@ -70,6 +70,7 @@ class TrialDesk : public QObject {
   // Take effect with the trial's next frame; without a trial, they do nothing.
   void SetSpacing(const std::string& spacing, double to_mm);
   void MarkTool(const std::string& tool, bool in_use);
+  void AddNote(const QString& note);
 
   // How large a picture of a camera's tile may be; an empty room: none is made.
   void SetTileRoom(const control::ThumbnailRoom& room);

@@ -24,6 +24,7 @@ class TrialControls {
   struct Requests {
     std::vector<SpacingRequest> spacings;  // in order: the last one for a spacing holds
     std::vector<ToolRequest> tools;
+    std::vector<std::string> notes;
   };
 
   void SetSpacing(const std::string& spacing, double to_mm) {
@@ -33,6 +34,11 @@ class TrialControls {
   void MarkTool(const std::string& tool, bool in_use) {
     const std::lock_guard lock(mutex_);
     requests_.tools.push_back({tool, in_use});
+  }
+  // What the experimenter sees or hears at this moment.
+  void AddNote(const std::string& note) {
+    const std::lock_guard lock(mutex_);
+    requests_.notes.push_back(note);
   }
   [[nodiscard]] Requests Take() {
     const std::lock_guard lock(mutex_);

@@ -247,6 +247,8 @@ class Recording {
     const TrialControls::Requests requests = controls_.Take();
     for (const SpacingRequest& request : requests.spacings) Apply(frame, time_s, request);
     for (const ToolRequest& request : requests.tools) Apply(frame, time_s, request);
+    for (const std::string& note : requests.notes)
+      writer_.Append(core::SessionEvent{frame, time_s, core::Note{note}});
   }
 
   void Apply(core::FrameIndex frame, double time_s, const ToolRequest& request) {

@@ -14,9 +14,9 @@
 #include "core/system/whole_file.h"
 #include "sessions/archive/table_rows.h"
 #include "sessions/database/damage.h"
-#include "sessions/report/csv_text.h"
 #include "sessions/report/markup.h"
 #include "sessions/sound_session.h"
+#include "sessions/tables/csv_text.h"
 
 namespace elbowroom::sessions {
 namespace {

@@ -10,7 +10,7 @@
 namespace elbowroom::sessions {
 namespace {
 
-constexpr std::size_t kLongestName = 40;  // of each of the two parts
+constexpr std::size_t kLongestPartName = 40;  // of each of the two parts
 
 void AddFrame(const ReportData& data, std::size_t frame, const PairSetting& setting,
               const PairApproaches& approaches, PairCourse* course) {
@@ -38,7 +38,7 @@ double Margin_mm(const PairApproaches& approaches, const PairCourse& course) {
 ChartPanel PanelOf(const ReportData& data, const RuledPair& pair, const PairCourse& course) {
   ChartPanel panel;
   const auto name = [&](core::PartIndex part) {
-    return Shortened(data.header.layout.parts[part].name, kLongestName);
+    return Shortened(data.header.layout.parts[part].name, kLongestPartName);
   };
   panel.title = name(pair.a) + " and " + name(pair.b) + ", mm apart";
   panel.low = 0.0;

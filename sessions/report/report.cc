@@ -13,14 +13,14 @@
 #include "core/system/whole_file.h"
 #include "sessions/bcf/bcf_file.h"
 #include "sessions/print/pdf.h"
-#include "sessions/report/clearance_csv.h"
-#include "sessions/report/contacts_csv.h"
 #include "sessions/report/report_data.h"
 #include "sessions/report/report_document.h"
 #include "sessions/report/report_page.h"
 #include "sessions/report/report_topics.h"
-#include "sessions/report/row_lines.h"
-#include "sessions/report/stamps_csv.h"
+#include "sessions/tables/clearance_csv.h"
+#include "sessions/tables/contacts_csv.h"
+#include "sessions/tables/row_lines.h"
+#include "sessions/tables/stamps_csv.h"
 
 namespace elbowroom::sessions {
 namespace {

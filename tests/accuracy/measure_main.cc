@@ -53,6 +53,9 @@ int main(int argc, char** argv) {
   CLI::App* calibrations = app.add_subcommand("calibration", "what a calibration costs");
   calibrations->add_option("PROGRAM", program, "elbowroom")->required();
   calibrations->callback([&] { MeasureCalibration(docs, program); });
+  app.add_subcommand("pictures", "the console's pictures of a moving hand")->callback([&] {
+    MeasurePictures(docs);
+  });
   app.add_subcommand("detail", "parts drawn whole and by levels")->callback([&] { MeasureDetail(docs); });
   app.add_subcommand("light", "segmentation when the light changes")->callback([&] { MeasureLight(docs); });
   app.add_subcommand("logging", "what recording costs a frame")->callback([&] { MeasureLogging(docs); });

@@ -48,6 +48,10 @@ void MeasureCalibration(const std::filesystem::path& docs, const std::filesystem
 // watching the light costs.
 void MeasureLight(const std::filesystem::path& docs);
 
+// performance.md, "pictures": the console's pictures of the demo's motion, with what stays kept and drawn
+// anew, and how these differ.
+void MeasurePictures(const std::filesystem::path& docs);
+
 // performance.md, "detail": large parts drawn whole and by levels of detail, and how the pictures differ.
 void MeasureDetail(const std::filesystem::path& docs);
 

@@ -157,11 +157,11 @@ TEST_F(PlantedTree, AFileBesideTheRoomsInsideIsFound) {
 }
 
 TEST_F(PlantedTree, ARoomWithoutAFolderIsFound) {
-  fs::remove(root_ / "app/console");
+  fs::remove_all(root_ / "app/console/desktop");
   const std::vector<Violation> found = Check();
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found[0].file, kLayersInTree.generic_string());
-  EXPECT_EQ(found[0].message, "room 'app/console' is no folder of the tree");
+  EXPECT_EQ(found[0].message, "room 'app/console/desktop' is no folder of the tree");
 }
 
 TEST_F(PlantedTree, BuildsAndHiddenFoldersAreNotPartOfTheTree) {

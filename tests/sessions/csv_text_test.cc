@@ -1,5 +1,5 @@
 // Texts of people in tables that spreadsheets open: none of them runs there.
-#include "sessions/report/csv_text.h"
+#include "sessions/tables/csv_text.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <sstream>
 #include <string>
 
-#include "sessions/report/clearance_csv.h"
-#include "sessions/report/contacts_csv.h"
+#include "sessions/tables/clearance_csv.h"
+#include "sessions/tables/contacts_csv.h"
 
 namespace elbowroom::sessions {
 namespace {

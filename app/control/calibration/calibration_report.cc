@@ -4,11 +4,11 @@
 
 #include "app/control/calibration/calibration_pictures.h"
 #include "core/units.h"
-#include "sessions/report/csv_text.h"
 #include "sessions/report/html_page.h"
 #include "sessions/report/html_table.h"
 #include "sessions/report/markup.h"
 #include "sessions/report/whole_files.h"
+#include "sessions/tables/csv_text.h"
 
 namespace elbowroom::control {
 namespace {

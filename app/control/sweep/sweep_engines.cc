@@ -94,8 +94,8 @@ std::set<std::string> NamesIn(const fs::path& folder) {
   return names;
 }
 
-// What the process complained of that complained first; empty: none did. The others may only say that they were
-// ended for its sake, so the time counts and not the name.
+// What the process complained of that complained first; empty: none did. The others may only say that they
+// were ended for its sake, so the time counts and not the name.
 std::string FirstComplaint(const fs::path& folder) {
   std::map<fs::file_time_type, fs::path> complaints;
   for (const auto& entry : fs::directory_iterator(folder)) {

@@ -8,8 +8,8 @@
 
 #include "app/control/sweep/spacing_sweep_picture.h"
 #include "recon/images/png_file.h"
-#include "sessions/report/csv_text.h"
 #include "sessions/report/whole_files.h"
+#include "sessions/tables/csv_text.h"
 
 namespace elbowroom::control {
 namespace {

@@ -18,10 +18,10 @@ void Allocate(GLuint renderbuffer, int samples, GLenum format, int width_px, int
 Framebuffer::Framebuffer(int width_px, int height_px, int samples)
     : width_px_(width_px), height_px_(height_px) {
   Allocate(colour_.get(), samples, GL_RGBA8, width_px, height_px);
-  Allocate(depth_.get(), samples, GL_DEPTH_COMPONENT24, width_px, height_px);
+  Allocate(depth_.get(), samples, GL_DEPTH24_STENCIL8, width_px, height_px);
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.get());
   glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, colour_.get());
-  glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth_.get());
+  glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_RENDERBUFFER, depth_.get());
   ThrowUnlessDrawable(fmt::format("{} x {} pixels with {} samples", width_px, height_px, samples));
 }
 
@@ -31,6 +31,8 @@ void Framebuffer::Bind() const {
 }
 
 void Framebuffer::BindForReading() const { glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer_.get()); }
+
+void Framebuffer::BindForDrawing() const { glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer_.get()); }
 
 void Framebuffer::ResolveColourFrom(const Framebuffer& source) const {
   core::Require(source.width_px_ == width_px_ && source.height_px_ == height_px_,

@@ -6,7 +6,7 @@
 
 namespace elbowroom::recon::gl {
 
-// 8-bit RGBA and 24-bit depth, `samples` a pixel (1: none but the pixel's centre).
+// 8-bit RGBA, 24-bit depth and 8-bit stencil, `samples` a pixel (1: none but the pixel's centre).
 class Framebuffer {
  public:
   // Throws: Error{kGraphics} when the driver can't hold it.
@@ -18,6 +18,7 @@ class Framebuffer {
   // For drawing, with the viewport over all of it.
   void Bind() const;
   void BindForReading() const;
+  void BindForDrawing() const;  // leaves the viewport, and the framebuffer for reading
 
   // Averages the samples of `source`, which has the same size, into this one's colour.
   void ResolveColourFrom(const Framebuffer& source) const;

@@ -20,6 +20,7 @@ class ShaderProgram {
   // The program must be in use. A name that the linker dropped is ignored, as OpenGL does.
   void Set(const char* name, int value) const { glUniform1i(At(name), value); }
   void Set(const char* name, float value) const { glUniform1f(At(name), value); }
+  void Set(const char* name, const Eigen::Vector2i& value) const { glUniform2iv(At(name), 1, value.data()); }
   void Set(const char* name, const Eigen::Vector3i& value) const { glUniform3iv(At(name), 1, value.data()); }
   void Set(const char* name, const Eigen::Vector2f& value) const { glUniform2fv(At(name), 1, value.data()); }
   void Set(const char* name, const Eigen::Vector3f& value) const { glUniform3fv(At(name), 1, value.data()); }

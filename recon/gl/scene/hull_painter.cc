@@ -57,6 +57,7 @@ uniform bool has_camera_color;
 uniform bool is_flat;
 uniform float focal_px;
 uniform float samples_in_pixel;
+uniform ivec2 texels;  // [first, end) of the nine around a place that make its surface; only the middle one: (4, 5)
 uniform mat4 cam_from_world;
 uniform vec3 color;
 out vec4 pixel;
@@ -93,7 +94,7 @@ void main() {
   ivec2 middle = ivec2(place);
   ivec2 surface_texel = middle;
   float surface = DepthAt(middle);
-  for (int i = surface > 0.0 ? 9 : 0; i < 9; ++i) {
+  for (int i = surface > 0.0 ? texels.y : texels.x; i < texels.y; ++i) {
     ivec2 texel = middle + ivec2(i % 3 - 1, i / 3 - 1);
     float depth = DepthAt(texel);
     bool nearer = depth > 0.0 && (surface <= 0.0 || depth < surface);
@@ -101,10 +102,11 @@ void main() {
     surface_texel = nearer ? texel : surface_texel;
   }
   vec2 offset = place - vec2(middle) - 0.5;
-  vec3 weight_x = Spline(offset.x), weight_y = Spline(offset.y);
+  bool is_one = texels.y - texels.x == 1;
+  vec3 weight_x = is_one ? vec3(1.0) : Spline(offset.x), weight_y = is_one ? vec3(1.0) : Spline(offset.y);
   float coverage = 0.0, kept = 0.0, inverse_depth = 0.0;
   vec3 normal_in_world = vec3(0.0);
-  for (int i = surface > 0.0 ? 0 : 9; i < 9; ++i) {
+  for (int i = surface > 0.0 ? texels.x : texels.y; i < texels.y; ++i) {
     ivec2 texel = middle + ivec2(i % 3 - 1, i / 3 - 1);
     float depth = DepthAt(texel);
     float weight = depth > 0.0 ? weight_x[i % 3] * weight_y[i / 3] : 0.0;
@@ -124,7 +126,7 @@ void main() {
   }
   normal = normalize(normal);
   vec4 seen = vec4(0.0);  // by cameras; the colour times its trust
-  for (int i = has_camera_color ? 0 : 9; i < 9; ++i) {
+  for (int i = has_camera_color ? texels.x : texels.y; i < texels.y; ++i) {
     ivec2 texel = middle + ivec2(i % 3 - 1, i / 3 - 1);
     float depth = DepthAt(texel);
     bool is_kept = depth > 0.0 && abs(depth - surface) <= kSameSurface * surface;
@@ -218,6 +220,11 @@ void HullPainter::Draw(const Scene& scene, const ViewMatrices& matrices, const L
   picture_program_.Use();
   picture_program_.Set("layer_normal", kNormalUnit);
   picture_program_.Set("focal_px", static_cast<float>(matrices.view.focal_px));
+  // A layer as fine as a picture without smooth edges needs no mixing of texels.
+  const bool is_one = scene.smoothness == Smoothness::kOneSample &&
+                      scene.hull->width_px == matrices.view.width_px &&
+                      scene.hull->height_px == matrices.view.height_px;
+  picture_program_.Set("texels", is_one ? Eigen::Vector2i(4, 5) : Eigen::Vector2i(0, 9));
   picture_program_.Set("samples_in_pixel", scene.smoothness == Smoothness::kFourSamples ? 4.0F : 1.0F);
   picture_program_.Set("cam_from_world", matrices.cam_from_world);
   picture_program_.Set("color", scene.hull_color);

@@ -172,9 +172,11 @@ void Lighting::UpdateHullShadow(const Scene& scene) {
   if (scene.hull_from_lamp == nullptr) {
     hull_shadow_.Upload(1, std::vector<float>{1.0F});
     hull_bounds_.setEmpty();
+    hull_reach_ = {};
   } else {
     const HullView& layer = *scene.hull_from_lamp;
     hull_bounds_ = BoundsOfHits(layer);
+    hull_reach_ = ShadowReach(layer);
     hull_shadow_.Upload(layer.width_px, BufferDepths(layer, scene.lamp.ShadowView(layer.width_px)));
   }
   hull_from_lamp_ = scene.hull_from_lamp;
@@ -182,7 +184,8 @@ void Lighting::UpdateHullShadow(const Scene& scene) {
   ++count_.hull_uploads;
 }
 
-void Lighting::Apply(const ShaderProgram& program, const ViewMatrices& matrices) const {
+void Lighting::Apply(const ShaderProgram& program, const ViewMatrices& matrices,
+                     HullShadow hull_shadow) const {
   const SceneView shadow_view = lamp_.ShadowView(1);
   const core::RigidTransform lamp_from_cam =
       shadow_view.cam_from_world * matrices.view.cam_from_world.Inverse();
@@ -197,7 +200,8 @@ void Lighting::Apply(const ShaderProgram& program, const ViewMatrices& matrices)
   part_shadow_.BindTo(kPartShadowUnit);
   hull_shadow_.BindTo(kHullShadowUnit);
   program.Set("part_bounds", CornersOf(part_bounds_));
-  program.Set("hull_bounds", CornersOf(hull_bounds_));
+  program.Set("hull_bounds",
+              CornersOf(hull_shadow == HullShadow::kThrown ? hull_bounds_ : Eigen::AlignedBox2f()));
   program.Set("part_shadow", kPartShadowUnit);
   program.Set("hull_shadow", kHullShadowUnit);
 }

@@ -11,9 +11,13 @@
 #include "recon/gl/scene/scene.h"
 #include "recon/gl/scene/shadow_count.h"
 #include "recon/gl/scene/shadow_map.h"
+#include "recon/gl/scene/shadow_reach.h"
 #include "recon/gl/scene/view_matrices.h"
 
 namespace elbowroom::recon::gl {
+
+// kLeftOut: the hull lets all light through.
+enum class HullShadow { kThrown, kLeftOut };
 
 // Keeps the shadows of parts and of the hull apart. Each is renewed only when it changed. A hull with the
 // colours of camera pictures takes only the shadows of the parts: the pictures already show its own.
@@ -27,7 +31,10 @@ class Lighting {
   void Update(const Scene& scene, PartPainter& parts);
 
   // Sets what kLightingSource declares; the program must be in use.
-  void Apply(const ShaderProgram& program, const ViewMatrices& matrices) const;
+  void Apply(const ShaderProgram& program, const ViewMatrices& matrices,
+             HullShadow hull_shadow = HullShadow::kThrown) const;
+
+  [[nodiscard]] const ShadowReach& hull_reach() const { return hull_reach_; }
 
   [[nodiscard]] const ShadowCount& count() const { return count_; }
 
@@ -48,6 +55,7 @@ class Lighting {
   bool has_hull_shadow_ = false;
   Eigen::AlignedBox2f part_bounds_;  // of what throws the shadow, in shares of its map
   Eigen::AlignedBox2f hull_bounds_;
+  ShadowReach hull_reach_;
   ShadowMap part_shadow_;
   ShadowMap hull_shadow_;
   ShadowCount count_;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/units.h"
+#include "recon/gl/scene/layer_outputs.h"
 #include "recon/gl/scene/lighting.h"
 #include "recon/gl/scene/surface_mesh.h"
 
@@ -47,7 +48,6 @@ in vec3 normal_in_cam;
 uniform vec3 color;
 uniform float opacity;
 uniform float glow;  // share of the color that needs no light
-out vec4 pixel;
 void main() {
   vec3 normal = normalize(normal_in_cam);
   float light = 0.0;
@@ -57,6 +57,8 @@ void main() {
   }
   vec3 lit = Lit(color, position_in_cam, normal, 0.10, light);
   pixel = vec4(mix(lit, color, glow), opacity);
+  unlit = vec4(mix(Lit(color, position_in_cam, normal, 0.10, 0.0), color, glow), opacity);
+  place = vec4(position_in_cam.z * normal, 1.0);
 }
 )";
 
@@ -74,8 +76,10 @@ void main() {
 
 constexpr const char* kEdgeFragmentSource = R"(
 uniform vec4 color;
-out vec4 pixel;
-void main() { pixel = color; }
+void main() {
+  pixel = unlit = color;
+  place = vec4(0.0);
+}
 )";
 
 Eigen::Vector3f ShownColour(const ScenePart& part) {
@@ -129,8 +133,9 @@ bool PartPainter::MeshKey::operator<(const MeshKey& other) const {
 }
 
 PartPainter::PartPainter(PartDetail detail)
-    : face_program_("part", kFaceVertexSource, std::string(kLightingSource).append(kFaceFragmentSource)),
-      edge_program_("part edge", kEdgeVertexSource, kEdgeFragmentSource),
+    : face_program_("part", kFaceVertexSource,
+                    std::string(kLightingSource).append(kLayerOutputs).append(kFaceFragmentSource)),
+      edge_program_("part edge", kEdgeVertexSource, std::string(kLayerOutputs).append(kEdgeFragmentSource)),
       depth_program_("part depth", kFaceVertexSource, kPartDepthSource) {
   if (detail == PartDetail::kOnDemand) level_maker_.emplace(kCreaseRad);
 }
@@ -176,6 +181,15 @@ void PartPainter::AwaitLevels() {
 
 const PartPainter::UploadedMesh& PartPainter::Uploaded(const core::SharedMesh& mesh) const {
   return meshes_.at({mesh, mesh.get()});
+}
+
+double PartPainter::LowestMm(const ScenePart& part) const {
+  const Eigen::AlignedBox3d& box = Uploaded(part.mesh).bounds_in_part;
+  double lowest_mm = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < 8; ++i)
+    lowest_mm = std::min(
+        lowest_mm, (part.world_from_part * box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i))).z());
+  return lowest_mm;
 }
 
 std::size_t PartPainter::LevelFor(const ScenePart& part, const SceneView& view) const {
@@ -241,9 +255,9 @@ void PartPainter::DrawOpaqueDepth(std::span<const ScenePart> parts, const ViewMa
 }
 
 void PartPainter::DrawOpaque(std::span<const ScenePart> parts, const ViewMatrices& matrices,
-                             const Lighting& light) {
+                             const Lighting& light, HullShadow hull_shadow) {
   face_program_.Use();
-  light.Apply(face_program_, matrices);
+  light.Apply(face_program_, matrices, hull_shadow);
   const auto draw_opaque = [&](auto draw) {
     for (std::size_t i = 0; i < parts.size(); ++i)
       if (parts[i].opacity >= 1.0F) draw(Drawn(parts, i));

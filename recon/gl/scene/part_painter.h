@@ -19,6 +19,7 @@
 namespace elbowroom::recon::gl {
 
 class Lighting;
+enum class HullShadow;
 
 // What a lamp saw of the parts.
 struct CasterPass {
@@ -43,7 +44,8 @@ class PartPainter {
 
   // Depths of the opaque parts, so that DrawOpaque shades only what is seen: the same picture.
   void DrawOpaqueDepth(std::span<const ScenePart> parts, const ViewMatrices& matrices);
-  void DrawOpaque(std::span<const ScenePart> parts, const ViewMatrices& matrices, const Lighting& light);
+  void DrawOpaque(std::span<const ScenePart> parts, const ViewMatrices& matrices, const Lighting& light,
+                  HullShadow hull_shadow);
 
   // Back to front. What is drawn later and stands behind a part is hidden.
   void DrawTransparent(std::span<const ScenePart> parts, const ViewMatrices& matrices, const Lighting& light);
@@ -54,6 +56,9 @@ class PartPainter {
 
   // Draws the depths of faces only, of every part that isn't invisible.
   void DrawDepth(std::span<const ScenePart> parts, const ViewMatrices& matrices);
+
+  // The least z of the part's box in world, of a mesh that Update was given.
+  [[nodiscard]] double LowestMm(const ScenePart& part) const;
 
   // The level of each part, in the order of the last Update; 0 is the whole mesh.
   [[nodiscard]] const std::vector<std::size_t>& levels() const { return levels_; }

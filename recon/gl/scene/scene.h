@@ -31,6 +31,8 @@ struct ScenePart {
 struct CameraFrustum {
   Eigen::Vector3d center_in_world = Eigen::Vector3d::Zero();
   std::array<Eigen::Vector3d, 4> corners_in_world;  // around the picture, at one depth
+
+  [[nodiscard]] bool operator==(const CameraFrustum&) const = default;
 };
 
 // Nothing where the lens's domain doesn't reach the corners of the picture.

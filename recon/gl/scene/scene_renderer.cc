@@ -13,6 +13,7 @@
 #include "recon/gl/scene/hull_painter.h"
 #include "recon/gl/scene/lighting.h"
 #include "recon/gl/scene/part_painter.h"
+#include "recon/gl/scene/still_layer.h"
 #include "recon/gl/scene/surroundings_painter.h"
 #include "recon/gl/scene/view_matrices.h"
 
@@ -39,7 +40,7 @@ struct Targets {
 // The context is the first member, so that it is destroyed last.
 class SceneRenderer::Impl {
  public:
-  explicit Impl(PartDetail detail) : parts_(detail) {}
+  Impl(PartDetail detail, StillThings still_things) : parts_(detail), still_things_(still_things) {}
 
   [[nodiscard]] Image Render(const Scene& scene);
   [[nodiscard]] DepthImage RenderDepth(const Scene& scene);
@@ -49,9 +50,12 @@ class SceneRenderer::Impl {
   [[nodiscard]] const PartPainter& parts() const { return parts_; }
   void AwaitLevels() { parts_.AwaitLevels(); }
   [[nodiscard]] const Lighting& lighting() const { return lighting_; }
+  [[nodiscard]] const StillCount& still_count() const { return still_count_; }
   [[nodiscard]] std::thread::id thread() const { return thread_; }
 
  private:
+  void DrawAll(const Scene& scene, const ViewMatrices& matrices, const Framebuffer& target);
+  void DrawOnStillLayer(const Scene& scene, const ViewMatrices& matrices, const Framebuffer& target);
   [[nodiscard]] const Targets& TargetsFor(const SceneView& view, Smoothness smoothness);
 
   EglContext context_;
@@ -61,6 +65,9 @@ class SceneRenderer::Impl {
   HullPainter hull_;
   SurroundingsPainter surroundings_;
   ContactPainter contacts_;
+  StillThings still_things_;
+  StillLayer still_;
+  StillCount still_count_;
   std::optional<Targets> targets_;
 };
 
@@ -72,20 +79,59 @@ const Targets& SceneRenderer::Impl::TargetsFor(const SceneView& view, Smoothness
   return *targets_;
 }
 
+void SceneRenderer::Impl::DrawAll(const Scene& scene, const ViewMatrices& matrices,
+                                  const Framebuffer& target) {
+  target.Bind();
+  glClear(GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
+  surroundings_.DrawBackground(scene);
+  // With one sample a pixel that is hidden is found out before it is shaded.
+  if (scene.smoothness == Smoothness::kOneSample) parts_.DrawOpaqueDepth(scene.parts, matrices);
+  parts_.DrawOpaque(scene.parts, matrices, lighting_, HullShadow::kThrown);
+  if (scene.hull != nullptr) hull_.Draw(scene, matrices, lighting_);
+  surroundings_.DrawTable(scene, matrices, lighting_, HullShadow::kThrown);
+  surroundings_.DrawLines(scene, matrices);
+}
+
+// Table and lines are on the layer already; where the hull has covered them they are drawn over it once more.
+void SceneRenderer::Impl::DrawOnStillLayer(const Scene& scene, const ViewMatrices& matrices,
+                                           const Framebuffer& target) {
+  if (still_.Holds(scene, parts_, lighting_)) {
+    ++still_count_.kept;
+  } else {
+    still_.BeginDrawing(scene, parts_, lighting_);
+    surroundings_.DrawBackground(scene);
+    parts_.DrawOpaqueDepth(scene.parts, matrices);
+    parts_.DrawOpaque(scene.parts, matrices, lighting_, HullShadow::kLeftOut);
+    surroundings_.DrawTable(scene, matrices, lighting_, HullShadow::kLeftOut);
+    surroundings_.DrawLines(scene, matrices);
+    still_.EndDrawing(matrices, scene.lamp);
+    ++still_count_.drawn;
+  }
+  still_.ShowIn(target, matrices, lighting_);
+  if (scene.hull == nullptr) return;
+  glEnable(GL_STENCIL_TEST);
+  glStencilFunc(GL_ALWAYS, 1, 1U);
+  glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
+  hull_.Draw(scene, matrices, lighting_);
+  glStencilFunc(GL_EQUAL, 1, 1U);
+  glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
+  surroundings_.DrawTable(scene, matrices, lighting_, HullShadow::kThrown);
+  surroundings_.DrawLines(scene, matrices);
+  glDisable(GL_STENCIL_TEST);
+}
+
 Image SceneRenderer::Impl::Render(const Scene& scene) {
   const ViewMatrices matrices = MatricesOf(scene.view);
   const Targets& targets = TargetsFor(scene.view, scene.smoothness);
   parts_.Update(scene.parts, scene.view);
   lighting_.Update(scene, parts_);
-  (targets.sampled ? *targets.sampled : targets.single).Bind();
-  glClear(GL_DEPTH_BUFFER_BIT);
-  surroundings_.DrawBackground(scene);
-  // With one sample a pixel that is hidden is found out before it is shaded.
-  if (!targets.sampled) parts_.DrawOpaqueDepth(scene.parts, matrices);
-  parts_.DrawOpaque(scene.parts, matrices, lighting_);
-  if (scene.hull != nullptr) hull_.Draw(scene, matrices, lighting_);
-  surroundings_.DrawTable(scene, matrices, lighting_);
-  surroundings_.DrawLines(scene, matrices);
+  const bool is_still = still_things_ == StillThings::kKept && StillLayer::Suits(scene, parts_) &&
+                        still_.ComesAgain(scene, parts_, lighting_);
+  if (is_still) {
+    DrawOnStillLayer(scene, matrices, targets.single);
+  } else {
+    DrawAll(scene, matrices, targets.sampled ? *targets.sampled : targets.single);
+  }
   parts_.DrawTransparent(scene.parts, matrices, lighting_);
   contacts_.Draw(scene.contact_points_in_world, matrices);
   if (targets.sampled) targets.single.ResolveColourFrom(*targets.sampled);
@@ -114,7 +160,8 @@ DepthImage SceneRenderer::Impl::RenderDepth(const Scene& scene) {
   return image;
 }
 
-SceneRenderer::SceneRenderer(PartDetail detail) : impl_(std::make_unique<Impl>(detail)) {
+SceneRenderer::SceneRenderer(PartDetail detail, StillThings still_things)
+    : impl_(std::make_unique<Impl>(detail, still_things)) {
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LEQUAL);
   glEnable(GL_MULTISAMPLE);
@@ -156,6 +203,7 @@ bool SceneRenderer::is_software() const { return OnOwnThread().context().is_soft
 std::size_t SceneRenderer::cached_meshes() const { return OnOwnThread().parts().cached_meshes(); }
 std::int64_t SceneRenderer::mesh_uploads() const { return OnOwnThread().parts().mesh_uploads(); }
 ShadowCount SceneRenderer::shadow_count() const { return OnOwnThread().lighting().count(); }
+StillCount SceneRenderer::still_count() const { return OnOwnThread().still_count(); }
 TriangleCount SceneRenderer::triangle_count() const { return OnOwnThread().parts().triangle_count(); }
 void SceneRenderer::AwaitLevels() { OnOwnThread().AwaitLevels(); }
 

@@ -10,6 +10,7 @@
 #include "recon/gl/scene/part_detail.h"
 #include "recon/gl/scene/scene.h"
 #include "recon/gl/scene/shadow_count.h"
+#include "recon/gl/scene/still_count.h"
 #include "recon/images/image.h"
 
 namespace elbowroom::recon::gl {
@@ -26,13 +27,14 @@ struct DepthImage {
 class SceneRenderer {
  public:
   // Throws: Error{kGraphics} as EglContext, or when the driver refuses a shader.
-  explicit SceneRenderer(PartDetail detail = PartDetail::kWhole);
+  explicit SceneRenderer(PartDetail detail = PartDetail::kWhole,
+                         StillThings still_things = StillThings::kKept);
   ~SceneRenderer();
   SceneRenderer(SceneRenderer&&) noexcept;
   SceneRenderer& operator=(SceneRenderer&&) noexcept;
 
-  // The picture. The same scene gives the same bytes on the same driver, but for
-  // levels of detail that have come in between.
+  // The picture. The same scene gives the same bytes on the same driver, but for levels of detail that have
+  // come in between, and, in pictures of one sample, for 2 of 255 where what stays is kept.
   // Throws: PreconditionError as Scene::Validate; Error{kGeometry} for a mesh that can't be drawn;
   // Error{kGraphics} when the driver fails, for example when it is out of memory.
   [[nodiscard]] Image Render(const Scene& scene);
@@ -49,6 +51,7 @@ class SceneRenderer {
   [[nodiscard]] std::size_t cached_meshes() const;
   [[nodiscard]] std::int64_t mesh_uploads() const;     // since the start
   [[nodiscard]] ShadowCount shadow_count() const;      // since the start
+  [[nodiscard]] StillCount still_count() const;        // since the start
   [[nodiscard]] TriangleCount triangle_count() const;  // since the start
 
   // Waits until the levels of all meshes that were drawn are there.

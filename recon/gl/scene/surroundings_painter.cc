@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "recon/gl/scene/layer_outputs.h"
+
 namespace elbowroom::recon::gl {
 namespace {
 
@@ -20,31 +22,32 @@ constexpr const char* kBackgroundFragmentSource = R"(
 in float height;
 uniform vec3 bottom;
 uniform vec3 top;
-out vec4 pixel;
-void main() { pixel = vec4(mix(bottom, top, height), 1.0); }
+void main() {
+  pixel = unlit = vec4(mix(bottom, top, height), 1.0);
+  place = vec4(0.0);
+}
 )";
 
 constexpr const char* kTableVertexSource = R"(
 uniform vec4 extent;  // x0 y0 x1 y1 on z = 0
 uniform mat4 cam_from_world;
 uniform mat4 clip_from_cam;
-out vec2 place;
+out vec2 place_on_table;
 out vec3 place_in_cam;
 void main() {
-  place = vec2((gl_VertexID & 1) == 0 ? extent.x : extent.z, (gl_VertexID & 2) == 0 ? extent.y : extent.w);
-  place_in_cam = (cam_from_world * vec4(place, 0.0, 1.0)).xyz;
+  place_on_table = vec2((gl_VertexID & 1) == 0 ? extent.x : extent.z, (gl_VertexID & 2) == 0 ? extent.y : extent.w);
+  place_in_cam = (cam_from_world * vec4(place_on_table, 0.0, 1.0)).xyz;
   gl_Position = clip_from_cam * vec4(place_in_cam, 1.0);
 }
 )";
 
 // Each fifth line is stronger; lines closer together than two pixels fade out.
 constexpr const char* kTableFragmentSource = R"(
-in vec2 place;
+in vec2 place_on_table;
 in vec3 place_in_cam;
 uniform vec4 extent;
 uniform float grid;
 uniform float opacity;
-out vec4 pixel;
 float Line(float coordinate, float width_px) {
   float cells_per_px = fwidth(coordinate);
   float distance_px = abs(fract(coordinate + 0.5) - 0.5) / cells_per_px;
@@ -52,17 +55,20 @@ float Line(float coordinate, float width_px) {
 }
 float Rim(float distance_mm, float mm_per_px) { return clamp(2.0 - distance_mm / mm_per_px, 0.0, 1.0); }
 void main() {
-  vec2 cell = place / grid;
+  vec2 cell = place_on_table / grid;
   float minor = max(Line(cell.x, 1.0), Line(cell.y, 1.0));
   float major = max(Line(cell.x / 5.0, 1.5), Line(cell.y / 5.0, 1.5));
-  vec2 mm_per_px = fwidth(place);
-  float rim = max(max(Rim(place.x - extent.x, mm_per_px.x), Rim(extent.z - place.x, mm_per_px.x)),
-                  max(Rim(place.y - extent.y, mm_per_px.y), Rim(extent.w - place.y, mm_per_px.y)));
+  vec2 mm_per_px = fwidth(place_on_table);
+  vec2 from_low = place_on_table - extent.xy, from_high = extent.zw - place_on_table;
+  float rim = max(max(Rim(from_low.x, mm_per_px.x), Rim(from_high.x, mm_per_px.x)),
+                  max(Rim(from_low.y, mm_per_px.y), Rim(from_high.y, mm_per_px.y)));
   vec3 color = mix(vec3(0.845, 0.850, 0.855), vec3(0.745, 0.755, 0.770), minor);
   color = mix(color, vec3(0.60, 0.62, 0.65), major);
   color = mix(color, vec3(0.45, 0.47, 0.50), rim);
   float light = PartLight(place_in_cam, up_in_cam) * HullLight(place_in_cam, up_in_cam, 0.3);
   pixel = vec4(color * mix(kUnlit, 1.0, light), opacity);
+  unlit = vec4(color * kUnlit, opacity);
+  place = vec4(place_in_cam.z * up_in_cam, 1.0);
 }
 )";
 
@@ -80,8 +86,10 @@ void main() {
 
 constexpr const char* kLineFragmentSource = R"(
 in vec4 color;
-out vec4 pixel;
-void main() { pixel = color; }
+void main() {
+  pixel = unlit = color;
+  place = vec4(0.0);
+}
 )";
 
 void AppendLine(std::vector<float>& floats, const Eigen::Vector3d& from_in_world,
@@ -112,9 +120,11 @@ void AppendFrustum(std::vector<float>& floats, const CameraFrustum& frustum, con
 }  // namespace
 
 SurroundingsPainter::SurroundingsPainter()
-    : background_program_("background", kBackgroundVertexSource, kBackgroundFragmentSource),
-      table_program_("table", kTableVertexSource, std::string(kLightingSource).append(kTableFragmentSource)),
-      line_program_("line", kLineVertexSource, kLineFragmentSource) {}
+    : background_program_("background", kBackgroundVertexSource,
+                          std::string(kLayerOutputs).append(kBackgroundFragmentSource)),
+      table_program_("table", kTableVertexSource,
+                     std::string(kLightingSource).append(kLayerOutputs).append(kTableFragmentSource)),
+      line_program_("line", kLineVertexSource, std::string(kLayerOutputs).append(kLineFragmentSource)) {}
 
 void SurroundingsPainter::DrawBackground(const Scene& scene) const {
   background_program_.Use();
@@ -125,8 +135,8 @@ void SurroundingsPainter::DrawBackground(const Scene& scene) const {
   glEnable(GL_DEPTH_TEST);
 }
 
-void SurroundingsPainter::DrawTable(const Scene& scene, const ViewMatrices& matrices,
-                                    const Lighting& light) const {
+void SurroundingsPainter::DrawTable(const Scene& scene, const ViewMatrices& matrices, const Lighting& light,
+                                    HullShadow hull_shadow) const {
   if (!scene.table_in_world || scene.table_in_world->isEmpty()) return;
   const Eigen::Vector2f low = scene.table_in_world->min().cast<float>();
   const Eigen::Vector2f high = scene.table_in_world->max().cast<float>();
@@ -134,7 +144,7 @@ void SurroundingsPainter::DrawTable(const Scene& scene, const ViewMatrices& matr
   table_program_.Set("extent", Eigen::Vector4f(low.x(), low.y(), high.x(), high.y()));
   table_program_.Set("cam_from_world", matrices.cam_from_world);
   table_program_.Set("clip_from_cam", matrices.clip_from_cam);
-  light.Apply(table_program_, matrices);
+  light.Apply(table_program_, matrices, hull_shadow);
   table_program_.Set("grid", static_cast<float>(scene.table_grid_mm));
   table_program_.Set("opacity", scene.view.EyeInWorld().z() >= 0.0 ? 0.9F : 0.25F);
   glEnable(GL_BLEND);

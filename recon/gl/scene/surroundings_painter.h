@@ -19,7 +19,8 @@ class SurroundingsPainter {
 
   // The grid on z = 0 with the shadows on it, faint when it is seen from below. To be called after all that
   // is opaque.
-  void DrawTable(const Scene& scene, const ViewMatrices& matrices, const Lighting& light) const;
+  void DrawTable(const Scene& scene, const ViewMatrices& matrices, const Lighting& light,
+                 HullShadow hull_shadow) const;
 
   // The workspace's edges and the cameras' pyramids.
   void DrawLines(const Scene& scene, const ViewMatrices& matrices);

@@ -195,30 +195,30 @@ TEST(PicturePace, CoarsensPicturesOnASlowMachineAndRefinesThemAgain) {
   const auto draw = [&](double finest_ms) {
     for (int i = 0; i < 20; ++i) pace.Add(finest_ms * pace.fineness().relative_cost);
   };
-  for (const double finest_ms : {200.0, 300.0, 450.0, 600.0, 800.0}) {
+  for (const double finest_ms : {50.0, 100.0, 150.0, 220.0, 330.0}) {
     draw(finest_ms);
     EXPECT_LE(finest_ms * pace.fineness().relative_cost, PicturePace::kAimMs);
     const PictureFineness settled = pace.fineness();
     draw(finest_ms);
     EXPECT_EQ(pace.fineness(), settled);  // no to and fro
   }
-  draw(50.0);
+  draw(15.0);
   EXPECT_EQ(pace.fineness(), PicturePace::kFinest);
 }
 
-TEST(PicturePace, OfLiveCamerasGivesUpSmoothEdgesBeforePixels) {
-  PicturePace pace(PicturePace::kLiveAimMs);
+TEST(PicturePace, GivesUpSmoothEdgesBeforePixels) {
+  PicturePace pace;
   const auto draw = [&](double finest_ms) {
     for (int i = 0; i < 20; ++i) pace.Add(finest_ms * pace.fineness().relative_cost);
   };
   draw(30.0);
   EXPECT_EQ(pace.fineness(), PicturePace::kFinest);
-  draw(75.0);
+  draw(100.0);
   EXPECT_FALSE(pace.fineness().is_smooth);
   EXPECT_EQ(pace.fineness().picture, 1.0);
-  draw(150.0);
+  draw(250.0);
   EXPECT_LT(pace.fineness().picture, 1.0);
-  EXPECT_LE(150.0 * pace.fineness().relative_cost, PicturePace::kLiveAimMs);
+  EXPECT_LE(250.0 * pace.fineness().relative_cost, PicturePace::kAimMs);
 }
 
 TEST(PicturePace, OneSlowPictureChangesNothing) {

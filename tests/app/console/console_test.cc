@@ -5,10 +5,13 @@
 #include <QApplication>
 #include <QCheckBox>
 #include <QDoubleSpinBox>
+#include <QHeaderView>
 #include <QLabel>
+#include <QLineEdit>
 #include <QMenu>
 #include <QSignalSpy>
 #include <QSlider>
+#include <QStatusBar>
 #include <QTableView>
 #include <QTest>
 #include <QWheelEvent>
@@ -184,6 +187,37 @@ TEST_F(ConsoleTest, KeysAndCheckBoxesReachTheRunningTrial) {
   EXPECT_TRUE(std::get<core::ToolMarked>(marked->what).in_use);
 }
 
+TEST_F(ConsoleTest, NotesAndToolsAreMarkedFromTheKeyboard) {
+  StartDemoAndWaitForFrames();
+  window_.activateWindow();
+  ASSERT_TRUE(QTest::qWaitForWindowActive(&window_));
+  QTest::keyClick(&window_, Qt::Key_1);
+  QTest::keyClick(&window_, Qt::Key_9);  // no such tool
+  EXPECT_TRUE(Find<QCheckBox>("tool:tongs")->isChecked());
+  QTest::keyClick(&window_, Qt::Key_N, Qt::ControlModifier);
+  auto* note = Find<QLineEdit>("note");
+  ASSERT_TRUE(note->hasFocus());
+  QTest::keyClicks(note, " reaches with 1 finger + a twist ");
+  EXPECT_TRUE(GapIs(kGuessedGapMm)) << "what is typed moves nothing";
+  QTest::keyClick(note, Qt::Key_Return);
+  EXPECT_EQ(note->text(), "");
+  EXPECT_FALSE(note->hasFocus());
+  QTest::keyClick(note, Qt::Key_N, Qt::ControlModifier);
+  QTest::keyClicks(note, "not this one");
+  QTest::keyClick(note, Qt::Key_Escape);
+  const int frames_before = frames_;
+  ASSERT_TRUE(WaitUntil([&] { return frames_ > frames_before + 2; }));
+  StopAndWait();
+  std::vector<std::string> notes, tools;
+  for (const core::SessionEvent& event : sessions::SessionReader(session_).events()) {
+    if (const auto* said = std::get_if<core::Note>(&event.what)) notes.push_back(said->text);
+    if (const auto* mark = std::get_if<core::ToolMarked>(&event.what)) tools.push_back(mark->tool);
+  }
+  EXPECT_EQ(std::ranges::count(notes, "reaches with 1 finger + a twist"), 1);
+  EXPECT_EQ(std::ranges::count(notes, "not this one"), 0);
+  EXPECT_EQ(tools, std::vector<std::string>{"tongs"});
+}
+
 TEST_F(ConsoleTest, UndoBringsTheGapBackAndTheSessionRecordsBothChanges) {
   EXPECT_FALSE(Action("undo_gap").isEnabled());
   StartDemoAndWaitForFrames();
@@ -249,6 +283,40 @@ TEST_F(ConsoleTest, TheMouseTurnsTheOperatorsView) {
   ASSERT_TRUE(WaitUntil([&] { return view->camera()->azimuth_rad == fitted.azimuth_rad; }));
 }
 
+// At the size of a small screen, or of a larger one whose pixels are doubled.
+TEST_F(ConsoleTest, AllOfARunningTrialFitsASmallScreen) {
+  window_.resize(960, 540);
+  StartDemoAndWaitForFrames();
+  ASSERT_TRUE(WaitUntil([&] { return frames_ > 5; }));
+  EXPECT_EQ(window_.size(), QSize(960, 540)) << "something needs more";
+  for (const char* list : {"contact_list", "touch_list"}) {
+    const auto* table = Find<QTableView>(list);
+    EXPECT_LE(table->horizontalHeader()->length(), table->viewport()->width()) << list;
+    EXPECT_GE(table->viewport()->height(), table->verticalHeader()->defaultSectionSize()) << list;
+    for (int column = 0; column < table->model()->columnCount(); ++column)
+      EXPECT_GE(table->columnWidth(column), table->horizontalHeader()->sectionSizeHint(column)) << list;
+  }
+  for (const QLabel* field : window_.statusBar()->findChildren<QLabel*>()) {
+    if (!field->isVisible()) continue;
+    EXPECT_GE(field->width(), field->sizeHint().width()) << field->objectName().toStdString();
+  }
+  EXPECT_GE(window_.view().height(), 200);
+  EXPECT_GT(window_.strip().height(), 100);
+}
+
+// Nobody is asked for a name, and no dialog stops the trial.
+TEST_F(ConsoleTest, TheSecondTrialIsRecordedWithoutAQuestion) {
+  SetSessionsFolder(folder_ / "sessions");
+  StartDemoAndWaitForFrames();
+  StopAndWait();
+  last_frame_.reset();
+  StartDemoAndWaitForFrames();
+  EXPECT_EQ(QApplication::activeModalWidget(), nullptr);
+  EXPECT_EQ(window_.desk().session().parent_path(), folder_ / "sessions");
+  StopAndWait();
+  EXPECT_EQ(sessions::SessionReader(window_.desk().session()).status(), sessions::SessionStatus::kComplete);
+}
+
 TEST_F(ConsoleTest, AnExistingSessionIsLeftAloneAndTheErrorShown) {
   test_support::WriteText(session_, "somebody's work");
   Action("start_demo").trigger();
@@ -265,7 +333,7 @@ TEST_F(ConsoleTest, AnExistingSessionIsLeftAloneAndTheErrorShown) {
 TEST_F(ConsoleTest, ABrokenTrialFileIsOneLineAndLeavesNoSession) {
   const std::filesystem::path trial = folder_ / "trial.toml";
   test_support::WriteText(trial, "rig = ");
-  StartTrialFile(window_.desk(), trial, session_);
+  StartTrialFile(window_.desk(), trial, window_.session_place());
   ASSERT_TRUE(WaitUntil([&] { return IsIdle(); }));
   EXPECT_NE(Message().indexOf("trial.toml"), -1) << Message().toStdString();
   EXPECT_EQ(Message().indexOf('\n'), -1);

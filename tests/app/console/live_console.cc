@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "app/console/console_main.h"
+#include "app/console/desktop/theme.h"
 #include "app/console/main_window.h"
 #include "app/control/demo_trial.h"
 #include "cad_import/import_worker.h"
@@ -168,7 +169,7 @@ int MeasureTrial(console::MainWindow& window, const std::vector<std::string>& wo
 int main(int argc, char** argv) {
   cad_import::ServeImport(argc, argv);
   const QApplication application(argc, argv);
-  console::SetConsoleStyle();
+  console::SetTheme(console::Theme::kLight);
   const std::vector<std::string> words(argv + 1, argv + argc);
   console::MainWindow window;
   window.show();

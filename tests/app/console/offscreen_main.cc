@@ -5,11 +5,13 @@
 #include <QApplication>
 
 #include "cad_import/import_worker.h"
+#include "tests/app/console/own_home.h"
 
 int main(int argc, char** argv) {
   elbowroom::cad_import::ServeImport(argc, argv);
   qputenv("QT_QPA_PLATFORM", "offscreen");
   testing::InitGoogleTest(&argc, argv);
+  const elbowroom::console::OwnHome home;
   const QApplication application(argc, argv);
   return RUN_ALL_TESTS();
 }

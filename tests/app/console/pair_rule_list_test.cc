@@ -6,7 +6,7 @@
 #include <QLabel>
 #include <memory>
 
-#include "app/console/palette.h"
+#include "app/console/desktop/theme.h"
 #include "app/console/spacing_panel.h"
 #include "app/control/pairs/ruled_pairs.h"
 #include "tests/core/solids.h"
@@ -58,21 +58,21 @@ TEST_F(ShownRules, SayGapAndVerdictInWordsAndColour) {
   ShowAt(12.5, 12.5);
   EXPECT_EQ(Line(), "✕ base and shelf: 12.5 mm, near; rule of 20 mm broken");
   EXPECT_EQ(Label()->accessibleName(), "Pair rule: " + Line());
-  EXPECT_TRUE(Label()->styleSheet().contains(kAttentionAmber.name()));
+  EXPECT_TRUE(Label()->styleSheet().contains(ThemeColors().attention.name()));
   EXPECT_FALSE(Label()->isHidden());
   ShowAt(0.0, 0.0);
   EXPECT_EQ(Line(), "✕ base and shelf: 0.0 mm, contact; rule of 20 mm broken");
-  EXPECT_TRUE(Label()->styleSheet().contains(kContactRed.name()));
+  EXPECT_TRUE(Label()->styleSheet().contains(ThemeColors().contact.name()));
   ShowAt(80.0, 80.0);
   EXPECT_EQ(Line(), "✓ base and shelf: ≥ 80.0 mm, clear; rule of 20 mm kept");
-  EXPECT_TRUE(Label()->styleSheet().contains(kClearGreen.name()));
+  EXPECT_TRUE(Label()->styleSheet().contains(ThemeColors().clear.name()));
 }
 
 TEST_F(ShownRules, SayWhenTheVerdictIsOfTheGapBefore) {
   Open(Shelf());
   ShowAt(12.5, 40.0);
   EXPECT_TRUE(Line().endsWith(" (at the gap before; this one is being judged)"));
-  EXPECT_TRUE(Label()->styleSheet().contains(kQuietText.name()));
+  EXPECT_TRUE(Label()->styleSheet().contains(ThemeColors().quiet_text.name()));
   ShowAt(40.0, 40.0);
   EXPECT_TRUE(Line().endsWith("rule of 20 mm kept"));
 }

@@ -1,4 +1,4 @@
-#include "sessions/report/row_lines.h"
+#include "sessions/tables/row_lines.h"
 
 #include <utility>
 

@@ -1,10 +1,10 @@
-#include "sessions/report/clearance_csv.h"
+#include "sessions/tables/clearance_csv.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
 
-#include "sessions/report/csv_text.h"
+#include "sessions/tables/csv_text.h"
 
 namespace elbowroom::sessions {
 namespace {

@@ -1,8 +1,8 @@
-#include "sessions/report/contacts_csv.h"
+#include "sessions/tables/contacts_csv.h"
 
 #include <fmt/format.h>
 
-#include "sessions/report/csv_text.h"
+#include "sessions/tables/csv_text.h"
 
 namespace elbowroom::sessions {
 namespace {

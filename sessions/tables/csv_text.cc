@@ -1,4 +1,4 @@
-#include "sessions/report/csv_text.h"
+#include "sessions/tables/csv_text.h"
 
 #include <fmt/format.h>
 

@@ -1,0 +1,115 @@
+// The window's tool bar and menus.
+#include <QActionGroup>
+#include <QMenu>
+#include <QMenuBar>
+#include <QStyle>
+#include <QToolBar>
+#include <array>
+#include <utility>
+
+#include "app/console/camera_actions.h"
+#include "app/console/desktop/recent_trials.h"
+#include "app/console/desktop/theme.h"
+#include "app/console/main_window.h"
+
+namespace elbowroom::console {
+
+void MainWindow::AddActions() {
+  auto* bar = addToolBar(tr("Trial"));
+  bar->setObjectName("trial_bar");
+  bar->setMovable(false);
+  bar->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
+  auto* demo = new StartDemoAction(*desk_, place_, this);
+  demo->setObjectName("start_demo");
+  auto* open = new OpenTrialAction(*desk_, place_, this);
+  open->setObjectName("open_trial");
+  auto* calibrate = new CalibrateAction(*desk_, this);
+  calibrate->setObjectName("calibrate");
+  auto* stop = new StopAction(*desk_, this);
+  stop->setObjectName("stop");
+  auto* report = new ReportAction(*desk_, this);
+  report->setObjectName("report");
+  auto* undo = new UndoGapAction(*spacings_, this);
+  undo->setObjectName("undo_gap");
+  auto* redo = new RedoGapAction(*spacings_, this);
+  redo->setObjectName("redo_gap");
+  hull_look_ = new HullLookButton;
+  hull_look_->setObjectName("hull_look");
+  auto* preflight = preflight_dock_->toggleViewAction();
+  preflight->setObjectName("show_preflight");
+  preflight->setText(tr("&Preflight"));
+  preflight->setToolTip(tr("See before a trial whether cameras, background, calibration and disk are ready"));
+  auto* background = new TakeBackgroundAction(*desk_, *preflight_, this);
+  background->setObjectName("take_background");
+  preflight_->ShowBackgroundButton(background);
+  TakeIcons();
+  bar->addActions({demo, open});
+  bar->addSeparator();
+  bar->addActions({stop, report});
+  bar->addSeparator();
+  bar->addActions({undo, redo});
+  bar->addSeparator();
+  bar->addWidget(hull_look_);
+}
+
+void MainWindow::TakeIcons() {
+  for (const auto& [name, standard] :
+       {std::pair{"start_demo", QStyle::SP_MediaPlay}, std::pair{"stop", QStyle::SP_MediaStop}}) {
+    if (auto* action = findChild<QAction*>(name))
+      action->setIcon(InTextColor(style()->standardIcon(standard)));
+  }
+}
+
+void MainWindow::AddMenus() {
+  const auto action = [this](const char* name) { return findChild<QAction*>(name); };
+  auto* file = menuBar()->addMenu(tr("&File"));
+  file->setToolTipsVisible(true);
+  file->addAction(action("open_trial"));
+  auto* recent = new RecentTrialsMenu(this);
+  recent->setObjectName("recent_trials");
+  connect(recent, &RecentTrialsMenu::Chosen, this, &MainWindow::StartTrial);
+  file->addMenu(recent);
+  file->addAction(new SessionsFolderAction(this));
+  file->addSeparator();
+  QAction* quit = file->addAction(tr("&Quit"), QKeySequence::Quit, this, &QWidget::close);
+  quit->setToolTip(tr("A running trial ends in order first"));
+  auto* trial = menuBar()->addMenu(tr("&Trial"));
+  trial->setToolTipsVisible(true);
+  trial->addActions({action("start_demo"), action("stop"), action("report")});
+  trial->addSeparator();
+  trial->addActions({action("undo_gap"), action("redo_gap")});
+  trial->addSeparator();
+  trial->addAction(tr("&Note"), QKeySequence(Qt::CTRL | Qt::Key_N), note_,
+                   [this] { note_->setFocus(Qt::ShortcutFocusReason); });
+  auto* cameras = menuBar()->addMenu(tr("&Cameras"));
+  cameras->setToolTipsVisible(true);
+  cameras->addActions({action("show_preflight"), action("take_background"), action("calibrate")});
+  auto* view = menuBar()->addMenu(tr("&View"));
+  view->addAction(tr("&Fit everything"), QKeySequence(Qt::Key_F), view_, &OperatorView::Fit);
+  view->addAction(tr("F&ull screen"), QKeySequence(Qt::Key_F11), this,
+                  [this] { setWindowState(windowState() ^ Qt::WindowFullScreen); });
+  view->addMenu(ThemeMenu());
+  view->addSeparator();
+  for (const QDockWidget* dock : findChildren<QDockWidget*>())
+    if (dock != preflight_dock_) view->addAction(dock->toggleViewAction());
+}
+
+QMenu* MainWindow::ThemeMenu() {
+  auto* menu = new QMenu(tr("&Colours"), this);
+  auto* group = new QActionGroup(this);
+  const std::array names = {tr("As the &desktop"), tr("&Light"), tr("D&ark")};
+  for (std::size_t i = 0; i < kThemes.size(); ++i) {
+    QAction* choice = menu->addAction(names.at(i));
+    choice->setObjectName("theme:" + KeyOf(kThemes.at(i)));
+    choice->setCheckable(true);
+    choice->setChecked(kThemes.at(i) == CurrentTheme());
+    group->addAction(choice);
+    connect(choice, &QAction::triggered, this, [theme = kThemes.at(i)] {
+      SetTheme(theme);
+      RememberTheme(theme);
+    });
+  }
+  return menu;
+}
+
+}  // namespace elbowroom::console
