@@ -23,16 +23,25 @@ constexpr std::size_t kBlock = 64;
 // enter.
 constexpr double kDistanceRounding = 4e-15;
 
-AlignedBox3d BoundsInWorld(const core::TriangleTree& tree, const core::RigidTransform& world_from_part) {
+// Likewise of the sum of what places two parts: by so much their distance may change when both are shifted by
+// the same.
+constexpr double kShiftRounding = 4e-15;
+
+AlignedBox3d TurnedBounds(const core::TriangleTree& tree, const Eigen::Matrix3d& rotation) {
   AlignedBox3d box;
   for (const auto& triangle : tree.mesh().triangles) {
     for (const std::int32_t i : triangle)
-      box.extend(world_from_part * tree.mesh().vertices_mm[static_cast<std::size_t>(i)]);
+      box.extend(rotation * tree.mesh().vertices_mm[static_cast<std::size_t>(i)]);
   }
+  return box;
+}
+
+AlignedBox3d BoundsInWorld(const core::TriangleTree& tree, const AlignedBox3d& turned_bounds,
+                           const Vector3d& translation_mm) {
   const double size_mm = tree.bounds().min().cwiseAbs().sum() + tree.bounds().max().cwiseAbs().sum() +
-                         world_from_part.translation_mm.cwiseAbs().sum();
+                         translation_mm.cwiseAbs().sum();
   const Vector3d margin_mm = Vector3d::Constant(kDistanceRounding * size_mm);
-  return {box.min() - margin_mm, box.max() + margin_mm};
+  return {turned_bounds.min() + translation_mm - margin_mm, turned_bounds.max() + translation_mm + margin_mm};
 }
 
 core::Verdict VerdictAt(double distance_mm, double required_mm) {
@@ -63,36 +72,46 @@ bool HoldsAPiece(const SurfaceModel& whole, const core::RigidTransform& world_fr
   });
 }
 
-ClashCount Sum(const std::vector<ClashCount>& counts) {
-  ClashCount sum;
-  for (const ClashCount& count : counts) {
-    sum.settled_by_bounds += count.settled_by_bounds;
-    sum.collision_calls += count.collision_calls;
-    sum.distance_calls += count.distance_calls;
-  }
-  return sum;
+// Bounds how far rounding may put a part off.
+double SizeOf(const Vector3d& place_mm, const AlignedBox3d& bounds_in_world) {
+  return place_mm.lpNorm<1>() + bounds_in_world.min().lpNorm<1>() + bounds_in_world.max().lpNorm<1>();
 }
 
 }  // namespace
 
+ClashCount& ClashCount::operator+=(const ClashCount& other) {
+  pairs += other.pairs;
+  unchanged += other.unchanged;
+  moved_together += other.moved_together;
+  settled_by_bounds += other.settled_by_bounds;
+  collision_calls += other.collision_calls;
+  distance_calls += other.distance_calls;
+  return *this;
+}
+
 ClashChecker::ClashChecker(const core::Layout& layout, std::vector<PairDemand> pairs,
                            std::vector<double> uncertainty_mm)
-    : demands_(std::move(pairs)), parts_(layout.parts.size()), last_(demands_.size()) {
+    : demands_(std::move(pairs)),
+      parts_(layout.parts.size()),
+      last_(demands_.size()),
+      asked_(demands_.size()) {
   core::Require(uncertainty_mm.empty() || uncertainty_mm.size() == parts_.size(), "one uncertainty a part");
   std::map<core::SharedMesh, std::shared_ptr<const SurfaceModel>> model_of;
-  for (const core::Part& part : layout.parts) model_of[part.mesh];
+  for (const PairDemand& demand : demands_) {
+    core::Require(demand.a < demand.b && demand.b < parts_.size(), "pairs are of the layout's parts");
+    for (const core::PartIndex part : {demand.a, demand.b}) model_of[layout.parts[part].mesh];
+  }
   std::vector<std::pair<const core::SharedMesh, std::shared_ptr<const SurfaceModel>>*> models;
   for (auto& entry : model_of) models.push_back(&entry);
   tbb::parallel_for(std::size_t{0}, models.size(), [&](std::size_t i) {
     models[i]->second = std::make_shared<const SurfaceModel>(models[i]->first);
   });
   for (std::size_t i = 0; i < parts_.size(); ++i) {
-    parts_[i].model = model_of.at(layout.parts[i].mesh);
+    const auto model = model_of.find(layout.parts[i].mesh);
+    if (model != model_of.end()) parts_[i].model = model->second;
     if (!uncertainty_mm.empty()) parts_[i].uncertainty_mm = uncertainty_mm[i];
     core::Require(parts_[i].uncertainty_mm >= 0.0, "an uncertainty is 0 mm or more");
   }
-  for (const PairDemand& demand : demands_)
-    core::Require(demand.a < demand.b && demand.b < parts_.size(), "pairs are of the layout's parts");
 }
 
 PairClash ClashChecker::Ask(const PairDemand& demand, const std::vector<Part>& parts, ClashCount& count) {
@@ -132,44 +151,85 @@ PairClash ClashChecker::Ask(const PairDemand& demand, const std::vector<Part>& p
   return pair;
 }
 
-std::vector<bool> ClashChecker::Place(std::span<const core::RigidTransform> world_from_parts,
-                                      std::vector<Part>& parts) const {
-  std::vector<bool> has_moved(parts.size());
-  for (std::size_t i = 0; i < parts.size(); ++i)
-    has_moved[i] = !has_checked_ || !(parts[i].world_from_part == world_from_parts[i]);
+std::vector<ClashChecker::Motion> ClashChecker::Place(std::span<const core::RigidTransform> world_from_parts,
+                                                      std::vector<Part>& parts) const {
+  std::vector<Motion> motions(parts.size(), Motion::kTurned);
   tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {
-    if (!has_moved[i]) return;
-    parts[i].world_from_part = world_from_parts[i];
-    parts[i].bounds_in_world = BoundsInWorld(parts[i].model->tree(), world_from_parts[i]);
+    Part& part = parts[i];
+    if (has_checked_ && part.world_from_part.rotation == world_from_parts[i].rotation) {
+      const bool stays = part.world_from_part == world_from_parts[i];
+      motions[i] = stays ? Motion::kNone : Motion::kShifted;
+      if (stays) return;
+    }
+    part.world_from_part = world_from_parts[i];
+    if (!part.model) return;
+    if (motions[i] == Motion::kTurned)
+      part.turned_bounds = TurnedBounds(part.model->tree(), part.world_from_part.rotation);
+    part.bounds_in_world =
+        BoundsInWorld(part.model->tree(), part.turned_bounds, part.world_from_part.translation_mm);
   });
-  return has_moved;
+  return motions;
+}
+
+bool ClashChecker::MovedTogether(const Asked& asked, const Part& a, const Part& b) {
+  const Vector3d before_mm = asked.b_in_world_mm - asked.a_in_world_mm;
+  const Vector3d now_mm = b.world_from_part.translation_mm - a.world_from_part.translation_mm;
+  const double size_mm =
+      SizeOf(asked.a_in_world_mm, a.bounds_in_world) + SizeOf(asked.b_in_world_mm, b.bounds_in_world) +
+      a.world_from_part.translation_mm.lpNorm<1>() + b.world_from_part.translation_mm.lpNorm<1>();
+  return (now_mm - before_mm).lpNorm<Eigen::Infinity>() <= kShiftRounding * size_mm;
+}
+
+// The answer of each pair, its points where the parts are now.
+std::vector<PairClash> ClashChecker::Answers() const {
+  std::vector<PairClash> answers = last_;
+  for (std::size_t i = 0; i < answers.size(); ++i) {
+    if (!answers[i].gap) continue;
+    const Vector3d by_mm = parts_[demands_[i].a].world_from_part.translation_mm - asked_[i].a_in_world_mm;
+    answers[i].gap->on_a += by_mm;
+    answers[i].gap->on_b += by_mm;
+  }
+  return answers;
 }
 
 ClashReport ClashChecker::Check(std::span<const core::RigidTransform> world_from_parts,
                                 const core::Progress& progress, const std::stop_token& stop) {
   core::Require(world_from_parts.size() == parts_.size(), "one pose a part");
   std::vector<Part> parts = parts_;
-  const std::vector<bool> has_moved = Place(world_from_parts, parts);
+  const std::vector<Motion> motions = Place(world_from_parts, parts);
   ClashReport report;
-  report.pairs = last_;
+  report.count.pairs = static_cast<std::int64_t>(demands_.size());
   std::vector<std::size_t> changed;
-  for (std::size_t i = 0; i < demands_.size(); ++i)
-    if (has_moved[demands_[i].a] || has_moved[demands_[i].b]) changed.push_back(i);
+  for (std::size_t i = 0; i < demands_.size(); ++i) {
+    const core::PartIndex a = demands_[i].a, b = demands_[i].b;
+    if (motions[a] == Motion::kNone && motions[b] == Motion::kNone) {
+      ++report.count.unchanged;
+    } else if (motions[a] == Motion::kShifted && motions[b] == Motion::kShifted &&
+               MovedTogether(asked_[i], parts[a], parts[b])) {
+      ++report.count.moved_together;
+    } else {
+      changed.push_back(i);
+    }
+  }
+  std::vector<PairClash> asked(changed.size());
   std::vector<ClashCount> counts(changed.size());
   for (std::size_t begin = 0; begin < changed.size(); begin += kBlock) {
     core::ThrowIfStopped(stop, "checking for clashes");
     const std::size_t end = std::min(begin + kBlock, changed.size());
-    tbb::parallel_for(begin, end, [&](std::size_t i) {
-      report.pairs[changed[i]] = Ask(demands_[changed[i]], parts, counts[i]);
-    });
+    tbb::parallel_for(begin, end,
+                      [&](std::size_t i) { asked[i] = Ask(demands_[changed[i]], parts, counts[i]); });
     progress.Report(static_cast<std::int64_t>(end), static_cast<std::int64_t>(changed.size()), "pairs");
   }
-  report.count = Sum(counts);
-  report.count.pairs = static_cast<std::int64_t>(demands_.size());
-  report.count.unchanged = report.count.pairs - static_cast<std::int64_t>(changed.size());
+  for (const ClashCount& count : counts) report.count += count;
   parts_ = std::move(parts);
-  last_ = report.pairs;
   has_checked_ = true;
+  for (std::size_t i = 0; i < changed.size(); ++i) {
+    const PairDemand& demand = demands_[changed[i]];
+    last_[changed[i]] = asked[i];
+    asked_[changed[i]] = {parts_[demand.a].world_from_part.translation_mm,
+                          parts_[demand.b].world_from_part.translation_mm};
+  }
+  report.pairs = Answers();
   return report;
 }
 

@@ -35,14 +35,18 @@ struct PairClash {
   bool contained = false;       // a piece of one is inside the other, a closed one, without touching it
 };
 
-// How many pairs were asked about and how many skipped. pairs = unchanged + settled_by_bounds + those asked
-// of FCL.
+// How many pairs were asked about and how many skipped. pairs = unchanged + moved_together +
+// settled_by_bounds + those asked of FCL.
 struct ClashCount {
   std::int64_t pairs = 0;
   std::int64_t unchanged = 0;          // neither part moved since the last check
+  std::int64_t moved_together = 0;     // both were shifted by the same, but for rounding
   std::int64_t settled_by_bounds = 0;  // pairs with a moved part that their bounds showed to be clear
   std::int64_t collision_calls = 0;    // of FCL: do two surfaces meet?
   std::int64_t distance_calls = 0;     // of FCL: how far apart are they?
+
+  // Adds the counts of another check.
+  ClashCount& operator+=(const ClashCount& other);
 };
 
 struct ClashReport {
@@ -62,34 +66,48 @@ class ClashChecker {
  public:
   // uncertainty_mm: one value a part, how far it may be from its CAD surface; empty: 0 for all. Throws:
   // core::PreconditionError for another number of values, a negative one, a pair that isn't of the layout's
-  // parts, or a part without triangles.
+  // parts, or one with a part without triangles. Parts that are in no pair cost nothing.
   ClashChecker(const core::Layout& layout, std::vector<PairDemand> pairs,
                std::vector<double> uncertainty_mm = {});
 
-  // Judges every pair with the parts at these poses (one a part). Only pairs with a part that moved since the
-  // last check are worked out anew, and FCL is asked only about those that their bounds don't show to be
-  // clear. The result doesn't depend on the number of threads. Throws: core::Error{kCancelled}; the last
-  // answers stay.
+  // Judges every pair with the parts at these poses (one a part). A pair neither part of which moved since
+  // the last check keeps its answer; so does one whose parts were both shifted, and by the same: its answer
+  // moves with them. FCL is asked only about those of the others that their bounds don't show to be clear.
+  // The result doesn't depend on the number of threads. Throws: core::Error{kCancelled}; the last answers
+  // stay.
   [[nodiscard]] ClashReport Check(std::span<const core::RigidTransform> world_from_parts,
                                   const core::Progress& progress = {}, const std::stop_token& stop = {});
 
  private:
   struct Part {
-    std::shared_ptr<const SurfaceModel> model;
+    std::shared_ptr<const SurfaceModel> model;  // null: in no pair
     double uncertainty_mm = 0.0;
     core::RigidTransform world_from_part;
+    Eigen::AlignedBox3d turned_bounds;    // with its rotation, before it is shifted
     Eigen::AlignedBox3d bounds_in_world;  // rounded outwards
   };
 
-  // Moves those of `parts` whose pose differs, and says which.
-  [[nodiscard]] std::vector<bool> Place(std::span<const core::RigidTransform> world_from_parts,
-                                        std::vector<Part>& parts) const;
+  enum class Motion { kNone, kShifted, kTurned };
+
+  // Where the parts of a pair stood when it was last worked out.
+  struct Asked {
+    Eigen::Vector3d a_in_world_mm = Eigen::Vector3d::Zero();
+    Eigen::Vector3d b_in_world_mm = Eigen::Vector3d::Zero();
+  };
+
+  // Moves those of `parts` whose pose differs, and says how.
+  [[nodiscard]] std::vector<Motion> Place(std::span<const core::RigidTransform> world_from_parts,
+                                          std::vector<Part>& parts) const;
+  // Whether the pair keeps its answer of `asked`.
+  [[nodiscard]] static bool MovedTogether(const Asked& asked, const Part& a, const Part& b);
+  [[nodiscard]] std::vector<PairClash> Answers() const;
   [[nodiscard]] static PairClash Ask(const PairDemand& demand, const std::vector<Part>& parts,
                                      ClashCount& count);
 
   std::vector<PairDemand> demands_;
   std::vector<Part> parts_;
-  std::vector<PairClash> last_;  // one a demand
+  std::vector<PairClash> last_;  // one a demand, as it was worked out
+  std::vector<Asked> asked_;     // one a demand
   bool has_checked_ = false;
 };
 

@@ -76,6 +76,33 @@ void AddFootage(const recon::FootageRecording& footage, CommandResult* result) {
   }
 }
 
+// The pair rules: of each where its parts were closest, and how long it was broken.
+void AddPairs(const control::TrialOutcome& outcome, const core::Layout& layout, CommandResult* result) {
+  nlohmann::json& pairs = result->json["pairs"] = nlohmann::json::array();
+  constexpr int kMostNamed = 5;
+  int broken = 0;
+  std::string named;
+  for (const control::PairTotal& total : outcome.pairs) {
+    const review::PairClash& closest = total.closest;
+    const std::string &a = layout.parts[closest.demand.a].name, &b = layout.parts[closest.demand.b].name;
+    pairs.push_back({{"a", a},
+                     {"b", b},
+                     {"required_mm", closest.demand.required_mm},
+                     {"authorised", closest.demand.authorised_contact},
+                     {"verdict", ToString(closest.verdict)},
+                     {"gap_mm", closest.gap ? nlohmann::json(closest.gap->distance_mm) : nullptr},
+                     {"at_least_mm", closest.at_least_mm},
+                     {"closest_s", total.closest_time_s},
+                     {"ever_broken", total.was_broken},
+                     {"broken_s", total.broken_s}});
+    if (total.was_broken && ++broken <= kMostNamed)
+      named += fmt::format("{}{} and {} ({}, {:.1f} mm, {:.1f} s)", named.empty() ? "" : ", ", a, b,
+                           ToString(closest.verdict), closest.at_least_mm, total.broken_s);
+  }
+  if (broken > kMostNamed) named += fmt::format(" and {} more", broken - kMostNamed);
+  if (broken > 0) result->text += "\n  pair rules broken: " + named;
+}
+
 }  // namespace
 
 void RecordingLog::Print(const sessions::RecordingNews& news) {
@@ -115,7 +142,11 @@ CommandResult SummaryOf(const control::TrialOutcome& outcome, const core::Layout
                    {"queries", outcome.skipped.queries},
                    {"clearances_by_contact", outcome.skipped.clearances_by_contact},
                    {"clearances_by_ball", outcome.skipped.clearances_by_ball},
-                   {"clearance_queries", outcome.skipped.clearance_queries}}},
+                   {"clearance_queries", outcome.skipped.clearance_queries},
+                   {"of_pairs", outcome.skipped.pairs.pairs},
+                   {"unchanged_pairs", outcome.skipped.pairs.unchanged},
+                   {"pairs_moved_together", outcome.skipped.pairs.moved_together},
+                   {"pairs_settled_by_bounds", outcome.skipped.pairs.settled_by_bounds}}},
                  {"near_misses", nlohmann::json::array()}};
   result.text = fmt::format("{}: {} frames, all on disk, {}", outcome.session.string(), outcome.frames,
                             outcome.end_note);
@@ -140,6 +171,7 @@ CommandResult SummaryOf(const control::TrialOutcome& outcome, const core::Layout
     result.text += fmt::format("\n  {}: in contact in {} frames, {} episodes", layout.parts[i].name,
                                outcome.frames_in_contact[i], episodes);
   }
+  AddPairs(outcome, layout, &result);
   for (const core::ContactEpisode& episode : outcome.episodes) {
     result.json["episodes"].push_back({{"part", layout.parts[episode.part].name},
                                        {"begin_frame", episode.begin_frame},

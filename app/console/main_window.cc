@@ -237,6 +237,7 @@ void MainWindow::OpenTrial(const control::TrialSetup& setup) {
 void MainWindow::ShowFrame(const FrameNews& news) {
   view_->ShowFrame(news.result);
   spacings_->ShowApplied(news.result->record.spacing_mm);
+  spacings_->ShowPairs(*news.result);
   contacts_->ShowFrame(*news.result);
   touches_->ShowFrame(*news.result, news.tallies);
   status_->ShowFrame(*news.result, news.recorded);

@@ -7,8 +7,11 @@
 #include <QVBoxLayout>
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <utility>
 
 #include "app/console/desktop/theme.h"
+#include "app/control/pairs/ruled_pairs.h"
 
 namespace elbowroom::console {
 namespace {
@@ -123,8 +126,13 @@ SpacingPanel::SpacingPanel(QWidget* parent) : QGroupBox(tr("Gaps"), parent) {
 void SpacingPanel::Open(const core::Layout& layout) {
   qDeleteAll(controls_);
   controls_.clear();
+  qDeleteAll(rules_);
+  rules_.clear();
   active_ = nullptr;
   history_->Open(layout.InitialSpacings());
+  const std::vector<review::PairDemand> pairs = control::RuledPairsOf(layout);
+  std::set<std::size_t> of_no_spacing;
+  for (std::size_t i = 0; i < pairs.size(); ++i) of_no_spacing.insert(i);
   for (const core::Spacing& spacing : layout.spacings) {
     auto* control = new SpacingControl(spacing, this);
     const std::size_t index = controls_.size();
@@ -136,9 +144,23 @@ void SpacingPanel::Open(const core::Layout& layout) {
               history_->Change(index, to_mm);
               emit Requested(name, to_mm);
             });
+    std::vector<std::size_t> moved = control::PairsMovedBy(layout, index, pairs);
+    for (const std::size_t pair : moved) of_no_spacing.erase(pair);
+    AddRules(layout, std::move(moved), false);
   }
+  AddRules(layout, {of_no_spacing.begin(), of_no_spacing.end()}, true);
   if (!controls_.empty()) Activate(controls_.front());
-  setVisible(!controls_.empty());
+  setVisible(!controls_.empty() || !pairs.empty());
+}
+
+void SpacingPanel::AddRules(const core::Layout& layout, std::vector<std::size_t> shown, bool only_broken) {
+  auto* list = new PairRuleList(layout, std::move(shown), only_broken, this);
+  rules_.push_back(list);
+  this->layout()->addWidget(list);
+}
+
+void SpacingPanel::ShowPairs(const control::FrameResult& result) {
+  for (PairRuleList* list : rules_) list->ShowVerdicts(result.pairs, result.record.spacing_mm);
 }
 
 void SpacingPanel::Activate(SpacingControl* control) {

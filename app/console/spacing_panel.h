@@ -11,6 +11,8 @@
 #include <vector>
 
 #include "app/console/gap_history.h"
+#include "app/console/pair_rule_list.h"
+#include "app/control/frame_result.h"
 #include "core/layout.h"
 
 namespace elbowroom::console {
@@ -62,6 +64,7 @@ class SpacingPanel : public QGroupBox {
 
   void Open(const core::Layout& layout);
   void ShowApplied(std::span<const double> spacing_mm);  // in the layout's order
+  void ShowPairs(const control::FrameResult& result);    // each rule below the spacings that move its parts
   void StepActive(double by_mm);  // the spacing that was moved last, at first the layout's first
 
   // Back to the gaps before the last change, and forth again; do nothing where there is no such change.
@@ -70,6 +73,8 @@ class SpacingPanel : public QGroupBox {
   [[nodiscard]] const GapHistory& history() const { return *history_; }
 
   [[nodiscard]] const std::vector<SpacingControl*>& controls() const { return controls_; }
+  // One a spacing, and one for the rules of parts that no spacing moves.
+  [[nodiscard]] const std::vector<PairRuleList*>& rules() const { return rules_; }
 
  signals:
   void Requested(const std::string& spacing, double to_mm);
@@ -81,8 +86,10 @@ class SpacingPanel : public QGroupBox {
  private:
   void Activate(SpacingControl* control);
   void Restore(const GapHistory::Gaps& gap_mm);
+  void AddRules(const core::Layout& layout, std::vector<std::size_t> shown, bool only_broken);
 
   std::vector<SpacingControl*> controls_;  // owned by Qt as children
+  std::vector<PairRuleList*> rules_;       // likewise
   SpacingControl* active_ = nullptr;
   GapHistory* history_ = nullptr;  // owned by Qt as a child
 };

@@ -30,8 +30,9 @@ FramePipeline::FramePipeline(core::Rig rig, core::Layout layout,
                 "one background reference a camera");
 }
 
-SharedFrameResult FramePipeline::Process(recon::FrameSet frames, std::span<const double> spacing_mm,
-                                         const WithHull& beside) {
+std::shared_ptr<FrameResult> FramePipeline::Process(recon::FrameSet frames,
+                                                    std::span<const double> spacing_mm,
+                                                    const WithHull& beside) {
   core::Require(frames.cameras.size() == silhouettes_.rig()->cameras.size(), "one frame a camera");
   recon::SegmentationStats stats;
   Stopwatch watch;

@@ -24,8 +24,9 @@ class FramePipeline {
   [[nodiscard]] std::span<const core::TriangleTree> part_trees() const { return silhouettes_.part_trees(); }
 
   // As SilhouettePipeline::Process. The result shares the frames' pictures.
-  [[nodiscard]] SharedFrameResult Process(recon::FrameSet frames, std::span<const double> spacing_mm,
-                                          const WithHull& beside = {});
+  [[nodiscard]] std::shared_ptr<FrameResult> Process(recon::FrameSet frames,
+                                                     std::span<const double> spacing_mm,
+                                                     const WithHull& beside = {});
 
  private:
   SilhouettePipeline silhouettes_;

@@ -14,6 +14,7 @@ SkipCount& SkipCount::operator+=(const SkipCount& other) {
   clearances_by_contact += other.clearances_by_contact;
   clearances_by_ball += other.clearances_by_ball;
   clearance_queries += other.clearance_queries;
+  pairs += other.pairs;
   return *this;
 }
 

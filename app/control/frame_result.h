@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "app/control/pairs/pair_judge.h"
 #include "app/control/part_reactions.h"
 #include "core/contact.h"
 #include "core/ids.h"
@@ -29,6 +30,7 @@ struct SkipCount {
   int clearances_by_contact = 0;       // parts in contact: their clearance is 0 without a search
   int clearances_by_ball = 0;          // parts that one ball query showed to be far enough away
   std::int64_t clearance_queries = 0;  // queries of the hull for clearances
+  review::ClashCount pairs;            // of the layout's rules
 
   // Adds the counts of another frame.
   SkipCount& operator+=(const SkipCount& other);
@@ -55,6 +57,10 @@ struct FrameResult {
   std::shared_ptr<const core::Layout> layout;
   std::vector<core::RigidTransform> world_from_parts;  // in the layout's order, where parts are
   SharedReactions response;                            // to this frame; null: nothing gives way or flows
+  // Of the layout's pair rules, in a running trial. Its setting may be an earlier one: this frame's is being
+  // judged then. Null: the layout has no pair rules, or none was judged yet, or the frame was read from a
+  // session.
+  SharedPairVerdicts pairs;
   SkipCount skipped;
   StageTimes times;
 };

@@ -30,6 +30,19 @@ constexpr std::array<std::array<float, 3>, 6> kPartColors = {{{0.55F, 0.63F, 0.7
                                                               {0.70F, 0.62F, 0.60F},
                                                               {0.55F, 0.69F, 0.71F}}};
 
+// Of parts that break a pair rule. Apart from the orange-red of contacts also for those who see no red or
+// green.
+constexpr std::array<float, 3> kBrokenRuleColor = {0.95F, 0.80F, 0.15F};
+
+// One a part.
+std::vector<bool> PartsOfBrokenRules(const FrameResult& result) {
+  std::vector<bool> breaks(result.layout->parts.size());
+  if (!result.pairs) return breaks;
+  for (const review::PairClash& pair : result.pairs->pairs)
+    if (IsBroken(pair)) breaks[pair.demand.a] = breaks[pair.demand.b] = true;
+  return breaks;
+}
+
 // The same picture with fewer pixels.
 recon::SceneView Scaled(const recon::SceneView& view, double scale) {
   core::Require(scale > 0.0 && scale <= 1.0, "a hull's share of a picture's side is within (0, 1]");
@@ -154,6 +167,7 @@ recon::gl::Scene SceneComposer::Compose(const FrameResult& result, const recon::
   scene.hull_appearance = look.hull;
   const recon::SceneView hull_view = Scaled(view, hull_scale);
   scene.hull = HullFrom(hull_view);
+  const std::vector<bool> breaks_rule = PartsOfBrokenRules(result);
   for (core::PartIndex i = 0; i < result.layout->parts.size(); ++i) {
     recon::gl::ScenePart part;
     if (const core::SharedMesh in_world = MeshInWorld(result, i)) {
@@ -162,7 +176,8 @@ recon::gl::Scene SceneComposer::Compose(const FrameResult& result, const recon::
       part.mesh = result.layout->parts[i].mesh;
       part.world_from_part = result.world_from_parts[i];
     }
-    part.color = Eigen::Vector3f(kPartColors[i % kPartColors.size()].data());
+    part.color = Eigen::Vector3f(breaks_rule[i] ? kBrokenRuleColor.data()
+                                                : kPartColors[i % kPartColors.size()].data());
     part.in_contact = result.record.contacts[i].verdict == core::Verdict::kContact;
     if (HiddenShare(*scene.hull, hull_view, BoundsInWorld(result, i)) > kHidesShare)
       part.opacity = kSeeThrough;

@@ -33,9 +33,10 @@ class SceneComposer {
   // recon::ViewBand.
   explicit SceneComposer(MakeView make_view = ProcessorsViews()) : make_view_(std::move(make_view)) {}
 
-  // Parts at their poses (those in contact tinted), the exact view of the hull, contact points, the table, a
-  // lamp over the workspace. A part that hides much of the hull is drawn see-through. hull_scale: of the
-  // picture's side, (0, 1]; a hull of fewer pixels is drawn sooner and scaled up.
+  // Parts at their poses (those in contact tinted, those of a broken pair rule yellow), the exact view of the
+  // hull, contact points, the table, a lamp over the workspace. A part that hides much of the hull is drawn
+  // see-through. hull_scale: of the picture's side, (0, 1]; a hull of fewer pixels is drawn sooner and scaled
+  // up.
   [[nodiscard]] recon::gl::Scene Compose(const FrameResult& result, const recon::SceneView& view,
                                          const SceneLook& look = {}, double hull_scale = 1.0);
 

@@ -15,6 +15,7 @@
 #include "app/control/frame_pipeline.h"
 #include "app/control/light/trial_light.h"
 #include "app/control/outcome_tracker.h"
+#include "app/control/pairs/pair_watch.h"
 #include "app/control/segmentation/segmentation_settings.h"
 #include "app/control/trial_rules.h"
 #include "app/control/versions.h"
@@ -126,6 +127,8 @@ class Recording {
         controls_(controls),
         loss_notes_(setup.source->rig()),
         knock_watch_(setup.source->rig()),
+        pair_watch_(setup.layout),
+        pair_record_(setup.layout),
         writer_(options.session, HeaderOf(setup), WriterOptionsOf(options)) {
     spacing_mm_ = setup.layout.InitialSpacings();
     outcome_.frames_in_contact.assign(setup.layout.parts.size(), 0);
@@ -155,7 +158,11 @@ class Recording {
       if (options_.at_capture_rate && !taken_at) pace_.WaitFor(frames->time_s, stop);
       ApplyChanges(frame, frames->time_s);
       const Clock::time_point begin = Clock::now();
-      const SharedFrameResult result = pipeline_->Process(std::move(*frames), spacing_mm_, options_.on_hull);
+      pair_watch_.Ask(frame, frames->time_s, spacing_mm_);
+      const std::shared_ptr<FrameResult> result =
+          pipeline_->Process(std::move(*frames), spacing_mm_, options_.on_hull);
+      TakePairs(options_.at_capture_rate || taken_at ? std::optional(kPairPatience) : std::nullopt);
+      AddPairs(result.get());
       outcome_.frame_times.Add(std::chrono::duration<double, std::milli>(Clock::now() - begin).count());
       if (taken_at)
         outcome_.latencies.Add(std::chrono::duration<double, std::milli>(Clock::now() - *taken_at).count());
@@ -171,6 +178,8 @@ class Recording {
 
   TrialOutcome Finish(const std::string& end_note) {
     outcome_.end_note = end_note;
+    TakePairs(std::nullopt);
+    outcome_.pairs = pair_record_.Totals(last_time_s_);
     EndFootage();
     for (const std::string& note : loss_notes_.Rest()) Append(note);
     for (const std::string& note : setup_.source->Warnings()) Append(note);
@@ -261,6 +270,23 @@ class Recording {
     if (from_mm == allowed_mm) return;
     writer_.Append(
         core::SessionEvent{frame, time_s, core::SpacingChanged{request.spacing, from_mm, allowed_mm}});
+  }
+
+  // What became known of pair rules: for the session, and for the frames from here on.
+  void TakePairs(std::optional<std::chrono::milliseconds> patience) {
+    for (SharedPairVerdicts& verdicts : pair_watch_.Take(patience)) {
+      for (core::SessionEvent& note : pair_record_.Add(*verdicts)) writer_.Append(std::move(note));
+      new_pair_count_ += verdicts->count;
+      pairs_ = std::move(verdicts);
+    }
+  }
+
+  void AddPairs(FrameResult* result) {
+    result->pairs = pairs_;
+    result->skipped.pairs = std::exchange(new_pair_count_, {});
+    if (result->skipped.pairs.pairs > 0) return;
+    result->skipped.pairs.pairs = static_cast<std::int64_t>(pair_watch_.pairs().size());
+    result->skipped.pairs.unchanged = result->skipped.pairs.pairs;
   }
 
   // Live cameras run before the trial does, and a set may wait of which a picture came before the footage
@@ -361,6 +387,10 @@ class Recording {
   LossNotes loss_notes_;
   KnockWatch knock_watch_;
   std::optional<std::string> knock_advice_;  // of the frame before
+  PairWatch pair_watch_;
+  PairRecord pair_record_;
+  SharedPairVerdicts pairs_;           // the latest
+  review::ClashCount new_pair_count_;  // of the verdicts since the frame before
   sessions::SessionWriter writer_;
   std::vector<recon::BackgroundReference> backgrounds_;  // until the first frame
   std::optional<TrialLight> light_;                      // of live cameras

@@ -1,6 +1,7 @@
 // Runs a trial from its first frame to its last, recording as it goes.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -12,6 +13,7 @@
 #include "app/control/frame_result.h"
 #include "app/control/frame_time_tally.h"
 #include "app/control/light/trial_light.h"
+#include "app/control/pairs/pair_record.h"
 #include "app/control/trial_controls.h"
 #include "app/control/trial_setup.h"
 #include "app/control/watch/knock_watch.h"
@@ -33,6 +35,9 @@ struct RecordedFrames {
   std::int64_t seen = 0;
   std::int64_t committed = 0;  // on the disk
 };
+
+// How long a frame waits for the verdicts of its pairs, where frames come at the rate of their capture.
+inline constexpr std::chrono::milliseconds kPairPatience{10};
 
 struct TrialOptions {
   std::filesystem::path session;  // must not exist yet
@@ -63,6 +68,7 @@ struct TrialOutcome {
   std::vector<std::optional<core::ErrorBudget>> largest_budgets;
   std::vector<core::ContactEpisode> episodes;
   std::vector<core::NearMiss> near_misses;
+  std::vector<PairTotal> pairs;  // one a pair of RuledPairsOf(layout)
   std::string end_note;  // why it ended: "ended with the shortest source, camera 'cam03' (426 frames)", ...
   SkipCount skipped;     // over all frames
   FrameTimeTally frame_times;  // segmentation to contacts
@@ -79,12 +85,14 @@ struct TrialOutcome {
 };
 
 // Measures the backgrounds, creates the session, then sends each frame through the pipeline and into the
-// session; no frame is dropped. The trial ends with its footage, or with a stop: the session is then complete
-// up to that frame. It also ends when footage or a camera fails, and when the session file can't be written
-// for long: all frames so far are kept, and the failure is thrown with their number. Only a session without a
-// frame is removed. A request for a spacing that the layout doesn't have is ignored, with a note in the
-// session. Where the setup records footage, it lies beside the session, in FootageFolderOf; that it can't be
-// written is noted, and the trial goes on.
+// session; no frame is dropped. The pairs of the layout's rules are judged beside the frame in which a
+// spacing changes. No frame waits for them for longer than kPairPatience, unless frames are taken as fast as
+// they can be judged; that a rule is broken or kept again is noted at the frame of the change. The trial ends
+// with its footage, or with a stop: the session is then complete up to that frame. It also ends when footage
+// or a camera fails, and when the session file can't be written for long: all frames so far are kept, and the
+// failure is thrown with their number. Only a session without a frame is removed. A request for a spacing
+// that the layout doesn't have is ignored, with a note in the session. Where the setup records footage, it
+// lies beside the session, in FootageFolderOf; that it can't be written is noted, and the trial goes on.
 // Throws: core::Error for footage, session file, or a frame range beyond the footage; Error{kCancelled} when
 // it was stopped before the first frame. Thread: the caller's; `controls` may be used from any.
 TrialOutcome RunTrial(const TrialSetup& setup, const TrialOptions& options, TrialControls& controls,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/pairs_of_rule.h"
 #include "sessions/report/chart.h"
 #include "sessions/report/verdict_text.h"
 
@@ -10,11 +11,6 @@ namespace elbowroom::sessions {
 namespace {
 
 constexpr std::size_t kLongestPartName = 40;  // of each of the two parts
-
-bool IsBroken(const RuledPair& pair, const PairDistance& distance) {
-  if (distance.verdict == core::Verdict::kClear) return false;
-  return distance.verdict != core::Verdict::kContact || !pair.authorised_contact;
-}
 
 void AddFrame(const ReportData& data, std::size_t frame, const PairSetting& setting,
               const PairApproaches& approaches, PairCourse* course) {
@@ -25,7 +21,8 @@ void AddFrame(const ReportData& data, std::size_t frame, const PairSetting& sett
     course->closest = &setting;
     course->time_s = begin_s;
   }
-  if (IsBroken(approaches.pairs[course->pair], distance)) course->broken_s += end_s - begin_s;
+  if (core::BreaksPairRule(distance.verdict, approaches.pairs[course->pair].authorised_contact))
+    course->broken_s += end_s - begin_s;
   const ColumnRange range = data.columns.Of(begin_s, end_s);
   for (std::size_t i = range.first; i < range.end; ++i) {
     std::optional<PairDistance>& column = course->columns[i];

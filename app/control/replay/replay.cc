@@ -93,6 +93,9 @@ class Replay {
   // A part that gives way goes on from where the frame before left it.
   [[nodiscard]] bool GivesWay() const { return !PartReactions(layout_.layout()).is_empty(); }
 
+  // What the recording says of pair rules holds for all of it, as it was.
+  [[nodiscard]] bool JudgesPairs() const { return !header_.origin->changes.empty() || selected_.first > 0; }
+
   [[nodiscard]] ReplayOutcome Finish(ReplayRecording* recording) const {
     ReplayOutcome outcome = recording->Finish(selected_.end == frames_.size());
     if (segmentation_)
@@ -112,7 +115,8 @@ class Replay {
 
   ReplayOutcome RunSeveralAtOnce() {
     ReplayJudging judging(layout_.layout(), review_);
-    ReplayRecording recording(recorded_, layout_, judging.part_trees(), header_, path_, &file_);
+    ReplayRecording recording(recorded_, layout_, judging.part_trees(), header_, path_, &file_,
+                              JudgesPairs());
     ReplayRuns runs(recorded_, frames_, layout_, selected_.first, selected_.end,
                     review_.required_clearance_mm > 0.0, segmentation_ ? &*segmentation_ : nullptr, stop_);
     SharedFrameResult last;
@@ -159,7 +163,8 @@ class Replay {
   // read and segmented, and the last one recorded, meanwhile.
   ReplayOutcome RunOneByOne() {
     SilhouettePipeline pipeline(header_.rig, layout_.layout(), review_);
-    ReplayRecording recording(recorded_, layout_, pipeline.part_trees(), header_, path_, &file_);
+    ReplayRecording recording(recorded_, layout_, pipeline.part_trees(), header_, path_, &file_,
+                              JudgesPairs());
     std::size_t next = 0;
     const auto read = [&](tbb::flow_control& control) -> SharedFrame {
       if (!stop_.stop_requested() && next < selected_.end) return ReadFrame(next++);

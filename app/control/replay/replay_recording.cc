@@ -5,6 +5,7 @@
 #include <utility>
 #include <variant>
 
+#include "app/control/pairs/ruled_pairs.h"
 #include "core/error.h"
 #include "core/system/file_sync.h"
 #include "core/system/utc_time.h"
@@ -21,24 +22,27 @@ constexpr const char* kReviewer = "elbowroom replay";
 ReplayRecording::ReplayRecording(const sessions::SessionReader& recorded, const ReplayLayout& layout,
                                  std::span<const core::TriangleTree> part_trees,
                                  const core::SessionHeader& header, std::filesystem::path path,
-                                 sessions::UnfinishedSession* file)
+                                 sessions::UnfinishedSession* file, bool judges_pairs)
     : recorded_(recorded),
       layout_(layout),
       tracker_(recorded.header().trial, part_trees),
       events_(recorded.events()),
       next_event_(events_.begin()),
       findings_(recorded.findings()),
+      pair_record_(layout.layout()),
       path_(std::move(path)),
       file_(*file),
       writer_(file_.temporary(), header) {
   outcome_.changes = header.origin->changes;
   if (outcome_.changes.empty()) outcome_.compared.emplace();
+  if (judges_pairs) pair_judge_.emplace(layout.layout(), RuledPairsOf(layout.layout()));
 }
 
 void ReplayRecording::Add(const ReplayedFrame& frame) {
   const core::FrameRecord& recorded = frame.recorded;
   const FrameResult& result = *frame.result;
   TakeEvents(recorded.frame, recorded.time_s);
+  JudgePairs(result.record);
   tracker_.Add(result, tools_in_use_.names());
   writer_.Append(result.record);
   if (outcome_.frames++ == 0) checked_.begin_s = recorded.time_s;
@@ -53,7 +57,7 @@ void ReplayRecording::Add(const ReplayedFrame& frame) {
 
 ReplayOutcome ReplayRecording::Finish(bool to_the_end) {
   if (to_the_end)
-    for (; next_event_ != events_.end(); ++next_event_) writer_.Append(layout_.EventFrom(*next_event_));
+    for (; next_event_ != events_.end(); ++next_event_) TakeEvent(*next_event_);
   TellMissing();
   core::SessionOutcome outcome = tracker_.Outcome();
   MatchFindings(findings_, layout_.layout(), &outcome);
@@ -78,12 +82,24 @@ void ReplayRecording::TakeEvents(core::FrameIndex frame, double time_s) {
   for (; next_event_ != events_.end() && next_event_->frame <= frame; ++next_event_) {
     tools_in_use_.Take(*next_event_);
     const bool is_before = outcome_.frames == 0 && next_event_->frame < frame;
-    if (!is_before) writer_.Append(layout_.EventFrom(*next_event_));
+    if (!is_before) TakeEvent(*next_event_);
     if (is_before) has_earlier_ = true;
   }
   if (!std::exchange(has_earlier_, false)) return;
   for (const std::string& tool : tools_in_use_.names())
     writer_.Append(core::SessionEvent{frame, time_s, core::ToolMarked{tool, true}});
+}
+
+void ReplayRecording::TakeEvent(const core::SessionEvent& event) {
+  if (pair_judge_ && IsPairNote(event)) return;
+  writer_.Append(layout_.EventFrom(event));
+}
+
+void ReplayRecording::JudgePairs(const core::FrameRecord& record) {
+  if (!pair_judge_ || pair_judge_->pairs().empty() || judged_mm_ == record.spacing_mm) return;
+  judged_mm_ = record.spacing_mm;
+  const SharedPairVerdicts verdicts = pair_judge_->Judge({record.frame, record.time_s, record.spacing_mm});
+  for (core::SessionEvent& note : pair_record_.Add(*verdicts)) writer_.Append(std::move(note));
 }
 
 void ReplayRecording::Compare(const core::FrameRecord& recorded, const core::FrameRecord& replayed) {

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "app/control/outcome_tracker.h"
+#include "app/control/pairs/pair_record.h"
 #include "app/control/replay/finding_matches.h"
 #include "app/control/replay/replay.h"
 #include "app/control/replay/replay_changes.h"
@@ -26,10 +28,11 @@ namespace elbowroom::control {
 class ReplayRecording {
  public:
   // `header`: of the new session, with its origin. `path`: its name, under which `file` will be put. All but
-  // these two must outlive it. Throws: what SessionWriter throws.
+  // these two must outlive it. judges_pairs: what the recording says of pair rules doesn't hold here; they
+  // are judged anew. Throws: what SessionWriter throws.
   ReplayRecording(const sessions::SessionReader& recorded, const ReplayLayout& layout,
                   std::span<const core::TriangleTree> part_trees, const core::SessionHeader& header,
-                  std::filesystem::path path, sessions::UnfinishedSession* file);
+                  std::filesystem::path path, sessions::UnfinishedSession* file, bool judges_pairs);
 
   // The next frame in order: as it was recorded, and as it was judged now.
   void Add(const ReplayedFrame& frame);
@@ -43,6 +46,8 @@ class ReplayRecording {
  private:
   void TakeEvents(core::FrameIndex frame, double time_s);
   void Compare(const core::FrameRecord& recorded, const core::FrameRecord& replayed);
+  void TakeEvent(const core::SessionEvent& event);
+  void JudgePairs(const core::FrameRecord& record);
   void TellMissing();
   [[nodiscard]] std::vector<core::FootageFile> Footage() const;
 
@@ -54,6 +59,9 @@ class ReplayRecording {
   std::vector<core::Finding> findings_;
   core::ToolsInUse tools_in_use_;
   bool has_earlier_ = false;
+  std::optional<PairJudge> pair_judge_;  // nothing: the recording's notes are taken over
+  PairRecord pair_record_;
+  std::optional<std::vector<double>> judged_mm_;  // the setting that was judged last
   CheckedRange checked_;
   core::FrameIndex last_frame_ = 0;
   SegmentingCount segmenting_;

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/control/pairs/ruled_pairs.h"
 #include "review/clash.h"
 
 namespace elbowroom::control {
@@ -36,18 +37,6 @@ std::set<Spacings> Chosen(const std::map<Spacings, std::int64_t>& settings, std:
   return chosen;
 }
 
-// The rules' pairs; without a rule nothing is asked of two parts.
-std::vector<review::PairDemand> RuledPairs(const core::Layout& layout) {
-  std::set<std::pair<core::PartIndex, core::PartIndex>> ruled;
-  for (const core::PairRule& rule : layout.pair_rules) {
-    const auto a = layout.FindPart(rule.a), b = layout.FindPart(rule.b);
-    if (a && b) ruled.insert(std::minmax(*a, *b));
-  }
-  std::vector<review::PairDemand> pairs = review::PairsOf(layout).pairs;
-  std::erase_if(pairs, [&](const review::PairDemand& pair) { return !ruled.contains({pair.a, pair.b}); });
-  return pairs;
-}
-
 sessions::PairDistance DistanceOf(const review::PairClash& clash) {
   sessions::PairDistance distance{clash.verdict, std::nullopt, clash.at_least_mm};
   if (clash.gap) distance.gap_mm = clash.gap->distance_mm;
@@ -60,7 +49,7 @@ sessions::PairApproaches PairApproachesOf(const core::Layout& layout_with_groups
                                           std::span<const sessions::FrameSummary> frames,
                                           const std::stop_token& stop) {
   const core::Layout layout = core::WithPairsOfParts(layout_with_groups);
-  const std::vector<review::PairDemand> demands = RuledPairs(layout);
+  const std::vector<review::PairDemand> demands = RuledPairsOf(layout);
   sessions::PairApproaches approaches;
   if (demands.empty() || frames.empty()) return approaches;
   for (const review::PairDemand& demand : demands)

@@ -20,6 +20,7 @@
 
 #include "app/console/main_window.h"
 #include "app/console/window_picture.h"
+#include "app/control/demo_trial.h"
 #include "recon/synthetic/demo_motion.h"
 #include "sessions/session_reader.h"
 #include "tests/app/console/opened_urls.h"
@@ -241,6 +242,30 @@ TEST_F(ConsoleTest, UndoBringsTheGapBackAndTheSessionRecordsBothChanges) {
   for (const core::SessionEvent& event : sessions::SessionReader(session_).events())
     if (const auto* change = std::get_if<core::SpacingChanged>(&event.what)) to_mm.push_back(change->to_mm);
   EXPECT_EQ(to_mm, std::vector<double>({kNeededGapMm, kGuessedGapMm, kNeededGapMm}));
+}
+
+TEST_F(ConsoleTest, ABrokenPairRuleIsShownWithTheFrameThatHasItsVerdict) {
+  const auto setup = [](const std::stop_token&) {
+    control::TrialSetup trial = control::MakeDemoTrial(control::DemoPlay::kForever);
+    trial.layout.pair_rules[0].required_clearance_mm = 100.0;
+    return trial;
+  };
+  window_.desk().Start(setup, session_);
+  ASSERT_TRUE(WaitUntil([&] { return last_frame_ && last_frame_->pairs; }));
+  const auto line = [&] { return Find<QLabel>("pair_rule:0")->text(); };
+  int broken = 0, otherwise = 0;
+  const QMetaObject::Connection watch =
+      QObject::connect(&window_.desk(), &TrialDesk::FrameArrived, &window_, [&](const FrameNews& news) {
+        const control::PairVerdicts& verdicts = *news.result->pairs;
+        if (!GapIs(72.0) || verdicts.setting.spacing_mm != news.result->record.spacing_mm) return;
+        const bool is_shown =
+            line() == QString::fromUtf8("✕ pmt and payload_a: 72.0 mm, near; rule of 100 mm broken");
+        (is_shown ? broken : otherwise) += 1;
+      });
+  Find<QDoubleSpinBox>("spacing_box:payload_a_gap")->setValue(72.0);
+  EXPECT_TRUE(WaitUntil([&] { return broken >= 3; })) << line().toStdString();
+  QObject::disconnect(watch);
+  EXPECT_EQ(otherwise, 0);
 }
 
 TEST_F(ConsoleTest, TheHullsLookIsChosenFromAMenu) {
