@@ -1,5 +1,5 @@
-// The scripts that pages and charts run, bundled from npm packages when the program is built (bundle.mjs), with
-// the licences of these packages in a comment.
+// The scripts that pages and charts run, bundled from npm packages when the program is built (bundle.mjs),
+// with the licences of these packages in a comment.
 #pragma once
 
 #include <string_view>

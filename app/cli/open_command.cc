@@ -1,5 +1,5 @@
-// elbowroom open FILE: what a desktop runs when it, or a trial, is opened. Hidden: at a terminal there is `trial
-// run`.
+// elbowroom open FILE: what a desktop runs when it, or a trial, is opened. Hidden: at a terminal there is
+// `trial run`.
 #include <filesystem>
 #include <memory>
 

@@ -12,7 +12,7 @@ namespace {
 constexpr double kPadX = 4.0;  // left and right of a cell's text
 constexpr double kPadY = 2.6;
 constexpr double kDotSize = 6.0;
-constexpr double kDotWidth = 10.0;  // with what is right of it
+constexpr double kDotWidth = 10.0;           // with what is right of it
 constexpr double kFewestLinesHeight = 36.0;  // of a row that is continued on the next page
 // A table is at least so wide, of the page's.
 constexpr double kLeastTableShare = 0.66;

@@ -93,7 +93,8 @@ TEST_F(DevScript, ExplainsItself) {
   EXPECT_EQ(asked.exit_status, 0);
   EXPECT_EQ(wrong.exit_status, 2);
   EXPECT_EQ(wrong.err, asked.out);
-  for (const std::string command : {"demo", "build", "test", "check", "bench", "package", "package-test", "soak"}) {
+  for (const std::string command :
+       {"demo", "build", "test", "check", "bench", "package", "package-test", "soak"}) {
     EXPECT_NE(asked.out.find("\n  " + command + " "), std::string::npos) << command;
   }
 }

@@ -319,8 +319,9 @@ sessions::SessionClosing SampleClosing() {
   unchecked.end_s = 0.2;
   unchecked.presence = core::FindingPresence::kNotChecked;
   closing.absent = {gone, unchecked};
-  closing.remarks = {{gone.id, {"2024-03-02T10:00:00Z", "O'Hara", core::ReviewStatus::kReviewed, ""}},
-                     {gone.id, {"2024-03-02T10:00:01Z", "=cmd|", {}, "<script>alert(1)</script>", std::string(32, '1')}}};
+  closing.remarks = {
+      {gone.id, {"2024-03-02T10:00:00Z", "O'Hara", core::ReviewStatus::kReviewed, ""}},
+      {gone.id, {"2024-03-02T10:00:01Z", "=cmd|", {}, "<script>alert(1)</script>", std::string(32, '1')}}};
   closing.footage = {{"S.footage/RIG.yml", 1234, {std::byte{1}, std::byte{255}}}};
   return closing;
 }
