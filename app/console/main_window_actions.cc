@@ -92,6 +92,19 @@ void MainWindow::AddMenus() {
   view->addSeparator();
   for (const QDockWidget* dock : findChildren<QDockWidget*>())
     if (dock != preflight_dock_) view->addAction(dock->toggleViewAction());
+  AddParticipant();
+}
+
+void MainWindow::AddParticipant() {
+  participant_ = new ParticipantDesk(this);
+  menuBar()->addMenu(participant_->menu());
+  status_->AddGuest(participant_->status());
+  connect(participant_, &ParticipantDesk::Failed, this, &MainWindow::ShowError);
+  connect(hull_look_, &HullLookButton::Chosen, participant_, &ParticipantDesk::SetLook);
+  connect(desk_, &TrialDesk::TrialOpened, participant_,
+          [this](const control::TrialSetup& setup) { participant_->OpenTrial(setup.source->rig()); });
+  connect(desk_, &TrialDesk::FrameArrived, participant_,
+          [this](const FrameNews& news) { participant_->ShowFrame(news.result); });
 }
 
 QMenu* MainWindow::ThemeMenu() {

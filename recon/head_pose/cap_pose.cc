@@ -13,7 +13,7 @@ namespace {
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
 constexpr double kLeastAgreeingShare = 0.75;
-constexpr int kLeastCorners = 4;
+constexpr int kLeastAgreeingCorners = 4;
 
 std::optional<Matrix6d> CovarianceOf(const CapEvidence& evidence) {
   // Turns in units of 100 mm at the head's size, so that both halves are alike.
@@ -69,7 +69,7 @@ std::variant<CapPose, NoCapPose> FindCapPose(const Cap& cap, std::span<const Cap
   if (minima.empty()) return NoCapPose::kUncertain;
   const core::RigidTransform& world_from_head = minima.front().rig_from_board;
   const CapEvidence evidence = EvidenceFor(problem, world_from_head);
-  if (evidence.corners < kLeastCorners || evidence.corners < kLeastAgreeingShare * evidence.corners_in_all)
+  if (evidence.corners < kLeastAgreeingCorners || evidence.corners < kLeastAgreeingShare * evidence.corners_in_all)
     return NoCapPose::kDisagreement;
   if (IsAmbiguous(minima, evidence, options.least_lead)) return NoCapPose::kAmbiguous;
   const auto covariance = CovarianceOf(evidence);
