@@ -16,7 +16,7 @@ namespace elbowroom::recon {
 
 struct CapPoseOptions {
   // What corners are off by beside the noise: lens, print, and the model of an edge. > 0.
-  double least_sigma_px = 0.06;
+  double least_sigma_px = 0.12;
   // A pose that is less certain is refused.
   double most_sigma_mm = 8.0;
   double most_sigma_rad = 0.03;

@@ -2,12 +2,10 @@
 
 #include <utility>
 #include <variant>
-#include <vector>
 
+#include "app/control/head/cap_watch.h"
 #include "app/control/head/udp_port.h"
 #include "core/error.h"
-#include "recon/head_pose/cap_finder.h"
-#include "recon/head_pose/cap_pose.h"
 
 namespace elbowroom::control {
 namespace {
@@ -18,31 +16,6 @@ using recon::HeadSource;
 constexpr std::chrono::milliseconds kHearsStop{50};
 
 }  // namespace
-
-// The cap in the pictures of a rig.
-class HeadTracker::CapWatch {
- public:
-  CapWatch(const recon::Cap& cap, const core::Rig& rig) : finder_(cap) {
-    for (const core::CameraModel& camera : rig.cameras) cameras_.emplace_back(camera);
-  }
-
-  [[nodiscard]] std::optional<HeadPose> Find(const recon::FrameSet& frames,
-                                             HeadClock::time_point came_at) const {
-    if (frames.cameras.size() != cameras_.size()) return std::nullopt;
-    std::vector<recon::CapSighting> sightings;
-    for (const recon::CameraFrame& camera : frames.cameras)
-      sightings.push_back(camera.image_bgr.empty() ? recon::CapSighting() : finder_.Find(camera.image_bgr));
-    const auto found = recon::FindCapPose(finder_.cap(), cameras_, sightings);
-    const auto* pose = std::get_if<recon::CapPose>(&found);
-    if (pose == nullptr) return std::nullopt;
-    return HeadPose{pose->world_from_head, frames.taken_at.value_or(came_at), HeadSource::kCap,
-                    pose->sigma_mm(), pose->sigma_rad()};
-  }
-
- private:
-  recon::CapFinder finder_;
-  std::vector<recon::CapCamera> cameras_;
-};
 
 HeadTracker::HeadTracker(HeadSettings settings, std::optional<core::Rig> rig, OnHeadPose on_pose,
                          HeadLimits limits)
@@ -107,8 +80,10 @@ void HeadTracker::RunCap(const CapWatch& watch) {
   while (const auto next = frames_.Pop()) {
     const auto& [frames, came_at] = *next;
     try {
-      if (const auto pose = watch.Find(*frames, came_at)) {
-        Accept(*pose);
+      const auto found = watch.Find(*frames);
+      if (const auto* pose = std::get_if<recon::CapPose>(&found)) {
+        Accept({pose->world_from_head, frames->taken_at.value_or(came_at), HeadSource::kCap, pose->sigma_mm(),
+                pose->sigma_rad()});
         continue;
       }
     } catch (const std::exception&) {  // the thread's outermost loop: a picture that OpenCV refuses

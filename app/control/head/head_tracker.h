@@ -18,6 +18,7 @@ namespace elbowroom::control {
 // Called on the tracker's thread after each accepted pose; must not block.
 using OnHeadPose = std::function<void()>;
 
+class CapWatch;
 class UdpPort;
 
 using SharedFrames = std::shared_ptr<const recon::FrameSet>;
@@ -44,7 +45,6 @@ class HeadTracker {
   void OfferFrames(SharedFrames frames);
 
  private:
-  class CapWatch;
   void RunPackets(UdpPort& port, const std::stop_token& stop);
   void RunCap(const CapWatch& watch);
   void Accept(const recon::HeadPose& pose);

@@ -55,8 +55,8 @@ class Loopback {
   explicit Loopback(HeadSource source)
       : source_(source), tracker(ListeningAtAnyPort(source), {}, [this] { bell.Ring(); }) {}
 
-  [[nodiscard]] Bytes PacketOf(const TrackerReading& reading) const {
-    return source_ == HeadSource::kFreeD ? FreeDPacket(reading, 1) : OpenTrackPacket(reading);
+  [[nodiscard]] Bytes PacketOf(const TrackerReading& its) const {
+    return source_ == HeadSource::kFreeD ? FreeDPacket(its, 1) : OpenTrackPacket(its);
   }
   void Send(const Bytes& bytes) { SendDatagram("127.0.0.1", *tracker.port(), bytes); }
   // Sends readings near one another until one more is accepted.

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <condition_variable>
 #include <iostream>
 #include <limits>
@@ -85,8 +86,8 @@ class Headset {
   }
   ~Headset() { tracker.reset(); }
 
-  void Send(const TrackerReading& reading) {
-    SendDatagram("127.0.0.1", *tracker->port(), OpenTrackPacket(reading));
+  void Send(const TrackerReading& its) {
+    SendDatagram("127.0.0.1", *tracker->port(), OpenTrackPacket(its));
   }
   // Until poses are accepted and drawn.
   void Start() {
