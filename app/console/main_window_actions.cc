@@ -21,6 +21,11 @@ void MainWindow::AddActions() {
   bar->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
   auto* demo = new StartDemoAction(*desk_, place_, this);
   demo->setObjectName("start_demo");
+  for (const control::Sample sample : control::kSamples) {
+    const std::string_view name = control::ToString(sample);
+    (new StartSampleAction(sample, *desk_, place_, this))
+        ->setObjectName("sample:" + QString::fromUtf8(name.data(), static_cast<qsizetype>(name.size())));
+  }
   auto* open = new OpenTrialAction(*desk_, place_, this);
   open->setObjectName("open_trial");
   auto* calibrate = new CalibrateAction(*desk_, this);
@@ -76,6 +81,9 @@ void MainWindow::AddMenus() {
   auto* trial = menuBar()->addMenu(tr("&Trial"));
   trial->setToolTipsVisible(true);
   trial->addActions({action("start_demo"), action("stop"), action("report")});
+  auto* samples = trial->addMenu(tr("&Samples"));
+  samples->setToolTipsVisible(true);
+  samples->addActions({action("sample:payload"), action("sample:curtain"), action("sample:faucet")});
   trial->addSeparator();
   trial->addActions({action("undo_gap"), action("redo_gap")});
   trial->addSeparator();

@@ -26,7 +26,7 @@ struct HeadSettings {
   // Markers on a cap.
   recon::Cap cap = recon::EightSidedCap();
   // No tracker: where the eyes are.
-  core::RigidTransform world_from_fixed_head = LookingAt({60.0, -750.0, 550.0}, {60.0, 0.0, 150.0});
+  core::RigidTransform world_from_fixed_head = LookingAt({780.0, -60.0, 600.0}, {0.0, 0.0, 170.0});
 
   [[nodiscard]] int port_or_default() const;
   // The world's pose of a reading.
