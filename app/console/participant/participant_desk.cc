@@ -45,10 +45,7 @@ ParticipantDesk::ParticipantDesk(QWidget* window)
   connect(&watch_, &QTimer::timeout, this, &ParticipantDesk::ShowState);
 }
 
-ParticipantDesk::~ParticipantDesk() {
-  tracker_.reset();  // posts to pictures_
-  pictures_.reset();
-}
+ParticipantDesk::~ParticipantDesk() = default;
 
 void ParticipantDesk::OpenTrial(const core::Rig& rig) {
   rig_ = rig;
@@ -139,16 +136,16 @@ void ParticipantDesk::TakeChoices() {
 }
 
 void ParticipantDesk::StartTracker() {
-  pictures_->SetHead(nullptr);
   tracker_.reset();  // its port is free again
   accepted_before_ = 0;
   poses_per_s_ = 0.0;
   since_count_.start();
   if (choices_.source == recon::HeadSource::kCap && !rig_) return;  // with the next trial
   try {
-    tracker_ = std::make_shared<control::HeadTracker>(
-        HeadSettingsOf(choices_), rig_, [pictures = pictures_.get()] { pictures->HeadMoved(); });
-    pictures_->SetHead(tracker_);
+    tracker_ = std::make_unique<control::HeadTracker>(
+        HeadSettingsOf(choices_), rig_,
+        [pictures = pictures_.get()](const control::HeadState& head) { pictures->ShowHead(head); });
+    if (choices_.source == recon::HeadSource::kFixed) pictures_->ShowHead(tracker_->state());
     if (result_) tracker_->OfferFrames(result_->camera_frames);
   } catch (const core::Error& error) {
     emit Failed(tr("Participant's view: %1").arg(QString::fromStdString(error.what())));

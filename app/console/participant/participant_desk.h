@@ -42,7 +42,7 @@ class ParticipantDesk : public QObject {
 
   [[nodiscard]] bool is_open() const { return view_ != nullptr; }
   [[nodiscard]] ParticipantView* view() { return view_.get(); }
-  [[nodiscard]] std::shared_ptr<const control::HeadTracker> tracker() const { return tracker_; }
+  [[nodiscard]] const control::HeadTracker* tracker() const { return tracker_.get(); }
   // Of all pictures since the window was opened: from the pose to the screen.
   [[nodiscard]] const control::FrameTimeTally& ages() const { return ages_; }
 
@@ -75,7 +75,7 @@ class ParticipantDesk : public QObject {
   std::unique_ptr<ParticipantView> view_;
   Bridge bridge_;  // before the threads that post to it
   std::unique_ptr<control::ParticipantPictures> pictures_;
-  std::shared_ptr<control::HeadTracker> tracker_;
+  std::unique_ptr<control::HeadTracker> tracker_;  // posts to pictures_
 };
 
 }  // namespace elbowroom::console

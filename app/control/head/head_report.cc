@@ -68,7 +68,7 @@ HeadReport WatchPackets(const HeadSettings& settings, double seconds, const std:
   std::mutex mutex;
   std::condition_variable_any came;
   bool has_news = false;
-  HeadTracker tracker(settings, std::nullopt, [&] {
+  HeadTracker tracker(settings, std::nullopt, [&](const HeadState&) {
     const std::lock_guard lock(mutex);
     has_news = true;
     came.notify_all();

@@ -54,7 +54,7 @@ void HeadTracker::OfferFrames(SharedFrames frames) {
 }
 
 void HeadTracker::Accept(const HeadPose& pose) {
-  if (!holder_.Offer(pose) && on_pose_) on_pose_();
+  if (!holder_.Offer(pose) && on_pose_) on_pose_(holder_.StateAt());
 }
 
 void HeadTracker::RunPackets(UdpPort& port, const std::stop_token& stop) {

@@ -15,8 +15,8 @@
 
 namespace elbowroom::control {
 
-// Called on the tracker's thread after each accepted pose; must not block.
-using OnHeadPose = std::function<void()>;
+// Called on the tracker's thread with each accepted pose; must not block.
+using OnHeadPose = std::function<void(const HeadState&)>;
 
 class CapWatch;
 class UdpPort;

@@ -85,10 +85,10 @@ ParticipantPictures::ParticipantPictures(OnPicture on_picture, OnError on_error)
 
 ParticipantPictures::~ParticipantPictures() = default;
 
-void ParticipantPictures::SetHead(std::shared_ptr<const HeadTracker> head) {
+void ParticipantPictures::ShowHead(const HeadState& head) {
   {
     const std::lock_guard lock(mutex_);
-    head_.swap(head);
+    head_ = head;
   }
   Wake();
 }
@@ -110,8 +110,6 @@ void ParticipantPictures::ShowFrame(SharedFrameResult result) {
   Wake();
 }
 
-void ParticipantPictures::HeadMoved() { Wake(); }
-
 void ParticipantPictures::Wake() {
   {
     const std::lock_guard lock(mutex_);
@@ -125,20 +123,18 @@ void ParticipantPictures::Run(const std::stop_token& stop) {
   while (!stop.stop_requested()) {
     ParticipantLook look;
     SharedFrameResult result;
-    std::shared_ptr<const HeadTracker> tracker;
+    HeadState head;
     {
       std::unique_lock lock(mutex_);
       if (!woken_.wait(lock, stop, [this] { return is_outdated_; })) return;
       is_outdated_ = false;
       look = look_;
       result = result_;
-      tracker = head_;
+      head = head_;
     }
-    if (!tracker || !result || look.width_px <= 0 || look.height_px <= 0) continue;
+    if (!head.pose || !result || look.width_px <= 0 || look.height_px <= 0) continue;
     try {
       if (!painter) painter = std::make_unique<Painter>();
-      const HeadState head = tracker->state();
-      if (!head.pose) continue;
       const double begun_ms = SteadyNowMs();
       recon::Image image = painter->Draw(*result, head.pose->world_from_head, look);
       const double drawing_ms = SteadyNowMs() - begun_ms;

@@ -4,14 +4,13 @@
 #include <condition_variable>
 #include <cstdint>
 #include <functional>
-#include <memory>
 #include <mutex>
 #include <stop_token>
 #include <string>
 #include <thread>
 
 #include "app/control/frame_result.h"
-#include "app/control/head/head_tracker.h"
+#include "app/control/head/head_pose_holder.h"
 #include "app/control/participant/eye_views.h"
 #include "app/control/scene_composer.h"
 #include "recon/images/image.h"
@@ -36,7 +35,7 @@ struct ParticipantPicture {
   double drawing_ms = 0.0;
 };
 
-// Each picture is of the latest pose, asked for when its drawing begins, and of the latest frame. A pose, a
+// Each picture is of the latest pose and frame that there are when its drawing begins. A pose, a
 // frame or a look that comes while one is drawn makes the next one follow at once; without any, nothing is
 // drawn. Where drawing takes longer than a frame at 30 Hz, pictures become coarser in steps.
 // Thread: any may call; the callbacks come on the drawing thread and must not block.
@@ -50,11 +49,10 @@ class ParticipantPictures {
   ParticipantPictures(const ParticipantPictures&) = delete;
   ParticipantPictures& operator=(const ParticipantPictures&) = delete;
 
-  // Asked on the drawing thread; null: nothing is drawn.
-  void SetHead(std::shared_ptr<const HeadTracker> head);
+  // Where the head is. Without a pose nothing is drawn.
+  void ShowHead(const HeadState& head);
   void SetLook(const ParticipantLook& look);
   void ShowFrame(SharedFrameResult result);  // null: nothing is drawn
-  void HeadMoved();                          // the head's pose is another one
 
  private:
   class Painter;
@@ -66,7 +64,7 @@ class ParticipantPictures {
   std::mutex mutex_;  // of what follows
   std::condition_variable_any woken_;
   bool is_outdated_ = false;
-  std::shared_ptr<const HeadTracker> head_;
+  HeadState head_;
   ParticipantLook look_;
   SharedFrameResult result_;
   std::jthread thread_;  // last: it starts when all other members exist

@@ -53,7 +53,7 @@ HeadSettings ListeningAtAnyPort(HeadSource source) {
 class Loopback {
  public:
   explicit Loopback(HeadSource source)
-      : source_(source), tracker(ListeningAtAnyPort(source), {}, [this] { bell.Ring(); }) {}
+      : source_(source), tracker(ListeningAtAnyPort(source), {}, [this](const HeadState&) { bell.Ring(); }) {}
 
   [[nodiscard]] Bytes PacketOf(const TrackerReading& its) const {
     return source_ == HeadSource::kFreeD ? FreeDPacket(its, 1) : OpenTrackPacket(its);

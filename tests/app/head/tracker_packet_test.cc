@@ -40,7 +40,7 @@ TEST(TrackerPacket, OpenTrackIsReadAsItIsWritten) {
 // By hand: pan 1 degree is 0x008000, tilt -1 degree is 0xFF8000, x 1 mm is 0x000040, height -2 mm 0xFFFF80.
 TEST(TrackerPacket, FreeDIsReadAsItIsWritten) {
   std::vector<std::byte> packet = BytesOf({0xD1, 5, 0, 0x80, 0,    0xFF, 0x80, 0, 0, 0, 0, 0, 0, 0x40,
-                                         0,    0, 0, 0xFF, 0xFF, 0x80, 0,    0, 0, 0, 0, 0, 0, 0});
+                                           0,    0, 0, 0xFF, 0xFF, 0x80, 0,    0, 0, 0, 0, 0, 0, 0});
   unsigned sum = 0;
   for (const std::byte byte : packet) sum += std::to_integer<unsigned>(byte);
   packet.push_back(static_cast<std::byte>(0x40U - sum));

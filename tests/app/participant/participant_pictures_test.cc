@@ -7,12 +7,14 @@
 #include <condition_variable>
 #include <iostream>
 #include <limits>
+#include <memory>
 #include <vector>
 
 #include "app/control/demo_parts.h"
 #include "app/control/demo_trial.h"
 #include "app/control/frame_pipeline.h"
 #include "app/control/frame_time_tally.h"
+#include "app/control/head/head_tracker.h"
 #include "app/control/head/udp_port.h"
 
 namespace elbowroom::control {
@@ -79,16 +81,13 @@ class Headset {
     settings.address = "127.0.0.1";
     settings.port = 0;
     settings.world_from_tracker.translation_mm = {60.0, -700.0, 450.0};
-    tracker = std::make_shared<HeadTracker>(settings, std::nullopt, [this] { pictures.HeadMoved(); });
-    pictures.SetHead(tracker);
+    tracker = std::make_unique<HeadTracker>(settings, std::nullopt,
+                                            [this](const HeadState& head) { pictures.ShowHead(head); });
     pictures.ShowFrame(DemoFrame());
     pictures.SetLook({{ViewMode::kMono, 63.0, 1.0, 700.0}, {}, 320, 240});
   }
-  ~Headset() { tracker.reset(); }
 
-  void Send(const TrackerReading& its) {
-    SendDatagram("127.0.0.1", *tracker->port(), OpenTrackPacket(its));
-  }
+  void Send(const TrackerReading& its) { SendDatagram("127.0.0.1", *tracker->port(), OpenTrackPacket(its)); }
   // Until poses are accepted and drawn.
   void Start() {
     for (int i = 0; i < 200 && tracker->state().is_lost; ++i) {
@@ -103,7 +102,7 @@ class Headset {
   Gallery gallery;
   ParticipantPictures pictures{[this](ParticipantPicture picture) { gallery.Add(std::move(picture)); },
                                [this](const std::string& line) { gallery.AddError(line); }};
-  std::shared_ptr<HeadTracker> tracker;
+  std::unique_ptr<HeadTracker> tracker;  // posts to `pictures`
   TrackerReading reading{{0.0, 0.0, 0.0}, 0.0, -25.0, 0.0};
 };
 
@@ -145,7 +144,7 @@ TEST(ParticipantPictures, AreNotMovedByNonsense) {
   headset.Send(nan);
   while (headset.tracker->counts().all_refused() < refused + 2) std::this_thread::yield();
   const std::size_t known = headset.gallery.size();
-  headset.pictures.HeadMoved();
+  headset.pictures.ShowFrame(DemoFrame());
   const auto seen = headset.gallery.Await(known, Any);
   ASSERT_FALSE(seen.empty());
   EXPECT_EQ(seen.back().pose.world_from_head, before.pose->world_from_head);
@@ -157,7 +156,7 @@ ParticipantPicture PictureOf(const ParticipantLook& look) {
   Gallery gallery;
   ParticipantPictures pictures([&](ParticipantPicture picture) { gallery.Add(std::move(picture)); },
                                [&](const std::string& line) { gallery.AddError(line); });
-  pictures.SetHead(std::make_shared<HeadTracker>(HeadSettings{}, std::nullopt));
+  pictures.ShowHead(HeadTracker(HeadSettings{}, std::nullopt).state());
   pictures.ShowFrame(DemoFrame());
   pictures.SetLook(look);
   const auto wanted = [&](const ParticipantPicture& picture) {

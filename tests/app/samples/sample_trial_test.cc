@@ -19,8 +19,8 @@ class SampleRun {
   explicit SampleRun(Sample sample)
       : setup_(MakeSampleTrial(sample)),
         rig_(dynamic_cast<recon::SyntheticRig&>(*setup_.source)),
-        pipeline_(rig_.rig(), setup_.layout, std::vector<recon::BackgroundReference>(rig_.rig().cameras.size()),
-                  setup_.segmentation) {}
+        pipeline_(rig_.rig(), setup_.layout,
+                  std::vector<recon::BackgroundReference>(rig_.rig().cameras.size()), setup_.segmentation) {}
 
   // The frame at that time, after all frames before it.
   SharedFrameResult At(double time_s) {
@@ -64,7 +64,7 @@ TEST(SampleTrial, TheWaterStaysInTheHands) {
   const auto slow_above_basin = [&](double time_s) {
     const SharedFrameResult result = run.At(time_s);
     return std::ranges::count_if(result->response->streams.at(0).particles, [](const auto& particle) {
-      return particle.position_in_world.z() > kBowlFromMm && particle.position_in_world.z() < kBowlToMm;
+      return particle.x_in_world.z() > kBowlFromMm && particle.x_in_world.z() < kBowlToMm;
     });
   };
   const auto falling = slow_above_basin(1.0), caught = slow_above_basin(7.0);
