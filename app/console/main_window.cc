@@ -160,6 +160,8 @@ QWidget* MainWindow::MakeCentre() {
 void MainWindow::AddPages(QStackedWidget* pages) {
   auto* welcome = new WelcomePage(findChild<QAction*>("start_demo"), findChild<QAction*>("open_trial"));
   welcome->setObjectName("trial");
+  welcome->AddSamples({findChild<QAction*>("sample:payload"), findChild<QAction*>("sample:curtain"),
+                       findChild<QAction*>("sample:faucet")});
   connect(welcome, &WelcomePage::TrialChosen, this, &MainWindow::StartTrial);
   layout_page_ = new LayoutPage;
   layout_page_->setObjectName("layout");
