@@ -49,7 +49,10 @@ class LayoutDocumentTest : public ::testing::Test {
     document.Apply(
         "Move " + part,
         [&](cad_import::LayoutText& text) {
-          MovePart(text, {.name = part, .position_mm = Vector3d(0.0, 0.0, z_mm)});
+          PartEdit edit;
+          edit.name = part;
+          edit.position_mm = Vector3d(0.0, 0.0, z_mm);
+          MovePart(text, edit);
         },
         key);
   }
