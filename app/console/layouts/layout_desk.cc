@@ -85,8 +85,24 @@ void LayoutDesk::Read(const QString& what, Reader reader, bool may_recover) {
 void LayoutDesk::Take(std::unique_ptr<control::LayoutDocument> document, bool may_recover) {
   autosave_after_.stop();
   document_ = std::move(document);
+  forgotten_text_.reset();
   can_recover_ = may_recover && control::FindAutosave(document_->file()).has_value();
   emit Changed();
+}
+
+bool LayoutDesk::is_unsaved() const {
+  return document_->is_changed() && document_->text().text() != forgotten_text_;
+}
+
+void LayoutDesk::Keep() {
+  if (!is_unsaved()) return;
+  autosave_after_.stop();
+  autosaving_.reset();
+  Try([this] {
+    core::MakeFolder(core::FolderOf(document_->file()));
+    document_->Autosave();
+  });
+  forgotten_text_ = document_->text().text();
 }
 
 void LayoutDesk::Forget() {
@@ -94,6 +110,7 @@ void LayoutDesk::Forget() {
   autosaving_.reset();  // waits for what is being written
   control::DropAutosave(document_->file());
   can_recover_ = false;
+  forgotten_text_ = document_->text().text();
   emit Changed();
 }
 
@@ -150,7 +167,8 @@ std::vector<std::string> LayoutDesk::AddParts(const control::PartPreview& previe
 }
 
 void LayoutDesk::Autosave() {
-  if (autosaving_ || !document_->is_changed()) return;
+  if (!is_unsaved()) return;
+  if (autosaving_) return autosave_after_.start();
   autosaving_ = std::make_unique<BackgroundJob>(
       bridge_,
       [text = document_->text()](const std::stop_token&) {

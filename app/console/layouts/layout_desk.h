@@ -5,6 +5,7 @@
 #include <QString>
 #include <QTimer>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -28,6 +29,8 @@ class LayoutDesk : public QObject {
 
   [[nodiscard]] const control::LayoutDocument& document() const { return *document_; }
   [[nodiscard]] bool is_reading() const { return reading_ != nullptr; }
+  // It has changes that weren't saved, and that nobody said to discard.
+  [[nodiscard]] bool is_unsaved() const;
   // Changes of the present layout's file that another run of the program didn't save.
   [[nodiscard]] bool can_recover() const { return can_recover_; }
 
@@ -35,6 +38,7 @@ class LayoutDesk : public QObject {
   void Open(const std::filesystem::path& file);
   void Recover();
   void Forget();  // what could be recovered, or what isn't saved now
+  void Keep();    // beside the file, at once: nobody is there to ask, and the program ends
   bool Save();
   bool SaveAs(const std::filesystem::path& file);
   void Undo();
@@ -64,6 +68,7 @@ class LayoutDesk : public QObject {
   std::filesystem::path unsaved_folder_;
   std::unique_ptr<control::LayoutDocument> document_;
   bool can_recover_ = false;
+  std::optional<std::string> forgotten_text_;  // that nobody wants to keep
   QTimer autosave_after_;
   Bridge bridge_;  // before the threads that post to it
   std::unique_ptr<BackgroundJob> reading_;

@@ -42,18 +42,15 @@ QComboBox* StepBox(const QString& name, const Steps& steps, const QString& unit,
   return box;
 }
 
-Eigen::Vector3d ValuesOf(const std::array<QDoubleSpinBox*, 3>& boxes) {
-  return {boxes[0]->value(), boxes[1]->value(), boxes[2]->value()};
-}
-
 QPixmap Square(const QColor& color) {
   QPixmap square(14, 14);
   square.fill(color);
   return square;
 }
 
-// The roll, pitch and yaw with which LAYOUT.toml writes the part.
-Eigen::Vector3d RotationOf(const core::Part& part) {
+}  // namespace
+
+Eigen::Vector3d RollPitchYawDegOf(const core::Part& part) {
   core::Layout layout;
   layout.parts = {part};
   const std::vector<cad_import::Fields> fields = cad_import::FieldsOf(layout, "part");
@@ -61,8 +58,6 @@ Eigen::Vector3d RotationOf(const core::Part& part) {
   const auto* rotation = value == nullptr ? nullptr : std::get_if<Eigen::Vector3d>(value);
   return rotation == nullptr ? Eigen::Vector3d(Eigen::Vector3d::Zero()) : *rotation;
 }
-
-}  // namespace
 
 PartPanel::PartPanel(QWidget* parent) : QGroupBox(tr("Chosen part"), parent) {
   what_ = new QLabel;
@@ -102,9 +97,9 @@ QWidget* PartPanel::NumberRows() {
     grid->addWidget(new QLabel(turns[i]), row, 2);
     grid->addWidget(rotation_deg_[i], row, 3);
     connect(position_mm_[i], &QDoubleSpinBox::valueChanged, this,
-            [this] { emit Moved(name_, ValuesOf(position_mm_)); });
+            [this, i](double mm) { emit Moved(name_, static_cast<int>(i), mm); });
     connect(rotation_deg_[i], &QDoubleSpinBox::valueChanged, this,
-            [this] { emit Turned(name_, ValuesOf(rotation_deg_)); });
+            [this, i](double deg) { emit Turned(name_, static_cast<int>(i), deg); });
   }
   grid->setColumnStretch(1, 1);
   grid->setColumnStretch(3, 1);
@@ -181,7 +176,7 @@ void PartPanel::Show(const core::Layout& layout, std::optional<core::PartIndex> 
 }
 
 void PartPanel::ShowPlace(const core::Part& part) {
-  const Eigen::Vector3d rotation_deg = RotationOf(part);
+  const Eigen::Vector3d rotation_deg = RollPitchYawDegOf(part);
   for (std::size_t i = 0; i < 3; ++i) {
     const QSignalBlocker position(position_mm_[i]), rotation(rotation_deg_[i]);
     position_mm_[i]->setValue(part.world_from_part.translation_mm[static_cast<Eigen::Index>(i)]);

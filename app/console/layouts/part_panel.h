@@ -16,6 +16,9 @@
 
 namespace elbowroom::console {
 
+// Roll, pitch and yaw with which LAYOUT.toml writes the part's rotation.
+[[nodiscard]] Eigen::Vector3d RollPitchYawDegOf(const core::Part& part);
+
 // Thread: UI.
 class PartPanel : public QGroupBox {
   Q_OBJECT
@@ -27,9 +30,9 @@ class PartPanel : public QGroupBox {
   void Show(const core::Layout& layout, std::optional<core::PartIndex> part, const PartLook& look);
 
  signals:
-  // As LAYOUT.toml has them; only what was changed.
-  void Moved(const QString& part, const Eigen::Vector3d& position_mm);
-  void Turned(const QString& part, const Eigen::Vector3d& rotation_rpy_deg);
+  // One number of the part's position_mm or rotation_rpy_deg, 0 to 2.
+  void Moved(const QString& part, int axis, double position_mm);
+  void Turned(const QString& part, int axis, double rotation_deg);
   void LookChanged(const QString& part, const PartLook& look);
   void RemoveAsked(const QString& part);
   void IsolateAsked(const QString& part);
