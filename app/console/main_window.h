@@ -46,6 +46,10 @@ class MainWindow : public QMainWindow {
   [[nodiscard]] PreflightPanel& preflight() { return *preflight_; }
   [[nodiscard]] ParticipantDesk& participant() { return *participant_; }
   [[nodiscard]] PageSwitch& pages() { return *pages_; }
+  [[nodiscard]] LayoutPage& layout_page() { return *layout_page_; }
+
+  // A LAYOUT.toml goes to the layout page, anything else is run as a trial.
+  void OpenFile(const QString& file);
 
   // Takes size, place and panels from the last run, and leaves them for the next.
   void Remember();

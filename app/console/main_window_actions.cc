@@ -72,7 +72,7 @@ void MainWindow::AddMenus() {
   file->addAction(action("open_trial"));
   auto* recent = new RecentTrialsMenu(this);
   recent->setObjectName("recent_trials");
-  connect(recent, &RecentTrialsMenu::Chosen, this, &MainWindow::StartTrial);
+  connect(recent, &RecentTrialsMenu::Chosen, this, &MainWindow::OpenFile);
   file->addMenu(recent);
   file->addAction(new SessionsFolderAction(this));
   file->addSeparator();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -17,13 +18,15 @@
 namespace elbowroom::control {
 
 struct RenderRequest {
-  SharedFrameResult result;
+  SharedFrameResult result;  // null: `scene` is drawn
   recon::OrbitCamera camera;
   int width_px = 640;
   int height_px = 480;
   double hull_scale = 1.0;  // as SceneComposer::Compose
   bool is_smooth = true;    // four samples a pixel; false: one, which is drawn sooner
   SceneLook look;
+  // Drawn as it is, but for its view and smoothness, which are the request's. Null: `result` is drawn.
+  std::shared_ptr<const recon::gl::Scene> scene = nullptr;
 };
 
 // The latest request wins: one that comes while a picture is being drawn replaces one that waits. When the
