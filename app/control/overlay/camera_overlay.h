@@ -24,8 +24,8 @@ struct OverlayPart {
 };
 
 struct OverlayLook {
-  double line_width_px = 1.5;   // (0, 16]
-  double face_opacity = 0.45;   // [0, 1]; 0: lines only
+  double line_width_px = 1.5;  // (0, 16]
+  double face_opacity = 0.45;  // [0, 1]; 0: lines only
 };
 
 // What was drawn, and what wasn't because it couldn't have changed.

@@ -32,7 +32,8 @@ void Extend(int x, int y, recon::PixelBox* box) {
     *box = {x, y, x + 1, y + 1};
     return;
   }
-  *box = {std::min(box->x, x), std::min(box->y, y), std::max(box->right, x + 1), std::max(box->bottom, y + 1)};
+  *box = {std::min(box->x, x), std::min(box->y, y), std::max(box->right, x + 1),
+          std::max(box->bottom, y + 1)};
 }
 
 void AddFaces(const PartFaces& faces, std::uint16_t part, OverlayLayer* layer) {
@@ -40,7 +41,8 @@ void AddFaces(const PartFaces& faces, std::uint16_t part, OverlayLayer* layer) {
     for (int x = faces.box.x; x < faces.box.right; ++x) {
       const float depth_mm = faces.depth_mm[faces.At(x, y)];
       const std::size_t at = layer->At(x, y);
-      if (depth_mm <= 0.0F || (layer->face_depth_mm[at] > 0.0F && layer->face_depth_mm[at] <= depth_mm)) continue;
+      if (depth_mm <= 0.0F || (layer->face_depth_mm[at] > 0.0F && layer->face_depth_mm[at] <= depth_mm))
+        continue;
       layer->face_depth_mm[at] = depth_mm;
       layer->face_part[at] = part;
       layer->face_shade[at] = faces.shade[faces.At(x, y)];

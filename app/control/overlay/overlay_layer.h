@@ -29,7 +29,7 @@ struct OverlayLine {
 struct OverlayLayer {
   int width_px = 0;
   int height_px = 0;
-  recon::PixelBox box;  // holds all that is drawn
+  recon::PixelBox box;               // holds all that is drawn
   std::vector<float> face_depth_mm;  // of the nearest part, along the camera's z axis; 0: none
   std::vector<std::uint16_t> face_part;
   std::vector<std::uint8_t> face_shade;

@@ -65,7 +65,8 @@ class Canvas {
  public:
   explicit Canvas(const ViewPixels& view) : view_(view) {
     whole_.box = {0, 0, view.rays().width_px(), view.rays().height_px()};
-    const auto pixels = static_cast<std::size_t>(whole_.box.right) * static_cast<std::size_t>(whole_.box.bottom);
+    const auto pixels =
+        static_cast<std::size_t>(whole_.box.right) * static_cast<std::size_t>(whole_.box.bottom);
     whole_.depth_mm.resize(pixels);
     whole_.shade.resize(pixels);
   }

@@ -14,7 +14,7 @@ namespace elbowroom::control {
 // Of the pixels in `box`, row by row. Empty vectors: the part covers none.
 struct PartFaces {
   recon::PixelBox box;
-  std::vector<float> depth_mm;     // along the camera's z axis; 0: not covered
+  std::vector<float> depth_mm;      // along the camera's z axis; 0: not covered
   std::vector<std::uint8_t> shade;  // brightness of the face, 255: full
 
   [[nodiscard]] std::size_t At(int x, int y) const {

@@ -14,7 +14,7 @@ namespace elbowroom::control {
 struct LinePiece {
   Eigen::Vector2d from_px = Eigen::Vector2d::Zero();
   Eigen::Vector2d to_px = Eigen::Vector2d::Zero();
-  double depth_mm = 0.0;                                   // of its middle
+  double depth_mm = 0.0;                                    // of its middle
   Eigen::Vector3d middle_in_cam = Eigen::Vector3d::Zero();  // that it is seen or hidden by
 };
 

@@ -76,8 +76,7 @@ std::vector<CurvePoint> ProjectEdge(const core::CameraModel& camera, const Eigen
     const double s = seen.from + (seen.to - seen.from) * i / pieces;
     const Vector2d normalised = from + s * step;
     const double depth_mm = 1.0 / ((1.0 - s) / a.z() + s / b.z());  // 1/z is linear in the picture
-    curve.push_back(
-        {camera.PixelFromNormalised(normalised), depth_mm, depth_mm * normalised.homogeneous()});
+    curve.push_back({camera.PixelFromNormalised(normalised), depth_mm, depth_mm * normalised.homogeneous()});
   }
   return curve;
 }

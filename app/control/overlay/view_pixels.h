@@ -11,8 +11,8 @@
 
 namespace elbowroom::control {
 
-// A camera with a picture of another size: its lens and its place stay. A width and height of the camera's own
-// give the same camera to the last bit.
+// A camera with a picture of another size: its lens and its place stay. A width and height of the camera's
+// own give the same camera to the last bit.
 [[nodiscard]] core::CameraModel ScaledTo(const core::CameraModel& camera, int width_px, int height_px);
 
 // Immutable; made once for a camera and a size. Thread: any.
@@ -56,8 +56,7 @@ class ViewPixels {
       return;
     }
     for (const int down : {0, 1})
-      for (const int across : {0, 1})
-        Visit(level - 1, 2 * i + across, 2 * j + down, may_hold, on_leaf);
+      for (const int across : {0, 1}) Visit(level - 1, 2 * i + across, 2 * j + down, may_hold, on_leaf);
   }
 
   core::CameraModel camera_;

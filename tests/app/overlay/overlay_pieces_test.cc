@@ -48,11 +48,13 @@ TEST(ProjectedEdge, IsNeverMoreThanHalfAPixelFromTheLensesFormulas) {
   double worst_px = 0.0;
   int samples = 0;
   for (int trial = 0; trial < 240; ++trial) {
-    const ViewPixels view(recon::RandomCamera(&random, static_cast<recon::LensKind>(trial % recon::kLensKinds)));
+    const ViewPixels view(
+        recon::RandomCamera(&random, static_cast<recon::LensKind>(trial % recon::kLensKinds)));
     const core::CameraModel& camera = view.camera();
     // From a hair to far beyond the picture; every third passes the camera.
     const double far_mm = random.LogUniform(5.0, 5000.0);
-    Vector3d a = far_mm * random.Direction(), b = a + random.LogUniform(0.1, 3.0) * far_mm * random.Direction();
+    Vector3d a = far_mm * random.Direction(),
+             b = a + random.LogUniform(0.1, 3.0) * far_mm * random.Direction();
     if (trial % 3 != 0) a.z() = std::abs(a.z()), b.z() = std::abs(b.z());
     const std::vector<CurvePoint> curve = ProjectEdge(camera, view.frame(), a, b);
     for (std::size_t i = 1; i < curve.size(); ++i)
@@ -80,8 +82,8 @@ TEST(ProjectedEdge, IsEmptyBehindTheCameraAndBesideThePicture) {
 }
 
 // First meeting of any triangle, by its plane and areas: slow and plain.
-double FirstDepth(const core::TriangleMesh& mesh, const core::RigidTransform& cam_from_part, const Vector3d& ray,
-                  double* margin) {
+double FirstDepth(const core::TriangleMesh& mesh, const core::RigidTransform& cam_from_part,
+                  const Vector3d& ray, double* margin) {
   double first = std::numeric_limits<double>::infinity();
   for (const auto& [i, j, k] : mesh.triangles) {
     const Vector3d a = cam_from_part * mesh.vertices_mm[static_cast<std::size_t>(i)],
@@ -108,7 +110,8 @@ TEST(PartFaces, AreTheFirstTrianglesAlongEveryPixelsRay) {
   Random random(2525);
   int compared = 0, covered = 0;
   for (int trial = 0; trial < 60; ++trial) {
-    const ViewPixels view(recon::RandomCamera(&random, static_cast<recon::LensKind>(trial % recon::kLensKinds)));
+    const ViewPixels view(
+        recon::RandomCamera(&random, static_cast<recon::LensKind>(trial % recon::kLensKinds)));
     const core::TriangleMesh mesh =
         recon::RandomTriangles(&random, {Vector3d::Constant(-150.0), Vector3d::Constant(150.0)}, 12);
     const core::RigidTransform cam_from_part = view.camera().cam_from_world();
@@ -120,7 +123,8 @@ TEST(PartFaces, AreTheFirstTrianglesAlongEveryPixelsRay) {
         double margin = std::numeric_limits<double>::infinity();
         const double truth_mm = FirstDepth(mesh, cam_from_part, normalised->homogeneous(), &margin);
         if (margin < kUnsure || std::abs(truth_mm - kOverlayNearMm) < 1e-3) continue;
-        const bool is_in = x >= faces.box.x && x < faces.box.right && y >= faces.box.y && y < faces.box.bottom;
+        const bool is_in =
+            x >= faces.box.x && x < faces.box.right && y >= faces.box.y && y < faces.box.bottom;
         const float depth_mm = is_in ? faces.depth_mm[faces.At(x, y)] : 0.0F;
         ++compared;
         if (std::isinf(truth_mm)) {

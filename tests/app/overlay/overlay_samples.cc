@@ -36,15 +36,14 @@ core::Rig LensRig() {
   core::Rig rig;
   rig.name = "lenses";
   rig.workspace_mm = {Vector3d(-400.0, -400.0, 0.0), Vector3d(500.0, 400.0, 500.0)};
-  rig.cameras = {
-      LensCamera("barrel", 640, 360, 380.0, DistortionModel::kPlumbBob, {-0.32, 0.12, 3e-4, 2e-4, -0.02},
-                 {300.0, -700.0, 900.0}),
-      LensCamera("rational", 640, 360, 304.0, DistortionModel::kRationalPolynomial,
-                 {0.52, -2.71, 6e-4, -3e-4, 1.55, 0.40, -2.53, 1.47}, {-600.0, 500.0, 700.0}),
-      LensCamera("action", 960, 540, 435.0, DistortionModel::kFisheye, {0.04, 0.015, -0.02, 0.005},
-                 {500.0, 500.0, 400.0}),
-      LensCamera("fisheye", 450, 330, 200.0, DistortionModel::kFisheye, {-0.02, 0.003, -0.002, 0.0002},
-                 {-300.0, -300.0, 500.0})};
+  rig.cameras = {LensCamera("barrel", 640, 360, 380.0, DistortionModel::kPlumbBob,
+                            {-0.32, 0.12, 3e-4, 2e-4, -0.02}, {300.0, -700.0, 900.0}),
+                 LensCamera("rational", 640, 360, 304.0, DistortionModel::kRationalPolynomial,
+                            {0.52, -2.71, 6e-4, -3e-4, 1.55, 0.40, -2.53, 1.47}, {-600.0, 500.0, 700.0}),
+                 LensCamera("action", 960, 540, 435.0, DistortionModel::kFisheye, {0.04, 0.015, -0.02, 0.005},
+                            {500.0, 500.0, 400.0}),
+                 LensCamera("fisheye", 450, 330, 200.0, DistortionModel::kFisheye,
+                            {-0.02, 0.003, -0.002, 0.0002}, {-300.0, -300.0, 500.0})};
   return rig;
 }
 
@@ -184,32 +183,30 @@ core::TriangleMesh TubeMesh(const recon::Tube& tube, int segments) {
   return mesh;
 }
 
-std::vector<SolidPart> PartsOfEveryKind(const Vector3d& eye_in_world) {
-  const auto part = [](std::string name, auto shape, core::TriangleMesh mesh, const Vector3d& position_mm,
-                       const Vector3d& rotation_deg) {
-    SolidPart made{std::move(name), {}, Shared(std::move(mesh))};
-    made.solid.shape = shape;
-    made.solid.world_from_solid = core::FromPositionAndRollPitchYaw(position_mm, rotation_deg);
-    return made;
-  };
-  const auto box = [&](std::string name, const Vector3d& size_mm, const Vector3d& position_mm,
-                       const Vector3d& rotation_deg) {
-    return part(std::move(name), recon::Box{size_mm}, BoxMesh(size_mm), position_mm, rotation_deg);
-  };
+std::vector<SolidPart> PartsOfEveryKind(const core::CameraModel& camera) {
   const recon::Tube tube{70.0, 55.0, 180.0};
   // Fine enough that facets are a few micrometres off the round surface.
-  std::vector<SolidPart> parts{
-      box("flat", {320.0, 240.0, 4.0}, {40.0, -30.0, 120.0}, {10.0, -5.0, 30.0}),
-      part("curved", recon::Sphere{90.0}, BallMesh(90.0, 480), {90.0, 60.0, 150.0}, {0.0, 20.0, 0.0}),
-      part("hollow", tube, TubeMesh(tube, 720), {-40.0, 20.0, 60.0}, {25.0, 15.0, 0.0}),
-      box("huge", {9000.0, 7000.0, 30.0}, {0.0, 0.0, -400.0}, {3.0, -2.0, 10.0}),
-      box("tiny", {2.0, 2.0, 2.0}, {80.0, 10.0, 200.0}, {20.0, 30.0, 40.0})};
-  // A long bar past the camera, from the table to behind it.
-  const Vector3d middle = 0.5 * eye_in_world + 0.5 * (1.8 * eye_in_world - Vector3d(0.0, 0.0, 100.0));
-  parts.push_back(box("behind", {2200.0, 60.0, 40.0}, middle - Vector3d(0.0, 0.0, 90.0),
-                      {0.0, -std::atan2(eye_in_world.z(), eye_in_world.head<2>().norm()) * 360.0 / kTurn,
-                       std::atan2(eye_in_world.y(), eye_in_world.x()) * 360.0 / kTurn}));
-  return parts;
+  static const core::SharedMesh kBall = Shared(BallMesh(90.0, 480)), kTube = Shared(TubeMesh(tube, 720));
+  const auto part = [](std::string name, auto shape, core::SharedMesh mesh,
+                       const core::RigidTransform& world_from_solid) {
+    SolidPart made{std::move(name), {}, std::move(mesh)};
+    made.solid.shape = shape;
+    made.solid.world_from_solid = world_from_solid;
+    return made;
+  };
+  const auto box = [&](std::string name, const Vector3d& size_mm, const core::RigidTransform& at) {
+    return part(std::move(name), recon::Box{size_mm}, Shared(BoxMesh(size_mm)), at);
+  };
+  const auto at = [](const Vector3d& position_mm, const Vector3d& rotation_deg) {
+    return core::FromPositionAndRollPitchYaw(position_mm, rotation_deg);
+  };
+  return {box("flat", {320.0, 240.0, 4.0}, at({40.0, -30.0, 120.0}, {10.0, -5.0, 30.0})),
+          part("curved", recon::Sphere{90.0}, kBall, at({90.0, 60.0, 150.0}, {0.0, 20.0, 0.0})),
+          part("hollow", tube, kTube, at({-40.0, 20.0, 60.0}, {25.0, 15.0, 0.0})),
+          box("huge", {9000.0, 7000.0, 30.0}, at({0.0, 0.0, -400.0}, {3.0, -2.0, 10.0})),
+          box("tiny", {2.0, 2.0, 2.0}, at({80.0, 10.0, 200.0}, {20.0, 30.0, 40.0})),
+          box("behind", {50.0, 30.0, 1300.0},
+              camera.cam_from_world().Inverse() * at({70.0, 45.0, 150.0}, {2.0, -3.0, 20.0}))};
 }
 
 std::vector<SolidEdge> EdgesOf(const recon::Solid& solid, const Vector3d& eye_in_world, double apart_mm) {

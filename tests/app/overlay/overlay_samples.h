@@ -30,8 +30,9 @@ struct SolidPart {
   recon::Solid solid;
   core::SharedMesh mesh;
 };
-// Flat, curved, hollow, huge, tiny, and one that reaches behind `eye_in_world`, about the origin's table.
-[[nodiscard]] std::vector<SolidPart> PartsOfEveryKind(const Eigen::Vector3d& eye_in_world);
+// Flat, curved, hollow, huge, tiny, about the origin's table, and one from behind the camera past it. The
+// same meshes at each call.
+[[nodiscard]] std::vector<SolidPart> PartsOfEveryKind(const core::CameraModel& camera);
 
 // The curves on the solid that an eye sees as its edges: box edges, rims, and where the line of sight grazes
 // the surface, as points at most `apart_mm` apart. In world.
