@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 #include <variant>
@@ -25,7 +26,9 @@ struct RenderRequest {
   SceneLook look;
 };
 
-// The latest request wins: one that comes while a picture is being drawn replaces one that waits.
+// The latest request wins: one that comes while a picture is being drawn replaces one that waits. When the
+// driver fails, for example because the graphics card was reset, the next request gets a new context
+// (render_worker_test).
 // Thread: any may submit; the callbacks come on the worker's thread and must not block.
 class RenderWorker {
  public:
@@ -43,6 +46,12 @@ class RenderWorker {
   // computes the view of its hull as in the last request, so that the frame's picture is ready sooner.
   void Foresee(SharedHull hull) { requests_.PushIfEmpty(std::move(hull)); }
 
+  // The processor draws; nothing until the first picture was drawn.
+  [[nodiscard]] std::optional<bool> is_software() const {
+    const std::lock_guard lock(driver_mutex_);
+    return is_software_;
+  }
+
   // Vendor, renderer and version in one line; "" until the first picture was drawn.
   [[nodiscard]] std::string driver() const {
     const std::lock_guard lock(driver_mutex_);
@@ -56,6 +65,7 @@ class RenderWorker {
   OnError on_error_;
   mutable std::mutex driver_mutex_;
   std::string driver_;
+  std::optional<bool> is_software_;
   core::BoundedQueue<std::variant<RenderRequest, SharedHull>> requests_{1, core::WhenFull::kDropOldest};
   std::jthread thread_;  // last: it starts when all other members exist
 };

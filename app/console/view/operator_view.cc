@@ -11,8 +11,9 @@
 namespace elbowroom::console {
 namespace {
 
-// Beyond this a picture costs software OpenGL more time than it gains in sharpness.
-constexpr QSize kLargestPicture(800, 600);
+// Beyond these a picture costs more time than it gains in sharpness.
+constexpr QSize kLargestBySoftware(1280, 800);
+constexpr QSize kLargestByCard(3840, 2400);
 // A scene that hasn't changed for this long is drawn in full.
 constexpr std::chrono::milliseconds kRests(400);
 constexpr double kWheelStepEighths = 120.0;  // one notch of a wheel, in Qt's eighths of a degree
@@ -121,7 +122,8 @@ void OperatorView::Submit(const PictureFineness& fineness) {
 
 QSize OperatorView::LargestPicture() const {
   const QSize pixels = size() * devicePixelRatio();
-  return pixels.boundedTo(pixels.scaled(kLargestPicture, Qt::KeepAspectRatio)).expandedTo(QSize(64, 64));
+  const QSize largest = worker_.is_software().value_or(true) ? kLargestBySoftware : kLargestByCard;
+  return pixels.boundedTo(pixels.scaled(largest, Qt::KeepAspectRatio)).expandedTo(QSize(64, 64));
 }
 
 void OperatorView::ShowPicture(const QImage& picture, const control::RenderRequest& request) {
