@@ -4,6 +4,7 @@
 #include <functional>
 #include <mutex>
 #include <optional>
+#include <optional>
 #include <string>
 #include <thread>
 #include <variant>
@@ -23,7 +24,8 @@ struct RenderRequest {
   int height_px = 480;
   double hull_scale = 1.0;  // as SceneComposer::Compose
   bool is_smooth = true;    // four samples a pixel; false: one, which is drawn sooner
-  SceneLook look;
+  SceneLook look = {};
+  std::optional<recon::SceneView> fixed_view = std::nullopt;  // of the picture's size; takes camera's place
 };
 
 // The latest request wins: one that comes while a picture is being drawn replaces one that waits. When the

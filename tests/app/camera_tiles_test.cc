@@ -230,7 +230,7 @@ TEST(TileMaker, ShowsTheLatestFrameOnceThereIsRoom) {
   TileMaker maker(rig, [&](const SharedTiles& tiles) { box.Put(tiles); });
   maker.Add(FrameOf(rig->rig(), 0, {2}));
   maker.Add(FrameOf(rig->rig(), 1));
-  maker.SetRoom({160, 120});
+  maker.Wish({.room = {160, 120}});
   ASSERT_TRUE(box.WaitFor([](const auto& tiles) { return tiles.front().picture.width_px == 160; }));
   EXPECT_TRUE(box.WaitFor([&](const auto& tiles) {
     return tiles.size() == 4 && tiles[1].name == rig->rig().cameras[1].name() &&
@@ -242,7 +242,7 @@ TEST(TileMaker, ACameraThatGoesIsToldWithoutANewFrameAndKeepsItsPicture) {
   TileBox box;
   const auto rig = std::make_shared<SwitchedRig>();
   TileMaker maker(rig, [&](const SharedTiles& tiles) { box.Put(tiles); });
-  maker.SetRoom({160, 120});
+  maker.Wish({.room = {160, 120}});
   maker.Add(FrameOf(rig->rig(), 0));
   ASSERT_TRUE(box.WaitFor([](const auto& tiles) { return !tiles[1].picture.rgb.empty(); }));
   rig->is_on = false;
@@ -259,7 +259,7 @@ TEST(TileMaker, KeepsNoSourceAlive) {
   auto rig = std::make_shared<SwitchedRig>();
   TileMaker maker(rig, [&](const SharedTiles& tiles) { box.Put(tiles); });
   const std::weak_ptr<SwitchedRig> watched = rig;
-  maker.SetRoom({160, 120});
+  maker.Wish({.room = {160, 120}});
   const SharedFrameResult frame = FrameOf(rig->rig(), 0);
   rig.reset();
   maker.Add(frame);

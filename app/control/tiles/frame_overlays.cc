@@ -35,7 +35,8 @@ void FrameOverlays::PaintOn(recon::Image* picture, const FrameResult& result, co
   std::unique_ptr<CameraOverlay>& overlay = overlays_[camera];
   if (!overlay || overlay->layer().width_px != picture->width_px ||
       overlay->layer().height_px != picture->height_px) {
-    overlay = std::make_unique<CameraOverlay>(rig_->cameras[camera], picture->width_px, picture->height_px, look_);
+    overlay =
+        std::make_unique<CameraOverlay>(rig_->cameras[camera], picture->width_px, picture->height_px, look_);
   }
   overlay->Place(PartsOf(result, &meshes_));
   overlay->PaintOn(picture, result.hull);

@@ -62,7 +62,8 @@ void TileMaker::MakePictures(const FrameResult& result, const TileWishes& wishes
     const cv::Mat none;
     const cv::Mat& image_bgr = result.camera_frames ? result.camera_frames->cameras[i].image_bgr : none;
     tile.picture = ThumbnailOf(image_bgr, mask, wishes.room);
-    tile.enlarged = ThumbnailOf(image_bgr, mask, wishes.enlarged == i ? wishes.enlarged_room : ThumbnailRoom());
+    tile.enlarged =
+        ThumbnailOf(image_bgr, mask, wishes.enlarged == i ? wishes.enlarged_room : ThumbnailRoom());
     if (wishes.shows_parts) {
       overlays_.PaintOn(&tile.picture, result, i);
       enlarged_overlay_.PaintOn(&tile.enlarged, result, i);

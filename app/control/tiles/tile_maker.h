@@ -26,8 +26,8 @@ namespace elbowroom::control {
 // One camera, as the strip shows it.
 struct CameraTile {
   std::string name;
-  recon::Image picture;  // with the silhouette's outline; of the last frame that had one; empty: none yet
-  recon::Image enlarged;       // the same as large as was asked for; empty: of another camera, or none
+  recon::Image picture;   // with the silhouette's outline; of the last frame that had one; empty: none yet
+  recon::Image enlarged;  // the same as large as was asked for; empty: of another camera, or none
   std::int64_t object_px = 0;  // of the silhouette, at full size
   bool is_missing = false;     // the last frame lacks its picture
   std::string gone;            // why nothing comes from it, one line; "": it is there
@@ -38,8 +38,8 @@ using SharedTiles = std::shared_ptr<const std::vector<CameraTile>>;
 
 // What the tiles show, and how large.
 struct TileWishes {
-  ThumbnailRoom room;       // of one camera's picture; empty, as at first: nobody looks
-  bool shows_parts = true;  // the layout's parts, hidden by what is real before them
+  ThumbnailRoom room;                         // of one camera's picture; empty, as at first: nobody looks
+  bool shows_parts = true;                    // the layout's parts, hidden by what is real before them
   std::optional<core::CameraIndex> enlarged;  // the camera whose picture is shown large
   ThumbnailRoom enlarged_room;
 
@@ -61,7 +61,7 @@ class TileMaker {
   TileMaker(const TileMaker&) = delete;
   TileMaker& operator=(const TileMaker&) = delete;
 
-  void Wish(const TileWishes& wishes);  // holds from the next frame on
+  void Wish(const TileWishes& wishes);        // holds from the next frame on
   void Add(const SharedFrameResult& result);  // every frame
   void AddLight(const recon::LightReport& report);
 
@@ -74,10 +74,10 @@ class TileMaker {
   std::weak_ptr<const recon::FrameSetSource> source_;
   OnTiles on_tiles_;
   CameraTally tally_;
-  std::vector<CameraTile> tiles_;           // this and the next two: of the maker's thread
-  FrameOverlays overlays_{kTileOverlay};    // of the small pictures
+  std::vector<CameraTile> tiles_;         // this and the next two: of the maker's thread
+  FrameOverlays overlays_{kTileOverlay};  // of the small pictures
   FrameOverlays enlarged_overlay_;
-  std::mutex mutex_;               // for the next two
+  std::mutex mutex_;  // for the next two
   TileWishes wishes_;
   SharedFrameResult latest_;  // null: it was looked at
   std::condition_variable_any wakes_;
