@@ -83,6 +83,7 @@ MainWindow::MainWindow(std::filesystem::path session)
   setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);
   spacings_ = new SpacingPanel;
   view_ = new OperatorView;
+  sights_ = new TrialSights(view_, this);
   AddPreflight();
   AddPanels();
   AddActions();
@@ -242,7 +243,10 @@ void MainWindow::FollowDesk() {
   connect(desk_, &TrialDesk::HullArrived, view_, &OperatorView::Foresee);
   connect(desk_, &TrialDesk::FrameArrived, this, &MainWindow::ShowFrame);
   connect(desk_, &TrialDesk::TilesArrived, strip_, &CameraStrip::ShowTiles);
-  connect(strip_, &CameraStrip::RoomChanged, desk_, &TrialDesk::SetTileRoom);
+  connect(desk_, &TrialDesk::TilesArrived, sights_, &TrialSights::ShowTiles);
+  connect(strip_, &CameraStrip::RoomChanged, sights_, &TrialSights::SetTileRoom);
+  connect(strip_, &CameraStrip::CameraChosen, sights_, &TrialSights::ShowCamera);
+  connect(sights_, &TrialSights::WishesChanged, desk_, &TrialDesk::SetTileWishes);
   connect(desk_, &TrialDesk::Failed, this, &MainWindow::ShowError);
   connect(desk_, &TrialDesk::Progressed, status_, &StatusLine::ShowProgress);
   connect(desk_, &TrialDesk::TrialEnded, messages_, &MessageBar::ShowNote);
@@ -264,7 +268,8 @@ void MainWindow::ShowError(const QString& line) { messages_->ShowError(line); }
 void MainWindow::OpenTrial(const control::TrialSetup& setup) {
   messages_->hide();
   view_->Clear();
-  pages_->SetTrialWidget(view_);
+  sights_->Open(setup.source->rig());
+  pages_->SetTrialWidget(sights_);
   pages_->Show(Page::kTrial);
   cameras_dock_->show();
   strip_->Open(setup.source->rig());

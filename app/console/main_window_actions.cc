@@ -94,6 +94,8 @@ void MainWindow::AddMenus() {
   cameras->addActions({action("show_preflight"), action("take_background"), action("calibrate")});
   auto* view = menuBar()->addMenu(tr("&View"));
   view->addAction(tr("&Fit everything"), QKeySequence(Qt::Key_F), view_, &OperatorView::Fit);
+  sights_->AddTo(view);
+  view->addSeparator();
   view->addAction(tr("F&ull screen"), QKeySequence(Qt::Key_F11), this,
                   [this] { setWindowState(windowState() ^ Qt::WindowFullScreen); });
   view->addMenu(ThemeMenu());

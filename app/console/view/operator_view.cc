@@ -97,10 +97,28 @@ void OperatorView::SetLook(const control::SceneLook& look) {
   AskForPicture();
 }
 
+void OperatorView::LookAlong(recon::StandardView view) {
+  if (camera_) Turn(recon::Along(*camera_, view));
+}
+
+void OperatorView::SetParallel(bool is_parallel) {
+  is_parallel_ = is_parallel;
+  if (camera_) Turn(*camera_);
+}
+
+void OperatorView::LookFrom(const core::CameraModel& camera) {
+  if (!camera_) return;
+  camera_ = recon::OrbitLike(camera, camera_->target_in_world);
+  looks_from_ = camera;
+  AskForPicture();
+}
+
 QString OperatorView::driver() const { return QString::fromStdString(worker_.driver()); }
 
 void OperatorView::Turn(const recon::OrbitCamera& camera) {
   camera_ = camera;
+  camera_->is_parallel = is_parallel_;
+  looks_from_.reset();
   AskForPicture();
 }
 
@@ -118,7 +136,11 @@ void OperatorView::Submit(const PictureFineness& fineness) {
   drawn_with_ = fineness;
   is_outdated_ = false;
   drawing_.start();
-  worker_.Submit({result_, *camera_, size.width(), size.height(), fineness.hull, fineness.is_smooth, look_});
+  control::RenderRequest request{result_,       *camera_,           size.width(), size.height(),
+                                 fineness.hull, fineness.is_smooth, look_};
+  if (looks_from_)
+    request.fixed_view = recon::ViewFrom(*looks_from_, camera_->target_in_world, size.width(), size.height());
+  worker_.Submit(std::move(request));
 }
 
 QSize OperatorView::LargestPicture() const {
