@@ -16,6 +16,7 @@
 #include "app/console/participant/participant_desk.h"
 #include "app/console/preflight_panel.h"
 #include "app/console/reviews/review_page.h"
+#include "app/console/sights/trial_sights.h"
 #include "app/console/spacing_panel.h"
 #include "app/console/status_line.h"
 #include "app/console/tool_panel.h"
@@ -41,11 +42,16 @@ class MainWindow : public QMainWindow {
   [[nodiscard]] TrialDesk& desk() { return *desk_; }
   [[nodiscard]] SessionPlace& session_place() { return place_; }
   [[nodiscard]] OperatorView& view() { return *view_; }
+  [[nodiscard]] TrialSights& sights() { return *sights_; }
   [[nodiscard]] CameraStrip& strip() { return *strip_; }
   [[nodiscard]] const StatusLine& status() const { return *status_; }
   [[nodiscard]] PreflightPanel& preflight() { return *preflight_; }
   [[nodiscard]] ParticipantDesk& participant() { return *participant_; }
   [[nodiscard]] PageSwitch& pages() { return *pages_; }
+  [[nodiscard]] LayoutPage& layout_page() { return *layout_page_; }
+
+  // A LAYOUT.toml goes to the layout page, anything else is run as a trial.
+  void OpenFile(const QString& file);
 
   // Takes size, place and panels from the last run, and leaves them for the next.
   void Remember();
@@ -90,6 +96,7 @@ class MainWindow : public QMainWindow {
   LayoutPage* layout_page_ = nullptr;
   ReviewPage* review_page_ = nullptr;
   OperatorView* view_ = nullptr;
+  TrialSights* sights_ = nullptr;
   HullLookButton* hull_look_ = nullptr;
   PreflightPanel* preflight_ = nullptr;
   QDockWidget* preflight_dock_ = nullptr;

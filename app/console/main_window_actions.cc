@@ -72,7 +72,7 @@ void MainWindow::AddMenus() {
   file->addAction(action("open_trial"));
   auto* recent = new RecentTrialsMenu(this);
   recent->setObjectName("recent_trials");
-  connect(recent, &RecentTrialsMenu::Chosen, this, &MainWindow::StartTrial);
+  connect(recent, &RecentTrialsMenu::Chosen, this, &MainWindow::OpenFile);
   file->addMenu(recent);
   file->addAction(new SessionsFolderAction(this));
   file->addSeparator();
@@ -94,6 +94,8 @@ void MainWindow::AddMenus() {
   cameras->addActions({action("show_preflight"), action("take_background"), action("calibrate")});
   auto* view = menuBar()->addMenu(tr("&View"));
   view->addAction(tr("&Fit everything"), QKeySequence(Qt::Key_F), view_, &OperatorView::Fit);
+  sights_->AddTo(view);
+  view->addSeparator();
   view->addAction(tr("F&ull screen"), QKeySequence(Qt::Key_F11), this,
                   [this] { setWindowState(windowState() ^ Qt::WindowFullScreen); });
   view->addMenu(ThemeMenu());
