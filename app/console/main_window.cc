@@ -44,11 +44,13 @@ std::optional<double> SpacingStepFor(const QKeyEvent& event) {
   }
 }
 
+bool IsSession(const QString& file) { return file.endsWith(".db", Qt::CaseInsensitive); }
+
 // The file that was dropped, if it can be opened.
-QString TrialIn(const QMimeData* data) {
+QString FileIn(const QMimeData* data) {
   if (data == nullptr || data->urls().size() != 1) return {};
   const QString file = data->urls().front().toLocalFile();
-  return file.endsWith(".toml", Qt::CaseInsensitive) ? file : QString();
+  return file.endsWith(".toml", Qt::CaseInsensitive) || IsSession(file) ? file : QString();
 }
 
 QScrollArea* Scrolling(QWidget* content) {
@@ -201,13 +203,25 @@ void MainWindow::StartTrial(const QString& trial_file) {
   StartTrialFile(*desk_, trial_file.toStdString(), place_);
 }
 
+void MainWindow::OpenSession(const std::filesystem::path& session) {
+  pages_->Show(Page::kReview);
+  review_page_->Open(session);
+}
+
+void MainWindow::AskForSession() {
+  pages_->Show(Page::kReview);
+  review_page_->AskForSession();
+}
+
 void MainWindow::dragEnterEvent(QDragEnterEvent* event) {
-  if (!TrialIn(event->mimeData()).isEmpty()) event->acceptProposedAction();
+  if (!FileIn(event->mimeData()).isEmpty()) event->acceptProposedAction();
 }
 
 void MainWindow::dropEvent(QDropEvent* event) {
   event->acceptProposedAction();
-  StartTrial(TrialIn(event->mimeData()));
+  const QString file = FileIn(event->mimeData());
+  if (IsSession(file)) return OpenSession(file.toStdString());
+  StartTrial(file);
 }
 
 void MainWindow::FollowDesk() {

@@ -44,9 +44,14 @@ class MainWindow : public QMainWindow {
   [[nodiscard]] const StatusLine& status() const { return *status_; }
   [[nodiscard]] PreflightPanel& preflight() { return *preflight_; }
   [[nodiscard]] PageSwitch& pages() { return *pages_; }
+  [[nodiscard]] ReviewPage& review_page() { return *review_page_; }
 
   // Takes size, place and panels from the last run, and leaves them for the next.
   void Remember();
+
+  // On the review page.
+  void OpenSession(const std::filesystem::path& session);
+  void AskForSession();
 
  public slots:
   void ShowError(const QString& line);

@@ -11,6 +11,8 @@
 #include "app/console/desktop/recent_trials.h"
 #include "app/console/desktop/theme.h"
 #include "app/console/main_window.h"
+#include "app/console/review_actions.h"
+#include "app/console/reviews/recent_sessions.h"
 
 namespace elbowroom::console {
 
@@ -29,6 +31,7 @@ void MainWindow::AddActions() {
   stop->setObjectName("stop");
   auto* report = new ReportAction(*desk_, this);
   report->setObjectName("report");
+  auto* review = new ReviewTrialAction(*desk_, this);
   auto* undo = new UndoGapAction(*spacings_, this);
   undo->setObjectName("undo_gap");
   auto* redo = new RedoGapAction(*spacings_, this);
@@ -45,7 +48,7 @@ void MainWindow::AddActions() {
   TakeIcons();
   bar->addActions({demo, open});
   bar->addSeparator();
-  bar->addActions({stop, report});
+  bar->addActions({stop, report, review});
   bar->addSeparator();
   bar->addActions({undo, redo});
   bar->addSeparator();
@@ -69,13 +72,19 @@ void MainWindow::AddMenus() {
   recent->setObjectName("recent_trials");
   connect(recent, &RecentTrialsMenu::Chosen, this, &MainWindow::StartTrial);
   file->addMenu(recent);
+  file->addAction(new OpenSessionAction(this));
+  auto* sessions = new RecentSessionsMenu(this);
+  sessions->setObjectName("recent_sessions");
+  connect(sessions, &RecentSessionsMenu::Chosen, this,
+          [this](const QString& session) { OpenSession(session.toStdString()); });
+  file->addMenu(sessions);
   file->addAction(new SessionsFolderAction(this));
   file->addSeparator();
   QAction* quit = file->addAction(tr("&Quit"), QKeySequence::Quit, this, &QWidget::close);
   quit->setToolTip(tr("A running trial ends in order first"));
   auto* trial = menuBar()->addMenu(tr("&Trial"));
   trial->setToolTipsVisible(true);
-  trial->addActions({action("start_demo"), action("stop"), action("report")});
+  trial->addActions({action("start_demo"), action("stop"), action("report"), action("review_trial")});
   trial->addSeparator();
   trial->addActions({action("undo_gap"), action("redo_gap")});
   trial->addSeparator();

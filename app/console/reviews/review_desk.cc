@@ -48,16 +48,16 @@ void ReviewDesk::RunJob(Work work, std::function<void()> on_done) {
                          if (job == jobs_ && is_busy_) emit Progressed(done, total, text);
                        });
   });
-  job_thread_.InsteadOfThis(
-      [this, job, progress, work = std::move(work), on_done = std::move(on_done)](const std::stop_token& stop) {
-        std::exception_ptr failure;
-        try {
-          work(progress, stop);
-        } catch (...) {  // the thread's outermost frame: nothing may escape
-          failure = std::current_exception();
-        }
-        bridge_.Post([this, job, failure, on_done] { FinishJob(job, failure, on_done); });
-      });
+  job_thread_.InsteadOfThis([this, job, progress, work = std::move(work),
+                             on_done = std::move(on_done)](const std::stop_token& stop) {
+    std::exception_ptr failure;
+    try {
+      work(progress, stop);
+    } catch (...) {  // the thread's outermost frame: nothing may escape
+      failure = std::current_exception();
+    }
+    bridge_.Post([this, job, failure, on_done] { FinishJob(job, failure, on_done); });
+  });
   emit StateChanged();
 }
 
@@ -150,8 +150,8 @@ void ReviewDesk::JudgeMotion() {
       });
     });
     try {
-      auto what_if = std::make_shared<control::WhatIf>(
-          control::JudgeMotionAt(*session, {held_mm}, progress, stop));
+      auto what_if =
+          std::make_shared<control::WhatIf>(control::JudgeMotionAt(*session, {held_mm}, progress, stop));
       bridge_.Post([this, asked, what_if] {
         if (asked != asked_) return;
         what_if_ = std::move(*what_if);
@@ -168,8 +168,8 @@ void ReviewDesk::JudgeMotion() {
 
 void ReviewDesk::Say(const core::FindingId& finding, const core::ReviewRemark& remark) {
   TryJob(
-      [session = session_, said = sessions::FindingRemark{finding, remark}](
-          const core::Progress& progress, const std::stop_token&) {
+      [session = session_, said = sessions::FindingRemark{finding, remark}](const core::Progress& progress,
+                                                                            const std::stop_token&) {
         progress.Report(0, 0, "writing the remark");
         session->Say(std::vector{said});
       },

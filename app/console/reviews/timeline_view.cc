@@ -76,7 +76,8 @@ void TimelineView::ShowChosen(std::optional<std::size_t> chosen) {
 }
 
 QSize TimelineView::sizeHint() const {
-  const double rows_px = kTallestRowPx * static_cast<double>(std::clamp<std::size_t>(rows_.size(), 1, kMostRows));
+  const double rows_px =
+      kTallestRowPx * static_cast<double>(std::clamp<std::size_t>(rows_.size(), 1, kMostRows));
   return {600, static_cast<int>(std::ceil(rows_px + kMarksPx + kScalePx + 4.0))};
 }
 
@@ -186,7 +187,8 @@ void TimelineView::PaintScale(QPainter& painter) const {
   const double px_per_s = XOf(timeline_.begin_s + 1.0) - XOf(timeline_.begin_s);
   const double step_s = SecondsBetween(px_per_s);
   painter.setPen(ThemeColors().quiet_text);
-  for (double at_s = std::ceil(timeline_.begin_s / step_s) * step_s; at_s <= timeline_.end_s; at_s += step_s) {
+  for (double at_s = std::ceil(timeline_.begin_s / step_s) * step_s; at_s <= timeline_.end_s;
+       at_s += step_s) {
     const QRectF room(XOf(at_s) - 0.5 * kSecondsApartPx, height() - kScalePx, kSecondsApartPx, kScalePx);
     if (room.right() > width()) break;
     painter.drawText(room, Qt::AlignHCenter | Qt::AlignVCenter, tr("%1 s").arg(at_s, 0, 'g', 5));
@@ -196,8 +198,8 @@ void TimelineView::PaintScale(QPainter& painter) const {
 void TimelineView::PaintRows(QPainter& painter) const {
   const Colors& colors = ThemeColors();
   for (std::size_t row = 0; row < rows_.size(); ++row) {
-    const QRectF room(kMarginPx, kMarksPx + RowHeight() * static_cast<double>(row),
-                      width() - 2.0 * kMarginPx, RowHeight());
+    const QRectF room(kMarginPx, kMarksPx + RowHeight() * static_cast<double>(row), width() - 2.0 * kMarginPx,
+                      RowHeight());
     if (row % 2 == 0) painter.fillRect(room, palette().color(QPalette::AlternateBase));
     painter.setPen(palette().color(QPalette::WindowText));
     painter.drawText(room, Qt::AlignVCenter | Qt::AlignLeft,
@@ -205,7 +207,7 @@ void TimelineView::PaintRows(QPainter& painter) const {
                                               static_cast<int>(NameWidth() - 2.0 * kMarginPx) + 1));
     for (const control::TimelineSpan& span : rows_[row].spans) {
       const bool is_gone = vanished_.contains(span.finding);
-      const QColor ink = is_gone                                      ? colors.quiet_text
+      const QColor ink = is_gone                                  ? colors.quiet_text
                          : span.kind == core::FindingKind::kTouch ? colors.contact
                                                                   : colors.attention;
       painter.setPen(chosen_ == span.finding ? QPen(palette().color(QPalette::WindowText), 2.0)
