@@ -55,7 +55,8 @@ SectionPanel::Row SectionPanel::MakeRow(std::size_t axis) {
   row.flip->setAccessibleName(tr("Keep the other side of the cut across %1").arg(name));
   row.flip->setToolTip(tr("Keep the other side of the cut"));
   row.flip->setCheckable(true);
-  row.flip->setChecked(settings.value(Key(axis, "above"), false).toBool());
+  // The eye is in front at first, so that what is behind stays.
+  row.flip->setChecked(settings.value(Key(axis, "above"), axis == 1).toBool());
   const auto used = [this, axis] {
     last_used_ = axis;
     Tell();
@@ -78,6 +79,7 @@ void SectionPanel::Open(const Eigen::AlignedBox3d& workspace_mm) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto i = static_cast<Eigen::Index>(axis);
     const QSignalBlocker quiet(rows_[axis].slider);
+    if (!QSettings().contains(Key(axis, "mm"))) rows_[axis].at_mm->setValue(workspace_mm.center()[i]);
     rows_[axis].slider->setRange(static_cast<int>(std::floor(workspace_mm.min()[i])),
                                  static_cast<int>(std::ceil(workspace_mm.max()[i])));
     rows_[axis].slider->setValue(static_cast<int>(std::lround(rows_[axis].at_mm->value())));

@@ -23,7 +23,8 @@ const PartSection& PartSections::Of(core::PartIndex part, const core::SharedMesh
   kept = {mesh, world_from_part, cut, {mesh, nullptr}};
   const Eigen::AlignedBox3d bounds = core::BoundsOf(*mesh, world_from_part);
   const Eigen::AlignedBox3d left = KeptOf(cut, bounds);
-  if (left.isEmpty()) {
+  // A face that lies on the plane is no thicker than the plane.
+  if (left.isEmpty() || left.sizes().minCoeff() <= 0.0) {
     kept.section = {};
   } else if (!(left.min() == bounds.min() && left.max() == bounds.max())) {
     ++cuts_;
