@@ -2,6 +2,7 @@
 
 #include <QCloseEvent>
 #include <QKeyEvent>
+#include <QMenuBar>
 #include <QMimeData>
 #include <QScreen>
 #include <QScrollArea>
@@ -18,6 +19,8 @@
 #include "app/console/desktop/welcome_page.h"
 #include "app/console/desktop/window_memory.h"
 #include "app/console/view/listing.h"
+#include "app/control/layout_editing/trial_draft.h"
+#include "core/error.h"
 
 namespace elbowroom::console {
 namespace {
@@ -45,10 +48,19 @@ std::optional<double> SpacingStepFor(const QKeyEvent& event) {
 }
 
 // The file that was dropped, if it can be opened.
-QString TrialIn(const QMimeData* data) {
+QString FileIn(const QMimeData* data) {
   if (data == nullptr || data->urls().size() != 1) return {};
   const QString file = data->urls().front().toLocalFile();
   return file.endsWith(".toml", Qt::CaseInsensitive) ? file : QString();
+}
+
+// What can't be read is for the trial's reader to say.
+bool IsLayout(const QString& file) {
+  try {
+    return control::KindOf(file.toStdString()) == control::TomlKind::kLayout;
+  } catch (const core::Error&) {
+    return false;
+  }
 }
 
 QScrollArea* Scrolling(QWidget* content) {
@@ -161,11 +173,15 @@ QWidget* MainWindow::MakeCentre() {
 void MainWindow::AddPages(QStackedWidget* pages) {
   auto* welcome = new WelcomePage(findChild<QAction*>("start_demo"), findChild<QAction*>("open_trial"));
   welcome->setObjectName("trial");
-  connect(welcome, &WelcomePage::TrialChosen, this, &MainWindow::StartTrial);
+  welcome->AddSamples({findChild<QAction*>("sample:payload"), findChild<QAction*>("sample:curtain"),
+                       findChild<QAction*>("sample:faucet")});
+  connect(welcome, &WelcomePage::TrialChosen, this, &MainWindow::OpenFile);
   layout_page_ = new LayoutPage;
   layout_page_->setObjectName("layout");
   connect(layout_page_, &LayoutPage::Failed, this, &MainWindow::ShowError);
   connect(layout_page_, &LayoutPage::TrialAsked, this, &MainWindow::StartTrial);
+  connect(layout_page_, &LayoutPage::LayoutSaved, this, [](const QString& file) { RememberTrial(file); });
+  menuBar()->insertMenu(menuBar()->actions().at(1), layout_page_->menu());
   review_page_ = new ReviewPage;
   review_page_->setObjectName("review");
   connect(review_page_, &ReviewPage::Failed, this, &MainWindow::ShowError);
@@ -202,13 +218,23 @@ void MainWindow::StartTrial(const QString& trial_file) {
   StartTrialFile(*desk_, trial_file.toStdString(), place_);
 }
 
+void MainWindow::OpenFile(const QString& file) {
+  if (!IsLayout(file)) return StartTrial(file);
+  pages_->Show(Page::kLayout);
+  layout_page_->Open(file.toStdString());
+}
+
 void MainWindow::dragEnterEvent(QDragEnterEvent* event) {
-  if (!TrialIn(event->mimeData()).isEmpty()) event->acceptProposedAction();
+  if (!FileIn(event->mimeData()).isEmpty() || !LayoutPage::CadFileIn(event->mimeData()).isEmpty())
+    event->acceptProposedAction();
 }
 
 void MainWindow::dropEvent(QDropEvent* event) {
   event->acceptProposedAction();
-  StartTrial(TrialIn(event->mimeData()));
+  const QString cad_file = LayoutPage::CadFileIn(event->mimeData());
+  if (cad_file.isEmpty()) return OpenFile(FileIn(event->mimeData()));
+  pages_->Show(Page::kLayout);
+  layout_page_->Import(cad_file.toStdString());
 }
 
 void MainWindow::FollowDesk() {
@@ -287,6 +313,7 @@ void MainWindow::changeEvent(QEvent* event) {
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {
+  if (!layout_page_->MayLeave()) return event->ignore();
   if (desk_->state() == DeskState::kIdle) {
     pages_->Show(Page::kTrial);  // whose panels are remembered
     if (is_remembered_) SaveWindow(*this);

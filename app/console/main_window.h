@@ -13,6 +13,7 @@
 #include "app/console/layouts/layout_page.h"
 #include "app/console/note_line.h"
 #include "app/console/page_switch.h"
+#include "app/console/participant/participant_desk.h"
 #include "app/console/preflight_panel.h"
 #include "app/console/reviews/review_page.h"
 #include "app/console/sights/trial_sights.h"
@@ -45,7 +46,12 @@ class MainWindow : public QMainWindow {
   [[nodiscard]] CameraStrip& strip() { return *strip_; }
   [[nodiscard]] const StatusLine& status() const { return *status_; }
   [[nodiscard]] PreflightPanel& preflight() { return *preflight_; }
+  [[nodiscard]] ParticipantDesk& participant() { return *participant_; }
   [[nodiscard]] PageSwitch& pages() { return *pages_; }
+  [[nodiscard]] LayoutPage& layout_page() { return *layout_page_; }
+
+  // A LAYOUT.toml goes to the layout page, anything else is run as a trial.
+  void OpenFile(const QString& file);
 
   // Takes size, place and panels from the last run, and leaves them for the next.
   void Remember();
@@ -63,6 +69,7 @@ class MainWindow : public QMainWindow {
  private:
   void AddActions();
   void AddMenus();
+  void AddParticipant();
   void TakeIcons();  // those that have the text's colour
   [[nodiscard]] QMenu* ThemeMenu();
   void AddPreflight();
@@ -101,6 +108,7 @@ class MainWindow : public QMainWindow {
   ContactModel* contacts_ = nullptr;
   TouchModel* touches_ = nullptr;
   StatusLine* status_ = nullptr;
+  ParticipantDesk* participant_ = nullptr;
 };
 
 }  // namespace elbowroom::console

@@ -42,8 +42,10 @@ void RenderWorker::Run() {
         driver_ = renderer->driver();
         is_software_ = renderer->is_software();
       }
-      recon::gl::Scene scene =
-          composer.Compose(*request->result, ViewOf(*request), request->look, request->hull_scale);
+      recon::gl::Scene scene = request->scene ? *request->scene
+                                              : composer.Compose(*request->result, ViewOf(*request),
+                                                                 request->look, request->hull_scale);
+      scene.view = ViewOf(*request);
       if (!request->is_smooth) scene.smoothness = recon::gl::Smoothness::kOneSample;
       on_image_(renderer->Render(scene), *request);
       last = *request;

@@ -2,8 +2,8 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <mutex>
-#include <optional>
 #include <optional>
 #include <string>
 #include <thread>
@@ -18,7 +18,7 @@
 namespace elbowroom::control {
 
 struct RenderRequest {
-  SharedFrameResult result;
+  SharedFrameResult result;  // null: `scene` is drawn
   recon::OrbitCamera camera;
   int width_px = 640;
   int height_px = 480;
@@ -26,6 +26,8 @@ struct RenderRequest {
   bool is_smooth = true;    // four samples a pixel; false: one, which is drawn sooner
   SceneLook look = {};
   std::optional<recon::SceneView> fixed_view = std::nullopt;  // of the picture's size; takes camera's place
+  // Drawn as it is, but for its view and smoothness, which are the request's. Null: `result` is drawn.
+  std::shared_ptr<const recon::gl::Scene> scene = nullptr;
 };
 
 // The latest request wins: one that comes while a picture is being drawn replaces one that waits. When the

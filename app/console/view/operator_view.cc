@@ -41,6 +41,7 @@ OperatorView::OperatorView(QWidget* parent)
           }) {
   setMinimumSize(320, 240);
   setFocusPolicy(Qt::StrongFocus);
+  setAccessibleName(tr("3-D view"));
   setAttribute(Qt::WA_OpaquePaintEvent);
   rest_.setSingleShot(true);
   rest_.setInterval(kRests);

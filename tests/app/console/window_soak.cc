@@ -6,6 +6,7 @@
 #include <QElapsedTimer>
 #include <QMouseEvent>
 #include <QTimer>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -21,18 +22,23 @@ namespace {
 constexpr double kWarmUpShare = 0.2;
 constexpr QSize kView(1280, 720);
 constexpr double kGapStepMm = 10.0;
+constexpr double kRateHz = 30.0;
 
-// Another source's frames, sooner after each other.
-class FasterFrames : public recon::FrameSetSource {
+// Some seconds of another source's pictures over and over, as fast as is wanted. They are kept in memory:
+// what a simulation of cameras costs isn't the window's.
+class KeptFrames : public recon::FrameSetSource {
  public:
-  FasterFrames(std::shared_ptr<recon::FrameSetSource> source, double speed)
-      : source_(std::move(source)), speed_(speed) {}
+  KeptFrames(std::shared_ptr<recon::FrameSetSource> source, double rate_hz)
+      : source_(std::move(source)), rate_hz_(rate_hz) {
+    for (core::FrameIndex i = kFirstKept; i < kFirstKept + kKept; ++i) frames_.push_back(source_->Read(i));
+  }
   const core::Rig& rig() const override { return source_->rig(); }
-  std::optional<core::FrameIndex> frame_count() const override { return source_->frame_count(); }
-  std::string WhatEndsIt() const override { return source_->WhatEndsIt(); }
-  std::optional<recon::FrameSet> TryRead(core::FrameIndex index, std::stop_token stop) override {
-    auto frames = source_->TryRead(index, std::move(stop));
-    if (frames) frames->time_s /= speed_;
+  std::optional<core::FrameIndex> frame_count() const override { return std::nullopt; }
+  std::string WhatEndsIt() const override { return {}; }
+  std::optional<recon::FrameSet> TryRead(core::FrameIndex index, std::stop_token /*stop*/) override {
+    recon::FrameSet frames = frames_.at(static_cast<std::size_t>(index % kKept));
+    frames.index = index;
+    frames.time_s = static_cast<double>(index) / rate_hz_;
     return frames;
   }
   std::vector<recon::BackgroundReference> ReadBackgrounds(const core::Progress& progress,
@@ -41,40 +47,42 @@ class FasterFrames : public recon::FrameSetSource {
   }
 
  private:
+  static constexpr core::FrameIndex kFirstKept = 30, kKept = 120;  // the hand is there in all of them
   std::shared_ptr<recon::FrameSetSource> source_;
-  double speed_;
+  double rate_hz_;
+  std::vector<recon::FrameSet> frames_;
 };
 
 class Soak {
  public:
-  explicit Soak(const WindowSoakPlan& plan) : plan_(plan) { FollowWindow(); }
+  explicit Soak(const WindowSoakPlan& plan) : plan_(plan) {
+    setup_.source = std::make_shared<KeptFrames>(setup_.source, kRateHz * plan.speed);
+    since_start_.start();
+    window_ = std::make_unique<MainWindow>();
+    FollowWindow();
+  }
 
   WindowSoakResult Run() {
-    window_.resize(1760, 1040);
-    window_.show();
-    window_.desk().Start(
-        [speed = plan_.speed](const std::stop_token&) {
-          control::TrialSetup setup = control::MakeDemoTrial(control::DemoPlay::kForever);
-          setup.source = std::make_shared<FasterFrames>(setup.source, speed);
-          return setup;
-        },
-        plan_.session);
+    window_->resize(1760, 1040);
+    window_->show();
+    window_->desk().Start([this](const std::stop_token&) { return std::move(setup_); }, plan_.session);
     QApplication::exec();
     return std::move(result_);
   }
 
  private:
   void FollowWindow() {
-    QObject::connect(&window_.desk(), &TrialDesk::Failed, &window_, [this](const QString& line) {
+    QObject::connect(&window_->desk(), &TrialDesk::Failed, window_.get(), [this](const QString& line) {
       result_.error = line.toStdString();
-      window_.close();
+      window_->close();
     });
-    QObject::connect(&window_.view(), &OperatorView::PictureShown, &window_,
+    QObject::connect(&window_->view(), &OperatorView::PictureShown, window_.get(),
                      [this](qint64, double drawing_ms) { TakePicture(drawing_ms); });
-    QObject::connect(&window_.desk(), &TrialDesk::FrameArrived, &window_, [this](const FrameNews& news) {
-      frame_ = news.result->record.frame;
-      if (!std::exchange(has_begun_, true)) Begin(*news.result);
-    });
+    QObject::connect(&window_->desk(), &TrialDesk::FrameArrived, window_.get(),
+                     [this](const FrameNews& news) {
+                       frame_ = news.result->record.frame;
+                       if (!std::exchange(has_begun_, true)) Begin(*news.result);
+                     });
   }
 
   // A simulated second is 1 / speed of a second.
@@ -83,22 +91,22 @@ class Soak {
   }
 
   void Begin(const control::FrameResult& first) {
-    window_.resize(window_.size() + kView - window_.view().size());
+    window_->resize(window_->size() + kView - window_->view().size());
     const core::Spacing& spacing = first.layout->spacings.front();
     spacing_ = spacing.name;
     between_mm_ = {spacing.initial_mm, spacing.initial_mm + kGapStepMm};
-    QObject::connect(&gaps_, &QTimer::timeout, &window_, [this] { MoveGap(); });
-    QObject::connect(&tools_, &QTimer::timeout, &window_,
-                     [this] { window_.desk().MarkTool("tongs", (has_tool_ = !has_tool_)); });
+    QObject::connect(&gaps_, &QTimer::timeout, window_.get(), [this] { MoveGap(); });
+    QObject::connect(&tools_, &QTimer::timeout, window_.get(),
+                     [this] { window_->desk().MarkTool("tongs", (has_tool_ = !has_tool_)); });
     gaps_.start(Simulated(0.5));
     tools_.start(Simulated(5.0));
-    QTimer::singleShot(Simulated(kWarmUpShare * plan_.simulated_s), &window_, [this] { Measure(); });
+    QTimer::singleShot(Simulated(kWarmUpShare * plan_.simulated_s), window_.get(), [this] { Measure(); });
   }
 
   void MoveGap() {
-    window_.desk().SetSpacing(spacing_, (is_wide_ = !is_wide_) ? between_mm_.second : between_mm_.first);
+    window_->desk().SetSpacing(spacing_, (is_wide_ = !is_wide_) ? between_mm_.second : between_mm_.first);
     if (!plan_.turns_eye) return;
-    auto& view = window_.view();
+    auto& view = window_->view();
     QMouseEvent press(QEvent::MouseButtonPress, QPointF(600, 300), view.mapToGlobal(QPointF(600, 300)),
                       Qt::LeftButton, Qt::LeftButton, {});
     const QPointF to(is_wide_ ? 610 : 590, 300);
@@ -108,7 +116,6 @@ class Soak {
   }
 
   void Measure() {
-    result_ = {};
     // What the lists need at most is there before the memory is counted.
     for (auto* list : {&result_.between_pictures_ms, &result_.drawing_ms}) list->resize(100'000);
     for (auto* list : {&result_.between_pictures_ms, &result_.drawing_ms}) list->clear();
@@ -118,10 +125,13 @@ class Soak {
     since_picture_.invalidate();
     since_begin_.start();
     result_.first_bytes = test_support::ResidentBytes(::getpid());
-    QTimer::singleShot(Simulated((1.0 - kWarmUpShare) * plan_.simulated_s), &window_, [this] { Finish(); });
+    QTimer::singleShot(Simulated((1.0 - kWarmUpShare) * plan_.simulated_s), window_.get(),
+                       [this] { Finish(); });
   }
 
   void TakePicture(double drawing_ms) {
+    if (result_.first_picture_ms == 0.0)
+      result_.first_picture_ms = 1e-6 * static_cast<double>(since_start_.nsecsElapsed());
     if (!watch_) return;
     result_.drawing_ms.push_back(drawing_ms);
     if (since_picture_.isValid())
@@ -135,20 +145,21 @@ class Soak {
     result_.frames = frame_ - first_frame_;
     result_.ui_waits_ms = watch_->TakeWaits();
     watch_.reset();
-    result_.widest_px = window_.view().width();
-    result_.highest_px = window_.view().height();
-    result_.driver = window_.view().driver().toStdString();
+    result_.widest_px = window_->view().width();
+    result_.highest_px = window_->view().height();
+    result_.driver = window_->view().driver().toStdString();
     gaps_.stop();
     tools_.stop();
-    window_.close();
+    window_->close();
   }
 
   WindowSoakPlan plan_;
-  MainWindow window_;
+  control::TrialSetup setup_ = control::MakeDemoTrial(control::DemoPlay::kForever);
+  std::unique_ptr<MainWindow> window_;
   QTimer gaps_, tools_;
   WindowSoakResult result_;
   std::optional<StallWatch> watch_;
-  QElapsedTimer since_picture_, since_begin_;
+  QElapsedTimer since_start_, since_picture_, since_begin_;
   core::FrameIndex frame_ = 0, first_frame_ = 0;
   std::string spacing_;
   std::pair<double, double> between_mm_;

@@ -43,6 +43,7 @@ std::vector<std::string> SummaryOf(const Row& row) {
                        at(values, 1.0));
   };
   return {row.name,
+          ThreeDigits(result.first_picture_ms),
           ThreeDigits(static_cast<double>(result.frames) / result.seconds),
           ThreeDigits(static_cast<double>(result.drawing_ms.size()) / result.seconds),
           spread(result.between_pictures_ms),
@@ -68,9 +69,10 @@ std::vector<std::string> HistogramOf(const std::string& name, const std::vector<
 }
 
 std::string TablesOf(const std::vector<Row>& rows) {
-  reporting::Table summary{{"trial", "frames/s", "pictures/s", "between pictures, ms", "drawing one, ms",
-                            "an event of the UI thread waits, ms", "memory, MB"},
-                           {}};
+  reporting::Table summary{
+      {"trial", "first picture after, ms", "frames/s", "pictures/s", "between pictures, ms",
+       "drawing one, ms", "an event of the UI thread waits, ms", "memory, MB"},
+      {}};
   reporting::Table histogram{{"share in per cent of what took, in ms"}, {}};
   double from = 0.0;
   for (const double edge : kUpToMs)
