@@ -55,10 +55,15 @@ QToolButton* ButtonOf(QAction* action, const QString& text) {
 }  // namespace
 
 TrialSights::TrialSights(OperatorView* view, QWidget* parent)
-    : QWidget(parent), view_(view), camera_view_(new CameraView), stack_(new QStackedWidget) {
+    : QWidget(parent),
+      view_(view),
+      camera_view_(new CameraView),
+      stack_(new QStackedWidget),
+      section_panel_(new SectionPanel) {
   stack_->addWidget(view_);
   stack_->addWidget(camera_view_);
   MakeViewActions();
+  MakeSectionAction();
   cameras_ = new QMenu(tr("&Camera's view"), this);
   MakeBar();
   connect(camera_view_, &CameraView::Closed, this, &TrialSights::ShowScene);
@@ -98,6 +103,17 @@ void TrialSights::MakeViewActions() {
   });
 }
 
+void TrialSights::MakeSectionAction() {
+  section_ = new QAction(tr("&Section"), this);
+  section_->setObjectName("section");
+  section_->setCheckable(true);
+  section_->setShortcut(QKeySequence(Qt::Key_X));
+  section_->setToolTip(tr("Cut parts and hull open in the 3-D view"));
+  connect(section_, &QAction::toggled, section_panel_, &SectionPanel::setVisible);
+  connect(section_panel_, &SectionPanel::Changed, view_, &OperatorView::SetCut);
+  connect(view_, &OperatorView::ShiftDragged, section_panel_, &SectionPanel::Drag);
+}
+
 void TrialSights::MakeBar() {
   auto* views = new QMenu(this);
   for (QAction* action : standard_) views->addAction(action);
@@ -110,17 +126,20 @@ void TrialSights::MakeBar() {
   bar->addWidget(
       MenuButton(tr("Camera"), tr("Look from a camera, or at its picture"), "camera_menu", cameras_));
   bar->addWidget(ButtonOf(parts_, tr("Parts in pictures")));
+  bar->addWidget(ButtonOf(section_, tr("Section")));
   bar->addStretch(1);
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(2);
   column->addLayout(bar);
+  column->addWidget(section_panel_);
   column->addWidget(stack_, 1);
 }
 
 void TrialSights::AddTo(QMenu* menu) {
   for (QAction* action : standard_) menu->addAction(action);
   menu->addAction(parallel_);
+  menu->addAction(section_);
   menu->addSeparator();
   menu->addMenu(cameras_);
   menu->addAction(parts_);
@@ -128,6 +147,7 @@ void TrialSights::AddTo(QMenu* menu) {
 
 void TrialSights::Open(const core::Rig& rig) {
   rig_ = rig.cameras;
+  section_panel_->Open(rig.workspace_mm);
   MakeCameraMenu();
   ShowScene();
 }

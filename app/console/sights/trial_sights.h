@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "app/console/sights/camera_view.h"
+#include "app/console/sights/section_panel.h"
 #include "app/console/view/operator_view.h"
 #include "app/control/tiles/tile_maker.h"
 #include "core/rig.h"
@@ -40,6 +41,7 @@ class TrialSights : public QWidget {
 
  private:
   void MakeViewActions();
+  void MakeSectionAction();
   void MakeCameraMenu();
   void MakeBar();
   void TellWishes();
@@ -47,9 +49,11 @@ class TrialSights : public QWidget {
   OperatorView* view_;
   CameraView* camera_view_;
   QStackedWidget* stack_;
+  SectionPanel* section_panel_;
   std::vector<QAction*> standard_;
   QAction* parallel_ = nullptr;
   QAction* parts_ = nullptr;
+  QAction* section_ = nullptr;
   QMenu* cameras_ = nullptr;
   std::vector<core::CameraModel> rig_;
   control::TileWishes wishes_;

@@ -93,7 +93,14 @@ void OperatorView::Fit() {
 }
 
 void OperatorView::SetLook(const control::SceneLook& look) {
+  const control::SectionCut cut = look_.cut;
   look_ = look;
+  look_.cut = cut;
+  AskForPicture();
+}
+
+void OperatorView::SetCut(const control::SectionCut& cut) {
+  look_.cut = cut;
   AskForPicture();
 }
 
@@ -123,7 +130,7 @@ void OperatorView::Turn(const recon::OrbitCamera& camera) {
 }
 
 void OperatorView::AskForPicture() {
-  if (!result_ || !camera_) return;
+  if (!result_ || !camera_ || !isVisible()) return;
   if (drawing_.isValid()) {
     is_outdated_ = true;
   } else {
@@ -207,6 +214,8 @@ void OperatorView::PaintCaption(QPainter& painter) const {
   painter.drawText(room, Qt::AlignBottom | Qt::AlignRight, tr("frame %1").arg(picture_frame_));
 }
 
+void OperatorView::showEvent(QShowEvent* /*event*/) { AskForPicture(); }
+
 void OperatorView::resizeEvent(QResizeEvent* /*event*/) { AskForPicture(); }
 
 void OperatorView::mousePressEvent(QMouseEvent* event) { last_mouse_px_ = event->position(); }
@@ -215,7 +224,11 @@ void OperatorView::mouseMoveEvent(QMouseEvent* event) {
   const QPointF moved = event->position() - std::exchange(last_mouse_px_, event->position());
   const Eigen::Vector2d drag_px(moved.x(), moved.y());
   if (!camera_) return;
-  if (event->buttons() & Qt::LeftButton) {
+  if ((event->buttons() & Qt::LeftButton) && (event->modifiers() & Qt::ShiftModifier)) {
+    // Panning moves the target against the pointer.
+    const recon::OrbitCamera panned = recon::Panned(*camera_, drag_px, height());
+    emit ShiftDragged(camera_->target_in_world - panned.target_in_world);
+  } else if (event->buttons() & Qt::LeftButton) {
     Turn(recon::Orbited(*camera_, drag_px, height()));
   } else if (event->buttons() & (Qt::RightButton | Qt::MiddleButton)) {
     Turn(recon::Panned(*camera_, drag_px, height()));
