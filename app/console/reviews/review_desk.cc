@@ -73,7 +73,6 @@ void ReviewDesk::FinishJob(std::int64_t job, const std::exception_ptr& failure,
                            const std::function<void()>& on_done) {
   if (job != jobs_) return;  // another one took its place
   is_busy_ = false;
-  emit StateChanged();
   if (!failure) {
     on_done();
   } else if (IsCancelled(failure)) {
@@ -81,6 +80,7 @@ void ReviewDesk::FinishJob(std::int64_t job, const std::exception_ptr& failure,
   } else {
     emit Failed(LineOf(failure));
   }
+  emit StateChanged();
 }
 
 void ReviewDesk::CancelJob() {

@@ -180,6 +180,7 @@ void TimelineView::paintEvent(QPaintEvent* /*event*/) {
   painter.drawLine(QPointF(x_px, 0.0), QPointF(x_px, height() - 2.0));
   if (!hasFocus()) return;
   painter.setPen(QPen(palette().color(QPalette::Highlight), 1.0));
+  painter.setBrush(Qt::NoBrush);
   painter.drawRect(QRectF(rect()).adjusted(0.5, 0.5, -0.5, -0.5));
 }
 
