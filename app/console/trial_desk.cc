@@ -51,7 +51,7 @@ void TrialDesk::Run(control::TrialSetup setup) {
   tiles_ = std::make_unique<control::TileMaker>(setup.source, [this](const control::SharedTiles& tiles) {
     bridge_.PostLatest(Bridge::Stream::kTiles, [this, tiles] { emit TilesArrived(tiles); });
   });
-  tiles_->SetRoom(tile_room_);
+  tiles_->Wish(tile_wishes_);
   options.on_light = [tiles = tiles_.get()](const recon::LightReport& report) { tiles->AddLight(report); };
   options.on_frame = [this, tally, tiles = tiles_.get()](const control::SharedFrameResult& result,
                                                          const control::RecordedFrames& recorded) {
@@ -143,9 +143,9 @@ void TrialDesk::AddNote(const QString& note) {
   if (trial_) trial_->controls().AddNote(note.toStdString());
 }
 
-void TrialDesk::SetTileRoom(const control::ThumbnailRoom& room) {
-  tile_room_ = room;
-  if (tiles_) tiles_->SetRoom(room);
+void TrialDesk::SetTileWishes(const control::TileWishes& wishes) {
+  tile_wishes_ = wishes;
+  if (tiles_) tiles_->Wish(wishes);
 }
 
 void TrialDesk::SetCamerasTaken(bool are_taken) {

@@ -6,6 +6,7 @@
 #include <opencv2/core/mat.hpp>
 #include <optional>
 
+#include "app/control/palette/part_colors.h"
 #include "core/error.h"
 #include "core/units.h"
 #include "recon/appearance/camera_texture.h"
@@ -23,16 +24,6 @@ constexpr int kHullFromLampPx = 512;
 constexpr float kSeeThrough = 0.3F;
 // A part that stands before more than this share of the hull's pixels is drawn see-through.
 constexpr double kHidesShare = 0.35;
-constexpr std::array<std::array<float, 3>, 6> kPartColors = {{{0.55F, 0.63F, 0.72F},
-                                                              {0.72F, 0.68F, 0.55F},
-                                                              {0.58F, 0.70F, 0.60F},
-                                                              {0.66F, 0.60F, 0.72F},
-                                                              {0.70F, 0.62F, 0.60F},
-                                                              {0.55F, 0.69F, 0.71F}}};
-
-// Of parts that break a pair rule. Apart from the orange-red of contacts also for those who see no red or
-// green.
-constexpr std::array<float, 3> kBrokenRuleColor = {0.95F, 0.80F, 0.15F};
 
 // One a part.
 std::vector<bool> PartsOfBrokenRules(const FrameResult& result) {
@@ -176,8 +167,7 @@ recon::gl::Scene SceneComposer::Compose(const FrameResult& result, const recon::
       part.mesh = result.layout->parts[i].mesh;
       part.world_from_part = result.world_from_parts[i];
     }
-    part.color = Eigen::Vector3f(breaks_rule[i] ? kBrokenRuleColor.data()
-                                                : kPartColors[i % kPartColors.size()].data());
+    part.color = breaks_rule[i] ? BrokenRuleColor() : PlainPartColor(i);
     part.in_contact = result.record.contacts[i].verdict == core::Verdict::kContact;
     if (HiddenShare(*scene.hull, hull_view, BoundsInWorld(result, i)) > kHidesShare)
       part.opacity = kSeeThrough;

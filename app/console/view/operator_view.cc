@@ -11,8 +11,9 @@
 namespace elbowroom::console {
 namespace {
 
-// Beyond this a picture costs software OpenGL more time than it gains in sharpness.
-constexpr QSize kLargestPicture(800, 600);
+// Beyond these a picture costs more time than it gains in sharpness.
+constexpr QSize kLargestBySoftware(1280, 800);
+constexpr QSize kLargestByCard(3840, 2400);
 // A scene that hasn't changed for this long is drawn in full.
 constexpr std::chrono::milliseconds kRests(400);
 constexpr double kWheelStepEighths = 120.0;  // one notch of a wheel, in Qt's eighths of a degree
@@ -40,6 +41,7 @@ OperatorView::OperatorView(QWidget* parent)
           }) {
   setMinimumSize(320, 240);
   setFocusPolicy(Qt::StrongFocus);
+  setAccessibleName(tr("3-D view"));
   setAttribute(Qt::WA_OpaquePaintEvent);
   rest_.setSingleShot(true);
   rest_.setInterval(kRests);
@@ -95,10 +97,28 @@ void OperatorView::SetLook(const control::SceneLook& look) {
   AskForPicture();
 }
 
+void OperatorView::LookAlong(recon::StandardView view) {
+  if (camera_) Turn(recon::Along(*camera_, view));
+}
+
+void OperatorView::SetParallel(bool is_parallel) {
+  is_parallel_ = is_parallel;
+  if (camera_) Turn(*camera_);
+}
+
+void OperatorView::LookFrom(const core::CameraModel& camera) {
+  if (!camera_) return;
+  camera_ = recon::OrbitLike(camera, camera_->target_in_world);
+  looks_from_ = camera;
+  AskForPicture();
+}
+
 QString OperatorView::driver() const { return QString::fromStdString(worker_.driver()); }
 
 void OperatorView::Turn(const recon::OrbitCamera& camera) {
   camera_ = camera;
+  camera_->is_parallel = is_parallel_;
+  looks_from_.reset();
   AskForPicture();
 }
 
@@ -116,12 +136,17 @@ void OperatorView::Submit(const PictureFineness& fineness) {
   drawn_with_ = fineness;
   is_outdated_ = false;
   drawing_.start();
-  worker_.Submit({result_, *camera_, size.width(), size.height(), fineness.hull, fineness.is_smooth, look_});
+  control::RenderRequest request{result_,       *camera_,           size.width(), size.height(),
+                                 fineness.hull, fineness.is_smooth, look_};
+  if (looks_from_)
+    request.fixed_view = recon::ViewFrom(*looks_from_, camera_->target_in_world, size.width(), size.height());
+  worker_.Submit(std::move(request));
 }
 
 QSize OperatorView::LargestPicture() const {
   const QSize pixels = size() * devicePixelRatio();
-  return pixels.boundedTo(pixels.scaled(kLargestPicture, Qt::KeepAspectRatio)).expandedTo(QSize(64, 64));
+  const QSize largest = worker_.is_software().value_or(true) ? kLargestBySoftware : kLargestByCard;
+  return pixels.boundedTo(pixels.scaled(largest, Qt::KeepAspectRatio)).expandedTo(QSize(64, 64));
 }
 
 void OperatorView::ShowPicture(const QImage& picture, const control::RenderRequest& request) {

@@ -17,6 +17,7 @@
 #include "app/control/frame_result.h"
 #include "app/control/render_worker.h"
 #include "app/control/scene_composer.h"
+#include "core/camera_model.h"
 #include "recon/appearance/orbit_camera.h"
 
 namespace elbowroom::console {
@@ -40,6 +41,9 @@ class OperatorView : public QWidget {
   void Fit();  // everything in the picture, from the front, above
 
   void SetLook(const control::SceneLook& look);
+  void LookAlong(recon::StandardView view);
+  void SetParallel(bool is_parallel);
+  void LookFrom(const core::CameraModel& camera);  // until the view is turned, which loses the camera's roll
 
   [[nodiscard]] QString driver() const;  // of OpenGL; "" until the first picture
   [[nodiscard]] const std::optional<recon::OrbitCamera>& camera() const { return camera_; }
@@ -67,7 +71,9 @@ class OperatorView : public QWidget {
   void TellAge();
   [[nodiscard]] QSize LargestPicture() const;
 
-  std::optional<recon::OrbitCamera> camera_;  // nothing until the first fit
+  std::optional<recon::OrbitCamera> camera_;     // nothing until the first fit
+  std::optional<core::CameraModel> looks_from_;  // takes camera_'s place
+  bool is_parallel_ = false;
   control::SharedFrameResult result_;
   control::SceneLook look_;
   QImage picture_;

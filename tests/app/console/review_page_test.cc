@@ -6,6 +6,7 @@
 #include <QApplication>
 #include <QComboBox>
 #include <QDoubleSpinBox>
+#include <QDragEnterEvent>
 #include <QDropEvent>
 #include <QLabel>
 #include <QLineEdit>
@@ -261,6 +262,10 @@ TEST_F(ReviewPageTest, TheNeededGapIsFound) {
   WaitForJob();
   const QString line = Find<QLabel>("what_if_details")->text();
   EXPECT_TRUE(line.contains("free of touches from")) << line.toStdString();
+  Find<QDoubleSpinBox>(QString("what_if_box:") + kGap)->setValue(kWideMm);
+  ASSERT_TRUE(WaitUntil([&] { return desk().what_if().has_value(); }));
+  const QString result = Find<QLabel>("what_if_result")->text();
+  EXPECT_TRUE(result.contains("; needed ")) << result.toStdString();
 }
 
 TEST_F(ReviewPageTest, ReportTouchesAndKeepOutVolumeAreWritten) {
@@ -321,6 +326,10 @@ TEST_F(ReviewPageTest, ASessionThatCannotBeOpenedIsOneLineInPlace) {
 TEST_F(ReviewPageTest, ASessionIsDroppedAndRemembered) {
   QMimeData data;
   data.setUrls({QUrl::fromLocalFile(QString::fromStdString(session_.string()))});
+  QDragEnterEvent enter(QPoint(10, 10), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+  enter.ignore();
+  QApplication::sendEvent(&window_, &enter);
+  ASSERT_TRUE(enter.isAccepted());
   QDropEvent drop(QPointF(10, 10), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
   QApplication::sendEvent(&window_, &drop);
   ASSERT_TRUE(WaitUntil([&] { return desk().is_open(); }));

@@ -1,4 +1,4 @@
-#include "app/cli/layout_edit.h"
+#include "app/control/layout_editing/layout_edit.h"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 #include "core/error.h"
 #include "core/spelling.h"
 
-namespace elbowroom::cli {
+namespace elbowroom::control {
 namespace {
 
 namespace fs = std::filesystem;
@@ -55,19 +55,6 @@ std::optional<std::size_t> FindPair(const LayoutText& text, const PairEdit& edit
                   core::SpellingAdvice(name, names, "`elbowroom layout show` lists the names")));
 }
 
-// The path of the file relative to the layout's folder.
-std::string FileBeside(const fs::path& layout, const fs::path& file) {
-  const fs::path folder = fs::absolute(layout).parent_path();
-  return fs::proximate(fs::absolute(file), folder).generic_string();
-}
-
-std::string FreeName(const LayoutText& text, const std::string& wanted) {
-  std::string name = wanted;
-  for (int i = 2; Find(text, "part", name) || Find(text, "group", name); ++i)
-    name = fmt::format("{}_{}", wanted, i);
-  return name;
-}
-
 void SetAll(LayoutText& text, std::string_view kind, std::size_t index, const Fields& fields) {
   for (const Field& field : fields) text.Set(kind, index, field);
 }
@@ -87,10 +74,30 @@ std::vector<std::string> UsersOf(const LayoutText& text, const std::string& name
   return users;
 }
 
+// The first entry whose key is `name`, or that has it in its list.
+std::optional<std::size_t> FindUser(const LayoutText& text, std::string_view kind, std::string_view key,
+                                    const std::string& name) {
+  for (std::size_t i = 0; i < text.Count(kind); ++i)
+    if (std::ranges::count(text.TextsOf(kind, i, key), name) > 0) return i;
+  return std::nullopt;
+}
+
 }  // namespace
 
+std::string FreePartName(const LayoutText& text, const std::string& wanted) {
+  std::string name = wanted;
+  for (int i = 2; Find(text, "part", name) || Find(text, "group", name); ++i)
+    name = fmt::format("{}_{}", wanted, i);
+  return name;
+}
+
+std::string FileBeside(const fs::path& layout, const fs::path& file) {
+  const fs::path folder = fs::absolute(layout).parent_path();
+  return fs::proximate(fs::absolute(file), folder).generic_string();
+}
+
 std::string AddPart(LayoutText& text, const PartEdit& edit) {
-  std::string name = edit.name.empty() ? FreeName(text, edit.file.stem().string()) : edit.name;
+  std::string name = edit.name.empty() ? FreePartName(text, edit.file.stem().string()) : edit.name;
   Fields fields{{"name", name}, {"file", FileBeside(text.file(), edit.file)}};
   if (!edit.node.empty()) fields.push_back({"node", edit.node});
   if (edit.unit) fields.push_back({"unit", std::string(core::ToString(*edit.unit))});
@@ -171,6 +178,23 @@ void RemoveNamed(LayoutText& text, const std::string& name) {
   FailUnknown(text, kinds, name);
 }
 
+void RemoveWithUsers(LayoutText& text, const std::string& name) {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 4> kRules = {
+      {{"spacing", "moving"}, {"spacing", "reference"}, {"pair", "a"}, {"pair", "b"}}};
+  for (const auto& [kind, key] : kRules)
+    while (const auto index = FindUser(text, kind, key, name)) text.Remove(kind, *index);
+  while (const auto index = FindUser(text, "group", "parts", name)) {
+    std::vector<std::string> parts = text.TextsOf("group", *index, "parts");
+    std::erase(parts, name);
+    if (parts.empty()) {
+      RemoveWithUsers(text, NameOf(text, "group", *index));
+    } else {
+      text.Set("group", *index, {"parts", parts});
+    }
+  }
+  RemoveNamed(text, name);
+}
+
 void RemovePair(LayoutText& text, const PairEdit& edit) {
   const auto index = FindPair(text, edit);
   if (!index) {
@@ -181,4 +205,4 @@ void RemovePair(LayoutText& text, const PairEdit& edit) {
   text.Remove("pair", *index);
 }
 
-}  // namespace elbowroom::cli
+}  // namespace elbowroom::control

@@ -1,4 +1,4 @@
-// What `elbowroom layout` does to the text of a LAYOUT.toml.
+// What the console and `elbowroom layout` do to the text of a LAYOUT.toml.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,7 +11,7 @@
 #include "core/layout.h"
 #include "core/units.h"
 
-namespace elbowroom::cli {
+namespace elbowroom::control {
 
 // A member that is nothing or empty isn't written; an entry that is there already keeps its value.
 struct PartEdit {
@@ -39,6 +39,12 @@ struct PairEdit {
   std::optional<bool> ignore;
 };
 
+// `wanted`, with a number where a part or group has that name.
+[[nodiscard]] std::string FreePartName(const cad_import::LayoutText& text, const std::string& wanted);
+
+// The path of the file relative to the layout's folder.
+[[nodiscard]] std::string FileBeside(const std::filesystem::path& layout, const std::filesystem::path& file);
+
 // Adds a part and returns its name. Its file is written relative to the layout's folder.
 std::string AddPart(cad_import::LayoutText& text, const PartEdit& edit);
 
@@ -55,4 +61,8 @@ void MovePart(cad_import::LayoutText& text, const PartEdit& edit);
 void RemoveNamed(cad_import::LayoutText& text, const std::string& name);
 void RemovePair(cad_import::LayoutText& text, const PairEdit& edit);
 
-}  // namespace elbowroom::cli
+// Removes a part or group together with the spacings and pairs that name it, and takes it out of groups; a
+// group that has no part left goes likewise. Throws: as RemoveNamed for an unknown name.
+void RemoveWithUsers(cad_import::LayoutText& text, const std::string& name);
+
+}  // namespace elbowroom::control

@@ -1,4 +1,4 @@
-#include "app/cli/folder_lock.h"
+#include "app/control/layout_editing/folder_lock.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -9,16 +9,25 @@
 
 #include "core/error.h"
 
-namespace elbowroom::cli {
+namespace elbowroom::control {
 
-FolderLock::FolderLock(const std::filesystem::path& file) {
+FolderLock::FolderLock(const std::filesystem::path& file, Waiting waiting) {
   namespace fs = std::filesystem;
   std::error_code error;
   // Absolute first: the canonical form of a bare name that isn't there yet has no folder.
   const fs::path folder = fs::weakly_canonical(fs::absolute(file, error), error).parent_path();
   folder_ = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (folder_ < 0) return;
-  if (::flock(folder_, LOCK_EX) != 0 && errno == EINTR) {
+  const bool is_held = ::flock(folder_, LOCK_EX | (waiting == Waiting::kNo ? LOCK_NB : 0)) == 0;
+  const int failure = is_held ? 0 : errno;
+  if (failure == EWOULDBLOCK) {
+    ::close(folder_);
+    throw core::Error(core::ErrorKind::kFile,
+                      fmt::format("{}: another program is changing layouts of this folder; try again when it "
+                                  "is done",
+                                  file.string()));
+  }
+  if (failure == EINTR) {
     ::close(folder_);
     throw core::Error(
         core::ErrorKind::kCancelled,
@@ -30,4 +39,4 @@ FolderLock::~FolderLock() {
   if (folder_ >= 0) ::close(folder_);
 }
 
-}  // namespace elbowroom::cli
+}  // namespace elbowroom::control

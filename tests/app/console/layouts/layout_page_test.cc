@@ -1,0 +1,307 @@
+// The layout page, worked as a user does: by mouse and keys, on Qt's offscreen platform.
+#include "app/console/layouts/layout_page.h"
+
+#include <gtest/gtest.h>
+
+#include <QDoubleSpinBox>
+#include <QListWidget>
+#include <QMenu>
+#include <QRadioButton>
+#include <QSignalSpy>
+#include <QToolButton>
+
+#include "app/console/layouts/import_dialog.h"
+#include "app/console/layouts/rule_dialogs.h"
+#include "app/control/layout_editing/autosave.h"
+#include "cad_import/layout/layout_file.h"
+#include "tests/app/console/layouts/user_actions.h"
+#include "tests/app/layouts/box_file.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/text_file.h"
+
+namespace elbowroom::console {
+namespace {
+
+using test_support::ReadText;
+using test_support::WriteBox;
+using test_support::WriteText;
+
+constexpr const char* kLayout = R"(# Measured on Monday.
+[[part]]
+name = "box"
+file = "box.glb"
+
+[[part]]
+name = "lid"
+file = "lid.glb"
+position_mm = [0.0, 0.0, 200.0]
+)";
+
+const std::filesystem::path kAssembly =
+    std::filesystem::path(ELBOWROOM_SHARED_DATA_DIR) / "cad/step/ap203_ap214/as1-oc-214.stp";
+
+class LayoutPageTest : public testing::Test {
+ protected:
+  LayoutPageTest() : file_(folder_ / "layout.toml") {
+    WriteBox(folder_ / "box.glb", {100.0, 80.0, 60.0});
+    WriteBox(folder_ / "lid.glb", {100.0, 80.0, 10.0});
+    WriteText(file_, kLayout);
+    page_ = std::make_unique<LayoutPage>();
+    page_->resize(1200, 650);
+    page_->show();
+    QObject::connect(page_.get(), &LayoutPage::Failed, page_.get(),
+                     [this](const QString& line) { fault_ = line; });
+  }
+  ~LayoutPageTest() override {
+    page_->desk().Forget();  // what a test leaves behind isn't for the next
+  }
+
+  template <typename Widget>
+  Widget* Find(const QString& name) {
+    auto* widget = page_->findChild<Widget*>(name);
+    EXPECT_NE(widget, nullptr) << name.toStdString();
+    return widget;
+  }
+  [[nodiscard]] const core::Layout& layout() const { return page_->desk().document().layout(); }
+  void OpenLayout() {
+    page_->Open(file_);
+    ASSERT_TRUE(WaitUntil([&] { return layout().parts.size() == 2; })) << fault_.toStdString();
+  }
+  ImportDialog* OpenImport(const std::filesystem::path& file) {
+    page_->Import(file);
+    auto* dialog = Find<ImportDialog>("import_dialog");
+    EXPECT_TRUE(WaitUntil([&] { return !dialog->is_reading(); }));
+    return dialog;
+  }
+  double HeightOf(const std::string& part) {
+    return core::PosesAt(layout(), layout().InitialSpacings())[*layout().FindPart(part)].translation_mm.z();
+  }
+  QPoint InView(const std::string& part) {
+    const core::PartIndex i = *layout().FindPart(part);
+    const core::RigidTransform pose = core::PosesAt(layout(), layout().InitialSpacings())[i];
+    return page_->view().PositionOf(core::BoundsOf(*layout().parts[i].mesh, pose).center()).value().toPoint();
+  }
+
+  test_support::TemporaryFolder folder_;
+  std::filesystem::path file_;
+  std::unique_ptr<LayoutPage> page_;
+  QString fault_;
+};
+
+TEST_F(LayoutPageTest, PartsOfAnAssemblyAreTakenByTicking) {
+  ImportDialog* dialog = OpenImport(kAssembly);
+  ASSERT_TRUE(dialog->preview());
+  auto* take = Find<QPushButton>("import_take");
+  EXPECT_FALSE(take->isEnabled());  // nothing is ticked
+  auto* tree = Find<QTreeWidget>("import_tree");
+  ASSERT_TRUE(TickItem(tree, "plate_1")) << dialog->preview()->nodes.size();
+  ASSERT_TRUE(TickItem(tree, "rod-assembly_1"));
+  EXPECT_EQ(dialog->TickedNodes().size(), 2U);
+  EXPECT_TRUE(take->isEnabled());
+  Click(take);
+  ASSERT_EQ(layout().parts.size(), 2U) << fault_.toStdString();
+  EXPECT_EQ(Find<QTreeWidget>("parts")->topLevelItemCount(), 2);
+  EXPECT_TRUE(page_->desk().document().is_changed());
+}
+
+// A body must not be in two parts: what is above and below a ticked node loses its tick.
+TEST_F(LayoutPageTest, ATickTakesTheTicksAboveAndBelowAway) {
+  ImportDialog* dialog = OpenImport(kAssembly);
+  auto* tree = Find<QTreeWidget>("import_tree");
+  ASSERT_TRUE(TickItem(tree, "plate_1"));
+  ASSERT_TRUE(TickItem(tree, "as1-oc-214.stp"));  // all of the file
+  EXPECT_EQ(dialog->TickedNodes(), std::vector<std::string>{""});
+  ASSERT_TRUE(TickItem(tree, "plate_1"));
+  ASSERT_EQ(dialog->TickedNodes().size(), 1U);
+  EXPECT_TRUE(dialog->TickedNodes().front().ends_with("plate_1"));
+  dialog->reject();
+}
+
+TEST_F(LayoutPageTest, AFileWithoutAUnitAsksForIt) {
+  WriteBox(folder_ / "eight.stl", {8.0, 4.0, 2.0});
+  ImportDialog* dialog = OpenImport(folder_ / "eight.stl");
+  EXPECT_TRUE(Find<QGroupBox>("import_units")->isVisible());
+  auto* inch = Find<QRadioButton>("import_unit:in");
+  EXPECT_TRUE(inch->isChecked());  // the likely one
+  EXPECT_TRUE(inch->text().contains("203.2")) << inch->text().toStdString();
+  Click(Find<QRadioButton>("import_unit:cm"));
+  Find<QRadioButton>("import_unit:cm")->setChecked(true);
+  Click(Find<QPushButton>("import_take"));
+  ASSERT_TRUE(WaitUntil([&] { return layout().parts.size() == 1; })) << fault_.toStdString();
+  EXPECT_EQ(layout().parts[0].unit, core::LengthUnit::kCentimetre);
+  EXPECT_NEAR(core::BoundsOf(*layout().parts[0].mesh).sizes().x(), 80.0, 1e-4);
+}
+
+TEST_F(LayoutPageTest, AFileThatCannotBeReadIsOneLineInTheDialog) {
+  WriteText(folder_ / "bad.stl", "nonsense");
+  ImportDialog* dialog = OpenImport(folder_ / "bad.stl");
+  EXPECT_TRUE(Find<QLabel>("import_headline")->text().contains("bad.stl"));
+  EXPECT_FALSE(Find<QPushButton>("import_take")->isEnabled());
+  Click(Find<QPushButton>("import_cancel"));
+  EXPECT_TRUE(layout().parts.empty());
+}
+
+TEST_F(LayoutPageTest, AClickChoosesAPartAndCtrlClickASecond) {
+  OpenLayout();
+  ASSERT_TRUE(WaitUntil([&] { return page_->view().CanPick(); }));
+  QTest::mouseClick(&page_->view(), Qt::LeftButton, {}, InView("box"));
+  EXPECT_EQ(page_->chosen(), QStringList{"box"});
+  QTest::mouseClick(&page_->view(), Qt::LeftButton, Qt::ControlModifier, InView("lid"));
+  EXPECT_EQ(page_->chosen(), (QStringList{"box", "lid"}));
+  EXPECT_TRUE(Find<QPushButton>("add_spacing")->isEnabled());
+  QTest::mouseClick(&page_->view(), Qt::LeftButton, {}, QPoint(3, 3));  // beside all
+  EXPECT_TRUE(page_->chosen().isEmpty());
+  EXPECT_FALSE(Find<QPushButton>("add_spacing")->isEnabled());
+}
+
+TEST_F(LayoutPageTest, NumbersMoveThePartAndKeysTakeThatBack) {
+  OpenLayout();
+  page_->Choose({"lid"});
+  auto* z = Find<QDoubleSpinBox>("part_position:z");
+  EXPECT_DOUBLE_EQ(z->value(), 200.0);
+  TypeInto(z, "250");
+  EXPECT_DOUBLE_EQ(HeightOf("lid"), 250.0);
+  QTest::keyClick(z, Qt::Key_Up);  // by the step, 10 mm: the same step back
+  EXPECT_DOUBLE_EQ(HeightOf("lid"), 260.0);
+  TypeInto(Find<QDoubleSpinBox>("part_rotation:yaw"), "90");
+  EXPECT_NEAR(layout().parts[1].world_from_part.rotation(0, 1), -1.0, 1e-12);
+  QTest::keyClick(z, Qt::Key_Z, Qt::ControlModifier);  // also while a number has the focus
+  EXPECT_EQ(layout().parts[1].world_from_part.rotation, Eigen::Matrix3d::Identity());
+  QTest::keyClick(&page_->view(), Qt::Key_Z, Qt::ControlModifier);
+  EXPECT_DOUBLE_EQ(HeightOf("lid"), 200.0);
+  QTest::keyClick(&page_->view(), Qt::Key_Z, Qt::ControlModifier | Qt::ShiftModifier);
+  EXPECT_DOUBLE_EQ(HeightOf("lid"), 260.0);
+}
+
+TEST_F(LayoutPageTest, SpacingAndPairRuleOfTwoChosenPartsAreMadeChangedAndRemoved) {
+  OpenLayout();
+  page_->Choose({"box", "lid"});
+  Click(Find<QPushButton>("add_spacing"));
+  auto* spacing = Find<SpacingDialog>("spacing_dialog");
+  EXPECT_DOUBLE_EQ(spacing->findChild<QDoubleSpinBox*>("spacing_initial")->value(), 140.0);
+  TypeInto(spacing->findChild<QDoubleSpinBox*>("spacing_max"), "100");  // below where it starts
+  Click(spacing->findChild<QPushButton*>("rule_ok"));
+  EXPECT_TRUE(spacing->findChild<QLabel*>("rule_fault")->isVisible());
+  EXPECT_TRUE(layout().spacings.empty());
+  TypeInto(spacing->findChild<QDoubleSpinBox*>("spacing_max"), "300");
+  Click(spacing->findChild<QPushButton*>("rule_ok"));
+  ASSERT_EQ(layout().spacings.size(), 1U);
+  EXPECT_DOUBLE_EQ(HeightOf("lid"), 200.0);
+  EXPECT_FALSE(Find<QDoubleSpinBox>("part_position:z")->isEnabled() && page_->chosen()[0] == "lid");
+
+  Click(Find<QPushButton>("add_pair"));
+  auto* pair = Find<PairDialog>("pair_dialog");
+  TypeInto(pair->findChild<QDoubleSpinBox*>("pair_clearance"), "12.5");
+  Click(pair->findChild<QPushButton*>("rule_ok"));
+  ASSERT_EQ(layout().pair_rules.size(), 1U);
+  EXPECT_DOUBLE_EQ(layout().pair_rules[0].required_clearance_mm, 12.5);
+
+  auto* rules = Find<QListWidget>("rules");
+  ASSERT_EQ(rules->count(), 2);
+  rules->setCurrentRow(0);
+  Click(Find<QToolButton>("remove_rule"));
+  EXPECT_TRUE(layout().spacings.empty());
+  EXPECT_EQ(layout().pair_rules.size(), 1U);
+  page_->desk().Undo();
+  EXPECT_EQ(layout().spacings.size(), 1U);
+}
+
+TEST_F(LayoutPageTest, SavesByKeysWithCommentsKept) {
+  OpenLayout();
+  page_->Choose({"lid"});
+  TypeInto(Find<QDoubleSpinBox>("part_position:x"), "7.5");
+  QTest::keyClick(&page_->view(), Qt::Key_S, Qt::ControlModifier);
+  EXPECT_FALSE(page_->desk().document().is_changed()) << fault_.toStdString();
+  std::string expected = kLayout;
+  expected.replace(expected.find("[0.0, 0.0"), 4, "[7.5");
+  EXPECT_EQ(ReadText(file_), expected);
+}
+
+TEST_F(LayoutPageTest, ANewLayoutIsSavedUnderTheNameThatIsTyped) {
+  OpenImport(folder_ / "box.glb");
+  Click(Find<QPushButton>("import_take"));
+  ASSERT_EQ(layout().parts.size(), 1U);
+  const std::filesystem::path made = folder_ / "sub/made.toml";
+  std::filesystem::create_directories(made.parent_path());
+  TypeIntoNextFileDialog(QString::fromStdString(made.string()));
+  QTest::keyClick(&page_->view(), Qt::Key_S, Qt::ControlModifier);
+  EXPECT_FALSE(page_->desk().document().is_changed()) << fault_.toStdString();
+  const cad_import::ImportedLayout read = cad_import::ImportLayoutFile(made);
+  EXPECT_EQ(read.layout.parts[0].file, "../box.glb");
+}
+
+TEST_F(LayoutPageTest, ChangesAreNotLostWithoutAQuestion) {
+  OpenLayout();
+  EXPECT_TRUE(page_->MayLeave());
+  page_->Choose({"lid"});
+  TypeInto(Find<QDoubleSpinBox>("part_position:x"), "7.5");
+  AnswerNextQuestion(QMessageBox::Cancel);
+  EXPECT_FALSE(page_->MayLeave());
+  AnswerNextQuestion(QMessageBox::Save);
+  EXPECT_TRUE(page_->MayLeave());
+  EXPECT_NE(ReadText(file_).find("7.5"), std::string::npos);
+  TypeInto(Find<QDoubleSpinBox>("part_position:x"), "9");
+  AnswerNextQuestion(QMessageBox::Discard);
+  EXPECT_TRUE(page_->MayLeave());
+  EXPECT_TRUE(page_->MayLeave());  // not asked twice
+  EXPECT_EQ(ReadText(file_).find("[9"), std::string::npos);
+}
+
+TEST_F(LayoutPageTest, WhatTheProgramsEndLeftIsOfferedAndTaken) {
+  {
+    control::LayoutDocument document = control::LayoutDocument::Open(file_);
+    document.Apply("Change", [](cad_import::LayoutText& text) { text.Remove("part", 1); });
+    document.Autosave();
+  }
+  OpenLayout();
+  EXPECT_TRUE(Find<QWidget>("recovery")->isVisible());
+  Click(Find<QPushButton>("recovery_take"));
+  ASSERT_TRUE(WaitUntil([&] { return layout().parts.size() == 1; }));
+  EXPECT_FALSE(Find<QWidget>("recovery")->isVisible());
+  EXPECT_TRUE(page_->desk().document().is_changed());
+}
+
+TEST_F(LayoutPageTest, ChangesAreKeptBesideTheFileAfterAWhile) {
+  OpenLayout();
+  page_->Choose({"lid"});
+  TypeInto(Find<QDoubleSpinBox>("part_position:x"), "7.5");
+  EXPECT_TRUE(WaitUntil([&] { return control::FindAutosave(file_).has_value(); }));
+  EXPECT_EQ(ReadText(file_), kLayout);
+}
+
+TEST_F(LayoutPageTest, IsolateHidesTheOthersAndShowsThemAgain) {
+  OpenLayout();
+  page_->Choose({"lid"});
+  auto* list = Find<QTreeWidget>("parts");
+  Click(Find<QToolButton>("part_isolate"));
+  EXPECT_EQ(list->topLevelItem(0)->checkState(0), Qt::Unchecked);
+  EXPECT_EQ(list->topLevelItem(1)->checkState(0), Qt::Checked);
+  Click(Find<QToolButton>("part_isolate"));
+  EXPECT_EQ(list->topLevelItem(0)->checkState(0), Qt::Checked);
+}
+
+TEST_F(LayoutPageTest, DrawsThePartsAndTheGap) {
+  OpenLayout();
+  page_->Choose({"box", "lid"});
+  Click(Find<QPushButton>("add_spacing"));
+  Click(Find<SpacingDialog>("spacing_dialog")->findChild<QPushButton*>("rule_ok"));
+  ASSERT_TRUE(WaitUntil([&] { return !page_->view().picture().isNull(); })) << fault_.toStdString();
+  // The middle of the gap's line is painted in its ink.
+  const auto [from, to] = std::pair(InView("box"), InView("lid"));
+  EXPECT_LT(to.y(), from.y());  // the lid is above
+}
+
+TEST_F(LayoutPageTest, EveryControlHasANameAToolTipAndASpokenName) {
+  OpenLayout();
+  for (const QWidget* widget : page_->findChildren<QWidget*>()) {
+    const bool is_worked = qobject_cast<const QAbstractButton*>(widget) != nullptr ||
+                           qobject_cast<const QDoubleSpinBox*>(widget) != nullptr ||
+                           qobject_cast<const QSlider*>(widget) != nullptr;
+    if (!is_worked || !widget->isVisible() || widget->objectName().startsWith("qt_")) continue;
+    EXPECT_FALSE(widget->objectName().isEmpty()) << widget->metaObject()->className();
+    EXPECT_FALSE(widget->toolTip().isEmpty()) << widget->objectName().toStdString();
+  }
+}
+
+}  // namespace
+}  // namespace elbowroom::console
