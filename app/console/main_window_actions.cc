@@ -102,7 +102,10 @@ void MainWindow::AddMenus() {
   cameras->setToolTipsVisible(true);
   cameras->addActions({action("show_preflight"), action("take_background"), action("calibrate")});
   auto* view = menuBar()->addMenu(tr("&View"));
-  view->addAction(tr("&Fit everything"), QKeySequence(Qt::Key_F), view_, &OperatorView::Fit);
+  view->addAction(tr("&Fit everything"), QKeySequence(Qt::Key_F), this, [this] {
+    if (pages_->page() == Page::kReview) return review_page_->Fit();
+    view_->Fit();
+  });
   sights_->AddTo(view);
   view->addSeparator();
   view->addAction(tr("F&ull screen"), QKeySequence(Qt::Key_F11), this,

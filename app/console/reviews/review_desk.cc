@@ -73,7 +73,6 @@ void ReviewDesk::FinishJob(std::int64_t job, const std::exception_ptr& failure,
                            const std::function<void()>& on_done) {
   if (job != jobs_) return;  // another one took its place
   is_busy_ = false;
-  emit StateChanged();
   if (!failure) {
     on_done();
   } else if (IsCancelled(failure)) {
@@ -81,6 +80,7 @@ void ReviewDesk::FinishJob(std::int64_t job, const std::exception_ptr& failure,
   } else {
     emit Failed(LineOf(failure));
   }
+  emit StateChanged();
 }
 
 void ReviewDesk::CancelJob() {
@@ -97,7 +97,8 @@ void ReviewDesk::Open(const std::filesystem::path& session) {
 }
 
 void ReviewDesk::TakeSession(std::shared_ptr<control::ReviewedSession> session) {
-  motion_thread_.Cancel();
+  // The old one's thread may be in the middle of a frame: it is waited for elsewhere.
+  motion_thread_.InsteadOfThis([old = std::move(scrubber_)](const std::stop_token&) {});
   ++asked_;
   session_ = std::move(session);
   held_mm_.clear();
@@ -137,7 +138,6 @@ void ReviewDesk::Hold(control::HeldGaps held_mm) {
     emit WhatIfArrived();
   } else {
     JudgeMotion();
-    emit WhatIfBegan();
   }
 }
 
@@ -160,7 +160,9 @@ void ReviewDesk::JudgeMotion() {
     } catch (...) {  // the thread's outermost frame: nothing may escape
       const std::exception_ptr failure = std::current_exception();
       bridge_.Post([this, asked, failure] {
-        if (asked == asked_ && !IsCancelled(failure)) emit Failed(LineOf(failure));
+        if (asked != asked_ || IsCancelled(failure)) return;
+        Hold({});
+        emit Failed(LineOf(failure));
       });
     }
   });
@@ -189,8 +191,8 @@ void ReviewDesk::ImportBcf(const std::filesystem::path& file) {
       [this, file, import] {
         TakeFindings();
         emit FindingsChanged();
-        QString note = tr("%1: %n remark(s) taken over", "", static_cast<int>(import->remarks.size()))
-                           .arg(TextOf(file.filename()));
+        QString note =
+            tr("%1: %2 remarks taken over").arg(TextOf(file.filename())).arg(import->remarks.size());
         for (const std::string& line : import->notes) note += "; " + QString::fromStdString(line);
         emit Noted(note);
       });

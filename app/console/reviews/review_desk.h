@@ -64,7 +64,6 @@ class ReviewDesk : public QObject {
   void StateChanged();
   void Opened();
   void FrameArrived(const elbowroom::control::ScrubbedFrame& frame);
-  void WhatIfBegan();
   void WhatIfProgressed(qint64 done, qint64 total);
   void WhatIfArrived();  // what_if() has changed
   void FindingsChanged();

@@ -125,29 +125,29 @@ QLayout* ReviewPage::MakeHeader() {
 }
 
 QLayout* ReviewPage::MakeTransport() {
-  const auto tool = [this](const char* name, QStyle::StandardPixmap icon, const QString& tip) {
+  const auto tool = [](const char* name, const QString& tip) {
     auto* button = new QToolButton;
     button->setObjectName(name);
-    button->setIcon(InTextColor(style()->standardIcon(icon)));
     button->setAccessibleName(tip);
     button->setToolTip(tip);
     button->setFocusPolicy(Qt::NoFocus);  // Space plays, wherever the user was
     return button;
   };
-  auto* before = tool("touch_before", QStyle::SP_MediaSkipBackward, tr("To the touch before (Page Up)"));
-  play_ = tool("play", QStyle::SP_MediaPlay, tr("Play at the recorded pace (Space)"));
+  before_ = tool("touch_before", tr("To the touch before (Page Up)"));
+  play_ = tool("play", tr("Play at the recorded pace (Space)"));
   play_->setCheckable(true);
-  auto* next = tool("touch_next", QStyle::SP_MediaSkipForward, tr("To the next touch (Page Down)"));
+  next_ = tool("touch_next", tr("To the next touch (Page Down)"));
+  TakeIcons();
   time_ = new QLabel;
   time_->setObjectName("review_time");
   time_->setMinimumWidth(fontMetrics().horizontalAdvance("frame 00000, 0000.00 s"));
-  connect(before, &QToolButton::clicked, this, [this] { StepToFinding(-1); });
-  connect(next, &QToolButton::clicked, this, [this] { StepToFinding(1); });
+  connect(before_, &QToolButton::clicked, this, [this] { StepToFinding(-1); });
+  connect(next_, &QToolButton::clicked, this, [this] { StepToFinding(1); });
   connect(play_, &QToolButton::toggled, this, &ReviewPage::Play);
   auto* keys = new QHBoxLayout;
-  keys->addWidget(before);
+  keys->addWidget(before_);
   keys->addWidget(play_);
-  keys->addWidget(next);
+  keys->addWidget(next_);
   auto* left = new QVBoxLayout;
   left->addLayout(keys);
   left->addWidget(time_);
@@ -221,6 +221,10 @@ void ReviewPage::AskForSession() {
   if (!file.isEmpty()) Open(file.toStdString());
 }
 
+void ReviewPage::Fit() {
+  if (view_ != nullptr) view_->Fit();
+}
+
 void ReviewPage::ShowSession() {
   const control::ReviewedSession& session = desk_->session();
   RememberSession(session.path());
@@ -262,7 +266,9 @@ void ReviewPage::ShowFrame(const control::ScrubbedFrame& frame) {
 
 void ReviewPage::ShowWhatIf() {
   std::set<std::size_t> vanished;
+  std::vector<control::TimelineRow> tried;
   if (const auto& what_if = desk_->what_if()) {
+    tried = control::RowsOf(desk_->session().header().layout, what_if->outcome);
     for (std::size_t i = 0; i < desk_->findings().size(); ++i)
       if (std::ranges::find(what_if->vanished, desk_->findings()[i].finding.id) != what_if->vanished.end())
         vanished.insert(i);
@@ -270,6 +276,7 @@ void ReviewPage::ShowWhatIf() {
   } else if (desk_->held_mm().empty()) {
     what_if_->ShowRecorded();
   }
+  timeline_->ShowTried(tried);
   timeline_->ShowVanished(vanished);
   findings_->ShowVanished(vanished, GapsText(desk_->held_mm()));
 }
@@ -314,13 +321,30 @@ void ReviewPage::StepToFinding(int step) {
 void ReviewPage::Play(bool plays) {
   play_->setChecked(plays);
   if (!desk_->is_open() || plays == player_.isActive()) return;
-  play_->setIcon(InTextColor(style()->standardIcon(plays ? QStyle::SP_MediaPause : QStyle::SP_MediaPlay)));
-  if (!plays) return player_.stop();
+  if (!plays) {
+    player_.stop();
+    return TakeIcons();
+  }
   const auto& frames = desk_->session().frames();
   const bool is_at_end = desk_->position() + 1 == frames.size();
   played_from_s_ = is_at_end ? frames.front().time_s : frames[desk_->position()].time_s;
   playing_.start();
   player_.start();
+  TakeIcons();
+}
+
+void ReviewPage::TakeIcons() {
+  const auto take = [this](QToolButton* button, QStyle::StandardPixmap icon) {
+    button->setIcon(InTextColor(style()->standardIcon(icon)));
+  };
+  take(before_, QStyle::SP_MediaSkipBackward);
+  take(play_, player_.isActive() ? QStyle::SP_MediaPause : QStyle::SP_MediaPlay);
+  take(next_, QStyle::SP_MediaSkipForward);
+}
+
+void ReviewPage::changeEvent(QEvent* event) {
+  QWidget::changeEvent(event);
+  if (event->type() == QEvent::PaletteChange && before_ != nullptr) TakeIcons();
 }
 
 void ReviewPage::PlayOn() {

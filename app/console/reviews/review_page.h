@@ -35,6 +35,7 @@ class ReviewPage : public QWidget {
   void Open(const std::filesystem::path& session);
   // Asks for the file first.
   void AskForSession();
+  void Fit();  // everything in the picture
 
   [[nodiscard]] ReviewDesk& desk() { return *desk_; }
   [[nodiscard]] OperatorView* view() { return view_; }  // null before the first session
@@ -43,6 +44,7 @@ class ReviewPage : public QWidget {
   void Failed(const QString& line);  // beside the page; what the page can show itself, it does
 
  protected:
+  void changeEvent(QEvent* event) override;
   void keyPressEvent(QKeyEvent* event) override;
 
  private:
@@ -63,6 +65,7 @@ class ReviewPage : public QWidget {
   void Step(int frames);
   void StepToFinding(int step);
   void Play(bool plays);
+  void TakeIcons();  // in the text's colour
   void PlayOn();
   void AskForBcf(bool out);
   void AskForKeepOut();
@@ -75,7 +78,9 @@ class ReviewPage : public QWidget {
   QLabel* title_ = nullptr;
   QLabel* facts_ = nullptr;
   QLabel* time_ = nullptr;
+  QToolButton* before_ = nullptr;
   QToolButton* play_ = nullptr;
+  QToolButton* next_ = nullptr;
   QVBoxLayout* view_column_ = nullptr;
   FindingPanel* findings_ = nullptr;
   RemarkPanel* remarks_ = nullptr;

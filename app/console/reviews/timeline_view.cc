@@ -52,7 +52,7 @@ void TimelineView::Open(const control::SessionTimeline& timeline) {
     rows.resize(std::max(kMostRows, touched));
   }
   for (const control::TimelineRow* row : rows)
-    rows_.push_back({QString::fromStdString(row->part), row->spans});
+    rows_.push_back({QString::fromStdString(row->part), row->spans, {}});
   chosen_.reset();
   vanished_.clear();
   time_s_ = timeline.begin_s;
@@ -67,6 +67,14 @@ void TimelineView::ShowTime(double time_s) {
 
 void TimelineView::ShowVanished(std::set<std::size_t> vanished) {
   vanished_ = std::move(vanished);
+  update();
+}
+
+void TimelineView::ShowTried(const std::vector<control::TimelineRow>& rows) {
+  for (Row& row : rows_) {
+    const auto of_part = std::ranges::find(rows, row.name.toStdString(), &control::TimelineRow::part);
+    row.tried = of_part == rows.end() ? std::vector<control::TimelineSpan>() : of_part->spans;
+  }
   update();
 }
 
@@ -180,6 +188,7 @@ void TimelineView::paintEvent(QPaintEvent* /*event*/) {
   painter.drawLine(QPointF(x_px, 0.0), QPointF(x_px, height() - 2.0));
   if (!hasFocus()) return;
   painter.setPen(QPen(palette().color(QPalette::Highlight), 1.0));
+  painter.setBrush(Qt::NoBrush);
   painter.drawRect(QRectF(rect()).adjusted(0.5, 0.5, -0.5, -0.5));
 }
 
@@ -196,7 +205,6 @@ void TimelineView::PaintScale(QPainter& painter) const {
 }
 
 void TimelineView::PaintRows(QPainter& painter) const {
-  const Colors& colors = ThemeColors();
   for (std::size_t row = 0; row < rows_.size(); ++row) {
     const QRectF room(kMarginPx, kMarksPx + RowHeight() * static_cast<double>(row), width() - 2.0 * kMarginPx,
                       RowHeight());
@@ -205,16 +213,29 @@ void TimelineView::PaintRows(QPainter& painter) const {
     painter.drawText(room, Qt::AlignVCenter | Qt::AlignLeft,
                      fontMetrics().elidedText(rows_[row].name, Qt::ElideRight,
                                               static_cast<int>(NameWidth() - 2.0 * kMarginPx) + 1));
-    for (const control::TimelineSpan& span : rows_[row].spans) {
-      const bool is_gone = vanished_.contains(span.finding);
-      const QColor ink = is_gone                                  ? colors.quiet_text
-                         : span.kind == core::FindingKind::kTouch ? colors.contact
-                                                                  : colors.attention;
-      painter.setPen(chosen_ == span.finding ? QPen(palette().color(QPalette::WindowText), 2.0)
-                                             : QPen(ink, 1.0));
-      painter.setBrush(is_gone ? QBrush(Qt::NoBrush) : QBrush(ink));
-      painter.drawRoundedRect(SpanRect(row, span), 2.0, 2.0);
-    }
+    PaintSpans(painter, row);
+  }
+}
+
+void TimelineView::PaintSpans(QPainter& painter, std::size_t row) const {
+  const Colors& colors = ThemeColors();
+  for (const control::TimelineSpan& span : rows_[row].spans) {
+    const bool is_gone = vanished_.contains(span.finding);
+    const bool is_touch = span.kind == core::FindingKind::kTouch;
+    const QColor ink = is_gone ? colors.quiet_text : is_touch ? colors.contact : colors.attention;
+    painter.setPen(chosen_ == span.finding ? QPen(palette().color(QPalette::WindowText), 2.0)
+                                           : QPen(ink, 1.0));
+    painter.setBrush(is_gone ? QBrush(Qt::NoBrush) : QBrush(ink));
+    painter.drawRoundedRect(SpanRect(row, span), 2.0, 2.0);
+  }
+  painter.setPen(Qt::NoPen);
+  painter.setBrush(palette().color(QPalette::Highlight));
+  for (const control::TimelineSpan& span : rows_[row].tried) {
+    const double thick_px = span.kind == core::FindingKind::kTouch ? 4.0 : 2.0;
+    QRectF line = SpanRect(row, span);
+    line.setTop(kMarksPx + RowHeight() * static_cast<double>(row + 1) - thick_px);
+    line.setHeight(thick_px);
+    painter.drawRect(line);
   }
 }
 

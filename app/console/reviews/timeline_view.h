@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <optional>
 #include <set>
+#include <vector>
 
 #include "app/control/reviewing/session_timeline.h"
 
@@ -21,6 +22,8 @@ class TimelineView : public QWidget {
   void ShowTime(double time_s);
   // Places in the list of findings.
   void ShowVanished(std::set<std::size_t> vanished);  // at the gaps that are tried
+  // What was found at the gaps that are tried, below what was recorded; empty: nothing is tried.
+  void ShowTried(const std::vector<control::TimelineRow>& rows);
   void ShowChosen(std::optional<std::size_t> chosen);
 
   [[nodiscard]] QSize sizeHint() const override;
@@ -44,6 +47,7 @@ class TimelineView : public QWidget {
   struct Row {
     QString name;
     std::vector<control::TimelineSpan> spans;
+    std::vector<control::TimelineSpan> tried;
   };
   [[nodiscard]] double TimeAt(double x_px) const;
   [[nodiscard]] QRectF SpanRect(std::size_t row, const control::TimelineSpan& span) const;
@@ -54,6 +58,7 @@ class TimelineView : public QWidget {
   [[nodiscard]] QString TextAt(const QPointF& at) const;
   void PaintScale(QPainter& painter) const;
   void PaintRows(QPainter& painter) const;
+  void PaintSpans(QPainter& painter, std::size_t row) const;
   void PaintMarks(QPainter& painter) const;
   void GoTo(double x_px);
 

@@ -63,6 +63,7 @@ WhatIfPanel::WhatIfPanel(QWidget* parent)
 void WhatIfPanel::Open(const core::SessionHeader& header) {
   header_ = header;
   rows_.clear();
+  needed_.clear();
   delete controls_;
   controls_ = new QWidget;
   auto* grid = new QGridLayout(controls_);
@@ -163,13 +164,21 @@ void WhatIfPanel::ShowProgress(qint64 done, qint64 total) {
 
 void WhatIfPanel::ShowWhatIf(const control::WhatIf& what_if) {
   progress_->hide();
-  result_->setText(WhatIfText(what_if, header_));
+  result_->setText(WhatIfText(what_if, header_) + NeededOf(what_if.held_mm));
   QStringList parts;
   for (std::size_t i = 0; i < what_if.parts.size(); ++i)
     if (what_if.parts[i].is_moved)
       parts << PartText(what_if.parts[i], QString::fromStdString(header_.layout.parts[i].name));
-  parts << SkippedText(what_if, header_.layout);
+  parts << SkippedText(what_if);
   details_->setText(parts.join("; "));
+}
+
+// A needed gap holds while the other spacings are as recorded.
+QString WhatIfPanel::NeededOf(const control::HeldGaps& held_mm) const {
+  if (held_mm.size() != 1) return {};
+  const auto needed = needed_.find(held_mm.begin()->first);
+  if (needed == needed_.end() || !needed->second.free_mm) return {};
+  return tr("; needed %1 mm").arg(std::ceil(10.0 * *needed->second.free_mm) / 10.0, 0, 'f', 1);
 }
 
 void WhatIfPanel::ShowRecorded() {
@@ -181,6 +190,7 @@ void WhatIfPanel::ShowRecorded() {
 }
 
 void WhatIfPanel::ShowNeeded(const QString& spacing, const control::NeededGap& needed) {
+  needed_[spacing.toStdString()] = needed;
   details_->setText(NeededText(spacing, needed, header_.trial.required_clearance_mm));
 }
 

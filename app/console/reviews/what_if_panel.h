@@ -8,7 +8,7 @@
 #include <QPushButton>
 #include <QSlider>
 #include <QVBoxLayout>
-#include <optional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -49,10 +49,12 @@ class WhatIfPanel : public QGroupBox {
   void AddRow(const core::Spacing& spacing, QWidget* rows);
   void Hold(std::size_t row, double value_mm);
   void LetGo();
+  [[nodiscard]] QString NeededOf(const control::HeldGaps& held_mm) const;
   static void ShowValue(const Row& row, double value_mm);
 
   core::SessionHeader header_;
   std::vector<Row> rows_;
+  std::map<std::string, control::NeededGap> needed_;  // by spacing, as far as they were found
   QVBoxLayout* column_;
   QWidget* controls_ = nullptr;  // of this session's spacings
   QLabel* result_;

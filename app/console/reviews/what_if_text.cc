@@ -2,14 +2,13 @@
 
 #include <QCoreApplication>
 #include <QStringList>
+#include <algorithm>
 #include <cmath>
 
 namespace elbowroom::console {
 namespace {
 
-QString Translated(const char* text, int n = -1) {
-  return QCoreApplication::translate("WhatIf", text, nullptr, n);
-}
+QString Translated(const char* text) { return QCoreApplication::translate("WhatIf", text); }
 
 QString Millimetres(double value_mm) { return QString::number(value_mm, 'g', 5); }
 
@@ -36,23 +35,16 @@ QString WhatIfText(const control::WhatIf& what_if, const core::SessionHeader& he
   if (touches == 0 && clearance_mm && std::isfinite(*clearance_mm))
     text += Translated(", clearance ≥ %1 mm").arg(AtLeast(*clearance_mm));
   if (header.trial.required_clearance_mm > 0.0)
-    text += Translated(" (required %1 mm)").arg(Millimetres(header.trial.required_clearance_mm));
+    text += Translated(" (%1 mm clearance required)").arg(Millimetres(header.trial.required_clearance_mm));
   return text;
 }
 
-QString SkippedText(const control::WhatIf& what_if, const core::Layout& layout) {
-  QStringList kept;
-  for (std::size_t i = 0; i < what_if.parts.size(); ++i)
-    if (!what_if.parts[i].is_moved) kept << QString::fromStdString(layout.parts[i].name);
-  const double percent = what_if.answers == 0 ? 0.0
-                                              : 100.0 * static_cast<double>(what_if.answers_kept) /
-                                                    static_cast<double>(what_if.answers);
-  return Translated("%1 frames in %2 s; %3 % of the answers kept%4")
-      .arg(what_if.frames)
-      .arg(what_if.time_s, 0, 'f', 1)
-      .arg(percent, 0, 'f', 0)
-      .arg(kept.isEmpty() ? QString()
-                          : Translated(": %1 of %2 parts stay").arg(kept.size()).arg(what_if.parts.size()));
+QString SkippedText(const control::WhatIf& what_if) {
+  const auto kept = std::ranges::count(what_if.parts, false, &control::WhatIfPart::is_moved);
+  QString text = Translated("%1 frames judged in %2 s").arg(what_if.frames).arg(what_if.time_s, 0, 'f', 1);
+  if (kept > 0)
+    text += Translated("; %1 of %2 parts stay, and keep their verdicts").arg(kept).arg(what_if.parts.size());
+  return text;
 }
 
 QString NeededText(const QString& spacing, const control::NeededGap& needed, double required_clearance_mm) {

@@ -71,6 +71,16 @@ SessionTimeline TimelineOf(const ReviewedSession& session, const std::vector<Lis
   return timeline;
 }
 
+std::vector<TimelineRow> RowsOf(const core::Layout& layout, const core::SessionOutcome& outcome) {
+  std::vector<TimelineRow> rows;
+  for (const core::Part& part : layout.parts) rows.push_back({part.name, {}});
+  for (const core::ContactEpisode& touch : outcome.episodes)
+    rows.at(touch.part).spans.push_back({0, core::FindingKind::kTouch, touch.begin_time_s, touch.end_time_s});
+  for (const core::NearMiss& miss : outcome.near_misses)
+    rows.at(miss.part).spans.push_back({0, core::FindingKind::kNearMiss, miss.begin_time_s, miss.end_time_s});
+  return rows;
+}
+
 std::optional<std::size_t> NextFinding(const std::vector<ListedFinding>& findings, std::size_t from_position,
                                        int step) {
   std::optional<std::size_t> next;

@@ -9,6 +9,8 @@
 #include "app/control/reviewing/listed_findings.h"
 #include "app/control/reviewing/reviewed_session.h"
 #include "core/findings/finding.h"
+#include "core/layout.h"
+#include "core/session.h"
 
 namespace elbowroom::control {
 
@@ -43,6 +45,10 @@ struct SessionTimeline {
 // Thread: any.
 [[nodiscard]] SessionTimeline TimelineOf(const ReviewedSession& session,
                                          const std::vector<ListedFinding>& findings);
+
+// What a what-if found, a row a part; the spans' places mean nothing.
+[[nodiscard]] std::vector<TimelineRow> RowsOf(const core::Layout& layout,
+                                              const core::SessionOutcome& outcome);
 
 // The place in the list of the touch or near miss whose worst frame comes next after (`step` 1) or before
 // (-1) that position. Those that aren't in the session don't count. Nothing: there is none.

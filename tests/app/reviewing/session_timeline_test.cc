@@ -54,6 +54,27 @@ TEST(SessionTimeline, SaysWhatHappenedAndTakesADraggedSliderForOneMark) {
   EXPECT_EQ(tools, std::vector<std::string>{"tongs: in use"});
 }
 
+TEST(SessionTimeline, HasARowAPartOfWhatAWhatIfFound) {
+  core::Layout layout;
+  layout.parts.resize(2);
+  layout.parts[1].name = "box";
+  core::SessionOutcome outcome;
+  outcome.episodes.resize(1);
+  outcome.episodes[0].part = 1;
+  outcome.episodes[0].begin_time_s = 2.0;
+  outcome.episodes[0].end_time_s = 3.0;
+  outcome.near_misses.resize(1);
+  outcome.near_misses[0].begin_time_s = 4.0;
+  const std::vector<TimelineRow> rows = RowsOf(layout, outcome);
+  ASSERT_EQ(rows.size(), 2U);
+  ASSERT_EQ(rows[1].spans.size(), 1U);
+  EXPECT_EQ(rows[1].part, "box");
+  EXPECT_EQ(rows[1].spans[0].begin_s, 2.0);
+  EXPECT_EQ(rows[1].spans[0].end_s, 3.0);
+  ASSERT_EQ(rows[0].spans.size(), 1U);
+  EXPECT_EQ(rows[0].spans[0].kind, core::FindingKind::kNearMiss);
+}
+
 TEST(SessionTimeline, StepsFromTouchToTouch) {
   std::vector<ListedFinding> findings(4);
   findings[0].worst_position = 30;
