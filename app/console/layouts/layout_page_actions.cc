@@ -63,6 +63,13 @@ void LayoutPage::AddActions() {
   AddAction(
       "layout_redo", tr("&Redo"), tr("Makes it again"), [this] { desk_->Redo(); }, QKeySequence::Redo);
   menu_->addSeparator();
+  AddAction("layout_face_to_face", tr("&Face to face"),
+            tr("Lays a face of one part on a face of another: click on both, first on what moves"),
+            [this] { placing_->Begin(Placing::kFaceToFace); });
+  AddAction("layout_hole_to_hole", tr("&Hole to hole"),
+            tr("Brings the axes of two holes or pins onto one line: click on both, first on what moves"),
+            [this] { placing_->Begin(Placing::kHoleToHole); });
+  menu_->addSeparator();
   auto* views = menu_->addMenu(tr("&View from"));
   constexpr double kQuarter = 0.5 * std::numbers::pi;
   const auto look = [this](double azimuth, double elevation) {
@@ -83,7 +90,7 @@ QWidget* LayoutPage::ButtonRow() {
   line->setContentsMargins(0, 0, 0, 0);
   line->setSpacing(2);
   for (const char* name : {"layout_new", "layout_open", "layout_save", "layout_import", "layout_undo",
-                           "layout_redo", "layout_trial"}) {
+                           "layout_redo", "layout_face_to_face", "layout_hole_to_hole", "layout_trial"}) {
     auto* button = new QToolButton;
     button->setDefaultAction(findChild<QAction*>(name));
     button->setObjectName(QString(name) + "_button");
@@ -114,6 +121,8 @@ void LayoutPage::ShowState() {
     action(name)->setIconText(name == std::string_view("layout_undo") ? tr("Undo") : tr("Redo"));
   action("layout_save")->setEnabled(document.is_changed());
   action("layout_trial")->setEnabled(!document.layout().parts.empty());
+  for (const char* name : {"layout_face_to_face", "layout_hole_to_hole"})
+    action(name)->setEnabled(document.layout().parts.size() > 1);
   const QString name =
       document.has_file() ? QString::fromStdString(document.file().filename().string()) : tr("not saved yet");
   title_->setText(document.is_changed() ? tr("%1 – changed").arg(name) : name);

@@ -16,6 +16,8 @@ using Eigen::Vector3d;
 
 constexpr double kMostOff = 0.02;        // of the radius
 constexpr double kLeastSpread = 0.0865;  // of normals that go around by 60 degrees, see below
+constexpr double kMostTilt = 1e-3;       // mean square of normals' parts along the axis
+constexpr double kMostSagitta = 0.06;    // of the radius: facets of up to 40 degrees
 constexpr int kMostSteps = 30;
 constexpr double kSettledShare = 1e-14;
 
@@ -81,6 +83,23 @@ Circle GeometricCircle(const std::vector<Vector2d>& points, Circle circle) {
   return circle;
 }
 
+// How far the middles of the triangles' sides are inside the cylinder: a prism of few sides isn't one.
+double SagittaOf(const core::TriangleMesh& mesh, std::span<const std::uint32_t> triangles,
+                 const FittedCylinder& cylinder) {
+  double most_mm = 0.0;
+  for (const std::uint32_t triangle : triangles) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto vertex = [&](std::size_t k) -> const Vector3d& {
+        return mesh.vertices_mm[static_cast<std::size_t>(mesh.triangles[triangle][k % 3])];
+      };
+      const Vector3d middle = 0.5 * (vertex(i) + vertex(i + 1)) - cylinder.point;
+      const double out_mm = (middle - cylinder.direction.dot(middle) * cylinder.direction).norm();
+      most_mm = std::max(most_mm, cylinder.radius_mm - out_mm);
+    }
+  }
+  return most_mm;
+}
+
 }  // namespace
 
 std::optional<FittedCylinder> FitCylinder(const core::TriangleMesh& mesh,
@@ -96,7 +115,8 @@ std::optional<FittedCylinder> FitCylinder(const core::TriangleMesh& mesh,
   if (!(area_mm2 > 0.0)) return std::nullopt;
   const Eigen::SelfAdjointEigenSolver<Matrix3d> eigen(spread / area_mm2);
   // Of normals that go evenly around by the angle w the middle eigenvalue is (1 - sin w / w) / 2.
-  if (!(eigen.eigenvalues()[1] >= kLeastSpread)) return std::nullopt;
+  if (!(eigen.eigenvalues()[1] >= kLeastSpread) || !(eigen.eigenvalues()[0] <= kMostTilt))
+    return std::nullopt;
   FittedCylinder cylinder;
   cylinder.direction = eigen.eigenvectors().col(0);
   const Vector3d first = cylinder.direction.unitOrthogonal();
@@ -121,6 +141,7 @@ std::optional<FittedCylinder> FitCylinder(const core::TriangleMesh& mesh,
   cylinder.length_mm = high - low;
   cylinder.point = origin + circle.center.x() * first + circle.center.y() * second +
                    0.5 * (low + high) * cylinder.direction;
+  if (SagittaOf(mesh, triangles, cylinder) > kMostSagitta * cylinder.radius_mm) return std::nullopt;
   double outwards = 0.0;
   for (const std::uint32_t triangle : triangles) {
     const Vector3d corner =

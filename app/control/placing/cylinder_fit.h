@@ -21,9 +21,9 @@ struct FittedCylinder {
 
 // The direction that is most across the triangles' normals, weighted by their areas; then the circle through
 // the corners seen along it, by least squares of their distances (docs/layout_editing.md). Nothing where that
-// isn't a cylinder: corners that are off by more than 2 % of the radius, or a wall that goes around by less
-// than 60 degrees, a plane for one. All in the mesh's frame, exact for the corners of a tessellated cylinder
-// but for rounding (placing_test).
+// isn't a cylinder: corners that are off by more than 2 % of the radius, facets wider than 40 degrees, or a
+// wall that goes around by less than 60 degrees, a plane for one. All in the mesh's frame, exact for the
+// corners of a tessellated cylinder but for rounding (placing_test).
 [[nodiscard]] std::optional<FittedCylinder> FitCylinder(const core::TriangleMesh& mesh,
                                                         std::span<const std::uint32_t> triangles);
 
