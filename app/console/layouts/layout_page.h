@@ -78,6 +78,7 @@ class LayoutPage : public QWidget {
   bool Save();
   bool SaveAs();
   void AskForTrial();
+  void AskForMeasuredPoints();
   void ShowLayout();
   void ShowParts();
   void ShowState();

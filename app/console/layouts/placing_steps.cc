@@ -39,12 +39,15 @@ QString PlacingSteps::Advice() const {
       return first_
                  ? tr("Click into the hole, or on the pin, that %1 is brought to; Esc: no").arg(first_->part)
                  : tr("Click into the hole, or on the pin, of the part that moves; Esc: no");
+    case Placing::kMeasuredPoints:
+      return tr("Click on points of the part that were measured on the real one");
   }
   return {};
 }
 
 void PlacingSteps::Take(const core::Layout& layout, const std::vector<core::RigidTransform>& world_from_parts,
                         const control::Pick& pick) {
+  if (placing_ == Placing::kMeasuredPoints) return emit PointTaken(pick);
   const QString part = QString::fromStdString(layout.parts[pick.part].name);
   const bool is_hole = placing_ == Placing::kHoleToHole;
   if (is_hole && !AxisUnder(layout, world_from_parts, pick))

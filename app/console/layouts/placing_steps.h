@@ -1,4 +1,5 @@
-// What is clicked to lay one part on another: first a place on what moves, then one on what stays.
+// What clicks place: to lay one part on another, a place on what moves, then one on what stays; or points
+// that were measured.
 #pragma once
 
 #include <QObject>
@@ -11,7 +12,7 @@
 
 namespace elbowroom::console {
 
-enum class Placing { kNone, kFaceToFace, kHoleToHole };
+enum class Placing { kNone, kFaceToFace, kHoleToHole, kMeasuredPoints };
 
 // Thread: UI.
 class PlacingSteps : public QObject {
@@ -32,6 +33,7 @@ class PlacingSteps : public QObject {
  signals:
   void Changed();
   void Placed(const QString& part, const core::RigidTransform& world_from_part);
+  void PointTaken(const control::Pick& pick);  // to be measured
   void Failed(const QString& line);
 
  private:

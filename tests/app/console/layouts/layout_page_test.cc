@@ -10,10 +10,13 @@
 #include <QMouseEvent>
 #include <QRadioButton>
 #include <QSignalSpy>
+#include <QTableWidget>
 #include <QToolButton>
+#include <array>
 #include <cmath>
 
 #include "app/console/layouts/import_dialog.h"
+#include "app/console/layouts/measured_points.h"
 #include "app/console/layouts/rule_dialogs.h"
 #include "app/control/layout_editing/autosave.h"
 #include "cad_import/layout/layout_file.h"
@@ -346,6 +349,38 @@ TEST_F(LayoutPageTest, AFaceIsLaidOnAFaceByTwoClicks) {
   EXPECT_LT((pose.rotation * -Eigen::Vector3d::UnitY() + Eigen::Vector3d::UnitX()).norm(), 1e-7);
   EXPECT_NEAR((pose * Eigen::Vector3d(50.0, 0.0, 5.0)).x(), 100.0, 1e-4);
   EXPECT_EQ(page_->desk().document().UndoName(), "Place lid");
+}
+
+TEST_F(LayoutPageTest, MeasuredPointsPlaceThePartAndSayHowFarTheyAreOff) {
+  OpenLayout();
+  ASSERT_TRUE(WaitUntil([&] { return page_->view().CanPick(); }));
+  page_->Choose({"lid"});
+  page_->findChild<QAction*>("layout_measured")->trigger();
+  auto* dialog = Find<MeasuredPoints>("measured_points");
+  auto* table = dialog->findChild<QTableWidget*>("measured_table");
+  const std::array<Eigen::Vector3d, 4> clicked = {
+      {{20.0, 10.0, 10.0}, {80.0, 10.0, 10.0}, {50.0, 70.0, 10.0}, {20.0, 60.0, 10.0}}};
+  const core::RigidTransform real = core::FromPositionAndRollPitchYaw({300.0, -40.0, 25.0}, {0.0, 0.0, 30.0});
+  for (const Eigen::Vector3d& x : clicked) {
+    const Eigen::Vector3d x_in_world = layout().parts[1].world_from_part * x;
+    QTest::mouseClick(&page_->view(), Qt::LeftButton, {},
+                      page_->view().PositionOf(x_in_world).value().toPoint());
+  }
+  ASSERT_EQ(table->rowCount(), 4);
+  // A click is in the middle of a pixel: what it hit is what was measured.
+  const core::RigidTransform before = layout().parts[1].world_from_part;
+  for (int row = 0; row < 4; ++row) {
+    Eigen::Vector3d x;
+    for (int i = 0; i < 3; ++i) x[i] = table->item(row, 1 + i)->text().toDouble();
+    const Eigen::Vector3d measured = real * (before.Inverse() * x);
+    for (int i = 0; i < 3; ++i) table->item(row, 1 + i)->setText(QString::number(measured[i], 'f', 6));
+  }
+  ASSERT_TRUE(dialog->fit());
+  EXPECT_LT(dialog->fit()->largest_mm, 0.02);  // the numbers are shown to a hundredth
+  Click(dialog->findChild<QPushButton*>("measured_place"));
+  EXPECT_LT((layout().parts[1].world_from_part.translation_mm - real.translation_mm).norm(), 0.1);
+  EXPECT_NEAR(RollPitchYawDegOf(layout().parts[1]).z(), 30.0, 0.05);
+  dialog->close();
 }
 
 TEST_F(LayoutPageTest, DrawsThePartsAndTheGap) {
