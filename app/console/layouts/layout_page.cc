@@ -302,6 +302,11 @@ QString LayoutPage::CadFileIn(const QMimeData* data) {
   return cad_import::FindFormat(file.toStdString()) ? file : QString();
 }
 
+void LayoutPage::showEvent(QShowEvent* event) {
+  QWidget::showEvent(event);
+  view_->setFocus();
+}
+
 // The window's own shortcuts, of trials, would take the keys otherwise.
 bool LayoutPage::event(QEvent* event) {
   if (event->type() == QEvent::ShortcutOverride) {
@@ -318,9 +323,8 @@ void LayoutPage::keyPressEvent(QKeyEvent* event) {
   if (event->key() == Qt::Key_Escape && placing_->placing() != Placing::kNone) return placing_->End();
   const auto found =
       std::ranges::find_if(keys_, [&](const KeyAction& one) { return event->matches(one.key); });
-  if (found == keys_.end()) return QWidget::keyPressEvent(event);
-  found->action->trigger();
-  event->accept();
+  event->accept();  // whatever it is: the window's keys move the gaps of a trial that runs
+  if (found != keys_.end()) found->action->trigger();
 }
 
 }  // namespace elbowroom::console

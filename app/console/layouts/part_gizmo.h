@@ -9,7 +9,6 @@
 
 #include "app/control/placing/drag.h"
 #include "core/rigid_transform.h"
-#include "recon/appearance/scene_view.h"
 
 namespace elbowroom::console {
 

@@ -83,6 +83,7 @@ class PartsView : public QWidget {
   void Failed(const QString& line);
 
  protected:
+  bool event(QEvent* event) override;
   void paintEvent(QPaintEvent* event) override;
   void resizeEvent(QResizeEvent* event) override;
   void mousePressEvent(QMouseEvent* event) override;

@@ -1,4 +1,4 @@
-// What the mouse does in the view of the parts.
+// What mouse and keys do in the view of the parts.
 #include <QApplication>
 #include <QMouseEvent>
 #include <QWheelEvent>
@@ -98,6 +98,13 @@ void PartsView::mouseDoubleClickEvent(QMouseEvent* event) {
 void PartsView::wheelEvent(QWheelEvent* event) {
   if (camera_) Turn(recon::Zoomed(*camera_, event->angleDelta().y() / kNotchEighths));
   event->accept();
+}
+
+// F is the window's shortcut for the trial's picture, too.
+bool PartsView::event(QEvent* event) {
+  if (event->type() == QEvent::ShortcutOverride && static_cast<QKeyEvent*>(event)->key() == Qt::Key_F)
+    event->accept();
+  return QWidget::event(event);
 }
 
 void PartsView::keyPressEvent(QKeyEvent* event) {
