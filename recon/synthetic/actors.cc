@@ -124,7 +124,7 @@ HandShape TongsPinch() {
 }
 
 HandShape CuppedHand() {
-  return {{BendDeg(22, 30, 25), BendDeg(24, 32, 25), BendDeg(24, 32, 25), BendDeg(22, 30, 25)},
+  return {{BendDeg(30, 40, 30), BendDeg(32, 42, 30), BendDeg(32, 42, 30), BendDeg(30, 40, 30)},
           {BoneDeg(20, 20), BoneDeg(10, 25), BoneDeg(5, 30)}};
 }
 

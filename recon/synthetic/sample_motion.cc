@@ -60,8 +60,10 @@ std::vector<SyntheticObject> HandsAtCurtain(double time_s) {
 std::vector<SyntheticObject> HandsAtFaucet(double time_s) {
   core::Require(time_s >= 0.0, "a motion's time is not negative");
   const double t = std::fmod(time_s, kFaucetSeconds);
-  constexpr double kAwayMm = 520.0, kBelowMm = 92.0;  // of the wrists, from the stream
-  constexpr double kHalfApartMm = 40.0, kHeightMm = 195.0, kBowlDeg = 24.0;
+  constexpr double kAwayMm = 520.0, kBelowMm = 66.0;  // of the wrists, from the stream
+  constexpr double kHalfApartMm = 36.0, kHeightMm = 205.0, kBowlDeg = 26.0;
+  const double down_rad = core::RadiansFromDegrees(12.0);  // fingers, so that water stays before them
+  const Vector3d fingers(-std::cos(down_rad), 0.0, -std::sin(down_rad));
   if (t < 0.8 || t > kFaucetSeconds - 0.4) return {};
   const double in = Smooth(t, 0.8, 3.2) - Smooth(t, 9.2, 11.4);
   std::vector<SyntheticObject> hands;
@@ -69,8 +71,8 @@ std::vector<SyntheticObject> HandsAtFaucet(double time_s) {
     const Vector3d wrist(kAwayMm + in * (kBelowMm - kAwayMm), side * kHalfApartMm, kHeightMm);
     // Palms up, the outer edges raised. Both wrist frames have y towards +y: thumb outwards on the right, the
     // little finger inwards on the left.
-    const RigidTransform world_from_wrist{
-        TurnAboutX(side * kBowlDeg) * Axes(-Vector3d::UnitX(), Vector3d::UnitY()), wrist};
+    const RigidTransform world_from_wrist{TurnAboutX(side * kBowlDeg) * Axes(fingers, Vector3d::UnitY()),
+                                          wrist};
     hands.push_back(side > 0.0 ? Hand(world_from_wrist, CuppedHand(), Elbow(wrist, side))
                                : LeftHand(world_from_wrist, CuppedHand(), Elbow(wrist, side)));
   }

@@ -43,6 +43,8 @@ void PartsView::paintEvent(QPaintEvent* /*event*/) {
   PaintChosen(painter);
   PaintGaps(painter);
   PaintAxes(painter);
+  if (const std::optional<PartGizmo> gizmo = Gizmo()) gizmo->Paint(painter, hot_);
+  if (!advice_.isEmpty()) PaintLabel(painter, QPointF(14, 24), advice_, QColor(20, 60, 120));
   painter.setPen(ThemeColors().picture_text);
   painter.drawText(rect().adjusted(10, 0, -10, -8), Qt::AlignBottom | Qt::AlignLeft,
                    tr("click: choose   Ctrl+click: a second part   drag: orbit   right drag: pan   F: fit"));

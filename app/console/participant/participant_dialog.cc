@@ -156,7 +156,9 @@ void ParticipantDialog::AddTracker(const ParticipantChoices& choices, QFormLayou
   file->addWidget(browse);
   form->addRow(tr("So&urce"), source_);
   form->addRow(tr("&Port"), port_);
-  form->addRow(tr("&Head file"), file);
+  auto* file_label = new QLabel(tr("&Head file"));
+  file_label->setBuddy(head_file_);
+  form->addRow(file_label, file);
 }
 
 void ParticipantDialog::FollowSource() {

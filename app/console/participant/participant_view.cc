@@ -31,8 +31,9 @@ void ParticipantView::ShowPicture(const control::ParticipantPicture& picture) {
   picture_ = QImage(image.rgb.data(), image.width_px, image.height_px, 3 * image.width_px,
                     QImage::Format_RGB888)
                  .convertToFormat(QImage::Format_RGB32);  // a deep copy
+  const bool is_new = std::exchange(serial_, picture.serial) != picture.serial;
   measured_at_.reset();
-  if (picture.pose.source != recon::HeadSource::kFixed) measured_at_ = picture.pose.measured_at;
+  if (is_new && picture.pose.source != recon::HeadSource::kFixed) measured_at_ = picture.pose.measured_at;
   update();
 }
 

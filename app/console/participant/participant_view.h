@@ -4,6 +4,7 @@
 #include <QImage>
 #include <QWidget>
 #include <chrono>
+#include <cstdint>
 #include <optional>
 
 #include "app/control/participant/participant_pictures.h"
@@ -47,8 +48,9 @@ class ParticipantView : public QWidget {
   void TellAge();
 
   QImage picture_;
-  // Of the picture's pose; nothing: its age was told, or it is a fixed point's, which has none.
+  // Of the picture's pose; nothing: its age was told, an earlier picture was of it, or it is a fixed point's.
   std::optional<std::chrono::steady_clock::time_point> measured_at_;
+  std::int64_t serial_ = 0;  // of that pose
   bool is_lost_ = false;
   bool is_stereo_ = false;
 };

@@ -18,16 +18,16 @@ struct NamedView {
 };
 
 constexpr std::array kViews = {
-    NamedView{StandardView::kFront, QT_TRANSLATE_NOOP("TrialSights", "From the &front"), "Ctrl+1",
+    NamedView{StandardView::kFront, QT_TRANSLATE_NOOP("TrialSights", "From the &front"), "Alt+1",
               "view_front"},
-    NamedView{StandardView::kBack, QT_TRANSLATE_NOOP("TrialSights", "From the &back"), "Ctrl+2", "view_back"},
-    NamedView{StandardView::kLeft, QT_TRANSLATE_NOOP("TrialSights", "From the &left"), "Ctrl+3", "view_left"},
-    NamedView{StandardView::kRight, QT_TRANSLATE_NOOP("TrialSights", "From the &right"), "Ctrl+4",
+    NamedView{StandardView::kBack, QT_TRANSLATE_NOOP("TrialSights", "From the &back"), "Alt+2", "view_back"},
+    NamedView{StandardView::kLeft, QT_TRANSLATE_NOOP("TrialSights", "From the &left"), "Alt+3", "view_left"},
+    NamedView{StandardView::kRight, QT_TRANSLATE_NOOP("TrialSights", "From the &right"), "Alt+4",
               "view_right"},
-    NamedView{StandardView::kTop, QT_TRANSLATE_NOOP("TrialSights", "From the &top"), "Ctrl+5", "view_top"},
-    NamedView{StandardView::kBottom, QT_TRANSLATE_NOOP("TrialSights", "From b&elow"), "Ctrl+6",
+    NamedView{StandardView::kTop, QT_TRANSLATE_NOOP("TrialSights", "From the &top"), "Alt+5", "view_top"},
+    NamedView{StandardView::kBottom, QT_TRANSLATE_NOOP("TrialSights", "From b&elow"), "Alt+6",
               "view_bottom"},
-    NamedView{StandardView::kIsometric, QT_TRANSLATE_NOOP("TrialSights", "&Isometric"), "Ctrl+7",
+    NamedView{StandardView::kIsometric, QT_TRANSLATE_NOOP("TrialSights", "&Isometric"), "Alt+7",
               "view_isometric"}};
 
 QToolButton* MenuButton(const QString& text, const QString& tool_tip, const QString& name, QMenu* menu) {

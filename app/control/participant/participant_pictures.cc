@@ -18,6 +18,8 @@ namespace {
 constexpr double kAimMs = 33.0, kRoomForFinerMs = 14.0;
 constexpr std::array<double, 4> kScales = {1.0, 0.75, 0.55, 0.4};  // of the picture's sides
 constexpr double kHullScale = 0.5;
+// A scene that hasn't changed for this long is drawn in full.
+constexpr std::chrono::milliseconds kRests(400);
 
 void Copy(const recon::Image& from, int first_column, int width_px, int to_column, bool is_mirrored,
           recon::Image* to) {
@@ -37,9 +39,10 @@ void Copy(const recon::Image& from, int first_column, int width_px, int to_colum
 class ParticipantPictures::Painter {
  public:
   recon::Image Draw(const FrameResult& result, const core::RigidTransform& world_from_head,
-                    const ParticipantLook& look) {
-    const int width_px = std::max(64, static_cast<int>(scale() * look.width_px) / 2 * 2);
-    const int height_px = std::max(64, static_cast<int>(scale() * look.height_px));
+                    const ParticipantLook& look, bool in_full) {
+    const double scale = in_full ? 1.0 : kScales[step_];
+    const int width_px = std::max(64, static_cast<int>(scale * look.width_px) / 2 * 2);
+    const int height_px = std::max(64, static_cast<int>(scale * look.height_px));
     const std::vector<EyeView> eyes = EyeViewsOf(world_from_head, look.eyes, width_px, height_px);
     recon::Image picture{width_px, height_px,
                          std::vector<std::uint8_t>(3 * static_cast<std::size_t>(width_px) *
@@ -47,8 +50,8 @@ class ParticipantPictures::Painter {
     int column = 0;
     for (std::size_t eye = 0; eye < eyes.size(); ++eye) {
       recon::gl::Scene scene =
-          composers_[eye].Compose(result, eyes[eye].view, look.scene, scale() < 1.0 ? kHullScale : 1.0);
-      scene.smoothness = recon::gl::Smoothness::kOneSample;
+          composers_[eye].Compose(result, eyes[eye].view, look.scene, scale < 1.0 ? kHullScale : 1.0);
+      if (!in_full) scene.smoothness = recon::gl::Smoothness::kOneSample;
       Copy(renderer_.Render(scene), eyes[eye].first_column, eyes[eye].width_px, column,
            look.eyes.mode == ViewMode::kMirror, &picture);
       column += eyes[eye].width_px;
@@ -70,8 +73,6 @@ class ParticipantPictures::Painter {
   }
 
  private:
-  [[nodiscard]] double scale() const { return kScales[step_]; }
-
   recon::gl::SceneRenderer renderer_{recon::gl::PartDetail::kOnDemand};
   std::array<SceneComposer, 2> composers_;  // one an eye
   std::size_t step_ = 0;
@@ -120,14 +121,21 @@ void ParticipantPictures::Wake() {
 
 void ParticipantPictures::Run(const std::stop_token& stop) {
   std::unique_ptr<Painter> painter;
+  bool can_be_finer = false;  // the last picture
   while (!stop.stop_requested()) {
     ParticipantLook look;
     SharedFrameResult result;
     HeadState head;
     {
       std::unique_lock lock(mutex_);
-      if (!woken_.wait(lock, stop, [this] { return is_outdated_; })) return;
-      is_outdated_ = false;
+      const auto is_awaited = [this] { return is_outdated_; };
+      if (can_be_finer) {
+        (void)woken_.wait_for(lock, stop, kRests, is_awaited);
+      } else {
+        (void)woken_.wait(lock, stop, is_awaited);
+      }
+      if (stop.stop_requested()) return;
+      can_be_finer = std::exchange(is_outdated_, false);
       look = look_;
       result = result_;
       head = head_;
@@ -136,12 +144,13 @@ void ParticipantPictures::Run(const std::stop_token& stop) {
     try {
       if (!painter) painter = std::make_unique<Painter>();
       const double begun_ms = SteadyNowMs();
-      recon::Image image = painter->Draw(*result, head.pose->world_from_head, look);
+      recon::Image image = painter->Draw(*result, head.pose->world_from_head, look, !can_be_finer);
       const double drawing_ms = SteadyNowMs() - begun_ms;
-      painter->Adapt(drawing_ms);
+      if (can_be_finer) painter->Adapt(drawing_ms);
       on_picture_({std::move(image), *head.pose, head.serial, result->record.frame, drawing_ms});
     } catch (const std::exception& error) {  // the outermost loop: nothing may escape a thread
       painter.reset();                       // a context that was lost is made anew
+      can_be_finer = false;
       on_error_(error.what());
     }
   }

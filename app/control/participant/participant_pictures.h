@@ -37,7 +37,8 @@ struct ParticipantPicture {
 
 // Each picture is of the latest pose and frame that there are when its drawing begins. A pose, a
 // frame or a look that comes while one is drawn makes the next one follow at once; without any, nothing is
-// drawn. Where drawing takes longer than a frame at 30 Hz, pictures become coarser in steps.
+// drawn, but for one picture in full when nothing has changed for a while. Where drawing takes longer than a
+// frame at 30 Hz, pictures become coarser in steps.
 // Thread: any may call; the callbacks come on the drawing thread and must not block.
 class ParticipantPictures {
  public:

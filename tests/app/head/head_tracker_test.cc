@@ -176,17 +176,23 @@ TEST(HeadTracker, NeedsARigToFindACap) {
   EXPECT_THROW(HeadTracker(settings, {}), core::Error);
 }
 
-// Datagrams that waited in the system's queue are as old as they are.
+// Datagrams that waited in the system's queue are as old as they are. The kernel begins to stamp a while
+// after it was asked to: until then the stamp is that of reading.
 TEST(UdpPort, TellsWhenADatagramCameNotWhenItWasRead) {
+  constexpr int kTries = 100;
+  constexpr std::chrono::milliseconds kWaits{30}, kClocksDiffer{5};  // the kernel's clock and ours
   UdpPort port("127.0.0.1", 0);
-  SendDatagram("127.0.0.1", port.port(), Bytes(4));
-  const auto sent = HeadClock::now();
-  while (HeadClock::now() < sent + std::chrono::milliseconds(30)) std::this_thread::yield();
-  const auto datagram = port.Receive(std::chrono::milliseconds(1000));
-  ASSERT_TRUE(datagram.has_value());
-  EXPECT_EQ(datagram->bytes.size(), 4U);
-  constexpr std::chrono::milliseconds kClocksDiffer{5};  // the kernel's clock and ours
-  EXPECT_LE(datagram->came_at, sent + kClocksDiffer);
+  bool is_stamped = false;
+  for (int i = 0; i < kTries && !is_stamped; ++i) {
+    SendDatagram("127.0.0.1", port.port(), Bytes(4));
+    const auto sent = HeadClock::now();
+    while (HeadClock::now() < sent + kWaits) std::this_thread::yield();
+    const auto datagram = port.Receive(std::chrono::milliseconds(1000));
+    ASSERT_TRUE(datagram.has_value());
+    EXPECT_EQ(datagram->bytes.size(), 4U);
+    is_stamped = datagram->came_at <= sent + kClocksDiffer;
+  }
+  EXPECT_TRUE(is_stamped);
   EXPECT_FALSE(port.Receive(std::chrono::milliseconds(1)).has_value());
 }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <condition_variable>
+#include <cstdlib>
 #include <iostream>
 #include <limits>
 #include <memory>
@@ -91,12 +92,18 @@ class Headset {
   // Until poses are accepted and drawn.
   void Start() {
     for (int i = 0; i < 200 && tracker->state().is_lost; ++i) {
-      const auto heard = tracker->counts().all_refused() + tracker->counts().accepted;
       reading.position_mm.x() += 0.1;
-      Send(reading);
-      while (tracker->counts().all_refused() + tracker->counts().accepted == heard) std::this_thread::yield();
+      (void)SendAndHear();
     }
     (void)gallery.Await(0, Any);
+  }
+  // Whether the tracker accepted the reading.
+  bool SendAndHear() {
+    const auto before = tracker->counts();
+    const auto heard = [&] { return tracker->counts().all_refused() + tracker->counts().accepted; };
+    Send(reading);
+    while (heard() == before.all_refused() + before.accepted) std::this_thread::yield();
+    return tracker->counts().accepted > before.accepted;
   }
 
   Gallery gallery;
@@ -117,15 +124,17 @@ TEST(ParticipantPictures, APacketReachesThePictureWithinOneFrame) {
     const std::int64_t serial = headset.tracker->state().serial;
     headset.reading.position_mm.x() += 1.0;
     headset.reading.yaw_deg += 0.2;
-    headset.Send(headset.reading);
+    if (!headset.SendAndHear()) continue;  // the machine was so busy that tracking was lost meanwhile
     const auto seen = headset.gallery.Await(
         known, [&](const ParticipantPicture& picture) { return picture.serial > serial; });
-    if (seen.empty()) continue;  // the packet came after a loss
+    ASSERT_FALSE(seen.empty());
     int earlier = 0;
     while (seen[static_cast<std::size_t>(earlier)].serial <= serial) ++earlier;
     EXPECT_LE(earlier, 1);
     const ParticipantPicture& picture = seen[static_cast<std::size_t>(earlier)];
-    EXPECT_EQ(picture.pose.world_from_head, headset.tracker->settings().WorldFromHead(headset.reading));
+    const core::RigidTransform sent = headset.tracker->settings().WorldFromHead(headset.reading);
+    EXPECT_LT((picture.pose.world_from_head.translation_mm - sent.translation_mm).norm(), 1e-9);
+    EXPECT_LT((picture.pose.world_from_head.rotation - sent.rotation).norm(), 1e-12);
     ages.Add(std::chrono::duration<double, std::milli>(HeadClock::now() - picture.pose.measured_at).count());
   }
   ASSERT_TRUE(ages.MedianMs().has_value());
@@ -184,12 +193,14 @@ TEST(ParticipantPictures, AMirrorExchangesLeftAndRight) {
 TEST(ParticipantPictures, StereoOfOneEyeIsTwoEqualPictures) {
   const recon::Image both = PictureOf({{ViewMode::kStereo, 0.0, 1.0, 700.0}, {}, 640, 240}).image;
   ASSERT_EQ(both.width_px, 640);
-  std::size_t other = 0;
+  constexpr int kKeptLevels =
+      2;  // what stays from picture to picture may differ by so much (docs/appearance.md)
+  int most = 0;
   for (int y = 0; y < 240; ++y)
     for (int x = 0; x < 3 * 320; ++x)
-      other += both.rgb[static_cast<std::size_t>(3 * 640 * y + x)] !=
-               both.rgb[static_cast<std::size_t>(3 * 640 * y + 3 * 320 + x)];
-  EXPECT_EQ(other, 0U);
+      most = std::max(most, std::abs(both.rgb[static_cast<std::size_t>(3 * 640 * y + x)] -
+                                     both.rgb[static_cast<std::size_t>(3 * 640 * y + 3 * 320 + x)]));
+  EXPECT_LE(most, kKeptLevels);
 }
 
 }  // namespace

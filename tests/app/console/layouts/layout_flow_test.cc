@@ -32,6 +32,8 @@ class LayoutFlow : public testing::Test {
     SetSessionsFolder(folder_ / "sessions");
     window_.resize(1280, 720);
     window_.show();
+    window_.activateWindow();
+    EXPECT_TRUE(QTest::qWaitForWindowActive(&window_));
   }
   ~LayoutFlow() override {
     window_.desk().Stop();

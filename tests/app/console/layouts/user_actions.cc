@@ -5,7 +5,6 @@
 #include <QFileDialog>
 #include <QLineEdit>
 #include <QStyle>
-#include <QStyleOptionViewItem>
 #include <QTimer>
 #include <functional>
 
@@ -55,14 +54,10 @@ bool TickItem(QTreeWidget* tree, const QString& text) {
   const QList<QTreeWidgetItem*> found = tree->findItems(text, Qt::MatchExactly | Qt::MatchRecursive, 0);
   if (found.isEmpty()) return false;
   tree->scrollToItem(found.front());
-  QStyleOptionViewItem option;
-  option.initFrom(tree);
-  option.rect = tree->visualItemRect(found.front());
-  option.rect.setLeft(tree->visualRect(tree->indexAt(option.rect.center())).left());
-  option.rect.setRight(tree->columnViewportPosition(0) + tree->columnWidth(0));
-  option.features = QStyleOptionViewItem::HasCheckIndicator;
-  const QRect tick = tree->style()->subElementRect(QStyle::SE_ItemViewItemCheckIndicator, &option, tree);
-  QTest::mouseClick(tree->viewport(), Qt::LeftButton, {}, tick.center());
+  const QRect item = tree->visualItemRect(found.front());  // without what it is indented by
+  const int middle = tree->style()->pixelMetric(QStyle::PM_FocusFrameHMargin, nullptr, tree) + 1 +
+                     tree->style()->pixelMetric(QStyle::PM_IndicatorWidth, nullptr, tree) / 2;
+  QTest::mouseClick(tree->viewport(), Qt::LeftButton, {}, QPoint(item.left() + middle, item.center().y()));
   return true;
 }
 
