@@ -127,6 +127,7 @@ QWidget* PartPanel::LookRow() {
   opacity_->setAccessibleName(tr("Opacity, percent"));
   opacity_->setToolTip(tr("How much of what is behind the part shows through; right: nothing"));
   opacity_->setRange(10, 100);
+  opacity_->setValue(100);
   connect(opacity_, &QSlider::valueChanged, this, [this](int percent) {
     look_.opacity = 0.01 * percent;
     emit LookChanged(name_, look_);
