@@ -47,11 +47,13 @@ std::optional<double> SpacingStepFor(const QKeyEvent& event) {
   }
 }
 
+bool IsSession(const QString& file) { return file.endsWith(".db", Qt::CaseInsensitive); }
+
 // The file that was dropped, if it can be opened.
 QString FileIn(const QMimeData* data) {
   if (data == nullptr || data->urls().size() != 1) return {};
   const QString file = data->urls().front().toLocalFile();
-  return file.endsWith(".toml", Qt::CaseInsensitive) ? file : QString();
+  return file.endsWith(".toml", Qt::CaseInsensitive) || IsSession(file) ? file : QString();
 }
 
 // What can't be read is for the trial's reader to say.
@@ -83,6 +85,7 @@ MainWindow::MainWindow(std::filesystem::path session)
   setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);
   spacings_ = new SpacingPanel;
   view_ = new OperatorView;
+  sights_ = new TrialSights(view_, this);
   AddPreflight();
   AddPanels();
   AddActions();
@@ -172,6 +175,8 @@ QWidget* MainWindow::MakeCentre() {
 void MainWindow::AddPages(QStackedWidget* pages) {
   auto* welcome = new WelcomePage(findChild<QAction*>("start_demo"), findChild<QAction*>("open_trial"));
   welcome->setObjectName("trial");
+  welcome->AddSamples({findChild<QAction*>("sample:payload"), findChild<QAction*>("sample:curtain"),
+                       findChild<QAction*>("sample:faucet")});
   connect(welcome, &WelcomePage::TrialChosen, this, &MainWindow::OpenFile);
   layout_page_ = new LayoutPage;
   layout_page_->setObjectName("layout");
@@ -216,9 +221,20 @@ void MainWindow::StartTrial(const QString& trial_file) {
 }
 
 void MainWindow::OpenFile(const QString& file) {
+  if (IsSession(file)) return OpenSession(file.toStdString());
   if (!IsLayout(file)) return StartTrial(file);
   pages_->Show(Page::kLayout);
   layout_page_->Open(file.toStdString());
+}
+
+void MainWindow::OpenSession(const std::filesystem::path& session) {
+  pages_->Show(Page::kReview);
+  review_page_->Open(session);
+}
+
+void MainWindow::AskForSession() {
+  pages_->Show(Page::kReview);
+  review_page_->AskForSession();
 }
 
 void MainWindow::dragEnterEvent(QDragEnterEvent* event) {
@@ -240,7 +256,10 @@ void MainWindow::FollowDesk() {
   connect(desk_, &TrialDesk::HullArrived, view_, &OperatorView::Foresee);
   connect(desk_, &TrialDesk::FrameArrived, this, &MainWindow::ShowFrame);
   connect(desk_, &TrialDesk::TilesArrived, strip_, &CameraStrip::ShowTiles);
-  connect(strip_, &CameraStrip::RoomChanged, desk_, &TrialDesk::SetTileRoom);
+  connect(desk_, &TrialDesk::TilesArrived, sights_, &TrialSights::ShowTiles);
+  connect(strip_, &CameraStrip::RoomChanged, sights_, &TrialSights::SetTileRoom);
+  connect(strip_, &CameraStrip::CameraChosen, sights_, &TrialSights::ShowCamera);
+  connect(sights_, &TrialSights::WishesChanged, desk_, &TrialDesk::SetTileWishes);
   connect(desk_, &TrialDesk::Failed, this, &MainWindow::ShowError);
   connect(desk_, &TrialDesk::Progressed, status_, &StatusLine::ShowProgress);
   connect(desk_, &TrialDesk::TrialEnded, messages_, &MessageBar::ShowNote);
@@ -262,7 +281,8 @@ void MainWindow::ShowError(const QString& line) { messages_->ShowError(line); }
 void MainWindow::OpenTrial(const control::TrialSetup& setup) {
   messages_->hide();
   view_->Clear();
-  pages_->SetTrialWidget(view_);
+  sights_->Open(setup.source->rig());
+  pages_->SetTrialWidget(sights_);
   pages_->Show(Page::kTrial);
   cameras_dock_->show();
   strip_->Open(setup.source->rig());

@@ -11,6 +11,7 @@ namespace elbowroom::control {
 namespace {
 
 recon::SceneView ViewOf(const RenderRequest& request) {
+  if (request.fixed_view) return *request.fixed_view;
   return recon::ViewFrom(request.camera, request.width_px, request.height_px);
 }
 

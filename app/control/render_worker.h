@@ -24,7 +24,8 @@ struct RenderRequest {
   int height_px = 480;
   double hull_scale = 1.0;  // as SceneComposer::Compose
   bool is_smooth = true;    // four samples a pixel; false: one, which is drawn sooner
-  SceneLook look;
+  SceneLook look = {};
+  std::optional<recon::SceneView> fixed_view = std::nullopt;  // of the picture's size; takes camera's place
   // Drawn as it is, but for its view and smoothness, which are the request's. Null: `result` is drawn.
   std::shared_ptr<const recon::gl::Scene> scene = nullptr;
 };

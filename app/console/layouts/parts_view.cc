@@ -180,8 +180,15 @@ void PartsView::Submit(const PictureFineness& fineness) {
   drawn_with_ = fineness;
   is_outdated_ = false;
   drawing_.start();
-  worker_.Submit(
-      {nullptr, *camera_, size.width(), size.height(), fineness.hull, fineness.is_smooth, {}, scene_});
+  worker_.Submit({nullptr,
+                  *camera_,
+                  size.width(),
+                  size.height(),
+                  fineness.hull,
+                  fineness.is_smooth,
+                  {},
+                  std::nullopt,
+                  scene_});
 }
 
 QSize PartsView::LargestPicture() const {

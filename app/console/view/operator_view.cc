@@ -93,7 +93,30 @@ void OperatorView::Fit() {
 }
 
 void OperatorView::SetLook(const control::SceneLook& look) {
+  const control::SectionCut cut = look_.cut;
   look_ = look;
+  look_.cut = cut;
+  AskForPicture();
+}
+
+void OperatorView::SetCut(const control::SectionCut& cut) {
+  look_.cut = cut;
+  AskForPicture();
+}
+
+void OperatorView::LookAlong(recon::StandardView view) {
+  if (camera_) Turn(recon::Along(*camera_, view));
+}
+
+void OperatorView::SetParallel(bool is_parallel) {
+  is_parallel_ = is_parallel;
+  if (camera_) Turn(*camera_);
+}
+
+void OperatorView::LookFrom(const core::CameraModel& camera) {
+  if (!camera_) return;
+  camera_ = recon::OrbitLike(camera, camera_->target_in_world);
+  looks_from_ = camera;
   AskForPicture();
 }
 
@@ -101,11 +124,13 @@ QString OperatorView::driver() const { return QString::fromStdString(worker_.dri
 
 void OperatorView::Turn(const recon::OrbitCamera& camera) {
   camera_ = camera;
+  camera_->is_parallel = is_parallel_;
+  looks_from_.reset();
   AskForPicture();
 }
 
 void OperatorView::AskForPicture() {
-  if (!result_ || !camera_) return;
+  if (!result_ || !camera_ || !isVisible()) return;
   if (drawing_.isValid()) {
     is_outdated_ = true;
   } else {
@@ -118,7 +143,11 @@ void OperatorView::Submit(const PictureFineness& fineness) {
   drawn_with_ = fineness;
   is_outdated_ = false;
   drawing_.start();
-  worker_.Submit({result_, *camera_, size.width(), size.height(), fineness.hull, fineness.is_smooth, look_});
+  control::RenderRequest request{result_,       *camera_,           size.width(), size.height(),
+                                 fineness.hull, fineness.is_smooth, look_};
+  if (looks_from_)
+    request.fixed_view = recon::ViewFrom(*looks_from_, camera_->target_in_world, size.width(), size.height());
+  worker_.Submit(std::move(request));
 }
 
 QSize OperatorView::LargestPicture() const {
@@ -185,6 +214,8 @@ void OperatorView::PaintCaption(QPainter& painter) const {
   painter.drawText(room, Qt::AlignBottom | Qt::AlignRight, tr("frame %1").arg(picture_frame_));
 }
 
+void OperatorView::showEvent(QShowEvent* /*event*/) { AskForPicture(); }
+
 void OperatorView::resizeEvent(QResizeEvent* /*event*/) { AskForPicture(); }
 
 void OperatorView::mousePressEvent(QMouseEvent* event) { last_mouse_px_ = event->position(); }
@@ -193,7 +224,11 @@ void OperatorView::mouseMoveEvent(QMouseEvent* event) {
   const QPointF moved = event->position() - std::exchange(last_mouse_px_, event->position());
   const Eigen::Vector2d drag_px(moved.x(), moved.y());
   if (!camera_) return;
-  if (event->buttons() & Qt::LeftButton) {
+  if ((event->buttons() & Qt::LeftButton) && (event->modifiers() & Qt::ShiftModifier)) {
+    // Panning moves the target against the pointer.
+    const recon::OrbitCamera panned = recon::Panned(*camera_, drag_px, height());
+    emit ShiftDragged(camera_->target_in_world - panned.target_in_world);
+  } else if (event->buttons() & Qt::LeftButton) {
     Turn(recon::Orbited(*camera_, drag_px, height()));
   } else if (event->buttons() & (Qt::RightButton | Qt::MiddleButton)) {
     Turn(recon::Panned(*camera_, drag_px, height()));

@@ -17,6 +17,7 @@
 #include "app/control/frame_result.h"
 #include "app/control/render_worker.h"
 #include "app/control/scene_composer.h"
+#include "core/camera_model.h"
 #include "recon/appearance/orbit_camera.h"
 
 namespace elbowroom::console {
@@ -24,7 +25,7 @@ namespace elbowroom::console {
 // Left drag orbits, right or middle drag pans, the wheel zooms, a double click fits. Never waits for a
 // picture: until the next one comes the last one is shown, scaled to the widget. One picture is asked for at
 // a time, of the latest frame and camera, as fine as PicturePace allows; when nothing changes for a while,
-// the scene is drawn once more in full.
+// the scene is drawn once more in full. While it isn't visible nothing is drawn.
 // Thread: UI.
 class OperatorView : public QWidget {
   Q_OBJECT
@@ -39,7 +40,11 @@ class OperatorView : public QWidget {
   void Clear();
   void Fit();  // everything in the picture, from the front, above
 
-  void SetLook(const control::SceneLook& look);
+  void SetLook(const control::SceneLook& look);  // but for its cut
+  void SetCut(const control::SectionCut& cut);
+  void LookAlong(recon::StandardView view);
+  void SetParallel(bool is_parallel);
+  void LookFrom(const core::CameraModel& camera);  // until the view is turned, which loses the camera's roll
 
   [[nodiscard]] QString driver() const;  // of OpenGL; "" until the first picture
   [[nodiscard]] const std::optional<recon::OrbitCamera>& camera() const { return camera_; }
@@ -49,9 +54,12 @@ class OperatorView : public QWidget {
   // Of live cameras: that picture was painted, so long after the middle of its frame's exposure.
   void PictureSeen(qint64 frame, double age_ms);
   void Failed(const QString& line);
+  // A left drag with Shift, which doesn't turn the view: by so far, mm in world at the target's depth.
+  void ShiftDragged(const Eigen::Vector3d& by_in_world_mm);
 
  protected:
   void paintEvent(QPaintEvent* event) override;
+  void showEvent(QShowEvent* event) override;
   void resizeEvent(QResizeEvent* event) override;
   void mousePressEvent(QMouseEvent* event) override;
   void mouseMoveEvent(QMouseEvent* event) override;
@@ -67,7 +75,9 @@ class OperatorView : public QWidget {
   void TellAge();
   [[nodiscard]] QSize LargestPicture() const;
 
-  std::optional<recon::OrbitCamera> camera_;  // nothing until the first fit
+  std::optional<recon::OrbitCamera> camera_;     // nothing until the first fit
+  std::optional<core::CameraModel> looks_from_;  // takes camera_'s place
+  bool is_parallel_ = false;
   control::SharedFrameResult result_;
   control::SceneLook look_;
   QImage picture_;
