@@ -180,15 +180,13 @@ void PartsView::Submit(const PictureFineness& fineness) {
   drawn_with_ = fineness;
   is_outdated_ = false;
   drawing_.start();
-  worker_.Submit({nullptr,
-                  *camera_,
-                  size.width(),
-                  size.height(),
-                  fineness.hull,
-                  fineness.is_smooth,
-                  {},
-                  std::nullopt,
-                  scene_});
+  control::RenderRequest request;
+  request.camera = *camera_;
+  request.width_px = size.width();
+  request.height_px = size.height();
+  request.is_smooth = fineness.is_smooth;
+  request.scene = scene_;
+  worker_.Submit(std::move(request));
 }
 
 QSize PartsView::LargestPicture() const {
