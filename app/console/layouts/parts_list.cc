@@ -2,6 +2,7 @@
 
 #include <QHeaderView>
 #include <QSignalBlocker>
+#include <filesystem>
 
 namespace elbowroom::console {
 namespace {
@@ -53,7 +54,7 @@ void PartsList::Show(const core::Layout& layout, const PartLooks& looks, const Q
     item->setText(0, name);
     item->setIcon(0, Swatch(look.color.isValid() ? look.color : PartColor(i)));
     item->setCheckState(0, look.is_visible ? Qt::Checked : Qt::Unchecked);
-    item->setText(1, QString::fromStdString(part.file));
+    item->setText(1, QString::fromStdString(std::filesystem::path(part.file).filename().string()));
     item->setToolTip(1, part.node.empty() ? QString::fromStdString(part.file)
                                           : QString::fromStdString(part.file + "\n" + part.node));
     item->setSelected(chosen.contains(name));
