@@ -47,11 +47,13 @@ std::optional<double> SpacingStepFor(const QKeyEvent& event) {
   }
 }
 
+bool IsSession(const QString& file) { return file.endsWith(".db", Qt::CaseInsensitive); }
+
 // The file that was dropped, if it can be opened.
 QString FileIn(const QMimeData* data) {
   if (data == nullptr || data->urls().size() != 1) return {};
   const QString file = data->urls().front().toLocalFile();
-  return file.endsWith(".toml", Qt::CaseInsensitive) ? file : QString();
+  return file.endsWith(".toml", Qt::CaseInsensitive) || IsSession(file) ? file : QString();
 }
 
 // What can't be read is for the trial's reader to say.
@@ -219,9 +221,20 @@ void MainWindow::StartTrial(const QString& trial_file) {
 }
 
 void MainWindow::OpenFile(const QString& file) {
+  if (IsSession(file)) return OpenSession(file.toStdString());
   if (!IsLayout(file)) return StartTrial(file);
   pages_->Show(Page::kLayout);
   layout_page_->Open(file.toStdString());
+}
+
+void MainWindow::OpenSession(const std::filesystem::path& session) {
+  pages_->Show(Page::kReview);
+  review_page_->Open(session);
+}
+
+void MainWindow::AskForSession() {
+  pages_->Show(Page::kReview);
+  review_page_->AskForSession();
 }
 
 void MainWindow::dragEnterEvent(QDragEnterEvent* event) {
@@ -286,6 +299,7 @@ void MainWindow::OpenTrial(const control::TrialSetup& setup) {
 
 void MainWindow::ShowFrame(const FrameNews& news) {
   view_->ShowFrame(news.result);
+  sights_->ShowFrame(news.result);
   spacings_->ShowApplied(news.result->record.spacing_mm);
   spacings_->ShowPairs(*news.result);
   contacts_->ShowFrame(*news.result);

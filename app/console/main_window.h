@@ -49,12 +49,17 @@ class MainWindow : public QMainWindow {
   [[nodiscard]] ParticipantDesk& participant() { return *participant_; }
   [[nodiscard]] PageSwitch& pages() { return *pages_; }
   [[nodiscard]] LayoutPage& layout_page() { return *layout_page_; }
+  [[nodiscard]] ReviewPage& review_page() { return *review_page_; }
 
-  // A LAYOUT.toml goes to the layout page, anything else is run as a trial.
+  // A LAYOUT.toml goes to the layout page, a session to the review page, anything else is run as a trial.
   void OpenFile(const QString& file);
 
   // Takes size, place and panels from the last run, and leaves them for the next.
   void Remember();
+
+  // On the review page.
+  void OpenSession(const std::filesystem::path& session);
+  void AskForSession();
 
  public slots:
   void ShowError(const QString& line);

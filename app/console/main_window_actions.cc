@@ -11,6 +11,8 @@
 #include "app/console/desktop/recent_trials.h"
 #include "app/console/desktop/theme.h"
 #include "app/console/main_window.h"
+#include "app/console/review_actions.h"
+#include "app/console/reviews/recent_sessions.h"
 
 namespace elbowroom::console {
 
@@ -34,6 +36,7 @@ void MainWindow::AddActions() {
   stop->setObjectName("stop");
   auto* report = new ReportAction(*desk_, this);
   report->setObjectName("report");
+  auto* review = new ReviewTrialAction(*desk_, this);
   auto* undo = new UndoGapAction(*spacings_, this);
   undo->setObjectName("undo_gap");
   auto* redo = new RedoGapAction(*spacings_, this);
@@ -50,7 +53,7 @@ void MainWindow::AddActions() {
   TakeIcons();
   bar->addActions({demo, open});
   bar->addSeparator();
-  bar->addActions({stop, report});
+  bar->addActions({stop, report, review});
   bar->addSeparator();
   bar->addActions({undo, redo});
   bar->addSeparator();
@@ -74,13 +77,19 @@ void MainWindow::AddMenus() {
   recent->setObjectName("recent_trials");
   connect(recent, &RecentTrialsMenu::Chosen, this, &MainWindow::OpenFile);
   file->addMenu(recent);
+  file->addAction(new OpenSessionAction(this));
+  auto* sessions = new RecentSessionsMenu(this);
+  sessions->setObjectName("recent_sessions");
+  connect(sessions, &RecentSessionsMenu::Chosen, this,
+          [this](const QString& session) { OpenSession(session.toStdString()); });
+  file->addMenu(sessions);
   file->addAction(new SessionsFolderAction(this));
   file->addSeparator();
   QAction* quit = file->addAction(tr("&Quit"), QKeySequence::Quit, this, &QWidget::close);
   quit->setToolTip(tr("A running trial ends in order first"));
   auto* trial = menuBar()->addMenu(tr("&Trial"));
   trial->setToolTipsVisible(true);
-  trial->addActions({action("start_demo"), action("stop"), action("report")});
+  trial->addActions({action("start_demo"), action("stop"), action("report"), action("review_trial")});
   auto* samples = trial->addMenu(tr("&Samples"));
   samples->setToolTipsVisible(true);
   samples->addActions({action("sample:payload"), action("sample:curtain"), action("sample:faucet")});
@@ -93,7 +102,10 @@ void MainWindow::AddMenus() {
   cameras->setToolTipsVisible(true);
   cameras->addActions({action("show_preflight"), action("take_background"), action("calibrate")});
   auto* view = menuBar()->addMenu(tr("&View"));
-  view->addAction(tr("&Fit everything"), QKeySequence(Qt::Key_F), view_, &OperatorView::Fit);
+  view->addAction(tr("&Fit everything"), QKeySequence(Qt::Key_F), this, [this] {
+    if (pages_->page() == Page::kReview) return review_page_->Fit();
+    view_->Fit();
+  });
   sights_->AddTo(view);
   view->addSeparator();
   view->addAction(tr("F&ull screen"), QKeySequence(Qt::Key_F11), this,

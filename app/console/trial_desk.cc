@@ -10,10 +10,6 @@
 namespace elbowroom::console {
 namespace {
 
-std::filesystem::path ReportFolderFor(const std::filesystem::path& session) {
-  return session.parent_path() / (session.stem().string() + "-report");
-}
-
 QString EndNote(const control::TrialOutcome& outcome) {
   QString note =
       QString("%1 frames recorded in %2").arg(outcome.frames).arg(outcome.session.filename().c_str());
@@ -104,7 +100,7 @@ void TrialDesk::WriteReport() {
       bridge_,
       [session = *recorded_, progress = ProgressToHere(), html_file](const std::stop_token& stop) {
         const control::ReportFiles files =
-            control::WriteSessionReport(session, ReportFolderFor(session), progress, stop);
+            control::WriteSessionReport(session, control::ReportFolderFor(session), progress, stop);
         for (const std::filesystem::path& file : files.written) {
           if (file.extension() == ".html") *html_file = QString::fromStdString(file.string());
         }

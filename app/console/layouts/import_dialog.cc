@@ -176,7 +176,7 @@ void ImportDialog::ShowTree() {
   QTreeWidgetItem* whole = MakeItem(QString::fromStdString(file_.filename().string()), {}, preview_->size_mm,
                                     preview_->report().triangles, preview_->open_edges);
   tree_->addTopLevelItem(whole);
-  const bool is_assembly = preview_->nodes.size() > 1;
+  const bool is_assembly = preview_->model->instances.size() > 1;
   std::vector<QTreeWidgetItem*> items;
   if (is_assembly) {
     for (const control::PreviewNode& node : preview_->nodes) {

@@ -159,7 +159,12 @@ QString LayoutDesk::Apply(const QString& name, const control::LayoutDocument::Ch
 std::vector<std::string> LayoutDesk::AddParts(const control::PartPreview& preview,
                                               const std::vector<std::string>& nodes) {
   std::vector<std::string> names;
-  if (Try([&] { names = document_->AddParts(preview, nodes); })) {
+  const auto add = [&] {
+    // Files are named as seen from there, which takes a folder that is there.
+    if (!document_->has_file()) core::MakeFolder(unsaved_folder_);
+    names = document_->AddParts(preview, nodes);
+  };
+  if (Try(add)) {
     autosave_after_.start();
     emit Changed();
   }

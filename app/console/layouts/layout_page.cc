@@ -25,12 +25,32 @@ std::filesystem::path UnsavedFolder() {
   return QStandardPaths::writableLocation(QStandardPaths::AppDataLocation).toStdString();
 }
 
+// Along the others a gap decides where the part stands.
+std::array<bool, 3> FreeAxes(const core::Layout& layout, core::PartIndex part) {
+  std::array<bool, 3> free = {true, true, true};
+  for (const core::Spacing& spacing : layout.spacings) {
+    const std::vector<core::PartIndex> moving = layout.PartsNamed(spacing.moving);
+    if (std::ranges::find(moving, part) != moving.end())
+      free.at(static_cast<std::size_t>(spacing.axis)) = false;
+  }
+  return free;
+}
+
 Eigen::Vector3f ColorVector(const QColor& color) { return {color.redF(), color.greenF(), color.blueF()}; }
+
+// A nanometre, or a millionth of a degree: what a hand and a file need, without noise in the last digits.
+Eigen::Vector3d Rounded(const Eigen::Vector3d& v) {
+  constexpr double kFinest = 1e6;
+  return (v * kFinest).array().round() / kFinest;
+}
 
 }  // namespace
 
 LayoutPage::LayoutPage(QWidget* parent)
-    : QWidget(parent), desk_(new LayoutDesk(UnsavedFolder(), this)), menu_(new QMenu(tr("&Layout"), this)) {
+    : QWidget(parent),
+      desk_(new LayoutDesk(UnsavedFolder(), this)),
+      menu_(new QMenu(tr("&Layout"), this)),
+      placing_(new PlacingSteps(this)) {
   view_ = new PartsView;
   view_->setObjectName("layout_view");
   view_->setAccessibleName(tr("Parts of the layout"));
@@ -55,6 +75,7 @@ LayoutPage::LayoutPage(QWidget* parent)
   column->addWidget(split, 1);
   FollowDesk();
   FollowPanels();
+  FollowPlacing();
   reading_->hide();
   ShowLayout();
 }
@@ -123,6 +144,8 @@ void LayoutPage::FollowPanels() {
     Choose(WithClick(chosen_, name, adds));
   });
   connect(list_, &PartsList::Chosen, this, &LayoutPage::Choose);
+  connect(list_, &PartsList::RenameAsked, this, &LayoutPage::RenamePart,
+          Qt::QueuedConnection);  // once it is closed
   connect(list_, &PartsList::VisibilityChanged, this, [this](const QString& part, bool is_visible) {
     looks_[part].is_visible = is_visible;
     ShowParts();
@@ -138,9 +161,8 @@ void LayoutPage::FollowPanels() {
     ShowLayout();
   });
   connect(rules_, &RulePanel::SpacingAsked, this, [this] {
-    AskForSpacing(control::ProposeSpacing(layout(), core::PosesAt(layout(), layout().InitialSpacings()),
-                                          chosen_[0].toStdString(), chosen_[1].toStdString()),
-                  true);
+    AskForSpacing(
+        control::ProposeSpacing(layout(), Poses(), chosen_[0].toStdString(), chosen_[1].toStdString()), true);
   });
   connect(rules_, &RulePanel::PairAsked, this, [this] {
     AskForPair(control::ProposePairRule(layout(), chosen_[0].toStdString(), chosen_[1].toStdString()));
@@ -156,6 +178,21 @@ void LayoutPage::FollowPanels() {
   connect(rules_, &RulePanel::PairRemovalAsked, this, [this](std::size_t i) {
     Change(tr("Remove pair rule"), [i](cad_import::LayoutText& text) { text.Remove("pair", i); });
   });
+}
+
+void LayoutPage::FollowPlacing() {
+  connect(placing_, &PlacingSteps::Changed, this, [this] { view_->SetAdvice(placing_->Advice()); });
+  connect(placing_, &PlacingSteps::Failed, this, &LayoutPage::Failed);
+  connect(placing_, &PlacingSteps::Placed, this, &LayoutPage::PlacePart);
+  connect(view_, &PartsView::PointPicked, this,
+          [this](const control::Pick& pick) { placing_->Take(layout(), Poses(), pick); });
+  connect(view_, &PartsView::Dragged, this, [this](int part, const core::RigidTransform& pose) {
+    PlacePart(QString::fromStdString(layout().parts[static_cast<std::size_t>(part)].name), pose);
+  });
+}
+
+std::vector<core::RigidTransform> LayoutPage::Poses() const {
+  return core::PosesAt(layout(), layout().InitialSpacings());
 }
 
 void LayoutPage::Choose(const QStringList& parts) {
@@ -180,7 +217,7 @@ void LayoutPage::ShowLayout() {
 }
 
 void LayoutPage::ShowParts() {
-  const std::vector<core::RigidTransform> poses = core::PosesAt(layout(), layout().InitialSpacings());
+  const std::vector<core::RigidTransform> poses = Poses();
   std::vector<ShownPart> parts;
   for (core::PartIndex i = 0; i < layout().parts.size(); ++i) {
     const core::Part& part = layout().parts[i];
@@ -188,7 +225,7 @@ void LayoutPage::ShowParts() {
     const PartLook look = LookOf(name);
     parts.push_back({name, part.mesh, poses[i], ColorVector(look.color.isValid() ? look.color : PartColor(i)),
                      static_cast<float>(look.opacity), look.is_visible,
-                     static_cast<int>(chosen_.indexOf(name)) + 1});
+                     static_cast<int>(chosen_.indexOf(name)) + 1, FreeAxes(layout(), i)});
   }
   std::vector<ShownGap> gaps;
   for (const core::Spacing& spacing : layout().spacings) {
@@ -233,6 +270,32 @@ void LayoutPage::TurnPart(const QString& part, int axis, double rotation_deg) {
       "turn " + part);
 }
 
+void LayoutPage::PlacePart(const QString& part, const core::RigidTransform& world_from_part) {
+  core::Part placed;
+  placed.file = "placed";  // FieldsOf asks for one
+  placed.world_from_part = world_from_part;
+  control::PartEdit edit;
+  edit.name = part.toStdString();
+  edit.position_mm = Rounded(world_from_part.translation_mm);
+  edit.rotation_rpy_deg = Rounded(RollPitchYawDegOf(placed));
+  Change(tr("Place %1").arg(part), [edit](cad_import::LayoutText& text) { control::MovePart(text, edit); });
+}
+
+void LayoutPage::RenamePart(const QString& part, const QString& to) {
+  const PartLooks looks = looks_;
+  const QStringList chosen = chosen_;
+  if (const auto look = looks_.extract(part)) looks_[to] = look.mapped();
+  std::ranges::replace(chosen_, part, to);
+  const QString fault = desk_->Apply(
+      tr("Rename %1").arg(part), [from = part.toStdString(), to = to.toStdString()](
+                                     cad_import::LayoutText& text) { control::RenamePart(text, from, to); });
+  if (fault.isEmpty()) return;
+  looks_ = looks;
+  chosen_ = chosen;
+  emit Failed(fault);
+  ShowLayout();
+}
+
 void LayoutPage::RemovePart(const QString& part) {
   Change(tr("Remove %1").arg(part),
          [name = part.toStdString()](cad_import::LayoutText& text) { control::RemoveWithUsers(text, name); });
@@ -256,6 +319,11 @@ QString LayoutPage::CadFileIn(const QMimeData* data) {
   return cad_import::FindFormat(file.toStdString()) ? file : QString();
 }
 
+void LayoutPage::showEvent(QShowEvent* event) {
+  QWidget::showEvent(event);
+  view_->setFocus();
+}
+
 // The window's own shortcuts, of trials, would take the keys otherwise.
 bool LayoutPage::event(QEvent* event) {
   if (event->type() == QEvent::ShortcutOverride) {
@@ -269,11 +337,11 @@ bool LayoutPage::event(QEvent* event) {
 }
 
 void LayoutPage::keyPressEvent(QKeyEvent* event) {
+  if (event->key() == Qt::Key_Escape && placing_->placing() != Placing::kNone) return placing_->End();
   const auto found =
       std::ranges::find_if(keys_, [&](const KeyAction& one) { return event->matches(one.key); });
-  if (found == keys_.end()) return QWidget::keyPressEvent(event);
-  found->action->trigger();
-  event->accept();
+  event->accept();  // whatever it is: the window's keys move the gaps of a trial that runs
+  if (found != keys_.end()) found->action->trigger();
 }
 
 }  // namespace elbowroom::console

@@ -19,6 +19,7 @@
 #include "app/console/layouts/part_panel.h"
 #include "app/console/layouts/parts_list.h"
 #include "app/console/layouts/parts_view.h"
+#include "app/console/layouts/placing_steps.h"
 #include "app/console/layouts/rule_panel.h"
 
 namespace elbowroom::console {
@@ -56,6 +57,7 @@ class LayoutPage : public QWidget {
  protected:
   bool event(QEvent* event) override;
   void keyPressEvent(QKeyEvent* event) override;
+  void showEvent(QShowEvent* event) override;
 
  private:
   struct KeyAction {
@@ -71,17 +73,21 @@ class LayoutPage : public QWidget {
   [[nodiscard]] QWidget* SidePanel();
   void FollowDesk();
   void FollowPanels();
+  void FollowPlacing();
   void AskForFile();
   void AskForPart();
   bool Save();
   bool SaveAs();
   void AskForTrial();
+  void AskForMeasuredPoints();
   void ShowLayout();
   void ShowParts();
   void ShowState();
   void Change(const QString& name, const control::LayoutDocument::Change& change, const QString& key = {});
   void MovePart(const QString& part, int axis, double position_mm);
   void TurnPart(const QString& part, int axis, double rotation_deg);
+  void PlacePart(const QString& part, const core::RigidTransform& world_from_part);
+  void RenamePart(const QString& part, const QString& to);
   void RemovePart(const QString& part);
   void Isolate(const QString& part);
   void AskForSpacing(const core::Spacing& spacing, bool is_new);
@@ -89,8 +95,11 @@ class LayoutPage : public QWidget {
   [[nodiscard]] PartLook LookOf(const QString& part) const;
   [[nodiscard]] const core::Layout& layout() const { return desk_->document().layout(); }
 
+  [[nodiscard]] std::vector<core::RigidTransform> Poses() const;
+
   LayoutDesk* desk_;  // this and all below are owned by Qt as children
   QMenu* menu_;
+  PlacingSteps* placing_;
   PartsView* view_ = nullptr;
   PartsList* list_ = nullptr;
   PartPanel* part_ = nullptr;

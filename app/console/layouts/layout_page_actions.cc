@@ -8,6 +8,7 @@
 
 #include "app/console/layouts/import_dialog.h"
 #include "app/console/layouts/layout_page.h"
+#include "app/console/layouts/measured_points.h"
 #include "app/console/layouts/rule_dialogs.h"
 #include "app/console/layouts/trial_dialog.h"
 #include "app/control/layout_editing/layout_edit.h"
@@ -63,6 +64,16 @@ void LayoutPage::AddActions() {
   AddAction(
       "layout_redo", tr("&Redo"), tr("Makes it again"), [this] { desk_->Redo(); }, QKeySequence::Redo);
   menu_->addSeparator();
+  AddAction("layout_face_to_face", tr("&Face to face"),
+            tr("Lays a face of one part on a face of another: click on both, first on what moves"),
+            [this] { placing_->Begin(Placing::kFaceToFace); });
+  AddAction("layout_hole_to_hole", tr("&Hole to hole"),
+            tr("Brings the axes of two holes or pins onto one line: click on both, first on what moves"),
+            [this] { placing_->Begin(Placing::kHoleToHole); });
+  AddAction("layout_measured", tr("&Measured points …"),
+            tr("Places the chosen part by three or more points that were measured on the real one"),
+            [this] { AskForMeasuredPoints(); });
+  menu_->addSeparator();
   auto* views = menu_->addMenu(tr("&View from"));
   constexpr double kQuarter = 0.5 * std::numbers::pi;
   const auto look = [this](double azimuth, double elevation) {
@@ -83,7 +94,7 @@ QWidget* LayoutPage::ButtonRow() {
   line->setContentsMargins(0, 0, 0, 0);
   line->setSpacing(2);
   for (const char* name : {"layout_new", "layout_open", "layout_save", "layout_import", "layout_undo",
-                           "layout_redo", "layout_trial"}) {
+                           "layout_redo", "layout_face_to_face", "layout_hole_to_hole", "layout_trial"}) {
     auto* button = new QToolButton;
     button->setDefaultAction(findChild<QAction*>(name));
     button->setObjectName(QString(name) + "_button");
@@ -114,6 +125,9 @@ void LayoutPage::ShowState() {
     action(name)->setIconText(name == std::string_view("layout_undo") ? tr("Undo") : tr("Redo"));
   action("layout_save")->setEnabled(document.is_changed());
   action("layout_trial")->setEnabled(!document.layout().parts.empty());
+  action("layout_measured")->setEnabled(!chosen_.isEmpty());
+  for (const char* name : {"layout_face_to_face", "layout_hole_to_hole"})
+    action(name)->setEnabled(document.layout().parts.size() > 1);
   const QString name =
       document.has_file() ? QString::fromStdString(document.file().filename().string()) : tr("not saved yet");
   title_->setText(document.is_changed() ? tr("%1 – changed").arg(name) : name);
@@ -202,6 +216,21 @@ void LayoutPage::AskForTrial() {
   dialog->setAttribute(Qt::WA_DeleteOnClose);
   connect(dialog, &TrialDialog::Written, this, &LayoutPage::TrialAsked);
   dialog->open();
+}
+
+// Beside the view, which takes the clicks.
+void LayoutPage::AskForMeasuredPoints() {
+  auto* dialog = new MeasuredPoints(chosen_.front(), this);
+  dialog->setAttribute(Qt::WA_DeleteOnClose);
+  connect(placing_, &PlacingSteps::PointTaken, dialog, [this, dialog](const control::Pick& pick) {
+    const auto part = layout().FindPart(dialog->part().toStdString());
+    if (part != pick.part) return emit Failed(tr("That isn't %1: click on that part").arg(dialog->part()));
+    dialog->Add(Poses()[*part].Inverse() * pick.point_in_world, pick.point_in_world);
+  });
+  connect(dialog, &MeasuredPoints::PlaceAsked, this, &LayoutPage::PlacePart);
+  connect(dialog, &QDialog::finished, placing_, &PlacingSteps::End);
+  placing_->Begin(Placing::kMeasuredPoints);
+  dialog->show();
 }
 
 void LayoutPage::AskForSpacing(const core::Spacing& spacing, bool is_new) {

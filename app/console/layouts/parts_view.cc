@@ -1,8 +1,5 @@
 #include "app/console/layouts/parts_view.h"
 
-#include <QApplication>
-#include <QMouseEvent>
-#include <QWheelEvent>
 #include <algorithm>
 #include <chrono>
 #include <utility>
@@ -16,7 +13,6 @@ namespace {
 constexpr QSize kLargestBySoftwarePx(1280, 800);
 constexpr QSize kLargestByCardPx(3840, 2400);
 constexpr std::chrono::milliseconds kRestsAfter(400);  // then the scene is drawn in full
-constexpr double kNotchEighths = 120.0;                // of a wheel, in Qt's eighths of a degree
 constexpr float kChosenShare = 0.55F;                  // of the colour of what is chosen
 constexpr double kLowestOnTableMm = -1.0;              // a table is drawn under parts that stand on it
 
@@ -31,14 +27,22 @@ Eigen::Vector3f Mixed(const Eigen::Vector3f& color, const QColor& with, float sh
   return (1.0F - share) * color + share * other;
 }
 
+std::optional<QPointF> PositionIn(const recon::SceneView& view, const Eigen::Vector3d& x_in_world) {
+  const auto pixel = view.Project(x_in_world);
+  if (!pixel) return std::nullopt;
+  return QPointF(pixel->x() + 0.5, pixel->y() + 0.5);  // the pixel's centre
+}
+
 }  // namespace
 
 PartsView::PartsView(QWidget* parent)
     : QWidget(parent),
       worker_(
-          [this](const recon::Image& image, const control::RenderRequest& /*request*/) {
+          [this](const recon::Image& image, const control::RenderRequest& request) {
             bridge_.PostLatest(Bridge::Stream::kPicture,
-                               [this, picture = PictureFrom(image)] { ShowPicture(picture); });
+                               [this, picture = PictureFrom(image), camera = request.camera] {
+                                 ShowPicture(picture, camera);
+                               });
           },
           [this](const std::string& line) {
             bridge_.PostLatest(Bridge::Stream::kPicture, [this, text = QString::fromStdString(line)] {
@@ -47,6 +51,7 @@ PartsView::PartsView(QWidget* parent)
             });
           }) {
   setMinimumSize(320, 240);
+  setMouseTracking(true);
   setFocusPolicy(Qt::StrongFocus);
   setAttribute(Qt::WA_OpaquePaintEvent);
   rest_.setSingleShot(true);
@@ -63,8 +68,14 @@ void PartsView::SetEmptyText(const QString& text) {
   update();
 }
 
+void PartsView::SetAdvice(const QString& advice) {
+  advice_ = advice;
+  update();
+}
+
 void PartsView::Show(std::vector<ShownPart> parts, std::vector<ShownGap> gaps) {
   const bool was_empty = parts_.empty();
+  drag_.reset();  // of parts that are replaced
   parts_ = std::move(parts);
   gaps_ = std::move(gaps);
   bounds_in_world_.setEmpty();
@@ -169,8 +180,13 @@ void PartsView::Submit(const PictureFineness& fineness) {
   drawn_with_ = fineness;
   is_outdated_ = false;
   drawing_.start();
-  worker_.Submit(
-      {nullptr, *camera_, size.width(), size.height(), fineness.hull, fineness.is_smooth, {}, scene_});
+  control::RenderRequest request;
+  request.camera = *camera_;
+  request.width_px = size.width();
+  request.height_px = size.height();
+  request.is_smooth = fineness.is_smooth;
+  request.scene = scene_;
+  worker_.Submit(std::move(request));
 }
 
 QSize PartsView::LargestPicture() const {
@@ -179,13 +195,14 @@ QSize PartsView::LargestPicture() const {
   return pixels.boundedTo(pixels.scaled(most, Qt::KeepAspectRatio)).expandedTo(QSize(64, 64));
 }
 
-void PartsView::ShowPicture(const QImage& picture) {
+void PartsView::ShowPicture(const QImage& picture, const recon::OrbitCamera& camera) {
   const double drawing_ms = 1e-6 * static_cast<double>(drawing_.nsecsElapsed());
   drawing_.invalidate();
   if (!scene_) return;
   last_error_.clear();
   if (drawn_with_ == pace_.fineness()) pace_.Add(drawing_ms);
   picture_ = picture;
+  picture_camera_ = camera;
   update();
   if (is_outdated_) {
     Submit(pace_.fineness());
@@ -197,11 +214,16 @@ void PartsView::ShowPicture(const QImage& picture) {
 
 recon::SceneView PartsView::WidgetView() const { return recon::ViewFrom(*camera_, width(), height()); }
 
+recon::SceneView PartsView::PictureView() const {
+  return recon::ViewFrom(picture_camera_.value_or(*camera_), width(), height());
+}
+
 std::optional<QPointF> PartsView::PositionOf(const Eigen::Vector3d& x_in_world) const {
-  if (!camera_) return std::nullopt;
-  const auto pixel = WidgetView().Project(x_in_world);
-  if (!pixel) return std::nullopt;
-  return QPointF(pixel->x() + 0.5, pixel->y() + 0.5);  // the pixel's centre
+  return camera_ ? PositionIn(WidgetView(), x_in_world) : std::nullopt;
+}
+
+std::optional<QPointF> PartsView::PaintedAt(const Eigen::Vector3d& x_in_world) const {
+  return PositionIn(PictureView(), x_in_world);
 }
 
 std::optional<control::Pick> PartsView::PickAt(const QPointF& position) const {
@@ -212,50 +234,9 @@ std::optional<control::Pick> PartsView::PickAt(const QPointF& position) const {
     pickable.push_back(
         {part.is_visible && tree != trees_.end() ? tree->second : nullptr, part.world_from_part});
   }
-  const recon::SceneView view = WidgetView();
-  return control::PickPart(pickable, control::RayThrough(view, {position.x() - 0.5, position.y() - 0.5}),
-                           view.near_mm);
+  return control::PickPart(pickable, RayAt(position), WidgetView().near_mm);
 }
 
 void PartsView::resizeEvent(QResizeEvent* /*event*/) { AskForPicture(); }
-
-void PartsView::mousePressEvent(QMouseEvent* event) { last_mouse_px_ = pressed_px_ = event->position(); }
-
-void PartsView::mouseMoveEvent(QMouseEvent* event) {
-  const QPointF moved = event->position() - std::exchange(last_mouse_px_, event->position());
-  if (!camera_) return;
-  const Eigen::Vector2d drag_px(moved.x(), moved.y());
-  if (event->buttons() & Qt::LeftButton) {
-    Turn(recon::Orbited(*camera_, drag_px, height()));
-  } else if (event->buttons() & (Qt::RightButton | Qt::MiddleButton)) {
-    Turn(recon::Panned(*camera_, drag_px, height()));
-  }
-}
-
-void PartsView::mouseReleaseEvent(QMouseEvent* event) {
-  const bool is_click =
-      (event->position() - pressed_px_).manhattanLength() < QApplication::startDragDistance();
-  if (event->button() != Qt::LeftButton || !is_click) return;
-  const auto pick = PickAt(event->position());
-  emit Picked(pick ? static_cast<int>(pick->part) : -1, event->modifiers().testFlag(Qt::ControlModifier));
-}
-
-void PartsView::mouseDoubleClickEvent(QMouseEvent* event) {
-  last_mouse_px_ = pressed_px_ = event->position();
-  Fit();
-}
-
-void PartsView::wheelEvent(QWheelEvent* event) {
-  if (camera_) Turn(recon::Zoomed(*camera_, event->angleDelta().y() / kNotchEighths));
-  event->accept();
-}
-
-void PartsView::keyPressEvent(QKeyEvent* event) {
-  if (event->key() == Qt::Key_F && event->modifiers() == Qt::NoModifier) {
-    Fit();
-  } else {
-    QWidget::keyPressEvent(event);
-  }
-}
 
 }  // namespace elbowroom::console

@@ -3,14 +3,20 @@
 
 #include <gtest/gtest.h>
 
+#include <QApplication>
 #include <QDoubleSpinBox>
 #include <QListWidget>
 #include <QMenu>
+#include <QMouseEvent>
 #include <QRadioButton>
 #include <QSignalSpy>
+#include <QTableWidget>
 #include <QToolButton>
+#include <array>
+#include <cmath>
 
 #include "app/console/layouts/import_dialog.h"
+#include "app/console/layouts/measured_points.h"
 #include "app/console/layouts/rule_dialogs.h"
 #include "app/control/layout_editing/autosave.h"
 #include "cad_import/layout/layout_file.h"
@@ -119,7 +125,7 @@ TEST_F(LayoutPageTest, ATickTakesTheTicksAboveAndBelowAway) {
 
 TEST_F(LayoutPageTest, AFileWithoutAUnitAsksForIt) {
   WriteBox(folder_ / "eight.stl", {8.0, 4.0, 2.0});
-  ImportDialog* dialog = OpenImport(folder_ / "eight.stl");
+  OpenImport(folder_ / "eight.stl");
   EXPECT_TRUE(Find<QGroupBox>("import_units")->isVisible());
   auto* inch = Find<QRadioButton>("import_unit:in");
   EXPECT_TRUE(inch->isChecked());  // the likely one
@@ -134,7 +140,7 @@ TEST_F(LayoutPageTest, AFileWithoutAUnitAsksForIt) {
 
 TEST_F(LayoutPageTest, AFileThatCannotBeReadIsOneLineInTheDialog) {
   WriteText(folder_ / "bad.stl", "nonsense");
-  ImportDialog* dialog = OpenImport(folder_ / "bad.stl");
+  OpenImport(folder_ / "bad.stl");
   EXPECT_TRUE(Find<QLabel>("import_headline")->text().contains("bad.stl"));
   EXPECT_FALSE(Find<QPushButton>("import_take")->isEnabled());
   Click(Find<QPushButton>("import_cancel"));
@@ -186,7 +192,7 @@ TEST_F(LayoutPageTest, SpacingAndPairRuleOfTwoChosenPartsAreMadeChangedAndRemove
   TypeInto(spacing->findChild<QDoubleSpinBox*>("spacing_max"), "300");
   Click(spacing->findChild<QPushButton*>("rule_ok"));
   ASSERT_EQ(layout().spacings.size(), 1U);
-  EXPECT_DOUBLE_EQ(HeightOf("lid"), 200.0);
+  EXPECT_NEAR(HeightOf("lid"), 200.0, 1e-3);  // a gap is proposed to a micrometre
   EXPECT_FALSE(Find<QDoubleSpinBox>("part_position:z")->isEnabled() && page_->chosen()[0] == "lid");
 
   Click(Find<QPushButton>("add_pair"));
@@ -269,6 +275,26 @@ TEST_F(LayoutPageTest, ChangesAreKeptBesideTheFileAfterAWhile) {
   EXPECT_EQ(ReadText(file_), kLayout);
 }
 
+TEST_F(LayoutPageTest, APartIsRenamedInTheList) {
+  OpenLayout();
+  page_->Choose({"lid"});
+  auto* list = Find<QTreeWidget>("parts");
+  list->topLevelItem(1)->setText(0, "cover");  // what the line edit does when it is closed
+  ASSERT_TRUE(WaitUntil([&] { return layout().FindPart("cover").has_value(); })) << fault_.toStdString();
+  EXPECT_EQ(page_->chosen(), QStringList{"cover"});
+  list->topLevelItem(1)->setText(0, "box");
+  ASSERT_TRUE(WaitUntil([&] { return !fault_.isEmpty(); }));
+  EXPECT_EQ(list->topLevelItem(1)->text(0), "cover");
+}
+
+TEST_F(LayoutPageTest, AnImportThatIsCancelledTakesNothing) {
+  page_->Import(kAssembly);
+  Click(Find<QPushButton>("import_cancel"));
+  EXPECT_TRUE(WaitUntil([&] { return page_->findChild<ImportDialog*>("import_dialog") == nullptr; }));
+  EXPECT_TRUE(layout().parts.empty());
+  EXPECT_TRUE(fault_.isEmpty()) << fault_.toStdString();
+}
+
 TEST_F(LayoutPageTest, IsolateHidesTheOthersAndShowsThemAgain) {
   OpenLayout();
   page_->Choose({"lid"});
@@ -278,6 +304,120 @@ TEST_F(LayoutPageTest, IsolateHidesTheOthersAndShowsThemAgain) {
   EXPECT_EQ(list->topLevelItem(1)->checkState(0), Qt::Checked);
   Click(Find<QToolButton>("part_isolate"));
   EXPECT_EQ(list->topLevelItem(0)->checkState(0), Qt::Checked);
+}
+
+TEST_F(LayoutPageTest, AHandleMovesThePartInWholeMillimetresAndAsOneStep) {
+  OpenLayout();
+  page_->Choose({"lid"});
+  const auto gizmo = page_->view().Gizmo();
+  ASSERT_TRUE(gizmo);
+  const QPoint from = gizmo->MiddleOf({false, 0}).value().toPoint();
+  ASSERT_EQ(gizmo->HandleAt(from), (GizmoHandle{false, 0}));
+  PartsView* view = &page_->view();
+  QTest::mousePress(view, Qt::LeftButton, {}, from);
+  for (const int by : {10, 25, 40}) {
+    QMouseEvent move(QEvent::MouseMove, from + QPoint(by, 0), view->mapToGlobal(from + QPoint(by, 0)),
+                     Qt::NoButton, Qt::LeftButton, Qt::ShiftModifier);
+    QApplication::sendEvent(view, &move);
+  }
+  QTest::mouseRelease(view, Qt::LeftButton, Qt::ShiftModifier, from + QPoint(40, 0));
+  const Eigen::Vector3d place = layout().parts[1].world_from_part.translation_mm;
+  EXPECT_GT(std::abs(place.x()), 5.0);
+  EXPECT_DOUBLE_EQ(place.x(), std::round(place.x()));
+  EXPECT_DOUBLE_EQ(place.y(), 0.0);
+  EXPECT_DOUBLE_EQ(place.z(), 200.0);
+  page_->desk().Undo();
+  EXPECT_EQ(page_->desk().document().text().text(), kLayout);
+}
+
+TEST_F(LayoutPageTest, ARingTurnsThePartAndEscapeEndsTheDragWhereItBegan) {
+  OpenLayout();
+  page_->Choose({"lid"});
+  const QPoint from = page_->view().Gizmo().value().MiddleOf({true, 2}).value().toPoint();
+  PartsView* view = &page_->view();
+  const auto drag = [&] {
+    QTest::mousePress(view, Qt::LeftButton, {}, from);
+    QMouseEvent move(QEvent::MouseMove, from + QPoint(30, 12), view->mapToGlobal(from + QPoint(30, 12)),
+                     Qt::NoButton, Qt::LeftButton, Qt::ShiftModifier);
+    QApplication::sendEvent(view, &move);
+  };
+  drag();
+  QTest::keyClick(view, Qt::Key_Escape);
+  QTest::mouseRelease(view, Qt::LeftButton, {}, from);
+  EXPECT_EQ(page_->desk().document().text().text(), kLayout);
+  page_->Choose({"lid"});
+  drag();
+  QTest::mouseRelease(view, Qt::LeftButton, Qt::ShiftModifier, from + QPoint(30, 12));
+  const double yaw_deg = RollPitchYawDegOf(layout().parts[1]).z();
+  EXPECT_GT(std::abs(yaw_deg), 1.0);
+  EXPECT_NEAR(yaw_deg, 5.0 * std::round(yaw_deg / 5.0), 1e-6);
+}
+
+TEST_F(LayoutPageTest, AFaceIsLaidOnAFaceByTwoClicks) {
+  OpenLayout();
+  ASSERT_TRUE(WaitUntil([&] { return page_->view().CanPick(); }));
+  page_->findChild<QAction*>("layout_face_to_face")->trigger();
+  const auto click = [&](std::size_t part, const Eigen::Vector3d& x_in_part) {
+    const QPointF at = page_->view().PositionOf(layout().parts[part].world_from_part * x_in_part).value();
+    QTest::mouseClick(&page_->view(), Qt::LeftButton, {}, at.toPoint());
+  };
+  click(1, {50.0, 0.0, 5.0});  // the lid's face towards -y
+  click(1, {50.0, 0.0, 5.0});  // itself: said, and asked again
+  EXPECT_TRUE(fault_.contains("lid")) << fault_.toStdString();
+  click(0, {100.0, 40.0, 30.0});  // the box's face towards +x
+  const core::RigidTransform& pose = layout().parts[1].world_from_part;
+  EXPECT_LT((pose.rotation * -Eigen::Vector3d::UnitY() + Eigen::Vector3d::UnitX()).norm(), 1e-7);
+  EXPECT_NEAR((pose * Eigen::Vector3d(50.0, 0.0, 5.0)).x(), 100.0, 1e-4);
+  EXPECT_EQ(page_->desk().document().UndoName(), "Place lid");
+}
+
+TEST_F(LayoutPageTest, AHoleIsBroughtToAnotherByTwoClicks) {
+  constexpr double kAround = 6.283185307179586;
+  cad_import::WriteMeshFile(test_support::Wall(30.0, 60.0, kAround, 32, false), folder_ / "box.glb");
+  core::RigidTransform lying = core::FromPositionAndRollPitchYaw({0.0, 0.0, 0.0}, {0.0, 90.0, 20.0});
+  cad_import::WriteMeshFile(core::Transformed(test_support::Wall(20.0, 90.0, kAround, 32, false), lying),
+                            folder_ / "lid.glb");
+  OpenLayout();
+  ASSERT_TRUE(WaitUntil([&] { return page_->view().CanPick(); }));
+  page_->findChild<QAction*>("layout_hole_to_hole")->trigger();
+  for (const char* part : {"lid", "box"}) QTest::mouseClick(&page_->view(), Qt::LeftButton, {}, InView(part));
+  EXPECT_EQ(page_->desk().document().UndoName(), "Place lid") << fault_.toStdString();
+  const core::RigidTransform& pose = layout().parts[1].world_from_part;
+  EXPECT_LT((pose.rotation * lying.rotation.col(2)).cross(Eigen::Vector3d::UnitZ()).norm(), 1e-5);
+  const Eigen::Vector3d on_axis = pose * (lying * Eigen::Vector3d(0.0, 0.0, 45.0));
+  EXPECT_LT(on_axis.head<2>().norm(), 1e-3);  // of files in single precision
+}
+
+TEST_F(LayoutPageTest, MeasuredPointsPlaceThePartAndSayHowFarTheyAreOff) {
+  OpenLayout();
+  ASSERT_TRUE(WaitUntil([&] { return page_->view().CanPick(); }));
+  page_->Choose({"lid"});
+  page_->findChild<QAction*>("layout_measured")->trigger();
+  auto* dialog = Find<MeasuredPoints>("measured_points");
+  auto* table = dialog->findChild<QTableWidget*>("measured_table");
+  const std::array<Eigen::Vector3d, 4> clicked = {
+      {{20.0, 10.0, 10.0}, {80.0, 10.0, 10.0}, {50.0, 70.0, 10.0}, {20.0, 60.0, 10.0}}};
+  const core::RigidTransform real = core::FromPositionAndRollPitchYaw({300.0, -40.0, 25.0}, {0.0, 0.0, 30.0});
+  for (const Eigen::Vector3d& x : clicked) {
+    const Eigen::Vector3d x_in_world = layout().parts[1].world_from_part * x;
+    QTest::mouseClick(&page_->view(), Qt::LeftButton, {},
+                      page_->view().PositionOf(x_in_world).value().toPoint());
+  }
+  ASSERT_EQ(table->rowCount(), 4);
+  // A click is in the middle of a pixel: what it hit is what was measured.
+  const core::RigidTransform before = layout().parts[1].world_from_part;
+  for (int row = 0; row < 4; ++row) {
+    Eigen::Vector3d x;
+    for (int i = 0; i < 3; ++i) x[i] = table->item(row, 1 + i)->text().toDouble();
+    const Eigen::Vector3d measured = real * (before.Inverse() * x);
+    for (int i = 0; i < 3; ++i) table->item(row, 1 + i)->setText(QString::number(measured[i], 'f', 6));
+  }
+  ASSERT_TRUE(dialog->fit());
+  EXPECT_LT(dialog->fit()->largest_mm, 0.02);  // the numbers are shown to a hundredth
+  Click(dialog->findChild<QPushButton*>("measured_place"));
+  EXPECT_LT((layout().parts[1].world_from_part.translation_mm - real.translation_mm).norm(), 0.1);
+  EXPECT_NEAR(RollPitchYawDegOf(layout().parts[1]).z(), 30.0, 0.05);
+  dialog->close();
 }
 
 TEST_F(LayoutPageTest, DrawsThePartsAndTheGap) {

@@ -5,7 +5,6 @@
 #include <QFileDialog>
 #include <QLineEdit>
 #include <QStyle>
-#include <QStyleOptionViewItem>
 #include <QTimer>
 #include <functional>
 
@@ -34,7 +33,10 @@ void TypeIntoNextFileDialog(const QString& path) {
   OnceModal<QFileDialog>([path](QFileDialog* dialog) {
     auto* line = dialog->findChild<QLineEdit*>("fileNameEdit");
     TypeInto(line, path);
-    QTest::keyClick(line, Qt::Key_Return);
+    // The first Return may go to the list of completions.
+    auto* again = new QTimer(dialog);
+    QObject::connect(again, &QTimer::timeout, dialog, [line] { QTest::keyClick(line, Qt::Key_Return); });
+    again->start(kLookAgainMs);
   });
 }
 
@@ -55,14 +57,10 @@ bool TickItem(QTreeWidget* tree, const QString& text) {
   const QList<QTreeWidgetItem*> found = tree->findItems(text, Qt::MatchExactly | Qt::MatchRecursive, 0);
   if (found.isEmpty()) return false;
   tree->scrollToItem(found.front());
-  QStyleOptionViewItem option;
-  option.initFrom(tree);
-  option.rect = tree->visualItemRect(found.front());
-  option.rect.setLeft(tree->visualRect(tree->indexAt(option.rect.center())).left());
-  option.rect.setRight(tree->columnViewportPosition(0) + tree->columnWidth(0));
-  option.features = QStyleOptionViewItem::HasCheckIndicator;
-  const QRect tick = tree->style()->subElementRect(QStyle::SE_ItemViewItemCheckIndicator, &option, tree);
-  QTest::mouseClick(tree->viewport(), Qt::LeftButton, {}, tick.center());
+  const QRect item = tree->visualItemRect(found.front());  // without what it is indented by
+  const int middle = tree->style()->pixelMetric(QStyle::PM_FocusFrameHMargin, nullptr, tree) + 1 +
+                     tree->style()->pixelMetric(QStyle::PM_IndicatorWidth, nullptr, tree) / 2;
+  QTest::mouseClick(tree->viewport(), Qt::LeftButton, {}, QPoint(item.left() + middle, item.center().y()));
   return true;
 }
 
