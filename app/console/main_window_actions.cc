@@ -90,7 +90,7 @@ void MainWindow::AddMenus() {
   auto* trial = menuBar()->addMenu(tr("&Trial"));
   trial->setToolTipsVisible(true);
   trial->addActions({action("start_demo"), action("stop"), action("report"), action("review_trial")});
-  auto* samples = trial->addMenu(tr("&Samples"));
+  auto* samples = trial->addMenu(tr("Sa&mples"));
   samples->setToolTipsVisible(true);
   samples->addActions({action("sample:payload"), action("sample:curtain"), action("sample:faucet")});
   trial->addSeparator();
