@@ -299,6 +299,7 @@ void MainWindow::OpenTrial(const control::TrialSetup& setup) {
 
 void MainWindow::ShowFrame(const FrameNews& news) {
   view_->ShowFrame(news.result);
+  sights_->ShowFrame(news.result);
   spacings_->ShowApplied(news.result->record.spacing_mm);
   spacings_->ShowPairs(*news.result);
   contacts_->ShowFrame(*news.result);

@@ -61,7 +61,7 @@ std::vector<SyntheticObject> HandsAtFaucet(double time_s) {
   core::Require(time_s >= 0.0, "a motion's time is not negative");
   const double t = std::fmod(time_s, kFaucetSeconds);
   constexpr double kAwayMm = 520.0, kBelowMm = 66.0;  // of the wrists, from the stream
-  constexpr double kHalfApartMm = 36.0, kHeightMm = 205.0, kBowlDeg = 26.0;
+  constexpr double kHalfApartMm = 29.0, kHeightMm = 205.0, kBowlDeg = 26.0;
   const double down_rad = core::RadiansFromDegrees(12.0);  // fingers, so that water stays before them
   const Vector3d fingers(-std::cos(down_rad), 0.0, -std::sin(down_rad));
   if (t < 0.8 || t > kFaucetSeconds - 0.4) return {};
@@ -71,7 +71,7 @@ std::vector<SyntheticObject> HandsAtFaucet(double time_s) {
     const Vector3d wrist(kAwayMm + in * (kBelowMm - kAwayMm), side * kHalfApartMm, kHeightMm);
     // Palms up, the outer edges raised. Both wrist frames have y towards +y: thumb outwards on the right, the
     // little finger inwards on the left.
-    const RigidTransform world_from_wrist{TurnAboutX(side * kBowlDeg) * Axes(fingers, Vector3d::UnitY()),
+    const RigidTransform world_from_wrist{Axes(fingers, Vector3d::UnitY()) * TurnAboutX(-side * kBowlDeg),
                                           wrist};
     hands.push_back(side > 0.0 ? Hand(world_from_wrist, CuppedHand(), Elbow(wrist, side))
                                : LeftHand(world_from_wrist, CuppedHand(), Elbow(wrist, side)));

@@ -33,9 +33,11 @@ QDoubleSpinBox* NumberBox(const QString& name, const QString& tool_tip, double m
 }
 
 template <typename Steps>
-QComboBox* StepBox(const QString& name, const Steps& steps, const QString& unit, int chosen) {
+QComboBox* StepBox(const QString& name, const QString& spoken, const Steps& steps, const QString& unit,
+                   int chosen) {
   auto* box = new QComboBox;
   box->setObjectName(name);
+  box->setAccessibleName(spoken);
   box->setToolTip(QObject::tr("By how much an arrow of a number changes it"));
   for (const double step : steps) box->addItem(QObject::tr("± %1 %2").arg(step).arg(unit), step);
   box->setCurrentIndex(chosen);
@@ -77,8 +79,8 @@ QWidget* PartPanel::NumberRows() {
   auto* grid = new QGridLayout(rows);
   grid->setContentsMargins(0, 0, 0, 0);
   grid->setVerticalSpacing(2);
-  step_mm_ = StepBox("part_step_mm", kStepsMm, tr("mm"), 3);
-  step_deg_ = StepBox("part_step_deg", kStepsDeg, tr("°"), 2);
+  step_mm_ = StepBox("part_step_mm", tr("Step of the position, mm"), kStepsMm, tr("mm"), 3);
+  step_deg_ = StepBox("part_step_deg", tr("Step of the turns, degrees"), kStepsDeg, tr("°"), 2);
   grid->addWidget(step_mm_, 0, 1);
   grid->addWidget(step_deg_, 0, 3);
   const std::array axes = {tr("x"), tr("y"), tr("z")};
@@ -127,6 +129,7 @@ QWidget* PartPanel::LookRow() {
   opacity_->setAccessibleName(tr("Opacity, percent"));
   opacity_->setToolTip(tr("How much of what is behind the part shows through; right: nothing"));
   opacity_->setRange(10, 100);
+  opacity_->setValue(100);
   connect(opacity_, &QSlider::valueChanged, this, [this](int percent) {
     look_.opacity = 0.01 * percent;
     emit LookChanged(name_, look_);

@@ -43,7 +43,7 @@ void PartsView::paintEvent(QPaintEvent* /*event*/) {
   PaintChosen(painter);
   PaintGaps(painter);
   PaintAxes(painter);
-  if (const std::optional<PartGizmo> gizmo = Gizmo()) gizmo->Paint(painter, hot_);
+  if (const std::optional<PartGizmo> gizmo = GizmoIn(PictureView())) gizmo->Paint(painter, hot_);
   if (!advice_.isEmpty()) PaintLabel(painter, QPointF(14, 24), advice_, QColor(20, 60, 120));
   painter.setPen(ThemeColors().picture_text);
   painter.drawText(rect().adjusted(10, 0, -10, -8), Qt::AlignBottom | Qt::AlignLeft,
@@ -58,7 +58,7 @@ void PartsView::PaintChosen(QPainter& painter) const {
     std::array<std::optional<QPointF>, 8> corners;
     for (int i = 0; i < 8; ++i)
       corners.at(static_cast<std::size_t>(i)) =
-          PositionOf(part.world_from_part * box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i)));
+          PaintedAt(part.world_from_part * box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i)));
     const QColor ink = ChoiceColor(part.choice);
     painter.setPen(QPen(ink, 1.5));
     std::optional<QPointF> top;
@@ -77,7 +77,7 @@ void PartsView::PaintChosen(QPainter& painter) const {
 
 void PartsView::PaintGaps(QPainter& painter) const {
   for (const ShownGap& gap : gaps_) {
-    const auto a = PositionOf(gap.from_in_world), b = PositionOf(gap.to_in_world);
+    const auto a = PaintedAt(gap.from_in_world), b = PaintedAt(gap.to_in_world);
     if (!a || !b) continue;
     painter.setPen(QPen(kGapInk, 2.0));
     painter.drawLine(*a, *b);
@@ -95,7 +95,7 @@ void PartsView::PaintGaps(QPainter& painter) const {
 void PartsView::PaintAxes(QPainter& painter) const {
   constexpr double kLengthPx = 26.0;
   const QPointF origin(width() - 48.0, height() - 48.0);
-  const recon::SceneView view = recon::ViewFrom(*camera_, 100, 100);
+  const recon::SceneView view = PictureView();
   const std::array inks = {QColor(196, 52, 44), QColor(46, 125, 50), QColor(33, 93, 176)};
   const std::array names = {QStringLiteral("x"), QStringLiteral("y"), QStringLiteral("z")};
   for (Eigen::Index i = 0; i < 3; ++i) {

@@ -27,14 +27,22 @@ Eigen::Vector3f Mixed(const Eigen::Vector3f& color, const QColor& with, float sh
   return (1.0F - share) * color + share * other;
 }
 
+std::optional<QPointF> PositionIn(const recon::SceneView& view, const Eigen::Vector3d& x_in_world) {
+  const auto pixel = view.Project(x_in_world);
+  if (!pixel) return std::nullopt;
+  return QPointF(pixel->x() + 0.5, pixel->y() + 0.5);  // the pixel's centre
+}
+
 }  // namespace
 
 PartsView::PartsView(QWidget* parent)
     : QWidget(parent),
       worker_(
-          [this](const recon::Image& image, const control::RenderRequest& /*request*/) {
+          [this](const recon::Image& image, const control::RenderRequest& request) {
             bridge_.PostLatest(Bridge::Stream::kPicture,
-                               [this, picture = PictureFrom(image)] { ShowPicture(picture); });
+                               [this, picture = PictureFrom(image), camera = request.camera] {
+                                 ShowPicture(picture, camera);
+                               });
           },
           [this](const std::string& line) {
             bridge_.PostLatest(Bridge::Stream::kPicture, [this, text = QString::fromStdString(line)] {
@@ -172,15 +180,13 @@ void PartsView::Submit(const PictureFineness& fineness) {
   drawn_with_ = fineness;
   is_outdated_ = false;
   drawing_.start();
-  worker_.Submit({nullptr,
-                  *camera_,
-                  size.width(),
-                  size.height(),
-                  fineness.hull,
-                  fineness.is_smooth,
-                  {},
-                  std::nullopt,
-                  scene_});
+  control::RenderRequest request;
+  request.camera = *camera_;
+  request.width_px = size.width();
+  request.height_px = size.height();
+  request.is_smooth = fineness.is_smooth;
+  request.scene = scene_;
+  worker_.Submit(std::move(request));
 }
 
 QSize PartsView::LargestPicture() const {
@@ -189,13 +195,14 @@ QSize PartsView::LargestPicture() const {
   return pixels.boundedTo(pixels.scaled(most, Qt::KeepAspectRatio)).expandedTo(QSize(64, 64));
 }
 
-void PartsView::ShowPicture(const QImage& picture) {
+void PartsView::ShowPicture(const QImage& picture, const recon::OrbitCamera& camera) {
   const double drawing_ms = 1e-6 * static_cast<double>(drawing_.nsecsElapsed());
   drawing_.invalidate();
   if (!scene_) return;
   last_error_.clear();
   if (drawn_with_ == pace_.fineness()) pace_.Add(drawing_ms);
   picture_ = picture;
+  picture_camera_ = camera;
   update();
   if (is_outdated_) {
     Submit(pace_.fineness());
@@ -207,11 +214,16 @@ void PartsView::ShowPicture(const QImage& picture) {
 
 recon::SceneView PartsView::WidgetView() const { return recon::ViewFrom(*camera_, width(), height()); }
 
+recon::SceneView PartsView::PictureView() const {
+  return recon::ViewFrom(picture_camera_.value_or(*camera_), width(), height());
+}
+
 std::optional<QPointF> PartsView::PositionOf(const Eigen::Vector3d& x_in_world) const {
-  if (!camera_) return std::nullopt;
-  const auto pixel = WidgetView().Project(x_in_world);
-  if (!pixel) return std::nullopt;
-  return QPointF(pixel->x() + 0.5, pixel->y() + 0.5);  // the pixel's centre
+  return camera_ ? PositionIn(WidgetView(), x_in_world) : std::nullopt;
+}
+
+std::optional<QPointF> PartsView::PaintedAt(const Eigen::Vector3d& x_in_world) const {
+  return PositionIn(PictureView(), x_in_world);
 }
 
 std::optional<control::Pick> PartsView::PickAt(const QPointF& position) const {

@@ -101,8 +101,12 @@ class PartsView : public QWidget {
   void MakeTrees();
   void AskForPicture();
   void Submit(const PictureFineness& fineness);
-  void ShowPicture(const QImage& picture);
+  void ShowPicture(const QImage& picture, const recon::OrbitCamera& camera);
   [[nodiscard]] recon::SceneView WidgetView() const;
+  // What is painted over the picture belongs where the picture has it, also while a newer one is drawn.
+  [[nodiscard]] recon::SceneView PictureView() const;
+  [[nodiscard]] std::optional<QPointF> PaintedAt(const Eigen::Vector3d& x_in_world) const;
+  [[nodiscard]] std::optional<PartGizmo> GizmoIn(const recon::SceneView& view) const;
   [[nodiscard]] control::PickRay RayAt(const QPointF& position) const;
   [[nodiscard]] std::optional<std::size_t> FirstChosen() const;
   [[nodiscard]] Eigen::Vector3d CenterOf(std::size_t part) const;  // in world
@@ -123,6 +127,7 @@ class PartsView : public QWidget {
   std::map<core::SharedMesh, SharedTree> trees_;
   std::shared_ptr<const recon::gl::Scene> scene_;  // null: there are no parts
   std::optional<recon::OrbitCamera> camera_;
+  std::optional<recon::OrbitCamera> picture_camera_;
   QImage picture_;
   PicturePace pace_;
   PictureFineness drawn_with_;

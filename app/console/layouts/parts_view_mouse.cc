@@ -27,10 +27,12 @@ Eigen::Vector3d PartsView::CenterOf(std::size_t part) const {
   return parts_[part].world_from_part * core::BoundsOf(*parts_[part].mesh).center();
 }
 
-std::optional<PartGizmo> PartsView::Gizmo() const {
+std::optional<PartGizmo> PartsView::Gizmo() const { return camera_ ? GizmoIn(WidgetView()) : std::nullopt; }
+
+std::optional<PartGizmo> PartsView::GizmoIn(const recon::SceneView& view) const {
   const std::optional<std::size_t> chosen = FirstChosen();
-  if (!chosen || !camera_ || !advice_.isEmpty()) return std::nullopt;
-  return PartGizmo(WidgetView(), CenterOf(*chosen), parts_[*chosen].may_move);
+  if (!chosen || !advice_.isEmpty()) return std::nullopt;
+  return PartGizmo(view, CenterOf(*chosen), parts_[*chosen].may_move);
 }
 
 void PartsView::mousePressEvent(QMouseEvent* event) {

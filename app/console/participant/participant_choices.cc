@@ -36,6 +36,7 @@ ParticipantChoices RememberedChoices() {
       Within(settings, "vertical_fov_rad", choices.eyes.vertical_fov_rad, 0.2, 2.4);
   choices.eyes.convergence_mm =
       Within(settings, "convergence_mm", choices.eyes.convergence_mm, 100.0, 10'000.0);
+  choices.camera = static_cast<int>(Within(settings, "camera", choices.camera, 1.0, 64.0));
   choices.display = settings.value("display").toString();
   choices.fills_display = settings.value("fills_display", choices.fills_display).toBool();
   return choices;
@@ -51,6 +52,7 @@ void RememberChoices(const ParticipantChoices& choices) {
   settings.setValue("ipd_mm", choices.eyes.ipd_mm);
   settings.setValue("vertical_fov_rad", choices.eyes.vertical_fov_rad);
   settings.setValue("convergence_mm", choices.eyes.convergence_mm);
+  settings.setValue("camera", choices.camera);
   settings.setValue("display", choices.display);
   settings.setValue("fills_display", choices.fills_display);
 }

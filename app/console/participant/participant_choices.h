@@ -13,6 +13,7 @@ struct ParticipantChoices {
   int port = control::kOpenTrackPort;  // of OpenTrack or FreeD
   QString head_file;                   // HEAD.toml; empty: no registration, the eight-sided cap
   control::EyeOptions eyes;
+  int camera = 1;   // whose picture is shown in the camera's modes; from 1
   QString display;  // a screen's name; empty: the last one there is
   bool fills_display = true;
 };

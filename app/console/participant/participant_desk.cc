@@ -156,7 +156,8 @@ void ParticipantDesk::AskForPictures() {
   if (!is_open()) return;
   const QSize size = view_->PictureSize();
   view_->SetStereo(choices_.eyes.mode == control::ViewMode::kStereo);
-  pictures_->SetLook({choices_.eyes, look_, size.width(), size.height()});
+  pictures_->SetLook({choices_.eyes, look_, static_cast<core::CameraIndex>(choices_.camera - 1), size.width(),
+                      size.height()});
 }
 
 void ParticipantDesk::ShowPicture(const control::ParticipantPicture& picture) {
@@ -164,7 +165,8 @@ void ParticipantDesk::ShowPicture(const control::ParticipantPicture& picture) {
 }
 
 void ParticipantDesk::ShowState() {
-  if (is_open()) view_->ShowTracking(!tracker_ || tracker_->state().is_lost);
+  const bool needs_head = !control::IsOfCamera(choices_.eyes.mode);
+  if (is_open()) view_->ShowTracking(needs_head && (!tracker_ || tracker_->state().is_lost));
   if (tracker_ && since_count_.elapsed() >= kCountEveryMs) {
     const std::int64_t accepted = tracker_->counts().accepted;
     poses_per_s_ = 1000.0 * static_cast<double>(accepted - accepted_before_) /

@@ -58,7 +58,7 @@ ParticipantDialog::ParticipantDialog(const ParticipantChoices& choices, QWidget*
   column->addWidget(tracker);
   column->addWidget(open_);
   ShowOpen(false);
-  FollowSource();
+  FollowChoices();
 }
 
 QDoubleSpinBox* ParticipantDialog::AddNumber(const char* name, double value, double least, double most,
@@ -79,10 +79,21 @@ void ParticipantDialog::AddPicture(const ParticipantChoices& choices, QFormLayou
   mode_->addItem(tr("One picture"), static_cast<int>(ViewMode::kMono));
   mode_->addItem(tr("Two, side by side (stereo)"), static_cast<int>(ViewMode::kStereo));
   mode_->addItem(tr("Mirrored"), static_cast<int>(ViewMode::kMirror));
+  mode_->addItem(tr("A camera's picture, with the parts"), static_cast<int>(ViewMode::kCamera));
+  mode_->addItem(tr("The same, as a mirror"), static_cast<int>(ViewMode::kCameraMirror));
   Name(mode_, "participant_mode", tr("Kind of picture"),
-       tr("One picture, a picture for each eye, or left and right exchanged as in a mirror"));
+       tr("From the head: one picture, one for each eye, or mirrored; or the parts in a camera's live "
+          "picture"));
   Choose(mode_, choices.eyes.mode);
-  connect(mode_, &QComboBox::currentIndexChanged, this, &ParticipantDialog::Changed);
+  connect(mode_, &QComboBox::currentIndexChanged, this, [this] {
+    FollowChoices();
+    emit Changed();
+  });
+  camera_ = new QSpinBox;
+  camera_->setRange(1, 64);
+  camera_->setValue(choices.camera);
+  Name(camera_, "participant_camera", tr("Camera"), tr("Whose picture is shown, in the rig's order, from 1"));
+  connect(camera_, &QSpinBox::valueChanged, this, &ParticipantDialog::Changed);
   display_ = new QComboBox;
   for (const QScreen* screen : QGuiApplication::screens())
     display_->addItem(
@@ -107,6 +118,7 @@ void ParticipantDialog::AddPicture(const ParticipantChoices& choices, QFormLayou
       AddNumber("participant_convergence", choices.eyes.convergence_mm, 100.0, 10'000.0, "mm",
                 tr("Distance of the screen's plane, in mm: things there have no parallax; for stereo"));
   form->addRow(tr("&Kind"), mode_);
+  form->addRow(tr("C&amera"), camera_);
   form->addRow(tr("&Display"), display_);
   form->addRow(QString(), fills_display_);
   form->addRow(tr("&Field of view"), fov_);
@@ -132,7 +144,7 @@ void ParticipantDialog::AddTracker(const ParticipantChoices& choices, QFormLayou
     const auto source = ChosenIn<HeadSource>(source_);
     if (source == HeadSource::kOpenTrack) port_->setValue(control::kOpenTrackPort);
     if (source == HeadSource::kFreeD) port_->setValue(control::kFreeDPort);
-    FollowSource();
+    FollowChoices();
     emit Changed();
   });
   connect(port_, &QSpinBox::editingFinished, this, &ParticipantDialog::Changed);
@@ -161,8 +173,12 @@ void ParticipantDialog::AddTracker(const ParticipantChoices& choices, QFormLayou
   form->addRow(file_label, file);
 }
 
-void ParticipantDialog::FollowSource() {
+void ParticipantDialog::FollowChoices() {
   const auto source = ChosenIn<HeadSource>(source_);
+  const auto mode = ChosenIn<control::ViewMode>(mode_);
+  camera_->setEnabled(control::IsOfCamera(mode));
+  fov_->setEnabled(!control::IsOfCamera(mode));
+  for (QWidget* stereo : {ipd_, convergence_}) stereo->setEnabled(mode == control::ViewMode::kStereo);
   port_->setEnabled(source == HeadSource::kOpenTrack || source == HeadSource::kFreeD);
 }
 
@@ -175,6 +191,7 @@ ParticipantChoices ParticipantDialog::choices() const {
   choices.eyes.ipd_mm = ipd_->value();
   choices.eyes.vertical_fov_rad = core::RadiansFromDegrees(fov_->value());
   choices.eyes.convergence_mm = convergence_->value();
+  choices.camera = camera_->value();
   choices.display = display_->currentData().toString();
   choices.fills_display = fills_display_->isChecked();
   return choices;

@@ -35,9 +35,10 @@ class ParticipantDialog : public QDialog {
   void AddTracker(const ParticipantChoices& choices, QFormLayout* form);
   [[nodiscard]] QDoubleSpinBox* AddNumber(const char* name, double value, double least, double most,
                                           const QString& unit, const QString& tool_tip);
-  void FollowSource();
+  void FollowChoices();
 
   QComboBox* mode_;  // this and all below are owned by Qt as children
+  QSpinBox* camera_;
   QComboBox* display_;
   QCheckBox* fills_display_;
   QDoubleSpinBox* ipd_;

@@ -70,7 +70,9 @@ void ParticipantView::paintEvent(QPaintEvent* /*event*/) {
     return;
   }
   painter.setRenderHint(QPainter::SmoothPixmapTransform);
-  painter.drawImage(rect(), picture_);
+  QRect target(QPoint(), picture_.size().scaled(size(), Qt::KeepAspectRatio));
+  target.moveCenter(rect().center());
+  painter.drawImage(target, picture_);
   if (is_lost_) {
     const int eyes = is_stereo_ ? 2 : 1;
     for (int eye = 0; eye < eyes; ++eye)

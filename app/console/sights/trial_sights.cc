@@ -18,17 +18,20 @@ struct NamedView {
 };
 
 constexpr std::array kViews = {
-    NamedView{StandardView::kFront, QT_TRANSLATE_NOOP("TrialSights", "From the &front"), "Ctrl+1",
-              "view_front"},
-    NamedView{StandardView::kBack, QT_TRANSLATE_NOOP("TrialSights", "From the &back"), "Ctrl+2", "view_back"},
-    NamedView{StandardView::kLeft, QT_TRANSLATE_NOOP("TrialSights", "From the &left"), "Ctrl+3", "view_left"},
-    NamedView{StandardView::kRight, QT_TRANSLATE_NOOP("TrialSights", "From the &right"), "Ctrl+4",
-              "view_right"},
-    NamedView{StandardView::kTop, QT_TRANSLATE_NOOP("TrialSights", "From the &top"), "Ctrl+5", "view_top"},
-    NamedView{StandardView::kBottom, QT_TRANSLATE_NOOP("TrialSights", "From b&elow"), "Ctrl+6",
-              "view_bottom"},
-    NamedView{StandardView::kIsometric, QT_TRANSLATE_NOOP("TrialSights", "&Isometric"), "Ctrl+7",
-              "view_isometric"}};
+    NamedView{StandardView::kFront, QT_TRANSLATE_NOOP("elbowroom::console::TrialSights", "From the &front"),
+              "Alt+1", "view_front"},
+    NamedView{StandardView::kBack, QT_TRANSLATE_NOOP("elbowroom::console::TrialSights", "From the &back"),
+              "Alt+2", "view_back"},
+    NamedView{StandardView::kLeft, QT_TRANSLATE_NOOP("elbowroom::console::TrialSights", "From the &left"),
+              "Alt+3", "view_left"},
+    NamedView{StandardView::kRight, QT_TRANSLATE_NOOP("elbowroom::console::TrialSights", "From the &right"),
+              "Alt+4", "view_right"},
+    NamedView{StandardView::kTop, QT_TRANSLATE_NOOP("elbowroom::console::TrialSights", "From the &top"),
+              "Alt+5", "view_top"},
+    NamedView{StandardView::kBottom, QT_TRANSLATE_NOOP("elbowroom::console::TrialSights", "From b&elow"),
+              "Alt+6", "view_bottom"},
+    NamedView{StandardView::kIsometric, QT_TRANSLATE_NOOP("elbowroom::console::TrialSights", "&Isometric"),
+              "Alt+7", "view_isometric"}};
 
 QToolButton* MenuButton(const QString& text, const QString& tool_tip, const QString& name, QMenu* menu) {
   auto* button = new QToolButton;
@@ -59,11 +62,14 @@ TrialSights::TrialSights(OperatorView* view, QWidget* parent)
       view_(view),
       camera_view_(new CameraView),
       stack_(new QStackedWidget),
-      section_panel_(new SectionPanel) {
+      section_panel_(new SectionPanel),
+      measure_(new MeasureTool(view, this)),
+      advice_(new QLabel) {
   stack_->addWidget(view_);
   stack_->addWidget(camera_view_);
   MakeViewActions();
   MakeSectionAction();
+  FollowMeasure();
   cameras_ = new QMenu(tr("&Camera's view"), this);
   MakeBar();
   connect(camera_view_, &CameraView::Closed, this, &TrialSights::ShowScene);
@@ -114,6 +120,18 @@ void TrialSights::MakeSectionAction() {
   connect(view_, &OperatorView::ShiftDragged, section_panel_, &SectionPanel::Drag);
 }
 
+void TrialSights::FollowMeasure() {
+  advice_->setObjectName("measure_advice");
+  advice_->setAccessibleName(tr("What to click on next"));
+  connect(measure_, &MeasureTool::Advised, this, [this](const QString& line) {
+    if (!line.isEmpty()) ShowScene();
+    advice_->setText(line);
+  });
+  connect(section_panel_, &SectionPanel::Changed, measure_, &MeasureTool::SetCut);
+}
+
+void TrialSights::ShowFrame(const control::SharedFrameResult& result) { measure_->ShowFrame(result); }
+
 void TrialSights::MakeBar() {
   auto* views = new QMenu(this);
   for (QAction* action : standard_) views->addAction(action);
@@ -127,6 +145,12 @@ void TrialSights::MakeBar() {
       MenuButton(tr("Camera"), tr("Look from a camera, or at its picture"), "camera_menu", cameras_));
   bar->addWidget(ButtonOf(parts_, tr("Parts in pictures")));
   bar->addWidget(ButtonOf(section_, tr("Section")));
+  auto* measure = new QMenu(this);
+  for (QAction* action : measure_->actions()) measure->addAction(action);
+  bar->addWidget(MenuButton(tr("Measure"), tr("Lengths, angles, and the distance to the hull"),
+                            "measure_menu", measure));
+  bar->addSpacing(8);
+  bar->addWidget(advice_);
   bar->addStretch(1);
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
@@ -140,6 +164,8 @@ void TrialSights::AddTo(QMenu* menu) {
   for (QAction* action : standard_) menu->addAction(action);
   menu->addAction(parallel_);
   menu->addAction(section_);
+  auto* measure = menu->addMenu(tr("&Measure"));
+  for (QAction* action : measure_->actions()) measure->addAction(action);
   menu->addSeparator();
   menu->addMenu(cameras_);
   menu->addAction(parts_);
@@ -147,6 +173,7 @@ void TrialSights::AddTo(QMenu* menu) {
 
 void TrialSights::Open(const core::Rig& rig) {
   rig_ = rig.cameras;
+  measure_->Clear();
   section_panel_->Open(rig.workspace_mm);
   MakeCameraMenu();
   ShowScene();

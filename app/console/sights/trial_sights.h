@@ -2,6 +2,7 @@
 #pragma once
 
 #include <QAction>
+#include <QLabel>
 #include <QMenu>
 #include <QStackedWidget>
 #include <QToolButton>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "app/console/sights/camera_view.h"
+#include "app/console/sights/measure_tool.h"
 #include "app/console/sights/section_panel.h"
 #include "app/console/view/operator_view.h"
 #include "app/control/tiles/tile_maker.h"
@@ -25,6 +27,7 @@ class TrialSights : public QWidget {
   explicit TrialSights(OperatorView* view, QWidget* parent = nullptr);
 
   void Open(const core::Rig& rig);
+  void ShowFrame(const control::SharedFrameResult& result);
   void ShowTiles(const control::SharedTiles& tiles);
   void SetTileRoom(const control::ThumbnailRoom& room);  // of the strip's pictures
   void ShowCamera(int camera);                           // its picture, large
@@ -33,6 +36,7 @@ class TrialSights : public QWidget {
   // For the window's menu: standard views, parallel projection, parts in the pictures, cameras.
   void AddTo(QMenu* menu);
 
+  [[nodiscard]] const MeasureTool& measure() const { return *measure_; }
   [[nodiscard]] CameraView& camera_view() { return *camera_view_; }
   [[nodiscard]] const control::TileWishes& wishes() const { return wishes_; }
 
@@ -42,6 +46,7 @@ class TrialSights : public QWidget {
  private:
   void MakeViewActions();
   void MakeSectionAction();
+  void FollowMeasure();
   void MakeCameraMenu();
   void MakeBar();
   void TellWishes();
@@ -50,6 +55,8 @@ class TrialSights : public QWidget {
   CameraView* camera_view_;
   QStackedWidget* stack_;
   SectionPanel* section_panel_;
+  MeasureTool* measure_;
+  QLabel* advice_;
   std::vector<QAction*> standard_;
   QAction* parallel_ = nullptr;
   QAction* parts_ = nullptr;

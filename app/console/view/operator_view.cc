@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "app/console/desktop/theme.h"
+#include "app/console/view/dimension_painter.h"
 
 namespace elbowroom::console {
 namespace {
@@ -104,6 +105,11 @@ void OperatorView::SetCut(const control::SectionCut& cut) {
   AskForPicture();
 }
 
+void OperatorView::SetDimensions(std::vector<control::Dimension> dimensions) {
+  dimensions_ = std::move(dimensions);
+  update();
+}
+
 void OperatorView::LookAlong(recon::StandardView view) {
   if (camera_) Turn(recon::Along(*camera_, view));
 }
@@ -164,6 +170,8 @@ void OperatorView::ShowPicture(const QImage& picture, const control::RenderReque
   last_error_.clear();
   if (drawn_with_ == pace_.fineness()) pace_.Add(drawing_ms);
   picture_ = picture;
+  picture_request_ = request;
+  picture_request_.result.reset();
   const qint64 last_frame = std::exchange(picture_frame_, request.result->record.frame);
   const auto& camera_frames = request.result->camera_frames;
   if (camera_frames && picture_frame_ != last_frame) taken_at_ = camera_frames->taken_at;
@@ -187,11 +195,27 @@ void OperatorView::paintEvent(QPaintEvent* /*event*/) {
     return;
   }
   painter.setRenderHint(QPainter::SmoothPixmapTransform);
-  QRect target(QPoint(), picture_.size().scaled(size(), Qt::KeepAspectRatio));
-  target.moveCenter(rect().center());
+  const QRect target = PictureRect();
   painter.drawImage(target, picture_);
+  PaintDimensions(painter, ShownView(), target.topLeft(), dimensions_);
   PaintCaption(painter);
   if (taken_at_) TellAge();
+}
+
+QRect OperatorView::PictureRect() const {
+  QRect target(QPoint(), picture_.size().scaled(size(), Qt::KeepAspectRatio));
+  target.moveCenter(rect().center());
+  return target;
+}
+
+recon::SceneView OperatorView::ShownView() const {
+  const QSize px = PictureRect().size();
+  if (!picture_request_.fixed_view) return recon::ViewFrom(picture_request_.camera, px.width(), px.height());
+  recon::SceneView view = *picture_request_.fixed_view;
+  view.focal_px *= static_cast<double>(px.height()) / view.height_px;
+  view.width_px = px.width();
+  view.height_px = px.height();
+  return view;
 }
 
 // This event's painting has been handed to the screen when the next event comes.
@@ -218,7 +242,15 @@ void OperatorView::showEvent(QShowEvent* /*event*/) { AskForPicture(); }
 
 void OperatorView::resizeEvent(QResizeEvent* /*event*/) { AskForPicture(); }
 
-void OperatorView::mousePressEvent(QMouseEvent* event) { last_mouse_px_ = event->position(); }
+void OperatorView::mousePressEvent(QMouseEvent* event) { last_mouse_px_ = pressed_px_ = event->position(); }
+
+void OperatorView::mouseReleaseEvent(QMouseEvent* event) {
+  constexpr double kStillPx = 3.0;
+  const QPointF moved = event->position() - pressed_px_;
+  if (event->button() != Qt::LeftButton || picture_.isNull() || moved.manhattanLength() > kStillPx) return;
+  const QPointF at = event->position() - QPointF(PictureRect().topLeft()) - QPointF(0.5, 0.5);
+  emit Clicked(ShownView(), {at.x(), at.y()});
+}
 
 void OperatorView::mouseMoveEvent(QMouseEvent* event) {
   const QPointF moved = event->position() - std::exchange(last_mouse_px_, event->position());

@@ -10,11 +10,13 @@
 #include <chrono>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "app/console/view/background_job.h"
 #include "app/console/view/bridge.h"
 #include "app/console/view/picture_pace.h"
 #include "app/control/frame_result.h"
+#include "app/control/measuring/dimension.h"
 #include "app/control/render_worker.h"
 #include "app/control/scene_composer.h"
 #include "core/camera_model.h"
@@ -42,6 +44,7 @@ class OperatorView : public QWidget {
 
   void SetLook(const control::SceneLook& look);  // but for its cut
   void SetCut(const control::SectionCut& cut);
+  void SetDimensions(std::vector<control::Dimension> dimensions);  // written over the picture
   void LookAlong(recon::StandardView view);
   void SetParallel(bool is_parallel);
   void LookFrom(const core::CameraModel& camera);  // until the view is turned, which loses the camera's roll
@@ -54,6 +57,8 @@ class OperatorView : public QWidget {
   // Of live cameras: that picture was painted, so long after the middle of its frame's exposure.
   void PictureSeen(qint64 frame, double age_ms);
   void Failed(const QString& line);
+  // The left button was pressed and let go at one place; `pixel` is one of the shown picture's view.
+  void Clicked(const recon::SceneView& view, const Eigen::Vector2d& pixel);
   // A left drag with Shift, which doesn't turn the view: by so far, mm in world at the target's depth.
   void ShiftDragged(const Eigen::Vector3d& by_in_world_mm);
 
@@ -63,6 +68,7 @@ class OperatorView : public QWidget {
   void resizeEvent(QResizeEvent* event) override;
   void mousePressEvent(QMouseEvent* event) override;
   void mouseMoveEvent(QMouseEvent* event) override;
+  void mouseReleaseEvent(QMouseEvent* event) override;
   void mouseDoubleClickEvent(QMouseEvent* event) override;
   void wheelEvent(QWheelEvent* event) override;
 
@@ -72,6 +78,8 @@ class OperatorView : public QWidget {
   void Submit(const PictureFineness& fineness);
   void ShowPicture(const QImage& picture, const control::RenderRequest& request);
   void PaintCaption(QPainter& painter) const;
+  [[nodiscard]] QRect PictureRect() const;
+  [[nodiscard]] recon::SceneView ShownView() const;  // of the shown picture, in the widget's pixels
   void TellAge();
   [[nodiscard]] QSize LargestPicture() const;
 
@@ -82,6 +90,8 @@ class OperatorView : public QWidget {
   control::SceneLook look_;
   QImage picture_;
   qint64 picture_frame_ = 0;
+  control::RenderRequest picture_request_;  // without its frame
+  std::vector<control::Dimension> dimensions_;
   // When its frame was taken; nothing: of recorded footage, or its age was told.
   std::optional<std::chrono::steady_clock::time_point> taken_at_;
   PicturePace pace_;
@@ -90,7 +100,7 @@ class OperatorView : public QWidget {
   bool is_outdated_ = false;    // whether the picture that is being drawn is
   QTimer rest_;
   QString last_error_;  // told once, until a picture succeeds
-  QPointF last_mouse_px_;
+  QPointF last_mouse_px_, pressed_px_;
   Bridge bridge_;  // before the threads that post to it
   std::unique_ptr<BackgroundJob> fitting_;
   control::RenderWorker worker_;

@@ -9,7 +9,8 @@ namespace {
 
 constexpr double kNearMm = 40.0, kFarMm = 20'000.0;
 constexpr int kSmallestPx = 64;
-constexpr ViewMode kModes[] = {ViewMode::kMono, ViewMode::kStereo, ViewMode::kMirror};
+constexpr ViewMode kModes[] = {ViewMode::kMono, ViewMode::kStereo, ViewMode::kMirror, ViewMode::kCamera,
+                               ViewMode::kCameraMirror};
 
 // The view from a point of the head's x axis, its axes the head's.
 recon::SceneView ViewFromEye(const core::RigidTransform& world_from_head, double eye_x_mm,
@@ -41,6 +42,10 @@ std::string_view ToString(ViewMode mode) {
       return "stereo";
     case ViewMode::kMirror:
       return "mirror";
+    case ViewMode::kCamera:
+      return "camera";
+    case ViewMode::kCameraMirror:
+      return "camera_mirror";
   }
   return "";
 }
@@ -55,6 +60,7 @@ void EyeOptions::Validate() const {
 std::vector<EyeView> EyeViewsOf(const core::RigidTransform& world_from_head, const EyeOptions& options,
                                 int width_px, int height_px) {
   options.Validate();
+  core::Require(!IsOfCamera(options.mode), "the picture is one of the head's");
   core::Require(width_px >= kSmallestPx && height_px >= kSmallestPx, "a picture has 64 x 64 pixels");
   if (options.mode != ViewMode::kStereo)
     return {{ViewFromEye(world_from_head, 0.0, options, width_px, height_px), 0, width_px}};

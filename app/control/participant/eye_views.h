@@ -14,9 +14,15 @@ enum class ViewMode {
   kMono,    // one picture, from between the eyes
   kStereo,  // the left eye's picture beside the right eye's
   kMirror,  // mono with left and right exchanged, as in a mirror, or for a picture thrown on from behind
+  kCamera,  // a rig camera's live picture with the virtual parts in it; the head has no part in it
+  kCameraMirror,  // the same as in a mirror
 };
-[[nodiscard]] std::optional<ViewMode> ParseViewMode(std::string_view text);  // mono, stereo, mirror
+// "mono", "stereo", "mirror", "camera", "camera_mirror".
+[[nodiscard]] std::optional<ViewMode> ParseViewMode(std::string_view text);
 [[nodiscard]] std::string_view ToString(ViewMode mode);
+[[nodiscard]] constexpr bool IsOfCamera(ViewMode mode) {
+  return mode == ViewMode::kCamera || mode == ViewMode::kCameraMirror;
+}
 
 struct EyeOptions {
   ViewMode mode = ViewMode::kMono;
@@ -38,7 +44,7 @@ struct EyeView {
 };
 
 // For a picture of width_px x height_px: one view, or the left eye's, then the right eye's, each half as
-// wide. Throws: PreconditionError: EyeOptions::Validate, a picture smaller than 64 x 64.
+// wide. Throws: PreconditionError: EyeOptions::Validate, a picture smaller than 64 x 64, one of a camera.
 [[nodiscard]] std::vector<EyeView> EyeViewsOf(const core::RigidTransform& world_from_head,
                                               const EyeOptions& options, int width_px, int height_px);
 

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/control/tiles/frame_overlays.h"
 #include "app/control/view_method.h"
 #include "recon/gl/scene/scene_renderer.h"
 
@@ -31,6 +32,20 @@ void Copy(const recon::Image& from, int first_column, int width_px, int to_colum
       std::copy_n(pixel, 3, target);
     }
   }
+}
+
+// What a camera saw; empty: it has no picture.
+recon::Image PictureOf(const FrameResult& result, core::CameraIndex camera) {
+  if (!result.camera_frames || camera >= result.camera_frames->cameras.size()) return {};
+  const cv::Mat& bgr = result.camera_frames->cameras[camera].image_bgr;
+  recon::Image image{bgr.cols, bgr.rows, {}};
+  image.rgb.reserve(3 * bgr.total());
+  for (int y = 0; y < bgr.rows; ++y) {
+    const auto* row = bgr.ptr<std::uint8_t>(y);
+    for (int x = 0; x < bgr.cols; ++x)
+      image.rgb.insert(image.rgb.end(), {row[3 * x + 2], row[3 * x + 1], row[3 * x]});
+  }
+  return image;
 }
 
 }  // namespace
@@ -59,6 +74,17 @@ class ParticipantPictures::Painter {
     return picture;
   }
 
+  // The parts in a camera's live picture, hidden by what is real before them; empty: it has none.
+  recon::Image DrawCamera(const FrameResult& result, const ParticipantLook& look) {
+    recon::Image picture = PictureOf(result, look.camera);
+    if (picture.rgb.empty()) return picture;
+    overlays_.PaintOn(&picture, result, look.camera);
+    if (look.eyes.mode != ViewMode::kCameraMirror) return picture;
+    recon::Image mirrored = picture;
+    Copy(picture, 0, picture.width_px, 0, true, &mirrored);
+    return mirrored;
+  }
+
   // Coarser after three pictures in a row that took too long, finer after thirty that were quick.
   void Adapt(double drawing_ms) {
     const int vote = drawing_ms > kAimMs ? 1 : drawing_ms < kRoomForFinerMs ? -1 : 0;
@@ -75,6 +101,7 @@ class ParticipantPictures::Painter {
  private:
   recon::gl::SceneRenderer renderer_{recon::gl::PartDetail::kOnDemand};
   std::array<SceneComposer, 2> composers_;  // one an eye
+  FrameOverlays overlays_;
   std::size_t step_ = 0;
   int in_a_row_ = 0;
 };
@@ -140,14 +167,20 @@ void ParticipantPictures::Run(const std::stop_token& stop) {
       result = result_;
       head = head_;
     }
-    if (!head.pose || !result || look.width_px <= 0 || look.height_px <= 0) continue;
+    const bool is_of_camera = IsOfCamera(look.eyes.mode);
+    if ((!head.pose && !is_of_camera) || !result || look.width_px <= 0 || look.height_px <= 0) continue;
     try {
       if (!painter) painter = std::make_unique<Painter>();
       const double begun_ms = SteadyNowMs();
-      recon::Image image = painter->Draw(*result, head.pose->world_from_head, look, !can_be_finer);
+      recon::Image image = is_of_camera
+                               ? painter->DrawCamera(*result, look)
+                               : painter->Draw(*result, head.pose->world_from_head, look, !can_be_finer);
+      if (image.rgb.empty()) continue;
       const double drawing_ms = SteadyNowMs() - begun_ms;
+      if (is_of_camera) can_be_finer = false;
       if (can_be_finer) painter->Adapt(drawing_ms);
-      on_picture_({std::move(image), *head.pose, head.serial, result->record.frame, drawing_ms});
+      on_picture_({std::move(image), is_of_camera ? recon::HeadPose{} : *head.pose, head.serial,
+                   result->record.frame, drawing_ms});
     } catch (const std::exception& error) {  // the outermost loop: nothing may escape a thread
       painter.reset();                       // a context that was lost is made anew
       can_be_finer = false;

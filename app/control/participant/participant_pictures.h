@@ -21,7 +21,8 @@ namespace elbowroom::control {
 struct ParticipantLook {
   EyeOptions eyes;
   SceneLook scene;
-  int width_px = 0;  // of the whole picture, both eyes together; 0: none is drawn
+  core::CameraIndex camera = 0;  // kCamera, kCameraMirror
+  int width_px = 0;              // of the whole picture, both eyes together; 0: none is drawn
   int height_px = 0;
 
   [[nodiscard]] bool operator==(const ParticipantLook&) const = default;
@@ -50,7 +51,7 @@ class ParticipantPictures {
   ParticipantPictures(const ParticipantPictures&) = delete;
   ParticipantPictures& operator=(const ParticipantPictures&) = delete;
 
-  // Where the head is. Without a pose nothing is drawn.
+  // Where the head is. Without a pose nothing is drawn but a camera's picture, which has the camera's size.
   void ShowHead(const HeadState& head);
   void SetLook(const ParticipantLook& look);
   void ShowFrame(SharedFrameResult result);  // null: nothing is drawn

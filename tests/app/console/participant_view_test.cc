@@ -152,9 +152,9 @@ TEST_F(ParticipantWindow, EveryChoiceIsNamed) {
   desk->ShowChoices();
   const auto* dialog = window.findChild<ParticipantDialog*>();
   for (const char* name :
-       {"participant_mode", "participant_display", "participant_fills", "participant_fov", "participant_ipd",
-        "participant_convergence", "participant_source", "participant_port", "participant_head_file",
-        "participant_browse", "participant_open"}) {
+       {"participant_mode", "participant_camera", "participant_display", "participant_fills",
+        "participant_fov", "participant_ipd", "participant_convergence", "participant_source",
+        "participant_port", "participant_head_file", "participant_browse", "participant_open"}) {
     const auto* widget = dialog->findChild<QWidget*>(name);
     ASSERT_NE(widget, nullptr) << name;
     EXPECT_FALSE(widget->accessibleName().isEmpty()) << name;

@@ -20,6 +20,7 @@ namespace elbowroom::control {
 namespace {
 
 using Eigen::Vector3d;
+using test_support::Wall;
 
 constexpr double kRounding = 1e-9;  // mm or radians, of lengths of some hundred mm in double
 
@@ -36,27 +37,6 @@ class Placing : public testing::Test {
 
   std::mt19937 random_{25};
 };
-
-// The wall of a cylinder along z, from `from_rad` around by `around_rad`.
-core::TriangleMesh Wall(double radius_mm, double length_mm, double around_rad, int facets, bool is_hole) {
-  core::TriangleMesh mesh;
-  for (int i = 0; i <= facets; ++i) {
-    const double angle = around_rad * i / facets;
-    for (const double z : {0.0, length_mm})
-      mesh.vertices_mm.emplace_back(radius_mm * std::cos(angle), radius_mm * std::sin(angle), z);
-  }
-  for (int i = 0; i < facets; ++i) {
-    const int a = 2 * i, b = a + 1, c = a + 2, d = a + 3;
-    if (is_hole) {
-      mesh.triangles.push_back({a, b, c});
-      mesh.triangles.push_back({c, b, d});
-    } else {
-      mesh.triangles.push_back({a, c, b});
-      mesh.triangles.push_back({c, d, b});
-    }
-  }
-  return mesh;
-}
 
 std::vector<std::uint32_t> AllOf(const core::TriangleMesh& mesh) {
   std::vector<std::uint32_t> all(mesh.triangles.size());

@@ -85,7 +85,7 @@ class Headset {
     tracker = std::make_unique<HeadTracker>(settings, std::nullopt,
                                             [this](const HeadState& head) { pictures.ShowHead(head); });
     pictures.ShowFrame(DemoFrame());
-    pictures.SetLook({{ViewMode::kMono, 63.0, 1.0, 700.0}, {}, 320, 240});
+    pictures.SetLook({{ViewMode::kMono, 63.0, 1.0, 700.0}, {}, 0, 320, 240});
   }
 
   void Send(const TrackerReading& its) { SendDatagram("127.0.0.1", *tracker->port(), OpenTrackPacket(its)); }
@@ -177,8 +177,8 @@ ParticipantPicture PictureOf(const ParticipantLook& look) {
 }
 
 TEST(ParticipantPictures, AMirrorExchangesLeftAndRight) {
-  const recon::Image mono = PictureOf({{ViewMode::kMono, 63.0, 1.0, 700.0}, {}, 320, 240}).image;
-  const recon::Image mirror = PictureOf({{ViewMode::kMirror, 63.0, 1.0, 700.0}, {}, 320, 240}).image;
+  const recon::Image mono = PictureOf({{ViewMode::kMono, 63.0, 1.0, 700.0}, {}, 0, 320, 240}).image;
+  const recon::Image mirror = PictureOf({{ViewMode::kMirror, 63.0, 1.0, 700.0}, {}, 0, 320, 240}).image;
   ASSERT_EQ(mono.rgb.size(), mirror.rgb.size());
   std::size_t other = 0;
   for (int y = 0; y < 240; ++y)
@@ -189,9 +189,30 @@ TEST(ParticipantPictures, AMirrorExchangesLeftAndRight) {
   EXPECT_EQ(other, 0U);
 }
 
+// The parts are drawn into the camera's picture; the head isn't needed, and left and right can be exchanged.
+TEST(ParticipantPictures, ACamerasPictureHasThePartsInIt) {
+  const recon::Image there = PictureOf({{ViewMode::kCamera, 63.0, 1.0, 700.0}, {}, 2, 640, 480}).image;
+  const recon::Image mirror = PictureOf({{ViewMode::kCameraMirror, 63.0, 1.0, 700.0}, {}, 2, 640, 480}).image;
+  const cv::Mat& seen = DemoFrame()->camera_frames->cameras[2].image_bgr;
+  ASSERT_EQ(there.width_px, seen.cols);
+  ASSERT_EQ(there.height_px, seen.rows);
+  std::int64_t drawn = 0, unequal = 0;
+  for (int y = 0; y < seen.rows; ++y) {
+    for (int x = 0; x < seen.cols; ++x) {
+      const auto at = static_cast<std::size_t>(3 * (seen.cols * y + x));
+      const auto opposite = static_cast<std::size_t>(3 * (seen.cols * y + seen.cols - 1 - x));
+      drawn += there.rgb[at] != seen.at<cv::Vec3b>(y, x)[2];
+      unequal += there.rgb[at] != mirror.rgb[opposite];
+    }
+  }
+  EXPECT_GT(drawn, seen.rows * seen.cols / 50);
+  EXPECT_LT(drawn, seen.rows * seen.cols * 4 / 5);
+  EXPECT_EQ(unequal, 0);
+}
+
 // Without a distance between the eyes both see the same.
 TEST(ParticipantPictures, StereoOfOneEyeIsTwoEqualPictures) {
-  const recon::Image both = PictureOf({{ViewMode::kStereo, 0.0, 1.0, 700.0}, {}, 640, 240}).image;
+  const recon::Image both = PictureOf({{ViewMode::kStereo, 0.0, 1.0, 700.0}, {}, 0, 640, 240}).image;
   ASSERT_EQ(both.width_px, 640);
   constexpr int kKeptLevels =
       2;  // what stays from picture to picture may differ by so much (docs/appearance.md)

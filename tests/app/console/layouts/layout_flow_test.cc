@@ -49,7 +49,9 @@ class LayoutFlow : public testing::Test {
   // Keeps a picture of the window where ELBOWROOM_SCREENSHOTS names a folder.
   void Keep(const char* name) {
     const QString folder = qEnvironmentVariable("ELBOWROOM_SCREENSHOTS");
-    if (!folder.isEmpty()) window_.grab().save(QString("%1/%2.png").arg(folder, name));
+    if (folder.isEmpty()) return;
+    QTest::qWait(1500);  // until the picture is drawn in full
+    window_.grab().save(QString("%1/%2.png").arg(folder, name));
   }
 
   test_support::TemporaryFolder folder_;

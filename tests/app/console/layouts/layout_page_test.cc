@@ -275,6 +275,26 @@ TEST_F(LayoutPageTest, ChangesAreKeptBesideTheFileAfterAWhile) {
   EXPECT_EQ(ReadText(file_), kLayout);
 }
 
+TEST_F(LayoutPageTest, APartIsRenamedInTheList) {
+  OpenLayout();
+  page_->Choose({"lid"});
+  auto* list = Find<QTreeWidget>("parts");
+  list->topLevelItem(1)->setText(0, "cover");  // what the line edit does when it is closed
+  ASSERT_TRUE(WaitUntil([&] { return layout().FindPart("cover").has_value(); })) << fault_.toStdString();
+  EXPECT_EQ(page_->chosen(), QStringList{"cover"});
+  list->topLevelItem(1)->setText(0, "box");
+  ASSERT_TRUE(WaitUntil([&] { return !fault_.isEmpty(); }));
+  EXPECT_EQ(list->topLevelItem(1)->text(0), "cover");
+}
+
+TEST_F(LayoutPageTest, AnImportThatIsCancelledTakesNothing) {
+  page_->Import(kAssembly);
+  Click(Find<QPushButton>("import_cancel"));
+  EXPECT_TRUE(WaitUntil([&] { return page_->findChild<ImportDialog*>("import_dialog") == nullptr; }));
+  EXPECT_TRUE(layout().parts.empty());
+  EXPECT_TRUE(fault_.isEmpty()) << fault_.toStdString();
+}
+
 TEST_F(LayoutPageTest, IsolateHidesTheOthersAndShowsThemAgain) {
   OpenLayout();
   page_->Choose({"lid"});
@@ -349,6 +369,23 @@ TEST_F(LayoutPageTest, AFaceIsLaidOnAFaceByTwoClicks) {
   EXPECT_LT((pose.rotation * -Eigen::Vector3d::UnitY() + Eigen::Vector3d::UnitX()).norm(), 1e-7);
   EXPECT_NEAR((pose * Eigen::Vector3d(50.0, 0.0, 5.0)).x(), 100.0, 1e-4);
   EXPECT_EQ(page_->desk().document().UndoName(), "Place lid");
+}
+
+TEST_F(LayoutPageTest, AHoleIsBroughtToAnotherByTwoClicks) {
+  constexpr double kAround = 6.283185307179586;
+  cad_import::WriteMeshFile(test_support::Wall(30.0, 60.0, kAround, 32, false), folder_ / "box.glb");
+  core::RigidTransform lying = core::FromPositionAndRollPitchYaw({0.0, 0.0, 0.0}, {0.0, 90.0, 20.0});
+  cad_import::WriteMeshFile(core::Transformed(test_support::Wall(20.0, 90.0, kAround, 32, false), lying),
+                            folder_ / "lid.glb");
+  OpenLayout();
+  ASSERT_TRUE(WaitUntil([&] { return page_->view().CanPick(); }));
+  page_->findChild<QAction*>("layout_hole_to_hole")->trigger();
+  for (const char* part : {"lid", "box"}) QTest::mouseClick(&page_->view(), Qt::LeftButton, {}, InView(part));
+  EXPECT_EQ(page_->desk().document().UndoName(), "Place lid") << fault_.toStdString();
+  const core::RigidTransform& pose = layout().parts[1].world_from_part;
+  EXPECT_LT((pose.rotation * lying.rotation.col(2)).cross(Eigen::Vector3d::UnitZ()).norm(), 1e-5);
+  const Eigen::Vector3d on_axis = pose * (lying * Eigen::Vector3d(0.0, 0.0, 45.0));
+  EXPECT_LT(on_axis.head<2>().norm(), 1e-3);  // of files in single precision
 }
 
 TEST_F(LayoutPageTest, MeasuredPointsPlaceThePartAndSayHowFarTheyAreOff) {

@@ -33,7 +33,10 @@ void TypeIntoNextFileDialog(const QString& path) {
   OnceModal<QFileDialog>([path](QFileDialog* dialog) {
     auto* line = dialog->findChild<QLineEdit*>("fileNameEdit");
     TypeInto(line, path);
-    QTest::keyClick(line, Qt::Key_Return);
+    // The first Return may go to the list of completions.
+    auto* again = new QTimer(dialog);
+    QObject::connect(again, &QTimer::timeout, dialog, [line] { QTest::keyClick(line, Qt::Key_Return); });
+    again->start(kLookAgainMs);
   });
 }
 
