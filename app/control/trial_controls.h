@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/session.h"
+
 namespace elbowroom::control {
 
 struct SpacingRequest {
@@ -25,6 +27,8 @@ class TrialControls {
     std::vector<SpacingRequest> spacings;  // in order: the last one for a spacing holds
     std::vector<ToolRequest> tools;
     std::vector<std::string> notes;
+    std::vector<std::string> steps;          // in order: each ends the one before; empty: none is begun
+    std::vector<core::EventContent> events;  // as they are
   };
 
   void SetSpacing(const std::string& spacing, double to_mm) {
@@ -39,6 +43,15 @@ class TrialControls {
   void AddNote(const std::string& note) {
     const std::lock_guard lock(mutex_);
     requests_.notes.push_back(note);
+  }
+  // Ends the step under way and begins this one; empty: none.
+  void BeginStep(const std::string& step) {
+    const std::lock_guard lock(mutex_);
+    requests_.steps.push_back(step);
+  }
+  void SetBookmark(const std::string& name) {
+    const std::lock_guard lock(mutex_);
+    requests_.events.emplace_back(core::Bookmark{name});
   }
   [[nodiscard]] Requests Take() {
     const std::lock_guard lock(mutex_);

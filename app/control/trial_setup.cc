@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "app/control/procedure/procedure_table.h"
 #include "app/control/segmentation/segmentation_table.h"
 #include "app/control/segmentation/trial_keys.h"
 #include "cad_import/layout/layout_file.h"
@@ -108,6 +109,7 @@ TrialSetup ReadTrialFile(const std::filesystem::path& path, std::stop_token stop
   setup.info.required_clearance_mm = LengthFromZero(root, "required_clearance_mm");
   setup.info.uncertainty_mm = LengthFromZero(root, "uncertainty_mm");
   setup.info.tools = root.Texts("tools");
+  ReadProcedure(root, &setup.info);
   const std::filesystem::path folder = path.parent_path();
   cad_import::ImportedLayout imported = cad_import::ImportLayoutFile(folder / root.Text("layout"), {}, stop);
   setup.layout = core::WithPairsOfParts(std::move(imported.layout));

@@ -32,6 +32,8 @@ struct TrialSetup {
   std::shared_ptr<recon::FrameSetSource> source;
   std::shared_ptr<recon::FootageRecorder> footage = nullptr;  // of `source`; null: only silhouettes are kept
   std::vector<ScriptedChange> script;                         // by frame
+  std::vector<core::EventContent> opening;                    // recorded with the first frame
+  std::string first_step;                                     // begun with the first frame; empty: none
   std::vector<std::string> warnings;                          // of the files that were read
 };
 

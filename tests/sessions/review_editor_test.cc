@@ -48,7 +48,7 @@ TEST(ReviewEditor, AddsToWhatWasSaidBefore) {
 }
 
 TEST(ReviewEditor, BringsOlderFilesToTheNewestSchema) {
-  for (int schema = 1; schema <= 9; ++schema) {
+  for (int schema = 1; schema <= 10; ++schema) {
     const test_support::TemporaryFolder folder;
     const auto path = folder / "s.db";
     std::filesystem::copy_file(std::filesystem::path(ELBOWROOM_SOURCE_DIR) / "tests/sessions/stored" /
