@@ -11,8 +11,8 @@
 #include <filesystem>
 #include <memory>
 
-#include "app/console/background_job.h"
-#include "app/console/bridge.h"
+#include "app/console/view/background_job.h"
+#include "app/console/view/bridge.h"
 #include "app/control/cameras/background_taking.h"
 #include "recon/rig_files/rig_file.h"
 

@@ -10,8 +10,8 @@
 #include <filesystem>
 #include <memory>
 
-#include "app/console/background_job.h"
-#include "app/console/bridge.h"
+#include "app/console/view/background_job.h"
+#include "app/console/view/bridge.h"
 #include "app/control/calibration/calibration_job.h"
 
 namespace elbowroom::console {

@@ -5,6 +5,7 @@
 #include <QMimeData>
 #include <QScreen>
 #include <QScrollArea>
+#include <QToolBar>
 #include <QVBoxLayout>
 #include <algorithm>
 #include <array>
@@ -16,7 +17,7 @@
 #include "app/console/desktop/theme.h"
 #include "app/console/desktop/welcome_page.h"
 #include "app/console/desktop/window_memory.h"
-#include "app/console/listing.h"
+#include "app/console/view/listing.h"
 
 namespace elbowroom::console {
 namespace {
@@ -146,17 +147,34 @@ void MainWindow::FitPanels() {
 
 QWidget* MainWindow::MakeCentre() {
   messages_ = new MessageBar;
-  auto* welcome = new WelcomePage(findChild<QAction*>("start_demo"), findChild<QAction*>("open_trial"));
-  connect(welcome, &WelcomePage::TrialChosen, this, &MainWindow::StartTrial);
-  pages_ = new QStackedWidget;
-  pages_->addWidget(welcome);
-  pages_->addWidget(view_);
+  auto* pages = new QStackedWidget;
+  AddPages(pages);
   auto* centre = new QWidget;
   auto* column = new QVBoxLayout(centre);
   column->setContentsMargins(6, 6, 6, 2);
   column->addWidget(messages_);
-  column->addWidget(pages_, 1);
+  column->addWidget(pages, 1);
   return centre;
+}
+
+void MainWindow::AddPages(QStackedWidget* pages) {
+  auto* welcome = new WelcomePage(findChild<QAction*>("start_demo"), findChild<QAction*>("open_trial"));
+  welcome->setObjectName("trial");
+  connect(welcome, &WelcomePage::TrialChosen, this, &MainWindow::StartTrial);
+  layout_page_ = new LayoutPage;
+  layout_page_->setObjectName("layout");
+  connect(layout_page_, &LayoutPage::Failed, this, &MainWindow::ShowError);
+  connect(layout_page_, &LayoutPage::TrialAsked, this, &MainWindow::StartTrial);
+  review_page_ = new ReviewPage;
+  review_page_->setObjectName("review");
+  connect(review_page_, &ReviewPage::Failed, this, &MainWindow::ShowError);
+  pages_ = new PageSwitch(this, pages);
+  pages_->AddPage(Page::kLayout, tr("Layout"), tr("Import parts, place them, and make their rules"),
+                  layout_page_);
+  pages_->AddPage(Page::kTrial, tr("Trial"), tr("Run a trial and watch it"), welcome);
+  pages_->AddPage(Page::kReview, tr("Review"), tr("Go through a recorded session"), review_page_);
+  pages->setCurrentWidget(welcome);
+  insertToolBar(findChild<QToolBar*>("trial_bar"), pages_);
 }
 
 void MainWindow::FollowView() {
@@ -220,7 +238,8 @@ void MainWindow::ShowError(const QString& line) { messages_->ShowError(line); }
 void MainWindow::OpenTrial(const control::TrialSetup& setup) {
   messages_->hide();
   view_->Clear();
-  pages_->setCurrentWidget(view_);
+  pages_->SetTrialWidget(view_);
+  pages_->Show(Page::kTrial);
   cameras_dock_->show();
   strip_->Open(setup.source->rig());
   spacings_->Open(setup.layout);
@@ -264,6 +283,7 @@ void MainWindow::changeEvent(QEvent* event) {
 
 void MainWindow::closeEvent(QCloseEvent* event) {
   if (desk_->state() == DeskState::kIdle) {
+    pages_->Show(Page::kTrial);  // whose panels are remembered
     if (is_remembered_) SaveWindow(*this);
     return event->accept();
   }

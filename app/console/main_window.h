@@ -10,16 +10,19 @@
 #include "app/console/contact_model.h"
 #include "app/console/desktop/session_place.h"
 #include "app/console/hull_look_button.h"
-#include "app/console/message_bar.h"
+#include "app/console/layouts/layout_page.h"
 #include "app/console/note_line.h"
-#include "app/console/operator_view.h"
+#include "app/console/page_switch.h"
 #include "app/console/preflight_panel.h"
+#include "app/console/reviews/review_page.h"
 #include "app/console/spacing_panel.h"
 #include "app/console/status_line.h"
 #include "app/console/tool_panel.h"
 #include "app/console/touch_model.h"
 #include "app/console/trial_actions.h"
 #include "app/console/trial_desk.h"
+#include "app/console/view/message_bar.h"
+#include "app/console/view/operator_view.h"
 
 namespace elbowroom::console {
 
@@ -40,6 +43,7 @@ class MainWindow : public QMainWindow {
   [[nodiscard]] CameraStrip& strip() { return *strip_; }
   [[nodiscard]] const StatusLine& status() const { return *status_; }
   [[nodiscard]] PreflightPanel& preflight() { return *preflight_; }
+  [[nodiscard]] PageSwitch& pages() { return *pages_; }
 
   // Takes size, place and panels from the last run, and leaves them for the next.
   void Remember();
@@ -61,6 +65,7 @@ class MainWindow : public QMainWindow {
   [[nodiscard]] QMenu* ThemeMenu();
   void AddPreflight();
   void AddPanels();
+  void AddPages(QStackedWidget* pages);
   // A panel that can be moved, floated and hidden; its name is for the settings.
   QDockWidget* AddPanel(const QString& name, const QString& title, QWidget* content, Qt::DockWidgetArea area);
   [[nodiscard]] QWidget* MakeCentre();
@@ -78,7 +83,9 @@ class MainWindow : public QMainWindow {
   bool closes_when_idle_ = false;
   bool is_remembered_ = false;
   MessageBar* messages_ = nullptr;
-  QStackedWidget* pages_ = nullptr;  // the welcome page and the view
+  PageSwitch* pages_ = nullptr;
+  LayoutPage* layout_page_ = nullptr;
+  ReviewPage* review_page_ = nullptr;
   OperatorView* view_ = nullptr;
   HullLookButton* hull_look_ = nullptr;
   PreflightPanel* preflight_ = nullptr;

@@ -12,9 +12,9 @@
 #include <optional>
 #include <vector>
 
-#include "app/console/background_job.h"
-#include "app/console/bridge.h"
 #include "app/console/trial_desk.h"
+#include "app/console/view/background_job.h"
+#include "app/console/view/bridge.h"
 #include "app/control/preflight/preflight.h"
 #include "app/control/preflight/preflight_rig.h"
 

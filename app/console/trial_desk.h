@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
-#include "app/console/background_job.h"
-#include "app/console/bridge.h"
+#include "app/console/view/background_job.h"
+#include "app/console/view/bridge.h"
 #include "app/control/episode_tally.h"
 #include "app/control/frame_result.h"
 #include "app/control/tiles/tile_maker.h"

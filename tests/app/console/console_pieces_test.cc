@@ -12,12 +12,12 @@
 #include <semaphore>
 #include <thread>
 
-#include "app/console/background_job.h"
-#include "app/console/bridge.h"
+#include "app/console/view/background_job.h"
+#include "app/console/view/bridge.h"
 #include "app/console/console_main.h"
 #include "app/console/contact_model.h"
 #include "app/console/frame_rate.h"
-#include "app/console/picture_pace.h"
+#include "app/console/view/picture_pace.h"
 #include "app/console/tile_text.h"
 #include "app/console/trial_actions.h"
 #include "core/error.h"

@@ -1,4 +1,4 @@
-#include "app/console/operator_view.h"
+#include "app/console/view/operator_view.h"
 
 #include <QMouseEvent>
 #include <QPainter>

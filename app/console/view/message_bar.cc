@@ -1,4 +1,4 @@
-#include "app/console/message_bar.h"
+#include "app/console/view/message_bar.h"
 
 #include <QEvent>
 #include <QHBoxLayout>

@@ -1,4 +1,4 @@
-#include "app/console/picture_pace.h"
+#include "app/console/view/picture_pace.h"
 
 #include <algorithm>
 #include <cstdlib>

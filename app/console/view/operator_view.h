@@ -11,9 +11,9 @@
 #include <memory>
 #include <optional>
 
-#include "app/console/background_job.h"
-#include "app/console/bridge.h"
-#include "app/console/picture_pace.h"
+#include "app/console/view/background_job.h"
+#include "app/console/view/bridge.h"
+#include "app/console/view/picture_pace.h"
 #include "app/control/frame_result.h"
 #include "app/control/render_worker.h"
 #include "app/control/scene_composer.h"

@@ -1,4 +1,4 @@
-#include "app/console/listing.h"
+#include "app/console/view/listing.h"
 
 #include <QHeaderView>
 #include <QPainter>

@@ -1,4 +1,4 @@
-#include "app/console/bridge.h"
+#include "app/console/view/bridge.h"
 
 #include <utility>
 

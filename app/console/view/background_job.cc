@@ -1,4 +1,4 @@
-#include "app/console/background_job.h"
+#include "app/console/view/background_job.h"
 
 #include <exception>
 #include <utility>

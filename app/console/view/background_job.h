@@ -6,7 +6,7 @@
 #include <string>
 #include <thread>
 
-#include "app/console/bridge.h"
+#include "app/console/view/bridge.h"
 
 namespace elbowroom::console {
 

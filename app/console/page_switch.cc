@@ -1,0 +1,55 @@
+#include "app/console/page_switch.h"
+
+#include <QDockWidget>
+#include <algorithm>
+#include <utility>
+
+namespace elbowroom::console {
+
+PageSwitch::PageSwitch(QMainWindow* window, QStackedWidget* pages)
+    : QToolBar(tr("Pages"), window), window_(window), pages_(pages), group_(new QActionGroup(this)) {
+  setObjectName("pages_bar");
+  setMovable(false);
+  toggleViewAction()->setVisible(false);  // without it there is no way back
+}
+
+void PageSwitch::AddPage(Page page, const QString& title, const QString& tool_tip, QWidget* widget) {
+  QAction* action = addAction(title);
+  action->setObjectName(widget->objectName() + "_page");
+  action->setToolTip(tool_tip);
+  action->setCheckable(true);
+  action->setChecked(page == page_);
+  action->setShortcut(QKeySequence(Qt::CTRL | (Qt::Key_1 + static_cast<int>(choices_.size()))));
+  group_->addAction(action);
+  connect(action, &QAction::triggered, this, [this, page] { Show(page); });
+  choices_.push_back({page, action, widget});
+  pages_->addWidget(widget);
+}
+
+void PageSwitch::SetTrialWidget(QWidget* widget) {
+  pages_->addWidget(widget);
+  ChoiceOf(Page::kTrial).widget = widget;
+  if (page_ == Page::kTrial) pages_->setCurrentWidget(widget);
+}
+
+void PageSwitch::Show(Page page) {
+  if (page == page_) return;
+  if (page_ == Page::kTrial) PutPanelsAway();
+  page_ = page;
+  if (page == Page::kTrial) window_->restoreState(std::exchange(panels_, {}));
+  ChoiceOf(page).action->setChecked(true);
+  pages_->setCurrentWidget(ChoiceOf(page).widget);
+}
+
+PageSwitch::Choice& PageSwitch::ChoiceOf(Page page) {
+  return *std::ranges::find(choices_, page, &Choice::page);
+}
+
+void PageSwitch::PutPanelsAway() {
+  panels_ = window_->saveState();
+  for (auto* dock : window_->findChildren<QDockWidget*>()) dock->hide();
+  for (auto* bar : window_->findChildren<QToolBar*>())
+    if (bar != this) bar->hide();
+}
+
+}  // namespace elbowroom::console

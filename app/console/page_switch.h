@@ -1,0 +1,49 @@
+// Layout, trial or review: which of the window's pages is shown.
+#pragma once
+
+#include <QActionGroup>
+#include <QByteArray>
+#include <QMainWindow>
+#include <QStackedWidget>
+#include <QToolBar>
+#include <vector>
+
+namespace elbowroom::console {
+
+enum class Page { kLayout, kTrial, kReview };
+
+// A bar with a choice for each page. The trial page has the window's panels and other tool bars: they go when
+// another page is shown, and come back as they were. Thread: UI.
+class PageSwitch : public QToolBar {
+  Q_OBJECT
+
+ public:
+  // `pages`: where a page is found by AddPage()'s widget.
+  PageSwitch(QMainWindow* window, QStackedWidget* pages);
+
+  void AddPage(Page page, const QString& title, const QString& tool_tip, QWidget* widget);
+
+  // The trial page has two widgets: one before the first trial, and one from then on.
+  void SetTrialWidget(QWidget* widget);
+
+  void Show(Page page);
+  [[nodiscard]] Page page() const { return page_; }
+
+ private:
+  struct Choice {
+    Page page;
+    QAction* action;
+    QWidget* widget;
+  };
+  [[nodiscard]] Choice& ChoiceOf(Page page);
+  void PutPanelsAway();
+
+  QMainWindow* window_;
+  QStackedWidget* pages_;
+  QActionGroup* group_;
+  std::vector<Choice> choices_;
+  Page page_ = Page::kTrial;
+  QByteArray panels_;  // of the trial page, while another one is shown
+};
+
+}  // namespace elbowroom::console
