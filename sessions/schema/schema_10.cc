@@ -54,7 +54,7 @@ INSERT INTO event_10 (event_id, frame_index, time_s, kind, spacing_index, from_m
 DROP TABLE event;
 ALTER TABLE event_10 RENAME TO event;
 CREATE INDEX event_by_frame ON event (frame_index);
-CREATE INDEX event_by_step ON event (step_index, frame_index, event_id) WHERE step_index IS NOT NULL;
+CREATE INDEX event_by_step ON event (step_index, frame_index, event_id);
 )sql";
 
 constexpr const char* kProcedureViews = R"sql(
