@@ -62,7 +62,9 @@ class ConsoleApplication : public QApplication {
 };
 
 void StartWhatWasAsked(MainWindow& window, const ConsoleOptions& options) {
-  if (!options.trial_file.empty()) {
+  if (!options.trial_file.empty() && !options.picture) {
+    window.StartTrial(QString::fromStdString(options.trial_file.string()));
+  } else if (!options.trial_file.empty()) {
     StartTrialFile(window.desk(), options.trial_file, window.session_place());
   } else if (options.demo) {
     StartDemo(window.desk(), window.session_place());

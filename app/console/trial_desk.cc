@@ -147,6 +147,14 @@ void TrialDesk::AddNote(const QString& note) {
   if (trial_) trial_->controls().AddNote(note.toStdString());
 }
 
+void TrialDesk::BeginStep(const std::string& step) {
+  if (trial_) trial_->controls().BeginStep(step);
+}
+
+void TrialDesk::SetBookmark(const std::string& name) {
+  if (trial_) trial_->controls().SetBookmark(name);
+}
+
 void TrialDesk::SetTileRoom(const control::ThumbnailRoom& room) {
   tile_room_ = room;
   if (tiles_) tiles_->SetRoom(room);

@@ -37,6 +37,10 @@ struct TrialSetup {
   std::vector<std::string> warnings;                          // of the files that were read
 };
 
+// What TRIAL.toml says of the trial itself; its rig and layout aren't opened. Throws: core::Error with file,
+// line and key for what the trial file has wrong.
+[[nodiscard]] core::TrialInfo ReadTrialInfo(const std::filesystem::path& path);
+
 // Reads TRIAL.toml (docs/user_guide.md) with its rig and layout; opens the footage.
 // Throws: core::Error with file, line and key for what the trial file has wrong; what the rig's and the
 // layout's readers throw; Error{kCancelled}.

@@ -10,7 +10,8 @@ constexpr const char* kKey = "trial/contact_sound";
 
 }  // namespace
 
-ContactSound::ContactSound(QObject* parent) : QObject(parent), is_on_(QSettings().value(kKey, false).toBool()) {}
+ContactSound::ContactSound(QObject* parent)
+    : QObject(parent), is_on_(QSettings().value(kKey, false).toBool()) {}
 
 void ContactSound::SetOn(bool is_on) {
   is_on_ = is_on;

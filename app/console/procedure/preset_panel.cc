@@ -38,8 +38,10 @@ PresetPanel::PresetPanel(QWidget* window) {
 }
 
 void PresetPanel::AddLists() {
-  list_ = MakeList("preset_list", tr("Gap presets"), tr("Double-click to set these gaps (Alt and the number)"));
-  history_ = MakeList("gap_history", tr("History of gaps"), tr("Double-click to go back to the gaps of that time"));
+  list_ =
+      MakeList("preset_list", tr("Gap presets"), tr("Double-click to set these gaps (Alt and the number)"));
+  history_ =
+      MakeList("gap_history", tr("History of gaps"), tr("Double-click to go back to the gaps of that time"));
   name_ = new QLineEdit;
   name_->setObjectName("preset_name");
   name_->setAccessibleName(tr("Name of a preset"));

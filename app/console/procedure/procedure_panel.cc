@@ -141,9 +141,12 @@ void ProcedurePanel::ShowPlace() {
   }
   const bool is_last = place_ && *place_ + 1 == steps_.size();
   const bool is_first = !place_ || *place_ >= steps_.size();
-  next_->setText(is_last ? tr("End of the last step (N)") : is_first ? tr("First step (N)") : tr("Next step (N)"));
-  next_->setToolTip(is_last ? tr("End the step under way; no other begins")
-                            : tr("End the step under way and begin the next one, with the frame that comes next"));
+  next_->setText(is_last    ? tr("End of the last step (N)")
+                 : is_first ? tr("First step (N)")
+                            : tr("Next step (N)"));
+  next_->setToolTip(
+      is_last ? tr("End the step under way; no other begins")
+              : tr("End the step under way and begin the next one, with the frame that comes next"));
 }
 
 }  // namespace elbowroom::console
