@@ -8,7 +8,7 @@
 namespace elbowroom::console {
 namespace {
 
-constexpr int kWidestPx = 560;
+constexpr int kAfterWidthPx = 560;
 constexpr int kNotesPx = 110;
 
 }  // namespace
@@ -16,7 +16,7 @@ constexpr int kNotesPx = 110;
 AfterPage::AfterPage(QWidget* parent) : QWidget(parent) {
   setObjectName("after_page");
   auto* content = new QWidget;
-  content->setMaximumWidth(kWidestPx);
+  content->setMaximumWidth(kAfterWidthPx);
   auto* form = new QVBoxLayout(content);
   end_note_ = new QLabel;
   end_note_->setObjectName("after_end_note");

@@ -10,7 +10,7 @@ namespace elbowroom::console {
 namespace {
 
 constexpr int kMostKeys = 9;
-constexpr int kLongestName = 60;
+constexpr int kLongestPreset = 60;
 // A slider on its way is one change.
 constexpr double kSameChange_s = 1.0;
 constexpr std::size_t kMostChanges = 500;
@@ -47,7 +47,7 @@ void PresetPanel::AddLists() {
   name_->setAccessibleName(tr("Name of a preset"));
   name_->setPlaceholderText(tr("Name of these gaps"));
   name_->setToolTip(tr("Under which the present gaps are kept, for all trials with these spacings"));
-  name_->setMaxLength(kLongestName);
+  name_->setMaxLength(kLongestPreset);
   save_ = new QPushButton(tr("Save"));
   save_->setObjectName("save_preset");
   save_->setToolTip(tr("Keep the present gaps under this name"));

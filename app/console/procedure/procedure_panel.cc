@@ -7,7 +7,7 @@
 namespace elbowroom::console {
 namespace {
 
-constexpr int kLongestName = 200;
+constexpr int kLongestBookmark = 200;
 constexpr double kTimeScale = 1.6;
 constexpr int kListPx = 90;
 
@@ -70,7 +70,7 @@ QWidget* ProcedurePanel::MakeBookmarks() {
   bookmark_name_->setAccessibleName(tr("Name of a bookmark"));
   bookmark_name_->setPlaceholderText(tr("Name, then Enter"));
   bookmark_name_->setToolTip(tr("A bookmark with a name, set when Enter is pressed"));
-  bookmark_name_->setMaxLength(kLongestName);
+  bookmark_name_->setMaxLength(kLongestBookmark);
   auto* row = new QWidget;
   auto* line = new QHBoxLayout(row);
   line->setContentsMargins(0, 0, 0, 0);

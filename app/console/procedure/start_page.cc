@@ -9,8 +9,8 @@
 namespace elbowroom::console {
 namespace {
 
-constexpr int kWidestPx = 560;
-constexpr int kLongestName = 200;
+constexpr int kStartWidthPx = 560;
+constexpr int kLongestParticipant = 200;
 constexpr double kTitleScale = 1.4;
 
 QLabel* PlainLabel(const QString& name) {
@@ -63,7 +63,7 @@ StartPage::StartPage(QWidget* parent) : QWidget(parent) {
 
 QWidget* StartPage::MakeForm() {
   auto* content = new QWidget;
-  content->setMaximumWidth(kWidestPx);
+  content->setMaximumWidth(kStartWidthPx);
   auto* column = new QVBoxLayout(content);
   task_ = PlainLabel("start_task");
   QFont font = task_->font();
@@ -75,7 +75,7 @@ QWidget* StartPage::MakeForm() {
   participant_->setObjectName("participant");
   participant_->setAccessibleName(tr("Participant"));
   participant_->setToolTip(tr("Whom the session and its report name"));
-  participant_->setMaxLength(kLongestName);
+  participant_->setMaxLength(kLongestParticipant);
   auto* who = new QFormLayout;
   who->setRowWrapPolicy(QFormLayout::WrapAllRows);
   who->addRow(tr("Participant"), participant_);

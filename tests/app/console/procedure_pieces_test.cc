@@ -1,6 +1,8 @@
 // The widgets of a procedure one by one, without a trial.
 #include <gtest/gtest.h>
 
+#include <QLabel>
+#include <QLineEdit>
 #include <QListWidget>
 #include <QPushButton>
 #include <QSettings>
