@@ -101,6 +101,7 @@ void ProcedureFlow::FollowDesk() {
 void ProcedureFlow::Start(const std::filesystem::path& trial_file) {
   const core::TrialInfo trial = control::ReadTrialInfo(trial_file);
   if (!HasProcedure(trial)) return StartTrialFile(desk_, trial_file, place_);
+  ShowDocks(false);
   asked_file_ = trial_file;
   start_->Open(trial);
   emit PreflightAsked(trial_file);
@@ -129,9 +130,14 @@ void ProcedureFlow::Open(const control::TrialSetup& setup) {
   presets_->Open(setup.layout);
   sound_->Open();
   is_under_way_ = true;
-  if (!has_procedure_) return;
-  for (QDockWidget* dock : docks_) dock->show();
-  window_->resizeDocks(docks_, {kSidePx, kSidePx}, Qt::Horizontal);
+  ShowDocks(has_procedure_);
+}
+
+// Those that the user shows or hides for a trial without a procedure are left alone.
+void ProcedureFlow::ShowDocks(bool are_shown) {
+  if (std::exchange(has_shown_docks_, are_shown) == are_shown) return;
+  for (QDockWidget* dock : docks_) dock->setVisible(are_shown);
+  if (are_shown) window_->resizeDocks(docks_, {kSidePx, kSidePx}, Qt::Horizontal);
 }
 
 void ProcedureFlow::ShowFrame(const FrameNews& news) {
@@ -151,14 +157,14 @@ void ProcedureFlow::End(const QString& note) {
 }
 
 void ProcedureFlow::Save(const std::vector<core::EventContent>& said) {
+  const std::filesystem::path session = desk_.session();
   job_ = std::make_unique<BackgroundJob>(
-      bridge_,
-      [session = desk_.session(), said](const std::stop_token&) { sessions::AddAfterTrial(session, said); },
-      [this](const std::string& error) {
+      bridge_, [session, said](const std::stop_token&) { sessions::AddAfterTrial(session, said); },
+      [this, session](const std::string& error) {
         after_->SetIsSaving(false);
         if (!error.empty()) return emit Failed(QString::fromStdString(error));
         emit Told(tr("What was said is in the session %1")
-                      .arg(QString::fromStdString(desk_.session().filename().string())));
+                      .arg(QString::fromStdString(session.filename().string())));
         Leave();
       });
 }

@@ -60,6 +60,7 @@ class ProcedureFlow : public QObject {
   void ShowFrame(const FrameNews& news);
   void End(const QString& note);
   void Save(const std::vector<core::EventContent>& said);
+  void ShowDocks(bool are_shown);
   void ShowState();
 
   QMainWindow* window_;
@@ -71,6 +72,7 @@ class ProcedureFlow : public QObject {
   std::filesystem::path asked_file_;  // of the start page
   core::TrialInfo trial_;             // of the running trial, or the last one
   bool is_under_way_ = false;
+  bool has_shown_docks_ = false;
   bool has_procedure_ = false;  // likewise
   StartPage* start_;            // this and the next are owned by Qt
   AfterPage* after_;

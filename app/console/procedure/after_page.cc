@@ -78,7 +78,8 @@ void AfterPage::Save() {
 
 void AfterPage::keyPressEvent(QKeyEvent* event) {
   const bool is_enter = event->key() == Qt::Key_Return || event->key() == Qt::Key_Enter;
-  if (is_enter && save_->isEnabled()) return Save();
+  const bool has_control = event->modifiers().testFlag(Qt::ControlModifier);
+  if (is_enter && has_control && save_->isEnabled()) return Save();
   if (event->key() == Qt::Key_Escape && skip_->isEnabled()) return emit Skipped();
   QWidget::keyPressEvent(event);
 }
