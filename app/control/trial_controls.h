@@ -4,6 +4,7 @@
 #include <mutex>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "core/session.h"
@@ -19,6 +20,11 @@ struct ToolRequest {
   bool in_use = false;
 };
 
+// The step under way ends, and this one begins; empty: none.
+struct StepRequest {
+  std::string step;
+};
+
 // A mailbox: any thread puts requests in, and the trial takes them out between two frames.
 // Thread: any.
 class TrialControls {
@@ -27,8 +33,7 @@ class TrialControls {
     std::vector<SpacingRequest> spacings;  // in order: the last one for a spacing holds
     std::vector<ToolRequest> tools;
     std::vector<std::string> notes;
-    std::vector<std::string> steps;          // in order: each ends the one before; empty: none is begun
-    std::vector<core::EventContent> events;  // as they are
+    std::vector<std::variant<StepRequest, core::Bookmark>> moments;  // in order
   };
 
   void SetSpacing(const std::string& spacing, double to_mm) {
@@ -47,11 +52,11 @@ class TrialControls {
   // Ends the step under way and begins this one; empty: none.
   void BeginStep(const std::string& step) {
     const std::lock_guard lock(mutex_);
-    requests_.steps.push_back(step);
+    requests_.moments.emplace_back(StepRequest{step});
   }
   void SetBookmark(const std::string& name) {
     const std::lock_guard lock(mutex_);
-    requests_.events.emplace_back(core::Bookmark{name});
+    requests_.moments.emplace_back(core::Bookmark{name});
   }
   [[nodiscard]] Requests Take() {
     const std::lock_guard lock(mutex_);

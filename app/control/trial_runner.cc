@@ -254,9 +254,11 @@ class Recording {
     for (const ToolRequest& request : requests.tools) Apply(frame, time_s, request);
     for (const std::string& note : requests.notes)
       writer_.Append(core::SessionEvent{frame, time_s, core::Note{note}});
-    for (const std::string& step : requests.steps) BeginStep(step, frame, time_s);
-    for (const core::EventContent& what : requests.events)
-      writer_.Append(core::SessionEvent{frame, time_s, what});
+    for (const auto& moment : requests.moments) {
+      if (const auto* step = std::get_if<StepRequest>(&moment)) BeginStep(step->step, frame, time_s);
+      if (const auto* bookmark = std::get_if<core::Bookmark>(&moment))
+        writer_.Append(core::SessionEvent{frame, time_s, *bookmark});
+    }
   }
 
   void OpenProcedure(core::FrameIndex frame, double time_s) {

@@ -17,6 +17,7 @@
 #include "app/console/main_window.h"
 #include "app/control/replay/replay.h"
 #include "core/procedure/answers.h"
+#include "core/procedure/event_text.h"
 #include "core/procedure/step_runs.h"
 #include "sessions/session_reader.h"
 #include "tests/app/mask_rig.h"
@@ -27,10 +28,11 @@ namespace elbowroom::console {
 namespace {
 
 namespace fs = std::filesystem;
-using core::AskedWhen;
 
 constexpr int kPatienceMs = 120'000;  // far beyond what any step takes on a loaded machine
 constexpr int kFrames = 3000;         // far more than the test lets pass
+
+constexpr const char* kNotes = "The cable was in the way";
 
 constexpr const char* kLayout = R"(unit = "mm"
 [[part]]
@@ -172,7 +174,7 @@ TEST_F(ProcedureTest, AWholeTrialIsInTheSessionAndItsReplay) {
   after->setValue(165.0);
   QTest::mouseClick(Find<QToolButton>("answer:after:0:3"), Qt::LeftButton);
   Find<QSpinBox>("answer:after:1")->setValue(55);
-  Find<QPlainTextEdit>("after_notes")->setPlainText("The cable was in the way");
+  Find<QPlainTextEdit>("after_notes")->setPlainText(kNotes);
   QTest::mouseClick(Find<QPushButton>("save_answers"), Qt::LeftButton);
   ASSERT_TRUE(WaitUntil([&] { return Message().find("What was said is in") == 0; })) << Message();
   EXPECT_FALSE(Find<QWidget>("after_page")->isVisible());
@@ -182,23 +184,19 @@ TEST_F(ProcedureTest, AWholeTrialIsInTheSessionAndItsReplay) {
   EXPECT_EQ(std::tie(trial.participant, trial.condition, trial.order, trial.estimate_mm),
             std::make_tuple("P08", "gloves", 2, 140.0));
   const std::vector<core::SessionEvent> events = session.events();
-  std::vector<core::EventContent> happened;
+  std::vector<std::string> happened;
   for (const core::SessionEvent& event : events) {
     const auto* note = std::get_if<core::Note>(&event.what);
-    if (note == nullptr || note->text == "The cable was in the way") happened.push_back(event.what);
+    if (note == nullptr || note->text == kNotes) happened.push_back(core::EventText(event.what));
   }
   EXPECT_EQ(
       happened,
-      (std::vector<core::EventContent>{
-          core::EstimateGiven{AskedWhen::kBefore, 140.0},
-          core::SurveyAnswered{AskedWhen::kBefore, "How sure are you?", 6},
-          core::StepMarked{"reach in", true}, core::ToolMarked{"tongs", true},
-          core::SpacingChanged{"gap", 170.0, 130.0}, core::SpacingChanged{"gap", 130.0, 200.0},
-          core::SpacingChanged{"gap", 200.0, 130.0}, core::Bookmark{}, core::Bookmark{"tongs slipped"},
-          core::StepMarked{"reach in", false}, core::StepMarked{"screw", true},
-          core::StepMarked{"screw", false}, core::EstimateGiven{AskedWhen::kAfter, 165.0},
-          core::SurveyAnswered{AskedWhen::kAfter, "How sure are you?", 3},
-          core::SurveyAnswered{AskedWhen::kAfter, "Effort", 55}, core::Note{"The cable was in the way"}}));
+      (std::vector<std::string>{
+          "estimate before the trial: 140 mm", "before the trial, 'How sure are you?': 6",
+          "step 'reach in' begun", "tongs taken in use", "gap from 170 to 130 mm", "gap from 130 to 200 mm",
+          "gap from 200 to 130 mm", "bookmark", "bookmark: tongs slipped", "step 'reach in' ended",
+          "step 'screw' begun", "step 'screw' ended", "estimate after the trial: 165 mm",
+          "after the trial, 'How sure are you?': 3", "after the trial, 'Effort': 55", kNotes}));
   EXPECT_EQ(events.front().frame, 0);
   const std::vector<core::StepRun> runs = core::StepRunsOf(events);
   ASSERT_EQ(runs.size(), 2U);
