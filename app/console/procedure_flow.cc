@@ -147,10 +147,10 @@ void ProcedureFlow::ShowFrame(const FrameNews& news) {
   sound_->ShowFrame(result.record.contacts);
 }
 
-void ProcedureFlow::End(const QString& note) {
+void ProcedureFlow::End() {
   procedure_->ShowEnd();
   if (!std::exchange(is_under_way_, false) || !has_procedure_ || !desk_.can_report()) return;
-  after_->Open(trial_, note);
+  after_->Open(trial_);
   before_ = pages_->trial_widget();
   pages_->SetTrialWidget(after_);
   after_->FocusEstimate();

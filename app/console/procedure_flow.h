@@ -58,7 +58,7 @@ class ProcedureFlow : public QObject {
   void Leave();
   void Open(const control::TrialSetup& setup);
   void ShowFrame(const FrameNews& news);
-  void End(const QString& note);
+  void End();
   void Save(const std::vector<core::EventContent>& said);
   void ShowDocks(bool are_shown);
   void ShowState();

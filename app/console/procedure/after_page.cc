@@ -2,6 +2,7 @@
 
 #include <QHBoxLayout>
 #include <QKeyEvent>
+#include <QLabel>
 #include <QScrollArea>
 #include <QVBoxLayout>
 
@@ -10,6 +11,7 @@ namespace {
 
 constexpr int kAfterWidthPx = 560;
 constexpr int kNotesPx = 110;
+constexpr double kHeadingScale = 1.4;
 
 }  // namespace
 
@@ -18,10 +20,11 @@ AfterPage::AfterPage(QWidget* parent) : QWidget(parent) {
   auto* content = new QWidget;
   content->setMaximumWidth(kAfterWidthPx);
   auto* form = new QVBoxLayout(content);
-  end_note_ = new QLabel;
-  end_note_->setObjectName("after_end_note");
-  end_note_->setTextFormat(Qt::PlainText);
-  end_note_->setWordWrap(true);
+  auto* heading = new QLabel(tr("After the trial"));
+  QFont font = heading->font();
+  font.setPointSizeF(kHeadingScale * font.pointSizeF());
+  font.setBold(true);
+  heading->setFont(font);
   questions_ = new QuestionForm(core::AskedWhen::kAfter);
   auto* title = new QLabel(tr("&Notes"));
   notes_ = new QPlainTextEdit;
@@ -31,7 +34,7 @@ AfterPage::AfterPage(QWidget* parent) : QWidget(parent) {
   notes_->setTabChangesFocus(true);
   notes_->setMinimumHeight(kNotesPx);
   title->setBuddy(notes_);
-  for (QWidget* widget : std::initializer_list<QWidget*>{end_note_, questions_, title, notes_})
+  for (QWidget* widget : std::initializer_list<QWidget*>{heading, questions_, title, notes_})
     form->addWidget(widget);
   form->addStretch(1);
   auto* area = new QScrollArea;
@@ -55,8 +58,7 @@ AfterPage::AfterPage(QWidget* parent) : QWidget(parent) {
   connect(skip_, &QPushButton::clicked, this, &AfterPage::Skipped);
 }
 
-void AfterPage::Open(const core::TrialInfo& trial, const QString& end_note) {
-  end_note_->setText(end_note);
+void AfterPage::Open(const core::TrialInfo& trial) {
   questions_->Open(trial, std::nullopt);
   notes_->clear();
   SetIsSaving(false);

@@ -1,7 +1,6 @@
 // After a trial: the estimate again, the survey, and free notes.
 #pragma once
 
-#include <QLabel>
 #include <QPlainTextEdit>
 #include <QPushButton>
 #include <QWidget>
@@ -20,7 +19,7 @@ class AfterPage : public QWidget {
   explicit AfterPage(QWidget* parent = nullptr);
 
   // Asks of the trial that has ended, with nothing said yet.
-  void Open(const core::TrialInfo& trial, const QString& end_note);
+  void Open(const core::TrialInfo& trial);
   void FocusEstimate() { questions_->FocusEstimate(); }
   void SetIsSaving(bool is_saving);  // while they are written
 
@@ -34,8 +33,7 @@ class AfterPage : public QWidget {
  private:
   void Save();
 
-  QLabel* end_note_ = nullptr;  // this and the next are owned by Qt as children
-  QuestionForm* questions_ = nullptr;
+  QuestionForm* questions_ = nullptr;  // this and the next are owned by Qt as children
   QPlainTextEdit* notes_ = nullptr;
   QPushButton* save_ = nullptr;
   QPushButton* skip_ = nullptr;

@@ -55,11 +55,11 @@ void PresetPanel::AddLists() {
   remove_->setObjectName("remove_preset");
   remove_->setToolTip(tr("Forget the preset that is selected"));
   auto* line = new QHBoxLayout;
-  line->addWidget(name_, 1);
   line->addWidget(save_);
   line->addWidget(remove_);
   auto* column = new QVBoxLayout(this);
   column->addWidget(list_, 1);
+  column->addWidget(name_);
   column->addLayout(line);
   column->addWidget(new QLabel(tr("History")));
   column->addWidget(history_, 1);

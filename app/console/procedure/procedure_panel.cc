@@ -103,6 +103,7 @@ void ProcedurePanel::ShowTime(double time_s, const std::optional<core::StepRun>&
 
 void ProcedurePanel::ShowEnd() {
   place_.reset();
+  step_time_->clear();
   ShowPlace();
 }
 

@@ -10,6 +10,7 @@ namespace elbowroom::console {
 namespace {
 
 constexpr double kLargestEstimateMm = 100'000.0;
+constexpr int kEstimateRows = 1;  // of the form, before the items
 constexpr int kMostButtons = 11;  // longer scales have a box of numbers
 
 QString WordOf(core::AskedWhen when) {
@@ -37,7 +38,7 @@ QuestionForm::QuestionForm(core::AskedWhen when, QWidget* parent)
 }
 
 void QuestionForm::Open(const core::TrialInfo& trial, std::optional<double> estimate_mm) {
-  while (form_->rowCount() > 1) form_->removeRow(form_->rowCount() - 1);
+  while (form_->rowCount() > kEstimateRows) form_->removeRow(form_->rowCount() - 1);
   questions_.clear();
   estimate_->setValue(estimate_mm.value_or(0.0));
   for (const core::SurveyItem& item : trial.survey)
@@ -50,7 +51,8 @@ void QuestionForm::AddItem(const core::SurveyItem& item) {
   label->setTextFormat(Qt::PlainText);
   label->setWordWrap(true);
   const bool has_buttons = item.most - item.least < kMostButtons;
-  form_->addRow(label, has_buttons ? ButtonsOf(item, name) : BoxOf(item, name));
+  form_->addRow(label);  // over the form's width
+  form_->addRow(has_buttons ? ButtonsOf(item, name) : BoxOf(item, name));
 }
 
 QWidget* QuestionForm::ButtonsOf(const core::SurveyItem& item, const QString& name) {
