@@ -218,6 +218,7 @@ void Add(Writer& writer, const ImportReport& report) {
   writer.Add(report.parts);
   writer.Add(report.triangles);
   writer.Add(report.unit);
+  writer.Add(static_cast<std::uint8_t>(report.is_unit_stated));
   for (const double number : report.bounds_mm.min()) writer.Add(number);
   for (const double number : report.bounds_mm.max()) writer.Add(number);
   writer.Add(static_cast<std::uint8_t>(report.watertight));
@@ -232,6 +233,7 @@ ImportReport TakeReport(Reader& reader) {
   report.parts = reader.TakeCount();
   report.triangles = reader.TakeCount();
   report.unit = reader.TakeText();
+  report.is_unit_stated = reader.TakeFlag();
   for (double& number : report.bounds_mm.min()) number = reader.TakeFinite();
   for (double& number : report.bounds_mm.max()) number = reader.TakeFinite();
   reader.Check(!report.bounds_mm.isEmpty(), "its bounds are empty");

@@ -25,7 +25,7 @@ struct PackedModel {
 };
 
 // Changes when the same file would give other bytes.
-inline constexpr std::uint32_t kPackedModelVersion = 7;
+inline constexpr std::uint32_t kPackedModelVersion = 8;
 
 // 128-bit XXH3, 32 hex digits.
 [[nodiscard]] std::string HashOf(std::span<const std::byte> bytes);

@@ -20,6 +20,11 @@ class History {
   [[nodiscard]] const Value& now() const { return *values_[now_]; }
   [[nodiscard]] bool CanUndo() const { return now_ > 0; }
   [[nodiscard]] bool CanRedo() const { return now_ + 1 < values_.size(); }
+  // What Redone() would make the present. Throws: PreconditionError when nothing was undone.
+  [[nodiscard]] const Value& next() const {
+    Require(CanRedo(), "something was undone");
+    return *values_[now_ + 1];
+  }
 
   // Forgets the states that were undone. A value that equals the present one is no change.
   [[nodiscard]] History Changed(Value next) const {
@@ -28,6 +33,15 @@ class History {
     history.values_.resize(now_ + 1);
     history.Push(std::move(next));
     ++history.now_;
+    return history;
+  }
+
+  // The same history of what `change` makes of each value.
+  template <typename Change>
+  [[nodiscard]] History Mapped(const Change& change) const {
+    History history = *this;
+    for (std::shared_ptr<const Value>& value : history.values_)
+      value = std::make_shared<const Value>(change(*value));
     return history;
   }
 

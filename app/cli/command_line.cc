@@ -147,6 +147,7 @@ int RunCommandLine(int argc, char** argv, const OpenConsole& open_console) {
   AddCamerasCommand(app, &choice);
   AddRigCommand(app, &choice);
   AddGaugeCommand(app, &choice);
+  AddHeadCommand(app, &choice);
   AddClashCommand(app, &choice);
   AddImportCommand(app, &choice);
   AddLayoutCommand(app, &choice);

@@ -1,10 +1,13 @@
 // elbowroom import FILE: what a CAD file holds, what is wrong with it, and the same model in another format.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "app/cli/options/command.h"
 #include "app/cli/options/file_ending.h"
@@ -49,6 +52,17 @@ void CheckOutput(const char* option, const std::filesystem::path& output,
       fmt::format("{} '{}': is the file that is read; choose another name", option, output.string()));
 }
 
+// The names that `layout add --node` takes; a file of one body has nothing to choose from.
+std::string NodeLines(const std::vector<std::string>& nodes) {
+  constexpr std::size_t kMost = 40;
+  if (nodes.size() < 2) return "";
+  std::string text = "\nnodes:";
+  for (std::size_t i = 0; i < std::min(nodes.size(), kMost); ++i) text += "\n  " + nodes[i];
+  if (nodes.size() > kMost)
+    text += fmt::format("\n  and {} more; --json lists them all", nodes.size() - kMost);
+  return text;
+}
+
 CommandResult Run(const ImportCommandOptions& options, const CommandContext& context) {
   CheckEnding("--picture", options.picture, {".png"});
   CheckOutput("--out", options.out, options.file);
@@ -58,6 +72,7 @@ CommandResult Run(const ImportCommandOptions& options, const CommandContext& con
   if (!options.out.empty()) cad_import::WriteModelFile(model, options.out);
   if (!options.picture.empty()) WritePicture(model, options.picture, context);
   const Eigen::Vector3d low = report.bounds_mm.min(), high = report.bounds_mm.max();
+  const std::vector<std::string> nodes = cad_import::NodesOf(model);
   CommandResult result;
   result.json = {{"parts", report.parts},
                  {"meshes", model.shapes.size()},
@@ -68,6 +83,7 @@ CommandResult Run(const ImportCommandOptions& options, const CommandContext& con
                  {"repaired", report.repaired},
                  {"dropped_triangles", report.dropped_triangles},
                  {"deviation_mm", report.deviation_mm},
+                 {"nodes", nodes},
                  {"warnings", report.warnings}};
   const std::string shared =
       model.shapes.size() < model.instances.size() ? fmt::format(" of {} meshes", model.shapes.size()) : "";
@@ -77,6 +93,7 @@ CommandResult Run(const ImportCommandOptions& options, const CommandContext& con
                   core::SizeText(high - low), report.unit, report.watertight ? "watertight" : "open");
   if (report.deviation_mm > 0.0)
     result.text += fmt::format(", triangles within {:.2g} mm of its faces", report.deviation_mm);
+  result.text += NodeLines(nodes);
   for (const std::string& warning : report.warnings) result.text += "\nwarning: " + warning;
   if (!options.out.empty()) {
     const bool is_glb = cad_import::FindFormat(options.out) == cad_import::FileFormat::kGlb;

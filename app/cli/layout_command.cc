@@ -10,12 +10,12 @@
 #include <utility>
 #include <vector>
 
-#include "app/cli/folder_lock.h"
-#include "app/cli/layout_edit.h"
 #include "app/cli/layout_listing.h"
 #include "app/cli/options/command.h"
 #include "app/cli/options/file_ending.h"
 #include "app/cli/options/unit_option.h"
+#include "app/control/layout_editing/folder_lock.h"
+#include "app/control/layout_editing/layout_edit.h"
 #include "app/control/layout_picture.h"
 #include "cad_import/layout/layout_file.h"
 #include "core/error.h"
@@ -27,6 +27,10 @@ namespace {
 
 namespace fs = std::filesystem;
 using cad_import::LayoutText;
+using control::FolderLock;
+using control::PairEdit;
+using control::PartEdit;
+using control::SpacingEdit;
 
 // The options of all these commands.
 struct LayoutOptions {
@@ -76,7 +80,7 @@ CommandResult New(const LayoutOptions& options, const CommandContext& context) {
   for (const fs::path& file : options.files) {
     PartEdit part;
     part.file = file;
-    AddPart(text, part);
+    control::AddPart(text, part);
   }
   if (!options.files.empty()) return Save(text, "made " + options.layout.string(), context);
   core::WriteWholeFile(options.layout, text.text());
@@ -89,31 +93,31 @@ CommandResult Add(const LayoutOptions& options, const CommandContext& context) {
   PartEdit part = options.part;
   part.file = options.files.front();
   part.unit = options.unit;
-  const std::string name = AddPart(text, part);
+  const std::string name = control::AddPart(text, part);
   return Save(text, fmt::format("added part '{}'", name), context);
 }
 
 CommandResult Space(const LayoutOptions& options, const CommandContext& context) {
   LayoutText text = LayoutText::Read(options.layout);
-  PutSpacing(text, options.spacing);
+  control::PutSpacing(text, options.spacing);
   return Save(text, fmt::format("spacing '{}' is set", options.spacing.name), context);
 }
 
 CommandResult Group(const LayoutOptions& options, const CommandContext& context) {
   LayoutText text = LayoutText::Read(options.layout);
-  PutGroup(text, options.group);
+  control::PutGroup(text, options.group);
   return Save(text, fmt::format("group '{}' is set", options.group.name), context);
 }
 
 CommandResult Pair(const LayoutOptions& options, const CommandContext& context) {
   LayoutText text = LayoutText::Read(options.layout);
-  PutPair(text, options.pair);
+  control::PutPair(text, options.pair);
   return Save(text, fmt::format("pair '{}' and '{}' is set", options.pair.a, options.pair.b), context);
 }
 
 CommandResult Move(const LayoutOptions& options, const CommandContext& context) {
   LayoutText text = LayoutText::Read(options.layout);
-  MovePart(text, options.part);
+  control::MovePart(text, options.part);
   core::Layout layout;
   CommandResult result = Save(text, fmt::format("part '{}' is moved", options.part.name), context, &layout);
   // Along the axis of a spacing that moves the part, the gap decides where the part is, not its position.
@@ -130,8 +134,8 @@ CommandResult Move(const LayoutOptions& options, const CommandContext& context) 
 
 CommandResult Remove(const LayoutOptions& options, const CommandContext& context) {
   LayoutText text = LayoutText::Read(options.layout);
-  for (const std::string& name : options.names) RemoveNamed(text, name);
-  if (!options.pair.a.empty()) RemovePair(text, options.pair);
+  for (const std::string& name : options.names) control::RemoveNamed(text, name);
+  if (!options.pair.a.empty()) control::RemovePair(text, options.pair);
   return Save(text,
               options.names.empty()
                   ? fmt::format("removed the pair '{}' and '{}'", options.pair.a, options.pair.b)

@@ -2,6 +2,7 @@
 
 #include <QEvent>
 #include <QHBoxLayout>
+#include <QKeyEvent>
 #include <QPainter>
 #include <algorithm>
 #include <array>
@@ -42,12 +43,17 @@ CameraThumbnail::CameraThumbnail(const core::CameraModel& camera, QWidget* paren
       name_(QString::fromStdString(camera.name())),
       camera_px_(camera.width_px(), camera.height_px()) {
   setMinimumWidth(60);
+  setFocusPolicy(Qt::StrongFocus);
+  setObjectName("camera_tile:" + name_);
+  setAccessibleName(tr("Camera %1").arg(name_));
+  setToolTip(tr("Double click: this camera's picture, large"));
 }
 
 void CameraThumbnail::ShowTile(const control::CameraTile& tile) {
   picture_ = TilePicture(tile.picture, !tile.gone.empty());
   text_ = TextOf(tile);
-  setToolTip(text_.tool_tip);
+  setToolTip(text_.tool_tip + (text_.tool_tip.isEmpty() ? "" : "\n") +
+             tr("Double click: this camera's picture, large"));
   update();
 }
 
@@ -66,6 +72,13 @@ void CameraThumbnail::paintEvent(QPaintEvent* /*event*/) {
   const int caption_width_px = std::min(width(), std::max(picture.width(), kLeastCaptionWidthPx));
   PaintCaption(painter, QRect((width() - caption_width_px) / 2, picture.bottom() + 2, caption_width_px,
                               CaptionHeight()));
+}
+
+void CameraThumbnail::mouseDoubleClickEvent(QMouseEvent* /*event*/) { emit Chosen(); }
+
+void CameraThumbnail::keyPressEvent(QKeyEvent* event) {
+  if (event->key() == Qt::Key_Return || event->key() == Qt::Key_Enter) return emit Chosen();
+  QWidget::keyPressEvent(event);
 }
 
 void CameraThumbnail::PaintPicture(QPainter& painter, const QRect& room) const {
@@ -108,6 +121,8 @@ void CameraStrip::Open(const core::Rig& rig) {
   for (const core::CameraModel& camera : rig.cameras) {
     thumbnails_.push_back(new CameraThumbnail(camera, this));
     layout()->addWidget(thumbnails_.back());
+    connect(thumbnails_.back(), &CameraThumbnail::Chosen, this,
+            [this, i = static_cast<int>(thumbnails_.size()) - 1] { emit CameraChosen(i); });
   }
   show();
 }

@@ -14,6 +14,8 @@ namespace elbowroom::console {
 
 // One camera: its picture with the silhouette's outline, and its figures below. Grey while it is gone.
 class CameraThumbnail : public QWidget {
+  Q_OBJECT
+
  public:
   explicit CameraThumbnail(const core::CameraModel& camera, QWidget* parent = nullptr);
 
@@ -22,8 +24,13 @@ class CameraThumbnail : public QWidget {
   [[nodiscard]] const QImage& picture() const { return picture_; }
   [[nodiscard]] QSize PictureRoom() const;  // in the screen's pixels
 
+ signals:
+  void Chosen();
+
  protected:
   void paintEvent(QPaintEvent* event) override;
+  void mouseDoubleClickEvent(QMouseEvent* event) override;
+  void keyPressEvent(QKeyEvent* event) override;
 
  private:
   [[nodiscard]] int CaptionHeight() const;
@@ -52,6 +59,7 @@ class CameraStrip : public QFrame {
 
  signals:
   void RoomChanged(const elbowroom::control::ThumbnailRoom& room);  // of one picture; empty: none is seen
+  void CameraChosen(int camera);                                    // by a double click, or Enter
 
  protected:
   bool event(QEvent* event) override;

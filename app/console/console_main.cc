@@ -62,10 +62,8 @@ class ConsoleApplication : public QApplication {
 };
 
 void StartWhatWasAsked(MainWindow& window, const ConsoleOptions& options) {
-  if (!options.trial_file.empty() && !options.picture) {
-    window.StartTrial(QString::fromStdString(options.trial_file.string()));
-  } else if (!options.trial_file.empty()) {
-    StartTrialFile(window.desk(), options.trial_file, window.session_place());
+  if (!options.trial_file.empty()) {
+    window.OpenFile(QString::fromStdString(options.trial_file.string()));
   } else if (options.demo) {
     StartDemo(window.desk(), window.session_place());
   }
@@ -73,6 +71,7 @@ void StartWhatWasAsked(MainWindow& window, const ConsoleOptions& options) {
 
 void CloseInOrder(MainWindow& window) {
   if (QWidget* dialog = QApplication::activeModalWidget()) dialog->close();
+  window.layout_page().desk().Keep();  // nobody is there to ask
   window.close();
 }
 

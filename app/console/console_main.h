@@ -10,9 +10,9 @@
 namespace elbowroom::console {
 
 struct ConsoleOptions {
-  std::filesystem::path trial_file;       // a TRIAL.toml to run at once; empty: none
-  bool demo = false;                      // or the built-in trial
-  std::filesystem::path session;          // where the first trial is recorded; empty: in SessionsFolder()
+  std::filesystem::path trial_file;  // a TRIAL.toml to run at once, or a session (.db) to review; empty: none
+  bool demo = false;                 // or the built-in trial
+  std::filesystem::path session;     // where the first trial is recorded; empty: in SessionsFolder()
   std::optional<PictureOrder> picture{};  // take one picture of the window, then close
   int argc = 0;                           // for Qt's own options
   char** argv = nullptr;

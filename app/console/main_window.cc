@@ -2,6 +2,7 @@
 
 #include <QCloseEvent>
 #include <QKeyEvent>
+#include <QMenuBar>
 #include <QMimeData>
 #include <QScreen>
 #include <QScrollArea>
@@ -18,6 +19,8 @@
 #include "app/console/desktop/welcome_page.h"
 #include "app/console/desktop/window_memory.h"
 #include "app/console/view/listing.h"
+#include "app/control/layout_editing/trial_draft.h"
+#include "core/error.h"
 
 namespace elbowroom::console {
 namespace {
@@ -44,11 +47,22 @@ std::optional<double> SpacingStepFor(const QKeyEvent& event) {
   }
 }
 
+bool IsSession(const QString& file) { return file.endsWith(".db", Qt::CaseInsensitive); }
+
 // The file that was dropped, if it can be opened.
-QString TrialIn(const QMimeData* data) {
+QString FileIn(const QMimeData* data) {
   if (data == nullptr || data->urls().size() != 1) return {};
   const QString file = data->urls().front().toLocalFile();
-  return file.endsWith(".toml", Qt::CaseInsensitive) ? file : QString();
+  return file.endsWith(".toml", Qt::CaseInsensitive) || IsSession(file) ? file : QString();
+}
+
+// What can't be read is for the trial's reader to say.
+bool IsLayout(const QString& file) {
+  try {
+    return control::KindOf(file.toStdString()) == control::TomlKind::kLayout;
+  } catch (const core::Error&) {
+    return false;
+  }
 }
 
 QScrollArea* Scrolling(QWidget* content) {
@@ -71,6 +85,7 @@ MainWindow::MainWindow(std::filesystem::path session)
   setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);
   spacings_ = new SpacingPanel;
   view_ = new OperatorView;
+  sights_ = new TrialSights(view_, this);
   AddPreflight();
   AddPanels();
   AddActions();
@@ -162,11 +177,15 @@ QWidget* MainWindow::MakeCentre() {
 void MainWindow::AddPages(QStackedWidget* pages) {
   auto* welcome = new WelcomePage(findChild<QAction*>("start_demo"), findChild<QAction*>("open_trial"));
   welcome->setObjectName("trial");
-  connect(welcome, &WelcomePage::TrialChosen, this, &MainWindow::StartTrial);
+  welcome->AddSamples({findChild<QAction*>("sample:payload"), findChild<QAction*>("sample:curtain"),
+                       findChild<QAction*>("sample:faucet")});
+  connect(welcome, &WelcomePage::TrialChosen, this, &MainWindow::OpenFile);
   layout_page_ = new LayoutPage;
   layout_page_->setObjectName("layout");
   connect(layout_page_, &LayoutPage::Failed, this, &MainWindow::ShowError);
   connect(layout_page_, &LayoutPage::TrialAsked, this, &MainWindow::StartTrial);
+  connect(layout_page_, &LayoutPage::LayoutSaved, this, [](const QString& file) { RememberTrial(file); });
+  menuBar()->insertMenu(menuBar()->actions().at(1), layout_page_->menu());
   review_page_ = new ReviewPage;
   review_page_->setObjectName("review");
   connect(review_page_, &ReviewPage::Failed, this, &MainWindow::ShowError);
@@ -213,13 +232,34 @@ void MainWindow::FollowProcedure() {
   procedure_->UsePages(pages_);
 }
 
+void MainWindow::OpenFile(const QString& file) {
+  if (IsSession(file)) return OpenSession(file.toStdString());
+  if (!IsLayout(file)) return StartTrial(file);
+  pages_->Show(Page::kLayout);
+  layout_page_->Open(file.toStdString());
+}
+
+void MainWindow::OpenSession(const std::filesystem::path& session) {
+  pages_->Show(Page::kReview);
+  review_page_->Open(session);
+}
+
+void MainWindow::AskForSession() {
+  pages_->Show(Page::kReview);
+  review_page_->AskForSession();
+}
+
 void MainWindow::dragEnterEvent(QDragEnterEvent* event) {
-  if (!TrialIn(event->mimeData()).isEmpty()) event->acceptProposedAction();
+  if (!FileIn(event->mimeData()).isEmpty() || !LayoutPage::CadFileIn(event->mimeData()).isEmpty())
+    event->acceptProposedAction();
 }
 
 void MainWindow::dropEvent(QDropEvent* event) {
   event->acceptProposedAction();
-  StartTrial(TrialIn(event->mimeData()));
+  const QString cad_file = LayoutPage::CadFileIn(event->mimeData());
+  if (cad_file.isEmpty()) return OpenFile(FileIn(event->mimeData()));
+  pages_->Show(Page::kLayout);
+  layout_page_->Import(cad_file.toStdString());
 }
 
 void MainWindow::FollowDesk() {
@@ -228,7 +268,10 @@ void MainWindow::FollowDesk() {
   connect(desk_, &TrialDesk::HullArrived, view_, &OperatorView::Foresee);
   connect(desk_, &TrialDesk::FrameArrived, this, &MainWindow::ShowFrame);
   connect(desk_, &TrialDesk::TilesArrived, strip_, &CameraStrip::ShowTiles);
-  connect(strip_, &CameraStrip::RoomChanged, desk_, &TrialDesk::SetTileRoom);
+  connect(desk_, &TrialDesk::TilesArrived, sights_, &TrialSights::ShowTiles);
+  connect(strip_, &CameraStrip::RoomChanged, sights_, &TrialSights::SetTileRoom);
+  connect(strip_, &CameraStrip::CameraChosen, sights_, &TrialSights::ShowCamera);
+  connect(sights_, &TrialSights::WishesChanged, desk_, &TrialDesk::SetTileWishes);
   connect(desk_, &TrialDesk::Failed, this, &MainWindow::ShowError);
   connect(desk_, &TrialDesk::Progressed, status_, &StatusLine::ShowProgress);
   connect(desk_, &TrialDesk::TrialEnded, messages_, &MessageBar::ShowNote);
@@ -250,7 +293,8 @@ void MainWindow::ShowError(const QString& line) { messages_->ShowError(line); }
 void MainWindow::OpenTrial(const control::TrialSetup& setup) {
   messages_->hide();
   view_->Clear();
-  pages_->SetTrialWidget(view_);
+  sights_->Open(setup.source->rig());
+  pages_->SetTrialWidget(sights_);
   pages_->Show(Page::kTrial);
   cameras_dock_->show();
   strip_->Open(setup.source->rig());
@@ -267,6 +311,7 @@ void MainWindow::OpenTrial(const control::TrialSetup& setup) {
 
 void MainWindow::ShowFrame(const FrameNews& news) {
   view_->ShowFrame(news.result);
+  sights_->ShowFrame(news.result);
   spacings_->ShowApplied(news.result->record.spacing_mm);
   spacings_->ShowPairs(*news.result);
   contacts_->ShowFrame(*news.result);
@@ -294,6 +339,7 @@ void MainWindow::changeEvent(QEvent* event) {
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {
+  if (!layout_page_->MayLeave()) return event->ignore();
   if (desk_->state() == DeskState::kIdle) {
     pages_->Show(Page::kTrial);  // whose panels are remembered
     if (is_remembered_) SaveWindow(*this);

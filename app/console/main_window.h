@@ -13,9 +13,11 @@
 #include "app/console/layouts/layout_page.h"
 #include "app/console/note_line.h"
 #include "app/console/page_switch.h"
+#include "app/console/participant/participant_desk.h"
 #include "app/console/preflight_panel.h"
 #include "app/console/procedure_flow.h"
 #include "app/console/reviews/review_page.h"
+#include "app/console/sights/trial_sights.h"
 #include "app/console/spacing_panel.h"
 #include "app/console/status_line.h"
 #include "app/console/tool_panel.h"
@@ -41,13 +43,24 @@ class MainWindow : public QMainWindow {
   [[nodiscard]] TrialDesk& desk() { return *desk_; }
   [[nodiscard]] SessionPlace& session_place() { return place_; }
   [[nodiscard]] OperatorView& view() { return *view_; }
+  [[nodiscard]] TrialSights& sights() { return *sights_; }
   [[nodiscard]] CameraStrip& strip() { return *strip_; }
   [[nodiscard]] const StatusLine& status() const { return *status_; }
   [[nodiscard]] PreflightPanel& preflight() { return *preflight_; }
+  [[nodiscard]] ParticipantDesk& participant() { return *participant_; }
   [[nodiscard]] PageSwitch& pages() { return *pages_; }
+  [[nodiscard]] LayoutPage& layout_page() { return *layout_page_; }
+  [[nodiscard]] ReviewPage& review_page() { return *review_page_; }
+
+  // A LAYOUT.toml goes to the layout page, a session to the review page, anything else is run as a trial.
+  void OpenFile(const QString& file);
 
   // Takes size, place and panels from the last run, and leaves them for the next.
   void Remember();
+
+  // On the review page.
+  void OpenSession(const std::filesystem::path& session);
+  void AskForSession();
 
  public slots:
   // Of a trial with a procedure its start page is shown first.
@@ -64,6 +77,7 @@ class MainWindow : public QMainWindow {
  private:
   void AddActions();
   void AddMenus();
+  void AddParticipant();
   void TakeIcons();  // those that have the text's colour
   [[nodiscard]] QMenu* ThemeMenu();
   void AddPreflight();
@@ -91,6 +105,7 @@ class MainWindow : public QMainWindow {
   LayoutPage* layout_page_ = nullptr;
   ReviewPage* review_page_ = nullptr;
   OperatorView* view_ = nullptr;
+  TrialSights* sights_ = nullptr;
   HullLookButton* hull_look_ = nullptr;
   PreflightPanel* preflight_ = nullptr;
   QDockWidget* preflight_dock_ = nullptr;
@@ -102,6 +117,7 @@ class MainWindow : public QMainWindow {
   ContactModel* contacts_ = nullptr;
   TouchModel* touches_ = nullptr;
   StatusLine* status_ = nullptr;
+  ParticipantDesk* participant_ = nullptr;
 };
 
 }  // namespace elbowroom::console

@@ -11,6 +11,8 @@
 #include "app/console/desktop/recent_trials.h"
 #include "app/console/desktop/theme.h"
 #include "app/console/main_window.h"
+#include "app/console/review_actions.h"
+#include "app/console/reviews/recent_sessions.h"
 
 namespace elbowroom::console {
 
@@ -21,6 +23,11 @@ void MainWindow::AddActions() {
   bar->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
   auto* demo = new StartDemoAction(*desk_, place_, this);
   demo->setObjectName("start_demo");
+  for (const control::Sample sample : control::kSamples) {
+    const std::string_view name = control::ToString(sample);
+    (new StartSampleAction(sample, *desk_, place_, this))
+        ->setObjectName("sample:" + QString::fromUtf8(name.data(), static_cast<qsizetype>(name.size())));
+  }
   auto* open = new OpenTrialAction(
       *desk_, [this](const QString& file) { StartTrial(file); }, this);
   open->setObjectName("open_trial");
@@ -30,6 +37,7 @@ void MainWindow::AddActions() {
   stop->setObjectName("stop");
   auto* report = new ReportAction(*desk_, this);
   report->setObjectName("report");
+  auto* review = new ReviewTrialAction(*desk_, this);
   auto* undo = new UndoGapAction(*spacings_, this);
   undo->setObjectName("undo_gap");
   auto* redo = new RedoGapAction(*spacings_, this);
@@ -46,7 +54,7 @@ void MainWindow::AddActions() {
   TakeIcons();
   bar->addActions({demo, open});
   bar->addSeparator();
-  bar->addActions({stop, report});
+  bar->addActions({stop, report, review});
   bar->addSeparator();
   bar->addActions({undo, redo});
   bar->addSeparator();
@@ -68,15 +76,24 @@ void MainWindow::AddMenus() {
   file->addAction(action("open_trial"));
   auto* recent = new RecentTrialsMenu(this);
   recent->setObjectName("recent_trials");
-  connect(recent, &RecentTrialsMenu::Chosen, this, &MainWindow::StartTrial);
+  connect(recent, &RecentTrialsMenu::Chosen, this, &MainWindow::OpenFile);
   file->addMenu(recent);
+  file->addAction(new OpenSessionAction(this));
+  auto* sessions = new RecentSessionsMenu(this);
+  sessions->setObjectName("recent_sessions");
+  connect(sessions, &RecentSessionsMenu::Chosen, this,
+          [this](const QString& session) { OpenSession(session.toStdString()); });
+  file->addMenu(sessions);
   file->addAction(new SessionsFolderAction(this));
   file->addSeparator();
   QAction* quit = file->addAction(tr("&Quit"), QKeySequence::Quit, this, &QWidget::close);
   quit->setToolTip(tr("A running trial ends in order first"));
   auto* trial = menuBar()->addMenu(tr("&Trial"));
   trial->setToolTipsVisible(true);
-  trial->addActions({action("start_demo"), action("stop"), action("report")});
+  trial->addActions({action("start_demo"), action("stop"), action("report"), action("review_trial")});
+  auto* samples = trial->addMenu(tr("&Samples"));
+  samples->setToolTipsVisible(true);
+  samples->addActions({action("sample:payload"), action("sample:curtain"), action("sample:faucet")});
   trial->addSeparator();
   trial->addActions({action("undo_gap"), action("redo_gap")});
   trial->addSeparator();
@@ -87,13 +104,31 @@ void MainWindow::AddMenus() {
   cameras->setToolTipsVisible(true);
   cameras->addActions({action("show_preflight"), action("take_background"), action("calibrate")});
   auto* view = menuBar()->addMenu(tr("&View"));
-  view->addAction(tr("&Fit everything"), QKeySequence(Qt::Key_F), view_, &OperatorView::Fit);
+  view->addAction(tr("&Fit everything"), QKeySequence(Qt::Key_F), this, [this] {
+    if (pages_->page() == Page::kReview) return review_page_->Fit();
+    view_->Fit();
+  });
+  sights_->AddTo(view);
+  view->addSeparator();
   view->addAction(tr("F&ull screen"), QKeySequence(Qt::Key_F11), this,
                   [this] { setWindowState(windowState() ^ Qt::WindowFullScreen); });
   view->addMenu(ThemeMenu());
   view->addSeparator();
   for (const QDockWidget* dock : findChildren<QDockWidget*>())
     if (dock != preflight_dock_) view->addAction(dock->toggleViewAction());
+  AddParticipant();
+}
+
+void MainWindow::AddParticipant() {
+  participant_ = new ParticipantDesk(this);
+  menuBar()->addMenu(participant_->menu());
+  status_->AddGuest(participant_->status());
+  connect(participant_, &ParticipantDesk::Failed, this, &MainWindow::ShowError);
+  connect(hull_look_, &HullLookButton::Chosen, participant_, &ParticipantDesk::SetLook);
+  connect(desk_, &TrialDesk::TrialOpened, participant_,
+          [this](const control::TrialSetup& setup) { participant_->OpenTrial(setup.source->rig()); });
+  connect(desk_, &TrialDesk::FrameArrived, participant_,
+          [this](const FrameNews& news) { participant_->ShowFrame(news.result); });
 }
 
 QMenu* MainWindow::ThemeMenu() {

@@ -48,10 +48,14 @@ void SpacingControl::AddRows(const core::Spacing& spacing) {
   slider_ = new QSlider(Qt::Horizontal);
   slider_->setObjectName("spacing_slider:" + name);
   slider_->setPageStep(SliderFrom(kButtonStepMm));
+  slider_->setAccessibleName(tr("Gap %1").arg(name));
+  slider_->setToolTip(tr("The gap in mm; it takes effect with the next frame"));
   box_ = new QDoubleSpinBox;
   box_->setObjectName("spacing_box:" + name);
   box_->setDecimals(1);
   box_->setSuffix(" mm");
+  box_->setAccessibleName(tr("Gap %1 in mm").arg(name));
+  box_->setToolTip(tr("The gap in mm, from %1 to %2").arg(min_mm_).arg(max_mm_));
   box_->setKeyboardTracking(false);  // a number that is half typed isn't asked for
   box_->installEventFilter(this);
   grid->addWidget(title_, 0, 0, 1, 3);
@@ -61,6 +65,7 @@ void SpacingControl::AddRows(const core::Spacing& spacing) {
     auto* button = new QToolButton;
     button->setText(by_mm < 0 ? "−" : "+");
     button->setObjectName((by_mm < 0 ? "spacing_minus:" : "spacing_plus:") + name);
+    button->setAccessibleName(by_mm < 0 ? tr("Narrow %1").arg(name) : tr("Widen %1").arg(name));
     button->setToolTip(tr("%1 mm (keys − and +; with Shift 1 mm)").arg(by_mm, 0, 'f', 0));
     button->setAutoRepeat(true);
     connect(button, &QToolButton::clicked, this, [this, by_mm] { Step(by_mm); });

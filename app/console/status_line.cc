@@ -92,13 +92,21 @@ void StatusLine::resizeEvent(QResizeEvent* event) {
 
 void StatusLine::FitFields() {
   constexpr int kBesideFieldPx = 8;
-  int room_px = width() - (progress_->isVisible() ? progress_->width() + kBesideFieldPx : 0);
+  int room_px = width();
+  for (const QWidget* widget : {static_cast<QWidget*>(progress_), guest_})
+    if (widget != nullptr && widget->isVisible())
+      room_px -= std::max(widget->width(), widget->sizeHint().width()) + kBesideFieldPx;
   for (QLabel* field : {frame_, session_, recorded_, age_, times_, skipped_, driver_}) {
     const int wanted_px = std::max(field->minimumWidth(), field->sizeHint().width()) + kBesideFieldPx;
     const bool fits = wanted_px <= room_px;
     if (fits) room_px -= wanted_px;
     if (field->isHidden() == fits) field->setVisible(fits);
   }
+}
+
+void StatusLine::AddGuest(QWidget* guest) {
+  guest_ = guest;
+  addPermanentWidget(guest);
 }
 
 void StatusLine::ShowPicture(double drawing_ms, const QString& driver) {

@@ -24,6 +24,8 @@ class StatusLine : public QStatusBar {
   void ShowAge(double age_ms);  // of the operator's picture when it was painted; live cameras only
   void ShowProgress(qint64 done, qint64 total, const QString& what);  // total <= 0: not known, not shown
   void HideProgress() { progress_->hide(); }
+  // A field at the right edge that somebody else fills, shows and hides.
+  void AddGuest(QWidget* guest);
   [[nodiscard]] const control::FrameTimeTally& ages() const { return ages_; }
   [[nodiscard]] QSize minimumSizeHint() const override;  // it gives way to the window, which may be small
 
@@ -43,6 +45,7 @@ class StatusLine : public QStatusBar {
   QLabel* session_ = nullptr;
   QLabel* driver_ = nullptr;
   QProgressBar* progress_ = nullptr;
+  QWidget* guest_ = nullptr;
   double picture_ms_ = 0.0;
   FrameRate rate_;
   control::FrameTimeTally ages_;  // of this trial's pictures

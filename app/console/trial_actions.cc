@@ -44,6 +44,10 @@ void StartDemo(TrialDesk& desk, SessionPlace& place) {
              place.Next());
 }
 
+void StartSample(control::Sample sample, TrialDesk& desk, SessionPlace& place) {
+  desk.Start([sample](const std::stop_token&) { return control::MakeSampleTrial(sample); }, place.Next());
+}
+
 void StartTrialFile(TrialDesk& desk, const std::filesystem::path& trial_file, SessionPlace& place,
                     std::function<void(control::TrialSetup*)> change) {
   desk.Start(
@@ -60,6 +64,27 @@ StartDemoAction::StartDemoAction(TrialDesk& desk, SessionPlace& place, QWidget* 
     : QAction(tr("Start &demo"), window) {
   setToolTip(tr("Play the built-in trial: a simulated hand at the PMT box, payload A above it"));
   connect(this, &QAction::triggered, window, [&desk, &place] { StartDemo(desk, place); });
+  EnableWhile(this, desk, IsIdle);
+}
+
+StartSampleAction::StartSampleAction(control::Sample sample, TrialDesk& desk, SessionPlace& place,
+                                     QWidget* window)
+    : QAction(window) {
+  switch (sample) {
+    case control::Sample::kPayload:
+      setText(tr("&Payload task"));
+      setToolTip(tr("A hand screws a pipe in below a payload: the demo"));
+      break;
+    case control::Sample::kCurtain:
+      setText(tr("&Curtain"));
+      setToolTip(tr("Two hands push a curtain before a window aside"));
+      break;
+    case control::Sample::kFaucet:
+      setText(tr("&Faucet"));
+      setToolTip(tr("Two cupped hands catch the water of a faucet"));
+      break;
+  }
+  connect(this, &QAction::triggered, window, [sample, &desk, &place] { StartSample(sample, desk, place); });
   EnableWhile(this, desk, IsIdle);
 }
 

@@ -9,12 +9,19 @@
 #include "app/console/desktop/session_place.h"
 #include "app/console/spacing_panel.h"
 #include "app/console/trial_desk.h"
+#include "app/control/samples/sample_trial.h"
 
 namespace elbowroom::console {
 
 class StartDemoAction : public QAction {
  public:
   StartDemoAction(TrialDesk& desk, SessionPlace& place, QWidget* window);
+};
+
+// One of the paper's scenes, without cameras.
+class StartSampleAction : public QAction {
+ public:
+  StartSampleAction(control::Sample sample, TrialDesk& desk, SessionPlace& place, QWidget* window);
 };
 
 class OpenTrialAction : public QAction {
@@ -60,6 +67,7 @@ class SessionsFolderAction : public QAction {
 // What the actions do: start a trial that is recorded at the next place. Throw: what SessionPlace::Next
 // throws.
 void StartDemo(TrialDesk& desk, SessionPlace& place);
+void StartSample(control::Sample sample, TrialDesk& desk, SessionPlace& place);
 // `change`: what is set in the trial after its file was read, on a worker; empty: nothing.
 void StartTrialFile(TrialDesk& desk, const std::filesystem::path& trial_file, SessionPlace& place,
                     std::function<void(control::TrialSetup*)> change = {});

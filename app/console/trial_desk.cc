@@ -10,10 +10,6 @@
 namespace elbowroom::console {
 namespace {
 
-std::filesystem::path ReportFolderFor(const std::filesystem::path& session) {
-  return session.parent_path() / (session.stem().string() + "-report");
-}
-
 QString EndNote(const control::TrialOutcome& outcome) {
   QString note =
       QString("%1 frames recorded in %2").arg(outcome.frames).arg(outcome.session.filename().c_str());
@@ -55,7 +51,7 @@ void TrialDesk::Run(control::TrialSetup setup) {
   tiles_ = std::make_unique<control::TileMaker>(setup.source, [this](const control::SharedTiles& tiles) {
     bridge_.PostLatest(Bridge::Stream::kTiles, [this, tiles] { emit TilesArrived(tiles); });
   });
-  tiles_->SetRoom(tile_room_);
+  tiles_->Wish(tile_wishes_);
   options.on_light = [tiles = tiles_.get()](const recon::LightReport& report) { tiles->AddLight(report); };
   options.on_frame = [this, tally, tiles = tiles_.get()](const control::SharedFrameResult& result,
                                                          const control::RecordedFrames& recorded) {
@@ -104,7 +100,7 @@ void TrialDesk::WriteReport() {
       bridge_,
       [session = *recorded_, progress = ProgressToHere(), html_file](const std::stop_token& stop) {
         const control::ReportFiles files =
-            control::WriteSessionReport(session, ReportFolderFor(session), progress, stop);
+            control::WriteSessionReport(session, control::ReportFolderFor(session), progress, stop);
         for (const std::filesystem::path& file : files.written) {
           if (file.extension() == ".html") *html_file = QString::fromStdString(file.string());
         }
@@ -155,9 +151,9 @@ void TrialDesk::SetBookmark(const std::string& name) {
   if (trial_) trial_->controls().SetBookmark(name);
 }
 
-void TrialDesk::SetTileRoom(const control::ThumbnailRoom& room) {
-  tile_room_ = room;
-  if (tiles_) tiles_->SetRoom(room);
+void TrialDesk::SetTileWishes(const control::TileWishes& wishes) {
+  tile_wishes_ = wishes;
+  if (tiles_) tiles_->Wish(wishes);
 }
 
 void TrialDesk::SetCamerasTaken(bool are_taken) {

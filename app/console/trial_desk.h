@@ -74,8 +74,8 @@ class TrialDesk : public QObject {
   void BeginStep(const std::string& step);  // ends the one under way; empty: begins none
   void SetBookmark(const std::string& name);
 
-  // How large a picture of a camera's tile may be; an empty room: none is made.
-  void SetTileRoom(const control::ThumbnailRoom& room);
+  // What the cameras' tiles show, and how large.
+  void SetTileWishes(const control::TileWishes& wishes);
 
  signals:
   void StateChanged();
@@ -103,7 +103,7 @@ class TrialDesk : public QObject {
   bool is_stopping_ = false;
   bool are_cameras_taken_ = false;
   std::filesystem::path session_, trial_file_;
-  control::ThumbnailRoom tile_room_;
+  control::TileWishes tile_wishes_;
   std::atomic<bool> has_frames_ = false;           // of the trial under way, or the last one
   std::optional<std::filesystem::path> recorded_;  // can be reported on
   Bridge bridge_;                                  // before the threads that post to it

@@ -18,35 +18,33 @@ using Eigen::Vector3d;
 // Points round a part; a multiple of eight puts one on every corner of a rectangle.
 constexpr std::int32_t kPointsPerRing = 64;
 
-enum class Outline { kRectangle, kCircle };
-
-// One level of a part's profile, centred on the z axis.
-struct Ring {
-  Outline outline = Outline::kRectangle;
-  double half_x_mm = 0.0;  // of a circle: the radius, like half_y_mm
-  double half_y_mm = 0.0;
-  double z_mm = 0.0;
-};
-
-Ring Rectangle(double size_x_mm, double size_y_mm, double z_mm) {
-  return {Outline::kRectangle, 0.5 * size_x_mm, 0.5 * size_y_mm, z_mm};
-}
-Ring Circle(double radius_mm, double z_mm) { return {Outline::kCircle, radius_mm, radius_mm, z_mm}; }
-
-Vector3d PointOn(const Ring& ring, std::int32_t i) {
+Vector3d PointOn(const ProfileRing& ring, std::int32_t i) {
   const double angle_rad = 2.0 * std::numbers::pi * i / kPointsPerRing;
   const double x = std::cos(angle_rad);
   const double y = std::sin(angle_rad);
-  const double reach = ring.outline == Outline::kCircle ? 1.0 : 1.0 / std::max(std::abs(x), std::abs(y));
+  const double reach = ring.is_round ? 1.0 : 1.0 / std::max(std::abs(x), std::abs(y));
   return {reach * x * ring.half_x_mm, reach * y * ring.half_y_mm, ring.z_mm};
 }
 
-// The surface through the rings in order, closed by a fan of triangles at either end. Triangles face outwards
-// if the profile goes from the middle of the underside out, up and back in.
-core::TriangleMesh Through(std::span<const Ring> rings) {
+core::Part DemoPart(std::string name, core::TriangleMesh mesh, const Vector3d& position_in_world_mm) {
+  core::Part part;
+  part.name = std::move(name);
+  part.mesh = std::make_shared<const core::TriangleMesh>(std::move(mesh));
+  part.world_from_part.translation_mm = position_in_world_mm;
+  return part;
+}
+
+}  // namespace
+
+ProfileRing RectangleRing(double size_x_mm, double size_y_mm, double z_mm) {
+  return {false, 0.5 * size_x_mm, 0.5 * size_y_mm, z_mm};
+}
+ProfileRing CircleRing(double radius_mm, double z_mm) { return {true, radius_mm, radius_mm, z_mm}; }
+
+core::TriangleMesh MeshThrough(std::span<const ProfileRing> rings) {
   core::TriangleMesh mesh;
   mesh.vertices_mm.emplace_back(0.0, 0.0, rings.front().z_mm);
-  for (const Ring& ring : rings) {
+  for (const ProfileRing& ring : rings) {
     for (std::int32_t i = 0; i < kPointsPerRing; ++i) mesh.vertices_mm.push_back(PointOn(ring, i));
   }
   mesh.vertices_mm.emplace_back(0.0, 0.0, rings.back().z_mm);
@@ -66,39 +64,31 @@ core::TriangleMesh Through(std::span<const Ring> rings) {
   return mesh;
 }
 
-core::Part DemoPart(std::string name, core::TriangleMesh mesh, const Vector3d& position_in_world_mm) {
-  core::Part part;
-  part.name = std::move(name);
-  part.mesh = std::make_shared<const core::TriangleMesh>(std::move(mesh));
-  part.world_from_part.translation_mm = position_in_world_mm;
-  return part;
-}
-
-}  // namespace
-
 core::TriangleMesh PmtBox() {
   constexpr double kOutletRadiusMm = 15.0;
   constexpr double kFloorZMm = kPmtHeightMm - kWellDepthMm;
-  const std::array<Ring, 6> profile{
-      Rectangle(kPmtSizeMm, kPmtSizeMm, 0.0), Rectangle(kPmtSizeMm, kPmtSizeMm, kPmtHeightMm),
-      Circle(kWellRadiusMm, kPmtHeightMm),    Circle(kWellRadiusMm, kFloorZMm),
-      Circle(kOutletRadiusMm, kFloorZMm),     Circle(kOutletRadiusMm, kFloorZMm + kOutletHeightMm)};
-  return Through(profile);
+  const std::array<ProfileRing, 6> profile{
+      RectangleRing(kPmtSizeMm, kPmtSizeMm, 0.0), RectangleRing(kPmtSizeMm, kPmtSizeMm, kPmtHeightMm),
+      CircleRing(kWellRadiusMm, kPmtHeightMm),    CircleRing(kWellRadiusMm, kFloorZMm),
+      CircleRing(kOutletRadiusMm, kFloorZMm),     CircleRing(kOutletRadiusMm, kFloorZMm + kOutletHeightMm)};
+  return MeshThrough(profile);
 }
 
 core::TriangleMesh PayloadA() {
-  const std::array<Ring, 6> profile{Rectangle(320.0, 320.0, 0.0),  Rectangle(320.0, 320.0, 10.0),
-                                    Rectangle(260.0, 260.0, 10.0), Rectangle(260.0, 260.0, 110.0),
-                                    Circle(70.0, 110.0),           Circle(70.0, 160.0)};
-  return Through(profile);
+  const std::array<ProfileRing, 6> profile{
+      RectangleRing(320.0, 320.0, 0.0),  RectangleRing(320.0, 320.0, 10.0),
+      RectangleRing(260.0, 260.0, 10.0), RectangleRing(260.0, 260.0, 110.0),
+      CircleRing(70.0, 110.0),           CircleRing(70.0, 160.0)};
+  return MeshThrough(profile);
 }
 
 core::TriangleMesh PayloadB() {
-  const std::array<Ring, 8> profile{Rectangle(130.0, 300.0, 0.0),  Rectangle(130.0, 300.0, 10.0),
-                                    Rectangle(110.0, 240.0, 10.0), Rectangle(110.0, 240.0, 170.0),
-                                    Circle(40.0, 170.0),           Circle(40.0, 200.0),
-                                    Circle(25.0, 200.0),           Circle(25.0, 185.0)};
-  return Through(profile);
+  const std::array<ProfileRing, 8> profile{
+      RectangleRing(130.0, 300.0, 0.0),  RectangleRing(130.0, 300.0, 10.0),
+      RectangleRing(110.0, 240.0, 10.0), RectangleRing(110.0, 240.0, 170.0),
+      CircleRing(40.0, 170.0),           CircleRing(40.0, 200.0),
+      CircleRing(25.0, 200.0),           CircleRing(25.0, 185.0)};
+  return MeshThrough(profile);
 }
 
 core::Layout DemoLayout() {

@@ -6,6 +6,7 @@
 #include <memory>
 #include <utility>
 
+#include "core/error.h"
 #include "recon/hull/visual_hull.h"
 
 namespace elbowroom::control {
@@ -64,13 +65,21 @@ FrameJudge::FrameJudge(const core::Layout& layout, const review::PartReviewOptio
 }
 
 void FrameJudge::Judge(const FrameResult* last, FrameResult* result) {
+  known_.assign(part_trees_->size(), nullptr);
+  for (core::PartIndex i = 0; i < known_.size(); ++i)
+    if (IsUnchanged(last, *result, i)) known_[i] = &last->record.contacts[i];
+  JudgeOthers(known_, result);
+}
+
+void FrameJudge::JudgeOthers(const KnownAnswers& known, FrameResult* result) {
+  core::Require(known.size() == part_trees_->size(), "one answer, or none, a part");
   std::vector<core::PartContact>& contacts = result->record.contacts;
   contacts.resize(part_trees_->size());
   tbb::parallel_for(std::size_t{0}, contacts.size(), [&](std::size_t i) {
     contacts[i].points.reserve(
         static_cast<std::size_t>(std::min(review_.contacts.max_points, kPointsReserved)));
-    if (IsUnchanged(last, *result, i)) {
-      contacts[i] = last->record.contacts[i];
+    if (known[i] != nullptr) {
+      contacts[i] = *known[i];
       return;
     }
     std::vector<core::ContactPoint>& kept = scratch_[i].spread.kept;
@@ -81,7 +90,7 @@ void FrameJudge::Judge(const FrameResult* last, FrameResult* result) {
     contacts[i].points.clear();
   });
   for (std::size_t i = 0; i < contacts.size(); ++i) {
-    if (IsUnchanged(last, *result, i)) {
+    if (known[i] != nullptr) {
       ++result->skipped.unchanged_parts;
     } else {
       Count(contacts[i], &result->skipped);

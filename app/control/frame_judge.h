@@ -30,6 +30,10 @@ class FrameJudge {
   // (judging_memory_test).
   void Judge(const FrameResult* last, FrameResult* result);
 
+  // The same, but for the parts whose answer for this frame is known: one a part, or null. It is copied.
+  using KnownAnswers = std::vector<const core::PartContact*>;
+  void JudgeOthers(const KnownAnswers& known, FrameResult* result);
+
  private:
   using SharedTrees = std::shared_ptr<const std::vector<core::TriangleTree>>;
   FrameJudge(const core::Layout& layout, const review::PartReviewOptions& review, SharedTrees part_trees);
@@ -41,6 +45,7 @@ class FrameJudge {
   SharedTrees part_trees_;
   std::vector<review::InsideCells> inside_parts_;
   std::vector<review::ReviewScratch> scratch_;  // one a part
+  KnownAnswers known_;                          // likewise
 };
 
 }  // namespace elbowroom::control

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "app/control/layout_editing/gap_line.h"
 #include "app/control/line_drawing.h"
 #include "core/size_text.h"
 #include "recon/appearance/orbit_camera.h"
@@ -43,32 +44,6 @@ std::string HexOf(std::size_t part) {
   return fmt::format("#{:02x}{:02x}{:02x}", r, g, b);
 }
 
-using Boxes = std::vector<Eigen::AlignedBox3d>;  // of each part in world
-
-Eigen::AlignedBox3d BoxOf(const core::Layout& layout, const std::string& part_or_group, const Boxes& boxes) {
-  Eigen::AlignedBox3d box;
-  for (const core::PartIndex i : layout.PartsNamed(part_or_group)) box.extend(boxes[i]);
-  return box;
-}
-
-// The ends of the line that shows the gap. Across its axis the line is in the middle of what the boxes of
-// both ends have in common, or in the middle of the moving end if they have nothing in common.
-std::array<Vector3d, 2> EndsOf(const core::Layout& layout, const core::Spacing& gap, const Boxes& boxes) {
-  const Eigen::AlignedBox3d below = BoxOf(layout, gap.reference, boxes);
-  const Eigen::AlignedBox3d above = BoxOf(layout, gap.moving, boxes);
-  const auto axis = static_cast<Eigen::Index>(gap.axis);
-  Vector3d from = above.center();
-  for (Eigen::Index i = 0; i < 3; ++i) {
-    const double low = std::max(below.min()[i], above.min()[i]);
-    const double high = std::min(below.max()[i], above.max()[i]);
-    if (low <= high) from[i] = 0.5 * (low + high);
-  }
-  Vector3d to = from;
-  from[axis] = below.max()[axis];
-  to[axis] = above.min()[axis];
-  return {from, to};
-}
-
 // Puts the text to the right of the point, on a white ground, because parts may have any colour.
 void AddLabel(const Eigen::Vector2d& at, const std::string& text, LineDrawing* drawing) {
   constexpr double kSize = 15.0, kLetterPx = 12.0, kFromLinePx = 12.0, kMarginPx = 4.0;
@@ -80,10 +55,11 @@ void AddLabel(const Eigen::Vector2d& at, const std::string& text, LineDrawing* d
       {{0.5 * (left + right), base}, text, LineDrawing::Anchor::kMiddle, kSize, kGapColor});
 }
 
-void AddGap(const core::Layout& layout, const core::Spacing& gap, const Boxes& boxes, double gap_mm,
-            const recon::SceneView& view, LineDrawing* drawing) {
+void AddGap(const core::Layout& layout, const core::Spacing& gap,
+            std::span<const core::RigidTransform> world_from_parts, const recon::SceneView& view,
+            LineDrawing* drawing) {
   constexpr double kTickPx = 6.0;
-  const auto [from, to] = EndsOf(layout, gap, boxes);
+  const auto [from, to] = GapLine(layout, gap, world_from_parts);
   const auto a = view.Project(from), b = view.Project(to);
   if (!a || !b) return;
   drawing->lines.push_back({{{a->x(), a->y()}, {b->x(), b->y()}}, kGapColor, 2.0});
@@ -96,7 +72,8 @@ void AddGap(const core::Layout& layout, const core::Spacing& gap, const Boxes& b
            kGapColor,
            2.0});
   }
-  AddLabel(0.5 * (*a + *b), fmt::format("{} {:.6g} mm", gap.name, gap_mm), drawing);
+  AddLabel(0.5 * (*a + *b), fmt::format("{} {:.6g} mm", gap.name, core::GapMm(layout, gap, world_from_parts)),
+           drawing);
 }
 
 // Each part's own size, along its own axes.
@@ -119,13 +96,11 @@ void AddLegend(const core::Layout& layout, LineDrawing* drawing) {
 
 recon::Image LayoutPicture(recon::gl::SceneRenderer& renderer, const core::Layout& layout,
                            std::span<const core::RigidTransform> world_from_parts) {
-  Boxes boxes;
   Eigen::AlignedBox3d all;
   recon::gl::Scene scene;
   for (core::PartIndex i = 0; i < layout.parts.size(); ++i) {
     const core::SharedMesh& mesh = layout.parts[i].mesh;
-    boxes.push_back(core::BoundsOf(*mesh, world_from_parts[i]));
-    all.extend(boxes.back());
+    all.extend(core::BoundsOf(*mesh, world_from_parts[i]));
     recon::gl::ScenePart& part = scene.parts.emplace_back();
     part.mesh = mesh;
     part.world_from_part = world_from_parts[i];
@@ -140,7 +115,7 @@ recon::Image LayoutPicture(recon::gl::SceneRenderer& renderer, const core::Layou
   LineDrawing drawing;
   AddLegend(layout, &drawing);
   for (const core::Spacing& gap : layout.spacings)
-    AddGap(layout, gap, boxes, core::GapMm(layout, gap, world_from_parts), scene.view, &drawing);
+    AddGap(layout, gap, world_from_parts, scene.view, &drawing);
   PaintOn(&picture, drawing);
   return picture;
 }

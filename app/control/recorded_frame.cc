@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <utility>
 
 #include "core/file_limits.h"
 #include "recon/hull/visual_hull.h"
@@ -27,16 +28,27 @@ void RequireInSight(const FrameResult& result, const std::filesystem::path& sess
 
 }  // namespace
 
-SharedFrameResult RebuildFrame(const sessions::SessionReader& session, core::FrameIndex frame) {
+FrameRebuilder::FrameRebuilder(const core::SessionHeader& header, std::filesystem::path session)
+    : session_(std::move(session)),
+      rig_(std::make_shared<const core::Rig>(header.rig)),
+      layout_(std::make_shared<const core::Layout>(header.layout)) {}
+
+SharedFrameResult FrameRebuilder::Rebuild(core::FrameRecord record, const SharedHull& last) {
+  // Whoever read the frame has checked that its silhouettes have the sizes of the cameras' pictures, before
+  // planes of these sizes are made.
+  if (planes_.empty()) planes_ = recon::MakeUndistortedPlanes(*rig_);
   auto result = std::make_shared<FrameResult>();
-  result->record = session.ReadFrame(frame);
-  result->hull = std::make_shared<const recon::VisualHull>(
-      recon::MakeVisualHull(std::make_shared<const core::Rig>(session.header().rig), *result->record.masks));
-  result->layout = std::make_shared<const core::Layout>(session.header().layout);
-  result->world_from_parts = core::WithMotions(core::PosesAt(*result->layout, result->record.spacing_mm),
-                                               result->record.rest_from_parts);
-  RequireInSight(*result, session.path());
+  result->hull = recon::NextHull(last, rig_, planes_, *record.masks).hull;
+  result->layout = layout_;
+  result->world_from_parts =
+      core::WithMotions(core::PosesAt(*layout_, record.spacing_mm), record.rest_from_parts);
+  result->record = std::move(record);
+  RequireInSight(*result, session_);
   return result;
+}
+
+SharedFrameResult RebuildFrame(const sessions::SessionReader& session, core::FrameIndex frame) {
+  return FrameRebuilder(session.header(), session.path()).Rebuild(session.ReadFrame(frame));
 }
 
 }  // namespace elbowroom::control

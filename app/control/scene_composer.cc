@@ -6,6 +6,7 @@
 #include <opencv2/core/mat.hpp>
 #include <optional>
 
+#include "app/control/palette/part_colors.h"
 #include "core/error.h"
 #include "core/units.h"
 #include "recon/appearance/camera_texture.h"
@@ -23,16 +24,6 @@ constexpr int kHullFromLampPx = 512;
 constexpr float kSeeThrough = 0.3F;
 // A part that stands before more than this share of the hull's pixels is drawn see-through.
 constexpr double kHidesShare = 0.35;
-constexpr std::array<std::array<float, 3>, 6> kPartColors = {{{0.55F, 0.63F, 0.72F},
-                                                              {0.72F, 0.68F, 0.55F},
-                                                              {0.58F, 0.70F, 0.60F},
-                                                              {0.66F, 0.60F, 0.72F},
-                                                              {0.70F, 0.62F, 0.60F},
-                                                              {0.55F, 0.69F, 0.71F}}};
-
-// Of parts that break a pair rule. Apart from the orange-red of contacts also for those who see no red or
-// green.
-constexpr std::array<float, 3> kBrokenRuleColor = {0.95F, 0.80F, 0.15F};
 
 // One a part.
 std::vector<bool> PartsOfBrokenRules(const FrameResult& result) {
@@ -117,6 +108,19 @@ std::optional<core::CameraIndex> NearestToViewer(const std::vector<core::CameraM
   return nearest;
 }
 
+// A workspace has a volume. Where nothing is left of one, it is this thin.
+constexpr double kThinnestMm = 1e-6;
+
+Eigen::AlignedBox3d NotEmpty(Eigen::AlignedBox3d box, const Eigen::AlignedBox3d& within) {
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    if (box.min()[axis] < box.max()[axis]) continue;
+    const bool is_below = box.max()[axis] <= within.min()[axis];
+    box.min()[axis] = is_below ? within.min()[axis] : within.max()[axis] - kThinnestMm;
+    box.max()[axis] = box.min()[axis] + kThinnestMm;
+  }
+  return box;
+}
+
 // A stream's particles, an octahedron each.
 recon::gl::ScenePart StreamPart(const review::StreamState& state, double radius_mm) {
   core::TriangleMesh octahedron;
@@ -158,7 +162,7 @@ std::size_t CountHidden(const std::vector<core::ContactPoint>& points, const Vec
 
 recon::gl::Scene SceneComposer::Compose(const FrameResult& result, const recon::SceneView& view,
                                         const SceneLook& look, double hull_scale) {
-  Forget(result.hull);
+  Forget(Cut(result.hull, look.cut));
   if (camera_frames_ != result.camera_frames) photos_.clear();
   camera_frames_ = result.camera_frames;
   recon::gl::Scene scene;
@@ -176,15 +180,17 @@ recon::gl::Scene SceneComposer::Compose(const FrameResult& result, const recon::
       part.mesh = result.layout->parts[i].mesh;
       part.world_from_part = result.world_from_parts[i];
     }
-    part.color = Eigen::Vector3f(breaks_rule[i] ? kBrokenRuleColor.data()
-                                                : kPartColors[i % kPartColors.size()].data());
+    part.color = breaks_rule[i] ? BrokenRuleColor() : PlainPartColor(i);
     part.in_contact = result.record.contacts[i].verdict == core::Verdict::kContact;
-    if (HiddenShare(*scene.hull, hull_view, BoundsInWorld(result, i)) > kHidesShare)
+    const Eigen::AlignedBox3d kept_in_world = KeptOf(look.cut, BoundsInWorld(result, i));
+    if (!kept_in_world.isEmpty() && HiddenShare(*scene.hull, hull_view, kept_in_world) > kHidesShare)
       part.opacity = kSeeThrough;
-    scene.parts.push_back(std::move(part));
+    AddPart(std::move(part), i, look.cut, &scene);
     if (MeshInWorld(result, i)) continue;  // its contacts are on its shape at rest
     for (const core::ContactPoint& point : result.record.contacts[i].points) {
-      scene.contact_points_in_world.push_back(point.position_in_world_mm);
+      const Eigen::AlignedBox3d at(point.position_in_world_mm, point.position_in_world_mm);
+      if (!KeptOf(look.cut, at).isEmpty())
+        scene.contact_points_in_world.push_back(point.position_in_world_mm);
     }
   }
   for (std::size_t i = 0; result.response && i < result.response->streams.size(); ++i) {
@@ -202,8 +208,37 @@ recon::gl::Scene SceneComposer::Compose(const FrameResult& result, const recon::
 }
 
 void SceneComposer::Foresee(const SharedHull& hull, const recon::SceneView& view, double hull_scale) {
-  Forget(hull);
+  Forget(Cut(hull, cut_));
   (void)HullFrom(Scaled(view, hull_scale));
+}
+
+// A hull ends at its workspace's faces, so that a smaller workspace cuts it open, and closes it there.
+SharedHull SceneComposer::Cut(const SharedHull& hull, const SectionCut& cut) {
+  const bool is_kept = cut_ == cut && whole_hull_ == hull;
+  cut_ = cut;
+  whole_hull_ = hull;
+  if (cut.is_none()) return cut_hull_ = hull;
+  if (is_kept) return cut_hull_;
+  auto rig = std::make_shared<core::Rig>(hull->rig());
+  rig->workspace_mm = NotEmpty(KeptOf(cut, rig->workspace_mm), rig->workspace_mm);
+  const auto silhouettes = hull->silhouettes();
+  cut_hull_ = std::make_shared<const recon::VisualHull>(std::move(rig),
+                                                        std::vector(silhouettes.begin(), silhouettes.end()));
+  return cut_hull_;
+}
+
+void SceneComposer::AddPart(recon::gl::ScenePart part, core::PartIndex index, const SectionCut& cut,
+                            recon::gl::Scene* scene) {
+  if (cut.is_none()) return scene->parts.push_back(std::move(part));
+  const PartSection& section = sections_.Of(index, part.mesh, part.world_from_part, cut);
+  if (section.surface != nullptr) {
+    part.mesh = section.surface;
+    scene->parts.push_back(part);
+  }
+  if (section.caps == nullptr) return;
+  part.mesh = section.caps;
+  part.is_cut_face = true;
+  scene->parts.push_back(std::move(part));
 }
 
 // Forgets what was made for another hull.

@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "app/control/frame_result.h"
+#include "app/control/section/part_sections.h"
+#include "app/control/section/section_cut.h"
 #include "app/control/view_method.h"
 #include "recon/appearance/hull_appearance.h"
 #include "recon/appearance/orbit_camera.h"
@@ -20,6 +22,7 @@ struct SceneLook {
   // takes the colours of the viewer camera, or, without one, those of the rig's camera whose direction is
   // closest to the operator's.
   recon::HullAppearance hull = recon::HullAppearance::kByNormal;
+  SectionCut cut = {};
 
   [[nodiscard]] bool operator==(const SceneLook&) const = default;
 };
@@ -35,8 +38,8 @@ class SceneComposer {
 
   // Parts at their poses (those in contact tinted, those of a broken pair rule yellow), the exact view of the
   // hull, contact points, the table, a lamp over the workspace. A part that hides much of the hull is drawn
-  // see-through. hull_scale: of the picture's side, (0, 1]; a hull of fewer pixels is drawn sooner and scaled
-  // up.
+  // see-through. What the look's cut takes away isn't shown; parts and hull have faces there. hull_scale: of
+  // the picture's side, (0, 1]; a hull of fewer pixels is drawn sooner and scaled up.
   [[nodiscard]] recon::gl::Scene Compose(const FrameResult& result, const recon::SceneView& view,
                                          const SceneLook& look = {}, double hull_scale = 1.0);
 
@@ -52,6 +55,9 @@ class SceneComposer {
   using SharedPhoto = std::shared_ptr<const recon::CameraTexture>;
   using SharedView = std::shared_ptr<const recon::HullView>;
   void Forget(const SharedHull& hull);
+  [[nodiscard]] SharedHull Cut(const SharedHull& hull, const SectionCut& cut);
+  void AddPart(recon::gl::ScenePart part, core::PartIndex index, const SectionCut& cut,
+               recon::gl::Scene* scene);
   void SpareView();
   [[nodiscard]] SharedView HullFrom(const recon::SceneView& view);
   [[nodiscard]] SharedView HullFromLamp(const recon::gl::SceneLamp& lamp);
@@ -61,7 +67,10 @@ class SceneComposer {
 
   MakeView make_view_;
   // What was made for the last frame drawn. Null: nobody has asked for it since.
-  SharedHull hull_;
+  SharedHull hull_;                   // cut open
+  SharedHull whole_hull_, cut_hull_;  // the last one that was cut, and what is left of it
+  SectionCut cut_;
+  PartSections sections_;
   std::shared_ptr<const recon::FrameSet> camera_frames_;
   std::shared_ptr<recon::HullView> hull_from_view_;
   recon::HullView spare_;

@@ -5,10 +5,8 @@
 #include <algorithm>
 #include <map>
 #include <span>
-#include <tuple>
 #include <utility>
 
-#include "cad_import/cad_file.h"
 #include "cad_import/layout/gives_way_keys.h"
 #include "cad_import/layout/toml_entry.h"
 #include "cad_import/model/cad_model.h"
@@ -23,30 +21,11 @@ using core::Error;
 using core::ErrorKind;
 namespace fs = std::filesystem;
 
-// Reads each file once for each unit that it is asked for in, and makes each mesh once.
-class MeshShelf {
- public:
-  using Unit = std::optional<core::LengthUnit>;
-
-  // Both must outlive it.
-  MeshShelf(const core::Progress& progress, const std::stop_token& stop) : progress_(progress), stop_(stop) {}
-
-  const CadModel& Model(const fs::path& path, const ImportOptions& options) {
-    const auto [found, is_new] = models_.try_emplace({path.lexically_normal(), options.unit});
-    if (is_new) found->second = ImportCadFile(path, options, progress_, stop_);
-    return found->second;
-  }
-  const core::SharedMesh& Mesh(const fs::path& path, const ImportOptions& options, const std::string& node) {
-    core::SharedMesh& mesh = meshes_[{path.lexically_normal(), options.unit, node}];
-    if (mesh == nullptr) mesh = Flatten(Model(path, options), node).mesh;
-    return mesh;
-  }
-
- private:
-  const core::Progress& progress_;
-  const std::stop_token& stop_;
-  std::map<std::pair<fs::path, Unit>, CadModel> models_;
-  std::map<std::tuple<fs::path, Unit, std::string>, core::SharedMesh> meshes_;
+// What reads the parts' files, and who is told.
+struct PartFiles {
+  PartShelf& shelf;
+  const core::Progress& progress;
+  const std::stop_token& stop;
 };
 
 // If `name` is the last name of a node, the advice is its whole path.
@@ -81,9 +60,9 @@ core::RecoveryRule ReadRecovery(const TomlEntry& entry) {
 }
 
 const CadModel& ReadModel(const TomlEntry& entry, const core::Part& part, const fs::path& path,
-                          const ImportOptions& options, MeshShelf& shelf) {
+                          const ImportOptions& options, const PartFiles& files) {
   try {
-    return shelf.Model(path, options);
+    return files.shelf.Model(path, options, files.progress, files.stop);
   } catch (const Error& error) {
     entry.FailAt(entry.Find("file")->source(), fmt::format("part '{}': {}", part.name, error.what()),
                  error.kind());
@@ -91,7 +70,7 @@ const CadModel& ReadModel(const TomlEntry& entry, const core::Part& part, const 
 }
 
 core::Part ReadPart(const TomlEntry& entry, const fs::path& folder,
-                    std::optional<core::LengthUnit> layout_unit, MeshShelf& shelf,
+                    std::optional<core::LengthUnit> layout_unit, const PartFiles& files,
                     std::vector<std::string>& warnings) {
   core::Part part;
   part.name = entry.Text("name");
@@ -103,7 +82,7 @@ core::Part ReadPart(const TomlEntry& entry, const fs::path& folder,
   part.gives_way = ReadGivesWay(entry);
   const fs::path path = folder / part.file;
   const ImportOptions options{.unit = entry.Unit(), .unit_if_file_has_none = layout_unit};
-  const CadModel& model = ReadModel(entry, part, path, options, shelf);
+  const CadModel& model = ReadModel(entry, part, path, options, files);
   part.unit = core::ParseLengthUnit(model.report.unit);
   for (const std::string& warning : model.report.warnings)
     warnings.push_back(fmt::format("part '{}' ({}): {}", part.name, part.file, warning));
@@ -115,7 +94,7 @@ core::Part ReadPart(const TomlEntry& entry, const fs::path& folder,
   if (!part.node.empty() && twins > 1)
     warnings.push_back(fmt::format("part '{}' ({}): {} instances are '{}'; all of them were taken", part.name,
                                    part.file, twins, part.node));
-  part.mesh = shelf.Mesh(path, options, part.node);
+  part.mesh = files.shelf.Mesh(path, options, part.node, files.progress, files.stop);
   return part;
 }
 
@@ -211,6 +190,12 @@ ImportedLayout ImportLayoutFile(const std::filesystem::path& path, const core::P
 
 ImportedLayout ImportLayoutText(const LayoutText& text, const core::Progress& progress,
                                 const std::stop_token& stop) {
+  PartShelf shelf;
+  return ImportLayoutText(text, shelf, progress, stop);
+}
+
+ImportedLayout ImportLayoutText(const LayoutText& text, PartShelf& shelf, const core::Progress& progress,
+                                const std::stop_token& stop) {
   const std::string file = text.file().string();
   const fs::path folder = text.file().parent_path();
   const toml::table table = ParseToml(text.text(), file);
@@ -219,11 +204,11 @@ ImportedLayout ImportLayoutText(const LayoutText& text, const core::Progress& pr
   core::Layout& layout = result.layout;
   const auto unit = root.Unit();
   layout.unit = unit.value_or(layout.unit);
-  MeshShelf shelf(progress, stop);
+  const PartFiles files{shelf, progress, stop};
   LayoutReader reader(root);
   using core::LayoutEntry;
   reader.ReadAll(LayoutEntry::kPart, "part", layout.parts, [&](const TomlEntry& entry) {
-    return ReadPart(entry, folder, unit, shelf, result.warnings);
+    return ReadPart(entry, folder, unit, files, result.warnings);
   });
   if (layout.parts.empty())
     throw Error(ErrorKind::kFormat,

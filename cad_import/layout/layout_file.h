@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cad_import/layout/layout_text.h"
+#include "cad_import/layout/part_shelf.h"
 #include "core/layout.h"
 #include "core/progress.h"
 
@@ -28,6 +29,10 @@ struct ImportedLayout {
 
 // The same for a text, as if it stood in its file. Throws: the same.
 [[nodiscard]] ImportedLayout ImportLayoutText(const LayoutText& text, const core::Progress& progress = {},
+                                              const std::stop_token& stop = {});
+// Likewise with the part files that are on the shelf already; those that aren't stay there.
+[[nodiscard]] ImportedLayout ImportLayoutText(const LayoutText& text, PartShelf& shelf,
+                                              const core::Progress& progress = {},
                                               const std::stop_token& stop = {});
 
 // Writes the layout whole or not at all; the caller writes the meshes, to each part's `file`. Reading it back

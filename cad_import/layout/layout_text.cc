@@ -187,6 +187,12 @@ bool LayoutText::Has(std::string_view kind, std::size_t index, std::string_view 
   return document[kind][index][key].node() != nullptr;
 }
 
+std::optional<core::LengthUnit> LayoutText::unit() const {
+  const toml::table document = ParseToml(text_, file_.string());
+  const auto named = document["unit"].value<std::string>();
+  return named ? core::ParseLengthUnit(*named) : std::nullopt;
+}
+
 void LayoutText::SetUnit(core::LengthUnit unit) {
   Edit edit(*this);
   const std::string written = TomlOf(std::string(core::ToString(unit)));

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -34,6 +35,9 @@ class LayoutText {
   [[nodiscard]] std::vector<std::string> TextsOf(std::string_view kind, std::size_t index,
                                                  std::string_view key) const;
   [[nodiscard]] bool Has(std::string_view kind, std::size_t index, std::string_view key) const;
+
+  // Of the layout as a whole; nothing where it names none, or none that is known.
+  [[nodiscard]] std::optional<core::LengthUnit> unit() const;
 
   void SetUnit(core::LengthUnit unit);
   void Insert(std::string_view kind, std::size_t index, const Fields& fields);  // before that one

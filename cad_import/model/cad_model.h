@@ -56,9 +56,10 @@ struct CadInstance {
 };
 
 struct ImportReport {
-  std::int64_t parts = 0;      // pieces of all instances
-  std::int64_t triangles = 0;  // of all instances
-  std::string unit;            // that the file's numbers were read in: "mm", "in", "ft", "0.1 m"
+  std::int64_t parts = 0;       // pieces of all instances
+  std::int64_t triangles = 0;   // of all instances
+  std::string unit;             // that the file's numbers were read in: "mm", "in", "ft", "0.1 m"
+  bool is_unit_stated = false;  // by the file itself, whether or not it was read in that one
   Eigen::AlignedBox3d bounds_mm;
   bool watertight = false;  // every body is
   bool repaired = false;    // triangles were dropped or turned

@@ -151,6 +151,7 @@ CadModel NormaliseModel(RawScene scene, FileFormat format, const ImportOptions& 
   warnings = scene.warnings;
   const FileUnit unit = ChooseUnit(scene, format, options, where, warnings);
   model.report.unit = unit.name;
+  model.report.is_unit_stated = scene.unit.has_value();
   Scale(scene, unit.mm_per_unit / (scene.are_mm ? scene.unit->mm_per_unit : 1.0));
 
   const std::int64_t before = CheckedPlacedTriangles(scene, where);

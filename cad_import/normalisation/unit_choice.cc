@@ -2,10 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-
+#include "cad_import/normalisation/likely_unit.h"
 #include "core/error.h"
 #include "core/size_text.h"
 #include "core/units.h"
@@ -17,11 +14,7 @@ using core::Error;
 using core::ErrorKind;
 using core::LengthUnit;
 
-constexpr std::array kUnits = {LengthUnit::kMillimetre, LengthUnit::kCentimetre, LengthUnit::kMetre,
-                               LengthUnit::kInch};
-
-// Sizes of what is usually checked at a table, and sizes that nothing there has.
-constexpr double kUsuallySmallestMm = 20.0, kUsuallyLargestMm = 1000.0;
+// Sizes that nothing at a table has.
 constexpr double kImplausiblySmallMm = 1.0, kImplausiblyLargeMm = 3000.0;
 
 std::string SizeText(const Eigen::AlignedBox3d& bounds, double mm_per_unit) {
@@ -36,27 +29,10 @@ Eigen::AlignedBox3d BoundsOf(const RawScene& scene) {
   return bounds;
 }
 
-// A penalty for units in which CAD models are rarely drawn.
-double RarityOf(LengthUnit unit) {
-  if (unit == LengthUnit::kMillimetre) return 0.0;
-  return unit == LengthUnit::kCentimetre ? 2.0 : 0.5;
-}
-
-// The unit that brings the longest edge into the usual sizes, or nearest to them by ratio; a rare unit must
-// be nearer by its penalty.
-LengthUnit LikelyUnit(double longest) {
-  return *std::ranges::min_element(kUnits, {}, [&](LengthUnit unit) {
-    const double longest_mm = longest * core::MillimetresPer(unit);
-    const double beyond =
-        std::max({std::log(kUsuallySmallestMm / longest_mm), std::log(longest_mm / kUsuallyLargestMm), 0.0});
-    return beyond + RarityOf(unit);
-  });
-}
-
 [[noreturn]] void FailWithoutUnit(const RawScene& scene, FileFormat format, const std::string& where) {
   const Eigen::AlignedBox3d bounds = BoundsOf(scene);
   std::string sizes;
-  for (const LengthUnit unit : kUnits) {
+  for (const LengthUnit unit : kLengthUnits) {
     sizes += fmt::format("{}{} if in {}", sizes.empty() ? "" : ", ",
                          SizeText(bounds, core::MillimetresPer(unit)), core::ToString(unit));
   }

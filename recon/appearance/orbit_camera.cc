@@ -37,14 +37,70 @@ SceneView ViewFrom(const OrbitCamera& camera, int width_px, int height_px) {
   core::Require(camera.vertical_fov_rad > 0.0 && camera.vertical_fov_rad < std::numbers::pi,
                 "a field of view lies within (0, pi)");
   SceneView view;
+  const double farther = camera.is_parallel ? kParallelFactor : 1.0, eye_mm = farther * camera.distance_mm;
   view.cam_from_world.rotation = RotationCamFromWorld(camera);
   view.cam_from_world.translation_mm =
-      Eigen::Vector3d(0.0, 0.0, camera.distance_mm) - view.cam_from_world.rotation * camera.target_in_world;
+      Eigen::Vector3d(0.0, 0.0, eye_mm) - view.cam_from_world.rotation * camera.target_in_world;
   view.width_px = width_px;
   view.height_px = height_px;
-  view.focal_px = FocalPx(camera, height_px);
+  view.focal_px = farther * FocalPx(camera, height_px);
   view.near_mm = kNearShare * camera.distance_mm;
-  view.far_mm = camera.distance_mm + kFarMarginMm;
+  view.far_mm = eye_mm + kFarMarginMm;
+  if (camera.is_parallel) view.near_mm = std::max(view.near_mm, eye_mm - camera.distance_mm - kFarMarginMm);
+  view.Validate();
+  return view;
+}
+
+OrbitCamera Along(const OrbitCamera& camera, StandardView view) {
+  constexpr double kQuarter = 0.5 * std::numbers::pi;
+  OrbitCamera turned = camera;
+  const auto set = [&](double azimuth_rad, double elevation_rad) {
+    turned.azimuth_rad = azimuth_rad;
+    turned.elevation_rad = elevation_rad;
+    return turned;
+  };
+  switch (view) {
+    case StandardView::kFront:
+      return set(-kQuarter, 0.0);
+    case StandardView::kBack:
+      return set(kQuarter, 0.0);
+    case StandardView::kLeft:
+      return set(std::numbers::pi, 0.0);
+    case StandardView::kRight:
+      return set(0.0, 0.0);
+    case StandardView::kTop:
+      return set(-kQuarter, kQuarter);
+    case StandardView::kBottom:
+      return set(-kQuarter, -kQuarter);
+    case StandardView::kIsometric:
+      return set(-0.5 * kQuarter, std::atan(std::numbers::sqrt2 / 2.0));
+  }
+  return turned;
+}
+
+OrbitCamera OrbitLike(const core::CameraModel& camera, const Eigen::Vector3d& center_in_world) {
+  const Eigen::Vector3d forward = camera.cam_from_world().rotation.row(2);
+  OrbitCamera like;
+  like.distance_mm =
+      std::clamp(forward.dot(center_in_world - camera.center_in_world()), kMinDistanceMm, kMaxDistanceMm);
+  like.target_in_world = camera.center_in_world() + like.distance_mm * forward;
+  like.azimuth_rad = std::atan2(-forward.y(), -forward.x());
+  like.elevation_rad = std::asin(std::clamp(-forward.z(), -1.0, 1.0));
+  return like;
+}
+
+SceneView ViewFrom(const core::CameraModel& camera, const Eigen::Vector3d& center_in_world, int width_px,
+                   int height_px) {
+  SceneView view;
+  view.cam_from_world = camera.cam_from_world();
+  view.width_px = width_px;
+  view.height_px = height_px;
+  const Eigen::Matrix3d& matrix = camera.calibration().camera_matrix;
+  view.focal_px =
+      std::min(matrix(0, 0) * width_px / camera.width_px(), matrix(1, 1) * height_px / camera.height_px());
+  const double distance_mm = std::max(kMinDistanceMm, (center_in_world - camera.center_in_world()).norm());
+  view.near_mm = kNearShare * distance_mm;
+  view.far_mm = distance_mm + kFarMarginMm;
   view.Validate();
   return view;
 }
@@ -93,7 +149,7 @@ OrbitCamera FittedTo(const OrbitCamera& camera, const Eigen::AlignedBox3d& box_i
         (box_in_world.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner)) - fitted.target_in_world);
     const double depth_needed_mm =
         std::max(std::abs(offset_in_cam.x()) / reach_x, std::abs(offset_in_cam.y()) / reach_y);
-    distance_mm = std::max(distance_mm, depth_needed_mm - offset_in_cam.z());
+    distance_mm = std::max(distance_mm, depth_needed_mm - (camera.is_parallel ? 0.0 : offset_in_cam.z()));
   }
   fitted.distance_mm = std::min(distance_mm, kMaxDistanceMm);
   return fitted;

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include "core/camera_model.h"
 #include "recon/appearance/scene_view.h"
 
 namespace elbowroom::recon {
@@ -15,13 +16,34 @@ struct OrbitCamera {
   double azimuth_rad = -0.9;      // about world z, from world x
   double elevation_rad = 0.5;     // above the table's plane, within +-pi/2
   double vertical_fov_rad = 0.6;  // of the whole picture
+  // Parallel: the eye stands kParallelFactor times as far away, with a lens as much longer. What is as far
+  // away as the target keeps its size, and all else nearly has it, as on a drawing.
+  bool is_parallel = false;
 
   [[nodiscard]] bool operator==(const OrbitCamera&) const = default;
 };
 
+// Rays then differ in direction by 0.15 degrees from one side of a picture of the usual field to the other,
+// and a length that is a quarter of the distance nearer or farther than the target by a thousandth in size.
+inline constexpr double kParallelFactor = 256.0;
+
 // What the camera sees; straight up and straight down are views like any other.
 // Throws: PreconditionError: size not positive, field of view not within (0, pi).
 [[nodiscard]] SceneView ViewFrom(const OrbitCamera& camera, int width_px, int height_px);
+
+enum class StandardView { kFront, kBack, kLeft, kRight, kTop, kBottom, kIsometric };
+
+// The same target and distance, along an axis of the world: from the front is towards +y, from the right
+// towards -x, from the top towards -z with +y up in the picture. Isometric: all three axes are equally long.
+[[nodiscard]] OrbitCamera Along(const OrbitCamera& camera, StandardView view);
+
+// From where a camera stands and along its axis, at a target as far away as `center_in_world`; the camera's
+// roll is lost.
+[[nodiscard]] OrbitCamera OrbitLike(const core::CameraModel& camera, const Eigen::Vector3d& center_in_world);
+
+// What a camera of a rig sees, without its lens: the middle of its picture has the camera's own scale.
+[[nodiscard]] SceneView ViewFrom(const core::CameraModel& camera, const Eigen::Vector3d& center_in_world,
+                                 int width_px, int height_px);
 
 // The scene turns with the pointer: a drag over the whole height of the picture turns it by pi.
 [[nodiscard]] OrbitCamera Orbited(const OrbitCamera& camera, const Eigen::Vector2d& drag_px, int height_px);

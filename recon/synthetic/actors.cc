@@ -123,6 +123,11 @@ HandShape TongsPinch() {
           {BoneDeg(8, 52), BoneDeg(0, 50), BoneDeg(-4, 44)}};
 }
 
+HandShape CuppedHand() {
+  return {{BendDeg(30, 40, 30), BendDeg(32, 42, 30), BendDeg(32, 42, 30), BendDeg(30, 40, 30)},
+          {BoneDeg(20, 20), BoneDeg(10, 25), BoneDeg(5, 30)}};
+}
+
 HandShape Blend(const HandShape& from, const HandShape& to, double share) {
   const auto mix = [share](double a, double b) { return a + share * (b - a); };
   HandShape shape;
@@ -148,6 +153,13 @@ SyntheticObject Hand(const core::RigidTransform& world_from_wrist, const HandSha
   AddThumb(world_from_wrist, shape.thumb, hand.solids);
   AddForearm(world_from_wrist * kWristJointInWrist, elbow_in_world, hand.solids);
   return hand;
+}
+
+// Points alone are mapped, so that a reflection will do.
+SyntheticObject LeftHand(const core::RigidTransform& world_from_wrist, const HandShape& shape,
+                         const Vector3d& elbow_in_world) {
+  const Eigen::Matrix3d mirror = Vector3d(1.0, -1.0, 1.0).asDiagonal();
+  return Hand({world_from_wrist.rotation * mirror, world_from_wrist.translation_mm}, shape, elbow_in_world);
 }
 
 SyntheticObject Pipe(const core::RigidTransform& world_from_pipe) {

@@ -30,6 +30,7 @@ struct HandShape {
 [[nodiscard]] HandShape OpenHand();
 [[nodiscard]] HandShape PipePinch();   // fingers on the far side of an upright pipe, thumb on the near one
 [[nodiscard]] HandShape TongsPinch();  // thumb against the index finger, the rest curled
+[[nodiscard]] HandShape CuppedHand();  // half of a bowl, thumb beside the index finger
 [[nodiscard]] HandShape Blend(const HandShape& from, const HandShape& to, double share);
 
 // Wrist frame of the right hand: origin in the wrist, x along the stretched fingers, y to the thumb's side, z
@@ -37,6 +38,10 @@ struct HandShape {
 // elbow.
 [[nodiscard]] SyntheticObject Hand(const core::RigidTransform& world_from_wrist, const HandShape& shape,
                                    const Eigen::Vector3d& elbow_in_world);
+
+// The left one, its mirror image: y of the wrist frame is to the little finger's side.
+[[nodiscard]] SyntheticObject LeftHand(const core::RigidTransform& world_from_wrist, const HandShape& shape,
+                                       const Eigen::Vector3d& elbow_in_world);
 
 // The paper's pipe: 140 mm long, 40 mm across, open. Pipe frame: z along the axis, origin in its lower end.
 inline constexpr double kPipeLengthMm = 140.0;

@@ -90,4 +90,11 @@ void WriteReport(const SessionReader& session, const PictureSource& draw,
   if (data.stamps.empty()) std::filesystem::remove(out_dir / kStampsFile, ignored);
 }
 
+void WriteTopics(const SessionReader& session, const ReportPictures& pictures,
+                 const std::filesystem::path& file) {
+  core::PendingFiles files;
+  files.Write(file, PackBcf(TopicsOf(session, TouchesOf(session), pictures)));
+  files.RenameAll();
+}
+
 }  // namespace elbowroom::sessions

@@ -55,4 +55,9 @@ using PictureSource = std::function<ReportPictures()>;
 void WriteReport(const SessionReader& session, const PictureSource& draw,
                  const std::filesystem::path& out_dir);
 
+// The report's touches.bcfzip alone, as `file`: whole or not at all. Throws: Error{kFile}; what SessionReader
+// throws.
+void WriteTopics(const SessionReader& session, const ReportPictures& pictures,
+                 const std::filesystem::path& file);
+
 }  // namespace elbowroom::sessions

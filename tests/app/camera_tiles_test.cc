@@ -10,10 +10,12 @@
 #include <random>
 #include <vector>
 
+#include "app/control/demo_parts.h"
 #include "app/control/tiles/camera_tally.h"
 #include "app/control/tiles/thumbnail.h"
 #include "app/control/tiles/tile_maker.h"
 #include "core/error.h"
+#include "recon/hull/visual_hull.h"
 #include "recon/synthetic/rig_presets.h"
 
 namespace elbowroom::control {
@@ -190,6 +192,12 @@ class TileBox {
   int count_ = 0;
 };
 
+TileWishes SmallTiles() {
+  TileWishes wishes;
+  wishes.room = {160, 120};
+  return wishes;
+}
+
 // A live frame of that number in which all cameras but those `without` see a grey table with an object.
 SharedFrameResult FrameOf(const core::Rig& rig, core::FrameIndex index,
                           const std::vector<std::size_t>& without = {}) {
@@ -213,6 +221,54 @@ SharedFrameResult FrameOf(const core::Rig& rig, core::FrameIndex index,
   return result;
 }
 
+// The same with a hull and the demo's parts, of which the first is in contact.
+SharedFrameResult FrameWithParts(const core::Rig& rig) {
+  auto result = std::make_shared<FrameResult>(*FrameOf(rig, 0));
+  result->layout = std::make_shared<const core::Layout>(DemoLayout());
+  result->world_from_parts = core::PosesAt(*result->layout, result->layout->InitialSpacings());
+  result->record.contacts.resize(result->layout->parts.size());
+  result->record.contacts.front().verdict = core::Verdict::kContact;
+  result->hull = std::make_shared<const recon::VisualHull>(
+      recon::MakeVisualHull(std::make_shared<const core::Rig>(rig), *result->record.masks));
+  return result;
+}
+
+TEST(TileMaker, DrawsThePartsIntoThePicturesUnlessItIsToldNotTo) {
+  TileBox box;
+  const auto rig = std::make_shared<SwitchedRig>();
+  TileMaker maker(rig, [&](const SharedTiles& tiles) { box.Put(tiles); });
+  // A pixel of the overhead picture in which a part stands: not the table's grey.
+  const auto has_parts = [](const recon::Image& image) {
+    const ThumbnailColor pixel = PixelOf(image, image.width_px / 2 - 10, image.height_px / 2);
+    return pixel != ThumbnailColor{90, 90, 90};
+  };
+  TileWishes wishes = SmallTiles();
+  wishes.shows_parts = false;
+  maker.Wish(wishes);
+  maker.Add(FrameWithParts(rig->rig()));
+  ASSERT_TRUE(box.WaitFor([&](const auto& tiles) {
+    return tiles.front().picture.width_px == 160 && !has_parts(tiles.front().picture);
+  }));
+  wishes.shows_parts = true;
+  maker.Wish(wishes);
+  maker.Add(FrameWithParts(rig->rig()));
+  EXPECT_TRUE(box.WaitFor([&](const auto& tiles) { return has_parts(tiles.front().picture); }));
+}
+
+TEST(TileMaker, MakesOneCamerasPictureLargeWhenItIsAskedFor) {
+  TileBox box;
+  const auto rig = std::make_shared<SwitchedRig>();
+  TileMaker maker(rig, [&](const SharedTiles& tiles) { box.Put(tiles); });
+  TileWishes wishes;
+  wishes.enlarged = 2;
+  wishes.enlarged_room = {600, 450};
+  maker.Wish(wishes);  // nobody looks at the strip
+  maker.Add(FrameWithParts(rig->rig()));
+  EXPECT_TRUE(box.WaitFor([](const auto& tiles) {
+    return tiles[2].enlarged.width_px == 600 && tiles[1].enlarged.rgb.empty() && tiles[2].picture.rgb.empty();
+  }));
+}
+
 TEST(TileMaker, MakesNoTileWhileNobodyLooks) {
   TileBox box;
   const auto rig = std::make_shared<SwitchedRig>();
@@ -230,7 +286,7 @@ TEST(TileMaker, ShowsTheLatestFrameOnceThereIsRoom) {
   TileMaker maker(rig, [&](const SharedTiles& tiles) { box.Put(tiles); });
   maker.Add(FrameOf(rig->rig(), 0, {2}));
   maker.Add(FrameOf(rig->rig(), 1));
-  maker.SetRoom({160, 120});
+  maker.Wish(SmallTiles());
   ASSERT_TRUE(box.WaitFor([](const auto& tiles) { return tiles.front().picture.width_px == 160; }));
   EXPECT_TRUE(box.WaitFor([&](const auto& tiles) {
     return tiles.size() == 4 && tiles[1].name == rig->rig().cameras[1].name() &&
@@ -242,7 +298,7 @@ TEST(TileMaker, ACameraThatGoesIsToldWithoutANewFrameAndKeepsItsPicture) {
   TileBox box;
   const auto rig = std::make_shared<SwitchedRig>();
   TileMaker maker(rig, [&](const SharedTiles& tiles) { box.Put(tiles); });
-  maker.SetRoom({160, 120});
+  maker.Wish(SmallTiles());
   maker.Add(FrameOf(rig->rig(), 0));
   ASSERT_TRUE(box.WaitFor([](const auto& tiles) { return !tiles[1].picture.rgb.empty(); }));
   rig->is_on = false;
@@ -259,7 +315,7 @@ TEST(TileMaker, KeepsNoSourceAlive) {
   auto rig = std::make_shared<SwitchedRig>();
   TileMaker maker(rig, [&](const SharedTiles& tiles) { box.Put(tiles); });
   const std::weak_ptr<SwitchedRig> watched = rig;
-  maker.SetRoom({160, 120});
+  maker.Wish(SmallTiles());
   const SharedFrameResult frame = FrameOf(rig->rig(), 0);
   rig.reset();
   maker.Add(frame);

@@ -234,6 +234,19 @@ TEST_F(LayoutCommand, AnImportDoesNotWriteOverItsInput) {
   EXPECT_EQ(ReadText(file), before);
 }
 
+TEST_F(LayoutCommand, AnImportListsTheNodesThatALayoutTakes) {
+  const std::string assembly = ELBOWROOM_SHARED_DATA_DIR "/cad/step/ap203_ap214/as1-oc-214.stp";
+  const ProgramRun run = test_support::RunProgram(ELBOWROOM_PROGRAM, {"import", assembly, "--json"});
+  ASSERT_EQ(run.exit_status, 0) << run.err;
+  const nlohmann::json nodes = nlohmann::json::parse(run.out)["nodes"];
+  ASSERT_EQ(nodes.size(), 28U);
+  EXPECT_NE(std::ranges::find(nodes, "as1/plate_1"), nodes.end());
+  Json({"new", layout_});
+  Json({"add", layout_, assembly, "--node", "as1/plate_1"});
+  const ProgramRun text = test_support::RunProgram(ELBOWROOM_PROGRAM, {"import", assembly});
+  EXPECT_NE(text.out.find("\n  as1/plate_1\n"), std::string::npos) << text.out;
+}
+
 TEST_F(LayoutCommand, AFileThatIsTooLargeIsRefusedUnread) {
   const std::string file = (folder_ / "sparse.stl").string();
   test_support::WriteText(file, "");

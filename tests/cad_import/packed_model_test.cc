@@ -65,6 +65,7 @@ TEST(PackedModel, ComesBackAsItWas) {
   }
   const ImportReport &got = back.model.report, &want = model.report;
   EXPECT_EQ(got.unit, want.unit);
+  EXPECT_EQ(got.is_unit_stated, want.is_unit_stated);
   EXPECT_EQ(got.bounds_mm.min(), want.bounds_mm.min());
   EXPECT_EQ(got.bounds_mm.max(), want.bounds_mm.max());
   EXPECT_EQ(got.dropped_triangles, want.dropped_triangles);

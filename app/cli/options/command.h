@@ -73,6 +73,7 @@ void AddContactsCommand(CLI::App& app, Choice* choice);
 void AddCoverageCommand(CLI::App& app, Choice* choice);
 void AddDemoCommand(CLI::App& app, Choice* choice);
 void AddGaugeCommand(CLI::App& app, Choice* choice);
+void AddHeadCommand(CLI::App& app, Choice* choice);
 void AddHullCommand(CLI::App& app, Choice* choice);
 void AddImportCommand(CLI::App& app, Choice* choice);
 void AddKeepoutCommand(CLI::App& app, Choice* choice);

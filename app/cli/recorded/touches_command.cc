@@ -1,7 +1,5 @@
 // elbowroom touches S.db [set TOUCH... | import FILE]: what reviewers follow, and what they say of it.
 #include <fmt/format.h>
-#include <pwd.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -13,11 +11,10 @@
 #include "app/cli/options/command.h"
 #include "app/cli/options/value_json.h"
 #include "app/control/outcome_tracker.h"
-#include "core/error.h"
+#include "app/control/reviewing/review_remarks.h"
 #include "core/findings/finding_names.h"
 #include "core/plain_text.h"
 #include "core/system/utc_time.h"
-#include "sessions/bcf/bcf_file.h"
 #include "sessions/bcf/review_import.h"
 #include "sessions/review_editor.h"
 
@@ -27,9 +24,6 @@ namespace {
 using core::Finding;
 using core::ReviewStatus;
 
-// A comment is a note, no document. Reports show all of it.
-constexpr std::size_t kLongestCommentBytes = 64 * 1024;
-constexpr std::size_t kLongestNameBytes = 200;
 constexpr std::size_t kShownCommentBytes = 100;
 
 struct TouchesOptions {
@@ -56,11 +50,6 @@ void AddStatusOption(CLI::App* command, std::optional<ReviewStatus>* status, con
       ->add_option_function<std::string>(
           "--status", [status](const std::string& text) { *status = core::ParseReviewStatus(text); }, help)
       ->check(CLI::IsMember(StatusNames()));
-}
-
-std::string LoginName() {
-  const passwd* user = ::getpwuid(::getuid());
-  return user != nullptr && user->pw_name != nullptr ? user->pw_name : "";
 }
 
 nlohmann::json RemarkJson(const core::ReviewRemark& remark) {
@@ -136,16 +125,6 @@ CommandResult List(const TouchesOptions& options, const CommandContext& context)
   return ListOf(options, FindingsOf(options, context));
 }
 
-void RequireFit(const SetOptions& set) {
-  if (set.by.empty() || set.by.size() > kLongestNameBytes)
-    throw core::Error(core::ErrorKind::kRange,
-                      fmt::format("--by: give your name, of at most {} bytes", kLongestNameBytes));
-  if (set.comment.size() > kLongestCommentBytes)
-    throw core::Error(core::ErrorKind::kRange,
-                      fmt::format("--comment: it has {} bytes, and a session takes {}; shorten it",
-                                  set.comment.size(), kLongestCommentBytes));
-}
-
 // The ids of the findings, each once.
 std::vector<core::FindingId> ChangedBy(const std::vector<sessions::FindingRemark>& remarks) {
   std::vector<core::FindingId> ids;
@@ -163,13 +142,14 @@ void AddTo(const TouchesOptions& options, const std::vector<sessions::FindingRem
 }
 
 CommandResult Set(const TouchesOptions& options, const SetOptions& set, const CommandContext& context) {
-  RequireFit(set);
+  const core::ReviewRemark remark = {core::NowUtc(), set.by, set.status, set.comment};
+  control::RequireFit(remark);
   std::vector<Finding> findings = FindingsOf(options, context);
   std::vector<sessions::FindingRemark> remarks;
   for (const std::string& text : set.touches) {
     const core::FindingId& id = core::FindFinding(findings, text).id;
     if (std::ranges::find(remarks, id, &sessions::FindingRemark::finding) == remarks.end())
-      remarks.push_back({id, {core::NowUtc(), set.by, set.status, set.comment}});
+      remarks.push_back({id, remark});
   }
   AddTo(options, remarks, &findings);
   CommandResult result = ListOf(options, findings);
@@ -179,15 +159,8 @@ CommandResult Set(const TouchesOptions& options, const SetOptions& set, const Co
 
 CommandResult Import(const TouchesOptions& options, const std::filesystem::path& file,
                      const CommandContext& context) {
-  const std::vector<sessions::BcfTopic> topics = sessions::ReadBcfFile(file);
   std::vector<Finding> findings = FindingsOf(options, context);
-  const sessions::ReviewImport import = sessions::RemarksFrom(topics, findings);
-  if (import.topics == 0)
-    throw core::Error(
-        core::ErrorKind::kRange,
-        fmt::format("{}: none of its {} topics is a touch or near miss of session '{}'; give the "
-                    "session that it was made from",
-                    file.string(), topics.size(), options.session.string()));
+  const sessions::ReviewImport import = control::ReadReview(file, options.session, findings);
   if (!import.remarks.empty()) AddTo(options, import.remarks, &findings);
   CommandResult result = ListOf(options, findings);
   result.json["changed"] = ChangedBy(import.remarks);
@@ -219,7 +192,7 @@ void AddTouchesCommand(CLI::App& app, Choice* choice) {
 
   CLI::App* set = command->add_subcommand("set", "say something of touches: a status, a comment, or both");
   auto said = std::make_shared<SetOptions>();
-  said->by = LoginName();
+  said->by = control::LoginName();
   set->add_option("TOUCH", said->touches,
                   "ids as they are listed, or their beginnings; numbers of touches; \"near miss 2\"")
       ->required();

@@ -56,6 +56,22 @@ void WelcomePage::AddButton(QAction* action, const QString& explanation) {
   column_->addWidget(QuietLabel(explanation));
 }
 
+void WelcomePage::AddSamples(const QList<QAction*>& samples) {
+  constexpr int kBelowDemo = 4;  // title, space, the demo's button and what it says
+  auto* row = new QHBoxLayout;
+  row->addWidget(QuietLabel(tr("Samples:")));
+  for (QAction* sample : samples) {
+    auto* button = new QPushButton(sample->text());
+    button->setObjectName("welcome:" + sample->objectName());
+    button->setAccessibleDescription(sample->toolTip());
+    button->setToolTip(sample->toolTip());
+    connect(button, &QPushButton::clicked, sample, &QAction::trigger);
+    connect(sample, &QAction::changed, button, [button, sample] { button->setEnabled(sample->isEnabled()); });
+    row->addWidget(button, 1);
+  }
+  column_->insertLayout(kBelowDemo, row);
+}
+
 void WelcomePage::AddRecentTrials() {
   const QStringList trials = RecentTrials().mid(0, kMostListed);
   if (trials.isEmpty()) return;

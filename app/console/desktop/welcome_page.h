@@ -14,6 +14,9 @@ class WelcomePage : public QWidget {
  public:
   WelcomePage(QAction* demo, QAction* open, QWidget* parent = nullptr);
 
+  // A row of smaller buttons below the first one.
+  void AddSamples(const QList<QAction*>& samples);
+
  signals:
   void TrialChosen(const QString& trial_file);
 

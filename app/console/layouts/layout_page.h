@@ -1,25 +1,116 @@
 // The page on which parts are imported, placed and ruled.
 #pragma once
 
+#include <QAction>
+#include <QFrame>
+#include <QLabel>
+#include <QMenu>
+#include <QMimeData>
+#include <QProgressBar>
 #include <QString>
+#include <QStringList>
 #include <QWidget>
 #include <filesystem>
+#include <functional>
+#include <vector>
+
+#include "app/console/layouts/layout_desk.h"
+#include "app/console/layouts/part_look.h"
+#include "app/console/layouts/part_panel.h"
+#include "app/console/layouts/parts_list.h"
+#include "app/console/layouts/parts_view.h"
+#include "app/console/layouts/placing_steps.h"
+#include "app/console/layouts/rule_panel.h"
 
 namespace elbowroom::console {
 
-// Thread: UI.
+// Shows the desk's layout and passes on what the user does: every change is one step of undo. Which parts are
+// chosen, hidden or coloured is of the page, not of the file. Thread: UI.
 class LayoutPage : public QWidget {
   Q_OBJECT
 
  public:
   explicit LayoutPage(QWidget* parent = nullptr);
+  ~LayoutPage() override;
 
-  // Reads a LAYOUT.toml on a worker and shows it.
+  // Reads a LAYOUT.toml on a worker and shows it; asks first where the present one isn't saved.
   void Open(const std::filesystem::path& layout_file);
+  // Shows what is in a CAD file and adds what is taken.
+  void Import(const std::filesystem::path& cad_file);
+  // Asks where the present layout isn't saved. False: stay.
+  [[nodiscard]] bool MayLeave();
+
+  // The file that was dragged, if it is a CAD file; else "".
+  [[nodiscard]] static QString CadFileIn(const QMimeData* data);
+
+  [[nodiscard]] QMenu* menu() { return menu_; }
+  [[nodiscard]] LayoutDesk& desk() { return *desk_; }
+  [[nodiscard]] PartsView& view() { return *view_; }
+  [[nodiscard]] const QStringList& chosen() const { return chosen_; }
+  void Choose(const QStringList& parts);
 
  signals:
-  void TrialAsked(const QString& trial_file);  // a TRIAL.toml was written that is to be run
+  void TrialAsked(const QString& trial_file);    // a TRIAL.toml was written that is to be run
+  void LayoutSaved(const QString& layout_file);  // or opened
   void Failed(const QString& line);
+
+ protected:
+  bool event(QEvent* event) override;
+  void keyPressEvent(QKeyEvent* event) override;
+  void showEvent(QShowEvent* event) override;
+
+ private:
+  struct KeyAction {
+    QKeySequence::StandardKey key;
+    QAction* action;
+  };
+  QAction* AddAction(const QString& name, const QString& text, const QString& tool_tip,
+                     const std::function<void()>& work,
+                     QKeySequence::StandardKey key = QKeySequence::UnknownKey);
+  void AddActions();
+  [[nodiscard]] QWidget* ButtonRow();
+  [[nodiscard]] QWidget* RecoveryBar();
+  [[nodiscard]] QWidget* SidePanel();
+  void FollowDesk();
+  void FollowPanels();
+  void FollowPlacing();
+  void AskForFile();
+  void AskForPart();
+  bool Save();
+  bool SaveAs();
+  void AskForTrial();
+  void AskForMeasuredPoints();
+  void ShowLayout();
+  void ShowParts();
+  void ShowState();
+  void Change(const QString& name, const control::LayoutDocument::Change& change, const QString& key = {});
+  void MovePart(const QString& part, int axis, double position_mm);
+  void TurnPart(const QString& part, int axis, double rotation_deg);
+  void PlacePart(const QString& part, const core::RigidTransform& world_from_part);
+  void RemovePart(const QString& part);
+  void Isolate(const QString& part);
+  void AskForSpacing(const core::Spacing& spacing, bool is_new);
+  void AskForPair(const core::PairRule& rule);
+  [[nodiscard]] PartLook LookOf(const QString& part) const;
+  [[nodiscard]] const core::Layout& layout() const { return desk_->document().layout(); }
+
+  [[nodiscard]] std::vector<core::RigidTransform> Poses() const;
+
+  LayoutDesk* desk_;  // this and all below are owned by Qt as children
+  QMenu* menu_;
+  PlacingSteps* placing_;
+  PartsView* view_ = nullptr;
+  PartsList* list_ = nullptr;
+  PartPanel* part_ = nullptr;
+  RulePanel* rules_ = nullptr;
+  QLabel* title_ = nullptr;
+  QProgressBar* reading_ = nullptr;
+  QWidget* recovery_ = nullptr;
+  QLabel* recovery_text_ = nullptr;
+  std::vector<KeyAction> keys_;
+  QStringList chosen_;
+  PartLooks looks_;
+  std::filesystem::path last_cad_folder_;
 };
 
 }  // namespace elbowroom::console

@@ -11,12 +11,14 @@ namespace elbowroom::console {
 
 MessageBar::MessageBar(QWidget* parent) : QFrame(parent), text_(new QLabel) {
   text_->setObjectName("message");
+  text_->setAccessibleName(tr("Note"));
   text_->setWordWrap(true);
   text_->setTextFormat(Qt::PlainText);
   text_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   auto* close = new QToolButton;
   close->setAutoRaise(true);
   close->setIcon(style()->standardIcon(QStyle::SP_TitleBarCloseButton));
+  close->setAccessibleName(tr("Close this message"));
   close->setToolTip(tr("Close this message"));
   connect(close, &QToolButton::clicked, this, &QWidget::hide);
   auto* row = new QHBoxLayout(this);

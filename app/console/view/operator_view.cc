@@ -7,12 +7,14 @@
 #include <utility>
 
 #include "app/console/desktop/theme.h"
+#include "app/console/view/dimension_painter.h"
 
 namespace elbowroom::console {
 namespace {
 
-// Beyond this a picture costs software OpenGL more time than it gains in sharpness.
-constexpr QSize kLargestPicture(800, 600);
+// Beyond these a picture costs more time than it gains in sharpness.
+constexpr QSize kLargestBySoftware(1280, 800);
+constexpr QSize kLargestByCard(3840, 2400);
 // A scene that hasn't changed for this long is drawn in full.
 constexpr std::chrono::milliseconds kRests(400);
 constexpr double kWheelStepEighths = 120.0;  // one notch of a wheel, in Qt's eighths of a degree
@@ -40,6 +42,7 @@ OperatorView::OperatorView(QWidget* parent)
           }) {
   setMinimumSize(320, 240);
   setFocusPolicy(Qt::StrongFocus);
+  setAccessibleName(tr("3-D view"));
   setAttribute(Qt::WA_OpaquePaintEvent);
   rest_.setSingleShot(true);
   rest_.setInterval(kRests);
@@ -91,7 +94,35 @@ void OperatorView::Fit() {
 }
 
 void OperatorView::SetLook(const control::SceneLook& look) {
+  const control::SectionCut cut = look_.cut;
   look_ = look;
+  look_.cut = cut;
+  AskForPicture();
+}
+
+void OperatorView::SetCut(const control::SectionCut& cut) {
+  look_.cut = cut;
+  AskForPicture();
+}
+
+void OperatorView::SetDimensions(std::vector<control::Dimension> dimensions) {
+  dimensions_ = std::move(dimensions);
+  update();
+}
+
+void OperatorView::LookAlong(recon::StandardView view) {
+  if (camera_) Turn(recon::Along(*camera_, view));
+}
+
+void OperatorView::SetParallel(bool is_parallel) {
+  is_parallel_ = is_parallel;
+  if (camera_) Turn(*camera_);
+}
+
+void OperatorView::LookFrom(const core::CameraModel& camera) {
+  if (!camera_) return;
+  camera_ = recon::OrbitLike(camera, camera_->target_in_world);
+  looks_from_ = camera;
   AskForPicture();
 }
 
@@ -99,11 +130,13 @@ QString OperatorView::driver() const { return QString::fromStdString(worker_.dri
 
 void OperatorView::Turn(const recon::OrbitCamera& camera) {
   camera_ = camera;
+  camera_->is_parallel = is_parallel_;
+  looks_from_.reset();
   AskForPicture();
 }
 
 void OperatorView::AskForPicture() {
-  if (!result_ || !camera_) return;
+  if (!result_ || !camera_ || !isVisible()) return;
   if (drawing_.isValid()) {
     is_outdated_ = true;
   } else {
@@ -116,12 +149,17 @@ void OperatorView::Submit(const PictureFineness& fineness) {
   drawn_with_ = fineness;
   is_outdated_ = false;
   drawing_.start();
-  worker_.Submit({result_, *camera_, size.width(), size.height(), fineness.hull, fineness.is_smooth, look_});
+  control::RenderRequest request{result_,       *camera_,           size.width(), size.height(),
+                                 fineness.hull, fineness.is_smooth, look_};
+  if (looks_from_)
+    request.fixed_view = recon::ViewFrom(*looks_from_, camera_->target_in_world, size.width(), size.height());
+  worker_.Submit(std::move(request));
 }
 
 QSize OperatorView::LargestPicture() const {
   const QSize pixels = size() * devicePixelRatio();
-  return pixels.boundedTo(pixels.scaled(kLargestPicture, Qt::KeepAspectRatio)).expandedTo(QSize(64, 64));
+  const QSize largest = worker_.is_software().value_or(true) ? kLargestBySoftware : kLargestByCard;
+  return pixels.boundedTo(pixels.scaled(largest, Qt::KeepAspectRatio)).expandedTo(QSize(64, 64));
 }
 
 void OperatorView::ShowPicture(const QImage& picture, const control::RenderRequest& request) {
@@ -132,6 +170,8 @@ void OperatorView::ShowPicture(const QImage& picture, const control::RenderReque
   last_error_.clear();
   if (drawn_with_ == pace_.fineness()) pace_.Add(drawing_ms);
   picture_ = picture;
+  picture_request_ = request;
+  picture_request_.result.reset();
   const qint64 last_frame = std::exchange(picture_frame_, request.result->record.frame);
   const auto& camera_frames = request.result->camera_frames;
   if (camera_frames && picture_frame_ != last_frame) taken_at_ = camera_frames->taken_at;
@@ -155,11 +195,27 @@ void OperatorView::paintEvent(QPaintEvent* /*event*/) {
     return;
   }
   painter.setRenderHint(QPainter::SmoothPixmapTransform);
-  QRect target(QPoint(), picture_.size().scaled(size(), Qt::KeepAspectRatio));
-  target.moveCenter(rect().center());
+  const QRect target = PictureRect();
   painter.drawImage(target, picture_);
+  PaintDimensions(painter, ShownView(), target.topLeft(), dimensions_);
   PaintCaption(painter);
   if (taken_at_) TellAge();
+}
+
+QRect OperatorView::PictureRect() const {
+  QRect target(QPoint(), picture_.size().scaled(size(), Qt::KeepAspectRatio));
+  target.moveCenter(rect().center());
+  return target;
+}
+
+recon::SceneView OperatorView::ShownView() const {
+  const QSize px = PictureRect().size();
+  if (!picture_request_.fixed_view) return recon::ViewFrom(picture_request_.camera, px.width(), px.height());
+  recon::SceneView view = *picture_request_.fixed_view;
+  view.focal_px *= static_cast<double>(px.height()) / view.height_px;
+  view.width_px = px.width();
+  view.height_px = px.height();
+  return view;
 }
 
 // This event's painting has been handed to the screen when the next event comes.
@@ -182,15 +238,29 @@ void OperatorView::PaintCaption(QPainter& painter) const {
   painter.drawText(room, Qt::AlignBottom | Qt::AlignRight, tr("frame %1").arg(picture_frame_));
 }
 
+void OperatorView::showEvent(QShowEvent* /*event*/) { AskForPicture(); }
+
 void OperatorView::resizeEvent(QResizeEvent* /*event*/) { AskForPicture(); }
 
-void OperatorView::mousePressEvent(QMouseEvent* event) { last_mouse_px_ = event->position(); }
+void OperatorView::mousePressEvent(QMouseEvent* event) { last_mouse_px_ = pressed_px_ = event->position(); }
+
+void OperatorView::mouseReleaseEvent(QMouseEvent* event) {
+  constexpr double kStillPx = 3.0;
+  const QPointF moved = event->position() - pressed_px_;
+  if (event->button() != Qt::LeftButton || picture_.isNull() || moved.manhattanLength() > kStillPx) return;
+  const QPointF at = event->position() - QPointF(PictureRect().topLeft()) - QPointF(0.5, 0.5);
+  emit Clicked(ShownView(), {at.x(), at.y()});
+}
 
 void OperatorView::mouseMoveEvent(QMouseEvent* event) {
   const QPointF moved = event->position() - std::exchange(last_mouse_px_, event->position());
   const Eigen::Vector2d drag_px(moved.x(), moved.y());
   if (!camera_) return;
-  if (event->buttons() & Qt::LeftButton) {
+  if ((event->buttons() & Qt::LeftButton) && (event->modifiers() & Qt::ShiftModifier)) {
+    // Panning moves the target against the pointer.
+    const recon::OrbitCamera panned = recon::Panned(*camera_, drag_px, height());
+    emit ShiftDragged(camera_->target_in_world - panned.target_in_world);
+  } else if (event->buttons() & Qt::LeftButton) {
     Turn(recon::Orbited(*camera_, drag_px, height()));
   } else if (event->buttons() & (Qt::RightButton | Qt::MiddleButton)) {
     Turn(recon::Panned(*camera_, drag_px, height()));

@@ -10,13 +10,16 @@
 #include <chrono>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "app/console/view/background_job.h"
 #include "app/console/view/bridge.h"
 #include "app/console/view/picture_pace.h"
 #include "app/control/frame_result.h"
+#include "app/control/measuring/dimension.h"
 #include "app/control/render_worker.h"
 #include "app/control/scene_composer.h"
+#include "core/camera_model.h"
 #include "recon/appearance/orbit_camera.h"
 
 namespace elbowroom::console {
@@ -24,7 +27,7 @@ namespace elbowroom::console {
 // Left drag orbits, right or middle drag pans, the wheel zooms, a double click fits. Never waits for a
 // picture: until the next one comes the last one is shown, scaled to the widget. One picture is asked for at
 // a time, of the latest frame and camera, as fine as PicturePace allows; when nothing changes for a while,
-// the scene is drawn once more in full.
+// the scene is drawn once more in full. While it isn't visible nothing is drawn.
 // Thread: UI.
 class OperatorView : public QWidget {
   Q_OBJECT
@@ -39,7 +42,12 @@ class OperatorView : public QWidget {
   void Clear();
   void Fit();  // everything in the picture, from the front, above
 
-  void SetLook(const control::SceneLook& look);
+  void SetLook(const control::SceneLook& look);  // but for its cut
+  void SetCut(const control::SectionCut& cut);
+  void SetDimensions(std::vector<control::Dimension> dimensions);  // written over the picture
+  void LookAlong(recon::StandardView view);
+  void SetParallel(bool is_parallel);
+  void LookFrom(const core::CameraModel& camera);  // until the view is turned, which loses the camera's roll
 
   [[nodiscard]] QString driver() const;  // of OpenGL; "" until the first picture
   [[nodiscard]] const std::optional<recon::OrbitCamera>& camera() const { return camera_; }
@@ -49,12 +57,18 @@ class OperatorView : public QWidget {
   // Of live cameras: that picture was painted, so long after the middle of its frame's exposure.
   void PictureSeen(qint64 frame, double age_ms);
   void Failed(const QString& line);
+  // The left button was pressed and let go at one place; `pixel` is one of the shown picture's view.
+  void Clicked(const recon::SceneView& view, const Eigen::Vector2d& pixel);
+  // A left drag with Shift, which doesn't turn the view: by so far, mm in world at the target's depth.
+  void ShiftDragged(const Eigen::Vector3d& by_in_world_mm);
 
  protected:
   void paintEvent(QPaintEvent* event) override;
+  void showEvent(QShowEvent* event) override;
   void resizeEvent(QResizeEvent* event) override;
   void mousePressEvent(QMouseEvent* event) override;
   void mouseMoveEvent(QMouseEvent* event) override;
+  void mouseReleaseEvent(QMouseEvent* event) override;
   void mouseDoubleClickEvent(QMouseEvent* event) override;
   void wheelEvent(QWheelEvent* event) override;
 
@@ -64,14 +78,20 @@ class OperatorView : public QWidget {
   void Submit(const PictureFineness& fineness);
   void ShowPicture(const QImage& picture, const control::RenderRequest& request);
   void PaintCaption(QPainter& painter) const;
+  [[nodiscard]] QRect PictureRect() const;
+  [[nodiscard]] recon::SceneView ShownView() const;  // of the shown picture, in the widget's pixels
   void TellAge();
   [[nodiscard]] QSize LargestPicture() const;
 
-  std::optional<recon::OrbitCamera> camera_;  // nothing until the first fit
+  std::optional<recon::OrbitCamera> camera_;     // nothing until the first fit
+  std::optional<core::CameraModel> looks_from_;  // takes camera_'s place
+  bool is_parallel_ = false;
   control::SharedFrameResult result_;
   control::SceneLook look_;
   QImage picture_;
   qint64 picture_frame_ = 0;
+  control::RenderRequest picture_request_;  // without its frame
+  std::vector<control::Dimension> dimensions_;
   // When its frame was taken; nothing: of recorded footage, or its age was told.
   std::optional<std::chrono::steady_clock::time_point> taken_at_;
   PicturePace pace_;
@@ -80,7 +100,7 @@ class OperatorView : public QWidget {
   bool is_outdated_ = false;    // whether the picture that is being drawn is
   QTimer rest_;
   QString last_error_;  // told once, until a picture succeeds
-  QPointF last_mouse_px_;
+  QPointF last_mouse_px_, pressed_px_;
   Bridge bridge_;  // before the threads that post to it
   std::unique_ptr<BackgroundJob> fitting_;
   control::RenderWorker worker_;

@@ -1,12 +1,9 @@
 // Judges runs of frames, several at once.
 #pragma once
 
-#include <memory>
-#include <mutex>
 #include <span>
-#include <vector>
 
-#include "app/control/frame_judge.h"
+#include "app/control/replay/frame_judge_pool.h"
 #include "app/control/replay/replay_runs.h"
 #include "review/part_review.h"
 
@@ -17,18 +14,14 @@ class ReplayJudging {
   // The layout must outlive it. Throws: what FrameJudge throws.
   ReplayJudging(const core::Layout& layout, const review::PartReviewOptions& review);
 
-  [[nodiscard]] std::span<const core::TriangleTree> part_trees() const { return first_.part_trees(); }
+  [[nodiscard]] std::span<const core::TriangleTree> part_trees() const { return judges_.part_trees(); }
 
   // Finds contacts, recovery and clearance in all frames of the run. `last`: the judged frame before it, of a
   // run that goes on; else null. Thread: any.
   void Judge(const FrameResult* last, ReplayRun* run);
 
  private:
-  [[nodiscard]] std::unique_ptr<FrameJudge> Take();
-
-  FrameJudge first_;  // is never used itself
-  std::mutex mutex_;  // guards the next member
-  std::vector<std::unique_ptr<FrameJudge>> free_;
+  FrameJudgePool judges_;
 };
 
 }  // namespace elbowroom::control

@@ -116,6 +116,26 @@ ReportFiles WriteSessionReport(const std::filesystem::path& session_path, const 
            folder / "touches.bcfzip"}};
 }
 
+std::filesystem::path ReportFolderFor(const std::filesystem::path& session) {
+  return session.parent_path() / (session.stem().string() + "-report");
+}
+
+void WriteSessionTopics(const std::filesystem::path& session_path, const std::filesystem::path& bcf_file,
+                        const core::Progress& progress, const std::stop_token& stop) {
+  const sessions::SessionReader session = OpenWithOutcome(session_path, progress, stop);
+  const std::vector<sessions::FrameSummary> frames = session.frames();
+  sessions::ReportPictures pictures;
+  if (!frames.empty()) {
+    progress.Report(0, 0, "pictures of the touches");
+    recon::gl::SceneRenderer renderer;
+    SceneComposer composer;
+    const SharedFrameResult shown = RebuildFrame(session, frames.back().frame);
+    AddTouchMoments(session, *shown, renderer, composer, stop, &pictures);
+  }
+  core::ThrowIfStopped(stop, "writing the touches");
+  sessions::WriteTopics(session, pictures, bcf_file);
+}
+
 void WriteFramePicture(const FrameResult& result, const std::filesystem::path& png, int width_px,
                        int height_px) {
   recon::gl::SceneRenderer renderer;

@@ -28,6 +28,14 @@ ReportFiles WriteSessionReport(const std::filesystem::path& session, const std::
                                const core::Progress& progress, std::stop_token stop,
                                const ReportOptions& options = {});
 
+// The folder SESSION-report beside the session: where the console writes.
+[[nodiscard]] std::filesystem::path ReportFolderFor(const std::filesystem::path& session);
+
+// The report's touches.bcfzip alone, whole or not at all: touches and near misses as topics with snapshots
+// and reviews, for CAD teams. Throws: as WriteSessionReport.
+void WriteSessionTopics(const std::filesystem::path& session, const std::filesystem::path& bcf_file,
+                        const core::Progress& progress, const std::stop_token& stop);
+
 // The operator's view of one recorded frame as a PNG, whole or not at all; for the demo's view.png.
 void WriteFramePicture(const FrameResult& result, const std::filesystem::path& png, int width_px,
                        int height_px);

@@ -4,11 +4,10 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
 
-#include "app/control/replay/frames_of_motion.h"
 #include "core/error.h"
 #include "core/tools_in_use.h"
-#include "recon/hull/visual_hull.h"
 
 namespace elbowroom::control {
 
@@ -33,37 +32,17 @@ SweepFrames SweepFramesOf(const sessions::SessionReader& session) {
 }
 
 SweepFrameLoader::SweepFrameLoader(const sessions::SessionReader& session, const SweepFrames& frames)
-    : session_(session),
-      frames_(frames),
-      all_(session.frames()),
-      rig_(std::make_shared<const core::Rig>(session.header().rig)) {
-  // Reading a frame checks that its silhouettes have the sizes of the cameras' pictures, before planes of
-  // these sizes are made.
-  (void)session.ReadFrame(all_[frames.frames.front().position].frame);
-  // Skew counts where a clearance is required.
-  if (session.header().trial.required_clearance_mm > 0.0) stamps_ = session.stamp_rows();
-  planes_ = recon::MakeUndistortedPlanes(*rig_);
-}
+    : frames_(frames),
+      motion_(session.header().rig, session.frames(),
+              // Skew counts where a clearance is required.
+              session.header().trial.required_clearance_mm > 0.0 ? session.stamp_rows()
+                                                                 : std::vector<sessions::StampRow>(),
+              [&session](core::FrameIndex frame) { return session.ReadFrame(frame); }) {}
 
 review::StudyFrame SweepFrameLoader::Load(std::size_t i) {
-  const std::size_t position = frames_.frames[i].position;
-  if (stamps_.empty()) return Follow(position);
-  const std::size_t first = position - FramesOfMotion(stamps_, all_, position);
-  if (next_ < first || next_ > position) {
-    motions_ = {};
-    next_ = first;
-  }
-  while (next_ < position) (void)Follow(next_);
-  return Follow(position);
-}
-
-review::StudyFrame SweepFrameLoader::Follow(std::size_t position) {
-  const core::FrameRecord record = session_.ReadFrame(all_[position].frame);
-  last_ = recon::NextHull(last_, rig_, planes_, *record.masks).hull;
-  next_ = position + 1;
-  review::StudyFrame frame{record.frame, last_, record.spacing_mm};
-  if (!stamps_.empty()) frame.skew_errors = motions_.Next(*last_, record.stamps, record.time_s);
-  return frame;
+  MotionFrame frame = motion_.Load(frames_.frames[i].position);
+  return {frame.record.frame, std::move(frame.hull), std::move(frame.record.spacing_mm),
+          std::move(frame.skew_errors)};
 }
 
 }  // namespace elbowroom::control

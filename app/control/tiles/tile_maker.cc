@@ -14,9 +14,9 @@ TileMaker::TileMaker(const std::shared_ptr<const recon::FrameSetSource>& source,
   thread_ = std::jthread([this](const std::stop_token& stop) { Run(stop); });
 }
 
-void TileMaker::SetRoom(const ThumbnailRoom& room) {
+void TileMaker::Wish(const TileWishes& wishes) {
   const std::lock_guard lock(mutex_);
-  room_ = room;
+  wishes_ = wishes;
 }
 
 void TileMaker::Add(const SharedFrameResult& result) {
@@ -35,15 +35,15 @@ void TileMaker::Run(const std::stop_token& stop) {
   while (!stop.stop_requested()) {
     const auto begin = std::chrono::steady_clock::now();
     SharedFrameResult result;
-    ThumbnailRoom room;
+    TileWishes wishes;
     {
       const std::lock_guard lock(mutex_);
-      room = room_;
-      if (!room.is_empty()) result = std::exchange(latest_, nullptr);
+      wishes = wishes_;
+      if (wishes.HasRoom()) result = std::exchange(latest_, nullptr);
     }
-    if (!room.is_empty()) {
+    if (wishes.HasRoom()) {
       const bool is_new = result != nullptr;
-      if (is_new) MakePictures(*std::exchange(result, nullptr), room);
+      if (is_new) MakePictures(*std::exchange(result, nullptr), wishes);
       if (FindGone() || is_new) on_tiles_(TilesNow());
     }
     std::unique_lock lock(mutex_);
@@ -52,7 +52,7 @@ void TileMaker::Run(const std::stop_token& stop) {
 }
 
 // A camera whose picture is missing keeps its last one.
-void TileMaker::MakePictures(const FrameResult& result, const ThumbnailRoom& room) {
+void TileMaker::MakePictures(const FrameResult& result, const TileWishes& wishes) {
   const core::FrameRecord& record = result.record;
   for (std::size_t i = 0; i < tiles_.size(); ++i) {
     CameraTile& tile = tiles_[i];
@@ -60,8 +60,14 @@ void TileMaker::MakePictures(const FrameResult& result, const ThumbnailRoom& roo
     if (tile.is_missing) continue;
     const core::BitMask& mask = (*record.masks)[i].mask;
     const cv::Mat none;
-    tile.picture =
-        ThumbnailOf(result.camera_frames ? result.camera_frames->cameras[i].image_bgr : none, mask, room);
+    const cv::Mat& image_bgr = result.camera_frames ? result.camera_frames->cameras[i].image_bgr : none;
+    tile.picture = ThumbnailOf(image_bgr, mask, wishes.room);
+    tile.enlarged =
+        ThumbnailOf(image_bgr, mask, wishes.enlarged == i ? wishes.enlarged_room : ThumbnailRoom());
+    if (wishes.shows_parts) {
+      overlays_.PaintOn(&tile.picture, result, i);
+      enlarged_overlay_.PaintOn(&tile.enlarged, result, i);
+    }
     tile.object_px = static_cast<std::int64_t>(mask.CountObjectPixels());
   }
 }

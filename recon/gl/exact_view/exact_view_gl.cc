@@ -83,6 +83,7 @@ class ExactViewGl::Impl {
   [[nodiscard]] HullView View(const VisualHull& hull, const ViewRays& rays, const HullViewOptions& options);
 
   void MakeCurrent() const { context_.MakeCurrent(); }
+  [[nodiscard]] bool MakeCurrentOrReplace() noexcept { return context_.MakeCurrentOrReplace(); }
   [[nodiscard]] std::thread::id thread() const { return thread_; }
   [[nodiscard]] const std::string& driver() const { return context_.driver(); }
   [[nodiscard]] std::int64_t draws() const { return draws_; }
@@ -246,7 +247,8 @@ void ExactViewGl::Impl::Read(bool with_surfaces, HullView* view) {
 ExactViewGl::ExactViewGl() : impl_(std::make_unique<Impl>()) {}
 
 ExactViewGl::~ExactViewGl() {
-  if (impl_ != nullptr) impl_->MakeCurrent();  // what the destructors delete is in its context
+  // What the destructors delete is in its context; without any context nothing can be deleted.
+  if (impl_ != nullptr && !impl_->MakeCurrentOrReplace()) (void)impl_.release();
 }
 
 ExactViewGl::ExactViewGl(ExactViewGl&&) noexcept = default;

@@ -196,4 +196,13 @@ void EglContext::MakeCurrent() const {
   }
 }
 
+bool EglContext::MakeCurrentOrReplace() noexcept {
+  try {
+    MakeCurrent();
+  } catch (const Error&) {
+    native_ = std::make_unique<Native>(native_->display, Open(native_->display));
+  }
+  return native_->attempt.failure.empty();
+}
+
 }  // namespace elbowroom::recon::gl

@@ -20,6 +20,10 @@ class EglContext {
   // Throws: Error{kGraphics} when the driver refuses, for example because another thread holds the context.
   void MakeCurrent() const;
 
+  // For destructors: where the driver has lost the context, an empty one takes its place, in which there is
+  // nothing to delete. False: the driver gives no context at all any more.
+  [[nodiscard]] bool MakeCurrentOrReplace() noexcept;
+
   [[nodiscard]] const std::string& platform() const { return platform_; }  // "EGL device 0", "surfaceless"...
   [[nodiscard]] const std::string& vendor() const { return vendor_; }
   [[nodiscard]] const std::string& renderer() const { return renderer_; }

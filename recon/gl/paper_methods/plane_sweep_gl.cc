@@ -94,6 +94,7 @@ class PlaneSweepGl::Impl {
                                 int cells);
 
   void MakeCurrent() const { context_.MakeCurrent(); }
+  [[nodiscard]] bool MakeCurrentOrReplace() noexcept { return context_.MakeCurrentOrReplace(); }
   [[nodiscard]] const std::string& driver() const { return context_.driver(); }
   [[nodiscard]] std::thread::id thread() const { return thread_; }
 
@@ -322,7 +323,8 @@ SweptView PlaneSweepGl::Impl::Sweep(const SweepSpace& space, const core::CameraM
 PlaneSweepGl::PlaneSweepGl() : impl_(std::make_unique<Impl>()) {}
 
 PlaneSweepGl::~PlaneSweepGl() {
-  if (impl_ != nullptr) impl_->MakeCurrent();  // what the destructors delete is in its context
+  // What the destructors delete is in its context; without any context nothing can be deleted.
+  if (impl_ != nullptr && !impl_->MakeCurrentOrReplace()) (void)impl_.release();
 }
 
 PlaneSweepGl::PlaneSweepGl(PlaneSweepGl&&) noexcept = default;

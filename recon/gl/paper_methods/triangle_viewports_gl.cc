@@ -81,6 +81,7 @@ class TriangleViewportsGl::Impl {
                                        const TriangleViewportOptions& options);
 
   void MakeCurrent() const { context_.MakeCurrent(); }
+  [[nodiscard]] bool MakeCurrentOrReplace() noexcept { return context_.MakeCurrentOrReplace(); }
   [[nodiscard]] const std::string& driver() const { return context_.driver(); }
   [[nodiscard]] std::thread::id thread() const { return thread_; }
 
@@ -203,7 +204,8 @@ SampledContacts TriangleViewportsGl::Impl::Sample(const CoverageHull& hull,
 TriangleViewportsGl::TriangleViewportsGl() : impl_(std::make_unique<Impl>()) {}
 
 TriangleViewportsGl::~TriangleViewportsGl() {
-  if (impl_ != nullptr) impl_->MakeCurrent();  // what the destructors delete is in its context
+  // What the destructors delete is in its context; without any context nothing can be deleted.
+  if (impl_ != nullptr && !impl_->MakeCurrentOrReplace()) (void)impl_.release();
 }
 
 TriangleViewportsGl::TriangleViewportsGl(TriangleViewportsGl&&) noexcept = default;

@@ -19,6 +19,7 @@ constexpr float kContactTintShare = 0.72F;
 constexpr float kContactGlow = 0.35F;
 constexpr float kHiddenEdgeAlpha = 0.30F;  // of edges seen through their own transparent part
 constexpr float kEdgeAlpha = 0.85F;
+constexpr float kHatchPx = 9.0F;
 
 constexpr double kMostErrorPx = 0.25;  // how far a coarser level may be from the whole mesh, in the picture
 
@@ -48,29 +49,33 @@ in vec3 normal_in_cam;
 uniform vec3 color;
 uniform float opacity;
 uniform float glow;  // share of the color that needs no light
+uniform float hatch_px;  // between the lines of a cut's face, along both sides of the picture; 0: none
 void main() {
   vec3 normal = normalize(normal_in_cam);
+  float along = hatch_px > 0.0 ? mod(gl_FragCoord.x + gl_FragCoord.y, hatch_px) : hatch_px + 2.0;
+  vec3 base = color * (along < 1.5 ? 0.55 : 1.0);
   float light = 0.0;
   bool is_turned_to_lamp = dot(normal, lamp_in_cam - position_in_cam) * dot(normal, -position_in_cam) > 0.0;
   for (int i = is_turned_to_lamp ? 0 : 1; i < 1; ++i) {
     light = PartLight(position_in_cam, normal) * HullLight(position_in_cam, normal, 0.3);
   }
-  vec3 lit = Lit(color, position_in_cam, normal, 0.10, light);
-  pixel = vec4(mix(lit, color, glow), opacity);
-  unlit = vec4(mix(Lit(color, position_in_cam, normal, 0.10, 0.0), color, glow), opacity);
+  vec3 lit = Lit(base, position_in_cam, normal, 0.10, light);
+  pixel = vec4(mix(lit, base, glow), opacity);
+  unlit = vec4(mix(Lit(base, position_in_cam, normal, 0.10, 0.0), base, glow), opacity);
   place = vec4(position_in_cam.z * normal, 1.0);
 }
 )";
 
-// Edges stand a thousandth of their distance before the faces that they bound: more than a coarser level's
-// faces are from the whole mesh, at any focal length above 250 pixels.
+// Edges stand a thousandth of their distance before the faces that they bound, with a long lens less: more
+// than a coarser level's faces are from the whole mesh, at any focal length above 250 pixels.
 constexpr const char* kEdgeVertexSource = R"(
 layout(location = 0) in vec3 position;
 uniform mat4 cam_from_part;
 uniform mat4 clip_from_cam;
+uniform float nearer;
 void main() {
   vec4 x_in_cam = cam_from_part * vec4(position, 1.0);
-  gl_Position = clip_from_cam * vec4(x_in_cam.xyz * 0.999, 1.0);
+  gl_Position = clip_from_cam * vec4(x_in_cam.xyz * nearer, 1.0);
 }
 )";
 
@@ -222,6 +227,7 @@ void PartPainter::DrawFaces(const DrawnPart& drawn, const ViewMatrices& matrices
   face_program_.Set("color", ShownColour(drawn.part));
   face_program_.Set("opacity", drawn.part.opacity);
   face_program_.Set("glow", drawn.part.in_contact ? kContactGlow : 0.0F);
+  face_program_.Set("hatch_px", drawn.part.is_cut_face ? kHatchPx : 0.0F);
   DrawTriangles(drawn);
 }
 
@@ -233,10 +239,12 @@ void PartPainter::DrawFaceDepth(const DrawnPart& drawn, const ViewMatrices& matr
 }
 
 void PartPainter::DrawEdges(const DrawnPart& drawn, const ViewMatrices& matrices, float alpha) {
+  if (drawn.part.is_cut_face) return;
   const Eigen::Vector3f dark = 0.22F * ShownColour(drawn.part);
   edge_program_.Use();
   edge_program_.Set("clip_from_cam", matrices.clip_from_cam);
   edge_program_.Set("cam_from_part", CamFromPart(drawn.part, matrices));
+  edge_program_.Set("nearer", static_cast<float>(1.0 - std::min(0.001, 0.6 / matrices.view.focal_px)));
   edge_program_.Set("color", Eigen::Vector4f(dark.x(), dark.y(), dark.z(), alpha));
   glEnable(GL_BLEND);
   glDepthMask(GL_FALSE);

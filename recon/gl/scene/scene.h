@@ -23,8 +23,9 @@ struct ScenePart {
   core::SharedMesh mesh;
   core::RigidTransform world_from_part;
   Eigen::Vector3f color = {0.62F, 0.67F, 0.73F};
-  bool in_contact = false;  // tinted orange-red
-  float opacity = 1.0F;     // below 1: what stands behind shows through; 0: not drawn
+  bool in_contact = false;   // tinted orange-red
+  float opacity = 1.0F;      // below 1: what stands behind shows through; 0: not drawn
+  bool is_cut_face = false;  // hatched, without edges
 };
 
 // A real camera, shown as a pyramid from its centre.

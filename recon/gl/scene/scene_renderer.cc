@@ -45,6 +45,7 @@ class SceneRenderer::Impl {
   [[nodiscard]] Image Render(const Scene& scene);
   [[nodiscard]] DepthImage RenderDepth(const Scene& scene);
   void MakeCurrent() const { context_.MakeCurrent(); }
+  [[nodiscard]] bool MakeCurrentOrReplace() noexcept { return context_.MakeCurrentOrReplace(); }
 
   [[nodiscard]] const EglContext& context() const { return context_; }
   [[nodiscard]] const PartPainter& parts() const { return parts_; }
@@ -171,7 +172,8 @@ SceneRenderer::SceneRenderer(PartDetail detail, StillThings still_things)
 }
 
 SceneRenderer::~SceneRenderer() {
-  if (impl_ != nullptr) impl_->MakeCurrent();  // what the destructors delete is in its context
+  // What the destructors delete is in its context; without any context nothing can be deleted.
+  if (impl_ != nullptr && !impl_->MakeCurrentOrReplace()) (void)impl_.release();
 }
 
 SceneRenderer::SceneRenderer(SceneRenderer&&) noexcept = default;

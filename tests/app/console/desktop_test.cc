@@ -1,13 +1,20 @@
 // What the window takes from its user's desktop, and what it keeps for the next run.
 #include <gtest/gtest.h>
 
+#include <QAbstractItemView>
+#include <QAbstractSpinBox>
+#include <QAccessible>
 #include <QApplication>
+#include <QComboBox>
 #include <QDockWidget>
 #include <QDragEnterEvent>
 #include <QDropEvent>
 #include <QMimeData>
+#include <QScrollArea>
 #include <QSettings>
 #include <QTest>
+#include <QToolBar>
+#include <QWidgetAction>
 #include <algorithm>
 #include <cmath>
 
@@ -15,6 +22,7 @@
 #include "app/console/desktop/session_place.h"
 #include "app/console/desktop/theme.h"
 #include "app/console/main_window.h"
+#include "app/console/trial_actions.h"
 #include "core/error.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text_file.h"
@@ -184,6 +192,44 @@ TEST_F(Desktop, ATrialThatIsDroppedIsOpened) {
   EXPECT_EQ(window.desk().state(), DeskState::kReading);
   ASSERT_TRUE(QTest::qWaitFor([&] { return window.desk().state() == DeskState::kIdle; }, kLongMs));
   EXPECT_EQ(RecentTrials().value(0).toStdString(), trial.string());
+}
+
+// What a person who can't see the window hears of the control: its own text or name, or its label's.
+QString SpokenName(QWidget* control) {
+  const QAccessibleInterface* spoken = QAccessible::queryAccessibleInterface(control);
+  return spoken == nullptr ? QString() : spoken->text(QAccessible::Name);
+}
+
+// Not those that are part of another control, such as a spin box's line.
+bool IsControl(const QWidget* widget) {
+  if (widget->focusPolicy() == Qt::NoFocus || widget->objectName().startsWith("qt_")) return false;
+  const QWidget* parent = widget->parentWidget();
+  return !qobject_cast<const QAbstractSpinBox*>(parent) && !qobject_cast<const QComboBox*>(parent) &&
+         !qobject_cast<const QAbstractItemView*>(parent) && !qobject_cast<const QScrollArea*>(widget);
+}
+
+TEST_F(Desktop, EveryControlHasASpokenNameAndEveryActionATip) {
+  SetSessionsFolder(folder_ / "sessions");
+  MainWindow window;
+  window.show();
+  StartDemo(window.desk(), window.session_place());
+  ASSERT_TRUE(QTest::qWaitFor([&] { return window.desk().state() == DeskState::kRunning; }, kLongMs));
+  QTest::qWait(200);
+  for (QWidget* widget : window.findChildren<QWidget*>()) {
+    if (!IsControl(widget)) continue;
+    EXPECT_FALSE(SpokenName(widget).isEmpty())
+        << widget->metaObject()->className() << " '" << widget->objectName().toStdString() << "' of '"
+        << widget->parentWidget()->objectName().toStdString() << "'";
+  }
+  for (const QToolBar* bar : window.findChildren<QToolBar*>()) {
+    for (const QAction* action : bar->actions()) {
+      const bool is_button = !action->isSeparator() && qobject_cast<const QWidgetAction*>(action) == nullptr;
+      EXPECT_TRUE(!is_button || action->toolTip().size() > action->iconText().size())
+          << action->text().toStdString();
+    }
+  }
+  window.desk().Stop();
+  ASSERT_TRUE(QTest::qWaitFor([&] { return window.desk().state() == DeskState::kIdle; }, kLongMs));
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ namespace elbowroom::console {
 class OwnHome {
  public:
   OwnHome() {
-    for (const char* variable : {"HOME", "XDG_CONFIG_HOME", "XDG_DOCUMENTS_DIR"})
+    for (const char* variable : {"HOME", "XDG_CONFIG_HOME", "XDG_DATA_HOME", "XDG_DOCUMENTS_DIR"})
       qputenv(variable, QByteArray::fromStdString(folder_.path().string()));
     QCoreApplication::setOrganizationName("Elbowroom");
     QCoreApplication::setApplicationName("tests");

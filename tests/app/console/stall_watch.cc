@@ -28,10 +28,18 @@ StallWatch::StallWatch() {
 void StallWatch::Tick() {
   const std::int64_t delay_ns = LoadDelayNs();
   const auto waited_ns = static_cast<double>(since_tick_.nsecsElapsed() - (delay_ns - load_delay_ns_));
-  longest_ms_ = std::max(longest_ms_, 1e-6 * waited_ns - kTickMs);
+  const double wait_ms = std::max(0.0, 1e-6 * waited_ns - kTickMs);
+  longest_ms_ = std::max(longest_ms_, wait_ms);
+  if (waits_ms_.size() < most_waits_) waits_ms_.push_back(wait_ms);
   ++ticks_;
   load_delay_ns_ = delay_ns;
   since_tick_.start();
+}
+
+void StallWatch::KeepWaits(std::size_t at_most) {
+  most_waits_ = at_most;
+  waits_ms_.assign(at_most, 0.0);  // so that its pages are there before anybody counts them
+  waits_ms_.clear();
 }
 
 }  // namespace elbowroom::console

@@ -3,7 +3,10 @@
 
 #include <QElapsedTimer>
 #include <QTimer>
+#include <cstddef>
 #include <cstdint>
+#include <utility>
+#include <vector>
 
 namespace elbowroom::console {
 
@@ -17,6 +20,10 @@ class StallWatch {
   [[nodiscard]] double longest_ms() const { return longest_ms_; }
   [[nodiscard]] int ticks() const { return ticks_; }
 
+  // Keeps the wait of each tick, in ms, from now on; at most so many.
+  void KeepWaits(std::size_t at_most);
+  [[nodiscard]] std::vector<double> TakeWaits() { return std::move(waits_ms_); }
+
  private:
   void Tick();
 
@@ -25,6 +32,8 @@ class StallWatch {
   std::int64_t load_delay_ns_ = 0;  // of this thread, since it began
   double longest_ms_ = 0.0;
   int ticks_ = 0;
+  std::size_t most_waits_ = 0;
+  std::vector<double> waits_ms_;
 };
 
 }  // namespace elbowroom::console

@@ -144,5 +144,67 @@ TEST(OrbitCamera, NonsenseIsABug) {
   EXPECT_THROW((void)ViewFrom(camera, 640, 480), core::PreconditionError);
 }
 
+TEST(OrbitCamera, StandardViewsLookAlongTheWorldsAxes) {
+  std::mt19937 random(7);
+  const OrbitCamera camera = RandomCamera(random);
+  // Right and up in the picture, in world.
+  const auto expect = [&](StandardView which, const Eigen::Vector3d& right, const Eigen::Vector3d& up) {
+    const OrbitCamera along = Along(camera, which);
+    EXPECT_EQ(along.target_in_world, camera.target_in_world);
+    EXPECT_EQ(along.distance_mm, camera.distance_mm);
+    const Eigen::Matrix3d rows = ViewFrom(along, kWidthPx, kHeightPx).cam_from_world.rotation;
+    EXPECT_LT((rows.row(0).transpose() - right).norm(), 1e-12) << static_cast<int>(which);
+    EXPECT_LT((rows.row(1).transpose() + up).norm(), 1e-12) << static_cast<int>(which);
+  };
+  const Eigen::Vector3d x = Eigen::Vector3d::UnitX(), y = Eigen::Vector3d::UnitY(),
+                        z = Eigen::Vector3d::UnitZ();
+  expect(StandardView::kFront, x, z);
+  expect(StandardView::kBack, -x, z);
+  expect(StandardView::kRight, y, z);
+  expect(StandardView::kLeft, -y, z);
+  expect(StandardView::kTop, x, y);
+  expect(StandardView::kBottom, x, -y);
+  const SceneView isometric = ViewFrom(Along(camera, StandardView::kIsometric), kWidthPx, kHeightPx);
+  const Eigen::Matrix3d rows = isometric.cam_from_world.rotation;
+  for (int axis = 1; axis < 3; ++axis)
+    EXPECT_NEAR(rows.col(axis).head<2>().norm(), rows.col(0).head<2>().norm(), 1e-12);
+}
+
+TEST(OrbitCamera, ParallelViewsKeepLengthsWhereverTheyAre) {
+  std::mt19937 random(8);
+  for (int i = 0; i < 50; ++i) {
+    OrbitCamera camera = RandomCamera(random);
+    const SceneView perspective = ViewFrom(camera, kWidthPx, kHeightPx);
+    camera.is_parallel = true;
+    const SceneView parallel = ViewFrom(camera, kWidthPx, kHeightPx);
+    const Eigen::Vector3d right = perspective.cam_from_world.rotation.row(0),
+                          forward = perspective.cam_from_world.rotation.row(2);
+    const auto px_at = [&](const SceneView& view, double behind_mm) {
+      const Eigen::Vector3d x = camera.target_in_world + behind_mm * forward;
+      return (*view.Project(x + 100.0 * right) - *view.Project(x)).norm();
+    };
+    const double at_target = px_at(perspective, 0.0);
+    for (const double share : {-0.25, 0.0, 0.25})
+      EXPECT_NEAR(px_at(parallel, share * camera.distance_mm), at_target, 0.001 * at_target);
+    EXPECT_LT(parallel.near_mm, 256.0 * camera.distance_mm - 0.9 * camera.distance_mm);
+  }
+}
+
+TEST(OrbitCamera, StandsWhereACameraOfTheRigStands) {
+  const core::CameraModel camera =
+      CameraOf(ViewFrom({.target_in_world = {10, 20, 30}, .distance_mm = 900.0}, 320, 240));
+  const Eigen::Vector3d center(10, 20, 30);
+  const OrbitCamera like = OrbitLike(camera, center);
+  EXPECT_LT((ViewFrom(like, 320, 240).EyeInWorld() - camera.center_in_world()).norm(), 1e-9);
+  EXPECT_LT((like.target_in_world - center).norm(), 1e-9);
+  // Its own view falls on the same pixels but for scale.
+  const SceneView view = ViewFrom(camera, center, 640, 480);
+  for (const Eigen::Vector3d& point : {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(80, -40, 120)}) {
+    const Eigen::Vector2d small = *camera.Project(point);
+    const Eigen::Vector2d large = *view.Project(point);
+    EXPECT_LT((large - (2.0 * small + Eigen::Vector2d(0.5, 0.5))).norm(), 1e-9);
+  }
+}
+
 }  // namespace
 }  // namespace elbowroom::recon

@@ -1,0 +1,142 @@
+#include "app/console/layouts/trial_dialog.h"
+
+#include <QDialogButtonBox>
+#include <QFileDialog>
+#include <QFormLayout>
+#include <QHBoxLayout>
+#include <QPushButton>
+#include <QSettings>
+#include <QVBoxLayout>
+
+#include "app/console/desktop/theme.h"
+#include "core/error.h"
+
+namespace elbowroom::console {
+namespace {
+
+constexpr const char* kRigKey = "layout/last_rig";
+constexpr double kMostMm = 1e5;
+
+QLineEdit* TextLine(const QString& name, const QString& text, const QString& tool_tip) {
+  auto* line = new QLineEdit(text);
+  line->setObjectName(name);
+  line->setToolTip(tool_tip);
+  return line;
+}
+
+QDoubleSpinBox* MillimetreBox(const QString& name, const QString& none, const QString& tool_tip) {
+  auto* box = new QDoubleSpinBox;
+  box->setObjectName(name);
+  box->setRange(0.0, kMostMm);
+  box->setDecimals(1);
+  box->setSuffix(QObject::tr(" mm"));
+  box->setSpecialValueText(none);  // at 0
+  box->setToolTip(tool_tip);
+  return box;
+}
+
+// A line with a button beside it.
+QHBoxLayout* WithButton(QLineEdit* line, QPushButton* button) {
+  auto* row = new QHBoxLayout;
+  row->addWidget(line, 1);
+  row->addWidget(button);
+  return row;
+}
+
+}  // namespace
+
+TrialDialog::TrialDialog(const std::filesystem::path& layout, QWidget* parent)
+    : QDialog(parent), layout_(layout) {
+  setObjectName("trial_dialog");
+  setWindowTitle(tr("Trial from %1").arg(QString::fromStdString(layout.filename().string())));
+  BuildForm();
+  setMinimumWidth(520);
+}
+
+void TrialDialog::BuildForm() {
+  rig_ = TextLine("trial_rig", QSettings().value(kRigKey).toString(),
+                  tr("The RIG.yml of the cameras, or of recorded footage"));
+  participant_ =
+      TextLine("trial_participant", {}, tr("A short name, as the session and the report call them"));
+  task_ = TextLine("trial_task", {}, tr("What they are to do"));
+  estimate_mm_ =
+      MillimetreBox("trial_estimate", tr("none"), tr("The participant's guess of the space needed, mm"));
+  clearance_mm_ = MillimetreBox("trial_clearance", tr("only touches are judged"),
+                                tr("How far hands and tools must stay from parts, mm"));
+  tools_ =
+      TextLine("trial_tools", {}, tr("With commas between: tongs, screwdriver. Marked by the keys 1 to 9"));
+  const std::filesystem::path trial = layout_.parent_path() / (layout_.stem().string() + "_trial.toml");
+  file_ = TextLine("trial_file", QString::fromStdString(trial.string()), tr("The TRIAL.toml to write"));
+  auto* browse_rig = new QPushButton(tr("&Choose …"));
+  browse_rig->setObjectName("trial_browse_rig");
+  connect(browse_rig, &QPushButton::clicked, this, &TrialDialog::BrowseRig);
+  auto* browse_file = new QPushButton(tr("C&hoose …"));
+  browse_file->setObjectName("trial_browse_file");
+  connect(browse_file, &QPushButton::clicked, this, &TrialDialog::BrowseFile);
+  fault_ = new QLabel;
+  fault_->setObjectName("trial_fault");
+  fault_->setWordWrap(true);
+  fault_->setTextFormat(Qt::PlainText);
+  QPalette palette = fault_->palette();
+  palette.setColor(QPalette::WindowText, ThemeColors().contact);
+  fault_->setPalette(palette);
+  fault_->hide();
+  auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel);
+  QPushButton* start = buttons->addButton(tr("&Start trial"), QDialogButtonBox::AcceptRole);
+  start->setObjectName("trial_start");
+  start->setDefault(true);
+  connect(buttons, &QDialogButtonBox::accepted, this, &TrialDialog::Write);
+  connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
+  auto* form = new QFormLayout;
+  form->addRow(tr("&Rig"), WithButton(rig_, browse_rig));
+  form->addRow(tr("&Participant"), participant_);
+  form->addRow(tr("&Task"), task_);
+  form->addRow(tr("&Estimate"), estimate_mm_);
+  form->addRow(tr("Required c&learance"), clearance_mm_);
+  form->addRow(tr("T&ools"), tools_);
+  form->addRow(tr("&File"), WithButton(file_, browse_file));
+  auto* column = new QVBoxLayout(this);
+  column->addLayout(form);
+  column->addWidget(fault_);
+  column->addWidget(buttons);
+}
+
+void TrialDialog::BrowseRig() {
+  const QString rig = QFileDialog::getOpenFileName(this, tr("Choose a rig"), rig_->text(),
+                                                   tr("Rigs (*.yml *.yaml);;All files (*)"));
+  if (!rig.isEmpty()) rig_->setText(rig);
+}
+
+void TrialDialog::BrowseFile() {
+  const QString file =
+      QFileDialog::getSaveFileName(this, tr("Write the trial"), file_->text(), tr("Trials (*.toml)"));
+  if (!file.isEmpty()) file_->setText(file);
+}
+
+control::TrialDraft TrialDialog::Draft() const {
+  control::TrialDraft draft;
+  draft.layout = layout_;
+  draft.rig = rig_->text().toStdString();
+  draft.participant = participant_->text().trimmed().toStdString();
+  draft.task = task_->text().trimmed().toStdString();
+  draft.estimate_mm = estimate_mm_->value();
+  draft.required_clearance_mm = clearance_mm_->value();
+  for (const QString& tool : tools_->text().split(',', Qt::SkipEmptyParts))
+    if (!tool.trimmed().isEmpty()) draft.tools.push_back(tool.trimmed().toStdString());
+  return draft;
+}
+
+void TrialDialog::Write() {
+  try {
+    control::WriteTrial(Draft(), file_->text().toStdString());
+  } catch (const core::Error& error) {
+    fault_->setText(QString::fromStdString(error.what()));
+    fault_->show();
+    return;
+  }
+  QSettings().setValue(kRigKey, rig_->text());
+  emit Written(file_->text());
+  accept();
+}
+
+}  // namespace elbowroom::console

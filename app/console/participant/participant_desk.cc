@@ -1,0 +1,208 @@
+#include "app/console/participant/participant_desk.h"
+
+#include <QGuiApplication>
+#include <QScreen>
+#include <algorithm>
+#include <utility>
+
+#include "core/error.h"
+
+namespace elbowroom::console {
+namespace {
+
+constexpr std::chrono::milliseconds kWatchEvery(100);
+constexpr qint64 kCountEveryMs = 1000;
+
+const QScreen* ScreenNamed(const QString& name) {
+  const QList<QScreen*> screens = QGuiApplication::screens();
+  for (const QScreen* screen : screens)
+    if (screen->name() == name) return screen;
+  return screens.isEmpty() ? nullptr : screens.back();
+}
+
+}  // namespace
+
+ParticipantDesk::ParticipantDesk(QWidget* window)
+    : QObject(window),
+      window_(window),
+      choices_(RememberedChoices()),
+      menu_(new QMenu(tr("&Participant"), window)),
+      status_(new QLabel(window)) {
+  menu_->setToolTipsVisible(true);
+  shows_ = menu_->addAction(tr("&Show to the participant"));
+  shows_->setObjectName("show_participant");
+  shows_->setCheckable(true);
+  shows_->setShortcut(QKeySequence(Qt::CTRL | Qt::Key_P));
+  shows_->setToolTip(tr("A second window, from the participant's head, on the display that was chosen"));
+  connect(shows_, &QAction::triggered, this, [this](bool open) { open ? Open() : Close(); });
+  QAction* choose = menu_->addAction(tr("Picture and &head tracking …"), this, &ParticipantDesk::ShowChoices);
+  choose->setObjectName("participant_choices");
+  choose->setToolTip(tr("Display, stereo, eye distance; OpenTrack, FreeD or the markers on a cap"));
+  status_->setObjectName("status_participant");
+  status_->setContentsMargins(4, 0, 10, 0);
+  status_->hide();
+  watch_.setInterval(kWatchEvery);
+  connect(&watch_, &QTimer::timeout, this, &ParticipantDesk::ShowState);
+}
+
+ParticipantDesk::~ParticipantDesk() = default;
+
+void ParticipantDesk::OpenTrial(const core::Rig& rig) {
+  rig_ = rig;
+  result_.reset();
+  if (view_) view_->Clear();
+  if (is_open() && choices_.source == recon::HeadSource::kCap) StartTracker();
+}
+
+void ParticipantDesk::ShowFrame(control::SharedFrameResult result) {
+  result_ = std::move(result);
+  if (tracker_ && result_) tracker_->OfferFrames(result_->camera_frames);
+  if (pictures_) pictures_->ShowFrame(result_);
+}
+
+void ParticipantDesk::SetLook(const control::SceneLook& look) {
+  look_ = look;
+  AskForPictures();
+}
+
+void ParticipantDesk::Open() {
+  if (is_open()) return;
+  view_ = std::make_unique<ParticipantView>();
+  connect(view_.get(), &ParticipantView::Resized, this, &ParticipantDesk::AskForPictures);
+  connect(view_.get(), &ParticipantView::Closed, this, &ParticipantDesk::Close);
+  connect(view_.get(), &ParticipantView::PictureSeen, this, [this](double age_ms) {
+    age_ms_ = age_ms;
+    ages_.Add(age_ms);
+  });
+  ages_ = {};
+  age_ms_.reset();
+  pictures_ = std::make_unique<control::ParticipantPictures>(
+      [this](control::ParticipantPicture picture) {
+        bridge_.PostLatest(Bridge::Stream::kPicture,
+                           [this, shared = std::make_shared<control::ParticipantPicture>(
+                                      std::move(picture))] { ShowPicture(*shared); });
+      },
+      [this](const std::string& line) {
+        bridge_.Post([this, text = QString::fromStdString(line)] { emit Failed(text); });
+      });
+  pictures_->ShowFrame(result_);
+  const QScreen* screen = ScreenNamed(choices_.display);
+  if (choices_.fills_display) {
+    view_->FillDisplay(screen);
+  } else {
+    if (screen != nullptr) view_->move(screen->availableGeometry().topLeft() + QPoint(40, 40));
+    view_->show();
+  }
+  StartTracker();
+  AskForPictures();
+  watch_.start();
+  ShowState();
+}
+
+void ParticipantDesk::Close() {
+  if (!is_open()) return;
+  watch_.stop();
+  tracker_.reset();
+  pictures_.reset();
+  view_->disconnect(this);
+  view_.release()->deleteLater();  // it may be what calls
+  ShowState();
+}
+
+void ParticipantDesk::ShowChoices() {
+  if (dialog_ == nullptr) {
+    dialog_ = new ParticipantDialog(choices_, window_);
+    connect(dialog_, &ParticipantDialog::Changed, this, &ParticipantDesk::TakeChoices);
+    connect(dialog_, &ParticipantDialog::OpenAsked, this, [this](bool open) { open ? Open() : Close(); });
+  }
+  ShowState();
+  dialog_->show();
+  dialog_->raise();
+}
+
+void ParticipantDesk::TakeChoices() {
+  const ParticipantChoices last = std::exchange(choices_, dialog_->choices());
+  RememberChoices(choices_);
+  if (!is_open()) return;
+  const bool is_other_tracker =
+      last.source != choices_.source || last.port != choices_.port || last.head_file != choices_.head_file;
+  if (is_other_tracker) StartTracker();
+  if (choices_.fills_display && (last.display != choices_.display || !last.fills_display)) {
+    view_->FillDisplay(ScreenNamed(choices_.display));
+  } else if (!choices_.fills_display && last.fills_display) {
+    view_->showNormal();
+  }
+  AskForPictures();
+}
+
+void ParticipantDesk::StartTracker() {
+  tracker_.reset();  // its port is free again
+  accepted_before_ = 0;
+  poses_per_s_ = 0.0;
+  since_count_.start();
+  if (choices_.source == recon::HeadSource::kCap && !rig_) return;  // with the next trial
+  try {
+    tracker_ = std::make_unique<control::HeadTracker>(
+        HeadSettingsOf(choices_), rig_,
+        [pictures = pictures_.get()](const control::HeadState& head) { pictures->ShowHead(head); });
+    if (choices_.source == recon::HeadSource::kFixed) pictures_->ShowHead(tracker_->state());
+    if (result_) tracker_->OfferFrames(result_->camera_frames);
+  } catch (const core::Error& error) {
+    emit Failed(tr("Participant's view: %1").arg(QString::fromStdString(error.what())));
+  }
+}
+
+void ParticipantDesk::AskForPictures() {
+  if (!is_open()) return;
+  const QSize size = view_->PictureSize();
+  view_->SetStereo(choices_.eyes.mode == control::ViewMode::kStereo);
+  pictures_->SetLook({choices_.eyes, look_, static_cast<core::CameraIndex>(choices_.camera - 1), size.width(),
+                      size.height()});
+}
+
+void ParticipantDesk::ShowPicture(const control::ParticipantPicture& picture) {
+  if (is_open() && result_) view_->ShowPicture(picture);
+}
+
+void ParticipantDesk::ShowState() {
+  const bool needs_head = !control::IsOfCamera(choices_.eyes.mode);
+  if (is_open()) view_->ShowTracking(needs_head && (!tracker_ || tracker_->state().is_lost));
+  if (tracker_ && since_count_.elapsed() >= kCountEveryMs) {
+    const std::int64_t accepted = tracker_->counts().accepted;
+    poses_per_s_ = 1000.0 * static_cast<double>(accepted - accepted_before_) /
+                   static_cast<double>(since_count_.restart());
+    accepted_before_ = accepted;
+  }
+  const QString text = StateText();
+  shows_->setChecked(is_open());
+  status_->setVisible(is_open());
+  status_->setText(age_ms_ ? tr("participant %1 ms").arg(*age_ms_, 0, 'f', 0) : tr("participant"));
+  status_->setToolTip(tr("The participant's view, from the head's pose to the screen\n%1").arg(text));
+  if (dialog_ == nullptr) return;
+  dialog_->ShowOpen(is_open());
+  dialog_->ShowState(text);
+}
+
+QString ParticipantDesk::StateText() const {
+  if (!is_open()) return tr("The window is closed");
+  if (!tracker_)
+    return choices_.source == recon::HeadSource::kCap ? tr("Start a trial: its cameras look for the cap")
+                                                      : tr("No tracking: the view stays");
+  if (choices_.source == recon::HeadSource::kFixed) return tr("A fixed eye point");
+  const control::HeadCounts counts = tracker_->counts();
+  QString text = tracker_->state().is_lost ? tr("Tracking is lost") : tr("Tracking");
+  text += tr(": %1 poses/s, %2 refused").arg(poses_per_s_, 0, 'f', 0).arg(counts.all_refused());
+  const auto most = std::ranges::max_element(counts.refused);
+  if (*most > 0) {
+    const auto fault = control::ToString(static_cast<control::PoseFault>(most - counts.refused.begin()));
+    text += tr(" (most: %1)")
+                .arg(QString::fromUtf8(fault.data(), static_cast<qsizetype>(fault.size())).replace('_', ' '));
+  }
+  if (age_ms_)
+    text += tr("\nPose to screen: %1 ms, median %2 ms")
+                .arg(*age_ms_, 0, 'f', 0)
+                .arg(ages_.MedianMs().value_or(0.0), 0, 'f', 0);
+  return text;
+}
+
+}  // namespace elbowroom::console

@@ -1,0 +1,84 @@
+#include "app/console/view/dimension_painter.h"
+
+#include <QFontMetrics>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "app/control/palette/part_colors.h"
+
+namespace elbowroom::console {
+namespace {
+
+const QColor kMeasured(0, 90, 160);
+constexpr double kMarkPx = 4.0;
+
+QColor ColorOf(const control::Dimension& dimension) {
+  if (!dimension.band) return kMeasured;
+  const control::Color color = control::BandColor(*dimension.band);
+  return QColor::fromRgbF(color.x(), color.y(), color.z());
+}
+
+// The sign stands for the colour, for those who don't see it.
+QString TextOf(const control::Dimension& dimension) {
+  const QString text = QString::fromStdString(dimension.text);
+  if (!dimension.band) return text;
+  switch (*dimension.band) {
+    case core::Verdict::kContact:
+      return "✕ " + text;
+    case core::Verdict::kNear:
+      return "▲ " + text;
+    case core::Verdict::kClear:
+      return "✓ " + text;
+    case core::Verdict::kUndecided:
+      return "? " + text;
+  }
+  return text;
+}
+
+void PaintText(QPainter& painter, const QPointF& at, const QString& text, const QColor& color) {
+  const QFontMetrics metrics = painter.fontMetrics();
+  QRectF plate(0, 0, metrics.horizontalAdvance(text) + 10, metrics.height() + 4);
+  plate.moveCenter(at - QPointF(0, 0.5 * plate.height() + 6));
+  const QRectF room = painter.viewport();
+  plate.moveLeft(std::clamp(plate.left(), 2.0, std::max(2.0, room.width() - plate.width() - 2)));
+  plate.moveTop(std::clamp(plate.top(), 2.0, std::max(2.0, room.height() - plate.height() - 2)));
+  painter.setPen(QPen(color, 1.5));
+  painter.setBrush(QColor(255, 255, 255, 225));
+  painter.drawRoundedRect(plate, 3, 3);
+  painter.setPen(QColor(20, 24, 29));
+  painter.drawText(plate, Qt::AlignCenter, text);
+}
+
+void PaintOne(QPainter& painter, const QPointF& from, const QPointF& to,
+              const control::Dimension& dimension) {
+  const QColor color = ColorOf(dimension);
+  painter.setPen(QPen(QColor(20, 24, 29, 160), 4.0, Qt::SolidLine, Qt::RoundCap));  // seen on any picture
+  painter.drawLine(from, to);
+  painter.setPen(QPen(color, 2.0, Qt::SolidLine, Qt::RoundCap));
+  painter.drawLine(from, to);
+  painter.setPen(QPen(QColor(20, 24, 29), 1.0));
+  painter.setBrush(color);
+  for (const QPointF& end : {from, to}) painter.drawEllipse(end, kMarkPx, kMarkPx);
+  PaintText(painter, 0.5 * (from + to), TextOf(dimension), color);
+}
+
+}  // namespace
+
+void PaintDimensions(QPainter& painter, const recon::SceneView& view, const QPoint& origin,
+                     std::span<const control::Dimension> dimensions) {
+  painter.save();
+  painter.setRenderHint(QPainter::Antialiasing);
+  for (const control::Dimension& dimension : dimensions) {
+    const std::optional<Eigen::Vector2d> from = view.Project(dimension.from_in_world),
+                                         to = view.Project(dimension.to_in_world);
+    if (!from || !to) continue;
+    const auto in_widget = [&](const Eigen::Vector2d& pixel) {
+      return QPointF(origin) + QPointF(pixel.x() + 0.5, pixel.y() + 0.5);
+    };
+    PaintOne(painter, in_widget(*from), in_widget(*to), dimension);
+  }
+  painter.restore();
+}
+
+}  // namespace elbowroom::console

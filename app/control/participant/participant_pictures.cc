@@ -1,0 +1,192 @@
+#include "app/control/participant/participant_pictures.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <exception>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "app/control/tiles/frame_overlays.h"
+#include "app/control/view_method.h"
+#include "recon/gl/scene/scene_renderer.h"
+
+namespace elbowroom::control {
+namespace {
+
+constexpr double kAimMs = 33.0, kRoomForFinerMs = 14.0;
+constexpr std::array<double, 4> kScales = {1.0, 0.75, 0.55, 0.4};  // of the picture's sides
+constexpr double kHullScale = 0.5;
+// A scene that hasn't changed for this long is drawn in full.
+constexpr std::chrono::milliseconds kRests(400);
+
+void Copy(const recon::Image& from, int first_column, int width_px, int to_column, bool is_mirrored,
+          recon::Image* to) {
+  for (int y = 0; y < from.height_px; ++y) {
+    for (int x = 0; x < width_px; ++x) {
+      const int source = is_mirrored ? first_column + width_px - 1 - x : first_column + x;
+      const auto* pixel = from.rgb.data() + 3 * (static_cast<std::ptrdiff_t>(y) * from.width_px + source);
+      auto* target = to->rgb.data() + 3 * (static_cast<std::ptrdiff_t>(y) * to->width_px + to_column + x);
+      std::copy_n(pixel, 3, target);
+    }
+  }
+}
+
+// What a camera saw; empty: it has no picture.
+recon::Image PictureOf(const FrameResult& result, core::CameraIndex camera) {
+  if (!result.camera_frames || camera >= result.camera_frames->cameras.size()) return {};
+  const cv::Mat& bgr = result.camera_frames->cameras[camera].image_bgr;
+  recon::Image image{bgr.cols, bgr.rows, {}};
+  image.rgb.reserve(3 * bgr.total());
+  for (int y = 0; y < bgr.rows; ++y) {
+    const auto* row = bgr.ptr<std::uint8_t>(y);
+    for (int x = 0; x < bgr.cols; ++x)
+      image.rgb.insert(image.rgb.end(), {row[3 * x + 2], row[3 * x + 1], row[3 * x]});
+  }
+  return image;
+}
+
+}  // namespace
+
+// Owns what is of the drawing thread: the renderer, and for each eye what can be used again.
+class ParticipantPictures::Painter {
+ public:
+  recon::Image Draw(const FrameResult& result, const core::RigidTransform& world_from_head,
+                    const ParticipantLook& look, bool in_full) {
+    const double scale = in_full ? 1.0 : kScales[step_];
+    const int width_px = std::max(64, static_cast<int>(scale * look.width_px) / 2 * 2);
+    const int height_px = std::max(64, static_cast<int>(scale * look.height_px));
+    const std::vector<EyeView> eyes = EyeViewsOf(world_from_head, look.eyes, width_px, height_px);
+    recon::Image picture{width_px, height_px,
+                         std::vector<std::uint8_t>(3 * static_cast<std::size_t>(width_px) *
+                                                   static_cast<std::size_t>(height_px))};
+    int column = 0;
+    for (std::size_t eye = 0; eye < eyes.size(); ++eye) {
+      recon::gl::Scene scene =
+          composers_[eye].Compose(result, eyes[eye].view, look.scene, scale < 1.0 ? kHullScale : 1.0);
+      if (!in_full) scene.smoothness = recon::gl::Smoothness::kOneSample;
+      Copy(renderer_.Render(scene), eyes[eye].first_column, eyes[eye].width_px, column,
+           look.eyes.mode == ViewMode::kMirror, &picture);
+      column += eyes[eye].width_px;
+    }
+    return picture;
+  }
+
+  // The parts in a camera's live picture, hidden by what is real before them; empty: it has none.
+  recon::Image DrawCamera(const FrameResult& result, const ParticipantLook& look) {
+    recon::Image picture = PictureOf(result, look.camera);
+    if (picture.rgb.empty()) return picture;
+    overlays_.PaintOn(&picture, result, look.camera);
+    if (look.eyes.mode != ViewMode::kCameraMirror) return picture;
+    recon::Image mirrored = picture;
+    Copy(picture, 0, picture.width_px, 0, true, &mirrored);
+    return mirrored;
+  }
+
+  // Coarser after three pictures in a row that took too long, finer after thirty that were quick.
+  void Adapt(double drawing_ms) {
+    const int vote = drawing_ms > kAimMs ? 1 : drawing_ms < kRoomForFinerMs ? -1 : 0;
+    in_a_row_ = vote * in_a_row_ > 0 ? in_a_row_ + vote : vote;
+    if (in_a_row_ >= 3 && step_ + 1 < kScales.size()) {
+      ++step_;
+      in_a_row_ = 0;
+    } else if (in_a_row_ <= -30 && step_ > 0) {
+      --step_;
+      in_a_row_ = 0;
+    }
+  }
+
+ private:
+  recon::gl::SceneRenderer renderer_{recon::gl::PartDetail::kOnDemand};
+  std::array<SceneComposer, 2> composers_;  // one an eye
+  FrameOverlays overlays_;
+  std::size_t step_ = 0;
+  int in_a_row_ = 0;
+};
+
+ParticipantPictures::ParticipantPictures(OnPicture on_picture, OnError on_error)
+    : on_picture_(std::move(on_picture)),
+      on_error_(std::move(on_error)),
+      thread_([this](const std::stop_token& stop) { Run(stop); }) {}
+
+ParticipantPictures::~ParticipantPictures() = default;
+
+void ParticipantPictures::ShowHead(const HeadState& head) {
+  {
+    const std::lock_guard lock(mutex_);
+    head_ = head;
+  }
+  Wake();
+}
+
+void ParticipantPictures::SetLook(const ParticipantLook& look) {
+  look.eyes.Validate();
+  {
+    const std::lock_guard lock(mutex_);
+    look_ = look;
+  }
+  Wake();
+}
+
+void ParticipantPictures::ShowFrame(SharedFrameResult result) {
+  {
+    const std::lock_guard lock(mutex_);
+    result_ = std::move(result);
+  }
+  Wake();
+}
+
+void ParticipantPictures::Wake() {
+  {
+    const std::lock_guard lock(mutex_);
+    is_outdated_ = true;
+  }
+  woken_.notify_one();
+}
+
+void ParticipantPictures::Run(const std::stop_token& stop) {
+  std::unique_ptr<Painter> painter;
+  bool can_be_finer = false;  // the last picture
+  while (!stop.stop_requested()) {
+    ParticipantLook look;
+    SharedFrameResult result;
+    HeadState head;
+    {
+      std::unique_lock lock(mutex_);
+      const auto is_awaited = [this] { return is_outdated_; };
+      if (can_be_finer) {
+        (void)woken_.wait_for(lock, stop, kRests, is_awaited);
+      } else {
+        (void)woken_.wait(lock, stop, is_awaited);
+      }
+      if (stop.stop_requested()) return;
+      can_be_finer = std::exchange(is_outdated_, false);
+      look = look_;
+      result = result_;
+      head = head_;
+    }
+    const bool is_of_camera = IsOfCamera(look.eyes.mode);
+    if ((!head.pose && !is_of_camera) || !result || look.width_px <= 0 || look.height_px <= 0) continue;
+    try {
+      if (!painter) painter = std::make_unique<Painter>();
+      const double begun_ms = SteadyNowMs();
+      recon::Image image = is_of_camera
+                               ? painter->DrawCamera(*result, look)
+                               : painter->Draw(*result, head.pose->world_from_head, look, !can_be_finer);
+      if (image.rgb.empty()) continue;
+      const double drawing_ms = SteadyNowMs() - begun_ms;
+      if (is_of_camera) can_be_finer = false;
+      if (can_be_finer) painter->Adapt(drawing_ms);
+      on_picture_({std::move(image), is_of_camera ? recon::HeadPose{} : *head.pose, head.serial,
+                   result->record.frame, drawing_ms});
+    } catch (const std::exception& error) {  // the outermost loop: nothing may escape a thread
+      painter.reset();                       // a context that was lost is made anew
+      can_be_finer = false;
+      on_error_(error.what());
+    }
+  }
+}
+
+}  // namespace elbowroom::control

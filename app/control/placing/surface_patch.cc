@@ -1,0 +1,74 @@
+#include "app/control/placing/surface_patch.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <tuple>
+#include <utility>
+
+#include "core/error.h"
+#include "core/units.h"
+
+namespace elbowroom::control {
+namespace {
+
+using Eigen::Vector3d;
+using Place = std::tuple<double, double, double>;
+using Edge = std::pair<std::int32_t, std::int32_t>;
+
+// The first vertex at each one's place.
+std::vector<std::int32_t> WeldedVertices(const core::TriangleMesh& mesh) {
+  std::map<Place, std::int32_t> firsts;
+  std::vector<std::int32_t> welded;
+  for (const Vector3d& x : mesh.vertices_mm)
+    welded.push_back(
+        firsts.try_emplace({x.x(), x.y(), x.z()}, static_cast<std::int32_t>(welded.size())).first->second);
+  return welded;
+}
+
+Vector3d UnitNormal(const core::TriangleMesh& mesh, std::uint32_t triangle) {
+  const auto vertex = [&](std::size_t i) -> const Vector3d& {
+    return mesh.vertices_mm[static_cast<std::size_t>(mesh.triangles[triangle][i])];
+  };
+  return (vertex(1) - vertex(0)).cross(vertex(2) - vertex(0)).normalized();
+}
+
+std::array<Edge, 3> EdgesOf(const core::TriangleMesh& mesh, const std::vector<std::int32_t>& welded,
+                            std::uint32_t triangle) {
+  std::array<Edge, 3> edges;
+  for (std::size_t i = 0; i < 3; ++i)
+    edges[i] = std::minmax(welded[static_cast<std::size_t>(mesh.triangles[triangle][i])],
+                           welded[static_cast<std::size_t>(mesh.triangles[triangle][(i + 1) % 3])]);
+  return edges;
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> SmoothPatch(const core::TriangleMesh& mesh, std::uint32_t triangle,
+                                       double turn_deg) {
+  core::Require(triangle < mesh.triangles.size(), "a triangle of the mesh");
+  const std::vector<std::int32_t> welded = WeldedVertices(mesh);
+  std::map<Edge, std::vector<std::uint32_t>> beside;
+  for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i)
+    for (const Edge& edge : EdgesOf(mesh, welded, i)) beside[edge].push_back(i);
+  const double least_cosine = std::cos(core::RadiansFromDegrees(turn_deg));
+  std::vector<bool> is_taken(mesh.triangles.size(), false);
+  std::vector<std::uint32_t> patch{triangle};
+  is_taken[triangle] = true;
+  for (std::size_t next = 0; next < patch.size(); ++next) {
+    const Vector3d normal = UnitNormal(mesh, patch[next]);
+    for (const Edge& edge : EdgesOf(mesh, welded, patch[next])) {
+      for (const std::uint32_t other : beside[edge]) {
+        // A triangle without area has the normal 0 and passes no test.
+        if (is_taken[other] || !(normal.dot(UnitNormal(mesh, other)) >= least_cosine)) continue;
+        is_taken[other] = true;
+        patch.push_back(other);
+      }
+    }
+  }
+  std::ranges::sort(patch);
+  return patch;
+}
+
+}  // namespace elbowroom::control

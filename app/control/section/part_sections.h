@@ -1,0 +1,40 @@
+// Cut parts, kept while nothing about them changes.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "app/control/section/section_cut.h"
+#include "core/ids.h"
+#include "core/rigid_transform.h"
+#include "core/triangle_mesh.h"
+
+namespace elbowroom::control {
+
+struct PartSection {
+  core::SharedMesh surface;  // in the part's frame; null: nothing of it is left
+  core::SharedMesh caps;     // null: the cut goes through none of it
+};
+
+// Thread: one.
+class PartSections {
+ public:
+  // The same objects as in the last call for this part if its mesh, its place and the cut are those of then.
+  // A part that no plane touches keeps its own mesh.
+  [[nodiscard]] const PartSection& Of(core::PartIndex part, const core::SharedMesh& mesh,
+                                      const core::RigidTransform& world_from_part, const SectionCut& cut);
+
+  [[nodiscard]] std::int64_t cuts() const { return cuts_; }  // since the start
+
+ private:
+  struct Kept {
+    core::SharedMesh mesh;
+    core::RigidTransform world_from_part;
+    SectionCut cut;
+    PartSection section;
+  };
+  std::vector<Kept> kept_;
+  std::int64_t cuts_ = 0;
+};
+
+}  // namespace elbowroom::control

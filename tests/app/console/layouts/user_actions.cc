@@ -1,0 +1,67 @@
+#include "tests/app/console/layouts/user_actions.h"
+
+#include <QAbstractSpinBox>
+#include <QApplication>
+#include <QFileDialog>
+#include <QLineEdit>
+#include <QStyle>
+#include <QTimer>
+#include <functional>
+
+namespace elbowroom::console {
+namespace {
+
+constexpr int kLookAgainMs = 30;
+
+// Calls `act` with the modal widget of that kind, once there is one.
+template <typename Widget>
+void OnceModal(const std::function<void(Widget*)>& act) {
+  auto* timer = new QTimer(qApp);
+  QObject::connect(timer, &QTimer::timeout, timer, [timer, act] {
+    auto* widget = qobject_cast<Widget*>(QApplication::activeModalWidget());
+    if (widget == nullptr) return;
+    timer->stop();
+    timer->deleteLater();
+    act(widget);
+  });
+  timer->start(kLookAgainMs);
+}
+
+}  // namespace
+
+void TypeIntoNextFileDialog(const QString& path) {
+  OnceModal<QFileDialog>([path](QFileDialog* dialog) {
+    auto* line = dialog->findChild<QLineEdit*>("fileNameEdit");
+    TypeInto(line, path);
+    // The first Return may go to the list of completions.
+    auto* again = new QTimer(dialog);
+    QObject::connect(again, &QTimer::timeout, dialog, [line] { QTest::keyClick(line, Qt::Key_Return); });
+    again->start(kLookAgainMs);
+  });
+}
+
+void AnswerNextQuestion(QMessageBox::StandardButton button) {
+  OnceModal<QMessageBox>([button](QMessageBox* box) { Click(box->button(button)); });
+}
+
+void Click(QWidget* widget) { QTest::mouseClick(widget, Qt::LeftButton); }
+
+void TypeInto(QWidget* widget, const QString& text) {
+  widget->setFocus();
+  QTest::keyClick(widget, Qt::Key_A, Qt::ControlModifier);
+  QTest::keyClicks(widget, text);
+  if (qobject_cast<QAbstractSpinBox*>(widget) != nullptr) QTest::keyClick(widget, Qt::Key_Tab);
+}
+
+bool TickItem(QTreeWidget* tree, const QString& text) {
+  const QList<QTreeWidgetItem*> found = tree->findItems(text, Qt::MatchExactly | Qt::MatchRecursive, 0);
+  if (found.isEmpty()) return false;
+  tree->scrollToItem(found.front());
+  const QRect item = tree->visualItemRect(found.front());  // without what it is indented by
+  const int middle = tree->style()->pixelMetric(QStyle::PM_FocusFrameHMargin, nullptr, tree) + 1 +
+                     tree->style()->pixelMetric(QStyle::PM_IndicatorWidth, nullptr, tree) / 2;
+  QTest::mouseClick(tree->viewport(), Qt::LeftButton, {}, QPoint(item.left() + middle, item.center().y()));
+  return true;
+}
+
+}  // namespace elbowroom::console

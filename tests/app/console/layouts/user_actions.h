@@ -1,0 +1,36 @@
+// What a user does with dialogs, done by mouse and keys.
+#pragma once
+
+#include <QCheckBox>
+#include <QMessageBox>
+#include <QPushButton>
+#include <QString>
+#include <QTest>
+#include <QTreeWidget>
+#include <QWidget>
+
+namespace elbowroom::console {
+
+// Far beyond what any step takes on a loaded machine; a test that waits so long has failed.
+inline constexpr int kPatienceMs = 240'000;
+
+template <typename Condition>
+[[nodiscard]] bool WaitUntil(Condition condition) {
+  return QTest::qWaitFor(condition, kPatienceMs);
+}
+
+// Types the path into the file dialog that comes next, and presses Return.
+void TypeIntoNextFileDialog(const QString& path);
+
+// Presses that button of the message box that comes next.
+void AnswerNextQuestion(QMessageBox::StandardButton button);
+
+void Click(QWidget* widget);
+
+// Takes the place of the text that is in a line, a number or another widget that is typed into.
+void TypeInto(QWidget* widget, const QString& text);
+
+// Puts the tick before the item of that text with the mouse. False: there is no such item.
+bool TickItem(QTreeWidget* tree, const QString& text);
+
+}  // namespace elbowroom::console
