@@ -1,5 +1,6 @@
 #include "app/console/procedure_flow.h"
 
+#include <QTimer>
 #include <utility>
 
 #include "app/console/trial_actions.h"
@@ -86,6 +87,8 @@ void ProcedureFlow::AddDocks() {
   };
   add("procedure_panel", tr("Procedure"), procedure_);
   add("presets_panel", tr("Gap presets"), presets_);
+  // One above the other they are higher than a small screen.
+  window_->tabifyDockWidget(docks_.front(), docks_.back());
 }
 
 void ProcedureFlow::FollowDesk() {
@@ -137,7 +140,10 @@ void ProcedureFlow::Open(const control::TrialSetup& setup) {
 void ProcedureFlow::ShowDocks(bool are_shown) {
   if (std::exchange(has_shown_docks_, are_shown) == are_shown) return;
   for (QDockWidget* dock : docks_) dock->setVisible(are_shown);
-  if (are_shown) window_->resizeDocks(docks_, {kSidePx, kSidePx}, Qt::Horizontal);
+  if (!are_shown) return;
+  docks_.front()->raise();  // before the presets
+  // When they have been laid out.
+  QTimer::singleShot(0, this, [this] { window_->resizeDocks(docks_, {kSidePx, kSidePx}, Qt::Horizontal); });
 }
 
 void ProcedureFlow::ShowFrame(const FrameNews& news) {

@@ -152,7 +152,7 @@ TEST_F(ProcedureTest, AWholeTrialIsInTheSessionAndItsReplay) {
   Find<QDoubleSpinBox>("spacing_box:gap")->setValue(130.0);
   ASSERT_TRUE(WaitUntil([&] { return GapMm() == 130.0; }));
   Find<QLineEdit>("preset_name")->setText("closed");
-  QTest::mouseClick(Find<QPushButton>("save_preset"), Qt::LeftButton);
+  Find<QPushButton>("save_preset")->click();
   Find<QDoubleSpinBox>("spacing_box:gap")->setValue(200.0);
   ASSERT_TRUE(WaitUntil([&] { return GapMm() == 200.0; }));
   Key(Qt::Key_1, Qt::AltModifier);
