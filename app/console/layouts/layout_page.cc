@@ -144,6 +144,8 @@ void LayoutPage::FollowPanels() {
     Choose(WithClick(chosen_, name, adds));
   });
   connect(list_, &PartsList::Chosen, this, &LayoutPage::Choose);
+  connect(list_, &PartsList::RenameAsked, this, &LayoutPage::RenamePart,
+          Qt::QueuedConnection);  // once it is closed
   connect(list_, &PartsList::VisibilityChanged, this, [this](const QString& part, bool is_visible) {
     looks_[part].is_visible = is_visible;
     ShowParts();
@@ -277,6 +279,21 @@ void LayoutPage::PlacePart(const QString& part, const core::RigidTransform& worl
   edit.position_mm = Rounded(world_from_part.translation_mm);
   edit.rotation_rpy_deg = Rounded(RollPitchYawDegOf(placed));
   Change(tr("Place %1").arg(part), [edit](cad_import::LayoutText& text) { control::MovePart(text, edit); });
+}
+
+void LayoutPage::RenamePart(const QString& part, const QString& to) {
+  const PartLooks looks = looks_;
+  const QStringList chosen = chosen_;
+  if (const auto look = looks_.extract(part)) looks_[to] = look.mapped();
+  std::ranges::replace(chosen_, part, to);
+  const QString fault = desk_->Apply(
+      tr("Rename %1").arg(part), [from = part.toStdString(), to = to.toStdString()](
+                                     cad_import::LayoutText& text) { control::RenamePart(text, from, to); });
+  if (fault.isEmpty()) return;
+  looks_ = looks;
+  chosen_ = chosen;
+  emit Failed(fault);
+  ShowLayout();
 }
 
 void LayoutPage::RemovePart(const QString& part) {

@@ -87,6 +87,7 @@ class LayoutPage : public QWidget {
   void MovePart(const QString& part, int axis, double position_mm);
   void TurnPart(const QString& part, int axis, double rotation_deg);
   void PlacePart(const QString& part, const core::RigidTransform& world_from_part);
+  void RenamePart(const QString& part, const QString& to);
   void RemovePart(const QString& part);
   void Isolate(const QString& part);
   void AskForSpacing(const core::Spacing& spacing, bool is_new);

@@ -8,6 +8,7 @@ namespace elbowroom::console {
 namespace {
 
 constexpr int kMostChosen = 2;
+constexpr int kNameRole = Qt::UserRole;  // as the layout has it
 
 QPixmap Swatch(const QColor& color) {
   QPixmap swatch(12, 12);
@@ -29,14 +30,17 @@ QStringList WithClick(const QStringList& chosen, const QString& part, bool adds)
 PartsList::PartsList(QWidget* parent) : QTreeWidget(parent) {
   setObjectName("parts");
   setAccessibleName(tr("Parts"));
-  setToolTip(tr("A tick shows a part. Click: choose; Ctrl+click: a second part"));
+  setToolTip(tr("A tick shows a part. Click: choose; Ctrl+click: a second part; F2: rename"));
   setHeaderLabels({tr("Part"), tr("File")});
   header()->setSectionResizeMode(0, QHeaderView::ResizeToContents);
   setRootIsDecorated(false);
   setSelectionMode(ExtendedSelection);
+  setEditTriggers(EditKeyPressed);
   connect(this, &QTreeWidget::itemSelectionChanged, this, &PartsList::TakeSelection);
   connect(this, &QTreeWidget::itemChanged, this, [this](QTreeWidgetItem* item) {
-    emit VisibilityChanged(item->text(0), item->checkState(0) == Qt::Checked);
+    const QString name = item->data(0, kNameRole).toString();
+    if (item->text(0) != name) return emit RenameAsked(name, item->text(0));
+    emit VisibilityChanged(name, item->checkState(0) == Qt::Checked);
   });
 }
 
@@ -52,6 +56,8 @@ void PartsList::Show(const core::Layout& layout, const PartLooks& looks, const Q
     const PartLook look = found == looks.end() ? PartLook() : found->second;
     QTreeWidgetItem* item = topLevelItem(static_cast<int>(i));
     item->setText(0, name);
+    item->setData(0, kNameRole, name);
+    item->setFlags(item->flags() | Qt::ItemIsEditable);
     item->setIcon(0, Swatch(look.color.isValid() ? look.color : PartColor(i)));
     item->setCheckState(0, look.is_visible ? Qt::Checked : Qt::Unchecked);
     item->setText(1, QString::fromStdString(std::filesystem::path(part.file).filename().string()));

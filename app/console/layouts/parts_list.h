@@ -9,7 +9,7 @@
 
 namespace elbowroom::console {
 
-// A tick shows a part; a click chooses one, a Ctrl+click a second one. Thread: UI.
+// A tick shows a part; a click chooses one, a Ctrl+click a second one; F2 renames. Thread: UI.
 class PartsList : public QTreeWidget {
   Q_OBJECT
 
@@ -19,7 +19,8 @@ class PartsList : public QTreeWidget {
   void Show(const core::Layout& layout, const PartLooks& looks, const QStringList& chosen);
 
  signals:
-  void Chosen(const QStringList& parts);  // one or two, the first one first; none
+  void Chosen(const QStringList& parts);                     // one or two, the first one first; none
+  void RenameAsked(const QString& part, const QString& to);  // by F2
   void VisibilityChanged(const QString& part, bool is_visible);
 
  private:

@@ -55,6 +55,10 @@ std::optional<std::size_t> FindPair(const LayoutText& text, const PairEdit& edit
                   core::SpellingAdvice(name, names, "`elbowroom layout show` lists the names")));
 }
 
+// Where a rule names a part.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 4> kRules = {
+    {{"spacing", "moving"}, {"spacing", "reference"}, {"pair", "a"}, {"pair", "b"}}};
+
 void SetAll(LayoutText& text, std::string_view kind, std::size_t index, const Fields& fields) {
   for (const Field& field : fields) text.Set(kind, index, field);
 }
@@ -178,9 +182,24 @@ void RemoveNamed(LayoutText& text, const std::string& name) {
   FailUnknown(text, kinds, name);
 }
 
+void RenamePart(LayoutText& text, const std::string& from, const std::string& to) {
+  const auto index = Find(text, "part", from);
+  if (!index) FailUnknown(text, {"part"}, from);
+  if (FreePartName(text, to) != to)
+    throw core::Error(
+        core::ErrorKind::kRange,
+        fmt::format("{}: a part or group is named '{}'; choose another name", text.file().string(), to));
+  text.Set("part", *index, {"name", to});
+  for (const auto& [kind, key] : kRules)
+    while (const auto user = FindUser(text, kind, key, from)) text.Set(kind, *user, {std::string(key), to});
+  while (const auto group = FindUser(text, "group", "parts", from)) {
+    std::vector<std::string> parts = text.TextsOf("group", *group, "parts");
+    std::ranges::replace(parts, from, to);
+    text.Set("group", *group, {"parts", parts});
+  }
+}
+
 void RemoveWithUsers(LayoutText& text, const std::string& name) {
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 4> kRules = {
-      {{"spacing", "moving"}, {"spacing", "reference"}, {"pair", "a"}, {"pair", "b"}}};
   for (const auto& [kind, key] : kRules)
     while (const auto index = FindUser(text, kind, key, name)) text.Remove(kind, *index);
   while (const auto index = FindUser(text, "group", "parts", name)) {

@@ -61,6 +61,10 @@ void MovePart(cad_import::LayoutText& text, const PartEdit& edit);
 void RemoveNamed(cad_import::LayoutText& text, const std::string& name);
 void RemovePair(cad_import::LayoutText& text, const PairEdit& edit);
 
+// Gives a part another name, also where spacings, pairs and groups name it. Throws: Error{kRange} for a part
+// that the layout doesn't have, or a name that a part or group has.
+void RenamePart(cad_import::LayoutText& text, const std::string& from, const std::string& to);
+
 // Removes a part or group together with the spacings and pairs that name it, and takes it out of groups; a
 // group that has no part left goes likewise. Throws: as RemoveNamed for an unknown name.
 void RemoveWithUsers(cad_import::LayoutText& text, const std::string& name);

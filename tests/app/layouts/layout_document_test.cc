@@ -237,6 +237,28 @@ TEST_F(LayoutDocumentTest, RemovingAPartTakesItsRulesAlong) {
   EXPECT_EQ(document.layout().groups[0].parts, std::vector<std::string>{"box"});
 }
 
+TEST_F(LayoutDocumentTest, ARenamedPartIsNamedSoInItsRules) {
+  LayoutDocument document = LayoutDocument::Open(file_);
+  document.Apply("Rules", [](cad_import::LayoutText& text) {
+    PutSpacing(text, {"gap", "lid", "box", "z", 0.0, 300.0, 180.0});
+    PutPair(text, {"lid", "box", 5.0, {}, {}});
+    PutGroup(text, {"both", {"box", "lid"}});
+  });
+  const auto rename = [](const char* to) {
+    return [to](cad_import::LayoutText& text) { RenamePart(text, "lid", to); };
+  };
+  EXPECT_THROW(document.Apply("Rename", rename("box")), core::Error);
+  EXPECT_THROW(document.Apply("Rename", rename("both")), core::Error);
+  document.Apply("Rename", rename("cover"));
+  const core::Layout& layout = document.layout();
+  EXPECT_EQ(layout.parts[1].name, "cover");
+  EXPECT_EQ(layout.spacings[0].moving, "cover");
+  EXPECT_EQ(layout.pair_rules[0].a, "cover");
+  EXPECT_EQ(layout.groups[0].parts, (std::vector<std::string>{"box", "cover"}));
+  EXPECT_EQ(layout.parts[1].file, "cad/lid.glb");
+  EXPECT_NE(document.text().text().find("# Guessed."), std::string::npos);
+}
+
 // Any sequence of changes: back to the first text and forward to the last, step by step the same.
 TEST_F(LayoutDocumentTest, AnySequenceGoesBackAndForthBitEqual) {
   std::mt19937 random(7);

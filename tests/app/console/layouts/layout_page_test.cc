@@ -275,6 +275,26 @@ TEST_F(LayoutPageTest, ChangesAreKeptBesideTheFileAfterAWhile) {
   EXPECT_EQ(ReadText(file_), kLayout);
 }
 
+TEST_F(LayoutPageTest, APartIsRenamedInTheList) {
+  OpenLayout();
+  page_->Choose({"lid"});
+  auto* list = Find<QTreeWidget>("parts");
+  list->topLevelItem(1)->setText(0, "cover");  // what the line edit does when it is closed
+  ASSERT_TRUE(WaitUntil([&] { return layout().FindPart("cover").has_value(); })) << fault_.toStdString();
+  EXPECT_EQ(page_->chosen(), QStringList{"cover"});
+  list->topLevelItem(1)->setText(0, "box");
+  ASSERT_TRUE(WaitUntil([&] { return !fault_.isEmpty(); }));
+  EXPECT_EQ(list->topLevelItem(1)->text(0), "cover");
+}
+
+TEST_F(LayoutPageTest, AnImportThatIsCancelledTakesNothing) {
+  page_->Import(kAssembly);
+  Click(Find<QPushButton>("import_cancel"));
+  EXPECT_TRUE(WaitUntil([&] { return page_->findChild<ImportDialog*>("import_dialog") == nullptr; }));
+  EXPECT_TRUE(layout().parts.empty());
+  EXPECT_TRUE(fault_.isEmpty()) << fault_.toStdString();
+}
+
 TEST_F(LayoutPageTest, IsolateHidesTheOthersAndShowsThemAgain) {
   OpenLayout();
   page_->Choose({"lid"});
