@@ -71,7 +71,7 @@ std::vector<SyntheticObject> HandsAtFaucet(double time_s) {
     const Vector3d wrist(kAwayMm + in * (kBelowMm - kAwayMm), side * kHalfApartMm, kHeightMm);
     // Palms up, the outer edges raised. Both wrist frames have y towards +y: thumb outwards on the right, the
     // little finger inwards on the left.
-    const RigidTransform world_from_wrist{TurnAboutX(side * kBowlDeg) * Axes(fingers, Vector3d::UnitY()),
+    const RigidTransform world_from_wrist{Axes(fingers, Vector3d::UnitY()) * TurnAboutX(-side * kBowlDeg),
                                           wrist};
     hands.push_back(side > 0.0 ? Hand(world_from_wrist, CuppedHand(), Elbow(wrist, side))
                                : LeftHand(world_from_wrist, CuppedHand(), Elbow(wrist, side)));

@@ -19,11 +19,12 @@ struct NamedKind {
 };
 
 constexpr std::array kKinds = {
-    NamedKind{MeasurementKind::kPoints, QT_TRANSLATE_NOOP("MeasureTool", "&Point to point"),
-              "measure_points"},
-    NamedKind{MeasurementKind::kFaces, QT_TRANSLATE_NOOP("MeasureTool", "&Face to face"), "measure_faces"},
-    NamedKind{MeasurementKind::kPointHull, QT_TRANSLATE_NOOP("MeasureTool", "Point to the &hull"),
-              "measure_hull"}};
+    NamedKind{MeasurementKind::kPoints,
+              QT_TRANSLATE_NOOP("elbowroom::console::MeasureTool", "&Point to point"), "measure_points"},
+    NamedKind{MeasurementKind::kFaces, QT_TRANSLATE_NOOP("elbowroom::console::MeasureTool", "&Face to face"),
+              "measure_faces"},
+    NamedKind{MeasurementKind::kPointHull,
+              QT_TRANSLATE_NOOP("elbowroom::console::MeasureTool", "Point to the &hull"), "measure_hull"}};
 
 }  // namespace
 

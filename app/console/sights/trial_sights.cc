@@ -18,17 +18,20 @@ struct NamedView {
 };
 
 constexpr std::array kViews = {
-    NamedView{StandardView::kFront, QT_TRANSLATE_NOOP("TrialSights", "From the &front"), "Alt+1",
-              "view_front"},
-    NamedView{StandardView::kBack, QT_TRANSLATE_NOOP("TrialSights", "From the &back"), "Alt+2", "view_back"},
-    NamedView{StandardView::kLeft, QT_TRANSLATE_NOOP("TrialSights", "From the &left"), "Alt+3", "view_left"},
-    NamedView{StandardView::kRight, QT_TRANSLATE_NOOP("TrialSights", "From the &right"), "Alt+4",
-              "view_right"},
-    NamedView{StandardView::kTop, QT_TRANSLATE_NOOP("TrialSights", "From the &top"), "Alt+5", "view_top"},
-    NamedView{StandardView::kBottom, QT_TRANSLATE_NOOP("TrialSights", "From b&elow"), "Alt+6",
-              "view_bottom"},
-    NamedView{StandardView::kIsometric, QT_TRANSLATE_NOOP("TrialSights", "&Isometric"), "Alt+7",
-              "view_isometric"}};
+    NamedView{StandardView::kFront, QT_TRANSLATE_NOOP("elbowroom::console::TrialSights", "From the &front"),
+              "Alt+1", "view_front"},
+    NamedView{StandardView::kBack, QT_TRANSLATE_NOOP("elbowroom::console::TrialSights", "From the &back"),
+              "Alt+2", "view_back"},
+    NamedView{StandardView::kLeft, QT_TRANSLATE_NOOP("elbowroom::console::TrialSights", "From the &left"),
+              "Alt+3", "view_left"},
+    NamedView{StandardView::kRight, QT_TRANSLATE_NOOP("elbowroom::console::TrialSights", "From the &right"),
+              "Alt+4", "view_right"},
+    NamedView{StandardView::kTop, QT_TRANSLATE_NOOP("elbowroom::console::TrialSights", "From the &top"),
+              "Alt+5", "view_top"},
+    NamedView{StandardView::kBottom, QT_TRANSLATE_NOOP("elbowroom::console::TrialSights", "From b&elow"),
+              "Alt+6", "view_bottom"},
+    NamedView{StandardView::kIsometric, QT_TRANSLATE_NOOP("elbowroom::console::TrialSights", "&Isometric"),
+              "Alt+7", "view_isometric"}};
 
 QToolButton* MenuButton(const QString& text, const QString& tool_tip, const QString& name, QMenu* menu) {
   auto* button = new QToolButton;

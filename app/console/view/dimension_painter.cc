@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <vector>
 
 #include "app/control/palette/part_colors.h"
 
@@ -36,13 +37,27 @@ QString TextOf(const control::Dimension& dimension) {
   return text;
 }
 
-void PaintText(QPainter& painter, const QPointF& at, const QString& text, const QColor& color) {
+// Upwards, or downwards from the upper edge, until it lies over none of the others.
+void MoveToFreePlace(QRectF* plate, const std::vector<QRectF>& taken) {
+  constexpr int kMostSteps = 12;
+  const double step =
+      plate->top() > kMostSteps * plate->height() ? -plate->height() - 2 : plate->height() + 2;
+  for (int i = 0; i < kMostSteps; ++i) {
+    if (std::ranges::none_of(taken, [&](const QRectF& other) { return other.intersects(*plate); })) return;
+    plate->translate(0, step);
+  }
+}
+
+void PaintText(QPainter& painter, const QPointF& at, const QString& text, const QColor& color,
+               std::vector<QRectF>* taken) {
   const QFontMetrics metrics = painter.fontMetrics();
   QRectF plate(0, 0, metrics.horizontalAdvance(text) + 10, metrics.height() + 4);
   plate.moveCenter(at - QPointF(0, 0.5 * plate.height() + 6));
   const QRectF room = painter.viewport();
   plate.moveLeft(std::clamp(plate.left(), 2.0, std::max(2.0, room.width() - plate.width() - 2)));
   plate.moveTop(std::clamp(plate.top(), 2.0, std::max(2.0, room.height() - plate.height() - 2)));
+  MoveToFreePlace(&plate, *taken);
+  taken->push_back(plate);
   painter.setPen(QPen(color, 1.5));
   painter.setBrush(QColor(255, 255, 255, 225));
   painter.drawRoundedRect(plate, 3, 3);
@@ -50,8 +65,8 @@ void PaintText(QPainter& painter, const QPointF& at, const QString& text, const 
   painter.drawText(plate, Qt::AlignCenter, text);
 }
 
-void PaintOne(QPainter& painter, const QPointF& from, const QPointF& to,
-              const control::Dimension& dimension) {
+void PaintOne(QPainter& painter, const QPointF& from, const QPointF& to, const control::Dimension& dimension,
+              std::vector<QRectF>* taken) {
   const QColor color = ColorOf(dimension);
   painter.setPen(QPen(QColor(20, 24, 29, 160), 4.0, Qt::SolidLine, Qt::RoundCap));  // seen on any picture
   painter.drawLine(from, to);
@@ -60,7 +75,7 @@ void PaintOne(QPainter& painter, const QPointF& from, const QPointF& to,
   painter.setPen(QPen(QColor(20, 24, 29), 1.0));
   painter.setBrush(color);
   for (const QPointF& end : {from, to}) painter.drawEllipse(end, kMarkPx, kMarkPx);
-  PaintText(painter, 0.5 * (from + to), TextOf(dimension), color);
+  PaintText(painter, 0.5 * (from + to), TextOf(dimension), color, taken);
 }
 
 }  // namespace
@@ -69,6 +84,7 @@ void PaintDimensions(QPainter& painter, const recon::SceneView& view, const QPoi
                      std::span<const control::Dimension> dimensions) {
   painter.save();
   painter.setRenderHint(QPainter::Antialiasing);
+  std::vector<QRectF> taken;  // by texts
   for (const control::Dimension& dimension : dimensions) {
     const std::optional<Eigen::Vector2d> from = view.Project(dimension.from_in_world),
                                          to = view.Project(dimension.to_in_world);
@@ -76,7 +92,7 @@ void PaintDimensions(QPainter& painter, const recon::SceneView& view, const QPoi
     const auto in_widget = [&](const Eigen::Vector2d& pixel) {
       return QPointF(origin) + QPointF(pixel.x() + 0.5, pixel.y() + 0.5);
     };
-    PaintOne(painter, in_widget(*from), in_widget(*to), dimension);
+    PaintOne(painter, in_widget(*from), in_widget(*to), dimension, &taken);
   }
   painter.restore();
 }

@@ -25,11 +25,11 @@ Color BandColor(core::Verdict verdict) {
     case core::Verdict::kNear:
       return {0.941F, 0.894F, 0.259F};
     case core::Verdict::kClear:
-      return {0.0F, 0.620F, 0.451F};
+      return {0.0F, 0.55F, 0.42F};
     case core::Verdict::kUndecided:
-      return {0.62F, 0.62F, 0.64F};
+      return {0.70F, 0.70F, 0.72F};
   }
-  return {0.62F, 0.62F, 0.64F};
+  return {0.70F, 0.70F, 0.72F};
 }
 
 }  // namespace elbowroom::control

@@ -19,7 +19,7 @@ using Color = Eigen::Vector3f;
 // green.
 [[nodiscard]] Color BrokenRuleColor();
 
-// What a verdict means at a glance: contact orange-red, near yellow, clear green-blue, undecided grey. From
+// What a verdict means at a glance: contact orange-red, near yellow, clear green-blue, undecided grey. Near
 // Okabe and Ito's palette; palette_test simulates who can't see red, green or blue.
 [[nodiscard]] Color BandColor(core::Verdict verdict);
 

@@ -65,8 +65,7 @@ out vec4 pixel;
 // The hull in the shadow's map stands this near to the same hull in the picture, whatever their sizes.
 const float kHullSlackMm = 3.0;
 
-// Surfaces whose depths differ by more than this share are not one surface.
-const float kSameSurface = 0.02;
+uniform float same_surface;  // surfaces whose depths differ by more than this share are not one surface
 
 vec3 Ray(vec2 window) { return vec3((window - 0.5 * view_size) / focal_px, 1.0); }
 vec3 PointAt(ivec2 texel, float depth) {
@@ -111,7 +110,7 @@ void main() {
     float depth = DepthAt(texel);
     float weight = depth > 0.0 ? weight_x[i % 3] * weight_y[i / 3] : 0.0;
     coverage += weight;
-    weight = abs(depth - surface) <= kSameSurface * surface ? weight : 0.0;
+    weight = abs(depth - surface) <= same_surface * surface ? weight : 0.0;
     kept += weight;
     inverse_depth += weight / max(depth, near_far.x);
     normal_in_world += weight * texelFetch(layer_normal, min(texel, textureSize(layer_normal, 0) - 1), 0).xyz;
@@ -129,7 +128,7 @@ void main() {
   for (int i = has_camera_color ? texels.x : texels.y; i < texels.y; ++i) {
     ivec2 texel = middle + ivec2(i % 3 - 1, i / 3 - 1);
     float depth = DepthAt(texel);
-    bool is_kept = depth > 0.0 && abs(depth - surface) <= kSameSurface * surface;
+    bool is_kept = depth > 0.0 && abs(depth - surface) <= same_surface * surface;
     vec4 there = texelFetch(layer_camera_color, min(texel, textureSize(layer_camera_color, 0) - 1), 0);
     seen += (is_kept ? weight_x[i % 3] * weight_y[i / 3] / kept : 0.0) * vec4(there.rgb * there.a, there.a);
   }
@@ -220,6 +219,8 @@ void HullPainter::Draw(const Scene& scene, const ViewMatrices& matrices, const L
   picture_program_.Use();
   picture_program_.Set("layer_normal", kNormalUnit);
   picture_program_.Set("focal_px", static_cast<float>(matrices.view.focal_px));
+  // With a long lens the eye is far away, and the same thickness is a smaller share of its distance.
+  picture_program_.Set("same_surface", static_cast<float>(std::min(0.02, 50.0 / matrices.view.focal_px)));
   // A layer as fine as a picture without smooth edges needs no mixing of texels.
   const bool is_one = scene.smoothness == Smoothness::kOneSample &&
                       scene.hull->width_px == matrices.view.width_px &&

@@ -25,8 +25,9 @@ class TrialSightsTest : public testing::Test {
     window_.show();
     QObject::connect(&window_.desk(), &TrialDesk::FrameArrived, &window_,
                      [this](const FrameNews& news) { last_frame_ = news.result; });
+    QObject::connect(&window_.view(), &OperatorView::PictureShown, &window_, [this] { ++pictures_; });
     Action("start_demo").trigger();
-    EXPECT_TRUE(WaitUntil([&] { return last_frame_ != nullptr && window_.view().camera().has_value(); }));
+    EXPECT_TRUE(WaitUntil([&] { return pictures_ > 0; }));
   }
   ~TrialSightsTest() override {
     window_.desk().Stop();
@@ -59,6 +60,7 @@ class TrialSightsTest : public testing::Test {
   test_support::TemporaryFolder folder_;
   MainWindow window_;
   control::SharedFrameResult last_frame_;
+  int pictures_ = 0;
 };
 
 TEST_F(TrialSightsTest, ADoubleClickShowsACamerasPictureWithThePartsLargeAndEscGoesBack) {
@@ -93,8 +95,7 @@ TEST_F(TrialSightsTest, StandardViewsTurnTheViewAndParallelStays) {
   EXPECT_TRUE(window_.view().camera()->is_parallel);
   EXPECT_EQ(window_.view().camera()->distance_mm, distance_mm);
   Action("camera_scene:low").trigger();
-  const Eigen::Vector3d eye =
-      recon::ViewFrom(*window_.view().camera(), 100, 100).EyeInWorld();
+  const Eigen::Vector3d eye = recon::ViewFrom(*window_.view().camera(), 100, 100).EyeInWorld();
   EXPECT_LT(eye.z(), 400.0);  // it stands low
 }
 
