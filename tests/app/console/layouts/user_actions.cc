@@ -1,7 +1,10 @@
 #include "tests/app/console/layouts/user_actions.h"
 
+#include <QAbstractItemView>
 #include <QAbstractSpinBox>
 #include <QApplication>
+#include <QCompleter>
+#include <QDialogButtonBox>
 #include <QFileDialog>
 #include <QLineEdit>
 #include <QStyle>
@@ -11,7 +14,7 @@
 namespace elbowroom::console {
 namespace {
 
-constexpr int kLookAgainMs = 30;
+constexpr int kLookAgainMs = 100;
 
 // Calls `act` with the modal widget of that kind, once there is one.
 template <typename Widget>
@@ -33,9 +36,15 @@ void TypeIntoNextFileDialog(const QString& path) {
   OnceModal<QFileDialog>([path](QFileDialog* dialog) {
     auto* line = dialog->findChild<QLineEdit*>("fileNameEdit");
     TypeInto(line, path);
-    // The first Return may go to the list of completions.
+    // The list of completions may still come and take a click: it is closed, and the button clicked again.
     auto* again = new QTimer(dialog);
-    QObject::connect(again, &QTimer::timeout, dialog, [line] { QTest::keyClick(line, Qt::Key_Return); });
+    QObject::connect(again, &QTimer::timeout, dialog, [dialog, line] {
+      if (line->completer() != nullptr) line->completer()->popup()->hide();
+      const auto* buttons = dialog->findChild<QDialogButtonBox*>();
+      for (QAbstractButton* button : buttons->buttons())
+        if (buttons->buttonRole(button) == QDialogButtonBox::AcceptRole && button->isEnabled())
+          return Click(button);
+    });
     again->start(kLookAgainMs);
   });
 }

@@ -19,7 +19,7 @@ template <typename Condition>
   return QTest::qWaitFor(condition, kPatienceMs);
 }
 
-// Types the path into the file dialog that comes next, and presses Return.
+// Types the path into the file dialog that comes next, and clicks on its button.
 void TypeIntoNextFileDialog(const QString& path);
 
 // Presses that button of the message box that comes next.
