@@ -24,35 +24,82 @@
 
 namespace elbowroom::core {
 
+// Whether participants are asked before the first frame or after the last one.
+enum class AskedWhen { kBefore, kAfter };
+
+inline constexpr int kWidestScale = 1000;  // no end of a scale is farther from 0
+
+// A question with a scale of whole numbers, both ends included. No two of a trial have the same `when` and
+// `item`.
+struct SurveyItem {
+  AskedWhen when = AskedWhen::kAfter;
+  std::string item;
+  int least = 1;
+  int most = 7;  // > least
+
+  [[nodiscard]] bool operator==(const SurveyItem&) const = default;
+};
+
 // TRIAL.toml without its paths.
 struct TrialInfo {
   std::string participant;
   std::string task;
-  double estimate_mm = 0.0;            // the participant's guess of the space needed; 0: none given
+  double estimate_mm = 0.0;  // the participant's guess of the space needed, before the trial; 0: none
   double required_clearance_mm = 0.0;  // of parts to the hull; 0: only contact is judged
   std::vector<std::string> tools;
   // Of rig and parts; verdicts on clearance allow for it, unless the rig's quality gives what is computed.
   double uncertainty_mm = 0.0;
+  std::string condition = {};           // what is varied between trials: "tongs"; empty: nothing
+  int order = 0;                        // the trial is the participant's first, second, ...; 0: not given
+  std::vector<std::string> steps = {};  // of the procedure, in order; their names differ
+  std::vector<SurveyItem> survey = {};
 };
 
 struct SpacingChanged {
   std::string spacing;
   double from_mm = 0.0;
   double to_mm = 0.0;
+  [[nodiscard]] bool operator==(const SpacingChanged&) const = default;
 };
 struct ToolMarked {
   std::string tool;
   bool in_use = false;
+  [[nodiscard]] bool operator==(const ToolMarked&) const = default;
 };
 struct Note {
   std::string text;  // of people, or of the program: "ended at the shortest source: cam03"
+  [[nodiscard]] bool operator==(const Note&) const = default;
 };
+struct StepMarked {
+  std::string step;    // one of the trial's
+  bool begun = false;  // or ended
+  [[nodiscard]] bool operator==(const StepMarked&) const = default;
+};
+// A point in time that the experimenter wants to find again.
+struct Bookmark {
+  std::string name;  // may be empty
+  [[nodiscard]] bool operator==(const Bookmark&) const = default;
+};
+struct EstimateGiven {
+  AskedWhen when = AskedWhen::kAfter;
+  double estimate_mm = 0.0;  // > 0
+  [[nodiscard]] bool operator==(const EstimateGiven&) const = default;
+};
+struct SurveyAnswered {
+  AskedWhen when = AskedWhen::kAfter;
+  std::string item;  // with `when` one of the trial's survey
+  int answer = 0;    // on its scale
+  [[nodiscard]] bool operator==(const SurveyAnswered&) const = default;
+};
+using EventContent =
+    std::variant<SpacingChanged, ToolMarked, Note, StepMarked, Bookmark, EstimateGiven, SurveyAnswered>;
 
 // The change holds from frame `frame` on: one that arrives between two frames has the number of the later.
 struct SessionEvent {
   FrameIndex frame = 0;
   double time_s = 0.0;
-  std::variant<SpacingChanged, ToolMarked, Note> what;
+  EventContent what;
+  [[nodiscard]] bool operator==(const SessionEvent&) const = default;
 };
 
 // The session that a replay was made from.

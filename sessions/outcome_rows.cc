@@ -30,24 +30,6 @@ void RequireInOrder(const Lasting& it, core::FrameIndex middle_frame, double mid
     FailAsDamaged(where, "its times aren't in order");
 }
 
-core::SessionEvent ReadEvent(const Statement& row, const std::string& where) {
-  core::SessionEvent event;
-  event.frame = CountFrom(0, row.Integer(0), where, "an event's frame");
-  event.time_s = Time_s(row.Real(1), where, "an event's time");
-  const std::string kind = row.Text(2);
-  if (kind == "spacing") {
-    event.what = core::SpacingChanged{row.Text(3), GapMm(row.Real(4), where, "a spacing"),
-                                      GapMm(row.Real(5), where, "a spacing")};
-  } else if (kind == "tool") {
-    event.what = core::ToolMarked{row.Text(6), row.Integer(7) != 0};
-  } else if (kind == "note") {
-    event.what = core::Note{row.Text(8)};
-  } else {
-    FailAsDamaged(where, fmt::format("no event is called '{}'", Quotable(kind)));
-  }
-  return event;
-}
-
 core::ContactEpisode ReadEpisode(const Statement& row, const core::Layout& layout, const std::string& where) {
   core::ContactEpisode episode;
   episode.id = row.Integer(0);
@@ -139,35 +121,10 @@ void InsertHeatMaps(Database& database, std::span<const core::HeatMap> maps) {
 
 }  // namespace
 
-void InsertEvent(Database& database, const core::Layout& layout, const core::SessionEvent& event) {
-  const auto insert = [&](const char* columns, const char* kind, const auto&... values) {
-    Statement statement(database, std::string("INSERT INTO event (frame_index, time_s, kind, ") + columns);
-    statement.With(event.frame, event.time_s, kind, values...).Run();
-  };
-  if (const auto* change = std::get_if<core::SpacingChanged>(&event.what)) {
-    insert("spacing_index, from_mm, to_mm) VALUES (?, ?, ?, ?, ?, ?)", "spacing",
-           layout.FindSpacing(change->spacing), change->from_mm, change->to_mm);
-  } else if (const auto* mark = std::get_if<core::ToolMarked>(&event.what)) {
-    insert("tool, in_use) VALUES (?, ?, ?, ?, ?)", "tool", mark->tool, mark->in_use);
-  } else if (const auto* note = std::get_if<core::Note>(&event.what)) {
-    insert("note) VALUES (?, ?, ?, ?)", "note", note->text);
-  }
-}
-
 void InsertOutcome(Database& database, const core::SessionOutcome& outcome) {
   InsertEpisodes(database, outcome.episodes);
   InsertNearMisses(database, outcome.near_misses);
   InsertHeatMaps(database, outcome.heat_maps);
-}
-
-std::vector<core::SessionEvent> ReadEvents(Database& database) {
-  Statement rows(database,
-                 "SELECT frame_index, time_s, kind, name, from_mm, to_mm, tool, in_use, note "
-                 "FROM event LEFT JOIN spacing USING (spacing_index) ORDER BY frame_index, event_id");
-  const std::string where = fmt::format("session '{}', an event", database.path().string());
-  std::vector<core::SessionEvent> events;
-  while (rows.Next()) events.push_back(ReadEvent(rows, where));
-  return events;
 }
 
 std::vector<core::ContactEpisode> ReadEpisodes(Database& database, const core::Layout& layout) {

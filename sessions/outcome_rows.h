@@ -1,4 +1,4 @@
-// Events, episodes, near misses and heat maps as rows.
+// Episodes, near misses and heat maps as rows.
 #pragma once
 
 #include <vector>
@@ -8,13 +8,10 @@
 
 namespace elbowroom::sessions {
 
-// Both insert into the open transaction. A changed spacing is one of the layout's. Throws: Error{kDatabase}.
-void InsertEvent(Database& database, const core::Layout& layout, const core::SessionEvent& event);
+// Inserts into the open transaction. Throws: Error{kDatabase}.
 void InsertOutcome(Database& database, const core::SessionOutcome& outcome);
 
 // All throw Error{kFormat} where a row is damaged or doesn't fit the layout.
-// In the order of their frames; equal frames in the order in which they came.
-[[nodiscard]] std::vector<core::SessionEvent> ReadEvents(Database& database);
 // By id.
 [[nodiscard]] std::vector<core::ContactEpisode> ReadEpisodes(Database& database, const core::Layout& layout);
 [[nodiscard]] std::vector<core::NearMiss> ReadNearMisses(Database& database, const core::Layout& layout);

@@ -9,6 +9,7 @@
 #include "core/system/file_sync.h"
 #include "core/system/utc_time.h"
 #include "sessions/database/session_files.h"
+#include "sessions/event_rows.h"
 #include "sessions/finding_rows.h"
 #include "sessions/header_rows.h"
 #include "sessions/outcome_rows.h"
@@ -111,7 +112,7 @@ void RecordingStore::WriteInto(Place& place, const RecordingEntry& entry) const 
   if (const auto* record = std::get_if<core::FrameRecord>(&entry)) {
     place.frames->Insert(*record);
   } else if (const auto* event = std::get_if<core::SessionEvent>(&entry)) {
-    InsertEvent(place.database, header_.layout, *event);
+    InsertEvent(place.database, header_, *event);
   } else if (const auto* end = std::get_if<SessionEnd>(&entry)) {
     WriteEnd(place.database, *end);
   }

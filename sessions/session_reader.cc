@@ -10,6 +10,7 @@
 #include "sessions/database/database.h"
 #include "sessions/database/query_limit.h"
 #include "sessions/database/statement.h"
+#include "sessions/event_rows.h"
 #include "sessions/finding_rows.h"
 #include "sessions/frame_rows.h"
 #include "sessions/header_rows.h"

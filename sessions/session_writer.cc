@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "sessions/event_rows.h"
 #include "sessions/recording_thread.h"
 
 namespace elbowroom::sessions {
@@ -75,10 +76,7 @@ void SessionWriter::Append(core::FrameRecord record) {
 }
 
 void SessionWriter::Append(core::SessionEvent event) {
-  if (const auto* change = std::get_if<core::SpacingChanged>(&event.what)) {
-    Require(impl_->header.layout.FindSpacing(change->spacing).has_value(),
-            "a changed spacing is one of the layout's");
-  }
+  RequireOfSetUp(event.what, impl_->header);
   impl_->thread.Push(std::move(event));
 }
 

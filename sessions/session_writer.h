@@ -63,7 +63,7 @@ class SessionWriter {
   // camera (core::SoftMask::Validate), one value a spacing, one contact a part in the layout's order; a frame
   // comes once.
   void Append(core::FrameRecord record);
-  // A changed spacing is one of the layout's.
+  // What it names (spacing, step, item of the survey) is of the header.
   void Append(core::SessionEvent event);
 
   // Writes what is still queued, the outcome and the closing, names the findings that have no id, marks the

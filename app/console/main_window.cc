@@ -91,6 +91,7 @@ MainWindow::MainWindow(std::filesystem::path session)
   AddActions();
   AddMenus();
   setCentralWidget(MakeCentre());
+  FollowProcedure();
   FollowDesk();
   FollowView();
   ShowState();
@@ -145,6 +146,7 @@ void MainWindow::AddPanels() {
   AddPanel("touches_panel", tr("Touches so far"), touch_list, Qt::RightDockWidgetArea);
   cameras_dock_ = AddPanel("cameras_panel", tr("Camera pictures"), strip_, Qt::BottomDockWidgetArea);
   cameras_dock_->hide();  // until there are cameras
+  procedure_ = new ProcedureFlow(this, *desk_, place_, *spacings_);
   connect(spacings_, &SpacingPanel::Requested, desk_, &TrialDesk::SetSpacing);
   connect(tools_, &ToolPanel::Marked, desk_, &TrialDesk::MarkTool);
   connect(note_, &NoteLine::Written, desk_, &TrialDesk::AddNote);
@@ -217,7 +219,17 @@ void MainWindow::FitGaps() {
 void MainWindow::StartTrial(const QString& trial_file) {
   if (desk_->state() != DeskState::kIdle || desk_->are_cameras_taken())
     return ShowError(tr("Another trial, or its report, is under way: stop it first"));
-  StartTrialFile(*desk_, trial_file.toStdString(), place_);
+  procedure_->Start(trial_file.toStdString());
+}
+
+void MainWindow::FollowProcedure() {
+  connect(procedure_, &ProcedureFlow::Failed, this, &MainWindow::ShowError);
+  connect(procedure_, &ProcedureFlow::Told, messages_, &MessageBar::ShowNote);
+  connect(procedure_, &ProcedureFlow::PreflightAsked, this, [this](const std::filesystem::path& trial_file) {
+    preflight_->Open(trial_file);
+    preflight_dock_->show();
+  });
+  procedure_->UsePages(pages_);
 }
 
 void MainWindow::OpenFile(const QString& file) {
@@ -344,6 +356,8 @@ void MainWindow::keyPressEvent(QKeyEvent* event) {
     spacings_->StepActive(*step_mm);
   } else if (event->key() >= Qt::Key_1 && event->key() <= Qt::Key_9) {
     tools_->Toggle(static_cast<std::size_t>(event->key() - Qt::Key_1));
+  } else if (event->key() == Qt::Key_Space) {
+    procedure_->Next();
   } else {
     QMainWindow::keyPressEvent(event);
   }

@@ -15,6 +15,7 @@
 #include "app/console/page_switch.h"
 #include "app/console/participant/participant_desk.h"
 #include "app/console/preflight_panel.h"
+#include "app/console/procedure_flow.h"
 #include "app/console/reviews/review_page.h"
 #include "app/console/sights/trial_sights.h"
 #include "app/console/spacing_panel.h"
@@ -62,6 +63,8 @@ class MainWindow : public QMainWindow {
   void AskForSession();
 
  public slots:
+  // Of a trial with a procedure its start page is shown first.
+  void StartTrial(const QString& trial_file);
   void ShowError(const QString& line);
 
  protected:
@@ -84,8 +87,8 @@ class MainWindow : public QMainWindow {
   QDockWidget* AddPanel(const QString& name, const QString& title, QWidget* content, Qt::DockWidgetArea area);
   [[nodiscard]] QWidget* MakeCentre();
   void FollowDesk();
+  void FollowProcedure();
   void FollowView();
-  void StartTrial(const QString& trial_file);
   void OpenTrial(const control::TrialSetup& setup);
   void ShowFrame(const FrameNews& news);
   void ShowState();
@@ -98,6 +101,7 @@ class MainWindow : public QMainWindow {
   bool is_remembered_ = false;
   MessageBar* messages_ = nullptr;
   PageSwitch* pages_ = nullptr;
+  ProcedureFlow* procedure_ = nullptr;
   LayoutPage* layout_page_ = nullptr;
   ReviewPage* review_page_ = nullptr;
   OperatorView* view_ = nullptr;

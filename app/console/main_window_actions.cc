@@ -28,7 +28,8 @@ void MainWindow::AddActions() {
     (new StartSampleAction(sample, *desk_, place_, this))
         ->setObjectName("sample:" + QString::fromUtf8(name.data(), static_cast<qsizetype>(name.size())));
   }
-  auto* open = new OpenTrialAction(*desk_, place_, this);
+  auto* open = new OpenTrialAction(
+      *desk_, [this](const QString& file) { StartTrial(file); }, this);
   open->setObjectName("open_trial");
   auto* calibrate = new CalibrateAction(*desk_, this);
   calibrate->setObjectName("calibrate");
@@ -90,13 +91,14 @@ void MainWindow::AddMenus() {
   auto* trial = menuBar()->addMenu(tr("&Trial"));
   trial->setToolTipsVisible(true);
   trial->addActions({action("start_demo"), action("stop"), action("report"), action("review_trial")});
-  auto* samples = trial->addMenu(tr("&Samples"));
+  auto* samples = trial->addMenu(tr("Sa&mples"));
   samples->setToolTipsVisible(true);
   samples->addActions({action("sample:payload"), action("sample:curtain"), action("sample:faucet")});
   trial->addSeparator();
   trial->addActions({action("undo_gap"), action("redo_gap")});
   trial->addSeparator();
-  trial->addAction(tr("&Note"), QKeySequence(Qt::CTRL | Qt::Key_N), note_,
+  trial->addActions(procedure_->actions());
+  trial->addAction(tr("N&ote"), QKeySequence(Qt::CTRL | Qt::Key_N), note_,
                    [this] { note_->setFocus(Qt::ShortcutFocusReason); });
   auto* cameras = menuBar()->addMenu(tr("&Cameras"));
   cameras->setToolTipsVisible(true);

@@ -23,8 +23,10 @@ class PageSwitch : public QToolBar {
 
   void AddPage(Page page, const QString& title, const QString& tool_tip, QWidget* widget);
 
-  // The trial page has two widgets: one before the first trial, and one from then on.
+  // The trial page has several widgets, one at a time: before the first trial, before and after one with a
+  // procedure, while one runs.
   void SetTrialWidget(QWidget* widget);
+  [[nodiscard]] QWidget* trial_widget() { return ChoiceOf(Page::kTrial).widget; }
 
   void Show(Page page);
   [[nodiscard]] Page page() const { return page_; }

@@ -48,9 +48,15 @@ void StartSample(control::Sample sample, TrialDesk& desk, SessionPlace& place) {
   desk.Start([sample](const std::stop_token&) { return control::MakeSampleTrial(sample); }, place.Next());
 }
 
-void StartTrialFile(TrialDesk& desk, const std::filesystem::path& trial_file, SessionPlace& place) {
-  desk.Start([trial_file](const std::stop_token& stop) { return control::ReadTrialFile(trial_file, stop); },
-             place.Next(), trial_file);
+void StartTrialFile(TrialDesk& desk, const std::filesystem::path& trial_file, SessionPlace& place,
+                    std::function<void(control::TrialSetup*)> change) {
+  desk.Start(
+      [trial_file, change = std::move(change)](const std::stop_token& stop) {
+        control::TrialSetup setup = control::ReadTrialFile(trial_file, stop);
+        if (change) change(&setup);
+        return setup;
+      },
+      place.Next(), trial_file);
   RememberTrial(QString::fromStdString(trial_file.string()));
 }
 
@@ -82,16 +88,16 @@ StartSampleAction::StartSampleAction(control::Sample sample, TrialDesk& desk, Se
   EnableWhile(this, desk, IsIdle);
 }
 
-OpenTrialAction::OpenTrialAction(TrialDesk& desk, SessionPlace& place, QWidget* window)
+OpenTrialAction::OpenTrialAction(TrialDesk& desk, std::function<void(const QString&)> start, QWidget* window)
     : QAction(window->style()->standardIcon(QStyle::SP_DialogOpenButton), tr("&Open trial …"), window) {
   setShortcut(QKeySequence::Open);
   setToolTip(tr("Run the trial that a TRIAL.toml describes"));
-  connect(this, &QAction::triggered, window, [&desk, &place, window] {
+  connect(this, &QAction::triggered, window, [&desk, start = std::move(start), window] {
     const QString last = desk.trial_file().empty() ? RecentTrials().value(0)
                                                    : QString::fromStdString(desk.trial_file().string());
     const QString file =
         QFileDialog::getOpenFileName(window, tr("Open a trial"), last, tr("Trials (*.toml);;All files (*)"));
-    if (!file.isEmpty()) StartTrialFile(desk, PathFrom(file), place);
+    if (!file.isEmpty()) start(file);
   });
   EnableWhile(this, desk, CanStart);
 }

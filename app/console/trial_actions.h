@@ -4,6 +4,7 @@
 #include <QAction>
 #include <QWidget>
 #include <filesystem>
+#include <functional>
 
 #include "app/console/desktop/session_place.h"
 #include "app/console/spacing_panel.h"
@@ -25,7 +26,8 @@ class StartSampleAction : public QAction {
 
 class OpenTrialAction : public QAction {
  public:
-  OpenTrialAction(TrialDesk& desk, SessionPlace& place, QWidget* window);
+  // `start`: what is done with the file that the user chooses.
+  OpenTrialAction(TrialDesk& desk, std::function<void(const QString&)> start, QWidget* window);
 };
 
 // Asks for a CALIB.toml and a RIG.yml, and shows the calibration.
@@ -66,6 +68,8 @@ class SessionsFolderAction : public QAction {
 // throws.
 void StartDemo(TrialDesk& desk, SessionPlace& place);
 void StartSample(control::Sample sample, TrialDesk& desk, SessionPlace& place);
-void StartTrialFile(TrialDesk& desk, const std::filesystem::path& trial_file, SessionPlace& place);
+// `change`: what is set in the trial after its file was read, on a worker; empty: nothing.
+void StartTrialFile(TrialDesk& desk, const std::filesystem::path& trial_file, SessionPlace& place,
+                    std::function<void(control::TrialSetup*)> change = {});
 
 }  // namespace elbowroom::console

@@ -143,6 +143,14 @@ void TrialDesk::AddNote(const QString& note) {
   if (trial_) trial_->controls().AddNote(note.toStdString());
 }
 
+void TrialDesk::BeginStep(const std::string& step) {
+  if (trial_) trial_->controls().BeginStep(step);
+}
+
+void TrialDesk::SetBookmark(const std::string& name) {
+  if (trial_) trial_->controls().SetBookmark(name);
+}
+
 void TrialDesk::SetTileWishes(const control::TileWishes& wishes) {
   tile_wishes_ = wishes;
   if (tiles_) tiles_->Wish(wishes);

@@ -71,6 +71,8 @@ class TrialDesk : public QObject {
   void SetSpacing(const std::string& spacing, double to_mm);
   void MarkTool(const std::string& tool, bool in_use);
   void AddNote(const QString& note);
+  void BeginStep(const std::string& step);  // ends the one under way; empty: begins none
+  void SetBookmark(const std::string& name);
 
   // What the cameras' tiles show, and how large.
   void SetTileWishes(const control::TileWishes& wishes);

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "app/control/pairs/pair_judge.h"
@@ -10,6 +11,7 @@
 #include "core/contact.h"
 #include "core/ids.h"
 #include "core/layout.h"
+#include "core/procedure/step_runs.h"
 #include "core/session.h"
 #include "recon/error_budget/skew_errors.h"
 #include "recon/footage/frame_set.h"
@@ -61,6 +63,8 @@ struct FrameResult {
   // judged then. Null: the layout has no pair rules, or none was judged yet, or the frame was read from a
   // session.
   SharedPairVerdicts pairs;
+  // Of the procedure, in a running trial. Nothing: none is under way.
+  std::optional<core::StepRun> step;
   SkipCount skipped;
   StageTimes times;
 };

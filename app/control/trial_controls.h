@@ -4,7 +4,10 @@
 #include <mutex>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
+
+#include "core/session.h"
 
 namespace elbowroom::control {
 
@@ -17,6 +20,11 @@ struct ToolRequest {
   bool in_use = false;
 };
 
+// The step under way ends, and this one begins; empty: none.
+struct StepRequest {
+  std::string step;
+};
+
 // A mailbox: any thread puts requests in, and the trial takes them out between two frames.
 // Thread: any.
 class TrialControls {
@@ -25,6 +33,7 @@ class TrialControls {
     std::vector<SpacingRequest> spacings;  // in order: the last one for a spacing holds
     std::vector<ToolRequest> tools;
     std::vector<std::string> notes;
+    std::vector<std::variant<StepRequest, core::Bookmark>> moments;  // in order
   };
 
   void SetSpacing(const std::string& spacing, double to_mm) {
@@ -39,6 +48,15 @@ class TrialControls {
   void AddNote(const std::string& note) {
     const std::lock_guard lock(mutex_);
     requests_.notes.push_back(note);
+  }
+  // Ends the step under way and begins this one; empty: none.
+  void BeginStep(const std::string& step) {
+    const std::lock_guard lock(mutex_);
+    requests_.moments.emplace_back(StepRequest{step});
+  }
+  void SetBookmark(const std::string& name) {
+    const std::lock_guard lock(mutex_);
+    requests_.moments.emplace_back(core::Bookmark{name});
   }
   [[nodiscard]] Requests Take() {
     const std::lock_guard lock(mutex_);

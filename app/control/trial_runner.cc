@@ -16,6 +16,7 @@
 #include "app/control/light/trial_light.h"
 #include "app/control/outcome_tracker.h"
 #include "app/control/pairs/pair_watch.h"
+#include "app/control/procedure/procedure_record.h"
 #include "app/control/segmentation/segmentation_settings.h"
 #include "app/control/trial_rules.h"
 #include "app/control/versions.h"
@@ -129,7 +130,8 @@ class Recording {
         knock_watch_(setup.source->rig()),
         pair_watch_(setup.layout),
         pair_record_(setup.layout),
-        writer_(options.session, HeaderOf(setup), WriterOptionsOf(options)) {
+        writer_(options.session, HeaderOf(setup), WriterOptionsOf(options)),
+        procedure_(setup.info.steps) {
     spacing_mm_ = setup.layout.InitialSpacings();
     outcome_.frames_in_contact.assign(setup.layout.parts.size(), 0);
     outcome_.largest_budgets.resize(setup.layout.parts.size());
@@ -163,6 +165,7 @@ class Recording {
           pipeline_->Process(std::move(*frames), spacing_mm_, options_.on_hull);
       TakePairs(options_.at_capture_rate || taken_at ? std::optional(kPairPatience) : std::nullopt);
       AddPairs(result.get());
+      result->step = procedure_.under_way();
       outcome_.frame_times.Add(std::chrono::duration<double, std::milli>(Clock::now() - begin).count());
       if (taken_at)
         outcome_.latencies.Add(std::chrono::duration<double, std::milli>(Clock::now() - *taken_at).count());
@@ -181,6 +184,7 @@ class Recording {
     TakePairs(std::nullopt);
     outcome_.pairs = pair_record_.Totals(last_time_s_);
     EndFootage();
+    BeginStep("", last_frame_, last_time_s_);
     for (const std::string& note : loss_notes_.Rest()) Append(note);
     for (const std::string& note : setup_.source->Warnings()) Append(note);
     FinishLight();
@@ -240,6 +244,7 @@ class Recording {
   }
 
   void ApplyChanges(core::FrameIndex frame, double time_s) {
+    if (frame == options_.frames.first) OpenProcedure(frame, time_s);
     for (const ScriptedChange& change : setup_.script) {
       if (change.frame != frame) continue;
       std::visit([&](const auto& request) { Apply(frame, time_s, request); }, change.what);
@@ -249,6 +254,21 @@ class Recording {
     for (const ToolRequest& request : requests.tools) Apply(frame, time_s, request);
     for (const std::string& note : requests.notes)
       writer_.Append(core::SessionEvent{frame, time_s, core::Note{note}});
+    for (const auto& moment : requests.moments) {
+      if (const auto* step = std::get_if<StepRequest>(&moment)) BeginStep(step->step, frame, time_s);
+      if (const auto* bookmark = std::get_if<core::Bookmark>(&moment))
+        writer_.Append(core::SessionEvent{frame, time_s, *bookmark});
+    }
+  }
+
+  void OpenProcedure(core::FrameIndex frame, double time_s) {
+    for (const core::EventContent& what : setup_.opening)
+      writer_.Append(core::SessionEvent{frame, time_s, what});
+    if (!setup_.first_step.empty()) BeginStep(setup_.first_step, frame, time_s);
+  }
+
+  void BeginStep(const std::string& step, core::FrameIndex frame, double time_s) {
+    for (core::SessionEvent& event : procedure_.Begin(step, frame, time_s)) writer_.Append(std::move(event));
   }
 
   void Apply(core::FrameIndex frame, double time_s, const ToolRequest& request) {
@@ -398,6 +418,7 @@ class Recording {
   std::optional<OutcomeTracker> tracker_;  // refers to the pipeline's part trees
   tbb::task_group outcome_so_far_;         // adds one frame at a time to tracker and watch
   core::ToolsInUse tools_in_use_;
+  ProcedureRecord procedure_;
   Pace pace_;
   std::vector<double> spacing_mm_;
   TrialOutcome outcome_;

@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "app/control/procedure/procedure_table.h"
 #include "app/control/segmentation/segmentation_table.h"
 #include "app/control/segmentation/trial_keys.h"
 #include "cad_import/layout/layout_file.h"
@@ -96,18 +97,30 @@ double LengthFromZero(const TomlEntry& entry, std::string_view key) {
   return length_mm;
 }
 
+core::TrialInfo InfoFrom(const TomlEntry& root) {
+  core::TrialInfo info;
+  info.participant = root.TextOr("participant", "");
+  info.task = root.TextOr("task", "");
+  info.estimate_mm = root.NumberOr("estimate_mm", 0.0);
+  info.required_clearance_mm = LengthFromZero(root, "required_clearance_mm");
+  info.uncertainty_mm = LengthFromZero(root, "uncertainty_mm");
+  info.tools = root.Texts("tools");
+  ReadProcedure(root, &info);
+  return info;
+}
+
 }  // namespace
+
+core::TrialInfo ReadTrialInfo(const std::filesystem::path& path) {
+  const toml::table table = cad_import::ParseTomlFile(path, "trial file");
+  return InfoFrom(TomlEntry(table, path.string(), "", kTrialKeys));
+}
 
 TrialSetup ReadTrialFile(const std::filesystem::path& path, std::stop_token stop) {
   const toml::table table = cad_import::ParseTomlFile(path, "trial file");
   const TomlEntry root(table, path.string(), "", kTrialKeys);
   TrialSetup setup;
-  setup.info.participant = root.TextOr("participant", "");
-  setup.info.task = root.TextOr("task", "");
-  setup.info.estimate_mm = root.NumberOr("estimate_mm", 0.0);
-  setup.info.required_clearance_mm = LengthFromZero(root, "required_clearance_mm");
-  setup.info.uncertainty_mm = LengthFromZero(root, "uncertainty_mm");
-  setup.info.tools = root.Texts("tools");
+  setup.info = InfoFrom(root);
   const std::filesystem::path folder = path.parent_path();
   cad_import::ImportedLayout imported = cad_import::ImportLayoutFile(folder / root.Text("layout"), {}, stop);
   setup.layout = core::WithPairsOfParts(std::move(imported.layout));

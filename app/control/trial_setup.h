@@ -32,8 +32,14 @@ struct TrialSetup {
   std::shared_ptr<recon::FrameSetSource> source;
   std::shared_ptr<recon::FootageRecorder> footage = nullptr;  // of `source`; null: only silhouettes are kept
   std::vector<ScriptedChange> script;                         // by frame
+  std::vector<core::EventContent> opening;                    // recorded with the first frame
+  std::string first_step;                                     // begun with the first frame; empty: none
   std::vector<std::string> warnings;                          // of the files that were read
 };
+
+// What TRIAL.toml says of the trial itself; its rig and layout aren't opened. Throws: core::Error with file,
+// line and key for what the trial file has wrong.
+[[nodiscard]] core::TrialInfo ReadTrialInfo(const std::filesystem::path& path);
 
 // Reads TRIAL.toml (docs/user_guide.md) with its rig and layout; opens the footage.
 // Throws: core::Error with file, line and key for what the trial file has wrong; what the rig's and the

@@ -14,6 +14,8 @@ std::string TitleOf(const ReportData& data) {
 std::vector<std::string> FactsOf(const ReportData& data) {
   std::vector<std::string> facts;
   if (!data.header.trial.participant.empty()) facts.push_back("participant " + data.header.trial.participant);
+  if (!data.header.trial.condition.empty()) facts.push_back("condition " + data.header.trial.condition);
+  if (data.header.trial.order > 0) facts.push_back(fmt::format("trial {}", data.header.trial.order));
   facts.push_back("started " + data.header.started_at_utc);
   facts.push_back(fmt::format("{} frames over {:.1f} s", data.frames.size(), data.end_s - data.begin_s));
   facts.push_back(fmt::format("rig {}, {} camera{}", data.header.rig.name, data.header.rig.cameras.size(),
@@ -60,12 +62,12 @@ Document ReportDocument(const ReportData& data, const ReportPictures& pictures, 
   document.footer = FooterOf(data);
   document.source = data.session_name;
   document.made_at_utc = data.ended_at_utc.value_or(data.header.started_at_utc);
-  for (Section& section :
-       std::vector{SummarySection(data), std::move(charts.timeline), ModelSection(pictures),
-                   PictureSection(pictures), TouchSection(data, pictures), std::move(charts.spacing),
-                   std::move(charts.approach), PairSection(data, pictures.pairs, painters), PartSection(data),
-                   TrustSection(data), HeatSection(data, pictures), EventSection(data), ReadingSection(data),
-                   SkippedSection(data), RigSection(data)}) {
+  for (Section& section : std::vector{
+           SummarySection(data), std::move(charts.timeline), ModelSection(pictures), PictureSection(pictures),
+           TouchSection(data, pictures), ProcedureSection(data), std::move(charts.spacing),
+           std::move(charts.approach), PairSection(data, pictures.pairs, painters), PartSection(data),
+           TrustSection(data), HeatSection(data, pictures), EventSection(data), ReadingSection(data),
+           SkippedSection(data), RigSection(data)}) {
     if (!section.blocks.empty()) document.sections.push_back(std::move(section));
   }
   return document;

@@ -50,6 +50,8 @@ struct ChartSections {
 inline constexpr const char* kTrustId = "how-sure";
 // How sure the verdicts are, and what that is made of.
 [[nodiscard]] Section TrustSection(const ReportData& data);
+// The steps, the estimates and the survey.
+[[nodiscard]] Section ProcedureSection(const ReportData& data);
 [[nodiscard]] Section HeatSection(const ReportData& data, const ReportPictures& pictures);
 [[nodiscard]] Section EventSection(const ReportData& data);
 [[nodiscard]] Section PictureSection(const ReportPictures& pictures);

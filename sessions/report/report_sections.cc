@@ -4,6 +4,7 @@
 #include <future>
 #include <variant>
 
+#include "core/procedure/event_text.h"
 #include "sessions/report/approach_chart.h"
 #include "sessions/report/report_document.h"
 #include "sessions/report/timeline_chart.h"
@@ -52,9 +53,7 @@ RichText WhatHappened(const core::SessionEvent& event) {
     text += Strong(Millimetres(change->to_mm));
     return text;
   }
-  if (const auto* mark = std::get_if<core::ToolMarked>(&event.what))
-    return mark->tool + (mark->in_use ? " taken in use" : " put away");
-  return std::get<core::Note>(event.what).text;
+  return core::EventText(event.what);
 }
 
 // The remark on a session that isn't complete.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/procedure/answers.h"
 #include "sessions/report/report_document.h"
 #include "sessions/report/verdict_text.h"
 
@@ -64,6 +65,8 @@ Tiles TilesOf(const ReportData& data) {
   }
   add({"Participant\u2019s estimate",
        trial.estimate_mm > 0.0 ? Millimetres(trial.estimate_mm) : "none given"});
+  if (const auto after_mm = core::EstimatesOf(trial, data.events).after_mm)
+    add({"Estimate afterwards", Millimetres(*after_mm)});
   if (data.judged_spacing && trial.estimate_mm > 0.0)
     add({"Shortfall", Shortfall(data), "space needed less the estimate"});
   if (trial.required_clearance_mm > 0.0)

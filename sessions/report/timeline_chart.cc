@@ -6,6 +6,8 @@
 #include <cmath>
 #include <optional>
 
+#include "core/procedure/event_text.h"
+#include "core/procedure/step_runs.h"
 #include "sessions/charts/ink.h"
 #include "sessions/report/chart.h"
 #include "sessions/report/verdict_text.h"
@@ -84,8 +86,45 @@ void AddTool(const ReportData& data, const std::string& tool, std::size_t lane, 
   }
 }
 
+// A lane for each step that was begun, in the order of the first begins.
+void AddSteps(const ReportData& data, ChartPanel* panel) {
+  for (const core::StepRun& run : core::StepRunsOf(data.events)) {
+    const std::string name = "step: " + run.step;
+    auto lane = static_cast<std::size_t>(std::ranges::find(panel->lanes, name) - panel->lanes.begin());
+    if (lane == panel->lanes.size()) panel->lanes.push_back(name);
+    const ChartBar bar{.from = run.begin_s,
+                       .to = run.end_s.value_or(data.end_s),
+                       .lane = lane,
+                       .color = ColorOf(Ink::kSpacing),
+                       .height = kToolShare};
+    panel->bars.push_back(bar);
+  }
+}
+
+// A narrow bar at each, on a lane of their own.
+void AddBookmarks(const ReportData& data, ChartPanel* panel) {
+  constexpr double kBookmarkShare = 0.003;  // of the chart's width
+  const double width_s = kBookmarkShare * (data.columns.end_s - data.columns.begin_s);
+  const std::size_t lane = panel->lanes.size();
+  for (const core::SessionEvent& event : data.events) {
+    if (!std::holds_alternative<core::Bookmark>(event.what)) continue;
+    if (panel->lanes.size() == lane) panel->lanes.emplace_back("bookmarks");
+    ChartBar bar{.from = event.time_s,
+                 .to = event.time_s + width_s,
+                 .lane = lane,
+                 .color = ColorOf(Ink::kCaution),
+                 .height = kTouchShare};
+    panel->bars.push_back(bar);
+    bar.is_frame = true;
+    bar.told = fmt::format("{} at {:.2f} s", core::EventText(event.what), event.time_s);
+    panel->bars.push_back(bar);
+  }
+}
+
 ChartPanel LanePanel(const ReportData& data) {
   ChartPanel panel;
+  AddSteps(data, &panel);
+  AddBookmarks(data, &panel);
   for (const std::string& tool : ToolsMarked(data)) {
     AddTool(data, tool, panel.lanes.size(), &panel);
     panel.lanes.push_back(tool);

@@ -10,7 +10,7 @@ namespace elbowroom::sessions {
 
 inline constexpr std::int64_t kApplicationId = 0x456C6277;        // "Elbw" in the file's header
 inline constexpr std::int64_t kMergedApplicationId = 0x456C6273;  // "Elbs": several sessions in one file
-inline constexpr std::int64_t kSchemaVersion = 9;
+inline constexpr std::int64_t kSchemaVersion = 10;
 
 // The SQL that leads from schema 0, an empty file, to schema 1.
 [[nodiscard]] std::string Schema1Sql();
@@ -41,6 +41,10 @@ inline constexpr std::int64_t kSchemaVersion = 9;
 // From schema 8 to schema 9: replays and what they were made from; names of touches and near misses that
 // outlive a replay; what reviewers said; the files of the footage.
 [[nodiscard]] std::string Schema9Sql();
+
+// From schema 9 to schema 10: condition and order of a trial; the steps of its procedure, bookmarks,
+// estimates and answers of the participant.
+[[nodiscard]] std::string Schema10Sql();
 
 // Brings the open transaction's database to kSchemaVersion by the migrations that it lacks, in order.
 void Migrate(Database& database);

@@ -162,5 +162,63 @@ TEST(ReadTrialFile, WhatACamerasSegmentationHasWrongIsOneLine) {
   }
 }
 
+// A trial file with these lines, read as the console reads it before a trial.
+core::TrialInfo InfoWith(const std::string& lines) {
+  const test_support::TemporaryFolder folder;
+  WriteText(folder / "trial.toml", "rig = \"rig.yml\"\nlayout = \"layout.toml\"\n" + lines);
+  return ReadTrialInfo(folder / "trial.toml");
+}
+
+std::string FaultOf(const std::string& lines) {
+  try {
+    (void)InfoWith(lines);
+  } catch (const core::Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(ReadTrialInfo, HasConditionOrderStepsAndSurvey) {
+  const core::TrialInfo trial = InfoWith(R"(condition = "gloves"
+order = 3
+[[step]]
+name = "reach in"
+[[step]]
+name = "screw"
+[[survey]]
+when = "before"
+item = "How sure?"
+[[survey]]
+when = "after"
+item = "How sure?"
+scale = [-3, 3]
+)");
+  EXPECT_EQ(trial.condition, "gloves");
+  EXPECT_EQ(trial.order, 3);
+  EXPECT_EQ(trial.steps, (std::vector<std::string>{"reach in", "screw"}));
+  EXPECT_EQ(trial.survey, (std::vector<core::SurveyItem>{{core::AskedWhen::kBefore, "How sure?", 1, 7},
+                                                         {core::AskedWhen::kAfter, "How sure?", -3, 3}}));
+  EXPECT_TRUE(InfoWith("").survey.empty());
+}
+
+TEST(ReadTrialInfo, NamesWhatIsWrongInAProcedure) {
+  const auto expect_fault = [](const std::string& lines, const std::string& fault) {
+    EXPECT_NE(FaultOf(lines).find(fault), std::string::npos) << lines << FaultOf(lines);
+  };
+  expect_fault("conditon = \"a\"", "unknown key 'conditon'; did you mean 'condition'?");
+  expect_fault("[[step]]\nnaem = \"a\"", "[[step]]: unknown key 'naem'; did you mean 'name'?");
+  expect_fault("[[step]]\nname = \"a\"\n[[step]]\nname = \"a\"",
+               "trial.toml:6: [[step]]: key 'name' 'a' is the name");
+  expect_fault("order = 0", "key 'order' must be a whole number from 1");
+  expect_fault("order = 1.5", "key 'order' must be a whole number from 1");
+  const std::string item = "[[survey]]\nwhen = \"after\"\nitem = \"a\"\n";
+  expect_fault("[[survey]]\nwhen = \"later\"\nitem = \"a\"", "key 'when' must be \"before\" or \"after\"");
+  expect_fault(item + "scale = [7, 1]", "key 'scale' must be two whole numbers, the least first");
+  expect_fault(item + "scale = [1, 7.5]", "key 'scale' must be two whole numbers");
+  expect_fault(item + "scale = [1, 100000]", "key 'scale' must be two whole numbers");
+  expect_fault(item + item, "'a' is asked after the trial already");
+  expect_fault("[[survey]]\nwhen = \"after\"", "key 'item' is missing");
+}
+
 }  // namespace
 }  // namespace elbowroom::control

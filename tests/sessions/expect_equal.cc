@@ -158,6 +158,10 @@ void ExpectEqual(const core::SessionHeader& actual, const core::SessionHeader& e
   EXPECT_EQ(actual.trial.required_clearance_mm, expected.trial.required_clearance_mm);
   EXPECT_EQ(actual.trial.tools, expected.trial.tools);
   EXPECT_EQ(actual.trial.uncertainty_mm, expected.trial.uncertainty_mm);
+  EXPECT_EQ(actual.trial.condition, expected.trial.condition);
+  EXPECT_EQ(actual.trial.order, expected.trial.order);
+  EXPECT_EQ(actual.trial.steps, expected.trial.steps);
+  EXPECT_EQ(actual.trial.survey, expected.trial.survey);
   EXPECT_EQ(actual.started_at_utc, expected.started_at_utc);
   EXPECT_EQ(actual.settings, expected.settings);
   EXPECT_EQ(actual.versions, expected.versions);

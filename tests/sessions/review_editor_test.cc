@@ -48,7 +48,7 @@ TEST(ReviewEditor, AddsToWhatWasSaidBefore) {
 }
 
 TEST(ReviewEditor, BringsOlderFilesToTheNewestSchema) {
-  for (int schema = 1; schema <= 9; ++schema) {
+  for (int schema = 1; schema <= 10; ++schema) {
     const test_support::TemporaryFolder folder;
     const auto path = folder / "s.db";
     std::filesystem::copy_file(std::filesystem::path(ELBOWROOM_SOURCE_DIR) / "tests/sessions/stored" /
@@ -61,7 +61,7 @@ TEST(ReviewEditor, BringsOlderFilesToTheNewestSchema) {
     ASSERT_EQ(after.size(), before.size());
     for (std::size_t i = 0; i < after.size(); ++i) EXPECT_EQ(after[i].id, before[i].id) << schema;
     EXPECT_EQ(FindingWith(path, before[0].id).status(), ReviewStatus::kApproved) << schema;
-    EXPECT_EQ(SessionReader(path).file_schema(), 9);
+    EXPECT_EQ(SessionReader(path).file_schema(), 10);
   }
 }
 

@@ -117,6 +117,12 @@ core::SessionHeader SampleHeader() {
   header.trial = {
       "P. O'Hara <2>", "plug \"J4\" & screw the pipe; DROP TABLE frame", 140.0, 20.1, {"tongs", "driver"},
       1.0 / 3.0};
+  header.trial.condition = "gloves; DROP";
+  header.trial.order = 2;
+  header.trial.steps = {"reach 'in' <b>", "screw; DROP TABLE step"};
+  header.trial.survey = {{core::AskedWhen::kBefore, "How sure?", 1, 7},
+                         {core::AskedWhen::kAfter, "How sure?", -3, 3},
+                         {core::AskedWhen::kAfter, "O'Hara's <i>effort</i>", 0, 100}};
   header.rig.name = "bench";
   header.rig.workspace_mm = {Eigen::Vector3d(-500.0, -400.5, 0.0),
                              Eigen::Vector3d(500.0, 400.0, 1000.0 / 3.0)};
@@ -243,14 +249,31 @@ core::SessionHeader AsOfSchema(int schema, core::SessionHeader header) {
   }
   if (schema < 7) header.rig_quality = {};
   if (schema < 9) header.origin.reset();
+  if (schema < 10) {
+    header.trial.condition.clear();
+    header.trial.order = 0;
+    header.trial.steps.clear();
+    header.trial.survey.clear();
+  }
   return header;
 }
 
 std::vector<core::SessionEvent> SampleEvents() {
-  return {{2, 2 / 30.0, core::ToolMarked{"tongs", true}},
+  using core::AskedWhen;
+  return {{0, 0.0, core::SurveyAnswered{AskedWhen::kBefore, "How sure?", 6}},
+          {0, 0.0, core::EstimateGiven{AskedWhen::kBefore, 140.0}},
+          {1, 1 / 30.0, core::StepMarked{"reach 'in' <b>", true}},
+          {2, 2 / 30.0, core::ToolMarked{"tongs", true}},
+          {2, 2 / 30.0, core::Bookmark{"<dropped> it"}},
           {4, 4 / 30.0, core::SpacingChanged{"PMT to A", 140.0, 240.0}},
           {4, 4 / 30.0, core::ToolMarked{"tongs", false}},
-          {6, 6 / 30.0, core::Note{"ended at the shortest source: 'left' <&>"}}};
+          {4, 4 / 30.0, core::StepMarked{"reach 'in' <b>", false}},
+          {4, 4 / 30.0, core::StepMarked{"screw; DROP TABLE step", true}},
+          {5, 5 / 30.0, core::Bookmark{}},
+          {6, 6 / 30.0, core::Note{"ended at the shortest source: 'left' <&>"}},
+          {6, 6 / 30.0, core::EstimateGiven{AskedWhen::kAfter, 200.0 / 3.0}},
+          {6, 6 / 30.0, core::SurveyAnswered{AskedWhen::kAfter, "How sure?", -3}},
+          {6, 6 / 30.0, core::SurveyAnswered{AskedWhen::kAfter, "How sure?", 2}}};
 }
 
 std::vector<core::ContactEpisode> SampleEpisodes(core::FrameIndex first, core::FrameIndex last) {

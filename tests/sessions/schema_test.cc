@@ -37,9 +37,9 @@ std::string SchemaOf(const std::filesystem::path& path) {
 
 // In the order in which they were released.
 constexpr std::array<std::string (*)(), sessions::kSchemaVersion> kSchemas = {
-    &sessions::Schema1Sql, &sessions::Schema2Sql, &sessions::Schema3Sql,
-    &sessions::Schema4Sql, &sessions::Schema5Sql, &sessions::Schema6Sql,
-    &sessions::Schema7Sql, &sessions::Schema8Sql, &sessions::Schema9Sql};
+    &sessions::Schema1Sql, &sessions::Schema2Sql, &sessions::Schema3Sql, &sessions::Schema4Sql,
+    &sessions::Schema5Sql, &sessions::Schema6Sql, &sessions::Schema7Sql, &sessions::Schema8Sql,
+    &sessions::Schema9Sql, &sessions::Schema10Sql};
 
 sessions::Database CreateOfSchema(std::size_t schema, const std::filesystem::path& path) {
   sessions::Database database = sessions::Database::Create(path);
@@ -77,7 +77,7 @@ TEST(Schema, AnEmptyDatabaseBecomesTheNewestSchemaAndMigratingAgainChangesNothin
 }
 
 TEST(Schema, StoredSessionsOfEverySchemaAreRead) {
-  for (const int schema : {1, 2, 3, 4, 5, 6, 7, 8, 9}) {
+  for (const int schema : {1, 2, 3, 4, 5, 6, 7, 8, 9, 10}) {
     SCOPED_TRACE(schema);
     const SessionReader reader(kStored / fmt::format("session_schema_{}.db", schema));
     ExpectEqual(reader.header(), AsOfSchema(schema, SampleHeader()));
@@ -90,7 +90,7 @@ TEST(Schema, StoredSessionsOfEverySchemaAreRead) {
     EXPECT_EQ(reader.near_misses().size(), schema >= 3 ? 1U : 0U);
     EXPECT_EQ(reader.heat_maps().size(), schema >= 3 ? 1U : 0U);
     EXPECT_EQ(reader.clearances().empty(), schema < 3);
-    EXPECT_EQ(reader.events().size(), 4U);
+    EXPECT_EQ(reader.events().size(), schema >= 10 ? 14U : 4U);
     EXPECT_EQ(reader.stamp_rows().size(), schema >= 8 ? 4U : 0U);
     // Findings of older files are named when they are read; they are the episodes and near misses.
     EXPECT_EQ(reader.findings().size(), schema >= 9 ? 5U : schema >= 3 ? 3U : 2U);
@@ -123,8 +123,8 @@ TEST(Schema, AnOlderSchemaIsMigratedInMemoryAndTheFileStays) {
 TEST(Schema, ANewerSchemaIsNamed) {
   const TemporaryFolder folder;
   WriteSampleSession(folder / "s.db", 1);
-  SQLite::Database((folder / "s.db").string(), SQLite::OPEN_READWRITE).exec("PRAGMA user_version = 10");
-  ExpectError([&] { SessionReader(folder / "s.db"); }, core::ErrorKind::kFormat, "has schema 10");
+  SQLite::Database((folder / "s.db").string(), SQLite::OPEN_READWRITE).exec("PRAGMA user_version = 11");
+  ExpectError([&] { SessionReader(folder / "s.db"); }, core::ErrorKind::kFormat, "has schema 11");
 }
 
 TEST(Schema, CountsAndFlagsOutOfRangeAreRefusedByTheDatabaseItself) {
@@ -132,43 +132,57 @@ TEST(Schema, CountsAndFlagsOutOfRangeAreRefusedByTheDatabaseItself) {
   WriteSampleSession(folder / "s.db", 2);
   SQLite::Database database((folder / "s.db").string(), SQLite::OPEN_READWRITE);
   database.exec("PRAGMA foreign_keys = ON");
-  for (const char* sql : {"UPDATE part_frame SET verdict = 'perhaps'",
-                          "UPDATE session SET status = 'done'",
-                          "INSERT INTO frame VALUES (9, 'soon')",
-                          "DELETE FROM frame",
-                          "DELETE FROM mask",
-                          "UPDATE camera SET camera_matrix = '[1]'",
-                          "INSERT INTO session SELECT * FROM session",
-                          "UPDATE event SET to_mm = NULL WHERE kind = 'spacing'",
-                          "UPDATE clearance SET lower_mm = -1",
-                          "UPDATE clearance SET upper_mm = lower_mm - 1",
-                          "UPDATE near_miss SET verdict = 'contact'",
-                          "UPDATE episode SET tools = 'tongs'",
-                          "DELETE FROM clearance",
-                          "UPDATE pair_rule SET ignored = 2",
-                          "UPDATE stream SET direction = '[1]'",
-                          "UPDATE mesh SET deviation_mm = -1",
-                          "UPDATE part SET unit_of = 'layout'",
-                          "DELETE FROM part_group",
-                          "UPDATE spacing SET moving_group = 9",
-                          "INSERT INTO part_group_member VALUES (0, 9, 9)",
-                          "INSERT INTO part_motion VALUES (99, 0, '[1,0,0,0,1,0,0,0,1]', '[0,0,0]')",
-                          "INSERT INTO part_motion VALUES (0, 0, '[1]', '[0,0,0]')",
-                          "UPDATE camera_stamp SET picture = -1",
-                          "UPDATE camera_stamp SET taken_at_s = NULL",
-                          "INSERT INTO camera_stamp VALUES (0, 2, 1, 0.5)",
-                          "INSERT INTO camera_stamp VALUES (99, 0, 1, 0.5)",
-                          "UPDATE clearance SET given_mm = -1",
-                          "UPDATE episode SET finding_id = 'short'",
-                          "UPDATE near_miss SET finding_id = ''",
-                          "UPDATE remark SET status = 'done'",
-                          "UPDATE remark SET status = NULL, comment = ''",
-                          "UPDATE absent_finding SET kind = 'clash'",
-                          "UPDATE absent_finding SET was_checked = 2",
-                          "UPDATE origin SET changes = 'none'",
-                          "INSERT INTO origin SELECT 2, file, recording_id, first_recording_id, "
-                          "replayed_at_utc, changes FROM origin",
-                          "UPDATE footage SET content_hash = x'00'"}) {
+  for (const char* sql :
+       {"UPDATE part_frame SET verdict = 'perhaps'",
+        "UPDATE session SET status = 'done'",
+        "INSERT INTO frame VALUES (9, 'soon')",
+        "DELETE FROM frame",
+        "DELETE FROM mask",
+        "UPDATE camera SET camera_matrix = '[1]'",
+        "INSERT INTO session SELECT * FROM session",
+        "UPDATE event SET to_mm = NULL WHERE kind = 'spacing'",
+        "UPDATE clearance SET lower_mm = -1",
+        "UPDATE clearance SET upper_mm = lower_mm - 1",
+        "UPDATE near_miss SET verdict = 'contact'",
+        "UPDATE episode SET tools = 'tongs'",
+        "DELETE FROM clearance",
+        "UPDATE pair_rule SET ignored = 2",
+        "UPDATE stream SET direction = '[1]'",
+        "UPDATE mesh SET deviation_mm = -1",
+        "UPDATE part SET unit_of = 'layout'",
+        "DELETE FROM part_group",
+        "UPDATE spacing SET moving_group = 9",
+        "INSERT INTO part_group_member VALUES (0, 9, 9)",
+        "INSERT INTO part_motion VALUES (99, 0, '[1,0,0,0,1,0,0,0,1]', '[0,0,0]')",
+        "INSERT INTO part_motion VALUES (0, 0, '[1]', '[0,0,0]')",
+        "UPDATE camera_stamp SET picture = -1",
+        "UPDATE camera_stamp SET taken_at_s = NULL",
+        "INSERT INTO camera_stamp VALUES (0, 2, 1, 0.5)",
+        "INSERT INTO camera_stamp VALUES (99, 0, 1, 0.5)",
+        "UPDATE clearance SET given_mm = -1",
+        "UPDATE episode SET finding_id = 'short'",
+        "UPDATE near_miss SET finding_id = ''",
+        "UPDATE remark SET status = 'done'",
+        "UPDATE remark SET status = NULL, comment = ''",
+        "UPDATE absent_finding SET kind = 'clash'",
+        "UPDATE absent_finding SET was_checked = 2",
+        "UPDATE origin SET changes = 'none'",
+        "INSERT INTO origin SELECT 2, file, recording_id, first_recording_id, "
+        "replayed_at_utc, changes FROM origin",
+        "UPDATE footage SET content_hash = x'00'",
+        "UPDATE session SET trial_order = -1",
+        "DELETE FROM step",
+        "INSERT INTO step SELECT 9, name FROM step LIMIT 1",
+        "UPDATE survey_item SET most = least",
+        "UPDATE survey_item SET asked = 'between'",
+        "INSERT INTO survey_item SELECT 9, asked, item, least, most FROM survey_item LIMIT 1",
+        "UPDATE event SET step_index = 9 WHERE kind = 'step'",
+        "UPDATE event SET begun = NULL WHERE kind = 'step'",
+        "UPDATE event SET step_index = 0 WHERE kind = 'note'",
+        "UPDATE event SET bookmark = NULL WHERE kind = 'bookmark'",
+        "UPDATE event SET estimate_mm = 0 WHERE kind = 'estimate'",
+        "UPDATE event SET asked = 'between' WHERE kind = 'estimate'",
+        "UPDATE event SET answer = NULL WHERE kind = 'answer'"}) {
     EXPECT_THROW(database.exec(sql), SQLite::Exception) << sql;
   }
 }

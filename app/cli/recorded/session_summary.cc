@@ -10,6 +10,8 @@
 
 #include "app/cli/options/value_json.h"
 #include "core/plain_text.h"
+#include "core/procedure/answers.h"
+#include "core/procedure/step_runs.h"
 
 namespace elbowroom::cli {
 namespace {
@@ -63,6 +65,32 @@ nlohmann::json ReviewJson(const std::vector<core::Finding>& findings) {
   return review;
 }
 
+template <typename Value>
+nlohmann::json JsonOrNull(const std::optional<Value>& value) {
+  return value ? nlohmann::json(*value) : nlohmann::json();
+}
+
+nlohmann::json StepsJson(const std::vector<core::SessionEvent>& events) {
+  nlohmann::json steps = nlohmann::json::array();
+  for (const core::StepRun& run : core::StepRunsOf(events))
+    steps.push_back({{"step", run.step},
+                     {"begin_s", run.begin_s},
+                     {"end_s", JsonOrNull(run.end_s)},
+                     {"duration_s", JsonOrNull(run.duration_s())}});
+  return steps;
+}
+
+nlohmann::json SurveyJson(const core::TrialInfo& trial, const std::vector<core::SessionEvent>& events) {
+  nlohmann::json survey = nlohmann::json::array();
+  const std::vector<std::optional<int>> answers = core::AnswersOf(trial, events);
+  for (std::size_t i = 0; i < answers.size(); ++i)
+    survey.push_back({{"when", core::ToString(trial.survey[i].when)},
+                      {"item", trial.survey[i].item},
+                      {"scale", {trial.survey[i].least, trial.survey[i].most}},
+                      {"answer", JsonOrNull(answers[i])}});
+  return survey;
+}
+
 bool IsNearMissHere(const core::Finding& finding) {
   return finding.kind == core::FindingKind::kNearMiss && finding.presence == core::FindingPresence::kHere;
 }
@@ -90,6 +118,7 @@ nlohmann::json SummaryJson(const sessions::SessionReader& session) {
   const std::vector<sessions::FrameSummary> frames = session.frames();
   const std::vector<core::ContactEpisode> episodes = session.episodes();
   const std::vector<core::Finding> findings = session.findings();
+  const std::vector<core::SessionEvent> events = session.events();
   const std::vector<core::FootageFile> footage = session.footage();
   std::error_code unknown;
   nlohmann::json json = {
@@ -102,7 +131,12 @@ nlohmann::json SummaryJson(const sessions::SessionReader& session) {
       {"origin", OriginJson(header.origin)},
       {"participant", header.trial.participant},
       {"task", header.trial.task},
+      {"condition", header.trial.condition},
+      {"order", header.trial.order > 0 ? nlohmann::json(header.trial.order) : nlohmann::json()},
       {"estimate_mm", header.trial.estimate_mm},
+      {"estimate_after_mm", JsonOrNull(core::EstimatesOf(header.trial, events).after_mm)},
+      {"steps", StepsJson(events)},
+      {"survey", SurveyJson(header.trial, events)},
       {"required_clearance_mm", header.trial.required_clearance_mm},
       {"tools", header.trial.tools},
       {"started_at_utc", header.started_at_utc},
@@ -115,7 +149,7 @@ nlohmann::json SummaryJson(const sessions::SessionReader& session) {
       {"seconds", frames.empty() ? 0.0 : frames.back().time_s - frames.front().time_s},
       {"touches", episodes.size()},
       {"near_misses", std::ranges::count_if(findings, IsNearMissHere)},
-      {"events", session.events().size()},
+      {"events", events.size()},
       {"review", ReviewJson(findings)},
       {"footage_files", footage.size()},
       {"footage_bytes", std::accumulate(footage.begin(), footage.end(), std::int64_t{0},
@@ -144,6 +178,13 @@ std::string SummaryText(const nlohmann::json& summary) {
     text += fmt::format(" (the deepest {:.1f} mm)", summary["deepest_mm"].get<double>());
   text += fmt::format(", {} near misses, {} remarks of reviewers", summary["near_misses"].get<int>(),
                       summary["review"]["remarks"].get<int>());
+  if (!summary["condition"].get<std::string>().empty())
+    text += fmt::format("\n  condition '{}'", Shown(summary["condition"]));
+  for (const nlohmann::json& step : summary["steps"])
+    text += fmt::format(
+        "\n  step '{}': begun at {:.1f} s{}", Shown(step["step"]), step["begin_s"].get<double>(),
+        step["duration_s"].is_null() ? ", not ended"
+                                     : fmt::format(", for {:.1f} s", step["duration_s"].get<double>()));
   for (const nlohmann::json& part : summary["parts"])
     text +=
         fmt::format("\n  part '{}': {} frames in contact, {} near, {} undecided, {} clear",

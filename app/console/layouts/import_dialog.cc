@@ -79,6 +79,8 @@ void ImportDialog::Build() {
   tree_->setToolTip(tr("Tick what becomes a part, with all that hangs under it"));
   tree_->setHeaderLabels({tr("Take"), tr("Size"), tr("Triangles"), tr("Open edges")});
   tree_->header()->setSectionResizeMode(QHeaderView::ResizeToContents);
+  tree_->header()->setStretchLastSection(false);
+  tree_->header()->setSectionResizeMode(kName, QHeaderView::Stretch);
   connect(tree_, &QTreeWidget::itemChanged, this, &ImportDialog::Tick);
   warnings_ = new QLabel;
   warnings_->setObjectName("import_warnings");
@@ -144,8 +146,9 @@ void ImportDialog::ShowPreview() {
   const QString size = preview_->asks_for_unit() ? tr("size unknown") : SizeWords(preview_->size_mm);
   const QString unit =
       preview_->asks_for_unit() ? tr("no unit") : tr("in %1").arg(QString::fromStdString(report.unit));
-  headline_->setText(tr("%1: %2, %3; %n triangle(s), %4", nullptr, static_cast<int>(report.triangles))
+  headline_->setText(tr("%1: %2, %3; %4 triangles, %5")
                          .arg(QString::fromStdString(file_.filename().string()), size, unit,
+                              QString::number(report.triangles),
                               preview_->open_edges == 0 ? tr("no open edges")
                                                         : tr("%1 open edges").arg(preview_->open_edges)));
   QStringList lines;
@@ -224,7 +227,9 @@ void ImportDialog::Take() {
 
 void ImportDialog::ShowState() {
   const auto ticked = static_cast<int>(TickedNodes().size());
-  take_->setText(ticked == 0 ? tr("&Take") : tr("&Take %n part(s)", nullptr, ticked));
+  take_->setText(ticked == 0   ? tr("&Take")
+                 : ticked == 1 ? tr("&Take 1 part")
+                               : tr("&Take %1 parts").arg(ticked));
   const bool has_unit = preview_ && (!preview_->asks_for_unit() || ChosenUnit());
   take_->setEnabled(!is_reading() && ticked > 0 && has_unit);
   take_->setToolTip(take_->isEnabled() ? tr("Adds them to the layout, where the file has them")

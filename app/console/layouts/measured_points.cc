@@ -106,8 +106,8 @@ void MeasuredPoints::Fit() {
   const std::vector<control::PointPair> pairs = Pairs();
   if (static_cast<int>(pairs.size()) < kLeastPoints) {
     outcome_->setText(table_->rowCount() < kLeastPoints
-                          ? tr("Click on %n more point(s) of the part, and write where each was measured.",
-                               nullptr, kLeastPoints - table_->rowCount())
+                          ? tr("Points to click on and measure before the part can be placed: %1.")
+                                .arg(kLeastPoints - table_->rowCount())
                           : tr("A measured place isn't a number."));
   } else {
     try {

@@ -13,7 +13,7 @@ namespace {
 constexpr QSize kLargestBySoftwarePx(1280, 800);
 constexpr QSize kLargestByCardPx(3840, 2400);
 constexpr std::chrono::milliseconds kRestsAfter(400);  // then the scene is drawn in full
-constexpr float kChosenShare = 0.55F;                  // of the colour of what is chosen
+constexpr float kChosenShare = 0.4F;                   // of white in the colour of what is chosen
 constexpr double kLowestOnTableMm = -1.0;              // a table is drawn under parts that stand on it
 
 QImage PictureFrom(const recon::Image& image) {
@@ -22,9 +22,8 @@ QImage PictureFrom(const recon::Image& image) {
   return view.convertToFormat(QImage::Format_RGB32);  // a deep copy
 }
 
-Eigen::Vector3f Mixed(const Eigen::Vector3f& color, const QColor& with, float share) {
-  const Eigen::Vector3f other(with.redF(), with.greenF(), with.blueF());
-  return (1.0F - share) * color + share * other;
+Eigen::Vector3f Lighter(const Eigen::Vector3f& color) {
+  return color + kChosenShare * (Eigen::Vector3f::Ones() - color);
 }
 
 std::optional<QPointF> PositionIn(const recon::SceneView& view, const Eigen::Vector3d& x_in_world) {
@@ -101,7 +100,7 @@ void PartsView::MakeScene() {
     recon::gl::ScenePart& shown = scene->parts.emplace_back();
     shown.mesh = part.mesh;
     shown.world_from_part = part.world_from_part;
-    shown.color = part.choice == 0 ? part.color : Mixed(part.color, ChoiceColor(part.choice), kChosenShare);
+    shown.color = part.choice == 0 ? part.color : Lighter(part.color);
     shown.opacity = part.opacity;
   }
   scene->lamp = recon::gl::LampOver(bounds_in_world_);

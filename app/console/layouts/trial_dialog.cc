@@ -35,12 +35,14 @@ QDoubleSpinBox* MillimetreBox(const QString& name, const QString& none, const QS
   return box;
 }
 
-// A line with a button beside it.
-QHBoxLayout* WithButton(QLineEdit* line, QPushButton* button) {
+// A row for a line with a button beside it.
+void AddRow(QFormLayout* form, const QString& title, QLineEdit* line, QPushButton* button) {
   auto* row = new QHBoxLayout;
   row->addWidget(line, 1);
   row->addWidget(button);
-  return row;
+  auto* label = new QLabel(title);
+  label->setBuddy(line);
+  form->addRow(label, row);
 }
 
 }  // namespace
@@ -88,13 +90,13 @@ void TrialDialog::BuildForm() {
   connect(buttons, &QDialogButtonBox::accepted, this, &TrialDialog::Write);
   connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
   auto* form = new QFormLayout;
-  form->addRow(tr("&Rig"), WithButton(rig_, browse_rig));
+  AddRow(form, tr("&Rig"), rig_, browse_rig);
   form->addRow(tr("&Participant"), participant_);
   form->addRow(tr("&Task"), task_);
   form->addRow(tr("&Estimate"), estimate_mm_);
   form->addRow(tr("Required c&learance"), clearance_mm_);
   form->addRow(tr("T&ools"), tools_);
-  form->addRow(tr("&File"), WithButton(file_, browse_file));
+  AddRow(form, tr("&File"), file_, browse_file);
   auto* column = new QVBoxLayout(this);
   column->addLayout(form);
   column->addWidget(fault_);

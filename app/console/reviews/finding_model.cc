@@ -73,7 +73,10 @@ QString FindingModel::TipOf(const control::ListedFinding& listed, bool is_vanish
   tip = tip.arg(listed.finding.begin_s, 0, 'f', 2).arg(listed.finding.end_s, 0, 'f', 2);
   if (!listed.worst_position) tip += tr("; it isn't in this session any more");
   for (const std::string& tool : listed.tools) tip += tr("; with %1").arg(QString::fromStdString(tool));
-  if (is_vanished) tip += tr("; not there at %1").arg(gaps_);
+  if (is_vanished)
+    tip +=
+        (listed.finding.kind == core::FindingKind::kTouch ? tr("; no touch at %1") : tr("; not there at %1"))
+            .arg(gaps_);
   return tip;
 }
 

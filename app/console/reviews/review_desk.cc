@@ -48,11 +48,15 @@ void ReviewDesk::RunJob(Work work, std::function<void()> on_done) {
                          if (job == jobs_ && is_busy_) emit Progressed(done, total, text);
                        });
   });
-  job_thread_.InsteadOfThis([this, job, progress, work = std::move(work),
-                             on_done = std::move(on_done)](const std::stop_token& stop) {
+  job_stop_ = std::stop_source();
+  job_thread_.InsteadOfThis([this, job, progress, work = std::move(work), on_done = std::move(on_done),
+                             own_stop = job_stop_](const std::stop_token& thread_stop) {
+    std::stop_source stop = own_stop;
+    const std::stop_callback forward(thread_stop, [&stop] { stop.request_stop(); });
     std::exception_ptr failure;
     try {
-      work(progress, stop);
+      core::ThrowIfStopped(stop.get_token(), "what was asked");
+      work(progress, stop.get_token());
     } catch (...) {  // the thread's outermost frame: nothing may escape
       failure = std::current_exception();
     }
@@ -84,7 +88,7 @@ void ReviewDesk::FinishJob(std::int64_t job, const std::exception_ptr& failure,
 }
 
 void ReviewDesk::CancelJob() {
-  if (is_busy_) job_thread_.Cancel();
+  if (is_busy_) job_stop_.request_stop();
 }
 
 void ReviewDesk::Open(const std::filesystem::path& session) {

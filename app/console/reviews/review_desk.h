@@ -92,7 +92,8 @@ class ReviewDesk : public QObject {
   std::int64_t asked_ = 0;  // counts the what-ifs: answers to earlier ones are dropped
   std::int64_t jobs_ = 0;   // counts jobs, likewise
   bool is_busy_ = false;
-  Bridge bridge_;  // before the threads that post to it
+  std::stop_source job_stop_;  // of the job under way, also of one that hasn't begun
+  Bridge bridge_;              // before the threads that post to it
   std::shared_ptr<control::FrameScrubber> scrubber_;
   control::LatestTask motion_thread_;
   control::LatestTask job_thread_;

@@ -60,6 +60,9 @@ QWidget* ReviewPage::MakeSessionPage() {
   auto* left = new QWidget;
   view_column_ = new QVBoxLayout(left);
   view_column_->setContentsMargins(0, 0, 0, 0);
+  section_ = new SectionPanel;
+  section_->hide();
+  view_column_->addWidget(section_);
   view_column_->addWidget(what_if_);
   auto* right = new QWidget;
   auto* lists = new QVBoxLayout(right);
@@ -106,6 +109,11 @@ QLayout* ReviewPage::MakeHeader() {
   texts->addWidget(facts_);
   auto* row = new QHBoxLayout;
   row->addLayout(texts, 1);
+  section_button_ =
+      AddButton(row, "review_section", tr("&Section"),
+                tr("Cut parts and hull open by planes; Shift and drag in the picture moves one"));
+  section_button_->setCheckable(true);
+  connect(section_button_, &QPushButton::toggled, section_, &QWidget::setVisible);
   auto* open = AddButton(row, "review_open_another", tr("&Open …"), tr("Open another session (.db)"));
   auto* report =
       AddButton(row, "review_report", tr("&Report"), tr("Write the session's report beside it, and open it"));
@@ -225,15 +233,20 @@ void ReviewPage::Fit() {
   if (view_ != nullptr) view_->Fit();
 }
 
+// It owns a thread and a graphics context: not before they are needed.
+void ReviewPage::MakeView() {
+  view_ = new OperatorView;
+  view_->setObjectName("review_view");
+  view_column_->insertWidget(0, view_, 1);
+  connect(view_, &OperatorView::Failed, messages_, &MessageBar::ShowError);
+  connect(section_, &SectionPanel::Changed, view_, &OperatorView::SetCut);
+  connect(view_, &OperatorView::ShiftDragged, section_, &SectionPanel::Drag);
+}
+
 void ReviewPage::ShowSession() {
   const control::ReviewedSession& session = desk_->session();
   RememberSession(session.path());
-  if (view_ == nullptr) {  // it owns a thread and a graphics context: not before they are needed
-    view_ = new OperatorView;
-    view_->setObjectName("review_view");
-    view_column_->insertWidget(0, view_, 1);
-    connect(view_, &OperatorView::Failed, messages_, &MessageBar::ShowError);
-  }
+  if (view_ == nullptr) MakeView();
   view_->Clear();
   title_->setText(TitleOf(session));
   title_->setToolTip(TextFrom(session.path()));
@@ -241,6 +254,8 @@ void ReviewPage::ShowSession() {
   facts_->setToolTip(facts_->text());
   timeline_->Open(desk_->timeline());
   what_if_->Open(session.header());
+  section_->Open(session.header().rig.workspace_mm);
+  view_->SetCut(section_->cut());
   remarks_->Clear();
   findings_->Forget();
   ShowFindings();
@@ -269,9 +284,9 @@ void ReviewPage::ShowWhatIf() {
   std::vector<control::TimelineRow> tried;
   if (const auto& what_if = desk_->what_if()) {
     tried = control::RowsOf(desk_->session().header().layout, what_if->outcome);
-    for (std::size_t i = 0; i < desk_->findings().size(); ++i)
-      if (std::ranges::find(what_if->vanished, desk_->findings()[i].finding.id) != what_if->vanished.end())
-        vanished.insert(i);
+    for (const auto* gone : {&what_if->vanished, &what_if->eased})
+      for (std::size_t i = 0; i < desk_->findings().size(); ++i)
+        if (std::ranges::find(*gone, desk_->findings()[i].finding.id) != gone->end()) vanished.insert(i);
     what_if_->ShowWhatIf(*what_if);
   } else if (desk_->held_mm().empty()) {
     what_if_->ShowRecorded();

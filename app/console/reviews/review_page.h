@@ -17,6 +17,7 @@
 #include "app/console/reviews/review_desk.h"
 #include "app/console/reviews/timeline_view.h"
 #include "app/console/reviews/what_if_panel.h"
+#include "app/console/sights/section_panel.h"
 #include "app/console/view/message_bar.h"
 #include "app/console/view/operator_view.h"
 
@@ -55,6 +56,7 @@ class ReviewPage : public QWidget {
   QPushButton* AddButton(QLayout* row, const char* name, const QString& text, const QString& tip);
   void FollowDesk();
   void FollowPanels();
+  void MakeView();
   void ShowSession();
   void ShowFrame(const control::ScrubbedFrame& frame);
   void ShowFindings();
@@ -82,6 +84,8 @@ class ReviewPage : public QWidget {
   QToolButton* play_ = nullptr;
   QToolButton* next_ = nullptr;
   QVBoxLayout* view_column_ = nullptr;
+  QPushButton* section_button_ = nullptr;
+  SectionPanel* section_ = nullptr;
   FindingPanel* findings_ = nullptr;
   RemarkPanel* remarks_ = nullptr;
   WhatIfPanel* what_if_ = nullptr;

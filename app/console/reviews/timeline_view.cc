@@ -239,7 +239,8 @@ void TimelineView::PaintSpans(QPainter& painter, std::size_t row) const {
   }
 }
 
-// A triangle for a gap, a square for a tool, a disc for a note.
+// A triangle for a gap, a square for a tool, a bar for a step, a diamond for a bookmark, a disc for what was
+// said.
 void TimelineView::PaintMarks(QPainter& painter) const {
   painter.setPen(Qt::NoPen);
   painter.setBrush(palette().color(QPalette::WindowText));
@@ -252,6 +253,16 @@ void TimelineView::PaintMarks(QPainter& painter) const {
       case control::MarkKind::kTool:
         painter.drawRect(room.adjusted(1, 1, -1, -1));
         break;
+      case control::MarkKind::kStep:
+        painter.drawRect(QRectF(room.center().x() - 1.0, room.top(), 2.0, room.height()));
+        break;
+      case control::MarkKind::kBookmark:
+        painter.drawPolygon(QPolygonF({{room.center().x(), room.top()},
+                                       {room.right(), room.center().y()},
+                                       {room.center().x(), room.bottom()},
+                                       {room.left(), room.center().y()}}));
+        break;
+      case control::MarkKind::kAnswer:
       case control::MarkKind::kNote:
         painter.drawEllipse(room.adjusted(1, 1, -1, -1));
         break;

@@ -51,7 +51,7 @@ double SecondsSince(HeadClock::time_point begin) {
 }
 
 std::string Turned(double angle_deg, const char* if_positive, const char* if_negative) {
-  return fmt::format("{:.1f} {}", std::abs(angle_deg), angle_deg < 0.0 ? if_negative : if_positive);
+  return fmt::format("{:.1f} {}", std::abs(angle_deg), angle_deg < -0.05 ? if_negative : if_positive);
 }
 
 }  // namespace

@@ -2,11 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <span>
 #include <utility>
 #include <variant>
 
 #include "app/control/pairs/ruled_pairs.h"
+#include "app/control/procedure/procedure_record.h"
 #include "core/error.h"
+#include "core/procedure/step_runs.h"
 #include "core/system/file_sync.h"
 #include "core/system/utc_time.h"
 #include "sessions/archive/footage_check.h"
@@ -56,8 +60,8 @@ void ReplayRecording::Add(const ReplayedFrame& frame) {
 }
 
 ReplayOutcome ReplayRecording::Finish(bool to_the_end) {
-  if (to_the_end)
-    for (; next_event_ != events_.end(); ++next_event_) TakeEvent(*next_event_);
+  for (; next_event_ != events_.end(); ++next_event_)
+    if (to_the_end || IsOfParticipant(next_event_->what)) TakeEvent(*next_event_);
   TellMissing();
   core::SessionOutcome outcome = tracker_.Outcome();
   MatchFindings(findings_, layout_.layout(), &outcome);
@@ -76,18 +80,30 @@ ReplayOutcome ReplayRecording::Finish(bool to_the_end) {
   return std::move(outcome_);
 }
 
-// The events up to the frame. Those before the first frame of the replay aren't in it, but for the tools in
-// use.
+// The events up to the frame. Those before the first frame of the replay aren't in it, but for what the
+// participant said; the tools in use and the step under way are marked there.
 void ReplayRecording::TakeEvents(core::FrameIndex frame, double time_s) {
   for (; next_event_ != events_.end() && next_event_->frame <= frame; ++next_event_) {
     tools_in_use_.Take(*next_event_);
     const bool is_before = outcome_.frames == 0 && next_event_->frame < frame;
     if (!is_before) TakeEvent(*next_event_);
-    if (is_before) has_earlier_ = true;
+    if (!is_before) continue;
+    has_earlier_ = true;
+    if (IsOfParticipant(next_event_->what))
+      writer_.Append(core::SessionEvent{frame, time_s, next_event_->what});
   }
   if (!std::exchange(has_earlier_, false)) return;
   for (const std::string& tool : tools_in_use_.names())
     writer_.Append(core::SessionEvent{frame, time_s, core::ToolMarked{tool, true}});
+  MarkStepUnderWay(frame, time_s);
+}
+
+// Of those that began before the frame.
+void ReplayRecording::MarkStepUnderWay(core::FrameIndex frame, double time_s) {
+  const auto here =
+      std::ranges::find_if(events_, [&](const core::SessionEvent& event) { return event.frame >= frame; });
+  for (const core::StepRun& run : core::StepRunsOf(std::span(events_.begin(), here)))
+    if (!run.end_frame) writer_.Append(core::SessionEvent{frame, time_s, core::StepMarked{run.step, true}});
 }
 
 void ReplayRecording::TakeEvent(const core::SessionEvent& event) {

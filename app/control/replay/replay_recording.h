@@ -45,6 +45,7 @@ class ReplayRecording {
 
  private:
   void TakeEvents(core::FrameIndex frame, double time_s);
+  void MarkStepUnderWay(core::FrameIndex frame, double time_s);
   void Compare(const core::FrameRecord& recorded, const core::FrameRecord& replayed);
   void TakeEvent(const core::SessionEvent& event);
   void JudgePairs(const core::FrameRecord& record);

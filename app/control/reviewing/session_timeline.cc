@@ -7,6 +7,8 @@
 #include <utility>
 #include <variant>
 
+#include "core/procedure/event_text.h"
+
 namespace elbowroom::control {
 namespace {
 
@@ -48,6 +50,14 @@ class MarkList {
     marks_.push_back({MarkKind::kTool, time_s, mark.tool + (mark.in_use ? ": in use" : ": put away")});
   }
   void Take(double time_s, const core::Note& note) { marks_.push_back({MarkKind::kNote, time_s, note.text}); }
+  void Take(double time_s, const core::StepMarked& mark) { Add(MarkKind::kStep, time_s, mark); }
+  void Take(double time_s, const core::Bookmark& bookmark) { Add(MarkKind::kBookmark, time_s, bookmark); }
+  void Take(double time_s, const core::EstimateGiven& given) { Add(MarkKind::kAnswer, time_s, given); }
+  void Take(double time_s, const core::SurveyAnswered& answered) { Add(MarkKind::kAnswer, time_s, answered); }
+
+  void Add(MarkKind kind, double time_s, const core::EventContent& what) {
+    marks_.push_back({kind, time_s, core::EventText(what)});
+  }
 
   std::vector<TimelineMark> marks_;
   std::map<std::string, Drag> drags_;

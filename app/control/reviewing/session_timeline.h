@@ -26,7 +26,7 @@ struct TimelineRow {
   std::vector<TimelineSpan> spans;  // by time
 };
 
-enum class MarkKind { kGap, kTool, kNote };
+enum class MarkKind { kGap, kTool, kNote, kStep, kBookmark, kAnswer };  // an estimate is an answer, too
 
 struct TimelineMark {
   MarkKind kind = MarkKind::kNote;

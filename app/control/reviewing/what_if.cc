@@ -52,9 +52,13 @@ class WhatIfTally {
     MatchFindings(findings, session_.header().layout, &what_if_.outcome);
     for (const core::ContactEpisode& touch : what_if_.outcome.episodes) ++what_if_.parts[touch.part].touches;
     for (const core::NearMiss& miss : what_if_.outcome.near_misses) ++what_if_.parts[miss.part].near_misses;
-    for (const core::Finding& finding : findings)
-      if (finding.presence == core::FindingPresence::kHere && !IsThere(finding.id))
-        what_if_.vanished.push_back(finding.id);
+    for (const core::Finding& finding : findings) {
+      if (finding.presence != core::FindingPresence::kHere) continue;
+      const bool is_touch = IsAmong(what_if_.outcome.episodes, finding.id);
+      const bool is_miss = IsAmong(what_if_.outcome.near_misses, finding.id);
+      if (!is_touch && !is_miss) what_if_.vanished.push_back(finding.id);
+      if (is_miss && finding.kind == core::FindingKind::kTouch) what_if_.eased.push_back(finding.id);
+    }
     return std::move(what_if_);
   }
 
@@ -92,10 +96,8 @@ class WhatIfTally {
     part->clearance_mm = std::min(part->clearance_mm.value_or(lower_mm), lower_mm);
   }
 
-  [[nodiscard]] bool IsThere(const core::FindingId& id) const {
-    const auto is_it = [&](const auto& each) { return each.finding_id == id; };
-    return std::ranges::any_of(what_if_.outcome.episodes, is_it) ||
-           std::ranges::any_of(what_if_.outcome.near_misses, is_it);
+  static bool IsAmong(const auto& findings, const core::FindingId& id) {
+    return std::ranges::any_of(findings, [&](const auto& each) { return each.finding_id == id; });
   }
 
   const ReviewedSession& session_;

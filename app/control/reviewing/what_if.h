@@ -44,6 +44,7 @@ struct WhatIf {
   core::SessionOutcome outcome;            // with the ids of findings; without heat maps
   std::vector<WhatIfPart> parts;           // in the layout's order
   std::vector<core::FindingId> vanished;   // of the session: those that aren't in the outcome
+  std::vector<core::FindingId> eased;      // likewise: touches that are near misses in the outcome
   std::int64_t frames = 0;                 // judged
   std::int64_t frames_without_camera = 0;  // of them: they show neither a touch nor its end
   std::int64_t answers = 0;                // one a part in each frame

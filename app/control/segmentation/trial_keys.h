@@ -6,8 +6,20 @@
 
 namespace elbowroom::control {
 
-inline constexpr std::array<std::string_view, 11> kTrialKeys{
-    "rig",   "layout",       "participant", "task",  "estimate_mm", "required_clearance_mm", "uncertainty_mm",
-    "tools", "segmentation", "viewer",      "record"};
+inline constexpr std::array<std::string_view, 15> kTrialKeys{"rig",
+                                                             "layout",
+                                                             "participant",
+                                                             "task",
+                                                             "estimate_mm",
+                                                             "required_clearance_mm",
+                                                             "uncertainty_mm",
+                                                             "tools",
+                                                             "segmentation",
+                                                             "viewer",
+                                                             "record",
+                                                             "condition",
+                                                             "order",
+                                                             "step",
+                                                             "survey"};
 
 }  // namespace elbowroom::control

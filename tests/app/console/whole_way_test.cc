@@ -187,8 +187,9 @@ void WholeWay::Review() {
   ASSERT_TRUE(WaitUntil([&] { return desk.what_if().has_value(); }));
   EXPECT_TRUE(Find<QLabel>("what_if_result")->text().contains("120 mm"));
   Keep("09_what_if");
-  QTest::keyClicks(Find<QComboBox>("remark_status"), "app");
-  EXPECT_EQ(Find<QComboBox>("remark_status")->currentText(), "approved");
+  auto* status = Find<QComboBox>("remark_status");
+  for (int i = 0; i < status->count() && status->currentText() != "approved"; ++i)
+    QTest::keyClick(status, Qt::Key_Down);
   TypeInto(Find<QLineEdit>("remark_comment"), "the lap is where it should be");
   TypeInto(Find<QLineEdit>("remark_name"), "Ann");
   Click(Find<QPushButton>("remark_add"));

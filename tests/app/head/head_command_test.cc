@@ -35,7 +35,7 @@ TEST(HeadCommand, CountsPosesAndSaysWhereTheHeadLooks) {
   const int port = UdpPort("0.0.0.0", 0).port();
   std::jthread sender([port](const std::stop_token& stop) { Send(port, stop); });
   const auto run = RunProgram(
-      {kProgram, "head", "--source", "freed", "--port", std::to_string(port), "--seconds", "3", "--json"});
+      kProgram, {"head", "--source", "freed", "--port", std::to_string(port), "--seconds", "3", "--json"});
   ASSERT_EQ(run.exit_status, 0) << run.err;
   const auto json = nlohmann::json::parse(run.out);
   EXPECT_EQ(json["source"], "freed");
@@ -48,7 +48,7 @@ TEST(HeadCommand, CountsPosesAndSaysWhereTheHeadLooks) {
 TEST(HeadCommand, SaysThatNothingComes) {
   const int port = UdpPort("0.0.0.0", 0).port();
   const auto run = RunProgram(
-      {kProgram, "head", "--source", "opentrack", "--port", std::to_string(port), "--seconds", "0.3"});
+      kProgram, {"head", "--source", "opentrack", "--port", std::to_string(port), "--seconds", "0.3"});
   EXPECT_EQ(run.exit_status, 1);
   EXPECT_NE(run.err.find(std::to_string(port)), std::string::npos);
 }

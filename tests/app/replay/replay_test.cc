@@ -12,6 +12,7 @@
 #include "app/control/trial_runner.h"
 #include "core/error.h"
 #include "core/gives_way.h"
+#include "sessions/after_trial.h"
 #include "sessions/session_reader.h"
 #include "tests/app/replay/session_rows.h"
 #include "tests/sessions/sample_session.h"
@@ -67,6 +68,37 @@ TEST(Replay, WithoutChangesHasTheRecordedRowsAndFindings) {
   ASSERT_TRUE(again.header().origin.has_value());
   EXPECT_EQ(again.header().origin->recording_id, recorded.recording_id());
   EXPECT_EQ(again.first_recording_id(), recorded.recording_id());
+}
+
+// What the participant said is of the whole trial; a step that is under way where a part of it begins is
+// marked there.
+TEST(Replay, TakesOverTheProcedure) {
+  const TemporaryFolder folder;
+  TrialSetup setup = MakeDemoTrial(DemoPlay::kOnce);
+  setup.info.steps = {"reach", "screw"};
+  setup.info.survey = {{core::AskedWhen::kBefore, "sure?", 1, 7}};
+  setup.opening = {core::EstimateGiven{core::AskedWhen::kBefore, 140.0},
+                   core::SurveyAnswered{core::AskedWhen::kBefore, "sure?", 4}};
+  setup.first_step = "screw";
+  RecordDemo(folder / "s.db", {60, 70}, setup);
+  sessions::AddAfterTrial(
+      folder / "s.db", std::vector<core::EventContent>{core::EstimateGiven{core::AskedWhen::kAfter, 200.0}});
+  (void)Replayed(folder / "s.db", folder / "again.db");
+  const std::vector<core::SessionEvent> recorded = sessions::SessionReader(folder / "s.db").events();
+  EXPECT_EQ(sessions::SessionReader(folder / "again.db").events(), recorded);
+  EXPECT_EQ(RowsThatDiffer(folder / "s.db", folder / "again.db"), 0);
+  (void)Replayed(folder / "s.db", folder / "part.db", {}, {64, 66});
+  std::vector<core::SessionEvent> in_part = sessions::SessionReader(folder / "part.db").events();
+  std::erase_if(in_part, [](const auto& event) {
+    return std::holds_alternative<core::Note>(event.what) ||
+           std::holds_alternative<core::ToolMarked>(event.what);
+  });
+  ASSERT_EQ(in_part.size(), 4U);
+  EXPECT_EQ(in_part[0].what, setup.opening[0]);
+  EXPECT_EQ(in_part[1].what, setup.opening[1]);
+  EXPECT_EQ(in_part[2].what, core::EventContent(core::StepMarked{"screw", true}));
+  EXPECT_EQ(in_part[2].frame, 64);
+  EXPECT_EQ(in_part[3].what, core::EventContent(core::EstimateGiven{core::AskedWhen::kAfter, 200.0}));
 }
 
 // The comparison in memory must see what the files show.

@@ -10,6 +10,7 @@
 #include "app/control/demo_trial.h"
 #include "app/control/outcome_tracker.h"
 #include "app/control/replay/replay.h"
+#include "app/control/reviewing/needed_gap.h"
 #include "app/control/reviewing/what_if_frames.h"
 #include "core/error.h"
 #include "core/gives_way.h"
@@ -150,6 +151,21 @@ TEST(WhatIf, CertifiesAClearanceOnlyWhereNothingTouches) {
   EXPECT_EQ(wide.parts[1].touches, 0);
   EXPECT_EQ(wide.parts[1].verdict(), core::Verdict::kClear);
   EXPECT_GE(*wide.parts[1].clearance_mm, session.header().trial.required_clearance_mm);
+}
+
+TEST(WhatIf, KnowsWhichTouchesAreNearMissesWithMoreSpace) {
+  const TemporaryFolder folder;
+  RecordDemo(folder / "s.db", kWithTouches);
+  const ReviewedSession session(folder / "s.db", {}, {});
+  const NeededGap needed = FindNeededGap(session, kGap, {}, {});
+  const WhatIf what_if = JudgeMotionAt(session, {{{kGap, *needed.free_mm}}}, {}, {});
+  EXPECT_EQ(what_if.parts[1].touches, 0);
+  EXPECT_FALSE(what_if.eased.empty());
+  const std::vector<core::Finding> findings = session.findings();
+  for (const core::FindingId& id : what_if.eased) {
+    EXPECT_EQ(std::ranges::find(findings, id, &core::Finding::id)->kind, core::FindingKind::kTouch);
+    EXPECT_EQ(std::ranges::find(what_if.vanished, id), what_if.vanished.end());
+  }
 }
 
 TEST(WhatIf, IsTheSameForOneThreadAndForMany) {

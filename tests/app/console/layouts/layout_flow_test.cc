@@ -10,6 +10,7 @@
 #include <fstream>
 
 #include "app/console/desktop/session_place.h"
+#include "app/console/desktop/theme.h"
 #include "app/console/layouts/import_dialog.h"
 #include "app/console/layouts/rule_dialogs.h"
 #include "app/console/layouts/trial_dialog.h"
@@ -30,6 +31,7 @@ class LayoutFlow : public testing::Test {
  protected:
   LayoutFlow() {
     SetSessionsFolder(folder_ / "sessions");
+    if (qEnvironmentVariableIsSet("ELBOWROOM_SCREENSHOTS_DARK")) SetTheme(Theme::kDark);
     window_.resize(1280, 720);
     window_.show();
     window_.activateWindow();
@@ -46,12 +48,12 @@ class LayoutFlow : public testing::Test {
     return widget;
   }
   [[nodiscard]] std::string Message() { return Find<QLabel>("message")->text().toStdString(); }
-  // Keeps a picture of the window where ELBOWROOM_SCREENSHOTS names a folder.
-  void Keep(const char* name) {
+  // Keeps a picture of the widget, or of the window, where ELBOWROOM_SCREENSHOTS names a folder.
+  void Keep(const char* name, QWidget* widget = nullptr) {
     const QString folder = qEnvironmentVariable("ELBOWROOM_SCREENSHOTS");
     if (folder.isEmpty()) return;
     QTest::qWait(1500);  // until the picture is drawn in full
-    window_.grab().save(QString("%1/%2.png").arg(folder, name));
+    (widget == nullptr ? &window_ : widget)->grab().save(QString("%1/%2.png").arg(folder, name));
   }
 
   test_support::TemporaryFolder folder_;
@@ -70,11 +72,12 @@ TEST_F(LayoutFlow, FromAnEmptyFolderToATrialOnFourCameras) {
   auto* tree = Find<QTreeWidget>("import_tree");
   ASSERT_TRUE(TickItem(tree, "plate_1"));
   ASSERT_TRUE(TickItem(tree, "rod-assembly_1"));
+  Keep("2_import", import);
   Click(Find<QPushButton>("import_take"));
   LayoutPage& page = window_.layout_page();
   ASSERT_EQ(page.desk().document().layout().parts.size(), 2U) << Message();
   ASSERT_TRUE(WaitUntil([&] { return !page.view().picture().isNull(); }));
-  Keep("2_parts");
+  Keep("3_parts");
 
   auto* list = Find<QTreeWidget>("parts");
   QTest::mouseClick(list->viewport(), Qt::LeftButton, {},
@@ -86,13 +89,15 @@ TEST_F(LayoutFlow, FromAnEmptyFolderToATrialOnFourCameras) {
   auto* spacing = Find<SpacingDialog>("spacing_dialog");
   TypeInto(spacing->findChild<QLineEdit*>("spacing_name"), "gap");
   TypeInto(spacing->findChild<QDoubleSpinBox*>("spacing_initial"), "20");
+  Keep("4_spacing", spacing);
   Click(spacing->findChild<QPushButton*>("rule_ok"));
   Click(Find<QPushButton>("add_pair"));
   auto* pair = Find<PairDialog>("pair_dialog");
   TypeInto(pair->findChild<QDoubleSpinBox*>("pair_clearance"), "10");
+  Keep("4_pair", pair);
   Click(pair->findChild<QPushButton*>("rule_ok"));
   ASSERT_EQ(Find<QListWidget>("rules")->count(), 2) << Message();
-  Keep("3_rules");
+  Keep("5_rules");
 
   const std::filesystem::path layout = folder_ / "layout.toml";
   TypeIntoNextFileDialog(QString::fromStdString(layout.string()));
@@ -107,13 +112,13 @@ TEST_F(LayoutFlow, FromAnEmptyFolderToATrialOnFourCameras) {
   TypeInto(trial->findChild<QLineEdit*>("trial_participant"), "P07");
   TypeInto(trial->findChild<QDoubleSpinBox*>("trial_estimate"), "18");
   TypeInto(trial->findChild<QLineEdit*>("trial_tools"), "tongs, pipe");
-  Keep("4_trial");
+  Keep("6_trial", trial);
   int frames = 0;
   QObject::connect(&window_.desk(), &TrialDesk::FrameArrived, &window_, [&] { ++frames; });
   Click(trial->findChild<QPushButton*>("trial_start"));
   ASSERT_TRUE(WaitUntil([&] { return frames >= 3; })) << Message();
   EXPECT_EQ(window_.pages().page(), Page::kTrial);
-  Keep("5_trial_runs");
+  Keep("7_trial_runs");
   window_.findChild<QAction*>("stop")->trigger();
   ASSERT_TRUE(WaitUntil([&] { return window_.desk().state() == DeskState::kIdle; }));
 

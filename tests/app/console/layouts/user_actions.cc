@@ -47,6 +47,9 @@ void AnswerNextQuestion(QMessageBox::StandardButton button) {
 void Click(QWidget* widget) { QTest::mouseClick(widget, Qt::LeftButton); }
 
 void TypeInto(QWidget* widget, const QString& text) {
+  // A desktop gives the window back its focus when a dialog closes; Qt's offscreen platform doesn't.
+  widget->window()->activateWindow();
+  (void)QTest::qWaitForWindowActive(widget->window());
   widget->setFocus();
   QTest::keyClick(widget, Qt::Key_A, Qt::ControlModifier);
   QTest::keyClicks(widget, text);

@@ -1,0 +1,240 @@
+// A whole trial with a procedure in the window, by mouse and keys; what the session has of it; its replay.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <QAction>
+#include <QDoubleSpinBox>
+#include <QLabel>
+#include <QLineEdit>
+#include <QListWidget>
+#include <QPlainTextEdit>
+#include <QPushButton>
+#include <QSpinBox>
+#include <QTest>
+#include <QToolButton>
+#include <variant>
+
+#include "app/console/main_window.h"
+#include "app/control/replay/replay.h"
+#include "core/procedure/answers.h"
+#include "core/procedure/event_text.h"
+#include "core/procedure/step_runs.h"
+#include "sessions/session_reader.h"
+#include "tests/app/mask_rig.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/text_file.h"
+
+namespace elbowroom::console {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kPatienceMs = 120'000;  // far beyond what any step takes on a loaded machine
+constexpr int kFrames = 3000;         // far more than the test lets pass
+
+constexpr const char* kNotes = "The cable was in the way";
+
+constexpr const char* kLayout = R"(unit = "mm"
+[[part]]
+name = "base"
+file = "box.stl"
+position_mm = [0, 0, 80]
+[[part]]
+name = "payload"
+file = "box.stl"
+position_mm = [0, 0, 250]
+[[spacing]]
+name = "gap"
+moving = "payload"
+reference = "base"
+axis = "z"
+min_mm = 100
+max_mm = 220
+initial_mm = 170
+)";
+
+constexpr const char* kTrial = R"(rig = "rig.yml"
+layout = "layout.toml"
+task = "Screw the pipe in"
+participant = "P07"
+condition = "gloves"
+order = 2
+tools = ["tongs"]
+[[step]]
+name = "reach in"
+[[step]]
+name = "screw"
+[[survey]]
+when = "before"
+item = "How sure are you?"
+[[survey]]
+when = "after"
+item = "How sure are you?"
+[[survey]]
+when = "after"
+item = "Effort"
+scale = [0, 100]
+)";
+
+class ProcedureTest : public testing::Test {
+ protected:
+  ProcedureTest() {
+    test_support::WriteBallRig(folder_.path());
+    test_support::WriteBoxStl(folder_ / "box.stl", 40.0);
+    for (const char* camera : {"cam1", "cam2", "cam3", "cam4"})
+      for (int i = 1; i < kFrames; ++i)
+        fs::create_hard_link(folder_ / camera / "mask_0000.png",
+                             folder_ / camera / fmt::format("mask_{:04d}.png", i));
+    test_support::WriteText(folder_ / "layout.toml", kLayout);
+    test_support::WriteText(folder_ / "trial.toml", kTrial);
+    window_.resize(1280, 720);
+    window_.show();
+    QObject::connect(&window_.desk(), &TrialDesk::FrameArrived, &window_, [this](const FrameNews& news) {
+      last_frame_ = news.result;
+      ++frames_;
+    });
+  }
+  ~ProcedureTest() override {
+    window_.desk().Stop();
+    WaitUntil([&] { return IsIdle(); });
+  }
+
+  template <typename Condition>
+  static bool WaitUntil(Condition condition) {
+    return QTest::qWaitFor(condition, kPatienceMs);
+  }
+  template <typename Widget>
+  Widget* Find(const QString& name) {
+    auto* widget = window_.findChild<Widget*>(name);
+    EXPECT_NE(widget, nullptr) << name.toStdString();
+    return widget;
+  }
+  [[nodiscard]] bool IsIdle() { return window_.desk().state() == DeskState::kIdle; }
+  [[nodiscard]] std::string Message() { return Find<QLabel>("message")->text().toStdString(); }
+  void LetFramesPass() {
+    const int before = frames_;
+    ASSERT_TRUE(WaitUntil([&] { return frames_ > before + 2; })) << Message();
+  }
+  void Key(Qt::Key key, Qt::KeyboardModifiers modifiers = {}) {
+    window_.setFocus();
+    QTest::keyClick(&window_, key, modifiers);
+    LetFramesPass();
+  }
+  [[nodiscard]] bool StepIs(const std::string& step) {
+    return last_frame_ && (last_frame_->step ? last_frame_->step->step : std::string()) == step;
+  }
+  [[nodiscard]] double GapMm() { return last_frame_->record.spacing_mm.at(0); }
+
+  test_support::TemporaryFolder folder_;
+  fs::path session_ = folder_ / "s.db";
+  MainWindow window_{session_};
+  control::SharedFrameResult last_frame_;
+  int frames_ = 0;
+};
+
+TEST_F(ProcedureTest, AWholeTrialIsInTheSessionAndItsReplay) {
+  window_.activateWindow();
+  ASSERT_TRUE(QTest::qWaitForWindowActive(&window_));
+  window_.StartTrial(QString::fromStdString((folder_ / "trial.toml").string()));
+  auto* estimate = Find<QDoubleSpinBox>("estimate:before");
+  EXPECT_TRUE(estimate->isVisible());
+  EXPECT_TRUE(estimate->hasFocus()) << "the estimate is asked first";
+  EXPECT_TRUE(IsIdle()) << "nothing runs before it is begun";
+  QTest::keyClicks(estimate, "140");
+  Find<QLineEdit>("participant")->setText("P08");
+  QTest::mouseClick(Find<QToolButton>("answer:before:0:6"), Qt::LeftButton);
+  QTest::keyClick(estimate, Qt::Key_Return);
+  ASSERT_TRUE(WaitUntil([&] { return StepIs("reach in"); })) << Message();
+  EXPECT_FALSE(Find<QWidget>("start_page")->isVisible());
+  EXPECT_TRUE(Find<QWidget>("step_list")->isVisible());
+
+  Key(Qt::Key_1);
+  Find<QDoubleSpinBox>("spacing_box:gap")->setValue(130.0);
+  ASSERT_TRUE(WaitUntil([&] { return GapMm() == 130.0; }));
+  Find<QLineEdit>("preset_name")->setText("closed");
+  Find<QPushButton>("save_preset")->click();
+  Find<QDoubleSpinBox>("spacing_box:gap")->setValue(200.0);
+  ASSERT_TRUE(WaitUntil([&] { return GapMm() == 200.0; }));
+  Key(Qt::Key_1, Qt::AltModifier);
+  ASSERT_TRUE(WaitUntil([&] { return GapMm() == 130.0; }));
+  EXPECT_GE(Find<QListWidget>("gap_history")->count(), 1);
+  Key(Qt::Key_M);
+  Find<QLineEdit>("bookmark_name")->setFocus();
+  QTest::keyClicks(Find<QLineEdit>("bookmark_name"), "tongs slipped");
+  QTest::keyClick(Find<QLineEdit>("bookmark_name"), Qt::Key_Return);
+  Key(Qt::Key_N);
+  ASSERT_TRUE(WaitUntil([&] { return StepIs("screw"); }));
+  Key(Qt::Key_Space);
+  ASSERT_TRUE(WaitUntil([&] { return StepIs(""); }));
+  Find<QAction>("stop")->trigger();
+  ASSERT_TRUE(WaitUntil([&] { return IsIdle(); }));
+
+  auto* after = Find<QDoubleSpinBox>("estimate:after");
+  EXPECT_TRUE(after->isVisible());
+  after->setValue(165.0);
+  QTest::mouseClick(Find<QToolButton>("answer:after:0:3"), Qt::LeftButton);
+  Find<QSpinBox>("answer:after:1")->setValue(55);
+  Find<QPlainTextEdit>("after_notes")->setPlainText(kNotes);
+  QTest::mouseClick(Find<QPushButton>("save_answers"), Qt::LeftButton);
+  ASSERT_TRUE(WaitUntil([&] { return Message().find("What was said is in") == 0; })) << Message();
+  EXPECT_FALSE(Find<QWidget>("after_page")->isVisible());
+
+  const sessions::SessionReader session(session_);
+  const core::TrialInfo& trial = session.header().trial;
+  EXPECT_EQ(std::tie(trial.participant, trial.condition, trial.order, trial.estimate_mm),
+            std::make_tuple("P08", "gloves", 2, 140.0));
+  const std::vector<core::SessionEvent> events = session.events();
+  std::vector<std::string> happened;
+  for (const core::SessionEvent& event : events) {
+    const auto* note = std::get_if<core::Note>(&event.what);
+    if (note == nullptr || note->text == kNotes) happened.push_back(core::EventText(event.what));
+  }
+  EXPECT_EQ(
+      happened,
+      (std::vector<std::string>{
+          "estimate before the trial: 140 mm", "before the trial, 'How sure are you?': 6",
+          "step 'reach in' begun", "tongs taken in use", "gap from 170 to 130 mm", "gap from 130 to 200 mm",
+          "gap from 200 to 130 mm", "bookmark", "bookmark: tongs slipped", "step 'reach in' ended",
+          "step 'screw' begun", "step 'screw' ended", "estimate after the trial: 165 mm",
+          "after the trial, 'How sure are you?': 3", "after the trial, 'Effort': 55", kNotes}));
+  EXPECT_EQ(events.front().frame, 0);
+  const std::vector<core::StepRun> runs = core::StepRunsOf(events);
+  ASSERT_EQ(runs.size(), 2U);
+  EXPECT_EQ(runs[0].end_frame, runs[1].begin_frame);
+  EXPECT_GT(*runs[0].duration_s(), 0.0);
+
+  const control::ReplayOutcome replay = control::RunReplay(session, {folder_ / "again.db", {}, {}}, {}, {});
+  ASSERT_TRUE(replay.compared);
+  EXPECT_EQ(replay.compared->frames_that_differ, 0);
+  const sessions::SessionReader again(folder_ / "again.db");
+  EXPECT_EQ(again.events(), events);
+  EXPECT_EQ(again.header().trial.survey, trial.survey);
+}
+
+TEST_F(ProcedureTest, WhatIsAskedCanBeSkippedWithOneKeyEach) {
+  window_.activateWindow();
+  ASSERT_TRUE(QTest::qWaitForWindowActive(&window_));
+  window_.StartTrial(QString::fromStdString((folder_ / "trial.toml").string()));
+  QTest::keyClick(Find<QDoubleSpinBox>("estimate:before"), Qt::Key_Return);
+  ASSERT_TRUE(WaitUntil([&] { return last_frame_ != nullptr; })) << Message();
+  Find<QAction>("stop")->trigger();
+  ASSERT_TRUE(WaitUntil([&] { return IsIdle(); }));
+  EXPECT_TRUE(Find<QWidget>("after_page")->isVisible());
+  QTest::keyClick(Find<QDoubleSpinBox>("estimate:after"), Qt::Key_Escape);
+  EXPECT_FALSE(Find<QWidget>("after_page")->isVisible());
+  const sessions::SessionReader session(session_);
+  EXPECT_EQ(session.status(), sessions::SessionStatus::kComplete);
+  EXPECT_EQ(session.header().trial.participant, "P07");
+  EXPECT_FALSE(core::EstimatesOf(session.header().trial, session.events()).before_mm);
+}
+
+TEST_F(ProcedureTest, LeavingTheStartPageStartsNothing) {
+  window_.StartTrial(QString::fromStdString((folder_ / "trial.toml").string()));
+  QTest::mouseClick(Find<QPushButton>("leave_trial"), Qt::LeftButton);
+  EXPECT_FALSE(Find<QWidget>("start_page")->isVisible());
+  EXPECT_TRUE(IsIdle());
+  EXPECT_FALSE(fs::exists(session_));
+}
+
+}  // namespace
+}  // namespace elbowroom::console
