@@ -8,6 +8,7 @@ namespace elbowroom::console {
 
 PageSwitch::PageSwitch(QMainWindow* window, QStackedWidget* pages)
     : QToolBar(tr("Pages"), window), window_(window), pages_(pages), group_(new QActionGroup(this)) {
+  connect(pages_, &QStackedWidget::currentChanged, this, &PageSwitch::FitShownPage);
   setObjectName("pages_bar");
   setMovable(false);
   toggleViewAction()->setVisible(false);  // without it there is no way back
@@ -24,10 +25,12 @@ void PageSwitch::AddPage(Page page, const QString& title, const QString& tool_ti
   connect(action, &QAction::triggered, this, [this, page] { Show(page); });
   choices_.push_back({page, action, widget});
   pages_->addWidget(widget);
+  FitShownPage();
 }
 
 void PageSwitch::SetTrialWidget(QWidget* widget) {
   pages_->addWidget(widget);
+  FitShownPage();
   ChoiceOf(Page::kTrial).widget = widget;
   if (page_ == Page::kTrial) pages_->setCurrentWidget(widget);
 }
@@ -39,6 +42,15 @@ void PageSwitch::Show(Page page) {
   if (page == Page::kTrial) window_->restoreState(std::exchange(panels_, {}));
   ChoiceOf(page).action->setChecked(true);
   pages_->setCurrentWidget(ChoiceOf(page).widget);
+}
+
+// A page that isn't shown takes no room.
+void PageSwitch::FitShownPage() {
+  for (int i = 0; i < pages_->count(); ++i) {
+    const QSizePolicy::Policy policy =
+        i == pages_->currentIndex() ? QSizePolicy::Preferred : QSizePolicy::Ignored;
+    pages_->widget(i)->setSizePolicy(policy, policy);
+  }
 }
 
 PageSwitch::Choice& PageSwitch::ChoiceOf(Page page) {

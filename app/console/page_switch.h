@@ -39,6 +39,7 @@ class PageSwitch : public QToolBar {
   };
   [[nodiscard]] Choice& ChoiceOf(Page page);
   void PutPanelsAway();
+  void FitShownPage();
 
   QMainWindow* window_;
   QStackedWidget* pages_;
