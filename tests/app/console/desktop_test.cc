@@ -183,7 +183,7 @@ TEST_F(Desktop, ATrialThatIsDroppedIsOpened) {
   MainWindow window;
   window.show();
   bool is_taken = true;
-  Drop(&window, {QUrl::fromLocalFile("/nowhere/part.stl")}, &is_taken);
+  Drop(&window, {QUrl::fromLocalFile("/nowhere/picture.png")}, &is_taken);
   EXPECT_FALSE(is_taken);
   const std::filesystem::path trial = folder_ / "Trial.TOML";
   test_support::WriteText(trial, "rig = ");
