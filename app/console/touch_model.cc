@@ -75,6 +75,7 @@ QVariant TouchModel::CellText(const Row& row, int column) const {
 QVariant TouchModel::data(const QModelIndex& index, int role) const {
   const Row& row = rows_.at(static_cast<std::size_t>(index.row()));
   if (role == Qt::DisplayRole) return CellText(row, index.column());
+  if (role == Qt::ToolTipRole) return CellText(row, kPart);  // a narrow column cuts it off
   if (role == Qt::TextAlignmentRole) return QVariant(AlignmentOf(index.column()));
   if (role == Qt::ForegroundRole && index.column() == kState) return ColorOf(row.verdict);
   return {};

@@ -69,7 +69,8 @@ std::variant<CapPose, NoCapPose> FindCapPose(const Cap& cap, std::span<const Cap
   if (minima.empty()) return NoCapPose::kUncertain;
   const core::RigidTransform& world_from_head = minima.front().rig_from_board;
   const CapEvidence evidence = EvidenceFor(problem, world_from_head);
-  if (evidence.corners < kLeastAgreeingCorners || evidence.corners < kLeastAgreeingShare * evidence.corners_in_all)
+  if (evidence.corners < kLeastAgreeingCorners ||
+      evidence.corners < kLeastAgreeingShare * evidence.corners_in_all)
     return NoCapPose::kDisagreement;
   if (IsAmbiguous(minima, evidence, options.least_lead)) return NoCapPose::kAmbiguous;
   const auto covariance = CovarianceOf(evidence);

@@ -17,8 +17,8 @@ struct NeededGap {
   // The smallest one found at which surely none is touched, as at all gaps above; within 0.5 mm of
   // touched_mm. Nothing: even the largest gap is touched.
   std::optional<double> free_mm;
-  // The smallest step of kNeededGapStepMm from which on the required clearance is sure. Nothing: none is, or
-  // none is required.
+  // The smallest step from which on the required clearance is sure. A step is kNeededGapStepMm, or a
+  // hundredth of the range if that is more. Nothing: none is, or none is required.
   std::optional<double> clear_mm;
 };
 

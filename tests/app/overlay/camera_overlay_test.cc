@@ -14,6 +14,8 @@
 #include <vector>
 
 #include "app/control/demo_parts.h"
+#include "app/control/demo_trial.h"
+#include "app/control/frame_pipeline.h"
 #include "core/error.h"
 #include "recon/hull/ray_crossings.h"
 #include "recon/hull/visual_hull.h"
@@ -278,6 +280,32 @@ TEST(CameraOverlay, IsHiddenByWhatIsRealBeforeItAtNinetyNinePixelsOfAHundred) {
     EXPECT_GE(tally.of_hull.Share(), 0.999) << named.name;
     EXPECT_GT(tally.contested.pixels, 10'000) << named.name;
   }
+}
+
+// The same with silhouettes that are segmented from the simulated pictures, with their noise and flicker.
+TEST(CameraOverlay, IsHiddenAsWellByWhatIsSegmentedFromThePictures) {
+  TrialSetup setup = MakeDemoTrial(DemoPlay::kOnce);
+  const core::Rig& rig = setup.source->rig();
+  FramePipeline pipeline(rig, setup.layout, setup.source->ReadBackgrounds({}, {}), setup.segmentation);
+  const recon::SyntheticRig synthetic(rig, [](double) { return std::vector<recon::SyntheticObject>(); });
+  OcclusionTally tally;
+  for (const core::FrameIndex frame : {45, 66, 165}) {
+    const SharedFrameResult result = pipeline.Process(setup.source->Read(frame), std::vector<double>{140.0});
+    const std::vector<recon::SyntheticObject> objects =
+        recon::DemoSceneAt(static_cast<double>(frame) / 15.0).objects;
+    const std::vector<core::BitMask> masks = synthetic.TrueMasks(objects);
+    const std::vector<recon::Solid> solids = recon::AllSolids(objects);
+    std::vector<OverlayPart> parts;
+    for (std::size_t i = 0; i < setup.layout.parts.size(); ++i)
+      parts.push_back({Meshes().Of(setup.layout.parts[i].mesh), result->world_from_parts[i]});
+    for (std::size_t i = 0; i < masks.size(); ++i)
+      CompareOcclusion(rig.cameras[i], solids, parts, result->hull, masks[i], &tally);
+  }
+  std::printf("segmented: part pixels %lld right %.3f %%; contested %lld right %.3f %%\n",
+              tally.of_part.pixels, 100.0 * tally.of_part.Share(), tally.contested.pixels,
+              100.0 * tally.contested.Share());
+  EXPECT_GE(tally.of_part.Share(), 0.99);
+  EXPECT_GT(tally.contested.pixels, 3'000);
 }
 
 TEST(CameraOverlay, DrawsAgainOnlyWhatHasChanged) {

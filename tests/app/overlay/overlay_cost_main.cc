@@ -12,6 +12,7 @@
 #include "recon/synthetic/demo_motion.h"
 #include "recon/synthetic/rig_presets.h"
 #include "recon/synthetic/synthetic_rig.h"
+#include "tests/app/overlay/overlay_samples.h"
 
 namespace elbowroom::control {
 namespace {
@@ -68,6 +69,26 @@ void Measure(const core::Rig& rig, int width_px, int height_px, bool gap_moves) 
               static_cast<long long>(count.parts_kept));
 }
 
+// A part of many triangles in the four cameras' small pictures.
+void MeasureLarge() {
+  const core::Rig rig = recon::FourCameraRig();
+  auto ball = std::make_shared<const core::TriangleMesh>(BallMesh(90.0, 480));
+  const std::clock_t begin = std::clock();
+  const auto outlined = std::make_shared<const OutlinedMesh>(ball);
+  std::printf("outline of %zu triangles: %.0f ms, once\n", ball->triangles.size(), Ms(std::clock() - begin));
+  std::vector<double> place_ms;
+  std::vector<std::unique_ptr<CameraOverlay>> overlays;
+  for (const core::CameraModel& camera : rig.cameras)
+    overlays.push_back(std::make_unique<CameraOverlay>(camera, 192, 144));
+  for (int i = 0; i < 9; ++i) {
+    const std::array parts{OverlayPart{outlined, {Eigen::Matrix3d::Identity(), {60.0, 0.0, 150.0 + i}}}};
+    const std::clock_t start = std::clock();
+    for (const auto& overlay : overlays) overlay->Place(parts);
+    place_ms.push_back(Ms(std::clock() - start));
+  }
+  std::printf("four_modern 4 x 192 x 144, it moves: place %.0f ms\n", MedianMs(place_ms));
+}
+
 }  // namespace
 }  // namespace elbowroom::control
 
@@ -78,4 +99,5 @@ int main() {
     control::Measure(recon::FourCameraRig(), 640, 480, gap_moves);
     control::Measure(recon::EightCameraRig(), 192, 108, gap_moves);
   }
+  control::MeasureLarge();
 }

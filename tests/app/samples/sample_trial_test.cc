@@ -67,7 +67,7 @@ TEST(SampleTrial, TheWaterStaysInTheHands) {
       return particle.x_in_world.z() > kBowlFromMm && particle.x_in_world.z() < kBowlToMm;
     });
   };
-  const auto falling = slow_above_basin(1.0), caught = slow_above_basin(7.0);
+  const auto falling = slow_above_basin(1.0), caught = slow_above_basin(5.0);
   EXPECT_GT(falling, 0);
   EXPECT_GT(caught, 2 * falling);
 }

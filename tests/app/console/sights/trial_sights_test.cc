@@ -44,6 +44,13 @@ class TrialSightsTest : public testing::Test {
     EXPECT_NE(widget, nullptr) << name.toStdString();
     return widget;
   }
+  // The review page has planes of its own.
+  template <typename Widget>
+  Widget* FindHere(const QString& name) {
+    auto* widget = window_.sights().findChild<Widget*>(name);
+    EXPECT_NE(widget, nullptr) << name.toStdString();
+    return widget;
+  }
   QAction& Action(const char* name) { return *Find<QAction>(name); }
   [[nodiscard]] bool IsShown(const char* text) {
     const auto& dimensions = window_.sights().measure().dimensions();
@@ -101,13 +108,13 @@ TEST_F(TrialSightsTest, StandardViewsTurnTheViewAndParallelStays) {
 
 TEST_F(TrialSightsTest, SectionPlanesAreSetByNumberMovedByDragFlippedAndKept) {
   Action("section").trigger();
-  Find<QCheckBox>("section_on:y")->setChecked(true);
-  Find<QDoubleSpinBox>("section_mm:y")->setValue(12.5);
-  auto* panel = Find<SectionPanel>("section_panel");
+  FindHere<QCheckBox>("section_on:y")->setChecked(true);
+  FindHere<QDoubleSpinBox>("section_mm:y")->setValue(12.5);
+  auto* panel = FindHere<SectionPanel>("section_panel");
   ASSERT_TRUE(panel->cut().planes[1]);
   EXPECT_EQ(panel->cut().planes[1]->at_mm, 12.5);
   const bool keeps_above = panel->cut().planes[1]->keeps_above;
-  Find<QToolButton>("section_flip:y")->click();
+  FindHere<QToolButton>("section_flip:y")->click();
   EXPECT_EQ(panel->cut().planes[1]->keeps_above, !keeps_above);
   panel->Drag({3.0, 10.0, 4.0});
   EXPECT_EQ(panel->cut().planes[1]->at_mm, 22.5);
