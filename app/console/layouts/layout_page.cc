@@ -19,7 +19,7 @@
 namespace elbowroom::console {
 namespace {
 
-constexpr int kSidePx = 330;
+constexpr int kSidePx = 330, kLeastSidePx = 300;
 
 std::filesystem::path UnsavedFolder() {
   return QStandardPaths::writableLocation(QStandardPaths::AppDataLocation).toStdString();
@@ -89,7 +89,7 @@ QWidget* LayoutPage::SidePanel() {
   rules_ = new RulePanel;
   rules_->setObjectName("rule_panel");
   auto* side = new QWidget;
-  side->setMinimumWidth(kSidePx);
+  side->setMinimumWidth(kLeastSidePx);
   auto* column = new QVBoxLayout(side);
   column->setContentsMargins(0, 0, 0, 0);
   column->addWidget(list_, 3);

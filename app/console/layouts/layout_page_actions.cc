@@ -106,6 +106,9 @@ QWidget* LayoutPage::ButtonRow() {
   title_->setObjectName("layout_title");
   title_->setTextFormat(Qt::PlainText);
   title_->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
+  // A long name gives way where the window is narrow; the tool tip has all of it.
+  title_->setMinimumWidth(60);
+  title_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
   line->addWidget(title_, 1);
   return row;
 }

@@ -12,6 +12,7 @@
 #include <QMimeData>
 #include <QScrollArea>
 #include <QSettings>
+#include <QTabBar>
 #include <QTest>
 #include <QToolBar>
 #include <QWidgetAction>
@@ -183,7 +184,7 @@ TEST_F(Desktop, ATrialThatIsDroppedIsOpened) {
   MainWindow window;
   window.show();
   bool is_taken = true;
-  Drop(&window, {QUrl::fromLocalFile("/nowhere/minutes.txt")}, &is_taken);
+  Drop(&window, {QUrl::fromLocalFile("/nowhere/picture.png")}, &is_taken);
   EXPECT_FALSE(is_taken);
   const std::filesystem::path trial = folder_ / "Trial.TOML";
   test_support::WriteText(trial, "rig = ");
@@ -203,6 +204,8 @@ QString SpokenName(QWidget* control) {
 // Not those that are part of another control, such as a spin box's line.
 bool IsControl(const QWidget* widget) {
   if (widget->focusPolicy() == Qt::NoFocus || widget->objectName().startsWith("qt_")) return false;
+  if (qobject_cast<const QTabBar*>(widget) || widget->inherits("QComboBoxListView"))
+    return false;  // whose tabs and lines are spoken
   const QWidget* parent = widget->parentWidget();
   return !qobject_cast<const QAbstractSpinBox*>(parent) && !qobject_cast<const QComboBox*>(parent) &&
          !qobject_cast<const QAbstractItemView*>(parent) && !qobject_cast<const QScrollArea*>(widget);

@@ -431,6 +431,11 @@ TEST_F(LayoutPageTest, DrawsThePartsAndTheGap) {
   EXPECT_LT(to.y(), from.y());  // the lid is above
 }
 
+TEST_F(LayoutPageTest, FitsAWindowOf800Pixels) {
+  constexpr int kMarginsPx = 12;  // of the window around its page
+  EXPECT_LE(page_->minimumSizeHint().width(), 800 - kMarginsPx);
+}
+
 TEST_F(LayoutPageTest, EveryControlHasANameAToolTipAndASpokenName) {
   OpenLayout();
   for (const QWidget* widget : page_->findChildren<QWidget*>()) {
