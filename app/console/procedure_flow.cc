@@ -1,10 +1,12 @@
 #include "app/console/procedure_flow.h"
 
 #include <QTimer>
+#include <optional>
 #include <utility>
 
 #include "app/console/trial_actions.h"
 #include "app/control/trial_setup.h"
+#include "core/error.h"
 #include "core/procedure/answers.h"
 #include "sessions/after_trial.h"
 
@@ -27,6 +29,15 @@ void Add(const SaidBefore& said, control::TrialSetup* setup) {
       setup->opening.push_back(what);
   }
   if (!setup->info.steps.empty()) setup->first_step = setup->info.steps.front();
+}
+
+// Nothing for a file that can't be read: the desk says why.
+std::optional<core::TrialInfo> InfoIn(const std::filesystem::path& trial_file) {
+  try {
+    return control::ReadTrialInfo(trial_file);
+  } catch (const core::Error&) {
+    return std::nullopt;
+  }
 }
 
 }  // namespace
@@ -102,11 +113,11 @@ void ProcedureFlow::FollowDesk() {
 }
 
 void ProcedureFlow::Start(const std::filesystem::path& trial_file) {
-  const core::TrialInfo trial = control::ReadTrialInfo(trial_file);
-  if (!HasProcedure(trial)) return StartTrialFile(desk_, trial_file, place_);
+  const std::optional<core::TrialInfo> trial = InfoIn(trial_file);
+  if (!trial || !HasProcedure(*trial)) return StartTrialFile(desk_, trial_file, place_);
   ShowDocks(false);
   asked_file_ = trial_file;
-  start_->Open(trial);
+  start_->Open(*trial);
   emit PreflightAsked(trial_file);
   if (before_ == nullptr) before_ = pages_->trial_widget();
   pages_->SetTrialWidget(start_);

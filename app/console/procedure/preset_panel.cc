@@ -32,14 +32,14 @@ QListWidget* MakeList(const QString& name, const QString& title, const QString& 
 PresetPanel::PresetPanel(QWidget* window) {
   AddLists();
   for (int key = 0; key < kMostKeys; ++key) {
-    auto* shortcut = new QShortcut(QKeySequence(Qt::ALT | (Qt::Key_1 + key)), window);
+    auto* shortcut = new QShortcut(QKeySequence(Qt::CTRL | (Qt::Key_F1 + key)), window);
     connect(shortcut, &QShortcut::activated, this, [this, key] { Apply(static_cast<std::size_t>(key)); });
   }
 }
 
 void PresetPanel::AddLists() {
   list_ =
-      MakeList("preset_list", tr("Gap presets"), tr("Double-click to set these gaps (Alt and the number)"));
+      MakeList("preset_list", tr("Gap presets"), tr("Double-click to set these gaps (Ctrl and F1 to F9)"));
   history_ =
       MakeList("gap_history", tr("History of gaps"), tr("Double-click to go back to the gaps of that time"));
   name_ = new QLineEdit;

@@ -14,7 +14,7 @@
 
 namespace elbowroom::console {
 
-// Alt+1 to Alt+9 apply the first presets, whether the panel is shown or not. Thread: UI.
+// Ctrl+F1 to Ctrl+F9 apply the first presets, whether the panel is shown or not. Thread: UI.
 class PresetPanel : public QWidget {
   Q_OBJECT
 

@@ -12,12 +12,14 @@
 #include <QMimeData>
 #include <QScrollArea>
 #include <QSettings>
+#include <QShortcut>
 #include <QTabBar>
 #include <QTest>
 #include <QToolBar>
 #include <QWidgetAction>
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "app/console/desktop/recent_trials.h"
 #include "app/console/desktop/session_place.h"
@@ -233,6 +235,23 @@ TEST_F(Desktop, EveryControlHasASpokenNameAndEveryActionATip) {
   }
   window.desk().Stop();
   ASSERT_TRUE(QTest::qWaitFor([&] { return window.desk().state() == DeskState::kIdle; }, kLongMs));
+}
+
+// Two that share a key in the whole window: Qt then does neither.
+TEST_F(Desktop, NoKeyStandsForTwoThings) {
+  MainWindow window;
+  std::map<QString, QStringList> whose;
+  const auto add = [&](const QKeySequence& key, Qt::ShortcutContext context, const QString& name) {
+    const bool is_everywhere = context == Qt::WindowShortcut || context == Qt::ApplicationShortcut;
+    if (!key.isEmpty() && is_everywhere) whose[key.toString()].append(name);
+  };
+  for (const QAction* action : window.findChildren<QAction*>())
+    for (const QKeySequence& key : action->shortcuts()) add(key, action->shortcutContext(), action->text());
+  for (const QShortcut* shortcut : window.findChildren<QShortcut*>())
+    add(shortcut->key(), shortcut->context(), shortcut->parent()->objectName());
+  EXPECT_GT(whose.size(), 20U);
+  for (const auto& [key, names] : whose)
+    EXPECT_EQ(names.size(), 1) << key.toStdString() << ": " << names.join(", ").toStdString();
 }
 
 }  // namespace

@@ -155,7 +155,7 @@ TEST_F(ProcedureTest, AWholeTrialIsInTheSessionAndItsReplay) {
   Find<QPushButton>("save_preset")->click();
   Find<QDoubleSpinBox>("spacing_box:gap")->setValue(200.0);
   ASSERT_TRUE(WaitUntil([&] { return GapMm() == 200.0; }));
-  Key(Qt::Key_1, Qt::AltModifier);
+  Key(Qt::Key_F1, Qt::ControlModifier);
   ASSERT_TRUE(WaitUntil([&] { return GapMm() == 130.0; }));
   EXPECT_GE(Find<QListWidget>("gap_history")->count(), 1);
   Key(Qt::Key_M);
