@@ -5,6 +5,8 @@
 namespace elbowroom::console {
 namespace {
 
+constexpr qint64 kMostCounted = 99'999;  // more are told in per cent
+
 QString PercentOf(std::int64_t share, std::int64_t whole) {
   return whole == 0 ? QString("–") : QString::number(100 * share / whole) + " %";
 }
@@ -130,7 +132,8 @@ void StatusLine::ShowProgress(qint64 done, qint64 total, const QString& what) {
   if (total <= 0) return;
   progress_->setRange(0, 1000);  // in thousandths: totals may exceed the range of a progress bar
   progress_->setValue(static_cast<int>(1000 * std::clamp<qint64>(done, 0, total) / total));
-  progress_->setFormat(what + "  %p %");
+  const QString share = total <= kMostCounted ? tr("%1 of %2").arg(done).arg(total) : QString("%p %");
+  progress_->setFormat(what + " " + share);
 }
 
 }  // namespace elbowroom::console

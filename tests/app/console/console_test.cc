@@ -10,6 +10,7 @@
 #include <QLineEdit>
 #include <QMenu>
 #include <QSignalSpy>
+#include <QRegularExpression>
 #include <QSlider>
 #include <QStatusBar>
 #include <QTableView>
@@ -160,7 +161,8 @@ TEST_F(ConsoleTest, ContactsVanishFromTheListAsTheGapIsOpenedLive) {
 }
 
 TEST_F(ConsoleTest, KeysAndCheckBoxesReachTheRunningTrial) {
-  EXPECT_TRUE(window_.findChildren<QSlider*>().isEmpty());  // no layout yet, nothing to set
+  const QRegularExpression gaps("^spacing_slider:");
+  EXPECT_TRUE(window_.findChildren<QSlider*>(gaps).isEmpty());  // no layout yet, nothing to set
   StartDemoAndWaitForFrames();
   QTest::keyClick(&window_, Qt::Key_Plus);
   QTest::keyClick(&window_, Qt::Key_Plus);

@@ -1,6 +1,7 @@
 // From an empty folder to a report, by mouse and keys alone: parts of an assembly are imported and ruled, a
 // trial on real footage is run and gone through. ELBOWROOM_SCREENSHOTS names a folder that keeps a picture of
-// each step.
+// each step; ELBOWROOM_SCREENSHOTS_SIZE gives the window's size (1280x720), ELBOWROOM_SCREENSHOTS_DARK dark
+// colours.
 #include <gtest/gtest.h>
 
 #include <QAction>
@@ -21,12 +22,14 @@
 #include <vector>
 
 #include "app/console/desktop/session_place.h"
+#include "app/console/desktop/theme.h"
 #include "app/console/layouts/import_dialog.h"
 #include "app/console/layouts/rule_dialogs.h"
 #include "app/console/layouts/trial_dialog.h"
 #include "app/console/main_window.h"
 #include "app/control/outcome_tracker.h"
 #include "app/control/replay/replay.h"
+#include "cad_import/layout/layout_file.h"
 #include "sessions/session_reader.h"
 #include "tests/app/console/layouts/user_actions.h"
 #include "tests/app/console/opened_urls.h"
@@ -43,11 +46,17 @@ const std::filesystem::path kRig = kData / "four_cameras/rig.yml";
 constexpr std::array kInThePersonMm = {300.0, -100.0, 700.0};
 constexpr int kFramesRun = 25;
 
+QSize WantedSize() {
+  const QStringList words = qEnvironmentVariable("ELBOWROOM_SCREENSHOTS_SIZE", "1280x720").split('x');
+  return {words.value(0).toInt(), words.value(1).toInt()};
+}
+
 class WholeWay : public testing::Test {
  protected:
   WholeWay() {
     SetSessionsFolder(folder_ / "sessions");
-    window_.resize(1280, 720);
+    if (qEnvironmentVariableIsSet("ELBOWROOM_SCREENSHOTS_DARK")) SetTheme(Theme::kDark);
+    window_.resize(WantedSize());
     window_.show();
     window_.activateWindow();
     EXPECT_TRUE(QTest::qWaitForWindowActive(&window_));
@@ -71,11 +80,11 @@ class WholeWay : public testing::Test {
     FAIL() << name << " is in no tool bar";
   }
   [[nodiscard]] std::string Message() { return Find<QLabel>("message")->text().toStdString(); }
-  void Keep(const char* name) {
+  void Keep(const char* name, QWidget* widget = nullptr) {
     const QString folder = qEnvironmentVariable("ELBOWROOM_SCREENSHOTS");
     if (folder.isEmpty()) return;
     QTest::qWait(1500);  // until the picture is drawn in full
-    window_.grab().save(QString("%1/%2.png").arg(folder, name));
+    (widget == nullptr ? &window_ : widget)->grab().save(QString("%1/%2.png").arg(folder, name));
   }
   void AwaitFrames(int more) {
     const int from = frames_;
@@ -105,6 +114,7 @@ void WholeWay::TakeParts() {
   auto* tree = Find<QTreeWidget>("import_tree");
   ASSERT_TRUE(TickItem(tree, "plate_1"));
   ASSERT_TRUE(TickItem(tree, "rod-assembly_1"));
+  Keep("02_import", import);
   Click(Find<QPushButton>("import_take"));
   ASSERT_EQ(window_.layout_page().desk().document().layout().parts.size(), 2U) << Message();
 }
@@ -121,7 +131,7 @@ void WholeWay::PutParts() {
   }
   ASSERT_TRUE(WaitUntil([&] { return !window_.layout_page().view().picture().isNull(); }));
   QTest::keyClick(&window_.layout_page().view(), Qt::Key_F);
-  Keep("02_parts");
+  Keep("03_parts");
 }
 
 void WholeWay::MakeRules() {
@@ -141,10 +151,12 @@ void WholeWay::MakeRules() {
   TypeInto(pair->findChild<QDoubleSpinBox*>("pair_clearance"), "30");  // broken until the gap is wider
   Click(pair->findChild<QPushButton*>("rule_ok"));
   ASSERT_EQ(Find<QListWidget>("rules")->count(), 2) << Message();
-  Keep("03_rules");
+  Keep("04_rules");
   TypeIntoNextFileDialog(QString::fromStdString((folder_ / "layout.toml").string()));
   QTest::keyClick(&window_.layout_page().view(), Qt::Key_S, Qt::ControlModifier);
-  ASSERT_TRUE(std::filesystem::exists(folder_ / "layout.toml")) << Message();
+  const cad_import::ImportedLayout saved = cad_import::ImportLayoutFile(folder_ / "layout.toml");
+  EXPECT_EQ(saved.layout.spacings.at(0).initial_mm, 20.0);
+  EXPECT_EQ(saved.layout.pair_rules.at(0).required_clearance_mm, 30.0);
 }
 
 void WholeWay::RunTrial() {
@@ -154,11 +166,11 @@ void WholeWay::RunTrial() {
   TypeInto(trial->findChild<QLineEdit*>("trial_participant"), "P07");
   TypeInto(trial->findChild<QDoubleSpinBox*>("trial_estimate"), "18");
   TypeInto(trial->findChild<QLineEdit*>("trial_tools"), "tongs, pipe");
-  Keep("04_trial");
+  Keep("05_trial", trial);
   Click(trial->findChild<QPushButton*>("trial_start"));
   AwaitFrames(3);
   ASSERT_EQ(window_.pages().page(), Page::kTrial);
-  Keep("05_trial_runs");
+  Keep("06_trial_runs");
   window_.view().setFocus();
   QTest::keyClick(&window_.view(), Qt::Key_Plus);
   QTest::keyClick(&window_.view(), Qt::Key_Plus, Qt::ShiftModifier);  // 20 + 10 + 1 mm
@@ -168,10 +180,10 @@ void WholeWay::RunTrial() {
   QTest::keyClicks(Find<QLineEdit>("note"), "took the tongs");
   QTest::keyClick(Find<QLineEdit>("note"), Qt::Key_Return);
   AwaitFrames(kFramesRun);
-  Keep("06_gap_and_tool");
+  Keep("07_gap_and_tool");
   ClickAction("stop");
   ASSERT_TRUE(WaitUntil([&] { return window_.desk().state() == DeskState::kIdle; }));
-  Keep("07_stopped");
+  Keep("08_stopped");
 }
 
 void WholeWay::Review() {
@@ -182,11 +194,11 @@ void WholeWay::Review() {
   ASSERT_GE(list->model()->rowCount(), 1);
   QTest::mouseClick(list->viewport(), Qt::LeftButton, {},
                     list->visualRect(list->model()->index(0, 0)).center());
-  Keep("08_review");
+  Keep("09_review");
   TypeInto(Find<QDoubleSpinBox>("what_if_box:gap"), "120");
   ASSERT_TRUE(WaitUntil([&] { return desk.what_if().has_value(); }));
   EXPECT_TRUE(Find<QLabel>("what_if_result")->text().contains("120 mm"));
-  Keep("09_what_if");
+  Keep("10_what_if");
   auto* status = Find<QComboBox>("remark_status");
   for (int i = 0; i < status->count() && status->currentText() != "approved"; ++i)
     QTest::keyClick(status, Qt::Key_Down);
@@ -194,10 +206,10 @@ void WholeWay::Review() {
   TypeInto(Find<QLineEdit>("remark_name"), "Ann");
   Click(Find<QPushButton>("remark_add"));
   ASSERT_TRUE(WaitUntil([&] { return !desk.is_busy(); }));
-  Keep("10_status");
+  Keep("11_status");
   Click(Find<QPushButton>("review_report"));
   ASSERT_TRUE(WaitUntil([&] { return !desk.is_busy(); }));
-  Keep("11_report");
+  Keep("12_report");
 }
 
 template <typename What>
