@@ -156,7 +156,7 @@ void MainWindow::AddPanels() {
 void MainWindow::FitPanels() {
   const auto named = [this](const char* name) { return findChild<QDockWidget*>(name); };
   const QList<QDockWidget*> side = {named("gaps_panel"), named("contacts_panel"), named("touches_panel")};
-  const int side_px = std::clamp(2 * width() / 5, 400, 460);
+  const int side_px = std::clamp(2 * width() / 5, 400, 520);
   resizeDocks({side.front()}, {side_px}, Qt::Horizontal);
   const int list_px = height() / 3;
   resizeDocks(side, {list_px, list_px, list_px}, Qt::Vertical);

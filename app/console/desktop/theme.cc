@@ -3,8 +3,10 @@
 #include <QApplication>
 #include <QPainter>
 #include <QPalette>
+#include <QProxyStyle>
 #include <QSettings>
 #include <QStyleFactory>
+#include <QStyleOption>
 #include <algorithm>
 
 namespace elbowroom::console {
@@ -75,6 +77,21 @@ QPalette DarkPalette() {
   return palette;
 }
 
+// Fusion, whose check boxes have an edge that is seen on a dark ground, too: its own is darker than the
+// window.
+class LegibleStyle : public QProxyStyle {
+ public:
+  LegibleStyle() : QProxyStyle(QStyleFactory::create("Fusion")) {}
+  void drawPrimitive(PrimitiveElement element, const QStyleOption* option, QPainter* painter,
+                     const QWidget* widget) const override {
+    QProxyStyle::drawPrimitive(element, option, painter, widget);
+    const bool is_box = element == PE_IndicatorCheckBox || element == PE_IndicatorItemViewItemCheck;
+    if (!is_box || !Current().is_dark) return;
+    painter->setPen(option->palette.color(QPalette::PlaceholderText));
+    painter->drawRect(option->rect.adjusted(0, 0, -1, -1));
+  }
+};
+
 }  // namespace
 
 const Colors& ThemeColors() { return Current().is_dark ? kDarkColors : kLightColors; }
@@ -83,7 +100,7 @@ void SetTheme(Theme theme) {
   static const bool was_dark = IsDark(QApplication::palette());  // before this program gave it another
   State& state = Current();
   state = {theme, theme == Theme::kDark || (theme == Theme::kSystem && was_dark)};
-  QApplication::setStyle(QStyleFactory::create("Fusion"));
+  QApplication::setStyle(new LegibleStyle);
   QApplication::setPalette(state.is_dark ? DarkPalette() : LightPalette());
 }
 
