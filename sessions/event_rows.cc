@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/error.h"
+#include "core/file_limits.h"
 #include "core/procedure/answers.h"
 #include "core/procedure/event_text.h"
 #include "sessions/database/damage.h"
@@ -125,7 +126,8 @@ void RequireOfSetUp(const core::EventContent& what, const core::SessionHeader& h
                   "a changed spacing is one of the layout's");
   if (const auto* mark = std::get_if<core::StepMarked>(&what)) (void)StepIndexOf(header.trial, mark->step);
   if (const auto* given = std::get_if<core::EstimateGiven>(&what))
-    core::Require(given->estimate_mm > 0.0, "an estimate is above 0");
+    core::Require(given->estimate_mm > 0.0 && given->estimate_mm <= core::kLongestLengthMm,
+                  "an estimate is above 0 and at most kLongestLengthMm");
   if (const auto* answered = std::get_if<core::SurveyAnswered>(&what))
     (void)ItemIndexOf(header.trial, *answered);
 }

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <string>
 
@@ -11,6 +10,7 @@
 #include "app/control/head/head_report.h"
 #include "app/control/head/head_settings.h"
 #include "core/error.h"
+#include "core/system/whole_file.h"
 #include "core/units.h"
 #include "recon/capture/rig_source.h"
 #include "recon/rig_files/rig_file.h"
@@ -113,11 +113,7 @@ control::HeadReport Watch(const control::HeadSettings& settings, const HeadOptio
 
 CommandResult Run(const HeadOptions& options, const CommandContext& context) {
   if (!options.write_cap.empty()) {
-    std::ofstream file(options.write_cap, std::ios::binary);
-    file << control::CapFileText(recon::EightSidedCap());
-    if (!file.flush())
-      throw core::Error(core::ErrorKind::kFile,
-                        fmt::format("'{}' can't be written", options.write_cap.string()));
+    core::WriteWholeFile(options.write_cap, control::CapFileText(recon::EightSidedCap()));
     return {{{"cap", options.write_cap.string()}}, fmt::format("wrote {}", options.write_cap.string())};
   }
   const control::HeadSettings settings = SettingsOf(options);

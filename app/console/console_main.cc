@@ -72,6 +72,7 @@ void StartWhatWasAsked(MainWindow& window, const ConsoleOptions& options) {
 void CloseInOrder(MainWindow& window) {
   if (QWidget* dialog = QApplication::activeModalWidget()) dialog->close();
   window.layout_page().desk().Keep();  // nobody is there to ask
+  window.procedure().SaveAnswers();
   window.close();
 }
 

@@ -219,7 +219,16 @@ void MainWindow::FitGaps() {
 void MainWindow::StartTrial(const QString& trial_file) {
   if (desk_->state() != DeskState::kIdle || desk_->are_cameras_taken())
     return ShowError(tr("Another trial, or its report, is under way: stop it first"));
+  if (AsksForAnswers()) return;
   procedure_->Start(trial_file.toStdString());
+}
+
+// What was said after a trial isn't lost without a word.
+bool MainWindow::AsksForAnswers() {
+  if (!procedure_->HasAnswers()) return false;
+  pages_->Show(Page::kTrial);
+  ShowError(tr("Save what was said after the trial (Ctrl+Enter), or skip it, first"));
+  return true;
 }
 
 void MainWindow::FollowProcedure() {
@@ -240,6 +249,7 @@ void MainWindow::OpenFile(const QString& file) {
 }
 
 void MainWindow::OpenSession(const std::filesystem::path& session) {
+  if (procedure_->HasAnswersFor(session)) return (void)AsksForAnswers();  // which are written into it
   pages_->Show(Page::kReview);
   review_page_->Open(session);
 }
@@ -339,7 +349,7 @@ void MainWindow::changeEvent(QEvent* event) {
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {
-  if (!layout_page_->MayLeave()) return event->ignore();
+  if (AsksForAnswers() || !layout_page_->MayLeave()) return event->ignore();
   if (desk_->state() == DeskState::kIdle) {
     pages_->Show(Page::kTrial);  // whose panels are remembered
     if (is_remembered_) SaveWindow(*this);
@@ -352,6 +362,7 @@ void MainWindow::closeEvent(QCloseEvent* event) {
 }
 
 void MainWindow::keyPressEvent(QKeyEvent* event) {
+  if (pages_->page() != Page::kTrial) return QMainWindow::keyPressEvent(event);
   if (const std::optional<double> step_mm = SpacingStepFor(*event)) {
     spacings_->StepActive(*step_mm);
   } else if (event->key() >= Qt::Key_1 && event->key() <= Qt::Key_9) {

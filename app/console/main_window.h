@@ -49,6 +49,7 @@ class MainWindow : public QMainWindow {
   [[nodiscard]] PreflightPanel& preflight() { return *preflight_; }
   [[nodiscard]] ParticipantDesk& participant() { return *participant_; }
   [[nodiscard]] PageSwitch& pages() { return *pages_; }
+  [[nodiscard]] ProcedureFlow& procedure() { return *procedure_; }
   [[nodiscard]] LayoutPage& layout_page() { return *layout_page_; }
   [[nodiscard]] ReviewPage& review_page() { return *review_page_; }
 
@@ -65,6 +66,7 @@ class MainWindow : public QMainWindow {
  public slots:
   // Of a trial with a procedure its start page is shown first.
   void StartTrial(const QString& trial_file);
+  [[nodiscard]] bool AsksForAnswers();
   void ShowError(const QString& line);
 
  protected:

@@ -1,6 +1,7 @@
 #include "app/console/page_switch.h"
 
 #include <QDockWidget>
+#include <QShortcut>
 #include <algorithm>
 #include <utility>
 
@@ -37,11 +38,34 @@ void PageSwitch::SetTrialWidget(QWidget* widget) {
 
 void PageSwitch::Show(Page page) {
   if (page == page_) return;
-  if (page_ == Page::kTrial) PutPanelsAway();
+  if (page_ == Page::kTrial) {
+    PutPanelsAway();
+    RestTrialKeys();
+  }
   page_ = page;
-  if (page == Page::kTrial) window_->restoreState(std::exchange(panels_, {}));
+  if (page == Page::kTrial) {
+    window_->restoreState(std::exchange(panels_, {}));
+    for (const QPointer<QAction>& action : std::exchange(resting_, {}))
+      if (action) action->setShortcutContext(Qt::WindowShortcut);
+  }
+  for (QShortcut* shortcut : window_->findChildren<QShortcut*>(QString(), Qt::FindDirectChildrenOnly))
+    shortcut->setEnabled(page == Page::kTrial);
   ChoiceOf(page).action->setChecked(true);
   pages_->setCurrentWidget(ChoiceOf(page).widget);
+}
+
+// A key without Ctrl, and those that take a gap back, are the trial's: another page's user doesn't mean them.
+void PageSwitch::RestTrialKeys() {
+  for (QAction* action : window_->findChildren<QAction*>()) {
+    if (action->shortcut().isEmpty() || action->shortcutContext() != Qt::WindowShortcut) continue;
+    const QKeyCombination key = action->shortcut()[0];
+    const bool is_plain = !key.keyboardModifiers().testFlag(Qt::ControlModifier);
+    const bool is_for_all = key.key() == Qt::Key_F11 || key.key() == Qt::Key_F;  // full screen, fit
+    const bool takes_gap_back = action->objectName() == "undo_gap" || action->objectName() == "redo_gap";
+    if (!(is_plain && !is_for_all) && !takes_gap_back) continue;
+    action->setShortcutContext(Qt::WidgetShortcut);
+    resting_.append(action);
+  }
 }
 
 // A page that isn't shown takes no room.

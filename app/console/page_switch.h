@@ -3,7 +3,9 @@
 
 #include <QActionGroup>
 #include <QByteArray>
+#include <QList>
 #include <QMainWindow>
+#include <QPointer>
 #include <QStackedWidget>
 #include <QToolBar>
 #include <vector>
@@ -40,13 +42,15 @@ class PageSwitch : public QToolBar {
   [[nodiscard]] Choice& ChoiceOf(Page page);
   void PutPanelsAway();
   void FitShownPage();
+  void RestTrialKeys();
 
   QMainWindow* window_;
   QStackedWidget* pages_;
   QActionGroup* group_;
   std::vector<Choice> choices_;
   Page page_ = Page::kTrial;
-  QByteArray panels_;  // of the trial page, while another one is shown
+  QList<QPointer<QAction>> resting_;  // whose keys are the trial page's alone
+  QByteArray panels_;                 // of the trial page, while another one is shown
 };
 
 }  // namespace elbowroom::console

@@ -107,7 +107,6 @@ void ProcedureFlow::FollowDesk() {
   connect(procedure_, &ProcedurePanel::BookmarkAsked, &desk_, &TrialDesk::SetBookmark);
   connect(&desk_, &TrialDesk::TrialOpened, this, &ProcedureFlow::Open);
   connect(&desk_, &TrialDesk::FrameArrived, this, &ProcedureFlow::ShowFrame);
-  connect(&desk_, &TrialDesk::TrialEnded, this, &ProcedureFlow::End);
   connect(&desk_, &TrialDesk::StateChanged, this, &ProcedureFlow::ShowState);
   ShowState();
 }
@@ -118,10 +117,10 @@ void ProcedureFlow::Start(const std::filesystem::path& trial_file) {
   ShowDocks(false);
   asked_file_ = trial_file;
   start_->Open(*trial);
-  emit PreflightAsked(trial_file);
   if (before_ == nullptr) before_ = pages_->trial_widget();
   pages_->SetTrialWidget(start_);
-  pages_->Show(Page::kTrial);
+  pages_->Show(Page::kTrial);  // with its panels as they were left
+  emit PreflightAsked(trial_file);
   start_->FocusEstimate();
 }
 
@@ -144,6 +143,7 @@ void ProcedureFlow::Open(const control::TrialSetup& setup) {
   presets_->Open(setup.layout);
   sound_->Open();
   is_under_way_ = true;
+  pages_->Show(Page::kTrial);  // with its panels as they were left
   ShowDocks(has_procedure_);
 }
 
@@ -164,9 +164,12 @@ void ProcedureFlow::ShowFrame(const FrameNews& news) {
   sound_->ShowFrame(result.record.contacts);
 }
 
+// Also of a trial that failed, if it kept frames.
 void ProcedureFlow::End() {
+  if (!std::exchange(is_under_way_, false)) return;
   procedure_->ShowEnd();
-  if (!std::exchange(is_under_way_, false) || !has_procedure_ || !desk_.can_report()) return;
+  if (!has_procedure_ || !desk_.can_report()) return;
+  asked_session_ = desk_.session();
   after_->Open(trial_);
   before_ = pages_->trial_widget();
   pages_->SetTrialWidget(after_);
@@ -174,7 +177,7 @@ void ProcedureFlow::End() {
 }
 
 void ProcedureFlow::Save(const std::vector<core::EventContent>& said) {
-  const std::filesystem::path session = desk_.session();
+  const std::filesystem::path session = asked_session_;
   job_ = std::make_unique<BackgroundJob>(
       bridge_, [session, said](const std::stop_token&) { sessions::AddAfterTrial(session, said); },
       [this, session](const std::string& error) {
@@ -186,7 +189,19 @@ void ProcedureFlow::Save(const std::vector<core::EventContent>& said) {
       });
 }
 
+bool ProcedureFlow::HasAnswersFor(const std::filesystem::path& session) const {
+  return pages_->trial_widget() == after_ && session == asked_session_ && after_->HasAnswers();
+}
+
+void ProcedureFlow::SaveAnswers() {
+  if (!HasAnswers()) return;
+  const std::vector<core::EventContent> said = after_->Said();
+  Leave();
+  sessions::AddAfterTrial(asked_session_, said);
+}
+
 void ProcedureFlow::ShowState() {
+  if (desk_.state() == DeskState::kIdle) End();
   const bool is_running = desk_.state() == DeskState::kRunning && !desk_.is_stopping();
   procedure_->setEnabled(is_running);
   presets_->setEnabled(is_running);

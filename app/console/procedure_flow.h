@@ -41,6 +41,12 @@ class ProcedureFlow : public QObject {
 
   void Next() { procedure_->Next(); }
 
+  // Something was said after that trial that isn't in its session yet.
+  [[nodiscard]] bool HasAnswersFor(const std::filesystem::path& session) const;
+  [[nodiscard]] bool HasAnswers() const { return HasAnswersFor(asked_session_); }
+  // At once, where nobody is there to ask. Throws: what sessions::AddAfterTrial throws.
+  void SaveAnswers();
+
   // Next step and bookmark, for a menu.
   [[nodiscard]] QList<QAction*> actions() const { return {next_, bookmark_}; }
 
@@ -68,9 +74,10 @@ class ProcedureFlow : public QObject {
   SessionPlace& place_;
   SpacingPanel& spacings_;
   PageSwitch* pages_ = nullptr;
-  QWidget* before_ = nullptr;         // what the trial page showed before the start page
-  std::filesystem::path asked_file_;  // of the start page
-  core::TrialInfo trial_;             // of the running trial, or the last one
+  QWidget* before_ = nullptr;            // what the trial page showed before the start page
+  std::filesystem::path asked_file_;     // of the start page
+  std::filesystem::path asked_session_;  // of the page after a trial
+  core::TrialInfo trial_;                // of the running trial, or the last one
   bool is_under_way_ = false;
   bool has_shown_docks_ = false;
   bool has_procedure_ = false;  // likewise

@@ -24,24 +24,24 @@ TrialDesk::~TrialDesk() = default;
 void TrialDesk::Start(SetupReader read_setup, const std::filesystem::path& session,
                       const std::filesystem::path& trial_file) {
   core::Require(state_ == DeskState::kIdle, "a trial starts on an idle desk");
-  session_ = session;
   trial_file_ = trial_file;
-  recorded_.reset();
-  has_frames_ = false;
   EnterState(DeskState::kReading);
   auto setup = std::make_shared<control::TrialSetup>();
   job_ = std::make_unique<BackgroundJob>(
       bridge_,
       [read_setup = std::move(read_setup), setup](const std::stop_token& stop) { *setup = read_setup(stop); },
-      [this, setup](const std::string& error) {
-        if (error.empty() && !is_stopping_) return Run(std::move(*setup));
+      [this, setup, session](const std::string& error) {
+        if (error.empty() && !is_stopping_) return Run(std::move(*setup), session);
         const bool was_stopped = is_stopping_;
         EnterState(DeskState::kIdle);
         if (!was_stopped) emit Failed(QString::fromStdString(error));
       });
 }
 
-void TrialDesk::Run(control::TrialSetup setup) {
+void TrialDesk::Run(control::TrialSetup setup, const std::filesystem::path& session) {
+  session_ = session;
+  recorded_.reset();
+  has_frames_ = false;
   emit TrialOpened(setup);
   control::TrialOptions options;
   options.session = session_;

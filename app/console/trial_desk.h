@@ -93,7 +93,7 @@ class TrialDesk : public QObject {
   void Failed(const QString& line);
 
  private:
-  void Run(control::TrialSetup setup);
+  void Run(control::TrialSetup setup, const std::filesystem::path& session);
   void FinishTrial(const control::TrialThread::Ended& ended);
   void FinishReport(const std::string& error, const QString& html_file);
   void EnterState(DeskState state);

@@ -184,6 +184,7 @@ class Recording {
     TakePairs(std::nullopt);
     outcome_.pairs = pair_record_.Totals(last_time_s_);
     EndFootage();
+    TakeLastWords();
     BeginStep("", last_frame_, last_time_s_);
     for (const std::string& note : loss_notes_.Rest()) Append(note);
     for (const std::string& note : setup_.source->Warnings()) Append(note);
@@ -259,6 +260,16 @@ class Recording {
       if (const auto* bookmark = std::get_if<core::Bookmark>(&moment))
         writer_.Append(core::SessionEvent{frame, time_s, *bookmark});
     }
+  }
+
+  // Said after the last frame, for example while the cameras were gone. A gap, a tool or a step would have
+  // held from the next frame on, which didn't come.
+  void TakeLastWords() {
+    const TrialControls::Requests requests = controls_.Take();
+    for (const std::string& note : requests.notes) Append(note);
+    for (const auto& moment : requests.moments)
+      if (const auto* bookmark = std::get_if<core::Bookmark>(&moment))
+        writer_.Append(core::SessionEvent{last_frame_, last_time_s_, *bookmark});
   }
 
   void OpenProcedure(core::FrameIndex frame, double time_s) {

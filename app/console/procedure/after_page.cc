@@ -47,7 +47,7 @@ AfterPage::AfterPage(QWidget* parent) : QWidget(parent) {
   save_->setToolTip(tr("Add what is said here to the session's file; write the report after that"));
   skip_ = new QPushButton(tr("S&kip"));
   skip_->setObjectName("skip_answers");
-  skip_->setToolTip(tr("Add nothing (Escape); the session is complete without it"));
+  skip_->setToolTip(tr("Add nothing (Escape, while nothing is said); the session is complete without it"));
   auto* buttons = new QHBoxLayout;
   buttons->addWidget(save_, 1);
   buttons->addWidget(skip_);
@@ -69,10 +69,15 @@ void AfterPage::SetIsSaving(bool is_saving) {
   skip_->setEnabled(!is_saving);
 }
 
-void AfterPage::Save() {
+std::vector<core::EventContent> AfterPage::Said() const {
   std::vector<core::EventContent> said = questions_->Said();
   const QString notes = notes_->toPlainText().trimmed();
   if (!notes.isEmpty()) said.emplace_back(core::Note{notes.toStdString()});
+  return said;
+}
+
+void AfterPage::Save() {
+  const std::vector<core::EventContent> said = Said();
   if (said.empty()) return emit Skipped();
   SetIsSaving(true);
   emit SaveAsked(said);
@@ -82,7 +87,7 @@ void AfterPage::keyPressEvent(QKeyEvent* event) {
   const bool is_enter = event->key() == Qt::Key_Return || event->key() == Qt::Key_Enter;
   const bool has_control = event->modifiers().testFlag(Qt::ControlModifier);
   if (is_enter && has_control && save_->isEnabled()) return Save();
-  if (event->key() == Qt::Key_Escape && skip_->isEnabled()) return emit Skipped();
+  if (event->key() == Qt::Key_Escape && skip_->isEnabled() && !HasAnswers()) return emit Skipped();
   QWidget::keyPressEvent(event);
 }
 

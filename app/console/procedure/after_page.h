@@ -11,7 +11,7 @@
 
 namespace elbowroom::console {
 
-// Nothing has to be answered; Escape skips it all. Thread: UI.
+// Nothing has to be answered; Escape skips it all, unless something was said. Thread: UI.
 class AfterPage : public QWidget {
   Q_OBJECT
 
@@ -21,6 +21,9 @@ class AfterPage : public QWidget {
   // Asks of the trial that has ended, with nothing said yet.
   void Open(const core::TrialInfo& trial);
   void FocusEstimate() { questions_->FocusEstimate(); }
+  // The answers, and the notes as one.
+  [[nodiscard]] std::vector<core::EventContent> Said() const;
+  [[nodiscard]] bool HasAnswers() const { return !Said().empty(); }
   void SetIsSaving(bool is_saving);  // while they are written
 
  signals:

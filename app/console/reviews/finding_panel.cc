@@ -64,6 +64,7 @@ void FindingPanel::Open(const std::vector<control::ListedFinding>& findings) {
   }
   chosen_.reset();
   if (chosen) Choose(*chosen);
+  if (!chosen_ && chosen && *chosen < findings.size()) chosen_ = chosen;  // its status is filtered out now
 }
 
 void FindingPanel::ListParts(const std::vector<control::ListedFinding>& findings) {

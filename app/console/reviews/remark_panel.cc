@@ -81,6 +81,7 @@ RemarkPanel::RemarkPanel(QWidget* parent)
 
 void RemarkPanel::Open(const core::Finding& finding) {
   const bool is_another = !finding_ || finding_->id != finding.id;
+  const bool is_written = !is_another && finding.remarks.size() > finding_->remarks.size();
   finding_ = finding;
   setTitle(tr("%1 on %2")
                .arg(QString::fromStdString(core::NameOf(finding)), QString::fromStdString(finding.part)));
@@ -88,7 +89,7 @@ void RemarkPanel::Open(const core::Finding& finding) {
   for (const core::ReviewRemark& remark : finding.remarks) lines.prepend(LineOf(remark));
   said_->setHtml(lines.isEmpty() ? tr("<i>Nothing was said of it yet.</i>") : lines.join("<br>"));
   status_->setCurrentIndex(status_->findData(static_cast<int>(finding.status())));
-  if (is_another) comment_->clear();
+  if (is_another || is_written) comment_->clear();
   Enable();
 }
 
@@ -123,7 +124,6 @@ void RemarkPanel::Say() {
   QSettings().setValue(kReviewerKey, name);
   const core::ReviewRemark remark{core::NowUtc(), name.toStdString(), NewStatus(),
                                   comment_->text().trimmed().toStdString()};
-  comment_->clear();
   emit Said(finding_->id, remark);
 }
 

@@ -76,10 +76,12 @@ SectionPanel::Row SectionPanel::MakeRow(std::size_t axis) {
 }
 
 void SectionPanel::Open(const Eigen::AlignedBox3d& workspace_mm) {
+  std::array<bool, 3> is_remembered{};  // before the first value is
+  for (std::size_t axis = 0; axis < 3; ++axis) is_remembered[axis] = QSettings().contains(Key(axis, "mm"));
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto i = static_cast<Eigen::Index>(axis);
     const QSignalBlocker quiet(rows_[axis].slider);
-    if (!QSettings().contains(Key(axis, "mm"))) rows_[axis].at_mm->setValue(workspace_mm.center()[i]);
+    if (!is_remembered[axis]) rows_[axis].at_mm->setValue(workspace_mm.center()[i]);
     rows_[axis].slider->setRange(static_cast<int>(std::floor(workspace_mm.min()[i])),
                                  static_cast<int>(std::ceil(workspace_mm.max()[i])));
     rows_[axis].slider->setValue(static_cast<int>(std::lround(rows_[axis].at_mm->value())));

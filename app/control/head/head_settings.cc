@@ -1,11 +1,14 @@
 #include "app/control/head/head_settings.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <span>
 
 #include "cad_import/layout/toml_entry.h"
+#include "core/error.h"
 
 namespace elbowroom::control {
 namespace {
@@ -20,6 +23,9 @@ constexpr std::string_view kFrameKeys[] = {"position_mm", "rotation_rpy_deg"};
 std::optional<TomlEntry> TableOf(const toml::table& root, const std::string& file, std::string_view key,
                                  std::span<const std::string_view> known) {
   const toml::table* table = root.get_as<toml::table>(key);
+  if (const toml::node* other = root.get(key); other != nullptr && table == nullptr)
+    throw core::Error(core::ErrorKind::kFormat, fmt::format("{}:{}: '{}' must be a table: [{}]", file,
+                                                            other->source().begin.line, key, key));
   if (table == nullptr) return std::nullopt;
   return TomlEntry(*table, file, "[" + std::string(key) + "]", known);
 }

@@ -110,9 +110,7 @@ std::shared_ptr<const OutlinedMesh> OutlinedMeshes::Of(const core::SharedMesh& m
   const auto found = std::ranges::find_if(
       made_, [&](const auto& outlined) { return outlined->tree().shared_mesh() == mesh; });
   if (found != made_.end()) return *found;
-  std::erase_if(made_, [](const auto& outlined) {
-    return outlined.use_count() == 1 && outlined->tree().shared_mesh().use_count() == 1;
-  });
+  std::erase_if(made_, [](const auto& outlined) { return outlined.use_count() == 1; });
   made_.push_back(std::make_shared<const OutlinedMesh>(mesh));
   return made_.back();
 }

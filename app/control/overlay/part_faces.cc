@@ -60,7 +60,7 @@ std::uint8_t ShadeOf(const Vector3d& normal_in_cam, const Vector3d& up_in_cam, c
       std::lround(255.0 * (kDarkest + (1.0 - kDarkest) * (0.45 * facing + 0.55 * from_above))));
 }
 
-// Grows with what is drawn, so that a small part takes little memory.
+// As large as the picture; what is kept of it is cut to the part.
 class Canvas {
  public:
   explicit Canvas(const ViewPixels& view) : view_(view) {

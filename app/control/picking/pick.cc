@@ -35,9 +35,9 @@ double Entry(const Eigen::AlignedBox3d& box, const RayInPart& ray) {
       if (low > 0.0 || high < 0.0) return core::kInfinity;
       continue;
     }
-    const auto [near, far] = std::minmax(low / ray.direction[i], high / ray.direction[i]);
-    enter = std::max(enter, near);
-    leave = std::min(leave, far);
+    const double at_low = low / ray.direction[i], at_high = high / ray.direction[i];
+    enter = std::max(enter, std::min(at_low, at_high));
+    leave = std::min(leave, std::max(at_low, at_high));
   }
   return enter <= leave ? enter : core::kInfinity;
 }

@@ -98,12 +98,13 @@ void ReplayRecording::TakeEvents(core::FrameIndex frame, double time_s) {
   MarkStepUnderWay(frame, time_s);
 }
 
-// Of those that began before the frame.
+// Those that began before the frame, and don't end with it.
 void ReplayRecording::MarkStepUnderWay(core::FrameIndex frame, double time_s) {
   const auto here =
-      std::ranges::find_if(events_, [&](const core::SessionEvent& event) { return event.frame >= frame; });
+      std::ranges::find_if(events_, [&](const core::SessionEvent& event) { return event.frame > frame; });
   for (const core::StepRun& run : core::StepRunsOf(std::span(events_.begin(), here)))
-    if (!run.end_frame) writer_.Append(core::SessionEvent{frame, time_s, core::StepMarked{run.step, true}});
+    if (run.begin_frame < frame && !run.end_frame)
+      writer_.Append(core::SessionEvent{frame, time_s, core::StepMarked{run.step, true}});
 }
 
 void ReplayRecording::TakeEvent(const core::SessionEvent& event) {

@@ -1,6 +1,9 @@
 #include "app/control/tiles/tile_maker.h"
 
+#include <spdlog/spdlog.h>
+
 #include <algorithm>
+#include <exception>
 #include <utility>
 
 namespace elbowroom::control {
@@ -43,7 +46,11 @@ void TileMaker::Run(const std::stop_token& stop) {
     }
     if (wishes.HasRoom()) {
       const bool is_new = result != nullptr;
-      if (is_new) MakePictures(*std::exchange(result, nullptr), wishes);
+      try {
+        if (is_new) MakePictures(*std::exchange(result, nullptr), wishes);
+      } catch (const std::exception& error) {  // the worker's outermost loop: the tiles keep their pictures
+        spdlog::warn("no pictures for the camera strip: {}", error.what());
+      }
       if (FindGone() || is_new) on_tiles_(TilesNow());
     }
     std::unique_lock lock(mutex_);
@@ -57,6 +64,7 @@ void TileMaker::MakePictures(const FrameResult& result, const TileWishes& wishes
   for (std::size_t i = 0; i < tiles_.size(); ++i) {
     CameraTile& tile = tiles_[i];
     tile.is_missing = i < record.stamps.size() && !record.stamps[i];
+    if (wishes.enlarged != i) tile.enlarged = {};
     if (tile.is_missing) continue;
     const core::BitMask& mask = (*record.masks)[i].mask;
     const cv::Mat none;

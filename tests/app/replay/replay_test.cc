@@ -12,6 +12,7 @@
 #include "app/control/trial_runner.h"
 #include "core/error.h"
 #include "core/gives_way.h"
+#include "core/procedure/step_runs.h"
 #include "sessions/after_trial.h"
 #include "sessions/session_reader.h"
 #include "tests/app/replay/session_rows.h"
@@ -99,6 +100,31 @@ TEST(Replay, TakesOverTheProcedure) {
   EXPECT_EQ(in_part[2].what, core::EventContent(core::StepMarked{"screw", true}));
   EXPECT_EQ(in_part[2].frame, 64);
   EXPECT_EQ(in_part[3].what, core::EventContent(core::EstimateGiven{core::AskedWhen::kAfter, 200.0}));
+}
+
+TEST(Replay, FromTheFrameOfAStepsChangeHasTheNewStepOnly) {
+  const TemporaryFolder folder;
+  TrialSetup setup = MakeDemoTrial(DemoPlay::kOnce);
+  setup.info.steps = {"reach", "screw"};
+  setup.first_step = "reach";
+  TrialOptions options;
+  options.session = folder / "s.db";
+  options.frames = {60, 70};
+  TrialControls controls;
+  options.on_frame = [&](const SharedFrameResult& result, const RecordedFrames&) {
+    if (result->record.frame == 63) controls.BeginStep("screw");
+  };
+  (void)RunTrial(setup, options, controls, {});
+  const auto runs_of = [](const fs::path& session) {
+    return core::StepRunsOf(sessions::SessionReader(session).events());
+  };
+  const std::vector<core::StepRun> recorded = runs_of(folder / "s.db");
+  ASSERT_EQ(recorded.size(), 2U);
+  (void)Replayed(folder / "s.db", folder / "part.db", {}, {recorded[1].begin_frame, 70});
+  const std::vector<core::StepRun> in_part = runs_of(folder / "part.db");
+  ASSERT_EQ(in_part.size(), 1U);
+  EXPECT_EQ(in_part[0].step, "screw");
+  EXPECT_EQ(in_part[0].begin_frame, recorded[1].begin_frame);
 }
 
 // The comparison in memory must see what the files show.
