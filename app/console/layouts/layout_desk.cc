@@ -38,7 +38,10 @@ bool LayoutDesk::Try(Step step) {
 }
 
 void LayoutDesk::New() {
-  Take(std::make_unique<control::LayoutDocument>(unsaved_folder_), false);
+  ++runs_;
+  reading_.reset();
+  emit ReadingChanged({});
+  Take(std::make_unique<control::LayoutDocument>(unsaved_folder_), can_recover_ && !document_->has_file());
   emit Opened(false);
 }
 
@@ -62,9 +65,10 @@ void LayoutDesk::Recover() {
 
 void LayoutDesk::Read(const QString& what, Reader reader, bool may_recover) {
   auto read = std::make_shared<std::unique_ptr<control::LayoutDocument>>();
-  const core::Progress progress([this, what](std::int64_t, std::int64_t, const std::string& step) {
-    bridge_.PostLatest(Bridge::Stream::kProgress, [this, what, text = QString::fromStdString(step)] {
-      if (reading_) emit ReadingChanged(tr("%1: %2").arg(what, text));
+  const int run = ++runs_;
+  const core::Progress progress([this, run, what](std::int64_t, std::int64_t, const std::string& step) {
+    bridge_.PostLatest(Bridge::Stream::kProgress, [this, run, what, text = QString::fromStdString(step)] {
+      if (reading_ && run == runs_) emit ReadingChanged(tr("%1: %2").arg(what, text));
     });
   });
   reading_ = std::make_unique<BackgroundJob>(
@@ -72,10 +76,14 @@ void LayoutDesk::Read(const QString& what, Reader reader, bool may_recover) {
       [read, progress, reader = std::move(reader)](const std::stop_token& stop) {
         *read = std::make_unique<control::LayoutDocument>(reader(progress, stop));
       },
-      [this, read, may_recover](const std::string& error) {
+      [this, read, run, what, may_recover, before = document_->text().text()](const std::string& error) {
+        if (run != runs_) return;  // another file was opened since: its job runs
         reading_.reset();
         emit ReadingChanged({});
         if (!error.empty()) return emit Failed(QString::fromStdString(error));
+        if (is_unsaved() && document_->text().text() != before)
+          return emit Failed(
+              tr("%1 isn't opened: the layout was changed meanwhile; open it again").arg(what));
         Take(std::move(*read), may_recover);
         emit Opened(document_->has_file());
       });
@@ -108,9 +116,16 @@ void LayoutDesk::Keep() {
 void LayoutDesk::Forget() {
   autosave_after_.stop();
   autosaving_.reset();  // waits for what is being written
+  if (!can_recover_) control::DropAutosave(document_->file());
+  forgotten_text_ = document_->text().text();
+  emit Changed();
+}
+
+void LayoutDesk::DiscardRecovery() {
+  if (!can_recover_) return;
   control::DropAutosave(document_->file());
   can_recover_ = false;
-  forgotten_text_ = document_->text().text();
+  autosave_after_.start();  // of what was changed while it was offered
   emit Changed();
 }
 
@@ -118,6 +133,7 @@ bool LayoutDesk::Save() {
   autosave_after_.stop();
   autosaving_.reset();
   const bool is_saved = Try([this] { document_->Save(); });
+  if (is_saved) can_recover_ = false;
   emit Changed();
   return is_saved;
 }
@@ -126,6 +142,7 @@ bool LayoutDesk::SaveAs(const std::filesystem::path& file) {
   autosave_after_.stop();
   autosaving_.reset();
   const bool is_saved = Try([this, &file] { document_->SaveAs(file); });
+  if (is_saved) can_recover_ = false;
   emit Changed();
   return is_saved;
 }
@@ -172,7 +189,7 @@ std::vector<std::string> LayoutDesk::AddParts(const control::PartPreview& previe
 }
 
 void LayoutDesk::Autosave() {
-  if (!is_unsaved()) return;
+  if (!is_unsaved() || can_recover_) return;  // what is offered isn't overwritten
   if (autosaving_) return autosave_after_.start();
   autosaving_ = std::make_unique<BackgroundJob>(
       bridge_,

@@ -37,8 +37,9 @@ class LayoutDesk : public QObject {
   void New();
   void Open(const std::filesystem::path& file);
   void Recover();
-  void Forget();  // what could be recovered, or what isn't saved now
-  void Keep();    // beside the file, at once: nobody is there to ask, and the program ends
+  void DiscardRecovery();  // what could be recovered
+  void Forget();           // what isn't saved now; what could be recovered stays
+  void Keep();             // beside the file, at once: nobody is there to ask, and the program ends
   bool Save();
   bool SaveAs(const std::filesystem::path& file);
   void Undo();
@@ -70,6 +71,7 @@ class LayoutDesk : public QObject {
   bool can_recover_ = false;
   std::optional<std::string> forgotten_text_;  // that nobody wants to keep
   QTimer autosave_after_;
+  int runs_ = 0;   // files that were begun to be read
   Bridge bridge_;  // before the threads that post to it
   std::unique_ptr<BackgroundJob> reading_;
   std::unique_ptr<BackgroundJob> autosaving_;

@@ -107,11 +107,11 @@ QWidget* LayoutPage::RecoveryBar() {
   auto* take = new QPushButton(tr("&Take them"));
   take->setObjectName("recovery_take");
   take->setToolTip(tr("Shows the layout with these changes; nothing is written until you save"));
-  connect(take, &QPushButton::clicked, desk_, &LayoutDesk::Recover);
+  connect(take, &QPushButton::clicked, this, &LayoutPage::AskToRecover);
   auto* forget = new QPushButton(tr("&Discard them"));
   forget->setObjectName("recovery_forget");
   forget->setToolTip(tr("Deletes these changes"));
-  connect(forget, &QPushButton::clicked, desk_, &LayoutDesk::Forget);
+  connect(forget, &QPushButton::clicked, desk_, &LayoutDesk::DiscardRecovery);
   auto* row = new QHBoxLayout(recovery_);
   row->setContentsMargins(4, 2, 4, 2);
   row->addWidget(recovery_text_, 1);
@@ -184,6 +184,11 @@ void LayoutPage::FollowPlacing() {
   connect(placing_, &PlacingSteps::Changed, this, [this] { view_->SetAdvice(placing_->Advice()); });
   connect(placing_, &PlacingSteps::Failed, this, &LayoutPage::Failed);
   connect(placing_, &PlacingSteps::Placed, this, &LayoutPage::PlacePart);
+  // What was clicked on first may be another part now, or stand elsewhere.
+  connect(desk_, &LayoutDesk::Changed, this, [this] {
+    const Placing placing = placing_->placing();
+    if (placing == Placing::kFaceToFace || placing == Placing::kHoleToHole) placing_->Begin(placing);
+  });
   connect(view_, &PartsView::PointPicked, this,
           [this](const control::Pick& pick) { placing_->Take(layout(), Poses(), pick); });
   connect(view_, &PartsView::Dragged, this, [this](int part, const core::RigidTransform& pose) {

@@ -76,6 +76,7 @@ class LayoutPage : public QWidget {
   void FollowPlacing();
   void AskForFile();
   void AskForPart();
+  void AskToRecover();
   bool Save();
   bool SaveAs();
   void AskForTrial();

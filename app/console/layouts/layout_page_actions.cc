@@ -185,11 +185,13 @@ bool LayoutPage::SaveAs() {
   const control::LayoutDocument& document = desk_->document();
   const std::filesystem::path proposed =
       document.has_file() ? document.file() : last_cad_folder_ / "layout.toml";
-  QString file =
-      QFileDialog::getSaveFileName(this, tr("Save the layout"), QString::fromStdString(proposed.string()),
-                                   tr("Layouts (*.toml);;All files (*)"));
-  if (file.isEmpty()) return false;
-  if (!file.contains('.')) file += ".toml";
+  QFileDialog dialog(this, tr("Save the layout"), FolderOfDialog(proposed),
+                     tr("Layouts (*.toml);;All files (*)"));
+  dialog.setAcceptMode(QFileDialog::AcceptSave);
+  dialog.setDefaultSuffix("toml");  // before the dialog asks whether to replace a file
+  dialog.selectFile(QString::fromStdString(proposed.filename().string()));
+  if (dialog.exec() != QDialog::Accepted) return false;
+  const QString file = dialog.selectedFiles().front();
   if (!desk_->SaveAs(file.toStdString())) return false;
   emit LayoutSaved(file);
   return true;
@@ -210,6 +212,16 @@ bool LayoutPage::MayLeave() {
     default:
       return false;
   }
+}
+
+// MayLeave() won't do: the file that it saves has nothing to recover any more.
+void LayoutPage::AskToRecover() {
+  QMessageBox question(QMessageBox::Question, tr("Layout"),
+                       tr("The layout has changes that aren't saved; taking the others discards them."),
+                       QMessageBox::Discard | QMessageBox::Cancel, this);
+  question.setObjectName("recovery_question");
+  question.setDefaultButton(QMessageBox::Cancel);
+  if (!desk_->is_unsaved() || question.exec() == QMessageBox::Discard) desk_->Recover();
 }
 
 void LayoutPage::AskForTrial() {

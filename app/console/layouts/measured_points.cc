@@ -5,6 +5,7 @@
 #include <QLocale>
 #include <QSignalBlocker>
 #include <QVBoxLayout>
+#include <optional>
 #include <utility>
 
 #include "core/error.h"
@@ -19,6 +20,14 @@ QTableWidgetItem* ReadOnly(const QString& text) {
   auto* item = new QTableWidgetItem(text);
   item->setFlags(item->flags() & ~Qt::ItemIsEditable);
   return item;
+}
+
+// As it is shown, with a point; else as the user's language writes it.
+std::optional<double> NumberIn(const QString& text) {
+  bool is_number = false;
+  double number = text.toDouble(&is_number);
+  if (!is_number) number = QLocale().toDouble(text, &is_number);
+  return is_number ? std::optional(number) : std::nullopt;
 }
 
 QString PlaceWords(const Eigen::Vector3d& x) {
@@ -90,9 +99,9 @@ std::vector<control::PointPair> MeasuredPoints::Pairs() const {
   for (int row = 0; row < table_->rowCount(); ++row) {
     control::PointPair pair{points_in_part_[static_cast<std::size_t>(row)], {}};
     for (int i = 0; i < 3; ++i) {
-      bool is_number = false;
-      pair.x_in_world[i] = QLocale().toDouble(table_->item(row, kFirstMeasured + i)->text(), &is_number);
-      if (!is_number) return {};
+      const std::optional<double> number = NumberIn(table_->item(row, kFirstMeasured + i)->text());
+      if (!number) return {};
+      pair.x_in_world[i] = *number;
     }
     pairs.push_back(pair);
   }

@@ -54,11 +54,10 @@ void PartsView::paintEvent(QPaintEvent* /*event*/) {
 void PartsView::PaintChosen(QPainter& painter) const {
   for (const ShownPart& part : parts_) {
     if (part.choice == 0 || !part.is_visible) continue;
-    const Eigen::AlignedBox3d box = core::BoundsOf(*part.mesh);
     std::array<std::optional<QPointF>, 8> corners;
     for (int i = 0; i < 8; ++i)
-      corners.at(static_cast<std::size_t>(i)) =
-          PaintedAt(part.world_from_part * box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i)));
+      corners.at(static_cast<std::size_t>(i)) = PaintedAt(
+          part.world_from_part * part.box_in_part.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i)));
     const QColor ink = ChoiceColor(part.choice);
     painter.setPen(QPen(ink, 1.5));
     std::optional<QPointF> top;

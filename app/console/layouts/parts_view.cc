@@ -75,6 +75,10 @@ void PartsView::SetAdvice(const QString& advice) {
 void PartsView::Show(std::vector<ShownPart> parts, std::vector<ShownGap> gaps) {
   const bool was_empty = parts_.empty();
   drag_.reset();  // of parts that are replaced
+  for (ShownPart& part : parts) {
+    const auto known = std::ranges::find(parts_, part.mesh, &ShownPart::mesh);
+    part.box_in_part = known != parts_.end() ? known->box_in_part : core::BoundsOf(*part.mesh);
+  }
   parts_ = std::move(parts);
   gaps_ = std::move(gaps);
   bounds_in_world_.setEmpty();

@@ -34,6 +34,7 @@ struct ShownPart {
   bool is_visible = true;
   int choice = 0;                                     // 0: not chosen; 1: the first that is; 2: the second
   std::array<bool, 3> may_move = {true, true, true};  // along the world's axes; a gap decides the others
+  Eigen::AlignedBox3d box_in_part = Eigen::AlignedBox3d();  // the view's own, of the mesh
 };
 
 // Drawn over the picture: a gap from end to end, with its words beside it.

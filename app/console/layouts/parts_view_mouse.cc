@@ -24,7 +24,7 @@ std::optional<std::size_t> PartsView::FirstChosen() const {
 }
 
 Eigen::Vector3d PartsView::CenterOf(std::size_t part) const {
-  return parts_[part].world_from_part * core::BoundsOf(*parts_[part].mesh).center();
+  return parts_[part].world_from_part * parts_[part].box_in_part.center();
 }
 
 std::optional<PartGizmo> PartsView::Gizmo() const { return camera_ ? GizmoIn(WidgetView()) : std::nullopt; }

@@ -2,11 +2,13 @@
 
 #include <QDialogButtonBox>
 #include <QFileDialog>
+#include <QFileInfo>
 #include <QFormLayout>
 #include <QHBoxLayout>
 #include <QPushButton>
 #include <QSettings>
 #include <QVBoxLayout>
+#include <utility>
 
 #include "app/console/desktop/theme.h"
 #include "core/error.h"
@@ -33,6 +35,14 @@ QDoubleSpinBox* MillimetreBox(const QString& name, const QString& none, const QS
   box->setSpecialValueText(none);  // at 0
   box->setToolTip(tool_tip);
   return box;
+}
+
+// Beside the layout; no file has that name.
+QString FreeTrialFile(const std::filesystem::path& layout) {
+  const QString name = QString::fromStdString((layout.parent_path() / layout.stem()).string()) + "_trial";
+  QString file = name + ".toml";
+  for (int i = 2; QFileInfo::exists(file); ++i) file = name + QString::number(i) + ".toml";
+  return file;
 }
 
 // A row for a line with a button beside it.
@@ -67,8 +77,7 @@ void TrialDialog::BuildForm() {
                                 tr("How far hands and tools must stay from parts, mm"));
   tools_ =
       TextLine("trial_tools", {}, tr("With commas between: tongs, screwdriver. Marked by the keys 1 to 9"));
-  const std::filesystem::path trial = layout_.parent_path() / (layout_.stem().string() + "_trial.toml");
-  file_ = TextLine("trial_file", QString::fromStdString(trial.string()), tr("The TRIAL.toml to write"));
+  file_ = TextLine("trial_file", FreeTrialFile(layout_), tr("The TRIAL.toml to write"));
   auto* browse_rig = new QPushButton(tr("&Choose …"));
   browse_rig->setObjectName("trial_browse_rig");
   connect(browse_rig, &QPushButton::clicked, this, &TrialDialog::BrowseRig);
@@ -112,7 +121,9 @@ void TrialDialog::BrowseRig() {
 void TrialDialog::BrowseFile() {
   const QString file =
       QFileDialog::getSaveFileName(this, tr("Write the trial"), file_->text(), tr("Trials (*.toml)"));
-  if (!file.isEmpty()) file_->setText(file);
+  if (file.isEmpty()) return;
+  file_->setText(file);
+  may_replace_ = file;  // the file dialog has asked
 }
 
 control::TrialDraft TrialDialog::Draft() const {
@@ -129,16 +140,22 @@ control::TrialDraft TrialDialog::Draft() const {
 }
 
 void TrialDialog::Write() {
+  const QString file = file_->text();
+  if (QFileInfo::exists(file) && file != std::exchange(may_replace_, file))
+    return ShowFault(tr("%1 is there; choose another name, or press again to replace it").arg(file));
   try {
-    control::WriteTrial(Draft(), file_->text().toStdString());
+    control::WriteTrial(Draft(), file.toStdString());
   } catch (const core::Error& error) {
-    fault_->setText(QString::fromStdString(error.what()));
-    fault_->show();
-    return;
+    return ShowFault(QString::fromStdString(error.what()));
   }
   QSettings().setValue(kRigKey, rig_->text());
-  emit Written(file_->text());
+  emit Written(file);
   accept();
+}
+
+void TrialDialog::ShowFault(const QString& line) {
+  fault_->setText(line);
+  fault_->show();
 }
 
 }  // namespace elbowroom::console

@@ -27,6 +27,7 @@ class TrialDialog : public QDialog {
   void BrowseRig();
   void BrowseFile();
   void Write();
+  void ShowFault(const QString& line);
   [[nodiscard]] control::TrialDraft Draft() const;
 
   std::filesystem::path layout_;
@@ -38,6 +39,7 @@ class TrialDialog : public QDialog {
   QLineEdit* tools_ = nullptr;
   QLineEdit* file_ = nullptr;
   QLabel* fault_ = nullptr;
+  QString may_replace_;  // a file that the user was told is there
 };
 
 }  // namespace elbowroom::console

@@ -18,6 +18,7 @@
 #include "app/console/layouts/import_dialog.h"
 #include "app/console/layouts/measured_points.h"
 #include "app/console/layouts/rule_dialogs.h"
+#include "app/console/layouts/trial_dialog.h"
 #include "app/control/layout_editing/autosave.h"
 #include "cad_import/layout/layout_file.h"
 #include "tests/app/console/layouts/user_actions.h"
@@ -59,6 +60,7 @@ class LayoutPageTest : public testing::Test {
                      [this](const QString& line) { fault_ = line; });
   }
   ~LayoutPageTest() override {
+    page_->desk().DiscardRecovery();
     page_->desk().Forget();  // what a test leaves behind isn't for the next
   }
 
@@ -72,6 +74,12 @@ class LayoutPageTest : public testing::Test {
   void OpenLayout() {
     page_->Open(file_);
     ASSERT_TRUE(WaitUntil([&] { return layout().parts.size() == 2; })) << fault_.toStdString();
+  }
+  // As a program that ended before it saved.
+  void LeaveOnePart() {
+    control::LayoutDocument document = control::LayoutDocument::Open(file_);
+    document.Apply("Change", [](cad_import::LayoutText& text) { text.Remove("part", 1); });
+    document.Autosave();
   }
   ImportDialog* OpenImport(const std::filesystem::path& file) {
     page_->Import(file);
@@ -229,7 +237,7 @@ TEST_F(LayoutPageTest, ANewLayoutIsSavedUnderTheNameThatIsTyped) {
   ASSERT_EQ(layout().parts.size(), 1U);
   const std::filesystem::path made = folder_ / "sub/made.toml";
   std::filesystem::create_directories(made.parent_path());
-  TypeIntoNextFileDialog(QString::fromStdString(made.string()));
+  TypeIntoNextFileDialog(QString::fromStdString((folder_ / "sub/made").string()));
   QTest::keyClick(&page_->view(), Qt::Key_S, Qt::ControlModifier);
   EXPECT_FALSE(page_->desk().document().is_changed()) << fault_.toStdString();
   const cad_import::ImportedLayout read = cad_import::ImportLayoutFile(made);
@@ -253,12 +261,64 @@ TEST_F(LayoutPageTest, ChangesAreNotLostWithoutAQuestion) {
   EXPECT_EQ(ReadText(file_).find("[9"), std::string::npos);
 }
 
+TEST_F(LayoutPageTest, OfTwoFilesThatAreOpenedTheSecondIsShown) {
+  const std::filesystem::path second = folder_ / "second.toml";
+  WriteText(second, kLayout);
+  page_->Open(file_);
+  page_->Open(second);
+  ASSERT_TRUE(WaitUntil([&] { return page_->desk().document().has_file() || !fault_.isEmpty(); }));
+  EXPECT_EQ(page_->desk().document().file(), second) << fault_.toStdString();
+}
+
+TEST_F(LayoutPageTest, ANewLayoutEndsTheReadingOfAnother) {
+  page_->Open(file_);
+  page_->desk().New();
+  EXPECT_FALSE(page_->desk().is_reading());
+  QApplication::processEvents();  // what the reading has told until then
+  EXPECT_FALSE(page_->desk().document().has_file());
+  EXPECT_FALSE(Find<QWidget>("layout_reading")->isVisible());
+}
+
+TEST_F(LayoutPageTest, AFileThatIsReadDoesNotTakeThePlaceOfChangesMadeMeanwhile) {
+  OpenLayout();
+  const std::filesystem::path second = folder_ / "second.toml";
+  WriteText(second, kLayout);
+  page_->Open(second);
+  page_->desk().Apply("Change", [](cad_import::LayoutText& text) { text.Remove("part", 1); });
+  ASSERT_TRUE(WaitUntil([&] { return !page_->desk().is_reading(); }));
+  EXPECT_TRUE(fault_.contains("second.toml")) << fault_.toStdString();
+  EXPECT_EQ(page_->desk().document().file(), file_);
+  EXPECT_EQ(layout().parts.size(), 1U);
+}
+
+TEST_F(LayoutPageTest, WhatIsOfferedIsKeptWhileTheLayoutIsChanged) {
+  LeaveOnePart();
+  OpenLayout();
+  page_->Choose({"lid"});
+  TypeInto(Find<QDoubleSpinBox>("part_position:x"), "7.5");
+  QTest::qWait(2500);  // past the time of an autosave
+  AnswerNextQuestion(QMessageBox::Cancel);
+  Click(Find<QPushButton>("recovery_take"));
+  EXPECT_FALSE(page_->desk().is_reading());
+  AnswerNextQuestion(QMessageBox::Discard);
+  Click(Find<QPushButton>("recovery_take"));
+  EXPECT_TRUE(WaitUntil([&] { return layout().parts.size() == 1; })) << fault_.toStdString();
+}
+
+TEST_F(LayoutPageTest, WhatIsOfferedIsDiscardedWithoutTheChangesSince) {
+  LeaveOnePart();
+  OpenLayout();
+  page_->Choose({"lid"});
+  TypeInto(Find<QDoubleSpinBox>("part_position:x"), "7.5");
+  Click(Find<QPushButton>("recovery_forget"));
+  EXPECT_FALSE(Find<QWidget>("recovery")->isVisible());
+  EXPECT_FALSE(control::FindAutosave(file_));
+  EXPECT_TRUE(page_->desk().is_unsaved());
+  EXPECT_TRUE(WaitUntil([&] { return control::FindAutosave(file_).has_value(); }));  // kept from now on
+}
+
 TEST_F(LayoutPageTest, WhatTheProgramsEndLeftIsOfferedAndTaken) {
-  {
-    control::LayoutDocument document = control::LayoutDocument::Open(file_);
-    document.Apply("Change", [](cad_import::LayoutText& text) { text.Remove("part", 1); });
-    document.Autosave();
-  }
+  LeaveOnePart();
   OpenLayout();
   EXPECT_TRUE(Find<QWidget>("recovery")->isVisible());
   Click(Find<QPushButton>("recovery_take"));
@@ -361,6 +421,15 @@ TEST_F(LayoutPageTest, AFaceIsLaidOnAFaceByTwoClicks) {
     const QPointF at = page_->view().PositionOf(layout().parts[part].world_from_part * x_in_part).value();
     QTest::mouseClick(&page_->view(), Qt::LeftButton, {}, at.toPoint());
   };
+  // A change begins it again: what was clicked on first is another part now.
+  click(1, {50.0, 0.0, 5.0});
+  page_->desk().Apply("Change", [](cad_import::LayoutText& text) { text.Remove("part", 0); });
+  ASSERT_TRUE(WaitUntil([&] { return page_->view().CanPick(); }));
+  click(0, {50.0, 0.0, 5.0});
+  EXPECT_EQ(page_->desk().document().UndoName(), "Change");
+  EXPECT_TRUE(fault_.isEmpty()) << fault_.toStdString();
+  page_->desk().Undo();
+  ASSERT_TRUE(WaitUntil([&] { return page_->view().CanPick(); }));
   click(1, {50.0, 0.0, 5.0});  // the lid's face towards -y
   click(1, {50.0, 0.0, 5.0});  // itself: said, and asked again
   EXPECT_TRUE(fault_.contains("lid")) << fault_.toStdString();
@@ -418,6 +487,39 @@ TEST_F(LayoutPageTest, MeasuredPointsPlaceThePartAndSayHowFarTheyAreOff) {
   EXPECT_LT((layout().parts[1].world_from_part.translation_mm - real.translation_mm).norm(), 0.1);
   EXPECT_NEAR(RollPitchYawDegOf(layout().parts[1]).z(), 30.0, 0.05);
   dialog->close();
+}
+
+TEST_F(LayoutPageTest, MeasuredNumbersMayHaveAPointOrTheCommaOfTheLanguage) {
+  const QLocale before;
+  QLocale::setDefault(QLocale(QLocale::German, QLocale::Germany));
+  MeasuredPoints dialog("lid");
+  for (const Eigen::Vector3d& x : {Eigen::Vector3d(20.5, 10.0, 10.0), Eigen::Vector3d(80.0, 10.0, 10.0),
+                                   Eigen::Vector3d(50.0, 70.0, 10.0)})
+    dialog.Add(x, x);
+  EXPECT_TRUE(dialog.fit());
+  dialog.findChild<QTableWidget*>("measured_table")->item(0, 1)->setText("20,5");
+  ASSERT_TRUE(dialog.fit());
+  EXPECT_LT(dialog.fit()->largest_mm, 1e-6);
+  QLocale::setDefault(before);
+}
+
+TEST_F(LayoutPageTest, ATrialThatIsThereIsReplacedByASecondPressOnly) {
+  const std::filesystem::path trial = folder_ / "layout_trial.toml";
+  WriteText(trial, "layout = \"layout.toml\"\n");
+  TrialDialog dialog(file_);
+  dialog.show();
+  auto* name = dialog.findChild<QLineEdit*>("trial_file");
+  EXPECT_TRUE(name->text().endsWith("layout_trial2.toml")) << name->text().toStdString();
+  name->setText(QString::fromStdString(trial.string()));
+  dialog.findChild<QLineEdit*>("trial_rig")->setText(QString::fromStdString((folder_ / "box.glb").string()));
+  const QSignalSpy written(&dialog, &TrialDialog::Written);
+  auto* start = dialog.findChild<QPushButton*>("trial_start");
+  Click(start);
+  EXPECT_TRUE(dialog.findChild<QLabel*>("trial_fault")->isVisible());
+  EXPECT_EQ(written.count(), 0);
+  Click(start);
+  EXPECT_EQ(written.count(), 1) << dialog.findChild<QLabel*>("trial_fault")->text().toStdString();
+  EXPECT_NE(ReadText(trial).find("rig"), std::string::npos);
 }
 
 TEST_F(LayoutPageTest, DrawsThePartsAndTheGap) {
