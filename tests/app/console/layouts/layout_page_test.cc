@@ -277,6 +277,7 @@ TEST_F(LayoutPageTest, ANewLayoutEndsTheReadingOfAnother) {
   QApplication::processEvents();  // what the reading has told until then
   EXPECT_FALSE(page_->desk().document().has_file());
   EXPECT_FALSE(Find<QWidget>("layout_reading")->isVisible());
+  EXPECT_TRUE(fault_.isEmpty()) << fault_.toStdString();
 }
 
 TEST_F(LayoutPageTest, AFileThatIsReadDoesNotTakeThePlaceOfChangesMadeMeanwhile) {
