@@ -206,7 +206,7 @@ TEST(ReadTrialInfo, NamesWhatIsWrongInAProcedure) {
     EXPECT_NE(FaultOf(lines).find(fault), std::string::npos) << lines << FaultOf(lines);
   };
   expect_fault("conditon = \"a\"", "unknown key 'conditon'; did you mean 'condition'?");
-  expect_fault("[[step]]\nnaem = \"a\"", "[[step]]: unknown key 'naem'; did you mean 'name'?");
+  expect_fault("[[step]]\nnane = \"a\"", "[[step]]: unknown key 'nane'; did you mean 'name'?");
   expect_fault("[[step]]\nname = \"a\"\n[[step]]\nname = \"a\"",
                "trial.toml:6: [[step]]: key 'name' 'a' is the name");
   expect_fault("order = 0", "key 'order' must be a whole number from 1");
