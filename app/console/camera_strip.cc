@@ -8,6 +8,7 @@
 #include <array>
 
 #include "app/console/desktop/theme.h"
+#include "app/console/view/picture_asker.h"
 #include "recon/images/image.h"
 
 namespace elbowroom::console {
@@ -19,9 +20,8 @@ constexpr int kCaptionLines = 3;
 constexpr double kGoneOpacity = 0.25;
 
 QImage TilePicture(const recon::Image& image, bool is_gone) {
-  const QImage view(image.rgb.data(), image.width_px, image.height_px, 3 * image.width_px,
-                    QImage::Format_RGB888);
-  return view.convertToFormat(is_gone ? QImage::Format_Grayscale8 : QImage::Format_RGB32);  // a deep copy
+  const QImage picture = QtImageOf(image);
+  return is_gone ? picture.convertToFormat(QImage::Format_Grayscale8) : picture;
 }
 
 // Left and right on one line; the left text is shortened where there isn't room for both.

@@ -10,17 +10,8 @@
 namespace elbowroom::console {
 namespace {
 
-constexpr QSize kLargestBySoftwarePx(1280, 800);
-constexpr QSize kLargestByCardPx(3840, 2400);
-constexpr std::chrono::milliseconds kRestsAfter(400);  // then the scene is drawn in full
-constexpr float kChosenShare = 0.4F;                   // of white in the colour of what is chosen
-constexpr double kLowestOnTableMm = -1.0;              // a table is drawn under parts that stand on it
-
-QImage PictureFrom(const recon::Image& image) {
-  const QImage view(image.rgb.data(), image.width_px, image.height_px, 3 * image.width_px,
-                    QImage::Format_RGB888);
-  return view.convertToFormat(QImage::Format_RGB32);  // a deep copy
-}
+constexpr float kChosenShare = 0.4F;       // of white in the colour of what is chosen
+constexpr double kLowestOnTableMm = -1.0;  // a table is drawn under parts that stand on it
 
 Eigen::Vector3f Lighter(const Eigen::Vector3f& color) {
   return color + kChosenShare * (Eigen::Vector3f::Ones() - color);
@@ -36,28 +27,16 @@ std::optional<QPointF> PositionIn(const recon::SceneView& view, const Eigen::Vec
 
 PartsView::PartsView(QWidget* parent)
     : QWidget(parent),
-      worker_(
-          [this](const recon::Image& image, const control::RenderRequest& request) {
-            bridge_.PostLatest(Bridge::Stream::kPicture,
-                               [this, picture = PictureFrom(image), camera = request.camera] {
-                                 ShowPicture(picture, camera);
-                               });
-          },
-          [this](const std::string& line) {
-            bridge_.PostLatest(Bridge::Stream::kPicture, [this, text = QString::fromStdString(line)] {
-              drawing_.invalidate();
-              if (text != std::exchange(last_error_, text)) emit Failed(text);
-            });
-          }) {
+      asker_(*this, {.request = [this](const QSize& size,
+                                       const PictureFineness& fineness) { return Request(size, fineness); },
+                     .take = [this](const QImage& picture,
+                                    const control::RenderRequest& request) { return Take(picture, request); },
+                     .shown = [this](double) { emit PictureShown(); },
+                     .failed = [this](const QString& line) { emit Failed(line); }}) {
   setMinimumSize(320, 240);
   setMouseTracking(true);
   setFocusPolicy(Qt::StrongFocus);
   setAttribute(Qt::WA_OpaquePaintEvent);
-  rest_.setSingleShot(true);
-  rest_.setInterval(kRestsAfter);
-  connect(&rest_, &QTimer::timeout, this, [this] {
-    if (scene_ && camera_ && !drawing_.isValid()) Submit(PicturePace::kFinest);
-  });
 }
 
 PartsView::~PartsView() = default;
@@ -170,49 +149,27 @@ void PartsView::Turn(const recon::OrbitCamera& camera) {
 }
 
 void PartsView::AskForPicture() {
-  if (!scene_ || !camera_) return;
-  if (drawing_.isValid()) {
-    is_outdated_ = true;
-  } else {
-    Submit(pace_.fineness());
-  }
+  if (scene_ && camera_) asker_.Ask();
 }
 
-void PartsView::Submit(const PictureFineness& fineness) {
-  const QSize size = LargestPicture() * fineness.picture;
-  drawn_with_ = fineness;
-  is_outdated_ = false;
-  drawing_.start();
+std::optional<control::RenderRequest> PartsView::Request(const QSize& size,
+                                                         const PictureFineness& fineness) const {
+  if (!scene_ || !camera_) return std::nullopt;
   control::RenderRequest request;
   request.camera = *camera_;
   request.width_px = size.width();
   request.height_px = size.height();
   request.is_smooth = fineness.is_smooth;
   request.scene = scene_;
-  worker_.Submit(std::move(request));
+  return request;
 }
 
-QSize PartsView::LargestPicture() const {
-  const QSize pixels = size() * devicePixelRatio();
-  const QSize most = worker_.is_software().value_or(true) ? kLargestBySoftwarePx : kLargestByCardPx;
-  return pixels.boundedTo(pixels.scaled(most, Qt::KeepAspectRatio)).expandedTo(QSize(64, 64));
-}
-
-void PartsView::ShowPicture(const QImage& picture, const recon::OrbitCamera& camera) {
-  const double drawing_ms = 1e-6 * static_cast<double>(drawing_.nsecsElapsed());
-  drawing_.invalidate();
-  if (!scene_) return;
-  last_error_.clear();
-  if (drawn_with_ == pace_.fineness()) pace_.Add(drawing_ms);
+bool PartsView::Take(const QImage& picture, const control::RenderRequest& request) {
+  if (!scene_) return false;
   picture_ = picture;
-  picture_camera_ = camera;
+  picture_camera_ = request.camera;
   update();
-  if (is_outdated_) {
-    Submit(pace_.fineness());
-  } else if (drawn_with_ != PicturePace::kFinest) {
-    rest_.start();
-  }
-  emit PictureShown();
+  return true;
 }
 
 recon::SceneView PartsView::WidgetView() const { return recon::ViewFrom(*camera_, width(), height()); }

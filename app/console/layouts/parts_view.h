@@ -1,12 +1,10 @@
 // The layout's parts in 3-D: turned by the mouse, chosen by clicks.
 #pragma once
 
-#include <QElapsedTimer>
 #include <QImage>
 #include <QPainter>
 #include <QPoint>
 #include <QString>
-#include <QTimer>
 #include <QWidget>
 #include <array>
 #include <map>
@@ -18,9 +16,8 @@
 #include "app/console/layouts/part_gizmo.h"
 #include "app/console/view/background_job.h"
 #include "app/console/view/bridge.h"
-#include "app/console/view/picture_pace.h"
+#include "app/console/view/picture_asker.h"
 #include "app/control/picking/pick.h"
-#include "app/control/render_worker.h"
 #include "recon/appearance/orbit_camera.h"
 
 namespace elbowroom::console {
@@ -101,8 +98,9 @@ class PartsView : public QWidget {
   void MakeScene();
   void MakeTrees();
   void AskForPicture();
-  void Submit(const PictureFineness& fineness);
-  void ShowPicture(const QImage& picture, const recon::OrbitCamera& camera);
+  [[nodiscard]] std::optional<control::RenderRequest> Request(const QSize& size,
+                                                              const PictureFineness& fineness) const;
+  bool Take(const QImage& picture, const control::RenderRequest& request);
   [[nodiscard]] recon::SceneView WidgetView() const;
   // What is painted over the picture belongs where the picture has it, also while a newer one is drawn.
   [[nodiscard]] recon::SceneView PictureView() const;
@@ -113,7 +111,6 @@ class PartsView : public QWidget {
   [[nodiscard]] Eigen::Vector3d CenterOf(std::size_t part) const;  // in world
   void DragTo(const QPointF& position, bool in_steps);
   void EndDrag(bool is_kept);
-  [[nodiscard]] QSize LargestPicture() const;
   void PaintChosen(QPainter& painter) const;
   void PaintGaps(QPainter& painter) const;
   void PaintAxes(QPainter& painter) const;
@@ -130,17 +127,11 @@ class PartsView : public QWidget {
   std::optional<recon::OrbitCamera> camera_;
   std::optional<recon::OrbitCamera> picture_camera_;
   QImage picture_;
-  PicturePace pace_;
-  PictureFineness drawn_with_;
-  QElapsedTimer drawing_;  // valid while a picture is asked for
-  bool is_outdated_ = false;
-  QTimer rest_;
-  QString last_error_;
   QPointF last_mouse_px_;
   QPointF pressed_px_;
-  Bridge bridge_;  // before the threads that post to it
+  Bridge bridge_;  // before the thread that posts to it
   std::unique_ptr<BackgroundJob> tree_making_;
-  control::RenderWorker worker_;
+  PictureAsker asker_;
 };
 
 }  // namespace elbowroom::console

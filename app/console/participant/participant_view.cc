@@ -5,6 +5,8 @@
 #include <QScreen>
 #include <utility>
 
+#include "app/console/view/picture_asker.h"
+
 namespace elbowroom::console {
 namespace {
 
@@ -27,10 +29,7 @@ ParticipantView::ParticipantView(QWidget* parent) : QWidget(parent, Qt::Window) 
 }
 
 void ParticipantView::ShowPicture(const control::ParticipantPicture& picture) {
-  const recon::Image& image = picture.image;
-  picture_ = QImage(image.rgb.data(), image.width_px, image.height_px, 3 * image.width_px,
-                    QImage::Format_RGB888)
-                 .convertToFormat(QImage::Format_RGB32);  // a deep copy
+  picture_ = QtImageOf(picture.image);
   const bool is_new = std::exchange(serial_, picture.serial) != picture.serial;
   measured_at_.reset();
   if (is_new && picture.pose.source != recon::HeadSource::kFixed) measured_at_ = picture.pose.measured_at;

@@ -4,6 +4,7 @@
 #include <QPainter>
 
 #include "app/console/desktop/theme.h"
+#include "app/console/view/picture_asker.h"
 #include "recon/images/image.h"
 
 namespace elbowroom::console {
@@ -33,11 +34,7 @@ void CameraView::ShowTile(const control::CameraTile& tile) {
   trouble_ = !tile.gone.empty() ? QString::fromStdString(tile.gone)
              : tile.is_missing  ? tr("no picture in this frame")
                                 : QString();
-  if (!image.rgb.empty()) {
-    const QImage view(image.rgb.data(), image.width_px, image.height_px, 3 * image.width_px,
-                      QImage::Format_RGB888);
-    picture_ = view.convertToFormat(QImage::Format_RGB32);  // a deep copy
-  }
+  if (!image.rgb.empty()) picture_ = QtImageOf(image);
   update();
 }
 

@@ -12,53 +12,32 @@
 namespace elbowroom::console {
 namespace {
 
-// Beyond these a picture costs more time than it gains in sharpness.
-constexpr QSize kLargestBySoftware(1280, 800);
-constexpr QSize kLargestByCard(3840, 2400);
-// A scene that hasn't changed for this long is drawn in full.
-constexpr std::chrono::milliseconds kRests(400);
 constexpr double kWheelStepEighths = 120.0;  // one notch of a wheel, in Qt's eighths of a degree
-
-QImage ToQImage(const recon::Image& image) {
-  const QImage view(image.rgb.data(), image.width_px, image.height_px, 3 * image.width_px,
-                    QImage::Format_RGB888);
-  return view.convertToFormat(QImage::Format_RGB32);  // a deep copy, in the format that paints fastest
-}
 
 }  // namespace
 
 OperatorView::OperatorView(QWidget* parent)
     : QWidget(parent),
-      worker_(
-          [this](const recon::Image& image, const control::RenderRequest& request) {
-            bridge_.PostLatest(Bridge::Stream::kPicture,
-                               [this, picture = ToQImage(image), request] { ShowPicture(picture, request); });
-          },
-          [this](const std::string& line) {
-            bridge_.PostLatest(Bridge::Stream::kPicture, [this, text = QString::fromStdString(line)] {
-              drawing_.invalidate();
-              if (text != std::exchange(last_error_, text)) emit Failed(text);
-            });
-          }) {
+      asker_(*this, {.request = [this](const QSize& size,
+                                       const PictureFineness& fineness) { return Request(size, fineness); },
+                     .take = [this](const QImage& picture,
+                                    const control::RenderRequest& request) { return Take(picture, request); },
+                     .shown = [this](double drawing_ms) { emit PictureShown(picture_frame_, drawing_ms); },
+                     .failed = [this](const QString& line) { emit Failed(line); }}) {
   setMinimumSize(320, 240);
   setFocusPolicy(Qt::StrongFocus);
   setAccessibleName(tr("3-D view"));
   setAttribute(Qt::WA_OpaquePaintEvent);
-  rest_.setSingleShot(true);
-  rest_.setInterval(kRests);
-  connect(&rest_, &QTimer::timeout, this, [this] {
-    if (result_ && camera_ && !drawing_.isValid()) Submit(PicturePace::kFinest);
-  });
 }
 
 OperatorView::~OperatorView() = default;
 
 void OperatorView::Foresee(const control::SharedHull& hull) {
-  if (result_ && camera_ && !drawing_.isValid()) worker_.Foresee(hull);
+  if (result_ && camera_ && !asker_.is_drawing()) asker_.worker().Foresee(hull);
 }
 
 void OperatorView::ShowFrame(control::SharedFrameResult result) {
-  if (!result_) pace_ = PicturePace();
+  if (!result_) asker_.BeginPace();
   result_ = std::move(result);
   if (camera_) {
     AskForPicture();
@@ -70,7 +49,7 @@ void OperatorView::ShowFrame(control::SharedFrameResult result) {
 void OperatorView::Clear() {
   camera_.reset();
   result_.reset();
-  is_outdated_ = false;
+  asker_.Forget();
   picture_ = QImage();
   update();
 }
@@ -80,7 +59,7 @@ void OperatorView::Fit() {
   auto camera = std::make_shared<recon::OrbitCamera>();
   fitting_ = std::make_unique<BackgroundJob>(
       bridge_,
-      [camera, result = result_, size = LargestPicture()](const std::stop_token&) {
+      [camera, result = result_, size = asker_.LargestPicture()](const std::stop_token&) {
         *camera = control::OverviewCamera(*result, size.width(), size.height());
       },
       [this, camera](const std::string& error) {
@@ -126,7 +105,7 @@ void OperatorView::LookFrom(const core::CameraModel& camera) {
   AskForPicture();
 }
 
-QString OperatorView::driver() const { return QString::fromStdString(worker_.driver()); }
+QString OperatorView::driver() const { return QString::fromStdString(asker_.worker().driver()); }
 
 void OperatorView::Turn(const recon::OrbitCamera& camera) {
   camera_ = camera;
@@ -136,39 +115,23 @@ void OperatorView::Turn(const recon::OrbitCamera& camera) {
 }
 
 void OperatorView::AskForPicture() {
-  if (!result_ || !camera_ || !isVisible()) return;
-  if (drawing_.isValid()) {
-    is_outdated_ = true;
-  } else {
-    Submit(pace_.fineness());
-  }
+  if (CanDraw()) asker_.Ask();
 }
 
-void OperatorView::Submit(const PictureFineness& fineness) {
-  const QSize size = LargestPicture() * fineness.picture;
-  drawn_with_ = fineness;
-  is_outdated_ = false;
-  drawing_.start();
+bool OperatorView::CanDraw() const { return result_ && camera_ && isVisible(); }
+
+std::optional<control::RenderRequest> OperatorView::Request(const QSize& size,
+                                                            const PictureFineness& fineness) const {
+  if (!CanDraw()) return std::nullopt;
   control::RenderRequest request{result_,       *camera_,           size.width(), size.height(),
                                  fineness.hull, fineness.is_smooth, look_};
   if (looks_from_)
     request.fixed_view = recon::ViewFrom(*looks_from_, camera_->target_in_world, size.width(), size.height());
-  worker_.Submit(std::move(request));
+  return request;
 }
 
-QSize OperatorView::LargestPicture() const {
-  const QSize pixels = size() * devicePixelRatio();
-  const QSize largest = worker_.is_software().value_or(true) ? kLargestBySoftware : kLargestByCard;
-  return pixels.boundedTo(pixels.scaled(largest, Qt::KeepAspectRatio)).expandedTo(QSize(64, 64));
-}
-
-void OperatorView::ShowPicture(const QImage& picture, const control::RenderRequest& request) {
-  const double drawing_ms = 1e-6 * static_cast<double>(drawing_.nsecsElapsed());
-  drawing_.invalidate();
-  if (!result_ || request.result->layout != result_->layout)
-    return AskForPicture();  // of a trial that is over
-  last_error_.clear();
-  if (drawn_with_ == pace_.fineness()) pace_.Add(drawing_ms);
+bool OperatorView::Take(const QImage& picture, const control::RenderRequest& request) {
+  if (!result_ || request.result->layout != result_->layout) return false;  // of a trial that is over
   picture_ = picture;
   picture_request_ = request;
   picture_request_.result.reset();
@@ -176,12 +139,7 @@ void OperatorView::ShowPicture(const QImage& picture, const control::RenderReque
   const auto& camera_frames = request.result->camera_frames;
   if (camera_frames && picture_frame_ != last_frame) taken_at_ = camera_frames->taken_at;
   update();
-  if (is_outdated_) {
-    Submit(pace_.fineness());
-  } else if (drawn_with_ != PicturePace::kFinest) {
-    rest_.start();
-  }
-  emit PictureShown(picture_frame_, drawing_ms);
+  return true;
 }
 
 void OperatorView::paintEvent(QPaintEvent* /*event*/) {

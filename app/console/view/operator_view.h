@@ -1,11 +1,9 @@
 // The operator's view of the trial: the render worker's last picture, turned by the mouse.
 #pragma once
 
-#include <QElapsedTimer>
 #include <QImage>
 #include <QPoint>
 #include <QString>
-#include <QTimer>
 #include <QWidget>
 #include <chrono>
 #include <memory>
@@ -14,10 +12,9 @@
 
 #include "app/console/view/background_job.h"
 #include "app/console/view/bridge.h"
-#include "app/console/view/picture_pace.h"
+#include "app/console/view/picture_asker.h"
 #include "app/control/frame_result.h"
 #include "app/control/measuring/dimension.h"
-#include "app/control/render_worker.h"
 #include "app/control/scene_composer.h"
 #include "core/camera_model.h"
 #include "recon/appearance/orbit_camera.h"
@@ -75,13 +72,14 @@ class OperatorView : public QWidget {
  private:
   void Turn(const recon::OrbitCamera& camera);
   void AskForPicture();
-  void Submit(const PictureFineness& fineness);
-  void ShowPicture(const QImage& picture, const control::RenderRequest& request);
+  [[nodiscard]] bool CanDraw() const;
+  [[nodiscard]] std::optional<control::RenderRequest> Request(const QSize& size,
+                                                              const PictureFineness& fineness) const;
+  bool Take(const QImage& picture, const control::RenderRequest& request);
   void PaintCaption(QPainter& painter) const;
   [[nodiscard]] QRect PictureRect() const;
   [[nodiscard]] recon::SceneView ShownView() const;  // of the shown picture, in the widget's pixels
   void TellAge();
-  [[nodiscard]] QSize LargestPicture() const;
 
   std::optional<recon::OrbitCamera> camera_;     // nothing until the first fit
   std::optional<core::CameraModel> looks_from_;  // takes camera_'s place
@@ -94,16 +92,10 @@ class OperatorView : public QWidget {
   std::vector<control::Dimension> dimensions_;
   // When its frame was taken; nothing: of recorded footage, or its age was told.
   std::optional<std::chrono::steady_clock::time_point> taken_at_;
-  PicturePace pace_;
-  PictureFineness drawn_with_;  // the picture asked for last
-  QElapsedTimer drawing_;       // valid while a picture is asked for
-  bool is_outdated_ = false;    // whether the picture that is being drawn is
-  QTimer rest_;
-  QString last_error_;  // told once, until a picture succeeds
   QPointF last_mouse_px_, pressed_px_;
-  Bridge bridge_;  // before the threads that post to it
+  Bridge bridge_;  // before the thread that posts to it
   std::unique_ptr<BackgroundJob> fitting_;
-  control::RenderWorker worker_;
+  PictureAsker asker_;
 };
 
 }  // namespace elbowroom::console
