@@ -17,6 +17,14 @@ void ReadTexelsAlone() {
 }  // namespace
 
 void FloatTexture::Upload(int width_px, int height_px, std::span<const float> floats) {
+  UploadWithin(width_px, height_px, floats, {0, 0, width_px, height_px});
+}
+
+void FloatTexture::UploadWithin(int width_px, int height_px, std::span<const float> floats,
+                                const TexelBox& texels) {
+  core::Require(0 <= texels.x && texels.x < texels.right && texels.right <= width_px && 0 <= texels.y &&
+                    texels.y < texels.bottom && texels.bottom <= height_px,
+                "a texture is renewed within itself");
   core::Require(width_px > 0 && height_px > 0 &&
                     floats.size() == static_cast<std::size_t>(width_px) *
                                          static_cast<std::size_t>(height_px) *
@@ -26,7 +34,13 @@ void FloatTexture::Upload(int width_px, int height_px, std::span<const float> fl
   glBindTexture(GL_TEXTURE_2D, texture_.get());
   glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
   if (width_px == width_px_ && height_px == height_px_) {
-    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width_px, height_px, format, GL_FLOAT, floats.data());
+    glPixelStorei(GL_UNPACK_ROW_LENGTH, width_px);
+    glPixelStorei(GL_UNPACK_SKIP_PIXELS, texels.x);
+    glPixelStorei(GL_UNPACK_SKIP_ROWS, texels.y);
+    glTexSubImage2D(GL_TEXTURE_2D, 0, texels.x, texels.y, texels.right - texels.x, texels.bottom - texels.y,
+                    format, GL_FLOAT, floats.data());
+    for (const GLenum what : {GL_UNPACK_ROW_LENGTH, GL_UNPACK_SKIP_PIXELS, GL_UNPACK_SKIP_ROWS})
+      glPixelStorei(what, 0);
     return;
   }
   glTexImage2D(GL_TEXTURE_2D, 0, channels_ == 1 ? GL_R32F : GL_RGB32F, width_px, height_px, 0, format,

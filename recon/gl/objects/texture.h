@@ -10,6 +10,11 @@
 
 namespace elbowroom::recon::gl {
 
+// Texels [x, right) by [y, bottom).
+struct TexelBox {
+  int x = 0, y = 0, right = 0, bottom = 0;
+};
+
 // One or three floats a texel, read with texelFetch: no filtering, no mipmaps.
 class FloatTexture {
  public:
@@ -17,6 +22,9 @@ class FloatTexture {
 
   // Row-major, width_px * height_px * channels floats. Throws: PreconditionError when the count differs.
   void Upload(int width_px, int height_px, std::span<const float> floats);
+
+  // The same, but where the size has not changed only these texels are renewed: the others stay as they were.
+  void UploadWithin(int width_px, int height_px, std::span<const float> floats, const TexelBox& texels);
 
   void BindTo(int unit) const;
 

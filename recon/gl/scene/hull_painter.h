@@ -8,13 +8,15 @@
 #include "recon/gl/objects/texture.h"
 #include "recon/gl/objects/vertex_array.h"
 #include "recon/gl/scene/lighting.h"
+#include "recon/gl/scene/picture_squares.h"
 #include "recon/gl/scene/scene.h"
 #include "recon/gl/scene/view_matrices.h"
 
 namespace elbowroom::recon::gl {
 
-// Parts and hull hide each other pixel by pixel. In a picture with several samples a pixel the hull's rim is
-// smoothed by a 3 x 3 quadratic B-spline over the layer's hits.
+// Parts and hull hide each other pixel by pixel. Squares of the picture without a hit are skipped. In a
+// picture with several samples a pixel the hull's rim is smoothed by a 3 x 3 quadratic B-spline over the
+// layer's hits.
 class HullPainter {
  public:
   HullPainter();
@@ -26,15 +28,17 @@ class HullPainter {
   void DrawDepth(const HullView& layer, const ViewMatrices& matrices);
 
  private:
-  void UploadSurface(const Scene& scene);
-  void DrawWith(const ShaderProgram& program, const HullView& layer, const SceneView& view);
+  void UploadSurface(const Scene& scene, const TexelBox& texels);
+  void DrawWith(const ShaderProgram& program, const HullView& layer, const SceneView& view,
+                const HitSquares& squares);
 
-  ShaderProgram picture_program_;
+  ShaderProgram texel_program_;
+  ShaderProgram spline_program_;
   ShaderProgram depth_program_;
   FloatTexture depth_{1};
   FloatTexture normal_{3};
   ColorTexture camera_color_;
-  VertexArray corners_{};
+  VertexArray corners_{2};
 };
 
 }  // namespace elbowroom::recon::gl

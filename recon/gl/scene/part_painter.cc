@@ -197,6 +197,10 @@ double PartPainter::LowestMm(const ScenePart& part) const {
   return lowest_mm;
 }
 
+Eigen::AlignedBox2f PartPainter::BoundsIn(const ScenePart& part, const SceneView& view) const {
+  return PictureBounds(Uploaded(part.mesh).bounds_in_part, view.cam_from_world * part.world_from_part, view);
+}
+
 std::size_t PartPainter::LevelFor(const ScenePart& part, const SceneView& view) const {
   const UploadedMesh& mesh = Uploaded(part.mesh);
   const double most_mm =
@@ -310,8 +314,7 @@ CasterPass PartPainter::DrawCasters(std::span<const ScenePart> parts, const View
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const ScenePart& part = parts[i];
     if (part.opacity <= 0.0F) continue;
-    const Eigen::AlignedBox2f bounds = PictureBounds(
-        Uploaded(part.mesh).bounds_in_part, lamp.view.cam_from_world * part.world_from_part, lamp.view);
+    const Eigen::AlignedBox2f bounds = BoundsIn(part, lamp.view);
     if (bounds.isEmpty()) {
       ++pass.parts_outside;
       continue;

@@ -60,6 +60,10 @@ class PartPainter {
   // The least z of the part's box in world, of a mesh that Update was given.
   [[nodiscard]] double LowestMm(const ScenePart& part) const;
 
+  // A box around the part in a view, in shares of the view's sides from its upper left; empty: outside. Where
+  // some of the part's box is behind the eye, all of the picture. Of a mesh that Update was given.
+  [[nodiscard]] Eigen::AlignedBox2f BoundsIn(const ScenePart& part, const SceneView& view) const;
+
   // The level of each part, in the order of the last Update; 0 is the whole mesh.
   [[nodiscard]] const std::vector<std::size_t>& levels() const { return levels_; }
 

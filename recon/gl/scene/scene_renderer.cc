@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <thread>
+#include <utility>
 
 #include "core/error.h"
 #include "recon/gl/objects/egl_context.h"
@@ -52,11 +53,13 @@ class SceneRenderer::Impl {
   void AwaitLevels() { parts_.AwaitLevels(); }
   [[nodiscard]] const Lighting& lighting() const { return lighting_; }
   [[nodiscard]] const StillCount& still_count() const { return still_count_; }
+  [[nodiscard]] const SquareCount& square_count() const { return still_.square_count(); }
   [[nodiscard]] std::thread::id thread() const { return thread_; }
 
  private:
   void DrawAll(const Scene& scene, const ViewMatrices& matrices, const Framebuffer& target);
-  void DrawOnStillLayer(const Scene& scene, const ViewMatrices& matrices, const Framebuffer& target);
+  void DrawOnStillLayer(const Scene& scene, const ViewMatrices& matrices, const Framebuffer& target,
+                        StillLayer::Need need, StillContent content);
   [[nodiscard]] const Targets& TargetsFor(const SceneView& view, Smoothness smoothness);
 
   EglContext context_;
@@ -95,18 +98,19 @@ void SceneRenderer::Impl::DrawAll(const Scene& scene, const ViewMatrices& matric
 
 // Table and lines are on the layer already; where the hull has covered them they are drawn over it once more.
 void SceneRenderer::Impl::DrawOnStillLayer(const Scene& scene, const ViewMatrices& matrices,
-                                           const Framebuffer& target) {
-  if (still_.Holds(scene, parts_, lighting_)) {
+                                           const Framebuffer& target, StillLayer::Need need,
+                                           StillContent content) {
+  if (need == StillLayer::Need::kNothing) {
     ++still_count_.kept;
   } else {
-    still_.BeginDrawing(scene, parts_, lighting_);
+    still_.BeginDrawing(need, scene.view);
     surroundings_.DrawBackground(scene);
     parts_.DrawOpaqueDepth(scene.parts, matrices);
     parts_.DrawOpaque(scene.parts, matrices, lighting_, HullShadow::kLeftOut);
     surroundings_.DrawTable(scene, matrices, lighting_, HullShadow::kLeftOut);
     surroundings_.DrawLines(scene, matrices);
-    still_.EndDrawing(matrices, scene.lamp);
-    ++still_count_.drawn;
+    still_.EndDrawing(std::move(content), matrices, scene.lamp);
+    ++(need == StillLayer::Need::kAll ? still_count_.drawn : still_count_.renewed);
   }
   still_.ShowIn(target, matrices, lighting_);
   if (scene.hull == nullptr) return;
@@ -126,10 +130,12 @@ Image SceneRenderer::Impl::Render(const Scene& scene) {
   const Targets& targets = TargetsFor(scene.view, scene.smoothness);
   parts_.Update(scene.parts, scene.view);
   lighting_.Update(scene, parts_);
-  const bool is_still = still_things_ == StillThings::kKept && StillLayer::Suits(scene, parts_) &&
-                        still_.ComesAgain(scene, parts_, lighting_);
-  if (is_still) {
-    DrawOnStillLayer(scene, matrices, targets.single);
+  auto need = StillLayer::Need::kNoLayer;
+  std::optional<StillContent> content;
+  if (still_things_ == StillThings::kKept && StillLayer::Suits(scene, parts_))
+    need = still_.NeedFor(content.emplace(scene, parts_));
+  if (need != StillLayer::Need::kNoLayer) {
+    DrawOnStillLayer(scene, matrices, targets.single, need, std::move(*content));
   } else {
     DrawAll(scene, matrices, targets.sampled ? *targets.sampled : targets.single);
   }
@@ -206,6 +212,7 @@ std::size_t SceneRenderer::cached_meshes() const { return OnOwnThread().parts().
 std::int64_t SceneRenderer::mesh_uploads() const { return OnOwnThread().parts().mesh_uploads(); }
 ShadowCount SceneRenderer::shadow_count() const { return OnOwnThread().lighting().count(); }
 StillCount SceneRenderer::still_count() const { return OnOwnThread().still_count(); }
+SquareCount SceneRenderer::square_count() const { return OnOwnThread().square_count(); }
 TriangleCount SceneRenderer::triangle_count() const { return OnOwnThread().parts().triangle_count(); }
 void SceneRenderer::AwaitLevels() { OnOwnThread().AwaitLevels(); }
 

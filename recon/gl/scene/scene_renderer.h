@@ -52,6 +52,7 @@ class SceneRenderer {
   [[nodiscard]] std::int64_t mesh_uploads() const;     // since the start
   [[nodiscard]] ShadowCount shadow_count() const;      // since the start
   [[nodiscard]] StillCount still_count() const;        // since the start
+  [[nodiscard]] SquareCount square_count() const;      // since the start
   [[nodiscard]] TriangleCount triangle_count() const;  // since the start
 
   // Waits until the levels of all meshes that were drawn are there.

@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <array>
+#include <string>
 #include <utility>
 
 #include "recon/gl/objects/gl_error.h"
+#include "recon/gl/scene/picture_squares.h"
 
 namespace elbowroom::recon::gl {
 namespace {
@@ -17,11 +19,15 @@ constexpr int kUnlitUnit = 1;
 constexpr int kPlaceUnit = 2;
 constexpr double kBelowTableMm = 1.0;  // that a part may reach down: what is left of it there is a few pixels
 
-constexpr int kTilePx = 16;
+// A layer of which more than this share has changed isn't worth renewing for a content that may not come
+// again.
+constexpr double kWorthRenewing = 0.5;
+constexpr float kEdgePx = 2.0F;  // that a part's edges may be drawn beside its box
+constexpr float kFilterTexels =
+    4.0F;  // of the parts' shadow, that a look-up may read beside its place, and more
 
-constexpr const char* kCornerSource = R"(
-layout(location = 0) in vec2 corner;
-void main() { gl_Position = vec4(corner, 0.0, 1.0); }
+constexpr const char* kEmptySource = R"(
+void main() {}
 )";
 
 // Pixels that the hull leaves all light are as they were copied.
@@ -92,26 +98,15 @@ class LampPlace {
   float focal_share_ = 1.0F;
 };
 
-// Two triangles in clip space.
-void AppendSquare(int x_px, int y_px, int width_px, int height_px, std::vector<float>& floats) {
-  const auto clip = [](int px, int size_px) {
-    return 2.0F * static_cast<float>(std::min(px, size_px)) / static_cast<float>(size_px) - 1.0F;
-  };
-  const float left = clip(x_px, width_px), right = clip(x_px + kTilePx, width_px),
-              low = clip(y_px, height_px), high = clip(y_px + kTilePx, height_px);
-  floats.insert(floats.end(), {left, low, right, low, right, high, left, low, right, high, left, high});
+bool MeetsAny(const Eigen::AlignedBox2f& box, const std::vector<Eigen::AlignedBox2f>& others) {
+  return !box.isEmpty() &&
+         std::ranges::any_of(others, [&](const auto& other) { return other.intersects(box); });
 }
 
-template <typename Box>
-bool AreSameBoxes(const std::optional<Box>& a, const std::optional<Box>& b) {
-  return a.has_value() == b.has_value() && (!a || (a->min() == b->min() && a->max() == b->max()));
-}
-
-bool AreSameSurroundings(const Scene& a, const Scene& b) {
-  return a.view == b.view && a.lamp == b.lamp && a.table_grid_mm == b.table_grid_mm &&
-         AreSameBoxes(a.table_in_world, b.table_in_world) &&
-         AreSameBoxes(a.workspace_in_world, b.workspace_in_world) && a.cameras == b.cameras &&
-         a.background_top == b.background_top && a.background_bottom == b.background_bottom;
+// Each a little larger, for what a shader does around it.
+std::vector<Eigen::AlignedBox2f> Widened(std::vector<Eigen::AlignedBox2f> boxes, const Eigen::Vector2f& by) {
+  for (Eigen::AlignedBox2f& box : boxes) box = {box.min() - by, box.max() + by};
+  return boxes;
 }
 
 }  // namespace
@@ -131,7 +126,9 @@ StillLayer::Buffers::Buffers(int width, int height) : width_px(width), height_px
 }
 
 StillLayer::StillLayer()
-    : shadow_program_("hull's shadow", kCornerSource, std::string(kLightingSource).append(kShadowSource)) {}
+    : shadow_program_("hull's shadow", kSquareVertexSource,
+                      std::string(kLightingSource).append(kShadowSource)),
+      empty_program_("emptied squares", kSquareVertexSource, kEmptySource) {}
 
 bool StillLayer::Suits(const Scene& scene, const PartPainter& parts) {
   return scene.smoothness == Smoothness::kOneSample && scene.view.EyeInWorld().z() >= 0.0 &&
@@ -140,82 +137,112 @@ bool StillLayer::Suits(const Scene& scene, const PartPainter& parts) {
          });
 }
 
-StillLayer::Content StillLayer::ContentOf(const Scene& scene, const PartPainter& parts,
-                                          const Lighting& light) {
-  Content content;
-  content.surroundings.view = scene.view;
-  content.surroundings.lamp = scene.lamp;
-  content.surroundings.table_in_world = scene.table_in_world;
-  content.surroundings.table_grid_mm = scene.table_grid_mm;
-  content.surroundings.workspace_in_world = scene.workspace_in_world;
-  content.surroundings.cameras = scene.cameras;
-  content.surroundings.background_top = scene.background_top;
-  content.surroundings.background_bottom = scene.background_bottom;
-  for (std::size_t i = 0; i < scene.parts.size(); ++i) {
-    const ScenePart& part = scene.parts[i];
-    if (part.opacity >= 1.0F)
-      content.parts.push_back(
-          {part.mesh, part.world_from_part, part.color, part.in_contact, parts.levels().at(i)});
+StillLayer::Need StillLayer::NeedFor(const StillContent& content) {
+  const bool comes_again = asked_for_ && *asked_for_ == content;
+  asked_for_ = content;
+  const std::optional<StillChange> change = content_ ? content_->ChangeTo(content) : std::nullopt;
+  if (!change) return comes_again ? Need::kAll : Need::kNoLayer;
+  stale_ = StaleTiles(*change);
+  if (stale_.empty()) return Need::kNothing;
+  const bool is_worth_it =
+      static_cast<double>(stale_.size()) <= kWorthRenewing * static_cast<double>(tiles_.size());
+  return comes_again || is_worth_it ? Need::kSquares : Need::kNoLayer;
+}
+
+// A pixel differs only where a part is or was drawn, or where it looks up a shadow that differs.
+std::vector<std::size_t> StillLayer::StaleTiles(const StillChange& change) const {
+  const Eigen::Vector2f size_px(static_cast<float>(buffers_->width_px),
+                                static_cast<float>(buffers_->height_px));
+  const std::vector<Eigen::AlignedBox2f> in_picture =
+      Widened(change.in_picture, Eigen::Vector2f::Constant(kEdgePx).cwiseQuotient(size_px));
+  const std::vector<Eigen::AlignedBox2f> in_lamp =
+      Widened(change.in_lamp, Eigen::Vector2f::Constant(kFilterTexels / static_cast<float>(part_shadow_px_)));
+  std::vector<std::size_t> stale;
+  for (std::size_t i = 0; i < tiles_.size(); ++i) {
+    const Eigen::Vector2f corner(static_cast<float>(tiles_[i].x_px), static_cast<float>(tiles_[i].y_px));
+    const Eigen::AlignedBox2f square(corner.cwiseQuotient(size_px),
+                                     (corner.array() + float{kSquarePx}).matrix().cwiseQuotient(size_px));
+    if (MeetsAny(square, in_picture) || MeetsAny(tiles_[i].in_lamp, in_lamp)) stale.push_back(i);
   }
-  content.part_passes = light.count().part_passes;
-  return content;
+  return stale;
 }
 
-bool StillLayer::AreSame(const Content& a, const Content& b) {
-  const auto are_same_parts = [](const KeptPart& one, const KeptPart& other) {
-    return one.mesh.lock() == other.mesh.lock() && one.world_from_part == other.world_from_part &&
-           one.color == other.color && one.in_contact == other.in_contact && one.level == other.level;
-  };
-  return a.part_passes == b.part_passes && AreSameSurroundings(a.surroundings, b.surroundings) &&
-         std::ranges::equal(a.parts, b.parts, are_same_parts);
-}
-
-bool StillLayer::Holds(const Scene& scene, const PartPainter& parts, const Lighting& light) const {
-  return content_ && AreSame(*content_, ContentOf(scene, parts, light));
-}
-
-void StillLayer::BeginDrawing(const Scene& scene, const PartPainter& parts, const Lighting& light) {
+void StillLayer::BeginDrawing(Need need, const SceneView& view) {
   content_.reset();  // what is drawn from here on may fail
-  if (!buffers_ || buffers_->width_px != scene.view.width_px || buffers_->height_px != scene.view.height_px) {
-    buffers_.reset();
-    buffers_.emplace(scene.view.width_px, scene.view.height_px);
+  if (need == Need::kSquares) {
+    EmptyStaleTiles();
+    square_count_.drawn += static_cast<std::int64_t>(stale_.size());
+    square_count_.left += static_cast<std::int64_t>(tiles_.size() - stale_.size());
+    return;
   }
+  if (!buffers_ || buffers_->width_px != view.width_px || buffers_->height_px != view.height_px) {
+    buffers_.reset();
+    buffers_.emplace(view.width_px, view.height_px);
+  }
+  tiles_.clear();
+  stale_.clear();
+  for (int y = 0; y < view.height_px; y += kSquarePx)
+    for (int x = 0; x < view.width_px; x += kSquarePx) {
+      stale_.push_back(tiles_.size());
+      tiles_.push_back({x, y, {}});
+    }
   glBindFramebuffer(GL_FRAMEBUFFER, buffers_->framebuffer.get());
   glViewport(0, 0, buffers_->width_px, buffers_->height_px);
   glClear(GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
-  content_ = ContentOf(scene, parts, light);
 }
 
-bool StillLayer::ComesAgain(const Scene& scene, const PartPainter& parts, const Lighting& light) {
-  Content content = ContentOf(scene, parts, light);
-  const bool comes_again = asked_for_ && AreSame(*asked_for_, content);
-  asked_for_ = std::move(content);
-  return comes_again;
+// The stencil then lets drawing through in these squares alone.
+void StillLayer::EmptyStaleTiles() {
+  std::vector<float> corners;
+  for (const std::size_t i : stale_)
+    AppendSquare(tiles_[i].x_px, tiles_[i].y_px, buffers_->width_px, buffers_->height_px, corners);
+  corners_.Upload(corners, Refill::kEachFrame);
+  glBindFramebuffer(GL_FRAMEBUFFER, buffers_->framebuffer.get());
+  glViewport(0, 0, buffers_->width_px, buffers_->height_px);
+  glClear(GL_STENCIL_BUFFER_BIT);
+  glEnable(GL_STENCIL_TEST);
+  glStencilFunc(GL_ALWAYS, 1, 1U);
+  glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
+  glDepthFunc(GL_ALWAYS);
+  glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+  empty_program_.Use();
+  corners_.Draw(GL_TRIANGLES);
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  glDepthFunc(GL_LEQUAL);
+  glStencilFunc(GL_EQUAL, 1, 1U);
+  glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
 }
 
-void StillLayer::EndDrawing(const ViewMatrices& matrices, const SceneLamp& lamp) {
+void StillLayer::EndDrawing(StillContent content, const ViewMatrices& matrices, const SceneLamp& lamp) {
+  glDisable(GL_STENCIL_TEST);
+  glClear(GL_STENCIL_BUFFER_BIT);
   const int width_px = buffers_->width_px, height_px = buffers_->height_px;
-  std::vector<Eigen::Vector4f> places(static_cast<std::size_t>(width_px) *
-                                      static_cast<std::size_t>(height_px));
+  TexelBox box{width_px, height_px, 0, 0};
+  for (const std::size_t i : stale_) {
+    box = {std::min(box.x, tiles_[i].x_px), std::min(box.y, tiles_[i].y_px),
+           std::max(box.right, std::min(tiles_[i].x_px + kSquarePx, width_px)),
+           std::max(box.bottom, std::min(tiles_[i].y_px + kSquarePx, height_px))};
+  }
+  const int across = box.right - box.x;
+  std::vector<Eigen::Vector4f> places(static_cast<std::size_t>(across) *
+                                      static_cast<std::size_t>(box.bottom - box.y));
   glReadBuffer(GL_COLOR_ATTACHMENT2);
-  glReadPixels(0, 0, width_px, height_px, GL_RGBA, GL_FLOAT, places.data());
+  glReadPixels(box.x, box.y, across, box.bottom - box.y, GL_RGBA, GL_FLOAT, places.data());
   glReadBuffer(GL_COLOR_ATTACHMENT0);
   const LampPlace in_lamp(matrices.view, lamp);
-  tiles_.clear();
-  for (int y = 0; y < height_px; y += kTilePx)
-    for (int x = 0; x < width_px; x += kTilePx) tiles_.push_back({x, y, {}});
-  tbb::parallel_for(std::size_t{0}, tiles_.size(), [&](std::size_t i) {
-    Tile& tile = tiles_[i];
-    for (int y = tile.y_px; y < std::min(tile.y_px + kTilePx, height_px); ++y)
-      for (int x = tile.x_px; x < std::min(tile.x_px + kTilePx, width_px); ++x) {
-        const float depth_mm = places[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_px) +
-                                      static_cast<std::size_t>(x)]
-                                   .head<3>()
-                                   .norm();
+  tbb::parallel_for(std::size_t{0}, stale_.size(), [&](std::size_t i) {
+    Tile& tile = tiles_[stale_[i]];
+    tile.in_lamp.setEmpty();
+    for (int y = tile.y_px; y < std::min(tile.y_px + kSquarePx, height_px); ++y)
+      for (int x = tile.x_px; x < std::min(tile.x_px + kSquarePx, width_px); ++x) {
+        const float depth_mm =
+            places[static_cast<std::size_t>((y - box.y) * across + x - box.x)].head<3>().norm();
         if (const auto share = depth_mm > 0.0F ? in_lamp.Of(x, y, depth_mm) : std::nullopt)
           tile.in_lamp.extend(*share);
       }
   });
+  part_shadow_px_ = lamp.part_shadow_px;
+  content_ = std::move(content);
 }
 
 void StillLayer::ShowIn(const Framebuffer& target, const ViewMatrices& matrices, const Lighting& light) {

@@ -14,6 +14,8 @@
 #include "recon/gl/scene/lighting.h"
 #include "recon/gl/scene/part_painter.h"
 #include "recon/gl/scene/scene.h"
+#include "recon/gl/scene/still_content.h"
+#include "recon/gl/scene/still_count.h"
 #include "recon/gl/scene/view_matrices.h"
 
 namespace elbowroom::recon::gl {
@@ -31,38 +33,28 @@ class StillLayer {
   // from above, and no opaque part that reaches below it. The painter must be up to date with the scene.
   [[nodiscard]] static bool Suits(const Scene& scene, const PartPainter& parts);
 
-  // Whether it needs no drawing for this scene. The painter and the light must be up to date with it.
-  [[nodiscard]] bool Holds(const Scene& scene, const PartPainter& parts, const Lighting& light) const;
+  // What the layer needs to show a content. kNoLayer: to be drawn without one, which is sooner where nearly
+  // all changes from picture to picture, as when the eye turns: a layer is drawn whole only for a content
+  // that comes the second time in a row.
+  enum class Need { kNothing, kSquares, kAll, kNoLayer };
+  [[nodiscard]] Need NeedFor(const StillContent& content);
 
-  // Empties it at the scene's size and makes it the target of drawing: shaders write `pixel`, `unlit` and
-  // `place` there. It then holds the scene. Throws: Error{kGraphics} when the driver can't hold it.
-  void BeginDrawing(const Scene& scene, const PartPainter& parts, const Lighting& light);
+  // Empties the layer, or, for kSquares, those of its squares that differ from the content that NeedFor was
+  // given, and makes it the target of drawing. Shaders write `pixel`, `unlit` and `place` there, within those
+  // squares alone. Throws: Error{kGraphics} when the driver can't hold it.
+  void BeginDrawing(Need need, const SceneView& view);
 
-  // To be called when all is drawn: looks where each piece of the picture stands in the lamp's.
-  void EndDrawing(const ViewMatrices& matrices, const SceneLamp& lamp);
+  // The layer shows the content, which NeedFor was given, from here on. Looks where each square of the
+  // picture that is new stands in the lamp's.
+  void EndDrawing(StillContent content, const ViewMatrices& matrices, const SceneLamp& lamp);
 
-  // Whether the layer was asked for this scene the last time, too. What changes from picture to picture, as
-  // when the eye turns, is drawn sooner without a layer.
-  [[nodiscard]] bool ComesAgain(const Scene& scene, const PartPainter& parts, const Lighting& light);
+  [[nodiscard]] const SquareCount& square_count() const { return square_count_; }  // since the start
 
   // Copies colours and depths to the target, which has the same size and one sample, and puts the hull's
   // shadow on them, in those pieces that it can reach. The target is bound afterwards.
   void ShowIn(const Framebuffer& target, const ViewMatrices& matrices, const Lighting& light);
 
  private:
-  struct KeptPart {
-    std::weak_ptr<const core::TriangleMesh> mesh;
-    core::RigidTransform world_from_part;
-    Eigen::Vector3f color;
-    bool in_contact = false;
-    std::size_t level = 0;
-  };
-  // All that the layer shows.
-  struct Content {
-    Scene surroundings;  // without parts and hull
-    std::vector<KeptPart> parts;
-    std::int64_t part_passes = 0;  // of the parts' shadows
-  };
   // A square of the picture.
   struct Tile {
     int x_px = 0;
@@ -76,14 +68,18 @@ class StillLayer {
     GlName<RenderbufferKind> depth;
     GlName<FramebufferKind> framebuffer;
   };
-  [[nodiscard]] static Content ContentOf(const Scene& scene, const PartPainter& parts, const Lighting& light);
-  [[nodiscard]] static bool AreSame(const Content& a, const Content& b);
+  [[nodiscard]] std::vector<std::size_t> StaleTiles(const StillChange& change) const;
+  void EmptyStaleTiles();
 
   ShaderProgram shadow_program_;
+  ShaderProgram empty_program_;
   VertexArray corners_{2};
   std::optional<Buffers> buffers_;
-  std::optional<Content> content_, asked_for_;
+  std::optional<StillContent> content_, asked_for_;
   std::vector<Tile> tiles_;
+  std::vector<std::size_t> stale_;  // places in tiles_, to be drawn
+  int part_shadow_px_ = 1;
+  SquareCount square_count_;
 };
 
 }  // namespace elbowroom::recon::gl
