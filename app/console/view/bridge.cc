@@ -5,7 +5,22 @@
 namespace elbowroom::console {
 
 void Bridge::Post(Delivery delivery) {
-  QMetaObject::invokeMethod(this, std::move(delivery), Qt::QueuedConnection);
+  {
+    const std::lock_guard lock(mutex_);
+    waiting_.push_back(std::move(delivery));
+  }
+  QMetaObject::invokeMethod(
+      this, [this] { DeliverNext(); }, Qt::QueuedConnection);
+}
+
+void Bridge::DeliverNext() {
+  Delivery delivery;
+  {
+    const std::lock_guard lock(mutex_);
+    delivery = std::move(waiting_.front());
+    waiting_.pop_front();
+  }
+  delivery();
 }
 
 void Bridge::PostLatest(Stream stream, Delivery delivery) {

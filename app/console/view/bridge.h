@@ -4,6 +4,7 @@
 #include <QObject>
 #include <array>
 #include <cstddef>
+#include <deque>
 #include <functional>
 #include <mutex>
 
@@ -28,9 +29,11 @@ class Bridge : public QObject {
 
  private:
   static constexpr std::size_t kStreams = 5;
+  void DeliverNext();
   void DeliverLatest(Stream stream);
 
   std::mutex mutex_;
+  std::deque<Delivery> waiting_;  // of Post; an event is on the way for each
   std::array<Delivery, kStreams> latest_;
 };
 

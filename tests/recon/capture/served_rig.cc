@@ -45,11 +45,6 @@ Clock::time_point ServedRig::TimeOf(std::int64_t count) const {
   return begin_ + std::chrono::duration_cast<Clock::duration>(since);
 }
 
-std::size_t ServedRig::SetAt(Clock::time_point taken_at) const {
-  const double periods = std::chrono::duration<double>(taken_at - begin_).count() * rate_hz_;
-  return static_cast<std::size_t>(std::llround(periods)) % sets_.size();
-}
-
 // Waits for the next instant at which all cameras take a picture.
 Clock::time_point ServedRig::Fill(std::size_t camera, cv::Mat& pixels) const {
   const double periods = std::chrono::duration<double>(Clock::now() - begin_).count() * rate_hz_;

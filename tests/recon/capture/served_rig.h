@@ -21,8 +21,6 @@ class ServedRig {
 
   // How RIG.yml names camera `i`, with the settings that keep its pixels as they are.
   [[nodiscard]] CameraSources SourcesOf(std::size_t i) const;
-  // Which set was taken at this time, of those that were given.
-  [[nodiscard]] std::size_t SetAt(std::chrono::steady_clock::time_point taken_at) const;
 
   void Switch(std::size_t camera, bool is_on);
   void SetPacketLoss(std::size_t camera, double share) { cameras_.at(camera)->SetPacketLoss(share); }
