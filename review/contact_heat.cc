@@ -144,13 +144,15 @@ void ContactHeat::Add(double time_s, const std::shared_ptr<const recon::VisualHu
   for (core::PartIndex i = 0; i < parts_.size(); ++i) {
     PartHeat& heat = parts_[i];
     for (const TouchedPatch& touched : heat.touched) heat.dwell_s[touched.patch] += lasted_s;
+    const bool was_touched = !heat.touched.empty();
+    if (was_touched || contacts[i].verdict == core::Verdict::kContact) ++heat.changes;
     const bool is_unchanged = hull_ == hull && heat.world_from_part == world_from_parts[i];
     heat.world_from_part = world_from_parts[i];
     if (contacts[i].verdict != core::Verdict::kContact) {
       heat.touched.clear();
       continue;
     }
-    if (is_unchanged && !heat.touched.empty()) continue;
+    if (is_unchanged && was_touched) continue;
     if (!heat.patches) {
       heat.patches =
           std::make_shared<const core::SurfacePatches>(trees_[i].shared_mesh(), core::kHeatPatchMm);
@@ -184,9 +186,17 @@ core::HeatMap ContactHeat::MapOf(const PartHeat& heat, core::PartIndex part, dou
   return map;
 }
 
+double ContactHeat::LastFrameS() const {
+  return frames_ > 1 ? (last_time_s_ - first_time_s_) / static_cast<double>(frames_ - 1) : 0.0;
+}
+
+core::HeatMap ContactHeat::MapOf(core::PartIndex part) const {
+  core::Require(parts_[part].patches != nullptr, "the map of a part that was touched");
+  return MapOf(parts_[part], part, LastFrameS());
+}
+
 std::vector<core::HeatMap> ContactHeat::Maps() const {
-  const double last_frame_s =
-      frames_ > 1 ? (last_time_s_ - first_time_s_) / static_cast<double>(frames_ - 1) : 0.0;
+  const double last_frame_s = LastFrameS();
   std::vector<core::HeatMap> maps;
   for (core::PartIndex i = 0; i < parts_.size(); ++i) {
     if (parts_[i].patches) maps.push_back(MapOf(parts_[i], i, last_frame_s));

@@ -45,6 +45,11 @@ class ContactHeat {
   // The maps of the parts that were touched, in the layout's order.
   [[nodiscard]] std::vector<core::HeatMap> Maps() const;
 
+  // Grows whenever a part's map may have changed; 0: it was never touched.
+  [[nodiscard]] std::int64_t changes(core::PartIndex part) const { return parts_[part].changes; }
+  // Of a part that was touched, as Maps() has it. Throws: PreconditionError: it wasn't.
+  [[nodiscard]] core::HeatMap MapOf(core::PartIndex part) const;
+
  private:
   struct PartHeat {
     std::shared_ptr<const core::SurfacePatches> patches;  // null: never touched
@@ -52,7 +57,9 @@ class ContactHeat {
     std::vector<double> peak_depth_mm;
     std::vector<TouchedPatch> touched;  // in the last frame
     core::RigidTransform world_from_part;
+    std::int64_t changes = 0;
   };
+  [[nodiscard]] double LastFrameS() const;
   [[nodiscard]] static core::HeatMap MapOf(const PartHeat& heat, core::PartIndex part, double last_frame_s);
 
   std::span<const core::TriangleTree> trees_;

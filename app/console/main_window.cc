@@ -281,6 +281,8 @@ void MainWindow::FollowDesk() {
   connect(desk_, &TrialDesk::TilesArrived, sights_, &TrialSights::ShowTiles);
   connect(strip_, &CameraStrip::RoomChanged, sights_, &TrialSights::SetTileRoom);
   connect(strip_, &CameraStrip::CameraChosen, sights_, &TrialSights::ShowCamera);
+  connect(sights_, &TrialSights::HeatWished, desk_, &TrialDesk::SetHeatWanted);
+  connect(desk_, &TrialDesk::HeatArrived, sights_, &TrialSights::ShowHeat);
   connect(sights_, &TrialSights::WishesChanged, desk_, &TrialDesk::SetTileWishes);
   connect(desk_, &TrialDesk::Failed, this, &MainWindow::ShowError);
   connect(desk_, &TrialDesk::Progressed, status_, &StatusLine::ShowProgress);
@@ -303,7 +305,7 @@ void MainWindow::ShowError(const QString& line) { messages_->ShowError(line); }
 void MainWindow::OpenTrial(const control::TrialSetup& setup) {
   messages_->hide();
   view_->Clear();
-  sights_->Open(setup.source->rig());
+  sights_->Open(setup.source->rig(), setup.rig_quality);
   pages_->SetTrialWidget(sights_);
   pages_->Show(Page::kTrial);
   cameras_dock_->show();

@@ -9,7 +9,6 @@
 #include "app/console/camera_strip.h"
 #include "app/console/contact_model.h"
 #include "app/console/desktop/session_place.h"
-#include "app/console/hull_look_button.h"
 #include "app/console/layouts/layout_page.h"
 #include "app/console/note_line.h"
 #include "app/console/page_switch.h"
@@ -24,6 +23,7 @@
 #include "app/console/touch_model.h"
 #include "app/console/trial_actions.h"
 #include "app/console/trial_desk.h"
+#include "app/console/view/hull_look_button.h"
 #include "app/console/view/message_bar.h"
 #include "app/console/view/operator_view.h"
 

@@ -109,6 +109,9 @@ void MainWindow::AddMenus() {
     view_->Fit();
   });
   sights_->AddTo(view);
+  auto* hull = view->addMenu(tr("&Hull"));
+  hull->setToolTipsVisible(true);
+  for (QAction* look : hull_look_->KnowledgeActions()) hull->addAction(look);
   view->addSeparator();
   view->addAction(tr("F&ull screen"), QKeySequence(Qt::Key_F11), this,
                   [this] { setWindowState(windowState() ^ Qt::WindowFullScreen); });

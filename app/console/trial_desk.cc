@@ -52,6 +52,14 @@ void TrialDesk::Run(control::TrialSetup setup, const std::filesystem::path& sess
     bridge_.PostLatest(Bridge::Stream::kTiles, [this, tiles] { emit TilesArrived(tiles); });
   });
   tiles_->Wish(tile_wishes_);
+  std::vector<core::SharedMesh> meshes;
+  for (const core::Part& part : setup.layout.parts) meshes.push_back(part.mesh);
+  heat_ =
+      std::make_unique<control::HeatWatch>(std::move(meshes), [this](const control::SharedHeatLayer& heat) {
+        bridge_.PostLatest(Bridge::Stream::kHeat, [this, heat] { emit HeatArrived(heat); });
+      });
+  heat_->Want(is_heat_wanted_);
+  options.heat = heat_.get();
   options.on_light = [tiles = tiles_.get()](const recon::LightReport& report) { tiles->AddLight(report); };
   options.on_frame = [this, tally, tiles = tiles_.get()](const control::SharedFrameResult& result,
                                                          const control::RecordedFrames& recorded) {
@@ -154,6 +162,11 @@ void TrialDesk::SetBookmark(const std::string& name) {
 void TrialDesk::SetTileWishes(const control::TileWishes& wishes) {
   tile_wishes_ = wishes;
   if (tiles_) tiles_->Wish(wishes);
+}
+
+void TrialDesk::SetHeatWanted(bool is_wanted) {
+  is_heat_wanted_ = is_wanted;
+  if (heat_) heat_->Want(is_wanted);
 }
 
 void TrialDesk::SetCamerasTaken(bool are_taken) {

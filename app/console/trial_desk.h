@@ -16,6 +16,7 @@
 #include "app/console/view/bridge.h"
 #include "app/control/episode_tally.h"
 #include "app/control/frame_result.h"
+#include "app/control/layers/heat_watch.h"
 #include "app/control/tiles/tile_maker.h"
 #include "app/control/trial_setup.h"
 #include "app/control/trial_thread.h"
@@ -74,6 +75,9 @@ class TrialDesk : public QObject {
   void BeginStep(const std::string& step);  // ends the one under way; empty: begins none
   void SetBookmark(const std::string& name);
 
+  // Whether somebody looks at where parts were touched: in the trial under way, or in the last one.
+  void SetHeatWanted(bool is_wanted);
+
   // What the cameras' tiles show, and how large.
   void SetTileWishes(const control::TileWishes& wishes);
 
@@ -82,6 +86,7 @@ class TrialDesk : public QObject {
   void TrialOpened(const elbowroom::control::TrialSetup& setup);
   void HullArrived(const elbowroom::control::SharedHull& hull);  // of a frame that is being judged
   void FrameArrived(const elbowroom::console::FrameNews& news);
+  void HeatArrived(const elbowroom::control::SharedHeatLayer& heat);  // while it is wanted
   void TilesArrived(const elbowroom::control::SharedTiles& tiles);
   // The place where frames are recorded has changed; is_well: they go into the session file.
   void RecordingChanged(bool is_well, const QString& line);
@@ -104,11 +109,13 @@ class TrialDesk : public QObject {
   bool are_cameras_taken_ = false;
   std::filesystem::path session_, trial_file_;
   control::TileWishes tile_wishes_;
+  bool is_heat_wanted_ = false;
   std::atomic<bool> has_frames_ = false;           // of the trial under way, or the last one
   std::optional<std::filesystem::path> recorded_;  // can be reported on
   Bridge bridge_;                                  // before the threads that post to it
   std::unique_ptr<BackgroundJob> job_;
   std::unique_ptr<control::TileMaker> tiles_;  // before the trial that hands it frames
+  std::unique_ptr<control::HeatWatch> heat_;   // likewise; of the last trial, when none runs
   std::unique_ptr<control::TrialThread> trial_;
 };
 

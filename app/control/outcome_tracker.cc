@@ -11,11 +11,18 @@
 namespace elbowroom::control {
 
 OutcomeTracker::OutcomeTracker(const core::TrialInfo& trial, std::span<const core::TriangleTree> part_trees)
-    : tracker_(TrackerOptionsOf(trial)), heat_(part_trees) {}
+    : tracker_(TrackerOptionsOf(trial)), heat_(part_trees), told_(part_trees.size()) {}
 
 void OutcomeTracker::Add(const FrameResult& frame, std::span<const std::string> tools_in_use) {
   heat_.Add(frame.record.time_s, frame.hull, frame.world_from_parts, frame.record.contacts);
   tracker_.Add({frame.record, frame.world_from_parts, tools_in_use});
+}
+
+void OutcomeTracker::TellHeat(HeatWatch* watch) {
+  std::vector<core::HeatMap> maps;
+  for (core::PartIndex i = 0; i < told_.size(); ++i)
+    if (std::exchange(told_[i], heat_.changes(i)) != heat_.changes(i)) maps.push_back(heat_.MapOf(i));
+  if (!maps.empty()) watch->Put(std::move(maps));
 }
 
 core::SessionOutcome OutcomeTracker::Outcome() const {

@@ -1,11 +1,14 @@
 // A session's touches, near misses and heat maps, put together frame by frame.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <stop_token>
 #include <string>
+#include <vector>
 
 #include "app/control/frame_result.h"
+#include "app/control/layers/heat_watch.h"
 #include "core/bvh.h"
 #include "core/progress.h"
 #include "core/session.h"
@@ -26,9 +29,13 @@ class OutcomeTracker {
 
   [[nodiscard]] core::SessionOutcome Outcome() const;
 
+  // Hands over the heat maps that have changed since the last call.
+  void TellHeat(HeatWatch* watch);
+
  private:
   review::ContactTracker tracker_;
   review::ContactHeat heat_;
+  std::vector<std::int64_t> told_;  // one a part: its changes that TellHeat has handed over
 };
 
 // The outcome of a session that was cut off: the same, row for row, as if its trial had been stopped after

@@ -49,6 +49,13 @@ core::SharedMesh MeshInWorld(const FrameResult& result, core::PartIndex part) {
   return result.response ? result.response->meshes_in_world[part] : nullptr;
 }
 
+std::vector<bool> PartsThatHang(const FrameResult& result) {
+  std::vector<bool> hangs;
+  for (core::PartIndex i = 0; i < result.layout->parts.size(); ++i)
+    hangs.push_back(MeshInWorld(result, i) != nullptr);
+  return hangs;
+}
+
 Eigen::AlignedBox3d BoundsInWorld(const FrameResult& result, core::PartIndex part) {
   if (const core::SharedMesh mesh = MeshInWorld(result, part)) return core::BoundsOf(*mesh);
   Eigen::AlignedBox3d bounds;
@@ -169,6 +176,7 @@ recon::gl::Scene SceneComposer::Compose(const FrameResult& result, const recon::
   scene.view = view;
   scene.lamp = recon::gl::LampOver(result.hull->rig().workspace_mm);
   scene.hull_appearance = look.hull;
+  needs_surfaces_ = look.knowledge != nullptr && ShowsKnowledge(look.hull);
   const recon::SceneView hull_view = Scaled(view, hull_scale);
   scene.hull = HullFrom(hull_view);
   const std::vector<bool> breaks_rule = PartsOfBrokenRules(result);
@@ -180,13 +188,16 @@ recon::gl::Scene SceneComposer::Compose(const FrameResult& result, const recon::
       part.mesh = result.layout->parts[i].mesh;
       part.world_from_part = result.world_from_parts[i];
     }
-    part.color = breaks_rule[i] ? BrokenRuleColor() : PlainPartColor(i);
-    part.in_contact = result.record.contacts[i].verdict == core::Verdict::kContact;
+    const bool has_layer = look.heat != nullptr || needs_surfaces_;
+    const Color plain = has_layer ? kPartBesideLayerColor : PlainPartColor(i);
+    part.color = breaks_rule[i] ? BrokenRuleColor() : plain;
+    part.in_contact = !has_layer && result.record.contacts[i].verdict == core::Verdict::kContact;
     const Eigen::AlignedBox3d kept_in_world = KeptOf(look.cut, BoundsInWorld(result, i));
     if (!kept_in_world.isEmpty() && HiddenShare(*scene.hull, hull_view, kept_in_world) > kHidesShare)
       part.opacity = kSeeThrough;
     AddPart(std::move(part), i, look.cut, &scene);
     if (MeshInWorld(result, i)) continue;  // its contacts are on its shape at rest
+    if (look.heat != nullptr) continue;    // they would cover the heat below them
     for (const core::ContactPoint& point : result.record.contacts[i].points) {
       const Eigen::AlignedBox3d at(point.position_in_world_mm, point.position_in_world_mm);
       if (!KeptOf(look.cut, at).isEmpty())
@@ -198,8 +209,9 @@ recon::gl::Scene SceneComposer::Compose(const FrameResult& result, const recon::
     if (!stream.particles.empty())
       scene.parts.push_back(StreamPart(stream, result.layout->streams[i].radius_mm));
   }
-  const std::vector<SharedPhoto> photos = PhotosFor(look, view);
-  if (!photos.empty()) scene.hull_camera_color = recon::ColorHull(*scene.hull, hull_view, photos);
+  if (look.heat != nullptr)
+    heat_.AddTo(&scene, *look.heat, result.world_from_parts, PartsThatHang(result), look.cut);
+  scene.hull_camera_color = PixelColors(look, view, hull_view);
   scene.hull_from_lamp = HullFromLamp(scene.lamp);
   const Eigen::AlignedBox3d& workspace_mm = result.hull->rig().workspace_mm;
   scene.table_in_world = Eigen::AlignedBox2d(workspace_mm.min().head<2>(), workspace_mm.max().head<2>());
@@ -257,10 +269,14 @@ void SceneComposer::SpareView() {
 }
 
 SceneComposer::SharedView SceneComposer::HullFrom(const recon::SceneView& view) {
-  if (hull_from_view_ == nullptr || !(view_ == view)) {
+  const bool lacks_surfaces =
+      needs_surfaces_ && hull_from_view_ != nullptr && hull_from_view_->surface.empty();
+  if (hull_from_view_ == nullptr || lacks_surfaces || !(view_ == view)) {
     SpareView();
+    const recon::ViewRays rays(CameraOf(view));
     hull_from_view_ = std::make_shared<recon::HullView>(
-        make_view_(*hull_, recon::ViewRays(CameraOf(view)), std::exchange(spare_, {})));
+        needs_surfaces_ ? recon::ViewHull(*hull_, rays, {}, std::exchange(spare_, {}))
+                        : make_view_(*hull_, rays, std::exchange(spare_, {})));
     view_ = view;
     ++hull_views_;
   }
@@ -275,6 +291,17 @@ SceneComposer::SharedView SceneComposer::HullFromLamp(const recon::gl::SceneLamp
     ++extra_hull_views_;
   }
   return hull_from_lamp_;
+}
+
+std::vector<recon::CameraColor> SceneComposer::PixelColors(const SceneLook& look,
+                                                           const recon::SceneView& view,
+                                                           const recon::SceneView& hull_view) {
+  if (needs_surfaces_)
+    return hull_colors_.Of(look.hull, look.knowledge, whole_hull_, *hull_, *hull_from_view_,
+                           recon::ViewRays(CameraOf(hull_view)));
+  const std::vector<SharedPhoto> photos = PhotosFor(look, view);
+  if (photos.empty()) return {};
+  return recon::ColorHull(*hull_from_view_, hull_view, photos);
 }
 
 std::vector<SceneComposer::SharedPhoto> SceneComposer::PhotosFor(const SceneLook& look,

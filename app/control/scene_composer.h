@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "app/control/frame_result.h"
+#include "app/control/layers/heat_pieces.h"
+#include "app/control/layers/hull_colors.h"
 #include "app/control/section/part_sections.h"
 #include "app/control/section/section_cut.h"
 #include "app/control/view_method.h"
@@ -23,6 +25,11 @@ struct SceneLook {
   // closest to the operator's.
   recon::HullAppearance hull = recon::HullAppearance::kByNormal;
   SectionCut cut = {};
+  // Shown on the parts, in place of contact points; null: not shown.
+  SharedHeatLayer heat = nullptr;
+  // For kCoverage and kUncertainty; null: the hull is shaded by its normals then. While they or heat are
+  // shown, parts are grey, and none is tinted for a contact.
+  SharedRigKnowledge knowledge = nullptr;
 
   [[nodiscard]] bool operator==(const SceneLook&) const = default;
 };
@@ -50,6 +57,8 @@ class SceneComposer {
   // Views of the hull that were computed since the start: the operator's, and those from lamp and cameras.
   [[nodiscard]] std::int64_t hull_views() const { return hull_views_; }
   [[nodiscard]] std::int64_t extra_hull_views() const { return extra_hull_views_; }
+  // Looks of all the rig's cameras at a hull, for its coverage.
+  [[nodiscard]] std::int64_t coverage_looks() const { return hull_colors_.looks(); }
 
  private:
   using SharedPhoto = std::shared_ptr<const recon::CameraTexture>;
@@ -60,6 +69,9 @@ class SceneComposer {
                recon::gl::Scene* scene);
   void SpareView();
   [[nodiscard]] SharedView HullFrom(const recon::SceneView& view);
+  [[nodiscard]] std::vector<recon::CameraColor> PixelColors(const SceneLook& look,
+                                                            const recon::SceneView& view,
+                                                            const recon::SceneView& hull_view);
   [[nodiscard]] SharedView HullFromLamp(const recon::gl::SceneLamp& lamp);
   [[nodiscard]] std::vector<SharedPhoto> PhotosFor(const SceneLook& look, const recon::SceneView& view);
   [[nodiscard]] const SharedPhoto& PhotoOf(std::size_t place, const core::CameraModel& camera,
@@ -71,8 +83,11 @@ class SceneComposer {
   SharedHull whole_hull_, cut_hull_;  // the last one that was cut, and what is left of it
   SectionCut cut_;
   PartSections sections_;
+  HeatPieces heat_;
+  HullColors hull_colors_;
   std::shared_ptr<const recon::FrameSet> camera_frames_;
   std::shared_ptr<recon::HullView> hull_from_view_;
+  bool needs_surfaces_ = false;  // whether the last look does
   recon::HullView spare_;
   recon::SceneView view_;  // of hull_from_view_
   SharedView hull_from_lamp_;

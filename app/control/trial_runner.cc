@@ -193,6 +193,7 @@ class Recording {
     outcome_so_far_.wait();
     TellOfKnock();
     outcome_.knocks = knock_watch_.report();
+    if (tracker_ && options_.heat != nullptr) tracker_->TellHeat(options_.heat);
     core::SessionOutcome outcome = tracker_ ? tracker_->Outcome() : core::SessionOutcome();
     outcome_.episodes = outcome.episodes;
     outcome_.near_misses = outcome.near_misses;
@@ -374,7 +375,10 @@ class Recording {
     last_time_s_ = result.record.time_s;
     outcome_so_far_.wait();
     TellOfKnock();
-    outcome_so_far_.run([this, shared, tools = tools_in_use_.names()] { tracker_->Add(*shared, tools); });
+    outcome_so_far_.run([this, shared, tools = tools_in_use_.names()] {
+      tracker_->Add(*shared, tools);
+      if (options_.heat != nullptr && options_.heat->TakesMaps()) tracker_->TellHeat(options_.heat);
+    });
     outcome_so_far_.run([this, shared] { knock_advice_ = knock_watch_.Add(shared->record); });
     writer_.Append(result.record);
     ++outcome_.frames;

@@ -12,6 +12,7 @@
 
 #include "app/control/frame_result.h"
 #include "app/control/frame_time_tally.h"
+#include "app/control/layers/heat_watch.h"
 #include "app/control/light/trial_light.h"
 #include "app/control/pairs/pair_record.h"
 #include "app/control/trial_controls.h"
@@ -55,6 +56,9 @@ struct TrialOptions {
   OnLight on_light;
   // Called when it is new that a camera was knocked, on the trial's thread; must not block.
   std::function<void(const KnockReport&)> on_knock;
+  // Gets the parts' heat maps as they grow, and all of them at the end. Null: nobody looks at them. It must
+  // outlive the trial.
+  HeatWatch* heat = nullptr;
   core::Progress progress;
 };
 

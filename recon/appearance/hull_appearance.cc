@@ -59,6 +59,20 @@ CameraColor ColorAt(const Eigen::Vector3d& x_in_world, const Eigen::Vector3d& no
 
 }  // namespace
 
+bool HasPixelColors(HullAppearance appearance) {
+  switch (appearance) {
+    case HullAppearance::kFlat:
+    case HullAppearance::kByNormal:
+      return false;
+    case HullAppearance::kOneCamera:
+    case HullAppearance::kRigCameras:
+    case HullAppearance::kCoverage:
+    case HullAppearance::kUncertainty:
+      return true;
+  }
+  return false;
+}
+
 std::vector<CameraColor> ColorHull(const HullView& picture, const SceneView& view,
                                    std::span<const std::shared_ptr<const CameraTexture>> photos) {
   core::Require(picture.width_px == view.width_px && picture.height_px == view.height_px,

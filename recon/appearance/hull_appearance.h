@@ -18,7 +18,12 @@ enum class HullAppearance {
   kByNormal,    // one colour, shaded by the surface's direction
   kOneCamera,   // from the picture of one camera, worn on the head or near the viewer (the paper's way)
   kRigCameras,  // from the pictures of all the rig's cameras that see the point
+  kCoverage,    // by how many cameras see the point
+  kUncertainty  // by how far the surface may be off there
 };
+
+// Whether each pixel has a colour of its own.
+[[nodiscard]] bool HasPixelColors(HullAppearance appearance);
 
 // Red, green, blue, and how far they are to be trusted: 0 where no camera sees the point, 255 where one sees
 // it well, smooth between.

@@ -104,6 +104,20 @@ ErrorBudget HullErrors::At(const VisualHull& hull, const Vector3d& x_of_hull,
   return budget;
 }
 
+ErrorBudget HullErrors::OfCone(core::CameraIndex camera, const Vector3d& normal_in_world,
+                               const Vector3d& x_in_world, bool is_located) const {
+  ErrorBudget budget;
+  const std::optional<Bound> bound = BoundBy(camera, normal_in_world, x_in_world);
+  if (!bound) return budget;
+  const ParameterBlock& block = cameras_[camera].parameters;
+  const Eigen::RowVectorXd shift_mm = bound->shift_mm.segment(block.first, block.size());
+  const auto own = errors_.covariance.block(block.first, block.first, block.size(), block.size());
+  budget.calibration_mm = std::sqrt(std::max(0.0, (shift_mm * own).dot(shift_mm)));
+  (is_located ? budget.segmentation_mm : budget.footprint_mm) =
+      bound->mm_per_px * (is_located ? errors_.boundary_sigma_px : kWithinPixelSigmaPx);
+  return budget;
+}
+
 ErrorBudget HullErrors::WorstAt(const Vector3d& x_in_world) const {
   ErrorBudget worst;
   for (const Camera& camera : cameras_) {

@@ -9,6 +9,7 @@
 
 #include "core/camera_model.h"
 #include "core/error_budget.h"
+#include "core/ids.h"
 #include "core/rig.h"
 #include "core/rig_quality.h"
 #include "recon/calibration/calibration_result.h"
@@ -33,6 +34,12 @@ class HullErrors {
   // the point don't explain the direction, as between a search's bounds, it is that of WorstAt.
   [[nodiscard]] core::ErrorBudget At(const VisualHull& hull, const Eigen::Vector3d& x_of_hull,
                                      const Eigen::Vector3d& x_of_part) const;
+
+  // The same for a part that stands off a place of one camera's cone along the cone's normal there: its share
+  // is 1, and no other silhouette counts. `is_located`: the silhouette's boundary is known between pixels.
+  // All 0: the place isn't before the camera.
+  [[nodiscard]] core::ErrorBudget OfCone(core::CameraIndex camera, const Eigen::Vector3d& normal_in_world,
+                                         const Eigen::Vector3d& x_in_world, bool is_located) const;
 
   // The largest for one camera's cone in any direction, over the cameras that see the point. All 0: none
   // does.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "app/control/layers/hull_colors.h"
 #include "core/error.h"
 
 namespace elbowroom::console {
@@ -61,6 +62,7 @@ void ParticipantDesk::ShowFrame(control::SharedFrameResult result) {
 }
 
 void ParticipantDesk::SetLook(const control::SceneLook& look) {
+  if (control::ShowsKnowledge(look.hull)) return;  // that is for the operator
   look_ = look;
   AskForPictures();
 }

@@ -100,6 +100,24 @@ void ReviewDesk::Open(const std::filesystem::path& session) {
       [this, opened] { TakeSession(std::move(*opened)); });
 }
 
+void ReviewDesk::FindHeat() {
+  if (heat_ != nullptr) return emit HeatFound(heat_);
+  heat_thread_.InsteadOfThis([this, session = session_](const std::stop_token& stop) {
+    std::vector<core::SharedMesh> meshes;
+    for (const core::Part& part : session->header().layout.parts) meshes.push_back(part.mesh);
+    control::HeatLayerMaker maker(std::move(meshes));
+    for (const core::HeatMap& map : session->heat_maps()) {
+      if (stop.stop_requested()) return;
+      maker.Take(map);
+    }
+    bridge_.Post([this, session, heat = maker.Make()] {
+      if (session != session_) return;  // another one was opened
+      heat_ = heat;
+      emit HeatFound(heat_);
+    });
+  });
+}
+
 void ReviewDesk::TakeSession(std::shared_ptr<control::ReviewedSession> session) {
   // The old one's thread may be in the middle of a frame: it is waited for elsewhere.
   motion_thread_.InsteadOfThis([old = std::move(scrubber_)](const std::stop_token&) {});
@@ -107,6 +125,7 @@ void ReviewDesk::TakeSession(std::shared_ptr<control::ReviewedSession> session) 
   session_ = std::move(session);
   held_mm_.clear();
   what_if_.reset();
+  heat_.reset();
   position_ = 0;
   scrubber_ = std::make_shared<control::FrameScrubber>(
       session_, [this, of = session_.get()](const control::ScrubbedFrame& frame) {

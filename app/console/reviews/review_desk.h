@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "app/console/view/bridge.h"
+#include "app/control/layers/heat_layer.h"
 #include "app/control/reviewing/frame_scrubber.h"
 #include "app/control/reviewing/latest_task.h"
 #include "app/control/reviewing/listed_findings.h"
@@ -51,6 +52,9 @@ class ReviewDesk : public QObject {
   // At the gaps held; nothing: none are, or the motion is being judged.
   [[nodiscard]] const std::optional<control::WhatIf>& what_if() const { return what_if_; }
 
+  // Makes the layer of where parts were touched, in all of the session as it was recorded; HeatFound follows.
+  void FindHeat();
+
   // Jobs. Where another one is under way, they do nothing but say so.
   void Say(const core::FindingId& finding, const core::ReviewRemark& remark);
   void ImportBcf(const std::filesystem::path& file);
@@ -64,6 +68,7 @@ class ReviewDesk : public QObject {
   void StateChanged();
   void Opened();
   void FrameArrived(const elbowroom::control::ScrubbedFrame& frame);
+  void HeatFound(const elbowroom::control::SharedHeatLayer& heat);
   void WhatIfProgressed(qint64 done, qint64 total);
   void WhatIfArrived();  // what_if() has changed
   void FindingsChanged();
@@ -89,14 +94,16 @@ class ReviewDesk : public QObject {
   std::size_t position_ = 0;
   control::HeldGaps held_mm_;
   std::optional<control::WhatIf> what_if_;
-  std::int64_t asked_ = 0;  // counts the what-ifs: answers to earlier ones are dropped
-  std::int64_t jobs_ = 0;   // counts jobs, likewise
+  control::SharedHeatLayer heat_;  // null: nobody asked for it yet
+  std::int64_t asked_ = 0;         // counts the what-ifs: answers to earlier ones are dropped
+  std::int64_t jobs_ = 0;          // counts jobs, likewise
   bool is_busy_ = false;
   std::stop_source job_stop_;  // of the job under way, also of one that hasn't begun
   Bridge bridge_;              // before the threads that post to it
   std::shared_ptr<control::FrameScrubber> scrubber_;
   control::LatestTask motion_thread_;
   control::LatestTask job_thread_;
+  control::LatestTask heat_thread_;
 };
 
 }  // namespace elbowroom::console

@@ -114,6 +114,17 @@ QLayout* ReviewPage::MakeHeader() {
                 tr("Cut parts and hull open by planes; Shift and drag in the picture moves one"));
   section_button_->setCheckable(true);
   connect(section_button_, &QPushButton::toggled, section_, &QWidget::setVisible);
+  heat_button_ =
+      AddButton(row, "review_heat", tr("&Heat"),
+                tr("Colour the parts by how long each place was touched in the session, in s (H)"));
+  heat_button_->setCheckable(true);
+  connect(heat_button_, &QPushButton::toggled, this, [this](bool is_on) {
+    if (is_on && desk_->is_open()) return desk_->FindHeat();
+    if (view_ != nullptr) view_->SetHeat(nullptr);
+  });
+  hull_look_ = new HullLookButton(LooksOffered::kWithoutPictures);
+  hull_look_->setObjectName("review_hull_look");
+  row->addWidget(hull_look_);
   auto* open = AddButton(row, "review_open_another", tr("&Open …"), tr("Open another session (.db)"));
   auto* report =
       AddButton(row, "review_report", tr("&Report"), tr("Write the session's report beside it, and open it"));
@@ -192,6 +203,7 @@ void ReviewPage::FollowDesk() {
   connect(desk_, &ReviewDesk::StateChanged, this, &ReviewPage::ShowState);
   connect(desk_, &ReviewDesk::Opened, this, &ReviewPage::ShowSession);
   connect(desk_, &ReviewDesk::FrameArrived, this, &ReviewPage::ShowFrame);
+  connect(desk_, &ReviewDesk::HeatFound, this, &ReviewPage::ShowHeat);
   connect(desk_, &ReviewDesk::FindingsChanged, this, &ReviewPage::ShowFindings);
   connect(desk_, &ReviewDesk::WhatIfArrived, this, &ReviewPage::ShowWhatIf);
   connect(desk_, &ReviewDesk::WhatIfProgressed, what_if_, &WhatIfPanel::ShowProgress);
@@ -240,6 +252,7 @@ void ReviewPage::MakeView() {
   view_column_->insertWidget(0, view_, 1);
   connect(view_, &OperatorView::Failed, messages_, &MessageBar::ShowError);
   connect(section_, &SectionPanel::Changed, view_, &OperatorView::SetCut);
+  connect(hull_look_, &HullLookButton::Chosen, view_, &OperatorView::SetLook);
   connect(view_, &OperatorView::ShiftDragged, section_, &SectionPanel::Drag);
 }
 
@@ -256,11 +269,18 @@ void ReviewPage::ShowSession() {
   what_if_->Open(session.header());
   section_->Open(session.header().rig.workspace_mm);
   view_->SetCut(section_->cut());
+  view_->SetKnowledge(control::KnowledgeOf(session.header().rig, session.header().rig_quality));
+  view_->SetHeat(nullptr);  // of another session
+  if (heat_button_->isChecked()) desk_->FindHeat();
   remarks_->Clear();
   findings_->Forget();
   ShowFindings();
   stack_->setCurrentWidget(session_page_);
   timeline_->setFocus();
+}
+
+void ReviewPage::ShowHeat(const control::SharedHeatLayer& heat) {
+  if (heat_button_->isChecked()) view_->SetHeat(heat, tr("the whole session, as recorded"));
 }
 
 void ReviewPage::ShowFindings() {
@@ -405,6 +425,12 @@ void ReviewPage::keyPressEvent(QKeyEvent* event) {
       return Step(-static_cast<int>(desk_->session().frames().size()));
     case Qt::Key_End:
       return Step(static_cast<int>(desk_->session().frames().size()));
+    case Qt::Key_H:
+      return heat_button_->toggle();
+    case Qt::Key_V:
+      return hull_look_->Toggle(recon::HullAppearance::kCoverage);
+    case Qt::Key_U:
+      return hull_look_->Toggle(recon::HullAppearance::kUncertainty);
     case Qt::Key_Space:
       return Play(!player_.isActive());
     default:

@@ -18,6 +18,7 @@
 #include "app/console/reviews/timeline_view.h"
 #include "app/console/reviews/what_if_panel.h"
 #include "app/console/sights/section_panel.h"
+#include "app/console/view/hull_look_button.h"
 #include "app/console/view/message_bar.h"
 #include "app/console/view/operator_view.h"
 
@@ -60,6 +61,7 @@ class ReviewPage : public QWidget {
   void ShowSession();
   void ShowFrame(const control::ScrubbedFrame& frame);
   void ShowFindings();
+  void ShowHeat(const control::SharedHeatLayer& heat);
   void ShowWhatIf();
   void ShowState();
   void ShowProgress(qint64 done, qint64 total, const QString& what);
@@ -85,6 +87,8 @@ class ReviewPage : public QWidget {
   QToolButton* next_ = nullptr;
   QVBoxLayout* view_column_ = nullptr;
   QPushButton* section_button_ = nullptr;
+  QPushButton* heat_button_ = nullptr;
+  HullLookButton* hull_look_ = nullptr;
   SectionPanel* section_ = nullptr;
   FindingPanel* findings_ = nullptr;
   RemarkPanel* remarks_ = nullptr;

@@ -5,6 +5,8 @@
 #include <array>
 #include <utility>
 
+#include "app/control/layers/hull_colors.h"
+
 namespace elbowroom::console {
 namespace {
 
@@ -69,6 +71,7 @@ TrialSights::TrialSights(OperatorView* view, QWidget* parent)
   stack_->addWidget(camera_view_);
   MakeViewActions();
   MakeSectionAction();
+  MakeHeatAction();
   FollowMeasure();
   cameras_ = new QMenu(tr("&Camera's view"), this);
   MakeBar();
@@ -120,6 +123,22 @@ void TrialSights::MakeSectionAction() {
   connect(view_, &OperatorView::ShiftDragged, section_panel_, &SectionPanel::Drag);
 }
 
+void TrialSights::MakeHeatAction() {
+  heat_ = new QAction(tr("&Heat"), this);
+  heat_->setObjectName("heat");
+  heat_->setCheckable(true);
+  heat_->setShortcut(QKeySequence(Qt::Key_H));
+  heat_->setToolTip(tr("Colour the parts by how long each place was touched so far, in s"));
+  connect(heat_, &QAction::toggled, this, [this](bool is_on) {
+    if (!is_on) view_->SetHeat(nullptr);
+    emit HeatWished(is_on);
+  });
+}
+
+void TrialSights::ShowHeat(const control::SharedHeatLayer& heat) {
+  if (heat_->isChecked()) view_->SetHeat(heat, tr("this trial, so far"));
+}
+
 void TrialSights::FollowMeasure() {
   advice_->setObjectName("measure_advice");
   advice_->setAccessibleName(tr("What to click on next"));
@@ -145,6 +164,7 @@ void TrialSights::MakeBar() {
       MenuButton(tr("Camera"), tr("Look from a camera, or at its picture"), "camera_menu", cameras_));
   bar->addWidget(ButtonOf(parts_, tr("Parts in pictures")));
   bar->addWidget(ButtonOf(section_, tr("Section")));
+  bar->addWidget(ButtonOf(heat_, tr("Heat")));
   auto* measure = new QMenu(this);
   for (QAction* action : measure_->actions()) measure->addAction(action);
   bar->addWidget(MenuButton(tr("Measure"), tr("Lengths, angles, and the distance to the hull"),
@@ -164,6 +184,7 @@ void TrialSights::AddTo(QMenu* menu) {
   for (QAction* action : standard_) menu->addAction(action);
   menu->addAction(parallel_);
   menu->addAction(section_);
+  menu->addAction(heat_);
   auto* measure = menu->addMenu(tr("&Measure"));
   for (QAction* action : measure_->actions()) measure->addAction(action);
   menu->addSeparator();
@@ -171,8 +192,10 @@ void TrialSights::AddTo(QMenu* menu) {
   menu->addAction(parts_);
 }
 
-void TrialSights::Open(const core::Rig& rig) {
+void TrialSights::Open(const core::Rig& rig, const core::RigQuality& quality) {
   rig_ = rig.cameras;
+  view_->SetKnowledge(control::KnowledgeOf(rig, quality));
+  view_->SetHeat(nullptr);  // of another trial
   measure_->Clear();
   section_panel_->Open(rig.workspace_mm);
   MakeCameraMenu();

@@ -14,8 +14,10 @@
 #include "app/console/sights/measure_tool.h"
 #include "app/console/sights/section_panel.h"
 #include "app/console/view/operator_view.h"
+#include "app/control/layers/heat_layer.h"
 #include "app/control/tiles/tile_maker.h"
 #include "core/rig.h"
+#include "core/rig_quality.h"
 
 namespace elbowroom::console {
 
@@ -26,8 +28,9 @@ class TrialSights : public QWidget {
  public:
   explicit TrialSights(OperatorView* view, QWidget* parent = nullptr);
 
-  void Open(const core::Rig& rig);
+  void Open(const core::Rig& rig, const core::RigQuality& quality);
   void ShowFrame(const control::SharedFrameResult& result);
+  void ShowHeat(const control::SharedHeatLayer& heat);  // if the operator wants to see it
   void ShowTiles(const control::SharedTiles& tiles);
   void SetTileRoom(const control::ThumbnailRoom& room);  // of the strip's pictures
   void ShowCamera(int camera);                           // its picture, large
@@ -41,11 +44,13 @@ class TrialSights : public QWidget {
   [[nodiscard]] const control::TileWishes& wishes() const { return wishes_; }
 
  signals:
+  void HeatWished(bool is_wished);
   void WishesChanged(const elbowroom::control::TileWishes& wishes);
 
  private:
   void MakeViewActions();
   void MakeSectionAction();
+  void MakeHeatAction();
   void FollowMeasure();
   void MakeCameraMenu();
   void MakeBar();
@@ -61,6 +66,7 @@ class TrialSights : public QWidget {
   QAction* parallel_ = nullptr;
   QAction* parts_ = nullptr;
   QAction* section_ = nullptr;
+  QAction* heat_ = nullptr;
   QMenu* cameras_ = nullptr;
   std::vector<core::CameraModel> rig_;
   control::TileWishes wishes_;

@@ -17,7 +17,7 @@ class Bridge : public QObject {
   using Delivery = std::function<void()>;  // must not throw
 
   // A stream keeps only its latest delivery, so that they don't pile up when the UI is slow.
-  enum class Stream { kHull, kFrame, kPicture, kTiles, kProgress };
+  enum class Stream { kHull, kFrame, kPicture, kTiles, kHeat, kProgress };
 
   explicit Bridge(QObject* parent = nullptr) : QObject(parent) {}
 
@@ -28,7 +28,7 @@ class Bridge : public QObject {
   void PostLatest(Stream stream, Delivery delivery);
 
  private:
-  static constexpr std::size_t kStreams = 5;
+  static constexpr std::size_t kStreams = 6;
   void DeliverNext();
   void DeliverLatest(Stream stream);
 

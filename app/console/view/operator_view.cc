@@ -73,10 +73,27 @@ void OperatorView::Fit() {
 }
 
 void OperatorView::SetLook(const control::SceneLook& look) {
-  const control::SectionCut cut = look_.cut;
-  look_ = look;
-  look_.cut = cut;
+  look_.hull = look.hull;
+  TakeLook();
+}
+
+void OperatorView::SetHeat(control::SharedHeatLayer heat, const QString& of) {
+  if (look_.heat == heat && heat_of_ == of) return;
+  look_.heat = std::move(heat);
+  heat_of_ = of;
+  TakeLook();
+}
+
+void OperatorView::SetKnowledge(control::SharedRigKnowledge knowledge) {
+  look_.knowledge = std::move(knowledge);
+  TakeLook();
+}
+
+void OperatorView::TakeLook() {
+  legends_ = LegendsOf(look_, heat_of_);
+  setAccessibleDescription(TextOf(legends_));
   AskForPicture();
+  update();
 }
 
 void OperatorView::SetCut(const control::SectionCut& cut) {
@@ -156,6 +173,7 @@ void OperatorView::paintEvent(QPaintEvent* /*event*/) {
   const QRect target = PictureRect();
   painter.drawImage(target, picture_);
   PaintDimensions(painter, ShownView(), target.topLeft(), dimensions_);
+  PaintLegends(painter, rect(), legends_);
   PaintCaption(painter);
   if (taken_at_) TellAge();
 }

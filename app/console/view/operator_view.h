@@ -13,6 +13,7 @@
 #include "app/console/view/background_job.h"
 #include "app/console/view/bridge.h"
 #include "app/console/view/picture_asker.h"
+#include "app/console/view/scale_legend.h"
 #include "app/control/frame_result.h"
 #include "app/control/measuring/dimension.h"
 #include "app/control/scene_composer.h"
@@ -39,7 +40,10 @@ class OperatorView : public QWidget {
   void Clear();
   void Fit();  // everything in the picture, from the front, above
 
-  void SetLook(const control::SceneLook& look);  // but for its cut
+  void SetLook(const control::SceneLook& look);  // its hull
+  // Null: no heat is shown. `of`: what it is of, for the legend.
+  void SetHeat(control::SharedHeatLayer heat, const QString& of = {});
+  void SetKnowledge(control::SharedRigKnowledge knowledge);  // of the rig, for looks that show it
   void SetCut(const control::SectionCut& cut);
   void SetDimensions(std::vector<control::Dimension> dimensions);  // written over the picture
   void LookAlong(recon::StandardView view);
@@ -48,6 +52,7 @@ class OperatorView : public QWidget {
 
   [[nodiscard]] QString driver() const;  // of OpenGL; "" until the first picture
   [[nodiscard]] const std::optional<recon::OrbitCamera>& camera() const { return camera_; }
+  [[nodiscard]] const std::vector<ScaleLegend>& legends() const { return legends_; }
 
  signals:
   void PictureShown(qint64 frame, double drawing_ms);  // it is drawn, and will be painted
@@ -70,6 +75,7 @@ class OperatorView : public QWidget {
   void wheelEvent(QWheelEvent* event) override;
 
  private:
+  void TakeLook();
   void Turn(const recon::OrbitCamera& camera);
   void AskForPicture();
   [[nodiscard]] bool CanDraw() const;
@@ -86,6 +92,8 @@ class OperatorView : public QWidget {
   bool is_parallel_ = false;
   control::SharedFrameResult result_;
   control::SceneLook look_;
+  QString heat_of_;
+  std::vector<ScaleLegend> legends_;  // of look_
   QImage picture_;
   qint64 picture_frame_ = 0;
   control::RenderRequest picture_request_;  // without its frame

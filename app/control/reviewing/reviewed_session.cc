@@ -42,6 +42,7 @@ ReviewedSession::ReviewedSession(const std::filesystem::path& path, const core::
                       fmt::format("session '{}' has no frames; record a trial first", path.string()));
   events_ = reader_->events();
   outcome_ = {reader_->episodes(), reader_->near_misses(), {}};
+  heat_maps_ = reader_->heat_maps();
   part_totals_ = reader_->part_totals();
   std::vector<sessions::StampRow> stamps = reader_->stamp_rows();
   complete_ = WithAllCameras(frames_, stamps);

@@ -37,6 +37,7 @@ class ReviewedSession {
   [[nodiscard]] const std::vector<sessions::FrameSummary>& frames() const { return frames_; }  // at least one
   [[nodiscard]] const std::vector<core::SessionEvent>& events() const { return events_; }
   [[nodiscard]] const core::SessionOutcome& outcome() const { return outcome_; }  // without heat maps
+  [[nodiscard]] const std::vector<core::HeatMap>& heat_maps() const { return heat_maps_; }  // of all frames
   [[nodiscard]] const std::vector<sessions::PartTotals>& part_totals() const { return part_totals_; }
   // Of the frames, where the verdicts on clearance count the cameras' motion; else none.
   [[nodiscard]] const std::vector<sessions::StampRow>& motion_stamps() const { return motion_stamps_; }
@@ -71,6 +72,7 @@ class ReviewedSession {
   std::vector<sessions::FrameSummary> frames_;
   std::vector<core::SessionEvent> events_;
   core::SessionOutcome outcome_;
+  std::vector<core::HeatMap> heat_maps_;
   std::vector<sessions::PartTotals> part_totals_;
   std::vector<sessions::StampRow> motion_stamps_;
   std::vector<std::size_t> complete_;

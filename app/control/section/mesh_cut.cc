@@ -90,6 +90,15 @@ core::TriangleMesh MeshOf(const std::vector<Triangle>& triangles, double deviati
   return mesh;
 }
 
+std::vector<Triangle> TrianglesOf(const core::TriangleMesh& mesh) {
+  std::vector<Triangle> triangles;
+  for (const auto& [a, b, c] : mesh.triangles)
+    triangles.push_back({mesh.vertices_mm[static_cast<std::size_t>(a)],
+                         mesh.vertices_mm[static_cast<std::size_t>(b)],
+                         mesh.vertices_mm[static_cast<std::size_t>(c)]});
+  return triangles;
+}
+
 }  // namespace
 
 Eigen::AlignedBox3d KeptOf(const SectionCut& cut, const Eigen::AlignedBox3d& box_in_world) {
@@ -108,11 +117,7 @@ Eigen::AlignedBox3d KeptOf(const SectionCut& cut, const Eigen::AlignedBox3d& box
 
 CutMesh CutOpen(const core::TriangleMesh& mesh, const core::RigidTransform& world_from_mesh,
                 const SectionCut& cut) {
-  std::vector<Triangle> surface, caps;
-  for (const auto& [a, b, c] : mesh.triangles)
-    surface.push_back({mesh.vertices_mm[static_cast<std::size_t>(a)],
-                       mesh.vertices_mm[static_cast<std::size_t>(b)],
-                       mesh.vertices_mm[static_cast<std::size_t>(c)]});
+  std::vector<Triangle> surface = TrianglesOf(mesh), caps;
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
     const std::optional<CutPlane>& plane = cut.planes[static_cast<std::size_t>(axis)];
     if (!plane) continue;
@@ -125,6 +130,20 @@ CutMesh CutOpen(const core::TriangleMesh& mesh, const core::RigidTransform& worl
     caps = std::move(kept_caps);
   }
   return {MeshOf(surface, mesh.deviation_mm), MeshOf(caps, mesh.deviation_mm)};
+}
+
+core::TriangleMesh CutSurface(const core::TriangleMesh& mesh, const core::RigidTransform& world_from_mesh,
+                              const SectionCut& cut) {
+  std::vector<Triangle> surface = TrianglesOf(mesh);
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    const std::optional<CutPlane>& plane = cut.planes[static_cast<std::size_t>(axis)];
+    if (!plane) continue;
+    Cutter cutter(PlaneInMesh(*plane, axis, world_from_mesh));
+    std::vector<Triangle> kept;
+    for (const Triangle& triangle : surface) cutter.Cut(triangle, &kept);
+    surface = std::move(kept);
+  }
+  return MeshOf(surface, mesh.deviation_mm);
 }
 
 }  // namespace elbowroom::control

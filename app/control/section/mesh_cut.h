@@ -22,4 +22,9 @@ struct CutMesh {
 [[nodiscard]] CutMesh CutOpen(const core::TriangleMesh& mesh, const core::RigidTransform& world_from_mesh,
                               const SectionCut& cut);
 
+// What stays of a surface that isn't closed: CutOpen without caps.
+[[nodiscard]] core::TriangleMesh CutSurface(const core::TriangleMesh& mesh,
+                                            const core::RigidTransform& world_from_mesh,
+                                            const SectionCut& cut);
+
 }  // namespace elbowroom::control

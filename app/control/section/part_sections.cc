@@ -34,4 +34,22 @@ const PartSection& PartSections::Of(core::PartIndex part, const core::SharedMesh
   return kept.section;
 }
 
+core::SharedMesh PartSections::SurfaceOf(std::size_t place, const core::SharedMesh& mesh,
+                                         const core::RigidTransform& world_from_part, const SectionCut& cut) {
+  if (kept_surfaces_.size() <= place) kept_surfaces_.resize(place + 1);
+  Kept& kept = kept_surfaces_[place];
+  if (kept.mesh == mesh && kept.world_from_part == world_from_part && kept.cut == cut)
+    return kept.section.surface;
+  kept = {mesh, world_from_part, cut, {mesh, nullptr}};
+  const Eigen::AlignedBox3d bounds = core::BoundsOf(*mesh, world_from_part);
+  const Eigen::AlignedBox3d left = KeptOf(cut, bounds);
+  if (left.isEmpty()) {
+    kept.section = {};
+  } else if (!(left.min() == bounds.min() && left.max() == bounds.max())) {
+    ++cuts_;
+    kept.section.surface = SharedUnlessEmpty(CutSurface(*mesh, world_from_part, cut));
+  }
+  return kept.section.surface;
+}
+
 }  // namespace elbowroom::control

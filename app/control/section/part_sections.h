@@ -1,6 +1,7 @@
 // Cut parts, kept while nothing about them changes.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -24,6 +25,12 @@ class PartSections {
   [[nodiscard]] const PartSection& Of(core::PartIndex part, const core::SharedMesh& mesh,
                                       const core::RigidTransform& world_from_part, const SectionCut& cut);
 
+  // The same of a surface that isn't closed, such as a piece of a part's; it has no caps. `place`: numbers
+  // the surfaces, from 0. Null: nothing of it is left.
+  [[nodiscard]] core::SharedMesh SurfaceOf(std::size_t place, const core::SharedMesh& mesh,
+                                           const core::RigidTransform& world_from_part,
+                                           const SectionCut& cut);
+
   [[nodiscard]] std::int64_t cuts() const { return cuts_; }  // since the start
 
  private:
@@ -33,7 +40,7 @@ class PartSections {
     SectionCut cut;
     PartSection section;
   };
-  std::vector<Kept> kept_;
+  std::vector<Kept> kept_, kept_surfaces_;
   std::int64_t cuts_ = 0;
 };
 

@@ -166,9 +166,7 @@ void main() {
 )";
 
 bool ShowsCameraColor(const Scene& scene) {
-  const bool is_asked_for = scene.hull_appearance == HullAppearance::kOneCamera ||
-                            scene.hull_appearance == HullAppearance::kRigCameras;
-  return is_asked_for && !scene.hull_camera_color.empty();
+  return HasPixelColors(scene.hull_appearance) && !scene.hull_camera_color.empty();
 }
 
 }  // namespace

@@ -148,7 +148,8 @@ void Lighting::UpdatePartShadow(const Scene& scene, PartPainter& parts) {
   std::vector<Caster> casters;
   for (std::size_t i = 0; i < scene.parts.size(); ++i) {
     const ScenePart& part = scene.parts[i];
-    if (part.opacity > 0.0F) casters.push_back({part.mesh, part.world_from_part, parts.levels().at(i)});
+    if (part.opacity > 0.0F && !part.is_decal)
+      casters.push_back({part.mesh, part.world_from_part, parts.levels().at(i)});
   }
   if (has_part_shadow_ && CastersAre(casters)) {
     ++count_.kept_part_passes;

@@ -20,6 +20,7 @@ constexpr float kContactGlow = 0.35F;
 constexpr float kHiddenEdgeAlpha = 0.30F;  // of edges seen through their own transparent part
 constexpr float kEdgeAlpha = 0.85F;
 constexpr float kHatchPx = 9.0F;
+constexpr float kDecalGlow = 0.65F;  // its colour is read off, more than its shape
 
 constexpr double kMostErrorPx = 0.25;  // how far a coarser level may be from the whole mesh, in the picture
 
@@ -28,6 +29,7 @@ layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 uniform mat4 cam_from_part;
 uniform mat4 clip_from_cam;
+uniform float nearer;
 out vec3 position_in_cam;
 out vec3 normal_in_cam;
 invariant gl_Position;  // depths drawn by another program are met exactly
@@ -35,7 +37,7 @@ void main() {
   vec4 x_in_cam = cam_from_part * vec4(position, 1.0);
   position_in_cam = x_in_cam.xyz;
   normal_in_cam = mat3(cam_from_part) * normal;
-  gl_Position = clip_from_cam * x_in_cam;
+  gl_Position = clip_from_cam * vec4(x_in_cam.xyz * nearer, 1.0);
 }
 )";
 
@@ -67,7 +69,8 @@ void main() {
 )";
 
 // Edges stand a thousandth of their distance before the faces that they bound, with a long lens less: more
-// than a coarser level's faces are from the whole mesh, at any focal length above 250 pixels.
+// than a coarser level's faces are from the whole mesh, at any focal length above 250 pixels. Decals stand
+// half as far before.
 constexpr const char* kEdgeVertexSource = R"(
 layout(location = 0) in vec3 position;
 uniform mat4 cam_from_part;
@@ -125,6 +128,19 @@ double MostPxPerMm(const Eigen::AlignedBox3d& box_in_part, const core::RigidTran
   return slant * view.focal_px / nearest_mm;
 }
 
+float EdgesNearer(const ViewMatrices& matrices) {
+  return static_cast<float>(1.0 - std::min(0.001, 0.6 / matrices.view.focal_px));
+}
+
+float FacesNearer(const ScenePart& part, const ViewMatrices& matrices) {
+  return part.is_decal ? 0.5F * (1.0F + EdgesNearer(matrices)) : 1.0F;
+}
+
+float GlowOf(const ScenePart& part) {
+  if (part.is_decal) return kDecalGlow;
+  return part.in_contact ? kContactGlow : 0.0F;
+}
+
 Eigen::Matrix4f CamFromPart(const ScenePart& part, const ViewMatrices& matrices) {
   return ToMatrix4f(matrices.view.cam_from_world * part.world_from_part);
 }
@@ -160,7 +176,8 @@ void PartPainter::Update(std::span<const ScenePart> parts, const SceneView& view
     uploaded.edges.Upload(surface.feature_edges, Refill::kOnce);
     uploaded.bounds_in_part = core::BoundsOf(*part.mesh);
     ++mesh_uploads_;
-    if (level_maker_ && part.mesh->triangles.size() >= kTrianglesWorthLevels) level_maker_->Ask(part.mesh);
+    if (level_maker_ && !part.is_decal && part.mesh->triangles.size() >= kTrianglesWorthLevels)
+      level_maker_->Ask(part.mesh);
   }
   levels_.clear();
   for (const ScenePart& part : parts) levels_.push_back(LevelFor(part, view));
@@ -230,7 +247,8 @@ void PartPainter::DrawFaces(const DrawnPart& drawn, const ViewMatrices& matrices
   face_program_.Set("cam_from_part", CamFromPart(drawn.part, matrices));
   face_program_.Set("color", ShownColour(drawn.part));
   face_program_.Set("opacity", drawn.part.opacity);
-  face_program_.Set("glow", drawn.part.in_contact ? kContactGlow : 0.0F);
+  face_program_.Set("glow", GlowOf(drawn.part));
+  face_program_.Set("nearer", FacesNearer(drawn.part, matrices));
   face_program_.Set("hatch_px", drawn.part.is_cut_face ? kHatchPx : 0.0F);
   DrawTriangles(drawn);
 }
@@ -239,16 +257,17 @@ void PartPainter::DrawFaceDepth(const DrawnPart& drawn, const ViewMatrices& matr
   depth_program_.Use();
   depth_program_.Set("clip_from_cam", matrices.clip_from_cam);
   depth_program_.Set("cam_from_part", CamFromPart(drawn.part, matrices));
+  depth_program_.Set("nearer", FacesNearer(drawn.part, matrices));
   DrawTriangles(drawn);
 }
 
 void PartPainter::DrawEdges(const DrawnPart& drawn, const ViewMatrices& matrices, float alpha) {
-  if (drawn.part.is_cut_face) return;
+  if (drawn.part.is_cut_face || drawn.part.is_decal) return;
   const Eigen::Vector3f dark = 0.22F * ShownColour(drawn.part);
   edge_program_.Use();
   edge_program_.Set("clip_from_cam", matrices.clip_from_cam);
   edge_program_.Set("cam_from_part", CamFromPart(drawn.part, matrices));
-  edge_program_.Set("nearer", static_cast<float>(1.0 - std::min(0.001, 0.6 / matrices.view.focal_px)));
+  edge_program_.Set("nearer", EdgesNearer(matrices));
   edge_program_.Set("color", Eigen::Vector4f(dark.x(), dark.y(), dark.z(), alpha));
   glEnable(GL_BLEND);
   glDepthMask(GL_FALSE);
@@ -313,7 +332,7 @@ CasterPass PartPainter::DrawCasters(std::span<const ScenePart> parts, const View
   glEnable(GL_DEPTH_CLAMP);
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const ScenePart& part = parts[i];
-    if (part.opacity <= 0.0F) continue;
+    if (part.opacity <= 0.0F || part.is_decal) continue;
     const Eigen::AlignedBox2f bounds = BoundsIn(part, lamp.view);
     if (bounds.isEmpty()) {
       ++pass.parts_outside;
@@ -328,7 +347,7 @@ CasterPass PartPainter::DrawCasters(std::span<const ScenePart> parts, const View
 
 void PartPainter::DrawDepth(std::span<const ScenePart> parts, const ViewMatrices& matrices) {
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    if (parts[i].opacity > 0.0F) DrawFaceDepth(Drawn(parts, i), matrices);
+    if (parts[i].opacity > 0.0F && !parts[i].is_decal) DrawFaceDepth(Drawn(parts, i), matrices);
   }
 }
 

@@ -26,6 +26,9 @@ struct ScenePart {
   bool in_contact = false;   // tinted orange-red
   float opacity = 1.0F;      // below 1: what stands behind shows through; 0: not drawn
   bool is_cut_face = false;  // hatched, without edges
+  // Colours a place of another part's surface: drawn just before it, without edges, hardly shaded; it throws
+  // no shadow and has no depth of its own.
+  bool is_decal = false;
 };
 
 // A real camera, shown as a pyramid from its centre.
@@ -50,8 +53,8 @@ struct Scene {
   // a smaller one covers the same picture and is scaled up. Normals that are zero, or not there, are taken
   // from the depths.
   std::shared_ptr<const HullView> hull;
-  // As ColorHull gives them; where they aren't trusted fully, the shaded colour shows through. Empty: no
-  // camera.
+  // For an appearance that HasPixelColors: as ColorHull gives them, or those of another quantity. Where they
+  // aren't trusted fully, the shaded colour shows through. Empty: none.
   std::vector<CameraColor> hull_camera_color;
   HullAppearance hull_appearance = HullAppearance::kByNormal;
   Eigen::Vector3f hull_color = {0.87F, 0.67F, 0.55F};

@@ -20,7 +20,8 @@ bool AreSameSurroundings(const Scene& a, const Scene& b) {
 }
 
 bool ThrowSameShadow(const StillPart& a, const StillPart& b) {
-  return a.mesh.lock() == b.mesh.lock() && a.world_from_part == b.world_from_part && a.level == b.level;
+  return a.mesh.lock() == b.mesh.lock() && a.world_from_part == b.world_from_part && a.level == b.level &&
+         a.is_decal == b.is_decal;
 }
 
 bool LookSame(const StillPart& a, const StillPart& b) {
@@ -69,8 +70,9 @@ StillContent::StillContent(const Scene& scene, const PartPainter& painter) {
     const ScenePart& part = scene.parts[i];
     if (part.opacity <= 0.0F) continue;
     parts_.push_back({part.mesh, part.world_from_part, part.color, part.in_contact, part.is_cut_face,
-                      part.opacity >= 1.0F, painter.levels().at(i), painter.BoundsIn(part, scene.view),
-                      painter.BoundsIn(part, from_lamp)});
+                      part.is_decal, part.opacity >= 1.0F, painter.levels().at(i),
+                      painter.BoundsIn(part, scene.view),
+                      part.is_decal ? Eigen::AlignedBox2f() : painter.BoundsIn(part, from_lamp)});
   }
 }
 

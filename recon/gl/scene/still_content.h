@@ -17,7 +17,7 @@ struct StillPart {
   std::weak_ptr<const core::TriangleMesh> mesh;
   core::RigidTransform world_from_part;
   Eigen::Vector3f color;
-  bool in_contact = false, is_cut_face = false;
+  bool in_contact = false, is_cut_face = false, is_decal = false;
   bool is_opaque = false;  // else only its shadow stays
   std::size_t level = 0;
   Eigen::AlignedBox2f in_picture, in_lamp;

@@ -9,8 +9,8 @@
 #include <QLabel>
 #include <QLineEdit>
 #include <QMenu>
-#include <QSignalSpy>
 #include <QRegularExpression>
+#include <QSignalSpy>
 #include <QSlider>
 #include <QStatusBar>
 #include <QTableView>
@@ -276,7 +276,7 @@ TEST_F(ConsoleTest, TheHullsLookIsChosenFromAMenu) {
   QSignalSpy chosen(button, &HullLookButton::Chosen);
   StartDemoAndWaitForFrames();
   QSignalSpy pictures(&window_.view(), &OperatorView::PictureShown);
-  button->menu()->actions().back()->trigger();
+  Action("look_rig_cameras").trigger();
   EXPECT_EQ(button->text(), "Hull: camera colours");
   ASSERT_EQ(chosen.size(), 1);
   EXPECT_EQ(chosen.front().front().value<control::SceneLook>().hull, recon::HullAppearance::kRigCameras);

@@ -113,6 +113,24 @@ class ReviewPageTest : public testing::Test {
   control::ScrubbedFrame shown_;
 };
 
+TEST_F(ReviewPageTest, HeatAndTheHullsLooksAreShownWithTheirLegends) {
+  OpenIt();
+  OperatorView& view = *page().view();
+  EXPECT_TRUE(view.legends().empty());
+  Press(Qt::Key_H);
+  ASSERT_TRUE(WaitUntil([&] { return !view.legends().empty(); }));
+  EXPECT_TRUE(view.legends()[0].note.contains("whole session"));
+  EXPECT_FALSE(view.legends()[0].colours.empty());
+  Press(Qt::Key_U);
+  EXPECT_EQ(view.legends().size(), 2U);
+  EXPECT_EQ(Find<QToolButton>("review_hull_look")->text(), "Hull: uncertainty");
+  Press(Qt::Key_U);
+  EXPECT_EQ(view.legends().size(), 1U);
+  Press(Qt::Key_H);
+  EXPECT_TRUE(view.legends().empty());
+  EXPECT_TRUE(Message().isEmpty()) << Message().toStdString();
+}
+
 TEST_F(ReviewPageTest, ShowsWhatIsInTheSession) {
   const StallWatch stalls;
   OpenIt();

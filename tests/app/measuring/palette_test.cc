@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "app/control/palette/part_colors.h"
+#include "app/control/palette/scale_color.h"
 
 namespace elbowroom::control {
 namespace {
@@ -51,6 +52,24 @@ TEST(Palette, BandsStayApartForEveryEye) {
   EXPECT_GE(least, kFarApart);
   RecordProperty("least_cie76", std::to_string(least));
   std::printf("least distance of two bands: %.1f (CIE76)\n", least);
+}
+
+// A scale is read by its lightness, so that must fall all the way, whoever looks.
+TEST(Palette, TheScaleIsDarkerAtEachStepForEveryEye) {
+  constexpr int kSteps = 12;
+  constexpr double kVisible = 2.3;  // just noticeable
+  double least = 1e9;
+  for (const Matrix3d& eye : Eyes()) {
+    double last = 1e9;
+    for (int i = 0; i < kSteps; ++i) {
+      const double lightness =
+          LabOf(eye * ScaleColor((i + 0.5) / kSteps).cast<double>().unaryExpr(&Linear))[0];
+      if (i > 0) least = std::min(least, last - lightness);
+      last = lightness;
+    }
+  }
+  EXPECT_GE(least, kVisible);
+  std::printf("least step of lightness: %.1f of 100\n", least);
 }
 
 }  // namespace

@@ -141,6 +141,8 @@ TEST_F(KeptPictures, FollowEveryChangeOfAPart) {
   expect_renewed("contact", [&] { scene.parts[0].in_contact = true; });
   expect_renewed("opacity", [&] { scene.parts[4].opacity = 0.5F; });
   expect_renewed("mesh", [&] { scene.parts[1].mesh = BoxMesh({-30, -30, 0}, {30, 30, 90}); });
+  expect_renewed("decal", [&] { scene.parts[1].is_decal = true; });
+  expect_renewed("no decal", [&] { scene.parts[1].is_decal = false; });
   expect_renewed("hatched", [&] { scene.parts[1].is_cut_face = true; });
   expect_renewed("one part less", [&] { scene.parts.pop_back(); });
   expect_renewed("one part more", [&] { scene.parts.insert(scene.parts.begin() + 1, scene.parts[0]); });

@@ -123,6 +123,44 @@ TEST_F(TrialSightsTest, SectionPlanesAreSetByNumberMovedByDragFlippedAndKept) {
   EXPECT_TRUE(panel->cut().is_none());
 }
 
+TEST_F(TrialSightsTest, HeatIsShownWhileItIsWantedAndSaysWhatItMeans) {
+  OperatorView& view = window_.view();
+  EXPECT_TRUE(view.legends().empty());
+  Action("heat").trigger();
+  // The demo's hand touches the payload; the layer grows with it.
+  ASSERT_TRUE(WaitUntil([&] { return !view.legends().empty() && !view.legends()[0].colours.empty(); }));
+  EXPECT_EQ(view.legends()[0].title, "Touched for, s");
+  EXPECT_EQ(view.legends()[0].labels.front(), "0");
+  EXPECT_TRUE(view.accessibleDescription().contains("Touched for, s, from 0 to"));
+  const QString scale_end = view.legends()[0].labels.back();
+  EXPECT_TRUE(WaitUntil([&] { return view.legends()[0].labels.back() != scale_end; }));
+  Action("heat").trigger();
+  EXPECT_TRUE(view.legends().empty());
+  EXPECT_TRUE(view.accessibleDescription().isEmpty());
+  // What was touched before it is shown again is there, also after the trial.
+  window_.desk().Stop();
+  ASSERT_TRUE(WaitUntil([&] { return window_.desk().state() == DeskState::kIdle; }));
+  Action("heat").trigger();
+  EXPECT_TRUE(WaitUntil([&] { return !view.legends().empty() && !view.legends()[0].colours.empty(); }));
+}
+
+TEST_F(TrialSightsTest, TheHullIsColouredByWhatTheRigKnowsAndTheKeyGoesBack) {
+  OperatorView& view = window_.view();
+  Action("look_coverage").trigger();
+  ASSERT_EQ(view.legends().size(), 1U);
+  EXPECT_EQ(view.legends()[0].labels, QStringList({"1", "2", "3", "4"}));
+  EXPECT_EQ(view.legends()[0].colours.size(), 4U);
+  const int pictures = pictures_;
+  EXPECT_TRUE(WaitUntil([&] { return pictures_ > pictures + 3; }));
+  Action("look_uncertainty").trigger();
+  ASSERT_EQ(view.legends().size(), 1U);
+  EXPECT_TRUE(view.legends()[0].title.contains("mm"));
+  EXPECT_TRUE(view.legends()[0].note.contains("2 sigma"));
+  Action("look_uncertainty").trigger();
+  EXPECT_TRUE(view.legends().empty());
+  EXPECT_TRUE(Action("look_shaded").isChecked());
+}
+
 TEST_F(TrialSightsTest, TwoPickedFacesAreMeasuredAndFollowTheGap) {
   const Eigen::Vector3d front_of_pmt(60, -150, 60), front_of_payload(0, -130, 320);
   Action("measure_faces").trigger();
