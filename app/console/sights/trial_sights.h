@@ -12,9 +12,11 @@
 
 #include "app/console/sights/camera_view.h"
 #include "app/console/sights/measure_tool.h"
-#include "app/console/sights/section_panel.h"
+#include "app/console/sights/part_picker.h"
+#include "app/console/sights/section_tool.h"
 #include "app/console/view/operator_view.h"
 #include "app/control/tiles/tile_maker.h"
+#include "app/control/trial_setup.h"
 #include "core/rig.h"
 
 namespace elbowroom::console {
@@ -26,7 +28,7 @@ class TrialSights : public QWidget {
  public:
   explicit TrialSights(OperatorView* view, QWidget* parent = nullptr);
 
-  void Open(const core::Rig& rig);
+  void Open(const control::TrialSetup& setup);
   void ShowFrame(const control::SharedFrameResult& result);
   void ShowTiles(const control::SharedTiles& tiles);
   void SetTileRoom(const control::ThumbnailRoom& room);  // of the strip's pictures
@@ -37,10 +39,12 @@ class TrialSights : public QWidget {
   void AddTo(QMenu* menu);
 
   [[nodiscard]] const MeasureTool& measure() const { return *measure_; }
+  [[nodiscard]] const SectionTool& section() const { return *section_tool_; }
   [[nodiscard]] CameraView& camera_view() { return *camera_view_; }
   [[nodiscard]] const control::TileWishes& wishes() const { return wishes_; }
 
  signals:
+  void Failed(const QString& line);
   void WishesChanged(const elbowroom::control::TileWishes& wishes);
 
  private:
@@ -55,6 +59,8 @@ class TrialSights : public QWidget {
   CameraView* camera_view_;
   QStackedWidget* stack_;
   SectionPanel* section_panel_;
+  PartPicker* picker_;  // before those that ask it
+  SectionTool* section_tool_;
   MeasureTool* measure_;
   QLabel* advice_;
   std::vector<QAction*> standard_;
