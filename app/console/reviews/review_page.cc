@@ -24,6 +24,12 @@ namespace {
 constexpr int kPlayMs = 33;               // between two looks at the clock
 constexpr std::size_t kMostRowsSeen = 8;  // of the timeline; the others are scrolled to
 
+// It scrolls by the wheel and its bar: the keys are the page's.
+class ScrolledTimeline : public QScrollArea {
+ protected:
+  void keyPressEvent(QKeyEvent* event) override { event->ignore(); }
+};
+
 QString TextFrom(const std::filesystem::path& path) { return QString::fromStdString(path.string()); }
 
 }  // namespace
@@ -163,7 +169,7 @@ QLayout* ReviewPage::MakeTransport() {
   left->addStretch(1);
   auto* row = new QHBoxLayout;
   row->addLayout(left);
-  timeline_area_ = new QScrollArea;
+  timeline_area_ = new ScrolledTimeline;
   timeline_area_->setObjectName("timeline_area");
   timeline_area_->setWidgetResizable(true);
   timeline_area_->setFrameShape(QFrame::NoFrame);
