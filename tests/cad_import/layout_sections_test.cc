@@ -94,7 +94,7 @@ TEST(LayoutSections, WhatCantBeMetIsToldWithItsLine) {
            {"[[section]]\nname = \"a\"\nnormal = [1, 0]\noffset_mm = 0\n", "must be three numbers"},
            {"[[section]]\nname = \"a\"\nnormal = [1, 0, 0]\n", "key 'offset_mm' is missing"},
            {"[[section]]\nname = \"a\"\nnormal = [1, 0, 0]\noffset_mm = 1e10\n", "must lie between"},
-           {good + "offset = 3\n", "unknown key 'offset'; did you mean 'offset_mm'?"},
+           {good + "ofset_mm = 3\n", "unknown key 'ofset_mm'; did you mean 'offset_mm'?"},
            {good + good, ":6: [[section]]: key 'name' is there twice: 'a'", ErrorKind::kRange},
            {"section = 3\n", "must be written as [[section]]"},
            {many, "at most 32 can be used", ErrorKind::kRange}}) {
