@@ -147,9 +147,10 @@ QMenu* SectionPanel::AddMenu() {
 }
 
 void SectionPanel::MakeButtons() {
-  flip_ = Button("section_flip", tr("Fli&p"), tr("Keep the other side of the plane"));
+  flip_ = Button("section_flip", tr("Flip"), tr("Keep the other side of the plane (Alt+X)"));
+  flip_->setShortcut(QKeySequence(Qt::ALT | Qt::Key_X));  // its letters are the menus'
   align_ =
-      Button("section_align", tr("&Align to face"),
+      Button("section_align", tr("Ali&gn to face"),
              tr("Then click on a face of a part in the 3-D view: the plane takes its place and direction"));
   align_->setCheckable(true);
   add_ = Button("section_add", tr("A&dd"), tr("Add a section plane"));
