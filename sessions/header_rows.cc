@@ -19,7 +19,9 @@ namespace elbowroom::sessions {
 namespace {
 
 constexpr const char* kRecordingIdKey = "recording.id";
-constexpr std::size_t kMostTrials = 1'000'000;  // of a participant
+// Of a trial among those of one participant. Far beyond what a TRIAL.toml may say: only a damaged file has
+// more.
+constexpr std::size_t kOrderLimit = 1'000'000;
 
 void InsertSessionRow(Database& database, const core::SessionHeader& header) {
   Statement insert(
@@ -61,7 +63,7 @@ void ReadSessionRow(Database& database, core::SessionHeader& header) {
   header.layout.unit = UnitFromText(row.Text(7), database);
   header.trial.uncertainty_mm = Magnitude(row.Real(14), where, "the uncertainty");
   header.trial.condition = row.Text(15);
-  header.trial.order = static_cast<int>(IndexBelow(row.Integer(16), kMostTrials, where, "the trial's order"));
+  header.trial.order = static_cast<int>(IndexBelow(row.Integer(16), kOrderLimit, where, "the trial's order"));
   header.rig.workspace_mm = Eigen::AlignedBox3d(row.Vector(8), row.Vector(11));
   (void)Position(header.rig.workspace_mm.min(), where, "its workspace");
   (void)Position(header.rig.workspace_mm.max(), where, "its workspace");

@@ -200,6 +200,7 @@ void MainWindow::AddPages(QStackedWidget* pages) {
 
 void MainWindow::FollowView() {
   connect(view_, &OperatorView::Failed, this, &MainWindow::ShowError);
+  connect(sights_, &TrialSights::Failed, this, &MainWindow::ShowError);
   connect(hull_look_, &HullLookButton::Chosen, view_, &OperatorView::SetLook);
   connect(view_, &OperatorView::PictureShown, this,
           [this](qint64, double drawing_ms) { status_->ShowPicture(drawing_ms, view_->driver()); });
@@ -305,7 +306,7 @@ void MainWindow::ShowError(const QString& line) { messages_->ShowError(line); }
 void MainWindow::OpenTrial(const control::TrialSetup& setup) {
   messages_->hide();
   view_->Clear();
-  sights_->Open(setup.source->rig(), setup.rig_quality);
+  sights_->Open(setup);
   pages_->SetTrialWidget(sights_);
   pages_->Show(Page::kTrial);
   cameras_dock_->show();
@@ -339,7 +340,9 @@ void MainWindow::ShowState() {
   note_->setEnabled(is_running);
   if (desk_->state() == DeskState::kIdle) {
     status_->HideProgress();
-    if (closes_when_idle_) close();
+    // Once this is told to all: what isn't saved may be asked for.
+    if (std::exchange(closes_when_idle_, false))
+      QMetaObject::invokeMethod(this, &MainWindow::close, Qt::QueuedConnection);
   }
 }
 
@@ -351,13 +354,14 @@ void MainWindow::changeEvent(QEvent* event) {
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {
-  if (AsksForAnswers() || !layout_page_->MayLeave()) return event->ignore();
+  if (AsksForAnswers()) return event->ignore();
   if (desk_->state() == DeskState::kIdle) {
+    if (!layout_page_->MayLeave()) return event->ignore();
     pages_->Show(Page::kTrial);  // whose panels are remembered
     if (is_remembered_) SaveWindow(*this);
     return event->accept();
   }
-  closes_when_idle_ = true;
+  closes_when_idle_ = true;  // and asks then: no box stands before a trial
   desk_->Stop();
   messages_->ShowNote(tr("Closing as soon as the session is complete …"));
   event->ignore();

@@ -65,26 +65,10 @@ Eigen::AlignedBox3d BoundsInWorld(const FrameResult& result, core::PartIndex par
   return bounds;
 }
 
-// Whether the segment meets the box (slab test).
-bool Crosses(const Eigen::AlignedBox3d& box, const Vector3d& from, const Vector3d& to) {
-  double enters = 0.0, leaves = 1.0;
-  for (Eigen::Index axis = 0; axis < 3; ++axis) {
-    const double step = to[axis] - from[axis];
-    if (step == 0.0) {
-      if (from[axis] < box.min()[axis] || from[axis] > box.max()[axis]) return false;
-      continue;
-    }
-    const double at_min = (box.min()[axis] - from[axis]) / step,
-                 at_max = (box.max()[axis] - from[axis]) / step;
-    enters = std::max(enters, std::min(at_min, at_max));
-    leaves = std::min(leaves, std::max(at_min, at_max));
-  }
-  return enters <= leaves;
-}
-
-// Share of the hull's pixels that the box stands before; every eighth pixel of every eighth row is looked at.
-double HiddenShare(const recon::HullView& hull, const recon::SceneView& view,
-                   const Eigen::AlignedBox3d& box) {
+// Share of the hull's pixels that what is kept of the box stands before; every eighth pixel of every eighth
+// row is looked at.
+double HiddenShare(const recon::HullView& hull, const recon::SceneView& view, const Eigen::AlignedBox3d& box,
+                   const SectionCut& cut) {
   const core::RigidTransform world_from_cam = view.cam_from_world.Inverse();
   int seen = 0, hidden = 0;
   for (int y = 0; y < hull.height_px; y += 8) {
@@ -93,7 +77,7 @@ double HiddenShare(const recon::HullView& hull, const recon::SceneView& view,
       if (depth_mm <= 0.0F) continue;
       ++seen;
       const Vector3d point = world_from_cam * (view.RayInCam({x, y}) * static_cast<double>(depth_mm));
-      hidden += Crosses(box, world_from_cam.translation_mm, point) ? 1 : 0;
+      hidden += MeetsKept(cut, box, world_from_cam.translation_mm, point) ? 1 : 0;
     }
   }
   return seen == 0 ? 0.0 : static_cast<double>(hidden) / seen;
@@ -113,19 +97,6 @@ std::optional<core::CameraIndex> NearestToViewer(const std::vector<core::CameraM
     best_cosine = cosine;
   }
   return nearest;
-}
-
-// A workspace has a volume. Where nothing is left of one, it is this thin.
-constexpr double kThinnestMm = 1e-6;
-
-Eigen::AlignedBox3d NotEmpty(Eigen::AlignedBox3d box, const Eigen::AlignedBox3d& within) {
-  for (Eigen::Index axis = 0; axis < 3; ++axis) {
-    if (box.min()[axis] < box.max()[axis]) continue;
-    const bool is_below = box.max()[axis] <= within.min()[axis];
-    box.min()[axis] = is_below ? within.min()[axis] : within.max()[axis] - kThinnestMm;
-    box.max()[axis] = box.min()[axis] + kThinnestMm;
-  }
-  return box;
 }
 
 // A stream's particles, an octahedron each.
@@ -159,7 +130,7 @@ std::size_t CountHidden(const std::vector<core::ContactPoint>& points, const Vec
         const Vector3d& at = point.position_in_world_mm;
         if ((eye - at).dot(at - part_bounds[own].center()) < 0.0) return true;
         for (core::PartIndex i = 0; i < part_bounds.size(); ++i) {
-          if (i != own && Crosses(part_bounds[i], eye, at)) return true;
+          if (i != own && MeetsKept({}, part_bounds[i], eye, at)) return true;
         }
         return false;
       }));
@@ -169,7 +140,7 @@ std::size_t CountHidden(const std::vector<core::ContactPoint>& points, const Vec
 
 recon::gl::Scene SceneComposer::Compose(const FrameResult& result, const recon::SceneView& view,
                                         const SceneLook& look, double hull_scale) {
-  Forget(Cut(result.hull, look.cut));
+  Forget(result.hull, look.cut);
   if (camera_frames_ != result.camera_frames) photos_.clear();
   camera_frames_ = result.camera_frames;
   recon::gl::Scene scene;
@@ -192,17 +163,14 @@ recon::gl::Scene SceneComposer::Compose(const FrameResult& result, const recon::
     const Color plain = has_layer ? kPartBesideLayerColor : PlainPartColor(i);
     part.color = breaks_rule[i] ? BrokenRuleColor() : plain;
     part.in_contact = !has_layer && result.record.contacts[i].verdict == core::Verdict::kContact;
-    const Eigen::AlignedBox3d kept_in_world = KeptOf(look.cut, BoundsInWorld(result, i));
-    if (!kept_in_world.isEmpty() && HiddenShare(*scene.hull, hull_view, kept_in_world) > kHidesShare)
+    if (HiddenShare(*scene.hull, hull_view, BoundsInWorld(result, i), look.cut) > kHidesShare)
       part.opacity = kSeeThrough;
     AddPart(std::move(part), i, look.cut, &scene);
     if (MeshInWorld(result, i)) continue;  // its contacts are on its shape at rest
     if (look.heat != nullptr) continue;    // they would cover the heat below them
-    for (const core::ContactPoint& point : result.record.contacts[i].points) {
-      const Eigen::AlignedBox3d at(point.position_in_world_mm, point.position_in_world_mm);
-      if (!KeptOf(look.cut, at).isEmpty())
+    for (const core::ContactPoint& point : result.record.contacts[i].points)
+      if (look.cut.Keeps(point.position_in_world_mm))
         scene.contact_points_in_world.push_back(point.position_in_world_mm);
-    }
   }
   for (std::size_t i = 0; result.response && i < result.response->streams.size(); ++i) {
     const review::StreamState& stream = result.response->streams[i];
@@ -220,23 +188,8 @@ recon::gl::Scene SceneComposer::Compose(const FrameResult& result, const recon::
 }
 
 void SceneComposer::Foresee(const SharedHull& hull, const recon::SceneView& view, double hull_scale) {
-  Forget(Cut(hull, cut_));
+  Forget(hull, cut_);
   (void)HullFrom(Scaled(view, hull_scale));
-}
-
-// A hull ends at its workspace's faces, so that a smaller workspace cuts it open, and closes it there.
-SharedHull SceneComposer::Cut(const SharedHull& hull, const SectionCut& cut) {
-  const bool is_kept = cut_ == cut && whole_hull_ == hull;
-  cut_ = cut;
-  whole_hull_ = hull;
-  if (cut.is_none()) return cut_hull_ = hull;
-  if (is_kept) return cut_hull_;
-  auto rig = std::make_shared<core::Rig>(hull->rig());
-  rig->workspace_mm = NotEmpty(KeptOf(cut, rig->workspace_mm), rig->workspace_mm);
-  const auto silhouettes = hull->silhouettes();
-  cut_hull_ = std::make_shared<const recon::VisualHull>(std::move(rig),
-                                                        std::vector(silhouettes.begin(), silhouettes.end()));
-  return cut_hull_;
 }
 
 void SceneComposer::AddPart(recon::gl::ScenePart part, core::PartIndex index, const SectionCut& cut,
@@ -247,19 +200,20 @@ void SceneComposer::AddPart(recon::gl::ScenePart part, core::PartIndex index, co
     part.mesh = section.surface;
     scene->parts.push_back(part);
   }
-  if (section.caps == nullptr) return;
-  part.mesh = section.caps;
+  if (section.cut_faces == nullptr) return;
+  part.mesh = section.cut_faces;
   part.is_cut_face = true;
   scene->parts.push_back(std::move(part));
 }
 
-// Forgets what was made for another hull.
-void SceneComposer::Forget(const SharedHull& hull) {
-  if (hull_ == hull) return;
+// Forgets what was made for another hull, or another cut of it.
+void SceneComposer::Forget(const SharedHull& hull, const SectionCut& cut) {
+  if (hull_ == hull && cut_ == cut) return;
+  if (hull_ != hull) photos_.clear();  // they look at the whole hull
   hull_ = hull;
+  cut_ = cut;
   SpareView();
   hull_from_lamp_.reset();
-  photos_.clear();
 }
 
 // Keeps the view's memory for the next one, unless a scene still shows it.
@@ -273,7 +227,7 @@ SceneComposer::SharedView SceneComposer::HullFrom(const recon::SceneView& view) 
       needs_surfaces_ && hull_from_view_ != nullptr && hull_from_view_->surface.empty();
   if (hull_from_view_ == nullptr || lacks_surfaces || !(view_ == view)) {
     SpareView();
-    const recon::ViewRays rays(CameraOf(view));
+    const recon::ViewRays rays = recon::ViewRays(CameraOf(view)).Within(cut_.kept);
     hull_from_view_ = std::make_shared<recon::HullView>(
         needs_surfaces_ ? recon::ViewHull(*hull_, rays, {}, std::exchange(spare_, {}))
                         : make_view_(*hull_, rays, std::exchange(spare_, {})));
@@ -287,7 +241,8 @@ SceneComposer::SharedView SceneComposer::HullFromLamp(const recon::gl::SceneLamp
   if (hull_from_lamp_ == nullptr) {
     const recon::SceneView from_lamp = lamp.ShadowView(kHullFromLampPx);
     hull_from_lamp_ = std::make_shared<const recon::HullView>(
-        recon::ViewHull(*hull_, recon::CameraOf(from_lamp), {.surfaces = false, .normals = false}));
+        recon::ViewHull(*hull_, recon::ViewRays(recon::CameraOf(from_lamp)).Within(cut_.kept),
+                        {.surfaces = false, .normals = false}));
     ++extra_hull_views_;
   }
   return hull_from_lamp_;

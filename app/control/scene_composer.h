@@ -45,8 +45,9 @@ class SceneComposer {
 
   // Parts at their poses (those in contact tinted, those of a broken pair rule yellow), the exact view of the
   // hull, contact points, the table, a lamp over the workspace. A part that hides much of the hull is drawn
-  // see-through. What the look's cut takes away isn't shown; parts and hull have faces there. hull_scale: of
-  // the picture's side, (0, 1]; a hull of fewer pixels is drawn sooner and scaled up.
+  // see-through. What the look's cut takes away isn't shown; parts and hull have faces there, that of the
+  // hull without a camera's colours, as no camera sees it. hull_scale: of the picture's side, (0, 1]; a hull
+  // of fewer pixels is drawn sooner and scaled up.
   [[nodiscard]] recon::gl::Scene Compose(const FrameResult& result, const recon::SceneView& view,
                                          const SceneLook& look = {}, double hull_scale = 1.0);
 
@@ -63,8 +64,7 @@ class SceneComposer {
  private:
   using SharedPhoto = std::shared_ptr<const recon::CameraTexture>;
   using SharedView = std::shared_ptr<const recon::HullView>;
-  void Forget(const SharedHull& hull);
-  [[nodiscard]] SharedHull Cut(const SharedHull& hull, const SectionCut& cut);
+  void Forget(const SharedHull& hull, const SectionCut& cut);
   void AddPart(recon::gl::ScenePart part, core::PartIndex index, const SectionCut& cut,
                recon::gl::Scene* scene);
   void SpareView();
@@ -79,8 +79,7 @@ class SceneComposer {
 
   MakeView make_view_;
   // What was made for the last frame drawn. Null: nobody has asked for it since.
-  SharedHull hull_;                   // cut open
-  SharedHull whole_hull_, cut_hull_;  // the last one that was cut, and what is left of it
+  SharedHull hull_;
   SectionCut cut_;
   PartSections sections_;
   HeatPieces heat_;

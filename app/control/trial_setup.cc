@@ -122,8 +122,10 @@ TrialSetup ReadTrialFile(const std::filesystem::path& path, std::stop_token stop
   TrialSetup setup;
   setup.info = InfoFrom(root);
   const std::filesystem::path folder = path.parent_path();
-  cad_import::ImportedLayout imported = cad_import::ImportLayoutFile(folder / root.Text("layout"), {}, stop);
+  setup.layout_file = folder / root.Text("layout");
+  cad_import::ImportedLayout imported = cad_import::ImportLayoutFile(setup.layout_file, {}, stop);
   setup.layout = core::WithPairsOfParts(std::move(imported.layout));
+  setup.sections = std::move(imported.sections);
   setup.warnings = std::move(imported.warnings);
   recon::RigFile rig_file = recon::ReadRigFile(folder / root.Text("rig"));
   SegmentationTable segmentation = ReadSegmentation(root, path, rig_file.rig);

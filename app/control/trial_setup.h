@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "app/control/trial_controls.h"
+#include "cad_import/layout/layout_sections.h"
 #include "core/layout.h"
 #include "core/rig_quality.h"
 #include "core/session.h"
@@ -27,6 +28,8 @@ struct ScriptedChange {
 struct TrialSetup {
   core::TrialInfo info;
   core::Layout layout;
+  std::filesystem::path layout_file;                     // empty: the layout has no file of the user's own
+  std::vector<cad_import::LayoutSection> sections = {};  // that file's
   core::RigQuality rig_quality;  // with errors only where the trial doesn't say uncertainty_mm itself
   recon::SegmentationOptions segmentation;
   std::shared_ptr<recon::FrameSetSource> source;

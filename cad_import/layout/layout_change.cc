@@ -37,6 +37,8 @@ void ChangeEntry(LayoutText& text, std::string_view kind, std::size_t index, con
   }
 }
 
+}  // namespace
+
 void ChangeEntries(LayoutText& text, std::string_view kind, std::vector<Fields> before,
                    const std::vector<Fields>& after) {
   std::vector<Identity> are = IdentitiesOf(before);
@@ -64,8 +66,6 @@ void ChangeEntries(LayoutText& text, std::string_view kind, std::vector<Fields> 
     ChangeEntry(text, kind, i, before[i], after[i]);
   }
 }
-
-}  // namespace
 
 void ChangeInto(LayoutText& text, const core::Layout& before, const core::Layout& after) {
   if (before.unit != after.unit) {

@@ -26,6 +26,8 @@ constexpr std::array kPairKeys =
 constexpr std::array kStreamKeys = std::to_array<std::string_view>(
     {"name", "position_mm", "direction", "rate_per_s", "speed_mm_per_s", "radius_mm"});
 
+constexpr std::array kSectionKeys = std::to_array<std::string_view>({"name", "normal", "offset_mm", "on"});
+
 // Angles of R = Rz * Ry * Rx; where the pitch is a right angle the roll is taken as 0.
 Eigen::Vector3d RollPitchYawDeg(const Eigen::Matrix3d& r) {
   constexpr double kNearlyUpright = 1e-12;
@@ -137,6 +139,7 @@ std::span<const std::string_view> KeysOf(std::string_view kind) {
   if (kind == "group") return kGroupKeys;
   if (kind == "spacing") return kSpacingKeys;
   if (kind == "pair") return kPairKeys;
+  if (kind == "section") return kSectionKeys;
   core::Require(kind == "stream", "a kind of entry");
   return kStreamKeys;
 }

@@ -23,11 +23,15 @@ struct Field {
 };
 using Fields = std::vector<Field>;  // in the order in which they are written
 
-// In the order in which a file has them.
+// The kinds of entries that make up a core::Layout, in the order in which a file has them.
 inline constexpr std::array<std::string_view, 5> kEntryKinds{"part", "group", "spacing", "pair", "stream"};
 
+// All that a file may have at its top.
+inline constexpr std::array<std::string_view, 7> kLayoutKeys{"unit", "part",   "group",  "spacing",
+                                                             "pair", "stream", "section"};
+
 // The keys that an entry [[kind]] may have, in the order in which they are written. Throws: PreconditionError
-// for a kind that isn't among kEntryKinds.
+// for a kind that isn't among kLayoutKeys.
 [[nodiscard]] std::span<const std::string_view> KeysOf(std::string_view kind);
 
 // The fields of each entry [[kind]], in the layout's order. Throws: Error{kCad} naming a part without a file;

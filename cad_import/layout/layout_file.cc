@@ -199,7 +199,7 @@ ImportedLayout ImportLayoutText(const LayoutText& text, PartShelf& shelf, const 
   const std::string file = text.file().string();
   const fs::path folder = text.file().parent_path();
   const toml::table table = ParseToml(text.text(), file);
-  const TomlEntry root(table, file, "", {"unit", "part", "group", "spacing", "pair", "stream"});
+  const TomlEntry root(table, file, "", kLayoutKeys);
   ImportedLayout result;
   core::Layout& layout = result.layout;
   const auto unit = root.Unit();
@@ -221,6 +221,7 @@ ImportedLayout ImportLayoutText(const LayoutText& text, PartShelf& shelf, const 
                  [&](const TomlEntry& entry) { return ReadPair(entry, layout); });
   reader.ReadAll(LayoutEntry::kStream, "stream", layout.streams, ReadStream);
   reader.RequireNoFault(layout);
+  result.sections = SectionsOf(text);
   return result;
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "cad_import/layout/layout_sections.h"
 #include "cad_import/layout/layout_text.h"
 #include "cad_import/layout/part_shelf.h"
 #include "core/layout.h"
@@ -16,6 +17,7 @@ namespace elbowroom::cad_import {
 struct ImportedLayout {
   core::Layout layout;                // validated; part meshes loaded, in millimetres
   std::vector<std::string> warnings;  // of the part files, each naming its part
+  std::vector<LayoutSection> sections;
 };
 
 // Part files are found relative to the layout's own folder; parts that name one file, in the same unit and of

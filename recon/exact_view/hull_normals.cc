@@ -2,6 +2,8 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
@@ -28,12 +30,21 @@ std::vector<Vector3f> EdgeNormals(const VisualHull& hull, std::size_t camera) {
   return normals;
 }
 
-// The normal of the face of the workspace that a point of its surface is on.
-Vector3f FaceNormal(const Eigen::AlignedBox3d& box, const Vector3d& x_in_world) {
+// The normal of the face of the workspace, or of the half-space's plane, that a point of the surface is on.
+Vector3f FaceNormal(const Eigen::AlignedBox3d& box, const std::vector<HalfSpace>& half_spaces,
+                    const Vector3d& x_in_world) {
   Eigen::Index low = 0, high = 0;
   const double below = (x_in_world - box.min()).cwiseAbs().minCoeff(&low);
   const double above = (box.max() - x_in_world).cwiseAbs().minCoeff(&high);
-  return below < above ? Vector3f(-Vector3f::Unit(low)) : Vector3f(Vector3f::Unit(high));
+  double nearest = std::min(below, above);
+  Vector3f normal = below < above ? Vector3f(-Vector3f::Unit(low)) : Vector3f(Vector3f::Unit(high));
+  for (const HalfSpace& half_space : half_spaces) {
+    const double off = std::abs(half_space.BeyondMm(x_in_world));
+    if (off >= nearest) continue;
+    nearest = off;
+    normal = half_space.outward.cast<float>();
+  }
+  return normal;
 }
 
 }  // namespace
@@ -54,7 +65,7 @@ Vector3f HullNormals::Of(const HullSurface& surface, int x, int y, float depth_m
   const bool is_perspective = rays_.projection() == Projection::kPerspective;
   const Vector3d x_in_view =
       is_perspective ? Vector3d(uv.x() * z_mm, uv.y() * z_mm, z_mm) : Vector3d(uv.x(), uv.y(), z_mm);
-  return FaceNormal(hull_.rig().workspace_mm, world_from_view_ * x_in_view);
+  return FaceNormal(hull_.rig().workspace_mm, rays_.half_spaces(), world_from_view_ * x_in_view);
 }
 
 PictureBuffer<Vector3f> NormalsOf(const VisualHull& hull, const ViewRays& rays, const HullView& view) {

@@ -15,8 +15,8 @@ class HullNormals {
   // Computes the normals of all contours' edges, in parallel.
   HullNormals(const VisualHull& hull, const ViewRays& rays);
 
-  // Unit, out of the hull: that of the contour's edge (OutwardNormalInCam), or of the workspace's face, at
-  // pixel (x, y), whose ray meets the surface.
+  // Unit, out of the hull: that of the contour's edge (OutwardNormalInCam), or of the face (of the workspace,
+  // of a half-space), at pixel (x, y), whose ray meets the surface.
   [[nodiscard]] Eigen::Vector3f Of(const HullSurface& surface, int x, int y, float depth_mm) const;
 
  private:

@@ -13,7 +13,8 @@
 
 namespace elbowroom::recon {
 
-// The surface at a pixel: an edge of a camera's contour, seen from that camera, or a face of the workspace.
+// The surface at a pixel: an edge of a camera's contour, seen from that camera, or a face: of the workspace,
+// or the plane of one of the rays' half-spaces.
 class HullSurface {
  public:
   HullSurface() = default;  // none: the ray misses
@@ -23,7 +24,7 @@ class HullSurface {
       : packed_(static_cast<std::uint32_t>((camera + 2) << 24U) | edge) {}
 
   [[nodiscard]] bool is_hit() const { return packed_ != 0; }
-  // Nothing for a face of the workspace, and for a miss.
+  // Nothing for a face, and for a miss.
   [[nodiscard]] std::optional<core::CameraIndex> camera() const {
     if (packed_ >> 24U < 2) return std::nullopt;
     return (packed_ >> 24U) - 2;
@@ -65,7 +66,8 @@ struct HullViewOptions {
 };
 
 // The first point of the hull along each ray, found where the ray's picture in each camera crosses the
-// contours. Exact but for float32: 1e-6 of the depth (hull_view_test). Squares of pixels whose rays certainly
+// contours. Rays end at the workspace's faces and at their half-spaces' planes, which close the hull there.
+// Exact but for float32: 1e-6 of the depth (hull_view_test). Squares of pixels whose rays certainly
 // miss the hull are skipped. Parallel; the result depends neither on the number of threads nor on the
 // processor's vector width. `kept`: a view that isn't needed any more. Its memory is used again, and if it
 // has the same size and options only its box of hits is cleared.

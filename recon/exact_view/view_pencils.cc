@@ -30,32 +30,33 @@ double LowestOf(const AffineForm& form, const Eigen::AlignedBox2d& box) {
 
 }  // namespace
 
-std::array<ViewPencils::Face, 6> ViewPencils::FacesOf(const Eigen::AlignedBox3d& box, const ViewRays& rays) {
-  const core::RigidTransform world_from_view = rays.view_from_world().Inverse();
-  std::array<Face, 6> faces;
-  for (int i = 0; i < 6; ++i) {
-    const int axis = i / 2;
-    const double sign = i % 2 == 0 ? -1.0 : 1.0;
-    // Inside: outward . x <= height, x in view.
-    const Vector3d outward = sign * world_from_view.rotation.row(axis).transpose();
-    const double height =
-        sign * ((sign < 0.0 ? box.min() : box.max())[axis] - world_from_view.translation_mm[axis]);
-    Face& face = faces[static_cast<std::size_t>(i)];
-    if (rays.projection() == Projection::kPerspective) {
-      // outward . d <= height / depth = -height * key.
-      if (std::abs(height) < kLeastDivisor) {
-        face = {Face::Kind::kBeside, {-outward.x(), -outward.y(), -outward.z()}};
-      } else {
-        face = {height > 0.0 ? Face::Kind::kNotAfter : Face::Kind::kNotBefore,
-                {-outward.x() / height, -outward.y() / height, -outward.z() / height}};
-      }
-    } else if (std::abs(outward.z()) < kLeastDivisor) {
-      face = {Face::Kind::kBeside, {-outward.x(), -outward.y(), height}};
-    } else {
-      face = {outward.z() > 0.0 ? Face::Kind::kNotAfter : Face::Kind::kNotBefore,
-              {-outward.x() / outward.z(), -outward.y() / outward.z(), height / outward.z()}};
-    }
+ViewPencils::Face ViewPencils::FaceOf(const HalfSpace& half_space, const ViewRays& rays,
+                                      const core::RigidTransform& world_from_view) {
+  // Inside: outward . x <= height, x in view.
+  const Vector3d outward = world_from_view.rotation.transpose() * half_space.outward;
+  const double height = -half_space.BeyondMm(world_from_view.translation_mm);
+  if (rays.projection() == Projection::kPerspective) {
+    // outward . d <= height / depth = -height * key.
+    if (std::abs(height) < kLeastDivisor)
+      return {Face::Kind::kBeside, {-outward.x(), -outward.y(), -outward.z()}};
+    return {height > 0.0 ? Face::Kind::kNotAfter : Face::Kind::kNotBefore,
+            {-outward.x() / height, -outward.y() / height, -outward.z() / height}};
   }
+  if (std::abs(outward.z()) < kLeastDivisor)
+    return {Face::Kind::kBeside, {-outward.x(), -outward.y(), height}};
+  return {outward.z() > 0.0 ? Face::Kind::kNotAfter : Face::Kind::kNotBefore,
+          {-outward.x() / outward.z(), -outward.y() / outward.z(), height / outward.z()}};
+}
+
+std::vector<ViewPencils::Face> ViewPencils::FacesOf(const Eigen::AlignedBox3d& box, const ViewRays& rays) {
+  const core::RigidTransform world_from_view = rays.view_from_world().Inverse();
+  std::vector<Face> faces;
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    faces.push_back(FaceOf({-Vector3d::Unit(axis), -box.min()[axis]}, rays, world_from_view));
+    faces.push_back(FaceOf({Vector3d::Unit(axis), box.max()[axis]}, rays, world_from_view));
+  }
+  for (const HalfSpace& half_space : rays.half_spaces())
+    faces.push_back(FaceOf(half_space, rays, world_from_view));
   return faces;
 }
 

@@ -60,22 +60,24 @@ class ViewPencils {
   }
 
  private:
-  // One face of the workspace, as the ray (u, v) meets it. kNotBefore: the ray is on the face's inner side
-  // from the key bound(u, v) on; kNotAfter: up to that key. kBeside: the rays run along the face, and a ray
-  // is on the inner side everywhere if bound(u, v) >= 0, else nowhere.
+  // One face of the workspace, or one of the rays' half-spaces, as the ray (u, v) meets it. kNotBefore: the
+  // ray is on the face's inner side from the key bound(u, v) on; kNotAfter: up to that key. kBeside: the rays
+  // run along the face, and a ray is on the inner side everywhere if bound(u, v) >= 0, else nowhere.
   struct Face {
     enum class Kind { kNotBefore, kNotAfter, kBeside } kind = Kind::kBeside;
     AffineForm bound;
   };
 
-  [[nodiscard]] static std::array<Face, 6> FacesOf(const Eigen::AlignedBox3d& box, const ViewRays& rays);
+  [[nodiscard]] static Face FaceOf(const HalfSpace& half_space, const ViewRays& rays,
+                                   const core::RigidTransform& world_from_view);
+  [[nodiscard]] static std::vector<Face> FacesOf(const Eigen::AlignedBox3d& box, const ViewRays& rays);
   void Divide(int x, int y, int size, std::vector<PixelBox>* squares) const;
   [[nodiscard]] EpipolarEdges::KeyRange KeysInWorkspace(const Eigen::AlignedBox2d& box) const;
   [[nodiscard]] bool MissesHull(const Eigen::AlignedBox2d& box) const;
 
   const VisualHull& hull_;
   const ViewRays& rays_;
-  std::array<Face, 6> faces_;
+  std::vector<Face> faces_;
   Pencils cameras_;
   Pencils visibility_outlines_;
   CastBox box_;

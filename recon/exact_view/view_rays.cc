@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "core/error.h"
 #include "recon/contours/undistorted_plane.h"
@@ -39,6 +40,12 @@ ViewRays::ViewRays(const core::CameraModel& view, Projection projection)
 ViewRays ViewRays::From(const core::RigidTransform& view_from_world) const {
   ViewRays rays = *this;
   rays.view_from_world_ = view_from_world;
+  return rays;
+}
+
+ViewRays ViewRays::Within(std::vector<HalfSpace> half_spaces) const {
+  ViewRays rays = *this;
+  rays.half_spaces_ = std::move(half_spaces);
   return rays;
 }
 

@@ -9,6 +9,7 @@
 
 #include "core/camera_model.h"
 #include "core/rigid_transform.h"
+#include "recon/exact_view/half_space.h"
 
 namespace elbowroom::recon {
 
@@ -25,15 +26,19 @@ class ViewRays {
 
   // The same rays from elsewhere.
   [[nodiscard]] ViewRays From(const core::RigidTransform& view_from_world) const;
+  // The same rays, looked along only within all of these half-spaces of world: a hull that they meet is cut
+  // open, and closed by the planes.
+  [[nodiscard]] ViewRays Within(std::vector<HalfSpace> half_spaces) const;
 
-  // Whether both have the same rays, whatever their places. Rays through a lens count as the same only if one
-  // object is a copy of the other.
+  // Whether both have the same rays, whatever their places and half-spaces. Rays through a lens count as the
+  // same only if one object is a copy of the other.
   [[nodiscard]] bool HasSameRays(const ViewRays& other) const;
 
   [[nodiscard]] Projection projection() const { return projection_; }
   [[nodiscard]] int width_px() const { return width_px_; }
   [[nodiscard]] int height_px() const { return height_px_; }
   [[nodiscard]] const core::RigidTransform& view_from_world() const { return view_from_world_; }
+  [[nodiscard]] const std::vector<HalfSpace>& half_spaces() const { return half_spaces_; }
 
   // NaN where the lens has no ray for the pixel.
   [[nodiscard]] Eigen::Vector2d At(int x, int y) const {
@@ -61,6 +66,7 @@ class ViewRays {
   int width_px_;
   int height_px_;
   core::RigidTransform view_from_world_;
+  std::vector<HalfSpace> half_spaces_;
   Eigen::Matrix2d uv_from_pixel_ = Eigen::Matrix2d::Identity();
   Eigen::Vector2d uv_of_origin_ = Eigen::Vector2d::Zero();
   std::shared_ptr<const Lens> lens_;  // null: none

@@ -20,7 +20,7 @@ struct HullMesh {
 // An octree over the workspace is refined where the ball query says mixed, down to blocks of 8^3 cubes of
 // `edge_mm`; these are marched, each vertex on the exact surface where its edge first leaves the hull (or
 // edge / 2048 from the edge's end). The surface is a closed 2-manifold; a workspace face that cuts the hull
-// becomes a cap. Features thinner than edge_mm may be lost. Derivation in docs/algorithms.md. Throws:
+// becomes a face. Features thinner than edge_mm may be lost. Derivation in docs/algorithms.md. Throws:
 // core::Error{kRange} when edge_mm isn't positive or the grid would have 2^20 cells a side or more;
 // core::Error{kCancelled}. Thread: any; the result depends neither on the number of threads nor on the
 // processor.

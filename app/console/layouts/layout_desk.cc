@@ -108,7 +108,11 @@ void LayoutDesk::Keep() {
   autosaving_.reset();
   Try([this] {
     core::MakeFolder(core::FolderOf(document_->file()));
-    document_->Autosave();
+    if (can_recover_) {
+      control::AppendAutosave(document_->text());  // what is offered stays, and is offered first
+    } else {
+      document_->Autosave();
+    }
   });
   forgotten_text_ = document_->text().text();
 }
@@ -124,16 +128,21 @@ void LayoutDesk::Forget() {
 void LayoutDesk::DiscardRecovery() {
   if (!can_recover_) return;
   control::DropAutosave(document_->file());
-  can_recover_ = false;
+  can_recover_ = control::FindAutosave(document_->file()).has_value();  // the next
   autosave_after_.start();  // of what was changed while it was offered
   emit Changed();
+}
+
+control::LayoutDocument::AutosaveThen LayoutDesk::OfferedThen() const {
+  using Then = control::LayoutDocument::AutosaveThen;
+  return can_recover_ ? Then::kKept : Then::kDropped;
 }
 
 bool LayoutDesk::Save() {
   autosave_after_.stop();
   autosaving_.reset();
-  const bool is_saved = Try([this] { document_->Save(); });
-  if (is_saved) can_recover_ = false;
+  const bool is_saved = Try([this] { document_->Save(OfferedThen()); });
+  if (is_saved) can_recover_ = control::FindAutosave(document_->file()).has_value();
   emit Changed();
   return is_saved;
 }
@@ -141,8 +150,8 @@ bool LayoutDesk::Save() {
 bool LayoutDesk::SaveAs(const std::filesystem::path& file) {
   autosave_after_.stop();
   autosaving_.reset();
-  const bool is_saved = Try([this, &file] { document_->SaveAs(file); });
-  if (is_saved) can_recover_ = false;
+  const bool is_saved = Try([this, &file] { document_->SaveAs(file, OfferedThen()); });
+  if (is_saved) can_recover_ = false;  // what was offered stays beside the other file
   emit Changed();
   return is_saved;
 }

@@ -63,6 +63,8 @@ class LayoutDesk : public QObject {
   void Read(const QString& what, Reader reader, bool may_recover);
   void Take(std::unique_ptr<control::LayoutDocument> document, bool may_recover);
   void Autosave();
+  // What becomes of an autosave when the layout is saved: one that is offered stays.
+  [[nodiscard]] control::LayoutDocument::AutosaveThen OfferedThen() const;
   template <typename Step>
   bool Try(Step step);
 

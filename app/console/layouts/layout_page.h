@@ -6,6 +6,7 @@
 #include <QLabel>
 #include <QMenu>
 #include <QMimeData>
+#include <QPointer>
 #include <QProgressBar>
 #include <QString>
 #include <QStringList>
@@ -15,6 +16,7 @@
 #include <vector>
 
 #include "app/console/layouts/layout_desk.h"
+#include "app/console/layouts/measured_points.h"
 #include "app/console/layouts/part_look.h"
 #include "app/console/layouts/part_panel.h"
 #include "app/console/layouts/parts_list.h"
@@ -46,6 +48,7 @@ class LayoutPage : public QWidget {
   [[nodiscard]] QMenu* menu() { return menu_; }
   [[nodiscard]] LayoutDesk& desk() { return *desk_; }
   [[nodiscard]] PartsView& view() { return *view_; }
+  [[nodiscard]] const PlacingSteps& placing() const { return *placing_; }
   [[nodiscard]] const QStringList& chosen() const { return chosen_; }
   void Choose(const QStringList& parts);
 
@@ -113,6 +116,7 @@ class LayoutPage : public QWidget {
   QStringList chosen_;
   PartLooks looks_;
   std::filesystem::path last_cad_folder_;
+  QPointer<MeasuredPoints> measured_;  // while it is open
 };
 
 }  // namespace elbowroom::console

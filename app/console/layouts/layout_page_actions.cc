@@ -214,7 +214,7 @@ bool LayoutPage::MayLeave() {
   }
 }
 
-// MayLeave() won't do: the file that it saves has nothing to recover any more.
+// Not MayLeave(): what is offered replaces what is there, saved or not.
 void LayoutPage::AskToRecover() {
   QMessageBox question(QMessageBox::Question, tr("Layout"),
                        tr("The layout has changes that aren't saved; taking the others discards them."),
@@ -235,8 +235,14 @@ void LayoutPage::AskForTrial() {
 
 // Beside the view, which takes the clicks.
 void LayoutPage::AskForMeasuredPoints() {
+  if (measured_ && measured_->part() == chosen_.front()) {
+    if (placing_->placing() != Placing::kMeasuredPoints) placing_->Begin(Placing::kMeasuredPoints);
+    return measured_->Raise();
+  }
+  if (measured_) measured_->close();  // of another part: clicks are for one of them
   auto* dialog = new MeasuredPoints(chosen_.front(), this);
   dialog->setAttribute(Qt::WA_DeleteOnClose);
+  measured_ = dialog;
   connect(placing_, &PlacingSteps::PointTaken, dialog, [this, dialog](const control::Pick& pick) {
     const auto part = layout().FindPart(dialog->part().toStdString());
     if (part != pick.part) return emit Failed(tr("That isn't %1: click on that part").arg(dialog->part()));

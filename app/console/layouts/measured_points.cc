@@ -94,6 +94,12 @@ void MeasuredPoints::Add(const Eigen::Vector3d& x_in_part, const Eigen::Vector3d
   Fit();
 }
 
+void MeasuredPoints::Raise() {
+  show();
+  raise();
+  activateWindow();
+}
+
 std::vector<control::PointPair> MeasuredPoints::Pairs() const {
   std::vector<control::PointPair> pairs;
   for (int row = 0; row < table_->rowCount(); ++row) {

@@ -23,6 +23,7 @@ class MeasuredPoints : public QDialog {
   [[nodiscard]] const QString& part() const { return part_; }
   // `x_in_world`: where it is now, to begin with.
   void Add(const Eigen::Vector3d& x_in_part, const Eigen::Vector3d& x_in_world);
+  void Raise();  // asked for again
   [[nodiscard]] const std::optional<control::RigidFit>& fit() const { return fit_; }
 
  signals:

@@ -37,9 +37,6 @@ class PartGizmo {
     GizmoHandle handle;
     QPolygonF line;
   };
-  [[nodiscard]] QPolygonF Projected(const recon::SceneView& view,
-                                    const std::vector<Eigen::Vector3d>& line) const;
-
   std::vector<Drawn> drawn_;
 };
 

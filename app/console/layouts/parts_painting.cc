@@ -53,7 +53,7 @@ void PartsView::paintEvent(QPaintEvent* /*event*/) {
 // The box of each chosen part, along its own axes, and its name.
 void PartsView::PaintChosen(QPainter& painter) const {
   for (const ShownPart& part : parts_) {
-    if (part.choice == 0 || !part.is_visible) continue;
+    if (part.choice == 0 || !part.is_visible || part.box_in_part.isEmpty()) continue;
     std::array<std::optional<QPointF>, 8> corners;
     for (int i = 0; i < 8; ++i)
       corners.at(static_cast<std::size_t>(i)) = PaintedAt(

@@ -13,6 +13,22 @@ namespace {
 constexpr float kChosenShare = 0.4F;       // of white in the colour of what is chosen
 constexpr double kLowestOnTableMm = -1.0;  // a table is drawn under parts that stand on it
 
+// A box of so many takes a thread less than a millisecond.
+constexpr std::size_t kMostVerticesAtOnce = 50'000;
+
+struct BoxToFind {
+  core::SharedMesh mesh;
+  core::RigidTransform world_from_part;
+  Eigen::AlignedBox3d box_in_part;
+  Eigen::AlignedBox3d box_in_world;
+};
+
+template <typename Part>
+void FindBoxes(Part* part) {
+  if (part->box_in_part.isEmpty()) part->box_in_part = core::BoundsOf(*part->mesh);
+  part->box_in_world = core::BoundsOf(*part->mesh, part->world_from_part);
+}
+
 Eigen::Vector3f Lighter(const Eigen::Vector3f& color) {
   return color + kChosenShare * (Eigen::Vector3f::Ones() - color);
 }
@@ -56,16 +72,70 @@ void PartsView::Show(std::vector<ShownPart> parts, std::vector<ShownGap> gaps) {
   drag_.reset();  // of parts that are replaced
   for (ShownPart& part : parts) {
     const auto known = std::ranges::find(parts_, part.mesh, &ShownPart::mesh);
-    part.box_in_part = known != parts_.end() ? known->box_in_part : core::BoundsOf(*part.mesh);
+    if (known == parts_.end()) continue;
+    part.box_in_part = known->box_in_part;
+    const auto same = std::ranges::find_if(parts_, [&](const ShownPart& other) {
+      return other.mesh == part.mesh && other.world_from_part == part.world_from_part;
+    });
+    if (same != parts_.end()) part.box_in_world = same->box_in_world;
   }
   parts_ = std::move(parts);
   gaps_ = std::move(gaps);
-  bounds_in_world_.setEmpty();
-  for (const ShownPart& part : parts_)
-    if (part.is_visible) bounds_in_world_.extend(core::BoundsOf(*part.mesh, part.world_from_part));
-  MakeScene();
+  fits_when_measured_ = fits_when_measured_ || was_empty || !camera_;
+  Measure();
+  ShowMeasured();
   MakeTrees();
-  if (was_empty || !camera_) Fit();
+}
+
+void PartsView::Measure() {
+  std::vector<BoxToFind> large;
+  for (std::size_t i = 0; i < parts_.size(); ++i) {
+    ShownPart& part = parts_[i];
+    if (!part.box_in_world.isEmpty()) continue;
+    if (part.mesh->vertices_mm.size() > kMostVerticesAtOnce) {
+      large.push_back({part.mesh, part.world_from_part, part.box_in_part, {}});
+    } else {
+      FindBoxes(&part);
+    }
+  }
+  if (large.empty() || measuring_) return;
+  auto found = std::make_shared<std::vector<BoxToFind>>(std::move(large));
+  measuring_ = std::make_unique<BackgroundJob>(
+      bridge_,
+      [found](const std::stop_token& stop) {
+        for (BoxToFind& part : *found)
+          if (!stop.stop_requested()) FindBoxes(&part);
+      },
+      [this, found](const std::string& error) {
+        measuring_.reset();
+        if (!error.empty()) return emit Failed(QString::fromStdString(error));
+        for (const BoxToFind& known : *found) {
+          for (ShownPart& part : parts_) {
+            if (part.mesh != known.mesh) continue;
+            part.box_in_part = known.box_in_part;
+            if (part.world_from_part == known.world_from_part) part.box_in_world = known.box_in_world;
+          }
+        }
+        Measure();  // of what has come since
+        ShowMeasured();
+      });
+}
+
+void PartsView::ShowMeasured() {
+  bounds_in_world_.setEmpty();
+  for (const ShownPart& part : parts_) {
+    if (!part.is_visible) continue;
+    bounds_in_world_.extend(part.box_in_world);
+    if (!part.box_in_world.isEmpty() || part.box_in_part.isEmpty()) continue;
+    for (int i = 0; i < 8; ++i)  // in the meantime: its box where the part stands now
+      bounds_in_world_.extend(part.world_from_part *
+                              part.box_in_part.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i)));
+  }
+  MakeScene();
+  if (fits_when_measured_ && !measuring_) {
+    fits_when_measured_ = false;
+    Fit();
+  }
   AskForPicture();
   update();
 }
@@ -73,7 +143,7 @@ void PartsView::Show(std::vector<ShownPart> parts, std::vector<ShownGap> gaps) {
 void PartsView::MakeScene() {
   if (bounds_in_world_.isEmpty()) {
     scene_.reset();
-    picture_ = QImage();
+    if (!measuring_) picture_ = QImage();
     if (parts_.empty()) camera_.reset();
     return;
   }

@@ -31,7 +31,9 @@ struct ShownPart {
   bool is_visible = true;
   int choice = 0;                                     // 0: not chosen; 1: the first that is; 2: the second
   std::array<bool, 3> may_move = {true, true, true};  // along the world's axes; a gap decides the others
-  Eigen::AlignedBox3d box_in_part = Eigen::AlignedBox3d();  // the view's own, of the mesh
+  // The view's own: of the mesh, and where the part stands. Empty: a worker is finding them.
+  Eigen::AlignedBox3d box_in_part = Eigen::AlignedBox3d();
+  Eigen::AlignedBox3d box_in_world = Eigen::AlignedBox3d();
 };
 
 // Drawn over the picture: a gap from end to end, with its words beside it.
@@ -44,8 +46,8 @@ struct ShownGap {
 // Left drag orbits, right or middle drag pans, the wheel zooms, a double click fits; a click chooses a part,
 // with Ctrl beside the one that is chosen. The first chosen part has handles: dragging one moves or turns it,
 // with Shift in whole millimetres and steps of 5 degrees; Esc ends a drag where it began. Never waits for a
-// picture, as OperatorView. Parts can be picked as soon as a worker has made the trees of their meshes.
-// Thread: UI.
+// picture, as OperatorView. Parts can be picked as soon as a worker has made the trees of their meshes; a
+// worker finds the boxes of large meshes, too, which are shown then. Thread: UI.
 class PartsView : public QWidget {
   Q_OBJECT
 
@@ -68,6 +70,7 @@ class PartsView : public QWidget {
   // Where a point of the world is in the widget; nothing where it is behind the eye.
   [[nodiscard]] std::optional<QPointF> PositionOf(const Eigen::Vector3d& x_in_world) const;
   [[nodiscard]] bool CanPick() const;  // every part that is visible
+  [[nodiscard]] bool is_measuring() const { return measuring_ != nullptr; }
   // The handles at the first chosen part; nothing where none is chosen or visible.
   [[nodiscard]] std::optional<PartGizmo> Gizmo() const;
   [[nodiscard]] const QImage& picture() const { return picture_; }
@@ -95,6 +98,8 @@ class PartsView : public QWidget {
   using SharedTree = std::shared_ptr<const core::TriangleTree>;
 
   void Turn(const recon::OrbitCamera& camera);
+  void Measure();  // the boxes that aren't known yet, of large meshes on a worker
+  void ShowMeasured();
   void MakeScene();
   void MakeTrees();
   void AskForPicture();
@@ -130,7 +135,8 @@ class PartsView : public QWidget {
   QPointF last_mouse_px_;
   QPointF pressed_px_;
   Bridge bridge_;  // before the thread that posts to it
-  std::unique_ptr<BackgroundJob> tree_making_;
+  bool fits_when_measured_ = false;
+  std::unique_ptr<BackgroundJob> measuring_, tree_making_;
   PictureAsker asker_;
 };
 

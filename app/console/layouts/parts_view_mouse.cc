@@ -19,7 +19,7 @@ control::PickRay PartsView::RayAt(const QPointF& position) const {
 
 std::optional<std::size_t> PartsView::FirstChosen() const {
   for (std::size_t i = 0; i < parts_.size(); ++i)
-    if (parts_[i].choice == 1 && parts_[i].is_visible) return i;
+    if (parts_[i].choice == 1 && parts_[i].is_visible && !parts_[i].box_in_part.isEmpty()) return i;
   return std::nullopt;
 }
 

@@ -1,5 +1,7 @@
 #include "app/console/layouts/placing_steps.h"
 
+#include <utility>
+
 #include "app/control/placing/cylinder_fit.h"
 #include "app/control/placing/snap.h"
 #include "app/control/placing/surface_patch.h"
@@ -9,26 +11,29 @@ namespace {
 
 constexpr double kSmoothTurnDeg = 30.0;
 
-// The axis of the hole or pin that was clicked on; nothing where that isn't round.
-std::optional<control::AxisLine> AxisUnder(const core::Layout& layout,
-                                           const std::vector<core::RigidTransform>& world_from_parts,
-                                           const control::Pick& pick) {
-  const core::TriangleMesh& mesh = *layout.parts[pick.part].mesh;
-  const auto fit = control::FitCylinder(mesh, control::SmoothPatch(mesh, pick.triangle, kSmoothTurnDeg));
-  if (!fit) return std::nullopt;
-  const core::RigidTransform& pose = world_from_parts[pick.part];
-  return control::AxisLine{pose * fit->point, pose.rotation * fit->direction};
+// The axis of the hole or pin that was clicked on, in the mesh's frame; nothing where that isn't round.
+std::optional<control::AxisLine> AxisUnder(const core::TriangleMesh& mesh, std::uint32_t triangle,
+                                           const std::stop_token& stop) {
+  const auto fit = control::FitCylinder(mesh, control::SmoothPatch(mesh, triangle, kSmoothTurnDeg, stop));
+  return fit ? std::optional(control::AxisLine{fit->point, fit->direction}) : std::nullopt;
 }
 
 }  // namespace
 
+PlacingSteps::PlacingSteps(QObject* parent) : QObject(parent) {}
+
+PlacingSteps::~PlacingSteps() = default;
+
 void PlacingSteps::Begin(Placing placing) {
   placing_ = placing;
   first_.reset();
+  ++runs_;
+  if (finding_) finding_->Cancel();
   emit Changed();
 }
 
 QString PlacingSteps::Advice() const {
+  if (finding_ && placing_ == Placing::kHoleToHole) return tr("Looking at what was clicked on …; Esc: no");
   switch (placing_) {
     case Placing::kNone:
       return {};
@@ -48,25 +53,52 @@ QString PlacingSteps::Advice() const {
 void PlacingSteps::Take(const core::Layout& layout, const std::vector<core::RigidTransform>& world_from_parts,
                         const control::Pick& pick) {
   if (placing_ == Placing::kMeasuredPoints) return emit PointTaken(pick);
-  const QString part = QString::fromStdString(layout.parts[pick.part].name);
-  const bool is_hole = placing_ == Placing::kHoleToHole;
-  if (is_hole && !AxisUnder(layout, world_from_parts, pick))
-    return emit Failed(tr("What was clicked on of %1 isn't round: click on the wall of a hole").arg(part));
+  if (placing_ == Placing::kNone || finding_) return;
+  const core::Part& part = layout.parts[pick.part];
+  const Click click{QString::fromStdString(part.name), world_from_parts[pick.part], pick, {}};
+  if (placing_ == Placing::kHoleToHole) return FindAxis(part.mesh, click);
+  TakeClick(click);
+}
+
+void PlacingSteps::FindAxis(const core::SharedMesh& mesh, const Click& click) {
+  auto found = std::make_shared<std::optional<control::AxisLine>>();
+  finding_ = std::make_unique<BackgroundJob>(
+      bridge_,
+      [mesh, triangle = click.pick.triangle, found](const std::stop_token& stop) {
+        *found = AxisUnder(*mesh, triangle, stop);
+      },
+      [this, found, click, run = runs_](const std::string& error) {
+        finding_.reset();
+        emit Changed();
+        if (run != runs_) return;
+        if (!error.empty()) return emit Failed(QString::fromStdString(error));
+        if (!*found)
+          return emit Failed(
+              tr("What was clicked on of %1 isn't round: click on the wall of a hole").arg(click.part));
+        Click with_axis = click;
+        with_axis.axis = {click.world_from_part * (*found)->point_in_world,
+                          click.world_from_part.rotation * (*found)->direction_in_world};
+        TakeClick(with_axis);
+      });
+  emit Changed();
+}
+
+void PlacingSteps::TakeClick(const Click& click) {
   if (!first_) {
-    first_ = {part, pick};
+    first_ = click;
     return emit Changed();
   }
-  if (first_->pick.part == pick.part)
-    return emit Failed(tr("That is %1 itself: click on the part that stays").arg(part));
-  const core::RigidTransform& pose = world_from_parts[first_->pick.part];
+  if (first_->pick.part == click.pick.part)
+    return emit Failed(tr("That is %1 itself: click on the part that stays").arg(click.part));
+  const Click first = *first_;
   const core::RigidTransform placed =
-      is_hole ? control::AxisToAxis(pose, *AxisUnder(layout, world_from_parts, first_->pick),
-                                    *AxisUnder(layout, world_from_parts, pick))
-              : control::FaceToFace(pose, {first_->pick.point_in_world, first_->pick.normal_in_world},
-                                    {pick.point_in_world, pick.normal_in_world});
-  const QString moved = first_->part;
+      placing_ == Placing::kHoleToHole
+          ? control::AxisToAxis(first.world_from_part, first.axis, click.axis)
+          : control::FaceToFace(first.world_from_part,
+                                {first.pick.point_in_world, first.pick.normal_in_world},
+                                {click.pick.point_in_world, click.pick.normal_in_world});
   End();
-  emit Placed(moved, placed);
+  emit Placed(first.part, placed);
 }
 
 }  // namespace elbowroom::console

@@ -4,10 +4,14 @@
 
 #include <QObject>
 #include <QString>
+#include <memory>
 #include <optional>
 #include <vector>
 
+#include "app/console/view/background_job.h"
+#include "app/console/view/bridge.h"
 #include "app/control/picking/pick.h"
+#include "app/control/placing/drag.h"
 #include "core/layout.h"
 
 namespace elbowroom::console {
@@ -19,14 +23,16 @@ class PlacingSteps : public QObject {
   Q_OBJECT
 
  public:
-  explicit PlacingSteps(QObject* parent = nullptr) : QObject(parent) {}
+  explicit PlacingSteps(QObject* parent = nullptr);
+  ~PlacingSteps() override;
 
   void Begin(Placing placing);
   void End() { Begin(Placing::kNone); }
   [[nodiscard]] Placing placing() const { return placing_; }
   [[nodiscard]] QString Advice() const;  // what to click on next; "" if nothing
 
-  // A click on a part of the layout, whose parts stand at these poses.
+  // A click on a part of the layout, whose parts stand at these poses. The axis of a hole is found by a
+  // worker: until then other clicks do nothing, and Begin() and End() give it up.
   void Take(const core::Layout& layout, const std::vector<core::RigidTransform>& world_from_parts,
             const control::Pick& pick);
 
@@ -37,12 +43,20 @@ class PlacingSteps : public QObject {
   void Failed(const QString& line);
 
  private:
-  struct First {
+  struct Click {
     QString part;
+    core::RigidTransform world_from_part;
     control::Pick pick;
+    control::AxisLine axis;  // only for holes
   };
+  void FindAxis(const core::SharedMesh& mesh, const Click& click);
+  void TakeClick(const Click& click);
+
   Placing placing_ = Placing::kNone;
-  std::optional<First> first_;
+  std::optional<Click> first_;
+  int runs_ = 0;   // of placing
+  Bridge bridge_;  // before the thread that posts to it
+  std::unique_ptr<BackgroundJob> finding_;
 };
 
 }  // namespace elbowroom::console

@@ -22,6 +22,7 @@ QListWidget* MakeList(const QString& name, const QString& title, const QString& 
   list->setObjectName(name);
   list->setAccessibleName(title);
   list->setToolTip(tool_tip);
+  list->setFocusPolicy(Qt::TabFocus);  // a click leaves the keys to the trial
   list->setWordWrap(true);
   list->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   return list;

@@ -41,6 +41,7 @@ ProcedurePanel::ProcedurePanel(QWidget* parent) : QWidget(parent) {
   list_->setObjectName("step_list");
   list_->setAccessibleName(tr("Steps of the procedure"));
   list_->setToolTip(tr("Double-click a step to begin it, again or out of turn"));
+  list_->setFocusPolicy(Qt::TabFocus);  // a click leaves the keys to the trial
   list_->setWordWrap(true);
   list_->setMinimumHeight(kListPx);
   list_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);

@@ -2,12 +2,13 @@
 
 #include <QDialogButtonBox>
 #include <QFileDialog>
+#include <QFileInfo>
 #include <QFormLayout>
 #include <QHBoxLayout>
-#include <QLabel>
 #include <QVBoxLayout>
 #include <algorithm>
 #include <array>
+#include <utility>
 
 namespace elbowroom::console {
 namespace {
@@ -61,6 +62,12 @@ KeepOutDialog::KeepOutDialog(const std::filesystem::path& session, QWidget* pare
   auto* column = new QVBoxLayout(this);
   column->addWidget(what);
   column->addLayout(form);
+  fault_ = new QLabel;
+  fault_->setObjectName("keep_out_fault");
+  fault_->setWordWrap(true);
+  fault_->setTextFormat(Qt::PlainText);
+  fault_->hide();
+  column->addWidget(fault_);
   column->addWidget(buttons);
   resize(520, sizeHint().height());
 }
@@ -68,10 +75,17 @@ KeepOutDialog::KeepOutDialog(const std::filesystem::path& session, QWidget* pare
 void KeepOutDialog::Browse() {
   const QString file = QFileDialog::getSaveFileName(this, tr("Write the keep-out volume into"), file_->text(),
                                                     tr("Meshes (*.stl *.ply *.glb)"));
-  if (!file.isEmpty()) file_->setText(file);
+  if (file.isEmpty()) return;
+  file_->setText(file);
+  may_replace_ = file;  // the file dialog has asked
 }
 
 void KeepOutDialog::Accept() {
+  const QString file = file_->text();
+  if (QFileInfo::exists(file) && file != std::exchange(may_replace_, file)) {
+    fault_->setText(tr("%1 is there; choose another name, or press again to replace it").arg(file));
+    return fault_->show();
+  }
   emit Asked(edge_->value(), file_->text().toStdString());
   accept();
 }

@@ -3,6 +3,7 @@
 
 #include <QDialog>
 #include <QDoubleSpinBox>
+#include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
 #include <filesystem>
@@ -26,6 +27,8 @@ class KeepOutDialog : public QDialog {
   QDoubleSpinBox* edge_;
   QLineEdit* file_;
   QPushButton* write_;
+  QLabel* fault_;
+  QString may_replace_;  // the file that was said to be replaced
 };
 
 }  // namespace elbowroom::console

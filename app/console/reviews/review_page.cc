@@ -21,7 +21,14 @@
 namespace elbowroom::console {
 namespace {
 
-constexpr int kPlayMs = 33;  // between two looks at the clock
+constexpr int kPlayMs = 33;               // between two looks at the clock
+constexpr std::size_t kMostRowsSeen = 8;  // of the timeline; the others are scrolled to
+
+// It scrolls by the wheel and its bar: the keys are the page's.
+class ScrolledTimeline : public QScrollArea {
+ protected:
+  void keyPressEvent(QKeyEvent* event) override { event->ignore(); }
+};
 
 QString TextFrom(const std::filesystem::path& path) { return QString::fromStdString(path.string()); }
 
@@ -111,7 +118,7 @@ QLayout* ReviewPage::MakeHeader() {
   row->addLayout(texts, 1);
   section_button_ =
       AddButton(row, "review_section", tr("&Section"),
-                tr("Cut parts and hull open by planes; Shift and drag in the picture moves one"));
+                tr("Cut parts and hull open by planes; handles in the picture move and turn the chosen one"));
   section_button_->setCheckable(true);
   connect(section_button_, &QPushButton::toggled, section_, &QWidget::setVisible);
   heat_button_ =
@@ -173,7 +180,14 @@ QLayout* ReviewPage::MakeTransport() {
   left->addStretch(1);
   auto* row = new QHBoxLayout;
   row->addLayout(left);
-  row->addWidget(timeline_, 1);
+  timeline_area_ = new ScrolledTimeline;
+  timeline_area_->setObjectName("timeline_area");
+  timeline_area_->setWidgetResizable(true);
+  timeline_area_->setFrameShape(QFrame::NoFrame);
+  timeline_area_->setFocusPolicy(Qt::NoFocus);
+  timeline_area_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  timeline_area_->setWidget(timeline_);
+  row->addWidget(timeline_area_, 1);
   return row;
 }
 
@@ -251,9 +265,14 @@ void ReviewPage::MakeView() {
   view_->setObjectName("review_view");
   view_column_->insertWidget(0, view_, 1);
   connect(view_, &OperatorView::Failed, messages_, &MessageBar::ShowError);
-  connect(section_, &SectionPanel::Changed, view_, &OperatorView::SetCut);
   connect(hull_look_, &HullLookButton::Chosen, view_, &OperatorView::SetLook);
-  connect(view_, &OperatorView::ShiftDragged, section_, &SectionPanel::Drag);
+  auto* picker = new PartPicker(view_, this);
+  auto* tool = new SectionTool(section_, view_, picker, this);
+  connect(picker, &PartPicker::Failed, messages_, &MessageBar::ShowError);
+  connect(section_, &SectionPanel::Failed, messages_, &MessageBar::ShowError);
+  connect(tool, &SectionTool::Advised, this, [this](const QString& line) {
+    if (!line.isEmpty()) messages_->ShowNote(line);
+  });
 }
 
 void ReviewPage::ShowSession() {
@@ -266,6 +285,8 @@ void ReviewPage::ShowSession() {
   facts_->setText(FactsOf(session));
   facts_->setToolTip(facts_->text());
   timeline_->Open(desk_->timeline());
+  timeline_area_->setFixedHeight(
+      std::min(timeline_->sizeHint().height(), TimelineView::HeightOf(kMostRowsSeen)));
   what_if_->Open(session.header());
   section_->Open(session.header().rig.workspace_mm);
   view_->SetCut(section_->cut());

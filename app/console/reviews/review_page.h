@@ -5,6 +5,7 @@
 #include <QLabel>
 #include <QProgressBar>
 #include <QPushButton>
+#include <QScrollArea>
 #include <QStackedWidget>
 #include <QString>
 #include <QTimer>
@@ -17,7 +18,8 @@
 #include "app/console/reviews/review_desk.h"
 #include "app/console/reviews/timeline_view.h"
 #include "app/console/reviews/what_if_panel.h"
-#include "app/console/sights/section_panel.h"
+#include "app/console/sights/part_picker.h"
+#include "app/console/sights/section_tool.h"
 #include "app/console/view/hull_look_button.h"
 #include "app/console/view/message_bar.h"
 #include "app/console/view/operator_view.h"
@@ -86,6 +88,7 @@ class ReviewPage : public QWidget {
   QToolButton* play_ = nullptr;
   QToolButton* next_ = nullptr;
   QVBoxLayout* view_column_ = nullptr;
+  QScrollArea* timeline_area_ = nullptr;
   QPushButton* section_button_ = nullptr;
   QPushButton* heat_button_ = nullptr;
   HullLookButton* hull_look_ = nullptr;

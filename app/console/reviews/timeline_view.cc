@@ -83,10 +83,10 @@ void TimelineView::ShowChosen(std::optional<std::size_t> chosen) {
   update();
 }
 
-QSize TimelineView::sizeHint() const {
-  const double rows_px =
-      kTallestRowPx * static_cast<double>(std::clamp<std::size_t>(rows_.size(), 1, kMostRows));
-  return {600, static_cast<int>(std::ceil(rows_px + kMarksPx + kScalePx + 4.0))};
+QSize TimelineView::sizeHint() const { return {600, HeightOf(std::max<std::size_t>(rows_.size(), 1))}; }
+
+int TimelineView::HeightOf(std::size_t rows) {
+  return static_cast<int>(std::ceil(kTallestRowPx * static_cast<double>(rows) + kMarksPx + kScalePx + 4.0));
 }
 
 QSize TimelineView::minimumSizeHint() const { return {300, sizeHint().height()}; }

@@ -28,6 +28,7 @@ class TimelineView : public QWidget {
 
   [[nodiscard]] QSize sizeHint() const override;
   [[nodiscard]] QSize minimumSizeHint() const override;
+  [[nodiscard]] static int HeightOf(std::size_t rows);  // with marks and scale, px
 
   // Where that time is, in px from the left; and which touch or mark is at a point.
   [[nodiscard]] double XOf(double time_s) const;

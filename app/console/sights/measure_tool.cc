@@ -4,8 +4,6 @@
 #include <utility>
 
 #include "app/control/measuring/frame_dimensions.h"
-#include "app/control/section/part_sections.h"
-#include "core/bvh.h"
 
 namespace elbowroom::console {
 namespace {
@@ -28,40 +26,8 @@ constexpr std::array kKinds = {
 
 }  // namespace
 
-// What can be picked: of cut parts what is left of them, with the faces of the cut.
-struct MeasureTool::PickedParts {
-  control::PartSections sections;
-  std::vector<std::shared_ptr<const core::TriangleTree>> trees;
-
-  std::shared_ptr<const core::TriangleTree> TreeOf(const core::SharedMesh& mesh) {
-    for (const auto& tree : trees)
-      if (tree->shared_mesh() == mesh) return tree;
-    trees.push_back(std::make_shared<const core::TriangleTree>(mesh));
-    return trees.back();
-  }
-
-  std::optional<control::Pick> PickAt(const control::FrameResult& result, const control::SectionCut& cut,
-                                      const recon::SceneView& view, const Eigen::Vector2d& pixel) {
-    std::vector<control::PickablePart> pickable;
-    std::vector<core::PartIndex> owners;
-    for (core::PartIndex i = 0; i < result.layout->parts.size(); ++i) {
-      const control::PartSection& section =
-          sections.Of(i, result.layout->parts[i].mesh, result.world_from_parts[i], cut);
-      for (const core::SharedMesh& mesh : {section.surface, section.caps}) {
-        if (mesh == nullptr) continue;
-        pickable.push_back({TreeOf(mesh), result.world_from_parts[i]});
-        owners.push_back(i);
-      }
-    }
-    std::optional<control::Pick> pick =
-        control::PickPart(pickable, control::RayThrough(view, pixel), view.near_mm);
-    if (pick) pick->part = owners[pick->part];
-    return pick;
-  }
-};
-
-MeasureTool::MeasureTool(OperatorView* view, QObject* parent)
-    : QObject(parent), view_(view), parts_(std::make_shared<PickedParts>()) {
+MeasureTool::MeasureTool(OperatorView* view, PartPicker* picker, QObject* parent)
+    : QObject(parent), view_(view), picker_(picker) {
   MakeActions();
   connect(view_, &OperatorView::Clicked, this, &MeasureTool::Pick);
 }
@@ -104,9 +70,14 @@ void MeasureTool::Begin(MeasurementKind kind) {
   first_.reset();
   kind_ = is_same ? std::optional<MeasurementKind>() : kind;
   for (std::size_t i = 0; i < kinds_.size(); ++i) kinds_[i]->setChecked(kind_ == kKinds.at(i).kind);
+  if (kind_) emit Begun();
   emit Advised(!kind_                            ? QString()
                : kind == MeasurementKind::kFaces ? tr("Click on the first face")
                                                  : tr("Click on a point of a part"));
+}
+
+void MeasureTool::End() {
+  if (kind_) Begin(*kind_);  // off again
 }
 
 void MeasureTool::Clear() {
@@ -115,23 +86,15 @@ void MeasureTool::Clear() {
   hull_distance_.reset();
   result_.reset();
   first_.reset();
-  parts_ = std::make_shared<PickedParts>();
   Show();
 }
 
 void MeasureTool::Pick(const recon::SceneView& view, const Eigen::Vector2d& pixel) {
-  if (!kind_ || !result_ || picking_) return;
-  auto found = std::make_shared<std::optional<control::Pick>>();
-  picking_ = std::make_unique<BackgroundJob>(
-      bridge_,
-      [parts = parts_, result = result_, cut = cut_, view, pixel, found](const std::stop_token&) {
-        *found = parts->PickAt(*result, cut, view, pixel);
-      },
-      [this, found](const std::string&) {
-        picking_.reset();
-        if (*found) return Take(**found);
-        emit Advised(tr("There is no part: click on one"));
-      });
+  if (!kind_ || !result_) return;
+  picker_->Pick(view, pixel, [this](const std::optional<control::Pick>& pick) {
+    if (pick) return Take(*pick);
+    emit Advised(tr("There is no part: click on one"));
+  });
 }
 
 void MeasureTool::Take(const control::Pick& pick) {
@@ -167,9 +130,16 @@ void MeasureTool::AskHull() {
       [place = *to_hull_, result = result_, found](const std::stop_token&) {
         *found = control::MeasureToHull(place, *result);
       },
-      [this, found](const std::string&) {
+      [this, found](const std::string& error) {
         asking_.reset();
         if (!to_hull_) return;
+        if (!error.empty()) {  // the next frame would fail likewise
+          to_hull_.reset();
+          hull_distance_.reset();
+          emit Failed(
+              tr("The distance to the hull couldn't be measured: %1").arg(QString::fromStdString(error)));
+          return Show();
+        }
         hull_distance_ = *found;
         Show();
       });

@@ -10,6 +10,7 @@
 #include <optional>
 #include <vector>
 
+#include "app/console/sights/part_picker.h"
 #include "app/console/view/background_job.h"
 #include "app/console/view/bridge.h"
 #include "app/console/view/operator_view.h"
@@ -17,7 +18,6 @@
 #include "app/control/measuring/dimension.h"
 #include "app/control/measuring/measurement.h"
 #include "app/control/picking/pick.h"
-#include "app/control/section/section_cut.h"
 
 namespace elbowroom::console {
 
@@ -27,20 +27,21 @@ class MeasureTool : public QObject {
   Q_OBJECT
 
  public:
-  explicit MeasureTool(OperatorView* view, QObject* parent = nullptr);
+  MeasureTool(OperatorView* view, PartPicker* picker, QObject* parent = nullptr);
   ~MeasureTool() override;
 
   void Clear();  // another trial begins
+  void End();    // clicks pick nothing
   void ShowFrame(const control::SharedFrameResult& result);
-  void SetCut(const control::SectionCut& cut) { cut_ = cut; }  // what is cut away can't be picked
   [[nodiscard]] const std::vector<QAction*>& actions() const { return actions_; }
   [[nodiscard]] const std::vector<control::Dimension>& dimensions() const { return shown_; }
 
  signals:
   void Advised(const QString& line);  // what to pick next; "": nothing
+  void Begun();                       // clicks pick for a measurement
+  void Failed(const QString& line);
 
  private:
-  struct PickedParts;  // trees, made once a mesh
   void MakeActions();
   void Begin(control::MeasurementKind kind);
   void Pick(const recon::SceneView& view, const Eigen::Vector2d& pixel);
@@ -49,6 +50,7 @@ class MeasureTool : public QObject {
   void Show();
 
   OperatorView* view_;
+  PartPicker* picker_;
   std::vector<QAction*> actions_;
   QAction* clearances_ = nullptr;
   std::vector<QAction*> kinds_;
@@ -58,11 +60,9 @@ class MeasureTool : public QObject {
   std::optional<control::SurfacePlace> to_hull_;
   std::optional<control::Dimension> hull_distance_;
   control::SharedFrameResult result_;
-  control::SectionCut cut_;
   std::vector<control::Dimension> shown_;
-  std::shared_ptr<PickedParts> parts_;  // used by one job at a time
-  Bridge bridge_;                       // before the threads that post to it
-  std::unique_ptr<BackgroundJob> picking_, asking_;
+  Bridge bridge_;  // before the thread that posts to it
+  std::unique_ptr<BackgroundJob> asking_;
 };
 
 }  // namespace elbowroom::console

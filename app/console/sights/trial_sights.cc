@@ -65,7 +65,9 @@ TrialSights::TrialSights(OperatorView* view, QWidget* parent)
       camera_view_(new CameraView),
       stack_(new QStackedWidget),
       section_panel_(new SectionPanel),
-      measure_(new MeasureTool(view, this)),
+      picker_(new PartPicker(view, this)),
+      section_tool_(new SectionTool(section_panel_, view, picker_, this)),
+      measure_(new MeasureTool(view, picker_, this)),
       advice_(new QLabel) {
   stack_->addWidget(view_);
   stack_->addWidget(camera_view_);
@@ -119,8 +121,8 @@ void TrialSights::MakeSectionAction() {
   section_->setShortcut(QKeySequence(Qt::Key_X));
   section_->setToolTip(tr("Cut parts and hull open in the 3-D view"));
   connect(section_, &QAction::toggled, section_panel_, &SectionPanel::setVisible);
-  connect(section_panel_, &SectionPanel::Changed, view_, &OperatorView::SetCut);
-  connect(view_, &OperatorView::ShiftDragged, section_panel_, &SectionPanel::Drag);
+  connect(section_panel_, &SectionPanel::Failed, this, &TrialSights::Failed);
+  connect(picker_, &PartPicker::Failed, this, &TrialSights::Failed);
 }
 
 void TrialSights::MakeHeatAction() {
@@ -142,11 +144,17 @@ void TrialSights::ShowHeat(const control::SharedHeatLayer& heat) {
 void TrialSights::FollowMeasure() {
   advice_->setObjectName("measure_advice");
   advice_->setAccessibleName(tr("What to click on next"));
-  connect(measure_, &MeasureTool::Advised, this, [this](const QString& line) {
+  const auto advise = [this](const QString& line) {
     if (!line.isEmpty()) ShowScene();
     advice_->setText(line);
+  };
+  connect(measure_, &MeasureTool::Advised, this, advise);
+  connect(measure_, &MeasureTool::Failed, this, &TrialSights::Failed);
+  connect(section_tool_, &SectionTool::Advised, this, [this, advise](const QString& line) {
+    if (!line.isEmpty()) measure_->End();
+    advise(line);
   });
-  connect(section_panel_, &SectionPanel::Changed, measure_, &MeasureTool::SetCut);
+  connect(measure_, &MeasureTool::Begun, section_panel_, [this] { section_panel_->SetAligning(false); });
 }
 
 void TrialSights::ShowFrame(const control::SharedFrameResult& result) { measure_->ShowFrame(result); }
@@ -192,12 +200,14 @@ void TrialSights::AddTo(QMenu* menu) {
   menu->addAction(parts_);
 }
 
-void TrialSights::Open(const core::Rig& rig, const core::RigQuality& quality) {
+void TrialSights::Open(const control::TrialSetup& setup) {
+  const core::Rig& rig = setup.source->rig();
   rig_ = rig.cameras;
-  view_->SetKnowledge(control::KnowledgeOf(rig, quality));
+  view_->SetKnowledge(control::KnowledgeOf(rig, setup.rig_quality));
   view_->SetHeat(nullptr);  // of another trial
   measure_->Clear();
-  section_panel_->Open(rig.workspace_mm);
+  picker_->Forget();
+  section_panel_->Open(rig.workspace_mm, setup.layout_file, setup.sections);
   MakeCameraMenu();
   ShowScene();
 }

@@ -12,12 +12,13 @@
 
 #include "app/console/sights/camera_view.h"
 #include "app/console/sights/measure_tool.h"
-#include "app/console/sights/section_panel.h"
+#include "app/console/sights/part_picker.h"
+#include "app/console/sights/section_tool.h"
 #include "app/console/view/operator_view.h"
 #include "app/control/layers/heat_layer.h"
 #include "app/control/tiles/tile_maker.h"
+#include "app/control/trial_setup.h"
 #include "core/rig.h"
-#include "core/rig_quality.h"
 
 namespace elbowroom::console {
 
@@ -28,7 +29,7 @@ class TrialSights : public QWidget {
  public:
   explicit TrialSights(OperatorView* view, QWidget* parent = nullptr);
 
-  void Open(const core::Rig& rig, const core::RigQuality& quality);
+  void Open(const control::TrialSetup& setup);
   void ShowFrame(const control::SharedFrameResult& result);
   void ShowHeat(const control::SharedHeatLayer& heat);  // if the operator wants to see it
   void ShowTiles(const control::SharedTiles& tiles);
@@ -40,11 +41,13 @@ class TrialSights : public QWidget {
   void AddTo(QMenu* menu);
 
   [[nodiscard]] const MeasureTool& measure() const { return *measure_; }
+  [[nodiscard]] const SectionTool& section() const { return *section_tool_; }
   [[nodiscard]] CameraView& camera_view() { return *camera_view_; }
   [[nodiscard]] const control::TileWishes& wishes() const { return wishes_; }
 
  signals:
   void HeatWished(bool is_wished);
+  void Failed(const QString& line);
   void WishesChanged(const elbowroom::control::TileWishes& wishes);
 
  private:
@@ -60,6 +63,8 @@ class TrialSights : public QWidget {
   CameraView* camera_view_;
   QStackedWidget* stack_;
   SectionPanel* section_panel_;
+  PartPicker* picker_;  // before those that ask it
+  SectionTool* section_tool_;
   MeasureTool* measure_;
   QLabel* advice_;
   std::vector<QAction*> standard_;

@@ -1,5 +1,6 @@
 #include "app/console/view/operator_view.h"
 
+#include <QKeyEvent>
 #include <QMouseEvent>
 #include <QPainter>
 #include <QWheelEvent>
@@ -24,10 +25,11 @@ OperatorView::OperatorView(QWidget* parent)
                                     const control::RenderRequest& request) { return Take(picture, request); },
                      .shown = [this](double drawing_ms) { emit PictureShown(picture_frame_, drawing_ms); },
                      .failed = [this](const QString& line) { emit Failed(line); }}) {
-  setMinimumSize(320, 240);
+  setMinimumSize(320, 190);  // with section planes above it, on a screen of 540 px
   setFocusPolicy(Qt::StrongFocus);
   setAccessibleName(tr("3-D view"));
   setAttribute(Qt::WA_OpaquePaintEvent);
+  setMouseTracking(true);
 }
 
 OperatorView::~OperatorView() = default;
@@ -99,6 +101,7 @@ void OperatorView::TakeLook() {
 void OperatorView::SetCut(const control::SectionCut& cut) {
   look_.cut = cut;
   AskForPicture();
+  update();  // the handles
 }
 
 void OperatorView::SetDimensions(std::vector<control::Dimension> dimensions) {
@@ -172,6 +175,13 @@ void OperatorView::paintEvent(QPaintEvent* /*event*/) {
   painter.setRenderHint(QPainter::SmoothPixmapTransform);
   const QRect target = PictureRect();
   painter.drawImage(target, picture_);
+  if (handles_.paint) {
+    painter.save();
+    painter.setRenderHint(QPainter::Antialiasing);
+    painter.translate(target.topLeft());
+    handles_.paint(painter, ShownView());
+    painter.restore();
+  }
   PaintDimensions(painter, ShownView(), target.topLeft(), dimensions_);
   PaintLegends(painter, rect(), legends_);
   PaintCaption(painter);
@@ -218,23 +228,44 @@ void OperatorView::showEvent(QShowEvent* /*event*/) { AskForPicture(); }
 
 void OperatorView::resizeEvent(QResizeEvent* /*event*/) { AskForPicture(); }
 
-void OperatorView::mousePressEvent(QMouseEvent* event) { last_mouse_px_ = pressed_px_ = event->position(); }
+std::optional<recon::SceneView> OperatorView::shown_view() const {
+  return picture_.isNull() ? std::nullopt : std::optional(ShownView());
+}
+
+Eigen::Vector2d OperatorView::PixelAt(const QPointF& position) const {
+  const QPointF at = position - QPointF(PictureRect().topLeft()) - QPointF(0.5, 0.5);
+  return {at.x(), at.y()};
+}
+
+void OperatorView::mousePressEvent(QMouseEvent* event) {
+  last_mouse_px_ = pressed_px_ = event->position();
+  if (event->button() != Qt::LeftButton || picture_.isNull() || !handles_.press) return;
+  is_handle_held_ = handles_.press(ShownView(), PixelAt(event->position()));
+}
 
 void OperatorView::mouseReleaseEvent(QMouseEvent* event) {
   constexpr double kStillPx = 3.0;
+  if (event->button() == Qt::LeftButton && std::exchange(is_handle_held_, false))
+    return handles_.release(true);
+  if (std::exchange(is_shift_dragging_, false)) emit ShiftDragEnded();
   const QPointF moved = event->position() - pressed_px_;
   if (event->button() != Qt::LeftButton || picture_.isNull() || moved.manhattanLength() > kStillPx) return;
-  const QPointF at = event->position() - QPointF(PictureRect().topLeft()) - QPointF(0.5, 0.5);
-  emit Clicked(ShownView(), {at.x(), at.y()});
+  emit Clicked(ShownView(), PixelAt(event->position()));
 }
 
 void OperatorView::mouseMoveEvent(QMouseEvent* event) {
   const QPointF moved = event->position() - std::exchange(last_mouse_px_, event->position());
   const Eigen::Vector2d drag_px(moved.x(), moved.y());
   if (!camera_) return;
-  if ((event->buttons() & Qt::LeftButton) && (event->modifiers() & Qt::ShiftModifier)) {
+  if (is_handle_held_)
+    return handles_.drag(ShownView(), PixelAt(event->position()),
+                         event->modifiers().testFlag(Qt::ShiftModifier));
+  if (event->buttons() == Qt::NoButton) {
+    if (handles_.hover && !picture_.isNull()) handles_.hover(ShownView(), PixelAt(event->position()));
+  } else if ((event->buttons() & Qt::LeftButton) && (event->modifiers() & Qt::ShiftModifier)) {
     // Panning moves the target against the pointer.
     const recon::OrbitCamera panned = recon::Panned(*camera_, drag_px, height());
+    is_shift_dragging_ = true;
     emit ShiftDragged(camera_->target_in_world - panned.target_in_world);
   } else if (event->buttons() & Qt::LeftButton) {
     Turn(recon::Orbited(*camera_, drag_px, height()));
@@ -246,6 +277,12 @@ void OperatorView::mouseMoveEvent(QMouseEvent* event) {
 void OperatorView::mouseDoubleClickEvent(QMouseEvent* event) {
   last_mouse_px_ = event->position();
   Fit();
+}
+
+void OperatorView::keyPressEvent(QKeyEvent* event) {
+  if (event->key() != Qt::Key_Escape || !std::exchange(is_handle_held_, false))
+    return QWidget::keyPressEvent(event);
+  handles_.release(false);
 }
 
 void OperatorView::wheelEvent(QWheelEvent* event) {

@@ -2,12 +2,15 @@
 #pragma once
 
 #include <QImage>
+#include <QPainter>
 #include <QPoint>
 #include <QString>
 #include <QWidget>
 #include <chrono>
+#include <functional>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "app/console/view/background_job.h"
@@ -21,6 +24,16 @@
 #include "recon/appearance/orbit_camera.h"
 
 namespace elbowroom::console {
+
+// What lies over the picture and takes the left button before the view does: `press` says whether it does
+// there, and then `drag` and `release` follow. `hover`: no button is pressed. Pixels as Clicked's.
+struct ViewHandles {
+  std::function<void(QPainter& painter, const recon::SceneView& view)> paint;  // the picture's corner is 0, 0
+  std::function<void(const recon::SceneView& view, const Eigen::Vector2d& pixel)> hover;
+  std::function<bool(const recon::SceneView& view, const Eigen::Vector2d& pixel)> press;
+  std::function<void(const recon::SceneView& view, const Eigen::Vector2d& pixel, bool in_steps)> drag;
+  std::function<void(bool is_kept)> release;  // not kept: Esc was pressed
+};
 
 // Left drag orbits, right or middle drag pans, the wheel zooms, a double click fits. Never waits for a
 // picture: until the next one comes the last one is shown, scaled to the widget. One picture is asked for at
@@ -45,6 +58,7 @@ class OperatorView : public QWidget {
   void SetHeat(control::SharedHeatLayer heat, const QString& of = {});
   void SetKnowledge(control::SharedRigKnowledge knowledge);  // of the rig, for looks that show it
   void SetCut(const control::SectionCut& cut);
+  void SetHandles(ViewHandles handles) { handles_ = std::move(handles); }
   void SetDimensions(std::vector<control::Dimension> dimensions);  // written over the picture
   void LookAlong(recon::StandardView view);
   void SetParallel(bool is_parallel);
@@ -53,6 +67,11 @@ class OperatorView : public QWidget {
   [[nodiscard]] QString driver() const;  // of OpenGL; "" until the first picture
   [[nodiscard]] const std::optional<recon::OrbitCamera>& camera() const { return camera_; }
   [[nodiscard]] const std::vector<ScaleLegend>& legends() const { return legends_; }
+  [[nodiscard]] const control::SharedFrameResult& result() const { return result_; }
+  [[nodiscard]] const control::SectionCut& cut() const { return look_.cut; }
+  // Of the shown picture, in the widget's pixels from `picture_corner` on; nothing before the first picture.
+  [[nodiscard]] std::optional<recon::SceneView> shown_view() const;
+  [[nodiscard]] QPoint picture_corner() const { return PictureRect().topLeft(); }
 
  signals:
   void PictureShown(qint64 frame, double drawing_ms);  // it is drawn, and will be painted
@@ -63,6 +82,7 @@ class OperatorView : public QWidget {
   void Clicked(const recon::SceneView& view, const Eigen::Vector2d& pixel);
   // A left drag with Shift, which doesn't turn the view: by so far, mm in world at the target's depth.
   void ShiftDragged(const Eigen::Vector3d& by_in_world_mm);
+  void ShiftDragEnded();
 
  protected:
   void paintEvent(QPaintEvent* event) override;
@@ -73,6 +93,7 @@ class OperatorView : public QWidget {
   void mouseReleaseEvent(QMouseEvent* event) override;
   void mouseDoubleClickEvent(QMouseEvent* event) override;
   void wheelEvent(QWheelEvent* event) override;
+  void keyPressEvent(QKeyEvent* event) override;
 
  private:
   void TakeLook();
@@ -85,6 +106,7 @@ class OperatorView : public QWidget {
   void PaintCaption(QPainter& painter) const;
   [[nodiscard]] QRect PictureRect() const;
   [[nodiscard]] recon::SceneView ShownView() const;  // of the shown picture, in the widget's pixels
+  [[nodiscard]] Eigen::Vector2d PixelAt(const QPointF& position) const;
   void TellAge();
 
   std::optional<recon::OrbitCamera> camera_;     // nothing until the first fit
@@ -98,6 +120,8 @@ class OperatorView : public QWidget {
   qint64 picture_frame_ = 0;
   control::RenderRequest picture_request_;  // without its frame
   std::vector<control::Dimension> dimensions_;
+  ViewHandles handles_;
+  bool is_handle_held_ = false, is_shift_dragging_ = false;
   // When its frame was taken; nothing: of recorded footage, or its age was told.
   std::optional<std::chrono::steady_clock::time_point> taken_at_;
   QPointF last_mouse_px_, pressed_px_;

@@ -9,6 +9,7 @@
 #include "app/control/layout_editing/folder_lock.h"
 #include "app/control/layout_editing/layout_edit.h"
 #include "cad_import/layout/layout_file.h"
+#include "cad_import/layout/layout_sections.h"
 #include "core/error.h"
 #include "core/system/whole_file.h"
 
@@ -123,10 +124,28 @@ void LayoutDocument::Redo() {
   may_merge_ = false;
 }
 
-void LayoutDocument::Save() {
+// Another page of the window saves section planes into the file; they are no reason to refuse.
+bool LayoutDocument::TakeSections(const LayoutText& in_file) {
+  if (in_file.text() == saved_text_) return true;
+  try {
+    const std::vector<cad_import::LayoutSection> sections = cad_import::SectionsOf(in_file);
+    LayoutText saved(saved_text_, file());
+    cad_import::ChangeSections(saved, sections);
+    if (saved.text() != in_file.text()) return false;
+    history_ = history_.Mapped([&](State state) {
+      cad_import::ChangeSections(state.text, sections);
+      return state;
+    });
+    return true;
+  } catch (const core::Error&) {  // more than its sections was changed
+    return false;
+  }
+}
+
+void LayoutDocument::Save(AutosaveThen autosave) {
   core::Require(has_file_, "a layout that has a file");
   const FolderLock lock(file(), FolderLock::Waiting::kNo);
-  if (fs::exists(file()) && LayoutText::Read(file()).text() != saved_text_)
+  if (fs::exists(file()) && !TakeSections(LayoutText::Read(file())))
     throw core::Error(core::ErrorKind::kFile,
                       fmt::format("{}: another program changed it since it was opened; save yours under "
                                   "another name, or open it again",
@@ -134,14 +153,14 @@ void LayoutDocument::Save() {
   core::WriteWholeFile(file(), text().text());
   saved_text_ = text().text();
   may_merge_ = false;
-  DropAutosave(file());
+  if (autosave == AutosaveThen::kDropped) DropAutosave(file());
 }
 
-void LayoutDocument::SaveAs(const fs::path& file) {
+void LayoutDocument::SaveAs(const fs::path& file, AutosaveThen autosave) {
   core::History<State> moved = history_.Mapped([&](const State& state) { return Rebased(state, file); });
   const FolderLock lock(file, FolderLock::Waiting::kNo);
   core::WriteWholeFile(file, moved.now().text.text());
-  DropAutosave(this->file());
+  if (autosave == AutosaveThen::kDropped) DropAutosave(this->file());
   history_ = std::move(moved);
   saved_text_ = text().text();
   has_file_ = true;

@@ -24,6 +24,7 @@ namespace elbowroom::control {
 class LayoutDocument {
  public:
   using Change = std::function<void(cad_import::LayoutText&)>;
+  enum class AutosaveThen { kDropped, kKept };  // kept: it holds another run's changes
 
   // An empty layout without a file. Until it is saved, its text names part files as seen from `folder`, and
   // its autosave lies there.
@@ -64,13 +65,13 @@ class LayoutDocument {
   void Undo();
   void Redo();
 
-  // Writes the text whole or not at all, and takes the autosave away. Throws: PreconditionError without a
+  // Writes the text whole or not at all, and drops the autosave. Throws: PreconditionError without a
   // file; Error{kFile} when it can't be written, when another program changed the file since it was read, or
-  // is changing the folder's layouts just now.
-  void Save();
+  // is changing the folder's layouts just now. Sections that were saved there since (SaveSections) are kept.
+  void Save(AutosaveThen autosave = AutosaveThen::kDropped);
   // Likewise into another file, which may be in another folder: every state's relative part files are named
   // as seen from there. A file that is there is replaced.
-  void SaveAs(const std::filesystem::path& file);
+  void SaveAs(const std::filesystem::path& file, AutosaveThen autosave = AutosaveThen::kDropped);
   // Brings the text beside the file, for Recover.
   void Autosave() const;
 
@@ -89,6 +90,7 @@ class LayoutDocument {
                  bool has_file);
   static State Read(cad_import::LayoutText text, cad_import::PartShelf& shelf,
                     const core::Progress& progress = {}, const std::stop_token& stop = {});
+  [[nodiscard]] bool TakeSections(const cad_import::LayoutText& in_file);
   static State Rebased(const State& state, const std::filesystem::path& file);
 
   std::shared_ptr<cad_import::PartShelf> shelf_;

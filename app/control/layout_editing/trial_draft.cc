@@ -62,9 +62,8 @@ TomlKind KindOf(const fs::path& toml_file) {
   const toml::table table = cad_import::ParseTomlFile(toml_file, "layout or trial file");
   const auto has = [&](std::string_view key) { return table.contains(key); };
   constexpr std::array<std::string_view, 2> kTrial{"rig", "layout"};
-  constexpr std::array<std::string_view, 6> kLayout{"part", "group", "spacing", "pair", "stream", "unit"};
   if (std::ranges::any_of(kTrial, has)) return TomlKind::kTrial;
-  if (table.empty() || std::ranges::any_of(kLayout, has)) return TomlKind::kLayout;
+  if (table.empty() || std::ranges::any_of(cad_import::kLayoutKeys, has)) return TomlKind::kLayout;
   throw core::Error(core::ErrorKind::kFormat,
                     fmt::format("{}:1: is neither a trial (no `rig`, no `layout`) nor a layout (no "
                                 "[[part]])",

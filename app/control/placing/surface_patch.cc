@@ -17,13 +17,19 @@ using Eigen::Vector3d;
 using Place = std::tuple<double, double, double>;
 using Edge = std::pair<std::int32_t, std::int32_t>;
 
+void ThrowIfStopped(const std::stop_token& stop) {
+  if (stop.stop_requested()) throw core::Error(core::ErrorKind::kCancelled, "the surface isn't looked at");
+}
+
 // The first vertex at each one's place.
-std::vector<std::int32_t> WeldedVertices(const core::TriangleMesh& mesh) {
+std::vector<std::int32_t> WeldedVertices(const core::TriangleMesh& mesh, const std::stop_token& stop) {
   std::map<Place, std::int32_t> firsts;
   std::vector<std::int32_t> welded;
-  for (const Vector3d& x : mesh.vertices_mm)
+  for (const Vector3d& x : mesh.vertices_mm) {
+    ThrowIfStopped(stop);
     welded.push_back(
         firsts.try_emplace({x.x(), x.y(), x.z()}, static_cast<std::int32_t>(welded.size())).first->second);
+  }
   return welded;
 }
 
@@ -46,17 +52,20 @@ std::array<Edge, 3> EdgesOf(const core::TriangleMesh& mesh, const std::vector<st
 }  // namespace
 
 std::vector<std::uint32_t> SmoothPatch(const core::TriangleMesh& mesh, std::uint32_t triangle,
-                                       double turn_deg) {
+                                       double turn_deg, const std::stop_token& stop) {
   core::Require(triangle < mesh.triangles.size(), "a triangle of the mesh");
-  const std::vector<std::int32_t> welded = WeldedVertices(mesh);
+  const std::vector<std::int32_t> welded = WeldedVertices(mesh, stop);
   std::map<Edge, std::vector<std::uint32_t>> beside;
-  for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i)
+  for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
+    ThrowIfStopped(stop);
     for (const Edge& edge : EdgesOf(mesh, welded, i)) beside[edge].push_back(i);
+  }
   const double least_cosine = std::cos(core::RadiansFromDegrees(turn_deg));
   std::vector<bool> is_taken(mesh.triangles.size(), false);
   std::vector<std::uint32_t> patch{triangle};
   is_taken[triangle] = true;
   for (std::size_t next = 0; next < patch.size(); ++next) {
+    ThrowIfStopped(stop);
     const Vector3d normal = UnitNormal(mesh, patch[next]);
     for (const Edge& edge : EdgesOf(mesh, welded, patch[next])) {
       for (const std::uint32_t other : beside[edge]) {

@@ -18,7 +18,7 @@ using cad_import::TomlEntry;
 
 constexpr std::array<std::string_view, 1> kStepKeys = {"name"};
 constexpr std::array<std::string_view, 3> kSurveyKeys = {"when", "item", "scale"};
-constexpr int kMostTrials = 1000;  // of one participant
+constexpr int kLargestOrder = 1000;  // of a trial among those of one participant
 
 // A whole number; nothing where the key holds anything else.
 std::optional<int> WholeNumber(const toml::node& node, int least, int most) {
@@ -30,8 +30,8 @@ std::optional<int> WholeNumber(const toml::node& node, int least, int most) {
 int ReadOrder(const TomlEntry& root) {
   const toml::node* node = root.Find("order");
   if (node == nullptr) return 0;
-  const auto order = WholeNumber(*node, 1, kMostTrials);
-  if (!order) root.Fail("order", fmt::format("must be a whole number from 1 to {}", kMostTrials));
+  const auto order = WholeNumber(*node, 1, kLargestOrder);
+  if (!order) root.Fail("order", fmt::format("must be a whole number from 1 to {}", kLargestOrder));
   return *order;
 }
 

@@ -16,44 +16,36 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using Triangle = std::array<Vector3d, 3>;
 
-// n . x <= at stays.
-struct Plane {
-  Vector3d normal;
-  double at = 0.0;
-  [[nodiscard]] double Beyond(const Vector3d& x) const { return normal.dot(x) - at; }
-};
-
-Plane PlaneInMesh(const CutPlane& cut, Eigen::Index axis, const core::RigidTransform& world_from_mesh) {
-  const double sign = cut.keeps_above ? -1.0 : 1.0;
-  const Vector3d normal_in_world = sign * Vector3d::Unit(axis);
-  return {world_from_mesh.rotation.transpose() * normal_in_world,
-          sign * cut.at_mm - normal_in_world.dot(world_from_mesh.translation_mm)};
+recon::HalfSpace InMesh(const recon::HalfSpace& in_world, const core::RigidTransform& world_from_mesh) {
+  return {world_from_mesh.rotation.transpose() * in_world.outward,
+          -in_world.BeyondMm(world_from_mesh.translation_mm)};
 }
 
 // Where a side meets the plane: the same point whichever way the side is run along.
-Vector3d MeetingOf(const Plane& plane, const Vector3d& a, const Vector3d& b) {
+Vector3d MeetingOf(const recon::HalfSpace& kept, const Vector3d& a, const Vector3d& b) {
   const bool is_turned = std::array{b.x(), b.y(), b.z()} < std::array{a.x(), a.y(), a.z()};
   const Vector3d &from = is_turned ? b : a, &to = is_turned ? a : b;
-  const double begin = plane.Beyond(from), end = plane.Beyond(to);
+  const double begin = kept.BeyondMm(from), end = kept.BeyondMm(to);
   return from + begin / (begin - end) * (to - from);
 }
 
 class Cutter {
  public:
-  explicit Cutter(const Plane& plane)
-      : plane_(plane), u_(plane.normal.unitOrthogonal()), v_(plane.normal.cross(u_)) {}
+  explicit Cutter(const recon::HalfSpace& kept)
+      : kept_(kept), u_(kept.outward.unitOrthogonal()), v_(kept.outward.cross(u_)) {}
 
-  // Keeps what is left of the triangle, and of a cut one the side of the cap: against the triangle's own way.
+  // Keeps what is left of the triangle, and of a cut one the side of the cut's face, which runs against the
+  // triangle's own way.
   void Cut(const Triangle& triangle, std::vector<Triangle>* kept) {
     std::vector<Vector3d> polygon;
     Vector3d leaves = Vector3d::Zero(), enters = Vector3d::Zero();
     bool is_cut = false;
     for (std::size_t i = 0; i < 3; ++i) {
       const Vector3d &from = triangle[i], &to = triangle[(i + 1) % 3];
-      const bool from_stays = plane_.Beyond(from) <= 0.0, to_stays = plane_.Beyond(to) <= 0.0;
+      const bool from_stays = kept_.BeyondMm(from) <= 0.0, to_stays = kept_.BeyondMm(to) <= 0.0;
       if (from_stays) polygon.push_back(from);
       if (from_stays == to_stays) continue;
-      const Vector3d meeting = MeetingOf(plane_, from, to);
+      const Vector3d meeting = MeetingOf(kept_, from, to);
       polygon.push_back(meeting);
       (from_stays ? leaves : enters) = meeting;
       is_cut = true;
@@ -63,18 +55,18 @@ class Cutter {
     if (is_cut) outline_.push_back({Flat(enters), Flat(leaves)});
   }
 
-  void AddCaps(std::vector<Triangle>* caps) const {
+  void AddFaces(std::vector<Triangle>* faces) const {
     for (const FlatTriangle& flat : FillOutline(outline_))
-      caps->push_back({InSpace(flat[0]), InSpace(flat[1]), InSpace(flat[2])});
+      faces->push_back({InSpace(flat[0]), InSpace(flat[1]), InSpace(flat[2])});
   }
 
  private:
   [[nodiscard]] Vector2d Flat(const Vector3d& x) const { return {u_.dot(x), v_.dot(x)}; }
   [[nodiscard]] Vector3d InSpace(const Vector2d& x) const {
-    return x.x() * u_ + x.y() * v_ + plane_.at * plane_.normal;
+    return x.x() * u_ + x.y() * v_ + kept_.at_mm * kept_.outward;
   }
 
-  Plane plane_;
+  recon::HalfSpace kept_;
   Vector3d u_, v_;  // across the normal; u x v is the normal
   std::vector<DirectedSegment> outline_;
 };
@@ -101,44 +93,26 @@ std::vector<Triangle> TrianglesOf(const core::TriangleMesh& mesh) {
 
 }  // namespace
 
-Eigen::AlignedBox3d KeptOf(const SectionCut& cut, const Eigen::AlignedBox3d& box_in_world) {
-  Eigen::AlignedBox3d kept = box_in_world;
-  for (Eigen::Index axis = 0; axis < 3; ++axis) {
-    const std::optional<CutPlane>& plane = cut.planes[static_cast<std::size_t>(axis)];
-    if (!plane) continue;
-    if (plane->keeps_above) {
-      kept.min()[axis] = std::max(kept.min()[axis], plane->at_mm);
-    } else {
-      kept.max()[axis] = std::min(kept.max()[axis], plane->at_mm);
-    }
-  }
-  return kept;
-}
-
 CutMesh CutOpen(const core::TriangleMesh& mesh, const core::RigidTransform& world_from_mesh,
                 const SectionCut& cut) {
-  std::vector<Triangle> surface = TrianglesOf(mesh), caps;
-  for (Eigen::Index axis = 0; axis < 3; ++axis) {
-    const std::optional<CutPlane>& plane = cut.planes[static_cast<std::size_t>(axis)];
-    if (!plane) continue;
-    Cutter cutter(PlaneInMesh(*plane, axis, world_from_mesh));
-    std::vector<Triangle> kept_surface, kept_caps;
+  std::vector<Triangle> surface = TrianglesOf(mesh), faces;
+  for (const recon::HalfSpace& half_space : cut.kept) {
+    Cutter cutter(InMesh(half_space, world_from_mesh));
+    std::vector<Triangle> kept_surface, kept_faces;
     for (const Triangle& triangle : surface) cutter.Cut(triangle, &kept_surface);
-    for (const Triangle& triangle : caps) cutter.Cut(triangle, &kept_caps);
-    cutter.AddCaps(&kept_caps);
+    for (const Triangle& triangle : faces) cutter.Cut(triangle, &kept_faces);
+    cutter.AddFaces(&kept_faces);
     surface = std::move(kept_surface);
-    caps = std::move(kept_caps);
+    faces = std::move(kept_faces);
   }
-  return {MeshOf(surface, mesh.deviation_mm), MeshOf(caps, mesh.deviation_mm)};
+  return {MeshOf(surface, mesh.deviation_mm), MeshOf(faces, mesh.deviation_mm)};
 }
 
 core::TriangleMesh CutSurface(const core::TriangleMesh& mesh, const core::RigidTransform& world_from_mesh,
                               const SectionCut& cut) {
   std::vector<Triangle> surface = TrianglesOf(mesh);
-  for (Eigen::Index axis = 0; axis < 3; ++axis) {
-    const std::optional<CutPlane>& plane = cut.planes[static_cast<std::size_t>(axis)];
-    if (!plane) continue;
-    Cutter cutter(PlaneInMesh(*plane, axis, world_from_mesh));
+  for (const recon::HalfSpace& half_space : cut.kept) {
+    Cutter cutter(InMesh(half_space, world_from_mesh));
     std::vector<Triangle> kept;
     for (const Triangle& triangle : surface) cutter.Cut(triangle, &kept);
     surface = std::move(kept);

@@ -12,13 +12,13 @@ namespace elbowroom::control {
 
 // Both in the mesh's own frame. Empty meshes have no triangles.
 struct CutMesh {
-  core::TriangleMesh surface;  // what stays of the mesh's surface; open at the cut
-  core::TriangleMesh caps;     // the cut's faces, outwards: together with the surface it is closed
+  core::TriangleMesh surface;    // what stays of the mesh's surface; open at the cut
+  core::TriangleMesh cut_faces;  // outwards: together with the surface they are closed
 };
 
-// A corner on a plane stays. Caps are where the mesh is closed: what is inside by its winding number. Of an
-// open mesh only those pieces of the cut that something closes. The volume is exact but for rounding
-// (section_test).
+// A corner on a plane stays. The cut has faces where the mesh is closed: what is inside by its winding
+// number. Of an open mesh only those pieces of the cut that something closes. The volume is exact but for
+// rounding (section_test).
 [[nodiscard]] CutMesh CutOpen(const core::TriangleMesh& mesh, const core::RigidTransform& world_from_mesh,
                               const SectionCut& cut);
 

@@ -21,15 +21,14 @@ const PartSection& PartSections::Of(core::PartIndex part, const core::SharedMesh
   Kept& kept = kept_[part];
   if (kept.mesh == mesh && kept.world_from_part == world_from_part && kept.cut == cut) return kept.section;
   kept = {mesh, world_from_part, cut, {mesh, nullptr}};
-  const Eigen::AlignedBox3d bounds = core::BoundsOf(*mesh, world_from_part);
-  const Eigen::AlignedBox3d left = KeptOf(cut, bounds);
-  // A face that lies on the plane is no thicker than the plane.
-  if (left.isEmpty() || left.sizes().minCoeff() <= 0.0) {
+  const BoxKept left = KeptOf(cut, core::BoundsOf(*mesh, world_from_part));
+  if (left == BoxKept::kNothing) {
     kept.section = {};
-  } else if (!(left.min() == bounds.min() && left.max() == bounds.max())) {
+  } else if (left == BoxKept::kMaybeCut) {
     ++cuts_;
     CutMesh opened = CutOpen(*mesh, world_from_part, cut);
-    kept.section = {SharedUnlessEmpty(std::move(opened.surface)), SharedUnlessEmpty(std::move(opened.caps))};
+    kept.section = {SharedUnlessEmpty(std::move(opened.surface)),
+                    SharedUnlessEmpty(std::move(opened.cut_faces))};
   }
   return kept.section;
 }
@@ -41,11 +40,10 @@ core::SharedMesh PartSections::SurfaceOf(std::size_t place, const core::SharedMe
   if (kept.mesh == mesh && kept.world_from_part == world_from_part && kept.cut == cut)
     return kept.section.surface;
   kept = {mesh, world_from_part, cut, {mesh, nullptr}};
-  const Eigen::AlignedBox3d bounds = core::BoundsOf(*mesh, world_from_part);
-  const Eigen::AlignedBox3d left = KeptOf(cut, bounds);
-  if (left.isEmpty()) {
+  const BoxKept left = KeptOf(cut, core::BoundsOf(*mesh, world_from_part));
+  if (left == BoxKept::kNothing) {
     kept.section = {};
-  } else if (!(left.min() == bounds.min() && left.max() == bounds.max())) {
+  } else if (left == BoxKept::kMaybeCut) {
     ++cuts_;
     kept.section.surface = SharedUnlessEmpty(CutSurface(*mesh, world_from_part, cut));
   }

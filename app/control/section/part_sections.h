@@ -13,8 +13,8 @@
 namespace elbowroom::control {
 
 struct PartSection {
-  core::SharedMesh surface;  // in the part's frame; null: nothing of it is left
-  core::SharedMesh caps;     // null: the cut goes through none of it
+  core::SharedMesh surface;    // in the part's frame; null: nothing of it is left
+  core::SharedMesh cut_faces;  // null: the cut goes through none of it
 };
 
 // Thread: one.

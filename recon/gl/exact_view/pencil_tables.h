@@ -18,8 +18,8 @@ enum class RayLabel { kBackground = 0, kObject = 1, kByPixel = 2 };
 // these rows:
 struct PencilTables {
   // A caster's three rows: x (du, dv, at_origin, least_angle); y (du, dv, at_origin, bins_per_angle); first
-  // run of entries, of exits, bins, RayLabel. After the casters the faces of the workspace, (du, dv,
-  // at_origin, 0): not before, not after, beside.
+  // run of entries, of exits, bins, RayLabel. After the casters the faces of workspace and half-spaces, (du,
+  // dv, at_origin, 0): not before, not after, beside.
   std::vector<Eigen::Vector4f> forms;
   // A run of crossings a bin, first and past the last: all that rays of the bin can meet.
   std::vector<std::array<std::uint32_t, 2>> runs;

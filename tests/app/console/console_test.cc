@@ -24,6 +24,7 @@
 #include "app/control/demo_trial.h"
 #include "recon/synthetic/demo_motion.h"
 #include "sessions/session_reader.h"
+#include "tests/app/console/layouts/user_actions.h"
 #include "tests/app/console/opened_urls.h"
 #include "tests/app/console/stall_watch.h"
 #include "tests/support/temporary_folder.h"
@@ -365,6 +366,31 @@ TEST_F(ConsoleTest, ABrokenTrialFileIsOneLineAndLeavesNoSession) {
   EXPECT_NE(Message().indexOf("trial.toml"), -1) << Message().toStdString();
   EXPECT_EQ(Message().indexOf('\n'), -1);
   EXPECT_FALSE(std::filesystem::exists(session_));
+}
+
+// What isn't saved is asked for when the trial is over, and a "no" is one for this time alone.
+TEST_F(ConsoleTest, NoBoxStandsBeforeATrialThatIsClosed) {
+  StartDemoAndWaitForFrames();
+  LayoutDesk& layout = window_.layout_page().desk();
+  ASSERT_EQ(layout.Apply("Unit", [](cad_import::LayoutText& text) { text.SetUnit(core::LengthUnit::kInch); }),
+            "");
+  ASSERT_TRUE(layout.is_unsaved());
+  EXPECT_FALSE(window_.close());
+  EXPECT_FALSE(window_.desk().state() == DeskState::kIdle);
+  EXPECT_EQ(QApplication::activeModalWidget(), nullptr);
+  AnswerNextQuestion(QMessageBox::Cancel);
+  ASSERT_TRUE(WaitUntil([&] { return IsIdle(); }));
+  ASSERT_TRUE(WaitUntil([&] { return QApplication::activeModalWidget() == nullptr; }));
+  QApplication::processEvents();
+  EXPECT_TRUE(window_.isVisible());
+  // The next trial's end closes nothing.
+  last_frame_.reset();
+  StartDemoAndWaitForFrames();
+  StopAndWait();
+  QApplication::processEvents();
+  EXPECT_EQ(QApplication::activeModalWidget(), nullptr);
+  EXPECT_TRUE(window_.isVisible());
+  layout.Forget();
 }
 
 TEST_F(ConsoleTest, ClosingTheWindowCompletesTheSessionFirst) {

@@ -1,6 +1,7 @@
 // The widgets of a procedure one by one, without a trial.
 #include <gtest/gtest.h>
 
+#include <QApplication>
 #include <QLabel>
 #include <QLineEdit>
 #include <QListWidget>
@@ -10,6 +11,7 @@
 #include <QSpinBox>
 #include <QTest>
 #include <QToolButton>
+#include <QVBoxLayout>
 
 #include "app/console/procedure/contact_sound.h"
 #include "app/console/procedure/gap_presets.h"
@@ -40,6 +42,37 @@ TEST(ProcedurePanel, GoesThroughTheStepsAndPastTheLastToNone) {
   panel.Next();
   panel.SetBookmark();
   EXPECT_EQ(asked.size(), 4U);
+}
+
+// A list that took the focus would take digits and Space, which are the trial's.
+TEST(ProcedurePanel, AClickInAListLeavesTheKeysToTheTrial) {
+  QWidget window;
+  auto* panel = new ProcedurePanel;
+  auto* presets = new PresetPanel(&window);
+  auto* column = new QVBoxLayout(&window);
+  column->addWidget(panel);
+  column->addWidget(presets);
+  auto* elsewhere = new QLineEdit;
+  column->addWidget(elsewhere);
+  panel->Open({"reach", "screw"}, true);
+  std::vector<std::string> asked;
+  QObject::connect(panel, &ProcedurePanel::StepAsked, panel,
+                   [&](const std::string& step) { asked.push_back(step); });
+  window.show();
+  window.activateWindow();
+  ASSERT_TRUE(QTest::qWaitForWindowActive(&window));
+  elsewhere->setFocus();
+  auto* steps = panel->findChild<QListWidget*>("step_list");
+  const QPoint second = steps->visualItemRect(steps->item(1)).center();
+  QTest::mouseClick(steps->viewport(), Qt::LeftButton, {}, second);
+  QTest::mouseDClick(steps->viewport(), Qt::LeftButton, {}, second);
+  EXPECT_EQ(asked, std::vector<std::string>{"screw"});
+  EXPECT_EQ(QApplication::focusWidget(), elsewhere);
+  for (const char* name : {"preset_list", "gap_history"}) {
+    auto* list = presets->findChild<QListWidget*>(name);
+    QTest::mouseClick(list->viewport(), Qt::LeftButton, {}, {5, 5});
+    EXPECT_EQ(QApplication::focusWidget(), elsewhere) << name;
+  }
 }
 
 TEST(ProcedurePanel, ShowsTheTimesOfTrialAndStep) {

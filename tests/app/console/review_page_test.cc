@@ -12,6 +12,8 @@
 #include <QLineEdit>
 #include <QMimeData>
 #include <QPushButton>
+#include <QScrollArea>
+#include <QScrollBar>
 #include <QSettings>
 #include <QSignalSpy>
 #include <QSlider>
@@ -313,6 +315,39 @@ TEST_F(ReviewPageTest, ReportTouchesAndKeepOutVolumeAreWritten) {
   QTest::mouseClick(dialog->findChild<QPushButton*>("keep_out_write"), Qt::LeftButton);
   WaitForJob();
   EXPECT_TRUE(fs::exists(folder_ / "volume.stl")) << Message().toStdString();
+}
+
+TEST_F(ReviewPageTest, AKeepOutFileThatIsThereIsNotReplacedSilently) {
+  test_support::WriteText(folder_ / "volume.stl", "somebody's work");
+  KeepOutDialog dialog(session_, nullptr);
+  int asked = 0;
+  QObject::connect(&dialog, &KeepOutDialog::Asked, &dialog, [&] { ++asked; });
+  dialog.show();
+  dialog.findChild<QLineEdit*>("keep_out_file")
+      ->setText(QString::fromStdString((folder_ / "volume.stl").string()));
+  auto* write = dialog.findChild<QPushButton*>("keep_out_write");
+  QTest::mouseClick(write, Qt::LeftButton);
+  EXPECT_EQ(asked, 0);
+  EXPECT_TRUE(dialog.isVisible());
+  EXPECT_TRUE(dialog.findChild<QLabel*>("keep_out_fault")->text().contains("volume.stl"));
+  QTest::mouseClick(write, Qt::LeftButton);  // again: yes
+  EXPECT_EQ(asked, 1);
+}
+
+TEST_F(ReviewPageTest, TheTimelineIsAsHighAsItsRowsAndScrollsManyOfThem) {
+  OpenIt();
+  auto* timeline = Find<TimelineView>("timeline");
+  auto* area = Find<QScrollArea>("timeline_area");
+  EXPECT_EQ(area->height(), timeline->sizeHint().height());  // nothing is cut off
+  control::SessionTimeline many = desk().timeline();
+  ASSERT_FALSE(many.rows.empty());
+  control::TimelineRow touched = many.rows.front();
+  touched.spans = {{0, core::FindingKind::kTouch, many.begin_s, many.begin_s + 1.0}};
+  many.rows.assign(14, touched);
+  timeline->Open(many);
+  EXPECT_EQ(timeline->sizeHint().height(), TimelineView::HeightOf(14));
+  ASSERT_TRUE(WaitUntil([&] { return timeline->height() == TimelineView::HeightOf(14); }));
+  EXPECT_GT(area->verticalScrollBar()->maximum(), 0);
 }
 
 TEST_F(ReviewPageTest, AJobIsCancelled) {

@@ -148,7 +148,7 @@ TEST_F(Layers, HeatMovesWithItsPartAndIsCutWithIt) {
   }
   const SharedFrameResult frame = Frame(240.0);
   const Vector3d middle = core::BoundsOf(*setup_.layout.parts[0].mesh, frame->world_from_parts[0]).center();
-  look_.cut.planes[0] = CutPlane{middle.x(), false};
+  look_.cut.kept = {{Vector3d::UnitX(), middle.x()}};
   const auto cut = decals(composer.Compose(*frame, View(), look_));
   ASSERT_EQ(cut.size(), 1U);
   double highest = -1e9;
@@ -156,7 +156,7 @@ TEST_F(Layers, HeatMovesWithItsPartAndIsCutWithIt) {
     highest = std::max(highest, (frame->world_from_parts[0] * vertex).x());
   EXPECT_NEAR(highest, middle.x(), 1e-6);
   EXPECT_EQ(decals(composer.Compose(*frame, View(), look_))[0].mesh, cut[0].mesh);
-  look_.cut.planes[0] = CutPlane{-1e4, false};
+  look_.cut.kept = {{Vector3d::UnitX(), -1e4}};
   EXPECT_TRUE(decals(composer.Compose(*frame, View(), look_)).empty());
 }
 
@@ -204,7 +204,7 @@ TEST_F(Layers, TheRigLooksAtAHullOnceAndAtAllOfItThoughItIsCut) {
   turned.cam_from_world.translation_mm.x() += 30.0;
   (void)composer.Compose(*frame, turned, look_);
   EXPECT_EQ(composer.coverage_looks(), 1);
-  look_.cut.planes[1] = CutPlane{5.0, true};
+  look_.cut.kept = {{-Vector3d::UnitY(), -5.0}};
   const recon::gl::Scene cut = composer.Compose(*frame, View(), look_);
   EXPECT_EQ(composer.coverage_looks(), 1);
   int faces = 0;

@@ -12,6 +12,8 @@
 #include "app/control/measuring/measurement.h"
 #include "app/control/scene_composer.h"
 #include "app/control/section/mesh_cut.h"
+#include "recon/exact_view/hull_view.h"
+#include "recon/hull/visual_hull.h"
 #include "tests/app/overlay/overlay_samples.h"
 
 namespace elbowroom::control {
@@ -44,8 +46,10 @@ recon::SceneView View() {
 
 int main() {
   using namespace elbowroom::control;
-  SectionCut cut;
-  cut.planes[1] = CutPlane{5.0, true};
+  using Eigen::Vector3d;
+  const SectionCut cut{{{-Vector3d::UnitY(), -5.0}}};
+  const Vector3d oblique = Vector3d(0.2, -1.0, 0.3).normalized();
+  const SectionCut cut_obliquely{{{oblique, -5.0}}};
   TrialSetup setup = MakeDemoTrial(DemoPlay::kOnce);
   for (const elbowroom::core::Part& part : setup.layout.parts)
     Measure("cut " + part.name + ", " + std::to_string(part.mesh->triangles.size()) + " triangles",
@@ -53,14 +57,30 @@ int main() {
   const elbowroom::core::TriangleMesh ball = BallMesh(90.0, 480);
   Measure("cut a ball, " + std::to_string(ball.triangles.size()) + " triangles",
           [&] { (void)CutOpen(ball, {}, cut); });
+  Measure("cut it at an angle", [&] { (void)CutOpen(ball, {}, cut_obliquely); });
   FramePipeline pipeline(setup.source->rig(), setup.layout, setup.source->ReadBackgrounds({}, {}),
                          setup.segmentation);
   const SharedFrameResult frame = pipeline.Process(setup.source->Read(66), std::vector<double>{240.0});
   SceneLook look;
   Measure("compose 800 x 600, whole", [&] { (void)SceneComposer().Compose(*frame, View(), look); });
-  look.cut = cut;
-  Measure("compose 800 x 600, cut anew", [&] { (void)SceneComposer().Compose(*frame, View(), look); });
-  SceneComposer kept;
-  Measure("compose 800 x 600, cut kept", [&] { (void)kept.Compose(*frame, View(), look); });
+  // The same cut of the hull by a face of a smaller workspace, and by a half-space.
+  const elbowroom::recon::ViewRays rays(CameraOf(View()));
+  Measure("the hull's view, in a smaller workspace", [&] {
+    auto rig = std::make_shared<elbowroom::core::Rig>(frame->hull->rig());
+    rig->workspace_mm.min().y() = 5.0;
+    const auto silhouettes = frame->hull->silhouettes();
+    const elbowroom::recon::VisualHull smaller(std::move(rig), {silhouettes.begin(), silhouettes.end()});
+    (void)elbowroom::recon::ViewHull(smaller, rays);
+  });
+  Measure("the hull's view, within a half-space",
+          [&] { (void)elbowroom::recon::ViewHull(*frame->hull, rays.Within(cut.kept)); });
+  for (const bool is_oblique : {false, true}) {
+    look.cut = is_oblique ? cut_obliquely : cut;
+    const std::string how = is_oblique ? "cut at an angle" : "cut";
+    Measure("compose 800 x 600, " + how + " anew",
+            [&] { (void)SceneComposer().Compose(*frame, View(), look); });
+    SceneComposer kept;
+    Measure("compose 800 x 600, " + how + ", kept", [&] { (void)kept.Compose(*frame, View(), look); });
+  }
   Measure("a place to the hull", [&] { (void)MeasureToHull({0, {100.0, 50.0, 120.0}, {0, 0, 1}}, *frame); });
 }

@@ -1,6 +1,7 @@
 // Cut parts are closed and have the volume of what is left; kept while nothing changes.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <memory>
 #include <numbers>
@@ -44,81 +45,125 @@ TEST(FillOutline, FillsLoopsWithHolesAndIslands) {
   EXPECT_TRUE(FillOutline({}).empty());
 }
 
+recon::HalfSpace Across(Eigen::Index axis, double at_mm, bool keeps_above = false) {
+  const double sign = keeps_above ? -1.0 : 1.0;
+  return {sign * Vector3d::Unit(axis), sign * at_mm};
+}
+
+core::TriangleMesh Closed(const CutMesh& cut) {
+  core::TriangleMesh closed = cut.surface;
+  if (!cut.cut_faces.triangles.empty()) core::Append(closed, cut.cut_faces);
+  return closed;
+}
+
+// Rounding of the plane's own place, over the sizes of the meshes here.
+constexpr double kOffPlaneMm = 1e-9;
+
 // What is kept on both sides of a plane makes up the whole, and each side is closed: its volume doesn't
-// depend on where the origin is.
-void ExpectHalves(const core::TriangleMesh& mesh, const core::RigidTransform& world_from_mesh, SectionCut cut,
-                  std::size_t axis) {
+// depend on where the origin is. Nothing of a side is beyond the plane.
+void ExpectHalves(const core::TriangleMesh& mesh, const core::RigidTransform& world_from_mesh,
+                  const recon::HalfSpace& half_space) {
   const double whole = core::VolumeMm3(mesh);
   double sum = 0.0;
-  for (const bool keeps_above : {false, true}) {
-    cut.planes[axis]->keeps_above = keeps_above;
-    CutMesh half = CutOpen(mesh, world_from_mesh, cut);
-    core::TriangleMesh closed = half.surface;
-    if (!half.caps.triangles.empty()) core::Append(closed, half.caps);
+  for (const double side : {1.0, -1.0}) {
+    const recon::HalfSpace kept{side * half_space.outward, side * half_space.at_mm};
+    const core::TriangleMesh closed = Closed(CutOpen(mesh, world_from_mesh, {{kept}}));
     if (closed.triangles.empty()) continue;
     const double volume = core::VolumeMm3(closed);
     const double elsewhere =
         core::VolumeMm3(core::Transformed(closed, {Eigen::Matrix3d::Identity(), {3e3, -2e3, 1e3}}));
     EXPECT_NEAR(elsewhere, volume, 1e-8 * (whole + 1e9));
     EXPECT_GE(volume, -1e-9 * whole);
+    for (const Vector3d& vertex : closed.vertices_mm)
+      ASSERT_LT(kept.BeyondMm(world_from_mesh * vertex), kOffPlaneMm);
     sum += volume;
   }
   EXPECT_NEAR(sum, whole, 1e-8 * whole);
 }
 
+std::vector<core::TriangleMesh> Meshes() {
+  return {BoxMesh({100, 60, 40}), BallMesh(50.0, 48), TubeMesh({40.0, 25.0, 120.0}, 60), PmtBox(),
+          PayloadB()};
+}
+
 TEST(CutOpen, HalvesMakeUpTheWholeWhereverThePlaneIs) {
   recon::Random random(33);
-  const std::vector<core::TriangleMesh> meshes = {BoxMesh({100, 60, 40}), BallMesh(50.0, 48),
-                                                  TubeMesh({40.0, 25.0, 120.0}, 60), PmtBox(), PayloadB()};
-  for (const core::TriangleMesh& mesh : meshes) {
-    for (int trial = 0; trial < 12; ++trial) {
+  for (const core::TriangleMesh& mesh : Meshes()) {
+    for (int trial = 0; trial < 24; ++trial) {
       const core::RigidTransform world_from_mesh{
           trial % 3 == 0 ? Eigen::Matrix3d::Identity() : random.Rotation(),
           random.PointIn({Vector3d::Constant(-50), Vector3d::Constant(50)})};
-      const Eigen::AlignedBox3d bounds = core::BoundsOf(mesh, world_from_mesh);
-      const auto axis = static_cast<Eigen::Index>(trial % 3);
-      SectionCut cut;
-      cut.planes[static_cast<std::size_t>(axis)] =
-          CutPlane{random.Uniform(bounds.min()[axis], bounds.max()[axis]), false};
-      ExpectHalves(mesh, world_from_mesh, cut, static_cast<std::size_t>(axis));
+      const Vector3d outward =
+          trial % 2 == 0 ? Vector3d::Unit(trial % 3) : Vector3d(random.Rotation() * Vector3d::UnitX());
+      const Vector3d through = random.PointIn(core::BoundsOf(mesh, world_from_mesh));
+      ExpectHalves(mesh, world_from_mesh, {outward, outward.dot(through)});
     }
   }
+}
+
+// Through three corners of the mesh, so that many sides lie in the plane or end on it; and along its faces.
+TEST(CutOpen, HalvesMakeUpTheWholeOfPlanesThroughCornersAndAlongFaces) {
+  recon::Random random(7);
+  for (const core::TriangleMesh& mesh : Meshes()) {
+    const auto corner = [&](std::size_t i) { return mesh.vertices_mm[i % mesh.vertices_mm.size()]; };
+    for (int trial = 0; trial < 24; ++trial) {
+      const core::RigidTransform world_from_mesh{
+          trial % 2 == 0 ? Eigen::Matrix3d::Identity() : random.Rotation(),
+          trial % 2 == 0 ? Vector3d(Vector3d::Zero())
+                         : random.PointIn({Vector3d::Constant(-50), Vector3d::Constant(50)})};
+      std::array<Vector3d, 3> on;
+      if (trial % 4 < 2) {
+        const auto& triangle = mesh.triangles[static_cast<std::size_t>(
+            random.Uniform(0.0, 1.0) * static_cast<double>(mesh.triangles.size() - 1))];
+        for (std::size_t i = 0; i < 3; ++i) on[i] = corner(static_cast<std::size_t>(triangle[i]));
+      } else {
+        for (Vector3d& x : on) x = corner(static_cast<std::size_t>(random.Uniform(0.0, 1e4)));
+      }
+      const Vector3d across = (on[1] - on[0]).cross(on[2] - on[0]);
+      if (across.norm() < 1.0) continue;  // on a line
+      const Vector3d outward = world_from_mesh.rotation * across.normalized();
+      ExpectHalves(mesh, world_from_mesh, {outward, outward.dot(world_from_mesh * on[0])});
+    }
+  }
+}
+
+// The middle section of a cube across its diagonal is a hexagon; through three corners, a triangle.
+TEST(CutOpen, ACubeCutAcrossItsDiagonalHasTheFacesOfGeometry) {
+  const core::TriangleMesh cube = BoxMesh({100, 100, 100});
+  const Vector3d diagonal = Vector3d::Ones().normalized();
+  const core::TriangleMesh hexagon = CutOpen(cube, {}, {{{diagonal, 0.0}}}).cut_faces;
+  const double hexagon_mm2 = 1.5 * std::sqrt(3.0) * 50.0 * 50.0 * 2.0;
+  EXPECT_NEAR(core::AreaMm2(hexagon), hexagon_mm2, 1e-9 * hexagon_mm2);
+  const CutMesh tip = CutOpen(cube, {}, {{{-diagonal, -50.0 / std::sqrt(3.0)}}});
+  EXPECT_NEAR(core::VolumeMm3(Closed(tip)), 1e6 / 6.0, 1.0);
 }
 
 TEST(CutOpen, PlanesThroughCornersAndFacesCutLikeAnyOther) {
   const core::TriangleMesh box = BoxMesh({100, 60, 40});
   for (const double at_mm : {-50.0, 0.0, 50.0}) {
-    SectionCut cut;
-    cut.planes[0] = CutPlane{at_mm, false};
-    const CutMesh half = CutOpen(box, {}, cut);
-    core::TriangleMesh closed = half.surface;
-    core::Append(closed, half.caps);
-    EXPECT_NEAR(core::VolumeMm3(closed), (at_mm + 50.0) * 60.0 * 40.0, 1e-6);
+    const CutMesh half = CutOpen(box, {}, {{Across(0, at_mm)}});
+    EXPECT_NEAR(core::VolumeMm3(Closed(half)), (at_mm + 50.0) * 60.0 * 40.0, 1e-6);
   }
 }
 
-TEST(CutOpen, CapsOfATubeAreARing) {
+TEST(CutOpen, FacesOfACutTubeAreARing) {
   const recon::Tube tube{40.0, 25.0, 120.0};
-  SectionCut cut;
-  cut.planes[2] = CutPlane{70.0, false};
-  const CutMesh cut_tube = CutOpen(TubeMesh(tube, 720), {}, cut);
+  const CutMesh cut_tube = CutOpen(TubeMesh(tube, 720), {}, {{Across(2, 70.0)}});
   const double ring = std::numbers::pi * (40.0 * 40.0 - 25.0 * 25.0);
-  EXPECT_NEAR(core::AreaMm2(cut_tube.caps), ring, 1e-4 * ring);
-  for (const Vector3d& x : cut_tube.caps.vertices_mm) EXPECT_NEAR(x.z(), 70.0, 1e-12);
+  EXPECT_NEAR(core::AreaMm2(cut_tube.cut_faces), ring, 1e-4 * ring);
+  for (const Vector3d& x : cut_tube.cut_faces.vertices_mm) EXPECT_NEAR(x.z(), 70.0, 1e-12);
   // Facing what was taken away.
-  const auto& [a, b, c] = cut_tube.caps.triangles.front();
-  const auto at = [&](std::int32_t i) { return cut_tube.caps.vertices_mm[static_cast<std::size_t>(i)]; };
+  const auto& [a, b, c] = cut_tube.cut_faces.triangles.front();
+  const auto at = [&](std::int32_t i) { return cut_tube.cut_faces.vertices_mm[static_cast<std::size_t>(i)]; };
   EXPECT_GT((at(b) - at(a)).cross(at(c) - at(a)).z(), 0.0);
 }
 
 TEST(CutOpen, ThreePlanesLeaveACorner) {
   SectionCut cut;
-  for (auto& plane : cut.planes) plane = CutPlane{5.0, true};
+  for (Eigen::Index axis = 0; axis < 3; ++axis) cut.kept.push_back(Across(axis, 5.0, true));
   const CutMesh corner = CutOpen(BoxMesh({100, 60, 40}), {}, cut);
-  core::TriangleMesh closed = corner.surface;
-  core::Append(closed, corner.caps);
-  EXPECT_NEAR(core::VolumeMm3(closed), 45.0 * 25.0 * 15.0, 1e-6);
-  EXPECT_NEAR(core::AreaMm2(corner.caps), 45.0 * 25.0 + 45.0 * 15.0 + 25.0 * 15.0, 1e-6);
+  EXPECT_NEAR(core::VolumeMm3(Closed(corner)), 45.0 * 25.0 * 15.0, 1e-6);
+  EXPECT_NEAR(core::AreaMm2(corner.cut_faces), 45.0 * 25.0 + 45.0 * 15.0 + 25.0 * 15.0, 1e-6);
 }
 
 TEST(PartSections, CutsAgainOnlyWhatHasChanged) {
@@ -126,15 +171,15 @@ TEST(PartSections, CutsAgainOnlyWhatHasChanged) {
   const auto mesh = std::make_shared<const core::TriangleMesh>(BoxMesh({100, 60, 40}));
   SectionCut cut;
   EXPECT_EQ(sections.Of(0, mesh, {}, cut).surface, mesh);
-  cut.planes[0] = CutPlane{10.0, false};
+  cut.kept = {Across(0, 10.0)};
   const core::SharedMesh surface = sections.Of(0, mesh, {}, cut).surface;
   EXPECT_NE(surface, mesh);
-  EXPECT_NE(sections.Of(0, mesh, {}, cut).caps, nullptr);
+  EXPECT_NE(sections.Of(0, mesh, {}, cut).cut_faces, nullptr);
   EXPECT_EQ(sections.Of(0, mesh, {}, cut).surface, surface);
   EXPECT_EQ(sections.cuts(), 1);
-  cut.planes[0] = CutPlane{60.0, false};  // beside it
+  cut.kept = {Across(0, 60.0)};  // beside it
   EXPECT_EQ(sections.Of(0, mesh, {}, cut).surface, mesh);
-  cut.planes[0] = CutPlane{60.0, true};
+  cut.kept = {Across(0, 60.0, true)};
   EXPECT_EQ(sections.Of(0, mesh, {}, cut).surface, nullptr);
   EXPECT_EQ(sections.cuts(), 1);
 }

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "recon/exact_view/view_comparison.h"
 #include "recon/hull/visual_hull.h"
@@ -41,6 +42,14 @@ ViewRays RandomView(Random* random, const core::Rig& rig) {
   }
   if (random->Chance(0.4)) view.distortion_coefficients = {-0.2, 0.05, 1e-3, -5e-4, 0.0};
   return ViewRays(core::CameraModel(view));
+}
+
+// Up to three planes near the middle of things.
+ViewRays CutBy(Random* random, const ViewRays& rays) {
+  std::vector<HalfSpace> half_spaces;
+  for (int i = random->Whole(0, 3); i > 0; --i)
+    half_spaces.push_back({random->Direction(), random->Uniform(-20.0, 60.0)});
+  return rays.Within(half_spaces);
 }
 
 class Tally {
@@ -84,6 +93,20 @@ void ExpectEqualViews(std::uint64_t seed, int scenes, bool ring, double most_in_
   EXPECT_LT(static_cast<double>(tally.band), most_in_band * static_cast<double>(tally.pixels));
 }
 
+// The planes' tables are the same; a walk that begins at a plane is as any other.
+TEST(ExactViewGl, EqualsTheProcessorsWithinHalfSpaces) {
+  Random random(2025);
+  ExactViewGl gl;
+  Tally tally;
+  for (int i = 0; i < 30; ++i) {
+    const RandomScene scene = MakeRingScene(&random, random.Whole(2, 6), core::UnseenPolicy::kOutside);
+    SCOPED_TRACE(i);
+    tally.Add(MakeVisualHull(scene.rig, scene.masks), CutBy(&random, RandomView(&random, *scene.rig)), &gl);
+  }
+  EXPECT_GT(tally.hits, 10'000);
+  EXPECT_LT(static_cast<double>(tally.band), kMostInBandOnRings * static_cast<double>(tally.pixels));
+}
+
 TEST(ExactViewGl, DrawsAndUploadsOnlyWhatIsNew) {
   Random random(5203);
   const RandomScene scene = MakeRingScene(&random, 3, core::UnseenPolicy::kOutside);
@@ -101,6 +124,8 @@ TEST(ExactViewGl, DrawsAndUploadsOnlyWhatIsNew) {
   EXPECT_EQ(gl.draws(), 2) << "from elsewhere";
   (void)gl.ViewHull(MakeVisualHull(scene.rig, scene.masks), rays);
   EXPECT_EQ(gl.draws(), 3) << "another hull";
+  (void)gl.ViewHull(hull, rays.Within({{Vector3d::UnitX(), 0.0}}));
+  EXPECT_EQ(gl.draws(), 4) << "cut open";
   EXPECT_EQ(gl.ray_uploads(), 1) << "all with the same rays";
   core::CameraCalibration longer = ViewFrom({300.0, -200.0, 250.0}, Vector3d::Zero());
   longer.camera_matrix(0, 0) *= 1.5;

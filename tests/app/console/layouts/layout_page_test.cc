@@ -450,7 +450,10 @@ TEST_F(LayoutPageTest, AHoleIsBroughtToAnotherByTwoClicks) {
   OpenLayout();
   ASSERT_TRUE(WaitUntil([&] { return page_->view().CanPick(); }));
   page_->findChild<QAction*>("layout_hole_to_hole")->trigger();
-  for (const char* part : {"lid", "box"}) QTest::mouseClick(&page_->view(), Qt::LeftButton, {}, InView(part));
+  QTest::mouseClick(&page_->view(), Qt::LeftButton, {}, InView("lid"));
+  ASSERT_TRUE(WaitUntil([&] { return page_->placing().Advice().contains("lid"); }));
+  QTest::mouseClick(&page_->view(), Qt::LeftButton, {}, InView("box"));
+  ASSERT_TRUE(WaitUntil([&] { return page_->placing().placing() == Placing::kNone; }));
   EXPECT_EQ(page_->desk().document().UndoName(), "Place lid") << fault_.toStdString();
   const core::RigidTransform& pose = layout().parts[1].world_from_part;
   EXPECT_LT((pose.rotation * lying.rotation.col(2)).cross(Eigen::Vector3d::UnitZ()).norm(), 1e-5);
@@ -487,6 +490,15 @@ TEST_F(LayoutPageTest, MeasuredPointsPlaceThePartAndSayHowFarTheyAreOff) {
   Click(dialog->findChild<QPushButton*>("measured_place"));
   EXPECT_LT((layout().parts[1].world_from_part.translation_mm - real.translation_mm).norm(), 0.1);
   EXPECT_NEAR(RollPitchYawDegOf(layout().parts[1]).z(), 30.0, 0.05);
+  // Asked for again it is the same one; of another part, one in its place.
+  page_->findChild<QAction*>("layout_measured")->trigger();
+  EXPECT_EQ(Find<MeasuredPoints>("measured_points"), dialog);
+  page_->Choose({"box"});
+  page_->findChild<QAction*>("layout_measured")->trigger();
+  ASSERT_TRUE(WaitUntil([&] { return page_->findChildren<MeasuredPoints*>().size() == 1; }));
+  dialog = Find<MeasuredPoints>("measured_points");
+  EXPECT_EQ(dialog->part(), "box");
+  EXPECT_EQ(page_->placing().placing(), Placing::kMeasuredPoints);
   dialog->close();
 }
 

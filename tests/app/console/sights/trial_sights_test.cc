@@ -2,16 +2,22 @@
 #include <gtest/gtest.h>
 
 #include <QAction>
-#include <QCheckBox>
+#include <QApplication>
 #include <QDoubleSpinBox>
 #include <QLabel>
+#include <QLineEdit>
+#include <QListWidget>
+#include <QMouseEvent>
 #include <QSettings>
 #include <QTest>
 #include <QToolButton>
+#include <cmath>
+#include <filesystem>
 
 #include "app/console/main_window.h"
 #include "recon/appearance/orbit_camera.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/text_file.h"
 
 namespace elbowroom::console {
 namespace {
@@ -32,6 +38,7 @@ class TrialSightsTest : public testing::Test {
   ~TrialSightsTest() override {
     window_.desk().Stop();
     WaitUntil([&] { return window_.desk().state() == DeskState::kIdle; });
+    QSettings().remove("section");  // each test begins with the first planes
   }
 
   template <typename Condition>
@@ -62,6 +69,20 @@ class TrialSightsTest : public testing::Test {
     const auto pixel = recon::ViewFrom(*view.camera(), view.width(), view.height()).Project(x_in_world);
     ASSERT_TRUE(pixel);
     QTest::mouseClick(&view, Qt::LeftButton, {}, QPointF(pixel->x(), pixel->y()).toPoint());
+  }
+
+  // With the left button, by so many pixels.
+  void DragHandle(PlaneHandle handle, const QPoint& by) {
+    OperatorView& view = window_.view();
+    const auto grip = window_.sights().section().GripOf(handle);
+    ASSERT_TRUE(grip);
+    const QPoint from = grip->toPoint();
+    QTest::mousePress(&view, Qt::LeftButton, {}, from);
+    for (const QPoint& at : {from + by / 2, from + by}) {
+      QMouseEvent move(QEvent::MouseMove, at, view.mapToGlobal(at), Qt::NoButton, Qt::LeftButton, {});
+      QApplication::sendEvent(&view, &move);
+    }
+    QTest::mouseRelease(&view, Qt::LeftButton, {}, from + by);
   }
 
   test_support::TemporaryFolder folder_;
@@ -106,21 +127,108 @@ TEST_F(TrialSightsTest, StandardViewsTurnTheViewAndParallelStays) {
   EXPECT_LT(eye.z(), 400.0);  // it stands low
 }
 
-TEST_F(TrialSightsTest, SectionPlanesAreSetByNumberMovedByDragFlippedAndKept) {
+TEST_F(TrialSightsTest, SectionPlanesAreSetByNumbersMovedByDragFlippedUndoneAndKept) {
   Action("section").trigger();
-  FindHere<QCheckBox>("section_on:y")->setChecked(true);
-  FindHere<QDoubleSpinBox>("section_mm:y")->setValue(12.5);
   auto* panel = FindHere<SectionPanel>("section_panel");
-  ASSERT_TRUE(panel->cut().planes[1]);
-  EXPECT_EQ(panel->cut().planes[1]->at_mm, 12.5);
-  const bool keeps_above = panel->cut().planes[1]->keeps_above;
-  FindHere<QToolButton>("section_flip:y")->click();
-  EXPECT_EQ(panel->cut().planes[1]->keeps_above, !keeps_above);
+  auto* list = FindHere<QListWidget>("section_list");
+  ASSERT_EQ(list->count(), 3);
+  EXPECT_TRUE(panel->cut().is_none());
+  list->setCurrentRow(1);  // across y
+  list->item(1)->setCheckState(Qt::Checked);
+  FindHere<QDoubleSpinBox>("section_mm")->setValue(12.5);
+  ASSERT_EQ(panel->cut().kept.size(), 1U);
+  EXPECT_EQ(panel->cut().kept[0], (recon::HalfSpace{{0, -1, 0}, 12.5}));
+  FindHere<QToolButton>("section_flip")->click();
+  EXPECT_EQ(panel->cut().kept[0], (recon::HalfSpace{{0, 1, 0}, -12.5}));
   panel->Drag({3.0, 10.0, 4.0});
-  EXPECT_EQ(panel->cut().planes[1]->at_mm, 22.5);
-  EXPECT_EQ(SectionPanel().findChild<QDoubleSpinBox*>("section_mm:y")->value(), 22.5);
+  EXPECT_EQ(panel->cut().kept[0].at_mm, -2.5);
+  FindHere<QDoubleSpinBox>("section_elevation")->setValue(45.0);
+  const recon::HalfSpace turned = panel->cut().kept[0];
+  EXPECT_NEAR((turned.outward - Eigen::Vector3d(0, 1, 1).normalized()).norm(), 0.0, 1e-12);
+  auto* name = FindHere<QLineEdit>("section_name");
+  name->setText("oblique");
+  emit name->editingFinished();
+  EXPECT_EQ(list->item(1)->text(), "oblique");
+  EXPECT_EQ(window_.view().cut(), panel->cut());
+  // The same planes in the next run.
+  SectionPanel next;
+  EXPECT_EQ(next.sections(), panel->sections());
+  for (int step = 0; step < 2; ++step) FindHere<QToolButton>("section_undo")->click();
+  EXPECT_EQ(panel->cut().kept[0], (recon::HalfSpace{{0, 1, 0}, -2.5}));
+  FindHere<QToolButton>("section_redo")->click();
+  EXPECT_EQ(panel->cut().kept[0], turned);
   Action("section").trigger();
   EXPECT_TRUE(panel->cut().is_none());
+  EXPECT_TRUE(window_.view().cut().is_none());
+}
+
+TEST_F(TrialSightsTest, HandlesInTheViewMoveAndTurnTheChosenPlane) {
+  Action("section").trigger();
+  auto* panel = FindHere<SectionPanel>("section_panel");
+  auto* list = FindHere<QListWidget>("section_list");
+  list->setCurrentRow(1);
+  list->item(1)->setCheckState(Qt::Checked);
+  const int before = pictures_;
+  ASSERT_TRUE(WaitUntil([&] { return pictures_ > before; }));
+  const recon::OrbitCamera camera = *window_.view().camera();
+  const recon::HalfSpace first = panel->cut().kept[0];
+  DragHandle(PlaneHandle::kNormal, {40, 25});
+  const recon::HalfSpace moved = panel->cut().kept[0];
+  EXPECT_EQ(moved.outward, first.outward);
+  EXPECT_GT(std::abs(moved.at_mm - first.at_mm), 1.0);
+  DragHandle(PlaneHandle::kFirstRing, {15, 60});
+  const recon::HalfSpace turned = panel->cut().kept[0];
+  EXPECT_LT(turned.outward.dot(moved.outward), 0.999);
+  EXPECT_NEAR(turned.outward.x(), 0.0, 1e-9);   // about the level axis, which is x
+  EXPECT_EQ(*window_.view().camera(), camera);  // the view stayed
+  FindHere<QToolButton>("section_undo")->click();
+  EXPECT_EQ(panel->cut().kept[0], moved);
+  FindHere<QToolButton>("section_undo")->click();
+  EXPECT_EQ(panel->cut().kept[0], first);
+}
+
+TEST_F(TrialSightsTest, APlaneIsLaidOnAPickedFace) {
+  Action("section").trigger();
+  auto* panel = FindHere<SectionPanel>("section_panel");
+  FindHere<QToolButton>("section_align")->click();
+  EXPECT_TRUE(Find<QLabel>("measure_advice")->text().contains("face"));
+  ClickOn({60, -150, 60});  // the front of the PMT's box
+  ASSERT_TRUE(WaitUntil([&] { return !panel->cut().is_none(); }));
+  EXPECT_EQ(panel->cut().kept[0].outward, Eigen::Vector3d(0, -1, 0));
+  EXPECT_NEAR(panel->cut().kept[0].at_mm, 150.0, 2e-3);
+  EXPECT_FALSE(FindHere<QToolButton>("section_align")->isChecked());
+  EXPECT_TRUE(Find<QLabel>("measure_advice")->text().isEmpty());
+}
+
+TEST_F(TrialSightsTest, PlanesOfALayoutsFileAreSavedThere) {
+  const std::filesystem::path file = folder_ / "layout.toml";
+  test_support::WriteText(file, "unit = \"mm\"  # all\n");
+  SectionPanel panel;
+  panel.Open({Eigen::Vector3d::Constant(-100), Eigen::Vector3d::Constant(100)}, file,
+             {{"lid", {0, 0, 1}, 40.0, true}});
+  panel.show();
+  QString fault;
+  QObject::connect(&panel, &SectionPanel::Failed, &window_, [&](const QString& line) { fault = line; });
+  auto* save = panel.findChild<QToolButton*>("section_save");
+  EXPECT_FALSE(save->isEnabled());
+  panel.findChild<QDoubleSpinBox*>("section_mm")->setValue(50.0);
+  panel.findChild<QAction*>("section_add:x")->trigger();
+  EXPECT_TRUE(save->isEnabled());
+  save->click();
+  ASSERT_TRUE(WaitUntil([&] { return panel.findChild<QLabel*>("section_state")->text().isEmpty(); }));
+  EXPECT_EQ(fault, "");
+  const std::string text = test_support::ReadText(file);
+  EXPECT_TRUE(text.starts_with("unit = \"mm\"  # all\n"));
+  EXPECT_NE(text.find("name = \"lid\"\nnormal = [0.0, 0.0, 1.0]\noffset_mm = 50.0\non = true"),
+            std::string::npos)
+      << text;
+  EXPECT_NE(text.find("Across X"), std::string::npos);
+  EXPECT_FALSE(SectionPanel().findChild<QListWidget*>("section_list")->count() == 2);  // of that file alone
+  test_support::WriteText(file, "[[part");
+  panel.findChild<QToolButton*>("section_remove")->click();
+  save->click();
+  EXPECT_TRUE(WaitUntil([&] { return !fault.isEmpty(); }));
+  EXPECT_TRUE(fault.contains("layout.toml:1")) << fault.toStdString();
 }
 
 TEST_F(TrialSightsTest, HeatIsShownWhileItIsWantedAndSaysWhatItMeans) {
