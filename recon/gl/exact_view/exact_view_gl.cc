@@ -148,8 +148,8 @@ HullView ExactViewGl::Impl::View(const VisualHull& hull, const ViewRays& rays,
 bool ExactViewGl::Impl::IsDrawn(const VisualHull& hull, const ViewRays& rays, bool with_surfaces) const {
   return drawn_ && drawn_->rays.HasSameRays(rays) &&
          drawn_->rays.view_from_world() == rays.view_from_world() &&
-         drawn_->rays.half_spaces() == rays.half_spaces() &&
-         (drawn_->with_surfaces || !with_surfaces) && IsSameHull(drawn_->hull, hull);
+         drawn_->rays.half_spaces() == rays.half_spaces() && (drawn_->with_surfaces || !with_surfaces) &&
+         IsSameHull(drawn_->hull, hull);
 }
 
 void ExactViewGl::Impl::UploadRays(const ViewRays& rays) {
