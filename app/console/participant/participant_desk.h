@@ -7,6 +7,7 @@
 #include <QMenu>
 #include <QObject>
 #include <QTimer>
+#include <array>
 #include <memory>
 #include <optional>
 
@@ -15,6 +16,7 @@
 #include "app/console/view/bridge.h"
 #include "app/control/frame_time_tally.h"
 #include "app/control/head/head_tracker.h"
+#include "app/control/head/headset_screen.h"
 #include "app/control/participant/participant_pictures.h"
 #include "core/rig.h"
 
@@ -56,6 +58,7 @@ class ParticipantDesk : public QObject {
   void ShowPicture(const control::ParticipantPicture& picture);
   void ShowState();
   [[nodiscard]] QString StateText() const;
+  [[nodiscard]] bool ShowsInHeadset() const;
 
   QWidget* window_;
   ParticipantChoices choices_;
@@ -73,7 +76,9 @@ class ParticipantDesk : public QObject {
   double poses_per_s_ = 0.0;
   QElapsedTimer since_count_;
   std::unique_ptr<ParticipantView> view_;
-  Bridge bridge_;  // before the threads that post to it
+  std::shared_ptr<control::HeadsetScreen> headset_ = std::make_shared<control::HeadsetScreen>();
+  std::array<int, 2> headset_px_{};  // an eye's picture, as it was asked for
+  Bridge bridge_;                    // before the threads that post to it
   std::unique_ptr<control::ParticipantPictures> pictures_;
   std::unique_ptr<control::HeadTracker> tracker_;  // posts to pictures_
 };

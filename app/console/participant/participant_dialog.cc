@@ -132,8 +132,10 @@ void ParticipantDialog::AddTracker(const ParticipantChoices& choices, QFormLayou
   source_->addItem(tr("OpenTrack (UDP)"), static_cast<int>(HeadSource::kOpenTrack));
   source_->addItem(tr("FreeD (UDP)"), static_cast<int>(HeadSource::kFreeD));
   source_->addItem(tr("Markers on a cap"), static_cast<int>(HeadSource::kCap));
+  source_->addItem(tr("OpenXR headset"), static_cast<int>(HeadSource::kOpenXr));
   Name(source_, "participant_source", tr("Source of the head's pose"),
-       tr("Where the head's pose comes from; the cap is seen by the rig's own cameras"));
+       tr("Where the head's pose comes from; the cap is seen by the rig's own cameras; an "
+          "OpenXR headset also shows the picture, in stereo"));
   Choose(source_, choices.source);
   port_ = new QSpinBox;
   port_->setRange(1, 65535);
@@ -177,8 +179,11 @@ void ParticipantDialog::FollowChoices() {
   const auto source = ChosenIn<HeadSource>(source_);
   const auto mode = ChosenIn<control::ViewMode>(mode_);
   camera_->setEnabled(control::IsOfCamera(mode));
-  fov_->setEnabled(!control::IsOfCamera(mode));
-  for (QWidget* stereo : {ipd_, convergence_}) stereo->setEnabled(mode == control::ViewMode::kStereo);
+  // A headset says itself where its eyes are and how far they see.
+  const bool is_headsets = source == HeadSource::kOpenXr && mode == control::ViewMode::kStereo;
+  fov_->setEnabled(!control::IsOfCamera(mode) && !is_headsets);
+  for (QWidget* stereo : {ipd_, convergence_})
+    stereo->setEnabled(mode == control::ViewMode::kStereo && !is_headsets);
   port_->setEnabled(source == HeadSource::kOpenTrack || source == HeadSource::kFreeD);
 }
 

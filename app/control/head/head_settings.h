@@ -1,6 +1,7 @@
 // How the participant's head is tracked: what HEAD.toml says.
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -9,6 +10,7 @@
 #include "app/control/head/tracker_packet.h"
 #include "recon/head_pose/cap.h"
 #include "recon/head_pose/head_pose.h"
+#include "recon/headset/headset_protocol.h"
 
 namespace elbowroom::control {
 
@@ -23,6 +25,10 @@ struct HeadSettings {
   ReadingSigns signs = kNoSignChanged;
   core::RigidTransform world_from_tracker;
   core::RigidTransform sensor_from_head;  // the tracked point's frame has the head's axes
+  // OpenXR.
+  recon::HeadsetSpace space = recon::HeadsetSpace::kStage;
+  std::chrono::milliseconds headset_patience{3000};     // before a runtime that doesn't answer is told of
+  std::chrono::milliseconds headset_tried_again{3000};  // after it was lost, or couldn't be used
   // Markers on a cap.
   recon::Cap cap = recon::EightSidedCap();
   // No tracker: where the eyes are.
