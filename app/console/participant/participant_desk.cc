@@ -79,6 +79,10 @@ ParticipantDesk::ParticipantDesk(QWidget* window)
   choose->setObjectName("participant_choices");
   choose->setToolTip(
       tr("Display, stereo, eye distance; OpenTrack, FreeD, the markers on a cap or an OpenXR headset"));
+  QAction* registers =
+      menu_->addAction(tr("&Register the head camera …"), this, &ParticipantDesk::RegisterHeadCamera);
+  registers->setObjectName("register_head_camera");
+  registers->setToolTip(tr("Lay the picture of a camera on the head over the parts, until they fit"));
   status_->setObjectName("status_participant");
   status_->setContentsMargins(4, 0, 10, 0);
   status_->hide();
@@ -162,6 +166,51 @@ void ParticipantDesk::ShowChoices() {
   dialog_->raise();
 }
 
+recon::HeadCamera ParticipantDesk::SavedHeadCamera() {
+  try {
+    return HeadSettingsOf(choices_).head_camera.value_or(recon::HeadCamera());
+  } catch (const core::Error& error) {
+    emit Failed(tr("Participant's view: %1").arg(QString::fromStdString(error.what())));
+  }
+  return {};
+}
+
+void ParticipantDesk::RegisterHeadCamera() {
+  if (registering_ == nullptr) {
+    registering_ = new HeadCameraDialog(SavedHeadCamera(), choices_.head_file, window_);
+    registering_->setAttribute(Qt::WA_DeleteOnClose);
+    connect(registering_, &QObject::destroyed, this, [this] { registering_ = nullptr; });
+    connect(registering_, &HeadCameraDialog::TakeAsked, this, &ParticipantDesk::TakeInstant);
+    connect(registering_, &HeadCameraDialog::Saved, this, [this](const QString& head_file) {
+      if (dialog_ != nullptr) dialog_->SetHeadFile(head_file);
+      choices_.head_file = head_file;
+      RememberChoices(choices_);
+      head_camera_ = registering_->camera();
+      AskForPictures();
+    });
+    TakeInstant();
+  }
+  registering_->show();
+  registering_->raise();
+}
+
+// Without a window there is no tracker: then the eyes are at the fixed point.
+void ParticipantDesk::TakeInstant() {
+  control::HeadState head;
+  try {
+    head = tracker_ ? tracker_->state() : control::HeadTracker(FixedHead(), rig_).state();
+  } catch (const core::Error& error) {
+    emit Failed(tr("Participant's view: %1").arg(QString::fromStdString(error.what())));
+  }
+  registering_->Take(result_, head, static_cast<core::CameraIndex>(choices_.camera - 1));
+}
+
+control::HeadSettings ParticipantDesk::FixedHead() const {
+  control::HeadSettings settings = HeadSettingsOf(choices_);
+  settings.source = recon::HeadSource::kFixed;
+  return settings;
+}
+
 void ParticipantDesk::TakeChoices() {
   const ParticipantChoices last = std::exchange(choices_, dialog_->choices());
   RememberChoices(choices_);
@@ -185,8 +234,10 @@ void ParticipantDesk::StartTracker() {
   since_count_.start();
   if (choices_.source == recon::HeadSource::kCap && !rig_) return;  // with the next trial
   try {
+    const control::HeadSettings settings = HeadSettingsOf(choices_);
+    head_camera_ = settings.head_camera.value_or(recon::HeadCamera());
     tracker_ = std::make_unique<control::HeadTracker>(
-        HeadSettingsOf(choices_), rig_,
+        settings, rig_,
         [pictures = pictures_.get()](const control::HeadState& head) { pictures->ShowHead(head); },
         control::HeadLimits(), ShowsInHeadset() ? headset_ : nullptr);
     if (choices_.source == recon::HeadSource::kFixed) pictures_->ShowHead(tracker_->state());
@@ -211,8 +262,13 @@ void ParticipantDesk::AskForPictures() {
                  .boundedTo({2 * width, height});
   }
   view_->SetStereo(choices_.eyes.mode == control::ViewMode::kStereo);
-  pictures_->SetLook({choices_.eyes, look_, static_cast<core::CameraIndex>(choices_.camera - 1), size.width(),
-                      size.height()});
+  pictures_->SetLook({choices_.eyes,
+                      look_,
+                      static_cast<core::CameraIndex>(choices_.camera - 1),
+                      size.width(),
+                      size.height(),
+                      head_camera_,
+                      {}});
 }
 
 void ParticipantDesk::ShowPicture(const control::ParticipantPicture& picture) {
@@ -223,7 +279,7 @@ void ParticipantDesk::ShowState() {
   if (ShowsInHeadset() &&
       std::exchange(headset_px_, headset_->recommended_px()) != headset_->recommended_px())
     AskForPictures();
-  const bool needs_head = !control::IsOfCamera(choices_.eyes.mode);
+  const bool needs_head = control::NeedsHead(choices_.eyes.mode);
   if (is_open()) view_->ShowTracking(needs_head && (!tracker_ || tracker_->state().is_lost));
   if (tracker_ && since_count_.elapsed() >= kCountEveryMs) {
     const std::int64_t accepted = tracker_->counts().accepted;

@@ -11,6 +11,7 @@
 #include <memory>
 #include <optional>
 
+#include "app/console/participant/head_camera_dialog.h"
 #include "app/console/participant/participant_dialog.h"
 #include "app/console/participant/participant_view.h"
 #include "app/console/view/bridge.h"
@@ -41,6 +42,7 @@ class ParticipantDesk : public QObject {
   void Open();
   void Close();
   void ShowChoices();
+  void RegisterHeadCamera();  // opens the dialog for it
 
   [[nodiscard]] bool is_open() const { return view_ != nullptr; }
   [[nodiscard]] ParticipantView* view() { return view_.get(); }
@@ -53,6 +55,9 @@ class ParticipantDesk : public QObject {
 
  private:
   void TakeChoices();
+  void TakeInstant();
+  [[nodiscard]] recon::HeadCamera SavedHeadCamera();
+  [[nodiscard]] control::HeadSettings FixedHead() const;
   void StartTracker();
   void AskForPictures();
   void ShowPicture(const control::ParticipantPicture& picture);
@@ -66,7 +71,9 @@ class ParticipantDesk : public QObject {
   QAction* shows_;  // checked while the window is open
   QLabel* status_;
   ParticipantDialog* dialog_ = nullptr;
-  QTimer watch_;  // of tracking
+  HeadCameraDialog* registering_ = nullptr;
+  recon::HeadCamera head_camera_;  // of the head file
+  QTimer watch_;                   // of tracking
   std::optional<core::Rig> rig_;
   control::SharedFrameResult result_;
   control::SceneLook look_;

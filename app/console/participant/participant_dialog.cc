@@ -44,7 +44,7 @@ ParticipantDialog::ParticipantDialog(const ParticipantChoices& choices, QWidget*
   state_ = new QLabel(tr("The window is closed"));
   state_->setObjectName("participant_state");
   state_->setWordWrap(true);
-  state_->setMinimumHeight(2 * state_->fontMetrics().lineSpacing());
+  state_->setMinimumHeight(4 * state_->fontMetrics().lineSpacing());  // as long as what a headset lacks
   state_->setAlignment(Qt::AlignTop | Qt::AlignLeft);
   tracker_form->addRow(state_);
   open_ = new QPushButton;
@@ -81,6 +81,7 @@ void ParticipantDialog::AddPicture(const ParticipantChoices& choices, QFormLayou
   mode_->addItem(tr("Mirrored"), static_cast<int>(ViewMode::kMirror));
   mode_->addItem(tr("A camera's picture, with the parts"), static_cast<int>(ViewMode::kCamera));
   mode_->addItem(tr("The same, as a mirror"), static_cast<int>(ViewMode::kCameraMirror));
+  mode_->addItem(tr("The head camera's picture, with the parts"), static_cast<int>(ViewMode::kHeadCamera));
   Name(mode_, "participant_mode", tr("Kind of picture"),
        tr("From the head: one picture, one for each eye, or mirrored; or the parts in a camera's live "
           "picture"));
@@ -92,7 +93,9 @@ void ParticipantDialog::AddPicture(const ParticipantChoices& choices, QFormLayou
   camera_ = new QSpinBox;
   camera_->setRange(1, 64);
   camera_->setValue(choices.camera);
-  Name(camera_, "participant_camera", tr("Camera"), tr("Whose picture is shown, in the rig's order, from 1"));
+  Name(camera_, "participant_camera", tr("Camera"),
+       tr("Whose picture is shown, in the rig's order, from 1; for the head camera: where the trial has no "
+          "[viewer]"));
   connect(camera_, &QSpinBox::valueChanged, this, &ParticipantDialog::Changed);
   display_ = new QComboBox;
   for (const QScreen* screen : QGuiApplication::screens())

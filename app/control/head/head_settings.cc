@@ -7,6 +7,7 @@
 #include <iterator>
 #include <span>
 
+#include "app/control/head/head_camera_file.h"
 #include "cad_import/layout/toml_entry.h"
 #include "core/error.h"
 
@@ -98,9 +99,9 @@ RigidTransform HeadSettings::LookingAt(const Vector3d& eyes_in_world, const Vect
 HeadSettings ReadHeadFile(const std::filesystem::path& path) {
   const std::string file = path.string();
   const toml::table root = cad_import::ParseTomlFile(path, "head file");
-  const TomlEntry entry(
-      root, file, "",
-      {"source", "address", "port", "camera", "inverted", "cap", "space", "tracker", "sensor", "fixed"});
+  const TomlEntry entry(root, file, "",
+                        {"source", "address", "port", "camera", "inverted", "cap", "space", "tracker",
+                         "sensor", "head_camera", "fixed"});
   HeadSettings settings;
   const auto source = ParseHeadSource(entry.TextOr("source", "fixed"));
   if (!source) entry.Fail("source", "must be fixed, opentrack, freed, cap or openxr");
@@ -112,6 +113,7 @@ HeadSettings ReadHeadFile(const std::filesystem::path& path) {
   settings.space = SpaceOf(entry);
   settings.world_from_tracker = FrameOf(root, file, "tracker");
   settings.sensor_from_head = FrameOf(root, file, "sensor");
+  settings.head_camera = HeadCameraOf(root, file);
   ReadFixed(root, file, &settings);
   if (entry.Find("cap") != nullptr) settings.cap = ReadCapFile(path.parent_path() / entry.Text("cap"));
   return settings;

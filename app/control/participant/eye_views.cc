@@ -10,8 +10,8 @@ namespace {
 
 constexpr double kNearMm = 40.0, kFarMm = 20'000.0;
 constexpr int kSmallestPx = 64;
-constexpr ViewMode kModes[] = {ViewMode::kMono, ViewMode::kStereo, ViewMode::kMirror, ViewMode::kCamera,
-                               ViewMode::kCameraMirror};
+constexpr ViewMode kModes[] = {ViewMode::kMono,   ViewMode::kStereo,       ViewMode::kMirror,
+                               ViewMode::kCamera, ViewMode::kCameraMirror, ViewMode::kHeadCamera};
 
 // The view from a point of the head's x axis, its axes the head's.
 recon::SceneView ViewFromEye(const core::RigidTransform& world_from_head, double eye_x_mm,
@@ -62,6 +62,8 @@ std::string_view ToString(ViewMode mode) {
       return "camera";
     case ViewMode::kCameraMirror:
       return "camera_mirror";
+    case ViewMode::kHeadCamera:
+      return "head_camera";
   }
   return "";
 }

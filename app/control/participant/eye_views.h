@@ -17,12 +17,16 @@ enum class ViewMode {
   kMirror,  // mono with left and right exchanged, as in a mirror, or for a picture thrown on from behind
   kCamera,  // a rig camera's live picture with the virtual parts in it; the head has no part in it
   kCameraMirror,  // the same as in a mirror
+  kHeadCamera,    // the picture of a camera on the head, with the virtual parts in it
 };
-// "mono", "stereo", "mirror", "camera", "camera_mirror".
+// "mono", "stereo", "mirror", "camera", "camera_mirror", "head_camera".
 [[nodiscard]] std::optional<ViewMode> ParseViewMode(std::string_view text);
 [[nodiscard]] std::string_view ToString(ViewMode mode);
 [[nodiscard]] constexpr bool IsOfCamera(ViewMode mode) {
-  return mode == ViewMode::kCamera || mode == ViewMode::kCameraMirror;
+  return mode == ViewMode::kCamera || mode == ViewMode::kCameraMirror || mode == ViewMode::kHeadCamera;
+}
+[[nodiscard]] constexpr bool NeedsHead(ViewMode mode) {
+  return !IsOfCamera(mode) || mode == ViewMode::kHeadCamera;
 }
 
 struct EyeOptions {

@@ -12,6 +12,7 @@
 #include "app/control/tiles/frame_overlays.h"
 #include "app/control/view_method.h"
 #include "recon/gl/scene/scene_renderer.h"
+#include "recon/images/image_file.h"
 
 namespace elbowroom::control {
 namespace {
@@ -20,6 +21,7 @@ constexpr double kAimMs = 33.0, kRoomForFinerMs = 14.0;
 constexpr std::array<double, 4> kScales = {1.0, 0.75, 0.55, 0.4};  // of the picture's sides
 constexpr double kHullScale = 0.5;
 constexpr int kSmallestEyePx = 64;
+constexpr int kMostStillPx = 1600;
 // A scene that hasn't changed for this long is drawn in full.
 constexpr std::chrono::milliseconds kRests(400);
 
@@ -58,10 +60,7 @@ std::vector<EyeView> ViewsFor(const recon::HeadPose& pose, const EyeOptions& opt
   return EyeViewsOf(pose.world_from_head, options, width_px, height_px);
 }
 
-// What a camera saw; empty: it has no picture.
-recon::Image PictureOf(const FrameResult& result, core::CameraIndex camera) {
-  if (!result.camera_frames || camera >= result.camera_frames->cameras.size()) return {};
-  const cv::Mat& bgr = result.camera_frames->cameras[camera].image_bgr;
+recon::Image ImageOf(const cv::Mat& bgr) {
   recon::Image image{bgr.cols, bgr.rows, {}};
   image.rgb.reserve(3 * bgr.total());
   for (int y = 0; y < bgr.rows; ++y) {
@@ -70,6 +69,32 @@ recon::Image PictureOf(const FrameResult& result, core::CameraIndex camera) {
       image.rgb.insert(image.rgb.end(), {row[3 * x + 2], row[3 * x + 1], row[3 * x]});
   }
   return image;
+}
+
+// What a camera saw; empty: it has no picture.
+recon::Image PictureOf(const FrameResult& result, core::CameraIndex camera) {
+  if (!result.camera_frames || camera >= result.camera_frames->cameras.size()) return {};
+  return ImageOf(result.camera_frames->cameras[camera].image_bgr);
+}
+
+// What the trial's camera on the head saw; where it has none, a camera of the rig.
+recon::Image HeadPictureOf(const FrameResult& result, core::CameraIndex camera) {
+  if (result.camera_frames && result.camera_frames->viewer)
+    return ImageOf(result.camera_frames->viewer->image_bgr);
+  return PictureOf(result, camera);
+}
+
+// Every so many-th pixel, so that the sides are kMostStillPx at most.
+recon::Image ReadStill(const std::filesystem::path& file) {
+  recon::ImageReader reader("head camera");
+  (void)reader.Open(file);
+  const cv::Mat bgr = reader.Decode(recon::DecodedAs::kBgr, {});
+  const int step = 1 + (std::max(bgr.cols, bgr.rows) - 1) / kMostStillPx;
+  if (step == 1) return ImageOf(bgr);
+  cv::Mat small(bgr.rows / step, bgr.cols / step, CV_8UC3);
+  for (int y = 0; y < small.rows; ++y)
+    for (int x = 0; x < small.cols; ++x) small.at<cv::Vec3b>(y, x) = bgr.at<cv::Vec3b>(y * step, x * step);
+  return ImageOf(small);
 }
 
 }  // namespace
@@ -115,6 +140,22 @@ class ParticipantPictures::Painter {
     return mirrored;
   }
 
+  // The parts in the picture of the camera on the head; empty: it has none.
+  recon::Image DrawHeadCamera(const FrameResult& result, const recon::HeadPose& pose,
+                              const ParticipantLook& look) {
+    if (look.head_picture.empty()) {
+      still_ = {};
+    } else if (still_file_ != look.head_picture || still_.rgb.empty()) {
+      still_ = ReadStill(look.head_picture);
+    }
+    still_file_ = look.head_picture;
+    recon::Image picture = still_.rgb.empty() ? HeadPictureOf(result, look.camera) : still_;
+    if (picture.rgb.empty()) return picture;
+    const recon::HeadCamera camera = recon::ResizedTo(look.head_camera, picture.width_px, picture.height_px);
+    overlays_.PaintOn(&picture, result, camera.ModelFor(pose.world_from_head));
+    return picture;
+  }
+
   // Coarser after three pictures in a row that took too long, finer after thirty that were quick.
   void Adapt(double drawing_ms) {
     const int vote = drawing_ms > kAimMs ? 1 : drawing_ms < kRoomForFinerMs ? -1 : 0;
@@ -132,6 +173,8 @@ class ParticipantPictures::Painter {
   recon::gl::SceneRenderer renderer_{recon::gl::PartDetail::kOnDemand};
   std::array<SceneComposer, 2> composers_;  // one an eye
   FrameOverlays overlays_;
+  std::filesystem::path still_file_;
+  recon::Image still_;  // of that file
   std::size_t step_ = 0;
   int in_a_row_ = 0;
 };
@@ -213,12 +256,15 @@ void ParticipantPictures::Run(const std::stop_token& stop) {
       head = head_;
     }
     const bool is_of_camera = IsOfCamera(look.eyes.mode);
-    if ((!head.pose && !is_of_camera) || !result || look.width_px <= 0 || look.height_px <= 0) continue;
+    const bool needs_head = NeedsHead(look.eyes.mode);
+    if ((!head.pose && needs_head) || !result || look.width_px <= 0 || look.height_px <= 0) continue;
     try {
       if (!painter) painter = std::make_unique<Painter>();
       const double begun_ms = SteadyNowMs();
       ParticipantPicture picture;
-      if (is_of_camera) {
+      if (look.eyes.mode == ViewMode::kHeadCamera) {
+        picture.image = painter->DrawHeadCamera(*result, *head.pose, look);
+      } else if (is_of_camera) {
         picture.image = painter->DrawCamera(*result, look);
       } else {
         picture = painter->Draw(*result, *head.pose, look, !can_be_finer);
@@ -227,7 +273,7 @@ void ParticipantPictures::Run(const std::stop_token& stop) {
       picture.drawing_ms = SteadyNowMs() - begun_ms;
       if (is_of_camera) can_be_finer = false;
       if (can_be_finer) painter->Adapt(picture.drawing_ms);
-      if (!is_of_camera) picture.pose = *head.pose;
+      if (needs_head) picture.pose = *head.pose;
       picture.serial = head.serial;
       picture.frame = result->record.frame;
       on_picture_(std::move(picture));

@@ -3,6 +3,7 @@
 
 #include <condition_variable>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <mutex>
 #include <stop_token>
@@ -15,6 +16,7 @@
 #include "app/control/head/headset_screen.h"
 #include "app/control/participant/eye_views.h"
 #include "app/control/scene_composer.h"
+#include "recon/head_pose/head_camera.h"
 #include "recon/images/image.h"
 
 namespace elbowroom::control {
@@ -23,9 +25,12 @@ namespace elbowroom::control {
 struct ParticipantLook {
   EyeOptions eyes;
   SceneLook scene;
-  core::CameraIndex camera = 0;  // kCamera, kCameraMirror
+  core::CameraIndex camera = 0;  // kCamera, kCameraMirror; kHeadCamera, where the trial has no [viewer]
   int width_px = 0;              // of the whole picture, both eyes together; 0: none is drawn
   int height_px = 0;
+  recon::HeadCamera head_camera{};
+  std::filesystem::path
+      head_picture{};  // kHeadCamera: a picture's file in the place of the camera's; empty: none
 
   [[nodiscard]] bool operator==(const ParticipantLook&) const = default;
 };
