@@ -48,6 +48,10 @@ nlohmann::json ReportJson(const control::HeadReport& report, HeadSource source) 
                          {"cameras", OrNull(report.cameras)},
                          {"not_seen", report.not_seen},
                          {"last", report.last ? PoseJson(*report.last) : nlohmann::json()}};
+  if (report.headset)
+    json["headset"] = {{"name", report.headset->name},
+                       {"state", recon::ToString(report.headset->phase)},
+                       {"why", report.headset->text}};
   if (report.sigma_rad) json["sigma_deg"] = core::DegreesFromRadians(*report.sigma_rad);
   for (std::size_t i = 0; i < control::kPoseFaults; ++i)
     if (report.counts.refused[i] > 0)
@@ -65,6 +69,14 @@ std::string RefusedText(const control::HeadReport& report) {
   return text;
 }
 
+// "Monado 21.0.0, ...: focused"; empty for other sources.
+std::string HeadsetText(const control::HeadReport& report) {
+  if (!report.headset) return {};
+  const control::HeadsetStatus& its = *report.headset;
+  return fmt::format("{}{}{}{}", its.name, its.name.empty() ? "" : ": ", recon::ToString(its.phase),
+                     its.text.empty() ? "" : "; " + its.text);
+}
+
 std::string LineOf(const control::HeadReport& report) {
   return fmt::format("{:.0f} s: {} poses, {}{}", report.seconds, report.counts.accepted, RefusedText(report),
                      report.last ? "; " + control::HeadText(report.last->world_from_head) : "");
@@ -74,6 +86,7 @@ std::string TextOf(const control::HeadReport& report) {
   std::string text = fmt::format("{} poses in {:.1f} s ({:.1f} a second); {}", report.counts.accepted,
                                  report.seconds, report.poses_per_s(), RefusedText(report));
   for (const auto& [why, count] : report.not_seen) text += fmt::format("\n  {}: {} times", why, count);
+  if (report.headset) text += "\nheadset: " + HeadsetText(report);
   if (report.last) text += "\nlast: " + control::HeadText(report.last->world_from_head);
   if (report.spread_mm)
     text += fmt::format("\nspread of the eyes' place: {:.2f} mm (the noise, if the head held still)",
@@ -111,6 +124,15 @@ control::HeadReport Watch(const control::HeadSettings& settings, const HeadOptio
   return control::WatchPackets(settings, options.seconds, on_port, on_report, context.stop);
 }
 
+std::string WhyNoPose(const control::HeadReport& report, const control::HeadSettings& settings) {
+  if (settings.source == HeadSource::kCap) return "the cap was found in no picture";
+  if (settings.source == HeadSource::kOpenXr)
+    return fmt::format("no pose was accepted from the headset: {}", HeadsetText(report));
+  return fmt::format(
+      "no pose was accepted at UDP port {}: does the tracker send to this computer, and to that port?",
+      settings.port_or_default());
+}
+
 CommandResult Run(const HeadOptions& options, const CommandContext& context) {
   if (!options.write_cap.empty()) {
     core::WriteWholeFile(options.write_cap, control::CapFileText(recon::EightSidedCap()));
@@ -123,13 +145,7 @@ CommandResult Run(const HeadOptions& options, const CommandContext& context) {
             "no tracker: " + control::HeadText(settings.world_from_fixed_head)};
   const control::HeadReport report = Watch(settings, options, context);
   CommandResult result{ReportJson(report, settings.source), TextOf(report)};
-  if (report.counts.accepted == 0)
-    result.failure = settings.source == HeadSource::kCap
-                         ? "the cap was found in no picture"
-                         : fmt::format(
-                               "no pose was accepted at UDP port {}: does the tracker send to this "
-                               "computer, and to that port?",
-                               settings.port_or_default());
+  if (report.counts.accepted == 0) result.failure = WhyNoPose(report, settings);
   return result;
 }
 
@@ -143,8 +159,8 @@ void AddHeadCommand(CLI::App& app, Choice* choice) {
       ->check(CLI::ExistingFile);
   command
       ->add_option("--source", options->source,
-                   "fixed, opentrack, freed or cap (default: the file's, or fixed)")
-      ->check(CLI::IsMember({"fixed", "opentrack", "freed", "cap"}));
+                   "fixed, opentrack, freed, cap or openxr (default: the file's, or fixed)")
+      ->check(CLI::IsMember({"fixed", "opentrack", "freed", "cap", "openxr"}));
   command
       ->add_option("--port", options->port,
                    "UDP port (default: the file's, or 4242 for opentrack and 40000 for freed)")

@@ -252,7 +252,7 @@ std::vector<recon::CameraColor> SceneComposer::PixelColors(const SceneLook& look
                                                            const recon::SceneView& view,
                                                            const recon::SceneView& hull_view) {
   if (needs_surfaces_)
-    return hull_colors_.Of(look.hull, look.knowledge, whole_hull_, *hull_, *hull_from_view_,
+    return hull_colors_.Of(look.hull, look.knowledge, hull_, *hull_, *hull_from_view_,
                            recon::ViewRays(CameraOf(hull_view)));
   const std::vector<SharedPhoto> photos = PhotosFor(look, view);
   if (photos.empty()) return {};

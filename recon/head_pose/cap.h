@@ -24,6 +24,8 @@ struct Cap {
   std::string dictionary;  // as OpenCV names it: "DICT_4X4_50"
   std::vector<CapMarker> markers;
   core::RigidTransform cap_from_head;  // frame `head`: head_pose.h
+  // How far each marker may be from where it is said to be, along each axis: a standard deviation, >= 0.
+  double place_sigma_mm = 0.1;
 
   // Throws: Error{kRange} saying which marker must be what: no marker, one number twice, a side that isn't
   // positive, a place that isn't finite or farther than a metre from the cap's origin.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 
 #include "recon/calibration/rotation.h"
@@ -17,6 +18,14 @@ constexpr double kWideScale = 100.0, kNarrowScale = 3.0;
 constexpr std::size_t kMostStarts = 6;
 constexpr double kOnePoseRad = 0.02;
 constexpr double kAgreeingSigmas = 6.0;
+
+std::vector<std::size_t> MarkersOfPoints(const CapSighting& sighting) {
+  std::vector<std::size_t> markers;
+  for (const SightedMarker& marker : sighting)
+    for (const auto& corner : marker.corners)
+      if (corner) markers.push_back(marker.marker);
+  return markers;
+}
 
 std::vector<PosePoint> PointsOf(const Cap& cap, const CapSighting& sighting, double least_sigma_px) {
   const RigidTransform head_from_cap = cap.cap_from_head.Inverse();
@@ -65,6 +74,7 @@ CapProblem ProblemOf(const Cap& cap, std::span<const CapCamera> cameras,
     problem.markers += static_cast<int>(sightings[i].size());
     problem.views.push_back(
         {&cameras[i].lens, cameras[i].cam_from_world, PointsOf(cap, sightings[i], least_sigma_px)});
+    problem.markers_of_points.push_back(MarkersOfPoints(sightings[i]));
   }
   return problem;
 }
@@ -98,23 +108,38 @@ std::vector<PoseFit> MinimaOf(const CapProblem& problem, std::span<const RigidTr
   return minima;
 }
 
-CapEvidence EvidenceFor(const CapProblem& problem, const RigidTransform& world_from_head) {
+CapEvidence EvidenceFor(const Cap& cap, const CapProblem& problem, const RigidTransform& world_from_head) {
   CapEvidence evidence;
-  for (const PosedView& view : problem.views) {
-    for (const PosePoint& point : view.points) {
+  evidence.by_marker.assign(cap.markers.size(), Eigen::Matrix<double, 6, 3>::Zero());
+  const RigidTransform world_from_cap = world_from_head * cap.cap_from_head.Inverse();
+  for (std::size_t v = 0; v < problem.views.size(); ++v) {
+    const PosedView& view = problem.views[v];
+    for (std::size_t i = 0; i < view.points.size(); ++i) {
+      const PosePoint& point = view.points[i];
+      const std::size_t marker = problem.markers_of_points[v][i];
       ++evidence.corners_in_all;
       const Vector3d x_in_cam = view.cam_from_rig * (world_from_head * point.x_in_board);
       const auto projected = ProjectWithPointDerivative(*view.lens, x_in_cam);
-      if (!projected) continue;
+      const auto middle =
+          ProjectPoint(*view.lens, view.cam_from_rig *
+                                       (world_from_cap * cap.markers[marker].cap_from_marker.translation_mm));
+      if (!projected || !middle) continue;
       const double px2 = (projected->pixel - point.pixel).squaredNorm();
       const double inverse2 = point.inverse_sigma * point.inverse_sigma;
-      if (px2 * inverse2 > kAgreeingSigmas * kAgreeingSigmas) continue;
+      const Eigen::Matrix<double, 2, 3> by_shift = projected->by_x_in_cam * view.cam_from_rig.rotation;
+      const double place_px2 = 0.5 * cap.place_sigma_mm * cap.place_sigma_mm * by_shift.squaredNorm();
+      if (px2 > kAgreeingSigmas * kAgreeingSigmas * (1.0 / inverse2 + place_px2)) continue;
       // x_in_world = R exp(w) x_in_head + t moves by -R [x_in_head] w + dt.
       Eigen::Matrix<double, 3, 6> by_pose;
       by_pose << -world_from_head.rotation * Hat(point.x_in_board), Eigen::Matrix3d::Identity();
-      const Eigen::Matrix<double, 2, 6> j = projected->by_x_in_cam * view.cam_from_rig.rotation * by_pose;
+      const Eigen::Matrix<double, 2, 6> j = by_shift * by_pose;
       evidence.information += inverse2 * j.transpose() * j;
+      evidence.by_marker[marker] += inverse2 * j.transpose() * by_shift;
+      // Two edges that move inwards by a pixel move their corner by about sqrt(2) along the diagonal.
+      evidence.by_edges +=
+          std::numbers::sqrt2 * inverse2 * j.transpose() * (*middle - projected->pixel).normalized();
       evidence.squared_sigmas += px2 * inverse2;
+      evidence.unexplained += px2 / (1.0 / inverse2 + place_px2);
       evidence.squared_px2 += px2;
       ++evidence.corners;
     }

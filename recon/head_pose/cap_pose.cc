@@ -15,7 +15,8 @@ using Matrix6d = Eigen::Matrix<double, 6, 6>;
 constexpr double kLeastAgreeingShare = 0.75;
 constexpr int kLeastAgreeingCorners = 4;
 
-std::optional<Matrix6d> CovarianceOf(const CapEvidence& evidence) {
+std::optional<Matrix6d> CovarianceOf(const CapEvidence& evidence, double place_sigma_mm,
+                                     double edge_sigma_px) {
   // Turns in units of 100 mm at the head's size, so that both halves are alike.
   Matrix6d scale = Matrix6d::Identity();
   scale.topLeftCorner<3, 3>() *= 0.01;
@@ -25,8 +26,13 @@ std::optional<Matrix6d> CovarianceOf(const CapEvidence& evidence) {
                            solver.eigenvectors().transpose();
   // Corners that fit worse than their sigmas say make the pose less certain, never more.
   const int freedom = std::max(1, 2 * evidence.corners - 6);
-  const double spread = std::max(1.0, evidence.squared_sigmas / freedom);
-  return Matrix6d(spread * scale * inverse * scale);
+  const double spread = std::max(1.0, evidence.unexplained / freedom);
+  const Matrix6d own = scale * inverse * scale;
+  // What is common to corners moves the pose by (J^T W J)^-1 J^T W K.
+  Matrix6d common = edge_sigma_px * edge_sigma_px * evidence.by_edges * evidence.by_edges.transpose();
+  for (const auto& by_shift : evidence.by_marker)
+    common += place_sigma_mm * place_sigma_mm * by_shift * by_shift.transpose();
+  return Matrix6d(spread * own + own * common * own);
 }
 
 // Whether a second minimum explains the corners nearly as well.
@@ -68,12 +74,12 @@ std::variant<CapPose, NoCapPose> FindCapPose(const Cap& cap, std::span<const Cap
   const std::vector<PoseFit> minima = MinimaOf(problem, StartsOf(cap, cameras, sightings));
   if (minima.empty()) return NoCapPose::kUncertain;
   const core::RigidTransform& world_from_head = minima.front().rig_from_board;
-  const CapEvidence evidence = EvidenceFor(problem, world_from_head);
+  const CapEvidence evidence = EvidenceFor(cap, problem, world_from_head);
   if (evidence.corners < kLeastAgreeingCorners ||
       evidence.corners < kLeastAgreeingShare * evidence.corners_in_all)
     return NoCapPose::kDisagreement;
   if (IsAmbiguous(minima, evidence, options.least_lead)) return NoCapPose::kAmbiguous;
-  const auto covariance = CovarianceOf(evidence);
+  const auto covariance = CovarianceOf(evidence, cap.place_sigma_mm, options.edge_sigma_px);
   if (!covariance) return NoCapPose::kUncertain;
   const CapPose pose{world_from_head,
                      *covariance,

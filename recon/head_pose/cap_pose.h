@@ -15,8 +15,10 @@
 namespace elbowroom::recon {
 
 struct CapPoseOptions {
-  // What corners are off by beside the noise: lens, print, and the model of an edge. > 0.
-  double least_sigma_px = 0.12;
+  // What each corner is off by for itself beside its noise: the model of an edge. > 0.
+  double least_sigma_px = 0.04;
+  // What blur moves the edges of all markers by, inwards together, in all pictures.
+  double edge_sigma_px = 0.05;
   // A pose that is less certain is refused.
   double most_sigma_mm = 8.0;
   double most_sigma_rad = 0.03;
@@ -27,8 +29,9 @@ struct CapPoseOptions {
 
 struct CapPose {
   core::RigidTransform world_from_head;
-  // Of a turn in `head` (rad), then of the eyes' place in world (mm), to the first order; the cameras are
-  // taken as exact.
+  // Of a turn in `head` (rad), then of the eyes' place in world (mm), to the first order: noise, which
+  // averages out over corners and cameras, and the places of the markers and blur, which don't. The cameras
+  // are taken as exact.
   Eigen::Matrix<double, 6, 6> covariance;
   double rms_px = 0.0;  // of the corners that agree
   int cameras = 0;      // that see a marker

@@ -7,14 +7,17 @@
 #include <QMenu>
 #include <QObject>
 #include <QTimer>
+#include <array>
 #include <memory>
 #include <optional>
 
+#include "app/console/participant/head_camera_dialog.h"
 #include "app/console/participant/participant_dialog.h"
 #include "app/console/participant/participant_view.h"
 #include "app/console/view/bridge.h"
 #include "app/control/frame_time_tally.h"
 #include "app/control/head/head_tracker.h"
+#include "app/control/head/headset_screen.h"
 #include "app/control/participant/participant_pictures.h"
 #include "core/rig.h"
 
@@ -39,6 +42,7 @@ class ParticipantDesk : public QObject {
   void Open();
   void Close();
   void ShowChoices();
+  void RegisterHeadCamera();  // opens the dialog for it
 
   [[nodiscard]] bool is_open() const { return view_ != nullptr; }
   [[nodiscard]] ParticipantView* view() { return view_.get(); }
@@ -51,11 +55,15 @@ class ParticipantDesk : public QObject {
 
  private:
   void TakeChoices();
+  void TakeInstant();
+  [[nodiscard]] recon::HeadCamera SavedHeadCamera();
+  [[nodiscard]] control::HeadSettings FixedHead() const;
   void StartTracker();
   void AskForPictures();
   void ShowPicture(const control::ParticipantPicture& picture);
   void ShowState();
   [[nodiscard]] QString StateText() const;
+  [[nodiscard]] bool ShowsInHeadset() const;
 
   QWidget* window_;
   ParticipantChoices choices_;
@@ -63,7 +71,9 @@ class ParticipantDesk : public QObject {
   QAction* shows_;  // checked while the window is open
   QLabel* status_;
   ParticipantDialog* dialog_ = nullptr;
-  QTimer watch_;  // of tracking
+  HeadCameraDialog* registering_ = nullptr;
+  recon::HeadCamera head_camera_;  // of the head file
+  QTimer watch_;                   // of tracking
   std::optional<core::Rig> rig_;
   control::SharedFrameResult result_;
   control::SceneLook look_;
@@ -73,7 +83,9 @@ class ParticipantDesk : public QObject {
   double poses_per_s_ = 0.0;
   QElapsedTimer since_count_;
   std::unique_ptr<ParticipantView> view_;
-  Bridge bridge_;  // before the threads that post to it
+  std::shared_ptr<control::HeadsetScreen> headset_ = std::make_shared<control::HeadsetScreen>();
+  std::array<int, 2> headset_px_{};  // an eye's picture, as it was asked for
+  Bridge bridge_;                    // before the threads that post to it
   std::unique_ptr<control::ParticipantPictures> pictures_;
   std::unique_ptr<control::HeadTracker> tracker_;  // posts to pictures_
 };

@@ -44,7 +44,7 @@ ParticipantDialog::ParticipantDialog(const ParticipantChoices& choices, QWidget*
   state_ = new QLabel(tr("The window is closed"));
   state_->setObjectName("participant_state");
   state_->setWordWrap(true);
-  state_->setMinimumHeight(2 * state_->fontMetrics().lineSpacing());
+  state_->setMinimumHeight(4 * state_->fontMetrics().lineSpacing());  // as long as what a headset lacks
   state_->setAlignment(Qt::AlignTop | Qt::AlignLeft);
   tracker_form->addRow(state_);
   open_ = new QPushButton;
@@ -81,6 +81,7 @@ void ParticipantDialog::AddPicture(const ParticipantChoices& choices, QFormLayou
   mode_->addItem(tr("Mirrored"), static_cast<int>(ViewMode::kMirror));
   mode_->addItem(tr("A camera's picture, with the parts"), static_cast<int>(ViewMode::kCamera));
   mode_->addItem(tr("The same, as a mirror"), static_cast<int>(ViewMode::kCameraMirror));
+  mode_->addItem(tr("The head camera's picture, with the parts"), static_cast<int>(ViewMode::kHeadCamera));
   Name(mode_, "participant_mode", tr("Kind of picture"),
        tr("From the head: one picture, one for each eye, or mirrored; or the parts in a camera's live "
           "picture"));
@@ -92,7 +93,9 @@ void ParticipantDialog::AddPicture(const ParticipantChoices& choices, QFormLayou
   camera_ = new QSpinBox;
   camera_->setRange(1, 64);
   camera_->setValue(choices.camera);
-  Name(camera_, "participant_camera", tr("Camera"), tr("Whose picture is shown, in the rig's order, from 1"));
+  Name(camera_, "participant_camera", tr("Camera"),
+       tr("Whose picture is shown, in the rig's order, from 1; for the head camera: where the trial has no "
+          "[viewer]"));
   connect(camera_, &QSpinBox::valueChanged, this, &ParticipantDialog::Changed);
   display_ = new QComboBox;
   for (const QScreen* screen : QGuiApplication::screens())
@@ -132,8 +135,10 @@ void ParticipantDialog::AddTracker(const ParticipantChoices& choices, QFormLayou
   source_->addItem(tr("OpenTrack (UDP)"), static_cast<int>(HeadSource::kOpenTrack));
   source_->addItem(tr("FreeD (UDP)"), static_cast<int>(HeadSource::kFreeD));
   source_->addItem(tr("Markers on a cap"), static_cast<int>(HeadSource::kCap));
+  source_->addItem(tr("OpenXR headset"), static_cast<int>(HeadSource::kOpenXr));
   Name(source_, "participant_source", tr("Source of the head's pose"),
-       tr("Where the head's pose comes from; the cap is seen by the rig's own cameras"));
+       tr("Where the head's pose comes from; the cap is seen by the rig's own cameras; an "
+          "OpenXR headset also shows the picture, in stereo"));
   Choose(source_, choices.source);
   port_ = new QSpinBox;
   port_->setRange(1, 65535);
@@ -177,8 +182,11 @@ void ParticipantDialog::FollowChoices() {
   const auto source = ChosenIn<HeadSource>(source_);
   const auto mode = ChosenIn<control::ViewMode>(mode_);
   camera_->setEnabled(control::IsOfCamera(mode));
-  fov_->setEnabled(!control::IsOfCamera(mode));
-  for (QWidget* stereo : {ipd_, convergence_}) stereo->setEnabled(mode == control::ViewMode::kStereo);
+  // A headset says itself where its eyes are and how far they see.
+  const bool is_headsets = source == HeadSource::kOpenXr && mode == control::ViewMode::kStereo;
+  fov_->setEnabled(!control::IsOfCamera(mode) && !is_headsets);
+  for (QWidget* stereo : {ipd_, convergence_})
+    stereo->setEnabled(mode == control::ViewMode::kStereo && !is_headsets);
   port_->setEnabled(source == HeadSource::kOpenTrack || source == HeadSource::kFreeD);
 }
 

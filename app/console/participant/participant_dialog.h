@@ -24,7 +24,8 @@ class ParticipantDialog : public QDialog {
 
   [[nodiscard]] ParticipantChoices choices() const;
   void ShowState(const QString& text);  // of tracking, one or two lines
-  void ShowOpen(bool is_open);          // whether the participant's window is
+  void SetHeadFile(const QString& head_file) { head_file_->setText(head_file); }
+  void ShowOpen(bool is_open);  // whether the participant's window is
 
  signals:
   void Changed();

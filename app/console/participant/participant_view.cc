@@ -3,6 +3,7 @@
 #include <QKeyEvent>
 #include <QPainter>
 #include <QScreen>
+#include <algorithm>
 #include <utility>
 
 #include "app/console/view/picture_asker.h"
@@ -97,7 +98,8 @@ void ParticipantView::TellAge() {
       this,
       [this, measured_at = *std::exchange(measured_at_, std::nullopt)] {
         const auto now = std::chrono::steady_clock::now();
-        emit PictureSeen(std::chrono::duration<double, std::milli>(now - measured_at).count());
+        // A headset's pose is predicted: before its time it has no age.
+        emit PictureSeen(std::max(0.0, std::chrono::duration<double, std::milli>(now - measured_at).count()));
       },
       Qt::QueuedConnection);
 }

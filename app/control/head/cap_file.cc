@@ -47,10 +47,13 @@ std::string Triple(const Vector3d& v) {
 recon::Cap ReadCapFile(const std::filesystem::path& path) {
   const toml::table root = cad_import::ParseTomlFile(path, "cap file");
   const TomlEntry entry(root, path.string(), "",
-                        {"name", "dictionary", "eyes_mm", "forward", "up", "marker"});
+                        {"name", "dictionary", "eyes_mm", "forward", "up", "place_sigma_mm", "marker"});
   recon::Cap cap;
   cap.name = entry.TextOr("name", path.stem().string());
   cap.dictionary = entry.Text("dictionary");
+  cap.place_sigma_mm = entry.NumberOr("place_sigma_mm", cap.place_sigma_mm);
+  if (!(cap.place_sigma_mm >= 0.0 && cap.place_sigma_mm <= 10.0))
+    entry.Fail("place_sigma_mm", "must lie within [0, 10]");
   for (const TomlEntry& marker : entry.Entries("marker", kMarkerKeys))
     cap.markers.push_back(MarkerOf(marker));
   const Vector3d forward = entry.Vector("forward").value_or(Vector3d::UnitY());
@@ -72,9 +75,10 @@ std::string CapFileText(const recon::Cap& cap) {
       "name = \"{}\"\ndictionary = \"{}\"\n"
       "eyes_mm = {}  # the middle between the eyes\n"
       "forward = {}  # where the face looks\n"
-      "up = {}       # where the crown of the head is\n",
+      "up = {}       # where the crown of the head is\n"
+      "place_sigma_mm = {}  # how exactly the markers are where this file says: a standard deviation\n",
       cap.name, cap.dictionary, Triple(cap.cap_from_head.translation_mm), Triple(head.col(2)),
-      Triple(-head.col(1)));
+      Triple(-head.col(1)), cap.place_sigma_mm);
   for (const recon::CapMarker& marker : cap.markers)
     text += fmt::format("\n[[marker]]\nid = {}\nside_mm = {}\nposition_mm = {}\nnormal = {}\nup = {}\n",
                         marker.id, marker.side_mm, Triple(marker.cap_from_marker.translation_mm),

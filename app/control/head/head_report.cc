@@ -50,6 +50,11 @@ double SecondsSince(HeadClock::time_point begin) {
   return std::chrono::duration<double>(HeadClock::now() - begin).count();
 }
 
+bool IsRefused(const HeadReport& report) {
+  return report.headset && report.headset->phase == recon::HeadsetPhase::kRefused &&
+         report.counts.accepted == 0;
+}
+
 std::string Turned(double angle_deg, const char* if_positive, const char* if_negative) {
   return fmt::format("{:.1f} {}", std::abs(angle_deg), angle_deg < -0.05 ? if_negative : if_positive);
 }
@@ -63,8 +68,8 @@ double HeadReport::poses_per_s() const {
 HeadReport WatchPackets(const HeadSettings& settings, double seconds, const std::function<void(int)>& on_port,
                         const OnHeadReport& on_report, const std::stop_token& stop) {
   using recon::HeadSource;
-  core::Require(settings.source == HeadSource::kOpenTrack || settings.source == HeadSource::kFreeD,
-                "the source sends packets");
+  core::Require(settings.source != HeadSource::kFixed && settings.source != HeadSource::kCap,
+                "the source sends packets, or is a headset");
   std::mutex mutex;
   std::condition_variable_any came;
   bool has_news = false;
@@ -73,12 +78,12 @@ HeadReport WatchPackets(const HeadSettings& settings, double seconds, const std:
     has_news = true;
     came.notify_all();
   });
-  if (on_port) on_port(*tracker.port());
+  if (on_port && tracker.port()) on_port(*tracker.port());
   PlaceSpread spread;
   HeadReport report;
   const auto begin = HeadClock::now();
   auto told_at = begin;
-  while (!stop.stop_requested() && SecondsSince(begin) < seconds) {
+  while (!stop.stop_requested() && SecondsSince(begin) < seconds && !IsRefused(report)) {
     {
       std::unique_lock lock(mutex);
       (void)came.wait_for(lock, stop, kTellsEvery, [&] { return has_news; });
@@ -89,6 +94,7 @@ HeadReport WatchPackets(const HeadSettings& settings, double seconds, const std:
     }
     report.seconds = SecondsSince(begin);
     report.counts = tracker.counts();
+    report.headset = tracker.headset();
     report.spread_mm = spread.Rms();
     if (!on_report || HeadClock::now() - told_at < kTellsEvery) continue;
     told_at = HeadClock::now();

@@ -11,6 +11,7 @@
 
 #include "app/control/head/head_pose_holder.h"
 #include "app/control/head/head_settings.h"
+#include "app/control/head/headset_watch.h"
 #include "recon/footage/frame_set.h"
 
 namespace elbowroom::control {
@@ -28,14 +29,16 @@ struct HeadReport {
   std::optional<double> sigma_mm;
   std::optional<double> sigma_rad;
   std::optional<double> cameras;
+  std::optional<HeadsetStatus> headset;  // of openxr
 
   [[nodiscard]] double poses_per_s() const;
 };
 
 using OnHeadReport = std::function<void(const HeadReport&)>;  // so far; a few times a second
 
-// Listens to the packets of settings.source, opentrack or freed, for so long or until `stop`. `on_port` is
-// told the port once it is open. Throws: as HeadTracker; PreconditionError for another source.
+// Listens to the packets of settings.source, opentrack or freed, or follows the headset of openxr, for so
+// long or until `stop`; or until it is clear that there is no headset. `on_port` is told the port once it is
+// open. Throws: as HeadTracker; PreconditionError for another source.
 [[nodiscard]] HeadReport WatchPackets(const HeadSettings& settings, double seconds,
                                       const std::function<void(int port)>& on_port,
                                       const OnHeadReport& on_report, const std::stop_token& stop);

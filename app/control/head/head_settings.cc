@@ -7,6 +7,7 @@
 #include <iterator>
 #include <span>
 
+#include "app/control/head/head_camera_file.h"
 #include "cad_import/layout/toml_entry.h"
 #include "core/error.h"
 
@@ -57,6 +58,13 @@ ReadingSigns SignsOf(const TomlEntry& entry) {
   return signs;
 }
 
+recon::HeadsetSpace SpaceOf(const TomlEntry& entry) {
+  const std::string text = entry.TextOr("space", "stage");
+  if (text == "local") return recon::HeadsetSpace::kLocal;
+  if (text != "stage") entry.Fail("space", "must be stage or local");
+  return recon::HeadsetSpace::kStage;
+}
+
 void ReadFixed(const toml::table& root, const std::string& file, HeadSettings* settings) {
   constexpr std::string_view kKeys[] = {"eyes_mm", "looks_at_mm"};
   const auto entry = TableOf(root, file, "fixed", kKeys);
@@ -70,8 +78,8 @@ void ReadFixed(const toml::table& root, const std::string& file, HeadSettings* s
 
 std::optional<recon::HeadSource> ParseHeadSource(std::string_view text) {
   using recon::HeadSource;
-  for (const HeadSource source :
-       {HeadSource::kFixed, HeadSource::kOpenTrack, HeadSource::kFreeD, HeadSource::kCap})
+  for (const HeadSource source : {HeadSource::kFixed, HeadSource::kOpenTrack, HeadSource::kFreeD,
+                                  HeadSource::kCap, HeadSource::kOpenXr})
     if (text == recon::ToString(source)) return source;
   return std::nullopt;
 }
@@ -91,19 +99,21 @@ RigidTransform HeadSettings::LookingAt(const Vector3d& eyes_in_world, const Vect
 HeadSettings ReadHeadFile(const std::filesystem::path& path) {
   const std::string file = path.string();
   const toml::table root = cad_import::ParseTomlFile(path, "head file");
-  const TomlEntry entry(
-      root, file, "",
-      {"source", "address", "port", "camera", "inverted", "cap", "tracker", "sensor", "fixed"});
+  const TomlEntry entry(root, file, "",
+                        {"source", "address", "port", "camera", "inverted", "cap", "space", "tracker",
+                         "sensor", "head_camera", "fixed"});
   HeadSettings settings;
   const auto source = ParseHeadSource(entry.TextOr("source", "fixed"));
-  if (!source) entry.Fail("source", "must be fixed, opentrack, freed or cap");
+  if (!source) entry.Fail("source", "must be fixed, opentrack, freed, cap or openxr");
   settings.source = *source;
   settings.address = entry.TextOr("address", settings.address);
   settings.port = WholeNumber(entry, "port", 1, 65535);
   settings.camera = WholeNumber(entry, "camera", 0, 255);
   settings.signs = SignsOf(entry);
+  settings.space = SpaceOf(entry);
   settings.world_from_tracker = FrameOf(root, file, "tracker");
   settings.sensor_from_head = FrameOf(root, file, "sensor");
+  settings.head_camera = HeadCameraOf(root, file);
   ReadFixed(root, file, &settings);
   if (entry.Find("cap") != nullptr) settings.cap = ReadCapFile(path.parent_path() / entry.Text("cap"));
   return settings;

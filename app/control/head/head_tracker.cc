@@ -18,7 +18,7 @@ constexpr std::chrono::milliseconds kHearsStop{50};
 }  // namespace
 
 HeadTracker::HeadTracker(HeadSettings settings, std::optional<core::Rig> rig, OnHeadPose on_pose,
-                         HeadLimits limits)
+                         HeadLimits limits, std::shared_ptr<HeadsetScreen> screen)
     : settings_(std::move(settings)), on_pose_(std::move(on_pose)), holder_(limits) {
   switch (settings_.source) {
     case HeadSource::kFixed:
@@ -38,7 +38,19 @@ HeadTracker::HeadTracker(HeadSettings settings, std::optional<core::Rig> rig, On
       thread_ =
           std::jthread([this, watch = std::make_shared<CapWatch>(settings_.cap, *rig)] { RunCap(*watch); });
       return;
+    case HeadSource::kOpenXr:
+      headset_ = std::make_unique<HeadsetWatch>(std::move(screen));
+      thread_ = std::jthread([this](const std::stop_token& stop) {
+        headset_->Run(
+            settings_, [this](const HeadPose& pose) { Accept(pose); },
+            [this](PoseFault fault) { holder_.CountFault(fault); }, stop);
+      });
+      return;
   }
+}
+
+std::optional<HeadsetStatus> HeadTracker::headset() const {
+  return headset_ ? std::optional(headset_->status()) : std::nullopt;
 }
 
 HeadTracker::~HeadTracker() { frames_.Close(); }

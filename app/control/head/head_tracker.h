@@ -9,6 +9,7 @@
 
 #include "app/control/head/head_pose_holder.h"
 #include "app/control/head/head_settings.h"
+#include "app/control/head/headset_watch.h"
 #include "core/bounded_queue.h"
 #include "core/rig.h"
 #include "recon/footage/frame_set.h"
@@ -27,10 +28,11 @@ using SharedFrames = std::shared_ptr<const recon::FrameSet>;
 class HeadTracker {
  public:
   // fixed: the pose is offered again and again, so that it never is stale. opentrack, freed: packets of the
-  // port. cap: the pictures of `rig`, which OfferFrames brings. Throws: Error as UdpPort, for a cap that
-  // CapFinder refuses, or a cap without a rig.
+  // port. cap: the pictures of `rig`, which OfferFrames brings. openxr: the headset's, which shows what comes
+  // to `screen`, if there is one; headset() says what is wrong with it. Throws: Error as UdpPort, for a cap
+  // that CapFinder refuses, or a cap without a rig.
   HeadTracker(HeadSettings settings, std::optional<core::Rig> rig, OnHeadPose on_pose = {},
-              HeadLimits limits = {});
+              HeadLimits limits = {}, std::shared_ptr<HeadsetScreen> screen = nullptr);
   ~HeadTracker();
   HeadTracker(const HeadTracker&) = delete;
   HeadTracker& operator=(const HeadTracker&) = delete;
@@ -40,6 +42,9 @@ class HeadTracker {
   [[nodiscard]] HeadCounts counts() const { return holder_.counts(); }
   // The one that is listened to; nothing without a network.
   [[nodiscard]] std::optional<int> port() const { return port_; }
+
+  // Of openxr.
+  [[nodiscard]] std::optional<HeadsetStatus> headset() const;
 
   // Pictures of an instant, for the cap: the latest wins. Does nothing for other sources.
   void OfferFrames(SharedFrames frames);
@@ -53,6 +58,7 @@ class HeadTracker {
   OnHeadPose on_pose_;
   HeadPoseHolder holder_;
   std::optional<int> port_;
+  std::unique_ptr<HeadsetWatch> headset_;
   core::BoundedQueue<std::pair<SharedFrames, HeadClock::time_point>> frames_{1, core::WhenFull::kDropOldest};
   std::jthread thread_;  // last: it starts when all other members exist
 };

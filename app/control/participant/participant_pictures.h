@@ -3,16 +3,20 @@
 
 #include <condition_variable>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <mutex>
 #include <stop_token>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "app/control/frame_result.h"
 #include "app/control/head/head_pose_holder.h"
+#include "app/control/head/headset_screen.h"
 #include "app/control/participant/eye_views.h"
 #include "app/control/scene_composer.h"
+#include "recon/head_pose/head_camera.h"
 #include "recon/images/image.h"
 
 namespace elbowroom::control {
@@ -21,9 +25,12 @@ namespace elbowroom::control {
 struct ParticipantLook {
   EyeOptions eyes;
   SceneLook scene;
-  core::CameraIndex camera = 0;  // kCamera, kCameraMirror
+  core::CameraIndex camera = 0;  // kCamera, kCameraMirror; kHeadCamera, where the trial has no [viewer]
   int width_px = 0;              // of the whole picture, both eyes together; 0: none is drawn
   int height_px = 0;
+  recon::HeadCamera head_camera{};
+  std::filesystem::path
+      head_picture{};  // kHeadCamera: a picture's file in the place of the camera's; empty: none
 
   [[nodiscard]] bool operator==(const ParticipantLook&) const = default;
 };
@@ -34,8 +41,14 @@ struct ParticipantPicture {
   std::int64_t serial = 0;  // of the pose, HeadState::serial
   core::FrameIndex frame = 0;
   double drawing_ms = 0.0;
+  std::vector<EyeView> headset_eyes{};  // of the two pictures side by side; empty: it isn't for a headset
 };
 
+// Hands both eyes' parts of a picture to the headset. False: it isn't for one, or the headset hasn't taken
+// the last one yet.
+bool ShowInHeadset(const ParticipantPicture& picture, HeadsetScreen* screen);
+
+// In stereo, from a pose that has the eyes of a headset, the picture is that of the headset's eyes.
 // Each picture is of the latest pose and frame that there are when its drawing begins. A pose, a
 // frame or a look that comes while one is drawn makes the next one follow at once; without any, nothing is
 // drawn, but for one picture in full when nothing has changed for a while. Where drawing takes longer than a

@@ -42,6 +42,20 @@ void FrameOverlays::PaintOn(recon::Image* picture, const FrameResult& result, co
   overlay->PaintOn(picture, result.hull);
 }
 
+void FrameOverlays::PaintOn(recon::Image* picture, const FrameResult& result,
+                            const core::CameraModel& camera) {
+  if (picture->rgb.empty() || result.layout == nullptr) return;
+  const auto is_there = [&](const core::CameraModel& other) {
+    return other.cam_from_world() == camera.cam_from_world() && other.width_px() == picture->width_px &&
+           other.height_px() == picture->height_px &&
+           other.calibration().camera_matrix == camera.calibration().camera_matrix;
+  };
+  if (!moving_ || !is_there(moving_->view().camera()))
+    moving_ = std::make_unique<CameraOverlay>(camera, picture->width_px, picture->height_px, look_);
+  moving_->Place(PartsOf(result, &meshes_));
+  moving_->PaintOn(picture, result.hull);
+}
+
 OverlayCount FrameOverlays::count() const {
   OverlayCount sum;
   for (const auto& overlay : overlays_)

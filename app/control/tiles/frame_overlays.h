@@ -21,6 +21,9 @@ class FrameOverlays {
   // stays so.
   void PaintOn(recon::Image* picture, const FrameResult& result, core::CameraIndex camera);
 
+  // The same on a picture of a camera that isn't one of the rig's, and may move.
+  void PaintOn(recon::Image* picture, const FrameResult& result, const core::CameraModel& camera);
+
   [[nodiscard]] OverlayCount count() const;  // of the cameras' present sizes
 
  private:
@@ -28,6 +31,7 @@ class FrameOverlays {
   OutlinedMeshes meshes_;
   std::shared_ptr<const core::Rig> rig_;
   std::vector<std::unique_ptr<CameraOverlay>> overlays_;  // one a camera; null: not asked for yet
+  std::unique_ptr<CameraOverlay> moving_;                 // of the camera that isn't the rig's
 };
 
 }  // namespace elbowroom::control

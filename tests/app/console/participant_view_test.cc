@@ -7,12 +7,15 @@
 #include <QSignalSpy>
 #include <QSpinBox>
 #include <QTest>
+#include <algorithm>
+#include <cmath>
 
 #include "app/console/participant/participant_desk.h"
 #include "app/control/demo_parts.h"
 #include "app/control/demo_trial.h"
 #include "app/control/frame_pipeline.h"
 #include "app/control/head/udp_port.h"
+#include "tests/openxr_runtime/mock_headset.h"
 
 namespace elbowroom::console {
 namespace {
@@ -100,6 +103,50 @@ TEST_F(ParticipantWindow, FollowsPacketsAndStaysWhenTheyEnd) {
       QTest::qWaitFor([&] { return desk->tracker()->counts().all_refused() >= refused + 20; }, kLongMs));
   EXPECT_EQ(desk->view()->picture(), before);
   desk->Close();
+}
+
+// Both eyes' pictures go to the headset; when its runtime crashes, the window stays and says so.
+TEST_F(ParticipantWindow, ShowsStereoInAnOpenXrHeadset) {
+  test_support::MockHeadset mock;
+  Eigen::Vector3d place(0.0, 0.5, 0.6);                                              // m, y up, z back
+  const Eigen::Quaterniond turn(Eigen::AngleAxisd(-0.5, Eigen::Vector3d::UnitX()));  // looks down
+  ParticipantChoices choices = RememberedChoices();
+  choices.source = recon::HeadSource::kOpenXr;
+  choices.eyes.mode = control::ViewMode::kStereo;
+  Make(choices);
+  desk->Open();
+  const auto until = [&](const auto& done) {
+    for (int i = 0; i < 6000 && !done(); ++i) {
+      place.x() += 1e-5;
+      mock.Put(place, turn);
+      QTest::qWait(10);
+    }
+    return done();
+  };
+  ASSERT_TRUE(until([&] { return mock.control().frames_with_pictures > 10 && HasPicture(); }));
+  mock.control().keeps_pictures = 0;
+  const auto shown = mock.Pictures();
+  // What the left eye sees of the parts is further to the right.
+  const auto middle_of_parts = [](const test_support::MockPicture& picture) {
+    double sum = 0.0, columns = 0.0;
+    for (int i = 0; i < picture.width_px * picture.height_px; ++i) {
+      const auto* pixel = picture.rgb.data() + 3 * static_cast<std::ptrdiff_t>(i);
+      if (std::max({pixel[0], pixel[1], pixel[2]}) - std::min({pixel[0], pixel[1], pixel[2]}) < 40) continue;
+      const double left = std::tan(picture.fov[0]), right = std::tan(picture.fov[1]);
+      sum += left + (right - left) * (i % picture.width_px + 0.5) / picture.width_px;
+      columns += 1.0;
+    }
+    EXPECT_GT(columns, 500.0);
+    return sum / columns;
+  };
+  EXPECT_GT(middle_of_parts(shown[0]), middle_of_parts(shown[1]) + 0.02);
+  EXPECT_EQ(mock.control().misuse, 0) << mock.control().what_misuse.data();
+  mock.control().crashes = 1;
+  ASSERT_TRUE(until([&] { return desk->view()->is_lost(); }));
+  EXPECT_TRUE(desk->is_open());
+  EXPECT_TRUE(HasPicture());
+  ASSERT_TRUE(until([&] { return desk->status()->toolTip().contains("crashed"); }))
+      << desk->status()->toolTip().toStdString();
 }
 
 TEST_F(ParticipantWindow, TellsWhyATrackerCannotBe) {

@@ -8,6 +8,7 @@
 #include "app/control/head/head_settings.h"
 #include "app/control/head/tracker_packet.h"
 #include "app/control/head/udp_port.h"
+#include "tests/openxr_runtime/mock_headset.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text_file.h"
@@ -51,6 +52,26 @@ TEST(HeadCommand, SaysThatNothingComes) {
       kProgram, {"head", "--source", "opentrack", "--port", std::to_string(port), "--seconds", "0.3"});
   EXPECT_EQ(run.exit_status, 1);
   EXPECT_NE(run.err.find(std::to_string(port)), std::string::npos);
+}
+
+TEST(HeadCommand, FollowsAnOpenXrHeadset) {
+  const test_support::MockHeadset mock;
+  const auto run = RunProgram(kProgram, {"head", "--source", "openxr", "--seconds", "3", "--json"});
+  ASSERT_EQ(run.exit_status, 0) << run.err;
+  const auto json = nlohmann::json::parse(run.out);
+  EXPECT_EQ(json["source"], "openxr");
+  EXPECT_EQ(json["headset"]["name"], "Mock runtime 1.2.3, Mock headset");
+  EXPECT_EQ(json["headset"]["state"], "focused");
+  EXPECT_NEAR(json["last"]["position_mm"][2].get<double>(), 1200.0, 1e-3);
+  EXPECT_EQ(mock.control().misuse, 0) << mock.control().what_misuse.data();
+}
+
+TEST(HeadCommand, SaysAtOnceThatThereIsNoRuntime) {
+  test_support::RunOptions options;
+  options.environment = {{"XR_RUNTIME_JSON", "/nowhere/runtime.json"}};
+  const auto run = RunProgram(kProgram, {"head", "--source", "openxr", "--seconds", "3600"}, options);
+  EXPECT_EQ(run.exit_status, 1);
+  EXPECT_NE(run.err.find("no OpenXR runtime answers"), std::string::npos) << run.err;
 }
 
 TEST(HeadCommand, WritesACapThatItReads) {

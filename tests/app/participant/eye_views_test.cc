@@ -78,6 +78,52 @@ TEST(EyeViews, MonoIsTheHeadsOwnView) {
   }
 }
 
+// What a headset asks for, but for half a pixel at each side; and what is said to be in the pictures is in
+// them.
+TEST(EyeViews, AHeadsetsEyesAreCutOutOfSymmetricPictures) {
+  std::mt19937 random(8);
+  std::uniform_real_distribution<double> any(-1.0, 1.0);
+  for (int i = 0; i < 300; ++i) {
+    recon::HeadsetEyes eyes;
+    for (std::size_t side = 0; side < 2; ++side) {
+      eyes.eyes[side].head_from_eye = {
+          Eigen::AngleAxisd(0.1 * any(random), Vector3d(any(random), 1.0, any(random)).normalized())
+              .toRotationMatrix(),
+          {side == 0 ? -32.0 : 32.0, any(random), any(random)}};
+      eyes.eyes[side].tangents = {-0.9 + 0.5 * any(random), 0.9 + 0.5 * any(random), 0.9 + 0.4 * any(random),
+                                  -0.9 + 0.4 * any(random)};
+    }
+    const auto views = HeadsetEyeViewsOf(SomeHead(), eyes, 500, 520);
+    ASSERT_EQ(views.size(), 2U);
+    for (std::size_t side = 0; side < 2; ++side) {
+      const EyeView& eye = views[side];
+      eye.view.Validate();
+      ASSERT_GE(eye.first_column, 0);
+      ASSERT_GE(eye.first_row, 0);
+      ASSERT_LE(eye.first_column + eye.width_px, eye.view.width_px);
+      ASSERT_LE(eye.first_row + eye.height_px, eye.view.height_px);
+      EXPECT_LE(eye.width_px, 500);
+      EXPECT_LE(eye.height_px, 520);
+      const recon::EyeTangents& wanted = eyes.eyes[side].tangents;
+      const recon::EyeTangents seen = eye.Seen();
+      const double pixel = 1.0 / eye.view.focal_px;
+      EXPECT_NEAR(seen.left, wanted.left, 0.501 * pixel);
+      EXPECT_NEAR(seen.right, wanted.right, 1.01 * pixel);  // half of it where the picture would be too wide
+      EXPECT_NEAR(seen.up, wanted.up, 0.501 * pixel);
+      EXPECT_NEAR(seen.down, wanted.down, 1.01 * pixel);
+      // A ray of the eye is in the part where the tangents say.
+      const double x = seen.left + (seen.right - seen.left) * (0.5 + 0.49 * any(random));
+      const double y = seen.down + (seen.up - seen.down) * (0.5 + 0.49 * any(random));
+      const Vector3d in_world =
+          SomeHead() * (eyes.eyes[side].head_from_eye * Vector3d(900.0 * x, -900.0 * y, 900.0));
+      const auto at = eye.view.Project(in_world);
+      ASSERT_TRUE(at.has_value());
+      EXPECT_NEAR(at->x() - eye.first_column + 0.5, (x - seen.left) / pixel, 1e-6);
+      EXPECT_NEAR(at->y() - eye.first_row + 0.5, (seen.up - y) / pixel, 1e-6);
+    }
+  }
+}
+
 TEST(EyeViews, RefuseWhatIsOutOfRange) {
   EXPECT_THROW((void)EyeViewsOf({}, {ViewMode::kMono, -1.0, 1.0, 700.0}, 640, 480), core::PreconditionError);
   EXPECT_THROW((void)EyeViewsOf({}, {ViewMode::kMono, 60.0, 3.1, 700.0}, 640, 480), core::PreconditionError);

@@ -128,10 +128,18 @@ void DrawRow(const CapInView& view, const core::CameraModel& camera, int y, cons
     if (!right || !below) return;
     double sum = 0.0;
     auto& level = picture->at<float>(y, x);
-    for (int i = 0; i < kPlaces; ++i) {  // Roberts' R2 sequence
-      const double a = 0.5 + 0.7548776662466927 * i, b = 0.5 + 0.5698402909980532 * i;
-      const Vector2d point =
-          *corner + (a - std::floor(a)) * (*right - *corner) + (b - std::floor(b)) * (*below - *corner);
+    for (int i = 0; i < kPlaces; ++i) {
+      // Roberts' R2 sequence and its image in the pixel's middle: the mean place is the middle, or the whole
+      // picture would be shifted.
+      const int k = i / 2;
+      double a = 0.5 + 0.7548776662466927 * (k + 0.5), b = 0.5 + 0.5698402909980532 * (k + 0.5);
+      a -= std::floor(a);
+      b -= std::floor(b);
+      if (i % 2 == 1) {
+        a = 1.0 - a;
+        b = 1.0 - b;
+      }
+      const Vector2d point = *corner + a * (*right - *corner) + b * (*below - *corner);
       sum += LevelAlong(view, point.homogeneous(), options).value_or(static_cast<double>(level));
     }
     level = static_cast<float>(sum / kPlaces);
