@@ -6,6 +6,7 @@
 #include <QMimeData>
 #include <QScreen>
 #include <QScrollArea>
+#include <QTimer>
 #include <QToolBar>
 #include <QVBoxLayout>
 #include <algorithm>
@@ -86,6 +87,7 @@ MainWindow::MainWindow(std::filesystem::path session)
   spacings_ = new SpacingPanel;
   view_ = new OperatorView;
   sights_ = new TrialSights(view_, this);
+  sights_->hide();  // until a trial is opened
   AddPreflight();
   AddPanels();
   AddActions();
@@ -211,9 +213,12 @@ void MainWindow::FollowView() {
 void MainWindow::FitGaps() {
   auto* dock = findChild<QDockWidget*>("gaps_panel");
   const auto* area = qobject_cast<QScrollArea*>(dock->widget());
-  area->widget()->layout()->activate();
+  QLayout* content = area->widget()->layout();
+  content->activate();
+  const int wanted_px = content->hasHeightForWidth() ? content->totalHeightForWidth(area->viewport()->width())
+                                                     : content->totalSizeHint().height();
   const int title_px = dock->height() - area->height();
-  resizeDocks({dock}, {std::min(title_px + area->widget()->sizeHint().height(), height() / 2)}, Qt::Vertical);
+  resizeDocks({dock}, {std::min(title_px + wanted_px, height() / 2)}, Qt::Vertical);
 }
 
 void MainWindow::StartTrial(const QString& trial_file) {
@@ -308,9 +313,10 @@ void MainWindow::OpenTrial(const control::TrialSetup& setup) {
   pages_->Show(Page::kTrial);
   cameras_dock_->show();
   strip_->Open(setup.source->rig());
+  is_fit_to_rules_ = false;
   spacings_->Open(setup.layout);
   tools_->Open(setup.info.tools);
-  FitGaps();
+  QTimer::singleShot(0, this, &MainWindow::FitGaps);  // when the panels have been laid out
   contacts_->Clear();
   touches_->Open(setup.layout);
   status_->Open(desk_->session());
@@ -324,6 +330,8 @@ void MainWindow::ShowFrame(const FrameNews& news) {
   sights_->ShowFrame(news.result);
   spacings_->ShowApplied(news.result->record.spacing_mm);
   spacings_->ShowPairs(*news.result);
+  if (news.result->pairs && !std::exchange(is_fit_to_rules_, true))
+    QTimer::singleShot(0, this, &MainWindow::FitGaps);  // when their lines have been laid out
   contacts_->ShowFrame(*news.result);
   touches_->ShowFrame(*news.result, news.tallies);
   status_->ShowFrame(*news.result, news.recorded);

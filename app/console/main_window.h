@@ -100,6 +100,7 @@ class MainWindow : public QMainWindow {
   TrialDesk* desk_;  // this and all below are owned by Qt as children
   SessionPlace place_;
   bool closes_when_idle_ = false;
+  bool is_fit_to_rules_ = false;  // FitGaps() has seen the lines of pair rules
   bool is_remembered_ = false;
   MessageBar* messages_ = nullptr;
   PageSwitch* pages_ = nullptr;

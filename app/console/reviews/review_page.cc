@@ -21,6 +21,7 @@
 namespace elbowroom::console {
 namespace {
 
+constexpr int kSidePx = 500;
 constexpr int kPlayMs = 33;  // between two looks at the clock
 
 QString TextFrom(const std::filesystem::path& path) { return QString::fromStdString(path.string()); }
@@ -75,6 +76,7 @@ QWidget* ReviewPage::MakeSessionPage() {
   middle->addWidget(right);
   middle->setStretchFactor(0, 3);
   middle->setStretchFactor(1, 2);
+  middle->setSizes({3 * kSidePx / 2, kSidePx});  // in that proportion, whatever they hint at
   auto* page = new QWidget;
   auto* column = new QVBoxLayout(page);
   column->setContentsMargins(0, 0, 0, 0);
