@@ -218,7 +218,12 @@ void MainWindow::FitGaps() {
   const int wanted_px = content->hasHeightForWidth() ? content->totalHeightForWidth(area->viewport()->width())
                                                      : content->totalSizeHint().height();
   const int title_px = dock->height() - area->height();
-  resizeDocks({dock}, {std::min(title_px + wanted_px, height() / 2)}, Qt::Vertical);
+  const int gaps_px = std::min(title_px + wanted_px, height() / 2);
+  // One alone gets only a share of what it is given.
+  auto *contacts = findChild<QDockWidget*>("contacts_panel"),
+       *touches = findChild<QDockWidget*>("touches_panel");
+  const int rest_px = std::max(0, dock->height() + contacts->height() + touches->height() - gaps_px);
+  resizeDocks({dock, contacts, touches}, {gaps_px, rest_px / 2, rest_px / 2}, Qt::Vertical);
 }
 
 void MainWindow::StartTrial(const QString& trial_file) {

@@ -80,6 +80,11 @@ class TrialTour : public Tour {
     Know({"stopped by the experimenter"});  // the rooms below say so
   }
 
+  // The last of its panel, which scrolls where there isn't room for all.
+  void ExpectAllOfTheNoteLine() {
+    const auto* note = Find<QLineEdit>("note");
+    EXPECT_EQ(note->visibleRegion().boundingRect().height(), note->height());
+  }
   void CloseDialogs() {
     for (auto* dialog : window_.findChildren<QDialog*>()) delete dialog;
   }
@@ -89,7 +94,9 @@ TEST_P(TrialTour, TheDemoIsAllThere) {
   Look("trial_start");
   Action("start_demo").trigger();
   AwaitFrames(6);
+  ASSERT_TRUE(WaitUntil([&] { return last_frame_->pairs != nullptr; }));
   Look("trial_running");
+  ExpectAllOfTheNoteLine();
   Action("section").trigger();
   window_.sights().findChild<QCheckBox*>("section_on:y")->setChecked(true);
   Action("measure_faces").trigger();
@@ -143,6 +150,7 @@ TEST_P(ProcedureTour, IsAllThere) {
   Find<QDoubleSpinBox>("spacing_box:gap")->setValue(130.0);
   AwaitFrames(3);
   Look("procedure_running");
+  ExpectAllOfTheNoteLine();
   Find<QDockWidget>("presets_panel")->raise();
   Look("procedure_presets");
   Action("next_step_action").trigger();
