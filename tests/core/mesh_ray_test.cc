@@ -1,6 +1,6 @@
 // The first triangle on a ray, and any: held against each other and against every triangle. The pick under
 // the pointer and the sight lines of the overlay have tests of their own (pick_test, overlay_pieces_test).
-#include "core/mesh_ray.h"
+#include "core/mesh_queries/mesh_ray.h"
 
 #include <gtest/gtest.h>
 
@@ -52,7 +52,7 @@ TEST(MeshRay, TheFirstIsTheNearestOfAllTriangles) {
   }
   const TriangleTree tree(mesh);
   int met = 0;
-  for (int i = 0; i < 2000; ++i) {
+  for (int i = 0; i < 4000; ++i) {
     const MeshRay ray{{2.0 * at(engine), 2.0 * at(engine), 2.0 * at(engine)},
                       {at(engine), at(engine), at(engine)},
                       0.2,

@@ -6,7 +6,7 @@
 #include <tuple>
 #include <utility>
 
-#include "core/first_at_place.h"
+#include "core/mesh_queries/first_at_place.h"
 #include "core/units.h"
 
 namespace elbowroom::control {

@@ -1,6 +1,6 @@
 #include "app/control/overlay/sight_line.h"
 
-#include "core/mesh_ray.h"
+#include "core/mesh_queries/mesh_ray.h"
 
 namespace elbowroom::control {
 namespace {

@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 
 #include "core/infinity.h"
-#include "core/mesh_ray.h"
+#include "core/mesh_queries/mesh_ray.h"
 
 namespace elbowroom::control {
 namespace {

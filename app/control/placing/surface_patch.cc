@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "core/error.h"
-#include "core/first_at_place.h"
+#include "core/mesh_queries/first_at_place.h"
 #include "core/units.h"
 
 namespace elbowroom::control {

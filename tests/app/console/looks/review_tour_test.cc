@@ -18,11 +18,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kComment = "The hand needs more room here.";
+
 class ReviewTour : public Tour {
  protected:
   ReviewTour() : Tour("next.db") {
     fs::copy_file(DemoSession(), reviewed_);
-    Know({"pmt", "payload_a", "payload_b", "payload_a_gap", "tongs", "Ann", "reviewed-keep-out.db",
+    Know({"pmt", "payload_a", "payload_b", "payload_a_gap", "tongs", "Ann", "reviewed-keep-out.db", kComment,
           Find<QLineEdit>("remark_name")->text()});  // who is logged in
     // The demo's task.
     Know({QString::fromStdString(control::MakeDemoTrial(control::DemoPlay::kOnce).info.task),
@@ -45,14 +47,14 @@ TEST_P(ReviewTour, IsAllThere) {
   window_.OpenSession(reviewed_);
   ASSERT_NO_FATAL_FAILURE(WaitForJob());
   Look("review");
-  List()->setCurrentIndex(List()->model()->index(0, 0));
+  List()->setCurrentIndex(List()->model()->index(1, 0));
   Find<QComboBox>("remark_status")->setCurrentIndex(1);
-  Find<QLineEdit>("remark_comment")->setText("Ann");
+  Find<QLineEdit>("remark_comment")->setText(kComment);
   Find<QLineEdit>("remark_name")->setText("Ann");
   Click(Find<QPushButton>("remark_add"));
   ASSERT_NO_FATAL_FAILURE(WaitForJob());
   Look("review_remark");
-  Find<QDoubleSpinBox>("what_if_box:payload_a_gap")->setValue(180.0);
+  Find<QDoubleSpinBox>("what_if_box:payload_a_gap")->setValue(215.0);
   ASSERT_TRUE(WaitUntil([&] { return desk().what_if().has_value(); }));
   Look("review_what_if");
   Click(Find<QPushButton>("what_if_needed:payload_a_gap"));

@@ -1,4 +1,4 @@
-#include "core/first_at_place.h"
+#include "core/mesh_queries/first_at_place.h"
 
 #include <algorithm>
 #include <array>

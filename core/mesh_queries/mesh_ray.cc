@@ -1,4 +1,4 @@
-#include "core/mesh_ray.h"
+#include "core/mesh_queries/mesh_ray.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
