@@ -209,16 +209,21 @@ void MainWindow::FollowView() {
           [this](qint64, double age_ms) { status_->ShowAge(age_ms); });
 }
 
-// As high as the trial's gaps and tools are, but no higher than half of the window.
-void MainWindow::FitGaps() {
-  auto* dock = findChild<QDockWidget*>("gaps_panel");
-  const auto* area = qobject_cast<QScrollArea*>(dock->widget());
+// Of gaps, their rules, tools and the note line, at the width that they have.
+int MainWindow::WantedGapsPx() const {
+  const auto* area = qobject_cast<QScrollArea*>(findChild<QDockWidget*>("gaps_panel")->widget());
   QLayout* content = area->widget()->layout();
   content->activate();
-  const int wanted_px = content->hasHeightForWidth() ? content->totalHeightForWidth(area->viewport()->width())
-                                                     : content->totalSizeHint().height();
-  const int title_px = dock->height() - area->height();
-  const int gaps_px = std::min(title_px + wanted_px, height() / 2);
+  return content->hasHeightForWidth() ? content->totalHeightForWidth(area->viewport()->width())
+                                      : content->totalSizeHint().height();
+}
+
+// As high as they are, but no higher than half of the window.
+void MainWindow::FitGaps() {
+  auto* dock = findChild<QDockWidget*>("gaps_panel");
+  fitted_gaps_px_ = WantedGapsPx();
+  const int title_px = dock->height() - dock->widget()->height();
+  const int gaps_px = std::min(title_px + fitted_gaps_px_, height() / 2);
   // One alone gets only a share of what it is given.
   auto *contacts = findChild<QDockWidget*>("contacts_panel"),
        *touches = findChild<QDockWidget*>("touches_panel");
@@ -318,7 +323,6 @@ void MainWindow::OpenTrial(const control::TrialSetup& setup) {
   pages_->Show(Page::kTrial);
   cameras_dock_->show();
   strip_->Open(setup.source->rig());
-  is_fit_to_rules_ = false;
   spacings_->Open(setup.layout);
   tools_->Open(setup.info.tools);
   QTimer::singleShot(0, this, &MainWindow::FitGaps);  // when the panels have been laid out
@@ -335,8 +339,8 @@ void MainWindow::ShowFrame(const FrameNews& news) {
   sights_->ShowFrame(news.result);
   spacings_->ShowApplied(news.result->record.spacing_mm);
   spacings_->ShowPairs(*news.result);
-  if (news.result->pairs && !std::exchange(is_fit_to_rules_, true))
-    QTimer::singleShot(0, this, &MainWindow::FitGaps);  // when their lines have been laid out
+  if (WantedGapsPx() > fitted_gaps_px_)  // lines of pair rules came, or wrap
+    QTimer::singleShot(0, this, &MainWindow::FitGaps);
   contacts_->ShowFrame(*news.result);
   touches_->ShowFrame(*news.result, news.tallies);
   status_->ShowFrame(*news.result, news.recorded);

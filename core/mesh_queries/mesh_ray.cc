@@ -17,49 +17,59 @@ constexpr double kRounding = 1e-12;
 // A tree of 2^31 triangles is about half as deep; each level leaves one node waiting.
 constexpr std::size_t kDeepest = 64;
 
-// Where a ray enters boxes.
+struct Waiting {
+  double enter;
+  std::uint32_t node;
+};
+
+// Where a ray enters boxes that lie in `all`. They are made larger by the share of its size that rounding may
+// take from them.
 class Slabs {
  public:
-  explicit Slabs(const MeshRay& ray)
-      : ray_(ray), per_direction_(ray.direction.cwiseInverse()), origin_norm_(ray.origin.norm()) {}
-
-  // `from` if it starts inside; infinity if it misses the box, or comes to it behind `to`. The box is made
-  // larger by the share of its size that rounding may take from it.
-  [[nodiscard]] double Entry(const Eigen::AlignedBox3d& box, double to) const {
+  Slabs(const MeshRay& ray, const Eigen::AlignedBox3d& all)
+      : per_direction_(ray.direction.cwiseInverse()), from_(ray.from) {
     const double slack =
-        kRounding * (box.min().cwiseAbs().maxCoeff() + box.max().cwiseAbs().maxCoeff() + origin_norm_);
-    double enter = ray_.from, leave = to;
+        kRounding * (all.min().cwiseAbs().maxCoeff() + all.max().cwiseAbs().maxCoeff() + ray.origin.norm());
     for (Eigen::Index i = 0; i < 3; ++i) {
-      const double low = box.min()[i] - slack - ray_.origin[i], high = box.max()[i] + slack - ray_.origin[i];
-      if (ray_.direction[i] == 0.0) {
-        if (low > 0.0 || high < 0.0) return kInfinity;
-        continue;
-      }
-      const double at_low = low * per_direction_[i], at_high = high * per_direction_[i];
-      enter = std::max(enter, std::min(at_low, at_high));
-      leave = std::min(leave, std::max(at_low, at_high));
+      const double outwards = ray.direction[i] < 0.0 ? -slack : slack;
+      near_origin_[i] = ray.origin[i] + outwards;
+      far_origin_[i] = ray.origin[i] - outwards;
+    }
+  }
+
+  // `from` if it starts inside; infinity if it misses the box, or comes to it behind `to`. Along an axis that
+  // the ray runs across, both places are infinite, or NaN on a face itself, which the comparisons leave out.
+  [[nodiscard]] double Entry(const Eigen::AlignedBox3d& box, double to) const {
+    double enter = from_, leave = to;
+    for (Eigen::Index i = 0; i < 3; ++i) {
+      const bool is_back = per_direction_[i] < 0.0;
+      const double near = ((is_back ? box.max() : box.min())[i] - near_origin_[i]) * per_direction_[i];
+      const double far = ((is_back ? box.min() : box.max())[i] - far_origin_[i]) * per_direction_[i];
+      enter = near > enter ? near : enter;
+      leave = far < leave ? far : leave;
     }
     return enter <= leave ? enter : kInfinity;
   }
 
  private:
-  const MeshRay& ray_;
   Vector3d per_direction_;
-  double origin_norm_;
+  Vector3d near_origin_;
+  Vector3d far_origin_;
+  double from_;
 };
 
 // Visits the nearer child first, and leaves out what begins behind the nearest triangle so far; with `is_any`
 // it ends with that triangle.
 std::optional<MetTriangle> Meet(const TriangleTree& tree, const MeshRay& ray, bool is_any) {
   if (tree.nodes().empty()) return std::nullopt;
-  const Slabs slabs(ray);
+  const Slabs slabs(ray, tree.nodes()[0].box);
   const TriangleMesh& mesh = tree.mesh();
   const auto corner = [&](std::uint32_t triangle, std::size_t i) -> const Vector3d& {
     return mesh.vertices_mm[static_cast<std::size_t>(mesh.triangles[triangle][i])];
   };
   std::optional<MetTriangle> met;
   double to = ray.to;
-  std::array<std::pair<double, std::uint32_t>, kDeepest> waiting;
+  std::array<Waiting, kDeepest> waiting;  // each is written before it is read
   std::size_t count = 0;
   const auto wait = [&](double enter, std::uint32_t node) {
     if (enter < kInfinity) waiting[count++] = {enter, node};
@@ -105,12 +115,14 @@ std::optional<double> MeetTriangle(const Vector3d& origin, const Vector3d& direc
   const Vector3d ab = b - a, ac = c - a, across = direction.cross(ac);
   const double determinant = ab.dot(across);
   if (determinant == 0.0) return std::nullopt;
+  // Most triangles are missed: they are told without a division.
+  const double sign = determinant < 0.0 ? -1.0 : 1.0, size = sign * determinant, slack = kRounding * size;
   const Vector3d from_a = origin - a;
-  const double u = from_a.dot(across) / determinant;
-  if (!(u >= -kRounding && u <= 1.0 + kRounding)) return std::nullopt;
+  const double u = sign * from_a.dot(across);
+  if (!(u >= -slack && u <= size + slack)) return std::nullopt;
   const Vector3d up = from_a.cross(ab);
-  const double v = direction.dot(up) / determinant;
-  if (!(v >= -kRounding && u + v <= 1.0 + kRounding)) return std::nullopt;
+  const double v = sign * direction.dot(up);
+  if (!(v >= -slack && u + v <= size + slack)) return std::nullopt;
   const double t = ac.dot(up) / determinant;
   return t >= 0.0 ? std::optional(t) : std::nullopt;
 }

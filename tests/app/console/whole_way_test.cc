@@ -165,6 +165,8 @@ void WholeWay::RunTrial() {
   QTest::keyClicks(Find<QLineEdit>("note"), "took the tongs");
   QTest::keyClick(Find<QLineEdit>("note"), Qt::Key_Return);
   AwaitFrames(kFramesRun);
+  const auto* note = Find<QLineEdit>("note");  // the last in its panel
+  EXPECT_EQ(note->visibleRegion().boundingRect().height(), note->height());
   Keep("07_gap_and_tool");
   ClickAction("stop");
   ASSERT_TRUE(WaitUntil([&] { return IsIdle(); }));
