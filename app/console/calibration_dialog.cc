@@ -16,6 +16,7 @@ namespace elbowroom::console {
 namespace {
 
 constexpr QSize kCalibrationSize(820, 560);
+constexpr int kFirstNumber = 2;  // column; before it are names
 
 QString Number(double value, int decimals) { return QString::number(value, 'f', decimals); }
 
@@ -46,7 +47,7 @@ CalibrationDialog::CalibrationDialog(std::filesystem::path calibration_file, std
                                        tr("Centre ±, mm"), tr("Rotation ±, °"), tr("Late by, ms")});
   cameras_->setEditTriggers(QAbstractItemView::NoEditTriggers);
   cameras_->verticalHeader()->hide();
-  cameras_->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
+  cameras_->horizontalHeader()->setSectionResizeMode(QHeaderView::Stretch);
   advice_ = new QListWidget;
   advice_->setObjectName("calibration_advice");
   advice_->setWordWrap(true);
@@ -146,8 +147,12 @@ void CalibrationDialog::ShowCameras(const control::CalibrationOutcome& outcome) 
         camera.time_offset_sigma_s ? tr("%1 ± %2").arg(Number(1e3 * camera.time_offset_s, 1),
                                                        Number(1e3 * *camera.time_offset_sigma_s, 1))
                                    : tr("–")};
-    for (int column = 0; column < cells.size(); ++column)
-      cameras_->setItem(row, column, new QTableWidgetItem(cells[column]));
+    for (int column = 0; column < cells.size(); ++column) {
+      auto* item = new QTableWidgetItem(cells[column]);
+      const Qt::Alignment side = column < kFirstNumber ? Qt::AlignLeft : Qt::AlignRight;
+      item->setTextAlignment(side | Qt::AlignVCenter);
+      cameras_->setItem(row, column, item);
+    }
   }
 }
 

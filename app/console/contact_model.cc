@@ -16,11 +16,19 @@ struct Heading {
   const char* explanation;
 };
 constexpr std::array<Heading, ContactModel::kColumns> kContactHeadings = {
-    {{"Part", "Parts of the layout that something real touches in this frame"},
-     {"Depth ≥ mm", "Certified lower bound of the deepest point's distance to the hull's surface"},
-     {"Area mm²", "Surface of the part that lies in the hull"},
-     {"Points", "Sampled surface points that lie in the hull"},
-     {"Deepest at mm", "The deepest point in the world frame: x, y, z"}}};
+    {{QT_TRANSLATE_NOOP("elbowroom::console::ContactModel", "Part"),
+      QT_TRANSLATE_NOOP("elbowroom::console::ContactModel",
+                        "Parts of the layout that something real touches in this frame")},
+     {QT_TRANSLATE_NOOP("elbowroom::console::ContactModel", "Depth ≥ mm"),
+      QT_TRANSLATE_NOOP("elbowroom::console::ContactModel",
+                        "Certified lower bound of the deepest point's distance to the hull's surface")},
+     {QT_TRANSLATE_NOOP("elbowroom::console::ContactModel", "Area mm²"),
+      QT_TRANSLATE_NOOP("elbowroom::console::ContactModel", "Surface of the part that lies in the hull")},
+     {QT_TRANSLATE_NOOP("elbowroom::console::ContactModel", "Points"),
+      QT_TRANSLATE_NOOP("elbowroom::console::ContactModel", "Sampled surface points that lie in the hull")},
+     {QT_TRANSLATE_NOOP("elbowroom::console::ContactModel", "Deepest at mm"),
+      QT_TRANSLATE_NOOP("elbowroom::console::ContactModel",
+                        "The deepest point in the world frame: x, y, z")}}};
 
 QString PositionText(const core::PartContact& contact) {
   if (!contact.deepest) return "–";
@@ -95,8 +103,8 @@ QVariant ContactModel::data(const QModelIndex& index, int role) const {
 QVariant ContactModel::headerData(int section, Qt::Orientation orientation, int role) const {
   if (orientation != Qt::Horizontal || section < 0 || section >= kColumns) return {};
   const Heading& heading = kContactHeadings.at(static_cast<std::size_t>(section));
-  if (role == Qt::DisplayRole) return QString::fromUtf8(heading.text);
-  if (role == Qt::ToolTipRole) return QString::fromUtf8(heading.explanation);
+  if (role == Qt::DisplayRole) return tr(heading.text);
+  if (role == Qt::ToolTipRole) return tr(heading.explanation);
   if (role == Qt::TextAlignmentRole) {
     return QVariant((section == kPart ? Qt::AlignLeft : Qt::AlignRight) | Qt::AlignVCenter);
   }

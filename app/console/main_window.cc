@@ -6,6 +6,7 @@
 #include <QMimeData>
 #include <QScreen>
 #include <QScrollArea>
+#include <QTimer>
 #include <QToolBar>
 #include <QVBoxLayout>
 #include <algorithm>
@@ -86,6 +87,7 @@ MainWindow::MainWindow(std::filesystem::path session)
   spacings_ = new SpacingPanel;
   view_ = new OperatorView;
   sights_ = new TrialSights(view_, this);
+  sights_->hide();  // until a trial is opened
   AddPreflight();
   AddPanels();
   AddActions();
@@ -208,13 +210,26 @@ void MainWindow::FollowView() {
           [this](qint64, double age_ms) { status_->ShowAge(age_ms); });
 }
 
-// As high as the trial's gaps and tools are, but no higher than half of the window.
+// Of gaps, their rules, tools and the note line, at the width that they have.
+int MainWindow::WantedGapsPx() const {
+  const auto* area = qobject_cast<QScrollArea*>(findChild<QDockWidget*>("gaps_panel")->widget());
+  QLayout* content = area->widget()->layout();
+  content->activate();
+  return content->hasHeightForWidth() ? content->totalHeightForWidth(area->viewport()->width())
+                                      : content->totalSizeHint().height();
+}
+
+// As high as they are, but no higher than half of the window.
 void MainWindow::FitGaps() {
   auto* dock = findChild<QDockWidget*>("gaps_panel");
-  const auto* area = qobject_cast<QScrollArea*>(dock->widget());
-  area->widget()->layout()->activate();
-  const int title_px = dock->height() - area->height();
-  resizeDocks({dock}, {std::min(title_px + area->widget()->sizeHint().height(), height() / 2)}, Qt::Vertical);
+  fitted_gaps_px_ = WantedGapsPx();
+  const int title_px = dock->height() - dock->widget()->height();
+  const int gaps_px = std::min(title_px + fitted_gaps_px_, height() / 2);
+  // One alone gets only a share of what it is given.
+  auto *contacts = findChild<QDockWidget*>("contacts_panel"),
+       *touches = findChild<QDockWidget*>("touches_panel");
+  const int rest_px = std::max(0, dock->height() + contacts->height() + touches->height() - gaps_px);
+  resizeDocks({dock, contacts, touches}, {gaps_px, rest_px / 2, rest_px / 2}, Qt::Vertical);
 }
 
 void MainWindow::StartTrial(const QString& trial_file) {
@@ -313,7 +328,7 @@ void MainWindow::OpenTrial(const control::TrialSetup& setup) {
   strip_->Open(setup.source->rig());
   spacings_->Open(setup.layout);
   tools_->Open(setup.info.tools);
-  FitGaps();
+  QTimer::singleShot(0, this, &MainWindow::FitGaps);  // when the panels have been laid out
   contacts_->Clear();
   touches_->Open(setup.layout);
   status_->Open(desk_->session());
@@ -327,6 +342,8 @@ void MainWindow::ShowFrame(const FrameNews& news) {
   sights_->ShowFrame(news.result);
   spacings_->ShowApplied(news.result->record.spacing_mm);
   spacings_->ShowPairs(*news.result);
+  if (WantedGapsPx() > fitted_gaps_px_)  // lines of pair rules came, or wrap
+    QTimer::singleShot(0, this, &MainWindow::FitGaps);
   contacts_->ShowFrame(*news.result);
   touches_->ShowFrame(*news.result, news.tallies);
   status_->ShowFrame(*news.result, news.recorded);

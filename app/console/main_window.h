@@ -95,11 +95,13 @@ class MainWindow : public QMainWindow {
   void ShowFrame(const FrameNews& news);
   void ShowState();
   void FitPanels();
+  [[nodiscard]] int WantedGapsPx() const;
   void FitGaps();
 
   TrialDesk* desk_;  // this and all below are owned by Qt as children
   SessionPlace place_;
   bool closes_when_idle_ = false;
+  int fitted_gaps_px_ = 0;  // what FitGaps() made room for
   bool is_remembered_ = false;
   MessageBar* messages_ = nullptr;
   PageSwitch* pages_ = nullptr;

@@ -8,23 +8,10 @@
 
 #include "app/console/desktop/theme.h"
 #include "app/console/lower_bound_text.h"
+#include "app/console/view/verdict_word.h"
 
 namespace elbowroom::console {
 namespace {
-
-QString VerdictWord(core::Verdict verdict) {
-  switch (verdict) {
-    case core::Verdict::kContact:
-      return PairRuleList::tr("contact");
-    case core::Verdict::kNear:
-      return PairRuleList::tr("near");
-    case core::Verdict::kClear:
-      return PairRuleList::tr("clear");
-    case core::Verdict::kUndecided:
-      return PairRuleList::tr("undecided");
-  }
-  return {};
-}
 
 // The words say the same: nobody needs to tell the colours apart.
 QColor ColorOf(const review::PairClash& pair) {

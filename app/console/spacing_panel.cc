@@ -53,7 +53,7 @@ void SpacingControl::AddRows(const core::Spacing& spacing) {
   box_ = new QDoubleSpinBox;
   box_->setObjectName("spacing_box:" + name);
   box_->setDecimals(1);
-  box_->setSuffix(" mm");
+  box_->setSuffix(tr(" mm"));
   box_->setAccessibleName(tr("Gap %1 in mm").arg(name));
   box_->setToolTip(tr("The gap in mm, from %1 to %2").arg(min_mm_).arg(max_mm_));
   box_->setKeyboardTracking(false);  // a number that is half typed isn't asked for

@@ -29,6 +29,7 @@ StatusLine::StatusLine(QWidget* parent) : QStatusBar(parent) {
   session_ = AddField("status_session", 1);
   driver_ = AddField("status_driver", 0);
   progress_ = new QProgressBar;
+  progress_->setObjectName("status_progress");
   progress_->setFixedWidth(220);
   progress_->hide();
   addPermanentWidget(progress_);

@@ -5,12 +5,17 @@
 
 #include "app/console/desktop/theme.h"
 #include "app/console/lower_bound_text.h"
+#include "app/console/view/verdict_word.h"
 
 namespace elbowroom::console {
 namespace {
 
-constexpr std::array<const char*, TouchModel::kColumns> kTouchHeadings = {"Part", "Now", "Touches", "Frames",
-                                                                          "Deepest ≥ mm"};
+constexpr std::array<const char*, TouchModel::kColumns> kTouchHeadings = {
+    QT_TRANSLATE_NOOP("elbowroom::console::TouchModel", "Part"),
+    QT_TRANSLATE_NOOP("elbowroom::console::TouchModel", "Now"),
+    QT_TRANSLATE_NOOP("elbowroom::console::TouchModel", "Touches"),
+    QT_TRANSLATE_NOOP("elbowroom::console::TouchModel", "Frames"),
+    QT_TRANSLATE_NOOP("elbowroom::console::TouchModel", "Deepest ≥ mm")};
 
 Qt::Alignment AlignmentOf(int column) {
   const bool is_text = column == TouchModel::kPart || column == TouchModel::kState;
@@ -60,7 +65,7 @@ QVariant TouchModel::CellText(const Row& row, int column) const {
     case kPart:
       return row.part;
     case kState:
-      return row.verdict ? QString::fromUtf8(core::ToString(*row.verdict).data()) : QString("–");
+      return row.verdict ? VerdictWord(*row.verdict) : QString("–");
     case kTouches:
       return QLocale().toString(static_cast<qlonglong>(row.tally.episodes));
     case kFrames:
@@ -83,7 +88,7 @@ QVariant TouchModel::data(const QModelIndex& index, int role) const {
 
 QVariant TouchModel::headerData(int section, Qt::Orientation orientation, int role) const {
   if (orientation != Qt::Horizontal || section < 0 || section >= kColumns) return {};
-  if (role == Qt::DisplayRole) return QString::fromUtf8(kTouchHeadings.at(static_cast<std::size_t>(section)));
+  if (role == Qt::DisplayRole) return tr(kTouchHeadings.at(static_cast<std::size_t>(section)));
   if (role == Qt::TextAlignmentRole) return QVariant(AlignmentOf(section));
   return {};
 }

@@ -11,8 +11,9 @@ namespace elbowroom::console {
 namespace {
 
 QString EndNote(const control::TrialOutcome& outcome) {
-  QString note =
-      QString("%1 frames recorded in %2").arg(outcome.frames).arg(outcome.session.filename().c_str());
+  QString note = TrialDesk::tr("%1 frames recorded in %2")
+                     .arg(outcome.frames)
+                     .arg(QString::fromStdString(outcome.session.filename().string()));
   if (!outcome.end_note.empty()) note += ": " + QString::fromStdString(outcome.end_note);
   return note;
 }
@@ -122,7 +123,7 @@ void TrialDesk::FinishReport(const std::string& error, const QString& html_file)
   if (error.empty()) {
     emit ReportWritten(html_file);
   } else if (was_stopped) {
-    emit TrialEnded("The report was not written: cancelled");
+    emit TrialEnded(tr("The report was not written: cancelled"));
   } else {
     emit Failed(QString::fromStdString(error));
   }

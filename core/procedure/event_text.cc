@@ -20,7 +20,7 @@ struct KindWord {
 
 struct Words {
   std::string operator()(const SpacingChanged& change) const {
-    return fmt::format("{} from {:.4g} to {:.4g} mm", change.spacing, change.from_mm, change.to_mm);
+    return fmt::format("{} from {:.5g} to {:.5g} mm", change.spacing, change.from_mm, change.to_mm);
   }
   std::string operator()(const ToolMarked& mark) const {
     return mark.tool + (mark.in_use ? " taken in use" : " put away");
@@ -33,7 +33,7 @@ struct Words {
     return bookmark.name.empty() ? "bookmark" : fmt::format("bookmark: {}", bookmark.name);
   }
   std::string operator()(const EstimateGiven& given) const {
-    return fmt::format("estimate {} the trial: {:.4g} mm", ToString(given.when), given.estimate_mm);
+    return fmt::format("estimate {} the trial: {:.5g} mm", ToString(given.when), given.estimate_mm);
   }
   std::string operator()(const SurveyAnswered& answered) const {
     return fmt::format("{} the trial, '{}': {}", ToString(answered.when), answered.item, answered.answer);

@@ -68,7 +68,7 @@ QPalette DarkPalette() {
   for (const QPalette::ColorRole role :
        {QPalette::WindowText, QPalette::Text, QPalette::ButtonText, QPalette::ToolTipText}) {
     palette.setColor(role, QColor(0xe4, 0xe8, 0xec));
-    palette.setColor(QPalette::Disabled, role, QColor(0x7a, 0x84, 0x8e));
+    palette.setColor(QPalette::Disabled, role, QColor(0x90, 0x9a, 0xa4));
   }
   palette.setColor(QPalette::Highlight, QColor(0x3d, 0x82, 0xc8));
   palette.setColor(QPalette::HighlightedText, Qt::white);
@@ -77,8 +77,8 @@ QPalette DarkPalette() {
   return palette;
 }
 
-// Fusion, whose check boxes have an edge that is seen on a dark ground, too: its own is darker than the
-// window.
+// Fusion, whose check boxes and radio buttons have an edge that is seen on a dark ground, too: its own is
+// darker than the window.
 class LegibleStyle : public QProxyStyle {
  public:
   LegibleStyle() : QProxyStyle(QStyleFactory::create("Fusion")) {}
@@ -86,9 +86,18 @@ class LegibleStyle : public QProxyStyle {
                      const QWidget* widget) const override {
     QProxyStyle::drawPrimitive(element, option, painter, widget);
     const bool is_box = element == PE_IndicatorCheckBox || element == PE_IndicatorItemViewItemCheck;
-    if (!is_box || !Current().is_dark) return;
+    const bool is_round = element == PE_IndicatorRadioButton;
+    if ((!is_box && !is_round) || !Current().is_dark) return;
+    painter->save();
     painter->setPen(option->palette.color(QPalette::PlaceholderText));
-    painter->drawRect(option->rect.adjusted(0, 0, -1, -1));
+    painter->setBrush(Qt::NoBrush);
+    painter->setRenderHint(QPainter::Antialiasing, is_round);
+    if (is_round) {
+      painter->drawEllipse(QRectF(option->rect).adjusted(0.5, 0.5, -0.5, -0.5));
+    } else {
+      painter->drawRect(option->rect.adjusted(0, 0, -1, -1));
+    }
+    painter->restore();
   }
 };
 

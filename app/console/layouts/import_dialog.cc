@@ -89,6 +89,8 @@ void ImportDialog::Build() {
   warnings_->hide();
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel);
   buttons->button(QDialogButtonBox::Cancel)->setObjectName("import_cancel");
+  // Take is disabled while the file is read, and Enter mustn't mean Cancel after that.
+  buttons->button(QDialogButtonBox::Cancel)->setAutoDefault(false);
   take_ = buttons->addButton(tr("&Take"), QDialogButtonBox::ActionRole);
   take_->setObjectName("import_take");
   take_->setDefault(true);

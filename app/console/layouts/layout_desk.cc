@@ -188,7 +188,11 @@ std::vector<std::string> LayoutDesk::AddParts(const control::PartPreview& previe
   const auto add = [&] {
     // Files are named as seen from there, which takes a folder that is there.
     if (!document_->has_file()) core::MakeFolder(unsaved_folder_);
-    names = document_->AddParts(preview, nodes);
+    names = document_->AddParts(preview, nodes, [](const std::vector<std::string>& parts) {
+      return (parts.size() == 1 ? tr("Add %1").arg(QString::fromStdString(parts.front()))
+                                : tr("Add %1 parts").arg(parts.size()))
+          .toStdString();
+    });
   };
   if (Try(add)) {
     autosave_after_.start();

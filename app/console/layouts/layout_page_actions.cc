@@ -256,6 +256,7 @@ void LayoutPage::AskForMeasuredPoints() {
 
 void LayoutPage::AskForSpacing(const core::Spacing& spacing, bool is_new) {
   const auto put = [this, is_new](const core::Spacing& entered) -> QString {
+    if (entered.name.empty()) return tr("Give the spacing a name: trials and reports call it by that");
     if (is_new && layout().FindSpacing(entered.name))
       return tr("A spacing has that name; choose another one");
     control::SpacingEdit edit;

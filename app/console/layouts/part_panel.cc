@@ -14,6 +14,9 @@
 namespace elbowroom::console {
 namespace {
 
+// Of names for scripts and tests, in no language.
+constexpr std::array kAxisKeys = {"x", "y", "z"};
+constexpr std::array kTurnKeys = {"roll", "pitch", "yaw"};
 constexpr double kFarMm = 1e6, kManyTurnsDeg = 36'000.0;
 constexpr std::array kStepsMm = {0.1, 1.0, 5.0, 10.0, 50.0};
 constexpr std::array kStepsDeg = {0.1, 1.0, 5.0, 15.0, 45.0, 90.0};
@@ -86,11 +89,11 @@ QWidget* PartPanel::NumberRows() {
   const std::array axes = {tr("x"), tr("y"), tr("z")};
   const std::array turns = {tr("roll"), tr("pitch"), tr("yaw")};
   for (std::size_t i = 0; i < 3; ++i) {
-    position_mm_[i] = NumberBox("part_position:" + axes[i],
+    position_mm_[i] = NumberBox(QString("part_position:") + kAxisKeys.at(i),
                                 tr("Where the part's origin stands along %1, mm in world").arg(axes[i]),
                                 kFarMm, tr(" mm"), this);
     rotation_deg_[i] =
-        NumberBox("part_rotation:" + turns[i],
+        NumberBox(QString("part_rotation:") + kTurnKeys.at(i),
                   tr("%1: the turn about the world's fixed %2 axis, degrees").arg(turns[i], axes[i]),
                   kManyTurnsDeg, tr(" °"), this);
     const int row = static_cast<int>(i) + 1;

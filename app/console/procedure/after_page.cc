@@ -33,10 +33,11 @@ AfterPage::AfterPage(QWidget* parent) : QWidget(parent) {
   notes_->setToolTip(tr("What the participant says, what you saw: the session keeps it as a note"));
   notes_->setTabChangesFocus(true);
   notes_->setMinimumHeight(kNotesPx);
+  notes_->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Ignored);  // the room that is left
   title->setBuddy(notes_);
   for (QWidget* widget : std::initializer_list<QWidget*>{heading, questions_, title, notes_})
     form->addWidget(widget);
-  form->addStretch(1);
+  form->setStretchFactor(notes_, 1);
   auto* area = new QScrollArea;
   area->setWidgetResizable(true);
   area->setFrameShape(QFrame::NoFrame);

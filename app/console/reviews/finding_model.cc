@@ -6,15 +6,17 @@
 #include <utility>
 
 #include "app/console/desktop/theme.h"
-#include "core/findings/finding_names.h"
 
 namespace elbowroom::console {
 namespace {
 
 constexpr std::array<const char*, FindingModel::kColumns> kHeadings = {
-    QT_TRANSLATE_NOOP("FindingModel", "Finding"), QT_TRANSLATE_NOOP("FindingModel", "Part"),
-    QT_TRANSLATE_NOOP("FindingModel", "Status"),  QT_TRANSLATE_NOOP("FindingModel", "At, s"),
-    QT_TRANSLATE_NOOP("FindingModel", "mm"),      QT_TRANSLATE_NOOP("FindingModel", "Said")};
+    QT_TRANSLATE_NOOP("elbowroom::console::FindingModel", "Finding"),
+    QT_TRANSLATE_NOOP("elbowroom::console::FindingModel", "Part"),
+    QT_TRANSLATE_NOOP("elbowroom::console::FindingModel", "Status"),
+    QT_TRANSLATE_NOOP("elbowroom::console::FindingModel", "At, s"),
+    QT_TRANSLATE_NOOP("elbowroom::console::FindingModel", "mm"),
+    QT_TRANSLATE_NOOP("elbowroom::console::FindingModel", "Said")};
 
 // A depth is a lower bound, and rounded down; a clearance an upper bound, and rounded up.
 QString MeasureText(const control::ListedFinding& listed) {
@@ -26,7 +28,28 @@ QString MeasureText(const control::ListedFinding& listed) {
 
 }  // namespace
 
-QString StatusText(core::ReviewStatus status) { return QString::fromUtf8(core::ToString(status).data()); }
+QString StatusText(core::ReviewStatus status) {
+  switch (status) {
+    case core::ReviewStatus::kNew:
+      return FindingModel::tr("new");
+    case core::ReviewStatus::kActive:
+      return FindingModel::tr("active");
+    case core::ReviewStatus::kReviewed:
+      return FindingModel::tr("reviewed");
+    case core::ReviewStatus::kApproved:
+      return FindingModel::tr("approved");
+    case core::ReviewStatus::kResolved:
+      return FindingModel::tr("resolved");
+  }
+  return {};
+}
+
+QString FindingText(const core::Finding& finding) {
+  const bool is_touch = finding.kind == core::FindingKind::kTouch;
+  if (finding.presence != core::FindingPresence::kHere)
+    return is_touch ? FindingModel::tr("touch") : FindingModel::tr("near miss");
+  return (is_touch ? FindingModel::tr("touch %1") : FindingModel::tr("near miss %1")).arg(finding.number);
+}
 
 void FindingModel::Open(std::vector<control::ListedFinding> findings) {
   beginResetModel();
@@ -50,7 +73,7 @@ int FindingModel::columnCount(const QModelIndex& parent) const { return parent.i
 QVariant FindingModel::CellText(const control::ListedFinding& listed, int column) const {
   switch (column) {
     case kName:
-      return QString::fromStdString(core::NameOf(listed.finding));
+      return FindingText(listed.finding);
     case kPart:
       return QString::fromStdString(listed.finding.part);
     case kStatus:

@@ -60,5 +60,7 @@ class FindingFilter : public QSortFilterProxyModel {
 };
 
 [[nodiscard]] QString StatusText(core::ReviewStatus status);  // "new", "active", ...
+// core::NameOf, in the user's language: "touch 3".
+[[nodiscard]] QString FindingText(const core::Finding& finding);
 
 }  // namespace elbowroom::console

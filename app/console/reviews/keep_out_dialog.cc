@@ -33,7 +33,7 @@ KeepOutDialog::KeepOutDialog(const std::filesystem::path& session, QWidget* pare
          "quarter of it takes sixteen times as long"));
   edge_->setRange(0.5, 100.0);
   edge_->setValue(5.0);
-  edge_->setSuffix(" mm");
+  edge_->setSuffix(tr(" mm"));
   file_->setObjectName("keep_out_file");
   file_->setAccessibleName(tr("File"));
   file_->setToolTip(
@@ -47,7 +47,9 @@ KeepOutDialog::KeepOutDialog(const std::filesystem::path& session, QWidget* pare
   file_row->addWidget(browse);
   auto* form = new QFormLayout;
   form->addRow(tr("&Edge of its cells"), edge_);
-  form->addRow(tr("&File"), file_row);
+  auto* file_label = new QLabel(tr("&File"));
+  file_label->setBuddy(file_);
+  form->addRow(file_label, file_row);
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel);
   write_ = buttons->addButton(tr("&Write"), QDialogButtonBox::AcceptRole);
   write_->setObjectName("keep_out_write");

@@ -8,7 +8,6 @@
 
 #include "app/console/reviews/finding_model.h"
 #include "app/control/reviewing/review_remarks.h"
-#include "core/findings/finding_names.h"
 #include "core/system/utc_time.h"
 
 namespace elbowroom::console {
@@ -83,8 +82,7 @@ void RemarkPanel::Open(const core::Finding& finding) {
   const bool is_another = !finding_ || finding_->id != finding.id;
   const bool is_written = !is_another && finding.remarks.size() > finding_->remarks.size();
   finding_ = finding;
-  setTitle(tr("%1 on %2")
-               .arg(QString::fromStdString(core::NameOf(finding)), QString::fromStdString(finding.part)));
+  setTitle(tr("%1 on %2").arg(FindingText(finding), QString::fromStdString(finding.part)));
   QStringList lines;
   for (const core::ReviewRemark& remark : finding.remarks) lines.prepend(LineOf(remark));
   said_->setHtml(lines.isEmpty() ? tr("<i>Nothing was said of it yet.</i>") : lines.join("<br>"));

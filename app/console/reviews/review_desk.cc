@@ -193,9 +193,10 @@ void ReviewDesk::JudgeMotion() {
 
 void ReviewDesk::Say(const core::FindingId& finding, const core::ReviewRemark& remark) {
   TryJob(
-      [session = session_, said = sessions::FindingRemark{finding, remark}](const core::Progress& progress,
-                                                                            const std::stop_token&) {
-        progress.Report(0, 0, "writing the remark");
+      [session = session_, said = sessions::FindingRemark{finding, remark},
+       what = tr("writing the remark").toStdString()](const core::Progress& progress,
+                                                      const std::stop_token&) {
+        progress.Report(0, 0, what);
         session->Say(std::vector{said});
       },
       [this] {
@@ -207,8 +208,9 @@ void ReviewDesk::Say(const core::FindingId& finding, const core::ReviewRemark& r
 void ReviewDesk::ImportBcf(const std::filesystem::path& file) {
   auto import = std::make_shared<sessions::ReviewImport>();
   TryJob(
-      [session = session_, file, import](const core::Progress& progress, const std::stop_token&) {
-        progress.Report(0, 0, "reading the BCF file");
+      [session = session_, file, import, what = tr("reading the BCF file").toStdString()](
+          const core::Progress& progress, const std::stop_token&) {
+        progress.Report(0, 0, what);
         *import = session->Import(file);
       },
       [this, file, import] {

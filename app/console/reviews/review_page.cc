@@ -21,6 +21,7 @@
 namespace elbowroom::console {
 namespace {
 
+constexpr int kSidePx = 500;
 constexpr int kPlayMs = 33;               // between two looks at the clock
 constexpr std::size_t kMostRowsSeen = 8;  // of the timeline; the others are scrolled to
 
@@ -82,6 +83,7 @@ QWidget* ReviewPage::MakeSessionPage() {
   middle->addWidget(right);
   middle->setStretchFactor(0, 3);
   middle->setStretchFactor(1, 2);
+  middle->setSizes({3 * kSidePx / 2, kSidePx});  // in that proportion, whatever they hint at
   auto* page = new QWidget;
   auto* column = new QVBoxLayout(page);
   column->setContentsMargins(0, 0, 0, 0);

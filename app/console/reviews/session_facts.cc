@@ -1,15 +1,13 @@
 #include "app/console/reviews/session_facts.h"
 
-#include <QCoreApplication>
 #include <QDateTime>
 #include <QLocale>
+#include <QObject>
 #include <QStringList>
 #include <algorithm>
 
 namespace elbowroom::console {
 namespace {
-
-QString FactText(const char* text) { return QCoreApplication::translate("SessionFacts", text); }
 
 QString StartOf(const core::SessionHeader& header) {
   const QDateTime at = QDateTime::fromString(QString::fromStdString(header.started_at_utc), Qt::ISODate);
@@ -31,13 +29,13 @@ QString FactsOf(const control::ReviewedSession& session) {
   if (!header.trial.participant.empty()) facts << QString::fromStdString(header.trial.participant);
   facts << StartOf(header);
   const double seconds = session.frames().back().time_s - session.frames().front().time_s;
-  facts << FactText("%1 frames, %2 s").arg(session.frames().size()).arg(seconds, 0, 'f', 1);
-  facts << FactText("%1 cameras").arg(header.rig.cameras.size());
+  facts << QObject::tr("%1 frames, %2 s").arg(session.frames().size()).arg(seconds, 0, 'f', 1);
+  facts << QObject::tr("%1 cameras").arg(header.rig.cameras.size());
   if (header.trial.required_clearance_mm > 0.0)
-    facts << FactText("%1 mm clearance required").arg(header.trial.required_clearance_mm, 0, 'g', 5);
-  if (session.status() == sessions::SessionStatus::kCutOff) facts << FactText("cut off");
-  if (session.status() == sessions::SessionStatus::kRecording) facts << FactText("being recorded");
-  if (header.origin) facts << FactText("a replay");
+    facts << QObject::tr("%1 mm clearance required").arg(header.trial.required_clearance_mm, 0, 'g', 5);
+  if (session.status() == sessions::SessionStatus::kCutOff) facts << QObject::tr("cut off");
+  if (session.status() == sessions::SessionStatus::kRecording) facts << QObject::tr("being recorded");
+  if (header.origin) facts << QObject::tr("a replay");
   return facts.join(", ");
 }
 

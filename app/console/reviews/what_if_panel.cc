@@ -9,6 +9,7 @@
 
 #include "app/console/desktop/theme.h"
 #include "app/console/reviews/what_if_text.h"
+#include "app/console/view/verdict_word.h"
 
 namespace elbowroom::console {
 namespace {
@@ -19,11 +20,12 @@ constexpr double kPageMm = 10.0;
 int SliderFrom(double value_mm) { return static_cast<int>(std::lround(value_mm * kSliderStepsPerMm)); }
 
 QString PartText(const control::WhatIfPart& part, const QString& name) {
-  QString text = QString("%1: %2").arg(name, QString::fromUtf8(core::ToString(part.verdict()).data()));
+  QString text = WhatIfPanel::tr("%1: %2").arg(name, VerdictWord(part.verdict()));
   if (part.touches > 0)
-    text += QString(" (%1×, ≥ %2 mm)").arg(part.touches).arg(std::floor(10.0 * part.deepest_mm) / 10.0);
+    text +=
+        WhatIfPanel::tr(" (%1×, ≥ %2 mm)").arg(part.touches).arg(std::floor(10.0 * part.deepest_mm) / 10.0);
   else if (part.clearance_mm && std::isfinite(*part.clearance_mm))
-    text += QString(" (≥ %1 mm)").arg(std::floor(10.0 * *part.clearance_mm) / 10.0);
+    text += WhatIfPanel::tr(" (≥ %1 mm)").arg(std::floor(10.0 * *part.clearance_mm) / 10.0);
   return text;
 }
 
@@ -92,7 +94,7 @@ void WhatIfPanel::AddRow(const core::Spacing& spacing, QWidget* rows) {
   row.box->setAccessibleName(tr("What if %1").arg(name));
   row.box->setRange(spacing.min_mm, spacing.max_mm);
   row.box->setDecimals(1);
-  row.box->setSuffix(" mm");
+  row.box->setSuffix(tr(" mm"));
   row.box->setKeyboardTracking(false);
   row.box->setToolTip(tip);
   row.needed->setObjectName("what_if_needed:" + name);
@@ -151,7 +153,7 @@ void WhatIfPanel::ShowFrame(const control::FrameResult& result) {
   for (const core::PartContact& contact : result.record.contacts) {
     if (contact.verdict == core::Verdict::kClear) continue;
     parts << QString("%1 %2").arg(QString::fromStdString(header_.layout.parts[contact.part].name),
-                                  QString::fromUtf8(core::ToString(contact.verdict).data()));
+                                  VerdictWord(contact.verdict));
   }
   result_->setText(tr("This frame: %1").arg(parts.isEmpty() ? tr("all clear") : parts.join(", ")));
 }

@@ -47,11 +47,10 @@ QToolButton* MenuButton(const QString& text, const QString& tool_tip, const QStr
   return button;
 }
 
-QToolButton* ButtonOf(QAction* action, const QString& text) {
+QToolButton* ButtonOf(QAction* action) {
   auto* button = new QToolButton;
   button->setDefaultAction(action);
-  button->setText(text);
-  button->setAccessibleName(text);
+  button->setAccessibleName(action->iconText());
   button->setObjectName(action->objectName() + "_button");
   button->setAutoRaise(true);
   return button;
@@ -103,6 +102,7 @@ void TrialSights::MakeViewActions() {
   connect(parallel_, &QAction::toggled, view_, &OperatorView::SetParallel);
   parts_ = new QAction(tr("P&arts in the cameras' pictures"), this);
   parts_->setObjectName("parts_in_pictures");
+  parts_->setIconText(tr("Parts in pictures"));  // its button's
   parts_->setCheckable(true);
   parts_->setChecked(true);
   parts_->setShortcut(QKeySequence(Qt::Key_P));
@@ -170,9 +170,9 @@ void TrialSights::MakeBar() {
   bar->addWidget(MenuButton(tr("View"), tr("Standard views and projection"), "view_menu", views));
   bar->addWidget(
       MenuButton(tr("Camera"), tr("Look from a camera, or at its picture"), "camera_menu", cameras_));
-  bar->addWidget(ButtonOf(parts_, tr("Parts in pictures")));
-  bar->addWidget(ButtonOf(section_, tr("Section")));
-  bar->addWidget(ButtonOf(heat_, tr("Heat")));
+  bar->addWidget(ButtonOf(parts_));
+  bar->addWidget(ButtonOf(section_));
+  bar->addWidget(ButtonOf(heat_));
   auto* measure = new QMenu(this);
   for (QAction* action : measure_->actions()) measure->addAction(action);
   bar->addWidget(MenuButton(tr("Measure"), tr("Lengths, angles, and the distance to the hull"),

@@ -16,8 +16,8 @@ MessageBar::MessageBar(QWidget* parent) : QFrame(parent), text_(new QLabel) {
   text_->setTextFormat(Qt::PlainText);
   text_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   auto* close = new QToolButton;
+  close->setObjectName("close_message");
   close->setAutoRaise(true);
-  close->setIcon(style()->standardIcon(QStyle::SP_TitleBarCloseButton));
   close->setAccessibleName(tr("Close this message"));
   close->setToolTip(tr("Close this message"));
   connect(close, &QToolButton::clicked, this, &QWidget::hide);
@@ -49,6 +49,8 @@ void MessageBar::TakeColors() {
                             "%2; } QLabel, QToolButton { border: none; background: transparent; }")
                             .arg(tint.name(), ink.name());
   if (sheet != styleSheet()) setStyleSheet(sheet);
+  findChild<QToolButton*>("close_message")
+      ->setIcon(InTextColor(style()->standardIcon(QStyle::SP_TitleBarCloseButton)));
 }
 
 void MessageBar::changeEvent(QEvent* event) {

@@ -30,10 +30,6 @@ std::string WantedName(const PartPreview& preview, const std::string& node) {
   return node.empty() ? preview.file.stem().string() : node.substr(node.rfind('/') + 1);
 }
 
-std::string NameOfAdding(const std::vector<std::string>& names) {
-  return names.size() == 1 ? fmt::format("Add {}", names.front()) : fmt::format("Add {} parts", names.size());
-}
-
 }  // namespace
 
 LayoutDocument::State LayoutDocument::Read(LayoutText text, cad_import::PartShelf& shelf,
@@ -95,8 +91,13 @@ void LayoutDocument::Apply(const std::string& name, const Change& change, const 
   may_merge_ = true;
 }
 
+std::string LayoutDocument::EnglishNameOfAdding(const std::vector<std::string>& parts) {
+  return parts.size() == 1 ? fmt::format("Add {}", parts.front()) : fmt::format("Add {} parts", parts.size());
+}
+
 std::vector<std::string> LayoutDocument::AddParts(const PartPreview& preview,
-                                                  const std::vector<std::string>& nodes) {
+                                                  const std::vector<std::string>& nodes,
+                                                  const NameOfAdding& name) {
   if (!preview.asks_for_unit())
     shelf_->Put(preview.file, {.unit = preview.chosen_unit, .unit_if_file_has_none = text().unit()},
                 preview.model);
@@ -110,7 +111,7 @@ std::vector<std::string> LayoutDocument::AddParts(const PartPreview& preview,
     edit.name = FreePartName(text, WantedName(preview, node));
     names.push_back(AddPart(text, edit));
   }
-  Apply(NameOfAdding(names), [&](LayoutText& changed) { changed = std::move(text); });
+  Apply(name(names), [&](LayoutText& changed) { changed = std::move(text); });
   return names;
 }
 

@@ -55,8 +55,12 @@ class LayoutDocument {
   void Apply(const std::string& name, const Change& change, const std::string& merge_key = {});
 
   // One change that adds a part for each node of the preview's file, named after the node; an empty node is
-  // the whole file. Returns the parts' names. Throws: as Apply.
-  std::vector<std::string> AddParts(const PartPreview& preview, const std::vector<std::string>& nodes);
+  // the whole file. `name`: of the change, given the parts' names, as Apply's. Returns these. Throws: as
+  // Apply.
+  using NameOfAdding = std::function<std::string(const std::vector<std::string>& parts)>;
+  std::vector<std::string> AddParts(const PartPreview& preview, const std::vector<std::string>& nodes,
+                                    const NameOfAdding& name = EnglishNameOfAdding);
+  static std::string EnglishNameOfAdding(const std::vector<std::string>& parts);  // "Add lid", "Add 3 parts"
 
   [[nodiscard]] bool CanUndo() const { return history_.CanUndo(); }
   [[nodiscard]] bool CanRedo() const { return history_.CanRedo(); }

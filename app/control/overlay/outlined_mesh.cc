@@ -2,34 +2,17 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <numeric>
+#include <tuple>
 #include <utility>
 
+#include "core/mesh_queries/first_at_place.h"
 #include "core/units.h"
 
 namespace elbowroom::control {
 namespace {
 
 using Eigen::Vector3d;
-
-// For each corner the first one at its position.
-std::vector<std::int32_t> FirstAtPlace(const std::vector<Vector3d>& corners) {
-  std::vector<std::int32_t> order(corners.size()), first(corners.size());
-  std::iota(order.begin(), order.end(), 0);
-  const auto at = [&](std::int32_t i) -> const Vector3d& { return corners[static_cast<std::size_t>(i)]; };
-  std::ranges::sort(order, [&](std::int32_t i, std::int32_t j) {
-    const std::array<double, 3> a{at(i).x(), at(i).y(), at(i).z()}, b{at(j).x(), at(j).y(), at(j).z()};
-    return a != b ? a < b : i < j;
-  });
-  for (std::size_t k = 0; k < order.size(); ++k) {
-    const bool is_new = k == 0 || at(order[k]) != at(order[k - 1]);
-    first[static_cast<std::size_t>(order[k])] =
-        is_new ? order[k] : first[static_cast<std::size_t>(order[k - 1])];
-  }
-  return first;
-}
 
 Vector3d AreaVector(const core::TriangleMesh& mesh, std::uint32_t triangle) {
   const auto& [a, b, c] = mesh.triangles[triangle];
@@ -49,7 +32,7 @@ struct Side {
 };
 
 std::vector<Side> SidesOf(const core::TriangleMesh& mesh) {
-  const std::vector<std::int32_t> first = FirstAtPlace(mesh.vertices_mm);
+  const std::vector<std::int32_t> first = core::FirstAtPlace(mesh);
   std::vector<Side> sides;
   sides.reserve(3 * mesh.triangles.size());
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {

@@ -36,18 +36,11 @@ struct Pick {
   Eigen::Vector3d normal_in_world = Eigen::Vector3d::UnitZ();
 };
 
-// The first triangle that the ray meets, from either side; nothing if it meets none. Edges and corners belong
-// to their triangles, so that no ray slips between two of them but for rounding. A triangle without area is
-// never met. `from_mm`: what is nearer than this along the ray is not seen (the view's near plane, or a cut).
-// Of two that are equally far, the earlier part, then the earlier triangle.
-// Exact but for double's rounding (pick_test holds it against all triangles). Thread: any.
+// The first triangle that the ray meets (core::FirstMet); nothing if it meets none. `from_mm`: what is nearer
+// than this along the ray is not seen (the view's near plane, or a cut). Of two that are equally far, the
+// earlier part, then the earlier triangle. Exact but for double's rounding (pick_test holds it against all
+// triangles). Thread: any.
 [[nodiscard]] std::optional<Pick> PickPart(std::span<const PickablePart> parts, const PickRay& ray,
                                            double from_mm = 0.0);
-
-// How far along the ray it meets the triangle a, b, c, in units of the direction's length; nothing where it
-// doesn't, or lies in its plane. Source: Möller and Trumbore 1997.
-[[nodiscard]] std::optional<double> MeetTriangle(const Eigen::Vector3d& origin,
-                                                 const Eigen::Vector3d& direction, const Eigen::Vector3d& a,
-                                                 const Eigen::Vector3d& b, const Eigen::Vector3d& c);
 
 }  // namespace elbowroom::control

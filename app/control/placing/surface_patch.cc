@@ -4,33 +4,20 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <tuple>
 #include <utility>
 
 #include "core/error.h"
+#include "core/mesh_queries/first_at_place.h"
 #include "core/units.h"
 
 namespace elbowroom::control {
 namespace {
 
 using Eigen::Vector3d;
-using Place = std::tuple<double, double, double>;
 using Edge = std::pair<std::int32_t, std::int32_t>;
 
 void ThrowIfStopped(const std::stop_token& stop) {
   if (stop.stop_requested()) throw core::Error(core::ErrorKind::kCancelled, "the surface isn't looked at");
-}
-
-// The first vertex at each one's place.
-std::vector<std::int32_t> WeldedVertices(const core::TriangleMesh& mesh, const std::stop_token& stop) {
-  std::map<Place, std::int32_t> firsts;
-  std::vector<std::int32_t> welded;
-  for (const Vector3d& x : mesh.vertices_mm) {
-    ThrowIfStopped(stop);
-    welded.push_back(
-        firsts.try_emplace({x.x(), x.y(), x.z()}, static_cast<std::int32_t>(welded.size())).first->second);
-  }
-  return welded;
 }
 
 Vector3d UnitNormal(const core::TriangleMesh& mesh, std::uint32_t triangle) {
@@ -54,7 +41,7 @@ std::array<Edge, 3> EdgesOf(const core::TriangleMesh& mesh, const std::vector<st
 std::vector<std::uint32_t> SmoothPatch(const core::TriangleMesh& mesh, std::uint32_t triangle,
                                        double turn_deg, const std::stop_token& stop) {
   core::Require(triangle < mesh.triangles.size(), "a triangle of the mesh");
-  const std::vector<std::int32_t> welded = WeldedVertices(mesh, stop);
+  const std::vector<std::int32_t> welded = core::FirstAtPlace(mesh);
   std::map<Edge, std::vector<std::uint32_t>> beside;
   for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
     ThrowIfStopped(stop);

@@ -1,7 +1,5 @@
 #include "app/control/reviewing/session_timeline.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <map>
 #include <utility>
@@ -44,12 +42,10 @@ class MarkList {
     Drag& drag = drags_[change.spacing];
     drag.last_s = time_s;
     marks_[drag.mark].text =
-        fmt::format("{}: {:.5g} to {:.5g} mm", change.spacing, drag.from_mm, change.to_mm);
+        core::EventText(core::SpacingChanged{change.spacing, drag.from_mm, change.to_mm});
   }
-  void Take(double time_s, const core::ToolMarked& mark) {
-    marks_.push_back({MarkKind::kTool, time_s, mark.tool + (mark.in_use ? ": in use" : ": put away")});
-  }
-  void Take(double time_s, const core::Note& note) { marks_.push_back({MarkKind::kNote, time_s, note.text}); }
+  void Take(double time_s, const core::ToolMarked& mark) { Add(MarkKind::kTool, time_s, mark); }
+  void Take(double time_s, const core::Note& note) { Add(MarkKind::kNote, time_s, note); }
   void Take(double time_s, const core::StepMarked& mark) { Add(MarkKind::kStep, time_s, mark); }
   void Take(double time_s, const core::Bookmark& bookmark) { Add(MarkKind::kBookmark, time_s, bookmark); }
   void Take(double time_s, const core::EstimateGiven& given) { Add(MarkKind::kAnswer, time_s, given); }

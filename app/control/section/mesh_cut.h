@@ -22,7 +22,7 @@ struct CutMesh {
 [[nodiscard]] CutMesh CutOpen(const core::TriangleMesh& mesh, const core::RigidTransform& world_from_mesh,
                               const SectionCut& cut);
 
-// What stays of a surface that isn't closed: CutOpen without caps.
+// What stays of a surface that isn't closed: CutOpen without faces of the cut.
 [[nodiscard]] core::TriangleMesh CutSurface(const core::TriangleMesh& mesh,
                                             const core::RigidTransform& world_from_mesh,
                                             const SectionCut& cut);

@@ -25,8 +25,8 @@ class PartSections {
   [[nodiscard]] const PartSection& Of(core::PartIndex part, const core::SharedMesh& mesh,
                                       const core::RigidTransform& world_from_part, const SectionCut& cut);
 
-  // The same of a surface that isn't closed, such as a piece of a part's; it has no caps. `place`: numbers
-  // the surfaces, from 0. Null: nothing of it is left.
+  // The same of a surface that isn't closed, such as a piece of a part's; it has no faces of the cut.
+  // `place`: numbers the surfaces, from 0. Null: nothing of it is left.
   [[nodiscard]] core::SharedMesh SurfaceOf(std::size_t place, const core::SharedMesh& mesh,
                                            const core::RigidTransform& world_from_part,
                                            const SectionCut& cut);

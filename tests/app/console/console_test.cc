@@ -19,7 +19,6 @@
 #include <algorithm>
 #include <variant>
 
-#include "app/console/main_window.h"
 #include "app/console/window_picture.h"
 #include "app/control/demo_trial.h"
 #include "recon/synthetic/demo_motion.h"
@@ -27,7 +26,7 @@
 #include "tests/app/console/layouts/user_actions.h"
 #include "tests/app/console/opened_urls.h"
 #include "tests/app/console/stall_watch.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/app/console/window_fixture.h"
 #include "tests/support/text_file.h"
 
 namespace elbowroom::console {
@@ -37,41 +36,12 @@ constexpr double kGuessedGapMm = 140.0;
 constexpr double kNeededGapMm = 240.0;
 constexpr const char* kGap = "payload_a_gap";
 
-// Far beyond what any step takes on a loaded machine; a test that waits so long has failed.
-constexpr int kPatienceMs = 120'000;
-
 // A window that doesn't answer for a fifth of a second is felt to hang.
 constexpr double kLongestStallMs = 200.0;
 
-class ConsoleTest : public testing::Test {
+class ConsoleTest : public WindowFixture {
  protected:
-  ConsoleTest() : session_(folder_ / "trial.db"), window_(session_) {
-    window_.resize(1280, 800);
-    window_.show();
-    QObject::connect(&window_.desk(), &TrialDesk::FrameArrived, &window_, [this](const FrameNews& news) {
-      last_frame_ = news.result;
-      ++frames_;
-    });
-  }
-
-  ~ConsoleTest() override {
-    window_.desk().Stop();
-    WaitUntil([&] { return IsIdle(); });
-  }
-
-  template <typename Condition>
-  static bool WaitUntil(Condition condition) {
-    return QTest::qWaitFor(condition, kPatienceMs);
-  }
-  template <typename Widget>
-  Widget* Find(const char* name) {
-    auto* widget = window_.findChild<Widget*>(name);
-    EXPECT_NE(widget, nullptr) << name;
-    return widget;
-  }
-  QAction& Action(const char* name) { return *Find<QAction>(name); }
-  [[nodiscard]] bool IsIdle() { return window_.desk().state() == DeskState::kIdle; }
-  [[nodiscard]] QString Message() { return Find<QLabel>("message")->text(); }
+  ConsoleTest() : WindowFixture("trial.db", QSize(1280, 800)) {}
 
   [[nodiscard]] QStringList ListedParts() {
     const QAbstractItemModel& model = *Find<QTableView>("contact_list")->model();
@@ -87,18 +57,8 @@ class ConsoleTest : public testing::Test {
 
   void StartDemoAndWaitForFrames() {
     Action("start_demo").trigger();
-    ASSERT_TRUE(WaitUntil([&] { return last_frame_ != nullptr; })) << Message().toStdString();
+    ASSERT_TRUE(WaitUntil([&] { return last_frame_ != nullptr; })) << Message();
   }
-  void StopAndWait() {
-    Action("stop").trigger();
-    ASSERT_TRUE(WaitUntil([&] { return IsIdle(); }));
-  }
-
-  test_support::TemporaryFolder folder_;
-  std::filesystem::path session_;
-  MainWindow window_;
-  control::SharedFrameResult last_frame_;
-  int frames_ = 0;
 };
 
 TEST_F(ConsoleTest, ContactsVanishFromTheListAsTheGapIsOpenedLive) {
@@ -156,7 +116,7 @@ TEST_F(ConsoleTest, ContactsVanishFromTheListAsTheGapIsOpenedLive) {
   EXPECT_FALSE(Action("start_demo").isEnabled());
   ASSERT_TRUE(WaitUntil([&] { return IsIdle(); }));
   const std::filesystem::path html = folder_ / "trial-report" / "report.html";
-  EXPECT_NE(test_support::ReadText(html).find("payload_a"), std::string::npos) << Message().toStdString();
+  EXPECT_NE(test_support::ReadText(html).find("payload_a"), std::string::npos) << Message();
   ASSERT_EQ(opened.urls().size(), 1U);
   EXPECT_EQ(opened.urls().front().toLocalFile().toStdString(), html.string());
 }
@@ -178,8 +138,7 @@ TEST_F(ConsoleTest, KeysAndCheckBoxesReachTheRunningTrial) {
   ASSERT_TRUE(WaitUntil([&] { return GapIs(gap->maximum()); }));
 
   Find<QCheckBox>("tool:tongs")->click();
-  const int frames_before = frames_;
-  ASSERT_TRUE(WaitUntil([&] { return frames_ > frames_before + 2; }));
+  AwaitFrames(3);
   StopAndWait();
   EXPECT_FALSE(gap->isEnabled());
   const std::vector<core::SessionEvent> events = sessions::SessionReader(session_).events();
@@ -193,8 +152,7 @@ TEST_F(ConsoleTest, KeysAndCheckBoxesReachTheRunningTrial) {
 
 TEST_F(ConsoleTest, NotesAndToolsAreMarkedFromTheKeyboard) {
   StartDemoAndWaitForFrames();
-  window_.activateWindow();
-  ASSERT_TRUE(QTest::qWaitForWindowActive(&window_));
+  ASSERT_NO_FATAL_FAILURE(Activate());
   QTest::keyClick(&window_, Qt::Key_1);
   QTest::keyClick(&window_, Qt::Key_9);  // no such tool
   EXPECT_TRUE(Find<QCheckBox>("tool:tongs")->isChecked());
@@ -209,8 +167,7 @@ TEST_F(ConsoleTest, NotesAndToolsAreMarkedFromTheKeyboard) {
   QTest::keyClick(note, Qt::Key_N, Qt::ControlModifier);
   QTest::keyClicks(note, "not this one");
   QTest::keyClick(note, Qt::Key_Escape);
-  const int frames_before = frames_;
-  ASSERT_TRUE(WaitUntil([&] { return frames_ > frames_before + 2; }));
+  AwaitFrames(3);
   StopAndWait();
   std::vector<std::string> notes, tools;
   for (const core::SessionEvent& event : sessions::SessionReader(session_).events()) {
@@ -231,8 +188,7 @@ TEST_F(ConsoleTest, UndoBringsTheGapBackAndTheSessionRecordsBothChanges) {
   ASSERT_TRUE(WaitUntil([&] { return GapIs(kNeededGapMm); }));
   ASSERT_TRUE(Action("undo_gap").isEnabled());
   EXPECT_FALSE(Action("redo_gap").isEnabled());
-  window_.activateWindow();
-  ASSERT_TRUE(QTest::qWaitForWindowActive(&window_));
+  ASSERT_NO_FATAL_FAILURE(Activate());
   gap->setFocus();  // its own undo would be that of the typed digits
   QTest::keyClick(gap, Qt::Key_Z, Qt::ControlModifier);
   ASSERT_TRUE(WaitUntil([&] { return GapIs(kGuessedGapMm); }));
@@ -350,8 +306,8 @@ TEST_F(ConsoleTest, AnExistingSessionIsLeftAloneAndTheErrorShown) {
   Action("start_demo").trigger();
   EXPECT_FALSE(Action("start_demo").isEnabled());
   ASSERT_TRUE(WaitUntil([&] { return IsIdle(); }));
-  EXPECT_NE(Message().indexOf(QString::fromStdString(session_.string())), -1) << Message().toStdString();
-  EXPECT_EQ(Message().indexOf('\n'), -1);
+  EXPECT_NE(Message().find(session_.string()), std::string::npos) << Message();
+  EXPECT_EQ(Message().find('\n'), std::string::npos);
   EXPECT_TRUE(Find<QLabel>("message")->isVisible());
   EXPECT_TRUE(Action("start_demo").isEnabled());
   EXPECT_FALSE(Action("report").isEnabled());
@@ -363,8 +319,8 @@ TEST_F(ConsoleTest, ABrokenTrialFileIsOneLineAndLeavesNoSession) {
   test_support::WriteText(trial, "rig = ");
   StartTrialFile(window_.desk(), trial, window_.session_place());
   ASSERT_TRUE(WaitUntil([&] { return IsIdle(); }));
-  EXPECT_NE(Message().indexOf("trial.toml"), -1) << Message().toStdString();
-  EXPECT_EQ(Message().indexOf('\n'), -1);
+  EXPECT_NE(Message().find("trial.toml"), std::string::npos) << Message();
+  EXPECT_EQ(Message().find('\n'), std::string::npos);
   EXPECT_FALSE(std::filesystem::exists(session_));
 }
 

@@ -14,14 +14,13 @@
 #include <QToolButton>
 #include <variant>
 
-#include "app/console/main_window.h"
 #include "app/control/replay/replay.h"
 #include "core/procedure/answers.h"
 #include "core/procedure/event_text.h"
 #include "core/procedure/step_runs.h"
 #include "sessions/session_reader.h"
+#include "tests/app/console/window_fixture.h"
 #include "tests/app/mask_rig.h"
-#include "tests/support/temporary_folder.h"
 #include "tests/support/text_file.h"
 
 namespace elbowroom::console {
@@ -29,8 +28,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kPatienceMs = 120'000;  // far beyond what any step takes on a loaded machine
-constexpr int kFrames = 3000;         // far more than the test lets pass
+constexpr int kFrames = 3000;  // far more than the test lets pass
 
 constexpr const char* kNotes = "The cable was in the way";
 
@@ -76,7 +74,7 @@ item = "Effort"
 scale = [0, 100]
 )";
 
-class ProcedureTest : public testing::Test {
+class ProcedureTest : public WindowFixture {
  protected:
   ProcedureTest() {
     test_support::WriteBallRig(folder_.path());
@@ -87,54 +85,21 @@ class ProcedureTest : public testing::Test {
                              folder_ / camera / fmt::format("mask_{:04d}.png", i));
     test_support::WriteText(folder_ / "layout.toml", kLayout);
     test_support::WriteText(folder_ / "trial.toml", kTrial);
-    window_.resize(1280, 720);
-    window_.show();
-    QObject::connect(&window_.desk(), &TrialDesk::FrameArrived, &window_, [this](const FrameNews& news) {
-      last_frame_ = news.result;
-      ++frames_;
-    });
-  }
-  ~ProcedureTest() override {
-    window_.desk().Stop();
-    WaitUntil([&] { return IsIdle(); });
   }
 
-  template <typename Condition>
-  static bool WaitUntil(Condition condition) {
-    return QTest::qWaitFor(condition, kPatienceMs);
-  }
-  template <typename Widget>
-  Widget* Find(const QString& name) {
-    auto* widget = window_.findChild<Widget*>(name);
-    EXPECT_NE(widget, nullptr) << name.toStdString();
-    return widget;
-  }
-  [[nodiscard]] bool IsIdle() { return window_.desk().state() == DeskState::kIdle; }
-  [[nodiscard]] std::string Message() { return Find<QLabel>("message")->text().toStdString(); }
-  void LetFramesPass() {
-    const int before = frames_;
-    ASSERT_TRUE(WaitUntil([&] { return frames_ > before + 2; })) << Message();
-  }
   void Key(Qt::Key key, Qt::KeyboardModifiers modifiers = {}) {
     window_.setFocus();
     QTest::keyClick(&window_, key, modifiers);
-    LetFramesPass();
+    AwaitFrames(3);
   }
   [[nodiscard]] bool StepIs(const std::string& step) {
     return last_frame_ && (last_frame_->step ? last_frame_->step->step : std::string()) == step;
   }
   [[nodiscard]] double GapMm() { return last_frame_->record.spacing_mm.at(0); }
-
-  test_support::TemporaryFolder folder_;
-  fs::path session_ = folder_ / "s.db";
-  MainWindow window_{session_};
-  control::SharedFrameResult last_frame_;
-  int frames_ = 0;
 };
 
 TEST_F(ProcedureTest, AWholeTrialIsInTheSessionAndItsReplay) {
-  window_.activateWindow();
-  ASSERT_TRUE(QTest::qWaitForWindowActive(&window_));
+  ASSERT_NO_FATAL_FAILURE(Activate());
   window_.StartTrial(QString::fromStdString((folder_ / "trial.toml").string()));
   auto* estimate = Find<QDoubleSpinBox>("estimate:before");
   EXPECT_TRUE(estimate->isVisible());
@@ -212,8 +177,7 @@ TEST_F(ProcedureTest, AWholeTrialIsInTheSessionAndItsReplay) {
 }
 
 TEST_F(ProcedureTest, WhatIsAskedCanBeSkippedWithOneKeyEach) {
-  window_.activateWindow();
-  ASSERT_TRUE(QTest::qWaitForWindowActive(&window_));
+  ASSERT_NO_FATAL_FAILURE(Activate());
   window_.StartTrial(QString::fromStdString((folder_ / "trial.toml").string()));
   QTest::keyClick(Find<QDoubleSpinBox>("estimate:before"), Qt::Key_Return);
   ASSERT_TRUE(WaitUntil([&] { return last_frame_ != nullptr; })) << Message();

@@ -22,16 +22,14 @@
 #include <QToolButton>
 #include <filesystem>
 
-#include "app/console/main_window.h"
 #include "app/console/reviews/keep_out_dialog.h"
 #include "app/console/reviews/recent_sessions.h"
-#include "app/control/demo_trial.h"
 #include "app/control/outcome_tracker.h"
 #include "app/control/replay/replay.h"
-#include "app/control/trial_runner.h"
+#include "tests/app/console/demo_session.h"
 #include "tests/app/console/opened_urls.h"
 #include "tests/app/console/stall_watch.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/app/console/window_fixture.h"
 #include "tests/support/text_file.h"
 
 namespace elbowroom::console {
@@ -41,51 +39,25 @@ namespace fs = std::filesystem;
 constexpr const char* kGap = "payload_a_gap";
 constexpr double kWideMm = 300.0;
 
-// Far beyond what any step takes on a loaded machine; a test that waits so long has failed.
-constexpr int kPatienceMs = 120'000;
 // As in the tests of trials: a window that doesn't answer for so long is felt to hang.
 constexpr double kLongestStallMs = 200.0;
 
-// The first time that the hand meets the payload, recorded once.
-fs::path DemoSession() {
-  static const test_support::TemporaryFolder folder;
-  const fs::path session = folder / "demo.db";
-  if (fs::exists(session)) return session;
-  control::TrialOptions options;
-  options.session = session;
-  options.frames = {20, 120};
-  control::TrialControls controls;
-  (void)control::RunTrial(control::MakeDemoTrial(control::DemoPlay::kOnce), options, controls, {});
-  return session;
-}
-
-class ReviewPageTest : public testing::Test {
+class ReviewPageTest : public WindowFixture {
  protected:
-  ReviewPageTest() : session_(folder_ / "trial.db"), window_(folder_ / "next.db") {
-    fs::copy_file(DemoSession(), session_);
-    window_.resize(1280, 720);
-    window_.show();
+  ReviewPageTest() : WindowFixture("next.db"), reviewed_(folder_ / "trial.db") {
+    fs::copy_file(DemoSession(), reviewed_);
     QObject::connect(&desk(), &ReviewDesk::FrameArrived, &window_,
                      [this](const control::ScrubbedFrame& frame) { shown_ = frame; });
   }
 
   ReviewPage& page() { return window_.review_page(); }
   ReviewDesk& desk() { return page().desk(); }
-  template <typename Condition>
-  static bool WaitUntil(Condition condition) {
-    return QTest::qWaitFor(condition, kPatienceMs);
-  }
-  template <typename Widget>
-  Widget* Find(const QString& name) {
-    auto* widget = window_.findChild<Widget*>(name);
-    EXPECT_NE(widget, nullptr) << name.toStdString();
-    return widget;
-  }
+  // Of the page, which has its own.
   [[nodiscard]] QString Message() {
     return Find<QFrame>("review_messages")->findChild<QLabel*>("message")->text();
   }
   void OpenIt() {
-    window_.OpenSession(session_);
+    window_.OpenSession(reviewed_);
     ASSERT_TRUE(WaitUntil([&] { return desk().is_open() && !desk().is_busy() && shown_.result; }))
         << Message().toStdString();
   }
@@ -109,9 +81,7 @@ class ReviewPageTest : public testing::Test {
     ASSERT_TRUE(WaitUntil([&] { return !desk().is_busy(); }));
   }
 
-  test_support::TemporaryFolder folder_;
-  fs::path session_;
-  MainWindow window_;
+  fs::path reviewed_;
   control::ScrubbedFrame shown_;
 };
 
@@ -223,7 +193,8 @@ TEST_F(ReviewPageTest, StatusAndCommentAreInTheFile) {
   WaitForJob();
   EXPECT_EQ(List()->model()->index(touch, FindingModel::kStatus).data().toString(), "approved");
   EXPECT_TRUE(Find<QTextBrowser>("remarks")->toPlainText().contains("ask the <cable> team"));
-  const core::Finding kept = sessions::SessionReader(session_).findings().at(static_cast<std::size_t>(touch));
+  const core::Finding kept =
+      sessions::SessionReader(reviewed_).findings().at(static_cast<std::size_t>(touch));
   ASSERT_EQ(kept.remarks.size(), 2U);
   EXPECT_EQ(kept.status(), core::ReviewStatus::kApproved);
   EXPECT_EQ(kept.remarks[0].comment, "ask the <cable> team");
@@ -233,7 +204,7 @@ TEST_F(ReviewPageTest, StatusAndCommentAreInTheFile) {
   // Another window sees it, and lists by it.
   MainWindow again;
   again.show();
-  again.OpenSession(session_);
+  again.OpenSession(reviewed_);
   ASSERT_TRUE(WaitUntil([&] { return again.review_page().desk().is_open(); }));
   auto* list = again.findChild<QTableView*>("finding_list");
   again.findChild<QComboBox*>("finding_status_filter")->setCurrentText("approved");
@@ -261,7 +232,7 @@ TEST_F(ReviewPageTest, AnotherGapIsJudgedAtOnce) {
   EXPECT_TRUE(result.contains("clearance ≥")) << result.toStdString();
 
   const control::ReplayOutcome replay =
-      control::RunReplay(control::OpenWithOutcome(session_, {}, {}),
+      control::RunReplay(control::OpenWithOutcome(reviewed_, {}, {}),
                          {folder_ / "replay.db", {.held_mm = {{kGap, kWideMm}}}, {}}, {}, {});
   EXPECT_EQ(desk().what_if()->outcome.episodes.size(), replay.outcome.episodes.size());
   EXPECT_EQ(desk().what_if()->vanished.size(), replay.absent.size());
@@ -378,7 +349,7 @@ TEST_F(ReviewPageTest, ASessionThatCannotBeOpenedIsOneLineInPlace) {
 
 TEST_F(ReviewPageTest, ASessionIsDroppedAndRemembered) {
   QMimeData data;
-  data.setUrls({QUrl::fromLocalFile(QString::fromStdString(session_.string()))});
+  data.setUrls({QUrl::fromLocalFile(QString::fromStdString(reviewed_.string()))});
   QDragEnterEvent enter(QPoint(10, 10), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
   enter.ignore();
   QApplication::sendEvent(&window_, &enter);
@@ -386,7 +357,7 @@ TEST_F(ReviewPageTest, ASessionIsDroppedAndRemembered) {
   QDropEvent drop(QPointF(10, 10), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
   QApplication::sendEvent(&window_, &drop);
   ASSERT_TRUE(WaitUntil([&] { return desk().is_open(); }));
-  EXPECT_EQ(RecentSessions().value(0).toStdString(), session_.string());
+  EXPECT_EQ(RecentSessions().value(0).toStdString(), reviewed_.string());
 }
 
 TEST_F(ReviewPageTest, TheTrialThatHasEndedIsReviewed) {

@@ -26,13 +26,12 @@
 #include "app/console/layouts/import_dialog.h"
 #include "app/console/layouts/rule_dialogs.h"
 #include "app/console/layouts/trial_dialog.h"
-#include "app/console/main_window.h"
 #include "app/control/outcome_tracker.h"
 #include "app/control/replay/replay.h"
 #include "cad_import/layout/layout_file.h"
 #include "sessions/session_reader.h"
-#include "tests/app/console/layouts/user_actions.h"
 #include "tests/app/console/opened_urls.h"
+#include "tests/app/console/window_fixture.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text_file.h"
 
@@ -51,27 +50,21 @@ QSize WantedSize() {
   return {words.value(0).toInt(), words.value(1).toInt()};
 }
 
-class WholeWay : public testing::Test {
+// Its sessions are in a folder that the window chooses from; the theme is there before the window.
+class OwnPlaces {
  protected:
-  WholeWay() {
-    SetSessionsFolder(folder_ / "sessions");
+  OwnPlaces() {
+    SetSessionsFolder(sessions_ / "sessions");
     if (qEnvironmentVariableIsSet("ELBOWROOM_SCREENSHOTS_DARK")) SetTheme(Theme::kDark);
-    window_.resize(WantedSize());
-    window_.show();
-    window_.activateWindow();
-    EXPECT_TRUE(QTest::qWaitForWindowActive(&window_));
-    QObject::connect(&window_.desk(), &TrialDesk::FrameArrived, &window_, [this] { ++frames_; });
   }
-  ~WholeWay() override {
-    window_.desk().Stop();
-    (void)WaitUntil([&] { return window_.desk().state() == DeskState::kIdle; });
-  }
-  template <typename Widget>
-  Widget* Find(const QString& name) {
-    auto* widget = window_.findChild<Widget*>(name);
-    EXPECT_NE(widget, nullptr) << name.toStdString();
-    return widget;
-  }
+
+ private:
+  test_support::TemporaryFolder sessions_;
+};
+
+class WholeWay : private OwnPlaces, public WindowFixture {
+ protected:
+  WholeWay() : WindowFixture("", WantedSize()) { Activate(); }
   // On the button of the tool bar.
   void ClickAction(const char* name) {
     auto* action = Find<QAction>(name);
@@ -79,16 +72,11 @@ class WholeWay : public testing::Test {
       if (QWidget* button = bar->widgetForAction(action)) return Click(button);
     FAIL() << name << " is in no tool bar";
   }
-  [[nodiscard]] std::string Message() { return Find<QLabel>("message")->text().toStdString(); }
   void Keep(const char* name, QWidget* widget = nullptr) {
     const QString folder = qEnvironmentVariable("ELBOWROOM_SCREENSHOTS");
     if (folder.isEmpty()) return;
     QTest::qWait(1500);  // until the picture is drawn in full
     (widget == nullptr ? &window_ : widget)->grab().save(QString("%1/%2.png").arg(folder, name));
-  }
-  void AwaitFrames(int more) {
-    const int from = frames_;
-    ASSERT_TRUE(WaitUntil([&] { return frames_ >= from + more; })) << Message();
   }
 
   void TakeParts();
@@ -98,9 +86,6 @@ class WholeWay : public testing::Test {
   void Review();
 
   const OpenedUrls opened_;
-  test_support::TemporaryFolder folder_;
-  MainWindow window_;
-  int frames_ = 0;
 };
 
 void WholeWay::TakeParts() {
@@ -180,9 +165,11 @@ void WholeWay::RunTrial() {
   QTest::keyClicks(Find<QLineEdit>("note"), "took the tongs");
   QTest::keyClick(Find<QLineEdit>("note"), Qt::Key_Return);
   AwaitFrames(kFramesRun);
+  const auto* note = Find<QLineEdit>("note");  // the last in its panel
+  EXPECT_EQ(note->visibleRegion().boundingRect().height(), note->height());
   Keep("07_gap_and_tool");
   ClickAction("stop");
-  ASSERT_TRUE(WaitUntil([&] { return window_.desk().state() == DeskState::kIdle; }));
+  ASSERT_TRUE(WaitUntil([&] { return IsIdle(); }));
   Keep("08_stopped");
 }
 

@@ -50,8 +50,9 @@ TEST(SessionTimeline, SaysWhatHappenedAndTakesADraggedSliderForOneMark) {
     if (mark.kind == MarkKind::kGap) gaps.push_back(mark.text);
     if (mark.kind == MarkKind::kTool) tools.push_back(mark.text);
   }
-  EXPECT_EQ(gaps, (std::vector<std::string>{"payload_a_gap: 140 to 170 mm", "payload_a_gap: 170 to 200 mm"}));
-  EXPECT_EQ(tools, std::vector<std::string>{"tongs: in use"});
+  EXPECT_EQ(gaps, (std::vector<std::string>{"payload_a_gap from 140 to 170 mm",
+                                            "payload_a_gap from 170 to 200 mm"}));
+  EXPECT_EQ(tools, std::vector<std::string>{"tongs taken in use"});
 }
 
 TEST(SessionTimeline, HasARowAPartOfWhatAWhatIfFound) {

@@ -21,7 +21,7 @@
 #include "app/console/layouts/trial_dialog.h"
 #include "app/control/layout_editing/autosave.h"
 #include "cad_import/layout/layout_file.h"
-#include "tests/app/console/layouts/user_actions.h"
+#include "tests/app/console/user_actions.h"
 #include "tests/app/layouts/box_file.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text_file.h"

@@ -5,7 +5,7 @@
 #include <fstream>
 
 #include "app/console/main_window.h"
-#include "tests/app/console/layouts/user_actions.h"
+#include "tests/app/console/user_actions.h"
 #include "tests/support/temporary_folder.h"
 
 namespace elbowroom::console {

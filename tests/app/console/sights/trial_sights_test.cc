@@ -14,43 +14,25 @@
 #include <cmath>
 #include <filesystem>
 
-#include "app/console/main_window.h"
 #include "recon/appearance/orbit_camera.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/app/console/window_fixture.h"
 #include "tests/support/text_file.h"
 
 namespace elbowroom::console {
 namespace {
 
-constexpr int kPatienceMs = 120'000;  // far beyond what any step takes on a loaded machine
-
-class TrialSightsTest : public testing::Test {
+class TrialSightsTest : public WindowFixture {
  protected:
-  TrialSightsTest() : window_(folder_ / "trial.db") {
-    window_.resize(1280, 800);
-    window_.show();
-    QObject::connect(&window_.desk(), &TrialDesk::FrameArrived, &window_,
-                     [this](const FrameNews& news) { last_frame_ = news.result; });
+  TrialSightsTest() : WindowFixture("trial.db", QSize(1280, 800)) {
     QObject::connect(&window_.view(), &OperatorView::PictureShown, &window_, [this] { ++pictures_; });
     Action("start_demo").trigger();
     EXPECT_TRUE(WaitUntil([&] { return pictures_ > 0; }));
   }
   ~TrialSightsTest() override {
-    window_.desk().Stop();
-    WaitUntil([&] { return window_.desk().state() == DeskState::kIdle; });
+    if (!IsIdle()) StopAndWait();
     QSettings().remove("section");  // each test begins with the first planes
   }
 
-  template <typename Condition>
-  static bool WaitUntil(Condition condition) {
-    return QTest::qWaitFor(condition, kPatienceMs);
-  }
-  template <typename Widget>
-  Widget* Find(const QString& name) {
-    auto* widget = window_.findChild<Widget*>(name);
-    EXPECT_NE(widget, nullptr) << name.toStdString();
-    return widget;
-  }
   // The review page has planes of its own.
   template <typename Widget>
   Widget* FindHere(const QString& name) {
@@ -58,7 +40,6 @@ class TrialSightsTest : public testing::Test {
     EXPECT_NE(widget, nullptr) << name.toStdString();
     return widget;
   }
-  QAction& Action(const char* name) { return *Find<QAction>(name); }
   [[nodiscard]] bool IsShown(const char* text) {
     const auto& dimensions = window_.sights().measure().dimensions();
     return std::ranges::any_of(dimensions, [&](const auto& dimension) { return dimension.text == text; });
@@ -85,9 +66,6 @@ class TrialSightsTest : public testing::Test {
     QTest::mouseRelease(&view, Qt::LeftButton, {}, from + by);
   }
 
-  test_support::TemporaryFolder folder_;
-  MainWindow window_;
-  control::SharedFrameResult last_frame_;
   int pictures_ = 0;
 };
 

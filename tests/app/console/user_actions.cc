@@ -1,4 +1,4 @@
-#include "tests/app/console/layouts/user_actions.h"
+#include "tests/app/console/user_actions.h"
 
 #include <QAbstractItemView>
 #include <QAbstractSpinBox>
