@@ -1,10 +1,13 @@
 #include "recon/consistency/tangencies.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <optional>
+#include <vector>
 
 #include "core/error.h"
+#include "core/units.h"
 
 namespace elbowroom::recon {
 namespace {
@@ -57,6 +60,47 @@ bool TouchOnePoint(const EpipolarPairs& pairs, const EpipolarPair& pair, const T
   return true;
 }
 
+constexpr double kFarOffPx = 3.0;  // of a residual that may be a wrong comparison
+constexpr double kAgreesPx = 1.0;  // of one that may not
+
+// Of a pair's epipolar plane: the shift of either camera's picture along it shows in the residual.
+Eigen::Vector3d PlaneNormal(const EpipolarPairs& pairs, const Tangency& tangency) {
+  const EpipolarPair& pair = pairs.pairs()[tangency.pair];
+  const Eigen::Vector3d baseline =
+      pairs.plane(pair.b).camera().center_in_world() - pairs.plane(pair.a).camera().center_in_world();
+  return baseline.cross(tangency.in_a.sight_in_world).normalized();
+}
+
+// Whether two other pairs of the camera agree, of planes that stand at 40 degrees or more to each other: then
+// its picture can't be shifted by much in any direction.
+bool AgreesElsewhere(const EpipolarPairs& pairs, std::span<const Tangency> found, std::size_t pair,
+                     core::CameraIndex camera) {
+  const double most_alike = std::cos(core::RadiansFromDegrees(40.0));
+  std::vector<Eigen::Vector3d> normals;
+  for (const Tangency& other : found) {
+    const EpipolarPair& of = pairs.pairs()[other.pair];
+    if (other.pair == pair || (of.a != camera && of.b != camera)) continue;
+    if (std::abs(other.residual_px) > kAgreesPx) continue;
+    const Eigen::Vector3d normal = PlaneNormal(pairs, other);
+    for (const Eigen::Vector3d& before : normals)
+      if (std::abs(before.dot(normal)) <= most_alike) return true;
+    normals.push_back(normal);
+  }
+  return false;
+}
+
+// Leaves out comparisons that are far off though both cameras stand as they should: a camera that was knocked
+// is off in its other pairs, too. So they are of two points.
+void LeaveOutContradicted(const EpipolarPairs& pairs, FrameTangencies& frame) {
+  const std::vector<Tangency> all = frame.found;
+  const auto left_out = std::erase_if(frame.found, [&](const Tangency& tangency) {
+    const EpipolarPair& pair = pairs.pairs()[tangency.pair];
+    return std::abs(tangency.residual_px) > kFarOffPx && AgreesElsewhere(pairs, all, tangency.pair, pair.a) &&
+           AgreesElsewhere(pairs, all, tangency.pair, pair.b);
+  });
+  frame.skipped[static_cast<std::size_t>(TangencySkip::kContradicted)] += left_out;
+}
+
 }  // namespace
 
 std::size_t FrameTangencies::SkippedAll() const {
@@ -87,6 +131,8 @@ FrameTangencies CompareTangents(const EpipolarPairs& pairs, std::span<const Came
       }
     }
   }
+  const auto is_far_off = [](const Tangency& tangency) { return std::abs(tangency.residual_px) > kFarOffPx; };
+  if (std::ranges::any_of(frame.found, is_far_off)) LeaveOutContradicted(pairs, frame);
   return frame;
 }
 

@@ -35,8 +35,8 @@ struct FrameTangencies {
 // Compares the tangents of one instant. If both silhouettes are whole, the tangents are of the same object.
 // Else they are used only if each camera sees all of the other's sight within the workspace, the two sights
 // meet in the workspace, and no other camera refutes the point where they meet by background all around it
-// (docs/consistency.md says what these rules can't exclude). Throws: PreconditionError when there aren't
-// tangents and a silhouette for each camera.
+// (docs/consistency.md says what these rules can't exclude). What the other pairs of both cameras contradict
+// is left out, too. Throws: PreconditionError when there aren't tangents and a silhouette for each camera.
 [[nodiscard]] FrameTangencies CompareTangents(const EpipolarPairs& pairs,
                                               std::span<const CameraTangents> tangents,
                                               std::span<const core::SoftMask> masks);

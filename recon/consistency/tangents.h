@@ -15,13 +15,14 @@ namespace elbowroom::recon {
 
 // Why a tangent, or a comparison of two, can't be used.
 enum class TangencySkip {
-  kNothingSeen,  // no object in the picture
-  kAtEpipole,    // the silhouette surrounds the epipole, or is too near to it
-  kAtBorder,     // the tangent touches where the picture ends
-  kUneven,       // the boundary has a corner there, or too few points
-  kMaybeHidden,  // the silhouette is cut, and the other camera may not see what the tangent touches
+  kNothingSeen,   // no object in the picture
+  kAtEpipole,     // the silhouette surrounds the epipole, or is too near to it
+  kAtBorder,      // the tangent touches where the picture ends
+  kUneven,        // the boundary has a corner there, or too few points
+  kMaybeHidden,   // the silhouette is cut, and the other camera may not see what the tangent touches
+  kContradicted,  // far off, where two other pairs of each of the two cameras agree
 };
-inline constexpr std::size_t kTangencySkips = 5;
+inline constexpr std::size_t kTangencySkips = 6;
 
 struct TangentOptions {
   double boundary_sigma_px = 0.2;  // noise of the boundary across itself; core::kBoundarySigmaPx; > 0

@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "app/control/demo_trial.h"
+#include "recon/segmentation/frame_segmenter.h"
 #include "sessions/session_reader.h"
 #include "tests/app/hand_footage.h"
 #include "tests/app/mask_rig.h"
@@ -51,6 +53,22 @@ TEST(KnockWatch, ComparesOnlyWhatIsNewAndWhole) {
   EXPECT_EQ(watch.report().frames_skipped, 3);
   EXPECT_EQ(watch.report().state, KnockState::kLearning);
   EXPECT_EQ(watch.report().advice, "");
+}
+
+// The demo's arm leaves the workspace, cut by the pictures' borders; its task is played over and over.
+TEST(KnockWatch, SaysNothingOfTheDemosCameras) {
+  const TrialSetup setup = MakeDemoTrial(DemoPlay::kForever);
+  const recon::FrameSegmenter segmenter(setup.source->ReadBackgrounds({}, {}), setup.segmentation,
+                                        setup.source->rig());
+  KnockWatch watch(setup.source->rig());
+  constexpr core::FrameIndex kFrames = 1200;
+  for (core::FrameIndex i = 0; i < kFrames; ++i) {
+    const recon::FrameSet frames = setup.source->Read(i);
+    EXPECT_EQ(watch.Add(FrameOf(frames.time_s, segmenter.SegmentSoft(frames))), std::nullopt) << i;
+  }
+  EXPECT_EQ(watch.report().state, KnockState::kSteady);
+  EXPECT_GT(watch.report().evidence_s, 60.0);
+  EXPECT_LT(watch.report().noise_factor, 2.0);
 }
 
 TEST(KnockWatch, ARigWithoutPairsIsNeverJudged) {

@@ -140,7 +140,7 @@ void MeasurePictures(const fs::path& docs) {
       {"four samples", gl::Smoothness::kFourSamples}};
   const std::vector<control::SharedFrameResult> moved = WithMovedGap(results);
   reporting::Table table{{"size", "picture", "hull and scene, ms", "drawing: median", "95 %", "longest",
-                          "processor time", "still things drawn, renewed", "squares left when renewed",
+                          "processor time, ms", "still things drawn, renewed", "squares left when renewed",
                           "largest difference of 255", "differing by more than 2"},
                          {}};
   for (const auto& [width_px, height_px] : {std::pair{800, 520}, {1280, 720}}) {

@@ -23,7 +23,7 @@
 #include "app/control/demo_trial.h"
 #include "recon/synthetic/demo_motion.h"
 #include "sessions/session_reader.h"
-#include "tests/app/console/layouts/user_actions.h"
+#include "tests/app/console/user_actions.h"
 #include "tests/app/console/opened_urls.h"
 #include "tests/app/console/stall_watch.h"
 #include "tests/app/console/window_fixture.h"

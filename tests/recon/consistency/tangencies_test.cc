@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -155,6 +156,36 @@ TEST(Tangencies, ACutArmRaisesAlmostNothing) {
 
 std::size_t Skips(const FrameTangencies& frame, TangencySkip why) {
   return frame.skipped[static_cast<std::size_t>(why)];
+}
+
+// A knock, however large, is no contradiction: it shows in more than one pair of the camera.
+TEST(Tangencies, AKnockedCameraIsNotContradicted) {
+  const HandStage stage(HandRig(4));
+  for (core::CameraIndex knocked = 0; knocked < 4; ++knocked) {
+    for (const double turn_px : {4.0, 12.0, 40.0}) {
+      for (Eigen::Index axis = 0; axis < 2; ++axis) {
+        core::CameraCalibration calibration = stage.rig.cameras[knocked].calibration();
+        const double turn_rad = turn_px / calibration.camera_matrix(0, 0);
+        calibration.cam_from_world =
+            core::RigidTransform{Eigen::AngleAxisd(turn_rad, Eigen::Vector3d::Unit(axis)).toRotationMatrix(),
+                                 Eigen::Vector3d::Zero()} *
+            calibration.cam_from_world;
+        core::Rig rig = stage.rig;
+        rig.cameras[knocked] = core::CameraModel(calibration);
+        const HandStage now(rig);
+        double largest_px = 0.0;
+        for (int frame = 0; frame < 6; ++frame) {
+          const FrameTangencies found =
+              FindTangencies(stage.pairs, now.MasksOf(HandsAt({}, kFrameStepS * frame)));
+          EXPECT_EQ(found.skipped[static_cast<std::size_t>(TangencySkip::kContradicted)], 0U)
+              << "camera " << knocked << ", " << turn_px << " px, axis " << axis;
+          for (const Tangency& tangency : found.found)
+            largest_px = std::max(largest_px, std::abs(tangency.residual_px));
+        }
+        EXPECT_GT(largest_px, 0.5 * turn_px);
+      }
+    }
+  }
 }
 
 TEST(Tangencies, AnEmptyPictureIsNothingSeen) {
