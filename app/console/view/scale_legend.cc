@@ -18,7 +18,9 @@ constexpr std::size_t kMostBoxes = 8;  // of cameras; more are a scale
 constexpr int kSmooth = 48;            // colours of a scale without steps
 const QColor kInk(20, 24, 29);
 
-QString Tr(const char* text) { return QCoreApplication::translate("elbowroom::console::ScaleLegend", text); }
+class LegendWords {
+  Q_DECLARE_TR_FUNCTIONS(elbowroom::console::LegendWords)
+};
 
 QColor ColorAt(double share) {
   const control::Color color = control::ScaleColor(share);
@@ -28,9 +30,9 @@ QColor ColorAt(double share) {
 QString Number(double value) { return QLocale().toString(value, 'g', 3); }
 
 ScaleLegend HeatLegend(const control::HeatLayer& heat, const QString& heat_of) {
-  ScaleLegend legend{Tr("Touched for, s"), {}, {}, heat_of};
+  ScaleLegend legend{LegendWords::tr("Touched for, s"), {}, {}, heat_of};
   if (heat.parts.empty()) {
-    legend.note = Tr("nothing was touched: %1").arg(heat_of);
+    legend.note = LegendWords::tr("nothing was touched: %1").arg(heat_of);
     return legend;
   }
   for (int shade = 1; shade <= control::kHeatShades; ++shade)
@@ -40,7 +42,7 @@ ScaleLegend HeatLegend(const control::HeatLayer& heat, const QString& heat_of) {
 }
 
 ScaleLegend CoverageLegend(const control::RigKnowledge& knowledge) {
-  ScaleLegend legend{Tr("Cameras that see the place"), {}, {}, {}};
+  ScaleLegend legend{LegendWords::tr("Cameras that see the place"), {}, {}, {}};
   const std::size_t cameras = knowledge.rig.cameras.size();
   const auto share = [&](double seeing) { return 1.0 - seeing / static_cast<double>(cameras); };
   if (cameras <= kMostBoxes) {
@@ -57,15 +59,16 @@ ScaleLegend CoverageLegend(const control::RigKnowledge& knowledge) {
 }
 
 ScaleLegend UncertaintyLegend(const control::RigKnowledge& knowledge) {
-  ScaleLegend legend{Tr("Surface may be off by, mm"), {}, {}, {}};
+  ScaleLegend legend{LegendWords::tr("Surface may be off by, mm"), {}, {}, {}};
   for (int i = 0; i <= kSmooth; ++i) legend.colours.push_back(ColorAt(static_cast<double>(i) / kSmooth));
-  legend.labels = {"0", Number(0.5 * knowledge.most_mm), Tr("≥ %1").arg(Number(knowledge.most_mm))};
+  legend.labels = {"0", Number(0.5 * knowledge.most_mm),
+                   LegendWords::tr("≥ %1").arg(Number(knowledge.most_mm))};
   if (knowledge.is_refuted) {
-    legend.note = Tr("2 sigma. The rig's gauge failed: it may be more");
+    legend.note = LegendWords::tr("2 sigma. The rig's gauge failed: it may be more");
   } else if (knowledge.has_covariance) {
-    legend.note = Tr("2 sigma, of calibration and pixels");
+    legend.note = LegendWords::tr("2 sigma, of calibration and pixels");
   } else {
-    legend.note = Tr("2 sigma, of pixels alone: the cameras are taken as exact");
+    legend.note = LegendWords::tr("2 sigma, of pixels alone: the cameras are taken as exact");
   }
   return legend;
 }
@@ -129,7 +132,7 @@ QString TextOf(std::span<const ScaleLegend> legends) {
   for (const ScaleLegend& legend : legends) {
     QString line = legend.title;
     if (!legend.labels.isEmpty())
-      line += Tr(", from %1 to %2").arg(legend.labels.front(), legend.labels.back());
+      line += LegendWords::tr(", from %1 to %2").arg(legend.labels.front(), legend.labels.back());
     if (!legend.note.isEmpty()) line += "; " + legend.note;
     lines.push_back(line);
   }

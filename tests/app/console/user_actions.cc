@@ -38,8 +38,12 @@ void TypeIntoNextFileDialog(const QString& path) {
     TypeInto(line, path);
     // The list of completions may still come and take a click: it is closed, and the button clicked again.
     auto* again = new QTimer(dialog);
-    QObject::connect(again, &QTimer::timeout, dialog, [dialog, line] {
+    QObject::connect(again, &QTimer::timeout, dialog, [dialog, line, path] {
+      if (auto* refusal = qobject_cast<QMessageBox*>(QApplication::activeModalWidget()))
+        return refusal->reject();
       if (line->completer() != nullptr) line->completer()->popup()->hide();
+      // A key that the list of completions took isn't in the name.
+      if (line->text() != path) return TypeInto(line, path);
       const auto* buttons = dialog->findChild<QDialogButtonBox*>();
       for (QAbstractButton* button : buttons->buttons())
         if (buttons->buttonRole(button) == QDialogButtonBox::AcceptRole && button->isEnabled())

@@ -2,10 +2,10 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <QCheckBox>
 #include <QDockWidget>
 #include <QDoubleSpinBox>
 #include <QLineEdit>
+#include <QListWidget>
 #include <QPlainTextEdit>
 #include <QPushButton>
 #include <QSignalSpy>
@@ -98,12 +98,16 @@ TEST_P(TrialTour, TheDemoIsAllThere) {
   Look("trial_running");
   ExpectAllOfTheNoteLine();
   Action("section").trigger();
-  window_.sights().findChild<QCheckBox*>("section_on:y")->setChecked(true);
+  window_.sights().findChild<QListWidget*>("section_list")->item(1)->setCheckState(Qt::Checked);
   Action("measure_faces").trigger();
   AwaitFrames(3);
   Look("trial_section");
   Action("section").trigger();
   Action("measure_faces").trigger();
+  Action("heat").trigger();
+  AwaitFrames(3);
+  Look("trial_heat");
+  Action("heat").trigger();
   window_.sights().ShowCamera(1);
   AwaitFrames(3);
   Look("trial_camera");
