@@ -79,7 +79,9 @@ TEST(AfterTrial, TheViewsSayTheSame) {
   }
   EXPECT_FALSE(steps.executeStep());
   const auto ask = [&](const char* sql) { return database.execAndGet(sql).getString(); };
-  EXPECT_EQ(ask("SELECT group_concat(coalesce(answer, '-')) FROM (SELECT * FROM v_answer ORDER BY item_index)"), "6,-1,-");
+  EXPECT_EQ(
+      ask("SELECT group_concat(coalesce(answer, '-')) FROM (SELECT * FROM v_answer ORDER BY item_index)"),
+      "6,-1,-");
   EXPECT_EQ(ask("SELECT group_concat(asked || round(estimate_mm)) FROM v_estimate"),
             "before140.0,after333.0");
   EXPECT_EQ(ask("SELECT count(*) FROM v_event WHERE what IS NULL"), "0");

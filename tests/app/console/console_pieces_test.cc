@@ -12,14 +12,14 @@
 #include <semaphore>
 #include <thread>
 
-#include "app/console/view/background_job.h"
-#include "app/console/view/bridge.h"
 #include "app/console/console_main.h"
 #include "app/console/contact_model.h"
 #include "app/console/frame_rate.h"
-#include "app/console/view/picture_pace.h"
 #include "app/console/tile_text.h"
 #include "app/console/trial_actions.h"
+#include "app/console/view/background_job.h"
+#include "app/console/view/bridge.h"
+#include "app/console/view/picture_pace.h"
 #include "core/error.h"
 #include "tests/app/console/stall_watch.h"
 #include "tests/support/run_program.h"

@@ -23,9 +23,9 @@
 #include "app/control/demo_trial.h"
 #include "recon/synthetic/demo_motion.h"
 #include "sessions/session_reader.h"
-#include "tests/app/console/user_actions.h"
 #include "tests/app/console/opened_urls.h"
 #include "tests/app/console/stall_watch.h"
+#include "tests/app/console/user_actions.h"
 #include "tests/app/console/window_fixture.h"
 #include "tests/support/text_file.h"
 
