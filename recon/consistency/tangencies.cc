@@ -63,6 +63,8 @@ bool TouchOnePoint(const EpipolarPairs& pairs, const EpipolarPair& pair, const T
 constexpr double kFarOffPx = 3.0;  // of a residual that may be a wrong comparison
 constexpr double kAgreesPx = 1.0;  // of one that may not
 
+bool IsFarOff(const Tangency& tangency) { return std::abs(tangency.residual_px) > kFarOffPx; }
+
 // Of a pair's epipolar plane: the shift of either camera's picture along it shows in the residual.
 Eigen::Vector3d PlaneNormal(const EpipolarPairs& pairs, const Tangency& tangency) {
   const EpipolarPair& pair = pairs.pairs()[tangency.pair];
@@ -95,7 +97,7 @@ void LeaveOutContradicted(const EpipolarPairs& pairs, FrameTangencies& frame) {
   const std::vector<Tangency> all = frame.found;
   const auto left_out = std::erase_if(frame.found, [&](const Tangency& tangency) {
     const EpipolarPair& pair = pairs.pairs()[tangency.pair];
-    return std::abs(tangency.residual_px) > kFarOffPx && AgreesElsewhere(pairs, all, tangency.pair, pair.a) &&
+    return IsFarOff(tangency) && AgreesElsewhere(pairs, all, tangency.pair, pair.a) &&
            AgreesElsewhere(pairs, all, tangency.pair, pair.b);
   });
   frame.skipped[static_cast<std::size_t>(TangencySkip::kContradicted)] += left_out;
@@ -131,8 +133,7 @@ FrameTangencies CompareTangents(const EpipolarPairs& pairs, std::span<const Came
       }
     }
   }
-  const auto is_far_off = [](const Tangency& tangency) { return std::abs(tangency.residual_px) > kFarOffPx; };
-  if (std::ranges::any_of(frame.found, is_far_off)) LeaveOutContradicted(pairs, frame);
+  if (std::ranges::any_of(frame.found, IsFarOff)) LeaveOutContradicted(pairs, frame);
   return frame;
 }
 

@@ -1,7 +1,5 @@
 #include "recon/surface_quality/surface_coverage.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -84,30 +82,14 @@ bool SurfaceCoverage::Sees(core::CameraIndex index, const Eigen::Vector3d& x_in_
 
 SurfaceValues SurfaceCoverage::Of(const VisualHull& shown, const HullView& picture,
                                   const ViewRays& rays) const {
-  core::Require(picture.surface.size() == picture.depth_mm.size() &&
-                    picture.normal_in_world.size() == picture.depth_mm.size(),
-                "a picture with the hull's surfaces and normals");
-  core::Require(picture.width_px == rays.width_px() && picture.height_px == rays.height_px(),
-                "the rays that the picture was made with");
-  const BoundingEdges edges(shown);
-  const core::RigidTransform world_from_view = rays.view_from_world().Inverse();
-  SurfaceValues values(picture.depth_mm.size());
-  tbb::parallel_for(picture.hits.y, picture.hits.bottom, [&](int y) {
-    for (int x = picture.hits.x; x < picture.hits.right; ++x) {
-      const auto at = static_cast<std::size_t>(y * picture.width_px + x);
-      const std::optional<core::CameraIndex> own = edges.CameraOf(picture.surface[at]);
-      if (!own) continue;
-      const Eigen::Vector3d x_in_world =
-          world_from_view * PlaceInView(rays, x, y, static_cast<double>(picture.depth_mm[at]));
-      const Eigen::Vector3d normal_in_world = picture.normal_in_world[at].cast<double>();
-      int seeing = 0;
-      // The camera whose silhouette ends here looks along the surface.
-      for (core::CameraIndex i = 0; i < cameras_.size(); ++i)
-        seeing += i == *own || Sees(i, x_in_world, normal_in_world) ? 1 : 0;
-      values[at] = static_cast<float>(seeing);
-    }
-  });
-  return values;
+  return ValuesOf(shown, picture, rays,
+                  [this](core::CameraIndex bounding, const auto& x_in_world, const auto& normal_in_world) {
+                    int seeing = 0;
+                    // The camera whose silhouette ends here looks along the surface.
+                    for (core::CameraIndex i = 0; i < cameras_.size(); ++i)
+                      seeing += i == bounding || Sees(i, x_in_world, normal_in_world) ? 1 : 0;
+                    return static_cast<float>(seeing);
+                  });
 }
 
 }  // namespace elbowroom::recon

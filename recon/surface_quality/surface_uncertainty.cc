@@ -1,7 +1,5 @@
 #include "recon/surface_quality/surface_uncertainty.h"
 
-#include <tbb/parallel_for.h>
-
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
@@ -9,7 +7,6 @@
 #include <cmath>
 #include <utility>
 
-#include "core/error.h"
 #include "recon/calibration/lens_projection.h"
 #include "recon/calibration/pixel_response.h"
 #include "recon/contours/silhouette.h"
@@ -150,29 +147,14 @@ double SurfaceUncertainty::ExpandedMm(core::CameraIndex camera, const Vector3d& 
 
 SurfaceValues SurfaceUncertainty::Of(const VisualHull& hull, const HullView& picture,
                                      const ViewRays& rays) const {
-  core::Require(picture.surface.size() == picture.depth_mm.size() &&
-                    picture.normal_in_world.size() == picture.depth_mm.size(),
-                "a picture with the hull's surfaces and normals");
-  core::Require(picture.width_px == rays.width_px() && picture.height_px == rays.height_px(),
-                "the rays that the picture was made with");
-  const BoundingEdges edges(hull);
   std::vector<bool> is_located;
   for (const auto& silhouette : hull.silhouettes())
     is_located.push_back(!silhouette->soft_mask().levels.empty());
-  const core::RigidTransform world_from_view = rays.view_from_world().Inverse();
-  SurfaceValues values(picture.depth_mm.size());
-  tbb::parallel_for(picture.hits.y, picture.hits.bottom, [&](int y) {
-    for (int x = picture.hits.x; x < picture.hits.right; ++x) {
-      const auto at = static_cast<std::size_t>(y * picture.width_px + x);
-      const std::optional<core::CameraIndex> own = edges.CameraOf(picture.surface[at]);
-      if (!own) continue;
-      const Vector3d x_in_world =
-          world_from_view * PlaceInView(rays, x, y, static_cast<double>(picture.depth_mm[at]));
-      values[at] = static_cast<float>(
-          ExpandedMm(*own, picture.normal_in_world[at].cast<double>(), x_in_world, is_located[*own]));
-    }
-  });
-  return values;
+  return ValuesOf(
+      hull, picture, rays,
+      [&](core::CameraIndex bounding, const auto& x_in_world, const auto& normal_in_world) {
+        return static_cast<float>(ExpandedMm(bounding, normal_in_world, x_in_world, is_located[bounding]));
+      });
 }
 
 }  // namespace elbowroom::recon
