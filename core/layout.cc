@@ -17,44 +17,20 @@
 namespace elbowroom::core {
 namespace {
 
-// Where a mesh ends along a world axis when it stands at world_from_part.
+// How far a mesh reaches along a world axis from its own origin.
 struct Extent {
-  double lower_mm;
-  double upper_mm;
+  double lower_mm = std::numeric_limits<double>::infinity();
+  double upper_mm = -std::numeric_limits<double>::infinity();
 };
 Extent ExtentAlong(const Part& part, const RigidTransform& world_from_part, Axis axis) {
-  const auto row = static_cast<Eigen::Index>(axis);
-  Extent extent{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  const auto row = world_from_part.rotation.row(static_cast<Eigen::Index>(axis));
+  Extent extent;
   for (const Eigen::Vector3d& vertex : part.mesh->vertices_mm) {
-    const double position_mm =
-        world_from_part.rotation.row(row).dot(vertex) + world_from_part.translation_mm[row];
-    extent.lower_mm = std::min(extent.lower_mm, position_mm);
-    extent.upper_mm = std::max(extent.upper_mm, position_mm);
+    const double reach_mm = row.dot(vertex);
+    extent.lower_mm = std::min(extent.lower_mm, reach_mm);
+    extent.upper_mm = std::max(extent.upper_mm, reach_mm);
   }
   return extent;
-}
-
-// Where the part, or all parts of the group together, end along the axis.
-Extent ExtentAlong(const Layout& layout, std::string_view part_or_group,
-                   std::span<const RigidTransform> world_from_parts, Axis axis) {
-  Extent all{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
-  for (const PartIndex i : layout.PartsNamed(part_or_group)) {
-    const Extent extent = ExtentAlong(layout.parts[i], world_from_parts[i], axis);
-    all.lower_mm = std::min(all.lower_mm, extent.lower_mm);
-    all.upper_mm = std::max(all.upper_mm, extent.upper_mm);
-  }
-  return all;
-}
-
-// The two ends of a gap.
-struct Facing {
-  double below_mm;
-  double above_mm;
-};
-Facing FacingExtents(const Layout& layout, const Spacing& spacing,
-                     std::span<const RigidTransform> world_from_parts) {
-  return {ExtentAlong(layout, spacing.reference, world_from_parts, spacing.axis).upper_mm,
-          ExtentAlong(layout, spacing.moving, world_from_parts, spacing.axis).lower_mm};
 }
 
 }  // namespace
@@ -126,24 +102,58 @@ std::vector<double> Layout::InitialSpacings() const {
   return result;
 }
 
-std::vector<RigidTransform> PosesAt(const Layout& layout, std::span<const double> spacing_mm) {
-  Require(spacing_mm.size() == layout.spacings.size(), "one value a spacing");
-  std::vector<RigidTransform> world_from_parts;
-  for (const Part& part : layout.parts) world_from_parts.push_back(part.world_from_part);
+// Rounding keeps order: the largest of rounded sums is the rounded sum with the largest.
+SpacingPoses::SpacingPoses(const Layout& layout) : spacing_count_(layout.spacings.size()) {
+  for (const Part& part : layout.parts) world_from_parts_.push_back(part.world_from_part);
   for (const SpacingIndex i : OrderOfPlacement(layout)) {
     const Spacing& spacing = layout.spacings[i];
-    const Facing facing = FacingExtents(layout, spacing, world_from_parts);
-    const double shift_mm = facing.below_mm + spacing_mm[i] - facing.above_mm;
-    for (const PartIndex moving : layout.PartsNamed(spacing.moving))
-      world_from_parts[moving].translation_mm[static_cast<Eigen::Index>(spacing.axis)] += shift_mm;
+    const auto extent = [&](PartIndex part) {
+      return ExtentAlong(layout.parts[part], world_from_parts_[part], spacing.axis);
+    };
+    Placement placement{i, static_cast<Eigen::Index>(spacing.axis), {}, {}};
+    for (const PartIndex part : layout.PartsNamed(spacing.reference))
+      placement.tops.push_back({part, extent(part).upper_mm});
+    for (const PartIndex part : layout.PartsNamed(spacing.moving))
+      placement.bottoms.push_back({part, extent(part).lower_mm});
+    placements_.push_back(std::move(placement));
+  }
+}
+
+std::vector<RigidTransform> SpacingPoses::At(std::span<const double> spacing_mm) const {
+  Require(spacing_mm.size() == spacing_count_, "one value a spacing");
+  std::vector<RigidTransform> world_from_parts = world_from_parts_;
+  for (const Placement& placement : placements_) {
+    const auto position_mm = [&](PartIndex part) -> double& {
+      return world_from_parts[part].translation_mm[placement.axis];
+    };
+    double top_mm = Extent().upper_mm, bottom_mm = Extent().lower_mm;
+    for (const Reach& reach : placement.tops) top_mm = std::max(top_mm, reach.mm + position_mm(reach.part));
+    for (const Reach& reach : placement.bottoms)
+      bottom_mm = std::min(bottom_mm, reach.mm + position_mm(reach.part));
+    const double shift_mm = top_mm + spacing_mm[placement.spacing] - bottom_mm;
+    for (const Reach& reach : placement.bottoms) position_mm(reach.part) += shift_mm;
   }
   return world_from_parts;
 }
 
+std::vector<RigidTransform> PosesAt(const Layout& layout, std::span<const double> spacing_mm) {
+  return SpacingPoses(layout).At(spacing_mm);
+}
+
 double GapMm(const Layout& layout, const Spacing& spacing, std::span<const RigidTransform> world_from_parts) {
   Require(world_from_parts.size() == layout.parts.size(), "one pose a part");
-  const Facing facing = FacingExtents(layout, spacing, world_from_parts);
-  return facing.above_mm - facing.below_mm;
+  const auto extent = [&](PartIndex part) {
+    return ExtentAlong(layout.parts[part], world_from_parts[part], spacing.axis);
+  };
+  const auto position_mm = [&](PartIndex part) {
+    return world_from_parts[part].translation_mm[static_cast<Eigen::Index>(spacing.axis)];
+  };
+  double top_mm = Extent().upper_mm, bottom_mm = Extent().lower_mm;
+  for (const PartIndex part : layout.PartsNamed(spacing.reference))
+    top_mm = std::max(top_mm, extent(part).upper_mm + position_mm(part));
+  for (const PartIndex part : layout.PartsNamed(spacing.moving))
+    bottom_mm = std::min(bottom_mm, extent(part).lower_mm + position_mm(part));
+  return bottom_mm - top_mm;
 }
 
 std::vector<SpacingIndex> OrderOfPlacement(const Layout& layout) {

@@ -96,9 +96,36 @@ struct Layout {
 [[nodiscard]] SpacingIndex RequireSpacing(const Layout& layout, const std::string& name,
                                           std::string_view option = "--spacing");
 
-// world_from_part of every part (same order) with spacing i at spacing_mm[i]. A function of the values alone:
-// moving a gap out and back gives bit-equal poses. References are placed before the parts that move against
-// them. Throws: PreconditionError when the count differs from the layout's spacings.
+// Where the parts of a layout stand at any spacings. It goes over the meshes when it is made; asking it costs
+// the same however large they are.
+class SpacingPoses {
+ public:
+  explicit SpacingPoses(const Layout& layout);
+
+  // world_from_part of every part (same order) with spacing i at spacing_mm[i]. A function of the values
+  // alone: moving a gap out and back gives bit-equal poses. References are placed before the parts that move
+  // against them. Throws: PreconditionError when the count differs from the layout's spacings.
+  [[nodiscard]] std::vector<RigidTransform> At(std::span<const double> spacing_mm) const;
+
+ private:
+  // How far a part reaches along an axis of the world from its own origin.
+  struct Reach {
+    PartIndex part;
+    double mm;
+  };
+  struct Placement {
+    SpacingIndex spacing;
+    Eigen::Index axis;
+    std::vector<Reach> tops;     // of the reference's parts
+    std::vector<Reach> bottoms;  // of the moving parts
+  };
+
+  std::size_t spacing_count_;
+  std::vector<RigidTransform> world_from_parts_;  // as authored
+  std::vector<Placement> placements_;             // in their order
+};
+
+// SpacingPoses, for one time.
 [[nodiscard]] std::vector<RigidTransform> PosesAt(const Layout& layout, std::span<const double> spacing_mm);
 
 // The gap of a spacing when the parts stand at these poses (one a part), by the exact extents of their

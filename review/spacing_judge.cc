@@ -341,7 +341,7 @@ class SpacingJudge::WorstErrors {
 };
 
 SpacingJudge::SpacingJudge(const core::Layout& layout, const SpacingStudyOptions& options)
-    : layout_(layout),
+    : poses_(layout),
       options_(options),
       steps_mm_(options.Steps()),
       inside_(std::make_unique<InsideOfThreads>(trees_)),
@@ -356,7 +356,7 @@ SpacingJudge::~SpacingJudge() = default;
 std::vector<core::RigidTransform> SpacingJudge::PosesAt(std::vector<double> spacing_mm,
                                                         double studied_mm) const {
   spacing_mm[options_.spacing] = studied_mm;
-  return core::PosesAt(layout_, spacing_mm);
+  return poses_.At(spacing_mm);
 }
 
 InsideCells* SpacingJudge::InsideOf(core::PartIndex part) const { return inside_->Of(part); }

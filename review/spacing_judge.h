@@ -81,7 +81,7 @@ class SpacingJudge {
   // What a verdict allows for where no witness points tell.
   [[nodiscard]] double AllowedMm(core::PartIndex part, const core::RigidTransform& world_from_part) const;
 
-  const core::Layout& layout_;
+  const core::SpacingPoses poses_;
   const SpacingStudyOptions& options_;
   const std::vector<double> steps_mm_;
   std::vector<core::TriangleTree> trees_;

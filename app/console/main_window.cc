@@ -373,7 +373,11 @@ void MainWindow::changeEvent(QEvent* event) {
 void MainWindow::closeEvent(QCloseEvent* event) {
   if (AsksForAnswers()) return event->ignore();
   if (desk_->state() == DeskState::kIdle) {
-    if (!layout_page_->MayLeave()) return event->ignore();
+    if (layout_page_->desk().is_unsaved()) {
+      pages_->Show(Page::kLayout);
+      layout_page_->Leave([this] { close(); });
+      return event->ignore();
+    }
     pages_->Show(Page::kTrial);  // whose panels are remembered
     if (is_remembered_) SaveWindow(*this);
     return event->accept();

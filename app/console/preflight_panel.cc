@@ -3,7 +3,6 @@
 #include <QAction>
 #include <QDir>
 #include <QEvent>
-#include <QFileDialog>
 #include <QHBoxLayout>
 #include <QHeaderView>
 #include <QVBoxLayout>
@@ -11,6 +10,7 @@
 #include <utility>
 
 #include "app/console/desktop/theme.h"
+#include "app/console/view/file_question.h"
 #include "app/control/cameras/camera_check.h"
 
 namespace elbowroom::console {
@@ -127,10 +127,11 @@ void PreflightPanel::FollowDesk() {
 }
 
 void PreflightPanel::Choose() {
-  const QString file =
-      QFileDialog::getOpenFileName(this, tr("Check the rig of"), QString::fromStdString(file_.string()),
-                                   tr("Trials and rigs (*.toml *.yml *.yaml);;All files (*)"));
-  if (!file.isEmpty()) Open(file.toStdString());
+  AskForFileToRead(this,
+                   {.title = tr("Check the rig of"),
+                    .beside = QString::fromStdString(file_.string()),
+                    .filter = tr("Trials and rigs (*.toml *.yml *.yaml);;All files (*)")},
+                   [this](const QString& file) { Open(file.toStdString()); });
 }
 
 void PreflightPanel::Open(const std::filesystem::path& file) {

@@ -2,7 +2,6 @@
 
 #include <QDesktopServices>
 #include <QDir>
-#include <QFileDialog>
 #include <QFileInfo>
 #include <QStyle>
 #include <QUrl>
@@ -10,12 +9,33 @@
 
 #include "app/console/calibration_dialog.h"
 #include "app/console/desktop/recent_trials.h"
+#include "app/console/view/file_question.h"
 #include "app/control/demo_trial.h"
 
 namespace elbowroom::console {
 namespace {
 
 std::filesystem::path PathFrom(const QString& text) { return text.toStdString(); }
+
+void Calibrate(const QString& file, const QString& rig, QWidget* window) {
+  auto* dialog = new CalibrationDialog(PathFrom(file), PathFrom(rig), window);
+  dialog->setAttribute(Qt::WA_DeleteOnClose);
+  dialog->show();  // a trial may have begun meanwhile
+}
+
+void AskToCalibrate(QWidget* window) {
+  AskForFileToRead(
+      window,
+      {.title = QObject::tr("Calibrate from"), .filter = QObject::tr("Calibrations (*.toml);;All files (*)")},
+      [window](const QString& file) {
+        AskForFileToWrite(window,
+                          {.title = QObject::tr("Write the rig into"),
+                           .beside = QFileInfo(file).dir().filePath("rig.yml"),
+                           .filter = QObject::tr("Rigs (*.yml)"),
+                           .suffix = "yml"},
+                          [window, file](const QString& rig) { Calibrate(file, rig, window); });
+      });
+}
 
 // Enabled whenever `is_possible` says so after a change of the desk's state.
 template <typename IsPossible>
@@ -95,9 +115,9 @@ OpenTrialAction::OpenTrialAction(TrialDesk& desk, std::function<void(const QStri
   connect(this, &QAction::triggered, window, [&desk, start = std::move(start), window] {
     const QString last = desk.trial_file().empty() ? RecentTrials().value(0)
                                                    : QString::fromStdString(desk.trial_file().string());
-    const QString file =
-        QFileDialog::getOpenFileName(window, tr("Open a trial"), last, tr("Trials (*.toml);;All files (*)"));
-    if (!file.isEmpty()) start(file);
+    AskForFileToRead(
+        window, {.title = tr("Open a trial"), .beside = last, .filter = tr("Trials (*.toml);;All files (*)")},
+        start);
   });
   EnableWhile(this, desk, CanStart);
 }
@@ -105,26 +125,17 @@ OpenTrialAction::OpenTrialAction(TrialDesk& desk, std::function<void(const QStri
 SessionsFolderAction::SessionsFolderAction(QWidget* window) : QAction(tr("&Sessions folder …"), window) {
   setToolTip(tr("Choose where the next trials are recorded"));
   connect(this, &QAction::triggered, window, [window] {
-    const QString folder = QFileDialog::getExistingDirectory(
-        window, tr("Record sessions into"), QString::fromStdString(SessionsFolder().string()));
-    if (!folder.isEmpty()) SetSessionsFolder(PathFrom(folder));
+    AskForFolder(
+        window,
+        {.title = tr("Record sessions into"), .beside = QString::fromStdString(SessionsFolder().string())},
+        [](const QString& folder) { SetSessionsFolder(PathFrom(folder)); });
   });
 }
 
 CalibrateAction::CalibrateAction(TrialDesk& desk, QWidget* window)
     : QAction(window->style()->standardIcon(QStyle::SP_FileDialogContentsView), tr("&Calibrate …"), window) {
   setToolTip(tr("Find the cameras' lenses and places from pictures of a board, as a CALIB.toml says"));
-  connect(this, &QAction::triggered, window, [window] {
-    const QString file = QFileDialog::getOpenFileName(window, tr("Calibrate from"), {},
-                                                      tr("Calibrations (*.toml);;All files (*)"));
-    if (file.isEmpty()) return;
-    const QString rig = QFileDialog::getSaveFileName(
-        window, tr("Write the rig into"), QFileInfo(file).dir().filePath("rig.yml"), tr("Rigs (*.yml)"));
-    if (rig.isEmpty()) return;
-    auto* dialog = new CalibrationDialog(PathFrom(file), PathFrom(rig), window);
-    dialog->setAttribute(Qt::WA_DeleteOnClose);
-    dialog->open();
-  });
+  connect(this, &QAction::triggered, window, [window] { AskToCalibrate(window); });
   EnableWhile(this, desk, IsIdle);
 }
 

@@ -96,8 +96,7 @@ core::Layout DemoLayout() {
   layout.parts.push_back(DemoPart("pmt", PmtBox(), Vector3d::Zero()));
   layout.parts.push_back(DemoPart("payload_a", PayloadA(), {0.0, 0.0, kPmtHeightMm + kGapInitialMm}));
   layout.parts.push_back(DemoPart("payload_b", PayloadB(), {-290.0, 0.0, 0.0}));
-  layout.spacings.push_back(
-      {"payload_a_gap", "payload_a", "pmt", core::Axis::kZ, 60.0, 400.0, kGapInitialMm});
+  layout.spacings.push_back({kDemoGap, "payload_a", "pmt", core::Axis::kZ, 60.0, 400.0, kGapInitialMm});
   layout.pair_rules.push_back({"payload_a", "pmt", 60.0, false});
   layout.pair_rules.push_back({"payload_b", "pmt", 20.0, false});
   layout.pair_rules.push_back({"payload_a", "payload_b", 20.0, false});

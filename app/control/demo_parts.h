@@ -38,6 +38,7 @@ struct ProfileRing {
 
 // Parts "pmt" on the table about the world's z axis, "payload_a" above it on the spacing "payload_a_gap" (z,
 // 60 to 400 mm, initially 140), "payload_b" beside the PMT box; a rule for each pair.
+inline constexpr const char* kDemoGap = "payload_a_gap";
 [[nodiscard]] core::Layout DemoLayout();
 
 }  // namespace elbowroom::control

@@ -44,7 +44,7 @@ TrialSetup MakeDemoTrial(DemoPlay play) {
   if (play == DemoPlay::kOnce) {
     options.frame_count = 2 * frames_a_task;
     setup.script = ToolChanges(*options.frame_count, options.frame_rate_hz);
-    setup.script.push_back({frames_a_task, SpacingRequest{"payload_a_gap", kGapNeededMm}});
+    setup.script.push_back({frames_a_task, SpacingRequest{kDemoGap, kGapNeededMm}});
     options.what_ends_it = "the simulated task, played twice";
   }
   setup.source = std::make_shared<recon::SyntheticRig>(

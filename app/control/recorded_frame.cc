@@ -31,7 +31,8 @@ void RequireInSight(const FrameResult& result, const std::filesystem::path& sess
 FrameRebuilder::FrameRebuilder(const core::SessionHeader& header, std::filesystem::path session)
     : session_(std::move(session)),
       rig_(std::make_shared<const core::Rig>(header.rig)),
-      layout_(std::make_shared<const core::Layout>(header.layout)) {}
+      layout_(std::make_shared<const core::Layout>(header.layout)),
+      poses_(*layout_) {}
 
 SharedFrameResult FrameRebuilder::Rebuild(core::FrameRecord record, const SharedHull& last) {
   // Whoever read the frame has checked that its silhouettes have the sizes of the cameras' pictures, before
@@ -40,8 +41,7 @@ SharedFrameResult FrameRebuilder::Rebuild(core::FrameRecord record, const Shared
   auto result = std::make_shared<FrameResult>();
   result->hull = recon::NextHull(last, rig_, planes_, *record.masks).hull;
   result->layout = layout_;
-  result->world_from_parts =
-      core::WithMotions(core::PosesAt(*layout_, record.spacing_mm), record.rest_from_parts);
+  result->world_from_parts = core::WithMotions(poses_.At(record.spacing_mm), record.rest_from_parts);
   result->record = std::move(record);
   RequireInSight(*result, session_);
   return result;

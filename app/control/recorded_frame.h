@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "app/control/frame_result.h"
+#include "core/layout.h"
 #include "core/rig.h"
 #include "core/session.h"
 #include "recon/contours/undistorted_plane.h"
@@ -26,10 +27,13 @@ class FrameRebuilder {
   // core::Error{kFormat}: a part is nowhere near a trial.
   [[nodiscard]] SharedFrameResult Rebuild(core::FrameRecord record, const SharedHull& last = nullptr);
 
+  [[nodiscard]] const core::SpacingPoses& poses() const { return poses_; }  // of the session's layout
+
  private:
   std::filesystem::path session_;
   std::shared_ptr<const core::Rig> rig_;
   std::shared_ptr<const core::Layout> layout_;
+  core::SpacingPoses poses_;
   recon::UndistortedPlanes planes_;  // none before the first frame
 };
 

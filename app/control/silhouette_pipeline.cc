@@ -17,6 +17,7 @@ SilhouettePipeline::SilhouettePipeline(core::Rig rig, core::Layout layout,
     : rig_(std::make_shared<const core::Rig>(std::move(rig))),
       planes_(recon::MakeUndistortedPlanes(*rig_)),
       layout_(std::make_shared<const core::Layout>(std::move(layout))),
+      poses_(*layout_),
       judge_(*layout_, review),
       responders_(*layout_),
       asks_clearance_(review.required_clearance_mm > 0.0) {
@@ -34,7 +35,7 @@ std::shared_ptr<FrameResult> SilhouettePipeline::Process(SilhouetteFrame frame,
   result->record.losses = std::move(frame.losses);
   result->layout = layout_;
   result->record.spacing_mm.assign(spacing_mm.begin(), spacing_mm.end());
-  const std::vector<core::RigidTransform> world_from_rests = core::PosesAt(*layout_, spacing_mm);
+  const std::vector<core::RigidTransform> world_from_rests = poses_.At(spacing_mm);
   if (last_ && last_->response) result->record.rest_from_parts = MotionsOf(*last_->response);
   result->world_from_parts = core::WithMotions(world_from_rests, result->record.rest_from_parts);
   Stopwatch watch;

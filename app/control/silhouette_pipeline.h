@@ -62,6 +62,7 @@ class SilhouettePipeline {
   std::shared_ptr<const core::Rig> rig_;
   recon::UndistortedPlanes planes_;
   std::shared_ptr<const core::Layout> layout_;
+  const core::SpacingPoses poses_;
   FrameResultPool results_;
   FrameJudge judge_;
   PartReactions responders_;

@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <random>
 
 #include "core/error.h"
 #include "core/layout_fault.h"
@@ -155,6 +157,49 @@ TEST(PairsOfParts, TheRuleThatNamesMorePartsHolds) {
   EXPECT_EQ(of_parts.pair_rules, expected);
   layout.pair_rules = {{"a", "b", 1.0, false}, {"b", "a", 2.0, false}};
   EXPECT_EQ(WithPairsOfParts(layout).pair_rules, layout.pair_rules) << "contradictions aren't hidden";
+}
+
+// The definition: each gap in its order, from the places of all vertices.
+std::vector<RigidTransform> PlacedOneByOne(const Layout& layout, const std::vector<double>& spacing_mm) {
+  std::vector<RigidTransform> poses;
+  for (const Part& part : layout.parts) poses.push_back(part.world_from_part);
+  for (const SpacingIndex i : OrderOfPlacement(layout)) {
+    const Spacing& spacing = layout.spacings[i];
+    const auto axis = static_cast<Eigen::Index>(spacing.axis);
+    const auto places_mm = [&](const std::string& name) {
+      std::vector<double> all;
+      for (const PartIndex part : layout.PartsNamed(name))
+        for (const Eigen::Vector3d& vertex : layout.parts[part].mesh->vertices_mm)
+          all.push_back(poses[part].rotation.row(axis).dot(vertex) + poses[part].translation_mm[axis]);
+      return all;
+    };
+    const std::vector<double> reference = places_mm(spacing.reference), moving = places_mm(spacing.moving);
+    const double shift_mm =
+        *std::ranges::max_element(reference) + spacing_mm[i] - *std::ranges::min_element(moving);
+    for (const PartIndex part : layout.PartsNamed(spacing.moving))
+      poses[part].translation_mm[axis] += shift_mm;
+  }
+  return poses;
+}
+
+TEST(SpacingPoses, AreBitEqualToThoseOfAllVertices) {
+  std::mt19937 random(20261127);
+  std::uniform_real_distribution<double> place_mm(-2000.0, 2000.0), angle_deg(-180.0, 180.0),
+      size_mm(0.01, 700.0), gap_mm(-50.0, 400.0);
+  const auto three = [&random](auto& of) { return Eigen::Vector3d(of(random), of(random), of(random)); };
+  for (int trial = 0; trial < 300; ++trial) {
+    Layout layout = GroupAboveGroup();
+    layout.parts.push_back(BoxPart("e", {10, 10, 10}, {0, 0, 500}, {0, 0, 0}));
+    for (Part& part : layout.parts)
+      part = BoxPart(part.name, three(size_mm), three(place_mm), three(angle_deg));
+    layout.spacings = {Gap("on top", "e", "a", static_cast<Axis>(trial % 3)), layout.spacings[0],
+                       Gap("side", "upper", "d", Axis::kX)};
+    const SpacingPoses poses(layout);
+    for (int i = 0; i < 3; ++i) {
+      const std::vector<double> spacing_mm = {gap_mm(random), gap_mm(random), gap_mm(random)};
+      EXPECT_EQ(poses.At(spacing_mm), PlacedOneByOne(layout, spacing_mm)) << "trial " << trial;
+    }
+  }
 }
 
 TEST(PosesAt, NeedsOneValueASpacing) { EXPECT_THROW((void)PosesAt(TwoTurnedParts(), {}), PreconditionError); }

@@ -70,7 +70,10 @@ LayoutPage::LayoutPage(QWidget* parent)
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(4);
   column->addWidget(ButtonRow());
-  column->addWidget(RecoveryBar());
+  recovery_ = new QuestionBar("recovery");
+  unsaved_ = new QuestionBar("unsaved");
+  column->addWidget(recovery_);
+  column->addWidget(unsaved_);
   column->addWidget(reading_);
   column->addWidget(split, 1);
   FollowDesk();
@@ -96,28 +99,6 @@ QWidget* LayoutPage::SidePanel() {
   column->addWidget(part_);
   column->addWidget(rules_, 4);
   return side;
-}
-
-QWidget* LayoutPage::RecoveryBar() {
-  recovery_ = new QFrame;
-  recovery_->setObjectName("recovery");
-  recovery_text_ = new QLabel;
-  recovery_text_->setWordWrap(true);
-  recovery_text_->setTextFormat(Qt::PlainText);
-  auto* take = new QPushButton(tr("&Take them"));
-  take->setObjectName("recovery_take");
-  take->setToolTip(tr("Shows the layout with these changes; nothing is written until you save"));
-  connect(take, &QPushButton::clicked, this, &LayoutPage::AskToRecover);
-  auto* forget = new QPushButton(tr("&Discard them"));
-  forget->setObjectName("recovery_forget");
-  forget->setToolTip(tr("Deletes these changes"));
-  connect(forget, &QPushButton::clicked, desk_, &LayoutDesk::DiscardRecovery);
-  auto* row = new QHBoxLayout(recovery_);
-  row->setContentsMargins(4, 2, 4, 2);
-  row->addWidget(recovery_text_, 1);
-  row->addWidget(take);
-  row->addWidget(forget);
-  return recovery_;
 }
 
 void LayoutPage::FollowDesk() {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <QAction>
-#include <QFrame>
+#include <QDialog>
 #include <QLabel>
 #include <QMenu>
 #include <QMimeData>
@@ -23,6 +23,7 @@
 #include "app/console/layouts/parts_view.h"
 #include "app/console/layouts/placing_steps.h"
 #include "app/console/layouts/rule_panel.h"
+#include "app/console/view/question_bar.h"
 
 namespace elbowroom::console {
 
@@ -39,8 +40,9 @@ class LayoutPage : public QWidget {
   void Open(const std::filesystem::path& layout_file);
   // Shows what is in a CAD file and adds what is taken.
   void Import(const std::filesystem::path& cad_file);
-  // Asks where the present layout isn't saved. False: stay.
-  [[nodiscard]] bool MayLeave();
+  // Does it once nothing of the present layout can be lost: at once where all is saved, else after the user
+  // has saved or discarded the changes, and never where the user stays. The question stands in the page.
+  void Leave(std::function<void()> then);
 
   // The file that was dragged, if it is a CAD file; else "".
   [[nodiscard]] static QString CadFileIn(const QMimeData* data);
@@ -72,7 +74,7 @@ class LayoutPage : public QWidget {
                      QKeySequence::StandardKey key = QKeySequence::UnknownKey);
   void AddActions();
   [[nodiscard]] QWidget* ButtonRow();
-  [[nodiscard]] QWidget* RecoveryBar();
+  void OfferRecovery();
   [[nodiscard]] QWidget* SidePanel();
   void FollowDesk();
   void FollowPanels();
@@ -80,9 +82,12 @@ class LayoutPage : public QWidget {
   void AskForFile();
   void AskForPart();
   void AskToRecover();
-  bool Save();
-  bool SaveAs();
+  // `then` is done if it was saved.
+  void Save(const std::function<void()>& then = {});
+  void SaveAs(const std::function<void()>& then = {});
   void AskForTrial();
+  void ShowTrialDialog();
+  void ShowAside(QDialog* dialog);
   void AskForMeasuredPoints();
   void ShowLayout();
   void ShowParts();
@@ -110,8 +115,8 @@ class LayoutPage : public QWidget {
   RulePanel* rules_ = nullptr;
   QLabel* title_ = nullptr;
   QProgressBar* reading_ = nullptr;
-  QWidget* recovery_ = nullptr;
-  QLabel* recovery_text_ = nullptr;
+  QuestionBar* recovery_ = nullptr;
+  QuestionBar* unsaved_ = nullptr;
   std::vector<KeyAction> keys_;
   QStringList chosen_;
   PartLooks looks_;

@@ -1,7 +1,5 @@
 // The layout page's buttons and menu, and the questions that they ask.
-#include <QFileDialog>
 #include <QHBoxLayout>
-#include <QMessageBox>
 #include <QStyle>
 #include <QToolButton>
 #include <numbers>
@@ -11,6 +9,7 @@
 #include "app/console/layouts/measured_points.h"
 #include "app/console/layouts/rule_dialogs.h"
 #include "app/console/layouts/trial_dialog.h"
+#include "app/console/view/file_question.h"
 #include "app/control/layout_editing/layout_edit.h"
 #include "app/control/layout_editing/pair_of_parts.h"
 
@@ -41,10 +40,7 @@ QAction* LayoutPage::AddAction(const QString& name, const QString& text, const Q
 void LayoutPage::AddActions() {
   menu_->setToolTipsVisible(true);
   AddAction(
-      "layout_new", tr("&New"), tr("An empty layout"),
-      [this] {
-        if (MayLeave()) desk_->New();
-      },
+      "layout_new", tr("&New"), tr("An empty layout"), [this] { Leave([this] { desk_->New(); }); },
       QKeySequence::New);
   AddAction(
       "layout_open", tr("&Open …"), tr("Opens a LAYOUT.toml"), [this] { AskForFile(); }, QKeySequence::Open);
@@ -135,35 +131,49 @@ void LayoutPage::ShowState() {
       document.has_file() ? QString::fromStdString(document.file().filename().string()) : tr("not saved yet");
   title_->setText(document.is_changed() ? tr("%1 – changed").arg(name) : name);
   title_->setToolTip(document.has_file() ? QString::fromStdString(document.file().string()) : QString());
-  recovery_->setVisible(desk_->can_recover());
-  recovery_text_->setText(document.has_file()
-                              ? tr("%1 has changes that weren't saved when the program ended.")
-                                    .arg(QString::fromStdString(document.file().string()))
-                              : tr("A layout wasn't saved when the program ended."));
+  OfferRecovery();
+  if (!desk_->is_unsaved()) unsaved_->hide();  // it was saved while it was asked
+}
+
+void LayoutPage::OfferRecovery() {
+  const control::LayoutDocument& document = desk_->document();
+  const QString offer = document.has_file() ? tr("%1 has changes that weren't saved when the program ended.")
+                                                  .arg(QString::fromStdString(document.file().string()))
+                                            : tr("A layout wasn't saved when the program ended.");
+  if (!desk_->can_recover()) return recovery_->hide();
+  if (!recovery_->isHidden()) return recovery_->SetQuestion(offer);
+  recovery_->Ask(offer,
+                 {{"recovery_take", tr("&Take them"),
+                   tr("Shows the layout with these changes; nothing is written until you save"),
+                   [this] { AskToRecover(); }},
+                  {"recovery_forget", tr("&Discard them"), tr("Deletes these changes"),
+                   [this] { desk_->DiscardRecovery(); }}},
+                 false);
 }
 
 void LayoutPage::Open(const std::filesystem::path& layout_file) {
-  if (MayLeave()) desk_->Open(layout_file);
+  Leave([this, layout_file] { desk_->Open(layout_file); });
 }
 
 void LayoutPage::AskForFile() {
-  const QString file =
-      QFileDialog::getOpenFileName(this, tr("Open a layout"), FolderOfDialog(desk_->document().file()),
-                                   tr("Layouts (*.toml);;All files (*)"));
-  if (!file.isEmpty()) Open(file.toStdString());
+  AskForFileToRead(this,
+                   {.title = tr("Open a layout"),
+                    .beside = FolderOfDialog(desk_->document().file()),
+                    .filter = tr("Layouts (*.toml);;All files (*)")},
+                   [this](const QString& file) { Open(file.toStdString()); });
 }
 
 void LayoutPage::AskForPart() {
-  const QString file = QFileDialog::getOpenFileName(this, tr("Import a part"),
-                                                    QString::fromStdString(last_cad_folder_.string()),
-                                                    tr("CAD files (%1);;All files (*)").arg(kCadFilter));
-  if (!file.isEmpty()) Import(file.toStdString());
+  AskForFileToRead(this,
+                   {.title = tr("Import a part"),
+                    .beside = QString::fromStdString(last_cad_folder_.string()),
+                    .filter = tr("CAD files (%1);;All files (*)").arg(kCadFilter)},
+                   [this](const QString& file) { Import(file.toStdString()); });
 }
 
 void LayoutPage::Import(const std::filesystem::path& cad_file) {
   last_cad_folder_ = cad_file.parent_path();
   auto* dialog = new ImportDialog(cad_file, this);
-  dialog->setAttribute(Qt::WA_DeleteOnClose);
   connect(dialog, &ImportDialog::Taken, this,
           [this](const control::PartPreview& preview, const std::vector<std::string>& nodes) {
             const std::vector<std::string> names = desk_->AddParts(preview, nodes);
@@ -171,66 +181,72 @@ void LayoutPage::Import(const std::filesystem::path& cad_file) {
             Choose({QString::fromStdString(names.front())});
             view_->Fit();
           });
-  dialog->open();
+  ShowAside(dialog);
 }
 
-bool LayoutPage::Save() {
-  if (!desk_->document().has_file()) return SaveAs();
-  if (!desk_->Save()) return false;
+void LayoutPage::Save(const std::function<void()>& then) {
+  if (!desk_->document().has_file()) return SaveAs(then);
+  if (!desk_->Save()) return;
   emit LayoutSaved(QString::fromStdString(desk_->document().file().string()));
-  return true;
+  if (then) then();
 }
 
-bool LayoutPage::SaveAs() {
+void LayoutPage::SaveAs(const std::function<void()>& then) {
   const control::LayoutDocument& document = desk_->document();
   const std::filesystem::path proposed =
       document.has_file() ? document.file() : last_cad_folder_ / "layout.toml";
-  QFileDialog dialog(this, tr("Save the layout"), FolderOfDialog(proposed),
-                     tr("Layouts (*.toml);;All files (*)"));
-  dialog.setAcceptMode(QFileDialog::AcceptSave);
-  dialog.setDefaultSuffix("toml");  // before the dialog asks whether to replace a file
-  dialog.selectFile(QString::fromStdString(proposed.filename().string()));
-  if (dialog.exec() != QDialog::Accepted) return false;
-  const QString file = dialog.selectedFiles().front();
-  if (!desk_->SaveAs(file.toStdString())) return false;
-  emit LayoutSaved(file);
-  return true;
+  AskForFileToWrite(this,
+                    {.title = tr("Save the layout"),
+                     .beside = QString::fromStdString(proposed.string()),
+                     .filter = tr("Layouts (*.toml);;All files (*)"),
+                     .suffix = "toml"},
+                    [this, then](const QString& file) {
+                      if (!desk_->SaveAs(file.toStdString())) return;
+                      emit LayoutSaved(file);
+                      if (then) then();
+                    });
 }
 
-bool LayoutPage::MayLeave() {
-  if (!desk_->is_unsaved()) return true;
-  QMessageBox question(QMessageBox::Question, tr("Layout"), tr("The layout has changes that aren't saved."),
-                       QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel, this);
-  question.setObjectName("unsaved_question");
-  question.setDefaultButton(QMessageBox::Save);
-  switch (question.exec()) {
-    case QMessageBox::Save:
-      return Save();
-    case QMessageBox::Discard:
-      desk_->Forget();
-      return true;
-    default:
-      return false;
-  }
+void LayoutPage::Leave(std::function<void()> then) {
+  if (!desk_->is_unsaved()) return then();
+  unsaved_->Ask(tr("The layout has changes that aren't saved."),
+                {{"unsaved_save", tr("&Save"), tr("Writes the LAYOUT.toml, then goes on"),
+                  [this, then] { Save(then); }},
+                 {"unsaved_discard", tr("&Discard"), tr("Goes on without these changes"),
+                  [this, then] {
+                    desk_->Forget();
+                    then();
+                  }},
+                 {"unsaved_stay", tr("S&tay"), tr("Goes on with this layout"), {}}});
 }
 
-// Not MayLeave(): what is offered replaces what is there, saved or not.
+// Not Leave(): what is offered replaces what is there, saved or not.
 void LayoutPage::AskToRecover() {
-  QMessageBox question(QMessageBox::Question, tr("Layout"),
-                       tr("The layout has changes that aren't saved; taking the others discards them."),
-                       QMessageBox::Discard | QMessageBox::Cancel, this);
-  question.setObjectName("recovery_question");
-  question.setDefaultButton(QMessageBox::Cancel);
-  if (!desk_->is_unsaved() || question.exec() == QMessageBox::Discard) desk_->Recover();
+  if (!desk_->is_unsaved()) return desk_->Recover();
+  unsaved_->Ask(
+      tr("The layout has changes that aren't saved; taking the others discards them."),
+      {{"recovery_replace", tr("&Discard"), tr("Takes the changes that weren't saved before"),
+        [this] { desk_->Recover(); }},
+       {"recovery_stay", tr("S&tay"), tr("Goes on with this layout"), [this] { OfferRecovery(); }}});
 }
 
 void LayoutPage::AskForTrial() {
   if (desk_->document().is_changed() || !desk_->document().has_file())
-    if (!Save()) return;
+    return Save([this] { ShowTrialDialog(); });
+  ShowTrialDialog();
+}
+
+void LayoutPage::ShowTrialDialog() {
   auto* dialog = new TrialDialog(desk_->document().file(), this);
-  dialog->setAttribute(Qt::WA_DeleteOnClose);
   connect(dialog, &TrialDialog::Written, this, &LayoutPage::TrialAsked);
-  dialog->open();
+  ShowAside(dialog);
+}
+
+// No modal box: a trial may be running.
+void LayoutPage::ShowAside(QDialog* dialog) {
+  dialog->setAttribute(Qt::WA_DeleteOnClose);
+  connect(desk_, &LayoutDesk::Opened, dialog, &QDialog::reject);  // it is for this layout
+  dialog->show();
 }
 
 // Beside the view, which takes the clicks.
@@ -272,8 +288,7 @@ void LayoutPage::AskForSpacing(const core::Spacing& spacing, bool is_new) {
                         [edit](cad_import::LayoutText& text) { control::PutSpacing(text, edit); });
   };
   auto* dialog = new SpacingDialog(layout(), spacing, is_new, put, this);
-  dialog->setAttribute(Qt::WA_DeleteOnClose);
-  dialog->open();
+  ShowAside(dialog);
 }
 
 void LayoutPage::AskForPair(const core::PairRule& rule) {
@@ -291,8 +306,7 @@ void LayoutPage::AskForPair(const core::PairRule& rule) {
                         [edit](cad_import::LayoutText& text) { control::PutPair(text, edit); });
   };
   auto* dialog = new PairDialog(rule, put, this);
-  dialog->setAttribute(Qt::WA_DeleteOnClose);
-  dialog->open();
+  ShowAside(dialog);
 }
 
 }  // namespace elbowroom::console

@@ -1,7 +1,6 @@
 #include "app/console/layouts/trial_dialog.h"
 
 #include <QDialogButtonBox>
-#include <QFileDialog>
 #include <QFileInfo>
 #include <QFormLayout>
 #include <QHBoxLayout>
@@ -11,6 +10,7 @@
 #include <utility>
 
 #include "app/console/desktop/theme.h"
+#include "app/console/view/file_question.h"
 #include "core/error.h"
 
 namespace elbowroom::console {
@@ -113,17 +113,20 @@ void TrialDialog::BuildForm() {
 }
 
 void TrialDialog::BrowseRig() {
-  const QString rig = QFileDialog::getOpenFileName(this, tr("Choose a rig"), rig_->text(),
-                                                   tr("Rigs (*.yml *.yaml);;All files (*)"));
-  if (!rig.isEmpty()) rig_->setText(rig);
+  AskForFileToRead(this,
+                   {.title = tr("Choose a rig"),
+                    .beside = rig_->text(),
+                    .filter = tr("Rigs (*.yml *.yaml);;All files (*)")},
+                   [this](const QString& rig) { rig_->setText(rig); });
 }
 
 void TrialDialog::BrowseFile() {
-  const QString file =
-      QFileDialog::getSaveFileName(this, tr("Write the trial"), file_->text(), tr("Trials (*.toml)"));
-  if (file.isEmpty()) return;
-  file_->setText(file);
-  may_replace_ = file;  // the file dialog has asked
+  AskForFileToWrite(
+      this, {.title = tr("Write the trial"), .beside = file_->text(), .filter = tr("Trials (*.toml)")},
+      [this](const QString& file) {
+        file_->setText(file);
+        may_replace_ = file;  // the file dialog has asked
+      });
 }
 
 control::TrialDraft TrialDialog::Draft() const {

@@ -1,6 +1,5 @@
 #include "app/console/participant/head_camera_dialog.h"
 
-#include <QFileDialog>
 #include <QFormLayout>
 #include <QHBoxLayout>
 #include <QKeyEvent>
@@ -8,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "app/console/view/file_question.h"
 #include "app/console/view/picture_asker.h"
 #include "app/control/head/head_settings.h"
 #include "core/error.h"
@@ -151,13 +151,15 @@ void HeadCameraDialog::Take(control::SharedFrameResult result, const control::He
 }
 
 void HeadCameraDialog::OpenPicture() {
-  const QString file = QFileDialog::getOpenFileName(this, tr("Picture of the head camera"), {},
-                                                    tr("Pictures (*.png *.jpg *.jpeg *.tif *.tiff *.bmp)"));
-  if (file.isEmpty()) return;
-  look_.head_picture = file.toStdString();
-  pairs_.clear();
-  Ask();
-  ShowFigures();
+  AskForFileToRead(this,
+                   {.title = tr("Picture of the head camera"),
+                    .filter = tr("Pictures (*.png *.jpg *.jpeg *.tif *.tiff *.bmp)")},
+                   [this](const QString& file) {
+                     look_.head_picture = file.toStdString();
+                     pairs_.clear();
+                     Ask();
+                     ShowFigures();
+                   });
 }
 
 void HeadCameraDialog::Ask() {
@@ -220,9 +222,15 @@ void HeadCameraDialog::Fit() {
 
 void HeadCameraDialog::Save() {
   if (head_file_.isEmpty())
-    head_file_ = QFileDialog::getSaveFileName(this, tr("Head file"), "HEAD.toml", tr("Head files (*.toml)"),
-                                              nullptr, QFileDialog::DontConfirmOverwrite);
-  if (head_file_.isEmpty()) return;
+    return AskForFileToWrite(this,
+                             {.title = tr("Head file"),
+                              .beside = "HEAD.toml",
+                              .filter = tr("Head files (*.toml)"),
+                              .asks_before_replacing = false},  // what else the file says stays
+                             [this](const QString& file) {
+                               head_file_ = file;
+                               Save();
+                             });
   try {
     control::WriteHeadCamera(head_file_.toStdString(), camera_);
     next_->setText(tr("Saved in %1").arg(head_file_));

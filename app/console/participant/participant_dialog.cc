@@ -1,6 +1,5 @@
 #include "app/console/participant/participant_dialog.h"
 
-#include <QFileDialog>
 #include <QFormLayout>
 #include <QGroupBox>
 #include <QGuiApplication>
@@ -8,6 +7,7 @@
 #include <QScreen>
 #include <QVBoxLayout>
 
+#include "app/console/view/file_question.h"
 #include "core/units.h"
 
 namespace elbowroom::console {
@@ -162,11 +162,12 @@ void ParticipantDialog::AddTracker(const ParticipantChoices& choices, QFormLayou
   auto* browse = new QPushButton(tr("&Open …"));
   Name(browse, "participant_browse", tr("Choose the head file"), tr("Choose a HEAD.toml"));
   connect(browse, &QPushButton::clicked, this, [this] {
-    const QString file =
-        QFileDialog::getOpenFileName(this, tr("Head file"), head_file_->text(), tr("Head files (*.toml)"));
-    if (file.isEmpty()) return;
-    head_file_->setText(file);
-    emit Changed();
+    AskForFileToRead(
+        this, {.title = tr("Head file"), .beside = head_file_->text(), .filter = tr("Head files (*.toml)")},
+        [this](const QString& file) {
+          head_file_->setText(file);
+          emit Changed();
+        });
   });
   auto* file = new QHBoxLayout;
   file->addWidget(head_file_, 1);

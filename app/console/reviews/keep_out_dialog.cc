@@ -1,7 +1,6 @@
 #include "app/console/reviews/keep_out_dialog.h"
 
 #include <QDialogButtonBox>
-#include <QFileDialog>
 #include <QFileInfo>
 #include <QFormLayout>
 #include <QHBoxLayout>
@@ -9,6 +8,8 @@
 #include <algorithm>
 #include <array>
 #include <utility>
+
+#include "app/console/view/file_question.h"
 
 namespace elbowroom::console {
 namespace {
@@ -75,11 +76,14 @@ KeepOutDialog::KeepOutDialog(const std::filesystem::path& session, QWidget* pare
 }
 
 void KeepOutDialog::Browse() {
-  const QString file = QFileDialog::getSaveFileName(this, tr("Write the keep-out volume into"), file_->text(),
-                                                    tr("Meshes (*.stl *.ply *.glb)"));
-  if (file.isEmpty()) return;
-  file_->setText(file);
-  may_replace_ = file;  // the file dialog has asked
+  AskForFileToWrite(this,
+                    {.title = tr("Write the keep-out volume into"),
+                     .beside = file_->text(),
+                     .filter = tr("Meshes (*.stl *.ply *.glb)")},
+                    [this](const QString& file) {
+                      file_->setText(file);
+                      may_replace_ = file;  // the file dialog has asked
+                    });
 }
 
 void KeepOutDialog::Accept() {

@@ -1,7 +1,6 @@
 #include "app/console/reviews/review_page.h"
 
 #include <QDesktopServices>
-#include <QFileDialog>
 #include <QHBoxLayout>
 #include <QKeyEvent>
 #include <QSplitter>
@@ -17,6 +16,7 @@
 #include "app/console/reviews/review_start.h"
 #include "app/console/reviews/session_facts.h"
 #include "app/console/reviews/what_if_text.h"
+#include "app/console/view/file_question.h"
 
 namespace elbowroom::console {
 namespace {
@@ -252,9 +252,9 @@ void ReviewPage::Open(const std::filesystem::path& session) {
 
 void ReviewPage::AskForSession() {
   const QString last = RecentSessions().value(0, TextFrom(SessionsFolder()));
-  const QString file =
-      QFileDialog::getOpenFileName(this, tr("Open a session"), last, tr("Sessions (*.db);;All files (*)"));
-  if (!file.isEmpty()) Open(file.toStdString());
+  AskForFileToRead(
+      this, {.title = tr("Open a session"), .beside = last, .filter = tr("Sessions (*.db);;All files (*)")},
+      [this](const QString& file) { Open(file.toStdString()); });
 }
 
 void ReviewPage::Fit() {
@@ -413,16 +413,23 @@ void ReviewPage::PlayOn() {
 }
 
 void ReviewPage::AskForBcf(bool out) {
-  const std::filesystem::path& session = desk_->session().path();
-  const QString beside = TextFrom(session.parent_path() / session.stem()) + "-touches.bcfzip";
-  const QString kind = tr("BCF files (*.bcfzip *.bcf)");
-  const QString file = out ? QFileDialog::getSaveFileName(this, tr("Write touches into"), beside, kind)
-                           : QFileDialog::getOpenFileName(this, tr("Take over a review from"), beside, kind);
-  if (file.isEmpty()) return;
+  const std::filesystem::path session = desk_->session().path();
+  const FileQuestion question{.title = out ? tr("Write touches into") : tr("Take over a review from"),
+                              .beside = TextFrom(session.parent_path() / session.stem()) + "-touches.bcfzip",
+                              .filter = tr("BCF files (*.bcfzip *.bcf)")};
+  const auto work = [this, out, session](const QString& file) {
+    if (desk_->session().path() != session)
+      return messages_->ShowError(tr("Another session is open now: ask again"));
+    if (out) {
+      desk_->ExportBcf(file.toStdString());
+    } else {
+      desk_->ImportBcf(file.toStdString());
+    }
+  };
   if (out) {
-    desk_->ExportBcf(file.toStdString());
+    AskForFileToWrite(this, question, work);
   } else {
-    desk_->ImportBcf(file.toStdString());
+    AskForFileToRead(this, question, work);
   }
 }
 
@@ -430,7 +437,8 @@ void ReviewPage::AskForKeepOut() {
   auto* dialog = new KeepOutDialog(desk_->session().path(), this);
   dialog->setAttribute(Qt::WA_DeleteOnClose);
   connect(dialog, &KeepOutDialog::Asked, desk_, &ReviewDesk::WriteKeepOut);
-  dialog->open();
+  connect(desk_, &ReviewDesk::Opened, dialog, &QDialog::reject);  // it is for this session
+  dialog->show();
 }
 
 void ReviewPage::keyPressEvent(QKeyEvent* event) {

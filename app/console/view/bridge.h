@@ -27,13 +27,15 @@ class Bridge : public QObject {
   // Takes the place of the stream's delivery that hasn't run yet, if there is one.
   void PostLatest(Stream stream, Delivery delivery);
 
+ protected:
+  bool event(QEvent* event) override;
+
  private:
   static constexpr std::size_t kStreams = 6;
-  void DeliverNext();
   void DeliverLatest(Stream stream);
 
   std::mutex mutex_;
-  std::deque<Delivery> waiting_;  // of Post; an event is on the way for each
+  std::deque<Delivery> waiting_;  // an event is on the way for each
   std::array<Delivery, kStreams> latest_;
 };
 

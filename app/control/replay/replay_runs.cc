@@ -21,6 +21,7 @@ ReplayRuns::ReplayRuns(const sessions::SessionReader& session, std::span<const s
       frames_(frames),
       layout_(layout),
       shared_layout_(std::make_shared<const core::Layout>(layout.layout())),
+      poses_(*shared_layout_),
       rig_(std::make_shared<const core::Rig>(session.header().rig)),
       end_(end),
       asks_clearance_(asks_clearance),
@@ -83,7 +84,7 @@ ReplayedFrame ReplayRuns::FrameFrom(Loaded loaded) {
   result.hull = std::move(loaded.hull);
   result.skew_errors = std::move(loaded.skew_errors);
   result.layout = shared_layout_;
-  result.world_from_parts = core::PosesAt(*shared_layout_, result.record.spacing_mm);
+  result.world_from_parts = poses_.At(result.record.spacing_mm);
   return frame;
 }
 

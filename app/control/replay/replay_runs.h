@@ -64,6 +64,7 @@ class ReplayRuns {
   std::span<const sessions::FrameSummary> frames_;
   const ReplayLayout& layout_;
   std::shared_ptr<const core::Layout> shared_layout_;
+  const core::SpacingPoses poses_;
   std::shared_ptr<const core::Rig> rig_;
   recon::UndistortedPlanes planes_;
   recon::MotionHistory motions_;

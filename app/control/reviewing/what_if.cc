@@ -28,7 +28,8 @@ class WhatIfTally {
       : session_(session),
         request_(request),
         tracker_(TrackerOptionsOf(session.header().trial)),
-        tools_(session.events()) {
+        tools_(session.events()),
+        poses_(session.header().layout) {
     what_if_.held_mm = request.held_mm;
     what_if_.parts.resize(session.header().layout.parts.size());
   }
@@ -67,9 +68,7 @@ class WhatIfTally {
     if (held_mm == recorded_mm || (held_mm == last_held_mm_ && recorded_mm == last_recorded_mm_)) return;
     last_held_mm_ = held_mm;
     last_recorded_mm_ = recorded_mm;
-    const core::Layout& layout = session_.header().layout;
-    const std::vector<bool> moved =
-        PartsMoved(core::PosesAt(layout, recorded_mm), core::PosesAt(layout, held_mm));
+    const std::vector<bool> moved = PartsMoved(poses_.At(recorded_mm), poses_.At(held_mm));
     for (core::PartIndex i = 0; i < moved.size(); ++i)
       what_if_.parts[i].is_moved = what_if_.parts[i].is_moved || moved[i];
   }
@@ -104,6 +103,7 @@ class WhatIfTally {
   const WhatIfRequest& request_;
   review::ContactTracker tracker_;
   core::ToolsOfFrames tools_;
+  const core::SpacingPoses poses_;
   std::vector<double> last_held_mm_, last_recorded_mm_;
   WhatIf what_if_;
 };

@@ -47,8 +47,8 @@ SharedFrameResult WhatIfFrames::Judged(const SharedFrameResult& recorded, std::s
   result->record.spacing_mm = layout.SpacingsFrom(recorded->record.spacing_mm);
   result->hull = recorded->hull;
   result->layout = recorded->layout;
-  result->world_from_parts = core::WithMotions(core::PosesAt(*result->layout, result->record.spacing_mm),
-                                               result->record.rest_from_parts);
+  result->world_from_parts =
+      core::WithMotions(rebuilder_.poses().At(result->record.spacing_mm), result->record.rest_from_parts);
   FrameJudge::KnownAnswers known(header.layout.parts.size(), nullptr);
   for (core::PartIndex i = 0; i < known.size(); ++i)
     if (result->world_from_parts[i] == recorded->world_from_parts[i])

@@ -10,17 +10,17 @@ namespace elbowroom::control {
 namespace {
 
 // What is known of a frame's parts before it is judged.
-FrameJudge::KnownAnswers KnownOf(const core::Layout& layout, const WhatIfPiece::Frame& frame,
-                                 const WhatIfPiece::Frame* before) {
+// `was`: the parts' poses as recorded.
+FrameJudge::KnownAnswers KnownOf(const std::vector<core::RigidTransform>& was,
+                                 const WhatIfPiece::Frame& frame, const WhatIfPiece::Frame* before) {
   const FrameResult& result = *frame.result;
   const MotionFrame& recorded = frame.recorded;
-  const auto was = core::PosesAt(layout, recorded.record.spacing_mm);
   // Motion of contours goes into a verdict, and differs from frame to frame.
   const bool is_like_before = before != nullptr && recorded.hull != nullptr &&
                               before->recorded.hull == recorded.hull && !recorded.skew_errors &&
                               !before->recorded.skew_errors &&
                               before->recorded.record.LacksCamera() == recorded.record.LacksCamera();
-  FrameJudge::KnownAnswers known(layout.parts.size(), nullptr);
+  FrameJudge::KnownAnswers known(was.size(), nullptr);
   for (core::PartIndex i = 0; i < known.size(); ++i) {
     const core::RigidTransform& pose = result.world_from_parts[i];
     if (was[i] == pose) {
@@ -50,6 +50,7 @@ WhatIfJudging::WhatIfJudging(const ReviewedSession& session, const ReplayLayout&
     : session_(session),
       layout_(layout),
       shared_layout_(std::make_shared<const core::Layout>(layout.layout())),
+      poses_(*shared_layout_),
       motion_(MotionOf(session)),
       judges_(layout_.layout(),
               ReviewOptionsOf(session.header().trial, session.header().rig, session.header().rig_quality)) {}
@@ -62,9 +63,8 @@ std::shared_ptr<WhatIfPiece> WhatIfJudging::Read(std::size_t first, std::size_t 
     frame.result = results_.Take();
     FrameResult& result = *frame.result;
     result.record.spacing_mm = layout_.SpacingsFrom(summary.spacing_mm);
-    result.world_from_parts = core::PosesAt(*shared_layout_, result.record.spacing_mm);
-    if (motion_.CountsMotion() ||
-        result.world_from_parts != core::PosesAt(*shared_layout_, summary.spacing_mm)) {
+    result.world_from_parts = poses_.At(result.record.spacing_mm);
+    if (motion_.CountsMotion() || result.world_from_parts != poses_.At(summary.spacing_mm)) {
       frame.recorded = motion_.Load(i);
     } else {
       frame.recorded.record = session_.ReadFrame(summary.frame);
@@ -85,7 +85,8 @@ void WhatIfJudging::Judge(WhatIfPiece* piece) {
   std::unique_ptr<FrameJudge> judge = judges_.Take();
   const WhatIfPiece::Frame* before = nullptr;
   for (WhatIfPiece::Frame& frame : piece->frames) {
-    judge->JudgeOthers(KnownOf(*shared_layout_, frame, before), frame.result.get());
+    judge->JudgeOthers(KnownOf(poses_.At(frame.recorded.record.spacing_mm), frame, before),
+                       frame.result.get());
     before = &frame;
   }
   judges_.PutBack(std::move(judge));

@@ -46,6 +46,7 @@ class WhatIfJudging {
   const ReviewedSession& session_;
   const ReplayLayout& layout_;
   std::shared_ptr<const core::Layout> shared_layout_;
+  const core::SpacingPoses poses_;
   RecordedMotion motion_;
   FrameResultPool results_;
   FrameJudgePool judges_;

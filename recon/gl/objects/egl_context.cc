@@ -200,7 +200,10 @@ bool EglContext::MakeCurrentOrReplace() noexcept {
   try {
     MakeCurrent();
   } catch (const Error&) {
-    native_ = std::make_unique<Native>(native_->display, Open(native_->display));
+    // In this order: a new context may get the handle of one that the driver has given up.
+    const EGLDisplay display = native_->display;
+    native_.reset();
+    native_ = std::make_unique<Native>(display, Open(display));
   }
   return native_->attempt.failure.empty();
 }

@@ -8,7 +8,6 @@
 namespace elbowroom::recon::gl {
 namespace {
 
-constexpr float kFilterTexels = 2.0F;  // that a look-up may read beside its place
 using Blocks = std::array<std::array<bool, ShadowReach::kBlocks>, ShadowReach::kBlocks>;
 
 // The block of a texel's edge, within the picture.
@@ -20,10 +19,10 @@ int BlockOf(float texel, int side_px) {
 
 // Marks the blocks that a run of hits, [begin, end) of the row y, can reach.
 void Mark(int begin, int end, int y, int side_px, Blocks& blocks) {
-  const int left = BlockOf(static_cast<float>(begin) - kFilterTexels, side_px),
-            right = BlockOf(static_cast<float>(end) + kFilterTexels, side_px),
-            top = BlockOf(static_cast<float>(y) - kFilterTexels, side_px),
-            bottom = BlockOf(static_cast<float>(y + 1) + kFilterTexels, side_px);
+  const int left = BlockOf(static_cast<float>(begin) - kShadowFilterTexels, side_px),
+            right = BlockOf(static_cast<float>(end) + kShadowFilterTexels, side_px),
+            top = BlockOf(static_cast<float>(y) - kShadowFilterTexels, side_px),
+            bottom = BlockOf(static_cast<float>(y + 1) + kShadowFilterTexels, side_px);
   for (int row = top; row <= bottom; ++row)
     std::fill(blocks[static_cast<std::size_t>(row)].begin() + left,
               blocks[static_cast<std::size_t>(row)].begin() + right + 1, true);

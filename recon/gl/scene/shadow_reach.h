@@ -8,6 +8,8 @@
 
 namespace elbowroom::recon::gl {
 
+inline constexpr float kShadowFilterTexels = 2.0F;  // that a look-up of a shadow may read beside its place
+
 // Of a hull's layer from the lamp: which of kBlocks x kBlocks blocks of the lamp's picture have a place whose
 // look-up reads a hit, as sums from the picture's corner (a summed-area table).
 class ShadowReach {

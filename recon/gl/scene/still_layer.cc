@@ -22,9 +22,8 @@ constexpr double kBelowTableMm = 1.0;  // that a part may reach down: what is le
 // A layer of which more than this share has changed isn't worth renewing for a content that may not come
 // again.
 constexpr double kWorthRenewing = 0.5;
-constexpr float kEdgePx = 2.0F;  // that a part's edges may be drawn beside its box
-constexpr float kFilterTexels =
-    4.0F;  // of the parts' shadow, that a look-up may read beside its place, and more
+constexpr float kEdgePx = 2.0F;                             // that a part's edges may be drawn beside its box
+constexpr float kReachTexels = 2.0F * kShadowFilterTexels;  // of the parts' shadow, rounded generously
 
 constexpr const char* kEmptySource = R"(
 void main() {}
@@ -156,7 +155,7 @@ std::vector<std::size_t> StillLayer::StaleTiles(const StillChange& change) const
   const std::vector<Eigen::AlignedBox2f> in_picture =
       Widened(change.in_picture, Eigen::Vector2f::Constant(kEdgePx).cwiseQuotient(size_px));
   const std::vector<Eigen::AlignedBox2f> in_lamp =
-      Widened(change.in_lamp, Eigen::Vector2f::Constant(kFilterTexels / static_cast<float>(part_shadow_px_)));
+      Widened(change.in_lamp, Eigen::Vector2f::Constant(kReachTexels / static_cast<float>(part_shadow_px_)));
   std::vector<std::size_t> stale;
   for (std::size_t i = 0; i < tiles_.size(); ++i) {
     const Eigen::Vector2f corner(static_cast<float>(tiles_[i].x_px), static_cast<float>(tiles_[i].y_px));

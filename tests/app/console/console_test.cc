@@ -20,6 +20,7 @@
 #include <variant>
 
 #include "app/console/window_picture.h"
+#include "app/control/demo_parts.h"
 #include "app/control/demo_trial.h"
 #include "recon/synthetic/demo_motion.h"
 #include "sessions/session_reader.h"
@@ -34,7 +35,6 @@ namespace {
 
 constexpr double kGuessedGapMm = 140.0;
 constexpr double kNeededGapMm = 240.0;
-constexpr const char* kGap = "payload_a_gap";
 
 // A window that doesn't answer for a fifth of a second is felt to hang.
 constexpr double kLongestStallMs = 200.0;
@@ -102,7 +102,7 @@ TEST_F(ConsoleTest, ContactsVanishFromTheListAsTheGapIsOpenedLive) {
   for (const core::SessionEvent& event : session.events()) {
     const auto* change = std::get_if<core::SpacingChanged>(&event.what);
     if (change == nullptr) continue;
-    EXPECT_EQ(change->spacing, kGap);
+    EXPECT_EQ(change->spacing, control::kDemoGap);
     EXPECT_EQ(change->from_mm, kGuessedGapMm);
     EXPECT_EQ(change->to_mm, kNeededGapMm);
     changes.push_back(event.frame);
@@ -334,19 +334,23 @@ TEST_F(ConsoleTest, NoBoxStandsBeforeATrialThatIsClosed) {
   EXPECT_FALSE(window_.close());
   EXPECT_FALSE(window_.desk().state() == DeskState::kIdle);
   EXPECT_EQ(QApplication::activeModalWidget(), nullptr);
-  AnswerNextQuestion(QMessageBox::Cancel);
   ASSERT_TRUE(WaitUntil([&] { return IsIdle(); }));
-  ASSERT_TRUE(WaitUntil([&] { return QApplication::activeModalWidget() == nullptr; }));
-  QApplication::processEvents();
+  auto* question = Find<QWidget>("unsaved");
+  ASSERT_TRUE(WaitUntil([&] { return question->isVisible(); }));
+  EXPECT_EQ(window_.pages().page(), Page::kLayout);
+  EXPECT_TRUE(window_.isVisible());
+  Click(Find<QPushButton>("unsaved_stay"));
   EXPECT_TRUE(window_.isVisible());
   // The next trial's end closes nothing.
   last_frame_.reset();
   StartDemoAndWaitForFrames();
   StopAndWait();
   QApplication::processEvents();
-  EXPECT_EQ(QApplication::activeModalWidget(), nullptr);
+  EXPECT_FALSE(question->isVisible());
   EXPECT_TRUE(window_.isVisible());
-  layout.Forget();
+  EXPECT_FALSE(window_.close());
+  Click(Find<QPushButton>("unsaved_discard"));
+  EXPECT_TRUE(WaitUntil([&] { return !window_.isVisible(); }));
 }
 
 TEST_F(ConsoleTest, ClosingTheWindowCompletesTheSessionFirst) {

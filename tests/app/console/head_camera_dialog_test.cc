@@ -9,10 +9,8 @@
 #include <QTest>
 #include <algorithm>
 
-#include "app/control/demo_parts.h"
-#include "app/control/demo_trial.h"
-#include "app/control/frame_pipeline.h"
 #include "app/control/head/head_settings.h"
+#include "tests/app/demo_frame.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text_file.h"
 
@@ -20,16 +18,6 @@ namespace elbowroom::console {
 namespace {
 
 constexpr int kDrawnWithinMs = 60'000;  // far beyond what a picture takes
-
-control::SharedFrameResult FrameOfTheDemo() {
-  static const control::SharedFrameResult result = [] {
-    control::TrialSetup setup = control::MakeDemoTrial(control::DemoPlay::kOnce);
-    control::FramePipeline pipeline(setup.source->rig(), setup.layout, setup.source->ReadBackgrounds({}, {}),
-                                    setup.segmentation);
-    return pipeline.Process(setup.source->Read(66), std::vector<double>{control::kGapNeededMm});
-  }();
-  return result;
-}
 
 class HeadCameraRegistration : public testing::Test {
  protected:
@@ -39,7 +27,7 @@ class HeadCameraRegistration : public testing::Test {
         settings.world_from_fixed_head, control::HeadClock::now(), recon::HeadSource::kFixed, {}, {}};
     head.is_lost = false;
     dialog.show();
-    dialog.Take(FrameOfTheDemo(), head, 0);
+    dialog.Take(control::DemoFrame(), head, 0);
     EXPECT_TRUE(QTest::qWaitFor([&] { return !dialog.view()->picture_size().isEmpty(); }, kDrawnWithinMs));
   }
   QPushButton* Button(const char* name) { return dialog.findChild<QPushButton*>(name); }
@@ -66,7 +54,7 @@ TEST_F(HeadCameraRegistration, AKnownOffsetIsFoundByMarks) {
   truth.focal_px = 640.0;
   // Corners that both pictures have, far from one another.
   std::vector<Eigen::Vector3d> marked;
-  const auto corners = control::CornersOf(*FrameOfTheDemo());
+  const auto corners = control::CornersOf(*control::DemoFrame());
   ASSERT_GT(corners.size(), 8U);
   const recon::HeadCamera start = dialog.camera();
   const auto is_inside = [](const Eigen::Vector2d& pixel) {

@@ -11,26 +11,14 @@
 #include <cmath>
 
 #include "app/console/participant/participant_desk.h"
-#include "app/control/demo_parts.h"
-#include "app/control/demo_trial.h"
-#include "app/control/frame_pipeline.h"
 #include "app/control/head/udp_port.h"
+#include "tests/app/demo_frame.h"
 #include "tests/openxr_runtime/mock_headset.h"
 
 namespace elbowroom::console {
 namespace {
 
 constexpr int kLongMs = 60'000;  // far beyond what a picture takes
-
-control::SharedFrameResult DemoFrame() {
-  static const control::SharedFrameResult result = [] {
-    control::TrialSetup setup = control::MakeDemoTrial(control::DemoPlay::kOnce);
-    control::FramePipeline pipeline(setup.source->rig(), setup.layout, setup.source->ReadBackgrounds({}, {}),
-                                    setup.segmentation);
-    return pipeline.Process(setup.source->Read(66), std::vector<double>{control::kGapNeededMm});
-  }();
-  return result;
-}
 
 int FreePort() { return control::UdpPort("127.0.0.1", 0).port(); }
 
@@ -46,7 +34,7 @@ class ParticipantWindow : public testing::Test {
   void Make(const ParticipantChoices& choices) {
     RememberChoices(choices);
     desk = std::make_unique<ParticipantDesk>(&window);
-    desk->ShowFrame(DemoFrame());
+    desk->ShowFrame(control::DemoFrame());
   }
   [[nodiscard]] bool HasPicture() const { return desk->is_open() && !desk->view()->picture().isNull(); }
   // Packets of a head that moves slowly, until `done`.

@@ -1,5 +1,4 @@
 // A whole trial with a procedure in the window, by mouse and keys; what the session has of it; its replay.
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <QAction>
@@ -19,73 +18,19 @@
 #include "core/procedure/event_text.h"
 #include "core/procedure/step_runs.h"
 #include "sessions/session_reader.h"
+#include "tests/app/console/procedure_trial.h"
 #include "tests/app/console/window_fixture.h"
-#include "tests/app/mask_rig.h"
-#include "tests/support/text_file.h"
 
 namespace elbowroom::console {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kFrames = 3000;  // far more than the test lets pass
-
 constexpr const char* kNotes = "The cable was in the way";
-
-constexpr const char* kLayout = R"(unit = "mm"
-[[part]]
-name = "base"
-file = "box.stl"
-position_mm = [0, 0, 80]
-[[part]]
-name = "payload"
-file = "box.stl"
-position_mm = [0, 0, 250]
-[[spacing]]
-name = "gap"
-moving = "payload"
-reference = "base"
-axis = "z"
-min_mm = 100
-max_mm = 220
-initial_mm = 170
-)";
-
-constexpr const char* kTrial = R"(rig = "rig.yml"
-layout = "layout.toml"
-task = "Screw the pipe in"
-participant = "P07"
-condition = "gloves"
-order = 2
-tools = ["tongs"]
-[[step]]
-name = "reach in"
-[[step]]
-name = "screw"
-[[survey]]
-when = "before"
-item = "How sure are you?"
-[[survey]]
-when = "after"
-item = "How sure are you?"
-[[survey]]
-when = "after"
-item = "Effort"
-scale = [0, 100]
-)";
 
 class ProcedureTest : public WindowFixture {
  protected:
-  ProcedureTest() {
-    test_support::WriteBallRig(folder_.path());
-    test_support::WriteBoxStl(folder_ / "box.stl", 40.0);
-    for (const char* camera : {"cam1", "cam2", "cam3", "cam4"})
-      for (int i = 1; i < kFrames; ++i)
-        fs::create_hard_link(folder_ / camera / "mask_0000.png",
-                             folder_ / camera / fmt::format("mask_{:04d}.png", i));
-    test_support::WriteText(folder_ / "layout.toml", kLayout);
-    test_support::WriteText(folder_ / "trial.toml", kTrial);
-  }
+  ProcedureTest() { WriteProcedureTrial(folder_.path()); }
 
   void Key(Qt::Key key, Qt::KeyboardModifiers modifiers = {}) {
     window_.setFocus();
@@ -128,7 +73,7 @@ TEST_F(ProcedureTest, AWholeTrialIsInTheSessionAndItsReplay) {
   QTest::keyClicks(Find<QLineEdit>("bookmark_name"), "tongs slipped");
   QTest::keyClick(Find<QLineEdit>("bookmark_name"), Qt::Key_Return);
   Key(Qt::Key_N);
-  ASSERT_TRUE(WaitUntil([&] { return StepIs("screw"); }));
+  ASSERT_TRUE(WaitUntil([&] { return StepIs(kSecondStep); }));
   Key(Qt::Key_Space);
   ASSERT_TRUE(WaitUntil([&] { return StepIs(""); }));
   Find<QAction>("stop")->trigger();
@@ -154,13 +99,14 @@ TEST_F(ProcedureTest, AWholeTrialIsInTheSessionAndItsReplay) {
     const auto* note = std::get_if<core::Note>(&event.what);
     if (note == nullptr || note->text == kNotes) happened.push_back(core::EventText(event.what));
   }
+  const std::string second = kSecondStep;
   EXPECT_EQ(
       happened,
       (std::vector<std::string>{
           "estimate before the trial: 140 mm", "before the trial, 'How sure are you?': 6",
           "step 'reach in' begun", "tongs taken in use", "gap from 170 to 130 mm", "gap from 130 to 200 mm",
           "gap from 200 to 130 mm", "bookmark", "bookmark: tongs slipped", "step 'reach in' ended",
-          "step 'screw' begun", "step 'screw' ended", "estimate after the trial: 165 mm",
+          "step '" + second + "' begun", "step '" + second + "' ended", "estimate after the trial: 165 mm",
           "after the trial, 'How sure are you?': 3", "after the trial, 'Effort': 55", kNotes}));
   EXPECT_EQ(events.front().frame, 0);
   const std::vector<core::StepRun> runs = core::StepRunsOf(events);

@@ -24,6 +24,7 @@
 
 #include "app/console/reviews/keep_out_dialog.h"
 #include "app/console/reviews/recent_sessions.h"
+#include "app/control/demo_parts.h"
 #include "app/control/outcome_tracker.h"
 #include "app/control/replay/replay.h"
 #include "tests/app/console/demo_session.h"
@@ -36,7 +37,6 @@ namespace elbowroom::console {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr const char* kGap = "payload_a_gap";
 constexpr double kWideMm = 300.0;
 
 // As in the tests of trials: a window that doesn't answer for so long is felt to hang.
@@ -219,11 +219,12 @@ TEST_F(ReviewPageTest, AnotherGapIsJudgedAtOnce) {
   ChooseRow(RowOf(core::FindingKind::kTouch));
   const std::size_t position = desk().position();
   ASSERT_TRUE(WaitForPosition(position));
-  auto* slider = Find<QSlider>(QString("what_if_slider:") + kGap);
+  auto* slider = Find<QSlider>(QString("what_if_slider:") + control::kDemoGap);
   for (double gap_mm = 150.0; gap_mm <= kWideMm; gap_mm += 10.0)  // as it is dragged
     slider->setValue(static_cast<int>(10.0 * gap_mm));
-  EXPECT_EQ(Find<QDoubleSpinBox>(QString("what_if_box:") + kGap)->value(), kWideMm);
-  ASSERT_TRUE(WaitUntil([&] { return !shown_.held_mm.empty() && shown_.held_mm.at(kGap) == kWideMm; }));
+  EXPECT_EQ(Find<QDoubleSpinBox>(QString("what_if_box:") + control::kDemoGap)->value(), kWideMm);
+  ASSERT_TRUE(
+      WaitUntil([&] { return !shown_.held_mm.empty() && shown_.held_mm.at(control::kDemoGap) == kWideMm; }));
   EXPECT_EQ(shown_.result->record.spacing_mm.at(0), kWideMm);
   EXPECT_NE(shown_.result->record.contacts.at(1).verdict, core::Verdict::kContact);
   ASSERT_TRUE(WaitUntil([&] { return desk().what_if().has_value(); }));
@@ -233,7 +234,7 @@ TEST_F(ReviewPageTest, AnotherGapIsJudgedAtOnce) {
 
   const control::ReplayOutcome replay =
       control::RunReplay(control::OpenWithOutcome(reviewed_, {}, {}),
-                         {folder_ / "replay.db", {.held_mm = {{kGap, kWideMm}}}, {}}, {}, {});
+                         {folder_ / "replay.db", {.held_mm = {{control::kDemoGap, kWideMm}}}, {}}, {}, {});
   EXPECT_EQ(desk().what_if()->outcome.episodes.size(), replay.outcome.episodes.size());
   EXPECT_EQ(desk().what_if()->vanished.size(), replay.absent.size());
   EXPECT_FALSE(replay.absent.empty());
@@ -243,17 +244,17 @@ TEST_F(ReviewPageTest, AnotherGapIsJudgedAtOnce) {
   QTest::mouseClick(Find<QPushButton>("what_if_off"), Qt::LeftButton);
   EXPECT_TRUE(WaitUntil([&] { return shown_.held_mm.empty(); }));
   EXPECT_FALSE(row.data(Qt::FontRole).value<QFont>().strikeOut());
-  EXPECT_EQ(Find<QDoubleSpinBox>(QString("what_if_box:") + kGap)->value(), 140.0);
+  EXPECT_EQ(Find<QDoubleSpinBox>(QString("what_if_box:") + control::kDemoGap)->value(), 140.0);
 }
 
 TEST_F(ReviewPageTest, TheNeededGapIsFound) {
   OpenIt();
-  QTest::mouseClick(Find<QPushButton>(QString("what_if_needed:") + kGap), Qt::LeftButton);
+  QTest::mouseClick(Find<QPushButton>(QString("what_if_needed:") + control::kDemoGap), Qt::LeftButton);
   EXPECT_TRUE(desk().is_busy());
   WaitForJob();
   const QString line = Find<QLabel>("what_if_details")->text();
   EXPECT_TRUE(line.contains("free of touches from")) << line.toStdString();
-  Find<QDoubleSpinBox>(QString("what_if_box:") + kGap)->setValue(kWideMm);
+  Find<QDoubleSpinBox>(QString("what_if_box:") + control::kDemoGap)->setValue(kWideMm);
   ASSERT_TRUE(WaitUntil([&] { return desk().what_if().has_value(); }));
   const QString result = Find<QLabel>("what_if_result")->text();
   EXPECT_TRUE(result.contains("; needed ")) << result.toStdString();

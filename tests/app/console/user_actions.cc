@@ -7,6 +7,7 @@
 #include <QDialogButtonBox>
 #include <QFileDialog>
 #include <QLineEdit>
+#include <QMessageBox>
 #include <QStyle>
 #include <QTimer>
 #include <functional>
@@ -16,16 +17,17 @@ namespace {
 
 constexpr int kLookAgainMs = 100;
 
-// Calls `act` with the modal widget of that kind, once there is one.
-template <typename Widget>
-void OnceModal(const std::function<void(Widget*)>& act) {
+// Calls `act` with the file dialog that is shown, once there is one.
+void OnceAsked(const std::function<void(QFileDialog*)>& act) {
   auto* timer = new QTimer(qApp);
   QObject::connect(timer, &QTimer::timeout, timer, [timer, act] {
-    auto* widget = qobject_cast<Widget*>(QApplication::activeModalWidget());
-    if (widget == nullptr) return;
-    timer->stop();
-    timer->deleteLater();
-    act(widget);
+    for (QWidget* widget : QApplication::topLevelWidgets()) {
+      auto* dialog = qobject_cast<QFileDialog*>(widget);
+      if (dialog == nullptr || dialog->isHidden()) continue;
+      timer->stop();
+      timer->deleteLater();
+      return act(dialog);
+    }
   });
   timer->start(kLookAgainMs);
 }
@@ -33,7 +35,7 @@ void OnceModal(const std::function<void(Widget*)>& act) {
 }  // namespace
 
 void TypeIntoNextFileDialog(const QString& path) {
-  OnceModal<QFileDialog>([path](QFileDialog* dialog) {
+  OnceAsked([path](QFileDialog* dialog) {
     auto* line = dialog->findChild<QLineEdit*>("fileNameEdit");
     TypeInto(line, path);
     // The list of completions may still come and take a click: it is closed, and the button clicked again.
@@ -51,10 +53,6 @@ void TypeIntoNextFileDialog(const QString& path) {
     });
     again->start(kLookAgainMs);
   });
-}
-
-void AnswerNextQuestion(QMessageBox::StandardButton button) {
-  OnceModal<QMessageBox>([button](QMessageBox* box) { Click(box->button(button)); });
 }
 
 void Click(QWidget* widget) { QTest::mouseClick(widget, Qt::LeftButton); }

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <QCheckBox>
-#include <QMessageBox>
 #include <QPushButton>
 #include <QString>
 #include <QTest>
@@ -21,9 +20,6 @@ template <typename Condition>
 
 // Types the path into the file dialog that comes next, and clicks on its button.
 void TypeIntoNextFileDialog(const QString& path);
-
-// Presses that button of the message box that comes next.
-void AnswerNextQuestion(QMessageBox::StandardButton button);
 
 void Click(QWidget* widget);
 

@@ -94,6 +94,7 @@ void WholeWay::TakeParts() {
   Keep("01_empty");
   TypeIntoNextFileDialog(QString::fromStdString(kAssemblyFile.string()));
   Click(Find<QToolButton>("layout_import_button"));
+  ASSERT_TRUE(WaitUntil([&] { return window_.findChild<ImportDialog*>("import_dialog") != nullptr; }));
   auto* import = Find<ImportDialog>("import_dialog");
   ASSERT_TRUE(WaitUntil([&] { return !import->is_reading(); }));
   auto* tree = Find<QTreeWidget>("import_tree");
@@ -139,6 +140,7 @@ void WholeWay::MakeRules() {
   Keep("04_rules");
   TypeIntoNextFileDialog(QString::fromStdString((folder_ / "layout.toml").string()));
   QTest::keyClick(&window_.layout_page().view(), Qt::Key_S, Qt::ControlModifier);
+  ASSERT_TRUE(WaitUntil([&] { return !window_.layout_page().desk().document().is_changed(); })) << Message();
   const cad_import::ImportedLayout saved = cad_import::ImportLayoutFile(folder_ / "layout.toml");
   EXPECT_EQ(saved.layout.spacings.at(0).initial_mm, 20.0);
   EXPECT_EQ(saved.layout.pair_rules.at(0).required_clearance_mm, 30.0);

@@ -1,48 +1,25 @@
 // What the 3-D view's layers cost, and how far the hull's are from their definitions: docs/view_tools.md.
-#include <algorithm>
-#include <cstdio>
-#include <ctime>
 #include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "app/control/demo_trial.h"
-#include "app/control/frame_pipeline.h"
 #include "app/control/layers/heat_layer.h"
 #include "app/control/layers/hull_colors.h"
 #include "app/control/scene_composer.h"
 #include "core/surface_patches.h"
 #include "recon/hull/visual_hull.h"
+#include "tests/app/demo_frame.h"
 #include "tests/app/overlay/overlay_samples.h"
 #include "tests/recon/surface_quality/quality_scenes.h"
+#include "tests/support/processor_time.h"
 
 namespace elbowroom::control {
 namespace {
 
 using recon::HullAppearance;
-
-constexpr int kRuns = 15;
-
-// Median of the processor time of all threads.
-void Measure(const std::string& what, const std::function<void()>& work) {
-  std::vector<double> times_ms;
-  work();
-  for (int i = 0; i < kRuns; ++i) {
-    const std::clock_t begin = std::clock();
-    work();
-    times_ms.push_back(1000.0 * static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC);
-  }
-  std::ranges::sort(times_ms);
-  std::printf("%-64s %8.2f ms\n", what.c_str(), times_ms[kRuns / 2]);
-}
-
-recon::SceneView View() {
-  recon::OrbitCamera camera;
-  camera.target_in_world = {50.0, 0.0, 210.0};
-  camera.distance_mm = 1350.0;
-  return recon::ViewFrom(camera, 800, 600);
-}
+using test_support::PrintCost;
 
 core::HeatMap MapOf(const core::SharedMesh& mesh, double share) {
   const core::SurfacePatches patches(mesh, core::kHeatPatchMm);
@@ -59,12 +36,12 @@ void MeasureHeat(const std::string& what, const core::SharedMesh& mesh) {
   HeatLayerMaker maker({mesh});
   const std::string patches = std::to_string(map.dwell_s.size());
   bool is_more = false;
-  Measure("heat of " + what + ", " + patches + " patches, a tenth touched: anew", [&] {
+  PrintCost("heat of " + what + ", " + patches + " patches, a tenth touched: anew", [&] {
     is_more = !is_more;
     maker.Take(is_more ? more : map);
     (void)maker.Make();
   });
-  Measure("  the same again", [&] {
+  PrintCost("  the same again", [&] {
     maker.Take(map);
     (void)maker.Make();
   });
@@ -75,9 +52,9 @@ void MeasureComposing(const FrameResult& frame, const FrameResult& next, const S
   const auto measure = [&](const std::string& what, const SceneLook& look) {
     SceneComposer composer;
     bool is_next = false;
-    Measure("compose 800 x 600, another hull each time: " + what, [&] {
+    PrintCost("compose 800 x 600, another hull each time: " + what, [&] {
       is_next = !is_next;
-      (void)composer.Compose(is_next ? next : frame, View(), look);
+      (void)composer.Compose(is_next ? next : frame, DemoView(), look);
     });
   };
   SceneLook look;
@@ -101,9 +78,9 @@ void MeasureExact(const recon::QualityScene& scene) {
   const recon::ViewRays rays = recon::ViewsOf(scene)[0];
   const recon::HullView picture = recon::ViewHull(*scene.hull, rays);
   const std::string pixels = std::to_string(picture.hit_pixels) + " pixels";
-  Measure(scene.name + ", uncertainty of " + pixels + ": by the table",
-          [&] { (void)fast.Of(*scene.hull, picture, rays); });
-  Measure("  as a verdict's budget, pixel by pixel", [&] {
+  PrintCost(scene.name + ", uncertainty of " + pixels + ": by the table",
+            [&] { (void)fast.Of(*scene.hull, picture, rays); });
+  PrintCost("  as a verdict's budget, pixel by pixel", [&] {
     for (std::size_t at = 0; at < picture.depth_mm.size(); ++at) {
       if (!picture.surface[at].camera()) continue;
       const auto width = static_cast<std::size_t>(picture.width_px);
@@ -115,10 +92,10 @@ void MeasureExact(const recon::QualityScene& scene) {
     }
   });
   recon::SurfaceCoverage coverage(*scene.rig);
-  Measure("  the cameras' looks at the hull", [&] { coverage.LookAt(*scene.hull); });
-  Measure("  coverage of as many pixels", [&] { (void)coverage.Of(*scene.hull, picture, rays); });
-  Measure("  the uncertainty's table, once a rig",
-          [&] { recon::SurfaceUncertainty(*scene.rig, fast.errors().errors()); });
+  PrintCost("  the cameras' looks at the hull", [&] { coverage.LookAt(*scene.hull); });
+  PrintCost("  coverage of as many pixels", [&] { (void)coverage.Of(*scene.hull, picture, rays); });
+  PrintCost("  the uncertainty's table, once a rig",
+            [&] { recon::SurfaceUncertainty(*scene.rig, fast.errors().errors()); });
 }
 
 }  // namespace
@@ -134,10 +111,7 @@ int main() {
   MeasureHeat("a ball", std::make_shared<const core::TriangleMesh>(BallMesh(90.0, 480)));
   HeatLayerMaker maker(meshes);
   maker.Take(MapOf(meshes[0], 0.1));
-  FramePipeline pipeline(setup.source->rig(), setup.layout, setup.source->ReadBackgrounds({}, {}),
-                         setup.segmentation);
-  const SharedFrameResult frame = pipeline.Process(setup.source->Read(66), std::vector<double>{240.0});
-  const SharedFrameResult next = pipeline.Process(setup.source->Read(67), std::vector<double>{240.0});
+  const SharedFrameResult frame = DemoFrame(), next = DemoFrame(kFrameAtPayload + 1);
   MeasureComposing(*frame, *next, KnowledgeOf(setup.source->rig(), {}), maker.Make());
   for (int rig = 0; rig < recon::kQualityRigs; ++rig) MeasureExact(recon::MakeQualityScene(rig, 0));
 }

@@ -25,15 +25,14 @@ namespace fs = std::filesystem;
 
 constexpr core::FrameIndex kNarrowed = 8, kWidened = 20, kFrames = 30;
 constexpr double kRequiredMm = 100.0;
-constexpr const char* kGap = "payload_a_gap";
 
 // The demo, in which payload A must stay 100 mm from the PMT box; the gap is narrowed and widened again.
 TrialSetup NarrowedDemo() {
   TrialSetup setup = MakeDemoTrial(DemoPlay::kOnce);
   setup.layout.pair_rules[0].required_clearance_mm = kRequiredMm;
-  setup.script = {{kNarrowed, SpacingRequest{kGap, 70.0}},
-                  {kNarrowed + 4, SpacingRequest{kGap, 75.0}},
-                  {kWidened, SpacingRequest{kGap, 150.0}}};
+  setup.script = {{kNarrowed, SpacingRequest{kDemoGap, 70.0}},
+                  {kNarrowed + 4, SpacingRequest{kDemoGap, 75.0}},
+                  {kWidened, SpacingRequest{kDemoGap, 150.0}}};
   return setup;
 }
 
@@ -131,9 +130,9 @@ TEST_F(PairTrialTest, AReplayOfSomeFramesTellsWhatIsBrokenWhenItBegins) {
 
 TEST_F(PairTrialTest, AReplayAtAnotherGapHasTheNotesOfThatGap) {
   (void)Run(NarrowedDemo(), "s.db");
-  (void)Replayed("wide.db", {.held_mm = {{kGap, 150.0}}});
+  (void)Replayed("wide.db", {.held_mm = {{kDemoGap, 150.0}}});
   EXPECT_EQ(PairNotes("wide.db"), Texts());
-  (void)Replayed("narrow.db", {.held_mm = {{kGap, 90.0}}});
+  (void)Replayed("narrow.db", {.held_mm = {{kDemoGap, 90.0}}});
   EXPECT_EQ(PairNotes("narrow.db"),
             Texts({"0: pair rule broken: 'pmt' and 'payload_a' near, 90.00 mm apart, 100 mm required"}));
 }

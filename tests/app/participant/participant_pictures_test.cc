@@ -11,26 +11,13 @@
 #include <memory>
 #include <vector>
 
-#include "app/control/demo_parts.h"
-#include "app/control/demo_trial.h"
-#include "app/control/frame_pipeline.h"
 #include "app/control/frame_time_tally.h"
 #include "app/control/head/head_tracker.h"
 #include "app/control/head/udp_port.h"
+#include "tests/app/demo_frame.h"
 
 namespace elbowroom::control {
 namespace {
-
-// A frame of the demo in which the hand is between the parts.
-SharedFrameResult DemoFrame() {
-  static const SharedFrameResult result = [] {
-    TrialSetup setup = MakeDemoTrial(DemoPlay::kOnce);
-    FramePipeline pipeline(setup.source->rig(), setup.layout, setup.source->ReadBackgrounds({}, {}),
-                           setup.segmentation);
-    return pipeline.Process(setup.source->Read(66), std::vector<double>{kGapNeededMm});
-  }();
-  return result;
-}
 
 // Pictures as they come.
 class Gallery {

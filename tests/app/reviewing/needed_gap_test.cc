@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "app/control/demo_parts.h"
 #include "app/control/reviewing/what_if.h"
 #include "app/control/sweep/spacing_sweep.h"
 #include "core/error.h"
@@ -13,24 +14,22 @@
 namespace elbowroom::control {
 namespace {
 
-constexpr const char* kGap = "payload_a_gap";
-
 TEST(NeededGap, IsThatOfASweep) {
   const test_support::TemporaryFolder folder;
   RecordDemo(folder / "s.db", kWithTouches);
   const ReviewedSession session(folder / "s.db", {}, {});
-  const NeededGap needed = FindNeededGap(session, kGap, {}, {});
+  const NeededGap needed = FindNeededGap(session, kDemoGap, {}, {});
   const core::Spacing& spacing = session.header().layout.spacings[0];
   const SpacingSweep sweep = SweepSpacing(
-      {{folder / "s.db"}, {kGap, spacing.min_mm, spacing.max_mm, kNeededGapStepMm}, folder / "sweep"}, {},
+      {{folder / "s.db"}, {kDemoGap, spacing.min_mm, spacing.max_mm, kNeededGapStepMm}, folder / "sweep"}, {},
       {});
   EXPECT_EQ(needed.touched_mm, sweep.all.all.largest_touched_mm);
   EXPECT_EQ(needed.free_mm, sweep.all.all.smallest_free_mm);
   EXPECT_EQ(needed.clear_mm, review::SmallestClearMm(sweep.all.all, sweep.moved));
   ASSERT_TRUE(needed.touched_mm && needed.free_mm && needed.clear_mm);
-  EXPECT_GT(JudgeMotionAt(session, {{{kGap, *needed.touched_mm}}}, {}, {}).parts[1].frames_in_contact, 0);
-  EXPECT_EQ(JudgeMotionAt(session, {{{kGap, *needed.free_mm}}}, {}, {}).parts[1].frames_in_contact, 0);
-  EXPECT_EQ(JudgeMotionAt(session, {{{kGap, *needed.clear_mm}}}, {}, {}).parts[1].verdict(),
+  EXPECT_GT(JudgeMotionAt(session, {{{kDemoGap, *needed.touched_mm}}}, {}, {}).parts[1].frames_in_contact, 0);
+  EXPECT_EQ(JudgeMotionAt(session, {{{kDemoGap, *needed.free_mm}}}, {}, {}).parts[1].frames_in_contact, 0);
+  EXPECT_EQ(JudgeMotionAt(session, {{{kDemoGap, *needed.clear_mm}}}, {}, {}).parts[1].verdict(),
             core::Verdict::kClear);
 }
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <map>
 
+#include "app/control/demo_parts.h"
 #include "app/control/demo_trial.h"
 #include "app/control/outcome_tracker.h"
 #include "app/control/replay/replay.h"
@@ -24,7 +25,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using test_support::TemporaryFolder;
-constexpr const char* kGap = "payload_a_gap";
 
 // Frames by number, as they were judged.
 struct Judged {
@@ -98,7 +98,8 @@ void ExpectAsReplayed(const TemporaryFolder& folder, const std::vector<HeldGaps>
 TEST(WhatIf, OfTheDemoIsAReplayAtThatGap) {
   const TemporaryFolder folder;
   RecordDemo(folder / "s.db", kWithTouches);
-  ExpectAsReplayed(folder, {{{kGap, 140.0}}, {{kGap, 160.0}}, {{kGap, 195.5}}, {{kGap, 240.0}}});
+  ExpectAsReplayed(folder,
+                   {{{kDemoGap, 140.0}}, {{kDemoGap, 160.0}}, {{kDemoGap, 195.5}}, {{kDemoGap, 240.0}}});
 }
 
 TEST(WhatIf, AmidOtherShapesWithStampsIsAReplayAtThatGap) {
@@ -116,7 +117,7 @@ TEST(WhatIf, OfPartsThatGiveWayIsAReplayAtThatGap) {
   TrialSetup setup = MakeDemoTrial(DemoPlay::kOnce);
   setup.layout.parts[1].gives_way = core::PushRule{};
   RecordDemo(folder / "s.db", {60, 85}, setup);
-  ExpectAsReplayed(folder, {{{kGap, 150.0}}});
+  ExpectAsReplayed(folder, {{{kDemoGap, 150.0}}});
 }
 
 TEST(WhatIf, KeepsTheVerdictsOfPartsThatStay) {
@@ -142,8 +143,8 @@ TEST(WhatIf, CertifiesAClearanceOnlyWhereNothingTouches) {
   const TemporaryFolder folder;
   RecordDemo(folder / "s.db", kWithTouches);
   const ReviewedSession session(folder / "s.db", {}, {});
-  const WhatIf narrow = JudgeMotionAt(session, {{{kGap, 140.0}}}, {}, {});
-  const WhatIf wide = JudgeMotionAt(session, {{{kGap, 300.0}}}, {}, {});
+  const WhatIf narrow = JudgeMotionAt(session, {{{kDemoGap, 140.0}}}, {}, {});
+  const WhatIf wide = JudgeMotionAt(session, {{{kDemoGap, 300.0}}}, {}, {});
   EXPECT_GT(narrow.parts[1].touches, 0);
   EXPECT_GT(narrow.DeepestMm(), 0.0);
   EXPECT_EQ(narrow.parts[1].clearance_mm, 0.0);
@@ -157,8 +158,8 @@ TEST(WhatIf, KnowsWhichTouchesAreNearMissesWithMoreSpace) {
   const TemporaryFolder folder;
   RecordDemo(folder / "s.db", kWithTouches);
   const ReviewedSession session(folder / "s.db", {}, {});
-  const NeededGap needed = FindNeededGap(session, kGap, {}, {});
-  const WhatIf what_if = JudgeMotionAt(session, {{{kGap, *needed.free_mm}}}, {}, {});
+  const NeededGap needed = FindNeededGap(session, kDemoGap, {}, {});
+  const WhatIf what_if = JudgeMotionAt(session, {{{kDemoGap, *needed.free_mm}}}, {}, {});
   EXPECT_EQ(what_if.parts[1].touches, 0);
   EXPECT_FALSE(what_if.eased.empty());
   const std::vector<core::Finding> findings = session.findings();
@@ -172,9 +173,9 @@ TEST(WhatIf, IsTheSameForOneThreadAndForMany) {
   const TemporaryFolder folder;
   RecordDemo(folder / "s.db", {60, 100});
   const ReviewedSession session(folder / "s.db", {}, {});
-  const Judged many = JudgedAt(session, {{kGap, 170.0}});
+  const Judged many = JudgedAt(session, {{kDemoGap, 170.0}});
   const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
-  const Judged single = JudgedAt(session, {{kGap, 170.0}});
+  const Judged single = JudgedAt(session, {{kDemoGap, 170.0}});
   ASSERT_EQ(many.frames.size(), single.frames.size());
   for (const auto& [frame, record] : many.frames)
     EXPECT_TRUE(sessions::CompareRows(record, single.frames.at(frame)).are_equal) << frame;
@@ -191,7 +192,7 @@ TEST(WhatIf, IsCancelledInTheMiddle) {
     stop.request_stop();
   });
   try {
-    (void)JudgeMotionAt(session, {{{kGap, 170.0}}}, progress, stop.get_token());
+    (void)JudgeMotionAt(session, {{{kDemoGap, 170.0}}}, progress, stop.get_token());
     FAIL();
   } catch (const core::Error& error) {
     EXPECT_EQ(error.kind(), core::ErrorKind::kCancelled);
@@ -204,7 +205,7 @@ TEST(WhatIf, RefusesAGapThatIsNotThere) {
   RecordDemo(folder / "s.db", {60, 64});
   const ReviewedSession session(folder / "s.db", {}, {});
   EXPECT_THROW((void)JudgeMotionAt(session, {{{"no_gap", 100.0}}}, {}, {}), core::Error);
-  EXPECT_THROW((void)JudgeMotionAt(session, {{{kGap, 4000.0}}}, {}, {}), core::Error);
+  EXPECT_THROW((void)JudgeMotionAt(session, {{{kDemoGap, 4000.0}}}, {}, {}), core::Error);
 }
 
 // Asked for in any order, which is how a reviewer drags.
@@ -226,7 +227,7 @@ void ExpectFramesAsJudged(const fs::path& file, const HeldGaps& held_mm) {
 TEST(WhatIfFrames, AreThoseOfTheWholeMotion) {
   const TemporaryFolder folder;
   RecordDemo(folder / "demo.db", {60, 90});
-  ExpectFramesAsJudged(folder / "demo.db", {{kGap, 165.0}});
+  ExpectFramesAsJudged(folder / "demo.db", {{kDemoGap, 165.0}});
   RecordOtherShapes(folder / "other.db");
   ExpectFramesAsJudged(folder / "other.db", {{"ball_gap", 70.0}});
 }

@@ -8,8 +8,6 @@
 #include <optional>
 #include <vector>
 
-#include "app/control/demo_trial.h"
-#include "app/control/frame_pipeline.h"
 #include "app/control/scene_composer.h"
 #include "core/infinity.h"
 #include "recon/appearance/orbit_camera.h"
@@ -17,19 +15,12 @@
 #include "recon/gl/scene/scene_renderer.h"
 #include "recon/hull/ray_crossings.h"
 #include "recon/hull/visual_hull.h"
+#include "tests/app/demo_frame.h"
 
 namespace elbowroom::control {
 namespace {
 
 using Eigen::Vector3d;
-
-// The demo's hand holds its pipe.
-SharedFrameResult Frame() {
-  TrialSetup setup = MakeDemoTrial(DemoPlay::kOnce);
-  FramePipeline pipeline(setup.source->rig(), setup.layout, setup.source->ReadBackgrounds({}, {}),
-                         setup.segmentation);
-  return pipeline.Process(setup.source->Read(66), std::vector<double>{240.0});
-}
 
 recon::SceneView FrontView(bool is_parallel) {
   recon::OrbitCamera camera;
@@ -91,7 +82,7 @@ std::vector<recon::HalfSpace> Planes() {
 }
 
 TEST(SceneSection, ShowsNothingBeyondThePlaneAndClosesTheCut) {
-  const SharedFrameResult frame = Frame();
+  const SharedFrameResult frame = DemoFrame();
   for (const recon::HalfSpace& plane : Planes()) {
     SceneLook look;
     look.cut.kept = {plane};
@@ -119,7 +110,7 @@ TEST(SceneSection, ShowsNothingBeyondThePlaneAndClosesTheCut) {
 // The view in double precision that knows no planes: a ray meets the cut hull in the first point of its
 // intervals in the whole hull that the planes keep.
 TEST(SceneSection, TheCutHullIsTheWholeHullsIntervalsClippedByThePlanes) {
-  const SharedFrameResult frame = Frame();
+  const SharedFrameResult frame = DemoFrame();
   const std::vector<recon::HalfSpace> planes = Planes();
   for (const std::vector<recon::HalfSpace>& kept :
        {std::vector{planes[0]}, std::vector{planes[1]}, std::vector{planes[1], planes[2]}}) {
@@ -157,7 +148,7 @@ TEST(SceneSection, TheCutHullIsTheWholeHullsIntervalsClippedByThePlanes) {
 }
 
 TEST(SceneSection, IsMadeOnceAndForgottenWithTheCut) {
-  const SharedFrameResult frame = Frame();
+  const SharedFrameResult frame = DemoFrame();
   SceneLook look;
   SceneComposer composer;
   const recon::SceneView view = FrontView(false);

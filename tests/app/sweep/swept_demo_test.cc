@@ -8,6 +8,7 @@
 #include <memory>
 #include <thread>
 
+#include "app/control/demo_parts.h"
 #include "app/control/demo_trial.h"
 #include "app/control/replay/replay.h"
 #include "app/control/trial_runner.h"
@@ -21,7 +22,6 @@ namespace {
 namespace fs = std::filesystem;
 using test_support::ProgramRun;
 
-constexpr const char* kGap = "payload_a_gap";
 constexpr const char* kDemoRange = "payload_a_gap=100:300:5";
 // Of a clearance's bounds in a trial and a replay.
 constexpr double kBoundsToleranceMm = 1.0;
@@ -61,7 +61,7 @@ std::vector<Counts> ReplayedAt(const fs::path& session, const fs::path& replayed
   const sessions::SessionReader recorded(session);
   control::ReplayOptions options;
   options.session = replayed;
-  options.changes.held_mm = {{kGap, spacing_mm}};
+  options.changes.held_mm = {{control::kDemoGap, spacing_mm}};
   (void)control::RunReplay(recorded, options, {}, {});
   const sessions::SessionReader reader(replayed);
   std::vector<Counts> counts(reader.header().layout.parts.size());

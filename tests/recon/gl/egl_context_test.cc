@@ -1,5 +1,6 @@
 #include "recon/gl/objects/egl_context.h"
 
+#include <epoxy/egl.h>
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -28,6 +29,19 @@ TEST(EglContext, SurvivesItsNeighboursEnd) {
   const EglContext first;
   { const EglContext second; }
   EXPECT_NO_THROW(first.MakeCurrent());
+}
+
+// As a reset of the graphics card does it. The driver may give the new context the old one's handle.
+TEST(EglContext, ALostContextIsReplacedByOneThatIsCurrent) {
+  for (int trial = 0; trial < 20; ++trial) {
+    EglContext context;
+    const EGLDisplay display = eglGetCurrentDisplay();
+    const EGLContext lost = eglGetCurrentContext();
+    eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+    ASSERT_TRUE(eglDestroyContext(display, lost));
+    ASSERT_TRUE(context.MakeCurrentOrReplace());
+    ASSERT_NE(eglGetCurrentContext(), EGL_NO_CONTEXT) << "trial " << trial;
+  }
 }
 
 TEST(EglContext, MovedFromIsNotUsed) {

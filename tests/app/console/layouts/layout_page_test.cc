@@ -5,6 +5,7 @@
 
 #include <QApplication>
 #include <QDoubleSpinBox>
+#include <QFileDialog>
 #include <QListWidget>
 #include <QMenu>
 #include <QMouseEvent>
@@ -239,26 +240,57 @@ TEST_F(LayoutPageTest, ANewLayoutIsSavedUnderTheNameThatIsTyped) {
   std::filesystem::create_directories(made.parent_path());
   TypeIntoNextFileDialog(QString::fromStdString((folder_ / "sub/made").string()));
   QTest::keyClick(&page_->view(), Qt::Key_S, Qt::ControlModifier);
-  EXPECT_FALSE(page_->desk().document().is_changed()) << fault_.toStdString();
+  EXPECT_TRUE(WaitUntil([&] { return !page_->desk().document().is_changed(); })) << fault_.toStdString();
   const cad_import::ImportedLayout read = cad_import::ImportLayoutFile(made);
   EXPECT_EQ(read.layout.parts[0].file, "../box.glb");
 }
 
+// The question stands in the page: nothing waits for its answer.
 TEST_F(LayoutPageTest, ChangesAreNotLostWithoutAQuestion) {
   OpenLayout();
-  EXPECT_TRUE(page_->MayLeave());
+  int left = 0;
+  const auto leave = [&] { page_->Leave([&left] { ++left; }); };
+  auto* question = Find<QWidget>("unsaved");
+  leave();
+  EXPECT_EQ(left, 1);  // nothing to lose
   page_->Choose({"lid"});
   TypeInto(Find<QDoubleSpinBox>("part_position:x"), "7.5");
-  AnswerNextQuestion(QMessageBox::Cancel);
-  EXPECT_FALSE(page_->MayLeave());
-  AnswerNextQuestion(QMessageBox::Save);
-  EXPECT_TRUE(page_->MayLeave());
+  leave();
+  EXPECT_EQ(QApplication::activeModalWidget(), nullptr);
+  EXPECT_TRUE(question->isVisible());
+  Click(Find<QPushButton>("unsaved_stay"));
+  EXPECT_FALSE(question->isVisible());
+  EXPECT_EQ(left, 1);
+  leave();
+  Click(Find<QPushButton>("unsaved_save"));
+  EXPECT_EQ(left, 2);
   EXPECT_NE(ReadText(file_).find("7.5"), std::string::npos);
   TypeInto(Find<QDoubleSpinBox>("part_position:x"), "9");
-  AnswerNextQuestion(QMessageBox::Discard);
-  EXPECT_TRUE(page_->MayLeave());
-  EXPECT_TRUE(page_->MayLeave());  // not asked twice
+  leave();
+  Click(Find<QPushButton>("unsaved_discard"));
+  EXPECT_EQ(left, 3);
+  leave();
+  EXPECT_EQ(left, 4);  // not asked twice
   EXPECT_EQ(ReadText(file_).find("[9"), std::string::npos);
+}
+
+TEST_F(LayoutPageTest, ALayoutThatIsSavedMeanwhileIsNotAskedForAnyMore) {
+  OpenLayout();
+  page_->Choose({"lid"});
+  TypeInto(Find<QDoubleSpinBox>("part_position:x"), "7.5");
+  page_->Leave([] { FAIL() << "nobody answered"; });
+  QTest::keyClick(&page_->view(), Qt::Key_S, Qt::ControlModifier);
+  EXPECT_FALSE(Find<QWidget>("unsaved")->isVisible());
+}
+
+// A file that is asked for again is the same question.
+TEST_F(LayoutPageTest, TheSameFileIsAskedForOnce) {
+  Click(Find<QToolButton>("layout_open_button"));
+  Click(Find<QToolButton>("layout_open_button"));
+  EXPECT_EQ(page_->findChildren<QFileDialog*>().size(), 1);
+  EXPECT_EQ(QApplication::activeModalWidget(), nullptr);
+  TypeIntoNextFileDialog(QString::fromStdString(file_.string()));
+  EXPECT_TRUE(WaitUntil([&] { return page_->desk().document().has_file(); })) << fault_.toStdString();
 }
 
 TEST_F(LayoutPageTest, OfTwoFilesThatAreOpenedTheSecondIsShown) {
@@ -298,11 +330,11 @@ TEST_F(LayoutPageTest, WhatIsOfferedIsKeptWhileTheLayoutIsChanged) {
   page_->Choose({"lid"});
   TypeInto(Find<QDoubleSpinBox>("part_position:x"), "7.5");
   QTest::qWait(2500);  // past the time of an autosave
-  AnswerNextQuestion(QMessageBox::Cancel);
   Click(Find<QPushButton>("recovery_take"));
+  Click(Find<QPushButton>("recovery_stay"));
   EXPECT_FALSE(page_->desk().is_reading());
-  AnswerNextQuestion(QMessageBox::Discard);
   Click(Find<QPushButton>("recovery_take"));
+  Click(Find<QPushButton>("recovery_replace"));
   EXPECT_TRUE(WaitUntil([&] { return layout().parts.size() == 1; })) << fault_.toStdString();
 }
 

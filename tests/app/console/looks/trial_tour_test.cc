@@ -16,57 +16,12 @@
 #include "app/control/demo_trial.h"
 #include "recon/rig_files/rig_file.h"
 #include "tests/app/console/looks/tour.h"
-#include "tests/app/mask_rig.h"
-#include "tests/support/text_file.h"
+#include "tests/app/console/procedure_trial.h"
 
 namespace elbowroom::console {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr int kFrames = 3000;  // far more than the test lets pass
-
-constexpr const char* kLayout = R"(unit = "mm"
-[[part]]
-name = "base"
-file = "box.stl"
-position_mm = [0, 0, 80]
-[[part]]
-name = "payload"
-file = "box.stl"
-position_mm = [0, 0, 250]
-[[spacing]]
-name = "gap"
-moving = "payload"
-reference = "base"
-axis = "z"
-min_mm = 100
-max_mm = 220
-initial_mm = 170
-)";
-
-constexpr const char* kTrial = R"(rig = "rig.yml"
-layout = "layout.toml"
-task = "Screw the pipe in below the payload"
-participant = "P07"
-condition = "gloves"
-order = 2
-tools = ["tongs", "screwdriver"]
-[[step]]
-name = "reach in"
-[[step]]
-name = "screw the pipe in with both hands"
-[[survey]]
-when = "before"
-item = "How sure are you?"
-[[survey]]
-when = "after"
-item = "How sure are you?"
-[[survey]]
-when = "after"
-item = "Effort"
-scale = [0, 100]
-)";
 
 const QStringList kNamesInDemo = {"pmt",      "payload_a", "payload_b", "payload_a_gap", "tongs",
                                   "overhead", "low",       "level",     "high"};
@@ -128,15 +83,9 @@ TEST_P(TrialTour, TheDemoIsAllThere) {
 class ProcedureTour : public TrialTour {
  protected:
   ProcedureTour() {
-    test_support::WriteBallRig(folder_.path());
-    test_support::WriteBoxStl(folder_ / "box.stl", 40.0);
-    for (const char* camera : {"cam1", "cam2", "cam3", "cam4"})
-      for (int i = 1; i < kFrames; ++i)
-        fs::create_hard_link(folder_ / camera / "mask_0000.png",
-                             folder_ / camera / fmt::format("mask_{:04d}.png", i));
-    test_support::WriteText(folder_ / "layout.toml", kLayout);
-    test_support::WriteText(folder_ / "trial.toml", kTrial);
-    Know({kLayout, kTrial, "cam", "closed", "slipped", QString::fromStdString(folder_.path().string())});
+    WriteProcedureTrial(folder_.path());
+    Know({kProcedureLayout, kProcedureTrial, "cam", "closed", "slipped",
+          QString::fromStdString(folder_.path().string())});
   }
 };
 
