@@ -20,6 +20,11 @@ WindowPicture::WindowPicture(PictureOrder order, MainWindow& window)
   connect(&window.desk(), &TrialDesk::FrameArrived, this,
           [this](const FrameNews& news) { Look(*news.result); });
   connect(&window.view(), &OperatorView::PictureShown, this, &WindowPicture::TakeIfDue);
+  // Without a trial there is no picture to wait for.
+  connect(&window.desk(), &TrialDesk::Failed, this, &WindowPicture::Finish);
+  connect(&window.desk(), &TrialDesk::TrialEnded, this, [this] {
+    Finish(tr("The trial ended before a frame was as ordered: ask for an earlier picture"));
+  });
 }
 
 void WindowPicture::Look(const control::FrameResult& result) {
@@ -39,10 +44,15 @@ void WindowPicture::Look(const control::FrameResult& result) {
 
 void WindowPicture::TakeIfDue(qint64 shown_frame) {
   if (!due_frame_ || shown_frame < *due_frame_) return;
-  disconnect(&window_.view(), nullptr, this, nullptr);  // one picture
   const QString path = QString::fromStdString(order_.png.string());
   const bool is_written = window_.grab().save(path, "PNG");
-  emit Taken(is_written ? QString() : path + ": can't be written; choose another file for the picture");
+  Finish(is_written ? QString() : path + ": can't be written; choose another file for the picture");
+}
+
+void WindowPicture::Finish(const QString& error) {
+  disconnect(&window_.view(), nullptr, this, nullptr);  // one picture
+  disconnect(&window_.desk(), nullptr, this, nullptr);
+  emit Taken(error);
 }
 
 }  // namespace elbowroom::console

@@ -26,11 +26,12 @@ class WindowPicture : public QObject {
   WindowPicture(PictureOrder order, MainWindow& window);
 
  signals:
-  void Taken(const QString& error);  // "" when the file was written
+  void Taken(const QString& error);  // once; "" when the file was written
 
  private:
   void Look(const control::FrameResult& result);
   void TakeIfDue(qint64 shown_frame);
+  void Finish(const QString& error);
 
   PictureOrder order_;
   MainWindow& window_;

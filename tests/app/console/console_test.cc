@@ -314,6 +314,18 @@ TEST_F(ConsoleTest, AnExistingSessionIsLeftAloneAndTheErrorShown) {
   EXPECT_EQ(test_support::ReadText(session_), "somebody's work");
 }
 
+TEST_F(ConsoleTest, APictureOfATrialThatCannotBeginIsNotWaitedFor) {
+  test_support::WriteText(session_, "somebody's work");
+  PictureOrder order;
+  order.png = folder_ / "window.png";
+  WindowPicture picture(order, window_);
+  QSignalSpy taken(&picture, &WindowPicture::Taken);
+  Action("start_demo").trigger();
+  ASSERT_TRUE(WaitUntil([&] { return !taken.isEmpty(); }));
+  EXPECT_NE(taken[0][0].toString().toStdString().find(session_.string()), std::string::npos);
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "window.png"));
+}
+
 TEST_F(ConsoleTest, ABrokenTrialFileIsOneLineAndLeavesNoSession) {
   const std::filesystem::path trial = folder_ / "trial.toml";
   test_support::WriteText(trial, "rig = ");
