@@ -114,6 +114,7 @@ void LayoutPage::FollowDesk() {
   connect(desk_, &LayoutDesk::ReadingChanged, this, [this](const QString& what) {
     reading_->setVisible(!what.isEmpty());
     reading_->setFormat(what);
+    if (what.isEmpty()) OfferRecovery();  // what couldn't be read is still offered
   });
 }
 

@@ -349,6 +349,7 @@ TEST_F(ConsoleTest, NoBoxStandsBeforeATrialThatIsClosed) {
   ASSERT_TRUE(WaitUntil([&] { return IsIdle(); }));
   auto* question = Find<QWidget>("unsaved");
   ASSERT_TRUE(WaitUntil([&] { return question->isVisible(); }));
+  EXPECT_EQ(QApplication::activeModalWidget(), nullptr);
   EXPECT_EQ(window_.pages().page(), Page::kLayout);
   EXPECT_TRUE(window_.isVisible());
   Click(Find<QPushButton>("unsaved_stay"));
@@ -359,6 +360,7 @@ TEST_F(ConsoleTest, NoBoxStandsBeforeATrialThatIsClosed) {
   StopAndWait();
   QApplication::processEvents();
   EXPECT_FALSE(question->isVisible());
+  EXPECT_EQ(QApplication::activeModalWidget(), nullptr);
   EXPECT_TRUE(window_.isVisible());
   EXPECT_FALSE(window_.close());
   Click(Find<QPushButton>("unsaved_discard"));
