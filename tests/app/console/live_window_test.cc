@@ -11,6 +11,7 @@
 #include <QSignalSpy>
 #include <QTableWidget>
 #include <QTest>
+#include <algorithm>
 #include <filesystem>
 
 #include "app/console/background_dialog.h"
@@ -88,6 +89,12 @@ class LiveWindowTest : public testing::Test {
   [[nodiscard]] bool HasTiles() {
     return window_.strip().thumbnails().size() == control::kCameras && !Text(0).rate.isEmpty();
   }
+  // A first set can lack a camera's picture.
+  [[nodiscard]] bool HasPictures() {
+    return HasTiles() && std::ranges::none_of(
+                             window_.strip().thumbnails(),
+                             [](const CameraThumbnail* thumbnail) { return thumbnail->picture().isNull(); });
+  }
   void OpenRig() {
     window_.preflight().Open(rig_path_);
     ASSERT_TRUE(WaitUntil([&] { return window_.preflight().CanCheck(); }));
@@ -103,12 +110,11 @@ class LiveWindowTest : public testing::Test {
 TEST_F(LiveWindowTest, TheStripShowsPicturesFiguresAndACameraThatGoes) {
   QSignalSpy ages(&window_.view(), &OperatorView::PictureSeen);
   StartTrial();
-  ASSERT_TRUE(WaitUntil([&] { return HasTiles() && Text(0).rate.endsWith(" Hz"); }));
+  ASSERT_TRUE(WaitUntil([&] { return HasPictures() && Text(0).rate.endsWith(" Hz"); }));
   for (std::size_t i = 0; i < control::kCameras; ++i) {
     const CameraThumbnail& thumbnail = *window_.strip().thumbnails()[i];
     EXPECT_LE(thumbnail.picture().width(), thumbnail.PictureRoom().width());
     EXPECT_LE(thumbnail.picture().height(), thumbnail.PictureRoom().height());
-    EXPECT_GT(thumbnail.picture().width(), 0);
     EXPECT_TRUE(Text(i).lost.startsWith("lost ")) << Text(i).lost.toStdString();
     EXPECT_TRUE(Text(i).trouble.isEmpty() || Text(i).trouble == "no picture");
   }
