@@ -20,8 +20,8 @@ struct PictureFineness {
 // is time, in a few steps and with patience, so that they don't change to and fro. Thread: one.
 class PicturePace {
  public:
-  // About a frame's time at 30 Hz, so that each frame is drawn and is shown within two.
-  static constexpr double kAimMs = 35.0;
+  // Less than the time of a frame at 30 Hz, so that each frame is drawn although some pictures take longer.
+  static constexpr double kAimMs = 30.0;
   static constexpr PictureFineness kFinest{};
 
   [[nodiscard]] const PictureFineness& fineness() const { return kSteps[step_]; }

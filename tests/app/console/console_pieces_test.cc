@@ -195,7 +195,7 @@ TEST(PicturePace, CoarsensPicturesOnASlowMachineAndRefinesThemAgain) {
   const auto draw = [&](double finest_ms) {
     for (int i = 0; i < 20; ++i) pace.Add(finest_ms * pace.fineness().relative_cost);
   };
-  for (const double finest_ms : {50.0, 100.0, 150.0, 220.0, 330.0}) {
+  for (const double finest_ms : {50.0, 100.0, 150.0, 220.0, 300.0}) {
     draw(finest_ms);
     EXPECT_LE(finest_ms * pace.fineness().relative_cost, PicturePace::kAimMs);
     const PictureFineness settled = pace.fineness();
