@@ -25,6 +25,7 @@ pkg_check_modules(TURBOJPEG REQUIRED IMPORTED_TARGET libturbojpeg)
 pkg_check_modules(LIBZIP REQUIRED IMPORTED_TARGET libzip)  # its own config file asks for its tools
 find_package(pugixml REQUIRED)
 find_path(OPENXR_HEADERS openxr/openxr.h REQUIRED)   # on the default path; its loader is opened when it is needed
+pkg_check_modules(CANBERRA REQUIRED IMPORTED_TARGET libcanberra)
 pkg_check_modules(DUKTAPE REQUIRED IMPORTED_TARGET duktape)
 pkg_check_modules(CAIRO REQUIRED IMPORTED_TARGET cairo-pdf)
 pkg_check_modules(PANGO REQUIRED IMPORTED_TARGET pangocairo)
@@ -36,8 +37,8 @@ if(ELBOWROOM_TESTS)
   pkg_check_modules(GSTREAMER_RTSP_SERVER REQUIRED IMPORTED_TARGET gstreamer-rtsp-server-1.0 gstreamer-app-1.0)
   set_target_properties(PkgConfig::GSTREAMER_RTSP_SERVER PROPERTIES INTERFACE_COMPILE_OPTIONS "")
 endif()
-# Without -pthread, which precompiled headers lack.
-set_target_properties(PkgConfig::ARAVIS PkgConfig::GSTREAMER PkgConfig::PANGO PkgConfig::RSVG PROPERTIES INTERFACE_COMPILE_OPTIONS "")
+# Without -pthread and -D_REENTRANT, which precompiled headers lack.
+set_target_properties(PkgConfig::ARAVIS PkgConfig::CANBERRA PkgConfig::GSTREAMER PkgConfig::PANGO PkgConfig::RSVG PROPERTIES INTERFACE_COMPILE_OPTIONS "")
 find_package(Lib3mf REQUIRED)        # its pkg-config file asks for the static libraries of others
 find_package(Haru REQUIRED)
 find_package(OpenCVParts REQUIRED)   # only the modules in use; Debian ships no CMake config for single modules

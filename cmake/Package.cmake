@@ -26,7 +26,7 @@ set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 # What no file of the program is linked with: it is loaded at run time. As run_packages in `dev`.
 set(CPACK_DEBIAN_PACKAGE_DEPENDS "libegl1, libegl-mesa0, libgl1-mesa-dri, qt6-qpa-plugins, fonts-dejavu-core | fonts-liberation | fonts-liberation2, gstreamer1.0-plugins-base, gstreamer1.0-plugins-good, gstreamer1.0-plugins-bad, gstreamer1.0-libav")
 # The first opens reports in a browser, the second is opened when an OpenXR headset is chosen.
-set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "xdg-utils, libopenxr-loader1")
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "xdg-utils, libcanberra-pulse, libopenxr-loader1")
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS "parallel")
 set(CPACK_PRE_BUILD_SCRIPTS ${CMAKE_CURRENT_LIST_DIR}/DebianChangelog.cmake)
 include(CPack)

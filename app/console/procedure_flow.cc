@@ -65,6 +65,7 @@ ProcedureFlow::ProcedureFlow(QMainWindow* window, TrialDesk& desk, SessionPlace&
   connect(bookmark_, &QAction::triggered, procedure_, &ProcedurePanel::SetBookmark);
   procedure_->sound()->setChecked(sound_->is_on());
   connect(procedure_->sound(), &QCheckBox::toggled, sound_, &ContactSound::SetOn);
+  connect(sound_, &ContactSound::Played, procedure_, &ProcedurePanel::ShowSound);
   connect(start_, &StartPage::BeginAsked, this, &ProcedureFlow::Begin);
   connect(start_, &StartPage::Left, this, &ProcedureFlow::Leave);
   connect(after_, &AfterPage::SaveAsked, this, &ProcedureFlow::Save);

@@ -1,21 +1,26 @@
 #include "app/console/procedure/contact_sound.h"
 
-#include <QApplication>
 #include <QSettings>
 
 namespace elbowroom::console {
 namespace {
 
 constexpr const char* kKey = "trial/contact_sound";
+constexpr const char* kSoundName = "bell";
 
 }  // namespace
 
 ContactSound::ContactSound(QObject* parent)
-    : QObject(parent), is_on_(QSettings().value(kKey, false).toBool()) {}
+    : QObject(parent),
+      is_on_(QSettings().value(kKey, false).toBool()),
+      sound_(kSoundName, [this](const std::string& trouble) {
+        bridge_.Post([this, line = QString::fromStdString(trouble)] { emit Played(line); });
+      }) {}
 
 void ContactSound::SetOn(bool is_on) {
   is_on_ = is_on;
   QSettings().setValue(kKey, is_on);
+  if (is_on) Sound();
 }
 
 void ContactSound::Open() { was_touched_.clear(); }
@@ -28,8 +33,11 @@ void ContactSound::ShowFrame(const std::vector<core::PartContact>& contacts) {
     is_new = is_new || (is_touched && !was_touched_[i]);
     was_touched_[i] = is_touched;
   }
-  if (!is_on_ || !is_new) return;
-  QApplication::beep();
+  if (is_on_ && is_new) Sound();
+}
+
+void ContactSound::Sound() {
+  sound_.Play();
   emit Sounded();
 }
 

@@ -47,9 +47,9 @@ ProcedurePanel::ProcedurePanel(QWidget* parent) : QWidget(parent) {
   list_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   next_ = new QPushButton;
   next_->setObjectName("next_step");
-  sound_ = new QCheckBox(tr("&Sound on contact"));
+  sound_ = new QCheckBox;
   sound_->setObjectName("contact_sound");
-  sound_->setToolTip(tr("A short tone whenever a part is touched that wasn't"));
+  ShowSound(QString());
   auto* column = new QVBoxLayout(this);
   column->addLayout(times);
   column->addWidget(list_, 1);
@@ -106,6 +106,15 @@ void ProcedurePanel::ShowEnd() {
   place_.reset();
   step_time_->clear();
   ShowPlace();
+}
+
+void ProcedurePanel::ShowSound(const QString& trouble) {
+  sound_->setText(trouble.isEmpty() ? tr("&Sound on contact") : tr("&Sound on contact (not heard)"));
+  sound_->setToolTip(trouble.isEmpty()
+                         ? tr("The desktop's bell whenever a part is touched that wasn't; it sounds once now")
+                         : tr("The sound can't be played: %1. Look whether the desktop's sound server runs, "
+                              "then tick this again.")
+                               .arg(trouble));
 }
 
 void ProcedurePanel::Next() {

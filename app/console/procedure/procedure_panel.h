@@ -34,6 +34,7 @@ class ProcedurePanel : public QWidget {
   void Next();
   void SetBookmark();
 
+  void ShowSound(const QString& trouble);                    // why contacts can't be heard; empty: they can
   [[nodiscard]] QCheckBox* sound() const { return sound_; }  // whether contacts are to be heard
 
  signals:

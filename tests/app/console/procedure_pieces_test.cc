@@ -160,6 +160,8 @@ TEST(ContactSound, SoundsWhenAPartIsTouchedThatWasNot) {
   sound.ShowFrame({In(touched), In(clear)});
   EXPECT_EQ(sounded.size(), 0) << "it is off";
   sound.SetOn(true);
+  EXPECT_EQ(sounded.size(), 1) << "so that it is known";
+  sounded.clear();
   sound.Open();
   sound.ShowFrame({In(touched), In(clear)});
   sound.ShowFrame({In(touched), In(clear)});
