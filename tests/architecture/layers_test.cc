@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "tests/architecture/layer_checker.h"
 #include "tests/architecture/layers_file.h"
+#include "tests/architecture/link_checker.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text_file.h"
 
@@ -56,6 +57,24 @@ TEST(Layers, TheTreeKeepsToThem) {
   const Layers layers = ReadLayers(kRoot / kLayersInTree);
   EXPECT_EQ(Lines(CheckTree(kRoot, layers)), "");
   EXPECT_EQ(Lines(CheckDoors(kRoot, layers)), "");
+}
+
+TEST(Links, AreThoseOfTheIncludes) { EXPECT_EQ(Lines(CheckLinks(kRoot)), ""); }
+
+TEST_F(PlantedTree, ARoomThatIsIncludedAndNotLinkedIsFound) {
+  Plant("core/a.cc", "#include \"core/a.h\"\n");
+  Plant("core/a.h", "#pragma once\n");
+  Plant("core/CMakeLists.txt", "elbowroom_room(a SOURCES a.cc)  # elbowroom_room(no SOURCES b.cc)\n");
+  Plant("sessions/b.cc", "#include <vector>\n#include \"core/a.h\"\n");
+  const auto link = [&](const std::string& how) {
+    Plant("sessions/CMakeLists.txt",
+          "elbowroom_rooms(all a)\nelbowroom_room(b\n  SOURCES b.cc\n" + how + ")\n");
+    return Lines(CheckLinks(root_.path()));
+  };
+  for (const char* how : {"USES elbowroom_a", "HIDES fmt::fmt elbowroom_a", "USES elbowroom_all"})
+    EXPECT_EQ(link(how), "") << how;
+  EXPECT_EQ(link("USES fmt::fmt"),
+            "sessions/b.cc:2: elbowroom_b includes \"core/a.h\" and neither USES nor HIDES elbowroom_a\n");
 }
 
 TEST_F(PlantedTree, IsCleanBeforeAnythingIsPlanted) {
