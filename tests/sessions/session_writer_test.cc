@@ -8,7 +8,6 @@
 
 #include <chrono>
 #include <csignal>
-#include <ctime>
 #include <fstream>
 #include <functional>
 #include <thread>
@@ -17,6 +16,7 @@
 #include "sessions/session_reader.h"
 #include "tests/sessions/expect_error.h"
 #include "tests/sessions/sample_session.h"
+#include "tests/support/processor_time.h"
 #include "tests/support/temporary_folder.h"
 
 namespace elbowroom::tests {
@@ -387,21 +387,19 @@ core::FrameRecord BusyFrame(const core::SessionHeader& header, core::FrameIndex 
 // that grows with the session must.
 constexpr double kLargestWorkPerFrameMs = 16.0;
 
-double ProcessorTimeMs() { return 1e3 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
-
 TEST(SessionWriter, KeepsUpWithABusyTrial) {
   const TemporaryFolder folder;
   const core::SessionHeader header = BusyHeader();
   std::vector<core::FrameRecord> records;
   for (core::FrameIndex i = 0; i < 150; ++i) records.push_back(BusyFrame(header, i));
   SessionWriter writer(folder / "s.db", header);
-  const double work_before_ms = ProcessorTimeMs();
+  const double work_before_ms = test_support::ProcessorMs();
   const auto start = std::chrono::steady_clock::now();
   for (core::FrameRecord& record : records) writer.Append(std::move(record));
   writer.Finish({});
   const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
   const auto frames = static_cast<double>(records.size());
-  const double work_per_frame_ms = (ProcessorTimeMs() - work_before_ms) / frames;
+  const double work_per_frame_ms = (test_support::ProcessorMs() - work_before_ms) / frames;
   std::printf(
       "writing one frame of 4 x 640 x 480 and 3 contacts: %.2f ms of work, %.2f ms elapsed, %.1f kB\n",
       work_per_frame_ms, took.count() / frames,

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
-#include <ctime>
 #include <memory>
 #include <vector>
 
@@ -13,6 +12,7 @@
 #include "recon/synthetic/rig_presets.h"
 #include "recon/synthetic/synthetic_rig.h"
 #include "tests/app/overlay/overlay_samples.h"
+#include "tests/support/processor_time.h"
 
 namespace elbowroom::control {
 namespace {
@@ -28,9 +28,6 @@ std::vector<OverlayPart> PartsAt(double gap_mm, OutlinedMeshes* meshes) {
     parts.push_back({meshes->Of(kLayout.parts[i].mesh), places[i]});
   return parts;
 }
-
-// Of all threads: what the trial beside it goes without.
-double Ms(std::clock_t ticks) { return 1000.0 * static_cast<double>(ticks) / CLOCKS_PER_SEC; }
 
 double MedianMs(std::vector<double> times_ms) {
   std::ranges::sort(times_ms);
@@ -53,13 +50,12 @@ void Measure(const core::Rig& rig, int width_px, int height_px, bool gap_moves) 
         recon::MakeVisualHull(shared, synthetic.TrueMasks(recon::DemoSceneAt(4.0 + 0.03 * i).objects)));
     hull->Prepare();
     const std::vector<OverlayPart> parts = PartsAt(gap_moves ? 140.0 + i : 140.0, &meshes);
-    const std::clock_t begin = std::clock();
+    const double begin_ms = test_support::ProcessorMs();
     for (const auto& overlay : overlays) overlay->Place(parts);
-    const std::clock_t placed = std::clock();
+    const double placed_ms = test_support::ProcessorMs();
     for (const auto& overlay : overlays) overlay->PaintOn(&picture, hull);
-    const std::clock_t end = std::clock();
-    place_ms.push_back(Ms(placed - begin));
-    paint_ms.push_back(Ms(end - placed));
+    place_ms.push_back(placed_ms - begin_ms);
+    paint_ms.push_back(test_support::ProcessorMs() - placed_ms);
   }
   OverlayCount count;
   for (const auto& overlay : overlays) count += overlay->count();
@@ -73,18 +69,19 @@ void Measure(const core::Rig& rig, int width_px, int height_px, bool gap_moves) 
 void MeasureLarge() {
   const core::Rig rig = recon::FourCameraRig();
   auto ball = std::make_shared<const core::TriangleMesh>(BallMesh(90.0, 480));
-  const std::clock_t begin = std::clock();
+  const double begin_ms = test_support::ProcessorMs();
   const auto outlined = std::make_shared<const OutlinedMesh>(ball);
-  std::printf("outline of %zu triangles: %.0f ms, once\n", ball->triangles.size(), Ms(std::clock() - begin));
+  std::printf("outline of %zu triangles: %.0f ms, once\n", ball->triangles.size(),
+              test_support::ProcessorMs() - begin_ms);
   std::vector<double> place_ms;
   std::vector<std::unique_ptr<CameraOverlay>> overlays;
   for (const core::CameraModel& camera : rig.cameras)
     overlays.push_back(std::make_unique<CameraOverlay>(camera, 192, 144));
   for (int i = 0; i < 9; ++i) {
     const std::array parts{OverlayPart{outlined, {Eigen::Matrix3d::Identity(), {60.0, 0.0, 150.0 + i}}}};
-    const std::clock_t start = std::clock();
+    const double start_ms = test_support::ProcessorMs();
     for (const auto& overlay : overlays) overlay->Place(parts);
-    place_ms.push_back(Ms(std::clock() - start));
+    place_ms.push_back(test_support::ProcessorMs() - start_ms);
   }
   std::printf("four_modern 4 x 192 x 144, it moves: place %.0f ms\n", MedianMs(place_ms));
 }

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <ctime>
 #include <memory>
 #include <vector>
 
@@ -13,6 +12,7 @@
 #include "app/control/reviewing/what_if_frames.h"
 #include "app/control/stopwatch.h"
 #include "core/error.h"
+#include "tests/support/processor_time.h"
 
 namespace elbowroom::control {
 namespace {
@@ -20,10 +20,6 @@ namespace {
 constexpr std::size_t kScrubs = 300;
 constexpr std::size_t kStride = 37;  // frames: none is the neighbour of the one before
 constexpr int kGaps = 9;
-
-double MillisecondsSince(std::clock_t begin) {
-  return 1000.0 * static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
-}
 
 void Tell(const char* what, std::vector<double> times_ms) {
   std::ranges::sort(times_ms);
@@ -38,13 +34,13 @@ void Scrub(const char* what, const std::shared_ptr<const ReviewedSession>& sessi
   (void)frames.At(0, held_mm);  // what all frames share is made with the first
   std::vector<double> times_ms;
   Stopwatch watch;
-  const std::clock_t begin = std::clock();
+  const double begin_ms = test_support::ProcessorMs();
   for (std::size_t i = 1; i <= kScrubs; ++i) {
     (void)frames.At(i * stride % session->frames().size(), held_mm);
     times_ms.push_back(watch.LapMs());
   }
   Tell(what, std::move(times_ms));
-  fmt::print("  of processor time {:.2f} ms a frame\n", MillisecondsSince(begin) / kScrubs);
+  fmt::print("  of processor time {:.2f} ms a frame\n", (test_support::ProcessorMs() - begin_ms) / kScrubs);
 }
 
 void Run(const char* file, const char* name) {
@@ -61,12 +57,12 @@ void Run(const char* file, const char* name) {
   for (int i = 0; i < kGaps; ++i) {
     const double gap_mm = spacing.min_mm + (spacing.max_mm - spacing.min_mm) * i / (kGaps - 1);
     watch.LapMs();
-    const std::clock_t begin = std::clock();
+    const double begin_ms = test_support::ProcessorMs();
     const WhatIf what_if = JudgeMotionAt(*session, {{{name, gap_mm}}}, {}, {});
     times_ms.push_back(watch.LapMs());
     fmt::print("  {} {:.1f} mm: {} touches, {} of {} answers kept, {:.0f} ms, of processor time {:.0f} ms\n",
                name, gap_mm, what_if.outcome.episodes.size(), what_if.answers_kept, what_if.answers,
-               times_ms.back(), MillisecondsSince(begin));
+               times_ms.back(), test_support::ProcessorMs() - begin_ms);
   }
   Tell("whole motion at another gap", std::move(times_ms));
   watch.LapMs();

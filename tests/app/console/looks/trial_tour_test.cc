@@ -54,9 +54,13 @@ TEST_P(TrialTour, TheDemoIsAllThere) {
   ExpectAllOfTheNoteLine();
   Action("section").trigger();
   window_.sights().findChild<QListWidget*>("section_list")->item(1)->setCheckState(Qt::Checked);
-  Action("measure_faces").trigger();
+  constexpr double kLeansDeg = 25.0;
+  window_.sights().findChild<QDoubleSpinBox*>("section_elevation")->setValue(kLeansDeg);
   AwaitFrames(3);
   Look("trial_section");
+  Action("measure_faces").trigger();
+  AwaitFrames(3);
+  Look("trial_measure");
   Action("section").trigger();
   Action("measure_faces").trigger();
   Action("heat").trigger();
