@@ -90,8 +90,8 @@ class VideoFile : public ImageSource {
   }
 
   static bool IsPossible(double promised_frames) {
-    constexpr double kMostFrames = 1e9;
-    return promised_frames >= 1.0 && promised_frames < kMostFrames;
+    constexpr double kMostPromised = 1e9;
+    return promised_frames >= 1.0 && promised_frames < kMostPromised;
   }
 
   // Passes over up to `most` pictures from `at`, the decoder's next. False: the video ends at `at`.
