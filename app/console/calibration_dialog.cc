@@ -15,7 +15,7 @@
 namespace elbowroom::console {
 namespace {
 
-constexpr QSize kCalibrationSize(820, 560);
+constexpr QSize kCalibrationSize(820, 520);
 constexpr int kFirstNumber = 2;  // column; before it are names
 
 QString Number(double value, int decimals) { return QString::number(value, 'f', decimals); }

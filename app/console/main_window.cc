@@ -20,6 +20,7 @@
 #include "app/console/desktop/welcome_page.h"
 #include "app/console/desktop/window_memory.h"
 #include "app/console/view/listing.h"
+#include "app/console/view/scrolled.h"
 #include "app/control/layout_editing/trial_draft.h"
 #include "core/error.h"
 
@@ -64,15 +65,6 @@ bool IsLayout(const QString& file) {
   } catch (const core::Error&) {
     return false;
   }
-}
-
-QScrollArea* Scrolling(QWidget* content) {
-  auto* area = new QScrollArea;
-  area->setWidgetResizable(true);
-  area->setFrameShape(QFrame::NoFrame);
-  area->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-  area->setWidget(content);
-  return area;
 }
 
 }  // namespace
@@ -143,7 +135,7 @@ void MainWindow::AddPanels() {
   touch_list->setObjectName("touch_list");
   touch_list->setAccessibleName(tr("Touches so far"));
   strip_ = new CameraStrip;
-  AddPanel("gaps_panel", tr("Gaps and tools"), Scrolling(gaps), Qt::RightDockWidgetArea);
+  AddPanel("gaps_panel", tr("Gaps and tools"), Scrolled(gaps), Qt::RightDockWidgetArea);
   AddPanel("contacts_panel", tr("Contacts now"), contact_list, Qt::RightDockWidgetArea);
   AddPanel("touches_panel", tr("Touches so far"), touch_list, Qt::RightDockWidgetArea);
   cameras_dock_ = AddPanel("cameras_panel", tr("Camera pictures"), strip_, Qt::BottomDockWidgetArea);
@@ -196,6 +188,7 @@ void MainWindow::AddPages(QStackedWidget* pages) {
                   layout_page_);
   pages_->AddPage(Page::kTrial, tr("Trial"), tr("Run a trial and watch it"), welcome);
   pages_->AddPage(Page::kReview, tr("Review"), tr("Go through a recorded session"), review_page_);
+  pages_->SetTools(Page::kReview, review_page_->actions());
   pages->setCurrentWidget(welcome);
   insertToolBar(findChild<QToolBar*>("trial_bar"), pages_);
 }
@@ -208,6 +201,19 @@ void MainWindow::FollowView() {
           [this](qint64, double drawing_ms) { status_->ShowPicture(drawing_ms, view_->driver()); });
   connect(view_, &OperatorView::PictureSeen, this,
           [this](qint64, double age_ms) { status_->ShowAge(age_ms); });
+}
+
+void MainWindow::resizeEvent(QResizeEvent* event) {
+  QMainWindow::resizeEvent(event);
+  FitTrialBar();
+}
+
+// Words beside the icons where there is room for them.
+void MainWindow::FitTrialBar() {
+  auto* bar = findChild<QToolBar*>("trial_bar");
+  if (bar->toolButtonStyle() == Qt::ToolButtonTextBesideIcon) worded_bar_px_ = bar->sizeHint().width();
+  const bool fits = pages_->sizeHint().width() + worded_bar_px_ <= width();
+  bar->setToolButtonStyle(fits ? Qt::ToolButtonTextBesideIcon : Qt::ToolButtonIconOnly);
 }
 
 // Of gaps, their rules, tools and the note line, at the width that they have.

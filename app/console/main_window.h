@@ -74,6 +74,7 @@ class MainWindow : public QMainWindow {
   void dropEvent(QDropEvent* event) override;
   void changeEvent(QEvent* event) override;
   void closeEvent(QCloseEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
   void keyPressEvent(QKeyEvent* event) override;
 
  private:
@@ -96,11 +97,13 @@ class MainWindow : public QMainWindow {
   void ShowState();
   void FitPanels();
   [[nodiscard]] int WantedGapsPx() const;
+  void FitTrialBar();
   void FitGaps();
 
   TrialDesk* desk_;  // this and all below are owned by Qt as children
   SessionPlace place_;
   bool closes_when_idle_ = false;
+  int worded_bar_px_ = 0;   // of the trial's tool bar with words
   int fitted_gaps_px_ = 0;  // what FitGaps() made room for
   bool is_remembered_ = false;
   MessageBar* messages_ = nullptr;

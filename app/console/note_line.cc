@@ -12,7 +12,7 @@ constexpr int kLongestNote = 500;
 NoteLine::NoteLine(QWidget* parent) : QLineEdit(parent) {
   setMaxLength(kLongestNote);
   setClearButtonEnabled(true);
-  setPlaceholderText(tr("Note at this moment (Ctrl+N), then Enter"));
+  setPlaceholderText(tr("Note (Ctrl+N), then Enter"));
   setAccessibleName(tr("Note"));
   setToolTip(tr("The session records it with the frame that comes next; the report's events list it"));
 }

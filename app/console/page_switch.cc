@@ -29,6 +29,12 @@ void PageSwitch::AddPage(Page page, const QString& title, const QString& tool_ti
   FitShownPage();
 }
 
+void PageSwitch::SetTools(Page page, QWidget* tools) {
+  QAction* action = addWidget(tools);
+  action->setVisible(page == page_);
+  ChoiceOf(page).tools = action;
+}
+
 void PageSwitch::SetTrialWidget(QWidget* widget) {
   pages_->addWidget(widget);
   FitShownPage();
@@ -50,6 +56,8 @@ void PageSwitch::Show(Page page) {
   }
   for (QShortcut* shortcut : window_->findChildren<QShortcut*>(QString(), Qt::FindDirectChildrenOnly))
     shortcut->setEnabled(page == Page::kTrial);
+  for (const Choice& choice : choices_)
+    if (choice.tools != nullptr) choice.tools->setVisible(choice.page == page);
   ChoiceOf(page).action->setChecked(true);
   pages_->setCurrentWidget(ChoiceOf(page).widget);
 }

@@ -25,6 +25,9 @@ class PageSwitch : public QToolBar {
 
   void AddPage(Page page, const QString& title, const QString& tool_tip, QWidget* widget);
 
+  // What stands beside the choices while the page is shown. The bar owns it from then on.
+  void SetTools(Page page, QWidget* tools);
+
   // The trial page has several widgets, one at a time: before the first trial, before and after one with a
   // procedure, while one runs.
   void SetTrialWidget(QWidget* widget);
@@ -38,6 +41,7 @@ class PageSwitch : public QToolBar {
     Page page;
     QAction* action;
     QWidget* widget;
+    QAction* tools = nullptr;
   };
   [[nodiscard]] Choice& ChoiceOf(Page page);
   void PutPanelsAway();

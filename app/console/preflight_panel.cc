@@ -72,7 +72,7 @@ PreflightPanel::PreflightPanel(TrialDesk& desk, QWidget* parent) : QWidget(paren
   headline_->setWordWrap(true);
   table_ = new QTableWidget(0, 3);
   table_->setObjectName("preflight_rows");
-  table_->setHorizontalHeaderLabels({tr("State"), tr("Of"), tr("Finding, and what to do")});
+  table_->setHorizontalHeaderLabels({tr("State"), tr("Of"), tr("Finding, and advice")});
   table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
   table_->setSelectionMode(QAbstractItemView::NoSelection);
   table_->setFocusPolicy(Qt::NoFocus);

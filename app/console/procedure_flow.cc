@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "app/console/trial_actions.h"
+#include "app/console/view/scrolled.h"
 #include "app/control/trial_setup.h"
 #include "core/error.h"
 #include "core/procedure/answers.h"
@@ -92,7 +93,7 @@ void ProcedureFlow::AddDocks() {
   const auto add = [this](const char* name, const QString& title, QWidget* content) {
     auto* dock = new QDockWidget(title, window_);
     dock->setObjectName(name);
-    dock->setWidget(content);
+    dock->setWidget(Scrolled(content));
     window_->addDockWidget(Qt::LeftDockWidgetArea, dock);
     dock->hide();  // until a trial has a procedure
     docks_.push_back(dock);

@@ -20,6 +20,11 @@ QString SizeWords(const Eigen::Vector3d& size_mm) {
   return QObject::tr("%1 mm").arg(QString::fromStdString(core::SizeText(size_mm)));
 }
 
+QString UnitWord(core::LengthUnit unit) {
+  if (unit == core::LengthUnit::kInch) return QObject::tr("inches");  // "in in" doesn't read
+  return QString::fromUtf8(core::ToString(unit).data());
+}
+
 void Untick(QTreeWidgetItem* item) {
   item->setCheckState(kName, Qt::Unchecked);
   for (int i = 0; i < item->childCount(); ++i) Untick(item->child(i));
@@ -165,9 +170,9 @@ void ImportDialog::ShowUnits() {
   units_->setVisible(preview_->asks_for_unit());
   for (const control::SizeInUnit& size : preview_->sizes) {
     const QString unit = QString::fromUtf8(core::ToString(size.unit).data());
-    auto* choice = new QRadioButton(
-        size.is_likely ? tr("%1, if it is in %2 – most likely").arg(SizeWords(size.size_mm), unit)
-                       : tr("%1, if it is in %2").arg(SizeWords(size.size_mm), unit));
+    auto* choice =
+        new QRadioButton((size.is_likely ? tr("%1, if it is in %2 – most likely") : tr("%1, if it is in %2"))
+                             .arg(SizeWords(size.size_mm), UnitWord(size.unit)));
     choice->setObjectName("import_unit:" + unit);
     choice->setChecked(size.is_likely);
     units_->layout()->addWidget(choice);

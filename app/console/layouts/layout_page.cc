@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "app/console/desktop/theme.h"
+#include "app/console/view/scrolled.h"
 #include "app/control/layout_editing/gap_line.h"
 #include "app/control/layout_editing/layout_edit.h"
 #include "app/control/layout_editing/pair_of_parts.h"
@@ -63,7 +64,7 @@ LayoutPage::LayoutPage(QWidget* parent)
   AddActions();
   auto* split = new QSplitter(Qt::Horizontal);
   split->addWidget(view_);
-  split->addWidget(SidePanel());
+  split->addWidget(Scrolled(SidePanel()));
   split->setStretchFactor(0, 1);
   split->setSizes({1000, kSidePx});
   auto* column = new QVBoxLayout(this);

@@ -49,7 +49,7 @@ PartsView::PartsView(QWidget* parent)
                                     const control::RenderRequest& request) { return Take(picture, request); },
                      .shown = [this](double) { emit PictureShown(); },
                      .failed = [this](const QString& line) { emit Failed(line); }}) {
-  setMinimumSize(320, 240);
+  setMinimumSize(320, 130);
   setMouseTracking(true);
   setFocusPolicy(Qt::StrongFocus);
   setAttribute(Qt::WA_OpaquePaintEvent);

@@ -39,6 +39,7 @@ ReviewPage::ReviewPage(QWidget* parent)
     : QWidget(parent), desk_(new ReviewDesk(this)), messages_(new MessageBar), stack_(new QStackedWidget) {
   auto* start = new ReviewStart;
   session_page_ = MakeSessionPage();
+  MakeActions();
   stack_->addWidget(start);
   stack_->addWidget(session_page_);
   messages_->setObjectName("review_messages");
@@ -98,6 +99,7 @@ QPushButton* ReviewPage::AddButton(QLayout* row, const char* name, const QString
   auto* button = new QPushButton(text);
   button->setObjectName(name);
   button->setToolTip(tip);
+  button->setFocusPolicy(Qt::TabFocus);  // a click leaves the keys to the session
   row->addWidget(button);
   return button;
 }
@@ -116,8 +118,13 @@ QLayout* ReviewPage::MakeHeader() {
   texts->setSpacing(0);
   texts->addWidget(title_);
   texts->addWidget(facts_);
-  auto* row = new QHBoxLayout;
-  row->addLayout(texts, 1);
+  return texts;
+}
+
+void ReviewPage::MakeActions() {
+  buttons_ = new QWidget;
+  auto* row = new QHBoxLayout(buttons_);
+  row->setContentsMargins(0, 0, 0, 0);
   section_button_ =
       AddButton(row, "review_section", tr("&Section"),
                 tr("Cut parts and hull open by planes; handles in the picture move and turn the chosen one"));
@@ -133,6 +140,7 @@ QLayout* ReviewPage::MakeHeader() {
   });
   hull_look_ = new HullLookButton(LooksOffered::kWithoutPictures);
   hull_look_->setObjectName("review_hull_look");
+  hull_look_->setFocusPolicy(Qt::TabFocus);
   row->addWidget(hull_look_);
   auto* open = AddButton(row, "review_open_another", tr("&Open …"), tr("Open another session (.db)"));
   auto* report =
@@ -149,7 +157,11 @@ QLayout* ReviewPage::MakeHeader() {
   connect(bcf_in, &QPushButton::clicked, this, [this] { AskForBcf(false); });
   connect(keep_out, &QPushButton::clicked, this, &ReviewPage::AskForKeepOut);
   job_buttons_ = {report, bcf_out, bcf_in, keep_out};
-  return row;
+  buttons_->hide();
+  actions_ = new QWidget(this);
+  auto* actions = new QHBoxLayout(actions_);
+  actions->setContentsMargins(0, 0, 0, 0);
+  actions->addWidget(buttons_);
 }
 
 QLayout* ReviewPage::MakeTransport() {
@@ -298,6 +310,7 @@ void ReviewPage::ShowSession() {
   remarks_->Clear();
   findings_->Forget();
   ShowFindings();
+  buttons_->show();
   stack_->setCurrentWidget(session_page_);
   timeline_->setFocus();
 }

@@ -42,6 +42,8 @@ class ReviewPage : public QWidget {
   void Fit();  // everything in the picture
 
   [[nodiscard]] ReviewDesk& desk() { return *desk_; }
+  // What can be done with the session, for the window's tool bar; nothing is seen of it before the first one.
+  [[nodiscard]] QWidget* actions() const { return actions_; }
   [[nodiscard]] OperatorView* view() { return view_; }  // null before the first session
 
  signals:
@@ -61,6 +63,7 @@ class ReviewPage : public QWidget {
   void FollowPanels();
   void MakeView();
   void ShowSession();
+  void MakeActions();
   void ShowFrame(const control::ScrubbedFrame& frame);
   void ShowFindings();
   void ShowHeat(const control::SharedHeatLayer& heat);
@@ -81,6 +84,8 @@ class ReviewPage : public QWidget {
   QStackedWidget* stack_;
   QWidget* session_page_;
   OperatorView* view_ = nullptr;
+  QWidget* actions_ = nullptr;
+  QWidget* buttons_ = nullptr;
   QLabel* title_ = nullptr;
   QLabel* facts_ = nullptr;
   QLabel* time_ = nullptr;

@@ -18,7 +18,7 @@ CameraView::CameraView(QWidget* parent) : QWidget(parent) {
   setObjectName("camera_view");
   setAccessibleName(tr("A camera's picture with the virtual parts"));
   setFocusPolicy(Qt::StrongFocus);
-  setMinimumSize(320, 190);  // as the 3-D view, in whose place it stands
+  setMinimumSize(320, 110);  // as the 3-D view, in whose place it stands
 }
 
 void CameraView::Open(const QString& camera) {

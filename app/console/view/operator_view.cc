@@ -25,7 +25,7 @@ OperatorView::OperatorView(QWidget* parent)
                                     const control::RenderRequest& request) { return Take(picture, request); },
                      .shown = [this](double drawing_ms) { emit PictureShown(picture_frame_, drawing_ms); },
                      .failed = [this](const QString& line) { emit Failed(line); }}) {
-  setMinimumSize(320, 190);  // with section planes above it, on a screen of 540 px
+  setMinimumSize(320, 110);  // with section planes above and a slider below it, on a screen of 540 px
   setFocusPolicy(Qt::StrongFocus);
   setAccessibleName(tr("3-D view"));
   setAttribute(Qt::WA_OpaquePaintEvent);
