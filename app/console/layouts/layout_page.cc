@@ -11,7 +11,6 @@
 #include <utility>
 
 #include "app/console/desktop/theme.h"
-#include "app/console/view/scrolled.h"
 #include "app/control/layout_editing/gap_line.h"
 #include "app/control/layout_editing/layout_edit.h"
 #include "app/control/layout_editing/pair_of_parts.h"
@@ -20,7 +19,7 @@
 namespace elbowroom::console {
 namespace {
 
-constexpr int kSidePx = 330, kLeastSidePx = 300;
+constexpr int kSidePx = 330, kLeastSidePx = 300, kLeastListPx = 44;
 
 std::filesystem::path UnsavedFolder() {
   return QStandardPaths::writableLocation(QStandardPaths::AppDataLocation).toStdString();
@@ -64,7 +63,7 @@ LayoutPage::LayoutPage(QWidget* parent)
   AddActions();
   auto* split = new QSplitter(Qt::Horizontal);
   split->addWidget(view_);
-  split->addWidget(Scrolled(SidePanel()));
+  split->addWidget(SidePanel());
   split->setStretchFactor(0, 1);
   split->setSizes({1000, kSidePx});
   auto* column = new QVBoxLayout(this);
@@ -88,6 +87,7 @@ LayoutPage::~LayoutPage() = default;
 
 QWidget* LayoutPage::SidePanel() {
   list_ = new PartsList;
+  list_->setMinimumHeight(kLeastListPx);
   part_ = new PartPanel;
   part_->setObjectName("part_panel");
   rules_ = new RulePanel;
