@@ -12,6 +12,7 @@ find_package(SQLiteCpp REQUIRED)
 find_package(assimp REQUIRED)
 find_package(OpenCASCADE REQUIRED)   # its version file knows no "or newer"
 find_package(meshoptimizer REQUIRED)
+find_package(Boost REQUIRED)   # its headers
 find_package(CGAL REQUIRED)
 find_package(fcl 0.7 REQUIRED)
 find_package(GTest REQUIRED)

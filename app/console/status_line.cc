@@ -117,6 +117,7 @@ void StatusLine::ShowPicture(double drawing_ms, const QString& driver) {
   if (driver_->toolTip() == driver) return;
   driver_->setToolTip(driver);
   driver_->setText(ShortDriver(driver));
+  FitFields();
 }
 
 void StatusLine::ShowAge(double age_ms) {
@@ -126,10 +127,17 @@ void StatusLine::ShowAge(double age_ms) {
   age_->setToolTip(tr("From the exposure to the screen, ms: median %1, and at most %2 in 95 of 100")
                        .arg(ages_.MedianMs().value_or(0.0), 0, 'f', 0)
                        .arg(ages_.QuantileMs(0.95).value_or(0.0), 0, 'f', 0));
+  FitFields();
+}
+
+void StatusLine::SetProgressVisible(bool is_visible) {
+  if (progress_->isHidden() != is_visible) return;
+  progress_->setVisible(is_visible);
+  FitFields();
 }
 
 void StatusLine::ShowProgress(qint64 done, qint64 total, const QString& what) {
-  progress_->setVisible(total > 0);
+  SetProgressVisible(total > 0);
   if (total <= 0) return;
   progress_->setRange(0, 1000);  // in thousandths: totals may exceed the range of a progress bar
   progress_->setValue(static_cast<int>(1000 * std::clamp<qint64>(done, 0, total) / total));

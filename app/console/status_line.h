@@ -23,7 +23,7 @@ class StatusLine : public QStatusBar {
   void ShowPicture(double drawing_ms, const QString& driver);
   void ShowAge(double age_ms);  // of the operator's picture when it was painted; live cameras only
   void ShowProgress(qint64 done, qint64 total, const QString& what);  // total <= 0: not known, not shown
-  void HideProgress() { progress_->hide(); }
+  void HideProgress() { SetProgressVisible(false); }
   // A field at the right edge that somebody else fills, shows and hides.
   void AddGuest(QWidget* guest);
   [[nodiscard]] const control::FrameTimeTally& ages() const { return ages_; }
@@ -35,6 +35,7 @@ class StatusLine : public QStatusBar {
  private:
   // Shows as many fields as there is room for, the most important first.
   void FitFields();
+  void SetProgressVisible(bool is_visible);
   QLabel* AddField(const QString& name, int stretch);
 
   QLabel* frame_ = nullptr;

@@ -1,6 +1,5 @@
 // elbowroom sweep S.db... --spacing NAME=FROM:TO:STEP_MM --out DIR: how much space recorded motion needs.
 #include <fmt/format.h>
-#include <tbb/global_control.h>
 
 #include <cstdint>
 #include <memory>
@@ -8,10 +7,9 @@
 #include <utility>
 
 #include "app/cli/options/command.h"
-#include "app/cli/options/unit_option.h"
 #include "app/cli/options/value_json.h"
+#include "app/cli/recorded/sweep_options.h"
 #include "app/control/sweep/spacing_sweep.h"
-#include "app/control/sweep/sweep_engines.h"
 #include "app/control/sweep/sweep_files.h"
 
 namespace elbowroom::cli {
@@ -22,19 +20,6 @@ struct SweepOptions {
   control::SweepEngine engine = control::SweepEngine::kLocal;
   bool cells_only = false;
 };
-
-// NAME=FROM:TO:STEP
-std::optional<control::SpacingRange> ParseSpacingRange(const std::string& text) {
-  const std::size_t equals = text.rfind('='),
-                    first = text.find(':', equals == std::string::npos ? 0 : equals),
-                    second = first == std::string::npos ? first : text.find(':', first + 1);
-  if (equals == std::string::npos || equals == 0 || second == std::string::npos) return std::nullopt;
-  const auto from_mm = ParseNumber(text.substr(equals + 1, first - equals - 1)),
-             to_mm = ParseNumber(text.substr(first + 1, second - first - 1)),
-             step_mm = ParseNumber(text.substr(second + 1));
-  if (!from_mm || !to_mm || !step_mm || !(*step_mm > 0.0) || *to_mm < *from_mm) return std::nullopt;
-  return control::SpacingRange{text.substr(0, equals), *from_mm, *to_mm, *step_mm};
-}
 
 nlohmann::json PartJson(const review::PartAtSpacing& part, const std::string& name) {
   return {{"part", name},
@@ -158,11 +143,7 @@ std::string TextOf(const std::string& spacing, const control::SpacingSweep& swee
 
 CommandResult Run(const SweepOptions& options, const CommandContext& context) {
   control::SweepRequest request = options.request;
-  const auto threads =
-      static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
-  if (options.engine != control::SweepEngine::kLocal)
-    request.cells_before =
-        control::RunSweepEngine(options.engine, request, threads, context.progress, context.stop);
+  RunEngine(options.engine, &request, context);
   const control::SpacingSweep sweep = control::SweepSpacing(request, context.progress, context.stop);
   CommandResult result;
   result.json = SweepJson(options, sweep);
@@ -204,13 +185,7 @@ void AddSweepCommand(CLI::App& app, Choice* choice) {
                    "folder for sweep.csv, sweep.svg, sweep.png; made if needed. What is done is kept in its "
                    "cells, so that a sweep that was ended early goes on")
       ->required();
-  command
-      ->add_option_function<std::string>(
-          "--engine",
-          [options](const std::string& text) { options->engine = *control::ParseSweepEngine(text); },
-          "who judges: this process, processes of GNU parallel, or an array of Slurm")
-      ->check(CLI::IsMember({"local", "parallel", "slurm"}))
-      ->default_str("local");
+  AddEngineOption(*command, &options->engine);
   command->add_flag("--cells-only", options->cells_only,
                     "keep the cells, write no files: for an engine's jobs");
   command->callback(

@@ -1,0 +1,149 @@
+#include "app/control/study/study.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+#include <utility>
+
+#include "core/error.h"
+#include "core/statistics/bootstrap.h"
+#include "sessions/session_reader.h"
+
+namespace elbowroom::control {
+namespace {
+
+constexpr double kStepMm = 10.0;
+constexpr int kMostSteps = 60;
+constexpr std::uint64_t kSeed = 3;  // any: the same study gives the same interval
+constexpr std::size_t kFew = 10;    // participants, of whom little can be said for others
+
+void TakeLarger(const std::optional<double>& value, std::optional<double>* largest) {
+  if (value && (!*largest || **largest < *value)) *largest = value;
+}
+
+std::vector<StudyRow> RowsOf(const std::vector<StudySession>& sessions) {
+  std::vector<StudyRow> rows;
+  for (const StudySession& session : sessions) {
+    if (rows.empty() || rows.back().participant != session.participant) rows.push_back({session.participant});
+    StudyRow& row = rows.back();
+    ++row.sessions;
+    if (!row.estimate_before_mm) row.estimate_before_mm = session.estimate_before_mm;
+    if (session.estimate_after_mm) row.estimate_after_mm = session.estimate_after_mm;
+    const auto measure = [&](const char* name) {
+      const auto found = session.measures.find(name);
+      return found == session.measures.end() ? std::nullopt : std::optional(found->second);
+    };
+    TakeLarger(measure("needed_without_tools_mm"), &row.needed_without_tools_mm);
+    TakeLarger(measure("needed_mm"), &row.needed_mm);
+  }
+  return rows;
+}
+
+// A row of which one session has no answer has none: its need may be larger than all that was tried.
+void DropUnansweredNeeds(const std::vector<StudySession>& sessions, std::vector<StudyRow>* rows) {
+  for (const StudySession& session : sessions) {
+    if (session.measures.contains("needed_mm")) continue;
+    std::ranges::find(*rows, session.participant, &StudyRow::participant)->needed_mm.reset();
+  }
+}
+
+std::vector<std::string> NotesOf(const Study& study) {
+  std::vector<std::string> notes;
+  const auto count = [&](auto has) { return std::ranges::count_if(study.sessions, has); };
+  if (const auto without = count([](const StudySession& session) { return !session.has_code; }); without > 0)
+    notes.push_back(
+        fmt::format("{} of {} sessions name no participant: each counts as a participant of its own", without,
+                    study.sessions.size()));
+  for (const StudySession& session : study.sessions)
+    if (!session.measures.contains("needed_mm"))
+      notes.push_back(fmt::format(
+          "{}: touched at the largest gap tried, {:g} mm: what is needed isn't known; give a larger range",
+          session.path.string(), study.range.to_mm));
+  const auto short_of = [&](const char* what, auto missing) {
+    const auto rows = std::ranges::count_if(study.rows, missing);
+    if (rows > 0) notes.push_back(fmt::format("{} of {} participants {}", rows, study.rows.size(), what));
+  };
+  short_of("gave no estimate before their trials: they aren't in the mean shortfall",
+           [](const StudyRow& row) { return !row.estimate_before_mm; });
+  short_of("gave no estimate after their trials", [](const StudyRow& row) { return !row.estimate_after_mm; });
+  if (study.rows.size() < kFew)
+    notes.push_back(fmt::format(
+        "{} participants: intervals and p say little about others, and a bootstrap interval of so few is too "
+        "narrow",
+        study.rows.size()));
+  for (const Comparison& comparison : study.comparisons)
+    if (comparison.in_both > 0 && !comparison.pairs) {
+      notes.push_back(
+          "some participants did both of two conditions, some one: Welch's test takes all for "
+          "different people");
+      break;
+    }
+  notes.push_back(
+      "what is needed is found for the motion that was made: people move otherwise with more room");
+  return notes;
+}
+
+}  // namespace
+
+std::optional<double> StudyRow::shortfall_mm() const {
+  return needed_mm && estimate_before_mm ? std::optional(*needed_mm - *estimate_before_mm) : std::nullopt;
+}
+
+SpacingRange FullRange(const std::filesystem::path& session, const std::string& name,
+                       const std::stop_token& stop) {
+  const sessions::SessionReader reader(session, stop);
+  const core::Layout& layout = reader.header().layout;
+  if (name.empty() && layout.spacings.size() != 1) {
+    std::string names;
+    for (const core::Spacing& spacing : layout.spacings)
+      names += (names.empty() ? "'" : ", '") + spacing.name + "'";
+    throw core::Error(
+        core::ErrorKind::kRange,
+        names.empty()
+            ? fmt::format("'{}': its layout has no gap, so no space can be studied", session.string())
+            : fmt::format("'{}': its layout has several gaps, {}: choose one by --spacing NAME",
+                          session.string(), names));
+  }
+  const core::Spacing& spacing =
+      name.empty() ? layout.spacings.front() : layout.spacings[core::RequireSpacing(layout, name)];
+  const double width_mm = spacing.max_mm - spacing.min_mm;
+  return {spacing.name, spacing.min_mm, spacing.max_mm, std::max(kStepMm, std::ceil(width_mm / kMostSteps))};
+}
+
+Study MakeStudy(const SweepRequest& request, const core::Progress& progress, const std::stop_token& stop) {
+  Study study;
+  study.range = request.range;
+  study.sweep = SweepSpacing(request, progress, stop);
+  for (const SweptSession& swept : study.sweep.sessions) {
+    StudySession session = ReadStudySession(swept.path, stop);
+    if (const auto needed_mm = NeededMm(swept.curves.all)) session.measures["needed_mm"] = *needed_mm;
+    if (const auto needed_mm = NeededMm(swept.curves.without_tools))
+      session.measures["needed_without_tools_mm"] = *needed_mm;
+    if (const auto needed = session.measures.find("needed_mm");
+        needed != session.measures.end() && session.estimate_before_mm)
+      session.measures["shortfall_mm"] = needed->second - *session.estimate_before_mm;
+    study.sessions.push_back(std::move(session));
+  }
+  const auto place = [](const StudySession& session) {
+    return std::tie(session.participant, session.order, session.started_at_utc, session.path);
+  };
+  std::ranges::stable_sort(study.sessions, [&](const auto& a, const auto& b) { return place(a) < place(b); });
+  study.rows = RowsOf(study.sessions);
+  DropUnansweredNeeds(study.sessions, &study.rows);
+  std::vector<double> shortfalls_mm;
+  for (const StudyRow& row : study.rows)
+    if (const auto shortfall_mm = row.shortfall_mm()) shortfalls_mm.push_back(*shortfall_mm);
+  if (!shortfalls_mm.empty()) {
+    study.shortfall_mm = core::Summarise(shortfalls_mm);
+    study.shortfall_interval_mm = core::MeanInterval(*study.shortfall_mm, kConfidence);
+    study.shortfall_bootstrap_mm = core::BootstrapMean(shortfalls_mm, kConfidence, kSeed);
+  }
+  study.comparisons = CompareConditions(study.sessions);
+  study.correlations = CorrelateWithNeed(study.sessions);
+  study.notes = NotesOf(study);
+  return study;
+}
+
+}  // namespace elbowroom::control

@@ -1,0 +1,106 @@
+#include "app/control/study/study_comparisons.h"
+
+#include <algorithm>
+#include <iterator>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "core/statistics/effect_size.h"
+#include "core/statistics/several_tests.h"
+
+namespace elbowroom::control {
+namespace {
+
+using ByParticipant = std::map<std::string, double>;
+
+// The mean of a measure over each participant's sessions.
+class Means {
+ public:
+  void Add(const std::string& participant, double value) { values_[participant].push_back(value); }
+  [[nodiscard]] ByParticipant Take() const {
+    ByParticipant means;
+    for (const auto& [participant, values] : values_) means[participant] = core::Summarise(values).mean;
+    return means;
+  }
+
+ private:
+  std::map<std::string, std::vector<double>> values_;
+};
+
+std::vector<double> ValuesOf(const ByParticipant& means) {
+  std::vector<double> values;
+  for (const auto& [participant, value] : means) values.push_back(value);
+  return values;
+}
+
+Comparison Compare(const std::string& measure, const std::pair<std::string, ByParticipant>& a,
+                   const std::pair<std::string, ByParticipant>& b) {
+  const std::vector<double> of_a = ValuesOf(a.second), of_b = ValuesOf(b.second);
+  Comparison comparison{measure, a.first, b.first, core::Summarise(of_a), core::Summarise(of_b)};
+  comparison.means = core::CompareMeans(comparison.of_a, comparison.of_b);
+  comparison.effect_size = core::EffectSize(comparison.of_a, comparison.of_b);
+  comparison.ranks = core::CompareRanks(of_a, of_b);
+  comparison.in_both = static_cast<std::size_t>(
+      std::ranges::count_if(a.second, [&](const auto& entry) { return b.second.contains(entry.first); }));
+  // Both are in the order of the participants.
+  if (comparison.in_both == of_a.size() && comparison.in_both == of_b.size())
+    comparison.pairs = core::ComparePairs(of_a, of_b);
+  return comparison;
+}
+
+void CorrectForSeveral(std::vector<Comparison>* comparisons) {
+  std::vector<double> p;
+  for (const Comparison& comparison : *comparisons)
+    if (comparison.means) p.push_back(comparison.means->p);
+  const std::vector<double> corrected = core::CorrectForSeveral(p);
+  std::size_t next = 0;
+  for (Comparison& comparison : *comparisons)
+    if (comparison.means) comparison.corrected_p = corrected[next++];
+}
+
+}  // namespace
+
+std::vector<Comparison> CompareConditions(const std::vector<StudySession>& sessions) {
+  std::map<std::string, std::map<std::string, Means>> by_measure;  // then by condition
+  for (const StudySession& session : sessions) {
+    if (session.condition.empty()) continue;
+    for (const auto& [measure, value] : session.measures)
+      by_measure[measure][session.condition].Add(session.participant, value);
+  }
+  std::vector<Comparison> comparisons;
+  for (const auto& [measure, by_condition] : by_measure) {
+    std::vector<std::pair<std::string, ByParticipant>> groups;
+    for (const auto& [condition, means] : by_condition) groups.emplace_back(condition, means.Take());
+    for (std::size_t a = 0; a < groups.size(); ++a)
+      for (std::size_t b = a + 1; b < groups.size(); ++b)
+        comparisons.push_back(Compare(measure, groups[a], groups[b]));
+  }
+  CorrectForSeveral(&comparisons);
+  return comparisons;
+}
+
+std::vector<MeasuresCorrelated> CorrelateWithNeed(const std::vector<StudySession>& sessions) {
+  constexpr const char* kNeed = "needed_mm";
+  std::map<std::string, Means> by_measure;
+  for (const StudySession& session : sessions) {
+    for (const auto& [measure, value] : session.measures) by_measure[measure].Add(session.participant, value);
+    if (session.estimate_before_mm)
+      by_measure["estimate_before_mm"].Add(session.participant, *session.estimate_before_mm);
+  }
+  std::vector<MeasuresCorrelated> correlated;
+  const ByParticipant need = by_measure[kNeed].Take();
+  for (const auto& [measure, means] : by_measure) {
+    if (measure == kNeed || measure == "shortfall_mm") continue;  // the need is in it
+    std::vector<double> a, b;
+    for (const auto& [participant, value] : means.Take())
+      if (const auto needed = need.find(participant); needed != need.end()) {
+        a.push_back(value);
+        b.push_back(needed->second);
+      }
+    if (const auto found = core::Correlate(a, b)) correlated.push_back({measure, kNeed, *found});
+  }
+  return correlated;
+}
+
+}  // namespace elbowroom::control

@@ -1,0 +1,40 @@
+// Conditions of a study held against each other.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/control/study/study_sessions.h"
+#include "core/statistics/correlation.h"
+#include "core/statistics/mean_comparison.h"
+#include "core/statistics/rank_sum.h"
+
+namespace elbowroom::control {
+
+// A measure in two conditions. Each participant counts once a condition, with the mean of the sessions.
+struct Comparison {
+  std::string measure;
+  std::string a, b;  // conditions
+  core::Summary of_a, of_b;
+  std::optional<core::MeanComparison> means = {};  // Welch's t-test
+  std::optional<double> corrected_p = {};          // of `means`, for all comparisons of the study (Holm)
+  std::optional<double> effect_size = {};          // Hedges' g
+  std::optional<core::RankSumTest> ranks = {};     // Mann and Whitney's test
+  std::size_t in_both = 0;                         // participants who did both conditions
+  // Of those, where there are no others: the t-test of pairs, which is then the sharper one.
+  std::optional<core::MeanComparison> pairs = {};
+};
+
+// Every measure that both of two conditions have, for every two conditions; by measure, then by condition.
+[[nodiscard]] std::vector<Comparison> CompareConditions(const std::vector<StudySession>& sessions);
+
+struct MeasuresCorrelated {
+  std::string a, b;  // measures
+  core::Correlation correlation;
+};
+
+// Of each measure with needed_mm, each participant once with the mean of the sessions; by name.
+[[nodiscard]] std::vector<MeasuresCorrelated> CorrelateWithNeed(const std::vector<StudySession>& sessions);
+
+}  // namespace elbowroom::control

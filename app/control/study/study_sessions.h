@@ -1,0 +1,40 @@
+// What one recorded session says of its participant.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <stop_token>
+#include <string>
+
+#include "app/control/sweep/spacing_sweep.h"
+
+namespace elbowroom::control {
+
+// A measure's name and its value in the session: "trial_s" of frames, "touches", "step_s:NAME" of all runs of
+// a step that ended, "answer:ITEM" of the survey after the trial, "needed_mm",
+// "needed_without_tools_mm", "shortfall_mm": what is needed less what was estimated before.
+using Measures = std::map<std::string, double>;
+
+struct StudySession {
+  std::filesystem::path path;
+  std::string participant;  // the code that the trial gives; without one the file's name
+  bool has_code = true;
+  std::string condition;  // empty: none
+  int order = 0;          // among the participant's trials; 0: not given
+  std::string started_at_utc;
+  std::optional<double> estimate_before_mm;
+  std::optional<double> estimate_after_mm;
+  Measures measures;
+};
+
+// All but what a sweep finds. Throws: as sessions::SessionReader.
+[[nodiscard]] StudySession ReadStudySession(const std::filesystem::path& session,
+                                            const std::stop_token& stop);
+
+// The smallest gap at which, as at all above, surely nothing touches in these frames. Nothing: no frames, or
+// the largest gap tried was touched.
+[[nodiscard]] std::optional<double> NeededMm(const review::SpacingCurve& curve);
+
+}  // namespace elbowroom::control

@@ -1,0 +1,69 @@
+// What `study` refuses, and what it says where something is missing.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "tests/app/study/cohort.h"
+#include "tests/support/run_program.h"
+#include "tests/support/temporary_folder.h"
+
+namespace elbowroom {
+namespace {
+
+using test_support::ProgramRun;
+
+class StudyCommand : public testing::Test {
+ protected:
+  ProgramRun Study(const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{"study", (folder_ / "s.db").string(), "--out",
+                                       (folder_ / "out").string()};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return test_support::RunProgram(ELBOWROOM_PROGRAM, arguments);
+  }
+  test_support::TemporaryFolder folder_;
+};
+
+TEST_F(StudyCommand, SaysWhatIsWrongInOneLineAndLeavesNothing) {
+  EXPECT_EQ(Study({}).exit_status, 1) << "no such session";
+  tests::RecordReach(folder_ / "s.db", {"P1", "bare", 1, 100.0, 0.0, 80.0});
+  for (const auto& [spacing, word] :
+       {std::pair{"lid_gpa", "did you mean 'lid_gap'"}, std::pair{"lid_gap=0:200:10", "from 20 to 300"}}) {
+    const ProgramRun run = Study({"--spacing", spacing});
+    EXPECT_EQ(run.exit_status, 1);
+    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+    EXPECT_NE(run.err.find(word), std::string::npos) << run.err;
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "out/participants.csv"));
+}
+
+TEST_F(StudyCommand, WhatIsNotKnownIsMissingAndSaid) {
+  tests::RecordReach(folder_ / "s.db", {"", "", 0, 0.0, 0.0, 80.0});
+  const ProgramRun run = Study({"--json", "--spacing", "lid_gap=20:60:10"});
+  ASSERT_EQ(run.exit_status, 0) << run.err;
+  const auto study = nlohmann::json::parse(run.out);
+  ASSERT_EQ(study["rows"].size(), 1U);
+  for (const char* key : {"estimate_before_mm", "needed_mm", "shortfall_mm", "estimate_after_mm"})
+    EXPECT_TRUE(study["rows"][0][key].is_null()) << key;
+  EXPECT_EQ(study["rows"][0]["participant"], "s");
+  EXPECT_TRUE(study["mean_shortfall_mm"].is_null());
+  EXPECT_TRUE(study["comparisons"].empty());
+  std::string notes;
+  for (const auto& note : study["notes"]) notes += note.get<std::string>() + "\n";
+  for (const char* word : {"name no participant", "touched at the largest gap tried, 60 mm",
+                           "gave no estimate before", "gave no estimate after"})
+    EXPECT_NE(notes.find(word), std::string::npos) << word << " in\n" << notes;
+}
+
+TEST_F(StudyCommand, ToldInWordsIsATable) {
+  tests::RecordReach(folder_ / "s.db", {"P1", "bare", 1, 100.0, 120.0, 80.0});
+  const ProgramRun run = Study({});
+  ASSERT_EQ(run.exit_status, 0) << run.err;
+  for (const char* word :
+       {"'lid_gap', mm: 1 participant, 1 session", "needed without", "mean shortfall -", "note: "})
+    EXPECT_NE(run.out.find(word), std::string::npos) << word << " in\n" << run.out;
+}
+
+}  // namespace
+}  // namespace elbowroom
