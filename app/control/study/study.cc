@@ -69,10 +69,11 @@ std::vector<std::string> NotesOf(const Study& study) {
            [](const StudyRow& row) { return !row.estimate_before_mm; });
   short_of("gave no estimate after their trials", [](const StudyRow& row) { return !row.estimate_after_mm; });
   if (study.rows.size() < kFew)
-    notes.push_back(fmt::format(
-        "{} participants: intervals and p say little about others, and a bootstrap interval of so few is too "
-        "narrow",
-        study.rows.size()));
+    notes.push_back(
+        fmt::format("few participants, {}: intervals and p say little about others, and a bootstrap interval "
+                    "of so few is too "
+                    "narrow",
+                    study.rows.size()));
   for (const Comparison& comparison : study.comparisons)
     if (comparison.in_both > 0 && !comparison.pairs) {
       notes.push_back(
