@@ -169,8 +169,7 @@ void AddStudyCommand(CLI::App& app, Choice* choice) {
         options->request.range = range.value_or(control::SpacingRange{text});
       },
       "the gap to study, NAME or NAME=FROM:TO:STEP in mm (default: the layout's only one, over all that it "
-      "may "
-      "be)");
+      "may be)");
   command
       ->add_option(
           "--out", options->request.folder,

@@ -71,8 +71,7 @@ std::vector<std::string> NotesOf(const Study& study) {
   if (study.rows.size() < kFew)
     notes.push_back(
         fmt::format("few participants, {}: intervals and p say little about others, and a bootstrap interval "
-                    "of so few is too "
-                    "narrow",
+                    "of so few is too narrow",
                     study.rows.size()));
   for (const Comparison& comparison : study.comparisons)
     if (comparison.in_both > 0 && !comparison.pairs) {
@@ -119,12 +118,13 @@ Study MakeStudy(const SweepRequest& request, const core::Progress& progress, con
   study.sweep = SweepSpacing(request, progress, stop);
   for (const SweptSession& swept : study.sweep.sessions) {
     StudySession session = ReadStudySession(swept.path, stop);
-    if (const auto needed_mm = NeededMm(swept.curves.all)) session.measures["needed_mm"] = *needed_mm;
+    if (const auto needed_mm = NeededMm(swept.curves.all)) {
+      session.measures["needed_mm"] = *needed_mm;
+      if (session.estimate_before_mm)
+        session.measures["shortfall_mm"] = *needed_mm - *session.estimate_before_mm;
+    }
     if (const auto needed_mm = NeededMm(swept.curves.without_tools))
       session.measures["needed_without_tools_mm"] = *needed_mm;
-    if (const auto needed = session.measures.find("needed_mm");
-        needed != session.measures.end() && session.estimate_before_mm)
-      session.measures["shortfall_mm"] = needed->second - *session.estimate_before_mm;
     study.sessions.push_back(std::move(session));
   }
   const auto place = [](const StudySession& session) {

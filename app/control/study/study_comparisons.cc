@@ -1,9 +1,7 @@
 #include "app/control/study/study_comparisons.h"
 
 #include <algorithm>
-#include <iterator>
 #include <map>
-#include <set>
 #include <utility>
 
 #include "core/statistics/effect_size.h"
