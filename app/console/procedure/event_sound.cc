@@ -31,9 +31,7 @@ int PlayWith(Context& context, const std::string& name) {
 }  // namespace
 
 EventSound::EventSound(std::string name, OnPlayed on_played)
-    : name_(std::move(name)), on_played_(std::move(on_played)) {
-  thread_ = std::jthread([this](const std::stop_token& stop) { Run(stop); });
-}
+    : name_(std::move(name)), on_played_(std::move(on_played)) {}
 
 EventSound::~EventSound() = default;
 
@@ -41,6 +39,7 @@ void EventSound::Play() {
   {
     const std::lock_guard lock(mutex_);
     is_asked_for_ = true;
+    if (!thread_.joinable()) thread_ = std::jthread([this](const std::stop_token& stop) { Run(stop); });
   }
   wakes_.notify_one();
 }

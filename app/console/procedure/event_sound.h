@@ -10,8 +10,8 @@
 namespace elbowroom::console {
 
 // A sound of the freedesktop.org sound theme, played by the desktop's sound server, or by ALSA where there is
-// none (libcanberra). The server is asked for on a thread of the sound's own, at the first time; one that
-// went away is asked for again. Thread: any may ask.
+// none (libcanberra). The server is asked for on a thread of the sound's own, which begins with the first
+// sound; one that went away is asked for again. Thread: any may ask.
 class EventSound {
  public:
   // What came of a sound, on the sound's own thread: an empty line, or why it can't be heard. Must not throw.
