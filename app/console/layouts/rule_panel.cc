@@ -6,7 +6,7 @@
 namespace elbowroom::console {
 namespace {
 
-constexpr int kLeastListPx = 36;
+constexpr int kLeastRulesPx = 36;
 constexpr int kIsPairRole = Qt::UserRole;
 constexpr int kIndexRole = Qt::UserRole + 1;
 
@@ -55,7 +55,7 @@ RulePanel::RulePanel(QWidget* parent) : QGroupBox(tr("Spacings and pair rules"),
   rules_->setObjectName("rules");
   rules_->setAccessibleName(tr("Spacings and pair rules"));
   rules_->setWordWrap(true);
-  rules_->setMinimumHeight(kLeastListPx);
+  rules_->setMinimumHeight(kLeastRulesPx);
   rules_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   change_ = SmallButton("change_rule", tr("Change …"), tr("Changes the line that is chosen"));
   remove_ = SmallButton("remove_rule", tr("Remove"), tr("Removes the line that is chosen"));
