@@ -6,8 +6,11 @@
 #include <QElapsedTimer>
 #include <QMouseEvent>
 #include <QTimer>
+#include <atomic>
+#include <chrono>
 #include <memory>
 #include <optional>
+#include <thread>
 #include <utility>
 
 #include "app/console/main_window.h"
@@ -18,8 +21,12 @@
 namespace elbowroom::console {
 namespace {
 
-// OpenGL has started, pools have grown and every kind of picture was drawn by then.
+// OpenGL has started and pools have grown by then.
 constexpr double kWarmUpShare = 0.2;
+// In the middle of the warm-up no frame comes for so long, and no gap is moved: the window draws what rests in
+// full. Buffers of the largest picture are there before memory is counted, and a picture that becomes finer
+// later, as the machine has more time, isn't taken for growth.
+constexpr std::chrono::milliseconds kRest(1500);
 constexpr QSize kView(1280, 720);
 constexpr double kGapStepMm = 10.0;
 constexpr double kRateHz = 30.0;
@@ -35,7 +42,10 @@ class KeptFrames : public recon::FrameSetSource {
   const core::Rig& rig() const override { return source_->rig(); }
   std::optional<core::FrameIndex> frame_count() const override { return std::nullopt; }
   std::string WhatEndsIt() const override { return {}; }
+  // No frames come for kRest.
+  void Rest() { rests_ = true; }
   std::optional<recon::FrameSet> TryRead(core::FrameIndex index, std::stop_token /*stop*/) override {
+    if (rests_.exchange(false)) std::this_thread::sleep_for(kRest);
     recon::FrameSet frames = frames_.at(static_cast<std::size_t>(index % kKept));
     frames.index = index;
     frames.time_s = static_cast<double>(index) / rate_hz_;
@@ -51,12 +61,14 @@ class KeptFrames : public recon::FrameSetSource {
   std::shared_ptr<recon::FrameSetSource> source_;
   double rate_hz_;
   std::vector<recon::FrameSet> frames_;
+  std::atomic<bool> rests_ = false;
 };
 
 class Soak {
  public:
   explicit Soak(const WindowSoakPlan& plan) : plan_(plan) {
-    setup_.source = std::make_shared<KeptFrames>(setup_.source, kRateHz * plan.speed);
+    frames_ = std::make_shared<KeptFrames>(setup_.source, kRateHz * plan.speed);
+    setup_.source = frames_;
     since_start_.start();
     window_ = std::make_unique<MainWindow>();
     FollowWindow();
@@ -100,7 +112,15 @@ class Soak {
                      [this] { window_->desk().MarkTool("tongs", (has_tool_ = !has_tool_)); });
     gaps_.start(Simulated(0.5));
     tools_.start(Simulated(5.0));
-    QTimer::singleShot(Simulated(kWarmUpShare * plan_.simulated_s), window_.get(), [this] { Measure(); });
+    const double warm_up_s = kWarmUpShare * plan_.simulated_s;
+    QTimer::singleShot(Simulated(warm_up_s / 2), window_.get(), [this] { Rest(); });
+    QTimer::singleShot(Simulated(warm_up_s) + kRest, window_.get(), [this] { Measure(); });
+  }
+
+  void Rest() {
+    gaps_.stop();
+    frames_->Rest();
+    QTimer::singleShot(kRest, window_.get(), [this] { gaps_.start(); });
   }
 
   void MoveGap() {
@@ -155,6 +175,7 @@ class Soak {
 
   WindowSoakPlan plan_;
   control::TrialSetup setup_ = control::MakeDemoTrial(control::DemoPlay::kForever);
+  std::shared_ptr<KeptFrames> frames_;
   std::unique_ptr<MainWindow> window_;
   QTimer gaps_, tools_;
   WindowSoakResult result_;
