@@ -51,4 +51,8 @@ std::string PageDataJson(const ReportData& data, const PageCharts& charts, const
                      ModelJson(data.header.layout, data.header.rig.workspace_mm, model));
 }
 
+std::string PageDataJson(const PageCharts& charts) {
+  return fmt::format(R"({{"charts":{},"touches":[]}})", charts.Json());
+}
+
 }  // namespace elbowroom::sessions

@@ -15,6 +15,9 @@ namespace elbowroom::sessions {
 [[nodiscard]] std::string PageDataJson(const ReportData& data, const PageCharts& charts,
                                        const ReportModel& model);
 
+// Of a page with neither touches nor a model.
+[[nodiscard]] std::string PageDataJson(const PageCharts& charts);
+
 // The statuses that the listed touches have, in order of their names.
 [[nodiscard]] std::vector<std::string> StatusesOf(const ReportData& data);
 

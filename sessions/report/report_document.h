@@ -4,20 +4,12 @@
 #include <string>
 #include <vector>
 
-#include "sessions/charts/chart_painter.h"
 #include "sessions/document/document.h"
+#include "sessions/report/drawn_chart.h"
 #include "sessions/report/report.h"
 #include "sessions/report/report_data.h"
 
 namespace elbowroom::sessions {
-
-// One for each size of a chart, so that both sizes are drawn at once.
-struct ChartPainters {
-  ChartPainter screen;
-  ChartPainter paper;
-};
-
-[[nodiscard]] DrawnChart Drawn(Chart chart, ChartPainters* painters);
 
 // The sections that have charts and need no pictures.
 struct ChartSections {

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <future>
 #include <variant>
 
 #include "core/procedure/event_text.h"
@@ -125,14 +124,6 @@ DocumentTable ApproachTable(const ReportData& data) {
 }
 
 }  // namespace
-
-DrawnChart Drawn(Chart chart, ChartPainters* painters) {
-  constexpr double kPaperWidthPx = 880.0;
-  std::future<std::string> paper =
-      std::async(std::launch::async, [&] { return painters->paper.Svg(chart, kPaperWidthPx); });
-  std::string svg = painters->screen.Svg(chart), paper_svg = paper.get();
-  return {std::move(chart), std::move(svg), std::move(paper_svg)};
-}
 
 Section SummarySection(const ReportData& data) {
   const std::string gauge_failure = GaugeFailure(data.header.rig_quality);

@@ -147,7 +147,7 @@ CommandResult Run(const StudyOptions& options, const CommandContext& context) {
   result.json = StudyJson(study);
   result.text = TextOf(study);
   result.json["files"] = nlohmann::json::array();
-  for (const auto& file : control::WriteStudy(study, request.folder)) {
+  for (const auto& file : control::WriteStudy(study, request.folder, context.progress, context.stop)) {
     result.json["files"].push_back(file.string());
     result.text += "\n" + file.string();
   }
@@ -173,8 +173,9 @@ void AddStudyCommand(CLI::App& app, Choice* choice) {
   command
       ->add_option(
           "--out", options->request.folder,
-          "folder for participants.csv, sessions.csv, comparisons.csv; made if needed. What is done is "
-          "kept in its cells, so that a study that was ended early goes on")
+          "folder for report.html, report.pdf and the tables participants.csv, sessions.csv, "
+          "comparisons.csv; "
+          "made if needed. What is done is kept in its cells, so that a study that was ended early goes on")
       ->required();
   AddEngineOption(*command, &options->engine);
   command->callback(

@@ -31,12 +31,8 @@ std::vector<StudyRow> RowsOf(const std::vector<StudySession>& sessions) {
     ++row.sessions;
     if (!row.estimate_before_mm) row.estimate_before_mm = session.estimate_before_mm;
     if (session.estimate_after_mm) row.estimate_after_mm = session.estimate_after_mm;
-    const auto measure = [&](const char* name) {
-      const auto found = session.measures.find(name);
-      return found == session.measures.end() ? std::nullopt : std::optional(found->second);
-    };
-    TakeLarger(measure("needed_without_tools_mm"), &row.needed_without_tools_mm);
-    TakeLarger(measure("needed_mm"), &row.needed_mm);
+    TakeLarger(session.Measured("needed_without_tools_mm"), &row.needed_without_tools_mm);
+    TakeLarger(session.Measured("needed_mm"), &row.needed_mm);
   }
   return rows;
 }
@@ -116,8 +112,13 @@ Study MakeStudy(const SweepRequest& request, const core::Progress& progress, con
   Study study;
   study.range = request.range;
   study.sweep = SweepSpacing(request, progress, stop);
+  DwellSum dwell;
   for (const SweptSession& swept : study.sweep.sessions) {
-    StudySession session = ReadStudySession(swept.path, stop);
+    progress.Report(static_cast<std::int64_t>(study.sessions.size()),
+                    static_cast<std::int64_t>(study.sweep.sessions.size()), "reading the sessions");
+    const sessions::SessionReader reader(swept.path, stop);
+    StudySession session = ReadStudySession(reader);
+    dwell.Add(reader);
     if (const auto needed_mm = NeededMm(swept.curves.all)) {
       session.measures["needed_mm"] = *needed_mm;
       if (session.estimate_before_mm)
@@ -127,6 +128,8 @@ Study MakeStudy(const SweepRequest& request, const core::Progress& progress, con
       session.measures["needed_without_tools_mm"] = *needed_mm;
     study.sessions.push_back(std::move(session));
   }
+  NameParticipantsApart(&study.sessions);
+  study.dwell = dwell.parts();
   const auto place = [](const StudySession& session) {
     return std::tie(session.participant, session.order, session.started_at_utc, session.path);
   };
@@ -144,6 +147,10 @@ Study MakeStudy(const SweepRequest& request, const core::Progress& progress, con
   study.comparisons = CompareConditions(study.sessions);
   study.correlations = CorrelateWithNeed(study.sessions);
   study.notes = NotesOf(study);
+  if (dwell.left_out() > 0)
+    study.notes.push_back(fmt::format(
+        "{} maps of touches aren't in the sums: their part has another shape than in the session before",
+        dwell.left_out()));
   return study;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/control/study/study_comparisons.h"
+#include "app/control/study/study_dwell.h"
 #include "app/control/study/study_sessions.h"
 #include "app/control/sweep/spacing_sweep.h"
 #include "core/progress.h"
@@ -36,6 +37,7 @@ struct Study {
   std::optional<core::Interval> shortfall_bootstrap_mm = {};  // of the mean, 95 %
   std::vector<Comparison> comparisons;
   std::vector<MeasuresCorrelated> correlations;
+  std::vector<PartDwell> dwell;    // of all sessions; by part
   std::vector<std::string> notes;  // what the numbers can't say, and what is missing in them
   SpacingSweep sweep;
 };

@@ -1,16 +1,14 @@
 #include "app/control/study/study_comparisons.h"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
-#include <utility>
 
 #include "core/statistics/effect_size.h"
 #include "core/statistics/several_tests.h"
 
 namespace elbowroom::control {
 namespace {
-
-using ByParticipant = std::map<std::string, double>;
 
 // The mean of a measure over each participant's sessions.
 class Means {
@@ -32,8 +30,8 @@ std::vector<double> ValuesOf(const ByParticipant& means) {
   return values;
 }
 
-Comparison Compare(const std::string& measure, const std::pair<std::string, ByParticipant>& a,
-                   const std::pair<std::string, ByParticipant>& b) {
+Comparison Compare(const std::string& measure, const ByCondition::value_type& a,
+                   const ByCondition::value_type& b) {
   const std::vector<double> of_a = ValuesOf(a.second), of_b = ValuesOf(b.second);
   Comparison comparison{measure, a.first, b.first, core::Summarise(of_a), core::Summarise(of_b)};
   comparison.means = core::CompareMeans(comparison.of_a, comparison.of_b);
@@ -59,21 +57,25 @@ void CorrectForSeveral(std::vector<Comparison>* comparisons) {
 
 }  // namespace
 
-std::vector<Comparison> CompareConditions(const std::vector<StudySession>& sessions) {
-  std::map<std::string, std::map<std::string, Means>> by_measure;  // then by condition
+std::map<std::string, ByCondition> MeansByCondition(const std::vector<StudySession>& sessions) {
+  std::map<std::string, std::map<std::string, Means>> collected;
   for (const StudySession& session : sessions) {
     if (session.condition.empty()) continue;
     for (const auto& [measure, value] : session.measures)
-      by_measure[measure][session.condition].Add(session.participant, value);
+      collected[measure][session.condition].Add(session.participant, value);
   }
+  std::map<std::string, ByCondition> by_measure;
+  for (const auto& [measure, by_condition] : collected)
+    for (const auto& [condition, means] : by_condition) by_measure[measure][condition] = means.Take();
+  return by_measure;
+}
+
+std::vector<Comparison> CompareConditions(const std::vector<StudySession>& sessions) {
   std::vector<Comparison> comparisons;
-  for (const auto& [measure, by_condition] : by_measure) {
-    std::vector<std::pair<std::string, ByParticipant>> groups;
-    for (const auto& [condition, means] : by_condition) groups.emplace_back(condition, means.Take());
-    for (std::size_t a = 0; a < groups.size(); ++a)
-      for (std::size_t b = a + 1; b < groups.size(); ++b)
-        comparisons.push_back(Compare(measure, groups[a], groups[b]));
-  }
+  for (const auto& [measure, by_condition] : MeansByCondition(sessions))
+    for (auto a = by_condition.begin(); a != by_condition.end(); ++a)
+      for (auto b = std::next(a); b != by_condition.end(); ++b)
+        comparisons.push_back(Compare(measure, *a, *b));
   CorrectForSeveral(&comparisons);
   return comparisons;
 }

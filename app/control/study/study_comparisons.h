@@ -1,6 +1,7 @@
 // Conditions of a study held against each other.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,6 +12,13 @@
 #include "core/statistics/rank_sum.h"
 
 namespace elbowroom::control {
+
+// Of each participant, the mean of the sessions.
+using ByParticipant = std::map<std::string, double>;
+using ByCondition = std::map<std::string, ByParticipant>;
+
+// By measure. Sessions without a condition are left out.
+[[nodiscard]] std::map<std::string, ByCondition> MeansByCondition(const std::vector<StudySession>& sessions);
 
 // A measure in two conditions. Each participant counts once a condition, with the mean of the sessions.
 struct Comparison {

@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <map>
 #include <set>
 #include <string>
+#include <utility>
 
+#include "app/control/study/study_report.h"
 #include "sessions/report/whole_files.h"
 #include "sessions/tables/csv_text.h"
 
@@ -37,10 +40,7 @@ std::string SessionsCsv(const Study& study) {
                        session.order > 0 ? std::to_string(session.order) : "",
                        sessions::Quoted(session.started_at_utc), Field(session.estimate_before_mm),
                        Field(session.estimate_after_mm));
-    for (const std::string& measure : measures) {
-      const auto found = session.measures.find(measure);
-      csv += "," + Field(found == session.measures.end() ? std::nullopt : std::optional(found->second));
-    }
+    for (const std::string& measure : measures) csv += "," + Field(session.Measured(measure));
     csv += "\n";
   }
   return csv;
@@ -68,11 +68,18 @@ std::string ComparisonsCsv(const Study& study) {
 
 }  // namespace
 
-std::vector<std::filesystem::path> WriteStudy(const Study& study, const std::filesystem::path& folder) {
-  sessions::WriteWholeFiles(folder, {{"participants.csv", ParticipantsCsv(study)},
-                                     {"sessions.csv", SessionsCsv(study)},
-                                     {"comparisons.csv", ComparisonsCsv(study)}});
-  return {folder / "participants.csv", folder / "sessions.csv", folder / "comparisons.csv"};
+std::vector<std::filesystem::path> WriteStudy(const Study& study, const std::filesystem::path& folder,
+                                              const core::Progress& progress, const std::stop_token& stop) {
+  StudyReport report = MakeStudyReport(study, progress, stop);
+  const std::map<std::string, std::string> contents = {{"participants.csv", ParticipantsCsv(study)},
+                                                       {"sessions.csv", SessionsCsv(study)},
+                                                       {"comparisons.csv", ComparisonsCsv(study)},
+                                                       {"report.html", std::move(report.html)},
+                                                       {"report.pdf", std::move(report.pdf)}};
+  sessions::WriteWholeFiles(folder, contents);
+  std::vector<std::filesystem::path> files;
+  for (const auto& [name, content] : contents) files.push_back(folder / name);
+  return files;
 }
 
 }  // namespace elbowroom::control

@@ -1,21 +1,28 @@
 #include "app/control/study/study_sessions.h"
 
+#include <cstddef>
+#include <set>
 #include <vector>
 
 #include "core/procedure/answers.h"
 #include "core/procedure/step_runs.h"
-#include "sessions/session_reader.h"
 
 namespace elbowroom::control {
 
-StudySession ReadStudySession(const std::filesystem::path& path, const std::stop_token& stop) {
-  const sessions::SessionReader session(path, stop);
+std::optional<double> StudySession::Measured(const std::string& measure) const {
+  const auto found = measures.find(measure);
+  return found == measures.end() ? std::nullopt : std::optional(found->second);
+}
+
+StudySession ReadStudySession(const sessions::SessionReader& session) {
   const core::TrialInfo& trial = session.header().trial;
   const std::vector<core::SessionEvent> events = session.events();
   StudySession read;
-  read.path = path;
+  read.path = session.path();
+  read.recording_id = session.recording_id();
   read.has_code = !trial.participant.empty();
-  read.participant = read.has_code ? trial.participant : path.stem().string();
+  read.participant = read.has_code ? trial.participant : read.path.stem().string();
+  read.task = trial.task;
   read.condition = trial.condition;
   read.order = trial.order;
   read.started_at_utc = session.header().started_at_utc;
@@ -32,6 +39,21 @@ StudySession ReadStudySession(const std::filesystem::path& path, const std::stop
     if (answers[i] && trial.survey[i].when == core::AskedWhen::kAfter)
       read.measures["answer:" + trial.survey[i].item] = *answers[i];
   return read;
+}
+
+void NameParticipantsApart(std::vector<StudySession>* sessions) {
+  constexpr std::size_t kDigits = 8;
+  std::set<std::string> codes;
+  std::map<std::string, std::size_t> files;  // without a code, by name
+  for (const StudySession& session : *sessions) {
+    if (session.has_code)
+      codes.insert(session.participant);
+    else
+      ++files[session.participant];
+  }
+  for (StudySession& session : *sessions)
+    if (!session.has_code && (files.at(session.participant) > 1 || codes.contains(session.participant)))
+      session.participant += " (" + session.recording_id.substr(0, kDigits) + ")";
 }
 
 std::optional<double> NeededMm(const review::SpacingCurve& curve) {

@@ -5,10 +5,11 @@
 #include <filesystem>
 #include <map>
 #include <optional>
-#include <stop_token>
 #include <string>
+#include <vector>
 
 #include "app/control/sweep/spacing_sweep.h"
+#include "sessions/session_reader.h"
 
 namespace elbowroom::control {
 
@@ -19,19 +20,26 @@ using Measures = std::map<std::string, double>;
 
 struct StudySession {
   std::filesystem::path path;
+  std::string recording_id;
   std::string participant;  // the code that the trial gives; without one the file's name
   bool has_code = true;
+  std::string task;       // empty: not given
   std::string condition;  // empty: none
   int order = 0;          // among the participant's trials; 0: not given
   std::string started_at_utc;
   std::optional<double> estimate_before_mm;
   std::optional<double> estimate_after_mm;
   Measures measures;
+
+  [[nodiscard]] std::optional<double> Measured(const std::string& measure) const;
 };
 
 // All but what a sweep finds. Throws: as sessions::SessionReader.
-[[nodiscard]] StudySession ReadStudySession(const std::filesystem::path& session,
-                                            const std::stop_token& stop);
+[[nodiscard]] StudySession ReadStudySession(const sessions::SessionReader& session);
+
+// A session without a code is a participant of its own: where the name of its file is another's too, the
+// recording's number is added to it.
+void NameParticipantsApart(std::vector<StudySession>* sessions);
 
 // The smallest gap at which, as at all above, surely nothing touches in these frames. Nothing: no frames, or
 // the largest gap tried was touched.
