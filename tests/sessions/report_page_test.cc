@@ -8,7 +8,7 @@
 #include "sessions/session_writer.h"
 #include "tests/sessions/sample_session.h"
 #include "tests/sessions/sample_trial.h"
-#include "tests/support/run_program.h"
+#include "tests/support/documents/page_in_browser.h"
 #include "tests/support/temporary_folder.h"
 
 namespace elbowroom::tests {
@@ -23,17 +23,6 @@ const std::string kHostileName =
 const std::string kHostile =
     "<script>alert('x')</script>\"'&<img src=x onerror=alert(1)>=cmd|\u202E\u05D0 @told" +
     std::string(10000, 'x');
-
-const fs::path kSource = ELBOWROOM_SOURCE_DIR;
-
-bool HasBrowser() { return fs::exists("/usr/bin/chromium"); }
-
-void ExpectPageWorks(const fs::path& report, const fs::path& screenshots) {
-  const test_support::ProgramRun run = test_support::RunProgram(
-      ELBOWROOM_NODE, {(kSource / "web/test/report_page.mjs").string(),
-                       (kSource / "build/web/node_modules").string(), report.string(), screenshots.string()});
-  EXPECT_EQ(run.exit_status, 0) << run.err;
-}
 
 // Parts, one hull that is a tetrahedron, and two contact points, in the session's frame.
 sessions::ReportPictures PicturesOf(const core::SessionHeader& header, core::FrameIndex frame) {

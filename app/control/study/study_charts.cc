@@ -25,9 +25,15 @@ using sessions::Ink;
 
 constexpr double kLaneHeightPx = 24.0;
 constexpr double kMarkShare = 0.004;  // a mark's width, of the axis
-constexpr double kMarginShare = 0.05;
 
-// Where an axis begins and ends so that all values are on it, with a margin.
+// A round length, 1, 2 or 5 times a power of ten, of which some ten fit into `range`.
+double RoundStep(double range) {
+  const double power = std::pow(10.0, std::floor(std::log10(range)) - 1.0);
+  const double times = range / (10.0 * power);  // 1 to 10
+  return power * (times < 2.0 ? 1.0 : times < 5.0 ? 2.0 : 5.0);
+}
+
+// Where an axis begins and ends: at round values, so that all values are on it.
 class Extent {
  public:
   void Add(double value) {
@@ -37,13 +43,18 @@ class Extent {
   void Add(const std::optional<double>& value) {
     if (value) Add(*value);
   }
-  [[nodiscard]] std::pair<double, double> WithMargins() const {
+  [[nodiscard]] std::pair<double, double> Rounded() const {
     const double low = low_.value_or(0.0), high = high_.value_or(1.0);
-    const double margin = high > low ? kMarginShare * (high - low) : 1.0;
-    return {low - margin, high + margin};
+    const double size = std::max(std::abs(low), std::abs(high));
+    // Values that are one but for rounding have no range to be read off.
+    const double margin = std::max(1.0, kMarginShare * size);
+    if (high - low <= kSameShare * size) return {std::floor(low - margin), std::ceil(high + margin)};
+    const double step = RoundStep(high - low);
+    return {step * (std::ceil(low / step) - 1.0), step * (std::floor(high / step) + 1.0)};
   }
 
  private:
+  static constexpr double kSameShare = 1e-9, kMarginShare = 1e-3;
   std::optional<double> low_, high_;
 };
 
@@ -99,6 +110,21 @@ double TouchedPercent(const review::SpacingCurve& curve, std::size_t step,
   return curve.frames > 0 ? 100.0 * static_cast<double>(most) / static_cast<double>(curve.frames) : 0.0;
 }
 
+// At how many participants' motion nothing touches at a gap and at all larger ones: a step at each need.
+sessions::ChartLine FreeOfTouches(const std::vector<review::SpacingCurve>& curves,
+                                  const SpacingRange& range) {
+  std::vector<double> needs_mm;
+  for (const review::SpacingCurve& curve : curves)
+    if (curve.smallest_free_mm) needs_mm.push_back(*curve.smallest_free_mm);
+  std::ranges::sort(needs_mm);
+  sessions::ChartLine line{"participants free of touches", Ink::kFree, {{range.from_mm, 0.0}}};
+  line.is_stepped = true;
+  for (std::size_t i = 0; i < needs_mm.size(); ++i)
+    line.points.push_back({needs_mm[i], static_cast<double>(i + 1)});
+  line.points.push_back({range.to_mm, static_cast<double>(needs_mm.size())});
+  return line;
+}
+
 void AddConditions(const ByCondition& by_condition, const Axis& axis, const std::string& measure,
                    ChartPanel* panel) {
   std::size_t lane = 0;
@@ -132,7 +158,7 @@ Chart ConditionChart(const std::string& measure, const ByCondition& by_condition
       extent.Add(interval->upper);
     }
   }
-  const auto [from, to] = extent.WithMargins();
+  const auto [from, to] = extent.Rounded();
   const std::string name = NameOfMeasure(measure);
   Chart chart{fmt::format("{} by condition", name), name, from, to, {}};
   ChartPanel panel;
@@ -150,7 +176,7 @@ Chart EstimateChart(const Study& study) {
     for (const auto& length_mm :
          {row.estimate_before_mm, row.needed_without_tools_mm, row.needed_mm, row.estimate_after_mm})
       extent.Add(length_mm);
-  const auto [from, to] = extent.WithMargins();
+  const auto [from, to] = extent.Rounded();
   Chart chart{
       "Estimates and space needed, by participant", fmt::format("{}, mm", study.range.spacing), from, to, {}};
   ChartPanel panel;
@@ -167,20 +193,14 @@ Chart NeedChart(const Study& study) {
   const std::vector<review::SpacingCurve> curves = CurvesOfParticipants(study);
   sessions::ChartBand spread{"from the least to the greatest", Ink::kContact, {}};
   sessions::ChartLine median{"median of the participants, %", Ink::kTouched, {}};
-  sessions::ChartLine free{"participants free of touches", Ink::kFree, {}};
-  free.is_stepped = true;
   for (std::size_t step = 0; step < study.sweep.all.all.steps.size(); ++step) {
     const double spacing_mm = study.sweep.all.all.steps[step].spacing_mm;
     std::vector<double> touched;
-    double free_count = 0.0;
-    for (const review::SpacingCurve& curve : curves) {
+    for (const review::SpacingCurve& curve : curves)
       touched.push_back(TouchedPercent(curve, step, study.sweep.moved));
-      if (curve.smallest_free_mm && *curve.smallest_free_mm <= spacing_mm) free_count += 1.0;
-    }
     std::ranges::sort(touched);
     spread.intervals.push_back({spacing_mm, touched.front(), touched.back()});
     median.points.push_back({spacing_mm, core::PercentileOf(touched, 0.5)});
-    free.points.push_back({spacing_mm, free_count});
   }
   Chart chart{"Touches over the gap, of all participants",
               fmt::format("{}, mm", study.range.spacing),
@@ -198,7 +218,7 @@ Chart NeedChart(const Study& study) {
   participants.height_px = 110.0;
   participants.low = 0.0;
   participants.counts = true;
-  participants.lines = {std::move(free)};
+  participants.lines = {FreeOfTouches(curves, study.range)};
   chart.panels = {std::move(touches), std::move(participants)};
   return chart;
 }

@@ -52,7 +52,7 @@ std::vector<std::string> FactsOf(const Study& study) {
   const std::string last = started(*std::ranges::max_element(study.sessions, {}, started));
   return {
       CountText(study.rows.size(), "participant"), CountText(study.sessions.size(), "session"),
-      first == last ? "started " + first : fmt::format("started {} to {}", first, last),
+      first == last ? "started " + first : fmt::format("started between {} and {}", first, last),
       fmt::format("gap {}, {:g} to {:g} mm", study.range.spacing, study.range.from_mm, study.range.to_mm)};
 }
 
@@ -94,7 +94,7 @@ std::string ShortfallSentence(const Study& study) {
   std::string sentence =
       fmt::format("{} of {} estimated less than they needed", too_little, study.shortfall_mm->n);
   if (too_little > 0)
-    sentence += fmt::format(", {} by most: {} mm", worst.participant, LengthText(worst.shortfall_mm()));
+    sentence += fmt::format(", most of all {}: {} mm", worst.participant, LengthText(worst.shortfall_mm()));
   return sentence + ".";
 }
 
@@ -240,7 +240,9 @@ Document StudyDocument(const Study& study, const std::vector<DwellPicture>& dwel
   document.footer =
       "Beside this page: report.pdf (the same to print), participants.csv, sessions.csv and comparisons.csv "
       "(all figures with all digits).";
-  document.source = "Elbowroom study report: " + document.title;
+  document.source =
+      fmt::format("{} at gaps {} of {:g} to {:g} mm", CountText(study.sessions.size(), "session"),
+                  study.range.spacing, study.range.from_mm, study.range.to_mm);
   document.made_at_utc =
       std::ranges::max_element(study.sessions, {}, &StudySession::started_at_utc)->started_at_utc;
   for (Section& section :

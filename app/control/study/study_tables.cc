@@ -61,9 +61,9 @@ std::optional<core::Summary> SummaryOf(const Study& study, const LengthColumn& c
 
 RichText GroupText(const std::string& condition, const core::Summary& summary) {
   RichText text = Named(condition);
-  text += sessions::Remark(summary.sd ? fmt::format("{} \u00b1 {}, n = {}", NumberText(summary.mean),
-                                                    NumberText(summary.sd), summary.n)
-                                      : fmt::format("{}, n = {}", NumberText(summary.mean), summary.n));
+  text += sessions::Remark(
+      summary.sd ? fmt::format("{} \u00b1 {:.3g}, n = {}", NumberText(summary.mean), *summary.sd, summary.n)
+                 : fmt::format("{}, n = {}", NumberText(summary.mean), summary.n));
   return text;
 }
 
@@ -78,7 +78,9 @@ DocumentRow ComparisonRow(const Comparison& comparison) {
   DocumentRow row{
       {GroupText(comparison.a, comparison.of_a), GroupText(comparison.b, comparison.of_b),
        TestText(comparison.means),
-       WithRemark(p_of(comparison.means), "corrected " + ProbabilityText(comparison.corrected_p)),
+       comparison.corrected_p
+           ? WithRemark(p_of(comparison.means), "corrected " + ProbabilityText(*comparison.corrected_p))
+           : kNoFigure,
        comparison.effect_size ? fmt::format("{:.2f}", *comparison.effect_size) : kNoFigure,
        comparison.ranks ? WithRemark(p_of(comparison.ranks), fmt::format("U = {:g}", comparison.ranks->u))
                         : kNoFigure,

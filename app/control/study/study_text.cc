@@ -45,8 +45,6 @@ std::string ProbabilityText(double p) {
   return p < kSmallest ? "< 0.001" : fmt::format("{:.3f}", p);
 }
 
-std::string ProbabilityText(const std::optional<double>& p) { return p ? ProbabilityText(*p) : kNoFigure; }
-
 std::string CountText(std::size_t count, const char* what) {
   return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
 }

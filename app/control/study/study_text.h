@@ -21,7 +21,6 @@ inline constexpr const char* kNoFigure = "\u2013";
 
 // "0.079", "< 0.001".
 [[nodiscard]] std::string ProbabilityText(double p);
-[[nodiscard]] std::string ProbabilityText(const std::optional<double>& p);  // nothing: kNoFigure
 
 // "1 participant", "4 participants".
 [[nodiscard]] std::string CountText(std::size_t count, const char* what);

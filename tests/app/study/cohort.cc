@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "app/control/frame_pipeline.h"
+#include "app/control/outcome_tracker.h"
 #include "recon/hull/visual_hull.h"
 #include "recon/synthetic/rig_presets.h"
 #include "recon/synthetic/synthetic_rig.h"
@@ -84,6 +85,7 @@ void RecordReach(const std::filesystem::path& path, const Reach& reach) {
   core::SessionHeader header;
   header.rig = rig;
   header.layout = LidAboveFloor();
+  header.started_at_utc = "2027-03-01T09:00:00.000Z";
   header.trial.participant = reach.participant;
   header.trial.condition = reach.condition;
   header.trial.order = reach.order;
@@ -94,6 +96,7 @@ void RecordReach(const std::filesystem::path& path, const Reach& reach) {
   control::FramePipeline pipeline(rig, header.layout,
                                   std::vector<recon::BackgroundReference>(rig.cameras.size()), {});
   sessions::SessionWriter writer(path, header);
+  control::OutcomeTracker tracker(header.trial, pipeline.part_trees());
   for (core::FrameIndex frame = 0; frame < kFrames; ++frame) {
     recon::FrameSet frames;
     frames.index = frame;
@@ -104,7 +107,9 @@ void RecordReach(const std::filesystem::path& path, const Reach& reach) {
     if (frame == 0) writer.Append(core::SessionEvent{0, 0.0, core::StepMarked{"reach in", true}});
     if (reach.tool_mm > 0.0 && frame == kFirstWithTool)
       writer.Append(core::SessionEvent{frame, time_s, core::ToolMarked{"tongs", true}});
-    writer.Append(pipeline.Process(std::move(frames), std::vector{kLidMm})->record);
+    const auto result = pipeline.Process(std::move(frames), std::vector{reach.lid_mm});
+    tracker.Add(*result, {});
+    writer.Append(result->record);
   }
   const double end_s = 0.2 * static_cast<double>(kFrames - 1);
   writer.Append(
@@ -115,7 +120,7 @@ void RecordReach(const std::filesystem::path& path, const Reach& reach) {
   if (reach.presence > 0)
     writer.Append(core::SessionEvent{
         kFrames - 1, end_s, core::SurveyAnswered{core::AskedWhen::kAfter, "presence", reach.presence}});
-  writer.Finish({});
+  writer.Finish(tracker.Outcome());
 }
 
 }  // namespace elbowroom::tests

@@ -18,6 +18,7 @@ struct Reach {
   double tool_mm = 0.0;             // the highest with a tool in the hand; 0: no tool
   double step_s = 0.5;              // how long the step "reach in" takes
   int presence = 0;                 // the answer to "presence", 1 to 7; 0: none
+  double lid_mm = 250.0;            // where the lid is in the trial; below what is reached it is touched
 };
 
 // What the silhouettes show: the highest point of the hull above the floor, mm.
@@ -26,7 +27,7 @@ struct Seen {
   double tool_mm = 0.0;  // with it and the hand
 };
 
-// Six frames, from exact masks of eight cameras, with the lid at 250 mm; the gap is called "lid_gap" and may
+// Six frames, from exact masks of eight cameras; the gap is called "lid_gap" and may
 // be 20 to 300 mm. The tool is in use from the fourth frame on.
 void RecordReach(const std::filesystem::path& path, const Reach& reach);
 

@@ -8,8 +8,8 @@
 #include <cstdlib>
 
 #include "core/error.h"
-#include "tests/sessions/print/read_pdf.h"
 #include "tests/sessions/sample_picture.h"
+#include "tests/support/documents/read_pdf.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text_file.h"
 

@@ -5,10 +5,10 @@
 
 #include "sessions/report/report.h"
 #include "sessions/session_writer.h"
-#include "tests/sessions/print/read_pdf.h"
 #include "tests/sessions/sample_picture.h"
 #include "tests/sessions/sample_session.h"
 #include "tests/sessions/sample_trial.h"
+#include "tests/support/documents/read_pdf.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text_file.h"
 

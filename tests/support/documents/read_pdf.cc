@@ -1,4 +1,4 @@
-#include "tests/sessions/print/read_pdf.h"
+#include "tests/support/documents/read_pdf.h"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,19 @@
+#include "tests/support/documents/page_in_browser.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/run_program.h"
+
+namespace elbowroom::tests {
+
+bool HasBrowser() { return std::filesystem::exists("/usr/bin/chromium"); }
+
+void ExpectPageWorks(const std::filesystem::path& page, const std::filesystem::path& screenshots) {
+  const std::filesystem::path source = ELBOWROOM_SOURCE_DIR;
+  const test_support::ProgramRun run = test_support::RunProgram(
+      ELBOWROOM_NODE, {(source / "web/test/report_page.mjs").string(),
+                       (source / "build/web/node_modules").string(), page.string(), screenshots.string()});
+  EXPECT_EQ(run.exit_status, 0) << run.err;
+}
+
+}  // namespace elbowroom::tests
