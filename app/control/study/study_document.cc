@@ -240,9 +240,8 @@ Document StudyDocument(const Study& study, const std::vector<DwellPicture>& dwel
   document.footer =
       "Beside this page: report.pdf (the same to print), participants.csv, sessions.csv and comparisons.csv "
       "(all figures with all digits).";
-  document.source =
-      fmt::format("{} at gaps {} of {:g} to {:g} mm", CountText(study.sessions.size(), "session"),
-                  study.range.spacing, study.range.from_mm, study.range.to_mm);
+  document.source = fmt::format("{}; gap {}, {:g} to {:g} mm", CountText(study.sessions.size(), "session"),
+                                study.range.spacing, study.range.from_mm, study.range.to_mm);
   document.made_at_utc =
       std::ranges::max_element(study.sessions, {}, &StudySession::started_at_utc)->started_at_utc;
   for (Section& section :
