@@ -23,9 +23,9 @@ namespace {
 
 // OpenGL has started and pools have grown by then.
 constexpr double kWarmUpShare = 0.2;
-// In the middle of the warm-up no frame comes for so long, and no gap is moved: the window draws what rests in
-// full. Buffers of the largest picture are there before memory is counted, and a picture that becomes finer
-// later, as the machine has more time, isn't taken for growth.
+// In the middle of the warm-up no frame comes for so long, and no gap is moved: the window draws what rests
+// in full. Buffers of the largest picture are there before memory is counted, and a picture that becomes
+// finer later, as the machine has more time, isn't taken for growth.
 constexpr std::chrono::milliseconds kRest(1500);
 constexpr QSize kView(1280, 720);
 constexpr double kGapStepMm = 10.0;
@@ -144,7 +144,11 @@ class Soak {
     first_frame_ = frame_;
     since_picture_.invalidate();
     since_begin_.start();
-    result_.first_bytes = test_support::ResidentBytes(::getpid());
+    result_.resident_bytes.reserve(10'000);
+    QObject::connect(&memory_, &QTimer::timeout, window_.get(), [this] {
+      result_.resident_bytes.push_back(static_cast<double>(test_support::ResidentBytes(::getpid())));
+    });
+    memory_.start(std::chrono::milliseconds(500));
     QTimer::singleShot(Simulated((1.0 - kWarmUpShare) * plan_.simulated_s), window_.get(),
                        [this] { Finish(); });
   }
@@ -160,7 +164,7 @@ class Soak {
   }
 
   void Finish() {
-    result_.last_bytes = test_support::ResidentBytes(::getpid());
+    memory_.stop();
     result_.seconds = 1e-3 * static_cast<double>(since_begin_.elapsed());
     result_.frames = frame_ - first_frame_;
     result_.ui_waits_ms = watch_->TakeWaits();
@@ -177,7 +181,7 @@ class Soak {
   control::TrialSetup setup_ = control::MakeDemoTrial(control::DemoPlay::kForever);
   std::shared_ptr<KeptFrames> frames_;
   std::unique_ptr<MainWindow> window_;
-  QTimer gaps_, tools_;
+  QTimer gaps_, tools_, memory_;
   WindowSoakResult result_;
   std::optional<StallWatch> watch_;
   QElapsedTimer since_start_, since_picture_, since_begin_;

@@ -20,10 +20,9 @@ struct WindowSoakResult {
   double seconds = 0.0;           // measured, after the warm-up
   std::int64_t frames = 0;
   std::vector<double> between_pictures_ms, drawing_ms;
-  std::vector<double> ui_waits_ms;  // of an event of the UI thread, a sample each 5 ms
-  std::int64_t first_bytes = 0;     // resident after the warm-up
-  std::int64_t last_bytes = 0;
-  int widest_px = 0, highest_px = 0;  // of the view
+  std::vector<double> ui_waits_ms;     // of an event of the UI thread, a sample each 5 ms
+  std::vector<double> resident_bytes;  // after the warm-up, each half second
+  int widest_px = 0, highest_px = 0;   // of the view
   std::string driver;
   std::string error;  // one line; empty: none
 };
