@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <mutex>
 #include <utility>
@@ -42,15 +43,16 @@ bool IsIn(std::span<const TouchedSpacings> touched, double spacing_mm) {
 // one value shows is used at those below.
 class SpacingJudge::PartInFrame {
  public:
-  PartInFrame(const SpacingJudge& judge, const StudyFrame& frame, core::PartIndex part,
-              const Vector3d& motion_in_world)
+  // Its poses give the direction in which it moves while the spacing grows.
+  PartInFrame(const SpacingJudge& judge, const StudyFrame& frame, AskedIndex part,
+              const core::RigidTransform& at_0, const core::RigidTransform& at_1)
       : judge_(judge),
         options_(judge.options_),
         review_(ReviewOf(judge.options_.review, frame)),
         hull_(*frame.hull),
         part_(part),
         tree_(judge.trees_[part]),
-        motion_(motion_in_world) {
+        motion_((at_1.translation_mm - at_0.translation_mm).normalized()) {
     known_.steps.resize(judge.steps_mm_.size());
   }
 
@@ -291,7 +293,7 @@ class SpacingJudge::PartInFrame {
   const SpacingStudyOptions& options_;
   PartReviewOptions review_;  // with this frame's skew
   const recon::VisualHull& hull_;
-  core::PartIndex part_;
+  AskedIndex part_;
   const core::TriangleTree& tree_;
   Vector3d motion_;  // of the part while the spacing grows by 1 mm
   std::optional<ClearanceHint> hint_;
@@ -309,7 +311,7 @@ class SpacingJudge::InsideOfThreads {
           return cells;
         }) {}
 
-  [[nodiscard]] InsideCells* Of(core::PartIndex part) { return &cells_.local()[part]; }
+  [[nodiscard]] InsideCells* Of(AskedIndex part) { return &cells_.local()[part]; }
 
  private:
   tbb::enumerable_thread_specific<std::vector<InsideCells>> cells_;
@@ -321,7 +323,7 @@ class SpacingJudge::WorstErrors {
   WorstErrors(const std::vector<core::TriangleTree>& parts, std::shared_ptr<const recon::HullErrors> errors)
       : parts_(parts), errors_(std::move(errors)) {}
 
-  [[nodiscard]] double Of(core::PartIndex part, const core::RigidTransform& world_from_part) {
+  [[nodiscard]] double Of(AskedIndex part, const core::RigidTransform& world_from_part) {
     Key key;
     key[0] = static_cast<double>(part);
     Eigen::Map<Vector3d>(key.data() + 1) = world_from_part.translation_mm;
@@ -340,41 +342,62 @@ class SpacingJudge::WorstErrors {
   std::map<Key, double> known_mm_;
 };
 
-SpacingJudge::SpacingJudge(const core::Layout& layout, const SpacingStudyOptions& options)
-    : poses_(layout),
-      options_(options),
+SpacingJudge::SpacingJudge(std::span<const StudyLayout> layouts, const SpacingStudyOptions& options)
+    : options_(options),
       steps_mm_(options.Steps()),
       inside_(std::make_unique<InsideOfThreads>(trees_)),
       worst_(std::make_unique<WorstErrors>(trees_, options.review.hull_errors)) {
-  for (const core::Part& part : layout.parts) trees_.emplace_back(part.mesh);
-  moves_.assign(trees_.size(), false);
-  for (const core::PartIndex part : PartsMovedBy(layout, options.spacing)) moves_[part] = true;
+  for (const StudyLayout& study : layouts) {
+    layouts_.push_back({study, core::SpacingPoses(*study.layout), trees_.size()});
+    const std::vector<core::PartIndex> moved = PartsMovedBy(*study.layout, study.spacing);
+    for (const core::PartIndex part : study.parts) {
+      trees_.emplace_back(study.layout->parts.at(part).mesh);
+      moves_.push_back(std::ranges::binary_search(moved, part));
+    }
+  }
 }
 
 SpacingJudge::~SpacingJudge() = default;
 
-std::vector<core::RigidTransform> SpacingJudge::PosesAt(std::vector<double> spacing_mm,
-                                                        double studied_mm) const {
-  spacing_mm[options_.spacing] = studied_mm;
-  return poses_.At(spacing_mm);
+std::vector<core::RigidTransform> SpacingJudge::PlacedLayout::PosesAt(const StudyFrame& frame,
+                                                                      double studied_mm) const {
+  std::vector<double> spacing_mm =
+      study.spacings_from ? study.spacings_from(frame.spacing_mm) : frame.spacing_mm;
+  spacing_mm[study.spacing] = studied_mm;
+  const std::vector<core::RigidTransform> all = poses.At(spacing_mm);
+  std::vector<core::RigidTransform> asked;
+  for (const core::PartIndex part : study.parts) asked.push_back(all[part]);
+  return asked;
 }
 
-InsideCells* SpacingJudge::InsideOf(core::PartIndex part) const { return inside_->Of(part); }
+std::vector<core::RigidTransform> SpacingJudge::PosesAt(const StudyFrame& frame, double studied_mm) const {
+  std::vector<core::RigidTransform> all;
+  for (const PlacedLayout& layout : layouts_) {
+    const std::vector<core::RigidTransform> of_layout = layout.PosesAt(frame, studied_mm);
+    all.insert(all.end(), of_layout.begin(), of_layout.end());
+  }
+  return all;
+}
 
-double SpacingJudge::AllowedMm(core::PartIndex part, const core::RigidTransform& world_from_part) const {
+const SpacingJudge::PlacedLayout& SpacingJudge::LayoutOf(AskedIndex part) const {
+  return *std::prev(std::ranges::upper_bound(layouts_, part, {}, &PlacedLayout::first));
+}
+
+InsideCells* SpacingJudge::InsideOf(AskedIndex part) const { return inside_->Of(part); }
+
+double SpacingJudge::AllowedMm(AskedIndex part, const core::RigidTransform& world_from_part) const {
   if (!options_.review.hull_errors) return options_.review.uncertainty_mm;
   return worst_->Of(part, world_from_part);
 }
 
 std::vector<PartOverSpacing> SpacingJudge::AskSteps(const StudyFrame& frame,
                                                     std::span<const StudyStep> so_far) const {
-  const auto here = PosesAt(frame.spacing_mm, 0.0), there = PosesAt(frame.spacing_mm, 1.0);
+  const auto at_0 = PosesAt(frame, 0.0), at_1 = PosesAt(frame, 1.0);
   std::vector<PartInFrame> parts;
-  for (core::PartIndex i = 0; i < trees_.size(); ++i)
-    parts.emplace_back(*this, frame, i, (there[i].translation_mm - here[i].translation_mm).normalized());
+  for (AskedIndex i = 0; i < trees_.size(); ++i) parts.emplace_back(*this, frame, i, at_0[i], at_1[i]);
   for (std::size_t step = steps_mm_.size(); step-- > 0;) {
-    const auto poses = PosesAt(frame.spacing_mm, steps_mm_[step]);
-    for (core::PartIndex i = 0; i < trees_.size(); ++i)
+    const auto poses = PosesAt(frame, steps_mm_[step]);
+    for (AskedIndex i = 0; i < trees_.size(); ++i)
       parts[i].AskStep(step, poses[i], so_far[step].parts[i], so_far);
   }
   std::vector<PartOverSpacing> answers;
@@ -382,18 +405,13 @@ std::vector<PartOverSpacing> SpacingJudge::AskSteps(const StudyFrame& frame,
   return answers;
 }
 
-Freedom SpacingJudge::AskFreedom(const StudyFrame& frame, double spacing_mm, StudyCount* count) const {
-  const auto here = PosesAt(frame.spacing_mm, 0.0), there = PosesAt(frame.spacing_mm, 1.0);
-  const auto poses = PosesAt(frame.spacing_mm, spacing_mm);
-  Freedom freedom = Freedom::kFree;
-  for (core::PartIndex i = 0; i < trees_.size(); ++i) {
-    if (!moves_[i]) continue;
-    PartInFrame part(*this, frame, i, (there[i].translation_mm - here[i].translation_mm).normalized());
-    const Freedom of_part = part.AskFreedom(spacing_mm, poses[i], count);
-    if (of_part == Freedom::kTouched) return of_part;
-    if (of_part == Freedom::kUndecided) freedom = of_part;
-  }
-  return freedom;
+Freedom SpacingJudge::AskFreedom(const StudyFrame& frame, AskedIndex part, double spacing_mm,
+                                 StudyCount* count) const {
+  const PlacedLayout& layout = LayoutOf(part);
+  const std::size_t in_layout = part - layout.first;
+  PartInFrame asked(*this, frame, part, layout.PosesAt(frame, 0.0)[in_layout],
+                    layout.PosesAt(frame, 1.0)[in_layout]);
+  return asked.AskFreedom(spacing_mm, layout.PosesAt(frame, spacing_mm)[in_layout], count);
 }
 
 }  // namespace elbowroom::review

@@ -1,5 +1,5 @@
-// One recorded frame judged against a layout at all values of a spacing: what the study of all frames is made
-// of.
+// One recorded frame judged against parts of layouts at all values of a spacing: what the study of all frames
+// is made of.
 #pragma once
 
 #include <Eigen/Core>
@@ -42,6 +42,9 @@ struct TouchedSpacings {
 
 [[nodiscard]] bool IsIn(std::span<const TouchedSpacings> touched, double spacing_mm);
 
+// A part that is asked: its place among those of all layouts.
+using AskedIndex = std::size_t;
+
 // What is known of one part in one frame.
 struct PartOverSpacing {
   std::vector<StepAnswer> steps;
@@ -52,36 +55,48 @@ enum class Freedom { kTouched, kFree, kUndecided };
 
 class SpacingJudge {
  public:
-  // `layout` and `options` must outlive it.
-  SpacingJudge(const core::Layout& layout, const SpacingStudyOptions& options);
+  // `layouts` and `options` must outlive it.
+  SpacingJudge(std::span<const StudyLayout> layouts, const SpacingStudyOptions& options);
   ~SpacingJudge();
   SpacingJudge(const SpacingJudge&) = delete;
   SpacingJudge& operator=(const SpacingJudge&) = delete;
 
   [[nodiscard]] const std::vector<double>& steps_mm() const { return steps_mm_; }
   [[nodiscard]] std::size_t part_count() const { return trees_.size(); }
-  [[nodiscard]] bool Moves(core::PartIndex part) const { return moves_[part]; }
+  [[nodiscard]] bool Moves(AskedIndex part) const { return moves_[part]; }
 
-  // The answers for all parts. `so_far` has what other frames have shown at each step: what can change
-  // neither a verdict nor a largest depth nor a least distance isn't asked. Thread: any.
+  // The answers for all parts that are asked. `so_far` has what other frames have shown of them at each step:
+  // what can change neither a verdict nor a largest depth nor a least distance isn't asked. Thread: any.
   [[nodiscard]] std::vector<PartOverSpacing> AskSteps(const StudyFrame& frame,
                                                       std::span<const StudyStep> so_far) const;
 
-  // Whether a moved part is in the hull at this value. Thread: any.
-  [[nodiscard]] Freedom AskFreedom(const StudyFrame& frame, double spacing_mm, StudyCount* count) const;
+  // Whether the part is in the hull at this value. Thread: any.
+  [[nodiscard]] Freedom AskFreedom(const StudyFrame& frame, AskedIndex part, double spacing_mm,
+                                   StudyCount* count) const;
 
  private:
   class PartInFrame;
   class InsideOfThreads;
   class WorstErrors;
 
-  [[nodiscard]] std::vector<core::RigidTransform> PosesAt(std::vector<double> spacing_mm,
-                                                          double studied_mm) const;
-  [[nodiscard]] InsideCells* InsideOf(core::PartIndex part) const;
-  // What a verdict allows for where no witness points tell.
-  [[nodiscard]] double AllowedMm(core::PartIndex part, const core::RigidTransform& world_from_part) const;
+  // A layout's parts stand one after the other from `first` on.
+  struct PlacedLayout {
+    const StudyLayout& study;
+    core::SpacingPoses poses;
+    AskedIndex first = 0;
 
-  const core::SpacingPoses poses_;
+    // Of the parts that are asked, while the studied spacing has this value.
+    [[nodiscard]] std::vector<core::RigidTransform> PosesAt(const StudyFrame& frame, double studied_mm) const;
+  };
+
+  // Of all parts that are asked.
+  [[nodiscard]] std::vector<core::RigidTransform> PosesAt(const StudyFrame& frame, double studied_mm) const;
+  [[nodiscard]] const PlacedLayout& LayoutOf(AskedIndex part) const;
+  [[nodiscard]] InsideCells* InsideOf(AskedIndex part) const;
+  // What a verdict allows for where no witness points tell.
+  [[nodiscard]] double AllowedMm(AskedIndex part, const core::RigidTransform& world_from_part) const;
+
+  std::vector<PlacedLayout> layouts_;
   const SpacingStudyOptions& options_;
   const std::vector<double> steps_mm_;
   std::vector<core::TriangleTree> trees_;

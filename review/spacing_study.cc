@@ -36,35 +36,40 @@ bool IsStill(const StudyFrame& frame) { return !frame.skew_errors || frame.skew_
 
 class Study {
  public:
-  Study(const core::Layout& layout, const StudyFrames& frames, const SpacingStudyOptions& options,
+  Study(std::span<const StudyLayout> layouts, const StudyFrames& frames, const SpacingStudyOptions& options,
         const core::Progress& progress, std::stop_token stop)
-      : judge_(layout, options),
+      : judge_(layouts, options),
         frames_(frames),
         options_(options),
         progress_(progress),
         stop_(std::move(stop)),
-        steps_mm_(judge_.steps_mm()) {
-    result_.moved = PartsMovedBy(layout, options.spacing);
-  }
+        steps_mm_(judge_.steps_mm()) {}
 
-  SpacingStudy Run() {
-    SpacingCurve empty;
+  std::vector<PartStudy> Run() {
+    std::vector<StudyStep> none;
     for (const double spacing_mm : steps_mm_)
-      empty.steps.push_back({spacing_mm, std::vector<PartAtSpacing>(judge_.part_count())});
-    result_.curves.assign(options_.groups, empty);
+      none.push_back({spacing_mm, std::vector<PartAtSpacing>(judge_.part_count())});
+    so_far_.assign(options_.groups, none);
+    group_frames_.assign(options_.groups, 0);
+    counts_.resize(judge_.part_count());
     kept_.resize(options_.groups);
     AskAllFrames();
-    for (std::size_t group = 0; group < options_.groups; ++group) Conclude(group);
+    std::vector<PartStudy> studies(judge_.part_count());
+    for (AskedIndex part = 0; part < studies.size(); ++part) {
+      for (std::size_t group = 0; group < options_.groups; ++group)
+        studies[part].curves.push_back(Conclude(group, part));
+      studies[part].count = counts_[part];
+    }
     const auto all = static_cast<std::int64_t>(frames_.count);
     progress_.Report(all, all, "frames");
-    return std::move(result_);
+    return studies;
   }
 
  private:
-  // What is kept of the moved parts in a run of frames.
+  // What is kept of the parts in a run of frames; nothing of those that the spacing doesn't move.
   struct Kept {
-    std::size_t position = 0;        // of its first frame
-    std::vector<PartOfFrame> parts;  // the moved ones
+    std::size_t position = 0;  // of its first frame
+    std::vector<PartOfFrame> parts;
   };
 
   // The frames of the next batch are loaded while those of this one are judged.
@@ -76,7 +81,7 @@ class Study {
       tbb::task_group judging;
       judging.run([&] {
         tbb::parallel_for(std::size_t{0}, batch.size(), [&](std::size_t i) {
-          answers[i] = judge_.AskSteps(batch[i].first, result_.curves[batch[i].first.group].steps);
+          answers[i] = judge_.AskSteps(batch[i].first, so_far_[batch[i].first.group]);
         });
       });
       std::vector<FrameRun> next;
@@ -114,7 +119,6 @@ class Study {
       if (!pending_) break;
       if (!batch.empty() && HaveOneAnswer(batch.back().first, *pending_)) {
         ++batch.back().frames;
-        ++result_.count.unchanged_frames;
       } else if (batch.size() < most) {
         core::Require(pending_->group < options_.groups, "a frame's group is one of the study's");
         batch.push_back({*std::move(pending_)});
@@ -130,22 +134,22 @@ class Study {
   }
 
   void Take(std::size_t position, const FrameRun& run, std::vector<PartOverSpacing> answers) {
-    SpacingCurve& curve = result_.curves[run.first.group];
-    curve.frames += run.frames;
+    std::vector<StudyStep>& steps = so_far_[run.first.group];
+    group_frames_[run.first.group] += run.frames;
     Kept kept{position, {}};
-    for (core::PartIndex i = 0; i < judge_.part_count(); ++i) {
+    for (AskedIndex i = 0; i < judge_.part_count(); ++i) {
+      StudyCount& count = counts_[i];
+      count.unchanged_frames += run.frames - 1;
       PartOfFrame of_part;
       of_part.touched = std::move(answers[i].touched);
       for (std::size_t step = 0; step < steps_mm_.size(); ++step) {
         const StepAnswer& answer = answers[i].steps[step];
-        Add(answer, run, &curve.steps[step].parts[i]);
-        result_.count.queries += answer.queries;
-        ++(answer.was_asked  ? result_.count.asked
-           : judge_.Moves(i) ? result_.count.settled_by_motion
-                             : result_.count.unmoved);
+        Add(answer, run, &steps[step].parts[i]);
+        count.queries += answer.queries;
+        ++(answer.was_asked ? count.asked : judge_.Moves(i) ? count.settled_by_motion : count.unmoved);
         of_part.lower_mm.push_back(answer.lower_mm);
       }
-      if (judge_.Moves(i)) kept.parts.push_back(std::move(of_part));
+      kept.parts.push_back(judge_.Moves(i) ? std::move(of_part) : PartOfFrame());
     }
     kept_[run.first.group].push_back(std::move(kept));
   }
@@ -172,68 +176,65 @@ class Study {
     sum->lower_mm = std::min({sum->lower_mm, answer.lower_mm, sum->upper_mm});
   }
 
-  [[nodiscard]] bool IsTouched(const SpacingCurve& curve, std::size_t step) const {
-    return std::ranges::any_of(
-        result_.moved, [&](core::PartIndex i) { return curve.steps[step].parts[i].frames_in_contact > 0; });
-  }
-
   // Goes from the largest step down to the first that isn't free, then bisects between that and the one
   // above.
-  void Conclude(std::size_t group) {
-    SpacingCurve& curve = result_.curves[group];
+  [[nodiscard]] PartCurve Conclude(std::size_t group, AskedIndex part) {
+    PartCurve curve{group_frames_[group], {}, std::nullopt, std::nullopt};
+    for (const StudyStep& step : so_far_[group]) curve.steps.push_back(step.parts[part]);
+    if (!judge_.Moves(part)) {
+      curve.smallest_free_mm = steps_mm_.front();
+      return curve;
+    }
+    const auto is_touched = [&](std::size_t step) { return curve.steps[step].frames_in_contact > 0; };
     std::size_t free = steps_mm_.size();
     Freedom below = Freedom::kFree;
     while (free > 0) {
-      below = IsTouched(curve, free - 1) ? Freedom::kTouched : FreedomAt(group, steps_mm_[free - 1]);
+      below = is_touched(free - 1) ? Freedom::kTouched : FreedomAt(group, part, steps_mm_[free - 1]);
       if (below != Freedom::kFree) break;
       --free;
     }
     for (std::size_t step = 0; step < free; ++step) {
-      if (IsTouched(curve, step) || (step + 1 == free && below == Freedom::kTouched))
+      if (is_touched(step) || (step + 1 == free && below == Freedom::kTouched))
         curve.largest_touched_mm = steps_mm_[step];
     }
     if (free < steps_mm_.size()) curve.smallest_free_mm = steps_mm_[free];
-    if (free == 0 || free == steps_mm_.size()) return;
+    if (free == 0 || free == steps_mm_.size()) return curve;
     double not_free_mm = steps_mm_[free - 1], free_mm = steps_mm_[free];
     while (free_mm - not_free_mm > options_.tolerance_mm) {
       core::ThrowIfStopped(stop_, "the spacing study");
       const double middle_mm = 0.5 * (not_free_mm + free_mm);
-      const Freedom freedom = FreedomAt(group, middle_mm);
+      const Freedom freedom = FreedomAt(group, part, middle_mm);
       (freedom == Freedom::kFree ? free_mm : not_free_mm) = middle_mm;
       if (freedom == Freedom::kTouched) curve.largest_touched_mm = middle_mm;
     }
     curve.smallest_free_mm = free_mm;
+    return curve;
   }
 
-  // Whether a moved part is in the hull in some frame at this value. Only frames in which that is possible
-  // are loaded again.
-  Freedom FreedomAt(std::size_t group, double spacing_mm) {
-    if (std::ranges::any_of(kept_[group], [&](const Kept& kept) {
-          return std::ranges::any_of(kept.parts,
-                                     [&](const PartOfFrame& part) { return IsIn(part.touched, spacing_mm); });
-        }))
+  // Whether the part is in the hull in some frame at this value. Only frames in which that is possible are
+  // loaded again.
+  Freedom FreedomAt(std::size_t group, AskedIndex part, double spacing_mm) {
+    if (std::ranges::any_of(kept_[group],
+                            [&](const Kept& kept) { return IsIn(kept.parts[part].touched, spacing_mm); }))
       return Freedom::kTouched;
     Freedom freedom = Freedom::kFree;
     for (const Kept& kept : kept_[group]) {
-      if (SureMm(kept, spacing_mm) > 0.0) continue;
+      if (SureMm(kept.parts[part], spacing_mm) > 0.0) continue;
       core::ThrowIfStopped(stop_, "the spacing study");
-      const Freedom of_frame = judge_.AskFreedom(frames_.load(kept.position), spacing_mm, &result_.count);
+      const Freedom of_frame =
+          judge_.AskFreedom(frames_.load(kept.position), part, spacing_mm, &counts_[part]);
       if (of_frame == Freedom::kTouched) return of_frame;
       if (of_frame == Freedom::kUndecided) freedom = of_frame;
     }
     return freedom;
   }
 
-  // A lower bound of all moved parts' distances in this frame: a part's distance changes by no more than the
-  // spacing does, so each step's lower bound gives one here.
-  [[nodiscard]] double SureMm(const Kept& kept, double spacing_mm) const {
-    double sure_mm = core::kInfinity;
-    for (const PartOfFrame& part : kept.parts) {
-      double of_part_mm = 0.0;
-      for (std::size_t step = 0; step < steps_mm_.size(); ++step)
-        of_part_mm = std::max(of_part_mm, part.lower_mm[step] - std::abs(steps_mm_[step] - spacing_mm));
-      sure_mm = std::min(sure_mm, of_part_mm);
-    }
+  // A lower bound of the part's distance in a frame: it changes by no more than the spacing does, so each
+  // step's lower bound gives one here.
+  [[nodiscard]] double SureMm(const PartOfFrame& part, double spacing_mm) const {
+    double sure_mm = 0.0;
+    for (std::size_t step = 0; step < steps_mm_.size(); ++step)
+      sure_mm = std::max(sure_mm, part.lower_mm[step] - std::abs(steps_mm_[step] - spacing_mm));
     return sure_mm;
   }
 
@@ -243,11 +244,13 @@ class Study {
   const core::Progress& progress_;
   const std::stop_token stop_;
   const std::vector<double>& steps_mm_;
+  std::vector<std::vector<StudyStep>> so_far_;  // groups x steps, of the parts that are asked
+  std::vector<std::int64_t> group_frames_;
+  std::vector<StudyCount> counts_;       // one a part
   std::vector<std::vector<Kept>> kept_;  // groups x runs of frames
   std::size_t loaded_ = 0;               // frames that are in a batch
   std::size_t asked_ = 0;
   std::optional<StudyFrame> pending_;
-  SpacingStudy result_;
 };
 
 // Whether the second answer is the closer one.
@@ -346,11 +349,54 @@ StudyCount& StudyCount::operator+=(const StudyCount& other) {
   return *this;
 }
 
+SpacingStudy Joined(std::span<const PartStudy> parts, std::span<const double> steps_mm,
+                    std::vector<core::PartIndex> moved) {
+  SpacingStudy study;
+  study.moved = std::move(moved);
+  const std::size_t groups = parts.empty() ? 0 : parts.front().curves.size();
+  for (std::size_t group = 0; group < groups; ++group) {
+    SpacingCurve curve;
+    curve.smallest_free_mm = steps_mm.front();
+    for (const double spacing_mm : steps_mm) curve.steps.push_back({spacing_mm, {}});
+    for (const PartStudy& part : parts) {
+      const PartCurve& of_part = part.curves.at(group);
+      curve.frames = of_part.frames;
+      for (std::size_t step = 0; step < curve.steps.size(); ++step)
+        curve.steps[step].parts.push_back(of_part.steps.at(step));
+      curve.largest_touched_mm = std::max(curve.largest_touched_mm, of_part.largest_touched_mm);
+      curve.smallest_free_mm = of_part.smallest_free_mm && curve.smallest_free_mm
+                                   ? std::max(curve.smallest_free_mm, of_part.smallest_free_mm)
+                                   : std::nullopt;
+    }
+    study.curves.push_back(std::move(curve));
+  }
+  std::int64_t unchanged_frames = 0;  // the same of all parts
+  for (const PartStudy& part : parts) {
+    study.count += part.count;
+    unchanged_frames = part.count.unchanged_frames;
+  }
+  study.count.unchanged_frames = unchanged_frames;
+  return study;
+}
+
+std::vector<PartStudy> StudyParts(std::span<const StudyLayout> layouts, const StudyFrames& frames,
+                                  const SpacingStudyOptions& options, const core::Progress& progress,
+                                  std::stop_token stop) {
+  for (const StudyLayout& layout : layouts) {
+    SpacingStudyOptions of_layout = options;
+    of_layout.spacing = layout.spacing;
+    of_layout.Validate(*layout.layout);
+  }
+  return Study(layouts, frames, options, progress, std::move(stop)).Run();
+}
+
 SpacingStudy StudySpacing(const core::Layout& layout, const StudyFrames& frames,
                           const SpacingStudyOptions& options, const core::Progress& progress,
                           std::stop_token stop) {
-  options.Validate(layout);
-  return Study(layout, frames, options, progress, std::move(stop)).Run();
+  StudyLayout all{&layout, options.spacing, {}};
+  for (core::PartIndex part = 0; part < layout.parts.size(); ++part) all.parts.push_back(part);
+  return Joined(StudyParts({&all, 1}, frames, options, progress, std::move(stop)), options.Steps(),
+                PartsMovedBy(layout, options.spacing));
 }
 
 }  // namespace elbowroom::review

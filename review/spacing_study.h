@@ -1,4 +1,4 @@
-// Judges recorded motion against a layout at other values of one spacing: how much space does the task need?
+// Judges recorded motion against layouts at other values of one spacing: how much space does the task need?
 #pragma once
 
 #include <cstdint>
@@ -60,7 +60,7 @@ struct PartAtSpacing {
   // Bounds of the least distance over all frames: lower_mm is never above it, upper_mm never below.
   double lower_mm = std::numeric_limits<double>::infinity();
   double upper_mm = std::numeric_limits<double>::infinity();
-  std::optional<core::FrameIndex> closest_frame;  // the frame of upper_mm; in contact, the deepest one
+  std::optional<core::FrameIndex> closest_frame = {};  // the frame of upper_mm; in contact, the deepest one
 };
 
 struct StudyStep {
@@ -103,6 +103,42 @@ struct SpacingStudy {
   std::vector<SpacingCurve> curves;    // one a group
   StudyCount count;
 };
+
+// Parts of a layout that are asked.
+struct StudyLayout {
+  const core::Layout* layout = nullptr;  // not null
+  core::SpacingIndex spacing = 0;        // the studied one, in place of SpacingStudyOptions::spacing
+  std::vector<core::PartIndex> parts;    // ascending
+  // This layout's spacings in a frame with these ones; nothing: they are the frame's.
+  std::function<std::vector<double>(const std::vector<double>&)> spacings_from = nullptr;
+};
+
+// What the frames of a group show of one part.
+struct PartCurve {
+  std::int64_t frames = 0;
+  std::vector<PartAtSpacing> steps;  // ascending
+  // As SpacingCurve's, of this part alone. Of a part that the spacing doesn't move: nothing, and the smallest
+  // step.
+  std::optional<double> largest_touched_mm = {};
+  std::optional<double> smallest_free_mm = {};
+};
+
+struct PartStudy {
+  std::vector<PartCurve> curves;  // one a group
+  StudyCount count;
+};
+
+// What all parts of a layout show together, as StudySpacing tells it of them; `parts` are the part studies of
+// one layout, in its order, and `moved` those that the spacing moves.
+[[nodiscard]] SpacingStudy Joined(std::span<const PartStudy> parts, std::span<const double> steps_mm,
+                                  std::vector<core::PartIndex> moved);
+
+// One for each part of each layout, in that order. What is found of a part, and what is counted, depends on
+// its mesh, its poses and the frames alone, not on which others are asked. Throws, threads: as StudySpacing.
+[[nodiscard]] std::vector<PartStudy> StudyParts(std::span<const StudyLayout> layouts,
+                                                const StudyFrames& frames, const SpacingStudyOptions& options,
+                                                const core::Progress& progress = {},
+                                                std::stop_token stop = {});
 
 // The rules, and what is skipped, are in docs/contact_tracking.md. Verdicts and depths are those of
 // ReviewPart for every frame at every step, bounds of the least distance to their tolerance

@@ -132,6 +132,7 @@ int RunCommandLine(int argc, char** argv, const OpenConsole& open_console) {
   AddReplayCommand(app, &choice);
   AddReportCommand(app, &choice);
   AddSweepCommand(app, &choice);
+  AddPlanCommand(app, &choice);
   AddStudyCommand(app, &choice);
   AddKeepoutCommand(app, &choice);
   AddTouchesCommand(app, &choice);

@@ -78,9 +78,9 @@ class CliOnBallRig : public testing::Test {
 TEST(Cli, HelpNamesWhatIsBuilt) {
   const ProgramRun run = Elbowroom({"--help"});
   EXPECT_EQ(run.exit_status, 0);
-  for (const char* command :
-       {"demo", "trial", "report", "segment", "view", "hull", "contacts", "clearance", "clash", "sweep",
-        "import", "layout", "board", "bench", "keepout", "replay", "touches", "sessions", "study"}) {
+  for (const char* command : {"demo",      "trial",  "report",  "segment",  "view",   "hull",  "contacts",
+                              "clearance", "clash",  "sweep",   "import",   "layout", "board", "bench",
+                              "keepout",   "replay", "touches", "sessions", "study",  "plan"}) {
     EXPECT_NE(run.out.find(std::string("\n  ") + command + " "), std::string::npos) << command;
   }
 }
@@ -88,7 +88,7 @@ TEST(Cli, HelpNamesWhatIsBuilt) {
 TEST(Cli, EveryCommandHasHelp) {
   for (const char* command :
        {"demo", "report", "segment", "view", "hull", "contacts", "clearance", "clash", "sweep", "import",
-        "layout", "board", "bench", "keepout", "replay", "touches", "sessions", "study"}) {
+        "layout", "board", "bench", "keepout", "replay", "touches", "sessions", "study", "plan"}) {
     EXPECT_EQ(Elbowroom({command, "--help"}).exit_status, 0) << command;
   }
   EXPECT_EQ(Elbowroom({"trial", "run", "--help"}).exit_status, 0);

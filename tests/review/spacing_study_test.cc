@@ -272,6 +272,61 @@ TEST(StudySpacing, GroupsAndPiecesTogetherAreTheWhole) {
   }
 }
 
+bool IsSame(const PartAtSpacing& a, const PartAtSpacing& b) {
+  return a.frames_in_contact == b.frames_in_contact && a.frames_near == b.frames_near &&
+         a.frames_undecided == b.frames_undecided && a.frames_clear == b.frames_clear &&
+         a.deepest_mm == b.deepest_mm && a.lower_mm == b.lower_mm && a.upper_mm == b.upper_mm &&
+         a.closest_frame == b.closest_frame;
+}
+
+// To the last bit, whatever else is asked.
+void ExpectSame(const PartStudy& a, const PartStudy& b) {
+  ASSERT_EQ(a.curves.size(), b.curves.size());
+  for (std::size_t group = 0; group < a.curves.size(); ++group) {
+    EXPECT_EQ(a.curves[group].frames, b.curves[group].frames);
+    EXPECT_EQ(a.curves[group].largest_touched_mm, b.curves[group].largest_touched_mm);
+    EXPECT_EQ(a.curves[group].smallest_free_mm, b.curves[group].smallest_free_mm);
+    EXPECT_TRUE(std::ranges::equal(a.curves[group].steps, b.curves[group].steps, IsSame));
+  }
+  EXPECT_EQ(a.count.asked, b.count.asked);
+  EXPECT_EQ(a.count.settled_by_motion, b.count.settled_by_motion);
+  EXPECT_EQ(a.count.unmoved, b.count.unmoved);
+  EXPECT_EQ(a.count.unchanged_frames, b.count.unchanged_frames);
+}
+
+TEST(StudyParts, AreThoseOfEachPartAlone) {
+  core::Layout wide = LidLayout();
+  wide.parts[kMoving] = BoxPart("lid", {90.0, 70.0, 12.0}, {0.0, 0.0, 0.0});
+  const core::Layout narrow = LidLayout();
+  // The other layout's spacings are the frame's in another order.
+  core::Layout turned = narrow;
+  std::swap(turned.spacings[0], turned.spacings[1]);
+  for (int trial = 0; trial < 4 * test_support::SoakScale(); ++trial) {
+    recon::Random random(trial);
+    const std::vector<StudyFrame> frames = RandomFrames(&random, 12);
+    const SpacingStudyOptions options = From(0.0, 200.0, 25.0);
+    const std::vector<StudyLayout> layouts = {
+        {&narrow, 0, {0, kMoving, kRider, kFixed}},
+        {&wide, 0, {kMoving}},
+        {&turned, 1, {kMoving, kFixed}, [](const std::vector<double>& mm) {
+           return std::vector{mm[1], mm[0]};
+         }}};
+    const std::vector<PartStudy> together = StudyParts(layouts, Shared(frames), options);
+    ASSERT_EQ(together.size(), 7U);
+    std::size_t at = 0;
+    for (const StudyLayout& layout : layouts) {
+      for (const core::PartIndex part : layout.parts) {
+        SCOPED_TRACE(at);
+        StudyLayout alone = layout;
+        alone.parts = {part};
+        ExpectSame(together[at++], StudyParts({&alone, 1}, Shared(frames), options).front());
+      }
+    }
+    ExpectSame(together[5], together[1]);
+    ExpectSame(together[6], together[3]);
+  }
+}
+
 TEST(StudySpacing, AFrameThatStaysIsAskedOnce) {
   recon::Random random(77);
   const std::vector<StudyFrame> once = RandomFrames(&random, 3);

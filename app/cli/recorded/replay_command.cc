@@ -10,21 +10,13 @@
 #include "app/cli/options/command.h"
 #include "app/cli/options/frame_range_option.h"
 #include "app/cli/options/spacing_option.h"
+#include "app/cli/recorded/revision_options.h"
 #include "app/control/outcome_tracker.h"
 #include "app/control/replay/replay.h"
 #include "cad_import/layout/layout_file.h"
-#include "cad_import/mesh_file.h"
-#include "core/units.h"
 
 namespace elbowroom::cli {
 namespace {
-
-// NAME=FILE[:UNIT]
-struct PartSetting {
-  std::string name;
-  std::filesystem::path file;
-  std::optional<core::LengthUnit> unit;
-};
 
 struct ReplayCommandOptions {
   std::filesystem::path recorded;
@@ -36,19 +28,6 @@ struct ReplayCommandOptions {
   control::ReplayOptions replay;
 };
 
-std::optional<PartSetting> ParsePart(const std::string& text) {
-  const std::size_t equals = text.find('=');
-  if (equals == std::string::npos || equals == 0 || equals + 1 == text.size()) return std::nullopt;
-  PartSetting part{text.substr(0, equals), text.substr(equals + 1), std::nullopt};
-  const std::string file = part.file.string();
-  const std::size_t colon = file.rfind(':');
-  if (colon == std::string::npos || colon == 0) return part;
-  // A colon belongs to the file's name unless a unit follows it.
-  part.unit = core::ParseLengthUnit(file.substr(colon + 1));
-  if (part.unit) part.file = file.substr(0, colon);
-  return part;
-}
-
 control::ReplayChanges ChangesOf(const ReplayCommandOptions& options, const CommandContext& context,
                                  std::vector<std::string>* warnings) {
   control::ReplayChanges changes;
@@ -58,13 +37,8 @@ control::ReplayChanges ChangesOf(const ReplayCommandOptions& options, const Comm
     changes.layout = std::move(imported.layout);
     *warnings = std::move(imported.warnings);
   }
-  for (const PartSetting& part : options.parts) {
-    cad_import::ImportedMesh imported =
-        cad_import::ImportMeshFile(part.file, {.unit = part.unit}, context.progress, context.stop);
-    for (const std::string& warning : imported.report.warnings)
-      warnings->push_back(fmt::format("part '{}': {}", part.name, warning));
-    changes.parts.push_back({part.name, part.file.string(), std::move(imported.mesh)});
-  }
+  for (const PartSetting& part : options.parts)
+    changes.parts.push_back(PartRevisionOf(part, context, warnings));
   for (const SpacingSetting& spacing : options.spacings) changes.held_mm[spacing.name] = spacing.gap_mm;
   return changes;
 }

@@ -141,9 +141,9 @@ CommandResult Run(const StudyOptions& options, const CommandContext& context) {
   control::SweepRequest request = options.request;
   if (!options.has_range)
     request.range = control::FullRange(request.sessions.front(), request.range.spacing, context.stop);
-  RunEngine(options.engine, &request, context);
-  const control::Study study = control::MakeStudy(request, context.progress, context.stop);
   CommandResult result;
+  result.hint = RunEngine(options.engine, &request, context);
+  const control::Study study = control::MakeStudy(request, context.progress, context.stop);
   result.json = StudyJson(study);
   result.text = TextOf(study);
   result.json["files"] = nlohmann::json::array();

@@ -1,14 +1,21 @@
 // elbowroom sweep S.db... --spacing NAME=FROM:TO:STEP_MM --out DIR: how much space recorded motion needs.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdint>
+#include <filesystem>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "app/cli/options/command.h"
 #include "app/cli/options/value_json.h"
+#include "app/cli/recorded/revision_options.h"
 #include "app/cli/recorded/sweep_options.h"
+#include "app/control/revisions/revision_files.h"
+#include "app/control/revisions/revision_touches.h"
 #include "app/control/sweep/spacing_sweep.h"
 #include "app/control/sweep/sweep_files.h"
 
@@ -17,6 +24,7 @@ namespace {
 
 struct SweepOptions {
   control::SweepRequest request;
+  std::vector<RevisionSetting> revisions;
   control::SweepEngine engine = control::SweepEngine::kLocal;
   bool cells_only = false;
 };
@@ -85,6 +93,35 @@ nlohmann::json SessionJson(const control::SpacingSweep& sweep, const control::Sw
 }
 
 // The keys of all sessions' curve stand at the top, as those of a single session's.
+// `touching`: at each step, how many sessions' motion touches what the revision changes.
+nlohmann::json RevisionsJson(const control::SpacingSweep& sweep) {
+  const std::vector<control::RevisionTouches> touches = control::TouchesOfRevisions(sweep);
+  nlohmann::json revisions = nlohmann::json::array();
+  for (std::size_t k = 0; k < touches.size(); ++k) {
+    const control::SweptRevision& revision = sweep.revisions[k];
+    nlohmann::json json = {{"revision", revision.name},
+                           {"touching", touches[k].touching},
+                           {"touching_before", touches[k].touching_before},
+                           {"largest_touched_mm", OrNull(revision.all.all.largest_touched_mm)},
+                           {"smallest_free_mm", OrNull(revision.all.all.smallest_free_mm)}};
+    json["changed"] = nlohmann::json::array();
+    for (const core::PartIndex part : revision.changed) json["changed"].push_back(revision.parts[part]);
+    json["sessions"] = nlohmann::json::array();
+    for (std::size_t i = 0; i < sweep.sessions.size(); ++i) {
+      nlohmann::json frames = nlohmann::json::array(), deepest_mm = nlohmann::json::array();
+      for (const control::RevisionTouch& touch : touches[k].by_session[i]) {
+        frames.push_back(touch.frames_in_contact);
+        deepest_mm.push_back(touch.deepest_mm);
+      }
+      json["sessions"].push_back({{"session", sweep.sessions[i].path.string()},
+                                  {"frames_in_contact", std::move(frames)},
+                                  {"deepest_mm", std::move(deepest_mm)}});
+    }
+    revisions.push_back(std::move(json));
+  }
+  return revisions;
+}
+
 nlohmann::json SweepJson(const SweepOptions& options, const control::SpacingSweep& sweep) {
   nlohmann::json all = CurvesJson(sweep, sweep.all, nullptr), json = all;
   json["all"] = std::move(all);
@@ -103,6 +140,8 @@ nlohmann::json SweepJson(const SweepOptions& options, const control::SpacingSwee
   json["unmoved"] = sweep.count.unmoved;
   json["unchanged_frames"] = sweep.count.unchanged_frames;
   json["queries"] = sweep.count.queries;
+  json["revisions"] = RevisionsJson(sweep);
+  json["hulls"] = sweep.hulls;
   json["cells"] = sweep.cells;
   json["cells_from_before"] = sweep.cells_from_before;
   json["engine"] = control::ToString(options.engine);
@@ -134,6 +173,13 @@ std::string TextOf(const std::string& spacing, const control::SpacingSweep& swee
     for (const control::SweptSession& session : sweep.sessions)
       text += fmt::format("\n{}: {}", session.path.string(), TextOf(spacing, sweep, session.curves.all));
   }
+  const std::vector<control::RevisionTouches> touches = control::TouchesOfRevisions(sweep);
+  for (std::size_t k = 0; k < touches.size(); ++k)
+    text += fmt::format(
+        "\nrevision '{}': of {} motions {} touch what it changes at the smallest gap, {} at the "
+        "largest",
+        sweep.revisions[k].name, sweep.sessions.size(), touches[k].touching.front(),
+        touches[k].touching.back());
   if (sweep.all.with_tool.empty()) return text;
   text += "\nwithout a tool: " + TextOf(spacing, sweep, sweep.all.without_tools);
   for (const auto& [tool, curve] : sweep.all.with_tool)
@@ -143,17 +189,26 @@ std::string TextOf(const std::string& spacing, const control::SpacingSweep& swee
 
 CommandResult Run(const SweepOptions& options, const CommandContext& context) {
   control::SweepRequest request = options.request;
-  RunEngine(options.engine, &request, context);
-  const control::SpacingSweep sweep = control::SweepSpacing(request, context.progress, context.stop);
   CommandResult result;
+  std::vector<std::string> warnings;
+  request.revisions = SweepRevisionsOf(options.revisions, context, &warnings);
+  result.hint = RunEngine(options.engine, &request, context);
+  const control::SpacingSweep sweep = control::SweepSpacing(request, context.progress, context.stop);
   result.json = SweepJson(options, sweep);
+  result.json["warnings"] = warnings;
   result.text = TextOf(request.range.spacing, sweep);
   if (sweep.cells_from_before > 0)
     result.text +=
         fmt::format("\n{} of {} cells were kept from before", sweep.cells_from_before, sweep.cells);
   result.json["files"] = nlohmann::json::array();
+  for (const std::string& warning : warnings) result.text += "\nwarning: " + warning;
   if (options.cells_only) return result;
-  for (const auto& file : control::WriteSpacingSweep(request.range, sweep, request.folder)) {
+  std::vector<std::filesystem::path> files = control::WriteSpacingSweep(request.range, sweep, request.folder);
+  if (!sweep.revisions.empty())
+    std::ranges::move(
+        control::WriteRevisions(request.range, sweep, request.folder, context.progress, context.stop),
+        std::back_inserter(files));
+  for (const std::filesystem::path& file : files) {
     result.json["files"].push_back(file.string());
     result.text += "\n" + file.string();
   }
@@ -185,6 +240,7 @@ void AddSweepCommand(CLI::App& app, Choice* choice) {
                    "folder for sweep.csv, sweep.svg, sweep.png; made if needed. What is done is kept in its "
                    "cells, so that a sweep that was ended early goes on")
       ->required();
+  AddRevisionOption(*command, &options->revisions);
   AddEngineOption(*command, &options->engine);
   command->add_flag("--cells-only", options->cells_only,
                     "keep the cells, write no files: for an engine's jobs");

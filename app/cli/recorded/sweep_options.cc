@@ -1,8 +1,10 @@
 #include "app/cli/recorded/sweep_options.h"
 
+#include <fmt/format.h>
 #include <tbb/global_control.h>
 
 #include <cstddef>
+#include <utility>
 
 #include "app/cli/options/unit_option.h"
 
@@ -29,11 +31,17 @@ void AddEngineOption(CLI::App& command, control::SweepEngine* engine) {
       ->default_str("local");
 }
 
-void RunEngine(control::SweepEngine engine, control::SweepRequest* request, const CommandContext& context) {
-  if (engine == control::SweepEngine::kLocal) return;
+std::string RunEngine(control::SweepEngine engine, control::SweepRequest* request,
+                      const CommandContext& context) {
+  if (engine == control::SweepEngine::kLocal) return "";
   const auto threads =
       static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
-  request->cells_before = control::RunSweepEngine(engine, *request, threads, context.progress, context.stop);
+  control::EngineOutcome outcome =
+      control::RunSweepEngine(engine, *request, threads, context.progress, context.stop);
+  request->cells_before = std::move(outcome.cells_before);
+  if (outcome.begun_again == 0) return "";
+  return fmt::format("{} times a process was killed from outside and begun again; which ones is in '{}'",
+                     outcome.begun_again, (request->folder / "engine" / "killed").string());
 }
 
 }  // namespace elbowroom::cli

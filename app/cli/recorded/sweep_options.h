@@ -16,8 +16,9 @@ namespace elbowroom::cli {
 // --engine
 void AddEngineOption(CLI::App& command, control::SweepEngine* engine);
 
-// Has the engine keep the cells, and notes in the request which were there before. Throws: as
-// control::RunSweepEngine.
-void RunEngine(control::SweepEngine engine, control::SweepRequest* request, const CommandContext& context);
+// Has the engine keep the cells, and notes in the request which were there before. Gives a line on processes
+// that were begun again; empty: none was. Throws: as control::RunSweepEngine.
+std::string RunEngine(control::SweepEngine engine, control::SweepRequest* request,
+                      const CommandContext& context);
 
 }  // namespace elbowroom::cli

@@ -31,7 +31,9 @@ MotionFrame RecordedMotion::Follow(std::size_t position) {
   // Reading a frame checks that its silhouettes have the sizes of the cameras' pictures, before planes of
   // these sizes are made.
   if (planes_.empty()) planes_ = recon::MakeUndistortedPlanes(*rig_);
-  last_ = recon::NextHull(last_, rig_, planes_, *frame.record.masks).hull;
+  SharedHull hull = recon::NextHull(last_, rig_, planes_, *frame.record.masks).hull;
+  if (hull != last_) ++hulls_made_;
+  last_ = std::move(hull);
   next_ = position + 1;
   frame.hull = last_;
   if (!stamps_.empty()) frame.skew_errors = motions_.Next(*last_, frame.record.stamps, frame.record.time_s);

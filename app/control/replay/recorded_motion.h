@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <vector>
@@ -38,6 +39,8 @@ class RecordedMotion {
   // last one loaded was the one before, these are known. The result is the same in any order.
   [[nodiscard]] MotionFrame Load(std::size_t position);
 
+  [[nodiscard]] std::int64_t hulls_made() const { return hulls_made_; }
+
  private:
   [[nodiscard]] MotionFrame Follow(std::size_t position);
 
@@ -49,6 +52,7 @@ class RecordedMotion {
   recon::MotionHistory motions_;
   SharedHull last_;
   std::size_t next_ = 0;  // position
+  std::int64_t hulls_made_ = 0;
 };
 
 }  // namespace elbowroom::control

@@ -1,8 +1,10 @@
 #include "app/control/sweep/session_sweep.h"
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "app/control/trial_rules.h"
@@ -36,12 +38,10 @@ ToolGroups GroupsOf(const SweepFrames& frames, std::size_t first, std::size_t en
 
 review::SpacingStudyOptions OptionsOf(const core::SessionHeader& header, const SpacingRange& range) {
   review::SpacingStudyOptions options;
-  options.spacing = core::RequireSpacing(header.layout, range.spacing);
   options.from_mm = range.from_mm;
   options.to_mm = range.to_mm;
   options.step_mm = range.step_mm;
   options.review = ReviewOptionsOf(header.trial, header.rig, header.rig_quality);
-  options.Validate(header.layout);
   return options;
 }
 
@@ -66,27 +66,28 @@ SweptCurves Joined(const Curves& all, const Curves& without, const std::map<std:
 
 }  // namespace
 
-SweptCurves CurvesOf(const std::vector<SweepCell>& cells) {
+SweptCurves CurvesOf(const std::vector<StretchCurves>& stretches) {
   Curves all, without;
   std::map<std::string, Curves> with;
-  for (const SweepCell& cell : cells) {
-    for (const auto& [tools, curve] : cell.curves) {
+  for (const StretchCurves& stretch : stretches) {
+    for (std::size_t group = 0; group < stretch.tools.size(); ++group) {
+      const review::SpacingCurve& curve = stretch.curves[group];
       all.push_back(curve);
-      if (tools.empty()) without.push_back(curve);
-      for (const std::string& tool : tools) with[tool].push_back(curve);
+      if (stretch.tools[group].empty()) without.push_back(curve);
+      for (const std::string& tool : stretch.tools[group]) with[tool].push_back(curve);
     }
   }
   return Joined(all, without, with);
 }
 
-SweptCurves Together(const std::vector<SweptSession>& sessions) {
-  if (sessions.size() == 1) return sessions.front().curves;
+SweptCurves Together(const std::vector<SweptCurves>& sessions) {
+  if (sessions.size() == 1) return sessions.front();
   Curves all, without;
   std::map<std::string, Curves> with;
-  for (const SweptSession& session : sessions) {
-    all.push_back(session.curves.all);
-    without.push_back(session.curves.without_tools);
-    for (const auto& [tool, curve] : session.curves.with_tool) with[tool].push_back(curve);
+  for (const SweptCurves& curves : sessions) {
+    all.push_back(curves.all);
+    without.push_back(curves.without_tools);
+    for (const auto& [tool, curve] : curves.with_tool) with[tool].push_back(curve);
   }
   SweptCurves joined = Joined(all, without, with);
   const auto forget_frames = [](review::SpacingCurve& curve) {
@@ -99,78 +100,167 @@ SweptCurves Together(const std::vector<SweptSession>& sessions) {
   return joined;
 }
 
-SessionSweep::SessionSweep(const std::filesystem::path& session, const SpacingRange& range,
+SessionSweep::SessionSweep(const std::filesystem::path& session, const SweepRequest& request,
                            const std::stop_token& stop)
-    : session_(session, stop), range_(range) {
+    : request_(request), session_(session, stop) {
   session_.Freeze();
-  options_ = OptionsOf(session_.header(), range);
+  options_ = OptionsOf(session_.header(), request.range);
+  judged_.push_back(JudgedWith({}));
+  for (const SweepRevision& revision : request.revisions) judged_.push_back(JudgedWith(revision.changes));
   frames_ = SweepFramesOf(session_);
 }
 
-std::vector<std::string> SessionSweep::PartNames() const {
-  std::vector<std::string> names;
-  for (const core::Part& part : session_.header().layout.parts) names.push_back(part.name);
-  return names;
+SessionSweep::Judged SessionSweep::JudgedWith(const ReplayChanges& changes) const {
+  const core::Layout& recorded = session_.header().layout;
+  Judged judged{ReplayLayout(recorded, changes), {}, 0, {}, {}};
+  judged.layout = judged.replayed.layout();
+  judged.spacing = core::RequireSpacing(judged.layout, request_.range.spacing);
+  // A revised part's other extent shifts the limits, which were set for the experimenter's hand.
+  core::Spacing& spacing = judged.layout.spacings[judged.spacing];
+  if (const auto as_recorded = recorded.FindSpacing(spacing.name)) {
+    spacing.min_mm = std::min(spacing.min_mm, recorded.spacings[*as_recorded].min_mm);
+    spacing.max_mm = std::max(spacing.max_mm, recorded.spacings[*as_recorded].max_mm);
+  }
+  review::SpacingStudyOptions options = options_;
+  options.spacing = judged.spacing;
+  options.Validate(judged.layout);
+  judged.parts.moved = review::PartsMovedBy(judged.layout, judged.spacing);
+  for (const core::Part& part : judged.layout.parts) {
+    judged.parts.names.push_back(part.name);
+    judged.mesh_hashes.push_back(core::ContentHash(*part.mesh));
+  }
+  for (core::PartIndex part = 0; part < judged.mesh_hashes.size() && !judged_.empty(); ++part)
+    if (IsChanged(judged, part)) judged.parts.changed.push_back(part);
+  return judged;
 }
 
-std::vector<core::PartIndex> SessionSweep::MovedParts() const {
-  return review::PartsMovedBy(session_.header().layout, options_.spacing);
+bool SessionSweep::IsChanged(const Judged& judged, core::PartIndex part) const {
+  const auto recorded = judged.replayed.RecordedOf(part);
+  if (!recorded || !recorded->has_same_mesh) return true;
+  const Judged& before = judged_.front();
+  std::vector<double> before_mm = before.layout.InitialSpacings();
+  std::vector<double> now_mm = judged.replayed.SpacingsFrom(before_mm);
+  return std::ranges::any_of(std::array{request_.range.from_mm, request_.range.to_mm}, [&](double step_mm) {
+    before_mm[before.spacing] = now_mm[judged.spacing] = step_mm;
+    return !(core::PosesAt(before.layout, before_mm)[recorded->part] ==
+             core::PosesAt(judged.layout, now_mm)[part]);
+  });
 }
 
-SweepCell SessionSweep::Ask(std::size_t first, std::size_t end, SweepFrameLoader* loader,
-                            const std::stop_token& stop) const {
+std::vector<SweptParts> SessionSweep::Parts() const {
+  std::vector<SweptParts> parts;
+  for (const Judged& judged : judged_) parts.push_back(judged.parts);
+  return parts;
+}
+
+SessionSweep::Keys SessionSweep::KeysOf(std::size_t first, std::size_t end, const SweepCells& cells) const {
+  std::set<std::vector<double>> recorded_mm;
+  for (std::size_t i = first; i < end; ++i) recorded_mm.insert(frames_.frames[i].spacing_mm);
+  const std::vector<double> steps_mm = options_.Steps();
+  Keys keys;
+  for (const Judged& judged : judged_) {
+    const core::SpacingPoses poses(judged.layout);
+    std::vector<CellQuestion> questions;
+    for (std::size_t part = 0; part < judged.mesh_hashes.size(); ++part)
+      questions.push_back(
+          {first, end, judged.mesh_hashes[part], std::ranges::binary_search(judged.parts.moved, part), {}});
+    for (const std::vector<double>& spacing_mm : recorded_mm) {
+      std::vector<double> values_mm = judged.replayed.SpacingsFrom(spacing_mm);
+      for (const double step_mm : steps_mm) {
+        values_mm[judged.spacing] = step_mm;
+        const auto world_from_parts = poses.At(values_mm);
+        for (std::size_t part = 0; part < questions.size(); ++part)
+          questions[part].world_from_part.push_back(world_from_parts[part]);
+      }
+    }
+    std::vector<CellKey> of_layout;
+    for (const CellQuestion& question : questions) of_layout.push_back(cells.KeyOf(question));
+    keys.push_back(std::move(of_layout));
+  }
+  return keys;
+}
+
+SweepCellsByKey SessionSweep::Ask(std::size_t first, std::size_t end, const Keys& keys,
+                                  const std::set<CellKey>& missing, SweepFrameLoader* loader,
+                                  const std::stop_token& stop) const {
   const ToolGroups groups = GroupsOf(frames_, first, end);
   review::SpacingStudyOptions options = options_;
   options.groups = groups.tools.size();
+  std::vector<review::StudyLayout> layouts;
+  std::vector<CellKey> asked;
+  std::set<CellKey> left = missing;  // parts that several layouts share are asked in the first of them
+  for (std::size_t k = 0; k < judged_.size(); ++k) {
+    const Judged& judged = judged_[k];
+    review::StudyLayout study{
+        &judged.layout, judged.spacing, {}, [&judged](const std::vector<double>& recorded_mm) {
+          return judged.replayed.SpacingsFrom(recorded_mm);
+        }};
+    for (core::PartIndex part = 0; part < keys[k].size(); ++part) {
+      if (left.erase(keys[k][part]) == 0) continue;
+      study.parts.push_back(part);
+      asked.push_back(keys[k][part]);
+    }
+    if (!study.parts.empty()) layouts.push_back(std::move(study));
+  }
   const auto load = [&](std::size_t i) {
     review::StudyFrame frame = loader->Load(first + i);
     frame.group = groups.group_of_frame[i];
     return frame;
   };
-  review::SpacingStudy study =
-      review::StudySpacing(session_.header().layout, {end - first, load}, options, {}, stop);
-  SweepCell cell;
-  cell.count = study.count;
-  for (std::size_t i = 0; i < groups.tools.size(); ++i)
-    cell.curves.push_back({groups.tools[i], std::move(study.curves[i])});
-  return cell;
+  std::vector<review::PartStudy> studies =
+      review::StudyParts(layouts, {end - first, load}, options, {}, stop);
+  SweepCellsByKey cells;
+  for (std::size_t i = 0; i < asked.size(); ++i) cells[asked[i]] = {groups.tools, std::move(studies[i])};
+  return cells;
 }
 
-SessionPiece SessionSweep::Run(const SweepRequest& request,
-                               const std::function<void(std::int64_t)>& frames_done,
+SessionPiece SessionSweep::Run(const std::function<void(std::int64_t)>& frames_done,
                                const std::stop_token& stop) const {
   const core::SessionHeader& header = session_.header();
   SessionPiece piece;
   piece.session = {session_.path(),
                    session_.recording_id(),
+                   header.started_at_utc,
                    header.trial.participant,
                    header.trial.estimate_mm,
                    header.trial.required_clearance_mm,
                    frames_.without_camera,
                    {}};
-  piece.parts = PartNames();
-  piece.moved = MovedParts();
-  const SweepCells kept(request.folder, session_, range_);
+  SweepCells kept(request_.folder, session_, request_.range);
   std::optional<SweepFrameLoader> loader;
-  std::vector<SweepCell> cells;
+  std::vector<std::vector<StretchCurves>> stretches(judged_.size());
+  const std::vector<double> steps_mm = options_.Steps();
   for (std::size_t first = 0; first < frames_.frames.size(); first += kFramesACell) {
     core::ThrowIfStopped(stop, "the sweep");
     const std::size_t end = std::min(first + kFramesACell, frames_.frames.size());
-    auto cell = kept.Find(first, end);
-    if (cell) {
-      const auto& before = request.cells_before;
-      if (!before || before->contains(kept.NameOf(first, end))) ++piece.cells_from_before;
-    } else {
-      if (!loader) loader.emplace(session_, frames_);
-      cell = Ask(first, end, &*loader, stop);
-      kept.Keep(first, end, *cell);
+    const Keys keys = KeysOf(first, end, kept);
+    std::set<CellKey> all, missing;
+    for (const std::vector<CellKey>& of_layout : keys) all.insert(of_layout.begin(), of_layout.end());
+    for (const CellKey& key : all) {
+      if (kept.Find(key) == nullptr) {
+        missing.insert(key);
+      } else if (!request_.cells_before || request_.cells_before->contains(kept.FileOf(key))) {
+        ++piece.cells_from_before;
+      }
     }
-    piece.count += cell->count;
-    cells.push_back(*std::move(cell));
+    if (!missing.empty()) {
+      if (!loader) loader.emplace(session_, frames_);
+      kept.Keep(Ask(first, end, keys, missing, &*loader, stop));
+    }
+    piece.cells += std::ssize(all);
+    for (const CellKey& key : all) piece.count += kept.Find(key)->part.count;
+    for (std::size_t k = 0; k < judged_.size(); ++k) {
+      std::vector<review::PartStudy> parts;
+      for (const CellKey& key : keys[k]) parts.push_back(kept.Find(key)->part);
+      stretches[k].push_back({kept.Find(keys[k].front())->tools,
+                              review::Joined(parts, steps_mm, judged_[k].parts.moved).curves});
+    }
     frames_done(static_cast<std::int64_t>(end - first));
   }
-  piece.cells = std::ssize(cells);
-  piece.session.curves = CurvesOf(cells);
+  if (loader) piece.hulls = loader->hulls_made();
+  piece.session.curves = CurvesOf(stretches.front());
+  for (std::size_t k = 1; k < stretches.size(); ++k)
+    piece.session.of_revisions.push_back(CurvesOf(stretches[k]));
   return piece;
 }
 

@@ -65,14 +65,13 @@ class SharedProgress {
 
 // What is compared between sessions before any of them is judged.
 struct SessionCheck {
-  std::vector<std::string> parts;
-  std::vector<core::PartIndex> moved;
+  std::vector<SweptParts> parts;  // of each layout
   std::string recording_id;
 };
 
 void RequireSameParts(const SweepRequest& request, const std::vector<SessionCheck>& checks) {
   for (std::size_t i = 1; i < checks.size(); ++i) {
-    if (checks[i].parts == checks.front().parts && checks[i].moved == checks.front().moved) continue;
+    if (checks[i].parts == checks.front().parts) continue;
     throw core::Error(
         core::ErrorKind::kRange,
         fmt::format("sessions '{}' and '{}' have parts of other names, or '{}' moves others; replay them "
@@ -100,8 +99,8 @@ std::int64_t CheckSessions(const SweepRequest& request, const std::stop_token& s
   std::vector<SessionCheck> checks(request.sessions.size());
   std::atomic<std::int64_t> frames = 0;
   ForEachSession(request.sessions.size(), stop, [&](std::size_t i, const std::stop_token& token) {
-    const SessionSweep session(request.sessions[i], request.range, token);
-    checks[i] = {session.PartNames(), session.MovedParts(), session.recording_id()};
+    const SessionSweep session(request.sessions[i], request, token);
+    checks[i] = {session.Parts(), session.recording_id()};
     frames += session.frame_count();
   });
   RequireSameParts(request, checks);
@@ -120,21 +119,32 @@ SpacingSweep SweepSpacing(const SweepRequest& request, const core::Progress& pro
   const std::int64_t total = CheckSessions(request, stop);
   SharedProgress shared(progress, total);
   std::vector<SessionPiece> pieces(request.sessions.size());
+  std::vector<SweptParts> parts;  // of the first session, and so of each
   ForEachSession(request.sessions.size(), stop, [&](std::size_t i, const std::stop_token& token) {
-    const SessionSweep session(request.sessions[i], request.range, token);
-    pieces[i] = session.Run(
-        request, [&](std::int64_t frames) { shared.Add(frames); }, token);
+    const SessionSweep session(request.sessions[i], request, token);
+    pieces[i] = session.Run([&](std::int64_t frames) { shared.Add(frames); }, token);
+    if (i == 0) parts = session.Parts();
   });
   SpacingSweep sweep;
-  sweep.parts = pieces.front().parts;
-  sweep.moved = pieces.front().moved;
+  sweep.parts = parts.front().names;
+  sweep.moved = parts.front().moved;
   for (SessionPiece& piece : pieces) {
     sweep.count += piece.count;
+    sweep.hulls += piece.hulls;
     sweep.cells += piece.cells;
     sweep.cells_from_before += piece.cells_from_before;
     sweep.sessions.push_back(std::move(piece.session));
   }
-  sweep.all = Together(sweep.sessions);
+  const auto together = [&](auto curves_of) {
+    std::vector<SweptCurves> curves;
+    for (const SweptSession& session : sweep.sessions) curves.push_back(curves_of(session));
+    return Together(curves);
+  };
+  sweep.all = together([](const SweptSession& session) { return session.curves; });
+  for (std::size_t k = 0; k < request.revisions.size(); ++k)
+    sweep.revisions.push_back(
+        {request.revisions[k].name, parts[k + 1].names, parts[k + 1].moved, parts[k + 1].changed,
+         together([k](const SweptSession& session) { return session.of_revisions[k]; })});
   progress.Report(total, total, "frames");
   return sweep;
 }

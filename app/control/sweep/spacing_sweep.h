@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "app/control/replay/replay_changes.h"
 #include "core/ids.h"
 #include "core/progress.h"
 #include "review/spacing_study.h"
@@ -24,11 +25,19 @@ struct SpacingRange {
   double step_mm = 10.0;
 };
 
+// Another layout, or other CAD of some parts, that the motion is judged against beside the recorded layout.
+struct SweepRevision {
+  std::string name;
+  ReplayChanges changes;               // held_mm: empty
+  std::vector<std::string> arguments;  // of --revision, with which another process gets the same
+};
+
 struct SweepRequest {
   std::vector<std::filesystem::path> sessions;  // at least one; all have parts of the same names
   SpacingRange range;
-  std::filesystem::path folder;  // keeps what is done, in `cells`; made if need be
-  // The names of the cells that count as kept from before. Nothing: all that are there.
+  std::filesystem::path folder;               // keeps what is done, in `cells`; made if need be
+  std::vector<SweepRevision> revisions = {};  // each has the spacing that is swept
+  // The files (CellFilesIn) whose cells count as kept from before. Nothing: all that are there.
   std::optional<std::set<std::string>> cells_before = {};
 };
 
@@ -42,11 +51,23 @@ struct SweptCurves {
 struct SweptSession {
   std::filesystem::path path;
   std::string recording_id;
+  std::string started_at_utc;
   std::string participant;
   double estimate_mm = 0.0;                // 0: none given
   double required_clearance_mm = 0.0;      // 0: only contact was judged
   std::int64_t frames_without_camera = 0;  // left out: a picture is missing, so the hull is larger
   SweptCurves curves;
+  std::vector<SweptCurves> of_revisions = {};  // in the request's order
+};
+
+// A revision against all sessions' motion.
+struct SweptRevision {
+  std::string name;
+  std::vector<std::string> parts;
+  std::vector<core::PartIndex> moved;
+  std::vector<core::PartIndex>
+      changed;  // of another shape, or elsewhere, than in the recorded layout; or new
+  SweptCurves all;
 };
 
 struct SpacingSweep {
@@ -54,8 +75,10 @@ struct SpacingSweep {
   std::vector<core::PartIndex> moved;  // those that the spacing moves
   std::vector<SweptSession> sessions;  // as they were asked for
   SweptCurves all;                     // of all sessions; without numbers of frames if there are several
-  review::StudyCount count;
-  std::int64_t cells = 0;
+  std::vector<SweptRevision> revisions = {};
+  review::StudyCount count;  // of the recorded layout and all revisions; what they share counts once
+  std::int64_t hulls = 0;    // that were made
+  std::int64_t cells = 0;    // a part in a stretch of a session's frames at all steps
   std::int64_t cells_from_before = 0;  // of them: kept by a sweep that was ended early, or by another
 };
 

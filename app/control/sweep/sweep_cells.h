@@ -3,51 +3,72 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <map>
 #include <optional>
+#include <set>
+#include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "app/control/sweep/spacing_sweep.h"
+#include "core/rigid_transform.h"
+#include "core/triangle_mesh.h"
 #include "review/spacing_study.h"
 #include "sessions/session_reader.h"
 
 namespace elbowroom::control {
 
-// What a stretch of a session's frames shows.
+// What a stretch of a session's frames shows of one part.
 struct SweepCell {
-  struct Curve {
-    std::vector<std::string> tools;  // the frames in which just these were in use
-    review::SpacingCurve curve;
-  };
-  std::vector<Curve> curves;
-  review::StudyCount count;
+  std::vector<std::vector<std::string>> tools;  // of each group of frames: those in use
+  review::PartStudy part;                       // its curves: one a group
 };
 
-// Text that gives back every bit. Nothing: it isn't what TextOf made under this key.
-[[nodiscard]] std::string TextOf(const SweepCell& cell, const std::string& key);
-[[nodiscard]] std::optional<SweepCell> ParseSweepCell(const std::string& text, const std::string& key);
+// What a cell depends on beside its session and range.
+struct CellQuestion {
+  std::size_t first = 0, end = 0;  // positions of its frames among those that are swept
+  std::string mesh_hash;           // core::ContentHash
+  bool moves = false;              // with the spacing that is swept
+  // Of the part at each step, for each set of spacings that the frames have.
+  std::vector<core::RigidTransform> world_from_part;
+};
 
-// Where a sweep's folder has its cells.
+using CellKey = std::string;  // 32 hex digits
+using SweepCellsByKey = std::map<CellKey, SweepCell>;
+
+// Bytes that give back every bit of the cells. Nothing: they aren't what BytesOf made.
+[[nodiscard]] std::string BytesOf(const SweepCellsByKey& cells);
+[[nodiscard]] std::optional<SweepCellsByKey> ParseSweepCells(const std::string& bytes);
+
+// Where a sweep's folder has its cells: a folder for each session, with a file for each set of cells that
+// were found together. Two such folders are merged by copying one into the other.
 [[nodiscard]] std::filesystem::path CellsIn(const std::filesystem::path& folder);
+
+// The files there, from CellsIn on.
+[[nodiscard]] std::set<std::string> CellFilesIn(const std::filesystem::path& folder);
 
 // The cells of one session and range. Thread: one at a time; several programs may share a folder.
 class SweepCells {
  public:
-  // A session that is still being recorded keeps none. Throws: core::Error{kFile}.
+  // Reads what is kept of the session; files that are damaged count as not there. A session that is still
+  // being recorded keeps none. Throws: core::Error{kFile}.
   SweepCells(const std::filesystem::path& folder, const sessions::SessionReader& session,
              const SpacingRange& range);
 
-  // The name of the cell's file. The frames are those of the positions [first, end).
-  [[nodiscard]] std::string NameOf(std::size_t first, std::size_t end) const;
-  // Nothing: not kept, or damaged.
-  [[nodiscard]] std::optional<SweepCell> Find(std::size_t first, std::size_t end) const;
-  // Whole or not at all. Throws: core::Error{kFile}.
-  void Keep(std::size_t first, std::size_t end, const SweepCell& cell) const;
+  [[nodiscard]] CellKey KeyOf(const CellQuestion& question) const;
+  // Null: not kept.
+  [[nodiscard]] const SweepCell* Find(const CellKey& key) const;
+  // The name of the file that it was read from, as CellFilesIn gives it; empty: it wasn't there at first.
+  [[nodiscard]] std::string FileOf(const CellKey& key) const;
+  // In one file, whole or not at all. Throws: core::Error{kFile}.
+  void Keep(const SweepCellsByKey& cells);
 
  private:
   std::filesystem::path folder_;
-  std::string source_;  // what a cell depends on beside its frames; empty: none is kept
+  std::string source_;  // what all cells depend on
+  bool keeps_ = false;
+  SweepCellsByKey cells_;
+  std::map<CellKey, std::string> files_;
 };
 
 }  // namespace elbowroom::control

@@ -8,6 +8,7 @@
 #include <chrono>
 #include <cstdlib>
 #include <fstream>
+#include <iterator>
 #include <map>
 #include <sstream>
 #include <utility>
@@ -60,14 +61,40 @@ std::string ShellWord(const std::string& text) {
 std::string CommandsOf(const SweepRequest& request, const std::string& threads) {
   const std::string program = fs::read_symlink("/proc/self/exe").string();
   const SpacingRange& range = request.range;
+  std::string revisions;
+  for (const SweepRevision& revision : request.revisions)
+    for (const std::string& argument : revision.arguments)
+      revisions += fmt::format("--revision {} ", ShellWord(argument));
   std::string commands;
   for (const fs::path& session : request.sessions)
     commands += fmt::format(
-        "{} sweep {} --spacing {} --out {} --threads {} --cells-only\n", ShellWord(program),
+        "{} sweep {} --spacing {} {}--out {} --threads {} --cells-only\n", ShellWord(program),
         ShellWord(fs::absolute(session).string()),
         ShellWord(fmt::format("{}={}:{}:{}", range.spacing, range.from_mm, range.to_mm, range.step_mm)),
-        ShellWord(fs::absolute(request.folder).string()), threads);
+        revisions, ShellWord(fs::absolute(request.folder).string()), threads);
   return commands;
+}
+
+// A task runs the line of `commands` that it is given the number of. What the shell itself says of a process
+// that was killed isn't the process's complaint.
+std::string TaskScript() {
+  return fmt::format(
+      R"sh(#!/bin/bash
+cd "$(dirname "$0")" || exit 1
+command=$(sed -n "${{1}}p" commands)
+exec 3>&2 2>/dev/null
+trap 'kill -TERM "$process"; wait "$process"; exit 143' TERM INT
+for attempt in $(seq {}); do
+  eval "exec $command" 2>&3 &
+  process=$!
+  wait "$process"
+  status=$?
+  ((status > 128)) || break
+  echo "task $1, attempt $attempt: killed by signal $((status - 128))" >>killed
+done
+exit "$status"
+)sh",
+      kMostAttempts);
 }
 
 // The script of an array of jobs, one a session; it is submitted from anywhere.
@@ -80,18 +107,11 @@ std::string SlurmScript(const SweepRequest& request, const fs::path& folder, con
       "#SBATCH --ntasks=1\n"
       "#SBATCH --cpus-per-task={}\n"
       "#SBATCH --output=/dev/null\n"
+      "#SBATCH --requeue\n"
       "cd {} || exit 1\n"
-      "command=$(sed -n \"${{SLURM_ARRAY_TASK_ID}}p\" commands)\n"
-      "eval \"$command\" >\"$SLURM_ARRAY_TASK_ID.out\" 2>\"$SLURM_ARRAY_TASK_ID.err\"\n",
+      "exec /bin/bash task \"$SLURM_ARRAY_TASK_ID\" >\"$SLURM_ARRAY_TASK_ID.out\" "
+      "2>\"$SLURM_ARRAY_TASK_ID.err\"\n",
       name, request.sessions.size(), threads, ShellWord(folder.string()));
-}
-
-std::set<std::string> NamesIn(const fs::path& folder) {
-  std::set<std::string> names;
-  std::error_code none;
-  for (const auto& entry : fs::directory_iterator(folder, none))
-    names.insert(entry.path().filename().string());
-  return names;
 }
 
 // What the process complained of that complained first; empty: none did. The others may only say that they
@@ -143,15 +163,20 @@ class EngineRun {
     const bool is_slurm = engine_ == SweepEngine::kSlurm;
     core::WriteWholeFile(folder_ / "commands",
                          CommandsOf(request_, is_slurm ? std::to_string(threads_) : "1"));
+    core::WriteWholeFile(folder_ / "task", TaskScript());
+    std::string numbers;
+    for (std::size_t i = 1; i <= request_.sessions.size(); ++i) numbers += fmt::format("{}\n", i);
+    core::WriteWholeFile(folder_ / "tasks", numbers);
     if (is_slurm) core::WriteWholeFile(Script(), SlurmScript(request_, folder_, name_, threads_));
   }
 
-  void Run(const core::Progress& progress, const std::stop_token& stop) {
+  // How many processes were begun again.
+  std::int64_t Run(const core::Progress& progress, const std::stop_token& stop) {
     core::Child child(Command());
     core::Woken woken = core::Woken::kTooLate;
     while (woken == core::Woken::kTooLate) {
       woken = child.WaitForEnd(stop, std::chrono::steady_clock::now() + 500ms);
-      progress.Report(std::ssize(NamesIn(CellsIn(request_.folder))), 0, "cells in the folder");
+      progress.Report(std::ssize(CellFilesIn(request_.folder)), 0, "files of cells in the folder");
     }
     if (woken == core::Woken::kStopped) {
       End(&child);
@@ -159,13 +184,16 @@ class EngineRun {
       core::ThrowIfStopped(stop, "the sweep");
     }
     const int status = child.Wait();
-    if (status == 0) return;
-    const std::string complaint = FirstComplaint(folder_);
-    throw core::Error(core::ErrorKind::kFile,
-                      complaint.empty()
-                          ? fmt::format("--engine {}: '{}' {}; what it left is in '{}'", ToString(engine_),
-                                        program_.string(), core::TextOfEnd(status), folder_.string())
-                          : fmt::format("--engine {}: {}", ToString(engine_), complaint));
+    if (status == 0) return CountKilled();
+    std::string why = FirstComplaint(folder_);
+    if (why.empty() && CountKilled() > 0)
+      why = fmt::format(
+          "a process was killed {} times; '{}' says by what: is there enough memory for {} processes?",
+          kMostAttempts, (folder_ / "killed").string(), threads_);
+    if (why.empty())
+      why = fmt::format("'{}' {}; what it left is in '{}'", program_.string(), core::TextOfEnd(status),
+                        folder_.string());
+    throw core::Error(core::ErrorKind::kFile, fmt::format("--engine {}: {}", ToString(engine_), why));
   }
 
  private:
@@ -175,7 +203,14 @@ class EngineRun {
     if (engine_ == SweepEngine::kSlurm) return {program_, {"sbatch", "--wait", Script().string()}};
     return {program_,
             {"parallel", "--will-cite", "--jobs", std::to_string(threads_), "--halt", "now,fail=1",
-             "--results", (folder_ / "{#}").string(), "--arg-file", (folder_ / "commands").string()}};
+             "--results", (folder_ / "{#}").string(), "--arg-file", (folder_ / "tasks").string(), "/bin/bash",
+             ShellWord((folder_ / "task").string()), "{}"}};
+  }
+
+  // Each attempt that was killed has a line.
+  [[nodiscard]] std::int64_t CountKilled() const {
+    std::ifstream file(folder_ / "killed");
+    return std::count(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>(), '\n');
   }
 
   // By its name, which is this process's alone.
@@ -203,16 +238,16 @@ std::optional<SweepEngine> ParseSweepEngine(std::string_view text) {
 
 std::string_view ToString(SweepEngine engine) { return kEngineNames.at(static_cast<std::size_t>(engine)); }
 
-std::set<std::string> RunSweepEngine(SweepEngine engine, const SweepRequest& request, int threads,
-                                     const core::Progress& progress, const std::stop_token& stop) {
-  std::set<std::string> before = NamesIn(CellsIn(request.folder));
-  if (engine == SweepEngine::kLocal) return before;
+EngineOutcome RunSweepEngine(SweepEngine engine, const SweepRequest& request, int threads,
+                             const core::Progress& progress, const std::stop_token& stop) {
+  EngineOutcome outcome{CellFilesIn(request.folder)};
+  if (engine == SweepEngine::kLocal) return outcome;
   EngineRun run(engine, request, threads);
   CheckSweep(request, stop);
   run.Write();  // also where the program is missing: Slurm's script can be submitted elsewhere
   run.Find();
-  run.Run(progress, stop);
-  return before;
+  outcome.begun_again = run.Run(progress, stop);
+  return outcome;
 }
 
 }  // namespace elbowroom::control

@@ -22,7 +22,7 @@ SweepFrames SweepFramesOf(const sessions::SessionReader& session) {
     if (incomplete.contains(all[i].frame)) {
       ++result.without_camera;
     } else {
-      result.frames.push_back({i, tools.At(all[i].frame)});
+      result.frames.push_back({i, tools.At(all[i].frame), all[i].spacing_mm});
     }
   }
   if (!result.frames.empty()) return result;

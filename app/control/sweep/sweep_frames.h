@@ -18,6 +18,7 @@ struct SweepFrames {
   struct Frame {
     std::size_t position = 0;        // among all frames of the session
     std::vector<std::string> tools;  // in use, ascending
+    std::vector<double> spacing_mm;  // as recorded, in the layout's order
   };
   std::vector<Frame> frames;
   std::int64_t without_camera = 0;
@@ -33,6 +34,8 @@ class SweepFrameLoader {
 
   // The result is the same in any order.
   [[nodiscard]] review::StudyFrame Load(std::size_t i);
+  // So far; those of frames whose silhouettes are the frame's before count once.
+  [[nodiscard]] std::int64_t hulls_made() const { return motion_.hulls_made(); }
 
  private:
   const SweepFrames& frames_;

@@ -26,7 +26,7 @@ constexpr const char* kDemoRange = "payload_a_gap=100:300:5";
 // Of a clearance's bounds in a trial and a replay.
 constexpr double kBoundsToleranceMm = 1.0;
 
-// The first 400 frames of the demo's trial: all of the task at 140 mm, some at 240 mm; two cells.
+// The first 400 frames of the demo's trial: all of the task at 140 mm, some at 240 mm; two files of cells.
 class SweptDemo : public testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -121,7 +121,7 @@ TEST_F(SweptDemo, ToolsSplitTheFrames) {
 ProgramRun SweepAndKill(const fs::path& session, const fs::path& out, int signal) {
   test_support::RunOptions options;
   options.while_running = [&](int process) {
-    while (KeptCells(out) == 0 && kill(process, 0) == 0)
+    while (CellFiles(out).empty() && kill(process, 0) == 0)
       std::this_thread::sleep_for(std::chrono::milliseconds(2));
     kill(process, signal);
   };
@@ -135,9 +135,9 @@ TEST_P(EndedSweep, GoesOnAndGivesTheSameBytes) {
   const ProgramRun ended = SweepAndKill(Session(), out, GetParam());
   EXPECT_EQ(ended.exit_status, GetParam() == SIGKILL ? 128 + SIGKILL : 1) << ended.err;
   EXPECT_FALSE(fs::exists(out / "sweep.csv"));
-  const std::size_t kept = KeptCells(out);
+  const std::size_t kept = CellFiles(out).size();
   ASSERT_GE(kept, 1U);
-  ASSERT_LT(kept, whole_["cells"].get<std::size_t>()) << "it was through before it was ended";
+  ASSERT_LT(kept, CellFiles(*folder_ / "whole").size()) << "it was through before it was ended";
   const ProgramRun again = RunSweep({Session()}, kDemoRange, out, {"--json"});
   ASSERT_EQ(again.exit_status, 0) << again.err;
   auto json = nlohmann::json::parse(again.out);
@@ -145,7 +145,7 @@ TEST_P(EndedSweep, GoesOnAndGivesTheSameBytes) {
   EXPECT_LT(json["cells_from_before"], json["cells"]);
   ExpectSameSweep(out, *folder_ / "whole");
   auto whole = whole_;
-  for (const char* key : {"cells_from_before", "files"}) {
+  for (const char* key : {"cells_from_before", "files", "hulls"}) {
     json.erase(key);
     whole.erase(key);
   }

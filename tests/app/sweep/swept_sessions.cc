@@ -52,12 +52,13 @@ test_support::ProgramRun RunSweep(const std::vector<std::filesystem::path>& sess
   return test_support::RunProgram(ELBOWROOM_PROGRAM, arguments, options);
 }
 
-std::size_t KeptCells(const std::filesystem::path& out) {
+std::set<std::string> CellFiles(const std::filesystem::path& out) {
   std::error_code none;
-  std::size_t cells = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(out / "cells", none))
-    cells += entry.path().has_extension() ? 0 : 1;  // a file that is being written has one
-  return cells;
+  std::set<std::string> files;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(out / "cells", none))
+    if (entry.is_regular_file(none) && !entry.path().has_extension())  // one that is being written has one
+      files.insert(entry.path().lexically_relative(out / "cells").string());
+  return files;
 }
 
 void ExpectSameSweep(const std::filesystem::path& a, const std::filesystem::path& b) {

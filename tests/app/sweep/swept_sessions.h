@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -21,7 +22,8 @@ int RecordTaskFrames(const std::filesystem::path& path, core::FrameIndex first =
                                                 const std::vector<std::string>& more = {},
                                                 const test_support::RunOptions& options = {});
 
-[[nodiscard]] std::size_t KeptCells(const std::filesystem::path& out);  // whole ones
+// Files of cells that are whole, by their names from the folder of cells on.
+[[nodiscard]] std::set<std::string> CellFiles(const std::filesystem::path& out);
 
 // sweep.csv, sweep.svg and sweep.png have the same bytes in both folders.
 void ExpectSameSweep(const std::filesystem::path& a, const std::filesystem::path& b);

@@ -1,0 +1,114 @@
+#include "tests/app/sweep/one_node_slurm.h"
+
+#include <fmt/format.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <stdexcept>
+#include <thread>
+
+#include "tests/support/run_program.h"
+#include "tests/support/text_file.h"
+
+namespace elbowroom::tests {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace std::chrono_literals;
+
+constexpr std::array kDaemons = {"/usr/sbin/slurmctld", "/usr/sbin/slurmd"};
+constexpr const char* kList = "/usr/bin/squeue";
+
+// A port that nobody listens on; somebody else may take it before it is used.
+int FreePort() {
+  const int number = ::socket(AF_INET, SOCK_STREAM, 0);
+  sockaddr_in address = {};
+  address.sin_family = AF_INET;
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  socklen_t size = sizeof address;
+  const bool is_known = ::bind(number, reinterpret_cast<sockaddr*>(&address), size) == 0 &&
+                        ::getsockname(number, reinterpret_cast<sockaddr*>(&address), &size) == 0;
+  ::close(number);
+  if (!is_known) throw std::runtime_error("no port is free on the loopback address");
+  return ntohs(address.sin_port);
+}
+
+std::string HostName() {
+  std::array<char, 256> name = {};
+  ::gethostname(name.data(), name.size() - 1);
+  const std::string whole = name.data();
+  return whole.substr(0, whole.find('.'));
+}
+
+std::string Configuration(const fs::path& folder, int processors) {
+  const std::string host = HostName();
+  return fmt::format(
+      "ClusterName=loopback\n"
+      "SlurmctldHost={0}(127.0.0.1)\n"
+      "SlurmUser=root\nSlurmdUser=root\n"
+      "AuthType=auth/none\nCredType=cred/none\n"
+      "SlurmctldPort={1}\nSlurmdPort={2}\n"
+      "StateSaveLocation={3}/state\nSlurmdSpoolDir={3}/spool\n"
+      "SlurmctldLogFile={3}/controller.log\nSlurmdLogFile={3}/node.log\n"
+      "SlurmctldPidFile={3}/controller.pid\nSlurmdPidFile={3}/node.pid\n"
+      "ProctrackType=proctrack/linuxproc\nTaskPlugin=task/none\n"
+      "JobAcctGatherType=jobacct_gather/none\nAccountingStorageType=accounting_storage/none\n"
+      "SelectType=select/cons_tres\nSelectTypeParameters=CR_CPU\n"
+      "SchedulerType=sched/builtin\nSchedulerParameters=batch_sched_delay=0,sched_interval=1\n"
+      "MpiDefault=none\nSwitchType=switch/none\nMailProg=/bin/true\n"
+      "ReturnToService=2\nKillWait=2\n"
+      "NodeName={0} NodeAddr=127.0.0.1 CPUs={4} State=UNKNOWN\n"
+      "PartitionName=all Nodes={0} Default=YES MaxTime=INFINITE State=UP\n",
+      host, FreePort(), FreePort(), folder.string(), processors);
+}
+
+std::string EndOf(const fs::path& log) {
+  constexpr std::size_t kShown = 1000;
+  if (!fs::exists(log)) return log.string() + " isn't there\n";
+  const std::string text = test_support::ReadText(log);
+  return text.substr(text.size() - std::min(text.size(), kShown));
+}
+
+}  // namespace
+
+std::string OneNodeSlurm::Missing() {
+  for (const char* daemon : kDaemons)
+    if (!fs::exists(daemon)) return std::string("no ") + daemon;
+  if (!fs::exists(kList)) return std::string("no ") + kList;
+  return ::geteuid() == 0 ? "" : "slurmd must be root's";
+}
+
+OneNodeSlurm::OneNodeSlurm(const fs::path& folder, int processors) : folder_(folder) {
+  for (const char* made : {"state", "spool"}) fs::create_directories(folder_ / made);
+  const std::string file = (folder_ / "slurm.conf").string();
+  test_support::WriteText(file, Configuration(folder_, processors));
+  controller_ =
+      std::make_unique<core::Child>(core::ChildProgram{kDaemons[0], {"slurmctld", "-D", "-f", file}});
+  node_ = std::make_unique<core::Child>(core::ChildProgram{kDaemons[1], {"slurmd", "-D", "-f", file}});
+  test_support::RunOptions here;
+  here.environment = Environment();
+  for (const auto deadline = std::chrono::steady_clock::now() + 30s;;) {
+    const auto info = test_support::RunProgram("/usr/bin/sinfo", {"--noheader", "--format=%t"}, here);
+    if (info.out.starts_with("idle")) return;
+    if (std::chrono::steady_clock::now() > deadline)
+      throw std::runtime_error(fmt::format("Slurm's node takes no jobs: {}{}\n{}\n{}", info.out, info.err,
+                                           EndOf(folder_ / "controller.log"), EndOf(folder_ / "node.log")));
+    std::this_thread::sleep_for(100ms);
+  }
+}
+
+std::map<std::string, std::string> OneNodeSlurm::Environment() const {
+  return {{"SLURM_CONF", (folder_ / "slurm.conf").string()}};
+}
+
+std::string OneNodeSlurm::Queue() const {
+  test_support::RunOptions here;
+  here.environment = Environment();
+  return test_support::RunProgram(kList, {"--noheader"}, here).out;
+}
+
+}  // namespace elbowroom::tests
