@@ -20,7 +20,9 @@ namespace {
 namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 
-constexpr std::array kDaemons = {"/usr/sbin/slurmctld", "/usr/sbin/slurmd"};
+constexpr const char* kController = "/usr/sbin/slurmctld";
+constexpr const char* kNode = "/usr/sbin/slurmd";
+constexpr const char* kInfo = "/usr/bin/sinfo";
 constexpr const char* kList = "/usr/bin/squeue";
 
 // A port that nobody listens on; somebody else may take it before it is used.
@@ -75,30 +77,37 @@ std::string EndOf(const fs::path& log) {
 
 }  // namespace
 
-std::string OneNodeSlurm::Missing() {
-  for (const char* daemon : kDaemons)
-    if (!fs::exists(daemon)) return std::string("no ") + daemon;
-  if (!fs::exists(kList)) return std::string("no ") + kList;
-  return ::geteuid() == 0 ? "" : "slurmd must be root's";
-}
-
-OneNodeSlurm::OneNodeSlurm(const fs::path& folder, int processors) : folder_(folder) {
-  for (const char* made : {"state", "spool"}) fs::create_directories(folder_ / made);
-  const std::string file = (folder_ / "slurm.conf").string();
-  test_support::WriteText(file, Configuration(folder_, processors));
-  controller_ =
-      std::make_unique<core::Child>(core::ChildProgram{kDaemons[0], {"slurmctld", "-D", "-f", file}});
-  node_ = std::make_unique<core::Child>(core::ChildProgram{kDaemons[1], {"slurmd", "-D", "-f", file}});
+std::unique_ptr<OneNodeSlurm> OneNodeSlurm::Start(const fs::path& folder, int processors,
+                                                  std::string* why_not) {
+  for (const char* program : {kController, kNode, kInfo, kList}) {
+    if (fs::exists(program)) continue;
+    *why_not = std::string("no ") + program;
+    return nullptr;
+  }
+  if (::geteuid() != 0) {
+    *why_not = "slurmd must be root's";
+    return nullptr;
+  }
+  for (const char* made : {"state", "spool"}) fs::create_directories(folder / made);
+  const std::string file = (folder / "slurm.conf").string();
+  test_support::WriteText(file, Configuration(folder, processors));
+  std::unique_ptr<OneNodeSlurm> slurm(new OneNodeSlurm(folder));
+  slurm->controller_ =
+      std::make_unique<core::Child>(core::ChildProgram{kController, {"slurmctld", "-D", "-f", file}});
+  slurm->node_ = std::make_unique<core::Child>(core::ChildProgram{kNode, {"slurmd", "-D", "-f", file}});
   test_support::RunOptions here;
-  here.environment = Environment();
-  for (const auto deadline = std::chrono::steady_clock::now() + 30s;;) {
-    const auto info = test_support::RunProgram("/usr/bin/sinfo", {"--noheader", "--format=%t"}, here);
-    if (info.out.starts_with("idle")) return;
-    if (std::chrono::steady_clock::now() > deadline)
-      throw std::runtime_error(fmt::format("Slurm's node takes no jobs: {}{}\n{}\n{}", info.out, info.err,
-                                           EndOf(folder_ / "controller.log"), EndOf(folder_ / "node.log")));
+  here.environment = slurm->Environment();
+  std::string state;
+  for (const auto deadline = std::chrono::steady_clock::now() + 30s;
+       std::chrono::steady_clock::now() < deadline;) {
+    const auto info = test_support::RunProgram(kInfo, {"--noheader", "--format=%t"}, here);
+    if (info.out.starts_with("idle")) return slurm;
+    state = info.out + info.err;
     std::this_thread::sleep_for(100ms);
   }
+  *why_not = fmt::format("Slurm's node takes no jobs: {}\n{}\n{}", state, EndOf(folder / "controller.log"),
+                         EndOf(folder / "node.log"));
+  return nullptr;
 }
 
 std::map<std::string, std::string> OneNodeSlurm::Environment() const {

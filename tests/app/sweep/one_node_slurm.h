@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "core/system/child_process.h"
 
@@ -13,12 +14,10 @@ namespace elbowroom::tests {
 // Its two daemons run while this lives; they are root's, since slurmd starts jobs for others.
 class OneNodeSlurm {
  public:
-  // Why there can be none here; empty: nothing is in the way.
-  [[nodiscard]] static std::string Missing();
-
-  // In `folder`, with `processors` to share among jobs. Waits until the node takes jobs.
-  // Throws: std::runtime_error with the end of the daemons' logs where it doesn't within half a minute.
-  OneNodeSlurm(const std::filesystem::path& folder, int processors);
+  // In `folder`, with `processors` to share among jobs. Null, and why: the daemons aren't installed, this
+  // user isn't root, or the node takes no jobs within half a minute.
+  [[nodiscard]] static std::unique_ptr<OneNodeSlurm> Start(const std::filesystem::path& folder,
+                                                           int processors, std::string* why_not);
 
   // For programs that are to find it.
   [[nodiscard]] std::map<std::string, std::string> Environment() const;
@@ -26,6 +25,8 @@ class OneNodeSlurm {
   [[nodiscard]] std::string Queue() const;
 
  private:
+  explicit OneNodeSlurm(std::filesystem::path folder) : folder_(std::move(folder)) {}
+
   std::filesystem::path folder_;
   std::unique_ptr<core::Child> controller_, node_;
 };

@@ -136,11 +136,11 @@ TEST_F(SweepEngines, AProcessThatIsKilledEachTimeEndsTheSweep) {
 }
 
 TEST_F(SweepEngines, ASlurmOfOneNodeGivesTheSameFiles) {
-  const std::string missing = OneNodeSlurm::Missing();
-  if (!missing.empty()) GTEST_SKIP() << "NOT TESTED: " << missing;
-  const OneNodeSlurm slurm(folder_ / "cluster", 2);
+  std::string why_not;
+  const auto slurm = OneNodeSlurm::Start(folder_ / "cluster", 2, &why_not);
+  if (!slurm) GTEST_SKIP() << "NOT TESTED: " << why_not;
   test_support::RunOptions here;
-  here.environment = slurm.Environment();
+  here.environment = slurm->Environment();
   const fs::path out = folder_ / "slurm";
   FirstAttemptsKilled killer(out, {sessions_[1]});
   const auto run = RunSweep(sessions_, kRange, out, {"--engine", "slurm", "--threads", "1", "--json"}, here);
@@ -154,20 +154,20 @@ TEST_F(SweepEngines, ASlurmOfOneNodeGivesTheSameFiles) {
 }
 
 TEST_F(SweepEngines, EndedItTakesItsArrayOutOfSlurm) {
-  const std::string missing = OneNodeSlurm::Missing();
-  if (!missing.empty()) GTEST_SKIP() << "NOT TESTED: " << missing;
-  const OneNodeSlurm slurm(folder_ / "cluster", 1);
+  std::string why_not;
+  const auto slurm = OneNodeSlurm::Start(folder_ / "cluster", 1, &why_not);
+  if (!slurm) GTEST_SKIP() << "NOT TESTED: " << why_not;
   test_support::RunOptions ended;
-  ended.environment = slurm.Environment();
+  ended.environment = slurm->Environment();
   ended.while_running = [&](int process) {
-    while (slurm.Queue().empty()) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    while (slurm->Queue().empty()) std::this_thread::sleep_for(std::chrono::milliseconds(20));
     ::kill(process, SIGINT);
   };
   const auto run = RunSweep(sessions_, kRange, folder_ / "out", {"--engine", "slurm"}, ended);
   EXPECT_EQ(run.exit_status, 1) << run.out;
-  for (int wait = 0; wait < 100 && !slurm.Queue().empty(); ++wait)
+  for (int wait = 0; wait < 100 && !slurm->Queue().empty(); ++wait)
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
-  EXPECT_EQ(slurm.Queue(), "");
+  EXPECT_EQ(slurm->Queue(), "");
 }
 
 TEST_F(SweepEngines, WhatAProcessComplainsOfIsTold) {
