@@ -22,10 +22,11 @@ struct PlanOptions {
 std::string UnevenRemark(const control::StudyPlan& plan) {
   const std::size_t block = control::BlockSizeOf(plan), participants = plan.participants.size();
   if (participants % block == 0) return "";
+  const std::size_t fewer = participants / block * block;
   return fmt::format(
-      "{} participants aren't a multiple of {}: some {} have one more than others; {} or {} would be even",
+      "{} participants aren't a multiple of {}: some {} have one more than others; {}{} would be even",
       participants, block, plan.design == control::StudyDesign::kBetween ? "conditions" : "orders",
-      participants / block * block, (participants / block + 1) * block);
+      fewer > 0 ? fmt::format("{} or ", fewer) : "", fewer + block);
 }
 
 CommandResult Run(const PlanOptions& options) {

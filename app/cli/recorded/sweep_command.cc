@@ -176,9 +176,10 @@ std::string TextOf(const std::string& spacing, const control::SpacingSweep& swee
   const std::vector<control::RevisionTouches> touches = control::TouchesOfRevisions(sweep);
   for (std::size_t k = 0; k < touches.size(); ++k)
     text += fmt::format(
-        "\nrevision '{}': of {} motions {} touch what it changes at the smallest gap, {} at the "
+        "\nrevision '{}': what it changes is touched by {} of {} recorded motions at the smallest gap, by {} "
+        "at the "
         "largest",
-        sweep.revisions[k].name, sweep.sessions.size(), touches[k].touching.front(),
+        sweep.revisions[k].name, touches[k].touching.front(), sweep.sessions.size(),
         touches[k].touching.back());
   if (sweep.all.with_tool.empty()) return text;
   text += "\nwithout a tool: " + TextOf(spacing, sweep, sweep.all.without_tools);

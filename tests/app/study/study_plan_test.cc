@@ -110,6 +110,10 @@ TEST_F(StudyPlanTest, AnUnevenNumberIsSaid) {
   const auto run = Plan({});
   EXPECT_EQ(run.exit_status, 0);
   EXPECT_NE(run.err.find("13 participants aren't a multiple of 6"), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("12 or 18 would be even"), std::string::npos) << run.err;
+  text.replace(text.find("13"), 2, "4");
+  Write(text);
+  EXPECT_NE(Plan({}).err.find("; 6 would be even"), std::string::npos);
 }
 
 TEST_F(StudyPlanTest, WhatIsWrongIsOneLineWithItsPlace) {
