@@ -349,6 +349,13 @@ StudyCount& StudyCount::operator+=(const StudyCount& other) {
   return *this;
 }
 
+StudyCount CountOf(std::span<const PartStudy> parts) {
+  StudyCount sum;
+  for (const PartStudy& part : parts) sum += part.count;
+  if (!parts.empty()) sum.unchanged_frames = parts.front().count.unchanged_frames;
+  return sum;
+}
+
 SpacingStudy Joined(std::span<const PartStudy> parts, std::span<const double> steps_mm,
                     std::vector<core::PartIndex> moved) {
   SpacingStudy study;
@@ -370,12 +377,7 @@ SpacingStudy Joined(std::span<const PartStudy> parts, std::span<const double> st
     }
     study.curves.push_back(std::move(curve));
   }
-  std::int64_t unchanged_frames = 0;  // the same of all parts
-  for (const PartStudy& part : parts) {
-    study.count += part.count;
-    unchanged_frames = part.count.unchanged_frames;
-  }
-  study.count.unchanged_frames = unchanged_frames;
+  study.count = CountOf(parts);
   return study;
 }
 

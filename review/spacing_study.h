@@ -128,6 +128,9 @@ struct PartStudy {
   StudyCount count;
 };
 
+// Of several parts of the same frames: unchanged frames, which are all parts' own, count once.
+[[nodiscard]] StudyCount CountOf(std::span<const PartStudy> parts);
+
 // What all parts of a layout show together, as StudySpacing tells it of them; `parts` are the part studies of
 // one layout, in its order, and `moved` those that the spacing moves.
 [[nodiscard]] SpacingStudy Joined(std::span<const PartStudy> parts, std::span<const double> steps_mm,

@@ -15,6 +15,12 @@ TextRun Strong(std::string text) { return {.text = std::move(text), .emphasis = 
 TextRun Remark(std::string text) { return {.text = std::move(text), .emphasis = Emphasis::kRemark}; }
 TextRun NameRun(std::string text) { return {.text = std::move(text), .is_name = true}; }
 
+RichText NameText(std::string text) {
+  RichText name;
+  name += NameRun(std::move(text));
+  return name;
+}
+
 RichText WithRemark(std::string text, std::string remark) {
   RichText rich = std::move(text);
   rich += Remark(std::move(remark));

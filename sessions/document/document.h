@@ -36,6 +36,7 @@ struct RichText {
 [[nodiscard]] TextRun Strong(std::string text);
 [[nodiscard]] TextRun Remark(std::string text);
 [[nodiscard]] TextRun NameRun(std::string text);
+[[nodiscard]] RichText NameText(std::string text);  // of one NameRun
 // "140 mm" with a quiet "frame 3".
 [[nodiscard]] RichText WithRemark(std::string text, std::string remark);
 [[nodiscard]] std::string PlainText(const RichText& text);  // lines are joined by spaces

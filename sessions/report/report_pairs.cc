@@ -73,10 +73,8 @@ Section SkippedSection(const ReportData& data) {
   for (const PartSummary& part : data.parts) {
     const core::QueryCount& count = part.frames.count;
     if (count.triangles == 0) continue;
-    RichText name;
-    name += NameRun(data.header.layout.parts[part.frames.part].name);
     table.rows.push_back(
-        {{std::move(name), std::to_string(count.triangles),
+        {{NameText(data.header.layout.parts[part.frames.part].name), std::to_string(count.triangles),
           fmt::format("{} ({:.1f} %)", count.skipped,
                       100.0 * static_cast<double>(count.skipped) / static_cast<double>(count.triangles)),
           std::to_string(count.queries)}});

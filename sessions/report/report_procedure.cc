@@ -18,9 +18,7 @@ void AddSteps(const ReportData& data, std::vector<Block>* blocks) {
   DocumentTable table{{{"Step"}, {"Begun", true}, {"Ended", true}, {"For", true}}, {}};
   const auto row = [&](const std::string& step, const std::string& begun, const std::string& ended,
                        const std::string& lasted) {
-    RichText name;
-    name += NameRun(step);
-    table.rows.push_back({{std::move(name), begun, ended, lasted}});
+    table.rows.push_back({{NameText(step), begun, ended, lasted}});
   };
   for (const core::StepRun& run : runs)
     row(run.step, Seconds(run.begin_s), run.end_s ? Seconds(*run.end_s) : kNothing,

@@ -85,10 +85,9 @@ void AddToolNeeds(const SpacingStudy& study, std::vector<Block>* blocks) {
     return length_mm ? Millimetres(*length_mm) : std::string(kNothing);
   };
   for (const ToolNeed& tool : study.by_tool) {
-    RichText name;
-    name += tool.tool.empty() ? TextRun{.text = "no tool"} : NameRun(tool.tool);
-    table.rows.push_back({{std::move(name), fmt::format("{:.1f} s", tool.need.held_s()),
-                           length(tool.need.largest_touched_mm), length(tool.need.smallest_free_mm)}});
+    table.rows.push_back(
+        {{tool.tool.empty() ? "no tool" : NameText(tool.tool), fmt::format("{:.1f} s", tool.need.held_s()),
+          length(tool.need.largest_touched_mm), length(tool.need.smallest_free_mm)}});
   }
   if (!table.rows.empty()) blocks->push_back(std::move(table));
 }
@@ -111,10 +110,8 @@ DocumentTable ApproachTable(const ReportData& data) {
                       {}};
   for (const PartSummary& part : data.parts) {
     if (!part.closest) continue;
-    RichText name;
-    name += NameRun(data.header.layout.parts[part.frames.part].name);
     table.rows.push_back(
-        {{std::move(name),
+        {{NameText(data.header.layout.parts[part.frames.part].name),
           fmt::format("{} to {}", Millimetres(part.closest->lower_mm), Millimetres(part.closest->upper_mm)),
           WithRemark(fmt::format("{:.2f} s", part.closest->time_s),
                      fmt::format("frame {}", part.closest->frame)),

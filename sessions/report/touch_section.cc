@@ -93,8 +93,7 @@ DocumentRow GroupHead(const ReportData& data, core::PartIndex part) {
       return touch.part == part && touch.is_near_miss == near_misses;
     });
   };
-  RichText head;
-  head += NameRun(data.header.layout.parts[part].name);
+  RichText head = NameText(data.header.layout.parts[part].name);
   head += Remark(fmt::format("touches: {}, near misses: {}", count(false), count(true)));
   return {.cells = {std::move(head)}, .begins_group = true};
 }

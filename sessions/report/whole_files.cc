@@ -5,12 +5,17 @@
 
 namespace elbowroom::sessions {
 
-void WriteWholeFiles(const std::filesystem::path& folder,
-                     const std::map<std::string, std::string>& content_by_name) {
+std::vector<std::filesystem::path> WriteWholeFiles(
+    const std::filesystem::path& folder, const std::map<std::string, std::string>& content_by_name) {
   core::MakeFolder(folder);
   core::PendingFiles pending;
-  for (const auto& [name, content] : content_by_name) pending.Write(folder / name, content);
+  std::vector<std::filesystem::path> files;
+  for (const auto& [name, content] : content_by_name) {
+    files.push_back(folder / name);
+    pending.Write(files.back(), content);
+  }
   pending.RenameAll();
+  return files;
 }
 
 }  // namespace elbowroom::sessions

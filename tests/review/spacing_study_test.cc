@@ -327,6 +327,19 @@ TEST(StudyParts, AreThoseOfEachPartAlone) {
   }
 }
 
+TEST(CountOf, UnchangedFramesAreAllPartsOwn) {
+  PartStudy a, b;
+  a.count = {1, 2, 3, 4, 5};
+  b.count = {10, 20, 30, 40, 5};
+  const StudyCount sum = CountOf(std::vector{a, b});
+  EXPECT_EQ(sum.asked, 11);
+  EXPECT_EQ(sum.settled_by_motion, 22);
+  EXPECT_EQ(sum.unmoved, 33);
+  EXPECT_EQ(sum.queries, 44);
+  EXPECT_EQ(sum.unchanged_frames, 5);
+  EXPECT_EQ(CountOf(std::vector<PartStudy>{}).unchanged_frames, 0);
+}
+
 TEST(StudySpacing, AFrameThatStaysIsAskedOnce) {
   recon::Random random(77);
   const std::vector<StudyFrame> once = RandomFrames(&random, 3);

@@ -11,6 +11,7 @@
 #include "app/cli/recorded/sweep_options.h"
 #include "app/control/study/study.h"
 #include "app/control/study/study_files.h"
+#include "app/control/study/study_text.h"
 
 namespace elbowroom::cli {
 namespace {
@@ -100,15 +101,11 @@ std::string Mm(const std::optional<double>& length_mm) {
   return length_mm ? fmt::format("{:.1f}", *length_mm) : "-";
 }
 
-std::string Count(std::size_t count, const char* what) {
-  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
-}
-
 std::string TextOf(const control::Study& study) {
-  std::string text =
-      fmt::format("'{}', mm: {}, {}\n{:<16}{:>10}{:>16}{:>12}{:>12}{:>10}\n", study.range.spacing,
-                  Count(study.rows.size(), "participant"), Count(study.sessions.size(), "session"),
-                  "participant", "estimate", "needed without", "needed", "shortfall", "after");
+  std::string text = fmt::format("'{}', mm: {}, {}\n{:<16}{:>10}{:>16}{:>12}{:>12}{:>10}\n",
+                                 study.range.spacing, control::CountText(study.rows.size(), "participant"),
+                                 control::CountText(study.sessions.size(), "session"), "participant",
+                                 "estimate", "needed without", "needed", "shortfall", "after");
   for (const control::StudyRow& row : study.rows)
     text += fmt::format("{:<16}{:>10}{:>16}{:>12}{:>12}{:>10}\n", row.participant, Mm(row.estimate_before_mm),
                         Mm(row.needed_without_tools_mm), Mm(row.needed_mm), Mm(row.shortfall_mm()),
@@ -171,11 +168,10 @@ void AddStudyCommand(CLI::App& app, Choice* choice) {
       "the gap to study, NAME or NAME=FROM:TO:STEP in mm (default: the layout's only one, over all that it "
       "may be)");
   command
-      ->add_option(
-          "--out", options->request.folder,
-          "folder for report.html, report.pdf and the tables participants.csv, sessions.csv, "
-          "comparisons.csv; "
-          "made if needed. What is done is kept in its cells, so that a study that was ended early goes on")
+      ->add_option("--out", options->request.folder,
+                   "folder for report.html, report.pdf and the tables participants.csv, sessions.csv, "
+                   "comparisons.csv; made if needed. What is done is kept in its cells, so that a study that "
+                   "was ended early goes on")
       ->required();
   AddEngineOption(*command, &options->engine);
   command->callback(

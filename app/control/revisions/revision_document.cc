@@ -21,19 +21,13 @@ using sessions::DocumentRow;
 using sessions::DocumentTable;
 using sessions::Heading;
 using sessions::Ink;
-using sessions::NameRun;
+using sessions::NameText;
 using sessions::Paragraph;
 using sessions::RichText;
 using sessions::Section;
 using sessions::Verdict;
 
 constexpr const char* kNone = "\u2013";
-
-RichText Named(const std::string& name) {
-  RichText text;
-  text += NameRun(name);
-  return text;
-}
 
 std::string Motions(std::size_t count) {
   return fmt::format("{} recorded motion{}", count, count == 1 ? "" : "s");
@@ -91,7 +85,7 @@ Section RevisionSection(const SpacingSweep& sweep, const std::vector<RevisionTou
                       {}};
   for (std::size_t k = 0; k < touches.size(); ++k)
     table.rows.push_back(
-        {{Named(sweep.revisions[k].name), Named(ChangedText(sweep.revisions[k])),
+        {{NameText(sweep.revisions[k].name), NameText(ChangedText(sweep.revisions[k])),
           std::to_string(TouchingAnywhere(touches[k])), std::to_string(sweep.sessions.size()),
           LengthText(sweep.revisions[k].all.all.smallest_free_mm)}});
   table.rows.push_back({{RichText("as recorded"), RichText(kNone), RichText(kNone),
@@ -177,7 +171,7 @@ Section MotionSection(const SpacingSweep& sweep, const std::vector<RevisionTouch
                         {}};
     for (const Row& row : std::span(rows).first(std::min(rows.size(), kMostRows))) {
       const SweptSession& session = sweep.sessions[row.session];
-      table.rows.push_back({{Named(session.path.filename().string()), Named(session.participant),
+      table.rows.push_back({{NameText(session.path.filename().string()), NameText(session.participant),
                              fmt::format("{:.1f}", row.worst.deepest_mm), fmt::format("{:g}", row.gap_mm),
                              std::to_string(row.worst.frames_in_contact),
                              std::to_string(session.of_revisions[k].all.frames)}});

@@ -3,14 +3,11 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <map>
 #include <string>
 #include <utility>
 
 #include "app/control/revisions/revision_document.h"
-#include "core/error.h"
-#include "sessions/print/pdf.h"
-#include "sessions/report/document_page.h"
+#include "sessions/report/page_and_pdf.h"
 #include "sessions/report/whole_files.h"
 #include "sessions/tables/csv_text.h"
 
@@ -50,19 +47,12 @@ std::vector<std::filesystem::path> WriteRevisions(const SpacingRange& range, con
                                                   const std::filesystem::path& folder,
                                                   const core::Progress& progress,
                                                   const std::stop_token& stop) {
-  progress.Report(0, 2, "writing the report");
   sessions::ChartPainters painters;
   const sessions::Document document = RevisionDocument(range, sweep, &painters);
-  std::map<std::string, std::string> contents = {{"revisions.csv", RevisionsCsv(sweep)},
-                                                 {"revisions.html", sessions::DocumentPage(document)}};
-  core::ThrowIfStopped(stop, "the report");
-  progress.Report(1, 2, "writing the report");
-  contents["revisions.pdf"] = sessions::PdfOf(document);
-  core::ThrowIfStopped(stop, "the report");
-  sessions::WriteWholeFiles(folder, contents);
-  std::vector<std::filesystem::path> files;
-  for (const auto& [name, content] : contents) files.push_back(folder / name);
-  return files;
+  sessions::PageAndPdf report = sessions::MakePageAndPdf(document, progress, stop);
+  return sessions::WriteWholeFiles(folder, {{"revisions.csv", RevisionsCsv(sweep)},
+                                            {"revisions.html", std::move(report.html)},
+                                            {"revisions.pdf", std::move(report.pdf)}});
 }
 
 }  // namespace elbowroom::control

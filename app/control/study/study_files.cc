@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <map>
 #include <set>
 #include <string>
 #include <utility>
@@ -70,16 +69,12 @@ std::string ComparisonsCsv(const Study& study) {
 
 std::vector<std::filesystem::path> WriteStudy(const Study& study, const std::filesystem::path& folder,
                                               const core::Progress& progress, const std::stop_token& stop) {
-  StudyReport report = MakeStudyReport(study, progress, stop);
-  const std::map<std::string, std::string> contents = {{"participants.csv", ParticipantsCsv(study)},
-                                                       {"sessions.csv", SessionsCsv(study)},
-                                                       {"comparisons.csv", ComparisonsCsv(study)},
-                                                       {"report.html", std::move(report.html)},
-                                                       {"report.pdf", std::move(report.pdf)}};
-  sessions::WriteWholeFiles(folder, contents);
-  std::vector<std::filesystem::path> files;
-  for (const auto& [name, content] : contents) files.push_back(folder / name);
-  return files;
+  sessions::PageAndPdf report = MakeStudyReport(study, progress, stop);
+  return sessions::WriteWholeFiles(folder, {{"participants.csv", ParticipantsCsv(study)},
+                                            {"sessions.csv", SessionsCsv(study)},
+                                            {"comparisons.csv", ComparisonsCsv(study)},
+                                            {"report.html", std::move(report.html)},
+                                            {"report.pdf", std::move(report.pdf)}});
 }
 
 }  // namespace elbowroom::control

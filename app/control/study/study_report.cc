@@ -10,8 +10,6 @@
 #include "core/error.h"
 #include "recon/gl/scene/scene_renderer.h"
 #include "recon/images/png_file.h"
-#include "sessions/print/pdf.h"
-#include "sessions/report/document_page.h"
 
 namespace elbowroom::control {
 namespace {
@@ -44,17 +42,11 @@ std::vector<DwellPicture> DrawDwell(const Study& study, const core::Progress& pr
 
 }  // namespace
 
-StudyReport MakeStudyReport(const Study& study, const core::Progress& progress, const std::stop_token& stop) {
+sessions::PageAndPdf MakeStudyReport(const Study& study, const core::Progress& progress,
+                                     const std::stop_token& stop) {
   const std::vector<DwellPicture> dwell = DrawDwell(study, progress, stop);
-  progress.Report(0, 2, "writing the report");
   sessions::ChartPainters painters;
-  const sessions::Document document = StudyDocument(study, dwell, &painters);
-  core::ThrowIfStopped(stop, "the report");
-  StudyReport report{sessions::DocumentPage(document), {}};
-  progress.Report(1, 2, "writing the report");
-  report.pdf = sessions::PdfOf(document);
-  core::ThrowIfStopped(stop, "the report");
-  return report;
+  return sessions::MakePageAndPdf(StudyDocument(study, dwell, &painters), progress, stop);
 }
 
 }  // namespace elbowroom::control

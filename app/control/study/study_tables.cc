@@ -18,15 +18,9 @@ using sessions::DocumentCell;
 using sessions::DocumentRow;
 using sessions::DocumentTable;
 using sessions::Ink;
-using sessions::NameRun;
+using sessions::NameText;
 using sessions::RichText;
 using sessions::WithRemark;
-
-RichText Named(const std::string& name) {
-  RichText text;
-  text += NameRun(name);
-  return text;
-}
 
 struct LengthColumn {
   const char* title;
@@ -60,7 +54,7 @@ std::optional<core::Summary> SummaryOf(const Study& study, const LengthColumn& c
 }
 
 RichText GroupText(const std::string& condition, const core::Summary& summary) {
-  RichText text = Named(condition);
+  RichText text = NameText(condition);
   text += sessions::Remark(
       summary.sd ? fmt::format("{} \u00b1 {:.3g}, n = {}", NumberText(summary.mean), *summary.sd, summary.n)
                  : fmt::format("{}, n = {}", NumberText(summary.mean), summary.n));
@@ -103,11 +97,11 @@ DocumentTable ParticipantTable(const Study& study) {
   }
   for (const StudyRow& participant : study.rows) {
     DocumentRow row{{participant.sessions > 1 ? [&] {
-      RichText text = Named(participant.participant);
+      RichText text = NameText(participant.participant);
       text += sessions::Remark(CountText(participant.sessions, "session"));
       return text;
     }()
-                                              : Named(participant.participant)}};
+                                              : NameText(participant.participant)}};
     for (const LengthColumn& column : LengthColumns()) {
       const std::optional<double> length_mm = column.value(participant);
       const bool is_enough = column.ink == Ink::kTouched && length_mm && *length_mm <= 0.0;
@@ -163,8 +157,8 @@ DocumentTable SessionTable(const Study& study) {
                       {}};
   for (const StudySession& session : study.sessions)
     table.rows.push_back(
-        {{Named(session.path.filename().string()), Named(session.participant),
-          session.condition.empty() ? RichText(kNoFigure) : Named(session.condition),
+        {{NameText(session.path.filename().string()), NameText(session.participant),
+          session.condition.empty() ? RichText(kNoFigure) : NameText(session.condition),
           session.order > 0 ? std::to_string(session.order) : kNoFigure, session.started_at_utc,
           NumberText(session.Measured("touches")), LengthText(session.Measured("needed_mm"))}});
   return table;

@@ -75,6 +75,14 @@ fs::path ReadTrial(const TomlEntry& entry, const fs::path& folder) {
   return file;
 }
 
+// Of which each participant gets one.
+std::vector<core::ConditionOrder> OrdersOf(const StudyPlan& plan) {
+  if (plan.design == StudyDesign::kWithin) return core::BalancedOrders(plan.conditions.size());
+  std::vector<core::ConditionOrder> single;
+  for (std::size_t i = 0; i < plan.conditions.size(); ++i) single.push_back({i});
+  return single;
+}
+
 }  // namespace
 
 StudyPlan ReadStudyPlan(const fs::path& path) {
@@ -104,18 +112,10 @@ StudyPlan ReadStudyPlan(const fs::path& path) {
   return plan;
 }
 
-std::size_t BlockSizeOf(const StudyPlan& plan) {
-  return plan.design == StudyDesign::kBetween ? plan.conditions.size()
-                                              : core::BalancedOrders(plan.conditions.size()).size();
-}
+std::size_t BlockSizeOf(const StudyPlan& plan) { return OrdersOf(plan).size(); }
 
 std::vector<PlannedTrial> PlannedTrials(const StudyPlan& plan) {
-  std::vector<core::ConditionOrder> orders;
-  if (plan.design == StudyDesign::kWithin) {
-    orders = core::BalancedOrders(plan.conditions.size());
-  } else {
-    for (std::size_t i = 0; i < plan.conditions.size(); ++i) orders.push_back({i});
-  }
+  const std::vector<core::ConditionOrder> orders = OrdersOf(plan);
   const std::vector<std::size_t> drawn =
       core::DrawInBlocks(plan.participants.size(), orders.size(), plan.seed);
   std::vector<PlannedTrial> trials;

@@ -1,7 +1,6 @@
 #include "app/control/sweep/session_sweep.h"
 
 #include <algorithm>
-#include <array>
 #include <map>
 #include <optional>
 #include <set>
@@ -112,7 +111,7 @@ SessionSweep::SessionSweep(const std::filesystem::path& session, const SweepRequ
 
 SessionSweep::Judged SessionSweep::JudgedWith(const ReplayChanges& changes) const {
   const core::Layout& recorded = session_.header().layout;
-  Judged judged{ReplayLayout(recorded, changes), {}, 0, {}, {}};
+  Judged judged{ReplayLayout(recorded, changes), {}, 0, {}};
   judged.layout = judged.replayed.layout();
   judged.spacing = core::RequireSpacing(judged.layout, request_.range.spacing);
   // A revised part's other extent shifts the limits, which were set for the experimenter's hand.
@@ -125,26 +124,26 @@ SessionSweep::Judged SessionSweep::JudgedWith(const ReplayChanges& changes) cons
   options.spacing = judged.spacing;
   options.Validate(judged.layout);
   judged.parts.moved = review::PartsMovedBy(judged.layout, judged.spacing);
-  for (const core::Part& part : judged.layout.parts) {
-    judged.parts.names.push_back(part.name);
-    judged.mesh_hashes.push_back(core::ContentHash(*part.mesh));
-  }
-  for (core::PartIndex part = 0; part < judged.mesh_hashes.size() && !judged_.empty(); ++part)
-    if (IsChanged(judged, part)) judged.parts.changed.push_back(part);
+  for (const core::Part& part : judged.layout.parts) judged.parts.names.push_back(part.name);
+  if (!judged_.empty()) judged.parts.changed = ChangedIn(judged);
   return judged;
 }
 
-bool SessionSweep::IsChanged(const Judged& judged, core::PartIndex part) const {
-  const auto recorded = judged.replayed.RecordedOf(part);
-  if (!recorded || !recorded->has_same_mesh) return true;
+std::vector<core::PartIndex> SessionSweep::ChangedIn(const Judged& judged) const {
   const Judged& before = judged_.front();
+  const core::SpacingPoses poses_before(before.layout), poses_now(judged.layout);
   std::vector<double> before_mm = before.layout.InitialSpacings();
   std::vector<double> now_mm = judged.replayed.SpacingsFrom(before_mm);
-  return std::ranges::any_of(std::array{request_.range.from_mm, request_.range.to_mm}, [&](double step_mm) {
-    before_mm[before.spacing] = now_mm[judged.spacing] = step_mm;
-    return !(core::PosesAt(before.layout, before_mm)[recorded->part] ==
-             core::PosesAt(judged.layout, now_mm)[part]);
-  });
+  std::set<core::PartIndex> changed;
+  for (const double end_mm : {request_.range.from_mm, request_.range.to_mm}) {
+    before_mm[before.spacing] = now_mm[judged.spacing] = end_mm;
+    const auto was = poses_before.At(before_mm), is = poses_now.At(now_mm);
+    for (core::PartIndex part = 0; part < is.size(); ++part) {
+      const auto& recorded = judged.replayed.RecordedOf(part);
+      if (!recorded || !recorded->has_same_mesh || !(was[recorded->part] == is[part])) changed.insert(part);
+    }
+  }
+  return {changed.begin(), changed.end()};
 }
 
 std::vector<SweptParts> SessionSweep::Parts() const {
@@ -153,17 +152,29 @@ std::vector<SweptParts> SessionSweep::Parts() const {
   return parts;
 }
 
-SessionSweep::Keys SessionSweep::KeysOf(std::size_t first, std::size_t end, const SweepCells& cells) const {
+SessionSweep::MeshHashes SessionSweep::HashMeshes() const {
+  MeshHashes hashes;
+  for (const Judged& judged : judged_) {
+    std::vector<std::string> of_layout;
+    for (const core::Part& part : judged.layout.parts) of_layout.push_back(core::ContentHash(*part.mesh));
+    hashes.push_back(std::move(of_layout));
+  }
+  return hashes;
+}
+
+SessionSweep::Keys SessionSweep::KeysOf(std::size_t first, std::size_t end, const MeshHashes& hashes,
+                                        const SweepCells& cells) const {
   std::set<std::vector<double>> recorded_mm;
   for (std::size_t i = first; i < end; ++i) recorded_mm.insert(frames_.frames[i].spacing_mm);
   const std::vector<double> steps_mm = options_.Steps();
   Keys keys;
-  for (const Judged& judged : judged_) {
+  for (std::size_t k = 0; k < judged_.size(); ++k) {
+    const Judged& judged = judged_[k];
     const core::SpacingPoses poses(judged.layout);
     std::vector<CellQuestion> questions;
-    for (std::size_t part = 0; part < judged.mesh_hashes.size(); ++part)
+    for (std::size_t part = 0; part < hashes[k].size(); ++part)
       questions.push_back(
-          {first, end, judged.mesh_hashes[part], std::ranges::binary_search(judged.parts.moved, part), {}});
+          {first, end, hashes[k][part], std::ranges::binary_search(judged.parts.moved, part), {}});
     for (const std::vector<double>& spacing_mm : recorded_mm) {
       std::vector<double> values_mm = judged.replayed.SpacingsFrom(spacing_mm);
       for (const double step_mm : steps_mm) {
@@ -218,22 +229,19 @@ SessionPiece SessionSweep::Run(const std::function<void(std::int64_t)>& frames_d
                                const std::stop_token& stop) const {
   const core::SessionHeader& header = session_.header();
   SessionPiece piece;
-  piece.session = {session_.path(),
-                   session_.recording_id(),
-                   header.started_at_utc,
-                   header.trial.participant,
-                   header.trial.estimate_mm,
-                   header.trial.required_clearance_mm,
-                   frames_.without_camera,
-                   {}};
+  piece.session = {session_.path(),          session_.recording_id(),
+                   header.started_at_utc,    header.trial.participant,
+                   header.trial.estimate_mm, header.trial.required_clearance_mm,
+                   frames_.without_camera,   {}};
   SweepCells kept(request_.folder, session_, request_.range);
   std::optional<SweepFrameLoader> loader;
   std::vector<std::vector<StretchCurves>> stretches(judged_.size());
   const std::vector<double> steps_mm = options_.Steps();
+  const MeshHashes hashes = HashMeshes();
   for (std::size_t first = 0; first < frames_.frames.size(); first += kFramesACell) {
     core::ThrowIfStopped(stop, "the sweep");
     const std::size_t end = std::min(first + kFramesACell, frames_.frames.size());
-    const Keys keys = KeysOf(first, end, kept);
+    const Keys keys = KeysOf(first, end, hashes, kept);
     std::set<CellKey> all, missing;
     for (const std::vector<CellKey>& of_layout : keys) all.insert(of_layout.begin(), of_layout.end());
     for (const CellKey& key : all) {
@@ -248,7 +256,9 @@ SessionPiece SessionSweep::Run(const std::function<void(std::int64_t)>& frames_d
       kept.Keep(Ask(first, end, keys, missing, &*loader, stop));
     }
     piece.cells += std::ssize(all);
-    for (const CellKey& key : all) piece.count += kept.Find(key)->part.count;
+    std::vector<review::PartStudy> asked;
+    for (const CellKey& key : all) asked.push_back(kept.Find(key)->part);
+    piece.count += review::CountOf(asked);
     for (std::size_t k = 0; k < judged_.size(); ++k) {
       std::vector<review::PartStudy> parts;
       for (const CellKey& key : keys[k]) parts.push_back(kept.Find(key)->part);

@@ -60,14 +60,16 @@ class SessionSweep {
     core::Layout layout;  // with limits of the spacing that are no narrower than the recorded ones
     core::SpacingIndex spacing = 0;
     SweptParts parts;
-    std::vector<std::string> mesh_hashes;
   };
-  using Keys = std::vector<std::vector<CellKey>>;  // of each layout's parts
+  using Keys = std::vector<std::vector<CellKey>>;            // of each layout's parts
+  using MeshHashes = std::vector<std::vector<std::string>>;  // likewise
 
   [[nodiscard]] Judged JudgedWith(const ReplayChanges& changes) const;
-  // Whether a part has another shape than in the recorded layout, or another place at some step.
-  [[nodiscard]] bool IsChanged(const Judged& judged, core::PartIndex part) const;
-  [[nodiscard]] Keys KeysOf(std::size_t first, std::size_t end, const SweepCells& cells) const;
+  // The parts that have another shape than in the recorded layout, or another place at an end of the range.
+  [[nodiscard]] std::vector<core::PartIndex> ChangedIn(const Judged& judged) const;
+  [[nodiscard]] MeshHashes HashMeshes() const;
+  [[nodiscard]] Keys KeysOf(std::size_t first, std::size_t end, const MeshHashes& hashes,
+                            const SweepCells& cells) const;
   [[nodiscard]] SweepCellsByKey Ask(std::size_t first, std::size_t end, const Keys& keys,
                                     const std::set<CellKey>& missing, SweepFrameLoader* loader,
                                     const std::stop_token& stop) const;
