@@ -271,7 +271,8 @@ TEST_F(ConsoleTest, TheMouseTurnsTheOperatorsView) {
 TEST_F(ConsoleTest, AllOfARunningTrialFitsASmallScreen) {
   window_.resize(960, 540);
   StartDemoAndWaitForFrames();
-  ASSERT_TRUE(WaitUntil([&] { return frames_ > 5; }));
+  ASSERT_TRUE(WaitUntil([&] { return frames_ > 5 && !Find<QLabel>("status_driver")->text().isEmpty(); }));
+  QCoreApplication::sendPostedEvents(nullptr, QEvent::LayoutRequest);  // what the last event changed
   EXPECT_EQ(window_.size(), QSize(960, 540)) << "something needs more";
   for (const char* list : {"contact_list", "touch_list"}) {
     const auto* table = Find<QTableView>(list);
